@@ -1,0 +1,28 @@
+# Packages, all from Debian (scripts/packages lists them). Their headers are system headers: no warnings from them.
+include_guard()
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs video videoio)
+find_package(Bullet REQUIRED)
+find_package(yaml-cpp 0.7 REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_library(OSMESA_LIBRARY OSMesa REQUIRED)
+find_path(OSMESA_INCLUDE_DIR GL/osmesa.h REQUIRED)
+
+add_library(hedgehop_osmesa INTERFACE)
+target_link_libraries(hedgehop_osmesa INTERFACE ${OSMESA_LIBRARY})
+target_include_directories(hedgehop_osmesa SYSTEM INTERFACE ${OSMESA_INCLUDE_DIR})
+
+add_library(hedgehop_bullet INTERFACE)
+target_link_libraries(hedgehop_bullet INTERFACE BulletCollision LinearMath)
+target_include_directories(hedgehop_bullet SYSTEM INTERFACE ${BULLET_INCLUDE_DIRS})
+
+if(HEDGEHOP_TESTS)
+  find_package(GTest REQUIRED)
+  include(GoogleTest)
+endif()
+if(HEDGEHOP_BENCH)
+  find_package(benchmark REQUIRED)
+endif()
