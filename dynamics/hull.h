@@ -1,0 +1,15 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace hedgehop::dynamics {
+
+/// A convex piece of a vehicle's hull, for collisions and clearances.
+struct HullPart {
+  enum class Shape { cylinder, box };
+  Shape shape = Shape::box;
+  Eigen::Vector3d center_B_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d half_extents_m = Eigen::Vector3d::Ones();  ///< > 0; a cylinder's axis is B's z: (r, r, half height)
+};
+
+}  // namespace hedgehop::dynamics

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "dynamics/hull.h"
+#include "scenes/scene.h"
+
+namespace hedgehop::sim {
+
+/// How near the hull is to what it must not touch.
+struct Proximity {
+  double obstacle_clearance_m = std::numeric_limits<double>::infinity();  ///< to the nearest solid; < 0: depth inside
+  double ground_clearance_m = std::numeric_limits<double>::infinity();    ///< of the hull's lowest point; < 0: below
+  std::optional<size_t> nearest_solid;  ///< index into Scene::solids; none beyond the search radius
+  Eigen::Vector3d nearest_point_W = Eigen::Vector3d::Zero();  ///< on the nearest solid, m; zero without one
+  bool collided = false;                                      ///< the hull touches a solid or the ground
+};
+
+/// A scene's solids and one hull, made anew for every flight. Answers depend on the arguments alone, never on earlier
+/// queries: those only make the next one cheaper.
+class CollisionWorld {
+ public:
+  /// Throws std::invalid_argument when a half extent is not finite and positive, when a cylinder's first two half
+  /// extents differ, when a pose is not finite, or when the hull is empty.
+  CollisionWorld(const scenes::Scene& scene, const std::vector<dynamics::HullPart>& hull);
+  ~CollisionWorld();
+  CollisionWorld(CollisionWorld&&) noexcept;
+  CollisionWorld& operator=(CollisionWorld&&) noexcept;
+
+  /// Returns the exact clearances of the hull at a pose, to about 1e-6 m.
+  /// @param X_WB             pose of the vehicle, finite.
+  /// @param search_radius_m  solids farther than this from the hull count as absent, > 0; +inf searches the whole
+  /// scene.
+  Proximity query(const Eigen::Isometry3d& X_WB, double search_radius_m);
+
+  /// Returns the length of the plumb line from a point to the roof or ground below it, m: 0 inside a solid or under the
+  /// ground, +inf where nothing lies below.
+  double height_above_surface(const Eigen::Vector3d& p_WB) const;
+
+ private:
+  class World;
+  std::unique_ptr<World> world_;
+};
+
+}  // namespace hedgehop::sim
