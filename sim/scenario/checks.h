@@ -1,0 +1,119 @@
+#pragma once
+
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+/// What a scenario asserts of its flight.
+namespace hedgehop::sim {
+
+struct ReachedGoalCheck {
+  static constexpr std::string_view kName = "reached_goal";
+  static constexpr std::string_view kMeaning = "the flight ends at the goal";
+  std::optional<double> within_m;  ///< horizontal; the goal's radius when not given
+  std::optional<double> before_s;  ///< the scenario's duration when not given
+};
+template <class Visitor>
+void describe(Visitor& v, ReachedGoalCheck& c) {
+  v("within", c.within_m, {.unit = "m", .above = 0.0, .meaning = "distance to the goal; else the goal's radius"});
+  v("before", c.before_s, {.unit = "s", .above = 0.0, .meaning = "latest time; else the scenario's duration"});
+}
+
+struct NoCollisionCheck {
+  static constexpr std::string_view kName = "no_collision";
+  static constexpr std::string_view kMeaning = "the hull touches nothing";
+};
+template <class Visitor>
+void describe(Visitor&, NoCollisionCheck&) {}
+
+struct MinClearanceCheck {
+  static constexpr std::string_view kName = "min_clearance";
+  static constexpr std::string_view kMeaning = "the hull keeps a distance";
+  enum class To { anything, obstacles, ground };
+  double at_least_m = 1.0;
+  To to = To::obstacles;
+};
+template <class Visitor>
+void describe(Visitor& v, MinClearanceCheck& c) {
+  v("at_least", c.at_least_m, {.unit = "m", .at_least = 0.0, .required = true, .meaning = "distance to keep"});
+  v("to", c.to, {.choices = {"anything", "obstacles", "ground"}, .meaning = "what to keep it from"});
+}
+
+struct AltitudeBandCheck {
+  static constexpr std::string_view kName = "altitude_band";
+  static constexpr std::string_view kMeaning = "the altitude stays in a band";
+  double min_m = 0.0, max_m = 0.0;
+};
+template <class Visitor>
+void describe(Visitor& v, AltitudeBandCheck& c) {
+  v("min", c.min_m, {.unit = "m", .required = true, .meaning = "lowest altitude"});
+  v("max", c.max_m, {.unit = "m", .required = true, .meaning = "highest altitude"});
+}
+
+struct InsideBoxCheck {
+  static constexpr std::string_view kName = "inside_box";
+  static constexpr std::string_view kMeaning = "the position stays in a box of the plan";
+  double north_min_m = 0.0, north_max_m = 0.0, east_min_m = 0.0, east_max_m = 0.0;
+};
+template <class Visitor>
+void describe(Visitor& v, InsideBoxCheck& c) {
+  v("north_min", c.north_min_m, {.unit = "m", .required = true, .meaning = "southern edge"});
+  v("north_max", c.north_max_m, {.unit = "m", .required = true, .meaning = "northern edge"});
+  v("east_min", c.east_min_m, {.unit = "m", .required = true, .meaning = "western edge"});
+  v("east_max", c.east_max_m, {.unit = "m", .required = true, .meaning = "eastern edge"});
+}
+
+struct MaxSpeedCheck {
+  static constexpr std::string_view kName = "max_speed";
+  static constexpr std::string_view kMeaning = "the speed over ground stays below a limit";
+  double at_most_mps = 0.0;
+};
+template <class Visitor>
+void describe(Visitor& v, MaxSpeedCheck& c) {
+  v("at_most", c.at_most_mps, {.unit = "m/s", .above = 0.0, .required = true, .meaning = "highest speed"});
+}
+
+struct MaxTiltCheck {
+  static constexpr std::string_view kName = "max_tilt";
+  static constexpr std::string_view kMeaning = "the body's down axis stays close to the vertical";
+  double at_most_rad = 0.0;
+};
+template <class Visitor>
+void describe(Visitor& v, MaxTiltCheck& c) {
+  v("at_most", c.at_most_rad,
+    {.unit = "deg", .above = 0.0, .at_most = 180.0, .required = true, .meaning = "largest angle to the vertical"});
+}
+
+struct MetricCheck {
+  static constexpr std::string_view kName = "metric";
+  static constexpr std::string_view kMeaning = "a figure of the avoidance module lies between bounds";
+  std::string name;
+  std::optional<double> at_least, at_most;
+};
+template <class Visitor>
+void describe(Visitor& v, MetricCheck& c) {
+  v("name", c.name, {.required = true, .meaning = "name of the metric, as in result.json"});
+  v("at_least", c.at_least, {.meaning = "lowest value, in the metric's unit"});
+  v("at_most", c.at_most, {.meaning = "highest value, in the metric's unit"});
+}
+
+struct FloorVisitedCheck {
+  static constexpr std::string_view kName = "floor_visited";
+  static constexpr std::string_view kMeaning =
+      "enough of the scene's plan is flown over: a cell counts when the rotor "
+      "disc has covered its centre";
+  double cell_m = 1.0;
+  double at_least = 0.7;
+};
+template <class Visitor>
+void describe(Visitor& v, FloorVisitedCheck& c) {
+  v("cell", c.cell_m, {.unit = "m", .above = 0.0, .meaning = "side of a square cell"});
+  v("at_least", c.at_least, {.above = 0.0, .at_most = 1.0, .meaning = "share of the cells, 0 to 1"});
+}
+
+using CheckConfig = std::variant<ReachedGoalCheck, NoCollisionCheck, MinClearanceCheck, AltitudeBandCheck,
+                                 InsideBoxCheck, MaxSpeedCheck, MaxTiltCheck, MetricCheck, FloorVisitedCheck>;
+
+}  // namespace hedgehop::sim

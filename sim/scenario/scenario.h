@@ -1,0 +1,148 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "avoidance/registry.h"
+#include "dynamics/avionics.h"
+#include "dynamics/vehicle.h"
+#include "dynamics/wind.h"
+#include "scenes/generators.h"
+#include "sim/scenario/checks.h"
+#include "sim/scenario/input_error.h"
+#include "sim/scenario/rig.h"
+
+namespace hedgehop::sim {
+
+/// Where and how the flight begins: a trimmed hover.
+struct StartConfig {
+  double north_m = 0.0, east_m = 0.0;
+  double altitude_m = 10.0;  ///< above W's origin, positive up
+  double heading_rad = 0.0;  ///< from north to east
+  double spread_m = 0.0;
+
+  /// The position without the spread, in W, m.
+  Eigen::Vector3d p_WB() const { return {north_m, east_m, -altitude_m}; }
+  /// A position drawn evenly from the horizontal disc of radius `spread_m` round p_WB(), in W, m.
+  /// @param seed  of the stream that belongs to the start alone; equal seeds give equal positions.
+  Eigen::Vector3d draw_p_WB(uint64_t seed) const;
+};
+template <class Visitor>
+void describe(Visitor& v, StartConfig& c) {
+  v("north", c.north_m, {.unit = "m", .meaning = "position north of the scene's origin"});
+  v("east", c.east_m, {.unit = "m", .meaning = "position east of the scene's origin"});
+  v("altitude", c.altitude_m, {.unit = "m", .at_least = 0.0, .meaning = "height above the scene's origin"});
+  v("heading", c.heading_rad,
+    {.unit = "deg", .at_least = -360.0, .at_most = 360.0, .meaning = "direction of the nose, from north to east"});
+  v("spread", c.spread_m,
+    {.unit = "m", .at_least = 0.0, .meaning = "radius of the disc the start is drawn from, by the seed"});
+}
+
+/// Where the flight should end.
+struct GoalConfig {
+  double north_m = 0.0, east_m = 0.0;
+  double altitude_m = 10.0;  ///< above W's origin, positive up
+  double heading_rad = 0.0;  ///< from north to east
+  double radius_m = 5.0;     ///< horizontal distance that counts as reached
+
+  Eigen::Vector3d p_WG() const { return {north_m, east_m, -altitude_m}; }
+};
+template <class Visitor>
+void describe(Visitor& v, GoalConfig& c) {
+  v("north", c.north_m, {.unit = "m", .meaning = "position north of the scene's origin"});
+  v("east", c.east_m, {.unit = "m", .meaning = "position east of the scene's origin"});
+  v("altitude", c.altitude_m, {.unit = "m", .at_least = 0.0, .meaning = "height to hold above the scene's origin"});
+  v("heading", c.heading_rad,
+    {.unit = "deg", .at_least = -360.0, .at_most = 360.0, .meaning = "heading to hold, from north to east"});
+  v("radius", c.radius_m, {.unit = "m", .above = 0.0, .meaning = "horizontal distance that counts as reached"});
+}
+
+/// Which camera's flow measures the horizontal velocity for the navigation filter.
+struct VelocimeterConfig {
+  bool enabled = true;
+  std::string camera = "down";
+};
+template <class Visitor>
+void describe(Visitor& v, VelocimeterConfig& c) {
+  v("enabled", c.enabled, {.meaning = "whether the navigation filter gets velocities from optic flow"});
+  v("camera", c.camera, {.meaning = "role of the camera, which looks down"});
+}
+
+struct FilmConfig {
+  bool enabled = true;
+  double rate_hz = 10.0;
+  int width_px = 960;
+};
+template <class Visitor>
+void describe(Visitor& v, FilmConfig& c) {
+  v("enabled", c.enabled, {.meaning = "whether a run films its cameras and the module's picture"});
+  v("rate", c.rate_hz, {.unit = "Hz", .above = 0.0, .meaning = "pictures a second; divides the physics rate"});
+  v("width", c.width_px, {.unit = "px", .at_least = 64, .at_most = 4096, .meaning = "width of the film"});
+}
+
+/// One flight, whole: with the seed, all that decides it.
+struct Scenario {
+  std::string name;
+  std::string description;
+  uint64_t seed = 1;
+  double duration_s = 60.0;
+  int64_t physics_rate_hz = 500;
+  int64_t control_rate_hz = 100;
+  std::optional<double> command_latency_s;  ///< the period of the module's cameras when not given
+  scenes::SceneConfig scene;
+  dynamics::VehicleConfig vehicle;
+  dynamics::AvionicsConfig avionics;
+  dynamics::WindConfig wind;
+  StartConfig start;
+  std::optional<GoalConfig> goal;  ///< without one, the flight holds the start's altitude and heading
+  RigConfig rig;
+  VelocimeterConfig velocimeter;
+  avoidance::ModuleConfig avoidance;
+  std::vector<CheckConfig> checks;
+  FilmConfig film;
+};
+template <class Visitor>
+void describe(Visitor& v, Scenario& c) {
+  v("name", c.name, {.required = true, .meaning = "name in results and reports"});
+  v("description", c.description, {.meaning = "what the flight is for"});
+  v("seed", c.seed, {.meaning = "seeds every random stream of the flight"});
+  v("duration", c.duration_s, {.unit = "s", .above = 0.0, .at_most = 86400.0, .meaning = "longest flight time"});
+  v("physics_rate", c.physics_rate_hz,
+    {.unit = "Hz", .at_least = 50, .at_most = 10000, .meaning = "physics steps a second; divides 1e9"});
+  v("control_rate", c.control_rate_hz,
+    {.unit = "Hz", .at_least = 1, .meaning = "autopilot steps a second; divides the physics rate"});
+  v("command_latency", c.command_latency_s,
+    {.unit = "s",
+     .at_least = 0.0,
+     .at_most = 10.0,
+     .meaning = "from exposure to the command's effect; else one period of the module's cameras"});
+  v("scene", c.scene, {.required = true, .meaning = "what the world is"});
+  v("vehicle", c.vehicle, {.required = true, .meaning = "what flies"});
+  v("avionics", c.avionics, {.meaning = "onboard sensors, navigation filter and autopilot"});
+  v("wind", c.wind, {.meaning = "steady wind and turbulence"});
+  v("start", c.start, {.required = true, .meaning = "where the flight begins, in a trimmed hover"});
+  v("goal", c.goal, {.meaning = "where the flight should end; none for a flight that explores"});
+  v("rig", c.rig, {.meaning = "the cameras on board"});
+  v("velocimeter", c.velocimeter, {.meaning = "horizontal velocity from the optic flow of one camera"});
+  v("avoidance", c.avoidance, {.required = true, .selector = "module", .meaning = "who decides where to fly"});
+  v("checks", c.checks, {.selector = "check", .meaning = "what must hold of the flight"});
+  v("film", c.film, {.meaning = "film of the flight"});
+}
+
+/// Reads a scenario, strictly. @param overrides  texts `a.b.0.c=value`, value in YAML, laid over the file in order.
+/// Throws InputError with every fault found: unknown, missing or doubled keys, wrong types, values that are not finite
+/// or out of bounds, and what does not fit together.
+Scenario load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides = {});
+
+/// The scenario in full, every key written, no file used: reads back to the same values, bit for bit.
+std::string to_yaml(const Scenario& scenario);
+
+/// JSON Schema (draft 2020-12) of a scenario file, for editors.
+std::string json_schema();
+
+}  // namespace hedgehop::sim
