@@ -30,7 +30,4 @@ std::string trajectory_csv(const Flight& flight);
 /// Text of decisions.csv: one row per decision; the module's signals are the columns from the seventh on.
 std::string decisions_csv(const Flight& flight);
 
-/// Writes `text` to `file` aside (`.part`) and renames it. Throws as write_result_files().
-void write_file_whole(const std::filesystem::path& file, std::string_view text);
-
 }  // namespace hedgehop::sim

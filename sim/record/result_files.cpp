@@ -1,0 +1,171 @@
+#include "sim/record/result_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string_view>
+
+#include "sim/record/whole_file.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kTrajectoryHeader =
+    "t_s,north_m,east_m,down_m,roll_rad,pitch_rad,yaw_rad,v_north_mps,v_east_mps,v_down_mps,p_radps,q_radps,r_radps,"
+    "est_north_m,est_east_m,est_down_m,est_roll_rad,est_pitch_rad,est_yaw_rad,est_v_north_mps,est_v_east_mps,"
+    "est_v_down_mps,cmd_v_north_mps,cmd_v_east_mps,cmd_altitude_m,cmd_heading_rad,clearance_m,ground_clearance_m,"
+    "collective_rad,lateral_rad,longitudinal_rad,tail_rad,wind_north_mps,wind_east_mps,wind_down_mps\n";
+constexpr std::string_view kDecisionsHeader =
+    "t_s,status,cmd_v_north_mps,cmd_v_east_mps,cmd_altitude_m,cmd_heading_rad";
+
+/// One line of comma-separated values.
+class Line {
+ public:
+  explicit Line(fmt::memory_buffer& out) : out_(out) {}
+  ~Line() { out_.push_back('\n'); }
+  Line(const Line&) = delete;
+  Line& operator=(const Line&) = delete;
+
+  Line& add(double value) {
+    separate();
+    if (!std::isnan(value)) fmt::format_to(std::back_inserter(out_), "{}", value);
+    return *this;
+  }
+  Line& add(const std::optional<double>& value) { return add(value.value_or(NAN)); }
+  Line& add(const Eigen::Vector3d& v) { return add(v.x()).add(v.y()).add(v.z()); }
+  Line& add(const std::optional<Eigen::Vector2d>& v) { return add(v ? v->x() : NAN).add(v ? v->y() : NAN); }
+  /// Quoted when it has to be (RFC 4180).
+  Line& add(std::string_view text) {
+    separate();
+    const bool quote = text.find_first_of(",\"\r\n") != std::string_view::npos;
+    if (quote) out_.push_back('"');
+    for (const char c : text) {
+      if (c == '"') out_.push_back('"');
+      out_.push_back(c);
+    }
+    if (quote) out_.push_back('"');
+    return *this;
+  }
+
+ private:
+  void separate() {
+    if (!first_) out_.push_back(',');
+    first_ = false;
+  }
+  fmt::memory_buffer& out_;
+  bool first_ = true;
+};
+
+/// nlohmann writes null for what is not finite already; this says that it is meant.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json point(const ClosestApproach& approach) {
+  if (!std::isfinite(approach.distance_m)) return nullptr;
+  const Eigen::Vector3d& p = approach.p_WB_true;
+  return Json{{"what", approach.what},       {"distance_m", number(approach.distance_m)},
+              {"t_s", number(approach.t_s)}, {"north_m", number(p.x())},
+              {"east_m", number(p.y())},     {"altitude_m", number(-p.z())}};
+}
+
+Json stage(const StageTime& time) { return Json{{"median", number(time.median_ms)}, {"p95", number(time.p95_ms)}}; }
+
+Json checks(const std::vector<CheckResult>& results) {
+  Json list = Json::array();
+  for (const CheckResult& check : results) {
+    list.push_back(Json{{"name", check.name},
+                        {"passed", check.passed},
+                        {"value", number(check.value)},
+                        {"limit", number(check.limit)},
+                        {"unit", check.unit}});
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string result_json(const RunInfo& info, const FlightResult& result) {
+  const bool by_obstacle = result.closest_obstacle.distance_m <= result.closest_ground.distance_m;
+  const ClosestApproach& closest = by_obstacle ? result.closest_obstacle : result.closest_ground;
+  Json json;
+  json["scenario"] = info.scenario;
+  json["seed"] = info.seed;
+  json["version"] = info.version;
+  json["command_line"] = info.command_line;
+  json["outcome"] = std::string(to_string(result.outcome));
+  json["cause"] = result.cause;
+  json["flight_time_s"] = number(result.flight_time_s);
+  json["path_length_m"] = number(result.path_length_m);
+  json["min_clearance_m"] = number(closest.distance_m);
+  json["min_clearance_time_s"] = std::isfinite(closest.distance_m) ? number(closest.t_s) : Json(nullptr);
+  json["min_obstacle_clearance_m"] = number(result.closest_obstacle.distance_m);
+  json["min_ground_clearance_m"] = number(result.closest_ground.distance_m);
+  json["closest_obstacle"] = point(result.closest_obstacle);
+  json["closest_ground"] = point(result.closest_ground);
+  json["mean_speed_mps"] = number(result.mean_speed_mps);
+  json["goal_distance_m"] = number(result.goal_distance_m.value_or(NAN));
+  json["decisions"] = result.decisions;
+  json["decision_ms"] = stage(result.decision_ms);
+  json["render_ms"] = stage(result.render_ms);
+  json["velocimeter_ms"] = stage(result.velocimeter_ms);
+  json["physics_ms"] = stage(result.physics_ms);
+  json["realtime_factor"] = number(result.realtime_factor);
+  json["wall_s"] = number(result.wall_s);
+  json["checks"] = checks(result.checks);
+  json["trajectory_hash"] = result.trajectory_hash;
+  json["metrics"] = Json::object();
+  json["metric_units"] = Json::object();
+  for (const MetricValue& metric : result.metrics) {
+    json["metrics"][metric.name] = number(metric.value);
+    json["metric_units"][metric.name] = metric.unit;
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string trajectory_csv(const Flight& flight) {
+  fmt::memory_buffer out;
+  out.append(kTrajectoryHeader);
+  for (const TrajectoryRow& row : flight.trajectory) {
+    Line line(out);
+    line.add(row.t_s).add(row.p_WB_true).add(row.rpy_true).add(row.v_WB_W_true).add(row.w_WB_B_true);
+    line.add(row.p_WB_est).add(row.rpy_est).add(row.v_WB_W_est);
+    line.add(row.v_WB_W_cmd).add(row.altitude_cmd_m).add(row.heading_cmd_rad);
+    line.add(row.obstacle_clearance_m).add(row.ground_clearance_m);
+    line.add(row.collective_rad).add(row.lateral_rad).add(row.longitudinal_rad).add(row.tail_rad).add(row.wind_W);
+  }
+  return fmt::to_string(out);
+}
+
+std::string decisions_csv(const Flight& flight) {
+  fmt::memory_buffer out;
+  out.append(kDecisionsHeader);
+  for (const NamedUnit& signal : flight.signals) {
+    out.push_back(',');
+    out.append(signal.name);
+  }
+  out.push_back('\n');
+  for (const DecisionRow& row : flight.decisions) {
+    Line line(out);
+    line.add(row.t_s).add(row.status).add(row.v_WB_W_cmd).add(row.altitude_cmd_m).add(row.heading_cmd_rad);
+    for (const double value : row.signals) line.add(value);
+  }
+  return fmt::to_string(out);
+}
+
+void write_result_files(const std::filesystem::path& run_folder, const RunInfo& info, const Flight& flight) {
+  std::error_code error;
+  std::filesystem::create_directories(run_folder, error);
+  if (error) throw std::runtime_error(fmt::format("cannot make {}: {}", run_folder.string(), error.message()));
+  write_file_whole(run_folder / "scenario.yaml", info.scenario_yaml);
+  write_file_whole(run_folder / "trajectory.csv", trajectory_csv(flight));
+  write_file_whole(run_folder / "decisions.csv", decisions_csv(flight));
+  write_file_whole(run_folder / "result.json",
+                   result_json(info, flight.result));  // last: a result says the run is whole
+}
+
+}  // namespace hedgehop::sim

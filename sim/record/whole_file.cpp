@@ -1,0 +1,67 @@
+#include "sim/record/whole_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+namespace hedgehop::sim {
+namespace {
+
+[[noreturn]] void fail(std::string_view action, const std::filesystem::path& file, int error) {
+  throw std::runtime_error(fmt::format("cannot {} {}: {}", action, file.string(), std::strerror(error)));
+}
+
+/// Writes all of `text`; returns 0 or errno.
+int write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor, text.data(), text.size());
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      return errno;
+    }
+    text.remove_prefix(static_cast<size_t>(written));
+  }
+  return 0;
+}
+
+}  // namespace
+
+void write_file_whole(const std::filesystem::path& file, std::string_view text) {
+  const std::filesystem::path part = file.string() + ".part";
+  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor < 0) fail("write", file, errno);
+  int error = write_all(descriptor, text);
+  if (::close(descriptor) != 0 && error == 0) error = errno;
+  if (error == 0 && ::rename(part.c_str(), file.c_str()) != 0) error = errno;
+  if (error != 0) {
+    ::unlink(part.c_str());
+    fail("write", file, error);
+  }
+}
+
+std::string read_file_whole(const std::filesystem::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail("read", file, errno);
+  struct stat info = {};
+  std::string text;
+  int error = ::fstat(descriptor, &info) == 0 ? 0 : errno;
+  if (error == 0 && S_ISDIR(info.st_mode)) error = EISDIR;
+  if (error == 0) text.resize(static_cast<size_t>(info.st_size));
+  size_t filled = 0;
+  while (error == 0 && filled < text.size()) {
+    const ssize_t got = ::read(descriptor, text.data() + filled, text.size() - filled);
+    if (got > 0) filled += static_cast<size_t>(got);
+    if (got == 0) text.resize(filled);
+    if (got < 0 && errno != EINTR) error = errno;
+  }
+  ::close(descriptor);
+  if (error != 0) fail("read", file, error);
+  return text;
+}
+
+}  // namespace hedgehop::sim

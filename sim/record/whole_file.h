@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace hedgehop::sim {
+
+/// Writes `text` to `file` aside (`.part`) and renames it, so that a file that is there is whole.
+/// Throws std::runtime_error naming the file and the cause (full disk, missing permission); the part is then removed.
+void write_file_whole(const std::filesystem::path& file, std::string_view text);
+
+/// Returns all bytes of `file`. Throws std::runtime_error naming the file and the cause.
+std::string read_file_whole(const std::filesystem::path& file);
+
+}  // namespace hedgehop::sim
