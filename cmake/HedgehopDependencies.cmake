@@ -2,7 +2,6 @@
 include_guard()
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs video videoio)
-find_package(Bullet REQUIRED)
 find_package(yaml-cpp 0.7 REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)
@@ -16,8 +15,14 @@ target_link_libraries(hedgehop_osmesa INTERFACE ${OSMESA_LIBRARY})
 target_include_directories(hedgehop_osmesa SYSTEM INTERFACE ${OSMESA_INCLUDE_DIR})
 
 add_library(hedgehop_bullet INTERFACE)
-target_link_libraries(hedgehop_bullet INTERFACE BulletCollision LinearMath)
-target_include_directories(hedgehop_bullet SYSTEM INTERFACE ${BULLET_INCLUDE_DIRS})
+# Clearances are wanted to a millimetre a kilometre from the origin: the double-precision build, which Debian ships beside
+# the other. Every user must see the same btScalar.
+find_library(BULLET_COLLISION_LIBRARY BulletCollision-float64 REQUIRED)
+find_library(BULLET_LINEAR_MATH_LIBRARY LinearMath-float64 REQUIRED)
+find_path(BULLET_INCLUDE_DIR btBulletCollisionCommon.h PATH_SUFFIXES bullet REQUIRED)
+target_link_libraries(hedgehop_bullet INTERFACE ${BULLET_COLLISION_LIBRARY} ${BULLET_LINEAR_MATH_LIBRARY})
+target_include_directories(hedgehop_bullet SYSTEM INTERFACE ${BULLET_INCLUDE_DIR})
+target_compile_definitions(hedgehop_bullet INTERFACE BT_USE_DOUBLE_PRECISION)
 
 if(HEDGEHOP_TESTS)
   find_package(GTest REQUIRED)
