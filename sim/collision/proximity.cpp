@@ -139,7 +139,7 @@ class CollisionWorld::World {
       if (found.distance_m < nearest.obstacle_clearance_m || first_of_equals) {
         nearest.obstacle_clearance_m = found.distance_m;
         nearest.nearest_solid = index;
-        nearest.nearest_point_W = found.point_W;
+        nearest.nearest_point_W = found.on_second_W;
       }
     }
   }

@@ -52,7 +52,8 @@ double excess(const PlacedBody& first, const PlacedBody& second, const Eigen::Ve
 Separation separate_by_projections(const PlacedBody& first, const PlacedBody& second, Eigen::Vector3d a) {
   Eigen::Vector3d b = second.nearest(a), previous_a = a;
   double momentum = 1.0;
-  for (int i = 0; i < kMaxProjections && excess(first, second, a, b) > kExact_m; ++i) {
+  for (int i = 0; i < kMaxProjections; ++i) {
+    if ((b - a).norm() <= kExact_m || excess(first, second, a, b) <= kExact_m) break;
     double next_momentum = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * momentum * momentum));
     const Eigen::Vector3d ahead = a + (momentum - 1.0) / next_momentum * (a - previous_a);
     const Eigen::Vector3d next_a = first.nearest(second.nearest(ahead));
@@ -62,7 +63,7 @@ Separation separate_by_projections(const PlacedBody& first, const PlacedBody& se
     b = second.nearest(a);
     momentum = next_momentum;
   }
-  return {(b - a).norm(), b};
+  return {(b - a).norm(), a, b};
 }
 
 }  // namespace
@@ -103,16 +104,19 @@ Separation separate(const PlacedBody& first, const PlacedBody& second) {
   const btVector3 guess = second.bullet_X_WS.getOrigin() - first.bullet_X_WS.getOrigin();
   btGjkEpaSolver2::sResults found;
   if (btGjkEpaSolver2::Distance(a, first.bullet_X_WS, b, second.bullet_X_WS, guess, found)) {
-    const Eigen::Vector3d on_first = to_eigen(found.witnesses[0]), on_second = to_eigen(found.witnesses[1]);
-    if (excess(first, second, on_first, on_second) <= kExact_m) return {found.distance, on_second};
-    return separate_by_projections(first, second, first.nearest(on_first));
+    Separation apart{found.distance, to_eigen(found.witnesses[0]), to_eigen(found.witnesses[1])};
+    if (excess(first, second, apart.on_first_W, apart.on_second_W) > kExact_m) {
+      apart = separate_by_projections(first, second, first.nearest(apart.on_first_W));
+    }
+    if (apart.distance_m > kExact_m) return apart;
   }
-  // Overlapping: ask for the depth. No answer means that they just touch.
+  // Overlapping, or too near to tell: ask for the depth. No answer means that they just touch.
   constexpr bool kUseMargins = false;
   if (btGjkEpaSolver2::Penetration(a, first.bullet_X_WS, b, second.bullet_X_WS, guess, found, kUseMargins)) {
-    return {std::min(found.distance, 0.0), to_eigen(found.witnesses[1])};
+    return {std::min(found.distance, 0.0), to_eigen(found.witnesses[0]), to_eigen(found.witnesses[1])};
   }
-  return {0.0, second.nearest(first.X_WS.translation())};
+  const Eigen::Vector3d touch_W = second.nearest(first.X_WS.translation());
+  return {0.0, touch_W, touch_W};
 }
 
 }  // namespace hedgehop::sim

@@ -38,12 +38,13 @@ struct PlacedBody {
 };
 
 struct Separation {
-  double distance_m = 0.0;                            ///< < 0: depth of the overlap
-  Eigen::Vector3d point_W = Eigen::Vector3d::Zero();  ///< on the second body, nearest to the first
+  double distance_m = 0.0;                                ///< < 0: depth of the overlap
+  Eigen::Vector3d on_first_W = Eigen::Vector3d::Zero();   ///< the first body's point nearest to the second, m
+  Eigen::Vector3d on_second_W = Eigen::Vector3d::Zero();  ///< and the second's nearest to the first
 };
 
-/// Returns the distance of two bodies: exact to 1e-7 m when they are apart, by a certificate; the depth of an overlap
-/// is Bullet's, good to about 1e-4 m. 0 with a point somewhere between them when they touch too closely to say.
+/// Returns the distance of two bodies, to 1e-7 m, by a certificate. Nearer than that they touch: then the result is 0
+/// or, as Bullet tells it, the depth of their overlap, good to about 1e-4 m.
 Separation separate(const PlacedBody& first, const PlacedBody& second);
 
 }  // namespace hedgehop::sim
