@@ -47,23 +47,30 @@ double excess(const PlacedBody& first, const PlacedBody& second, const Eigen::Ve
   return distance_m - apart_m;
 }
 
-// Bullet's search stops early at about one pair in a thousand, off by up to metres. From a point `a` of the first body,
-// projections to the one body and back, with momentum that restarts when it points uphill, finish the work.
-Separation separate_by_projections(const PlacedBody& first, const PlacedBody& second, Eigen::Vector3d a) {
-  Eigen::Vector3d b = second.nearest(a), previous_a = a;
+bool is_proved(const PlacedBody& first, const PlacedBody& second, const Separation& apart) {
+  return excess(first, second, apart.on_first_W, apart.on_second_W) <= kExact_m;
+}
+
+// From a point `a` of the first body, projections to the one body and back, with momentum that restarts when it points
+// uphill, lead to the nearest points, or to a common one. The result is proved unless it is nearer than kExact_m.
+Separation separate_by_projections(const PlacedBody& first, const PlacedBody& second, const Eigen::Vector3d& a) {
+  Separation best{0.0, a, second.nearest(a)};
+  Eigen::Vector3d previous_a = a;
   double momentum = 1.0;
   for (int i = 0; i < kMaxProjections; ++i) {
-    if ((b - a).norm() <= kExact_m || excess(first, second, a, b) <= kExact_m) break;
+    best.distance_m = (best.on_second_W - best.on_first_W).norm();
+    if (best.distance_m <= kExact_m || is_proved(first, second, best)) break;
     double next_momentum = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * momentum * momentum));
-    const Eigen::Vector3d ahead = a + (momentum - 1.0) / next_momentum * (a - previous_a);
+    const Eigen::Vector3d step = best.on_first_W - previous_a;
+    const Eigen::Vector3d ahead = best.on_first_W + (momentum - 1.0) / next_momentum * step;
     const Eigen::Vector3d next_a = first.nearest(second.nearest(ahead));
-    if ((ahead - next_a).dot(next_a - a) > 0.0) next_momentum = 1.0;
-    previous_a = a;
-    a = next_a;
-    b = second.nearest(a);
+    if ((ahead - next_a).dot(next_a - best.on_first_W) > 0.0) next_momentum = 1.0;
+    previous_a = best.on_first_W;
+    best.on_first_W = next_a;
+    best.on_second_W = second.nearest(next_a);
     momentum = next_momentum;
   }
-  return {(b - a).norm(), a, b};
+  return best;
 }
 
 }  // namespace
@@ -103,20 +110,24 @@ Separation separate(const PlacedBody& first, const PlacedBody& second) {
   const btConvexShape* b = second.body->bullet.get();
   const btVector3 guess = second.bullet_X_WS.getOrigin() - first.bullet_X_WS.getOrigin();
   btGjkEpaSolver2::sResults found;
+  Eigen::Vector3d start_W = first.X_WS.translation();
   if (btGjkEpaSolver2::Distance(a, first.bullet_X_WS, b, second.bullet_X_WS, guess, found)) {
-    Separation apart{found.distance, to_eigen(found.witnesses[0]), to_eigen(found.witnesses[1])};
-    if (excess(first, second, apart.on_first_W, apart.on_second_W) > kExact_m) {
-      apart = separate_by_projections(first, second, first.nearest(apart.on_first_W));
-    }
-    if (apart.distance_m > kExact_m) return apart;
+    const Separation apart{found.distance, to_eigen(found.witnesses[0]), to_eigen(found.witnesses[1])};
+    if (apart.distance_m > kExact_m && is_proved(first, second, apart)) return apart;
+    start_W = first.nearest(apart.on_first_W);
   }
+
+  // Bullet's search stops early at about one pair in a thousand, off by up to metres: what it cannot prove is measured
+  // a second way.
+  const Separation apart = separate_by_projections(first, second, start_W);
+  if (apart.distance_m > kExact_m && is_proved(first, second, apart)) return apart;
+
   // Overlapping, or too near to tell: ask for the depth. No answer means that they just touch.
   constexpr bool kUseMargins = false;
   if (btGjkEpaSolver2::Penetration(a, first.bullet_X_WS, b, second.bullet_X_WS, guess, found, kUseMargins)) {
     return {std::min(found.distance, 0.0), to_eigen(found.witnesses[0]), to_eigen(found.witnesses[1])};
   }
-  const Eigen::Vector3d touch_W = second.nearest(first.X_WS.translation());
-  return {0.0, touch_W, touch_W};
+  return {0.0, apart.on_first_W, apart.on_second_W};
 }
 
 }  // namespace hedgehop::sim
