@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -34,9 +35,10 @@ struct StartConfig {
 };
 template <class Visitor>
 void describe(Visitor& v, StartConfig& c) {
-  v("north", c.north_m, {.unit = "m", .meaning = "position north of the scene's origin"});
-  v("east", c.east_m, {.unit = "m", .meaning = "position east of the scene's origin"});
-  v("altitude", c.altitude_m, {.unit = "m", .at_least = 0.0, .meaning = "height above the scene's origin"});
+  v("north", c.north_m, {.unit = "m", .required = true, .meaning = "position north of the scene's origin"});
+  v("east", c.east_m, {.unit = "m", .required = true, .meaning = "position east of the scene's origin"});
+  v("altitude", c.altitude_m,
+    {.unit = "m", .at_least = 0.0, .required = true, .meaning = "height above the scene's origin"});
   v("heading", c.heading_rad,
     {.unit = "deg", .at_least = -360.0, .at_most = 360.0, .meaning = "direction of the nose, from north to east"});
   v("spread", c.spread_m,
@@ -54,9 +56,10 @@ struct GoalConfig {
 };
 template <class Visitor>
 void describe(Visitor& v, GoalConfig& c) {
-  v("north", c.north_m, {.unit = "m", .meaning = "position north of the scene's origin"});
-  v("east", c.east_m, {.unit = "m", .meaning = "position east of the scene's origin"});
-  v("altitude", c.altitude_m, {.unit = "m", .at_least = 0.0, .meaning = "height to hold above the scene's origin"});
+  v("north", c.north_m, {.unit = "m", .required = true, .meaning = "position north of the scene's origin"});
+  v("east", c.east_m, {.unit = "m", .required = true, .meaning = "position east of the scene's origin"});
+  v("altitude", c.altitude_m,
+    {.unit = "m", .at_least = 0.0, .required = true, .meaning = "height to hold above the scene's origin"});
   v("heading", c.heading_rad,
     {.unit = "deg", .at_least = -360.0, .at_most = 360.0, .meaning = "heading to hold, from north to east"});
   v("radius", c.radius_m, {.unit = "m", .above = 0.0, .meaning = "horizontal distance that counts as reached"});
@@ -132,6 +135,17 @@ void describe(Visitor& v, Scenario& c) {
   v("avoidance", c.avoidance, {.required = true, .selector = "module", .meaning = "who decides where to fly"});
   v("checks", c.checks, {.selector = "check", .meaning = "what must hold of the flight"});
   v("film", c.film, {.meaning = "film of the flight"});
+}
+
+/// Runs `make`, which builds a part of a flight from its config, and returns what it returns. A std::invalid_argument
+/// becomes an InputError that begins with the path of the config: "'vehicle.rotor': ...".
+template <class Make>
+auto build_part(const std::string& path, Make&& make) {
+  try {
+    return make();
+  } catch (const std::invalid_argument& error) {
+    throw InputError("'" + path + "': " + error.what());
+  }
 }
 
 /// Reads a scenario, strictly. @param overrides  texts `a.b.0.c=value`, value in YAML, laid over the file in order.

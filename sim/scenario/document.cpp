@@ -1,0 +1,112 @@
+#include "sim/scenario/document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/scenario/scenario.h"
+#include "sim/scenario/tree.h"
+#include "sim/scenario/writer.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using Kind = Outline::Kind;
+
+bool has_parts(const Outline& node) { return node.kind == Kind::group || node.kind == Kind::variant; }
+
+std::string type_words(const Outline& node) {
+  switch (node.kind) {
+    case Kind::number:
+      return "number";
+    case Kind::integer:
+      return "integer";
+    case Kind::boolean:
+      return "true|false";
+    case Kind::text:
+      return "text";
+    case Kind::choice:
+      return fmt::format("{}", fmt::join(node.field.choices, "|"));
+    case Kind::group:
+      return "map";
+    case Kind::variant: {
+      std::vector<std::string> names;
+      for (const Outline& choice : node.all) names.push_back(choice.key);
+      return fmt::format("map with {}: {}", node.field.selector, fmt::join(names, "|"));
+    }
+    case Kind::list:
+      break;
+  }
+  const std::string item = type_words(node.item.at(0));
+  return node.fixed_size > 0 ? fmt::format("{} x {}", node.fixed_size, item) : "list of " + item;
+}
+
+std::string bounds_words(const Field& field) {
+  std::vector<std::string> bounds;
+  const auto put = [&](std::string_view relation, const std::optional<double>& bound) {
+    if (bound) bounds.push_back(fmt::format("{} {}", relation, *bound));
+  };
+  put(">", field.above);
+  put(">=", field.at_least);
+  put("<", field.below);
+  put("<=", field.at_most);
+  return fmt::format("{}", fmt::join(bounds, " and "));
+}
+
+std::string default_words(const Outline& node) {
+  if (node.field.required) return "required";
+  if (has_parts(node) && node.present) return "";
+  if (!node.present) return "default none";
+  if (node.kind == Kind::text) return node.value.empty() ? "default empty" : "default " + node.value;
+  if (node.kind != Kind::list) return "default " + node.value;
+  std::vector<std::string> items;
+  for (const Outline& part : node.parts) items.push_back(has_parts(part) ? "..." : part.value);
+  return fmt::format("default [{}]", fmt::join(items, ", "));
+}
+
+}  // namespace
+
+std::string document_fields(const std::vector<Outline>& fields, int indent) {
+  size_t key_width = 0;
+  for (const Outline& field : fields) key_width = std::max(key_width, field.key.size());
+  std::string text;
+  for (const Outline& field : fields) {
+    std::vector<std::string> facts;
+    const std::string unit = field.field.unit.empty() ? "" : fmt::format(" {}", field.field.unit);
+    for (std::string fact : {type_words(field) + unit, bounds_words(field.field), default_words(field)}) {
+      if (!fact.empty()) facts.push_back(std::move(fact));
+    }
+    text += fmt::format("{:{}}{:{}}  {}  ({})\n", "", indent, field.key, key_width, field.field.meaning,
+                        fmt::join(facts, ", "));
+    const Outline& shape = field.kind == Kind::list ? field.item.at(0) : field;
+    if (shape.kind == Kind::group) text += document_fields(shape.parts, indent + 4);
+  }
+  return text;
+}
+
+std::string document_choices(const std::vector<Outline>& choices) {
+  std::string text;
+  for (const Outline& choice : choices) {
+    text += fmt::format("{}{}: {}\n", text.empty() ? "" : "\n", choice.key, choice.meaning);
+    text += document_fields(choice.parts, 4);
+  }
+  return text;
+}
+
+const std::vector<std::string>& document_topics() {
+  static const std::vector<std::string> topics = {"modules", "vehicles", "scenes", "cameras", "checks", "scenario"};
+  return topics;
+}
+
+std::string document(const std::string& topic) {
+  if (topic == "modules") return describe_choices<avoidance::ModuleConfig>();
+  if (topic == "vehicles") return describe_choices<dynamics::VehicleConfig>();
+  if (topic == "scenes") return describe_choices<scenes::SceneConfig>();
+  if (topic == "cameras") return document_fields(outline_fields(CameraConfig{}), 0);
+  if (topic == "checks") return describe_choices<CheckConfig>();
+  if (topic == "scenario") return document_fields(outline_fields(Scenario{}), 0);
+  const std::vector<std::string>& topics = document_topics();
+  throw InputError(fmt::format("unknown topic '{}'{}", topic, suggestion(topic, {topics.begin(), topics.end()})));
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,82 @@
+#include "sim/scenario/numbers.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace hedgehop::sim {
+namespace {
+
+/// Degrees are converted with more digits than a double has: the doubles in radians are here and there closer together
+/// than those in degrees, and each of them must have a decimal in degrees.
+double to_radians(long double degrees) {
+  return static_cast<double>(degrees * (std::numbers::pi_v<long double> / 180.0L));
+}
+
+std::string_view without_plus(std::string_view text) {
+  return text.size() > 1 && text[0] == '+' && text[1] != '-' ? text.substr(1) : text;
+}
+
+template <class T>
+std::optional<T> parse_whole(std::string_view text) {
+  T value{};
+  text = without_plus(text);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return {};
+  return value;
+}
+
+}  // namespace
+
+bool is_degrees(std::string_view unit) { return unit == "deg" || unit == "deg/s"; }
+
+ParsedNumber parse_number(std::string_view text, bool degrees) {
+  using Kind = ParsedNumber::Kind;
+  text = without_plus(text);
+  for (std::string_view word : {"inf", "Inf", "INF", "nan", "NaN", "NAN"}) {
+    const std::string_view bare = text.substr(text.starts_with('-') ? 1 : 0);
+    if (bare == word || (bare.starts_with('.') && bare.substr(1) == word)) return {Kind::not_finite};
+  }
+  // from_chars also reads words such as "infinity": a number has a digit or a point after its sign.
+  const size_t first = text.starts_with('-') ? 1 : 0;
+  if (first >= text.size() || (text[first] != '.' && (text[first] < '0' || text[first] > '9'))) return {};
+
+  ParsedNumber parsed;
+  const char* last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, parsed.written);
+  if (error == std::errc::invalid_argument || end != last) return {};
+  if (error == std::errc::result_out_of_range) return {Kind::not_finite};
+  parsed.kind = Kind::number;
+  parsed.member = parsed.written;
+  if (degrees) {
+    long double precise = 0.0L;
+    std::from_chars(text.data(), last, precise);
+    parsed.member = to_radians(precise);
+  }
+  return parsed;
+}
+
+std::optional<int64_t> parse_signed(std::string_view text) { return parse_whole<int64_t>(text); }
+
+std::optional<uint64_t> parse_unsigned(std::string_view text) { return parse_whole<uint64_t>(text); }
+
+std::string number_text(double member, bool degrees) {
+  if (!degrees) return fmt::format("{}", member);
+  const long double exact = static_cast<long double>(member) * (180.0L / std::numbers::pi_v<long double>);
+  constexpr int kMostDigits = std::numeric_limits<long double>::max_digits10;
+  std::string text;
+  for (int digits = 1; digits <= kMostDigits; ++digits) {
+    text = fmt::format("{:.{}g}", exact, digits);
+    const ParsedNumber back = parse_number(text, true);
+    if (back.kind == ParsedNumber::Kind::number && back.member == member &&
+        std::signbit(back.member) == std::signbit(member)) {
+      break;
+    }
+  }
+  return text;
+}
+
+}  // namespace hedgehop::sim

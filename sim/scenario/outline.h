@@ -1,0 +1,120 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/scenario/field.h"
+#include "sim/scenario/field_types.h"
+#include "sim/scenario/numbers.h"
+
+/// A config struct as a tree of described values: what the writer, the schema and the documentation are made from.
+namespace hedgehop::sim {
+
+struct Outline {
+  enum class Kind { number, integer, boolean, text, choice, list, group, variant };
+
+  Kind kind = Kind::group;
+  std::string key;                ///< in its group; empty for items
+  Field field;                    ///< unit, bounds, choices, meaning
+  std::string value;              ///< of a scalar: as YAML holds it, not quoted
+  bool non_negative = false;      ///< an integer whose type has no sign
+  bool optional = false;          ///< may be null
+  bool present = true;            ///< an optional that holds a value
+  size_t fixed_size = 0;          ///< of a list: its number of items, 0 when any number may stand
+  std::vector<Outline> parts;     ///< fields of a group or of a variant's choice; items of a list
+  std::vector<Outline> item;      ///< of a list: one item, of default value
+  std::string chosen;             ///< of a variant: name of the choice
+  std::vector<Outline> all;       ///< of a variant: every choice as a group of default values, keyed by its name
+  std::string_view meaning = {};  ///< of a variant's choice: its kMeaning
+};
+
+template <class T>
+Outline outline(const T& value, const Field& field);
+
+/// The visitor that outlines the fields of one struct.
+class StructOutliner {
+ public:
+  explicit StructOutliner(std::vector<Outline>& parts) : parts_(parts) {}
+
+  template <class T>
+  void operator()(std::string_view key, const T& value, const Field& field) {
+    parts_.push_back(outline(value, field));
+    parts_.back().key = key;
+  }
+
+ private:
+  std::vector<Outline>& parts_;
+};
+
+template <StructField T>
+std::vector<Outline> outline_fields(const T& value) {
+  std::vector<Outline> parts;
+  StructOutliner outliner(parts);
+  T copy = value;  // describe() takes what a reader may write to
+  describe(outliner, copy);
+  return parts;
+}
+
+template <VariantField T>
+std::vector<Outline> outline_alternatives() {
+  std::vector<Outline> all;
+  for_each_alternative<T>([&]<class A>() {
+    Outline choice;
+    choice.key = A::kName;
+    choice.meaning = A::kMeaning;
+    choice.parts = outline_fields(A{});
+    all.push_back(std::move(choice));
+  });
+  return all;
+}
+
+template <class T>
+Outline outline(const T& value, const Field& field) {
+  Outline node;
+  if constexpr (OptionalField<T>) {
+    using Value = typename T::value_type;
+    node = outline(value ? *value : Value{}, field);
+    node.optional = true;
+    node.present = value.has_value();
+    return node;
+  }
+  node.field = field;
+  if constexpr (NumberField<T>) {
+    node.kind = Outline::Kind::number;
+    node.value = number_text(value, is_degrees(field.unit));
+  } else if constexpr (std::same_as<T, bool>) {
+    node.kind = Outline::Kind::boolean;
+    node.value = value ? "true" : "false";
+  } else if constexpr (IntegerField<T>) {
+    node.kind = Outline::Kind::integer;
+    node.value = std::to_string(value);
+    node.non_negative = std::is_unsigned_v<T>;
+  } else if constexpr (std::same_as<T, std::string>) {
+    node.kind = Outline::Kind::text;
+    node.value = value;
+  } else if constexpr (ChoiceField<T>) {
+    node.kind = Outline::Kind::choice;
+    node.value = field.choices.at(static_cast<size_t>(value));
+  } else if constexpr (EigenField<T>) {
+    node.kind = Outline::Kind::list;
+    node.fixed_size = static_cast<size_t>(value.size());
+    for (double component : value) node.parts.push_back(outline(component, field));
+    node.item.push_back(outline(0.0, field));
+  } else if constexpr (VectorField<T>) {
+    node.kind = Outline::Kind::list;
+    for (const auto& item : value) node.parts.push_back(outline(item, field));
+    node.item.push_back(outline(typename T::value_type{}, field));
+  } else if constexpr (VariantField<T>) {
+    node.kind = Outline::Kind::variant;
+    node.all = outline_alternatives<T>();
+    node.chosen = node.all.at(value.index()).key;
+    node.parts = std::visit([](const auto& chosen) { return outline_fields(chosen); }, value);
+  } else if constexpr (StructField<T>) {
+    node.kind = Outline::Kind::group;
+    node.parts = outline_fields(value);
+  }
+  return node;
+}
+
+}  // namespace hedgehop::sim

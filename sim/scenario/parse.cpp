@@ -1,0 +1,187 @@
+#include "sim/scenario/parse.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
+
+#include <map>
+#include <sstream>
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr size_t kMostNodes = 200'000;  // a scenario has hundreds; aliases of aliases could make billions
+
+size_t count_nodes(const Node& node) {
+  size_t count = 1;
+  for (const Node& item : node.items) count += count_nodes(item);
+  for (const Entry& entry : node.entries) count += count_nodes(entry.value);
+  return count;
+}
+
+/// Builds a Node from the parser's events.
+class Builder : public YAML::EventHandler {
+ public:
+  Builder(std::string file, Faults& faults) : file_(std::move(file)), faults_(faults) {}
+
+  Node take() { return std::move(root_); }
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    Node node = make(Node::Kind::null, mark, "", anchor);
+    // An empty value is marked where the next token stands; its key says better where it is missing.
+    if (!open_.empty() && open_.back().has_key && node.place.line > open_.back().key_place.line) {
+      node.place = open_.back().key_place;
+    }
+    add(std::move(node), anchor);
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
+    Node node = make(Node::Kind::scalar, mark, tag, anchor);
+    node.text = value;
+    node.quoted = tag == "!";
+    add(std::move(node), anchor);
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const auto named = anchors_.find(anchor);
+    Node node = make(Node::Kind::null, mark, "", 0);
+    if (named == anchors_.end()) {
+      faults_.add(node.place, "an alias stands inside what it names");
+    } else if (const size_t count = count_nodes(named->second); nodes_ + count > kMostNodes) {
+      if (!too_many_) faults_.add(node.place, "aliases make the document too large");
+      too_many_ = true;
+    } else {
+      nodes_ += count;
+      node = named->second;
+    }
+    add(std::move(node), 0);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    open_.push_back({make(Node::Kind::list, mark, tag, anchor), anchor});
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    open_.push_back({make(Node::Kind::map, mark, tag, anchor), anchor});
+  }
+  void OnMapEnd() override { close(); }
+
+ private:
+  struct Open {
+    Node node;
+    YAML::anchor_t anchor = 0;
+    bool has_key = false;  ///< of a map: a key waits for its value
+    bool drop = false;     ///< ... which is not kept
+    std::string key = {};
+    Place key_place = {};
+  };
+
+  Node make(Node::Kind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t) {
+    Node node;
+    node.kind = kind;
+    node.place = {file_, mark.line + 1, mark.column + 1};
+    if (!tag.empty() && tag != "?" && tag != "!") faults_.add(node.place, fmt::format("tag '{}' is not allowed", tag));
+    return node;
+  }
+
+  std::string path() const {
+    std::string path;
+    for (const Open& open : open_) {
+      if (open.node.kind == Node::Kind::list) {
+        path = join_path(path, std::to_string(open.node.items.size()));
+      } else if (open.has_key) {
+        path = join_path(path, open.key);
+      }
+    }
+    return path;
+  }
+
+  void add(Node node, YAML::anchor_t anchor) {
+    ++nodes_;
+    if (anchor != 0) anchors_[anchor] = node;
+    if (open_.empty()) {
+      root_ = std::move(node);
+      return;
+    }
+    Open& open = open_.back();
+    if (open.node.kind == Node::Kind::list) {
+      open.node.items.push_back(std::move(node));
+    } else if (!open.has_key) {
+      take_key(open, node);
+    } else {
+      if (!open.drop) open.node.entries.push_back({open.key, open.key_place, std::move(node)});
+      open.has_key = false;
+    }
+  }
+
+  void take_key(Open& open, const Node& key) {
+    const std::string in = path_words(path());
+    open.has_key = true;
+    open.drop = true;
+    open.key = key.text;
+    open.key_place = key.place;
+    if (key.kind != Node::Kind::scalar || key.text.empty()) {
+      faults_.add(key.place, fmt::format("a key in {} must be one word, got {}", in, key.words()));
+    } else if (key.text == "<<") {
+      faults_.add(key.place, fmt::format("merge key '<<' in {} is not allowed; use 'use: file.yaml'", in));
+    } else if (const Entry* first = find_entry(open.node, key.text)) {
+      faults_.add(key.place,
+                  fmt::format("duplicate key '{}' in {}; first at line {}", key.text, in, first->place.line));
+    } else {
+      open.drop = false;
+    }
+  }
+
+  static const Entry* find_entry(const Node& map, std::string_view key) {
+    for (const Entry& entry : map.entries) {
+      if (entry.key == key) return &entry;
+    }
+    return nullptr;
+  }
+
+  void close() {
+    Open closed = std::move(open_.back());
+    open_.pop_back();
+    add(std::move(closed.node), closed.anchor);
+  }
+
+  std::string file_;
+  Faults& faults_;
+  Node root_;
+  std::vector<Open> open_;
+  std::map<YAML::anchor_t, Node> anchors_;
+  size_t nodes_ = 0;
+  bool too_many_ = false;
+};
+
+}  // namespace
+
+Node parse_yaml(const std::string& text, const std::string& file, Faults& faults) {
+  std::istringstream stream(text);
+  Builder builder(file, faults);
+  try {
+    YAML::Parser parser(stream);
+    if (!parser.HandleNextDocument(builder)) {
+      faults.add({file, 1, 1}, "the file is empty");
+      return {};
+    }
+    Node root = builder.take();
+    Faults ignored;
+    Builder second(file, ignored);
+    if (parser.HandleNextDocument(second)) {
+      const Node next = second.take();
+      faults.add(next.place, "a second document; one file holds one");
+    }
+    return root;
+  } catch (const YAML::Exception& error) {
+    faults.add({file, error.mark.line + 1, error.mark.column + 1}, error.msg);
+  } catch (const std::exception& error) {
+    faults.add({file, 0, 0}, fmt::format("cannot be read as YAML: {}", error.what()));
+  }
+  return {};
+}
+
+}  // namespace hedgehop::sim

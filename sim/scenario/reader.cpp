@@ -1,0 +1,149 @@
+#include "sim/scenario/reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hedgehop::sim {
+namespace {
+
+std::string with_unit(std::string_view value, const Field& field) {
+  return field.unit.empty() ? std::string(value) : fmt::format("{} {}", value, field.unit);
+}
+
+/// "a number", "a number in m".
+std::string number_words(std::string_view noun, const Field& field) {
+  return field.unit.empty() ? std::string(noun) : fmt::format("{} in {}", noun, field.unit);
+}
+
+template <class T>
+bool within_bounds(T value, const Node& node, const std::string& path, const Field& field, Faults& faults) {
+  const auto refuse = [&](std::string_view relation, double bound) {
+    faults.add(node.place, fmt::format("'{}' must be {} {}, got {}", path, relation,
+                                       with_unit(fmt::format("{}", bound), field), node.text));
+    return false;
+  };
+  const double v = static_cast<double>(value);
+  if (field.above && !(v > *field.above)) return refuse(">", *field.above);
+  if (field.at_least && !(v >= *field.at_least)) return refuse(">=", *field.at_least);
+  if (field.below && !(v < *field.below)) return refuse("<", *field.below);
+  if (field.at_most && !(v <= *field.at_most)) return refuse("<=", *field.at_most);
+  return true;
+}
+
+void expected(std::string_view what, const Node& node, const std::string& path, Faults& faults) {
+  faults.add(node.place, fmt::format("{} expects {}, got {}", path_words(path), what, node.words()));
+}
+
+bool is_plain_scalar(const Node& node) { return node.kind == Node::Kind::scalar && !node.quoted; }
+
+/// A whole number that its type cannot hold, or no whole number at all.
+template <class T>
+void refuse_integer(T lowest, T highest, const Node& node, const std::string& path, const Field& field,
+                    Faults& faults) {
+  const size_t sign = node.text.starts_with('-') || node.text.starts_with('+') ? 1 : 0;
+  const bool digits_only =
+      node.text.size() > sign && node.text.find_first_not_of("0123456789", sign) == std::string::npos;
+  if (is_plain_scalar(node) && digits_only) {
+    faults.add(node.place, fmt::format("'{}' must lie between {} and {}, got {}", path, lowest, highest, node.text));
+  } else {
+    expected(number_words("a whole number", field), node, path, faults);
+  }
+}
+
+}  // namespace
+
+std::optional<double> read_number(const Node& node, const std::string& path, const Field& field, Faults& faults) {
+  using Kind = ParsedNumber::Kind;
+  const ParsedNumber parsed = is_plain_scalar(node) ? parse_number(node.text, is_degrees(field.unit)) : ParsedNumber{};
+  if (parsed.kind == Kind::not_finite) {
+    faults.add(node.place, fmt::format("'{}' must be finite, got {}", path, node.text));
+  } else if (parsed.kind == Kind::not_a_number) {
+    expected(number_words("a number", field), node, path, faults);
+  } else if (within_bounds(parsed.written, node, path, field, faults)) {
+    return parsed.member;
+  }
+  return {};
+}
+
+std::optional<int64_t> read_signed(const Node& node, const std::string& path, const Field& field, int64_t lowest,
+                                   int64_t highest, Faults& faults) {
+  const std::optional<int64_t> value = is_plain_scalar(node) ? parse_signed(node.text) : std::nullopt;
+  if (!value || *value < lowest || *value > highest) {
+    refuse_integer(lowest, highest, node, path, field, faults);
+    return {};
+  }
+  return within_bounds(*value, node, path, field, faults) ? value : std::nullopt;
+}
+
+std::optional<uint64_t> read_unsigned(const Node& node, const std::string& path, const Field& field, uint64_t highest,
+                                      Faults& faults) {
+  const std::optional<uint64_t> value = is_plain_scalar(node) ? parse_unsigned(node.text) : std::nullopt;
+  if (!value || *value > highest) {
+    refuse_integer(uint64_t{0}, highest, node, path, field, faults);
+    return {};
+  }
+  return within_bounds(*value, node, path, field, faults) ? value : std::nullopt;
+}
+
+std::optional<bool> read_bool(const Node& node, const std::string& path, Faults& faults) {
+  if (is_plain_scalar(node)) {
+    if (node.text == "true") return true;
+    if (node.text == "false") return false;
+  }
+  expected("true or false", node, path, faults);
+  return {};
+}
+
+std::optional<std::string> read_text(const Node& node, const std::string& path, Faults& faults) {
+  if (node.kind == Node::Kind::scalar) return node.text;
+  expected("a text", node, path, faults);
+  return {};
+}
+
+std::optional<size_t> read_choice(const Node& node, const std::string& path,
+                                  const std::vector<std::string_view>& choices, Faults& faults) {
+  if (node.kind != Node::Kind::scalar) {
+    expected("one of: " + fmt::format("{}", fmt::join(choices, ", ")), node, path, faults);
+    return {};
+  }
+  const auto found = std::find(choices.begin(), choices.end(), node.text);
+  if (found != choices.end()) return static_cast<size_t>(found - choices.begin());
+  faults.add(node.place,
+             fmt::format("unknown choice '{}' for '{}'{}", node.text, path, suggestion(node.text, choices)));
+  return {};
+}
+
+bool expect_list(const Node& node, const std::string& path, size_t size, Faults& faults) {
+  if (node.kind != Node::Kind::list) {
+    expected(size == 0 ? std::string("a list") : fmt::format("a list of {} numbers", size), node, path, faults);
+    return false;
+  }
+  if (size != 0 && node.items.size() != size) {
+    faults.add(node.place, fmt::format("'{}' expects a list of {} numbers, got {}", path, size, node.items.size()));
+    return false;
+  }
+  return true;
+}
+
+bool expect_map(const Node& node, const std::string& path, Faults& faults) {
+  if (node.kind == Node::Kind::map) return true;
+  expected("a map of keys", node, path, faults);
+  return false;
+}
+
+void StructReader::missing(std::string_view key, const Field& field) const {
+  const std::string unit = field.unit.empty() ? "" : fmt::format(" ({})", field.unit);
+  const std::string meaning = field.meaning.empty() ? "" : fmt::format(": {}{}", field.meaning, unit);
+  faults_.add(map_.place, fmt::format("missing key '{}' in {}{}", key, path_words(path_), meaning));
+}
+
+void StructReader::finish() const {
+  for (const Entry& entry : map_.entries) {
+    if (std::find(keys_.begin(), keys_.end(), entry.key) != keys_.end()) continue;
+    faults_.add(entry.place,
+                fmt::format("unknown key '{}' in {}{}", entry.key, path_words(path_), suggestion(entry.key, keys_)));
+  }
+}
+
+}  // namespace hedgehop::sim

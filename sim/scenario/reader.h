@@ -1,0 +1,138 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "sim/scenario/field.h"
+#include "sim/scenario/field_types.h"
+#include "sim/scenario/numbers.h"
+#include "sim/scenario/tree.h"
+
+/// From a tree to config structs, by their describe(). Strict: what does not fit goes to Faults and leaves the member.
+namespace hedgehop::sim {
+
+// Each reads one value or adds a fault; `path` is dotted, from the root.
+std::optional<double> read_number(const Node& node, const std::string& path, const Field& field, Faults& faults);
+std::optional<int64_t> read_signed(const Node& node, const std::string& path, const Field& field, int64_t lowest,
+                                   int64_t highest, Faults& faults);
+std::optional<uint64_t> read_unsigned(const Node& node, const std::string& path, const Field& field, uint64_t highest,
+                                      Faults& faults);
+std::optional<bool> read_bool(const Node& node, const std::string& path, Faults& faults);
+std::optional<std::string> read_text(const Node& node, const std::string& path, Faults& faults);
+std::optional<size_t> read_choice(const Node& node, const std::string& path,
+                                  const std::vector<std::string_view>& choices, Faults& faults);
+/// Whether the node is a list (of `size` items when that is not 0) or a map; a fault otherwise.
+bool expect_list(const Node& node, const std::string& path, size_t size, Faults& faults);
+bool expect_map(const Node& node, const std::string& path, Faults& faults);
+
+template <class T>
+void read_value(const Node& node, const std::string& path, const Field& field, T& value, Faults& faults);
+
+/// The visitor that reads one struct from one map.
+class StructReader {
+ public:
+  /// @param map  a map, which must outlive the reader. @param selector  a key already read, or "".
+  StructReader(const Node& map, std::string path, std::string_view selector, Faults& faults)
+      : map_(map), path_(std::move(path)), faults_(faults) {
+    if (!selector.empty()) keys_.push_back(selector);
+  }
+
+  template <class T>
+  void operator()(std::string_view key, T& value, const Field& field) {
+    keys_.push_back(key);
+    if (const Node* node = map_.find(key)) {
+      read_value(*node, join_path(path_, key), field, value, faults_);
+    } else if (field.required) {
+      missing(key, field);
+    }
+  }
+
+  /// Refuses the keys that no field asked for.
+  void finish() const;
+
+ private:
+  void missing(std::string_view key, const Field& field) const;
+
+  const Node& map_;
+  std::string path_;
+  Faults& faults_;
+  std::vector<std::string_view> keys_;
+};
+
+template <StructField T>
+void read_struct(const Node& node, const std::string& path, std::string_view selector, T& value, Faults& faults) {
+  if (!expect_map(node, path, faults)) return;
+  StructReader reader(node, path, selector, faults);
+  describe(reader, value);
+  reader.finish();
+}
+
+/// The name under `selector` picks the alternative, which is read from the same map upon its defaults.
+template <VariantField T>
+void read_variant(const Node& node, const std::string& path, const Field& field, T& value, Faults& faults) {
+  if (!expect_map(node, path, faults)) return;
+  std::vector<std::string_view> names;
+  for_each_alternative<T>([&]<class A>() { names.push_back(A::kName); });
+  const Node* selector = node.find(field.selector);
+  if (!selector) {
+    faults.add(node.place,
+               "missing key '" + std::string(field.selector) + "' in " + path_words(path) + suggestion("", names));
+    return;
+  }
+  const std::optional<size_t> chosen = read_choice(*selector, join_path(path, field.selector), names, faults);
+  if (!chosen) return;
+  size_t index = 0;
+  for_each_alternative<T>([&]<class A>() {
+    if (index++ == *chosen) {
+      A read;
+      read_struct(node, path, field.selector, read, faults);
+      value = std::move(read);
+    }
+  });
+}
+
+template <class T>
+void read_value(const Node& node, const std::string& path, const Field& field, T& value, Faults& faults) {
+  if constexpr (NumberField<T>) {
+    if (auto read = read_number(node, path, field, faults)) value = *read;
+  } else if constexpr (std::same_as<T, bool>) {
+    if (auto read = read_bool(node, path, faults)) value = *read;
+  } else if constexpr (IntegerField<T> && std::is_signed_v<T>) {
+    using Limits = std::numeric_limits<T>;
+    if (auto read = read_signed(node, path, field, Limits::min(), Limits::max(), faults)) value = static_cast<T>(*read);
+  } else if constexpr (IntegerField<T>) {
+    const uint64_t highest = std::numeric_limits<T>::max();
+    if (auto read = read_unsigned(node, path, field, highest, faults)) value = static_cast<T>(*read);
+  } else if constexpr (std::same_as<T, std::string>) {
+    if (auto read = read_text(node, path, faults)) value = std::move(*read);
+  } else if constexpr (ChoiceField<T>) {
+    if (auto read = read_choice(node, path, field.choices, faults)) value = static_cast<T>(*read);
+  } else if constexpr (OptionalField<T>) {
+    if (node.kind == Node::Kind::null) {
+      value.reset();
+    } else {
+      value.emplace();
+      read_value(node, path, field, *value, faults);
+    }
+  } else if constexpr (EigenField<T>) {
+    if (!expect_list(node, path, static_cast<size_t>(value.size()), faults)) return;
+    for (size_t i = 0; i < node.items.size(); ++i) {
+      read_value(node.items[i], join_path(path, std::to_string(i)), field, value[static_cast<Eigen::Index>(i)], faults);
+    }
+  } else if constexpr (VectorField<T>) {
+    if (!expect_list(node, path, 0, faults)) return;
+    value.assign(node.items.size(), {});
+    for (size_t i = 0; i < node.items.size(); ++i) {
+      read_value(node.items[i], join_path(path, std::to_string(i)), field, value[i], faults);
+    }
+  } else if constexpr (VariantField<T>) {
+    read_variant(node, path, field, value, faults);
+  } else {
+    read_struct(node, path, "", value, faults);
+  }
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,159 @@
+#include "sim/scenario/validate.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <exception>
+
+namespace hedgehop::sim {
+namespace {
+
+using Channel = CameraConfig::Channel;
+
+std::string_view words(Channel channel) {
+  switch (channel) {
+    case Channel::grey:
+      return "grey";
+    case Channel::color:
+      return "color";
+    case Channel::depth:
+      return "depth";
+  }
+  return "?";
+}
+
+class Validator {
+ public:
+  Validator(const Scenario& scenario, const Node& root, Faults& faults)
+      : scenario_(scenario), root_(root), faults_(faults) {}
+
+  void rates() {
+    constexpr int64_t kNsPerS = 1'000'000'000;
+    const int64_t physics = scenario_.physics_rate_hz;
+    if (kNsPerS % physics != 0) add("physics_rate", "must divide 1e9, so that a step is a whole number of nanoseconds");
+    divides_physics("control_rate", static_cast<double>(scenario_.control_rate_hz));
+    for (size_t i = 0; i < scenario_.rig.cameras.size(); ++i) {
+      divides_physics(fmt::format("rig.cameras.{}.rate", i), scenario_.rig.cameras[i].rate_hz);
+    }
+    if (scenario_.film.enabled) divides_physics("film.rate", scenario_.film.rate_hz);
+  }
+
+  void rig() {
+    const std::vector<CameraConfig>& cameras = scenario_.rig.cameras;
+    for (size_t i = 0; i < cameras.size(); ++i) {
+      const std::string path = fmt::format("rig.cameras.{}.role", i);
+      if (cameras[i].role.empty()) add(path, "must not be empty");
+      for (size_t j = 0; j < i; ++j) {
+        if (cameras[j].role == cameras[i].role) {
+          add(path, fmt::format("camera {} has the role '{}' already", j, cameras[i].role));
+          break;
+        }
+      }
+    }
+    const VelocimeterConfig& velocimeter = scenario_.velocimeter;
+    if (velocimeter.enabled) needs_camera("velocimeter.camera", velocimeter.camera, Channel::grey);
+  }
+
+  void module() {
+    build("avoidance", [&] {
+      for (const avoidance::CameraNeed& need : avoidance::make_module(scenario_.avoidance)->needs().cameras) {
+        needs_camera("avoidance", need.role, need.channel);
+      }
+    });
+  }
+
+  void parts() {
+    build("vehicle", [&] { dynamics::Vehicle(scenario_.vehicle); });
+    build("wind", [&] { dynamics::Wind(scenario_.wind, 0); });
+    build("avionics", [&] {
+      dynamics::Avionics(scenario_.avionics, scenario_.vehicle, 1.0 / static_cast<double>(scenario_.physics_rate_hz),
+                         [](std::string_view) { return uint64_t{0}; });
+    });
+  }
+
+  void checks() {
+    for (size_t i = 0; i < scenario_.checks.size(); ++i) {
+      const std::string path = fmt::format("checks.{}", i);
+      std::visit([&](const auto& check) { this->check(path, check); }, scenario_.checks[i]);
+    }
+  }
+
+ private:
+  void check(const std::string& path, const ReachedGoalCheck& check) {
+    if (!scenario_.goal) add(path, "the scenario has no goal to reach");
+    if (check.before_s && *check.before_s > scenario_.duration_s) {
+      add(path + ".before", fmt::format("is after the flight's end ({} s)", scenario_.duration_s));
+    }
+  }
+  void check(const std::string& path, const AltitudeBandCheck& check) {
+    ordered(path + ".max", "min", check.min_m, check.max_m);
+  }
+  void check(const std::string& path, const InsideBoxCheck& check) {
+    ordered(path + ".north_max", "north_min", check.north_min_m, check.north_max_m);
+    ordered(path + ".east_max", "east_min", check.east_min_m, check.east_max_m);
+  }
+  void check(const std::string& path, const MetricCheck& check) {
+    if (check.name.empty()) add(path + ".name", "must not be empty");
+    if (!check.at_least && !check.at_most) add(path, "needs 'at_least' or 'at_most'");
+    if (check.at_least && check.at_most && *check.at_least > *check.at_most) {
+      add(path + ".at_most", "must not be less than 'at_least'");
+    }
+  }
+  template <class Check>
+  void check(const std::string&, const Check&) {}
+
+  void ordered(const std::string& path, std::string_view lower, double min, double max) {
+    if (!(min < max)) add(path, fmt::format("must be greater than '{}' ({} m), got {}", lower, min, max));
+  }
+
+  void divides_physics(const std::string& path, double rate_hz) {
+    const double steps = static_cast<double>(scenario_.physics_rate_hz) / rate_hz;
+    constexpr double kRoundOff = 1e-9;
+    if (steps >= 1.0 && std::abs(steps - std::round(steps)) <= kRoundOff * steps) return;
+    add(path, fmt::format("{} Hz does not divide the physics rate of {} Hz", rate_hz, scenario_.physics_rate_hz));
+  }
+
+  void needs_camera(const std::string& path, const std::string& role, Channel channel) {
+    if (const CameraConfig* camera = scenario_.rig.find(role)) {
+      if (camera->channel != channel) {
+        add(path, fmt::format("needs camera '{}' to give {} pictures; its channel is {}", role, words(channel),
+                              words(camera->channel)));
+      }
+      return;
+    }
+    std::vector<std::string_view> roles;
+    for (const CameraConfig& camera : scenario_.rig.cameras) roles.push_back(camera.role);
+    add(path, fmt::format("needs a camera '{}', which the rig does not have; it has: {}", role,
+                          roles.empty() ? "none" : fmt::format("{}", fmt::join(roles, ", "))));
+  }
+
+  template <class Build>
+  void build(const std::string& path, Build&& build) {
+    try {
+      build();
+    } catch (const std::invalid_argument& error) {
+      add(path, error.what());
+    }
+  }
+
+  void add(const std::string& path, std::string_view message) {
+    faults_.add(place_of(root_, path), fmt::format("'{}': {}", path, message));
+  }
+
+  const Scenario& scenario_;
+  const Node& root_;
+  Faults& faults_;
+};
+
+}  // namespace
+
+void validate(const Scenario& scenario, const Node& root, Faults& faults) {
+  Validator validator(scenario, root, faults);
+  validator.rates();
+  validator.rig();
+  validator.module();
+  validator.parts();
+  validator.checks();
+}
+
+}  // namespace hedgehop::sim

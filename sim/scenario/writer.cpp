@@ -1,0 +1,86 @@
+#include "sim/scenario/writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace hedgehop::sim {
+namespace {
+
+bool is_scalar(const Outline& node) {
+  return node.kind != Outline::Kind::list && node.kind != Outline::Kind::group && node.kind != Outline::Kind::variant;
+}
+
+std::string scalar(const Outline& node) {
+  return node.kind == Outline::Kind::text ? yaml_quoted(node.value) : node.value;
+}
+
+void write_fields(const std::vector<Outline>& fields, int indent, std::string& out);
+
+/// What follows "key:" or the like: on the same line for scalars and lists of them, else below, indented.
+void write_value(const Outline& node, int indent, std::string& out) {
+  if (!node.present) {
+    out += " ~\n";
+  } else if (is_scalar(node)) {
+    out += fmt::format(" {}\n", scalar(node));
+  } else if (node.kind == Outline::Kind::list && std::all_of(node.parts.begin(), node.parts.end(), is_scalar)) {
+    std::vector<std::string> items;
+    for (const Outline& item : node.parts) items.push_back(scalar(item));
+    out += fmt::format(" [{}]\n", fmt::join(items, ", "));
+  } else if (node.kind == Outline::Kind::list) {
+    out += "\n";
+    for (const Outline& item : node.parts) {
+      out += fmt::format("{:{}}-", "", indent);
+      write_value(item, indent + 2, out);
+    }
+  } else if (node.kind == Outline::Kind::group && node.parts.empty()) {
+    out += " {}\n";
+  } else {
+    out += "\n";
+    if (node.kind == Outline::Kind::variant) {
+      out += fmt::format("{:{}}{}: {}\n", "", indent, node.field.selector, node.chosen);
+    }
+    write_fields(node.parts, indent, out);
+  }
+}
+
+void write_fields(const std::vector<Outline>& fields, int indent, std::string& out) {
+  for (const Outline& field : fields) {
+    out += fmt::format("{:{}}{}:", "", indent, field.key);
+    write_value(field, indent + 2, out);
+  }
+}
+
+}  // namespace
+
+std::string yaml_text(const std::vector<Outline>& fields) {
+  std::string out;
+  write_fields(fields, 0, out);
+  return out;
+}
+
+std::string yaml_quoted(const std::string& text) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == '/' || c == '.'; };
+  const bool is_word = !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) &&
+                       std::all_of(text.begin(), text.end(), plain);
+  static constexpr std::string_view kReserved[] = {"null", "Null", "NULL", "true", "false", "yes", "no", "on", "off"};
+  if (is_word && std::find(std::begin(kReserved), std::end(kReserved), text) == std::end(kReserved)) return text;
+
+  std::string out = "\"";
+  for (char c : text) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (c == '\n') {
+      out += "\\n";
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      out += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+}  // namespace hedgehop::sim
