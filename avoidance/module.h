@@ -19,11 +19,11 @@ namespace hedgehop::avoidance {
 
 /// What the aircraft believes of itself, from its noisy sensors.
 struct NavigationState {
-  Eigen::Vector3d p_WB_est = Eigen::Vector3d::Zero();                  ///< position of B in W, m
-  Eigen::Quaterniond q_WB_est = Eigen::Quaterniond::Identity();        ///< attitude of B in W
-  Eigen::Vector3d v_WB_B_est = Eigen::Vector3d::Zero();                ///< velocity of B in W, expressed in B, m/s
-  Eigen::Vector3d w_WB_B_est = Eigen::Vector3d::Zero();                ///< angular velocity (gyro less bias), rad/s
-  double height_above_ground_m = 0.0;                                  ///< from the height sensor, >= 0
+  Eigen::Vector3d p_WB_est = Eigen::Vector3d::Zero();            ///< position of B in W, m
+  Eigen::Quaterniond q_WB_est = Eigen::Quaterniond::Identity();  ///< attitude of B in W
+  Eigen::Vector3d v_WB_B_est = Eigen::Vector3d::Zero();          ///< velocity of B in W, expressed in B, m/s
+  Eigen::Vector3d w_WB_B_est = Eigen::Vector3d::Zero();          ///< angular velocity (gyro less bias), rad/s
+  double height_above_ground_m = 0.0;                            ///< from the height sensor, >= 0
 };
 
 /// Where the flight should end.
@@ -34,9 +34,9 @@ struct Goal {
 
 /// One picture, valid during the call that receives it.
 struct CameraFrame {
-  std::string role;   ///< "front", "left", ... as the rig names it
-  int64_t t_ns = 0;   ///< instant of exposure
-  cv::Mat image;      ///< rows x cols; CV_8UC1 grey, CV_8UC3 RGB, or CV_32FC1 depth (z in C, m, NaN unknown)
+  std::string role;  ///< "front", "left", ... as the rig names it
+  int64_t t_ns = 0;  ///< instant of exposure
+  cv::Mat image;     ///< rows x cols; CV_8UC1 grey, CV_8UC3 RGB, or CV_32FC1 depth (z in C, m, NaN unknown)
 };
 
 struct Observation {
@@ -121,12 +121,13 @@ class Module {
   std::vector<Signal> signals() const { return do_signals(); }
 
   /// Starts a flight; afterwards the module behaves as one newly made.
-  /// Throws std::invalid_argument when a needed camera is missing or a rate is not positive.
+  /// Throws std::invalid_argument when a needed camera is missing, or its rate or the speed limit is not positive.
   void reset(const Setup& setup);
 
   /// Returns the decision for what is seen now. Throws std::logic_error when called before reset(), when time does not
-  /// rise, when a frame's size does not fit its camera, or when do_update() returns a command that is not finite or has
-  /// the wrong number of signals. A speed above the limit is scaled down to it.
+  /// rise, when navigation or goal are not finite, when a frame comes from the future or does not fit its camera's size
+  /// or the needed channel, or when do_update() returns a command that is not finite or has the wrong number of
+  /// signals. A speed above the limit is scaled down to it.
   Decision update(const Observation& observation);
 
   /// Figures of the flight so far, for result.json.
@@ -143,6 +144,7 @@ class Module {
   virtual cv::Mat do_annotate() const { return {}; }
 
   std::optional<Setup> setup_;
+  Needs needs_;
   std::optional<int64_t> last_t_ns_;
   size_t signal_count_ = 0;
 };

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <memory>
+#include <numbers>
+#include <string_view>
+
+#include "avoidance/module.h"
+#include "vision/image_interpolation_flow.h"
+
+namespace hedgehop::avoidance {
+
+/// Keeps away from walls by balancing optic flow and loom of cameras that look forward, aft, left and right.
+/// Source: [Garratt2009] sec. 4 (`simple`) and sec. 4.1, eq. (4) (`goal_directed`).
+struct FlowBalanceConfig {
+  static constexpr std::string_view kName = "flow_balance";
+  static constexpr std::string_view kMeaning = "four cameras' optic flow and loom push the vehicle away from walls";
+
+  enum class Scheme { simple, goal_directed };
+  enum class Average { valid, all };
+
+  Scheme scheme = Scheme::goal_directed;
+  vision::ImageInterpolationConfig flow;
+  bool derotate = false;
+  Average average = Average::all;
+  double divisor_floor_mps = 0.2;
+
+  double speed_mps = 2.0;
+  double slow_radius_m = 4.0;
+  double loom_gain_m2ps = 4.0;  ///< k0
+  double flow_gain_m2ps = 5.0;  ///< k1
+  double spiral_angle_rad = 0.0;
+  double command_time_constant_s = 0.0;
+
+  double forward_speed_mps = 1.0;
+  double sideways_speed_mps = 1.0;
+  double range_threshold_m = 2.0;
+  int confirmations = 2;
+};
+
+template <class Visitor>
+void describe(Visitor& v, FlowBalanceConfig& c) {
+  v("scheme", c.scheme,
+    {.choices = {"simple", "goal_directed"},
+     .meaning = "simple: zig-zag, turning round before walls; goal_directed: seek the goal, pushed away from walls"});
+  v("flow", c.flow, {.meaning = "the grid of patches on each camera and the flow algorithm"});
+  v("derotate", c.derotate, {.meaning = "take the flow of the vehicle's own rotation, known from the gyros, away"});
+  v("average", c.average,
+    {.choices = {"valid", "all"},
+     .meaning = "mean flow and loom over valid patches, or over all with invalid ones (sky) as infinitely far"});
+  v("divisor_floor", c.divisor_floor_mps,
+    {.unit = "m/s", .above = 0.0, .meaning = "velocities that flow and loom are divided by are at least this large"});
+  v("speed", c.speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "goal_directed: speed flown"});
+  v("slow_radius", c.slow_radius_m,
+    {.unit = "m", .at_least = 0.0, .meaning = "goal_directed: distance to the goal within which the speed falls"});
+  v("loom_gain", c.loom_gain_m2ps, {.unit = "m^2/s", .at_least = 0.0, .meaning = "goal_directed: k0"});
+  v("flow_gain", c.flow_gain_m2ps, {.unit = "m^2/s", .at_least = 0.0, .meaning = "goal_directed: k1"});
+  v("spiral_angle", c.spiral_angle_rad,
+    {.unit = "deg",
+     .at_least = -60.0,
+     .at_most = 60.0,
+     .meaning = "goal_directed: aim this far right of the goal, to leave limit cycles"});
+  v("command_time_constant", c.command_time_constant_s,
+    {.unit = "s", .at_least = 0.0, .meaning = "goal_directed: low-pass filter of the commanded velocity; 0 for none"});
+  v("forward_speed", c.forward_speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "simple: speed along the heading"});
+  v("sideways_speed", c.sideways_speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "simple: speed across it"});
+  v("range_threshold", c.range_threshold_m,
+    {.unit = "m", .above = 0.0, .meaning = "simple: turn round when flow or loom tell a shorter range"});
+  v("confirmations", c.confirmations,
+    {.at_least = 1, .meaning = "simple: successive pictures that must agree before turning round"});
+}
+
+/// Throws std::invalid_argument on values out of range.
+std::unique_ptr<Module> make_flow_balance(const FlowBalanceConfig& config);
+
+}  // namespace hedgehop::avoidance

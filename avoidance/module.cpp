@@ -1,0 +1,101 @@
+#include "avoidance/module.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace hedgehop::avoidance {
+namespace {
+
+const MountedCamera* find_camera(const Setup& setup, const std::string& role) {
+  for (const MountedCamera& camera : setup.cameras) {
+    if (camera.role == role) return &camera;
+  }
+  return nullptr;
+}
+
+int image_type(CameraNeed::Channel channel) {
+  switch (channel) {
+    case CameraNeed::Channel::grey:
+      return CV_8UC1;
+    case CameraNeed::Channel::color:
+      return CV_8UC3;
+    case CameraNeed::Channel::depth:
+      return CV_32FC1;
+  }
+  throw std::logic_error("a camera need names no channel");
+}
+
+bool is_finite(const NavigationState& navigation) {
+  return navigation.p_WB_est.allFinite() && navigation.q_WB_est.coeffs().allFinite() &&
+         navigation.v_WB_B_est.allFinite() && navigation.w_WB_B_est.allFinite() &&
+         std::isfinite(navigation.height_above_ground_m);
+}
+
+struct IsFinite {
+  bool operator()(const VelocityCommand& c) const {
+    return c.v_WB_W.allFinite() && std::isfinite(c.altitude_m) && std::isfinite(c.heading_rad);
+  }
+  bool operator()(const PositionCommand& c) const { return c.p_WB.allFinite() && std::isfinite(c.heading_rad); }
+  bool operator()(const AttitudeCommand& c) const {
+    return std::isfinite(c.roll_rad) && std::isfinite(c.pitch_rad) && std::isfinite(c.heading_rad) &&
+           std::isfinite(c.altitude_m);
+  }
+  bool operator()(const HoverCommand& c) const { return std::isfinite(c.yaw_rate_radps); }
+};
+
+void check_frame(const CameraFrame& frame, int64_t now_ns, const Setup& setup, const Needs& needs) {
+  const MountedCamera* camera = find_camera(setup, frame.role);
+  if (!camera) throw std::logic_error("a frame comes from camera '" + frame.role + "', which reset() did not name");
+  if (frame.t_ns > now_ns) throw std::logic_error("a frame of camera '" + frame.role + "' comes from the future");
+  if (frame.image.cols != camera->model.width_px || frame.image.rows != camera->model.height_px) {
+    throw std::logic_error("a frame of camera '" + frame.role + "' does not have its camera's size");
+  }
+  for (const CameraNeed& need : needs.cameras) {
+    if (need.role == frame.role && frame.image.type() != image_type(need.channel)) {
+      throw std::logic_error("a frame of camera '" + frame.role + "' does not have the channel that the module needs");
+    }
+  }
+}
+
+}  // namespace
+
+void Module::reset(const Setup& setup) {
+  setup_.reset();
+  last_t_ns_.reset();
+  needs_ = needs();
+  for (const CameraNeed& need : needs_.cameras) {
+    const MountedCamera* camera = find_camera(setup, need.role);
+    if (!camera) throw std::invalid_argument("the module needs a camera '" + need.role + "', which the rig lacks");
+    if (!(camera->rate_hz > 0.0)) throw std::invalid_argument("camera '" + need.role + "' needs a rate above 0 Hz");
+  }
+  if (!(setup.limits.speed_mps > 0.0)) throw std::invalid_argument("the vehicle's speed limit must be above 0 m/s");
+  signal_count_ = signals().size();
+  do_reset(setup);
+  setup_ = setup;
+}
+
+Decision Module::update(const Observation& observation) {
+  if (!setup_) throw std::logic_error("a module's update() comes before its reset()");
+  if (last_t_ns_ && observation.t_ns <= *last_t_ns_) throw std::logic_error("a module's time must rise");
+  if (!is_finite(observation.navigation)) throw std::logic_error("a module's navigation state must be finite");
+  if (!observation.goal.p_WG.allFinite() || !std::isfinite(observation.goal.heading_rad)) {
+    throw std::logic_error("a module's goal must be finite");
+  }
+  for (const CameraFrame& frame : observation.frames) check_frame(frame, observation.t_ns, *setup_, needs_);
+  last_t_ns_ = observation.t_ns;
+
+  Decision decision = do_update(observation);
+
+  if (!std::visit(IsFinite{}, decision.command)) throw std::logic_error("a module's command must be finite");
+  if (decision.signals.size() != signal_count_) {
+    throw std::logic_error("a module gave " + std::to_string(decision.signals.size()) + " signals and announced " +
+                           std::to_string(signal_count_));
+  }
+  if (auto* velocity = std::get_if<VelocityCommand>(&decision.command)) {
+    const double speed_mps = velocity->v_WB_W.norm();
+    if (speed_mps > setup_->limits.speed_mps) velocity->v_WB_W *= setup_->limits.speed_mps / speed_mps;
+  }
+  return decision;
+}
+
+}  // namespace hedgehop::avoidance

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+namespace hedgehop::vision {
+
+/// Optic flow at one place of a picture.
+struct FlowVector {
+  Eigen::Vector2d center_px = Eigen::Vector2d::Zero();  ///< pixel (u, v) of the patch centre in the older picture
+  Eigen::Vector2d flow_px = Eigen::Vector2d::Zero();    ///< motion to the newer picture, px per frame; 0 when not valid
+  bool valid = false;
+};
+
+/// A grid of flow vectors, row by row from the top left; columns (rows) mirror one another about the picture's middle.
+struct FlowField {
+  int rows = 0, cols = 0;
+  std::vector<FlowVector> vectors;  ///< rows * cols
+
+  const FlowVector& at(int row, int col) const { return vectors[static_cast<size_t>(row * cols + col)]; }
+  FlowVector& at(int row, int col) { return vectors[static_cast<size_t>(row * cols + col)]; }
+  /// Number of valid vectors.
+  int valid_count() const;
+  /// valid_count() over rows * cols; 0 for an empty field.
+  double valid_share() const;
+};
+
+}  // namespace hedgehop::vision

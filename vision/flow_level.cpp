@@ -1,0 +1,196 @@
+#include "vision/flow_level.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace hedgehop::vision {
+namespace {
+
+// Share of a pixel's noise (standard deviation) left by 1 3 3 1 halving and by 1 2 1 smoothing, both ways.
+constexpr double kHalvingGain = 20.0 / 64.0, kSmoothingGain = 6.0 / 16.0;
+// Smoothed noise is alike over this many pixels: the inverse of the smoothing's summed squares.
+constexpr double kNoiseArea = 1.0 / (kSmoothingGain * kSmoothingGain);
+// Texture must exceed noise by this much (mean squares) along the direction where it is weakest.
+constexpr double kLeastContrast = 3.0;
+// Shifted copies one pixel either way tell nothing of larger steps; in reduced pixels.
+constexpr double kLargestStep = 2.0, kLargestLastStep = 1.0;
+
+double noise_energy(const ImageInterpolationConfig& config, int reduction, int bits) {
+  double noise = config.noise_grey * std::exp2(bits - 8) * kSmoothingGain;
+  for (int i = 1; i < reduction; i *= 2) noise *= kHalvingGain;
+  return 2.0 * noise * noise;
+}
+
+std::vector<double> centers(const std::vector<PatchRange>& ranges) {
+  std::vector<double> at;
+  for (const PatchRange& range : ranges) at.push_back(range.center());
+  return at;
+}
+
+// 1 6 1 along one axis, weighted by confidence; `step` leads to the next node along it.
+void smooth_axis(const NodeFlow& in, NodeFlow& out, int count, size_t step, int lines, size_t line_step) {
+  constexpr double kOwn = 6.0;
+  for (int line = 0; line < lines; ++line) {
+    for (int i = 0; i < count; ++i) {
+      const size_t at = static_cast<size_t>(line) * line_step + static_cast<size_t>(i) * step;
+      double u = 0.0, v = 0.0, c = 0.0;
+      const auto take = [&](size_t from, double weight) {
+        const double w = weight * in.confidence[from];
+        u += w * in.u_px[from];
+        v += w * in.v_px[from];
+        c += w;
+      };
+      take(at, kOwn);
+      if (i > 0) take(at - step, 1.0);
+      if (i + 1 < count) take(at + step, 1.0);
+      out.u_px[at] = c > 0.0 ? u / c : 0.0;
+      out.v_px[at] = c > 0.0 ? v / c : 0.0;
+      out.confidence[at] = c / (kOwn + 2.0);
+    }
+  }
+}
+
+}  // namespace
+
+NodeFlow::NodeFlow(int row_count, int col_count) : rows(row_count), cols(col_count) {
+  for (auto* values : {&u_px, &v_px, &confidence}) values->assign(static_cast<size_t>(rows * cols), 0.0);
+}
+
+void NodeFlow::set_zero() {
+  for (auto* values : {&u_px, &v_px, &confidence}) std::fill(values->begin(), values->end(), 0.0);
+}
+
+void smooth_by_confidence(NodeFlow& flow, NodeFlow& spare) {
+  const auto row_step = static_cast<size_t>(flow.cols);
+  smooth_axis(flow, spare, flow.cols, 1, flow.rows, row_step);
+  smooth_axis(spare, flow, flow.rows, row_step, flow.cols, 1);
+}
+
+FlowLevel::FlowLevel(const ImageInterpolationConfig& config, const PatchGrid& grid, int reduction, int band_begin_px,
+                     int width_px, int height_px, int bits)
+    : config_(config),
+      reduction_(reduction),
+      noise_energy_(noise_energy(config, reduction, bits)),
+      grid_(reduce_patch_grid(grid, reduction, band_begin_px, width_px / reduction, height_px / reduction)),
+      older_(width_px / reduction, height_px / reduction,
+             static_cast<int>(std::ceil(config.max_flow_px / reduction)) + 1),
+      newer_(older_),
+      line_(padded(older_.width())),
+      copies_x_(static_cast<size_t>(line_ * older_.height()), int16_t{0}),
+      copies_y_(copies_x_),
+      difference_(static_cast<size_t>(line_), int16_t{0}),
+      spread_(centers(grid_.cols), centers(grid_.rows), older_.width()),
+      sums_(grid_.rows, grid_.cols, line_, older_.height(), 3),
+      patches_(grid_.rows.size() * grid_.cols.size()),
+      spare_(config.rows, config.cols),
+      level_u_(patches_.size()),
+      level_v_(patches_.size()) {
+  const PatchRange &row = grid_.rows.front(), &col = grid_.cols.front();
+  pixels_ = static_cast<double>(row.end - row.begin) * (col.end - col.begin);
+}
+
+void FlowLevel::difference_copies() {
+  for (int y = std::max(sums_.first_row(), 1); y < std::min(sums_.end_row(), older_.height() - 1); ++y) {
+    const int16_t *above = older_.row(y - 1), *row = older_.row(y), *below = older_.row(y + 1);
+    int16_t* to_x = copies_x_.data() + static_cast<ptrdiff_t>(y) * line_;
+    int16_t* to_y = copies_y_.data() + static_cast<ptrdiff_t>(y) * line_;
+    for (int x = 1; x < older_.width() - 1; ++x) to_x[x] = static_cast<int16_t>(row[x + 1] - row[x - 1]);
+    for (int x = 1; x < older_.width() - 1; ++x) to_y[x] = static_cast<int16_t>(below[x] - above[x]);
+  }
+}
+
+void FlowLevel::begin() {
+  difference_copies();
+  sums_.begin();
+  for (int y = sums_.first_row(); y < sums_.end_row(); ++y) {
+    const int16_t* x_row = copies_x_.data() + static_cast<ptrdiff_t>(y) * line_;
+    const int16_t* y_row = copies_y_.data() + static_cast<ptrdiff_t>(y) * line_;
+    sums_.add(0, x_row, x_row);
+    sums_.add(1, x_row, y_row);
+    sums_.add(2, y_row, y_row);
+    sums_.next_row();
+  }
+  for (int row = 0; row < config_.rows; ++row) {
+    for (int col = 0; col < config_.cols; ++col) {
+      Patch& patch = patches_[static_cast<size_t>(row * config_.cols + col)];
+      patch.a_xx = static_cast<double>(sums_.sum(0, row, col));
+      patch.a_xy = static_cast<double>(sums_.sum(1, row, col));
+      patch.a_yy = static_cast<double>(sums_.sum(2, row, col));
+      const double mean = 0.5 * (patch.a_xx + patch.a_yy);
+      patch.least_eigenvalue = mean - std::hypot(0.5 * (patch.a_xx - patch.a_yy), patch.a_xy);
+    }
+  }
+}
+
+void FlowLevel::iterate(NodeFlow& flow) {
+  // Re-centre: the newer picture goes back by the flow known so far.
+  smooth_by_confidence(flow, spare_);
+  for (size_t i = 0; i < flow.size(); ++i) {
+    level_u_[i] = flow.u_px[i] / reduction_;
+    level_v_[i] = flow.v_px[i] / reduction_;
+  }
+  spread_.set(level_u_, level_v_);
+  sums_.begin();
+  for (int y = sums_.first_row(); y < sums_.end_row(); ++y) {
+    spread_.go_to(y);
+    recentred_difference(older_, newer_, y, spread_.u_q16(), spread_.v_q16(), difference_.data());
+    sums_.add(0, copies_x_.data() + static_cast<ptrdiff_t>(y) * line_, difference_.data());
+    sums_.add(1, copies_y_.data() + static_cast<ptrdiff_t>(y) * line_, difference_.data());
+    sums_.add(2, difference_.data(), difference_.data());
+    sums_.next_row();
+  }
+  // What remains is found patch by patch and added.
+  for (int row = 0; row < config_.rows; ++row) {
+    for (int col = 0; col < config_.cols; ++col) {
+      const auto i = static_cast<size_t>(row * config_.cols + col);
+      Patch& patch = patches_[i];
+      patch.b_x = static_cast<double>(sums_.sum(0, row, col));
+      patch.b_y = static_cast<double>(sums_.sum(1, row, col));
+      patch.dd = static_cast<double>(sums_.sum(2, row, col));
+      solve(patch);
+      const double limit = config_.max_flow_px;
+      flow.u_px[i] = std::clamp(flow.u_px[i] + patch.step_px.x(), -limit, limit);
+      flow.v_px[i] = std::clamp(flow.v_px[i] + patch.step_px.y(), -limit, limit);
+      const double noise = pixels_ * noise_energy_;
+      flow.confidence[i] = std::max(patch.least_eigenvalue, 0.0) / (std::max(patch.least_eigenvalue, 0.0) + noise);
+    }
+  }
+}
+
+void FlowLevel::solve(Patch& patch) const {
+  // The copies differ by two pixels, hence the 2; noise on the diagonal keeps a poor patch from leaping.
+  const double noise = pixels_ * noise_energy_;
+  const double a_xx = patch.a_xx + noise, a_yy = patch.a_yy + noise;
+  const double determinant = a_xx * a_yy - patch.a_xy * patch.a_xy;
+  const Eigen::Vector2d step{2.0 * (a_yy * patch.b_x - patch.a_xy * patch.b_y) / determinant,
+                             2.0 * (a_xx * patch.b_y - patch.a_xy * patch.b_x) / determinant};
+  patch.step_px = step * (reduction_ * std::min(1.0, kLargestStep / std::max(step.norm(), kLargestStep)));
+}
+
+bool FlowLevel::is_valid(const Patch& patch, const Eigen::Vector2d& flow_px) const {
+  const double noise = pixels_ * noise_energy_;
+  if (!(patch.least_eigenvalue > kLeastContrast * noise)) return false;
+  if (flow_px.norm() >= config_.max_flow_px) return false;
+  if (patch.step_px.norm() > kLargestLastStep * reduction_) return false;
+  // What the fit leaves over, as a share of the noise's energy: never less than noise.
+  const Eigen::Vector2d step = patch.step_px / reduction_;
+  const double rest = std::max(patch.dd - 0.5 * (step.x() * patch.b_x + step.y() * patch.b_y), 0.0);
+  const double sigma_px =
+      2.0 * reduction_ * std::sqrt(std::max(rest / pixels_, noise_energy_) * kNoiseArea / patch.least_eigenvalue);
+  if (sigma_px > config_.max_sigma_px) return false;
+  // If the rest came of pixels that moved apart, each differently, by how much?
+  const double misfit_px = 2.0 * reduction_ * std::sqrt(2.0 * rest / (patch.a_xx + patch.a_yy));
+  return misfit_px <= config_.max_misfit_px;
+}
+
+void FlowLevel::finish(const NodeFlow& flow, FlowField& field) const {
+  for (size_t i = 0; i < flow.size(); ++i) {
+    FlowVector& vector = field.vectors[i];
+    const Eigen::Vector2d found{flow.u_px[i], flow.v_px[i]};
+    vector.valid = is_valid(patches_[i], found);
+    vector.flow_px = vector.valid ? found : Eigen::Vector2d::Zero();
+  }
+}
+
+}  // namespace hedgehop::vision

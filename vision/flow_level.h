@@ -1,0 +1,84 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "vision/flow_field.h"
+#include "vision/image_interpolation_flow.h"
+#include "vision/patch_grid.h"
+#include "vision/patch_sums.h"
+#include "vision/recentred_difference.h"
+#include "vision/reduced_picture.h"
+
+namespace hedgehop::vision {
+
+/// What is known of the flow at the nodes of the patch grid while levels and passes improve it.
+struct NodeFlow {
+  NodeFlow(int row_count, int col_count);
+  void set_zero();
+  size_t size() const { return u_px.size(); }
+
+  int rows, cols;
+  std::vector<double> u_px, v_px;  ///< px of the full picture per frame
+  std::vector<double> confidence;  ///< 0 (no texture) to 1
+};
+
+/// Smooths the flow between neighbouring nodes (1 6 1 both ways, weighted by confidence): a node without texture takes
+/// its neighbours' flow. `spare` is scratch space of the same size.
+void smooth_by_confidence(NodeFlow& flow, NodeFlow& spare);
+
+/// The image interpolation algorithm on one pair of reduced pictures.
+///
+/// A patch of the newer picture, moved back by the flow known so far, is written as the older picture plus a linear
+/// combination of differences of copies of the older one shifted by one reduced pixel either way,
+///   newer(x + F) = older(x) - r_x [older(x + 1) - older(x - 1)] / 2 - r_y [...] / 2 ,
+/// and the r that makes the squared error over the patch least solves a 2 x 2 system.
+/// Source: [Srinivasan1994] sec. 2. Differs: iterated, the newer picture re-centred by the flow found so far (spread
+/// bilinearly between patches), since one pass is off by the curvature of the picture over the reference shift.
+class FlowLevel {
+ public:
+  /// @param band_begin_px  row of the full picture where the band looked at begins.
+  /// @param width_px, height_px  of the band in full pixels.  @param bits  of the pictures' numbers.
+  FlowLevel(const ImageInterpolationConfig& config, const PatchGrid& grid, int reduction, int band_begin_px,
+            int width_px, int height_px, int bits);
+
+  int reduction() const { return reduction_; }
+  ReducedPicture& newer() { return newer_; }
+  void swap_pictures() { std::swap(older_, newer_); }
+
+  /// Prepares what depends on the older picture alone.
+  void begin();
+  /// One re-centred pass: improves `flow`.
+  void iterate(NodeFlow& flow);
+  /// Writes the flow after the last pass, with what makes a vector invalid.
+  void finish(const NodeFlow& flow, FlowField& field) const;
+
+ private:
+  /// Least squares of one patch: normal matrix, right side, squared difference; in numbers of the reduced pictures.
+  struct Patch {
+    double a_xx = 0.0, a_xy = 0.0, a_yy = 0.0, b_x = 0.0, b_y = 0.0, dd = 0.0;
+    double least_eigenvalue = 0.0;
+    Eigen::Vector2d step_px = Eigen::Vector2d::Zero();  ///< full px
+  };
+  void difference_copies();
+  void solve(Patch& patch) const;
+  bool is_valid(const Patch& patch, const Eigen::Vector2d& flow_px) const;
+
+  ImageInterpolationConfig config_;
+  int reduction_;
+  double pixels_;        ///< per patch
+  double noise_energy_;  ///< expected square of a difference of two pixels that differ by noise only
+  PatchGrid grid_;
+  ReducedPicture older_, newer_;
+  int line_;                                  ///< padded width
+  std::vector<int16_t> copies_x_, copies_y_;  ///< older(x + 1) - older(x - 1), and along y; 0 at the rim
+  std::vector<int16_t> difference_;           ///< one row
+  SpreadFlow spread_;
+  PatchSums sums_;
+  std::vector<Patch> patches_;
+  NodeFlow spare_;
+  std::vector<double> level_u_, level_v_;  ///< node flow in reduced px
+};
+
+}  // namespace hedgehop::vision

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "vision/reduced_picture.h"
+
+namespace hedgehop::vision {
+
+/// Flow at the nodes of a grid, spread bilinearly over a picture and constant beyond the outer nodes; made row by row.
+class SpreadFlow {
+ public:
+  /// @param node_u, node_v  positions of the grid's columns and rows, px, rising.
+  SpreadFlow(std::span<const double> node_u, std::span<const double> node_v, int width);
+
+  /// Takes new values. @param flow_u, flow_v  rows x cols, px.
+  void set(std::span<const double> flow_u, std::span<const double> flow_v);
+  /// Makes row y current; within a grid's row cheapest for rising y.
+  void go_to(int y);
+  /// Flow of the current row in 1/65536 px, padded to a multiple of 8.
+  const int32_t* u_q16() const { return u_.data(); }
+  const int32_t* v_q16() const { return v_.data(); }
+
+ private:
+  void spread_sideways(std::span<const double> flow, std::vector<int32_t>& lines) const;
+  void start_band(int y);
+
+  std::vector<double> node_v_;
+  std::vector<int> left_node_;       ///< per column: node to the left
+  std::vector<double> right_share_;  ///< per column: weight of the node after it
+  int width_, rows_, cols_;
+  std::vector<int32_t> lines_u_, lines_v_;  ///< grid rows x padded width
+  std::vector<int32_t> u_, v_, step_u_, step_v_;
+  int y_ = -1, band_end_ = -1;  ///< the steps hold for rows before band_end_
+};
+
+/// Difference of the older picture and the newer one moved back by the flow, over one row: 0 where the newer picture
+/// ends. Bilinear, in steps of 1/128 px. Flow must stay within the pictures' rim.
+/// @param out  padded width; beyond the picture's width it holds no meaning.
+void recentred_difference(const ReducedPicture& older, const ReducedPicture& newer, int y, const int32_t* u_q16,
+                          const int32_t* v_q16, int16_t* out);
+
+}  // namespace hedgehop::vision

@@ -1,0 +1,89 @@
+#include "vision/reduced_picture.h"
+
+#include <algorithm>
+#include <opencv2/core/hal/intrin.hpp>
+#include <stdexcept>
+
+namespace hedgehop::vision {
+namespace {
+
+constexpr int kLeftRoom = 8, kRightRoom = 16;
+
+// Repeats the first and last number of a row into the room beside it.
+void repeat_ends(int16_t* line, int width) {
+  line[-1] = line[0];
+  std::fill(line + width, line + width + kRightRoom, line[width - 1]);
+}
+
+}  // namespace
+
+ReducedPicture::ReducedPicture(int width, int height, int rim_px)
+    : width_(width),
+      height_(height),
+      rim_rows_(rim_px + 1),
+      rim_cols_(padded(rim_px + 1)),
+      stride_(padded(width) + 2 * padded(rim_px + 1)),
+      data_(static_cast<size_t>(stride_) * static_cast<size_t>(height + 2 * (rim_px + 1)), int16_t{0}) {}
+
+PictureReducer::PictureReducer(int max_width, int bits)
+    : bits_(bits), line_(static_cast<size_t>(kLeftRoom + padded(max_width) + kRightRoom), int16_t{0}) {
+  if (bits < 8 || bits > 12) throw std::invalid_argument("reduced pictures hold 8 to 12 bits");
+}
+
+void PictureReducer::smooth(const cv::Mat& grey, ReducedPicture& out) {
+  smooth_rows([&](int y) { return grey.ptr<uint8_t>(y); }, grey.cols, grey.rows, 12 - bits_, out);
+}
+void PictureReducer::smooth(const ReducedPicture& in, ReducedPicture& out) {
+  smooth_rows([&](int y) { return in.row(y); }, in.width(), in.height(), 4, out);
+}
+void PictureReducer::halve(const cv::Mat& grey, ReducedPicture& out) {
+  halve_rows([&](int y) { return grey.ptr<uint8_t>(y); }, grey.cols, grey.rows, 14 - bits_, out);
+}
+void PictureReducer::halve(const ReducedPicture& in, ReducedPicture& out) {
+  halve_rows([&](int y) { return in.row(y); }, in.width(), in.height(), 6, out);
+}
+
+template <class Row>
+void PictureReducer::smooth_rows(Row row, int width, int height, int shift, ReducedPicture& out) {
+  int16_t* line = line_.data() + kLeftRoom;
+  const int half = shift > 0 ? 1 << (shift - 1) : 0;
+  for (int y = 0; y < height; ++y) {
+    const auto* a = row(std::max(y - 1, 0));
+    const auto* b = row(y);
+    const auto* c = row(std::min(y + 1, height - 1));
+    for (int x = 0; x < width; ++x) line[x] = static_cast<int16_t>(a[x] + 2 * b[x] + c[x]);
+    repeat_ends(line, width);
+    // The sum needs all 16 bits, without a sign.
+    int16_t* to = out.row(y);
+    for (int x = 0; x < width; ++x) {
+      const auto sum = static_cast<uint16_t>(line[x - 1] + 2 * line[x] + line[x + 1] + half);
+      to[x] = static_cast<int16_t>(static_cast<uint16_t>(sum >> shift));
+    }
+  }
+}
+
+template <class Row>
+void PictureReducer::halve_rows(Row row, int width, int height, int shift, ReducedPicture& out) {
+  int16_t* line = line_.data() + kLeftRoom;
+  const auto left = cv::v_int16x8(1, 3, 1, 3, 1, 3, 1, 3), right = cv::v_int16x8(3, 1, 3, 1, 3, 1, 3, 1);
+  const auto half = cv::v_setall_s32(shift > 0 ? 1 << (shift - 1) : 0);
+  for (int y = 0; y < out.height(); ++y) {
+    const auto* a = row(std::max(2 * y - 1, 0));
+    const auto* b = row(2 * y);
+    const auto* c = row(std::min(2 * y + 1, height - 1));
+    const auto* d = row(std::min(2 * y + 2, height - 1));
+    for (int x = 0; x < width; ++x) line[x] = static_cast<int16_t>(a[x] + 3 * (b[x] + c[x]) + d[x]);
+    repeat_ends(line, width);
+    // Four results at a time: neighbours 2i - 1 and 2i with weights 1 and 3, then 2i + 1 and 2i + 2 with 3 and 1.
+    int16_t* to = out.row(y);
+    for (int i = 0; i < out.width(); i += 4) {
+      const int16_t* from = line + 2 * i;
+      const auto sum = cv::v_dotprod(cv::v_load(from - 1), left) + cv::v_dotprod(cv::v_load(from + 1), right) + half;
+      cv::v_pack_store(to + i, sum >> shift);
+    }
+    // What was written beyond the last column goes back to the rim's zero.
+    std::fill(to + out.width(), to + padded(out.width()), int16_t{0});
+  }
+}
+
+}  // namespace hedgehop::vision
