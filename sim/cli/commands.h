@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The command line's commands. Results go to standard output, progress and warnings to standard error. Each returns
+/// the process's exit status: 0 all checks hold, 1 a check fails. What goes wrong is thrown; main() turns InputError
+/// into status 2 and everything else into 3.
+namespace hedgehop::sim::cli {
+
+/// A scenario file and what is laid over it.
+struct ScenarioOptions {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;  ///< "a.b=value"
+  std::optional<uint64_t> seed;
+};
+
+struct RunOptions {
+  ScenarioOptions scenario;
+  std::filesystem::path out;  ///< empty: out/<scenario's name>-seed<seed>
+  bool no_video = false;
+  bool json = false;
+};
+int run(const RunOptions& options);
+
+struct RenderOptions {
+  ScenarioOptions scenario;
+  std::string camera;
+  double time_s = 0.0;
+  std::string what = "color";  ///< "color", "grey" or "depth"
+  std::filesystem::path out;
+  bool info = false;  ///< only print which renderer draws
+};
+int render(const RenderOptions& options);
+
+/// @param topic  "modules", "vehicles", "scenes", "cameras" or "checks".
+int list(const std::string& topic);
+
+int schema();
+
+int report(const std::filesystem::path& run_folder);
+
+}  // namespace hedgehop::sim::cli

@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <functional>
+
+#include "sim/cli/commands.h"
+#include "sim/cli/version.h"
+#include "sim/scenario/input_error.h"
+
+namespace {
+
+namespace cli = hedgehop::sim::cli;
+
+constexpr int kBadInput = 2;
+constexpr int kInternalError = 3;
+
+void add_scenario(CLI::App& command, cli::ScenarioOptions& scenario) {
+  command.add_option("SCENARIO", scenario.file, "scenario file (YAML)")->required();
+  command.add_option("--seed", scenario.seed, "seed of every random stream; replaces the scenario's");
+  command.add_option("--set", scenario.overrides, "lay a value over the scenario, e.g. --set avoidance.speed=1.5")
+      ->type_name("KEY.PATH=VALUE")
+      ->take_all();
+}
+
+/// Declares the commands; the one that is chosen ends up in `chosen`.
+void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, cli::RenderOptions& render,
+             std::string& topic, std::filesystem::path& folder) {
+  CLI::App* const run_command = app.add_subcommand("run", "fly a scenario; leaves a folder with verdict, tables, film "
+                                                          "and report");
+  add_scenario(*run_command, run.scenario);
+  run_command->add_option("--out", run.out, "folder of the results; out/<name>-seed<seed> when not given")->type_name("DIR");
+  run_command->add_flag("--no-video", run.no_video, "make no film");
+  run_command->add_flag("--json", run.json, "print result.json instead of lines for people");
+  run_command->callback([&] { chosen = [&run] { return cli::run(run); }; });
+
+  CLI::App* const render_command = app.add_subcommand("render", "write the picture of one camera as PNG");
+  auto* const file = render_command->add_option("SCENARIO", render.scenario.file, "scenario file (YAML)");
+  render_command->add_option("--seed", render.scenario.seed, "seed of every random stream; replaces the scenario's");
+  render_command->add_option("--set", render.scenario.overrides, "lay a value over the scenario")
+      ->type_name("KEY.PATH=VALUE");
+  auto* const camera = render_command->add_option("--camera", render.camera, "role of the camera")->type_name("NAME");
+  render_command->add_option("--time", render.time_s, "time of the picture, s; the flight is flown up to it")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("S");
+  render_command->add_option("--what", render.what, "color, grey, or depth (16-bit PNG, millimetres, 0 beyond 65 m)")
+      ->check(CLI::IsMember({"color", "grey", "depth"}));
+  auto* const out = render_command->add_option("-o", render.out, "file to write")->type_name("FILE.png");
+  auto* const info = render_command->add_flag("--info", render.info, "print which OpenGL renderer draws, and stop");
+  render_command->callback([&, file, camera, out, info] {
+    if (!*info && (!*file || !*camera || !*out)) {
+      throw CLI::RequiredError("render: SCENARIO, --camera and -o (or --info)");
+    }
+    chosen = [&render] { return cli::render(render); };
+  });
+
+  CLI::App* const report_command = app.add_subcommand("report", "write report.html of a run's folder anew");
+  report_command->add_option("DIR", folder, "folder of a run")->required()->check(CLI::ExistingDirectory);
+  report_command->callback([&] { chosen = [&folder] { return cli::report(folder); }; });
+
+  CLI::App* const list_command = app.add_subcommand("list", "tell what a scenario may name, and every key it takes");
+  list_command->add_option("TOPIC", topic, "modules, vehicles, scenes, cameras or checks")
+      ->required()
+      ->check(CLI::IsMember({"modules", "vehicles", "scenes", "cameras", "checks"}));
+  list_command->callback([&] { chosen = [&topic] { return cli::list(topic); }; });
+
+  CLI::App* const schema_command = app.add_subcommand("schema", "print the JSON Schema of scenario files, for editors");
+  schema_command->callback([&] { chosen = [] { return cli::schema(); }; });
+}
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app{"Hedgehop flies rotorcraft through scenes they must see to survive: closed-loop simulation of\n"
+               "vision-based obstacle avoidance, without display, GPU or network.",
+               "hedgehop"};
+  app.set_version_flag("--version", std::string{cli::kVersion});
+  app.require_subcommand(1);
+  app.footer("Exit status: 0 all checks hold; 1 a check fails; 2 the input is bad; 3 an internal error.");
+
+  std::function<int()> chosen;
+  cli::RunOptions run;
+  cli::RenderOptions render;
+  std::string topic;
+  std::filesystem::path folder;
+  declare(app, chosen, run, render, topic, folder);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kBadInput;
+  }
+  return chosen();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_command_line(argc, argv);
+  } catch (const hedgehop::sim::InputError& error) {
+    for (const std::string& fault : error.faults()) fmt::print(stderr, "{}\n", fault);
+    return kBadInput;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "hedgehop: {}\n", error.what());
+    return kInternalError;
+  }
+}

@@ -1,0 +1,59 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "sim/cli/commands.h"
+#include "sim/cli/load.h"
+#include "sim/loop/episode.h"
+#include "sim/render/renderer.h"
+
+namespace hedgehop::sim::cli {
+namespace {
+
+/// Depth in metres as 16-bit millimetres; 0 where it is farther than that holds, or sky.
+cv::Mat to_millimetres(const cv::Mat& depth_m) {
+  cv::Mat depth_mm(depth_m.size(), CV_16UC1, cv::Scalar(0));
+  for (int v = 0; v < depth_m.rows; ++v) {
+    for (int u = 0; u < depth_m.cols; ++u) {
+      const float mm = 1000.0f * depth_m.at<float>(v, u);
+      if (mm < 65535.0f) depth_mm.at<uint16_t>(v, u) = static_cast<uint16_t>(std::lround(mm));
+    }
+  }
+  return depth_mm;
+}
+
+void write_png(const std::filesystem::path& file, const cv::Mat& image) {
+  bool written = false;
+  try {
+    written = cv::imwrite(file.string(), image);
+  } catch (const cv::Exception& error) {
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.err));
+  }
+  if (!written) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+}
+
+}  // namespace
+
+int render(const RenderOptions& options) {
+  if (options.info) {
+    fmt::print("{}\n", Renderer(scenes::Scene{}).info());
+    return 0;
+  }
+  if (options.out.extension() != ".png") {
+    throw InputError(fmt::format("-o {}: the picture is a PNG; its name must end in .png", options.out.string()));
+  }
+  const Channel channel = options.what == "depth"  ? Channel::depth
+                          : options.what == "grey" ? Channel::grey
+                                                   : Channel::color;
+  cv::Mat image = picture_at(load(options.scenario), options.camera, channel, options.time_s);
+  if (channel == Channel::depth) image = to_millimetres(image);
+  if (channel == Channel::color) cv::cvtColor(image, image, cv::COLOR_RGB2BGR);
+  write_png(options.out, image);
+  fmt::print("written: {}\n", options.out.string());
+  return 0;
+}
+
+}  // namespace hedgehop::sim::cli

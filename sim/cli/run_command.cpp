@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "sim/cli/commands.h"
+#include "sim/cli/load.h"
+#include "sim/cli/progress.h"
+#include "sim/cli/version.h"
+#include "sim/loop/episode.h"
+#include "sim/record/film_watcher.h"
+#include "sim/record/report.h"
+#include "sim/record/result_files.h"
+
+namespace hedgehop::sim::cli {
+namespace {
+
+/// Films and shows progress.
+class RunWatcher : public FlightWatcher {
+ public:
+  RunWatcher(const Scenario& scenario, const std::filesystem::path& film_file)
+      : film_(scenario.film, film_file), progress_(scenario.name) {}
+
+  double picture_rate_hz() const override { return film_.picture_rate_hz(); }
+  void on_pictures(int64_t t_ns, std::span<const avoidance::CameraFrame> frames, const cv::Mat& annotated) override {
+    film_.on_pictures(t_ns, frames, annotated);
+  }
+  void on_progress(double t_s, double duration_s, double goal_distance_m) override {
+    progress_.show(t_s, duration_s, goal_distance_m);
+  }
+  /// Ends line and film.
+  void close() {
+    progress_.close();
+    film_.close();
+    if (!film_.fault().empty()) fmt::print(stderr, "warning: no whole film: {}\n", film_.fault());
+  }
+
+ private:
+  FilmWatcher film_;
+  FlightProgress progress_;
+};
+
+std::string command_line(const RunOptions& options, const Scenario& scenario) {
+  std::string text = fmt::format("hedgehop run {} --seed {}", options.scenario.file.string(), scenario.seed);
+  for (const std::string& override_text : options.scenario.overrides) text += fmt::format(" --set '{}'", override_text);
+  return text;
+}
+
+void print_check(const CheckResult& check) {
+  const std::string limit = std::isnan(check.limit) ? "" : fmt::format("   limit {:.4g} {}", check.limit, check.unit);
+  fmt::print("  {}  {:<16} {:.4g} {}{}\n", check.passed ? "pass" : "FAIL", check.name, check.value, check.unit, limit);
+}
+
+void print_verdict(const Scenario& scenario, const FlightResult& result, const std::filesystem::path& out) {
+  fmt::print("{}, seed {}: {}{} after {:.1f} s of flight\n", scenario.name, scenario.seed, to_string(result.outcome),
+             result.cause.empty() ? "" : " (" + result.cause + ")", result.flight_time_s);
+  fmt::print("  path {:.1f} m, mean speed {:.2f} m/s", result.path_length_m, result.mean_speed_mps);
+  if (result.goal_distance_m) fmt::print(", {:.1f} m from the goal", *result.goal_distance_m);
+  fmt::print("\n");
+  if (std::isfinite(result.closest_obstacle.distance_m)) {
+    fmt::print("  nearest {:.2f} m to {} at {:.1f} s\n", result.closest_obstacle.distance_m,
+               result.closest_obstacle.what, result.closest_obstacle.t_s);
+  }
+  fmt::print("  {:.2f} times real time: {:.1f} s; per instant of the cameras: drawing {:.1f} ms, deciding {:.1f} ms\n",
+             result.realtime_factor, result.wall_s, result.render_ms.median_ms, result.decision_ms.median_ms);
+  for (const CheckResult& check : result.checks) print_check(check);
+  fmt::print("  written: {}\n", (out / "report.html").string());
+}
+
+}  // namespace
+
+int run(const RunOptions& options) {
+  Scenario scenario = load(options.scenario);
+  if (options.no_video) scenario.film.enabled = false;
+  const std::filesystem::path out =
+      options.out.empty() ? std::filesystem::path{"out"} / fmt::format("{}-seed{}", scenario.name, scenario.seed)
+                          : options.out;
+  RunWatcher watcher(scenario, out / "video.webm");
+  const Flight flight = fly(scenario, &watcher);
+  watcher.close();
+
+  const RunInfo info{scenario.name, scenario.seed, std::string{kVersion}, command_line(options, scenario),
+                     to_yaml(scenario)};
+  write_result_files(out, info, flight);
+  write_report(out);
+  if (options.json) {
+    fmt::print("{}\n", result_json(info, flight.result));
+  } else {
+    print_verdict(scenario, flight.result, out);
+  }
+  bool all_hold = flight.result.outcome != Outcome::fault;
+  for (const CheckResult& check : flight.result.checks) all_hold = all_hold && check.passed;
+  return all_hold ? 0 : 1;
+}
+
+}  // namespace hedgehop::sim::cli

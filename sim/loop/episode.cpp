@@ -1,0 +1,337 @@
+#include "sim/loop/episode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <deque>
+#include <memory>
+#include <opencv2/core/utility.hpp>
+#include <optional>
+#include <utility>
+
+#include "avoidance/registry.h"
+#include "dynamics/avionics.h"
+#include "dynamics/vehicle.h"
+#include "dynamics/wind.h"
+#include "scenes/generators.h"
+#include "sim/collision/proximity.h"
+#include "sim/loop/cameras.h"
+#include "sim/loop/checks.h"
+#include "sim/loop/flight_log.h"
+#include "sim/loop/random_stream.h"
+#include "sim/loop/setpoints.h"
+#include "sim/loop/stage_timer.h"
+#include "sim/loop/velocimeter.h"
+
+namespace hedgehop::sim {
+namespace {
+
+/// Solids farther from the hull than this count as absent, m: no clearance beyond it is of interest.
+constexpr double kSearchRadius_m = 50.0;
+
+/// A decision on its way to the autopilot.
+struct PendingCommand {
+  int64_t tick = 0;
+  avoidance::Command command;
+};
+
+class Episode {
+ public:
+  Episode(const Scenario& scenario, FlightWatcher* watcher);
+  Flight fly();
+  cv::Mat picture(size_t camera, Channel channel, double t_s);
+  const Cameras& cameras() const { return cameras_; }
+
+ private:
+  void begin();
+  void act();  ///< all of a tick but the motion to the next
+
+  // What happens on a tick, in this order.
+  void measure_proximity();
+  void sense();
+  void look();
+  void decide();
+  void steer();
+  void show();
+  bool ended();
+  void move();
+
+  void end(Outcome outcome, std::string cause = {});
+  dynamics::SensedTruth truth() const;
+  Eigen::Isometry3d X_WB() const;
+  std::optional<double> goal_distance_m() const;
+
+  const Scenario& scenario_;
+  FlightWatcher* watcher_;
+  const Ticks ticks_;
+  const scenes::Scene scene_;
+  const std::vector<dynamics::HullPart> hull_;
+  dynamics::Vehicle vehicle_;
+  dynamics::Wind wind_;
+  dynamics::Avionics avionics_;
+  CollisionWorld collision_;
+  Cameras cameras_;
+  std::optional<Velocimeter> velocimeter_;
+  std::unique_ptr<avoidance::Module> module_;
+  std::vector<size_t> module_cameras_;
+  const avoidance::Goal goal_;
+  int64_t control_period_ = 0, decision_period_ = 0, latency_ = 0, picture_period_ = 0;
+
+  int64_t tick_ = 0;
+  Eigen::Vector3d wind_W_ = Eigen::Vector3d::Zero();
+  Proximity proximity_;
+  std::vector<avoidance::CameraFrame> seen_;  ///< what the module is shown this tick
+  std::deque<PendingCommand> pending_;
+  dynamics::Setpoint setpoint_;
+  dynamics::ActuatorCommand actuators_;
+  FlightLog log_;
+  StageTimer physics_, render_, velocimetry_, decision_;
+  std::optional<Outcome> outcome_;
+  std::string cause_;
+};
+
+Episode::Episode(const Scenario& scenario, FlightWatcher* watcher)
+    : scenario_(scenario),
+      watcher_(watcher),
+      ticks_(scenario.physics_rate_hz),
+      scene_(scenes::make_scene(scenario.scene, stream_seed(scenario.seed, kSceneStream))),
+      hull_(dynamics::hull(scenario.vehicle)),
+      vehicle_(scenario.vehicle),
+      wind_(scenario.wind, stream_seed(scenario.seed, "wind")),
+      avionics_(scenario.avionics, scenario.vehicle, ticks_.dt_s(),
+                [seed = scenario.seed](std::string_view name) { return stream_seed(seed, name); }),
+      collision_(scene_, hull_),
+      cameras_(scenario.rig, ticks_, scene_),
+      module_(avoidance::make_module(scenario.avoidance)),
+      goal_(to_goal(scenario)),
+      control_period_(ticks_.period(static_cast<double>(scenario.control_rate_hz))),
+      log_(scene_) {
+  if (scenario.velocimeter.enabled) {
+    velocimeter_.emplace(cameras_.index(scenario.velocimeter.camera), cameras_);
+  }
+  int64_t slowest = 0;
+  for (const avoidance::CameraNeed& need : module_->needs().cameras) {
+    module_cameras_.push_back(cameras_.index(need.role));
+    slowest = std::max(slowest, cameras_.period_ticks(module_cameras_.back()));
+  }
+  // A module without cameras decides as often as the rig's fastest camera, so that a control compares like with like.
+  decision_period_ = cameras_.count() > 0 ? cameras_.period_ticks(0) : control_period_;
+  for (size_t i = 1; i < cameras_.count(); ++i) decision_period_ = std::min(decision_period_, cameras_.period_ticks(i));
+  latency_ = scenario.command_latency_s ? ticks_.ticks(*scenario.command_latency_s)
+                                        : std::max(slowest, decision_period_);
+  if (watcher_ && watcher_->picture_rate_hz() > 0.0) picture_period_ = ticks_.period(watcher_->picture_rate_hz());
+}
+
+void Episode::begin() {
+  const Eigen::Vector3d p_WB = scenario_.start.draw_p_WB(stream_seed(scenario_.seed, "start"));
+  wind_W_ = wind_.sample(-p_WB.z(), Eigen::Vector3d::Zero(), ticks_.dt_s());
+  vehicle_.reset(p_WB, scenario_.start.heading_rad, wind_W_);
+  avionics_.reset(truth());
+  setpoint_ = dynamics::PositionSetpoint{p_WB, goal_.heading_rad};
+  const dynamics::AutopilotConfig& limits = scenario_.avionics.autopilot;
+  module_->reset({{cameras_.mounted().begin(), cameras_.mounted().end()},
+                  {limits.speed_limit_mps, limits.acceleration_limit_mps2, dynamics::radius_m(hull_)},
+                  stream_seed(scenario_.seed, "module")});
+  log_.set_signals(module_->signals());
+}
+
+void Episode::act() {
+  measure_proximity();
+  sense();
+  look();
+  decide();
+  if (tick_ % control_period_ == 0) steer();
+  show();
+}
+
+cv::Mat Episode::picture(size_t camera, Channel channel, double t_s) {
+  begin();
+  for (const int64_t last = ticks_.ticks(t_s); tick_ < last; ++tick_) {
+    act();
+    if (ended()) {
+      throw InputError(fmt::format("--time {}: the flight ends at {:.3f} s ({}{}{})", t_s, ticks_.t_s(tick_),
+                                   to_string(*outcome_), cause_.empty() ? "" : ": ", cause_));
+    }
+    move();
+  }
+  return cameras_.picture(camera, channel, X_WB());
+}
+
+Flight Episode::fly() {
+  const StageTimer::Clock::time_point start = StageTimer::Clock::now();
+  begin();
+  for (;; ++tick_) {
+    act();
+    if (ended()) break;
+    move();
+  }
+  const double wall_s = std::chrono::duration<double>(StageTimer::Clock::now() - start).count();
+
+  Flight flight = log_.take(ticks_.t_s(tick_));
+  FlightResult& result = flight.result;
+  result.outcome = *outcome_;
+  result.cause = cause_;
+  result.goal_distance_m = goal_distance_m();
+  result.decision_ms = decision_.summary();
+  result.render_ms = render_.summary();
+  result.velocimeter_ms = velocimetry_.summary();
+  result.physics_ms = physics_.summary();
+  result.wall_s = wall_s;
+  result.realtime_factor = result.flight_time_s / wall_s;
+  for (const avoidance::Metric& metric : module_->metrics()) {
+    result.metrics.push_back({metric.name, metric.value, metric.unit});
+  }
+  result.checks = evaluate_checks(scenario_, flight, scene_, dynamics::radius_m(hull_));
+  return flight;
+}
+
+void Episode::measure_proximity() {
+  proximity_ = collision_.query(X_WB(), kSearchRadius_m);
+  log_.add(ticks_.t_s(tick_), vehicle_.body().p_WB, proximity_);
+}
+
+void Episode::sense() { avionics_.sense(ticks_.t_ns(tick_), truth()); }
+
+/// Exposes the cameras that are due and needed, all from this tick's state, and feeds the velocimeter.
+void Episode::look() {
+  seen_.clear();
+  const int64_t t_ns = ticks_.t_ns(tick_);
+  std::optional<StageTimer::Lap> lap;
+  const auto expose = [&](size_t camera) -> const avoidance::CameraFrame& {
+    if (!lap) lap.emplace(render_);
+    return cameras_.expose(camera, t_ns, X_WB());
+  };
+  for (const size_t camera : module_cameras_) {
+    if (cameras_.due(camera, tick_)) seen_.push_back(expose(camera));
+  }
+  if (velocimeter_ && cameras_.due(velocimeter_->camera(), tick_)) {
+    const avoidance::CameraFrame& frame = expose(velocimeter_->camera());
+    lap.reset();
+    const StageTimer::Lap flow_lap = velocimetry_.lap();
+    velocimeter_->update(frame, avionics_);
+  }
+}
+
+void Episode::decide() {
+  const bool due = module_cameras_.empty() ? tick_ % decision_period_ == 0 : !seen_.empty();
+  if (!due) return;
+  const avoidance::Observation observation{ticks_.t_ns(tick_), seen_, to_navigation_state(avionics_.navigation()),
+                                           goal_};
+  try {
+    const StageTimer::Lap lap = decision_.lap();
+    const avoidance::Decision decision = module_->update(observation);
+    pending_.push_back({tick_ + latency_, decision.command});
+    log_.add(ticks_.t_s(tick_), decision);
+  } catch (const std::exception& error) {
+    end(Outcome::fault, fmt::format("the module failed at {:.3f} s: {}", ticks_.t_s(tick_), error.what()));
+  }
+}
+
+/// Lets commands whose latency is over take effect and runs the autopilot.
+void Episode::steer() {
+  while (!pending_.empty() && pending_.front().tick <= tick_) {
+    setpoint_ = to_setpoint(pending_.front().command);
+    pending_.pop_front();
+  }
+  actuators_ = avionics_.control(setpoint_, static_cast<double>(control_period_) * ticks_.dt_s());
+  log_.add(ticks_.t_s(tick_), vehicle_, avionics_.navigation(), setpoint_, proximity_, wind_W_);
+}
+
+/// Shows the watcher what it asked for.
+void Episode::show() {
+  if (!watcher_) return;
+  if (picture_period_ > 0 && tick_ % picture_period_ == 0) {
+    const cv::Mat annotated = module_->annotate();
+    const int64_t t_ns = ticks_.t_ns(tick_);
+    if (!annotated.empty()) {
+      watcher_->on_pictures(t_ns, {}, annotated);
+    } else {
+      watcher_->on_pictures(t_ns, cameras_.snapshot(t_ns, X_WB()), annotated);
+    }
+  }
+  if (tick_ % ticks_.ticks(1.0) == 0) {
+    watcher_->on_progress(ticks_.t_s(tick_), scenario_.duration_s, goal_distance_m().value_or(std::nan("")));
+  }
+}
+
+bool Episode::ended() {
+  const dynamics::RigidBodyState& body = vehicle_.body();
+  if (!body.p_WB.allFinite() || !body.v_WB_B.allFinite() || !body.q_WB.coeffs().allFinite()) {
+    end(Outcome::fault, fmt::format("the vehicle's state stopped being finite at {:.3f} s", ticks_.t_s(tick_)));
+  } else if (proximity_.collided) {
+    const bool ground = proximity_.ground_clearance_m <= 0.0;
+    const std::string what = ground || !proximity_.nearest_solid ? "the ground" : scene_.solids[*proximity_.nearest_solid].name;
+    end(Outcome::collided, fmt::format("hit {} at {:.3f} s", what, ticks_.t_s(tick_)));
+  } else if (scenario_.goal && *goal_distance_m() <= scenario_.goal->radius_m) {
+    end(Outcome::reached);
+  } else if (tick_ >= ticks_.ticks(scenario_.duration_s)) {
+    end(Outcome::timeout);
+  }
+  return outcome_.has_value();
+}
+
+void Episode::move() {
+  const StageTimer::Lap lap = physics_.lap();
+  const dynamics::RigidBodyState& body = vehicle_.body();
+  wind_W_ = wind_.sample(-body.p_WB.z(), body.q_WB * body.v_WB_B, ticks_.dt_s());
+  vehicle_.step(actuators_, wind_W_, ticks_.dt_s());
+}
+
+void Episode::end(Outcome outcome, std::string cause) {
+  if (outcome_) return;  // the first cause stands
+  outcome_ = outcome;
+  cause_ = std::move(cause);
+}
+
+dynamics::SensedTruth Episode::truth() const {
+  const dynamics::RigidBodyState& body = vehicle_.body();
+  return {body, vehicle_.specific_force_B(), collision_.height_above_surface(body.p_WB)};
+}
+
+Eigen::Isometry3d Episode::X_WB() const {
+  Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
+  X_WB.linear() = vehicle_.body().q_WB.toRotationMatrix();
+  X_WB.translation() = vehicle_.body().p_WB;
+  return X_WB;
+}
+
+std::optional<double> Episode::goal_distance_m() const {
+  if (!scenario_.goal) return std::nullopt;
+  return (vehicle_.body().p_WB - goal_.p_WG).head<2>().norm();
+}
+
+}  // namespace
+
+std::string_view to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::reached:
+      return "reached";
+    case Outcome::collided:
+      return "collided";
+    case Outcome::timeout:
+      return "timeout";
+    case Outcome::fault:
+      return "fault";
+  }
+  return "fault";
+}
+
+Flight fly(const Scenario& scenario, FlightWatcher* watcher) {
+  cv::setNumThreads(1);  // episodes are the unit of parallelism
+  return Episode(scenario, watcher).fly();
+}
+
+cv::Mat picture_at(const Scenario& scenario, std::string_view role, Channel channel, double t_s) {
+  cv::setNumThreads(1);
+  if (!scenario.rig.find(role)) {
+    std::string roles;
+    for (const CameraConfig& camera : scenario.rig.cameras) roles += (roles.empty() ? "" : ", ") + camera.role;
+    throw InputError(fmt::format("the rig has no camera '{}'; its cameras: {}", role, roles));
+  }
+  Episode episode(scenario, nullptr);
+  return episode.picture(episode.cameras().index(role), channel, t_s);
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,104 @@
+#include "sim/loop/flight_log.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <variant>
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The columns that commands and setpoints of a velocity, a point or an attitude share.
+struct CommandColumns {
+  std::optional<Eigen::Vector2d> v_WB_W;
+  std::optional<double> altitude_m, heading_rad;
+};
+
+template <class Variant>
+CommandColumns columns(const Variant& command) {
+  return std::visit(
+      [](const auto& c) {
+        CommandColumns out;
+        if constexpr (requires { c.v_WB_W; }) out.v_WB_W = c.v_WB_W;
+        if constexpr (requires { c.altitude_m; }) out.altitude_m = c.altitude_m;
+        if constexpr (requires { c.p_WB; }) out.altitude_m = -c.p_WB.z();
+        if constexpr (requires { c.heading_rad; }) out.heading_rad = c.heading_rad;
+        return out;
+      },
+      command);
+}
+
+}  // namespace
+
+Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q_WB) {
+  const Eigen::Matrix3d R_WB = q_WB.toRotationMatrix();
+  return {std::atan2(R_WB(2, 1), R_WB(2, 2)), std::asin(std::clamp(-R_WB(2, 0), -1.0, 1.0)),
+          std::atan2(R_WB(1, 0), R_WB(0, 0))};
+}
+
+void FlightLog::set_signals(const std::vector<avoidance::Signal>& signals) {
+  for (const avoidance::Signal& signal : signals) flight_.signals.push_back({signal.name, signal.unit});
+  flight_.result.closest_obstacle.distance_m = kInfinity;
+  flight_.result.closest_ground.distance_m = kInfinity;
+}
+
+void FlightLog::add(double t_s, const Eigen::Vector3d& p_WB_true, const Proximity& proximity) {
+  ClosestApproach& obstacle = flight_.result.closest_obstacle;
+  if (proximity.obstacle_clearance_m < obstacle.distance_m) {
+    const std::string what = proximity.nearest_solid ? scene_.solids[*proximity.nearest_solid].name : "";
+    obstacle = {proximity.obstacle_clearance_m, t_s, what, p_WB_true};
+  }
+  ClosestApproach& ground = flight_.result.closest_ground;
+  if (proximity.ground_clearance_m < ground.distance_m) {
+    ground = {proximity.ground_clearance_m, t_s, "ground", p_WB_true};
+  }
+}
+
+void FlightLog::add(double t_s, const dynamics::Vehicle& vehicle, const dynamics::NavigationEstimate& navigation,
+                    const dynamics::Setpoint& setpoint, const Proximity& proximity, const Eigen::Vector3d& wind_W) {
+  const dynamics::RigidBodyState& body = vehicle.body();
+  hash_.add(body);
+  const CommandColumns command = columns(setpoint);
+  const dynamics::ActuatorCommand blades = vehicle.actuators();
+  flight_.trajectory.push_back({.t_s = t_s,
+                                .p_WB_true = body.p_WB,
+                                .rpy_true = roll_pitch_yaw(body.q_WB),
+                                .v_WB_W_true = body.q_WB * body.v_WB_B,
+                                .w_WB_B_true = body.w_WB_B,
+                                .p_WB_est = navigation.p_WB_est,
+                                .rpy_est = roll_pitch_yaw(navigation.q_WB_est),
+                                .v_WB_W_est = navigation.q_WB_est * navigation.v_WB_B_est,
+                                .v_WB_W_cmd = command.v_WB_W,
+                                .altitude_cmd_m = command.altitude_m,
+                                .heading_cmd_rad = command.heading_rad,
+                                .obstacle_clearance_m = proximity.obstacle_clearance_m,
+                                .ground_clearance_m = proximity.ground_clearance_m,
+                                .collective_rad = blades.collective_rad,
+                                .lateral_rad = blades.lateral_rad,
+                                .longitudinal_rad = blades.longitudinal_rad,
+                                .tail_rad = blades.tail_rad,
+                                .wind_W = wind_W});
+}
+
+void FlightLog::add(double t_s, const avoidance::Decision& decision) {
+  const CommandColumns command = columns(decision.command);
+  flight_.decisions.push_back(
+      {t_s, decision.status, command.v_WB_W, command.altitude_m, command.heading_rad, decision.signals});
+}
+
+Flight FlightLog::take(double flight_time_s) {
+  FlightResult& result = flight_.result;
+  for (size_t i = 1; i < flight_.trajectory.size(); ++i) {
+    result.path_length_m += (flight_.trajectory[i].p_WB_true - flight_.trajectory[i - 1].p_WB_true).norm();
+  }
+  result.flight_time_s = flight_time_s;
+  result.mean_speed_mps = flight_time_s > 0.0 ? result.path_length_m / flight_time_s : 0.0;
+  result.decisions = static_cast<int64_t>(flight_.decisions.size());
+  result.trajectory_hash = hash_.hex();
+  return std::move(flight_);
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+
+#include "avoidance/module.h"
+#include "dynamics/avionics.h"
+#include "dynamics/vehicle.h"
+#include "scenes/scene.h"
+#include "sim/collision/proximity.h"
+#include "sim/loop/flight.h"
+#include "sim/loop/trajectory_hash.h"
+
+namespace hedgehop::sim {
+
+/// Gathers a flight's tables and figures while it is flown.
+class FlightLog {
+ public:
+  explicit FlightLog(const scenes::Scene& scene) : scene_(scene) {}
+
+  void set_signals(const std::vector<avoidance::Signal>& signals);
+  /// Every physics tick: keeps the closest approaches.
+  void add(double t_s, const Eigen::Vector3d& p_WB_true, const Proximity& proximity);
+  /// Every control tick.
+  void add(double t_s, const dynamics::Vehicle& vehicle, const dynamics::NavigationEstimate& navigation,
+           const dynamics::Setpoint& setpoint, const Proximity& proximity, const Eigen::Vector3d& wind_W);
+  /// Every decision.
+  void add(double t_s, const avoidance::Decision& decision);
+
+  /// The flight so far, with its figures; outcome, timing, metrics and checks are the caller's to fill.
+  Flight take(double flight_time_s);
+
+ private:
+  const scenes::Scene& scene_;
+  Flight flight_;
+  TrajectoryHash hash_;
+};
+
+/// Roll, pitch, yaw (3-2-1) of a body attitude, rad.
+Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q_WB);
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,35 @@
+#include "sim/loop/setpoints.h"
+
+#include <variant>
+
+namespace hedgehop::sim {
+namespace {
+
+dynamics::Setpoint convert(const avoidance::VelocityCommand& c) {
+  return dynamics::VelocitySetpoint{c.v_WB_W, c.altitude_m, c.heading_rad};
+}
+dynamics::Setpoint convert(const avoidance::PositionCommand& c) {
+  return dynamics::PositionSetpoint{c.p_WB, c.heading_rad};
+}
+dynamics::Setpoint convert(const avoidance::AttitudeCommand& c) {
+  return dynamics::AttitudeSetpoint{c.roll_rad, c.pitch_rad, c.heading_rad, c.altitude_m};
+}
+dynamics::Setpoint convert(const avoidance::HoverCommand& c) { return dynamics::HoverSetpoint{c.yaw_rate_radps}; }
+
+}  // namespace
+
+dynamics::Setpoint to_setpoint(const avoidance::Command& command) {
+  return std::visit([](const auto& c) { return convert(c); }, command);
+}
+
+avoidance::NavigationState to_navigation_state(const dynamics::NavigationEstimate& estimate) {
+  return {estimate.p_WB_est, estimate.q_WB_est, estimate.v_WB_B_est, estimate.w_WB_B_est,
+          estimate.height_above_ground_m};
+}
+
+avoidance::Goal to_goal(const Scenario& scenario) {
+  if (scenario.goal) return {scenario.goal->p_WG(), scenario.goal->heading_rad};
+  return {scenario.start.p_WB(), scenario.start.heading_rad};
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <chrono>
+#include <vector>
+
+#include "sim/loop/flight.h"
+
+namespace hedgehop::sim {
+
+/// Wall time of one stage of the loop, for reports only.
+class StageTimer {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// Measures from its construction to its destruction.
+  class Lap {
+   public:
+    explicit Lap(StageTimer& timer) : timer_(timer), start_(Clock::now()) {}
+    ~Lap() { timer_.laps_ms_.push_back(std::chrono::duration<float, std::milli>(Clock::now() - start_).count()); }
+    Lap(const Lap&) = delete;
+    Lap& operator=(const Lap&) = delete;
+
+   private:
+    StageTimer& timer_;
+    Clock::time_point start_;
+  };
+
+  [[nodiscard]] Lap lap() { return Lap(*this); }
+  /// Median and 95th percentile of the laps (nearest rank); zeros without laps.
+  StageTime summary() const;
+
+ private:
+  std::vector<float> laps_ms_;
+};
+
+}  // namespace hedgehop::sim

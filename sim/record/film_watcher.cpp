@@ -1,0 +1,82 @@
+#include "sim/record/film_watcher.h"
+
+#include <algorithm>
+#include <exception>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr float kDarkAt_m = 50.0f;
+
+cv::Mat to_rgb(const cv::Mat& image) {
+  cv::Mat rgb;
+  switch (image.type()) {
+    case CV_8UC3:
+      return image.clone();
+    case CV_8UC1:
+      cv::cvtColor(image, rgb, cv::COLOR_GRAY2RGB);
+      return rgb;
+    default: {
+      cv::Mat nearness;
+      image.convertTo(nearness, CV_8UC1, -255.0 / kDarkAt_m, 255.0);
+      cv::cvtColor(nearness, rgb, cv::COLOR_GRAY2RGB);
+      return rgb;
+    }
+  }
+}
+
+}  // namespace
+
+cv::Mat contact_sheet(std::span<const avoidance::CameraFrame> frames) {
+  if (frames.empty()) return {};
+  cv::Size tile = frames.front().image.size();
+  for (const avoidance::CameraFrame& frame : frames) {
+    tile.width = std::max(tile.width, frame.image.cols);
+    tile.height = std::max(tile.height, frame.image.rows);
+  }
+  const int count = static_cast<int>(frames.size());
+  const int columns = std::min(count, 3);
+  const int rows = (count + columns - 1) / columns;
+  cv::Mat sheet(rows * tile.height, columns * tile.width, CV_8UC3, cv::Scalar::all(24));
+  for (int i = 0; i < count; ++i) {
+    const avoidance::CameraFrame& frame = frames[static_cast<size_t>(i)];
+    const cv::Point corner((i % columns) * tile.width, (i / columns) * tile.height);
+    to_rgb(frame.image).copyTo(sheet(cv::Rect(corner, frame.image.size())));
+    cv::putText(sheet, frame.role, corner + cv::Point(8, 20), cv::FONT_HERSHEY_SIMPLEX, 0.55, {255, 210, 64}, 1,
+                cv::LINE_AA);
+  }
+  return sheet;
+}
+
+FilmWatcher::FilmWatcher(const FilmConfig& config, std::filesystem::path file_webm)
+    : config_(config), file_(std::move(file_webm)) {}
+
+void FilmWatcher::on_pictures(int64_t /*t_ns*/, std::span<const avoidance::CameraFrame> frames,
+                              const cv::Mat& annotated) {
+  const cv::Mat source = annotated.empty() ? contact_sheet(frames) : annotated;
+  if (source.empty() || !fault_.empty()) return;
+  try {
+    const double scale = static_cast<double>(config_.width_px) / source.cols;
+    cv::resize(source, picture_, {config_.width_px, static_cast<int>(source.rows * scale)}, 0, 0, cv::INTER_AREA);
+    if (!film_) {
+      std::filesystem::create_directories(file_.parent_path());
+      film_.emplace(file_, config_.rate_hz, picture_.size());
+    }
+    film_->add(picture_);
+  } catch (const std::exception& error) {
+    fault_ = error.what();
+  }
+}
+
+void FilmWatcher::close() {
+  if (!film_ || !fault_.empty()) return;
+  try {
+    film_->close();
+  } catch (const std::exception& error) {
+    fault_ = error.what();
+  }
+}
+
+}  // namespace hedgehop::sim

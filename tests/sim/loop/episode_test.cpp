@@ -1,0 +1,123 @@
+#include "sim/loop/episode.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "sim/scenario/input_error.h"
+
+namespace hedgehop::sim {
+namespace {
+
+/// The light city scenario, cut to a few seconds so that the suite stays quick.
+Scenario short_city(std::vector<std::string> overrides = {}) {
+  overrides.insert(overrides.begin(), {"duration=4", "film.enabled=false", "checks=[]"});
+  return load_scenario(std::string(HEDGEHOP_SOURCE_DIR) + "/configs/garratt2009_city_0_light.yaml", overrides);
+}
+
+/// Asks for pictures and draws over them, as a careless watcher might.
+class ScribblingWatcher : public FlightWatcher {
+ public:
+  double picture_rate_hz() const override { return 10.0; }
+  void on_pictures(int64_t, std::span<const avoidance::CameraFrame> frames, const cv::Mat& annotated) override {
+    ++pictures;
+    for (const avoidance::CameraFrame& frame : frames) cv::Mat(frame.image).setTo(255);
+    if (!annotated.empty()) cv::Mat(annotated).setTo(255);
+  }
+  void on_progress(double, double, double) override { ++seconds; }
+  int pictures = 0, seconds = 0;
+};
+
+TEST(Episode, SameScenarioGivesTheSameFlightBitForBit) {
+  const Flight first = fly(short_city()), second = fly(short_city());
+  EXPECT_EQ(first.result.trajectory_hash, second.result.trajectory_hash);
+  ASSERT_EQ(first.decisions.size(), second.decisions.size());
+  EXPECT_EQ(fly(short_city({"seed=2"})).result.trajectory_hash == first.result.trajectory_hash, false);
+}
+
+TEST(Episode, LookingOnDoesNotChangeTheFlight) {
+  ScribblingWatcher watcher;
+  const Flight watched = fly(short_city(), &watcher);
+  EXPECT_EQ(watched.result.trajectory_hash, fly(short_city()).result.trajectory_hash);
+  EXPECT_EQ(watcher.pictures, 41);  // 10 a second over 4 s, both ends included
+  EXPECT_EQ(watcher.seconds, 5);
+}
+
+TEST(Episode, ResolvedScenarioFliesTheSameFlight) {
+  const Scenario scenario = short_city();
+  const auto file = std::filesystem::path(testing::TempDir()) / "resolved.yaml";
+  std::ofstream(file) << to_yaml(scenario);
+  EXPECT_EQ(fly(load_scenario(file)).result.trajectory_hash, fly(scenario).result.trajectory_hash);
+}
+
+TEST(Episode, CommandsTakeEffectAfterTheirLatency) {
+  for (const double latency_s : {0.0, 0.04, 0.5}) {
+    const Flight flight = fly(short_city({"duration=1", fmt::format("command_latency={}", latency_s)}));
+    const DecisionRow& first = flight.decisions.front();
+    for (const TrajectoryRow& row : flight.trajectory) {
+      // Until then the aircraft holds its start: no velocity is commanded.
+      EXPECT_EQ(row.v_WB_W_cmd.has_value(), row.t_s >= first.t_s + latency_s - 1e-9) << row.t_s;
+    }
+  }
+}
+
+TEST(Episode, TablesHaveTheScenariosRates) {
+  const Flight flight = fly(short_city({"duration=2"}));
+  EXPECT_EQ(flight.trajectory.size(), 201u);  // 100 Hz over 2 s, both ends included
+  EXPECT_EQ(flight.decisions.size(), 51u);    // 25 Hz
+  EXPECT_EQ(flight.result.outcome, Outcome::timeout);
+  EXPECT_DOUBLE_EQ(flight.result.flight_time_s, 2.0);
+}
+
+TEST(Episode, StartSpreadMovesTheStartBySeedWithinItsDisc) {
+  const Flight a = fly(short_city({"duration=0.1", "start.spread=3", "seed=1"}));
+  const Flight b = fly(short_city({"duration=0.1", "start.spread=3", "seed=2"}));
+  const Eigen::Vector3d nominal = short_city().start.p_WB();
+  const Eigen::Vector3d p_a = a.trajectory.front().p_WB_true, p_b = b.trajectory.front().p_WB_true;
+  EXPECT_LE((p_a - nominal).norm(), 3.0);
+  EXPECT_LE((p_b - nominal).norm(), 3.0);
+  EXPECT_GT((p_a - p_b).norm(), 1e-3);
+}
+
+TEST(Episode, FlyingIntoAWallEndsWithACollisionThatNamesIt) {
+  // Straight at the room's northern wall, 8 m away.
+  const Scenario scenario = load_scenario(
+      std::string(HEDGEHOP_SOURCE_DIR) + "/configs/garratt2009_room_0.yaml",
+      std::vector<std::string>{"avoidance={module: go_to_goal}", "goal={north: 30, east: 0, altitude: 1}",
+                               "start={north: 0, east: 0, altitude: 1}", "film.enabled=false", "checks=[]",
+                               "duration=30"});
+  const Flight flight = fly(scenario);
+  EXPECT_EQ(flight.result.outcome, Outcome::collided);
+  EXPECT_NE(flight.result.cause.find("wall"), std::string::npos) << flight.result.cause;
+  EXPECT_LE(flight.result.closest_obstacle.distance_m, 0.0);
+}
+
+TEST(PictureAt, AnUnknownCameraIsRefusedWithTheRigsRoles) {
+  try {
+    picture_at(short_city(), "top", Channel::grey, 0.0);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "the rig has no camera 'top'; its cameras: left, right, front, rear, down");
+  }
+}
+
+TEST(PictureAt, GreyIsTheMeanOfColour) {
+  const cv::Mat color = picture_at(short_city(), "front", Channel::color, 0.0);
+  const cv::Mat grey = picture_at(short_city(), "front", Channel::grey, 0.0);
+  double largest = 0.0;
+  for (int v = 0; v < grey.rows; ++v) {
+    for (int u = 0; u < grey.cols; ++u) {
+      const cv::Vec3b c = color.at<cv::Vec3b>(v, u);
+      largest = std::max(largest, std::abs((c[0] + c[1] + c[2]) / 3.0 - grey.at<uint8_t>(v, u)));
+    }
+  }
+  EXPECT_LE(largest, 1.5);  // both are rounded to whole levels, the textures too
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
