@@ -28,9 +28,9 @@ std::vector<double> centers(const std::vector<PatchRange>& ranges) {
   return at;
 }
 
-// 1 6 1 along one axis, weighted by confidence; `step` leads to the next node along it.
+// 1 2 1 along one axis, weighted by confidence; `step` leads to the next node along it.
 void smooth_axis(const NodeFlow& in, NodeFlow& out, int count, size_t step, int lines, size_t line_step) {
-  constexpr double kOwn = 6.0;
+  constexpr double kOwn = 2.0;
   for (int line = 0; line < lines; ++line) {
     for (int i = 0; i < count; ++i) {
       const size_t at = static_cast<size_t>(line) * line_step + static_cast<size_t>(i) * step;
@@ -67,6 +67,44 @@ void smooth_by_confidence(NodeFlow& flow, NodeFlow& spare) {
   smooth_axis(spare, flow, flow.rows, row_step, flow.cols, 1);
 }
 
+namespace {
+
+// Rows: patches; columns: weights of the nodes' hat functions, averaged over the patch.
+Eigen::MatrixXd mean_weights(const std::vector<PatchRange>& ranges) {
+  const auto count = static_cast<Eigen::Index>(ranges.size());
+  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(count, count);
+  const std::vector<double> nodes = centers(ranges);
+  for (Eigen::Index patch = 0; patch < count; ++patch) {
+    const PatchRange& range = ranges[static_cast<size_t>(patch)];
+    const double share = 1.0 / (range.end - range.begin);
+    for (int x = range.begin; x < range.end; ++x) {
+      const auto after = std::upper_bound(nodes.begin(), nodes.end(), static_cast<double>(x)) - nodes.begin();
+      if (after == 0 || after == count) {
+        weights(patch, after == 0 ? 0 : count - 1) += share;
+        continue;
+      }
+      const double left = nodes[static_cast<size_t>(after) - 1], right = nodes[static_cast<size_t>(after)];
+      weights(patch, after - 1) += share * (right - x) / (right - left);
+      weights(patch, after) += share * (x - left) / (right - left);
+    }
+  }
+  return weights;
+}
+
+}  // namespace
+
+PatchMeans::PatchMeans(const PatchGrid& grid)
+    : over_rows_(mean_weights(grid.rows)),
+      over_cols_(mean_weights(grid.cols)),
+      spare_(over_rows_.rows(), over_cols_.rows()) {}
+
+void PatchMeans::apply(std::vector<double>& values) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Eigen::Map<RowMajor> nodes(values.data(), over_rows_.rows(), over_cols_.rows());
+  spare_.noalias() = over_rows_ * nodes;
+  nodes.noalias() = spare_ * over_cols_.transpose();
+}
+
 FlowLevel::FlowLevel(const ImageInterpolationConfig& config, const PatchGrid& grid, int reduction, int band_begin_px,
                      int width_px, int height_px, int bits)
     : config_(config),
@@ -81,6 +119,7 @@ FlowLevel::FlowLevel(const ImageInterpolationConfig& config, const PatchGrid& gr
       copies_y_(copies_x_),
       difference_(static_cast<size_t>(line_), int16_t{0}),
       spread_(centers(grid_.cols), centers(grid_.rows), older_.width()),
+      means_(grid_),
       sums_(grid_.rows, grid_.cols, line_, older_.height(), 3),
       patches_(grid_.rows.size() * grid_.cols.size()),
       spare_(config.rows, config.cols),
@@ -141,6 +180,8 @@ void FlowLevel::iterate(NodeFlow& flow) {
     sums_.next_row();
   }
   // What remains is found patch by patch and added.
+  means_.apply(flow.u_px);
+  means_.apply(flow.v_px);
   for (int row = 0; row < config_.rows; ++row) {
     for (int col = 0; col < config_.cols; ++col) {
       const auto i = static_cast<size_t>(row * config_.cols + col);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "vision/flow_field.h"
@@ -24,9 +25,21 @@ struct NodeFlow {
   std::vector<double> confidence;  ///< 0 (no texture) to 1
 };
 
-/// Smooths the flow between neighbouring nodes (1 6 1 both ways, weighted by confidence): a node without texture takes
+/// Smooths the flow between neighbouring nodes (1 2 1 both ways, weighted by confidence): a node without texture takes
 /// its neighbours' flow. `spare` is scratch space of the same size.
 void smooth_by_confidence(NodeFlow& flow, NodeFlow& spare);
+
+/// Means, over the patches of a grid, of flow that is spread bilinearly between the patch centres and constant beyond.
+class PatchMeans {
+ public:
+  explicit PatchMeans(const PatchGrid& grid);
+  /// Replaces node values (rows x cols) by the means over their patches.
+  void apply(std::vector<double>& values);
+
+ private:
+  Eigen::MatrixXd over_rows_, over_cols_;  ///< weights of the nodes (columns) in each patch (rows)
+  Eigen::MatrixXd spare_;
+};
 
 /// The image interpolation algorithm on one pair of reduced pictures.
 ///
@@ -35,7 +48,9 @@ void smooth_by_confidence(NodeFlow& flow, NodeFlow& spare);
 ///   newer(x + F) = older(x) - r_x [older(x + 1) - older(x - 1)] / 2 - r_y [...] / 2 ,
 /// and the r that makes the squared error over the patch least solves a 2 x 2 system.
 /// Source: [Srinivasan1994] sec. 2. Differs: iterated, the newer picture re-centred by the flow found so far (spread
-/// bilinearly between patches), since one pass is off by the curvature of the picture over the reference shift.
+/// bilinearly between patches), since one pass is off by the curvature of the picture over the reference shift. The
+/// remaining r is added to the patch's mean of the flow used for re-centring, so that how that varies within the patch
+/// leaves no trace.
 class FlowLevel {
  public:
   /// @param band_begin_px  row of the full picture where the band looked at begins.
@@ -75,6 +90,7 @@ class FlowLevel {
   std::vector<int16_t> copies_x_, copies_y_;  ///< older(x + 1) - older(x - 1), and along y; 0 at the rim
   std::vector<int16_t> difference_;           ///< one row
   SpreadFlow spread_;
+  PatchMeans means_;
   PatchSums sums_;
   std::vector<Patch> patches_;
   NodeFlow spare_;
