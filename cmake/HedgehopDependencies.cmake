@@ -1,12 +1,21 @@
 # Packages, all from Debian (scripts/packages lists them). Their headers are system headers: no warnings from them.
 include_guard()
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs video videoio)
 find_package(yaml-cpp 0.7 REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(nlohmann_json REQUIRED)
+
+# The OpenCV modules in use, each from its own package: Debian's OpenCVConfig.cmake comes with all of OpenCV, 600 MB more.
+find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
+foreach(module core imgproc imgcodecs)
+  find_library(OPENCV_${module}_LIBRARY opencv_${module} REQUIRED)
+  add_library(opencv_${module} INTERFACE)
+  target_link_libraries(opencv_${module} INTERFACE ${OPENCV_${module}_LIBRARY})
+  target_include_directories(opencv_${module} SYSTEM INTERFACE ${OPENCV_INCLUDE_DIR})
+endforeach()
+
 find_library(OSMESA_LIBRARY OSMesa REQUIRED)
 find_path(OSMESA_INCLUDE_DIR GL/osmesa.h REQUIRED)
 
