@@ -1,0 +1,71 @@
+#pragma once
+
+#include <GL/glcorearb.h>
+
+// The OpenGL entry points that drawing needs: X(pointer type's middle part, name without gl).
+#define HEDGEHOP_GL_FUNCTIONS(X)                      \
+  X(ACTIVETEXTURE, ActiveTexture)                     \
+  X(ATTACHSHADER, AttachShader)                       \
+  X(BINDBUFFER, BindBuffer)                           \
+  X(BINDFRAMEBUFFER, BindFramebuffer)                 \
+  X(BINDRENDERBUFFER, BindRenderbuffer)               \
+  X(BINDTEXTURE, BindTexture)                         \
+  X(BINDVERTEXARRAY, BindVertexArray)                 \
+  X(BUFFERDATA, BufferData)                           \
+  X(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus)   \
+  X(CLEARBUFFERFV, ClearBufferfv)                     \
+  X(CLIPCONTROL, ClipControl)                         \
+  X(COMPILESHADER, CompileShader)                     \
+  X(CREATEPROGRAM, CreateProgram)                     \
+  X(CREATESHADER, CreateShader)                       \
+  X(CULLFACE, CullFace)                               \
+  X(DELETESHADER, DeleteShader)                       \
+  X(DEPTHFUNC, DepthFunc)                             \
+  X(DISABLE, Disable)                                 \
+  X(DRAWARRAYS, DrawArrays)                           \
+  X(ENABLE, Enable)                                   \
+  X(ENABLEVERTEXATTRIBARRAY, EnableVertexAttribArray) \
+  X(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer) \
+  X(FRONTFACE, FrontFace)                             \
+  X(GENBUFFERS, GenBuffers)                           \
+  X(GENFRAMEBUFFERS, GenFramebuffers)                 \
+  X(GENRENDERBUFFERS, GenRenderbuffers)               \
+  X(GENTEXTURES, GenTextures)                         \
+  X(GENVERTEXARRAYS, GenVertexArrays)                 \
+  X(GETERROR, GetError)                               \
+  X(GETPROGRAMINFOLOG, GetProgramInfoLog)             \
+  X(GETPROGRAMIV, GetProgramiv)                       \
+  X(GETSHADERINFOLOG, GetShaderInfoLog)               \
+  X(GETSHADERIV, GetShaderiv)                         \
+  X(GETINTEGERV, GetIntegerv)                         \
+  X(GETSTRING, GetString)                             \
+  X(GETUNIFORMLOCATION, GetUniformLocation)           \
+  X(LINKPROGRAM, LinkProgram)                         \
+  X(MULTIDRAWELEMENTS, MultiDrawElements)             \
+  X(PIXELSTOREI, PixelStorei)                         \
+  X(READPIXELS, ReadPixels)                           \
+  X(RENDERBUFFERSTORAGE, RenderbufferStorage)         \
+  X(SHADERSOURCE, ShaderSource)                       \
+  X(TEXIMAGE3D, TexImage3D)                           \
+  X(TEXPARAMETERI, TexParameteri)                     \
+  X(TEXSUBIMAGE3D, TexSubImage3D)                     \
+  X(UNIFORM3FV, Uniform3fv)                           \
+  X(UNIFORM4FV, Uniform4fv)                           \
+  X(UNIFORMMATRIX3FV, UniformMatrix3fv)               \
+  X(USEPROGRAM, UseProgram)                           \
+  X(VERTEXATTRIBPOINTER, VertexAttribPointer)         \
+  X(VIEWPORT, Viewport)
+
+namespace hedgehop::sim {
+
+/// OpenGL as a table of functions, filled by a context; nothing links to a GL library.
+struct GlFunctions {
+#define HEDGEHOP_GL_MEMBER(TYPE, NAME) PFNGL##TYPE##PROC NAME = nullptr;
+  HEDGEHOP_GL_FUNCTIONS(HEDGEHOP_GL_MEMBER)
+#undef HEDGEHOP_GL_MEMBER
+};
+
+/// Throws std::runtime_error naming the OpenGL error when one is pending. @param what  what was being done.
+void check_gl(const GlFunctions& gl, const char* what);
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,143 @@
+#include "sim/render/scene_buffers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <stdexcept>
+
+#include "sim/render/shaders.h"
+#include "sim/render/texture_pyramid.h"
+
+namespace hedgehop::sim {
+
+namespace {
+
+struct GpuVertex {
+  std::array<float, 3> p_W;
+  std::array<float, 2> uv;
+  float brightness;  // share of albedo
+  float layer;
+};
+
+void require(bool holds, const std::string& fault) {
+  if (!holds) throw std::invalid_argument(fault);
+}
+
+void check(const scenes::Mesh& mesh, size_t texture_count) {
+  require(mesh.material == "opaque",
+          fmt::format("material '{}' cannot be drawn; known materials: opaque", mesh.material));
+  require(std::ranges::all_of(mesh.indices, [&](uint32_t index) { return index < mesh.vertices.size(); }),
+          fmt::format("a mesh of {} vertices has an index beyond them", mesh.vertices.size()));
+  for (const scenes::Vertex& vertex : mesh.vertices) {
+    require(vertex.p_W.allFinite() && vertex.n_W.allFinite() && vertex.uv.allFinite(), "a vertex is not finite");
+    require(vertex.texture < texture_count,
+            fmt::format("a vertex wants texture {} of {}", vertex.texture, texture_count));
+  }
+  size_t covered = 0;
+  for (const scenes::Chunk& chunk : mesh.chunks) {
+    require(chunk.first_index == covered && chunk.index_count % 3 == 0,
+            "chunks must cover a mesh's triangles in order, without gaps");
+    require(!chunk.box_W.isEmpty(), "a chunk's box is empty");
+    covered += chunk.index_count;
+  }
+  require(covered == mesh.indices.size(), "chunks must cover all of a mesh's indices");
+}
+
+void check(const scenes::Scene& scene) {
+  for (const cv::Mat& texture : scene.textures) {
+    const int size = scene.textures.front().cols;
+    require(texture.type() == CV_8UC3 && texture.cols == size && texture.rows == size && size > 0 &&
+                (size & (size - 1)) == 0,
+            "textures must be CV_8UC3, square, and all of one power-of-two size");
+  }
+  for (const scenes::Mesh& mesh : scene.meshes) check(mesh, scene.textures.size());
+}
+
+float brightness(const scenes::Lights& lights, const Eigen::Vector3f& n_W) {
+  return lights.ambient + lights.sun * std::max(0.0f, n_W.dot(lights.to_sun_W));
+}
+
+void upload_meshes(const GlFunctions& gl, const scenes::Scene& scene, SceneBuffers& buffers) {
+  std::vector<GpuVertex> vertices;
+  std::vector<uint32_t> indices;
+  for (const scenes::Mesh& mesh : scene.meshes) {
+    const auto first_vertex = static_cast<uint32_t>(vertices.size());
+    const auto first_index = static_cast<uint32_t>(indices.size());
+    for (const scenes::Vertex& v : mesh.vertices) {
+      vertices.push_back({{v.p_W.x(), v.p_W.y(), v.p_W.z()},
+                          {v.uv.x(), v.uv.y()},
+                          brightness(scene.lights, v.n_W),
+                          static_cast<float>(v.texture)});
+    }
+    for (const uint32_t index : mesh.indices) indices.push_back(first_vertex + index);
+    for (scenes::Chunk chunk : mesh.chunks) {
+      chunk.first_index += first_index;
+      if (chunk.index_count > 0) buffers.chunks.push_back(chunk);
+    }
+  }
+
+  std::array<GLuint, 2> names{};
+  gl.GenVertexArrays(1, &buffers.vertex_array);
+  gl.BindVertexArray(buffers.vertex_array);
+  gl.GenBuffers(2, names.data());
+  gl.BindBuffer(GL_ARRAY_BUFFER, names[0]);
+  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(GpuVertex)), vertices.data(),
+                GL_STATIC_DRAW);
+  gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, names[1]);
+  gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(uint32_t)), indices.data(),
+                GL_STATIC_DRAW);
+  const auto attribute = [&](GLuint index, GLint floats, size_t offset) {
+    gl.EnableVertexAttribArray(index);
+    gl.VertexAttribPointer(index, floats, GL_FLOAT, GL_FALSE, sizeof(GpuVertex), reinterpret_cast<const void*>(offset));
+  };
+  attribute(kPositionAttribute, 3, offsetof(GpuVertex, p_W));
+  attribute(kSurfaceAttribute, 4, offsetof(GpuVertex, uv));
+}
+
+GLuint texture_array(const GlFunctions& gl, GLint storage, GLenum format, int size, int layers) {
+  GLuint texture = 0;
+  gl.GenTextures(1, &texture);
+  gl.BindTexture(GL_TEXTURE_2D_ARRAY, texture);
+  for (int level = 0; size >> level > 0; ++level) {
+    gl.TexImage3D(GL_TEXTURE_2D_ARRAY, level, storage, size >> level, size >> level, layers, 0, format,
+                  GL_UNSIGNED_BYTE, nullptr);
+  }
+  gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  return texture;
+}
+
+void upload_textures(const GlFunctions& gl, const std::vector<cv::Mat>& textures, SceneBuffers& buffers) {
+  const int size = textures.empty() ? 1 : textures.front().cols;
+  const int layers = textures.empty() ? 1 : static_cast<int>(textures.size());
+  gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  buffers.grey_textures = texture_array(gl, GL_R8, GL_RED, size, layers);
+  buffers.color_textures = texture_array(gl, GL_RGBA8, GL_RGBA, size, layers);
+  for (size_t layer = 0; layer < textures.size(); ++layer) {
+    const TexturePyramid pyramid = texture_pyramid(textures[layer]);
+    const auto fill = [&](GLuint texture, GLenum format, const std::vector<cv::Mat>& levels) {
+      gl.BindTexture(GL_TEXTURE_2D_ARRAY, texture);
+      for (size_t level = 0; level < levels.size(); ++level) {
+        gl.TexSubImage3D(GL_TEXTURE_2D_ARRAY, static_cast<GLint>(level), 0, 0, static_cast<GLint>(layer),
+                         levels[level].cols, levels[level].rows, 1, format, GL_UNSIGNED_BYTE, levels[level].data);
+      }
+    };
+    fill(buffers.grey_textures, GL_RED, pyramid.grey);
+    fill(buffers.color_textures, GL_RGBA, pyramid.color);
+  }
+}
+
+}  // namespace
+
+SceneBuffers upload(const GlFunctions& gl, const scenes::Scene& scene) {
+  check(scene);
+  SceneBuffers buffers;
+  upload_meshes(gl, scene, buffers);
+  upload_textures(gl, scene.textures, buffers);
+  check_gl(gl, "copying the scene to the context");
+  return buffers;
+}
+
+}  // namespace hedgehop::sim

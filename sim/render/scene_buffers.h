@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "scenes/scene.h"
+#include "sim/render/gl_functions.h"
+
+namespace hedgehop::sim {
+
+/// A scene in a context's memory. All meshes share one vertex and one index buffer, so that one call draws any of them.
+struct SceneBuffers {
+  GLuint vertex_array = 0;
+  GLuint grey_textures = 0, color_textures = 0;  ///< GL_TEXTURE_2D_ARRAY, R8 and RGBA8
+  std::vector<scenes::Chunk> chunks;             ///< first_index counts in the shared index buffer
+};
+
+/// Light falls on each vertex here once, since neither sun nor surfaces move.
+/// Throws std::invalid_argument, naming what is wrong, for a scene that contradicts itself.
+SceneBuffers upload(const GlFunctions& gl, const scenes::Scene& scene);
+
+}  // namespace hedgehop::sim

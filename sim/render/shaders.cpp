@@ -1,0 +1,107 @@
+#include "sim/render/shaders.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "sim/render/renderer.h"
+
+namespace hedgehop::sim {
+
+namespace {
+
+// Pixel (u, v) lies at window (u + 0.5, v + 0.5) with OpenGL's first row on top, so C's axes are the window's axes and
+// rows come back in the order of a cv::Mat. Depth is reversed and without a far plane: near / z, 1 at the near plane,
+// 0 at infinity, where floats are densest. The eye is subtracted in two parts to keep millimetres far from the origin.
+constexpr const char* kSceneVertex = R"(layout(location = 0) in vec3 p_W;
+layout(location = 1) in vec4 surface;
+uniform vec3 eye_W, eye_low_W;
+uniform mat3 rotation;
+uniform vec4 lens;
+out vec4 coordinates;
+void main() {
+  vec3 p_C = rotation * ((p_W - eye_W) - eye_low_W);
+  gl_Position = vec4(lens.xy * p_C.xy + lens.zw * p_C.z, near, p_C.z);
+  coordinates = surface;
+}
+)";
+
+constexpr const char* kSceneFragment = R"(in vec4 coordinates;
+uniform sampler2DArray textures;
+out vec4 pixel;
+void main() { pixel = texture(textures, coordinates.xyw) * coordinates.z; }
+)";
+
+constexpr const char* kDepthFragment = R"(out float z_C;
+void main() { z_C = 1.0 / gl_FragCoord.w; }
+)";
+
+constexpr const char* kSkyVertex = R"(uniform mat3 rotation;
+uniform vec4 lens;
+out vec3 ray_W;
+void main() {
+  vec2 window = vec2(gl_VertexID == 2 ? 3.0 : -1.0, gl_VertexID == 1 ? 3.0 : -1.0);  // clockwise: a front
+  gl_Position = vec4(window, 0.0, 1.0);
+  ray_W = rotation * vec3((window - lens.zw) / lens.xy, 1.0);
+}
+)";
+
+constexpr const char* kSkyFragment = R"(in vec3 ray_W;
+uniform vec3 horizon, zenith;
+out vec4 pixel;
+void main() {
+  float up = max(-ray_W.z, 0.0) * inversesqrt(dot(ray_W, ray_W));
+  pixel = vec4(mix(horizon, zenith, up), 1.0);
+}
+)";
+
+GLuint compile(const GlFunctions& gl, GLenum stage, const char* source) {
+  const std::string head = fmt::format("#version 330 core\nconst float near = {};\n", kNearPlaneM);
+  const GLchar* sources[] = {head.c_str(), source};
+  const GLuint shader = gl.CreateShader(stage);
+  gl.ShaderSource(shader, 2, sources, nullptr);
+  gl.CompileShader(shader);
+  GLint compiled = GL_FALSE;
+  gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+  if (compiled == GL_TRUE) return shader;
+  std::string log(4096, '\0');
+  GLsizei length = 0;
+  gl.GetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
+  log.resize(static_cast<size_t>(length));
+  throw std::runtime_error(fmt::format("a shader does not compile: {}", log));
+}
+
+Program link(const GlFunctions& gl, const char* vertex_source, const char* fragment_source) {
+  Program program{.id = gl.CreateProgram()};
+  for (const GLuint shader :
+       {compile(gl, GL_VERTEX_SHADER, vertex_source), compile(gl, GL_FRAGMENT_SHADER, fragment_source)}) {
+    gl.AttachShader(program.id, shader);
+    gl.DeleteShader(shader);
+  }
+  gl.LinkProgram(program.id);
+  GLint linked = GL_FALSE;
+  gl.GetProgramiv(program.id, GL_LINK_STATUS, &linked);
+  if (linked != GL_TRUE) {
+    std::string log(4096, '\0');
+    GLsizei length = 0;
+    gl.GetProgramInfoLog(program.id, static_cast<GLsizei>(log.size()), &length, log.data());
+    log.resize(static_cast<size_t>(length));
+    throw std::runtime_error(fmt::format("a shader program does not link: {}", log));
+  }
+  program.eye_W = gl.GetUniformLocation(program.id, "eye_W");
+  program.eye_low_W = gl.GetUniformLocation(program.id, "eye_low_W");
+  program.rotation = gl.GetUniformLocation(program.id, "rotation");
+  program.lens = gl.GetUniformLocation(program.id, "lens");
+  program.horizon = gl.GetUniformLocation(program.id, "horizon");
+  program.zenith = gl.GetUniformLocation(program.id, "zenith");
+  return program;
+}
+
+}  // namespace
+
+Program scene_program(const GlFunctions& gl) { return link(gl, kSceneVertex, kSceneFragment); }
+Program depth_program(const GlFunctions& gl) { return link(gl, kSceneVertex, kDepthFragment); }
+Program sky_program(const GlFunctions& gl) { return link(gl, kSkyVertex, kSkyFragment); }
+
+}  // namespace hedgehop::sim
