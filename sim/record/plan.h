@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "scenes/solid.h"
+
+namespace hedgehop::sim {
+
+/// A solid seen from above.
+struct Footprint {
+  std::string name;
+  std::vector<Eigen::Vector2d> corners_NE_m;  ///< convex outline, north and east
+  double bottom_m = 0.0, top_m = 0.0;         ///< altitudes
+};
+
+/// The outline of each solid on the plan, of any attitude. Precise to a float's rounding of the coordinates.
+std::vector<Footprint> footprints(const std::vector<scenes::Solid>& solids);
+
+/// Where a footprint lies for a flight between two altitudes: only what is beside it can be hit sideways.
+enum class Level { below, beside, above };
+/// @param margin_m  how far a solid may be off the flown band and still count as beside, >= 0.
+Level level(const Footprint& footprint, double lowest_m, double highest_m, double margin_m);
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,136 @@
+'use strict';
+// Time plots that share their time axis and cursor.
+
+const roleColors = {left: 'c0', right: 'c1', front: 'c2', rear: 'c3', down: 'c4',
+  true: 'true', est: 'est', cmd: 'cmd', a: 'c0', b: 'c1', c: 'c2', d: 'c3'};
+
+/** Look of each series of a panel: colour, width. */
+function seriesLooks(series) {
+  let next = 0;
+  return series.map(({role}) => ({
+    color: themeColor(roleColors[role] || 'c' + next++ % 6),
+    width: role === 'true' ? 1.75 : role === 'est' ? 1 : 1.25,
+  }));
+}
+
+/** Ends of the value axis: the data's, padded, with a fixed end where the panel has one. */
+function valueRange(panel) {
+  return (u, low, high) => {
+    if (low === null) [low, high] = [0, 1];
+    for (const {value} of panel.limits) [low, high] = [Math.min(low, value), Math.max(high, value)];
+    const pad = 0.08 * (high - low) || Math.max(Math.abs(high), 1) * 0.1;
+    return [panel.lowest ?? low - pad, panel.highest === null ? high + pad : Math.min(panel.highest, high + pad)];
+  };
+}
+
+/** Dashed level lines with their names. */
+function drawLimits(u, panel) {
+  for (const {label, value} of panel.limits) {
+    const y = u.valToPos(value, 'y', true);
+    const {left, width} = u.bbox, c = u.ctx;
+    c.save();
+    c.strokeStyle = c.fillStyle = themeColor('bad');
+    c.lineWidth = devicePixelRatio;
+    c.setLineDash([6 * devicePixelRatio, 4 * devicePixelRatio]);
+    c.beginPath();
+    c.moveTo(left, y);
+    c.lineTo(left + width, y);
+    c.stroke();
+    c.font = `${11 * devicePixelRatio}px system-ui, "DejaVu Sans", sans-serif`;
+    c.textAlign = 'right';
+    c.textBaseline = 'bottom';
+    c.fillText(label + ' ' + value, left + width - 4 * devicePixelRatio, y - 2 * devicePixelRatio);
+    c.restore();
+  }
+}
+
+class Charts {
+  /**
+   * @param host  element to fill with a heading and a grid of plots for each section.
+   * @param panels  of the report's data.
+   * @param on  {hover(t), pick(t)}.
+   */
+  constructor(host, panels, sectionNotes, on) {
+    Object.assign(this, {on, plots: [], following: false});
+    const sections = new Map();
+    for (const panel of panels) {
+      if (!sections.has(panel.section)) sections.set(panel.section, this.addSection(host, panel.section, sectionNotes));
+      const card = sections.get(panel.section).appendChild(make('section', 'chart card'));
+      card.append(make('h3', '', panel.title), make('div', 'note', panel.note));
+      this.plots.push({panel, host: card.appendChild(make('div', 'plot')), u: null});
+    }
+    this.build();
+    const observer = new ResizeObserver((entries) => entries.forEach(({target}) => {
+      const plot = this.plots.find((p) => p.host === target);
+      if (plot.u && plot.u.width !== target.clientWidth) plot.u.setSize({width: target.clientWidth, height: 190});
+    }));
+    this.plots.forEach((plot) => observer.observe(plot.host));
+  }
+
+  addSection(host, name, notes) {
+    const head = host.appendChild(make('div', 'charts-head'));
+    head.append(make('h2', '', name), make('span', 'soft', notes[name] || ''));
+    return host.appendChild(make('div', 'charts'));
+  }
+
+  /** Makes all plots anew, in the colours of the theme in force. */
+  build() {
+    for (const plot of this.plots) {
+      plot.u?.destroy();
+      plot.u = new uPlot(this.options(plot), [plot.panel.t_s, ...plot.panel.series.map((s) => s.values)], plot.host);
+    }
+  }
+
+  options({panel, host}) {
+    const soft = themeColor('soft'), grid = {stroke: themeColor('faint'), width: 1};
+    const font = '11px system-ui, "DejaVu Sans", sans-serif';
+    const axis = {stroke: soft, grid, ticks: {...grid, size: 4}, font, labelFont: font, labelSize: 16, labelGap: 0};
+    const looks = seriesLooks(panel.series);
+    return {
+      width: host.clientWidth || 400, height: 190,
+      scales: {x: {time: false}, y: {range: valueRange(panel)}},
+      cursor: {y: false, drag: {x: true, y: false}, points: {size: 6}, bind: {
+        mouseup: (u, target, handler) => (event) => {
+          const clicked = u.select.width < 3;
+          handler(event);
+          if (clicked && u.cursor.left >= 0) this.on.pick(u.posToVal(u.cursor.left, 'x'));
+          return null;
+        },
+        mouseleave: (u, target, handler) => (event) => {
+          handler(event);
+          this.on.hover(null);
+          return null;
+        }}},
+      axes: [{...axis, size: 30, label: 'time, s', labelSize: 14},
+        {...axis, size: 46, label: panel.unit, values: (u, splits) => splits.map(short)}],
+      series: [{label: 't', value: (u, v) => v === null ? '' : v.toFixed(2) + ' s'},
+        ...panel.series.map(({label, role}, i) => ({
+          label, stroke: looks[i].color, width: looks[i].width, points: {show: false},
+          paths: role === 'cmd' ? uPlot.paths.stepped({align: 1}) : undefined,
+          value: (u, v) => v === null || v === undefined ? '–' : short(v)}))],
+      hooks: {
+        draw: [(u) => drawLimits(u, panel)],
+        setScale: [(u, key) => key === 'x' && this.zoomAll(u)],
+        setCursor: [(u) => !this.following && u.cursor.left >= 0 && this.on.hover(u.posToVal(u.cursor.left, 'x'))],
+      },
+    };
+  }
+
+  /** Gives every plot the time axis of one of them. */
+  zoomAll(source) {
+    if (this.zooming) return;
+    this.zooming = true;
+    const {min, max} = source.scales.x;
+    for (const {u} of this.plots) if (u && u !== source && min !== null) u.setScale('x', {min, max});
+    this.zooming = false;
+  }
+
+  /** Puts every plot's cursor at an instant; null takes it away. */
+  setTime(t) {
+    this.following = true;
+    for (const {u} of this.plots) {
+      if (u) u.setCursor(t === null ? {left: -10, top: -10} : {left: u.valToPos(t, 'x'), top: u.over.clientHeight / 2});
+    }
+    this.following = false;
+  }
+}

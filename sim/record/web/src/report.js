@@ -1,0 +1,172 @@
+'use strict';
+// Puts the page together from its data: verdict, checks, plan, film, plots, details.
+
+/** A new element. Text is always text, never markup. */
+function make(tag, className = '', text = '') {
+  const element = document.createElement(tag);
+  if (className) element.className = className;
+  if (text !== '') element.textContent = text;
+  return element;
+}
+
+/** A number for people: four digits, a true minus. */
+function short(value) {
+  if (value === null || value === undefined) return '–';
+  if (value === 0) return '0';
+  const size = Math.abs(value);
+  if (size >= 1e6 || size < 1e-4) return value.toExponential(2);
+  const digits = Math.max(0, 3 - Math.floor(Math.log10(size)));
+  return String(Number(value.toFixed(digits))).replace('-', '−');
+}
+function metres(value) { return value === null ? '–' : value.toFixed(2) + ' m'; }
+
+const outcomeWords = {reached: 'Reached the goal', collided: 'Collided', timeout: 'Flew to the end of time',
+  fault: 'Ended by a fault'};
+
+function fillVerdict(host, {result, description}) {
+  const what = host.appendChild(make('div', 'what'));
+  what.append(make('h1', '', result.scenario));
+  if (description) what.append(make('p', '', description));
+  what.append(make('p', 'soft', `seed ${result.seed}, Hedgehop ${result.version}`));
+
+  const failed = result.checks.filter((c) => !c.passed).length, all = result.checks.length;
+  const bad = failed > 0 || ['collided', 'fault'].includes(result.outcome);
+  const badge = host.appendChild(make('div', 'badge ' + (bad ? 'bad' : 'good')));
+  badge.append(make('span', 'mark', bad ? '✕' : '✓'));
+  const words = badge.appendChild(make('div'));
+  words.append(make('strong', '', outcomeWords[result.outcome] || result.outcome));
+  words.append(make('span', '', !all ? 'no checks asked for' : failed ? `${failed} of ${all} checks fail` : `all ${all} checks hold`));
+  if (result.cause) what.append(make('p', 'fail', result.cause));
+  fillTiles(host.appendChild(make('div', 'tiles')), result);
+}
+
+function fillTiles(host, result) {
+  const tile = (name, value, unit, more = '') => {
+    const element = host.appendChild(make('div', 'tile'));
+    element.append(make('div', 'name', name));
+    const line = element.appendChild(make('div', 'value', value));
+    if (unit) line.append(' ', make('small', '', unit));
+    element.append(make('div', 'more', more));
+  };
+  const fixed = (value, digits) => value === null || value === undefined ? '–' : value.toFixed(digits);
+  const where = (p) => p ? `${p.what || 'obstacle'} at ${p.t_s.toFixed(1)} s` : 'nothing in reach';
+  tile('flight time', fixed(result.flight_time_s, 1), 's', `${result.decisions} decisions`);
+  tile('path length', fixed(result.path_length_m, 1), 'm', `mean speed ${fixed(result.mean_speed_mps, 2)} m/s`);
+  tile('closest to an obstacle', fixed(result.min_obstacle_clearance_m, 2), 'm', where(result.closest_obstacle));
+  tile('closest to the ground', fixed(result.min_ground_clearance_m, 2), 'm', where(result.closest_ground));
+  if (result.goal_distance_m !== null) tile('goal distance at the end', fixed(result.goal_distance_m, 1), 'm', 'horizontal');
+  tile('decision', short(result.decision_ms.median), 'ms', `95 % below ${short(result.decision_ms.p95)} ms`);
+  tile('pictures', short(result.render_ms.median), 'ms', `all cameras, 95 % below ${short(result.render_ms.p95)} ms`);
+  tile('speed of simulation', short(result.realtime_factor), '× real time', `${short(result.wall_s)} s of wall time`);
+}
+
+function addRow(table, cells, tag = 'td') {
+  const row = table.appendChild(make('tr'));
+  for (const [text, className] of cells) row.append(make(tag, className, text));
+}
+
+function fillChecks(host, checks) {
+  if (!checks.length) {
+    host.append(make('p', 'soft', 'The scenario asks for none.'));
+    return;
+  }
+  host.classList.add('scroll');
+  const table = host.appendChild(make('table'));
+  addRow(table, [['', ''], ['check', ''], ['value', 'number'], ['limit', 'number']], 'th');
+  for (const {name, passed, value, limit, unit} of checks) {
+    const measure = (v) => v === null ? '–' : short(v) + (unit ? ' ' + unit : '');
+    addRow(table, [[passed ? '✓ holds' : '✕ fails', passed ? 'pass' : 'fail'], [name.replaceAll('_', ' '), ''],
+      [measure(value), 'number'], [measure(limit), 'number']]);
+  }
+}
+
+function fillDetails(host, {result, module, scene, vehicle, scenario_yaml}) {
+  host.append(make('h2', '', 'Details'));
+  const command = host.appendChild(make('div', 'command'));
+  command.append(make('code', '', result.command_line));
+  const copy = command.appendChild(make('button', '', 'copy'));
+  copy.title = 'Copy the command line that runs this again';
+  copy.addEventListener('click', () => navigator.clipboard?.writeText(result.command_line).then(() => { copy.textContent = 'copied'; }));
+
+  const facts = host.appendChild(make('div', 'facts'));
+  const add = (title, rows) => {
+    const table = facts.appendChild(make('table'));
+    addRow(table, [[title, ''], ['', 'number']], 'th');
+    rows.forEach(([name, value]) => addRow(table, [[name, ''], [value, 'number']]));
+  };
+  const stage = (s) => s ? `${short(s.median)} ms, 95 % below ${short(s.p95)} ms` : '–';
+  add('run', [['module', module], ['scene', scene], ['vehicle', vehicle], ['trajectory hash', result.trajectory_hash]]);
+  add('wall time, median', [['decision', stage(result.decision_ms)], ['pictures of all cameras', stage(result.render_ms)],
+    ['velocity from flow', stage(result.velocimeter_ms)], ['physics step', stage(result.physics_ms)]]);
+  const metrics = Object.entries(result.metrics);
+  if (metrics.length) {
+    add('figures of the module', metrics.map(([name, value]) =>
+      [name.replaceAll('_', ' '), short(value) + ' ' + (result.metric_units?.[name] || '')]));
+  }
+  const scenario = host.appendChild(make('details'));
+  scenario.append(make('summary', '', 'Resolved scenario'), make('pre', '', scenario_yaml));
+}
+
+/** The film inside the page becomes a file in memory, which browsers can seek in. */
+function openFilm() {
+  const film = document.getElementById('film');
+  if (!film) {
+    document.getElementById('film-card').remove();
+    return null;
+  }
+  const text = document.getElementById('film-bytes');
+  if (text) {
+    const bytes = Uint8Array.from(atob(text.textContent), (c) => c.charCodeAt(0));
+    film.src = URL.createObjectURL(new Blob([bytes], {type: 'video/webm'}));
+    text.remove();
+  }
+  return film;
+}
+
+/** Notes beside the plots' section heads. */
+function sectionNotes(module) {
+  const notes = {'Command and motion': 'drag to zoom, double click to see all, click to go there in the film'};
+  if (module === 'flow_balance') notes['What the module saw'] = 'as in Garratt and Cheung 2009, fig. 7';
+  return notes;
+}
+
+function main() {
+  const data = JSON.parse(document.getElementById('data').textContent);
+  fillVerdict(document.getElementById('verdict'), data);
+  fillChecks(document.getElementById('checks'), data.result.checks);
+  fillDetails(document.getElementById('details'), data);
+  const film = openFilm();
+
+  // One instant is shown by plan and plots: the pointer's, else the film's.
+  let pointer = null, drawn;
+  const show = () => {
+    const t = pointer ?? (film && film.currentTime > 0 ? film.currentTime : null);
+    if (t === drawn) return;
+    drawn = t;
+    plan.setTime(t);
+    charts.setTime(t);
+  };
+  let asked = false;
+  const ask = () => {
+    if (asked) return;
+    asked = true;
+    requestAnimationFrame(() => { asked = false; show(); });
+  };
+  const on = {
+    hover: (t) => { pointer = t; ask(); },
+    pick: (t) => { if (film) film.currentTime = Math.max(0, t); },
+  };
+  const plan = new PlanView(document.getElementById('plan'), data, on);
+  const charts = new Charts(document.getElementById('charts'), data.panels, sectionNotes(data.module), on);
+  if (film) {
+    const follow = () => { ask(); if (!film.paused) requestAnimationFrame(follow); };
+    film.addEventListener('play', follow);
+    film.addEventListener('seeked', ask);
+  }
+
+  const color = document.getElementById('plan-color');
+  plan.colorings.forEach(({name}) => color.append(make('option', '', name)));
+  color.addEventListener('change', () => plan.setColoring(color.value));
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { plan.draw(); charts.build(); });
+}
+main();

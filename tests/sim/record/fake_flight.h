@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scenes/solid.h"
+#include "sim/loop/flight.h"
+
+namespace hedgehop::sim {
+
+/// A made-up flight across a city that looks like a real one, for tests of files and reports: nothing flew it.
+/// @param seconds  length, > 0. @param seed  of its noise and its city.
+Flight fake_flight(double seconds, uint64_t seed);
+
+/// The city of fake_flight(): boxes on the ground.
+std::vector<scenes::Solid> fake_city(uint64_t seed);
+
+}  // namespace hedgehop::sim
