@@ -1,0 +1,39 @@
+#include "avoidance/camera_flow.h"
+
+namespace hedgehop::avoidance {
+
+CameraFlow::CameraFlow(const MountedCamera& camera, const Options& options)
+    : camera_(camera),
+      options_(options),
+      flow_(options.flow, camera.model.width_px, camera.model.height_px),
+      field_(flow_.field()) {}
+
+bool CameraFlow::update(const CameraFrame& frame, const Eigen::Vector3d& w_WB_B) {
+  if (last_t_ns_ && frame.t_ns <= *last_t_ns_) return false;
+  field_ = flow_.update(frame.image);
+  frame.image.copyTo(picture_);
+  const bool first = !last_t_ns_;
+  const double dt_s = first ? 0.0 : 1e-9 * static_cast<double>(frame.t_ns - *last_t_ns_);
+  const Eigen::Vector3d w_mean_B = 0.5 * (w_WB_B + last_w_WB_B_);
+  last_t_ns_ = frame.t_ns;
+  last_w_WB_B_ = w_WB_B;
+  if (first) return false;
+
+  if (options_.derotate) {
+    const Eigen::Vector3d w_WC_C = camera_.X_BC.linear().transpose() * w_mean_B;
+    vision::derotate(field_, camera_.model, w_WC_C, dt_s);
+  }
+  const auto flow = vision::mean_horizontal_flow(field_, camera_.model, dt_s, options_.missing);
+  measure_ = Measure{flow.value, vision::loom(field_, dt_s, options_.missing).value, field_.valid_share()};
+  return true;
+}
+
+std::optional<CameraFlow::Measure> CameraFlow::measure(int64_t now_ns) const {
+  constexpr double kFreshPeriods = 3.0;
+  if (!measure_ || 1e-9 * static_cast<double>(now_ns - *last_t_ns_) > kFreshPeriods / camera_.rate_hz) {
+    return std::nullopt;
+  }
+  return measure_;
+}
+
+}  // namespace hedgehop::avoidance

@@ -1,0 +1,229 @@
+#include "avoidance/flow_balance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <stdexcept>
+
+#include "avoidance/balance_law.h"
+#include "avoidance/camera_flow.h"
+#include "avoidance/flow_picture.h"
+#include "avoidance/go_to_goal.h"
+
+namespace hedgehop::avoidance {
+namespace {
+
+constexpr std::array<const char*, 4> kRoles = {"left", "right", "front", "rear"};
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+void check(const FlowBalanceConfig& c) {
+  const auto need = [](bool holds, const char* message) {
+    if (!holds) throw std::invalid_argument(std::string("flow_balance: ") + message);
+  };
+  need(c.divisor_floor_mps > 0.0, "divisor_floor must be above 0 m/s");
+  need(c.speed_mps > 0.0, "speed must be above 0 m/s");
+  need(c.slow_radius_m >= 0.0, "slow_radius must be at least 0 m");
+  need(c.loom_gain_m2ps >= 0.0 && c.flow_gain_m2ps >= 0.0, "gains must be at least 0 m^2/s");
+  need(std::abs(c.spiral_angle_rad) <= std::numbers::pi / 3, "spiral_angle must lie within 60 deg");
+  need(c.command_time_constant_s >= 0.0, "command_time_constant must be at least 0 s");
+  need(c.forward_speed_mps > 0.0 && c.sideways_speed_mps > 0.0, "simple: speeds must be above 0 m/s");
+  need(c.range_threshold_m > 0.0, "simple: range_threshold must be above 0 m");
+  need(c.confirmations >= 1, "simple: at least one confirmation");
+}
+
+Eigen::Vector2d turned(const Eigen::Vector2d& v, double angle_rad) { return Eigen::Rotation2Dd(angle_rad) * v; }
+
+double heading_rad(const Eigen::Quaterniond& q_WB) {
+  const Eigen::Vector3d forward_W = q_WB * Eigen::Vector3d::UnitX();
+  return std::atan2(forward_W.y(), forward_W.x());
+}
+
+class FlowBalance final : public Module {
+ public:
+  explicit FlowBalance(const FlowBalanceConfig& config) : config_(config) { check(config); }
+
+ private:
+  Needs do_needs() const override {
+    Needs needs;
+    for (const char* role : kRoles) needs.cameras.push_back({role, CameraNeed::Channel::grey});
+    return needs;
+  }
+
+  std::vector<Signal> do_signals() const override {
+    std::vector<Signal> signals;
+    for (const std::string role : kRoles) {
+      signals.push_back({"flow_" + role + "_radps", "rad/s"});
+      signals.push_back({"loom_" + role + "_per_s", "1/s"});
+      signals.push_back({"valid_share_" + role, ""});
+    }
+    signals.push_back({"target_v_north_mps", "m/s"});
+    signals.push_back({"target_v_east_mps", "m/s"});
+    return signals;
+  }
+
+  void do_reset(const Setup& setup) override {
+    cameras_.clear();
+    const auto missing =
+        config_.average == FlowBalanceConfig::Average::all ? vision::Missing::far_away : vision::Missing::skip;
+    for (const std::string role : kRoles) {
+      const auto mounted = std::find_if(setup.cameras.begin(), setup.cameras.end(),
+                                        [&](const MountedCamera& camera) { return camera.role == role; });
+      cameras_.emplace_back(*mounted, CameraFlow::Options{config_.flow, config_.derotate, missing});
+    }
+    confirmed_.fill(0);
+    sense_.assign(kRoles.size(), {});
+    way_H_ = {1.0, 1.0};
+    v_cmd_W_.reset();
+    v_tgt_W_.setZero();
+    heading_rad_ = 0.0;
+    least_valid_share_ = 1.0;
+    reversals_ = decisions_ = avoiding_ = 0;
+  }
+
+  Decision do_update(const Observation& observation) override {
+    const NavigationState& navigation = observation.navigation;
+    heading_rad_ = heading_rad(navigation.q_WB_est);
+    look(observation);
+    const Eigen::Vector2d v_W = (navigation.q_WB_est * navigation.v_WB_B_est).head<2>();
+    const Eigen::Vector2d v_H = turned(v_W, -heading_rad_);
+
+    Decision decision;
+    VelocityCommand command;
+    if (config_.scheme == FlowBalanceConfig::Scheme::simple) {
+      command.v_WB_W = zig_zag(v_H, decision.status);
+    } else {
+      command.v_WB_W = seek_goal(observation, v_H, decision.status);
+    }
+    v_cmd_W_ = command.v_WB_W;
+    last_t_ns_ = observation.t_ns;
+    command.altitude_m = -observation.goal.p_WG.z();
+    command.heading_rad = observation.goal.heading_rad;
+    decision.command = command;
+    decision.signals = signal_values(observation.t_ns);
+    ++decisions_;
+    if (decision.status != "cruise") ++avoiding_;
+    return decision;
+  }
+
+  /// Brings flow and loom of every camera up to date.
+  void look(const Observation& observation) {
+    for (size_t i = 0; i < cameras_.size(); ++i) {
+      CameraFlow& camera = cameras_[i];
+      fresh_[i] = false;
+      for (const CameraFrame& frame : observation.frames) {
+        if (frame.role == kRoles[i]) fresh_[i] |= camera.update(frame, observation.navigation.w_WB_B_est);
+      }
+      // Tilt is left out: the cameras' axes are taken level as they are mounted in B.
+      const Eigen::Matrix3d& R_BC = camera.camera().X_BC.linear();
+      sense_[i] = {R_BC.col(2).head<2>(), R_BC.col(0).head<2>(), 0.0, 0.0};
+      if (const auto measure = camera.measure(observation.t_ns)) {
+        sense_[i].flow_radps = measure->flow_radps;
+        sense_[i].loom_per_s = measure->loom_per_s;
+        if (fresh_[i]) least_valid_share_ = std::min(least_valid_share_, measure->valid_share);
+      }
+    }
+  }
+
+  /// The goal-directed scheme, [Garratt2009] sec. 4.1: target velocity and push from the walls, brought to cruise
+  /// speed.
+  Eigen::Vector2d seek_goal(const Observation& observation, const Eigen::Vector2d& v_H, std::string& status) {
+    const Eigen::Vector2d p_BG_W = (observation.goal.p_WG - observation.navigation.p_WB_est).head<2>();
+    const Eigen::Vector2d aim_W = turned(p_BG_W, config_.spiral_angle_rad);
+    v_tgt_W_ = velocity_to_goal(aim_W, config_.speed_mps, config_.slow_radius_m);
+    // The way is chosen as at full speed, so that walls do not outweigh a goal that is near; then the speed is set.
+    const Eigen::Vector2d full_H = turned(velocity_to_goal(aim_W, config_.speed_mps, 0.0), -heading_rad_);
+    const Eigen::Vector2d push_H =
+        push_from_walls(sense_, v_H, config_.loom_gain_m2ps, config_.flow_gain_m2ps, config_.divisor_floor_mps);
+    Eigen::Vector2d way_H = full_H + push_H;
+    constexpr double kNoWay_mps = 1e-6;
+    if (way_H.norm() < kNoWay_mps) way_H = full_H;
+    const double speed_mps = v_tgt_W_.norm();
+    const Eigen::Vector2d v_W = speed_mps > 0.0 ? turned(way_H.normalized() * speed_mps, heading_rad_) : v_tgt_W_;
+    constexpr double kAvoidCosine = 0.966;  // 15 deg off the target
+    status = v_W.dot(v_tgt_W_) < kAvoidCosine * v_W.norm() * v_tgt_W_.norm() ? "avoid" : "cruise";
+    return filtered(v_W, observation.t_ns);
+  }
+
+  Eigen::Vector2d filtered(const Eigen::Vector2d& v_W, int64_t t_ns) const {
+    if (config_.command_time_constant_s <= 0.0 || !v_cmd_W_) return v_W;
+    const double dt_s = 1e-9 * static_cast<double>(t_ns - last_t_ns_);
+    return *v_cmd_W_ + (1.0 - std::exp(-dt_s / config_.command_time_constant_s)) * (v_W - *v_cmd_W_);
+  }
+
+  /// The simple scheme, [Garratt2009] sec. 4: a diagonal whose component towards a near wall turns round.
+  Eigen::Vector2d zig_zag(const Eigen::Vector2d& v_H, std::string& status) {
+    status = "cruise";
+    for (size_t i = 0; i < cameras_.size(); ++i) {
+      if (!fresh_[i]) continue;
+      const InverseRanges near = inverse_ranges(sense_[i], v_H, config_.divisor_floor_mps);
+      const bool too_near = std::max(near.from_flow_per_m, near.from_loom_per_m) * config_.range_threshold_m > 1.0;
+      confirmed_[i] = too_near ? confirmed_[i] + 1 : 0;
+      if (confirmed_[i] < config_.confirmations) continue;
+      const int component = std::abs(sense_[i].axis_H.x()) > std::abs(sense_[i].axis_H.y()) ? 0 : 1;
+      if (way_H_[component] * sense_[i].axis_H[component] <= 0.0) continue;  // going away already
+      way_H_[component] = -way_H_[component];
+      ++reversals_;
+      status = "turn";
+    }
+    const Eigen::Vector2d v_cmd_H{way_H_.x() * config_.forward_speed_mps, way_H_.y() * config_.sideways_speed_mps};
+    v_tgt_W_ = turned(v_cmd_H, heading_rad_);
+    return v_tgt_W_;
+  }
+
+  std::vector<double> signal_values(int64_t now_ns) const {
+    std::vector<double> values;
+    for (const CameraFlow& camera : cameras_) {
+      const auto measure = camera.measure(now_ns);
+      values.push_back(measure ? measure->flow_radps : kUnknown);
+      values.push_back(measure ? measure->loom_per_s : kUnknown);
+      values.push_back(measure ? measure->valid_share : kUnknown);
+    }
+    values.push_back(v_tgt_W_.x());
+    values.push_back(v_tgt_W_.y());
+    return values;
+  }
+
+  std::vector<Metric> do_metrics() const override {
+    return {{"least_valid_share", least_valid_share_, ""},
+            {"avoiding_share", decisions_ > 0 ? static_cast<double>(avoiding_) / decisions_ : 0.0, ""},
+            {"reversals", static_cast<double>(reversals_), ""}};
+  }
+
+  cv::Mat do_annotate() const override {
+    std::vector<FlowTile> tiles;
+    for (size_t i = 0; i < cameras_.size(); ++i) {
+      std::array<char, 64> text{};
+      std::snprintf(text.data(), text.size(), "Q %+.3f rad/s  L %+.3f /s", sense_[i].flow_radps, sense_[i].loom_per_s);
+      tiles.push_back({kRoles[i], cameras_[i].picture(), &cameras_[i].field(), text.data()});
+    }
+    if (tiles.empty() || tiles.front().grey.empty()) return {};
+    const cv::Scalar blue(90, 170, 255), green(90, 230, 110);
+    const std::array<CompassArrow, 2> arrows = {
+        CompassArrow{turned(v_tgt_W_, -heading_rad_), blue},
+        CompassArrow{turned(v_cmd_W_.value_or(Eigen::Vector2d::Zero()), -heading_rad_), green}};
+    return flow_picture(tiles, arrows, 1.1 * std::max(config_.speed_mps, v_tgt_W_.norm()));
+  }
+
+  FlowBalanceConfig config_;
+  std::vector<CameraFlow> cameras_;  ///< in the order of kRoles, as are the next three
+  std::vector<WallSense> sense_;
+  std::array<bool, kRoles.size()> fresh_{};
+  std::array<int, kRoles.size()> confirmed_{};
+  Eigen::Vector2d way_H_{1.0, 1.0};  ///< simple scheme: signs of the velocity's components
+  Eigen::Vector2d v_tgt_W_ = Eigen::Vector2d::Zero();
+  std::optional<Eigen::Vector2d> v_cmd_W_;
+  int64_t last_t_ns_ = 0;
+  double heading_rad_ = 0.0;
+  double least_valid_share_ = 1.0;
+  int reversals_ = 0, decisions_ = 0, avoiding_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Module> make_flow_balance(const FlowBalanceConfig& config) {
+  return std::make_unique<FlowBalance>(config);
+}
+
+}  // namespace hedgehop::avoidance

@@ -1,0 +1,15 @@
+#include "avoidance/registry.h"
+
+namespace hedgehop::avoidance {
+namespace {
+
+struct Make {
+  std::unique_ptr<Module> operator()(const GoToGoalConfig& c) const { return make_go_to_goal(c); }
+  std::unique_ptr<Module> operator()(const FlowBalanceConfig& c) const { return make_flow_balance(c); }
+};
+
+}  // namespace
+
+std::unique_ptr<Module> make_module(const ModuleConfig& config) { return std::visit(Make{}, config); }
+
+}  // namespace hedgehop::avoidance
