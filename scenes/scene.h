@@ -13,32 +13,33 @@ namespace hedgehop::scenes {
 
 /// Corner of a triangle, in W.
 struct Vertex {
-  Eigen::Vector3f p_W = Eigen::Vector3f::Zero();           ///< m
-  Eigen::Vector3f n_W = -Eigen::Vector3f::UnitZ();         ///< unit outward normal
-  Eigen::Vector2f uv = Eigen::Vector2f::Zero();            ///< texture coordinates, 1 = one repeat of the picture
-  uint32_t texture = 0;                                    ///< index into Scene::textures
+  Eigen::Vector3f p_W = Eigen::Vector3f::Zero();    ///< m
+  Eigen::Vector3f n_W = -Eigen::Vector3f::UnitZ();  ///< unit outward normal
+  Eigen::Vector2f uv = Eigen::Vector2f::Zero();     ///< texture coordinates, 1 = one repeat of the picture
+  uint32_t texture = 0;                             ///< index into Scene::textures
 };
 
 /// Triangles that are culled as one: a building, a tile of ground.
 struct Chunk {
-  Eigen::AlignedBox3f box_W;          ///< bounds of the chunk, m
-  uint32_t first_index = 0;           ///< into Mesh::indices
-  uint32_t index_count = 0;           ///< a multiple of 3
-  bool fills_box_to_ground = false;   ///< opaque and as solid as its box from its top to the ground: may hide what lies behind
+  Eigen::AlignedBox3f box_W;  ///< bounds of the chunk, m
+  uint32_t first_index = 0;   ///< into Mesh::indices
+  uint32_t index_count = 0;   ///< a multiple of 3
+  bool fills_box_to_ground =
+      false;  ///< opaque and as solid as its box from its top to the ground: may hide what lies behind
 };
 
 /// All geometry of one material: drawn with one call. Triangles are counter-clockwise seen from outside.
 struct Mesh {
-  std::string material;               ///< "opaque" for everything so far
+  std::string material;  ///< "opaque" for everything so far
   std::vector<Vertex> vertices;
   std::vector<uint32_t> indices;
-  std::vector<Chunk> chunks;          ///< cover all indices, in order
+  std::vector<Chunk> chunks;  ///< cover all indices, in order
 };
 
 /// Ambient light plus one sun, without colour, so that a grey picture equals the mean of the colour picture's channels.
 struct Lights {
-  float ambient = 0.55f;                                                  ///< share of albedo, 0..1
-  float sun = 0.45f;                                                      ///< share of albedo at normal incidence, 0..1
+  float ambient = 0.55f;  ///< share of albedo, 0..1
+  float sun = 0.45f;      ///< share of albedo at normal incidence, 0..1
   Eigen::Vector3f to_sun_W = Eigen::Vector3f(0.5f, -0.3f, -0.8f).normalized();
 };
 
@@ -51,13 +52,13 @@ struct Sky {
 /// What the world is. A value: equal inputs to a generator give equal scenes, bit for bit.
 struct Scene {
   std::string name;
-  std::vector<Mesh> meshes;                 ///< one per material
-  std::vector<cv::Mat> textures;            ///< CV_8UC3 RGB, all of one square power-of-two size, tileable
+  std::vector<Mesh> meshes;       ///< one per material
+  std::vector<cv::Mat> textures;  ///< CV_8UC3 RGB, all of one square power-of-two size, tileable
   Lights lights;
   Sky sky;
-  std::vector<Solid> solids;                ///< what can be hit, besides the ground
-  bool has_ground = true;                   ///< the plane z = 0 of W can be hit
-  Eigen::AlignedBox2d bounds_NE_m;          ///< extent of the plan (north, east) that flights care about
+  std::vector<Solid> solids;        ///< what can be hit, besides the ground
+  bool has_ground = true;           ///< the plane z = 0 of W can be hit
+  Eigen::AlignedBox2d bounds_NE_m;  ///< extent of the plan (north, east) that flights care about
 };
 
 }  // namespace hedgehop::scenes

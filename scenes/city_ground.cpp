@@ -1,0 +1,83 @@
+#include "scenes/city_ground.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "scenes/street_textures.h"
+
+namespace hedgehop::scenes {
+namespace {
+
+enum class Band { grass, street, lot };
+
+// A strip of the plan between two grid lines, along one axis.
+struct Strip {
+  Band band;
+  double low_m;
+  double high_m;
+};
+
+// From the far south (west) to the far north (east): grass, then streets and lots in turn, then grass.
+std::vector<Strip> strips_along_axis(const UrbanPlan& plan) {
+  const double half_street = 0.5 * plan.street_width_m;
+  const double city = plan.cell_edge_m(plan.cells_per_side) + half_street;
+  const std::vector<double> rings = {city + kGroundMargin_m, city + 1000.0, city + 250.0, city + 60.0, city};
+  std::vector<Strip> strips;
+  for (size_t k = 0; k + 1 < rings.size(); ++k) strips.push_back({Band::grass, -rings[k], -rings[k + 1]});
+  for (int k = 0; k <= plan.cells_per_side; ++k) {
+    const double edge = plan.cell_edge_m(k);
+    strips.push_back({Band::street, edge - half_street, edge + half_street});
+    if (k < plan.cells_per_side) {
+      strips.push_back({Band::lot, edge + half_street, plan.cell_edge_m(k + 1) - half_street});
+    }
+  }
+  for (size_t k = rings.size() - 1; k > 0; --k) strips.push_back({Band::grass, rings[k], rings[k - 1]});
+  return strips;
+}
+
+// The panel that covers a rectangle of the ground; `turned`: the picture's up is east instead of north.
+Panel ground_panel(const Strip& north, const Strip& east, bool turned) {
+  const double size_north = north.high_m - north.low_m, size_east = east.high_m - east.low_m;
+  if (turned) return {{north.high_m, east.high_m, 0.0}, {-size_north, 0.0, 0.0}, {0.0, -size_east, 0.0}};
+  return {{north.high_m, east.low_m, 0.0}, {0.0, size_east, 0.0}, {-size_north, 0.0, 0.0}};
+}
+
+void add_cell(const Strip& north, const Strip& east, const CityPictures& city, Random& random, MeshBuilder& mesh) {
+  const double shift = uniform(random, 0.0, 1.0);
+  const int choice = uniform_index(random, 6);
+  const bool turned = chance(random, 0.5);
+  if (north.band == Band::grass || east.band == Band::grass) {
+    const Panel panel = ground_panel(north, east, false);
+    const double u = panel.top_left_W.y() / kGrassTile_m, v = -panel.top_left_W.x() / kGrassTile_m;
+    mesh.add_tiled(panel, kGrassTile_m, {u, v}, city.grass);
+  } else if (north.band == Band::street && east.band == Band::street) {
+    mesh.add(ground_panel(north, east, turned), {}, city.crossing);
+  } else if (north.band == Band::lot && east.band == Band::lot) {
+    mesh.add_tiled(ground_panel(north, east, turned), kLotTile_m, {shift, shift},
+                   city.lots[static_cast<size_t>(choice % 3)]);
+  } else {
+    const bool runs_east = north.band == Band::street;
+    const Panel panel = ground_panel(north, east, runs_east);
+    const double repeats = panel.down_m.norm() / panel.right_m.norm();
+    mesh.add(panel, {0.0, shift, 1.0, shift + repeats}, city.streets[static_cast<size_t>(choice % 2)]);
+  }
+}
+
+}  // namespace
+
+void add_city_ground(const UrbanPlan& plan, const CityPictures& city, Random& random, MeshBuilder& mesh) {
+  constexpr size_t kStripsPerChunk = 4;  // two cells of the city
+  const std::vector<Strip> strips = strips_along_axis(plan);
+  for (size_t row = 0; row < strips.size(); row += kStripsPerChunk) {
+    for (size_t column = 0; column < strips.size(); column += kStripsPerChunk) {
+      mesh.begin_chunk(false);
+      for (size_t r = row; r < std::min(row + kStripsPerChunk, strips.size()); ++r) {
+        for (size_t c = column; c < std::min(column + kStripsPerChunk, strips.size()); ++c) {
+          add_cell(strips[r], strips[c], city, random, mesh);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace hedgehop::scenes

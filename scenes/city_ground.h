@@ -1,0 +1,17 @@
+#pragma once
+
+#include "scenes/city_pictures.h"
+#include "scenes/mesh_builder.h"
+#include "scenes/random.h"
+#include "scenes/urban_plan.h"
+
+namespace hedgehop::scenes {
+
+/// Ground reaches this far beyond the outer streets: from 40 m up its edge is a tenth of a degree above the horizon's.
+inline constexpr double kGroundMargin_m = 4000.0;
+
+/// Adds the ground at z = 0: streets on the cells' edges, crossings, a lot in each cell, grass around the city. All
+/// panels lie on one grid of lines that crosses the whole plane, so that no corner meets the middle of an edge.
+void add_city_ground(const UrbanPlan& plan, const CityPictures& city, Random& random, MeshBuilder& mesh);
+
+}  // namespace hedgehop::scenes

@@ -1,0 +1,38 @@
+#include "scenes/city_pictures.h"
+
+#include <utility>
+
+#include "scenes/facade_textures.h"
+#include "scenes/random.h"
+#include "scenes/street_textures.h"
+
+namespace hedgehop::scenes {
+
+CityPictures paint_city(int size_px, uint64_t seed) {
+  CityPictures city;
+  const auto add = [&](cv::Mat picture) {
+    city.pictures.push_back(std::move(picture));
+    return static_cast<uint32_t>(city.pictures.size() - 1);
+  };
+
+  city.streets = {add(paint_street(size_px, derived_seed(seed, 0))), add(paint_street(size_px, derived_seed(seed, 1)))};
+  city.crossing = add(paint_crossing(size_px, derived_seed(seed, 2)));
+  city.lots = {add(paint_paved_lot(size_px, derived_seed(seed, 3))),
+               add(paint_parking_lot(size_px, derived_seed(seed, 4))),
+               add(paint_garden_lot(size_px, derived_seed(seed, 5)))};
+  city.grass = add(paint_grass(size_px, derived_seed(seed, 6)));
+  city.roof = add(paint_roof(size_px, derived_seed(seed, 7)));
+  city.trims = {add(paint_trim(size_px, derived_seed(seed, 8))), add(paint_trim(size_px, derived_seed(seed, 9)))};
+
+  city.first_facade = static_cast<uint32_t>(city.pictures.size());
+  uint64_t stream = 16;
+  for (const FacadeStyle& style : facade_styles()) {
+    for (cv::Mat& picture :
+         paint_facades(style, size_px, CityPictures::kFacadeVariants, derived_seed(seed, stream++))) {
+      add(std::move(picture));
+    }
+  }
+  return city;
+}
+
+}  // namespace hedgehop::scenes

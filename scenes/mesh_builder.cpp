@@ -1,0 +1,73 @@
+#include "scenes/mesh_builder.h"
+
+#include <utility>
+
+namespace hedgehop::scenes {
+
+std::array<Panel, 4> side_panels(const Eigen::AlignedBox3d& box_W) {
+  const Eigen::Vector3d low = box_W.min();
+  const Eigen::Vector3d size = box_W.sizes();
+  const Eigen::Vector3d down(0.0, 0.0, size.z());
+  const double top = low.z();
+  const Eigen::Vector3d high(box_W.max().x(), box_W.max().y(), top);
+  return {Panel{high, {0.0, -size.y(), 0.0}, down},                       // north: right is west
+          Panel{{low.x(), high.y(), top}, {size.x(), 0.0, 0.0}, down},    // east: right is north
+          Panel{low, {0.0, size.y(), 0.0}, down},                         // south: right is east
+          Panel{{high.x(), low.y(), top}, {-size.x(), 0.0, 0.0}, down}};  // west: right is south
+}
+
+Panel top_panel(const Eigen::AlignedBox3d& box_W) {
+  const Eigen::Vector3d size = box_W.sizes();
+  return {{box_W.max().x(), box_W.min().y(), box_W.min().z()}, {0.0, size.y(), 0.0}, {-size.x(), 0.0, 0.0}};
+}
+
+Panel bottom_panel(const Eigen::AlignedBox3d& box_W) {
+  const Eigen::Vector3d size = box_W.sizes();
+  return {box_W.max(), {0.0, -size.y(), 0.0}, {-size.x(), 0.0, 0.0}};
+}
+
+Solid solid_of(const std::string& name, const Eigen::AlignedBox3d& box_W) {
+  Solid solid;
+  solid.name = name;
+  solid.X_WS.translation() = box_W.center();
+  solid.half_extents_m = 0.5 * box_W.sizes();
+  return solid;
+}
+
+void MeshBuilder::begin_chunk(bool fills_box_to_ground) {
+  Chunk chunk;
+  chunk.first_index = static_cast<uint32_t>(mesh_.indices.size());
+  chunk.fills_box_to_ground = fills_box_to_ground;
+  mesh_.chunks.push_back(chunk);
+}
+
+void MeshBuilder::add(const Panel& panel, const PictureArea& area, uint32_t texture) {
+  const Eigen::Vector3f normal = -panel.right_m.cross(panel.down_m).normalized().cast<float>();
+  const auto first = static_cast<uint32_t>(mesh_.vertices.size());
+  const auto corner = [&](bool right, bool down) {
+    Eigen::Vector3d p_W = panel.top_left_W;
+    if (right) p_W += panel.right_m;
+    if (down) p_W += panel.down_m;
+    const Eigen::Vector2d uv(right ? area.u1 : area.u0, down ? area.v1 : area.v0);
+    mesh_.vertices.push_back({p_W.cast<float>(), normal, uv.cast<float>(), texture});
+    mesh_.chunks.back().box_W.extend(mesh_.vertices.back().p_W);
+  };
+
+  // Top left, bottom left, bottom right, top right: counter-clockwise seen from outside.
+  corner(false, false);
+  corner(false, true);
+  corner(true, true);
+  corner(true, false);
+  for (uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) mesh_.indices.push_back(first + k);
+  mesh_.chunks.back().index_count += 6;
+}
+
+void MeshBuilder::add_tiled(const Panel& panel, double tile_m, const Eigen::Vector2d& offset, uint32_t texture) {
+  const double across = panel.right_m.norm() / tile_m;
+  const double along = panel.down_m.norm() / tile_m;
+  add(panel, {offset.x(), offset.y(), offset.x() + across, offset.y() + along}, texture);
+}
+
+Mesh MeshBuilder::finish() { return std::move(mesh_); }
+
+}  // namespace hedgehop::scenes

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "scenes/scene.h"
+
+namespace hedgehop::scenes {
+
+/// A rectangle in space that carries a picture upright: seen from outside, `right_m` runs to the viewer's right and
+/// `down_m` down the picture. Its outward normal is -(right x down).
+struct Panel {
+  Eigen::Vector3d top_left_W = Eigen::Vector3d::Zero();
+  Eigen::Vector3d right_m = Eigen::Vector3d::UnitY();
+  Eigen::Vector3d down_m = Eigen::Vector3d::UnitZ();
+};
+
+/// Part of a picture, in repeats of it: u to the right, v down, (0, 0) its top left corner.
+struct PictureArea {
+  double u0 = 0.0, v0 = 0.0, u1 = 1.0, v1 = 1.0;
+};
+
+/// The faces of a box by their outward normals in W: the horizontal ones in the order north, east, south, west.
+std::array<Panel, 4> side_panels(const Eigen::AlignedBox3d& box_W);
+Panel top_panel(const Eigen::AlignedBox3d& box_W);     ///< picture up = north
+Panel bottom_panel(const Eigen::AlignedBox3d& box_W);  ///< picture up = north
+
+/// Returns the box as a solid.
+Solid solid_of(const std::string& name, const Eigen::AlignedBox3d& box_W);
+
+/// Grows a mesh chunk by chunk. Every panel belongs to the chunk begun last; close with `finish()`.
+class MeshBuilder {
+ public:
+  explicit MeshBuilder(std::string material) { mesh_.material = std::move(material); }
+
+  void begin_chunk(bool fills_box_to_ground);
+  void add(const Panel& panel, const PictureArea& area, uint32_t texture);
+
+  /// Adds the panel with a picture of `tile_m` metres a side, its corner moved by `offset` repeats.
+  void add_tiled(const Panel& panel, double tile_m, const Eigen::Vector2d& offset, uint32_t texture);
+
+  Mesh finish();
+
+ private:
+  Mesh mesh_;
+};
+
+}  // namespace hedgehop::scenes

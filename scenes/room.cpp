@@ -1,0 +1,238 @@
+#include "scenes/room.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "scenes/mesh_builder.h"
+#include "scenes/random.h"
+#include "scenes/require.h"
+#include "scenes/room_textures.h"
+#include "scenes/street_textures.h"
+
+namespace hedgehop::scenes {
+namespace {
+
+// Streams of the scene's seed.
+constexpr uint64_t kFurnitureStream = 0;
+constexpr uint64_t kPictureStream = 1;
+constexpr uint64_t kSurfaceStream = 2;
+
+constexpr int kWallVariants = 3;
+constexpr double kGrassMargin_m = 1000.0;
+
+void validate(const RoomConfig& c) {
+  require(c.length_m >= 1.0 && c.length_m <= 1000.0, "length", c.length_m, "1 to 1000 m");
+  require(c.width_m >= 1.0 && c.width_m <= 1000.0, "width", c.width_m, "1 to 1000 m");
+  require(c.height_m >= 1.0 && c.height_m <= 100.0, "height", c.height_m, "1 to 100 m");
+  require(c.wall_thickness_m >= 0.05 && c.wall_thickness_m <= 5.0, "wall_thickness", c.wall_thickness_m, "0.05 to 5 m");
+  require(c.furniture >= 0 && c.furniture <= 1000, "furniture", static_cast<double>(c.furniture), "0 to 1000");
+  require(c.furniture_gap_m >= 0.0, "furniture_gap", c.furniture_gap_m, "at least 0 m");
+  for (const Clearing& clearing : c.keep_clear) {
+    require(clearing.radius_m >= 0.0, "keep_clear.radius", clearing.radius_m, "at least 0 m");
+  }
+  require_texture_size(static_cast<double>(c.texture_size_px));
+}
+
+Eigen::AlignedBox2d free_plan_NE(const RoomConfig& c) {
+  const Eigen::Vector2d half(0.5 * c.length_m, 0.5 * c.width_m);
+  return {-half, half};
+}
+
+// North, east, south, west; the north and south walls also fill the corners.
+std::vector<Eigen::AlignedBox3d> wall_boxes(const RoomConfig& c) {
+  const double n = 0.5 * c.length_m, e = 0.5 * c.width_m, t = c.wall_thickness_m, top = -c.height_m;
+  using Eigen::Vector3d;
+  return {{Vector3d(n, -e - t, top), Vector3d(n + t, e + t, 0.0)},
+          {Vector3d(-n, e, top), Vector3d(n, e + t, 0.0)},
+          {Vector3d(-n - t, -e - t, top), Vector3d(-n, e + t, 0.0)},
+          {Vector3d(-n, -e - t, top), Vector3d(n, -e, 0.0)}};
+}
+
+// Draws one piece, against a wall or off it; nothing when it is too near to another or to a clearing.
+std::optional<Eigen::AlignedBox3d> draw_piece(const RoomConfig& c, bool at_wall,
+                                              const std::vector<Eigen::AlignedBox3d>& pieces, Random& random) {
+  const Eigen::AlignedBox2d plan_NE = free_plan_NE(c);
+  const double grain = 64.0;
+  const auto snapped = [grain](double x_m) { return std::round(x_m * grain) / grain; };
+  const Eigen::Vector2d size(snapped(uniform(random, 0.5, 1.6)), snapped(uniform(random, 0.4, 1.0)));
+  const int side = uniform_index(random, 4);
+  const Eigen::Vector2d turned = side % 2 == 0 ? Eigen::Vector2d(size.y(), size.x()) : size;
+  const double height = std::min(snapped(uniform(random, 0.6, 2.2)), c.height_m);
+
+  Eigen::Vector2d low;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double first = plan_NE.min()[axis] + c.furniture_gap_m;
+    const double last = plan_NE.max()[axis] - c.furniture_gap_m - turned[axis];
+    if (last < first) return std::nullopt;
+    low[axis] = std::clamp(snapped(uniform(random, first, last)), first, last);
+  }
+  if (at_wall && side == 0) low.x() = plan_NE.max().x() - turned.x();
+  if (at_wall && side == 1) low.y() = plan_NE.max().y() - turned.y();
+  if (at_wall && side == 2) low.x() = plan_NE.min().x();
+  if (at_wall && side == 3) low.y() = plan_NE.min().y();
+
+  const Eigen::AlignedBox2d footprint_NE(low, Eigen::Vector2d(low + turned));
+  for (const Eigen::AlignedBox3d& other : pieces) {
+    const Eigen::AlignedBox2d other_NE(Eigen::Vector2d(other.min().head<2>()), Eigen::Vector2d(other.max().head<2>()));
+    if (footprint_NE.exteriorDistance(other_NE) < c.furniture_gap_m) return std::nullopt;
+  }
+  for (const Clearing& clearing : c.keep_clear) {
+    if (footprint_NE.exteriorDistance(clearing.center_NE_m()) < clearing.radius_m) return std::nullopt;
+  }
+  return Eigen::AlignedBox3d(Eigen::Vector3d(low.x(), low.y(), -height),
+                             Eigen::Vector3d(low.x() + turned.x(), low.y() + turned.y(), 0.0));
+}
+
+std::vector<Eigen::AlignedBox3d> place_furniture(const RoomConfig& c, Random& random) {
+  constexpr int kTriesPerPiece = 2000;
+  std::vector<Eigen::AlignedBox3d> pieces;
+  const auto wanted = static_cast<size_t>(c.furniture);
+  for (int64_t tries = 0; pieces.size() < wanted && tries < kTriesPerPiece * c.furniture; ++tries) {
+    const bool at_wall = pieces.size() % 2 == 0 || tries > kTriesPerPiece * c.furniture / 2;
+    if (const auto piece = draw_piece(c, at_wall, pieces, random)) pieces.push_back(*piece);
+  }
+  if (pieces.size() < wanted) {
+    std::ostringstream line;
+    line << "furniture: " << wanted << "; valid: what fits: " << pieces.size() << " pieces stand with furniture_gap "
+         << c.furniture_gap_m << " m and these clearings, and no place is found for another";
+    throw std::invalid_argument(line.str());
+  }
+  return pieces;
+}
+
+struct RoomPictures {
+  std::vector<cv::Mat> pictures;
+  std::vector<uint32_t> first_wall;  // of kWallVariants, for each of the four walls
+  uint32_t floor = 0, ceiling = 0, grass = 0;
+  std::vector<uint32_t> furniture;
+};
+
+RoomPictures paint_room(const RoomConfig& c, uint64_t seed) {
+  const int size_px = static_cast<int>(c.texture_size_px);
+  RoomPictures room;
+  const auto add = [&](cv::Mat picture) {
+    room.pictures.push_back(std::move(picture));
+    return static_cast<uint32_t>(room.pictures.size() - 1);
+  };
+  Random random(derived_seed(seed, 0));
+  room.floor = add(chance(random, 0.5) ? paint_parquet(size_px, derived_seed(seed, 1))
+                                       : paint_carpet(size_px, derived_seed(seed, 1)));
+  if (c.ceiling) {
+    room.ceiling = add(paint_ceiling(size_px, derived_seed(seed, 2)));
+  } else {
+    room.grass = add(paint_grass(size_px, derived_seed(seed, 2)));
+  }
+  if (c.furniture > 0) {
+    room.furniture = {add(paint_shelves(size_px, derived_seed(seed, 3))),
+                      add(paint_drawers(size_px, derived_seed(seed, 4)))};
+  }
+
+  // A paper for each wall, no two alike.
+  std::vector<WallPaper> papers = {WallPaper::stripes, WallPaper::brick, WallPaper::damask, WallPaper::plaster};
+  for (uint64_t wall = 0; wall < 4; ++wall) {
+    const auto pick = papers.begin() + uniform_index(random, static_cast<int>(papers.size()));
+    room.first_wall.push_back(static_cast<uint32_t>(room.pictures.size()));
+    for (cv::Mat& picture : paint_room_walls(*pick, size_px, kWallVariants, derived_seed(seed, 5 + wall)))
+      add(std::move(picture));
+    papers.erase(pick);
+  }
+  return room;
+}
+
+// Papers a face of a wall: one picture after the other, each drawn from the wall's variants; their foot on the floor.
+void paper_wall(const Panel& wall, uint32_t first_picture, Random& random, MeshBuilder& mesh) {
+  const double width = wall.right_m.norm(), height = wall.down_m.norm();
+  const int count = std::max(1, static_cast<int>(std::lround(width / kRoomTile_m)));
+  const double share = width / (count * kRoomTile_m) < 0.5 ? width / kRoomTile_m : 1.0;  // of the picture's width
+  for (int k = 0; k < count; ++k) {
+    const Eigen::Vector3d start = wall.top_left_W + wall.right_m * k / count;
+    const Eigen::Vector3d end = wall.top_left_W + wall.right_m * (k + 1) / count;
+    mesh.add({start, end - start, wall.down_m}, {0.0, 1.0 - height / kRoomTile_m, share, 1.0},
+             first_picture + static_cast<uint32_t>(uniform_index(random, kWallVariants)));
+  }
+}
+
+void add_box(const Eigen::AlignedBox3d& box_W, uint32_t picture, Random& random, MeshBuilder& mesh) {
+  mesh.begin_chunk(true);
+  const Eigen::Vector2d shift(0.05 * uniform_index(random, 20), 0.1 * uniform_index(random, 10));
+  for (const Panel& panel : side_panels(box_W)) {
+    const double foot = panel.down_m.norm() / kRoomTile_m;
+    mesh.add_tiled(panel, kRoomTile_m, {shift.x(), shift.y() - foot}, picture);
+  }
+  mesh.add_tiled(top_panel(box_W), kRoomTile_m, shift, picture);
+}
+
+// Grass around a room without a ceiling, in four strips.
+void add_lawn(const Eigen::AlignedBox2d& house_NE, uint32_t picture, MeshBuilder& mesh) {
+  const double far_n = house_NE.max().x() + kGrassMargin_m, far_e = house_NE.max().y() + kGrassMargin_m;
+  const double n = house_NE.max().x(), e = house_NE.max().y();
+  using Eigen::Vector3d;
+  const Eigen::AlignedBox3d strips[] = {{Vector3d(n, -far_e, 0.0), Vector3d(far_n, far_e, 0.0)},
+                                        {Vector3d(-far_n, -far_e, 0.0), Vector3d(-n, far_e, 0.0)},
+                                        {Vector3d(-n, e, 0.0), Vector3d(n, far_e, 0.0)},
+                                        {Vector3d(-n, -far_e, 0.0), Vector3d(n, -e, 0.0)}};
+  for (const Eigen::AlignedBox3d& strip : strips) {
+    mesh.begin_chunk(false);
+    mesh.add_tiled(top_panel(strip), kGrassTile_m, Eigen::Vector2d::Zero(), picture);
+  }
+}
+
+}  // namespace
+
+Scene make_room(const RoomConfig& config, uint64_t seed) {
+  validate(config);
+  Random furniture_random(derived_seed(seed, kFurnitureStream));
+  const std::vector<Eigen::AlignedBox3d> furniture = place_furniture(config, furniture_random);
+  RoomPictures room = paint_room(config, derived_seed(seed, kPictureStream));
+  Random random(derived_seed(seed, kSurfaceStream));
+
+  Scene scene;
+  scene.name = "room";
+  scene.bounds_NE_m = free_plan_NE(config);
+  scene.lights.ambient = 0.70f;
+  scene.lights.sun = 0.30f;
+  MeshBuilder mesh("opaque");
+
+  // The floor ends at the middle of the walls, so that no seam shows.
+  const Eigen::Vector2d floor_half = scene.bounds_NE_m.max() + Eigen::Vector2d::Constant(0.5 * config.wall_thickness_m);
+  const Eigen::AlignedBox3d floor_W(Eigen::Vector3d(-floor_half.x(), -floor_half.y(), 0.0),
+                                    Eigen::Vector3d(floor_half.x(), floor_half.y(), 0.0));
+  mesh.begin_chunk(false);
+  mesh.add_tiled(top_panel(floor_W), kRoomTile_m, Eigen::Vector2d::Zero(), room.floor);
+
+  static constexpr const char* kNames[] = {"north wall", "east wall", "south wall", "west wall"};
+  const std::vector<Eigen::AlignedBox3d> walls = wall_boxes(config);
+  for (size_t k = 0; k < walls.size(); ++k) {
+    mesh.begin_chunk(false);
+    for (const Panel& face : side_panels(walls[k])) paper_wall(face, room.first_wall[k], random, mesh);
+    mesh.add_tiled(top_panel(walls[k]), kRoomTile_m, Eigen::Vector2d::Zero(), room.first_wall[k]);
+    scene.solids.push_back(solid_of(kNames[k], walls[k]));
+  }
+
+  if (config.ceiling) {
+    const Eigen::Vector3d lift(0.0, 0.0, config.height_m);
+    Eigen::AlignedBox3d ceiling_W(walls[2].min(), walls[0].max() - lift);
+    ceiling_W.min().z() -= config.wall_thickness_m;
+    mesh.begin_chunk(false);
+    mesh.add_tiled(bottom_panel(ceiling_W), kRoomTile_m, Eigen::Vector2d::Zero(), room.ceiling);
+    mesh.add_tiled(top_panel(ceiling_W), kRoomTile_m, Eigen::Vector2d::Zero(), room.ceiling);
+    for (const Panel& side : side_panels(ceiling_W))
+      mesh.add_tiled(side, kRoomTile_m, Eigen::Vector2d::Zero(), room.ceiling);
+    scene.solids.push_back(solid_of("ceiling", ceiling_W));
+  } else {
+    add_lawn({Eigen::Vector2d(-floor_half), floor_half}, room.grass, mesh);
+  }
+  for (size_t k = 0; k < furniture.size(); ++k) {
+    add_box(furniture[k], room.furniture[static_cast<size_t>(uniform_index(random, 2))], random, mesh);
+    scene.solids.push_back(solid_of("furniture " + std::to_string(k + 1), furniture[k]));
+  }
+  scene.meshes.push_back(mesh.finish());
+  scene.textures = std::move(room.pictures);
+  return scene;
+}
+
+}  // namespace hedgehop::scenes

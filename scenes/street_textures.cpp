@@ -1,0 +1,195 @@
+#include "scenes/street_textures.h"
+
+#include "scenes/canvas.h"
+#include "scenes/masonry.h"
+
+namespace hedgehop::scenes {
+namespace {
+
+const Colour kAsphalt{0.30f, 0.30f, 0.31f};
+const Colour kPaint{0.86f, 0.86f, 0.82f};
+const Colour kSlab{0.60f, 0.58f, 0.55f};
+const Colour kKerb{0.74f, 0.73f, 0.70f};
+const Colour kDark{0.10f, 0.10f, 0.10f};
+const Colour kGrass{0.27f, 0.38f, 0.15f};
+const Colour kLeaf{0.18f, 0.30f, 0.10f};
+
+constexpr double kPavement_m = 1.4;
+constexpr double kKerb_m = 0.14;
+
+// Worn asphalt: mottled, patched, cracked, spotted with oil.
+void paint_asphalt(Canvas& canvas, Random& random) {
+  const double tile = canvas.tile_m();
+  canvas.shade(fractal_noise(canvas.size_px(), {4, 4, 8, 0.8}, random), 0.14);
+  for (int k = 0; k < 5; ++k) {
+    canvas.fill(
+        {uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 0.5, 1.8), uniform(random, 0.5, 1.8)},
+        varied(kAsphalt, 0.35, random), 0.8);
+  }
+  for (int k = 0; k < 10; ++k) {
+    canvas.crack(uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 1.0, 4.0), 0.035, kDark, 0.6,
+                 random);
+  }
+  for (int k = 0; k < 25; ++k) {
+    canvas.disc(uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 0.03, 0.22),
+                chance(random, 0.6) ? kDark : Colour{0.48f, 0.47f, 0.45f}, uniform(random, 0.2, 0.6));
+  }
+}
+
+void paint_slabs(Canvas& canvas, const Area& area, double slab, Random& random) {
+  for (double y = 0.0; y < area.height - 1e-9; y += slab) {
+    for (double x = 0.0; x < area.width - 1e-9; x += slab) {
+      const Area one{area.left + x, area.top + y, std::min(slab, area.width - x), std::min(slab, area.height - y)};
+      canvas.fill(one, varied(kSlab, 0.16, random));
+      canvas.fill({one.left, one.top, one.width, 0.03}, kDark, 0.45);
+      canvas.fill({one.left, one.top, 0.03, one.height}, kDark, 0.45);
+      if (chance(random, 0.35)) {
+        canvas.disc(one.left + uniform(random, 0.0, one.width), one.top + uniform(random, 0.0, one.height),
+                    uniform(random, 0.02, 0.07), kDark, 0.55);
+      }
+    }
+  }
+}
+
+void paint_manhole(Canvas& canvas, double x, double y) {
+  canvas.disc(x, y, 0.38, {0.42f, 0.40f, 0.37f});
+  canvas.disc(x, y, 0.32, {0.16f, 0.15f, 0.15f});
+  for (int k = -2; k <= 2; ++k) canvas.fill({x - 0.22, y + 0.1 * k - 0.02, 0.44, 0.04}, {0.42f, 0.40f, 0.37f});
+}
+
+void finish_ground(Canvas& canvas, Random& random) {
+  canvas.shade(fractal_noise(canvas.size_px(), {3, 3, 8, 0.8}, random), 0.07);
+}
+
+void paint_bushes(Canvas& canvas, const Area& bed, int count, Random& random) {
+  for (int k = 0; k < count; ++k) {
+    const bool blossom = chance(random, 0.12);
+    const Colour petal = chance(random, 0.5) ? Colour{0.85f, 0.75f, 0.30f} : Colour{0.75f, 0.35f, 0.45f};
+    canvas.disc(bed.left + uniform(random, 0.0, bed.width), bed.top + uniform(random, 0.0, bed.height),
+                blossom ? uniform(random, 0.03, 0.06) : uniform(random, 0.06, 0.22),
+                blossom ? petal : varied(kLeaf, 0.5, random), 0.9);
+  }
+}
+
+void paint_lawn(Canvas& canvas, Random& random) {
+  const int size_px = canvas.size_px();
+  canvas.shade(fractal_noise(size_px, {3, 3, 9, 0.85}, random), 0.16);
+  canvas.stain(fractal_noise(size_px, {5, 5, 7, 0.75}, random), 0.7, 1.2, {0.52f, 0.46f, 0.26f}, 0.6);
+  canvas.stain(fractal_noise(size_px, {6, 6, 7, 0.75}, random), 0.7, 1.0, {0.16f, 0.27f, 0.09f}, 0.6);
+  canvas.shade(fractal_noise(size_px, {64, 64, 4, 1.0}, random), 0.15);
+}
+
+}  // namespace
+
+cv::Mat paint_street(int size_px, uint64_t seed) {
+  Random random(seed);
+  const double tile = kStreetTile_m;
+  Canvas canvas(size_px, tile, kAsphalt);
+  paint_asphalt(canvas, random);
+
+  // Wheel tracks, then paint worn through by the asphalt's grain.
+  for (double x : {2.2, 3.2, 4.5, 5.5}) canvas.fill({x, 0.0, 0.4, tile}, kDark, 0.18);
+  for (double y : {0.5, 4.5}) canvas.fill({0.5 * tile - 0.07, y, 0.14, 2.2}, kPaint, 0.85);
+  for (double x : {kPavement_m + 0.30, tile - kPavement_m - 0.42}) canvas.fill({x, 0.0, 0.12, tile}, kPaint, 0.7);
+  paint_manhole(canvas, uniform(random, 2.3, 3.4), uniform(random, 1.0, 7.0));
+  if (chance(random, 0.6)) paint_manhole(canvas, uniform(random, 4.7, 5.6), uniform(random, 1.0, 7.0));
+
+  for (double left : {0.0, tile - kPavement_m}) {
+    paint_slabs(canvas, {left, 0.0, kPavement_m, tile}, 0.5, random);
+    const double kerb = left == 0.0 ? kPavement_m - kKerb_m : left;
+    canvas.fill({kerb, 0.0, kKerb_m, tile}, kKerb);
+    for (double y = 0.0; y < tile; y += 1.0) canvas.fill({kerb, y, kKerb_m, 0.04}, kDark, 0.6);
+  }
+  finish_ground(canvas, random);
+  return canvas.finished();
+}
+
+cv::Mat paint_crossing(int size_px, uint64_t seed) {
+  Random random(seed);
+  const double tile = kStreetTile_m, far = tile - kPavement_m;
+  Canvas canvas(size_px, tile, kAsphalt);
+  paint_asphalt(canvas, random);
+  for (double x = kPavement_m + 0.35; x < far - 0.5; x += 0.9) {
+    for (double y : {0.15, tile - 1.35}) canvas.fill({x, y, 0.5, 1.2}, kPaint, 0.85);
+    for (double y : {0.15, tile - 1.35}) canvas.fill({y, x, 1.2, 0.5}, kPaint, 0.85);
+  }
+  for (double left : {0.0, far}) {
+    for (double top : {0.0, far}) {
+      canvas.fill({left, top, kPavement_m, kPavement_m}, kKerb);
+      const double inset_x = left == 0.0 ? 0.0 : kKerb_m, inset_y = top == 0.0 ? 0.0 : kKerb_m;
+      paint_slabs(canvas, {left + inset_x, top + inset_y, kPavement_m - kKerb_m, kPavement_m - kKerb_m}, 0.42, random);
+    }
+  }
+  paint_manhole(canvas, uniform(random, 3.0, 5.0), uniform(random, 3.0, 5.0));
+  finish_ground(canvas, random);
+  return canvas.finished();
+}
+
+cv::Mat paint_paved_lot(int size_px, uint64_t seed) {
+  Random random(seed);
+  const double tile = kLotTile_m;
+  Canvas canvas(size_px, tile, kSlab);
+  paint_masonry(canvas, {16, 16, 0.03, 0.18, 0.5}, kSlab, scaled(kSlab, 0.5), random);
+  for (double x : {0.0, 4.0}) canvas.fill({x, 0.0, 0.5, tile}, {0.42f, 0.26f, 0.20f}, 0.8);
+  for (double y : {0.0, 4.0}) canvas.fill({0.0, y, tile, 0.5}, {0.42f, 0.26f, 0.20f}, 0.8);
+  for (double x : {2.25, 6.25}) {
+    const Area bed{x - 0.6, uniform(random, 1.3, 1.8), 1.2, 1.2};
+    canvas.fill({bed.left - 0.1, bed.top - 0.1, 1.4, 1.4}, kKerb);
+    canvas.fill(bed, {0.24f, 0.18f, 0.12f});
+    paint_bushes(canvas, bed, 60, random);
+  }
+  canvas.stain(fractal_noise(size_px, {4, 4, 7, 0.7}, random), 1.0, 1.0, {0.22f, 0.21f, 0.19f}, 0.5);
+  finish_ground(canvas, random);
+  return canvas.finished();
+}
+
+cv::Mat paint_parking_lot(int size_px, uint64_t seed) {
+  Random random(seed);
+  const double tile = kLotTile_m;
+  Canvas canvas(size_px, tile, varied(kAsphalt, 0.1, random));
+  paint_asphalt(canvas, random);
+  paint_asphalt(canvas, random);
+  for (double x = 0.0; x < tile; x += tile / 3.0) canvas.fill({x - 0.06, 0.3, 0.12, 4.6}, kPaint, 0.8);
+  canvas.fill({0.0, 4.8, tile, 0.12}, kPaint, 0.8);
+  finish_ground(canvas, random);
+  return canvas.finished();
+}
+
+cv::Mat paint_garden_lot(int size_px, uint64_t seed) {
+  Random random(seed);
+  const double tile = kLotTile_m;
+  Canvas canvas(size_px, tile, kGrass);
+  paint_lawn(canvas, random);
+  paint_slabs(canvas, {3.4, 0.0, 1.0, tile}, 0.5, random);
+  paint_bushes(canvas, {0.3, 0.4, 2.6, 1.1}, 140, random);
+  paint_bushes(canvas, {5.2, 4.6, 1.2, 2.6}, 140, random);
+  finish_ground(canvas, random);
+  return canvas.finished();
+}
+
+cv::Mat paint_grass(int size_px, uint64_t seed) {
+  Random random(seed);
+  Canvas canvas(size_px, kGrassTile_m, kGrass);
+  paint_lawn(canvas, random);
+  paint_bushes(canvas, {0.0, 0.0, kGrassTile_m, kGrassTile_m}, 120, random);
+  return canvas.finished();
+}
+
+cv::Mat paint_roof(int size_px, uint64_t seed) {
+  Random random(seed);
+  const double tile = kRoofTile_m;
+  Canvas canvas(size_px, tile, {0.46f, 0.45f, 0.44f});
+  for (double y = 0.0; y < tile; y += 1.0) canvas.fill({0.0, y, tile, 0.05}, kDark, 0.5);
+  canvas.shade(fractal_noise(size_px, {4, 4, 8, 0.85}, random), 0.14);
+  canvas.stain(fractal_noise(size_px, {3, 3, 6, 0.6}, random), 0.9, 0.6, {0.24f, 0.24f, 0.25f}, 0.6);
+  for (int k = 0; k < 8; ++k) {
+    const Area vent{uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 0.4, 1.3),
+                    uniform(random, 0.4, 1.3)};
+    canvas.fill({vent.left + 0.15, vent.top + 0.15, vent.width, vent.height}, kDark, 0.6);
+    canvas.fill(vent, varied({0.72f, 0.72f, 0.72f}, 0.2, random));
+    canvas.outline(vent, 0.08, {0.40f, 0.41f, 0.42f});
+  }
+  return canvas.finished();
+}
+
+}  // namespace hedgehop::scenes
