@@ -47,10 +47,10 @@ class PatchMeans {
 /// combination of differences of copies of the older one shifted by one reduced pixel either way,
 ///   newer(x + F) = older(x) - r_x [older(x + 1) - older(x - 1)] / 2 - r_y [...] / 2 ,
 /// and the r that makes the squared error over the patch least solves a 2 x 2 system.
-/// Source: [Srinivasan1994] sec. 2. Differs: iterated, the newer picture re-centred by the flow found so far (spread
-/// bilinearly between patches), since one pass is off by the curvature of the picture over the reference shift. The
-/// remaining r is added to the patch's mean of the flow used for re-centring, so that how that varies within the patch
-/// leaves no trace.
+/// Source: [Garratt2009] sec. 3.2, after [Srinivasan1994]. Differs: iterated, the newer picture re-centred by the flow
+/// found so far (spread bilinearly between patches), since one pass is off by the curvature of the picture over the
+/// reference shift. The remaining r is added to the patch's mean of the flow used for re-centring, so that how that
+/// varies within the patch leaves no trace.
 class FlowLevel {
  public:
   /// @param band_begin_px  row of the full picture where the band looked at begins.

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <opencv2/core.hpp>
+#include <random>
+#include <vector>
+
+#include "vision/pinhole_camera.h"
+
+/// Pictures with known motion: a texture is a sum of waves, so that it can be evaluated exactly at any place and needs
+/// no interpolation when it moves by a part of a pixel.
+namespace hedgehop::vision {
+
+class WaveTexture {
+ public:
+  /// Waves of random directions with periods between the two given, amplitude in proportion to the period, and a
+  /// standard deviation of 35 grey levels about 127.
+  WaveTexture(uint64_t seed, double least_period, double largest_period, int waves = 24) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    double power = 0.0;
+    for (int i = 0; i < waves; ++i) {
+      const double period = least_period * std::pow(largest_period / least_period, uniform(random));
+      const double direction = 2 * std::numbers::pi * uniform(random), phase = 2 * std::numbers::pi * uniform(random);
+      const double wave_number = 2 * std::numbers::pi / period;
+      waves_.push_back({wave_number * std::cos(direction), wave_number * std::sin(direction), phase, period});
+      power += 0.5 * period * period;
+    }
+    for (auto& wave : waves_) wave[3] *= 35.0 / std::sqrt(power);
+  }
+
+  double grey(double s, double t) const {
+    double sum = 127.0;
+    for (const auto& wave : waves_) sum += wave[3] * std::sin(wave[0] * s + wave[1] * t + wave[2]);
+    return sum;
+  }
+
+ private:
+  std::vector<std::array<double, 4>> waves_;
+};
+
+/// Adds Gaussian noise and rounds to 8 bits.
+inline uint8_t to_pixel(double grey) { return cv::saturate_cast<uint8_t>(std::lround(grey)); }
+
+/// Picture of which pixel (u, v) shows `grey(u, v)`.
+template <class Grey>
+cv::Mat draw_picture(int width, int height, Grey grey) {
+  cv::Mat picture(height, width, CV_8UC1);
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) picture.at<uint8_t>(v, u) = to_pixel(grey(u, v));
+  }
+  return picture;
+}
+
+inline void add_noise(cv::Mat& picture, double sigma_grey, uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> noise(0.0, sigma_grey);
+  for (int v = 0; v < picture.rows; ++v) {
+    for (int u = 0; u < picture.cols; ++u) {
+      uint8_t& pixel = picture.at<uint8_t>(v, u);
+      pixel = to_pixel(pixel + noise(random));
+    }
+  }
+}
+
+/// A textured plane through `p_WO` with in-plane unit axes; texture coordinates in metres.
+struct TexturedPlane {
+  Eigen::Vector3d p_WO, s_W, t_W;
+};
+
+/// What a camera sees of planes (the nearest hit is shown); flat grey `sky` where there is none.
+inline cv::Mat draw_planes(const PinholeCamera& camera, const Eigen::Isometry3d& X_WC,
+                           const std::vector<TexturedPlane>& planes, const WaveTexture& texture, double sky = 200.0) {
+  return draw_picture(camera.width_px, camera.height_px, [&](double u, double v) {
+    const Eigen::Vector3d ray_W = X_WC.linear() * camera.ray({u, v});
+    double nearest = std::numeric_limits<double>::infinity(), grey = sky;
+    for (const TexturedPlane& plane : planes) {
+      const Eigen::Vector3d normal_W = plane.s_W.cross(plane.t_W);
+      const double range = normal_W.dot(plane.p_WO - X_WC.translation()) / normal_W.dot(ray_W);
+      if (!(range > 1e-6 && range < nearest)) continue;
+      const Eigen::Vector3d p_OP_W = X_WC.translation() + range * ray_W - plane.p_WO;
+      nearest = range;
+      grey = texture.grey(plane.s_W.dot(p_OP_W), plane.t_W.dot(p_OP_W));
+    }
+    return grey;
+  });
+}
+
+}  // namespace hedgehop::vision
