@@ -12,6 +12,7 @@ namespace {
 using Values = std::vector<double>;
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr std::string_view kTruthNote = "true: known to the simulator only";
+constexpr std::string_view kHeadingNote = "in the frame of the true heading; true: known to the simulator only";
 /// Clearances beyond this say nothing about the danger of a flight; the plot ends there.
 constexpr double kClearanceShown_m = 20.0;
 
@@ -84,9 +85,9 @@ void add_motion(TrajectoryPanels& p, const std::vector<Limit>& clearance_limits)
   const auto [u, v] = along_across(p.column("v_north_mps"), p.column("v_east_mps"), yaw);
   const auto [u_cmd, v_cmd] = along_across(p.column("cmd_v_north_mps"), p.column("cmd_v_east_mps"), yaw);
   const auto [u_est, v_est] = along_across(p.column("est_v_north_mps"), p.column("est_v_east_mps"), yaw);
-  p.add(kMotionSection, "Forward velocity", "m/s", kTruthNote,
+  p.add(kMotionSection, "Forward velocity", "m/s", kHeadingNote,
         {{"commanded", "cmd", u_cmd}, {"estimate", "est", u_est}, {"true", "true", u}});
-  p.add(kMotionSection, "Sideways velocity, right positive", "m/s", kTruthNote,
+  p.add(kMotionSection, "Sideways velocity, right positive", "m/s", kHeadingNote,
         {{"commanded", "cmd", v_cmd}, {"estimate", "est", v_est}, {"true", "true", v}});
 
   const Values clearance = p.column("clearance_m");
@@ -224,6 +225,10 @@ std::vector<Panel> signal_panels(const CsvTable& decisions) {
                         .t_s = decisions.numbers("t_s")});
     }
     panels[index].series.push_back({name.label, name.role, decisions.numbers(column)});
+  }
+  for (size_t i = 0; i < panels.size(); ++i) {  // a signal alone gives its whole name to its plot
+    const std::string& label = panels[i].series.front().label;
+    if (panels[i].series.size() == 1 && !groups[i].starts_with(label + " ")) panels[i].title += " " + label;
   }
   return panels;
 }

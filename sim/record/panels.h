@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/record/csv_table.h"
@@ -36,6 +38,7 @@ inline constexpr std::string_view kMotionSection = "Command and motion";
 inline constexpr std::string_view kModuleSection = "What the module saw";
 inline constexpr std::string_view kAircraftSection = "Aircraft";
 inline constexpr std::string_view kNavigationSection = "Navigation error";
+inline constexpr std::array kSections = {kMotionSection, kModuleSection, kAircraftSection, kNavigationSection};
 
 /// Time plots of trajectory.csv, as in [Garratt2009] fig. 6 and beyond. Velocities are along and across the true
 /// heading. @param clearance_limits  drawn into the clearance plot.

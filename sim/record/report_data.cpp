@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "sim/record/decimate.h"
@@ -166,10 +167,13 @@ Json report_data(const ReportScenario& scenario, const Json& result, const CsvTa
   json["plan"] = plan_json(scenario, trajectory.numbers("down_m"));
   json["path"] = path_json(trajectory, decisions, max_points);
   json["panels"] = Json::array();
-  for (const Panel& panel : trajectory_panels(trajectory, clearance_limits(result))) {
-    json["panels"].push_back(panel_json(panel, max_points));
+  std::vector<Panel> panels = trajectory_panels(trajectory, clearance_limits(result));
+  std::ranges::move(signal_panels(decisions), std::back_inserter(panels));
+  for (const std::string_view section : kSections) {
+    for (const Panel& panel : panels) {
+      if (panel.section == section) json["panels"].push_back(panel_json(panel, max_points));
+    }
   }
-  for (const Panel& panel : signal_panels(decisions)) json["panels"].push_back(panel_json(panel, max_points));
   return json;
 }
 

@@ -1,6 +1,7 @@
 'use strict';
 // Time plots that share their time axis and cursor.
 
+const plotHeight = 190;
 const roleColors = {left: 'c0', right: 'c1', front: 'c2', rear: 'c3', down: 'c4',
   true: 'true', est: 'est', cmd: 'cmd', a: 'c0', b: 'c1', c: 'c2', d: 'c3'};
 
@@ -60,11 +61,10 @@ class Charts {
       this.plots.push({panel, host: card.appendChild(make('div', 'plot')), u: null});
     }
     this.build();
-    const observer = new ResizeObserver((entries) => entries.forEach(({target}) => {
-      const plot = this.plots.find((p) => p.host === target);
-      if (plot.u && plot.u.width !== target.clientWidth) plot.u.setSize({width: target.clientWidth, height: 190});
-    }));
-    this.plots.forEach((plot) => observer.observe(plot.host));
+    const fit = () => this.plots.forEach(({u, host: {clientWidth}}) => {
+      if (clientWidth && u.width !== clientWidth) u.setSize({width: clientWidth, height: plotHeight});
+    });
+    new ResizeObserver(() => requestAnimationFrame(fit)).observe(host);
   }
 
   addSection(host, name, notes) {
@@ -87,7 +87,7 @@ class Charts {
     const axis = {stroke: soft, grid, ticks: {...grid, size: 4}, font, labelFont: font, labelSize: 16, labelGap: 0};
     const looks = seriesLooks(panel.series);
     return {
-      width: host.clientWidth || 400, height: 190,
+      width: host.clientWidth || 400, height: plotHeight,
       scales: {x: {time: false}, y: {range: valueRange(panel)}},
       cursor: {y: false, drag: {x: true, y: false}, points: {size: 6}, bind: {
         mouseup: (u, target, handler) => (event) => {

@@ -57,6 +57,10 @@ function pathColorings(path) {
   return colorings;
 }
 
+function placeText(north, east) {
+  return `north ${north.toFixed(1)} m, east ${east.toFixed(1)} m`.replaceAll('-', '−');
+}
+
 class PlanView {
   /**
    * @param host  element to fill.
@@ -76,7 +80,8 @@ class PlanView {
     this.whole = this.wholeView();
     this.view = {...this.whole};
     this.addPointer();
-    new ResizeObserver(() => this.draw()).observe(host);
+    new ResizeObserver(() => requestAnimationFrame(() => this.draw())).observe(host);
+    this.draw();
   }
 
   /** Centre and extent, m, of what there is to see. */
@@ -400,7 +405,7 @@ class PlanView {
     }
     this.on.hover(null);
     const solid = this.solidAt(this.north(y), this.east(x));
-    const lines = [`north ${this.north(y).toFixed(1)} m, east ${this.east(x).toFixed(1)} m`];
+    const lines = [placeText(this.north(y), this.east(x))];
     if (solid) lines.unshift(`${solid.name || 'obstacle'}, ${solid.bottom.toFixed(1)} to ${solid.top.toFixed(1)} m high`);
     this.showTip(x, y, lines);
   }
@@ -411,7 +416,7 @@ class PlanView {
     return [`t = ${path.t[i].toFixed(2)} s${status}`,
       `clearance ${path.clearance[i] === null ? 'none in reach' : metres(path.clearance[i])}`,
       `speed ${path.speed[i].toFixed(2)} m/s, altitude ${path.altitude[i].toFixed(1)} m`,
-      `north ${path.n[i].toFixed(1)} m, east ${path.e[i].toFixed(1)} m`];
+      placeText(path.n[i], path.e[i])];
   }
 
   showTip(x, y, lines) {

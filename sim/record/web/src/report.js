@@ -20,22 +20,31 @@ function short(value) {
 }
 function metres(value) { return value === null ? '–' : value.toFixed(2) + ' m'; }
 
-const outcomeWords = {reached: 'Reached the goal', collided: 'Collided', timeout: 'Flew to the end of time',
-  fault: 'Ended by a fault'};
+/** What to say of an outcome, and whether it is good in itself. */
+function judge(outcome, goal) {
+  switch (outcome) {
+    case 'reached': return {words: 'Reached the goal', good: true};
+    case 'collided': return {words: 'Collided', good: false};
+    case 'timeout': return goal ? {words: 'Out of time before the goal', good: false} : {words: 'Flew its full time', good: true};
+    case 'fault': return {words: 'Ended by a fault', good: false};
+    default: return {words: outcome, good: false};
+  }
+}
 
-function fillVerdict(host, {result, description}) {
+function fillVerdict(host, {result, description, plan}) {
   const what = host.appendChild(make('div', 'what'));
   what.append(make('h1', '', result.scenario));
   if (description) what.append(make('p', '', description));
   what.append(make('p', 'soft', `seed ${result.seed}, Hedgehop ${result.version}`));
 
   const failed = result.checks.filter((c) => !c.passed).length, all = result.checks.length;
-  const bad = failed > 0 || ['collided', 'fault'].includes(result.outcome);
+  const {words, good} = judge(result.outcome, plan.goal);
+  const bad = all ? failed > 0 : !good;  // the checks decide where there are any, as the exit status does
   const badge = host.appendChild(make('div', 'badge ' + (bad ? 'bad' : 'good')));
   badge.append(make('span', 'mark', bad ? '✕' : '✓'));
-  const words = badge.appendChild(make('div'));
-  words.append(make('strong', '', outcomeWords[result.outcome] || result.outcome));
-  words.append(make('span', '', !all ? 'no checks asked for' : failed ? `${failed} of ${all} checks fail` : `all ${all} checks hold`));
+  const lines = badge.appendChild(make('div'));
+  lines.append(make('strong', '', words));
+  lines.append(make('span', '', !all ? 'no checks asked for' : failed ? `${failed} of ${all} checks fail` : `all ${all} checks hold`));
   if (result.cause) what.append(make('p', 'fail', result.cause));
   fillTiles(host.appendChild(make('div', 'tiles')), result);
 }
@@ -54,9 +63,9 @@ function fillTiles(host, result) {
   tile('path length', fixed(result.path_length_m, 1), 'm', `mean speed ${fixed(result.mean_speed_mps, 2)} m/s`);
   tile('closest to an obstacle', fixed(result.min_obstacle_clearance_m, 2), 'm', where(result.closest_obstacle));
   tile('closest to the ground', fixed(result.min_ground_clearance_m, 2), 'm', where(result.closest_ground));
-  if (result.goal_distance_m !== null) tile('goal distance at the end', fixed(result.goal_distance_m, 1), 'm', 'horizontal');
+  if (result.goal_distance_m !== null) tile('distance to the goal', fixed(result.goal_distance_m, 1), 'm', 'at the end, horizontal');
   tile('decision', short(result.decision_ms.median), 'ms', `95 % below ${short(result.decision_ms.p95)} ms`);
-  tile('pictures', short(result.render_ms.median), 'ms', `all cameras, 95 % below ${short(result.render_ms.p95)} ms`);
+  tile('all pictures', short(result.render_ms.median), 'ms', `95 % below ${short(result.render_ms.p95)} ms`);
   tile('speed of simulation', short(result.realtime_factor), '× real time', `${short(result.wall_s)} s of wall time`);
 }
 

@@ -1,0 +1,122 @@
+#include "sim/record/film.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/sim/record/film_reader.h"
+#include "tests/sim/record/temporary_folder.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// Each picture has one grey level over a red left half: what a decoder must give back in order.
+cv::Mat picture(int i, cv::Size size_px) {
+  cv::Mat rgb(size_px, CV_8UC3, cv::Scalar::all(40 + 8 * i));
+  rgb.colRange(0, size_px.width / 2) = cv::Scalar(200, 30, 30);
+  return rgb;
+}
+
+/// Lossy coding of flat pictures stays this close, of 255.
+constexpr double kCodingError = 12.0;
+
+TEST(Film, ReadsBackWithEveryPictureInOrder) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "video.webm";
+  Film film(file, 12.5, {320, 240});
+  for (int i = 0; i < 25; ++i) film.add(picture(i, {320, 240}));
+  film.close();
+
+  const ReadFilm read = read_film(file);
+  EXPECT_NEAR(read.duration_s, 25 / 12.5, 1e-3);
+  ASSERT_EQ(read.pictures.size(), 25u);
+  for (int i = 0; i < 25; ++i) {
+    const auto& [t_s, rgb] = read.pictures[static_cast<size_t>(i)];
+    EXPECT_NEAR(t_s, i / 12.5, 1e-3);
+    ASSERT_EQ(rgb.size(), cv::Size(320, 240));
+    const cv::Scalar left = cv::mean(rgb.colRange(20, 140)), right = cv::mean(rgb.colRange(180, 300));
+    EXPECT_NEAR(right[0], 40 + 8 * i, kCodingError);
+    EXPECT_NEAR(left[0], 200, kCodingError) << "red comes back red";
+    EXPECT_NEAR(left[2], 30, kCodingError);
+  }
+  EXPECT_FALSE(std::filesystem::exists(file.string() + ".part"));
+}
+
+TEST(Film, CutsAnOddRowAndColumnOff) {
+  const TemporaryFolder folder;
+  Film film(folder.path() / "video.webm", 10.0, {161, 121});
+  film.add(picture(0, {161, 121}));
+  film.close();
+  EXPECT_EQ(read_film(folder.path() / "video.webm").pictures.at(0).rgb.size(), cv::Size(160, 120));
+}
+
+TEST(Film, IsFinishedWhenItGoes) {
+  const TemporaryFolder folder;
+  { Film(folder.path() / "video.webm", 10.0, {64, 64}).add(picture(0, {64, 64})); }
+  EXPECT_EQ(read_film(folder.path() / "video.webm").pictures.size(), 1u);
+}
+
+TEST(Film, LeavesNoFileWithoutAPicture) {
+  const TemporaryFolder folder;
+  Film(folder.path() / "video.webm", 10.0, {64, 64}).close();
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Film, DoesNotWriteToThePicture) {
+  const TemporaryFolder folder;
+  const cv::Mat rgb = picture(3, {64, 64}), before = rgb.clone();
+  Film film(folder.path() / "video.webm", 10.0, {64, 64});
+  film.add(rgb);
+  EXPECT_EQ(cv::norm(rgb, before, cv::NORM_INF), 0.0);
+}
+
+TEST(Film, RefusesPicturesOfAnotherKind) {
+  const TemporaryFolder folder;
+  Film film(folder.path() / "video.webm", 10.0, {64, 64});
+  EXPECT_THROW(film.add(cv::Mat(64, 32, CV_8UC3)), std::invalid_argument);
+  EXPECT_THROW(film.add(cv::Mat(64, 64, CV_8UC1)), std::invalid_argument);
+  EXPECT_THROW(Film(folder.path() / "other.webm", 0.0, {64, 64}), std::invalid_argument);
+  EXPECT_THROW(Film(folder.path() / "other.webm", NAN, {64, 64}), std::invalid_argument);
+}
+
+std::string error_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+TEST(Film, FileThatCannotBeMadeIsNamedWithTheCause) {
+  EXPECT_THAT(error_of([] {
+                Film("/no/such/folder/video.webm", 10.0, {64, 64});
+              }),
+              AllOf(HasSubstr("/no/such/folder/video.webm"), HasSubstr("No such file or directory")));
+}
+
+TEST(Film, FullDiskIsAnErrorAndLeavesNoFilm) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "video.webm";
+  std::filesystem::create_symlink("/dev/full", file.string() + ".part");
+  const auto action = [&] {
+    Film film(file, 10.0, {640, 480});
+    cv::Mat noise(480, 640, CV_8UC3);
+    for (int i = 0; i < 20; ++i) {
+      cv::randu(noise, 0, 255);
+      film.add(noise);
+    }
+    film.close();
+  };
+  EXPECT_THAT(error_of(action), AllOf(HasSubstr("video.webm"), HasSubstr("No space left on device")));
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
