@@ -1,0 +1,87 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <string_view>
+
+#include "dynamics/actuator_command.h"
+#include "dynamics/autopilot.h"
+#include "dynamics/gps.h"
+#include "dynamics/height_sensor.h"
+#include "dynamics/imu.h"
+#include "dynamics/magnetometer.h"
+#include "dynamics/navigation.h"
+#include "dynamics/rigid_body.h"
+#include "dynamics/setpoint.h"
+#include "dynamics/vehicle.h"
+
+/// Onboard sensors, navigation filter and autopilot of one aircraft.
+namespace hedgehop::dynamics {
+
+struct AvionicsConfig {
+  ImuConfig imu;
+  GpsConfig gps;
+  HeightSensorConfig height_sensor;
+  MagnetometerConfig magnetometer;
+  NavigationConfig navigation;
+  AutopilotConfig autopilot;
+};
+template <class Visitor>
+void describe(Visitor& v, AvionicsConfig& c) {
+  v("imu", c.imu, {.meaning = "gyros and accelerometers"});
+  v("gps", c.gps, {.meaning = "satellite receiver"});
+  v("height_sensor", c.height_sensor, {.meaning = "range finder that looks down"});
+  v("magnetometer", c.magnetometer, {.meaning = "compass"});
+  v("navigation", c.navigation, {.meaning = "the filter that fuses the sensors"});
+  v("autopilot", c.autopilot, {.meaning = "limits of the flight control"});
+}
+
+/// Gives each named random stream its seed.
+using StreamSeed = std::function<uint64_t(std::string_view stream_name)>;
+
+/// What physics offers the sensors at one instant.
+struct SensedTruth {
+  RigidBodyState body;
+  Eigen::Vector3d specific_force_B = Eigen::Vector3d::Zero();  ///< of the mass centre, m/s^2
+  double height_above_surface_m = 0.0;                         ///< +inf above nothing
+};
+
+class Avionics {
+ public:
+  /// Throws std::invalid_argument "<key>: ..." on values out of range. @param physics_dt_s  between calls of sense().
+  Avionics(const AvionicsConfig& config, const VehicleConfig& vehicle, double physics_dt_s,
+           const StreamSeed& stream_seed);
+
+  /// Starts a flight; afterwards it behaves as one newly made.
+  void reset(const SensedTruth& truth);
+  /// To be called on every physics tick, from the first: reads the sensors that are due and runs the filter.
+  void sense(int64_t t_ns, const SensedTruth& truth);
+  /// Corrects the filter by a velocity seen by the down camera. @param v_WB_B_xy_meas  forward and right in B, m/s.
+  /// @param sigma_mps  standard deviation per axis, > 0.
+  void correct_velocity(const Eigen::Vector2d& v_WB_B_xy_meas, double sigma_mps) {
+    navigation_.correct_velocity(v_WB_B_xy_meas, sigma_mps);
+  }
+  const NavigationEstimate& navigation() const { return navigation_.estimate(); }
+  /// The blade angles to ask for until the next call. @param dt_s  until then, > 0, the same in every call of a flight.
+  ActuatorCommand control(const Setpoint& setpoint, double dt_s) {
+    return autopilot_.control(setpoint, navigation_.estimate(), dt_s);
+  }
+
+ private:
+  struct Seeds {
+    uint64_t imu, gps, height_sensor, magnetometer, alignment;
+  };
+  AvionicsConfig config_;
+  double physics_dt_s_;
+  Seeds seeds_;
+  Imu imu_;
+  Gps gps_;
+  HeightSensor height_sensor_;
+  Magnetometer magnetometer_;
+  Navigation navigation_;
+  Autopilot autopilot_;
+  int64_t tick_ = 0;
+};
+
+}  // namespace hedgehop::dynamics

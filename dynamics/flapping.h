@@ -1,0 +1,101 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string_view>
+#include <variant>
+
+/// First-order flapping of the main rotor's disc and its Bell-Hiller stabiliser bar.
+namespace hedgehop::dynamics {
+
+/// Rotor and bar as one: the bar's lag is the disc's. Source: [Gavrilets2015] sec. "main rotor flapping".
+struct LumpedBarConfig {
+  static constexpr std::string_view kName = "lumped";
+  static constexpr std::string_view kMeaning = "rotor and stabiliser bar follow the stick as one, with one lag";
+  double lock_number = 0.8;   ///< effective gamma_fb
+  double lateral_gain = 4.2;  ///< disc tilt per cyclic, rad/rad
+  double longitudinal_gain = 4.2;
+};
+template <class Visitor>
+void describe(Visitor& v, LumpedBarConfig& c) {
+  v("lock_number", c.lock_number, {.above = 0.0, .meaning = "effective Lock number of rotor and bar"});
+  v("lateral_gain", c.lateral_gain, {.above = 0.0, .meaning = "steady disc tilt right per lateral cyclic, rad/rad"});
+  v("longitudinal_gain", c.longitudinal_gain,
+    {.above = 0.0, .meaning = "steady disc tilt back per longitudinal cyclic, rad/rad"});
+}
+
+/// The bar as a second, slower rotor that feeds the blades. Source: [MettlerTischlerKanade2002] sec. "stabilizer bar".
+/// The defaults are estimates that give the default helicopter the lag and gain of its lumped bar.
+struct ExplicitBarConfig {
+  static constexpr std::string_view kName = "explicit";
+  static constexpr std::string_view kMeaning = "rotor and stabiliser bar flap on their own, the bar feeding the rotor";
+  double mixing = 1.0;                   ///< K_s, disc tilt per bar tilt
+  double lateral_gain = 1.145;           ///< B_lat, cyclic straight to the blades, rad/rad
+  double longitudinal_gain = 1.145;      ///< A_lon
+  double bar_lateral_gain = 3.055;       ///< D_lat, cyclic to the bar, rad/rad
+  double bar_longitudinal_gain = 3.055;  ///< C_lon
+  double paddle_inner_radius_m = 0.22;
+  double paddle_outer_radius_m = 0.30;
+  double paddle_chord_m = 0.055;
+  double paddle_lift_slope_prad = 3.0;
+  double bar_inertia_kgm2 = 0.001141;
+};
+template <class Visitor>
+void describe(Visitor& v, ExplicitBarConfig& c) {
+  v("mixing", c.mixing, {.at_least = 0.0, .meaning = "blade pitch per bar tilt as disc tilt, rad/rad"});
+  v("lateral_gain", c.lateral_gain, {.at_least = 0.0, .meaning = "lateral cyclic straight to the blades, rad/rad"});
+  v("longitudinal_gain", c.longitudinal_gain,
+    {.at_least = 0.0, .meaning = "longitudinal cyclic straight to the blades, rad/rad"});
+  v("bar_lateral_gain", c.bar_lateral_gain, {.at_least = 0.0, .meaning = "lateral cyclic to the bar, rad/rad"});
+  v("bar_longitudinal_gain", c.bar_longitudinal_gain,
+    {.at_least = 0.0, .meaning = "longitudinal cyclic to the bar, rad/rad"});
+  v("paddle_inner_radius", c.paddle_inner_radius_m, {.unit = "m", .at_least = 0.0, .meaning = "where paddles begin"});
+  v("paddle_outer_radius", c.paddle_outer_radius_m, {.unit = "m", .above = 0.0, .meaning = "where paddles end"});
+  v("paddle_chord", c.paddle_chord_m, {.unit = "m", .above = 0.0, .meaning = "chord of the paddles"});
+  v("paddle_lift_slope", c.paddle_lift_slope_prad, {.unit = "1/rad", .above = 0.0, .meaning = "lift per angle"});
+  v("bar_inertia", c.bar_inertia_kgm2, {.unit = "kg m2", .above = 0.0, .meaning = "of the bar about its hinge"});
+}
+using FlybarConfig = std::variant<LumpedBarConfig, ExplicitBarConfig>;
+
+/// Tilt of disc and bar to the shaft, rad: back and right positive.
+struct FlapState {
+  double back_rad = 0.0, right_rad = 0.0;          ///< a, b of the disc
+  double bar_back_rad = 0.0, bar_right_rad = 0.0;  ///< c, d of the bar; unused when lumped
+};
+
+/// Coefficients of the flapping equations, either kind of bar.
+struct FlappingModel {
+  bool explicit_bar = false;
+  double clockwise = 1.0;       ///< s_R, +1 for a rotor that turns clockwise seen from above
+  double lag_s = 0.1;           ///< tau_e of the lumped rotor, tau_f of the bare one
+  double lock_number = 1.0;     ///< of the blades alone
+  double blade_lag_s = 0.1;     ///< tau_f of the blades alone
+  double cross_coupling = 0.0;  ///< A_b
+  double longitudinal_gain = 1.0, lateral_gain = 1.0;
+  double bar_lag_s = 1.0, mixing = 0.0, bar_longitudinal_gain = 0.0, bar_lateral_gain = 0.0;
+  double speed_gain = 0.0;          ///< K_mu, how far the disc blows back
+  double lift_solidity_prad = 0.1;  ///< a sigma
+};
+
+/// What drives the disc. Velocities in B, m/s.
+struct FlapInput {
+  double lateral_rad = 0.0, longitudinal_rad = 0.0;
+  double collective_rad = 0.0;
+  double inflow_ratio = 0.0;                                        ///< lambda = v_i / (Omega R)
+  double forward_ratio = 0.0, right_ratio = 0.0, down_ratio = 0.0;  ///< hub's air velocity over Omega R
+  double roll_radps = 0.0, pitch_radps = 0.0;
+};
+
+/// Returns the time derivatives of the four tilts, in the order of FlapState. Source: [Gavrilets2015] sec. "main rotor
+/// flapping" for the lumped bar and the speed terms, [MettlerTischlerKanade2002] for the explicit bar.
+/// Differs: the lateral speed term has the sign that tilts the disc away from the motion (L_v < 0).
+Eigen::Vector4d derivative(const FlappingModel& model, const FlapState& flap, const FlapInput& input);
+
+/// Disc tilt per advance ratio: backwards with speed, and with vertical speed. Source: as derivative().
+double speed_flapping(const FlappingModel& model, double collective_rad, double inflow_ratio);
+double heave_flapping(const FlappingModel& model, double advance_ratio);
+
+/// Returns the cyclic that holds the disc still at these tilts; bar tilts in `flap` are set to their steady values.
+/// In `input` the cyclic is not read. @return lateral, longitudinal, rad.
+Eigen::Vector2d steady_cyclic(const FlappingModel& model, FlapState& flap, const FlapInput& input);
+
+}  // namespace hedgehop::dynamics

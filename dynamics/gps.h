@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "dynamics/rigid_body.h"
+#include "dynamics/sensor_noise.h"
+
+namespace hedgehop::dynamics {
+
+/// A satellite receiver: late, its position error wanders. Rate, latency and correlation time as [PX4Gazebo2024];
+/// the split of the error into wandering and white parts is an estimate.
+struct GpsConfig {
+  bool enabled = true;
+  double rate_hz = 5.0;
+  double latency_s = 0.12;
+  double wander_horizontal_m = 1.5, wander_vertical_m = 2.5;  ///< standard deviation of the wandering error
+  double wander_time_s = 60.0;                                ///< its correlation time
+  double noise_m = 0.2;                                       ///< white, per axis
+  double velocity_noise_mps = 0.1;                            ///< white, per axis
+};
+template <class Visitor>
+void describe(Visitor& v, GpsConfig& c) {
+  v("enabled", c.enabled, {.meaning = "whether there is reception"});
+  v("rate", c.rate_hz, {.unit = "Hz", .above = 0.0, .meaning = "fixes a second; divides the physics rate"});
+  v("latency", c.latency_s, {.unit = "s", .at_least = 0.0, .at_most = 2.0, .meaning = "age of a fix when it arrives"});
+  v("wander_horizontal", c.wander_horizontal_m,
+    {.unit = "m", .at_least = 0.0, .meaning = "standard deviation per axis of the wandering position error"});
+  v("wander_vertical", c.wander_vertical_m,
+    {.unit = "m", .at_least = 0.0, .meaning = "standard deviation of the wandering altitude error"});
+  v("wander_time", c.wander_time_s, {.unit = "s", .above = 0.0, .meaning = "correlation time of the wandering error"});
+  v("noise", c.noise_m, {.unit = "m", .at_least = 0.0, .meaning = "white position noise per axis"});
+  v("velocity_noise", c.velocity_noise_mps,
+    {.unit = "m/s", .at_least = 0.0, .meaning = "white velocity noise per axis"});
+}
+
+struct GpsFix {
+  Eigen::Vector3d p_WB_W_meas = Eigen::Vector3d::Zero();  ///< as it was a latency ago, m
+  Eigen::Vector3d v_WB_W_meas = Eigen::Vector3d::Zero();  ///< as it was a latency ago, m/s
+};
+
+class Gps {
+ public:
+  /// Throws std::invalid_argument on values out of range. @param physics_dt_s  between calls of feel(), > 0.
+  Gps(const GpsConfig& config, double physics_dt_s, uint64_t seed);
+
+  int64_t period() const { return period_; }
+
+  /// Remembers where the vehicle is on this physics tick.
+  void feel(const Eigen::Vector3d& p_WB, const Eigen::Vector3d& v_WB_W);
+  /// The fix that arrives at this tick; none without reception or before the first is old enough.
+  /// To be called once every period() ticks.
+  std::optional<GpsFix> read();
+
+ private:
+  struct Truth {
+    Eigen::Vector3d p_WB, v_WB_W;
+  };
+  GpsConfig config_;
+  double sample_dt_s_;
+  int64_t period_;
+  NormalStream noise_;
+  Eigen::Vector3d wander_sigma_m_, wander_m_;
+  std::vector<Truth> past_;  ///< a ring as long as the latency
+  size_t next_ = 0, known_ = 0;
+};
+
+}  // namespace hedgehop::dynamics

@@ -1,0 +1,64 @@
+#include "dynamics/helicopter.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace hedgehop::dynamics {
+
+HelicopterVector to_vector(const HelicopterState& state) {
+  HelicopterVector x;
+  const FlapState& flap = state.flap;
+  x << to_vector(state.body), flap.back_rad, flap.right_rad, flap.bar_back_rad, flap.bar_right_rad;
+  return x;
+}
+
+HelicopterState to_helicopter(const HelicopterVector& x) {
+  return {to_rigid_body(x.head<13>()), {x[13], x[14], x[15], x[16]}};
+}
+
+HelicopterModel make_model(const HelicopterConfig& config) {
+  const double density = config.air_density_kgpm3;
+  if (!(density > 0.0)) throw std::invalid_argument("the air density must be positive");
+  HelicopterModel model;
+  model.mass = make_mass_properties(config.mass.mass_kg, config.mass.inertia_kgm2, config.mass.inertia_xz_kgm2);
+  model.main_rotor = make_main_rotor(config.main_rotor, density);
+  model.tail_rotor =
+      make_tail_rotor(config.tail_rotor, config.main_rotor.speed_radps, model.main_rotor.flapping.clockwise, density);
+  model.surfaces = config.surfaces;
+  model.density_kgpm3 = density;
+  for (const RotorDisc& disc : {model.main_rotor.disc, model.tail_rotor.disc}) {
+    if (!(disc.lift_nspm > 0.0) || !(disc.max_thrust_n > 0.0) || !(disc.efficiency > 0.0)) {
+      throw std::invalid_argument("a rotor's speed, size, lift slope, efficiency and greatest thrust must be positive");
+    }
+  }
+  return model;
+}
+
+HelicopterLoads helicopter_loads(const HelicopterModel& model, const HelicopterState& state,
+                                 const ActuatorCommand& blades, const Eigen::Vector3d& wind_W) {
+  const Eigen::Matrix3d R_WB = state.body.q_WB.normalized().toRotationMatrix();
+  const Eigen::Vector3d v_air_B = state.body.v_WB_B - R_WB.transpose() * wind_W;
+  const Eigen::Vector3d& w_B = state.body.w_WB_B;
+  const double rho = model.density_kgpm3;
+
+  HelicopterLoads loads;
+  loads.main_rotor = main_rotor_loads(model.main_rotor, state.flap, blades, v_air_B, w_B);
+  loads.tail_rotor = tail_rotor_loads(model.tail_rotor, blades.tail_rad, v_air_B, w_B);
+  const Loads fuselage = fuselage_loads(model.surfaces, rho, v_air_B);
+  const Loads fin = fin_loads(model.surfaces, rho, model.tail_rotor.arm_m, model.tail_rotor.height_m, v_air_B, w_B);
+  const Loads stabiliser = stabiliser_loads(model.surfaces, rho, loads.main_rotor.inflow.induced_mps, v_air_B, w_B);
+  loads.f_B = loads.main_rotor.f_B + loads.tail_rotor.f_B + fuselage.f_B + fin.f_B + stabiliser.f_B;
+  loads.t_B = loads.main_rotor.t_B + loads.tail_rotor.t_B + fuselage.t_B + fin.t_B + stabiliser.t_B;
+  return loads;
+}
+
+HelicopterVector derivative(const HelicopterModel& model, const HelicopterState& state, const ActuatorCommand& blades,
+                            const Eigen::Vector3d& wind_W) {
+  const HelicopterLoads loads = helicopter_loads(model, state, blades, wind_W);
+  HelicopterVector rate;
+  rate << derivative(model.mass, state.body, loads.f_B, loads.t_B),
+      derivative(model.main_rotor.flapping, state.flap, loads.main_rotor.flap_input);
+  return rate;
+}
+
+}  // namespace hedgehop::dynamics

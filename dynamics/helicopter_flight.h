@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "dynamics/actuator_command.h"
+#include "dynamics/helicopter.h"
+
+namespace hedgehop::dynamics {
+
+/// Airframe and the servos that move its blades, in the order of ActuatorCommand.
+struct HelicopterFlightState {
+  HelicopterState airframe;
+  std::array<ServoState, 4> servos;
+};
+
+/// A helicopter in flight: constant model, explicit state.
+class HelicopterFlight {
+ public:
+  /// Throws std::invalid_argument on values that cannot be.
+  explicit HelicopterFlight(const HelicopterConfig& config);
+
+  // As in Vehicle.
+  void reset(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector3d& wind_W);
+  void step(const ActuatorCommand& command, const Eigen::Vector3d& wind_W, double dt_s);
+  const RigidBodyState& body() const { return state_.airframe.body; }
+  const Eigen::Vector3d& specific_force_B() const { return specific_force_B_; }
+  ActuatorCommand actuators() const;
+  bool within_validity() const { return within_validity_; }
+
+  const HelicopterModel& model() const { return model_; }
+  const HelicopterFlightState& state() const { return state_; }
+  /// Goes on from a state. @param wind_W  velocity of the air in W at this instant, m/s.
+  void set_state(const HelicopterFlightState& state, const Eigen::Vector3d& wind_W);
+
+ private:
+  HelicopterModel model_;
+  std::array<ServoConfig, 4> servos_;
+  HelicopterFlightState state_;
+  Eigen::Vector3d specific_force_B_ = Eigen::Vector3d::Zero();
+  bool within_validity_ = true;
+};
+
+}  // namespace hedgehop::dynamics

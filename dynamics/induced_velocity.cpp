@@ -1,0 +1,89 @@
+#include "dynamics/induced_velocity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hedgehop::dynamics {
+namespace {
+
+constexpr double kDescentLimit = 0.5;      ///< of w_r / v_h: beyond, the wake folds back into the disc
+constexpr double kFreeAdvanceRatio = 0.1;  ///< forward flight that carries the wake away
+constexpr double kLimitGrowth = 10.0;      ///< m/s more of w_r for each m/s of V beyond that
+constexpr double kTolerance = 1e-13;       ///< of v_i, relative to the bracket
+constexpr int kMostIterations = 60;        ///< bisection alone would be done by then
+
+/// Thrusts of both theories at one v_i, for a rotor whose blades push up (w_r + 2/3 Omega R theta > 0).
+struct Balance {
+  double residual, slope, thrust, upflow_limit;
+};
+Balance balance(const RotorDisc& disc, double blade_mps, double upflow, double inplane, double v_i) {
+  Balance b;
+  const double blade_thrust = disc.lift_nspm * (blade_mps - v_i);
+  b.thrust = std::min(blade_thrust, disc.max_thrust_n);
+
+  // Where momentum theory leaves its range, its upflow stays at the border.
+  const double flow_per_thrust = 2.0 * disc.density_kgpm3 * disc.area_m2;
+  const double v_h = std::sqrt(std::max(0.0, b.thrust) / flow_per_thrust);
+  b.upflow_limit = kDescentLimit * v_h + kLimitGrowth * std::max(0.0, inplane - kFreeAdvanceRatio * disc.tip_speed_mps);
+  const double w = std::min(upflow, b.upflow_limit);
+
+  const double resultant = std::sqrt(inplane * inplane + (w - v_i) * (w - v_i));
+  const double momentum = flow_per_thrust * disc.efficiency;
+  b.residual = momentum * v_i * resultant - b.thrust;
+  const double resultant_slope = resultant > 0.0 ? (v_i - w) / resultant : 0.0;
+  b.slope = momentum * (resultant + v_i * resultant_slope) + (blade_thrust < disc.max_thrust_n ? disc.lift_nspm : 0.0);
+  return b;
+}
+
+}  // namespace
+
+RotorDisc make_rotor_disc(const RotorGeometry& rotor, double density_kgpm3) {
+  const double rho = density_kgpm3;
+  const double R = rotor.radius_m;
+  const double omega_R = rotor.speed_radps * R;
+  const double blade_area = rotor.blades * rotor.chord_m * R;
+  RotorDisc disc;
+  disc.density_kgpm3 = rho;
+  disc.area_m2 = std::numbers::pi * R * R;
+  disc.tip_speed_mps = omega_R;
+  disc.lift_nspm = rho * omega_R * blade_area * rotor.lift_slope_prad / 4.0;
+  disc.efficiency = rotor.efficiency;
+  disc.max_thrust_n = rotor.max_thrust_coefficient * rho * disc.area_m2 * omega_R * omega_R;
+  disc.profile_power_w = rho * blade_area * rotor.profile_drag * omega_R * omega_R * omega_R / 8.0;
+  disc.profile_power_growth = rotor.profile_power_growth;
+  return disc;
+}
+
+Inflow solve_inflow(const RotorDisc& disc, double collective_rad, double upflow_mps, double inplane_mps) {
+  // A rotor that pushes down is one that pushes up, upside down.
+  const double signed_blade_mps = upflow_mps + 2.0 / 3.0 * disc.tip_speed_mps * collective_rad;
+  const double sign = signed_blade_mps < 0.0 ? -1.0 : 1.0;
+  const double blade_mps = sign * signed_blade_mps;
+  const double upflow = sign * upflow_mps;
+
+  // v_i lies between none and all of the flow through the blades; start from the hover of a rotor that does not move.
+  double low = 0.0, high = blade_mps;
+  const double half = disc.lift_nspm / (4.0 * disc.density_kgpm3 * disc.area_m2 * disc.efficiency);
+  double v_i = 2.0 * half * blade_mps / (half + std::sqrt(half * half + 2.0 * half * blade_mps) + 1e-300);
+  v_i = std::min(v_i, blade_mps);
+  Balance b = balance(disc, blade_mps, upflow, inplane_mps, v_i);
+  for (int i = 0; i < kMostIterations; ++i) {
+    (b.residual > 0.0 ? high : low) = v_i;
+    double next = v_i - b.residual / b.slope;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    const double change = std::abs(next - v_i);
+    v_i = next;
+    b = balance(disc, blade_mps, upflow, inplane_mps, v_i);
+    if (change <= kTolerance * blade_mps) break;
+  }
+  return {sign * b.thrust, sign * v_i, upflow <= b.upflow_limit};
+}
+
+double shaft_power_w(const RotorDisc& disc, const Inflow& inflow, double upflow_mps, double inplane_mps) {
+  const double mu = inplane_mps / disc.tip_speed_mps;
+  return inflow.thrust_n * (inflow.induced_mps - upflow_mps) +
+         disc.profile_power_w * (1.0 + disc.profile_power_growth * mu * mu);
+}
+
+}  // namespace hedgehop::dynamics

@@ -1,0 +1,47 @@
+#pragma once
+
+/// Thrust and induced velocity of one rotor, from blade elements and momentum theory together.
+namespace hedgehop::dynamics {
+
+/// One rotor as a lifting disc at a constant speed.
+struct RotorDisc {
+  double density_kgpm3 = 1.225;
+  double area_m2 = 1.0;
+  double tip_speed_mps = 1.0;
+  double lift_nspm = 1.0;             ///< K: thrust for each m/s of flow through the blades, rho Omega R^2 a n c / 4
+  double efficiency = 1.0;            ///< eta_w, of the momentum balance; 1 is ideal
+  double max_thrust_n = 1e9;          ///< where the blades stall
+  double profile_power_w = 0.0;       ///< P0 in hover
+  double profile_power_growth = 0.0;  ///< kappa: P = P0 (1 + kappa mu^2)
+};
+
+/// What a rotor is built of. Speeds in rad/s, lengths in m.
+struct RotorGeometry {
+  double speed_radps, radius_m, chord_m, blades, lift_slope_prad, profile_drag, max_thrust_coefficient;
+  double efficiency, profile_power_growth;
+};
+RotorDisc make_rotor_disc(const RotorGeometry& rotor, double density_kgpm3);
+
+struct Inflow {
+  double thrust_n = 0.0;     ///< along the shaft
+  double induced_mps = 0.0;  ///< v_i, against the thrust; has the sign of the thrust
+  /// Descent is slower than half the hover inflow, or fast forward flight carries the wake away.
+  bool within_momentum_theory = true;
+};
+
+/// Returns the thrust that blade elements and momentum give alike:
+///   T = K (w_r + 2/3 Omega R theta - v_i),   T = 2 rho A eta v_i sqrt(V^2 + (w_r - v_i)^2).
+/// @param collective_rad  theta, blade angle at 3/4 radius.
+/// @param upflow_mps      w_r, air through the disc along the thrust; negative in climb.
+/// @param inplane_mps     V, air speed along the disc, >= 0.
+/// Below advance ratio 0.1 the momentum balance takes w_r no larger than half the hover inflow of the thrust, where it
+/// ceases to hold; the result then says so. Thrust is limited to what the blades bear. Finite for all finite arguments.
+/// Source: [HeffleyMnich1988] sec. "main rotor thrust and induced velocity".
+/// Differs: solved by a bracketed Newton iteration rather than a fixed number of passes; above advance ratio 0.1 the
+/// limit on w_r rises steeply rather than vanishing, so that the thrust has no jump.
+Inflow solve_inflow(const RotorDisc& disc, double collective_rad, double upflow_mps, double inplane_mps);
+
+/// Returns the shaft power T (v_i - w_r) + P0 (1 + kappa mu^2), W. Source: [HeffleyMnich1988], as solve_inflow().
+double shaft_power_w(const RotorDisc& disc, const Inflow& inflow, double upflow_mps, double inplane_mps);
+
+}  // namespace hedgehop::dynamics

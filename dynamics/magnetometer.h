@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+
+#include "dynamics/sensor_noise.h"
+
+namespace hedgehop::dynamics {
+
+/// A tilt-compensated magnetic compass: heading with an offset that stays (iron on board, declination) and white noise.
+/// Numbers are estimates: 0.4 mG/sqrt(Hz) in a field of 215 mG horizontally is 0.1 deg/sqrt(Hz) [PX4Gazebo2024].
+struct MagnetometerConfig {
+  bool enabled = true;
+  double rate_hz = 50.0;
+  double noise_rad = 0.013089969389957471;   ///< white, per reading: 0.75 deg
+  double offset_rad = 0.017453292519943295;  ///< standard deviation of the offset drawn at turn-on: 1 deg
+};
+template <class Visitor>
+void describe(Visitor& v, MagnetometerConfig& c) {
+  v("enabled", c.enabled, {.meaning = "whether the compass works"});
+  v("rate", c.rate_hz, {.unit = "Hz", .above = 0.0, .meaning = "readings a second; divides the physics rate"});
+  v("noise", c.noise_rad, {.unit = "deg", .at_least = 0.0, .at_most = 90.0, .meaning = "white noise of a reading"});
+  v("offset", c.offset_rad,
+    {.unit = "deg", .at_least = 0.0, .at_most = 90.0, .meaning = "standard deviation of the offset drawn at turn-on"});
+}
+
+class Magnetometer {
+ public:
+  /// Throws std::invalid_argument on values out of range. @param physics_dt_s  > 0.
+  Magnetometer(const MagnetometerConfig& config, double physics_dt_s, uint64_t seed);
+
+  bool enabled() const { return config_.enabled; }
+  int64_t period() const { return period_; }  ///< physics ticks between readings
+  double offset_rad() const { return offset_rad_; }
+
+  /// @return heading with its errors, from north to east, -pi..pi. To be called once every period() ticks.
+  double read(double heading_rad);
+
+ private:
+  MagnetometerConfig config_;
+  int64_t period_;
+  NormalStream noise_;
+  double offset_rad_;
+};
+
+/// The same angle in -pi..pi.
+double wrap_angle(double angle_rad);
+
+}  // namespace hedgehop::dynamics

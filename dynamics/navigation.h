@@ -1,0 +1,117 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "dynamics/gps.h"
+#include "dynamics/height_sensor.h"
+#include "dynamics/imu.h"
+#include "dynamics/magnetometer.h"
+
+namespace hedgehop::dynamics {
+
+/// The filter's choices; the noise it expects is that of the sensors' configs.
+struct NavigationConfig {
+  bool use_gps_velocity = true;
+  double attitude_sigma_rad = 0.008726646259971648;  ///< of the known initial attitude, per axis: 0.5 deg
+  double position_sigma_m = 0.1;                     ///< of the known initial position, per axis
+  double alignment_residual = 0.1;  ///< share of the inertial sensors' biases that calibration before take-off leaves
+  double surface_jump_m = 0.5;      ///< a range off by more tells of another surface below
+};
+template <class Visitor>
+void describe(Visitor& v, NavigationConfig& c) {
+  v("use_gps_velocity", c.use_gps_velocity, {.meaning = "whether satellite velocities correct the velocity"});
+  v("attitude_sigma", c.attitude_sigma_rad,
+    {.unit = "deg", .above = 0.0, .at_most = 10.0, .meaning = "error of the initial attitude, per axis"});
+  v("position_sigma", c.position_sigma_m,
+    {.unit = "m", .above = 0.0, .meaning = "error of the initial position, per axis"});
+  v("alignment_residual", c.alignment_residual,
+    {.above = 0.0,
+     .at_most = 1.0,
+     .meaning = "share of the inertial sensors' biases that calibration before take-off leaves"});
+  v("surface_jump", c.surface_jump_m,
+    {.unit = "m", .above = 0.0, .meaning = "a height reading off by more tells of another surface below"});
+}
+
+/// What the aircraft believes of itself. Standard deviations are the filter's own claim.
+struct NavigationEstimate {
+  Eigen::Vector3d p_WB_est = Eigen::Vector3d::Zero();            ///< m
+  Eigen::Quaterniond q_WB_est = Eigen::Quaterniond::Identity();  ///< attitude of B in W
+  Eigen::Vector3d v_WB_B_est = Eigen::Vector3d::Zero();          ///< m/s, expressed in B
+  Eigen::Vector3d w_WB_B_est = Eigen::Vector3d::Zero();          ///< gyro less estimated bias, rad/s
+  double height_above_ground_m = 0.0;                            ///< above the surface below, >= 0
+  Eigen::Vector3d sigma_p_W_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sigma_attitude_B_rad = Eigen::Vector3d::Zero();  ///< small rotations about B's axes
+  Eigen::Vector3d sigma_v_W_mps = Eigen::Vector3d::Zero();
+};
+
+/// An error-state extended Kalman filter over attitude, velocity, position, the inertial sensors' biases, the wandering
+/// error of the satellite position and the compass offset. Inertial prediction; corrections by the velocity of the
+/// down camera's flow, height, heading and satellites. Accelerations mislead nothing, as attitude is corrected through
+/// the velocity it explains. Sources: the fusion of flow, height and inertial data [GarrattChahl2007] sec. 3;
+/// error-state form [Sola2017] sec. 5-6.
+class Navigation {
+ public:
+  struct Sensors {
+    ImuConfig imu;
+    GpsConfig gps;
+    HeightSensorConfig height_sensor;
+    MagnetometerConfig magnetometer;
+  };
+
+  /// Throws std::invalid_argument on values out of range.
+  Navigation(const NavigationConfig& config, const Sensors& sensors);
+
+  /// Starts from a state known to the configured accuracy. @param known  with its errors. @param bias  as calibrated.
+  void reset(const RigidBodyState& known, const ImuReading& bias);
+
+  void predict(const ImuReading& imu);
+  /// @param v_WB_B_xy_meas  forward and right velocity in B, m/s. @param sigma_mps  of each, > 0.
+  void correct_velocity(const Eigen::Vector2d& v_WB_B_xy_meas, double sigma_mps);
+  void correct_gps(const GpsFix& fix);
+  void correct_heading(double heading_meas_rad);
+  void correct_height(double height_meas_m);
+
+  const NavigationEstimate& estimate() const { return estimate_; }
+
+ private:
+  static constexpr int kSize = 18;
+  using Row = Eigen::Matrix<double, 1, kSize>;
+  using Column = Eigen::Matrix<double, kSize, 1>;
+  using Square = Eigen::Matrix<double, kSize, kSize>;
+  struct Past {
+    Eigen::Vector3d p_WB, v_WB_W;
+  };
+
+  void propagate_covariance(const Eigen::Matrix3d& R_WB, const Eigen::Vector3d& w, const Eigen::Vector3d& f);
+  void correct(const Row& H, double innovation, double variance);
+  void correct_altitude(double innovation_m, double variance_m2);
+  void inject();
+  void publish();
+  const Past& past() const;
+
+  NavigationConfig config_;
+  Sensors sensors_;
+  double dt_s_;
+  Square P_;
+  Column correction_;  ///< of the error state, gathered and not yet injected
+  Eigen::Quaterniond q_WB_;
+  Eigen::Vector3d v_WB_W_, p_WB_, gyro_bias_, accelerometer_bias_, w_WB_B_;
+  Eigen::Vector2d gps_wander_m_;
+  double compass_offset_rad_ = 0.0;
+  std::optional<ImuReading> last_imu_;
+  double since_velocity_s_ = 0.0;
+
+  double surface_m_ = 0.0;        ///< altitude of the surface below; 0 is the ground
+  double surface_sigma_m_ = 0.0;  ///< 0 for the ground
+  int jump_count_ = 0;            ///< successive readings that agree on another surface
+  double jump_surface_m_ = 0.0, last_height_m_ = 0.0;
+
+  std::vector<Past> history_;  ///< ring as long as the satellites' latency
+  size_t next_ = 0;
+  NavigationEstimate estimate_;
+};
+
+}  // namespace hedgehop::dynamics

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace hedgehop::dynamics {
+
+/// A position servo that moves a blade: second order, with stops and a greatest speed.
+/// Defaults: the autopilot project's helicopter simulator [AutopilotSim2003] table servo; the rate limit is an
+/// estimate.
+struct ServoConfig {
+  double natural_frequency_radps = 38.2261;
+  double damping = 0.5118;
+  double lowest_rad = -0.139626340159546;  ///< -8 deg
+  double highest_rad = 0.139626340159546;  ///< > lowest
+  double rate_limit_radps = 5.0;
+};
+template <class Visitor>
+void describe(Visitor& v, ServoConfig& c) {
+  v("natural_frequency", c.natural_frequency_radps,
+    {.unit = "rad/s", .above = 0.0, .at_most = 300.0, .meaning = "natural frequency of the second-order response"});
+  v("damping", c.damping, {.above = 0.0, .at_most = 2.0, .meaning = "damping ratio"});
+  v("lowest", c.lowest_rad, {.unit = "deg", .at_least = -45.0, .at_most = 45.0, .meaning = "lower stop, blade angle"});
+  v("highest", c.highest_rad, {.unit = "deg", .at_least = -45.0, .at_most = 45.0, .meaning = "upper stop"});
+  v("rate_limit", c.rate_limit_radps, {.unit = "rad/s", .above = 0.0, .meaning = "greatest speed of the blade angle"});
+}
+
+struct ServoState {
+  double position_rad = 0.0;
+  double rate_radps = 0.0;
+};
+
+/// Throws std::invalid_argument unless frequency, damping and rate limit are positive and the stops are in order.
+void check(const ServoConfig& config);
+
+/// Returns the time derivative (rate, acceleration): y'' = wn2 (u - y) - 2 zeta wn y', |y'| limited, u within the
+/// stops.
+Eigen::Vector2d derivative(const ServoConfig& config, const ServoState& state, double command_rad);
+
+/// Returns the state brought back to stops and rate limit, for after an integration step.
+ServoState within_limits(const ServoConfig& config, const ServoState& state);
+
+}  // namespace hedgehop::dynamics

@@ -1,0 +1,43 @@
+#include "dynamics/tail_rotor.h"
+
+#include <cmath>
+
+namespace hedgehop::dynamics {
+
+TailRotor make_tail_rotor(const TailRotorConfig& c, double main_speed_radps, double clockwise, double density_kgpm3) {
+  TailRotor rotor;
+  rotor.disc = make_rotor_disc({.speed_radps = c.gear_ratio * main_speed_radps,
+                                .radius_m = c.radius_m,
+                                .chord_m = c.chord_m,
+                                .blades = static_cast<double>(c.blades),
+                                .lift_slope_prad = c.lift_slope_prad,
+                                .profile_drag = c.profile_drag,
+                                .max_thrust_coefficient = c.max_thrust_coefficient,
+                                .efficiency = c.efficiency,
+                                .profile_power_growth = c.profile_power_growth},
+                               density_kgpm3);
+  rotor.clockwise = clockwise;
+  rotor.thrust_fraction = c.thrust_fraction;
+  rotor.arm_m = c.arm_m;
+  rotor.height_m = c.height_m;
+  return rotor;
+}
+
+TailRotorLoads tail_rotor_loads(const TailRotor& rotor, double collective_rad, const Eigen::Vector3d& v_air_B,
+                                const Eigen::Vector3d& w_WB_B) {
+  // Air at the hub: across the disc, and along it. The thrust points left when the main rotor turns clockwise.
+  const double v_tr = v_air_B.y() - rotor.arm_m * w_WB_B.z() + rotor.height_m * w_WB_B.x();
+  const double w_tr = v_air_B.z() + rotor.arm_m * w_WB_B.y();
+  const double upflow = rotor.clockwise * v_tr;
+  const double inplane = std::hypot(v_air_B.x(), w_tr);
+
+  TailRotorLoads loads;
+  loads.inflow = solve_inflow(rotor.disc, collective_rad, upflow, inplane);
+  loads.power_w = shaft_power_w(rotor.disc, loads.inflow, upflow, inplane);
+  const double Y = -rotor.clockwise * rotor.thrust_fraction * loads.inflow.thrust_n;
+  loads.f_B = {0.0, Y, 0.0};
+  loads.t_B = {Y * rotor.height_m, 0.0, -Y * rotor.arm_m};
+  return loads;
+}
+
+}  // namespace hedgehop::dynamics

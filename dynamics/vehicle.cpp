@@ -1,0 +1,43 @@
+#include "dynamics/vehicle.h"
+
+namespace hedgehop::dynamics {
+namespace {
+
+std::variant<HelicopterFlight> make_flight(const VehicleConfig& config) {
+  return std::visit([](const HelicopterConfig& c) { return std::variant<HelicopterFlight>(HelicopterFlight(c)); },
+                    config);
+}
+
+}  // namespace
+
+std::vector<HullPart> hull(const VehicleConfig& config) {
+  return std::visit([](const auto& c) { return hull(c); }, config);
+}
+
+Vehicle::Vehicle(const VehicleConfig& config) : flight_(make_flight(config)) { hull(config); }
+
+void Vehicle::reset(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector3d& wind_W) {
+  std::visit([&](auto& flight) { flight.reset(p_WB, heading_rad, wind_W); }, flight_);
+}
+
+void Vehicle::step(const ActuatorCommand& command, const Eigen::Vector3d& wind_W, double dt_s) {
+  std::visit([&](auto& flight) { flight.step(command, wind_W, dt_s); }, flight_);
+}
+
+const RigidBodyState& Vehicle::body() const {
+  return std::visit([](const auto& flight) -> const RigidBodyState& { return flight.body(); }, flight_);
+}
+
+const Eigen::Vector3d& Vehicle::specific_force_B() const {
+  return std::visit([](const auto& flight) -> const Eigen::Vector3d& { return flight.specific_force_B(); }, flight_);
+}
+
+ActuatorCommand Vehicle::actuators() const {
+  return std::visit([](const auto& flight) { return flight.actuators(); }, flight_);
+}
+
+bool Vehicle::within_validity() const {
+  return std::visit([](const auto& flight) { return flight.within_validity(); }, flight_);
+}
+
+}  // namespace hedgehop::dynamics
