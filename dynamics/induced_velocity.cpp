@@ -7,7 +7,6 @@
 namespace hedgehop::dynamics {
 namespace {
 
-constexpr double kDescentLimit = 0.5;      ///< of w_r / v_h: beyond, the wake folds back into the disc
 constexpr double kFreeAdvanceRatio = 0.1;  ///< forward flight that carries the wake away
 constexpr double kLimitGrowth = 10.0;      ///< m/s more of w_r for each m/s of V beyond that
 constexpr double kTolerance = 1e-13;       ///< of v_i, relative to the bracket
@@ -25,7 +24,8 @@ Balance balance(const RotorDisc& disc, double blade_mps, double upflow, double i
   // Where momentum theory leaves its range, its upflow stays at the border.
   const double flow_per_thrust = 2.0 * disc.density_kgpm3 * disc.area_m2;
   const double v_h = std::sqrt(std::max(0.0, b.thrust) / flow_per_thrust);
-  b.upflow_limit = kDescentLimit * v_h + kLimitGrowth * std::max(0.0, inplane - kFreeAdvanceRatio * disc.tip_speed_mps);
+  b.upflow_limit =
+      disc.descent_limit * v_h + kLimitGrowth * std::max(0.0, inplane - kFreeAdvanceRatio * disc.tip_speed_mps);
   const double w = std::min(upflow, b.upflow_limit);
 
   const double resultant = std::sqrt(inplane * inplane + (w - v_i) * (w - v_i));

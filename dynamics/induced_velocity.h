@@ -11,6 +11,7 @@ struct RotorDisc {
   double lift_nspm = 1.0;             ///< K: thrust for each m/s of flow through the blades, rho Omega R^2 a n c / 4
   double efficiency = 1.0;            ///< eta_w, of the momentum balance; 1 is ideal
   double max_thrust_n = 1e9;          ///< where the blades stall
+  double descent_limit = 0.5;         ///< greatest w_r over hover inflow at which momentum theory is used, < 1.7
   double profile_power_w = 0.0;       ///< P0 in hover
   double profile_power_growth = 0.0;  ///< kappa: P = P0 (1 + kappa mu^2)
 };
@@ -25,7 +26,7 @@ RotorDisc make_rotor_disc(const RotorGeometry& rotor, double density_kgpm3);
 struct Inflow {
   double thrust_n = 0.0;     ///< along the shaft
   double induced_mps = 0.0;  ///< v_i, against the thrust; has the sign of the thrust
-  /// Descent is slower than half the hover inflow, or fast forward flight carries the wake away.
+  /// Descent is slower than the disc's limit, or fast forward flight carries the wake away.
   bool within_momentum_theory = true;
 };
 
@@ -34,11 +35,11 @@ struct Inflow {
 /// @param collective_rad  theta, blade angle at 3/4 radius.
 /// @param upflow_mps      w_r, air through the disc along the thrust; negative in climb.
 /// @param inplane_mps     V, air speed along the disc, >= 0.
-/// Below advance ratio 0.1 the momentum balance takes w_r no larger than half the hover inflow of the thrust, where it
-/// ceases to hold; the result then says so. Thrust is limited to what the blades bear. Finite for all finite arguments.
-/// Source: [HeffleyMnich1988] sec. "main rotor thrust and induced velocity".
-/// Differs: solved by a bracketed Newton iteration rather than a fixed number of passes; above advance ratio 0.1 the
-/// limit on w_r rises steeply rather than vanishing, so that the thrust has no jump.
+/// Below advance ratio 0.1 the momentum balance takes w_r no larger than `descent_limit` times the hover inflow of the
+/// thrust, where it ceases to hold; the result then says so. Thrust is limited to what the blades bear. Finite for all
+/// finite arguments. Source: [HeffleyMnich1988] sec. "main rotor thrust and induced velocity". Differs: solved by a
+/// bracketed Newton iteration rather than a fixed number of passes; above advance ratio 0.1 the limit on w_r rises
+/// steeply rather than vanishing, so that the thrust has no jump.
 Inflow solve_inflow(const RotorDisc& disc, double collective_rad, double upflow_mps, double inplane_mps);
 
 /// Returns the shaft power T (v_i - w_r) + P0 (1 + kappa mu^2), W. Source: [HeffleyMnich1988], as solve_inflow().

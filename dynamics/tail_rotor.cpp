@@ -3,6 +3,13 @@
 #include <cmath>
 
 namespace hedgehop::dynamics {
+namespace {
+
+/// Of the flow into the thrust over hover inflow. Chosen: a tail rotor's wake folds back in any brisk sideways flight,
+/// which pilots fly through; up to here momentum theory goes on as a fair mean.
+constexpr double kSidewaysLimit = 1.0;
+
+}  // namespace
 
 TailRotor make_tail_rotor(const TailRotorConfig& c, double main_speed_radps, double clockwise, double density_kgpm3) {
   TailRotor rotor;
@@ -16,6 +23,7 @@ TailRotor make_tail_rotor(const TailRotorConfig& c, double main_speed_radps, dou
                                 .efficiency = c.efficiency,
                                 .profile_power_growth = c.profile_power_growth},
                                density_kgpm3);
+  rotor.disc.descent_limit = kSidewaysLimit;
   rotor.clockwise = clockwise;
   rotor.thrust_fraction = c.thrust_fraction;
   rotor.arm_m = c.arm_m;

@@ -1,5 +1,6 @@
 #include "dynamics/wind.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
