@@ -13,9 +13,9 @@ struct HeightSensorConfig {
   bool enabled = true;
   double rate_hz = 50.0;
   double min_m = 0.02, max_m = 50.0;
-  double noise_m = 0.01;          ///< white
+  double noise_m = 0.01;           ///< white
   double noise_per_range = 0.005;  ///< white, times the range
-  double dropout = 0.01;          ///< probability that a reading is missing
+  double dropout = 0.01;           ///< probability that a reading is missing
 };
 template <class Visitor>
 void describe(Visitor& v, HeightSensorConfig& c) {

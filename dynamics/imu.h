@@ -12,18 +12,18 @@ namespace hedgehop::dynamics {
 /// Noise of an ADIS16448: [FurrerBurriAchtelikSiegwart2016] sec. 5.4; filter, ranges and misalignment are estimates.
 struct ImuConfig {
   double rate_hz = 100.0;
-  double gyro_noise_density = 3.394e-4;      ///< rad/s/sqrt(Hz)
-  double gyro_bias_walk = 3.879e-5;          ///< rad/s^2/sqrt(Hz)
-  double gyro_bias_time_s = 1000.0;          ///< correlation time of the bias
-  double gyro_offset_radps = 0.0087;         ///< standard deviation of the turn-on offset
+  double gyro_noise_density = 3.394e-4;        ///< rad/s/sqrt(Hz)
+  double gyro_bias_walk = 3.879e-5;            ///< rad/s^2/sqrt(Hz)
+  double gyro_bias_time_s = 1000.0;            ///< correlation time of the bias
+  double gyro_offset_radps = 0.0087;           ///< standard deviation of the turn-on offset
   double accelerometer_noise_density = 0.004;  ///< m/s^2/sqrt(Hz)
   double accelerometer_bias_walk = 0.006;      ///< m/s^3/sqrt(Hz)
   double accelerometer_bias_time_s = 300.0;
   double accelerometer_offset_mps2 = 0.196;
-  double cutoff_hz = 50.0;                   ///< -3 dB of the first-order low-pass filter
+  double cutoff_hz = 50.0;  ///< -3 dB of the first-order low-pass filter
   double gyro_range_radps = 17.453292519943295;
   double accelerometer_range_mps2 = 176.58;
-  double misalignment_rad = 0.0017453292519943295;  ///< standard deviation about each axis of B
+  double misalignment_rad = 0.0017453292519943295;   ///< standard deviation about each axis of B
   Eigen::Vector3d p_BS_m = Eigen::Vector3d::Zero();  ///< where it sits, from the mass centre, in B
 };
 template <class Visitor>
@@ -55,7 +55,7 @@ void describe(Visitor& v, ImuConfig& c) {
 }
 
 struct ImuReading {
-  Eigen::Vector3d w_WB_B_meas = Eigen::Vector3d::Zero();        ///< rad/s
+  Eigen::Vector3d w_WB_B_meas = Eigen::Vector3d::Zero();            ///< rad/s
   Eigen::Vector3d specific_force_B_meas = Eigen::Vector3d::Zero();  ///< m/s^2; at rest (0, 0, -g)
 };
 
@@ -85,7 +85,7 @@ class Imu {
   Eigen::Matrix3d R_SB_;
   Eigen::Vector3d gyro_offset_, accelerometer_offset_, gyro_bias_, accelerometer_bias_;
   bool started_ = false;
-  Eigen::Vector3d w_last_, f_last_;            ///< inputs of the last tick
+  Eigen::Vector3d w_last_, f_last_;  ///< inputs of the last tick
   Eigen::Vector3d w_filtered_, f_filtered_;
   Eigen::Vector3d w_body_last_;
 };

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "dynamics/actuator_command.h"
+#include "dynamics/hover_model.h"
+#include "dynamics/lqr.h"
+#include "dynamics/navigation.h"
+#include "dynamics/setpoint.h"
+#include "dynamics/vehicle.h"
+
+namespace hedgehop::dynamics {
+
+/// What the autopilot keeps within; its gains follow from the vehicle.
+struct AutopilotConfig {
+  double speed_limit_mps = 3.0;
+  double acceleration_limit_mps2 = 2.0;
+  double climb_rate_limit_mps = 1.0;
+  double yaw_rate_limit_radps = 0.7853981633974483;
+  double tilt_limit_rad = 0.3490658503988659;
+};
+template <class Visitor>
+void describe(Visitor& v, AutopilotConfig& c) {
+  v("speed_limit", c.speed_limit_mps,
+    {.unit = "m/s", .above = 0.0, .at_most = 20.0, .meaning = "greatest horizontal speed it lets itself be told"});
+  v("acceleration_limit", c.acceleration_limit_mps2,
+    {.unit = "m/s2", .above = 0.0, .at_most = 6.0, .meaning = "greatest horizontal acceleration it plans"});
+  v("climb_rate_limit", c.climb_rate_limit_mps,
+    {.unit = "m/s", .above = 0.0, .at_most = 5.0, .meaning = "greatest vertical speed it plans"});
+  v("yaw_rate_limit", c.yaw_rate_limit_radps,
+    {.unit = "deg/s", .above = 0.0, .at_most = 180.0, .meaning = "greatest turn rate it plans"});
+  v("tilt_limit", c.tilt_limit_rad,
+    {.unit = "deg", .above = 0.0, .at_most = 45.0, .meaning = "greatest tilt from the hover's attitude it asks for"});
+}
+
+/// Flies any vehicle that has a hover model. Two linear-quadratic designs on that model: one makes a reference flight
+/// that obeys the limits, the other, with integrals of velocity, altitude and heading, holds the vehicle to the
+/// reference flight. Setpoints therefore meet the reference flight only, and integrals wind up with disturbances only.
+/// Sources: design by [BrysonHo1975] sec. 5.2 with weights by the inverse squares of acceptable deviations; following
+/// an explicit model [Tyler1964] sec. II.
+class Autopilot {
+ public:
+  /// Throws std::invalid_argument on values out of range, or on a vehicle that cannot be stabilised.
+  Autopilot(const AutopilotConfig& config, const VehicleConfig& vehicle);
+
+  /// Starts a flight in a trimmed hover.
+  void reset(const NavigationEstimate& now);
+  /// Returns the blade angles to ask for over the next dt_s, > 0.
+  ActuatorCommand control(const Setpoint& setpoint, const NavigationEstimate& now, double dt_s);
+
+  const HoverModel& model() const { return model_; }
+  /// The reference flight's velocity, north, east, down, m/s.
+  Eigen::Vector3d reference_v_WB_W() const;
+
+ private:
+  /// A setpoint of any kind, as the reference flight takes it.
+  struct Target {
+    Eigen::Vector2d v_WB_W = Eigen::Vector2d::Zero();
+    double altitude_m = 0.0, heading_rad = 0.0;
+    bool attitude = false;  ///< hold roll and pitch instead of the velocity
+    double roll_rad = 0.0, pitch_rad = 0.0;
+  };
+  /// What holding errors within would take: tilt per velocity error, and so on.
+  struct Slopes {
+    Eigen::Vector2d pitch_roll_per_mps;  ///< tilt asked for per error of the forward and right velocity
+    double climb_per_m = 0.0, turn_per_rad = 0.0;
+  };
+
+  void design(double dt_s);
+  static Slopes slopes(const DesignMatrix& K);
+  Target target(const VelocitySetpoint& s, const NavigationEstimate& now, double dt_s);
+  Target target(const PositionSetpoint& s, const NavigationEstimate& now, double dt_s);
+  Target target(const AttitudeSetpoint& s, const NavigationEstimate& now, double dt_s);
+  Target target(const HoverSetpoint& s, const NavigationEstimate& now, double dt_s);
+  Eigen::Vector2d velocity_towards(const Eigen::Vector2d& p_WG, const NavigationEstimate& now) const;
+  Eigen::Vector4d advance_reference(const Target& target);
+
+  AutopilotConfig config_;
+  HoverModel model_;
+  double dt_s_ = 0.0;
+  LinearSystem step_;             ///< the model, sampled
+  DesignMatrix K_plan_, K_hold_;  ///< inputs x states; K_hold_ with four integrals behind
+  Slopes plan_slopes_, hold_slopes_;
+
+  DesignVector reference_;     ///< state of the reference flight; its heading and depth are absolute
+  DesignVector hidden_;        ///< hidden states of the vehicle, predicted by the model
+  Eigen::Vector4d integrals_;  ///< of the errors forward (m), right (m), below (m s), heading (rad s)
+  bool hovering_ = false, stopped_ = false;
+  double hover_altitude_m_ = 0.0, hover_heading_rad_ = 0.0;
+  Eigen::Vector2d hover_p_WB_ = Eigen::Vector2d::Zero();
+};
+
+}  // namespace hedgehop::dynamics

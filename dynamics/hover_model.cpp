@@ -1,0 +1,82 @@
+#include "dynamics/hover_model.h"
+
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "dynamics/rigid_body.h"
+#include "dynamics/trim.h"
+
+namespace hedgehop::dynamics {
+namespace {
+
+HoverModel make(const HelicopterConfig& config) {
+  using L = LinearModel;
+  using M = HoverModel;
+  const HelicopterModel model = make_model(config);
+  const std::optional<Trim> hover = trim(model, Eigen::Vector3d::Zero());
+  if (!hover) throw std::invalid_argument("the helicopter has no steady hover in still air");
+  LinearModel linear = linearise(model, *hover);
+
+  // From velocity in B to velocity in the level frame; at rest attitude does not enter.
+  Eigen::Matrix<double, L::kStates, L::kStates> T = Eigen::Matrix<double, L::kStates, L::kStates>::Identity();
+  T.topLeftCorner<3, 3>() = from_roll_pitch_heading(hover->roll_rad, hover->pitch_rad, 0.0).toRotationMatrix();
+  linear.A = (T * linear.A * T.transpose()).eval();
+  linear.B = (T * linear.B).eval();
+
+  // Where each state of the linear model stands; a lumped stabiliser bar has none of its own.
+  std::vector<int> place(L::kStates);
+  const std::vector<std::pair<int, int>> named = {
+      {L::kU, M::kForward}, {L::kV, M::kRight},     {L::kW, M::kDown},
+      {L::kP, M::kP},       {L::kQ, M::kQ},         {L::kR, M::kR},
+      {L::kRoll, M::kRoll}, {L::kPitch, M::kPitch}, {L::kHeading, M::kHeading}};
+  for (const auto& [from, to] : named) place[static_cast<size_t>(from)] = to;
+  int size = M::kHidden;
+  for (const int k : {L::kBack, L::kRight, L::kBarBack, L::kBarRight}) {
+    const bool lives = !linear.A.row(k).isZero(0.0) || !linear.B.row(k).isZero(0.0);
+    place[static_cast<size_t>(k)] = lives ? size++ : -1;
+  }
+  const int servos = size;
+  size += 2 * M::kInputs;
+
+  HoverModel out;
+  out.roll_rad = hover->roll_rad;
+  out.pitch_rad = hover->pitch_rad;
+  DesignMatrix& A = out.motion.A = DesignMatrix::Zero(size, size);
+  DesignMatrix& B = out.motion.B = DesignMatrix::Zero(size, M::kInputs);
+  for (int i = 0; i < L::kStates; ++i) {
+    const int row = place[static_cast<size_t>(i)];
+    if (row < 0) continue;
+    for (int j = 0; j < L::kStates; ++j) {
+      const int col = place[static_cast<size_t>(j)];
+      if (col >= 0) A(row, col) = linear.A(i, j);
+    }
+    for (int j = 0; j < L::kInputs; ++j) A(row, servos + 2 * j) = linear.B(i, j);
+  }
+  A(M::kBelow, M::kDown) = 1.0;
+
+  const ActuatorCommand& t = hover->blades;
+  out.trim_rad << t.collective_rad, t.lateral_rad, t.longitudinal_rad, t.tail_rad;
+  const std::array<ServoConfig, 4> configs{config.servos.collective, config.servos.cyclic, config.servos.cyclic,
+                                           config.servos.tail};
+  for (int j = 0; j < M::kInputs; ++j) {
+    const ServoConfig& servo = configs[static_cast<size_t>(j)];
+    const double wn2 = servo.natural_frequency_radps * servo.natural_frequency_radps;
+    const int position = servos + 2 * j, rate = position + 1;
+    A(position, rate) = 1.0;
+    A(rate, position) = -wn2;
+    A(rate, rate) = -2.0 * servo.damping * servo.natural_frequency_radps;
+    B(rate, j) = wn2;
+    out.lowest_rad[j] = servo.lowest_rad;
+    out.highest_rad[j] = servo.highest_rad;
+  }
+  return out;
+}
+
+}  // namespace
+
+HoverModel make_hover_model(const VehicleConfig& vehicle) {
+  return std::visit([](const auto& config) { return make(config); }, vehicle);
+}
+
+}  // namespace hedgehop::dynamics

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+
+/// Linear-quadratic design for sampled systems of moderate size; matrices live on the stack.
+namespace hedgehop::dynamics {
+
+inline constexpr int kMostStates = 32, kMostInputs = 8;
+using DesignMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostStates, kMostStates>;
+using DesignVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostStates, 1>;
+
+/// dx/dt = A x + B u, or x_next = A x + B u.
+struct LinearSystem {
+  DesignMatrix A, B;
+};
+
+/// Returns the exact sampled system for inputs held over steps of dt_s > 0.
+LinearSystem sampled(const LinearSystem& continuous, double dt_s);
+
+/// Returns K, inputs x states, such that u = -K x minimises the sum of x'Qx + u'Ru over all steps of a sampled system.
+/// @param Q, R  symmetric, Q at least semidefinite, R definite.
+/// Throws std::invalid_argument when no such K makes the system stable.
+/// Source: structured doubling for the discrete algebraic Riccati equation [ChuFanLinWang2004] sec. 2, eqs.
+/// (2.7)-(2.9).
+DesignMatrix lqr_gain(const LinearSystem& system, const DesignMatrix& Q, const DesignMatrix& R);
+
+}  // namespace hedgehop::dynamics
