@@ -34,6 +34,10 @@ Eigen::Vector4f lens(const vision::PinholeCamera& camera) {
       .cast<float>();
 }
 
+/// The nearest point that floats hold exactly up to 16 km from the origin. Not the nearest float: g++ 12 at -O2 folds
+/// double to float and back into nothing, and p - on_float_grid(p) with it.
+Eigen::Vector3d on_float_grid(const Eigen::Vector3d& p) { return (1024.0 * p).array().round().matrix() / 1024.0; }
+
 Eigen::Vector3f mean_of_channels(const Eigen::Vector3f& color) { return Eigen::Vector3f::Constant(color.mean()); }
 
 }  // namespace
@@ -45,7 +49,8 @@ class Renderer::Impl {
         sky_(scene.sky),
         buffers_(upload(gl_, scene)),
         visible_(buffers_.chunks),
-        surfaces_(scene_program(gl_)),
+        greys_(grey_program(gl_)),
+        colors_(color_program(gl_)),
         depths_(depth_program(gl_)),
         skies_(sky_program(gl_)),
         counts_(buffers_.chunks.size()),
@@ -70,8 +75,7 @@ class Renderer::Impl {
       draw_scene(view, depths_);
     } else {
       const bool grey = view.channel == Channel::grey;
-      gl_.BindTexture(GL_TEXTURE_2D_ARRAY, grey ? buffers_.grey_textures : buffers_.color_textures);
-      draw_scene(view, surfaces_);
+      draw_scene(view, grey ? greys_ : colors_);
       draw_sky(view, grey);
     }
     targets_.read(gl_, out);
@@ -89,12 +93,12 @@ class Renderer::Impl {
  private:
   void draw_scene(const CameraView& view, const Program& program) {
     const Eigen::Vector3d p_WC = view.X_WC.translation();
-    const Eigen::Vector3f eye_W = p_WC.cast<float>();
-    const Eigen::Vector3f eye_low_W = (p_WC - eye_W.cast<double>()).cast<float>();
+    const Eigen::Vector3d eye_W = on_float_grid(p_WC);
+    const Eigen::Vector3f eye_low_C = (view.X_WC.linear().transpose() * (p_WC - eye_W)).cast<float>();
     const Eigen::Matrix3f R_CW = view.X_WC.linear().transpose().cast<float>();
     gl_.UseProgram(program.id);
-    gl_.Uniform3fv(program.eye_W, 1, eye_W.data());
-    gl_.Uniform3fv(program.eye_low_W, 1, eye_low_W.data());
+    gl_.Uniform3fv(program.eye_W, 1, eye_W.cast<float>().eval().data());
+    gl_.Uniform3fv(program.eye_low_C, 1, eye_low_C.data());
     gl_.UniformMatrix3fv(program.rotation, 1, GL_FALSE, R_CW.data());
     gl_.Uniform4fv(program.lens, 1, lens(view.camera).data());
 
@@ -125,7 +129,7 @@ class Renderer::Impl {
   scenes::Sky sky_;
   SceneBuffers buffers_;
   VisibleChunks visible_;
-  Program surfaces_, depths_, skies_;
+  Program greys_, colors_, depths_, skies_;
   RenderTargets targets_;
   std::vector<GLsizei> counts_;
   std::vector<const void*> offsets_;

@@ -10,8 +10,8 @@ namespace hedgehop::sim {
 /// A scene in a context's memory. All meshes share one vertex and one index buffer, so that one call draws any of them.
 struct SceneBuffers {
   GLuint vertex_array = 0;
-  GLuint grey_textures = 0, color_textures = 0;  ///< GL_TEXTURE_2D_ARRAY, R8 and RGBA8
-  std::vector<scenes::Chunk> chunks;             ///< first_index counts in the shared index buffer
+  GLuint textures = 0;                ///< GL_TEXTURE_2D_ARRAY, RGBA8, with the mean of R, G and B in A
+  std::vector<scenes::Chunk> chunks;  ///< first_index counts in the shared index buffer
 };
 
 /// Light falls on each vertex here once, since neither sun nor surfaces move.

@@ -13,24 +13,32 @@ namespace {
 
 // Pixel (u, v) lies at window (u + 0.5, v + 0.5) with OpenGL's first row on top, so C's axes are the window's axes and
 // rows come back in the order of a cv::Mat. Depth is reversed and without a far plane: near / z, 1 at the near plane,
-// 0 at infinity, where floats are densest. The eye is subtracted in two parts to keep millimetres far from the origin.
+// 0 at infinity, where floats are densest. The eye is subtracted in two parts,
+// the high one exactly, so that nothing is lost far from the origin.
 constexpr const char* kSceneVertex = R"(layout(location = 0) in vec3 p_W;
 layout(location = 1) in vec4 surface;
-uniform vec3 eye_W, eye_low_W;
+uniform vec3 eye_W, eye_low_C;
 uniform mat3 rotation;
 uniform vec4 lens;
 out vec4 coordinates;
 void main() {
-  vec3 p_C = rotation * ((p_W - eye_W) - eye_low_W);
+  vec3 p_C = rotation * (p_W - eye_W) - eye_low_C;
   gl_Position = vec4(lens.xy * p_C.xy + lens.zw * p_C.z, near, p_C.z);
   coordinates = surface;
 }
 )";
 
-constexpr const char* kSceneFragment = R"(in vec4 coordinates;
+constexpr const char* kColorFragment = R"(in vec4 coordinates;
 uniform sampler2DArray textures;
 out vec4 pixel;
 void main() { pixel = texture(textures, coordinates.xyw) * coordinates.z; }
+)";
+
+constexpr const char* kGreyFragment = R"(
+in vec4 coordinates;
+uniform sampler2DArray textures;
+out float pixel;
+void main() { pixel = dot(texture(textures, coordinates.xyw).rgb, vec3(coordinates.z / 3.0)); }
 )";
 
 constexpr const char* kDepthFragment = R"(out float z_C;
@@ -90,7 +98,7 @@ Program link(const GlFunctions& gl, const char* vertex_source, const char* fragm
     throw std::runtime_error(fmt::format("a shader program does not link: {}", log));
   }
   program.eye_W = gl.GetUniformLocation(program.id, "eye_W");
-  program.eye_low_W = gl.GetUniformLocation(program.id, "eye_low_W");
+  program.eye_low_C = gl.GetUniformLocation(program.id, "eye_low_C");
   program.rotation = gl.GetUniformLocation(program.id, "rotation");
   program.lens = gl.GetUniformLocation(program.id, "lens");
   program.horizon = gl.GetUniformLocation(program.id, "horizon");
@@ -100,7 +108,8 @@ Program link(const GlFunctions& gl, const char* vertex_source, const char* fragm
 
 }  // namespace
 
-Program scene_program(const GlFunctions& gl) { return link(gl, kSceneVertex, kSceneFragment); }
+Program color_program(const GlFunctions& gl) { return link(gl, kSceneVertex, kColorFragment); }
+Program grey_program(const GlFunctions& gl) { return link(gl, kSceneVertex, kGreyFragment); }
 Program depth_program(const GlFunctions& gl) { return link(gl, kSceneVertex, kDepthFragment); }
 Program sky_program(const GlFunctions& gl) { return link(gl, kSkyVertex, kSkyFragment); }
 

@@ -7,16 +7,17 @@ namespace hedgehop::sim {
 /// A linked program and where its per-view uniforms are (-1 where it has none).
 struct Program {
   GLuint id = 0;
-  GLint eye_W = -1, eye_low_W = -1, rotation = -1, lens = -1, horizon = -1, zenith = -1;
+  GLint eye_W = -1, eye_low_C = -1, rotation = -1, lens = -1, horizon = -1, zenith = -1;
 };
 
-/// Vertex attributes of scene_program() and depth_program().
+/// Vertex attributes of all programs but sky_program().
 inline constexpr GLuint kPositionAttribute = 0;  ///< p_W, m
 inline constexpr GLuint kSurfaceAttribute = 1;   ///< u, v, brightness 0..1, texture layer
 
-/// Textured and lit surfaces; grey or coloured with the bound texture array. Each throws std::runtime_error with the
-/// compiler's words when it does not compile.
-Program scene_program(const GlFunctions& gl);
+/// Textured and lit surfaces, from the bound array of textures: RGB, or grey from the fourth channel. Each throws
+/// std::runtime_error with the compiler's words when it does not compile.
+Program color_program(const GlFunctions& gl);
+Program grey_program(const GlFunctions& gl);
 /// Metric depth: z in C, m.
 Program depth_program(const GlFunctions& gl);
 /// The sky behind everything: three vertices without attributes.

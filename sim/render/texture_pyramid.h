@@ -5,13 +5,9 @@
 
 namespace hedgehop::sim {
 
-/// One picture at every size down to 1 x 1, each pixel the mean of the full picture's pixels it covers, rounded once.
-struct TexturePyramid {
-  std::vector<cv::Mat> color;  ///< CV_8UC4, RGB and 255
-  std::vector<cv::Mat> grey;   ///< CV_8UC1, mean of R, G and B
-};
-
+/// Returns a picture at every size down to 1 x 1, CV_8UC4: R, G, B, and their mean in the fourth channel. Each pixel is
+/// the mean of the full picture's pixels that it covers, rounded once.
 /// @param picture  CV_8UC3 RGB, square, a power of two wide.
-TexturePyramid texture_pyramid(const cv::Mat& picture);
+std::vector<cv::Mat> texture_pyramid(const cv::Mat& picture);
 
 }  // namespace hedgehop::sim

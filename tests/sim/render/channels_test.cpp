@@ -1,0 +1,135 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/sim/render/small_world.h"
+
+namespace hedgehop::sim {
+namespace {
+
+const vision::PinholeCamera kCamera = vision::PinholeCamera::from_fov(240, 180, 1.3);
+
+bool same_pixels(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0.0;
+}
+
+TEST(Channels, GreyIsTheMeanOfTheColours) {
+  const SmallWorld city = small_city(6, 31);
+  Renderer renderer(city.scene);
+  std::mt19937_64 random(32);
+  cv::Mat grey, color, mean;
+  double worst = 0.0;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Eigen::Isometry3d X_WC = random_pose(random, 90.0, 50.0, 0.8);
+    renderer.draw({kCamera, X_WC, Channel::grey}, grey);
+    renderer.draw({kCamera, X_WC, Channel::color}, color);
+    cv::transform(color, mean, cv::Matx13f(1 / 3.0f, 1 / 3.0f, 1 / 3.0f));
+    worst = std::max(worst, cv::norm(grey, mean, cv::NORM_INF));
+  }
+  EXPECT_LE(worst, 1.0);
+}
+
+TEST(Channels, HaveTheTypesPromised) {
+  SmallWorld world;
+  Renderer renderer(world.scene);
+  cv::Mat grey, color, depth;
+  renderer.draw({kCamera, Eigen::Isometry3d::Identity(), Channel::grey}, grey);
+  renderer.draw({kCamera, Eigen::Isometry3d::Identity(), Channel::color}, color);
+  renderer.draw({kCamera, Eigen::Isometry3d::Identity(), Channel::depth}, depth);
+  EXPECT_EQ(grey.type(), CV_8UC1);
+  EXPECT_EQ(color.type(), CV_8UC3);
+  EXPECT_EQ(depth.type(), CV_32FC1);
+  for (const cv::Mat& picture : {grey, color, depth}) EXPECT_EQ(picture.size(), cv::Size(240, 180));
+}
+
+TEST(Channels, AFaceTowardsTheSunIsBrighterByItsCosine) {
+  SmallWorld world(std::vector{plain_picture(8, {200, 100, 50})});
+  world.scene.lights = {.ambient = 0.4f, .sun = 0.5f, .to_sun_W = Eigen::Vector3f(-0.6f, 0.0f, -0.8f)};
+  world.add_box({Eigen::Vector3f(-5, -5, -10), Eigen::Vector3f(5, 5, 0)});
+  Renderer renderer(world.scene);
+  cv::Mat color;
+  const auto seen_from = [&](const Eigen::Vector3d& p_WC) {
+    renderer.draw({kCamera, look_at(p_WC, {0, 0, -5}), Channel::color}, color);
+    return color.at<cv::Vec3b>(90, 120);
+  };
+  EXPECT_EQ(seen_from({-12, 0, -5}), cv::Vec3b(140, 70, 35));  // south, n . l = 0.6
+  EXPECT_EQ(seen_from({0, 0, -20}), cv::Vec3b(160, 80, 40));   // roof, n . l = 0.8
+  EXPECT_EQ(seen_from({12, 0, -5}), cv::Vec3b(80, 40, 20));    // north, in its own shade
+  EXPECT_EQ(seen_from({0, 12, -5}), cv::Vec3b(80, 40, 20));    // east, light grazes it
+}
+
+TEST(Channels, SkyGoesFromHorizonToZenith) {
+  SmallWorld world;
+  world.scene.sky = {.horizon = {0.8f, 0.6f, 0.4f}, .zenith = {0.2f, 0.4f, 1.0f}};
+  Renderer renderer(world.scene);
+  const vision::PinholeCamera camera{101, 101, 40.0, 40.0, 50.0, 50.0};
+  cv::Mat color;
+  renderer.draw({camera, look_at({0, 0, -5}, {0, 0, -6}), Channel::color}, color);
+  EXPECT_EQ(color.at<cv::Vec3b>(50, 50), cv::Vec3b(51, 102, 255));
+  renderer.draw({camera, look_at({0, 0, -5}, {1, 0, -5}), Channel::color}, color);
+  EXPECT_EQ(color.at<cv::Vec3b>(50, 50), cv::Vec3b(204, 153, 102));
+  EXPECT_EQ(color.at<cv::Vec3b>(90, 50), cv::Vec3b(204, 153, 102));
+  EXPECT_LT(color.at<cv::Vec3b>(0, 50)[0], color.at<cv::Vec3b>(40, 50)[0]);
+}
+
+TEST(Renderer, DrawsEqualPixelsAgainAndFromASecondRenderer) {
+  const SmallWorld city = small_city(5, 41);
+  Renderer first(city.scene), second(city.scene);
+  std::mt19937_64 random(42);
+  cv::Mat once, twice, elsewhere, other_size;
+  for (int trial = 0; trial < 9; ++trial) {
+    const auto channel = static_cast<Channel>(trial % 3);
+    const CameraView view{kCamera, random_pose(random, 80.0, 50.0, 0.8), channel};
+    first.draw(view, once);
+    second.draw(view, elsewhere);
+    second.draw({vision::PinholeCamera::from_fov(64, 32, 2.0), view.X_WC, channel}, other_size);
+    first.draw(view, twice);
+    EXPECT_TRUE(same_pixels(once, twice));
+    EXPECT_TRUE(same_pixels(once, elsewhere));
+  }
+}
+
+TEST(Renderer, WritesIntoThePictureItIsGiven) {
+  const SmallWorld city = small_city(3, 51);
+  Renderer renderer(city.scene);
+  const CameraView view{kCamera, look_at({-60, 3, -8}, {0, 0, -8}), Channel::color};
+  cv::Mat picture;
+  renderer.draw(view, picture);
+  const uint8_t* const data = picture.data;
+  cv::Mat wide(180, 500, CV_8UC3, cv::Scalar::all(7));
+  cv::Mat half = wide(cv::Rect(250, 0, 240, 180));
+  renderer.draw(view, half);
+  EXPECT_TRUE(same_pixels(half, picture));
+  EXPECT_EQ(wide.at<cv::Vec3b>(90, 249), cv::Vec3b::all(7));
+  EXPECT_EQ(wide.at<cv::Vec3b>(90, 490), cv::Vec3b::all(7));
+  renderer.draw(view, picture);
+  EXPECT_EQ(picture.data, data);
+}
+
+TEST(Renderer, SaysWhoDraws) { EXPECT_THAT(Renderer(SmallWorld().scene).info(), testing::HasSubstr("OpenGL")); }
+
+TEST(Renderer, RefusesWhatCannotBeDrawn) {
+  SmallWorld bad_index;
+  bad_index.add_box({Eigen::Vector3f(-1, -1, -1), Eigen::Vector3f(1, 1, 1)});
+  bad_index.scene.meshes.front().indices.back() = 1000;
+  EXPECT_THROW(Renderer{bad_index.scene}, std::invalid_argument);
+
+  SmallWorld two_sizes({plain_picture(8, {}), plain_picture(16, {})});
+  EXPECT_THROW(Renderer{two_sizes.scene}, std::invalid_argument);
+
+  SmallWorld no_such_texture;
+  no_such_texture.add_quad({1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 3);
+  EXPECT_THROW(Renderer{no_such_texture.scene}, std::invalid_argument);
+
+  Renderer renderer(SmallWorld().scene);
+  cv::Mat picture;
+  EXPECT_THROW(renderer.draw({}, picture), std::invalid_argument);
+  Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
+  X_WC.translation().x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(renderer.draw({kCamera, X_WC, Channel::grey}, picture), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace hedgehop::sim

@@ -1,0 +1,111 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "sim/render/horizon.h"
+#include "tests/sim/render/small_world.h"
+
+namespace hedgehop::sim {
+namespace {
+
+const vision::PinholeCamera kCamera = vision::PinholeCamera::from_fov(200, 150, 1.4);
+
+TEST(Culling, LeavesEveryPixelAsItWas) {
+  std::mt19937_64 random(61);
+  cv::Mat all, culled;
+  for (const uint64_t seed : {62u, 63u}) {
+    const SmallWorld city = small_city(12, seed);
+    Renderer everything(city.scene, Culling::none), frustum(city.scene, Culling::frustum);
+    Renderer horizon(city.scene, Culling::frustum_and_horizon);
+    for (int trial = 0; trial < 250; ++trial) {
+      const auto channel = trial % 2 == 0 ? Channel::depth : Channel::grey;
+      const CameraView view{kCamera, random_pose(random, 230.0, trial % 3 == 0 ? 60.0 : 15.0, 1.0), channel};
+      everything.draw(view, all);
+      for (Renderer* renderer : {&frustum, &horizon}) {
+        renderer->draw(view, culled);
+        ASSERT_EQ(std::memcmp(all.data, culled.data, all.total() * all.elemSize()), 0) << "trial " << trial;
+      }
+      ASSERT_LE(horizon.drawn().chunks, frustum.drawn().chunks);
+      ASSERT_LE(frustum.drawn().chunks, everything.drawn().chunks);
+    }
+  }
+}
+
+TEST(Culling, DrawsLittleOfALargeCityFromItsStreets) {
+  const SmallWorld city = small_city(40, 64);  // 3200 chunks
+  Renderer horizon(city.scene), frustum(city.scene, Culling::frustum);
+  std::mt19937_64 random(65);
+  cv::Mat grey;
+  size_t visible = 0, in_frustum = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    const CameraView view{kCamera, random_pose(random, 300.0, 12.0, 0.1), Channel::grey};
+    horizon.draw(view, grey);
+    frustum.draw(view, grey);
+    visible += horizon.drawn().chunks;
+    in_frustum += frustum.drawn().chunks;
+  }
+  EXPECT_LT(visible * 5, in_frustum);
+}
+
+/// True when the segment from a to b passes through the box.
+bool blocks(const Eigen::AlignedBox3f& box, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  double in = 0.0, out = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double step = b[axis] - a[axis];
+    const double to_min = (static_cast<double>(box.min()[axis]) - a[axis]) / step;
+    const double to_max = (static_cast<double>(box.max()[axis]) - a[axis]) / step;
+    in = std::max(in, std::min(to_min, to_max));
+    out = std::min(out, std::max(to_min, to_max));
+  }
+  return in < out;
+}
+
+Eigen::AlignedBox3f random_tower(std::mt19937_64& random, double half_m) {
+  const Eigen::Vector3d low(uniform(random, -half_m, half_m), uniform(random, -half_m, half_m),
+                            -uniform(random, 1.0, 60.0));
+  const Eigen::Vector3d high(low.x() + uniform(random, 0.5, 60.0), low.y() + uniform(random, 0.5, 60.0), 0.0);
+  return {low.cast<float>(), high.cast<float>()};
+}
+
+TEST(Horizon, HidesOnlyWhatRaysCannotReach) {
+  std::mt19937_64 random(71);
+  Horizon horizon;
+  int hidden = 0;
+  for (int trial = 0; trial < 20'000; ++trial) {
+    const Eigen::Vector3d eye_W(uniform(random, -100, 100), uniform(random, -100, 100), -uniform(random, 0.5, 70));
+    horizon.reset(eye_W);
+    std::vector<Eigen::AlignedBox3f> towers;
+    double farthest_m = 0.0;
+    for (int i = 0; i < 6; ++i) {
+      towers.push_back(random_tower(random, 150.0));
+      horizon.raise(towers.back());
+      farthest_m = std::max(farthest_m, horizon.farthest_m(towers.back()));
+    }
+    const Eigen::AlignedBox3f behind = random_tower(random, 600.0);
+    if (horizon.nearest_m(behind) < farthest_m || !horizon.hides(behind)) continue;
+    ++hidden;
+    for (int sample = 0; sample < 100; ++sample) {
+      Eigen::Vector3d p_W = behind.min().cast<double>();
+      for (int axis = 0; axis < 3; ++axis) {
+        p_W[axis] += static_cast<double>(behind.sizes()[axis]) * std::clamp(uniform(random, -0.5, 1.5), 0.0, 1.0);
+      }
+      ASSERT_TRUE(std::ranges::any_of(towers, [&](const auto& tower) { return blocks(tower, eye_W, p_W); }))
+          << "trial " << trial << ", eye " << eye_W.transpose() << ", point " << p_W.transpose();
+    }
+  }
+  EXPECT_GT(hidden, 200);
+}
+
+TEST(Horizon, HidesATowerBehindAWiderOne) {
+  Horizon horizon;
+  horizon.reset({0, 0, -10});
+  horizon.raise({Eigen::Vector3f(50, -20, -30), Eigen::Vector3f(60, 20, 0)});
+  EXPECT_TRUE(horizon.hides({Eigen::Vector3f(100, -10, -40), Eigen::Vector3f(110, 10, 0)}));
+  EXPECT_FALSE(horizon.hides({Eigen::Vector3f(100, -10, -60), Eigen::Vector3f(110, 10, 0)}));  // rises above
+  EXPECT_FALSE(horizon.hides({Eigen::Vector3f(100, 30, -20), Eigen::Vector3f(110, 50, 0)}));   // stands out beside
+  EXPECT_FALSE(horizon.hides({Eigen::Vector3f(-110, -10, -20), Eigen::Vector3f(-100, 10, 0)}));
+}
+
+}  // namespace
+}  // namespace hedgehop::sim

@@ -1,0 +1,125 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "tests/sim/render/small_world.h"
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr double kRelative = 1e-4;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// What a ray meets first: distance in multiples of the ray, and which face of what (an odd number for each).
+struct Hit {
+  double along = kInfinity;
+  int face = -1;
+};
+
+/// Boxes and the plane z = 0, met analytically (slabs), seen from outside.
+struct RayCaster {
+  std::vector<Eigen::AlignedBox3d> boxes_W;
+  double ground_half_m = 0.0;
+
+  Hit operator()(const Eigen::Vector3d& eye_W, const Eigen::Vector3d& ray_W) const {
+    Hit hit;
+    const double ground = -eye_W.z() / ray_W.z();
+    const Eigen::Vector3d p_W = eye_W + ground * ray_W;
+    if (ray_W.z() > 0.0 && ground > 0.0 && p_W.head<2>().cwiseAbs().maxCoeff() <= ground_half_m) hit = {ground, 0};
+    for (size_t i = 0; i < boxes_W.size(); ++i) {
+      double in = -kInfinity, out = kInfinity;
+      int axis_in = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        double a = (boxes_W[i].min()[axis] - eye_W[axis]) / ray_W[axis];
+        double b = (boxes_W[i].max()[axis] - eye_W[axis]) / ray_W[axis];
+        if (a > b) std::swap(a, b);
+        if (a > in) axis_in = axis;
+        in = std::max(in, a);
+        out = std::min(out, b);
+      }
+      if (in < out && in > 0.0 && in < hit.along) hit = {in, 1 + 3 * static_cast<int>(i) + axis_in};
+    }
+    return hit;
+  }
+};
+
+/// The hit of a pixel, or nothing near an edge, where the rasteriser may fairly choose either side.
+std::optional<Hit> clear_hit(const RayCaster& cast, const CameraView& view, int col, int row) {
+  const auto at = [&](double du, double dv) {
+    return cast(view.X_WC.translation(), view.X_WC.linear() * view.camera.ray({col + du, row + dv}));
+  };
+  const Hit center = at(0, 0);
+  constexpr double kEdgePx = 0.02;
+  for (const double du : {-kEdgePx, kEdgePx}) {
+    for (const double dv : {-kEdgePx, kEdgePx}) {
+      if (at(du, dv).face != center.face) return std::nullopt;
+    }
+  }
+  return center;
+}
+
+TEST(Depth, EqualsRaysMetByBoxesAndGround) {
+  std::mt19937_64 random(21);
+  SmallWorld world;
+  RayCaster cast;
+  cast.ground_half_m = 400.0;
+  world.add_ground(400.0f, 4);
+  for (int i = 0; i < 60; ++i) {
+    const Eigen::Vector3d center(uniform(random, -150, 150), uniform(random, -150, 150), uniform(random, -40, -5));
+    const Eigen::Vector3d half(uniform(random, 0.2, 10), uniform(random, 0.2, 10), uniform(random, 0.2, 5));
+    const Eigen::AlignedBox3f box_W((center - half).cast<float>(), (center + half).cast<float>());
+    world.add_box(box_W);
+    cast.boxes_W.push_back(box_W.cast<double>());
+  }
+  Renderer renderer(world.scene);
+  const vision::PinholeCamera camera{200, 150, 130.0, 170.0, 90.0, 80.0};
+  cv::Mat depth;
+  size_t compared = 0, surfaces = 0;
+  for (int trial = 0; trial < 30; ++trial) {
+    CameraView view{camera, random_pose(random, 150.0, 40.0, 1.0), Channel::depth};
+    const auto inside = [&](const auto& box) { return box.exteriorDistance(view.X_WC.translation()) < 0.2; };
+    if (std::ranges::any_of(cast.boxes_W, inside)) continue;
+    renderer.draw(view, depth);
+    for (int row = 0; row < depth.rows; ++row) {
+      for (int col = 0; col < depth.cols; ++col) {
+        const std::optional<Hit> hit = clear_hit(cast, view, col, row);
+        if (!hit) continue;
+        const auto z_m = static_cast<double>(depth.at<float>(row, col));
+        ++compared;
+        if (hit->face < 0) {
+          ASSERT_EQ(z_m, kInfinity) << "trial " << trial << ", pixel " << col << ", " << row;
+        } else {
+          ++surfaces;
+          ASSERT_NEAR(z_m / hit->along, 1.0, kRelative) << "trial " << trial << ", pixel " << col << ", " << row;
+        }
+      }
+    }
+  }
+  EXPECT_GT(compared, 700'000u);
+  EXPECT_GT(surfaces, 300'000u);
+}
+
+// Two kilometres from the origin a float holds 0.1 mm: the eye must not lose more than that.
+TEST(Depth, HoldsFarFromTheOriginAndVeryNear) {
+  for (const double range_m : {0.06, 0.3, 5.0, 900.0}) {
+    const Eigen::Vector3d eye_W(2000.0123, -1500.0456, -30.0789);
+    SmallWorld world;
+    const float wall_m = 2500.0f;
+    world.add_quad({wall_m, -4000, -2000}, {0, 5000, 0}, {0, 0, 4000});
+    Renderer renderer(world.scene);
+    const Eigen::Vector3d at(static_cast<double>(wall_m) - range_m, eye_W.y(), eye_W.z());
+    cv::Mat depth;
+    renderer.draw(
+        {vision::PinholeCamera::from_fov(60, 40, 1.5), look_at(at, at + Eigen::Vector3d::UnitX()), Channel::depth},
+        depth);
+    double nearest = 0, farthest = 0;
+    cv::minMaxLoc(depth, &nearest, &farthest);
+    EXPECT_NEAR(nearest / range_m, 1.0, kRelative);
+    EXPECT_NEAR(farthest / range_m, 1.0, kRelative);
+  }
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
