@@ -8,6 +8,7 @@ namespace hedgehop::sim {
 
 /// A film of a flight that a browser plays: VP8 in WebM, written while the flight goes on. Encoding is tuned for speed
 /// (about 4 ms for a 1000 x 700 picture); nothing of it flows back into the flight.
+/// FFmpeg's own messages on standard error are kept to errors from the first film on.
 class Film {
  public:
   /// Opens `file_webm` aside (`.part`) until close(). @param rate_hz pictures a second, > 0. @param size_px at least

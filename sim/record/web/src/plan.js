@@ -49,7 +49,7 @@ function pathColorings(path) {
   const colorings = [];
   if (path.clearance.some((v) => v !== null)) {
     colorings.push({name: 'clearance', unit: 'm', values: path.clearance, ramp: 'ramp', low: 0,
-      high: Math.max(1, Math.min(10, quantile(path.clearance, 0.9))), open: true});
+      high: Math.ceil(2 * Math.max(1, Math.min(10, quantile(path.clearance, 0.9)))) / 2, open: true});
   }
   const [slow, fast] = finiteRange(path.speed);
   colorings.push({name: 'time', unit: 's', values: path.t, ramp: 'ramp-time', low: path.t[0], high: path.t.at(-1)});
@@ -292,7 +292,8 @@ class PlanView {
       c.beginPath();
       c.arc(x, y, 9, 0, 2 * Math.PI);
       c.stroke();
-      this.label(c, 'closest: ' + metres(near.distance_m), x, y + 20, themeColor('bad'));
+      const text = result.outcome === 'collided' && near.distance_m <= 0 ? 'collided' : 'closest: ' + metres(near.distance_m);
+      this.label(c, text, x, y + 20, themeColor('bad'));
     }
     if (this.row !== null) this.drawVehicle(c, this.row, ink);
   }
