@@ -7,7 +7,7 @@
 /// First-order flapping of the main rotor's disc and its Bell-Hiller stabiliser bar.
 namespace hedgehop::dynamics {
 
-/// Rotor and bar as one: the bar's lag is the disc's. Source: [Gavrilets2015] sec. "main rotor flapping".
+/// Rotor and bar as one: the bar's lag is the disc's. Source: [Gavrilets2015] sec. on flapping.
 struct LumpedBarConfig {
   static constexpr std::string_view kName = "lumped";
   static constexpr std::string_view kMeaning = "rotor and stabiliser bar follow the stick as one, with one lag";
@@ -23,8 +23,8 @@ void describe(Visitor& v, LumpedBarConfig& c) {
     {.above = 0.0, .meaning = "steady disc tilt back per longitudinal cyclic, rad/rad"});
 }
 
-/// The bar as a second, slower rotor that feeds the blades. Source: [MettlerTischlerKanade2002] sec. "stabilizer bar".
-/// The defaults are estimates that give the default helicopter the lag and gain of its lumped bar.
+/// The bar as a second, slower rotor that feeds the blades. Source: [MettlerTischlerKanade2002] sec. on the stabilizer
+/// bar. The defaults are estimates that give the default helicopter the lag and gain of its lumped bar.
 struct ExplicitBarConfig {
   static constexpr std::string_view kName = "explicit";
   static constexpr std::string_view kMeaning = "rotor and stabiliser bar flap on their own, the bar feeding the rotor";
@@ -85,8 +85,9 @@ struct FlapInput {
   double roll_radps = 0.0, pitch_radps = 0.0;
 };
 
-/// Returns the time derivatives of the four tilts, in the order of FlapState. Source: [Gavrilets2015] sec. "main rotor
-/// flapping" for the lumped bar and the speed terms, [MettlerTischlerKanade2002] for the explicit bar.
+/// Returns the time derivatives of the four tilts, in the order of FlapState. Source: [Gavrilets2015] sec. on
+/// flapping for the lumped bar and the speed terms, [MettlerTischlerKanade2002] sec. on the stabilizer bar for the
+/// explicit one.
 /// Differs: the lateral speed term has the sign that tilts the disc away from the motion (L_v < 0).
 Eigen::Vector4d derivative(const FlappingModel& model, const FlapState& flap, const FlapInput& input);
 

@@ -39,7 +39,7 @@ void describe(Visitor& v, ServosConfig& c) {
 }
 
 /// A helicopter with one main rotor, a stabiliser bar and a tail rotor. Defaults: the X-Cell .60 of [Gavrilets2015]
-/// table 1.
+/// table of parameters.
 struct HelicopterConfig {
   static constexpr std::string_view kName = "helicopter";
   static constexpr std::string_view kMeaning = "main and tail rotor at constant speed, Bell-Hiller stabiliser bar";

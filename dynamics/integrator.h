@@ -7,7 +7,7 @@ namespace hedgehop::dynamics {
 /// Returns x one step later by the classical fourth-order Runge-Kutta method.
 /// @param t_s, h_s  time of x and step.
 /// @param rate      pure, `Vector rate(double t_s, const Vector& x)`.
-/// Source: [HairerNorsettWanner1993] sec. II.1, table 1.2.
+/// Source: [HairerNorsettWanner1993] sec. II.1.
 template <int N, class Rate>
 Eigen::Matrix<double, N, 1> rk4_step(const Eigen::Matrix<double, N, 1>& x, double t_s, double h_s, const Rate& rate) {
   using Vector = Eigen::Matrix<double, N, 1>;

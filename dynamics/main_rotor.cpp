@@ -7,7 +7,7 @@
 namespace hedgehop::dynamics {
 namespace {
 
-/// Lag of a flapping mass, s: Source: [Gavrilets2015] sec. "main rotor flapping".
+/// Lag of a flapping mass, s. Source: [Gavrilets2015] sec. on flapping.
 double flapping_lag_s(double lock_number, double speed_radps) { return 16.0 / (lock_number * speed_radps); }
 
 void set_flybar(FlappingModel& model, const LumpedBarConfig& bar, double speed_radps, double /*density*/) {

@@ -9,7 +9,7 @@
 
 namespace hedgehop::dynamics {
 
-/// Defaults: the X-Cell .60 of [Gavrilets2015] table 1.
+/// Defaults: the X-Cell .60 of [Gavrilets2015] table of parameters.
 struct MainRotorConfig {
   enum class Turns { counter_clockwise, clockwise };
   Turns turns = Turns::clockwise;
@@ -73,7 +73,7 @@ struct MainRotorLoads {
 };
 
 /// @param v_air_B  velocity of B through the air, in B, m/s. @param w_WB_B  rad/s.
-/// Source: [HeffleyMnich1988] sec. "main rotor"; [Gavrilets2015] sec. "main rotor forces and moments".
+/// Source: [HeffleyMnich1988] sec. on the main rotor; [Gavrilets2015] sec. on rotor forces.
 MainRotorLoads main_rotor_loads(const MainRotor& rotor, const FlapState& flap, const ActuatorCommand& blades,
                                 const Eigen::Vector3d& v_air_B, const Eigen::Vector3d& w_WB_B);
 

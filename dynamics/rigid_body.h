@@ -33,7 +33,7 @@ MassProperties make_mass_properties(double mass_kg, const Eigen::Vector3d& princ
 
 /// Returns the time derivative of the state under gravity and the loads.
 /// @param f_B  force without gravity, in B, N. @param t_B  torque about the mass centre, in B, N m.
-/// Source: [StevensLewis2003] sec. 1.5, with the quaternion kinematics of table 1.5-1.
+/// Source: [StevensLewis2003] sec. on flat-earth equations of motion.
 RigidBodyVector derivative(const MassProperties& mass, const RigidBodyState& state, const Eigen::Vector3d& f_B,
                            const Eigen::Vector3d& t_B);
 

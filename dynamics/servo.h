@@ -5,7 +5,7 @@
 namespace hedgehop::dynamics {
 
 /// A position servo that moves a blade: second order, with stops and a greatest speed.
-/// Defaults: the autopilot project's helicopter simulator [AutopilotSim2003] table servo; the rate limit is an
+/// Defaults: the helicopter simulator of the autopilot project (autopilot.sourceforge.net); the rate limit is an
 /// estimate.
 struct ServoConfig {
   double natural_frequency_radps = 38.2261;

@@ -5,7 +5,7 @@
 /// Air loads on what does not turn: fuselage, vertical fin, horizontal stabiliser.
 namespace hedgehop::dynamics {
 
-/// Defaults: the X-Cell .60 of [Gavrilets2015] table 1.
+/// Defaults: the X-Cell .60 of [Gavrilets2015] table of parameters.
 struct SurfacesConfig {
   Eigen::Vector3d fuselage_drag_areas_m2{0.1, 0.22, 0.15};
   double fin_area_m2 = 0.012;
@@ -36,16 +36,16 @@ struct Loads {
   Eigen::Vector3d t_B = Eigen::Vector3d::Zero();
 };
 
-/// @param v_air_B  velocity of B through the air, in B, m/s. Source: [HeffleyMnich1988] sec. "fuselage".
+/// @param v_air_B  velocity of B through the air, in B, m/s. Source: [HeffleyMnich1988] sec. on the fuselage.
 /// Differs: no rotor wake on the fuselage; the force acts at the mass centre.
 Loads fuselage_loads(const SurfacesConfig& surfaces, double density_kgpm3, const Eigen::Vector3d& v_air_B);
 
 /// @param tail_arm_m, tail_height_m  of the tail rotor hub, where the fin stands. @param w_WB_B  rad/s.
-/// Source: [Gavrilets2015] sec. "vertical fin". Differs: no tail-rotor wake on the fin.
+/// Source: [Gavrilets2015] sec. on the vertical fin. Differs: no tail-rotor wake on the fin.
 Loads fin_loads(const SurfacesConfig& surfaces, double density_kgpm3, double tail_arm_m, double tail_height_m,
                 const Eigen::Vector3d& v_air_B, const Eigen::Vector3d& w_WB_B);
 
-/// @param induced_mps  of the main rotor. Source: [Gavrilets2015] sec. "horizontal stabilizer".
+/// @param induced_mps  of the main rotor. Source: [Gavrilets2015] sec. on the horizontal tail.
 Loads stabiliser_loads(const SurfacesConfig& surfaces, double density_kgpm3, double induced_mps,
                        const Eigen::Vector3d& v_air_B, const Eigen::Vector3d& w_WB_B);
 

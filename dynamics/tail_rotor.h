@@ -7,7 +7,7 @@
 
 namespace hedgehop::dynamics {
 
-/// Defaults: the X-Cell .60 of [Gavrilets2015] table 1.
+/// Defaults: the X-Cell .60 of [Gavrilets2015] table of parameters.
 struct TailRotorConfig {
   double gear_ratio = 4.66;
   double radius_m = 0.13;
@@ -57,7 +57,7 @@ struct TailRotorLoads {
   double power_w = 0.0;
 };
 /// @param collective_rad  at 3/4 radius. @param v_air_B  velocity of B through the air, m/s. @param w_WB_B  rad/s.
-/// Source: [HeffleyMnich1988] sec. "tail rotor"; [Gavrilets2015] sec. "tail rotor".
+/// Source: [HeffleyMnich1988] sec. on the tail rotor; [Gavrilets2015] sec. on the tail rotor.
 TailRotorLoads tail_rotor_loads(const TailRotor& rotor, double collective_rad, const Eigen::Vector3d& v_air_B,
                                 const Eigen::Vector3d& w_WB_B);
 

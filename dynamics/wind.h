@@ -7,7 +7,8 @@
 namespace hedgehop::dynamics {
 
 /// A steady horizontal wind with Dryden turbulence upon it. Turbulence and steady wind are set apart, so that each can
-/// be studied alone; by [MIL8785C] W20 15, 30 and 45 kt (7.7, 15.4, 23.2 m/s) are light, moderate and severe.
+/// be studied alone; by [MIL8785C] sec. 3.7.3 W20 15, 30 and 45 kt (7.7, 15.4, 23.2 m/s) are light, moderate and
+/// severe.
 struct WindConfig {
   double speed_mps = 0.0;
   double from_rad = 0.0;            ///< heading the wind comes from, from north to east
