@@ -13,8 +13,8 @@ namespace hedgehop::vision {
 ///   v_dot = -f_y v_y / z + V v_z / z + (f_y + V^2 / f_y) w_x - U V w_y / f_x - (f_y / f_x) U w_z
 /// with (U, V) the pixel less the camera's centre.
 /// @param depth_m  z in C, > 0; +inf for a point infinitely far.
-/// Source: [Garratt2009] eq. (1) after [Corke2004], of which the print garbles columns 4 and 5 (and gives velocities the
-/// other sign); derived here from P_dot = -v - w x P.
+/// Source: [Garratt2009] eq. (1) after [Corke2004], of which the print garbles columns 4 and 5 (and gives velocities
+/// the other sign); derived here from P_dot = -v - w x P.
 Eigen::Matrix<double, 2, 6> image_jacobian(const PinholeCamera& camera, const Eigen::Vector2d& pixel, double depth_m);
 
 /// Returns how far a pixel moves, px, while the camera turns at a constant w_WC_C (rad/s) for dt_s. Exact.

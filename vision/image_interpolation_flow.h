@@ -17,7 +17,7 @@ struct ImageInterpolationConfig {
   int iterations = 2;          ///< re-centred passes per level
   double max_flow_px = 16.0;   ///< a longer vector is invalid
   double noise_grey = 1.0;     ///< standard deviation of a pixel's noise that texture must stand out from
-  double max_sigma_px = 0.25;  ///< a vector whose expected error is larger is invalid
+  double max_sigma_px = 0.4;   ///< a vector whose expected error is larger is invalid
   double max_misfit_px = 2.0;  ///< a patch whose pixels moved apart by more (root mean square) is invalid
 };
 
