@@ -94,11 +94,12 @@ void add_building(const Building& building, const CityPictures& city, Random& ra
   for (size_t k = 0; k < building.boxes_W.size(); ++k) {
     const Eigen::AlignedBox3d& box_W = building.boxes_W[k];
     const bool housing = building.has_roof_housing && k + 1 == building.boxes_W.size();
+    const uint32_t roof = city.roofs[static_cast<size_t>(uniform_index(random, 2))];
     const Eigen::Vector2d roof_shift(uniform(random, 0.0, 1.0), uniform(random, 0.0, 1.0));
     mesh.begin_chunk(true);
-    mesh.add_tiled(top_panel(box_W), kRoofTile_m, roof_shift, city.roof);
+    mesh.add_tiled(top_panel(box_W), kRoofTile_m, roof_shift, roof);
     if (housing) {
-      for (const Panel& wall : side_panels(box_W)) mesh.add_tiled(wall, kRoofTile_m, roof_shift, city.roof);
+      for (const Panel& wall : side_panels(box_W)) mesh.add_tiled(wall, kRoofTile_m, roof_shift, roof);
       continue;
     }
     Elevation elevation;

@@ -31,6 +31,8 @@ cv::Mat1f fractal_noise(int size_px, const NoiseShape& shape, Random& random);
 class Canvas {
  public:
   Canvas(int size_px, double tile_m, const Colour& background);
+  Canvas(const Canvas& other) : tile_m_(other.tile_m_), pixels_(other.pixels_.clone()) {}
+  Canvas& operator=(const Canvas&) = delete;
 
   int size_px() const { return pixels_.rows; }
   double tile_m() const { return tile_m_; }

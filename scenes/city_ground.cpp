@@ -8,13 +8,14 @@
 namespace hedgehop::scenes {
 namespace {
 
-enum class Band { grass, street, lot };
+enum class Band { country, near_country, street, lot };
 
 // A strip of the plan between two grid lines, along one axis.
 struct Strip {
   Band band;
   double low_m;
   double high_m;
+  int field = 0;  // strips of one number make fields together
 };
 
 // From the far south (west) to the far north (east): grass, then streets and lots in turn, then grass.
@@ -22,8 +23,9 @@ std::vector<Strip> strips_along_axis(const UrbanPlan& plan) {
   const double half_street = 0.5 * plan.street_width_m;
   const double city = plan.cell_edge_m(plan.cells_per_side) + half_street;
   const std::vector<double> rings = {city + kGroundMargin_m, city + 1000.0, city + 250.0, city + 60.0, city};
+  const auto band = [&](size_t ring) { return ring + 2 == rings.size() ? Band::near_country : Band::country; };
   std::vector<Strip> strips;
-  for (size_t k = 0; k + 1 < rings.size(); ++k) strips.push_back({Band::grass, -rings[k], -rings[k + 1]});
+  for (size_t k = 0; k + 1 < rings.size(); ++k) strips.push_back({band(k), -rings[k], -rings[k + 1]});
   for (int k = 0; k <= plan.cells_per_side; ++k) {
     const double edge = plan.cell_edge_m(k);
     strips.push_back({Band::street, edge - half_street, edge + half_street});
@@ -31,7 +33,13 @@ std::vector<Strip> strips_along_axis(const UrbanPlan& plan) {
       strips.push_back({Band::lot, edge + half_street, plan.cell_edge_m(k + 1) - half_street});
     }
   }
-  for (size_t k = rings.size() - 1; k > 0; --k) strips.push_back({Band::grass, rings[k], rings[k - 1]});
+  for (size_t k = rings.size() - 1; k > 0; --k) strips.push_back({band(k - 1), rings[k], rings[k - 1]});
+
+  constexpr int kStripsPerField = 6;  // three cells of the city
+  for (size_t k = 0; k < strips.size(); ++k) {
+    const bool country = strips[k].band == Band::country;
+    strips[k].field = country ? -static_cast<int>(k) : static_cast<int>(k) / kStripsPerField;
+  }
   return strips;
 }
 
@@ -42,14 +50,24 @@ Panel ground_panel(const Strip& north, const Strip& east, bool turned) {
   return {{north.high_m, east.low_m, 0.0}, {0.0, size_east, 0.0}, {-size_north, 0.0, 0.0}};
 }
 
-void add_cell(const Strip& north, const Strip& east, const CityPictures& city, Random& random, MeshBuilder& mesh) {
+bool in_country(Band band) { return band == Band::country || band == Band::near_country; }
+
+// Crop on a third of the fields, from some way off the city; grass on the rest.
+uint32_t country_picture(const Strip& north, const Strip& east, const CityPictures& city, uint64_t seed) {
+  if (north.band != Band::country && east.band != Band::country) return city.grass;
+  const uint64_t row_seed = derived_seed(seed, static_cast<uint64_t>(north.field));
+  return derived_seed(row_seed, static_cast<uint64_t>(east.field)) % 3 == 0 ? city.field : city.grass;
+}
+
+void add_cell(const Strip& north, const Strip& east, const CityPictures& city, uint64_t field_seed, Random& random,
+              MeshBuilder& mesh) {
   const double shift = uniform(random, 0.0, 1.0);
   const int choice = uniform_index(random, 6);
   const bool turned = chance(random, 0.5);
-  if (north.band == Band::grass || east.band == Band::grass) {
+  if (in_country(north.band) || in_country(east.band)) {
     const Panel panel = ground_panel(north, east, false);
-    const double u = panel.top_left_W.y() / kGrassTile_m, v = -panel.top_left_W.x() / kGrassTile_m;
-    mesh.add_tiled(panel, kGrassTile_m, {u, v}, city.grass);
+    const Eigen::Vector2d offset(panel.top_left_W.y() / kGrassTile_m, -panel.top_left_W.x() / kGrassTile_m);
+    mesh.add_tiled(panel, kGrassTile_m, offset, country_picture(north, east, city, field_seed));
   } else if (north.band == Band::street && east.band == Band::street) {
     mesh.add(ground_panel(north, east, turned), {}, city.crossing);
   } else if (north.band == Band::lot && east.band == Band::lot) {
@@ -65,7 +83,9 @@ void add_cell(const Strip& north, const Strip& east, const CityPictures& city, R
 
 }  // namespace
 
-void add_city_ground(const UrbanPlan& plan, const CityPictures& city, Random& random, MeshBuilder& mesh) {
+void add_city_ground(const UrbanPlan& plan, const CityPictures& city, uint64_t seed, MeshBuilder& mesh) {
+  Random random(derived_seed(seed, 0));
+  const uint64_t field_seed = derived_seed(seed, 1);
   constexpr size_t kStripsPerChunk = 4;  // two cells of the city
   const std::vector<Strip> strips = strips_along_axis(plan);
   for (size_t row = 0; row < strips.size(); row += kStripsPerChunk) {
@@ -73,7 +93,7 @@ void add_city_ground(const UrbanPlan& plan, const CityPictures& city, Random& ra
       mesh.begin_chunk(false);
       for (size_t r = row; r < std::min(row + kStripsPerChunk, strips.size()); ++r) {
         for (size_t c = column; c < std::min(column + kStripsPerChunk, strips.size()); ++c) {
-          add_cell(strips[r], strips[c], city, random, mesh);
+          add_cell(strips[r], strips[c], city, field_seed, random, mesh);
         }
       }
     }

@@ -7,11 +7,12 @@
 
 namespace hedgehop::scenes {
 
-/// Ground reaches this far beyond the outer streets: from 40 m up its edge is a tenth of a degree above the horizon's.
-inline constexpr double kGroundMargin_m = 4000.0;
+/// Ground reaches this far beyond the outer streets: seen from 40 m up, its edge lies a fifth of a degree below the horizon.
+inline constexpr double kGroundMargin_m = 12000.0;
 
-/// Adds the ground at z = 0: streets on the cells' edges, crossings, a lot in each cell, grass around the city. All
-/// panels lie on one grid of lines that crosses the whole plane, so that no corner meets the middle of an edge.
-void add_city_ground(const UrbanPlan& plan, const CityPictures& city, Random& random, MeshBuilder& mesh);
+/// Adds the ground at z = 0: streets on the cells' edges, crossings, a lot in each cell, grass and fields around the
+/// city. All panels lie on one grid of lines that crosses the whole plane, so that no corner meets the middle of an
+/// edge.
+void add_city_ground(const UrbanPlan& plan, const CityPictures& city, uint64_t seed, MeshBuilder& mesh);
 
 }  // namespace hedgehop::scenes

@@ -21,7 +21,9 @@ CityPictures paint_city(int size_px, uint64_t seed) {
                add(paint_parking_lot(size_px, derived_seed(seed, 4))),
                add(paint_garden_lot(size_px, derived_seed(seed, 5)))};
   city.grass = add(paint_grass(size_px, derived_seed(seed, 6)));
-  city.roof = add(paint_roof(size_px, derived_seed(seed, 7)));
+  city.field = add(paint_field(size_px, derived_seed(seed, 10)));
+  city.roofs = {add(paint_roof(RoofCover::felt, size_px, derived_seed(seed, 7))),
+                add(paint_roof(RoofCover::gravel, size_px, derived_seed(seed, 11)))};
   city.trims = {add(paint_trim(size_px, derived_seed(seed, 8))), add(paint_trim(size_px, derived_seed(seed, 9)))};
 
   city.first_facade = static_cast<uint32_t>(city.pictures.size());

@@ -16,7 +16,8 @@ struct CityPictures {
   uint32_t crossing = 0;
   std::array<uint32_t, 3> lots{};
   uint32_t grass = 0;
-  uint32_t roof = 0;
+  uint32_t field = 0;
+  std::array<uint32_t, 2> roofs{};
   std::array<uint32_t, 2> trims{};
   uint32_t first_facade = 0;  ///< kFacadeVariants of each facade style
 

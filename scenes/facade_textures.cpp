@@ -17,10 +17,10 @@ const Colour kShadow{0.05f, 0.05f, 0.06f};
 void paint_interior(Canvas& canvas, const Area& pane, Random& random) {
   const double state = uniform(random, 0.0, 1.0);
   canvas.fill(pane, varied(kGlass, 0.4, random));
-  if (state < 0.35) {  // sky in the glass
+  if (state < 0.42) {  // sky in the glass
     canvas.fade(pane, varied(kSkyGlow, 0.15, random), uniform(random, 0.3, 0.9), uniform(random, 0.0, 0.3));
-  } else if (state < 0.50) {  // lamp light
-    canvas.fade(pane, varied(kLamp, 0.12, random), 0.95, 0.6);
+  } else if (state < 0.52) {  // lamp light
+    canvas.fade(pane, varied(kLamp, 0.15, random), 0.8, 0.5);
     canvas.fill({pane.left + pane.width * uniform(random, 0.1, 0.6), pane.top + 0.45 * pane.height, 0.3 * pane.width,
                  0.55 * pane.height},
                 {0.30f, 0.22f, 0.15f}, 0.8);
@@ -146,7 +146,7 @@ void paint_wall(Canvas& canvas, const FacadeStyle& style, Random& random) {
 
 void weather_wall(Canvas& canvas, Random& random) {
   canvas.shade(fractal_noise(canvas.size_px(), {3, 3, 8, 0.75}, random), 0.08);
-  canvas.stain(fractal_noise(canvas.size_px(), {48, 3, 4, 0.7}, random), 0.6, 2.0, {0.16f, 0.14f, 0.12f}, 0.45);
+  canvas.stain(fractal_noise(canvas.size_px(), {48, 3, 4, 0.7}, random), 0.6, 2.0, {0.16f, 0.14f, 0.12f}, 0.32);
   canvas.stain(fractal_noise(canvas.size_px(), {4, 4, 7, 0.7}, random), 1.2, 0.8, {0.80f, 0.77f, 0.72f}, 0.35);
 }
 

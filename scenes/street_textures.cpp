@@ -6,12 +6,12 @@
 namespace hedgehop::scenes {
 namespace {
 
-const Colour kAsphalt{0.30f, 0.30f, 0.31f};
+const Colour kAsphalt{0.37f, 0.37f, 0.38f};
 const Colour kPaint{0.86f, 0.86f, 0.82f};
-const Colour kSlab{0.60f, 0.58f, 0.55f};
+const Colour kSlab{0.64f, 0.62f, 0.58f};
 const Colour kKerb{0.74f, 0.73f, 0.70f};
 const Colour kDark{0.10f, 0.10f, 0.10f};
-const Colour kGrass{0.27f, 0.38f, 0.15f};
+const Colour kGrass{0.33f, 0.42f, 0.20f};
 const Colour kLeaf{0.18f, 0.30f, 0.10f};
 
 constexpr double kPavement_m = 1.4;
@@ -20,7 +20,7 @@ constexpr double kKerb_m = 0.14;
 // Worn asphalt: mottled, patched, cracked, spotted with oil.
 void paint_asphalt(Canvas& canvas, Random& random) {
   const double tile = canvas.tile_m();
-  canvas.shade(fractal_noise(canvas.size_px(), {4, 4, 8, 0.8}, random), 0.14);
+  canvas.shade(fractal_noise(canvas.size_px(), {6, 6, 8, 0.85}, random), 0.11);
   for (int k = 0; k < 5; ++k) {
     canvas.fill(
         {uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 0.5, 1.8), uniform(random, 0.5, 1.8)},
@@ -75,7 +75,7 @@ void paint_lawn(Canvas& canvas, Random& random) {
   const int size_px = canvas.size_px();
   canvas.shade(fractal_noise(size_px, {3, 3, 9, 0.85}, random), 0.16);
   canvas.stain(fractal_noise(size_px, {5, 5, 7, 0.75}, random), 0.7, 1.2, {0.52f, 0.46f, 0.26f}, 0.6);
-  canvas.stain(fractal_noise(size_px, {6, 6, 7, 0.75}, random), 0.7, 1.0, {0.16f, 0.27f, 0.09f}, 0.6);
+  canvas.stain(fractal_noise(size_px, {6, 6, 7, 0.75}, random), 0.7, 1.0, {0.20f, 0.30f, 0.12f}, 0.6);
   canvas.shade(fractal_noise(size_px, {64, 64, 4, 1.0}, random), 0.15);
 }
 
@@ -175,12 +175,31 @@ cv::Mat paint_grass(int size_px, uint64_t seed) {
   return canvas.finished();
 }
 
-cv::Mat paint_roof(int size_px, uint64_t seed) {
+cv::Mat paint_field(int size_px, uint64_t seed) {
+  Random random(seed);
+  Canvas canvas(size_px, kGrassTile_m, {0.60f, 0.52f, 0.28f});
+  for (double x = 0.0; x < kGrassTile_m; x += 0.5)
+    canvas.fill({x, 0.0, 0.16, kGrassTile_m}, {0.36f, 0.31f, 0.16f}, 0.6);
+  for (double x : {3.9, 11.9}) canvas.fill({x, 0.0, 0.7, kGrassTile_m}, {0.40f, 0.31f, 0.20f}, 0.8);
+  canvas.shade(fractal_noise(size_px, {64, 16, 5, 0.9}, random), 0.14);
+  canvas.stain(fractal_noise(size_px, {4, 4, 8, 0.75}, random), 0.6, 1.2, {0.40f, 0.42f, 0.18f}, 0.7);
+  canvas.shade(fractal_noise(size_px, {3, 3, 9, 0.85}, random), 0.12);
+  return canvas.finished();
+}
+
+cv::Mat paint_roof(RoofCover cover, int size_px, uint64_t seed) {
   Random random(seed);
   const double tile = kRoofTile_m;
-  Canvas canvas(size_px, tile, {0.46f, 0.45f, 0.44f});
-  for (double y = 0.0; y < tile; y += 1.0) canvas.fill({0.0, y, tile, 0.05}, kDark, 0.5);
-  canvas.shade(fractal_noise(size_px, {4, 4, 8, 0.85}, random), 0.14);
+  Canvas canvas(size_px, tile, cover == RoofCover::felt ? Colour{0.40f, 0.40f, 0.41f} : Colour{0.64f, 0.60f, 0.54f});
+  if (cover == RoofCover::felt) {
+    for (double y = 0.0; y < tile; y += 1.0) canvas.fill({0.0, y, tile, 0.05}, kDark, 0.5);
+  } else {
+    for (int k = 0; k < 3000; ++k) {
+      canvas.disc(uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 0.03, 0.07),
+                  varied({0.60f, 0.57f, 0.52f}, 0.4, random), 0.8);
+    }
+  }
+  canvas.shade(fractal_noise(size_px, {4, 4, 8, 0.85}, random), 0.10);
   canvas.stain(fractal_noise(size_px, {3, 3, 6, 0.6}, random), 0.9, 0.6, {0.24f, 0.24f, 0.25f}, 0.6);
   for (int k = 0; k < 8; ++k) {
     const Area vent{uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 0.4, 1.3),

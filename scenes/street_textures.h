@@ -21,7 +21,10 @@ cv::Mat paint_paved_lot(int size_px, uint64_t seed);
 cv::Mat paint_parking_lot(int size_px, uint64_t seed);
 cv::Mat paint_garden_lot(int size_px, uint64_t seed);
 cv::Mat paint_grass(int size_px, uint64_t seed);
-cv::Mat paint_roof(int size_px, uint64_t seed);
+cv::Mat paint_field(int size_px, uint64_t seed);  ///< rows of ripe crop, kGrassTile_m a side
+
+enum class RoofCover { felt, gravel };
+cv::Mat paint_roof(RoofCover cover, int size_px, uint64_t seed);
 
 /// Strips for the foot and the top of buildings, one above the other and tileable sideways: kShopStrips strips of shop
 /// fronts, kShop_m high, then a cornice of kCornice_m.

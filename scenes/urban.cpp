@@ -27,12 +27,14 @@ Scene make_urban(const UrbanConfig& config, uint64_t seed) {
   Scene scene;
   scene.name = "urban";
   scene.has_ground = true;
+  scene.lights.ambient = 0.62f;
+  scene.lights.sun = 0.50f;
+  scene.lights.to_sun_W = Eigen::Vector3f(0.35f, -0.55f, -0.76f).normalized();
   const double half = 0.5 * config.extent_m;
   scene.bounds_NE_m = {Eigen::Vector2d(-half, -half), Eigen::Vector2d(half, half)};
 
   MeshBuilder mesh("opaque");
-  Random ground_random(derived_seed(seed, kGroundStream));
-  add_city_ground(plan, city, ground_random, mesh);
+  add_city_ground(plan, city, derived_seed(seed, kGroundStream), mesh);
   for (const Building& building : plan.buildings) {
     Random random(derived_seed(derived_seed(seed, kBuildingStream), static_cast<uint64_t>(building.cell)));
     add_building(building, city, random, mesh);

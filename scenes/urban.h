@@ -25,7 +25,7 @@ struct UrbanConfig {
   double max_footprint = 1.0;
   double jitter = 1.0;     ///< share of the free play inside the lot
   double occupancy = 1.0;  ///< probability that a cell has a building
-  double min_height_m = 14.0;
+  double min_height_m = 16.0;
   double max_height_m = 40.0;
   double setback_share = 0.3;  ///< of buildings that carry a narrower tower
   std::vector<Clearing> keep_clear = {{-130.0, 80.0, 6.0}, {110.0, -110.0, 6.0}};
