@@ -67,8 +67,11 @@ std::string number_text(double member, bool degrees) {
   if (!degrees) return fmt::format("{}", member);
   const long double exact = static_cast<long double>(member) * (180.0L / std::numbers::pi_v<long double>);
   constexpr int kMostDigits = std::numeric_limits<long double>::max_digits10;
+  // Not fewer digits than stand before the point, or 90 would be written 9e+01.
+  const double magnitude = std::abs(static_cast<double>(exact));
+  const int least = magnitude >= 1.0 && magnitude < 1e15 ? 1 + static_cast<int>(std::log10(magnitude)) : 1;
   std::string text;
-  for (int digits = 1; digits <= kMostDigits; ++digits) {
+  for (int digits = least; digits <= kMostDigits; ++digits) {
     text = fmt::format("{:.{}g}", exact, digits);
     const ParsedNumber back = parse_number(text, true);
     if (back.kind == ParsedNumber::Kind::number && back.member == member &&

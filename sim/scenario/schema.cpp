@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace hedgehop::sim {
@@ -10,7 +11,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Kind = Outline::Kind;
 
-Json schema_of(const Outline& node);
+Json schema_of(const Outline& node, bool partial);
+
+bool is_scalar(const Outline& node) {
+  return node.kind != Kind::list && node.kind != Kind::group && node.kind != Kind::variant;
+}
 
 std::string description(const Field& field) {
   if (field.unit.empty()) return std::string(field.meaning);
@@ -36,7 +41,8 @@ Json value_of(const Outline& node) {
 }
 
 Json bounds_of(const Outline& node) {
-  Json schema;
+  Json schema = Json::object();
+  if (node.kind != Kind::number && node.kind != Kind::integer) return schema;
   const auto put = [&](const char* keyword, const std::optional<double>& bound) {
     if (bound) schema[keyword] = Json::parse(number_text(*bound, false));
   };
@@ -48,76 +54,100 @@ Json bounds_of(const Outline& node) {
   return schema;
 }
 
-/// A closed map of the fields, after `selector: name` when there is one.
-Json group_schema(const std::vector<Outline>& fields, std::string_view selector, std::string_view name) {
+/// Whether some key under these fields must stand there, unless a file that is used gives it.
+bool demands_something(const std::vector<Outline>& fields) {
+  return std::any_of(fields.begin(), fields.end(), [](const Outline& field) {
+    return field.field.required || field.kind == Kind::variant || demands_something(field.parts);
+  });
+}
+
+/// A map of these fields and no others. Laid over a used file (`partial`) it may leave out any of them.
+/// @param selector, name  a first key of constant value, unless they are empty.
+Json closed_map(const std::vector<Outline>& fields, std::string_view selector, std::string_view name, bool partial) {
   Json schema = {{"type", "object"}};
   Json& properties = schema["properties"] = Json::object();
   Json required = Json::array();
-  if (!selector.empty()) properties[std::string(selector)] = {{"const", name}};
+  if (!selector.empty()) {
+    properties[std::string(selector)] = {{"const", name}};
+    required.push_back(selector);
+  }
   properties["use"] = {{"type", "string"}, {"description", "file whose map this one is laid over"}};
   for (const Outline& field : fields) {
-    properties[field.key] = schema_of(field);
-    if (field.field.required) required.push_back(field.key);
+    properties[field.key] = schema_of(field, partial);
+    if (field.field.required && !partial) required.push_back(field.key);
   }
   schema["additionalProperties"] = false;
-  if (!selector.empty()) schema["required"] = {selector};
-  if (!required.empty()) {
-    schema["anyOf"] = Json::array({Json{{"required", {"use"}}}, Json{{"required", required}}});
-  }
+  if (!required.empty()) schema["required"] = required;
   return schema;
 }
 
-Json variant_schema(const Outline& node) {
+Json group_schema(const std::vector<Outline>& fields, std::string_view selector, std::string_view name, bool partial) {
+  if (partial || !demands_something(fields)) return closed_map(fields, selector, name, partial);
+  return {{"if", {{"type", "object"}, {"required", {"use"}}}},
+          {"then", closed_map(fields, selector, name, true)},
+          {"else", closed_map(fields, selector, name, false)}};
+}
+
+/// A map without the selector, which a used file gives: any key of any choice.
+Json unnamed_choice(const Outline& node, bool partial) {
+  Json properties = {{"use", {{"type", "string"}}}};
+  for (const Outline& choice : node.all) {
+    for (const Outline& field : choice.parts) properties[field.key] = true;
+  }
+  Json schema = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  if (!partial) schema["required"] = {"use"};
+  return schema;
+}
+
+Json variant_schema(const Outline& node, bool partial) {
   const std::string selector(node.field.selector);
   Json choices = Json::array();
   for (const Outline& choice : node.all) {
-    Json schema = group_schema(choice.parts, selector, choice.key);
+    Json schema = group_schema(choice.parts, selector, choice.key, partial);
     schema["title"] = choice.key;
     schema["description"] = choice.meaning;
     choices.push_back(std::move(schema));
   }
-  // A file that is used may name the choice; then any of its keys may be laid over it.
-  choices.push_back({{"type", "object"}, {"required", {"use"}}, {"not", {{"required", {selector}}}}});
+  choices.push_back(unnamed_choice(node, partial));
   return {{"oneOf", std::move(choices)}};
 }
 
-Json schema_of(const Outline& node) {
-  Json schema;
+Json scalar_schema(const Outline& node) {
   switch (node.kind) {
     case Kind::number:
-      schema = {{"type", "number"}};
-      break;
+      return {{"type", "number"}};
     case Kind::integer:
-      schema = {{"type", "integer"}};
-      break;
+      return {{"type", "integer"}};
     case Kind::boolean:
-      schema = {{"type", "boolean"}};
-      break;
-    case Kind::text:
-      schema = {{"type", {"string", "number", "boolean"}}};
-      break;
+      return {{"type", "boolean"}};
     case Kind::choice:
-      schema = {{"enum", node.field.choices}};
-      break;
-    case Kind::list:
-      schema = {{"type", "array"}, {"items", schema_of(node.item.at(0))}};
-      if (node.fixed_size > 0) schema["minItems"] = schema["maxItems"] = node.fixed_size;
-      break;
-    case Kind::group:
-      schema = group_schema(node.parts, "", "");
-      break;
-    case Kind::variant:
-      schema = variant_schema(node);
-      break;
+      return {{"enum", node.field.choices}};
+    default:
+      return {{"type", {"string", "number", "boolean"}}};  // a name may look like a number
   }
-  if (node.kind == Kind::number || node.kind == Kind::integer) schema.update(bounds_of(node));
+}
+
+Json schema_of(const Outline& node, bool partial) {
+  Json schema;
+  if (node.kind == Kind::group) {
+    schema = group_schema(node.parts, "", "", partial);
+  } else if (node.kind == Kind::variant) {
+    schema = variant_schema(node, partial);
+  } else if (node.kind == Kind::list) {
+    schema = {{"type", "array"}, {"items", schema_of(node.item.at(0), false)}};
+    if (node.fixed_size > 0) schema["minItems"] = schema["maxItems"] = node.fixed_size;
+  } else {
+    schema = scalar_schema(node);
+    schema.update(bounds_of(node));
+  }
   if (node.optional) schema = {{"anyOf", {schema, {{"type", "null"}}}}};
-  if (const std::string text = description(node.field); !text.empty() && !node.key.empty())
-    schema["description"] = text;
-  const bool has_simple_value = node.kind != Kind::group && node.kind != Kind::variant;
-  const bool list_of_maps = node.kind == Kind::list && !node.item.at(0).parts.empty();
-  if (has_simple_value && !list_of_maps && !node.field.required && !node.key.empty())
+  if (node.key.empty()) return schema;
+
+  if (const std::string text = description(node.field); !text.empty()) schema["description"] = text;
+  const bool list_of_maps = node.kind == Kind::list && !is_scalar(node.item.at(0));
+  if ((is_scalar(node) || node.kind == Kind::list) && !list_of_maps && !node.field.required) {
     schema["default"] = value_of(node);
+  }
   return schema;
 }
 
@@ -125,7 +155,7 @@ Json schema_of(const Outline& node) {
 
 std::string schema_text(const std::vector<Outline>& fields, const std::string& title) {
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
-  schema.update(group_schema(fields, "", ""));
+  schema.update(group_schema(fields, "", "", false));
   return schema.dump(2) + "\n";
 }
 

@@ -30,7 +30,11 @@ class Validator {
   void rates() {
     constexpr int64_t kNsPerS = 1'000'000'000;
     const int64_t physics = scenario_.physics_rate_hz;
-    if (kNsPerS % physics != 0) add("physics_rate", "must divide 1e9, so that a step is a whole number of nanoseconds");
+    if (kNsPerS % physics != 0) {
+      add("physics_rate",
+          fmt::format("{} Hz does not divide 1e9, so a step is no whole number of nanoseconds", physics));
+      return;
+    }
     divides_physics("control_rate", static_cast<double>(scenario_.control_rate_hz));
     for (size_t i = 0; i < scenario_.rig.cameras.size(); ++i) {
       divides_physics(fmt::format("rig.cameras.{}.rate", i), scenario_.rig.cameras[i].rate_hz);
@@ -81,6 +85,10 @@ class Validator {
  private:
   void check(const std::string& path, const ReachedGoalCheck& check) {
     if (!scenario_.goal) add(path, "the scenario has no goal to reach");
+    if (check.within_m && scenario_.goal && *check.within_m < scenario_.goal->radius_m) {
+      add(path + ".within",
+          fmt::format("is less than the goal's radius ({} m), where the flight ends", scenario_.goal->radius_m));
+    }
     if (check.before_s && *check.before_s > scenario_.duration_s) {
       add(path + ".before", fmt::format("is after the flight's end ({} s)", scenario_.duration_s));
     }
@@ -132,8 +140,15 @@ class Validator {
     try {
       build();
     } catch (const std::invalid_argument& error) {
-      add(path, error.what());
+      add(path + named_key(error.what()), error.what());
     }
+  }
+
+  /// ".key" when a message begins with "key: ", as those of the generators do.
+  static std::string named_key(std::string_view message) {
+    const size_t end = message.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_.");
+    if (end == 0 || end == std::string_view::npos || message[end] != ':') return "";
+    return "." + std::string(message.substr(0, end));
   }
 
   void add(const std::string& path, std::string_view message) {

@@ -31,8 +31,11 @@ void write_value(const Outline& node, int indent, std::string& out) {
   } else if (node.kind == Outline::Kind::list) {
     out += "\n";
     for (const Outline& item : node.parts) {
-      out += fmt::format("{:{}}-", "", indent);
-      write_value(item, indent + 2, out);
+      std::string text;
+      write_value(item, indent + 2, text);
+      // A map's first key stands beside the dash, where the line break and the indent would be.
+      const bool has_keys = text.starts_with('\n');
+      out += fmt::format("{:{}}-{}", "", indent, has_keys ? text.substr(static_cast<size_t>(indent) + 2) : text);
     }
   } else if (node.kind == Outline::Kind::group && node.parts.empty()) {
     out += " {}\n";

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "sim/scenario/input_error.h"
+#include "sim/scenario/parse.h"
+#include "sim/scenario/reader.h"
+
+namespace hedgehop::sim {
+
+/// A folder of files for one test, made the working folder until it goes, so that messages name short paths.
+class Folder {
+ public:
+  Folder() : before_(std::filesystem::current_path()) {
+    path_ = std::filesystem::temp_directory_path() / ("hedgehop_scenario_test_" + std::to_string(getpid()));
+    std::filesystem::create_directories(path_);
+    std::filesystem::current_path(path_);
+  }
+  ~Folder() {
+    std::filesystem::current_path(before_);
+    std::filesystem::remove_all(path_);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  static void write(const std::filesystem::path& file, const std::string& text) {
+    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary) << text;
+  }
+
+ private:
+  std::filesystem::path before_, path_;
+};
+
+/// Faults that `f` throws as InputError; none when it throws nothing.
+template <class F>
+std::vector<std::string> faults_of(F&& f) {
+  try {
+    f();
+  } catch (const InputError& error) {
+    return error.faults();
+  }
+  return {};
+}
+
+/// Reads a struct as load_scenario() reads a scenario: file `file`, then overrides.
+template <class T>
+T load_struct(const std::filesystem::path& file, const std::vector<std::string>& overrides = {}) {
+  Faults faults;
+  Node root = load_tree(file, faults);
+  if (root.kind != Node::Kind::map) faults.raise();
+  apply_overrides(root, overrides, file, faults);
+  T value;
+  read_struct(root, "", "", value, faults);
+  faults.raise();
+  return value;
+}
+
+inline const std::filesystem::path kConfigs = std::filesystem::path(HEDGEHOP_SOURCE_DIR) / "configs";
+
+/// Every scenario that ships with the project, in order of name.
+inline std::vector<std::filesystem::path> shipped_scenarios() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(kConfigs)) {
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,234 @@
+#include "sim/scenario/scenario.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+
+#include "scenario_files.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(ShippedScenarios, LoadAndBearTheNameOfTheirFile) {
+  const auto files = shipped_scenarios();
+  EXPECT_GE(files.size(), 11u);
+  for (const auto& file : files) EXPECT_EQ(load_scenario(file).name, file.stem().string());
+}
+
+TEST(ShippedScenarios, LayTheirVariantsOver) {
+  const Scenario city = load_scenario(kConfigs / "garratt2009_city_0.yaml");
+  EXPECT_EQ(city.start.p_WB(), Eigen::Vector3d(-130.0, 80.0, -10.0));
+  EXPECT_EQ(city.goal.value().p_WG(), Eigen::Vector3d(110.0, -110.0, -10.0));
+  EXPECT_EQ(city.rig.cameras.size(), 5u);
+  EXPECT_EQ(city.rig.cameras[0].rate_hz, 50.0);
+
+  const Scenario light = load_scenario(kConfigs / "garratt2009_city_22_light.yaml");
+  EXPECT_NEAR(light.start.heading_rad, 0.39269908169872414, 1e-15);
+  EXPECT_EQ(light.start.p_WB(), city.start.p_WB());
+  EXPECT_EQ(light.rig.cameras[0].width_px, 200);
+  EXPECT_EQ(light.rig.cameras[0].rate_hz, 25.0);
+
+  const Scenario control = load_scenario(kConfigs / "garratt2009_city_45_control.yaml");
+  EXPECT_TRUE(std::holds_alternative<avoidance::GoToGoalConfig>(control.avoidance));
+  EXPECT_FALSE(load_scenario(kConfigs / "garratt2009_room_22.yaml").goal);
+}
+
+TEST(Scenario, EqualInputGivesEqualText) {
+  const auto file = kConfigs / "garratt2009_city_0.yaml";
+  EXPECT_EQ(to_yaml(load_scenario(file)), to_yaml(load_scenario(file)));
+}
+
+/// What does not fit together, in a scenario that is otherwise whole.
+class CrossRules : public testing::Test {
+ protected:
+  static std::vector<std::string> faults(const std::vector<std::string>& overrides) {
+    return faults_of([&] { load_scenario(kConfigs / "garratt2009_city_0.yaml", overrides); });
+  }
+};
+
+TEST_F(CrossRules, NoFaultWithoutOverrides) { EXPECT_THAT(faults({}), ElementsAre()); }
+
+TEST_F(CrossRules, CameraRolesAreUnique) {
+  EXPECT_THAT(
+      faults({"rig.cameras.2.role=left"}),
+      testing::Contains("--set rig.cameras.2.role: 'rig.cameras.2.role': camera 0 has the role 'left' already"));
+}
+
+TEST_F(CrossRules, RatesDivideThePhysicsRate) {
+  EXPECT_THAT(faults({"rig.cameras.2.rate=30", "control_rate=99", "film.rate=7"}),
+              testing::UnorderedElementsAre(
+                  "--set rig.cameras.2.rate: 'rig.cameras.2.rate': 30 Hz does not divide the physics rate of 500 Hz",
+                  "--set control_rate: 'control_rate': 99 Hz does not divide the physics rate of 500 Hz",
+                  "--set film.rate: 'film.rate': 7 Hz does not divide the physics rate of 500 Hz"));
+  EXPECT_THAT(faults({"physics_rate=333"}),
+              testing::Contains("--set physics_rate: 'physics_rate': 333 Hz does not divide 1e9, so a step is no whole "
+                                "number of nanoseconds"));
+}
+
+TEST_F(CrossRules, TheRigHasTheCamerasThatAreAskedFor) {
+  EXPECT_THAT(
+      faults({"velocimeter.camera=dwn"}),
+      ElementsAre("--set velocimeter.camera: 'velocimeter.camera': needs a camera 'dwn', which the rig does not "
+                  "have; it has: left, right, front, rear, down"));
+  EXPECT_THAT(
+      faults({"rig.cameras.0.role=port"}),
+      testing::Contains(HasSubstr("'avoidance': needs a camera 'left', which the rig does not have; it has: port")));
+  EXPECT_THAT(
+      faults({"rig.cameras.0.channel=depth"}),
+      testing::Contains(HasSubstr("'avoidance': needs camera 'left' to give grey pictures; its channel is depth")));
+}
+
+TEST_F(CrossRules, ChecksMakeSense) {
+  EXPECT_THAT(faults({"goal=~"}), testing::Contains(HasSubstr("'checks.0': the scenario has no goal to reach")));
+  EXPECT_THAT(faults({"checks=[{check: altitude_band, min: 3, max: 2}]"}),
+              ElementsAre("--set checks: 'checks.0.max': must be greater than 'min' (3 m), got 2"));
+  EXPECT_THAT(faults({"checks=[{check: metric, name: a}]"}),
+              ElementsAre("--set checks: 'checks.0': needs 'at_least' or 'at_most'"));
+  EXPECT_THAT(
+      faults({"checks=[{check: reached_goal, within: 4, before: 500}]"}),
+      ElementsAre("--set checks: 'checks.0.within': is less than the goal's radius (5 m), where the flight ends",
+                  "--set checks: 'checks.0.before': is after the flight's end (400 s)"));
+}
+
+TEST_F(CrossRules, AGoalNeedsItsWholePosition) {
+  const std::vector<std::string> found =
+      faults_of([] { load_scenario(kConfigs / "garratt2009_room_0.yaml", std::vector<std::string>{"goal.north=3"}); });
+  EXPECT_THAT(found,
+              ElementsAre(HasSubstr("missing key 'east' in 'goal'"), HasSubstr("missing key 'altitude' in 'goal'")));
+}
+
+TEST(BuildPart, TurnsInvalidArgumentIntoInputError) {
+  EXPECT_EQ(build_part("scene", [] { return 3; }), 3);
+  EXPECT_THAT(faults_of([] { build_part("scene", []() -> int { throw std::invalid_argument("too small"); }); }),
+              ElementsAre("'scene': too small"));
+}
+
+TEST(Start, IsDrawnEvenlyFromTheDisc) {
+  StartConfig start;
+  start.north_m = 3.0;
+  start.altitude_m = 2.0;
+  start.spread_m = 4.0;
+  constexpr int kDraws = 20'000;
+  int inner = 0;
+  for (uint64_t seed = 0; seed < kDraws; ++seed) {
+    const Eigen::Vector3d offset = start.draw_p_WB(seed) - start.p_WB();
+    EXPECT_EQ(offset.z(), 0.0);
+    ASSERT_LE(offset.norm(), 4.0);
+    inner += offset.norm() < 2.0;
+  }
+  EXPECT_NEAR(static_cast<double>(inner) / kDraws, 0.25, 0.012);  // four standard deviations
+  EXPECT_EQ(start.draw_p_WB(5), start.draw_p_WB(5));
+  start.spread_m = 0.0;
+  EXPECT_EQ(start.draw_p_WB(5), start.p_WB());
+}
+
+/// Mangled scenarios load or are refused; nothing else may happen.
+TEST(Fuzz, MutatedScenariosLoadOrThrowInputError) {
+  Folder folder;
+  const std::string original = text_of(kConfigs / "garratt2009_city_0.yaml");
+  const std::string rig = text_of(kConfigs / "rigs/garratt2009_200.yaml");
+  Folder::write("rigs/garratt2009_400.yaml", rig);
+  static constexpr std::string_view kBits[] = {"[",
+                                               "]",
+                                               "{",
+                                               "}",
+                                               ":",
+                                               "-",
+                                               "\n",
+                                               "  ",
+                                               "#",
+                                               "&a ",
+                                               "*a",
+                                               "<<: ",
+                                               "~",
+                                               ".nan",
+                                               "'",
+                                               "\"",
+                                               "|",
+                                               "\t",
+                                               "use: a.yaml",
+                                               "1e308",
+                                               "-1",
+                                               "!!str ",
+                                               "---\n",
+                                               "%",
+                                               "\xff",
+                                               std::string_view("\0", 1),
+                                               "? ",
+                                               "99999999999999999999",
+                                               "module: go_to_goal"};
+  std::mt19937_64 random(7);
+  int loaded = 0, refused = 0;
+  for (int i = 0; i < 1500; ++i) {
+    std::string text = original;
+    for (uint64_t edits = 1 + random() % 3; edits > 0; --edits) {
+      const size_t at = random() % text.size();
+      switch (random() % 4) {
+        case 0:
+          text.insert(at, kBits[random() % std::size(kBits)]);
+          break;
+        case 1:
+          text.erase(at, random() % 12);
+          break;
+        case 2:
+          text[at] = static_cast<char>(random() % 128);
+          break;
+        default:
+          text.insert(at, text.substr(random() % text.size(), random() % 60));
+          break;
+      }
+      if (text.empty()) text = "x";
+    }
+    Folder::write("a.yaml", text);
+    try {
+      load_scenario("a.yaml");
+      ++loaded;
+    } catch (const InputError& error) {
+      ++refused;
+      ASSERT_FALSE(error.faults().empty());
+      for (const std::string& fault : error.faults()) {
+        ASSERT_TRUE(fault.starts_with("a.yaml") || fault.starts_with("rigs/")) << fault;
+      }
+    }
+  }
+  EXPECT_GT(loaded, 50);
+  EXPECT_GT(refused, 500);
+}
+
+/// Every key of a whole scenario, each with values of every kind.
+TEST(Fuzz, AnyValueForAnyKeyLoadsOrThrowsInputError) {
+  Folder folder;
+  Folder::write("whole.yaml", to_yaml(load_scenario(kConfigs / "garratt2009_city_0.yaml")));
+  Faults faults;
+  const Node root = load_tree("whole.yaml", faults);
+  std::vector<std::string> paths;
+  const std::function<void(const Node&, const std::string&)> collect = [&](const Node& node, const std::string& path) {
+    if (!path.empty()) paths.push_back(path);
+    for (size_t i = 0; i < node.items.size(); ++i) collect(node.items[i], join_path(path, std::to_string(i)));
+    for (const Entry& entry : node.entries) collect(entry.value, join_path(path, entry.key));
+  };
+  collect(root, "");
+  for (const std::string& path : paths) {
+    for (const char* value : {"~", "-1", "0", "1e300", "x", "[]", "[1, 2, 3]", "{}", "{type: x}", ".inf", "7"}) {
+      try {
+        load_scenario("whole.yaml", std::vector<std::string>{path + "=" + value});
+      } catch (const InputError& error) {
+        ASSERT_FALSE(error.faults().empty());
+      }
+    }
+  }
+  EXPECT_GT(paths.size(), 100u);
+}
+
+}  // namespace
+}  // namespace hedgehop::sim

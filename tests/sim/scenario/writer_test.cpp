@@ -1,0 +1,106 @@
+#include "sim/scenario/writer.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "random_config.h"
+#include "sample_config.h"
+#include "scenario_files.h"
+#include "sim/scenario/scenario.h"
+
+namespace hedgehop::sim {
+namespace {
+
+/// A visitor that lists the bits of every value: an oracle that shares nothing with the writer.
+class Bits {
+ public:
+  template <class T>
+  void operator()(std::string_view, T& value, const Field& field) {
+    if constexpr (NumberField<T>) {
+      bits.push_back(std::bit_cast<uint64_t>(value));
+    } else if constexpr (std::same_as<T, bool> || IntegerField<T> || ChoiceField<T>) {
+      bits.push_back(static_cast<uint64_t>(value));
+    } else if constexpr (std::same_as<T, std::string>) {
+      bits.insert(bits.end(), value.begin(), value.end());
+      bits.push_back(UINT64_MAX);
+    } else if constexpr (OptionalField<T>) {
+      bits.push_back(value.has_value());
+      if (value) (*this)("", *value, field);
+    } else if constexpr (EigenField<T> || VectorField<T>) {
+      bits.push_back(static_cast<uint64_t>(value.size()));
+      for (auto& item : value) (*this)("", item, field);
+    } else if constexpr (VariantField<T>) {
+      bits.push_back(value.index());
+      std::visit([&](auto& chosen) { describe(*this, chosen); }, value);
+    } else {
+      describe(*this, value);
+    }
+  }
+  std::vector<uint64_t> bits;
+};
+
+template <class T>
+std::vector<uint64_t> bits_of(T value) {
+  Bits visitor;
+  describe(visitor, value);
+  return visitor.bits;
+}
+
+/// Writes, reads without validating, and compares bit for bit.
+template <class T>
+void expect_round_trip(const T& value, const std::string& what) {
+  const std::string text = yaml_text(outline_fields(value));
+  Faults faults;
+  const Node root = parse_yaml(text, "round.yaml", faults);
+  T back;
+  read_struct(root, "", "", back, faults);
+  ASSERT_NO_THROW(faults.raise()) << what << "\n" << text;
+  ASSERT_EQ(bits_of(value), bits_of(back)) << what << "\n" << text;
+}
+
+TEST(Writer, DefaultsReadBack) {
+  expect_round_trip(sample::Sample{}, "sample");
+  expect_round_trip(Scenario{}, "scenario");
+}
+
+TEST(Writer, AnyConfigReadsBackBitForBit) {
+  for (uint64_t seed = 0; seed < 2000; ++seed) {
+    sample::Sample sample;
+    Randomizer randomizer(seed);
+    describe(randomizer, sample);
+    expect_round_trip(sample, "seed " + std::to_string(seed));
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(Writer, AnyScenarioReadsBackBitForBit) {
+  for (uint64_t seed = 0; seed < 300; ++seed) {
+    Scenario scenario;
+    Randomizer randomizer(seed);
+    describe(randomizer, scenario);
+    expect_round_trip(scenario, "seed " + std::to_string(seed));
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(Writer, WritesPlainYaml) {
+  sample::Sample sample;
+  sample.rotors = {{2, 0.5}};
+  const std::string text = yaml_text(outline_fields(sample));
+  EXPECT_NE(text.find("rotors:\n  - blade_count: 2\n    radius: 0.5\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("gains: [1, 2]\nwords: []\nsize: [1, 2]\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("delay: ~\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("shape:\n  type: round\n  radius: 1\n"), std::string::npos) << text;
+}
+
+TEST(Writer, ShippedScenariosReadBackBitForBit) {
+  for (const auto& file : shipped_scenarios()) {
+    const Scenario scenario = load_scenario(file);
+    EXPECT_EQ(to_yaml(scenario).find("use:"), std::string::npos);
+    expect_round_trip(scenario, file.string());
+  }
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
