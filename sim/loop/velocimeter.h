@@ -1,13 +1,17 @@
 #pragma once
 
+#include <optional>
+
 #include "dynamics/avionics.h"
 #include "sim/loop/cameras.h"
+#include "vision/flow_velocity.h"
 #include "vision/image_interpolation_flow.h"
 
 namespace hedgehop::sim {
 
 /// The aircraft's own velocity sensor: optic flow of the camera that looks down, made metric by the height sensor and
-/// derotated by the gyros, fed to the navigation filter. Source: [GarrattChahl2007]; [Garratt2009] sec. 4.
+/// derotated by the gyros, fed to the navigation filter. Source: [Garratt2009] sec. 4, after [GarrattChahl2007]
+/// sec. 2 (hover damping by optic flow).
 class Velocimeter {
  public:
   Velocimeter(size_t camera, const Cameras& cameras);
@@ -17,9 +21,17 @@ class Velocimeter {
   void update(const avoidance::CameraFrame& frame, dynamics::Avionics& avionics);
 
  private:
+  /// What the aircraft believed of itself when the last frame was exposed.
+  struct Belief {
+    int64_t t_ns = 0;
+    Eigen::Quaterniond q_WB_est = Eigen::Quaterniond::Identity();
+    double height_above_ground_m = 0.0;
+  };
+
   size_t camera_;
   avoidance::MountedCamera mounted_;
   vision::ImageInterpolationFlow flow_;
+  std::optional<Belief> last_;
 };
 
 }  // namespace hedgehop::sim

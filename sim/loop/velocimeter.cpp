@@ -1,0 +1,41 @@
+#include "sim/loop/velocimeter.h"
+
+#include <algorithm>
+
+namespace hedgehop::sim {
+namespace {
+
+/// 8 x 8 patches, as [Garratt2009] sec. 4 has them for the ground camera; 64 px in its picture of 400 x 400.
+vision::ImageInterpolationConfig ground_grid(const vision::PinholeCamera& camera) {
+  vision::ImageInterpolationConfig grid;
+  const int side_px = std::min(camera.width_px, camera.height_px);
+  grid.rows = grid.cols = 8;
+  grid.patch_px = std::max(16, side_px * 64 / 400);
+  grid.margin_px = side_px * 28 / 400;
+  return grid;
+}
+
+}  // namespace
+
+Velocimeter::Velocimeter(size_t camera, const Cameras& cameras)
+    : camera_(camera),
+      mounted_(cameras.mounted(camera)),
+      flow_(ground_grid(mounted_.model), mounted_.model.width_px, mounted_.model.height_px) {}
+
+void Velocimeter::update(const avoidance::CameraFrame& frame, dynamics::Avionics& avionics) {
+  const vision::FlowField& field = flow_.update(frame.image);
+  const dynamics::NavigationEstimate& navigation = avionics.navigation();
+  const std::optional<Belief> last = last_;
+  last_ = Belief{frame.t_ns, navigation.q_WB_est, navigation.height_above_ground_m};
+  if (!last) return;
+
+  const double dt_s = 1e-9 * static_cast<double>(frame.t_ns - last->t_ns);
+  const Eigen::AngleAxisd turn(last->q_WB_est.conjugate() * navigation.q_WB_est);
+  const vision::FlowMotion motion{last->q_WB_est, turn.axis() * (turn.angle() / dt_s), last->height_above_ground_m,
+                                  dt_s};
+  if (const auto velocity = vision::flow_velocity(field, mounted_.model, mounted_.X_BC, motion)) {
+    avionics.correct_velocity(velocity->v_WB_B_xy_meas, velocity->sigma_mps);
+  }
+}
+
+}  // namespace hedgehop::sim
