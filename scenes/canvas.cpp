@@ -15,13 +15,13 @@ struct LatticeStep {
   float way;
 };
 
-std::vector<LatticeStep> lattice_steps(int size_px, int cells) {
+std::vector<LatticeStep> lattice_steps(int size_px, int cells, double phase) {
   std::vector<LatticeStep> steps;
   for (int i = 0; i < size_px; ++i) {
-    const double at = static_cast<double>(i) * cells / size_px;
+    const double at = static_cast<double>(i) * cells / size_px + phase;
     const int node = static_cast<int>(at);
     const double t = at - node;
-    steps.push_back({node, (node + 1) % cells, static_cast<float>(t * t * (3.0 - 2.0 * t))});
+    steps.push_back({node % cells, (node + 1) % cells, static_cast<float>(t * t * (3.0 - 2.0 * t))});
   }
   return steps;
 }
@@ -30,8 +30,8 @@ void add_value_noise(cv::Mat1f& sum, int cells_u, int cells_v, float strength, R
   cv::Mat1f lattice(cells_v, cells_u);
   for (float& node : lattice) node = static_cast<float>(uniform(random, -1.0, 1.0)) * strength;
 
-  // Across first, one row per lattice row; then down.
-  const auto across = lattice_steps(sum.cols, cells_u);
+  // Across first, one row per lattice row; then down. The phases keep the octaves' nodes apart.
+  const auto across = lattice_steps(sum.cols, cells_u, uniform(random, 0.0, 1.0));
   cv::Mat1f rows(cells_v, sum.cols);
   for (int r = 0; r < cells_v; ++r) {
     const float* node = lattice[r];
@@ -41,7 +41,7 @@ void add_value_noise(cv::Mat1f& sum, int cells_u, int cells_v, float strength, R
       out[c] = node[s.before] + s.way * (node[s.after] - node[s.before]);
     }
   }
-  const auto down = lattice_steps(sum.rows, cells_v);
+  const auto down = lattice_steps(sum.rows, cells_v, uniform(random, 0.0, 1.0));
   for (int r = 0; r < sum.rows; ++r) {
     const LatticeStep& s = down[static_cast<size_t>(r)];
     const float *above = rows[s.before], *below = rows[s.after];

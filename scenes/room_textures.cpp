@@ -196,7 +196,7 @@ cv::Mat paint_shelves(int size_px, uint64_t seed) {
   Canvas canvas(size_px, kRoomTile_m, scaled(kWood, 0.35));
   constexpr double kShelf_m = 0.4;
   for (double shelf = kShelf_m; shelf < kRoomTile_m + 0.01; shelf += kShelf_m) {
-    for (double x = 0.0; x < kRoomTile_m - 0.08;) {
+    for (double x = 0.0; x < kRoomTile_m;) {
       const double width = uniform(random, 0.025, 0.085), height = uniform(random, 0.20, 0.34);
       if (!chance(random, 0.08)) {
         const Colour spine = vivid(random);

@@ -1,0 +1,175 @@
+// What holds of every generated mesh: geometry, pictures' placement, and agreement with the solids.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+#include <string>
+
+#include "scene_equality.h"
+#include "scenes/generators.h"
+
+namespace hedgehop::scenes {
+namespace {
+
+struct Case {
+  std::string name;
+  SceneConfig config;
+};
+
+std::vector<Case> cases() {
+  UrbanConfig city;
+  city.texture_size_px = 64;
+  UrbanConfig towers = city;
+  towers.setback_share = 1.0;
+  towers.min_height_m = 4.0;
+  towers.street_min_width_m = 9.3;
+  RoomConfig room;
+  room.texture_size_px = 64;
+  room.furniture = 4;
+  RoomConfig open = room;
+  open.ceiling = false;
+  open.length_m = 11.3;
+  open.furniture_gap_m = 1.5;
+  return {{"city", city}, {"towers", towers}, {"room", room}, {"open", open}};
+}
+
+class EveryMesh : public testing::TestWithParam<Case> {
+ protected:
+  Scene scene_ = make_scene(GetParam().config, 11);
+  const Mesh& mesh() const { return scene_.meshes.at(0); }
+  const Vertex& corner(size_t triangle, size_t k) const { return mesh().vertices[mesh().indices[3 * triangle + k]]; }
+  size_t triangles() const { return mesh().indices.size() / 3; }
+};
+
+TEST_P(EveryMesh, WindingAgreesWithUnitNormals) {
+  for (size_t t = 0; t < triangles(); ++t) {
+    const Eigen::Vector3f a = corner(t, 0).p_W, b = corner(t, 1).p_W, c = corner(t, 2).p_W;
+    const Eigen::Vector3f across = (b - a).cross(c - a);
+    ASSERT_GT(across.norm(), 0.0f);
+    for (size_t k = 0; k < 3; ++k) {
+      ASSERT_NEAR(corner(t, k).n_W.norm(), 1.0f, 1e-6f);
+      ASSERT_GT(across.normalized().dot(corner(t, k).n_W), 1.0f - 1e-5f);
+    }
+  }
+}
+
+TEST_P(EveryMesh, PicturesAreUprightAndNeverMirrored) {
+  for (size_t t = 0; t < triangles(); ++t) {
+    const Vertex &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
+    const Eigen::Vector3f e1 = b.p_W - a.p_W, e2 = c.p_W - a.p_W;
+    const Eigen::Vector2f d1 = b.uv - a.uv, d2 = c.uv - a.uv;
+    const float det = d1.x() * d2.y() - d2.x() * d1.y();
+    const Eigen::Vector3f right = (e1 * d2.y() - e2 * d1.y()) / det, down = (e2 * d1.x() - e1 * d2.x()) / det;
+    ASSERT_LT(right.cross(down).dot(a.n_W), 0.0f);
+    if (std::abs(a.n_W.z()) < 0.5f) {
+      ASSERT_GT(down.normalized().z(), 0.999f);
+    }
+    ASSERT_EQ(a.texture, b.texture);
+    ASSERT_LT(a.texture, scene_.textures.size());
+  }
+}
+
+TEST_P(EveryMesh, ChunksCoverAllIndicesInOrderAndBoundTheirTriangles) {
+  uint32_t next = 0;
+  for (const Chunk& chunk : mesh().chunks) {
+    ASSERT_EQ(chunk.first_index, next);
+    ASSERT_GT(chunk.index_count, 0u);
+    ASSERT_EQ(chunk.index_count % 3, 0u);
+    Eigen::AlignedBox3f box;
+    for (uint32_t i = next; i < next + chunk.index_count; ++i) box.extend(mesh().vertices[mesh().indices[i]].p_W);
+    ASSERT_EQ(box.min(), chunk.box_W.min());
+    ASSERT_EQ(box.max(), chunk.box_W.max());
+    next += chunk.index_count;
+  }
+  EXPECT_EQ(next, mesh().indices.size());
+}
+
+TEST_P(EveryMesh, EverySolidIsTheBoxOfOneChunkAndFillersReachTheGround) {
+  std::vector<const Chunk*> upright;
+  for (const Chunk& chunk : mesh().chunks) {
+    if (chunk.box_W.sizes().z() > 0.0f) upright.push_back(&chunk);
+  }
+  ASSERT_EQ(upright.size(), scene_.solids.size());
+  for (size_t k = 0; k < upright.size(); ++k) {
+    const Eigen::AlignedBox3d solid = box_of(scene_.solids[k]);
+    constexpr float kSinglePrecision_m = 1e-5f;
+    ASSERT_LE((upright[k]->box_W.min() - solid.min().cast<float>()).cwiseAbs().maxCoeff(), kSinglePrecision_m);
+    ASSERT_LE((upright[k]->box_W.max() - solid.max().cast<float>()).cwiseAbs().maxCoeff(), kSinglePrecision_m);
+    if (!upright[k]->fills_box_to_ground) continue;
+    // Every column under the top, down to the ground, lies in this solid or in one below it.
+    for (double height = 0.0; height < -solid.max().z(); height += 0.5) {
+      const Eigen::Vector3d low(solid.min().x(), solid.min().y(), -height - 0.25),
+          high(solid.max().x(), solid.max().y(), -height - 0.25);
+      bool held = false;
+      for (const Solid& other : scene_.solids)
+        held = held || (box_of(other).contains(low) && box_of(other).contains(high));
+      ASSERT_TRUE(held);
+    }
+  }
+}
+
+// Distance along a ray to the nearest triangle [Moeller and Trumbore]; sets whether its front is seen.
+double cast_at_mesh(const Mesh& mesh, const Eigen::Vector3d& from_W, const Eigen::Vector3d& ray_W, bool& front) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const Eigen::Vector3d a = mesh.vertices[mesh.indices[i]].p_W.cast<double>();
+    const Eigen::Vector3d e1 = mesh.vertices[mesh.indices[i + 1]].p_W.cast<double>() - a;
+    const Eigen::Vector3d e2 = mesh.vertices[mesh.indices[i + 2]].p_W.cast<double>() - a;
+    const Eigen::Vector3d p = ray_W.cross(e2);
+    const double det = e1.dot(p);
+    if (std::abs(det) < 1e-12) continue;
+    const Eigen::Vector3d s = from_W - a;
+    const double u = s.dot(p) / det;
+    const Eigen::Vector3d q = s.cross(e1);
+    const double v = ray_W.dot(q) / det;
+    const double t = e2.dot(q) / det;
+    if (u < 0.0 || v < 0.0 || u + v > 1.0 || t <= 1e-9 || t >= nearest) continue;
+    nearest = t;
+    front = det > 0.0;
+  }
+  return nearest;
+}
+
+double cast_at_solids(const Scene& scene, const Eigen::Vector3d& from_W, const Eigen::Vector3d& ray_W) {
+  double nearest = ray_W.z() > 0.0 ? -from_W.z() / ray_W.z() : std::numeric_limits<double>::infinity();
+  for (const Solid& solid : scene.solids) {
+    const Eigen::Array3d inverse = ray_W.array().inverse();
+    const Eigen::Array3d t0 = (box_of(solid).min() - from_W).array() * inverse;
+    const Eigen::Array3d t1 = (box_of(solid).max() - from_W).array() * inverse;
+    const double enter = t0.min(t1).maxCoeff(), leave = t0.max(t1).minCoeff();
+    if (enter <= leave && enter > 0.0) nearest = std::min(nearest, enter);
+  }
+  return nearest;
+}
+
+TEST_P(EveryMesh, WhatIsSeenIsWhatCanBeHit) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> share(-1.0, 1.0);
+  constexpr double kFarthest_m = 1000.0;  // the ground's picture ends somewhere, its plane does not
+  int compared = 0;
+  while (compared < 400) {
+    const Eigen::Vector2d half = 0.5 * scene_.bounds_NE_m.sizes();
+    const Eigen::Vector3d from_W(half.x() * share(random), half.y() * share(random), -1.45 + share(random));
+    const Eigen::Vector3d ray_W = Eigen::Vector3d(share(random), share(random), share(random)).normalized();
+    bool in_solid = false;
+    for (const Solid& solid : scene_.solids) in_solid = in_solid || box_of(solid).contains(from_W);
+    if (in_solid) continue;
+    const double truth = cast_at_solids(scene_, from_W, ray_W);
+    if (truth > kFarthest_m && truth < std::numeric_limits<double>::infinity()) continue;
+    bool front = true;
+    const double seen = cast_at_mesh(mesh(), from_W, ray_W, front);
+    if (std::isinf(truth)) {
+      ASSERT_TRUE(std::isinf(seen));
+    } else {
+      ASSERT_NEAR(seen, truth, 1e-4);
+    }
+    ASSERT_TRUE(front);
+    ++compared;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, EveryMesh, testing::ValuesIn(cases()),
+                         [](const auto& each) { return each.param.name; });
+
+}  // namespace
+}  // namespace hedgehop::scenes

@@ -1,0 +1,109 @@
+#include "scenes/room.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "scene_equality.h"
+#include "scenes/generators.h"
+
+namespace hedgehop::scenes {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+RoomConfig small_pictures() {
+  RoomConfig config;
+  config.texture_size_px = 64;
+  return config;
+}
+
+bool inside_a_solid(const Scene& scene, const Eigen::Vector3d& p_W) {
+  for (const Solid& solid : scene.solids) {
+    if (((p_W - solid.X_WS.translation()).cwiseAbs().array() < solid.half_extents_m.array()).all()) return true;
+  }
+  return false;
+}
+
+TEST(Room, FreeSpaceIsEightBySixteenMetresAndClosed) {
+  const Scene room = make_room(small_pictures(), 1);
+  EXPECT_EQ(room.bounds_NE_m.sizes(), Eigen::Vector2d(16.0, 8.0));
+  EXPECT_TRUE(room.has_ground);
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> share(-1.0, 1.0);
+  constexpr double kHair_m = 1e-6;
+  for (int k = 0; k < 2000; ++k) {
+    const Eigen::Vector3d p_W(8.0 * share(random), 4.0 * share(random), -1.5 + 1.5 * share(random));
+    ASSERT_FALSE(inside_a_solid(room, p_W));
+    // Straight out to each side there is wall, from a hair's breadth behind the surface on.
+    for (double sign : {-1.0, 1.0}) {
+      ASSERT_TRUE(inside_a_solid(room, {sign * (8.0 + kHair_m), p_W.y(), p_W.z()}));
+      ASSERT_TRUE(inside_a_solid(room, {p_W.x(), sign * (4.0 + kHair_m), p_W.z()}));
+      ASSERT_FALSE(inside_a_solid(room, {sign * (8.0 - kHair_m), p_W.y(), p_W.z()}));
+      ASSERT_FALSE(inside_a_solid(room, {p_W.x(), sign * (4.0 - kHair_m), p_W.z()}));
+    }
+    ASSERT_TRUE(inside_a_solid(room, {p_W.x(), p_W.y(), -3.0 - kHair_m}));
+  }
+}
+
+TEST(Room, WithoutCeilingOnlyWallsRemain) {
+  RoomConfig config = small_pictures();
+  config.ceiling = false;
+  const Scene room = make_room(config, 1);
+  EXPECT_EQ(room.solids.size(), 4u);
+  EXPECT_FALSE(inside_a_solid(room, {0.0, 0.0, -3.1}));
+}
+
+TEST(Room, FurnitureKeepsItsGapsAndTheClearings) {
+  for (uint64_t seed = 0; seed < 40; ++seed) {
+    RoomConfig config = small_pictures();
+    config.furniture = 4;
+    const Scene room = make_room(config, seed);
+    ASSERT_EQ(room.solids.size(), 9u);
+    std::vector<Eigen::AlignedBox3d> pieces;
+    for (size_t k = 5; k < room.solids.size(); ++k) pieces.push_back(box_of(room.solids[k]));
+    for (size_t i = 0; i < pieces.size(); ++i) {
+      ASSERT_NEAR(pieces[i].max().z(), 0.0, 1e-9);
+      for (size_t j = 0; j < 5; ++j) {
+        const double gap = pieces[i].exteriorDistance(box_of(room.solids[j]));
+        ASSERT_FALSE(pieces[i].intersection(box_of(room.solids[j])).volume() > 1e-9 && gap == 0.0);
+        if (j < 4) {
+          ASSERT_TRUE(gap < 1e-9 || gap >= config.furniture_gap_m - 1e-9) << gap;
+        }
+      }
+      for (size_t j = i + 1; j < pieces.size(); ++j) {
+        Eigen::AlignedBox3d a = pieces[i], b = pieces[j];
+        a.min().z() = b.min().z() = -1.0;
+        ASSERT_GE(a.exteriorDistance(b), config.furniture_gap_m);
+      }
+      const Eigen::Vector3d center(0.0, 0.0, pieces[i].center().z());
+      ASSERT_GE(pieces[i].exteriorDistance(center), 2.0);
+    }
+  }
+}
+
+TEST(Room, SameSeedSameRoomAnotherSeedAnother) {
+  RoomConfig config = small_pictures();
+  config.furniture = 3;
+  EXPECT_TRUE(identical(make_scene(config, 4), make_scene(config, 4)));
+  EXPECT_FALSE(identical(make_scene(config, 4), make_scene(config, 5)));
+}
+
+TEST(Room, RefusesWhatCannotBeBuilt) {
+  const auto refused = [](auto change) {
+    RoomConfig config = small_pictures();
+    change(config);
+    return [config] { make_room(config, 1); };
+  };
+  using E = std::invalid_argument;
+  EXPECT_THAT(refused([](auto& c) { c.length_m = 0.0; }), ThrowsMessage<E>(HasSubstr("length: 0; valid: ")));
+  EXPECT_THAT(refused([](auto& c) { c.furniture = -1; }), ThrowsMessage<E>(HasSubstr("furniture: -1")));
+  EXPECT_THAT(refused([](auto& c) { c.furniture = 200; }),
+              ThrowsMessage<E>(HasSubstr("furniture: 200; valid: what fits: ")));
+  EXPECT_THAT(refused([](auto& c) { c.texture_size_px = 8; }), ThrowsMessage<E>(HasSubstr("texture_size: 8")));
+}
+
+}  // namespace
+}  // namespace hedgehop::scenes

@@ -1,0 +1,157 @@
+#include "scenes/urban.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene_equality.h"
+#include "scenes/generators.h"
+#include "scenes/urban_plan.h"
+
+namespace hedgehop::scenes {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+UrbanConfig small_pictures() {
+  UrbanConfig config;
+  config.texture_size_px = 64;
+  return config;
+}
+
+// Gap between two boxes' outlines in the plan, written out axis by axis.
+double plan_gap(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
+  const double north = std::max({a.min().x() - b.max().x(), b.min().x() - a.max().x(), 0.0});
+  const double east = std::max({a.min().y() - b.max().y(), b.min().y() - a.max().y(), 0.0});
+  return std::hypot(north, east);
+}
+
+double distance_to_plan(const Eigen::AlignedBox3d& box, double north, double east) {
+  const double dn = std::max({box.min().x() - north, north - box.max().x(), 0.0});
+  const double de = std::max({box.min().y() - east, east - box.max().y(), 0.0});
+  return std::hypot(dn, de);
+}
+
+TEST(Urban, SameSeedGivesTheSameSceneBitForBit) {
+  const SceneConfig config = small_pictures();
+  EXPECT_TRUE(identical(make_scene(config, 7), make_scene(config, 7)));
+}
+
+TEST(Urban, AnotherSeedGivesAnotherCityAndOtherPictures) {
+  const Scene a = make_scene(small_pictures(), 7), b = make_scene(small_pictures(), 8);
+  EXPECT_FALSE(identical(a, b));
+  EXPECT_GT(cv::norm(a.textures.back(), b.textures.back(), cv::NORM_L1), 0.0);
+  EXPECT_NE(a.solids.front().half_extents_m, b.solids.front().half_extents_m);
+}
+
+TEST(Urban, NoTwoBuildingsAreNearerThanTheNarrowestStreet) {
+  for (uint64_t seed = 0; seed < 100; ++seed) {
+    UrbanConfig config;
+    config.street_min_width_m = 6.0 + 0.07 * static_cast<double>(seed);
+    const UrbanPlan plan = plan_urban(config, seed);
+    for (size_t i = 0; i < plan.buildings.size(); ++i) {
+      for (size_t j = i + 1; j < plan.buildings.size(); ++j) {
+        ASSERT_GE(plan_gap(plan.buildings[i].boxes_W[0], plan.buildings[j].boxes_W[0]),
+                  config.street_min_width_m - 1e-9);
+      }
+    }
+  }
+}
+
+TEST(Urban, StreetsLeaveRoomForAHelicopterByDefault) { EXPECT_GE(UrbanConfig{}.street_min_width_m, 8.0); }
+
+TEST(Urban, ClearingsStayFreeForEverySeed) {
+  const UrbanConfig config;
+  ASSERT_EQ(config.keep_clear.size(), 2u);
+  for (uint64_t seed = 0; seed < 200; ++seed) {
+    for (const Building& building : plan_urban(config, seed).buildings) {
+      for (const Eigen::AlignedBox3d& box : building.boxes_W) {
+        ASSERT_GE(distance_to_plan(box, -130.0, 80.0), 6.0) << "seed " << seed;
+        ASSERT_GE(distance_to_plan(box, 110.0, -110.0), 6.0) << "seed " << seed;
+      }
+    }
+  }
+}
+
+TEST(Urban, AClearingOverTheWholeCityLeavesNoBuilding) {
+  UrbanConfig config;
+  config.keep_clear = {{0.0, 0.0, 300.0}};
+  EXPECT_TRUE(plan_urban(config, 1).buildings.empty());
+}
+
+TEST(Urban, AllButTheClearedCellsHoldABuilding) {
+  for (uint64_t seed = 0; seed < 50; ++seed) {
+    const size_t count = plan_urban(UrbanConfig{}, seed).buildings.size();
+    EXPECT_GE(count, 98u);
+    EXPECT_LE(count, 100u);
+  }
+}
+
+TEST(Urban, BuildingsStandOnTheGroundAndEveryRoofIsWithinTheHeights) {
+  const UrbanConfig config;
+  double lowest = 1e9, highest = 0.0;
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    for (const Building& building : plan_urban(config, seed).buildings) {
+      ASSERT_EQ(building.boxes_W[0].max().z(), 0.0);
+      for (size_t k = 0; k < building.boxes_W.size(); ++k) {
+        const double height = -building.boxes_W[k].min().z();
+        ASSERT_GE(height, config.min_height_m);
+        ASSERT_LE(height, config.max_height_m);
+        if (k > 0) {  // stands on the box below, within its plan
+          const Eigen::AlignedBox3d &below = building.boxes_W[k - 1], &box = building.boxes_W[k];
+          ASSERT_EQ(box.max().z(), below.min().z());
+          ASSERT_TRUE((box.min().head<2>().array() >= below.min().head<2>().array()).all());
+          ASSERT_TRUE((box.max().head<2>().array() <= below.max().head<2>().array()).all());
+        }
+        ASSERT_GT(building.boxes_W[k].sizes().minCoeff(), 1.0);
+      }
+      lowest = std::min(lowest, -building.boxes_W.back().min().z());
+      highest = std::max(highest, -building.boxes_W.back().min().z());
+    }
+  }
+  EXPECT_LT(lowest, 18.0);
+  EXPECT_GT(highest, 38.0);
+}
+
+TEST(Urban, TenThousandBuildingsAreAsDenseAsAHundred) {
+  UrbanConfig small, large;
+  small.keep_clear.clear();
+  large.keep_clear.clear();
+  large.extent_m = 3000.0;
+  const auto built_share = [](const UrbanConfig& config) {
+    double area_m2 = 0.0;
+    for (const Building& building : plan_urban(config, 3).buildings) {
+      area_m2 += building.boxes_W[0].sizes().x() * building.boxes_W[0].sizes().y();
+    }
+    return area_m2 / (config.extent_m * config.extent_m);
+  };
+  EXPECT_EQ(plan_urban(small, 3).buildings.size(), 100u);
+  EXPECT_EQ(plan_urban(large, 3).buildings.size(), 10000u);
+  // Mean side of a lot of 22 m times (0.55 + 1) / 2: 17.05 m, in a cell of 30 m.
+  const double expected = 17.05 * 17.05 / 900.0;
+  EXPECT_NEAR(built_share(large), expected, 0.01);
+  EXPECT_NEAR(built_share(small), expected, 0.06);
+}
+
+TEST(Urban, RefusesWhatCannotBeBuilt) {
+  const auto refused = [](auto change) {
+    UrbanConfig config = small_pictures();
+    change(config);
+    return [config] { make_urban(config, 1); };
+  };
+  using E = std::invalid_argument;
+  EXPECT_THAT(refused([](auto& c) { c.pitch_m = 9.0; }), ThrowsMessage<E>(HasSubstr("pitch: 9; valid: ")));
+  EXPECT_THAT(refused([](auto& c) { c.extent_m = 20.0; }), ThrowsMessage<E>(HasSubstr("extent: 20")));
+  EXPECT_THAT(refused([](auto& c) { c.extent_m = std::nan(""); }), ThrowsMessage<E>(HasSubstr("extent")));
+  EXPECT_THAT(refused([](auto& c) { c.max_height_m = 10.0; }), ThrowsMessage<E>(HasSubstr("max_height: 10")));
+  EXPECT_THAT(refused([](auto& c) { c.min_footprint = 0.0; }), ThrowsMessage<E>(HasSubstr("min_footprint")));
+  EXPECT_THAT(refused([](auto& c) { c.max_footprint = 0.5; }), ThrowsMessage<E>(HasSubstr("footprint")));
+  EXPECT_THAT(refused([](auto& c) { c.jitter = 1.5; }), ThrowsMessage<E>(HasSubstr("jitter: 1.5")));
+  EXPECT_THAT(refused([](auto& c) { c.keep_clear[0].radius_m = -1.0; }), ThrowsMessage<E>(HasSubstr("radius: -1")));
+  EXPECT_THAT(refused([](auto& c) { c.texture_size_px = 500; }), ThrowsMessage<E>(HasSubstr("texture_size: 500")));
+}
+
+}  // namespace
+}  // namespace hedgehop::scenes
