@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "dynamics/actuator_command.h"
 #include "dynamics/hover_model.h"
@@ -57,37 +58,48 @@ class Autopilot {
   struct Target {
     Eigen::Vector2d v_WB_W = Eigen::Vector2d::Zero();
     double altitude_m = 0.0, heading_rad = 0.0;
-    bool attitude = false;  ///< hold roll and pitch instead of the velocity
+    bool attitude = false;  ///< hold roll and pitch (from the trim) instead of the velocity
     double roll_rad = 0.0, pitch_rad = 0.0;
   };
-  /// What holding errors within would take: tilt per velocity error, and so on.
+  /// What a gain matrix asks of the inner motion per error of the outer.
   struct Slopes {
-    Eigen::Vector2d pitch_roll_per_mps;  ///< tilt asked for per error of the forward and right velocity
-    double climb_per_m = 0.0, turn_per_rad = 0.0;
+    Eigen::Vector2d tilt_per_mps;  ///< pitch per forward, roll per right velocity error, rad s/m
+    Eigen::Vector2d tilt_per_m;    ///< the same per integral, rad/m; zero without integrals
+    double climb_per_m = 0.0;      ///< vertical velocity per altitude error, 1/s
+    double turn_per_rad = 0.0;     ///< turn rate per heading error, 1/s
+  };
+  /// Where a HoverSetpoint stopped.
+  struct HoverAnchor {
+    double altitude_m = 0.0, heading_rad = 0.0;
+    bool stopped = false;
+    Eigen::Vector2d p_WB = Eigen::Vector2d::Zero();
   };
 
   void design(double dt_s);
-  static Slopes slopes(const DesignMatrix& K);
-  Target target(const VelocitySetpoint& s, const NavigationEstimate& now, double dt_s);
-  Target target(const PositionSetpoint& s, const NavigationEstimate& now, double dt_s);
-  Target target(const AttitudeSetpoint& s, const NavigationEstimate& now, double dt_s);
-  Target target(const HoverSetpoint& s, const NavigationEstimate& now, double dt_s);
-  Eigen::Vector2d velocity_towards(const Eigen::Vector2d& p_WG, const NavigationEstimate& now) const;
-  Eigen::Vector4d advance_reference(const Target& target);
+  Slopes slopes(const DesignMatrix& K) const;
+
+  Target target(const VelocitySetpoint& s, const NavigationEstimate& now);
+  Target target(const PositionSetpoint& s, const NavigationEstimate& now);
+  Target target(const AttitudeSetpoint& s, const NavigationEstimate& now);
+  Target target(const HoverSetpoint& s, const NavigationEstimate& now);
+  Eigen::Vector2d velocity_towards(const Eigen::Vector2d& p_WG, const Eigen::Vector2d& p_WB) const;
+
+  Eigen::Vector4d plan(const Target& target) const;
+  Eigen::Vector4d hold(const DesignVector& state, const Eigen::Vector4d& planned_rad, bool attitude);
+  DesignVector state_of(const NavigationEstimate& now) const;
+  void advance_reference(const Eigen::Vector4d& u);
 
   AutopilotConfig config_;
   HoverModel model_;
   double dt_s_ = 0.0;
   LinearSystem step_;             ///< the model, sampled
-  DesignMatrix K_plan_, K_hold_;  ///< inputs x states; K_hold_ with four integrals behind
+  DesignMatrix K_plan_, K_hold_;  ///< inputs x states; K_hold_ with the four integrals behind
   Slopes plan_slopes_, hold_slopes_;
 
-  DesignVector reference_;     ///< state of the reference flight; its heading and depth are absolute
-  DesignVector hidden_;        ///< hidden states of the vehicle, predicted by the model
+  DesignVector reference_;     ///< state of the reference flight, velocities in the frame of its own heading
+  DesignVector hidden_;        ///< the vehicle's hidden states, predicted by the model
   Eigen::Vector4d integrals_;  ///< of the errors forward (m), right (m), below (m s), heading (rad s)
-  bool hovering_ = false, stopped_ = false;
-  double hover_altitude_m_ = 0.0, hover_heading_rad_ = 0.0;
-  Eigen::Vector2d hover_p_WB_ = Eigen::Vector2d::Zero();
+  std::optional<HoverAnchor> anchor_;
 };
 
 }  // namespace hedgehop::dynamics

@@ -56,6 +56,7 @@ class Avionics {
   /// Starts a flight; afterwards it behaves as one newly made.
   void reset(const SensedTruth& truth);
   /// To be called on every physics tick, from the first: reads the sensors that are due and runs the filter.
+  /// @param t_ns  since the flight began, a whole number of physics steps.
   void sense(int64_t t_ns, const SensedTruth& truth);
   /// Corrects the filter by a velocity seen by the down camera. @param v_WB_B_xy_meas  forward and right in B, m/s.
   /// @param sigma_mps  standard deviation per axis, > 0.
@@ -63,6 +64,7 @@ class Avionics {
     navigation_.correct_velocity(v_WB_B_xy_meas, sigma_mps);
   }
   const NavigationEstimate& navigation() const { return navigation_.estimate(); }
+  const Autopilot& autopilot() const { return autopilot_; }
   /// The blade angles to ask for until the next call. @param dt_s  until then, > 0, the same in every call of a flight.
   ActuatorCommand control(const Setpoint& setpoint, double dt_s) {
     return autopilot_.control(setpoint, navigation_.estimate(), dt_s);
@@ -81,7 +83,6 @@ class Avionics {
   Magnetometer magnetometer_;
   Navigation navigation_;
   Autopilot autopilot_;
-  int64_t tick_ = 0;
 };
 
 }  // namespace hedgehop::dynamics

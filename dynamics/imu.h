@@ -80,14 +80,16 @@ class Imu {
   double dt_s_, sample_dt_s_;
   int64_t period_;
   NormalStream noise_;
-  GaussMarkov gyro_bias_model_, accelerometer_bias_model_;
-  double filter_gain_;  ///< tan(pi cutoff dt)
+  GaussMarkov gyro_wander_model_, accelerometer_wander_model_;
+  double filter_;  ///< tan(pi cutoff dt)
   Eigen::Matrix3d R_SB_;
-  Eigen::Vector3d gyro_offset_, accelerometer_offset_, gyro_bias_, accelerometer_bias_;
+  Eigen::Vector3d gyro_offset_, accelerometer_offset_, gyro_wander_, accelerometer_wander_;
   bool started_ = false;
-  Eigen::Vector3d w_last_, f_last_;  ///< inputs of the last tick
-  Eigen::Vector3d w_filtered_, f_filtered_;
-  Eigen::Vector3d w_body_last_;
+  Eigen::Vector3d w_in_, f_in_, w_out_, f_out_;  ///< of the filter, at the last tick
 };
+
+/// The wandering biases as processes of their stationary standard deviation, N_b sqrt(tau / 2).
+GaussMarkov gyro_wander(const ImuConfig& config);
+GaussMarkov accelerometer_wander(const ImuConfig& config);
 
 }  // namespace hedgehop::dynamics

@@ -90,7 +90,6 @@ class Navigation {
   void correct_altitude(double innovation_m, double variance_m2);
   void inject();
   void publish();
-  const Past& past() const;
 
   NavigationConfig config_;
   Sensors sensors_;

@@ -1,0 +1,280 @@
+#include "dynamics/autopilot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "dynamics/magnetometer.h"
+#include "dynamics/rigid_body.h"
+#include "dynamics/sensor_noise.h"
+
+namespace hedgehop::dynamics {
+namespace {
+
+using M = HoverModel;
+constexpr double kUsualDtS = 0.01;
+constexpr int kIntegrals = 4;
+constexpr int kIntegrated[kIntegrals] = {M::kForward, M::kRight, M::kBelow, M::kHeading};
+
+/// Deviations that count alike in a design (weights are their inverse squares).
+struct Acceptable {
+  double velocity_mps, climb_mps, tilt_rad, heading_rad, rate_radps, below_m;
+  double collective_rad, cyclic_rad, tail_rad;
+};
+// Chosen so that the reference flight reaches a speed within about a second without overshoot, and that the vehicle
+// holds to it about as stiffly.
+constexpr Acceptable kPlan{.velocity_mps = 0.4,
+                           .climb_mps = 0.5,
+                           .tilt_rad = 0.3,
+                           .heading_rad = 0.2,
+                           .rate_radps = 1.0,
+                           .below_m = 0.25,
+                           .collective_rad = 0.02,
+                           .cyclic_rad = 0.05,
+                           .tail_rad = 0.1};
+constexpr Acceptable kHold{.velocity_mps = 0.25,
+                           .climb_mps = 0.5,
+                           .tilt_rad = 0.3,
+                           .heading_rad = 0.1,
+                           .rate_radps = 1.0,
+                           .below_m = 0.15,
+                           .collective_rad = 0.02,
+                           .cyclic_rad = 0.05,
+                           .tail_rad = 0.1};
+const Eigen::Vector4d kAcceptableIntegrals{0.4, 0.4, 0.2, 0.2};  // m, m, m s, rad s
+
+double weight(double acceptable) { return 1.0 / (acceptable * acceptable); }
+
+DesignMatrix state_weights(const Acceptable& a, Eigen::Index size) {
+  DesignVector q = DesignVector::Zero(size);
+  q[M::kForward] = q[M::kRight] = weight(a.velocity_mps);
+  q[M::kDown] = weight(a.climb_mps);
+  q[M::kRoll] = q[M::kPitch] = weight(a.tilt_rad);
+  q[M::kHeading] = weight(a.heading_rad);
+  q.segment<3>(M::kP).setConstant(weight(a.rate_radps));
+  q[M::kBelow] = weight(a.below_m);
+  return q.asDiagonal();
+}
+
+DesignMatrix input_weights(const Acceptable& a) {
+  DesignVector r(static_cast<Eigen::Index>(M::kInputs));
+  r << weight(a.collective_rad), weight(a.cyclic_rad), weight(a.cyclic_rad), weight(a.tail_rad);
+  return r.asDiagonal();
+}
+
+Eigen::Vector2d shortened(const Eigen::Vector2d& v, double longest) {
+  const double length = v.norm();
+  return length > longest ? Eigen::Vector2d(v * (longest / length)) : v;
+}
+
+Eigen::Vector2d turned(double angle_rad, const Eigen::Vector2d& v) { return Eigen::Rotation2Dd(angle_rad) * v; }
+
+ActuatorCommand to_command(const Eigen::Vector4d& u) { return {u[0], u[1], u[2], u[3]}; }
+
+}  // namespace
+
+Autopilot::Autopilot(const AutopilotConfig& config, const VehicleConfig& vehicle)
+    : config_(config), model_(make_hover_model(vehicle)) {
+  require_positive("autopilot.speed_limit", config.speed_limit_mps);
+  require_positive("autopilot.acceleration_limit", config.acceleration_limit_mps2);
+  require_positive("autopilot.climb_rate_limit", config.climb_rate_limit_mps);
+  require_positive("autopilot.yaw_rate_limit", config.yaw_rate_limit_radps);
+  require_positive("autopilot.tilt_limit", config.tilt_limit_rad);
+  design(kUsualDtS);
+  reset({});
+}
+
+void Autopilot::design(double dt_s) {
+  dt_s_ = dt_s;
+  const Eigen::Index n = model_.motion.A.rows();
+  step_ = sampled(model_.motion, dt_s);
+  K_plan_ = lqr_gain(step_, state_weights(kPlan, n), input_weights(kPlan));
+
+  LinearSystem augmented{DesignMatrix::Zero(n + kIntegrals, n + kIntegrals),
+                         DesignMatrix::Zero(n + kIntegrals, M::kInputs)};
+  augmented.A.topLeftCorner(n, n) = model_.motion.A;
+  augmented.B.topRows(n) = model_.motion.B;
+  for (int i = 0; i < kIntegrals; ++i) augmented.A(n + i, kIntegrated[i]) = 1.0;
+  DesignMatrix Q = state_weights(kHold, n + kIntegrals);
+  for (int i = 0; i < kIntegrals; ++i) Q(n + i, n + i) = weight(kAcceptableIntegrals[i]);
+  K_hold_ = lqr_gain(sampled(augmented, dt_s), Q, input_weights(kHold));
+
+  plan_slopes_ = slopes(K_plan_);
+  hold_slopes_ = slopes(K_hold_);
+}
+
+Autopilot::Slopes Autopilot::slopes(const DesignMatrix& K) const {
+  const Eigen::Index n = model_.motion.A.rows();
+  Slopes s;
+  s.tilt_per_mps << K(M::kLongitudinal, M::kForward) / K(M::kLongitudinal, M::kPitch),
+      K(M::kLateral, M::kRight) / K(M::kLateral, M::kRoll);
+  s.tilt_per_m.setZero();
+  if (K.cols() > n) {
+    s.tilt_per_m << K(M::kLongitudinal, n) / K(M::kLongitudinal, M::kPitch),
+        K(M::kLateral, n + 1) / K(M::kLateral, M::kRoll);
+  }
+  s.climb_per_m = K(M::kCollective, M::kBelow) / K(M::kCollective, M::kDown);
+  s.turn_per_rad = K(M::kTail, M::kHeading) / K(M::kTail, M::kR);
+  return s;
+}
+
+void Autopilot::reset(const NavigationEstimate& now) {
+  const Eigen::Index n = model_.motion.A.rows();
+  reference_ = DesignVector::Zero(n);
+  reference_[M::kHeading] = to_roll_pitch_heading(now.q_WB_est)[2];
+  reference_[M::kBelow] = now.p_WB_est.z();
+  hidden_ = DesignVector::Zero(n - M::kHidden);
+  integrals_.setZero();
+  anchor_.reset();
+}
+
+Eigen::Vector3d Autopilot::reference_v_WB_W() const {
+  Eigen::Vector3d v;
+  v << turned(reference_[M::kHeading], reference_.head<2>()), reference_[M::kDown];
+  return v;
+}
+
+Autopilot::Target Autopilot::target(const VelocitySetpoint& s, const NavigationEstimate&) {
+  return {
+      .v_WB_W = shortened(s.v_WB_W, config_.speed_limit_mps), .altitude_m = s.altitude_m, .heading_rad = s.heading_rad};
+}
+
+Autopilot::Target Autopilot::target(const PositionSetpoint& s, const NavigationEstimate& now) {
+  return {.v_WB_W = velocity_towards(s.p_WB.head<2>(), now.p_WB_est.head<2>()),
+          .altitude_m = -s.p_WB.z(),
+          .heading_rad = s.heading_rad};
+}
+
+Autopilot::Target Autopilot::target(const AttitudeSetpoint& s, const NavigationEstimate&) {
+  const Eigen::Vector2d tilt = shortened({s.pitch_rad, s.roll_rad}, config_.tilt_limit_rad);
+  return {.altitude_m = s.altitude_m,
+          .heading_rad = s.heading_rad,
+          .attitude = true,
+          .roll_rad = tilt[1],
+          .pitch_rad = tilt[0]};
+}
+
+Autopilot::Target Autopilot::target(const HoverSetpoint& s, const NavigationEstimate& now) {
+  constexpr double kStoppedMps = 0.2;
+  if (!anchor_) anchor_ = HoverAnchor{-reference_[M::kBelow], reference_[M::kHeading], false, Eigen::Vector2d::Zero()};
+  if (!anchor_->stopped && (now.q_WB_est * now.v_WB_B_est).head<2>().norm() < kStoppedMps) {
+    anchor_->stopped = true;
+    anchor_->p_WB = now.p_WB_est.head<2>();
+  }
+  const double turn = std::clamp(s.yaw_rate_radps, -config_.yaw_rate_limit_radps, config_.yaw_rate_limit_radps);
+  anchor_->heading_rad = wrap_angle(anchor_->heading_rad + turn * dt_s_);
+  Target out{.altitude_m = anchor_->altitude_m, .heading_rad = anchor_->heading_rad};
+  if (anchor_->stopped) out.v_WB_W = velocity_towards(anchor_->p_WB, now.p_WB_est.head<2>());
+  return out;
+}
+
+/// Towards a point, slowing down so that half the greatest acceleration stops there.
+Eigen::Vector2d Autopilot::velocity_towards(const Eigen::Vector2d& p_WG, const Eigen::Vector2d& p_WB) const {
+  constexpr double kSeparation = 4.0;  // how much slower than the velocity's the position's motion is
+  const double velocity_bandwidth = kGravityMps2 * plan_slopes_.tilt_per_mps.cwiseAbs().minCoeff();
+  const Eigen::Vector2d way = p_WG - p_WB;
+  const double distance_m = way.norm();
+  const double speed_mps = std::min({config_.speed_limit_mps, velocity_bandwidth / kSeparation * distance_m,
+                                     std::sqrt(config_.acceleration_limit_mps2 * distance_m)});
+  return distance_m > 0.0 ? Eigen::Vector2d(way * (speed_mps / distance_m)) : Eigen::Vector2d::Zero();
+}
+
+ActuatorCommand Autopilot::control(const Setpoint& setpoint, const NavigationEstimate& now, double dt_s) {
+  if (dt_s != dt_s_) design(dt_s);
+  if (!std::holds_alternative<HoverSetpoint>(setpoint)) anchor_.reset();
+  const Target target = std::visit([&](const auto& s) { return this->target(s, now); }, setpoint);
+
+  DesignVector state = state_of(now);
+  if (target.attitude) reference_.head<2>() = state.head<2>();  // there is no velocity to follow
+  const Eigen::Vector4d planned = plan(target);
+  const Eigen::Vector4d asked = model_.trim_rad + planned + hold(state, planned, target.attitude);
+  const Eigen::Vector4d given = asked.cwiseMax(model_.lowest_rad).cwiseMin(model_.highest_rad);
+
+  hidden_ =
+      (step_.A.bottomRows(hidden_.size()) * state + step_.B.bottomRows(hidden_.size()) * (given - model_.trim_rad))
+          .eval();
+  advance_reference(planned);
+  return to_command(given);
+}
+
+/// The estimate and the predicted hidden states as the model has them: velocities in the frame of the estimated
+/// heading.
+DesignVector Autopilot::state_of(const NavigationEstimate& now) const {
+  const Eigen::Vector3d rpy = to_roll_pitch_heading(now.q_WB_est);
+  const Eigen::Vector3d v_WB_W = now.q_WB_est * now.v_WB_B_est;
+  DesignVector x(reference_.size());
+  x << turned(-rpy[2], v_WB_W.head<2>()), v_WB_W.z(), rpy[0] - model_.roll_rad, rpy[1] - model_.pitch_rad, rpy[2],
+      now.w_WB_B_est, now.p_WB_est.z(), hidden_;
+  return x;
+}
+
+/// Returns what the reference flight does about the target, within the limits: errors are cut to what makes the design
+/// ask for a limit.
+Eigen::Vector4d Autopilot::plan(const Target& target) const {
+  const AutopilotConfig& c = config_;
+  DesignVector e = reference_;
+  if (target.attitude) {
+    e.head<2>().setZero();
+    e[M::kRoll] -= target.roll_rad;
+    e[M::kPitch] -= target.pitch_rad;
+  } else {
+    const Eigen::Vector2d error = e.head<2>() - turned(-reference_[M::kHeading], target.v_WB_W);
+    const Eigen::Vector2d tilt = plan_slopes_.tilt_per_mps.cwiseProduct(error);
+    e.head<2>() = shortened(tilt, c.acceleration_limit_mps2 / kGravityMps2).cwiseQuotient(plan_slopes_.tilt_per_mps);
+  }
+  const double below_m = c.climb_rate_limit_mps / plan_slopes_.climb_per_m;
+  e[M::kBelow] = std::clamp(reference_[M::kBelow] + target.altitude_m, -below_m, below_m);
+  const double off_rad = c.yaw_rate_limit_radps / plan_slopes_.turn_per_rad;
+  e[M::kHeading] = std::clamp(wrap_angle(reference_[M::kHeading] - target.heading_rad), -off_rad, off_rad);
+  return -K_plan_ * e;
+}
+
+/// Returns what holds the vehicle to the reference flight, and moves the integrals on.
+Eigen::Vector4d Autopilot::hold(const DesignVector& state, const Eigen::Vector4d& planned_rad, bool attitude) {
+  const Eigen::Index n = state.size();
+  const double heading = state[M::kHeading];
+  DesignVector e(n + kIntegrals);
+  e << state - reference_, integrals_;
+  e.head<2>() = state.head<2>() - turned(reference_[M::kHeading] - heading, reference_.head<2>());
+  e[M::kHeading] = wrap_angle(heading - reference_[M::kHeading]);
+  Eigen::Vector4d errors{e[M::kForward], e[M::kRight], e[M::kBelow], e[M::kHeading]};
+  if (attitude) e.segment<2>(n).setZero();
+
+  // Velocity errors and their integrals may not ask for more tilt than the reference flight leaves.
+  const Eigen::Vector2d planned{reference_[M::kPitch], reference_[M::kRoll]};
+  const Eigen::Vector2d from_error = -hold_slopes_.tilt_per_mps.cwiseProduct(Eigen::Vector2d(e.head<2>()));
+  const Eigen::Vector2d from_integral = -hold_slopes_.tilt_per_m.cwiseProduct(Eigen::Vector2d(e.segment<2>(n)));
+  const Eigen::Vector2d wanted = planned + from_error + from_integral;
+  const bool tilted_out = wanted.norm() > config_.tilt_limit_rad;
+  if (tilted_out) {
+    const Eigen::Vector2d left = shortened(wanted, config_.tilt_limit_rad) - planned - from_integral;
+    e.head<2>() = -left.cwiseQuotient(hold_slopes_.tilt_per_mps);
+  }
+  const Eigen::Vector4d u = -K_hold_ * e;
+
+  // Integrals stand still while they would only grow against a limit.
+  const Eigen::Vector4d total = model_.trim_rad + planned_rad + u;
+  const bool at_stop =
+      (total.array() < model_.lowest_rad.array()).any() || (total.array() > model_.highest_rad.array()).any();
+  if (attitude) errors.head<2>().setZero();
+  for (int i = 0; i < kIntegrals; ++i) {
+    const bool grows = errors[i] * integrals_[i] > 0.0;
+    const bool limited = at_stop || (tilted_out && i < 2);
+    if (!(limited && grows)) integrals_[i] += dt_s_ * errors[i];
+  }
+  return u;
+}
+
+/// The reference flight obeys the linear model; as it turns, its velocity over ground stays.
+void Autopilot::advance_reference(const Eigen::Vector4d& u) {
+  DesignVector x = reference_;
+  x[M::kHeading] = 0.0;
+  x[M::kBelow] = 0.0;
+  DesignVector next = step_.A * x + step_.B * u;
+  next.head<2>() = turned(-next[M::kHeading], next.head<2>());
+  next[M::kBelow] += reference_[M::kBelow];
+  next[M::kHeading] = wrap_angle(next[M::kHeading] + reference_[M::kHeading]);
+  reference_ = next;
+}
+
+}  // namespace hedgehop::dynamics

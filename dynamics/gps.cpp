@@ -1,0 +1,39 @@
+#include "dynamics/gps.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hedgehop::dynamics {
+
+Gps::Gps(const GpsConfig& config, double physics_dt_s, uint64_t seed)
+    : config_(config), period_(period_ticks("gps.rate", config.rate_hz, physics_dt_s)), noise_(seed) {
+  require_not_negative("gps.latency", config.latency_s);
+  require_not_negative("gps.wander_horizontal", config.wander_horizontal_m);
+  require_not_negative("gps.wander_vertical", config.wander_vertical_m);
+  require_positive("gps.wander_time", config.wander_time_s);
+  require_not_negative("gps.noise", config.noise_m);
+  require_not_negative("gps.velocity_noise", config.velocity_noise_mps);
+  sample_dt_s_ = static_cast<double>(period_) * physics_dt_s;
+  past_.resize(static_cast<size_t>(std::llround(config.latency_s / physics_dt_s)) + 1);
+  wander_sigma_m_ << config.wander_horizontal_m, config.wander_horizontal_m, config.wander_vertical_m;
+  wander_m_ = wander_sigma_m_.cwiseProduct(noise_.draw3());
+}
+
+void Gps::feel(const Eigen::Vector3d& p_WB, const Eigen::Vector3d& v_WB_W) {
+  past_[next_] = {p_WB, v_WB_W};
+  next_ = (next_ + 1) % past_.size();
+  known_ = std::min(known_ + 1, past_.size());
+}
+
+std::optional<GpsFix> Gps::read() {
+  const GaussMarkov unit{1.0, config_.wander_time_s};
+  wander_m_ = unit.decay(sample_dt_s_) * wander_m_ +
+              unit.added_sigma(sample_dt_s_) * wander_sigma_m_.cwiseProduct(noise_.draw3());
+  const Eigen::Vector3d p_noise = config_.noise_m * noise_.draw3();
+  const Eigen::Vector3d v_noise = config_.velocity_noise_mps * noise_.draw3();
+  if (!config_.enabled || known_ < past_.size()) return std::nullopt;
+  const Truth& then = past_[next_];  // the oldest
+  return GpsFix{then.p_WB + wander_m_ + p_noise, then.v_WB_W + v_noise};
+}
+
+}  // namespace hedgehop::dynamics

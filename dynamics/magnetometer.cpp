@@ -1,0 +1,21 @@
+#include "dynamics/magnetometer.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace hedgehop::dynamics {
+
+Magnetometer::Magnetometer(const MagnetometerConfig& config, double physics_dt_s, uint64_t seed)
+    : config_(config), period_(period_ticks("magnetometer.rate", config.rate_hz, physics_dt_s)), noise_(seed) {
+  require_not_negative("magnetometer.noise", config.noise_rad);
+  require_not_negative("magnetometer.offset", config.offset_rad);
+  offset_rad_ = config.offset_rad * noise_.draw();
+}
+
+double Magnetometer::read(double heading_rad) {
+  return wrap_angle(heading_rad + offset_rad_ + config_.noise_rad * noise_.draw());
+}
+
+double wrap_angle(double angle_rad) { return std::remainder(angle_rad, 2.0 * std::numbers::pi); }
+
+}  // namespace hedgehop::dynamics

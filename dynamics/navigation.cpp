@@ -1,0 +1,250 @@
+#include "dynamics/navigation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hedgehop::dynamics {
+namespace {
+
+// Where each part of the error state stands: attitude (small rotation in B), velocity and position in W, biases of
+// gyros and accelerometers, wandering horizontal error of the satellite position, compass offset.
+constexpr int kTheta = 0, kV = 3, kP = 6, kGyro = 9, kAccelerometer = 12, kWander = 15, kCompass = 17;
+
+constexpr double kInitialVelocitySigmaMps = 0.05;  // chosen: a hover before take-over
+constexpr double kGate = 9.0;           // of an innovation's squared ratio to its sigma; beyond it the weight falls
+constexpr int kJumpReadings = 3;        // readings that must agree before another surface is believed
+constexpr double kCoastAfterS = 1.0;    // without any velocity or position ...
+constexpr double kCoastSigmaMps = 3.0;  // ... the aircraft is taken to fly no faster than about this, once a second
+
+Eigen::Matrix3d skew(const Eigen::Vector3d& a) {
+  Eigen::Matrix3d m;
+  m << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
+  return m;
+}
+
+Eigen::Quaterniond rotation(const Eigen::Vector3d& v) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(v.norm(), v.stableNormalized()));
+}
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+Navigation::Navigation(const NavigationConfig& config, const Sensors& sensors)
+    : config_(config), sensors_(sensors), dt_s_(1.0 / sensors.imu.rate_hz) {
+  require_positive("navigation.attitude_sigma", config.attitude_sigma_rad);
+  require_positive("navigation.position_sigma", config.position_sigma_m);
+  require_positive("navigation.alignment_residual", config.alignment_residual);
+  require_positive("navigation.surface_jump", config.surface_jump_m);
+  history_.resize(static_cast<size_t>(std::llround(sensors.gps.latency_s / dt_s_)) + 1);
+  reset({}, {});
+}
+
+void Navigation::reset(const RigidBodyState& known, const ImuReading& bias) {
+  q_WB_ = known.q_WB;
+  v_WB_W_ = known.q_WB * known.v_WB_B;
+  p_WB_ = known.p_WB;
+  w_WB_B_ = known.w_WB_B;
+  gyro_bias_ = bias.w_WB_B_meas;
+  accelerometer_bias_ = bias.specific_force_B_meas;
+  gps_wander_m_.setZero();
+  compass_offset_rad_ = 0.0;
+  last_imu_.reset();
+  since_velocity_s_ = 0.0;
+  surface_m_ = surface_sigma_m_ = 0.0;
+  jump_count_ = 0;
+  correction_.setZero();
+  std::fill(history_.begin(), history_.end(), Past{p_WB_, v_WB_W_});
+  next_ = 0;
+
+  const ImuConfig& imu = sensors_.imu;
+  const double gyro = config_.alignment_residual * std::hypot(imu.gyro_offset_radps, gyro_wander(imu).sigma);
+  const double accelerometer =
+      config_.alignment_residual * std::hypot(imu.accelerometer_offset_mps2, accelerometer_wander(imu).sigma);
+  Column sigma;
+  sigma.segment<3>(kTheta).setConstant(config_.attitude_sigma_rad);
+  sigma.segment<3>(kV).setConstant(kInitialVelocitySigmaMps);
+  sigma.segment<3>(kP).setConstant(config_.position_sigma_m);
+  sigma.segment<3>(kGyro).setConstant(gyro);
+  sigma.segment<3>(kAccelerometer).setConstant(accelerometer);
+  sigma.segment<2>(kWander).setConstant(sensors_.gps.wander_horizontal_m);
+  sigma[kCompass] = sensors_.magnetometer.offset_rad;
+  P_ = sigma.cwiseAbs2().asDiagonal();
+  publish();
+}
+
+void Navigation::predict(const ImuReading& imu) {
+  const ImuReading last = last_imu_.value_or(imu);
+  const bool first = !last_imu_;
+  last_imu_ = imu;
+  w_WB_B_ = imu.w_WB_B_meas - gyro_bias_;
+  if (!first) {
+    // Means over the step by the trapezoidal rule, specific force turned by the attitude halfway.
+    const Eigen::Vector3d w = 0.5 * (last.w_WB_B_meas + imu.w_WB_B_meas) - gyro_bias_;
+    const Eigen::Vector3d f = 0.5 * (last.specific_force_B_meas + imu.specific_force_B_meas) - accelerometer_bias_;
+    const Eigen::Matrix3d R_WB = (q_WB_ * rotation(0.5 * dt_s_ * w)).toRotationMatrix();
+    const Eigen::Vector3d a_WB_W = R_WB * f + kGravityMps2 * Eigen::Vector3d::UnitZ();
+    p_WB_ += dt_s_ * (v_WB_W_ + 0.5 * dt_s_ * a_WB_W);
+    v_WB_W_ += dt_s_ * a_WB_W;
+    q_WB_ = (q_WB_ * rotation(dt_s_ * w)).normalized();
+    propagate_covariance(R_WB, w, f);
+
+    since_velocity_s_ += dt_s_;
+    if (since_velocity_s_ > kCoastAfterS) {
+      since_velocity_s_ -= 1.0;
+      for (int i = 0; i < 3; ++i) {
+        Row H = Row::Zero();
+        H[kV + i] = 1.0;
+        correct(H, -v_WB_W_[i], square(kCoastSigmaMps));
+      }
+      inject();
+    }
+  }
+  history_[next_] = {p_WB_, v_WB_W_};
+  next_ = (next_ + 1) % history_.size();
+  publish();
+}
+
+void Navigation::propagate_covariance(const Eigen::Matrix3d& R_WB, const Eigen::Vector3d& w, const Eigen::Vector3d& f) {
+  const ImuConfig& imu = sensors_.imu;
+  const GaussMarkov gps{sensors_.gps.wander_horizontal_m, sensors_.gps.wander_time_s};
+  Square F = Square::Identity();
+  F.block<3, 3>(kTheta, kTheta) -= dt_s_ * skew(w);
+  F.block<3, 3>(kTheta, kGyro) = -dt_s_ * Eigen::Matrix3d::Identity();
+  F.block<3, 3>(kV, kTheta) = -dt_s_ * R_WB * skew(f);
+  F.block<3, 3>(kV, kAccelerometer) = -dt_s_ * R_WB;
+  F.block<3, 3>(kP, kV) = dt_s_ * Eigen::Matrix3d::Identity();
+  F.block<2, 2>(kWander, kWander) *= gps.decay(dt_s_);
+  const Square FP = F * P_;
+  P_.noalias() = FP * F.transpose();
+  P_.diagonal().segment<3>(kTheta).array() += square(imu.gyro_noise_density) * dt_s_;
+  P_.diagonal().segment<3>(kV).array() += square(imu.accelerometer_noise_density) * dt_s_;
+  P_.diagonal().segment<3>(kGyro).array() += square(gyro_wander(imu).added_sigma(dt_s_));
+  P_.diagonal().segment<3>(kAccelerometer).array() += square(accelerometer_wander(imu).added_sigma(dt_s_));
+  P_.diagonal().segment<2>(kWander).array() += square(gps.added_sigma(dt_s_));
+}
+
+/// One scalar measurement: innovation = measured - predicted from the state without the gathered correction.
+void Navigation::correct(const Row& H, double innovation, double variance) {
+  const Column PH = P_ * H.transpose();
+  const double S = H.dot(PH) + variance;
+  const Column K = PH / S;
+  correction_ += K * (innovation - H.dot(correction_));
+  P_.noalias() -= K * PH.transpose();
+}
+
+/// Moves the gathered correction into the state. Source: [Sola2017] eqs. (282)-(283).
+void Navigation::inject() {
+  q_WB_ = (q_WB_ * rotation(correction_.segment<3>(kTheta))).normalized();
+  v_WB_W_ += correction_.segment<3>(kV);
+  p_WB_ += correction_.segment<3>(kP);
+  gyro_bias_ += correction_.segment<3>(kGyro);
+  accelerometer_bias_ += correction_.segment<3>(kAccelerometer);
+  w_WB_B_ -= correction_.segment<3>(kGyro);
+  gps_wander_m_ += correction_.segment<2>(kWander);
+  compass_offset_rad_ += correction_[kCompass];
+  for (Past& past : history_) {
+    past.p_WB += correction_.segment<3>(kP);
+    past.v_WB_W += correction_.segment<3>(kV);
+  }
+  correction_.setZero();
+  publish();
+}
+
+void Navigation::correct_velocity(const Eigen::Vector2d& v_WB_B_xy_meas, double sigma_mps) {
+  const Eigen::Matrix3d R_BW = q_WB_.toRotationMatrix().transpose();
+  const Eigen::Vector3d v_WB_B = R_BW * v_WB_W_;
+  const Eigen::Matrix3d by_attitude = skew(v_WB_B);
+  for (int i = 0; i < 2; ++i) {
+    Row H = Row::Zero();
+    H.segment<3>(kTheta) = by_attitude.row(i);
+    H.segment<3>(kV) = R_BW.row(i);
+    const double innovation = v_WB_B_xy_meas[i] - v_WB_B[i];
+    // Beyond the gate a measurement weighs less the farther off it is, but never nothing: the filter cannot lock itself
+    // out.
+    const double S = H * P_ * H.transpose() + square(sigma_mps);
+    const double excess = std::max(1.0, square(innovation) / (kGate * S));
+    correct(H, innovation, square(sigma_mps) + S * (excess - 1.0));
+  }
+  since_velocity_s_ = 0.0;
+  inject();
+}
+
+void Navigation::correct_gps(const GpsFix& fix) {
+  const GpsConfig& gps = sensors_.gps;
+  const Past& then = history_[next_];  // the oldest: a latency ago
+  for (int i = 0; i < 2; ++i) {
+    Row H = Row::Zero();
+    H[kP + i] = H[kWander + i] = 1.0;
+    correct(H, fix.p_WB_W_meas[i] - then.p_WB[i] - gps_wander_m_[i], square(gps.noise_m));
+  }
+  // The wandering altitude error is no state; as white noise of the same strength at low frequency it weighs as little
+  // as it should.
+  const double white = 2.0 * gps.wander_time_s * gps.rate_hz;
+  Row H = Row::Zero();
+  H[kP + 2] = 1.0;
+  correct(H, fix.p_WB_W_meas.z() - then.p_WB.z(), white * square(gps.wander_vertical_m) + square(gps.noise_m));
+  for (int i = 0; i < 3 && config_.use_gps_velocity; ++i) {
+    H.setZero();
+    H[kV + i] = 1.0;
+    correct(H, fix.v_WB_W_meas[i] - then.v_WB_W[i], square(gps.velocity_noise_mps));
+  }
+  since_velocity_s_ = 0.0;
+  inject();
+}
+
+void Navigation::correct_heading(double heading_meas_rad) {
+  const Eigen::Vector3d rpy = to_roll_pitch_heading(q_WB_);
+  Row H = Row::Zero();
+  H[kTheta + 1] = std::sin(rpy[0]) / std::cos(rpy[1]);
+  H[kTheta + 2] = std::cos(rpy[0]) / std::cos(rpy[1]);
+  H[kCompass] = 1.0;
+  const double innovation = wrap_angle(heading_meas_rad - rpy[2] - compass_offset_rad_);
+  correct(H, innovation, square(sensors_.magnetometer.noise_rad));
+  inject();
+}
+
+/// A reading is a height above the ground where it can be, else above the surface known to be below; when it is neither
+/// and the next ones agree, the surface has changed and the altitude has not.
+void Navigation::correct_height(double height_meas_m) {
+  last_height_m_ = height_meas_m;
+  const double altitude_m = -p_WB_.z();
+  const double sigma_m = height_sigma_m(sensors_.height_sensor, height_meas_m);
+  const double altitude_sigma_m = std::sqrt(P_(kP + 2, kP + 2));
+  const double near_m = config_.surface_jump_m + 3.0 * sigma_m;
+  if (std::abs(height_meas_m - altitude_m) <= near_m + 3.0 * altitude_sigma_m) {
+    surface_m_ = surface_sigma_m_ = 0.0;
+  } else if (std::abs(height_meas_m - (altitude_m - surface_m_)) > near_m) {
+    const double surface_m = altitude_m - height_meas_m;
+    jump_count_ = jump_count_ > 0 && std::abs(surface_m - jump_surface_m_) <= near_m ? jump_count_ + 1 : 1;
+    jump_surface_m_ = surface_m;
+    if (jump_count_ < kJumpReadings) return publish();
+    surface_m_ = surface_m;
+    surface_sigma_m_ = altitude_sigma_m;
+  }
+  jump_count_ = 0;
+  correct_altitude(height_meas_m - (altitude_m - surface_m_), square(sigma_m) + square(surface_sigma_m_));
+}
+
+void Navigation::correct_altitude(double innovation_m, double variance_m2) {
+  Row H = Row::Zero();
+  H[kP + 2] = -1.0;
+  correct(H, innovation_m, variance_m2);
+  // What is unknown of the surface stays unknown, however often it is measured.
+  P_(kP + 2, kP + 2) = std::max(P_(kP + 2, kP + 2), square(surface_sigma_m_));
+  inject();
+}
+
+void Navigation::publish() {
+  estimate_.p_WB_est = p_WB_;
+  estimate_.q_WB_est = q_WB_;
+  estimate_.v_WB_B_est = q_WB_.conjugate() * v_WB_W_;
+  estimate_.w_WB_B_est = w_WB_B_;
+  estimate_.height_above_ground_m = jump_count_ > 0 ? last_height_m_ : std::max(0.0, -p_WB_.z() - surface_m_);
+  const Column sigma = P_.diagonal().cwiseMax(0.0).cwiseSqrt();
+  estimate_.sigma_attitude_B_rad = sigma.segment<3>(kTheta);
+  estimate_.sigma_v_W_mps = sigma.segment<3>(kV);
+  estimate_.sigma_p_W_m = sigma.segment<3>(kP);
+}
+
+}  // namespace hedgehop::dynamics

@@ -1,0 +1,54 @@
+#include "dynamics/sensor_noise.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace hedgehop::dynamics {
+
+Eigen::Vector3d NormalStream::draw3() {
+  Eigen::Vector3d v;
+  for (int i = 0; i < 3; ++i) v[i] = draw();
+  return v;
+}
+
+bool NormalStream::chance(double p) {
+  constexpr double kTwoToMinus53 = 0x1p-53;
+  return static_cast<double>(generator_() >> 11) * kTwoToMinus53 < p;
+}
+
+double GaussMarkov::decay(double dt_s) const { return std::exp(-dt_s / correlation_time_s); }
+
+double GaussMarkov::added_sigma(double dt_s) const {
+  return sigma * std::sqrt(-std::expm1(-2.0 * dt_s / correlation_time_s));
+}
+
+int64_t period_ticks(std::string_view key, double rate_hz, double physics_dt_s) {
+  require_positive(key, rate_hz);
+  const double ticks = 1.0 / (rate_hz * physics_dt_s);
+  constexpr double kRoundOff = 1e-9;
+  if (ticks < 1.0 - kRoundOff || std::abs(ticks - std::round(ticks)) > kRoundOff * ticks) {
+    throw std::invalid_argument(std::string(key) + ": " + std::to_string(rate_hz) +
+                                " Hz does not divide the physics rate of " + std::to_string(1.0 / physics_dt_s) +
+                                " Hz");
+  }
+  return std::llround(ticks);
+}
+
+void require_range(std::string_view key, double value, double low, double high) {
+  if (value >= low && value <= high) return;
+  throw std::invalid_argument(std::string(key) + ": must lie between " + std::to_string(low) + " and " +
+                              std::to_string(high) + ", got " + std::to_string(value));
+}
+
+void require_positive(std::string_view key, double value) {
+  if (value > 0.0 && std::isfinite(value)) return;
+  throw std::invalid_argument(std::string(key) + ": must be positive, got " + std::to_string(value));
+}
+
+void require_not_negative(std::string_view key, double value) {
+  if (value >= 0.0 && std::isfinite(value)) return;
+  throw std::invalid_argument(std::string(key) + ": must not be negative, got " + std::to_string(value));
+}
+
+}  // namespace hedgehop::dynamics
