@@ -3,7 +3,9 @@ include_guard()
 
 add_library(hedgehop_warnings INTERFACE)
 target_compile_options(hedgehop_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
-                       -Wold-style-cast -Woverloaded-virtual -Wno-missing-field-initializers)
+                       -Wold-style-cast -Woverloaded-virtual -Wno-missing-field-initializers
+                       # false alarms of GCC 12 at -O3 in std::string and Eigen
+                       -Wno-restrict -Wno-maybe-uninitialized)
 if(HEDGEHOP_WERROR)
   target_compile_options(hedgehop_warnings INTERFACE -Werror)
 endif()
