@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <random>
 
+#include "dynamics/dryden.h"
+
 namespace hedgehop::dynamics {
 
 /// A steady horizontal wind with Dryden turbulence upon it. Turbulence and steady wind are set apart, so that each can
@@ -29,15 +31,6 @@ void describe(Visitor& v, WindConfig& c) {
      .meaning = "wind at 20 ft that sets the turbulence: 7.7 light, 15.4 moderate, 23.2 severe, 0 none"});
 }
 
-/// Lengths and intensities of turbulence below 1000 ft: u along the mean wind, v across it, w down.
-struct DrydenScales {
-  double length_uv_m = 0.0, length_w_m = 0.0;
-  double sigma_uv_mps = 0.0, sigma_w_mps = 0.0;
-};
-/// @param height_m  above ground; below 10 ft counts as 10 ft, above 1000 ft as 1000 ft. @param w20_mps  >= 0.
-/// Source: [MIL8785C] sec. 3.7.3, low altitude.
-DrydenScales dryden_scales(double height_m, double w20_mps);
-
 /// The air one vehicle meets. Equal seeds and equal arguments give equal sequences, bit for bit.
 class Wind {
  public:
@@ -55,6 +48,7 @@ class Wind {
  private:
   double normal() { return normal_(generator_); }
   void draw_stationary();
+  void move(Eigen::Vector2d& z, const SecondOrderStep& step);
 
   WindConfig config_;
   Eigen::Vector3d steady_W_;
