@@ -89,6 +89,10 @@ class Citations(Tree):
     def test_a_place_without_its_number(self):
         self.assert_refused("citations", {"vision/flow.cpp": "// [Garratt2009] sec.\n"}, "needs its place")
 
+    def test_places_in_words_where_nothing_is_numbered(self):
+        for place in ('sec. "Hover"', "sec. on hover", "table of\n/// parameters", "\n/// eqs. (2)-(3)"):
+            self.assertEqual(self.faults("citations", {"vision/flow.cpp": f"/// [Garratt2009] {place}\n"}), [], place)
+
     def test_a_key_listed_twice(self):
         twice = GOOD_TREE["REFERENCES.md"] * 2
         self.assert_refused("citations", {"REFERENCES.md": twice}, "listed twice")
