@@ -93,6 +93,9 @@ class Citations(Tree):
         for place in ('sec. "Hover"', "sec. on hover", "table of\n/// parameters", "\n/// eqs. (2)-(3)"):
             self.assertEqual(self.faults("citations", {"vision/flow.cpp": f"/// [Garratt2009] {place}\n"}), [], place)
 
+    def test_credit_for_an_idea_needs_no_place(self):
+        self.assertEqual(self.faults("citations", {"vision/flow.cpp": "// iterated after [Garratt2009]\n"}), [])
+
     def test_a_key_listed_twice(self):
         twice = GOOD_TREE["REFERENCES.md"] * 2
         self.assert_refused("citations", {"REFERENCES.md": twice}, "listed twice")
