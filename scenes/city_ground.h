@@ -7,7 +7,8 @@
 
 namespace hedgehop::scenes {
 
-/// Ground reaches this far beyond the outer streets: seen from 40 m up, its edge lies a fifth of a degree below the horizon.
+/// Ground reaches this far beyond the outer streets: seen from 40 m up, its edge lies a fifth of a degree below the
+/// horizon.
 inline constexpr double kGroundMargin_m = 12000.0;
 
 /// Adds the ground at z = 0: streets on the cells' edges, crossings, a lot in each cell, grass and fields around the

@@ -13,6 +13,14 @@ void require(bool holds, std::string_view field, double value, std::string_view 
   throw std::invalid_argument(line.str());
 }
 
+void require_clearings(const std::vector<Clearing>& clearings) {
+  for (const Clearing& clearing : clearings) {
+    require(std::isfinite(clearing.north_m), "keep_clear.north", clearing.north_m, "a finite number");
+    require(std::isfinite(clearing.east_m), "keep_clear.east", clearing.east_m, "a finite number");
+    require(clearing.radius_m >= 0.0, "keep_clear.radius", clearing.radius_m, "at least 0 m");
+  }
+}
+
 void require_texture_size(double size_px) {
   int exponent = 0;
   const bool power_of_two = std::frexp(size_px, &exponent) == 0.5;

@@ -31,9 +31,7 @@ void validate(const RoomConfig& c) {
   require(c.wall_thickness_m >= 0.05 && c.wall_thickness_m <= 5.0, "wall_thickness", c.wall_thickness_m, "0.05 to 5 m");
   require(c.furniture >= 0 && c.furniture <= 1000, "furniture", static_cast<double>(c.furniture), "0 to 1000");
   require(c.furniture_gap_m >= 0.0, "furniture_gap", c.furniture_gap_m, "at least 0 m");
-  for (const Clearing& clearing : c.keep_clear) {
-    require(clearing.radius_m >= 0.0, "keep_clear.radius", clearing.radius_m, "at least 0 m");
-  }
+  require_clearings(c.keep_clear);
   require_texture_size(static_cast<double>(c.texture_size_px));
 }
 

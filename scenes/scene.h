@@ -15,17 +15,17 @@ namespace hedgehop::scenes {
 struct Vertex {
   Eigen::Vector3f p_W = Eigen::Vector3f::Zero();    ///< m
   Eigen::Vector3f n_W = -Eigen::Vector3f::UnitZ();  ///< unit outward normal
-  Eigen::Vector2f uv = Eigen::Vector2f::Zero();     ///< texture coordinates, 1 = one repeat of the picture
-  uint32_t texture = 0;                             ///< index into Scene::textures
+  Eigen::Vector2f uv = Eigen::Vector2f::Zero();  ///< 1 = one repeat; row 0 of the picture at v = 0, v grows downwards
+  uint32_t texture = 0;                          ///< index into Scene::textures
 };
 
-/// Triangles that are culled as one: a building, a tile of ground.
+/// Triangles that are culled as one: a box of a building, a tile of ground.
 struct Chunk {
   Eigen::AlignedBox3f box_W;  ///< bounds of the chunk, m
   uint32_t first_index = 0;   ///< into Mesh::indices
   uint32_t index_count = 0;   ///< a multiple of 3
-  bool fills_box_to_ground =
-      false;  ///< opaque and as solid as its box from its top to the ground: may hide what lies behind
+  /// The box is opaque, and so is all below it down to the ground: may hide what lies behind.
+  bool fills_box_to_ground = false;
 };
 
 /// All geometry of one material: drawn with one call. Triangles are counter-clockwise seen from outside.

@@ -34,9 +34,7 @@ void validate(const UrbanConfig& c) {
   require(c.max_height_m >= c.min_height_m && c.max_height_m <= 1000.0, "max_height", c.max_height_m,
           "from min_height to 1000 m");
   require(c.setback_share >= 0.0 && c.setback_share <= 1.0, "setback_share", c.setback_share, "0 to 1");
-  for (const Clearing& clearing : c.keep_clear) {
-    require(clearing.radius_m >= 0.0, "keep_clear.radius", clearing.radius_m, "at least 0 m");
-  }
+  require_clearings(c.keep_clear);
 }
 
 // Places a footprint in the lot, by the jitter, clear of the clearings; draws again until it is.
@@ -66,7 +64,7 @@ Eigen::AlignedBox3d box_on(const Eigen::AlignedBox2d& plan_NE, double bottom_hei
           Eigen::Vector3d(plan_NE.max().x(), plan_NE.max().y(), -bottom_height_m)};
 }
 
-// A rectangle within `below_NE`, at least `margin` from its edges, of `share` of its sides.
+// A rectangle of the given size somewhere within `below_NE`, away from its edges as far as there is play.
 Eigen::AlignedBox2d inset(const Eigen::AlignedBox2d& below_NE, const Eigen::Vector2d& size_m, Random& random) {
   Eigen::Vector2d low, high;
   for (int axis = 0; axis < 2; ++axis) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <ostream>
 #include <random>
 #include <string>
 
@@ -14,6 +15,7 @@ namespace {
 struct Case {
   std::string name;
   SceneConfig config;
+  friend std::ostream& operator<<(std::ostream& out, const Case& each) { return out << each.name; }
 };
 
 std::vector<Case> cases() {

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "scene_equality.h"
 #include "scenes/generators.h"
@@ -73,6 +75,27 @@ TEST(Urban, ClearingsStayFreeForEverySeed) {
       }
     }
   }
+}
+
+TEST(Urban, ClearingsAnywhereStayFreeAndBuildingsStandCloseToThem) {
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> place(-140.0, 140.0), radius(0.5, 8.0);
+  double tightest = 1e9;
+  for (uint64_t seed = 0; seed < 50; ++seed) {
+    UrbanConfig config;
+    config.keep_clear.clear();
+    for (int k = 0; k < 40; ++k) config.keep_clear.push_back({place(random), place(random), radius(random)});
+    const UrbanPlan plan = plan_urban(config, seed);
+    EXPECT_GT(plan.buildings.size(), 60u);
+    for (const Building& building : plan.buildings) {
+      for (const Clearing& c : config.keep_clear) {
+        const double spare = distance_to_plan(building.boxes_W[0], c.north_m, c.east_m) - c.radius_m;
+        ASSERT_GE(spare, 0.0) << "seed " << seed;
+        tightest = std::min(tightest, spare);
+      }
+    }
+  }
+  EXPECT_LT(tightest, 0.02);
 }
 
 TEST(Urban, AClearingOverTheWholeCityLeavesNoBuilding) {
