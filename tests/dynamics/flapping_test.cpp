@@ -1,0 +1,126 @@
+#include "dynamics/flapping.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dynamics/helicopter.h"
+#include "dynamics/integrator.h"
+#include "dynamics/trim.h"
+
+namespace hedgehop::dynamics {
+namespace {
+
+/// HeLion's rotor, bar explicit; gains are per unit of stick.
+MainRotorConfig helion(double hub_stiffness_nmprad) {
+  MainRotorConfig c;
+  c.speed_radps = 193.73;
+  c.radius_m = 0.705;
+  c.chord_m = 0.062;
+  c.lift_slope_prad = 5.5218;
+  c.hinge_offset_m = 0.07;
+  c.blade_inertia_kgm2 = 0.055;
+  c.hub_stiffness_nmprad = hub_stiffness_nmprad;
+  c.speed_flapping = 0.0;
+  c.flybar = ExplicitBarConfig{.mixing = 1.0,
+                               .lateral_gain = 0.20,
+                               .longitudinal_gain = 0.21,
+                               .bar_lateral_gain = 0.57,
+                               .bar_longitudinal_gain = 0.56,
+                               .paddle_inner_radius_m = 0.231,
+                               .paddle_outer_radius_m = 0.312,
+                               .paddle_chord_m = 0.059,
+                               .paddle_lift_slope_prad = 2.718,
+                               .bar_inertia_kgm2 = 0.004};
+  return c;
+}
+constexpr double kHelionDensity = 1.292;
+
+/// The same with the bar lumped into the rotor: lag and gains are sums.
+MainRotorConfig lumped_helion() {
+  MainRotorConfig c = helion(0.0);
+  c.flybar =
+      LumpedBarConfig{.lock_number = 16.0 / (0.297093 * 193.73), .lateral_gain = 0.77, .longitudinal_gain = 0.77};
+  return c;
+}
+
+FlapState settle(const FlappingModel& model, const FlapInput& input) {
+  Eigen::Vector4d x = Eigen::Vector4d::Zero();
+  const auto rate = [&](double, const Eigen::Vector4d& y) {
+    return derivative(model, FlapState{y[0], y[1], y[2], y[3]}, input);
+  };
+  for (int i = 0; i < 5000; ++i) x = rk4_step<4>(x, 0.0, 0.002, rate);
+  return {x[0], x[1], x[2], x[3]};
+}
+
+// Check TC1.
+TEST(Flapping, TC1_XCellTimeConstants) {
+  const FlappingModel m = make_main_rotor({}, 1.225).flapping;
+  EXPECT_NEAR(m.lag_s, 0.119760, 1e-3 * 0.119760);
+  EXPECT_NEAR(m.lock_number, 3.7098, 1e-3 * 3.7098);
+  EXPECT_NEAR(m.blade_lag_s, 0.025826, 1e-3 * 0.025826);
+  EXPECT_NEAR(m.cross_coupling, 0.10988, 1e-3 * 0.10988);
+}
+
+// Check TC4.
+TEST(Flapping, TC4_BarLagsBehindATiltingShaft) {
+  const double q = 0.1;
+  for (const MainRotorConfig& config : {helion(0.0), lumped_helion()}) {
+    const FlappingModel m = make_main_rotor(config, kHelionDensity).flapping;
+    EXPECT_NEAR(settle(m, {.pitch_radps = q}).back_rad / q, -0.297093, 1e-3 * 0.297093);
+    EXPECT_NEAR(settle(m, {.roll_radps = q}).right_rad / q, -0.297093, 1e-3 * 0.297093);
+  }
+}
+
+TEST(Flapping, TC4_CyclicTiltsTheDiscByBothPaths) {
+  for (const MainRotorConfig& config : {helion(0.0), lumped_helion()}) {
+    const FlappingModel m = make_main_rotor(config, kHelionDensity).flapping;
+    EXPECT_NEAR(settle(m, {.lateral_rad = 1.0}).right_rad, 0.77, 1e-3 * 0.77);
+    EXPECT_NEAR(settle(m, {.longitudinal_rad = 1.0}).back_rad, 0.77, 1e-3 * 0.77);
+  }
+}
+
+TEST(Flapping, HubSpringCouplesTheAxesOfAnExplicitBar) {
+  const FlappingModel m = make_main_rotor(helion(113.7942), kHelionDensity).flapping;
+  EXPECT_LT(settle(m, {.lateral_rad = 1.0}).back_rad * settle(m, {.longitudinal_rad = 1.0}).right_rad, 0.0);
+}
+
+TEST(Flapping, SteadyCyclicStopsTheDisc) {
+  for (const MainRotorConfig& config : {MainRotorConfig{}, helion(113.7942)}) {
+    const FlappingModel m = make_main_rotor(config, 1.225).flapping;
+    FlapInput in{.collective_rad = 0.1,
+                 .inflow_ratio = 0.03,
+                 .forward_ratio = 0.1,
+                 .right_ratio = -0.05,
+                 .down_ratio = 0.02,
+                 .roll_radps = 0.3,
+                 .pitch_radps = -0.2};
+    FlapState flap{0.02, -0.01, 0.0, 0.0};
+    const Eigen::Vector2d cyclic = steady_cyclic(m, flap, in);
+    in.lateral_rad = cyclic[0];
+    in.longitudinal_rad = cyclic[1];
+    EXPECT_LT(derivative(m, flap, in).cwiseAbs().maxCoeff(), 1e-12);
+  }
+}
+
+TEST(Flapping, DefaultExplicitBarHasLagAndGainOfTheDefaultLumpedOne) {
+  MainRotorConfig bar;
+  bar.flybar = ExplicitBarConfig{};
+  bar.hub_stiffness_nmprad = 0.0;  // without the cross coupling, which the lumped bar leaves out
+  const FlappingModel m = make_main_rotor(bar, 1.225).flapping;
+  EXPECT_NEAR(settle(m, {.pitch_radps = 1.0}).back_rad, -0.11976, 1e-3);
+  EXPECT_NEAR(settle(m, {.lateral_rad = 1.0}).right_rad, 4.2, 1e-3);
+}
+
+TEST(Flapping, AHelicopterWithAnExplicitBarTrimsToo) {
+  HelicopterConfig config;
+  config.main_rotor.flybar = ExplicitBarConfig{};
+  const HelicopterModel model = make_model(config);
+  const std::optional<Trim> hover = trim(model, {3.0, 2.0, 0.0});
+  ASSERT_TRUE(hover);
+  const HelicopterVector rate = derivative(model, hover->state, hover->blades, Eigen::Vector3d::Zero());
+  EXPECT_LT(rate.tail<14>().cwiseAbs().maxCoeff(), 1e-9);
+}
+
+}  // namespace
+}  // namespace hedgehop::dynamics

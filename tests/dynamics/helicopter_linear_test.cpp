@@ -1,0 +1,152 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <vector>
+
+#include "dynamics/integrator.h"
+#include "dynamics/trim.h"
+
+namespace hedgehop::dynamics {
+namespace {
+
+using L = LinearModel;
+
+struct Hover {
+  HelicopterModel model = make_model({});
+  Trim trim = *dynamics::trim(model, Eigen::Vector3d::Zero());
+  LinearModel linear = linearise(model, trim);
+};
+const Hover& hover() {
+  static const Hover h;
+  return h;
+}
+
+/// The eigenvalue nearest to where one is expected; the lumped bar has none.
+std::complex<double> mode_near(std::complex<double> where) {
+  const Eigen::VectorXcd modes = hover().linear.A.topLeftCorner<L::kBarBack, L::kBarBack>().eigenvalues();
+  return *std::min_element(modes.begin(), modes.end(),
+                           [&](auto a, auto b) { return std::abs(a - where) < std::abs(b - where); });
+}
+
+void expect_near_relative(double value, double expected, double tolerance) {
+  EXPECT_NEAR(value, expected, tolerance * std::abs(expected));
+}
+
+// Check LM1.
+TEST(HelicopterLinear, LM1_FastModesOfTheHover) {
+  for (const std::complex<double> expected : {std::complex<double>{-4.18, 19.69}, {-4.18, 14.03}}) {
+    const std::complex<double> mode = mode_near(expected);
+    expect_near_relative(mode.real(), expected.real(), 0.01);
+    expect_near_relative(mode.imag(), expected.imag(), 0.01);
+  }
+  expect_near_relative(std::abs(mode_near({-4.18, 19.69})), 20.12, 0.01);
+  expect_near_relative(std::abs(mode_near({-4.18, 14.03})), 14.64, 0.01);
+}
+
+TEST(HelicopterLinear, LM1_YawHeaveAndSlowModesOfTheHover) {
+  expect_near_relative(mode_near({-1.082, 0.0}).real(), -1.082, 0.02);
+  expect_near_relative(mode_near({-0.791, 0.0}).real(), -0.791, 0.02);
+  for (const std::complex<double> expected : {std::complex<double>{-0.016, 0.154}, {0.0005, 0.155}}) {
+    EXPECT_NEAR(std::abs(mode_near(expected)), std::abs(expected), 0.02);
+    EXPECT_NEAR(mode_near(expected).real(), expected.real(), 0.02);
+  }
+}
+
+TEST(HelicopterLinear, LM1_DerivativesOfTheHover) {
+  const LinearModel& m = hover().linear;
+  expect_near_relative(m.A(L::kP, L::kRight), 404.70, 0.01);
+  expect_near_relative(m.A(L::kQ, L::kBack), 214.25, 0.01);
+  expect_near_relative(m.A(L::kR, L::kR), -1.069, 0.02);
+  expect_near_relative(m.A(L::kR, L::kV), 1.175, 0.02);
+  expect_near_relative(m.A(L::kP, L::kV), -0.161, 0.02);
+  expect_near_relative(m.A(L::kV, L::kV), -0.044, 0.02);
+  expect_near_relative(m.B(L::kR, L::kTail), 158.4, 0.02);
+  expect_near_relative(m.B(L::kW, L::kCollective), -136.7, 0.02);
+}
+
+/// Flies on from the hover with a step in the blade angles, no servos, at 1 ms.
+std::vector<HelicopterState> step_response(const ActuatorCommand& change, double end_s) {
+  const ActuatorCommand& b = hover().trim.blades;
+  const ActuatorCommand blades{b.collective_rad + change.collective_rad, b.lateral_rad + change.lateral_rad,
+                               b.longitudinal_rad + change.longitudinal_rad, b.tail_rad + change.tail_rad};
+  const auto rate = [&](double, const HelicopterVector& x) {
+    return derivative(hover().model, to_helicopter(x), blades, Eigen::Vector3d::Zero());
+  };
+  std::vector<HelicopterState> states{hover().trim.state};
+  for (int i = 0, n = static_cast<int>(std::lround(end_s * 1000.0)); i < n; ++i) {
+    HelicopterState next = to_helicopter(rk4_step<17>(to_vector(states.back()), 0.0, 1e-3, rate));
+    next.body.q_WB.normalize();
+    states.push_back(next);
+  }
+  return states;
+}
+
+// Check LM3.
+TEST(HelicopterLinear, LM3_RollRateAfterALateralStep) {
+  const std::vector<HelicopterState> s = step_response({.lateral_rad = 0.05}, 0.3);
+  const auto p = [&](size_t ms) { return s[ms].body.w_WB_B.x(); };
+  const auto roll = [&](size_t ms) { return to_roll_pitch_heading(s[ms].body.q_WB)[0]; };
+  size_t peak = 0;
+  for (size_t i = 0; i < s.size(); ++i) {
+    if (p(i) > p(peak)) peak = i;
+  }
+  expect_near_relative(p(peak), 2.650, 0.01);
+  expect_near_relative(static_cast<double>(peak) * 1e-3, 0.160, 0.01);
+  expect_near_relative(p(100), 1.972, 0.01);
+  expect_near_relative(p(200), 2.397, 0.01);
+  expect_near_relative(roll(100), 0.1589, 0.01);
+  expect_near_relative(roll(200), 0.4067, 0.01);
+}
+
+// Check LM4.
+TEST(HelicopterLinear, LM4_HeaveAfterACollectiveStep) {
+  const std::vector<HelicopterState> s = step_response({.collective_rad = 0.01}, 1.0);
+  expect_near_relative(s[100].body.v_WB_B.z(), -0.1327, 0.01);
+  expect_near_relative(s[500].body.v_WB_B.z(), -0.5656, 0.01);
+  expect_near_relative(s[1000].body.v_WB_B.z(), -0.9326, 0.01);
+}
+
+// Check LM7.
+TEST(HelicopterLinear, LM7_SignsAreThoseOfAHelicopter) {
+  const LinearModel& m = hover().linear;
+  // Speed tilts the body directly and by way of the disc, once that has settled.
+  const double L_v = m.A(L::kP, L::kV) - m.A(L::kP, L::kRight) * m.A(L::kRight, L::kV) / m.A(L::kRight, L::kRight);
+  const double M_u = m.A(L::kQ, L::kU) - m.A(L::kQ, L::kBack) * m.A(L::kBack, L::kU) / m.A(L::kBack, L::kBack);
+  EXPECT_LT(L_v, 0.0);
+  EXPECT_LT(m.A(L::kP, L::kV), 0.0);
+  EXPECT_GT(M_u, 0.0);
+  EXPECT_LT(m.A(L::kR, L::kR), 0.0);
+  EXPECT_GT(m.A(L::kR, L::kV), 0.0);
+  EXPECT_LT(m.A(L::kW, L::kW), 0.0);
+
+  const auto rates_after = [](const ActuatorCommand& change) { return step_response(change, 0.1).back().body; };
+  EXPECT_GT(rates_after({.lateral_rad = 0.01}).w_WB_B.x(), 0.0);
+  EXPECT_GT(rates_after({.longitudinal_rad = 0.01}).w_WB_B.y(), 0.0);
+  EXPECT_LT(rates_after({.collective_rad = 0.01}).v_WB_B.z(), 0.0);
+  EXPECT_LT(rates_after({.collective_rad = 0.01}).w_WB_B.z(), 0.0);
+  EXPECT_GT(rates_after({.tail_rad = 0.01}).w_WB_B.z(), 0.0);
+}
+
+TEST(HelicopterLinear, PredictsSmallMotionsOfTheFullModel) {
+  const double size = 1e-4;
+  const std::vector<HelicopterState> full = step_response({size, size, size, size}, 0.5);
+  Eigen::Matrix<double, L::kStates, 1> x = Eigen::Matrix<double, L::kStates, 1>::Zero();
+  const Eigen::Vector4d u = Eigen::Vector4d::Constant(size);
+  const auto rate = [&](double, const auto& y) -> Eigen::Matrix<double, L::kStates, 1> {
+    return hover().linear.A * y + hover().linear.B * u;
+  };
+  for (int i = 0; i < 500; ++i) x = rk4_step<L::kStates>(x, 0.0, 1e-3, rate);
+  const RigidBodyState& start = hover().trim.state.body;
+  const Eigen::Vector3d dv = full.back().body.v_WB_B - start.v_WB_B;
+  const Eigen::Vector3d dw = full.back().body.w_WB_B - start.w_WB_B;
+  constexpr double kSecondOrder = 0.01;
+  EXPECT_LT((dv - x.segment<3>(L::kU)).norm(), kSecondOrder * dv.norm());
+  EXPECT_LT((dw - x.segment<3>(L::kP)).norm(), kSecondOrder * dw.norm());
+}
+
+}  // namespace
+}  // namespace hedgehop::dynamics

@@ -1,0 +1,203 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "dynamics/trim.h"
+#include "dynamics/vehicle.h"
+
+namespace hedgehop::dynamics {
+namespace {
+
+constexpr double kDeg = std::numbers::pi / 180.0;
+constexpr double kAny = std::numeric_limits<double>::quiet_NaN();
+
+const HelicopterModel& xcell() {
+  static const HelicopterModel model = make_model({});
+  return model;
+}
+
+Trim trimmed(const Eigen::Vector3d& v_air_W) {
+  const std::optional<Trim> found = trim(xcell(), v_air_W);
+  EXPECT_TRUE(found) << v_air_W.transpose();
+  return found.value_or(Trim{});
+}
+
+struct Row {
+  std::string name;
+  Eigen::Vector3d v_W;
+  double collective_deg, tail_deg, roll_deg, pitch_deg, induced_mps, thrust_n, power_w, tail_power_w;
+};
+
+void expect_angle(double value_rad, double expected_deg, const char* what) {
+  if (std::isnan(expected_deg)) return;
+  EXPECT_NEAR(value_rad / kDeg, expected_deg, std::max(0.02, 0.005 * std::abs(expected_deg))) << what;
+}
+void expect_half_percent(double value, double expected, const char* what) {
+  if (std::isnan(expected)) return;
+  EXPECT_NEAR(value, expected, 0.005 * std::abs(expected)) << what;
+}
+
+class HelicopterTrimTable : public testing::TestWithParam<Row> {};
+
+// Check HT3.
+TEST_P(HelicopterTrimTable, HT3_XCellMatchesTheTable) {
+  const Row& row = GetParam();
+  const Trim t = trimmed(row.v_W);
+  expect_angle(t.blades.collective_rad, row.collective_deg, "collective");
+  expect_angle(t.blades.tail_rad, row.tail_deg, "tail");
+  expect_angle(t.roll_rad, row.roll_deg, "roll");
+  expect_angle(t.pitch_rad, row.pitch_deg, "pitch");
+  expect_half_percent(t.loads.main_rotor.inflow.induced_mps, row.induced_mps, "induced velocity");
+  expect_half_percent(t.loads.main_rotor.inflow.thrust_n, row.thrust_n, "thrust");
+  expect_half_percent(t.loads.main_rotor.power_w, row.power_w, "main rotor power");
+  expect_half_percent(t.loads.tail_rotor.power_w, row.tail_power_w, "tail rotor power");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Conditions, HelicopterTrimTable,
+    testing::Values(Row{"hover", {0, 0, 0}, 5.483, 11.218, 4.494, 0.000, 4.165, 80.19, 1050.3, 79.1},
+                    Row{"north_4", {4, 0, 0}, 4.955, 10.289, 4.23, -0.70, 3.319, 80.24, 989.6, 71.5},
+                    Row{"north_8", {8, 0, 0}, 4.368, 8.692, 3.95, -2.76, 2.082, 80.50, 927.7, 60.1},
+                    Row{"north_16", {16, 0, 0}, 5.612, 8.508, 4.48, -10.52, 1.117, 84.02, 1114.8, 59.2},
+                    Row{"north_20", {20, 0, 0}, 7.485, 10.138, 5.15, -15.74, 0.945, 89.13, 1388.5, 70.9},
+                    Row{"rearward_4", {-4, 0, 0}, 4.955, 10.289, 4.23, 0.70, 3.319, 80.24, 989.6, 71.5},
+                    Row{"right_4", {0, 4, 0}, 5.140, 9.316, 5.86, 0.00, 3.212, kAny, 1012.0, kAny},
+                    Row{"left_4", {0, -4, 0}, 4.836, 12.705, 2.63, 0.00, 3.398, kAny, 975.2, kAny},
+                    Row{"climb_2", {0, 0, -2}, 6.239, 11.893, kAny, kAny, 3.294, 80.54, 1142.0, kAny},
+                    Row{"descent_1", {0, 0, 1}, 5.167, 10.860, kAny, kAny, 4.690, 80.11, 1012.2, kAny}),
+    [](const auto& row) { return row.param.name; });
+
+TEST(HelicopterTrim, HT3_HoverExtras) {
+  const Trim t = trimmed({0, 0, 0});
+  expect_half_percent(t.state.flap.right_rad, 0.007590, "disc tilt");
+  expect_half_percent(t.loads.main_rotor.power_w / 167.0, 6.289, "torque");
+  expect_half_percent(t.loads.tail_rotor.inflow.thrust_n, 6.911, "tail thrust");
+  expect_half_percent(t.loads.tail_rotor.inflow.induced_mps, 7.289, "tail inflow");
+  const FlapInput& in = t.loads.main_rotor.flap_input;
+  expect_half_percent(speed_flapping(xcell().main_rotor.flapping, in.collective_rad, in.inflow_ratio), 0.03817, "D_mu");
+}
+
+// Check HT4.
+TEST(HelicopterTrim, HT4_PowerHasABucket) {
+  double least = 1e9, at = 0.0;
+  for (double V = 0.0; V <= 20.0; V += 0.1) {
+    const double power = trimmed({V, 0, 0}).loads.main_rotor.power_w;
+    if (power < least) least = power, at = V;
+  }
+  EXPECT_NEAR(at, 8.5, 1.0);
+  EXPECT_NEAR(least, 926.9, 0.005 * 926.9);
+  EXPECT_GT(trimmed({0, 0, 0}).blades.collective_rad, trimmed({at, 0, 0}).blades.collective_rad);
+  EXPECT_GT(trimmed({20, 0, 0}).blades.collective_rad, trimmed({at, 0, 0}).blades.collective_rad);
+}
+
+TEST(HelicopterTrim, HT4_InflowAndPitchFallWithSpeed) {
+  for (const double direction : {1.0, -1.0}) {
+    double inflow = 1e9;
+    for (double V = 0.0; V <= 20.0; V += 0.5) {
+      const double now = trimmed({direction * V, 0, 0}).loads.main_rotor.inflow.induced_mps;
+      EXPECT_LT(now, inflow) << V;
+      inflow = now;
+    }
+  }
+  double pitch = 1e9;
+  for (double V = -6.0; V <= 20.0; V += 0.5) {
+    const double now = trimmed({V, 0, 0}).pitch_rad;
+    EXPECT_LT(now, pitch) << V;
+    pitch = now;
+  }
+}
+
+TEST(HelicopterTrim, HT4_PitchIsOddInSpeed) {
+  for (double V = 0.5; V <= 6.0; V += 0.5) {
+    EXPECT_NEAR(trimmed({V, 0, 0}).pitch_rad, -trimmed({-V, 0, 0}).pitch_rad, 0.1 * kDeg) << V;
+  }
+}
+
+TEST(HelicopterTrim, HT4_TailCollectiveFallsThenRises) {
+  const auto tail = [](double V) { return trimmed({V, 0, 0}).blades.tail_rad; };
+  EXPECT_LT(tail(6.0), tail(0.0));
+  EXPECT_LT(tail(12.0), tail(6.0));
+  EXPECT_GT(tail(20.0), tail(12.0));
+}
+
+TEST(HelicopterTrim, HT4_ClockwiseRotorHoversRightSideDown) {
+  EXPECT_NEAR(trimmed({0, 0, 0}).roll_rad / kDeg, 4.49, 0.02);
+  HelicopterConfig mirrored;
+  mirrored.main_rotor.turns = MainRotorConfig::Turns::counter_clockwise;
+  const std::optional<Trim> left = trim(make_model(mirrored), Eigen::Vector3d::Zero());
+  ASSERT_TRUE(left);
+  EXPECT_NEAR(left->roll_rad / kDeg, -4.49, 0.02);
+}
+
+TEST(HelicopterTrim, HT4_HeadwindHelpsTheHover) {
+  const double still = trimmed({0, 0, 0}).loads.main_rotor.power_w;
+  const double headwind = trimmed({5, 0, 0}).loads.main_rotor.power_w;
+  EXPECT_NEAR(headwind, 966.6, 0.005 * 966.6);
+  EXPECT_NEAR(1.0 - headwind / still, 0.08, 0.005);
+}
+
+TEST(HelicopterTrim, HoldsStillInWindFromAnySideAndHeading) {
+  for (double from = 0.0; from < 6.2; from += 0.7) {
+    for (double heading = -3.0; heading < 3.1; heading += 1.5) {
+      Vehicle vehicle{VehicleConfig{}};
+      const Eigen::Vector3d wind_W{-5.0 * std::cos(from), -5.0 * std::sin(from), 0.0};
+      vehicle.reset({10.0, -20.0, -30.0}, heading, wind_W);
+      EXPECT_NEAR(to_roll_pitch_heading(vehicle.body().q_WB)[2], heading, 1e-12);
+      const ActuatorCommand command = vehicle.actuators();
+      for (int i = 0; i < 500; ++i) vehicle.step(command, wind_W, 0.002);
+      EXPECT_LT((vehicle.body().p_WB - Eigen::Vector3d{10.0, -20.0, -30.0}).norm(), 1e-8);
+      // Specific force is what holds it up against gravity.
+      EXPECT_LT((vehicle.body().q_WB * vehicle.specific_force_B() + Eigen::Vector3d{0, 0, 9.81}).norm(), 1e-8);
+    }
+  }
+}
+
+TEST(Vehicle, SameCommandsGiveTheSameFlightBitForBit) {
+  Vehicle a{VehicleConfig{}}, b{VehicleConfig{}};
+  a.step({0.2, 0.1, -0.1, 0.0}, {1, 2, 3}, 0.002);
+  a.reset({0, 0, 0}, 0.0, {0, 0, 0});
+  const ActuatorCommand hover = b.actuators();
+  for (int i = 0; i < 1000; ++i) {
+    const ActuatorCommand c{hover.collective_rad, 0.01 * std::sin(0.01 * i), hover.longitudinal_rad, hover.tail_rad};
+    a.step(c, {0.3, 0, 0}, 0.002);
+    b.step(c, {0.3, 0, 0}, 0.002);
+  }
+  EXPECT_EQ(to_vector(a.body()), to_vector(b.body()));
+}
+
+TEST(Vehicle, StaysFiniteUnderWildCommandsAndWind) {
+  Vehicle vehicle{VehicleConfig{}};
+  for (int i = 0; i < 5000; ++i) {
+    const double s = i % 400 < 200 ? 1.0 : -1.0;
+    vehicle.step({0.15 * s, 0.02 * s, -0.02 * s, 0.3 * s}, {20.0 * s, -20.0, 5.0 * s}, 0.002);
+    ASSERT_TRUE(to_vector(vehicle.body()).allFinite()) << i;
+  }
+}
+
+TEST(Vehicle, SaysWhenItDescendsIntoItsOwnWake) {
+  Vehicle vehicle{VehicleConfig{}};
+  EXPECT_TRUE(vehicle.within_validity());
+  const ActuatorCommand hover = vehicle.actuators();
+  vehicle.step(hover, {0.0, 0.0, -4.0}, 0.002);  // air rising through the rotor at the speed of its inflow
+  EXPECT_FALSE(vehicle.within_validity());
+}
+
+TEST(Vehicle, RefusesWhatCannotFly) {
+  const auto refused = [](auto change) {
+    HelicopterConfig config;
+    change(config);
+    EXPECT_THROW(Vehicle{VehicleConfig{config}}, std::invalid_argument);
+  };
+  refused([](HelicopterConfig& c) { c.mass.mass_kg = 80.0; });  // more than the rotor can lift
+  refused([](HelicopterConfig& c) { c.servos.tail.highest_rad = 0.1; });
+  refused([](HelicopterConfig& c) { c.servos.cyclic.lowest_rad = 0.2; });
+  refused([](HelicopterConfig& c) { c.main_rotor.hinge_offset_m = 0.5; });
+  refused([](HelicopterConfig& c) { c.hull.fuselage_size_m.x() = 3.0; });
+  refused([](HelicopterConfig& c) { c.main_rotor.radius_m = 0.0; });
+}
+
+}  // namespace
+}  // namespace hedgehop::dynamics
