@@ -62,16 +62,18 @@ void add_wall(const Panel& wall, const Elevation& elevation, const CityPictures&
   const uint32_t trim = city.trims[static_cast<size_t>(uniform_index(random, 2))];
   const double cornice_v = kShopStrips * kShop_m / kTrimTile_m;
 
+  int first_variant = uniform_index(random, CityPictures::kFacadeVariants);
   for (const Span& column : columns) {
     const double u0 = static_cast<double>(column.first_cell) / style.bays;
     const double u1 = static_cast<double>(column.first_cell + column.cell_count) / style.bays;
+    int variant = first_variant++;  // neighbours sideways and up and down always differ
     for (const Span& row : rows) {
       const double depth = floors_bottom - floors_top;
       const Panel panel =
           part(wall, column.start, column.end, floors_top + row.start * depth, floors_top + row.end * depth);
       const PictureArea area{u0, static_cast<double>(row.first_cell) / style.floors, u1,
                              static_cast<double>(row.first_cell + row.cell_count) / style.floors};
-      mesh.add(panel, area, city.facade(elevation.style, uniform_index(random, CityPictures::kFacadeVariants)));
+      mesh.add(panel, area, city.facade(elevation.style, variant++ % CityPictures::kFacadeVariants));
     }
     if (elevation.cornice_m > 0.0) {
       mesh.add(part(wall, column.start, column.end, 0.0, floors_top),
