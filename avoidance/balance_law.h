@@ -3,7 +3,8 @@
 #include <Eigen/Core>
 #include <span>
 
-/// The steering laws of [Garratt2009] sec. 4 as pure functions. Frame H: B turned level, x along the heading, y to the right.
+/// The steering laws of [Garratt2009] sec. 4 as pure functions. Frame H: B turned level, x along the heading, y to the
+/// right.
 namespace hedgehop::avoidance {
 
 /// What one camera senses of the walls it looks at.

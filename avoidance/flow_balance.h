@@ -16,6 +16,9 @@ struct FlowBalanceConfig {
   static constexpr std::string_view kMeaning = "four cameras' optic flow and loom push the vehicle away from walls";
 
   enum class Scheme { simple, goal_directed };
+  /// `all` suits open country and sky: what has no texture is taken as infinitely far, so a wall counts by the share of
+  /// the view it fills. `valid` suits rooms, where a patch without texture is a bare wall; with walls in a part of the
+  /// view only, its mean flow is that of off-centre patches, in which motion along the axis shows too.
   enum class Average { valid, all };
 
   Scheme scheme = Scheme::goal_directed;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <opencv2/core.hpp>
 #include <random>
@@ -44,7 +45,6 @@ class WaveTexture {
   std::vector<std::array<double, 4>> waves_;
 };
 
-/// Adds Gaussian noise and rounds to 8 bits.
 inline uint8_t to_pixel(double grey) { return cv::saturate_cast<uint8_t>(std::lround(grey)); }
 
 /// Picture of which pixel (u, v) shows `grey(u, v)`.
@@ -68,9 +68,10 @@ inline void add_noise(cv::Mat& picture, double sigma_grey, uint64_t seed) {
   }
 }
 
-/// A textured plane through `p_WO` with in-plane unit axes; texture coordinates in metres.
+/// A textured plane through `p_WO` with in-plane unit axes, cut off along the first; texture coordinates in metres.
 struct TexturedPlane {
   Eigen::Vector3d p_WO, s_W, t_W;
+  double half_width_m = std::numeric_limits<double>::infinity();
 };
 
 /// What a camera sees of planes (the nearest hit is shown); flat grey `sky` where there is none.
@@ -78,16 +79,18 @@ inline cv::Mat draw_planes(const PinholeCamera& camera, const Eigen::Isometry3d&
                            const std::vector<TexturedPlane>& planes, const WaveTexture& texture, double sky = 200.0) {
   return draw_picture(camera.width_px, camera.height_px, [&](double u, double v) {
     const Eigen::Vector3d ray_W = X_WC.linear() * camera.ray({u, v});
-    double nearest = std::numeric_limits<double>::infinity(), grey = sky;
+    double nearest = std::numeric_limits<double>::infinity(), s = 0.0, t = 0.0;
     for (const TexturedPlane& plane : planes) {
       const Eigen::Vector3d normal_W = plane.s_W.cross(plane.t_W);
       const double range = normal_W.dot(plane.p_WO - X_WC.translation()) / normal_W.dot(ray_W);
       if (!(range > 1e-6 && range < nearest)) continue;
       const Eigen::Vector3d p_OP_W = X_WC.translation() + range * ray_W - plane.p_WO;
+      if (std::abs(plane.s_W.dot(p_OP_W)) > plane.half_width_m) continue;
       nearest = range;
-      grey = texture.grey(plane.s_W.dot(p_OP_W), plane.t_W.dot(p_OP_W));
+      s = plane.s_W.dot(p_OP_W);
+      t = plane.t_W.dot(p_OP_W);
     }
-    return grey;
+    return std::isinf(nearest) ? sky : texture.grey(s, t);
   });
 }
 

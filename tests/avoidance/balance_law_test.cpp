@@ -1,0 +1,105 @@
+#include "avoidance/balance_law.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "tests/avoidance/flow_rig.h"
+#include "tests/vision/projected_flow.h"
+#include "vision/flow_measures.h"
+
+namespace hedgehop::avoidance {
+namespace {
+
+using std::numbers::pi;
+constexpr double kFloor_mps = 0.2;
+
+// What a camera senses of a wall that it faces, from projected points and not from any formula for flow.
+WallSense sense_of_wall(const MountedCamera& camera, const Eigen::Vector2d& v_B, double range_m) {
+  constexpr double kStep_s = 1e-4;
+  const Eigen::Matrix3d R_CB = camera.X_BC.linear().transpose();
+  const auto field = vision::plane_flow(camera.model, vision::grid_field(8, 8, 30, 200), {0, 0, range_m}, {0, 0, 1},
+                                        R_CB * Eigen::Vector3d(v_B.x(), v_B.y(), 0), {0, 0, 0}, kStep_s);
+  return {camera.X_BC.linear().col(2).head<2>(), camera.X_BC.linear().col(0).head<2>(),
+          vision::mean_horizontal_flow(field, camera.model, kStep_s, vision::Missing::skip).value,
+          vision::loom(field, kStep_s, vision::Missing::skip).value};
+}
+
+TEST(InverseRanges, FlowAndLoomTellTheRangeOfAWallOnAnySideForAnyMotion) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> speed(0.3, 2.0), range(2.0, 30.0);
+  for (int trial = 0; trial < 200; ++trial) {
+    const MountedCamera camera = level_camera("any", 0.5 * pi * static_cast<double>(random() % 4), 200, 50.0);
+    const Eigen::Vector2d v_B((random() % 2 ? 1 : -1) * speed(random), (random() % 2 ? 1 : -1) * speed(random));
+    const double z = range(random);
+    const InverseRanges near = inverse_ranges(sense_of_wall(camera, v_B, z), v_B, kFloor_mps);
+    EXPECT_NEAR(near.from_flow_per_m, 1.0 / z, 0.01 / z);
+    EXPECT_NEAR(near.from_loom_per_m, 1.0 / z, 0.01 / z);
+  }
+}
+
+TEST(InverseRanges, OneFormulaEqualsThePapersPerCamera) {
+  const Eigen::Vector2d v(1.3, -0.7);
+  const auto near = [&](double azimuth) {
+    const MountedCamera camera = level_camera("any", azimuth, 200, 50.0);
+    return inverse_ranges({camera.X_BC.linear().col(2).head<2>(), camera.X_BC.linear().col(0).head<2>(), 0.1, 0.2}, v,
+                          kFloor_mps);
+  };
+  const std::array<InverseRanges, 4> expected = {InverseRanges{-0.1 / v.y(), 0.2 / v.x()},    // front
+                                                 InverseRanges{0.1 / v.x(), 0.2 / v.y()},     // right
+                                                 InverseRanges{0.1 / v.y(), -0.2 / v.x()},    // rear
+                                                 InverseRanges{-0.1 / v.x(), -0.2 / v.y()}};  // left
+  for (size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(near(0.5 * pi * static_cast<double>(i)).from_flow_per_m, expected[i].from_flow_per_m, 1e-12) << i;
+    EXPECT_NEAR(near(0.5 * pi * static_cast<double>(i)).from_loom_per_m, expected[i].from_loom_per_m, 1e-12) << i;
+  }
+}
+
+TEST(PushFromWalls, PointsAwayFromAWallOnEachSide) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> speed(0.3, 2.0);
+  for (int trial = 0; trial < 100; ++trial) {
+    const MountedCamera camera = level_camera("any", 0.5 * pi * static_cast<double>(random() % 4), 200, 50.0);
+    const Eigen::Vector2d v_B((random() % 2 ? 1 : -1) * speed(random), (random() % 2 ? 1 : -1) * speed(random));
+    const std::array senses = {sense_of_wall(camera, v_B, 5.0)};
+    const Eigen::Vector2d push = push_from_walls(senses, v_B, 4.0, 5.0, kFloor_mps);
+    EXPECT_NEAR(push.dot(senses[0].axis_H), -(4.0 + 5.0) / 5.0, 0.05);
+    EXPECT_NEAR(push.dot(senses[0].right_H), 0.0, 1e-9);
+  }
+}
+
+TEST(PushFromWalls, IsNothingInTheMiddleBetweenTwoWallsAndNeverDependsOnSpeed) {
+  for (const double speed : {0.4, 1.0, 2.0}) {
+    const Eigen::Vector2d v_B = speed * Eigen::Vector2d(0.8, 0.6);
+    const MountedCamera left = level_camera("left", -0.5 * pi, 200, 50.0),
+                        right = level_camera("right", 0.5 * pi, 200, 50.0);
+    const std::array middle = {sense_of_wall(left, v_B, 4.0), sense_of_wall(right, v_B, 4.0)};
+    EXPECT_LT(push_from_walls(middle, v_B, 4.0, 5.0, kFloor_mps).norm(), 1e-2);
+    const std::array off = {sense_of_wall(left, v_B, 3.0), sense_of_wall(right, v_B, 5.0)};
+    EXPECT_NEAR(push_from_walls(off, v_B, 4.0, 5.0, kFloor_mps).y(), 9.0 * (1 / 3.0 - 1 / 5.0), 2e-2);
+  }
+}
+
+TEST(SaturatedDivisor, KeepsSignAndLeastMagnitude) {
+  EXPECT_EQ(saturated_divisor(1.5, 0.2), 1.5);
+  EXPECT_EQ(saturated_divisor(-1.5, 0.2), -1.5);
+  EXPECT_EQ(saturated_divisor(0.05, 0.2), 0.2);
+  EXPECT_EQ(saturated_divisor(-0.05, 0.2), -0.2);
+  EXPECT_EQ(saturated_divisor(0.0, 0.2), 0.2);
+}
+
+TEST(SaturatedDivisor, KeepsThePushOfASlowVehicleBounded) {
+  const MountedCamera front = level_camera("front", 0.0, 200, 50.0);
+  for (const double v : {0.01, -0.01, 0.1, -0.1}) {
+    const std::array senses = {sense_of_wall(front, {v, v}, 5.0)};
+    const double push = -push_from_walls(senses, {v, v}, 4.0, 5.0, kFloor_mps).x();
+    EXPECT_GE(push, 0.0);
+    EXPECT_LE(push, 9.0 / 5.0);
+  }
+}
+
+}  // namespace
+}  // namespace hedgehop::avoidance
