@@ -21,12 +21,12 @@ struct Acceptable {
   double velocity_mps, climb_mps, tilt_rad, heading_rad, rate_radps, below_m;
   double collective_rad, cyclic_rad, tail_rad;
 };
-// Chosen so that the reference flight reaches a speed within about a second without overshoot, and that the vehicle
-// holds to it about as stiffly.
+// Chosen so that the reference flight reaches a speed within about a second without overshoot, that the vehicle holds to
+// it about as stiffly, and that the nose stays put when the tail rotor meets a side wind.
 constexpr Acceptable kPlan{.velocity_mps = 0.4,
                            .climb_mps = 0.5,
                            .tilt_rad = 0.3,
-                           .heading_rad = 0.2,
+                           .heading_rad = 0.05,
                            .rate_radps = 1.0,
                            .below_m = 0.25,
                            .collective_rad = 0.02,
@@ -35,7 +35,7 @@ constexpr Acceptable kPlan{.velocity_mps = 0.4,
 constexpr Acceptable kHold{.velocity_mps = 0.25,
                            .climb_mps = 0.5,
                            .tilt_rad = 0.3,
-                           .heading_rad = 0.1,
+                           .heading_rad = 0.05,
                            .rate_radps = 1.0,
                            .below_m = 0.15,
                            .collective_rad = 0.02,

@@ -53,9 +53,9 @@ DesignMatrix lqr_gain(const LinearSystem& system, const DesignMatrix& Q, const D
     G = (G + A * V2 * A.transpose()).eval();
     H += added;
     A = (A * V1).eval();
-    converged = added.norm() <= kConverged * H.norm();
+    converged = added.cwiseAbs().maxCoeff() <= kConverged * H.cwiseAbs().maxCoeff();
   }
-  if (!converged) throw std::invalid_argument("the vehicle cannot be stabilised by its linear model");
+  if (!converged || !H.allFinite()) throw std::invalid_argument("the vehicle cannot be stabilised by its linear model");
   const DesignMatrix S = R + system.B.transpose() * H * system.B;
   return S.partialPivLu().solve(DesignMatrix(system.B.transpose() * H * system.A));
 }

@@ -1,0 +1,298 @@
+#include "dynamics/autopilot.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include "tests/dynamics/closed_loop.h"
+
+namespace hedgehop::dynamics {
+namespace {
+
+constexpr double kDeg = std::numbers::pi / 180.0;
+constexpr double kStepAtS = 1.0;
+
+/// How a velocity step went, in the direction of the step.
+struct StepResponse {
+  double rise_s = 0.0;       ///< from 10 to 90 %
+  double settled_s = 0.0;    ///< after the step, from when on it stays within 10 %
+  double overshoot = 0.0;    ///< share of the step
+  double across_mps = 0.0;   ///< greatest velocity across the step
+  double altitude_m = 0.0;   ///< greatest departure
+  double heading_rad = 0.0;  ///< greatest departure
+  double tilt_rad = 0.0;     ///< greatest departure from the hover's roll and pitch
+};
+
+StepResponse step_response(const Loop& loop, const Eigen::Vector2d& v_WB_W) {
+  const std::vector<Sample> flight = fly(loop, 7.0, [&](double t_s) {
+    return VelocitySetpoint{t_s < kStepAtS ? Eigen::Vector2d(0.0, 0.0) : v_WB_W, 10.0, loop.heading_rad};
+  });
+  const double size = v_WB_W.norm();
+  const Eigen::Vector2d along = v_WB_W / size, across{-along.y(), along.x()};
+  const HoverModel hover = make_hover_model(loop.vehicle);
+  StepResponse r;
+  double t10 = 0.0, t90 = 0.0;
+  for (const Sample& s : flight) {
+    const Eigen::Vector2d v = s.v_WB_W().head<2>();
+    const double progress = v.dot(along) / size;
+    const double t = s.t_s - kStepAtS;
+    if (t10 == 0.0 && progress >= 0.1) t10 = t;
+    if (t90 == 0.0 && progress >= 0.9) t90 = t;
+    if (std::abs(progress - 1.0) > 0.1) r.settled_s = t;
+    r.overshoot = std::max(r.overshoot, progress - 1.0);
+    r.across_mps = std::max(r.across_mps, std::abs(v.dot(across)));
+    r.altitude_m = std::max(r.altitude_m, std::abs(s.body.p_WB.z() + 10.0));
+    const Eigen::Vector3d rpy = s.rpy();
+    r.heading_rad = std::max(r.heading_rad, std::abs(wrap_angle(rpy[2] - loop.heading_rad)));
+    r.tilt_rad = std::max(r.tilt_rad, std::hypot(rpy[0] - hover.roll_rad, rpy[1] - hover.pitch_rad));
+  }
+  r.rise_s = t90 > 0.0 ? t90 - t10 : INFINITY;
+  return r;
+}
+
+Loop perfect() {
+  Loop loop;
+  loop.perfect = true;
+  return loop;
+}
+
+void expect_crisp(const StepResponse& r) {
+  EXPECT_LT(r.rise_s, 1.0);
+  EXPECT_LT(r.settled_s, 1.6);
+  EXPECT_LT(r.overshoot, 0.15);
+}
+
+TEST(Autopilot, FollowsVelocityStepsInAllDirections) {
+  for (const double size : {0.5, 1.0, 2.0}) {
+    for (int direction = 0; direction < 8; ++direction) {
+      const double angle = direction * std::numbers::pi / 4.0;
+      SCOPED_TRACE(testing::Message() << size << " m/s towards " << angle / kDeg << " deg");
+      const StepResponse r = step_response(perfect(), size * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+      expect_crisp(r);
+      EXPECT_LT(r.overshoot, 0.08);
+      EXPECT_LT(r.across_mps, 0.05 * size);
+      EXPECT_LT(r.altitude_m, 0.05 * size);
+      EXPECT_LT(r.heading_rad, 1.5 * kDeg);
+      EXPECT_LT(r.tilt_rad, 14.0 * kDeg);  // 2 m/s2 are 11.5 deg
+    }
+  }
+}
+
+TEST(Autopilot, HeadingChangesNothing) {
+  for (const double heading_deg : {22.5, 135.0, -170.0}) {
+    SCOPED_TRACE(heading_deg);
+    Loop loop = perfect();
+    loop.heading_rad = heading_deg * kDeg;
+    const StepResponse r = step_response(loop, {1.0, 0.0});
+    expect_crisp(r);
+    EXPECT_LT(r.across_mps, 0.05);
+  }
+}
+
+TEST(Autopilot, StepsStayCrispInWind) {
+  Loop loop = perfect();
+  loop.wind_W = [](double) { return Eigen::Vector3d(-5.0, 0.0, 0.0); };
+  for (const Eigen::Vector2d& v : {Eigen::Vector2d(2.0, 0.0), Eigen::Vector2d(-2.0, 0.0), Eigen::Vector2d(0.0, 2.0)}) {
+    const StepResponse r = step_response(loop, v);
+    expect_crisp(r);
+    EXPECT_LT(r.across_mps, 0.3);
+    EXPECT_LT(r.altitude_m, 0.3);
+  }
+}
+
+TEST(Autopilot, FliesVehiclesItTakesForOthers) {
+  const auto changed = [](const auto& change) {
+    HelicopterConfig c;
+    change(c);
+    return c;
+  };
+  const HelicopterConfig others[] = {
+      changed([](HelicopterConfig& c) { c.mass.mass_kg *= 1.2; }),
+      changed([](HelicopterConfig& c) { c.mass.inertia_kgm2 *= 1.4; }),
+      changed([](HelicopterConfig& c) { c.mass.inertia_kgm2 *= 0.7; }),
+      changed([](HelicopterConfig& c) { std::get<LumpedBarConfig>(c.main_rotor.flybar).lateral_gain *= 1.3; }),
+      changed([](HelicopterConfig& c) { std::get<LumpedBarConfig>(c.main_rotor.flybar).lock_number *= 1.4; }),
+      changed([](HelicopterConfig& c) { c.servos.cyclic.natural_frequency_radps *= 0.8; }),
+  };
+  for (const HelicopterConfig& other : others) {
+    SCOPED_TRACE(&other - others);
+    Loop loop = perfect();
+    loop.vehicle = other;
+    loop.designed_for = HelicopterConfig();
+    const StepResponse r = step_response(loop, {1.0, 1.0});
+    EXPECT_LT(r.rise_s, 1.0);
+    EXPECT_LT(r.overshoot, 0.25);
+    EXPECT_LT(r.across_mps, 0.3);
+  }
+}
+
+TEST(Autopilot, DesignsItselfForOtherHelicopters) {
+  HelicopterConfig left;
+  left.main_rotor.turns = MainRotorConfig::Turns::counter_clockwise;
+  HelicopterConfig bar;
+  bar.main_rotor.flybar = ExplicitBarConfig{};
+  HelicopterConfig heavy;
+  heavy.mass.mass_kg = 11.0;
+  for (const HelicopterConfig& c : {left, bar, heavy}) {
+    Loop loop = perfect();
+    loop.vehicle = c;
+    const StepResponse r = step_response(loop, {1.0, 1.0});
+    expect_crisp(r);
+    EXPECT_LT(r.across_mps, 0.15);
+  }
+}
+
+TEST(Autopilot, KeepsToClimbAndTurnRateLimits) {
+  const AutopilotConfig limits;
+  const std::vector<Sample> flight = fly(perfect(), 14.0, [](double t_s) {
+    return VelocitySetpoint{{0.0, 0.0}, t_s < 1.0 ? 10.0 : 14.0, t_s < 1.0 ? 0.0 : 170.0 * kDeg};
+  });
+  double highest = 0.0;
+  for (const Sample& s : flight) {
+    EXPECT_LT(-s.v_WB_W().z(), limits.climb_rate_limit_mps * 1.1);
+    EXPECT_LT(s.body.w_WB_B.norm(), limits.yaw_rate_limit_radps * 1.1);
+    EXPECT_LT(s.v_WB_W().head<2>().norm(), 0.15);
+    highest = std::max(highest, -s.body.p_WB.z());
+  }
+  EXPECT_LT(highest, 14.1);
+  EXPECT_NEAR(flight.back().body.p_WB.z(), -14.0, 0.05);
+  EXPECT_NEAR(flight.back().rpy()[2], 170.0 * kDeg, 1.0 * kDeg);
+}
+
+TEST(Autopilot, SpeedSetpointsAreCutToTheLimit) {
+  const std::vector<Sample> flight = fly(perfect(), 8.0, [](double) {
+    return VelocitySetpoint{{6.0, 8.0}, 10.0, 0.0};
+  });
+  EXPECT_NEAR(flight.back().v_WB_W().x(), 1.8, 0.05);
+  EXPECT_NEAR(flight.back().v_WB_W().y(), 2.4, 0.05);
+}
+
+TEST(Autopilot, HoldsAttitudeAndHeight) {
+  const std::vector<Sample> flight = fly(perfect(), 4.0, [](double) {
+    return AttitudeSetpoint{5.0 * kDeg, -3.0 * kDeg, 0.0, 10.0};
+  });
+  const HoverModel hover = make_hover_model(HelicopterConfig());
+  EXPECT_NEAR(flight.back().rpy()[0] - hover.roll_rad, 5.0 * kDeg, 1.0 * kDeg);
+  EXPECT_NEAR(flight.back().rpy()[1] - hover.pitch_rad, -3.0 * kDeg, 1.0 * kDeg);
+  EXPECT_NEAR(flight.back().body.p_WB.z(), -10.0, 0.2);
+}
+
+TEST(Autopilot, FliesToAPointAndStays) {
+  const std::vector<Sample> flight = fly(perfect(), 25.0, [](double) {
+    return PositionSetpoint{{20.0, -15.0, -12.0}, 1.0};
+  });
+  double beyond = 0.0;
+  for (const Sample& s : flight) {
+    beyond = std::max(beyond, (s.body.p_WB.head<2>().dot(Eigen::Vector2d(0.8, -0.6))) - 25.0);
+    EXPECT_LT(s.v_WB_W().head<2>().norm(), 3.15);
+  }
+  EXPECT_LT(beyond, 0.1);
+  EXPECT_LT((flight.back().body.p_WB - Eigen::Vector3d(20.0, -15.0, -12.0)).norm(), 0.1);
+}
+
+TEST(Autopilot, HoverStopsStaysAndTurns) {
+  const std::vector<Sample> flight = fly(perfect(), 20.0, [](double t_s) {
+    return t_s < 4.0 ? Setpoint(VelocitySetpoint{{2.0, 0.0}, 10.0, 0.0}) : Setpoint(HoverSetpoint{0.2});
+  });
+  const Eigen::Vector3d stopped = flight[800].body.p_WB;
+  for (size_t i = 800; i < flight.size(); ++i) EXPECT_LT((flight[i].body.p_WB - stopped).norm(), 0.4);
+  EXPECT_NEAR(wrap_angle(flight[1900].rpy()[2] - flight[900].rpy()[2]), 2.0, 0.03);
+}
+
+TEST(Autopilot, HoldsTheHoverInTurbulence) {
+  Loop loop;
+  loop.weather = WindConfig{.speed_mps = 5.0, .from_rad = 0.5, .turbulence_w20_mps = 7.7};
+  for (uint64_t seed = 1; seed <= 3; ++seed) {
+    loop.seed = seed;
+    double v2 = 0.0;
+    const std::vector<Sample> flight = fly(loop, 60.0, [](double) { return VelocitySetpoint{{0.0, 0.0}, 10.0, 0.0}; });
+    for (const Sample& s : flight) {
+      v2 += s.v_WB_W().head<2>().squaredNorm();
+      if (s.t_s > 3.0) {
+        EXPECT_NEAR(s.body.p_WB.z(), -10.0, 0.5);
+      }
+    }
+    EXPECT_LT(std::sqrt(v2 / static_cast<double>(flight.size())), 0.12);
+  }
+}
+
+TEST(Autopilot, WindsUpWithNothing) {
+  // For three seconds a gust carries the aircraft away faster than the tilt limit lets it resist; when it ends, nothing
+  // of it may be left but the velocity itself.
+  Loop loop = perfect();
+  loop.avionics.autopilot.tilt_limit_rad = 6.0 * kDeg;
+  loop.wind_W = [](double t_s) { return Eigen::Vector3d(t_s > 2.0 && t_s < 5.0 ? -14.0 : 0.0, 0.0, 0.0); };
+  const std::vector<Sample> flight = fly(loop, 14.0, [](double) { return VelocitySetpoint{{0.0, 0.0}, 10.0, 0.0}; });
+  double blown = 0.0, back = 0.0, late = 0.0;
+  for (const Sample& s : flight) {
+    const double v = s.v_WB_W().x();
+    blown = std::min(blown, v);
+    if (s.t_s > 5.0) back = std::max(back, v);
+    if (s.t_s > 10.0) late = std::max(late, std::abs(v));
+  }
+  EXPECT_LT(blown, -1.0);
+  EXPECT_LT(back, 0.35 * -blown);
+  EXPECT_LT(late, 0.1);
+}
+
+TEST(Autopilot, FliesSquaresForAMinuteOnItsOwnSensors) {
+  for (const double weather : {0.0, 7.7}) {
+    Loop loop;
+    loop.weather = WindConfig{.speed_mps = weather > 0.0 ? 5.0 : 0.0, .from_rad = 2.0, .turbulence_w20_mps = weather};
+    const auto v = [](double t_s) {
+      const double angle = (static_cast<int>(t_s / 2.5) % 4) * std::numbers::pi / 2.0;
+      return Eigen::Vector2d(2.0 * std::cos(angle), 2.0 * std::sin(angle));
+    };
+    const std::vector<Sample> flight = fly(loop, 60.0, [&](double t_s) { return VelocitySetpoint{v(t_s), 10.0, 0.0}; });
+    for (const Sample& s : flight) {
+      if (s.t_s > 3.0) {
+        ASSERT_NEAR(s.body.p_WB.z(), -10.0, 0.6) << s.t_s;
+      }
+      ASSERT_LT(s.v_WB_W().head<2>().norm(), 2.6) << s.t_s;
+      // In the last half second of a side it flies as told.
+      if (std::fmod(s.t_s, 2.5) > 2.0) {
+        EXPECT_LT((s.v_WB_W().head<2>() - v(s.t_s)).norm(), 0.4) << s.t_s;
+      }
+    }
+  }
+}
+
+TEST(HoverModel, IsTheVehicleNearItsHover) {
+  // A small step of each actuator, flown by the vehicle and by the model.
+  const HelicopterConfig config;
+  const HoverModel model = make_hover_model(config);
+  const LinearSystem step = sampled(model.motion, 0.002);
+  for (int input = 0; input < HoverModel::kInputs; ++input) {
+    Vehicle vehicle{VehicleConfig(config)};
+    Eigen::Vector4d u = Eigen::Vector4d::Zero();
+    u[input] = 1e-4;
+    const Eigen::Vector4d blades = model.trim_rad + u;
+    DesignVector x = DesignVector::Zero(model.motion.A.rows());
+    for (int i = 0; i < 250; ++i) {
+      vehicle.step({blades[0], blades[1], blades[2], blades[3]}, Eigen::Vector3d::Zero(), 0.002);
+      x = DesignVector(step.A * x + step.B * u);
+    }
+    const RigidBodyState& b = vehicle.body();
+    const Eigen::Vector3d rpy = to_roll_pitch_heading(b.q_WB);
+    Eigen::Matrix<double, 10, 1> truth;
+    truth << b.q_WB * b.v_WB_B, rpy[0] - model.roll_rad, rpy[1] - model.pitch_rad, rpy[2], b.w_WB_B, b.p_WB.z();
+    const Eigen::Matrix<double, 10, 1> predicted = x.head<10>();
+    EXPECT_LT((truth - predicted).norm(), 0.01 * truth.norm()) << "input " << input;
+  }
+}
+
+TEST(Autopilot, RefusesWhatCannotBe) {
+  AutopilotConfig c;
+  c.tilt_limit_rad = 0.0;
+  EXPECT_THAT([&] { Autopilot(c, HelicopterConfig()); },
+              testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("autopilot.tilt_limit: ")));
+}
+
+}  // namespace
+}  // namespace hedgehop::dynamics

@@ -1,0 +1,105 @@
+#include "dynamics/avionics.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/dynamics/closed_loop.h"
+
+namespace hedgehop::dynamics {
+namespace {
+
+Setpoint away(double t_s) { return VelocitySetpoint{{t_s < 3.0 ? 2.0 : -1.0, 1.0}, 11.0, 0.3}; }
+
+bool same(const Sample& a, const Sample& b) {
+  return std::memcmp(&a.blades, &b.blades, sizeof(a.blades)) == 0 && a.body.p_WB == b.body.p_WB &&
+         a.body.q_WB.coeffs() == b.body.q_WB.coeffs() && a.estimate.p_WB_est == b.estimate.p_WB_est &&
+         a.estimate.v_WB_B_est == b.estimate.v_WB_B_est;
+}
+
+TEST(Avionics, EqualSeedsGiveEqualFlightsBitForBit) {
+  Loop loop;
+  loop.weather = WindConfig{.speed_mps = 3.0, .turbulence_w20_mps = 7.7};
+  const std::vector<Sample> a = fly(loop, 6.0, away), b = fly(loop, 6.0, away);
+  ASSERT_EQ(a.size(), b.size());
+  for (size_t i = 0; i < a.size(); ++i) ASSERT_TRUE(same(a[i], b[i])) << i;
+  loop.seed = 2;
+  EXPECT_FALSE(same(fly(loop, 6.0, away).back(), a.back()));
+}
+
+/// Feeds two avionics the same hover and compares what they believe at its end.
+NavigationEstimate after_hover(Avionics& avionics, double duration_s = 3.0) {
+  Vehicle vehicle{VehicleConfig(HelicopterConfig())};
+  vehicle.reset({0.0, 0.0, -10.0}, 0.0, Eigen::Vector3d::Zero());
+  const SensedTruth truth{vehicle.body(), vehicle.specific_force_B(), 10.0};
+  avionics.reset(truth);
+  for (int64_t tick = 0; tick < static_cast<int64_t>(duration_s * 500.0); ++tick)
+    avionics.sense(tick * 2'000'000, truth);
+  return avionics.navigation();
+}
+
+bool same(const NavigationEstimate& a, const NavigationEstimate& b) {
+  return a.p_WB_est == b.p_WB_est && a.q_WB_est.coeffs() == b.q_WB_est.coeffs() && a.v_WB_B_est == b.v_WB_B_est &&
+         a.w_WB_B_est == b.w_WB_B_est;
+}
+
+TEST(Avionics, ResetEqualsNew) {
+  const auto make = [] {
+    return Avionics({}, HelicopterConfig(), 0.002, [](std::string_view n) { return seed_of(1, n); });
+  };
+  Avionics used = make(), fresh = make();
+  after_hover(used);
+  for (int i = 0; i < 10; ++i) used.control(VelocitySetpoint{{3.0, 0.0}, 20.0, 1.0}, 0.01);
+  EXPECT_TRUE(same(after_hover(used), after_hover(fresh)));
+  const Setpoint s = VelocitySetpoint{{1.0, 0.0}, 10.0, 0.0};
+  const ActuatorCommand a = used.control(s, 0.01), b = fresh.control(s, 0.01);
+  EXPECT_EQ(std::memcmp(&a, &b, sizeof(a)), 0);
+}
+
+TEST(Avionics, EachSourceOfNoiseHasAStreamOfItsOwn) {
+  std::vector<std::string> names;
+  Avionics avionics({}, HelicopterConfig(), 0.002, [&](std::string_view n) {
+    names.emplace_back(n);
+    return seed_of(1, n);
+  });
+  EXPECT_THAT(names, testing::UnorderedElementsAre("imu", "gps", "height_sensor", "magnetometer", "alignment"));
+
+  // Another seed for one stream reaches the estimate through that sensor alone.
+  const auto believed = [](AvionicsConfig c, std::string_view other) {
+    Avionics a(c, HelicopterConfig(), 0.002, [&](std::string_view n) { return seed_of(n == other ? 2 : 1, n); });
+    return after_hover(a);
+  };
+  AvionicsConfig all;
+  AvionicsConfig blind;
+  blind.gps.enabled = blind.magnetometer.enabled = blind.height_sensor.enabled = false;
+  for (const std::string_view name : {"gps", "height_sensor", "magnetometer"}) {
+    EXPECT_FALSE(same(believed(all, name), believed(all, "none"))) << name;
+    EXPECT_TRUE(same(believed(blind, name), believed(blind, "none"))) << name;
+  }
+  EXPECT_FALSE(same(believed(blind, "imu"), believed(blind, "none")));
+}
+
+TEST(Avionics, FliesAtOtherPhysicsAndSensorRates) {
+  Loop loop;
+  loop.physics_rate_hz = 1000.0;
+  loop.avionics.imu.rate_hz = 250.0;
+  loop.avionics.height_sensor.rate_hz = 20.0;
+  loop.avionics.magnetometer.rate_hz = 10.0;
+  const std::vector<Sample> flight = fly(loop, 10.0, away);
+  EXPECT_LT((flight.back().v_WB_W() - Eigen::Vector3d(-1.0, 1.0, 0.0)).norm(), 0.2);
+  EXPECT_NEAR(flight.back().body.p_WB.z(), -11.0, 0.2);
+}
+
+TEST(Avionics, NamesTheRateThatDoesNotFit) {
+  AvionicsConfig c;
+  c.magnetometer.rate_hz = 30.0;
+  EXPECT_THAT([&] { Avionics(c, HelicopterConfig(), 0.002, [](std::string_view) { return uint64_t{1}; }); },
+              testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("magnetometer.rate: ")));
+}
+
+}  // namespace
+}  // namespace hedgehop::dynamics

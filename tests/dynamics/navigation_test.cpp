@@ -1,0 +1,191 @@
+#include "dynamics/navigation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "tests/dynamics/closed_loop.h"
+
+namespace hedgehop::dynamics {
+namespace {
+
+constexpr double kDeg = std::numbers::pi / 180.0;
+constexpr double kSettledS = 2.0;
+
+/// A square of velocities, a new side every 3 s: the aircraft tilts and accelerates all the time.
+Setpoint square(double t_s) {
+  constexpr double kSigns[4][2] = {{1, 1}, {1, -1}, {-1, -1}, {-1, 1}};
+  const double(&s)[2] = kSigns[static_cast<int>(t_s / 3.0) % 4];
+  return VelocitySetpoint{{1.5 * s[0], 1.5 * s[1]}, 10.0, 0.0};
+}
+
+struct Errors {
+  double attitude_rms_rad = 0.0, velocity_rms_mps = 0.0, position_rms_m = 0.0, altitude_max_m = 0.0;
+  double within_3_sigma = 0.0;     ///< share of attitude, velocity and position components
+  double mean_square_ratio = 0.0;  ///< of errors to their sigmas, 1 when the claims are right
+};
+
+Errors errors(const std::vector<std::vector<Sample>>& flights) {
+  Errors e;
+  double samples = 0.0, components = 0.0;
+  const auto judge = [&](const Eigen::Vector3d& error, const Eigen::Vector3d& sigma) {
+    for (int i = 0; i < 3; ++i) {
+      const double ratio = std::abs(error[i]) / sigma[i];
+      e.within_3_sigma += ratio <= 3.0 ? 1.0 : 0.0;
+      e.mean_square_ratio += ratio * ratio;
+      components += 1.0;
+    }
+  };
+  for (const std::vector<Sample>& flight : flights) {
+    for (const Sample& s : flight) {
+      if (s.t_s < kSettledS) continue;
+      const Eigen::Vector3d attitude = s.attitude_error(), velocity = s.v_WB_W_est() - s.v_WB_W();
+      const Eigen::Vector3d position = s.estimate.p_WB_est - s.body.p_WB;
+      judge(attitude, s.estimate.sigma_attitude_B_rad);
+      judge(velocity, s.estimate.sigma_v_W_mps);
+      judge(position, s.estimate.sigma_p_W_m);
+      e.attitude_rms_rad += attitude.squaredNorm();
+      e.velocity_rms_mps += velocity.squaredNorm();
+      e.position_rms_m += position.squaredNorm();
+      e.altitude_max_m = std::max(e.altitude_max_m, std::abs(position.z()));
+      samples += 1.0;
+    }
+  }
+  e.attitude_rms_rad = std::sqrt(e.attitude_rms_rad / samples);
+  e.velocity_rms_mps = std::sqrt(e.velocity_rms_mps / samples);
+  e.position_rms_m = std::sqrt(e.position_rms_m / samples);
+  e.within_3_sigma /= components;
+  e.mean_square_ratio /= components;
+  return e;
+}
+
+std::vector<std::vector<Sample>> flights(Loop loop, int count, double duration_s,
+                                         const std::function<Setpoint(double)>& setpoint) {
+  std::vector<std::vector<Sample>> all;
+  for (int i = 0; i < count; ++i) {
+    loop.seed = static_cast<uint64_t>(i) + 1;
+    all.push_back(fly(loop, duration_s, setpoint));
+  }
+  return all;
+}
+
+TEST(Navigation, IsAccurateAndHonestInAcceleratedFlight) {
+  const Errors e = errors(flights({}, 12, 40.0, square));
+  RecordProperty("attitude_rms_deg", std::to_string(e.attitude_rms_rad / kDeg));
+  RecordProperty("velocity_rms_mps", std::to_string(e.velocity_rms_mps));
+  RecordProperty("within_3_sigma", std::to_string(e.within_3_sigma));
+  RecordProperty("mean_square_ratio", std::to_string(e.mean_square_ratio));
+  EXPECT_LT(e.attitude_rms_rad, 1.0 * kDeg);
+  EXPECT_LT(e.velocity_rms_mps, 0.05);
+  EXPECT_GT(e.within_3_sigma, 0.98);
+  EXPECT_GT(e.mean_square_ratio, 0.6);  // it does not claim to know less than it does
+  EXPECT_LT(e.mean_square_ratio, 1.6);
+}
+
+TEST(Navigation, IsHonestInTurbulence) {
+  Loop loop;
+  loop.weather = WindConfig{.speed_mps = 5.0, .from_rad = 1.0, .turbulence_w20_mps = 7.7};
+  const Errors e = errors(flights(loop, 6, 40.0, square));
+  EXPECT_LT(e.attitude_rms_rad, 1.0 * kDeg);
+  EXPECT_LT(e.velocity_rms_mps, 0.05);
+  EXPECT_GT(e.within_3_sigma, 0.98);
+}
+
+TEST(Navigation, LevelsByFlowAloneWhereThereIsNoReception) {
+  Loop loop;
+  loop.avionics.gps.enabled = false;
+  const Errors e = errors(flights(loop, 4, 60.0, square));
+  EXPECT_LT(e.attitude_rms_rad, 1.0 * kDeg);
+  EXPECT_LT(e.velocity_rms_mps, 0.06);
+  EXPECT_LT(e.position_rms_m, 1.5);  // dead reckoning
+}
+
+TEST(Navigation, SatelliteVelocitiesCarryItWhereThereIsNoTexture) {
+  Loop loop;
+  loop.flow_sigma = 0.0;
+  const Errors e = errors(flights(loop, 4, 60.0, square));
+  EXPECT_LT(e.attitude_rms_rad, 1.5 * kDeg);
+  EXPECT_LT(e.velocity_rms_mps, 0.15);
+}
+
+TEST(Navigation, AttitudeSurvivesTwoMinutesOnInertialSensorsAlone) {
+  Loop loop;
+  loop.flow_sigma = 0.0;
+  loop.avionics.gps.enabled = false;
+  for (const std::vector<Sample>& flight : flights(loop, 3, 120.0, square)) {
+    EXPECT_LT(flight.back().attitude_error().head<2>().norm(), 3.0 * kDeg);
+  }
+}
+
+TEST(Navigation, AnOutlierOfTheFlowMovesLittle) {
+  const Navigation::Sensors sensors;
+  Navigation navigation({}, sensors);
+  navigation.reset({}, {});
+  const ImuReading hover{Eigen::Vector3d::Zero(), {0.0, 0.0, -kGravityMps2}};
+  for (int i = 0; i < 200; ++i) {
+    navigation.predict(hover);
+    if (i % 2 == 0) navigation.correct_velocity(Eigen::Vector2d::Zero(), 0.1);
+  }
+  navigation.correct_velocity({5.0, 0.0}, 0.1);
+  EXPECT_LT(navigation.estimate().v_WB_B_est.norm(), 0.03);
+  // Yet many that agree are believed in the end.
+  for (int i = 0; i < 500; ++i) {
+    navigation.predict(hover);
+    navigation.correct_velocity({1.0, 0.0}, 0.1);
+  }
+  EXPECT_NEAR(navigation.estimate().v_WB_B_est.x(), 1.0, 0.2);
+}
+
+TEST(Navigation, ARoofBelowIsNoClimb) {
+  Loop loop;
+  loop.surface_m = [](const Eigen::Vector3d& p) { return p.x() > 6.0 && p.x() < 18.0 ? 6.0 : 0.0; };
+  const auto across = [](double) { return VelocitySetpoint{{2.0, 0.0}, 10.0, 0.0}; };
+  for (const std::vector<Sample>& flight : flights(loop, 5, 14.0, across)) {
+    ASSERT_GT(flight.back().body.p_WB.x(), 22.0);
+    int wrong_height = 0;
+    for (const Sample& s : flight) {
+      EXPECT_NEAR(s.estimate.p_WB_est.z(), s.body.p_WB.z(), 0.4) << s.t_s;
+      if (s.t_s > kSettledS) {
+        EXPECT_NEAR(s.body.p_WB.z(), -10.0, 0.5) << s.t_s;
+      }
+      const double height_m = -s.body.p_WB.z() - loop.surface_m(s.body.p_WB);
+      if (std::abs(s.estimate.height_above_ground_m - height_m) > 0.4) ++wrong_height;
+    }
+    EXPECT_LE(wrong_height, 12);  // samples of 10 ms: the moments of two edges and of drop-outs at them
+  }
+}
+
+TEST(Navigation, AltitudeHoldsThroughLostReadings) {
+  Loop loop;
+  loop.avionics.height_sensor.dropout = 0.9;
+  const Errors e = errors(flights(loop, 3, 40.0, square));
+  EXPECT_LT(e.altitude_max_m, 0.4);
+}
+
+TEST(Navigation, HeightAndAltitudeAgreeOverTheGround) {
+  for (const Sample& s : fly({}, 10.0, square)) {
+    EXPECT_NEAR(s.estimate.height_above_ground_m, -s.estimate.p_WB_est.z(), 1e-12);
+  }
+}
+
+TEST(Navigation, GyroBiasIsLearnt) {
+  Loop loop;
+  loop.avionics.navigation.alignment_residual = 1.0;  // nobody calibrated
+  double before2 = 0.0, after2 = 0.0;
+  for (const std::vector<Sample>& flight : flights(loop, 6, 40.0, square)) {
+    const auto rate_error = [&](size_t from) {
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (size_t i = from; i < from + 50; ++i) sum += flight[i].estimate.w_WB_B_est - flight[i].body.w_WB_B;
+      return Eigen::Vector3d(sum / 50.0);
+    };
+    before2 += rate_error(0).squaredNorm();
+    after2 += rate_error(flight.size() - 50).squaredNorm();
+  }
+  EXPECT_LT(std::sqrt(after2), 0.35 * std::sqrt(before2));
+}
+
+}  // namespace
+}  // namespace hedgehop::dynamics
