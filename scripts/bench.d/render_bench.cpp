@@ -1,72 +1,146 @@
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <numbers>
 #include <opencv2/core.hpp>
+#include <utility>
+#include <vector>
 
 #include "scenes/generators.h"
 #include "sim/render/renderer.h"
 
+// Cities and a room beside their floor: one textured quad that fills the picture, as finely textured as trilinear
+// filtering is dear (between two mipmap levels), drawn in the same run.
 namespace hedgehop::sim {
 namespace {
 
-constexpr int kCameras = 5, kSide_px = 400;  // [Garratt2009] sec. 3.2
 constexpr double kPi = std::numbers::pi;
+const vision::PinholeCamera kCamera = vision::PinholeCamera::from_fov(400, 400, kPi / 2);  // [Garratt2009] sec. 3.2
+constexpr double kFlightHeightM = 10.0;
 
-// X_BC of a camera that looks forward in the body.
-Eigen::Isometry3d forward() {
-  Eigen::Isometry3d X_BC = Eigen::Isometry3d::Identity();
-  X_BC.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-  return X_BC;
+/// Camera looking along a heading, level.
+Eigen::Isometry3d level(double north_m, double east_m, double height_m, double heading_rad) {
+  Eigen::Isometry3d X_WC(Eigen::Translation3d(north_m, east_m, -height_m));
+  X_WC.linear() << -std::sin(heading_rad), 0, std::cos(heading_rad),  //
+      std::cos(heading_rad), 0, std::sin(heading_rad),                //
+      0, 1, 0;
+  return X_WC;
 }
 
-// Left, right, front, rear and down.
-Eigen::Isometry3d mount(int camera) {
-  using Eigen::AngleAxisd, Eigen::Vector3d;
-  if (camera == 4) return AngleAxisd(-kPi / 2, Vector3d::UnitY()) * forward();
-  const double headings[] = {-kPi / 2, kPi / 2, 0.0, kPi};
-  return AngleAxisd(headings[camera], Vector3d::UnitZ()) * forward();
+/// Straight down, north on top.
+Eigen::Isometry3d down(double north_m, double east_m, double height_m) {
+  Eigen::Isometry3d X_WC(Eigen::Translation3d(north_m, east_m, -height_m));
+  X_WC.linear() << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  return X_WC;
 }
 
-void draw_five(benchmark::State& state, const scenes::Scene& scene, bool only_down, Channel channel) {
-  Renderer renderer(scene);
-  const auto camera = vision::PinholeCamera::from_fov(kSide_px, kSide_px, kPi / 2);
-  cv::Mat picture;
-  double north_m = -130.0;
-  for (auto _ : state) {
-    north_m = north_m < 110.0 ? north_m + 0.5 : -130.0;
-    for (int i = 0; i < kCameras; ++i) {
-      const Eigen::Isometry3d X_WB(Eigen::Translation3d(north_m, 80.0, -10.0));
-      renderer.draw({camera, X_WB * mount(only_down ? 4 : i), channel}, picture);
-      benchmark::DoNotOptimize(picture.data);
+/// Eight headings at each of six crossings near the middle, the same for every size of city.
+std::vector<Eigen::Isometry3d> street_views(double height_m) {
+  std::vector<Eigen::Isometry3d> poses;
+  for (const double north_m : {-60.0, 0.0, 60.0}) {
+    for (const double east_m : {-30.0, 30.0}) {
+      for (int k = 0; k < 8; ++k) poses.push_back(level(north_m, east_m, height_m, k * kPi / 4 + 0.1));
     }
   }
+  return poses;
 }
 
-void FiveCamerasInTheCity(benchmark::State& state) {
-  draw_five(state, scenes::make_scene(scenes::UrbanConfig{}, 1), false, static_cast<Channel>(state.range(0)));
+/// Left, right, front, rear and down, all along a flight.
+std::vector<Eigen::Isometry3d> five_cameras_in_flight() {
+  std::vector<Eigen::Isometry3d> poses;
+  for (double north_m = -130.0; north_m <= 110.0; north_m += 20.0) {
+    for (int k = 0; k < 4; ++k) poses.push_back(level(north_m, 80.0, kFlightHeightM, k * kPi / 2));
+    poses.push_back(down(north_m, 80.0, kFlightHeightM));
+  }
+  return poses;
 }
-BENCHMARK(FiveCamerasInTheCity)->Unit(benchmark::kMillisecond)->DenseRange(0, 2)->ArgName("grey0_color1_depth2");
 
-// As many pixels of one textured plane: nothing hidden behind anything, nothing to choose.
-void FiveCamerasInTheCityFloor(benchmark::State& state) {
-  scenes::Scene plane;
-  cv::Mat texture(512, 512, CV_8UC3);
-  cv::randu(texture, 0, 255);
-  plane.textures = {texture};
-  scenes::Mesh mesh;
+std::vector<Eigen::Isometry3d> room_views() {
+  std::vector<Eigen::Isometry3d> poses;
+  for (int k = 0; k < 8; ++k) poses.push_back(level(-1.0, 0.5, 1.5, k * kPi / 4));
+  return poses;
+}
+
+const scenes::Scene& city(double extent_m) {
+  const auto make = [](double extent) {
+    scenes::UrbanConfig config;
+    config.extent_m = extent;
+    return scenes::make_scene(config, 1);
+  };
+  static const scenes::Scene small = make(300.0), large = make(3000.0);  // some 100 and 10,000 buildings
+  return extent_m > 300.0 ? large : small;
+}
+
+/// A plane 10 m below the eye with a number of texels to each pixel.
+scenes::Scene quad(double texels_per_pixel) {
+  scenes::Scene scene;
+  scene.textures = {city(300.0).textures.front()};
+  const double texels_per_m = texels_per_pixel * kCamera.focal_x_px / kFlightHeightM;
+  const float half_m = 50.0f, repeats = static_cast<float>(texels_per_m * 50.0 / scene.textures.front().cols);
+  scenes::Mesh& mesh = scene.meshes.emplace_back();
   mesh.material = "opaque";
   for (const auto& [north, east] : {std::pair{-1.f, -1.f}, {-1.f, 1.f}, {1.f, 1.f}, {1.f, -1.f}}) {
-    scenes::Vertex corner;
-    corner.p_W = {300.f * north, 300.f * east, 0.f};
-    corner.uv = {60.f * north, 60.f * east};
-    mesh.vertices.push_back(corner);
+    scenes::Vertex& corner = mesh.vertices.emplace_back();
+    corner.p_W = {half_m * north, half_m * east, 0.f};
+    corner.uv = {repeats * north, repeats * east};
   }
   mesh.indices = {0, 1, 2, 0, 2, 3};
   mesh.chunks = {{Eigen::AlignedBox3f(mesh.vertices[0].p_W, mesh.vertices[2].p_W), 0, 6, false}};
-  plane.meshes = {mesh};
-  draw_five(state, plane, true, static_cast<Channel>(state.range(0)));
+  return scene;
 }
-BENCHMARK(FiveCamerasInTheCityFloor)->Unit(benchmark::kMillisecond)->DenseRange(0, 2)->ArgName("grey0_color1_depth2");
+
+/// Time of one picture, the mean over the poses.
+void draw(benchmark::State& state, const scenes::Scene& scene, const std::vector<Eigen::Isometry3d>& poses) {
+  const auto channel = static_cast<Channel>(state.range(0));
+  Renderer renderer(scene);
+  cv::Mat picture;
+  double chunks = 0.0, triangles = 0.0;
+  const auto pictures = static_cast<int64_t>(poses.size());
+  while (state.KeepRunningBatch(pictures)) {
+    for (const Eigen::Isometry3d& X_WC : poses) {
+      renderer.draw({kCamera, X_WC, channel}, picture);
+      benchmark::DoNotOptimize(picture.data);
+      chunks += static_cast<double>(renderer.drawn().chunks);
+      triangles += static_cast<double>(renderer.drawn().triangles);
+    }
+  }
+  state.counters["chunks"] = benchmark::Counter(chunks, benchmark::Counter::kAvgIterations);
+  state.counters["triangles"] = benchmark::Counter(triangles, benchmark::Counter::kAvgIterations);
+}
+
+void City(benchmark::State& state) { draw(state, city(300.0), street_views(kFlightHeightM)); }
+void CityFloor(benchmark::State& state) { draw(state, quad(1.6), {down(0, 0, kFlightHeightM)}); }
+// The small city is the large one's floor: what cannot be seen should cost nothing.
+void LargeCity(benchmark::State& state) { draw(state, city(3000.0), street_views(kFlightHeightM)); }
+void LargeCityFloor(benchmark::State& state) { City(state); }
+void LargeCityAboveRoofs(benchmark::State& state) { draw(state, city(3000.0), street_views(60.0)); }
+void LargeCityAboveRoofsFloor(benchmark::State& state) { draw(state, city(300.0), street_views(60.0)); }
+void FiveCamerasInFlight(benchmark::State& state) { draw(state, city(300.0), five_cameras_in_flight()); }
+void FiveCamerasInFlightFloor(benchmark::State& state) { CityFloor(state); }
+void Room(benchmark::State& state) { draw(state, scenes::make_scene(scenes::RoomConfig{}, 1), room_views()); }
+void RoomFloor(benchmark::State& state) { CityFloor(state); }
+// Nothing to filter between levels: the cheapest textured picture there is.
+void MagnifiedQuad(benchmark::State& state) { draw(state, quad(0.8), {down(0, 0, kFlightHeightM)}); }
+void MagnifiedQuadFloor(benchmark::State& state) { CityFloor(state); }
+
+void grey(benchmark::internal::Benchmark* b) {
+  b->ArgName("grey")->Arg(0)->Unit(benchmark::kMillisecond)->MinTime(0.1);
+}
+void all_channels(benchmark::internal::Benchmark* b) {
+  b->ArgName("grey0_color1_depth2")->DenseRange(0, 2)->Unit(benchmark::kMillisecond)->MinTime(0.1);
+}
+BENCHMARK(City)->Apply(all_channels);
+BENCHMARK(CityFloor)->Apply(all_channels);
+BENCHMARK(LargeCity)->Apply(grey);
+BENCHMARK(LargeCityFloor)->Apply(grey);
+BENCHMARK(LargeCityAboveRoofs)->Apply(grey);
+BENCHMARK(LargeCityAboveRoofsFloor)->Apply(grey);
+BENCHMARK(FiveCamerasInFlight)->Apply(grey);
+BENCHMARK(FiveCamerasInFlightFloor)->Apply(grey);
+BENCHMARK(Room)->Apply(grey);
+BENCHMARK(RoomFloor)->Apply(grey);
+BENCHMARK(MagnifiedQuad)->Apply(grey);
+BENCHMARK(MagnifiedQuadFloor)->Apply(grey);
 
 }  // namespace
 }  // namespace hedgehop::sim

@@ -3,57 +3,86 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace hedgehop::sim {
 
 namespace {
 
-constexpr int kBins = 2048;  // of at most 0.22 deg
+constexpr int kBins = 2048;  // of at most 0.22 deg; the four cardinal directions are edges of bins
 constexpr int kBinMask = kBins - 1;
-constexpr double kNothing = -std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // The rasteriser's 1/256 pixel and the float geometry are far below these.
-constexpr double kInsetM = 0.02;        // a hiding box counts as this much smaller in plan
-constexpr double kSlackRad = 1e-3;      // and this much lower
-constexpr double kTooNearM = 1.0;       // the near plane may cut a nearer box open
-constexpr double kBinChord = 0.999995;  // at most cos(half a bin): a bin's middle is nearer than the chord of its ends
+constexpr double kInsetM = 0.02;    // a hiding box counts as this much smaller in plan
+constexpr double kSlackRad = 1e-3;  // and this much lower
+constexpr double kTooNearM = 1.0;   // the near plane may cut a nearer box open
+
+// The reciprocal of the distance to a side of a box is a sinusoid of the azimuth, concave where it is positive: within
+// a bin it is at least the lower of its values at the bin's edges, and at most the higher one divided by this, which is
+// less than the cosine of half a bin.
+constexpr double kChord = 0.999995;
 
 /// Grows with the angle from north to east: 0 north, 1 east, 2 south, 3 west, 4 north again.
-double square_angle(double north, double east) {
-  const double p = north / (std::abs(north) + std::abs(east));
-  return east >= 0.0 ? 1.0 - p : 3.0 + p;
+double square_angle(const Eigen::Vector2d& direction) {
+  const double p = direction.x() / (std::abs(direction.x()) + std::abs(direction.y()));
+  return direction.y() >= 0.0 ? 1.0 - p : 3.0 + p;
 }
 
-struct Crossing {
-  double in_m = 0.0, out_m = 0.0;
-};
-
-/// Where a ray from the origin enters and leaves a rectangle that it crosses.
-Crossing cross(const Eigen::AlignedBox2d& plan, const Eigen::Vector2d& direction) {
-  Crossing crossing{0.0, std::numeric_limits<double>::infinity()};
+/// 1 / distance at which a ray from the origin gets past the sides across north and east that face it; a ray is in the
+/// box from the smaller on. Infinite for an axis along which the origin lies between the sides.
+Eigen::Array2d enter(const Eigen::AlignedBox2d& plan, const Eigen::Array2d& direction) {
+  Eigen::Array2d reciprocal;
   for (int i = 0; i < 2; ++i) {
-    if (direction[i] == 0.0) continue;
-    const double a = plan.min()[i] / direction[i], b = plan.max()[i] / direction[i];
-    crossing.in_m = std::max(crossing.in_m, std::min(a, b));
-    crossing.out_m = std::min(crossing.out_m, std::max(a, b));
+    const double side_m = plan.min()[i] > 0.0 ? plan.min()[i] : plan.max()[i] < 0.0 ? plan.max()[i] : 0.0;
+    reciprocal[i] = side_m != 0.0 ? direction[i] / side_m : kInfinity;
   }
-  return crossing;
+  return reciprocal;
+}
+
+/// The same for the sides that face away: a ray is in the box until the larger.
+Eigen::Array2d leave(const Eigen::AlignedBox2d& plan, const Eigen::Array2d& direction) {
+  Eigen::Array2d reciprocal;
+  for (int i = 0; i < 2; ++i) {
+    const double after_max = plan.max()[i] > 0.0 ? direction[i] / plan.max()[i] : 0.0;
+    const double after_min = plan.min()[i] < 0.0 ? direction[i] / plan.min()[i] : 0.0;
+    reciprocal[i] = std::max(after_max, after_min);
+  }
+  return reciprocal;
 }
 
 }  // namespace
 
-Horizon::Horizon() : slope_(kBins, kNothing) {
-  for (int bin = 0; bin <= kBins; ++bin) {
+Horizon::Horizon() : bins_(kBins) {
+  for (int bin = 0; bin < kBins; ++bin) {
     const double angle = 4.0 * bin / kBins;
     const double north = angle <= 2.0 ? 1.0 - angle : angle - 3.0;
     const double east = angle <= 2.0 ? 1.0 - std::abs(north) : std::abs(north) - 1.0;
-    edge_dir_.push_back(Eigen::Vector2d(north, east).normalized());
+    edges_.push_back(Eigen::Vector2d(north, east).normalized());
   }
 }
 
 void Horizon::reset(const Eigen::Vector3d& eye_W) {
   eye_W_ = eye_W;
-  std::fill(slope_.begin(), slope_.end(), kNothing);
+  look_first_ = 0;
+  look_count_ = kBins;
+  std::ranges::fill(bins_, Bin{{-kInfinity, 0.0}, {-kInfinity, 0.0}});
 }
+
+void Horizon::look(const std::array<Eigen::Vector3d, 4>& corner_rays_W) {
+  std::array<Eigen::Vector2d, 4> directions;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (size_t i = 0; i < directions.size(); ++i) {
+    directions[i] = corner_rays_W[i].head<2>();
+    middle += directions[i];
+  }
+  // A picture that shows the zenith or the nadir shows all azimuths: its corners do not fit into half a turn.
+  const Span azimuths = span(middle, directions);
+  if (!(azimuths.last - azimuths.first < kBins / 2)) return;
+  look_first_ = static_cast<int>(std::floor(azimuths.first));
+  look_count_ = static_cast<int>(std::floor(azimuths.last)) - look_first_ + 1;
+}
+
+bool Horizon::looks_at(int bin) const { return ((bin - look_first_) & kBinMask) < look_count_; }
 
 Eigen::AlignedBox2d Horizon::plan(const Eigen::AlignedBox3f& box_W) const {
   return {box_W.min().head<2>().cast<double>() - eye_W_.head<2>(),
@@ -64,59 +93,75 @@ double Horizon::nearest_m(const Eigen::AlignedBox3f& box_W) const {
   return plan(box_W).exteriorDistance(Eigen::Vector2d::Zero());
 }
 
-double Horizon::farthest_m(const Eigen::AlignedBox3f& box_W) const {
-  const Eigen::AlignedBox2d box = plan(box_W);
-  return box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).norm();
+Horizon::Span Horizon::span(const Eigen::Vector2d& middle, const std::array<Eigen::Vector2d, 4>& directions) {
+  const double middle_angle = square_angle(middle);
+  double first = 0.0, last = 0.0;
+  for (const Eigen::Vector2d& direction : directions) {
+    double turn = square_angle(direction) - middle_angle;
+    if (turn > 2.0) turn -= 4.0;
+    if (turn < -2.0) turn += 4.0;
+    first = std::min(first, turn);
+    last = std::max(last, turn);
+  }
+  constexpr double kBinsPerSide = kBins / 4.0;
+  return {(middle_angle + first) * kBinsPerSide, (middle_angle + last) * kBinsPerSide};
 }
 
 Horizon::Span Horizon::span(const Eigen::AlignedBox2d& plan) {
-  const Eigen::Vector2d center = plan.center();
-  const double middle = square_angle(center.x(), center.y());
-  double first = 0.0, last = 0.0;
-  for (const double north : {plan.min().x(), plan.max().x()}) {
-    for (const double east : {plan.min().y(), plan.max().y()}) {
-      double turn = square_angle(north, east) - middle;
-      if (turn > 2.0) turn -= 4.0;
-      if (turn < -2.0) turn += 4.0;
-      first = std::min(first, turn);
-      last = std::max(last, turn);
-    }
-  }
-  constexpr double kBinsPerTurn = kBins / 4.0;
-  return {(middle + first) * kBinsPerTurn, (middle + last) * kBinsPerTurn};
+  using enum Eigen::AlignedBox2d::CornerType;
+  return span(plan.center(),
+              {plan.corner(BottomLeft), plan.corner(BottomRight), plan.corner(TopLeft), plan.corner(TopRight)});
 }
 
 void Horizon::raise(const Eigen::AlignedBox3f& box_W) {
   Eigen::AlignedBox2d box = plan(box_W);
   box.min().array() += kInsetM;
   box.max().array() -= kInsetM;
-  const bool eye_below_ground = eye_W_.z() > static_cast<double>(box_W.max().z());
+  const bool eye_below_ground = height_above_eye_m(box_W.max().z()) > 0.0;
   if (box.isEmpty() || eye_below_ground || box.exteriorDistance(Eigen::Vector2d::Zero()) < kTooNearM) return;
 
   // A ray in a bin that lies wholly within the box's azimuths meets the box when it passes below the edge of the roof:
-  // the near one seen from below, the far one seen from above. Its distance is bounded by those at the bin's ends.
-  const double top_m = eye_W_.z() - static_cast<double>(box_W.min().z());
+  // the near one seen from below, the far one seen from above.
+  const double top_m = height_above_eye_m(box_W.min().z());
   const Span azimuths = span(box);
   const int first = static_cast<int>(std::ceil(azimuths.first)), last = static_cast<int>(std::floor(azimuths.last));
   for (int bin = first; bin < last; ++bin) {
-    const Crossing a = cross(box, edge_dir_[static_cast<size_t>(bin & kBinMask)]);
-    const Crossing b = cross(box, edge_dir_[static_cast<size_t>((bin + 1) & kBinMask)]);
-    const double edge_m = top_m > 0.0 ? std::max(a.in_m, b.in_m) : std::min(a.out_m, b.out_m) * kBinChord;
-    const double slope = top_m / edge_m;
-    double& highest = slope_[static_cast<size_t>(bin & kBinMask)];
-    highest = std::max(highest, slope - kSlackRad * (1.0 + slope * slope));
+    if (!looks_at(bin)) continue;
+    const Eigen::Array2d& a = edges_[static_cast<size_t>(bin & kBinMask)];
+    const Eigen::Array2d& b = edges_[static_cast<size_t>((bin + 1) & kBinMask)];
+    Screen screen;
+    if (top_m > 0.0) {
+      const double edge = enter(box, a).min(enter(box, b)).minCoeff();
+      screen = {top_m * edge, 1.0 / edge};
+    } else {
+      const Eigen::Array2d at_a = leave(box, a), at_b = leave(box, b);
+      screen = {top_m * at_a.max(at_b).maxCoeff() / kChord, 1.0 / at_a.min(at_b).maxCoeff()};
+    }
+    screen.slope -= kSlackRad * (1.0 + screen.slope * screen.slope);
+    Bin& kept = bins_[static_cast<size_t>(bin & kBinMask)];
+    if (screen.slope > kept.highest.slope) std::swap(screen, kept.highest);
+    if (screen.slope > kept.second.slope) kept.second = screen;
   }
 }
 
 bool Horizon::hides(const Eigen::AlignedBox3f& box_W) const {
-  const double nearest = nearest_m(box_W);
-  if (nearest <= 0.0) return false;
-  const double top_m = eye_W_.z() - static_cast<double>(box_W.min().z());
-  const double slope = top_m / (top_m > 0.0 ? nearest : farthest_m(box_W));
-  const Span azimuths = span(plan(box_W));
+  const Eigen::AlignedBox2d box = plan(box_W);
+  const double nearest_m = box.exteriorDistance(Eigen::Vector2d::Zero());
+  if (nearest_m <= 0.0) return false;
+  const double farthest_m = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).norm();
+  const double top_m = height_above_eye_m(box_W.min().z());
+  const Span azimuths = span(box);
   const int first = static_cast<int>(std::floor(azimuths.first)), last = static_cast<int>(std::floor(azimuths.last));
   for (int bin = first; bin <= last; ++bin) {
-    if (!(slope_[static_cast<size_t>(bin & kBinMask)] > slope)) return false;
+    if (!looks_at(bin)) continue;
+    const Eigen::Array2d& a = edges_[static_cast<size_t>(bin & kBinMask)];
+    const Eigen::Array2d& b = edges_[static_cast<size_t>((bin + 1) & kBinMask)];
+    const double reciprocal = enter(box, a).max(enter(box, b)).minCoeff() / kChord;
+    const double near_m = reciprocal > 0.0 ? std::max(nearest_m, 1.0 / reciprocal) : nearest_m;
+    const double slope = top_m / (top_m > 0.0 ? near_m : farthest_m);
+    const auto hidden_by = [&](const Screen& screen) { return slope < screen.slope && near_m >= screen.from_m; };
+    const Bin& kept = bins_[static_cast<size_t>(bin & kBinMask)];
+    if (!hidden_by(kept.highest) && !hidden_by(kept.second)) return false;
   }
   return true;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <vector>
 
 namespace hedgehop::sim {
@@ -11,31 +12,45 @@ class Horizon {
  public:
   Horizon();
 
-  /// Forgets all boxes. @param eye_W  m.
+  /// Forgets all boxes, and looks all around. @param eye_W  m.
   void reset(const Eigen::Vector3d& eye_W);
+
+  /// Looks only at the azimuths that a picture shows. @param corner_rays_W  through its corners, of any length.
+  void look(const std::array<Eigen::Vector3d, 4>& corner_rays_W);
 
   /// Adds a box that is solid from its top down to the ground. Ignored with the eye above, inside, or nearer than 1 m.
   void raise(const Eigen::AlignedBox3f& box_W);
 
-  /// True when no point of the box can be seen past the boxes raised so far, all of which must be nearer in plan: their
-  /// farthest_m() at most this box's nearest_m().
+  /// True when no point of the box can be seen past the boxes raised so far, at the azimuths looked at.
   bool hides(const Eigen::AlignedBox3f& box_W) const;
 
-  /// Plan distance from the eye to the box's nearest and farthest point, m.
+  /// Plan distance from the eye to the box's nearest point, m.
   double nearest_m(const Eigen::AlignedBox3f& box_W) const;
-  double farthest_m(const Eigen::AlignedBox3f& box_W) const;
 
  private:
+  /// A stretch of azimuths, in bins from north; first >= -kBins.
   struct Span {
-    double first = 0.0, last = 0.0;  ///< in bins from azimuth north, first <= last, first in (-kBins, kBins)
+    double first = 0.0, last = 0.0;
   };
+  /// Hides what is no nearer than from_m in plan and below a slope, the tangent of the elevation.
+  struct Screen {
+    double slope = 0.0, from_m = 0.0;
+  };
+  struct Bin {
+    Screen highest, second;
+  };
+
+  static Span span(const Eigen::Vector2d& middle, const std::array<Eigen::Vector2d, 4>& directions);
   /// Azimuths of a rectangle that does not hold the origin, as seen from there.
   static Span span(const Eigen::AlignedBox2d& plan);
   Eigen::AlignedBox2d plan(const Eigen::AlignedBox3f& box_W) const;
+  double height_above_eye_m(float down_m) const { return eye_W_.z() - static_cast<double>(down_m); }
+  bool looks_at(int bin) const;
 
   Eigen::Vector3d eye_W_ = Eigen::Vector3d::Zero();
-  std::vector<double> slope_;              ///< tan of the elevation below which all is hidden, per bin
-  std::vector<Eigen::Vector2d> edge_dir_;  ///< unit vector of each bin's first edge
+  int look_first_ = 0, look_count_ = 0;
+  std::vector<Bin> bins_;
+  std::vector<Eigen::Array2d> edges_;  ///< unit vector of each bin's first edge
 };
 
 }  // namespace hedgehop::sim

@@ -10,7 +10,7 @@ namespace hedgehop::sim {
 /// A scene in a context's memory. All meshes share one vertex and one index buffer, so that one call draws any of them.
 struct SceneBuffers {
   GLuint vertex_array = 0;
-  GLuint textures = 0;                ///< GL_TEXTURE_2D_ARRAY, RGBA8, with the mean of R, G and B in A
+  GLuint textures = 0;                ///< GL_TEXTURE_2D_ARRAY, RGBA8
   std::vector<scenes::Chunk> chunks;  ///< first_index counts in the shared index buffer
 };
 

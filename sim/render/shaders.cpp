@@ -20,25 +20,29 @@ layout(location = 1) in vec4 surface;
 uniform vec3 eye_W, eye_low_C;
 uniform mat3 rotation;
 uniform vec4 lens;
-out vec4 coordinates;
+out vec3 coordinates;  // u, v, brightness
+flat out float layer;
 void main() {
   vec3 p_C = rotation * (p_W - eye_W) - eye_low_C;
   gl_Position = vec4(lens.xy * p_C.xy + lens.zw * p_C.z, near, p_C.z);
-  coordinates = surface;
+  coordinates = surface.xyz;
+  layer = surface.w;
 }
 )";
 
-constexpr const char* kColorFragment = R"(in vec4 coordinates;
+constexpr const char* kColorFragment = R"(in vec3 coordinates;
+flat in float layer;
 uniform sampler2DArray textures;
 out vec4 pixel;
-void main() { pixel = texture(textures, coordinates.xyw) * coordinates.z; }
+void main() { pixel = texture(textures, vec3(coordinates.xy, layer)) * coordinates.z; }
 )";
 
 constexpr const char* kGreyFragment = R"(
-in vec4 coordinates;
+in vec3 coordinates;
+flat in float layer;
 uniform sampler2DArray textures;
 out float pixel;
-void main() { pixel = dot(texture(textures, coordinates.xyw).rgb, vec3(coordinates.z / 3.0)); }
+void main() { pixel = dot(texture(textures, vec3(coordinates.xy, layer)).rgb, vec3(coordinates.z / 3.0)); }
 )";
 
 constexpr const char* kDepthFragment = R"(out float z_C;

@@ -14,7 +14,7 @@ struct Program {
 inline constexpr GLuint kPositionAttribute = 0;  ///< p_W, m
 inline constexpr GLuint kSurfaceAttribute = 1;   ///< u, v, brightness 0..1, texture layer
 
-/// Textured and lit surfaces, from the bound array of textures: RGB, or grey from the fourth channel. Each throws
+/// Textured and lit surfaces, from the bound array of textures: RGB, or the mean of its channels. Each throws
 /// std::runtime_error with the compiler's words when it does not compile.
 Program color_program(const GlFunctions& gl);
 Program grey_program(const GlFunctions& gl);

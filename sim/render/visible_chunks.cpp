@@ -1,6 +1,7 @@
 #include "sim/render/visible_chunks.h"
 
 #include <algorithm>
+#include <array>
 #include <tuple>
 #include <utility>
 
@@ -18,6 +19,15 @@ std::vector<Eigen::AlignedBox3f> boxes(const std::vector<scenes::Chunk>& chunks)
   return boxes_W;
 }
 
+/// In W, a pixel outside the picture's outermost.
+std::array<Eigen::Vector3d, 4> corner_rays(const CameraView& view) {
+  const auto ray = [&](double u_px, double v_px) -> Eigen::Vector3d {
+    return view.X_WC.linear() * view.camera.ray({u_px, v_px});
+  };
+  const double right_px = view.camera.width_px + 0.5, bottom_px = view.camera.height_px + 0.5;
+  return {ray(-1.5, -1.5), ray(right_px, -1.5), ray(-1.5, bottom_px), ray(right_px, bottom_px)};
+}
+
 }  // namespace
 
 /// Orders a heap so that its top is the nearest; ties go by index.
@@ -29,25 +39,16 @@ struct VisibleChunks::Farther {
 
 VisibleChunks::VisibleChunks(std::vector<scenes::Chunk> chunks) : chunks_(std::move(chunks)), tree_(boxes(chunks_)) {
   queue_.reserve(chunks_.size());
-  pending_.reserve(chunks_.size());
   upright_.reserve(chunks_.size());
   flat_.reserve(chunks_.size());
-}
-
-void VisibleChunks::raise_passed(double distance_m) {
-  while (!pending_.empty() && pending_.front().distance_m <= distance_m) {
-    horizon_.raise(chunks_[pending_.front().index].box_W);
-    std::pop_heap(pending_.begin(), pending_.end(), Farther{});
-    pending_.pop_back();
-  }
 }
 
 std::span<const scenes::Chunk> VisibleChunks::find(const CameraView& view, Culling culling) {
   const Frustum frustum(view.camera, view.X_WC, kNearPlaneM);
   const bool use_horizon = culling == Culling::frustum_and_horizon;
   horizon_.reset(view.X_WC.translation());
+  horizon_.look(corner_rays(view));
   queue_.clear();
-  pending_.clear();
   upright_.clear();
   flat_.clear();
   const auto push = [&](uint32_t node) {
@@ -63,10 +64,7 @@ std::span<const scenes::Chunk> VisibleChunks::find(const CameraView& view, Culli
     std::pop_heap(queue_.begin(), queue_.end(), Farther{});
     queue_.pop_back();
     const ChunkTree::Node& node = tree_.nodes()[nearest.index];
-    if (use_horizon) {
-      raise_passed(nearest.distance_m);
-      if (horizon_.hides(node.box_W)) continue;
-    }
+    if (use_horizon && horizon_.hides(node.box_W)) continue;
     if (node.first_child != 0) {
       push(node.first_child);
       push(node.first_child + 1);
@@ -74,10 +72,7 @@ std::span<const scenes::Chunk> VisibleChunks::find(const CameraView& view, Culli
     }
     const scenes::Chunk& chunk = chunks_[node.chunk];
     (chunk.box_W.sizes().z() <= kFlatM ? flat_ : upright_).push_back(chunk);
-    if (use_horizon && chunk.fills_box_to_ground) {
-      pending_.push_back({horizon_.farthest_m(chunk.box_W), node.chunk});
-      std::push_heap(pending_.begin(), pending_.end(), Farther{});
-    }
+    if (use_horizon && chunk.fills_box_to_ground) horizon_.raise(chunk.box_W);
   }
   upright_.insert(upright_.end(), flat_.begin(), flat_.end());
   return upright_;

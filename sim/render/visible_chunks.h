@@ -28,13 +28,10 @@ class VisibleChunks {
   };
   struct Farther;
 
-  void raise_passed(double distance_m);
-
   std::vector<scenes::Chunk> chunks_;
   ChunkTree tree_;
   Horizon horizon_;
-  std::vector<Ranked> queue_;    ///< heap of nodes, nearest on top
-  std::vector<Ranked> pending_;  ///< heap of chunks that hide what is beyond their farthest point, nearest on top
+  std::vector<Ranked> queue_;  ///< heap of nodes, nearest on top
   std::vector<scenes::Chunk> upright_, flat_;
 };
 

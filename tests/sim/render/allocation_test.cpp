@@ -1,0 +1,44 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "tests/sim/render/small_world.h"
+
+namespace {
+std::atomic<size_t> allocations = 0;
+}
+
+void* operator new(size_t size) {
+  ++allocations;
+  if (void* const memory = std::malloc(size > 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, size_t) noexcept { std::free(memory); }
+
+namespace hedgehop::sim {
+namespace {
+
+TEST(Renderer, AllocatesNothingForAPictureOfASizeSeenBefore) {
+  const SmallWorld city = small_city(8, 91);
+  Renderer renderer(city.scene);
+  const auto camera = vision::PinholeCamera::from_fov(120, 90, 1.2);
+  std::array<cv::Mat, 3> pictures;
+  const auto draw_some = [&](uint64_t seed) {
+    std::mt19937_64 random(seed);
+    for (size_t i = 0; i < 60; ++i) {
+      const CameraView view{camera, random_pose(random, 150.0, 60.0, 0.7), static_cast<Channel>(i % 3)};
+      renderer.draw(view, pictures[i % 3]);
+    }
+  };
+  draw_some(92);  // Mesa translates the shaders, too
+  const size_t before = allocations;
+  draw_some(93);
+  EXPECT_EQ(allocations - before, 0u);
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
