@@ -70,12 +70,11 @@ Inflow solve_inflow(const RotorDisc& disc, double collective_rad, double upflow_
   Balance b = balance(disc, blade_mps, upflow, inplane_mps, v_i);
   for (int i = 0; i < kMostIterations; ++i) {
     (b.residual > 0.0 ? high : low) = v_i;
-    double next = v_i - b.residual / b.slope;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    const double change = std::abs(next - v_i);
-    v_i = next;
+    const double step = b.residual / b.slope;
+    if (std::abs(step) <= kTolerance * blade_mps) break;
+    v_i -= step;
+    if (!(v_i > low && v_i < high)) v_i = 0.5 * (low + high);
     b = balance(disc, blade_mps, upflow, inplane_mps, v_i);
-    if (change <= kTolerance * blade_mps) break;
   }
   return {sign * b.thrust, sign * v_i, upflow <= b.upflow_limit};
 }
