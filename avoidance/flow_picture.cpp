@@ -1,6 +1,7 @@
 #include "avoidance/flow_picture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "vision/draw_flow.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/core/hal/intrin.hpp>
 
 namespace hedgehop::vision {
