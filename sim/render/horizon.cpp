@@ -28,27 +28,31 @@ double square_angle(const Eigen::Vector2d& direction) {
   return direction.y() >= 0.0 ? 1.0 - p : 3.0 + p;
 }
 
-/// 1 / distance at which a ray from the origin gets past the sides across north and east that face it; a ray is in the
-/// box from the smaller on. Infinite for an axis along which the origin lies between the sides.
-Eigen::Array2d enter(const Eigen::AlignedBox2d& plan, const Eigen::Array2d& direction) {
-  Eigen::Array2d reciprocal;
-  for (int i = 0; i < 2; ++i) {
-    const double side_m = plan.min()[i] > 0.0 ? plan.min()[i] : plan.max()[i] < 0.0 ? plan.max()[i] : 0.0;
-    reciprocal[i] = side_m != 0.0 ? direction[i] / side_m : kInfinity;
+/// 1 / distance at which rays from the origin meet the sides of a rectangle, across north and across east.
+class Sides {
+ public:
+  /// @param plan  does not hold the origin.
+  explicit Sides(const Eigen::AlignedBox2d& plan) {
+    for (int i = 0; i < 2; ++i) {
+      const double low_m = plan.min()[i], high_m = plan.max()[i];
+      enter_[i] = low_m > 0.0 ? 1.0 / low_m : high_m < 0.0 ? 1.0 / high_m : 0.0;
+      inside_[i] = enter_[i] == 0.0 ? kInfinity : 0.0;
+      leave_high_[i] = high_m > 0.0 ? 1.0 / high_m : 0.0;
+      leave_low_[i] = low_m < 0.0 ? 1.0 / low_m : 0.0;
+    }
   }
-  return reciprocal;
-}
 
-/// The same for the sides that face away: a ray is in the box until the larger.
-Eigen::Array2d leave(const Eigen::AlignedBox2d& plan, const Eigen::Array2d& direction) {
-  Eigen::Array2d reciprocal;
-  for (int i = 0; i < 2; ++i) {
-    const double after_max = plan.max()[i] > 0.0 ? direction[i] / plan.max()[i] : 0.0;
-    const double after_min = plan.min()[i] < 0.0 ? direction[i] / plan.min()[i] : 0.0;
-    reciprocal[i] = std::max(after_max, after_min);
+  /// Of the sides that face the origin: a ray is in the rectangle from the smaller of the two on. Infinite for an axis
+  /// along which the origin lies between the sides.
+  Eigen::Array2d enter(const Eigen::Array2d& direction) const { return direction * enter_ + inside_; }
+  /// Of the sides that face away: a ray is in the rectangle up to the larger of the two.
+  Eigen::Array2d leave(const Eigen::Array2d& direction) const {
+    return (direction * leave_high_).max(direction * leave_low_);
   }
-  return reciprocal;
-}
+
+ private:
+  Eigen::Array2d enter_, inside_, leave_high_, leave_low_;
+};
 
 }  // namespace
 
@@ -81,6 +85,8 @@ void Horizon::look(const std::array<Eigen::Vector3d, 4>& corner_rays_W) {
   look_first_ = static_cast<int>(std::floor(azimuths.first));
   look_count_ = static_cast<int>(std::floor(azimuths.last)) - look_first_ + 1;
 }
+
+const Eigen::Array2d& Horizon::edge(int bin) const { return edges_[static_cast<size_t>(bin & kBinMask)]; }
 
 bool Horizon::looks_at(int bin) const { return ((bin - look_first_) & kBinMask) < look_count_; }
 
@@ -123,19 +129,20 @@ void Horizon::raise(const Eigen::AlignedBox3f& box_W) {
   // A ray in a bin that lies wholly within the box's azimuths meets the box when it passes below the edge of the roof:
   // the near one seen from below, the far one seen from above.
   const double top_m = height_above_eye_m(box_W.min().z());
+  const Sides sides(box);
   const Span azimuths = span(box);
   const int first = static_cast<int>(std::ceil(azimuths.first)), last = static_cast<int>(std::floor(azimuths.last));
   for (int bin = first; bin < last; ++bin) {
     if (!looks_at(bin)) continue;
-    const Eigen::Array2d& a = edges_[static_cast<size_t>(bin & kBinMask)];
-    const Eigen::Array2d& b = edges_[static_cast<size_t>((bin + 1) & kBinMask)];
+    const Eigen::Array2d &a = edge(bin), &b = edge(bin + 1);
     Screen screen;
     if (top_m > 0.0) {
-      const double edge = enter(box, a).min(enter(box, b)).minCoeff();
-      screen = {top_m * edge, 1.0 / edge};
+      screen.reciprocal_pm = sides.enter(a).min(sides.enter(b)).minCoeff();
+      screen.slope = top_m * screen.reciprocal_pm;
     } else {
-      const Eigen::Array2d at_a = leave(box, a), at_b = leave(box, b);
-      screen = {top_m * at_a.max(at_b).maxCoeff() / kChord, 1.0 / at_a.min(at_b).maxCoeff()};
+      const Eigen::Array2d at_a = sides.leave(a), at_b = sides.leave(b);
+      screen.reciprocal_pm = at_a.min(at_b).maxCoeff();
+      screen.slope = top_m * at_a.max(at_b).maxCoeff() / kChord;
     }
     screen.slope -= kSlackRad * (1.0 + screen.slope * screen.slope);
     Bin& kept = bins_[static_cast<size_t>(bin & kBinMask)];
@@ -150,16 +157,17 @@ bool Horizon::hides(const Eigen::AlignedBox3f& box_W) const {
   if (nearest_m <= 0.0) return false;
   const double farthest_m = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).norm();
   const double top_m = height_above_eye_m(box_W.min().z());
+  const Sides sides(box);
   const Span azimuths = span(box);
   const int first = static_cast<int>(std::floor(azimuths.first)), last = static_cast<int>(std::floor(azimuths.last));
   for (int bin = first; bin <= last; ++bin) {
     if (!looks_at(bin)) continue;
-    const Eigen::Array2d& a = edges_[static_cast<size_t>(bin & kBinMask)];
-    const Eigen::Array2d& b = edges_[static_cast<size_t>((bin + 1) & kBinMask)];
-    const double reciprocal = enter(box, a).max(enter(box, b)).minCoeff() / kChord;
-    const double near_m = reciprocal > 0.0 ? std::max(nearest_m, 1.0 / reciprocal) : nearest_m;
-    const double slope = top_m / (top_m > 0.0 ? near_m : farthest_m);
-    const auto hidden_by = [&](const Screen& screen) { return slope < screen.slope && near_m >= screen.from_m; };
+    const double side_pm = sides.enter(edge(bin)).max(sides.enter(edge(bin + 1))).minCoeff() / kChord;
+    const double reciprocal_pm = side_pm > 0.0 ? std::min(side_pm, 1.0 / nearest_m) : 1.0 / nearest_m;
+    const double slope = top_m > 0.0 ? top_m * reciprocal_pm : top_m / farthest_m;
+    const auto hidden_by = [&](const Screen& screen) {
+      return slope < screen.slope && reciprocal_pm <= screen.reciprocal_pm;
+    };
     const Bin& kept = bins_[static_cast<size_t>(bin & kBinMask)];
     if (!hidden_by(kept.highest) && !hidden_by(kept.second)) return false;
   }

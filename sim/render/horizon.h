@@ -32,9 +32,9 @@ class Horizon {
   struct Span {
     double first = 0.0, last = 0.0;
   };
-  /// Hides what is no nearer than from_m in plan and below a slope, the tangent of the elevation.
+  /// Hides what lies below a slope, the tangent of the elevation, and no nearer in plan than where the screen stands.
   struct Screen {
-    double slope = 0.0, from_m = 0.0;
+    double slope = 0.0, reciprocal_pm = 0.0;  ///< 1 / distance
   };
   struct Bin {
     Screen highest, second;
@@ -46,6 +46,7 @@ class Horizon {
   Eigen::AlignedBox2d plan(const Eigen::AlignedBox3f& box_W) const;
   double height_above_eye_m(float down_m) const { return eye_W_.z() - static_cast<double>(down_m); }
   bool looks_at(int bin) const;
+  const Eigen::Array2d& edge(int bin) const;
 
   Eigen::Vector3d eye_W_ = Eigen::Vector3d::Zero();
   int look_first_ = 0, look_count_ = 0;
