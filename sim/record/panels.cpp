@@ -198,6 +198,23 @@ std::string group_title(std::string_view group) {
   return title;
 }
 
+/// Moves words with which all labels begin into the title: "valid: share left, share right" is "valid share: left,
+/// right". A signal alone gives its whole label.
+void move_common_words(Panel& panel) {
+  std::vector<Series>& series = panel.series;
+  if (series.size() == 1) {
+    panel.title += " " + series[0].label;
+    return;
+  }
+  while (true) {
+    const std::string word = series[0].label.substr(0, series[0].label.find(' ') + 1);
+    const auto begins = [&word](const Series& s) { return s.label.size() > word.size() && s.label.starts_with(word); };
+    if (word.empty() || !std::ranges::all_of(series, begins)) return;
+    panel.title += " " + word.substr(0, word.size() - 1);
+    for (Series& s : series) s.label.erase(0, word.size());
+  }
+}
+
 }  // namespace
 
 std::vector<Panel> trajectory_panels(const CsvTable& trajectory, const std::vector<Limit>& clearance_limits) {
@@ -226,9 +243,9 @@ std::vector<Panel> signal_panels(const CsvTable& decisions) {
     }
     panels[index].series.push_back({name.label, name.role, decisions.numbers(column)});
   }
-  for (size_t i = 0; i < panels.size(); ++i) {  // a signal alone gives its whole name to its plot
-    const std::string& label = panels[i].series.front().label;
-    if (panels[i].series.size() == 1 && !groups[i].starts_with(label + " ")) panels[i].title += " " + label;
+  for (size_t i = 0; i < panels.size(); ++i) {
+    const bool one_word = panels[i].series.front().label + " " == groups[i].substr(0, groups[i].find(' ') + 1);
+    if (!one_word) move_common_words(panels[i]);
   }
   return panels;
 }

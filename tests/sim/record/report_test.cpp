@@ -9,6 +9,8 @@
 #include <random>
 #include <regex>
 
+#include "scenes/generators.h"
+#include "sim/loop/random_stream.h"
 #include "sim/record/decimate.h"
 #include "sim/record/panels.h"
 #include "sim/record/plan.h"
@@ -16,6 +18,7 @@
 #include "sim/record/report_page.h"
 #include "sim/record/result_files.h"
 #include "sim/record/whole_file.h"
+#include "sim/scenario/scenario.h"
 #include "tests/sim/record/fake_flight.h"
 #include "tests/sim/record/temporary_folder.h"
 
@@ -152,6 +155,24 @@ TEST(Panels, SignalsAreGroupedByWhatTheyMeasure) {
   EXPECT_EQ(panels[2].unit, "m");
 }
 
+TEST(Panels, WordsThatAllSignalsShareAreTheTitle) {
+  Flight flight = fake_flight(0.1, 1);
+  flight.signals = {{"valid_share_left", ""},
+                    {"valid_share_right", ""},
+                    {"speed_mps", ""},
+                    {"target_v_north_mps", ""},
+                    {"target_v_east_mps", ""}};
+  for (DecisionRow& row : flight.decisions) row.signals.assign(5, 1.0);
+  const auto panels = signal_panels(Tables(flight).decisions());
+  ASSERT_EQ(panels.size(), 3u);
+  EXPECT_EQ(panels[0].title, "Valid share");
+  EXPECT_EQ(panels[0].series[1].label, "right");
+  EXPECT_EQ(panels[1].title, "Speed");
+  EXPECT_EQ(panels[1].series[0].label, "speed");
+  EXPECT_EQ(panels[2].title, "Target v");
+  EXPECT_EQ(panels[2].series[0].label, "north");
+}
+
 TEST(ReportData, SaysWhatNoOneMeasuredAsNull) {
   Flight flight = fake_flight(1.0, 1);
   for (TrajectoryRow& row : flight.trajectory) row.obstacle_clearance_m = std::numeric_limits<double>::infinity();
@@ -239,6 +260,30 @@ TEST(ReportPage, FilmIsInsideOrLinkedOrAbsent) {
   EXPECT_THAT(report_page("t", "{}", {.bytes = "film"}), HasSubstr(base64("film")));
   EXPECT_THAT(report_page("t", "{}", {.link = "video.webm"}), HasSubstr("src=\"video.webm\""));
   EXPECT_THAT(report_page("t", "{}", {}), Not(HasSubstr("<video")));
+}
+
+/// The JSON that a page's script reads.
+nlohmann::json data_of(const std::string& page) {
+  const std::string open = "id=\"data\">";
+  const size_t begin = page.find(open) + open.size();
+  return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
+TEST(Report, DrawsTheSceneThatWasFlown) {
+  const TemporaryFolder folder;
+  const Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_city_0_light.yaml");
+  constexpr uint64_t kSeed = 9;  // of the run; the file's own is another
+  write_result_files(folder.path(), {.scenario = "city </script>", .seed = kSeed, .scenario_yaml = to_yaml(scenario)},
+                     fake_flight(2.0, 1));
+  write_report(folder.path());
+  const nlohmann::json data = data_of(read_file_whole(folder.path() / "report.html"));
+  const scenes::Scene scene = scenes::make_scene(scenario.scene, stream_seed(kSeed, kSceneStream));
+  ASSERT_EQ(data.at("plan").at("footprints").size(), scene.solids.size());
+  EXPECT_EQ(data.at("plan").at("footprints")[3].at("name"), scene.solids[3].name);
+  EXPECT_EQ(data.at("plan").at("goal").at("n"), scenario.goal->north_m);
+  EXPECT_EQ(data.at("result").at("scenario"), "city </script>");
+  EXPECT_EQ(data.at("module"), "flow_balance");
+  EXPECT_EQ(data.at("scenario_yaml"), to_yaml(scenario));
 }
 
 TEST(Report, NamesTheFileThatIsMissing) {

@@ -9,13 +9,13 @@ function make(tag, className = '', text = '') {
   return element;
 }
 
-/** A number for people: four digits, a true minus. */
-function short(value) {
+/** A number for people: so many digits, a true minus. */
+function short(value, figures = 4) {
   if (value === null || value === undefined) return '–';
   if (value === 0) return '0';
   const size = Math.abs(value);
   if (size >= 1e6 || size < 1e-4) return value.toExponential(2);
-  const digits = Math.max(0, 3 - Math.floor(Math.log10(size)));
+  const digits = Math.max(0, figures - 1 - Math.floor(Math.log10(size)));
   return String(Number(value.toFixed(digits))).replace('-', '−');
 }
 function metres(value) { return value === null ? '–' : value.toFixed(2) + ' m'; }
@@ -64,9 +64,9 @@ function fillTiles(host, result) {
   tile('closest to an obstacle', fixed(result.min_obstacle_clearance_m, 2), 'm', where(result.closest_obstacle));
   tile('closest to the ground', fixed(result.min_ground_clearance_m, 2), 'm', where(result.closest_ground));
   if (result.goal_distance_m !== null) tile('distance to the goal', fixed(result.goal_distance_m, 1), 'm', 'at the end, horizontal');
-  tile('decision', short(result.decision_ms.median), 'ms', `95 % below ${short(result.decision_ms.p95)} ms`);
-  tile('all pictures', short(result.render_ms.median), 'ms', `95 % below ${short(result.render_ms.p95)} ms`);
-  tile('speed of simulation', short(result.realtime_factor), '× real time', `${short(result.wall_s)} s of wall time`);
+  tile('decision', short(result.decision_ms.median, 3), 'ms', `95 % below ${short(result.decision_ms.p95, 3)} ms`);
+  tile('all pictures', short(result.render_ms.median, 3), 'ms', `95 % below ${short(result.render_ms.p95, 3)} ms`);
+  tile('speed of simulation', short(result.realtime_factor, 3), '× real time', `${short(result.wall_s, 3)} s of wall time`);
 }
 
 function addRow(table, cells, tag = 'td') {
@@ -103,7 +103,7 @@ function fillDetails(host, {result, module, scene, vehicle, scenario_yaml}) {
     addRow(table, [[title, ''], ['', 'number']], 'th');
     rows.forEach(([name, value]) => addRow(table, [[name, ''], [value, 'number']]));
   };
-  const stage = (s) => s ? `${short(s.median)} ms, 95 % below ${short(s.p95)} ms` : '–';
+  const stage = (s) => s ? `${short(s.median, 3)} ms, 95 % below ${short(s.p95, 3)} ms` : '–';
   add('run', [['module', module], ['scene', scene], ['vehicle', vehicle], ['trajectory hash', result.trajectory_hash]]);
   add('wall time, median', [['decision', stage(result.decision_ms)], ['pictures of all cameras', stage(result.render_ms)],
     ['velocity from flow', stage(result.velocimeter_ms)], ['physics step', stage(result.physics_ms)]]);
