@@ -107,6 +107,7 @@ std::string report_page(std::string_view title, std::string data_json, const Pag
                              Value{"film", film_html},
                              Value{"data", data},
                              Value{"plot_script", kPlotScript},
+                             Value{"figures_script", kFiguresScript},
                              Value{"plan_script", kPlanScript},
                              Value{"charts_script", kChartsScript},
                              Value{"report_script", kReportScript}};

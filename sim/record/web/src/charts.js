@@ -102,7 +102,7 @@ class Charts {
           return null;
         }}},
       axes: [{...axis, size: 30, label: 'time, s', labelSize: 14},
-        {...axis, size: 46, label: panel.unit, values: (u, splits) => splits.map(short)}],
+        {...axis, size: 46, label: panel.unit, values: (u, splits) => splits.map((v) => short(v))}],
       series: [{label: 't', value: (u, v) => v === null ? '' : v.toFixed(2) + ' s'},
         ...panel.series.map(({label, role}, i) => ({
           label, stroke: looks[i].color, width: looks[i].width, points: {show: false},

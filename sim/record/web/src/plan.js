@@ -3,47 +3,6 @@
 
 const planMargin = {left: 46, right: 12, top: 12, bottom: 34};
 
-/** Value of a CSS variable of the theme in force. */
-function themeColor(name) {
-  return getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
-}
-
-/** A function from 0..1 to a colour, through evenly spaced stops "#rrggbb, ...". */
-function makeRamp(stops) {
-  const colors = stops.split(',').map((s) => [1, 3, 5].map((i) => parseInt(s.trim().slice(i, i + 2), 16)));
-  return (share) => {
-    const x = Math.min(Math.max(share, 0), 1) * (colors.length - 1);
-    const i = Math.min(Math.floor(x), colors.length - 2);
-    return 'rgb(' + colors[i].map((c, k) => Math.round(c + (colors[i + 1][k] - c) * (x - i))).join(',') + ')';
-  };
-}
-
-/** Round numbers in [low, high], about `count` of them: {step, values}. */
-function niceTicks(low, high, count) {
-  const rough = (high - low) / Math.max(count, 1);
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const step = power * [1, 2, 5, 10].find((s) => s * power >= rough);
-  const values = [];
-  for (let i = Math.ceil(low / step); i * step <= high + 1e-9; ++i) values.push(i * step);
-  return {step, values};
-}
-
-/** Smallest and largest finite value, or [0, 1] when there is none. */
-function finiteRange(values) {
-  let low = Infinity, high = -Infinity;
-  for (const v of values) {
-    if (v === null || !isFinite(v)) continue;
-    low = Math.min(low, v);
-    high = Math.max(high, v);
-  }
-  return low <= high ? [low, high] : [0, 1];
-}
-
-function quantile(values, share) {
-  const sorted = values.filter((v) => v !== null).sort((a, b) => a - b);
-  return sorted.length ? sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))] : 1;
-}
-
 /** What the path can be coloured by. The clearance scale ends where more of it no longer matters. */
 function pathColorings(path) {
   const colorings = [];

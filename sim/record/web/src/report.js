@@ -1,25 +1,6 @@
 'use strict';
 // Puts the page together from its data: verdict, checks, plan, film, plots, details.
 
-/** A new element. Text is always text, never markup. */
-function make(tag, className = '', text = '') {
-  const element = document.createElement(tag);
-  if (className) element.className = className;
-  if (text !== '') element.textContent = text;
-  return element;
-}
-
-/** A number for people: so many digits, a true minus. */
-function short(value, figures = 4) {
-  if (value === null || value === undefined) return '–';
-  if (value === 0) return '0';
-  const size = Math.abs(value);
-  if (size >= 1e6 || size < 1e-4) return value.toExponential(2);
-  const digits = Math.max(0, figures - 1 - Math.floor(Math.log10(size)));
-  return String(Number(value.toFixed(digits))).replace('-', '−');
-}
-function metres(value) { return value === null ? '–' : value.toFixed(2) + ' m'; }
-
 /** What to say of an outcome, and whether it is good in itself. */
 function judge(outcome, goal) {
   switch (outcome) {
@@ -57,7 +38,6 @@ function fillTiles(host, result) {
     if (unit) line.append(' ', make('small', '', unit));
     element.append(make('div', 'more', more));
   };
-  const fixed = (value, digits) => value === null || value === undefined ? '–' : value.toFixed(digits);
   const where = (p) => p ? `${p.what || 'obstacle'} at ${p.t_s.toFixed(1)} s` : 'nothing in reach';
   tile('flight time', fixed(result.flight_time_s, 1), 's', `${result.decisions} decisions`);
   tile('path length', fixed(result.path_length_m, 1), 'm', `mean speed ${fixed(result.mean_speed_mps, 2)} m/s`);
