@@ -21,8 +21,8 @@ struct Acceptable {
   double velocity_mps, climb_mps, tilt_rad, heading_rad, rate_radps, below_m;
   double collective_rad, cyclic_rad, tail_rad;
 };
-// Chosen so that the reference flight reaches a speed within about a second without overshoot, that the vehicle holds to
-// it about as stiffly, and that the nose stays put when the tail rotor meets a side wind.
+// Chosen so that the reference flight reaches a speed within about a second without overshoot, that the vehicle holds
+// to it about as stiffly, and that the nose stays put when the tail rotor meets a side wind.
 constexpr Acceptable kPlan{.velocity_mps = 0.4,
                            .climb_mps = 0.5,
                            .tilt_rad = 0.3,
