@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <opencv2/core/hal/intrin.hpp>
 
@@ -9,6 +10,13 @@ namespace hedgehop::vision {
 namespace {
 
 constexpr double kQ16 = 65536.0;
+
+// Two neighbouring numbers at each of four places (which need not be aligned to 32 bits).
+cv::v_int16x8 neighbours(const int16_t* base, const int (&index)[4]) {
+  int32_t pairs[4];
+  for (int i = 0; i < 4; ++i) std::memcpy(&pairs[i], base + index[i], sizeof(int32_t));
+  return cv::v_reinterpret_as_s16(cv::v_int32x4(pairs[0], pairs[1], pairs[2], pairs[3]));
+}
 
 }  // namespace
 
@@ -121,8 +129,8 @@ void recentred_difference(const ReducedPicture& older, const ReducedPicture& new
     int index[4];
     cv::v_store(index, cv::v_dotprod(pair(at_y >> kFraction, at_x >> kFraction), address));
     const auto weight_x = pair(one - share_x, share_x);
-    const auto top = (cv::v_dotprod(cv::v_lut_pairs(base, index), weight_x) + keep_half) >> kKeep;
-    const auto bottom = (cv::v_dotprod(cv::v_lut_pairs(base + stride, index), weight_x) + keep_half) >> kKeep;
+    const auto top = (cv::v_dotprod(neighbours(base, index), weight_x) + keep_half) >> kKeep;
+    const auto bottom = (cv::v_dotprod(neighbours(base + stride, index), weight_x) + keep_half) >> kKeep;
     const auto value = (cv::v_dotprod(pair(top, bottom), pair(one - share_y, share_y)) + drop_half) >> kDrop;
 
     // Outside, the newer picture is taken to look like the older one.
