@@ -20,8 +20,7 @@ LinearSystem sampled(const LinearSystem& continuous, double dt_s);
 /// Returns K, inputs x states, such that u = -K x minimises the sum of x'Qx + u'Ru over all steps of a sampled system.
 /// @param Q, R  symmetric, Q at least semidefinite, R definite.
 /// Throws std::invalid_argument when no such K makes the system stable.
-/// Source: structured doubling for the discrete algebraic Riccati equation [ChuFanLinWang2004] sec. 2, eqs.
-/// (2.7)-(2.9).
+/// Source: structured doubling for the discrete algebraic Riccati equation [ChuFanLinWang2004] sec. 2.
 DesignMatrix lqr_gain(const LinearSystem& system, const DesignMatrix& Q, const DesignMatrix& R);
 
 }  // namespace hedgehop::dynamics
