@@ -94,17 +94,17 @@ void draw(benchmark::State& state, const scenes::Scene& scene, const std::vector
   const auto channel = static_cast<Channel>(state.range(0));
   Renderer renderer(scene);
   cv::Mat picture;
-  double chunks = 0.0, triangles = 0.0;
+  double stretches = 0.0, triangles = 0.0;
   const auto pictures = static_cast<int64_t>(poses.size());
   while (state.KeepRunningBatch(pictures)) {
     for (const Eigen::Isometry3d& X_WC : poses) {
       renderer.draw({kCamera, X_WC, channel}, picture);
       benchmark::DoNotOptimize(picture.data);
-      chunks += static_cast<double>(renderer.drawn().chunks);
+      stretches += static_cast<double>(renderer.drawn().stretches);
       triangles += static_cast<double>(renderer.drawn().triangles);
     }
   }
-  state.counters["chunks"] = benchmark::Counter(chunks, benchmark::Counter::kAvgIterations);
+  state.counters["stretches"] = benchmark::Counter(stretches, benchmark::Counter::kAvgIterations);
   state.counters["triangles"] = benchmark::Counter(triangles, benchmark::Counter::kAvgIterations);
 }
 

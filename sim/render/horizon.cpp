@@ -162,11 +162,14 @@ bool Horizon::hides(const Eigen::AlignedBox3f& box_W) const {
   const int first = static_cast<int>(std::floor(azimuths.first)), last = static_cast<int>(std::floor(azimuths.last));
   for (int bin = first; bin <= last; ++bin) {
     if (!looks_at(bin)) continue;
-    const double side_pm = sides.enter(edge(bin)).max(sides.enter(edge(bin + 1))).minCoeff() / kChord;
-    const double reciprocal_pm = side_pm > 0.0 ? std::min(side_pm, 1.0 / nearest_m) : 1.0 / nearest_m;
-    const double slope = top_m > 0.0 ? top_m * reciprocal_pm : top_m / farthest_m;
+    // Its steepest point in this bin is no steeper than its top would be at its nearest, seen from below, or farthest.
+    const Eigen::Array2d &a = edge(bin), &b = edge(bin + 1);
+    const double enter_pm = sides.enter(a).max(sides.enter(b)).minCoeff() / kChord;
+    const double leave_pm = sides.leave(a).min(sides.leave(b)).maxCoeff();
+    const double nearest_pm = enter_pm > 0.0 ? std::min(enter_pm, 1.0 / nearest_m) : 1.0 / nearest_m;
+    const double slope = top_m * (top_m > 0.0 ? nearest_pm : std::max(leave_pm, 1.0 / farthest_m));
     const auto hidden_by = [&](const Screen& screen) {
-      return slope < screen.slope && reciprocal_pm <= screen.reciprocal_pm;
+      return slope < screen.slope && nearest_pm <= screen.reciprocal_pm;
     };
     const Bin& kept = bins_[static_cast<size_t>(bin & kBinMask)];
     if (!hidden_by(kept.highest) && !hidden_by(kept.second)) return false;

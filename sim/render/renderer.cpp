@@ -48,13 +48,13 @@ class Renderer::Impl {
       : culling_(culling),
         sky_(scene.sky),
         buffers_(upload(gl_, scene)),
-        visible_(buffers_.chunks),
+        visible_(buffers_.chunks, buffers_.tiles),
         greys_(grey_program(gl_)),
         colors_(color_program(gl_)),
         depths_(depth_program(gl_)),
         skies_(sky_program(gl_)),
-        counts_(buffers_.chunks.size()),
-        offsets_(buffers_.chunks.size()) {
+        counts_(buffers_.chunks.size() + buffers_.tiles.size()),
+        offsets_(counts_.size()) {
     gl_.Enable(GL_CULL_FACE);
     gl_.Enable(GL_DEPTH_TEST);
     gl_.FrontFace(GL_CW);  // counter-clockwise in the picture, whose rows run down, is clockwise in OpenGL's window
@@ -104,13 +104,13 @@ class Renderer::Impl {
 
     drawn_ = {};
     for (const scenes::Chunk& chunk : visible_.find(view, culling_)) {
-      counts_[drawn_.chunks] = static_cast<GLsizei>(chunk.index_count);
-      offsets_[drawn_.chunks] = reinterpret_cast<const void*>(chunk.first_index * sizeof(uint32_t));
-      ++drawn_.chunks;
+      counts_[drawn_.stretches] = static_cast<GLsizei>(chunk.index_count);
+      offsets_[drawn_.stretches] = reinterpret_cast<const void*>(chunk.first_index * sizeof(uint32_t));
+      ++drawn_.stretches;
       drawn_.triangles += chunk.index_count / 3;
     }
     gl_.MultiDrawElements(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_INT, offsets_.data(),
-                          static_cast<GLsizei>(drawn_.chunks));
+                          static_cast<GLsizei>(drawn_.stretches));
   }
 
   void draw_sky(const CameraView& view, bool grey) {

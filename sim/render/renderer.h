@@ -49,7 +49,7 @@ class Renderer {
 
   /// What the last picture was made of.
   struct Drawn {
-    size_t chunks = 0;
+    size_t stretches = 0;  ///< of the index buffer, all drawn by one call
     size_t triangles = 0;
   };
   const Drawn& drawn() const;

@@ -9,6 +9,7 @@
 
 #include "sim/render/shaders.h"
 #include "sim/render/texture_pyramid.h"
+#include "sim/render/visible_chunks.h"
 
 namespace hedgehop::sim {
 
@@ -59,6 +60,22 @@ float brightness(const scenes::Lights& lights, const Eigen::Vector3f& n_W) {
   return lights.ambient + lights.sun * std::max(0.0f, n_W.dot(lights.to_sun_W));
 }
 
+/// Ground is drawn through streets, most of it hidden: its chunks are cut as finely as they come.
+void cut_into_tiles(const scenes::Chunk& chunk, const std::vector<GpuVertex>& vertices,
+                    const std::vector<uint32_t>& indices, std::vector<scenes::Chunk>& tiles) {
+  constexpr uint32_t kTwoTriangles = 6;
+  const uint32_t end = chunk.first_index + chunk.index_count;
+  for (uint32_t first = chunk.first_index; first < end; first += kTwoTriangles) {
+    scenes::Chunk& tile = tiles.emplace_back();
+    tile.first_index = first;
+    tile.index_count = std::min(kTwoTriangles, end - first);
+    for (uint32_t i = 0; i < tile.index_count; ++i) {
+      const std::array<float, 3>& p_W = vertices[indices[first + i]].p_W;
+      tile.box_W.extend(Eigen::Vector3f(p_W[0], p_W[1], p_W[2]));
+    }
+  }
+}
+
 void upload_meshes(const GlFunctions& gl, const scenes::Scene& scene, SceneBuffers& buffers) {
   std::vector<GpuVertex> vertices;
   std::vector<uint32_t> indices;
@@ -74,7 +91,9 @@ void upload_meshes(const GlFunctions& gl, const scenes::Scene& scene, SceneBuffe
     for (const uint32_t index : mesh.indices) indices.push_back(first_vertex + index);
     for (scenes::Chunk chunk : mesh.chunks) {
       chunk.first_index += first_index;
-      if (chunk.index_count > 0) buffers.chunks.push_back(chunk);
+      if (chunk.index_count == 0) continue;
+      buffers.chunks.push_back(chunk);
+      if (lies_flat(chunk)) cut_into_tiles(chunk, vertices, indices, buffers.tiles);
     }
   }
 

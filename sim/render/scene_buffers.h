@@ -12,6 +12,7 @@ struct SceneBuffers {
   GLuint vertex_array = 0;
   GLuint textures = 0;                ///< GL_TEXTURE_2D_ARRAY, RGBA8
   std::vector<scenes::Chunk> chunks;  ///< first_index counts in the shared index buffer
+  std::vector<scenes::Chunk> tiles;   ///< what lies flat, cut into pairs of triangles, in the order of first_index
 };
 
 /// Light falls on each vertex here once, since neither sun nor surfaces move.

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <tuple>
 #include <utility>
-
-#include "sim/render/frustum.h"
 
 namespace hedgehop::sim {
 
 namespace {
-
-constexpr float kFlatM = 0.01f;  // no higher than this: a sheet
 
 std::vector<Eigen::AlignedBox3f> boxes(const std::vector<scenes::Chunk>& chunks) {
   std::vector<Eigen::AlignedBox3f> boxes_W;
@@ -37,10 +34,31 @@ struct VisibleChunks::Farther {
   }
 };
 
-VisibleChunks::VisibleChunks(std::vector<scenes::Chunk> chunks) : chunks_(std::move(chunks)), tree_(boxes(chunks_)) {
+VisibleChunks::VisibleChunks(std::vector<scenes::Chunk> chunks, std::vector<scenes::Chunk> tiles)
+    : chunks_(std::move(chunks)), tiles_(std::move(tiles)), tree_(boxes(chunks_)) {
   queue_.reserve(chunks_.size());
-  upright_.reserve(chunks_.size());
   flat_.reserve(chunks_.size());
+  visible_.reserve(chunks_.size() + tiles_.size());
+}
+
+bool VisibleChunks::shows(const Eigen::AlignedBox3f& box_W, const Frustum& frustum, Culling culling) const {
+  if (culling == Culling::none) return true;
+  return frustum.may_see(box_W) && (culling == Culling::frustum || !horizon_.hides(box_W));
+}
+
+void VisibleChunks::add_tiles(const scenes::Chunk& flat, const Frustum& frustum, Culling culling) {
+  const auto before = [](const scenes::Chunk& tile, uint32_t index) { return tile.first_index < index; };
+  auto tile = std::lower_bound(tiles_.begin(), tiles_.end(), flat.first_index, before);
+  uint32_t end = std::numeric_limits<uint32_t>::max();  // of the stretch that the last tile belongs to
+  for (; tile != tiles_.end() && tile->first_index < flat.first_index + flat.index_count; ++tile) {
+    if (!shows(tile->box_W, frustum, culling)) continue;
+    if (tile->first_index == end) {
+      visible_.back().index_count += tile->index_count;
+    } else {
+      visible_.push_back(*tile);
+    }
+    end = tile->first_index + tile->index_count;
+  }
 }
 
 std::span<const scenes::Chunk> VisibleChunks::find(const CameraView& view, Culling culling) {
@@ -49,8 +67,8 @@ std::span<const scenes::Chunk> VisibleChunks::find(const CameraView& view, Culli
   horizon_.reset(view.X_WC.translation());
   horizon_.look(corner_rays(view));
   queue_.clear();
-  upright_.clear();
   flat_.clear();
+  visible_.clear();
   const auto push = [&](uint32_t node) {
     const Eigen::AlignedBox3f& box_W = tree_.nodes()[node].box_W;
     if (culling != Culling::none && !frustum.may_see(box_W)) return;
@@ -58,24 +76,25 @@ std::span<const scenes::Chunk> VisibleChunks::find(const CameraView& view, Culli
     std::push_heap(queue_.begin(), queue_.end(), Farther{});
   };
 
+  // What stands up, from near to far: each chunk hides some of those behind it.
   if (!tree_.nodes().empty()) push(0);
   while (!queue_.empty()) {
-    const Ranked nearest = queue_.front();
+    const ChunkTree::Node& node = tree_.nodes()[queue_.front().index];
     std::pop_heap(queue_.begin(), queue_.end(), Farther{});
     queue_.pop_back();
-    const ChunkTree::Node& node = tree_.nodes()[nearest.index];
     if (use_horizon && horizon_.hides(node.box_W)) continue;
     if (node.first_child != 0) {
       push(node.first_child);
       push(node.first_child + 1);
-      continue;
+    } else if (lies_flat(chunks_[node.chunk])) {
+      flat_.push_back(node.chunk);
+    } else {
+      visible_.push_back(chunks_[node.chunk]);
+      if (use_horizon && chunks_[node.chunk].fills_box_to_ground) horizon_.raise(node.box_W);
     }
-    const scenes::Chunk& chunk = chunks_[node.chunk];
-    (chunk.box_W.sizes().z() <= kFlatM ? flat_ : upright_).push_back(chunk);
-    if (use_horizon && chunk.fills_box_to_ground) horizon_.raise(chunk.box_W);
   }
-  upright_.insert(upright_.end(), flat_.begin(), flat_.end());
-  return upright_;
+  for (const uint32_t chunk : flat_) add_tiles(chunks_[chunk], frustum, culling);
+  return visible_;
 }
 
 }  // namespace hedgehop::sim

@@ -6,19 +6,24 @@
 
 #include "scenes/scene.h"
 #include "sim/render/chunk_tree.h"
+#include "sim/render/frustum.h"
 #include "sim/render/horizon.h"
 #include "sim/render/renderer.h"
 
 namespace hedgehop::sim {
 
+/// No higher than a sheet: ground, a ceiling.
+inline bool lies_flat(const scenes::Chunk& chunk) { return chunk.box_W.sizes().z() <= 0.01f; }
+
 /// Finds what a view can see of a scene's chunks. Reuses its memory from view to view.
 class VisibleChunks {
  public:
-  explicit VisibleChunks(std::vector<scenes::Chunk> chunks);
+  /// @param tiles  what flat chunks are made of, in the order of first_index.
+  VisibleChunks(std::vector<scenes::Chunk> chunks, std::vector<scenes::Chunk> tiles);
 
-  /// Chunks to draw, in the order in which they hide each other best: what stands up from near to far in plan, then
-  /// what lies flat (ground, ceiling), which seldom hides anything. The order of two chunks does not depend on the
-  /// culling.
+  /// Stretches of the index buffer to draw, in the order in which they hide each other best: what stands up from near
+  /// to far in plan, then what lies flat, tile by tile, which seldom hides anything. What is drawn before what does not
+  /// depend on the culling.
   std::span<const scenes::Chunk> find(const CameraView& view, Culling culling);
 
  private:
@@ -28,11 +33,15 @@ class VisibleChunks {
   };
   struct Farther;
 
-  std::vector<scenes::Chunk> chunks_;
+  bool shows(const Eigen::AlignedBox3f& box_W, const Frustum& frustum, Culling culling) const;
+  void add_tiles(const scenes::Chunk& flat, const Frustum& frustum, Culling culling);
+
+  std::vector<scenes::Chunk> chunks_, tiles_;
   ChunkTree tree_;
   Horizon horizon_;
-  std::vector<Ranked> queue_;  ///< heap of nodes, nearest on top
-  std::vector<scenes::Chunk> upright_, flat_;
+  std::vector<Ranked> queue_;   ///< heap of nodes, nearest on top
+  std::vector<uint32_t> flat_;  ///< chunks
+  std::vector<scenes::Chunk> visible_;
 };
 
 }  // namespace hedgehop::sim
