@@ -24,4 +24,10 @@ Eigen::Vector2d push_from_walls(std::span<const WallSense> senses, const Eigen::
   return push;
 }
 
+Eigen::Vector2d push_from_nearest(std::span<const WallSense> senses, double gain_m2ps) {
+  Eigen::Vector2d push = Eigen::Vector2d::Zero();
+  for (const WallSense& sense : senses) push -= sense.axis_H * (gain_m2ps * sense.near_per_m);
+  return push;
+}
+
 }  // namespace hedgehop::avoidance

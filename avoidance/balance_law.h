@@ -13,6 +13,7 @@ struct WallSense {
   Eigen::Vector2d right_H = Eigen::Vector2d::UnitY();  ///< to the right in its picture: C's x, level part
   double flow_radps = 0.0;                             ///< mean horizontal flow Q
   double loom_per_s = 0.0;                             ///< loom L, > 0 when approaching
+  double near_per_m = 0.0;                             ///< inverse range of the nearest patches, >= 0
 };
 
 /// Two estimates of 1 / range of what one camera sees; negative ones are noise.
@@ -38,5 +39,10 @@ InverseRanges inverse_ranges(const WallSense& sense, const Eigen::Vector2d& v_H,
 /// is divided by the velocity across the camera's axis. Signs are derived, see inverse_ranges().
 Eigen::Vector2d push_from_walls(std::span<const WallSense> senses, const Eigen::Vector2d& v_H, double loom_gain_m2ps,
                                 double flow_gain_m2ps, double floor_mps);
+
+/// Returns the velocity to add to the target velocity, in H, m/s: every camera pushes back along its axis by `gain`
+/// times the inverse range of its nearest patches. With gain = k0 + k1 it equals push_from_walls() before a wall at
+/// right angles to a camera's axis, and unlike it also holds for what a camera sees at its edge or ahead of the motion.
+Eigen::Vector2d push_from_nearest(std::span<const WallSense> senses, double gain_m2ps);
 
 }  // namespace hedgehop::avoidance

@@ -24,7 +24,7 @@ bool CameraFlow::update(const CameraFrame& frame, const Eigen::Vector3d& w_WB_B)
     vision::derotate(field_, camera_.model, w_WC_C, dt_s);
   }
   const auto flow = vision::mean_horizontal_flow(field_, camera_.model, dt_s, options_.missing);
-  measure_ = Measure{flow.value, vision::loom(field_, dt_s, options_.missing).value, field_.valid_share()};
+  measure_ = Measure{flow.value, vision::loom(field_, dt_s, options_.missing).value, field_.valid_share(), dt_s};
   return true;
 }
 

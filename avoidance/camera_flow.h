@@ -23,6 +23,7 @@ class CameraFlow {
   struct Measure {
     double flow_radps = 0.0, loom_per_s = 0.0;
     double valid_share = 0.0;  ///< of the patches
+    double dt_s = 0.0;         ///< between the two pictures
   };
 
   /// Throws std::invalid_argument when the patches do not fit the camera's picture.

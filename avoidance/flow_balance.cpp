@@ -11,6 +11,7 @@
 #include "avoidance/camera_flow.h"
 #include "avoidance/flow_picture.h"
 #include "avoidance/go_to_goal.h"
+#include "vision/flow_range.h"
 
 namespace hedgehop::avoidance {
 namespace {
@@ -23,6 +24,7 @@ void check(const FlowBalanceConfig& c) {
     if (!holds) throw std::invalid_argument(std::string("flow_balance: ") + message);
   };
   need(c.divisor_floor_mps > 0.0, "divisor_floor must be above 0 m/s");
+  need(c.near_share > 0.0 && c.near_share <= 1.0, "near_share must lie in (0, 1]");
   need(c.speed_mps > 0.0, "speed must be above 0 m/s");
   need(c.slow_radius_m >= 0.0, "slow_radius must be at least 0 m");
   need(c.loom_gain_m2ps >= 0.0 && c.flow_gain_m2ps >= 0.0, "gains must be at least 0 m^2/s");
@@ -57,6 +59,7 @@ class FlowBalance final : public Module {
       signals.push_back({"flow_" + role + "_radps", "rad/s"});
       signals.push_back({"loom_" + role + "_per_s", "1/s"});
       signals.push_back({"valid_share_" + role, ""});
+      signals.push_back({"near_" + role + "_per_m", "1/m"});
     }
     signals.push_back({"target_v_north_mps", "m/s"});
     signals.push_back({"target_v_east_mps", "m/s"});
@@ -117,10 +120,16 @@ class FlowBalance final : public Module {
       }
       // Tilt is left out: the cameras' axes are taken level as they are mounted in B.
       const Eigen::Matrix3d& R_BC = camera.camera().X_BC.linear();
-      sense_[i] = {R_BC.col(2).head<2>(), R_BC.col(0).head<2>(), 0.0, 0.0};
+      sense_[i] = {R_BC.col(2).head<2>(), R_BC.col(0).head<2>()};
       if (const auto measure = camera.measure(observation.t_ns)) {
         sense_[i].flow_radps = measure->flow_radps;
         sense_[i].loom_per_s = measure->loom_per_s;
+        if (config_.ranging == FlowBalanceConfig::Ranging::nearest) {
+          const Eigen::Vector3d v_WC_C = R_BC.transpose() * observation.navigation.v_WB_B_est;
+          sense_[i].near_per_m =
+              vision::nearest_inverse_range_per_m(camera.field(), camera.camera().model, v_WC_C, measure->dt_s,
+                                                  config_.divisor_floor_mps, config_.near_share);
+        }
         if (fresh_[i]) least_valid_share_ = std::min(least_valid_share_, measure->valid_share);
       }
     }
@@ -135,7 +144,9 @@ class FlowBalance final : public Module {
     // The way is chosen as at full speed, so that walls do not outweigh a goal that is near; then the speed is set.
     const Eigen::Vector2d full_H = turned(velocity_to_goal(aim_W, config_.speed_mps, 0.0), -heading_rad_);
     const Eigen::Vector2d push_H =
-        push_from_walls(sense_, v_H, config_.loom_gain_m2ps, config_.flow_gain_m2ps, config_.divisor_floor_mps);
+        config_.ranging == FlowBalanceConfig::Ranging::nearest
+            ? push_from_nearest(sense_, config_.loom_gain_m2ps + config_.flow_gain_m2ps)
+            : push_from_walls(sense_, v_H, config_.loom_gain_m2ps, config_.flow_gain_m2ps, config_.divisor_floor_mps);
     Eigen::Vector2d way_H = full_H + push_H;
     constexpr double kNoWay_mps = 1e-6;
     if (way_H.norm() < kNoWay_mps) way_H = full_H;
@@ -174,11 +185,13 @@ class FlowBalance final : public Module {
 
   std::vector<double> signal_values(int64_t now_ns) const {
     std::vector<double> values;
-    for (const CameraFlow& camera : cameras_) {
-      const auto measure = camera.measure(now_ns);
+    for (size_t i = 0; i < cameras_.size(); ++i) {
+      const auto measure = cameras_[i].measure(now_ns);
+      const bool ranged = measure && config_.ranging == FlowBalanceConfig::Ranging::nearest;
       values.push_back(measure ? measure->flow_radps : kUnknown);
       values.push_back(measure ? measure->loom_per_s : kUnknown);
       values.push_back(measure ? measure->valid_share : kUnknown);
+      values.push_back(ranged ? sense_[i].near_per_m : kUnknown);
     }
     values.push_back(v_tgt_W_.x());
     values.push_back(v_tgt_W_.y());

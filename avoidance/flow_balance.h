@@ -20,11 +20,14 @@ struct FlowBalanceConfig {
   /// the view it fills. `valid` suits rooms, where a patch without texture is a bare wall; with walls in a part of the
   /// view only, its mean flow is that of off-centre patches, in which motion along the axis shows too.
   enum class Average { valid, all };
+  enum class Ranging { mean, nearest };
 
   Scheme scheme = Scheme::goal_directed;
   vision::ImageInterpolationConfig flow;
   bool derotate = false;
   Average average = Average::all;
+  Ranging ranging = Ranging::mean;
+  double near_share = 0.1;
   double divisor_floor_mps = 0.2;
 
   double speed_mps = 2.0;
@@ -50,6 +53,12 @@ void describe(Visitor& v, FlowBalanceConfig& c) {
   v("average", c.average,
     {.choices = {"valid", "all"},
      .meaning = "mean flow and loom over valid patches, or over all with invalid ones (sky) as infinitely far"});
+  v("ranging", c.ranging,
+    {.choices = {"mean", "nearest"},
+     .meaning = "goal_directed: nearness of walls from a camera's mean flow and loom (the paper), or from its nearest "
+                "patches, each by its own flow (ours; wants derotate)"});
+  v("near_share", c.near_share,
+    {.above = 0.0, .at_most = 1.0, .meaning = "ranging nearest: share of a camera's patches taken as the nearest"});
   v("divisor_floor", c.divisor_floor_mps,
     {.unit = "m/s", .above = 0.0, .meaning = "velocities that flow and loom are divided by are at least this large"});
   v("speed", c.speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "goal_directed: speed flown"});

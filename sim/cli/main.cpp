@@ -27,10 +27,12 @@ void add_scenario(CLI::App& command, cli::ScenarioOptions& scenario) {
 /// Declares the commands; the one that is chosen ends up in `chosen`.
 void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, cli::RenderOptions& render,
              std::string& topic, std::filesystem::path& folder) {
-  CLI::App* const run_command = app.add_subcommand("run", "fly a scenario; leaves a folder with verdict, tables, film "
-                                                          "and report");
+  CLI::App* const run_command = app.add_subcommand("run",
+                                                   "fly a scenario; leaves a folder with verdict, tables, film "
+                                                   "and report");
   add_scenario(*run_command, run.scenario);
-  run_command->add_option("--out", run.out, "folder of the results; out/<name>-seed<seed> when not given")->type_name("DIR");
+  run_command->add_option("--out", run.out, "folder of the results; out/<name>-seed<seed> when not given")
+      ->type_name("DIR");
   run_command->add_flag("--no-video", run.no_video, "make no film");
   run_command->add_flag("--json", run.json, "print result.json instead of lines for people");
   run_command->callback([&] { chosen = [&run] { return cli::run(run); }; });
@@ -70,9 +72,10 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
 }
 
 int run_command_line(int argc, char** argv) {
-  CLI::App app{"Hedgehop flies rotorcraft through scenes they must see to survive: closed-loop simulation of\n"
-               "vision-based obstacle avoidance, without display, GPU or network.",
-               "hedgehop"};
+  CLI::App app{
+      "Hedgehop flies rotorcraft through scenes they must see to survive: closed-loop simulation of\n"
+      "vision-based obstacle avoidance, without display, GPU or network.",
+      "hedgehop"};
   app.set_version_flag("--version", std::string{cli::kVersion});
   app.require_subcommand(1);
   app.footer("Exit status: 0 all checks hold; 1 a check fails; 2 the input is bad; 3 an internal error.");

@@ -37,6 +37,15 @@ struct PendingCommand {
   avoidance::Command command;
 };
 
+/// Radius of the widest upright disc of a hull, m; 0 without one.
+double rotor_radius_m(const std::vector<dynamics::HullPart>& hull) {
+  double radius_m = 0.0;
+  for (const dynamics::HullPart& part : hull) {
+    if (part.shape == dynamics::HullPart::Shape::cylinder) radius_m = std::max(radius_m, part.half_extents_m.x());
+  }
+  return radius_m;
+}
+
 class Episode {
  public:
   Episode(const Scenario& scenario, FlightWatcher* watcher);
@@ -119,8 +128,8 @@ Episode::Episode(const Scenario& scenario, FlightWatcher* watcher)
   // A module without cameras decides as often as the rig's fastest camera, so that a control compares like with like.
   decision_period_ = cameras_.count() > 0 ? cameras_.period_ticks(0) : control_period_;
   for (size_t i = 1; i < cameras_.count(); ++i) decision_period_ = std::min(decision_period_, cameras_.period_ticks(i));
-  latency_ = scenario.command_latency_s ? ticks_.ticks(*scenario.command_latency_s)
-                                        : std::max(slowest, decision_period_);
+  latency_ =
+      scenario.command_latency_s ? ticks_.ticks(*scenario.command_latency_s) : std::max(slowest, decision_period_);
   if (watcher_ && watcher_->picture_rate_hz() > 0.0) picture_period_ = ticks_.period(watcher_->picture_rate_hz());
 }
 
@@ -183,7 +192,7 @@ Flight Episode::fly() {
   for (const avoidance::Metric& metric : module_->metrics()) {
     result.metrics.push_back({metric.name, metric.value, metric.unit});
   }
-  result.checks = evaluate_checks(scenario_, flight, scene_, dynamics::radius_m(hull_));
+  result.checks = evaluate_checks(scenario_, flight, scene_, rotor_radius_m(hull_));
   return flight;
 }
 
@@ -262,7 +271,8 @@ bool Episode::ended() {
     end(Outcome::fault, fmt::format("the vehicle's state stopped being finite at {:.3f} s", ticks_.t_s(tick_)));
   } else if (proximity_.collided) {
     const bool ground = proximity_.ground_clearance_m <= 0.0;
-    const std::string what = ground || !proximity_.nearest_solid ? "the ground" : scene_.solids[*proximity_.nearest_solid].name;
+    const std::string what =
+        ground || !proximity_.nearest_solid ? "the ground" : scene_.solids[*proximity_.nearest_solid].name;
     end(Outcome::collided, fmt::format("hit {} at {:.3f} s", what, ticks_.t_s(tick_)));
   } else if (scenario_.goal && *goal_distance_m() <= scenario_.goal->radius_m) {
     end(Outcome::reached);

@@ -24,11 +24,11 @@ struct TrajectoryRow {
   double t_s = 0.0;
   Eigen::Vector3d p_WB_true, rpy_true, v_WB_W_true, w_WB_B_true;  ///< m, rad (3-2-1), m/s, rad/s
   Eigen::Vector3d p_WB_est, rpy_est, v_WB_W_est;
-  std::optional<Eigen::Vector2d> v_WB_W_cmd;                      ///< north, east; none while another kind of command holds
+  std::optional<Eigen::Vector2d> v_WB_W_cmd;  ///< north, east; none while another kind of command holds
   std::optional<double> altitude_cmd_m, heading_cmd_rad;
-  double obstacle_clearance_m = 0.0, ground_clearance_m = 0.0;    ///< +inf where there is nothing
+  double obstacle_clearance_m = 0.0, ground_clearance_m = 0.0;  ///< +inf where there is nothing
   double collective_rad = 0.0, lateral_rad = 0.0, longitudinal_rad = 0.0, tail_rad = 0.0;  ///< at the blades
-  Eigen::Vector3d wind_W = Eigen::Vector3d::Zero();               ///< m/s
+  Eigen::Vector3d wind_W = Eigen::Vector3d::Zero();                                        ///< m/s
 };
 
 /// One decision of the module.
@@ -48,8 +48,8 @@ struct NamedUnit {
 struct ClosestApproach {
   double distance_m = 0.0;
   double t_s = 0.0;
-  std::string what;                   ///< name of the solid, "ground", or "" for none
-  Eigen::Vector3d p_WB_true = {0, 0, 0};   ///< where the vehicle was
+  std::string what;                       ///< name of the solid, "ground", or "" for none
+  Eigen::Vector3d p_WB_true = {0, 0, 0};  ///< where the vehicle was
 };
 
 struct CheckResult {
@@ -78,7 +78,8 @@ struct FlightResult {
   ClosestApproach closest_obstacle, closest_ground;
   std::optional<double> goal_distance_m;  ///< at the end, horizontal; none without a goal
   int64_t decisions = 0;
-  StageTime decision_ms, render_ms, velocimeter_ms, physics_ms;  ///< per decision, per instant (all cameras), per frame, per tick
+  StageTime decision_ms, render_ms, velocimeter_ms,
+      physics_ms;  ///< per decision, per instant (all cameras), per frame, per tick
   double realtime_factor = 0.0, wall_s = 0.0;
   std::vector<CheckResult> checks;
   std::string trajectory_hash;  ///< of the true state at every control tick, bit for bit

@@ -94,10 +94,10 @@ TEST(Checks, SpeedAndTiltKeepTheirLargestValue) {
   f.flight.trajectory[4].rpy_true = {0.3, 0.4, 1.0};
   // Angle between B's z and W's z is acos(cos(roll) cos(pitch)) by the rotation matrix's last element.
   const double tilt_deg = f.evaluate(MaxTiltCheck{.at_most_rad = 0.2}).value;
-  const Eigen::Matrix3d R = (Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitZ()) *
-                             Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitY()) *
-                             Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()))
-                                .toRotationMatrix();
+  const Eigen::Matrix3d R =
+      (Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitY()) *
+       Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
   EXPECT_NEAR(tilt_deg, std::acos(R.col(2).z()) * 180.0 / M_PI, 1e-9);
 }
 

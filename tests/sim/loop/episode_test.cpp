@@ -86,11 +86,11 @@ TEST(Episode, StartSpreadMovesTheStartBySeedWithinItsDisc) {
 
 TEST(Episode, FlyingIntoAWallEndsWithACollisionThatNamesIt) {
   // Straight at the room's northern wall, 8 m away.
-  const Scenario scenario = load_scenario(
-      std::string(HEDGEHOP_SOURCE_DIR) + "/configs/garratt2009_room_0.yaml",
-      std::vector<std::string>{"avoidance={module: go_to_goal}", "goal={north: 30, east: 0, altitude: 1}",
-                               "start={north: 0, east: 0, altitude: 1}", "film.enabled=false", "checks=[]",
-                               "duration=30"});
+  const Scenario scenario =
+      load_scenario(std::string(HEDGEHOP_SOURCE_DIR) + "/configs/garratt2009_room_0.yaml",
+                    std::vector<std::string>{"avoidance={module: go_to_goal}", "goal={north: 30, east: 0, altitude: 1}",
+                                             "start={north: 0, east: 0, altitude: 1}", "film.enabled=false",
+                                             "checks=[]", "duration=30"});
   const Flight flight = fly(scenario);
   EXPECT_EQ(flight.result.outcome, Outcome::collided);
   EXPECT_NE(flight.result.cause.find("wall"), std::string::npos) << flight.result.cause;

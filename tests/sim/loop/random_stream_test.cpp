@@ -13,8 +13,8 @@ namespace {
 TEST(RandomStream, NamesAndSeedsNeverCollideInTenThousand) {
   std::set<uint64_t> seeds;
   for (uint64_t run_seed = 0; run_seed < 1000; ++run_seed) {
-    for (const char* name : {"wind", "imu", "gps", "magnetometer", "height_sensor", "module", "scene", "start", "",
-                             "imu2"}) {
+    for (const char* name :
+         {"wind", "imu", "gps", "magnetometer", "height_sensor", "module", "scene", "start", "", "imu2"}) {
       seeds.insert(stream_seed(run_seed, name));
     }
   }

@@ -1,0 +1,46 @@
+#include "vision/flow_range.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <vector>
+
+namespace hedgehop::vision {
+namespace {
+
+/// (U, V) of a pixel in units of the focal length.
+Eigen::Vector2d on_unit_plane(const PinholeCamera& camera, const Eigen::Vector2d& pixel) {
+  return {(pixel.x() - camera.center_u_px) / camera.focal_x_px, (pixel.y() - camera.center_v_px) / camera.focal_y_px};
+}
+
+}  // namespace
+
+double inverse_depth_per_m(const FlowVector& vector, const PinholeCamera& camera, const Eigen::Vector3d& v_WC_C,
+                           double dt_s, double floor_mps) {
+  if (!vector.valid) return 0.0;
+  const Eigen::Vector2d place = on_unit_plane(camera, vector.center_px);
+  const Eigen::Vector2d b = place * v_WC_C.z() - v_WC_C.head<2>();
+  const Eigen::Vector2d flow(vector.flow_px.x() / (camera.focal_x_px * dt_s),
+                             vector.flow_px.y() / (camera.focal_y_px * dt_s));
+  const double along = b.dot(flow), across = b.x() * flow.y() - b.y() * flow.x();
+  return std::max(0.0, along - std::abs(across)) / (b.squaredNorm() + floor_mps * floor_mps);
+}
+
+double nearest_inverse_range_per_m(const FlowField& field, const PinholeCamera& camera, const Eigen::Vector3d& v_WC_C,
+                                   double dt_s, double floor_mps, double share) {
+  std::vector<double> near;
+  near.reserve(field.vectors.size());
+  for (const FlowVector& vector : field.vectors) {
+    const double stretch = std::hypot(1.0, on_unit_plane(camera, vector.center_px).x());
+    near.push_back(inverse_depth_per_m(vector, camera, v_WC_C, dt_s, floor_mps) / stretch);
+  }
+  if (near.empty()) return 0.0;
+  const auto count =
+      std::clamp(static_cast<size_t>(std::lround(share * static_cast<double>(near.size()))), size_t{1}, near.size());
+  std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), near.end(), std::greater<>());
+  return std::accumulate(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), 0.0) /
+         static_cast<double>(count);
+}
+
+}  // namespace hedgehop::vision

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "vision/flow_field.h"
+#include "vision/pinhole_camera.h"
+
+namespace hedgehop::vision {
+
+/// Returns 1 / z of what one flow vector proves, 1/m, >= 0, given how the camera moves: with b the flow of a point at
+/// z = 1 m, [-v_x + U v_z, -v_y + V v_z] in units of the focal length, the flow of a point at z is b / z. Whatever lies
+/// across b can only be error (of the flow, or of the rotation taken away), so as much is taken off along b:
+///   1/z = max(0, b . flow - |b x flow|) / (b . b + floor^2) .
+/// The floor draws the estimate towards "far" where the camera's motion shifts a patch too little to tell, around the
+/// focus of expansion above all.
+/// @param v_WC_C     velocity of the camera in C, m/s.
+/// @param dt_s       between the two pictures, > 0.
+/// @param floor_mps  > 0.
+/// Source: [Garratt2009] eq. (1) with rotation taken away, solved for one depth per vector.
+double inverse_depth_per_m(const FlowVector& vector, const PinholeCamera& camera, const Eigen::Vector3d& v_WC_C,
+                           double dt_s, double floor_mps);
+
+/// Returns the mean inverse horizontal range, 1/m, of the nearest `share` of a field's patches, 0 where nothing near is
+/// seen: an obstacle that fills that share of the view counts in full, however far the rest is, and single wrong
+/// vectors do not. Range is measured in the plane of C's x and z.
+/// @param field  less the flow of rotation; patches that are not valid count as infinitely far.
+/// @param share  of all patches, in (0, 1]; at least one patch is taken.
+double nearest_inverse_range_per_m(const FlowField& field, const PinholeCamera& camera, const Eigen::Vector3d& v_WC_C,
+                                   double dt_s, double floor_mps, double share);
+
+}  // namespace hedgehop::vision
