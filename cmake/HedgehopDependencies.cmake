@@ -4,7 +4,6 @@ find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(yaml-cpp 0.7 REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)
-find_package(spdlog REQUIRED)
 find_package(nlohmann_json REQUIRED)
 
 # The OpenCV modules in use, each from its own package: Debian's OpenCVConfig.cmake comes with all of OpenCV, 600 MB more.
