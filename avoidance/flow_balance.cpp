@@ -11,6 +11,7 @@
 #include "avoidance/camera_flow.h"
 #include "avoidance/flow_picture.h"
 #include "avoidance/go_to_goal.h"
+#include "avoidance/lasting_ranges.h"
 #include "vision/flow_range.h"
 
 namespace hedgehop::avoidance {
@@ -32,6 +33,7 @@ void check(const FlowBalanceConfig& c) {
   need(c.command_time_constant_s >= 0.0, "command_time_constant must be at least 0 s");
   need(c.forward_speed_mps > 0.0 && c.sideways_speed_mps > 0.0, "simple: speeds must be above 0 m/s");
   need(c.range_threshold_m > 0.0, "simple: range_threshold must be above 0 m");
+  need(c.near_pictures >= 1, "near_pictures must be at least 1");
   need(c.confirmations >= 1, "simple: at least one confirmation");
 }
 
@@ -77,6 +79,7 @@ class FlowBalance final : public Module {
     }
     confirmed_.fill(0);
     sense_.assign(kRoles.size(), {});
+    ranges_.assign(kRoles.size(), LastingRanges(config_.near_pictures));
     way_H_ = {1.0, 1.0};
     v_cmd_W_.reset();
     v_tgt_W_.setZero();
@@ -124,12 +127,12 @@ class FlowBalance final : public Module {
       if (const auto measure = camera.measure(observation.t_ns)) {
         sense_[i].flow_radps = measure->flow_radps;
         sense_[i].loom_per_s = measure->loom_per_s;
-        if (config_.ranging == FlowBalanceConfig::Ranging::nearest) {
+        if (fresh_[i] && config_.ranging == FlowBalanceConfig::Ranging::nearest) {
           const Eigen::Vector3d v_WC_C = R_BC.transpose() * observation.navigation.v_WB_B_est;
-          sense_[i].near_per_m =
-              vision::nearest_inverse_range_per_m(camera.field(), camera.camera().model, v_WC_C, measure->dt_s,
-                                                  config_.divisor_floor_mps, config_.near_share);
+          ranges_[i].add(vision::inverse_ranges_per_m(camera.field(), camera.camera().model, v_WC_C, measure->dt_s,
+                                                      config_.divisor_floor_mps));
         }
+        sense_[i].near_per_m = vision::nearest_inverse_range_per_m(ranges_[i].lasting_per_m(), config_.near_share);
         if (fresh_[i]) least_valid_share_ = std::min(least_valid_share_, measure->valid_share);
       }
     }
@@ -220,8 +223,9 @@ class FlowBalance final : public Module {
   }
 
   FlowBalanceConfig config_;
-  std::vector<CameraFlow> cameras_;  ///< in the order of kRoles, as are the next three
+  std::vector<CameraFlow> cameras_;  ///< in the order of kRoles, as are the next four
   std::vector<WallSense> sense_;
+  std::vector<LastingRanges> ranges_;
   std::array<bool, kRoles.size()> fresh_{};
   std::array<int, kRoles.size()> confirmed_{};
   Eigen::Vector2d way_H_{1.0, 1.0};  ///< simple scheme: signs of the velocity's components

@@ -28,6 +28,7 @@ struct FlowBalanceConfig {
   Average average = Average::all;
   Ranging ranging = Ranging::mean;
   double near_share = 0.1;
+  int near_pictures = 3;
   double divisor_floor_mps = 0.2;
 
   double speed_mps = 2.0;
@@ -59,6 +60,10 @@ void describe(Visitor& v, FlowBalanceConfig& c) {
                 "patches, each by its own flow (ours; wants derotate)"});
   v("near_share", c.near_share,
     {.above = 0.0, .at_most = 1.0, .meaning = "ranging nearest: share of a camera's patches taken as the nearest"});
+  v("near_pictures", c.near_pictures,
+    {.at_least = 1,
+     .at_most = 20,
+     .meaning = "ranging nearest: a patch is as near as this many successive pictures all tell"});
   v("divisor_floor", c.divisor_floor_mps,
     {.unit = "m/s", .above = 0.0, .meaning = "velocities that flow and loom are divided by are at least this large"});
   v("speed", c.speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "goal_directed: speed flown"});

@@ -119,6 +119,7 @@ void Navigation::propagate_covariance(const Eigen::Matrix3d& R_WB, const Eigen::
   P_.noalias() = FP * F.transpose();
   P_.diagonal().segment<3>(kTheta).array() += square(imu.gyro_noise_density) * dt_s_;
   P_.diagonal().segment<3>(kV).array() += square(imu.accelerometer_noise_density) * dt_s_;
+  P_.diagonal().segment<2>(kP).array() += square(config_.drift_mps_rt_hz) * dt_s_;
   P_.diagonal().segment<3>(kGyro).array() += square(gyro_wander(imu).added_sigma(dt_s_));
   P_.diagonal().segment<3>(kAccelerometer).array() += square(accelerometer_wander(imu).added_sigma(dt_s_));
   P_.diagonal().segment<2>(kWander).array() += square(gps.added_sigma(dt_s_));

@@ -19,6 +19,7 @@ struct NavigationConfig {
   double position_sigma_m = 0.1;                     ///< of the known initial position, per axis
   double alignment_residual = 0.1;  ///< share of the inertial sensors' biases that calibration before take-off leaves
   double surface_jump_m = 0.5;      ///< a range off by more tells of another surface below
+  double drift_mps_rt_hz = 0.3;     ///< position drift that the velocity's slow errors cause, m / sqrt(s)
 };
 template <class Visitor>
 void describe(Visitor& v, NavigationConfig& c) {
@@ -33,6 +34,10 @@ void describe(Visitor& v, NavigationConfig& c) {
      .meaning = "share of the inertial sensors' biases that calibration before take-off leaves"});
   v("surface_jump", c.surface_jump_m,
     {.unit = "m", .above = 0.0, .meaning = "a height reading off by more tells of another surface below"});
+  v("drift", c.drift_mps_rt_hz,
+    {.unit = "m/s/sqrt(Hz)",
+     .at_least = 0.0,
+     .meaning = "position drift allowed for: velocities from optic flow err by the same few per cent for minutes"});
 }
 
 /// What the aircraft believes of itself. Standard deviations are the filter's own claim.

@@ -27,20 +27,24 @@ double inverse_depth_per_m(const FlowVector& vector, const PinholeCamera& camera
   return std::max(0.0, along - std::abs(across)) / (b.squaredNorm() + floor_mps * floor_mps);
 }
 
-double nearest_inverse_range_per_m(const FlowField& field, const PinholeCamera& camera, const Eigen::Vector3d& v_WC_C,
-                                   double dt_s, double floor_mps, double share) {
+std::vector<double> inverse_ranges_per_m(const FlowField& field, const PinholeCamera& camera,
+                                         const Eigen::Vector3d& v_WC_C, double dt_s, double floor_mps) {
   std::vector<double> near;
   near.reserve(field.vectors.size());
   for (const FlowVector& vector : field.vectors) {
     const double stretch = std::hypot(1.0, on_unit_plane(camera, vector.center_px).x());
     near.push_back(inverse_depth_per_m(vector, camera, v_WC_C, dt_s, floor_mps) / stretch);
   }
+  return near;
+}
+
+double nearest_inverse_range_per_m(std::vector<double> near, double share) {
   if (near.empty()) return 0.0;
   const auto count =
       std::clamp(static_cast<size_t>(std::lround(share * static_cast<double>(near.size()))), size_t{1}, near.size());
-  std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), near.end(), std::greater<>());
-  return std::accumulate(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), 0.0) /
-         static_cast<double>(count);
+  const auto end = near.begin() + static_cast<std::ptrdiff_t>(count);
+  std::partial_sort(near.begin(), end, near.end(), std::greater<>());
+  return std::accumulate(near.begin(), end, 0.0) / static_cast<double>(count);
 }
 
 }  // namespace hedgehop::vision

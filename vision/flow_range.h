@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "vision/flow_field.h"
 #include "vision/pinhole_camera.h"
@@ -20,12 +21,14 @@ namespace hedgehop::vision {
 double inverse_depth_per_m(const FlowVector& vector, const PinholeCamera& camera, const Eigen::Vector3d& v_WC_C,
                            double dt_s, double floor_mps);
 
-/// Returns the mean inverse horizontal range, 1/m, of the nearest `share` of a field's patches, 0 where nothing near is
-/// seen: an obstacle that fills that share of the view counts in full, however far the rest is, and single wrong
-/// vectors do not. Range is measured in the plane of C's x and z.
-/// @param field  less the flow of rotation; patches that are not valid count as infinitely far.
-/// @param share  of all patches, in (0, 1]; at least one patch is taken.
-double nearest_inverse_range_per_m(const FlowField& field, const PinholeCamera& camera, const Eigen::Vector3d& v_WC_C,
-                                   double dt_s, double floor_mps, double share);
+/// Returns the inverse horizontal range of every patch of a field, 1/m, in the field's order: inverse_depth_per_m(),
+/// with range measured in the plane of C's x and z. Patches that are not valid are infinitely far.
+/// @param field  less the flow of rotation.
+std::vector<double> inverse_ranges_per_m(const FlowField& field, const PinholeCamera& camera,
+                                         const Eigen::Vector3d& v_WC_C, double dt_s, double floor_mps);
+
+/// Returns the mean of the largest `share` of inverse ranges, 1/m, 0 for none: an obstacle that fills that share of the
+/// view counts in full, however far the rest is. @param share  in (0, 1]; at least one value is taken.
+double nearest_inverse_range_per_m(std::vector<double> inverse_ranges_per_m, double share);
 
 }  // namespace hedgehop::vision

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "tests/avoidance/flow_rig.h"
 #include "tests/vision/projected_flow.h"
@@ -98,6 +99,23 @@ TEST(SaturatedDivisor, KeepsThePushOfASlowVehicleBounded) {
     const double push = -push_from_walls(senses, {v, v}, 4.0, 5.0, kFloor_mps).x();
     EXPECT_GE(push, 0.0);
     EXPECT_LE(push, 9.0 / 5.0);
+  }
+}
+
+TEST(PushFromNearest, EqualsThePapersPushBeforeWallsThatTheCamerasFace) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> speed(0.3, 2.0), range(2.0, 30.0);
+  constexpr double k0 = 4.0, k1 = 5.0;
+  for (int trial = 0; trial < 50; ++trial) {
+    const Eigen::Vector2d v_B(speed(random), -speed(random));
+    std::vector<WallSense> senses;
+    for (int i = 0; i < 4; ++i) {
+      const double z = range(random);
+      senses.push_back(sense_of_wall(level_camera("any", 0.5 * pi * i, 200, 50.0), v_B, z));
+      senses.back().near_per_m = 1.0 / z;
+    }
+    const Eigen::Vector2d paper = push_from_walls(senses, v_B, k0, k1, kFloor_mps);
+    EXPECT_LT((push_from_nearest(senses, k0 + k1) - paper).norm(), 0.02 * (k0 + k1) / 2.0);
   }
 }
 

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace hedgehop::avoidance {
+
+/// Believes of every patch of one camera only what its last pictures all tell: a wrong flow vector seldom lasts.
+class LastingRanges {
+ public:
+  /// @param pictures  how many must agree, at least 1.
+  explicit LastingRanges(int pictures) : latest_(static_cast<size_t>(pictures)) {}
+
+  /// Takes in the inverse ranges of a picture's patches, 1/m, the same number every time.
+  void add(std::vector<double> inverse_ranges_per_m);
+  /// The least inverse range of each patch over the last pictures, 1/m; zeros before there are enough.
+  std::vector<double> lasting_per_m() const;
+
+ private:
+  std::vector<std::vector<double>> latest_;
+  size_t next_ = 0;
+};
+
+}  // namespace hedgehop::avoidance

@@ -1,0 +1,110 @@
+// Optic flow of rendered pictures against the motion they were rendered with.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "scenes/generators.h"
+#include "scenes/mesh_builder.h"
+#include "sim/render/renderer.h"
+#include "vision/flow_measures.h"
+#include "vision/image_interpolation_flow.h"
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr double kRange_m = 5.0;
+constexpr double kPeriod_s = 0.02;
+
+/// A wall of the city's kind, 60 m wide, 5 m north of the origin and facing it.
+scenes::Scene textured_plane(uint64_t seed) {
+  const scenes::Scene city = scenes::make_scene(scenes::UrbanConfig{.extent_m = 60.0}, seed);
+  scenes::Scene scene;
+  scene.textures = {city.textures.at(seed % city.textures.size())};
+  scene.lights = city.lights;
+  scenes::MeshBuilder builder("opaque");
+  builder.begin_chunk(false);
+  builder.add_tiled({{kRange_m, -30.0, -30.0}, {0.0, 60.0, 0.0}, {0.0, 0.0, 60.0}}, 8.0, {0.3, 0.7}, 0);
+  scene.meshes = {builder.finish()};
+  return scene;
+}
+
+/// A camera at a position that looks north, then turned by a rotation vector in C.
+CameraView looking_north(const Eigen::Vector3d& p_WC, const Eigen::Vector3d& turn_C = Eigen::Vector3d::Zero()) {
+  Eigen::Matrix3d R_WC;
+  R_WC << 0, 0, 1, 1, 0, 0, 0, 1, 0;  // columns: C's right, down, forward in W
+  CameraView view;
+  view.camera = vision::PinholeCamera::from_fov(400, 400, std::numbers::pi / 2);
+  view.X_WC.translation() = p_WC;
+  view.X_WC.linear() = R_WC;
+  if (turn_C.norm() > 0.0) view.X_WC.rotate(Eigen::AngleAxisd(turn_C.norm(), turn_C.normalized()));
+  return view;
+}
+
+TEST(RenderedFlow, ErrorOnAPlaneMovingUpToTwoPixelsIsBelowATwentiethPixel) {
+  constexpr double kFocal_px = 200.0;
+  double sum_squares = 0.0;
+  int valid = 0, all = 0;
+  for (uint64_t seed = 1; seed <= 6; ++seed) {
+    Renderer renderer(textured_plane(seed));
+    for (int step = 0; step <= 8; ++step) {
+      const double flow_px = 0.25 * step, angle = 0.7 * step + static_cast<double>(seed);
+      const Eigen::Vector2d expected = flow_px * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      vision::ImageInterpolationFlow flow({}, 400, 400);
+      cv::Mat older, newer;
+      renderer.draw(looking_north({0, 0, 0}), older);
+      // Moving the camera right and down by d moves the wall's picture left and up by f d / range.
+      const Eigen::Vector2d d_m = -expected * (kRange_m / kFocal_px);
+      renderer.draw(looking_north({0, d_m.x(), d_m.y()}), newer);
+      flow.update(older);
+      for (const vision::FlowVector& vector : flow.update(newer).vectors) {
+        ++all;
+        if (!vector.valid) continue;
+        ++valid;
+        sum_squares += (vector.flow_px - expected).squaredNorm() / 2.0;
+      }
+    }
+  }
+  const double rms_px = std::sqrt(sum_squares / valid);
+  RecordProperty("rms_px", std::to_string(rms_px));
+  EXPECT_LT(rms_px, 0.05);
+  EXPECT_GT(valid, 0.95 * all);
+}
+
+TEST(RenderedFlow, LoomOfPureRotationIsBelowAHundredthPerSecond) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> rate(-0.3, 0.3);
+  double largest_per_s = 0.0;
+  for (uint64_t seed = 1; seed <= 3; ++seed) {
+    Renderer renderer(textured_plane(seed));
+    for (int trial = 0; trial < 10; ++trial) {
+      vision::ImageInterpolationFlow flow({}, 400, 400);
+      cv::Mat older, newer;
+      renderer.draw(looking_north({0, 0, 0}), older);
+      const Eigen::Vector3d w_C(rate(random), rate(random), rate(random));
+      renderer.draw(looking_north({0, 0, 0}, w_C * kPeriod_s), newer);
+      flow.update(older);
+      const vision::FlowAverage loom = vision::loom(flow.update(newer), kPeriod_s, vision::Missing::skip);
+      largest_per_s = std::max(largest_per_s, std::abs(loom.value));
+    }
+  }
+  RecordProperty("largest_loom_per_s", std::to_string(largest_per_s));
+  EXPECT_LT(largest_per_s, 0.01);
+}
+
+TEST(RenderedFlow, LoomOfAnApproachIsSpeedOverRange) {
+  Renderer renderer(textured_plane(2));
+  vision::ImageInterpolationFlow flow({}, 400, 400);
+  cv::Mat older, newer;
+  constexpr double kStep_m = 0.04;  // 2 m/s
+  renderer.draw(looking_north({0, 0, 0}), older);
+  renderer.draw(looking_north({kStep_m, 0, 0}), newer);
+  flow.update(older);
+  const double loom_per_s = vision::loom(flow.update(newer), kPeriod_s, vision::Missing::skip).value;
+  // Between the two pictures the range shrinks by a factor: flow is measured from the older one.
+  EXPECT_NEAR(loom_per_s, kStep_m / (kRange_m - kStep_m) / kPeriod_s, 0.01);
+}
+
+}  // namespace
+}  // namespace hedgehop::sim

@@ -1,0 +1,102 @@
+#include "vision/flow_range.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "tests/vision/projected_flow.h"
+
+namespace hedgehop::vision {
+namespace {
+
+constexpr double kStep_s = 1e-4;
+constexpr double kTinyFloor_mps = 1e-3;
+
+PinholeCamera camera() { return PinholeCamera::from_fov(400, 400, std::numbers::pi / 2); }
+
+Eigen::Vector3d random_velocity(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> speed(-2.0, 2.0);
+  return {speed(random), 0.2 * speed(random), speed(random)};
+}
+
+TEST(FlowRange, EveryPatchTellsItsOwnDepthOnASlantedWallForAnyMotion) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> slant(-0.8, 0.8), range(2.0, 20.0);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Eigen::Vector3d v_WC_C = random_velocity(random);
+    const Eigen::Vector3d on_plane(0, 0, range(random)), normal(slant(random), 0.0, 1.0);
+    const FlowField field =
+        plane_flow(camera(), grid_field(16, 16, 32, 400), on_plane, normal, v_WC_C, {0, 0, 0}, kStep_s);
+    for (const FlowVector& vector : field.vectors) {
+      const Eigen::Vector3d ray = camera().ray(vector.center_px);
+      const double depth_m = normal.dot(on_plane) / normal.dot(ray);
+      const Eigen::Vector2d b(-v_WC_C.x() + ray.x() * v_WC_C.z(), -v_WC_C.y() + ray.y() * v_WC_C.z());
+      if (b.norm() < 0.1 || depth_m < 0.5) continue;  // around the focus of expansion nothing is told
+      EXPECT_NEAR(inverse_depth_per_m(vector, camera(), v_WC_C, kStep_s, kTinyFloor_mps), 1.0 / depth_m,
+                  2e-3 / depth_m);
+    }
+  }
+}
+
+TEST(FlowRange, NothingIsNearerThanItsFlowProves) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> noise_px(0.0, 0.05);
+  constexpr double kFrame_s = 0.02, kFloor_mps = 0.2;
+  int too_near = 0, all = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Eigen::Vector3d v_WC_C = random_velocity(random);
+    for (FlowVector vector : grid_field(16, 16, 32, 400).vectors) {  // open space: no flow but noise
+      vector.flow_px = {noise_px(random), noise_px(random)};
+      ++all;
+      too_near += inverse_depth_per_m(vector, camera(), v_WC_C, kFrame_s, kFloor_mps) > 0.05;
+    }
+  }
+  EXPECT_LT(too_near, 0.01 * all);  // an obstacle within 20 m is seen in less than one patch of a hundred
+}
+
+TEST(FlowRange, TheFloorOnlyMakesThingsFarther) {
+  const FlowField field =
+      plane_flow(camera(), grid_field(8, 8, 32, 400), {0, 0, 4}, {0, 0, 1}, {1, 0, 1}, {0, 0, 0}, kStep_s);
+  for (const FlowVector& vector : field.vectors) {
+    double last = 1.0 / 4.0 + 1e-3;
+    for (const double floor_mps : {0.01, 0.1, 0.3, 1.0, 5.0}) {
+      const double near = inverse_depth_per_m(vector, camera(), {1, 0, 1}, kStep_s, floor_mps);
+      EXPECT_LE(near, last);
+      last = near;
+    }
+  }
+}
+
+TEST(FlowRange, TheNearestTenthCountsInFullHoweverFarTheRestIs) {
+  // A wall at 3 m in the two left columns of 16 (an eighth of the view), the others see one at 50 m.
+  const Eigen::Vector3d v_WC_C(1.5, 0, 1.0);
+  FlowField field =
+      plane_flow(camera(), grid_field(16, 16, 32, 400), {0, 0, 50}, {0, 0, 1}, v_WC_C, {0, 0, 0}, kStep_s);
+  const FlowField near =
+      plane_flow(camera(), grid_field(16, 16, 32, 400), {0, 0, 3}, {0, 0, 1}, v_WC_C, {0, 0, 0}, kStep_s);
+  double least_range_m = 1e9, largest_range_m = 0.0;
+  for (int row = 0; row < 16; ++row) {
+    for (int col = 0; col < 2; ++col) {
+      field.at(row, col) = near.at(row, col);
+      const double range_m = 3.0 * std::hypot(1.0, camera().ray(field.at(row, col).center_px).x());
+      least_range_m = std::min(least_range_m, range_m);
+      largest_range_m = std::max(largest_range_m, range_m);
+    }
+  }
+  const double told =
+      nearest_inverse_range_per_m(inverse_ranges_per_m(field, camera(), v_WC_C, kStep_s, kTinyFloor_mps), 0.1);
+  EXPECT_GT(told, 0.99 / largest_range_m);
+  EXPECT_LT(told, 1.01 / least_range_m);
+}
+
+TEST(FlowRange, BlankPicturesAreFar) {
+  FlowField field = grid_field(4, 4, 32, 400);
+  for (FlowVector& vector : field.vectors) vector.valid = false;
+  EXPECT_EQ(nearest_inverse_range_per_m(inverse_ranges_per_m(field, camera(), {1, 0, 1}, 0.02, 0.2), 0.1), 0.0);
+  EXPECT_EQ(nearest_inverse_range_per_m({}, 0.1), 0.0);
+}
+
+}  // namespace
+}  // namespace hedgehop::vision
