@@ -24,7 +24,8 @@ struct CameraView {
   Channel channel = Channel::grey;
 };
 
-/// How much of a scene is left out before it is drawn. Pictures do not depend on it, only their cost does.
+/// How much of a scene is left out before it is drawn. Pictures do not depend on it, only their cost does (but for a
+/// pixel that looks through a crack of a mesh: it may see something else behind).
 enum class Culling { none, frustum, frustum_and_horizon };
 
 /// Nothing nearer than this is drawn, z in C.
