@@ -63,7 +63,7 @@ void describe(Visitor& v, FlowBalanceConfig& c) {
   v("near_pictures", c.near_pictures,
     {.at_least = 1,
      .at_most = 20,
-     .meaning = "ranging nearest: a patch is as near as this many successive pictures all tell"});
+     .meaning = "ranging nearest: a patch is as near as the last pictures, this many, agree on"});
   v("divisor_floor", c.divisor_floor_mps,
     {.unit = "m/s", .above = 0.0, .meaning = "velocities that flow and loom are divided by are at least this large"});
   v("speed", c.speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "goal_directed: speed flown"});

@@ -1,6 +1,8 @@
 #include "avoidance/lasting_ranges.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace hedgehop::avoidance {
@@ -11,10 +13,17 @@ void LastingRanges::add(std::vector<double> inverse_ranges_per_m) {
 }
 
 std::vector<double> LastingRanges::lasting_per_m() const {
-  std::vector<double> least = latest_.front();
+  std::vector<double> least(latest_.front().size(), std::numeric_limits<double>::infinity());
+  std::vector<size_t> told(least.size(), 0);
   for (const std::vector<double>& picture : latest_) {
-    if (picture.empty()) return std::vector<double>(least.size(), 0.0);
-    for (size_t i = 0; i < least.size(); ++i) least[i] = std::min(least[i], picture[i]);
+    for (size_t i = 0; i < picture.size(); ++i) {
+      if (std::isnan(picture[i])) continue;
+      least[i] = std::min(least[i], picture[i]);
+      ++told[i];
+    }
+  }
+  for (size_t i = 0; i < least.size(); ++i) {
+    if (2 * told[i] <= latest_.size()) least[i] = 0.0;
   }
   return least;
 }

@@ -5,15 +5,16 @@
 
 namespace hedgehop::avoidance {
 
-/// Believes of every patch of one camera only what its last pictures all tell: a wrong flow vector seldom lasts.
+/// Believes of every patch of one camera only what its last pictures agree on: a wrong flow vector seldom lasts, and a
+/// vector missing from one picture does not make a wall vanish.
 class LastingRanges {
  public:
-  /// @param pictures  how many must agree, at least 1.
+  /// @param pictures  how many are remembered, at least 1.
   explicit LastingRanges(int pictures) : latest_(static_cast<size_t>(pictures)) {}
 
-  /// Takes in the inverse ranges of a picture's patches, 1/m, the same number every time.
+  /// Takes in the inverse ranges of a picture's patches, 1/m, NaN where unknown; the same number every time.
   void add(std::vector<double> inverse_ranges_per_m);
-  /// The least inverse range of each patch over the last pictures, 1/m; zeros before there are enough.
+  /// The least known inverse range of each patch over the last pictures, 1/m; 0 where fewer than half tell one.
   std::vector<double> lasting_per_m() const;
 
  private:

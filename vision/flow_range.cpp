@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -33,13 +34,16 @@ std::vector<double> inverse_ranges_per_m(const FlowField& field, const PinholeCa
   near.reserve(field.vectors.size());
   for (const FlowVector& vector : field.vectors) {
     const double stretch = std::hypot(1.0, on_unit_plane(camera, vector.center_px).x());
-    near.push_back(inverse_depth_per_m(vector, camera, v_WC_C, dt_s, floor_mps) / stretch);
+    const double near_per_m = inverse_depth_per_m(vector, camera, v_WC_C, dt_s, floor_mps) / stretch;
+    near.push_back(vector.valid ? near_per_m : std::numeric_limits<double>::quiet_NaN());
   }
   return near;
 }
 
 double nearest_inverse_range_per_m(std::vector<double> near, double share) {
   if (near.empty()) return 0.0;
+  std::replace_if(
+      near.begin(), near.end(), [](double value) { return std::isnan(value); }, 0.0);
   const auto count =
       std::clamp(static_cast<size_t>(std::lround(share * static_cast<double>(near.size()))), size_t{1}, near.size());
   const auto end = near.begin() + static_cast<std::ptrdiff_t>(count);

@@ -22,13 +22,14 @@ double inverse_depth_per_m(const FlowVector& vector, const PinholeCamera& camera
                            double dt_s, double floor_mps);
 
 /// Returns the inverse horizontal range of every patch of a field, 1/m, in the field's order: inverse_depth_per_m(),
-/// with range measured in the plane of C's x and z. Patches that are not valid are infinitely far.
+/// with range measured in the plane of C's x and z. NaN where a patch is not valid: nothing is known of it.
 /// @param field  less the flow of rotation.
 std::vector<double> inverse_ranges_per_m(const FlowField& field, const PinholeCamera& camera,
                                          const Eigen::Vector3d& v_WC_C, double dt_s, double floor_mps);
 
 /// Returns the mean of the largest `share` of inverse ranges, 1/m, 0 for none: an obstacle that fills that share of the
-/// view counts in full, however far the rest is. @param share  in (0, 1]; at least one value is taken.
+/// view counts in full, however far the rest is. NaN counts as far. @param share  in (0, 1]; at least one value is
+/// taken.
 double nearest_inverse_range_per_m(std::vector<double> inverse_ranges_per_m, double share);
 
 }  // namespace hedgehop::vision
