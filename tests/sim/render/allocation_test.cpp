@@ -1,3 +1,6 @@
+// The address sanitizer replaces operator new itself, and only one can.
+#ifndef __SANITIZE_ADDRESS__
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -43,3 +46,5 @@ TEST(Renderer, AllocatesNothingForAPictureOfASizeSeenBefore) {
 
 }  // namespace
 }  // namespace hedgehop::sim
+
+#endif
