@@ -87,7 +87,7 @@ void Navigation::predict(const ImuReading& imu) {
     p_WB_ += dt_s_ * (v_WB_W_ + 0.5 * dt_s_ * a_WB_W);
     v_WB_W_ += dt_s_ * a_WB_W;
     q_WB_ = (q_WB_ * rotation(dt_s_ * w)).normalized();
-    propagate_covariance(R_WB, w, f);
+    propagate_errors(R_WB, w, f);
 
     since_velocity_s_ += dt_s_;
     if (since_velocity_s_ > kCoastAfterS) {
@@ -105,9 +105,10 @@ void Navigation::predict(const ImuReading& imu) {
   publish();
 }
 
-void Navigation::propagate_covariance(const Eigen::Matrix3d& R_WB, const Eigen::Vector3d& w, const Eigen::Vector3d& f) {
+void Navigation::propagate_errors(const Eigen::Matrix3d& R_WB, const Eigen::Vector3d& w, const Eigen::Vector3d& f) {
   const ImuConfig& imu = sensors_.imu;
   const GaussMarkov gps{sensors_.gps.wander_horizontal_m, sensors_.gps.wander_time_s};
+  gps_wander_m_ *= gps.decay(dt_s_);
   Square F = Square::Identity();
   F.block<3, 3>(kTheta, kTheta) -= dt_s_ * skew(w);
   F.block<3, 3>(kTheta, kGyro) = -dt_s_ * Eigen::Matrix3d::Identity();

@@ -90,7 +90,7 @@ class Navigation {
     Eigen::Vector3d p_WB, v_WB_W;
   };
 
-  void propagate_covariance(const Eigen::Matrix3d& R_WB, const Eigen::Vector3d& w, const Eigen::Vector3d& f);
+  void propagate_errors(const Eigen::Matrix3d& R_WB, const Eigen::Vector3d& w, const Eigen::Vector3d& f);
   void correct(const Row& H, double innovation, double variance);
   void correct_altitude(double innovation_m, double variance_m2);
   void inject();
