@@ -105,7 +105,8 @@ Episode::Episode(const Scenario& scenario, FlightWatcher* watcher)
     : scenario_(scenario),
       watcher_(watcher),
       ticks_(scenario.physics_rate_hz),
-      scene_(scenes::make_scene(scenario.scene, stream_seed(scenario.seed, kSceneStream))),
+      scene_(build_part("scene",
+                        [&] { return scenes::make_scene(scenario.scene, stream_seed(scenario.seed, kSceneStream)); })),
       hull_(dynamics::hull(scenario.vehicle)),
       vehicle_(scenario.vehicle),
       wind_(scenario.wind, stream_seed(scenario.seed, "wind")),
@@ -136,7 +137,7 @@ Episode::Episode(const Scenario& scenario, FlightWatcher* watcher)
 void Episode::begin() {
   const Eigen::Vector3d p_WB = scenario_.start.draw_p_WB(stream_seed(scenario_.seed, "start"));
   wind_W_ = wind_.sample(-p_WB.z(), Eigen::Vector3d::Zero(), ticks_.dt_s());
-  vehicle_.reset(p_WB, scenario_.start.heading_rad, wind_W_);
+  build_part("vehicle", [&] { vehicle_.reset(p_WB, scenario_.start.heading_rad, wind_W_); });
   avionics_.reset(truth());
   setpoint_ = dynamics::PositionSetpoint{p_WB, goal_.heading_rad};
   const dynamics::AutopilotConfig& limits = scenario_.avionics.autopilot;

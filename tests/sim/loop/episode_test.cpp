@@ -97,6 +97,15 @@ TEST(Episode, FlyingIntoAWallEndsWithACollisionThatNamesIt) {
   EXPECT_LE(flight.result.closest_obstacle.distance_m, 0.0);
 }
 
+TEST(Episode, ASceneThatCannotBeIsBadInputAndSaysWhy) {
+  try {
+    fly(short_city({"scene.min_height=90"}));
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "'scene': max_height: 40; valid: from min_height to 1000 m");
+  }
+}
+
 TEST(PictureAt, AnUnknownCameraIsRefusedWithTheRigsRoles) {
   try {
     picture_at(short_city(), "top", Channel::grey, 0.0);
