@@ -47,6 +47,11 @@ double excess(const PlacedBody& first, const PlacedBody& second, const Eigen::Ve
   return distance_m - apart_m;
 }
 
+// Does a slab fit between the bodies, so that they surely do not overlap?
+bool are_apart(const PlacedBody& first, const PlacedBody& second, const Separation& apart) {
+  return apart.distance_m > kExact_m && excess(first, second, apart.on_first_W, apart.on_second_W) < apart.distance_m;
+}
+
 bool is_proved(const PlacedBody& first, const PlacedBody& second, const Separation& apart) {
   return excess(first, second, apart.on_first_W, apart.on_second_W) <= kExact_m;
 }
@@ -120,7 +125,7 @@ Separation separate(const PlacedBody& first, const PlacedBody& second) {
   // Bullet's search stops early at about one pair in a thousand, off by up to metres: what it cannot prove is measured
   // a second way.
   const Separation apart = separate_by_projections(first, second, start_W);
-  if (apart.distance_m > kExact_m && is_proved(first, second, apart)) return apart;
+  if (are_apart(first, second, apart)) return apart;
 
   // Overlapping, or too near to tell: ask for the depth. No answer means that they just touch.
   constexpr bool kUseMargins = false;

@@ -16,6 +16,7 @@ using Eigen::Vector3d;
 using Shape = ConvexBody::Shape;
 
 constexpr double kExact_m = 2e-7;        // separate() promises 1e-7, the closed forms round
+constexpr double kSliding_m = 1e-6;      // its promise where the nearest points slide
 constexpr double kBulletDepth_m = 1e-4;  // separate() promises no more inside
 
 const Eigen::Quaterniond kLevel = Eigen::Quaterniond::Identity();
@@ -79,6 +80,24 @@ TEST(Separation, OfATiltedDiscFromAWallFollowsSineAndCosine) {
 }
 
 // Independent oracle: the best of many points spread over one body, each measured to the other in closed form.
+TEST(Separation, UnderAWideCeilingIsThatOfTheHighestPointHoweverNearlyParallel) {
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> exponent(-9.0, -0.5), turn(-4.0, 4.0), gap(0.01, 4.0);
+  const ConvexBody slab(Shape::box, {8.2, 4.2, 0.1});
+  for (const ConvexBody& body : {ConvexBody(Shape::cylinder, {0.775, 0.775, 0.02}),
+                                 ConvexBody(Shape::box, {0.13, 0.02, 0.13}), ConvexBody(Shape::box, {0.3, 0.1, 0.2})}) {
+    for (int trial = 0; trial < 100000; ++trial) {
+      const double roll = std::pow(10.0, exponent(random)), pitch = std::pow(10.0, exponent(random));
+      const Eigen::Quaterniond q(AngleAxisd(turn(random), Vector3d::UnitZ()) * AngleAxisd(pitch, Vector3d::UnitY()) *
+                                 AngleAxisd(roll, Vector3d::UnitX()));
+      const PlacedBody below(body, at({0.4, -0.2, 0.0}, q));
+      const double gap_m = gap(random);
+      const PlacedBody ceiling(slab, at({0.0, 0.0, -below.reach(-Vector3d::UnitZ()) - gap_m - 0.1}));
+      ASSERT_NEAR(separate(below, ceiling).distance_m, gap_m, kSliding_m) << "roll " << roll << " pitch " << pitch;
+    }
+  }
+}
+
 TEST(Separation, IsBelowEverySampledDistanceAndNearTheBest) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> turn(0.0, 2.0 * std::numbers::pi), share(0.0, 1.0);
