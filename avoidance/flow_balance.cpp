@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "avoidance/balance_law.h"
@@ -12,6 +13,8 @@
 #include "avoidance/flow_picture.h"
 #include "avoidance/go_to_goal.h"
 #include "avoidance/lasting_ranges.h"
+#include "avoidance/range_memory.h"
+#include "avoidance/zig_zag.h"
 #include "vision/flow_range.h"
 
 namespace hedgehop::avoidance {
@@ -34,6 +37,10 @@ void check(const FlowBalanceConfig& c) {
   need(c.forward_speed_mps > 0.0 && c.sideways_speed_mps > 0.0, "simple: speeds must be above 0 m/s");
   need(c.range_threshold_m > 0.0, "simple: range_threshold must be above 0 m");
   need(c.near_pictures >= 1, "near_pictures must be at least 1");
+  need(c.braking_mps2 > 0.0, "simple: braking must be above 0 m/s^2");
+  need(c.way_angle_rad > 0.0 && c.way_angle_rad <= std::numbers::pi / 2, "simple: way_angle must lie in (0, 90] deg");
+  need(c.range_memory_s >= 0.0, "range_memory must be at least 0 s");
+  need(c.stray_rad >= 0.0 && c.stray_rad <= std::numbers::pi / 6, "simple: stray must lie in [0, 30] deg");
   need(c.confirmations >= 1, "simple: at least one confirmation");
 }
 
@@ -77,15 +84,19 @@ class FlowBalance final : public Module {
                                         [&](const MountedCamera& camera) { return camera.role == role; });
       cameras_.emplace_back(*mounted, CameraFlow::Options{config_.flow, config_.derotate, missing});
     }
-    confirmed_.fill(0);
+    zig_zag_.emplace(ZigZag::Config{{config_.forward_speed_mps, config_.sideways_speed_mps},
+                                    config_.range_threshold_m,
+                                    config_.confirmations,
+                                    config_.stray_rad,
+                                    setup.seed});
     sense_.assign(kRoles.size(), {});
+    memories_.assign(kRoles.size(), RangeMemory(config_.range_memory_s));
     ranges_.assign(kRoles.size(), LastingRanges(config_.near_pictures));
-    way_H_ = {1.0, 1.0};
     v_cmd_W_.reset();
     v_tgt_W_.setZero();
     heading_rad_ = 0.0;
     least_valid_share_ = 1.0;
-    reversals_ = decisions_ = avoiding_ = 0;
+    decisions_ = avoiding_ = 0;
   }
 
   Decision do_update(const Observation& observation) override {
@@ -98,7 +109,7 @@ class FlowBalance final : public Module {
     Decision decision;
     VelocityCommand command;
     if (config_.scheme == FlowBalanceConfig::Scheme::simple) {
-      command.v_WB_W = zig_zag(v_H, decision.status);
+      command.v_WB_W = explore(v_H, decision.status);
     } else {
       command.v_WB_W = seek_goal(observation, v_H, decision.status);
     }
@@ -128,14 +139,30 @@ class FlowBalance final : public Module {
         sense_[i].flow_radps = measure->flow_radps;
         sense_[i].loom_per_s = measure->loom_per_s;
         if (fresh_[i] && config_.ranging == FlowBalanceConfig::Ranging::nearest) {
-          const Eigen::Vector3d v_WC_C = R_BC.transpose() * observation.navigation.v_WB_B_est;
-          ranges_[i].add(vision::inverse_ranges_per_m(camera.field(), camera.camera().model, v_WC_C, measure->dt_s,
-                                                      config_.divisor_floor_mps));
+          take_in_ranges(i, observation.navigation, measure->dt_s);
         }
         sense_[i].near_per_m = vision::nearest_inverse_range_per_m(ranges_[i].lasting_per_m(), config_.near_share);
         if (fresh_[i]) least_valid_share_ = std::min(least_valid_share_, measure->valid_share);
       }
     }
+  }
+
+  void take_in_ranges(size_t i, const NavigationState& navigation, double dt_s) {
+    const MountedCamera& camera = cameras_[i].camera();
+    const Eigen::Vector3d v_WC_B = navigation.v_WB_B_est + navigation.w_WB_B_est.cross(camera.X_BC.translation());
+    const Eigen::Vector3d v_WC_C = camera.X_BC.linear().transpose() * v_WC_B;
+    const vision::FlowField& field = cameras_[i].field();
+    const double floor_mps = config_.divisor_floor_mps;
+    const std::vector<double> near = vision::inverse_ranges_per_m(field, camera.model, v_WC_C, dt_s, floor_mps);
+    const std::vector<double> weights = vision::parallax_weights(field, camera.model, v_WC_C, floor_mps);
+    const std::vector<double> bearings_rad = vision::bearings_rad(field, camera.model);
+    std::vector<RangeMemory::Sight> sights;
+    for (size_t patch = 0; patch < near.size(); ++patch) {
+      const double closing_mps =
+          v_WC_C.z() * std::cos(bearings_rad[patch]) + v_WC_C.x() * std::sin(bearings_rad[patch]);
+      sights.push_back({near[patch], weights[patch], closing_mps});
+    }
+    ranges_[i].add(memories_[i].update(sights, dt_s));
   }
 
   /// The goal-directed scheme, [Garratt2009] sec. 4.1: target velocity and push from the walls, brought to cruise
@@ -166,24 +193,41 @@ class FlowBalance final : public Module {
     return *v_cmd_W_ + (1.0 - std::exp(-dt_s / config_.command_time_constant_s)) * (v_W - *v_cmd_W_);
   }
 
-  /// The simple scheme, [Garratt2009] sec. 4: a diagonal whose component towards a near wall turns round.
-  Eigen::Vector2d zig_zag(const Eigen::Vector2d& v_H, std::string& status) {
-    status = "cruise";
+  /// The simple scheme, [Garratt2009] sec. 4.
+  Eigen::Vector2d explore(const Eigen::Vector2d& v_H, std::string& status) {
+    std::array<ZigZag::Side, kRoles.size()> sides;
     for (size_t i = 0; i < cameras_.size(); ++i) {
-      if (!fresh_[i]) continue;
-      const InverseRanges near = inverse_ranges(sense_[i], v_H, config_.divisor_floor_mps);
-      const bool too_near = std::max(near.from_flow_per_m, near.from_loom_per_m) * config_.range_threshold_m > 1.0;
-      confirmed_[i] = too_near ? confirmed_[i] + 1 : 0;
-      if (confirmed_[i] < config_.confirmations) continue;
-      const int component = std::abs(sense_[i].axis_H.x()) > std::abs(sense_[i].axis_H.y()) ? 0 : 1;
-      if (way_H_[component] * sense_[i].axis_H[component] <= 0.0) continue;  // going away already
-      way_H_[component] = -way_H_[component];
-      ++reversals_;
-      status = "turn";
+      sides[i] = {sense_[i].axis_H, near_per_m(i, v_H, zig_zag_->way_H()), fresh_[i]};
     }
-    const Eigen::Vector2d v_cmd_H{way_H_.x() * config_.forward_speed_mps, way_H_.y() * config_.sideways_speed_mps};
-    v_tgt_W_ = turned(v_cmd_H, heading_rad_);
+    status = zig_zag_->update(sides) ? "turn" : "cruise";
+    v_tgt_W_ = turned(zig_zag_->way_H(), heading_rad_);
     return v_tgt_W_;
+  }
+
+  /// Inverse range of the wall before a camera, 1/m, as far as it bars a way.
+  double near_per_m(size_t i, const Eigen::Vector2d& v_H, const Eigen::Vector2d& way_H) const {
+    if (config_.ranging == FlowBalanceConfig::Ranging::mean) {
+      const InverseRanges near = inverse_ranges(sense_[i], v_H, config_.divisor_floor_mps);
+      return std::max(near.from_flow_per_m, near.from_loom_per_m);
+    }
+    std::vector<double> near = ranges_[i].lasting_per_m();
+    const std::vector<double> bearings_rad = vision::bearings_rad(cameras_[i].field(), cameras_[i].camera().model);
+    for (size_t patch = 0; patch < near.size(); ++patch) {
+      const Eigen::Vector2d to_patch_H =
+          std::cos(bearings_rad[patch]) * sense_[i].axis_H + std::sin(bearings_rad[patch]) * sense_[i].right_H;
+      const bool on_the_way = to_patch_H.dot(way_H) >= std::cos(config_.way_angle_rad) * way_H.norm();
+      const double closing_mps = std::max(v_H.dot(to_patch_H), way_H.dot(to_patch_H));
+      near[patch] = on_the_way ? near_once_stopped_per_m(near[patch], closing_mps) : 0.0;
+    }
+    return vision::nearest_inverse_range_per_m(std::move(near), config_.near_share);
+  }
+
+  /// Inverse range left, 1/m, of what is closed in on at `closing_mps` when the vehicle has come to a halt.
+  double near_once_stopped_per_m(double near_per_m, double closing_mps) const {
+    constexpr double kTouching_per_m = 1e3;
+    const double closing = std::max(0.0, closing_mps);
+    const double share_left = 1.0 - near_per_m * closing * closing / (2.0 * config_.braking_mps2);
+    return near_per_m < kTouching_per_m * share_left ? near_per_m / share_left : kTouching_per_m;
   }
 
   std::vector<double> signal_values(int64_t now_ns) const {
@@ -204,7 +248,7 @@ class FlowBalance final : public Module {
   std::vector<Metric> do_metrics() const override {
     return {{"least_valid_share", least_valid_share_, ""},
             {"avoiding_share", decisions_ > 0 ? static_cast<double>(avoiding_) / decisions_ : 0.0, ""},
-            {"reversals", static_cast<double>(reversals_), ""}};
+            {"reversals", static_cast<double>(zig_zag_ ? zig_zag_->reversals() : 0), ""}};
   }
 
   cv::Mat do_annotate() const override {
@@ -225,10 +269,10 @@ class FlowBalance final : public Module {
   FlowBalanceConfig config_;
   std::vector<CameraFlow> cameras_;  ///< in the order of kRoles, as are the next four
   std::vector<WallSense> sense_;
+  std::vector<RangeMemory> memories_;
   std::vector<LastingRanges> ranges_;
   std::array<bool, kRoles.size()> fresh_{};
-  std::array<int, kRoles.size()> confirmed_{};
-  Eigen::Vector2d way_H_{1.0, 1.0};  ///< simple scheme: signs of the velocity's components
+  std::optional<ZigZag> zig_zag_;
   Eigen::Vector2d v_tgt_W_ = Eigen::Vector2d::Zero();
   std::optional<Eigen::Vector2d> v_cmd_W_;
   int64_t last_t_ns_ = 0;

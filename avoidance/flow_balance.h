@@ -29,6 +29,7 @@ struct FlowBalanceConfig {
   Ranging ranging = Ranging::mean;
   double near_share = 0.1;
   int near_pictures = 3;
+  double range_memory_s = 0.0;
   double divisor_floor_mps = 0.2;
 
   double speed_mps = 2.0;
@@ -41,6 +42,9 @@ struct FlowBalanceConfig {
   double forward_speed_mps = 1.0;
   double sideways_speed_mps = 1.0;
   double range_threshold_m = 2.0;
+  double braking_mps2 = 1.0;
+  double stray_rad = 0.0;
+  double way_angle_rad = std::numbers::pi / 3;
   int confirmations = 2;
 };
 
@@ -56,14 +60,20 @@ void describe(Visitor& v, FlowBalanceConfig& c) {
      .meaning = "mean flow and loom over valid patches, or over all with invalid ones (sky) as infinitely far"});
   v("ranging", c.ranging,
     {.choices = {"mean", "nearest"},
-     .meaning = "goal_directed: nearness of walls from a camera's mean flow and loom (the paper), or from its nearest "
-                "patches, each by its own flow (ours; wants derotate)"});
+     .meaning =
+         "nearness of walls from a camera's mean flow and loom (the paper), or from its nearest patches, each by "
+         "its own flow (ours; wants derotate)"});
   v("near_share", c.near_share,
     {.above = 0.0, .at_most = 1.0, .meaning = "ranging nearest: share of a camera's patches taken as the nearest"});
   v("near_pictures", c.near_pictures,
     {.at_least = 1,
      .at_most = 20,
      .meaning = "ranging nearest: a patch is as near as the last pictures, this many, agree on"});
+  v("range_memory", c.range_memory_s,
+    {.unit = "s",
+     .at_least = 0.0,
+     .meaning = "ranging nearest: a patch of which the flow tells nothing stays as it was, fading with this time "
+                "constant; 0 forgets at once"});
   v("divisor_floor", c.divisor_floor_mps,
     {.unit = "m/s", .above = 0.0, .meaning = "velocities that flow and loom are divided by are at least this large"});
   v("speed", c.speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "goal_directed: speed flown"});
@@ -82,6 +92,20 @@ void describe(Visitor& v, FlowBalanceConfig& c) {
   v("sideways_speed", c.sideways_speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "simple: speed across it"});
   v("range_threshold", c.range_threshold_m,
     {.unit = "m", .above = 0.0, .meaning = "simple: turn round when flow or loom tell a shorter range"});
+  v("braking", c.braking_mps2,
+    {.unit = "m/s^2",
+     .above = 0.0,
+     .meaning = "simple, ranging nearest: deceleration counted on; the distance it takes to stop is kept in hand"});
+  v("stray", c.stray_rad,
+    {.unit = "deg",
+     .at_least = 0.0,
+     .at_most = 30.0,
+     .meaning = "simple: every turn bends the way off its diagonal by a random angle up to this; 0 for the paper's"});
+  v("way_angle", c.way_angle_rad,
+    {.unit = "deg",
+     .above = 0.0,
+     .at_most = 90.0,
+     .meaning = "simple, ranging nearest: a wall counts that is seen within this angle of the way flown"});
   v("confirmations", c.confirmations,
     {.at_least = 1, .meaning = "simple: successive pictures that must agree before turning round"});
 }

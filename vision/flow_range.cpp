@@ -15,13 +15,18 @@ Eigen::Vector2d on_unit_plane(const PinholeCamera& camera, const Eigen::Vector2d
   return {(pixel.x() - camera.center_u_px) / camera.focal_x_px, (pixel.y() - camera.center_v_px) / camera.focal_y_px};
 }
 
+/// Flow of a point at z = 1 m, in units of the focal length per second.
+Eigen::Vector2d unit_flow(const Eigen::Vector2d& place, const Eigen::Vector3d& v_WC_C) {
+  return place * v_WC_C.z() - v_WC_C.head<2>();
+}
+
 }  // namespace
 
 double inverse_depth_per_m(const FlowVector& vector, const PinholeCamera& camera, const Eigen::Vector3d& v_WC_C,
                            double dt_s, double floor_mps) {
   if (!vector.valid) return 0.0;
   const Eigen::Vector2d place = on_unit_plane(camera, vector.center_px);
-  const Eigen::Vector2d b = place * v_WC_C.z() - v_WC_C.head<2>();
+  const Eigen::Vector2d b = unit_flow(place, v_WC_C);
   const Eigen::Vector2d flow(vector.flow_px.x() / (camera.focal_x_px * dt_s),
                              vector.flow_px.y() / (camera.focal_y_px * dt_s));
   const double along = b.dot(flow), across = b.x() * flow.y() - b.y() * flow.x();
@@ -38,6 +43,26 @@ std::vector<double> inverse_ranges_per_m(const FlowField& field, const PinholeCa
     near.push_back(vector.valid ? near_per_m : std::numeric_limits<double>::quiet_NaN());
   }
   return near;
+}
+
+std::vector<double> parallax_weights(const FlowField& field, const PinholeCamera& camera, const Eigen::Vector3d& v_WC_C,
+                                     double floor_mps) {
+  std::vector<double> weights;
+  weights.reserve(field.vectors.size());
+  for (const FlowVector& vector : field.vectors) {
+    const double parallax = unit_flow(on_unit_plane(camera, vector.center_px), v_WC_C).squaredNorm();
+    weights.push_back(parallax / (parallax + floor_mps * floor_mps));
+  }
+  return weights;
+}
+
+std::vector<double> bearings_rad(const FlowField& field, const PinholeCamera& camera) {
+  std::vector<double> bearings;
+  bearings.reserve(field.vectors.size());
+  for (const FlowVector& vector : field.vectors) {
+    bearings.push_back(std::atan(on_unit_plane(camera, vector.center_px).x()));
+  }
+  return bearings;
 }
 
 double nearest_inverse_range_per_m(std::vector<double> near, double share) {

@@ -27,6 +27,15 @@ double inverse_depth_per_m(const FlowVector& vector, const PinholeCamera& camera
 std::vector<double> inverse_ranges_per_m(const FlowField& field, const PinholeCamera& camera,
                                          const Eigen::Vector3d& v_WC_C, double dt_s, double floor_mps);
 
+/// Returns how far the camera's motion lets each patch tell a range, in the field's order: 0 at the focus of expansion,
+/// towards 1 where parallax is large, b . b / (b . b + floor^2) with b as in inverse_depth_per_m(). An estimate of that
+/// function is the true value times this weight.
+std::vector<double> parallax_weights(const FlowField& field, const PinholeCamera& camera, const Eigen::Vector3d& v_WC_C,
+                                     double floor_mps);
+
+/// Returns the azimuth of every patch's centre right of the optical axis, rad, in the field's order.
+std::vector<double> bearings_rad(const FlowField& field, const PinholeCamera& camera);
+
 /// Returns the mean of the largest `share` of inverse ranges, 1/m, 0 for none: an obstacle that fills that share of the
 /// view counts in full, however far the rest is. NaN counts as far. @param share  in (0, 1]; at least one value is
 /// taken.

@@ -12,8 +12,8 @@ struct ImageInterpolationConfig {
   int rows = 16, cols = 16;    ///< patches in the grid
   int patch_px = 64;           ///< side of a square patch
   int margin_px = 28;          ///< rim of the picture that no patch enters
-  int reduction = 2;           ///< the finest pictures compared are reduced this many times: 1, 2 or 4
-  int levels = 2;              ///< pictures compared, each half as large as the one before
+  int reduction = 1;           ///< the finest pictures compared are reduced this many times: 1, 2 or 4
+  int levels = 3;              ///< pictures compared, each half as large as the one before
   int iterations = 2;          ///< re-centred passes per level
   double max_flow_px = 16.0;   ///< a longer vector is invalid
   double noise_grey = 1.0;     ///< standard deviation of a pixel's noise that texture must stand out from

@@ -1,0 +1,42 @@
+#include "avoidance/zig_zag.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace hedgehop::avoidance {
+namespace {
+
+int component_along(const Eigen::Vector2d& axis_H) { return std::abs(axis_H.x()) > std::abs(axis_H.y()) ? 0 : 1; }
+
+/// Uniform in [-1, 1), the same with every standard library.
+double symmetric_draw(std::mt19937_64& random) { return std::ldexp(static_cast<double>(random() >> 11), -52) - 1.0; }
+
+}  // namespace
+
+Eigen::Vector2d ZigZag::way_H() const {
+  return Eigen::Rotation2Dd(stray_rad_) * signs_H_.cwiseProduct(config_.speed_mps);
+}
+
+bool ZigZag::update(std::span<const Side> sides) {
+  confirmed_.resize(sides.size(), 0);
+  const Side* nearest = nullptr;
+  for (size_t i = 0; i < sides.size(); ++i) {
+    const Side& side = sides[i];
+    if (!side.fresh) continue;
+    confirmed_[i] = side.near_per_m * config_.range_threshold_m > 1.0 ? confirmed_[i] + 1 : 0;
+    const int component = component_along(side.axis_H);
+    const bool towards_it = signs_H_[component] * side.axis_H[component] > 0.0;
+    if (confirmed_[i] < config_.confirmations || !towards_it) continue;
+    if (!nearest || side.near_per_m > nearest->near_per_m) nearest = &side;
+  }
+  if (!nearest) return false;
+  double& turning = signs_H_[component_along(nearest->axis_H)];
+  turning = -turning;
+  std::fill(confirmed_.begin(), confirmed_.end(), 0);
+  stray_rad_ = config_.stray_rad * symmetric_draw(random_);
+  ++reversals_;
+  return true;
+}
+
+}  // namespace hedgehop::avoidance

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <random>
+#include <span>
+#include <vector>
+
+namespace hedgehop::avoidance {
+
+/// The simple scheme of [Garratt2009] sec. 4: the vehicle flies on a diagonal of frame H (x along the heading, y to the
+/// right), and the component of its velocity that leads towards a near wall turns round.
+/// Differs: of several walls that are too near only the nearest turns a component round, and the others are judged anew
+/// on the new way. A wall that two cameras see, as at a heading across the room, would send the vehicle back the way it
+/// came instead of along the wall. And each turn may bend the way by a random angle: at a heading across the room,
+/// fixed diagonals soon repeat one closed path.
+class ZigZag {
+ public:
+  /// What one camera tells of the walls on its side.
+  struct Side {
+    Eigen::Vector2d axis_H = Eigen::Vector2d::UnitX();  ///< where the camera looks
+    double near_per_m = 0.0;                            ///< inverse range of the nearest wall there
+    bool fresh = false;                                 ///< is there a new picture since the last update?
+  };
+
+  struct Config {
+    Eigen::Vector2d speed_mps = {1.0, 1.0};  ///< along x and y of H, both > 0
+    double range_threshold_m = 2.0;          ///< a wall within it is too near, > 0
+    int confirmations = 2;   ///< pictures in a row that must say so before a component turns round, at least 1
+    double stray_rad = 0.0;  ///< the way's largest angle off the diagonal, drawn at every turn
+    uint64_t seed = 0;       ///< of those draws
+  };
+  explicit ZigZag(const Config& config) : config_(config), random_(config.seed) {}
+
+  /// Velocity to fly in H, m/s; both components positive at first.
+  Eigen::Vector2d way_H() const;
+  int reversals() const { return reversals_; }
+
+  /// Takes in what the cameras tell, the same ones in the same order every time. @return whether a component turned.
+  bool update(std::span<const Side> sides);
+
+ private:
+  Config config_;
+  std::mt19937_64 random_;
+  Eigen::Vector2d signs_H_ = {1.0, 1.0};
+  double stray_rad_ = 0.0;
+  std::vector<int> confirmed_;
+  int reversals_ = 0;
+};
+
+}  // namespace hedgehop::avoidance
