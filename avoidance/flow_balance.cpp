@@ -10,10 +10,9 @@
 
 #include "avoidance/balance_law.h"
 #include "avoidance/camera_flow.h"
+#include "avoidance/camera_ranges.h"
 #include "avoidance/flow_picture.h"
 #include "avoidance/go_to_goal.h"
-#include "avoidance/lasting_ranges.h"
-#include "avoidance/range_memory.h"
 #include "avoidance/zig_zag.h"
 #include "vision/flow_range.h"
 
@@ -90,8 +89,8 @@ class FlowBalance final : public Module {
                                     config_.stray_rad,
                                     setup.seed});
     sense_.assign(kRoles.size(), {});
-    memories_.assign(kRoles.size(), RangeMemory(config_.range_memory_s));
-    ranges_.assign(kRoles.size(), LastingRanges(config_.near_pictures));
+    const CameraRanges::Options ranging{config_.divisor_floor_mps, config_.range_memory_s, config_.near_pictures};
+    ranges_.assign(kRoles.size(), CameraRanges(ranging));
     v_cmd_W_.reset();
     v_tgt_W_.setZero();
     heading_rad_ = 0.0;
@@ -139,30 +138,12 @@ class FlowBalance final : public Module {
         sense_[i].flow_radps = measure->flow_radps;
         sense_[i].loom_per_s = measure->loom_per_s;
         if (fresh_[i] && config_.ranging == FlowBalanceConfig::Ranging::nearest) {
-          take_in_ranges(i, observation.navigation, measure->dt_s);
+          ranges_[i].update(camera, observation.navigation, measure->dt_s);
         }
-        sense_[i].near_per_m = vision::nearest_inverse_range_per_m(ranges_[i].lasting_per_m(), config_.near_share);
+        sense_[i].near_per_m = vision::nearest_inverse_range_per_m(ranges_[i].near_per_m(), config_.near_share);
         if (fresh_[i]) least_valid_share_ = std::min(least_valid_share_, measure->valid_share);
       }
     }
-  }
-
-  void take_in_ranges(size_t i, const NavigationState& navigation, double dt_s) {
-    const MountedCamera& camera = cameras_[i].camera();
-    const Eigen::Vector3d v_WC_B = navigation.v_WB_B_est + navigation.w_WB_B_est.cross(camera.X_BC.translation());
-    const Eigen::Vector3d v_WC_C = camera.X_BC.linear().transpose() * v_WC_B;
-    const vision::FlowField& field = cameras_[i].field();
-    const double floor_mps = config_.divisor_floor_mps;
-    const std::vector<double> near = vision::inverse_ranges_per_m(field, camera.model, v_WC_C, dt_s, floor_mps);
-    const std::vector<double> weights = vision::parallax_weights(field, camera.model, v_WC_C, floor_mps);
-    const std::vector<double> bearings_rad = vision::bearings_rad(field, camera.model);
-    std::vector<RangeMemory::Sight> sights;
-    for (size_t patch = 0; patch < near.size(); ++patch) {
-      const double closing_mps =
-          v_WC_C.z() * std::cos(bearings_rad[patch]) + v_WC_C.x() * std::sin(bearings_rad[patch]);
-      sights.push_back({near[patch], weights[patch], closing_mps});
-    }
-    ranges_[i].add(memories_[i].update(sights, dt_s));
   }
 
   /// The goal-directed scheme, [Garratt2009] sec. 4.1: target velocity and push from the walls, brought to cruise
@@ -210,24 +191,16 @@ class FlowBalance final : public Module {
       const InverseRanges near = inverse_ranges(sense_[i], v_H, config_.divisor_floor_mps);
       return std::max(near.from_flow_per_m, near.from_loom_per_m);
     }
-    std::vector<double> near = ranges_[i].lasting_per_m();
+    std::vector<double> near = ranges_[i].near_per_m();
     const std::vector<double> bearings_rad = vision::bearings_rad(cameras_[i].field(), cameras_[i].camera().model);
     for (size_t patch = 0; patch < near.size(); ++patch) {
       const Eigen::Vector2d to_patch_H =
           std::cos(bearings_rad[patch]) * sense_[i].axis_H + std::sin(bearings_rad[patch]) * sense_[i].right_H;
       const bool on_the_way = to_patch_H.dot(way_H) >= std::cos(config_.way_angle_rad) * way_H.norm();
       const double closing_mps = std::max(v_H.dot(to_patch_H), way_H.dot(to_patch_H));
-      near[patch] = on_the_way ? near_once_stopped_per_m(near[patch], closing_mps) : 0.0;
+      near[patch] = on_the_way ? near_once_stopped_per_m(near[patch], closing_mps, config_.braking_mps2) : 0.0;
     }
     return vision::nearest_inverse_range_per_m(std::move(near), config_.near_share);
-  }
-
-  /// Inverse range left, 1/m, of what is closed in on at `closing_mps` when the vehicle has come to a halt.
-  double near_once_stopped_per_m(double near_per_m, double closing_mps) const {
-    constexpr double kTouching_per_m = 1e3;
-    const double closing = std::max(0.0, closing_mps);
-    const double share_left = 1.0 - near_per_m * closing * closing / (2.0 * config_.braking_mps2);
-    return near_per_m < kTouching_per_m * share_left ? near_per_m / share_left : kTouching_per_m;
   }
 
   std::vector<double> signal_values(int64_t now_ns) const {
@@ -267,10 +240,9 @@ class FlowBalance final : public Module {
   }
 
   FlowBalanceConfig config_;
-  std::vector<CameraFlow> cameras_;  ///< in the order of kRoles, as are the next four
+  std::vector<CameraFlow> cameras_;  ///< in the order of kRoles, as are the next three
   std::vector<WallSense> sense_;
-  std::vector<RangeMemory> memories_;
-  std::vector<LastingRanges> ranges_;
+  std::vector<CameraRanges> ranges_;
   std::array<bool, kRoles.size()> fresh_{};
   std::optional<ZigZag> zig_zag_;
   Eigen::Vector2d v_tgt_W_ = Eigen::Vector2d::Zero();

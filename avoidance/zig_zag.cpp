@@ -14,6 +14,13 @@ double symmetric_draw(std::mt19937_64& random) { return std::ldexp(static_cast<d
 
 }  // namespace
 
+double near_once_stopped_per_m(double near_per_m, double closing_mps, double braking_mps2) {
+  constexpr double kTouching_per_m = 1e3;
+  const double closing = std::max(0.0, closing_mps);
+  const double share_left = 1.0 - near_per_m * closing * closing / (2.0 * braking_mps2);
+  return near_per_m < kTouching_per_m * share_left ? near_per_m / share_left : kTouching_per_m;
+}
+
 Eigen::Vector2d ZigZag::way_H() const {
   return Eigen::Rotation2Dd(stray_rad_) * signs_H_.cwiseProduct(config_.speed_mps);
 }

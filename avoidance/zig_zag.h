@@ -8,6 +8,12 @@
 
 namespace hedgehop::avoidance {
 
+/// Inverse of the range that is left, 1/m, when the vehicle has stopped short of what is now at inverse range
+/// `near_per_m`
+/// (>= 0) and closed in on at `closing_mps` (< 0 when it recedes): 1/near - v^2 / (2 a). 1000 where nothing is left.
+/// @param braking_mps2  deceleration a, > 0.
+double near_once_stopped_per_m(double near_per_m, double closing_mps, double braking_mps2);
+
 /// The simple scheme of [Garratt2009] sec. 4: the vehicle flies on a diagonal of frame H (x along the heading, y to the
 /// right), and the component of its velocity that leads towards a near wall turns round.
 /// Differs: of several walls that are too near only the nearest turns a component round, and the others are judged anew

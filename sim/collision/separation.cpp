@@ -37,23 +37,28 @@ std::unique_ptr<const btConvexShape> bullet_shape(ConvexBody::Shape shape, const
   return made;
 }
 
-// By how much |b - a| may exceed the distance of the bodies that a and b lie on: two planes square to b - a, each
-// touching its body from the other's side, are a lower bound of that distance.
-double excess(const PlacedBody& first, const PlacedBody& second, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  const double distance_m = (b - a).norm();
-  if (distance_m == 0.0) return 0.0;
-  const Eigen::Vector3d n = (b - a) / distance_m;
-  const double apart_m = -second.reach(-n) - first.reach(n);
-  return distance_m - apart_m;
+// Width of the slab square to the unit vector n that fits between the bodies, the second one ahead: a lower bound of
+// their distance, < 0 when none fits.
+double slab_m(const PlacedBody& first, const PlacedBody& second, const Eigen::Vector3d& n) {
+  return -second.reach(-n) - first.reach(n);
 }
 
-// Does a slab fit between the bodies, so that they surely do not overlap?
-bool are_apart(const PlacedBody& first, const PlacedBody& second, const Separation& apart) {
-  return apart.distance_m > kExact_m && excess(first, second, apart.on_first_W, apart.on_second_W) < apart.distance_m;
+// The widest slab among those square to `n` and to the bodies' own axes.
+double widest_slab_m(const PlacedBody& first, const PlacedBody& second, const Eigen::Vector3d& n) {
+  double widest_m = slab_m(first, second, n);
+  for (const PlacedBody* body : {&first, &second}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d face_W = body->X_WS.linear().col(axis);
+      widest_m = std::max({widest_m, slab_m(first, second, face_W), slab_m(first, second, -face_W)});
+    }
+  }
+  return widest_m;
 }
+
+Eigen::Vector3d direction(const Separation& apart) { return (apart.on_second_W - apart.on_first_W).normalized(); }
 
 bool is_proved(const PlacedBody& first, const PlacedBody& second, const Separation& apart) {
-  return excess(first, second, apart.on_first_W, apart.on_second_W) <= kExact_m;
+  return apart.distance_m == 0.0 || apart.distance_m - slab_m(first, second, direction(apart)) <= kExact_m;
 }
 
 // From a point `a` of the first body, projections to the one body and back, with momentum that restarts when it points
@@ -124,8 +129,18 @@ Separation separate(const PlacedBody& first, const PlacedBody& second) {
 
   // Bullet's search stops early at about one pair in a thousand, off by up to metres: what it cannot prove is measured
   // a second way.
-  const Separation apart = separate_by_projections(first, second, start_W);
-  if (are_apart(first, second, apart)) return apart;
+  Separation apart = separate_by_projections(first, second, start_W);
+  if (apart.distance_m > kExact_m && is_proved(first, second, apart)) return apart;
+
+  // Where a face is parallel to an edge but for some 1e-6 rad, the nearest points slide on and on; the slab between the
+  // bodies is then square to the face.
+  if (apart.distance_m > kExact_m) {
+    const double widest_m = widest_slab_m(first, second, direction(apart));
+    if (widest_m > kExact_m) {
+      apart.distance_m = std::min(apart.distance_m, widest_m);
+      return apart;
+    }
+  }
 
   // Overlapping, or too near to tell: ask for the depth. No answer means that they just touch.
   constexpr bool kUseMargins = false;

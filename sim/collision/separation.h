@@ -43,9 +43,8 @@ struct Separation {
   Eigen::Vector3d on_second_W = Eigen::Vector3d::Zero();  ///< and the second's nearest to the first
 };
 
-/// Returns the distance of two bodies, to 1e-7 m, by a certificate (to 1e-6 m where an edge or face is parallel to
-/// another's but for some 1e-6 rad, and the nearest points slide). Nearer than that they touch: then the result is 0 or,
-/// as Bullet tells it, the depth of their overlap, good to about 1e-4 m.
+/// Returns the distance of two bodies, to 1e-7 m, by a certificate. Nearer than that they touch: then the result is 0
+/// or, as Bullet tells it, the depth of their overlap, good to about 1e-4 m.
 Separation separate(const PlacedBody& first, const PlacedBody& second);
 
 }  // namespace hedgehop::sim

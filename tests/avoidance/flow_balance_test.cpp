@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "tests/avoidance/flow_rig.h"
 
@@ -203,6 +205,33 @@ TEST(FlowBalance, SimpleSchemeZigZagsThroughTheRoomWithoutTouching) {
   }
 }
 
+TEST(FlowBalance, SimpleSchemeRangingPatchByPatchFillsTheRoomCloserToItsWalls) {
+  const Walls room = {wall(8, 0, pi), wall(-8, 0, 0), wall(0, 4, -0.5 * pi), wall(0, -4, 0.5 * pi)};
+  FlowBalanceConfig config = small_pictures();
+  config.scheme = FlowBalanceConfig::Scheme::simple;
+  config.ranging = FlowBalanceConfig::Ranging::nearest;
+  config.flow.rows = 1;
+  config.flow.cols = 8;
+  config.derotate = true;
+  config.divisor_floor_mps = 0.05;
+  config.near_pictures = 1;
+  config.range_memory_s = 1.0;
+  config.range_threshold_m = 0.6;
+  config.stray_rad = pi / 9;
+  for (const double heading : {0.0, pi / 8}) {
+    const auto clearance = [](const Eigen::Vector2d& p) {
+      return std::min(8.0 - std::abs(p.x()), 4.0 - std::abs(p.y()));
+    };
+    const PointFlight flight = fly(config, room, heading, {{0, 0, -1}, heading}, {-3.0, 0.5}, 120.0, clearance);
+    EXPECT_GT(flight.least_clearance_m, 0.3) << heading;
+    std::set<std::pair<int, int>> cells;
+    for (const Eigen::Vector2d& p : flight.path) {
+      cells.insert({static_cast<int>(std::floor(p.x() / 2.0)), static_cast<int>(std::floor(p.y() / 2.0))});
+    }
+    EXPECT_GE(cells.size(), 28u) << heading;  // of 8 x 4 squares of 2 m
+  }
+}
+
 TEST(FlowBalance, GoalDirectedSchemePassesABuildingThatStandsInTheWay) {
   const Walls building = {wall(12, 0, pi, 4), wall(20, 0, 0, 4), wall(16, 4, 0.5 * pi, 4), wall(16, -4, -0.5 * pi, 4)};
   const auto clearance = [](const Eigen::Vector2d& p) {
@@ -245,6 +274,10 @@ TEST(FlowBalance, RefusesConfigsOutOfRangeAndPatchesThatDoNotFit) {
   refuse([](auto& c) { c.command_time_constant_s = -0.1; });
   refuse([](auto& c) { c.range_threshold_m = 0.0; });
   refuse([](auto& c) { c.confirmations = 0; });
+  refuse([](auto& c) { c.braking_mps2 = 0.0; });
+  refuse([](auto& c) { c.way_angle_rad = 0.0; });
+  refuse([](auto& c) { c.stray_rad = -0.1; });
+  refuse([](auto& c) { c.range_memory_s = std::nan(""); });
   FlowBalanceConfig large = small_pictures();
   large.flow.patch_px = 128;
   const auto module = make_flow_balance(large);

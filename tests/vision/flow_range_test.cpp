@@ -56,6 +56,30 @@ TEST(FlowRange, NothingIsNearerThanItsFlowProves) {
   EXPECT_LT(too_near, 0.01 * all);  // an obstacle within 20 m is seen in less than one patch of a hundred
 }
 
+TEST(FlowRange, WhatTheFloorTakesAwayIsTheWeight) {
+  std::mt19937_64 random(5);
+  constexpr double kFloor_mps = 0.4, kRange_m = 3.0;
+  for (int trial = 0; trial < 50; ++trial) {
+    const Eigen::Vector3d v_WC_C = random_velocity(random);
+    const FlowField field =
+        plane_flow(camera(), grid_field(8, 8, 32, 400), {0, 0, kRange_m}, {0, 0, 1}, v_WC_C, {0, 0, 0}, kStep_s);
+    const std::vector<double> weights = parallax_weights(field, camera(), v_WC_C, kFloor_mps);
+    for (size_t i = 0; i < weights.size(); ++i) {
+      EXPECT_NEAR(inverse_depth_per_m(field.vectors[i], camera(), v_WC_C, kStep_s, kFloor_mps), weights[i] / kRange_m,
+                  2e-3 / kRange_m);
+    }
+  }
+}
+
+TEST(FlowRange, BearingsAreTheAzimuthsOfThePatchesRays) {
+  const FlowField field = grid_field(4, 6, 32, 400);
+  const std::vector<double> bearings = bearings_rad(field, camera());
+  for (size_t i = 0; i < bearings.size(); ++i) {
+    const Eigen::Vector3d ray = camera().ray(field.vectors[i].center_px);
+    EXPECT_NEAR(bearings[i], std::atan2(ray.x(), ray.z()), 1e-12);
+  }
+}
+
 TEST(FlowRange, TheFloorOnlyMakesThingsFarther) {
   const FlowField field =
       plane_flow(camera(), grid_field(8, 8, 32, 400), {0, 0, 4}, {0, 0, 1}, {1, 0, 1}, {0, 0, 0}, kStep_s);

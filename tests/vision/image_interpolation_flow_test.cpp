@@ -126,6 +126,7 @@ TEST(ImageInterpolationFlow, OnePassIsOffByTheTexturesCurvatureAndIterationIsNot
   config.rows = config.cols = 3;
   config.patch_px = 48;
   config.margin_px = 8;
+  config.reduction = 2;
   config.levels = 1;
   config.iterations = 1;
   const Eigen::Vector2d move(1.0, 0.5);
