@@ -19,28 +19,13 @@ constexpr int kIntegrated[kIntegrals] = {M::kForward, M::kRight, M::kBelow, M::k
 /// Deviations that count alike in a design (weights are their inverse squares).
 struct Acceptable {
   double velocity_mps, climb_mps, tilt_rad, heading_rad, rate_radps, below_m;
-  double collective_rad, cyclic_rad, tail_rad;
 };
 // Chosen so that the reference flight reaches a speed within about a second without overshoot, that the vehicle holds
 // to it about as stiffly, and that the nose stays put when the tail rotor meets a side wind.
-constexpr Acceptable kPlan{.velocity_mps = 0.4,
-                           .climb_mps = 0.5,
-                           .tilt_rad = 0.3,
-                           .heading_rad = 0.05,
-                           .rate_radps = 1.0,
-                           .below_m = 0.25,
-                           .collective_rad = 0.02,
-                           .cyclic_rad = 0.05,
-                           .tail_rad = 0.1};
-constexpr Acceptable kHold{.velocity_mps = 0.25,
-                           .climb_mps = 0.5,
-                           .tilt_rad = 0.3,
-                           .heading_rad = 0.05,
-                           .rate_radps = 1.0,
-                           .below_m = 0.15,
-                           .collective_rad = 0.02,
-                           .cyclic_rad = 0.05,
-                           .tail_rad = 0.1};
+constexpr Acceptable kPlan{
+    .velocity_mps = 0.4, .climb_mps = 0.5, .tilt_rad = 0.3, .heading_rad = 0.05, .rate_radps = 1.0, .below_m = 0.25};
+constexpr Acceptable kHold{
+    .velocity_mps = 0.25, .climb_mps = 0.5, .tilt_rad = 0.3, .heading_rad = 0.05, .rate_radps = 1.0, .below_m = 0.15};
 const Eigen::Vector4d kAcceptableIntegrals{0.4, 0.4, 0.2, 0.2};  // m, m, m s, rad s
 
 double weight(double acceptable) { return 1.0 / (acceptable * acceptable); }
@@ -56,10 +41,8 @@ DesignMatrix state_weights(const Acceptable& a, Eigen::Index size) {
   return q.asDiagonal();
 }
 
-DesignMatrix input_weights(const Acceptable& a) {
-  DesignVector r(static_cast<Eigen::Index>(M::kInputs));
-  r << weight(a.collective_rad), weight(a.cyclic_rad), weight(a.cyclic_rad), weight(a.tail_rad);
-  return r.asDiagonal();
+DesignMatrix input_weights(const Controls& acceptable) {
+  return DesignVector(acceptable.array().square().inverse()).asDiagonal();
 }
 
 Eigen::Vector2d shortened(const Eigen::Vector2d& v, double longest) {
@@ -68,8 +51,6 @@ Eigen::Vector2d shortened(const Eigen::Vector2d& v, double longest) {
 }
 
 Eigen::Vector2d turned(double angle_rad, const Eigen::Vector2d& v) { return Eigen::Rotation2Dd(angle_rad) * v; }
-
-ActuatorCommand to_command(const Eigen::Vector4d& u) { return {u[0], u[1], u[2], u[3]}; }
 
 }  // namespace
 
@@ -88,16 +69,16 @@ void Autopilot::design(double dt_s) {
   dt_s_ = dt_s;
   const Eigen::Index n = model_.motion.A.rows();
   step_ = sampled(model_.motion, dt_s);
-  K_plan_ = lqr_gain(step_, state_weights(kPlan, n), input_weights(kPlan));
+  K_plan_ = lqr_gain(step_, state_weights(kPlan, n), input_weights(model_.acceptable));
 
   LinearSystem augmented{DesignMatrix::Zero(n + kIntegrals, n + kIntegrals),
-                         DesignMatrix::Zero(n + kIntegrals, M::kInputs)};
+                         DesignMatrix::Zero(n + kIntegrals, kControlAxes)};
   augmented.A.topLeftCorner(n, n) = model_.motion.A;
   augmented.B.topRows(n) = model_.motion.B;
   for (int i = 0; i < kIntegrals; ++i) augmented.A(n + i, kIntegrated[i]) = 1.0;
   DesignMatrix Q = state_weights(kHold, n + kIntegrals);
   for (int i = 0; i < kIntegrals; ++i) Q(n + i, n + i) = weight(kAcceptableIntegrals[i]);
-  K_hold_ = lqr_gain(sampled(augmented, dt_s), Q, input_weights(kHold));
+  K_hold_ = lqr_gain(sampled(augmented, dt_s), Q, input_weights(model_.acceptable));
 
   plan_slopes_ = slopes(K_plan_);
   hold_slopes_ = slopes(K_hold_);
@@ -106,15 +87,13 @@ void Autopilot::design(double dt_s) {
 Autopilot::Slopes Autopilot::slopes(const DesignMatrix& K) const {
   const Eigen::Index n = model_.motion.A.rows();
   Slopes s;
-  s.tilt_per_mps << K(M::kLongitudinal, M::kForward) / K(M::kLongitudinal, M::kPitch),
-      K(M::kLateral, M::kRight) / K(M::kLateral, M::kRoll);
+  s.tilt_per_mps << K(kPitch, M::kForward) / K(kPitch, M::kPitch), K(kRoll, M::kRight) / K(kRoll, M::kRoll);
   s.tilt_per_m.setZero();
   if (K.cols() > n) {
-    s.tilt_per_m << K(M::kLongitudinal, n) / K(M::kLongitudinal, M::kPitch),
-        K(M::kLateral, n + 1) / K(M::kLateral, M::kRoll);
+    s.tilt_per_m << K(kPitch, n) / K(kPitch, M::kPitch), K(kRoll, n + 1) / K(kRoll, M::kRoll);
   }
-  s.climb_per_m = K(M::kCollective, M::kBelow) / K(M::kCollective, M::kDown);
-  s.turn_per_rad = K(M::kTail, M::kHeading) / K(M::kTail, M::kR);
+  s.climb_per_m = K(kHeave, M::kBelow) / K(kHeave, M::kDown);
+  s.turn_per_rad = K(kYaw, M::kHeading) / K(kYaw, M::kR);
   return s;
 }
 
@@ -179,22 +158,21 @@ Eigen::Vector2d Autopilot::velocity_towards(const Eigen::Vector2d& p_WG, const E
   return distance_m > 0.0 ? Eigen::Vector2d(way * (speed_mps / distance_m)) : Eigen::Vector2d::Zero();
 }
 
-ActuatorCommand Autopilot::control(const Setpoint& setpoint, const NavigationEstimate& now, double dt_s) {
+Controls Autopilot::control(const Setpoint& setpoint, const NavigationEstimate& now, double dt_s) {
   if (dt_s != dt_s_) design(dt_s);
   if (!std::holds_alternative<HoverSetpoint>(setpoint)) anchor_.reset();
   const Target target = std::visit([&](const auto& s) { return this->target(s, now); }, setpoint);
 
   DesignVector state = state_of(now);
   if (target.attitude) reference_.head<2>() = state.head<2>();  // there is no velocity to follow
-  const Eigen::Vector4d planned = plan(target);
-  const Eigen::Vector4d asked = model_.trim_rad + planned + hold(state, planned, target.attitude);
-  const Eigen::Vector4d given = asked.cwiseMax(model_.lowest_rad).cwiseMin(model_.highest_rad);
+  const Controls planned = plan(target);
+  const Controls asked = model_.trim + planned + hold(state, planned, target.attitude);
+  const Controls given = asked.cwiseMax(model_.lowest).cwiseMin(model_.highest);
 
   hidden_ =
-      (step_.A.bottomRows(hidden_.size()) * state + step_.B.bottomRows(hidden_.size()) * (given - model_.trim_rad))
-          .eval();
+      (step_.A.bottomRows(hidden_.size()) * state + step_.B.bottomRows(hidden_.size()) * (given - model_.trim)).eval();
   advance_reference(planned);
-  return to_command(given);
+  return given;
 }
 
 /// The estimate and the predicted hidden states as the model has them: velocities in the frame of the estimated
@@ -210,7 +188,7 @@ DesignVector Autopilot::state_of(const NavigationEstimate& now) const {
 
 /// Returns what the reference flight does about the target, within the limits: errors are cut to what makes the design
 /// ask for a limit.
-Eigen::Vector4d Autopilot::plan(const Target& target) const {
+Controls Autopilot::plan(const Target& target) const {
   const AutopilotConfig& c = config_;
   DesignVector e = reference_;
   if (target.attitude) {
@@ -230,7 +208,7 @@ Eigen::Vector4d Autopilot::plan(const Target& target) const {
 }
 
 /// Returns what holds the vehicle to the reference flight, and moves the integrals on.
-Eigen::Vector4d Autopilot::hold(const DesignVector& state, const Eigen::Vector4d& planned_rad, bool attitude) {
+Controls Autopilot::hold(const DesignVector& state, const Controls& planned_controls, bool attitude) {
   const Eigen::Index n = state.size();
   const double heading = state[M::kHeading];
   DesignVector e(n + kIntegrals);
@@ -250,12 +228,11 @@ Eigen::Vector4d Autopilot::hold(const DesignVector& state, const Eigen::Vector4d
     const Eigen::Vector2d left = shortened(wanted, config_.tilt_limit_rad) - planned - from_integral;
     e.head<2>() = -left.cwiseQuotient(hold_slopes_.tilt_per_mps);
   }
-  const Eigen::Vector4d u = -K_hold_ * e;
+  const Controls u = -K_hold_ * e;
 
   // Integrals stand still while they would only grow against a limit.
-  const Eigen::Vector4d total = model_.trim_rad + planned_rad + u;
-  const bool at_stop =
-      (total.array() < model_.lowest_rad.array()).any() || (total.array() > model_.highest_rad.array()).any();
+  const Controls total = model_.trim + planned_controls + u;
+  const bool at_stop = (total.array() < model_.lowest.array()).any() || (total.array() > model_.highest.array()).any();
   if (attitude) errors.head<2>().setZero();
   for (int i = 0; i < kIntegrals; ++i) {
     const bool grows = errors[i] * integrals_[i] > 0.0;
@@ -266,7 +243,7 @@ Eigen::Vector4d Autopilot::hold(const DesignVector& state, const Eigen::Vector4d
 }
 
 /// The reference flight obeys the linear model; as it turns, its velocity over ground stays.
-void Autopilot::advance_reference(const Eigen::Vector4d& u) {
+void Autopilot::advance_reference(const Controls& u) {
   DesignVector x = reference_;
   x[M::kHeading] = 0.0;
   x[M::kBelow] = 0.0;

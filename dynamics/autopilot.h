@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "dynamics/actuator_command.h"
+#include "dynamics/controls.h"
 #include "dynamics/hover_model.h"
 #include "dynamics/lqr.h"
 #include "dynamics/navigation.h"
@@ -46,8 +46,8 @@ class Autopilot {
 
   /// Starts a flight in a trimmed hover.
   void reset(const NavigationEstimate& now);
-  /// Returns the blade angles to ask for over the next dt_s, > 0.
-  ActuatorCommand control(const Setpoint& setpoint, const NavigationEstimate& now, double dt_s);
+  /// Returns what to ask of the actuators over the next dt_s, > 0.
+  Controls control(const Setpoint& setpoint, const NavigationEstimate& now, double dt_s);
 
   const HoverModel& model() const { return model_; }
   /// The reference flight's velocity, north, east, down, m/s.
@@ -84,10 +84,10 @@ class Autopilot {
   Target target(const HoverSetpoint& s, const NavigationEstimate& now);
   Eigen::Vector2d velocity_towards(const Eigen::Vector2d& p_WG, const Eigen::Vector2d& p_WB) const;
 
-  Eigen::Vector4d plan(const Target& target) const;
-  Eigen::Vector4d hold(const DesignVector& state, const Eigen::Vector4d& planned_rad, bool attitude);
+  Controls plan(const Target& target) const;
+  Controls hold(const DesignVector& state, const Controls& planned, bool attitude);
   DesignVector state_of(const NavigationEstimate& now) const;
-  void advance_reference(const Eigen::Vector4d& u);
+  void advance_reference(const Controls& u);
 
   AutopilotConfig config_;
   HoverModel model_;

@@ -5,7 +5,6 @@
 #include <functional>
 #include <string_view>
 
-#include "dynamics/actuator_command.h"
 #include "dynamics/autopilot.h"
 #include "dynamics/gps.h"
 #include "dynamics/height_sensor.h"
@@ -65,8 +64,9 @@ class Avionics {
   }
   const NavigationEstimate& navigation() const { return navigation_.estimate(); }
   const Autopilot& autopilot() const { return autopilot_; }
-  /// The blade angles to ask for until the next call. @param dt_s  until then, > 0, the same in every call of a flight.
-  ActuatorCommand control(const Setpoint& setpoint, double dt_s) {
+  /// What to ask of the actuators until the next call. @param dt_s  until then, > 0, the same in every call of a
+  /// flight.
+  Controls control(const Setpoint& setpoint, double dt_s) {
     return autopilot_.control(setpoint, navigation_.estimate(), dt_s);
   }
 

@@ -34,8 +34,8 @@ HelicopterModel make_model(const HelicopterConfig& config) {
   return model;
 }
 
-HelicopterLoads helicopter_loads(const HelicopterModel& model, const HelicopterState& state,
-                                 const ActuatorCommand& blades, const Eigen::Vector3d& wind_W) {
+HelicopterLoads helicopter_loads(const HelicopterModel& model, const HelicopterState& state, const BladeAngles& blades,
+                                 const Eigen::Vector3d& wind_W) {
   const Eigen::Matrix3d R_WB = state.body.q_WB.normalized().toRotationMatrix();
   const Eigen::Vector3d v_air_B = state.body.v_WB_B - R_WB.transpose() * wind_W;
   const Eigen::Vector3d& w_B = state.body.w_WB_B;
@@ -52,7 +52,7 @@ HelicopterLoads helicopter_loads(const HelicopterModel& model, const HelicopterS
   return loads;
 }
 
-HelicopterVector derivative(const HelicopterModel& model, const HelicopterState& state, const ActuatorCommand& blades,
+HelicopterVector derivative(const HelicopterModel& model, const HelicopterState& state, const BladeAngles& blades,
                             const Eigen::Vector3d& wind_W) {
   const HelicopterLoads loads = helicopter_loads(model, state, blades, wind_W);
   HelicopterVector rate;

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <string_view>
 
-#include "dynamics/actuator_command.h"
+#include "dynamics/blade_angles.h"
 #include "dynamics/hull.h"
 #include "dynamics/main_rotor.h"
 #include "dynamics/rigid_body.h"
@@ -92,11 +92,11 @@ struct HelicopterLoads {
   TailRotorLoads tail_rotor;
 };
 /// @param blades  where the blades stand. @param wind_W  velocity of the air in W, m/s.
-HelicopterLoads helicopter_loads(const HelicopterModel& model, const HelicopterState& state,
-                                 const ActuatorCommand& blades, const Eigen::Vector3d& wind_W);
+HelicopterLoads helicopter_loads(const HelicopterModel& model, const HelicopterState& state, const BladeAngles& blades,
+                                 const Eigen::Vector3d& wind_W);
 
 /// Returns the time derivative of the state, a pure function of the arguments. Parameters as helicopter_loads().
-HelicopterVector derivative(const HelicopterModel& model, const HelicopterState& state, const ActuatorCommand& blades,
+HelicopterVector derivative(const HelicopterModel& model, const HelicopterState& state, const BladeAngles& blades,
                             const Eigen::Vector3d& wind_W);
 
 }  // namespace hedgehop::dynamics

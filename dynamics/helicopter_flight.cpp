@@ -31,11 +31,11 @@ HelicopterFlightState to_flight(const FlightVector& x) {
   return state;
 }
 
-std::array<double, 4> to_array(const ActuatorCommand& c) {
+std::array<double, 4> to_array(const BladeAngles& c) {
   return {c.collective_rad, c.lateral_rad, c.longitudinal_rad, c.tail_rad};
 }
 
-ActuatorCommand blade_angles(const HelicopterFlightState& state) {
+BladeAngles blade_angles(const HelicopterFlightState& state) {
   const std::array<ServoState, 4>& s = state.servos;
   return {s[0].position_rad, s[1].position_rad, s[2].position_rad, s[3].position_rad};
 }
@@ -65,7 +65,7 @@ void HelicopterFlight::reset(const Eigen::Vector3d& p_WB, double heading_rad, co
   set_state(state, wind_W);
 }
 
-void HelicopterFlight::step(const ActuatorCommand& command, const Eigen::Vector3d& wind_W, double dt_s) {
+void HelicopterFlight::step(const BladeAngles& command, const Eigen::Vector3d& wind_W, double dt_s) {
   const std::array<double, 4> targets = to_array(command);
   const auto rate = [&](double, const FlightVector& x) {
     const HelicopterFlightState state = to_flight(x);
@@ -82,7 +82,7 @@ void HelicopterFlight::step(const ActuatorCommand& command, const Eigen::Vector3
   set_state(next, wind_W);
 }
 
-ActuatorCommand HelicopterFlight::actuators() const { return blade_angles(state_); }
+BladeAngles HelicopterFlight::actuators() const { return blade_angles(state_); }
 
 void HelicopterFlight::set_state(const HelicopterFlightState& state, const Eigen::Vector3d& wind_W) {
   state_ = state;

@@ -2,13 +2,14 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <string_view>
 
-#include "dynamics/actuator_command.h"
+#include "dynamics/blade_angles.h"
 #include "dynamics/helicopter.h"
 
 namespace hedgehop::dynamics {
 
-/// Airframe and the servos that move its blades, in the order of ActuatorCommand.
+/// Airframe and the servos that move its blades, in the order of BladeAngles.
 struct HelicopterFlightState {
   HelicopterState airframe;
   std::array<ServoState, 4> servos;
@@ -20,12 +21,18 @@ class HelicopterFlight {
   /// Throws std::invalid_argument on values that cannot be.
   explicit HelicopterFlight(const HelicopterConfig& config);
 
+  static constexpr std::array<std::string_view, kControlAxes> kControlNames = {"collective_rad", "lateral_rad",
+                                                                               "longitudinal_rad", "tail_rad"};
   // As in Vehicle.
   void reset(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector3d& wind_W);
-  void step(const ActuatorCommand& command, const Eigen::Vector3d& wind_W, double dt_s);
+  void step(const BladeAngles& command, const Eigen::Vector3d& wind_W, double dt_s);
   const RigidBodyState& body() const { return state_.airframe.body; }
   const Eigen::Vector3d& specific_force_B() const { return specific_force_B_; }
-  ActuatorCommand actuators() const;
+  void step_controls(const Controls& command, const Eigen::Vector3d& wind_W, double dt_s) {
+    step(to_blade_angles(command), wind_W, dt_s);
+  }
+  BladeAngles actuators() const;
+  Controls controls() const { return to_controls(actuators()); }
   bool within_validity() const { return within_validity_; }
 
   const HelicopterModel& model() const { return model_; }

@@ -37,13 +37,13 @@ HoverModel make(const HelicopterConfig& config) {
     place[static_cast<size_t>(k)] = lives ? size++ : -1;
   }
   const int servos = size;
-  size += 2 * M::kInputs;
+  size += 2 * kControlAxes;
 
   HoverModel out;
   out.roll_rad = hover->roll_rad;
   out.pitch_rad = hover->pitch_rad;
   DesignMatrix& A = out.motion.A = DesignMatrix::Zero(size, size);
-  DesignMatrix& B = out.motion.B = DesignMatrix::Zero(size, M::kInputs);
+  DesignMatrix& B = out.motion.B = DesignMatrix::Zero(size, kControlAxes);
   for (int i = 0; i < L::kStates; ++i) {
     const int row = place[static_cast<size_t>(i)];
     if (row < 0) continue;
@@ -55,11 +55,11 @@ HoverModel make(const HelicopterConfig& config) {
   }
   A(M::kBelow, M::kDown) = 1.0;
 
-  const ActuatorCommand& t = hover->blades;
-  out.trim_rad << t.collective_rad, t.lateral_rad, t.longitudinal_rad, t.tail_rad;
+  out.trim = to_controls(hover->blades);
+  out.acceptable = {0.02, 0.05, 0.05, 0.1};
   const std::array<ServoConfig, 4> configs{config.servos.collective, config.servos.cyclic, config.servos.cyclic,
                                            config.servos.tail};
-  for (int j = 0; j < M::kInputs; ++j) {
+  for (int j = 0; j < kControlAxes; ++j) {
     const ServoConfig& servo = configs[static_cast<size_t>(j)];
     const double wn2 = servo.natural_frequency_radps * servo.natural_frequency_radps;
     const int position = servos + 2 * j, rate = position + 1;
@@ -67,8 +67,8 @@ HoverModel make(const HelicopterConfig& config) {
     A(rate, position) = -wn2;
     A(rate, rate) = -2.0 * servo.damping * servo.natural_frequency_radps;
     B(rate, j) = wn2;
-    out.lowest_rad[j] = servo.lowest_rad;
-    out.highest_rad[j] = servo.highest_rad;
+    out.lowest[j] = servo.lowest_rad;
+    out.highest[j] = servo.highest_rad;
   }
   return out;
 }

@@ -3,25 +3,23 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "dynamics/actuator_command.h"
+#include "dynamics/controls.h"
 #include "dynamics/lqr.h"
 #include "dynamics/vehicle.h"
 
 namespace hedgehop::dynamics {
 
 /// A vehicle's motion near its hover in still air, actuators included: what an autopilot is designed on.
-/// dx/dt = A x + B u, in deviations from the trim.
+/// dx/dt = A x + B u, in deviations from the trim; u are the Controls.
 struct HoverModel {
   /// Velocity over ground forward, right, down in the level frame that turns with the heading (m/s); roll, pitch,
   /// heading (rad); p, q, r (rad/s); distance below the set altitude (m). Behind them come the states that no sensor
   /// tells of: disc, stabiliser bar, servos.
   enum State { kForward, kRight, kDown, kRoll, kPitch, kHeading, kP, kQ, kR, kBelow, kHidden };
-  /// In the order of ActuatorCommand, rad.
-  enum Input { kCollective, kLateral, kLongitudinal, kTail, kInputs };
-
   LinearSystem motion;
-  double roll_rad = 0.0, pitch_rad = 0.0;             ///< of the trim
-  Eigen::Vector4d trim_rad, lowest_rad, highest_rad;  ///< of the actuators
+  double roll_rad = 0.0, pitch_rad = 0.0;  ///< of the trim
+  Controls trim, lowest, highest;
+  Controls acceptable;  ///< deviations that cost the actuators alike: the scale of a design's weights
 };
 
 /// Throws std::invalid_argument when the vehicle has no hover.

@@ -76,7 +76,7 @@ MainRotor make_main_rotor(const MainRotorConfig& c, double density_kgpm3) {
   return rotor;
 }
 
-MainRotorLoads main_rotor_loads(const MainRotor& rotor, const FlapState& flap, const ActuatorCommand& blades,
+MainRotorLoads main_rotor_loads(const MainRotor& rotor, const FlapState& flap, const BladeAngles& blades,
                                 const Eigen::Vector3d& v_air_B, const Eigen::Vector3d& w_WB_B) {
   const double h = rotor.hub_height_m;
   const double a = flap.back_rad, b = flap.right_rad;

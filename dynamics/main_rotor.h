@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "dynamics/actuator_command.h"
+#include "dynamics/blade_angles.h"
 #include "dynamics/flapping.h"
 #include "dynamics/induced_velocity.h"
 
@@ -74,7 +74,7 @@ struct MainRotorLoads {
 
 /// @param v_air_B  velocity of B through the air, in B, m/s. @param w_WB_B  rad/s.
 /// Source: [HeffleyMnich1988] sec. on the main rotor; [Gavrilets2015] sec. on rotor forces.
-MainRotorLoads main_rotor_loads(const MainRotor& rotor, const FlapState& flap, const ActuatorCommand& blades,
+MainRotorLoads main_rotor_loads(const MainRotor& rotor, const FlapState& flap, const BladeAngles& blades,
                                 const Eigen::Vector3d& v_air_B, const Eigen::Vector3d& w_WB_B);
 
 }  // namespace hedgehop::dynamics

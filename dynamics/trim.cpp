@@ -94,9 +94,9 @@ StateVector rates(const HelicopterModel& model, const Trim& trim, double heading
   s.body.w_WB_B += dx.segment<3>(L::kP);
   s.flap = {s.flap.back_rad + dx[L::kBack], s.flap.right_rad + dx[L::kRight], s.flap.bar_back_rad + dx[L::kBarBack],
             s.flap.bar_right_rad + dx[L::kBarRight]};
-  const ActuatorCommand& b = trim.blades;
-  const ActuatorCommand blades{b.collective_rad + du[0], b.lateral_rad + du[1], b.longitudinal_rad + du[2],
-                               b.tail_rad + du[3]};
+  const BladeAngles& b = trim.blades;
+  const BladeAngles blades{b.collective_rad + du[0], b.lateral_rad + du[1], b.longitudinal_rad + du[2],
+                           b.tail_rad + du[3]};
   const HelicopterVector rate = derivative(model, s, blades, Eigen::Vector3d::Zero());
 
   const Eigen::Vector3d& w = s.body.w_WB_B;

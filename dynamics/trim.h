@@ -10,7 +10,7 @@ namespace hedgehop::dynamics {
 /// Steady flight: nothing changes but the position.
 struct Trim {
   HelicopterState state;  ///< position zero; velocity is that through the air
-  ActuatorCommand blades;
+  BladeAngles blades;
   double roll_rad = 0.0, pitch_rad = 0.0;
   HelicopterLoads loads;
 };
@@ -24,7 +24,7 @@ std::optional<Trim> trim(const HelicopterModel& model, const Eigen::Vector3d& v_
 struct LinearModel {
   /// u, v, w (m/s, in B), p, q, r, roll, pitch, heading, disc back, disc right, bar back, bar right (rad, rad/s).
   enum State { kU, kV, kW, kP, kQ, kR, kRoll, kPitch, kHeading, kBack, kRight, kBarBack, kBarRight, kStates };
-  /// In the order of ActuatorCommand, rad.
+  /// In the order of BladeAngles, rad.
   enum Input { kCollective, kLateral, kLongitudinal, kTail, kInputs };
   Eigen::Matrix<double, kStates, kStates> A;  ///< rows and columns of the bar are zero when it is lumped
   Eigen::Matrix<double, kStates, kInputs> B;

@@ -20,8 +20,8 @@ void Vehicle::reset(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen
   std::visit([&](auto& flight) { flight.reset(p_WB, heading_rad, wind_W); }, flight_);
 }
 
-void Vehicle::step(const ActuatorCommand& command, const Eigen::Vector3d& wind_W, double dt_s) {
-  std::visit([&](auto& flight) { flight.step(command, wind_W, dt_s); }, flight_);
+void Vehicle::step(const Controls& command, const Eigen::Vector3d& wind_W, double dt_s) {
+  std::visit([&](auto& flight) { flight.step_controls(command, wind_W, dt_s); }, flight_);
 }
 
 const RigidBodyState& Vehicle::body() const {
@@ -32,8 +32,13 @@ const Eigen::Vector3d& Vehicle::specific_force_B() const {
   return std::visit([](const auto& flight) -> const Eigen::Vector3d& { return flight.specific_force_B(); }, flight_);
 }
 
-ActuatorCommand Vehicle::actuators() const {
-  return std::visit([](const auto& flight) { return flight.actuators(); }, flight_);
+Controls Vehicle::actuators() const {
+  return std::visit([](const auto& flight) { return flight.controls(); }, flight_);
+}
+
+const std::array<std::string_view, kControlAxes>& Vehicle::control_names() const {
+  return std::visit(
+      [](const auto& flight) -> const auto& { return flight.kControlNames; }, flight_);
 }
 
 bool Vehicle::within_validity() const {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <string_view>
 #include <variant>
 #include <vector>
 
-#include "dynamics/actuator_command.h"
+#include "dynamics/controls.h"
 #include "dynamics/helicopter_flight.h"
 #include "dynamics/hull.h"
 #include "dynamics/rigid_body.h"
@@ -31,13 +33,15 @@ class Vehicle {
 
   /// Moves on by dt; command and wind are held over the step. Allocates no memory.
   /// @param dt_s  > 0, at most 0.002 for a helicopter of the default size (its fastest motion decays at 40 1/s).
-  void step(const ActuatorCommand& command, const Eigen::Vector3d& wind_W, double dt_s);
+  void step(const Controls& command, const Eigen::Vector3d& wind_W, double dt_s);
 
   const RigidBodyState& body() const;
   /// What an ideal accelerometer at B reads, in B, m/s2: (0, 0, -g) level at rest.
   const Eigen::Vector3d& specific_force_B() const;
-  /// Where the servos stand.
-  ActuatorCommand actuators() const;
+  /// Where the actuators stand, in the vehicle's own units.
+  Controls actuators() const;
+  /// What its controls are, with their units as a table's head has them ("collective_rad").
+  const std::array<std::string_view, kControlAxes>& control_names() const;
   /// False while a helicopter descends into its own wake, where its rotor model is not to be trusted.
   bool within_validity() const;
 

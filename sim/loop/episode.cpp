@@ -94,7 +94,7 @@ class Episode {
   std::vector<avoidance::CameraFrame> seen_;  ///< what the module is shown this tick
   std::deque<PendingCommand> pending_;
   dynamics::Setpoint setpoint_;
-  dynamics::ActuatorCommand actuators_;
+  dynamics::Controls actuators_ = dynamics::Controls::Zero();
   FlightLog log_;
   StageTimer physics_, render_, velocimetry_, decision_;
   std::optional<Outcome> outcome_;
@@ -117,7 +117,7 @@ Episode::Episode(const Scenario& scenario, FlightWatcher* watcher)
       module_(avoidance::make_module(scenario.avoidance)),
       goal_(to_goal(scenario)),
       control_period_(ticks_.period(static_cast<double>(scenario.control_rate_hz))),
-      log_(scene_) {
+      log_(scene_, vehicle_) {
   if (scenario.velocimeter.enabled) {
     velocimeter_.emplace(cameras_.index(scenario.velocimeter.camera), cameras_);
   }

@@ -27,8 +27,9 @@ struct TrajectoryRow {
   std::optional<Eigen::Vector2d> v_WB_W_cmd;  ///< north, east; none while another kind of command holds
   std::optional<double> altitude_cmd_m, heading_cmd_rad;
   double obstacle_clearance_m = 0.0, ground_clearance_m = 0.0;  ///< +inf where there is nothing
-  double collective_rad = 0.0, lateral_rad = 0.0, longitudinal_rad = 0.0, tail_rad = 0.0;  ///< at the blades
-  Eigen::Vector3d wind_W = Eigen::Vector3d::Zero();                                        ///< m/s
+  Eigen::Vector4d controls = Eigen::Vector4d::Zero();  ///< where the actuators stand, see Flight::control_names
+  Eigen::Vector3d wind_W = Eigen::Vector3d::Zero();    ///< m/s
+  bool model_valid = true;                             ///< false where the rotors leave the range of momentum theory
 };
 
 /// One decision of the module.
@@ -88,6 +89,7 @@ struct FlightResult {
 
 struct Flight {
   FlightResult result;
+  std::array<std::string, 4> control_names;  ///< of TrajectoryRow::controls, with units: "collective_rad"
   std::vector<NamedUnit> signals;
   std::vector<TrajectoryRow> trajectory;
   std::vector<DecisionRow> decisions;

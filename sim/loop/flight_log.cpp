@@ -62,7 +62,6 @@ void FlightLog::add(double t_s, const dynamics::Vehicle& vehicle, const dynamics
   const dynamics::RigidBodyState& body = vehicle.body();
   hash_.add(body);
   const CommandColumns command = columns(setpoint);
-  const dynamics::ActuatorCommand blades = vehicle.actuators();
   flight_.trajectory.push_back({.t_s = t_s,
                                 .p_WB_true = body.p_WB,
                                 .rpy_true = roll_pitch_yaw(body.q_WB),
@@ -76,11 +75,9 @@ void FlightLog::add(double t_s, const dynamics::Vehicle& vehicle, const dynamics
                                 .heading_cmd_rad = command.heading_rad,
                                 .obstacle_clearance_m = proximity.obstacle_clearance_m,
                                 .ground_clearance_m = proximity.ground_clearance_m,
-                                .collective_rad = blades.collective_rad,
-                                .lateral_rad = blades.lateral_rad,
-                                .longitudinal_rad = blades.longitudinal_rad,
-                                .tail_rad = blades.tail_rad,
-                                .wind_W = wind_W});
+                                .controls = vehicle.actuators(),
+                                .wind_W = wind_W,
+                                .model_valid = vehicle.within_validity()});
 }
 
 void FlightLog::add(double t_s, const avoidance::Decision& decision) {

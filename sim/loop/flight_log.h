@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "avoidance/module.h"
@@ -15,7 +16,10 @@ namespace hedgehop::sim {
 /// Gathers a flight's tables and figures while it is flown.
 class FlightLog {
  public:
-  explicit FlightLog(const scenes::Scene& scene) : scene_(scene) {}
+  FlightLog(const scenes::Scene& scene, const dynamics::Vehicle& vehicle) : scene_(scene) {
+    const auto& names = vehicle.control_names();
+    std::copy(names.begin(), names.end(), flight_.control_names.begin());
+  }
 
   void set_signals(const std::vector<avoidance::Signal>& signals);
   /// Every physics tick: keeps the closest approaches.

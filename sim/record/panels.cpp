@@ -58,6 +58,7 @@ class TrajectoryPanels {
  public:
   explicit TrajectoryPanels(const CsvTable& table) : table_(table), t_s_(column("t_s")) {}
 
+  bool has(std::string_view name) const { return std::ranges::count(table_.names(), name) > 0; }
   Values column(std::string_view name) const { return table_.numbers(name); }
   Values degrees(std::string_view name) const { return scaled(column(name), kDegPerRad); }
   Values altitude(std::string_view down) const { return scaled(column(down), -1.0); }
@@ -117,11 +118,19 @@ void add_aircraft(TrajectoryPanels& p) {
         {{"commanded", "cmd", scaled(unwrapped(p.column("cmd_heading_rad"), &yaw), kDegPerRad)},
          {"estimate", "est", scaled(unwrapped(p.column("est_yaw_rad"), &yaw), kDegPerRad)},
          {"true", "true", scaled(yaw, kDegPerRad)}});
-  p.add(kAircraftSection, "Control inputs at the blades", "deg", "",
-        {{"collective", "a", p.degrees("collective_rad")},
-         {"lateral", "b", p.degrees("lateral_rad")},
-         {"longitudinal", "c", p.degrees("longitudinal_rad")},
-         {"tail", "d", p.degrees("tail_rad")}});
+  if (p.has("collective_rad")) {
+    p.add(kAircraftSection, "Control inputs at the blades", "deg", "",
+          {{"collective", "a", p.degrees("collective_rad")},
+           {"lateral", "b", p.degrees("lateral_rad")},
+           {"longitudinal", "c", p.degrees("longitudinal_rad")},
+           {"tail", "d", p.degrees("tail_rad")}});
+  } else {
+    p.add(kAircraftSection, "Thrust of the rotors", "N", "", {{"thrust", "a", p.column("thrust_n")}});
+    p.add(kAircraftSection, "Torque of the rotors", "N m", "",
+          {{"roll", "a", p.column("roll_torque_nm")},
+           {"pitch", "b", p.column("pitch_torque_nm")},
+           {"yaw", "c", p.column("yaw_torque_nm")}});
+  }
   p.add(kAircraftSection, "Wind", "m/s", "towards north, east and down; known to the simulator only",
         {{"north", "a", p.column("wind_north_mps")},
          {"east", "b", p.column("wind_east_mps")},

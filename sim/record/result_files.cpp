@@ -1,6 +1,7 @@
 #include "sim/record/result_files.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +20,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view kTrajectoryHeader =
     "t_s,north_m,east_m,down_m,roll_rad,pitch_rad,yaw_rad,v_north_mps,v_east_mps,v_down_mps,p_radps,q_radps,r_radps,"
     "est_north_m,est_east_m,est_down_m,est_roll_rad,est_pitch_rad,est_yaw_rad,est_v_north_mps,est_v_east_mps,"
-    "est_v_down_mps,cmd_v_north_mps,cmd_v_east_mps,cmd_altitude_m,cmd_heading_rad,clearance_m,ground_clearance_m,"
-    "collective_rad,lateral_rad,longitudinal_rad,tail_rad,wind_north_mps,wind_east_mps,wind_down_mps\n";
+    "est_v_down_mps,cmd_v_north_mps,cmd_v_east_mps,cmd_altitude_m,cmd_heading_rad,clearance_m,ground_clearance_m,";
+constexpr std::string_view kTrajectoryHeaderEnd = ",wind_north_mps,wind_east_mps,wind_down_mps,model_valid\n";
 constexpr std::string_view kDecisionsHeader =
     "t_s,status,cmd_v_north_mps,cmd_v_east_mps,cmd_altitude_m,cmd_heading_rad";
 
@@ -130,13 +131,16 @@ std::string result_json(const RunInfo& info, const FlightResult& result) {
 std::string trajectory_csv(const Flight& flight) {
   fmt::memory_buffer out;
   out.append(kTrajectoryHeader);
+  fmt::format_to(std::back_inserter(out), "{}", fmt::join(flight.control_names, ","));
+  out.append(kTrajectoryHeaderEnd);
   for (const TrajectoryRow& row : flight.trajectory) {
     Line line(out);
     line.add(row.t_s).add(row.p_WB_true).add(row.rpy_true).add(row.v_WB_W_true).add(row.w_WB_B_true);
     line.add(row.p_WB_est).add(row.rpy_est).add(row.v_WB_W_est);
     line.add(row.v_WB_W_cmd).add(row.altitude_cmd_m).add(row.heading_cmd_rad);
     line.add(row.obstacle_clearance_m).add(row.ground_clearance_m);
-    line.add(row.collective_rad).add(row.lateral_rad).add(row.longitudinal_rad).add(row.tail_rad).add(row.wind_W);
+    for (const double control : row.controls) line.add(control);
+    line.add(row.wind_W).add(row.model_valid ? 1.0 : 0.0);
   }
   return fmt::to_string(out);
 }

@@ -268,14 +268,14 @@ TEST(HoverModel, IsTheVehicleNearItsHover) {
   const HelicopterConfig config;
   const HoverModel model = make_hover_model(config);
   const LinearSystem step = sampled(model.motion, 0.002);
-  for (int input = 0; input < HoverModel::kInputs; ++input) {
+  for (int input = 0; input < kControlAxes; ++input) {
     Vehicle vehicle{VehicleConfig(config)};
     Eigen::Vector4d u = Eigen::Vector4d::Zero();
     u[input] = 1e-4;
-    const Eigen::Vector4d blades = model.trim_rad + u;
+    const Controls controls = model.trim + u;
     DesignVector x = DesignVector::Zero(model.motion.A.rows());
     for (int i = 0; i < 250; ++i) {
-      vehicle.step({blades[0], blades[1], blades[2], blades[3]}, Eigen::Vector3d::Zero(), 0.002);
+      vehicle.step(controls, Eigen::Vector3d::Zero(), 0.002);
       x = DesignVector(step.A * x + step.B * u);
     }
     const RigidBodyState& b = vehicle.body();

@@ -39,7 +39,7 @@ struct Sample {
   double t_s = 0.0;
   RigidBodyState body;
   NavigationEstimate estimate;
-  ActuatorCommand blades;
+  Controls controls;
 
   Eigen::Vector3d v_WB_W() const { return body.q_WB * body.v_WB_B; }
   Eigen::Vector3d v_WB_W_est() const { return estimate.q_WB_est * estimate.v_WB_B_est; }
@@ -85,7 +85,7 @@ inline std::vector<Sample> fly(const Loop& loop, double duration_s,
   constexpr double kControlDt = 0.01;
   const int64_t per_control = std::llround(kControlDt / dt), per_flow = 2 * per_control;
   std::vector<Sample> samples;
-  ActuatorCommand blades;
+  Controls controls;
   for (int64_t tick = 0; tick < std::llround(duration_s / dt); ++tick) {
     const double t_s = static_cast<double>(tick) * dt;
     avionics.sense(std::llround(t_s * 1e9), truth());
@@ -95,11 +95,11 @@ inline std::vector<Sample> fly(const Loop& loop, double duration_s,
                                 loop.flow_sigma);
     }
     if (tick % per_control == 0) {
-      blades = loop.perfect ? autopilot.control(setpoint(t_s), known(), kControlDt)
-                            : avionics.control(setpoint(t_s), kControlDt);
-      samples.push_back({t_s, vehicle.body(), known(), blades});
+      controls = loop.perfect ? autopilot.control(setpoint(t_s), known(), kControlDt)
+                              : avionics.control(setpoint(t_s), kControlDt);
+      samples.push_back({t_s, vehicle.body(), known(), controls});
     }
-    vehicle.step(blades, wind_W(t_s), dt);
+    vehicle.step(controls, wind_W(t_s), dt);
   }
   return samples;
 }

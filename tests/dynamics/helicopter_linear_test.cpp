@@ -69,10 +69,10 @@ TEST(HelicopterLinear, LM1_DerivativesOfTheHover) {
 }
 
 /// Flies on from the hover with a step in the blade angles, no servos, at 1 ms.
-std::vector<HelicopterState> step_response(const ActuatorCommand& change, double end_s) {
-  const ActuatorCommand& b = hover().trim.blades;
-  const ActuatorCommand blades{b.collective_rad + change.collective_rad, b.lateral_rad + change.lateral_rad,
-                               b.longitudinal_rad + change.longitudinal_rad, b.tail_rad + change.tail_rad};
+std::vector<HelicopterState> step_response(const BladeAngles& change, double end_s) {
+  const BladeAngles& b = hover().trim.blades;
+  const BladeAngles blades{b.collective_rad + change.collective_rad, b.lateral_rad + change.lateral_rad,
+                           b.longitudinal_rad + change.longitudinal_rad, b.tail_rad + change.tail_rad};
   const auto rate = [&](double, const HelicopterVector& x) {
     return derivative(hover().model, to_helicopter(x), blades, Eigen::Vector3d::Zero());
   };
@@ -123,7 +123,7 @@ TEST(HelicopterLinear, LM7_SignsAreThoseOfAHelicopter) {
   EXPECT_GT(m.A(L::kR, L::kV), 0.0);
   EXPECT_LT(m.A(L::kW, L::kW), 0.0);
 
-  const auto rates_after = [](const ActuatorCommand& change) { return step_response(change, 0.1).back().body; };
+  const auto rates_after = [](const BladeAngles& change) { return step_response(change, 0.1).back().body; };
   EXPECT_GT(rates_after({.lateral_rad = 0.01}).w_WB_B.x(), 0.0);
   EXPECT_GT(rates_after({.longitudinal_rad = 0.01}).w_WB_B.y(), 0.0);
   EXPECT_LT(rates_after({.collective_rad = 0.01}).v_WB_B.z(), 0.0);

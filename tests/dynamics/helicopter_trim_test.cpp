@@ -146,7 +146,7 @@ TEST(HelicopterTrim, HoldsStillInWindFromAnySideAndHeading) {
       const Eigen::Vector3d wind_W{-5.0 * std::cos(from), -5.0 * std::sin(from), 0.0};
       vehicle.reset({10.0, -20.0, -30.0}, heading, wind_W);
       EXPECT_NEAR(to_roll_pitch_heading(vehicle.body().q_WB)[2], heading, 1e-12);
-      const ActuatorCommand command = vehicle.actuators();
+      const Controls command = vehicle.actuators();
       for (int i = 0; i < 500; ++i) vehicle.step(command, wind_W, 0.002);
       EXPECT_LT((vehicle.body().p_WB - Eigen::Vector3d{10.0, -20.0, -30.0}).norm(), 1e-8);
       // Specific force is what holds it up against gravity.
@@ -159,9 +159,9 @@ TEST(Vehicle, SameCommandsGiveTheSameFlightBitForBit) {
   Vehicle a{VehicleConfig{}}, b{VehicleConfig{}};
   a.step({0.2, 0.1, -0.1, 0.0}, {1, 2, 3}, 0.002);
   a.reset({0, 0, 0}, 0.0, {0, 0, 0});
-  const ActuatorCommand hover = b.actuators();
+  const Controls hover = b.actuators();
   for (int i = 0; i < 1000; ++i) {
-    const ActuatorCommand c{hover.collective_rad, 0.01 * std::sin(0.01 * i), hover.longitudinal_rad, hover.tail_rad};
+    const Controls c{hover[kHeave], 0.01 * std::sin(0.01 * i), hover[kPitch], hover[kYaw]};
     a.step(c, {0.3, 0, 0}, 0.002);
     b.step(c, {0.3, 0, 0}, 0.002);
   }
@@ -180,7 +180,7 @@ TEST(Vehicle, StaysFiniteUnderWildCommandsAndWind) {
 TEST(Vehicle, SaysWhenItDescendsIntoItsOwnWake) {
   Vehicle vehicle{VehicleConfig{}};
   EXPECT_TRUE(vehicle.within_validity());
-  const ActuatorCommand hover = vehicle.actuators();
+  const Controls hover = vehicle.actuators();
   vehicle.step(hover, {0.0, 0.0, -4.0}, 0.002);  // air rising through the rotor at the speed of its inflow
   EXPECT_FALSE(vehicle.within_validity());
 }

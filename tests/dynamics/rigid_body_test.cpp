@@ -144,7 +144,7 @@ TEST(RigidBody, RB4_SymmetricTopPrecessesInBodyAxes) {
   EXPECT_NEAR(2.0 * std::numbers::pi * n * h / std::abs(angle), 0.879646, 1e-5);
 }
 
-ActuatorCommand wiggle(const ActuatorCommand& trim, double t_s) {
+BladeAngles wiggle(const BladeAngles& trim, double t_s) {
   return {trim.collective_rad + 0.01 * std::sin(2.0 * t_s), trim.lateral_rad + 0.004 * std::sin(3.0 * t_s),
           trim.longitudinal_rad + 0.004 * std::sin(2.5 * t_s + 1.0), trim.tail_rad + 0.01 * std::sin(1.5 * t_s)};
 }
@@ -156,11 +156,11 @@ TEST(Helicopter, RB5_UniformWindOnlyCarriesItAlong) {
   HelicopterFlightState start = still.state();
   start.airframe.body.v_WB_B += start.airframe.body.q_WB.conjugate() * wind_W;
   carried.set_state(start, wind_W);
-  const ActuatorCommand hover = still.actuators();
+  const BladeAngles hover = still.actuators();
   const double dt = 0.002;
   double worst = 0.0;
   for (int i = 1; i <= 5000; ++i) {
-    const ActuatorCommand command = wiggle(hover, (i - 1) * dt);
+    const BladeAngles command = wiggle(hover, (i - 1) * dt);
     still.step(command, Eigen::Vector3d::Zero(), dt);
     carried.step(command, wind_W, dt);
     worst = std::max(worst, (carried.body().p_WB - still.body().p_WB - wind_W * i * dt).norm());
@@ -178,7 +178,7 @@ double energy_residual(double h) {
   using Vector = Eigen::Matrix<double, 18, 1>;
   const auto rate = [&](double t, const Vector& x) {
     const HelicopterState s = to_helicopter(x.head<17>());
-    const ActuatorCommand blades = wiggle(start->blades, t);
+    const BladeAngles blades = wiggle(start->blades, t);
     const HelicopterLoads loads = helicopter_loads(model, s, blades, Eigen::Vector3d::Zero());
     Vector dx;
     dx << derivative(model, s, blades, Eigen::Vector3d::Zero()),

@@ -54,10 +54,10 @@ TrajectoryRow row_at(double t_s, double seconds, std::mt19937_64& random) {
   row.altitude_cmd_m = kAltitude_m;
   row.heading_cmd_rad = std::numbers::pi;
   row.ground_clearance_m = -row.p_WB_true.z() - 0.6;
-  row.collective_rad = 0.09 + 0.004 * noise(random);
-  row.lateral_rad = 0.01 * std::sin(t_s);
-  row.longitudinal_rad = -0.02 + 0.003 * noise(random);
-  row.tail_rad = 0.05 + 0.01 * std::sin(2.0 * t_s);
+  row.controls[0] = 0.09 + 0.004 * noise(random);
+  row.controls[1] = 0.01 * std::sin(t_s);
+  row.controls[2] = -0.02 + 0.003 * noise(random);
+  row.controls[3] = 0.05 + 0.01 * std::sin(2.0 * t_s);
   row.wind_W = Eigen::Vector3d(2.0, -1.0, 0.0) + 0.5 * Eigen::Vector3d(std::sin(0.9 * t_s), std::cos(1.3 * t_s), 0.2);
   return row;
 }
@@ -138,6 +138,7 @@ Flight fake_flight(double seconds, uint64_t seed) {
   std::mt19937_64 random(seed);
   const std::vector<scenes::Solid> city = fake_city(seed);
   Flight flight;
+  flight.control_names = {"collective_rad", "lateral_rad", "longitudinal_rad", "tail_rad"};
   ClosestApproach& obstacle = flight.result.closest_obstacle;
   ClosestApproach& ground = flight.result.closest_ground;
   obstacle.distance_m = ground.distance_m = std::numeric_limits<double>::infinity();

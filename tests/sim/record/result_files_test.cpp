@@ -66,10 +66,10 @@ TEST(TrajectoryCsv, ReadsBackToTheSameBits) {
                                                                   {"cmd_heading_rad", *row.heading_cmd_rad},
                                                                   {"clearance_m", row.obstacle_clearance_m},
                                                                   {"ground_clearance_m", row.ground_clearance_m},
-                                                                  {"collective_rad", row.collective_rad},
-                                                                  {"lateral_rad", row.lateral_rad},
-                                                                  {"longitudinal_rad", row.longitudinal_rad},
-                                                                  {"tail_rad", row.tail_rad},
+                                                                  {"collective_rad", row.controls[0]},
+                                                                  {"lateral_rad", row.controls[1]},
+                                                                  {"longitudinal_rad", row.controls[2]},
+                                                                  {"tail_rad", row.controls[3]},
                                                                   {"wind_down_mps", row.wind_W.z()}};
     for (const auto& [name, value] : expected) {
       const auto column = std::ranges::find(rows[0], name) - rows[0].begin();
@@ -80,12 +80,14 @@ TEST(TrajectoryCsv, ReadsBackToTheSameBits) {
 }
 
 TEST(TrajectoryCsv, HeaderIsTheContract) {
-  EXPECT_THAT(trajectory_csv({}),
+  Flight flight;
+  flight.control_names = {"collective_rad", "lateral_rad", "longitudinal_rad", "tail_rad"};
+  EXPECT_THAT(trajectory_csv(flight),
               "t_s,north_m,east_m,down_m,roll_rad,pitch_rad,yaw_rad,v_north_mps,v_east_mps,v_down_mps,p_radps,q_radps,"
               "r_radps,est_north_m,est_east_m,est_down_m,est_roll_rad,est_pitch_rad,est_yaw_rad,est_v_north_mps,"
               "est_v_east_mps,est_v_down_mps,cmd_v_north_mps,cmd_v_east_mps,cmd_altitude_m,cmd_heading_rad,clearance_m,"
               "ground_clearance_m,collective_rad,lateral_rad,longitudinal_rad,tail_rad,wind_north_mps,wind_east_mps,"
-              "wind_down_mps\n");
+              "wind_down_mps,model_valid\n");
 }
 
 TEST(TrajectoryCsv, LeavesUnknownFieldsEmptyAndSaysInf) {
