@@ -1,5 +1,6 @@
 #include "dynamics/hover_model.h"
 
+#include <array>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -70,6 +71,41 @@ HoverModel make(const HelicopterConfig& config) {
     out.lowest[j] = servo.lowest_rad;
     out.highest[j] = servo.highest_rad;
   }
+  return out;
+}
+
+HoverModel make(const MulticopterConfig& config) {
+  using L = MulticopterLinearModel;
+  using M = HoverModel;
+  const MulticopterModel model = make_model(config);
+  const std::optional<MulticopterTrim> hover = trim(model, Eigen::Vector3d::Zero());
+  if (!hover) throw std::invalid_argument("the multicopter has no steady hover in still air");
+  const MulticopterLinearModel linear = linearise(model, *hover);
+
+  HoverModel out;
+  out.roll_rad = hover->roll_rad;
+  out.pitch_rad = hover->pitch_rad;
+  constexpr int kSize = M::kHidden + static_cast<int>(kControlAxes);
+  out.motion.A = DesignMatrix::Zero(kSize, kSize);
+  out.motion.B = DesignMatrix::Zero(kSize, kControlAxes);
+  // A level hover: velocities in B are those in the level frame.
+  constexpr std::array<int, L::kStates> kPlace = {
+      M::kForward, M::kRight,   M::kDown,   M::kP,          M::kQ,          M::kR,         M::kRoll,
+      M::kPitch,   M::kHeading, M::kHidden, M::kHidden + 1, M::kHidden + 2, M::kHidden + 3};
+  for (int i = 0; i < L::kStates; ++i) {
+    for (int j = 0; j < L::kStates; ++j) out.motion.A(kPlace[i], kPlace[j]) = linear.A(i, j);
+    for (int j = 0; j < kControlAxes; ++j) out.motion.B(kPlace[i], j) = linear.B(i, j);
+  }
+  out.motion.A(M::kBelow, M::kDown) = 1.0;
+
+  const Controls most = authority(model);
+  out.trim = wrench(model, hover->state.speeds_radps);
+  out.highest = most;
+  out.lowest = -most;
+  out.lowest[kHeave] = 0.0;
+  // Chosen: a quarter of the torque at hand, thrust for 3 m/s2.
+  out.acceptable = 0.25 * most;
+  out.acceptable[kHeave] = 3.0 * model.mass.mass_kg;
   return out;
 }
 

@@ -3,9 +3,12 @@
 namespace hedgehop::dynamics {
 namespace {
 
-std::variant<HelicopterFlight> make_flight(const VehicleConfig& config) {
-  return std::visit([](const HelicopterConfig& c) { return std::variant<HelicopterFlight>(HelicopterFlight(c)); },
-                    config);
+using AnyFlight = std::variant<HelicopterFlight, MulticopterFlight>;
+
+AnyFlight make_flight(const HelicopterConfig& config) { return HelicopterFlight(config); }
+AnyFlight make_flight(const MulticopterConfig& config) { return MulticopterFlight(config); }
+AnyFlight make_flight(const VehicleConfig& config) {
+  return std::visit([](const auto& c) { return make_flight(c); }, config);
 }
 
 }  // namespace

@@ -9,12 +9,13 @@
 #include "dynamics/controls.h"
 #include "dynamics/helicopter_flight.h"
 #include "dynamics/hull.h"
+#include "dynamics/multicopter_flight.h"
 #include "dynamics/rigid_body.h"
 
 namespace hedgehop::dynamics {
 
 /// The vehicles that can fly; the YAML key `type` picks one.
-using VehicleConfig = std::variant<HelicopterConfig>;
+using VehicleConfig = std::variant<HelicopterConfig, MulticopterConfig>;
 
 /// Returns the convex pieces a vehicle is made of, in B. Throws std::invalid_argument when one has no size.
 std::vector<HullPart> hull(const VehicleConfig& config);
@@ -32,7 +33,8 @@ class Vehicle {
   void reset(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector3d& wind_W);
 
   /// Moves on by dt; command and wind are held over the step. Allocates no memory.
-  /// @param dt_s  > 0, at most 0.002 for a helicopter of the default size (its fastest motion decays at 40 1/s).
+  /// @param dt_s  > 0, at most 0.002 for vehicles of the default sizes (a helicopter's fastest motion decays at 40
+  /// 1/s).
   void step(const Controls& command, const Eigen::Vector3d& wind_W, double dt_s);
 
   const RigidBodyState& body() const;
@@ -46,7 +48,7 @@ class Vehicle {
   bool within_validity() const;
 
  private:
-  std::variant<HelicopterFlight> flight_;
+  std::variant<HelicopterFlight, MulticopterFlight> flight_;
 };
 
 }  // namespace hedgehop::dynamics

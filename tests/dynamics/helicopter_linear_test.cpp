@@ -16,7 +16,7 @@ namespace {
 using L = LinearModel;
 
 struct Hover {
-  HelicopterModel model = make_model({});
+  HelicopterModel model = make_model(HelicopterConfig{});
   Trim trim = *dynamics::trim(model, Eigen::Vector3d::Zero());
   LinearModel linear = linearise(model, trim);
 };

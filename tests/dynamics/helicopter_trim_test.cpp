@@ -15,7 +15,7 @@ constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kAny = std::numeric_limits<double>::quiet_NaN();
 
 const HelicopterModel& xcell() {
-  static const HelicopterModel model = make_model({});
+  static const HelicopterModel model = make_model(HelicopterConfig{});
   return model;
 }
 

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "dynamics/helicopter.h"
+#include "dynamics/helion.h"
 
 namespace hedgehop::dynamics {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 constexpr double kWeightN = 8.2 * 9.81;
 constexpr double kPerMille = 1e-3;
 
-const RotorDisc kXCell = make_model({}).main_rotor.disc;
+const RotorDisc kXCell = make_model(HelicopterConfig{}).main_rotor.disc;
 const double kHoverInflowMps = std::sqrt(kWeightN / (2.0 * kXCell.density_kgpm3 * kXCell.area_m2));
 const double kSolidityTimesSlope = 0.047644 * 5.5;
 
@@ -93,16 +94,7 @@ TEST(InducedVelocity, MT4_HeaveDerivativesMatchTheClosedForm) {
   const Heave xcell = heave(kXCell, kWeightN, 8.2);
   expect_near_relative(xcell.Z_w, -0.7924, 0.01);
   expect_near_relative(xcell.Z_col, -136.74, 0.01);
-  const RotorDisc helion = make_rotor_disc({.speed_radps = 193.73,
-                                            .radius_m = 0.705,
-                                            .chord_m = 0.062,
-                                            .blades = 2.0,
-                                            .lift_slope_prad = 5.5218,
-                                            .profile_drag = 0.01,
-                                            .max_thrust_coefficient = 0.05,
-                                            .efficiency = 1.0,
-                                            .profile_power_growth = 4.6},
-                                           1.292);
+  const RotorDisc helion = make_helion().main_rotor.disc;
   const Heave other = heave(helion, 9.75 * 9.781, 9.75);
   expect_near_relative(other.Z_w, -0.7097, 0.01);
   expect_near_relative(other.Z_col, -129.23, 0.01);
@@ -115,6 +107,50 @@ TEST(InducedVelocity, MT5_FlapBackIsThatOfIdealHover) {
   FlappingModel ideal;
   ideal.speed_gain = 1.0;
   EXPECT_NEAR(speed_flapping(ideal, theta, lambda), 0.191316, 1e-6);
+}
+
+constexpr double kFootM = 0.3048, kPoundN = 4.4482216, kHorsepowerW = 745.69987, kSlugFt2Kgm2 = 1.3558179;
+
+/// The AH-1S of [HeffleyMnich1988] table of parameters, or its rotor at another radius.
+RotorDisc ah_1s(double radius_ft) {
+  return make_rotor_disc({.speed_radps = 324.0 * std::numbers::pi / 30.0,
+                          .radius_m = radius_ft * kFootM,
+                          .chord_m = 2.25 * kFootM,
+                          .blades = 2.0,
+                          .lift_slope_prad = 6.0,
+                          .profile_drag = 0.01,
+                          .max_thrust_coefficient = 0.05,
+                          .efficiency = 1.0,
+                          .profile_power_growth = 4.6},
+                         1.225);
+}
+double hover_inflow_mps(const RotorDisc& disc, double weight_n) {
+  return solve_inflow(disc, collective_for(disc, weight_n, 0.0, 0.0), 0.0, 0.0).induced_mps;
+}
+
+// Check MT6.
+TEST(InducedVelocity, MT6_FullScaleHelicoptersHoverAsPublished) {
+  constexpr double kHalfPercent = 0.005;
+  const RotorDisc disc = ah_1s(22.0);
+  const double weight_n = 9000.0 * kPoundN;
+  const double v_h = hover_inflow_mps(disc, weight_n);
+  expect_near_relative(v_h / kFootM, 35.29, kHalfPercent);
+  expect_near_relative(weight_n * v_h / kHorsepowerW, 577.4, kHalfPercent);
+  expect_near_relative(disc.profile_power_w / kHorsepowerW, 222.4, kHalfPercent);
+
+  MainRotorConfig rotor;
+  rotor.speed_radps = 324.0 * std::numbers::pi / 30.0;
+  rotor.radius_m = 22.0 * kFootM;
+  rotor.chord_m = 2.25 * kFootM;
+  rotor.lift_slope_prad = 6.0;
+  rotor.blade_inertia_kgm2 = 1382.0 * kSlugFt2Kgm2;
+  const FlappingModel flapping = make_main_rotor(rotor, 1.225).flapping;
+  expect_near_relative(flapping.lock_number, 5.439, kHalfPercent);
+  expect_near_relative(1.0 / flapping.blade_lag_s, 11.534, kHalfPercent);
+  expect_near_relative(flapping.blade_lag_s, 0.0867, kHalfPercent);
+
+  // An A109's weight and radius; its hover inflow depends on nothing else.
+  expect_near_relative(hover_inflow_mps(ah_1s(18.0), 5401.0 * kPoundN) / kFootM, 33.41, kHalfPercent);
 }
 
 /// Plain bisection on v_i of the same two equations, without limits.
@@ -156,7 +192,7 @@ TEST(InducedVelocity, MT7_SolverAgreesWithBisection) {
 TEST(InducedVelocity, MT7_FiniteForAnyAirspeedUpTo40) {
   std::mt19937_64 generator(7);
   std::uniform_real_distribution<double> speed(0.0, 40.0), cosine(-1.0, 1.0), collective(-0.35, 0.35);
-  const HelicopterModel model = make_model({});
+  const HelicopterModel model = make_model(HelicopterConfig{});
   for (int i = 0; i < 200000; ++i) {
     const double v = speed(generator), c = cosine(generator), theta = collective(generator);
     for (const RotorDisc& disc : {model.main_rotor.disc, model.tail_rotor.disc}) {

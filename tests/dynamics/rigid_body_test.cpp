@@ -90,6 +90,19 @@ TEST(RigidBody, RB1_DzhanibekovGrowsAtTheLinearRate) {
   EXPECT_NEAR(std::acosh(s.w_WB_B.x() / 1e-6) / 2.0, 1.56556, 1e-5);
 }
 
+TEST(RigidBody, TorqueFreeMotionKeepsEnergyAndMomentumForAMinute) {
+  const MassProperties mass = make_mass_properties(8.2, {0.18, 0.34, 0.28}, 0.03);
+  RigidBodyState s;
+  s.w_WB_B = {3.0, 2.0, -4.0};
+  const double E = energy(mass, s);
+  const Eigen::Vector3d L = momentum_W(mass, s);
+  for (int i = 0; i < 30000; ++i) {
+    s = step_free(mass, s, 2e-3);
+    ASSERT_NEAR(energy(mass, s), E, 1e-6 * E) << i;
+    ASSERT_LT((momentum_W(mass, s) - L).norm(), 1e-6 * L.norm()) << i;
+  }
+}
+
 // Check RB2.
 TEST(RigidBody, RB2_FlipsAboutTheMiddleAxisPeriodically) {
   const Flips f = flips(mass_of(1.0, 2.0, 3.0), {1e-3, 1.0, 0.0}, 1, 1e-3, 100.0);
@@ -173,7 +186,7 @@ TEST(Helicopter, RB5_UniformWindOnlyCarriesItAlong) {
 /// Change of kinetic and potential energy less the work of all loads but gravity, after 10 s of manoeuvre, over the
 /// greatest change of energy on the way.
 double energy_residual(double h) {
-  const HelicopterModel model = make_model({});
+  const HelicopterModel model = make_model(HelicopterConfig{});
   const std::optional<Trim> start = trim(model, {8.0, 0.0, 0.0});
   using Vector = Eigen::Matrix<double, 18, 1>;
   const auto rate = [&](double t, const Vector& x) {

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "dynamics/controls.h"
+#include "dynamics/multicopter.h"
+
+namespace hedgehop::dynamics {
+
+struct MulticopterFlightState {
+  RigidBodyState body;
+  PerRotor speeds_radps;
+};
+
+/// Steady flight of a multicopter: nothing changes but the position.
+struct MulticopterTrim {
+  MulticopterFlightState state;  ///< position zero; velocity is that through the air
+  double roll_rad = 0.0, pitch_rad = 0.0;
+};
+/// Returns the trim of straight flight without rotation, or nothing when Newton's method finds none within what the
+/// rotors can give. @param v_air_W  velocity through the air in W, m/s. @param heading_rad  from north to east.
+std::optional<MulticopterTrim> trim(const MulticopterModel& model, const Eigen::Vector3d& v_air_W,
+                                    double heading_rad = 0.0);
+
+/// Motion near a trim: dx/dt = A x + B u, deviations from the trim; u are thrust and torques that the motors are asked
+/// for, their lag between up and down.
+struct MulticopterLinearModel {
+  /// u, v, w (m/s, in B), p, q, r, roll, pitch, heading, then thrust and torques that the rotors give (N, N m).
+  enum State {
+    kU,
+    kV,
+    kW,
+    kP,
+    kQ,
+    kR,
+    kRoll,
+    kPitch,
+    kHeading,
+    kThrust,
+    kRollTorque,
+    kPitchTorque,
+    kYawTorque,
+    kStates
+  };
+  Eigen::Matrix<double, kStates, kStates> A;
+  Eigen::Matrix<double, kStates, kControlAxes> B;
+};
+/// Returns the linear model about a trim: central differences of the airframe, the motors in closed form.
+MulticopterLinearModel linearise(const MulticopterModel& model, const MulticopterTrim& trim);
+
+/// A multicopter in flight: constant model, explicit state. Motors move exactly, the body by Runge-Kutta steps.
+class MulticopterFlight {
+ public:
+  static constexpr std::array<std::string_view, kControlAxes> kControlNames = {"thrust_n", "roll_torque_nm",
+                                                                               "pitch_torque_nm", "yaw_torque_nm"};
+  /// Throws std::invalid_argument on values that cannot be.
+  explicit MulticopterFlight(const MulticopterConfig& config);
+
+  // As in Vehicle.
+  void reset(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector3d& wind_W);
+  void step_controls(const Controls& command, const Eigen::Vector3d& wind_W, double dt_s);
+  const RigidBodyState& body() const { return state_.body; }
+  const Eigen::Vector3d& specific_force_B() const { return specific_force_B_; }
+  Controls controls() const { return wrench(model_, state_.speeds_radps); }
+  bool within_validity() const { return true; }  // the rotors' model knows no wake
+
+  const MulticopterModel& model() const { return model_; }
+  const MulticopterFlightState& state() const { return state_; }
+  /// Moves on with rotor speeds asked for, rad/s. Parameters as Vehicle::step().
+  void step(const PerRotor& asked_radps, const Eigen::Vector3d& wind_W, double dt_s);
+  /// Goes on from a state. @param wind_W  velocity of the air in W at this instant, m/s.
+  void set_state(const MulticopterFlightState& state, const Eigen::Vector3d& wind_W);
+
+ private:
+  MulticopterModel model_;
+  MulticopterFlightState state_;
+  Eigen::Vector3d specific_force_B_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace hedgehop::dynamics

@@ -1,0 +1,365 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+
+#include "dynamics/hover_model.h"
+#include "dynamics/multicopter_flight.h"
+#include "dynamics/vehicle.h"
+
+// Values marked MC.. are worked out from the published parameter sets by closed forms.
+namespace hedgehop::dynamics {
+namespace {
+
+using Turns = ArmConfig::Turns;
+constexpr double kDeg = std::numbers::pi / 180.0;
+constexpr double kDensity = 1.225;
+
+// [FurrerBurriAchtelikSiegwart2016] the default.
+MulticopterConfig hummingbird_a() { return {}; }
+
+// [FolkPaulosKumar2023] the Hummingbird's other set.
+MulticopterConfig hummingbird_b() {
+  MulticopterConfig c;
+  c.mass = {0.5, {3.65e-3, 3.68e-3, 7.03e-3}, 0.0};
+  c.arms = {{45 * kDeg, 0.17, Turns::clockwise},
+            {135 * kDeg, 0.17, Turns::counter_clockwise},
+            {-135 * kDeg, 0.17, Turns::clockwise},
+            {-45 * kDeg, 0.17, Turns::counter_clockwise}};
+  c.rotor.thrust_ns2 = 5.57e-6;
+  c.rotor.torque_m = 1.36e-7 / 5.57e-6;
+  c.rotor.drag_ns2pm = 1.19e-4;
+  c.rotor.rolling_nms2pm = 0.0;
+  c.rotor.axial_damping_ns2pm = 2.32e-4;
+  c.rotor.translational_lift_ns2pm2 = 3.39e-3;
+  c.rotor.time_constant_up_s = c.rotor.time_constant_down_s = 0.005;
+  c.rotor.highest_radps = 1500.0;
+  c.rotor.height_m = 0.0;
+  c.body_drag_ns2pm2 = {0.005, 0.005, 0.01};
+  return c;
+}
+
+// [FurrerBurriAchtelikSiegwart2016]; the published yaw inertia, 0.0977, is larger than the other two together, which no
+// body's is: their sum stands for it.
+MulticopterConfig firefly() {
+  MulticopterConfig c;
+  c.mass = {1.53, {0.0347563, 0.0458929, 0.0806492}, 0.0};
+  c.arms.clear();
+  for (const auto& [azimuth_deg, turns] :
+       std::initializer_list<std::pair<double, Turns>>{{30.0, Turns::clockwise},
+                                                       {90.0, Turns::counter_clockwise},
+                                                       {150.0, Turns::clockwise},
+                                                       {-150.0, Turns::counter_clockwise},
+                                                       {-90.0, Turns::clockwise},
+                                                       {-30.0, Turns::counter_clockwise}}) {
+    c.arms.push_back({azimuth_deg * kDeg, 0.215, turns});
+  }
+  c.rotor.height_m = 0.037;
+  c.rotor.inertia_kgm2 = 4.26e-6;
+  return c;
+}
+
+MulticopterConfig s900() {
+  MulticopterConfig c;
+  c.mass = {4.606, {0.25665, 0.25024, 0.36309}, -0.00241};
+  c.arms.clear();
+  for (int i = 0; i < 6; ++i) {
+    c.arms.push_back({(30.0 + 60.0 * i) * kDeg, 0.45, i % 2 == 0 ? Turns::clockwise : Turns::counter_clockwise});
+  }
+  c.rotor = {.thrust_ns2 = 6.54e-5,
+             .torque_m = 0.024,
+             .drag_ns2pm = 4e-4,
+             .rolling_nms2pm = 0.0,
+             .time_constant_up_s = 0.1,
+             .time_constant_down_s = 0.1,
+             .highest_radps = 612.0,
+             .inertia_kgm2 = 3e-4,
+             .radius_m = 0.1905,
+             .tilt_in_rad = 8.0 * kDeg,
+             .height_m = 0.115};
+  c.body_drag_ns2pm2 = {0.03, 0.03, 0.06};
+  return c;
+}
+
+PerRotor hover_speeds(const MulticopterConfig& config) {
+  return trim(make_model(config), Eigen::Vector3d::Zero())->state.speeds_radps;
+}
+
+void expect_relative(double value, double expected, double relative) {
+  EXPECT_NEAR(value, expected, relative * std::abs(expected));
+}
+
+TEST(Multicopter, MC1_HoverSpeedsOfThePublishedVehicles) {
+  expect_relative(hover_speeds(hummingbird_a()).mean(), 453.22, 5e-4);
+  expect_relative(hover_speeds(hummingbird_b()).mean(), 469.20, 5e-4);
+  expect_relative(hover_speeds(firefly()).mean(), 540.95, 5e-4);
+  // The third set of the Hummingbird, [BoucekFlidr2019].
+  MulticopterConfig third = hummingbird_b();
+  third.rotor.thrust_ns2 = 3.2032e-6;
+  expect_relative(hover_speeds(third).mean(), 618.73, 5e-4);
+  const PerRotor big = hover_speeds(s900());
+  const double thrust_n = 6.54e-5 * big[0] * big[0];
+  expect_relative(thrust_n, 7.6048, 5e-4);
+  expect_relative(thrust_n / 24.525, 0.310, 2e-3);
+  expect_relative(big.mean(), 341.0, 5e-4);
+}
+
+TEST(Multicopter, MC2_InflowTorqueAndThrustToWeightOfTheHover) {
+  const auto inflow_mps = [](const MulticopterConfig& c) {
+    const double thrust_n = c.rotor.thrust_ns2 * std::pow(hover_speeds(c)[0], 2);
+    return std::sqrt(thrust_n / (2.0 * kDensity * std::numbers::pi * std::pow(c.rotor.radius_m, 2)));
+  };
+  expect_relative(inflow_mps(hummingbird_a()), 4.776, 1e-3);
+  expect_relative(inflow_mps(hummingbird_b()), 3.992, 1e-3);
+  expect_relative(inflow_mps(firefly()), 5.701, 1e-3);
+  expect_relative(inflow_mps(s900()), 5.218, 1e-3);
+  const auto torque_nm = [](const MulticopterConfig& c) {
+    return c.rotor.torque_m * c.rotor.thrust_ns2 * std::pow(hover_speeds(c)[0], 2);
+  };
+  expect_relative(torque_nm(hummingbird_a()), 0.02810, 1e-3);
+  expect_relative(torque_nm(firefly()), 0.04002, 1e-3);
+  const auto thrust_to_weight = [](const MulticopterConfig& c) {
+    return authority(make_model(c))[kHeave] / (c.mass.mass_kg * kGravityMps2);
+  };
+  expect_relative(thrust_to_weight(hummingbird_a()), 3.42, 2e-3);
+  expect_relative(thrust_to_weight(firefly()), 2.40, 2e-3);
+}
+
+Eigen::Vector3d angular_acceleration(const MulticopterConfig& config, const std::vector<double>& change_radps) {
+  const MulticopterModel model = make_model(config);
+  PerRotor speeds = hover_speeds(config);
+  for (Eigen::Index i = 0; i < speeds.size(); ++i) speeds[i] += change_radps[static_cast<size_t>(i)];
+  const MulticopterLoads loads =
+      multicopter_loads(model, {}, speeds, PerRotor::Zero(speeds.size()), Eigen::Vector3d::Zero());
+  return model.mass.I_B_inv * loads.t_B;
+}
+
+TEST(Multicopter, MC3_AngularAccelerationOfUnequalSpeeds) {
+  // Front and back turn clockwise: as they speed up the body turns the other way.
+  expect_relative(angular_acceleration(hummingbird_a(), {10, -10, 10, -10}).z(), -0.4133, 1e-3);
+  expect_relative(angular_acceleration(hummingbird_a(), {0, -10, 0, 10}).x(), 3.764, 1e-3);
+  expect_relative(angular_acceleration(firefly(), {-10, -10, -10, 10, 10, 10}).x(), 2.288, 1e-3);
+}
+
+TEST(Multicopter, MC4_LevelSpeedAtATiltByRotorDragAlone) {
+  // m g tan(tilt) = n lambda omega v, omega^2 = m g cos(tilt) / (n k): the flight that is steady at that tilt.
+  const auto tilt_deg = [](const MulticopterConfig& c, double v_mps) {
+    return -trim(make_model(c), {v_mps, 0.0, 0.0})->pitch_rad / kDeg;
+  };
+  const auto speed_at = [&](const MulticopterConfig& c, double wanted_deg) {
+    double low = 0.0, high = 40.0;
+    for (int i = 0; i < 50; ++i) (tilt_deg(c, 0.5 * (low + high)) < wanted_deg ? low : high) = 0.5 * (low + high);
+    return low;
+  };
+  // The rolling moment and the arm of the drag only shift thrust between the rotors: speeds differ in second order.
+  expect_relative(speed_at(hummingbird_a(), 5.0), 4.211, 5e-3);
+  expect_relative(speed_at(hummingbird_a(), 10.0), 8.537, 5e-3);
+  expect_relative(speed_at(hummingbird_a(), 20.0), 18.04, 5e-3);
+  expect_relative(speed_at(firefly(), 5.0), 5.026, 5e-3);
+  expect_relative(speed_at(firefly(), 20.0), 21.53, 5e-3);
+}
+
+TEST(Multicopter, MC5_LevelSpeedsOfHummingbirdBWithAllItsDrag) {
+  for (const auto& [v_mps, tilt_deg, omega] :
+       {std::array{1.844, 5.0, 469.6}, {3.569, 10.0, 471.7}, {6.738, 20.0, 485.9}}) {
+    const auto found = trim(make_model(hummingbird_b()), {v_mps, 0.0, 0.0});
+    ASSERT_TRUE(found);
+    expect_relative(-found->pitch_rad / kDeg, tilt_deg, 5e-3);
+    expect_relative(found->state.speeds_radps.mean(), omega, 5e-3);
+  }
+}
+
+TEST(Multicopter, MC5_FlatFallEndsAtTerminalSpeed) {
+  MulticopterFlight flight(hummingbird_b());
+  MulticopterFlightState state = flight.state();
+  state.speeds_radps.setZero();
+  flight.set_state(state, Eigen::Vector3d::Zero());
+  const PerRotor off = PerRotor::Zero(4);
+  for (int i = 0; i < 10000; ++i) flight.step(off, Eigen::Vector3d::Zero(), 0.002);
+  expect_relative(flight.body().v_WB_B.z(), 22.147, 1e-3);
+}
+
+TEST(Multicopter, MC5_HoverDamping) {
+  using L = MulticopterLinearModel;
+  const auto linear = [](const MulticopterConfig& c) {
+    const MulticopterModel model = make_model(c);
+    return linearise(model, *trim(model, Eigen::Vector3d::Zero()));
+  };
+  expect_relative(linear(hummingbird_b()).A(L::kU, L::kU), -0.4467, 5e-3);
+  expect_relative(linear(hummingbird_b()).A(L::kW, L::kW), -0.871, 5e-3);
+  expect_relative(linear(hummingbird_a()).A(L::kU, L::kU), -0.2042, 5e-3);
+}
+
+TEST(Multicopter, MC6_MotorsFollowAFirstOrderLag) {
+  MulticopterFlight flight{MulticopterConfig{}};
+  const double from = flight.state().speeds_radps[0];
+  const PerRotor asked = PerRotor::Constant(4, from + 100.0);
+  for (int i = 0; i < 5; ++i) flight.step(asked, Eigen::Vector3d::Zero(), 0.002);
+  EXPECT_NEAR(flight.state().speeds_radps[0] - from, 55.07, 0.06);  // of 100, after 10 ms
+  // 10 to 90 per cent takes ln(9) time constants, however the steps fall.
+  const auto reached_s = [&](double share) {
+    MulticopterFlight again{MulticopterConfig{}};
+    double t_s = 0.0;
+    for (; again.state().speeds_radps[0] < from + 100.0 * share; t_s += 1e-5) again.step(asked, {0, 0, 0}, 1e-5);
+    return t_s;
+  };
+  EXPECT_NEAR(reached_s(0.9) - reached_s(0.1), 0.02747, 3e-5);
+}
+
+TEST(Multicopter, MC7_WithoutBodyDragAFallKeepsGatheringSpeed) {
+  MulticopterFlight flight{MulticopterConfig{}};
+  MulticopterFlightState state = flight.state();
+  state.speeds_radps.setZero();
+  flight.set_state(state, Eigen::Vector3d::Zero());
+  for (int i = 0; i < 5000; ++i) flight.step(PerRotor::Zero(4), Eigen::Vector3d::Zero(), 0.002);
+  EXPECT_NEAR(flight.body().v_WB_B.z(), 98.1, 1e-6);
+}
+
+TEST(Multicopter, AllocationGivesWhatIsWithinReach) {
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> share(-0.3, 0.3);
+  for (const MulticopterConfig& config : {hummingbird_a(), hummingbird_b(), firefly(), s900()}) {
+    const MulticopterModel model = make_model(config);
+    const Controls most = authority(model);
+    for (int i = 0; i < 200; ++i) {
+      Controls wanted{config.mass.mass_kg * kGravityMps2, share(random) * most[kRoll], share(random) * most[kPitch],
+                      share(random) * most[kYaw]};
+      EXPECT_LT((wrench(model, allocate(model, wanted)) - wanted).norm(), 1e-9 * wanted.norm());
+    }
+  }
+}
+
+TEST(Multicopter, OutOfReachItGivesUpYawFirstAndKeepsTilting) {
+  const MulticopterModel model = make_model(firefly());
+  const Controls most = authority(model);
+  const double hover_n = 1.53 * kGravityMps2;
+  const Controls given = wrench(model, allocate(model, {hover_n, 0.9 * most[kRoll], 0.0, 50.0 * most[kYaw]}));
+  EXPECT_NEAR(given[kRoll], 0.9 * most[kRoll], 1e-9);
+  EXPECT_NEAR(given[kHeave], hover_n, 1e-9);
+  EXPECT_GT(given[kYaw], 0.0);
+  EXPECT_LT(given[kYaw], most[kYaw]);
+  // Thrust gives way to tilting torques, at both ends.
+  for (const double asked_n : {0.0, 10.0 * hover_n}) {
+    const Controls at_end = wrench(model, allocate(model, {asked_n, 0.8 * most[kRoll], 0.0, 0.0}));
+    EXPECT_NEAR(at_end[kRoll], 0.8 * most[kRoll], 1e-9);
+  }
+}
+
+TEST(Multicopter, AllocationStaysWithinTheRotorsForAnyWish) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> wild(0.0, 30.0);
+  const MulticopterModel model = make_model(s900());
+  for (int i = 0; i < 2000; ++i) {
+    const PerRotor speeds = allocate(model, {wild(random), wild(random), wild(random), wild(random)});
+    ASSERT_TRUE(speeds.allFinite());
+    EXPECT_GE(speeds.minCoeff(), 0.0);
+    EXPECT_LE(speeds.maxCoeff(), 612.0 * (1.0 + 1e-12));
+  }
+}
+
+TEST(Multicopter, SpinningUpTurnsTheBodyByTheRotorsMomentum) {
+  // In vacuo: drag torque off, the angular momentum of body and rotors stays.
+  MulticopterConfig config;
+  config.rotor.torque_m = 1e-4;
+  config.rotor.drag_ns2pm = config.rotor.rolling_nms2pm = 0.0;
+  MulticopterFlight flight(config);
+  MulticopterFlightState state = flight.state();
+  state.body = {};
+  flight.set_state(state, Eigen::Vector3d::Zero());
+  PerRotor asked = state.speeds_radps;
+  asked[0] += 50.0, asked[2] += 50.0;  // clockwise both
+  double torque_impulse = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    flight.step(asked, Eigen::Vector3d::Zero(), 0.001);
+    torque_impulse += 0.001 * wrench(flight.model(), flight.state().speeds_radps)[kYaw];
+  }
+  const double rotors = 7.67e-6 * 2.0 * (flight.state().speeds_radps[0] - state.speeds_radps[0]);
+  const double body = 0.012 * flight.body().w_WB_B.z();
+  EXPECT_NEAR(body + rotors, torque_impulse, 0.02 * rotors);
+  EXPECT_LT(body, -0.8 * rotors);
+}
+
+TEST(Multicopter, StaysInATrimmedHoverInWind) {
+  for (const MulticopterConfig& config : {hummingbird_a(), hummingbird_b(), firefly(), s900()}) {
+    Vehicle vehicle{VehicleConfig(config)};
+    const Eigen::Vector3d wind_W(3.0, -2.0, 0.5);
+    vehicle.reset({1.0, 2.0, -20.0}, 0.7, wind_W);
+    const Controls trim = vehicle.actuators();
+    for (int i = 0; i < 500; ++i) vehicle.step(trim, wind_W, 0.002);
+    EXPECT_LT((vehicle.body().p_WB - Eigen::Vector3d(1.0, 2.0, -20.0)).norm(), 1e-6);
+    EXPECT_LT((vehicle.body().q_WB * vehicle.specific_force_B() + Eigen::Vector3d{0, 0, 9.81}).norm(), 1e-6);
+  }
+}
+
+TEST(Multicopter, HoverModelIsTheVehicleNearItsHover) {
+  for (const MulticopterConfig& plain : {hummingbird_a(), hummingbird_b(), firefly(), s900()}) {
+    MulticopterConfig config = plain;
+    config.rotor.time_constant_down_s = config.rotor.time_constant_up_s;  // one lag, as a linear model has it
+    const HoverModel model = make_hover_model(config);
+    const LinearSystem step = sampled(model.motion, 0.002);
+    for (int input = 0; input < kControlAxes; ++input) {
+      Vehicle vehicle{VehicleConfig(config)};
+      Controls u = Controls::Zero();
+      u[input] = 1e-4 * model.acceptable[input];
+      DesignVector x = DesignVector::Zero(model.motion.A.rows());
+      for (int i = 0; i < 200; ++i) {
+        vehicle.step(model.trim + u, Eigen::Vector3d::Zero(), 0.002);
+        x = DesignVector(step.A * x + step.B * u);
+      }
+      const RigidBodyState& b = vehicle.body();
+      Eigen::Matrix<double, 10, 1> truth;
+      truth << b.q_WB * b.v_WB_B, to_roll_pitch_heading(b.q_WB) - Eigen::Vector3d(model.roll_rad, model.pitch_rad, 0.0),
+          b.w_WB_B, b.p_WB.z();
+      EXPECT_LT((truth - x.head<10>()).norm(), 2e-3 * truth.norm()) << "input " << input;
+    }
+  }
+}
+
+TEST(Multicopter, FliesWithAnyNumberOfArms) {
+  for (const int arms : {4, 5, 6, 8, 12, 16}) {
+    MulticopterConfig config;
+    config.arms.clear();
+    for (int i = 0; i < arms; ++i) {
+      config.arms.push_back(
+          {2.0 * std::numbers::pi * i / arms, 0.2, i % 2 == 0 ? Turns::clockwise : Turns::counter_clockwise});
+    }
+    EXPECT_NO_THROW(make_hover_model(config)) << arms;
+  }
+}
+
+TEST(Multicopter, RefusesWhatCannotFly) {
+  const auto refused = [](auto change) {
+    MulticopterConfig config;
+    change(config);
+    EXPECT_THROW(Vehicle{VehicleConfig{config}}, std::invalid_argument);
+  };
+  refused([](auto& c) { c.mass.mass_kg = -1.0; });
+  refused([](auto& c) { c.mass.mass_kg = 3.0; });  // more than the rotors lift
+  refused([](auto& c) { c.arms.pop_back(); });     // the rest cannot balance it
+  refused([](auto& c) {
+    for (ArmConfig& arm : c.arms) arm.turns = Turns::clockwise;
+  });
+  refused([](auto& c) {
+    for (ArmConfig& arm : c.arms) arm.azimuth_rad = 0.0;
+  });
+  refused([](auto& c) { c.arms.resize(17); });
+  refused([](auto& c) { c.rotor.thrust_ns2 = 0.0; });
+  refused([](auto& c) { c.rotor.time_constant_up_s = 0.0; });
+  refused([](auto& c) { c.hull.body_size_m.x() = 0.0; });
+}
+
+TEST(Multicopter, HullHoldsEveryRotorAndArm) {
+  const std::vector<HullPart> parts = hull(VehicleConfig(s900()));
+  ASSERT_EQ(parts.size(), 8u);
+  EXPECT_NEAR(radius_m(parts), 0.45 + 0.1905, 1e-12);
+  for (size_t i = 0; i < 6; ++i) {
+    EXPECT_NEAR(parts[i].center_B_m.head<2>().norm(), 0.45, 1e-12);
+    EXPECT_NEAR(parts[i].center_B_m.z(), -0.115, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace hedgehop::dynamics
