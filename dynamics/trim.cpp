@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "dynamics/helion.h"
+
 namespace hedgehop::dynamics {
 namespace {
 
@@ -15,7 +17,8 @@ constexpr int kMostIterations = 50;
 constexpr double kLargestStepRad = 0.1;
 constexpr double kSpeedStepMps = 2.0;  ///< from one trim to the next on the way to a fast one
 
-Trim evaluate(const HelicopterModel& model, const Unknowns& x, const Eigen::Vector3d& v_air_W, double heading_rad) {
+template <class Model>
+Trim evaluate(const Model& model, const Unknowns& x, const Eigen::Vector3d& v_air_W, double heading_rad) {
   Trim t;
   t.roll_rad = x[2];
   t.pitch_rad = x[3];
@@ -29,16 +32,17 @@ Trim evaluate(const HelicopterModel& model, const Unknowns& x, const Eigen::Vect
   return t;
 }
 
-Unknowns residual(const HelicopterModel& model, const Trim& t) {
-  const RigidBodyVector rate = derivative(model.mass, t.state.body, t.loads.f_B, t.loads.t_B);
+Unknowns residual(const MassProperties& mass, const Trim& t) {
+  const RigidBodyVector rate = derivative(mass, t.state.body, t.loads.f_B, t.loads.t_B);
   Unknowns r;
   r << rate.segment<3>(7) / kGravityMps2, rate.segment<3>(10);
   return r;
 }
 
 /// Newton's method with a numeric Jacobian and bounded steps. Returns whether it arrived.
-bool solve(const HelicopterModel& model, Unknowns& x, const Eigen::Vector3d& v_air_W, double heading_rad) {
-  const auto f = [&](const Unknowns& y) { return residual(model, evaluate(model, y, v_air_W, heading_rad)); };
+template <class Model>
+bool solve(const Model& model, Unknowns& x, const Eigen::Vector3d& v_air_W, double heading_rad) {
+  const auto f = [&](const Unknowns& y) { return residual(model.mass, evaluate(model, y, v_air_W, heading_rad)); };
   constexpr double kDifference = 1e-6;
   for (int i = 0; i < kMostIterations; ++i) {
     const Unknowns r = f(x);
@@ -56,9 +60,8 @@ bool solve(const HelicopterModel& model, Unknowns& x, const Eigen::Vector3d& v_a
   return f(x).cwiseAbs().maxCoeff() < 10.0 * kResidual;
 }
 
-}  // namespace
-
-std::optional<Trim> trim(const HelicopterModel& model, const Eigen::Vector3d& v_air_W, double heading_rad) {
+template <class Model>
+std::optional<Trim> find_trim(const Model& model, const Eigen::Vector3d& v_air_W, double heading_rad) {
   // From the hover to the speed asked for, each trim the start of the next.
   const int steps = std::max(1, static_cast<int>(std::ceil(v_air_W.norm() / kSpeedStepMps)));
   if (!v_air_W.allFinite() || steps > 100) return std::nullopt;
@@ -77,13 +80,12 @@ std::optional<Trim> trim(const HelicopterModel& model, const Eigen::Vector3d& v_
   return found;
 }
 
-namespace {
-
 using StateVector = Eigen::Matrix<double, LinearModel::kStates, 1>;
 using InputVector = Eigen::Matrix<double, LinearModel::kInputs, 1>;
 
 /// Rates of the linear model's states at a deviation from the trim; attitude rates by Euler's kinematic equations.
-StateVector rates(const HelicopterModel& model, const Trim& trim, double heading_rad, const StateVector& dx,
+template <class Model>
+StateVector rates(const Model& model, const Trim& trim, double heading_rad, const StateVector& dx,
                   const InputVector& du) {
   using L = LinearModel;
   const double roll = trim.roll_rad + dx[L::kRoll];
@@ -97,7 +99,10 @@ StateVector rates(const HelicopterModel& model, const Trim& trim, double heading
   const BladeAngles& b = trim.blades;
   const BladeAngles blades{b.collective_rad + du[0], b.lateral_rad + du[1], b.longitudinal_rad + du[2],
                            b.tail_rad + du[3]};
-  const HelicopterVector rate = derivative(model, s, blades, Eigen::Vector3d::Zero());
+  const HelicopterLoads loads = helicopter_loads(model, s, blades, Eigen::Vector3d::Zero());
+  HelicopterVector rate;
+  rate << derivative(model.mass, s.body, loads.f_B, loads.t_B),
+      derivative(model.main_rotor.flapping, s.flap, loads.main_rotor.flap_input);
 
   const Eigen::Vector3d& w = s.body.w_WB_B;
   const double turn = w.y() * std::sin(roll) + w.z() * std::cos(roll);
@@ -107,9 +112,8 @@ StateVector rates(const HelicopterModel& model, const Trim& trim, double heading
   return out;
 }
 
-}  // namespace
-
-LinearModel linearise(const HelicopterModel& model, const Trim& trim) {
+template <class Model>
+LinearModel linear_model(const Model& model, const Trim& trim) {
   constexpr double kDifference = 1e-5;
   const double heading = to_roll_pitch_heading(trim.state.body.q_WB)[2];
   LinearModel linear;
@@ -127,5 +131,17 @@ LinearModel linearise(const HelicopterModel& model, const Trim& trim) {
   }
   return linear;
 }
+
+}  // namespace
+
+std::optional<Trim> trim(const HelicopterModel& model, const Eigen::Vector3d& v_air_W, double heading_rad) {
+  return find_trim(model, v_air_W, heading_rad);
+}
+std::optional<Trim> trim(const HelionModel& model, const Eigen::Vector3d& v_air_W, double heading_rad) {
+  return find_trim(model, v_air_W, heading_rad);
+}
+
+LinearModel linearise(const HelicopterModel& model, const Trim& trim) { return linear_model(model, trim); }
+LinearModel linearise(const HelionModel& model, const Trim& trim) { return linear_model(model, trim); }
 
 }  // namespace hedgehop::dynamics

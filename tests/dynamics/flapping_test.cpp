@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "dynamics/helicopter.h"
+#include "dynamics/helion.h"
 #include "dynamics/integrator.h"
 #include "dynamics/trim.h"
 
@@ -13,25 +14,8 @@ namespace {
 
 /// HeLion's rotor, bar explicit; gains are per unit of stick.
 MainRotorConfig helion(double hub_stiffness_nmprad) {
-  MainRotorConfig c;
-  c.speed_radps = 193.73;
-  c.radius_m = 0.705;
-  c.chord_m = 0.062;
-  c.lift_slope_prad = 5.5218;
-  c.hinge_offset_m = 0.07;
-  c.blade_inertia_kgm2 = 0.055;
+  MainRotorConfig c = helion_main_rotor();
   c.hub_stiffness_nmprad = hub_stiffness_nmprad;
-  c.speed_flapping = 0.0;
-  c.flybar = ExplicitBarConfig{.mixing = 1.0,
-                               .lateral_gain = 0.20,
-                               .longitudinal_gain = 0.21,
-                               .bar_lateral_gain = 0.57,
-                               .bar_longitudinal_gain = 0.56,
-                               .paddle_inner_radius_m = 0.231,
-                               .paddle_outer_radius_m = 0.312,
-                               .paddle_chord_m = 0.059,
-                               .paddle_lift_slope_prad = 2.718,
-                               .bar_inertia_kgm2 = 0.004};
   return c;
 }
 constexpr double kHelionDensity = 1.292;
@@ -60,6 +44,31 @@ TEST(Flapping, TC1_XCellTimeConstants) {
   EXPECT_NEAR(m.lock_number, 3.7098, 1e-3 * 3.7098);
   EXPECT_NEAR(m.blade_lag_s, 0.025826, 1e-3 * 0.025826);
   EXPECT_NEAR(m.cross_coupling, 0.10988, 1e-3 * 0.10988);
+}
+
+// Check TC2.
+TEST(Flapping, TC2_HeLionTimeConstants) {
+  const FlappingModel m = make_main_rotor(helion_main_rotor(), kHelionDensity).flapping;
+  EXPECT_NEAR(m.lock_number, 1.98668, 1e-3 * 1.98668);
+  EXPECT_NEAR(m.lag_s, 0.056542, 1e-3 * 0.056542);
+  EXPECT_NEAR(16.0 / (m.bar_lag_s * 193.73), 0.343334, 1e-3 * 0.343334);
+  EXPECT_NEAR(m.bar_lag_s, 0.240551, 1e-3 * 0.240551);
+  EXPECT_NEAR(m.cross_coupling, 0.221986, 1e-3 * 0.221986);
+  EXPECT_NEAR(make_helion().main_rotor.flapping.lag_s, 0.297093, 1e-3 * 0.297093);
+}
+
+// Check TC3.
+TEST(Flapping, TC3_XCellOfTheAutopilotProject) {
+  MainRotorConfig c;
+  c.speed_radps = 157.08;
+  c.radius_m = 0.6858;
+  c.chord_m = 0.0603;
+  c.lift_slope_prad = 6.0;
+  c.blade_inertia_kgm2 = 0.1148;
+  c.hinge_offset_m = 0.0;  // the value is that without hinge offset
+  const FlappingModel m = make_main_rotor(c, 1.225).flapping;
+  EXPECT_NEAR(m.lock_number, 0.8540, 1e-3 * 0.8540);
+  EXPECT_NEAR(m.blade_lag_s, 0.1193, 1e-3 * 0.1193);
 }
 
 // Check TC4.
