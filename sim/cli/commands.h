@@ -39,6 +39,25 @@ int render(const RenderOptions& options);
 /// @param topic  "modules", "vehicles", "scenes", "cameras" or "checks".
 int list(const std::string& topic);
 
+struct TrimOptions {
+  std::filesystem::path vehicle;
+  std::vector<double> speeds_mps{0.0};
+  bool json = false, csv = false;
+};
+/// Prints the trim of level flight at each speed.
+int trim(const TrimOptions& options);
+
+struct LinearizeOptions {
+  std::filesystem::path vehicle;
+  double speed_mps = 0.0;
+  bool json = false, csv = false;
+};
+/// Prints A, B and the modes of level flight.
+int linearize(const LinearizeOptions& options);
+
+/// Speeds of "V" or "FROM:TO:STEP", m/s, both ends included. Throws InputError on anything else.
+std::vector<double> speed_range(const std::string& text);
+
 int schema();
 
 int report(const std::filesystem::path& run_folder);

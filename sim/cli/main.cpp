@@ -24,9 +24,21 @@ void add_scenario(CLI::App& command, cli::ScenarioOptions& scenario) {
       ->take_all();
 }
 
+void add_formats(CLI::App& command, bool& json, bool& csv) {
+  CLI::Option* const as_json = command.add_flag("--json", json, "print JSON instead of a table for people");
+  command.add_flag("--csv", csv, "print comma-separated values")->excludes(as_json);
+}
+
+/// What the commands about vehicles are told.
+struct VehicleOptions {
+  cli::TrimOptions trim;
+  std::string speeds = "0";
+  cli::LinearizeOptions linearize;
+};
+
 /// Declares the commands; the one that is chosen ends up in `chosen`.
 void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, cli::RenderOptions& render,
-             std::string& topic, std::filesystem::path& folder) {
+             VehicleOptions& vehicles, std::string& topic, std::filesystem::path& folder) {
   CLI::App* const run_command = app.add_subcommand("run",
                                                    "fly a scenario; leaves a folder with verdict, tables, film "
                                                    "and report");
@@ -67,6 +79,26 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
       ->check(CLI::IsMember({"modules", "vehicles", "scenes", "cameras", "checks"}));
   list_command->callback([&] { chosen = [&topic] { return cli::list(topic); }; });
 
+  CLI::App* const trim_command = app.add_subcommand("trim", "print a vehicle's trim of level flight against speed");
+  trim_command->add_option("VEHICLE", vehicles.trim.vehicle, "vehicle file (YAML)")->required();
+  trim_command->add_option("--speed", vehicles.speeds, "speed through the air, or a range of them (m/s); default 0")
+      ->type_name("FROM:TO:STEP");
+  add_formats(*trim_command, vehicles.trim.json, vehicles.trim.csv);
+  trim_command->callback([&] {
+    chosen = [&vehicles] {
+      vehicles.trim.speeds_mps = cli::speed_range(vehicles.speeds);
+      return cli::trim(vehicles.trim);
+    };
+  });
+
+  CLI::App* const linearize_command = app.add_subcommand(
+      "linearize", "print a vehicle's linear model about level flight: A, B and modes with frequency and damping");
+  linearize_command->add_option("VEHICLE", vehicles.linearize.vehicle, "vehicle file (YAML)")->required();
+  linearize_command->add_option("--speed", vehicles.linearize.speed_mps, "speed through the air (m/s); default 0")
+      ->type_name("V");
+  add_formats(*linearize_command, vehicles.linearize.json, vehicles.linearize.csv);
+  linearize_command->callback([&] { chosen = [&vehicles] { return cli::linearize(vehicles.linearize); }; });
+
   CLI::App* const schema_command = app.add_subcommand("schema", "print the JSON Schema of scenario files, for editors");
   schema_command->callback([&] { chosen = [] { return cli::schema(); }; });
 }
@@ -83,9 +115,10 @@ int run_command_line(int argc, char** argv) {
   std::function<int()> chosen;
   cli::RunOptions run;
   cli::RenderOptions render;
+  VehicleOptions vehicles;
   std::string topic;
   std::filesystem::path folder;
-  declare(app, chosen, run, render, topic, folder);
+  declare(app, chosen, run, render, vehicles, topic, folder);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -38,6 +38,16 @@ Scenario load_scenario(const std::filesystem::path& file, std::span<const std::s
   return scenario;
 }
 
+dynamics::VehicleConfig load_vehicle(const std::filesystem::path& file) {
+  Faults faults;
+  const Node root = load_tree(file, faults);
+  if (root.kind != Node::Kind::map) faults.raise();
+  dynamics::VehicleConfig vehicle;
+  read_value(root, "", {.meaning = "a vehicle"}, vehicle, faults);
+  faults.raise();
+  return vehicle;
+}
+
 std::string to_yaml(const Scenario& scenario) { return yaml_text(outline_fields(scenario)); }
 
 std::string json_schema() { return schema_text(outline_fields(Scenario{}), "Hedgehop scenario"); }

@@ -153,6 +153,9 @@ auto build_part(const std::string& path, Make&& make) {
 /// or out of bounds, and what does not fit together.
 Scenario load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
+/// Reads a vehicle's file, as strictly. Throws InputError with every fault found.
+dynamics::VehicleConfig load_vehicle(const std::filesystem::path& file);
+
 /// The scenario in full, every key written, no file used: reads back to the same values, bit for bit.
 std::string to_yaml(const Scenario& scenario);
 

@@ -11,7 +11,7 @@
 #include "dynamics/vehicle.h"
 #include "dynamics/wind.h"
 
-/// A helicopter flown by its avionics, or by its autopilot alone on perfect navigation, for tests.
+/// A vehicle flown by its avionics, or by its autopilot alone on perfect navigation, for tests.
 namespace hedgehop::dynamics {
 
 /// An independent seed per stream name: FNV-1a.
@@ -23,8 +23,8 @@ inline uint64_t seed_of(uint64_t seed, std::string_view name) {
 
 struct Loop {
   AvionicsConfig avionics;
-  HelicopterConfig vehicle;
-  std::optional<HelicopterConfig> designed_for;  ///< what the autopilot takes the vehicle for
+  VehicleConfig vehicle;
+  std::optional<VehicleConfig> designed_for;  ///< what the autopilot takes the vehicle for
   std::function<Eigen::Vector3d(double t_s)> wind_W = [](double) { return Eigen::Vector3d(Eigen::Vector3d::Zero()); };
   std::optional<WindConfig> weather;  ///< instead of wind_W
   std::function<double(const Eigen::Vector3d& p_WB)> surface_m = [](const Eigen::Vector3d&) { return 0.0; };
@@ -56,7 +56,7 @@ inline std::vector<Sample> fly(const Loop& loop, double duration_s,
                                const std::function<Setpoint(double t_s)>& setpoint) {
   const double dt = 1.0 / loop.physics_rate_hz;
   const auto seed = [&](std::string_view name) { return seed_of(loop.seed, name); };
-  Vehicle vehicle{VehicleConfig(loop.vehicle)};
+  Vehicle vehicle(loop.vehicle);
   Avionics avionics(loop.avionics, loop.designed_for.value_or(loop.vehicle), dt, seed);
   Autopilot autopilot(loop.avionics.autopilot, loop.designed_for.value_or(loop.vehicle));
   Wind weather(loop.weather.value_or(WindConfig{}), seed("wind"));
@@ -66,7 +66,7 @@ inline std::vector<Sample> fly(const Loop& loop, double duration_s,
     const RigidBodyState& b = vehicle.body();
     return loop.weather ? weather.sample(-b.p_WB.z(), b.q_WB * b.v_WB_B, dt) : loop.wind_W(t_s);
   };
-  vehicle.reset({0.0, 0.0, -10.0}, loop.heading_rad, loop.weather ? weather.steady_W() : loop.wind_W(0.0));
+  vehicle.reset({0.0, 0.0, -10.0}, loop.heading_rad, loop.weather ? weather.steady_W(10.0) : loop.wind_W(0.0));
   const auto truth = [&] {
     const RigidBodyState& b = vehicle.body();
     return SensedTruth{b, vehicle.specific_force_B(), -b.p_WB.z() - loop.surface_m(b.p_WB)};

@@ -1,0 +1,118 @@
+#include "dynamics/steady_flight.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "dynamics/trim.h"
+
+namespace hedgehop::dynamics {
+namespace {
+
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+
+SteadyFlight described(const Trim& t) {
+  const MainRotorLoads& main = t.loads.main_rotor;
+  return {t.roll_rad,
+          t.pitch_rad,
+          {{"phi", "deg", t.roll_rad * kDegPerRad},
+           {"theta", "deg", t.pitch_rad * kDegPerRad},
+           {"theta_c", "deg", t.blades.collective_rad * kDegPerRad},
+           {"theta_t", "deg", t.blades.tail_rad * kDegPerRad},
+           {"delta_lat", "deg", t.blades.lateral_rad * kDegPerRad},
+           {"delta_lon", "deg", t.blades.longitudinal_rad * kDegPerRad},
+           {"T", "N", main.inflow.thrust_n},
+           {"v_i", "m/s", main.inflow.induced_mps},
+           {"P", "W", main.power_w},
+           {"P_t", "W", t.loads.tail_rotor.power_w}}};
+}
+
+SteadyFlight described(const MulticopterModel& model, const MulticopterTrim& t) {
+  const Controls controls = wrench(model, t.state.speeds_radps);
+  return {t.roll_rad,
+          t.pitch_rad,
+          {{"phi", "deg", t.roll_rad * kDegPerRad},
+           {"theta", "deg", t.pitch_rad * kDegPerRad},
+           {"T", "N", controls[kHeave]},
+           {"L", "N m", controls[kRoll]},
+           {"M", "N m", controls[kPitch]},
+           {"N", "N m", controls[kYaw]},
+           {"omega_min", "rad/s", t.state.speeds_radps.minCoeff()},
+           {"omega_max", "rad/s", t.state.speeds_radps.maxCoeff()}}};
+}
+
+std::optional<SteadyFlight> steady(const HelicopterConfig& config, const Eigen::Vector3d& v_air_W) {
+  const std::optional<Trim> found = trim(make_model(config), v_air_W);
+  return found ? std::optional(described(*found)) : std::nullopt;
+}
+
+std::optional<SteadyFlight> steady(const MulticopterConfig& config, const Eigen::Vector3d& v_air_W) {
+  const MulticopterModel model = make_model(config);
+  const std::optional<MulticopterTrim> found = trim(model, v_air_W);
+  return found ? std::optional(described(model, *found)) : std::nullopt;
+}
+
+std::optional<NamedLinearSystem> linear(const HelicopterConfig& config, const Eigen::Vector3d& v_air_W) {
+  using L = LinearModel;
+  const HelicopterModel model = make_model(config);
+  const std::optional<Trim> found = trim(model, v_air_W);
+  if (!found) return std::nullopt;
+  const L linear = linearise(model, *found);
+  static constexpr const char* kNames[L::kStates] = {"u",     "v",   "w", "p", "q", "r", "phi",
+                                                     "theta", "psi", "a", "b", "c", "d"};
+  NamedLinearSystem out{{}, {"theta_c", "delta_lat", "delta_lon", "theta_t"}, {}};
+  std::vector<int> kept;  // a lumped stabiliser bar has no states of its own
+  for (int i = 0; i < L::kStates; ++i) {
+    const bool bar = i == L::kBarBack || i == L::kBarRight;
+    if (bar && linear.A.row(i).isZero(0.0) && linear.B.row(i).isZero(0.0)) continue;
+    kept.push_back(i);
+    out.states.emplace_back(kNames[i]);
+  }
+  const auto size = static_cast<Eigen::Index>(kept.size());
+  out.system.A.resize(size, size);
+  out.system.B.resize(size, L::kInputs);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const int row = kept[static_cast<size_t>(i)];
+    for (Eigen::Index j = 0; j < size; ++j) out.system.A(i, j) = linear.A(row, kept[static_cast<size_t>(j)]);
+    out.system.B.row(i) = linear.B.row(row);
+  }
+  return out;
+}
+
+std::optional<NamedLinearSystem> linear(const MulticopterConfig& config, const Eigen::Vector3d& v_air_W) {
+  const MulticopterModel model = make_model(config);
+  const std::optional<MulticopterTrim> found = trim(model, v_air_W);
+  if (!found) return std::nullopt;
+  const MulticopterLinearModel linear = linearise(model, *found);
+  return NamedLinearSystem{{"u", "v", "w", "p", "q", "r", "phi", "theta", "psi", "T", "L", "M", "N"},
+                           {"T_cmd", "L_cmd", "M_cmd", "N_cmd"},
+                           {linear.A, linear.B}};
+}
+
+}  // namespace
+
+std::optional<SteadyFlight> steady_flight(const VehicleConfig& vehicle, const Eigen::Vector3d& v_air_W) {
+  return std::visit([&](const auto& config) { return steady(config, v_air_W); }, vehicle);
+}
+
+std::optional<NamedLinearSystem> linear_system(const VehicleConfig& vehicle, const Eigen::Vector3d& v_air_W) {
+  return std::visit([&](const auto& config) { return linear(config, v_air_W); }, vehicle);
+}
+
+std::vector<Mode> modes(const DesignMatrix& A) {
+  const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues();
+  std::vector<Mode> out;
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (values[i].imag() < 0.0) continue;
+    const double magnitude = std::abs(values[i]);
+    out.push_back({values[i], magnitude, magnitude > 0.0 ? -values[i].real() / magnitude : 0.0});
+  }
+  std::sort(out.begin(), out.end(), [](const Mode& a, const Mode& b) {
+    return std::tuple(a.frequency_radps, a.eigenvalue.real()) < std::tuple(b.frequency_radps, b.eigenvalue.real());
+  });
+  return out;
+}
+
+}  // namespace hedgehop::dynamics

@@ -1,0 +1,72 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "dynamics/steady_flight.h"
+#include "sim/scenario/scenario.h"
+#include "tests/dynamics/step_response.h"
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+
+std::vector<std::filesystem::path> vehicle_files() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(HEDGEHOP_SOURCE_DIR "/configs/vehicles")) {
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+class VehicleFile : public testing::TestWithParam<std::filesystem::path> {};
+
+TEST_P(VehicleFile, HoversAndFliesForwardsAndBackwardsInTrim) {
+  const dynamics::VehicleConfig vehicle = load_vehicle(GetParam());
+  for (const double speed_mps : {-4.0, 0.0, 4.0, 8.0}) {
+    const auto flight = dynamics::steady_flight(vehicle, {speed_mps, 0.0, 0.0});
+    ASSERT_TRUE(flight) << speed_mps;
+    // The nose goes down to fly forwards.
+    EXPECT_LE(flight->pitch_rad * speed_mps, 0.0) << speed_mps;
+    EXPECT_EQ(std::abs(flight->pitch_rad) > 1e-3, speed_mps != 0.0) << speed_mps;
+  }
+}
+
+// The properties are the table of step responses in docs/results.md.
+TEST_P(VehicleFile, FollowsAVelocityStepOfTwoMetresASecond) {
+  dynamics::Loop loop;
+  loop.perfect = true;
+  loop.vehicle = load_vehicle(GetParam());
+  for (const bool sideways : {false, true}) {
+    const dynamics::StepResponse r =
+        dynamics::step_response(loop, sideways ? Eigen::Vector2d(0.0, 2.0) : Eigen::Vector2d(2.0, 0.0));
+    const std::string way = sideways ? "sideways_" : "forwards_";
+    const auto record = [&](const std::string& what, double value) {
+      RecordProperty(way + what, std::to_string(value));
+    };
+    record("rise_s", r.rise_s);
+    record("settled_s", r.settled_s);
+    record("overshoot_percent", 100.0 * r.overshoot);
+    record("across_mps", r.across_mps);
+    record("altitude_m", r.altitude_m);
+    record("heading_deg", r.heading_rad * kDegPerRad);
+    EXPECT_LT(r.rise_s, 1.6) << way;
+    EXPECT_LT(r.settled_s, 2.5) << way;
+    EXPECT_LT(r.overshoot, 0.1) << way;
+    EXPECT_LT(r.across_mps, 0.15) << way;
+    EXPECT_LT(r.altitude_m, 0.2) << way;
+    EXPECT_LT(r.heading_rad * kDegPerRad, 3.0) << way;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, VehicleFile, testing::ValuesIn(vehicle_files()),
+                         [](const auto& tested) { return tested.param.stem().string(); });
+
+}  // namespace
+}  // namespace hedgehop::sim
