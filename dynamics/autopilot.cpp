@@ -1,5 +1,6 @@
 #include "dynamics/autopilot.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <variant>
@@ -80,8 +81,24 @@ void Autopilot::design(double dt_s) {
   for (int i = 0; i < kIntegrals; ++i) Q(n + i, n + i) = weight(kAcceptableIntegrals[i]);
   K_hold_ = lqr_gain(sampled(augmented, dt_s), Q, input_weights(model_.acceptable));
 
+  solve_cruise();
   plan_slopes_ = slopes(K_plan_);
   hold_slopes_ = slopes(K_hold_);
+}
+
+/// Steady flight of the model at a velocity: its attitude, hidden states and controls.
+void Autopilot::solve_cruise() {
+  const DesignMatrix& A = model_.motion.A;
+  const Eigen::Index n = A.rows(), hidden = n - M::kHidden;
+  // Unknown: roll and pitch, the hidden states, the controls. The distance below the set altitude drops out.
+  Eigen::MatrixXd unknown(n, 2 + hidden + kControlAxes);
+  unknown << A.middleCols(M::kRoll, 2), A.rightCols(hidden), model_.motion.B;
+  const Eigen::MatrixXd found = unknown.completeOrthogonalDecomposition().solve(-A.leftCols(2));
+  cruise_state_ = DesignMatrix::Zero(n, 2);
+  cruise_state_.topRows(2).setIdentity();
+  cruise_state_.middleRows(M::kRoll, 2) = found.topRows(2);
+  cruise_state_.bottomRows(hidden) = found.middleRows(2, hidden);
+  cruise_controls_ = found.bottomRows(kControlAxes);
 }
 
 Autopilot::Slopes Autopilot::slopes(const DesignMatrix& K) const {
@@ -191,12 +208,16 @@ DesignVector Autopilot::state_of(const NavigationEstimate& now) const {
 Controls Autopilot::plan(const Target& target) const {
   const AutopilotConfig& c = config_;
   DesignVector e = reference_;
+  Controls cruise = Controls::Zero();
   if (target.attitude) {
     e.head<2>().setZero();
     e[M::kRoll] -= target.roll_rad;
     e[M::kPitch] -= target.pitch_rad;
   } else {
-    const Eigen::Vector2d error = e.head<2>() - turned(-reference_[M::kHeading], target.v_WB_W);
+    const Eigen::Vector2d v_H = turned(-reference_[M::kHeading], target.v_WB_W);
+    const Eigen::Vector2d error = e.head<2>() - v_H;
+    e -= cruise_state_ * v_H;
+    cruise = cruise_controls_ * v_H;
     const Eigen::Vector2d tilt = plan_slopes_.tilt_per_mps.cwiseProduct(error);
     e.head<2>() = shortened(tilt, c.acceleration_limit_mps2 / kGravityMps2).cwiseQuotient(plan_slopes_.tilt_per_mps);
   }
@@ -204,7 +225,7 @@ Controls Autopilot::plan(const Target& target) const {
   e[M::kBelow] = std::clamp(reference_[M::kBelow] + target.altitude_m, -below_m, below_m);
   const double off_rad = c.yaw_rate_limit_radps / plan_slopes_.turn_per_rad;
   e[M::kHeading] = std::clamp(wrap_angle(reference_[M::kHeading] - target.heading_rad), -off_rad, off_rad);
-  return -K_plan_ * e;
+  return cruise - K_plan_ * e;
 }
 
 /// Returns what holds the vehicle to the reference flight, and moves the integrals on.

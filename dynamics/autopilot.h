@@ -76,6 +76,7 @@ class Autopilot {
   };
 
   void design(double dt_s);
+  void solve_cruise();
   Slopes slopes(const DesignMatrix& K) const;
 
   Target target(const VelocitySetpoint& s, const NavigationEstimate& now);
@@ -92,8 +93,9 @@ class Autopilot {
   AutopilotConfig config_;
   HoverModel model_;
   double dt_s_ = 0.0;
-  LinearSystem step_;             ///< the model, sampled
-  DesignMatrix K_plan_, K_hold_;  ///< inputs x states; K_hold_ with the four integrals behind
+  LinearSystem step_;                            ///< the model, sampled
+  DesignMatrix cruise_state_, cruise_controls_;  ///< of steady flight, per velocity forward and right
+  DesignMatrix K_plan_, K_hold_;                 ///< inputs x states; K_hold_ with the four integrals behind
   Slopes plan_slopes_, hold_slopes_;
 
   DesignVector reference_;     ///< state of the reference flight, velocities in the frame of its own heading
