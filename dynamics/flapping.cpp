@@ -4,6 +4,18 @@
 
 namespace hedgehop::dynamics {
 
+FlappingModel at_speed(FlappingModel model, double ratio) {
+  model.lag_s /= ratio;
+  model.blade_lag_s /= ratio;
+  model.bar_lag_s /= ratio;
+  model.cross_coupling /= ratio * ratio;
+  if (!model.explicit_bar) {
+    model.longitudinal_gain *= ratio * ratio;
+    model.lateral_gain *= ratio * ratio;
+  }
+  return model;
+}
+
 double speed_flapping(const FlappingModel& model, double collective_rad, double inflow_ratio) {
   return 2.0 * model.speed_gain * (4.0 / 3.0 * collective_rad - inflow_ratio);
 }

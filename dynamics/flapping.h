@@ -76,6 +76,10 @@ struct FlappingModel {
   double lift_solidity_prad = 0.1;  ///< a sigma
 };
 
+/// Returns the same rotor turning `ratio` times as fast. Source: as derivative(): lags fall, gains of a lumped bar grow
+/// with the square of the speed.
+FlappingModel at_speed(FlappingModel model, double ratio);
+
 /// What drives the disc. Velocities in B, m/s.
 struct FlapInput {
   double lateral_rad = 0.0, longitudinal_rad = 0.0;

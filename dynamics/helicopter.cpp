@@ -1,7 +1,9 @@
 #include "dynamics/helicopter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace hedgehop::dynamics {
 
@@ -16,9 +18,38 @@ HelicopterState to_helicopter(const HelicopterVector& x) {
   return {to_rigid_body(x.head<13>()), {x[13], x[14], x[15], x[16]}};
 }
 
+namespace {
+
+void require_positive(const std::string& key, double value) {
+  if (value > 0.0 && std::isfinite(value)) return;
+  throw std::invalid_argument(key + " must be positive, got " + std::to_string(value));
+}
+
+/// Of the main or the tail rotor.
+template <class Rotor>
+void check_rotor(const std::string& name, const Rotor& c) {
+  require_positive(name + ".radius", c.radius_m);
+  require_positive(name + ".chord", c.chord_m);
+  require_positive(name + ".blades", static_cast<double>(c.blades));
+  require_positive(name + ".lift_slope", c.lift_slope_prad);
+  require_positive(name + ".max_thrust_coefficient", c.max_thrust_coefficient);
+  require_positive(name + ".efficiency", c.efficiency);
+}
+
+void check(const HelicopterConfig& c) {
+  require_positive("air_density", c.air_density_kgpm3);
+  require_positive("main_rotor.speed", c.main_rotor.speed_radps);
+  require_positive("main_rotor.blade_inertia", c.main_rotor.blade_inertia_kgm2);
+  check_rotor("main_rotor", c.main_rotor);
+  require_positive("tail_rotor.gear_ratio", c.tail_rotor.gear_ratio);
+  check_rotor("tail_rotor", c.tail_rotor);
+}
+
+}  // namespace
+
 HelicopterModel make_model(const HelicopterConfig& config) {
   const double density = config.air_density_kgpm3;
-  if (!(density > 0.0)) throw std::invalid_argument("the air density must be positive");
+  check(config);
   HelicopterModel model;
   model.mass = make_mass_properties(config.mass.mass_kg, config.mass.inertia_kgm2, config.mass.inertia_xz_kgm2);
   model.main_rotor = make_main_rotor(config.main_rotor, density);
@@ -26,11 +57,15 @@ HelicopterModel make_model(const HelicopterConfig& config) {
       make_tail_rotor(config.tail_rotor, config.main_rotor.speed_radps, model.main_rotor.flapping.clockwise, density);
   model.surfaces = config.surfaces;
   model.density_kgpm3 = density;
-  for (const RotorDisc& disc : {model.main_rotor.disc, model.tail_rotor.disc}) {
-    if (!(disc.lift_nspm > 0.0) || !(disc.max_thrust_n > 0.0) || !(disc.efficiency > 0.0)) {
-      throw std::invalid_argument("a rotor's speed, size, lift slope, efficiency and greatest thrust must be positive");
-    }
-  }
+  return model;
+}
+
+HelicopterModel at_speed(HelicopterModel model, double main_radps) {
+  const double ratio = std::max(main_radps / model.main_rotor.speed_radps, kSlowestRotor);
+  model.main_rotor.disc = at_speed(model.main_rotor.disc, ratio);
+  model.main_rotor.flapping = at_speed(model.main_rotor.flapping, ratio);
+  model.main_rotor.speed_radps *= ratio;
+  model.tail_rotor.disc = at_speed(model.tail_rotor.disc, ratio);
   return model;
 }
 
@@ -52,13 +87,16 @@ HelicopterLoads helicopter_loads(const HelicopterModel& model, const HelicopterS
   return loads;
 }
 
-HelicopterVector derivative(const HelicopterModel& model, const HelicopterState& state, const BladeAngles& blades,
-                            const Eigen::Vector3d& wind_W) {
-  const HelicopterLoads loads = helicopter_loads(model, state, blades, wind_W);
+HelicopterVector derivative(const HelicopterModel& model, const HelicopterState& state, const HelicopterLoads& loads) {
   HelicopterVector rate;
   rate << derivative(model.mass, state.body, loads.f_B, loads.t_B),
       derivative(model.main_rotor.flapping, state.flap, loads.main_rotor.flap_input);
   return rate;
+}
+
+HelicopterVector derivative(const HelicopterModel& model, const HelicopterState& state, const BladeAngles& blades,
+                            const Eigen::Vector3d& wind_W) {
+  return derivative(model, state, helicopter_loads(model, state, blades, wind_W));
 }
 
 }  // namespace hedgehop::dynamics

@@ -8,6 +8,7 @@
 #include "dynamics/main_rotor.h"
 #include "dynamics/mass.h"
 #include "dynamics/rigid_body.h"
+#include "dynamics/rotor_speed.h"
 #include "dynamics/servo.h"
 #include "dynamics/surfaces.h"
 #include "dynamics/tail_rotor.h"
@@ -30,13 +31,14 @@ void describe(Visitor& v, ServosConfig& c) {
 /// table of parameters.
 struct HelicopterConfig {
   static constexpr std::string_view kName = "helicopter";
-  static constexpr std::string_view kMeaning = "main and tail rotor at constant speed, Bell-Hiller stabiliser bar";
+  static constexpr std::string_view kMeaning = "main and tail rotor, Bell-Hiller stabiliser bar";
   double air_density_kgpm3 = 1.225;
   MassConfig mass;
   MainRotorConfig main_rotor;
   TailRotorConfig tail_rotor;
   SurfacesConfig surfaces;
   ServosConfig servos;
+  RotorSpeedConfig rotor_speed;
   HelicopterHullConfig hull;
 };
 template <class Visitor>
@@ -48,6 +50,7 @@ void describe(Visitor& v, HelicopterConfig& c) {
   v("tail_rotor", c.tail_rotor, {.meaning = "tail rotor"});
   v("surfaces", c.surfaces, {.meaning = "fuselage, vertical fin and horizontal stabiliser"});
   v("servos", c.servos, {.meaning = "servos that move the blades"});
+  v("rotor_speed", c.rotor_speed, {.meaning = "what turns the rotors"});
   v("hull", c.hull, {.meaning = "shape for collisions, beside the rotors and the tail arm"});
 }
 
@@ -72,6 +75,10 @@ struct HelicopterModel {
 /// Throws std::invalid_argument on a value that cannot be.
 HelicopterModel make_model(const HelicopterConfig& config);
 
+/// Returns the same helicopter with rotors at another speed. @param main_radps  of the main rotor; no
+/// slower than kSlowestRotor.
+HelicopterModel at_speed(HelicopterModel model, double main_radps);
+
 /// All loads but gravity, about the mass centre, and what the rotors do.
 struct HelicopterLoads {
   Eigen::Vector3d f_B = Eigen::Vector3d::Zero();  ///< N
@@ -82,6 +89,9 @@ struct HelicopterLoads {
 /// @param blades  where the blades stand. @param wind_W  velocity of the air in W, m/s.
 HelicopterLoads helicopter_loads(const HelicopterModel& model, const HelicopterState& state, const BladeAngles& blades,
                                  const Eigen::Vector3d& wind_W);
+
+/// Returns the time derivative of the state under loads that are known.
+HelicopterVector derivative(const HelicopterModel& model, const HelicopterState& state, const HelicopterLoads& loads);
 
 /// Returns the time derivative of the state, a pure function of the arguments. Parameters as helicopter_loads().
 HelicopterVector derivative(const HelicopterModel& model, const HelicopterState& state, const BladeAngles& blades,

@@ -1,7 +1,10 @@
 #include "dynamics/helicopter_flight.h"
 
+#include <algorithm>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <variant>
 
 #include "dynamics/integrator.h"
 #include "dynamics/trim.h"
@@ -9,9 +12,9 @@
 namespace hedgehop::dynamics {
 namespace {
 
-/// HelicopterVector, then position and rate of each servo.
-using FlightVector = Eigen::Matrix<double, 25, 1>;
-constexpr int kServo = 17;
+/// HelicopterVector, then position and rate of each servo, then RotorSpeedState.
+constexpr int kServo = 17, kRotor = 25, kSize = 27;
+using FlightVector = Eigen::Matrix<double, kSize, 1>;
 
 FlightVector to_vector(const HelicopterFlightState& state) {
   FlightVector x;
@@ -19,11 +22,12 @@ FlightVector to_vector(const HelicopterFlightState& state) {
   for (size_t i = 0; i < state.servos.size(); ++i) {
     x.segment<2>(kServo + 2 * static_cast<Eigen::Index>(i)) << state.servos[i].position_rad, state.servos[i].rate_radps;
   }
+  x.tail<2>() << state.rotor.speed_radps, state.rotor.integral_throttle;
   return x;
 }
 
 HelicopterFlightState to_flight(const FlightVector& x) {
-  HelicopterFlightState state{to_helicopter(x.head<kServo>()), {}};
+  HelicopterFlightState state{to_helicopter(x.head<kServo>()), {}, {x[kRotor], x[kRotor + 1]}};
   for (size_t i = 0; i < state.servos.size(); ++i) {
     const Eigen::Index k = kServo + 2 * static_cast<Eigen::Index>(i);
     state.servos[i] = {x[k], x[k + 1]};
@@ -46,21 +50,41 @@ HelicopterFlight::HelicopterFlight(const HelicopterConfig& config)
     : model_(make_model(config)),
       servos_{config.servos.collective, config.servos.cyclic, config.servos.cyclic, config.servos.tail} {
   for (const ServoConfig& servo : servos_) check(servo);
+  if (const auto* engine = std::get_if<GovernedEngineConfig>(&config.rotor_speed)) {
+    check(*engine);
+    engine_ = *engine;
+  }
   reset(Eigen::Vector3d::Zero(), 0.0, Eigen::Vector3d::Zero());
 }
 
 void HelicopterFlight::reset(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector3d& wind_W) {
   const std::optional<Trim> hover = trim(model_, -wind_W, heading_rad);
-  if (!hover) throw std::invalid_argument("the helicopter has no steady hover in this wind");
-  HelicopterFlightState state{hover->state, {}};
+  if (!hover) {
+    const double weight_n = model_.mass.mass_kg * kGravityMps2;
+    throw std::invalid_argument("the helicopter has no steady hover in this wind: it weighs " +
+                                std::to_string(weight_n) + " N, its main rotor lifts at most " +
+                                std::to_string(model_.main_rotor.disc.max_thrust_n) + " N");
+  }
+  HelicopterFlightState state{hover->state, {}, {model_.main_rotor.speed_radps, 0.0}};
   state.airframe.body.p_WB = p_WB;
   state.airframe.body.v_WB_B.setZero();
   const std::array<double, 4> blades = to_array(hover->blades);
   for (size_t i = 0; i < blades.size(); ++i) {
     if (blades[i] < servos_[i].lowest_rad || blades[i] > servos_[i].highest_rad) {
-      throw std::invalid_argument("the helicopter cannot hover in this wind: a servo's travel is too small");
+      throw std::invalid_argument("the helicopter cannot hover in this wind: " + std::string(kControlNames[i]) +
+                                  " must be " + std::to_string(blades[i]) + ", its servo's travel is " +
+                                  std::to_string(servos_[i].lowest_rad) + " to " +
+                                  std::to_string(servos_[i].highest_rad));
     }
     state.servos[i] = {blades[i], 0.0};
+  }
+  if (engine_) {
+    const double power_w = hover->loads.main_rotor.power_w + hover->loads.tail_rotor.power_w;
+    if (power_w > engine_->max_power_w) {
+      throw std::invalid_argument("the helicopter cannot hover in this wind: it needs " + std::to_string(power_w) +
+                                  " W, its engine gives " + std::to_string(engine_->max_power_w) + " W");
+    }
+    state.rotor.integral_throttle = power_w / engine_->max_power_w;
   }
   set_state(state, wind_W);
 }
@@ -70,15 +94,27 @@ void HelicopterFlight::step(const BladeAngles& command, const Eigen::Vector3d& w
   const auto rate = [&](double, const FlightVector& x) {
     const HelicopterFlightState state = to_flight(x);
     FlightVector dx;
-    dx.head<kServo>() = derivative(model_, state.airframe, blade_angles(state), wind_W);
+    dx.tail<2>().setZero();
+    if (engine_) {
+      // The body turns against what the rotors gain in speed.
+      const HelicopterModel model = at_speed(model_, state.rotor.speed_radps);
+      HelicopterLoads loads = helicopter_loads(model, state.airframe, blade_angles(state), wind_W);
+      dx.tail<2>() = derivative(*engine_, model_.main_rotor.speed_radps, state.rotor,
+                                loads.main_rotor.power_w + loads.tail_rotor.power_w);
+      loads.t_B.z() -= model.main_rotor.flapping.clockwise * engine_->inertia_kgm2 * dx[kRotor];
+      dx.head<kServo>() = derivative(model, state.airframe, loads);
+    } else {
+      dx.head<kServo>() = derivative(model_, state.airframe, blade_angles(state), wind_W);
+    }
     for (size_t i = 0; i < targets.size(); ++i) {
       dx.segment<2>(kServo + 2 * static_cast<Eigen::Index>(i)) = derivative(servos_[i], state.servos[i], targets[i]);
     }
     return dx;
   };
-  HelicopterFlightState next = to_flight(rk4_step<25>(to_vector(state_), 0.0, dt_s, rate));
+  HelicopterFlightState next = to_flight(rk4_step<kSize>(to_vector(state_), 0.0, dt_s, rate));
   next.airframe.body.q_WB.normalize();
   for (size_t i = 0; i < servos_.size(); ++i) next.servos[i] = within_limits(servos_[i], next.servos[i]);
+  next.rotor.speed_radps = std::max(next.rotor.speed_radps, 0.0);
   set_state(next, wind_W);
 }
 
@@ -86,7 +122,7 @@ BladeAngles HelicopterFlight::actuators() const { return blade_angles(state_); }
 
 void HelicopterFlight::set_state(const HelicopterFlightState& state, const Eigen::Vector3d& wind_W) {
   state_ = state;
-  const HelicopterLoads loads = helicopter_loads(model_, state_.airframe, actuators(), wind_W);
+  const HelicopterLoads loads = helicopter_loads(model_at(state_.rotor), state_.airframe, actuators(), wind_W);
   specific_force_B_ = loads.f_B / model_.mass.mass_kg;
   within_validity_ = loads.main_rotor.inflow.within_momentum_theory;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string_view>
 
 #include "dynamics/blade_angles.h"
@@ -9,10 +10,11 @@
 
 namespace hedgehop::dynamics {
 
-/// Airframe and the servos that move its blades, in the order of BladeAngles.
+/// Airframe, the servos that move its blades, in the order of BladeAngles, and the speed of its rotors.
 struct HelicopterFlightState {
   HelicopterState airframe;
   std::array<ServoState, 4> servos;
+  RotorSpeedState rotor;
 };
 
 /// A helicopter in flight: constant model, explicit state.
@@ -41,11 +43,16 @@ class HelicopterFlight {
   void set_state(const HelicopterFlightState& state, const Eigen::Vector3d& wind_W);
 
  private:
+  HelicopterModel model_at(const RotorSpeedState& rotor) const {
+    return engine_ ? at_speed(model_, rotor.speed_radps) : model_;
+  }
+
   HelicopterModel model_;
   std::array<ServoConfig, 4> servos_;
   HelicopterFlightState state_;
   Eigen::Vector3d specific_force_B_ = Eigen::Vector3d::Zero();
   bool within_validity_ = true;
+  std::optional<GovernedEngineConfig> engine_;  ///< none: the speed is constant
 };
 
 }  // namespace hedgehop::dynamics

@@ -55,6 +55,14 @@ RotorDisc make_rotor_disc(const RotorGeometry& rotor, double density_kgpm3) {
   return disc;
 }
 
+RotorDisc at_speed(RotorDisc disc, double ratio) {
+  disc.tip_speed_mps *= ratio;
+  disc.lift_nspm *= ratio;
+  disc.max_thrust_n *= ratio * ratio;
+  disc.profile_power_w *= ratio * ratio * ratio;
+  return disc;
+}
+
 Inflow solve_inflow(const RotorDisc& disc, double collective_rad, double upflow_mps, double inplane_mps) {
   // A rotor that pushes down is one that pushes up, upside down.
   const double signed_blade_mps = upflow_mps + 2.0 / 3.0 * disc.tip_speed_mps * collective_rad;

@@ -22,6 +22,8 @@ struct RotorGeometry {
   double efficiency, profile_power_growth;
 };
 RotorDisc make_rotor_disc(const RotorGeometry& rotor, double density_kgpm3);
+/// Returns the same rotor turning `ratio` times as fast.
+RotorDisc at_speed(RotorDisc disc, double ratio);
 
 struct Inflow {
   double thrust_n = 0.0;     ///< along the shaft

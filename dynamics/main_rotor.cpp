@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <string>
 
 namespace hedgehop::dynamics {
 namespace {
@@ -19,7 +20,9 @@ void set_flybar(FlappingModel& model, const LumpedBarConfig& bar, double speed_r
 
 void set_flybar(FlappingModel& model, const ExplicitBarConfig& bar, double speed_radps, double density_kgpm3) {
   if (!(bar.paddle_inner_radius_m < bar.paddle_outer_radius_m)) {
-    throw std::invalid_argument("the paddles of the bar must begin inside of where they end");
+    throw std::invalid_argument("flybar.paddle_inner_radius must be below paddle_outer_radius, got " +
+                                std::to_string(bar.paddle_inner_radius_m) + " and " +
+                                std::to_string(bar.paddle_outer_radius_m) + " m");
   }
   const double lock_number = density_kgpm3 * bar.paddle_lift_slope_prad * bar.paddle_chord_m *
                              (std::pow(bar.paddle_outer_radius_m, 4) - std::pow(bar.paddle_inner_radius_m, 4)) /
@@ -34,7 +37,8 @@ void set_flybar(FlappingModel& model, const ExplicitBarConfig& bar, double speed
   model.bar_longitudinal_gain = bar.bar_longitudinal_gain;
   if (!(model.lateral_gain + model.mixing * model.bar_lateral_gain > 0.0) ||
       !(model.longitudinal_gain + model.mixing * model.bar_longitudinal_gain > 0.0)) {
-    throw std::invalid_argument("the cyclic must reach the disc, by the blades or by the bar");
+    throw std::invalid_argument(
+        "the cyclic must reach the disc, by the blades or by the bar: the gains of the flybar are 0");
   }
 }
 
@@ -44,7 +48,10 @@ FlappingModel make_flapping(const MainRotorConfig& c, double density_kgpm3) {
   m.clockwise = c.turns == MainRotorConfig::Turns::clockwise ? 1.0 : -1.0;
   m.lock_number = density_kgpm3 * c.lift_slope_prad * c.chord_m * std::pow(R, 4) / c.blade_inertia_kgm2;
   const double hinge = 1.0 - 8.0 * c.hinge_offset_m / (3.0 * R);
-  if (!(hinge > 0.0)) throw std::invalid_argument("the hinge offset must be below 3/8 of the radius");
+  if (!(hinge > 0.0)) {
+    throw std::invalid_argument("main_rotor.hinge_offset must be below 3/8 of the radius, got " +
+                                std::to_string(c.hinge_offset_m) + " of " + std::to_string(R) + " m");
+  }
   m.blade_lag_s = flapping_lag_s(m.lock_number, c.speed_radps) / hinge;
   m.cross_coupling =
       8.0 * c.hub_stiffness_nmprad / (m.lock_number * c.speed_radps * c.speed_radps * c.blade_inertia_kgm2);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace hedgehop::dynamics {
 
@@ -18,7 +19,9 @@ RigidBodyState to_rigid_body(const RigidBodyVector& x) {
 }
 
 MassProperties make_mass_properties(double mass_kg, const Eigen::Vector3d& principal_kgm2, double xz_kgm2) {
-  if (!(mass_kg > 0.0) || !std::isfinite(mass_kg)) throw std::invalid_argument("the mass must be positive");
+  if (!(mass_kg > 0.0) || !std::isfinite(mass_kg)) {
+    throw std::invalid_argument("mass must be positive, got " + std::to_string(mass_kg) + " kg");
+  }
   MassProperties mass;
   mass.mass_kg = mass_kg;
   mass.I_B = principal_kgm2.asDiagonal();
@@ -26,8 +29,9 @@ MassProperties make_mass_properties(double mass_kg, const Eigen::Vector3d& princ
   const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(mass.I_B).eigenvalues();
   if (!mass.I_B.allFinite() || !(moments[0] > 0.0) || moments[2] > (moments[0] + moments[1]) * (1.0 + 1e-9)) {
     throw std::invalid_argument(
-        "no body has this inertia: its principal moments must be positive and none larger "
-        "than the sum of the other two");
+        "no body has this inertia: its principal moments must be positive and none larger than the sum of the other "
+        "two, got " +
+        std::to_string(moments[0]) + ", " + std::to_string(moments[1]) + ", " + std::to_string(moments[2]) + " kg m2");
   }
   mass.I_B_inv = mass.I_B.inverse();
   return mass;

@@ -1,0 +1,34 @@
+#include "dynamics/rotor_speed.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace hedgehop::dynamics {
+
+void check(const GovernedEngineConfig& c) {
+  const auto refuse = [](const char* what, double value) {
+    throw std::invalid_argument(std::string("rotor_speed.") + what + ", got " + std::to_string(value));
+  };
+  if (!(c.max_power_w > 0.0)) refuse("max_power must be positive", c.max_power_w);
+  if (!(c.inertia_kgm2 > 0.0)) refuse("inertia must be positive", c.inertia_kgm2);
+  if (!(c.proportional_gain_sprad >= 0.0)) refuse("proportional_gain must not be negative", c.proportional_gain_sprad);
+  if (!(c.integral_gain_prad >= 0.0)) refuse("integral_gain must not be negative", c.integral_gain_prad);
+}
+
+double throttle(const GovernedEngineConfig& engine, double set_radps, const RotorSpeedState& state) {
+  return std::clamp(engine.proportional_gain_sprad * (set_radps - state.speed_radps) + state.integral_throttle, 0.0,
+                    1.0);
+}
+
+Eigen::Vector2d derivative(const GovernedEngineConfig& engine, double set_radps, const RotorSpeedState& state,
+                           double shaft_power_w) {
+  const double open = throttle(engine, set_radps, state);
+  const double torque_nm =
+      (engine.max_power_w * open - shaft_power_w) / std::max(state.speed_radps, kSlowestRotor * set_radps);
+  const double missing = set_radps - state.speed_radps;
+  const bool at_stop = (open >= 1.0 && missing > 0.0) || (open <= 0.0 && missing < 0.0);
+  return {torque_nm / engine.inertia_kgm2, at_stop ? 0.0 : engine.integral_gain_prad * missing};
+}
+
+}  // namespace hedgehop::dynamics
