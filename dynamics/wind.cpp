@@ -6,21 +6,31 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "dynamics/sensor_noise.h"
+
 namespace hedgehop::dynamics {
 namespace {
 
 constexpr double kLowestAirspeedMps = 1.0;  ///< chosen: in a hover in still air the field still drifts past
+constexpr double kW20HeightM = 6.096, kShearTopM = 304.8;  ///< 20 ft and 1000 ft
+constexpr double kRoughestM = 5.0;                         ///< chosen: clearly below 20 ft
+
+/// The way a wind blows that comes from a heading.
+Eigen::Vector3d blowing_W(double from_rad) { return {-std::cos(from_rad), -std::sin(from_rad), 0.0}; }
 
 }  // namespace
 
 Wind::Wind(const WindConfig& config, uint64_t seed) : config_(config), generator_(seed) {
-  for (const double value : {config.speed_mps, config.from_rad, config.turbulence_w20_mps}) {
+  for (const double value : {config.speed_mps, config.from_rad, config.roughness_m, config.turbulence_w20_mps}) {
     if (!std::isfinite(value)) throw std::invalid_argument("the wind must be finite");
   }
   if (config.speed_mps < 0.0 || config.turbulence_w20_mps < 0.0) {
     throw std::invalid_argument("wind speeds must not be negative");
   }
-  const Eigen::Vector3d blows_W{-std::cos(config.from_rad), -std::sin(config.from_rad), 0.0};
+  require_range("roughness", config.roughness_m, 0.0, kRoughestM);
+  check(config.gust);
+  gust_along_W_ = blowing_W(config.gust.from_rad);
+  const Eigen::Vector3d blows_W = blowing_W(config.from_rad);
   steady_W_ = config.speed_mps * blows_W;
   // Without a mean wind the axes are W's.
   const Eigen::Vector3d along_W = config.speed_mps > 0.0 ? blows_W : Eigen::Vector3d::UnitX();
@@ -37,11 +47,29 @@ void Wind::draw_stationary() {
   }
 }
 
-Eigen::Vector3d Wind::sample(double height_m, const Eigen::Vector3d& v_WB_W, double dt_s) {
-  if (config_.turbulence_w20_mps == 0.0) return steady_W_;
-  const DrydenScales s = dryden_scales(height_m, config_.turbulence_w20_mps);
-  const double path_m = std::max((v_WB_W - steady_W_).norm(), kLowestAirspeedMps) * dt_s;
+Eigen::Vector3d Wind::steady_W(double height_m) const {
+  const double z0 = config_.roughness_m;
+  if (z0 == 0.0) return steady_W_;
+  const double h = std::clamp(height_m, z0, kShearTopM);
+  return std::log(h / z0) / std::log(kW20HeightM / z0) * steady_W_;
+}
 
+Eigen::Vector3d Wind::sample(double height_m, const Eigen::Vector3d& v_WB_W, double dt_s) {
+  const Eigen::Vector3d steady_W = this->steady_W(height_m);
+  const double airspeed_mps = std::max((v_WB_W - steady_W).norm(), kLowestAirspeedMps);
+  Eigen::Vector3d air_W = steady_W;
+  if (config_.turbulence_w20_mps > 0.0) air_W += turbulence_W(height_m, airspeed_mps * dt_s);
+  if (config_.gust.speed_mps > 0.0) {
+    t_s_ += dt_s;
+    gust_way_m_ += airspeed_mps * std::clamp(t_s_ - config_.gust.start_s, 0.0, dt_s);
+    air_W += gust_speed_mps(config_.gust, gust_way_m_) * gust_along_W_;
+  }
+  return air_W;
+}
+
+/// Moves the filters on by a way through the air.
+Eigen::Vector3d Wind::turbulence_W(double height_m, double path_m) {
+  const DrydenScales s = dryden_scales(height_m, config_.turbulence_w20_mps);
   const FirstOrderStep u = first_order_step(path_m / s.length_uv_m);
   u_ = u.decay * u_ + u.noise * normal();
   move(v_, second_order_step(path_m / s.length_uv_m));
@@ -49,7 +77,7 @@ Eigen::Vector3d Wind::sample(double height_m, const Eigen::Vector3d& v_WB_W, dou
 
   const Eigen::RowVector2d output = second_order_output();
   const Eigen::Vector3d gust_T{s.sigma_uv_mps * u_, s.sigma_uv_mps * output.dot(v_), s.sigma_w_mps * output.dot(w_)};
-  return steady_W_ + R_WT_ * gust_T;
+  return R_WT_ * gust_T;
 }
 
 void Wind::move(Eigen::Vector2d& z, const SecondOrderStep& step) {

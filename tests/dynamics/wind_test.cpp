@@ -177,6 +177,80 @@ TEST(Wind, DR5_SameSeedSameWindBitForBit) {
   EXPECT_TRUE(differs);
 }
 
+// Check DR6.
+constexpr double kSlopeTruncation = 2e-6;  // of central differences over a thousandth of the length, relative
+
+TEST(Gust, DR6_RisesToHalfAtMidLengthWithTheSlopeOfACosineAndRoundAtBothEnds) {
+  const GustConfig gust{.speed_mps = 8.0, .length_m = 25.0, .hold_m = 10.0};
+  const double step_m = 0.001 * gust.length_m;
+  const auto slope = [&](double way_m) {
+    return (gust_speed_mps(gust, way_m + step_m) - gust_speed_mps(gust, way_m - step_m)) / (2.0 * step_m);
+  };
+  const double steepest = std::numbers::pi * 8.0 / (2.0 * 25.0);
+  EXPECT_NEAR(gust_speed_mps(gust, 12.5), 4.0, 1e-12);
+  EXPECT_NEAR(slope(12.5), steepest, kSlopeTruncation * steepest);
+  // The difference reaches a step into the rise: pi s / 4 d of the steepest slope.
+  EXPECT_NEAR(slope(0.0), 0.0, 1e-3 * steepest);
+  EXPECT_NEAR(slope(25.0), 0.0, 1e-3 * steepest);
+}
+
+TEST(Gust, DR6_HoldsAndFallsAsItRose) {
+  const GustConfig gust{.speed_mps = 8.0, .length_m = 25.0, .hold_m = 10.0};
+  EXPECT_DOUBLE_EQ(gust_speed_mps(gust, 25.0), 8.0);
+  EXPECT_DOUBLE_EQ(gust_speed_mps(gust, 30.0), 8.0);
+  EXPECT_DOUBLE_EQ(gust_speed_mps(gust, 35.0), 8.0);
+  for (const double way_m : {0.0, 3.0, 12.5, 20.0, 27.0}) {
+    EXPECT_NEAR(gust_speed_mps(gust, way_m), gust_speed_mps(gust, 60.0 - way_m), 1e-12);
+  }
+  EXPECT_EQ(gust_speed_mps(gust, -1.0), 0.0);
+  EXPECT_EQ(gust_speed_mps(gust, 61.0), 0.0);
+}
+
+TEST(Wind, DR6_AGustIsMetAtItsTimeAndFlownThroughAtTheAirspeed) {
+  // A headwind of 4 m/s over ground at 6 m/s: 10 m of air a second, so mid length 1 s after the start.
+  Wind wind({.speed_mps = 4.0,
+             .gust = {.speed_mps = 6.0, .from_rad = std::numbers::pi / 2.0, .start_s = 2.0, .length_m = 20.0}},
+            1);
+  const double dt = 0.002;
+  const auto gust_W = [&](double duration_s) {
+    Eigen::Vector3d air_W;
+    for (int i = 0; i < std::lround(duration_s / dt); ++i) air_W = wind.sample(10.0, {6.0, 0.0, 0.0}, dt);
+    return Eigen::Vector3d(air_W - Eigen::Vector3d{-4.0, 0.0, 0.0});
+  };
+  EXPECT_LT(gust_W(2.0).norm(), 1e-9);
+  EXPECT_LT((gust_W(1.0) - Eigen::Vector3d{0.0, -3.0, 0.0}).norm(), 1e-9);
+  EXPECT_LT((gust_W(1.0) - Eigen::Vector3d{0.0, -6.0, 0.0}).norm(), 1e-9);
+  EXPECT_LT(gust_W(2.0).norm(), 1e-9);
+}
+
+TEST(Wind, AGustDisturbsNoTurbulence) {
+  WindConfig gusty = turbulent();
+  gusty.gust = {.speed_mps = 5.0, .from_rad = std::numbers::pi, .start_s = 0.1, .length_m = 2.0, .hold_m = 1000.0};
+  Wind a(turbulent(), 5), b(gusty, 5);
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::Vector3d difference_W =
+        b.sample(10.0, {kSpeedMps, 0.0, 0.0}, 0.002) - a.sample(10.0, {kSpeedMps, 0.0, 0.0}, 0.002);
+    if (i < 50) {
+      ASSERT_EQ(difference_W, Eigen::Vector3d::Zero());
+    } else if (i > 100) {
+      ASSERT_LT((difference_W - Eigen::Vector3d{5.0, 0.0, 0.0}).norm(), 1e-12);
+    }
+  }
+}
+
+TEST(Wind, ShearFollowsTheLogarithmOfTheHeight) {
+  // At the roughness times e, e^2, e^3 the wind stands as 1 : 2 : 3; at 20 ft it is as set; at the ground it is still.
+  const double z0 = 0.046, e = std::numbers::e;
+  Wind wind({.speed_mps = 7.0, .from_rad = std::numbers::pi, .roughness_m = z0}, 1);
+  const auto north = [&](double height_m) { return wind.sample(height_m, {0, 0, 0}, 0.002).x(); };
+  EXPECT_NEAR(north(6.096), 7.0, 1e-12);
+  EXPECT_NEAR(north(z0 * e * e) / north(z0 * e), 2.0, 1e-12);
+  EXPECT_NEAR(north(z0 * e * e * e) / north(z0 * e), 3.0, 1e-12);
+  EXPECT_NEAR(north(60.96) - north(6.096), 7.0 * std::numbers::ln10 / std::log(6.096 / z0), 1e-12);
+  for (const double height_m : {z0, 0.01, 0.0, -3.0}) EXPECT_EQ(north(height_m), 0.0);
+  EXPECT_EQ(north(304.8), north(1000.0));
+}
+
 TEST(Wind, SteadyWindComesFromWhereItSays) {
   Wind wind({.speed_mps = 5.0, .from_rad = std::numbers::pi / 2.0}, 1);  // from the east
   EXPECT_LT((wind.sample(10.0, {1, 2, 3}, 0.002) - Eigen::Vector3d{0.0, -5.0, 0.0}).norm(), 1e-12);
@@ -196,6 +270,8 @@ TEST(Wind, TurbulenceStandsUponTheSteadyWindAndTurnsWithIt) {
 TEST(Wind, RefusesWhatIsNotAWind) {
   EXPECT_THROW(Wind({.speed_mps = -1.0}, 1), std::invalid_argument);
   EXPECT_THROW(Wind({.turbulence_w20_mps = std::numeric_limits<double>::infinity()}, 1), std::invalid_argument);
+  EXPECT_THROW(Wind({.roughness_m = 6.096}, 1), std::invalid_argument);
+  EXPECT_THROW(Wind({.gust = {.speed_mps = 1.0, .length_m = 0.0}}, 1), std::invalid_argument);
 }
 
 }  // namespace
