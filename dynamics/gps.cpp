@@ -13,6 +13,7 @@ Gps::Gps(const GpsConfig& config, double physics_dt_s, uint64_t seed)
   require_positive("gps.wander_time", config.wander_time_s);
   require_not_negative("gps.noise", config.noise_m);
   require_not_negative("gps.velocity_noise", config.velocity_noise_mps);
+  require_range("gps.dropout", config.dropout, 0.0, 1.0);
   sample_dt_s_ = static_cast<double>(period_) * physics_dt_s;
   past_.resize(static_cast<size_t>(std::llround(config.latency_s / physics_dt_s)) + 1);
   wander_sigma_m_ << config.wander_horizontal_m, config.wander_horizontal_m, config.wander_vertical_m;
@@ -31,7 +32,8 @@ std::optional<GpsFix> Gps::read() {
               unit.added_sigma(sample_dt_s_) * wander_sigma_m_.cwiseProduct(noise_.draw3());
   const Eigen::Vector3d p_noise = config_.noise_m * noise_.draw3();
   const Eigen::Vector3d v_noise = config_.velocity_noise_mps * noise_.draw3();
-  if (!config_.enabled || known_ < past_.size()) return std::nullopt;
+  const bool lost = config_.dropout > 0.0 && noise_.chance(config_.dropout);
+  if (lost || !config_.enabled || known_ < past_.size()) return std::nullopt;
   const Truth& then = past_[next_];  // the oldest
   return GpsFix{then.p_WB + wander_m_ + p_noise, then.v_WB_W + v_noise};
 }

@@ -20,6 +20,7 @@ struct GpsConfig {
   double wander_time_s = 60.0;                                ///< its correlation time
   double noise_m = 0.2;                                       ///< white, per axis
   double velocity_noise_mps = 0.1;                            ///< white, per axis
+  double dropout = 0.0;                                       ///< probability that a fix is missing
 };
 template <class Visitor>
 void describe(Visitor& v, GpsConfig& c) {
@@ -34,6 +35,7 @@ void describe(Visitor& v, GpsConfig& c) {
   v("noise", c.noise_m, {.unit = "m", .at_least = 0.0, .meaning = "white position noise per axis"});
   v("velocity_noise", c.velocity_noise_mps,
     {.unit = "m/s", .at_least = 0.0, .meaning = "white velocity noise per axis"});
+  v("dropout", c.dropout, {.at_least = 0.0, .at_most = 1.0, .meaning = "share of fixes that are missing"});
 }
 
 struct GpsFix {
@@ -50,7 +52,7 @@ class Gps {
 
   /// Remembers where the vehicle is on this physics tick.
   void feel(const Eigen::Vector3d& p_WB, const Eigen::Vector3d& v_WB_W);
-  /// The fix that arrives at this tick; none without reception or before the first is old enough.
+  /// The fix that arrives at this tick; none without reception, on a drop-out or before the first is old enough.
   /// To be called once every period() ticks.
   std::optional<GpsFix> read();
 

@@ -19,7 +19,8 @@ GpsConfig exact() {
   return c;
 }
 
-TEST(Gps, FixesAreALatencyOld) {
+// Check AS6.
+TEST(Gps, AS6_FixesAreALatencyOld) {
   constexpr double kDt = 0.002, kSpeed = 5.0;
   Gps gps(exact(), kDt, 1);
   EXPECT_EQ(gps.period(), 100);
@@ -70,6 +71,20 @@ TEST(Gps, GivesNothingWithoutReception) {
     gps.feel(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
     EXPECT_FALSE(gps.read().has_value());
   }
+}
+
+TEST(Gps, LosesItsShareOfFixes) {
+  GpsConfig c = exact();
+  c.latency_s = 0.0;
+  c.dropout = 0.3;
+  Gps gps(c, 0.2, 1);
+  constexpr int kCount = 20000;
+  int lost = 0;
+  for (int i = 0; i < kCount; ++i) {
+    gps.feel(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+    if (!gps.read()) ++lost;
+  }
+  EXPECT_NEAR(static_cast<double>(lost) / kCount, 0.3, 0.013);  // four standard errors
 }
 
 TEST(Gps, RefusesWhatCannotBe) {
