@@ -3,9 +3,11 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string_view>
 
 #include "dynamics/autopilot.h"
+#include "dynamics/barometer.h"
 #include "dynamics/gps.h"
 #include "dynamics/height_sensor.h"
 #include "dynamics/imu.h"
@@ -23,6 +25,7 @@ struct AvionicsConfig {
   GpsConfig gps;
   HeightSensorConfig height_sensor;
   MagnetometerConfig magnetometer;
+  BarometerConfig barometer;
   NavigationConfig navigation;
   AutopilotConfig autopilot;
 };
@@ -32,6 +35,7 @@ void describe(Visitor& v, AvionicsConfig& c) {
   v("gps", c.gps, {.meaning = "satellite receiver"});
   v("height_sensor", c.height_sensor, {.meaning = "range finder that looks down"});
   v("magnetometer", c.magnetometer, {.meaning = "compass"});
+  v("barometer", c.barometer, {.meaning = "altimeter by pressure"});
   v("navigation", c.navigation, {.meaning = "the filter that fuses the sensors"});
   v("autopilot", c.autopilot, {.meaning = "limits of the flight control"});
 }
@@ -44,6 +48,7 @@ struct SensedTruth {
   RigidBodyState body;
   Eigen::Vector3d specific_force_B = Eigen::Vector3d::Zero();  ///< of the mass centre, m/s^2
   double height_above_surface_m = 0.0;                         ///< +inf above nothing
+  HeightBeside height_beside = {};                             ///< for a height sensor that listens in a cone
 };
 
 class Avionics {
@@ -71,8 +76,10 @@ class Avionics {
   }
 
  private:
+  void reset_barometer();
+
   struct Seeds {
-    uint64_t imu, gps, height_sensor, magnetometer, alignment;
+    uint64_t imu, gps, height_sensor, magnetometer, alignment, barometer;
   };
   AvionicsConfig config_;
   double physics_dt_s_;
@@ -81,6 +88,7 @@ class Avionics {
   Gps gps_;
   HeightSensor height_sensor_;
   Magnetometer magnetometer_;
+  std::optional<Barometer> barometer_;
   Navigation navigation_;
   Autopilot autopilot_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 
 #include "dynamics/sensor_noise.h"
@@ -8,7 +9,8 @@
 namespace hedgehop::dynamics {
 
 /// A range finder that looks down: height above whatever surface lies below. Noise and drop-outs are estimates; the
-/// default range is that of a small laser altimeter (a sonar would reach 5 m at 20 Hz [PX4Gazebo2024]).
+/// defaults are those of a small laser altimeter. A sonar hears the nearest echo in a cone: rate 20 Hz, max 5 m, cone
+/// 15 deg [PX4Gazebo2024].
 struct HeightSensorConfig {
   bool enabled = true;
   double rate_hz = 50.0;
@@ -16,6 +18,7 @@ struct HeightSensorConfig {
   double noise_m = 0.01;           ///< white
   double noise_per_range = 0.005;  ///< white, times the range
   double dropout = 0.01;           ///< probability that a reading is missing
+  double cone_rad = 0.0;           ///< half angle of the cone it listens in; 0 for a single beam
 };
 template <class Visitor>
 void describe(Visitor& v, HeightSensorConfig& c) {
@@ -27,7 +30,22 @@ void describe(Visitor& v, HeightSensorConfig& c) {
   v("noise_per_range", c.noise_per_range,
     {.at_least = 0.0, .at_most = 1.0, .meaning = "white noise that grows with the range, as a share of it"});
   v("dropout", c.dropout, {.at_least = 0.0, .at_most = 1.0, .meaning = "share of readings that are missing"});
+  v("cone", c.cone_rad,
+    {.unit = "deg",
+     .at_least = 0.0,
+     .at_most = 45.0,
+     .meaning = "half angle of the cone whose nearest echo it reads: about 15 for a sonar, 0 for a laser"});
 }
+
+/// Height of a point above the surface below it, m; +inf above nothing. The point lies level with the sensor, so far to
+/// the north and east of it, m.
+using HeightBeside = std::function<double(double north_m, double east_m)>;
+
+/// Returns the distance of what the sensor hears first, m: the nearest point in its cone about the plumb line.
+/// @param below_m  height above the surface right below. @param beside  of the surfaces round about; none is asked for
+/// a single beam. Simplified: surfaces are seen from above, on rings at most 0.5 m apart; walls beside the cone reflect
+/// the sound away.
+double nearest_echo_m(const HeightSensorConfig& config, double below_m, const HeightBeside& beside);
 
 class HeightSensor {
  public:
@@ -36,7 +54,7 @@ class HeightSensor {
 
   int64_t period() const { return period_; }  ///< physics ticks between readings
 
-  /// @param height_above_surface_m  true height; may be +inf.
+  /// @param height_above_surface_m  true height, for a cone nearest_echo_m(); may be +inf.
   /// @return the reading, m; none out of range, on a drop-out or when disabled. To be called once every period() ticks.
   std::optional<double> read(double height_above_surface_m);
 

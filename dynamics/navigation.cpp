@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/atmosphere.h"
+
 namespace hedgehop::dynamics {
 namespace {
 
 // Where each part of the error state stands: attitude (small rotation in B), velocity and position in W, biases of
-// gyros and accelerometers, wandering horizontal error of the satellite position, compass offset.
-constexpr int kTheta = 0, kV = 3, kP = 6, kGyro = 9, kAccelerometer = 12, kWander = 15, kCompass = 17;
+// gyros and accelerometers, wandering horizontal error of the satellite position, compass offset, wandering
+// error of the barometer.
+constexpr int kTheta = 0, kV = 3, kP = 6, kGyro = 9, kAccelerometer = 12, kWander = 15, kCompass = 17, kBarometer = 18;
 
 constexpr double kInitialVelocitySigmaMps = 0.05;  // chosen: a hover before take-over
 constexpr double kGate = 9.0;           // of an innovation's squared ratio to its sigma; beyond it the weight falls
@@ -49,6 +52,7 @@ void Navigation::reset(const RigidBodyState& known, const ImuReading& bias) {
   accelerometer_bias_ = bias.specific_force_B_meas;
   gps_wander_m_.setZero();
   compass_offset_rad_ = 0.0;
+  barometer_wander_pa_ = 0.0;
   last_imu_.reset();
   since_velocity_s_ = 0.0;
   surface_m_ = surface_sigma_m_ = 0.0;
@@ -69,6 +73,7 @@ void Navigation::reset(const RigidBodyState& known, const ImuReading& bias) {
   sigma.segment<3>(kAccelerometer).setConstant(accelerometer);
   sigma.segment<2>(kWander).setConstant(sensors_.gps.wander_horizontal_m);
   sigma[kCompass] = sensors_.magnetometer.offset_rad;
+  sigma[kBarometer] = sensors_.barometer.wander_pa;
   P_ = sigma.cwiseAbs2().asDiagonal();
   publish();
 }
@@ -108,7 +113,9 @@ void Navigation::predict(const ImuReading& imu) {
 void Navigation::propagate_errors(const Eigen::Matrix3d& R_WB, const Eigen::Vector3d& w, const Eigen::Vector3d& f) {
   const ImuConfig& imu = sensors_.imu;
   const GaussMarkov gps{sensors_.gps.wander_horizontal_m, sensors_.gps.wander_time_s};
+  const GaussMarkov barometer = barometer_wander(sensors_.barometer);
   gps_wander_m_ *= gps.decay(dt_s_);
+  barometer_wander_pa_ *= barometer.decay(dt_s_);
   Square F = Square::Identity();
   F.block<3, 3>(kTheta, kTheta) -= dt_s_ * skew(w);
   F.block<3, 3>(kTheta, kGyro) = -dt_s_ * Eigen::Matrix3d::Identity();
@@ -116,6 +123,7 @@ void Navigation::propagate_errors(const Eigen::Matrix3d& R_WB, const Eigen::Vect
   F.block<3, 3>(kV, kAccelerometer) = -dt_s_ * R_WB;
   F.block<3, 3>(kP, kV) = dt_s_ * Eigen::Matrix3d::Identity();
   F.block<2, 2>(kWander, kWander) *= gps.decay(dt_s_);
+  F(kBarometer, kBarometer) = barometer.decay(dt_s_);
   const Square FP = F * P_;
   P_.noalias() = FP * F.transpose();
   P_.diagonal().segment<3>(kTheta).array() += square(imu.gyro_noise_density) * dt_s_;
@@ -124,6 +132,7 @@ void Navigation::propagate_errors(const Eigen::Matrix3d& R_WB, const Eigen::Vect
   P_.diagonal().segment<3>(kGyro).array() += square(gyro_wander(imu).added_sigma(dt_s_));
   P_.diagonal().segment<3>(kAccelerometer).array() += square(accelerometer_wander(imu).added_sigma(dt_s_));
   P_.diagonal().segment<2>(kWander).array() += square(gps.added_sigma(dt_s_));
+  P_(kBarometer, kBarometer) += square(barometer.added_sigma(dt_s_));
 }
 
 /// One scalar measurement: innovation = measured - predicted from the state without the gathered correction.
@@ -145,6 +154,7 @@ void Navigation::inject() {
   w_WB_B_ -= correction_.segment<3>(kGyro);
   gps_wander_m_ += correction_.segment<2>(kWander);
   compass_offset_rad_ += correction_[kCompass];
+  barometer_wander_pa_ += correction_[kBarometer];
   for (Past& past : history_) {
     past.p_WB += correction_.segment<3>(kP);
     past.v_WB_W += correction_.segment<3>(kV);
@@ -234,6 +244,15 @@ void Navigation::correct_altitude(double innovation_m, double variance_m2) {
   correct(H, innovation_m, variance_m2);
   // What is unknown of the surface stays unknown, however often it is measured.
   P_(kP + 2, kP + 2) = std::max(P_(kP + 2, kP + 2), square(surface_sigma_m_));
+  inject();
+}
+
+void Navigation::correct_pressure(double pressure_meas_pa) {
+  const StandardAir air = standard_air(-p_WB_.z());
+  Row H = Row::Zero();
+  H[kP + 2] = air.density_kgpm3 * kGravityMps2;
+  H[kBarometer] = 1.0;
+  correct(H, pressure_meas_pa - air.pressure_pa - barometer_wander_pa_, square(sensors_.barometer.noise_pa));
   inject();
 }
 

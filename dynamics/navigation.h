@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "dynamics/barometer.h"
 #include "dynamics/gps.h"
 #include "dynamics/height_sensor.h"
 #include "dynamics/imu.h"
@@ -53,10 +54,10 @@ struct NavigationEstimate {
 };
 
 /// An error-state extended Kalman filter over attitude, velocity, position, the inertial sensors' biases, the wandering
-/// error of the satellite position and the compass offset. Inertial prediction; corrections by the velocity of the
-/// down camera's flow, height, heading and satellites. Accelerations mislead nothing, as attitude is corrected through
-/// the velocity it explains. Sources: the fusion of flow, height and inertial data [GarrattChahl2007] sec. 3;
-/// error-state form [Sola2017] sec. 5-6.
+/// errors of the satellite position and the barometer and the compass offset. Inertial prediction; corrections by the
+/// velocity of the down camera's flow, height, heading and satellites. Accelerations mislead nothing, as attitude is
+/// corrected through the velocity it explains. Sources: the fusion of flow, height and inertial data [GarrattChahl2007]
+/// sec. 3; error-state form [Sola2017] sec. 5-6.
 class Navigation {
  public:
   struct Sensors {
@@ -64,6 +65,7 @@ class Navigation {
     GpsConfig gps;
     HeightSensorConfig height_sensor;
     MagnetometerConfig magnetometer;
+    BarometerConfig barometer;
   };
 
   /// Throws std::invalid_argument on values out of range.
@@ -78,11 +80,12 @@ class Navigation {
   void correct_gps(const GpsFix& fix);
   void correct_heading(double heading_meas_rad);
   void correct_height(double height_meas_m);
+  void correct_pressure(double pressure_meas_pa);
 
   const NavigationEstimate& estimate() const { return estimate_; }
 
  private:
-  static constexpr int kSize = 18;
+  static constexpr int kSize = 19;
   using Row = Eigen::Matrix<double, 1, kSize>;
   using Column = Eigen::Matrix<double, kSize, 1>;
   using Square = Eigen::Matrix<double, kSize, kSize>;
@@ -105,6 +108,7 @@ class Navigation {
   Eigen::Vector3d v_WB_W_, p_WB_, gyro_bias_, accelerometer_bias_, w_WB_B_;
   Eigen::Vector2d gps_wander_m_;
   double compass_offset_rad_ = 0.0;
+  double barometer_wander_pa_ = 0.0;
   std::optional<ImuReading> last_imu_;
   double since_velocity_s_ = 0.0;
 

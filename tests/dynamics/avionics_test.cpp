@@ -80,6 +80,18 @@ TEST(Avionics, EachSourceOfNoiseHasAStreamOfItsOwn) {
     EXPECT_TRUE(same(believed(blind, name), believed(blind, "none"))) << name;
   }
   EXPECT_FALSE(same(believed(blind, "imu"), believed(blind, "none")));
+
+  // What is not on board asks for none.
+  AvionicsConfig with_barometer;
+  with_barometer.barometer.enabled = true;
+  names.clear();
+  Avionics(with_barometer, HelicopterConfig(), 0.002, [&](std::string_view n) {
+    names.emplace_back(n);
+    return seed_of(1, n);
+  });
+  EXPECT_THAT(names,
+              testing::UnorderedElementsAre("imu", "gps", "height_sensor", "magnetometer", "alignment", "barometer"));
+  EXPECT_FALSE(same(believed(with_barometer, "barometer"), believed(with_barometer, "none")));
 }
 
 TEST(Avionics, FliesAtOtherPhysicsAndSensorRates) {

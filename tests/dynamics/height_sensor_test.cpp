@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 
@@ -62,6 +63,39 @@ TEST(HeightSensor, IsBlindOutOfRange) {
   EXPECT_FALSE(sensor.read(std::nan("")).has_value());
 }
 
+/// A sonar 4 m above the ground.
+HeightSensorConfig sonar() {
+  HeightSensorConfig c;
+  c.rate_hz = 20.0;
+  c.max_m = 5.0;
+  c.cone_rad = std::numbers::pi / 12.0;
+  return c;
+}
+
+TEST(HeightSensor, AConeHearsTheGroundRightBelow) {
+  EXPECT_EQ(nearest_echo_m(sonar(), 4.0, [](double, double) { return 4.0; }), 4.0);
+}
+
+TEST(HeightSensor, AConeHearsTheNearestRoofWithinItsHalfAngle) {
+  // A roof 3 m below that begins so far to the north: the cone is 0.80 m wide there.
+  const auto echo_m = [](double edge_m) {
+    return nearest_echo_m(sonar(), 4.0, [&](double north_m, double) { return north_m >= edge_m ? 3.0 : 4.0; });
+  };
+  constexpr double kRingM = 0.5;  // the edge is found to the ring beyond it
+  EXPECT_GE(echo_m(0.3), std::hypot(3.0, 0.3));
+  EXPECT_LE(echo_m(0.3), std::hypot(3.0, 0.3 + kRingM));
+  EXPECT_EQ(echo_m(0.85), 4.0);  // outside
+}
+
+TEST(HeightSensor, ABeamMindsOnlyWhatIsRightBelow) {
+  EXPECT_EQ(nearest_echo_m({}, 4.0, [](double, double) { return 1.0; }), 4.0);
+}
+
+TEST(HeightSensor, AConeOverNothingHearsNothing) {
+  constexpr double kNothing = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(nearest_echo_m(sonar(), kNothing, [](double, double) { return kNothing; }), kNothing);
+}
+
 TEST(HeightSensor, RefusesWhatCannotBe) {
   HeightSensorConfig c;
   c.max_m = c.min_m;
@@ -71,6 +105,10 @@ TEST(HeightSensor, RefusesWhatCannotBe) {
   c.dropout = 1.5;
   EXPECT_THAT([&] { HeightSensor(c, 0.002, 1); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("height_sensor.dropout: ")));
+  c = {};
+  c.cone_rad = 1.0;
+  EXPECT_THAT([&] { HeightSensor(c, 0.002, 1); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("height_sensor.cone: ")));
 }
 
 TEST(Magnetometer, KeepsItsOffsetAndScattersRoundIt) {

@@ -1,0 +1,69 @@
+#include "dynamics/barometer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace hedgehop::dynamics {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr double kSeaLevelPa = 101325.0;
+
+TEST(Barometer, WithoutErrorsReadsTheStandardAtmosphere) {
+  BarometerConfig c;
+  c.noise_pa = c.wander_pa = 0.0;
+  Barometer barometer(c, 0.002, 1);
+  EXPECT_EQ(barometer.period(), 10);
+  EXPECT_NEAR(barometer.read(0.0), kSeaLevelPa, 1e-9);
+  EXPECT_NEAR(barometer.read(500.0), 95461.29, 1e-5 * 95461.29);  // [ISA1976] eq. (33a)
+}
+
+TEST(Barometer, WhiteNoiseIsOnePascal) {
+  BarometerConfig c;
+  c.wander_pa = 0.0;
+  Barometer barometer(c, 0.002, 3);
+  constexpr int kCount = 20000;
+  double sum = 0.0, sum2 = 0.0;
+  for (int i = 0; i < kCount; ++i) {
+    const double error = barometer.read(0.0) - kSeaLevelPa;
+    sum += error, sum2 += error * error;
+  }
+  EXPECT_NEAR(sum / kCount, 0.0, 4.0 / std::sqrt(kCount));
+  EXPECT_NEAR(std::sqrt(sum2 / kCount), 1.0, 0.03);
+}
+
+TEST(Barometer, SlowErrorHasItsSpreadAndForgetsWithItsTime) {
+  BarometerConfig c;
+  c.noise_pa = 0.0;
+  c.wander_time_s = 4.0;                        // short, so that the decay shows
+  constexpr int kFlights = 3000, kLater = 100;  // 2 s at 50 Hz
+  double first2 = 0.0, last2 = 0.0, product = 0.0;
+  for (int i = 0; i < kFlights; ++i) {
+    Barometer barometer(c, 0.02, static_cast<uint64_t>(i));
+    const double first = barometer.read(0.0) - kSeaLevelPa;
+    for (int k = 1; k < kLater; ++k) barometer.read(0.0);
+    const double last = barometer.read(0.0) - kSeaLevelPa;
+    first2 += first * first, last2 += last * last, product += first * last;
+  }
+  EXPECT_NEAR(std::sqrt(first2 / kFlights), 12.0, 0.05 * 12.0);
+  EXPECT_NEAR(std::sqrt(last2 / kFlights), 12.0, 0.05 * 12.0);
+  EXPECT_NEAR(product / kFlights, 144.0 * std::exp(-0.5), 0.08 * 144.0);
+}
+
+TEST(Barometer, RefusesWhatCannotBe) {
+  BarometerConfig c;
+  c.rate_hz = 30.0;
+  EXPECT_THAT([&] { Barometer(c, 0.002, 1); }, ThrowsMessage<std::invalid_argument>(HasSubstr("barometer.rate: ")));
+  c = {};
+  c.wander_time_s = 0.0;
+  EXPECT_THAT([&] { Barometer(c, 0.002, 1); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("barometer.wander_time: ")));
+}
+
+}  // namespace
+}  // namespace hedgehop::dynamics
