@@ -72,13 +72,13 @@ TEST(RotorSpeed, ConstantSpeedIsTheLimitOfAStrongEngine) {
 TEST(RotorSpeed, SpeedDroopsWhenTheEngineIsAtItsLimit) {
   const GovernedEngineConfig engine;
   RotorSpeedState state{kSetRadps, 0.5};
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 15000; ++i) {
     const Eigen::Vector2d rate = derivative(engine, kSetRadps, state, 2200.0 * state.speed_radps / kSetRadps);
     state.speed_radps += rate[0] * 1e-3;
     state.integral_throttle += rate[1] * 1e-3;
   }
   EXPECT_EQ(throttle(engine, kSetRadps, state), 1.0);
-  EXPECT_NEAR(state.speed_radps, kSetRadps * 2000.0 / 2200.0, 2.0);
+  EXPECT_NEAR(state.speed_radps, kSetRadps * 2000.0 / 2200.0, 0.01);  // where a load of constant torque takes 2 kW
   EXPECT_LT(state.integral_throttle, 1.2) << "the integral must not wind up";
 }
 
@@ -105,7 +105,7 @@ TEST(RotorSpeed, AutopilotClimbsAndTheGovernorRecoversTheSpeed) {
   EXPECT_NEAR(flight.body().p_WB.z(), -13.0, 0.1);
 }
 
-TEST(RotorSpeed, StaysFiniteAfterPowerLoss) {
+TEST(RotorSpeed, SinksWithASlowRotorAfterPowerLoss) {
   HelicopterFlight flight(governed());
   HelicopterFlightState state = flight.state();
   const BladeAngles hover = flight.actuators();
@@ -116,7 +116,8 @@ TEST(RotorSpeed, StaysFiniteAfterPowerLoss) {
     flight.step(hover, kStill, 0.002);
     ASSERT_TRUE(to_vector(flight.body()).allFinite()) << i;
   }
-  EXPECT_LT(flight.state().rotor.speed_radps, 0.5 * kSetRadps);
+  EXPECT_LT(flight.state().rotor.speed_radps, 0.9 * kSetRadps);
+  EXPECT_GT(flight.body().p_WB.z(), 20.0);
 }
 
 TEST(RotorSpeed, RefusesAnEngineTooWeakToHover) {
