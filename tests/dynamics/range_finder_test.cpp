@@ -73,7 +73,9 @@ TEST(RangeFinder, AS6_ReadingsOfAWallThatNearsAreALatencyOld) {
     if (tick % sensor.period() != 0) continue;
     const std::optional<double> reading = sensor.read();
     ASSERT_EQ(reading.has_value(), tick >= 50) << tick;
-    if (reading) EXPECT_NEAR(*reading - distance_m, 0.40, 1e-9);
+    if (reading) {
+      EXPECT_NEAR(*reading - distance_m, 0.40, 1e-9);
+    }
   }
 }
 
