@@ -30,7 +30,8 @@ void describe(Visitor& v, ArmConfig& c) {
   v("turns", c.turns, {.choices = {"counter_clockwise", "clockwise"}, .meaning = "sense of rotation seen from above"});
 }
 
-/// What all rotors of a multicopter have in common. Defaults: the Hummingbird of [FurrerBurriAchtelikSiegwart2016].
+/// What all rotors of a multicopter have in common. Defaults: the Hummingbird, [FurrerBurriAchtelikSiegwart2016] table
+/// of parameters in the simulator's model file.
 struct LiftRotorConfig {
   double thrust_ns2 = 8.54858e-6;
   double torque_m = 0.016;
@@ -91,8 +92,7 @@ void describe(Visitor& v, MulticopterHullConfig& c) {
     {.unit = "m", .above = 0.0, .meaning = "of the disc that holds all arms, just below the rotors"});
 }
 
-/// A multicopter of any number of arms, each with one rotor. Defaults: the Hummingbird of
-/// [FurrerBurriAchtelikSiegwart2016].
+/// A multicopter of any number of arms, each with one rotor. Defaults: the Hummingbird, as LiftRotorConfig.
 struct MulticopterConfig {
   static constexpr std::string_view kName = "multicopter";
   static constexpr std::string_view kMeaning = "rotors of fixed pitch on arms, steered by their speeds";
@@ -149,7 +149,7 @@ struct MulticopterLoads {
 /// @param speeds_radps    of the rotors, >= 0. @param wind_W  velocity of the air in W, m/s.
 /// @param spin_ups_radps2  rates of change of the speeds.
 /// Sources: [FurrerBurriAchtelikSiegwart2016] sec. on rotor forces (thrust, drag torque, rotor drag, rolling moment);
-/// [Spencer2023] (body drag, axial damping, translational lift).
+/// [FolkPaulosKumar2023] sec. on aerodynamics (body drag, axial damping, translational lift).
 MulticopterLoads multicopter_loads(const MulticopterModel& model, const RigidBodyState& body,
                                    const PerRotor& speeds_radps, const PerRotor& spin_ups_radps2,
                                    const Eigen::Vector3d& wind_W);

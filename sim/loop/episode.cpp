@@ -12,11 +12,9 @@
 #include <utility>
 
 #include "avoidance/registry.h"
-#include "dynamics/avionics.h"
-#include "dynamics/vehicle.h"
-#include "dynamics/wind.h"
 #include "scenes/generators.h"
 #include "sim/collision/proximity.h"
+#include "sim/loop/aircraft.h"
 #include "sim/loop/cameras.h"
 #include "sim/loop/checks.h"
 #include "sim/loop/flight_log.h"
@@ -68,8 +66,6 @@ class Episode {
   void move();
 
   void end(Outcome outcome, std::string cause = {});
-  dynamics::SensedTruth truth() const;
-  Eigen::Isometry3d X_WB() const;
   std::optional<double> goal_distance_m() const;
 
   const Scenario& scenario_;
@@ -77,9 +73,7 @@ class Episode {
   const Ticks ticks_;
   const scenes::Scene scene_;
   const std::vector<dynamics::HullPart> hull_;
-  dynamics::Vehicle vehicle_;
-  dynamics::Wind wind_;
-  dynamics::Avionics avionics_;
+  Aircraft aircraft_;
   CollisionWorld collision_;
   Cameras cameras_;
   std::optional<Velocimeter> velocimeter_;
@@ -89,12 +83,10 @@ class Episode {
   int64_t control_period_ = 0, decision_period_ = 0, latency_ = 0, picture_period_ = 0;
 
   int64_t tick_ = 0;
-  Eigen::Vector3d wind_W_ = Eigen::Vector3d::Zero();
   Proximity proximity_;
   std::vector<avoidance::CameraFrame> seen_;  ///< what the module is shown this tick
   std::deque<PendingCommand> pending_;
   dynamics::Setpoint setpoint_;
-  dynamics::Controls actuators_ = dynamics::Controls::Zero();
   FlightLog log_;
   StageTimer physics_, render_, velocimetry_, decision_;
   std::optional<Outcome> outcome_;
@@ -108,16 +100,13 @@ Episode::Episode(const Scenario& scenario, FlightWatcher* watcher)
       scene_(build_part("scene",
                         [&] { return scenes::make_scene(scenario.scene, stream_seed(scenario.seed, kSceneStream)); })),
       hull_(dynamics::hull(scenario.vehicle)),
-      vehicle_(scenario.vehicle),
-      wind_(scenario.wind, stream_seed(scenario.seed, "wind")),
-      avionics_(scenario.avionics, scenario.vehicle, ticks_.dt_s(),
-                [seed = scenario.seed](std::string_view name) { return stream_seed(seed, name); }),
+      aircraft_(scenario, ticks_),
       collision_(scene_, hull_),
       cameras_(scenario.rig, ticks_, scene_),
       module_(avoidance::make_module(scenario.avoidance)),
       goal_(to_goal(scenario)),
       control_period_(ticks_.period(static_cast<double>(scenario.control_rate_hz))),
-      log_(scene_, vehicle_) {
+      log_(scene_, aircraft_.vehicle()) {
   if (scenario.velocimeter.enabled) {
     velocimeter_.emplace(cameras_.index(scenario.velocimeter.camera), cameras_);
   }
@@ -135,11 +124,8 @@ Episode::Episode(const Scenario& scenario, FlightWatcher* watcher)
 }
 
 void Episode::begin() {
-  const Eigen::Vector3d p_WB = scenario_.start.draw_p_WB(stream_seed(scenario_.seed, "start"));
-  wind_W_ = wind_.sample(-p_WB.z(), Eigen::Vector3d::Zero(), ticks_.dt_s());
-  build_part("vehicle", [&] { vehicle_.reset(p_WB, scenario_.start.heading_rad, wind_W_); });
-  avionics_.reset(truth());
-  setpoint_ = dynamics::PositionSetpoint{p_WB, goal_.heading_rad};
+  aircraft_.reset(collision_);
+  setpoint_ = dynamics::PositionSetpoint{aircraft_.body().p_WB, goal_.heading_rad};
   const dynamics::AutopilotConfig& limits = scenario_.avionics.autopilot;
   module_->reset({{cameras_.mounted().begin(), cameras_.mounted().end()},
                   {limits.speed_limit_mps, limits.acceleration_limit_mps2, dynamics::radius_m(hull_)},
@@ -166,7 +152,7 @@ cv::Mat Episode::picture(size_t camera, Channel channel, double t_s) {
     }
     move();
   }
-  return cameras_.picture(camera, channel, X_WB());
+  return cameras_.picture(camera, channel, aircraft_.X_WB());
 }
 
 Flight Episode::fly() {
@@ -198,11 +184,11 @@ Flight Episode::fly() {
 }
 
 void Episode::measure_proximity() {
-  proximity_ = collision_.query(X_WB(), kSearchRadius_m);
-  log_.add(ticks_.t_s(tick_), vehicle_.body().p_WB, proximity_);
+  proximity_ = collision_.query(aircraft_.X_WB(), kSearchRadius_m);
+  log_.add(ticks_.t_s(tick_), aircraft_.body().p_WB, proximity_);
 }
 
-void Episode::sense() { avionics_.sense(ticks_.t_ns(tick_), truth()); }
+void Episode::sense() { aircraft_.sense(tick_, collision_); }
 
 /// Exposes the cameras that are due and needed, all from this tick's state, and feeds the velocimeter.
 void Episode::look() {
@@ -211,7 +197,7 @@ void Episode::look() {
   std::optional<StageTimer::Lap> lap;
   const auto expose = [&](size_t camera) -> const avoidance::CameraFrame& {
     if (!lap) lap.emplace(render_);
-    return cameras_.expose(camera, t_ns, X_WB());
+    return cameras_.expose(camera, t_ns, aircraft_.X_WB());
   };
   for (const size_t camera : module_cameras_) {
     if (cameras_.due(camera, tick_)) seen_.push_back(expose(camera));
@@ -220,14 +206,14 @@ void Episode::look() {
     const avoidance::CameraFrame& frame = expose(velocimeter_->camera());
     lap.reset();
     const StageTimer::Lap flow_lap = velocimetry_.lap();
-    velocimeter_->update(frame, avionics_);
+    velocimeter_->update(frame, aircraft_.avionics());
   }
 }
 
 void Episode::decide() {
   const bool due = module_cameras_.empty() ? tick_ % decision_period_ == 0 : !seen_.empty();
   if (!due) return;
-  const avoidance::Observation observation{ticks_.t_ns(tick_), seen_, to_navigation_state(avionics_.navigation()),
+  const avoidance::Observation observation{ticks_.t_ns(tick_), seen_, to_navigation_state(aircraft_.navigation()),
                                            goal_};
   try {
     const StageTimer::Lap lap = decision_.lap();
@@ -245,8 +231,8 @@ void Episode::steer() {
     setpoint_ = to_setpoint(pending_.front().command);
     pending_.pop_front();
   }
-  actuators_ = avionics_.control(setpoint_, static_cast<double>(control_period_) * ticks_.dt_s());
-  log_.add(ticks_.t_s(tick_), vehicle_, avionics_.navigation(), setpoint_, proximity_, wind_W_);
+  aircraft_.steer(setpoint_, static_cast<double>(control_period_) * ticks_.dt_s());
+  log_.add(ticks_.t_s(tick_), aircraft_.vehicle(), aircraft_.navigation(), setpoint_, proximity_, aircraft_.wind_W());
 }
 
 /// Shows the watcher what it asked for.
@@ -258,7 +244,7 @@ void Episode::show() {
     if (!annotated.empty()) {
       watcher_->on_pictures(t_ns, {}, annotated);
     } else {
-      watcher_->on_pictures(t_ns, cameras_.snapshot(t_ns, X_WB()), annotated);
+      watcher_->on_pictures(t_ns, cameras_.snapshot(t_ns, aircraft_.X_WB()), annotated);
     }
   }
   if (tick_ % ticks_.ticks(1.0) == 0) {
@@ -267,7 +253,7 @@ void Episode::show() {
 }
 
 bool Episode::ended() {
-  const dynamics::RigidBodyState& body = vehicle_.body();
+  const dynamics::RigidBodyState& body = aircraft_.body();
   if (!body.p_WB.allFinite() || !body.v_WB_B.allFinite() || !body.q_WB.coeffs().allFinite()) {
     end(Outcome::fault, fmt::format("the vehicle's state stopped being finite at {:.3f} s", ticks_.t_s(tick_)));
   } else if (proximity_.collided) {
@@ -285,9 +271,7 @@ bool Episode::ended() {
 
 void Episode::move() {
   const StageTimer::Lap lap = physics_.lap();
-  const dynamics::RigidBodyState& body = vehicle_.body();
-  wind_W_ = wind_.sample(-body.p_WB.z(), body.q_WB * body.v_WB_B, ticks_.dt_s());
-  vehicle_.step(actuators_, wind_W_, ticks_.dt_s());
+  aircraft_.move();
 }
 
 void Episode::end(Outcome outcome, std::string cause) {
@@ -296,38 +280,12 @@ void Episode::end(Outcome outcome, std::string cause) {
   cause_ = std::move(cause);
 }
 
-dynamics::SensedTruth Episode::truth() const {
-  const dynamics::RigidBodyState& body = vehicle_.body();
-  return {body, vehicle_.specific_force_B(), collision_.height_above_surface(body.p_WB)};
-}
-
-Eigen::Isometry3d Episode::X_WB() const {
-  Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
-  X_WB.linear() = vehicle_.body().q_WB.toRotationMatrix();
-  X_WB.translation() = vehicle_.body().p_WB;
-  return X_WB;
-}
-
 std::optional<double> Episode::goal_distance_m() const {
   if (!scenario_.goal) return std::nullopt;
-  return (vehicle_.body().p_WB - goal_.p_WG).head<2>().norm();
+  return (aircraft_.body().p_WB - goal_.p_WG).head<2>().norm();
 }
 
 }  // namespace
-
-std::string_view to_string(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::reached:
-      return "reached";
-    case Outcome::collided:
-      return "collided";
-    case Outcome::timeout:
-      return "timeout";
-    case Outcome::fault:
-      return "fault";
-  }
-  return "fault";
-}
 
 Flight fly(const Scenario& scenario, FlightWatcher* watcher) {
   cv::setNumThreads(1);  // episodes are the unit of parallelism

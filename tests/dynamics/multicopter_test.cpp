@@ -9,80 +9,13 @@
 #include "dynamics/hover_model.h"
 #include "dynamics/multicopter_flight.h"
 #include "dynamics/vehicle.h"
+#include "tests/dynamics/published_multicopters.h"
 
 // Values marked MC.. are worked out from the published parameter sets by closed forms.
 namespace hedgehop::dynamics {
 namespace {
 
-using Turns = ArmConfig::Turns;
-constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kDensity = 1.225;
-
-// [FurrerBurriAchtelikSiegwart2016] the default.
-MulticopterConfig hummingbird_a() { return {}; }
-
-// [FolkPaulosKumar2023] the Hummingbird's other set.
-MulticopterConfig hummingbird_b() {
-  MulticopterConfig c;
-  c.mass = {0.5, {3.65e-3, 3.68e-3, 7.03e-3}, 0.0};
-  c.arms = {{45 * kDeg, 0.17, Turns::clockwise},
-            {135 * kDeg, 0.17, Turns::counter_clockwise},
-            {-135 * kDeg, 0.17, Turns::clockwise},
-            {-45 * kDeg, 0.17, Turns::counter_clockwise}};
-  c.rotor.thrust_ns2 = 5.57e-6;
-  c.rotor.torque_m = 1.36e-7 / 5.57e-6;
-  c.rotor.drag_ns2pm = 1.19e-4;
-  c.rotor.rolling_nms2pm = 0.0;
-  c.rotor.axial_damping_ns2pm = 2.32e-4;
-  c.rotor.translational_lift_ns2pm2 = 3.39e-3;
-  c.rotor.time_constant_up_s = c.rotor.time_constant_down_s = 0.005;
-  c.rotor.highest_radps = 1500.0;
-  c.rotor.height_m = 0.0;
-  c.body_drag_ns2pm2 = {0.005, 0.005, 0.01};
-  return c;
-}
-
-// [FurrerBurriAchtelikSiegwart2016]; the published yaw inertia, 0.0977, is larger than the other two together, which no
-// body's is: their sum stands for it.
-MulticopterConfig firefly() {
-  MulticopterConfig c;
-  c.mass = {1.53, {0.0347563, 0.0458929, 0.0806492}, 0.0};
-  c.arms.clear();
-  for (const auto& [azimuth_deg, turns] :
-       std::initializer_list<std::pair<double, Turns>>{{30.0, Turns::clockwise},
-                                                       {90.0, Turns::counter_clockwise},
-                                                       {150.0, Turns::clockwise},
-                                                       {-150.0, Turns::counter_clockwise},
-                                                       {-90.0, Turns::clockwise},
-                                                       {-30.0, Turns::counter_clockwise}}) {
-    c.arms.push_back({azimuth_deg * kDeg, 0.215, turns});
-  }
-  c.rotor.height_m = 0.037;
-  c.rotor.inertia_kgm2 = 4.26e-6;
-  return c;
-}
-
-MulticopterConfig s900() {
-  MulticopterConfig c;
-  c.mass = {4.606, {0.25665, 0.25024, 0.36309}, -0.00241};
-  c.arms.clear();
-  for (int i = 0; i < 6; ++i) {
-    c.arms.push_back({(30.0 + 60.0 * i) * kDeg, 0.45, i % 2 == 0 ? Turns::clockwise : Turns::counter_clockwise});
-  }
-  c.rotor = {.thrust_ns2 = 6.54e-5,
-             .torque_m = 0.024,
-             .drag_ns2pm = 4e-4,
-             .rolling_nms2pm = 0.0,
-             .time_constant_up_s = 0.1,
-             .time_constant_down_s = 0.1,
-             .highest_radps = 612.0,
-             .inertia_kgm2 = 3e-4,
-             .radius_m = 0.1905,
-             .tilt_in_rad = 8.0 * kDeg,
-             .height_m = 0.115};
-  c.body_drag_ns2pm2 = {0.03, 0.03, 0.06};
-  return c;
-}
 
 PerRotor hover_speeds(const MulticopterConfig& config) {
   return trim(make_model(config), Eigen::Vector3d::Zero())->state.speeds_radps;
@@ -96,7 +29,7 @@ TEST(Multicopter, MC1_HoverSpeedsOfThePublishedVehicles) {
   expect_relative(hover_speeds(hummingbird_a()).mean(), 453.22, 5e-4);
   expect_relative(hover_speeds(hummingbird_b()).mean(), 469.20, 5e-4);
   expect_relative(hover_speeds(firefly()).mean(), 540.95, 5e-4);
-  // The third set of the Hummingbird, [BoucekFlidr2019].
+  // The third set of the Hummingbird, [BoucekFlidr2019] table of parameters.
   MulticopterConfig third = hummingbird_b();
   third.rotor.thrust_ns2 = 3.2032e-6;
   expect_relative(hover_speeds(third).mean(), 618.73, 5e-4);
@@ -216,48 +149,6 @@ TEST(Multicopter, MC7_WithoutBodyDragAFallKeepsGatheringSpeed) {
   flight.set_state(state, Eigen::Vector3d::Zero());
   for (int i = 0; i < 5000; ++i) flight.step(PerRotor::Zero(4), Eigen::Vector3d::Zero(), 0.002);
   EXPECT_NEAR(flight.body().v_WB_B.z(), 98.1, 1e-6);
-}
-
-TEST(Multicopter, AllocationGivesWhatIsWithinReach) {
-  std::mt19937_64 random(4);
-  std::uniform_real_distribution<double> share(-0.3, 0.3);
-  for (const MulticopterConfig& config : {hummingbird_a(), hummingbird_b(), firefly(), s900()}) {
-    const MulticopterModel model = make_model(config);
-    const Controls most = authority(model);
-    for (int i = 0; i < 200; ++i) {
-      Controls wanted{config.mass.mass_kg * kGravityMps2, share(random) * most[kRoll], share(random) * most[kPitch],
-                      share(random) * most[kYaw]};
-      EXPECT_LT((wrench(model, allocate(model, wanted)) - wanted).norm(), 1e-9 * wanted.norm());
-    }
-  }
-}
-
-TEST(Multicopter, OutOfReachItGivesUpYawFirstAndKeepsTilting) {
-  const MulticopterModel model = make_model(firefly());
-  const Controls most = authority(model);
-  const double hover_n = 1.53 * kGravityMps2;
-  const Controls given = wrench(model, allocate(model, {hover_n, 0.9 * most[kRoll], 0.0, 50.0 * most[kYaw]}));
-  EXPECT_NEAR(given[kRoll], 0.9 * most[kRoll], 1e-9);
-  EXPECT_NEAR(given[kHeave], hover_n, 1e-9);
-  EXPECT_GT(given[kYaw], 0.0);
-  EXPECT_LT(given[kYaw], most[kYaw]);
-  // Thrust gives way to tilting torques, at both ends.
-  for (const double asked_n : {0.0, 10.0 * hover_n}) {
-    const Controls at_end = wrench(model, allocate(model, {asked_n, 0.8 * most[kRoll], 0.0, 0.0}));
-    EXPECT_NEAR(at_end[kRoll], 0.8 * most[kRoll], 1e-9);
-  }
-}
-
-TEST(Multicopter, AllocationStaysWithinTheRotorsForAnyWish) {
-  std::mt19937_64 random(5);
-  std::normal_distribution<double> wild(0.0, 30.0);
-  const MulticopterModel model = make_model(s900());
-  for (int i = 0; i < 2000; ++i) {
-    const PerRotor speeds = allocate(model, {wild(random), wild(random), wild(random), wild(random)});
-    ASSERT_TRUE(speeds.allFinite());
-    EXPECT_GE(speeds.minCoeff(), 0.0);
-    EXPECT_LE(speeds.maxCoeff(), 612.0 * (1.0 + 1e-12));
-  }
 }
 
 TEST(Multicopter, SpinningUpTurnsTheBodyByTheRotorsMomentum) {

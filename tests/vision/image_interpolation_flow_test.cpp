@@ -11,7 +11,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "tests/vision/textured_picture.h"
+#include "tests/vision/flow_errors.h"
 
 namespace {
 size_t allocations = 0;  // of the whole test program, counted below
@@ -28,39 +28,7 @@ void operator delete(void* memory, size_t) noexcept { std::free(memory); }
 namespace hedgehop::vision {
 namespace {
 
-constexpr int kSize = 400;
-
-struct Errors {
-  double rms_px = 0.0, largest_px = 0.0;
-  int valid = 0;
-};
-
-template <class TrueFlow>
-Errors errors(const FlowField& field, TrueFlow true_flow) {
-  Errors e;
-  for (const FlowVector& vector : field.vectors) {
-    if (!vector.valid) continue;
-    const double error = (vector.flow_px - true_flow(vector.center_px)).norm();
-    e.rms_px += error * error;
-    e.largest_px = std::max(e.largest_px, error);
-    ++e.valid;
-  }
-  e.rms_px = std::sqrt(e.rms_px / std::max(e.valid, 1));
-  return e;
-}
-
-cv::Mat shifted(const WaveTexture& texture, const Eigen::Vector2d& shift_px, int width = kSize, int height = kSize) {
-  return draw_picture(width, height,
-                      [&](double u, double v) { return texture.grey(u - shift_px.x(), v - shift_px.y()); });
-}
-
 Eigen::Vector2d polar(double length, double angle) { return {length * std::cos(angle), length * std::sin(angle)}; }
-
-double largest(const FlowField& field) {
-  double length = 0.0;
-  for (const FlowVector& vector : field.vectors) length = std::max(length, vector.flow_px.norm());
-  return length;
-}
 
 bool same(const FlowField& a, const FlowField& b) {
   return a.vectors.size() == b.vectors.size() && std::equal(a.vectors.begin(), a.vectors.end(), b.vectors.begin(),
@@ -162,77 +130,6 @@ TEST(ImageInterpolationFlow, FollowsExpansionAndPlanarWarpsAtEveryPatch) {
     });
     EXPECT_EQ(e.valid, 256) << margin;
     EXPECT_LT(e.rms_px, 0.05) << margin;
-  }
-}
-
-TEST(ImageInterpolationFlow, NothingIsValidOnTheFirstPictureOrAfterReset) {
-  const WaveTexture texture(25, 8.0, 100.0);
-  const auto picture = shifted(texture, {0, 0});
-  ImageInterpolationFlow flow({}, kSize, kSize);
-  EXPECT_EQ(flow.update(picture).valid_count(), 0);
-  EXPECT_EQ(flow.update(picture).valid_count(), 256);
-  flow.reset();
-  EXPECT_EQ(flow.field().valid_count(), 0);
-  EXPECT_EQ(flow.update(picture).valid_count(), 0);
-}
-
-TEST(ImageInterpolationFlow, PicturesWithoutTextureGiveNoVectors) {
-  const auto flat = draw_picture(kSize, kSize, [](double, double) { return 90.0; });
-  const auto brighter = draw_picture(kSize, kSize, [](double, double) { return 140.0; });
-  const auto ramp = draw_picture(kSize, kSize, [](double u, double v) { return 40.0 + 0.3 * u + 0.1 * v; });
-  auto noise = flat.clone(), more_noise = flat.clone();
-  add_noise(noise, 1.0, 1);
-  add_noise(more_noise, 1.0, 2);
-  ImageInterpolationFlow flow({}, kSize, kSize);
-  flow.update(flat);
-  for (const cv::Mat& picture : {flat, brighter, flat, ramp, ramp, noise, more_noise}) {
-    EXPECT_EQ(flow.update(picture).valid_count(), 0);
-    EXPECT_EQ(largest(flow.field()), 0.0);
-  }
-}
-
-TEST(ImageInterpolationFlow, StripesTellNothing) {
-  // The aperture problem: only motion across the stripes can be seen.
-  const auto stripes = [](double shift) {
-    return draw_picture(kSize, kSize,
-                        [=](double u, double v) { return 127 + 60 * std::sin(0.25 * (u + 0.5 * v - shift)); });
-  };
-  ImageInterpolationFlow flow({}, kSize, kSize);
-  flow.update(stripes(0.0));
-  EXPECT_EQ(flow.update(stripes(1.0)).valid_count(), 0);
-}
-
-TEST(ImageInterpolationFlow, HalfAPictureOfSkyIsInvalidAndLeavesTheOtherHalfAlone) {
-  const WaveTexture texture(26, 8.0, 100.0);
-  const Eigen::Vector2d move(1.5, 0.0);
-  const auto scene = [&](const Eigen::Vector2d& shift) {
-    return draw_picture(
-        kSize, kSize, [&](double u, double v) { return v < 200 ? 210.0 : texture.grey(u - shift.x(), v - shift.y()); });
-  };
-  ImageInterpolationFlow flow({}, kSize, kSize);
-  flow.update(scene({0, 0}));
-  const FlowField& field = flow.update(scene(move));
-  for (const FlowVector& vector : field.vectors) {
-    const double v = vector.center_px.y();
-    if (v < 200 - 36) {
-      EXPECT_FALSE(vector.valid) << v;
-    }
-    if (v > 200 + 36) {
-      EXPECT_TRUE(vector.valid) << v;
-      EXPECT_LT((vector.flow_px - move).norm(), 0.1) << v;
-    }
-  }
-}
-
-TEST(ImageInterpolationFlow, UnrelatedPicturesGiveFewVectorsAndNoneBeyondTheLimit) {
-  ImageInterpolationConfig config;
-  config.max_flow_px = 10.0;
-  ImageInterpolationFlow flow(config, kSize, kSize);
-  for (uint64_t seed = 1; seed <= 6; ++seed) {
-    flow.update(shifted(WaveTexture(seed, 8.0, 60.0), {0, 0}));
-    if (seed == 1) continue;
-    EXPECT_LT(flow.field().valid_share(), 0.1);
-    EXPECT_LE(largest(flow.field()), 10.0);
   }
 }
 

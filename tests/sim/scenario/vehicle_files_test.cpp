@@ -5,10 +5,13 @@
 #include <filesystem>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "dynamics/steady_flight.h"
 #include "sim/scenario/scenario.h"
+#include "tests/dynamics/published_multicopters.h"
 #include "tests/dynamics/step_response.h"
 
 namespace hedgehop::sim {
@@ -62,6 +65,34 @@ TEST_P(VehicleFile, FollowsAVelocityStepOfTwoMetresASecond) {
     EXPECT_LT(r.across_mps, 0.15) << way;
     EXPECT_LT(r.altitude_m, 0.2) << way;
     EXPECT_LT(r.heading_rad * kDegPerRad, 3.0) << way;
+  }
+}
+
+// The checks of the published parameter sets hold for the files that are flown.
+TEST(MulticopterFiles, HoldThePublishedParameters) {
+  const std::vector<std::pair<std::string, dynamics::MulticopterConfig>> published = {
+      {"hummingbird", dynamics::hummingbird_a()}, {"firefly", dynamics::firefly()}, {"s900", dynamics::s900()}};
+  for (const auto& [name, config] : published) {
+    SCOPED_TRACE(name);
+    const auto flown =
+        std::get<dynamics::MulticopterConfig>(load_vehicle(HEDGEHOP_SOURCE_DIR "/configs/vehicles/" + name + ".yaml"));
+    const dynamics::MulticopterModel a = dynamics::make_model(flown), b = dynamics::make_model(config);
+    ASSERT_EQ(a.rotors.size(), b.rotors.size());
+    EXPECT_LT((a.wrench_of_thrusts - b.wrench_of_thrusts).norm(), 1e-12);
+    EXPECT_EQ(a.mass.mass_kg, b.mass.mass_kg);
+    EXPECT_LT((a.mass.I_B - b.mass.I_B).norm(), 1e-12);
+    EXPECT_EQ(a.body_drag_ns2pm2, b.body_drag_ns2pm2);
+    const dynamics::LiftRotorConfig &x = a.rotor, &y = b.rotor;
+    EXPECT_EQ(x.thrust_ns2, y.thrust_ns2);
+    EXPECT_EQ(x.drag_ns2pm, y.drag_ns2pm);
+    EXPECT_EQ(x.rolling_nms2pm, y.rolling_nms2pm);
+    EXPECT_EQ(x.axial_damping_ns2pm, y.axial_damping_ns2pm);
+    EXPECT_EQ(x.translational_lift_ns2pm2, y.translational_lift_ns2pm2);
+    EXPECT_EQ(x.time_constant_up_s, y.time_constant_up_s);
+    EXPECT_EQ(x.time_constant_down_s, y.time_constant_down_s);
+    EXPECT_EQ(x.highest_radps, y.highest_radps);
+    EXPECT_EQ(x.inertia_kgm2, y.inertia_kgm2);
+    EXPECT_EQ(x.radius_m, y.radius_m);
   }
 }
 

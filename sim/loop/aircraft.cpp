@@ -1,0 +1,40 @@
+#include "sim/loop/aircraft.h"
+
+#include <string_view>
+
+#include "sim/loop/random_stream.h"
+
+namespace hedgehop::sim {
+
+Aircraft::Aircraft(const Scenario& scenario, const Ticks& ticks)
+    : scenario_(scenario),
+      ticks_(ticks),
+      vehicle_(scenario.vehicle),
+      wind_(scenario.wind, stream_seed(scenario.seed, "wind")),
+      avionics_(scenario.avionics, scenario.vehicle, ticks_.dt_s(),
+                [seed = scenario.seed](std::string_view name) { return stream_seed(seed, name); }) {}
+
+void Aircraft::reset(const CollisionWorld& world) {
+  const Eigen::Vector3d p_WB = scenario_.start.draw_p_WB(stream_seed(scenario_.seed, "start"));
+  wind_W_ = wind_.sample(-p_WB.z(), Eigen::Vector3d::Zero(), ticks_.dt_s());
+  build_part("vehicle", [&] { vehicle_.reset(p_WB, scenario_.start.heading_rad, wind_W_); });
+  avionics_.reset(truth(world));
+}
+
+void Aircraft::move() {
+  wind_W_ = wind_.sample(-body().p_WB.z(), body().q_WB * body().v_WB_B, ticks_.dt_s());
+  vehicle_.step(actuators_, wind_W_, ticks_.dt_s());
+}
+
+dynamics::SensedTruth Aircraft::truth(const CollisionWorld& world) const {
+  return {body(), vehicle_.specific_force_B(), world.height_above_surface(body().p_WB)};
+}
+
+Eigen::Isometry3d Aircraft::X_WB() const {
+  Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
+  X_WB.linear() = body().q_WB.toRotationMatrix();
+  X_WB.translation() = body().p_WB;
+  return X_WB;
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/vision/textured_picture.h"
+#include "vision/flow_field.h"
+
+/// How far a flow field is from the truth, for tests.
+namespace hedgehop::vision {
+
+inline constexpr int kSize = 400;
+
+struct Errors {
+  double rms_px = 0.0, largest_px = 0.0;
+  int valid = 0;
+};
+
+template <class TrueFlow>
+Errors errors(const FlowField& field, TrueFlow true_flow) {
+  Errors e;
+  for (const FlowVector& vector : field.vectors) {
+    if (!vector.valid) continue;
+    const double error = (vector.flow_px - true_flow(vector.center_px)).norm();
+    e.rms_px += error * error;
+    e.largest_px = std::max(e.largest_px, error);
+    ++e.valid;
+  }
+  e.rms_px = std::sqrt(e.rms_px / std::max(e.valid, 1));
+  return e;
+}
+
+inline cv::Mat shifted(const WaveTexture& texture, const Eigen::Vector2d& shift_px, int width = kSize,
+                       int height = kSize) {
+  return draw_picture(width, height,
+                      [&](double u, double v) { return texture.grey(u - shift_px.x(), v - shift_px.y()); });
+}
+
+inline double largest(const FlowField& field) {
+  double length = 0.0;
+  for (const FlowVector& vector : field.vectors) length = std::max(length, vector.flow_px.norm());
+  return length;
+}
+
+}  // namespace hedgehop::vision
