@@ -11,6 +11,7 @@
 #include "avoidance/balance_law.h"
 #include "avoidance/camera_flow.h"
 #include "avoidance/camera_ranges.h"
+#include "avoidance/detour.h"
 #include "avoidance/flow_picture.h"
 #include "avoidance/go_to_goal.h"
 #include "avoidance/zig_zag.h"
@@ -32,6 +33,7 @@ void check(const FlowBalanceConfig& c) {
   need(c.slow_radius_m >= 0.0, "slow_radius must be at least 0 m");
   need(c.loom_gain_m2ps >= 0.0 && c.flow_gain_m2ps >= 0.0, "gains must be at least 0 m^2/s");
   need(std::abs(c.spiral_angle_rad) <= std::numbers::pi / 3, "spiral_angle must lie within 60 deg");
+  need(c.patience_s >= 0.0 && c.detour_duration_s > 0.0, "patience must be at least 0 s, detour_duration above 0 s");
   need(c.command_time_constant_s >= 0.0, "command_time_constant must be at least 0 s");
   need(c.forward_speed_mps > 0.0 && c.sideways_speed_mps > 0.0, "simple: speeds must be above 0 m/s");
   need(c.range_threshold_m > 0.0, "simple: range_threshold must be above 0 m");
@@ -88,6 +90,7 @@ class FlowBalance final : public Module {
                                     config_.confirmations,
                                     config_.stray_rad,
                                     setup.seed});
+    detour_.emplace(Detour::Config{config_.patience_s, config_.detour_angle_rad, config_.detour_duration_s});
     sense_.assign(kRoles.size(), {});
     const CameraRanges::Options ranging{config_.divisor_floor_mps, config_.range_memory_s, config_.near_pictures};
     ranges_.assign(kRoles.size(), CameraRanges(ranging));
@@ -150,7 +153,8 @@ class FlowBalance final : public Module {
   /// speed.
   Eigen::Vector2d seek_goal(const Observation& observation, const Eigen::Vector2d& v_H, std::string& status) {
     const Eigen::Vector2d p_BG_W = (observation.goal.p_WG - observation.navigation.p_WB_est).head<2>();
-    const Eigen::Vector2d aim_W = turned(p_BG_W, config_.spiral_angle_rad);
+    const double aside_rad = detour_->update(p_BG_W.norm(), 1e-9 * static_cast<double>(observation.t_ns));
+    const Eigen::Vector2d aim_W = turned(p_BG_W, config_.spiral_angle_rad + aside_rad);
     v_tgt_W_ = velocity_to_goal(aim_W, config_.speed_mps, config_.slow_radius_m);
     // The way is chosen as at full speed, so that walls do not outweigh a goal that is near; then the speed is set.
     const Eigen::Vector2d full_H = turned(velocity_to_goal(aim_W, config_.speed_mps, 0.0), -heading_rad_);
@@ -221,6 +225,7 @@ class FlowBalance final : public Module {
   std::vector<Metric> do_metrics() const override {
     return {{"least_valid_share", least_valid_share_, ""},
             {"avoiding_share", decisions_ > 0 ? static_cast<double>(avoiding_) / decisions_ : 0.0, ""},
+            {"detours", static_cast<double>(detour_ ? detour_->count() : 0), ""},
             {"reversals", static_cast<double>(zig_zag_ ? zig_zag_->reversals() : 0), ""}};
   }
 
@@ -244,6 +249,7 @@ class FlowBalance final : public Module {
   std::vector<WallSense> sense_;
   std::vector<CameraRanges> ranges_;
   std::array<bool, kRoles.size()> fresh_{};
+  std::optional<Detour> detour_;
   std::optional<ZigZag> zig_zag_;
   Eigen::Vector2d v_tgt_W_ = Eigen::Vector2d::Zero();
   std::optional<Eigen::Vector2d> v_cmd_W_;

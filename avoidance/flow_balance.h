@@ -37,6 +37,9 @@ struct FlowBalanceConfig {
   double loom_gain_m2ps = 4.0;  ///< k0
   double flow_gain_m2ps = 5.0;  ///< k1
   double spiral_angle_rad = 0.0;
+  double patience_s = 0.0;
+  double detour_angle_rad = 70.0 * std::numbers::pi / 180.0;
+  double detour_duration_s = 12.0;
   double command_time_constant_s = 0.0;
 
   double forward_speed_mps = 1.0;
@@ -86,6 +89,14 @@ void describe(Visitor& v, FlowBalanceConfig& c) {
      .at_least = -60.0,
      .at_most = 60.0,
      .meaning = "goal_directed: aim this far right of the goal, to leave limit cycles"});
+  v("patience", c.patience_s,
+    {.unit = "s",
+     .at_least = 0.0,
+     .meaning = "goal_directed: when the goal comes no nearer for so long, aim aside for a while; 0 never does"});
+  v("detour_angle", c.detour_angle_rad,
+    {.unit = "deg", .above = 0.0, .at_most = 180.0, .meaning = "goal_directed: how far aside, right and left in turn"});
+  v("detour_duration", c.detour_duration_s,
+    {.unit = "s", .above = 0.0, .meaning = "goal_directed: how long the aim stays aside"});
   v("command_time_constant", c.command_time_constant_s,
     {.unit = "s", .at_least = 0.0, .meaning = "goal_directed: low-pass filter of the commanded velocity; 0 for none"});
   v("forward_speed", c.forward_speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "simple: speed along the heading"});

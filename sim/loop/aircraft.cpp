@@ -27,7 +27,10 @@ void Aircraft::move() {
 }
 
 dynamics::SensedTruth Aircraft::truth(const CollisionWorld& world) const {
-  return {body(), vehicle_.specific_force_B(), world.height_above_surface(body().p_WB)};
+  const auto height_beside = [this, &world](double north_m, double east_m) {
+    return world.height_above_surface(body().p_WB + Eigen::Vector3d(north_m, east_m, 0.0));
+  };
+  return {body(), vehicle_.specific_force_B(), height_beside(0.0, 0.0), height_beside};
 }
 
 Eigen::Isometry3d Aircraft::X_WB() const {
