@@ -5,8 +5,7 @@ namespace hedgehop::avoidance {
 double Detour::update(double goal_distance_m, double t_s) {
   constexpr double kProgress_m = 3.0;  // more than the position estimate wanders in a few seconds
   if (config_.patience_s <= 0.0) return 0.0;
-  if (!started_ || goal_distance_m < nearest_m_ - kProgress_m) {
-    started_ = true;
+  if (goal_distance_m < nearest_m_ - kProgress_m) {
     nearest_m_ = goal_distance_m;
     progress_s_ = t_s;
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 namespace hedgehop::avoidance {
 
 /// Leaves limit cycles on the way to a goal: when the goal has come no nearer for a while, the aim is turned aside for
@@ -8,9 +10,9 @@ namespace hedgehop::avoidance {
 class Detour {
  public:
   struct Config {
-    double patience_s = 0.0;   ///< without progress; 0 never turns aside
-    double angle_rad = 1.2;    ///< the aim is turned by it
-    double duration_s = 12.0;  ///< of one detour, > 0
+    double patience_s = 0.0;  ///< without progress; 0 never turns aside
+    double angle_rad = 0.0;   ///< the aim is turned by it, > 0
+    double duration_s = 0.0;  ///< of one detour, > 0
   };
   explicit Detour(const Config& config) : config_(config) {}
 
@@ -21,8 +23,7 @@ class Detour {
 
  private:
   Config config_;
-  bool started_ = false;
-  double nearest_m_ = 0.0;   ///< so far
+  double nearest_m_ = std::numeric_limits<double>::infinity();  ///< so far
   double progress_s_ = 0.0;  ///< when it was last improved on, or the last detour ended
   double until_s_ = 0.0;     ///< end of the detour under way
   double side_ = -1.0;

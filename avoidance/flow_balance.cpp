@@ -34,6 +34,7 @@ void check(const FlowBalanceConfig& c) {
   need(c.loom_gain_m2ps >= 0.0 && c.flow_gain_m2ps >= 0.0, "gains must be at least 0 m^2/s");
   need(std::abs(c.spiral_angle_rad) <= std::numbers::pi / 3, "spiral_angle must lie within 60 deg");
   need(c.patience_s >= 0.0 && c.detour_duration_s > 0.0, "patience must be at least 0 s, detour_duration above 0 s");
+  need(c.detour_angle_rad > 0.0 && c.detour_angle_rad <= std::numbers::pi, "detour_angle must lie in (0, 180] deg");
   need(c.command_time_constant_s >= 0.0, "command_time_constant must be at least 0 s");
   need(c.forward_speed_mps > 0.0 && c.sideways_speed_mps > 0.0, "simple: speeds must be above 0 m/s");
   need(c.range_threshold_m > 0.0, "simple: range_threshold must be above 0 m");

@@ -12,7 +12,7 @@ const std::vector<double>& RangeMemory::update(std::span<const Sight> sights, do
     const Sight& sight = sights[i];
     double& near = near_per_m_[i];
     const double share_left = 1.0 - near * sight.closing_mps * dt_s;  // of the range, after this step
-    constexpr double kLeast = 0.5;
+    constexpr double kLeast = 0.5;  // no wall comes twice as near from one picture to the next
     const double expected = kept * near / (share_left > kLeast ? share_left : kLeast);
     if (std::isnan(sight.near_per_m)) {
       near = kept > 0.0 ? expected : sight.near_per_m;

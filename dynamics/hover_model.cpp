@@ -57,7 +57,7 @@ HoverModel make(const HelicopterConfig& config) {
   A(M::kBelow, M::kDown) = 1.0;
 
   out.trim = to_controls(hover->blades);
-  out.acceptable = {0.02, 0.05, 0.05, 0.1};
+  out.acceptable = {0.02, 0.05, 0.05, 0.1};  // chosen, rad
   const std::array<ServoConfig, 4> configs{config.servos.collective, config.servos.cyclic, config.servos.cyclic,
                                            config.servos.tail};
   for (int j = 0; j < kControlAxes; ++j) {

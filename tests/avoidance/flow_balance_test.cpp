@@ -275,6 +275,9 @@ TEST(FlowBalance, RefusesConfigsOutOfRangeAndPatchesThatDoNotFit) {
   refuse([](auto& c) { c.range_threshold_m = 0.0; });
   refuse([](auto& c) { c.confirmations = 0; });
   refuse([](auto& c) { c.braking_mps2 = 0.0; });
+  refuse([](auto& c) { c.patience_s = -1.0; });
+  refuse([](auto& c) { c.detour_duration_s = 0.0; });
+  refuse([](auto& c) { c.detour_angle_rad = 0.0; });
   refuse([](auto& c) { c.way_angle_rad = 0.0; });
   refuse([](auto& c) { c.stray_rad = -0.1; });
   refuse([](auto& c) { c.range_memory_s = std::nan(""); });
