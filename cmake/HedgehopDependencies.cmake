@@ -22,6 +22,12 @@ add_library(hedgehop_osmesa INTERFACE)
 target_link_libraries(hedgehop_osmesa INTERFACE ${OSMESA_LIBRARY})
 target_include_directories(hedgehop_osmesa SYSTEM INTERFACE ${OSMESA_INCLUDE_DIR})
 
+find_library(EGL_LIBRARY EGL REQUIRED)
+find_path(EGL_INCLUDE_DIR EGL/egl.h REQUIRED)
+add_library(hedgehop_egl INTERFACE)
+target_link_libraries(hedgehop_egl INTERFACE ${EGL_LIBRARY})
+target_include_directories(hedgehop_egl SYSTEM INTERFACE ${EGL_INCLUDE_DIR})
+
 add_library(hedgehop_bullet INTERFACE)
 # Clearances are wanted to a millimetre a kilometre from the origin: the double-precision build, which Debian ships beside
 # the other. Every user must see the same btScalar.
