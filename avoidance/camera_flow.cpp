@@ -4,6 +4,7 @@ namespace hedgehop::avoidance {
 
 CameraFlow::CameraFlow(const MountedCamera& camera, const Options& options)
     : camera_(camera),
+      pinhole_(camera.model.pinhole()),
       options_(options),
       flow_(options.flow, camera.model.width_px, camera.model.height_px),
       field_(flow_.field()) {}
@@ -21,9 +22,9 @@ bool CameraFlow::update(const CameraFrame& frame, const Eigen::Vector3d& w_WB_B)
 
   if (options_.derotate) {
     const Eigen::Vector3d w_WC_C = camera_.X_BC.linear().transpose() * w_mean_B;
-    vision::derotate(field_, camera_.model, w_WC_C, dt_s);
+    vision::derotate(field_, pinhole_, w_WC_C, dt_s);
   }
-  const auto flow = vision::mean_horizontal_flow(field_, camera_.model, dt_s, options_.missing);
+  const auto flow = vision::mean_horizontal_flow(field_, pinhole_, dt_s, options_.missing);
   measure_ = Measure{flow.value, vision::loom(field_, dt_s, options_.missing).value, field_.valid_share(), dt_s};
   return true;
 }

@@ -26,7 +26,8 @@ class CameraFlow {
     double dt_s = 0.0;         ///< between the two pictures
   };
 
-  /// Throws std::invalid_argument when the patches do not fit the camera's picture.
+  /// Throws std::invalid_argument when the camera is not a pinhole without distortion, or the patches do not fit its
+  /// picture.
   CameraFlow(const MountedCamera& camera, const Options& options);
 
   /// Takes a picture in; one that is not newer than the last is left aside. @param w_WB_B  from the gyros, rad/s.
@@ -36,12 +37,14 @@ class CameraFlow {
   std::optional<Measure> measure(int64_t now_ns) const;
 
   const MountedCamera& camera() const { return camera_; }
+  const vision::PinholeCamera& pinhole() const { return pinhole_; }
   /// The last picture (CV_8UC1, empty before the first) and its flow (derotated when so configured).
   const cv::Mat& picture() const { return picture_; }
   const vision::FlowField& field() const { return field_; }
 
  private:
   MountedCamera camera_;
+  vision::PinholeCamera pinhole_;
   Options options_;
   vision::ImageInterpolationFlow flow_;
   vision::FlowField field_;

@@ -7,7 +7,7 @@
 namespace hedgehop::avoidance {
 
 void CameraRanges::update(const CameraFlow& camera, const NavigationState& navigation, double dt_s) {
-  const vision::PinholeCamera& model = camera.camera().model;
+  const vision::PinholeCamera& model = camera.pinhole();
   const Eigen::Isometry3d& X_BC = camera.camera().X_BC;
   const Eigen::Vector3d v_WC_B = navigation.v_WB_B_est + navigation.w_WB_B_est.cross(X_BC.translation());
   const Eigen::Vector3d v_WC_C = X_BC.linear().transpose() * v_WC_B;

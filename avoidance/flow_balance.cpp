@@ -60,7 +60,7 @@ class FlowBalance final : public Module {
  private:
   Needs do_needs() const override {
     Needs needs;
-    for (const char* role : kRoles) needs.cameras.push_back({role, CameraNeed::Channel::grey});
+    for (const char* role : kRoles) needs.cameras.push_back({role, CameraNeed::Channel::grey, /*pinhole=*/true});
     return needs;
   }
 
@@ -197,7 +197,7 @@ class FlowBalance final : public Module {
       return std::max(near.from_flow_per_m, near.from_loom_per_m);
     }
     std::vector<double> near = ranges_[i].near_per_m();
-    const std::vector<double> bearings_rad = vision::bearings_rad(cameras_[i].field(), cameras_[i].camera().model);
+    const std::vector<double> bearings_rad = vision::bearings_rad(cameras_[i].field(), cameras_[i].pinhole());
     for (size_t patch = 0; patch < near.size(); ++patch) {
       const Eigen::Vector2d to_patch_H =
           std::cos(bearings_rad[patch]) * sense_[i].axis_H + std::sin(bearings_rad[patch]) * sense_[i].right_H;

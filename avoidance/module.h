@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "vision/pinhole_camera.h"
+#include "vision/camera.h"
 
 /// The one interface between an avoidance module and the aircraft that carries it. A module sees pictures and the
 /// aircraft's own navigation, never truth. Frames (CONTRIBUTING.md): W north-east-down, B forward-right-down,
@@ -71,6 +71,7 @@ using Command = std::variant<VelocityCommand, PositionCommand, AttitudeCommand, 
 struct CameraNeed {
   std::string role;
   enum class Channel { grey, color, depth } channel = Channel::grey;
+  bool pinhole = false;  ///< the module's mathematics holds for a pinhole without distortion only
 };
 struct Needs {
   std::vector<CameraNeed> cameras;
@@ -79,7 +80,7 @@ struct Needs {
 /// A camera as mounted: model and pose in B.
 struct MountedCamera {
   std::string role;
-  vision::PinholeCamera model;
+  vision::Camera model;
   Eigen::Isometry3d X_BC = Eigen::Isometry3d::Identity();
   double rate_hz = 0.0;  ///< > 0
 };
@@ -121,7 +122,8 @@ class Module {
   std::vector<Signal> signals() const { return do_signals(); }
 
   /// Starts a flight; afterwards the module behaves as one newly made.
-  /// Throws std::invalid_argument when a needed camera is missing, or its rate or the speed limit is not positive.
+  /// Throws std::invalid_argument when a needed camera is missing or has a lens that the module cannot do
+  /// with, or when its rate or the speed limit is not positive.
   void reset(const Setup& setup);
 
   /// Returns the decision for what is seen now. Throws std::logic_error when called before reset(), when time does not

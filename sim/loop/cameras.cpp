@@ -52,12 +52,12 @@ std::span<const avoidance::CameraFrame> Cameras::snapshot(int64_t t_ns, const Ei
 
 cv::Mat Cameras::picture(size_t camera, Channel channel, const Eigen::Isometry3d& X_WB) {
   cv::Mat image;
-  renderer_.draw({mounted_[camera].model, X_WB * mounted_[camera].X_BC, channel}, image);
+  renderer_.draw({mounted_[camera].model.pinhole(), X_WB * mounted_[camera].X_BC, channel}, image);
   return image;
 }
 
 void Cameras::draw(size_t camera, int64_t t_ns, const Eigen::Isometry3d& X_WB, avoidance::CameraFrame& frame) {
-  renderer_.draw({mounted_[camera].model, X_WB * mounted_[camera].X_BC, channels_[camera]}, frame.image);
+  renderer_.draw({mounted_[camera].model.pinhole(), X_WB * mounted_[camera].X_BC, channels_[camera]}, frame.image);
   frame.t_ns = t_ns;
 }
 

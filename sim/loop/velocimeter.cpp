@@ -19,8 +19,9 @@ vision::ImageInterpolationConfig ground_grid(const vision::PinholeCamera& camera
 
 Velocimeter::Velocimeter(size_t camera, const Cameras& cameras)
     : camera_(camera),
-      mounted_(cameras.mounted(camera)),
-      flow_(ground_grid(mounted_.model), mounted_.model.width_px, mounted_.model.height_px) {}
+      pinhole_(cameras.mounted(camera).model.pinhole()),
+      X_BC_(cameras.mounted(camera).X_BC),
+      flow_(ground_grid(pinhole_), pinhole_.width_px, pinhole_.height_px) {}
 
 void Velocimeter::update(const avoidance::CameraFrame& frame, dynamics::Avionics& avionics) {
   const vision::FlowField& field = flow_.update(frame.image);
@@ -33,7 +34,7 @@ void Velocimeter::update(const avoidance::CameraFrame& frame, dynamics::Avionics
   const Eigen::AngleAxisd turn(last->q_WB_est.conjugate() * navigation.q_WB_est);
   const vision::FlowMotion motion{last->q_WB_est, turn.axis() * (turn.angle() / dt_s), last->height_above_ground_m,
                                   dt_s};
-  if (const auto velocity = vision::flow_velocity(field, mounted_.model, mounted_.X_BC, motion)) {
+  if (const auto velocity = vision::flow_velocity(field, pinhole_, X_BC_, motion)) {
     avionics.correct_velocity(velocity->v_WB_B_xy_meas, velocity->sigma_mps);
   }
 }

@@ -14,6 +14,7 @@ namespace hedgehop::sim {
 /// sec. 2 (hover damping by optic flow).
 class Velocimeter {
  public:
+  /// Throws std::invalid_argument when the camera is not a pinhole without distortion.
   Velocimeter(size_t camera, const Cameras& cameras);
 
   size_t camera() const { return camera_; }
@@ -29,7 +30,8 @@ class Velocimeter {
   };
 
   size_t camera_;
-  avoidance::MountedCamera mounted_;
+  vision::PinholeCamera pinhole_;
+  Eigen::Isometry3d X_BC_;
   vision::ImageInterpolationFlow flow_;
   std::optional<Belief> last_;
 };

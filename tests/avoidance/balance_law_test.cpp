@@ -22,10 +22,10 @@ constexpr double kFloor_mps = 0.2;
 WallSense sense_of_wall(const MountedCamera& camera, const Eigen::Vector2d& v_B, double range_m) {
   constexpr double kStep_s = 1e-4;
   const Eigen::Matrix3d R_CB = camera.X_BC.linear().transpose();
-  const auto field = vision::plane_flow(camera.model, vision::grid_field(8, 8, 30, 200), {0, 0, range_m}, {0, 0, 1},
-                                        R_CB * Eigen::Vector3d(v_B.x(), v_B.y(), 0), {0, 0, 0}, kStep_s);
+  const auto field = vision::plane_flow(camera.model.pinhole(), vision::grid_field(8, 8, 30, 200), {0, 0, range_m},
+                                        {0, 0, 1}, R_CB * Eigen::Vector3d(v_B.x(), v_B.y(), 0), {0, 0, 0}, kStep_s);
   return {camera.X_BC.linear().col(2).head<2>(), camera.X_BC.linear().col(0).head<2>(),
-          vision::mean_horizontal_flow(field, camera.model, kStep_s, vision::Missing::skip).value,
+          vision::mean_horizontal_flow(field, camera.model.pinhole(), kStep_s, vision::Missing::skip).value,
           vision::loom(field, kStep_s, vision::Missing::skip).value};
 }
 

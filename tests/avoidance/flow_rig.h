@@ -54,7 +54,8 @@ inline std::vector<CameraFrame> see(const Setup& setup, const NavigationState& n
   X_WB.translation() = navigation.p_WB_est;
   std::vector<CameraFrame> frames;
   for (const MountedCamera& camera : setup.cameras) {
-    frames.push_back({camera.role, t_ns, vision::draw_planes(camera.model, X_WB * camera.X_BC, walls, texture)});
+    frames.push_back(
+        {camera.role, t_ns, vision::draw_planes(camera.model.pinhole(), X_WB * camera.X_BC, walls, texture)});
   }
   return frames;
 }

@@ -16,9 +16,10 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 class Scripted final : public Module {
  public:
   Decision next{VelocityCommand{}, "cruise", {0.0}};
+  bool pinhole = false;
 
  private:
-  Needs do_needs() const override { return {{{"front", CameraNeed::Channel::grey}}}; }
+  Needs do_needs() const override { return {{{"front", CameraNeed::Channel::grey, pinhole}}}; }
   std::vector<Signal> do_signals() const override { return {{"one", ""}}; }
   void do_reset(const Setup&) override {}
   Decision do_update(const Observation&) override { return next; }
@@ -48,6 +49,13 @@ TEST_F(Checked, AFailedResetLeavesTheModuleUnready) {
   blind.cameras.erase(blind.cameras.begin());
   EXPECT_THROW(module.reset(blind), std::invalid_argument);
   EXPECT_THROW(update(), std::logic_error);
+}
+
+TEST_F(Checked, ResetRefusesAFisheyeWhereThePinholeIsNeeded) {
+  setup.cameras[0].model = {32, 32, vision::FisheyeLens{10.0, 10.0, 15.5, 15.5}};
+  EXPECT_NO_THROW(module.reset(setup));
+  module.pinhole = true;
+  EXPECT_THROW(module.reset(setup), std::invalid_argument);
 }
 
 TEST_F(Checked, ResetRefusesMissingCamerasAndRatesAndLimitsThatAreNotPositive) {

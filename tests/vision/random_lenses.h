@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+#include "vision/camera.h"
+
+/// Cameras of every kind for property tests, as different as cameras are.
+namespace hedgehop::vision {
+
+inline double uniform(std::mt19937_64& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+}
+
+inline Camera random_distorted_pinhole(std::mt19937_64& random) {
+  PinholeLens lens{uniform(random, 250, 500), uniform(random, 250, 500), uniform(random, 150, 170),
+                   uniform(random, 110, 130)};
+  lens.k1 = uniform(random, -0.35, 0.3);
+  lens.k2 = uniform(random, -0.05, 0.15);
+  lens.p1 = uniform(random, -5e-3, 5e-3);
+  lens.p2 = uniform(random, -5e-3, 5e-3);
+  lens.k3 = uniform(random, -0.01, 0.02);
+  return {320, 240, lens};
+}
+
+inline Camera random_fisheye(std::mt19937_64& random) {
+  FisheyeLens lens{uniform(random, 70, 130), uniform(random, 70, 130), uniform(random, 150, 170),
+                   uniform(random, 110, 130)};
+  lens.k1 = uniform(random, -0.05, 0.05);
+  lens.k2 = uniform(random, -0.01, 0.01);
+  lens.k3 = uniform(random, -2e-3, 2e-3);
+  lens.k4 = uniform(random, -2e-4, 2e-4);
+  lens.limit_rad = lens.growth_limit_rad();
+  return {320, 240, lens};
+}
+
+/// A made-up calibration in the form of OCamCalib's file: 752 x 480 px, about 200 degrees across.
+inline constexpr const char* kSmallCalibration = R"(#polynomial coefficients for the direct mapping function
+
+5 -2.2e+02 0.0 1.6e-03 -2.1e-06 8.0e-09
+
+#polynomial coefficients for the inverse mapping function, not fitted to the other
+
+2 330.0 190.0
+
+#center: "row" and "column", starting from 0 (C convention)
+
+241.25 374.5
+
+#affine parameters "c", "d", "e"
+
+0.9985 0.0004 -0.0003
+
+#image size: "height" and "width"
+
+480 752
+)";
+
+}  // namespace hedgehop::vision

@@ -1,0 +1,97 @@
+#include "vision/camera.h"
+
+#include <cmath>
+#include <initializer_list>
+#include <stdexcept>
+
+namespace hedgehop::vision {
+
+namespace {
+
+void require(bool holds, const std::string& fault) {
+  if (!holds) throw std::invalid_argument(fault);
+}
+
+bool finite(std::initializer_list<double> numbers) {
+  for (const double number : numbers) {
+    if (!std::isfinite(number)) return false;
+  }
+  return true;
+}
+
+void check_lens(const PinholeLens& lens) {
+  require(finite({lens.focal_x_px, lens.focal_y_px, lens.center_u_px, lens.center_v_px, lens.k1, lens.k2, lens.p1,
+                  lens.p2, lens.k3}),
+          "a number of the lens is not finite");
+  require(lens.focal_x_px > 0.0 && lens.focal_y_px > 0.0, "a camera's focal lengths must be positive");
+}
+
+void check_lens(const FisheyeLens& lens) {
+  require(finite({lens.focal_x_px, lens.focal_y_px, lens.center_u_px, lens.center_v_px, lens.k1, lens.k2, lens.k3,
+                  lens.k4, lens.limit_rad}),
+          "a number of the lens is not finite");
+  require(lens.focal_x_px > 0.0 && lens.focal_y_px > 0.0, "a camera's focal lengths must be positive");
+  require(lens.limit_rad > 0.0 && lens.limit_rad <= lens.growth_limit_rad(),
+          "a fisheye cannot see " + std::to_string(lens.limit_rad) +
+              " rad off its axis: its distortion folds back at " + std::to_string(lens.growth_limit_rad()) + " rad");
+}
+
+void check_lens(const OcamLens& lens) {
+  for (const double coefficient : lens.direct) require(std::isfinite(coefficient), "a coefficient is not finite");
+  require(finite({lens.center_row_px, lens.center_col_px, lens.c, lens.d, lens.e, lens.limit_px}),
+          "a number of the lens is not finite");
+  require(lens.limit_px > 0.0, "an omnidirectional lens needs a limit above 0 px");
+}
+
+}  // namespace
+
+Camera::Camera(const PinholeCamera& pinhole)
+    : width_px(pinhole.width_px),
+      height_px(pinhole.height_px),
+      lens(PinholeLens{pinhole.focal_x_px, pinhole.focal_y_px, pinhole.center_u_px, pinhole.center_v_px}) {}
+
+Camera::Camera(const OcamCalibration& calibration)
+    : width_px(calibration.width_px), height_px(calibration.height_px), lens(ocam_lens(calibration)) {}
+
+std::optional<Eigen::Vector2d> Camera::project(const Eigen::Vector3d& p_C) const {
+  return std::visit([&](const auto& its_lens) { return its_lens.project(p_C); }, lens);
+}
+
+std::optional<Eigen::Vector3d> Camera::ray(const Eigen::Vector2d& pixel) const {
+  return std::visit([&](const auto& its_lens) { return its_lens.ray(pixel); }, lens);
+}
+
+bool Camera::is_ideal_pinhole() const {
+  const auto* const pinhole_lens = std::get_if<PinholeLens>(&lens);
+  return pinhole_lens != nullptr && pinhole_lens->ideal();
+}
+
+PinholeCamera Camera::pinhole() const {
+  if (!is_ideal_pinhole()) {
+    throw std::invalid_argument("needs a pinhole camera without distortion, got a " + lens_name());
+  }
+  const auto& ideal = std::get<PinholeLens>(lens);
+  return {width_px, height_px, ideal.focal_x_px, ideal.focal_y_px, ideal.center_u_px, ideal.center_v_px};
+}
+
+std::string Camera::lens_name() const {
+  if (std::holds_alternative<FisheyeLens>(lens)) return "fisheye";
+  if (std::holds_alternative<OcamLens>(lens)) return "omnidirectional (OCamCalib)";
+  return is_ideal_pinhole() ? "pinhole" : "distorted pinhole";
+}
+
+double fisheye_focal_px(const FisheyeLens& coefficients, int width_px, double horizontal_fov_rad) {
+  const double half_rad = 0.5 * horizontal_fov_rad;
+  require(half_rad > 0.0 && half_rad <= coefficients.growth_limit_rad() && half_rad < std::numbers::pi,
+          "a fisheye of these coefficients cannot show " + std::to_string(horizontal_fov_rad) + " rad across");
+  return 0.5 * width_px / coefficients.radius(half_rad);
+}
+
+void check(const Camera& camera) {
+  require(camera.width_px > 0 && camera.height_px > 0, "a camera's picture needs at least one pixel each way, got " +
+                                                           std::to_string(camera.width_px) + " x " +
+                                                           std::to_string(camera.height_px));
+  std::visit([](const auto& lens) { check_lens(lens); }, camera.lens);
+}
+
+}  // namespace hedgehop::vision

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "vision/fisheye_lens.h"
+#include "vision/ocam_lens.h"
+#include "vision/pinhole_camera.h"
+#include "vision/pinhole_lens.h"
+
+namespace hedgehop::vision {
+
+/// Any camera: the size of its pictures and its lens. Frame C: x right, y down, z forward along the optical axis. Pixel
+/// (0, 0) is the centre of the top-left pixel, u right, v down, so a picture covers u in [-0.5, width - 0.5].
+/// What it projects is what the simulator draws. A value: copying it allocates nothing.
+struct Camera {
+  using Lens = std::variant<PinholeLens, FisheyeLens, OcamLens>;
+
+  int width_px = 0, height_px = 0;
+  Lens lens;
+
+  Camera() = default;
+  Camera(int width, int height, const Lens& its_lens) : width_px(width), height_px(height), lens(its_lens) {}
+  /// Every pinhole camera is a camera. Not explicit, so that it can stand wherever one is asked for.
+  Camera(const PinholeCamera& pinhole);
+  /// Throws std::invalid_argument as ocam_lens().
+  explicit Camera(const OcamCalibration& calibration);
+
+  bool operator==(const Camera&) const = default;
+
+  /// Pixel (u, v) of a point in C, m; nothing when the lens does not see so far aside. Not clipped to the picture.
+  std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_C) const;
+  /// Ray through a pixel, in C, of length 1; nothing where the lens shows nothing. The inverse of project().
+  std::optional<Eigen::Vector3d> ray(const Eigen::Vector2d& pixel) const;
+
+  /// Whether straight lines stay straight: a pinhole without distortion.
+  bool is_ideal_pinhole() const;
+  /// This camera as a pinhole, for algorithms that hold for nothing else.
+  /// Throws std::invalid_argument, naming the lens, when it is none.
+  PinholeCamera pinhole() const;
+  /// "pinhole", "distorted pinhole", "fisheye" or "omnidirectional (OCamCalib)".
+  std::string lens_name() const;
+};
+
+/// Focal length at which a fisheye of these coefficients shows a field of view across a picture's full width, px.
+/// @param horizontal_fov_rad  in (0, 2 pi). Throws std::invalid_argument when the lens does not reach so far.
+double fisheye_focal_px(const FisheyeLens& coefficients, int width_px, double horizontal_fov_rad);
+
+/// Throws std::invalid_argument, saying what is wrong, for a camera that cannot be: without pixels, with a focal length
+/// that is not positive, a number that is not finite, or a limit beyond what its lens can tell apart.
+void check(const Camera& camera);
+
+}  // namespace hedgehop::vision

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hedgehop::vision {
+
+/// What an OCamCalib file holds (calib_results.txt), in its own convention: x down the rows, y along the columns, the
+/// optical axis along -z, pixel (0, 0) the centre of the top-left one; after [Scaramuzza2006].
+/// [row - center_row, col - center_col] = [c d; e 1] [x, y], and the ray through (x, y) is (x, y, f(hypot(x, y))).
+struct OcamCalibration {
+  std::vector<double> direct;   ///< f, px, coefficients from power 0 up; f(0) < 0
+  std::vector<double> inverse;  ///< hypot(x, y), px, from atan(z / hypot(x, y)); a fit, which OcamLens does without
+  double center_row_px = 0.0, center_col_px = 0.0;
+  double c = 1.0, d = 0.0, e = 0.0;
+  int height_px = 0, width_px = 0;
+};
+
+/// @param text  of the file: lines that begin with # are comments; five rows of numbers, polynomials with their count
+/// in front. Throws std::invalid_argument, saying what is wrong, for anything else.
+OcamCalibration parse_ocam_calibration(const std::string& text);
+
+/// The omnidirectional lens of an OcamCalibration, which may see behind itself. It turns to frame C: x_C is its y, y_C
+/// its x, z_C its -z.
+struct OcamLens {
+  static constexpr size_t kMostCoefficients = 12;
+
+  std::array<double, kMostCoefficients> direct{};  ///< f, px, from power 0 up
+  double center_row_px = 0.0, center_col_px = 0.0;
+  double c = 1.0, d = 0.0, e = 0.0;
+  double limit_px = 0.0;  ///< hypot(x, y) from where on nothing is seen; the angle off the axis grows up to there
+
+  bool operator==(const OcamLens&) const = default;
+
+  /// Angle off the axis of the ray through a point so far from the centre, rad.
+  double angle_rad(double radius_px) const;
+
+  /// As Camera::project(). Solves the direct polynomial, so that it is the inverse of ray() to rounding.
+  std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_C) const;
+  /// As Camera::ray().
+  std::optional<Eigen::Vector3d> ray(const Eigen::Vector2d& pixel) const;
+};
+
+/// Sees as far as the picture's farthest corner, or to where the angle off the axis stops growing. Throws
+/// std::invalid_argument for a calibration that contradicts itself.
+OcamLens ocam_lens(const OcamCalibration& calibration);
+
+}  // namespace hedgehop::vision
