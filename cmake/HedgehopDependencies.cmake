@@ -8,11 +8,7 @@ find_package(nlohmann_json REQUIRED)
 
 # The OpenCV modules in use, each from its own package: Debian's OpenCVConfig.cmake comes with all of OpenCV, 600 MB more.
 find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
-set(HEDGEHOP_OPENCV_MODULES core imgproc imgcodecs)
-if(HEDGEHOP_TESTS)
-  list(APPEND HEDGEHOP_OPENCV_MODULES calib3d)
-endif()
-foreach(module IN LISTS HEDGEHOP_OPENCV_MODULES)
+foreach(module core imgproc imgcodecs calib3d)
   find_library(OPENCV_${module}_LIBRARY opencv_${module} REQUIRED)
   add_library(opencv_${module} INTERFACE)
   target_link_libraries(opencv_${module} INTERFACE ${OPENCV_${module}_LIBRARY})
@@ -25,6 +21,12 @@ find_path(OSMESA_INCLUDE_DIR GL/osmesa.h REQUIRED)
 add_library(hedgehop_osmesa INTERFACE)
 target_link_libraries(hedgehop_osmesa INTERFACE ${OSMESA_LIBRARY})
 target_include_directories(hedgehop_osmesa SYSTEM INTERFACE ${OSMESA_INCLUDE_DIR})
+
+find_library(EGL_LIBRARY EGL REQUIRED)
+find_path(EGL_INCLUDE_DIR EGL/egl.h REQUIRED)
+add_library(hedgehop_egl INTERFACE)
+target_link_libraries(hedgehop_egl INTERFACE ${EGL_LIBRARY})
+target_include_directories(hedgehop_egl SYSTEM INTERFACE ${EGL_INCLUDE_DIR})
 
 add_library(hedgehop_bullet INTERFACE)
 # Clearances are wanted to a millimetre a kilometre from the origin: the double-precision build, which Debian ships beside

@@ -5,15 +5,6 @@
 #include <vector>
 
 namespace hedgehop::scenes {
-namespace {
-
-Eigen::AlignedBox3d bounds_W(const Solid& solid) {
-  const Eigen::Vector3d reach = solid.X_WS.linear().cwiseAbs() * solid.half_extents_m;
-  return {solid.X_WS.translation() - reach, solid.X_WS.translation() + reach};
-}
-
-}  // namespace
-
 SceneFigures scene_figures(const Scene& scene) {
   constexpr double kTouching_m = 1e-6;
   std::vector<Eigen::AlignedBox2d> plans_NE;

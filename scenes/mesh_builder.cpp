@@ -68,6 +68,23 @@ void MeshBuilder::add_tiled(const Panel& panel, double tile_m, const Eigen::Vect
   add(panel, {offset.x(), offset.y(), offset.x() + across, offset.y() + along}, texture);
 }
 
+void MeshBuilder::add(std::span<const Vertex> vertices, std::span<const std::array<uint32_t, 3>> faces) {
+  const auto first = static_cast<uint32_t>(mesh_.vertices.size());
+  for (const Vertex& vertex : vertices) {
+    mesh_.vertices.push_back(vertex);
+    mesh_.chunks.back().box_W.extend(vertex.p_W);
+  }
+  for (const std::array<uint32_t, 3>& face : faces) {
+    for (const uint32_t corner : face) mesh_.indices.push_back(first + corner);
+  }
+  mesh_.chunks.back().index_count += static_cast<uint32_t>(3 * faces.size());
+}
+
+void MeshBuilder::add_core(const Eigen::AlignedBox3d& box_W) {
+  begin_chunk(true);
+  mesh_.chunks.back().box_W = box_W.cast<float>();
+}
+
 Mesh MeshBuilder::finish() { return std::move(mesh_); }
 
 }  // namespace hedgehop::scenes

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "scenes/scene.h"
@@ -41,6 +42,12 @@ class MeshBuilder {
 
   /// Adds the panel with a picture of `tile_m` metres a side, its corner moved by `offset` repeats.
   void add_tiled(const Panel& panel, double tile_m, const Eigen::Vector2d& offset, uint32_t texture);
+
+  /// Adds triangles; `faces` index into `vertices`.
+  void add(std::span<const Vertex> vertices, std::span<const std::array<uint32_t, 3>> faces);
+
+  /// Adds a box that is not drawn but hides what lies behind it: a chunk of its own that fills down to the ground.
+  void add_core(const Eigen::AlignedBox3d& box_W);
 
   Mesh finish();
 

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/additions.h"
 #include "scenes/clearing.h"
 #include "scenes/scene.h"
 
@@ -25,6 +26,7 @@ struct RoomConfig {
   double furniture_gap_m = 2.4;
   std::vector<Clearing> keep_clear = {{0.0, 0.0, 2.0}};
   int64_t texture_size_px = 512;
+  Additions added;
 };
 
 template <class Visitor>
@@ -47,6 +49,7 @@ void describe(Visitor& v, RoomConfig& c) {
      .at_least = 64.0,
      .at_most = 2048.0,
      .meaning = "side of the pictures on the surfaces, a power of two"});
+  describe(v, c.added);
 }
 
 /// Returns the room of `config`, a function of its arguments alone.

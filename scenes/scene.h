@@ -2,11 +2,13 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
+#include "scenes/motion.h"
 #include "scenes/solid.h"
 
 namespace hedgehop::scenes {
@@ -19,7 +21,8 @@ struct Vertex {
   uint32_t texture = 0;                          ///< index into Scene::textures
 };
 
-/// Triangles that are culled as one: a box of a building, a tile of ground.
+/// Triangles that are culled as one: a box of a building, a tile of ground. A chunk without triangles is not seen
+/// itself but stands for what hides: a box inside opaque things, such as the core of a tree.
 struct Chunk {
   Eigen::AlignedBox3f box_W;  ///< bounds of the chunk, m
   uint32_t first_index = 0;   ///< into Mesh::indices
@@ -34,6 +37,14 @@ struct Mesh {
   std::vector<Vertex> vertices;
   std::vector<uint32_t> indices;
   std::vector<Chunk> chunks;  ///< cover all indices, in order
+};
+
+/// What moves through the scene, without turning: its frame M travels, the axes stay those of W, and so does its light.
+struct Mover {
+  std::string name;
+  Mesh mesh;                  ///< as other meshes, but in M where those are in W; textures are the scene's
+  std::vector<Solid> solids;  ///< what can be hit, in M where others are in W: X_WS holds X_MS
+  Motion motion;
 };
 
 /// Ambient light plus one sun, without colour, so that a grey picture equals the mean of the colour picture's channels.
@@ -56,9 +67,17 @@ struct Scene {
   std::vector<cv::Mat> textures;  ///< CV_8UC3 RGB, all of one square power-of-two size, tileable
   Lights lights;
   Sky sky;
-  std::vector<Solid> solids;        ///< what can be hit, besides the ground
+  std::vector<Solid> solids;  ///< what can be hit and stands still, besides the ground
+  std::vector<Mover> movers;
   bool has_ground = true;           ///< the plane z = 0 of W can be hit
   Eigen::AlignedBox2d bounds_NE_m;  ///< extent of the plan (north, east) that flights care about
 };
+
+/// Returns the number of solids, those of the movers included.
+size_t solid_count(const Scene& scene);
+
+/// Returns a solid of the scene or, counted on from there, of its movers in order.
+/// @param index  < solid_count().
+const Solid& solid_at(const Scene& scene, size_t index);
 
 }  // namespace hedgehop::scenes

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/additions.h"
 #include "scenes/clearing.h"
 #include "scenes/scene.h"
 
@@ -30,6 +31,7 @@ struct UrbanConfig {
   double setback_share = 0.3;  ///< of buildings that carry a narrower tower
   std::vector<Clearing> keep_clear = {{-130.0, 80.0, 6.0}, {110.0, -110.0, 6.0}};
   int64_t texture_size_px = 512;
+  Additions added;
 };
 
 template <class Visitor>
@@ -57,6 +59,7 @@ void describe(Visitor& v, UrbanConfig& c) {
      .at_least = 64.0,
      .at_most = 2048.0,
      .meaning = "side of the pictures on the surfaces, a power of two"});
+  describe(v, c.added);
 }
 
 /// Returns the city of `config`, a function of its arguments alone.

@@ -16,12 +16,20 @@ namespace cli = hedgehop::sim::cli;
 constexpr int kBadInput = 2;
 constexpr int kInternalError = 3;
 
-void add_scenario(CLI::App& command, cli::ScenarioOptions& scenario) {
-  command.add_option("SCENARIO", scenario.file, "scenario file (YAML)")->required();
+/// What may be laid over a scenario.
+void add_layers(CLI::App& command, cli::ScenarioOptions& scenario) {
   command.add_option("--seed", scenario.seed, "seed of every random stream; replaces the scenario's");
   command.add_option("--set", scenario.overrides, "lay a value over the scenario, e.g. --set avoidance.speed=1.5")
       ->type_name("KEY.PATH=VALUE")
       ->take_all();
+  command
+      .add_option("--gl", scenario.gl, "who draws: osmesa, or egl (a GPU where there is one); replaces the scenario's")
+      ->check(CLI::IsMember({"osmesa", "egl"}));
+}
+
+void add_scenario(CLI::App& command, cli::ScenarioOptions& scenario) {
+  command.add_option("SCENARIO", scenario.file, "scenario file (YAML)")->required();
+  add_layers(command, scenario);
 }
 
 void add_formats(CLI::App& command, bool& json, bool& csv) {
@@ -51,9 +59,7 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
 
   CLI::App* const render_command = app.add_subcommand("render", "write the picture of one camera as PNG");
   auto* const file = render_command->add_option("SCENARIO", render.scenario.file, "scenario file (YAML)");
-  render_command->add_option("--seed", render.scenario.seed, "seed of every random stream; replaces the scenario's");
-  render_command->add_option("--set", render.scenario.overrides, "lay a value over the scenario")
-      ->type_name("KEY.PATH=VALUE");
+  add_layers(*render_command, render.scenario);
   auto* const camera = render_command->add_option("--camera", render.camera, "role of the camera")->type_name("NAME");
   render_command->add_option("--time", render.time_s, "time of the picture, s; the flight is flown up to it")
       ->check(CLI::NonNegativeNumber)

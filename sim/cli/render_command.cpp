@@ -39,7 +39,8 @@ void write_png(const std::filesystem::path& file, const cv::Mat& image) {
 
 int render(const RenderOptions& options) {
   if (options.info) {
-    fmt::print("{}\n", Renderer(scenes::Scene{}).info());
+    const ContextKind context = options.scenario.gl == "egl" ? ContextKind::egl : ContextKind::osmesa;
+    fmt::print("{}\n", Renderer(scenes::Scene{}, Culling::none, context).info());
     return 0;
   }
   if (options.out.extension() != ".png") {

@@ -43,6 +43,7 @@ class RunWatcher : public FlightWatcher {
 std::string command_line(const RunOptions& options, const Scenario& scenario) {
   std::string text = fmt::format("hedgehop run {} --seed {}", options.scenario.file.string(), scenario.seed);
   for (const std::string& override_text : options.scenario.overrides) text += fmt::format(" --set '{}'", override_text);
+  if (!options.scenario.gl.empty()) text += " --gl " + options.scenario.gl;
   return text;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "sim/collision/ray_cast.h"
 #include "sim/collision/separation.h"
 
 namespace hedgehop::sim {
@@ -96,6 +97,25 @@ class CollisionWorld::World {
     const Eigen::Vector3d lowest_W(p_WB.x(), p_WB.y(), std::max(p_WB.z(), lowest_z_));
     visit_solids(p_WB, lowest_W, [&](size_t index) { height_m = std::min(height_m, plumb_line(p_WB, index)); });
     return height_m;
+  }
+
+  double distance_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m) const {
+    double nearest = 1.0;  // of the beam's length
+    bool met = false;
+    const Eigen::Vector3d end_W = p_W + reach_m * direction_W;
+    if (has_ground_ && end_W.z() >= 0.0) {
+      nearest = p_W.z() < 0.0 ? p_W.z() / (p_W.z() - end_W.z()) : 0.0;
+      met = true;
+    }
+    Collector collector([&](size_t index) {
+      const PlacedBody& solid = placed_solids_[index];
+      const auto fraction = ray_fraction(*solid.body->bullet, solid.bullet_X_WS, p_W, end_W);
+      if (!fraction) return;
+      nearest = std::min(nearest, *fraction);
+      met = true;
+    });
+    btDbvt::rayTest(tree_.m_root, to_bullet(p_W), to_bullet(end_W), collector);
+    return met ? nearest * reach_m : kInfinity;
   }
 
  private:
@@ -199,6 +219,10 @@ Proximity CollisionWorld::query(const Eigen::Isometry3d& X_WB, double search_rad
 }
 double CollisionWorld::height_above_surface(const Eigen::Vector3d& p_WB) const {
   return world_->height_above_surface(p_WB);
+}
+double CollisionWorld::distance_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W,
+                                      double reach_m) const {
+  return world_->distance_along(p_W, direction_W, reach_m);
 }
 
 }  // namespace hedgehop::sim

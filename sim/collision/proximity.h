@@ -43,6 +43,11 @@ class CollisionWorld {
   /// ground, +inf where nothing lies below.
   double height_above_surface(const Eigen::Vector3d& p_WB) const;
 
+  /// Returns the distance from a point to the first solid or ground along a beam, m: 0 under the ground, +inf where
+  /// nothing is within reach. As exact as ray_fraction() of ray_cast.h; a solid that holds the point is not seen.
+  /// @param direction_W  of length 1. @param reach_m  finite, > 0.
+  double distance_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m) const;
+
  private:
   class World;
   std::unique_ptr<World> world_;

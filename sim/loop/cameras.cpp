@@ -21,7 +21,9 @@ Channel to_render_channel(CameraConfig::Channel channel) {
 
 }  // namespace
 
-Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene) : renderer_(scene) {
+Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, const DrawingConfig& drawing)
+    : renderer_(scene, Culling::frustum_and_horizon,
+                drawing.context == DrawingConfig::Context::egl ? ContextKind::egl : ContextKind::osmesa) {
   for (const CameraConfig& camera : rig.cameras) {
     channels_.push_back(to_render_channel(camera.channel));
     periods_.push_back(ticks.period(camera.rate_hz));

@@ -8,6 +8,7 @@
 #include "avoidance/module.h"
 #include "sim/loop/ticks.h"
 #include "sim/render/renderer.h"
+#include "sim/scenario/drawing.h"
 #include "sim/scenario/rig.h"
 
 namespace hedgehop::sim {
@@ -16,7 +17,7 @@ namespace hedgehop::sim {
 /// from the same vehicle state.
 class Cameras {
  public:
-  Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene);
+  Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, const DrawingConfig& drawing);
 
   size_t count() const { return frames_.size(); }
   /// Index of a role. Throws std::out_of_range for a role the rig does not have.

@@ -102,7 +102,7 @@ Episode::Episode(const Scenario& scenario, FlightWatcher* watcher)
       hull_(dynamics::hull(scenario.vehicle)),
       aircraft_(scenario, ticks_),
       collision_(scene_, hull_),
-      cameras_(scenario.rig, ticks_, scene_),
+      cameras_(scenario.rig, ticks_, scene_, scenario.drawing),
       module_(avoidance::make_module(scenario.avoidance)),
       goal_(to_goal(scenario)),
       control_period_(ticks_.period(static_cast<double>(scenario.control_rate_hz))),

@@ -65,6 +65,10 @@ struct GlFunctions {
 #undef HEDGEHOP_GL_MEMBER
 };
 
+/// @param address  returns the entry point of a name, null when there is none.
+/// Throws std::runtime_error, naming `who` gave it and the function, when one is missing.
+GlFunctions load_gl(void (*(*address)(const char* name))(), const char* who);
+
 /// Throws std::runtime_error naming the OpenGL error when one is pending. @param what  what was being done.
 void check_gl(const GlFunctions& gl, const char* what);
 

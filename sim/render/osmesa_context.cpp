@@ -3,7 +3,6 @@
 #include <GL/osmesa.h>
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <stdexcept>
 
 #ifdef __SANITIZE_ADDRESS__
@@ -14,20 +13,9 @@ extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa"; 
 
 namespace hedgehop::sim {
 
-namespace {
-
-template <class Function>
-void load(Function& function, const char* name) {
-  function = reinterpret_cast<Function>(OSMesaGetProcAddress(name));
-  if (function == nullptr) throw std::runtime_error(fmt::format("OSMesa has no {}; Mesa 21 or later is needed", name));
-}
-
-}  // namespace
-
 void OsmesaContext::Destroy::operator()(osmesa_context* context) const { OSMesaDestroyContext(context); }
 
 OsmesaContext::OsmesaContext() {
-  setenv("LP_NUM_THREADS", "0", /*overwrite=*/0);
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
                             OSMESA_DEPTH_BITS,
@@ -50,9 +38,7 @@ OsmesaContext::OsmesaContext() {
         "llvmpipe installed, and does GALLIUM_DRIVER name another driver?");
   }
   make_current();
-#define HEDGEHOP_GL_LOAD(TYPE, NAME) load(gl_.NAME, "gl" #NAME);
-  HEDGEHOP_GL_FUNCTIONS(HEDGEHOP_GL_LOAD)
-#undef HEDGEHOP_GL_LOAD
+  gl_ = load_gl(OSMesaGetProcAddress, "OSMesa");
 }
 
 void OsmesaContext::make_current() {

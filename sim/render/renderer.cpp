@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "sim/render/osmesa_context.h"
+#include "sim/render/gl_context.h"
 #include "sim/render/render_targets.h"
 #include "sim/render/scene_buffers.h"
 #include "sim/render/shaders.h"
@@ -44,8 +44,9 @@ Eigen::Vector3f mean_of_channels(const Eigen::Vector3f& color) { return Eigen::V
 
 class Renderer::Impl {
  public:
-  Impl(const scenes::Scene& scene, Culling culling)
-      : culling_(culling),
+  Impl(const scenes::Scene& scene, Culling culling, ContextKind context)
+      : context_(make_context(context)),
+        culling_(culling),
         sky_(scene.sky),
         buffers_(upload(gl_, scene)),
         visible_(buffers_.chunks, buffers_.tiles),
@@ -65,7 +66,7 @@ class Renderer::Impl {
 
   void draw(const CameraView& view, cv::Mat& out) {
     check(view);
-    context_.make_current();
+    context_->make_current();
     targets_.bind(gl_, view.camera.width_px, view.camera.height_px, view.channel);
     const float farthest = 0.0f;
     gl_.ClearBufferfv(GL_DEPTH, 0, &farthest);
@@ -85,7 +86,7 @@ class Renderer::Impl {
   const Drawn& drawn() const { return drawn_; }
 
   std::string info() {
-    context_.make_current();
+    context_->make_current();
     const auto word = [&](GLenum name) { return reinterpret_cast<const char*>(gl_.GetString(name)); };
     return fmt::format("{}; {}; OpenGL {}", word(GL_VENDOR), word(GL_RENDERER), word(GL_VERSION));
   }
@@ -123,8 +124,8 @@ class Renderer::Impl {
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
   }
 
-  OsmesaContext context_;
-  const GlFunctions& gl_ = context_.gl();
+  std::unique_ptr<GlContext> context_;
+  const GlFunctions& gl_ = context_->gl();
   Culling culling_;
   scenes::Sky sky_;
   SceneBuffers buffers_;
@@ -136,7 +137,8 @@ class Renderer::Impl {
   Drawn drawn_;
 };
 
-Renderer::Renderer(const scenes::Scene& scene, Culling culling) : impl_(std::make_unique<Impl>(scene, culling)) {}
+Renderer::Renderer(const scenes::Scene& scene, Culling culling, ContextKind context)
+    : impl_(std::make_unique<Impl>(scene, culling, context)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;

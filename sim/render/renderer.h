@@ -6,6 +6,7 @@
 #include <string>
 
 #include "scenes/scene.h"
+#include "sim/render/gl_context.h"
 #include "vision/pinhole_camera.h"
 
 namespace hedgehop::sim {
@@ -31,15 +32,15 @@ enum class Culling { none, frustum, frustum_and_horizon };
 /// Nothing nearer than this is drawn, z in C.
 inline constexpr double kNearPlaneM = 0.05;
 
-/// Draws a scene off screen, without a display or a GPU (OSMesa, OpenGL 3.3 core). The scene is copied to the context
-/// once. Several renderers may live in one process; each is used by one thread at a time. Row 0 of a texture lies at v
-/// = 0. Mesa's rasteriser threads are switched off unless the environment has LP_NUM_THREADS: the flight is the unit of
-/// parallelism. Equal views give equal pixels whatever their number.
+/// Draws a scene off screen, without a display (OpenGL 3.3 core). The scene is copied to the context once. Several
+/// renderers may live in one process; each is used by one thread at a time. Row 0 of a texture lies at v = 0. Equal
+/// views give equal pixels whatever their number.
 class Renderer {
  public:
   /// Throws std::invalid_argument when the scene contradicts itself (an index out of range, textures of several sizes),
   /// std::runtime_error with the cause when there is no OpenGL context or a shader does not compile.
-  explicit Renderer(const scenes::Scene& scene, Culling culling = Culling::frustum_and_horizon);
+  explicit Renderer(const scenes::Scene& scene, Culling culling = Culling::frustum_and_horizon,
+                    ContextKind context = ContextKind::osmesa);
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
   ~Renderer();

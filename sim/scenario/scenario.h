@@ -15,6 +15,7 @@
 #include "dynamics/wind.h"
 #include "scenes/generators.h"
 #include "sim/scenario/checks.h"
+#include "sim/scenario/drawing.h"
 #include "sim/scenario/input_error.h"
 #include "sim/scenario/rig.h"
 
@@ -104,6 +105,7 @@ struct Scenario {
   StartConfig start;
   std::optional<GoalConfig> goal;  ///< without one, the flight holds the start's altitude and heading
   RigConfig rig;
+  DrawingConfig drawing;
   VelocimeterConfig velocimeter;
   avoidance::ModuleConfig avoidance;
   std::vector<CheckConfig> checks;
@@ -131,6 +133,7 @@ void describe(Visitor& v, Scenario& c) {
   v("start", c.start, {.required = true, .meaning = "where the flight begins, in a trimmed hover"});
   v("goal", c.goal, {.meaning = "where the flight should end; none for a flight that explores"});
   v("rig", c.rig, {.meaning = "the cameras on board"});
+  v("drawing", c.drawing, {.meaning = "how their pictures are made"});
   v("velocimeter", c.velocimeter, {.meaning = "horizontal velocity from the optic flow of one camera"});
   v("avoidance", c.avoidance, {.required = true, .selector = "module", .meaning = "who decides where to fly"});
   v("checks", c.checks, {.selector = "check", .meaning = "what must hold of the flight"});

@@ -6,28 +6,43 @@
 
 namespace hedgehop::scenes {
 
+inline bool identical(const Mesh& p, const Mesh& q) {
+  if (p.indices != q.indices || p.vertices.size() != q.vertices.size() || p.chunks.size() != q.chunks.size())
+    return false;
+  for (size_t i = 0; i < p.vertices.size(); ++i) {
+    const Vertex &v = p.vertices[i], &w = q.vertices[i];
+    if (v.p_W != w.p_W || v.n_W != w.n_W || v.uv != w.uv || v.texture != w.texture) return false;
+  }
+  return true;
+}
+
+inline bool identical(const std::vector<Solid>& a, const std::vector<Solid>& b) {
+  if (a.size() != b.size()) return false;
+  for (size_t k = 0; k < a.size(); ++k) {
+    if (a[k].name != b[k].name || a[k].shape != b[k].shape || a[k].half_extents_m != b[k].half_extents_m) return false;
+    if (a[k].X_WS.matrix() != b[k].X_WS.matrix()) return false;
+    if (a[k].polyhedron.corners != b[k].polyhedron.corners || a[k].polyhedron.faces != b[k].polyhedron.faces)
+      return false;
+  }
+  return true;
+}
+
 /// Bit for bit, everything that a flight or a picture depends on.
 inline bool identical(const Scene& a, const Scene& b) {
   if (a.meshes.size() != b.meshes.size() || a.textures.size() != b.textures.size() ||
-      a.solids.size() != b.solids.size()) {
+      a.movers.size() != b.movers.size() || !identical(a.solids, b.solids)) {
     return false;
   }
   for (size_t k = 0; k < a.meshes.size(); ++k) {
-    const Mesh &p = a.meshes[k], &q = b.meshes[k];
-    if (p.indices != q.indices || p.vertices.size() != q.vertices.size() || p.chunks.size() != q.chunks.size())
+    if (!identical(a.meshes[k], b.meshes[k])) return false;
+  }
+  for (size_t k = 0; k < a.movers.size(); ++k) {
+    if (!identical(a.movers[k].mesh, b.movers[k].mesh) || !identical(a.movers[k].solids, b.movers[k].solids))
       return false;
-    for (size_t i = 0; i < p.vertices.size(); ++i) {
-      const Vertex &v = p.vertices[i], &w = q.vertices[i];
-      if (v.p_W != w.p_W || v.n_W != w.n_W || v.uv != w.uv || v.texture != w.texture) return false;
-    }
   }
   for (size_t k = 0; k < a.textures.size(); ++k) {
     const cv::Mat &p = a.textures[k], &q = b.textures[k];
     if (p.size() != q.size() || std::memcmp(p.data, q.data, p.total() * p.elemSize()) != 0) return false;
-  }
-  for (size_t k = 0; k < a.solids.size(); ++k) {
-    if (a.solids[k].half_extents_m != b.solids[k].half_extents_m) return false;
-    if (a.solids[k].X_WS.matrix() != b.solids[k].X_WS.matrix()) return false;
   }
   return true;
 }

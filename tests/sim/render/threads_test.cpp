@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -7,8 +8,8 @@
 namespace hedgehop::sim {
 namespace {
 
-std::string digest_with(const std::string& environment) {
-  const std::string command = environment + " " HEDGEHOP_RENDER_DIGEST;
+std::string digest_with(const std::string& environment, const std::string& context = "osmesa") {
+  const std::string command = environment + " " HEDGEHOP_RENDER_DIGEST " " + context;
   std::FILE* const pipe = popen(command.c_str(), "r");
   std::array<char, 64> line{};
   const bool answered = pipe != nullptr && std::fgets(line.data(), line.size(), pipe) != nullptr;
@@ -22,6 +23,21 @@ TEST(Threads, RasteriserThreadsChangeNoPixel) {
   EXPECT_EQ(digest_with("LP_NUM_THREADS=1"), alone);
   EXPECT_EQ(digest_with("LP_NUM_THREADS=2"), alone);
   EXPECT_EQ(digest_with("env -u LP_NUM_THREADS"), alone);
+}
+
+TEST(Contexts, EglDrawsTheSamePixelsAsOsmesaWithTheSameRasteriser) {
+  const std::string software = "LIBGL_ALWAYS_SOFTWARE=1";
+  EXPECT_EQ(digest_with(software, "egl"), digest_with(software, "osmesa"));
+}
+
+TEST(Contexts, EglWithoutADriverIsRefusedWithTheRemedy) {
+  const std::string command = "__EGL_VENDOR_LIBRARY_DIRS=/nowhere " HEDGEHOP_RENDER_DIGEST " egl 2>&1";
+  std::FILE* const pipe = popen(command.c_str(), "r");
+  std::array<char, 512> line{};
+  ASSERT_TRUE(pipe != nullptr && std::fgets(line.data(), line.size(), pipe) != nullptr);
+  EXPECT_NE(pclose(pipe), 0);
+  EXPECT_THAT(line.data(), testing::HasSubstr("no OpenGL 3.3 core context from EGL"));
+  EXPECT_THAT(line.data(), testing::HasSubstr("libegl-mesa0"));
 }
 
 }  // namespace

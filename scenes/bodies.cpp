@@ -1,0 +1,140 @@
+#include "scenes/bodies.h"
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+namespace hedgehop::scenes {
+namespace {
+
+using Eigen::Vector3d;
+
+// One of six sides that a picture is thrown from: the viewer's right and down, as on the panels of a box.
+struct Side {
+  Vector3d right, down;
+};
+
+int side_index(const Vector3d& n) {
+  Eigen::Index axis = 0;
+  n.cwiseAbs().maxCoeff(&axis);
+  return 2 * static_cast<int>(axis) + (n[axis] < 0.0 ? 1 : 0);
+}
+
+const Side& side(int index) {
+  static const Side sides[] = {{-Vector3d::UnitY(), Vector3d::UnitZ()},  {Vector3d::UnitY(), Vector3d::UnitZ()},
+                               {Vector3d::UnitX(), Vector3d::UnitZ()},   {-Vector3d::UnitX(), Vector3d::UnitZ()},
+                               {-Vector3d::UnitY(), -Vector3d::UnitX()}, {Vector3d::UnitY(), -Vector3d::UnitX()}};
+  return sides[index];
+}
+
+std::vector<Vector3d> smooth_normals(const Polyhedron& body) {
+  std::vector<Vector3d> normals(body.corners.size(), Vector3d::Zero());
+  for (const auto& [a, b, c] : body.faces) {
+    const Vector3d n = (body.corners[b] - body.corners[a]).cross(body.corners[c] - body.corners[a]);
+    for (const uint32_t corner : {a, b, c}) normals[corner] += n;  // by area
+  }
+  for (Vector3d& n : normals) n.normalize();
+  return normals;
+}
+
+}  // namespace
+
+void add_polyhedron(const Polyhedron& body, const Cover& cover, MeshBuilder& mesh) {
+  const std::vector<Vector3d> normals = smooth_normals(body);
+  std::vector<Vertex> vertices;
+  std::vector<std::array<uint32_t, 3>> faces;
+  std::map<std::pair<uint32_t, int>, uint32_t> known;  // a corner as each side's picture has it
+  for (const std::array<uint32_t, 3>& face : body.faces) {
+    const Vector3d a = body.corners[face[0]];
+    const int from = side_index((body.corners[face[1]] - a).cross(body.corners[face[2]] - a));
+    std::array<uint32_t, 3>& added = faces.emplace_back();
+    for (size_t k = 0; k < 3; ++k) {
+      const auto [at, is_new] = known.try_emplace({face[k], from}, static_cast<uint32_t>(vertices.size()));
+      added[k] = at->second;
+      if (!is_new) continue;
+      const Vector3d p_W = body.corners[face[k]];
+      const Eigen::Vector2d uv =
+          cover.offset + Eigen::Vector2d(side(from).right.dot(p_W), side(from).down.dot(p_W)) / cover.tile_m;
+      vertices.push_back({p_W.cast<float>(), normals[face[k]].cast<float>(), uv.cast<float>(), cover.texture});
+    }
+  }
+  mesh.add(vertices, faces);
+}
+
+void add_post(const Post& post, int sides, const Cover& cover, MeshBuilder& mesh) {
+  std::vector<Vertex> vertices;
+  std::vector<std::array<uint32_t, 3>> faces;
+  const Vector3d up(0.0, 0.0, -post.height_m);
+  const auto add = [&](const Vector3d& p_W, const Vector3d& n_W, const Eigen::Vector2d& at_m) {
+    const Eigen::Vector2d uv = cover.offset + at_m / cover.tile_m;
+    vertices.push_back({p_W.cast<float>(), n_W.cast<float>(), uv.cast<float>(), cover.texture});
+    return static_cast<uint32_t>(vertices.size() - 1);
+  };
+  const auto out = [sides](int k) -> Vector3d {
+    const double turn = 2.0 * std::numbers::pi * k / sides;
+    return {std::cos(turn), std::sin(turn), 0.0};
+  };
+
+  // The mantle: the viewer's right is against the turn.
+  for (int k = 0; k <= sides; ++k) {
+    const Vector3d p_W = post.foot_W + post.radius_m * out(k % sides);
+    const double across_m = -2.0 * std::numbers::pi * post.radius_m * k / sides;
+    const uint32_t foot = add(p_W, out(k % sides), {across_m, 0.0});
+    add(p_W + up, out(k % sides), {across_m, -post.height_m});
+    if (k == sides) break;
+    faces.push_back({foot + 3, foot + 2, foot});
+    faces.push_back({foot + 3, foot, foot + 1});
+  }
+
+  // The top: its picture's up is north.
+  uint32_t first = 0;
+  for (int k = 0; k < sides; ++k) {
+    const Vector3d rim = post.radius_m * out(k);
+    const uint32_t corner = add(post.foot_W + up + rim, -Vector3d::UnitZ(), {rim.y(), -rim.x()});
+    if (k == 0) first = corner;
+    if (k >= 2) faces.push_back({first, corner, corner - 1});
+  }
+  mesh.add(vertices, faces);
+}
+
+void add_box(const Eigen::AlignedBox3d& box_S, const Eigen::Isometry3d& X_WS, const Cover& cover, MeshBuilder& mesh) {
+  const auto add = [&](const Panel& panel) {
+    const Panel placed{X_WS * panel.top_left_W, X_WS.linear() * panel.right_m, X_WS.linear() * panel.down_m};
+    mesh.add_tiled(placed, cover.tile_m, cover.offset, cover.texture);
+  };
+  for (const Panel& panel : side_panels(box_S)) add(panel);
+  add(top_panel(box_S));
+}
+
+Solid solid_of(const std::string& name, const Post& post) {
+  Solid solid;
+  solid.name = name;
+  solid.shape = Solid::Shape::cylinder;
+  solid.X_WS.translation() = post.foot_W - Vector3d(0.0, 0.0, 0.5 * post.height_m);
+  solid.half_extents_m = {post.radius_m, post.radius_m, 0.5 * post.height_m};
+  return solid;
+}
+
+Solid solid_of(const std::string& name, const Polyhedron& body) {
+  Eigen::AlignedBox3d bounds;
+  for (const Vector3d& corner : body.corners) bounds.extend(corner);
+  Solid solid;
+  solid.name = name;
+  solid.shape = Solid::Shape::hull;
+  solid.X_WS.translation() = bounds.center();
+  solid.half_extents_m = 0.5 * bounds.sizes();
+  solid.polyhedron = moved(Eigen::Affine3d(Eigen::Translation3d(-bounds.center())), body);
+  return solid;
+}
+
+Solid ball_of(const std::string& name, const Eigen::Vector3d& center_W, double radius_m) {
+  Solid solid;
+  solid.name = name;
+  solid.shape = Solid::Shape::sphere;
+  solid.X_WS.translation() = center_W;
+  solid.half_extents_m.setConstant(radius_m);
+  return solid;
+}
+
+}  // namespace hedgehop::scenes

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+
+#include "scenes/mesh_builder.h"
+#include "scenes/polyhedron.h"
+
+namespace hedgehop::scenes {
+
+/// A picture on a rounded body: `tile_m` metres a side, moved by `offset` repeats.
+struct Cover {
+  uint32_t texture = 0;
+  double tile_m = 2.0;
+  Eigen::Vector2d offset = Eigen::Vector2d::Zero();
+};
+
+/// Adds a polyhedron to the chunk begun last, shaded as if it were smooth. Each face takes the picture from the side
+/// that it looks to most: north, east, south, west, up or down.
+/// @param body  in W, m.
+void add_polyhedron(const Polyhedron& body, const Cover& cover, MeshBuilder& mesh);
+
+/// An upright cylinder: foot_W is the centre of its lower end, in W, m.
+struct Post {
+  Eigen::Vector3d foot_W = Eigen::Vector3d::Zero();
+  double radius_m = 0.1;
+  double height_m = 1.0;
+};
+
+/// Adds a post with `sides` corners on its circle, closed on top, open below.
+void add_post(const Post& post, int sides, const Cover& cover, MeshBuilder& mesh);
+
+/// Adds the faces of a box but the bottom. @param box  in S. @param X_WS  any pose.
+void add_box(const Eigen::AlignedBox3d& box_S, const Eigen::Isometry3d& X_WS, const Cover& cover, MeshBuilder& mesh);
+
+Solid solid_of(const std::string& name, const Post& post);
+
+/// Returns a convex polyhedron as a solid; S has the axes of W and its origin in the middle of the bounds.
+/// @param body  in W, m.
+Solid solid_of(const std::string& name, const Polyhedron& body);
+
+/// Returns a solid ball. @param center_W  m.
+Solid ball_of(const std::string& name, const Eigen::Vector3d& center_W, double radius_m);
+
+}  // namespace hedgehop::scenes

@@ -1,0 +1,118 @@
+#include "scenes/motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scenes/require.h"
+
+namespace hedgehop::scenes {
+namespace {
+
+using Eigen::Vector3d;
+using Repeat = WaypointMotion::Repeat;
+
+struct PlaceOnWay {
+  Vector3d p_W = Vector3d::Zero();
+  Vector3d v_W = Vector3d::Zero();
+};
+
+std::vector<Vector3d> corners_W(const WaypointMotion& motion) {
+  std::vector<Vector3d> corners;
+  for (const Waypoint& point : motion.points) corners.push_back(point.p_W());
+  if (motion.repeat == Repeat::round) corners.push_back(corners.front());
+  return corners;
+}
+
+double length_m(const std::vector<Vector3d>& corners) {
+  double length = 0.0;
+  for (size_t i = 1; i < corners.size(); ++i) length += (corners[i] - corners[i - 1]).norm();
+  return length;
+}
+
+// The place `way_m` along the corners, and the direction (a unit vector) there: of the leg ahead, or, on the way back,
+// of the leg behind.
+PlaceOnWay along(const std::vector<Vector3d>& corners, double way_m, bool back) {
+  PlaceOnWay place{corners.front(), Vector3d::Zero()};
+  for (size_t i = 1; i < corners.size(); ++i) {
+    const Vector3d leg = corners[i] - corners[i - 1];
+    const double leg_m = leg.norm();
+    if (leg_m == 0.0) continue;
+    place = {corners[i - 1] + std::min(way_m / leg_m, 1.0) * leg, leg / leg_m};
+    if (back ? way_m <= leg_m : way_m < leg_m) break;
+    way_m -= leg_m;
+  }
+  return place;
+}
+
+PlaceOnWay place(const WaypointMotion& motion, double t_s) {
+  const std::vector<Vector3d> corners = corners_W(motion);
+  const double total_m = length_m(corners), run_m = motion.speed_mps * (t_s - motion.start_s);
+  if (total_m == 0.0 || motion.speed_mps == 0.0 || run_m < 0.0) return {corners.front(), Vector3d::Zero()};
+  if (motion.repeat == Repeat::once && run_m >= total_m) return {corners.back(), Vector3d::Zero()};
+
+  const double lap_m = motion.repeat == Repeat::back_and_forth ? 2.0 * total_m : total_m;
+  const double way_m = motion.repeat == Repeat::once ? run_m : std::fmod(run_m, lap_m);
+  const bool back = way_m >= total_m;
+  PlaceOnWay here = along(corners, back ? lap_m - way_m : way_m, back);
+  here.v_W *= back ? -motion.speed_mps : motion.speed_mps;
+  return here;
+}
+
+PlaceOnWay place(const OrbitMotion& motion, double t_s) {
+  const bool started = t_s >= motion.start_s;
+  const double turned_rad = started ? motion.speed_mps * (t_s - motion.start_s) / motion.radius_m : 0.0;
+  const double bearing_rad = motion.bearing_rad + turned_rad;
+  const Vector3d out(std::cos(bearing_rad), std::sin(bearing_rad), 0.0);
+  const Vector3d onward(-out.y(), out.x(), 0.0);
+  return {Vector3d(motion.north_m, motion.east_m, -motion.altitude_m) + motion.radius_m * out,
+          started ? Vector3d(motion.speed_mps * onward) : Vector3d::Zero()};
+}
+
+void require_valid(const WaypointMotion& motion) {
+  require(!motion.points.empty(), "motion.points", 0.0, "at least one point");
+  for (const Waypoint& point : motion.points) {
+    for (double x_m : {point.north_m, point.east_m, point.altitude_m})
+      require(std::isfinite(x_m), "motion.points", x_m, "finite numbers");
+  }
+  require(std::isfinite(motion.speed_mps) && motion.speed_mps >= 0.0, "motion.speed", motion.speed_mps,
+          "at least 0 m/s");
+  require(std::isfinite(motion.start_s) && motion.start_s >= 0.0, "motion.start", motion.start_s, "at least 0 s");
+}
+
+void require_valid(const OrbitMotion& motion) {
+  for (double x : {motion.north_m, motion.east_m, motion.altitude_m, motion.speed_mps, motion.bearing_rad})
+    require(std::isfinite(x), "motion", x, "finite numbers");
+  require(std::isfinite(motion.radius_m) && motion.radius_m > 0.0, "motion.radius", motion.radius_m, "above 0 m");
+  require(std::isfinite(motion.start_s) && motion.start_s >= 0.0, "motion.start", motion.start_s, "at least 0 s");
+}
+
+}  // namespace
+
+void require_motion(const Motion& motion) {
+  std::visit([](const auto& chosen) { require_valid(chosen); }, motion);
+}
+
+Eigen::Vector3d p_WM(const Motion& motion, double t_s) {
+  return std::visit([t_s](const auto& chosen) { return place(chosen, t_s).p_W; }, motion);
+}
+
+Eigen::Vector3d v_WM(const Motion& motion, double t_s) {
+  return std::visit([t_s](const auto& chosen) { return place(chosen, t_s).v_W; }, motion);
+}
+
+std::vector<Eigen::Vector3d> way_W(const Motion& motion) {
+  if (const auto* straight = std::get_if<WaypointMotion>(&motion)) return corners_W(*straight);
+  constexpr int kCorners = 64;
+  OrbitMotion orbit = std::get<OrbitMotion>(motion);
+  const double first_rad = orbit.bearing_rad;
+  std::vector<Vector3d> corners;
+  for (int k = 0; k < kCorners; ++k) {
+    orbit.bearing_rad = first_rad + 2.0 * std::numbers::pi * k / kCorners;
+    corners.push_back(place(orbit, 0.0).p_W);
+  }
+  corners.push_back(corners.front());
+  return corners;
+}
+
+}  // namespace hedgehop::scenes

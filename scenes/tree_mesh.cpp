@@ -1,0 +1,58 @@
+#include "scenes/tree_mesh.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace hedgehop::scenes {
+namespace {
+
+using Eigen::Vector3d;
+
+Eigen::Affine3d lump_to_world(const Vector3d& center_W, const Vector3d& radii_m, Random& random) {
+  const double turn_rad = uniform(random, 0.0, 2.0 * std::numbers::pi);
+  return Eigen::Translation3d(center_W) * Eigen::Scaling(radii_m) * Eigen::AngleAxisd(turn_rad, Vector3d::UnitZ());
+}
+
+}  // namespace
+
+std::vector<Solid> add_tree(const std::string& name, const TreeShape& shape, std::span<const Polyhedron> lumps,
+                            const Cover& leaves, const Cover& bark, Random& random, MeshBuilder& mesh) {
+  const double crown_half_m = 0.5 * (shape.height_m - shape.clear_height_m);
+  const Vector3d crown_radii(shape.crown_radius_m, shape.crown_radius_m, crown_half_m);
+  const Vector3d crown_center_W = shape.foot_W - Vector3d(0.0, 0.0, shape.clear_height_m + crown_half_m);
+
+  mesh.begin_chunk(false);
+  const Post trunk{shape.foot_W, shape.trunk_radius_m, shape.clear_height_m + crown_half_m};
+  add_post(trunk, shape.trunk_sides, bark, mesh);
+  std::vector<Solid> solids{solid_of(name, trunk)};
+
+  const auto add_lump = [&](const Vector3d& center_W, const Vector3d& radii_m) {
+    const Polyhedron& lump = lumps[static_cast<size_t>(uniform_index(random, static_cast<int>(lumps.size())))];
+    const Polyhedron placed = moved(lump_to_world(center_W, radii_m, random), lump);
+    add_polyhedron(placed, leaves, mesh);
+    solids.push_back(solid_of(name, placed));
+  };
+  if (shape.lobes == 1) {
+    add_lump(crown_center_W, crown_radii);
+  } else {
+    constexpr double kCore = 0.72;  // of the crown's radii; the lobes stand out of it
+    add_lump(crown_center_W, kCore * crown_radii);
+    const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
+    const double first = uniform(random, 0.0, 2.0 * std::numbers::pi);
+    const int around = shape.lobes - 1;
+    for (int k = 0; k < around; ++k) {
+      const double size = uniform(random, 0.36, 0.48), z = 1.0 - (2.0 * k + 1.0) / around;
+      const double across = std::sqrt(1.0 - z * z), turn = first + golden_angle * k;
+      const Vector3d out(across * std::cos(turn), across * std::sin(turn), z);
+      add_lump(crown_center_W + crown_radii.cwiseProduct((1.0 - size) * out), size * crown_radii);
+    }
+  }
+
+  // The square inside a hexagon of radius 1, sides along the axes, has half sides of 0.61 or more.
+  const double core_m = 0.6 * shape.trunk_radius_m;
+  mesh.add_core({Vector3d(shape.foot_W - Vector3d(core_m, core_m, trunk.height_m)),
+                 Vector3d(shape.foot_W + Vector3d(core_m, core_m, 0.0))});
+  return solids;
+}
+
+}  // namespace hedgehop::scenes

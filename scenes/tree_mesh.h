@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scenes/bodies.h"
+#include "scenes/random.h"
+
+namespace hedgehop::scenes {
+
+/// A tree: a trunk from the ground into the middle of its crown.
+struct TreeShape {
+  Eigen::Vector3d foot_W = Eigen::Vector3d::Zero();
+  double height_m = 12.0;
+  double clear_height_m = 3.0;  ///< of the trunk below the crown, < height
+  double crown_radius_m = 3.0;
+  double trunk_radius_m = 0.2;
+  int lobes = 1;        ///< lumps that make up the crown: 1, or a core with lobes - 1 around it
+  int trunk_sides = 6;  ///< at least 6
+};
+
+/// Adds a tree, one chunk, and the hidden core of its trunk, another. No point is farther from the trunk's axis than
+/// the crown's radius, nor higher than the height.
+/// @param lumps  convex lumps within radius 1 that the crown is made of, at least one.
+/// @return the trunk (a cylinder) and the crown's lumps (hulls that are drawn as they are), each called `name`.
+std::vector<Solid> add_tree(const std::string& name, const TreeShape& shape, std::span<const Polyhedron> lumps,
+                            const Cover& leaves, const Cover& bark, Random& random, MeshBuilder& mesh);
+
+}  // namespace hedgehop::scenes

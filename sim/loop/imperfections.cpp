@@ -1,0 +1,87 @@
+#include "sim/loop/imperfections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/loop/random_stream.h"
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr double kWhite = 255.0;
+
+/// Uniform in [0, 1).
+double draw(uint64_t seed, int64_t picture, std::string_view what) {
+  const uint64_t bits = stream_seed(stream_seed(seed, what) + static_cast<uint64_t>(picture), what);
+  return std::ldexp(static_cast<double>(bits >> 11), -53);
+}
+
+}  // namespace
+
+Imperfections::Imperfections(const ImperfectionsConfig& config, double period_s, uint64_t seed)
+    : config_(config), period_s_(period_s), seed_(seed), gain_(std::exp2(config.exposure_stops)) {}
+
+Imperfections::Fate Imperfections::fate(int64_t picture) const {
+  if (draw(seed_, picture, "drop") < config_.drop) return Fate::dropped;
+  if (draw(seed_, picture, "freeze") < config_.freeze) return Fate::frozen;
+  if (draw(seed_, picture, "black") < config_.black) return Fate::black;
+  return Fate::fine;
+}
+
+void Imperfections::spoil(int64_t picture, cv::Mat& image) {
+  const bool noisy = config_.full_well > 0.0 || config_.read_noise > 0.0;
+  const bool exposed = config_.exposure_stops != 0.0 || config_.auto_exposure_s > 0.0;
+  if (image.depth() != CV_8U || (!noisy && !exposed && config_.vignetting <= 0.0)) return;
+
+  image.convertTo(levels_, CV_32F);
+  if (config_.vignetting > 0.0) cv::multiply(levels_, brightness(levels_), levels_);
+  if (config_.auto_exposure_s > 0.0) expose_automatically(levels_);
+  if (gain_ != 1.0) levels_ *= gain_;
+  if (noisy) {
+    // Photons come one by one: the variance of their count is its mean.
+    cv::min(levels_, kWhite, levels_);
+    const double per_level = config_.full_well > 0.0 ? kWhite / config_.full_well : 0.0;
+    levels_.convertTo(sigma_, CV_32F, per_level, config_.read_noise * config_.read_noise);
+    cv::sqrt(sigma_, sigma_);
+    noise_.create(levels_.size(), levels_.type());
+    cv::RNG random(stream_seed(seed_ + static_cast<uint64_t>(picture), "noise"));
+    random.fill(noise_, cv::RNG::NORMAL, 0.0, 1.0);
+    cv::multiply(noise_, sigma_, noise_);
+    levels_ += noise_;
+  }
+  levels_.convertTo(image, CV_8U);
+}
+
+const cv::Mat& Imperfections::brightness(const cv::Mat& levels) {
+  const cv::Size size = levels.size();
+  if (brightness_.size() == size && brightness_.type() == levels.type()) return brightness_;
+  cv::Mat share(size, CV_32F);
+  const double center_u = 0.5 * (size.width - 1), center_v = 0.5 * (size.height - 1);
+  const double corner2 = std::max(1.0, center_u * center_u + center_v * center_v);
+  for (int v = 0; v < size.height; ++v) {
+    for (int u = 0; u < size.width; ++u) {
+      const double du = u - center_u, dv = v - center_v;
+      share.at<float>(v, u) = static_cast<float>(1.0 - config_.vignetting * (du * du + dv * dv) / corner2);
+    }
+  }
+  cv::merge(std::vector<cv::Mat>(static_cast<size_t>(levels.channels()), share), brightness_);
+  return brightness_;
+}
+
+/// A first-order lag of the gain's logarithm towards what would make the mean mid-grey.
+void Imperfections::expose_automatically(const cv::Mat& levels) {
+  const cv::Scalar sums = cv::mean(levels);
+  double mean = 0.0;
+  for (int channel = 0; channel < levels.channels(); ++channel) mean += sums[channel] / levels.channels();
+  constexpr double kDarkest = 1.0;  // level; a black picture asks for no more than this
+  const double wanted = 0.5 * kWhite / std::max(kDarkest, mean);
+  gain_ *= std::pow(wanted / gain_, 1.0 - std::exp(-period_s_ / config_.auto_exposure_s));
+}
+
+void blacken(cv::Mat& image) {
+  const bool whole_numbers = image.depth() < CV_32F;
+  image.setTo(whole_numbers ? cv::Scalar::all(0) : cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+
+#include "sim/scenario/imperfections.h"
+
+namespace hedgehop::sim {
+
+/// Spoils one camera's pictures as its config asks. What becomes of a picture hangs on its number and on the camera's
+/// seed alone (automatic exposure aside, which follows the pictures before it).
+class Imperfections {
+ public:
+  /// @param period_s  between pictures, > 0. @param seed  of the camera's own stream.
+  Imperfections(const ImperfectionsConfig& config, double period_s, uint64_t seed);
+
+  /// What is delivered instead of a picture.
+  enum class Fate { fine, dropped, frozen, black };
+  Fate fate(int64_t picture) const;
+
+  /// Vignetting, exposure, photon and read noise, in this order, as light, lens and sensor have it; grey levels are
+  /// taken as proportional to light. Pictures of 8 bits only: others are left as they are. @param image  CV_8U.
+  void spoil(int64_t picture, cv::Mat& image);
+
+ private:
+  const cv::Mat& brightness(const cv::Mat& levels);
+  void expose_automatically(const cv::Mat& levels);
+
+  ImperfectionsConfig config_;
+  double period_s_;
+  uint64_t seed_;
+  double gain_;
+  cv::Mat brightness_;              ///< CV_32F, as many channels: share that the lens lets through
+  cv::Mat levels_, noise_, sigma_;  ///< CV_32F
+};
+
+/// Makes a picture what a dead sensor gives: 0 in 8 bits, NaN (unknown) in floats.
+void blacken(cv::Mat& image);
+
+}  // namespace hedgehop::sim

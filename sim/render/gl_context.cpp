@@ -1,0 +1,22 @@
+#include "sim/render/gl_context.h"
+
+#include <cstdlib>
+#include <stdexcept>
+
+#include "sim/render/egl_context.h"
+#include "sim/render/osmesa_context.h"
+
+namespace hedgehop::sim {
+
+std::unique_ptr<GlContext> make_context(ContextKind kind) {
+  setenv("LP_NUM_THREADS", "0", /*overwrite=*/0);
+  switch (kind) {
+    case ContextKind::osmesa:
+      return std::make_unique<OsmesaContext>();
+    case ContextKind::egl:
+      return std::make_unique<EglContext>();
+  }
+  throw std::logic_error("unknown kind of context");
+}
+
+}  // namespace hedgehop::sim

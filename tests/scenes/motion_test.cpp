@@ -1,0 +1,134 @@
+#include "scenes/motion.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace hedgehop::scenes {
+namespace {
+
+using Eigen::Vector3d;
+using Repeat = WaypointMotion::Repeat;
+
+constexpr double kRounding_m = 1e-9;
+
+// An L of 3 m north, then 4 m east, 2 m high.
+WaypointMotion bent(Repeat repeat) {
+  return {.points = {{0, 0, 2}, {3, 0, 2}, {3, 4, 2}}, .speed_mps = 0.5, .repeat = repeat, .start_s = 10.0};
+}
+
+void expect_at(const Motion& motion, double t_s, const Vector3d& p_W) {
+  EXPECT_LT((p_WM(motion, t_s) - p_W).norm(), kRounding_m) << "at " << t_s << " s: " << p_WM(motion, t_s).transpose();
+}
+
+TEST(WaypointMotion, WaitsWalksAndStopsAtTheEnd) {
+  const Motion motion = bent(Repeat::once);
+  expect_at(motion, 0.0, {0, 0, -2});
+  expect_at(motion, 10.0, {0, 0, -2});
+  expect_at(motion, 12.0, {1, 0, -2});
+  expect_at(motion, 18.0, {3, 1, -2});
+  expect_at(motion, 24.0, {3, 4, -2});
+  expect_at(motion, 1000.0, {3, 4, -2});
+  EXPECT_EQ(v_WM(motion, 5.0), Vector3d::Zero());
+  EXPECT_EQ(v_WM(motion, 24.0), Vector3d::Zero());
+}
+
+TEST(WaypointMotion, BackAndForthRetracesItsSteps) {
+  const Motion motion = bent(Repeat::back_and_forth);
+  for (double t_s = 10.0; t_s < 24.0; t_s += 0.7) {
+    expect_at(motion, 48.0 - t_s, p_WM(motion, t_s));
+    expect_at(motion, t_s + 28.0, p_WM(motion, t_s));
+  }
+}
+
+TEST(WaypointMotion, RoundClosesTheTriangle) {
+  const Motion motion = bent(Repeat::round);
+  expect_at(motion, 10.0 + 2.0 * (3 + 4 + 2.5), {1.5, 2, -2});
+  expect_at(motion, 10.0 + 2.0 * 12 + 2.0, {1, 0, -2});
+}
+
+TEST(WaypointMotion, OfOnePointOrEqualPointsStandsStill) {
+  for (const Motion& motion : {Motion(WaypointMotion{.points = {{1, 2, 3}}, .repeat = Repeat::round}),
+                               Motion(WaypointMotion{.points = {{1, 2, 3}, {1, 2, 3}}})}) {
+    expect_at(motion, 7.0, {1, 2, -3});
+    EXPECT_EQ(v_WM(motion, 7.0), Vector3d::Zero());
+  }
+}
+
+TEST(OrbitMotion, QuarterTurnLeadsFromNorthToEast) {
+  const double quarter_s = 0.5 * std::numbers::pi * 8.0 / 2.0;
+  const Motion motion = OrbitMotion{.north_m = 100, .altitude_m = 5, .radius_m = 8, .speed_mps = 2, .start_s = 3};
+  expect_at(motion, 1.0, {108, 0, -5});
+  expect_at(motion, 3.0 + quarter_s, {100, 8, -5});
+  const Motion other_way = OrbitMotion{.north_m = 100, .altitude_m = 5, .radius_m = 8, .speed_mps = -2, .start_s = 3};
+  expect_at(other_way, 3.0 + quarter_s, {100, -8, -5});
+}
+
+Motion random_motion(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> place(-20.0, 20.0), speed(0.1, 3.0);
+  if (random() % 3 == 0) {
+    return OrbitMotion{.north_m = place(random),
+                       .east_m = place(random),
+                       .radius_m = speed(random) + 1.0,
+                       .speed_mps = speed(random) - 1.5,
+                       .bearing_rad = place(random),
+                       .start_s = speed(random)};
+  }
+  WaypointMotion motion{
+      .points = {}, .speed_mps = speed(random), .repeat = static_cast<Repeat>(random() % 3), .start_s = speed(random)};
+  for (uint64_t k = random() % 5 + 1; k > 0; --k)
+    motion.points.push_back({place(random), place(random), place(random)});
+  return motion;
+}
+
+TEST(Motion, VelocityIsTheDerivativeOfThePosition) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> time(0.0, 100.0);
+  constexpr double kStep_s = 1e-5;
+  int compared = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const Motion motion = random_motion(random);
+    const double t_s = time(random);
+    const Vector3d before = (p_WM(motion, t_s) - p_WM(motion, t_s - kStep_s)) / kStep_s;
+    const Vector3d after = (p_WM(motion, t_s + kStep_s) - p_WM(motion, t_s)) / kStep_s;
+    if ((after - before).norm() > 1e-3) continue;  // a corner between the three
+    ++compared;
+    ASSERT_LT((v_WM(motion, t_s) - after).norm(), 1e-3);
+  }
+  EXPECT_GT(compared, 2950);
+}
+
+TEST(Motion, NeverLeavesItsWay) {
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> time(0.0, 100.0);
+  for (int k = 0; k < 500; ++k) {
+    const Motion motion = random_motion(random);
+    const std::vector<Vector3d> way = way_W(motion);
+    const Vector3d p_W = p_WM(motion, time(random));
+    double nearest_m = (p_W - way.front()).norm();
+    for (size_t i = 1; i < way.size(); ++i) {
+      const Vector3d leg = way[i] - way[i - 1];
+      const double share =
+          leg.norm() > 0.0 ? std::clamp((p_W - way[i - 1]).dot(leg) / leg.squaredNorm(), 0.0, 1.0) : 0.0;
+      nearest_m = std::min(nearest_m, (p_W - way[i - 1] - share * leg).norm());
+    }
+    // An orbit's 64 chords lie up to r (1 - cos(pi / 64)) inside of it.
+    const auto* orbit = std::get_if<OrbitMotion>(&motion);
+    ASSERT_LE(nearest_m, orbit ? orbit->radius_m * (1.0 - std::cos(std::numbers::pi / 64)) + kRounding_m : kRounding_m);
+  }
+}
+
+TEST(Motion, RefusesWhatCannotMove) {
+  using E = std::invalid_argument;
+  using testing::HasSubstr;
+  using testing::ThrowsMessage;
+  EXPECT_THAT([] { require_motion(WaypointMotion{.points = {}}); }, ThrowsMessage<E>(HasSubstr("motion.points")));
+  EXPECT_THAT([] { require_motion(WaypointMotion{.speed_mps = -1}); }, ThrowsMessage<E>(HasSubstr("motion.speed: -1")));
+  EXPECT_THAT([] { require_motion(OrbitMotion{.radius_m = 0}); }, ThrowsMessage<E>(HasSubstr("motion.radius: 0")));
+}
+
+}  // namespace
+}  // namespace hedgehop::scenes

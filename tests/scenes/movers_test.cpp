@@ -1,0 +1,84 @@
+#include "scenes/movers.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scene_equality.h"
+#include "scenes/generators.h"
+
+namespace hedgehop::scenes {
+namespace {
+
+using Shape = MoverConfig::Shape;
+
+RoomConfig room_with(std::vector<MoverConfig> movers) {
+  RoomConfig config;
+  config.texture_size_px = 64;
+  config.added.movers = std::move(movers);
+  return config;
+}
+
+std::vector<MoverConfig> one_of_each() {
+  std::vector<MoverConfig> movers;
+  for (const Shape shape : {Shape::balloon, Shape::pole, Shape::box, Shape::tree}) movers.push_back({.shape = shape});
+  return movers;
+}
+
+Eigen::AlignedBox3d bounds_M(const Mover& mover) {
+  Eigen::AlignedBox3d box;
+  for (const Vertex& vertex : mover.mesh.vertices) box.extend(vertex.p_W.cast<double>());
+  return box;
+}
+
+TEST(Movers, StandOnTheirFootAndAreAsHighAndWideAsAsked) {
+  for (const Shape shape : {Shape::balloon, Shape::pole, Shape::box, Shape::tree}) {
+    const MoverConfig config{.shape = shape, .radius_m = 0.8, .height_m = 5.0};
+    const Scene room = make_scene(room_with({config}), 1);
+    const Eigen::AlignedBox3d box = bounds_M(room.movers.at(0));
+    EXPECT_NEAR(box.max().z(), 0.0, 1e-6);
+    const double top_m = shape == Shape::balloon ? 5.8 : 5.0;
+    EXPECT_LE(-box.min().z(), top_m + 1e-6);
+    EXPECT_GE(-box.min().z(), 0.94 * top_m);  // a crown's lumps are rough
+    EXPECT_LE(0.5 * box.sizes().head<2>().maxCoeff(), 0.8 + 1e-6);
+    EXPECT_GE(0.5 * box.sizes().head<2>().minCoeff(), 0.8 * 0.8);
+  }
+}
+
+TEST(Movers, AreDrawnWhereTheirSolidsAre) {
+  const Scene room = make_scene(room_with(one_of_each()), 1);
+  for (const Mover& mover : room.movers) {
+    Eigen::AlignedBox3d hit;
+    for (const Solid& solid : mover.solids) hit.extend(bounds_W(solid));
+    const Eigen::AlignedBox3d seen = bounds_M(mover);
+    EXPECT_LT((hit.min() - seen.min()).cwiseAbs().maxCoeff(), 0.02);
+    EXPECT_LT((hit.max() - seen.max()).cwiseAbs().maxCoeff(), 0.02);
+  }
+}
+
+TEST(Movers, LeaveTheirSceneAsItIsWithoutThem) {
+  Scene with = make_scene(room_with(one_of_each()), 3);
+  const Scene without = make_scene(room_with({}), 3);
+  EXPECT_TRUE(identical(make_scene(room_with(one_of_each()), 3), with));
+  with.textures.resize(without.textures.size());
+  with.movers.clear();
+  EXPECT_TRUE(identical(with, without));
+}
+
+TEST(Movers, FollowTheScenesSolidsInTheCount) {
+  const Scene room = make_scene(room_with(one_of_each()), 1);
+  EXPECT_EQ(solid_at(room, 0).name, "north wall");
+  EXPECT_EQ(&solid_at(room, room.solids.size()), &room.movers[0].solids[0]);
+  EXPECT_EQ(&solid_at(room, solid_count(room) - 1), &room.movers[3].solids.back());
+  EXPECT_THROW(solid_at(room, solid_count(room)), std::out_of_range);
+}
+
+TEST(Movers, RefuseWhatCannotBeBuilt) {
+  using E = std::invalid_argument;
+  using testing::HasSubstr;
+  using testing::ThrowsMessage;
+  EXPECT_THAT([] { make_scene(room_with({{.radius_m = 0.0}}), 1); }, ThrowsMessage<E>(HasSubstr("movers.radius: 0")));
+  EXPECT_THAT([] { make_scene(room_with({{.height_m = -2.0}}), 1); }, ThrowsMessage<E>(HasSubstr("movers.height: -2")));
+}
+
+}  // namespace
+}  // namespace hedgehop::scenes

@@ -1,0 +1,38 @@
+#include "sim/loop/aircraft.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "tests/sim/loop/allocations.h"
+#include "tests/sim/loop/outdoor_flight.h"
+
+namespace hedgehop::sim {
+namespace {
+
+class EitherKind : public testing::TestWithParam<dynamics::VehicleConfig> {};
+INSTANTIATE_TEST_SUITE_P(Aircraft, EitherKind,
+                         testing::Values(dynamics::VehicleConfig(dynamics::HelicopterConfig{}),
+                                         dynamics::VehicleConfig(dynamics::MulticopterConfig{})),
+                         [](const auto& kind) { return kind.param.index() == 0 ? "Helicopter" : "Multicopter"; });
+
+TEST(Allocations, AreCountedHoweverMemoryIsAskedFor) {
+  if (!counts_allocations()) GTEST_SKIP() << "the address sanitizer has the allocator";
+  const size_t before = allocation_count();
+  const auto number = std::make_unique<double>(1.0);
+  const Eigen::VectorXd numbers = Eigen::VectorXd::Ones(3 + static_cast<int>(*number));
+  EXPECT_EQ(allocation_count() - before, 2u) << numbers.sum();
+}
+
+TEST_P(EitherKind, AllocatesNothingInFlight) {
+  OutdoorFlight flight(GetParam());
+  flight.fly(0.1);
+  const Eigen::Vector3d from_W = flight.aircraft().body().p_WB;
+  const size_t before = allocation_count();
+  flight.fly(12.0);
+  EXPECT_EQ(allocation_count() - before, 0u);
+  EXPECT_GT((flight.aircraft().body().p_WB - from_W).norm(), 10.0);  // it did fly
+}
+
+}  // namespace
+}  // namespace hedgehop::sim

@@ -1,0 +1,149 @@
+#include "vision/section_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace hedgehop::vision {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr double kThreshold_m = 9.144;  // [Perez2018] sec. on flight tests: 30 ft
+const cv::Size kZed(1280, 720);
+
+cv::Mat random_depth(std::mt19937_64& random, cv::Size size, double unknown_share) {
+  std::uniform_real_distribution<float> depth_m(1.0f, 20.0f), chance(0.0f, 1.0f);
+  cv::Mat depth(size, CV_32F);
+  // Blocks, so that sections differ.
+  const int block = 16;
+  for (int v = 0; v < size.height; v += block) {
+    for (int u = 0; u < size.width; u += block) {
+      const cv::Rect area = cv::Rect(u, v, block, block) & cv::Rect({}, size);
+      depth(area).setTo(chance(random) < unknown_share ? kNaN : depth_m(random));
+    }
+  }
+  return depth;
+}
+
+int count_threats(const cv::Mat& depth, const cv::Rect& section, bool unknown_is_threat) {
+  int threats = 0;
+  for (int v = section.y; v < section.y + section.height; ++v) {
+    for (int u = section.x; u < section.x + section.width; ++u) {
+      const float z_m = depth.at<float>(v, u);
+      threats += std::isnan(z_m) ? unknown_is_threat : z_m < kThreshold_m;
+    }
+  }
+  return threats;
+}
+
+TEST(Sections, ThePapersGridHas289OfThemFromEdgeToEdge) {
+  const std::vector<cv::Rect> found = sections({}, kZed);
+  ASSERT_EQ(found.size(), 289u);
+  EXPECT_EQ(found.front(), cv::Rect(0, 0, 628, 252));
+  EXPECT_EQ(found.back(), cv::Rect(1280 - 628, 720 - 252, 628, 252));
+  EXPECT_EQ(found[16], cv::Rect(1280 - 628, 0, 628, 252));                       // end of the first row
+  EXPECT_EQ(found[17], cv::Rect(0, 29, 628, 252));                               // a step of 29.25 px down
+  EXPECT_EQ(found[1].x, 41);                                                     // a step of 40.75 px to the right
+  EXPECT_EQ(found[144], cv::Rect((1280 - 628) / 2, (720 - 252) / 2, 628, 252));  // the centre
+}
+
+TEST(Sections, ThreeByThreeWithoutOverlapTileThePicture) {
+  const std::vector<cv::Rect> found = sections({3, 3, 1.0 / 3.0, 1.0 / 3.0}, {1281, 720});
+  cv::Mat covered(720, 1281, CV_8U, cv::Scalar(0));
+  for (const cv::Rect& section : found) covered(section) += 1;
+  EXPECT_EQ(cv::countNonZero(covered == 1), 720 * 1281);
+}
+
+TEST(Sections, AGridThatCannotBeIsRefused) {
+  EXPECT_THROW(sections({0, 17}, kZed), std::invalid_argument);
+  EXPECT_THROW(sections({17, 17, 1.2, 0.5}, kZed), std::invalid_argument);
+  EXPECT_THROW(sections({17, 17, 0.001, 0.5}, {100, 100}), std::invalid_argument);
+}
+
+TEST(SectionSearch, CountsAsAnyoneWouldPixelByPixel) {
+  std::mt19937_64 random(3);
+  for (int trial = 0; trial < 20; ++trial) {
+    const cv::Size size(160 + trial, 90 + 2 * trial);
+    const SectionGrid grid{3 + trial % 5, 4 + trial % 7, 0.2 + 0.03 * trial, 0.5};
+    SectionSearch search(grid, size);
+    const cv::Mat depth = random_depth(random, size, 0.2);
+    for (const Unknown unknown : {Unknown::free, Unknown::threat}) {
+      search.choose(depth, kThreshold_m, 0.15, unknown);
+      for (size_t i = 0; i < search.sections().size(); ++i) {
+        EXPECT_EQ(search.threats()[i], count_threats(depth, search.sections()[i], unknown == Unknown::threat));
+      }
+    }
+  }
+}
+
+TEST(SectionSearch, TheEmptiestSectionWins) {
+  std::mt19937_64 random(4);
+  for (int trial = 0; trial < 50; ++trial) {
+    const cv::Size size(320, 180);
+    SectionSearch search({9, 9}, size);
+    const cv::Mat depth = random_depth(random, size, 0.1);
+    const SectionChoice choice = search.choose(depth, kThreshold_m, 1.0, Unknown::free);
+    ASSERT_GE(choice.section, 0);
+    for (const cv::Rect& section : search.sections()) {
+      EXPECT_LE(choice.share * section.area(), count_threats(depth, section, false) + 1e-6);
+    }
+  }
+}
+
+TEST(SectionSearch, EqualSharesGoToTheCentre) {
+  SectionSearch search({}, kZed);
+  cv::Mat depth(kZed, CV_32F, cv::Scalar(20.0));
+  EXPECT_EQ(search.choose(depth, kThreshold_m, 0.15, Unknown::free).section, 144);
+  // A wall that fills all but the right fifth: of the sections in the last column, the one in the middle row.
+  depth(cv::Rect(0, 0, 640, 720)).setTo(5.0);
+  EXPECT_EQ(search.choose(depth, kThreshold_m, 0.15, Unknown::free).section, 8 * 17 + 16);
+}
+
+TEST(SectionSearch, AnOpeningTooNarrowForFifteenPercentIsNone) {
+  SectionSearch search({}, kZed);
+  const int width = 628, height = 252, area = width * height;
+  const auto wall_with = [&](int free_rows) {
+    cv::Mat depth(kZed, CV_32F, cv::Scalar(5.0));
+    depth(cv::Rect(0, 0, 1280, free_rows)).setTo(20.0);
+    return depth;
+  };
+  const int just_enough = static_cast<int>(std::ceil(0.85 * height));
+  const SectionChoice found = search.choose(wall_with(just_enough), kThreshold_m, 0.15, Unknown::free);
+  EXPECT_EQ(found.section, 8);  // the top row's middle
+  EXPECT_NEAR(found.share, double((height - just_enough) * width) / area, 1e-12);
+  const SectionChoice missed = search.choose(wall_with(just_enough - 1), kThreshold_m, 0.15, Unknown::free);
+  EXPECT_EQ(missed.section, -1);
+  EXPECT_EQ(missed.best, 8);
+  EXPECT_GT(missed.share, 0.15);
+}
+
+// [Perez2018] fig. 16 and 17: what large sections miss, overlapping ones find.
+TEST(SectionSearch, AnOpeningAlongTheTopIsMissedByThreeByThreeAndFoundBySeventeen) {
+  cv::Mat depth(kZed, CV_32F, cv::Scalar(5.0));
+  depth(cv::Rect(350, 40, 640, 260)).setTo(20.0);  // below a lintel of 40 px, straddling the rows of thirds
+  SectionSearch coarse({3, 3, 1.0 / 3.0, 1.0 / 3.0}, kZed), fine({}, kZed);
+  EXPECT_EQ(coarse.choose(depth, kThreshold_m, 0.15, Unknown::free).section, -1);
+  const SectionChoice found = fine.choose(depth, kThreshold_m, 0.15, Unknown::free);
+  ASSERT_GE(found.section, 0);
+  EXPECT_LT(found.section, 3 * 17);
+}
+
+TEST(SectionSearch, AllUnknownIsFreeOrBlockedAsAsked) {
+  SectionSearch search({}, kZed);
+  const cv::Mat depth(kZed, CV_32F, cv::Scalar::all(kNaN));
+  EXPECT_EQ(search.choose(depth, kThreshold_m, 0.15, Unknown::free).section, 144);
+  const SectionChoice blocked = search.choose(depth, kThreshold_m, 0.15, Unknown::threat);
+  EXPECT_EQ(blocked.section, -1);
+  EXPECT_EQ(blocked.share, 1.0);
+}
+
+TEST(SectionSearch, SkyIsFree) {
+  SectionSearch search({}, kZed);
+  const cv::Mat depth(kZed, CV_32F, cv::Scalar::all(std::numeric_limits<double>::infinity()));
+  EXPECT_EQ(search.choose(depth, kThreshold_m, 0.15, Unknown::threat).section, 144);
+}
+
+}  // namespace
+}  // namespace hedgehop::vision

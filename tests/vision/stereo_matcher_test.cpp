@@ -1,0 +1,129 @@
+#include "vision/stereo_matcher.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "vision/disparity.h"
+
+namespace hedgehop::vision {
+namespace {
+
+using Method = StereoMatcherConfig::Method;
+
+cv::Mat texture(uint64_t seed, cv::Size size) {
+  cv::Mat fine(size, CV_8UC1), coarse(size / 4, CV_8UC1);
+  cv::RNG random(seed);
+  random.fill(fine, cv::RNG::UNIFORM, 0, 256);
+  random.fill(coarse, cv::RNG::UNIFORM, 0, 256);
+  cv::resize(coarse, coarse, size, 0, 0, cv::INTER_CUBIC);
+  cv::Mat both = 0.5 * fine + 0.5 * coarse;
+  cv::GaussianBlur(both, both, {}, 0.8);
+  return both;
+}
+
+/// The right picture of a wall at a disparity that need not be whole.
+cv::Mat seen_from_the_right(const cv::Mat& left, double disparity_px) {
+  cv::Mat right;
+  const cv::Mat shift = (cv::Mat_<double>(2, 3) << 1, 0, -disparity_px, 0, 1, 0);
+  cv::warpAffine(left, right, shift, left.size(), cv::INTER_CUBIC, cv::BORDER_REFLECT);
+  return right;
+}
+
+TEST(StereoMatcher, AWallsDisparityIsFoundToAFifthOfAPixel) {
+  const cv::Mat left = texture(1, {320, 240});
+  for (const Method method : {Method::block, Method::semi_global}) {
+    StereoMatcherConfig config;
+    config.method = method;
+    config.block_px = 9;
+    StereoMatcher matcher(config);
+    for (const double truth_px : {3.0, 10.25, 24.5}) {
+      cv::Mat d16;
+      matcher.match(left, seen_from_the_right(left, truth_px), d16);
+      const cv::Mat inner = d16(cv::Rect(80, 20, 220, 200));
+      EXPECT_GT(cv::countNonZero(inner >= 0), 0.95 * static_cast<double>(inner.total()));
+      const double kPixelLocking = 0.2;  // OpenCV's parabola is drawn to whole pixels
+      EXPECT_NEAR(cv::mean(inner, inner >= 0)[0] / kDisparityUnits, truth_px, kPixelLocking);
+    }
+  }
+}
+
+TEST(StereoMatcher, EqualPairsGiveEqualDisparities) {
+  const cv::Mat left = texture(2, {160, 120}), right = seen_from_the_right(left, 7.3);
+  StereoMatcher one({}), other({});
+  cv::Mat a, b;
+  one.match(texture(3, {160, 120}), left, a);
+  one.match(left, right, a);
+  other.match(left, right, b);
+  EXPECT_EQ(cv::norm(a, b, cv::NORM_INF), 0.0);
+}
+
+TEST(StereoMatcher, WhatOpenCvWouldNotTakeIsRefused) {
+  StereoMatcherConfig odd;
+  odd.disparities_px = 40;
+  EXPECT_THROW(StereoMatcher{odd}, std::invalid_argument);
+  StereoMatcherConfig even;
+  even.block_px = 8;
+  EXPECT_THROW(StereoMatcher{even}, std::invalid_argument);
+  StereoMatcher matcher({});
+  cv::Mat d16;
+  EXPECT_THROW(matcher.match(cv::Mat(8, 8, CV_8UC3), cv::Mat(8, 8, CV_8UC3), d16), std::invalid_argument);
+}
+
+struct Pair {
+  std::string name, truth;
+  double scale;
+  int disparities_px;
+  double worst_bad_share;  ///< of known pixels that are matched and off by more than 2 px
+  friend std::ostream& operator<<(std::ostream& out, const Pair& pair) { return out << pair.name; }
+};
+
+class StereoOnRealPairs : public testing::TestWithParam<Pair> {};
+
+// The limits are what the semi-global matcher reaches, with a margin of half: a fence against decay, not a claim.
+TEST_P(StereoOnRealPairs, FewPixelsAreOffByMoreThanTwo) {
+  const std::filesystem::path folder =
+      std::filesystem::path(HEDGEHOP_SOURCE_DIR) / "../shared/data/vision/stereo" / GetParam().name;
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no stereo pair " << GetParam().name;
+  const cv::Mat left = cv::imread((folder / "left.png").string(), cv::IMREAD_GRAYSCALE);
+  const cv::Mat right = cv::imread((folder / "right.png").string(), cv::IMREAD_GRAYSCALE);
+  cv::Mat truth_px, known;
+  cv::imread((folder / GetParam().truth).string(), cv::IMREAD_UNCHANGED)
+      .convertTo(truth_px, CV_32F, 1.0 / GetParam().scale);
+  known = truth_px > 0;
+  if (std::filesystem::exists(folder / "nonocc.png")) {
+    known &= cv::imread((folder / "nonocc.png").string(), cv::IMREAD_GRAYSCALE) > 0;
+  }
+  StereoMatcherConfig config;
+  config.disparities_px = GetParam().disparities_px;
+  StereoMatcher matcher(config);
+  const auto shares = [&](int smallest_speck_px) {
+    cv::Mat d16, found_px;
+    matcher.match(left, right, d16);
+    remove_specks(d16, 32, smallest_speck_px);
+    d16.convertTo(found_px, CV_32F, 1.0 / kDisparityUnits);
+    const cv::Mat valid = (d16 >= 0) & known, bad = valid & (cv::abs(found_px - truth_px) > 2.0);
+    const double total = cv::countNonZero(known);
+    return std::pair(cv::countNonZero(valid) / total, cv::countNonZero(bad) / total);
+  };
+  const auto [valid_raw, bad_raw] = shares(0);
+  const auto [valid, bad] = shares(200);
+  RecordProperty("valid", std::to_string(valid_raw));
+  RecordProperty("bad", std::to_string(bad_raw));
+  RecordProperty("valid_without_specks", std::to_string(valid));
+  RecordProperty("bad_without_specks", std::to_string(bad));
+  EXPECT_LT(bad, GetParam().worst_bad_share);
+  EXPECT_LE(bad, bad_raw);
+  EXPECT_GT(valid, 0.6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Pairs, StereoOnRealPairs,
+                         testing::Values(Pair{"teddy", "gt.png", 4.0, 64, 0.1}, Pair{"venus", "gt.pgm", 8.0, 32, 0.1},
+                                         Pair{"kitti_000001", "gt.png", 256.0, 128, 0.15}),
+                         [](const auto& pair) { return pair.param.name; });
+
+}  // namespace
+}  // namespace hedgehop::vision

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace hedgehop::vision {
+
+/// A disparity picture (vision/disparity.h) and coarser ones above it: each pixel of level n + 1 holds the largest,
+/// that is nearest, disparity of a 2 x 2 block of level n; edges are filled up with unknown. Level 0 is the picture
+/// itself, filled up to multiples of 2^top. Keeps its memory from picture to picture. Source: [Andert2007] sec. 4.2.
+class DepthPyramid {
+ public:
+  /// @param disparity16  CV_16SC1. @param top  the coarsest level, in [0, 15]. Throws std::invalid_argument otherwise.
+  void build(const cv::Mat& disparity16, int top);
+
+  int top() const { return static_cast<int>(levels_.size()) - 1; }
+  const cv::Mat& level(int n) const { return levels_[static_cast<size_t>(n)]; }
+  int disparity16(int n, int row, int col) const { return level(n).at<int16_t>(row, col); }
+  /// Of the picture it was built from.
+  cv::Size picture() const { return picture_; }
+
+ private:
+  cv::Size picture_;
+  std::vector<cv::Mat> levels_;
+};
+
+}  // namespace hedgehop::vision

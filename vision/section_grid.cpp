@@ -1,0 +1,81 @@
+#include "vision/section_grid.h"
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+namespace hedgehop::vision {
+namespace {
+
+/// First pixel of the k-th of `count` sections of `length` pixels within `whole`.
+int first_pixel(int k, int count, int length, int whole) {
+  return count == 1 ? (whole - length) / 2 : static_cast<int>(std::lround(k * double(whole - length) / (count - 1)));
+}
+
+}  // namespace
+
+std::vector<cv::Rect> sections(const SectionGrid& grid, cv::Size picture) {
+  const auto need = [](bool holds, const std::string& fault) {
+    if (!holds) throw std::invalid_argument(fault);
+  };
+  need(grid.rows >= 1 && grid.cols >= 1, "a grid of sections needs at least one row and one column");
+  need(grid.width_share > 0.0 && grid.width_share <= 1.0 && grid.height_share > 0.0 && grid.height_share <= 1.0,
+       "a section's width and height are shares of the picture's, in (0, 1]");
+  const int width = static_cast<int>(std::lround(grid.width_share * picture.width));
+  const int height = static_cast<int>(std::lround(grid.height_share * picture.height));
+  need(width >= 1 && height >= 1, "a picture of " + std::to_string(picture.width) + " x " +
+                                      std::to_string(picture.height) + " px leaves a section no pixel");
+  std::vector<cv::Rect> found;
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int col = 0; col < grid.cols; ++col) {
+      found.emplace_back(first_pixel(col, grid.cols, width, picture.width),
+                         first_pixel(row, grid.rows, height, picture.height), width, height);
+    }
+  }
+  return found;
+}
+
+SectionSearch::SectionSearch(const SectionGrid& grid, cv::Size picture)
+    : picture_(picture), sections_(vision::sections(grid, picture)), threats_(sections_.size()) {
+  for (const cv::Rect& section : sections_) {
+    const double du = section.x + 0.5 * section.width - 0.5 * picture.width;
+    const double dv = section.y + 0.5 * section.height - 0.5 * picture.height;
+    off_centre2_px2_.push_back(du * du + dv * dv);
+  }
+}
+
+SectionChoice SectionSearch::choose(const cv::Mat& depth_m, double threshold_m, double most_share, Unknown unknown) {
+  if (depth_m.size() != picture_ || depth_m.type() != CV_32FC1) {
+    throw std::invalid_argument("a depth picture does not have the size or type that its sections were made for");
+  }
+  // Comparisons are false for NaN.
+  if (unknown == Unknown::free) {
+    cv::compare(depth_m, threshold_m, mask_, cv::CMP_LT);
+  } else {
+    cv::compare(depth_m, threshold_m, mask_, cv::CMP_GE);
+    cv::bitwise_not(mask_, mask_);
+  }
+  cv::integral(mask_, sums_, CV_32S);
+
+  const auto rank = [&](int i) {
+    return std::tuple(threats_[static_cast<size_t>(i)], off_centre2_px2_[static_cast<size_t>(i)]);
+  };
+  SectionChoice choice;
+  for (size_t i = 0; i < sections_.size(); ++i) {
+    const cv::Rect& s = sections_[i];
+    const int corners = sums_.at<int>(s.y, s.x) + sums_.at<int>(s.br()) - sums_.at<int>(s.y, s.x + s.width) -
+                        sums_.at<int>(s.y + s.height, s.x);
+    constexpr int kSet = 255;  // of the mask
+    threats_[i] = corners / kSet;
+    const int section = static_cast<int>(i);
+    if (choice.best < 0 || rank(section) < rank(choice.best)) choice.best = section;
+  }
+  const auto best = static_cast<size_t>(choice.best);
+  choice.share = static_cast<double>(threats_[best]) / sections_[best].area();
+  if (choice.share <= most_share) choice.section = choice.best;
+  return choice;
+}
+
+}  // namespace hedgehop::vision

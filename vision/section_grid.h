@@ -1,0 +1,58 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace hedgehop::vision {
+
+/// Overlapping sections of a picture: rows x cols rectangles of one size, spread evenly so that the outermost touch the
+/// picture's edges, numbered from the top left, row by row, from 0. Source: [Perez2018] sec. on the selection of
+/// sections.
+struct SectionGrid {
+  int rows = 17, cols = 17;          ///< at least 1
+  double width_share = 628. / 1280;  ///< of the picture's width, in (0, 1]
+  double height_share = 252. / 720;  ///< of the picture's height, in (0, 1]
+
+  bool operator==(const SectionGrid&) const = default;
+};
+
+/// Sections of a picture, in their order. Throws std::invalid_argument on a grid or size out of range.
+std::vector<cv::Rect> sections(const SectionGrid& grid, cv::Size picture);
+
+/// What is to be thought of a pixel without depth.
+enum class Unknown { free, threat };
+
+/// One choice among sections.
+struct SectionChoice {
+  int section = -1;    ///< the chosen one; -1 when even the best holds too many threats
+  int best = -1;       ///< the one with the least threats
+  double share = 0.0;  ///< of the best one's pixels that are threats
+};
+
+/// Chooses the section with the smallest share of pixels that are threats. Sums come from an integral image, so that
+/// the cost does not hang on the number and size of sections. Reuses its memory from picture to picture. Differs: the
+/// paper counts every section pixel by pixel, and its cost grows with their number (table 1).
+class SectionSearch {
+ public:
+  /// Throws as sections().
+  SectionSearch(const SectionGrid& grid, cv::Size picture);
+
+  /// @param depth_m      rows x cols, CV_32F, of the size given, m; NaN unknown, +infinity sky.
+  /// @param threshold_m  what is nearer is a threat, > 0.
+  /// @param most_share   share of threats above which a section is no way out, in [0, 1].
+  /// @return equal shares go to the section whose centre lies nearest the picture's centre, then to the lower number.
+  SectionChoice choose(const cv::Mat& depth_m, double threshold_m, double most_share, Unknown unknown);
+
+  const std::vector<cv::Rect>& sections() const { return sections_; }
+  /// Threats per section at the last choice.
+  const std::vector<int>& threats() const { return threats_; }
+
+ private:
+  cv::Size picture_;
+  std::vector<cv::Rect> sections_;
+  std::vector<double> off_centre2_px2_;
+  std::vector<int> threats_;
+  cv::Mat mask_, sums_;
+};
+
+}  // namespace hedgehop::vision
