@@ -102,7 +102,7 @@ std::string document(const std::string& topic) {
   if (topic == "modules") return describe_choices<avoidance::ModuleConfig>();
   if (topic == "vehicles") return describe_choices<dynamics::VehicleConfig>();
   if (topic == "scenes") return describe_choices<scenes::SceneConfig>();
-  if (topic == "cameras") return document_fields(outline_fields(CameraConfig{}), 0);
+  if (topic == "cameras") return document_fields(outline_fields(RigConfig{}), 0);
   if (topic == "checks") return describe_choices<CheckConfig>();
   if (topic == "scenario") return document_fields(outline_fields(Scenario{}), 0);
   const std::vector<std::string>& topics = document_topics();

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <concepts>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -46,7 +47,7 @@ template <class T>
 concept ChoiceField = std::is_enum_v<T>;
 template <class T>
 concept StructField = std::is_class_v<T> && !VectorField<T> && !OptionalField<T> && !VariantField<T> &&
-                      !EigenField<T> && !std::same_as<T, std::string>;
+                      !EigenField<T> && !std::same_as<T, std::string> && !std::same_as<T, std::filesystem::path>;
 
 /// Calls `f.operator()<A>()` for each alternative of a variant, in order.
 template <class Variant, class F>

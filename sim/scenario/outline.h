@@ -93,6 +93,9 @@ Outline outline(const T& value, const Field& field) {
   } else if constexpr (std::same_as<T, std::string>) {
     node.kind = Outline::Kind::text;
     node.value = value;
+  } else if constexpr (std::same_as<T, std::filesystem::path>) {
+    node.kind = Outline::Kind::text;
+    node.value = value.string();
   } else if constexpr (ChoiceField<T>) {
     node.kind = Outline::Kind::choice;
     node.value = field.choices.at(static_cast<size_t>(value));

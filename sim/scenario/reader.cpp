@@ -101,6 +101,17 @@ std::optional<std::string> read_text(const Node& node, const std::string& path, 
   return {};
 }
 
+std::optional<std::filesystem::path> read_path(const Node& node, const std::string& path, Faults& faults) {
+  if (node.kind != Node::Kind::scalar) {
+    expected("the path of a file", node, path, faults);
+    return {};
+  }
+  if (node.text.empty()) return std::filesystem::path();
+  const bool in_file = node.place.line > 0;
+  const auto folder = in_file ? std::filesystem::path(node.place.file).parent_path() : std::filesystem::path();
+  return std::filesystem::absolute(folder / node.text).lexically_normal();
+}
+
 std::optional<size_t> read_choice(const Node& node, const std::string& path,
                                   const std::vector<std::string_view>& choices, Faults& faults) {
   if (node.kind != Node::Kind::scalar) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -22,6 +23,9 @@ std::optional<uint64_t> read_unsigned(const Node& node, const std::string& path,
                                       Faults& faults);
 std::optional<bool> read_bool(const Node& node, const std::string& path, Faults& faults);
 std::optional<std::string> read_text(const Node& node, const std::string& path, Faults& faults);
+/// The path of a file, made absolute: one written in a file counts from that file's folder, one after --set from the
+/// working folder. An empty text is an empty path.
+std::optional<std::filesystem::path> read_path(const Node& node, const std::string& path, Faults& faults);
 std::optional<size_t> read_choice(const Node& node, const std::string& path,
                                   const std::vector<std::string_view>& choices, Faults& faults);
 /// Whether the node is a list (of `size` items when that is not 0) or a map; a fault otherwise.
@@ -108,6 +112,8 @@ void read_value(const Node& node, const std::string& path, const Field& field, T
     if (auto read = read_unsigned(node, path, field, highest, faults)) value = static_cast<T>(*read);
   } else if constexpr (std::same_as<T, std::string>) {
     if (auto read = read_text(node, path, faults)) value = std::move(*read);
+  } else if constexpr (std::same_as<T, std::filesystem::path>) {
+    if (auto read = read_path(node, path, faults)) value = std::move(*read);
   } else if constexpr (ChoiceField<T>) {
     if (auto read = read_choice(node, path, field.choices, faults)) value = static_cast<T>(*read);
   } else if constexpr (OptionalField<T>) {

@@ -1,6 +1,90 @@
 #include "sim/scenario/rig.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
 namespace hedgehop::sim {
+namespace {
+
+void require(bool holds, const std::string& fault) {
+  if (!holds) throw std::invalid_argument(fault);
+}
+
+/// Principal point and focal lengths, where `fov_focal_px` is what the field of view asks for.
+template <class Lens>
+void place(const CameraConfig& c, double fov_focal_px, Lens& lens) {
+  require(c.focal_x_px || !c.focal_y_px, "focal_y: needs focal_x beside it");
+  lens.focal_x_px = c.focal_x_px.value_or(fov_focal_px);
+  lens.focal_y_px = c.focal_y_px.value_or(lens.focal_x_px);
+  lens.center_u_px = c.center_u_px.value_or(0.5 * (c.width_px - 1));
+  lens.center_v_px = c.center_v_px.value_or(0.5 * (c.height_px - 1));
+}
+
+vision::Camera pinhole(const CameraConfig& c) {
+  const size_t count = c.distortion.size();
+  require(count == 0 || count == 4 || count == 5,
+          fmt::format("distortion: a pinhole takes k1 k2 p1 p2 or k1 k2 p1 p2 k3, got {} numbers", count));
+  require(!c.view_limit_rad, "view_limit: is for a fisheye");
+  require(c.focal_x_px || c.fov_rad < std::numbers::pi, "fov: a pinhole shows less than 180 deg");
+  vision::PinholeLens lens{1.0, 1.0};
+  if (count > 0) {
+    lens.k1 = c.distortion[0];
+    lens.k2 = c.distortion[1];
+    lens.p1 = c.distortion[2];
+    lens.p2 = c.distortion[3];
+    if (count == 5) lens.k3 = c.distortion[4];
+  }
+  double fov_focal_px = 0.0;
+  if (!c.focal_x_px) {
+    const auto edge = lens.project({std::tan(0.5 * c.fov_rad), 0.0, 1.0});
+    require(edge && edge->x() > 0.0, "fov: the distortion folds the picture back before its edge");
+    fov_focal_px = 0.5 * c.width_px / edge->x();
+  }
+  place(c, fov_focal_px, lens);
+  return {c.width_px, c.height_px, lens};
+}
+
+vision::Camera fisheye(const CameraConfig& c) {
+  const size_t count = c.distortion.size();
+  require(count == 0 || count == 4, fmt::format("distortion: a fisheye takes k1 k2 k3 k4, got {} numbers", count));
+  vision::FisheyeLens lens;
+  if (count > 0) {
+    lens.k1 = c.distortion[0];
+    lens.k2 = c.distortion[1];
+    lens.k3 = c.distortion[2];
+    lens.k4 = c.distortion[3];
+  }
+  lens.limit_rad = c.view_limit_rad.value_or(lens.growth_limit_rad());
+  place(c, c.focal_x_px ? 0.0 : vision::fisheye_focal_px(lens, c.width_px, c.fov_rad), lens);
+  return {c.width_px, c.height_px, lens};
+}
+
+vision::Camera ocam(const CameraConfig& c) {
+  require(!c.calibration.empty(), "calibration: model: ocam needs the file");
+  require(
+      !c.focal_x_px && !c.focal_y_px && !c.center_u_px && !c.center_v_px && !c.view_limit_rad && c.distortion.empty(),
+      "calibration: says all of the lens; no other key may");
+  std::ifstream stream(c.calibration, std::ios::binary);
+  std::error_code error;
+  require(stream && !std::filesystem::is_directory(c.calibration, error),
+          fmt::format("calibration: '{}' cannot be read", c.calibration.string()));
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  try {
+    const vision::Camera camera(vision::parse_ocam_calibration(text));
+    require(camera.width_px == c.width_px && camera.height_px == c.height_px,
+            fmt::format("width and height must be {} and {}", camera.width_px, camera.height_px));
+    return camera;
+  } catch (const std::invalid_argument& fault) {
+    throw std::invalid_argument(fmt::format("calibration: '{}': {}", c.calibration.string(), fault.what()));
+  }
+}
+
+}  // namespace
 
 Eigen::Isometry3d CameraConfig::X_BC() const {
   // Columns are C's axes (right, down, forward) of a forward camera, expressed in B: a cyclic permutation.
@@ -18,8 +102,18 @@ Eigen::Isometry3d CameraConfig::X_BC() const {
   return X_BC;
 }
 
-vision::PinholeCamera CameraConfig::model() const {
-  return vision::PinholeCamera::from_fov(width_px, height_px, fov_rad);
+vision::Camera CameraConfig::model() const {
+  require(model_kind == Model::ocam || calibration.empty(), "calibration: is for model: ocam");
+  const vision::Camera camera = model_kind == Model::ocam      ? ocam(*this)
+                                : model_kind == Model::fisheye ? fisheye(*this)
+                                                               : pinhole(*this);
+  vision::check(camera);
+  return camera;
+}
+
+bool CameraConfig::straight() const {
+  const auto is_zero = [](double coefficient) { return coefficient == 0.0; };
+  return model_kind == Model::pinhole && std::ranges::all_of(distortion, is_zero);
 }
 
 const CameraConfig* RigConfig::find(std::string_view role) const {
@@ -27,6 +121,20 @@ const CameraConfig* RigConfig::find(std::string_view role) const {
     if (camera.role == role) return &camera;
   }
   return nullptr;
+}
+
+void mount_stereo_pairs(RigConfig& rig) {
+  for (const StereoConfig& pair : rig.stereo) {
+    const Eigen::Vector3d half_B = 0.5 * pair.baseline_m * pair.camera.X_BC().linear().col(0);
+    for (const double side : {-1.0, 1.0}) {
+      CameraConfig& camera = rig.cameras.emplace_back(pair.camera);
+      camera.role = (pair.role.empty() ? "" : pair.role + "_") + (side < 0.0 ? "left" : "right");
+      camera.forward_m += side * half_B.x();
+      camera.right_m += side * half_B.y();
+      camera.down_m += side * half_B.z();
+    }
+  }
+  rig.stereo.clear();
 }
 
 }  // namespace hedgehop::sim

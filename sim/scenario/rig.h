@@ -1,22 +1,31 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <filesystem>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "avoidance/module.h"
-#include "vision/pinhole_camera.h"
+#include "vision/camera.h"
 
 namespace hedgehop::sim {
 
 /// One camera as mounted on the vehicle. All angles zero: looks along B's x, its u axis along B's y.
 struct CameraConfig {
   using Channel = avoidance::CameraNeed::Channel;
+  enum class Model { pinhole, fisheye, ocam };
 
   std::string role;
+  Model model_kind = Model::pinhole;
   int width_px = 400, height_px = 400;
   double fov_rad = std::numbers::pi / 2.0;
+  std::optional<double> focal_x_px, focal_y_px, center_u_px, center_v_px;
+  std::vector<double> distortion;
+  std::optional<double> view_limit_rad;
+  std::filesystem::path calibration;
   double rate_hz = 50.0;
   Channel channel = Channel::grey;
   double forward_m = 0.0, right_m = 0.0, down_m = 0.0;
@@ -25,16 +34,37 @@ struct CameraConfig {
   /// Pose of the camera in B: the mounting position, and yaw about down, pitch about right, roll about forward, in that
   /// order, applied to a camera that looks forward. Yaw 90 deg looks right, pitch -90 deg looks down.
   Eigen::Isometry3d X_BC() const;
-  /// Throws std::invalid_argument as vision::PinholeCamera::from_fov().
-  vision::PinholeCamera model() const;
+  /// Throws std::invalid_argument that begins with the key at fault, for keys that do not go together or a calibration
+  /// file that cannot be used.
+  vision::Camera model() const;
+  /// Whether it is a pinhole without distortion.
+  bool straight() const;
 };
 
+/// What a camera is, apart from what it is called.
 template <class Visitor>
-void describe(Visitor& v, CameraConfig& c) {
-  v("role", c.role, {.required = true, .meaning = "name by which modules and sensors ask for the camera"});
+void describe_without_role(Visitor& v, CameraConfig& c) {
+  v("model", c.model_kind,
+    {.choices = {"pinhole", "fisheye", "ocam"},
+     .meaning = "perspective; equidistant fisheye; omnidirectional, from a file of OCamCalib"});
   v("width", c.width_px, {.unit = "px", .at_least = 8, .at_most = 8192, .meaning = "columns of the picture"});
   v("height", c.height_px, {.unit = "px", .at_least = 8, .at_most = 8192, .meaning = "rows of the picture"});
-  v("fov", c.fov_rad, {.unit = "deg", .above = 0.0, .below = 180.0, .meaning = "horizontal field of view"});
+  v("fov", c.fov_rad,
+    {.unit = "deg",
+     .above = 0.0,
+     .below = 360.0,
+     .meaning = "horizontal field of view, less than 180 for a pinhole; focal_x takes its place"});
+  v("focal_x", c.focal_x_px, {.unit = "px", .above = 0.0, .meaning = "focal length along a row; else from fov"});
+  v("focal_y", c.focal_y_px, {.unit = "px", .above = 0.0, .meaning = "focal length along a column; else focal_x"});
+  v("center_u", c.center_u_px, {.unit = "px", .meaning = "column of the optical axis; else the middle"});
+  v("center_v", c.center_v_px, {.unit = "px", .meaning = "row of the optical axis; else the middle"});
+  v("distortion", c.distortion, {.meaning = "as OpenCV has it: k1 k2 p1 p2 k3 of a pinhole, k1 k2 k3 k4 of a fisheye"});
+  v("view_limit", c.view_limit_rad,
+    {.unit = "deg",
+     .above = 0.0,
+     .at_most = 180.0,
+     .meaning = "angle off the axis where a fisheye's picture ends; else as far as its lens goes"});
+  v("calibration", c.calibration, {.meaning = "file calib_results.txt of OCamCalib, for model: ocam"});
   v("rate", c.rate_hz, {.unit = "Hz", .above = 0.0, .meaning = "pictures a second; divides the physics rate"});
   v("channel", c.channel, {.choices = {"grey", "color", "depth"}, .meaning = "what a pixel holds"});
   v("forward", c.forward_m, {.unit = "m", .meaning = "mounting position ahead of the body's origin"});
@@ -45,9 +75,31 @@ void describe(Visitor& v, CameraConfig& c) {
   v("roll", c.roll_rad, {.unit = "deg", .at_least = -180.0, .at_most = 180.0, .meaning = "turn clockwise, last"});
 }
 
+template <class Visitor>
+void describe(Visitor& v, CameraConfig& c) {
+  v("role", c.role, {.required = true, .meaning = "name by which modules and sensors ask for the camera"});
+  describe_without_role(v, c);
+}
+
+/// Two equal cameras, exactly parallel, side by side along their rows.
+struct StereoConfig {
+  std::string role;
+  double baseline_m = 0.3;
+  CameraConfig camera;  ///< its mounting position is the middle of the pair
+};
+
+template <class Visitor>
+void describe(Visitor& v, StereoConfig& c) {
+  v("role", c.role, {.meaning = "the cameras are <role>_left and <role>_right; left and right when empty"});
+  v("baseline", c.baseline_m,
+    {.unit = "m", .above = 0.0, .meaning = "distance between the two; each half of it aside"});
+  describe_without_role(v, c.camera);
+}
+
 /// The cameras a vehicle carries.
 struct RigConfig {
   std::vector<CameraConfig> cameras;
+  std::vector<StereoConfig> stereo;
 
   /// The camera of a role, or null.
   const CameraConfig* find(std::string_view role) const;
@@ -56,6 +108,10 @@ struct RigConfig {
 template <class Visitor>
 void describe(Visitor& v, RigConfig& c) {
   v("cameras", c.cameras, {.meaning = "cameras, each of its own role"});
+  v("stereo", c.stereo, {.meaning = "pairs, each two more cameras; a resolved scenario lists them as such"});
 }
+
+/// Turns every pair into its two cameras, left before right, behind those that are there.
+void mount_stereo_pairs(RigConfig& rig);
 
 }  // namespace hedgehop::sim

@@ -33,6 +33,7 @@ Scenario load_scenario(const std::filesystem::path& file, std::span<const std::s
   Scenario scenario;
   read_struct(root, "", "", scenario, faults);
   faults.raise();
+  mount_stereo_pairs(scenario.rig);
   validate(scenario, root, faults);
   faults.raise();
   return scenario;

@@ -45,6 +45,7 @@ class Validator {
   void rig() {
     const std::vector<CameraConfig>& cameras = scenario_.rig.cameras;
     for (size_t i = 0; i < cameras.size(); ++i) {
+      build(fmt::format("rig.cameras.{}", i), [&] { cameras[i].model(); });
       const std::string path = fmt::format("rig.cameras.{}.role", i);
       if (cameras[i].role.empty()) add(path, "must not be empty");
       for (size_t j = 0; j < i; ++j) {
@@ -55,13 +56,13 @@ class Validator {
       }
     }
     const VelocimeterConfig& velocimeter = scenario_.velocimeter;
-    if (velocimeter.enabled) needs_camera("velocimeter.camera", velocimeter.camera, Channel::grey);
+    if (velocimeter.enabled) needs_camera("velocimeter.camera", velocimeter.camera, Channel::grey, /*pinhole=*/true);
   }
 
   void module() {
     build("avoidance", [&] {
       for (const avoidance::CameraNeed& need : avoidance::make_module(scenario_.avoidance)->needs().cameras) {
-        needs_camera("avoidance", need.role, need.channel);
+        needs_camera("avoidance", need.role, need.channel, need.pinhole);
       }
     });
   }
@@ -121,8 +122,11 @@ class Validator {
     add(path, fmt::format("{} Hz does not divide the physics rate of {} Hz", rate_hz, scenario_.physics_rate_hz));
   }
 
-  void needs_camera(const std::string& path, const std::string& role, Channel channel) {
+  void needs_camera(const std::string& path, const std::string& role, Channel channel, bool pinhole) {
     if (const CameraConfig* camera = scenario_.rig.find(role)) {
+      if (pinhole && !camera->straight()) {
+        add(path, fmt::format("needs camera '{}' to be a pinhole without distortion", role));
+      }
       if (camera->channel != channel) {
         add(path, fmt::format("needs camera '{}' to give {} pictures; its channel is {}", role, words(channel),
                               words(camera->channel)));

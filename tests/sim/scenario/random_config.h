@@ -25,6 +25,8 @@ class Randomizer {
       value = static_cast<T>(low) + static_cast<T>(random_() % static_cast<uint64_t>(high - low + 1.0));
     } else if constexpr (std::same_as<T, std::string>) {
       value = text();
+    } else if constexpr (std::same_as<T, std::filesystem::path>) {
+      value = random_() % 2 == 0 ? "" : "/calibrations/a b.txt";
     } else if constexpr (ChoiceField<T>) {
       value = static_cast<T>(random_() % field.choices.size());
     } else if constexpr (OptionalField<T>) {

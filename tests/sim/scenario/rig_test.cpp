@@ -46,7 +46,7 @@ TEST(Rig, PlacesCamerasAtTheirMountingPosition) {
 
 TEST(Rig, ModelHasTheFieldOfView) {
   CameraConfig camera;  // 400 px across 90 deg
-  EXPECT_NEAR(camera.model().focal_x_px, 200.0, 1e-12);
+  EXPECT_NEAR(camera.model().pinhole().focal_x_px, 200.0, 1e-12);
 }
 
 TEST(Rig, FindsCamerasByRole) {

@@ -24,6 +24,9 @@ class Bits {
     } else if constexpr (std::same_as<T, std::string>) {
       bits.insert(bits.end(), value.begin(), value.end());
       bits.push_back(UINT64_MAX);
+    } else if constexpr (std::same_as<T, std::filesystem::path>) {
+      std::string text = value.string();
+      (*this)("", text, field);
     } else if constexpr (OptionalField<T>) {
       bits.push_back(value.has_value());
       if (value) (*this)("", *value, field);
