@@ -40,4 +40,6 @@ Eigen::Isometry3d Aircraft::X_WB() const {
   return X_WB;
 }
 
+BodyMotion Aircraft::motion() const { return {X_WB(), body().q_WB * body().v_WB_B, body().w_WB_B}; }
+
 }  // namespace hedgehop::sim

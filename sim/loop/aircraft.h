@@ -7,6 +7,7 @@
 #include "dynamics/vehicle.h"
 #include "dynamics/wind.h"
 #include "sim/collision/proximity.h"
+#include "sim/loop/shutter.h"
 #include "sim/loop/ticks.h"
 #include "sim/scenario/scenario.h"
 
@@ -28,6 +29,7 @@ class Aircraft {
   void move();
 
   Eigen::Isometry3d X_WB() const;
+  BodyMotion motion() const;
   const dynamics::RigidBodyState& body() const { return vehicle_.body(); }
   const dynamics::Vehicle& vehicle() const { return vehicle_; }
   const dynamics::NavigationEstimate& navigation() const { return avionics_.navigation(); }

@@ -102,7 +102,7 @@ Episode::Episode(const Scenario& scenario, FlightWatcher* watcher)
       hull_(dynamics::hull(scenario.vehicle)),
       aircraft_(scenario, ticks_),
       collision_(scene_, hull_),
-      cameras_(scenario.rig, ticks_, scene_, scenario.drawing),
+      cameras_(scenario.rig, ticks_, scene_, scenario.drawing, scenario.seed),
       module_(avoidance::make_module(scenario.avoidance)),
       goal_(to_goal(scenario)),
       control_period_(ticks_.period(static_cast<double>(scenario.control_rate_hz))),
@@ -152,7 +152,7 @@ cv::Mat Episode::picture(size_t camera, Channel channel, double t_s) {
     }
     move();
   }
-  return cameras_.picture(camera, channel, aircraft_.X_WB());
+  return cameras_.picture(camera, channel, ticks_.t_ns(tick_), aircraft_.motion());
 }
 
 Flight Episode::fly() {
@@ -195,18 +195,19 @@ void Episode::look() {
   seen_.clear();
   const int64_t t_ns = ticks_.t_ns(tick_);
   std::optional<StageTimer::Lap> lap;
-  const auto expose = [&](size_t camera) -> const avoidance::CameraFrame& {
+  const auto expose = [&](size_t camera) -> const avoidance::CameraFrame* {
     if (!lap) lap.emplace(render_);
-    return cameras_.expose(camera, t_ns, aircraft_.X_WB());
+    return cameras_.expose(camera, t_ns, aircraft_.motion());
   };
   for (const size_t camera : module_cameras_) {
-    if (cameras_.due(camera, tick_)) seen_.push_back(expose(camera));
+    if (!cameras_.due(camera, tick_)) continue;
+    if (const avoidance::CameraFrame* const frame = expose(camera)) seen_.push_back(*frame);
   }
   if (velocimeter_ && cameras_.due(velocimeter_->camera(), tick_)) {
-    const avoidance::CameraFrame& frame = expose(velocimeter_->camera());
+    const avoidance::CameraFrame* const frame = expose(velocimeter_->camera());
     lap.reset();
     const StageTimer::Lap flow_lap = velocimetry_.lap();
-    velocimeter_->update(frame, aircraft_.avionics());
+    if (frame) velocimeter_->update(*frame, aircraft_.avionics());
   }
 }
 
