@@ -44,8 +44,9 @@ struct TrimOptions {
   std::filesystem::path vehicle;
   std::vector<double> speeds_mps{0.0};
   bool json = false, csv = false;
+  std::filesystem::path plot;  ///< page of plots to write as well; empty: none
 };
-/// Prints the trim of level flight at each speed.
+/// Prints the trim of level flight at each speed, and plots it.
 int trim(const TrimOptions& options);
 
 struct LinearizeOptions {

@@ -85,11 +85,14 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
       ->check(CLI::IsMember({"modules", "vehicles", "scenes", "cameras", "checks"}));
   list_command->callback([&] { chosen = [&topic] { return cli::list(topic); }; });
 
-  CLI::App* const trim_command = app.add_subcommand("trim", "print a vehicle's trim of level flight against speed");
+  CLI::App* const trim_command =
+      app.add_subcommand("trim", "print, and plot, a vehicle's trim of level flight against speed");
   trim_command->add_option("VEHICLE", vehicles.trim.vehicle, "vehicle file (YAML)")->required();
   trim_command->add_option("--speed", vehicles.speeds, "speed through the air, or a range of them (m/s); default 0")
       ->type_name("FROM:TO:STEP");
   add_formats(*trim_command, vehicles.trim.json, vehicles.trim.csv);
+  trim_command->add_option("--plot", vehicles.trim.plot, "also write a page with plots of the trim over speed")
+      ->type_name("FILE.html");
   trim_command->callback([&] {
     chosen = [&vehicles] {
       vehicles.trim.speeds_mps = cli::speed_range(vehicles.speeds);

@@ -30,7 +30,10 @@ dynamics::SensedTruth Aircraft::truth(const CollisionWorld& world) const {
   const auto height_beside = [this, &world](double north_m, double east_m) {
     return world.height_above_surface(body().p_WB + Eigen::Vector3d(north_m, east_m, 0.0));
   };
-  return {body(), vehicle_.specific_force_B(), height_beside(0.0, 0.0), height_beside};
+  const auto beam_distance = [&world](const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m) {
+    return world.distance_along(p_W, direction_W, reach_m);
+  };
+  return {body(), vehicle_.specific_force_B(), height_beside(0.0, 0.0), height_beside, beam_distance};
 }
 
 Eigen::Isometry3d Aircraft::X_WB() const {

@@ -33,6 +33,7 @@ class Aircraft {
   const dynamics::RigidBodyState& body() const { return vehicle_.body(); }
   const dynamics::Vehicle& vehicle() const { return vehicle_; }
   const dynamics::NavigationEstimate& navigation() const { return avionics_.navigation(); }
+  const dynamics::Avionics& avionics() const { return avionics_; }
   dynamics::Avionics& avionics() { return avionics_; }
   const Eigen::Vector3d& wind_W() const { return wind_W_; }
 

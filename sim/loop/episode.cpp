@@ -214,8 +214,7 @@ void Episode::look() {
 void Episode::decide() {
   const bool due = module_cameras_.empty() ? tick_ % decision_period_ == 0 : !seen_.empty();
   if (!due) return;
-  const avoidance::Observation observation{ticks_.t_ns(tick_), seen_, to_navigation_state(aircraft_.navigation()),
-                                           goal_};
+  const avoidance::Observation observation{ticks_.t_ns(tick_), seen_, to_navigation_state(aircraft_.avionics()), goal_};
   try {
     const StageTimer::Lap lap = decision_.lap();
     const avoidance::Decision decision = module_->update(observation);
@@ -233,7 +232,7 @@ void Episode::steer() {
     pending_.pop_front();
   }
   aircraft_.steer(setpoint_, static_cast<double>(control_period_) * ticks_.dt_s());
-  log_.add(ticks_.t_s(tick_), aircraft_.vehicle(), aircraft_.navigation(), setpoint_, proximity_, aircraft_.wind_W());
+  log_.add(ticks_.t_s(tick_), aircraft_, setpoint_, proximity_);
 }
 
 /// Shows the watcher what it asked for.

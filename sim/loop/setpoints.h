@@ -10,7 +10,7 @@ namespace hedgehop::sim {
 /// A module's command as the autopilot takes it.
 dynamics::Setpoint to_setpoint(const avoidance::Command& command);
 /// The navigation filter's estimate as a module sees it.
-avoidance::NavigationState to_navigation_state(const dynamics::NavigationEstimate& estimate);
+avoidance::NavigationState to_navigation_state(const dynamics::Avionics& avionics);
 /// The scenario's goal; without one, the start, so that its altitude and heading are held.
 avoidance::Goal to_goal(const Scenario& scenario);
 

@@ -21,7 +21,7 @@ constexpr std::string_view kTrajectoryHeader =
     "t_s,north_m,east_m,down_m,roll_rad,pitch_rad,yaw_rad,v_north_mps,v_east_mps,v_down_mps,p_radps,q_radps,r_radps,"
     "est_north_m,est_east_m,est_down_m,est_roll_rad,est_pitch_rad,est_yaw_rad,est_v_north_mps,est_v_east_mps,"
     "est_v_down_mps,cmd_v_north_mps,cmd_v_east_mps,cmd_altitude_m,cmd_heading_rad,clearance_m,ground_clearance_m,";
-constexpr std::string_view kTrajectoryHeaderEnd = ",wind_north_mps,wind_east_mps,wind_down_mps,model_valid\n";
+constexpr std::string_view kTrajectoryHeaderEnd = ",wind_north_mps,wind_east_mps,wind_down_mps,model_valid,range_m\n";
 constexpr std::string_view kDecisionsHeader =
     "t_s,status,cmd_v_north_mps,cmd_v_east_mps,cmd_altitude_m,cmd_heading_rad";
 
@@ -140,7 +140,7 @@ std::string trajectory_csv(const Flight& flight) {
     line.add(row.v_WB_W_cmd).add(row.altitude_cmd_m).add(row.heading_cmd_rad);
     line.add(row.obstacle_clearance_m).add(row.ground_clearance_m);
     for (const double control : row.controls) line.add(control);
-    line.add(row.wind_W).add(row.model_valid ? 1.0 : 0.0);
+    line.add(row.wind_W).add(row.model_valid ? 1.0 : 0.0).add(row.range_m);
   }
   return fmt::to_string(out);
 }

@@ -25,6 +25,7 @@ TEST(Allocations, AreCountedHoweverMemoryIsAskedFor) {
 }
 
 TEST_P(EitherKind, AllocatesNothingInFlight) {
+  if (!counts_allocations()) GTEST_SKIP() << "the address sanitizer has the allocator";
   OutdoorFlight flight(GetParam());
   flight.fly(0.1);
   const Eigen::Vector3d from_W = flight.aircraft().body().p_WB;
@@ -32,6 +33,18 @@ TEST_P(EitherKind, AllocatesNothingInFlight) {
   flight.fly(12.0);
   EXPECT_EQ(allocation_count() - before, 0u);
   EXPECT_GT((flight.aircraft().body().p_WB - from_W).norm(), 10.0);  // it did fly
+}
+
+TEST_P(EitherKind, RangesTheWallAheadOfIt) {
+  OutdoorFlight flight(GetParam());
+  flight.fly(8.0);
+  const Aircraft& aircraft = flight.aircraft();
+  // The wall stands across north, the nose points to it: the beam's length follows from the attitude.
+  const Eigen::Vector3d ahead_W = aircraft.body().q_WB * Eigen::Vector3d::UnitX();
+  const double distance_m = (OutdoorFlight::kWallNorth_m - aircraft.body().p_WB.x()) / ahead_W.x();
+  ASSERT_TRUE(aircraft.avionics().range_m());
+  const double sigma_m = 0.01 + 0.005 * distance_m, stale_m = 0.03 * 5.0 + 0.02 * distance_m;  // moved and turned since
+  EXPECT_NEAR(*aircraft.avionics().range_m(), distance_m, 3.0 * sigma_m + stale_m);
 }
 
 }  // namespace
