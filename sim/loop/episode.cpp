@@ -19,6 +19,7 @@
 #include "sim/loop/checks.h"
 #include "sim/loop/flight_log.h"
 #include "sim/loop/random_stream.h"
+#include "sim/loop/route.h"
 #include "sim/loop/setpoints.h"
 #include "sim/loop/stage_timer.h"
 #include "sim/loop/velocimeter.h"
@@ -79,7 +80,7 @@ class Episode {
   std::optional<Velocimeter> velocimeter_;
   std::unique_ptr<avoidance::Module> module_;
   std::vector<size_t> module_cameras_;
-  const avoidance::Goal goal_;
+  Route route_;
   int64_t control_period_ = 0, decision_period_ = 0, latency_ = 0, picture_period_ = 0;
 
   int64_t tick_ = 0;
@@ -104,7 +105,7 @@ Episode::Episode(const Scenario& scenario, FlightWatcher* watcher)
       collision_(scene_, hull_),
       cameras_(scenario.rig, ticks_, scene_, scenario.drawing, scenario.seed),
       module_(avoidance::make_module(scenario.avoidance)),
-      goal_(to_goal(scenario)),
+      route_(scenario),
       control_period_(ticks_.period(static_cast<double>(scenario.control_rate_hz))),
       log_(scene_, aircraft_.vehicle()) {
   if (scenario.velocimeter.enabled) {
@@ -125,7 +126,7 @@ Episode::Episode(const Scenario& scenario, FlightWatcher* watcher)
 
 void Episode::begin() {
   aircraft_.reset(collision_);
-  setpoint_ = dynamics::PositionSetpoint{aircraft_.body().p_WB, goal_.heading_rad};
+  setpoint_ = dynamics::PositionSetpoint{aircraft_.body().p_WB, route_.goal().heading_rad};
   const dynamics::AutopilotConfig& limits = scenario_.avionics.autopilot;
   module_->reset({{cameras_.mounted().begin(), cameras_.mounted().end()},
                   {limits.speed_limit_mps, limits.acceleration_limit_mps2, dynamics::radius_m(hull_)},
@@ -214,7 +215,9 @@ void Episode::look() {
 void Episode::decide() {
   const bool due = module_cameras_.empty() ? tick_ % decision_period_ == 0 : !seen_.empty();
   if (!due) return;
-  const avoidance::Observation observation{ticks_.t_ns(tick_), seen_, to_navigation_state(aircraft_.avionics()), goal_};
+  route_.update(aircraft_.navigation().p_WB_est);
+  const avoidance::Observation observation{ticks_.t_ns(tick_), seen_, to_navigation_state(aircraft_.avionics()),
+                                           route_.goal()};
   try {
     const StageTimer::Lap lap = decision_.lap();
     const avoidance::Decision decision = module_->update(observation);
@@ -261,7 +264,7 @@ bool Episode::ended() {
     const std::string what =
         ground || !proximity_.nearest_solid ? "the ground" : scene_.solids[*proximity_.nearest_solid].name;
     end(Outcome::collided, fmt::format("hit {} at {:.3f} s", what, ticks_.t_s(tick_)));
-  } else if (scenario_.goal && *goal_distance_m() <= scenario_.goal->radius_m) {
+  } else if (scenario_.goal && route_.on_last() && *goal_distance_m() <= scenario_.goal->radius_m) {
     end(Outcome::reached);
   } else if (tick_ >= ticks_.ticks(scenario_.duration_s)) {
     end(Outcome::timeout);
@@ -282,7 +285,7 @@ void Episode::end(Outcome outcome, std::string cause) {
 
 std::optional<double> Episode::goal_distance_m() const {
   if (!scenario_.goal) return std::nullopt;
-  return (aircraft_.body().p_WB - goal_.p_WG).head<2>().norm();
+  return (aircraft_.body().p_WB - scenario_.goal->p_WG()).head<2>().norm();
 }
 
 }  // namespace

@@ -29,9 +29,4 @@ avoidance::NavigationState to_navigation_state(const dynamics::Avionics& avionic
       avionics.range_m()};
 }
 
-avoidance::Goal to_goal(const Scenario& scenario) {
-  if (scenario.goal) return {scenario.goal->p_WG(), scenario.goal->heading_rad};
-  return {scenario.start.p_WB(), scenario.start.heading_rad};
-}
-
 }  // namespace hedgehop::sim

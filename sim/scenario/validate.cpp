@@ -68,6 +68,7 @@ class Validator {
   }
 
   void parts() {
+    if (!scenario_.route.empty() && !scenario_.goal) add("route", "needs a 'goal' where it ends");
     const bool flies = build("vehicle", [&] { dynamics::Vehicle(scenario_.vehicle); });
     build("wind", [&] { dynamics::Wind(scenario_.wind, 0); });
     // What is wrong with the vehicle is told once: beside a bad one the avionics are looked at alone.
