@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <ostream>
 #include <sstream>
 #include <string>
 
@@ -30,29 +31,31 @@ Answer ask(const std::string& arguments) {
   return answer;
 }
 
-/// A vehicle's file with one text of it changed, in the folder of the test.
-std::string changed(const std::string& vehicle, const std::string& from, const std::string& to) {
+/// A vehicle's file with one text of it changed, in a file of its own: tests run side by side.
+std::string changed(const std::string& name, const std::string& vehicle, const std::string& from,
+                    const std::string& to) {
   std::ifstream stream(kConfigs + "vehicles/" + vehicle + ".yaml");
   std::string text = (std::ostringstream() << stream.rdbuf()).str();
   const size_t place = text.find(from);
   EXPECT_NE(place, std::string::npos) << from << " is not in " << vehicle;
   if (place != std::string::npos) text.replace(place, from.size(), to);
-  const auto file = std::filesystem::path(testing::TempDir()) / "bad_vehicle.yaml";
+  const auto file = std::filesystem::path(testing::TempDir()) / ("bad_vehicle_" + name + ".yaml");
   std::ofstream(file) << text;
   return file.string();
 }
 
 struct Bad {
   std::string name, vehicle, from, to, reason;
+  friend std::ostream& operator<<(std::ostream& out, const Bad& bad) { return out << bad.name; }
 };
 class BadVehicle : public testing::TestWithParam<Bad> {};
 
 TEST_P(BadVehicle, IsRefusedInOneLineWithTheReason) {
   const Bad& bad = GetParam();
-  const std::string file = changed(bad.vehicle, bad.from, bad.to);
+  const std::string file = changed(bad.name, bad.vehicle, bad.from, bad.to);
   for (const std::string& command : {"trim " + file, "linearize " + file,
                                      "run " + kConfigs + "garratt2009_room_0_light.yaml --no-video --set vehicle.use=" +
-                                         file + " --out " + testing::TempDir() + "/bad_vehicle"}) {
+                                         file + " --out " + testing::TempDir() + "/bad_vehicle_" + bad.name}) {
     const Answer answer = ask(command);
     EXPECT_EQ(answer.status, kBadInput) << command;
     EXPECT_THAT(answer.text, HasSubstr(bad.reason)) << command;
