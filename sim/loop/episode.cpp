@@ -185,7 +185,7 @@ Flight Episode::fly() {
 }
 
 void Episode::measure_proximity() {
-  proximity_ = collision_.query(aircraft_.X_WB(), kSearchRadius_m);
+  proximity_ = collision_.query(aircraft_.X_WB(), kSearchRadius_m, ticks_.t_s(tick_));
   log_.add(ticks_.t_s(tick_), aircraft_.body().p_WB, proximity_);
 }
 
@@ -262,7 +262,7 @@ bool Episode::ended() {
   } else if (proximity_.collided) {
     const bool ground = proximity_.ground_clearance_m <= 0.0;
     const std::string what =
-        ground || !proximity_.nearest_solid ? "the ground" : scene_.solids[*proximity_.nearest_solid].name;
+        ground || !proximity_.nearest_solid ? "the ground" : scenes::solid_at(scene_, *proximity_.nearest_solid).name;
     end(Outcome::collided, fmt::format("hit {} at {:.3f} s", what, ticks_.t_s(tick_)));
   } else if (scenario_.goal && route_.on_last() && *goal_distance_m() <= scenario_.goal->radius_m) {
     end(Outcome::reached);
