@@ -50,14 +50,17 @@ std::span<const avoidance::CameraFrame> Cameras::snapshot(int64_t t_ns, const Ei
   return snapshot_;
 }
 
-cv::Mat Cameras::picture(size_t camera, Channel channel, const Eigen::Isometry3d& X_WB) {
+cv::Mat Cameras::picture(size_t camera, Channel channel, const Instant& now, const Instant& next) {
   cv::Mat image;
-  renderer_.draw({mounted_[camera].model.pinhole(), X_WB * mounted_[camera].X_BC, channel}, image);
+  const avoidance::MountedCamera& mounted = mounted_[camera];
+  renderer_.draw({mounted.model, now.X_WB * mounted.X_BC, channel, now.t_s, {next.X_WB * mounted.X_BC, next.t_s}},
+                 image);
   return image;
 }
 
 void Cameras::draw(size_t camera, int64_t t_ns, const Eigen::Isometry3d& X_WB, avoidance::CameraFrame& frame) {
-  renderer_.draw({mounted_[camera].model.pinhole(), X_WB * mounted_[camera].X_BC, channels_[camera]}, frame.image);
+  const double t_s = 1e-9 * static_cast<double>(t_ns);
+  renderer_.draw({mounted_[camera].model, X_WB * mounted_[camera].X_BC, channels_[camera], t_s}, frame.image);
   frame.t_ns = t_ns;
 }
 

@@ -29,8 +29,13 @@ class Cameras {
   /// Pictures of all cameras at this instant for somebody who only looks on; what modules are shown stays untouched.
   std::span<const avoidance::CameraFrame> snapshot(int64_t t_ns, const Eigen::Isometry3d& X_WB);
 
-  /// One camera's picture of this instant in a channel of the caller's choice.
-  cv::Mat picture(size_t camera, Channel channel, const Eigen::Isometry3d& X_WB);
+  /// An instant of the flight.
+  struct Instant {
+    double t_s = 0.0;
+    Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
+  };
+  /// One camera's picture of an instant in a channel of the caller's choice. @param next  what Channel::flow leads to.
+  cv::Mat picture(size_t camera, Channel channel, const Instant& now, const Instant& next);
 
   const avoidance::MountedCamera& mounted(size_t camera) const { return mounted_[camera]; }
   std::span<const avoidance::MountedCamera> mounted() const { return mounted_; }
