@@ -10,7 +10,8 @@
 #include "sim/render/renderer.h"
 
 // Cities and a room beside their floor: one textured quad that fills the picture, as finely textured as trilinear
-// filtering is dear (between two mipmap levels), drawn in the same run.
+// filtering is dear (between two mipmap levels), drawn in the same run. Lenses of every kind beside the same floor, a
+// pinhole's, by the pixel (counter ns_px).
 namespace hedgehop::sim {
 namespace {
 
@@ -90,21 +91,28 @@ scenes::Scene quad(double texels_per_pixel) {
 }
 
 /// Time of one picture, the mean over the poses.
-void draw(benchmark::State& state, const scenes::Scene& scene, const std::vector<Eigen::Isometry3d>& poses) {
+void draw(benchmark::State& state, const scenes::Scene& scene, const std::vector<Eigen::Isometry3d>& poses,
+          const vision::Camera& camera = kCamera) {
   const auto channel = static_cast<Channel>(state.range(0));
   Renderer renderer(scene);
   cv::Mat picture;
+  for (const Eigen::Isometry3d& X_WC : poses) renderer.draw({camera, X_WC, channel}, picture);  // plans the lens
   double stretches = 0.0, triangles = 0.0;
   const auto pictures = static_cast<int64_t>(poses.size());
   while (state.KeepRunningBatch(pictures)) {
     for (const Eigen::Isometry3d& X_WC : poses) {
-      renderer.draw({kCamera, X_WC, channel}, picture);
+      renderer.draw({camera, X_WC, channel}, picture);
       benchmark::DoNotOptimize(picture.data);
       stretches += static_cast<double>(renderer.drawn().stretches);
       triangles += static_cast<double>(renderer.drawn().triangles);
     }
   }
   state.counters["stretches"] = benchmark::Counter(stretches, benchmark::Counter::kAvgIterations);
+  const double pixels =
+      static_cast<double>(camera.width_px) * camera.height_px * static_cast<double>(state.iterations());
+  constexpr double kNsPerS = 1e9;
+  state.counters["ns_px"] = benchmark::Counter(
+      pixels / kNsPerS, benchmark::Counter::Flags(benchmark::Counter::kIsRate | benchmark::Counter::kInvert));
   state.counters["triangles"] = benchmark::Counter(triangles, benchmark::Counter::kAvgIterations);
 }
 
@@ -123,6 +131,28 @@ void RoomFloor(benchmark::State& state) { CityFloor(state); }
 void MagnifiedQuad(benchmark::State& state) { draw(state, quad(0.8), {down(0, 0, kFlightHeightM)}); }
 void MagnifiedQuadFloor(benchmark::State& state) { CityFloor(state); }
 
+/// 752 x 480 px and 190 degrees across.
+vision::Camera wide_fisheye() {
+  const double focal_px = vision::fisheye_focal_px({}, 752, 190.0 * kPi / 180.0);
+  return {752, 480, vision::FisheyeLens{focal_px, focal_px, 375.5, 239.5}};
+}
+/// The pinhole of the other figures with a common lens before it.
+vision::Camera distorted_pinhole() {
+  vision::PinholeLens lens{kCamera.focal_x_px, kCamera.focal_y_px, kCamera.center_u_px, kCamera.center_v_px};
+  lens.k1 = -0.12;
+  lens.k2 = 0.02;
+  return {kCamera.width_px, kCamera.height_px, lens};
+}
+/// A pinhole of the fisheye's size, for its pixels.
+vision::Camera wide_pinhole() { return vision::PinholeCamera::from_fov(752, 480, kPi / 2); }
+
+void CityFisheye(benchmark::State& state) { draw(state, city(300.0), street_views(kFlightHeightM), wide_fisheye()); }
+void CityFisheyeFloor(benchmark::State& state) { draw(state, quad(1.6), {down(0, 0, kFlightHeightM)}, wide_pinhole()); }
+void CityDistorted(benchmark::State& state) {
+  draw(state, city(300.0), street_views(kFlightHeightM), distorted_pinhole());
+}
+void CityDistortedFloor(benchmark::State& state) { CityFloor(state); }
+
 void grey(benchmark::internal::Benchmark* b) {
   b->ArgName("grey")->Arg(0)->Unit(benchmark::kMillisecond)->MinTime(0.1);
 }
@@ -131,6 +161,10 @@ void all_channels(benchmark::internal::Benchmark* b) {
 }
 BENCHMARK(City)->Apply(all_channels);
 BENCHMARK(CityFloor)->Apply(all_channels);
+BENCHMARK(CityDistorted)->Apply(all_channels);
+BENCHMARK(CityDistortedFloor)->Apply(all_channels);
+BENCHMARK(CityFisheye)->Apply(all_channels);
+BENCHMARK(CityFisheyeFloor)->Apply(all_channels);
 BENCHMARK(LargeCity)->Apply(grey);
 BENCHMARK(LargeCityFloor)->Apply(grey);
 BENCHMARK(LargeCityAboveRoofs)->Apply(grey);

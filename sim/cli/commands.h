@@ -33,11 +33,19 @@ struct RenderOptions {
   ScenarioOptions scenario;
   std::string camera;
   double time_s = 0.0;
-  std::string what = "color";  ///< "color", "grey" or "depth"
+  std::string what = "color";  ///< "color", "grey", "depth", "depth_mm", "flow" or "labels"
   std::filesystem::path out;
   bool info = false;  ///< only print which renderer draws
 };
 int render(const RenderOptions& options);
+
+struct CalibrationOptions {
+  ScenarioOptions scenario;
+  std::string format = "opencv";  ///< or "kalibr"
+  std::filesystem::path out;      ///< empty: standard output
+};
+/// Writes the rig's cameras for other programs.
+int calibration(const CalibrationOptions& options);
 
 /// @param topic  "modules", "vehicles", "scenes", "cameras" or "checks".
 int list(const std::string& topic);

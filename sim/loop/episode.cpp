@@ -145,15 +145,20 @@ void Episode::act() {
 
 cv::Mat Episode::picture(size_t camera, Channel channel, double t_s) {
   begin();
-  for (const int64_t last = ticks_.ticks(t_s); tick_ < last; ++tick_) {
-    act();
-    if (ended()) {
-      throw InputError(fmt::format("--time {}: the flight ends at {:.3f} s ({}{}{})", t_s, ticks_.t_s(tick_),
-                                   to_string(*outcome_), cause_.empty() ? "" : ": ", cause_));
+  const auto fly_on = [&](int64_t last) -> Cameras::Instant {
+    for (; tick_ < last; ++tick_) {
+      act();
+      if (ended()) {
+        throw InputError(fmt::format("--time {}: the flight ends at {:.3f} s ({}{}{})", t_s, ticks_.t_s(tick_),
+                                     to_string(*outcome_), cause_.empty() ? "" : ": ", cause_));
+      }
+      move();
     }
-    move();
-  }
-  return cameras_.picture(camera, channel, ticks_.t_ns(tick_), aircraft_.motion());
+    return {ticks_.t_ns(tick_), aircraft_.motion()};
+  };
+  const Cameras::Instant now = fly_on(ticks_.ticks(t_s));
+  const bool leads_on = channel == Channel::flow;
+  return cameras_.picture(camera, channel, now, leads_on ? fly_on(tick_ + cameras_.period_ticks(camera)) : now);
 }
 
 Flight Episode::fly() {
