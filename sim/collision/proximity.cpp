@@ -8,7 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "sim/collision/ray_cast.h"
 #include "sim/collision/separation.h"
 
 namespace hedgehop::sim {
@@ -166,23 +165,19 @@ class CollisionWorld::World {
     return height_m;
   }
 
-  double distance_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m) const {
-    double nearest = 1.0;  // of the beam's length
-    bool met = false;
-    const Eigen::Vector3d end_W = p_W + reach_m * direction_W;
-    if (has_ground_ && end_W.z() >= 0.0) {
-      nearest = p_W.z() < 0.0 ? p_W.z() / (p_W.z() - end_W.z()) : 0.0;
-      met = true;
+  double distance_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m,
+                        double t_s) const {
+    double nearest_m = has_ground_ ? ground_along(p_W, direction_W) : kInfinity;
+    const auto meet = [&](const PlacedBody& body) {
+      nearest_m = std::min(nearest_m, body.body->ray_length(body.X_SW * p_W, body.X_SW.linear() * direction_W));
+    };
+    Collector collector([&](size_t index) { meet(placed_[index]); });
+    btDbvt::rayTest(tree_.m_root, to_bullet(p_W), to_bullet(p_W + reach_m * direction_W), collector);
+    for (const Carried& carried : movers_) {
+      const Eigen::Vector3d p_WM = scenes::p_WM(carried.motion, t_s);
+      for (size_t k = 0; k < carried.count; ++k) meet(placed(carried, k, p_WM));
     }
-    Collector collector([&](size_t index) {
-      const PlacedBody& solid = placed_solids_[index];
-      const auto fraction = ray_fraction(*solid.body->bullet, solid.bullet_X_WS, p_W, end_W);
-      if (!fraction) return;
-      nearest = std::min(nearest, *fraction);
-      met = true;
-    });
-    btDbvt::rayTest(tree_.m_root, to_bullet(p_W), to_bullet(end_W), collector);
-    return met ? nearest * reach_m : kInfinity;
+    return nearest_m <= reach_m ? nearest_m : kInfinity;
   }
 
  private:
@@ -272,6 +267,11 @@ class CollisionWorld::World {
     return -lowest_z;
   }
 
+  static double ground_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W) {
+    if (p_W.z() >= 0.0) return 0.0;
+    return direction_W.z() > 0.0 ? -p_W.z() / direction_W.z() : kInfinity;
+  }
+
   // Length of the plumb line from p_W to one body: 0 inside, +inf when it misses.
   static double plumb_line(const Eigen::Vector3d& p_W, const PlacedBody& body) {
     return body.body->ray_length(body.X_SW * p_W, body.X_SW.linear().col(2));
@@ -311,9 +311,9 @@ Proximity CollisionWorld::query(const Eigen::Isometry3d& X_WB, double search_rad
 double CollisionWorld::height_above_surface(const Eigen::Vector3d& p_WB, double t_s) const {
   return world_->height_above_surface(p_WB, t_s);
 }
-double CollisionWorld::distance_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W,
-                                      double reach_m) const {
-  return world_->distance_along(p_W, direction_W, reach_m);
+double CollisionWorld::distance_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m,
+                                      double t_s) const {
+  return world_->distance_along(p_W, direction_W, reach_m, t_s);
 }
 
 }  // namespace hedgehop::sim

@@ -45,10 +45,11 @@ class CollisionWorld {
   /// ground, +inf where nothing lies below. Movers count where they are at the time.
   double height_above_surface(const Eigen::Vector3d& p_WB, double t_s) const;
 
-  /// Returns the distance from a point to the first solid or ground along a beam, m: 0 under the ground, +inf where
-  /// nothing is within reach. As exact as ray_fraction() of ray_cast.h; a solid that holds the point is not seen.
-  /// @param direction_W  of length 1. @param reach_m  finite, > 0.
-  double distance_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m) const;
+  /// Returns the distance from a point to the first solid or ground along a beam, m: 0 inside a solid or under the
+  /// ground, +inf where nothing is within reach. @param direction_W  of length 1. @param reach_m  finite, > 0.
+  /// @param t_s  when, >= 0: where the movers are.
+  double distance_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m,
+                        double t_s) const;
 
  private:
   class World;

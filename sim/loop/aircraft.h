@@ -38,7 +38,8 @@ class Aircraft {
   const Eigen::Vector3d& wind_W() const { return wind_W_; }
 
  private:
-  dynamics::SensedTruth truth(const CollisionWorld& world, int64_t tick) const;
+  /// What the sensors may look at; good until the next call.
+  dynamics::SensedTruth truth(const CollisionWorld& world, int64_t tick);
 
   const Scenario& scenario_;
   const Ticks ticks_;
@@ -46,6 +47,10 @@ class Aircraft {
   dynamics::Wind wind_;
   dynamics::Avionics avionics_;
   Eigen::Vector3d wind_W_ = Eigen::Vector3d::Zero();
+  struct Surroundings {
+    const CollisionWorld* world = nullptr;
+    double t_s = 0.0;
+  } surroundings_;
   dynamics::Controls actuators_ = dynamics::Controls::Zero();
 };
 
