@@ -24,6 +24,8 @@ struct NavigationState {
   Eigen::Vector3d v_WB_B_est = Eigen::Vector3d::Zero();          ///< velocity of B in W, expressed in B, m/s
   Eigen::Vector3d w_WB_B_est = Eigen::Vector3d::Zero();          ///< angular velocity (gyro less bias), rad/s
   double height_above_ground_m = 0.0;                            ///< from the height sensor, >= 0
+  std::optional<double>
+      range_m;  ///< from a range finder fixed to B, >= 0; unknown when it read nothing, or there is none
 };
 
 /// Where the flight should end.

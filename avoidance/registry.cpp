@@ -6,6 +6,8 @@ namespace {
 struct Make {
   std::unique_ptr<Module> operator()(const GoToGoalConfig& c) const { return make_go_to_goal(c); }
   std::unique_ptr<Module> operator()(const FlowBalanceConfig& c) const { return make_flow_balance(c); }
+  std::unique_ptr<Module> operator()(const SectionGridConfig& c) const { return make_section_grid(c); }
+  std::unique_ptr<Module> operator()(const StereoCorridorConfig& c) const { return make_stereo_corridor(c); }
 };
 
 }  // namespace

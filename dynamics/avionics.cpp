@@ -1,6 +1,7 @@
 #include "dynamics/avionics.h"
 
 #include <cmath>
+#include <limits>
 
 namespace hedgehop::dynamics {
 
@@ -8,29 +9,39 @@ Avionics::Avionics(const AvionicsConfig& config, const VehicleConfig& vehicle, d
                    const StreamSeed& stream_seed)
     : config_(config),
       physics_dt_s_(physics_dt_s),
-      seeds_{stream_seed("imu"),           stream_seed("gps"),
-             stream_seed("height_sensor"), stream_seed("magnetometer"),
-             stream_seed("alignment"),     config.barometer.enabled ? stream_seed("barometer") : 0},
+      beam_direction_B_(beam_direction_B(config.range_finder)),
+      seeds_{stream_seed("imu"),
+             stream_seed("gps"),
+             stream_seed("height_sensor"),
+             stream_seed("magnetometer"),
+             stream_seed("alignment"),
+             config.barometer.enabled ? stream_seed("barometer") : 0,
+             config.range_finder.ranger.enabled ? stream_seed("range_finder") : 0},
       imu_(config.imu, physics_dt_s, seeds_.imu),
       gps_(config.gps, physics_dt_s, seeds_.gps),
-      height_sensor_(config.height_sensor, physics_dt_s, seeds_.height_sensor),
+      height_sensor_("height_sensor", config.height_sensor.ranger, physics_dt_s, seeds_.height_sensor),
       magnetometer_(config.magnetometer, physics_dt_s, seeds_.magnetometer),
       navigation_(config.navigation,
                   {config.imu, config.gps, config.height_sensor, config.magnetometer, config.barometer}),
       autopilot_(config.autopilot, vehicle) {
-  reset_barometer();
+  check(config.height_sensor);
+  reset_options();
 }
 
-void Avionics::reset_barometer() {
+/// What need not be on board.
+void Avionics::reset_options() {
   if (config_.barometer.enabled) barometer_.emplace(config_.barometer, physics_dt_s_, seeds_.barometer);
+  const RangerConfig& beam = config_.range_finder.ranger;
+  if (beam.enabled) range_finder_.emplace("range_finder", beam, physics_dt_s_, seeds_.range_finder);
+  range_m_.reset();
 }
 
 void Avionics::reset(const SensedTruth& truth) {
   imu_ = Imu(config_.imu, physics_dt_s_, seeds_.imu);
   gps_ = Gps(config_.gps, physics_dt_s_, seeds_.gps);
-  height_sensor_ = HeightSensor(config_.height_sensor, physics_dt_s_, seeds_.height_sensor);
+  height_sensor_ = Ranger("height_sensor", config_.height_sensor.ranger, physics_dt_s_, seeds_.height_sensor);
   magnetometer_ = Magnetometer(config_.magnetometer, physics_dt_s_, seeds_.magnetometer);
-  reset_barometer();
+  reset_options();
 
   // Alignment before take-off: attitude and position known with errors, inertial biases mostly taken away.
   NormalStream noise(seeds_.alignment);
@@ -54,22 +65,37 @@ void Avionics::sense(int64_t t_ns, const SensedTruth& truth) {
   const auto due = [tick](int64_t period) { return tick % period == 0; };
 
   if (due(imu_.period())) navigation_.predict(imu_.read());
-  if (due(height_sensor_.period())) {
-    const double echo_m = nearest_echo_m(config_.height_sensor, truth.height_above_surface_m, truth.height_beside);
-    if (const std::optional<double> height_m = height_sensor_.read(echo_m)) {
-      navigation_.correct_height(*height_m);
-    }
+  if (height_sensor_.looks(tick)) {
+    height_sensor_.feel(nearest_echo_m(config_.height_sensor, truth.height_above_surface_m, truth.height_beside));
   }
-  if (barometer_ && due(barometer_->period())) {
-    navigation_.correct_pressure(barometer_->read(-body.p_WB.z()));
+  if (height_sensor_.due(tick)) {
+    if (const std::optional<double> height_m = height_sensor_.read()) navigation_.correct_height(*height_m);
+  }
+  if (barometer_) {
+    barometer_->feel(-body.p_WB.z());
+    const std::optional<double> pressure_pa = due(barometer_->period()) ? barometer_->read() : std::nullopt;
+    if (pressure_pa) navigation_.correct_pressure(*pressure_pa);
   }
   if (due(magnetometer_.period())) {
-    const double heading_rad = magnetometer_.read(to_roll_pitch_heading(body.q_WB)[2]);
-    if (magnetometer_.enabled()) navigation_.correct_heading(heading_rad);
+    const std::optional<double> heading_rad = magnetometer_.read(to_roll_pitch_heading(body.q_WB)[2]);
+    if (heading_rad) navigation_.correct_heading(*heading_rad);
   }
   if (due(gps_.period())) {
     if (const std::optional<GpsFix> fix = gps_.read()) navigation_.correct_gps(*fix);
   }
+  if (range_finder_) sense_range(tick, truth);
+}
+
+/// Casts the beam only on the ticks on which a reading begins.
+void Avionics::sense_range(int64_t tick, const SensedTruth& truth) {
+  if (range_finder_->looks(tick)) {
+    const RigidBodyState& body = truth.body;
+    const Eigen::Vector3d from_W = body.p_WB + body.q_WB * config_.range_finder.p_BS_m;
+    const double reach_m = config_.range_finder.ranger.max_m;
+    range_finder_->feel(truth.beam_distance ? truth.beam_distance(from_W, body.q_WB * beam_direction_B_, reach_m)
+                                            : std::numeric_limits<double>::infinity());
+  }
+  if (range_finder_->due(tick)) range_m_ = range_finder_->read();
 }
 
 }  // namespace hedgehop::dynamics

@@ -13,6 +13,7 @@
 #include "dynamics/imu.h"
 #include "dynamics/magnetometer.h"
 #include "dynamics/navigation.h"
+#include "dynamics/range_finder.h"
 #include "dynamics/rigid_body.h"
 #include "dynamics/setpoint.h"
 #include "dynamics/vehicle.h"
@@ -26,6 +27,7 @@ struct AvionicsConfig {
   HeightSensorConfig height_sensor;
   MagnetometerConfig magnetometer;
   BarometerConfig barometer;
+  RangeFinderConfig range_finder;
   NavigationConfig navigation;
   AutopilotConfig autopilot;
 };
@@ -36,6 +38,7 @@ void describe(Visitor& v, AvionicsConfig& c) {
   v("height_sensor", c.height_sensor, {.meaning = "range finder that looks down"});
   v("magnetometer", c.magnetometer, {.meaning = "compass"});
   v("barometer", c.barometer, {.meaning = "altimeter by pressure"});
+  v("range_finder", c.range_finder, {.meaning = "laser of a single beam, for the avoidance module"});
   v("navigation", c.navigation, {.meaning = "the filter that fuses the sensors"});
   v("autopilot", c.autopilot, {.meaning = "limits of the flight control"});
 }
@@ -49,6 +52,7 @@ struct SensedTruth {
   Eigen::Vector3d specific_force_B = Eigen::Vector3d::Zero();  ///< of the mass centre, m/s^2
   double height_above_surface_m = 0.0;                         ///< +inf above nothing
   HeightBeside height_beside = {};                             ///< for a height sensor that listens in a cone
+  BeamDistance beam_distance = {};                             ///< for a range finder; without it, it meets nothing
 };
 
 class Avionics {
@@ -68,6 +72,8 @@ class Avionics {
     navigation_.correct_velocity(v_WB_B_xy_meas, sigma_mps);
   }
   const NavigationEstimate& navigation() const { return navigation_.estimate(); }
+  /// What the range finder read last, m; none without one, out of range or on a drop-out.
+  const std::optional<double>& range_m() const { return range_m_; }
   const Autopilot& autopilot() const { return autopilot_; }
   /// What to ask of the actuators until the next call. @param dt_s  until then, > 0, the same in every call of a
   /// flight.
@@ -76,19 +82,23 @@ class Avionics {
   }
 
  private:
-  void reset_barometer();
+  void reset_options();
+  void sense_range(int64_t tick, const SensedTruth& truth);
 
   struct Seeds {
-    uint64_t imu, gps, height_sensor, magnetometer, alignment, barometer;
+    uint64_t imu, gps, height_sensor, magnetometer, alignment, barometer, range_finder;
   };
   AvionicsConfig config_;
   double physics_dt_s_;
+  Eigen::Vector3d beam_direction_B_;
   Seeds seeds_;
   Imu imu_;
   Gps gps_;
-  HeightSensor height_sensor_;
+  Ranger height_sensor_;
   Magnetometer magnetometer_;
   std::optional<Barometer> barometer_;
+  std::optional<Ranger> range_finder_;
+  std::optional<double> range_m_;
   Navigation navigation_;
   Autopilot autopilot_;
 };

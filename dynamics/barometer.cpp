@@ -1,5 +1,7 @@
 #include "dynamics/barometer.h"
 
+#include <cmath>
+
 #include "dynamics/atmosphere.h"
 
 namespace hedgehop::dynamics {
@@ -8,17 +10,27 @@ Barometer::Barometer(const BarometerConfig& config, double physics_dt_s, uint64_
     : config_(config),
       period_(period_ticks("barometer.rate", config.rate_hz, physics_dt_s)),
       sample_dt_s_(static_cast<double>(period_) * physics_dt_s),
-      noise_(seed) {
+      noise_(seed),
+      keeps_(config.lag_s > 0.0 ? std::exp(-physics_dt_s / config.lag_s) : 0.0) {
   require_not_negative("barometer.noise", config.noise_pa);
   require_not_negative("barometer.wander", config.wander_pa);
   require_positive("barometer.wander_time", config.wander_time_s);
+  require_not_negative("barometer.lag", config.lag_s);
+  require_range("barometer.dropout", config.dropout, 0.0, 1.0);
   wander_pa_ = config.wander_pa * noise_.draw();
 }
 
-double Barometer::read(double altitude_m) {
+void Barometer::feel(double altitude_m) {
+  altitude_m_ = altitude_m + keeps_ * (altitude_m_.value_or(altitude_m) - altitude_m);
+}
+
+std::optional<double> Barometer::read() {
   const GaussMarkov process = barometer_wander(config_);
   wander_pa_ = process.decay(sample_dt_s_) * wander_pa_ + process.added_sigma(sample_dt_s_) * noise_.draw();
-  return standard_air(altitude_m).pressure_pa + wander_pa_ + config_.noise_pa * noise_.draw();
+  const double noise_pa = config_.noise_pa * noise_.draw();
+  const bool lost = config_.dropout > 0.0 && noise_.chance(config_.dropout);
+  if (lost || !altitude_m_) return std::nullopt;
+  return standard_air(*altitude_m_).pressure_pa + wander_pa_ + noise_pa;
 }
 
 GaussMarkov barometer_wander(const BarometerConfig& config) { return {config.wander_pa, config.wander_time_s}; }

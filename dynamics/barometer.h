@@ -1,19 +1,23 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "dynamics/sensor_noise.h"
 
 namespace hedgehop::dynamics {
 
 /// A barometer: pressure with white noise and a slow error (weather, warming). Rate and white noise as
-/// [PX4Gazebo2024]; the slow error, about 1 m of altitude over ten minutes, is an estimate.
+/// [PX4Gazebo2024]; the slow error, about 1 m of altitude over ten minutes, and the lag of port and converter are
+/// estimates.
 struct BarometerConfig {
   bool enabled = false;
   double rate_hz = 50.0;
   double noise_pa = 1.0;         ///< white
   double wander_pa = 12.0;       ///< standard deviation of the wandering error
   double wander_time_s = 600.0;  ///< its correlation time
+  double lag_s = 0.02;           ///< time constant of the first-order lag
+  double dropout = 0.0;          ///< probability that a reading is missing
 };
 template <class Visitor>
 void describe(Visitor& v, BarometerConfig& c) {
@@ -22,18 +26,22 @@ void describe(Visitor& v, BarometerConfig& c) {
   v("noise", c.noise_pa, {.unit = "Pa", .at_least = 0.0, .meaning = "white noise of a reading"});
   v("wander", c.wander_pa, {.unit = "Pa", .at_least = 0.0, .meaning = "standard deviation of the wandering error"});
   v("wander_time", c.wander_time_s, {.unit = "s", .above = 0.0, .meaning = "correlation time of the wandering error"});
+  v("lag", c.lag_s, {.unit = "s", .at_least = 0.0, .at_most = 2.0, .meaning = "time constant of its first-order lag"});
+  v("dropout", c.dropout, {.at_least = 0.0, .at_most = 1.0, .meaning = "share of readings that are missing"});
 }
 
 class Barometer {
  public:
-  /// Throws std::invalid_argument on values out of range. @param physics_dt_s  > 0.
+  /// Throws std::invalid_argument on values out of range. @param physics_dt_s  between calls of feel(), > 0.
   Barometer(const BarometerConfig& config, double physics_dt_s, uint64_t seed);
 
   int64_t period() const { return period_; }  ///< physics ticks between readings
 
-  /// @param altitude_m  in a standard atmosphere whose sea level is W's origin. @return pressure with its errors, Pa.
-  /// To be called once every period() ticks.
-  double read(double altitude_m);
+  /// What it is exposed to on every physics tick. @param altitude_m  in a standard atmosphere whose sea level is W's
+  /// origin.
+  void feel(double altitude_m);
+  /// @return pressure with its errors, Pa; none on a drop-out. To be called once every period() ticks, after feel().
+  std::optional<double> read();
 
  private:
   BarometerConfig config_;
@@ -41,6 +49,8 @@ class Barometer {
   double sample_dt_s_;
   NormalStream noise_;
   double wander_pa_;
+  double keeps_;                      ///< share of the last tick's altitude that the lag keeps, 0..1
+  std::optional<double> altitude_m_;  ///< as it lags; none before the first tick
 };
 
 /// The wandering error as a process.

@@ -9,7 +9,8 @@
 namespace hedgehop::dynamics {
 
 /// Gyros and accelerometers. reading = range(misaligned low-pass(truth) + offset + wandering bias + white noise).
-/// Noise of an ADIS16448: [FurrerBurriAchtelikSiegwart2016] sec. 5.4; filter, ranges and misalignment are estimates.
+/// Noise of an ADIS16448: [FurrerBurriAchtelikSiegwart2016] sec. 5.4; filter, ranges and misalignment are estimates. It
+/// drops no reading: it sits on the flight computer's own bus, and an aircraft without it falls.
 struct ImuConfig {
   double rate_hz = 100.0;
   double gyro_noise_density = 3.394e-4;        ///< rad/s/sqrt(Hz)

@@ -9,11 +9,15 @@ Magnetometer::Magnetometer(const MagnetometerConfig& config, double physics_dt_s
     : config_(config), period_(period_ticks("magnetometer.rate", config.rate_hz, physics_dt_s)), noise_(seed) {
   require_not_negative("magnetometer.noise", config.noise_rad);
   require_not_negative("magnetometer.offset", config.offset_rad);
+  require_range("magnetometer.dropout", config.dropout, 0.0, 1.0);
   offset_rad_ = config.offset_rad * noise_.draw();
 }
 
-double Magnetometer::read(double heading_rad) {
-  return wrap_angle(heading_rad + offset_rad_ + config_.noise_rad * noise_.draw());
+std::optional<double> Magnetometer::read(double heading_rad) {
+  const double noise_rad = config_.noise_rad * noise_.draw();
+  const bool lost = config_.dropout > 0.0 && noise_.chance(config_.dropout);
+  if (lost || !config_.enabled) return std::nullopt;
+  return wrap_angle(heading_rad + offset_rad_ + noise_rad);
 }
 
 double wrap_angle(double angle_rad) { return std::remainder(angle_rad, 2.0 * std::numbers::pi); }

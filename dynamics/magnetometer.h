@@ -1,18 +1,21 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "dynamics/sensor_noise.h"
 
 namespace hedgehop::dynamics {
 
 /// A tilt-compensated magnetic compass: heading with an offset that stays (iron on board, declination) and white noise.
-/// Numbers are estimates: 0.4 mG/sqrt(Hz) in a field of 215 mG horizontally is 0.1 deg/sqrt(Hz) [PX4Gazebo2024].
+/// Numbers are estimates: 0.4 mG/sqrt(Hz) in a field of 215 mG horizontally is 0.1 deg/sqrt(Hz) [PX4Gazebo2024]. It has
+/// no lag: a magnetometer settles within a few milliseconds, in which no heading turns by more than its noise.
 struct MagnetometerConfig {
   bool enabled = true;
   double rate_hz = 50.0;
   double noise_rad = 0.013089969389957471;   ///< white, per reading: 0.75 deg
   double offset_rad = 0.017453292519943295;  ///< standard deviation of the offset drawn at turn-on: 1 deg
+  double dropout = 0.0;                      ///< probability that a reading is missing
 };
 template <class Visitor>
 void describe(Visitor& v, MagnetometerConfig& c) {
@@ -21,6 +24,7 @@ void describe(Visitor& v, MagnetometerConfig& c) {
   v("noise", c.noise_rad, {.unit = "deg", .at_least = 0.0, .at_most = 90.0, .meaning = "white noise of a reading"});
   v("offset", c.offset_rad,
     {.unit = "deg", .at_least = 0.0, .at_most = 90.0, .meaning = "standard deviation of the offset drawn at turn-on"});
+  v("dropout", c.dropout, {.at_least = 0.0, .at_most = 1.0, .meaning = "share of readings that are missing"});
 }
 
 class Magnetometer {
@@ -28,12 +32,12 @@ class Magnetometer {
   /// Throws std::invalid_argument on values out of range. @param physics_dt_s  > 0.
   Magnetometer(const MagnetometerConfig& config, double physics_dt_s, uint64_t seed);
 
-  bool enabled() const { return config_.enabled; }
   int64_t period() const { return period_; }  ///< physics ticks between readings
   double offset_rad() const { return offset_rad_; }
 
-  /// @return heading with its errors, from north to east, -pi..pi. To be called once every period() ticks.
-  double read(double heading_rad);
+  /// @return heading with its errors, from north to east, -pi..pi; none on a drop-out or when disabled. To be called
+  /// once every period() ticks.
+  std::optional<double> read(double heading_rad);
 
  private:
   MagnetometerConfig config_;

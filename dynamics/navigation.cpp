@@ -221,7 +221,8 @@ void Navigation::correct_heading(double heading_meas_rad) {
 void Navigation::correct_height(double height_meas_m) {
   last_height_m_ = height_meas_m;
   const double altitude_m = -p_WB_.z();
-  const double sigma_m = height_sigma_m(sensors_.height_sensor, height_meas_m);
+  const RangerConfig& ranger = sensors_.height_sensor.ranger;
+  const double sigma_m = std::hypot(noise_sigma_m(ranger, height_meas_m), ranger.offset_m);
   const double altitude_sigma_m = std::sqrt(P_(kP + 2, kP + 2));
   const double near_m = config_.surface_jump_m + 3.0 * sigma_m;
   if (std::abs(height_meas_m - altitude_m) <= near_m + 3.0 * altitude_sigma_m) {
@@ -242,8 +243,9 @@ void Navigation::correct_altitude(double innovation_m, double variance_m2) {
   Row H = Row::Zero();
   H[kP + 2] = -1.0;
   correct(H, innovation_m, variance_m2);
-  // What is unknown of the surface stays unknown, however often it is measured.
-  P_(kP + 2, kP + 2) = std::max(P_(kP + 2, kP + 2), square(surface_sigma_m_));
+  // What is unknown of the surface and the sensor's offset stays unknown, however often it is measured.
+  const double stays_m = std::hypot(surface_sigma_m_, sensors_.height_sensor.ranger.offset_m);
+  P_(kP + 2, kP + 2) = std::max(P_(kP + 2, kP + 2), square(stays_m));
   inject();
 }
 

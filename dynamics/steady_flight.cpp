@@ -17,30 +17,30 @@ SteadyFlight described(const Trim& t) {
   const MainRotorLoads& main = t.loads.main_rotor;
   return {t.roll_rad,
           t.pitch_rad,
-          {{"phi", "deg", t.roll_rad * kDegPerRad},
-           {"theta", "deg", t.pitch_rad * kDegPerRad},
-           {"theta_c", "deg", t.blades.collective_rad * kDegPerRad},
-           {"theta_t", "deg", t.blades.tail_rad * kDegPerRad},
-           {"delta_lat", "deg", t.blades.lateral_rad * kDegPerRad},
-           {"delta_lon", "deg", t.blades.longitudinal_rad * kDegPerRad},
-           {"T", "N", main.inflow.thrust_n},
-           {"v_i", "m/s", main.inflow.induced_mps},
-           {"P", "W", main.power_w},
-           {"P_t", "W", t.loads.tail_rotor.power_w}}};
+          {{"phi", "deg", t.roll_rad * kDegPerRad, "Attitude", "roll"},
+           {"theta", "deg", t.pitch_rad * kDegPerRad, "Attitude", "pitch"},
+           {"theta_c", "deg", t.blades.collective_rad * kDegPerRad, "Blade angles", "main collective"},
+           {"theta_t", "deg", t.blades.tail_rad * kDegPerRad, "Blade angles", "tail collective"},
+           {"delta_lat", "deg", t.blades.lateral_rad * kDegPerRad, "Blade angles", "lateral cyclic"},
+           {"delta_lon", "deg", t.blades.longitudinal_rad * kDegPerRad, "Blade angles", "longitudinal cyclic"},
+           {"T", "N", main.inflow.thrust_n, "Thrust", "main rotor"},
+           {"v_i", "m/s", main.inflow.induced_mps, "Induced velocity", "main rotor"},
+           {"P", "W", main.power_w, "Shaft power", "main rotor"},
+           {"P_t", "W", t.loads.tail_rotor.power_w, "Shaft power", "tail rotor"}}};
 }
 
 SteadyFlight described(const MulticopterModel& model, const MulticopterTrim& t) {
   const Controls controls = wrench(model, t.state.speeds_radps);
   return {t.roll_rad,
           t.pitch_rad,
-          {{"phi", "deg", t.roll_rad * kDegPerRad},
-           {"theta", "deg", t.pitch_rad * kDegPerRad},
-           {"T", "N", controls[kHeave]},
-           {"L", "N m", controls[kRoll]},
-           {"M", "N m", controls[kPitch]},
-           {"N", "N m", controls[kYaw]},
-           {"omega_min", "rad/s", t.state.speeds_radps.minCoeff()},
-           {"omega_max", "rad/s", t.state.speeds_radps.maxCoeff()}}};
+          {{"phi", "deg", t.roll_rad * kDegPerRad, "Attitude", "roll"},
+           {"theta", "deg", t.pitch_rad * kDegPerRad, "Attitude", "pitch"},
+           {"T", "N", controls[kHeave], "Thrust", "all rotors"},
+           {"L", "N m", controls[kRoll], "Torque of the rotors", "roll"},
+           {"M", "N m", controls[kPitch], "Torque of the rotors", "pitch"},
+           {"N", "N m", controls[kYaw], "Torque of the rotors", "yaw"},
+           {"omega_min", "rad/s", t.state.speeds_radps.minCoeff(), "Rotor speeds", "slowest"},
+           {"omega_max", "rad/s", t.state.speeds_radps.maxCoeff(), "Rotor speeds", "fastest"}}};
 }
 
 std::optional<SteadyFlight> steady(const HelicopterConfig& config, const Eigen::Vector3d& v_air_W) {

@@ -17,6 +17,7 @@ namespace hedgehop::dynamics {
 struct Quantity {
   std::string name, unit;
   double value = 0.0;
+  std::string group, meaning;  ///< in words: what it belongs to ("Blade angles"), and which of these it is
 };
 
 /// Level flight without rotation that nothing changes but the position.

@@ -10,6 +10,13 @@ constexpr uint64_t kMoverStream = 1000;  // of the scene's seed; the generators 
 
 Scene generate(const UrbanConfig& config, uint64_t seed) { return make_urban(config, seed); }
 Scene generate(const RoomConfig& config, uint64_t seed) { return make_room(config, seed); }
+Scene generate(const TreeConfig& config, uint64_t seed) { return make_tree(config, seed); }
+Scene generate(const ForestConfig& config, uint64_t seed) { return make_forest(config, seed); }
+Scene generate(const CorridorConfig& config, uint64_t seed) { return make_corridor(config, seed); }
+Scene generate(const HighriseConfig& config, uint64_t seed) { return make_highrise(config, seed); }
+Scene generate(const BalloonConfig& config, uint64_t seed) { return make_balloon(config, seed); }
+Scene generate(const WallConfig& config, uint64_t seed) { return make_wall(config, seed); }
+Scene generate(const ParkConfig& config, uint64_t seed) { return make_park(config, seed); }
 
 }  // namespace
 

@@ -99,7 +99,7 @@ Mover make_mover(const MoverConfig& c, uint64_t seed, MoverPictures& pictures) {
   if (c.shape == Shape::balloon) {
     const Vector3d center_M(0.0, 0.0, -c.height_m);
     const Eigen::Affine3d place = Eigen::Translation3d(center_M) * Eigen::Scaling(c.radius_m);
-    add_polyhedron(moved(place, ball(3)), pictures.signal(), mesh);
+    add_polyhedron(moved(place, ball(3)), Shading::smooth, pictures.signal(), mesh);
     mover.solids.push_back(ball_of(c.name, center_M, c.radius_m));
     const double pole_m = c.height_m - c.radius_m;
     if (pole_m > 0.0) add_standing({Vector3d::Zero(), kPoleRadius_m, pole_m}, kPostSides);

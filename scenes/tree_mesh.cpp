@@ -29,7 +29,7 @@ std::vector<Solid> add_tree(const std::string& name, const TreeShape& shape, std
   const auto add_lump = [&](const Vector3d& center_W, const Vector3d& radii_m) {
     const Polyhedron& lump = lumps[static_cast<size_t>(uniform_index(random, static_cast<int>(lumps.size())))];
     const Polyhedron placed = moved(lump_to_world(center_W, radii_m, random), lump);
-    add_polyhedron(placed, leaves, mesh);
+    add_polyhedron(placed, Shading::smooth, leaves, mesh);
     solids.push_back(solid_of(name, placed));
   };
   if (shape.lobes == 1) {

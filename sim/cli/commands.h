@@ -24,6 +24,8 @@ struct RunOptions {
   std::filesystem::path out;  ///< empty: out/<scenario's name>-seed<seed>
   bool no_video = false;
   bool json = false;
+  bool no_report = false;
+  int64_t worker_of = 0;  ///< process to die with, showing no progress; 0 for a run by a person
 };
 int run(const RunOptions& options);
 
@@ -52,8 +54,9 @@ struct TrimOptions {
   std::filesystem::path vehicle;
   std::vector<double> speeds_mps{0.0};
   bool json = false, csv = false;
+  std::filesystem::path plot;  ///< page of plots to write as well; empty: none
 };
-/// Prints the trim of level flight at each speed.
+/// Prints the trim of level flight at each speed, and plots it.
 int trim(const TrimOptions& options);
 
 struct LinearizeOptions {
@@ -68,6 +71,27 @@ int linearize(const LinearizeOptions& options);
 std::vector<double> speed_range(const std::string& text);
 
 int schema();
+
+struct BatchOptions {
+  std::vector<std::filesystem::path> inputs;  ///< scenarios, campaigns, folders
+  std::string seeds;                          ///< such as 1:10; empty: those of the inputs
+  std::vector<std::string> overrides;         ///< "a.b=value", laid over every scenario
+  size_t jobs = 1;                            ///< flights at a time, >= 1
+  double limit_s = 0.0;                       ///< longest wall time of a flight, 0 for none
+  std::filesystem::path out;                  ///< empty: out/<name of the one input>, else out/batch
+  std::filesystem::path junit;                ///< empty: none is written
+  bool failed_only = false, json = false;
+  std::optional<double> least_success, margin;  ///< statistical checks, as in a campaign's file
+  std::filesystem::path no_worse_than;
+  double confidence = 0.95;
+  std::filesystem::path program;  ///< of the workers, absolute; empty: this one
+};
+/// Flies many scenarios, each flight in a process of its own. Interrupted, it writes what there is and returns 128 and
+/// the signal's number. A bad file fails alone: the rest is flown, then the status is 2.
+int batch(const BatchOptions& options);
+
+/// The executable that runs now, absolute. Throws std::runtime_error.
+std::filesystem::path own_program();
 
 int report(const std::filesystem::path& run_folder);
 

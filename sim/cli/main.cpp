@@ -5,6 +5,7 @@
 #include <exception>
 #include <functional>
 
+#include "sim/cli/campaign_options.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/version.h"
 #include "sim/scenario/input_error.h"
@@ -55,6 +56,8 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
   run_command->add_option("--out", run.out, "folder of the results; out/<name>-seed<seed> when not given")
       ->type_name("DIR");
   run_command->add_flag("--no-video", run.no_video, "make no film");
+  run_command->add_flag("--no-report", run.no_report, "write no report.html; `hedgehop report DIR` does so later");
+  run_command->add_option("--worker-of", run.worker_of)->group("");  // hidden: for batch and sweep
   run_command->add_flag("--json", run.json, "print result.json instead of lines for people");
   run_command->callback([&] { chosen = [&run] { return cli::run(run); }; });
 
@@ -89,6 +92,8 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
       ->type_name("FILE.yaml");
   calibration_command->callback([&] { chosen = [&calibration] { return cli::calibration(calibration); }; });
 
+  cli::declare_campaigns(app, chosen);
+
   CLI::App* const report_command = app.add_subcommand("report", "write report.html of a run's folder anew");
   report_command->add_option("DIR", folder, "folder of a run")->required()->check(CLI::ExistingDirectory);
   report_command->callback([&] { chosen = [&folder] { return cli::report(folder); }; });
@@ -99,11 +104,14 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
       ->check(CLI::IsMember({"modules", "vehicles", "scenes", "cameras", "checks"}));
   list_command->callback([&] { chosen = [&topic] { return cli::list(topic); }; });
 
-  CLI::App* const trim_command = app.add_subcommand("trim", "print a vehicle's trim of level flight against speed");
+  CLI::App* const trim_command =
+      app.add_subcommand("trim", "print, and plot, a vehicle's trim of level flight against speed");
   trim_command->add_option("VEHICLE", vehicles.trim.vehicle, "vehicle file (YAML)")->required();
   trim_command->add_option("--speed", vehicles.speeds, "speed through the air, or a range of them (m/s); default 0")
       ->type_name("FROM:TO:STEP");
   add_formats(*trim_command, vehicles.trim.json, vehicles.trim.csv);
+  trim_command->add_option("--plot", vehicles.trim.plot, "also write a page with plots of the trim over speed")
+      ->type_name("FILE.html");
   trim_command->callback([&] {
     chosen = [&vehicles] {
       vehicles.trim.speeds_mps = cli::speed_range(vehicles.speeds);
@@ -154,10 +162,10 @@ int main(int argc, char** argv) {
   try {
     return run_command_line(argc, argv);
   } catch (const hedgehop::sim::InputError& error) {
-    for (const std::string& fault : error.faults()) fmt::print(stderr, "{}\n", fault);
+    for (const std::string& fault : error.faults()) std::fputs((fault + "\n").c_str(), stderr);
     return kBadInput;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "hedgehop: {}\n", error.what());
+    std::fputs(fmt::format("hedgehop: {}\n", error.what()).c_str(), stderr);  // never throws, as fmt::print may
     return kInternalError;
   }
 }

@@ -1,8 +1,13 @@
 #include <fmt/format.h>
+#include <sys/prctl.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdio>
+#include <stdexcept>
 
+#include "sim/campaign/order.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/load.h"
 #include "sim/cli/progress.h"
@@ -18,15 +23,15 @@ namespace {
 /// Films and shows progress.
 class RunWatcher : public FlightWatcher {
  public:
-  RunWatcher(const Scenario& scenario, const std::filesystem::path& film_file)
-      : film_(scenario.film, film_file), progress_(scenario.name) {}
+  RunWatcher(const Scenario& scenario, const std::filesystem::path& film_file, bool quiet)
+      : film_(scenario.film, film_file), progress_(scenario.name), quiet_(quiet) {}
 
   double picture_rate_hz() const override { return film_.picture_rate_hz(); }
   void on_pictures(int64_t t_ns, std::span<const avoidance::CameraFrame> frames, const cv::Mat& annotated) override {
     film_.on_pictures(t_ns, frames, annotated);
   }
   void on_progress(double t_s, double duration_s, double goal_distance_m) override {
-    progress_.show(t_s, duration_s, goal_distance_m);
+    if (!quiet_) progress_.show(t_s, duration_s, goal_distance_m);
   }
   /// Ends line and film.
   void close() {
@@ -38,11 +43,19 @@ class RunWatcher : public FlightWatcher {
  private:
   FilmWatcher film_;
   FlightProgress progress_;
+  bool quiet_;
 };
 
+/// A worker whose campaign is gone must not go on: another may fly into the same folder.
+void die_with(pid_t campaign) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != campaign) throw std::runtime_error("the campaign that started this worker is gone");
+}
+
 std::string command_line(const RunOptions& options, const Scenario& scenario) {
-  std::string text = fmt::format("hedgehop run {} --seed {}", options.scenario.file.string(), scenario.seed);
-  for (const std::string& override_text : options.scenario.overrides) text += fmt::format(" --set '{}'", override_text);
+  std::string text =
+      fmt::format("hedgehop run {} --seed {}", shell_quoted(options.scenario.file.string()), scenario.seed);
+  for (const std::string& override_text : options.scenario.overrides) text += " --set " + shell_quoted(override_text);
   if (!options.scenario.gl.empty()) text += " --gl " + options.scenario.gl;
   return text;
 }
@@ -52,7 +65,8 @@ void print_check(const CheckResult& check) {
   fmt::print("  {}  {:<16} {:.4g} {}{}\n", check.passed ? "pass" : "FAIL", check.name, check.value, check.unit, limit);
 }
 
-void print_verdict(const Scenario& scenario, const FlightResult& result, const std::filesystem::path& out) {
+void print_verdict(const Scenario& scenario, const FlightResult& result, const std::filesystem::path& out,
+                   bool has_report) {
   fmt::print("{}, seed {}: {}{} after {:.1f} s of flight\n", scenario.name, scenario.seed, to_string(result.outcome),
              result.cause.empty() ? "" : " (" + result.cause + ")", result.flight_time_s);
   fmt::print("  path {:.1f} m, mean speed {:.2f} m/s", result.path_length_m, result.mean_speed_mps);
@@ -65,29 +79,30 @@ void print_verdict(const Scenario& scenario, const FlightResult& result, const s
   fmt::print("  {:.2f} times real time: {:.1f} s; per instant of the cameras: drawing {:.1f} ms, deciding {:.1f} ms\n",
              result.realtime_factor, result.wall_s, result.render_ms.median_ms, result.decision_ms.median_ms);
   for (const CheckResult& check : result.checks) print_check(check);
-  fmt::print("  written: {}\n", (out / "report.html").string());
+  fmt::print("  written: {}\n", (out / (has_report ? "report.html" : "result.json")).string());
 }
 
 }  // namespace
 
 int run(const RunOptions& options) {
+  if (options.worker_of != 0) die_with(static_cast<pid_t>(options.worker_of));
   Scenario scenario = load(options.scenario);
   if (options.no_video) scenario.film.enabled = false;
   const std::filesystem::path out =
       options.out.empty() ? std::filesystem::path{"out"} / fmt::format("{}-seed{}", scenario.name, scenario.seed)
                           : options.out;
-  RunWatcher watcher(scenario, out / "video.webm");
+  RunWatcher watcher(scenario, out / "video.webm", options.worker_of != 0);
   const Flight flight = fly(scenario, &watcher);
   watcher.close();
 
   const RunInfo info{scenario.name, scenario.seed, std::string{kVersion}, command_line(options, scenario),
                      to_yaml(scenario)};
   write_result_files(out, info, flight);
-  write_report(out);
+  if (!options.no_report) write_report(out);
   if (options.json) {
     fmt::print("{}\n", result_json(info, flight.result));
   } else {
-    print_verdict(scenario, flight.result, out);
+    print_verdict(scenario, flight.result, out, !options.no_report);
   }
   bool all_hold = flight.result.outcome != Outcome::fault;
   for (const CheckResult& check : flight.result.checks) all_hold = all_hold && check.passed;

@@ -12,7 +12,11 @@
 #include <vector>
 
 #include "dynamics/steady_flight.h"
+#include "dynamics/vehicle.h"
 #include "sim/cli/commands.h"
+#include "sim/record/report_page.h"
+#include "sim/record/trim_data.h"
+#include "sim/record/whole_file.h"
 #include "sim/scenario/input_error.h"
 #include "sim/scenario/scenario.h"
 
@@ -26,18 +30,14 @@ template <class Compute>
 auto about(const std::filesystem::path& file, Compute compute) {
   const dynamics::VehicleConfig vehicle = load_vehicle(file);
   try {
+    dynamics::Vehicle{vehicle};  // says why, where it could never fly
     return compute(vehicle);
   } catch (const std::invalid_argument& error) {
     throw InputError(fmt::format("{}: {}", file.string(), error.what()));
   }
 }
 
-struct TrimRow {
-  double speed_mps = 0.0;
-  dynamics::SteadyFlight flight;
-};
-
-Json to_json(const TrimRow& row) {
+Json to_json(const TrimPoint& row) {
   Json json{{"V_mps", row.speed_mps}};
   for (const dynamics::Quantity& q : row.flight.quantities) {
     json[q.name] = q.value;
@@ -45,14 +45,14 @@ Json to_json(const TrimRow& row) {
   return json;
 }
 
-void print_rows(const std::vector<TrimRow>& rows, bool csv) {
+void print_rows(const std::vector<TrimPoint>& rows, bool csv) {
   std::vector<std::string> heads{csv ? "V_mps" : "V [m/s]"};
   for (const dynamics::Quantity& q : rows.front().flight.quantities) {
     heads.push_back(csv ? q.name : fmt::format("{} [{}]", q.name, q.unit));
   }
   if (csv) {
     fmt::print("{}\n", fmt::join(heads, ","));
-    for (const TrimRow& row : rows) {
+    for (const TrimPoint& row : rows) {
       fmt::print("{}", row.speed_mps);
       for (const dynamics::Quantity& q : row.flight.quantities) fmt::print(",{}", q.value);
       fmt::print("\n");
@@ -61,7 +61,7 @@ void print_rows(const std::vector<TrimRow>& rows, bool csv) {
   }
   for (const std::string& head : heads) fmt::print("{:>18}", head);
   fmt::print("\n");
-  for (const TrimRow& row : rows) {
+  for (const TrimPoint& row : rows) {
     fmt::print("{:>18.2f}", row.speed_mps);
     for (const dynamics::Quantity& q : row.flight.quantities) fmt::print("{:>18.3f}", q.value);
     fmt::print("\n");
@@ -128,8 +128,8 @@ void print_modes(const std::vector<dynamics::Mode>& modes, bool csv) {
 
 int trim(const TrimOptions& options) {
   std::vector<double> missing_mps;
-  const std::vector<TrimRow> rows = about(options.vehicle, [&](const dynamics::VehicleConfig& vehicle) {
-    std::vector<TrimRow> found;
+  const std::vector<TrimPoint> rows = about(options.vehicle, [&](const dynamics::VehicleConfig& vehicle) {
+    std::vector<TrimPoint> found;
     for (const double speed_mps : options.speeds_mps) {
       const auto flight = dynamics::steady_flight(vehicle, {speed_mps, 0.0, 0.0});
       if (flight) {
@@ -144,10 +144,15 @@ int trim(const TrimOptions& options) {
   if (rows.empty()) throw InputError(options.vehicle.string() + ": no steady flight at any of the speeds");
   if (options.json) {
     Json json = Json::array();
-    for (const TrimRow& row : rows) json.push_back(to_json(row));
+    for (const TrimPoint& row : rows) json.push_back(to_json(row));
     fmt::print("{}\n", json.dump(2));
   } else {
     print_rows(rows, options.csv);
+  }
+  if (!options.plot.empty()) {
+    const Json data = trim_data(options.vehicle.stem().string(), rows, missing_mps);
+    write_file_whole(options.plot, trim_page(data["title"].get<std::string>(), data.dump()));
+    fmt::print(stderr, "{}\n", options.plot.string());
   }
   return 0;
 }

@@ -18,7 +18,7 @@ void Aircraft::reset(const CollisionWorld& world) {
   const Eigen::Vector3d p_WB = scenario_.start.draw_p_WB(stream_seed(scenario_.seed, "start"));
   wind_W_ = wind_.sample(-p_WB.z(), Eigen::Vector3d::Zero(), ticks_.dt_s());
   build_part("vehicle", [&] { vehicle_.reset(p_WB, scenario_.start.heading_rad, wind_W_); });
-  avionics_.reset(truth(world));
+  avionics_.reset(truth(world, 0));
 }
 
 void Aircraft::move() {
@@ -26,11 +26,14 @@ void Aircraft::move() {
   vehicle_.step(actuators_, wind_W_, ticks_.dt_s());
 }
 
-dynamics::SensedTruth Aircraft::truth(const CollisionWorld& world) const {
-  const auto height_beside = [this, &world](double north_m, double east_m) {
-    return world.height_above_surface(body().p_WB + Eigen::Vector3d(north_m, east_m, 0.0));
+dynamics::SensedTruth Aircraft::truth(const CollisionWorld& world, int64_t tick) const {
+  const auto height_beside = [this, &world, t_s = ticks_.t_s(tick)](double north_m, double east_m) {
+    return world.height_above_surface(body().p_WB + Eigen::Vector3d(north_m, east_m, 0.0), t_s);
   };
-  return {body(), vehicle_.specific_force_B(), height_beside(0.0, 0.0), height_beside};
+  const auto beam_distance = [&world](const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m) {
+    return world.distance_along(p_W, direction_W, reach_m);
+  };
+  return {body(), vehicle_.specific_force_B(), height_beside(0.0, 0.0), height_beside, beam_distance};
 }
 
 Eigen::Isometry3d Aircraft::X_WB() const {
@@ -39,5 +42,7 @@ Eigen::Isometry3d Aircraft::X_WB() const {
   X_WB.translation() = body().p_WB;
   return X_WB;
 }
+
+BodyMotion Aircraft::motion() const { return {X_WB(), body().q_WB * body().v_WB_B, body().w_WB_B}; }
 
 }  // namespace hedgehop::sim

@@ -7,6 +7,7 @@
 #include "dynamics/vehicle.h"
 #include "dynamics/wind.h"
 #include "sim/collision/proximity.h"
+#include "sim/loop/shutter.h"
 #include "sim/loop/ticks.h"
 #include "sim/scenario/scenario.h"
 
@@ -21,21 +22,23 @@ class Aircraft {
   /// Puts it into its drawn start, in a trimmed hover. Throws InputError where it cannot hover.
   void reset(const CollisionWorld& world);
   /// Reads the sensors that are due on this tick.
-  void sense(int64_t tick, const CollisionWorld& world) { avionics_.sense(ticks_.t_ns(tick), truth(world)); }
+  void sense(int64_t tick, const CollisionWorld& world) { avionics_.sense(ticks_.t_ns(tick), truth(world, tick)); }
   /// Runs the autopilot. @param dt_s  until the next call.
   void steer(const dynamics::Setpoint& setpoint, double dt_s) { actuators_ = avionics_.control(setpoint, dt_s); }
   /// Moves on by one tick.
   void move();
 
   Eigen::Isometry3d X_WB() const;
+  BodyMotion motion() const;
   const dynamics::RigidBodyState& body() const { return vehicle_.body(); }
   const dynamics::Vehicle& vehicle() const { return vehicle_; }
   const dynamics::NavigationEstimate& navigation() const { return avionics_.navigation(); }
+  const dynamics::Avionics& avionics() const { return avionics_; }
   dynamics::Avionics& avionics() { return avionics_; }
   const Eigen::Vector3d& wind_W() const { return wind_W_; }
 
  private:
-  dynamics::SensedTruth truth(const CollisionWorld& world) const;
+  dynamics::SensedTruth truth(const CollisionWorld& world, int64_t tick) const;
 
   const Scenario& scenario_;
   const Ticks ticks_;

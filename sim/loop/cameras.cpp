@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
 #include <stdexcept>
+
+#include "sim/loop/random_stream.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -21,15 +25,20 @@ Channel to_render_channel(CameraConfig::Channel channel) {
 
 }  // namespace
 
-Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, const DrawingConfig& drawing)
+Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, const DrawingConfig& drawing,
+                 uint64_t seed)
     : renderer_(scene, Culling::frustum_and_horizon,
                 drawing.context == DrawingConfig::Context::egl ? ContextKind::egl : ContextKind::osmesa) {
   for (const CameraConfig& camera : rig.cameras) {
     channels_.push_back(to_render_channel(camera.channel));
     periods_.push_back(ticks.period(camera.rate_hz));
+    period_ns_.push_back(ticks.t_ns(periods_.back()));
     mounted_.push_back({camera.role, camera.model(), camera.X_BC(), camera.rate_hz});
+    imperfections_.emplace_back(camera.imperfections, 1.0 / camera.rate_hz, stream_seed(seed, "camera." + camera.role));
+    shutters_.emplace_back(camera.imperfections);
     frames_.push_back({camera.role, /*t_ns=*/-1, {}});
   }
+  exposed_ns_.assign(frames_.size(), -1);
   snapshot_ = frames_;
 }
 
@@ -40,28 +49,53 @@ size_t Cameras::index(std::string_view role) const {
   throw std::out_of_range(fmt::format("the rig has no camera '{}'", role));
 }
 
-const avoidance::CameraFrame& Cameras::expose(size_t camera, int64_t t_ns, const Eigen::Isometry3d& X_WB) {
-  if (frames_[camera].t_ns != t_ns) draw(camera, t_ns, X_WB, frames_[camera]);
-  return frames_[camera];
+const avoidance::CameraFrame* Cameras::expose(size_t camera, int64_t t_ns, const BodyMotion& body) {
+  avoidance::CameraFrame& frame = frames_[camera];
+  if (exposed_ns_[camera] != t_ns) {
+    exposed_ns_[camera] = t_ns;
+    const int64_t number = picture_number(camera, t_ns);
+    const Imperfections::Fate fate = imperfections_[camera].fate(number);
+    if (fate == Imperfections::Fate::dropped) return nullptr;
+    const bool frozen = fate == Imperfections::Fate::frozen && !frame.image.empty();
+    if (!frozen) {
+      const Instant now{t_ns, body};
+      draw(camera, channels_[camera], now, now, frame.image);
+      imperfections_[camera].spoil(number, frame.image);
+      if (fate == Imperfections::Fate::black) blacken(frame.image);
+    }
+    frame.t_ns = t_ns;
+  }
+  return frame.t_ns == t_ns ? &frame : nullptr;
 }
 
 std::span<const avoidance::CameraFrame> Cameras::snapshot(int64_t t_ns, const Eigen::Isometry3d& X_WB) {
-  for (size_t i = 0; i < count(); ++i) draw(i, t_ns, X_WB, snapshot_[i]);
+  for (size_t i = 0; i < count(); ++i) {
+    const double t_s = 1e-9 * static_cast<double>(t_ns);
+    renderer_.draw({mounted_[i].model, X_WB * mounted_[i].X_BC, channels_[i], t_s}, snapshot_[i].image);
+    snapshot_[i].t_ns = t_ns;
+  }
   return snapshot_;
 }
 
 cv::Mat Cameras::picture(size_t camera, Channel channel, const Instant& now, const Instant& next) {
   cv::Mat image;
-  const avoidance::MountedCamera& mounted = mounted_[camera];
-  renderer_.draw({mounted.model, now.X_WB * mounted.X_BC, channel, now.t_s, {next.X_WB * mounted.X_BC, next.t_s}},
-                 image);
+  draw(camera, channel, now, next, image);
+  if (channel == Channel::grey || channel == Channel::color) {
+    imperfections_[camera].spoil(picture_number(camera, now.t_ns), image);
+  }
   return image;
 }
 
-void Cameras::draw(size_t camera, int64_t t_ns, const Eigen::Isometry3d& X_WB, avoidance::CameraFrame& frame) {
-  const double t_s = 1e-9 * static_cast<double>(t_ns);
-  renderer_.draw({mounted_[camera].model, X_WB * mounted_[camera].X_BC, channels_[camera], t_s}, frame.image);
-  frame.t_ns = t_ns;
+void Cameras::draw(size_t camera, Channel channel, const Instant& now, const Instant& next, cv::Mat& out) {
+  const avoidance::MountedCamera& mounted = mounted_[camera];
+  const CameraView::Next seen_next{next.body.X_WB * mounted.X_BC, 1e-9 * static_cast<double>(next.t_ns)};
+  const auto draw_rows = [&](const Eigen::Isometry3d& X_WB, double dt_s, const cv::Range& rows, cv::Mat& picture) {
+    const bool whole = rows.size() == mounted.model.height_px;
+    const double t_s = std::max(0.0, 1e-9 * static_cast<double>(now.t_ns) + dt_s);
+    renderer_.draw({whole ? mounted.model : cut(mounted.model, rows), X_WB * mounted.X_BC, channel, t_s, seen_next},
+                   picture);
+  };
+  shutters_[camera].expose(now.body, mounted.model.height_px, std::ref(draw_rows), out);
 }
 
 }  // namespace hedgehop::sim

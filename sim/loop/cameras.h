@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "avoidance/module.h"
+#include "sim/loop/imperfections.h"
+#include "sim/loop/shutter.h"
 #include "sim/loop/ticks.h"
 #include "sim/render/renderer.h"
 #include "sim/scenario/drawing.h"
@@ -17,24 +19,28 @@ namespace hedgehop::sim {
 /// from the same vehicle state.
 class Cameras {
  public:
-  Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, const DrawingConfig& drawing);
+  /// @param seed  of the flight; each camera has its own stream.
+  Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, const DrawingConfig& drawing,
+          uint64_t seed);
 
   size_t count() const { return frames_.size(); }
   /// Index of a role. Throws std::out_of_range for a role the rig does not have.
   size_t index(std::string_view role) const;
   bool due(size_t camera, int64_t tick) const { return tick % periods_[camera] == 0; }
 
-  /// Draws one camera's picture of this instant; does nothing when it holds it already.
-  const avoidance::CameraFrame& expose(size_t camera, int64_t t_ns, const Eigen::Isometry3d& X_WB);
+  /// Draws one camera's picture of this instant, spoiled as its imperfections ask; does nothing when it holds it
+  /// already. @return null when the picture is lost.
+  const avoidance::CameraFrame* expose(size_t camera, int64_t t_ns, const BodyMotion& body);
   /// Pictures of all cameras at this instant for somebody who only looks on; what modules are shown stays untouched.
   std::span<const avoidance::CameraFrame> snapshot(int64_t t_ns, const Eigen::Isometry3d& X_WB);
 
   /// An instant of the flight.
   struct Instant {
-    double t_s = 0.0;
-    Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
+    int64_t t_ns = 0;
+    BodyMotion body;
   };
-  /// One camera's picture of an instant in a channel of the caller's choice. @param next  what Channel::flow leads to.
+  /// One camera's picture of an instant in a channel of the caller's choice, with the shutter's and the sensor's
+  /// imperfections. @param next  what Channel::flow leads to.
   cv::Mat picture(size_t camera, Channel channel, const Instant& now, const Instant& next);
 
   const avoidance::MountedCamera& mounted(size_t camera) const { return mounted_[camera]; }
@@ -42,12 +48,17 @@ class Cameras {
   int64_t period_ticks(size_t camera) const { return periods_[camera]; }
 
  private:
-  void draw(size_t camera, int64_t t_ns, const Eigen::Isometry3d& X_WB, avoidance::CameraFrame& frame);
+  int64_t picture_number(size_t camera, int64_t t_ns) const { return t_ns / period_ns_[camera]; }
+  void draw(size_t camera, Channel channel, const Instant& now, const Instant& next, cv::Mat& out);
 
   Renderer renderer_;
   std::vector<Channel> channels_;
   std::vector<int64_t> periods_;  ///< ticks
   std::vector<avoidance::MountedCamera> mounted_;
+  std::vector<int64_t> period_ns_;
+  std::vector<Imperfections> imperfections_;
+  std::vector<Shutter> shutters_;
+  std::vector<int64_t> exposed_ns_;  ///< when each camera last exposed a picture, lost ones included
   std::vector<avoidance::CameraFrame> frames_, snapshot_;
 };
 

@@ -19,6 +19,7 @@
 #include "sim/loop/checks.h"
 #include "sim/loop/flight_log.h"
 #include "sim/loop/random_stream.h"
+#include "sim/loop/route.h"
 #include "sim/loop/setpoints.h"
 #include "sim/loop/stage_timer.h"
 #include "sim/loop/velocimeter.h"
@@ -79,7 +80,7 @@ class Episode {
   std::optional<Velocimeter> velocimeter_;
   std::unique_ptr<avoidance::Module> module_;
   std::vector<size_t> module_cameras_;
-  const avoidance::Goal goal_;
+  Route route_;
   int64_t control_period_ = 0, decision_period_ = 0, latency_ = 0, picture_period_ = 0;
 
   int64_t tick_ = 0;
@@ -102,9 +103,9 @@ Episode::Episode(const Scenario& scenario, FlightWatcher* watcher)
       hull_(dynamics::hull(scenario.vehicle)),
       aircraft_(scenario, ticks_),
       collision_(scene_, hull_),
-      cameras_(scenario.rig, ticks_, scene_, scenario.drawing),
+      cameras_(scenario.rig, ticks_, scene_, scenario.drawing, scenario.seed),
       module_(avoidance::make_module(scenario.avoidance)),
-      goal_(to_goal(scenario)),
+      route_(scenario),
       control_period_(ticks_.period(static_cast<double>(scenario.control_rate_hz))),
       log_(scene_, aircraft_.vehicle()) {
   if (scenario.velocimeter.enabled) {
@@ -125,7 +126,7 @@ Episode::Episode(const Scenario& scenario, FlightWatcher* watcher)
 
 void Episode::begin() {
   aircraft_.reset(collision_);
-  setpoint_ = dynamics::PositionSetpoint{aircraft_.body().p_WB, goal_.heading_rad};
+  setpoint_ = dynamics::PositionSetpoint{aircraft_.body().p_WB, route_.goal().heading_rad};
   const dynamics::AutopilotConfig& limits = scenario_.avionics.autopilot;
   module_->reset({{cameras_.mounted().begin(), cameras_.mounted().end()},
                   {limits.speed_limit_mps, limits.acceleration_limit_mps2, dynamics::radius_m(hull_)},
@@ -153,7 +154,7 @@ cv::Mat Episode::picture(size_t camera, Channel channel, double t_s) {
       }
       move();
     }
-    return {ticks_.t_s(tick_), aircraft_.X_WB()};
+    return {ticks_.t_ns(tick_), aircraft_.motion()};
   };
   const Cameras::Instant now = fly_on(ticks_.ticks(t_s));
   const bool leads_on = channel == Channel::flow;
@@ -189,7 +190,7 @@ Flight Episode::fly() {
 }
 
 void Episode::measure_proximity() {
-  proximity_ = collision_.query(aircraft_.X_WB(), kSearchRadius_m);
+  proximity_ = collision_.query(aircraft_.X_WB(), kSearchRadius_m, ticks_.t_s(tick_));
   log_.add(ticks_.t_s(tick_), aircraft_.body().p_WB, proximity_);
 }
 
@@ -200,26 +201,28 @@ void Episode::look() {
   seen_.clear();
   const int64_t t_ns = ticks_.t_ns(tick_);
   std::optional<StageTimer::Lap> lap;
-  const auto expose = [&](size_t camera) -> const avoidance::CameraFrame& {
+  const auto expose = [&](size_t camera) -> const avoidance::CameraFrame* {
     if (!lap) lap.emplace(render_);
-    return cameras_.expose(camera, t_ns, aircraft_.X_WB());
+    return cameras_.expose(camera, t_ns, aircraft_.motion());
   };
   for (const size_t camera : module_cameras_) {
-    if (cameras_.due(camera, tick_)) seen_.push_back(expose(camera));
+    if (!cameras_.due(camera, tick_)) continue;
+    if (const avoidance::CameraFrame* const frame = expose(camera)) seen_.push_back(*frame);
   }
   if (velocimeter_ && cameras_.due(velocimeter_->camera(), tick_)) {
-    const avoidance::CameraFrame& frame = expose(velocimeter_->camera());
+    const avoidance::CameraFrame* const frame = expose(velocimeter_->camera());
     lap.reset();
     const StageTimer::Lap flow_lap = velocimetry_.lap();
-    velocimeter_->update(frame, aircraft_.avionics());
+    if (frame) velocimeter_->update(*frame, aircraft_.avionics());
   }
 }
 
 void Episode::decide() {
   const bool due = module_cameras_.empty() ? tick_ % decision_period_ == 0 : !seen_.empty();
   if (!due) return;
-  const avoidance::Observation observation{ticks_.t_ns(tick_), seen_, to_navigation_state(aircraft_.navigation()),
-                                           goal_};
+  route_.update(aircraft_.navigation().p_WB_est);
+  const avoidance::Observation observation{ticks_.t_ns(tick_), seen_, to_navigation_state(aircraft_.avionics()),
+                                           route_.goal()};
   try {
     const StageTimer::Lap lap = decision_.lap();
     const avoidance::Decision decision = module_->update(observation);
@@ -237,7 +240,7 @@ void Episode::steer() {
     pending_.pop_front();
   }
   aircraft_.steer(setpoint_, static_cast<double>(control_period_) * ticks_.dt_s());
-  log_.add(ticks_.t_s(tick_), aircraft_.vehicle(), aircraft_.navigation(), setpoint_, proximity_, aircraft_.wind_W());
+  log_.add(ticks_.t_s(tick_), aircraft_, setpoint_, proximity_);
 }
 
 /// Shows the watcher what it asked for.
@@ -264,9 +267,9 @@ bool Episode::ended() {
   } else if (proximity_.collided) {
     const bool ground = proximity_.ground_clearance_m <= 0.0;
     const std::string what =
-        ground || !proximity_.nearest_solid ? "the ground" : scene_.solids[*proximity_.nearest_solid].name;
+        ground || !proximity_.nearest_solid ? "the ground" : scenes::solid_at(scene_, *proximity_.nearest_solid).name;
     end(Outcome::collided, fmt::format("hit {} at {:.3f} s", what, ticks_.t_s(tick_)));
-  } else if (scenario_.goal && *goal_distance_m() <= scenario_.goal->radius_m) {
+  } else if (scenario_.goal && route_.on_last() && *goal_distance_m() <= scenario_.goal->radius_m) {
     end(Outcome::reached);
   } else if (tick_ >= ticks_.ticks(scenario_.duration_s)) {
     end(Outcome::timeout);
@@ -287,7 +290,7 @@ void Episode::end(Outcome outcome, std::string cause) {
 
 std::optional<double> Episode::goal_distance_m() const {
   if (!scenario_.goal) return std::nullopt;
-  return (aircraft_.body().p_WB - goal_.p_WG).head<2>().norm();
+  return (aircraft_.body().p_WB - scenario_.goal->p_WG()).head<2>().norm();
 }
 
 }  // namespace

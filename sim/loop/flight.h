@@ -30,6 +30,7 @@ struct TrajectoryRow {
   Eigen::Vector4d controls = Eigen::Vector4d::Zero();  ///< where the actuators stand, see Flight::control_names
   Eigen::Vector3d wind_W = Eigen::Vector3d::Zero();    ///< m/s
   bool model_valid = true;                             ///< false where the rotors leave the range of momentum theory
+  std::optional<double> range_m;                       ///< last reading of the range finder; none when it read nothing
 };
 
 /// One decision of the module.

@@ -48,7 +48,7 @@ void FlightLog::set_signals(const std::vector<avoidance::Signal>& signals) {
 void FlightLog::add(double t_s, const Eigen::Vector3d& p_WB_true, const Proximity& proximity) {
   ClosestApproach& obstacle = flight_.result.closest_obstacle;
   if (proximity.obstacle_clearance_m < obstacle.distance_m) {
-    const std::string what = proximity.nearest_solid ? scene_.solids[*proximity.nearest_solid].name : "";
+    const std::string what = proximity.nearest_solid ? scenes::solid_at(scene_, *proximity.nearest_solid).name : "";
     obstacle = {proximity.obstacle_clearance_m, t_s, what, p_WB_true};
   }
   ClosestApproach& ground = flight_.result.closest_ground;
@@ -57,9 +57,10 @@ void FlightLog::add(double t_s, const Eigen::Vector3d& p_WB_true, const Proximit
   }
 }
 
-void FlightLog::add(double t_s, const dynamics::Vehicle& vehicle, const dynamics::NavigationEstimate& navigation,
-                    const dynamics::Setpoint& setpoint, const Proximity& proximity, const Eigen::Vector3d& wind_W) {
-  const dynamics::RigidBodyState& body = vehicle.body();
+void FlightLog::add(double t_s, const Aircraft& aircraft, const dynamics::Setpoint& setpoint,
+                    const Proximity& proximity) {
+  const dynamics::RigidBodyState& body = aircraft.body();
+  const dynamics::NavigationEstimate& navigation = aircraft.navigation();
   hash_.add(body);
   const CommandColumns command = columns(setpoint);
   flight_.trajectory.push_back({.t_s = t_s,
@@ -75,9 +76,10 @@ void FlightLog::add(double t_s, const dynamics::Vehicle& vehicle, const dynamics
                                 .heading_cmd_rad = command.heading_rad,
                                 .obstacle_clearance_m = proximity.obstacle_clearance_m,
                                 .ground_clearance_m = proximity.ground_clearance_m,
-                                .controls = vehicle.actuators(),
-                                .wind_W = wind_W,
-                                .model_valid = vehicle.within_validity()});
+                                .controls = aircraft.vehicle().actuators(),
+                                .wind_W = aircraft.wind_W(),
+                                .model_valid = aircraft.vehicle().within_validity(),
+                                .range_m = aircraft.avionics().range_m()});
 }
 
 void FlightLog::add(double t_s, const avoidance::Decision& decision) {

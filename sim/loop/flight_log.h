@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "avoidance/module.h"
-#include "dynamics/avionics.h"
 #include "dynamics/vehicle.h"
 #include "scenes/scene.h"
 #include "sim/collision/proximity.h"
+#include "sim/loop/aircraft.h"
 #include "sim/loop/flight.h"
 #include "sim/loop/trajectory_hash.h"
 
@@ -25,8 +25,7 @@ class FlightLog {
   /// Every physics tick: keeps the closest approaches.
   void add(double t_s, const Eigen::Vector3d& p_WB_true, const Proximity& proximity);
   /// Every control tick.
-  void add(double t_s, const dynamics::Vehicle& vehicle, const dynamics::NavigationEstimate& navigation,
-           const dynamics::Setpoint& setpoint, const Proximity& proximity, const Eigen::Vector3d& wind_W);
+  void add(double t_s, const Aircraft& aircraft, const dynamics::Setpoint& setpoint, const Proximity& proximity);
   /// Every decision.
   void add(double t_s, const avoidance::Decision& decision);
 

@@ -22,14 +22,11 @@ dynamics::Setpoint to_setpoint(const avoidance::Command& command) {
   return std::visit([](const auto& c) { return convert(c); }, command);
 }
 
-avoidance::NavigationState to_navigation_state(const dynamics::NavigationEstimate& estimate) {
-  return {estimate.p_WB_est, estimate.q_WB_est, estimate.v_WB_B_est, estimate.w_WB_B_est,
-          estimate.height_above_ground_m};
-}
-
-avoidance::Goal to_goal(const Scenario& scenario) {
-  if (scenario.goal) return {scenario.goal->p_WG(), scenario.goal->heading_rad};
-  return {scenario.start.p_WB(), scenario.start.heading_rad};
+avoidance::NavigationState to_navigation_state(const dynamics::Avionics& avionics) {
+  const dynamics::NavigationEstimate& estimate = avionics.navigation();
+  return {
+      estimate.p_WB_est, estimate.q_WB_est, estimate.v_WB_B_est, estimate.w_WB_B_est, estimate.height_above_ground_m,
+      avionics.range_m()};
 }
 
 }  // namespace hedgehop::sim

@@ -2,7 +2,6 @@
 
 #include "avoidance/module.h"
 #include "dynamics/avionics.h"
-#include "sim/scenario/scenario.h"
 
 /// Where the loop translates between rooms that must not know each other.
 namespace hedgehop::sim {
@@ -10,8 +9,6 @@ namespace hedgehop::sim {
 /// A module's command as the autopilot takes it.
 dynamics::Setpoint to_setpoint(const avoidance::Command& command);
 /// The navigation filter's estimate as a module sees it.
-avoidance::NavigationState to_navigation_state(const dynamics::NavigationEstimate& estimate);
-/// The scenario's goal; without one, the start, so that its altitude and heading are held.
-avoidance::Goal to_goal(const Scenario& scenario);
+avoidance::NavigationState to_navigation_state(const dynamics::Avionics& avionics);
 
 }  // namespace hedgehop::sim

@@ -15,7 +15,8 @@ struct Footprint {
   double bottom_m = 0.0, top_m = 0.0;         ///< altitudes
 };
 
-/// The outline of each solid on the plan, of any attitude. Precise to a float's rounding of the coordinates.
+/// The outline of each solid on the plan, of any attitude. Precise to a float's rounding of the coordinates; round ones
+/// have 32 corners, a surface that of its convex hull.
 std::vector<Footprint> footprints(const std::vector<scenes::Solid>& solids);
 
 /// Where a footprint lies for a flight between two altitudes: only what is beside it can be hit sideways.

@@ -13,8 +13,10 @@
 namespace hedgehop::sim {
 namespace {
 
+using Value = std::pair<std::string_view, std::string_view>;
+
 /// Puts each value where the template says `{{name}}`; what is put in is not looked at again.
-std::string filled(std::string_view page, std::span<const std::pair<std::string_view, std::string_view>> values) {
+std::string filled(std::string_view page, std::span<const Value> values) {
   std::string result;
   while (true) {
     const size_t open = page.find("{{");
@@ -28,7 +30,7 @@ std::string filled(std::string_view page, std::span<const std::pair<std::string_
       result.append(value);
       known = true;
     }
-    if (!known) throw std::logic_error(fmt::format("report template names unknown '{}'", name));
+    if (!known) throw std::logic_error(fmt::format("a page's template names unknown '{}'", name));
     page.remove_prefix(close + 2);
   }
 }
@@ -100,7 +102,6 @@ std::string base64(std::string_view bytes) {
 std::string report_page(std::string_view title, std::string data_json, const PageFilm& film) {
   const std::string safe_title = html_escaped(title), data = script_safe(std::move(data_json));
   const std::string film_html = film_element(film);
-  using Value = std::pair<std::string_view, std::string_view>;
   const std::array values = {Value{"title", safe_title},
                              Value{"plot_style", kPlotStyle},
                              Value{"style", kReportStyle},
@@ -112,6 +113,19 @@ std::string report_page(std::string_view title, std::string data_json, const Pag
                              Value{"charts_script", kChartsScript},
                              Value{"report_script", kReportScript}};
   return filled(kReportPage, values);
+}
+
+std::string trim_page(std::string_view title, std::string data_json) {
+  const std::string safe_title = html_escaped(title), data = script_safe(std::move(data_json));
+  const std::array values = {Value{"title", safe_title},
+                             Value{"plot_style", kPlotStyle},
+                             Value{"style", kReportStyle},
+                             Value{"data", data},
+                             Value{"plot_script", kPlotScript},
+                             Value{"figures_script", kFiguresScript},
+                             Value{"charts_script", kChartsScript},
+                             Value{"trim_script", kTrimScript}};
+  return filled(kTrimPage, values);
 }
 
 }  // namespace hedgehop::sim

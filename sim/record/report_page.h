@@ -23,4 +23,7 @@ struct PageFilm {
 /// @param title  any text. @param data_json  what the script reads, see report_data().
 std::string report_page(std::string_view title, std::string data_json, const PageFilm& film);
 
+/// A whole page of plots of a vehicle's trim over speed. @param title  any text. @param data_json  see trim_data().
+std::string trim_page(std::string_view title, std::string data_json);
+
 }  // namespace hedgehop::sim

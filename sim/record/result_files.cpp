@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "sim/record/csv_line.h"
 #include "sim/record/whole_file.h"
 
 namespace hedgehop::sim {
@@ -21,47 +22,9 @@ constexpr std::string_view kTrajectoryHeader =
     "t_s,north_m,east_m,down_m,roll_rad,pitch_rad,yaw_rad,v_north_mps,v_east_mps,v_down_mps,p_radps,q_radps,r_radps,"
     "est_north_m,est_east_m,est_down_m,est_roll_rad,est_pitch_rad,est_yaw_rad,est_v_north_mps,est_v_east_mps,"
     "est_v_down_mps,cmd_v_north_mps,cmd_v_east_mps,cmd_altitude_m,cmd_heading_rad,clearance_m,ground_clearance_m,";
-constexpr std::string_view kTrajectoryHeaderEnd = ",wind_north_mps,wind_east_mps,wind_down_mps,model_valid\n";
+constexpr std::string_view kTrajectoryHeaderEnd = ",wind_north_mps,wind_east_mps,wind_down_mps,model_valid,range_m\n";
 constexpr std::string_view kDecisionsHeader =
     "t_s,status,cmd_v_north_mps,cmd_v_east_mps,cmd_altitude_m,cmd_heading_rad";
-
-/// One line of comma-separated values.
-class Line {
- public:
-  explicit Line(fmt::memory_buffer& out) : out_(out) {}
-  ~Line() { out_.push_back('\n'); }
-  Line(const Line&) = delete;
-  Line& operator=(const Line&) = delete;
-
-  Line& add(double value) {
-    separate();
-    if (!std::isnan(value)) fmt::format_to(std::back_inserter(out_), "{}", value);
-    return *this;
-  }
-  Line& add(const std::optional<double>& value) { return add(value.value_or(NAN)); }
-  Line& add(const Eigen::Vector3d& v) { return add(v.x()).add(v.y()).add(v.z()); }
-  Line& add(const std::optional<Eigen::Vector2d>& v) { return add(v ? v->x() : NAN).add(v ? v->y() : NAN); }
-  /// Quoted when it has to be (RFC 4180).
-  Line& add(std::string_view text) {
-    separate();
-    const bool quote = text.find_first_of(",\"\r\n") != std::string_view::npos;
-    if (quote) out_.push_back('"');
-    for (const char c : text) {
-      if (c == '"') out_.push_back('"');
-      out_.push_back(c);
-    }
-    if (quote) out_.push_back('"');
-    return *this;
-  }
-
- private:
-  void separate() {
-    if (!first_) out_.push_back(',');
-    first_ = false;
-  }
-  fmt::memory_buffer& out_;
-  bool first_ = true;
-};
 
 /// nlohmann writes null for what is not finite already; this says that it is meant.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -134,13 +97,13 @@ std::string trajectory_csv(const Flight& flight) {
   fmt::format_to(std::back_inserter(out), "{}", fmt::join(flight.control_names, ","));
   out.append(kTrajectoryHeaderEnd);
   for (const TrajectoryRow& row : flight.trajectory) {
-    Line line(out);
+    CsvLine line(out);
     line.add(row.t_s).add(row.p_WB_true).add(row.rpy_true).add(row.v_WB_W_true).add(row.w_WB_B_true);
     line.add(row.p_WB_est).add(row.rpy_est).add(row.v_WB_W_est);
     line.add(row.v_WB_W_cmd).add(row.altitude_cmd_m).add(row.heading_cmd_rad);
     line.add(row.obstacle_clearance_m).add(row.ground_clearance_m);
     for (const double control : row.controls) line.add(control);
-    line.add(row.wind_W).add(row.model_valid ? 1.0 : 0.0);
+    line.add(row.wind_W).add(row.model_valid ? 1.0 : 0.0).add(row.range_m);
   }
   return fmt::to_string(out);
 }
@@ -154,7 +117,7 @@ std::string decisions_csv(const Flight& flight) {
   }
   out.push_back('\n');
   for (const DecisionRow& row : flight.decisions) {
-    Line line(out);
+    CsvLine line(out);
     line.add(row.t_s).add(row.status).add(row.v_WB_W_cmd).add(row.altitude_cmd_m).add(row.heading_cmd_rad);
     for (const double value : row.signals) line.add(value);
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "avoidance/module.h"
+#include "sim/scenario/imperfections.h"
 #include "vision/camera.h"
 
 namespace hedgehop::sim {
@@ -30,6 +31,7 @@ struct CameraConfig {
   Channel channel = Channel::grey;
   double forward_m = 0.0, right_m = 0.0, down_m = 0.0;
   double yaw_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
+  ImperfectionsConfig imperfections;
 
   /// Pose of the camera in B: the mounting position, and yaw about down, pitch about right, roll about forward, in that
   /// order, applied to a camera that looks forward. Yaw 90 deg looks right, pitch -90 deg looks down.
@@ -73,6 +75,7 @@ void describe_without_role(Visitor& v, CameraConfig& c) {
   v("yaw", c.yaw_rad, {.unit = "deg", .at_least = -180.0, .at_most = 180.0, .meaning = "turn to the right, first"});
   v("pitch", c.pitch_rad, {.unit = "deg", .at_least = -90.0, .at_most = 90.0, .meaning = "turn upwards, second"});
   v("roll", c.roll_rad, {.unit = "deg", .at_least = -180.0, .at_most = 180.0, .meaning = "turn clockwise, last"});
+  v("imperfections", c.imperfections, {.meaning = "noise, blur, rolling shutter and faults, all off unless asked for"});
 }
 
 template <class Visitor>

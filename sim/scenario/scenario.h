@@ -51,7 +51,7 @@ struct GoalConfig {
   double north_m = 0.0, east_m = 0.0;
   double altitude_m = 10.0;  ///< above W's origin, positive up
   double heading_rad = 0.0;  ///< from north to east
-  double radius_m = 5.0;     ///< horizontal distance that counts as reached
+  double radius_m = 5.0;     ///< horizontal distance that counts as reached, or passed
 
   Eigen::Vector3d p_WG() const { return {north_m, east_m, -altitude_m}; }
 };
@@ -103,6 +103,7 @@ struct Scenario {
   dynamics::AvionicsConfig avionics;
   dynamics::WindConfig wind;
   StartConfig start;
+  std::vector<GoalConfig> route;   ///< places to pass before the goal
   std::optional<GoalConfig> goal;  ///< without one, the flight holds the start's altitude and heading
   RigConfig rig;
   DrawingConfig drawing;
@@ -131,6 +132,7 @@ void describe(Visitor& v, Scenario& c) {
   v("avionics", c.avionics, {.meaning = "onboard sensors, navigation filter and autopilot"});
   v("wind", c.wind, {.meaning = "steady wind and turbulence"});
   v("start", c.start, {.required = true, .meaning = "where the flight begins, in a trimmed hover"});
+  v("route", c.route, {.meaning = "places to pass within their radii, in order, before the goal"});
   v("goal", c.goal, {.meaning = "where the flight should end; none for a flight that explores"});
   v("rig", c.rig, {.meaning = "the cameras on board"});
   v("drawing", c.drawing, {.meaning = "how their pictures are made"});

@@ -68,10 +68,13 @@ class Validator {
   }
 
   void parts() {
-    build("vehicle", [&] { dynamics::Vehicle(scenario_.vehicle); });
+    if (!scenario_.route.empty() && !scenario_.goal) add("route", "needs a 'goal' where it ends");
+    const bool flies = build("vehicle", [&] { dynamics::Vehicle(scenario_.vehicle); });
     build("wind", [&] { dynamics::Wind(scenario_.wind, 0); });
+    // What is wrong with the vehicle is told once: beside a bad one the avionics are looked at alone.
+    const dynamics::VehicleConfig carrier = flies ? scenario_.vehicle : dynamics::VehicleConfig{};
     build("avionics", [&] {
-      dynamics::Avionics(scenario_.avionics, scenario_.vehicle, 1.0 / static_cast<double>(scenario_.physics_rate_hz),
+      dynamics::Avionics(scenario_.avionics, carrier, 1.0 / static_cast<double>(scenario_.physics_rate_hz),
                          [](std::string_view) { return uint64_t{0}; });
     });
   }
@@ -139,12 +142,15 @@ class Validator {
                           roles.empty() ? "none" : fmt::format("{}", fmt::join(roles, ", "))));
   }
 
+  /// Returns whether a part can be built; why not is a fault.
   template <class Build>
-  void build(const std::string& path, Build&& build) {
+  bool build(const std::string& path, Build&& build) {
     try {
       build();
+      return true;
     } catch (const std::invalid_argument& error) {
       add(path + named_key(error.what()), error.what());
+      return false;
     }
   }
 

@@ -36,6 +36,16 @@ inline Setup four_cameras(int size_px, double rate_hz, double speed_limit_mps = 
   return setup;
 }
 
+/// Two level cameras that look forward, 0.3 m apart.
+inline Setup stereo_pair(int size_px, double rate_hz, double speed_limit_mps = 10.0) {
+  Setup setup;
+  for (const char* role : {"left", "right"}) setup.cameras.push_back(level_camera(role, 0.0, size_px, rate_hz));
+  setup.cameras.back().X_BC.translation().y() = 0.3;
+  setup.limits = {speed_limit_mps, 5.0, 1.0};
+  setup.seed = 1;
+  return setup;
+}
+
 inline NavigationState level_flight(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector2d& v_WB_W) {
   NavigationState navigation;
   navigation.p_WB_est = p_WB;

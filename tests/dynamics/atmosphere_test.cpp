@@ -4,6 +4,9 @@
 
 #include <array>
 #include <cmath>
+#include <string>
+
+#include "tests/dynamics/recorded_check.h"
 
 namespace hedgehop::dynamics {
 namespace {
@@ -17,8 +20,9 @@ TEST(Atmosphere, AS4_PressureAndDensityAreTheStandards) {
       densities{1.21328, 1.16727, 1.11166};
   for (size_t i = 0; i < altitudes_m.size(); ++i) {
     const StandardAir air = standard_air(altitudes_m[i]);
-    EXPECT_NEAR(air.pressure_pa, pressures_pa[i], kRelative * pressures_pa[i]);
-    EXPECT_NEAR(air.density_kgpm3, densities[i], kRelative * densities[i]);
+    const std::string at = " at " + std::to_string(static_cast<int>(altitudes_m[i])) + " m";
+    expect_recorded_relative("pressure" + at + ", Pa", air.pressure_pa, pressures_pa[i], kRelative);
+    expect_recorded_relative("density" + at + ", kg/m3", air.density_kgpm3, densities[i], kRelative);
   }
 }
 

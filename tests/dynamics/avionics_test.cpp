@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
@@ -74,7 +75,7 @@ TEST(Avionics, EachSourceOfNoiseHasAStreamOfItsOwn) {
   };
   AvionicsConfig all;
   AvionicsConfig blind;
-  blind.gps.enabled = blind.magnetometer.enabled = blind.height_sensor.enabled = false;
+  blind.gps.enabled = blind.magnetometer.enabled = blind.height_sensor.ranger.enabled = false;
   for (const std::string_view name : {"gps", "height_sensor", "magnetometer"}) {
     EXPECT_FALSE(same(believed(all, name), believed(all, "none"))) << name;
     EXPECT_TRUE(same(believed(blind, name), believed(blind, "none"))) << name;
@@ -82,23 +83,52 @@ TEST(Avionics, EachSourceOfNoiseHasAStreamOfItsOwn) {
   EXPECT_FALSE(same(believed(blind, "imu"), believed(blind, "none")));
 
   // What is not on board asks for none.
-  AvionicsConfig with_barometer;
-  with_barometer.barometer.enabled = true;
+  AvionicsConfig with_options;
+  with_options.barometer.enabled = with_options.range_finder.ranger.enabled = true;
   names.clear();
-  Avionics(with_barometer, HelicopterConfig(), 0.002, [&](std::string_view n) {
+  Avionics(with_options, HelicopterConfig(), 0.002, [&](std::string_view n) {
     names.emplace_back(n);
     return seed_of(1, n);
   });
-  EXPECT_THAT(names,
-              testing::UnorderedElementsAre("imu", "gps", "height_sensor", "magnetometer", "alignment", "barometer"));
-  EXPECT_FALSE(same(believed(with_barometer, "barometer"), believed(with_barometer, "none")));
+  EXPECT_THAT(names, testing::UnorderedElementsAre("imu", "gps", "height_sensor", "magnetometer", "alignment",
+                                                   "barometer", "range_finder"));
+  EXPECT_FALSE(same(believed(with_options, "barometer"), believed(with_options, "none")));
+  EXPECT_TRUE(same(believed(with_options, "range_finder"), believed(with_options, "none")));
+}
+
+TEST(Avionics, RangesAlongTheBeamFromItsPlaceOnBoard) {
+  AvionicsConfig c;
+  c.range_finder = {.ranger = {.noise_m = 0.0, .noise_per_range = 0.0, .dropout = 0.0, .latency_s = 0.0},
+                    .direction_B = {0.0, 2.0, 0.0},
+                    .p_BS_m = {0.5, 0.0, 0.1}};
+  Avionics avionics(c, HelicopterConfig(), 0.002, [](std::string_view n) { return seed_of(1, n); });
+  // Nose to the east, banked to the right by 30 degrees: the beam over the right wing points south and down.
+  SensedTruth truth;
+  truth.body.p_WB = {3.0, 4.0, -10.0};
+  truth.body.q_WB = Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ()) *
+                    Eigen::AngleAxisd(std::numbers::pi / 6, Eigen::Vector3d::UnitX());
+  int casts = 0;
+  truth.beam_distance = [&](const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m) {
+    ++casts;
+    EXPECT_NEAR((direction_W - Eigen::Vector3d(-std::sqrt(0.75), 0.0, 0.5)).norm(), 0.0, 1e-12);
+    EXPECT_NEAR((p_W - Eigen::Vector3d(3.05, 4.5, -10.0 + 0.1 * std::sqrt(0.75))).norm(), 0.0, 1e-12);
+    EXPECT_EQ(reach_m, c.range_finder.ranger.max_m);
+    return 7.5;
+  };
+  avionics.reset(truth);
+  EXPECT_FALSE(avionics.range_m());
+  for (int64_t tick = 0; tick < 100; ++tick) avionics.sense(tick * 2'000'000, truth);
+  EXPECT_EQ(casts, 10) << "one for each reading, 50 a second";
+  EXPECT_EQ(avionics.range_m(), 7.5);
+  avionics.reset(truth);
+  EXPECT_FALSE(avionics.range_m());
 }
 
 TEST(Avionics, FliesAtOtherPhysicsAndSensorRates) {
   Loop loop;
   loop.physics_rate_hz = 1000.0;
   loop.avionics.imu.rate_hz = 250.0;
-  loop.avionics.height_sensor.rate_hz = 20.0;
+  loop.avionics.height_sensor.ranger.rate_hz = 20.0;
   loop.avionics.magnetometer.rate_hz = 10.0;
   const std::vector<Sample> flight = fly(loop, 10.0, away);
   EXPECT_LT((flight.back().v_WB_W() - Eigen::Vector3d(-1.0, 1.0, 0.0)).norm(), 0.2);

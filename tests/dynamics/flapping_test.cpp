@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include <cmath>
 
 #include "dynamics/helicopter.h"
 #include "dynamics/helion.h"
 #include "dynamics/integrator.h"
 #include "dynamics/trim.h"
+#include "tests/dynamics/recorded_check.h"
 
 namespace hedgehop::dynamics {
 namespace {
@@ -40,21 +43,21 @@ FlapState settle(const FlappingModel& model, const FlapInput& input) {
 // Check TC1.
 TEST(Flapping, TC1_XCellTimeConstants) {
   const FlappingModel m = make_main_rotor({}, 1.225).flapping;
-  EXPECT_NEAR(m.lag_s, 0.119760, 1e-3 * 0.119760);
-  EXPECT_NEAR(m.lock_number, 3.7098, 1e-3 * 3.7098);
-  EXPECT_NEAR(m.blade_lag_s, 0.025826, 1e-3 * 0.025826);
-  EXPECT_NEAR(m.cross_coupling, 0.10988, 1e-3 * 0.10988);
+  expect_recorded_relative("tau_e, s", m.lag_s, 0.119760, 1e-3);
+  expect_recorded_relative("gamma", m.lock_number, 3.7098, 1e-3);
+  expect_recorded_relative("tau_f, s", m.blade_lag_s, 0.025826, 1e-3);
+  expect_recorded_relative("A_b", m.cross_coupling, 0.10988, 1e-3);
 }
 
 // Check TC2.
 TEST(Flapping, TC2_HeLionTimeConstants) {
   const FlappingModel m = make_main_rotor(helion_main_rotor(), kHelionDensity).flapping;
-  EXPECT_NEAR(m.lock_number, 1.98668, 1e-3 * 1.98668);
-  EXPECT_NEAR(m.lag_s, 0.056542, 1e-3 * 0.056542);
-  EXPECT_NEAR(16.0 / (m.bar_lag_s * 193.73), 0.343334, 1e-3 * 0.343334);
-  EXPECT_NEAR(m.bar_lag_s, 0.240551, 1e-3 * 0.240551);
-  EXPECT_NEAR(m.cross_coupling, 0.221986, 1e-3 * 0.221986);
-  EXPECT_NEAR(make_helion().main_rotor.flapping.lag_s, 0.297093, 1e-3 * 0.297093);
+  expect_recorded_relative("gamma", m.lock_number, 1.98668, 1e-3);
+  expect_recorded_relative("tau_f, s", m.lag_s, 0.056542, 1e-3);
+  expect_recorded_relative("gamma_s", 16.0 / (m.bar_lag_s * 193.73), 0.343334, 1e-3);
+  expect_recorded_relative("tau_s, s", m.bar_lag_s, 0.240551, 1e-3);
+  expect_recorded_relative("A_b", m.cross_coupling, 0.221986, 1e-3);
+  expect_recorded_relative("tau lumped, s", make_helion().main_rotor.flapping.lag_s, 0.297093, 1e-3);
 }
 
 // Check TC3.
@@ -67,25 +70,28 @@ TEST(Flapping, TC3_XCellOfTheAutopilotProject) {
   c.blade_inertia_kgm2 = 0.1148;
   c.hinge_offset_m = 0.0;  // the value is that without hinge offset
   const FlappingModel m = make_main_rotor(c, 1.225).flapping;
-  EXPECT_NEAR(m.lock_number, 0.8540, 1e-3 * 0.8540);
-  EXPECT_NEAR(m.blade_lag_s, 0.1193, 1e-3 * 0.1193);
+  expect_recorded_relative("gamma", m.lock_number, 0.8540, 1e-3);
+  expect_recorded_relative("tau_f, s", m.blade_lag_s, 0.1193, 1e-3);
 }
 
 // Check TC4.
 TEST(Flapping, TC4_BarLagsBehindATiltingShaft) {
   const double q = 0.1;
-  for (const MainRotorConfig& config : {helion(0.0), lumped_helion()}) {
-    const FlappingModel m = make_main_rotor(config, kHelionDensity).flapping;
-    EXPECT_NEAR(settle(m, {.pitch_radps = q}).back_rad / q, -0.297093, 1e-3 * 0.297093);
-    EXPECT_NEAR(settle(m, {.roll_radps = q}).right_rad / q, -0.297093, 1e-3 * 0.297093);
+  for (const bool lumped : {false, true}) {
+    const std::string bar = lumped ? "lumped bar: " : "explicit bar: ";
+    const FlappingModel m = make_main_rotor(lumped ? lumped_helion() : helion(0.0), kHelionDensity).flapping;
+    expect_recorded_relative(bar + "a/q, s", settle(m, {.pitch_radps = q}).back_rad / q, -0.297093, 1e-3);
+    expect_recorded_relative(bar + "b/p, s", settle(m, {.roll_radps = q}).right_rad / q, -0.297093, 1e-3);
   }
 }
 
 TEST(Flapping, TC4_CyclicTiltsTheDiscByBothPaths) {
-  for (const MainRotorConfig& config : {helion(0.0), lumped_helion()}) {
-    const FlappingModel m = make_main_rotor(config, kHelionDensity).flapping;
-    EXPECT_NEAR(settle(m, {.lateral_rad = 1.0}).right_rad, 0.77, 1e-3 * 0.77);
-    EXPECT_NEAR(settle(m, {.longitudinal_rad = 1.0}).back_rad, 0.77, 1e-3 * 0.77);
+  for (const bool lumped : {false, true}) {
+    const std::string bar = lumped ? "lumped bar: " : "explicit bar: ";
+    const FlappingModel m = make_main_rotor(lumped ? lumped_helion() : helion(0.0), kHelionDensity).flapping;
+    expect_recorded_relative(bar + "b per lateral stick, rad", settle(m, {.lateral_rad = 1.0}).right_rad, 0.77, 1e-3);
+    expect_recorded_relative(bar + "a per longitudinal stick, rad", settle(m, {.longitudinal_rad = 1.0}).back_rad, 0.77,
+                             1e-3);
   }
 }
 

@@ -7,6 +7,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "tests/dynamics/recorded_check.h"
+
 namespace hedgehop::dynamics {
 namespace {
 
@@ -33,7 +35,7 @@ TEST(Gps, AS6_FixesAreALatencyOld) {
     EXPECT_EQ(fix.has_value(), tick > 0);  // the first would be older than the flight
     if (!fix) continue;
     ++fixes;
-    EXPECT_NEAR(kSpeed * t - fix->p_WB_W_meas.x(), 0.60, 1e-9);
+    expect_recorded("lag of the position at 5 m/s, m", kSpeed * t - fix->p_WB_W_meas.x(), 0.60, 1e-9);
     EXPECT_DOUBLE_EQ(fix->v_WB_W_meas.x(), kSpeed);
   }
   EXPECT_EQ(fixes, 9);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "dynamics/helion.h"
+#include "tests/dynamics/recorded_check.h"
 
 namespace hedgehop::dynamics {
 namespace {
@@ -19,35 +20,31 @@ Trim trimmed(double north_mps) {
   return found.value_or(Trim{});
 }
 
-void expect_relative(double value, double expected, double tolerance, const char* what) {
-  EXPECT_NEAR(value, expected, tolerance * std::abs(expected)) << what;
-}
-
 // Check HT1.
 TEST(Helion, HT1_HoversAsPublished) {
   const Trim t = trimmed(0.0);
   constexpr double kPrinted = 0.03;  // of the trim in [HeLionCode]
-  expect_relative(t.roll_rad, 0.0389, kPrinted, "roll");
-  expect_relative(t.pitch_rad, 0.000887, kPrinted, "pitch");
-  expect_relative(t.state.flap.back_rad, -0.000874, kPrinted, "disc back");
-  expect_relative(t.state.flap.right_rad, 0.0048, kPrinted, "disc right");
+  expect_recorded_relative("phi, rad", t.roll_rad, 0.0389, kPrinted);
+  expect_recorded_relative("theta, rad", t.pitch_rad, 0.000887, kPrinted);
+  expect_recorded_relative("a, rad", t.state.flap.back_rad, -0.000874, kPrinted);
+  expect_recorded_relative("b, rad", t.state.flap.right_rad, 0.0048, kPrinted);
 }
 
 TEST(Helion, HT1_HoverTrimInFull) {
   const Trim t = trimmed(0.0);
   constexpr double kDerived = 0.002;
-  expect_relative(t.roll_rad, 0.038943, kDerived, "roll");
-  expect_relative(t.pitch_rad, 0.000887, kDerived, "pitch");
-  expect_relative(t.state.flap.back_rad, -0.000874, kDerived, "disc back");
-  expect_relative(t.state.flap.right_rad, 0.004921, kDerived, "disc right");
-  expect_relative(t.blades.collective_rad / kDeg, 5.941, kDerived, "collective");
-  expect_relative(t.blades.tail_rad / kDeg, 8.185, kDerived, "tail");
-  expect_relative(t.loads.main_rotor.inflow.thrust_n, 96.765, kDerived, "thrust");
-  expect_relative(t.loads.main_rotor.inflow.induced_mps, 4.8972, kDerived, "inflow");
-  expect_relative(t.loads.main_rotor.power_w, 839.96, kDerived, "power");
-  expect_relative(t.loads.main_rotor.power_w / 193.73, 4.3357, kDerived, "torque");
-  expect_relative(t.loads.tail_rotor.inflow.thrust_n, 4.1891, kDerived, "tail thrust");
-  expect_relative(t.loads.tail_rotor.inflow.induced_mps, 5.612, kDerived, "tail inflow");
+  expect_recorded_relative("phi, rad", t.roll_rad, 0.038943, kDerived);
+  expect_recorded_relative("theta, rad", t.pitch_rad, 0.000887, kDerived);
+  expect_recorded_relative("a, rad", t.state.flap.back_rad, -0.000874, kDerived);
+  expect_recorded_relative("b, rad", t.state.flap.right_rad, 0.004921, kDerived);
+  expect_recorded_relative("theta_c, deg", t.blades.collective_rad / kDeg, 5.941, kDerived);
+  expect_recorded_relative("theta_t, deg", t.blades.tail_rad / kDeg, 8.185, kDerived);
+  expect_recorded_relative("T, N", t.loads.main_rotor.inflow.thrust_n, 96.765, kDerived);
+  expect_recorded_relative("v_i, m/s", t.loads.main_rotor.inflow.induced_mps, 4.8972, kDerived);
+  expect_recorded_relative("P, W", t.loads.main_rotor.power_w, 839.96, kDerived);
+  expect_recorded_relative("Q, N m", t.loads.main_rotor.power_w / 193.73, 4.3357, kDerived);
+  expect_recorded_relative("T_tr, N", t.loads.tail_rotor.inflow.thrust_n, 4.1891, kDerived);
+  expect_recorded_relative("tail v_i, m/s", t.loads.tail_rotor.inflow.induced_mps, 5.612, kDerived);
 }
 
 // Check HT2.
@@ -55,26 +52,26 @@ TEST(Helion, HT2_LevelFlight) {
   struct Row {
     double north_mps, collective_deg, tail_deg, roll_deg, pitch_deg, induced_mps, power_w;
   };
-  const auto expect_angle = [](double value_rad, double expected_deg, const char* what) {
-    EXPECT_NEAR(value_rad / kDeg, expected_deg, std::max(0.02, 0.005 * std::abs(expected_deg))) << what;
+  const auto expect_angle = [](double value_rad, double expected_deg, const std::string& what) {
+    expect_recorded(what, value_rad / kDeg, expected_deg, std::max(0.02, 0.005 * std::abs(expected_deg)));
   };
   for (const Row& row :
        {Row{-4.0, 5.476, 7.179, 2.049, 0.695, 4.130, 772.1}, Row{6.0, 5.080, 6.279, 1.913, -1.406, 3.413, 721.5},
         Row{14.0, 5.065, 6.052, 2.338, -7.405, 1.663, 888.2}}) {
-    SCOPED_TRACE(row.north_mps);
+    const std::string at = std::to_string(static_cast<int>(row.north_mps)) + " m/s: ";
     const Trim t = trimmed(row.north_mps);
-    expect_angle(t.blades.collective_rad, row.collective_deg, "collective");
-    expect_angle(t.blades.tail_rad, row.tail_deg, "tail");
-    expect_angle(t.roll_rad, row.roll_deg, "roll");
-    expect_angle(t.pitch_rad, row.pitch_deg, "pitch");
-    expect_relative(t.loads.main_rotor.inflow.induced_mps, row.induced_mps, 0.005, "inflow");
-    expect_relative(t.loads.main_rotor.power_w, row.power_w, 0.005, "power");
+    expect_angle(t.blades.collective_rad, row.collective_deg, at + "theta_c, deg");
+    expect_angle(t.blades.tail_rad, row.tail_deg, at + "theta_t, deg");
+    expect_angle(t.roll_rad, row.roll_deg, at + "phi, deg");
+    expect_angle(t.pitch_rad, row.pitch_deg, at + "theta, deg");
+    expect_recorded_relative(at + "v_i, m/s", t.loads.main_rotor.inflow.induced_mps, row.induced_mps, 0.005);
+    expect_recorded_relative(at + "P, W", t.loads.main_rotor.power_w, row.power_w, 0.005);
   }
 }
 
 // Check HT4.
 TEST(Helion, HT4_HoversRightSideDownAndNosesDownWithSpeed) {
-  EXPECT_NEAR(trimmed(0.0).roll_rad / kDeg, 2.23, 0.02);
+  expect_recorded("phi in hover, deg", trimmed(0.0).roll_rad / kDeg, 2.23, 0.02);
   double pitch = 1e9, inflow = 1e9;
   for (double V = 0.0; V <= 14.0; V += 1.0) {
     const Trim t = trimmed(V);
@@ -90,16 +87,21 @@ void expect_mode(const Eigen::MatrixXd& A, std::complex<double> expected) {
   const Eigen::VectorXcd modes = A.eigenvalues();
   const std::complex<double> found = *std::min_element(
       modes.begin(), modes.end(), [&](auto a, auto b) { return std::abs(a - expected) < std::abs(b - expected); });
-  EXPECT_NEAR(found.real(), expected.real(), std::max(0.01 * std::abs(expected.real()), 0.0005)) << expected;
-  EXPECT_NEAR(found.imag(), expected.imag(), 0.01 * std::abs(expected.imag()) + 1e-12) << expected;
+  expect_recorded("mode, real part, 1/s", found.real(), expected.real(),
+                  std::max(0.01 * std::abs(expected.real()), 0.0005));
+  if (expected.imag() == 0.0) {
+    EXPECT_NEAR(found.imag(), 0.0, 1e-12) << expected;
+  } else {
+    expect_recorded_relative("and imaginary part, 1/s", found.imag(), expected.imag(), 0.01);
+  }
 }
 
 // Check LM2.
 TEST(Helion, LM2_ModesOfTheHover) {
   using L = LinearModel;
   const LinearModel m = linearise(make_helion(), trimmed(0.0));
-  expect_relative(m.A(L::kP, L::kRight), 583.51, 0.01, "L_b");
-  expect_relative(m.A(L::kQ, L::kBack), 267.01, 0.01, "M_a");
+  expect_recorded_relative("L_b, 1/s2", m.A(L::kP, L::kRight), 583.51, 0.01);
+  expect_recorded_relative("M_a, 1/s2", m.A(L::kQ, L::kBack), 267.01, 0.01);
   const Eigen::MatrixXd A = m.A.topLeftCorner<L::kBarBack, L::kBarBack>();
   for (const std::complex<double> mode : {std::complex<double>(-1.698, 24.10),
                                           {-1.719, 16.26},
@@ -145,9 +147,10 @@ TEST(Helion, LM6_RollRatePerStickAndHeaveLieInThePublishedBands) {
   A << m.A(L::kP, L::kP), m.A(L::kP, L::kRight), m.A(L::kRight, L::kP), m.A(L::kRight, L::kRight);
   const Eigen::Vector2d B{m.B(L::kP, L::kLateral), m.B(L::kRight, L::kLateral)};
   const double p_per_stick = -(A.inverse() * B)[0];
-  expect_relative(p_per_stick, 2.592, 0.01, "HeLion");
-  expect_relative(p_per_stick, 33.04 / 12.78, 0.01, "XCell Tempest, [AbbeelGanapathiNg2006] table of coefficients");
-  expect_relative(m.A(L::kW, L::kW), -0.73, 0.01, "Z_w");
+  expect_recorded_relative("p per stick, rad/s", p_per_stick, 2.592, 0.01);
+  expect_recorded_relative("p per stick, rad/s, XCell Tempest, [AbbeelGanapathiNg2006] table of coefficients",
+                           p_per_stick, 33.04 / 12.78, 0.01);
+  expect_recorded_relative("Z_w, 1/s", m.A(L::kW, L::kW), -0.73, 0.01);
 }
 
 }  // namespace

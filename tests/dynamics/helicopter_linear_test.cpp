@@ -5,10 +5,13 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "dynamics/integrator.h"
 #include "dynamics/trim.h"
+#include "tests/dynamics/recorded_check.h"
 
 namespace hedgehop::dynamics {
 namespace {
@@ -32,40 +35,37 @@ std::complex<double> mode_near(std::complex<double> where) {
                            [&](auto a, auto b) { return std::abs(a - where) < std::abs(b - where); });
 }
 
-void expect_near_relative(double value, double expected, double tolerance) {
-  EXPECT_NEAR(value, expected, tolerance * std::abs(expected));
-}
-
 // Check LM1.
 TEST(HelicopterLinear, LM1_FastModesOfTheHover) {
-  for (const std::complex<double> expected : {std::complex<double>{-4.18, 19.69}, {-4.18, 14.03}}) {
+  for (const auto& [name, expected] : {std::pair{"roll mode", std::complex<double>{-4.18, 19.69}},
+                                       {"pitch mode", std::complex<double>{-4.18, 14.03}}}) {
     const std::complex<double> mode = mode_near(expected);
-    expect_near_relative(mode.real(), expected.real(), 0.01);
-    expect_near_relative(mode.imag(), expected.imag(), 0.01);
+    expect_recorded_relative(std::string(name) + ", real part, 1/s", mode.real(), expected.real(), 0.01);
+    expect_recorded_relative(std::string(name) + ", imaginary part, 1/s", mode.imag(), expected.imag(), 0.01);
   }
-  expect_near_relative(std::abs(mode_near({-4.18, 19.69})), 20.12, 0.01);
-  expect_near_relative(std::abs(mode_near({-4.18, 14.03})), 14.64, 0.01);
+  expect_recorded_relative("roll mode, frequency, rad/s", std::abs(mode_near({-4.18, 19.69})), 20.12, 0.01);
+  expect_recorded_relative("pitch mode, frequency, rad/s", std::abs(mode_near({-4.18, 14.03})), 14.64, 0.01);
 }
 
 TEST(HelicopterLinear, LM1_YawHeaveAndSlowModesOfTheHover) {
-  expect_near_relative(mode_near({-1.082, 0.0}).real(), -1.082, 0.02);
-  expect_near_relative(mode_near({-0.791, 0.0}).real(), -0.791, 0.02);
+  expect_recorded_relative("yaw mode, 1/s", mode_near({-1.082, 0.0}).real(), -1.082, 0.02);
+  expect_recorded_relative("heave mode, 1/s", mode_near({-0.791, 0.0}).real(), -0.791, 0.02);
   for (const std::complex<double> expected : {std::complex<double>{-0.016, 0.154}, {0.0005, 0.155}}) {
-    EXPECT_NEAR(std::abs(mode_near(expected)), std::abs(expected), 0.02);
-    EXPECT_NEAR(mode_near(expected).real(), expected.real(), 0.02);
+    expect_recorded("slow mode, frequency, rad/s", std::abs(mode_near(expected)), std::abs(expected), 0.02);
+    expect_recorded("and real part, 1/s", mode_near(expected).real(), expected.real(), 0.02);
   }
 }
 
 TEST(HelicopterLinear, LM1_DerivativesOfTheHover) {
   const LinearModel& m = hover().linear;
-  expect_near_relative(m.A(L::kP, L::kRight), 404.70, 0.01);
-  expect_near_relative(m.A(L::kQ, L::kBack), 214.25, 0.01);
-  expect_near_relative(m.A(L::kR, L::kR), -1.069, 0.02);
-  expect_near_relative(m.A(L::kR, L::kV), 1.175, 0.02);
-  expect_near_relative(m.A(L::kP, L::kV), -0.161, 0.02);
-  expect_near_relative(m.A(L::kV, L::kV), -0.044, 0.02);
-  expect_near_relative(m.B(L::kR, L::kTail), 158.4, 0.02);
-  expect_near_relative(m.B(L::kW, L::kCollective), -136.7, 0.02);
+  expect_recorded_relative("L_b, 1/s2", m.A(L::kP, L::kRight), 404.70, 0.01);
+  expect_recorded_relative("M_a, 1/s2", m.A(L::kQ, L::kBack), 214.25, 0.01);
+  expect_recorded_relative("N_r, 1/s", m.A(L::kR, L::kR), -1.069, 0.02);
+  expect_recorded_relative("N_v, rad/s/m", m.A(L::kR, L::kV), 1.175, 0.02);
+  expect_recorded_relative("L_v, rad/s/m", m.A(L::kP, L::kV), -0.161, 0.02);
+  expect_recorded_relative("Y_v, 1/s", m.A(L::kV, L::kV), -0.044, 0.02);
+  expect_recorded_relative("N per pedal, 1/s2", m.B(L::kR, L::kTail), 158.4, 0.02);
+  expect_recorded_relative("Z per collective, m/s2/rad", m.B(L::kW, L::kCollective), -136.7, 0.02);
 }
 
 /// Flies on from the hover with a step in the blade angles, no servos, at 1 ms.
@@ -94,20 +94,20 @@ TEST(HelicopterLinear, LM3_RollRateAfterALateralStep) {
   for (size_t i = 0; i < s.size(); ++i) {
     if (p(i) > p(peak)) peak = i;
   }
-  expect_near_relative(p(peak), 2.650, 0.01);
-  expect_near_relative(static_cast<double>(peak) * 1e-3, 0.160, 0.01);
-  expect_near_relative(p(100), 1.972, 0.01);
-  expect_near_relative(p(200), 2.397, 0.01);
-  expect_near_relative(roll(100), 0.1589, 0.01);
-  expect_near_relative(roll(200), 0.4067, 0.01);
+  expect_recorded_relative("peak of the roll rate, rad/s", p(peak), 2.650, 0.01);
+  expect_recorded_relative("at, s", static_cast<double>(peak) * 1e-3, 0.160, 0.01);
+  expect_recorded_relative("p at 0.1 s, rad/s", p(100), 1.972, 0.01);
+  expect_recorded_relative("p at 0.2 s, rad/s", p(200), 2.397, 0.01);
+  expect_recorded_relative("phi at 0.1 s, rad", roll(100), 0.1589, 0.01);
+  expect_recorded_relative("phi at 0.2 s, rad", roll(200), 0.4067, 0.01);
 }
 
 // Check LM4.
 TEST(HelicopterLinear, LM4_HeaveAfterACollectiveStep) {
   const std::vector<HelicopterState> s = step_response({.collective_rad = 0.01}, 1.0);
-  expect_near_relative(s[100].body.v_WB_B.z(), -0.1327, 0.01);
-  expect_near_relative(s[500].body.v_WB_B.z(), -0.5656, 0.01);
-  expect_near_relative(s[1000].body.v_WB_B.z(), -0.9326, 0.01);
+  expect_recorded_relative("w at 0.1 s, m/s", s[100].body.v_WB_B.z(), -0.1327, 0.01);
+  expect_recorded_relative("w at 0.5 s, m/s", s[500].body.v_WB_B.z(), -0.5656, 0.01);
+  expect_recorded_relative("w at 1 s, m/s", s[1000].body.v_WB_B.z(), -0.9326, 0.01);
 }
 
 // Check LM7.

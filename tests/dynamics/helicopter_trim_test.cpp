@@ -7,6 +7,7 @@
 
 #include "dynamics/trim.h"
 #include "dynamics/vehicle.h"
+#include "tests/dynamics/recorded_check.h"
 
 namespace hedgehop::dynamics {
 namespace {
@@ -33,11 +34,12 @@ struct Row {
 
 void expect_angle(double value_rad, double expected_deg, const char* what) {
   if (std::isnan(expected_deg)) return;
-  EXPECT_NEAR(value_rad / kDeg, expected_deg, std::max(0.02, 0.005 * std::abs(expected_deg))) << what;
+  expect_recorded(std::string(what) + ", deg", value_rad / kDeg, expected_deg,
+                  std::max(0.02, 0.005 * std::abs(expected_deg)));
 }
 void expect_half_percent(double value, double expected, const char* what) {
   if (std::isnan(expected)) return;
-  EXPECT_NEAR(value, expected, 0.005 * std::abs(expected)) << what;
+  expect_recorded_relative(what, value, expected, 0.005);
 }
 
 class HelicopterTrimTable : public testing::TestWithParam<Row> {};
@@ -46,14 +48,14 @@ class HelicopterTrimTable : public testing::TestWithParam<Row> {};
 TEST_P(HelicopterTrimTable, HT3_XCellMatchesTheTable) {
   const Row& row = GetParam();
   const Trim t = trimmed(row.v_W);
-  expect_angle(t.blades.collective_rad, row.collective_deg, "collective");
-  expect_angle(t.blades.tail_rad, row.tail_deg, "tail");
-  expect_angle(t.roll_rad, row.roll_deg, "roll");
-  expect_angle(t.pitch_rad, row.pitch_deg, "pitch");
-  expect_half_percent(t.loads.main_rotor.inflow.induced_mps, row.induced_mps, "induced velocity");
-  expect_half_percent(t.loads.main_rotor.inflow.thrust_n, row.thrust_n, "thrust");
-  expect_half_percent(t.loads.main_rotor.power_w, row.power_w, "main rotor power");
-  expect_half_percent(t.loads.tail_rotor.power_w, row.tail_power_w, "tail rotor power");
+  expect_angle(t.blades.collective_rad, row.collective_deg, "theta_c");
+  expect_angle(t.blades.tail_rad, row.tail_deg, "theta_t");
+  expect_angle(t.roll_rad, row.roll_deg, "phi");
+  expect_angle(t.pitch_rad, row.pitch_deg, "theta");
+  expect_half_percent(t.loads.main_rotor.inflow.induced_mps, row.induced_mps, "v_i, m/s");
+  expect_half_percent(t.loads.main_rotor.inflow.thrust_n, row.thrust_n, "T, N");
+  expect_half_percent(t.loads.main_rotor.power_w, row.power_w, "P, W");
+  expect_half_percent(t.loads.tail_rotor.power_w, row.tail_power_w, "P_t, W");
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -72,10 +74,10 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(HelicopterTrim, HT3_HoverExtras) {
   const Trim t = trimmed({0, 0, 0});
-  expect_half_percent(t.state.flap.right_rad, 0.007590, "disc tilt");
-  expect_half_percent(t.loads.main_rotor.power_w / 167.0, 6.289, "torque");
-  expect_half_percent(t.loads.tail_rotor.inflow.thrust_n, 6.911, "tail thrust");
-  expect_half_percent(t.loads.tail_rotor.inflow.induced_mps, 7.289, "tail inflow");
+  expect_half_percent(t.state.flap.right_rad, 0.007590, "b, rad");
+  expect_half_percent(t.loads.main_rotor.power_w / 167.0, 6.289, "Q, N m");
+  expect_half_percent(t.loads.tail_rotor.inflow.thrust_n, 6.911, "T_tr, N");
+  expect_half_percent(t.loads.tail_rotor.inflow.induced_mps, 7.289, "tail v_i, m/s");
   const FlapInput& in = t.loads.main_rotor.flap_input;
   expect_half_percent(speed_flapping(xcell().main_rotor.flapping, in.collective_rad, in.inflow_ratio), 0.03817, "D_mu");
 }
@@ -87,8 +89,8 @@ TEST(HelicopterTrim, HT4_PowerHasABucket) {
     const double power = trimmed({V, 0, 0}).loads.main_rotor.power_w;
     if (power < least) least = power, at = V;
   }
-  EXPECT_NEAR(at, 8.5, 1.0);
-  EXPECT_NEAR(least, 926.9, 0.005 * 926.9);
+  expect_recorded("speed of least power, m/s", at, 8.5, 1.0);
+  expect_recorded_relative("least power, W", least, 926.9, 0.005);
   EXPECT_GT(trimmed({0, 0, 0}).blades.collective_rad, trimmed({at, 0, 0}).blades.collective_rad);
   EXPECT_GT(trimmed({20, 0, 0}).blades.collective_rad, trimmed({at, 0, 0}).blades.collective_rad);
 }
@@ -124,7 +126,7 @@ TEST(HelicopterTrim, HT4_TailCollectiveFallsThenRises) {
 }
 
 TEST(HelicopterTrim, HT4_ClockwiseRotorHoversRightSideDown) {
-  EXPECT_NEAR(trimmed({0, 0, 0}).roll_rad / kDeg, 4.49, 0.02);
+  expect_recorded("phi in hover, deg", trimmed({0, 0, 0}).roll_rad / kDeg, 4.49, 0.02);
   HelicopterConfig mirrored;
   mirrored.main_rotor.turns = MainRotorConfig::Turns::counter_clockwise;
   const std::optional<Trim> left = trim(make_model(mirrored), Eigen::Vector3d::Zero());
@@ -135,8 +137,8 @@ TEST(HelicopterTrim, HT4_ClockwiseRotorHoversRightSideDown) {
 TEST(HelicopterTrim, HT4_HeadwindHelpsTheHover) {
   const double still = trimmed({0, 0, 0}).loads.main_rotor.power_w;
   const double headwind = trimmed({5, 0, 0}).loads.main_rotor.power_w;
-  EXPECT_NEAR(headwind, 966.6, 0.005 * 966.6);
-  EXPECT_NEAR(1.0 - headwind / still, 0.08, 0.005);
+  expect_recorded_relative("P in a headwind of 5 m/s, W", headwind, 966.6, 0.005);
+  expect_recorded("share of power it saves", 1.0 - headwind / still, 0.08, 0.005);
 }
 
 TEST(HelicopterTrim, HoldsStillInWindFromAnySideAndHeading) {

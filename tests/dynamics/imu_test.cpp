@@ -6,7 +6,10 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <string>
 #include <vector>
+
+#include "tests/dynamics/recorded_check.h"
 
 namespace hedgehop::dynamics {
 namespace {
@@ -54,10 +57,11 @@ Rms white_level(double rate_hz) {
 // Check AS2.
 TEST(Imu, AS2_WhiteNoiseHasTheDensitysLevelAtAnyRate) {
   const Rms at_100 = white_level(100.0), at_500 = white_level(500.0);
-  EXPECT_NEAR(at_100.gyro, 3.394e-3, kSigmaTolerance * 3.394e-3);
-  EXPECT_NEAR(at_100.accelerometer, 0.0400, kSigmaTolerance * 0.04);
-  EXPECT_NEAR(at_500.gyro / at_100.gyro, 2.236, kSigmaTolerance * 2.236);
-  EXPECT_NEAR(at_500.accelerometer / at_100.accelerometer, 2.236, kSigmaTolerance * 2.236);
+  expect_recorded_relative("gyro white noise at 100 Hz, rad/s", at_100.gyro, 3.394e-3, kSigmaTolerance);
+  expect_recorded_relative("accelerometer white noise at 100 Hz, m/s2", at_100.accelerometer, 0.0400, kSigmaTolerance);
+  expect_recorded_relative("gyro, 500 Hz over 100 Hz", at_500.gyro / at_100.gyro, 2.236, kSigmaTolerance);
+  expect_recorded_relative("accelerometer, 500 Hz over 100 Hz", at_500.accelerometer / at_100.accelerometer, 2.236,
+                           kSigmaTolerance);
 }
 
 TEST(Imu, AS2_SteadyBiasesSpreadAsPublished) {
@@ -71,8 +75,9 @@ TEST(Imu, AS2_SteadyBiasesSpreadAsPublished) {
     gyro2 += b.w_WB_B_meas.squaredNorm();
     accelerometer2 += b.specific_force_B_meas.squaredNorm();
   }
-  EXPECT_NEAR(std::sqrt(gyro2 / (3 * kFlights)), 8.67e-4, kSigmaTolerance * 8.67e-4);
-  EXPECT_NEAR(std::sqrt(accelerometer2 / (3 * kFlights)), 0.0735, kSigmaTolerance * 0.0735);
+  expect_recorded_relative("gyro bias, rad/s", std::sqrt(gyro2 / (3 * kFlights)), 8.67e-4, kSigmaTolerance);
+  expect_recorded_relative("accelerometer bias, m/s2", std::sqrt(accelerometer2 / (3 * kFlights)), 0.0735,
+                           kSigmaTolerance);
 }
 
 // Check AS3.
@@ -95,8 +100,8 @@ TEST(Imu, AS3_AllanDeviationOfTheGyroIsTheDensityAtOneSecondAndFallsWithTheRoot)
     for (size_t i = 1; i < mean.size(); ++i) sum += std::pow(mean[i] - mean[i - 1], 2);
     return std::sqrt(sum / (2.0 * static_cast<double>(mean.size() - 1)));
   };
-  EXPECT_NEAR(allan(mean_1s), 3.4e-4, 0.05 * 3.4e-4);
-  EXPECT_NEAR(allan(mean_1s) / allan(mean_4s), 2.0, 0.15);
+  expect_recorded_relative("Allan deviation at 1 s, rad/s", allan(mean_1s), 3.4e-4, 0.05);
+  expect_recorded("Allan deviation, 1 s over 4 s", allan(mean_1s) / allan(mean_4s), 2.0, 0.15);
 }
 
 TEST(Imu, WanderingBiasIsStationaryAndForgetsWithItsCorrelationTime) {
@@ -143,11 +148,13 @@ TEST(Imu, AS5_FeelsCentripetalAndEulerAccelerationAtItsPlace) {
   c.p_BS_m = {0.1, 0.0, 0.0};
   Imu spinning(c, 0.002, 1);
   for (int i = 0; i < 200; ++i) spinning.feel({0.0, 0.0, 2.0}, kLevelRest);
-  EXPECT_NEAR(spinning.read().specific_force_B_meas.x(), -0.4, 1e-9);
+  expect_recorded("f_x at 2 rad/s, 0.1 m off, m/s2", spinning.read().specific_force_B_meas.x(), -0.4, 1e-9);
 
   Imu rest(c, 0.002, 1);
   rest.feel(Eigen::Vector3d::Zero(), kLevelRest);
-  EXPECT_NEAR((rest.read().specific_force_B_meas - Eigen::Vector3d{0.0, 0.0, -9.81}).norm(), 0.0, 1e-12);
+  const Eigen::Vector3d at_rest = rest.read().specific_force_B_meas;
+  EXPECT_EQ(at_rest.head<2>().norm(), 0.0);
+  expect_recorded("f_z at rest, m/s2", at_rest.z(), -9.81, 1e-12);
 
   // Yaw acceleration of 3 rad/s2 from rest: 0.3 m/s2 to the right.
   Imu turning(c, 0.002, 1);
@@ -170,7 +177,9 @@ TEST(Imu, AS6_FilterStandsAtMinusThreeDecibelsAtItsCutoff) {
         in2 += in * in;
         out2 += std::pow(imu.read().w_WB_B_meas.x(), 2);
       }
-      EXPECT_NEAR(std::sqrt(out2 / in2), std::numbers::sqrt2 / 2.0, 0.005) << cutoff_hz << " Hz of " << physics_hz;
+      const auto hz = [](double f) { return std::to_string(static_cast<int>(f)) + " Hz"; };
+      expect_recorded("gain at a cut-off of " + hz(cutoff_hz) + ", steps at " + hz(physics_hz), std::sqrt(out2 / in2),
+                      std::numbers::sqrt2 / 2.0, 0.005);
     }
   }
 }

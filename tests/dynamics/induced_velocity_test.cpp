@@ -9,6 +9,7 @@
 
 #include "dynamics/helicopter.h"
 #include "dynamics/helion.h"
+#include "tests/dynamics/recorded_check.h"
 
 namespace hedgehop::dynamics {
 namespace {
@@ -38,41 +39,37 @@ double inflow_ratio(double upflow_over_vh, double inplane_over_vh) {
   return solve_inflow(disc, collective_for(disc, kWeightN, w, V), w, V).induced_mps / kHoverInflowMps;
 }
 
-void expect_near_relative(double value, double expected, double tolerance) {
-  EXPECT_NEAR(value, expected, tolerance * std::abs(expected));
-}
-
 // Check MT1.
 TEST(InducedVelocity, MT1_XCellHoversAsMomentumTheorySays) {
   const RotorDisc& disc = kXCell;
-  expect_near_relative(disc.area_m2, 1.886919, kPerMille);
-  expect_near_relative(disc.tip_speed_mps, 129.425, kPerMille);
-  expect_near_relative(kWeightN / (1.225 * disc.area_m2 * disc.tip_speed_mps * disc.tip_speed_mps), 0.00207758,
-                       kPerMille);
+  expect_recorded_relative("disc area, m2", disc.area_m2, 1.886919, kPerMille);
+  expect_recorded_relative("tip speed, m/s", disc.tip_speed_mps, 129.425, kPerMille);
+  expect_recorded_relative("C_T", kWeightN / (1.225 * disc.area_m2 * disc.tip_speed_mps * disc.tip_speed_mps),
+                           0.00207758, kPerMille);
   const double theta = collective_for(disc, kWeightN, 0.0, 0.0);
   const Inflow hover = solve_inflow(disc, theta, 0.0, 0.0);
-  expect_near_relative(hover.induced_mps, 4.17140, kPerMille);
-  expect_near_relative(hover.induced_mps / disc.tip_speed_mps, 0.0322302, kPerMille);
-  expect_near_relative(theta * 180.0 / std::numbers::pi, 5.4956, kPerMille);
-  expect_near_relative(hover.thrust_n * hover.induced_mps, 335.56, kPerMille);
-  expect_near_relative(disc.profile_power_w, 716.26, kPerMille);
-  expect_near_relative(shaft_power_w(disc, hover, 0.0, 0.0), 335.56 + 716.26, kPerMille);
+  expect_recorded_relative("v_h, m/s", hover.induced_mps, 4.17140, kPerMille);
+  expect_recorded_relative("lambda", hover.induced_mps / disc.tip_speed_mps, 0.0322302, kPerMille);
+  expect_recorded_relative("theta_c, deg", theta * 180.0 / std::numbers::pi, 5.4956, kPerMille);
+  expect_recorded_relative("ideal power, W", hover.thrust_n * hover.induced_mps, 335.56, kPerMille);
+  expect_recorded_relative("profile power, W", disc.profile_power_w, 716.26, kPerMille);
+  expect_recorded_relative("shaft power, W", shaft_power_w(disc, hover, 0.0, 0.0), 335.56 + 716.26, kPerMille);
 }
 
 // Check MT2.
 TEST(InducedVelocity, MT2_ClimbAndSlowDescentFollowTheQuadratic) {
-  expect_near_relative(inflow_ratio(-0.5, 0.0), 0.78078, kPerMille);
-  expect_near_relative(inflow_ratio(-1.0, 0.0), 0.61803, kPerMille);
-  expect_near_relative(inflow_ratio(-2.0, 0.0), 0.41421, kPerMille);
-  expect_near_relative(inflow_ratio(0.5, 0.0), 1.28078, kPerMille);
+  expect_recorded_relative("v_i/v_h, climb at 0.5 v_h", inflow_ratio(-0.5, 0.0), 0.78078, kPerMille);
+  expect_recorded_relative("v_i/v_h, climb at v_h", inflow_ratio(-1.0, 0.0), 0.61803, kPerMille);
+  expect_recorded_relative("v_i/v_h, climb at 2 v_h", inflow_ratio(-2.0, 0.0), 0.41421, kPerMille);
+  expect_recorded_relative("v_i/v_h, descent at 0.5 v_h", inflow_ratio(0.5, 0.0), 1.28078, kPerMille);
 }
 
 // Check MT3.
 TEST(InducedVelocity, MT3_EdgewiseFlowFollowsGlauert) {
-  expect_near_relative(inflow_ratio(0.0, 1.0), 0.78615, kPerMille);
-  expect_near_relative(inflow_ratio(0.0, 2.0), 0.48587, kPerMille);
-  expect_near_relative(inflow_ratio(0.0, 3.0), 0.33132, kPerMille);
-  expect_near_relative(inflow_ratio(0.0, 5.0), 0.19984, kPerMille);
+  expect_recorded_relative("v_i/v_h, edgewise at v_h", inflow_ratio(0.0, 1.0), 0.78615, kPerMille);
+  expect_recorded_relative("v_i/v_h, edgewise at 2 v_h", inflow_ratio(0.0, 2.0), 0.48587, kPerMille);
+  expect_recorded_relative("v_i/v_h, edgewise at 3 v_h", inflow_ratio(0.0, 3.0), 0.33132, kPerMille);
+  expect_recorded_relative("v_i/v_h, edgewise at 5 v_h", inflow_ratio(0.0, 5.0), 0.19984, kPerMille);
 }
 
 /// dT/dw and dT/dtheta over the mass, in hover, by differences.
@@ -92,12 +89,12 @@ Heave heave(const RotorDisc& disc, double weight_n, double mass_kg) {
 // Check MT4.
 TEST(InducedVelocity, MT4_HeaveDerivativesMatchTheClosedForm) {
   const Heave xcell = heave(kXCell, kWeightN, 8.2);
-  expect_near_relative(xcell.Z_w, -0.7924, 0.01);
-  expect_near_relative(xcell.Z_col, -136.74, 0.01);
+  expect_recorded_relative("X-Cell Z_w, 1/s", xcell.Z_w, -0.7924, 0.01);
+  expect_recorded_relative("X-Cell Z_col, m/s2/rad", xcell.Z_col, -136.74, 0.01);
   const RotorDisc helion = make_helion().main_rotor.disc;
   const Heave other = heave(helion, 9.75 * 9.781, 9.75);
-  expect_near_relative(other.Z_w, -0.7097, 0.01);
-  expect_near_relative(other.Z_col, -129.23, 0.01);
+  expect_recorded_relative("HeLion Z_w, 1/s", other.Z_w, -0.7097, 0.01);
+  expect_recorded_relative("HeLion Z_col, m/s2/rad", other.Z_col, -129.23, 0.01);
 }
 
 // Check MT5.
@@ -106,7 +103,7 @@ TEST(InducedVelocity, MT5_FlapBackIsThatOfIdealHover) {
   const double lambda = solve_inflow(kXCell, theta, 0.0, 0.0).induced_mps / kXCell.tip_speed_mps;
   FlappingModel ideal;
   ideal.speed_gain = 1.0;
-  EXPECT_NEAR(speed_flapping(ideal, theta, lambda), 0.191316, 1e-6);
+  expect_recorded("X-Cell flap-back per speed ratio, K_mu = 1", speed_flapping(ideal, theta, lambda), 0.191316, 1e-6);
 }
 
 constexpr double kFootM = 0.3048, kPoundN = 4.4482216, kHorsepowerW = 745.69987, kSlugFt2Kgm2 = 1.3558179;
@@ -134,9 +131,9 @@ TEST(InducedVelocity, MT6_FullScaleHelicoptersHoverAsPublished) {
   const RotorDisc disc = ah_1s(22.0);
   const double weight_n = 9000.0 * kPoundN;
   const double v_h = hover_inflow_mps(disc, weight_n);
-  expect_near_relative(v_h / kFootM, 35.29, kHalfPercent);
-  expect_near_relative(weight_n * v_h / kHorsepowerW, 577.4, kHalfPercent);
-  expect_near_relative(disc.profile_power_w / kHorsepowerW, 222.4, kHalfPercent);
+  expect_recorded_relative("AH-1S v_h, ft/s", v_h / kFootM, 35.29, kHalfPercent);
+  expect_recorded_relative("AH-1S induced power, hp", weight_n * v_h / kHorsepowerW, 577.4, kHalfPercent);
+  expect_recorded_relative("AH-1S profile power, hp", disc.profile_power_w / kHorsepowerW, 222.4, kHalfPercent);
 
   MainRotorConfig rotor;
   rotor.speed_radps = 324.0 * std::numbers::pi / 30.0;
@@ -145,12 +142,13 @@ TEST(InducedVelocity, MT6_FullScaleHelicoptersHoverAsPublished) {
   rotor.lift_slope_prad = 6.0;
   rotor.blade_inertia_kgm2 = 1382.0 * kSlugFt2Kgm2;
   const FlappingModel flapping = make_main_rotor(rotor, 1.225).flapping;
-  expect_near_relative(flapping.lock_number, 5.439, kHalfPercent);
-  expect_near_relative(1.0 / flapping.blade_lag_s, 11.534, kHalfPercent);
-  expect_near_relative(flapping.blade_lag_s, 0.0867, kHalfPercent);
+  expect_recorded_relative("AH-1S Lock number", flapping.lock_number, 5.439, kHalfPercent);
+  expect_recorded_relative("AH-1S flapping rate, 1/s", 1.0 / flapping.blade_lag_s, 11.534, kHalfPercent);
+  expect_recorded_relative("AH-1S flapping lag, s", flapping.blade_lag_s, 0.0867, kHalfPercent);
 
   // An A109's weight and radius; its hover inflow depends on nothing else.
-  expect_near_relative(hover_inflow_mps(ah_1s(18.0), 5401.0 * kPoundN) / kFootM, 33.41, kHalfPercent);
+  expect_recorded_relative("A109 v_h, ft/s", hover_inflow_mps(ah_1s(18.0), 5401.0 * kPoundN) / kFootM, 33.41,
+                           kHalfPercent);
 }
 
 /// Plain bisection on v_i of the same two equations, without limits.
@@ -179,14 +177,13 @@ TEST(InducedVelocity, MT7_SolverAgreesWithBisection) {
   };
   for (double V = 0.0; V <= 20.0; V += 0.5) compare(0.0, V);
   for (double climb = 0.0; climb <= 4.0; climb += 0.25) compare(-climb, 0.0);
-  RecordProperty("worst_1e15", std::to_string(worst * 1e15));
   // In descent the range of momentum theory ends at half the hover inflow, so the thrust must be near the weight.
   for (double descent = 0.0; descent <= 1.5; descent += 0.25) {
     const double theta = collective_for(kXCell, kWeightN, descent, 0.0);
     worst = std::max(worst, std::abs(solve_inflow(kXCell, theta, descent, 0.0).induced_mps -
                                      bisected_inflow(kXCell, theta, descent, 0.0)));
   }
-  EXPECT_LT(worst, 1e-6);
+  expect_recorded_below("farthest from bisection, m/s", worst, 1e-6);
 }
 
 TEST(InducedVelocity, MT7_FiniteForAnyAirspeedUpTo40) {

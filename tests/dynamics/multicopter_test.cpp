@@ -5,11 +5,13 @@
 #include <numbers>
 #include <random>
 #include <stdexcept>
+#include <string>
 
 #include "dynamics/hover_model.h"
 #include "dynamics/multicopter_flight.h"
 #include "dynamics/vehicle.h"
 #include "tests/dynamics/published_multicopters.h"
+#include "tests/dynamics/recorded_check.h"
 
 // Values marked MC.. are worked out from the published parameter sets by closed forms.
 namespace hedgehop::dynamics {
@@ -21,23 +23,19 @@ PerRotor hover_speeds(const MulticopterConfig& config) {
   return trim(make_model(config), Eigen::Vector3d::Zero())->state.speeds_radps;
 }
 
-void expect_relative(double value, double expected, double relative) {
-  EXPECT_NEAR(value, expected, relative * std::abs(expected));
-}
-
 TEST(Multicopter, MC1_HoverSpeedsOfThePublishedVehicles) {
-  expect_relative(hover_speeds(hummingbird_a()).mean(), 453.22, 5e-4);
-  expect_relative(hover_speeds(hummingbird_b()).mean(), 469.20, 5e-4);
-  expect_relative(hover_speeds(firefly()).mean(), 540.95, 5e-4);
+  expect_recorded_relative("Hummingbird A, rad/s", hover_speeds(hummingbird_a()).mean(), 453.22, 5e-4);
+  expect_recorded_relative("Hummingbird B, rad/s", hover_speeds(hummingbird_b()).mean(), 469.20, 5e-4);
+  expect_recorded_relative("Firefly, rad/s", hover_speeds(firefly()).mean(), 540.95, 5e-4);
   // The third set of the Hummingbird, [BoucekFlidr2019] table of parameters.
   MulticopterConfig third = hummingbird_b();
   third.rotor.thrust_ns2 = 3.2032e-6;
-  expect_relative(hover_speeds(third).mean(), 618.73, 5e-4);
+  expect_recorded_relative("third Hummingbird, rad/s", hover_speeds(third).mean(), 618.73, 5e-4);
   const PerRotor big = hover_speeds(s900());
   const double thrust_n = 6.54e-5 * big[0] * big[0];
-  expect_relative(thrust_n, 7.6048, 5e-4);
-  expect_relative(thrust_n / 24.525, 0.310, 2e-3);
-  expect_relative(big.mean(), 341.0, 5e-4);
+  expect_recorded_relative("S900 thrust of a motor, N", thrust_n, 7.6048, 5e-4);
+  expect_recorded_relative("S900 share of the most", thrust_n / 24.525, 0.310, 2e-3);
+  expect_recorded_relative("S900, rad/s", big.mean(), 341.0, 5e-4);
 }
 
 TEST(Multicopter, MC2_InflowTorqueAndThrustToWeightOfTheHover) {
@@ -45,20 +43,21 @@ TEST(Multicopter, MC2_InflowTorqueAndThrustToWeightOfTheHover) {
     const double thrust_n = c.rotor.thrust_ns2 * std::pow(hover_speeds(c)[0], 2);
     return std::sqrt(thrust_n / (2.0 * kDensity * std::numbers::pi * std::pow(c.rotor.radius_m, 2)));
   };
-  expect_relative(inflow_mps(hummingbird_a()), 4.776, 1e-3);
-  expect_relative(inflow_mps(hummingbird_b()), 3.992, 1e-3);
-  expect_relative(inflow_mps(firefly()), 5.701, 1e-3);
-  expect_relative(inflow_mps(s900()), 5.218, 1e-3);
+  expect_recorded_relative("v_i of Hummingbird A, m/s", inflow_mps(hummingbird_a()), 4.776, 1e-3);
+  expect_recorded_relative("v_i of Hummingbird B, m/s", inflow_mps(hummingbird_b()), 3.992, 1e-3);
+  expect_recorded_relative("v_i of Firefly, m/s", inflow_mps(firefly()), 5.701, 1e-3);
+  expect_recorded_relative("v_i of S900, m/s", inflow_mps(s900()), 5.218, 1e-3);
   const auto torque_nm = [](const MulticopterConfig& c) {
     return c.rotor.torque_m * c.rotor.thrust_ns2 * std::pow(hover_speeds(c)[0], 2);
   };
-  expect_relative(torque_nm(hummingbird_a()), 0.02810, 1e-3);
-  expect_relative(torque_nm(firefly()), 0.04002, 1e-3);
+  expect_recorded_relative("rotor torque of Hummingbird A, N m", torque_nm(hummingbird_a()), 0.02810, 1e-3);
+  expect_recorded_relative("rotor torque of Firefly, N m", torque_nm(firefly()), 0.04002, 1e-3);
   const auto thrust_to_weight = [](const MulticopterConfig& c) {
     return authority(make_model(c))[kHeave] / (c.mass.mass_kg * kGravityMps2);
   };
-  expect_relative(thrust_to_weight(hummingbird_a()), 3.42, 2e-3);
-  expect_relative(thrust_to_weight(firefly()), 2.40, 2e-3);
+  expect_recorded_relative("thrust/weight of Hummingbird A", thrust_to_weight(hummingbird_a()), 3.42, 2e-3);
+  expect_recorded_relative("thrust/weight of Firefly", thrust_to_weight(firefly()), 2.40, 2e-3);
+  expect_recorded_relative("thrust/weight of S900", thrust_to_weight(s900()), 3.22, 2e-3);
 }
 
 Eigen::Vector3d angular_acceleration(const MulticopterConfig& config, const std::vector<double>& change_radps) {
@@ -72,9 +71,12 @@ Eigen::Vector3d angular_acceleration(const MulticopterConfig& config, const std:
 
 TEST(Multicopter, MC3_AngularAccelerationOfUnequalSpeeds) {
   // Front and back turn clockwise: as they speed up the body turns the other way.
-  expect_relative(angular_acceleration(hummingbird_a(), {10, -10, 10, -10}).z(), -0.4133, 1e-3);
-  expect_relative(angular_acceleration(hummingbird_a(), {0, -10, 0, 10}).x(), 3.764, 1e-3);
-  expect_relative(angular_acceleration(firefly(), {-10, -10, -10, 10, 10, 10}).x(), 2.288, 1e-3);
+  expect_recorded_relative("Hummingbird A yaw, rad/s2", angular_acceleration(hummingbird_a(), {10, -10, 10, -10}).z(),
+                           -0.4133, 1e-3);
+  expect_recorded_relative("Hummingbird A roll, rad/s2", angular_acceleration(hummingbird_a(), {0, -10, 0, 10}).x(),
+                           3.764, 1e-3);
+  expect_recorded_relative("Firefly roll, rad/s2", angular_acceleration(firefly(), {-10, -10, -10, 10, 10, 10}).x(),
+                           2.288, 1e-3);
 }
 
 TEST(Multicopter, MC4_LevelSpeedAtATiltByRotorDragAlone) {
@@ -88,11 +90,11 @@ TEST(Multicopter, MC4_LevelSpeedAtATiltByRotorDragAlone) {
     return low;
   };
   // The rolling moment and the arm of the drag only shift thrust between the rotors: speeds differ in second order.
-  expect_relative(speed_at(hummingbird_a(), 5.0), 4.211, 5e-3);
-  expect_relative(speed_at(hummingbird_a(), 10.0), 8.537, 5e-3);
-  expect_relative(speed_at(hummingbird_a(), 20.0), 18.04, 5e-3);
-  expect_relative(speed_at(firefly(), 5.0), 5.026, 5e-3);
-  expect_relative(speed_at(firefly(), 20.0), 21.53, 5e-3);
+  expect_recorded_relative("Hummingbird A at 5 deg, m/s", speed_at(hummingbird_a(), 5.0), 4.211, 5e-3);
+  expect_recorded_relative("Hummingbird A at 10 deg, m/s", speed_at(hummingbird_a(), 10.0), 8.537, 5e-3);
+  expect_recorded_relative("Hummingbird A at 20 deg, m/s", speed_at(hummingbird_a(), 20.0), 18.04, 5e-3);
+  expect_recorded_relative("Firefly at 5 deg, m/s", speed_at(firefly(), 5.0), 5.026, 5e-3);
+  expect_recorded_relative("Firefly at 20 deg, m/s", speed_at(firefly(), 20.0), 21.53, 5e-3);
 }
 
 TEST(Multicopter, MC5_LevelSpeedsOfHummingbirdBWithAllItsDrag) {
@@ -100,8 +102,9 @@ TEST(Multicopter, MC5_LevelSpeedsOfHummingbirdBWithAllItsDrag) {
        {std::array{1.844, 5.0, 469.6}, {3.569, 10.0, 471.7}, {6.738, 20.0, 485.9}}) {
     const auto found = trim(make_model(hummingbird_b()), {v_mps, 0.0, 0.0});
     ASSERT_TRUE(found);
-    expect_relative(-found->pitch_rad / kDeg, tilt_deg, 5e-3);
-    expect_relative(found->state.speeds_radps.mean(), omega, 5e-3);
+    const std::string at = " of Hummingbird B at " + std::to_string(v_mps).substr(0, 5) + " m/s";
+    expect_recorded_relative("tilt" + at + ", deg", -found->pitch_rad / kDeg, tilt_deg, 5e-3);
+    expect_recorded_relative("rotor speed" + at + ", rad/s", found->state.speeds_radps.mean(), omega, 5e-3);
   }
 }
 
@@ -112,7 +115,7 @@ TEST(Multicopter, MC5_FlatFallEndsAtTerminalSpeed) {
   flight.set_state(state, Eigen::Vector3d::Zero());
   const PerRotor off = PerRotor::Zero(4);
   for (int i = 0; i < 10000; ++i) flight.step(off, Eigen::Vector3d::Zero(), 0.002);
-  expect_relative(flight.body().v_WB_B.z(), 22.147, 1e-3);
+  expect_recorded_relative("terminal speed of Hummingbird B, m/s", flight.body().v_WB_B.z(), 22.147, 1e-3);
 }
 
 TEST(Multicopter, MC5_HoverDamping) {
@@ -121,9 +124,9 @@ TEST(Multicopter, MC5_HoverDamping) {
     const MulticopterModel model = make_model(c);
     return linearise(model, *trim(model, Eigen::Vector3d::Zero()));
   };
-  expect_relative(linear(hummingbird_b()).A(L::kU, L::kU), -0.4467, 5e-3);
-  expect_relative(linear(hummingbird_b()).A(L::kW, L::kW), -0.871, 5e-3);
-  expect_relative(linear(hummingbird_a()).A(L::kU, L::kU), -0.2042, 5e-3);
+  expect_recorded_relative("X_u of Hummingbird B, 1/s", linear(hummingbird_b()).A(L::kU, L::kU), -0.4467, 5e-3);
+  expect_recorded_relative("Z_w of Hummingbird B, 1/s", linear(hummingbird_b()).A(L::kW, L::kW), -0.871, 5e-3);
+  expect_recorded_relative("X_u of Hummingbird A, 1/s", linear(hummingbird_a()).A(L::kU, L::kU), -0.2042, 5e-3);
 }
 
 TEST(Multicopter, MC6_MotorsFollowAFirstOrderLag) {
@@ -131,7 +134,7 @@ TEST(Multicopter, MC6_MotorsFollowAFirstOrderLag) {
   const double from = flight.state().speeds_radps[0];
   const PerRotor asked = PerRotor::Constant(4, from + 100.0);
   for (int i = 0; i < 5; ++i) flight.step(asked, Eigen::Vector3d::Zero(), 0.002);
-  EXPECT_NEAR(flight.state().speeds_radps[0] - from, 55.07, 0.06);  // of 100, after 10 ms
+  expect_recorded("per cent of a step after 10 ms", flight.state().speeds_radps[0] - from, 55.07, 0.06);
   // 10 to 90 per cent takes ln(9) time constants, however the steps fall.
   const auto reached_s = [&](double share) {
     MulticopterFlight again{MulticopterConfig{}};
@@ -139,7 +142,7 @@ TEST(Multicopter, MC6_MotorsFollowAFirstOrderLag) {
     for (; again.state().speeds_radps[0] < from + 100.0 * share; t_s += 1e-5) again.step(asked, {0, 0, 0}, 1e-5);
     return t_s;
   };
-  EXPECT_NEAR(reached_s(0.9) - reached_s(0.1), 0.02747, 3e-5);
+  expect_recorded("rise from 10 to 90 %, s", reached_s(0.9) - reached_s(0.1), 0.02747, 3e-5);
 }
 
 TEST(Multicopter, MC7_WithoutBodyDragAFallKeepsGatheringSpeed) {
@@ -148,7 +151,7 @@ TEST(Multicopter, MC7_WithoutBodyDragAFallKeepsGatheringSpeed) {
   state.speeds_radps.setZero();
   flight.set_state(state, Eigen::Vector3d::Zero());
   for (int i = 0; i < 5000; ++i) flight.step(PerRotor::Zero(4), Eigen::Vector3d::Zero(), 0.002);
-  EXPECT_NEAR(flight.body().v_WB_B.z(), 98.1, 1e-6);
+  expect_recorded("speed after 10 s of fall, m/s", flight.body().v_WB_B.z(), 98.1, 1e-6);
 }
 
 TEST(Multicopter, SpinningUpTurnsTheBodyByTheRotorsMomentum) {

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "tests/dynamics/closed_loop.h"
@@ -160,7 +162,7 @@ TEST(Navigation, ARoofBelowIsNoClimb) {
 
 TEST(Navigation, AltitudeHoldsThroughLostReadings) {
   Loop loop;
-  loop.avionics.height_sensor.dropout = 0.9;
+  loop.avionics.height_sensor.ranger.dropout = 0.9;
   const Errors e = errors(flights(loop, 3, 40.0, square));
   EXPECT_LT(e.altitude_max_m, 0.4);
 }
@@ -189,7 +191,7 @@ AltitudeErrors altitude_errors(const std::vector<std::vector<Sample>>& flights) 
 /// Flies 10 m up over a height sensor that reaches 5 m, without reception.
 AltitudeErrors beyond_the_height_sensor(bool barometer) {
   Loop loop;
-  loop.avionics.height_sensor.max_m = 5.0;
+  loop.avionics.height_sensor.ranger.max_m = 5.0;
   loop.avionics.gps.enabled = false;
   loop.avionics.barometer.enabled = barometer;
   return altitude_errors(flights(loop, 12, 40.0, square));
@@ -208,6 +210,49 @@ TEST(Navigation, TheBarometerHoldsAltitudeBeyondTheHeightSensor) {
   EXPECT_LT(with.rms_ratio, 1.4);
 }
 
+/// Squares of errors over the sigmas claimed for them at one instant, summed over axes and flights: chi-square numbers.
+struct ChiSquares {
+  double attitude = 0.0, velocity = 0.0, horizontal = 0.0, altitude = 0.0;
+
+  void add(const Sample& s) {
+    const auto square_ratio = [](const auto& error, const auto& sigma) {
+      return error.cwiseQuotient(sigma).squaredNorm();
+    };
+    const Eigen::Vector3d position = s.estimate.p_WB_est - s.body.p_WB;
+    attitude += square_ratio(s.attitude_error(), s.estimate.sigma_attitude_B_rad);
+    velocity += square_ratio(Eigen::Vector3d(s.v_WB_W_est() - s.v_WB_W()), s.estimate.sigma_v_W_mps);
+    horizontal += square_ratio(Eigen::Vector2d(position.head<2>()), Eigen::Vector2d(s.estimate.sigma_p_W_m.head<2>()));
+    altitude += std::pow(position.z() / s.estimate.sigma_p_W_m.z(), 2);
+  }
+};
+
+// Bounds: chi-square, 0.05 and 99.95 per cent, of 36, 24 and 12 degrees of freedom.
+TEST(Navigation, StaysWithinItsClaimsForFiveMinutesOnTheBarometer) {
+  Loop loop;
+  loop.vehicle = MulticopterConfig();
+  loop.avionics.height_sensor.ranger.max_m = 5.0;  // it flies 10 m up
+  loop.avionics.barometer.enabled = true;
+  constexpr int kFlights = 12;
+  std::array<ChiSquares, 3> at_100_200_300_s;
+  for (int i = 0; i < kFlights; ++i) {
+    loop.seed = static_cast<uint64_t>(i) + 1;
+    const std::vector<Sample> flight = fly(loop, 300.01, square);
+    for (size_t k = 0; k < 3; ++k) at_100_200_300_s[k].add(flight[(k + 1) * 10000]);
+  }
+  for (size_t k = 0; k < 3; ++k) {
+    const ChiSquares& chi = at_100_200_300_s[k];
+    const auto expect_within = [k](const std::string& what, double value, double least, double most) {
+      RecordProperty(what + "_" + std::to_string(k + 1) + "00_s", std::to_string(value));
+      EXPECT_GT(value, least) << what;
+      EXPECT_LT(value, most) << what;
+    };
+    expect_within("attitude", chi.attitude, 14.40, 70.59);
+    expect_within("velocity", chi.velocity, 14.40, 70.59);
+    expect_within("horizontal", chi.horizontal, 7.45, 53.48);
+    expect_within("altitude", chi.altitude, 1.93, 34.82);
+  }
+}
+
 TEST(Navigation, TheHeightSensorTeachesTheBarometersError) {
   // A barometer far off, read beside the height sensor, drags the altitude nowhere.
   Loop loop;
@@ -216,6 +261,17 @@ TEST(Navigation, TheHeightSensorTeachesTheBarometersError) {
   const AltitudeErrors e = altitude_errors(flights(loop, 4, 20.0, square));
   EXPECT_LT(e.max_m, 0.4);
   EXPECT_GT(e.within_3_sigma, 0.98);
+}
+
+TEST(Navigation, OwnsUpToTheHeightSensorsOffset) {
+  // However often it reads, an offset of 0.3 m stays in the altitude; claims must not shrink below it.
+  Loop loop;
+  loop.avionics.height_sensor.ranger.offset_m = 0.3;
+  const AltitudeErrors e = altitude_errors(flights(loop, 12, 10.0, square));
+  EXPECT_GT(e.max_m, 0.3);
+  EXPECT_GT(e.within_3_sigma, 0.98);
+  EXPECT_GT(e.rms_ratio, 0.5);
+  EXPECT_LT(e.rms_ratio, 1.4);
 }
 
 TEST(Navigation, HeightAndAltitudeAgreeOverTheGround) {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "dynamics/integrator.h"
+#include "tests/dynamics/recorded_check.h"
 
 namespace hedgehop::dynamics {
 namespace {
@@ -33,8 +34,8 @@ TEST(Servo, AS1_StepOvershootsAsASecondOrderLag) {
     s = advance(kServo, s, i * kStep, kStep, [&](double) { return target; });
     if (s.position_rad > peak) peak = s.position_rad, at = (i + 1) * kStep;
   }
-  EXPECT_NEAR(peak / target - 1.0, 0.1539, 0.01 * 0.1539);
-  EXPECT_NEAR(at, 0.0957, 0.01 * 0.0957);
+  expect_recorded_relative("overshoot", peak / target - 1.0, 0.1539, 0.01);
+  expect_recorded_relative("time of the peak, s", at, 0.0957, 0.01);
 }
 
 /// Gain and phase at a frequency, from the last whole period of a long sine.
@@ -61,9 +62,9 @@ TEST(Servo, AS1_PassesFrequenciesAsASecondOrderLag) {
     const double middle = 0.5 * (low + high);
     (std::abs(response(middle)) > std::numbers::sqrt2 / 2.0 ? low : high) = middle;
   }
-  EXPECT_NEAR(low, 48.11, 0.01 * 48.11);
+  expect_recorded_relative("-3 dB, rad/s", low, 48.11, 0.01);
   const double phase_deg = std::arg(response(2.0 * 2.0 * std::numbers::pi)) * 180.0 / std::numbers::pi;
-  EXPECT_NEAR(phase_deg, -20.67, 0.01 * 20.67);
+  expect_recorded_relative("phase at 2 Hz, deg", phase_deg, -20.67, 0.01);
 }
 
 TEST(Servo, StaysWithinStopsAndRateLimit) {

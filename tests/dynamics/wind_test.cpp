@@ -7,7 +7,10 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
+
+#include "tests/dynamics/recorded_check.h"
 
 namespace hedgehop::dynamics {
 namespace {
@@ -25,9 +28,10 @@ TEST(Wind, DR1_ScalesAreThoseOfLowAltitude) {
       sigmas{1.5148, 1.4887, 1.4188, 1.0649};
   for (size_t i = 0; i < heights.size(); ++i) {
     const DrydenScales s = dryden_scales(heights[i], kW20);
-    EXPECT_NEAR(s.length_uv_m, lengths[i], 1e-3 * lengths[i]);
-    EXPECT_NEAR(s.sigma_uv_mps, sigmas[i], 1e-3 * sigmas[i]);
-    EXPECT_NEAR(s.sigma_w_mps, 0.77167, 1e-3 * 0.77167);
+    const std::string at = " at " + std::to_string(heights[i]).substr(0, 5) + " m";
+    expect_recorded_relative("L_u" + at + ", m", s.length_uv_m, lengths[i], 1e-3);
+    expect_recorded_relative("sigma_u" + at + ", m/s", s.sigma_uv_mps, sigmas[i], 1e-3);
+    expect_recorded_relative("sigma_w" + at + ", m/s", s.sigma_w_mps, 0.77167, 1e-3);
     EXPECT_NEAR(s.length_w_m, heights[i], 1e-9);
   }
 }
@@ -61,9 +65,9 @@ Statistics statistics(double dt, uint64_t seed) {
 void expect_variance(const Statistics& s) {
   const DrydenScales scales = dryden_scales(kHeightM, kW20);
   const double uv = scales.sigma_uv_mps * scales.sigma_uv_mps, w = scales.sigma_w_mps * scales.sigma_w_mps;
-  EXPECT_NEAR(s.variance[0], uv, 0.05 * uv);
-  EXPECT_NEAR(s.variance[1], uv, 0.05 * uv);
-  EXPECT_NEAR(s.variance[2], w, 0.05 * w);
+  expect_recorded_relative("variance of u, m2/s2", s.variance[0], uv, 0.05);
+  expect_recorded_relative("variance of v, m2/s2", s.variance[1], uv, 0.05);
+  expect_recorded_relative("variance of w, m2/s2", s.variance[2], w, 0.05);
 }
 
 // Checks DR2 and DR5.
@@ -71,7 +75,7 @@ TEST(Wind, DR2_DR5_VarianceIsTheModelsAndGaussianAt50Hz) {
   const Statistics s = statistics(0.02, 11);
   expect_variance(s);
   for (int i = 0; i < 3; ++i) {
-    EXPECT_NEAR(s.kurtosis[i], 3.0, 0.15) << i;
+    expect_recorded(std::string("kurtosis of ") + "uvw"[i], s.kurtosis[i], 3.0, 0.15);
     for (int k = 0; k < i; ++k) EXPECT_LT(std::abs(s.correlation(i, k)), 0.04) << i << k;
   }
 }
@@ -137,8 +141,10 @@ TEST(Wind, DR3_SpectraHaveDrydensShape) {
         spectrum(component, {corner / std::numbers::sqrt3, corner}, dt, per_segment, segments);
     // At frequency zero u has twice the density of w.
     const double at_zero = sigma * sigma * length / (std::numbers::pi * kSpeedMps) * (component == 0 ? 2.0 : 1.0);
-    EXPECT_NEAR(density[0] / at_zero, component == 0 ? 0.75 : 1.125, 0.1 * (component == 0 ? 0.75 : 1.125));
-    EXPECT_NEAR(density[1] / at_zero, component == 0 ? 0.5 : 1.0, 0.1 * (component == 0 ? 0.5 : 1.0));
+    const std::string of = component == 0 ? "Phi_u" : "Phi_w";
+    expect_recorded_relative(of + " at V/(sqrt(3) L) over that at 0", density[0] / at_zero,
+                             component == 0 ? 0.75 : 1.125, 0.1);
+    expect_recorded_relative(of + " at V/L over that at 0", density[1] / at_zero, component == 0 ? 0.5 : 1.0, 0.1);
   }
 }
 
@@ -159,10 +165,11 @@ TEST(Wind, DR4_AutocorrelationCrossesZeroWhereDrydensDoes) {
     for (size_t i = 0; i + k < x.size(); ++i) sum += x[i] * x[i + k];
     return sum / static_cast<double>(x.size() - k) / (sigma * sigma);
   };
-  EXPECT_NEAR(correlation(w, lag, s.sigma_w_mps), std::exp(-1.0) * 0.5, 0.05);
-  EXPECT_NEAR(correlation(w, 2 * lag, s.sigma_w_mps), 0.0, 0.05);
+  expect_recorded("R_w at 1 s over its variance", correlation(w, lag, s.sigma_w_mps), std::exp(-1.0) * 0.5, 0.05);
+  expect_recorded("R_w at 2 s over its variance", correlation(w, 2 * lag, s.sigma_w_mps), 0.0, 0.05);
   const double tau = static_cast<double>(2 * lag) * dt;
-  EXPECT_NEAR(correlation(u, 2 * lag, s.sigma_uv_mps), std::exp(-speed * tau / s.length_uv_m), 0.05);
+  expect_recorded("R_u at 2 s over its variance", correlation(u, 2 * lag, s.sigma_uv_mps),
+                  std::exp(-speed * tau / s.length_uv_m), 0.05);
 }
 
 TEST(Wind, DR5_SameSeedSameWindBitForBit) {
@@ -187,11 +194,11 @@ TEST(Gust, DR6_RisesToHalfAtMidLengthWithTheSlopeOfACosineAndRoundAtBothEnds) {
     return (gust_speed_mps(gust, way_m + step_m) - gust_speed_mps(gust, way_m - step_m)) / (2.0 * step_m);
   };
   const double steepest = std::numbers::pi * 8.0 / (2.0 * 25.0);
-  EXPECT_NEAR(gust_speed_mps(gust, 12.5), 4.0, 1e-12);
-  EXPECT_NEAR(slope(12.5), steepest, kSlopeTruncation * steepest);
+  expect_recorded("speed at mid length, m/s", gust_speed_mps(gust, 12.5), 4.0, 1e-12);
+  expect_recorded_relative("slope at mid length, 1/s", slope(12.5), steepest, kSlopeTruncation);
   // The difference reaches a step into the rise: pi s / 4 d of the steepest slope.
-  EXPECT_NEAR(slope(0.0), 0.0, 1e-3 * steepest);
-  EXPECT_NEAR(slope(25.0), 0.0, 1e-3 * steepest);
+  expect_recorded("slope at the beginning, 1/s", slope(0.0), 0.0, 1e-3 * steepest);
+  expect_recorded("slope at the top, 1/s", slope(25.0), 0.0, 1e-3 * steepest);
 }
 
 TEST(Gust, DR6_HoldsAndFallsAsItRose) {

@@ -8,6 +8,8 @@ namespace hedgehop::sim {
 /// 500 physics steps a second and an autopilot step every fifth of them.
 class OutdoorFlight {
  public:
+  static constexpr double kWallNorth_m = 40.0;  ///< of the near side of the wall to the north
+
   explicit OutdoorFlight(const dynamics::VehicleConfig& vehicle)
       : scenario_(in_turbulence(vehicle)),
         ticks_(scenario_.physics_rate_hz),
@@ -36,13 +38,13 @@ class OutdoorFlight {
   static Scenario in_turbulence(const dynamics::VehicleConfig& vehicle) {
     Scenario scenario;
     scenario.vehicle = vehicle;
-    scenario.avionics.barometer.enabled = true;
+    scenario.avionics.barometer.enabled = scenario.avionics.range_finder.ranger.enabled = true;
     scenario.wind = {.speed_mps = 5.0, .from_rad = 1.0, .roughness_m = 0.046, .turbulence_w20_mps = 15.4};
     return scenario;
   }
   static scenes::Scene between_walls() {
     scenes::Scene scene;
-    for (const double north_m : {-60.0, 60.0}) {
+    for (const double north_m : {-kWallNorth_m - 1.0, kWallNorth_m + 1.0}) {
       scenes::Solid wall;
       wall.X_WS = Eigen::Translation3d(north_m, 0.0, -20.0);
       wall.half_extents_m = {1.0, 500.0, 20.0};

@@ -59,6 +59,7 @@ TrajectoryRow row_at(double t_s, double seconds, std::mt19937_64& random) {
   row.controls[2] = -0.02 + 0.003 * noise(random);
   row.controls[3] = 0.05 + 0.01 * std::sin(2.0 * t_s);
   row.wind_W = Eigen::Vector3d(2.0, -1.0, 0.0) + 0.5 * Eigen::Vector3d(std::sin(0.9 * t_s), std::cos(1.3 * t_s), 0.2);
+  row.range_m = 20.0 + std::sin(0.4 * t_s);
   return row;
 }
 

@@ -70,7 +70,8 @@ TEST(TrajectoryCsv, ReadsBackToTheSameBits) {
                                                                   {"lateral_rad", row.controls[1]},
                                                                   {"longitudinal_rad", row.controls[2]},
                                                                   {"tail_rad", row.controls[3]},
-                                                                  {"wind_down_mps", row.wind_W.z()}};
+                                                                  {"wind_down_mps", row.wind_W.z()},
+                                                                  {"range_m", *row.range_m}};
     for (const auto& [name, value] : expected) {
       const auto column = std::ranges::find(rows[0], name) - rows[0].begin();
       ASSERT_EQ(std::bit_cast<uint64_t>(number(fields[static_cast<size_t>(column)])), std::bit_cast<uint64_t>(value))
@@ -87,13 +88,14 @@ TEST(TrajectoryCsv, HeaderIsTheContract) {
               "r_radps,est_north_m,est_east_m,est_down_m,est_roll_rad,est_pitch_rad,est_yaw_rad,est_v_north_mps,"
               "est_v_east_mps,est_v_down_mps,cmd_v_north_mps,cmd_v_east_mps,cmd_altitude_m,cmd_heading_rad,clearance_m,"
               "ground_clearance_m,collective_rad,lateral_rad,longitudinal_rad,tail_rad,wind_north_mps,wind_east_mps,"
-              "wind_down_mps,model_valid\n");
+              "wind_down_mps,model_valid,range_m\n");
 }
 
 TEST(TrajectoryCsv, LeavesUnknownFieldsEmptyAndSaysInf) {
   Flight flight = fake_flight(0.01, 1);
   flight.trajectory[0].v_WB_W_cmd.reset();
   flight.trajectory[0].altitude_cmd_m.reset();
+  flight.trajectory[0].range_m.reset();
   flight.trajectory[0].obstacle_clearance_m = kInfinity;
   flight.trajectory[0].wind_W.x() = kNaN;
   const auto rows = fields_of(trajectory_csv(flight));
@@ -104,6 +106,7 @@ TEST(TrajectoryCsv, LeavesUnknownFieldsEmptyAndSaysInf) {
   EXPECT_EQ(field("cmd_v_east_mps"), "");
   EXPECT_EQ(field("cmd_altitude_m"), "");
   EXPECT_EQ(field("wind_north_mps"), "");
+  EXPECT_EQ(field("range_m"), "");
   EXPECT_EQ(field("clearance_m"), "inf");
 }
 

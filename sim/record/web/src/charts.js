@@ -1,7 +1,9 @@
 'use strict';
-// Time plots that share their time axis and cursor.
+// Plots that share their horizontal axis and cursor: over time, unless another axis is asked for.
 
 const plotHeight = 190;
+/** Where a panel holds the axis' values, how it is called, and whether its points are marked. */
+const timeAxis = {key: 't_s', label: 'time, s', symbol: 't', unit: 's', points: false};
 const roleColors = {left: 'c0', right: 'c1', front: 'c2', rear: 'c3', down: 'c4',
   true: 'true', est: 'est', cmd: 'cmd', a: 'c0', b: 'c1', c: 'c2', d: 'c3'};
 
@@ -50,9 +52,10 @@ class Charts {
    * @param host  element to fill with a heading and a grid of plots for each section.
    * @param panels  of the report's data.
    * @param on  {hover(t), pick(t)}.
+   * @param axis  like timeAxis.
    */
-  constructor(host, panels, sectionNotes, on) {
-    Object.assign(this, {on, plots: [], following: false});
+  constructor(host, panels, sectionNotes, on, axis = timeAxis) {
+    Object.assign(this, {on, axis, plots: [], following: false});
     const sections = new Map();
     for (const panel of panels) {
       if (!sections.has(panel.section)) sections.set(panel.section, this.addSection(host, panel.section, sectionNotes));
@@ -77,7 +80,7 @@ class Charts {
   build() {
     for (const plot of this.plots) {
       plot.u?.destroy();
-      plot.u = new uPlot(this.options(plot), [plot.panel.t_s, ...plot.panel.series.map((s) => s.values)], plot.host);
+      plot.u = new uPlot(this.options(plot), [plot.panel[this.axis.key], ...plot.panel.series.map((s) => s.values)], plot.host);
     }
   }
 
@@ -85,7 +88,7 @@ class Charts {
     const soft = themeColor('soft'), grid = {stroke: themeColor('faint'), width: 1};
     const font = '11px system-ui, "DejaVu Sans", sans-serif';
     const axis = {stroke: soft, grid, ticks: {...grid, size: 4}, font, labelFont: font, labelSize: 16, labelGap: 0};
-    const looks = seriesLooks(panel.series);
+    const looks = seriesLooks(panel.series), {label: xLabel, symbol, unit, points} = this.axis;
     return {
       width: host.clientWidth || 400, height: plotHeight,
       scales: {x: {time: false}, y: {range: valueRange(panel)}},
@@ -101,11 +104,12 @@ class Charts {
           this.on.hover(null);
           return null;
         }}},
-      axes: [{...axis, size: 30, label: 'time, s', labelSize: 14},
+      axes: [{...axis, size: 30, label: xLabel, labelSize: 14,
+        values: (u, splits) => splits.map((v) => v === null ? '' : v.toLocaleString('en-US').replace('-', '−'))},
         {...axis, size: 46, label: panel.unit, values: (u, splits) => splits.map((v) => short(v))}],
-      series: [{label: 't', value: (u, v) => v === null ? '' : v.toFixed(2) + ' s'},
+      series: [{label: symbol, value: (u, v) => v === null ? '' : `${v.toFixed(2)} ${unit}`},
         ...panel.series.map(({label, role}, i) => ({
-          label, stroke: looks[i].color, width: looks[i].width, points: {show: false},
+          label, stroke: looks[i].color, width: looks[i].width, points: points ? {show: true, size: 5, fill: looks[i].color} : {show: false},
           paths: role === 'cmd' ? uPlot.paths.stepped({align: 1}) : undefined,
           value: (u, v) => v === null || v === undefined ? '–' : short(v)}))],
       hooks: {
@@ -116,7 +120,7 @@ class Charts {
     };
   }
 
-  /** Gives every plot the time axis of one of them. */
+  /** Gives every plot the stretch of the axis that one of them shows. */
   zoomAll(source) {
     if (this.zooming) return;
     this.zooming = true;
@@ -125,7 +129,7 @@ class Charts {
     this.zooming = false;
   }
 
-  /** Puts every plot's cursor at an instant; null takes it away. */
+  /** Puts every plot's cursor at an instant, or wherever else on the axis; null takes it away. */
   setTime(t) {
     this.following = true;
     for (const {u} of this.plots) {

@@ -1,0 +1,31 @@
+#include "avoidance/depth_picture.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+namespace hedgehop::avoidance {
+
+cv::Mat depth_picture(const cv::Mat& depth_m, double far_m) {
+  constexpr double kUnknown = -1.0;
+  cv::Mat depth = depth_m.clone(), nearness(depth_m.size(), CV_8UC1), colors;
+  for (int v = 0; v < depth_m.rows; ++v) {
+    for (int u = 0; u < depth_m.cols; ++u) {
+      const double share = std::min(1.0, depth_m.at<float>(v, u) / far_m);  // 1 for NaN
+      nearness.at<uint8_t>(v, u) = static_cast<uint8_t>(255.0 * (1.0 - share));
+    }
+  }
+  cv::applyColorMap(nearness, colors, cv::COLORMAP_TURBO);
+  cv::cvtColor(colors, colors, cv::COLOR_BGR2RGB);
+  cv::patchNaNs(depth, kUnknown);
+  colors.setTo(cv::Scalar::all(0), depth == kUnknown);
+  return colors;
+}
+
+void caption(cv::Mat& picture, const std::string& text) {
+  const double scale = std::max(0.4, picture.cols / 1200.0);
+  const cv::Point where(6, static_cast<int>(24 * scale) + 4);
+  cv::putText(picture, text, where, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar::all(0), 3, cv::LINE_AA);
+  cv::putText(picture, text, where, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar::all(255), 1, cv::LINE_AA);
+}
+
+}  // namespace hedgehop::avoidance

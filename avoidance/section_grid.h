@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "avoidance/module.h"
+#include "vision/section_grid.h"
+#include "vision/stereo_matcher.h"
+
+namespace hedgehop::avoidance {
+
+/// Flies towards the emptiest of many overlapping sections of a depth picture.
+/// Source: [Perez2018] sec. on the selection of sections, and sec. on movement.
+struct SectionGridConfig {
+  static constexpr std::string_view kName = "section_grid";
+  static constexpr std::string_view kMeaning =
+      "flies towards the emptiest of many overlapping sections of a depth picture";
+
+  enum class Sight { stereo, truth };
+  Sight sight = Sight::stereo;
+  vision::StereoMatcherConfig stereo;
+  int speck_px = 100;
+  vision::SectionGrid grid;
+  double threshold_m = 9.144;  ///< 30 ft
+  double most_share = 0.15;
+  vision::Unknown unknown = vision::Unknown::free;
+  double aligned_rad = 0.17453292519943295;
+  double arrived_m = 1.0;
+  double lowest_m = 2.0;
+  double yaw_rate_radps = 0.5235987755982988;
+};
+
+template <class Visitor>
+void describe(Visitor& v, SectionGridConfig& c) {
+  v("sight", c.sight,
+    {.choices = {"stereo", "truth"},
+     .meaning =
+         "depth by matching cameras 'left' and 'right', or, for experiments, from a camera 'depth' that knows it"});
+  v("stereo", c.stereo, {.meaning = "how the pair is matched"});
+  v("speck", c.speck_px,
+    {.unit = "px", .at_least = 0, .meaning = "segments of disparity smaller than this are dropped"});
+  v("rows", c.grid.rows, {.at_least = 1, .at_most = 101, .meaning = "rows of sections"});
+  v("cols", c.grid.cols, {.at_least = 1, .at_most = 101, .meaning = "columns of sections"});
+  v("width", c.grid.width_share,
+    {.above = 0.0, .at_most = 1.0, .meaning = "of a section, as a share of the picture's"});
+  v("height", c.grid.height_share,
+    {.above = 0.0, .at_most = 1.0, .meaning = "of a section, as a share of the picture's"});
+  v("threshold", c.threshold_m, {.unit = "m", .above = 0.0, .meaning = "what is nearer is a threat"});
+  v("most_share", c.most_share,
+    {.at_least = 0.0, .at_most = 1.0, .meaning = "share of threats from which on a section is no way out"});
+  v("unknown", c.unknown, {.choices = {"free", "threat"}, .meaning = "what a pixel without depth counts as"});
+  v("aligned", c.aligned_rad,
+    {.unit = "deg",
+     .above = 0.0,
+     .at_most = 90.0,
+     .meaning = "the vehicle moves once its nose is turned to within this"});
+  v("arrived", c.arrived_m,
+    {.unit = "m", .above = 0.0, .meaning = "distance at which a position aside counts as reached"});
+  v("lowest", c.lowest_m,
+    {.unit = "m", .at_least = 0.0, .meaning = "no position aside lies lower, above the scene's origin"});
+  v("yaw_rate", c.yaw_rate_radps,
+    {.unit = "deg/s", .above = 0.0, .at_most = 360.0, .meaning = "at which it looks round when no section is free"});
+}
+
+/// Throws std::invalid_argument on a bad config.
+std::unique_ptr<Module> make_section_grid(const SectionGridConfig& config);
+
+}  // namespace hedgehop::avoidance

@@ -1,0 +1,104 @@
+#include "sim/campaign/batch_record.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace hedgehop::sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kConfidence = 0.95;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json group_json(const GroupSummary& group) {
+  const Interval interval = wilson_interval(group.success, kConfidence);
+  return Json{{"group", group.group},
+              {"flights", group.flights},
+              {"passed", group.success.successes},
+              {"ended", group.success.trials},
+              {"success_rate", group.success.trials > 0 ? Json(group.success.rate()) : Json(nullptr)},
+              {"success_rate_95", {interval.low, interval.high}},
+              {"reached", group.reached},
+              {"collided", group.collided},
+              {"timeout", group.timeout},
+              {"fault", group.fault},
+              {"failed", group.failed},
+              {"missing", group.missing},
+              {"least_clearance_m", number(group.least_clearance_m)},
+              {"median_clearance_m", number(group.median_clearance_m)},
+              {"median_time_s", number(group.median_time_s)}};
+}
+
+Json flight_json(const FlightRecord& record) {
+  return Json{
+      {"id", record.order.id},     {"group", record.order.group},   {"scenario", record.order.scenario.string()},
+      {"seed", record.order.seed}, {"set", record.order.overrides}, {"status", std::string(to_string(record.status))},
+      {"passed", passed(record)},  {"cause", record.cause},         {"command", rerun_command(record.order)},
+      {"result", record.result}};
+}
+
+std::string group_row(const GroupSummary& g) {
+  const Interval interval = wilson_interval(g.success, kConfidence);
+  return fmt::format("| {} | {} | {} | {:.2f} to {:.2f} | {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.0f} |\n",
+                     g.group, g.flights, g.success.successes, interval.low, interval.high, g.reached, g.collided,
+                     g.timeout, g.fault + g.failed, g.missing, g.least_clearance_m, g.median_clearance_m,
+                     g.median_time_s);
+}
+
+}  // namespace
+
+std::string batch_json(const std::vector<FlightRecord>& records, const std::vector<GroupVerdict>& verdicts,
+                       const std::string& version) {
+  Json json{{"version", version}, {"groups", Json::array()}, {"verdicts", Json::array()}, {"flights", Json::array()}};
+  for (const GroupSummary& group : summarise(records)) json["groups"].push_back(group_json(group));
+  for (const GroupVerdict& verdict : verdicts) {
+    json["verdicts"].push_back(Json{{"group", verdict.group},
+                                    {"check", verdict.check},
+                                    {"passed", verdict.passed},
+                                    {"value", number(verdict.value)},
+                                    {"limit", number(verdict.limit)},
+                                    {"words", verdict.words}});
+  }
+  for (const FlightRecord& record : records) json["flights"].push_back(flight_json(record));
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string summary_text(const std::vector<FlightRecord>& records, const std::vector<GroupVerdict>& verdicts) {
+  std::string text =
+      "| scenario | flights | passed | 95 % interval | reached | collided | timeout | fault | missing | least "
+      "clearance, m | median least clearance, m | median time, s "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const GroupSummary& group : summarise(records)) text += group_row(group);
+  for (const FlightRecord& record : records) {
+    if (record.status == FlightRecord::Status::missing || passed(record)) continue;
+    text +=
+        fmt::format("FAIL  {}: {}\n      {}\n", record.order.id, failure_words(record), rerun_command(record.order));
+  }
+  for (const GroupVerdict& verdict : verdicts) {
+    text +=
+        fmt::format("{}  {} {}: {}\n", verdict.passed ? "pass" : "FAIL", verdict.check, verdict.group, verdict.words);
+  }
+  return text;
+}
+
+std::string failure_words(const FlightRecord& record) {
+  if (passed(record)) return "";
+  if (record.status != FlightRecord::Status::flown) return record.cause;
+  std::string words = record.result.at("outcome").get<std::string>();
+  if (const std::string cause = record.result.value("cause", ""); !cause.empty()) words += " (" + cause + ")";
+  for (const auto& check : record.result.at("checks")) {
+    if (check.at("passed").get<bool>()) continue;
+    const auto figure = [&](const char* key) {
+      return check.at(key).is_number() ? fmt::format("{:.4g}", check.at(key).get<double>()) : std::string("unknown");
+    };
+    words += fmt::format("; {} {}, limit {} {}", check.at("name").get<std::string>(), figure("value"), figure("limit"),
+                         check.at("unit").get<std::string>());
+  }
+  return words;
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,170 @@
+#include "sim/campaign/campaign_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "sim/record/whole_file.h"
+#include "sim/scenario/parse.h"
+#include "sim/scenario/reader.h"
+
+namespace hedgehop::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Letters that are safe in a folder's name everywhere.
+std::string folder_name(const std::string& group) {
+  std::string name;
+  for (const char c : group) {
+    const bool safe = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' || c == '=' || c == '_';
+    name += safe ? c : '_';
+  }
+  constexpr size_t kLongest = 120;
+  return name.empty() || name[0] == '.' ? "_" + name : name.substr(0, kLongest);
+}
+
+/// Gathers orders and keeps their groups and folders apart.
+class Gatherer {
+ public:
+  explicit Gatherer(const std::vector<uint64_t>& seeds, const std::vector<std::string>& overrides)
+      : seeds_(seeds), overrides_(overrides) {}
+
+  void add_input(const fs::path& input) {
+    std::error_code error;
+    if (!fs::is_directory(input, error)) {
+      add_file(input);
+      return;
+    }
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(input, error)) {
+      if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+    }
+    if (files.empty()) batch_.faults.push_back(fmt::format("{}: no *.yaml in this folder", input.string()));
+    std::ranges::sort(files);
+    for (const fs::path& file : files) add_file(file);
+  }
+
+  void add_scenario(const fs::path& file, const std::vector<uint64_t>& seeds, std::vector<std::string> overrides) {
+    overrides.insert(overrides.end(), overrides_.begin(), overrides_.end());
+    Order order{.scenario = file.lexically_normal(), .overrides = overrides};
+    try {
+      const Scenario scenario = load_scenario(file, overrides);
+      order.group = scenario.name;
+      for (const std::string& text : overrides) order.group += " " + text;
+      const std::string folder = claim(order);
+      for (const uint64_t seed : seeds.empty() ? std::vector<uint64_t>{scenario.seed} : seeds) {
+        order.id = fmt::format("{}/seed{}", folder, seed);
+        order.seed = seed;
+        order.scenario_yaml = resolved_yaml(scenario, seed);
+        add(order);
+      }
+    } catch (const InputError& error) {
+      order.group = file.stem().string();
+      order.id = claim(order) + "/bad";
+      refuse(order, error);
+    }
+  }
+
+  BatchOrders take() { return std::move(batch_); }
+
+ private:
+  void add_file(const fs::path& file) {
+    Faults faults;
+    const Node root = load_tree(file, faults);
+    if (faults.empty() && root.find("flights")) {
+      add_campaign(file, root);
+    } else {
+      add_scenario(file, seeds_, {});
+    }
+  }
+
+  void add_campaign(const fs::path& file, const Node& root) {
+    try {
+      Faults faults;
+      CampaignConfig campaign;
+      read_struct(root, "", "", campaign, faults);
+      faults.raise();
+      for (const CampaignFlights& flights : campaign.flights) {
+        const std::vector<uint64_t> own = flights.seeds ? parse_seeds(*flights.seeds) : std::vector<uint64_t>{};
+        add_scenario(file.parent_path() / flights.scenario, seeds_.empty() ? own : seeds_, flights.set);
+      }
+      for (CampaignCheck& check : campaign.checks) {
+        if (auto* no_worse = std::get_if<NoWorseCheck>(&check)) {
+          no_worse->than = (file.parent_path() / no_worse->than).lexically_normal().string();
+        }
+        batch_.checks.push_back(check);
+      }
+    } catch (const InputError& error) {
+      Order order{.group = file.stem().string(), .scenario = file};
+      order.id = claim(order) + "/bad";
+      refuse(order, error);
+    }
+  }
+
+  /// A folder for a scenario with its overrides; the group is made to differ where another file has the same name.
+  std::string claim(Order& order) {
+    const std::string key = order.scenario.string() + "\n" + fmt::format("{}", fmt::join(order.overrides, "\n"));
+    if (const auto known = folders_.find(key); known != folders_.end()) {
+      order.group = known->second.first;
+      return known->second.second;
+    }
+    const std::string base = order.group;
+    for (int i = 2; taken_.contains(folder_name(order.group)); ++i) order.group = fmt::format("{}~{}", base, i);
+    const std::string folder = folder_name(order.group);
+    taken_.insert({folder, 0});
+    folders_[key] = {order.group, folder};
+    return folder;
+  }
+
+  /// A flight asked for twice is flown once.
+  void add(const Order& order) {
+    if (ids_.insert({order.id, 0}).second) batch_.orders.push_back(order);
+  }
+
+  void refuse(Order& order, const InputError& error) {
+    order.fault = error.faults().front();
+    batch_.faults.insert(batch_.faults.end(), error.faults().begin(), error.faults().end());
+    add(order);
+  }
+
+  const std::vector<uint64_t>& seeds_;
+  const std::vector<std::string>& overrides_;
+  BatchOrders batch_;
+  std::map<std::string, std::pair<std::string, std::string>> folders_;  ///< file and overrides: group and folder
+  std::map<std::string, int> taken_, ids_;
+};
+
+}  // namespace
+
+BatchOrders read_batch(const std::vector<fs::path>& inputs, const std::vector<uint64_t>& seeds,
+                       const std::vector<std::string>& overrides) {
+  Gatherer gatherer(seeds, overrides);
+  for (const fs::path& input : inputs) gatherer.add_input(input);
+  return gatherer.take();
+}
+
+BatchOrders reread_batch(const fs::path& batch_json) {
+  const std::vector<uint64_t> no_seeds;
+  const std::vector<std::string> no_overrides;
+  Gatherer gatherer(no_seeds, no_overrides);
+  try {
+    const auto batch = nlohmann::ordered_json::parse(read_file_whole(batch_json));
+    for (const auto& flight : batch.at("flights")) {
+      gatherer.add_scenario(flight.at("scenario").get<std::string>(), {flight.at("seed").get<uint64_t>()},
+                            flight.at("set").get<std::vector<std::string>>());
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: no record of a batch: {}", batch_json.string(), error.what()));
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw InputError(error.what());
+  }
+  return gatherer.take();
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,105 @@
+#include "sim/campaign/fly_orders.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "sim/campaign/worker_pool.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using Status = FlightRecord::Status;
+
+std::vector<std::string> worker_command(const Order& order, const FlyOptions& options) {
+  std::vector<std::string> command{options.program.string()};
+  for (std::string& argument : run_arguments(order)) command.push_back(std::move(argument));
+  const std::string folder = (options.out / order.id).string(), campaign = std::to_string(::getpid());
+  command.insert(command.end(), {"--out", folder, "--no-video", "--no-report", "--worker-of", campaign});
+  return command;
+}
+
+/// What a former flight left of an order; missing when it left nothing.
+FlightRecord recall(const Order& order, const std::filesystem::path& folder, std::string_view version) {
+  FlightRecord record{.order = order};
+  if (auto result = result_left_by(order, folder, version)) {
+    record.status = Status::flown;
+    record.result = std::move(*result);
+  }
+  return record;
+}
+
+void conclude(FlightRecord& record, const WorkerEnd& end, const FlyOptions& options) {
+  const bool has_verdict = end.kind == WorkerEnd::Kind::exited && (end.code == 0 || end.code == 1);
+  if (has_verdict) {
+    if (FlightRecord left = recall(record.order, options.out / record.order.id, options.version);
+        left.status == Status::flown) {
+      record = std::move(left);
+      return;
+    }
+  }
+  if (end.kind == WorkerEnd::Kind::stopped) return;  // still missing
+  record.status = Status::failed;
+  record.cause = cause_words(end, options.limit_s);
+  if (has_verdict) record.cause += "; left no result of this scenario";
+}
+
+/// A worker that dies must not leave the verdict of an earlier flight standing. The folder's other files say nothing
+/// without it.
+void forget_result(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  std::filesystem::remove(folder / "result.json", ignored);
+  std::filesystem::remove(folder / "report.html", ignored);
+}
+
+}  // namespace
+
+std::vector<FlightRecord> fly_orders(const std::vector<Order>& orders, const FlyOptions& options, Reuse reuse,
+                                     Interruption& interruption, const OnRecord& on_record) {
+  std::vector<FlightRecord> records;
+  std::vector<size_t> to_fly;
+  for (const Order& order : orders) {
+    FlightRecord& record = records.emplace_back(FlightRecord{.order = order});
+    if (!order.fault.empty()) {
+      record.status = Status::failed;
+      record.cause = order.fault;
+      on_record(record, false);
+      continue;
+    }
+    if (reuse != Reuse::none) {
+      FlightRecord former = recall(order, options.out / order.id, options.version);
+      if (former.status == Status::flown && (reuse == Reuse::all || passed(former))) {
+        record = std::move(former);
+        on_record(record, true);
+        continue;
+      }
+    }
+    to_fly.push_back(records.size() - 1);
+  }
+
+  const WorkerPool pool{.workers = options.workers, .limit_s = options.limit_s};
+  const auto command = [&](size_t job) {
+    const Order& order = records[to_fly[job]].order;
+    forget_result(options.out / order.id);
+    return worker_command(order, options);
+  };
+  pool.run(to_fly.size(), command, interruption, [&](size_t job, const WorkerEnd& end) {
+    FlightRecord& record = records[to_fly[job]];
+    conclude(record, end, options);
+    if (record.status != Status::missing) on_record(record, false);
+  });
+  return records;
+}
+
+std::vector<FlightRecord> gather(const std::vector<Order>& orders, const std::vector<std::filesystem::path>& folders,
+                                 std::string_view version) {
+  std::vector<FlightRecord> records;
+  for (const Order& order : orders) {
+    FlightRecord& record = records.emplace_back(FlightRecord{.order = order});
+    for (const std::filesystem::path& folder : folders) {
+      if (record.status == Status::missing) record = recall(order, folder / order.id, version);
+    }
+  }
+  return records;
+}
+
+}  // namespace hedgehop::sim

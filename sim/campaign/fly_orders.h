@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/campaign/interruption.h"
+#include "sim/campaign/record.h"
+
+namespace hedgehop::sim {
+
+/// How a campaign's flights are flown.
+struct FlyOptions {
+  std::filesystem::path program;  ///< of the workers: the hedgehop that runs now, absolute
+  std::filesystem::path out;      ///< each flight's folder is <out>/<order.id>
+  std::string version;            ///< of Hedgehop
+  size_t workers = 1;             ///< >= 1
+  double limit_s = 0.0;           ///< longest wall time of a flight, 0 for none
+};
+
+/// Told as a flight ends, or at once for one that is not flown. @param reused  its former result stands.
+using OnRecord = std::function<void(const FlightRecord& record, bool reused)>;
+
+/// Which former results stand, so that their orders are not flown again.
+enum class Reuse {
+  none,
+  passed,  ///< those whose checks all hold
+  all
+};
+
+/// Flies orders in worker processes. A worker that crashes, hangs past the limit or is killed fails its own flight
+/// only. Orders with a fault are not flown.
+/// @return one record for each order, in their order; missing where the interruption came first.
+std::vector<FlightRecord> fly_orders(const std::vector<Order>& orders, const FlyOptions& options, Reuse reuse,
+                                     Interruption& interruption, const OnRecord& on_record);
+
+/// The records that former flights left, none flown. @param folders  campaigns' folders, searched in this order.
+std::vector<FlightRecord> gather(const std::vector<Order>& orders, const std::vector<std::filesystem::path>& folders,
+                                 std::string_view version);
+
+}  // namespace hedgehop::sim

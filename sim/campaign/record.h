@@ -1,0 +1,37 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "sim/campaign/order.h"
+
+namespace hedgehop::sim {
+
+/// What became of an order.
+struct FlightRecord {
+  enum class Status {
+    flown,   ///< it left a result
+    failed,  ///< it left none: refused, crashed, over its limit, killed; cause says which
+    missing  ///< not flown yet
+  };
+  Order order;
+  Status status = Status::missing;
+  std::string cause;              ///< of a failure, one line
+  nlohmann::ordered_json result;  ///< result.json of a flight that was flown, else null
+};
+std::string_view to_string(FlightRecord::Status status);
+
+/// Whether it was flown, without a fault, and all its checks hold.
+bool passed(const FlightRecord& record);
+
+/// "reached", "collided", "timeout", "fault" of a flight that was flown; "failed" or "missing" of any other.
+std::string outcome_words(const FlightRecord& record);
+
+/// The result that a flight of this very order left in its folder: same resolved scenario, same version, whole. None
+/// for anything else, so that it is flown (again).
+/// @param folder  of the flight. @param version  of Hedgehop.
+std::optional<nlohmann::ordered_json> result_left_by(const Order& order, const std::filesystem::path& folder,
+                                                     std::string_view version);
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <stdexcept>
+
+#include "sim/campaign/batch_record.h"
+#include "sim/campaign/fly_orders.h"
+#include "sim/campaign/junit.h"
+#include "sim/campaign/table.h"
+#include "sim/cli/commands.h"
+#include "sim/cli/progress.h"
+#include "sim/cli/version.h"
+#include "sim/record/whole_file.h"
+
+namespace hedgehop::sim::cli {
+namespace {
+
+constexpr int kFails = 1, kBadInput = 2;
+constexpr int kSignalled = 128;  // what a shell reports of a process that a signal ended, less the signal's number
+
+std::filesystem::path folder_of(const BatchOptions& options) {
+  if (!options.out.empty()) return options.out;
+  const bool one = options.inputs.size() == 1;
+  return std::filesystem::path("out") / (one ? std::filesystem::absolute(options.inputs[0]).stem() : "batch");
+}
+
+BatchOrders orders_of(const BatchOptions& options, const std::filesystem::path& out) {
+  if (options.inputs.empty() && !options.failed_only) {
+    throw InputError("batch: name scenarios, campaigns or folders (or --failed-only with --out)");
+  }
+  BatchOrders batch =
+      options.inputs.empty()
+          ? reread_batch(out / "batch.json")
+          : read_batch(options.inputs, options.seeds.empty() ? std::vector<uint64_t>{} : parse_seeds(options.seeds),
+                       options.overrides);
+  if (options.least_success) batch.checks.push_back(SuccessRateCheck{*options.least_success, options.confidence});
+  if (!options.no_worse_than.empty()) {
+    const std::filesystem::path than = options.no_worse_than;
+    batch.checks.push_back(NoWorseCheck{(std::filesystem::is_directory(than) ? than / "batch.json" : than).string(),
+                                        options.confidence, options.margin});
+  }
+  if (batch.orders.empty() || std::ranges::none_of(batch.orders, &std::string::empty, &Order::fault)) {
+    throw InputError(batch.faults.empty() ? std::vector<std::string>{"batch: nothing to fly"} : batch.faults);
+  }
+  // An earlier batch that cannot be read is better known before the flights than after.
+  judge(batch.checks, summarise(gather(batch.orders, {}, kVersion)));
+  return batch;
+}
+
+/// Writes every file that can be written. @return why the first of the others could not be, else empty.
+std::string write_files(const std::filesystem::path& out, const std::filesystem::path& junit,
+                        const std::vector<FlightRecord>& records, const std::vector<GroupVerdict>& verdicts) {
+  std::string fault;
+  const auto attempt = [&fault](const std::filesystem::path& file, const std::string& text) {
+    try {
+      if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
+      write_file_whole(file, text);
+    } catch (const std::exception& error) {
+      if (fault.empty()) fault = error.what();
+    }
+  };
+  attempt(out / "batch.json", batch_json(records, verdicts, std::string(kVersion)));
+  attempt(out / "batch.csv", csv_text(flight_table(records)));
+  if (!junit.empty()) attempt(junit, junit_text(records, verdicts));
+  return fault;
+}
+
+bool all_hold(const std::vector<FlightRecord>& records, const std::vector<GroupVerdict>& verdicts) {
+  if (!verdicts.empty()) return std::ranges::all_of(verdicts, &GroupVerdict::passed);
+  return std::ranges::all_of(records, passed);
+}
+
+}  // namespace
+
+std::filesystem::path own_program() {
+  std::array<char, 4096> path{};
+  const ssize_t length = ::readlink("/proc/self/exe", path.data(), path.size());
+  if (length <= 0 || static_cast<size_t>(length) == path.size()) throw std::runtime_error("cannot find this program");
+  return std::string(path.data(), static_cast<size_t>(length));
+}
+
+int batch(const BatchOptions& options) {
+  const std::filesystem::path out = folder_of(options);
+  const BatchOrders batch = orders_of(options, out);
+  for (const std::string& fault : batch.faults) fmt::print(stderr, "{}\n", fault);
+
+  Interruption interruption;
+  CampaignProgress progress(batch.orders.size());
+  const FlyOptions fly{.program = options.program.empty() ? own_program() : options.program,
+                       .out = out,
+                       .version = std::string(kVersion),
+                       .workers = options.jobs,
+                       .limit_s = options.limit_s};
+  const std::vector<FlightRecord> records =
+      fly_orders(batch.orders, fly, options.failed_only ? Reuse::passed : Reuse::none, interruption,
+                 [&progress](const FlightRecord& record, bool reused) {
+                   const bool ok = passed(record);
+                   progress.add(record.order.id, ok ? outcome_words(record) : failure_words(record), ok, reused);
+                 });
+  progress.close();
+
+  const std::vector<GroupVerdict> verdicts = judge(batch.checks, summarise(records));
+  const std::string unwritten = write_files(out, options.junit, records, verdicts);
+  if (options.json) {
+    fmt::print("{}", batch_json(records, verdicts, std::string(kVersion)));
+  } else {
+    fmt::print("{}", summary_text(records, verdicts));
+  }
+  if (!unwritten.empty()) throw std::runtime_error(unwritten);
+  if (!options.json) fmt::print("written: {}\n", (out / "batch.json").string());
+  if (interruption.signal() != 0) return kSignalled + interruption.signal();
+  if (!batch.faults.empty()) return kBadInput;
+  return all_hold(records, verdicts) ? 0 : kFails;
+}
+
+}  // namespace hedgehop::sim::cli

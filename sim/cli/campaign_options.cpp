@@ -1,0 +1,55 @@
+#include "sim/cli/campaign_options.h"
+
+#include <memory>
+#include <thread>
+
+#include "sim/cli/commands.h"
+
+namespace hedgehop::sim::cli {
+namespace {
+
+size_t cores() { return std::max(1u, std::thread::hardware_concurrency()); }
+
+void add_workers(CLI::App& command, size_t& jobs, double& limit_s) {
+  command.add_option("-j,--jobs", jobs, "flights at a time; all cores when not given")->check(CLI::Range(1, 4096));
+  command.add_option("--limit", limit_s, "longest wall time of a flight; it is killed then, and fails")
+      ->check(CLI::PositiveNumber)
+      ->type_name("S");
+}
+
+void declare_batch(CLI::App& app, std::function<int()>& chosen) {
+  CLI::App* const command = app.add_subcommand("batch", "fly many scenarios, each flight in a process of its own");
+  const auto options = std::make_shared<BatchOptions>();
+  options->jobs = cores();
+  command->add_option("FILES", options->inputs, "scenarios, campaigns (files with the key `flights`), or folders");
+  command->add_option("--seeds", options->seeds, "seeds to fly of each scenario, such as 1:10 or 1:3,7");
+  command->add_option("--set", options->overrides, "lay a value over every scenario")
+      ->type_name("KEY.PATH=VALUE")
+      ->take_all();
+  add_workers(*command, options->jobs, options->limit_s);
+  command->add_option("--out", options->out, "folder of the results")->type_name("DIR");
+  command->add_option("--junit", options->junit, "write a JUnit file for CI")->type_name("FILE");
+  command->add_flag("--failed-only", options->failed_only,
+                    "keep the flights of --out that passed; without FILES, those of its batch.json");
+  command
+      ->add_option("--min-success", options->least_success,
+                   "over the seeds, the lower end of the success rate's interval must not be below this")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("RATE");
+  command
+      ->add_option("--no-worse-than", options->no_worse_than,
+                   "over the seeds, the success rate must be no worse than in this earlier batch")
+      ->type_name("DIR");
+  command->add_option("--margin", options->margin, "... a loss that must be ruled out, not merely not shown")
+      ->check(CLI::Range(0.0, 1.0));
+  command->add_option("--confidence", options->confidence, "of both; default 0.95")->check(CLI::Range(0.5, 0.99999));
+  command->add_flag("--json", options->json, "print batch.json instead of a table for people");
+  command->add_option("--program", options->program)->group("");  // hidden: for tests
+  command->callback([&chosen, options] { chosen = [options] { return batch(*options); }; });
+}
+
+}  // namespace
+
+void declare_campaigns(CLI::App& app, std::function<int()>& chosen) { declare_batch(app, chosen); }
+
+}  // namespace hedgehop::sim::cli

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace hedgehop::sim::cli {
+
+/// Declares the commands that fly many scenarios; the one that is chosen ends up in `chosen`.
+void declare_campaigns(CLI::App& app, std::function<int()>& chosen);
+
+}  // namespace hedgehop::sim::cli

@@ -1,0 +1,66 @@
+#include "sim/loop/shutter.h"
+
+#include <algorithm>
+#include <variant>
+
+namespace hedgehop::sim {
+
+Eigen::Isometry3d BodyMotion::X_WB_after(double dt_s) const {
+  Eigen::Isometry3d X = X_WB;
+  X.translation() += dt_s * v_WB_W;
+  const Eigen::Vector3d turn = dt_s * w_WB_B;
+  if (const double angle_rad = turn.norm(); angle_rad > 0.0) {
+    X.linear() = X.linear() * Eigen::AngleAxisd(angle_rad, turn / angle_rad);
+  }
+  return X;
+}
+
+void Shutter::expose(const BodyMotion& body, int rows, const DrawRows& draw, cv::Mat& out) {
+  if (config_.readout_s <= 0.0 && config_.shutter_s <= 0.0) {
+    draw(body.X_WB, 0.0, {0, rows}, out);
+    return;
+  }
+  const int strips = config_.readout_s > 0.0 ? std::min(config_.readout_strips, rows) : 1;
+  for (int i = 0; i < strips; ++i) {
+    const cv::Range strip(i * rows / strips, (i + 1) * rows / strips);
+    const double middle = strips > 1 ? 0.5 * (strip.start + strip.end - 1) / (rows - 1) : 1.0;  // 0 top row, 1 last
+    expose_strip(body, -config_.readout_s * (1.0 - middle), strip, draw);
+    out.create(rows, strip_.cols, strip_.type());
+    strip_.copyTo(out.rowRange(strip));
+  }
+}
+
+void Shutter::expose_strip(const BodyMotion& body, double end_s, const cv::Range& rows, const DrawRows& draw) {
+  if (config_.shutter_s <= 0.0) {
+    draw(body.X_WB_after(end_s), end_s, rows, strip_);
+    return;
+  }
+  for (int k = 0; k < config_.shutter_samples; ++k) {
+    const double dt_s = end_s - config_.shutter_s * (k + 0.5) / config_.shutter_samples;
+    draw(body.X_WB_after(dt_s), dt_s, rows, k == 0 ? strip_ : moment_);
+    if (strip_.depth() != CV_8U) return;
+    if (k == 0) {
+      strip_.convertTo(sum_, CV_32F);
+    } else {
+      cv::add(sum_, moment_, sum_, cv::noArray(), CV_32F);
+    }
+  }
+  sum_.convertTo(strip_, CV_8U, 1.0 / config_.shutter_samples);
+}
+
+vision::Camera cut(const vision::Camera& camera, const cv::Range& rows) {
+  vision::Camera part = camera;
+  part.height_px = rows.size();
+  std::visit(
+      [&](auto& lens) {
+        if constexpr (requires { lens.center_v_px; }) {
+          lens.center_v_px -= rows.start;
+        } else {
+          lens.center_row_px -= rows.start;
+        }
+      },
+      part.lens);
+  return part;
+}
+
+}  // namespace hedgehop::sim

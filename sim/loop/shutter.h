@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <functional>
+#include <opencv2/core.hpp>
+
+#include "sim/scenario/imperfections.h"
+#include "vision/camera.h"
+
+namespace hedgehop::sim {
+
+/// Where B is at an instant, and how it moves.
+struct BodyMotion {
+  Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d v_WB_W = Eigen::Vector3d::Zero();  ///< m/s
+  Eigen::Vector3d w_WB_B = Eigen::Vector3d::Zero();  ///< rad/s
+
+  /// Pose a moment later (or earlier), velocities held. @param dt_s  small against what changes them.
+  Eigen::Isometry3d X_WB_after(double dt_s) const;
+};
+
+/// Draws some rows of a camera's picture, seen `dt_s` after the picture's instant from a body at X_WB. The picture is
+/// written in place when it fits.
+using DrawRows = std::function<void(const Eigen::Isometry3d& X_WB, double dt_s, const cv::Range& rows, cv::Mat& out)>;
+
+/// Exposes one camera's pictures: the rows one after the other for a rolling shutter, each the mean of several moments
+/// for motion blur, as the config asks. All ends at the picture's instant.
+class Shutter {
+ public:
+  explicit Shutter(const ImperfectionsConfig& config) : config_(config) {}
+
+  /// @param rows  of the picture. @param out  the picture, of the type that `draw` gives; pictures that are not of 8
+  /// bits are not blurred.
+  void expose(const BodyMotion& body, int rows, const DrawRows& draw, cv::Mat& out);
+
+ private:
+  void expose_strip(const BodyMotion& body, double end_s, const cv::Range& rows, const DrawRows& draw);
+
+  ImperfectionsConfig config_;
+  cv::Mat strip_, moment_, sum_;
+};
+
+/// The camera that shows some rows of another's picture.
+vision::Camera cut(const vision::Camera& camera, const cv::Range& rows);
+
+}  // namespace hedgehop::sim

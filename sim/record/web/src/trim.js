@@ -1,0 +1,15 @@
+'use strict';
+// Puts the page of a vehicle's trim together from its data.
+
+const speedAxis = {key: 'speed_mps', label: 'speed through the air, m/s', symbol: 'V', unit: 'm/s', points: true};
+
+function main() {
+  const {title, notes, panels} = JSON.parse(document.getElementById('data').textContent);
+  const head = document.getElementById('head');
+  head.append(make('h1', '', title), ...notes.map((note) => make('p', 'soft', note)));
+  const hints = {[panels[0].section]: 'drag to zoom, double click to see all'};
+  const on = {hover: (speed) => charts.setTime(speed), pick: () => {}};
+  const charts = new Charts(document.getElementById('charts'), panels, hints, on, speedAxis);
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => charts.build());
+}
+main();

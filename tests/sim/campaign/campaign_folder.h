@@ -1,0 +1,60 @@
+#pragma once
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "sim/record/whole_file.h"
+#include "tests/sim/record/temporary_folder.h"
+
+namespace hedgehop::sim {
+
+/// What a command printed and how it ended.
+struct CommandEnd {
+  int status = 0;  ///< exit status; 128 and the signal's number when a signal ended it
+  std::string out, err;
+};
+
+/// A folder with a scenario of a tenth of a second, and the built program to fly it.
+class CampaignFolder : public TemporaryFolder {
+ public:
+  CampaignFolder() {
+    write("tiny.yaml", std::string("use: ") + HEDGEHOP_SOURCE_DIR +
+                           "/configs/garratt2009_room_0_light.yaml\n"
+                           "name: tiny\nduration: 0.1\nscene: {texture_size: 64}\nvelocimeter: {enabled: false}\n"
+                           "rig: {cameras: [{role: front, width: 16, height: 16, fov: 90, rate: 25, channel: grey}]}\n"
+                           "avoidance: {module: go_to_goal}\ngoal: {north: 5, east: 0, altitude: 1, radius: 1}\n"
+                           "checks: [{check: no_collision}]\n");
+  }
+
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    write_file_whole(path() / name, text);
+    return path() / name;
+  }
+  /// A program to stand for the workers': `body` is shell, in which $seed is the flight's seed and `fly` flies it.
+  std::string worker(const std::string& body) const {
+    const std::filesystem::path file =
+        write("worker.sh", "#!/bin/sh\nseed=$(echo \"$*\" | sed 's/.*--seed \\([0-9]*\\).*/\\1/')\nfly() { exec " +
+                               std::string(HEDGEHOP_PROGRAM) + " \"$@\"; }\n" + body + "\n");
+    std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+    return file.string();
+  }
+  /// Runs `hedgehop ARGUMENTS` by a shell in this folder.
+  CommandEnd hedgehop(const std::string& arguments) const { return shell(HEDGEHOP_PROGRAM " " + arguments); }
+  CommandEnd shell(const std::string& command) const {
+    const std::string line = "cd '" + path().string() + "' && { " + command + "; } >stdout.txt 2>stderr.txt";
+    const int status = std::system(line.c_str());
+    CommandEnd end{.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status)};
+    end.out = read("stdout.txt");
+    end.err = read("stderr.txt");
+    return end;
+  }
+  std::string read(const std::string& name) const { return read_file_whole(path() / name); }
+  nlohmann::ordered_json json(const std::string& name) const { return nlohmann::ordered_json::parse(read(name)); }
+};
+
+}  // namespace hedgehop::sim

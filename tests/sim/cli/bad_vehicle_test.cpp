@@ -1,0 +1,84 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <ostream>
+#include <sstream>
+#include <string>
+
+namespace hedgehop::sim::cli {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int kBadInput = 2;
+const std::string kConfigs = HEDGEHOP_SOURCE_DIR "/configs/";
+
+/// What the program said, on both streams, and its exit status.
+struct Answer {
+  int status = -1;
+  std::string text;
+};
+Answer ask(const std::string& arguments) {
+  Answer answer;
+  FILE* const pipe = popen((HEDGEHOP_PROGRAM " " + arguments + " 2>&1").c_str(), "r");
+  if (!pipe) return answer;
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) answer.text.push_back(static_cast<char>(c));
+  answer.status = WEXITSTATUS(pclose(pipe));
+  return answer;
+}
+
+/// A vehicle's file with one text of it changed, in a file of its own: tests run side by side.
+std::string changed(const std::string& name, const std::string& vehicle, const std::string& from,
+                    const std::string& to) {
+  std::ifstream stream(kConfigs + "vehicles/" + vehicle + ".yaml");
+  std::string text = (std::ostringstream() << stream.rdbuf()).str();
+  const size_t place = text.find(from);
+  EXPECT_NE(place, std::string::npos) << from << " is not in " << vehicle;
+  if (place != std::string::npos) text.replace(place, from.size(), to);
+  const auto file = std::filesystem::path(testing::TempDir()) / ("bad_vehicle_" + name + ".yaml");
+  std::ofstream(file) << text;
+  return file.string();
+}
+
+struct Bad {
+  std::string name, vehicle, from, to, reason;
+  friend std::ostream& operator<<(std::ostream& out, const Bad& bad) { return out << bad.name; }
+};
+class BadVehicle : public testing::TestWithParam<Bad> {};
+
+TEST_P(BadVehicle, IsRefusedInOneLineWithTheReason) {
+  const Bad& bad = GetParam();
+  const std::string file = changed(bad.name, bad.vehicle, bad.from, bad.to);
+  for (const std::string& command : {"trim " + file, "linearize " + file,
+                                     "run " + kConfigs + "garratt2009_room_0_light.yaml --no-video --set vehicle.use=" +
+                                         file + " --out " + testing::TempDir() + "/bad_vehicle_" + bad.name}) {
+    const Answer answer = ask(command);
+    EXPECT_EQ(answer.status, kBadInput) << command;
+    EXPECT_THAT(answer.text, HasSubstr(bad.reason)) << command;
+    EXPECT_EQ(answer.text.find('\n'), answer.text.size() - 1) << command << " says:\n" << answer.text;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, BadVehicle,
+    testing::Values(Bad{"NegativeMass", "xcell_60", "mass: 8.2 ", "mass: -8.2 ", "mass.mass"},
+                    Bad{"TooHeavy", "xcell_60", "mass: 8.2 ", "mass: 80.0 ", "weighs 784.8"},
+                    Bad{"TailTooWeak", "xcell_60", "lowest: -20.0, highest: 20.0", "lowest: -20.0, highest: 5.0",
+                        "tail_rad must be 0.19"},
+                    Bad{"UnstableServo", "xcell_60", "damping: 0.5118", "damping: -0.5", "servos.collective.damping"},
+                    Bad{"InertiaOfNoBody", "xcell_60", "[0.18, 0.34, 0.28]", "[0.18, 0.34, 0.68]", "inertia"},
+                    Bad{"NegativeMassOfAMulticopter", "hummingbird", "mass: 0.716", "mass: -0.716", "mass.mass"},
+                    Bad{"MulticopterTooHeavy", "hummingbird", "mass: 0.716", "mass: 3.0", "cannot lift the vehicle"}),
+    [](const auto& bad) { return bad.param.name; });
+
+TEST(GoodVehicle, IsTrimmed) {
+  const Answer answer = ask("trim " + kConfigs + "vehicles/xcell_60.yaml --speed 0:8:4");
+  EXPECT_EQ(answer.status, 0) << answer.text;
+}
+
+}  // namespace
+}  // namespace hedgehop::sim::cli

@@ -1,0 +1,104 @@
+#include "sim/loop/shutter.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr int kRows = 64, kCols = 8;
+constexpr double kGrey_per_m = 10.0;
+
+/// A picture whose every pixel tells how far north the body was.
+void draw_north(const Eigen::Isometry3d& X_WB, double, const cv::Range& rows, cv::Mat& out) {
+  out.create(rows.size(), kCols, CV_8UC1);
+  out.setTo(cv::saturate_cast<uint8_t>(kGrey_per_m * X_WB.translation().x()));
+}
+
+BodyMotion flying_north(double north_m, double speed_mps) {
+  BodyMotion body;
+  body.X_WB.translation().x() = north_m;
+  body.v_WB_W.x() = speed_mps;
+  return body;
+}
+
+TEST(Shutter, WithoutImperfectionsThereIsOneMomentAndOneDrawing) {
+  Shutter shutter({});
+  cv::Mat picture;
+  int drawings = 0;
+  shutter.expose(
+      flying_north(12.0, 5.0), kRows,
+      [&](const Eigen::Isometry3d& X_WB, double dt_s, const cv::Range& rows, cv::Mat& out) {
+        ++drawings;
+        EXPECT_EQ(dt_s, 0.0);
+        draw_north(X_WB, dt_s, rows, out);
+      },
+      picture);
+  EXPECT_EQ(drawings, 1);
+  EXPECT_EQ(picture.size(), cv::Size(kCols, kRows));
+  EXPECT_EQ(cv::mean(picture)[0], 120.0);
+}
+
+// Brightness grows linearly in time, so its mean is that of the exposure's middle.
+TEST(Shutter, ABlurredPictureIsTheMeanOverItsExposure) {
+  ImperfectionsConfig config;
+  config.shutter_s = 0.4;
+  config.shutter_samples = 64;
+  Shutter shutter(config);
+  cv::Mat picture;
+  shutter.expose(flying_north(12.0, 5.0), kRows, draw_north, picture);
+  EXPECT_NEAR(cv::mean(picture)[0], kGrey_per_m * (12.0 - 5.0 * 0.2), 1.0);  // levels are rounded twice
+}
+
+TEST(Shutter, RowsOfARollingShutterAreExposedOneAfterTheOtherTheLastAtTheInstant) {
+  ImperfectionsConfig config;
+  config.readout_s = 0.5;
+  config.readout_strips = kRows;
+  Shutter shutter(config);
+  cv::Mat picture;
+  shutter.expose(flying_north(20.0, 20.0), kRows, draw_north, picture);
+  for (int row = 0; row < kRows; ++row) {
+    const double t_s = -0.5 * (1.0 - static_cast<double>(row) / (kRows - 1));
+    EXPECT_NEAR(picture.at<uint8_t>(row, 3), kGrey_per_m * (20.0 + 20.0 * t_s), 0.5 + 1e-9) << row;
+  }
+}
+
+TEST(Shutter, StripsThatDoNotDivideThePictureStillCoverIt) {
+  ImperfectionsConfig config;
+  config.readout_s = 0.1;
+  config.readout_strips = 7;
+  Shutter shutter(config);
+  cv::Mat picture;
+  int rows_drawn = 0;
+  shutter.expose(
+      flying_north(10.0, 0.0), kRows,
+      [&](const Eigen::Isometry3d& X_WB, double dt_s, const cv::Range& rows, cv::Mat& out) {
+        EXPECT_EQ(rows.start, rows_drawn);
+        rows_drawn = rows.end;
+        draw_north(X_WB, dt_s, rows, out);
+      },
+      picture);
+  EXPECT_EQ(rows_drawn, kRows);
+  EXPECT_EQ(cv::countNonZero(picture == 100), kRows * kCols);
+}
+
+TEST(Shutter, ABodyTurnsAboutItsOwnAxes) {
+  BodyMotion body;
+  body.X_WB.linear() = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  body.w_WB_B = Eigen::Vector3d(0.0, 0.0, 2.0);
+  const Eigen::Isometry3d later = body.X_WB_after(0.25);
+  EXPECT_TRUE(later.linear().isApprox(Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitZ()).toRotationMatrix(), 1e-12));
+}
+
+TEST(Shutter, ACutCameraSeesItsRowsAsTheWholeOneDoes) {
+  const vision::Camera whole = vision::PinholeCamera::from_fov(64, 48, std::numbers::pi / 2);
+  const vision::Camera part = cut(whole, {10, 20});
+  EXPECT_EQ(part.height_px, 10);
+  for (const Eigen::Vector3d& p_C : {Eigen::Vector3d(0.1, -0.4, 1.0), Eigen::Vector3d(-0.7, -0.2, 2.0)}) {
+    EXPECT_TRUE((*part.project(p_C) + Eigen::Vector2d(0.0, 10.0)).isApprox(*whole.project(p_C), 1e-12));
+  }
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
