@@ -23,17 +23,20 @@ cv::Mat from_hsv(const cv::Mat& hsv) {
 cv::Mat colored_depth(const cv::Mat& depth_m) {
   cv::Mat levels(depth_m.size(), CV_8UC1), rgb;
   const double span = std::log(kFarthestColorM / kNearestColorM);
+  constexpr double kBlue = 25.0, kRed = 255.0;  // below, the map is nearly black
   for (int row = 0; row < depth_m.rows; ++row) {
     for (int col = 0; col < depth_m.cols; ++col) {
       const double nearness = std::log(kFarthestColorM / static_cast<double>(depth_m.at<float>(row, col))) / span;
       levels.at<uint8_t>(row, col) =
-          std::isnan(nearness) ? uint8_t{0} : static_cast<uint8_t>(std::lround(255.0 * std::clamp(nearness, 0.0, 1.0)));
+          std::isnan(nearness)
+              ? uint8_t{0}
+              : static_cast<uint8_t>(std::lround(kBlue + (kRed - kBlue) * std::clamp(nearness, 0.0, 1.0)));
     }
   }
   cv::applyColorMap(levels, rgb, cv::COLORMAP_TURBO);
   cv::cvtColor(rgb, rgb, cv::COLOR_BGR2RGB);
   rgb.setTo(cv::Scalar::all(255), depth_m == std::numeric_limits<float>::infinity());
-  rgb.setTo(cv::Scalar::all(0), depth_m != depth_m);
+  rgb.setTo(cv::Scalar::all(0), levels == 0);
   return rgb;
 }
 

@@ -43,7 +43,7 @@ Intrinsics intrinsics(const CameraConfig& config, const vision::Camera& camera) 
 
 std::string list(const std::vector<double>& numbers) {
   std::vector<std::string> texts;
-  for (const double number : numbers) texts.push_back(number_text(number, false));
+  for (const double number : numbers) texts.push_back(number_text(number + 0.0, false));  // no -0
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 

@@ -52,6 +52,7 @@ Eigen::Vector2d centroid(const cv::Mat& grey) {
 TEST(Projection, KnownPointsLandOnTheirPixels) {
   std::mt19937_64 random(11);
   cv::Mat grey;
+  double sum_squares = 0.0;
   for (int trial = 0; trial < 60; ++trial) {
     CameraView view{random_camera(random), random_pose(random, 800.0, 100.0, 1.5), Channel::grey};
     const double z_m = std::exp(uniform(random, std::log(0.5), std::log(200.0)));
@@ -71,7 +72,9 @@ TEST(Projection, KnownPointsLandOnTheirPixels) {
 
     const double error_px = (centroid(grey) - expected_pixel(view, center_W)).norm();
     EXPECT_LT(error_px, kSubPixel) << "trial " << trial << ", z " << z_m;
+    sum_squares += error_px * error_px;
   }
+  RecordProperty("rms_px", std::to_string(std::sqrt(sum_squares / 60)));
 }
 
 TEST(Projection, StereoSeesAPointOnOneRowAtItsDisparity) {
