@@ -67,6 +67,10 @@ class Validator {
   }
 
   void parts() {
+    build("scene", [&] {
+      scenes::Scene alone;
+      std::visit([&](const auto& chosen) { scenes::add_imports(chosen.added.imports, alone); }, scenario_.scene);
+    });
     build("vehicle", [&] { dynamics::Vehicle(scenario_.vehicle); });
     build("wind", [&] { dynamics::Wind(scenario_.wind, 0); });
     build("avionics", [&] {
