@@ -32,7 +32,8 @@ struct Post {
 /// Adds a post with `sides` corners on its circle, closed on top, open below.
 void add_post(const Post& post, int sides, const Cover& cover, MeshBuilder& mesh);
 
-/// Adds the faces of a box but the bottom. Pictures are laid out from W's origin, so that they run on from box to box.
+/// Adds the faces of a box, but not the bottom when it stands on the ground. Pictures are laid out from W's origin, so
+/// that they run on from box to box.
 /// @param box_S  in S, m. @param X_WS  any pose.
 void add_box(const Eigen::AlignedBox3d& box_S, const Eigen::Isometry3d& X_WS, const Cover& cover, MeshBuilder& mesh);
 

@@ -177,7 +177,6 @@ Scene make_corridor(const CorridorConfig& config, uint64_t seed) {
     const Eigen::AlignedBox3d ceiling_W(Vector3d(low.x(), low.y(), -config.height_m - kThickness_m),
                                         Vector3d(high.x(), high.y(), -config.height_m));
     mesh.begin_chunk(false);
-    mesh.add_tiled(bottom_panel(ceiling_W), kRoomTile_m, Vector2d::Zero(), kCeiling);
     add_box(ceiling_W, Eigen::Isometry3d::Identity(), {kCeiling, kRoomTile_m}, mesh);
     scene.solids.push_back(solid_of("ceiling", ceiling_W));
   }

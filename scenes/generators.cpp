@@ -1,5 +1,6 @@
 #include "scenes/generators.h"
 
+#include "scenes/mesh_import.h"
 #include "scenes/movers.h"
 #include "scenes/random.h"
 
@@ -24,6 +25,7 @@ Scene make_scene(const SceneConfig& config, uint64_t seed) {
   const auto make = [seed](const auto& chosen) {
     Scene scene = generate(chosen, seed);
     add_movers(chosen.added.movers, derived_seed(seed, kMoverStream), scene);
+    add_imports(chosen.added.imports, scene);
     return scene;
   };
   return std::visit(make, config);

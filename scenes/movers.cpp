@@ -94,6 +94,8 @@ Mover make_mover(const MoverConfig& c, uint64_t seed, MoverPictures& pictures) {
     const Eigen::AlignedBox3d box_M(Vector3d(-c.radius_m, -c.radius_m, -c.height_m),
                                     Vector3d(c.radius_m, c.radius_m, 0.0));
     add_box(box_M, Eigen::Isometry3d::Identity(), pictures.signal(), mesh);
+    mesh.add_tiled(bottom_panel(box_M), kSignalTile_m, Eigen::Vector2d::Zero(),
+                   pictures.signal().texture);  // it may rise
     mover.solids.push_back(solid_of(c.name, box_M));
   }
   if (c.shape == Shape::balloon) {

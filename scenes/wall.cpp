@@ -62,9 +62,7 @@ Scene make_wall(const WallConfig& config, uint64_t seed) {
     const Eigen::AlignedBox3d box_W(Eigen::Vector3d(config.north_m, west_m, -top_m),
                                     Eigen::Vector3d(config.north_m + config.thickness_m, east_m, -bottom_m));
     mesh.begin_chunk(bottom_m == 0.0);
-    const Cover cover{1, kWallTile_m};
-    add_box(box_W, Eigen::Isometry3d::Identity(), cover, mesh);
-    if (bottom_m > 0.0) mesh.add_tiled(bottom_panel(box_W), cover.tile_m, cover.offset, cover.texture);
+    add_box(box_W, Eigen::Isometry3d::Identity(), {1, kWallTile_m}, mesh);
     scene.solids.push_back(solid_of("wall", box_W));
   };
   const double end_m = 0.5 * config.width_m;

@@ -72,6 +72,23 @@ const scenes::Scene& city(double extent_m) {
   return extent_m > 300.0 ? large : small;
 }
 
+const scenes::Scene& forest(int64_t trees) {
+  const auto make = [](int64_t count) {
+    return scenes::make_scene(scenes::ForestConfig{.trees = count, .keep_clear = {{0.0, 0.0, 2.0}}}, 1);
+  };
+  static const scenes::Scene small = make(100), large = make(10000);
+  return trees > 100 ? large : small;
+}
+
+/// Eight headings at each of five places near the middle, the same for every size of forest.
+std::vector<Eigen::Isometry3d> forest_views(double height_m) {
+  std::vector<Eigen::Isometry3d> poses;
+  for (const auto& [north_m, east_m] : {std::pair{0.0, 0.0}, {8.0, 8.0}, {8.0, -8.0}, {-8.0, 8.0}, {-8.0, -8.0}}) {
+    for (int k = 0; k < 8; ++k) poses.push_back(level(north_m, east_m, height_m, k * kPi / 4 + 0.1));
+  }
+  return poses;
+}
+
 /// A plane 10 m below the eye with a number of texels to each pixel.
 scenes::Scene quad(double texels_per_pixel) {
   scenes::Scene scene;
@@ -125,6 +142,15 @@ void FiveCamerasInFlight(benchmark::State& state) { draw(state, city(300.0), fiv
 void FiveCamerasInFlightFloor(benchmark::State& state) { CityFloor(state); }
 void Room(benchmark::State& state) { draw(state, scenes::make_scene(scenes::RoomConfig{}, 1), room_views()); }
 void RoomFloor(benchmark::State& state) { CityFloor(state); }
+void Forest(benchmark::State& state) { draw(state, forest(100), forest_views(5.0)); }
+void ForestFloor(benchmark::State& state) { CityFloor(state); }
+// The small forest is the large one's floor.
+void ForestLarge(benchmark::State& state) { draw(state, forest(10000), forest_views(5.0)); }
+void ForestLargeFloor(benchmark::State& state) { Forest(state); }
+void ForestLargeBelowCrowns(benchmark::State& state) { draw(state, forest(10000), forest_views(1.8)); }
+void ForestLargeBelowCrownsFloor(benchmark::State& state) { draw(state, forest(100), forest_views(1.8)); }
+void ForestLargeAboveCrowns(benchmark::State& state) { draw(state, forest(10000), forest_views(25.0)); }
+void ForestLargeAboveCrownsFloor(benchmark::State& state) { draw(state, forest(100), forest_views(25.0)); }
 // Nothing to filter between levels: the cheapest textured picture there is.
 void MagnifiedQuad(benchmark::State& state) { draw(state, quad(0.8), {down(0, 0, kFlightHeightM)}); }
 void MagnifiedQuadFloor(benchmark::State& state) { CityFloor(state); }
@@ -173,6 +199,14 @@ BENCHMARK(FiveCamerasInFlight)->Apply(grey);
 BENCHMARK(FiveCamerasInFlightFloor)->Apply(grey);
 BENCHMARK(Room)->Apply(grey);
 BENCHMARK(RoomFloor)->Apply(grey);
+BENCHMARK(Forest)->Apply(grey);
+BENCHMARK(ForestFloor)->Apply(grey);
+BENCHMARK(ForestLarge)->Apply(grey);
+BENCHMARK(ForestLargeFloor)->Apply(grey);
+BENCHMARK(ForestLargeBelowCrowns)->Apply(grey);
+BENCHMARK(ForestLargeBelowCrownsFloor)->Apply(grey);
+BENCHMARK(ForestLargeAboveCrowns)->Apply(grey);
+BENCHMARK(ForestLargeAboveCrownsFloor)->Apply(grey);
 BENCHMARK(MagnifiedQuad)->Apply(grey);
 BENCHMARK(MagnifiedQuadFloor)->Apply(grey);
 

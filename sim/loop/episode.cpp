@@ -185,6 +185,9 @@ Flight Episode::fly() {
   for (const avoidance::Metric& metric : module_->metrics()) {
     result.metrics.push_back({metric.name, metric.value, metric.unit});
   }
+  constexpr double kBesideStart_m = 1.0;
+  result.scene = scenes::scene_figures(
+      scene_, {scenario_.start.altitude_m - kBesideStart_m, scenario_.start.altitude_m + kBesideStart_m});
   result.checks = evaluate_checks(scenario_, flight, scene_, rotor_radius_m(hull_));
   return flight;
 }

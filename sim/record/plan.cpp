@@ -57,6 +57,18 @@ std::vector<Footprint> footprints(const std::vector<scenes::Solid>& solids) {
   return result;
 }
 
+std::vector<MoverWay> mover_ways(const std::vector<scenes::Mover>& movers) {
+  std::vector<MoverWay> ways;
+  for (const scenes::Mover& mover : movers) {
+    MoverWay& way = ways.emplace_back(MoverWay{.name = mover.name});
+    for (const Eigen::Vector3d& corner_W : scenes::way_W(mover.motion)) way.corners_NE_m.push_back(corner_W.head<2>());
+    for (const Footprint& part : footprints(mover.solids)) {
+      for (const Eigen::Vector2d& corner : part.corners_NE_m) way.radius_m = std::max(way.radius_m, corner.norm());
+    }
+  }
+  return ways;
+}
+
 Level level(const Footprint& footprint, double lowest_m, double highest_m, double margin_m) {
   if (footprint.top_m < lowest_m - margin_m) return Level::below;
   if (footprint.bottom_m > highest_m + margin_m) return Level::above;

@@ -69,6 +69,10 @@ class Validator {
 
   void parts() {
     if (!scenario_.route.empty() && !scenario_.goal) add("route", "needs a 'goal' where it ends");
+    build("scene", [&] {
+      scenes::Scene alone;
+      std::visit([&](const auto& chosen) { scenes::add_imports(chosen.added.imports, alone); }, scenario_.scene);
+    });
     const bool flies = build("vehicle", [&] { dynamics::Vehicle(scenario_.vehicle); });
     build("wind", [&] { dynamics::Wind(scenario_.wind, 0); });
     // What is wrong with the vehicle is told once: beside a bad one the avionics are looked at alone.
