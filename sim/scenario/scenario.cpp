@@ -51,6 +51,11 @@ Scenario load_scenario(const std::filesystem::path& file, std::span<const std::s
   faults.raise();
   mount_stereo_pairs(scenario.rig);
   find_imports(scenario.scene, root);
+  for (CheckConfig& check : scenario.checks) {
+    if (auto* path = std::get_if<PathToleranceCheck>(&check)) {
+      path->reference = std::filesystem::absolute(file.parent_path() / path->reference).lexically_normal().string();
+    }
+  }
   validate(scenario, root, faults);
   faults.raise();
   return scenario;

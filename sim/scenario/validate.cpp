@@ -5,6 +5,8 @@
 #include <cmath>
 #include <exception>
 
+#include "sim/scenario/reference_path.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -114,6 +116,9 @@ class Validator {
     if (check.at_least && check.at_most && *check.at_least > *check.at_most) {
       add(path + ".at_most", "must not be less than 'at_least'");
     }
+  }
+  void check(const std::string& path, const PathToleranceCheck& check) {
+    build(path + ".reference", [&] { read_reference_path(check.reference); });
   }
   template <class Check>
   void check(const std::string&, const Check&) {}
