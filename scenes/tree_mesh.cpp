@@ -48,11 +48,6 @@ std::vector<Solid> add_tree(const std::string& name, const TreeShape& shape, std
       add_lump(crown_center_W + crown_radii.cwiseProduct(way * out), size * crown_radii);
     }
   }
-
-  // The square inside a hexagon of radius 1, sides along the axes, has half sides of 0.61 or more.
-  const double core_m = 0.6 * shape.trunk_radius_m;
-  mesh.add_core({Vector3d(shape.foot_W - Vector3d(core_m, core_m, trunk.height_m)),
-                 Vector3d(shape.foot_W + Vector3d(core_m, core_m, 0.0))});
   return solids;
 }
 
