@@ -46,6 +46,8 @@ void validate(const CorridorConfig& c) {
 
 Vector2d to_the_right(const Vector2d& along_NE) { return {-along_NE.y(), along_NE.x()}; }
 
+bool turns_right(const Vector2d& before, const Vector2d& after) { return to_the_right(before).dot(after) > 0.0; }
+
 // A frame S on the floor: x along a direction of the plan, y to the right of it, z down.
 Eigen::Isometry3d floor_frame(const Vector2d& origin_NE, const Vector2d& along_NE) {
   Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();
@@ -70,11 +72,17 @@ class Mason {
     scene_.solids.push_back(solid);
   }
 
-  /// A wall from one point of the plan to another, all of it on their left side.
-  void build_wall(const std::string& name, const Vector2d& from_NE, const Vector2d& to_NE, double height_m) {
-    const Vector2d way = to_NE - from_NE;
-    build(name, {Vector3d(0.0, -kThickness_m, -height_m), Vector3d(way.norm(), 0.0, 0.0)},
-          floor_frame(from_NE, way.normalized()));
+  /// A wall along corners of the plan, all of it on the left side of the way. Where the way turns right, and at both
+  /// ends, stretches run on past the corner, so that no wedge stays open behind it.
+  void build_wall(const std::string& name, const std::vector<Vector2d>& way_NE, double height_m) {
+    for (size_t k = 1; k < way_NE.size(); ++k) {
+      const Vector2d from = way_NE[k - 1], along = (way_NE[k] - from).normalized();
+      const bool on_before = k == 1 || turns_right(from - way_NE[k - 2], along);
+      const bool on_after = k + 1 == way_NE.size() || turns_right(along, way_NE[k + 1] - way_NE[k]);
+      const double first_m = on_before ? -kThickness_m : 0.0;
+      const double last_m = (way_NE[k] - from).norm() + (on_after ? kThickness_m : 0.0);
+      build(name, {Vector3d(first_m, -kThickness_m, -height_m), Vector3d(last_m, 0.0, 0.0)}, floor_frame(from, along));
+    }
   }
 
  private:
@@ -161,15 +169,15 @@ Scene make_corridor(const CorridorConfig& config, uint64_t seed) {
   add_ground(reach_m, {kFloor, kRoomTile_m}, mesh);
   Mason mason(derived_seed(seed, kOffsetStream), scene, mesh);
   for (size_t k = 0; k < config.sections.size(); ++k) {
-    mason.build_wall("left wall", plan.lefts_NE[k], plan.lefts_NE[k + 1], config.height_m);
-    mason.build_wall("right wall", plan.rights_NE[k + 1], plan.rights_NE[k], config.height_m);
     const Vector2d from = plan.middles_NE[k], to = plan.middles_NE[k + 1], along = (to - from).normalized();
     const double width_m = 0.5 * ((plan.rights_NE[k] - plan.lefts_NE[k]).dot(to_the_right(along)) +
                                   (plan.rights_NE[k + 1] - plan.lefts_NE[k + 1]).dot(to_the_right(along)));
     furnish(config, config.sections[k], floor_frame(0.5 * (from + to), along), width_m, mason);
   }
-  mason.build_wall("end wall", plan.rights_NE.front(), plan.lefts_NE.front(), config.height_m);
-  mason.build_wall("end wall", plan.lefts_NE.back(), plan.rights_NE.back(), config.height_m);
+  mason.build_wall("left wall", plan.lefts_NE, config.height_m);
+  mason.build_wall("right wall", {plan.rights_NE.rbegin(), plan.rights_NE.rend()}, config.height_m);
+  mason.build_wall("end wall", {plan.rights_NE.front(), plan.lefts_NE.front()}, config.height_m);
+  mason.build_wall("end wall", {plan.lefts_NE.back(), plan.rights_NE.back()}, config.height_m);
 
   if (config.ceiling) {
     const Vector2d low = scene.bounds_NE_m.min().array() - kThickness_m,

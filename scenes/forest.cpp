@@ -20,7 +20,13 @@ constexpr uint64_t kPictureStream = 1;
 constexpr uint64_t kLumpStream = 2;
 constexpr uint64_t kTreeStream = 3;
 
-constexpr int kLumps = 12, kLumpCorners = 26;  // some 46 triangles a crown: what is far must be cheap
+constexpr int kLumps = 12;  // of each kind
+
+// Trees near the origin have some 60 triangles each, those farther than this 15: a view of ten thousand trees must
+// stay cheap, and no renderer here swaps meshes by distance. A tree's solids have the corners that are drawn.
+constexpr double kDetailed_m = 45.0;
+constexpr int kCorners = 26, kFewCorners = 6;
+constexpr int kTrunkSides = 6, kFewTrunkSides = 3;
 
 void require_range(const char* field, double low, double high, double least, double most) {
   require(low >= least && low <= high && high <= most, field, low, "from the bound of its key to max_...");
@@ -122,8 +128,11 @@ Scene make_forest(const ForestConfig& config, uint64_t seed) {
   validate(config);
   Random place_random(derived_seed(seed, kPlaceStream)), lump_random(derived_seed(seed, kLumpStream));
   const std::vector<Place> places = place_trees(config, place_random);
-  std::vector<Polyhedron> lumps;
-  for (int k = 0; k < kLumps; ++k) lumps.push_back(convex_lump(kLumpCorners, 0.22, lump_random));
+  std::vector<Polyhedron> lumps, coarse_lumps;
+  for (int k = 0; k < kLumps; ++k) {
+    lumps.push_back(convex_lump(kCorners, 0.22, lump_random));
+    coarse_lumps.push_back(convex_lump(kFewCorners, 0.1, lump_random));
+  }
 
   Scene scene;
   scene.name = "forest";
@@ -139,14 +148,17 @@ Scene make_forest(const ForestConfig& config, uint64_t seed) {
     const Eigen::Vector2d offset(uniform(random, 0.0, 1.0), uniform(random, 0.0, 1.0));
     const Cover leaves{kFirstLeaves + static_cast<uint32_t>(uniform_index(random, kLeaves)), kLeafTile_m, offset};
     const Cover bark{kFirstBark + static_cast<uint32_t>(uniform_index(random, kBarks)), kBarkTile_m, offset};
+    const bool is_detailed = places[k].p_NE.norm() < kDetailed_m;
     const TreeShape shape{
         .foot_W = {places[k].p_NE.x(), places[k].p_NE.y(), 0.0},
         .height_m = uniform(random, config.min_height_m, config.max_height_m),
         .clear_height_m = config.clear_height_m,
         .crown_radius_m = places[k].crown_radius_m,
         .trunk_radius_m = 0.5 * uniform(random, config.min_trunk_diameter_m, config.max_trunk_diameter_m),
+        .trunk_sides = is_detailed ? kTrunkSides : kFewTrunkSides,
     };
-    std::vector<Solid> solids = add_tree("tree " + std::to_string(k + 1), shape, lumps, leaves, bark, random, mesh);
+    std::vector<Solid> solids = add_tree("tree " + std::to_string(k + 1), shape, is_detailed ? lumps : coarse_lumps,
+                                         leaves, bark, random, mesh);
     std::ranges::move(solids, std::back_inserter(scene.solids));
   }
   scene.meshes.push_back(mesh.finish());

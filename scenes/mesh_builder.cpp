@@ -80,11 +80,6 @@ void MeshBuilder::add(std::span<const Vertex> vertices, std::span<const std::arr
   mesh_.chunks.back().index_count += static_cast<uint32_t>(3 * faces.size());
 }
 
-void MeshBuilder::add_core(const Eigen::AlignedBox3d& box_W) {
-  begin_chunk(true);
-  mesh_.chunks.back().box_W = box_W.cast<float>();
-}
-
 Mesh MeshBuilder::finish() { return std::move(mesh_); }
 
 }  // namespace hedgehop::scenes

@@ -46,9 +46,6 @@ class MeshBuilder {
   /// Adds triangles; `faces` index into `vertices`.
   void add(std::span<const Vertex> vertices, std::span<const std::array<uint32_t, 3>> faces);
 
-  /// Adds a box that is not drawn but hides what lies behind it: a chunk of its own that fills down to the ground.
-  void add_core(const Eigen::AlignedBox3d& box_W);
-
   Mesh finish();
 
  private:

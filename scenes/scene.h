@@ -21,8 +21,8 @@ struct Vertex {
   uint32_t texture = 0;                          ///< index into Scene::textures
 };
 
-/// Triangles that are culled as one: a box of a building, a tile of ground. A chunk without triangles is not seen
-/// itself but stands for what hides: a box inside opaque things, such as the core of a tree.
+/// Triangles that are culled as one: a box of a building, a whole tree, a tile of ground; all of them near each other.
+/// A chunk has at least one triangle.
 struct Chunk {
   Eigen::AlignedBox3f box_W;  ///< bounds of the chunk, m
   uint32_t first_index = 0;   ///< into Mesh::indices

@@ -44,15 +44,10 @@ std::vector<Solid> add_tree(const std::string& name, const TreeShape& shape, std
       const double size = uniform(random, 0.22, 0.46), z = 1.0 - (2.0 * k + 1.0) / around;
       const double across = std::sqrt(1.0 - z * z), turn = first + golden_angle * k;
       const Vector3d out(across * std::cos(turn), across * std::sin(turn), z);
-      const double way = (1.0 - size) * uniform(random, 0.75, 1.0);
+      const double way = (1.0 - size) * uniform(random, 0.9, 1.0);
       add_lump(crown_center_W + crown_radii.cwiseProduct(way * out), size * crown_radii);
     }
   }
-
-  // The square inside a hexagon of radius 1, sides along the axes, has half sides of 0.61 or more.
-  const double core_m = 0.6 * shape.trunk_radius_m;
-  mesh.add_core({Vector3d(shape.foot_W - Vector3d(core_m, core_m, trunk.height_m)),
-                 Vector3d(shape.foot_W + Vector3d(core_m, core_m, 0.0))});
   return solids;
 }
 

@@ -17,10 +17,10 @@ struct TreeShape {
   double crown_radius_m = 3.0;
   double trunk_radius_m = 0.2;
   int lobes = 1;        ///< lumps that make up the crown: 1, or a core with lobes - 1 around it
-  int trunk_sides = 6;  ///< at least 6
+  int trunk_sides = 6;  ///< at least 3
 };
 
-/// Adds a tree, one chunk, and the hidden core of its trunk, another. No point is farther from the trunk's axis than
+/// Adds a tree, one chunk. No point is farther from the trunk's axis than
 /// the crown's radius, nor higher than the height.
 /// @param lumps  convex lumps within radius 1 that the crown is made of, at least one.
 /// @return the trunk (a cylinder) and the crown's lumps (hulls that are drawn as they are), each called `name`.

@@ -80,6 +80,12 @@ std::string document_fields(const std::vector<Outline>& fields, int indent) {
                         fmt::join(facts, ", "));
     const Outline& shape = field.kind == Kind::list ? field.item.at(0) : field;
     if (shape.kind == Kind::group) text += document_fields(shape.parts, indent + 4);
+    if (shape.kind == Kind::variant && indent > 0) {  // those of a scenario itself are topics of their own
+      for (const Outline& choice : shape.all) {
+        text += fmt::format("{:{}}{}: {}\n", "", indent + 4, choice.key, choice.meaning);
+        text += document_fields(choice.parts, indent + 8);
+      }
+    }
   }
   return text;
 }

@@ -65,7 +65,8 @@ TEST_P(EveryMesh, WindingAgreesWithUnitNormals) {
     ASSERT_GT(across.norm(), 0.0f);
     for (size_t k = 0; k < 3; ++k) {
       ASSERT_NEAR(corner(t, k).n_W.norm(), 1.0f, 1e-6f);
-      ASSERT_GT(across.normalized().dot(corner(t, k).n_W), GetParam().is_flat ? 1.0f - 1e-5f : 0.0f);
+      // Of a sharp lump shaded as if it were round, a narrow face may look well away from its corners' normals.
+      ASSERT_GT(across.normalized().dot(corner(t, k).n_W), GetParam().is_flat ? 1.0f - 1e-5f : -0.5f);
     }
   }
 }
@@ -77,7 +78,7 @@ TEST_P(EveryMesh, PicturesAreUprightAndNeverMirrored) {
     const Eigen::Vector2f d1 = b.uv - a.uv, d2 = c.uv - a.uv;
     const float det = d1.x() * d2.y() - d2.x() * d1.y();
     const Eigen::Vector3f right = (e1 * d2.y() - e2 * d1.y()) / det, down = (e2 * d1.x() - e1 * d2.x()) / det;
-    ASSERT_LT(right.cross(down).dot(a.n_W), 0.0f);
+    ASSERT_LT(right.cross(down).dot(e1.cross(e2)), 0.0f);
     if (GetParam().is_flat && std::abs(a.n_W.z()) < 0.1f) {
       ASSERT_GT(down.normalized().z(), 0.999f);
     }
@@ -90,10 +91,7 @@ TEST_P(EveryMesh, ChunksCoverAllIndicesInOrderAndBoundTheirTriangles) {
   uint32_t next = 0;
   for (const Chunk& chunk : mesh().chunks) {
     ASSERT_EQ(chunk.first_index, next);
-    if (chunk.index_count == 0) {
-      ASSERT_TRUE(chunk.fills_box_to_ground);  // else it would serve nothing
-      continue;
-    }
+    ASSERT_GT(chunk.index_count, 0u);
     ASSERT_EQ(chunk.index_count % 3, 0u);
     Eigen::AlignedBox3f box;
     for (uint32_t i = next; i < next + chunk.index_count; ++i) box.extend(mesh().vertices[mesh().indices[i]].p_W);

@@ -231,7 +231,7 @@ TEST(Park, KeepsItsClearingAndTheRoadFree) {
       EXPECT_GT(std::max(box.min().y(), -box.max().y()), 3.0) << solid.name;
     }
   }
-  EXPECT_THAT([] { make_park({.extent_m = 30.0, .trees = 500, .texture_size_px = kSmallPx}, 1); },
+  EXPECT_THAT([] { make_park({.extent_m = 40.0, .trees = 500, .vehicles = 0, .texture_size_px = kSmallPx}, 1); },
               ThrowsMessage<E>(HasSubstr("trees: valid: fewer")));
 }
 
