@@ -17,6 +17,7 @@
 #include "sim/loop/aircraft.h"
 #include "sim/loop/cameras.h"
 #include "sim/loop/checks.h"
+#include "sim/loop/field_metrics.h"
 #include "sim/loop/flight_log.h"
 #include "sim/loop/random_stream.h"
 #include "sim/loop/setpoints.h"
@@ -178,6 +179,9 @@ Flight Episode::fly() {
   result.realtime_factor = result.flight_time_s / wall_s;
   for (const avoidance::Metric& metric : module_->metrics()) {
     result.metrics.push_back({metric.name, metric.value, metric.unit});
+  }
+  for (MetricValue& metric : field_metrics(scenario_, flight, scene_, dynamics::radius_m(hull_))) {
+    result.metrics.push_back(std::move(metric));
   }
   result.checks = evaluate_checks(scenario_, flight, scene_, rotor_radius_m(hull_));
   return flight;
