@@ -22,8 +22,9 @@ std::string header(const SlurmJob& job, std::string_view name, std::string_view 
 }
 
 std::string sweep_command(const SlurmJob& job) {
-  return fmt::format("{} sweep {} --out {}", shell_quoted(job.program.string()), shell_quoted(job.sweep.string()),
-                     shell_quoted(job.out.string()));
+  const std::string worker = job.worker.empty() ? "" : " --program " + shell_quoted(job.worker.string());
+  return fmt::format("{} sweep {} --out {}{}", shell_quoted(job.program.string()), shell_quoted(job.sweep.string()),
+                     shell_quoted(job.out.string()), worker);
 }
 
 /// Runs a shell command; its output without the last line's end.

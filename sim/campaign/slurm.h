@@ -8,12 +8,15 @@ namespace hedgehop::sim {
 
 /// A sweep as a job array of an existing Slurm, one shard a task.
 struct SlurmJob {
-  std::filesystem::path program, sweep, out;  ///< of hedgehop; the sweep's file; the results: absolute, on every node
-  std::filesystem::path folder;               ///< to run in, so that relative paths mean what they mean here; absolute
-  size_t tasks = 1;                           ///< shards, 1..1000 (Slurm's own limit of an array's index)
-  size_t cores = 1;                           ///< of a task, and workers
-  double limit_s = 0.0;                       ///< of a flight, 0 for none
-  std::vector<std::string> options;           ///< for every sbatch, such as --partition=night
+  std::filesystem::path program;     ///< hedgehop, absolute, as all nodes see it
+  std::filesystem::path sweep;       ///< the sweep's file as it was named: the tables tell re-run commands by that name
+  std::filesystem::path out;         ///< the results, absolute, on a disk that all nodes share
+  std::filesystem::path folder;      ///< to run in, so that relative paths mean what they mean here; absolute
+  std::filesystem::path worker;      ///< program of the workers when not hedgehop itself; absolute or empty
+  size_t tasks = 1;                  ///< shards, 1..1000 (Slurm's own limit of an array's index)
+  size_t cores = 1;                  ///< of a task, and workers
+  double limit_s = 0.0;              ///< of a flight, 0 for none
+  std::vector<std::string> options;  ///< for every sbatch, such as --partition=night
 };
 
 /// The batch script of the array: flies a shard; flights that left no result have the task re-queued once.

@@ -112,9 +112,10 @@ int fly_optimiser(const SweepRun& run, const OptimiseDesign& design) {
 
 int on_slurm(const SweepRun& run, size_t flights) {
   const SlurmJob job{.program = own_program(),
-                     .sweep = std::filesystem::absolute(run.options.file),
+                     .sweep = run.options.file,
                      .out = std::filesystem::absolute(run.out).lexically_normal(),
                      .folder = std::filesystem::current_path(),
+                     .worker = run.options.program,
                      .tasks = std::min(run.options.tasks, flights),
                      .cores = run.options.jobs,
                      .limit_s = run.options.limit_s,

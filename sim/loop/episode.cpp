@@ -17,6 +17,7 @@
 #include "sim/loop/aircraft.h"
 #include "sim/loop/cameras.h"
 #include "sim/loop/checks.h"
+#include "sim/loop/field_metrics.h"
 #include "sim/loop/flight_log.h"
 #include "sim/loop/random_stream.h"
 #include "sim/loop/route.h"
@@ -188,6 +189,9 @@ Flight Episode::fly() {
   constexpr double kBesideStart_m = 1.0;
   result.scene = scenes::scene_figures(
       scene_, {scenario_.start.altitude_m - kBesideStart_m, scenario_.start.altitude_m + kBesideStart_m});
+  for (MetricValue& metric : field_metrics(scenario_, flight, scene_, dynamics::radius_m(hull_))) {
+    result.metrics.push_back(std::move(metric));
+  }
   result.checks = evaluate_checks(scenario_, flight, scene_, rotor_radius_m(hull_));
   return flight;
 }

@@ -2,9 +2,11 @@
 
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,23 @@ struct CommandEnd {
   int status = 0;  ///< exit status; 128 and the signal's number when a signal ended it
   std::string out, err;
 };
+
+/// A table without the columns that differ from run to run, which are the last.
+inline std::string lasting_columns(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::string line, kept;
+  size_t columns = 0;
+  while (std::getline(lines, line)) {
+    if (columns == 0) {
+      const size_t end = line.find(",time.");
+      columns = 1 + static_cast<size_t>(std::count(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(end), ','));
+    }
+    size_t end = 0;
+    for (size_t i = 0; i < columns; ++i) end = line.find(',', end + (i > 0 ? 1 : 0));
+    kept += line.substr(0, end) + "\n";
+  }
+  return kept;
+}
 
 /// A folder with a scenario of a tenth of a second, and the built program to fly it.
 class CampaignFolder : public TemporaryFolder {

@@ -1,8 +1,6 @@
 #include <gmock/gmock.h>
 #include <sqlite3.h>
 
-#include <sstream>
-
 #include "sim/record/csv_table.h"
 #include "tests/sim/campaign/campaign_folder.h"
 
@@ -11,23 +9,6 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-/// A table without the columns that differ from run to run, which are the last.
-std::string lasting_columns(const std::string& csv) {
-  std::istringstream lines(csv);
-  std::string line, kept;
-  size_t columns = 0;
-  while (std::getline(lines, line)) {
-    if (columns == 0) {
-      const size_t end = line.find(",time.");
-      columns = 1 + static_cast<size_t>(std::count(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(end), ','));
-    }
-    size_t end = 0;
-    for (size_t i = 0; i < columns; ++i) end = line.find(',', end + (i > 0 ? 1 : 0));
-    kept += line.substr(0, end) + "\n";
-  }
-  return kept;
-}
 
 class Sweep : public ::testing::Test {
  protected:
