@@ -38,7 +38,7 @@ struct Goal {
 struct CameraFrame {
   std::string role;  ///< "front", "left", ... as the rig names it
   int64_t t_ns = 0;  ///< instant of exposure
-  cv::Mat image;     ///< rows x cols; CV_8UC1 grey, CV_8UC3 RGB, or CV_32FC1 depth (z in C, m, NaN unknown)
+  cv::Mat image;     ///< rows x cols; CV_8UC1 grey, CV_8UC3 RGB, CV_32FC1 depth (z in C, fisheye: range; m; or NaN)
 };
 
 struct Observation {

@@ -28,6 +28,12 @@ add_library(hedgehop_egl INTERFACE)
 target_link_libraries(hedgehop_egl INTERFACE ${EGL_LIBRARY})
 target_include_directories(hedgehop_egl SYSTEM INTERFACE ${EGL_INCLUDE_DIR})
 
+find_library(ASSIMP_LIBRARY assimp REQUIRED)
+find_path(ASSIMP_INCLUDE_DIR assimp/Importer.hpp REQUIRED)
+add_library(hedgehop_assimp INTERFACE)
+target_link_libraries(hedgehop_assimp INTERFACE ${ASSIMP_LIBRARY})
+target_include_directories(hedgehop_assimp SYSTEM INTERFACE ${ASSIMP_INCLUDE_DIR})
+
 add_library(hedgehop_bullet INTERFACE)
 # Clearances are wanted to a millimetre a kilometre from the origin: the double-precision build, which Debian ships beside
 # the other. Every user must see the same btScalar.

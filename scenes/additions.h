@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "scenes/mesh_import.h"
 #include "scenes/movers.h"
 
 namespace hedgehop::scenes {
@@ -9,11 +10,13 @@ namespace hedgehop::scenes {
 /// What any scene can have besides what its generator makes.
 struct Additions {
   std::vector<MoverConfig> movers;
+  std::vector<ImportConfig> imports;
 };
 
 template <class Visitor>
 void describe(Visitor& v, Additions& c) {
   v("movers", c.movers, {.meaning = "obstacles that move"});
+  v("imports", c.imports, {.meaning = "meshes from files, as scenery and obstacles"});
 }
 
 }  // namespace hedgehop::scenes

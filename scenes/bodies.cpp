@@ -40,14 +40,16 @@ std::vector<Vector3d> smooth_normals(const Polyhedron& body) {
 
 }  // namespace
 
-void add_polyhedron(const Polyhedron& body, const Cover& cover, MeshBuilder& mesh) {
+void add_polyhedron(const Polyhedron& body, Shading shading, const Cover& cover, MeshBuilder& mesh) {
   const std::vector<Vector3d> normals = smooth_normals(body);
   std::vector<Vertex> vertices;
   std::vector<std::array<uint32_t, 3>> faces;
   std::map<std::pair<uint32_t, int>, uint32_t> known;  // a corner as each side's picture has it
   for (const std::array<uint32_t, 3>& face : body.faces) {
     const Vector3d a = body.corners[face[0]];
-    const int from = side_index((body.corners[face[1]] - a).cross(body.corners[face[2]] - a));
+    const Vector3d across = (body.corners[face[1]] - a).cross(body.corners[face[2]] - a);
+    const int from = side_index(across);
+    if (shading == Shading::flat) known.clear();
     std::array<uint32_t, 3>& added = faces.emplace_back();
     for (size_t k = 0; k < 3; ++k) {
       const auto [at, is_new] = known.try_emplace({face[k], from}, static_cast<uint32_t>(vertices.size()));
@@ -56,7 +58,8 @@ void add_polyhedron(const Polyhedron& body, const Cover& cover, MeshBuilder& mes
       const Vector3d p_W = body.corners[face[k]];
       const Eigen::Vector2d uv =
           cover.offset + Eigen::Vector2d(side(from).right.dot(p_W), side(from).down.dot(p_W)) / cover.tile_m;
-      vertices.push_back({p_W.cast<float>(), normals[face[k]].cast<float>(), uv.cast<float>(), cover.texture});
+      const Vector3d n = shading == Shading::flat ? across.normalized() : normals[face[k]];
+      vertices.push_back({p_W.cast<float>(), n.cast<float>(), uv.cast<float>(), cover.texture});
     }
   }
   mesh.add(vertices, faces);
@@ -101,10 +104,15 @@ void add_post(const Post& post, int sides, const Cover& cover, MeshBuilder& mesh
 void add_box(const Eigen::AlignedBox3d& box_S, const Eigen::Isometry3d& X_WS, const Cover& cover, MeshBuilder& mesh) {
   const auto add = [&](const Panel& panel) {
     const Panel placed{X_WS * panel.top_left_W, X_WS.linear() * panel.right_m, X_WS.linear() * panel.down_m};
-    mesh.add_tiled(placed, cover.tile_m, cover.offset, cover.texture);
+    const Eigen::Vector2d from_origin_m(placed.right_m.normalized().dot(placed.top_left_W),
+                                        placed.down_m.normalized().dot(placed.top_left_W));
+    mesh.add_tiled(placed, cover.tile_m, cover.offset + from_origin_m / cover.tile_m, cover.texture);
   };
   for (const Panel& panel : side_panels(box_S)) add(panel);
   add(top_panel(box_S));
+  constexpr double kOnGround_m = 1e-6;
+  const Eigen::Vector3d foot_S(box_S.center().x(), box_S.center().y(), box_S.max().z());
+  if ((X_WS * foot_S).z() < -kOnGround_m) add(bottom_panel(box_S));
 }
 
 Solid solid_of(const std::string& name, const Post& post) {

@@ -14,10 +14,13 @@ struct Cover {
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();
 };
 
-/// Adds a polyhedron to the chunk begun last, shaded as if it were smooth. Each face takes the picture from the side
-/// that it looks to most: north, east, south, west, up or down.
+/// Whether light plays on a body's faces as they are, or as if they were round.
+enum class Shading { flat, smooth };
+
+/// Adds a polyhedron to the chunk begun last. Each face takes the picture from the side that it looks to most: north,
+/// east, south, west, up or down.
 /// @param body  in W, m.
-void add_polyhedron(const Polyhedron& body, const Cover& cover, MeshBuilder& mesh);
+void add_polyhedron(const Polyhedron& body, Shading shading, const Cover& cover, MeshBuilder& mesh);
 
 /// An upright cylinder: foot_W is the centre of its lower end, in W, m.
 struct Post {
@@ -29,7 +32,9 @@ struct Post {
 /// Adds a post with `sides` corners on its circle, closed on top, open below.
 void add_post(const Post& post, int sides, const Cover& cover, MeshBuilder& mesh);
 
-/// Adds the faces of a box but the bottom. @param box  in S. @param X_WS  any pose.
+/// Adds the faces of a box, but not the bottom when it stands on the ground. Pictures are laid out from W's origin, so
+/// that they run on from box to box.
+/// @param box_S  in S, m. @param X_WS  any pose.
 void add_box(const Eigen::AlignedBox3d& box_S, const Eigen::Isometry3d& X_WS, const Cover& cover, MeshBuilder& mesh);
 
 Solid solid_of(const std::string& name, const Post& post);

@@ -1,34 +1,84 @@
 #include "scenes/figures.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace hedgehop::scenes {
-SceneFigures scene_figures(const Scene& scene) {
-  constexpr double kTouching_m = 1e-6;
-  std::vector<Eigen::AlignedBox2d> plans_NE;
-  SceneFigures figures;
-  figures.solids = scene.solids.size();
+namespace {
+
+constexpr double kTouching_m = 1e-6;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// A rectangle of the plan, or a disc: a point with a radius.
+struct Outline {
+  Eigen::AlignedBox2d core_NE;
+  double radius_m = 0.0;
+
+  double south_m() const { return core_NE.min().x() - radius_m; }
+  double north_m() const { return core_NE.max().x() + radius_m; }
+};
+
+Outline outline(const Solid& solid, const Eigen::AlignedBox3d& box_W) {
+  const bool is_upright = std::abs(solid.X_WS.linear()(2, 2)) > 1.0 - 1e-12;
+  if (solid.shape == Solid::Shape::sphere || (solid.shape == Solid::Shape::cylinder && is_upright)) {
+    const Eigen::Vector2d center_NE = solid.X_WS.translation().head<2>();
+    return {{center_NE, center_NE}, solid.half_extents_m.x()};
+  }
+  return {{Eigen::Vector2d(box_W.min().head<2>()), Eigen::Vector2d(box_W.max().head<2>())}};
+}
+
+double gap_m(const Outline& a, const Outline& b) {
+  return a.core_NE.exteriorDistance(b.core_NE) - a.radius_m - b.radius_m;
+}
+
+// The gap of each outline. Sweeps from south to north: a later outline can only come nearer while its south edge is
+// within the gap, an earlier one while its own is within the gap and the longest outline.
+std::vector<double> gaps_m(std::vector<Outline> outlines) {
+  std::ranges::sort(outlines, {}, &Outline::south_m);
+  double longest_m = 0.0;
+  for (const Outline& each : outlines) longest_m = std::max(longest_m, each.north_m() - each.south_m());
+  std::vector<double> gaps;
+  for (size_t i = 0; i < outlines.size(); ++i) {
+    double least_m = kInfinity;
+    const auto consider = [&](size_t j) {
+      const double gap = gap_m(outlines[i], outlines[j]);
+      if (gap > kTouching_m) least_m = std::min(least_m, gap);
+    };
+    for (size_t j = i + 1; j < outlines.size() && outlines[j].south_m() - outlines[i].north_m() < least_m; ++j)
+      consider(j);
+    for (size_t j = i; j-- > 0 && outlines[i].south_m() - outlines[j].south_m() - longest_m < least_m;) consider(j);
+    gaps.push_back(least_m);
+  }
+  return gaps;
+}
+
+}  // namespace
+
+SceneFigures scene_figures(const Scene& scene, const AltitudeBand& band) {
+  std::vector<Outline> outlines;
   double covered_m2 = 0.0;
+  size_t standing = 0;
   for (const Solid& solid : scene.solids) {
     const Eigen::AlignedBox3d box_W = bounds_W(solid);
-    plans_NE.emplace_back(Eigen::Vector2d(box_W.min().head<2>()), Eigen::Vector2d(box_W.max().head<2>()));
-    const Eigen::AlignedBox2d inside_NE = plans_NE.back().intersection(scene.bounds_NE_m);
-    if (box_W.max().z() >= -kTouching_m && !inside_NE.isEmpty()) covered_m2 += inside_NE.volume();
+    if (-box_W.min().z() < band.lowest_m || -box_W.max().z() > band.highest_m) continue;
+    const Outline& added = outlines.emplace_back(outline(solid, box_W));
+    const Eigen::AlignedBox2d inside_NE = added.core_NE.intersection(scene.bounds_NE_m);
+    if (box_W.max().z() < -kTouching_m || inside_NE.isEmpty()) continue;
+    const double disc_m2 = std::numbers::pi * added.radius_m * added.radius_m;
+    const double inside_m2 = added.radius_m > 0.0 ? disc_m2 : inside_NE.volume();
+    covered_m2 += inside_m2;
+    if (inside_m2 > 0.0) ++standing;  // a wall on the border stands outside
   }
+  std::vector<double> gaps = gaps_m(outlines);
+  std::ranges::sort(gaps);
+  SceneFigures figures;
+  figures.solids = outlines.size();
+  figures.smallest_gap_m = gaps.empty() ? kInfinity : gaps.front();
+  figures.median_gap_m = gaps.empty() ? kInfinity : gaps[gaps.size() / 2];
   figures.covered_share = covered_m2 / scene.bounds_NE_m.volume();
-
-  // Sweep from south to north: a later outline can only come nearer while its south edge is within the best gap.
-  std::sort(plans_NE.begin(), plans_NE.end(), [](const auto& a, const auto& b) { return a.min().x() < b.min().x(); });
-  figures.smallest_gap_m = std::numeric_limits<double>::infinity();
-  for (size_t i = 0; i < plans_NE.size(); ++i) {
-    for (size_t j = i + 1; j < plans_NE.size(); ++j) {
-      if (plans_NE[j].min().x() - plans_NE[i].max().x() >= figures.smallest_gap_m) break;
-      const double gap = plans_NE[i].exteriorDistance(plans_NE[j]);
-      if (gap > kTouching_m) figures.smallest_gap_m = std::min(figures.smallest_gap_m, gap);
-    }
-  }
+  figures.density_pm2 = static_cast<double>(standing) / scene.bounds_NE_m.volume();
   return figures;
 }
 

@@ -94,12 +94,14 @@ Mover make_mover(const MoverConfig& c, uint64_t seed, MoverPictures& pictures) {
     const Eigen::AlignedBox3d box_M(Vector3d(-c.radius_m, -c.radius_m, -c.height_m),
                                     Vector3d(c.radius_m, c.radius_m, 0.0));
     add_box(box_M, Eigen::Isometry3d::Identity(), pictures.signal(), mesh);
+    mesh.add_tiled(bottom_panel(box_M), kSignalTile_m, Eigen::Vector2d::Zero(),
+                   pictures.signal().texture);  // it may rise
     mover.solids.push_back(solid_of(c.name, box_M));
   }
   if (c.shape == Shape::balloon) {
     const Vector3d center_M(0.0, 0.0, -c.height_m);
     const Eigen::Affine3d place = Eigen::Translation3d(center_M) * Eigen::Scaling(c.radius_m);
-    add_polyhedron(moved(place, ball(3)), pictures.signal(), mesh);
+    add_polyhedron(moved(place, ball(3)), Shading::smooth, pictures.signal(), mesh);
     mover.solids.push_back(ball_of(c.name, center_M, c.radius_m));
     const double pole_m = c.height_m - c.radius_m;
     if (pole_m > 0.0) add_standing({Vector3d::Zero(), kPoleRadius_m, pole_m}, kPostSides);

@@ -14,13 +14,13 @@ struct LeafStyle {
 LeafStyle style_of(Leaves leaves) {
   switch (leaves) {
     case Leaves::needles:
-      return {{0.03f, 0.07f, 0.04f}, {0.10f, 0.20f, 0.10f}, {0.26f, 0.38f, 0.20f}, 0.015, 0.05, 5200};
+      return {{0.05f, 0.10f, 0.06f}, {0.16f, 0.30f, 0.16f}, {0.38f, 0.54f, 0.30f}, 0.015, 0.045, 7000};
     case Leaves::autumn:
-      return {{0.10f, 0.07f, 0.03f}, {0.42f, 0.27f, 0.08f}, {0.78f, 0.58f, 0.18f}, 0.03, 0.08, 3000};
+      return {{0.12f, 0.08f, 0.03f}, {0.48f, 0.31f, 0.09f}, {0.85f, 0.64f, 0.20f}, 0.02, 0.06, 5000};
     case Leaves::broad:
       break;
   }
-  return {{0.04f, 0.08f, 0.03f}, {0.17f, 0.30f, 0.09f}, {0.42f, 0.56f, 0.20f}, 0.03, 0.08, 3000};
+  return {{0.06f, 0.11f, 0.04f}, {0.24f, 0.40f, 0.12f}, {0.58f, 0.72f, 0.30f}, 0.02, 0.06, 5000};
 }
 
 }  // namespace

@@ -29,22 +29,23 @@ std::vector<Solid> add_tree(const std::string& name, const TreeShape& shape, std
   const auto add_lump = [&](const Vector3d& center_W, const Vector3d& radii_m) {
     const Polyhedron& lump = lumps[static_cast<size_t>(uniform_index(random, static_cast<int>(lumps.size())))];
     const Polyhedron placed = moved(lump_to_world(center_W, radii_m, random), lump);
-    add_polyhedron(placed, leaves, mesh);
+    add_polyhedron(placed, Shading::smooth, leaves, mesh);
     solids.push_back(solid_of(name, placed));
   };
   if (shape.lobes == 1) {
     add_lump(crown_center_W, crown_radii);
   } else {
-    constexpr double kCore = 0.72;  // of the crown's radii; the lobes stand out of it
+    constexpr double kCore = 0.62;  // of the crown's radii; the lobes stand out of it
     add_lump(crown_center_W, kCore * crown_radii);
     const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
     const double first = uniform(random, 0.0, 2.0 * std::numbers::pi);
     const int around = shape.lobes - 1;
     for (int k = 0; k < around; ++k) {
-      const double size = uniform(random, 0.36, 0.48), z = 1.0 - (2.0 * k + 1.0) / around;
+      const double size = uniform(random, 0.22, 0.46), z = 1.0 - (2.0 * k + 1.0) / around;
       const double across = std::sqrt(1.0 - z * z), turn = first + golden_angle * k;
       const Vector3d out(across * std::cos(turn), across * std::sin(turn), z);
-      add_lump(crown_center_W + crown_radii.cwiseProduct((1.0 - size) * out), size * crown_radii);
+      const double way = (1.0 - size) * uniform(random, 0.75, 1.0);
+      add_lump(crown_center_W + crown_radii.cwiseProduct(way * out), size * crown_radii);
     }
   }
 

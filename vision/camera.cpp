@@ -8,7 +8,7 @@ namespace hedgehop::vision {
 
 namespace {
 
-void require(bool holds, const std::string& fault) {
+void require(bool holds, const char* fault) {
   if (!holds) throw std::invalid_argument(fault);
 }
 
@@ -19,6 +19,7 @@ bool finite(std::initializer_list<double> numbers) {
   return true;
 }
 
+// Checked for every picture: no text is put together unless there is something to tell.
 void check_lens(const PinholeLens& lens) {
   require(finite({lens.focal_x_px, lens.focal_y_px, lens.center_u_px, lens.center_v_px, lens.k1, lens.k2, lens.p1,
                   lens.p2, lens.k3}),
@@ -31,9 +32,12 @@ void check_lens(const FisheyeLens& lens) {
                   lens.k4, lens.limit_rad}),
           "a number of the lens is not finite");
   require(lens.focal_x_px > 0.0 && lens.focal_y_px > 0.0, "a camera's focal lengths must be positive");
-  require(lens.limit_rad > 0.0 && lens.limit_rad <= lens.growth_limit_rad(),
-          "a fisheye cannot see " + std::to_string(lens.limit_rad) +
-              " rad off its axis: its distortion folds back at " + std::to_string(lens.growth_limit_rad()) + " rad");
+  const double growth_limit_rad = lens.growth_limit_rad();
+  if (!(lens.limit_rad > 0.0 && lens.limit_rad <= growth_limit_rad)) {
+    throw std::invalid_argument("a fisheye cannot see " + std::to_string(lens.limit_rad) +
+                                " rad off its axis: its distortion folds back at " + std::to_string(growth_limit_rad) +
+                                " rad");
+  }
 }
 
 void check_lens(const OcamLens& lens) {
@@ -82,15 +86,18 @@ std::string Camera::lens_name() const {
 
 double fisheye_focal_px(const FisheyeLens& coefficients, int width_px, double horizontal_fov_rad) {
   const double half_rad = 0.5 * horizontal_fov_rad;
-  require(half_rad > 0.0 && half_rad <= coefficients.growth_limit_rad() && half_rad < std::numbers::pi,
-          "a fisheye of these coefficients cannot show " + std::to_string(horizontal_fov_rad) + " rad across");
+  if (!(half_rad > 0.0 && half_rad <= coefficients.growth_limit_rad() && half_rad < std::numbers::pi)) {
+    throw std::invalid_argument("a fisheye of these coefficients cannot show " + std::to_string(horizontal_fov_rad) +
+                                " rad across");
+  }
   return 0.5 * width_px / coefficients.radius(half_rad);
 }
 
 void check(const Camera& camera) {
-  require(camera.width_px > 0 && camera.height_px > 0, "a camera's picture needs at least one pixel each way, got " +
-                                                           std::to_string(camera.width_px) + " x " +
-                                                           std::to_string(camera.height_px));
+  if (camera.width_px < 1 || camera.height_px < 1) {
+    throw std::invalid_argument("a camera's picture needs at least one pixel each way, got " +
+                                std::to_string(camera.width_px) + " x " + std::to_string(camera.height_px));
+  }
   std::visit([](const auto& lens) { check_lens(lens); }, camera.lens);
 }
 

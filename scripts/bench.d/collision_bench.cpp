@@ -34,7 +34,7 @@ void fly(benchmark::State& state, const scenes::Scene& scene) {
     north_m = std::fmod(north_m + 0.02, 300.0);
     const Eigen::Isometry3d X_WB = Eigen::Translation3d(north_m, 15.0, -12.0) *
                                    Eigen::AngleAxisd(0.2 * std::sin(north_m), Eigen::Vector3d::UnitX());
-    benchmark::DoNotOptimize(world.query(X_WB, 200.0));
+    benchmark::DoNotOptimize(world.query(X_WB, 200.0, 0.0));
   }
 }
 

@@ -10,7 +10,8 @@
 #include "sim/render/renderer.h"
 
 // Cities and a room beside their floor: one textured quad that fills the picture, as finely textured as trilinear
-// filtering is dear (between two mipmap levels), drawn in the same run.
+// filtering is dear (between two mipmap levels), drawn in the same run. Lenses of every kind beside the same floor, a
+// pinhole's, by the pixel (counter Mpx a second).
 namespace hedgehop::sim {
 namespace {
 
@@ -71,6 +72,23 @@ const scenes::Scene& city(double extent_m) {
   return extent_m > 300.0 ? large : small;
 }
 
+const scenes::Scene& forest(int64_t trees) {
+  const auto make = [](int64_t count) {
+    return scenes::make_scene(scenes::ForestConfig{.trees = count, .keep_clear = {{0.0, 0.0, 2.0}}}, 1);
+  };
+  static const scenes::Scene small = make(100), large = make(10000);
+  return trees > 100 ? large : small;
+}
+
+/// Eight headings at each of five places near the middle, the same for every size of forest.
+std::vector<Eigen::Isometry3d> forest_views(double height_m) {
+  std::vector<Eigen::Isometry3d> poses;
+  for (const auto& [north_m, east_m] : {std::pair{0.0, 0.0}, {8.0, 8.0}, {8.0, -8.0}, {-8.0, 8.0}, {-8.0, -8.0}}) {
+    for (int k = 0; k < 8; ++k) poses.push_back(level(north_m, east_m, height_m, k * kPi / 4 + 0.1));
+  }
+  return poses;
+}
+
 /// A plane 10 m below the eye with a number of texels to each pixel.
 scenes::Scene quad(double texels_per_pixel) {
   scenes::Scene scene;
@@ -90,21 +108,26 @@ scenes::Scene quad(double texels_per_pixel) {
 }
 
 /// Time of one picture, the mean over the poses.
-void draw(benchmark::State& state, const scenes::Scene& scene, const std::vector<Eigen::Isometry3d>& poses) {
+void draw(benchmark::State& state, const scenes::Scene& scene, const std::vector<Eigen::Isometry3d>& poses,
+          const vision::Camera& camera = kCamera) {
   const auto channel = static_cast<Channel>(state.range(0));
   Renderer renderer(scene);
   cv::Mat picture;
+  for (const Eigen::Isometry3d& X_WC : poses) renderer.draw({camera, X_WC, channel}, picture);  // plans the lens
   double stretches = 0.0, triangles = 0.0;
   const auto pictures = static_cast<int64_t>(poses.size());
   while (state.KeepRunningBatch(pictures)) {
     for (const Eigen::Isometry3d& X_WC : poses) {
-      renderer.draw({kCamera, X_WC, channel}, picture);
+      renderer.draw({camera, X_WC, channel}, picture);
       benchmark::DoNotOptimize(picture.data);
       stretches += static_cast<double>(renderer.drawn().stretches);
       triangles += static_cast<double>(renderer.drawn().triangles);
     }
   }
   state.counters["stretches"] = benchmark::Counter(stretches, benchmark::Counter::kAvgIterations);
+  const double pixels =
+      static_cast<double>(camera.width_px) * camera.height_px * static_cast<double>(state.iterations());
+  state.counters["Mpx"] = benchmark::Counter(1e-6 * pixels, benchmark::Counter::kIsRate);
   state.counters["triangles"] = benchmark::Counter(triangles, benchmark::Counter::kAvgIterations);
 }
 
@@ -119,9 +142,42 @@ void FiveCamerasInFlight(benchmark::State& state) { draw(state, city(300.0), fiv
 void FiveCamerasInFlightFloor(benchmark::State& state) { CityFloor(state); }
 void Room(benchmark::State& state) { draw(state, scenes::make_scene(scenes::RoomConfig{}, 1), room_views()); }
 void RoomFloor(benchmark::State& state) { CityFloor(state); }
+void Forest(benchmark::State& state) { draw(state, forest(100), forest_views(5.0)); }
+void ForestFloor(benchmark::State& state) { CityFloor(state); }
+// The small forest is the large one's floor.
+void ForestLarge(benchmark::State& state) { draw(state, forest(10000), forest_views(5.0)); }
+void ForestLargeFloor(benchmark::State& state) { Forest(state); }
+void ForestLargeBelowCrowns(benchmark::State& state) { draw(state, forest(10000), forest_views(1.8)); }
+void ForestLargeBelowCrownsFloor(benchmark::State& state) { draw(state, forest(100), forest_views(1.8)); }
+void ForestLargeAboveCrowns(benchmark::State& state) { draw(state, forest(10000), forest_views(25.0)); }
+void ForestLargeAboveCrownsFloor(benchmark::State& state) { draw(state, forest(100), forest_views(25.0)); }
 // Nothing to filter between levels: the cheapest textured picture there is.
 void MagnifiedQuad(benchmark::State& state) { draw(state, quad(0.8), {down(0, 0, kFlightHeightM)}); }
 void MagnifiedQuadFloor(benchmark::State& state) { CityFloor(state); }
+
+/// 752 x 480 px and 190 degrees across.
+vision::Camera wide_fisheye() {
+  const double focal_px = vision::fisheye_focal_px({}, 752, 190.0 * kPi / 180.0);
+  return {752, 480, vision::FisheyeLens{focal_px, focal_px, 375.5, 239.5}};
+}
+/// The pinhole of the other figures with a common lens before it.
+vision::Camera distorted_pinhole() {
+  vision::PinholeLens lens{kCamera.focal_x_px, kCamera.focal_y_px, kCamera.center_u_px, kCamera.center_v_px};
+  lens.k1 = -0.12;
+  lens.k2 = 0.02;
+  return {kCamera.width_px, kCamera.height_px, lens};
+}
+/// A pinhole of the fisheye's size that sees the quad's texels as kCamera does.
+vision::Camera wide_pinhole() {
+  return vision::PinholeCamera{752, 480, kCamera.focal_x_px, kCamera.focal_y_px, 375.5, 239.5};
+}
+
+void CityFisheye(benchmark::State& state) { draw(state, city(300.0), street_views(kFlightHeightM), wide_fisheye()); }
+void CityFisheyeFloor(benchmark::State& state) { draw(state, quad(1.6), {down(0, 0, kFlightHeightM)}, wide_pinhole()); }
+void CityDistorted(benchmark::State& state) {
+  draw(state, city(300.0), street_views(kFlightHeightM), distorted_pinhole());
+}
+void CityDistortedFloor(benchmark::State& state) { CityFloor(state); }
 
 void grey(benchmark::internal::Benchmark* b) {
   b->ArgName("grey")->Arg(0)->Unit(benchmark::kMillisecond)->MinTime(0.1);
@@ -131,6 +187,10 @@ void all_channels(benchmark::internal::Benchmark* b) {
 }
 BENCHMARK(City)->Apply(all_channels);
 BENCHMARK(CityFloor)->Apply(all_channels);
+BENCHMARK(CityDistorted)->Apply(all_channels);
+BENCHMARK(CityDistortedFloor)->Apply(all_channels);
+BENCHMARK(CityFisheye)->Apply(all_channels);
+BENCHMARK(CityFisheyeFloor)->Apply(all_channels);
 BENCHMARK(LargeCity)->Apply(grey);
 BENCHMARK(LargeCityFloor)->Apply(grey);
 BENCHMARK(LargeCityAboveRoofs)->Apply(grey);
@@ -139,6 +199,14 @@ BENCHMARK(FiveCamerasInFlight)->Apply(grey);
 BENCHMARK(FiveCamerasInFlightFloor)->Apply(grey);
 BENCHMARK(Room)->Apply(grey);
 BENCHMARK(RoomFloor)->Apply(grey);
+BENCHMARK(Forest)->Apply(grey);
+BENCHMARK(ForestFloor)->Apply(grey);
+BENCHMARK(ForestLarge)->Apply(grey);
+BENCHMARK(ForestLargeFloor)->Apply(grey);
+BENCHMARK(ForestLargeBelowCrowns)->Apply(grey);
+BENCHMARK(ForestLargeBelowCrownsFloor)->Apply(grey);
+BENCHMARK(ForestLargeAboveCrowns)->Apply(grey);
+BENCHMARK(ForestLargeAboveCrownsFloor)->Apply(grey);
 BENCHMARK(MagnifiedQuad)->Apply(grey);
 BENCHMARK(MagnifiedQuadFloor)->Apply(grey);
 

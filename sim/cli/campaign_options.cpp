@@ -48,8 +48,43 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
   command->callback([&chosen, options] { chosen = [options] { return batch(*options); }; });
 }
 
+void declare_sweep(CLI::App& app, std::function<int()>& chosen) {
+  CLI::App* const command = app.add_subcommand("sweep", "vary parameters of a scenario; picks up where it stopped");
+  const auto options = std::make_shared<SweepOptions>();
+  options->jobs = cores();
+  command->add_option("SWEEP", options->file, "sweep file (YAML)")->required();
+  add_workers(*command, options->jobs, options->limit_s);
+  command->add_option("--out", options->out, "folder of the results")->type_name("DIR");
+  command->add_option("--shard", options->shard, "fly one part only, such as 2/8")->type_name("I/N");
+  command->add_flag("--merge", options->merge, "fly nothing; write the tables of all results that are there");
+  command->add_option("--from", options->merge_from, "... further folders to look for results in")->type_name("DIR");
+  command->add_flag("--missing", options->missing, "only print how many flights have no result yet");
+  command->add_option("--on", options->on, "local (default) or slurm")->check(CLI::IsMember({"local", "slurm"}));
+  command->add_option("--tasks", options->tasks, "shards of a Slurm job array; default 8")->check(CLI::Range(1, 1000));
+  command->add_option("--slurm-option", options->slurm_options, "for every sbatch, such as --partition=night");
+  command->add_flag("--dry-run", options->dry_run, "with --on slurm: only print the batch scripts");
+  command->add_option("--program", options->program)->group("");  // hidden: for tests
+  command->callback([&chosen, options] { chosen = [options] { return sweep(*options); }; });
+}
+
+void declare_bless(CLI::App& app, std::function<int()>& chosen) {
+  struct Options {
+    std::filesystem::path folder;
+    std::string reason;
+  };
+  CLI::App* const command = app.add_subcommand("bless", "make a run's path the reference of its scenario");
+  const auto options = std::make_shared<Options>();
+  command->add_option("RUN", options->folder, "folder of the run")->required()->check(CLI::ExistingDirectory);
+  command->add_option("--reason", options->reason, "why it is the path to hold to, one line")->required();
+  command->callback([&chosen, options] { chosen = [options] { return bless(options->folder, options->reason); }; });
+}
+
 }  // namespace
 
-void declare_campaigns(CLI::App& app, std::function<int()>& chosen) { declare_batch(app, chosen); }
+void declare_campaigns(CLI::App& app, std::function<int()>& chosen) {
+  declare_batch(app, chosen);
+  declare_sweep(app, chosen);
+  declare_bless(app, chosen);
+}
 
 }  // namespace hedgehop::sim::cli

@@ -33,11 +33,19 @@ struct RenderOptions {
   ScenarioOptions scenario;
   std::string camera;
   double time_s = 0.0;
-  std::string what = "color";  ///< "color", "grey" or "depth"
+  std::string what = "color";  ///< "color", "grey", "depth", "depth_mm", "flow" or "labels"
   std::filesystem::path out;
   bool info = false;  ///< only print which renderer draws
 };
 int render(const RenderOptions& options);
+
+struct CalibrationOptions {
+  ScenarioOptions scenario;
+  std::string format = "opencv";  ///< or "kalibr"
+  std::filesystem::path out;      ///< empty: standard output
+};
+/// Writes the rig's cameras for other programs.
+int calibration(const CalibrationOptions& options);
 
 /// @param topic  "modules", "vehicles", "scenes", "cameras" or "checks".
 int list(const std::string& topic);
@@ -81,6 +89,28 @@ struct BatchOptions {
 /// Flies many scenarios, each flight in a process of its own. Interrupted, it writes what there is and returns 128 and
 /// the signal's number. A bad file fails alone: the rest is flown, then the status is 2.
 int batch(const BatchOptions& options);
+
+struct SweepOptions {
+  std::filesystem::path file;
+  size_t jobs = 1;                                ///< flights at a time, >= 1
+  double limit_s = 0.0;                           ///< longest wall time of a flight, 0 for none
+  std::filesystem::path out;                      ///< empty: out/<the file's name>
+  std::string shard;                              ///< such as 2/8; empty: all
+  bool merge = false;                             ///< fly nothing, write the tables of what is there
+  std::vector<std::filesystem::path> merge_from;  ///< further folders to look for results in
+  bool missing = false;                           ///< only print how many flights have no result
+  std::string on = "local";                       ///< or "slurm"
+  size_t tasks = 8;                               ///< of the job array
+  std::vector<std::string> slurm_options;         ///< for every sbatch
+  bool dry_run = false;                           ///< only print the batch scripts
+  std::filesystem::path program;                  ///< of the workers, absolute; empty: this one
+};
+/// Flies a sweep, or what is left of it: flights that left a result of the very same scenario stand.
+int sweep(const SweepOptions& options);
+
+/// Writes the path of a run as the reference of its scenario's `path_tolerance`, beside the scenario.
+/// @param reason  why it is the path to hold to, one line.
+int bless(const std::filesystem::path& run_folder, const std::string& reason);
 
 /// The executable that runs now, absolute. Throws std::runtime_error.
 std::filesystem::path own_program();

@@ -47,7 +47,8 @@ struct VehicleOptions {
 
 /// Declares the commands; the one that is chosen ends up in `chosen`.
 void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, cli::RenderOptions& render,
-             VehicleOptions& vehicles, std::string& topic, std::filesystem::path& folder) {
+             cli::CalibrationOptions& calibration, VehicleOptions& vehicles, std::string& topic,
+             std::filesystem::path& folder) {
   CLI::App* const run_command = app.add_subcommand("run",
                                                    "fly a scenario; leaves a folder with verdict, tables, film "
                                                    "and report");
@@ -67,8 +68,12 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
   render_command->add_option("--time", render.time_s, "time of the picture, s; the flight is flown up to it")
       ->check(CLI::NonNegativeNumber)
       ->type_name("S");
-  render_command->add_option("--what", render.what, "color, grey, or depth (16-bit PNG, millimetres, 0 beyond 65 m)")
-      ->check(CLI::IsMember({"color", "grey", "depth"}));
+  render_command
+      ->add_option("--what", render.what,
+                   "color, grey; depth (red 0.5 m, green 10 m, blue 200 m, sky white), depth_mm (16-bit PNG, "
+                   "millimetres, 0 beyond 65 m); flow to the camera's next picture (right red, left cyan, white at "
+                   "rest, full at 16 px); labels (a colour for each object, sky black)")
+      ->check(CLI::IsMember({"color", "grey", "depth", "depth_mm", "flow", "labels"}));
   auto* const out = render_command->add_option("-o", render.out, "file to write")->type_name("FILE.png");
   auto* const info = render_command->add_flag("--info", render.info, "print which OpenGL renderer draws, and stop");
   render_command->callback([&, file, camera, out, info] {
@@ -77,6 +82,15 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
     }
     chosen = [&render] { return cli::render(render); };
   });
+
+  CLI::App* const calibration_command =
+      app.add_subcommand("calibration", "write the intrinsics and poses of the rig's cameras for other programs");
+  add_scenario(*calibration_command, calibration.scenario);
+  calibration_command->add_option("--format", calibration.format, "opencv (FileStorage YAML, the default) or kalibr")
+      ->check(CLI::IsMember({"opencv", "kalibr"}));
+  calibration_command->add_option("-o", calibration.out, "file to write; standard output when not given")
+      ->type_name("FILE.yaml");
+  calibration_command->callback([&] { chosen = [&calibration] { return cli::calibration(calibration); }; });
 
   cli::declare_campaigns(app, chosen);
 
@@ -129,10 +143,11 @@ int run_command_line(int argc, char** argv) {
   std::function<int()> chosen;
   cli::RunOptions run;
   cli::RenderOptions render;
+  cli::CalibrationOptions calibration;
   VehicleOptions vehicles;
   std::string topic;
   std::filesystem::path folder;
-  declare(app, chosen, run, render, vehicles, topic, folder);
+  declare(app, chosen, run, render, calibration, vehicles, topic, folder);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -8,6 +8,7 @@
 #include "sim/cli/commands.h"
 #include "sim/cli/load.h"
 #include "sim/loop/episode.h"
+#include "sim/render/picture_colors.h"
 #include "sim/render/renderer.h"
 
 namespace hedgehop::sim::cli {
@@ -23,6 +24,13 @@ cv::Mat to_millimetres(const cv::Mat& depth_m) {
     }
   }
   return depth_mm;
+}
+
+Channel channel_of(const std::string& what) {
+  if (what == "grey") return Channel::grey;
+  if (what == "flow") return Channel::flow;
+  if (what == "labels") return Channel::labels;
+  return what == "color" ? Channel::color : Channel::depth;
 }
 
 void write_png(const std::filesystem::path& file, const cv::Mat& image) {
@@ -46,12 +54,18 @@ int render(const RenderOptions& options) {
   if (options.out.extension() != ".png") {
     throw InputError(fmt::format("-o {}: the picture is a PNG; its name must end in .png", options.out.string()));
   }
-  const Channel channel = options.what == "depth"  ? Channel::depth
-                          : options.what == "grey" ? Channel::grey
-                                                   : Channel::color;
+  const Channel channel = channel_of(options.what);
   cv::Mat image = picture_at(load(options.scenario), options.camera, channel, options.time_s);
-  if (channel == Channel::depth) image = to_millimetres(image);
-  if (channel == Channel::color) cv::cvtColor(image, image, cv::COLOR_RGB2BGR);
+  if (options.what == "depth_mm") {
+    image = to_millimetres(image);
+  } else if (channel == Channel::depth) {
+    image = colored_depth(image);
+  } else if (channel == Channel::flow) {
+    image = colored_flow(image);
+  } else if (channel == Channel::labels) {
+    image = colored_labels(image);
+  }
+  if (image.channels() == 3) cv::cvtColor(image, image, cv::COLOR_RGB2BGR);
   write_png(options.out, image);
   fmt::print("written: {}\n", options.out.string());
   return 0;

@@ -95,7 +95,11 @@ int run(const RunOptions& options) {
   const Flight flight = fly(scenario, &watcher);
   watcher.close();
 
-  const RunInfo info{scenario.name, scenario.seed, std::string{kVersion}, command_line(options, scenario),
+  const RunInfo info{scenario.name,
+                     scenario.seed,
+                     std::string{kVersion},
+                     options.scenario.file.string(),
+                     command_line(options, scenario),
                      to_yaml(scenario)};
   write_result_files(out, info, flight);
   if (!options.no_report) write_report(out);

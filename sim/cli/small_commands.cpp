@@ -1,7 +1,12 @@
 #include <fmt/format.h>
 
+#include <fstream>
+#include <stdexcept>
+
 #include "sim/cli/commands.h"
+#include "sim/cli/load.h"
 #include "sim/record/report.h"
+#include "sim/scenario/calibration.h"
 #include "sim/scenario/document.h"
 #include "sim/scenario/scenario.h"
 
@@ -14,6 +19,22 @@ int list(const std::string& topic) {
 
 int schema() {
   fmt::print("{}\n", json_schema());
+  return 0;
+}
+
+int calibration(const CalibrationOptions& options) {
+  const RigConfig rig = load(options.scenario).rig;
+  const std::string text =
+      build_part("rig", [&] { return options.format == "kalibr" ? kalibr_calibration(rig) : opencv_calibration(rig); });
+  if (options.out.empty()) {
+    fmt::print("{}", text);
+    return 0;
+  }
+  std::ofstream file(options.out, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error(fmt::format("{}: cannot be written", options.out.string()));
+  fmt::print("written: {}\n", options.out.string());
   return 0;
 }
 

@@ -8,7 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "sim/collision/ray_cast.h"
 #include "sim/collision/separation.h"
 
 namespace hedgehop::sim {
@@ -36,16 +35,61 @@ ConvexBody make_body(const HullPart& part, const std::string& what) {
   return {ConvexBody::Shape::cylinder, part.half_extents_m};
 }
 
-ConvexBody make_body(const Solid& solid) {
-  const std::string what = "solid '" + solid.name + "'";
-  require_extents(solid.half_extents_m, what);
-  if (!solid.X_WS.matrix().allFinite()) throw std::invalid_argument(what + ": the pose must be finite");
-  return {ConvexBody::Shape::box, solid.half_extents_m};
+void require_polyhedron(const scenes::Polyhedron& polyhedron, bool convex, const std::string& what) {
+  const auto refuse = [&](const char* why) { throw std::invalid_argument(what + ": " + why); };
+  if (polyhedron.faces.empty()) refuse("a polyhedron needs faces");
+  for (const Eigen::Vector3d& corner : polyhedron.corners) {
+    if (!corner.allFinite()) refuse("corners must be finite");
+  }
+  for (const auto& face : polyhedron.faces) {
+    for (const uint32_t corner : face) {
+      if (corner >= polyhedron.corners.size()) refuse("a face has a corner that is not there");
+    }
+    const Eigen::Vector3d a = polyhedron.corners[face[0]];
+    const Eigen::Vector3d n = (polyhedron.corners[face[1]] - a).cross(polyhedron.corners[face[2]] - a);
+    if (n.norm() == 0.0) refuse("a face has no area");
+    for (const Eigen::Vector3d& corner : polyhedron.corners) {
+      if (convex && n.normalized().dot(corner - a) > kRounding_m) refuse("a hull must be convex, its faces outward");
+    }
+  }
+  if (convex && polyhedron.faces.size() < 4) refuse("a hull needs at least 4 faces");
 }
 
-// Half size of the smallest box along W's axes that holds the body (of a cylinder: its enclosing box).
-Eigen::Vector3d half_size_W(const ConvexBody& body, const Eigen::Matrix3d& R_WS) {
-  return R_WS.cwiseAbs() * body.half_extents_m;
+// The convex bodies that a solid is made of: one, or each triangle of a surface.
+std::vector<ConvexBody> make_bodies(const Solid& solid) {
+  const std::string what = "solid '" + solid.name + "'";
+  if (!solid.X_WS.matrix().allFinite()) throw std::invalid_argument(what + ": the pose must be finite");
+  const Eigen::Vector3d& half_m = solid.half_extents_m;
+  std::vector<ConvexBody> bodies;
+  switch (solid.shape) {
+    case Solid::Shape::box:
+      require_extents(half_m, what);
+      bodies.emplace_back(ConvexBody::Shape::box, half_m);
+      break;
+    case Solid::Shape::cylinder:
+      require_extents(half_m, what);
+      if (half_m.x() != half_m.y()) throw std::invalid_argument(what + ": a cylinder's first two half extents differ");
+      bodies.emplace_back(ConvexBody::Shape::cylinder, half_m);
+      break;
+    case Solid::Shape::sphere:
+      require_extents(half_m, what);
+      if (half_m.minCoeff() != half_m.maxCoeff())
+        throw std::invalid_argument(what + ": a sphere's half extents differ");
+      bodies.emplace_back(ConvexBody::Shape::sphere, half_m);
+      break;
+    case Solid::Shape::hull:
+      require_polyhedron(solid.polyhedron, true, what);
+      bodies.emplace_back(solid.polyhedron);
+      break;
+    case Solid::Shape::surface:
+      require_polyhedron(solid.polyhedron, false, what);
+      for (const auto& [a, b, c] : solid.polyhedron.faces) {
+        const std::vector<Eigen::Vector3d>& corners = solid.polyhedron.corners;
+        bodies.emplace_back(scenes::Polyhedron{{corners[a], corners[b], corners[c]}, {{0, 1, 2}}});
+      }
+      break;
+  }
+  return bodies;
 }
 
 btVector3 to_bullet(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -67,55 +111,73 @@ class CollisionWorld::World {
     for (const HullPart& part : hull) {
       parts_.push_back({make_body(part, "hull part " + std::to_string(parts_.size())), part.center_B_m});
     }
-    solids_.reserve(scene.solids.size());
-    for (const Solid& solid : scene.solids) solids_.push_back(make_body(solid));
-    for (size_t i = 0; i < solids_.size(); ++i) place_solid(i, scene.solids[i].X_WS);
+    for (size_t i = 0; i < scenes::solid_count(scene); ++i) {
+      for (ConvexBody& body : make_bodies(scenes::solid_at(scene, i))) {
+        bodies_.push_back(std::move(body));
+        solid_of_.push_back(i);
+      }
+    }
+    for (still_ = 0; still_ < bodies_.size() && solid_of_[still_] < scene.solids.size(); ++still_) {
+      place_still(scene.solids[solid_of_[still_]].X_WS);
+    }
+    place_moving(scene);
     tree_.optimizeTopDown();
   }
 
-  Proximity query(const Eigen::Isometry3d& X_WB, double search_radius_m) {
+  Proximity query(const Eigen::Isometry3d& X_WB, double search_radius_m, double t_s) {
     place_hull(X_WB);
-    Proximity nearest;
-    nearest.obstacle_clearance_m = search_radius_m;
+    Nearest nearest{search_radius_m, {}, Eigen::Vector3d::Zero()};
 
     // What was nearest last time is near now: its distance narrows the search without touching the answer.
-    if (last_nearest_) consider(*last_nearest_, nearest);
-    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(std::max(nearest.obstacle_clearance_m, 0.0) + kRounding_m);
-    visit_solids(hull_box_W_.min() - reach, hull_box_W_.max() + reach, [&](size_t index) {
-      if (index != last_nearest_) consider(index, nearest);
+    if (last_nearest_) consider(*last_nearest_, placed_[*last_nearest_], nearest);
+    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(std::max(nearest.clearance_m, 0.0) + kRounding_m);
+    visit_still(hull_box_W_.min() - reach, hull_box_W_.max() + reach, [&](size_t index) {
+      if (index != last_nearest_) consider(index, placed_[index], nearest);
     });
+    if (nearest.body) last_nearest_ = nearest.body;
+    for (const Carried& carried : movers_) {
+      const Eigen::Vector3d p_WM = scenes::p_WM(carried.motion, t_s);
+      for (size_t k = 0; k < carried.count; ++k) consider(carried.first + k, placed(carried, k, p_WM), nearest);
+    }
 
-    last_nearest_ = nearest.nearest_solid;
-    if (!nearest.nearest_solid) nearest.obstacle_clearance_m = kInfinity;
-    if (has_ground_) nearest.ground_clearance_m = ground_clearance();
-    nearest.collided = nearest.obstacle_clearance_m <= 0.0 || nearest.ground_clearance_m <= 0.0;
-    return nearest;
+    Proximity result;
+    if (nearest.body) {
+      result.obstacle_clearance_m = nearest.clearance_m;
+      result.nearest_solid = solid_of_[*nearest.body];
+      result.nearest_point_W = nearest.point_W;
+    }
+    if (has_ground_) result.ground_clearance_m = ground_clearance();
+    result.collided = result.obstacle_clearance_m <= 0.0 || result.ground_clearance_m <= 0.0;
+    return result;
   }
 
-  double height_above_surface(const Eigen::Vector3d& p_WB) const {
+  double height_above_surface(const Eigen::Vector3d& p_WB, double t_s) const {
     double height_m = has_ground_ ? std::max(-p_WB.z(), 0.0) : kInfinity;
     const Eigen::Vector3d lowest_W(p_WB.x(), p_WB.y(), std::max(p_WB.z(), lowest_z_));
-    visit_solids(p_WB, lowest_W, [&](size_t index) { height_m = std::min(height_m, plumb_line(p_WB, index)); });
+    visit_still(p_WB, lowest_W, [&](size_t index) { height_m = std::min(height_m, plumb_line(p_WB, placed_[index])); });
+    for (const Carried& carried : movers_) {
+      const Eigen::Vector3d p_WM = scenes::p_WM(carried.motion, t_s);
+      if ((p_WB - p_WM).head<2>().norm() > carried.radius_m) continue;
+      for (size_t k = 0; k < carried.count; ++k) {
+        height_m = std::min(height_m, plumb_line(p_WB, placed(carried, k, p_WM)));
+      }
+    }
     return height_m;
   }
 
-  double distance_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m) const {
-    double nearest = 1.0;  // of the beam's length
-    bool met = false;
-    const Eigen::Vector3d end_W = p_W + reach_m * direction_W;
-    if (has_ground_ && end_W.z() >= 0.0) {
-      nearest = p_W.z() < 0.0 ? p_W.z() / (p_W.z() - end_W.z()) : 0.0;
-      met = true;
+  double distance_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m,
+                        double t_s) const {
+    double nearest_m = has_ground_ ? ground_along(p_W, direction_W) : kInfinity;
+    const auto meet = [&](const PlacedBody& body) {
+      nearest_m = std::min(nearest_m, body.body->ray_length(body.X_SW * p_W, body.X_SW.linear() * direction_W));
+    };
+    Collector collector([&](size_t index) { meet(placed_[index]); });
+    btDbvt::rayTest(tree_.m_root, to_bullet(p_W), to_bullet(p_W + reach_m * direction_W), collector);
+    for (const Carried& carried : movers_) {
+      const Eigen::Vector3d p_WM = scenes::p_WM(carried.motion, t_s);
+      for (size_t k = 0; k < carried.count; ++k) meet(placed(carried, k, p_WM));
     }
-    Collector collector([&](size_t index) {
-      const PlacedBody& solid = placed_solids_[index];
-      const auto fraction = ray_fraction(*solid.body->bullet, solid.bullet_X_WS, p_W, end_W);
-      if (!fraction) return;
-      nearest = std::min(nearest, *fraction);
-      met = true;
-    });
-    btDbvt::rayTest(tree_.m_root, to_bullet(p_W), to_bullet(end_W), collector);
-    return met ? nearest * reach_m : kInfinity;
+    return nearest_m <= reach_m ? nearest_m : kInfinity;
   }
 
  private:
@@ -124,12 +186,48 @@ class CollisionWorld::World {
     Eigen::Vector3d center_B_m;
   };
 
-  void place_solid(size_t index, const Eigen::Isometry3d& X_WS) {
-    placed_solids_.emplace_back(solids_[index], X_WS);
-    const Eigen::Vector3d center_W = X_WS.translation(), half_m = half_size_W(solids_[index], X_WS.linear());
+  // A mover's bodies: those from `first` on, placed in M; none is farther than the radius from M's origin.
+  struct Carried {
+    scenes::Motion motion;
+    size_t first = 0, count = 0;
+    double radius_m = 0.0;
+  };
+
+  struct Nearest {
+    double clearance_m;
+    std::optional<size_t> body;
+    Eigen::Vector3d point_W;
+  };
+
+  // Places the next body, one that stands still, where it stays.
+  void place_still(const Eigen::Isometry3d& X_WS) {
+    const PlacedBody& body = placed_.emplace_back(bodies_[placed_.size()], X_WS);
+    const Eigen::Vector3d center_W = X_WS.translation(), half_m = body.half_size_W();
     lowest_z_ = std::max(lowest_z_, center_W.z() + half_m.z());
     btDbvtNode* leaf = tree_.insert(btDbvtVolume::FromCE(to_bullet(center_W), to_bullet(half_m)), nullptr);
-    leaf->dataAsInt = static_cast<int>(index);
+    leaf->dataAsInt = static_cast<int>(placed_.size() - 1);
+  }
+
+  // Places the bodies that are left, all movers', in M.
+  void place_moving(const scenes::Scene& scene) {
+    size_t solid_index = scene.solids.size();
+    for (const scenes::Mover& mover : scene.movers) {
+      scenes::require_motion(mover.motion);
+      Carried& carried = movers_.emplace_back(Carried{mover.motion, placed_.size()});
+      for (const Solid& solid : mover.solids) {
+        for (; placed_.size() < bodies_.size() && solid_of_[placed_.size()] == solid_index; ++carried.count) {
+          const PlacedBody& body = placed_.emplace_back(bodies_[placed_.size()], solid.X_WS);
+          const double out_m = solid.X_WS.translation().norm() + body.body->bounding_radius_m;
+          carried.radius_m = std::max(carried.radius_m, out_m);
+        }
+        ++solid_index;
+      }
+    }
+  }
+
+  PlacedBody placed(const Carried& carried, size_t k, const Eigen::Vector3d& p_WM) const {
+    const PlacedBody& in_M = placed_[carried.first + k];
+    return {*in_M.body, Eigen::Translation3d(p_WM) * in_M.X_WS};
   }
 
   void place_hull(const Eigen::Isometry3d& X_WB) {
@@ -139,27 +237,26 @@ class CollisionWorld::World {
     for (const Part& part : parts_) {
       X_WP.translation() = X_WB * part.center_B_m;
       placed_parts_.emplace_back(part.body, X_WP);
-      const Eigen::Vector3d half_m = half_size_W(part.body, X_WB.linear());
+      const Eigen::Vector3d half_m = placed_parts_.back().half_size_W();
       hull_box_W_.extend(Eigen::AlignedBox3d(X_WP.translation() - half_m, X_WP.translation() + half_m));
     }
   }
 
-  // Keeps the nearer of `nearest` and this solid; of two equally near ones the lower index, whatever the order.
-  void consider(size_t index, Proximity& nearest) const {
-    const PlacedBody& solid = placed_solids_[index];
+  // Keeps the nearer of `nearest` and this body; of two equally near ones the lower index, whatever the order.
+  void consider(size_t index, const PlacedBody& body, Nearest& nearest) const {
     for (const PlacedBody& part : placed_parts_) {
       const Eigen::Vector3d center_W = part.X_WS.translation();
-      const double center_distance_m = (solid.nearest(center_W) - center_W).norm();
-      const double at_least_m = center_distance_m - part.body->bounding_radius_m - kRounding_m;
-      if (center_distance_m > 0.0 && at_least_m > nearest.obstacle_clearance_m) continue;
+      const double part_radius_m = part.body->bounding_radius_m + kRounding_m;
+      const double balls_m = (body.X_WS.translation() - center_W).norm() - body.body->bounding_radius_m - part_radius_m;
+      if (balls_m > std::max(nearest.clearance_m, 0.0)) continue;
+      const double center_distance_m = (body.nearest(center_W) - center_W).norm();
+      if (center_distance_m > 0.0 && center_distance_m - part_radius_m > nearest.clearance_m) continue;
 
-      const Separation found = separate(part, solid);
+      const Separation found = separate(part, body);
       const bool first_of_equals =
-          found.distance_m == nearest.obstacle_clearance_m && index < nearest.nearest_solid.value_or(solids_.size());
-      if (found.distance_m < nearest.obstacle_clearance_m || first_of_equals) {
-        nearest.obstacle_clearance_m = found.distance_m;
-        nearest.nearest_solid = index;
-        nearest.nearest_point_W = found.on_second_W;
+          found.distance_m == nearest.clearance_m && index < nearest.body.value_or(bodies_.size());
+      if (found.distance_m < nearest.clearance_m || first_of_equals) {
+        nearest = {found.distance_m, index, found.on_second_W};
       }
     }
   }
@@ -170,37 +267,31 @@ class CollisionWorld::World {
     return -lowest_z;
   }
 
-  // Length of the plumb line from p_W to one solid: 0 inside, +inf when it misses. Slab by slab in the solid's frame.
-  double plumb_line(const Eigen::Vector3d& p_W, size_t index) const {
-    const PlacedBody& solid = placed_solids_[index];
-    const Eigen::Vector3d p_S = solid.X_SW * p_W, down_S = solid.X_SW.linear().col(2);
-    double enter_m = 0.0, leave_m = kInfinity;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double half_m = solid.body->half_extents_m[axis];
-      if (down_S[axis] == 0.0) {
-        if (std::abs(p_S[axis]) > half_m) return kInfinity;
-        continue;
-      }
-      const double one_m = (-half_m - p_S[axis]) / down_S[axis];
-      const double other_m = (half_m - p_S[axis]) / down_S[axis];
-      enter_m = std::max(enter_m, std::min(one_m, other_m));
-      leave_m = std::min(leave_m, std::max(one_m, other_m));
-    }
-    return enter_m <= leave_m ? enter_m : kInfinity;
+  static double ground_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W) {
+    if (p_W.z() >= 0.0) return 0.0;
+    return direction_W.z() > 0.0 ? -p_W.z() / direction_W.z() : kInfinity;
+  }
+
+  // Length of the plumb line from p_W to one body: 0 inside, +inf when it misses.
+  static double plumb_line(const Eigen::Vector3d& p_W, const PlacedBody& body) {
+    return body.body->ray_length(body.X_SW * p_W, body.X_SW.linear().col(2));
   }
 
   template <class Visit>
-  void visit_solids(const Eigen::Vector3d& min_W, const Eigen::Vector3d& max_W, Visit visit) const {
+  void visit_still(const Eigen::Vector3d& min_W, const Eigen::Vector3d& max_W, Visit visit) const {
     Collector<Visit> collector(std::move(visit));
     tree_.collideTV(tree_.m_root, btDbvtVolume::FromMM(to_bullet(min_W), to_bullet(max_W)), collector);
   }
 
   bool has_ground_;
   std::vector<Part> parts_;
-  std::vector<ConvexBody> solids_;
-  std::vector<PlacedBody> placed_solids_;
-  btDbvt tree_;
-  double lowest_z_ = -kInfinity;  // of all solids, in W
+  std::vector<ConvexBody> bodies_;  // of the solids in order, those of the movers last
+  std::vector<size_t> solid_of_;    // index of each body's solid
+  std::vector<PlacedBody> placed_;  // in W; from still_ on in M
+  size_t still_ = 0;                // number of bodies that stand still
+  std::vector<Carried> movers_;
+  btDbvt tree_;                   // of what stands still
+  double lowest_z_ = -kInfinity;  // of what stands still, in W
   std::optional<size_t> last_nearest_;
 
   // The hull at the pose of the query under way.
@@ -214,15 +305,15 @@ CollisionWorld::~CollisionWorld() = default;
 CollisionWorld::CollisionWorld(CollisionWorld&&) noexcept = default;
 CollisionWorld& CollisionWorld::operator=(CollisionWorld&&) noexcept = default;
 
-Proximity CollisionWorld::query(const Eigen::Isometry3d& X_WB, double search_radius_m) {
-  return world_->query(X_WB, search_radius_m);
+Proximity CollisionWorld::query(const Eigen::Isometry3d& X_WB, double search_radius_m, double t_s) {
+  return world_->query(X_WB, search_radius_m, t_s);
 }
-double CollisionWorld::height_above_surface(const Eigen::Vector3d& p_WB) const {
-  return world_->height_above_surface(p_WB);
+double CollisionWorld::height_above_surface(const Eigen::Vector3d& p_WB, double t_s) const {
+  return world_->height_above_surface(p_WB, t_s);
 }
-double CollisionWorld::distance_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W,
-                                      double reach_m) const {
-  return world_->distance_along(p_W, direction_W, reach_m);
+double CollisionWorld::distance_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m,
+                                      double t_s) const {
+  return world_->distance_along(p_W, direction_W, reach_m, t_s);
 }
 
 }  // namespace hedgehop::sim

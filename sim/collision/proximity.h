@@ -17,7 +17,7 @@ namespace hedgehop::sim {
 struct Proximity {
   double obstacle_clearance_m = std::numeric_limits<double>::infinity();  ///< to the nearest solid; < 0: depth inside
   double ground_clearance_m = std::numeric_limits<double>::infinity();    ///< of the hull's lowest point; < 0: below
-  std::optional<size_t> nearest_solid;  ///< index into Scene::solids; none beyond the search radius
+  std::optional<size_t> nearest_solid;  ///< as scenes::solid_at() counts; none beyond the search radius
   Eigen::Vector3d nearest_point_W = Eigen::Vector3d::Zero();  ///< on the nearest solid, m; zero without one
   bool collided = false;                                      ///< the hull touches a solid or the ground
 };
@@ -27,7 +27,8 @@ struct Proximity {
 class CollisionWorld {
  public:
   /// Throws std::invalid_argument when a half extent is not finite and positive, when a cylinder's first two half
-  /// extents differ, when a pose is not finite, or when the hull is empty.
+  /// extents or a sphere's three differ, when a polyhedron has no faces, a corner that is not there, or is no convex
+  /// body, when a pose is not finite, or when the hull is empty.
   CollisionWorld(const scenes::Scene& scene, const std::vector<dynamics::HullPart>& hull);
   ~CollisionWorld();
   CollisionWorld(CollisionWorld&&) noexcept;
@@ -37,16 +38,18 @@ class CollisionWorld {
   /// @param X_WB             pose of the vehicle, finite.
   /// @param search_radius_m  solids farther than this from the hull count as absent, > 0; +inf searches the whole
   /// scene.
-  Proximity query(const Eigen::Isometry3d& X_WB, double search_radius_m);
+  /// @param t_s              when, >= 0: where the movers are.
+  Proximity query(const Eigen::Isometry3d& X_WB, double search_radius_m, double t_s);
 
   /// Returns the length of the plumb line from a point to the roof or ground below it, m: 0 inside a solid or under the
-  /// ground, +inf where nothing lies below.
-  double height_above_surface(const Eigen::Vector3d& p_WB) const;
+  /// ground, +inf where nothing lies below. Movers count where they are at the time.
+  double height_above_surface(const Eigen::Vector3d& p_WB, double t_s) const;
 
-  /// Returns the distance from a point to the first solid or ground along a beam, m: 0 under the ground, +inf where
-  /// nothing is within reach. As exact as ray_fraction() of ray_cast.h; a solid that holds the point is not seen.
-  /// @param direction_W  of length 1. @param reach_m  finite, > 0.
-  double distance_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m) const;
+  /// Returns the distance from a point to the first solid or ground along a beam, m: 0 inside a solid or under the
+  /// ground, +inf where nothing is within reach. @param direction_W  of length 1. @param reach_m  finite, > 0.
+  /// @param t_s  when, >= 0: where the movers are.
+  double distance_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m,
+                        double t_s) const;
 
  private:
   class World;

@@ -1,7 +1,5 @@
 #include "sim/collision/separation.h"
 
-#include <BulletCollision/CollisionShapes/btBoxShape.h>
-#include <BulletCollision/CollisionShapes/btCylinderShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
 
 #include <algorithm>
@@ -16,26 +14,7 @@ namespace {
 constexpr double kExact_m = 1e-7;      // what a distance may be off
 constexpr int kMaxProjections = 2000;  // tens are enough for the worst of a million random pairs
 
-btVector3 to_bullet(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 Eigen::Vector3d to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-
-btTransform to_bullet(const Eigen::Isometry3d& X) {
-  const Eigen::Matrix3d R = X.linear();
-  const btMatrix3x3 basis(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2));
-  return btTransform(basis, to_bullet(X.translation()));
-}
-
-// Bullet shapes carry a margin that rounds them; without it they are the exact bodies.
-std::unique_ptr<const btConvexShape> bullet_shape(ConvexBody::Shape shape, const Eigen::Vector3d& half_extents_m) {
-  std::unique_ptr<btConvexShape> made;
-  if (shape == ConvexBody::Shape::cylinder) {
-    made = std::make_unique<btCylinderShapeZ>(to_bullet(half_extents_m));
-  } else {
-    made = std::make_unique<btBoxShape>(to_bullet(half_extents_m));
-  }
-  made->setMargin(0.0);
-  return made;
-}
 
 // Width of the slab square to the unit vector n that fits between the bodies, the second one ahead: a lower bound of
 // their distance, < 0 when none fits.
@@ -43,13 +22,13 @@ double slab_m(const PlacedBody& first, const PlacedBody& second, const Eigen::Ve
   return -second.reach(-n) - first.reach(n);
 }
 
-// The widest slab among those square to `n` and to the bodies' own axes.
+// The widest slab among those square to `n` and to the bodies' own faces.
 double widest_slab_m(const PlacedBody& first, const PlacedBody& second, const Eigen::Vector3d& n) {
   double widest_m = slab_m(first, second, n);
   for (const PlacedBody* body : {&first, &second}) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const Eigen::Vector3d face_W = body->X_WS.linear().col(axis);
-      widest_m = std::max({widest_m, slab_m(first, second, face_W), slab_m(first, second, -face_W)});
+    for (const Eigen::Vector3d& n_S : body->body->normals_S) {
+      const Eigen::Vector3d n_W = body->X_WS.linear() * n_S;
+      widest_m = std::max({widest_m, slab_m(first, second, n_W), slab_m(first, second, -n_W)});
     }
   }
   return widest_m;
@@ -83,39 +62,23 @@ Separation separate_by_projections(const PlacedBody& first, const PlacedBody& se
   return best;
 }
 
+// The nearest point of a body to a sphere is the one to its centre; inside, the way out is as long as the centre is
+// deep.
+Separation separate_from_sphere(const PlacedBody& body, const PlacedBody& sphere) {
+  const Eigen::Vector3d center_W = sphere.X_WS.translation(), on_body_W = body.nearest(center_W);
+  const double radius_m = sphere.body->half_extents_m.x(), apart_m = (center_W - on_body_W).norm();
+  if (apart_m == 0.0) return {-radius_m - body.body->depth_m(body.X_SW * center_W), center_W, center_W};
+  return {apart_m - radius_m, on_body_W, center_W + radius_m / apart_m * (on_body_W - center_W)};
+}
+
 }  // namespace
 
-ConvexBody::ConvexBody(Shape shape_, const Eigen::Vector3d& half_extents)
-    : shape(shape_), half_extents_m(half_extents), bullet(bullet_shape(shape_, half_extents)) {
-  const double across_m = shape == Shape::cylinder ? half_extents_m.x() : half_extents_m.head<2>().norm();
-  bounding_radius_m = std::hypot(across_m, half_extents_m.z());
-}
-
-Eigen::Vector3d ConvexBody::nearest(const Eigen::Vector3d& p_S) const {
-  if (shape == Shape::box) return p_S.cwiseMax(-half_extents_m).cwiseMin(half_extents_m);
-  Eigen::Vector3d q = p_S;
-  const double radius_m = half_extents_m.x(), off_axis_m = std::hypot(p_S.x(), p_S.y());
-  if (off_axis_m > radius_m) q.head<2>() *= radius_m / off_axis_m;
-  q.z() = std::clamp(p_S.z(), -half_extents_m.z(), half_extents_m.z());
-  return q;
-}
-
-Eigen::Vector3d ConvexBody::farthest(const Eigen::Vector3d& direction_S) const {
-  Eigen::Vector3d q = half_extents_m;
-  for (int axis = 0; axis < 3; ++axis) q[axis] = std::copysign(q[axis], direction_S[axis]);
-  const double off_axis = std::hypot(direction_S.x(), direction_S.y());
-  if (shape == Shape::cylinder && off_axis > 0.0) q.head<2>() = half_extents_m.x() / off_axis * direction_S.head<2>();
-  return q;
-}
-
-PlacedBody::PlacedBody(const ConvexBody& body_, const Eigen::Isometry3d& X)
-    : body(&body_), X_WS(X), X_SW(X.inverse()), bullet_X_WS(to_bullet(X)) {}
-
-double PlacedBody::reach(const Eigen::Vector3d& direction_W) const {
-  return direction_W.dot(X_WS * body->farthest(X_SW.linear() * direction_W));
-}
-
 Separation separate(const PlacedBody& first, const PlacedBody& second) {
+  if (second.body->shape == ConvexBody::Shape::sphere) return separate_from_sphere(first, second);
+  if (first.body->shape == ConvexBody::Shape::sphere) {
+    const Separation swapped = separate_from_sphere(second, first);
+    return {swapped.distance_m, swapped.on_second_W, swapped.on_first_W};
+  }
   const btConvexShape* a = first.body->bullet.get();
   const btConvexShape* b = second.body->bullet.get();
   const btVector3 guess = second.bullet_X_WS.getOrigin() - first.bullet_X_WS.getOrigin();

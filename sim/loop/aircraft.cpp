@@ -18,7 +18,7 @@ void Aircraft::reset(const CollisionWorld& world) {
   const Eigen::Vector3d p_WB = scenario_.start.draw_p_WB(stream_seed(scenario_.seed, "start"));
   wind_W_ = wind_.sample(-p_WB.z(), Eigen::Vector3d::Zero(), ticks_.dt_s());
   build_part("vehicle", [&] { vehicle_.reset(p_WB, scenario_.start.heading_rad, wind_W_); });
-  avionics_.reset(truth(world));
+  avionics_.reset(truth(world, 0));
 }
 
 void Aircraft::move() {
@@ -26,12 +26,15 @@ void Aircraft::move() {
   vehicle_.step(actuators_, wind_W_, ticks_.dt_s());
 }
 
-dynamics::SensedTruth Aircraft::truth(const CollisionWorld& world) const {
-  const auto height_beside = [this, &world](double north_m, double east_m) {
-    return world.height_above_surface(body().p_WB + Eigen::Vector3d(north_m, east_m, 0.0));
+dynamics::SensedTruth Aircraft::truth(const CollisionWorld& world, int64_t tick) {
+  surroundings_ = {&world, ticks_.t_s(tick)};
+  // They capture a single pointer each: a std::function would allocate for more.
+  const auto height_beside = [this](double north_m, double east_m) {
+    return surroundings_.world->height_above_surface(body().p_WB + Eigen::Vector3d(north_m, east_m, 0.0),
+                                                     surroundings_.t_s);
   };
-  const auto beam_distance = [&world](const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m) {
-    return world.distance_along(p_W, direction_W, reach_m);
+  const auto beam_distance = [this](const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m) {
+    return surroundings_.world->distance_along(p_W, direction_W, reach_m, surroundings_.t_s);
   };
   return {body(), vehicle_.specific_force_B(), height_beside(0.0, 0.0), height_beside, beam_distance};
 }

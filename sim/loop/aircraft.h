@@ -22,7 +22,7 @@ class Aircraft {
   /// Puts it into its drawn start, in a trimmed hover. Throws InputError where it cannot hover.
   void reset(const CollisionWorld& world);
   /// Reads the sensors that are due on this tick.
-  void sense(int64_t tick, const CollisionWorld& world) { avionics_.sense(ticks_.t_ns(tick), truth(world)); }
+  void sense(int64_t tick, const CollisionWorld& world) { avionics_.sense(ticks_.t_ns(tick), truth(world, tick)); }
   /// Runs the autopilot. @param dt_s  until the next call.
   void steer(const dynamics::Setpoint& setpoint, double dt_s) { actuators_ = avionics_.control(setpoint, dt_s); }
   /// Moves on by one tick.
@@ -38,7 +38,8 @@ class Aircraft {
   const Eigen::Vector3d& wind_W() const { return wind_W_; }
 
  private:
-  dynamics::SensedTruth truth(const CollisionWorld& world) const;
+  /// What the sensors may look at; good until the next call.
+  dynamics::SensedTruth truth(const CollisionWorld& world, int64_t tick);
 
   const Scenario& scenario_;
   const Ticks ticks_;
@@ -46,6 +47,10 @@ class Aircraft {
   dynamics::Wind wind_;
   dynamics::Avionics avionics_;
   Eigen::Vector3d wind_W_ = Eigen::Vector3d::Zero();
+  struct Surroundings {
+    const CollisionWorld* world = nullptr;
+    double t_s = 0.0;
+  } surroundings_;
   dynamics::Controls actuators_ = dynamics::Controls::Zero();
 };
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
 #include <stdexcept>
 
 #include "sim/loop/random_stream.h"
@@ -56,7 +58,8 @@ const avoidance::CameraFrame* Cameras::expose(size_t camera, int64_t t_ns, const
     if (fate == Imperfections::Fate::dropped) return nullptr;
     const bool frozen = fate == Imperfections::Fate::frozen && !frame.image.empty();
     if (!frozen) {
-      draw(camera, channels_[camera], body, frame.image);
+      const Instant now{t_ns, body};
+      draw(camera, channels_[camera], now, now, frame.image);
       imperfections_[camera].spoil(number, frame.image);
       if (fate == Imperfections::Fate::black) blacken(frame.image);
     }
@@ -67,29 +70,32 @@ const avoidance::CameraFrame* Cameras::expose(size_t camera, int64_t t_ns, const
 
 std::span<const avoidance::CameraFrame> Cameras::snapshot(int64_t t_ns, const Eigen::Isometry3d& X_WB) {
   for (size_t i = 0; i < count(); ++i) {
-    renderer_.draw({mounted_[i].model.pinhole(), X_WB * mounted_[i].X_BC, channels_[i]}, snapshot_[i].image);
+    const double t_s = 1e-9 * static_cast<double>(t_ns);
+    renderer_.draw({mounted_[i].model, X_WB * mounted_[i].X_BC, channels_[i], t_s}, snapshot_[i].image);
     snapshot_[i].t_ns = t_ns;
   }
   return snapshot_;
 }
 
-cv::Mat Cameras::picture(size_t camera, Channel channel, int64_t t_ns, const BodyMotion& body) {
+cv::Mat Cameras::picture(size_t camera, Channel channel, const Instant& now, const Instant& next) {
   cv::Mat image;
-  draw(camera, channel, body, image);
+  draw(camera, channel, now, next, image);
   if (channel == Channel::grey || channel == Channel::color) {
-    imperfections_[camera].spoil(picture_number(camera, t_ns), image);
+    imperfections_[camera].spoil(picture_number(camera, now.t_ns), image);
   }
   return image;
 }
 
-void Cameras::draw(size_t camera, Channel channel, const BodyMotion& body, cv::Mat& out) {
+void Cameras::draw(size_t camera, Channel channel, const Instant& now, const Instant& next, cv::Mat& out) {
   const avoidance::MountedCamera& mounted = mounted_[camera];
-  const auto draw_rows = [&](const Eigen::Isometry3d& X_WB, double, const cv::Range& rows, cv::Mat& picture) {
+  const CameraView::Next seen_next{next.body.X_WB * mounted.X_BC, 1e-9 * static_cast<double>(next.t_ns)};
+  const auto draw_rows = [&](const Eigen::Isometry3d& X_WB, double dt_s, const cv::Range& rows, cv::Mat& picture) {
     const bool whole = rows.size() == mounted.model.height_px;
-    renderer_.draw({(whole ? mounted.model : cut(mounted.model, rows)).pinhole(), X_WB * mounted.X_BC, channel},
+    const double t_s = std::max(0.0, 1e-9 * static_cast<double>(now.t_ns) + dt_s);
+    renderer_.draw({whole ? mounted.model : cut(mounted.model, rows), X_WB * mounted.X_BC, channel, t_s, seen_next},
                    picture);
   };
-  shutters_[camera].expose(body, mounted.model.height_px, draw_rows, out);
+  shutters_[camera].expose(now.body, mounted.model.height_px, std::ref(draw_rows), out);
 }
 
 }  // namespace hedgehop::sim

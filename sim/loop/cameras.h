@@ -34,9 +34,14 @@ class Cameras {
   /// Pictures of all cameras at this instant for somebody who only looks on; what modules are shown stays untouched.
   std::span<const avoidance::CameraFrame> snapshot(int64_t t_ns, const Eigen::Isometry3d& X_WB);
 
-  /// One camera's picture of this instant in a channel of the caller's choice, with the shutter's and the sensor's
-  /// imperfections.
-  cv::Mat picture(size_t camera, Channel channel, int64_t t_ns, const BodyMotion& body);
+  /// An instant of the flight.
+  struct Instant {
+    int64_t t_ns = 0;
+    BodyMotion body;
+  };
+  /// One camera's picture of an instant in a channel of the caller's choice, with the shutter's and the sensor's
+  /// imperfections. @param next  what Channel::flow leads to.
+  cv::Mat picture(size_t camera, Channel channel, const Instant& now, const Instant& next);
 
   const avoidance::MountedCamera& mounted(size_t camera) const { return mounted_[camera]; }
   std::span<const avoidance::MountedCamera> mounted() const { return mounted_; }
@@ -44,7 +49,7 @@ class Cameras {
 
  private:
   int64_t picture_number(size_t camera, int64_t t_ns) const { return t_ns / period_ns_[camera]; }
-  void draw(size_t camera, Channel channel, const BodyMotion& body, cv::Mat& out);
+  void draw(size_t camera, Channel channel, const Instant& now, const Instant& next, cv::Mat& out);
 
   Renderer renderer_;
   std::vector<Channel> channels_;

@@ -6,6 +6,9 @@
 #include <numbers>
 #include <variant>
 
+#include "sim/loop/path_distance.h"
+#include "sim/scenario/reference_path.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -101,6 +104,27 @@ CheckResult evaluate(const FloorVisitedCheck& check, const Evidence& e) {
   for (const TrajectoryRow& row : e.flight.trajectory) path.emplace_back(row.p_WB_true.head<2>());
   const double share = visited_share(e.scene.bounds_NE_m, check.cell_m, path, e.rotor_radius_m);
   return {std::string{FloorVisitedCheck::kName}, share >= check.at_least, share, check.at_least, ""};
+}
+
+CheckResult evaluate(const PathToleranceCheck& check, const Evidence& e) {
+  using Measure = PathToleranceCheck::Measure;
+  const ReferencePath reference = read_reference_path(check.reference);
+  std::vector<TimedPoint> flown;
+  for (const TrajectoryRow& row : e.flight.trajectory) flown.push_back({row.t_s, row.p_WB_true});
+  double value_m = kNaN;
+  if (check.measure == Measure::band) {
+    value_m = largest_deviation_m(flown, reference.points);
+  } else {
+    const std::vector<TimedPoint> coarse = thinned(flown, reference.step_s);
+    value_m = check.measure == Measure::frechet ? discrete_frechet_m(coarse, reference.points)
+                                                : mean_warped_distance_m(coarse, reference.points);
+  }
+  return {std::string{PathToleranceCheck::kName}, value_m <= check.at_most_m, value_m, check.at_most_m, "m"};
+}
+
+CheckResult evaluate(const RealtimeFactorCheck& check, const Evidence& e) {
+  const double factor = e.flight.result.realtime_factor;
+  return {std::string{RealtimeFactorCheck::kName}, factor >= check.at_least, factor, check.at_least, ""};
 }
 
 }  // namespace

@@ -145,15 +145,20 @@ void Episode::act() {
 
 cv::Mat Episode::picture(size_t camera, Channel channel, double t_s) {
   begin();
-  for (const int64_t last = ticks_.ticks(t_s); tick_ < last; ++tick_) {
-    act();
-    if (ended()) {
-      throw InputError(fmt::format("--time {}: the flight ends at {:.3f} s ({}{}{})", t_s, ticks_.t_s(tick_),
-                                   to_string(*outcome_), cause_.empty() ? "" : ": ", cause_));
+  const auto fly_on = [&](int64_t last) -> Cameras::Instant {
+    for (; tick_ < last; ++tick_) {
+      act();
+      if (ended()) {
+        throw InputError(fmt::format("--time {}: the flight ends at {:.3f} s ({}{}{})", t_s, ticks_.t_s(tick_),
+                                     to_string(*outcome_), cause_.empty() ? "" : ": ", cause_));
+      }
+      move();
     }
-    move();
-  }
-  return cameras_.picture(camera, channel, ticks_.t_ns(tick_), aircraft_.motion());
+    return {ticks_.t_ns(tick_), aircraft_.motion()};
+  };
+  const Cameras::Instant now = fly_on(ticks_.ticks(t_s));
+  const bool leads_on = channel == Channel::flow;
+  return cameras_.picture(camera, channel, now, leads_on ? fly_on(tick_ + cameras_.period_ticks(camera)) : now);
 }
 
 Flight Episode::fly() {
@@ -180,12 +185,15 @@ Flight Episode::fly() {
   for (const avoidance::Metric& metric : module_->metrics()) {
     result.metrics.push_back({metric.name, metric.value, metric.unit});
   }
+  constexpr double kBesideStart_m = 1.0;
+  result.scene = scenes::scene_figures(
+      scene_, {scenario_.start.altitude_m - kBesideStart_m, scenario_.start.altitude_m + kBesideStart_m});
   result.checks = evaluate_checks(scenario_, flight, scene_, rotor_radius_m(hull_));
   return flight;
 }
 
 void Episode::measure_proximity() {
-  proximity_ = collision_.query(aircraft_.X_WB(), kSearchRadius_m);
+  proximity_ = collision_.query(aircraft_.X_WB(), kSearchRadius_m, ticks_.t_s(tick_));
   log_.add(ticks_.t_s(tick_), aircraft_.body().p_WB, proximity_);
 }
 
@@ -262,7 +270,7 @@ bool Episode::ended() {
   } else if (proximity_.collided) {
     const bool ground = proximity_.ground_clearance_m <= 0.0;
     const std::string what =
-        ground || !proximity_.nearest_solid ? "the ground" : scene_.solids[*proximity_.nearest_solid].name;
+        ground || !proximity_.nearest_solid ? "the ground" : scenes::solid_at(scene_, *proximity_.nearest_solid).name;
     end(Outcome::collided, fmt::format("hit {} at {:.3f} s", what, ticks_.t_s(tick_)));
   } else if (scenario_.goal && route_.on_last() && *goal_distance_m() <= scenario_.goal->radius_m) {
     end(Outcome::reached);

@@ -33,7 +33,8 @@ Flight fly(const Scenario& scenario, FlightWatcher* watcher = nullptr);
 
 /// What one camera of the rig sees in a flight, drawn as `channel` whatever the rig asks for.
 /// @param role   of the camera; InputError names the rig's roles when it has no such camera.
-/// @param t_s    time of the picture, >= 0; the flight is flown up to it. InputError when it ends before.
+/// @param t_s    time of the picture, >= 0; the flight is flown up to it, and for flow up to the camera's next picture.
+///               InputError when it ends before.
 cv::Mat picture_at(const Scenario& scenario, std::string_view role, Channel channel, double t_s);
 
 }  // namespace hedgehop::sim

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "scenes/figures.h"
+
 /// What a flight leaves behind: the verdict and the two tables. Frames and units as in CONTRIBUTING.md.
 namespace hedgehop::sim {
 
@@ -86,6 +88,7 @@ struct FlightResult {
   std::vector<CheckResult> checks;
   std::string trajectory_hash;  ///< of the true state at every control tick, bit for bit
   std::vector<MetricValue> metrics;
+  scenes::SceneFigures scene;  ///< of what stands at the height of the start, within a metre
 };
 
 struct Flight {

@@ -48,7 +48,7 @@ void FlightLog::set_signals(const std::vector<avoidance::Signal>& signals) {
 void FlightLog::add(double t_s, const Eigen::Vector3d& p_WB_true, const Proximity& proximity) {
   ClosestApproach& obstacle = flight_.result.closest_obstacle;
   if (proximity.obstacle_clearance_m < obstacle.distance_m) {
-    const std::string what = proximity.nearest_solid ? scene_.solids[*proximity.nearest_solid].name : "";
+    const std::string what = proximity.nearest_solid ? scenes::solid_at(scene_, *proximity.nearest_solid).name : "";
     obstacle = {proximity.obstacle_clearance_m, t_s, what, p_WB_true};
   }
   ClosestApproach& ground = flight_.result.closest_ground;

@@ -8,8 +8,8 @@
 
 namespace hedgehop::sim {
 
-/// The places of a flight plan, one after the other: those of the scenario's route, then its goal. Without any, the start
-/// is held.
+/// The places of a flight plan, one after the other: those of the scenario's route, then its goal. Without any, the
+/// start is held.
 class Route {
  public:
   explicit Route(const Scenario& scenario);
@@ -17,8 +17,8 @@ class Route {
   /// Where to fly now.
   const avoidance::Goal& goal() const { return places_[next_].goal; }
   bool on_last() const { return next_ + 1 == places_.size(); }
-  /// Goes on to the next place once the aircraft believes itself within the radius of this one, horizontally; never past
-  /// the last.
+  /// Goes on to the next place once the aircraft believes itself within the radius of this one, horizontally; never
+  /// past the last.
   void update(const Eigen::Vector3d& p_WB_est);
 
  private:

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/solid.h"
+#include "scenes/scene.h"
 
 namespace hedgehop::sim {
 
@@ -15,8 +15,19 @@ struct Footprint {
   double bottom_m = 0.0, top_m = 0.0;         ///< altitudes
 };
 
-/// The outline of each solid on the plan, of any attitude. Precise to a float's rounding of the coordinates.
+/// The outline of each solid on the plan, of any attitude. Precise to a float's rounding of the coordinates; round ones
+/// have 32 corners, a surface that of its convex hull.
 std::vector<Footprint> footprints(const std::vector<scenes::Solid>& solids);
+
+/// The way of a mover seen from above.
+struct MoverWay {
+  std::string name;
+  std::vector<Eigen::Vector2d> corners_NE_m;  ///< of the way of M, in order; one when it stands still
+  double radius_m = 0.0;                      ///< nothing of the mover is farther from M's origin, in the plan
+};
+
+/// Where each mover of a scene goes.
+std::vector<MoverWay> mover_ways(const std::vector<scenes::Mover>& movers);
 
 /// Where a footprint lies for a flight between two altitudes: only what is beside it can be hit sideways.
 enum class Level { below, beside, above };

@@ -41,6 +41,7 @@ ReportScenario describe_scenario(const Scenario& scenario, uint64_t seed, std::s
                         .vehicle = chosen(scenario.vehicle),
                         .yaml = std::move(yaml),
                         .footprints = footprints(scene.solids),
+                        .movers = mover_ways(scene.movers),
                         .bounds_NE_m = scene.bounds_NE_m};
   if (scenario.goal) {
     result.goal = PlanGoal{{scenario.goal->north_m, scenario.goal->east_m}, scenario.goal->radius_m};

@@ -97,6 +97,12 @@ Json plan_json(const ReportScenario& scenario, const Values& down_m) {
                                   {"top", milli(footprint.top_m)},
                                   {"corners", corners}});
   }
+  json["movers"] = Json::array();
+  for (const MoverWay& mover : scenario.movers) {
+    Json way = Json::array();
+    for (const Eigen::Vector2d& p : mover.corners_NE_m) way.push_back({milli(p.x()), milli(p.y())});
+    json["movers"].push_back({{"name", mover.name}, {"radius", milli(mover.radius_m)}, {"way", way}});
+  }
   return json;
 }
 

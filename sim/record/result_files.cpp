@@ -60,6 +60,7 @@ std::string result_json(const RunInfo& info, const FlightResult& result) {
   json["scenario"] = info.scenario;
   json["seed"] = info.seed;
   json["version"] = info.version;
+  json["scenario_file"] = info.scenario_file;
   json["command_line"] = info.command_line;
   json["outcome"] = std::string(to_string(result.outcome));
   json["cause"] = result.cause;
@@ -82,6 +83,11 @@ std::string result_json(const RunInfo& info, const FlightResult& result) {
   json["wall_s"] = number(result.wall_s);
   json["checks"] = checks(result.checks);
   json["trajectory_hash"] = result.trajectory_hash;
+  json["scene"] = Json{{"obstacles", result.scene.solids},
+                       {"least_gap_m", number(result.scene.smallest_gap_m)},
+                       {"median_gap_m", number(result.scene.median_gap_m)},
+                       {"covered_share", number(result.scene.covered_share)},
+                       {"density_per_m2", number(result.scene.density_pm2)}};
   json["metrics"] = Json::object();
   json["metric_units"] = Json::object();
   for (const MetricValue& metric : result.metrics) {

@@ -7,6 +7,9 @@
 
 namespace hedgehop::sim {
 
+/// Nothing nearer than this is drawn, z in C.
+inline constexpr double kNearPlaneM = 0.05;
+
 /// What a camera can see: four side planes and the near plane, no far plane.
 class Frustum {
  public:

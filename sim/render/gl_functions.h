@@ -14,6 +14,7 @@
   X(BUFFERDATA, BufferData)                           \
   X(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus)   \
   X(CLEARBUFFERFV, ClearBufferfv)                     \
+  X(CLEARBUFFERIV, ClearBufferiv)                     \
   X(CLIPCONTROL, ClipControl)                         \
   X(COMPILESHADER, CompileShader)                     \
   X(CREATEPROGRAM, CreateProgram)                     \
@@ -23,6 +24,7 @@
   X(DEPTHFUNC, DepthFunc)                             \
   X(DISABLE, Disable)                                 \
   X(DRAWARRAYS, DrawArrays)                           \
+  X(DRAWELEMENTS, DrawElements)                       \
   X(ENABLE, Enable)                                   \
   X(ENABLEVERTEXATTRIBARRAY, EnableVertexAttribArray) \
   X(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer) \
@@ -49,6 +51,7 @@
   X(TEXIMAGE3D, TexImage3D)                           \
   X(TEXPARAMETERI, TexParameteri)                     \
   X(TEXSUBIMAGE3D, TexSubImage3D)                     \
+  X(UNIFORM1I, Uniform1i)                             \
   X(UNIFORM3FV, Uniform3fv)                           \
   X(UNIFORM4FV, Uniform4fv)                           \
   X(UNIFORMMATRIX3FV, UniformMatrix3fv)               \

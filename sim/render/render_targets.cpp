@@ -15,21 +15,25 @@ struct Format {
   int mat_type;
 };
 
-Format format_of(Channel channel) {
-  switch (channel) {
-    case Channel::grey:
+Format format_of(Raster raster) {
+  switch (raster) {
+    case Raster::grey:
       return {GL_R8, GL_RED, GL_UNSIGNED_BYTE, CV_8UC1};
-    case Channel::color:
+    case Raster::color:
       return {GL_RGBA8, GL_RGB, GL_UNSIGNED_BYTE, CV_8UC3};
-    case Channel::depth:
+    case Raster::depth:
       return {GL_R32F, GL_RED, GL_FLOAT, CV_32FC1};
+    case Raster::planes:
+      return {GL_RGBA32F, GL_RGBA, GL_FLOAT, CV_32FC4};
+    case Raster::labels:
+      return {GL_R32I, GL_RED_INTEGER, GL_INT, CV_32SC1};
   }
-  throw std::invalid_argument("unknown channel");
+  throw std::invalid_argument("unknown raster");
 }
 
 }  // namespace
 
-RenderTargets::Target RenderTargets::make(const GlFunctions& gl, int width_px, int height_px, Channel channel) {
+RenderTargets::Target RenderTargets::make(const GlFunctions& gl, int width_px, int height_px, Raster raster) {
   GLint largest = 0;
   gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
   if (std::max(width_px, height_px) > largest) {
@@ -39,11 +43,11 @@ RenderTargets::Target RenderTargets::make(const GlFunctions& gl, int width_px, i
   std::array<GLuint, 2> buffers{};
   gl.GenRenderbuffers(2, buffers.data());
   gl.BindRenderbuffer(GL_RENDERBUFFER, buffers[0]);
-  gl.RenderbufferStorage(GL_RENDERBUFFER, format_of(channel).storage, width_px, height_px);
+  gl.RenderbufferStorage(GL_RENDERBUFFER, format_of(raster).storage, width_px, height_px);
   gl.BindRenderbuffer(GL_RENDERBUFFER, buffers[1]);
   gl.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width_px, height_px);
 
-  Target target{width_px, height_px, channel, 0};
+  Target target{width_px, height_px, raster, 0};
   gl.GenFramebuffers(1, &target.framebuffer);
   gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
   gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[0]);
@@ -57,12 +61,12 @@ RenderTargets::Target RenderTargets::make(const GlFunctions& gl, int width_px, i
   return target;
 }
 
-void RenderTargets::bind(const GlFunctions& gl, int width_px, int height_px, Channel channel) {
+void RenderTargets::bind(const GlFunctions& gl, int width_px, int height_px, Raster raster) {
   const auto fits = [&](const Target& target) {
-    return target.width_px == width_px && target.height_px == height_px && target.channel == channel;
+    return target.width_px == width_px && target.height_px == height_px && target.raster == raster;
   };
   auto target = std::ranges::find_if(targets_, fits);
-  if (target == targets_.end()) target = targets_.insert(target, make(gl, width_px, height_px, channel));
+  if (target == targets_.end()) target = targets_.insert(target, make(gl, width_px, height_px, raster));
   bound_ = static_cast<size_t>(target - targets_.begin());
   gl.BindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
   gl.Viewport(0, 0, width_px, height_px);
@@ -70,7 +74,7 @@ void RenderTargets::bind(const GlFunctions& gl, int width_px, int height_px, Cha
 
 void RenderTargets::read(const GlFunctions& gl, cv::Mat& out) {
   const Target& target = targets_[bound_];
-  const Format format = format_of(target.channel);
+  const Format format = format_of(target.raster);
   out.create(target.height_px, target.width_px, format.mat_type);
   if (out.step % out.elemSize() != 0) {
     throw std::invalid_argument("the rows of a picture to draw into must be a whole number of pixels apart");

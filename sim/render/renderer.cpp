@@ -1,139 +1,149 @@
 #include "sim/render/renderer.h"
 
-#include <fmt/format.h>
-
-#include <limits>
+#include <algorithm>
+#include <cmath>
+#include <deque>
 #include <stdexcept>
 #include <vector>
 
-#include "sim/render/gl_context.h"
-#include "sim/render/render_targets.h"
-#include "sim/render/scene_buffers.h"
-#include "sim/render/shaders.h"
-#include "sim/render/visible_chunks.h"
+#include "sim/render/lens_faces.h"
+#include "sim/render/scene_painter.h"
+#include "sim/render/true_flow.h"
 
 namespace hedgehop::sim {
 
 namespace {
 
-void check(const CameraView& view) {
-  const vision::PinholeCamera& camera = view.camera;
-  if (camera.width_px < 1 || camera.height_px < 1 || !(camera.focal_x_px > 0.0) || !(camera.focal_y_px > 0.0)) {
-    throw std::invalid_argument(
-        fmt::format("a camera needs pixels and positive focal lengths, got {} x {} px and {}, {} px", camera.width_px,
-                    camera.height_px, camera.focal_x_px, camera.focal_y_px));
+/// What an ideal pinhole's picture is drawn as; flow is made of others.
+Raster raster_of(Channel channel) {
+  switch (channel) {
+    case Channel::grey:
+      return Raster::grey;
+    case Channel::color:
+      return Raster::color;
+    case Channel::depth:
+      return Raster::depth;
+    case Channel::labels:
+      return Raster::labels;
+    case Channel::flow:
+      break;
   }
-  if (!view.X_WC.matrix().allFinite()) throw std::invalid_argument("a camera's pose is not finite");
+  throw std::invalid_argument("unknown channel");
 }
 
-/// Pixel to normalized device coordinates, y not flipped: (scale x, scale y, centre x, centre y).
-Eigen::Vector4f lens(const vision::PinholeCamera& camera) {
-  return Eigen::Vector4d(2.0 * camera.focal_x_px / camera.width_px, 2.0 * camera.focal_y_px / camera.height_px,
-                         (2.0 * camera.center_u_px + 1.0) / camera.width_px - 1.0,
-                         (2.0 * camera.center_v_px + 1.0) / camera.height_px - 1.0)
-      .cast<float>();
+size_t chunk_count(const scenes::Scene& scene) {
+  size_t count = 0;
+  for (const scenes::Mesh& mesh : scene.meshes) count += mesh.chunks.size();
+  return count;
 }
-
-/// The nearest point that floats hold exactly up to 16 km from the origin. Not the nearest float: g++ 12 at -O2 folds
-/// double to float and back into nothing, and p - on_float_grid(p) with it.
-Eigen::Vector3d on_float_grid(const Eigen::Vector3d& p) { return (1024.0 * p).array().round().matrix() / 1024.0; }
-
-Eigen::Vector3f mean_of_channels(const Eigen::Vector3f& color) { return Eigen::Vector3f::Constant(color.mean()); }
 
 }  // namespace
 
 class Renderer::Impl {
  public:
   Impl(const scenes::Scene& scene, Culling culling, ContextKind context)
-      : context_(make_context(context)),
-        culling_(culling),
-        sky_(scene.sky),
-        buffers_(upload(gl_, scene)),
-        visible_(buffers_.chunks, buffers_.tiles),
-        greys_(grey_program(gl_)),
-        colors_(color_program(gl_)),
-        depths_(depth_program(gl_)),
-        skies_(sky_program(gl_)),
-        counts_(buffers_.chunks.size() + buffers_.tiles.size()),
-        offsets_(counts_.size()) {
-    gl_.Enable(GL_CULL_FACE);
-    gl_.Enable(GL_DEPTH_TEST);
-    gl_.FrontFace(GL_CW);  // counter-clockwise in the picture, whose rows run down, is clockwise in OpenGL's window
-    gl_.DepthFunc(GL_GEQUAL);
-    gl_.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    check_gl(gl_, "setting the context up");
+      : painter_(scene, culling, context), first_mover_label_(static_cast<int>(1 + chunk_count(scene))) {
+    for (const scenes::Mover& mover : scene.movers) motions_.push_back(mover.motion);
   }
 
   void draw(const CameraView& view, cv::Mat& out) {
     check(view);
-    context_->make_current();
-    targets_.bind(gl_, view.camera.width_px, view.camera.height_px, view.channel);
-    const float farthest = 0.0f;
-    gl_.ClearBufferfv(GL_DEPTH, 0, &farthest);
-    if (view.channel == Channel::depth) {
-      const Eigen::Vector4f sky_m = Eigen::Vector4f::Constant(std::numeric_limits<float>::infinity());
-      gl_.ClearBufferfv(GL_COLOR, 0, sky_m.data());
-      draw_scene(view, depths_);
+    painter_.start_count();
+    if (view.channel == Channel::flow) {
+      draw_flow(view, out);
     } else {
-      const bool grey = view.channel == Channel::grey;
-      draw_scene(view, grey ? greys_ : colors_);
-      draw_sky(view, grey);
+      draw(view, view.channel, out);
     }
-    targets_.read(gl_, out);
-    check_gl(gl_, "drawing");
+    drawn_ = {painter_.count().stretches, painter_.count().triangles};
   }
 
   const Drawn& drawn() const { return drawn_; }
-
-  std::string info() {
-    context_->make_current();
-    const auto word = [&](GLenum name) { return reinterpret_cast<const char*>(gl_.GetString(name)); };
-    return fmt::format("{}; {}; OpenGL {}", word(GL_VENDOR), word(GL_RENDERER), word(GL_VERSION));
-  }
+  std::string info() { return painter_.info(); }
 
  private:
-  void draw_scene(const CameraView& view, const Program& program) {
-    const Eigen::Vector3d p_WC = view.X_WC.translation();
-    const Eigen::Vector3d eye_W = on_float_grid(p_WC);
-    const Eigen::Vector3f eye_low_C = (view.X_WC.linear().transpose() * (p_WC - eye_W)).cast<float>();
-    const Eigen::Matrix3f R_CW = view.X_WC.linear().transpose().cast<float>();
-    gl_.UseProgram(program.id);
-    gl_.Uniform3fv(program.eye_W, 1, eye_W.cast<float>().eval().data());
-    gl_.Uniform3fv(program.eye_low_C, 1, eye_low_C.data());
-    gl_.UniformMatrix3fv(program.rotation, 1, GL_FALSE, R_CW.data());
-    gl_.Uniform4fv(program.lens, 1, lens(view.camera).data());
+  /// A lens that was planned for, and what its pictures are made in.
+  struct Lens {
+    LensFaces faces;
+    cv::Mat levels, colors, planes, labels;  ///< sheets
+    std::vector<Eigen::Vector3d> rays;       ///< once flow was asked for
+  };
 
-    drawn_ = {};
-    for (const scenes::Chunk& chunk : visible_.find(view, culling_)) {
-      counts_[drawn_.stretches] = static_cast<GLsizei>(chunk.index_count);
-      offsets_[drawn_.stretches] = reinterpret_cast<const void*>(chunk.first_index * sizeof(uint32_t));
-      ++drawn_.stretches;
-      drawn_.triangles += chunk.index_count / 3;
+  void check(const CameraView& view) {
+    if (!view.camera.is_ideal_pinhole() && find_lens(view.camera) != lenses_.end()) return check_pose(view);
+    vision::check(view.camera);
+    check_pose(view);
+  }
+
+  static void check_pose(const CameraView& view) {
+    const bool finite = view.X_WC.matrix().allFinite() && view.next.X_WC.matrix().allFinite();
+    if (!finite) throw std::invalid_argument("a camera's pose is not finite");
+    if (!(view.t_s >= 0.0 && view.next.t_s >= 0.0)) throw std::invalid_argument("a picture's time is below 0 s");
+  }
+
+  void draw(const CameraView& view, Channel channel, cv::Mat& out) {
+    const ScenePainter::Eye eye{view.X_WC, view.t_s};
+    if (view.camera.is_ideal_pinhole()) {
+      painter_.paint(view.camera.pinhole(), eye, raster_of(channel), out);
+      return;
     }
-    gl_.MultiDrawElements(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_INT, offsets_.data(),
-                          static_cast<GLsizei>(drawn_.stretches));
+    Lens& lens = lens_of(view.camera);
+    switch (channel) {
+      case Channel::grey:
+        paint_sheet(lens.faces, eye, Raster::grey, CV_8UC1, lens.levels);
+        return mix_levels(lens.faces, lens.levels, out);
+      case Channel::color:
+        paint_sheet(lens.faces, eye, Raster::color, CV_8UC3, lens.colors);
+        return mix_levels(lens.faces, lens.colors, out);
+      case Channel::depth:
+        paint_sheet(lens.faces, eye, Raster::planes, CV_32FC4, lens.planes);
+        return meet_planes(lens.faces, lens.planes, out);
+      default:
+        paint_sheet(lens.faces, eye, Raster::labels, CV_32SC1, lens.labels);
+        return pick_labels(lens.faces, lens.labels, out);
+    }
   }
 
-  void draw_sky(const CameraView& view, bool grey) {
-    const Eigen::Matrix3f R_WC = view.X_WC.linear().cast<float>();
-    gl_.UseProgram(skies_.id);
-    gl_.UniformMatrix3fv(skies_.rotation, 1, GL_FALSE, R_WC.data());
-    gl_.Uniform4fv(skies_.lens, 1, lens(view.camera).data());
-    gl_.Uniform3fv(skies_.horizon, 1, (grey ? mean_of_channels(sky_.horizon) : sky_.horizon).data());
-    gl_.Uniform3fv(skies_.zenith, 1, (grey ? mean_of_channels(sky_.zenith) : sky_.zenith).data());
-    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  void paint_sheet(const LensFaces& faces, const ScenePainter::Eye& eye, Raster raster, int type, cv::Mat& sheet) {
+    sheet.create(faces.sheet, type);
+    for (const LensFaces::Face& face : faces.faces) {
+      ScenePainter::Eye face_eye = eye;
+      face_eye.X_WC.linear() = eye.X_WC.linear() * face.R_CF;
+      cv::Mat part = sheet(cv::Rect(0, face.first_row, face.camera.width_px, face.camera.height_px));
+      painter_.paint(face.camera, face_eye, raster, part);
+    }
   }
 
-  std::unique_ptr<GlContext> context_;
-  const GlFunctions& gl_ = context_->gl();
-  Culling culling_;
-  scenes::Sky sky_;
-  SceneBuffers buffers_;
-  VisibleChunks visible_;
-  Program greys_, colors_, depths_, skies_;
-  RenderTargets targets_;
-  std::vector<GLsizei> counts_;
-  std::vector<const void*> offsets_;
+  void draw_flow(const CameraView& view, cv::Mat& out) {
+    draw(view, Channel::depth, flow_depth_);
+    draw(view, Channel::labels, flow_labels_);
+    Lens& lens = lens_of(view.camera);
+    if (lens.rays.empty()) lens.rays = all_rays(view.camera);
+    moved_W_m_.clear();
+    for (const scenes::Motion& motion : motions_) {
+      moved_W_m_.push_back(scenes::p_WM(motion, view.next.t_s) - scenes::p_WM(motion, view.t_s));
+    }
+    true_flow(view.camera, lens.rays,
+              {flow_depth_, flow_labels_, view.X_WC, view.next.X_WC, first_mover_label_, moved_W_m_}, out);
+  }
+
+  std::deque<Lens>::iterator find_lens(const vision::Camera& camera) {
+    return std::ranges::find_if(lenses_, [&](const Lens& lens) { return lens.faces.camera == camera; });
+  }
+
+  Lens& lens_of(const vision::Camera& camera) {
+    if (const auto known = find_lens(camera); known != lenses_.end()) return *known;
+    Lens& lens = lenses_.emplace_back();
+    lens.faces.camera = camera;
+    if (!camera.is_ideal_pinhole()) lens.faces = make_lens_faces(camera);
+    return lens;
+  }
+
+  ScenePainter painter_;
+  int first_mover_label_;
+  std::vector<scenes::Motion> motions_;  ///< of the movers
+  std::deque<Lens> lenses_;
+  cv::Mat flow_depth_, flow_labels_;
+  std::vector<Eigen::Vector3d> moved_W_m_;
   Drawn drawn_;
 };
 

@@ -7,34 +7,40 @@
 
 #include "scenes/scene.h"
 #include "sim/render/gl_context.h"
-#include "vision/pinhole_camera.h"
+#include "sim/render/visible_chunks.h"
+#include "vision/camera.h"
 
 namespace hedgehop::sim {
 
-/// What a picture holds.
+/// What a picture holds. Where a lens shows nothing (outside a fisheye's image circle): 0, and NaN in floats.
 enum class Channel {
-  grey,   ///< CV_8UC1, the mean of the colour picture's channels
-  color,  ///< CV_8UC3, RGB
-  depth,  ///< CV_32FC1, z in C, m; +infinity where nothing but sky is seen
+  grey,    ///< CV_8UC1, the mean of the colour picture's channels
+  color,   ///< CV_8UC3, RGB
+  depth,   ///< CV_32FC1, m; z in C of a pinhole, distorted or not, else the distance along the ray, as z says nothing
+           ///< beside the camera and behind; +infinity where nothing but sky is seen
+  labels,  ///< CV_32SC1: 0 sky; 1 + i for chunk i of the scene's meshes, counted through all of them in order; then one
+           ///< for each mover, in order
+  flow,    ///< CV_32FC2: px right and down that what is seen moves until CameraView::next; sky as if infinitely far
 };
 
 /// One picture to be drawn. C: x right, y down, z forward; pixel (0, 0) is the centre of the top-left pixel.
 struct CameraView {
-  vision::PinholeCamera camera;
+  vision::Camera camera;
   Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
   Channel channel = Channel::grey;
+  double t_s = 0.0;  ///< time of the scene, for what moves, >= 0
+  /// Pose and time of the picture that Channel::flow leads to.
+  struct Next {
+    Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
+    double t_s = 0.0;
+  } next;
 };
-
-/// How much of a scene is left out before it is drawn. Pictures do not depend on it, only their cost does (but for a
-/// pixel that looks through a crack of a mesh: it may see something else behind).
-enum class Culling { none, frustum, frustum_and_horizon };
-
-/// Nothing nearer than this is drawn, z in C.
-inline constexpr double kNearPlaneM = 0.05;
 
 /// Draws a scene off screen, without a display (OpenGL 3.3 core). The scene is copied to the context once. Several
 /// renderers may live in one process; each is used by one thread at a time. Row 0 of a texture lies at v = 0. Equal
-/// views give equal pixels whatever their number.
+/// views give equal pixels whatever their number. Lenses that bend rays are drawn as pinhole pictures first
+/// (LensFaces), planned when such a camera comes for the first time; after that no picture of a camera and channel seen
+/// before costs an allocation.
 class Renderer {
  public:
   /// Throws std::invalid_argument when the scene contradicts itself (an index out of range, textures of several sizes),
@@ -46,12 +52,12 @@ class Renderer {
   ~Renderer();
 
   /// Draws a view. @param out  created when its size or type does not fit, otherwise written in place, row 0 on top.
-  /// Throws std::invalid_argument for a camera without pixels or focal length, or a pose that is not finite.
+  /// Throws std::invalid_argument for a camera that vision::check() refuses, or a pose or time that is not finite.
   void draw(const CameraView& view, cv::Mat& out);
 
   /// What the last picture was made of.
   struct Drawn {
-    size_t stretches = 0;  ///< of the index buffer, all drawn by one call
+    size_t stretches = 0;  ///< of the index buffer; those of a face and channel are drawn by one call
     size_t triangles = 0;
   };
   const Drawn& drawn() const;

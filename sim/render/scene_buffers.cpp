@@ -54,6 +54,7 @@ void check(const scenes::Scene& scene) {
             "textures must be CV_8UC3, square, and all of one power-of-two size");
   }
   for (const scenes::Mesh& mesh : scene.meshes) check(mesh, scene.textures.size());
+  for (const scenes::Mover& mover : scene.movers) check(mover.mesh, scene.textures.size());
 }
 
 float brightness(const scenes::Lights& lights, const Eigen::Vector3f& n_W) {
@@ -76,25 +77,40 @@ void cut_into_tiles(const scenes::Chunk& chunk, const std::vector<GpuVertex>& ve
   }
 }
 
-void upload_meshes(const GlFunctions& gl, const scenes::Scene& scene, SceneBuffers& buffers) {
+/// What is to be copied to the context's memory.
+struct Geometry {
   std::vector<GpuVertex> vertices;
   std::vector<uint32_t> indices;
+};
+
+/// Appends a mesh and returns its chunks, counted on in the shared index buffer.
+std::vector<scenes::Chunk> append(const scenes::Mesh& mesh, const scenes::Lights& lights, Geometry& geometry) {
+  const auto first_vertex = static_cast<uint32_t>(geometry.vertices.size());
+  const auto first_index = static_cast<uint32_t>(geometry.indices.size());
+  for (const scenes::Vertex& v : mesh.vertices) {
+    geometry.vertices.push_back({{v.p_W.x(), v.p_W.y(), v.p_W.z()},
+                                 {v.uv.x(), v.uv.y()},
+                                 brightness(lights, v.n_W),
+                                 static_cast<float>(v.texture)});
+  }
+  for (const uint32_t index : mesh.indices) geometry.indices.push_back(first_vertex + index);
+  std::vector<scenes::Chunk> chunks = mesh.chunks;
+  for (scenes::Chunk& chunk : chunks) chunk.first_index += first_index;
+  return chunks;
+}
+
+void upload_meshes(const GlFunctions& gl, const scenes::Scene& scene, SceneBuffers& buffers) {
+  Geometry geometry;
+  const std::vector<GpuVertex>& vertices = geometry.vertices;
+  const std::vector<uint32_t>& indices = geometry.indices;
   for (const scenes::Mesh& mesh : scene.meshes) {
-    const auto first_vertex = static_cast<uint32_t>(vertices.size());
-    const auto first_index = static_cast<uint32_t>(indices.size());
-    for (const scenes::Vertex& v : mesh.vertices) {
-      vertices.push_back({{v.p_W.x(), v.p_W.y(), v.p_W.z()},
-                          {v.uv.x(), v.uv.y()},
-                          brightness(scene.lights, v.n_W),
-                          static_cast<float>(v.texture)});
-    }
-    for (const uint32_t index : mesh.indices) indices.push_back(first_vertex + index);
-    for (scenes::Chunk chunk : mesh.chunks) {
-      chunk.first_index += first_index;
-      if (chunk.index_count == 0) continue;
+    for (const scenes::Chunk& chunk : append(mesh, scene.lights, geometry)) {
       buffers.chunks.push_back(chunk);
       if (lies_flat(chunk)) cut_into_tiles(chunk, vertices, indices, buffers.tiles);
     }
+  }
+  for (const scenes::Mover& mover : scene.movers) {
+    buffers.mover_chunks.push_back(append(mover.mesh, scene.lights, geometry));
   }
 
   std::array<GLuint, 2> names{};

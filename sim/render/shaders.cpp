@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sim/render/renderer.h"
+#include "sim/render/frustum.h"
 
 namespace hedgehop::sim {
 
@@ -47,6 +47,16 @@ void main() { pixel = dot(texture(textures, vec3(coordinates.xy, layer)).rgb, ve
 
 constexpr const char* kDepthFragment = R"(out float z_C;
 void main() { z_C = 1.0 / gl_FragCoord.w; }
+)";
+
+// The window's rows run down, so the derivative along the window's y is the one towards the next row.
+constexpr const char* kPlaneFragment = R"(out vec4 plane;
+void main() { plane = vec4(gl_FragCoord.w, dFdx(gl_FragCoord.w), dFdy(gl_FragCoord.w), 0.0); }
+)";
+
+constexpr const char* kLabelFragment = R"(uniform int label;
+out int pixel;
+void main() { pixel = label; }
 )";
 
 constexpr const char* kSkyVertex = R"(uniform mat3 rotation;
@@ -107,6 +117,7 @@ Program link(const GlFunctions& gl, const char* vertex_source, const char* fragm
   program.lens = gl.GetUniformLocation(program.id, "lens");
   program.horizon = gl.GetUniformLocation(program.id, "horizon");
   program.zenith = gl.GetUniformLocation(program.id, "zenith");
+  program.label = gl.GetUniformLocation(program.id, "label");
   return program;
 }
 
@@ -115,6 +126,8 @@ Program link(const GlFunctions& gl, const char* vertex_source, const char* fragm
 Program color_program(const GlFunctions& gl) { return link(gl, kSceneVertex, kColorFragment); }
 Program grey_program(const GlFunctions& gl) { return link(gl, kSceneVertex, kGreyFragment); }
 Program depth_program(const GlFunctions& gl) { return link(gl, kSceneVertex, kDepthFragment); }
+Program plane_program(const GlFunctions& gl) { return link(gl, kSceneVertex, kPlaneFragment); }
+Program label_program(const GlFunctions& gl) { return link(gl, kSceneVertex, kLabelFragment); }
 Program sky_program(const GlFunctions& gl) { return link(gl, kSkyVertex, kSkyFragment); }
 
 }  // namespace hedgehop::sim

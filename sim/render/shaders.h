@@ -7,7 +7,7 @@ namespace hedgehop::sim {
 /// A linked program and where its per-view uniforms are (-1 where it has none).
 struct Program {
   GLuint id = 0;
-  GLint eye_W = -1, eye_low_C = -1, rotation = -1, lens = -1, horizon = -1, zenith = -1;
+  GLint eye_W = -1, eye_low_C = -1, rotation = -1, lens = -1, horizon = -1, zenith = -1, label = -1;
 };
 
 /// Vertex attributes of all programs but sky_program().
@@ -20,6 +20,10 @@ Program color_program(const GlFunctions& gl);
 Program grey_program(const GlFunctions& gl);
 /// Metric depth: z in C, m.
 Program depth_program(const GlFunctions& gl);
+/// 1 / z in C, 1/m, and how it changes to the next pixel on the right and below: the surface's own plane.
+Program plane_program(const GlFunctions& gl);
+/// One whole number for all that a call draws.
+Program label_program(const GlFunctions& gl);
 /// The sky behind everything: three vertices without attributes.
 Program sky_program(const GlFunctions& gl);
 

@@ -17,11 +17,11 @@ std::vector<Eigen::AlignedBox3f> boxes(const std::vector<scenes::Chunk>& chunks)
 }
 
 /// In W, a pixel outside the picture's outermost.
-std::array<Eigen::Vector3d, 4> corner_rays(const CameraView& view) {
+std::array<Eigen::Vector3d, 4> corner_rays(const vision::PinholeCamera& camera, const Eigen::Isometry3d& X_WC) {
   const auto ray = [&](double u_px, double v_px) -> Eigen::Vector3d {
-    return view.X_WC.linear() * view.camera.ray({u_px, v_px});
+    return X_WC.linear() * camera.ray({u_px, v_px});
   };
-  const double right_px = view.camera.width_px + 0.5, bottom_px = view.camera.height_px + 0.5;
+  const double right_px = camera.width_px + 0.5, bottom_px = camera.height_px + 0.5;
   return {ray(-1.5, -1.5), ray(right_px, -1.5), ray(-1.5, bottom_px), ray(right_px, bottom_px)};
 }
 
@@ -41,17 +41,17 @@ VisibleChunks::VisibleChunks(std::vector<scenes::Chunk> chunks, std::vector<scen
   visible_.reserve(chunks_.size() + tiles_.size());
 }
 
-bool VisibleChunks::shows(const Eigen::AlignedBox3f& box_W, const Frustum& frustum, Culling culling) const {
-  if (culling == Culling::none) return true;
-  return frustum.may_see(box_W) && (culling == Culling::frustum || !horizon_.hides(box_W));
+bool VisibleChunks::shows(const Eigen::AlignedBox3f& box_W) const {
+  if (culling_ == Culling::none) return true;
+  return frustum_->may_see(box_W) && (culling_ == Culling::frustum || !horizon_.hides(box_W));
 }
 
-void VisibleChunks::add_tiles(const scenes::Chunk& flat, const Frustum& frustum, Culling culling) {
+void VisibleChunks::add_tiles(const scenes::Chunk& flat) {
   const auto before = [](const scenes::Chunk& tile, uint32_t index) { return tile.first_index < index; };
   auto tile = std::lower_bound(tiles_.begin(), tiles_.end(), flat.first_index, before);
   uint32_t end = std::numeric_limits<uint32_t>::max();  // of the stretch that the last tile belongs to
   for (; tile != tiles_.end() && tile->first_index < flat.first_index + flat.index_count; ++tile) {
-    if (!shows(tile->box_W, frustum, culling)) continue;
+    if (!shows(tile->box_W)) continue;
     if (tile->first_index == end) {
       visible_.back().index_count += tile->index_count;
     } else {
@@ -61,11 +61,13 @@ void VisibleChunks::add_tiles(const scenes::Chunk& flat, const Frustum& frustum,
   }
 }
 
-std::span<const scenes::Chunk> VisibleChunks::find(const CameraView& view, Culling culling) {
-  const Frustum frustum(view.camera, view.X_WC, kNearPlaneM);
+std::span<const scenes::Chunk> VisibleChunks::find(const vision::PinholeCamera& camera, const Eigen::Isometry3d& X_WC,
+                                                   Culling culling) {
+  const Frustum& frustum = frustum_.emplace(camera, X_WC, kNearPlaneM);
+  culling_ = culling;
   const bool use_horizon = culling == Culling::frustum_and_horizon;
-  horizon_.reset(view.X_WC.translation());
-  horizon_.look(corner_rays(view));
+  horizon_.reset(X_WC.translation());
+  horizon_.look(corner_rays(camera, X_WC));
   queue_.clear();
   flat_.clear();
   visible_.clear();
@@ -89,11 +91,11 @@ std::span<const scenes::Chunk> VisibleChunks::find(const CameraView& view, Culli
     } else if (lies_flat(chunks_[node.chunk])) {
       flat_.push_back(node.chunk);
     } else {
-      visible_.push_back(chunks_[node.chunk]);
+      if (chunks_[node.chunk].index_count > 0) visible_.push_back(chunks_[node.chunk]);
       if (use_horizon && chunks_[node.chunk].fills_box_to_ground) horizon_.raise(node.box_W);
     }
   }
-  for (const uint32_t chunk : flat_) add_tiles(chunks_[chunk], frustum, culling);
+  for (const uint32_t chunk : flat_) add_tiles(chunks_[chunk]);
   return visible_;
 }
 

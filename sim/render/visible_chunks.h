@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -8,12 +9,16 @@
 #include "sim/render/chunk_tree.h"
 #include "sim/render/frustum.h"
 #include "sim/render/horizon.h"
-#include "sim/render/renderer.h"
+#include "vision/pinhole_camera.h"
 
 namespace hedgehop::sim {
 
 /// No higher than a sheet: ground, a ceiling.
 inline bool lies_flat(const scenes::Chunk& chunk) { return chunk.box_W.sizes().z() <= 0.01f; }
+
+/// How much of a scene is left out before it is drawn. Pictures do not depend on it, only their cost does (but for a
+/// pixel that looks through a crack of a mesh: it may see something else behind).
+enum class Culling { none, frustum, frustum_and_horizon };
 
 /// Finds what a view can see of a scene's chunks. Reuses its memory from view to view.
 class VisibleChunks {
@@ -24,7 +29,11 @@ class VisibleChunks {
   /// Stretches of the index buffer to draw, in the order in which they hide each other best: what stands up from near
   /// to far in plan, then what lies flat, tile by tile, which seldom hides anything. What is drawn before what does not
   /// depend on the culling.
-  std::span<const scenes::Chunk> find(const CameraView& view, Culling culling);
+  std::span<const scenes::Chunk> find(const vision::PinholeCamera& camera, const Eigen::Isometry3d& X_WC,
+                                      Culling culling);
+
+  /// Whether the view that was found last can see a box that is none of the chunks.
+  bool shows(const Eigen::AlignedBox3f& box_W) const;
 
  private:
   struct Ranked {
@@ -33,12 +42,13 @@ class VisibleChunks {
   };
   struct Farther;
 
-  bool shows(const Eigen::AlignedBox3f& box_W, const Frustum& frustum, Culling culling) const;
-  void add_tiles(const scenes::Chunk& flat, const Frustum& frustum, Culling culling);
+  void add_tiles(const scenes::Chunk& flat);
 
   std::vector<scenes::Chunk> chunks_, tiles_;
   ChunkTree tree_;
   Horizon horizon_;
+  std::optional<Frustum> frustum_;  ///< of the view found last
+  Culling culling_ = Culling::none;
   std::vector<Ranked> queue_;   ///< heap of nodes, nearest on top
   std::vector<uint32_t> flat_;  ///< chunks
   std::vector<scenes::Chunk> visible_;

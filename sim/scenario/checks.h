@@ -113,7 +113,37 @@ void describe(Visitor& v, FloorVisitedCheck& c) {
   v("at_least", c.at_least, {.above = 0.0, .at_most = 1.0, .meaning = "share of the cells, 0 to 1"});
 }
 
-using CheckConfig = std::variant<ReachedGoalCheck, NoCollisionCheck, MinClearanceCheck, AltitudeBandCheck,
-                                 InsideBoxCheck, MaxSpeedCheck, MaxTiltCheck, MetricCheck, FloorVisitedCheck>;
+struct PathToleranceCheck {
+  static constexpr std::string_view kName = "path_tolerance";
+  static constexpr std::string_view kMeaning = "the path stays near a reference that `hedgehop bless` has written";
+  enum class Measure { band, frechet, dtw };
+  std::string reference;  ///< file; absolute once a scenario is loaded
+  double at_most_m = 0.0;
+  Measure measure = Measure::band;
+};
+template <class Visitor>
+void describe(Visitor& v, PathToleranceCheck& c) {
+  v("reference", c.reference, {.required = true, .meaning = "CSV file of the reference, relative to the scenario"});
+  v("at_most", c.at_most_m, {.unit = "m", .above = 0.0, .required = true, .meaning = "largest deviation"});
+  v("measure", c.measure,
+    {.choices = {"band", "frechet", "dtw"},
+     .meaning = "distance at equal times, or whatever the speed: discrete Frechet distance or mean of dynamic time "
+                "warping"});
+}
+
+struct RealtimeFactorCheck {
+  static constexpr std::string_view kName = "realtime_factor";
+  static constexpr std::string_view kMeaning =
+      "the flight is simulated fast enough; for benchmarks, since it depends on the machine and its load";
+  double at_least = 1.0;
+};
+template <class Visitor>
+void describe(Visitor& v, RealtimeFactorCheck& c) {
+  v("at_least", c.at_least, {.above = 0.0, .required = true, .meaning = "flight time over wall time"});
+}
+
+using CheckConfig =
+    std::variant<ReachedGoalCheck, NoCollisionCheck, MinClearanceCheck, AltitudeBandCheck, InsideBoxCheck,
+                 MaxSpeedCheck, MaxTiltCheck, MetricCheck, FloorVisitedCheck, PathToleranceCheck, RealtimeFactorCheck>;
 
 }  // namespace hedgehop::sim

@@ -24,6 +24,22 @@ Eigen::Vector3d StartConfig::draw_p_WB(uint64_t seed) const {
   return p_WB() + spread_m * Eigen::Vector3d(in_disc.x(), in_disc.y(), 0.0);
 }
 
+namespace {
+
+// Imported files are seen from the folder of the file that names them; from then on their paths are whole, so that the
+// scenario reads back anywhere.
+void find_imports(scenes::SceneConfig& scene, const Node& root) {
+  std::vector<scenes::ImportConfig>& imports = std::visit(
+      [](auto& chosen) -> auto& { return chosen.added.imports; }, scene);
+  for (size_t k = 0; k < imports.size(); ++k) {
+    const Place place = place_of(root, "scene.imports." + std::to_string(k) + ".file");
+    const std::filesystem::path folder = std::filesystem::path(place.file).parent_path();
+    imports[k].file = std::filesystem::absolute(folder / imports[k].file).lexically_normal().string();
+  }
+}
+
+}  // namespace
+
 Scenario load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {
   Faults faults;
   Node root = load_tree(file, faults);
@@ -34,6 +50,12 @@ Scenario load_scenario(const std::filesystem::path& file, std::span<const std::s
   read_struct(root, "", "", scenario, faults);
   faults.raise();
   mount_stereo_pairs(scenario.rig);
+  find_imports(scenario.scene, root);
+  for (CheckConfig& check : scenario.checks) {
+    if (auto* path = std::get_if<PathToleranceCheck>(&check)) {
+      path->reference = std::filesystem::absolute(file.parent_path() / path->reference).lexically_normal().string();
+    }
+  }
   validate(scenario, root, faults);
   faults.raise();
   return scenario;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <exception>
 
+#include "sim/scenario/reference_path.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -69,6 +71,10 @@ class Validator {
 
   void parts() {
     if (!scenario_.route.empty() && !scenario_.goal) add("route", "needs a 'goal' where it ends");
+    build("scene", [&] {
+      scenes::Scene alone;
+      std::visit([&](const auto& chosen) { scenes::add_imports(chosen.added.imports, alone); }, scenario_.scene);
+    });
     const bool flies = build("vehicle", [&] { dynamics::Vehicle(scenario_.vehicle); });
     build("wind", [&] { dynamics::Wind(scenario_.wind, 0); });
     // What is wrong with the vehicle is told once: beside a bad one the avionics are looked at alone.
@@ -110,6 +116,9 @@ class Validator {
     if (check.at_least && check.at_most && *check.at_least > *check.at_most) {
       add(path + ".at_most", "must not be less than 'at_least'");
     }
+  }
+  void check(const std::string& path, const PathToleranceCheck& check) {
+    build(path + ".reference", [&] { read_reference_path(check.reference); });
   }
   template <class Check>
   void check(const std::string&, const Check&) {}

@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <numbers>
+#include <random>
 
 #include "scene_equality.h"
+#include "scenes/bodies.h"
 #include "scenes/generators.h"
 
 namespace hedgehop::scenes {
@@ -37,6 +41,50 @@ TEST(SceneFigures, AnEmptyRoomIsAsWideAsItsWallsAreApart) {
   const SceneFigures figures = scene_figures(make_room(config, 1));
   EXPECT_NEAR(figures.smallest_gap_m, 8.0, 1e-9);
   EXPECT_NEAR(figures.covered_share, 0.0, 1e-9);
+}
+
+// Posts of radius r on a square grid of pitch s: gaps of s - 2 r, one post to s^2, pi r^2 of it covered.
+TEST(SceneFigures, OfAGridOfPostsFollowPitchAndRadius) {
+  const double pitch_m = 4.0, radius_m = 0.3;
+  Scene grid;
+  grid.bounds_NE_m = {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(10 * pitch_m, 10 * pitch_m)};
+  for (int k = 0; k < 100; ++k) {
+    const Post post{{pitch_m * (k % 10 + 0.5), pitch_m * (k / 10 + 0.5), 0.0}, radius_m, 5.0};
+    grid.solids.push_back(solid_of("post", post));
+  }
+  const SceneFigures figures = scene_figures(grid);
+  EXPECT_EQ(figures.solids, 100u);
+  EXPECT_NEAR(figures.smallest_gap_m, pitch_m - 2.0 * radius_m, 1e-9);
+  EXPECT_NEAR(figures.median_gap_m, pitch_m - 2.0 * radius_m, 1e-9);
+  EXPECT_NEAR(figures.density_pm2, 1.0 / (pitch_m * pitch_m), 1e-12);
+  EXPECT_NEAR(figures.covered_share, std::numbers::pi * radius_m * radius_m / (pitch_m * pitch_m), 1e-12);
+  EXPECT_EQ(scene_figures(grid, {.lowest_m = 5.1, .highest_m = 9.0}).solids, 0u);
+  EXPECT_EQ(scene_figures(grid, {.lowest_m = 4.9, .highest_m = 9.0}).solids, 100u);
+}
+
+TEST(SceneFigures, MedianGapIsThatOfAllPairsSorted) {
+  std::mt19937_64 random(2);
+  for (int trial = 0; trial < 20; ++trial) {
+    Scene scene;
+    scene.bounds_NE_m = {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(50.0, 50.0)};
+    for (int k = 0; k < 41; ++k) {
+      scene.solids.push_back(
+          ball_of("ball", {uniform(random, 0.0, 50.0), uniform(random, 0.0, 50.0), -3.0}, uniform(random, 0.1, 3.0)));
+    }
+    std::vector<double> gaps;
+    for (const Solid& a : scene.solids) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const Solid& b : scene.solids) {
+        const double gap =
+            (a.X_WS.translation() - b.X_WS.translation()).norm() - a.half_extents_m.x() - b.half_extents_m.x();
+        if (gap > 1e-6) least = std::min(least, gap);
+      }
+      gaps.push_back(least);
+    }
+    std::sort(gaps.begin(), gaps.end());
+    EXPECT_NEAR(scene_figures(scene).median_gap_m, gaps[20], 1e-9);
+    EXPECT_NEAR(scene_figures(scene).smallest_gap_m, gaps[0], 1e-9);
+  }
 }
 
 TEST(SceneFigures, WithoutSolidsTheGapIsInfinite) {

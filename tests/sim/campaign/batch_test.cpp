@@ -140,10 +140,10 @@ TEST(Batch, FullDiskForItsOwnFilesIsAnErrorThatNamesThem) {
   const CampaignFolder folder;
   const std::string worker = folder.worker("exit 3");
   const CommandEnd end = folder.shell(
-      "trap '' XFSZ; ulimit -f 4; " HEDGEHOP_PROGRAM " batch tiny.yaml --seeds 1:6 --out out --program " + worker);
+      "trap '' XFSZ; ulimit -f 3; " HEDGEHOP_PROGRAM " batch tiny.yaml --seeds 1:9 --out out --program " + worker);
   EXPECT_EQ(end.status, 3);
   EXPECT_THAT(end.err, HasSubstr("cannot write out/batch.json: File too large"));
-  EXPECT_THAT(end.out, HasSubstr("| tiny | 6 | 0 |"));
+  EXPECT_THAT(end.out, HasSubstr("| tiny | 9 | 0 |"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/batch.json"));
 }
 

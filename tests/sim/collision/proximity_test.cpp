@@ -69,7 +69,7 @@ scenes::Scene city(int side, uint64_t seed) {
 
 TEST(Proximity, OfALevelHullToAWall) {
   CollisionWorld world(scene_of({box({13.0, 0.0, -20.0}, {1.0, 30.0, 20.0})}), helicopter());
-  const Proximity found = world.query(pose({5.0, 2.0, -10.0}), 100.0);
+  const Proximity found = world.query(pose({5.0, 2.0, -10.0}), 100.0, 0.0);
   EXPECT_NEAR(found.obstacle_clearance_m, 12.0 - 5.0 - 0.9, kExact_m);  // the rotor reaches farthest
   EXPECT_EQ(found.nearest_solid, 0u);
   EXPECT_NEAR(found.nearest_point_W.x(), 12.0, kExact_m);
@@ -83,7 +83,7 @@ TEST(Proximity, GroundClearanceOfABankedRotorFollowsItsSine) {
   CollisionWorld world(scene_of({}), {{HullPart::Shape::cylinder, {0, 0, 0}, {radius_m, radius_m, half_thickness_m}}});
   for (double bank_rad = -1.5; bank_rad < 1.5; bank_rad += 0.01) {
     const double below_m = radius_m * std::abs(std::sin(bank_rad)) + half_thickness_m * std::cos(bank_rad);
-    const Proximity found = world.query(pose({3.0, 4.0, -height_m}, bank_rad, 0.0, 1.0), 10.0);
+    const Proximity found = world.query(pose({3.0, 4.0, -height_m}, bank_rad, 0.0, 1.0), 10.0, 0.0);
     EXPECT_NEAR(found.ground_clearance_m, height_m - below_m, 1e-12);
     EXPECT_EQ(found.obstacle_clearance_m, kInfinity);
   }
@@ -100,31 +100,31 @@ TEST(Proximity, GroundClearanceOfABoxIsThatOfItsLowestCorner) {
       const Vector3d sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
       lowest_z = std::max(lowest_z, (X_WB * (center_B_m + sign.cwiseProduct(half_extents_m))).z());
     }
-    EXPECT_NEAR(world.query(X_WB, 10.0).ground_clearance_m, -lowest_z, 1e-12);
+    EXPECT_NEAR(world.query(X_WB, 10.0, 0.0).ground_clearance_m, -lowest_z, 1e-12);
   }
 }
 
 TEST(Proximity, TellsAHitFromANearMiss) {
   CollisionWorld world(scene_of({box({13.0, 0.0, -20.0}, {1.0, 30.0, 20.0})}), helicopter());
-  EXPECT_FALSE(world.query(pose({11.0999, 0.0, -10.0}), 100.0).collided);
-  const Proximity hit = world.query(pose({11.1001, 0.0, -10.0}), 100.0);
+  EXPECT_FALSE(world.query(pose({11.0999, 0.0, -10.0}), 100.0, 0.0).collided);
+  const Proximity hit = world.query(pose({11.1001, 0.0, -10.0}), 100.0, 0.0);
   EXPECT_TRUE(hit.collided);
   EXPECT_LE(hit.obstacle_clearance_m, 0.0);
   EXPECT_EQ(hit.nearest_solid, 0u);
-  EXPECT_TRUE(world.query(pose({13.0, 0.0, -10.0}), 100.0).collided);  // deep inside
-  EXPECT_TRUE(world.query(pose({0.0, 0.0, -0.2}), 100.0).collided);    // fuselage in the ground
-  EXPECT_FALSE(world.query(pose({0.0, 0.0, -0.3}), 100.0).collided);
+  EXPECT_TRUE(world.query(pose({13.0, 0.0, -10.0}), 100.0, 0.0).collided);  // deep inside
+  EXPECT_TRUE(world.query(pose({0.0, 0.0, -0.2}), 100.0, 0.0).collided);    // fuselage in the ground
+  EXPECT_FALSE(world.query(pose({0.0, 0.0, -0.3}), 100.0, 0.0).collided);
 }
 
 TEST(Proximity, NothingWithinTheSearchRadiusIsInfinitelyFar) {
   CollisionWorld world(scene_of({box({50.0, 0.0, 0.0}, {1.0, 1.0, 1.0})}, false), helicopter());
-  const Proximity beyond = world.query(pose({0, 0, 0}), 48.0);
+  const Proximity beyond = world.query(pose({0, 0, 0}), 48.0, 0.0);
   EXPECT_EQ(beyond.obstacle_clearance_m, kInfinity);
   EXPECT_EQ(beyond.ground_clearance_m, kInfinity);
   EXPECT_FALSE(beyond.nearest_solid.has_value());
   EXPECT_FALSE(beyond.collided);
-  EXPECT_NEAR(world.query(pose({0, 0, 0}), 48.2).obstacle_clearance_m, 48.1, kExact_m);
-  EXPECT_EQ(world.query(pose({0, 0, 0}), 48.0).obstacle_clearance_m, kInfinity);  // though now it is remembered
+  EXPECT_NEAR(world.query(pose({0, 0, 0}), 48.2, 0.0).obstacle_clearance_m, 48.1, kExact_m);
+  EXPECT_EQ(world.query(pose({0, 0, 0}), 48.0, 0.0).obstacle_clearance_m, kInfinity);  // though now it is remembered
 }
 
 TEST(Proximity, AmongTenThousandSolidsIsTheNearestOfAll) {
@@ -136,13 +136,13 @@ TEST(Proximity, AmongTenThousandSolidsIsTheNearestOfAll) {
     double nearest_m = kInfinity;
     for (const scenes::Solid& solid : scene.solids) {
       CollisionWorld alone(scene_of({solid}), helicopter());
-      nearest_m = std::min(nearest_m, alone.query(X_WB, kInfinity).obstacle_clearance_m);
+      nearest_m = std::min(nearest_m, alone.query(X_WB, kInfinity, 0.0).obstacle_clearance_m);
     }
-    const Proximity found = world.query(X_WB, kInfinity);
+    const Proximity found = world.query(X_WB, kInfinity, 0.0);
     EXPECT_EQ(found.obstacle_clearance_m, nearest_m);
     ASSERT_TRUE(found.nearest_solid.has_value());
     CollisionWorld named(scene_of({scene.solids[*found.nearest_solid]}), helicopter());
-    EXPECT_EQ(named.query(X_WB, kInfinity).obstacle_clearance_m, nearest_m);
+    EXPECT_EQ(named.query(X_WB, kInfinity, 0.0).obstacle_clearance_m, nearest_m);
   }
 }
 
@@ -153,7 +153,7 @@ TEST(Proximity, DoesNotDependOnEarlierQueries) {
   for (int i = 0; i < 300; ++i) {
     const Isometry3d X_WB = poses({300, 300, -15}, {350, 350, 15});
     CollisionWorld fresh(scene, helicopter());
-    const Proximity a = travelled.query(X_WB, 60.0), b = fresh.query(X_WB, 60.0);
+    const Proximity a = travelled.query(X_WB, 60.0, 0.0), b = fresh.query(X_WB, 60.0, 0.0);
     EXPECT_EQ(a.obstacle_clearance_m, b.obstacle_clearance_m);
     EXPECT_EQ(a.nearest_solid, b.nearest_solid);
     EXPECT_EQ(a.nearest_point_W, b.nearest_point_W);
@@ -165,8 +165,8 @@ TEST(Proximity, OfEquallyNearSolidsNamesTheFirst) {
   const std::vector<HullPart> ball{{HullPart::Shape::box, {0, 0, 0}, {1, 1, 1}}};
   CollisionWorld world(
       scene_of({box({0, 9, 0}, {1, 1, 1}), box({5, 0, 0}, {1, 1, 1}), box({-5, 0, 0}, {1, 1, 1})}, false), ball);
-  EXPECT_EQ(world.query(pose({-1, 0, 0}), 20.0).nearest_solid, 2u);
-  EXPECT_EQ(world.query(pose({0, 0, 0}), 20.0).nearest_solid, 1u);
+  EXPECT_EQ(world.query(pose({-1, 0, 0}), 20.0, 0.0).nearest_solid, 2u);
+  EXPECT_EQ(world.query(pose({0, 0, 0}), 20.0, 0.0).nearest_solid, 1u);
 }
 
 // Moving scene and vehicle together changes nothing, be it by a kilometre and a half.
@@ -182,7 +182,7 @@ TEST(Proximity, IsInvariantUnderRigidMotionAndFarFromTheOrigin) {
   int apart = 0;
   for (int i = 0; i < 2000; ++i) {
     const Isometry3d X_WB = poses({60, 60, -20}, {80, 80, 20});
-    const Proximity a = world_here.query(X_WB, 100.0), b = world_there.query(X_there * X_WB, 100.0);
+    const Proximity a = world_here.query(X_WB, 100.0, 0.0), b = world_there.query(X_there * X_WB, 100.0, 0.0);
     ASSERT_EQ(a.collided, b.collided);
     if (a.collided) continue;
     ++apart;
@@ -194,12 +194,13 @@ TEST(Proximity, IsInvariantUnderRigidMotionAndFarFromTheOrigin) {
 TEST(HeightAboveSurface, IsMeasuredToTheHighestRoofBelow) {
   const CollisionWorld world(
       scene_of({box({0, 0, -10}, {5, 5, 10}), box({0, 0, -22}, {2, 2, 2}), box({0, 0, -60}, {5, 5, 1})}), helicopter());
-  EXPECT_NEAR(world.height_above_surface({20, 0, -30}), 30.0, 1e-12);  // ground
-  EXPECT_NEAR(world.height_above_surface({4, 0, -30}), 10.0, 1e-12);   // roof at 20 m
-  EXPECT_NEAR(world.height_above_surface({1, 1, -30}), 6.0, 1e-12);    // penthouse at 24 m, the slab at 59 m is above
-  EXPECT_NEAR(world.height_above_surface({1, 1, -70}), 9.0, 1e-12);    // the slab's top at 61 m
-  EXPECT_EQ(world.height_above_surface({1, 1, -15}), 0.0);             // inside
-  EXPECT_EQ(world.height_above_surface({20, 0, 1}), 0.0);              // under the ground
+  EXPECT_NEAR(world.height_above_surface({20, 0, -30}, 0.0), 30.0, 1e-12);  // ground
+  EXPECT_NEAR(world.height_above_surface({4, 0, -30}, 0.0), 10.0, 1e-12);   // roof at 20 m
+  EXPECT_NEAR(world.height_above_surface({1, 1, -30}, 0.0), 6.0,
+              1e-12);  // penthouse at 24 m, the slab at 59 m is above
+  EXPECT_NEAR(world.height_above_surface({1, 1, -70}, 0.0), 9.0, 1e-12);  // the slab's top at 61 m
+  EXPECT_EQ(world.height_above_surface({1, 1, -15}, 0.0), 0.0);           // inside
+  EXPECT_EQ(world.height_above_surface({20, 0, 1}, 0.0), 0.0);            // under the ground
 }
 
 TEST(HeightAboveSurface, OverATiltedRoofFollowsItsSlope) {
@@ -209,15 +210,15 @@ TEST(HeightAboveSurface, OverATiltedRoofFollowsItsSlope) {
   const CollisionWorld world(scene_of({roof}), helicopter());
   for (double north_m = 93.0; north_m < 107.0; north_m += 0.5) {
     const double roof_z = -20.0 - 1.0 / std::cos(slope_rad) - (north_m - 100.0) * std::tan(slope_rad);
-    EXPECT_NEAR(world.height_above_surface({north_m, 1.0, -50.0}), 50.0 + roof_z, 1e-9);
+    EXPECT_NEAR(world.height_above_surface({north_m, 1.0, -50.0}, 0.0), 50.0 + roof_z, 1e-9);
   }
 }
 
 TEST(HeightAboveSurface, WithoutGroundOrRoofIsInfinite) {
   const CollisionWorld world(scene_of({box({0, 0, 0}, {1, 1, 1})}, false), helicopter());
-  EXPECT_EQ(world.height_above_surface({5, 0, -10}), kInfinity);
-  EXPECT_EQ(world.height_above_surface({0, 0, 10}), kInfinity);
-  EXPECT_NEAR(world.height_above_surface({0, 0, -10}), 9.0, 1e-12);
+  EXPECT_EQ(world.height_above_surface({5, 0, -10}, 0.0), kInfinity);
+  EXPECT_EQ(world.height_above_surface({0, 0, 10}, 0.0), kInfinity);
+  EXPECT_NEAR(world.height_above_surface({0, 0, -10}, 0.0), 9.0, 1e-12);
 }
 
 TEST(CollisionWorld, RefusesBodiesThatAreNone) {

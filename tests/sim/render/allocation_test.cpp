@@ -26,16 +26,22 @@ std::atomic<size_t> allocations = 0;
 namespace hedgehop::sim {
 namespace {
 
-TEST(Renderer, AllocatesNothingForAPictureOfASizeSeenBefore) {
+TEST(Renderer, AllocatesNothingForAPictureOfACameraSeenBefore) {
   const SmallWorld city = small_city(8, 91);
   Renderer renderer(city.scene);
-  const auto camera = vision::PinholeCamera::from_fov(120, 90, 1.2);
-  std::array<cv::Mat, 3> pictures;
+  vision::PinholeLens bent{90, 90, 60, 45};
+  bent.k1 = -0.1;
+  const std::array<vision::Camera, 3> cameras = {vision::PinholeCamera::from_fov(120, 90, 1.2),
+                                                 vision::Camera(120, 90, bent),
+                                                 vision::Camera(120, 90, vision::FisheyeLens{35, 35, 60, 45})};
+  constexpr size_t kChannels = 5;
+  std::array<cv::Mat, kChannels> pictures;
   const auto draw_some = [&](uint64_t seed) {
     std::mt19937_64 random(seed);
-    for (size_t i = 0; i < 60; ++i) {
-      const CameraView view{camera, random_pose(random, 150.0, 60.0, 0.7), static_cast<Channel>(i % 3)};
-      renderer.draw(view, pictures[i % 3]);
+    for (size_t i = 0; i < 90; ++i) {
+      const size_t channel = i % kChannels;
+      const CameraView view{cameras[i % 3], random_pose(random, 150.0, 60.0, 0.7), static_cast<Channel>(channel)};
+      renderer.draw(view, pictures[channel]);
     }
   };
   draw_some(92);  // Mesa translates the shaders, too

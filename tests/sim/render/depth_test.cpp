@@ -4,61 +4,14 @@
 #include <limits>
 #include <optional>
 
+#include "tests/sim/render/ray_caster.h"
 #include "tests/sim/render/small_world.h"
 
 namespace hedgehop::sim {
 namespace {
 
 constexpr double kRelative = 1e-4;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// What a ray meets first: distance in multiples of the ray, and which face of what (an odd number for each).
-struct Hit {
-  double along = kInfinity;
-  int face = -1;
-};
-
-/// Boxes and the plane z = 0, met analytically (slabs), seen from outside.
-struct RayCaster {
-  std::vector<Eigen::AlignedBox3d> boxes_W;
-  double ground_half_m = 0.0;
-
-  Hit operator()(const Eigen::Vector3d& eye_W, const Eigen::Vector3d& ray_W) const {
-    Hit hit;
-    const double ground = -eye_W.z() / ray_W.z();
-    const Eigen::Vector3d p_W = eye_W + ground * ray_W;
-    if (ray_W.z() > 0.0 && ground > 0.0 && p_W.head<2>().cwiseAbs().maxCoeff() <= ground_half_m) hit = {ground, 0};
-    for (size_t i = 0; i < boxes_W.size(); ++i) {
-      double in = -kInfinity, out = kInfinity;
-      int axis_in = 0;
-      for (int axis = 0; axis < 3; ++axis) {
-        double a = (boxes_W[i].min()[axis] - eye_W[axis]) / ray_W[axis];
-        double b = (boxes_W[i].max()[axis] - eye_W[axis]) / ray_W[axis];
-        if (a > b) std::swap(a, b);
-        if (a > in) axis_in = axis;
-        in = std::max(in, a);
-        out = std::min(out, b);
-      }
-      if (in < out && in > 0.0 && in < hit.along) hit = {in, 1 + 3 * static_cast<int>(i) + axis_in};
-    }
-    return hit;
-  }
-};
-
-/// The hit of a pixel, or nothing near an edge, where the rasteriser may fairly choose either side.
-std::optional<Hit> clear_hit(const RayCaster& cast, const CameraView& view, int col, int row) {
-  const auto at = [&](double du, double dv) {
-    return cast(view.X_WC.translation(), view.X_WC.linear() * view.camera.ray({col + du, row + dv}));
-  };
-  const Hit center = at(0, 0);
-  constexpr double kEdgePx = 0.02;
-  for (const double du : {-kEdgePx, kEdgePx}) {
-    for (const double dv : {-kEdgePx, kEdgePx}) {
-      if (at(du, dv).face != center.face) return std::nullopt;
-    }
-  }
-  return center;
-}
+constexpr double kEdgePx = 0.02;
 
 TEST(Depth, EqualsRaysMetByBoxesAndGround) {
   std::mt19937_64 random(21);
@@ -84,15 +37,16 @@ TEST(Depth, EqualsRaysMetByBoxesAndGround) {
     renderer.draw(view, depth);
     for (int row = 0; row < depth.rows; ++row) {
       for (int col = 0; col < depth.cols; ++col) {
-        const std::optional<Hit> hit = clear_hit(cast, view, col, row);
+        const std::optional<Hit> hit = clear_hit(cast, view, col, row, kEdgePx);
         if (!hit) continue;
         const auto z_m = static_cast<double>(depth.at<float>(row, col));
         ++compared;
         if (hit->face < 0) {
-          ASSERT_EQ(z_m, kInfinity) << "trial " << trial << ", pixel " << col << ", " << row;
+          ASSERT_EQ(z_m, std::numeric_limits<double>::infinity())
+              << "trial " << trial << ", pixel " << col << ", " << row;
         } else {
           ++surfaces;
-          ASSERT_NEAR(z_m / hit->along, 1.0, kRelative) << "trial " << trial << ", pixel " << col << ", " << row;
+          ASSERT_NEAR(z_m / hit->z_m, 1.0, kRelative) << "trial " << trial << ", pixel " << col << ", " << row;
         }
       }
     }

@@ -123,6 +123,7 @@ class PlanView {
     c.rect(x, y, width, height);
     c.clip();
     this.drawSolids(c);
+    this.drawMovers(c);
     this.drawGoal(c);
     this.drawPath(c);
     this.drawMarks(c);
@@ -191,6 +192,26 @@ class PlanView {
         c.fill();
         c.stroke();
       }
+    }
+  }
+
+  /** The ways of movers: as wide as they are, their middle dashed. */
+  drawMovers(c) {
+    for (const {way, radius} of this.plan.movers) {
+      const trace = () => {
+        c.beginPath();
+        for (const [n, e] of way) c.lineTo(this.x(e), this.y(n));
+        if (way.length === 1) c.lineTo(this.x(way[0][1]) + 0.01, this.y(way[0][0]));
+        c.stroke();
+      };
+      c.strokeStyle = themeColor('low');
+      c.lineWidth = Math.max(2, 2 * radius * this.scale);
+      trace();
+      c.strokeStyle = themeColor('solid-edge');
+      c.lineWidth = 1;
+      c.setLineDash([6, 4]);
+      trace();
+      c.setLineDash([]);
     }
   }
 

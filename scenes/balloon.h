@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "scenes/additions.h"
+
+namespace hedgehop::scenes {
+
+/// A meadow with a line of posts, and a balloon on a pole that is carried towards the origin along them, then sideways.
+struct BalloonConfig {
+  static constexpr std::string_view kName = "balloon";
+  static constexpr std::string_view kMeaning = "a balloon on a pole that moves along a line, on a meadow";
+
+  double radius_m = 0.5;
+  double height_m = 6.1;  ///< 20 ft
+  Motion motion = WaypointMotion{.points = {{15.25, -1.5, 0.0}, {3.05, -1.5, 0.0}, {3.05, 1.5, 0.0}},
+                                 .speed_mps = 0.7,
+                                 .repeat = WaypointMotion::Repeat::once,
+                                 .start_s = 5.0};
+  int64_t markers = 5;
+  double marker_spacing_m = 3.05;  ///< 10 ft
+  int64_t texture_size_px = 512;
+  Additions added;
+};
+
+template <class Visitor>
+void describe(Visitor& v, BalloonConfig& c) {
+  v("radius", c.radius_m, {.unit = "m", .above = 0.0, .at_most = 10.0, .meaning = "of the balloon"});
+  v("height", c.height_m, {.unit = "m", .above = 0.0, .at_most = 100.0, .meaning = "of the balloon's centre"});
+  v("motion", c.motion, {.meaning = "how the pole's foot travels"});
+  v("markers", c.markers, {.at_least = 0.0, .at_most = 100.0, .meaning = "posts in a row north of the origin"});
+  v("marker_spacing", c.marker_spacing_m, {.unit = "m", .above = 0.0, .meaning = "from post to post"});
+  v("texture_size", c.texture_size_px,
+    {.unit = "px",
+     .at_least = 64.0,
+     .at_most = 2048.0,
+     .meaning = "side of the pictures on the surfaces, a power of two"});
+  describe(v, c.added);
+}
+
+/// Returns the meadow with its balloon, a function of its arguments alone.
+/// @throws std::invalid_argument naming the field, its value and what is valid.
+Scene make_balloon(const BalloonConfig& config, uint64_t seed);
+
+}  // namespace hedgehop::scenes

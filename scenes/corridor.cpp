@@ -1,0 +1,187 @@
+#include "scenes/corridor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scenes/ground.h"
+#include "scenes/require.h"
+#include "scenes/room_textures.h"
+#include "scenes/stone_textures.h"
+
+namespace hedgehop::scenes {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr uint64_t kPictureStream = 0, kOffsetStream = 1;  // of the scene's seed
+
+constexpr double kThickness_m = 0.2;  // of walls and ceiling
+constexpr double kPillarLength_m = 0.6;
+constexpr int kWalls = 3;  // pictures
+constexpr uint32_t kFloor = kWalls, kCeiling = kWalls + 1;
+
+void validate(const CorridorConfig& c) {
+  require(c.width_m >= 0.5 && c.width_m <= 100.0, "width", c.width_m, "0.5 to 100 m");
+  require(c.height_m >= 1.0 && c.height_m <= 100.0, "height", c.height_m, "1 to 100 m");
+  require(c.door_height_m >= 0.5 && c.door_height_m <= c.height_m, "door_height", c.door_height_m,
+          "0.5 m to the height");
+  require(c.texture >= 0.0 && c.texture <= 1.0, "texture", c.texture, "0 to 1");
+  require(!c.sections.empty(), "sections", 0.0, "at least one");
+  double width_m = c.width_m;
+  for (const CorridorSection& s : c.sections) {
+    require(s.length_m >= 1.0 && s.length_m <= 1000.0, "sections.length", s.length_m, "1 to 1000 m");
+    require(std::abs(s.bend_rad) <= std::numbers::pi / 3, "sections.bend", s.bend_rad, "-pi/3 to pi/3 rad");
+    const double end_m = s.width_m > 0.0 ? s.width_m : width_m;
+    require(end_m >= 0.5 && end_m <= 100.0, "sections.width", end_m, "0.5 to 100 m, or 0");
+    const double half_way_m = 0.5 * (width_m + end_m);
+    require(s.doorway_m == 0.0 || (s.doorway_m >= 0.3 && s.doorway_m < half_way_m), "sections.doorway", s.doorway_m,
+            "0, or 0.3 m to the corridor's width");
+    require(std::abs(s.obstacle_m) < half_way_m, "sections.obstacle", s.obstacle_m, "less than the corridor's width");
+    width_m = end_m;
+  }
+  require_texture_size(static_cast<double>(c.texture_size_px));
+}
+
+Vector2d to_the_right(const Vector2d& along_NE) { return {-along_NE.y(), along_NE.x()}; }
+
+// A frame S on the floor: x along a direction of the plan, y to the right of it, z down.
+Eigen::Isometry3d floor_frame(const Vector2d& origin_NE, const Vector2d& along_NE) {
+  Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();
+  const Vector2d right = to_the_right(along_NE);
+  X_WS.linear().col(0) = Vector3d(along_NE.x(), along_NE.y(), 0.0);
+  X_WS.linear().col(1) = Vector3d(right.x(), right.y(), 0.0);
+  X_WS.translation() = Vector3d(origin_NE.x(), origin_NE.y(), 0.0);
+  return X_WS;
+}
+
+// Adds boxes to a mesh and to the solids, each a chunk with a picture of its own.
+class Mason {
+ public:
+  Mason(uint64_t seed, Scene& scene, MeshBuilder& mesh) : random_(seed), scene_(scene), mesh_(mesh) {}
+
+  void build(const std::string& name, const Eigen::AlignedBox3d& box_S, const Eigen::Isometry3d& X_WS) {
+    const Vector2d offset(uniform(random_, 0.0, 1.0), 0.0);
+    mesh_.begin_chunk(false);
+    add_box(box_S, X_WS, {static_cast<uint32_t>(uniform_index(random_, kWalls)), kWallTile_m, offset}, mesh_);
+    Solid solid = solid_of(name, box_S);
+    solid.X_WS = X_WS * solid.X_WS;
+    scene_.solids.push_back(solid);
+  }
+
+  /// A wall from one point of the plan to another, all of it on their left side.
+  void build_wall(const std::string& name, const Vector2d& from_NE, const Vector2d& to_NE, double height_m) {
+    const Vector2d way = to_NE - from_NE;
+    build(name, {Vector3d(0.0, -kThickness_m, -height_m), Vector3d(way.norm(), 0.0, 0.0)},
+          floor_frame(from_NE, way.normalized()));
+  }
+
+ private:
+  Random random_;
+  Scene& scene_;
+  MeshBuilder& mesh_;
+};
+
+// What stands in a section, seen from its middle: x along it, y to the right.
+void furnish(const CorridorConfig& c, const CorridorSection& section, const Eigen::Isometry3d& X_WS, double width_m,
+             Mason& mason) {
+  const double half_m = 0.5 * width_m, thin_m = 0.5 * kThickness_m, outer_m = half_m + thin_m;
+  if (section.doorway_m > 0.0) {
+    const double jamb_m = 0.5 * section.doorway_m;
+    mason.build("doorway", {Vector3d(-thin_m, -outer_m, -c.height_m), Vector3d(thin_m, -jamb_m, 0.0)}, X_WS);
+    mason.build("doorway", {Vector3d(-thin_m, jamb_m, -c.height_m), Vector3d(thin_m, outer_m, 0.0)}, X_WS);
+    if (c.door_height_m < c.height_m) {
+      mason.build("lintel", {Vector3d(-thin_m, -jamb_m, -c.height_m), Vector3d(thin_m, jamb_m, -c.door_height_m)},
+                  X_WS);
+    }
+  }
+  if (section.obstacle_m != 0.0) {
+    const double inner_m = half_m - std::abs(section.obstacle_m), side = section.obstacle_m > 0.0 ? 1.0 : -1.0;
+    const double one_m = side * inner_m, other_m = side * outer_m, long_m = 0.5 * kPillarLength_m;
+    mason.build(
+        "pillar",
+        {Vector3d(-long_m, std::min(one_m, other_m), -c.height_m), Vector3d(long_m, std::max(one_m, other_m), 0.0)},
+        X_WS);
+  }
+}
+
+std::vector<cv::Mat> paint_corridor(const CorridorConfig& c, uint64_t seed) {
+  const int size_px = static_cast<int>(c.texture_size_px);
+  std::vector<cv::Mat> pictures = {paint_brick_wall(size_px, derived_seed(seed, 0)),
+                                   paint_room_walls(WallPaper::plaster, size_px, 1, derived_seed(seed, 1)).front(),
+                                   paint_room_walls(WallPaper::damask, size_px, 1, derived_seed(seed, 2)).front()};
+  pictures.push_back(paint_parquet(size_px, derived_seed(seed, 3)));
+  pictures.push_back(paint_ceiling(size_px, derived_seed(seed, 4)));
+  for (cv::Mat& picture : pictures) picture = faded(picture, c.texture);
+  return pictures;
+}
+
+}  // namespace
+
+CorridorPlan plan_corridor(const CorridorConfig& config) {
+  validate(config);
+  CorridorPlan plan;
+  const auto add_edges = [&](const Vector2d& middle, const Vector2d& before, const Vector2d& after, double width_m) {
+    // Across the bend; as long as it takes for both sections to be `width_m` wide there.
+    const Vector2d across = (to_the_right(before) + to_the_right(after)).normalized();
+    const Vector2d half = 0.5 * width_m / across.dot(to_the_right(after)) * across;
+    plan.middles_NE.push_back(middle);
+    plan.lefts_NE.push_back(middle - half);
+    plan.rights_NE.push_back(middle + half);
+  };
+  Vector2d middle = Vector2d::Zero(), along = Vector2d::UnitX();
+  double heading_rad = 0.0, width_m = config.width_m;
+  for (const CorridorSection& section : config.sections) {
+    heading_rad += section.bend_rad;
+    const Vector2d next(std::cos(heading_rad), std::sin(heading_rad));
+    add_edges(middle, plan.middles_NE.empty() ? next : along, next, width_m);
+    along = next;
+    middle += section.length_m * along;
+    if (section.width_m > 0.0) width_m = section.width_m;
+  }
+  add_edges(middle, along, along, width_m);
+  return plan;
+}
+
+Scene make_corridor(const CorridorConfig& config, uint64_t seed) {
+  const CorridorPlan plan = plan_corridor(config);
+  Scene scene;
+  scene.name = "corridor";
+  scene.lights.ambient = 0.70f;
+  scene.lights.sun = 0.30f;
+  scene.textures = paint_corridor(config, derived_seed(seed, kPictureStream));
+  for (size_t k = 0; k < plan.lefts_NE.size(); ++k) {
+    scene.bounds_NE_m.extend(plan.lefts_NE[k]);
+    scene.bounds_NE_m.extend(plan.rights_NE[k]);
+  }
+
+  MeshBuilder mesh("opaque");
+  const double reach_m = scene.bounds_NE_m.min().cwiseAbs().cwiseMax(scene.bounds_NE_m.max().cwiseAbs()).maxCoeff();
+  add_ground(reach_m, {kFloor, kRoomTile_m}, mesh);
+  Mason mason(derived_seed(seed, kOffsetStream), scene, mesh);
+  for (size_t k = 0; k < config.sections.size(); ++k) {
+    mason.build_wall("left wall", plan.lefts_NE[k], plan.lefts_NE[k + 1], config.height_m);
+    mason.build_wall("right wall", plan.rights_NE[k + 1], plan.rights_NE[k], config.height_m);
+    const Vector2d from = plan.middles_NE[k], to = plan.middles_NE[k + 1], along = (to - from).normalized();
+    const double width_m = 0.5 * ((plan.rights_NE[k] - plan.lefts_NE[k]).dot(to_the_right(along)) +
+                                  (plan.rights_NE[k + 1] - plan.lefts_NE[k + 1]).dot(to_the_right(along)));
+    furnish(config, config.sections[k], floor_frame(0.5 * (from + to), along), width_m, mason);
+  }
+  mason.build_wall("end wall", plan.rights_NE.front(), plan.lefts_NE.front(), config.height_m);
+  mason.build_wall("end wall", plan.lefts_NE.back(), plan.rights_NE.back(), config.height_m);
+
+  if (config.ceiling) {
+    const Vector2d low = scene.bounds_NE_m.min().array() - kThickness_m,
+                   high = scene.bounds_NE_m.max().array() + kThickness_m;
+    const Eigen::AlignedBox3d ceiling_W(Vector3d(low.x(), low.y(), -config.height_m - kThickness_m),
+                                        Vector3d(high.x(), high.y(), -config.height_m));
+    mesh.begin_chunk(false);
+    add_box(ceiling_W, Eigen::Isometry3d::Identity(), {kCeiling, kRoomTile_m}, mesh);
+    scene.solids.push_back(solid_of("ceiling", ceiling_W));
+  }
+  scene.meshes.push_back(mesh.finish());
+  return scene;
+}
+
+}  // namespace hedgehop::scenes

@@ -1,0 +1,156 @@
+#include "scenes/forest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "scenes/ground.h"
+#include "scenes/plant_textures.h"
+#include "scenes/require.h"
+#include "scenes/street_textures.h"
+#include "scenes/tree_mesh.h"
+
+namespace hedgehop::scenes {
+namespace {
+
+// Streams of the scene's seed.
+constexpr uint64_t kPlaceStream = 0;
+constexpr uint64_t kPictureStream = 1;
+constexpr uint64_t kLumpStream = 2;
+constexpr uint64_t kTreeStream = 3;
+
+constexpr int kLumps = 12, kLumpCorners = 26;  // some 46 triangles a crown: what is far must be cheap
+
+void require_range(const char* field, double low, double high, double least, double most) {
+  require(low >= least && low <= high && high <= most, field, low, "from the bound of its key to max_...");
+}
+
+void validate(const ForestConfig& c) {
+  require(c.trees >= 1 && c.trees <= 10000, "trees", static_cast<double>(c.trees), "1 to 10000");
+  require(c.spacing_m >= 0.5 && c.spacing_m <= 100.0, "spacing", c.spacing_m, "0.5 to 100 m");
+  require_range("min_height", c.min_height_m, c.max_height_m, 1.0, 100.0);
+  require_range("min_crown_diameter", c.min_crown_diameter_m, c.max_crown_diameter_m, 0.2, 50.0);
+  require_range("min_trunk_diameter", c.min_trunk_diameter_m, c.max_trunk_diameter_m, 1e-3, c.min_crown_diameter_m);
+  require(c.clear_height_m >= 0.0 && c.clear_height_m < c.min_height_m, "clear_height", c.clear_height_m,
+          "at least 0 m and less than min_height");
+  require_clearings(c.keep_clear);
+  require_texture_size(static_cast<double>(c.texture_size_px));
+}
+
+struct Place {
+  Eigen::Vector2d p_NE;
+  double crown_radius_m;
+};
+
+// The places so far by the cells of a grid, each too small for two.
+class PlaceGrid {
+ public:
+  PlaceGrid(double extent_m, double spacing_m)
+      : half_m_(0.5 * extent_m),
+        spacing_m_(spacing_m),
+        cell_m_(spacing_m / std::sqrt(2.0)),
+        side_(static_cast<int>(std::ceil(extent_m / cell_m_))),
+        cells_(static_cast<size_t>(side_) * static_cast<size_t>(side_), -1) {}
+
+  /// Takes a place unless another is nearer than the spacing.
+  bool take(const Eigen::Vector2d& p_NE, std::vector<Place>& places, double crown_radius_m) {
+    const Eigen::Array2i at = ((p_NE.array() + half_m_) / cell_m_).cast<int>().min(side_ - 1);
+    const Eigen::Array2i low = (at - 2).max(0), high = (at + 2).min(side_ - 1);
+    for (int i = low.x(); i <= high.x(); ++i) {
+      for (int j = low.y(); j <= high.y(); ++j) {
+        const int other = cells_[index(i, j)];
+        if (other >= 0 && (places[static_cast<size_t>(other)].p_NE - p_NE).norm() < spacing_m_) return false;
+      }
+    }
+    cells_[index(at.x(), at.y())] = static_cast<int>(places.size());
+    places.push_back({p_NE, crown_radius_m});
+    return true;
+  }
+
+ private:
+  size_t index(int i, int j) const {
+    return static_cast<size_t>(i) * static_cast<size_t>(side_) + static_cast<size_t>(j);
+  }
+
+  double half_m_, spacing_m_, cell_m_;
+  int side_;
+  std::vector<int> cells_;
+};
+
+// Darts at random until there are as many trees as wanted.
+std::vector<Place> place_trees(const ForestConfig& c, Random& random) {
+  constexpr int64_t kDartsPerTree = 300;
+  const double half_m = 0.5 * c.extent_m();
+  PlaceGrid grid(c.extent_m(), c.spacing_m);
+  std::vector<Place> places;
+  const auto wanted = static_cast<size_t>(c.trees);
+  for (int64_t dart = 0; places.size() < wanted && dart < kDartsPerTree * c.trees; ++dart) {
+    const Eigen::Vector2d p_NE(uniform(random, -half_m, half_m), uniform(random, -half_m, half_m));
+    const double crown_radius_m = 0.5 * uniform(random, c.min_crown_diameter_m, c.max_crown_diameter_m);
+    const bool is_clear = std::ranges::none_of(c.keep_clear, [&](const Clearing& clearing) {
+      return (clearing.center_NE_m() - p_NE).norm() - crown_radius_m < clearing.radius_m;
+    });
+    if (is_clear) grid.take(p_NE, places, crown_radius_m);
+  }
+  if (places.size() < wanted) {
+    std::ostringstream line;
+    line << "trees: " << wanted << "; valid: what fits: " << places.size() << " trees stand with spacing "
+         << c.spacing_m << " m and these clearings, and no place is found for another";
+    throw std::invalid_argument(line.str());
+  }
+  return places;
+}
+
+constexpr uint32_t kGrass = 0, kFirstLeaves = 1, kFirstBark = 4;
+constexpr int kLeaves = 3, kBarks = 2;
+
+std::vector<cv::Mat> paint_forest(int size_px, uint64_t seed) {
+  return {paint_grass(size_px, derived_seed(seed, 0)),
+          paint_leaves(Leaves::broad, size_px, derived_seed(seed, 1)),
+          paint_leaves(Leaves::needles, size_px, derived_seed(seed, 2)),
+          paint_leaves(Leaves::broad, size_px, derived_seed(seed, 3)),
+          paint_bark(size_px, derived_seed(seed, 4)),
+          paint_bark(size_px, derived_seed(seed, 5))};
+}
+
+}  // namespace
+
+double ForestConfig::extent_m() const { return spacing_m * std::sqrt(2.0 * static_cast<double>(trees)); }
+
+Scene make_forest(const ForestConfig& config, uint64_t seed) {
+  validate(config);
+  Random place_random(derived_seed(seed, kPlaceStream)), lump_random(derived_seed(seed, kLumpStream));
+  const std::vector<Place> places = place_trees(config, place_random);
+  std::vector<Polyhedron> lumps;
+  for (int k = 0; k < kLumps; ++k) lumps.push_back(convex_lump(kLumpCorners, 0.22, lump_random));
+
+  Scene scene;
+  scene.name = "forest";
+  scene.textures = paint_forest(static_cast<int>(config.texture_size_px), derived_seed(seed, kPictureStream));
+  const double half_m = 0.5 * config.extent_m();
+  scene.bounds_NE_m = {Eigen::Vector2d(-half_m, -half_m), Eigen::Vector2d(half_m, half_m)};
+  MeshBuilder mesh("opaque");
+  add_ground(half_m, {kGrass, kGrassTile_m}, mesh);
+
+  const uint64_t tree_seed = derived_seed(seed, kTreeStream);
+  for (size_t k = 0; k < places.size(); ++k) {
+    Random random(derived_seed(tree_seed, k));
+    const Eigen::Vector2d offset(uniform(random, 0.0, 1.0), uniform(random, 0.0, 1.0));
+    const Cover leaves{kFirstLeaves + static_cast<uint32_t>(uniform_index(random, kLeaves)), kLeafTile_m, offset};
+    const Cover bark{kFirstBark + static_cast<uint32_t>(uniform_index(random, kBarks)), kBarkTile_m, offset};
+    const TreeShape shape{
+        .foot_W = {places[k].p_NE.x(), places[k].p_NE.y(), 0.0},
+        .height_m = uniform(random, config.min_height_m, config.max_height_m),
+        .clear_height_m = config.clear_height_m,
+        .crown_radius_m = places[k].crown_radius_m,
+        .trunk_radius_m = 0.5 * uniform(random, config.min_trunk_diameter_m, config.max_trunk_diameter_m),
+    };
+    std::vector<Solid> solids = add_tree("tree " + std::to_string(k + 1), shape, lumps, leaves, bark, random, mesh);
+    std::ranges::move(solids, std::back_inserter(scene.solids));
+  }
+  scene.meshes.push_back(mesh.finish());
+  return scene;
+}
+
+}  // namespace hedgehop::scenes

@@ -1,0 +1,132 @@
+#include "scenes/highrise.h"
+
+#include "scenes/facade_textures.h"
+#include "scenes/ground.h"
+#include "scenes/require.h"
+#include "scenes/stone_textures.h"
+#include "scenes/street_textures.h"
+
+namespace hedgehop::scenes {
+namespace {
+
+using Eigen::Vector3d;
+
+// A block, and a pyramid on top of it when `spire_m` is above 0.
+struct Tower {
+  double north_m, east_m, side_north_m, side_east_m, height_m, spire_m;
+
+  Eigen::AlignedBox3d box_W() const {
+    const Vector3d middle(north_m, east_m, 0.0), half(0.5 * side_north_m, 0.5 * side_east_m, 0.0);
+    return {Vector3d(middle - half - Vector3d(0.0, 0.0, height_m)), Vector3d(middle + half)};
+  }
+  Vector3d top_W() const { return {north_m, east_m, -height_m - spire_m}; }
+};
+
+std::vector<Tower> towers(const HighriseConfig& config) {
+  std::vector<Tower> towers = {
+      {6, -18, 12, 10, 34, 0}, {-8, -4, 9, 9, 22, 6}, {12, 2, 8, 10, 30, 10}, {-4, 18, 11, 9, 26, 7}};
+  if (config.layout == HighriseConfig::Layout::cube) towers = {{0, 0, 18, 18, 18, 0}};
+  for (Tower& t : towers) {
+    for (double* length : {&t.north_m, &t.east_m, &t.side_north_m, &t.side_east_m, &t.height_m, &t.spire_m})
+      *length *= config.scale;
+  }
+  return towers;
+}
+
+// The box's corners: those of the roof, then those of the foot, both round from the north-west to the east.
+std::vector<Vector3d> box_corners(const Eigen::AlignedBox3d& box) {
+  std::vector<Vector3d> corners;
+  for (const double z : {box.min().z(), box.max().z()}) {
+    corners.emplace_back(box.max().x(), box.min().y(), z);
+    corners.emplace_back(box.max().x(), box.max().y(), z);
+    corners.emplace_back(box.min().x(), box.max().y(), z);
+    corners.emplace_back(box.min().x(), box.min().y(), z);
+  }
+  return corners;
+}
+
+// The roof of a tower with a spire: four faces up to the top.
+Polyhedron spire_of(const Tower& tower) {
+  Polyhedron spire;
+  spire.corners = box_corners(tower.box_W());
+  spire.corners.resize(4);
+  spire.corners.push_back(tower.top_W());
+  spire.faces = {{0, 4, 1}, {1, 4, 2}, {2, 4, 3}, {3, 4, 0}};
+  return spire;
+}
+
+// The whole tower with its spire, closed and convex.
+Polyhedron hull_of(const Tower& tower) {
+  Polyhedron hull;
+  hull.corners = box_corners(tower.box_W());
+  hull.corners.push_back(tower.top_W());
+  hull.faces = {{0, 8, 1}, {1, 8, 2}, {2, 8, 3}, {3, 8, 0}, {4, 5, 6}, {4, 6, 7}};
+  for (uint32_t k = 0; k < 4; ++k) {
+    const uint32_t next = (k + 1) % 4;
+    hull.faces.push_back({k, next, next + 4});
+    hull.faces.push_back({k, next + 4, k + 4});
+  }
+  return hull;
+}
+
+constexpr uint32_t kGrass = 0, kRoof = 1, kFirstWall = 2;
+
+std::vector<cv::Mat> paint_highrise(const HighriseConfig& config, uint64_t seed) {
+  const int size_px = static_cast<int>(config.texture_size_px);
+  std::vector<cv::Mat> pictures = {paint_grass(size_px, derived_seed(seed, 0)),
+                                   paint_blank(size_px, {0.62f, 0.30f, 0.24f})};
+  const cv::Vec3f plain[] = {
+      {0.86f, 0.84f, 0.80f}, {0.80f, 0.72f, 0.58f}, {0.66f, 0.70f, 0.76f}, {0.90f, 0.88f, 0.86f}};
+  const std::vector<FacadeStyle>& styles = facade_styles();
+  for (size_t k = 0; k < 4; ++k) {
+    pictures.push_back(config.walls == HighriseConfig::Walls::plain
+                           ? paint_blank(size_px, plain[k])
+                           : paint_facades(styles[2 * k + 1], size_px, 1, derived_seed(seed, k + 1)).front());
+  }
+  return pictures;
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> highrise_corners(const HighriseConfig& config) {
+  std::vector<Vector3d> corners;
+  for (const Tower& tower : towers(config)) {
+    for (const Vector3d& corner : box_corners(tower.box_W())) corners.push_back(corner);
+    if (tower.spire_m > 0.0) corners.push_back(tower.top_W());
+  }
+  return corners;
+}
+
+Scene make_highrise(const HighriseConfig& config, uint64_t seed) {
+  require(config.scale >= 0.1 && config.scale <= 10.0, "scale", config.scale, "0.1 to 10");
+  require_texture_size(static_cast<double>(config.texture_size_px));
+  Scene scene;
+  scene.name = "highrise";
+  scene.textures = paint_highrise(config, seed);
+  const double half_m = 60.0 * config.scale;
+  scene.bounds_NE_m = {Eigen::Vector2d(-half_m, -half_m), Eigen::Vector2d(half_m, half_m)};
+  MeshBuilder mesh("opaque");
+  add_ground(half_m, {kGrass, kGrassTile_m}, mesh);
+  uint32_t wall = kFirstWall;
+  for (const Tower& tower : towers(config)) {
+    const std::string name = "tower " + std::to_string(wall - kFirstWall + 1);
+    const Eigen::AlignedBox3d box_W = tower.box_W();
+    mesh.begin_chunk(true);
+    for (const Panel& panel : side_panels(box_W)) {
+      mesh.add_tiled(panel, FacadeStyle::kTile_m, {0.0, -tower.height_m / FacadeStyle::kTile_m}, wall);
+    }
+    if (tower.spire_m > 0.0) {
+      mesh.begin_chunk(false);
+      add_polyhedron(spire_of(tower), Shading::flat, {kRoof, kRockTile_m}, mesh);
+      scene.solids.push_back(solid_of(name, hull_of(tower)));
+    } else {
+      mesh.add_tiled(top_panel(box_W), kRockTile_m, Eigen::Vector2d::Zero(), kRoof);
+      scene.solids.push_back(solid_of(name, box_W));
+    }
+    ++wall;
+  }
+  scene.meshes.push_back(mesh.finish());
+  return scene;
+}
+
+}  // namespace hedgehop::scenes

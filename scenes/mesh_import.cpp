@@ -1,0 +1,150 @@
+#include "scenes/mesh_import.h"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <span>
+#include <stdexcept>
+
+#include "scenes/mesh_builder.h"
+#include "scenes/require.h"
+#include "scenes/stone_textures.h"
+
+namespace hedgehop::scenes {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr unsigned kMostTriangles = 500000;
+
+[[noreturn]] void refuse(const ImportConfig& c, const std::string& why) {
+  throw std::invalid_argument("imports.file: '" + c.file + "': " + why);
+}
+
+void validate(const ImportConfig& c) {
+  for (const double x : {c.north_m, c.east_m, c.altitude_m, c.heading_rad})
+    require(std::isfinite(x), "imports", x, "finite numbers");
+  require(std::isfinite(c.scale) && c.scale > 0.0, "imports.scale", c.scale, "above 0");
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(c.file, error)) refuse(c, "there is no such file");
+}
+
+// From the model's frame to W: its front to the heading, its up to W's up.
+Eigen::Affine3d model_to_world(const ImportConfig& c) {
+  Eigen::Matrix3d to_level;  // north, east, down from the model's axes
+  if (c.up == ImportConfig::Up::y) {
+    to_level << 0, 0, -1, 1, 0, 0, 0, -1, 0;
+  } else {
+    to_level << 0, 1, 0, 1, 0, 0, 0, 0, -1;
+  }
+  return Eigen::Translation3d(c.north_m, c.east_m, -c.altitude_m) *
+         Eigen::AngleAxisd(c.heading_rad, Vector3d::UnitZ()) * Eigen::Affine3d(c.scale * to_level);
+}
+
+// The picture of a material, or its colour; CV_8UC3 RGB.
+cv::Mat material_picture(const ImportConfig& c, const aiScene& model, const aiMaterial& material, int size_px) {
+  aiString path;
+  const bool has_picture = material.GetTexture(aiTextureType_BASE_COLOR, 0, &path) == AI_SUCCESS ||
+                           material.GetTexture(aiTextureType_DIFFUSE, 0, &path) == AI_SUCCESS;
+  if (!has_picture) {
+    aiColor4D colour(0.7f, 0.7f, 0.7f, 1.0f);
+    if (material.Get(AI_MATKEY_BASE_COLOR, colour) != AI_SUCCESS) material.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
+    return paint_blank(size_px, {colour.r, colour.g, colour.b});
+  }
+  cv::Mat picture;
+  if (const aiTexture* inside = model.GetEmbeddedTexture(path.C_Str()); inside && inside->mHeight == 0) {
+    const auto* bytes = reinterpret_cast<const uint8_t*>(inside->pcData);
+    picture = cv::imdecode(std::vector<uint8_t>(bytes, bytes + inside->mWidth), cv::IMREAD_COLOR);
+  } else {
+    picture = cv::imread((std::filesystem::path(c.file).parent_path() / path.C_Str()).string(), cv::IMREAD_COLOR);
+  }
+  if (picture.empty()) refuse(c, std::string("its picture '") + path.C_Str() + "' cannot be read");
+  cv::resize(picture, picture, {size_px, size_px}, 0.0, 0.0, cv::INTER_AREA);
+  cv::cvtColor(picture, picture, cv::COLOR_BGR2RGB);
+  return picture;
+}
+
+// A mesh's corners and faces in W; faces without an area are left out.
+Polyhedron faces_W(const aiMesh& mesh, const Eigen::Affine3d& to_W) {
+  Polyhedron result;
+  for (const aiVector3D& p : std::span(mesh.mVertices, mesh.mNumVertices)) {
+    result.corners.push_back(to_W * Vector3d(p.x, p.y, p.z));
+  }
+  for (const aiFace& face : std::span(mesh.mFaces, mesh.mNumFaces)) {
+    if (face.mNumIndices != 3) continue;
+    const auto [a, b, c] = std::array<uint32_t, 3>{face.mIndices[0], face.mIndices[1], face.mIndices[2]};
+    const Vector3d across = (result.corners[b] - result.corners[a]).cross(result.corners[c] - result.corners[a]);
+    if (across.allFinite() && across.norm() > 0.0) result.faces.push_back({a, b, c});
+  }
+  return result;
+}
+
+// Adds one mesh of the file to the chunk begun last.
+void draw(const aiMesh& mesh, const Polyhedron& body, const Eigen::Affine3d& to_W, uint32_t texture,
+          MeshBuilder& builder) {
+  std::vector<Vertex> vertices(body.corners.size());
+  for (size_t k = 0; k < vertices.size(); ++k) {
+    const aiVector3D& n = mesh.mNormals[k];
+    vertices[k].p_W = body.corners[k].cast<float>();
+    vertices[k].n_W = (to_W.linear() * Vector3d(n.x, n.y, n.z)).normalized().cast<float>();
+    if (mesh.HasTextureCoords(0)) vertices[k].uv = {mesh.mTextureCoords[0][k].x, mesh.mTextureCoords[0][k].y};
+    vertices[k].texture = texture;
+  }
+  builder.add(vertices, body.faces);
+}
+
+void add_import(const ImportConfig& c, Scene& scene) {
+  validate(c);
+  Assimp::Importer importer;
+  const aiScene* model =
+      importer.ReadFile(c.file, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_GenNormals |
+                                    aiProcess_PreTransformVertices | aiProcess_SortByPType | aiProcess_FlipUVs |
+                                    aiProcess_ValidateDataStructure);
+  if (!model || !model->mRootNode || (model->mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0)
+    refuse(c, importer.GetErrorString());
+
+  constexpr int kSizePx = 512;  // where the scene has no pictures
+  const int size_px = scene.textures.empty() ? kSizePx : scene.textures.front().cols;
+  const Eigen::Affine3d to_W = model_to_world(c);
+  std::vector<int> pictures(model->mNumMaterials, -1);
+  MeshBuilder builder("opaque");
+  size_t triangles = 0;
+  for (const aiMesh* mesh : std::span(model->mMeshes, model->mNumMeshes)) {
+    const Polyhedron body = faces_W(*mesh, to_W);
+    if (body.faces.empty()) continue;
+    triangles += body.faces.size();
+    if (triangles > kMostTriangles) refuse(c, "it has more than " + std::to_string(kMostTriangles) + " triangles");
+    for (const Vector3d& corner : body.corners) {
+      if (!corner.allFinite()) refuse(c, "it has corners that are not finite");
+    }
+    int& picture = pictures[mesh->mMaterialIndex];
+    if (picture < 0) {
+      picture = static_cast<int>(scene.textures.size());
+      scene.textures.push_back(material_picture(c, *model, *model->mMaterials[mesh->mMaterialIndex], size_px));
+    }
+    builder.begin_chunk(false);
+    draw(*mesh, body, to_W, static_cast<uint32_t>(picture), builder);
+    if (c.collide == ImportConfig::Collide::surface) {
+      Solid solid;
+      solid.name = c.name;
+      solid.shape = Solid::Shape::surface;
+      solid.polyhedron = body;
+      scene.solids.push_back(solid);
+    }
+  }
+  if (triangles == 0) refuse(c, "it has no triangles");
+  scene.meshes.push_back(builder.finish());
+}
+
+}  // namespace
+
+void add_imports(const std::vector<ImportConfig>& imports, Scene& scene) {
+  for (const ImportConfig& import : imports) add_import(import, scene);
+}
+
+}  // namespace hedgehop::scenes

@@ -1,0 +1,218 @@
+#include "scenes/park.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+
+#include "scenes/ground.h"
+#include "scenes/plant_textures.h"
+#include "scenes/require.h"
+#include "scenes/stone_textures.h"
+#include "scenes/street_textures.h"
+#include "scenes/tree_mesh.h"
+#include "scenes/vehicle_textures.h"
+
+namespace hedgehop::scenes {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// Streams of the scene's seed.
+constexpr uint64_t kPlaceStream = 0;
+constexpr uint64_t kPictureStream = 1;
+constexpr uint64_t kLumpStream = 2;
+
+constexpr double kRoadHalf_m = 3.5, kParked_m = 4.9;  // vehicles stand on the verge
+
+void validate(const ParkConfig& c) {
+  require(c.extent_m >= 30.0 && c.extent_m <= 1000.0, "extent", c.extent_m, "30 to 1000 m");
+  const auto count = [](const char* field, int64_t n, int64_t most) {
+    require(n >= 0 && n <= most, field, static_cast<double>(n), "0 to " + std::to_string(most));
+  };
+  count("trees", c.trees, 1000);
+  count("bushes", c.bushes, 1000);
+  count("rocks", c.rocks, 1000);
+  count("vehicles", c.vehicles, 200);
+  require(c.gap_m >= 0.0, "gap", c.gap_m, "at least 0 m");
+  require_clearings(c.keep_clear);
+  require_texture_size(static_cast<double>(c.texture_size_px));
+}
+
+struct Disc {
+  Vector2d p_NE;
+  double radius_m;
+};
+
+// Finds free places in the plan.
+class Planner {
+ public:
+  Planner(const ParkConfig& config, uint64_t seed) : config_(config), random_(seed) {}
+
+  /// A place beside the road for a disc of this radius, or, with `parked`, along the road.
+  Disc take(const char* field, double radius_m, bool parked) {
+    constexpr int kTries = 3000;
+    const double half_m = 0.5 * config_.extent_m - radius_m;
+    for (int k = 0; k < kTries; ++k) {
+      Disc disc{{uniform(random_, -half_m, half_m), uniform(random_, -half_m, half_m)}, radius_m};
+      if (parked) disc.p_NE.y() = chance(random_, 0.5) ? kParked_m : -kParked_m;
+      if (!parked && std::abs(disc.p_NE.y()) - radius_m < kRoadHalf_m) continue;
+      const bool is_free = std::ranges::none_of(taken_, [&](const Disc& other) {
+        return (other.p_NE - disc.p_NE).norm() - other.radius_m - radius_m < config_.gap_m;
+      });
+      const bool is_clear = std::ranges::none_of(config_.keep_clear, [&](const Clearing& clearing) {
+        return (clearing.center_NE_m() - disc.p_NE).norm() - radius_m < clearing.radius_m;
+      });
+      if (is_free && is_clear) return taken_.emplace_back(disc);
+    }
+    std::ostringstream line;
+    line << field << ": valid: fewer, or a larger extent or a smaller gap: after " << taken_.size()
+         << " things in the park no place is found for another";
+    throw std::invalid_argument(line.str());
+  }
+
+  Random& random() { return random_; }
+
+ private:
+  const ParkConfig& config_;
+  Random random_;
+  std::vector<Disc> taken_;
+};
+
+constexpr uint32_t kGrass = 0, kAsphalt = 1, kBark = 2, kRock = 3, kFirstLeaves = 4, kFirstPaint = 7;
+constexpr int kLeaves = 3, kPaints = 3;
+
+std::vector<cv::Mat> paint_park(int size_px, uint64_t seed) {
+  std::vector<cv::Mat> pictures = {paint_grass(size_px, derived_seed(seed, 0)),
+                                   paint_asphalt_road(size_px, derived_seed(seed, 1)),
+                                   paint_bark(size_px, derived_seed(seed, 2)),
+                                   paint_rock(size_px, derived_seed(seed, 3)),
+                                   paint_leaves(Leaves::broad, size_px, derived_seed(seed, 4)),
+                                   paint_leaves(Leaves::autumn, size_px, derived_seed(seed, 5)),
+                                   paint_leaves(Leaves::broad, size_px, derived_seed(seed, 6))};
+  const Colour paints[kPaints] = {{0.62f, 0.08f, 0.08f}, {0.16f, 0.26f, 0.48f}, {0.80f, 0.80f, 0.78f}};
+  for (uint64_t k = 0; k < kPaints; ++k) {
+    pictures.push_back(paint_vehicle_body(paints[k], size_px, derived_seed(seed, 10 + k)));
+    pictures.push_back(paint_vehicle_cabin(paints[k], size_px, derived_seed(seed, 20 + k)));
+  }
+  return pictures;
+}
+
+// Builds what the park holds, each thing a chunk of its own.
+class Gardener {
+ public:
+  Gardener(uint64_t seed, Planner& planner, Scene& scene, MeshBuilder& mesh)
+      : planner_(planner), scene_(scene), mesh_(mesh) {
+    Random random(seed);
+    for (int k = 0; k < 6; ++k) lumps_.push_back(convex_lump(36, 0.2, random));
+  }
+
+  void plant_tree(int64_t number) {
+    const double radius_m = uniform(random(), 1.5, 3.0);
+    const Disc disc = planner_.take("trees", radius_m, false);
+    const TreeShape shape{.foot_W = {disc.p_NE.x(), disc.p_NE.y(), 0.0},
+                          .height_m = uniform(random(), 5.0, 9.0),
+                          .clear_height_m = uniform(random(), 1.6, 2.4),
+                          .crown_radius_m = radius_m,
+                          .trunk_radius_m = uniform(random(), 0.12, 0.22),
+                          .lobes = 9,
+                          .trunk_sides = 10};
+    const std::vector<Solid> solids =
+        add_tree("tree " + std::to_string(number), shape, lumps_, leaves(), {kBark, kBarkTile_m}, random(), mesh_);
+    scene_.solids.insert(scene_.solids.end(), solids.begin(), solids.end());
+  }
+
+  void plant_bush(int64_t number) {
+    add_lump("bush " + std::to_string(number), planner_.take("bushes", uniform(random(), 0.5, 1.2), false),
+             uniform(random(), 0.8, 1.4), leaves());
+  }
+
+  void lay_rock(int64_t number) {
+    const Vector2d offset(uniform(random(), 0.0, 1.0), uniform(random(), 0.0, 1.0));
+    add_lump("rock " + std::to_string(number), planner_.take("rocks", uniform(random(), 0.4, 1.0), false),
+             uniform(random(), 0.7, 1.2), {kRock, kRockTile_m, offset});
+  }
+
+  // A car, or one in three times a van: a body on the ground and a cabin on top of it.
+  void park_vehicle(int64_t number) {
+    const bool is_van = chance(random(), 0.33);
+    const double length_m = is_van ? 5.0 : 4.4, width_m = is_van ? 1.95 : 1.75, top_m = is_van ? 2.3 : 1.45;
+    const Disc disc = planner_.take("vehicles", 0.5 * std::hypot(length_m, width_m), true);
+    const double turn_rad = uniform(random(), -0.08, 0.08) + (chance(random(), 0.5) ? std::numbers::pi : 0.0);
+    const Eigen::Isometry3d X_WS =
+        Eigen::Translation3d(disc.p_NE.x(), disc.p_NE.y(), 0.0) * Eigen::AngleAxisd(turn_rad, Vector3d::UnitZ());
+    const double l = 0.5 * length_m, w = 0.5 * width_m, front = is_van ? 0.78 * l : 0.45 * l, body_m = 0.92;
+    const uint32_t paint = kFirstPaint + 2 * static_cast<uint32_t>(uniform_index(random(), kPaints));
+    const std::string name = (is_van ? "van " : "car ") + std::to_string(number);
+    mesh_.begin_chunk(false);
+    add_part(name, {Vector3d(-l, -w, -body_m), Vector3d(l, w, 0.0)}, X_WS, paint);
+    add_part(name, {Vector3d(is_van ? -l : -0.8 * l, -0.9 * w, -top_m), Vector3d(front, 0.9 * w, -body_m)}, X_WS,
+             paint + 1);
+  }
+
+ private:
+  Random& random() { return planner_.random(); }
+
+  Cover leaves() {
+    const Vector2d offset(uniform(random(), 0.0, 1.0), uniform(random(), 0.0, 1.0));
+    return {kFirstLeaves + static_cast<uint32_t>(uniform_index(random(), kLeaves)), kLeafTile_m, offset};
+  }
+
+  // Half sunk into the ground, `slender` times as high above it as wide from its middle.
+  void add_lump(const std::string& name, const Disc& disc, double slender, const Cover& cover) {
+    const Polyhedron& lump = lumps_[static_cast<size_t>(uniform_index(random(), static_cast<int>(lumps_.size())))];
+    const double height_m = slender * disc.radius_m;
+    const Eigen::Affine3d place = Eigen::Translation3d(disc.p_NE.x(), disc.p_NE.y(), -0.3 * height_m) *
+                                  Eigen::Scaling(disc.radius_m, disc.radius_m, 0.8 * height_m) *
+                                  Eigen::AngleAxisd(uniform(random(), 0.0, 6.0), Vector3d::UnitZ());
+    const Polyhedron placed = moved(place, lump);
+    mesh_.begin_chunk(false);
+    add_polyhedron(placed, Shading::smooth, cover, mesh_);
+    scene_.solids.push_back(solid_of(name, placed));
+  }
+
+  void add_part(const std::string& name, const Eigen::AlignedBox3d& box_S, const Eigen::Isometry3d& X_WS,
+                uint32_t picture) {
+    add_box(box_S, X_WS, {picture, kVehicleTile_m}, mesh_);
+    Solid solid = solid_of(name, box_S);
+    solid.X_WS = X_WS * solid.X_WS;
+    scene_.solids.push_back(solid);
+  }
+
+  Planner& planner_;
+  Scene& scene_;
+  MeshBuilder& mesh_;
+  std::vector<Polyhedron> lumps_;
+};
+
+}  // namespace
+
+Scene make_park(const ParkConfig& config, uint64_t seed) {
+  validate(config);
+  Scene scene;
+  scene.name = "park";
+  scene.textures = paint_park(static_cast<int>(config.texture_size_px), derived_seed(seed, kPictureStream));
+  const double half_m = 0.5 * config.extent_m;
+  scene.bounds_NE_m = {Vector2d(-half_m, -half_m), Vector2d(half_m, half_m)};
+  MeshBuilder mesh("opaque");
+  add_ground(
+      {-half_m, -0.5 * half_m, 0.0, 0.5 * half_m, half_m}, {-half_m, -kRoadHalf_m, 0.0, kRoadHalf_m, half_m},
+      [](const Vector2d& middle_NE) {
+        return std::abs(middle_NE.y()) < kRoadHalf_m ? Cover{kAsphalt, kAsphaltTile_m} : Cover{kGrass, kGrassTile_m};
+      },
+      mesh);
+
+  // The large first: they are the hardest to place.
+  Planner planner(config, derived_seed(seed, kPlaceStream));
+  Gardener gardener(derived_seed(seed, kLumpStream), planner, scene, mesh);
+  for (int64_t k = 1; k <= config.vehicles; ++k) gardener.park_vehicle(k);
+  for (int64_t k = 1; k <= config.trees; ++k) gardener.plant_tree(k);
+  for (int64_t k = 1; k <= config.bushes; ++k) gardener.plant_bush(k);
+  for (int64_t k = 1; k <= config.rocks; ++k) gardener.lay_rock(k);
+  scene.meshes.push_back(mesh.finish());
+  return scene;
+}
+
+}  // namespace hedgehop::scenes

@@ -1,0 +1,63 @@
+#include "scenes/tree.h"
+
+#include <algorithm>
+
+#include "scenes/ground.h"
+#include "scenes/require.h"
+#include "scenes/street_textures.h"
+#include "scenes/tree_mesh.h"
+
+namespace hedgehop::scenes {
+namespace {
+
+// Streams of the scene's seed.
+constexpr uint64_t kShapeStream = 0;
+constexpr uint64_t kPictureStream = 1;
+
+constexpr int kLumps = 6, kLumpCorners = 42, kLobes = 30;
+
+void validate(const TreeConfig& c) {
+  require(std::abs(c.north_m) <= 1000.0, "north", c.north_m, "-1000 to 1000 m");
+  require(std::abs(c.east_m) <= 1000.0, "east", c.east_m, "-1000 to 1000 m");
+  require(c.crown_diameter_m >= 0.5 && c.crown_diameter_m <= 50.0, "crown_diameter", c.crown_diameter_m, "0.5 to 50 m");
+  require(c.height_m >= 1.0 && c.height_m <= 100.0, "height", c.height_m, "1 to 100 m");
+  require(c.clear_height_m >= 0.0 && c.clear_height_m < c.height_m, "clear_height", c.clear_height_m,
+          "at least 0 m and less than the height");
+  require(c.trunk_diameter_m > 0.0 && c.trunk_diameter_m <= c.crown_diameter_m, "trunk_diameter", c.trunk_diameter_m,
+          "above 0 m and at most the crown's");
+  require_texture_size(static_cast<double>(c.texture_size_px));
+}
+
+}  // namespace
+
+Scene make_tree(const TreeConfig& config, uint64_t seed) {
+  validate(config);
+  const int size_px = static_cast<int>(config.texture_size_px);
+  const uint64_t picture_seed = derived_seed(seed, kPictureStream);
+  Scene scene;
+  scene.name = "tree";
+  scene.textures = {paint_grass(size_px, derived_seed(picture_seed, 0)),
+                    paint_leaves(config.leaves, size_px, derived_seed(picture_seed, 1)),
+                    paint_bark(size_px, derived_seed(picture_seed, 2))};
+  const Eigen::Vector2d foot_NE(config.north_m, config.east_m);
+  const double around_m = std::max(40.0, 3.0 * config.crown_diameter_m);
+  scene.bounds_NE_m = {Eigen::Vector2d(foot_NE.array() - around_m), Eigen::Vector2d(foot_NE.array() + around_m)};
+
+  Random random(derived_seed(seed, kShapeStream));
+  std::vector<Polyhedron> lumps;
+  for (int k = 0; k < kLumps; ++k) lumps.push_back(convex_lump(kLumpCorners, 0.18, random));
+  MeshBuilder mesh("opaque");
+  add_ground(around_m, {0, kGrassTile_m}, mesh);
+  const TreeShape shape{.foot_W = {config.north_m, config.east_m, 0.0},
+                        .height_m = config.height_m,
+                        .clear_height_m = config.clear_height_m,
+                        .crown_radius_m = 0.5 * config.crown_diameter_m,
+                        .trunk_radius_m = 0.5 * config.trunk_diameter_m,
+                        .lobes = kLobes,
+                        .trunk_sides = 16};
+  scene.solids = add_tree("tree", shape, lumps, {1, kLeafTile_m}, {2, kBarkTile_m}, random, mesh);
+  scene.meshes.push_back(mesh.finish());
+  return scene;
+}
+
+}  // namespace hedgehop::scenes

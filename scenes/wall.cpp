@@ -1,0 +1,83 @@
+#include "scenes/wall.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/ground.h"
+#include "scenes/require.h"
+#include "scenes/stone_textures.h"
+#include "scenes/street_textures.h"
+
+namespace hedgehop::scenes {
+namespace {
+
+constexpr uint64_t kGrassStream = 0, kWallStream = 1;  // of the scene's seed
+
+void validate(const WallConfig& c) {
+  require(std::abs(c.north_m) <= 1000.0, "north", c.north_m, "-1000 to 1000 m");
+  require(c.width_m >= 1.0 && c.width_m <= 1000.0, "width", c.width_m, "1 to 1000 m");
+  require(c.height_m >= 0.5 && c.height_m <= 200.0, "height", c.height_m, "0.5 to 200 m");
+  require(c.thickness_m >= 0.05 && c.thickness_m <= 10.0, "thickness", c.thickness_m, "0.05 to 10 m");
+  require_texture_size(static_cast<double>(c.texture_size_px));
+  if (!c.opening) return;
+  const WallOpening& o = *c.opening;
+  require(o.width_m > 0.0, "opening.width", o.width_m, "above 0 m");
+  require(o.height_m > 0.0, "opening.height", o.height_m, "above 0 m");
+  require(o.bottom_m >= 0.0 && o.bottom_m + o.height_m <= c.height_m, "opening.bottom", o.bottom_m,
+          "inside the wall: 0 m to its height less the opening's");
+  require(std::abs(o.middle_m) + 0.5 * o.width_m <= 0.5 * c.width_m, "opening.middle", o.middle_m,
+          "such that the opening lies inside the wall");
+}
+
+cv::Mat paint(WallConfig::Surface surface, int size_px, uint64_t seed) {
+  switch (surface) {
+    case WallConfig::Surface::clouded:
+      return paint_clouded_wall(size_px, seed);
+    case WallConfig::Surface::blank:
+      return paint_blank(size_px, {0.72f, 0.71f, 0.69f});
+    case WallConfig::Surface::brick:
+      break;
+  }
+  return paint_brick_wall(size_px, seed);
+}
+
+}  // namespace
+
+Scene make_wall(const WallConfig& config, uint64_t seed) {
+  validate(config);
+  const int size_px = static_cast<int>(config.texture_size_px);
+  Scene scene;
+  scene.name = "wall";
+  // A low sun from the south, that the side one flies towards stands in the light.
+  scene.lights.to_sun_W = Eigen::Vector3f(-0.7f, -0.3f, -0.65f).normalized();
+  scene.textures = {paint_grass(size_px, derived_seed(seed, kGrassStream)),
+                    paint(config.surface, size_px, derived_seed(seed, kWallStream))};
+  const double half_m = std::max(config.width_m, std::abs(config.north_m) + 20.0);
+  scene.bounds_NE_m = {Eigen::Vector2d(-half_m, -half_m), Eigen::Vector2d(half_m, half_m)};
+  MeshBuilder mesh("opaque");
+  add_ground(half_m, {0, kGrassTile_m}, mesh);
+
+  const auto build = [&](double west_m, double east_m, double bottom_m, double top_m) {
+    if (east_m <= west_m || top_m <= bottom_m) return;
+    const Eigen::AlignedBox3d box_W(Eigen::Vector3d(config.north_m, west_m, -top_m),
+                                    Eigen::Vector3d(config.north_m + config.thickness_m, east_m, -bottom_m));
+    mesh.begin_chunk(bottom_m == 0.0);
+    add_box(box_W, Eigen::Isometry3d::Identity(), {1, kWallTile_m}, mesh);
+    scene.solids.push_back(solid_of("wall", box_W));
+  };
+  const double end_m = 0.5 * config.width_m;
+  if (config.opening) {
+    const WallOpening& o = *config.opening;
+    const double west_m = o.middle_m - 0.5 * o.width_m, east_m = o.middle_m + 0.5 * o.width_m;
+    build(-end_m, west_m, 0.0, config.height_m);
+    build(east_m, end_m, 0.0, config.height_m);
+    build(west_m, east_m, 0.0, o.bottom_m);
+    build(west_m, east_m, o.bottom_m + o.height_m, config.height_m);
+  } else {
+    build(-end_m, end_m, 0.0, config.height_m);
+  }
+  scene.meshes.push_back(mesh.finish());
+  return scene;
+}
+
+}  // namespace hedgehop::scenes

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "scenes/additions.h"
+
+namespace hedgehop::scenes {
+
+/// An opening in a wall; it may reach the ground or an edge of the wall.
+struct WallOpening {
+  double middle_m = 0.0;  ///< east of the wall's middle
+  double bottom_m = 0.0;  ///< above the ground
+  double width_m = 3.0;
+  double height_m = 3.0;
+};
+
+template <class Visitor>
+void describe(Visitor& v, WallOpening& c) {
+  v("middle", c.middle_m, {.unit = "m", .meaning = "east of the wall's middle"});
+  v("bottom", c.bottom_m, {.unit = "m", .at_least = 0.0, .meaning = "above the ground"});
+  v("width", c.width_m, {.unit = "m", .above = 0.0, .meaning = "from west to east"});
+  v("height", c.height_m, {.unit = "m", .above = 0.0, .meaning = "of the opening"});
+}
+
+/// A free-standing wall on a meadow, from west to east; its south side stands at `north`.
+struct WallConfig {
+  static constexpr std::string_view kName = "wall";
+  static constexpr std::string_view kMeaning = "a wall across the way, with an opening if asked for";
+
+  enum class Surface { brick, clouded, blank };
+  double north_m = 20.0;
+  double width_m = 30.0;
+  double height_m = 10.0;
+  double thickness_m = 0.4;
+  Surface surface = Surface::brick;
+  std::optional<WallOpening> opening;
+  int64_t texture_size_px = 512;
+  Additions added;
+};
+
+template <class Visitor>
+void describe(Visitor& v, WallConfig& c) {
+  v("north", c.north_m, {.unit = "m", .at_least = -1000.0, .at_most = 1000.0, .meaning = "of the wall's south side"});
+  v("width", c.width_m, {.unit = "m", .at_least = 1.0, .at_most = 1000.0, .meaning = "from west to east, centred"});
+  v("height", c.height_m, {.unit = "m", .at_least = 0.5, .at_most = 200.0, .meaning = "of the wall"});
+  v("thickness", c.thickness_m, {.unit = "m", .at_least = 0.05, .at_most = 10.0, .meaning = "of the wall"});
+  v("surface", c.surface,
+    {.choices = {"brick", "clouded", "blank"},
+     .meaning = "bricks; soft light and dark without a corner; one colour all over"});
+  v("opening", c.opening, {.meaning = "a hole in the wall"});
+  v("texture_size", c.texture_size_px,
+    {.unit = "px",
+     .at_least = 64.0,
+     .at_most = 2048.0,
+     .meaning = "side of the pictures on the surfaces, a power of two"});
+  describe(v, c.added);
+}
+
+/// Returns the meadow with its wall, a function of its arguments alone.
+/// @throws std::invalid_argument naming the field, its value and what is valid.
+Scene make_wall(const WallConfig& config, uint64_t seed);
+
+}  // namespace hedgehop::scenes

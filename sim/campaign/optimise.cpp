@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlopt.hpp>
+
+#include "sim/campaign/sweep.h"
+#include "sim/scenario/tree.h"
+
+namespace hedgehop::sim {
+namespace {
+
+nlopt::algorithm algorithm(OptimiseDesign::Method method) {
+  switch (method) {
+    case OptimiseDesign::Method::subplex:
+      return nlopt::LN_SBPLX;
+    case OptimiseDesign::Method::nelder_mead:
+      return nlopt::LN_NELDERMEAD;
+    case OptimiseDesign::Method::bobyqa:
+      return nlopt::LN_BOBYQA;
+    case OptimiseDesign::Method::direct:
+      return nlopt::GN_DIRECT_L;
+  }
+  return nlopt::LN_SBPLX;
+}
+
+/// Mean of a column over a point's flights; a flight that does not pass or lacks a number there counts its cost.
+double mean_cost(const OptimiseDesign& design, const std::vector<FlightRecord>& records) {
+  const Table table = flight_table(records);
+  const auto column = std::ranges::find(table.columns, design.minimise);
+  double sum = 0.0;
+  for (size_t i = 0; i < records.size(); ++i) {
+    if (records[i].status == FlightRecord::Status::flown && column == table.columns.end()) {
+      throw InputError(fmt::format("'design.minimise': no column '{}'{}", design.minimise,
+                                   suggestion(design.minimise, {table.columns.begin(), table.columns.end()})));
+    }
+    double cost = design.failure_cost;
+    if (passed(records[i])) {
+      const Cell& cell = table.rows[i][static_cast<size_t>(column - table.columns.begin())];
+      if (const auto* number = std::get_if<double>(&cell)) cost = *number;
+      if (const auto* whole = std::get_if<int64_t>(&cell)) cost = static_cast<double>(*whole);
+    }
+    sum += cost;
+  }
+  return sum / static_cast<double>(records.size());
+}
+
+/// The search's own view: it moves in the unit cube, whose points become values.
+struct Search {
+  const SweepConfig& sweep;
+  const OptimiseDesign& design;
+  const FlyPoint& fly;
+  Optimum best{.values = {}, .cost = std::numeric_limits<double>::infinity(), .orders = {}, .records = {}};
+  size_t points = 0;
+
+  double cost(const std::vector<double>& coordinates) {
+    std::vector<std::string> values;
+    for (size_t i = 0; i < coordinates.size(); ++i) {
+      values.push_back(parameter_value(sweep.parameters[i], std::clamp(coordinates[i], 0.0, 1.0)));
+    }
+    SweepOrders point;
+    point.add(sweep, points, values);
+    best.orders.add(sweep, points++, values);
+    const std::vector<FlightRecord> records = fly(point.orders);
+    best.records.insert(best.records.end(), records.begin(), records.end());
+    const double cost = mean_cost(design, records);
+    if (cost < best.cost) {
+      best.cost = cost;
+      best.values = values;
+    }
+    return cost;
+  }
+};
+
+}  // namespace
+
+Optimum optimise(const SweepConfig& sweep, const FlyPoint& fly) {
+  const auto& design = std::get<OptimiseDesign>(sweep.design);
+  const size_t dimensions = sweep.parameters.size();
+  Search search{.sweep = sweep, .design = design, .fly = fly};
+  nlopt::opt optimiser(algorithm(design.method), static_cast<unsigned>(dimensions));
+  optimiser.set_lower_bounds(0.0);
+  optimiser.set_upper_bounds(1.0);
+  optimiser.set_maxeval(static_cast<int>(design.evaluations));
+  constexpr double kTolerance = 1e-4;  // of a range: finer differences of a gain are of no interest
+  optimiser.set_xtol_abs(kTolerance);
+  constexpr double kFirstStep = 0.25;  // of a range
+  optimiser.set_initial_step(kFirstStep);
+  optimiser.set_min_objective([](const std::vector<double>& x, std::vector<double>&,
+                                 void* data) { return static_cast<Search*>(data)->cost(x); },
+                              &search);
+  std::vector<double> x(dimensions, 0.5);
+  double cost = 0.0;
+  try {
+    optimiser.optimize(x, cost);
+  } catch (const nlopt::roundoff_limited&) {  // as good as it gets
+  }
+  return std::move(search.best);
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,55 @@
+#include "sim/campaign/sampling.h"
+
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <utility>
+
+#include "sim/campaign/sobol.h"
+
+namespace hedgehop::sim {
+namespace {
+
+/// Evenly from [0, 1), of 53 random bits.
+double uniform(std::mt19937_64& generator) { return std::ldexp(static_cast<double>(generator() >> 11), -53); }
+
+/// A random order of 0 .. count - 1 (Fisher and Yates).
+std::vector<size_t> permutation(size_t count, std::mt19937_64& generator) {
+  std::vector<size_t> order(count);
+  std::iota(order.begin(), order.end(), size_t{0});
+  for (size_t i = count; i > 1; --i) {
+    std::swap(order[i - 1], order[static_cast<size_t>(uniform(generator) * static_cast<double>(i))]);
+  }
+  return order;
+}
+
+}  // namespace
+
+UnitPoints random_points(size_t points, size_t dimensions, uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  UnitPoints drawn(points, std::vector<double>(dimensions));
+  for (auto& point : drawn) {
+    for (double& coordinate : point) coordinate = uniform(generator);
+  }
+  return drawn;
+}
+
+UnitPoints latin_hypercube(size_t points, size_t dimensions, uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  UnitPoints drawn(points, std::vector<double>(dimensions));
+  for (size_t d = 0; d < dimensions; ++d) {
+    const std::vector<size_t> strata = permutation(points, generator);
+    for (size_t i = 0; i < points; ++i) {
+      drawn[i][d] = (static_cast<double>(strata[i]) + uniform(generator)) / static_cast<double>(points);
+    }
+  }
+  return drawn;
+}
+
+UnitPoints sobol_points(size_t points, size_t dimensions) {
+  UnitPoints drawn;
+  for (size_t i = 0; i < points; ++i) drawn.push_back(sobol_point(static_cast<uint32_t>(i), dimensions));
+  return drawn;
+}
+
+}  // namespace hedgehop::sim

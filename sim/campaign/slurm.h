@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hedgehop::sim {
+
+/// A sweep as a job array of an existing Slurm, one shard a task.
+struct SlurmJob {
+  std::filesystem::path program, sweep, out;  ///< of hedgehop; the sweep's file; the results: absolute, on every node
+  std::filesystem::path folder;               ///< to run in, so that relative paths mean what they mean here; absolute
+  size_t tasks = 1;                           ///< shards, 1..1000 (Slurm's own limit of an array's index)
+  size_t cores = 1;                           ///< of a task, and workers
+  double limit_s = 0.0;                       ///< of a flight, 0 for none
+  std::vector<std::string> options;           ///< for every sbatch, such as --partition=night
+};
+
+/// The batch script of the array: flies a shard; flights that left no result have the task re-queued once.
+std::string array_script(const SlurmJob& job);
+/// The batch script of the step after it, which gathers the results of all shards.
+std::string merge_script(const SlurmJob& job);
+
+/// Writes both scripts into the results' folder and submits them. @return the array's job number.
+/// Throws std::runtime_error with what sbatch said when it refuses or is not there.
+std::string submit(const SlurmJob& job);
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "sim/campaign/batch_record.h"
+#include "sim/campaign/slurm.h"
+#include "sim/campaign/sweep.h"
+#include "sim/cli/commands.h"
+#include "sim/cli/progress.h"
+#include "sim/cli/version.h"
+#include "sim/record/whole_file.h"
+
+namespace hedgehop::sim::cli {
+namespace {
+
+constexpr int kFails = 1;
+constexpr int kSignalled = 128;  // what a shell reports of a process that a signal ended, less the signal's number
+
+/// Ends an optimiser's search from inside.
+struct Interrupted : std::runtime_error {
+  Interrupted() : std::runtime_error("interrupted") {}
+};
+
+struct SweepRun {
+  const SweepOptions& options;
+  SweepConfig sweep;
+  std::filesystem::path out;
+  std::string name = "sweep";  ///< of the tables, without their ending
+};
+
+void write_tables(const SweepRun& run, const SweepOrders& orders, const std::vector<FlightRecord>& records) {
+  std::filesystem::create_directories(run.out);
+  const Table table = sweep_table(run.sweep, orders, records);
+  write_file_whole(run.out / (run.name + ".csv"), csv_text(table));
+  write_sqlite(run.out / (run.name + ".sqlite"), table);
+}
+
+/// Tells how it went and returns the exit status.
+int conclude(const SweepRun& run, const SweepOrders& orders, const std::vector<FlightRecord>& records) {
+  write_tables(run, orders, records);
+  const auto count = [&](auto holds) { return std::ranges::count_if(records, holds); };
+  const auto has = [](FlightRecord::Status status) {
+    return [status](const FlightRecord& record) { return record.status == status; };
+  };
+  fmt::print("{} flights: {} passed, {} failed a check, {} failed to fly, {} missing\nwritten: {}\n", records.size(),
+             count(passed), count(has(FlightRecord::Status::flown)) - count(passed),
+             count(has(FlightRecord::Status::failed)), count(has(FlightRecord::Status::missing)),
+             (run.out / (run.name + ".csv")).string());
+  for (const FlightRecord& record : records) {
+    if (record.status != FlightRecord::Status::failed) continue;
+    fmt::print("FAIL  {}: {}\n      {}\n", record.order.id, record.cause, rerun_command(record.order));
+  }
+  return std::ranges::all_of(records, passed) ? 0 : kFails;
+}
+
+FlyOptions fly_options(const SweepRun& run) {
+  return {.program = run.options.program.empty() ? own_program() : run.options.program,
+          .out = run.out,
+          .version = std::string(kVersion),
+          .workers = run.options.jobs,
+          .limit_s = run.options.limit_s};
+}
+
+OnRecord show_on(CampaignProgress& progress) {
+  return [&progress](const FlightRecord& record, bool reused) {
+    const bool ok = record.status == FlightRecord::Status::flown;
+    progress.add(record.order.id, ok ? outcome_words(record) : failure_words(record), ok, reused);
+  };
+}
+
+int fly_all(const SweepRun& run, const SweepOrders& orders) {
+  Interruption interruption;
+  CampaignProgress progress(orders.orders.size());
+  const auto records = fly_orders(orders.orders, fly_options(run), Reuse::all, interruption, show_on(progress));
+  progress.close();
+  const int status = conclude(run, orders, records);
+  return interruption.signal() != 0 ? kSignalled + interruption.signal() : status;
+}
+
+int fly_optimiser(const SweepRun& run, const OptimiseDesign& design) {
+  Interruption interruption;
+  const size_t seeds = run.sweep.seeds ? parse_seeds(*run.sweep.seeds).size() : 1;
+  CampaignProgress progress(seeds * static_cast<size_t>(design.evaluations));
+  const FlyOptions options = fly_options(run);
+  const FlyPoint fly = [&](const std::vector<Order>& orders) {
+    auto records = fly_orders(orders, options, Reuse::all, interruption, show_on(progress));
+    if (interruption.signal() != 0) throw Interrupted();
+    return records;
+  };
+  try {
+    const Optimum best = optimise(run.sweep, fly);
+    progress.close();
+    write_tables(run, best.orders, best.records);
+    nlohmann::ordered_json json{{"minimise", design.minimise}, {"cost", best.cost}, {"values", {}}};
+    std::string words;
+    for (size_t i = 0; i < best.values.size(); ++i) {
+      json["values"][run.sweep.parameters[i].path] = best.values[i];
+      words += fmt::format(" --set {}={}", run.sweep.parameters[i].path, best.values[i]);
+    }
+    write_file_whole(run.out / "optimum.json", json.dump(2) + "\n");
+    fmt::print("{} points flown; smallest mean of {}: {:g}, with{}\nwritten: {}\n", best.records.size() / seeds,
+               design.minimise, best.cost, words, (run.out / "optimum.json").string());
+    return best.cost < design.failure_cost ? 0 : kFails;
+  } catch (const Interrupted&) {
+    return kSignalled + interruption.signal();
+  }
+}
+
+int on_slurm(const SweepRun& run, size_t flights) {
+  const SlurmJob job{.program = own_program(),
+                     .sweep = std::filesystem::absolute(run.options.file),
+                     .out = std::filesystem::absolute(run.out).lexically_normal(),
+                     .folder = std::filesystem::current_path(),
+                     .tasks = std::min(run.options.tasks, flights),
+                     .cores = run.options.jobs,
+                     .limit_s = run.options.limit_s,
+                     .options = run.options.slurm_options};
+  if (run.options.dry_run) {
+    fmt::print("{}\n{}", array_script(job), merge_script(job));
+    return 0;
+  }
+  fmt::print("submitted: job {}; {} when it has ended\n", submit(job), (run.out / "sweep.csv").string());
+  return 0;
+}
+
+}  // namespace
+
+int sweep(const SweepOptions& options) {
+  SweepRun run{.options = options, .sweep = read_sweep(options.file), .out = options.out};
+  if (run.out.empty()) run.out = std::filesystem::path("out") / options.file.stem();
+  if (const auto* design = std::get_if<OptimiseDesign>(&run.sweep.design)) {
+    if (options.on != "local" || !options.shard.empty() || options.merge || options.missing) {
+      throw InputError("an optimiser looks at each point before the next: no --on, --shard, --merge or --missing");
+    }
+    return fly_optimiser(run, *design);
+  }
+  SweepOrders orders = sweep_orders(run.sweep);
+  if (options.on == "slurm") return on_slurm(run, orders.orders.size());
+  if (!options.shard.empty()) {
+    const Shard shard = parse_shard(options.shard);
+    orders = part_of(orders, shard);
+    run.name = fmt::format("shard-{}-of-{}", shard.index, shard.of);
+  }
+  if (options.merge || options.missing) {
+    std::vector<std::filesystem::path> folders{run.out};
+    folders.insert(folders.end(), options.merge_from.begin(), options.merge_from.end());
+    const std::vector<FlightRecord> records = gather(orders.orders, folders, kVersion);
+    if (options.merge) return conclude(run, orders, records);
+    fmt::print("{}\n", std::ranges::count(records, FlightRecord::Status::missing, &FlightRecord::status));
+    return 0;
+  }
+  return fly_all(run, orders);
+}
+
+}  // namespace hedgehop::sim::cli

@@ -1,0 +1,201 @@
+#include "sim/render/lens_faces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+namespace hedgehop::sim {
+
+namespace {
+
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+/// Front, right, left, down, up, back: each looks along its third column.
+const std::array<Eigen::Matrix3d, 6>& cube() {
+  static const std::array<Eigen::Matrix3d, 6> sides = [] {
+    const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
+    std::array<Eigen::Matrix3d, 6> R_CF;
+    R_CF[0] << x, y, z;
+    R_CF[1] << -z, y, x;
+    R_CF[2] << z, y, -x;
+    R_CF[3] << x, -z, y;
+    R_CF[4] << x, z, -y;
+    R_CF[5] << -x, y, -z;
+    return R_CF;
+  }();
+  return sides;
+}
+
+/// Where a pixel's ray meets the planes z = 1 of the sides.
+struct Sighting {
+  int side = -1;  ///< -1 where the lens shows nothing
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();
+  double length = 1.0;  ///< of the ray to the plane
+};
+
+std::vector<Sighting> look(const vision::Camera& camera) {
+  std::vector<Eigen::Vector3d> rays;
+  double widest = 1.0;  // cosine of the angle off the axis
+  for (int row = 0; row < camera.height_px; ++row) {
+    for (int col = 0; col < camera.width_px; ++col) {
+      const auto ray = camera.ray(Eigen::Vector2d(col, row));
+      rays.push_back(ray.value_or(Eigen::Vector3d::Constant(kNothing)));
+      if (ray) widest = std::min(widest, ray->z());
+    }
+  }
+  // One face is enough where a perspective picture is not stretched too much, and for lenses that are perspective.
+  constexpr double kOneFace_rad = 50.0 * std::numbers::pi / 180.0;
+  const bool one = std::holds_alternative<vision::PinholeLens>(camera.lens) || widest > std::cos(kOneFace_rad);
+  std::vector<Sighting> sightings(rays.size());
+  for (size_t i = 0; i < rays.size(); ++i) {
+    if (!rays[i].allFinite()) continue;
+    double best = -1.0;
+    for (int side = 0; side < (one ? 1 : 6); ++side) {
+      const Eigen::Vector3d ray_F = cube()[static_cast<size_t>(side)].transpose() * rays[i];
+      if (ray_F.z() <= best) continue;
+      best = ray_F.z();
+      sightings[i] = {side, ray_F.head<2>() / ray_F.z(), 1.0 / ray_F.z()};
+    }
+  }
+  return sightings;
+}
+
+/// Focal length at which the faces have as many pixels as the picture takes from them: neither blurred nor coarser on
+/// the whole. Found from the area that each pixel and its neighbours span on a side.
+double focal_px(const vision::Camera& camera, const std::vector<Sighting>& sightings, int side) {
+  double area = 0.0, count = 0.0;
+  for (int row = 0; row + 1 < camera.height_px; ++row) {
+    for (int col = 0; col + 1 < camera.width_px; ++col) {
+      const auto at = [&](int down, int right) -> const Sighting& {
+        return sightings[static_cast<size_t>((row + down) * camera.width_px + col + right)];
+      };
+      const Sighting &here = at(0, 0), &right = at(0, 1), &below = at(1, 0);
+      if (here.side != side || right.side != side || below.side != side) continue;
+      const Eigen::Vector2d a = right.at - here.at, b = below.at - here.at;
+      area += std::abs(a.x() * b.y() - a.y() * b.x());
+      count += 1.0;
+    }
+  }
+  constexpr double kAFewPixels = 100.0;
+  return area > 0.0 ? std::sqrt(count / area) : kAFewPixels;
+}
+
+/// The face of a side, as large as its part of the picture; nothing when it has none.
+std::optional<LensFaces::Face> make_face(const vision::Camera& camera, const std::vector<Sighting>& sightings,
+                                         int side) {
+  Eigen::AlignedBox2d seen;
+  for (const Sighting& sighting : sightings) {
+    if (sighting.side == side) seen.extend(sighting.at);
+  }
+  if (seen.isEmpty()) return std::nullopt;
+  LensFaces::Face face;
+  face.R_CF = cube()[static_cast<size_t>(side)];
+  const double focal = focal_px(camera, sightings, side);
+  const Eigen::Vector2d first = (focal * seen.min()).array().floor(), last = (focal * seen.max()).array().ceil();
+  constexpr double kMarginPx = 1.0;
+  const Eigen::Vector2d center = Eigen::Vector2d::Constant(kMarginPx) - first;
+  const Eigen::Vector2d size = last - first + Eigen::Vector2d::Constant(2.0 * kMarginPx + 1.0);
+  face.camera = {static_cast<int>(size.x()), static_cast<int>(size.y()), focal, focal, center.x(), center.y()};
+  return face;
+}
+
+}  // namespace
+
+bool depth_is_z(const vision::Camera& camera) { return std::holds_alternative<vision::PinholeLens>(camera.lens); }
+
+LensFaces make_lens_faces(const vision::Camera& camera) {
+  const std::vector<Sighting> sightings = look(camera);
+  LensFaces faces;
+  faces.camera = camera;
+  std::array<size_t, 6> face_of_side{};
+  for (int side = 0; side < 6; ++side) {
+    std::optional<LensFaces::Face> face = make_face(camera, sightings, side);
+    if (!face) continue;
+    face->first_row = faces.sheet.height;
+    faces.sheet.height += face->camera.height_px;
+    faces.sheet.width = std::max(faces.sheet.width, face->camera.width_px);
+    face_of_side[static_cast<size_t>(side)] = faces.faces.size();
+    faces.faces.push_back(*face);
+  }
+
+  faces.places.resize(sightings.size());
+  faces.nearest.resize(sightings.size());
+  for (size_t i = 0; i < sightings.size(); ++i) {
+    if (sightings[i].side < 0) continue;
+    const LensFaces::Face& face = faces.faces[face_of_side[static_cast<size_t>(sightings[i].side)]];
+    const double u = face.camera.center_u_px + face.camera.focal_x_px * sightings[i].at.x();
+    const double v = face.camera.center_v_px + face.camera.focal_y_px * sightings[i].at.y();
+    const auto index = [&](double col, double row) {
+      return static_cast<int32_t>((face.first_row + static_cast<int>(row)) * faces.sheet.width + static_cast<int>(col));
+    };
+    const double left = std::floor(u), top = std::floor(v), near_u = std::round(u), near_v = std::round(v);
+    faces.places[i] = {index(left, top), static_cast<uint16_t>(std::lround(256.0 * (u - left))),
+                       static_cast<uint16_t>(std::lround(256.0 * (v - top)))};
+    faces.nearest[i] = {index(near_u, near_v), static_cast<float>(u - near_u), static_cast<float>(v - near_v),
+                        static_cast<float>(depth_is_z(camera) ? 1.0 : sightings[i].length)};
+  }
+  return faces;
+}
+
+namespace {
+
+template <int kChannels>
+void mix(const LensFaces& faces, const cv::Mat& sheet, cv::Mat& out) {
+  const size_t below = sheet.step[0];
+  const LensFaces::Place* place = faces.places.data();
+  for (int row = 0; row < out.rows; ++row) {
+    uint8_t* pixel = out.ptr<uint8_t>(row);
+    for (int col = 0; col < out.cols; ++col, ++place, pixel += kChannels) {
+      if (place->index < 0) {
+        std::fill_n(pixel, kChannels, uint8_t{0});
+        continue;
+      }
+      const uint8_t* const a = sheet.data + static_cast<size_t>(place->index) * kChannels;
+      const uint32_t right = place->right, left = 256 - right, down = place->down, up = 256 - down;
+      for (int c = 0; c < kChannels; ++c) {
+        const uint32_t above = a[c] * left + a[c + kChannels] * right;
+        const uint32_t beneath =
+            a[below + static_cast<size_t>(c)] * left + a[below + static_cast<size_t>(c) + kChannels] * right;
+        pixel[c] = static_cast<uint8_t>((above * up + beneath * down + (1u << 15)) >> 16);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void mix_levels(const LensFaces& faces, const cv::Mat& sheet, cv::Mat& out) {
+  out.create(faces.camera.height_px, faces.camera.width_px, sheet.type());
+  sheet.channels() == 1 ? mix<1>(faces, sheet, out) : mix<3>(faces, sheet, out);
+}
+
+void meet_planes(const LensFaces& faces, const cv::Mat& sheet, cv::Mat& out) {
+  out.create(faces.camera.height_px, faces.camera.width_px, CV_32FC1);
+  const LensFaces::Nearest* near = faces.nearest.data();
+  for (int row = 0; row < out.rows; ++row) {
+    for (int col = 0; col < out.cols; ++col, ++near) {
+      float& depth_m = out.at<float>(row, col);
+      depth_m = std::numeric_limits<float>::quiet_NaN();
+      if (near->index < 0) continue;
+      const auto& plane = reinterpret_cast<const cv::Vec4f*>(sheet.data)[near->index];
+      const float met = plane[0] + near->right * plane[1] + near->down * plane[2];
+      depth_m = near->per_depth / (met > 0.0f ? met : plane[0]);  // 1 / 0 for sky
+    }
+  }
+}
+
+void pick_labels(const LensFaces& faces, const cv::Mat& sheet, cv::Mat& out) {
+  out.create(faces.camera.height_px, faces.camera.width_px, CV_32SC1);
+  const LensFaces::Nearest* near = faces.nearest.data();
+  for (int row = 0; row < out.rows; ++row) {
+    int* label = out.ptr<int>(row);
+    for (int col = 0; col < out.cols; ++col, ++near, ++label) {
+      *label = near->index < 0 ? 0 : reinterpret_cast<const int*>(sheet.data)[near->index];
+    }
+  }
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,177 @@
+#include "sim/render/scene_painter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace hedgehop::sim {
+
+namespace {
+
+/// Pixel to normalized device coordinates, y not flipped: (scale x, scale y, centre x, centre y).
+Eigen::Vector4f lens(const vision::PinholeCamera& camera) {
+  return Eigen::Vector4d(2.0 * camera.focal_x_px / camera.width_px, 2.0 * camera.focal_y_px / camera.height_px,
+                         (2.0 * camera.center_u_px + 1.0) / camera.width_px - 1.0,
+                         (2.0 * camera.center_v_px + 1.0) / camera.height_px - 1.0)
+      .cast<float>();
+}
+
+/// The nearest point that floats hold exactly up to 16 km from the origin. Not the nearest float: g++ 12 at -O2 folds
+/// double to float and back into nothing, and p - on_float_grid(p) with it.
+Eigen::Vector3d on_float_grid(const Eigen::Vector3d& p) { return (1024.0 * p).array().round().matrix() / 1024.0; }
+
+Eigen::Vector3f mean_of_channels(const Eigen::Vector3f& color) { return Eigen::Vector3f::Constant(color.mean()); }
+
+std::vector<scenes::Motion> motions_of(const scenes::Scene& scene) {
+  std::vector<scenes::Motion> motions;
+  for (const scenes::Mover& mover : scene.movers) motions.push_back(mover.motion);
+  return motions;
+}
+
+size_t most_stretches(const SceneBuffers& buffers) {
+  size_t most = buffers.chunks.size() + buffers.tiles.size();
+  for (const auto& chunks : buffers.mover_chunks) most = std::max(most, chunks.size());
+  return most;
+}
+
+}  // namespace
+
+ScenePainter::ScenePainter(const scenes::Scene& scene, Culling culling, ContextKind context)
+    : context_(make_context(context)),
+      culling_(culling),
+      sky_(scene.sky),
+      motions_(motions_of(scene)),
+      buffers_(upload(gl_, scene)),
+      visible_(buffers_.chunks, buffers_.tiles),
+      greys_(grey_program(gl_)),
+      colors_(color_program(gl_)),
+      depths_(depth_program(gl_)),
+      planes_(plane_program(gl_)),
+      labels_(label_program(gl_)),
+      skies_(sky_program(gl_)),
+      counts_(most_stretches(buffers_)),
+      offsets_(counts_.size()),
+      stretch_labels_(counts_.size()) {
+  gl_.Enable(GL_CULL_FACE);
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.FrontFace(GL_CW);  // counter-clockwise in the picture, whose rows run down, is clockwise in OpenGL's window
+  gl_.DepthFunc(GL_GEQUAL);
+  gl_.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  check_gl(gl_, "setting the context up");
+}
+
+void ScenePainter::paint(const vision::PinholeCamera& camera, const Eye& eye, Raster raster, cv::Mat& out) {
+  context_->make_current();
+  targets_.bind(gl_, camera.width_px, camera.height_px, raster);
+  const float farthest = 0.0f;
+  gl_.ClearBufferfv(GL_DEPTH, 0, &farthest);
+  switch (raster) {
+    case Raster::grey:
+    case Raster::color:
+      draw_scene(camera, eye, raster == Raster::grey ? greys_ : colors_, false);
+      draw_sky(camera, eye.X_WC, raster == Raster::grey);
+      break;
+    case Raster::depth:
+    case Raster::planes: {
+      const bool depth = raster == Raster::depth;
+      const float sky = depth ? std::numeric_limits<float>::infinity() : 0.0f;
+      gl_.ClearBufferfv(GL_COLOR, 0, Eigen::Vector4f::Constant(sky).eval().data());
+      draw_scene(camera, eye, depth ? depths_ : planes_, false);
+      break;
+    }
+    case Raster::labels: {
+      const Eigen::Vector4i sky = Eigen::Vector4i::Zero();
+      gl_.ClearBufferiv(GL_COLOR, 0, sky.data());
+      draw_scene(camera, eye, labels_, true);
+      break;
+    }
+  }
+  targets_.read(gl_, out);
+  check_gl(gl_, "drawing");
+}
+
+std::string ScenePainter::info() {
+  context_->make_current();
+  const auto word = [&](GLenum name) { return reinterpret_cast<const char*>(gl_.GetString(name)); };
+  return fmt::format("{}; {}; OpenGL {}", word(GL_VENDOR), word(GL_RENDERER), word(GL_VERSION));
+}
+
+void ScenePainter::set_eye(const Program& program, const Eigen::Vector3d& p_WC, const Eigen::Matrix3d& R_WC) {
+  const Eigen::Vector3d eye_W = on_float_grid(p_WC);
+  const Eigen::Vector3f eye_low_C = (R_WC.transpose() * (p_WC - eye_W)).cast<float>();
+  gl_.Uniform3fv(program.eye_W, 1, eye_W.cast<float>().eval().data());
+  gl_.Uniform3fv(program.eye_low_C, 1, eye_low_C.data());
+}
+
+void ScenePainter::draw_scene(const vision::PinholeCamera& camera, const Eye& eye, const Program& program,
+                              bool labelled) {
+  const Eigen::Matrix3f R_CW = eye.X_WC.linear().transpose().cast<float>();
+  gl_.UseProgram(program.id);
+  set_eye(program, eye.X_WC.translation(), eye.X_WC.linear());
+  gl_.UniformMatrix3fv(program.rotation, 1, GL_FALSE, R_CW.data());
+  gl_.Uniform4fv(program.lens, 1, lens(camera).data());
+
+  stretches_ = 0;
+  for (const scenes::Chunk& chunk : visible_.find(camera, eye.X_WC, culling_)) {
+    counts_[stretches_] = static_cast<GLsizei>(chunk.index_count);
+    offsets_[stretches_] = reinterpret_cast<const void*>(chunk.first_index * sizeof(uint32_t));
+    if (labelled) stretch_labels_[stretches_] = label_of(chunk);
+    ++stretches_;
+  }
+  draw_stretches(program, labelled);
+  draw_movers(eye, program, labelled);
+}
+
+/// A mover does not turn, so that it is drawn as if it stood still and the eye were where it is seen from M.
+void ScenePainter::draw_movers(const Eye& eye, const Program& program, bool labelled) {
+  for (size_t mover = 0; mover < motions_.size(); ++mover) {
+    const Eigen::Vector3d p_WM = scenes::p_WM(motions_[mover], eye.t_s);
+    stretches_ = 0;
+    for (const scenes::Chunk& chunk : buffers_.mover_chunks[mover]) {
+      // A float of W may lie off by a rounding: the box gives way by more than that.
+      constexpr float kRoundingM = 0.01f;
+      const Eigen::Vector3f p = p_WM.cast<float>(), give = Eigen::Vector3f::Constant(kRoundingM);
+      const Eigen::AlignedBox3f box_W(chunk.box_W.min() + p - give, chunk.box_W.max() + p + give);
+      if (chunk.index_count == 0 || !visible_.shows(box_W)) continue;
+      counts_[stretches_] = static_cast<GLsizei>(chunk.index_count);
+      offsets_[stretches_] = reinterpret_cast<const void*>(chunk.first_index * sizeof(uint32_t));
+      stretch_labels_[stretches_] = static_cast<int>(1 + buffers_.chunks.size() + mover);
+      ++stretches_;
+    }
+    if (stretches_ == 0) continue;
+    set_eye(program, eye.X_WC.translation() - p_WM, eye.X_WC.linear());
+    draw_stretches(program, labelled);
+  }
+}
+
+void ScenePainter::draw_stretches(const Program& program, bool labelled) {
+  for (size_t i = 0; i < stretches_; ++i) {
+    count_.triangles += static_cast<size_t>(counts_[i]) / 3;
+    if (!labelled) continue;
+    gl_.Uniform1i(program.label, stretch_labels_[i]);
+    gl_.DrawElements(GL_TRIANGLES, counts_[i], GL_UNSIGNED_INT, offsets_[i]);
+  }
+  count_.stretches += stretches_;
+  if (labelled) return;
+  gl_.MultiDrawElements(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_INT, offsets_.data(),
+                        static_cast<GLsizei>(stretches_));
+}
+
+/// Chunks lie in the order of first_index; a stretch is a chunk or a part of one.
+int ScenePainter::label_of(const scenes::Chunk& stretch) const {
+  const auto after = std::ranges::upper_bound(buffers_.chunks, stretch.first_index, {}, &scenes::Chunk::first_index);
+  return static_cast<int>(after - buffers_.chunks.begin());
+}
+
+void ScenePainter::draw_sky(const vision::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, bool grey) {
+  const Eigen::Matrix3f R_WC = X_WC.linear().cast<float>();
+  gl_.UseProgram(skies_.id);
+  gl_.UniformMatrix3fv(skies_.rotation, 1, GL_FALSE, R_WC.data());
+  gl_.Uniform4fv(skies_.lens, 1, lens(camera).data());
+  gl_.Uniform3fv(skies_.horizon, 1, (grey ? mean_of_channels(sky_.horizon) : sky_.horizon).data());
+  gl_.Uniform3fv(skies_.zenith, 1, (grey ? mean_of_channels(sky_.zenith) : sky_.zenith).data());
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "scenes/scene.h"
+#include "sim/render/gl_context.h"
+#include "sim/render/render_targets.h"
+#include "sim/render/scene_buffers.h"
+#include "sim/render/shaders.h"
+#include "sim/render/visible_chunks.h"
+#include "vision/pinhole_camera.h"
+
+namespace hedgehop::sim {
+
+/// Draws pinhole pictures of a scene with OpenGL: what Renderer makes all others from.
+class ScenePainter {
+ public:
+  /// Throws as Renderer does.
+  ScenePainter(const scenes::Scene& scene, Culling culling, ContextKind context);
+
+  /// Where a picture is taken from, and when.
+  struct Eye {
+    Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
+    double t_s = 0.0;
+  };
+
+  /// Draws one picture. @param out  created when its size or type does not fit, otherwise written in place.
+  void paint(const vision::PinholeCamera& camera, const Eye& eye, Raster raster, cv::Mat& out);
+
+  /// Stretches of the index buffer and triangles of the pictures since the last call of start_count().
+  struct Count {
+    size_t stretches = 0, triangles = 0;
+  };
+  void start_count() { count_ = {}; }
+  const Count& count() const { return count_; }
+
+  /// OpenGL vendor, renderer and version, one line.
+  std::string info();
+
+ private:
+  void draw_scene(const vision::PinholeCamera& camera, const Eye& eye, const Program& program, bool labelled);
+  void draw_movers(const Eye& eye, const Program& program, bool labelled);
+  void draw_sky(const vision::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, bool grey);
+  void set_eye(const Program& program, const Eigen::Vector3d& p_WC, const Eigen::Matrix3d& R_WC);
+  void draw_stretches(const Program& program, bool labelled);
+  int label_of(const scenes::Chunk& stretch) const;
+
+  std::unique_ptr<GlContext> context_;
+  const GlFunctions& gl_ = context_->gl();
+  Culling culling_;
+  scenes::Sky sky_;
+  std::vector<scenes::Motion> motions_;  ///< of the movers
+  SceneBuffers buffers_;
+  VisibleChunks visible_;
+  Program greys_, colors_, depths_, planes_, labels_, skies_;
+  RenderTargets targets_;
+  std::vector<GLsizei> counts_;  ///< of the stretches to draw next
+  std::vector<const void*> offsets_;
+  std::vector<int> stretch_labels_;
+  size_t stretches_ = 0;
+  Count count_;
+};
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,135 @@
+#include "scenes/mesh_import.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <opencv2/imgcodecs.hpp>
+
+namespace hedgehop::scenes {
+namespace {
+
+using Eigen::Vector3d;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+using E = std::invalid_argument;
+
+class MeshImport : public testing::Test {
+ protected:
+  void SetUp() override {
+    const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::path(testing::TempDir()) / (std::string("mesh_import_") + test->name());
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return (folder_ / name).string();
+  }
+  static Scene imported(const ImportConfig& config) {
+    Scene scene;
+    scene.textures.push_back(cv::Mat(64, 64, CV_8UC3, cv::Scalar(0, 0, 0)));
+    add_imports({config}, scene);
+    return scene;
+  }
+
+  std::filesystem::path folder_;
+};
+
+// A quad 2 wide, 3 high, 1 in front of the model's origin (z = -1), y up, its front to the viewer behind it.
+const std::string kQuad = R"(mtllib quad.mtl
+v -1 0 -1
+v 1 0 -1
+v 1 3 -1
+v -1 3 -1
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+usemtl paint
+f 1/1 2/2 3/3 4/4
+)";
+
+TEST_F(MeshImport, OfAQuadStandsWhereHeadingAndPlacePutIt) {
+  const std::string file = write("quad.obj", kQuad);
+  write("quad.mtl", "newmtl paint\nKd 1 0 0\n");
+  const Scene scene = imported({.file = file,
+                                .north_m = 10.0,
+                                .east_m = 20.0,
+                                .altitude_m = 1.0,
+                                .heading_rad = std::numbers::pi / 2,
+                                .scale = 2.0});
+  // Heading east: the model's front (-z) is east, its right (x) is south.
+  const Mesh& mesh = scene.meshes.at(0);
+  ASSERT_EQ(mesh.indices.size(), 6u);
+  Eigen::AlignedBox3f box;
+  for (const Vertex& vertex : mesh.vertices) {
+    box.extend(vertex.p_W);
+    EXPECT_LT((vertex.n_W - Eigen::Vector3f(0, -1, 0)).norm(), 1e-5f);  // z of the model is west
+    const bool is_top = vertex.p_W.z() < -4.0f, is_right = vertex.p_W.x() < 10.0f;
+    EXPECT_NEAR(vertex.uv.x(), is_right ? 1.0 : 0.0, 1e-6);
+    EXPECT_NEAR(vertex.uv.y(), is_top ? 0.0 : 1.0, 1e-6);  // row 0 on top
+  }
+  EXPECT_LT((box.min() - Eigen::Vector3f(8, 22, -7)).norm(), 1e-5f);
+  EXPECT_LT((box.max() - Eigen::Vector3f(12, 22, -1)).norm(), 1e-5f);
+  EXPECT_EQ(scene.textures.at(1).at<cv::Vec3b>(5, 5), cv::Vec3b(255, 0, 0));
+  ASSERT_EQ(scene.solids.size(), 1u);
+  EXPECT_EQ(scene.solids[0].shape, Solid::Shape::surface);
+  EXPECT_EQ(scene.solids[0].polyhedron.faces.size(), 2u);
+}
+
+TEST_F(MeshImport, WithZUpAndWithoutCollisionIsScenery) {
+  const std::string file = write("quad.obj", kQuad);
+  write("quad.mtl", "newmtl paint\nKd 1 0 0\n");
+  const Scene scene = imported({.file = file, .up = ImportConfig::Up::z, .collide = ImportConfig::Collide::none});
+  EXPECT_TRUE(scene.solids.empty());
+  Eigen::AlignedBox3f box;
+  for (const Vertex& vertex : scene.meshes.at(0).vertices) box.extend(vertex.p_W);
+  EXPECT_LT((box.min() - Eigen::Vector3f(0, -1, 1)).norm(), 1e-5f);
+  EXPECT_LT((box.max() - Eigen::Vector3f(3, 1, 1)).norm(), 1e-5f);
+}
+
+TEST_F(MeshImport, CarriesItsPictureTheRightWayRound) {
+  cv::Mat picture(8, 8, CV_8UC3, cv::Scalar(0, 0, 200));  // red, as OpenCV writes it
+  picture.rowRange(0, 4) = cv::Scalar(200, 0, 0);         // its upper half is blue
+  cv::imwrite((folder_ / "flag.png").string(), picture);
+  const std::string file = write("quad.obj", kQuad);
+  write("quad.mtl", "newmtl paint\nmap_Kd flag.png\n");
+  const Scene scene = imported({.file = file});
+  ASSERT_EQ(scene.textures.at(1).size(), cv::Size(64, 64));
+  EXPECT_EQ(scene.textures.at(1).at<cv::Vec3b>(10, 30), cv::Vec3b(0, 0, 200));
+  EXPECT_EQ(scene.textures.at(1).at<cv::Vec3b>(50, 30), cv::Vec3b(200, 0, 0));
+}
+
+TEST_F(MeshImport, ReadsGltf) {
+  // One triangle (0,0,0), (1,0,0), (0,1,0): three float triples, little endian, in base 64.
+  const std::string file = write("triangle.gltf", R"({"asset": {"version": "2.0"}, "scene": 0,
+ "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "translation": [0, 0, -4]}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+ "bufferViews": [{"buffer": 0, "byteLength": 36}],
+ "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+  const Scene scene = imported({.file = file});
+  Eigen::AlignedBox3f box;
+  for (const Vertex& vertex : scene.meshes.at(0).vertices) box.extend(vertex.p_W);
+  EXPECT_LT((box.min() - Eigen::Vector3f(4, 0, -1)).norm(), 1e-5f);
+  EXPECT_LT((box.max() - Eigen::Vector3f(4, 1, 0)).norm(), 1e-5f);
+}
+
+TEST_F(MeshImport, RefusesWhatItCannotReadWithTheReason) {
+  const auto refused = [](const std::string& file) { return [file] { imported({.file = file}); }; };
+  EXPECT_THAT(refused((folder_ / "none.obj").string()),
+              ThrowsMessage<E>(HasSubstr("none.obj': there is no such file")));
+  EXPECT_THAT(refused(write("broken.gltf", "{\"asset\": ")), ThrowsMessage<E>(HasSubstr("broken.gltf': ")));
+  EXPECT_THAT(refused(write("notes.txt", "no mesh")), ThrowsMessage<E>(HasSubstr("notes.txt': ")));
+  EXPECT_THAT(refused(write("empty.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n")), ThrowsMessage<E>(HasSubstr("empty.obj': ")));
+  write("quad.mtl", "newmtl paint\nmap_Kd gone.png\n");
+  EXPECT_THAT(refused(write("quad.obj", kQuad)), ThrowsMessage<E>(HasSubstr("its picture 'gone.png' cannot be read")));
+}
+
+}  // namespace
+}  // namespace hedgehop::scenes

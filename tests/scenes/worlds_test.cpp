@@ -1,0 +1,249 @@
+// What each of the smaller worlds promises of its geometry.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+#include "scene_equality.h"
+#include "scenes/generators.h"
+#include "scenes/stone_textures.h"
+
+namespace hedgehop::scenes {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+using E = std::invalid_argument;
+
+constexpr int64_t kSmallPx = 64;
+
+bool inside_a_box(const Scene& scene, const Vector3d& p_W) {
+  return std::ranges::any_of(scene.solids, [&](const Solid& solid) {
+    const Vector3d p_S = solid.X_WS.inverse() * p_W;
+    return solid.shape == Solid::Shape::box && (p_S.cwiseAbs().array() < solid.half_extents_m.array()).all();
+  });
+}
+
+std::vector<SceneConfig> small_worlds() {
+  return {TreeConfig{.texture_size_px = kSmallPx},     ForestConfig{.trees = 50, .texture_size_px = kSmallPx},
+          CorridorConfig{.texture_size_px = kSmallPx}, HighriseConfig{.texture_size_px = kSmallPx},
+          BalloonConfig{.texture_size_px = kSmallPx},  WallConfig{.texture_size_px = kSmallPx},
+          ParkConfig{.texture_size_px = kSmallPx}};
+}
+
+TEST(Worlds, AreTheSameForTheSameSeedAndOthersForAnother) {
+  for (const SceneConfig& config : small_worlds()) {
+    const Scene scene = make_scene(config, 4);
+    EXPECT_TRUE(identical(scene, make_scene(config, 4))) << scene.name;
+    EXPECT_FALSE(identical(scene, make_scene(config, 5))) << scene.name;
+  }
+}
+
+TEST(Worlds, RefusePicturesOfOddSizes) {
+  for (SceneConfig config : small_worlds()) {
+    std::visit([](auto& chosen) { chosen.texture_size_px = 100; }, config);
+    EXPECT_THAT([&] { make_scene(config, 1); }, ThrowsMessage<E>(HasSubstr("texture_size: 100")));
+  }
+}
+
+TEST(Tree, CrownIsTenMetresAcrossAndTheTreeTwelveHigh) {
+  for (uint64_t seed = 0; seed < 10; ++seed) {
+    const Scene scene = make_tree({.north_m = 3.0, .east_m = -2.0, .texture_size_px = kSmallPx}, seed);
+    Eigen::AlignedBox3d box;
+    double farthest_m = 0.0;
+    for (const Solid& solid : scene.solids) {
+      box.extend(bounds_W(solid));
+      for (const Vector3d& corner : solid.polyhedron.corners) {
+        farthest_m = std::max(farthest_m, (solid.X_WS * corner - Vector3d(3.0, -2.0, 0.0)).head<2>().norm());
+      }
+    }
+    EXPECT_LE(farthest_m, 5.0 + 1e-9);
+    EXPECT_GE(box.sizes().head<2>().minCoeff(), 8.5);
+    EXPECT_LE(-box.min().z(), 12.0 + 1e-9);
+    EXPECT_GE(-box.min().z(), 11.0);
+    EXPECT_NEAR(box.max().z(), 0.0, 1e-9);
+  }
+}
+
+TEST(Forest, KeepsItsSpacingAndItsClearings) {
+  ForestConfig config{.trees = 400, .keep_clear = {{5.0, -3.0, 8.0}}, .texture_size_px = kSmallPx};
+  for (uint64_t seed = 0; seed < 3; ++seed) {
+    const Scene scene = make_forest(config, seed);
+    std::vector<Vector2d> trunks;
+    for (const Solid& solid : scene.solids) {
+      const Eigen::AlignedBox3d box = bounds_W(solid);
+      const Vector2d nearest = Vector2d(5.0, -3.0).cwiseMax(box.min().head<2>()).cwiseMin(box.max().head<2>());
+      if (solid.shape == Solid::Shape::cylinder) {
+        trunks.push_back(solid.X_WS.translation().head<2>());
+        EXPECT_GE((nearest - Vector2d(5.0, -3.0)).norm(), 8.0);
+      }
+      for (const Vector3d& corner : solid.polyhedron.corners) {
+        EXPECT_GE(((solid.X_WS * corner).head<2>() - Vector2d(5.0, -3.0)).norm(), 8.0);
+      }
+    }
+    ASSERT_EQ(trunks.size(), 400u);
+    for (size_t i = 0; i < trunks.size(); ++i) {
+      ASSERT_LE(trunks[i].cwiseAbs().maxCoeff(), 0.5 * config.extent_m());
+      for (size_t j = 0; j < i; ++j) ASSERT_GE((trunks[i] - trunks[j]).norm(), config.spacing_m);
+    }
+  }
+}
+
+TEST(Forest, OfTenThousandTreesHasFewTrianglesEach) {
+  const Scene scene = make_forest({.trees = 10000, .texture_size_px = kSmallPx}, 1);
+  EXPECT_EQ(scene.solids.size(), 20000u);
+  EXPECT_LE(scene.meshes.at(0).indices.size() / 3, 150u * 10000u);
+}
+
+TEST(Forest, RefusesMoreTreesThanFit) {
+  const ForestConfig config{.trees = 30, .keep_clear = {{0.0, 0.0, 14.0}}, .texture_size_px = kSmallPx};
+  EXPECT_THAT([&] { make_forest(config, 1); }, ThrowsMessage<E>(HasSubstr("trees: 30; valid: what fits: ")));
+  EXPECT_THAT([] { make_forest({.clear_height_m = 9.0}, 1); }, ThrowsMessage<E>(HasSubstr("clear_height: 9")));
+}
+
+TEST(Corridor, IsAsWideAsAskedInEverySection) {
+  CorridorConfig config{.width_m = 4.0, .texture_size_px = kSmallPx};
+  config.sections = {{10.0}, {12.0, 0.7}, {8.0, -0.4, 2.8}, {8.0, 0.0, 4.0}, {15.0, -0.78}};
+  const Scene scene = make_corridor(config, 1);
+  const double ends_m[] = {4.0, 4.0, 4.0, 2.8, 4.0, 4.0};
+  double heading_rad = 0.0;
+  Vector2d from = Vector2d::Zero();
+  for (size_t k = 0; k < config.sections.size(); ++k) {
+    heading_rad += config.sections[k].bend_rad;
+    const Vector2d along(std::cos(heading_rad), std::sin(heading_rad)), right(-along.y(), along.x());
+    for (const double share : {0.4, 0.5, 0.6}) {
+      const Vector2d middle = from + share * config.sections[k].length_m * along;
+      const double half_m = 0.5 * (ends_m[k] + share * (ends_m[k + 1] - ends_m[k]));
+      // Where the corridor narrows its corners are cut across the bend, so that the taper is off by a little.
+      const double slack_m = ends_m[k] == ends_m[k + 1] ? 1e-6 : 0.1;
+      for (const double side : {-1.0, 1.0}) {
+        const Vector2d inner = middle + side * (half_m - slack_m) * right,
+                       outer = middle + side * (half_m + slack_m) * right;
+        EXPECT_FALSE(inside_a_box(scene, {inner.x(), inner.y(), -1.5})) << "section " << k;
+        EXPECT_TRUE(inside_a_box(scene, {outer.x(), outer.y(), -1.5})) << "section " << k;
+      }
+    }
+    from += config.sections[k].length_m * along;
+  }
+}
+
+TEST(Corridor, LetsNobodyOutAtItsBends) {
+  CorridorConfig config{.texture_size_px = kSmallPx};
+  config.sections = {{6.0}, {6.0, 0.785}, {6.0, -0.785}, {6.0, -0.35, 1.8}, {6.0, 0.52}};
+  const Scene scene = make_corridor(config, 2);
+  const CorridorPlan plan = plan_corridor(config);
+  for (const std::vector<Vector2d>& wall : {plan.lefts_NE, plan.rights_NE}) {
+    for (size_t k = 0; k < wall.size(); ++k) {
+      const Vector2d out = (wall[k] - plan.middles_NE[k]).normalized();
+      const Vector2d p = wall[k] + 0.01 * out;
+      EXPECT_TRUE(inside_a_box(scene, {p.x(), p.y(), -1.0})) << "corner " << k;
+    }
+  }
+}
+
+TEST(Corridor, DoorwayAndPillarLeaveTheWidthThatTheySay) {
+  CorridorConfig config{.width_m = 3.0, .texture_size_px = kSmallPx};
+  config.sections = {{10.0, 0.0, 0.0, 1.2, 0.0}, {10.0, 0.0, 0.0, 0.0, 0.7}};
+  const Scene scene = make_corridor(config, 1);
+  const auto free_at = [&](double north_m, double east_m, double up_m) {
+    return !inside_a_box(scene, {north_m, east_m, -up_m});
+  };
+  EXPECT_TRUE(free_at(5.0, 0.599, 1.0) && free_at(5.0, -0.599, 2.09));
+  EXPECT_FALSE(free_at(5.0, 0.601, 1.0) || free_at(5.0, -0.601, 1.0) || free_at(5.0, 0.0, 2.11));
+  EXPECT_TRUE(free_at(15.0, 0.799, 1.0) && free_at(15.0, -1.499, 1.0));
+  EXPECT_FALSE(free_at(15.0, 0.801, 1.0));
+}
+
+TEST(Corridor, WithoutTextureIsOneColourAndWithHalfOfItHalfAsContrasted) {
+  const auto contrast = [](double texture) {
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(make_corridor({.texture = texture, .texture_size_px = 128}, 1).textures.at(0), mean, deviation);
+    return deviation[0];
+  };
+  EXPECT_EQ(contrast(0.0), 0.0);
+  EXPECT_GT(contrast(1.0), 20.0);
+  EXPECT_NEAR(contrast(0.5), 0.5 * contrast(1.0), 0.5);  // grey levels are whole numbers
+}
+
+TEST(Highrise, HasEightCornersOrThirtyFiveAndDrawsThem) {
+  for (const auto& [layout, count] :
+       {std::pair{HighriseConfig::Layout::cube, 8u}, {HighriseConfig::Layout::skyline, 35u}}) {
+    const HighriseConfig config{.layout = layout, .texture_size_px = kSmallPx};
+    const std::vector<Vector3d> corners = highrise_corners(config);
+    EXPECT_EQ(corners.size(), count);
+    const Scene scene = make_highrise(config, 1);
+    for (const Vector3d& corner : corners) {
+      EXPECT_TRUE(std::ranges::any_of(scene.meshes[0].vertices, [&](const Vertex& vertex) {
+        return (vertex.p_W.cast<double>() - corner).norm() < 1e-4;
+      })) << corner.transpose();
+    }
+  }
+}
+
+TEST(Wall, IsOpenInItsOpeningAndClosedAroundIt) {
+  const WallConfig config{.opening = WallOpening{.middle_m = 4.0, .bottom_m = 2.0, .width_m = 3.0, .height_m = 5.0},
+                          .texture_size_px = kSmallPx};
+  const Scene scene = make_wall(config, 1);
+  for (double east_m = -14.9; east_m < 15.0; east_m += 0.37) {
+    for (double up_m = 0.1; up_m < 10.0; up_m += 0.23) {
+      const bool open = std::abs(east_m - 4.0) < 1.5 && up_m > 2.0 && up_m < 7.0;
+      ASSERT_EQ(inside_a_box(scene, {20.2, east_m, -up_m}), !open) << east_m << " " << up_m;
+    }
+  }
+  EXPECT_FALSE(inside_a_box(scene, {19.9, 0.0, -1.0}) || inside_a_box(scene, {20.5, 0.0, -1.0}));
+  EXPECT_THAT([] { make_wall({.opening = WallOpening{.bottom_m = 8.0}}, 1); },
+              ThrowsMessage<E>(HasSubstr("opening.bottom: 8")));
+}
+
+// The smaller eigenvalue of the gradients around the best corner, as detectors of corners rank them.
+double best_corner(const cv::Mat& picture) {
+  cv::Mat grey, strength;
+  cv::cvtColor(picture, grey, cv::COLOR_RGB2GRAY);
+  cv::cornerMinEigenVal(grey, strength, 3);
+  double best = 0.0;
+  cv::minMaxLoc(strength, nullptr, &best);
+  return best;
+}
+
+TEST(Wall, CloudsHaveGradientsButNoCorners) {
+  constexpr int kSizePx = 512;
+  const cv::Mat clouds = paint_clouded_wall(kSizePx, 1), bricks = paint_brick_wall(kSizePx, 1);
+  EXPECT_LT(best_corner(clouds), 0.01 * best_corner(bricks));
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(clouds, mean, deviation);
+  EXPECT_GT(deviation[0], 15.0);
+  cv::meanStdDev(paint_blank(kSizePx, {0.5f, 0.5f, 0.5f}), mean, deviation);
+  EXPECT_EQ(deviation[0], 0.0);
+}
+
+TEST(Park, KeepsItsClearingAndTheRoadFree) {
+  for (uint64_t seed = 0; seed < 5; ++seed) {
+    const Scene scene = make_park({.texture_size_px = kSmallPx}, seed);
+    for (const Solid& solid : scene.solids) {
+      const Eigen::AlignedBox3d box = bounds_W(solid);
+      EXPECT_GE(Vector2d(box.min().head<2>().cwiseMax(-box.max().head<2>()).cwiseMax(0.0)).norm(), 0.9 * 4.0)
+          << solid.name;
+      EXPECT_GT(std::max(box.min().y(), -box.max().y()), 3.0) << solid.name;
+    }
+  }
+  EXPECT_THAT([] { make_park({.extent_m = 30.0, .trees = 500, .texture_size_px = kSmallPx}, 1); },
+              ThrowsMessage<E>(HasSubstr("trees: valid: fewer")));
+}
+
+TEST(Balloon, ComesNearAtTwentyFeet) {
+  const Scene scene = make_balloon({.texture_size_px = kSmallPx}, 1);
+  ASSERT_EQ(scene.movers.size(), 1u);
+  const Solid& balloon = scene.movers[0].solids.at(0);
+  EXPECT_EQ(balloon.shape, Solid::Shape::sphere);
+  EXPECT_NEAR(-balloon.X_WS.translation().z(), 6.1, 1e-12);
+  EXPECT_NEAR(p_WM(scene.movers[0].motion, 0.0).x(), 15.25, 1e-12);
+  EXPECT_NEAR(p_WM(scene.movers[0].motion, 60.0).x(), 3.05, 1e-12);
+}
+
+}  // namespace
+}  // namespace hedgehop::scenes

@@ -1,0 +1,263 @@
+// Bodies that are not boxes, and bodies that move.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "scenes/bodies.h"
+#include "scenes/mesh_builder.h"
+#include "sim/collision/proximity.h"
+#include "sim/collision/separation.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using dynamics::HullPart;
+using Eigen::AngleAxisd;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using scenes::Solid;
+using Shape = ConvexBody::Shape;
+
+constexpr double kExact_m = 2e-7;  // separate() promises 1e-7, the closed forms round
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Isometry3d at(const Vector3d& p) { return Isometry3d(Eigen::Translation3d(p)); }
+
+Vector3d random_vector(std::mt19937_64& random, double below) {
+  std::uniform_real_distribution<double> uniform(-below, below);
+  return {uniform(random), uniform(random), uniform(random)};
+}
+
+Isometry3d random_pose(std::mt19937_64& random, double below) {
+  const Eigen::Quaterniond q(Eigen::Vector4d(random_vector(random, 1.0).homogeneous()));
+  return Eigen::Translation3d(random_vector(random, below)) * q.normalized();
+}
+
+ConvexBody random_body(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> size(0.1, 1.5);
+  const double r = size(random);
+  switch (random() % 3) {
+    case 0:
+      return {Shape::box, {r, size(random), size(random)}};
+    case 1:
+      return {Shape::cylinder, {r, r, size(random)}};
+    default:
+      return ConvexBody(scenes::convex_lump(12, 0.4, random));
+  }
+}
+
+// The corners of a box as a polyhedron of twelve triangles.
+scenes::Polyhedron box_faces(const Vector3d& half_m) {
+  scenes::Polyhedron box;
+  for (int k = 0; k < 8; ++k) {
+    const Vector3d sign((k & 1) != 0 ? 1 : -1, (k & 2) != 0 ? 1 : -1, (k & 4) != 0 ? 1 : -1);
+    box.corners.push_back(half_m.cwiseProduct(sign));
+  }
+  box.faces = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+               {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return box;
+}
+
+TEST(Spheres, AreACentreDistanceLessTheirRadiiApart) {
+  const ConvexBody ball(Shape::sphere, Vector3d::Constant(0.7)), marble(Shape::sphere, Vector3d::Constant(0.2));
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3d p = random_vector(random, 3.0);
+    const Separation found = separate(PlacedBody(ball, at(Vector3d::Zero())), PlacedBody(marble, at(p)));
+    EXPECT_NEAR(found.distance_m, p.norm() - 0.9, 1e-12);
+  }
+}
+
+TEST(Spheres, AreAsFarFromABodyAsItsNearestSample) {
+  std::mt19937_64 random(2);
+  for (int i = 0; i < 300; ++i) {
+    const ConvexBody body = random_body(random), ball(Shape::sphere, Vector3d::Constant(0.5));
+    const PlacedBody placed(body, random_pose(random, 1.0)), sphere(ball, random_pose(random, 4.0));
+    const Separation one = separate(placed, sphere), other = separate(sphere, placed);
+    ASSERT_EQ(one.distance_m, other.distance_m);
+    if (one.distance_m <= 0.0) continue;
+    ASSERT_NEAR((one.on_first_W - one.on_second_W).norm(), one.distance_m, 1e-9);
+    // No slab wider than the distance fits between, and this one does.
+    const Vector3d n = (one.on_second_W - one.on_first_W).normalized();
+    ASSERT_NEAR(-sphere.reach(-n) - placed.reach(n), one.distance_m, 1e-9);
+  }
+}
+
+TEST(Spheres, AroundAPointInsideABoxAreAsDeepAsTheWayOut) {
+  const ConvexBody box(Shape::box, {1.0, 2.0, 3.0}), ball(Shape::sphere, Vector3d::Constant(0.25));
+  const PlacedBody origin(box, at(Vector3d::Zero()));
+  EXPECT_NEAR(separate(origin, PlacedBody(ball, at({0.8, 0.0, 0.0}))).distance_m, -0.45, 1e-12);
+  EXPECT_NEAR(separate(origin, PlacedBody(ball, at({0.0, -1.9, 1.0}))).distance_m, -0.35, 1e-12);
+}
+
+TEST(Polyhedra, OfABoxAreTheBox) {
+  std::mt19937_64 random(3);
+  int apart = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vector3d half_m = Vector3d(1, 1, 1) + random_vector(random, 0.9);
+    const ConvexBody box(Shape::box, half_m), faces(box_faces(half_m)), other = random_body(random);
+    const Isometry3d X = random_pose(random, 2.0);
+    const PlacedBody second(other, random_pose(random, 5.0));
+    const double with_box = separate(PlacedBody(box, X), second).distance_m;
+    const double with_faces = separate(PlacedBody(faces, X), second).distance_m;
+    if (with_box <= 0.0) {
+      ASSERT_LE(with_faces, kExact_m);
+      continue;
+    }
+    ++apart;
+    ASSERT_NEAR(with_faces, with_box, kExact_m) << "pair " << i;
+  }
+  EXPECT_GT(apart, 1500);
+}
+
+TEST(Polyhedra, HaveTheNearestPointThatManySamplesApproach) {
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (int i = 0; i < 100; ++i) {
+    const ConvexBody lump(scenes::convex_lump(24, 0.4, random));
+    const Vector3d p = random_vector(random, 3.0);
+    const double found_m = (lump.nearest(p) - p).norm();
+    if (found_m == 0.0) {
+      EXPECT_GE(lump.depth_m(p), 0.0);
+      continue;
+    }
+    double best_m = kInfinity;
+    for (const auto& [a, b, c] : lump.polyhedron.faces) {
+      for (int k = 0; k < 300; ++k) {
+        const double s = std::sqrt(share(random)), t = share(random);
+        const std::vector<Vector3d>& corners = lump.polyhedron.corners;
+        best_m = std::min(best_m, (corners[a] * (1 - s) + corners[b] * s * (1 - t) + corners[c] * s * t - p).norm());
+      }
+    }
+    EXPECT_LE(found_m, best_m + 1e-12);
+    EXPECT_GT(found_m, best_m - 0.05);
+  }
+}
+
+TEST(Polyhedra, OfOneTriangleAreFlat) {
+  const ConvexBody triangle(scenes::Polyhedron{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}});
+  const ConvexBody disc(Shape::cylinder, {0.5, 0.5, 0.1});
+  const PlacedBody flat(triangle, at(Vector3d::Zero()));
+  EXPECT_NEAR(separate(PlacedBody(disc, at({1, 1, -3})), flat).distance_m, 2.9, kExact_m);
+  EXPECT_NEAR(separate(PlacedBody(disc, at({1, 1, 3})), flat).distance_m, 2.9, kExact_m);
+  EXPECT_NEAR(separate(PlacedBody(disc, at({-2, 1, 0})), flat).distance_m, 1.5, kExact_m);
+  EXPECT_NEAR(separate(PlacedBody(disc, at({3, 3, 0})), flat).distance_m, std::numbers::sqrt2 - 0.5, kExact_m);
+  EXPECT_LE(separate(PlacedBody(disc, at({1, 1, 0.05})), flat).distance_m, 0.0);
+}
+
+TEST(Rays, EnterABodyWhereItsNearestPointIsNoDistanceAway) {
+  std::mt19937_64 random(5);
+  int hits = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const ConvexBody body = i % 4 ? random_body(random) : ConvexBody(Shape::sphere, Vector3d::Constant(0.8));
+    const Vector3d p = random_vector(random, 3.0), ray = random_vector(random, 1.0).normalized();
+    const double length = body.ray_length(p, ray);
+    // Brute force: march along the ray by the distance to the body, which never oversteps it.
+    double way = 0.0;
+    for (int k = 0; k < 3000 && way < 10.0; ++k) {
+      const double step = (body.nearest(p + way * ray) - p - way * ray).norm();
+      if (step < 1e-10) break;
+      way += step;
+    }
+    if (way >= 10.0) {
+      ASSERT_EQ(length, kInfinity) << "ray " << i;
+    } else if (std::isfinite(length)) {
+      ++hits;
+      ASSERT_NEAR(length, way, 1e-4) << "ray " << i;  // along the surface the march is slow
+    }
+  }
+  EXPECT_GT(hits, 300);
+}
+
+scenes::Scene scene_of(std::vector<Solid> solids) {
+  scenes::Scene scene;
+  scene.has_ground = false;
+  scene.solids = std::move(solids);
+  return scene;
+}
+
+std::vector<HullPart> helicopter() {
+  return {{HullPart::Shape::cylinder, {0.0, 0.0, -0.3}, {0.9, 0.9, 0.03}},
+          {HullPart::Shape::box, {0.1, 0.0, 0.0}, {0.4, 0.15, 0.2}}};
+}
+
+TEST(Movers, AreHitWhereTheyAreAtTheTime) {
+  scenes::Mover mover;
+  mover.motion = scenes::WaypointMotion{.points = {{10, 0, 5}, {-10, 0, 5}}, .speed_mps = 2.0};
+  mover.solids = {scenes::ball_of("ball", {0, 0, -1}, 1.0),
+                  scenes::solid_of("post", scenes::Post{{0, 0, 0}, 0.1, 1.0})};
+  scenes::Scene scene =
+      scene_of({scenes::solid_of("wall", Eigen::AlignedBox3d(Vector3d(-1, 30, -9), Vector3d(1, 31, 0)))});
+  scene.movers = {mover};
+  CollisionWorld world(scene, helicopter());
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> time(0.0, 15.0);
+  for (int i = 0; i < 500; ++i) {
+    const double t_s = time(random), north_m = std::max(10.0 - 2.0 * t_s, -10.0);
+    std::vector<Solid> still = scene.solids;
+    for (Solid solid : mover.solids) {
+      solid.X_WS.pretranslate(Vector3d(north_m, 0, -5));
+      still.push_back(solid);
+    }
+    CollisionWorld frozen(scene_of(still), helicopter());
+    const Isometry3d X_WB = at(random_vector(random, 8.0) + Vector3d(0, 3, -6));
+    const Proximity a = world.query(X_WB, 100.0, t_s), b = frozen.query(X_WB, 100.0, 0.0);
+    ASSERT_EQ(a.collided, b.collided);
+    ASSERT_EQ(a.nearest_solid, b.nearest_solid);
+    ASSERT_NEAR(a.obstacle_clearance_m, b.obstacle_clearance_m, a.collided ? 1e-3 : kExact_m);
+    const Vector3d above = X_WB.translation();
+    ASSERT_EQ(std::isfinite(world.height_above_surface(above, t_s)),
+              std::isfinite(frozen.height_above_surface(above, 0)));
+    if (std::isfinite(frozen.height_above_surface(above, 0.0))) {
+      ASSERT_NEAR(world.height_above_surface(above, t_s), frozen.height_above_surface(above, 0.0), 1e-9);
+    }
+  }
+}
+
+TEST(HeightAboveSurface, OfABallAndAPostIsTheirTop) {
+  const CollisionWorld world(scene_of({scenes::ball_of("ball", {0, 0, -10}, 2.0),
+                                       scenes::solid_of("post", scenes::Post{{9, 0, 0}, 1.0, 4.0})}),
+                             helicopter());
+  EXPECT_NEAR(world.height_above_surface({0, 0, -20}, 0.0), 8.0, 1e-12);
+  EXPECT_NEAR(world.height_above_surface({0, 1, -20}, 0.0), 10.0 - std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(world.height_above_surface({9.6, 0.6, -20}, 0.0), 16.0, 1e-12);
+  EXPECT_EQ(world.height_above_surface({9.8, 0.8, -20}, 0.0), kInfinity);
+}
+
+TEST(CollisionWorld, SurfacesAreHitAtTheirTrianglesAndHollowInside) {
+  Solid shell;
+  shell.shape = Solid::Shape::surface;
+  shell.polyhedron = box_faces({5, 5, 5});
+  Solid hull = shell;
+  hull.shape = Solid::Shape::hull;
+  CollisionWorld hollow(scene_of({shell}), helicopter()), full(scene_of({hull}), helicopter());
+  const Proximity inside = hollow.query(at(Vector3d::Zero()), 50.0, 0.0);
+  EXPECT_FALSE(inside.collided);
+  EXPECT_NEAR(inside.obstacle_clearance_m, 4.1, kExact_m);
+  EXPECT_TRUE(full.query(at(Vector3d::Zero()), 50.0, 0.0).collided);
+  for (const double north_m : {7.0, 20.0, -30.0}) {
+    EXPECT_NEAR(hollow.query(at({north_m, 1, 0}), 50.0, 0.0).obstacle_clearance_m,
+                full.query(at({north_m, 1, 0}), 50.0, 0.0).obstacle_clearance_m, kExact_m);
+  }
+}
+
+TEST(CollisionWorld, RefusesPolyhedraThatAreNone) {
+  const auto refused = [](auto change) {
+    Solid solid;
+    solid.shape = Solid::Shape::hull;
+    solid.polyhedron = box_faces({1, 1, 1});
+    change(solid);
+    EXPECT_THROW(CollisionWorld(scene_of({solid}), helicopter()), std::invalid_argument);
+  };
+  refused([](Solid& s) { s.polyhedron.faces.clear(); });
+  refused([](Solid& s) { s.polyhedron.faces[0][1] = 8; });
+  refused([](Solid& s) { std::swap(s.polyhedron.faces[0][1], s.polyhedron.faces[0][2]); });
+  refused([](Solid& s) { s.polyhedron.corners[3] *= 0.2; });
+  refused([](Solid& s) { s.polyhedron.corners[3].x() = NAN; });
+}
+
+}  // namespace
+}  // namespace hedgehop::sim

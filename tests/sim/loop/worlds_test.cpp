@@ -1,0 +1,47 @@
+// Every example world loads, is seen, and is flown in.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "sim/loop/episode.h"
+
+namespace hedgehop::sim {
+namespace {
+
+TEST(ExampleWorlds, AreSeenAndFlownInForASecondUnharmed) {
+  int worlds = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(HEDGEHOP_SOURCE_DIR "/configs/worlds")) {
+    ++worlds;
+    const std::vector<std::string> overrides = {"duration=1", "scene.texture_size=64"};
+    const Scenario scenario = load_scenario(entry.path(), overrides);
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(picture_at(scenario, "front", Channel::grey, 0.0), mean, deviation);
+    EXPECT_GT(deviation[0], 10.0) << entry.path();
+    const Flight flight = fly(scenario);
+    EXPECT_EQ(flight.result.outcome, Outcome::timeout) << entry.path() << ": " << flight.result.cause;
+    EXPECT_GT(flight.result.scene.solids, 0u) << entry.path();
+  }
+  EXPECT_EQ(worlds, 7);
+}
+
+TEST(ExampleWorlds, TheTreeOnTheWayIsHit) {
+  const std::vector<std::string> overrides = {"scene.texture_size=64", "avoidance.speed=5"};
+  const Flight flight = fly(load_scenario(HEDGEHOP_SOURCE_DIR "/configs/worlds/tree.yaml", overrides));
+  EXPECT_EQ(flight.result.outcome, Outcome::collided);
+  EXPECT_EQ(flight.result.closest_obstacle.what, "tree");
+  EXPECT_NEAR(flight.result.closest_obstacle.p_WB_true.x(), -5.0, 1.5);  // the crown's south side, less the rotor
+}
+
+TEST(Imports, ThatCannotBeReadAreRefusedWithTheirPlace) {
+  const std::vector<std::string> overrides = {"scene.imports=[{file: /no/such.obj}]"};
+  try {
+    load_scenario(HEDGEHOP_SOURCE_DIR "/configs/worlds/tree.yaml", overrides);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("imports"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("there is no such file"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace hedgehop::sim

@@ -1,0 +1,301 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+#include "sim/scenario/rig.h"
+#include "tests/sim/render/ray_caster.h"
+#include "tests/sim/render/small_world.h"
+#include "tests/vision/random_lenses.h"
+
+/// Pictures of lenses that bend rays, put together from several.
+namespace hedgehop::sim {
+namespace {
+
+using vision::Camera;
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+constexpr double kPinholeRmsPx = 0.05, kFisheyeRmsPx = 0.1;
+
+Camera fisheye(int width_px, int height_px, double fov_deg) {
+  const double focal_px = vision::fisheye_focal_px({}, width_px, fov_deg * kRadPerDeg);
+  return {width_px, height_px, vision::FisheyeLens{focal_px, focal_px, 0.5 * (width_px - 1), 0.5 * (height_px - 1)}};
+}
+
+Camera ocam() { return Camera(vision::parse_ocam_calibration(vision::kSmallCalibration)); }
+
+/// One white spot on the plane x = 0 that fades to black, one metre wide, seen from the south; all else is black.
+SmallWorld spot() {
+  cv::Mat dome(64, 64, CV_8UC3);
+  for (int row = 0; row < 64; ++row) {
+    for (int col = 0; col < 64; ++col) {
+      const double r = std::hypot(col - 31.5, row - 31.5) / 31.0;
+      const double level = r < 1.0 ? 127.5 * (1.0 + std::cos(std::numbers::pi * r)) : 0.0;
+      dome.at<cv::Vec3b>(row, col) = cv::Vec3b::all(cv::saturate_cast<uint8_t>(level));
+    }
+  }
+  SmallWorld world(std::vector{dome});
+  world.scene.sky = {Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
+  world.scene.lights = {.ambient = 1.0f, .sun = 0.0f};
+  world.add_quad({0, -0.5f, -0.5f}, {0, 1, 0}, {0, 0, 1});
+  return world;
+}
+
+/// Pose from which the spot, faced squarely from `distance_m`, shows at the pixel of a ray in C.
+Eigen::Isometry3d facing(const Eigen::Vector3d& ray_C, double distance_m, double roll_rad) {
+  Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
+  X_WC.translation().x() = -distance_m;
+  const Eigen::Vector3d north = Eigen::Vector3d::UnitX();
+  X_WC.linear() = (Eigen::AngleAxisd(roll_rad, north) * Eigen::Quaterniond::FromTwoVectors(ray_C, north)).matrix();
+  return X_WC;
+}
+
+Eigen::Vector2d centroid(const cv::Mat& grey) {
+  const cv::Moments moments = cv::moments(grey);
+  return {moments.m10 / moments.m00, moments.m01 / moments.m00};
+}
+
+/// Root mean square of the distances between where spots are drawn and where their middles project, all over a picture.
+double spot_rms_px(Renderer& renderer, const Camera& camera, double focal_px, int spots, std::mt19937_64& random) {
+  constexpr double kSpotPx = 14.0;
+  double sum_squares = 0.0;
+  int drawn = 0;
+  cv::Mat grey;
+  while (drawn < spots) {
+    const Eigen::Vector2d pixel(uniform(random, 12, camera.width_px - 12), uniform(random, 12, camera.height_px - 12));
+    const auto ray_C = camera.ray(pixel);
+    if (!ray_C) continue;
+    const Eigen::Isometry3d X_WC = facing(*ray_C, focal_px / kSpotPx, uniform(random, 0, 6.28));
+    renderer.draw({camera, X_WC, Channel::grey}, grey);
+    const auto expected = camera.project(X_WC.inverse() * Eigen::Vector3d::Zero());
+    sum_squares += (centroid(grey) - *expected).squaredNorm();
+    ++drawn;
+  }
+  return std::sqrt(sum_squares / spots);
+}
+
+TEST(LensPicture, SpotsOfADistortedPinholeLandOnTheirPixels) {
+  Renderer renderer(spot().scene);
+  std::mt19937_64 random(201);
+  for (int trial = 0; trial < 3; ++trial) {
+    const Camera camera = vision::random_distorted_pinhole(random);
+    const double rms_px = spot_rms_px(renderer, camera, 375.0, 80, random);
+    RecordProperty("rms_px_" + std::to_string(trial), std::to_string(rms_px));
+    EXPECT_LT(rms_px, kPinholeRmsPx) << "trial " << trial;
+  }
+}
+
+TEST(LensPicture, SpotsOfAFisheyeLandOnTheirPixelsAllOverThePicture) {
+  Renderer renderer(spot().scene);
+  std::mt19937_64 random(202);
+  const std::vector<std::pair<std::string, Camera>> cameras = {
+      {"195_deg", fisheye(400, 400, 195)}, {"190_deg_wide", fisheye(752, 480, 190)}, {"ocam", ocam()}};
+  for (const auto& [name, camera] : cameras) {
+    const double rms_px = spot_rms_px(renderer, camera, 0.55 * camera.width_px / 2.0, 100, random);
+    RecordProperty("rms_px_" + name, std::to_string(rms_px));
+    EXPECT_LT(rms_px, kFisheyeRmsPx) << name;
+  }
+}
+
+// A gradient all round shows the slightest seam.
+TEST(LensPicture, TheSkyHasNoSeams) {
+  SmallWorld world;
+  world.scene.sky = {.horizon = {1.0f, 0.1f, 0.5f}, .zenith = {0.0f, 0.9f, 0.6f}};
+  Renderer renderer(world.scene);
+  const Camera camera = fisheye(300, 260, 195);
+  std::mt19937_64 random(203);
+  cv::Mat color;
+  double worst = 0.0;
+  for (int trial = 0; trial < 6; ++trial) {
+    const CameraView view{camera, random_pose(random, 10.0, 10.0, 1.5), Channel::color};
+    renderer.draw(view, color);
+    for (int row = 0; row < color.rows; ++row) {
+      for (int col = 0; col < color.cols; ++col) {
+        const Eigen::Vector3d ray_W = view.X_WC.linear() * camera.ray(Eigen::Vector2d(col, row)).value();
+        const double up = std::max(0.0, -ray_W.z());
+        for (int c = 0; c < 3; ++c) {
+          const double horizon = 255.0 * static_cast<double>(world.scene.sky.horizon[c]);
+          const double zenith = 255.0 * static_cast<double>(world.scene.sky.zenith[c]);
+          worst = std::max(worst, std::abs(color.at<cv::Vec3b>(row, col)[c] - (horizon + up * (zenith - horizon))));
+        }
+      }
+    }
+  }
+  EXPECT_LE(worst, 1.5);
+}
+
+TEST(LensPicture, ShowsNothingOutsideItsImageCircle) {
+  SmallWorld world;
+  Renderer renderer(world.scene);
+  vision::FisheyeLens lens{60, 60, 99.5, 99.5};
+  lens.limit_rad = 1.5;  // 90 px
+  const Camera camera(200, 200, lens);
+  cv::Mat color, depth, labels;
+  const Eigen::Isometry3d X_WC = look_at({0, 0, -5}, {1, 0, -5});
+  renderer.draw({camera, X_WC, Channel::color}, color);
+  renderer.draw({camera, X_WC, Channel::depth}, depth);
+  renderer.draw({camera, X_WC, Channel::labels}, labels);
+  for (int row = 0; row < 200; ++row) {
+    for (int col = 0; col < 200; ++col) {
+      const bool inside = std::hypot(col - 99.5, row - 99.5) < 90.0;
+      ASSERT_EQ(color.at<cv::Vec3b>(row, col) != cv::Vec3b(), inside) << col << ", " << row;
+      ASSERT_EQ(std::isnan(depth.at<float>(row, col)), !inside) << col << ", " << row;
+      ASSERT_EQ(labels.at<int>(row, col), 0);
+    }
+  }
+}
+
+// The same rays, bent and not: OpenCV takes the distortion out of a picture again.
+TEST(LensPicture, ADistortedPictureIsTheStraightOneBent) {
+  const SmallWorld city = small_city(6, 204);
+  Renderer renderer(city.scene);
+  const vision::PinholeCamera straight = vision::PinholeCamera::from_fov(320, 240, 1.1);
+  vision::PinholeLens lens{straight.focal_x_px, straight.focal_y_px, straight.center_u_px, straight.center_v_px};
+  lens.k1 = -0.2;
+  lens.k2 = 0.05;
+  lens.p1 = 2e-3;
+  const Camera camera(320, 240, lens);
+  cv::Mat bent, expected_depth, depth;
+  renderer.draw({camera, look_at({-60, 3, -8}, {0, 0, -8}), Channel::depth}, bent);
+  renderer.draw({straight, look_at({-60, 3, -8}, {0, 0, -8}), Channel::depth}, expected_depth);
+  int compared = 0, different = 0;
+  for (int row = 0; row < 240; ++row) {
+    for (int col = 0; col < 320; ++col) {
+      const auto ray = camera.ray(Eigen::Vector2d(col, row));
+      const auto there = straight.project(*ray);
+      const int u = static_cast<int>(std::lround(there->x())), v = static_cast<int>(std::lround(there->y()));
+      if (u < 0 || v < 0 || u >= 320 || v >= 240) continue;
+      ++compared;
+      // The nearest pixel of the straight picture; surfaces seen at a slant differ a little over half a pixel.
+      const float a = bent.at<float>(row, col), b = expected_depth.at<float>(v, u);
+      different += a == b || std::abs(a / b - 1.0f) < 0.03f ? 0 : 1;
+    }
+  }
+  EXPECT_GT(compared, 60'000);
+  EXPECT_LT(different, compared / 40);  // at edges
+}
+
+TEST(LensPicture, DepthEqualsRaysMetByBoxesAndGround) {
+  constexpr double kRelative = 1e-4;
+  constexpr double kEdgePx = 1.5;  // half a pixel of a face, which may be finer or coarser than the picture's, and one
+  std::mt19937_64 random(205);
+  SmallWorld world;
+  RayCaster cast;
+  cast.ground_half_m = 300.0;
+  for (int i = 0; i < 40; ++i) {
+    const Eigen::Vector3d center(uniform(random, -60, 60), uniform(random, -60, 60), uniform(random, -30, -5));
+    const Eigen::Vector3d half(uniform(random, 0.5, 8), uniform(random, 0.5, 8), uniform(random, 0.5, 5));
+    const Eigen::AlignedBox3f box_W((center - half).cast<float>(), (center + half).cast<float>());
+    world.add_box(box_W);
+    cast.boxes_W.push_back(box_W.cast<double>());
+  }
+  world.add_ground(300.0f, 4);
+  Renderer renderer(world.scene);
+  cv::Mat depth, labels;
+  size_t compared = 0, surfaces = 0;
+  double worst = 0.0;
+  for (int trial = 0; trial < 12; ++trial) {
+    const Camera camera = trial % 3 == 0   ? fisheye(220, 200, 195)
+                          : trial % 3 == 1 ? vision::random_distorted_pinhole(random)
+                                           : vision::random_fisheye(random);
+    CameraView view{camera, random_pose(random, 60.0, 30.0, 1.0), Channel::depth};
+    const auto inside = [&](const auto& box) { return box.exteriorDistance(view.X_WC.translation()) < 0.3; };
+    if (std::ranges::any_of(cast.boxes_W, inside)) continue;
+    renderer.draw(view, depth);
+    view.channel = Channel::labels;
+    renderer.draw(view, labels);
+    for (int row = trial % 2; row < depth.rows; row += 2) {
+      for (int col = trial % 2; col < depth.cols; col += 2) {
+        const std::optional<Hit> hit = clear_hit(cast, view, col, row, kEdgePx);
+        if (!hit) continue;
+        const auto depth_m = static_cast<double>(depth.at<float>(row, col));
+        ++compared;
+        if (hit->face < 0) {
+          ASSERT_EQ(depth_m, std::numeric_limits<double>::infinity())
+              << "trial " << trial << ": " << col << ", " << row;
+          ASSERT_EQ(labels.at<int>(row, col), 0);
+          continue;
+        }
+        ++surfaces;
+        const bool z = std::holds_alternative<vision::PinholeLens>(camera.lens);
+        const double relative = depth_m / (z ? hit->z_m : hit->distance_m);
+        ASSERT_NEAR(relative, 1.0, kRelative) << "trial " << trial << ": " << col << ", " << row;
+        worst = std::max(worst, std::abs(relative - 1.0));
+        if (hit->body() > 0) {
+          ASSERT_EQ(labels.at<int>(row, col), hit->body());
+        } else {
+          ASSERT_GT(labels.at<int>(row, col), 40);
+        }
+      }
+    }
+  }
+  RecordProperty("worst_relative_1e9", std::to_string(1e9 * worst));
+  EXPECT_GT(compared, 50'000u);
+  EXPECT_GT(surfaces, 20'000u);
+}
+
+/// Mean square difference between a picture and what a much finer one averages to, 0..255^2.
+double coarseness(Renderer& renderer, const Camera& camera, const Camera& fine, const Eigen::Isometry3d& X_WC) {
+  cv::Mat picture, fine_picture, mean;
+  renderer.draw({camera, X_WC, Channel::grey}, picture);
+  renderer.draw({fine, X_WC, Channel::grey}, fine_picture);
+  cv::resize(fine_picture, mean, picture.size(), 0, 0, cv::INTER_AREA);
+  const double norm = cv::norm(picture, mean, cv::NORM_L2);
+  return norm * norm / static_cast<double>(picture.total());
+}
+
+// Blur and aliasing together: a lens's picture may differ from the ideal one little more than a pinhole's does.
+TEST(LensPicture, IsHardlyCoarserThanAPinholes) {
+  SmallWorld city = small_city(6, 206);
+  for (cv::Mat& texture : city.scene.textures) texture = noise_picture(256, 207);
+  Renderer renderer(city.scene);
+  std::mt19937_64 random(208);
+  double of_pinhole = 0.0, of_fisheye = 0.0;
+  for (int trial = 0; trial < 10; ++trial) {
+    const Eigen::Isometry3d X_WC = look_at({uniform(random, -60, 60), uniform(random, -60, 60), -45.0},
+                                           {uniform(random, -60, 60), uniform(random, -60, 60), 0.0});
+    of_pinhole += coarseness(renderer, vision::PinholeCamera::from_fov(240, 240, 1.2),
+                             vision::PinholeCamera::from_fov(1440, 1440, 1.2), X_WC);
+    of_fisheye += coarseness(renderer, fisheye(240, 240, 190), fisheye(1440, 1440, 190), X_WC);
+  }
+  RecordProperty("pinhole_rms_levels", std::to_string(std::sqrt(of_pinhole / 10)));
+  RecordProperty("fisheye_rms_levels", std::to_string(std::sqrt(of_fisheye / 10)));
+  EXPECT_LT(std::sqrt(of_fisheye / of_pinhole), 1.25);
+}
+
+TEST(LensPicture, AStereoPairSeesAPointOnOneRowAtItsDisparity) {
+  Renderer renderer(spot().scene);
+  std::mt19937_64 random(209);
+  cv::Mat left, right;
+  double worst_row_px = 0.0;
+  for (int trial = 0; trial < 40; ++trial) {
+    RigConfig rig;
+    StereoConfig& pair = rig.stereo.emplace_back();
+    pair.baseline_m = uniform(random, 0.05, 0.6);
+    pair.camera.width_px = 320;
+    pair.camera.height_px = 240;
+    pair.camera.yaw_rad = uniform(random, -3, 3);
+    pair.camera.pitch_rad = uniform(random, -1.5, 1.5);
+    pair.camera.roll_rad = uniform(random, -3, 3);
+    mount_stereo_pairs(rig);
+    const vision::PinholeCamera camera = rig.cameras[0].model().pinhole();
+    // The spot stands parallel to the pictures' plane, somewhere in the left one.
+    const double z_m = uniform(random, 6.0, 14.0);
+    const Eigen::Vector3d p_L = z_m * camera.ray({uniform(random, 80, 290), uniform(random, 30, 210)});
+    Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();
+    X_WL.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+    X_WL.translation() = -(X_WL.linear() * p_L);
+    const Eigen::Isometry3d X_WR = X_WL * rig.cameras[0].X_BC().inverse() * rig.cameras[1].X_BC();
+    renderer.draw({camera, X_WL, Channel::grey}, left);
+    renderer.draw({camera, X_WR, Channel::grey}, right);
+    const Eigen::Vector2d shift_px = centroid(left) - centroid(right);
+    worst_row_px = std::max(worst_row_px, std::abs(shift_px.y()));
+    EXPECT_NEAR(shift_px.x(), camera.focal_x_px * pair.baseline_m / z_m, kPinholeRmsPx) << "trial " << trial;
+  }
+  RecordProperty("worst_row_px", std::to_string(worst_row_px));
+  EXPECT_LT(worst_row_px, 0.02);
+}
+
+}  // namespace
+}  // namespace hedgehop::sim

@@ -1,0 +1,131 @@
+#include "sim/scenario/calibration.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <functional>
+#include <opencv2/calib3d.hpp>
+#include <random>
+
+#include "tests/vision/random_lenses.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using testing::HasSubstr;
+using vision::uniform;
+
+constexpr double kPx = 1e-9;
+
+/// A distorted pinhole, a fisheye and a pinhole, anyhow mounted.
+RigConfig three_cameras(bool with_k3) {
+  std::mt19937_64 random(31);
+  RigConfig rig;
+  for (const char* role : {"left", "wide", "down"}) {
+    CameraConfig& camera = rig.cameras.emplace_back();
+    camera.role = role;
+    camera.width_px = 320;
+    camera.height_px = 240;
+    camera.yaw_rad = uniform(random, -3, 3);
+    camera.pitch_rad = uniform(random, -1, 1);
+    camera.roll_rad = uniform(random, -3, 3);
+    camera.forward_m = uniform(random, -1, 1);
+    camera.right_m = uniform(random, -1, 1);
+  }
+  rig.cameras[0].distortion = {-0.2, 0.04, 1e-3, -2e-3, with_k3 ? 0.01 : 0.0};
+  rig.cameras[0].center_u_px = 151.25;
+  rig.cameras[1].model_kind = CameraConfig::Model::fisheye;
+  rig.cameras[1].fov_rad = 3.2;
+  rig.cameras[1].distortion = {0.01, -2e-3, 1e-4, -1e-5};
+  return rig;
+}
+
+/// What another program's camera makes of points in front of it, beside what ours does.
+void expect_same_pixels(const CameraConfig& config, bool fisheye, const cv::Mat& K, const cv::Mat& D) {
+  std::mt19937_64 random(32);
+  for (int i = 0; i < 50; ++i) {
+    const Eigen::Vector3d p_C(uniform(random, -0.5, 0.5), uniform(random, -0.5, 0.5), 1.0);
+    const std::vector<cv::Point3d> point = {{p_C.x(), p_C.y(), p_C.z()}};
+    std::vector<cv::Point2d> pixel;
+    if (fisheye) {
+      cv::fisheye::projectPoints(point, pixel, cv::Vec3d(), cv::Vec3d(), K, D);
+    } else {
+      cv::projectPoints(point, cv::Vec3d(), cv::Vec3d(), K, D, pixel);
+    }
+    const auto ours = config.model().project(p_C);
+    ASSERT_TRUE(ours.has_value());
+    ASSERT_NEAR(ours->x(), pixel[0].x, kPx) << config.role;
+    ASSERT_NEAR(ours->y(), pixel[0].y, kPx) << config.role;
+  }
+}
+
+TEST(Calibration, OpenCvReadsItAndSeesTheSame) {
+  const RigConfig rig = three_cameras(true);
+  const cv::FileStorage file(opencv_calibration(rig), cv::FileStorage::READ | cv::FileStorage::MEMORY);
+  for (const CameraConfig& camera : rig.cameras) {
+    const cv::FileNode node = file[camera.role];
+    ASSERT_FALSE(node.empty()) << camera.role;
+    EXPECT_EQ(static_cast<int>(node["image_width"]), 320);
+    EXPECT_EQ(static_cast<int>(node["image_height"]), 240);
+    cv::Mat K, D, X_BC;
+    node["camera_matrix"] >> K;
+    node["distortion_coefficients"] >> D;
+    node["body_from_camera"] >> X_BC;
+    expect_same_pixels(camera, std::string(node["camera_model"]) == "fisheye", K, D);
+    for (int row = 0; row < 4; ++row) {
+      for (int col = 0; col < 4; ++col) EXPECT_EQ(X_BC.at<double>(row, col), camera.X_BC().matrix()(row, col));
+    }
+  }
+}
+
+Eigen::Isometry3d pose(const YAML::Node& rows) {
+  Eigen::Isometry3d X;
+  for (int row = 0; row < 4; ++row) {
+    for (int col = 0; col < 4; ++col) X.matrix()(row, col) = rows[row][col].as<double>();
+  }
+  return X;
+}
+
+TEST(Calibration, KalibrsChainHoldsLensesAndPoses) {
+  const RigConfig rig = three_cameras(false);
+  const YAML::Node chain = YAML::Load(kalibr_calibration(rig));
+  ASSERT_EQ(chain.size(), 3u);
+  for (size_t i = 0; i < rig.cameras.size(); ++i) {
+    const YAML::Node node = chain["cam" + std::to_string(i)];
+    const auto intrinsics = node["intrinsics"].as<std::vector<double>>();
+    const auto distortion = node["distortion_coeffs"].as<std::vector<double>>();
+    ASSERT_EQ(intrinsics.size(), 4u);
+    ASSERT_EQ(distortion.size(), 4u);
+    const cv::Mat K =
+        (cv::Mat_<double>(3, 3) << intrinsics[0], 0, intrinsics[2], 0, intrinsics[1], intrinsics[3], 0, 0, 1);
+    const bool fisheye = node["distortion_model"].as<std::string>() == "equidistant";
+    EXPECT_EQ(fisheye, i == 1);
+    expect_same_pixels(rig.cameras[i], fisheye, K, cv::Mat(distortion));
+
+    const Eigen::Vector3d p_B(0.3, -2.0, 1.1);
+    EXPECT_NEAR((rig.cameras[i].X_BC() * (pose(node["T_cam_imu"]) * p_B) - p_B).norm(), 0.0, 1e-14);
+    if (i == 0) continue;
+    const Eigen::Vector3d p_before = pose(chain["cam" + std::to_string(i - 1)]["T_cam_imu"]) * p_B;
+    EXPECT_NEAR((pose(node["T_cn_cnm1"]) * p_before - pose(node["T_cam_imu"]) * p_B).norm(), 0.0, 1e-14);
+  }
+}
+
+std::string refusal(const std::function<void()>& f) {
+  try {
+    f();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Calibration, RefusesWhatAFormatCannotSay) {
+  EXPECT_THAT(refusal([] { kalibr_calibration(three_cameras(true)); }), HasSubstr("camera 'left' has k3"));
+  RigConfig rig = three_cameras(true);
+  rig.cameras[2].role = "2nd";
+  EXPECT_THAT(refusal([&] { opencv_calibration(rig); }), HasSubstr("camera '2nd': OpenCV's files need names"));
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
