@@ -1,0 +1,116 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <numbers>
+#include <vector>
+
+#include "vision/corridor_regions.h"
+#include "vision/feature_flow.h"
+
+/// From followed corners to places of walls. Frame H: B turned level, x along the heading, y to the right.
+namespace hedgehop::vision {
+
+/// Which flow counts as wrong. The two filters of [Zingg2010] sec. IV-D, whose first limit is not printed, and ours.
+struct FlowLimits {
+  double slowest_radps = 0.01;  ///< below, noise of the pictures decides
+  double fastest_radps = 3.0;
+  double off_tangent_rad = 50.0 * std::numbers::pi / 180.0;  ///< at the sides
+  double stray_rad = 30.0 * std::numbers::pi / 180.0;
+  double floor_share = 0.85;  ///< of the height above ground: what lies lower is the floor
+};
+
+template <class Visitor>
+void describe(Visitor& v, FlowLimits& c) {
+  v("slowest", c.slowest_radps, {.unit = "rad/s", .at_least = 0.0, .meaning = "flow below this tells no distance"});
+  v("fastest", c.fastest_radps, {.unit = "rad/s", .above = 0.0, .meaning = "flow above this is a wrong match"});
+  v("off_tangent", c.off_tangent_rad,
+    {.unit = "deg",
+     .above = 0.0,
+     .at_most = 90.0,
+     .meaning = "at the sides, greatest angle of the flow to a circle round the picture's centre; 90: any"});
+  v("stray", c.stray_rad,
+    {.unit = "deg",
+     .above = 0.0,
+     .at_most = 180.0,
+     .meaning = "greatest angle of the flow to the way in which fixed points move; 180: any"});
+  v("floor_share", c.floor_share,
+    {.above = 0.0, .meaning = "what lies lower than this share of the height above ground is the floor"});
+}
+
+/// How the camera moved between the older picture (C1) and the newer (C2).
+struct CameraMotion {
+  Eigen::Matrix3d R_HC1, R_HC2;  ///< H at the newer picture
+  Eigen::Vector3d travelled_H;   ///< m
+  double dt_s = 0.0;             ///< > 0
+  double height_m = 0.0;         ///< of the camera above ground at the newer picture
+};
+
+enum class Verdict { good, too_slow, too_fast, off_tangent, astray, floor };
+
+/// A followed corner and what its flow tells.
+struct WallPoint {
+  RayPair pair;
+  Region region = kAhead;
+  Verdict verdict = Verdict::good;
+  double flow_radps = 0.0;                           ///< derotated
+  double contact_s = 0.0;                            ///< until it lies abeam, as time_to_contact_s()
+  Eigen::Vector3d p_CP_H = Eigen::Vector3d::Zero();  ///< from the camera at the newer picture, m
+};
+
+/// Returns the point that a corner's flow tells, with the verdict on it.
+/// Source: [Zingg2010] eq. (2), (5) to (7), (9) and sec. IV-D.
+WallPoint wall_point(const RayPair& pair, Region region, const Camera& camera, const CameraMotion& motion,
+                     const FlowLimits& limits);
+
+/// Distance of the wall at one side.
+struct SideDistance {
+  double distance_m = 0.0;  ///< NaN when unknown
+  int count = 0;            ///< good points of the side
+};
+
+/// Returns the median of |y| over a side's good points; unknown when they are fewer than `least` (>= 1).
+/// Source: [Zingg2010] sec. IV-E.
+SideDistance side_distance(const std::vector<WallPoint>& points, Region side, int least);
+
+/// Returns how far the corridor's middle lies to the right, m. NaN when a side is unknown. Source: [Zingg2010] eq.
+/// (10).
+double middle_offset_m(double left_m, double right_m);
+/// Returns that as a share of half the corridor's width, from -1 at the right wall to 1 at the left; the unknown speed
+/// cancels. NaN when a side is unknown. Source: [Zingg2010] eq. (11).
+double centering_error(double left_m, double right_m);
+
+/// How the free width ahead is measured; all of it is ours.
+struct GapConfig {
+  double behind_m = 0.4, ahead_m = 2.0;  ///< from the camera
+  double slice_m = 0.4;
+  double share = 0.2;  ///< of a slice's points that may lie nearer: wrong ones
+  int least = 6;       ///< points in a slice, or nearer ahead, that are believed
+};
+
+template <class Visitor>
+void describe(Visitor& v, GapConfig& c) {
+  v("behind", c.behind_m, {.unit = "m", .at_least = 0.0, .meaning = "the gap's reach behind"});
+  v("ahead", c.ahead_m, {.unit = "m", .above = 0.0, .meaning = "the gap's reach ahead"});
+  v("slice", c.slice_m, {.unit = "m", .above = 0.0, .meaning = "length of the slices that the gap is measured in"});
+  v("share", c.share,
+    {.at_least = 0.0, .below = 0.5, .meaning = "share of a slice's points left out as wrong, the nearest ones"});
+  v("least", c.least, {.at_least = 1, .meaning = "points that a slice must have to count"});
+}
+
+/// Free distance to the left and right over the whole reach, m; NaN where no slice has points enough.
+struct Gap {
+  double left_m = 0.0, right_m = 0.0;
+};
+/// Returns the narrowest that any slice across the heading leaves on each side.
+Gap gap_ahead(const std::vector<WallPoint>& points, const GapConfig& config);
+
+/// Returns the time after which a fixed point lies abeam, s, < 0 for a point behind, +inf without flow: straight ahead
+/// two over the flow's divergence. Parameters as distance_m(), of the way travelled the direction only.
+double time_to_contact_s(const Eigen::Vector3d& before, const Eigen::Vector3d& after, const Eigen::Vector3d& travelled,
+                         double dt_s);
+
+/// Returns the least time to contact that `least` good points agree on, s, among those that a body of the given half
+/// width meets when it flies straight on; +inf when there are fewer. @param way_H  direction of travel, not 0.
+double free_time_s(const std::vector<WallPoint>& points, const Eigen::Vector2d& way_H, double half_width_m, int least);
+
+}  // namespace hedgehop::vision

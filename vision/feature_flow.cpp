@@ -1,0 +1,93 @@
+#include "vision/feature_flow.h"
+
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+#include <optional>
+#include <stdexcept>
+
+namespace hedgehop::vision {
+namespace {
+
+void check(const FeatureFlowConfig& c) {
+  if (c.most < 1) throw std::invalid_argument("most: must be at least 1");
+  if (!(c.quality > 0.0 && c.quality <= 1.0)) throw std::invalid_argument("quality: must lie in (0, 1]");
+  if (c.apart_px < 1) throw std::invalid_argument("apart: must be at least 1 px");
+  if (c.window_px < 3 || c.window_px % 2 == 0) throw std::invalid_argument("window: must be odd, at least 3 px");
+  if (c.levels < 1) throw std::invalid_argument("levels: must be at least 1");
+}
+
+/// The strongest corners of a region, strongest first.
+std::vector<cv::Point2f> corners(const cv::Mat& picture, const cv::Mat& region, const FeatureFlowConfig& config) {
+  const cv::Rect box = cv::boundingRect(region);
+  std::vector<cv::Point2f> found;
+  if (box.empty()) return found;
+  std::vector<float> strengths;
+  constexpr int kBlock_px = 3, kGradient_px = 3;
+  cv::goodFeaturesToTrack(picture(box), found, config.most, config.quality, config.apart_px, region(box), strengths,
+                          kBlock_px, kGradient_px);
+  size_t strong = 0;
+  while (strong < found.size() && strengths[strong] >= config.least_strength) ++strong;
+  found.resize(strong);
+  for (cv::Point2f& corner : found) corner += cv::Point2f(box.tl());
+  return found;
+}
+
+/// Where corners of one picture are in another; nothing for those that are lost.
+std::vector<std::optional<cv::Point2f>> follow(const std::vector<cv::Mat>& from, const std::vector<cv::Mat>& to,
+                                               const std::vector<cv::Point2f>& corners,
+                                               const FeatureFlowConfig& config) {
+  const cv::Size window(config.window_px, config.window_px);
+  const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 30, 0.005);
+  std::vector<cv::Point2f> ahead, back;
+  std::vector<uint8_t> seen, seen_again;
+  cv::calcOpticalFlowPyrLK(from, to, corners, ahead, seen, cv::noArray(), window, config.levels - 1, until);
+  const bool both_ways = config.round_trip_px > 0.0;
+  if (both_ways) {
+    back = corners;
+    cv::calcOpticalFlowPyrLK(to, from, ahead, back, seen_again, cv::noArray(), window, config.levels - 1, until,
+                             cv::OPTFLOW_USE_INITIAL_FLOW);
+  }
+  std::vector<std::optional<cv::Point2f>> found(corners.size());
+  for (size_t i = 0; i < corners.size(); ++i) {
+    if (!seen[i]) continue;
+    if (both_ways && !(seen_again[i] && cv::norm(back[i] - corners[i]) <= config.round_trip_px)) continue;
+    found[i] = ahead[i];
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::vector<RayPair>> feature_flow(const cv::Mat& older, const cv::Mat& newer,
+                                               std::span<const cv::Mat> regions, const Camera& camera,
+                                               const FeatureFlowConfig& config) {
+  check(config);
+  const cv::Size size(camera.width_px, camera.height_px);
+  if (older.size() != size || newer.size() != size) throw std::invalid_argument("pictures differ from the camera");
+  std::vector<std::vector<RayPair>> pairs(regions.size());
+  std::vector<cv::Point2f> all;
+  std::vector<size_t> region_of;
+  for (size_t k = 0; k < regions.size(); ++k) {
+    if (regions[k].size() != size) throw std::invalid_argument("a region differs from the camera");
+    for (const cv::Point2f& corner : corners(older, regions[k], config)) {
+      all.push_back(corner);
+      region_of.push_back(k);
+    }
+  }
+  if (all.empty()) return pairs;
+
+  const cv::Size window(config.window_px, config.window_px);
+  std::vector<cv::Mat> from, to;
+  cv::buildOpticalFlowPyramid(older, from, window, config.levels - 1);
+  cv::buildOpticalFlowPyramid(newer, to, window, config.levels - 1);
+  const auto found = follow(from, to, all, config);
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (!found[i]) continue;
+    const Eigen::Vector2d before_px(all[i].x, all[i].y), after_px(found[i]->x, found[i]->y);
+    const auto before_C = camera.ray(before_px), after_C = camera.ray(after_px);
+    if (before_C && after_C) pairs[region_of[i]].push_back({before_px, after_px, *before_C, *after_C});
+  }
+  return pairs;
+}
+
+}  // namespace hedgehop::vision
