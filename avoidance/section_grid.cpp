@@ -15,7 +15,6 @@ namespace hedgehop::avoidance {
 namespace {
 
 constexpr const char* kDepthRole = "depth";
-constexpr double kNothing = std::numeric_limits<double>::infinity();
 
 void check(const SectionGridConfig& c) {
   const auto need = [](bool holds, const char* message) {
@@ -72,7 +71,6 @@ class SectionGridModule final : public Module {
     aside_W_.reset();
     held_W_.reset();
     last_.reset();
-    least_reaction_s_ = kNothing;
     hover_s_ = 0.0;
     rejected_ = 0;
     t_ns_ = -1;
@@ -84,12 +82,8 @@ class SectionGridModule final : public Module {
     for (size_t i = 0; i < search_->sections().size(); ++i) {
       rejected_ += search_->threats()[i] > config_.most_share * search_->sections()[i].area();
     }
-    const State before = state_;
     Decision decision;
     decision.command = steer(observation);
-    const bool reacts = state_ == State::avoid || state_ == State::look_round;
-    const bool reacted = before == State::avoid || before == State::look_round;
-    if (reacts && !reacted) note_reaction(observation.navigation);
     if (state_ == State::look_round && t_ns_ >= 0) hover_s_ += 1e-9 * static_cast<double>(observation.t_ns - t_ns_);
     t_ns_ = observation.t_ns;
     decision.status = name_of(state_);
@@ -180,22 +174,8 @@ class SectionGridModule final : public Module {
     return PositionCommand{p_W, bearing_rad};
   }
 
-  /// Time left to the nearest thing ahead when the vehicle first reacts to it.
-  void note_reaction(const NavigationState& navigation) {
-    cv::Mat ahead_m = depth_m_(search_->sections()[static_cast<size_t>(centre_)]).clone();
-    cv::patchNaNs(ahead_m, kNothing);
-    double nearest_m = kNothing;
-    cv::minMaxLoc(ahead_m, &nearest_m);
-    const double closing_mps = (X_BC_.linear().transpose() * navigation.v_WB_B_est).z();
-    constexpr double kStanding_mps = 0.1;
-    if (closing_mps > kStanding_mps) least_reaction_s_ = std::min(least_reaction_s_, nearest_m / closing_mps);
-  }
-
   std::vector<Metric> do_metrics() const override {
-    const double kNone = std::numeric_limits<double>::quiet_NaN();
-    return {{"time_to_collision_at_reaction_s", std::isfinite(least_reaction_s_) ? least_reaction_s_ : kNone, "s"},
-            {"sections_rejected", static_cast<double>(rejected_), ""},
-            {"hover_time_s", hover_s_, "s"}};
+    return {{"sections_rejected", static_cast<double>(rejected_), ""}, {"hover_time_s", hover_s_, "s"}};
   }
 
   cv::Mat do_annotate() const override {
@@ -225,7 +205,7 @@ class SectionGridModule final : public Module {
   std::optional<Eigen::Vector3d> held_W_;   ///< where it waits while it turns
   std::optional<Decision> last_;
   int64_t t_ns_ = -1, rejected_ = 0;
-  double least_reaction_s_ = kNothing, hover_s_ = 0.0;
+  double hover_s_ = 0.0;
 };
 
 }  // namespace

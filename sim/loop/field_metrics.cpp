@@ -15,7 +15,7 @@ using Rows = std::vector<TrajectoryRow>;
 /// goal's altitude.
 std::optional<double> shortest_free_path_m(const GoalConfig& goal, const Eigen::Vector3d& start_W,
                                            const scenes::Scene& scene, double vehicle_radius_m) {
-  constexpr double kHalfThickness_m = 0.05, kFinestCell_m = 0.25, kMostCells = 400.0, kMargin_m = 5.0;
+  constexpr double kHalfThickness_m = 0.05, kFinestCell_m = 0.25, kMostCells = 400.0, kMargin_m = 5.0, kAtStart_s = 0.0;
   const dynamics::HullPart disc{.shape = dynamics::HullPart::Shape::cylinder,
                                 .half_extents_m = {vehicle_radius_m, vehicle_radius_m, kHalfThickness_m}};
   CollisionWorld world(scene, {disc});
@@ -26,7 +26,7 @@ std::optional<double> shortest_free_path_m(const GoalConfig& goal, const Eigen::
   const auto is_free = [&](const Eigen::Vector2d& p_NE_m) {
     Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
     X_WB.translation() = Eigen::Vector3d(p_NE_m.x(), p_NE_m.y(), goal.p_WG().z());
-    return !world.query(X_WB, kHalfThickness_m).collided;
+    return !world.query(X_WB, kHalfThickness_m, kAtStart_s).collided;
   };
   const auto length_m = shortest_path_m(start_W.head<2>(), goal.p_WG().head<2>(), bounds, cell_m, is_free);
   if (!length_m) return {};
