@@ -108,6 +108,18 @@ std::vector<Place> place_trees(const ForestConfig& c, Random& random) {
   return places;
 }
 
+// Far trees are culled by plots of this side; the near ones each by itself.
+constexpr double kPlot_m = 16.0;
+
+bool is_detailed(const Place& place) { return place.p_NE.norm() < kDetailed_m; }
+
+// Which plot a tree stands on, row by row; -1 of a tree by itself.
+int64_t plot(const Place& place) {
+  constexpr int64_t kPerRow = 1 << 20;
+  const Eigen::Array2d at = (place.p_NE.array() / kPlot_m).floor() + 0.5 * kPerRow;
+  return is_detailed(place) ? -1 : static_cast<int64_t>(at.x()) * kPerRow + static_cast<int64_t>(at.y());
+}
+
 constexpr uint32_t kGrass = 0, kFirstLeaves = 1, kFirstBark = 4;
 constexpr int kLeaves = 3, kBarks = 2;
 
@@ -127,7 +139,8 @@ double ForestConfig::extent_m() const { return spacing_m * std::sqrt(2.0 * stati
 Scene make_forest(const ForestConfig& config, uint64_t seed) {
   validate(config);
   Random place_random(derived_seed(seed, kPlaceStream)), lump_random(derived_seed(seed, kLumpStream));
-  const std::vector<Place> places = place_trees(config, place_random);
+  std::vector<Place> places = place_trees(config, place_random);
+  std::ranges::stable_sort(places, {}, plot);
   std::vector<Polyhedron> lumps, coarse_lumps;
   for (int k = 0; k < kLumps; ++k) {
     lumps.push_back(convex_lump(kCorners, 0.22, lump_random));
@@ -148,17 +161,18 @@ Scene make_forest(const ForestConfig& config, uint64_t seed) {
     const Eigen::Vector2d offset(uniform(random, 0.0, 1.0), uniform(random, 0.0, 1.0));
     const Cover leaves{kFirstLeaves + static_cast<uint32_t>(uniform_index(random, kLeaves)), kLeafTile_m, offset};
     const Cover bark{kFirstBark + static_cast<uint32_t>(uniform_index(random, kBarks)), kBarkTile_m, offset};
-    const bool is_detailed = places[k].p_NE.norm() < kDetailed_m;
+    const bool detailed = is_detailed(places[k]);
+    if (detailed || k == 0 || plot(places[k]) != plot(places[k - 1])) mesh.begin_chunk(false);
     const TreeShape shape{
         .foot_W = {places[k].p_NE.x(), places[k].p_NE.y(), 0.0},
         .height_m = uniform(random, config.min_height_m, config.max_height_m),
         .clear_height_m = config.clear_height_m,
         .crown_radius_m = places[k].crown_radius_m,
         .trunk_radius_m = 0.5 * uniform(random, config.min_trunk_diameter_m, config.max_trunk_diameter_m),
-        .trunk_sides = is_detailed ? kTrunkSides : kFewTrunkSides,
+        .trunk_sides = detailed ? kTrunkSides : kFewTrunkSides,
     };
-    std::vector<Solid> solids = add_tree("tree " + std::to_string(k + 1), shape, is_detailed ? lumps : coarse_lumps,
-                                         leaves, bark, random, mesh);
+    std::vector<Solid> solids =
+        add_tree("tree " + std::to_string(k + 1), shape, detailed ? lumps : coarse_lumps, leaves, bark, random, mesh);
     std::ranges::move(solids, std::back_inserter(scene.solids));
   }
   scene.meshes.push_back(mesh.finish());

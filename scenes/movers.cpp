@@ -76,6 +76,7 @@ Mover make_mover(const MoverConfig& c, uint64_t seed, MoverPictures& pictures) {
     mover.solids.push_back(solid_of(c.name, post));
   };
 
+  mesh.begin_chunk(false);
   if (c.shape == Shape::tree) {
     Random random(seed);
     const std::vector<Polyhedron> lumps{convex_lump(42, 0.2, random)};
@@ -86,8 +87,6 @@ Mover make_mover(const MoverConfig& c, uint64_t seed, MoverPictures& pictures) {
                          .lobes = 10,
                          .trunk_sides = 10};
     mover.solids = add_tree(c.name, tree, lumps, pictures.leaves(), pictures.bark(), random, mesh);
-  } else {
-    mesh.begin_chunk(false);
   }
   if (c.shape == Shape::pole) add_standing({Vector3d::Zero(), c.radius_m, c.height_m}, kPostSides);
   if (c.shape == Shape::box) {

@@ -119,6 +119,7 @@ class Gardener {
                           .trunk_radius_m = uniform(random(), 0.12, 0.22),
                           .lobes = 9,
                           .trunk_sides = 10};
+    mesh_.begin_chunk(false);
     const std::vector<Solid> solids =
         add_tree("tree " + std::to_string(number), shape, lumps_, leaves(), {kBark, kBarkTile_m}, random(), mesh_);
     scene_.solids.insert(scene_.solids.end(), solids.begin(), solids.end());

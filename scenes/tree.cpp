@@ -48,6 +48,7 @@ Scene make_tree(const TreeConfig& config, uint64_t seed) {
   for (int k = 0; k < kLumps; ++k) lumps.push_back(convex_lump(kLumpCorners, 0.18, random));
   MeshBuilder mesh("opaque");
   add_ground(around_m, {0, kGrassTile_m}, mesh);
+  mesh.begin_chunk(false);
   const TreeShape shape{.foot_W = {config.north_m, config.east_m, 0.0},
                         .height_m = config.height_m,
                         .clear_height_m = config.clear_height_m,

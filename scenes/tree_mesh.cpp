@@ -21,7 +21,6 @@ std::vector<Solid> add_tree(const std::string& name, const TreeShape& shape, std
   const Vector3d crown_radii(shape.crown_radius_m, shape.crown_radius_m, crown_half_m);
   const Vector3d crown_center_W = shape.foot_W - Vector3d(0.0, 0.0, shape.clear_height_m + crown_half_m);
 
-  mesh.begin_chunk(false);
   const Post trunk{shape.foot_W, shape.trunk_radius_m, shape.clear_height_m + crown_half_m};
   add_post(trunk, shape.trunk_sides, bark, mesh);
   std::vector<Solid> solids{solid_of(name, trunk)};

@@ -20,7 +20,7 @@ struct TreeShape {
   int trunk_sides = 6;  ///< at least 3
 };
 
-/// Adds a tree, one chunk. No point is farther from the trunk's axis than
+/// Adds a tree to the chunk begun last. No point is farther from the trunk's axis than
 /// the crown's radius, nor higher than the height.
 /// @param lumps  convex lumps within radius 1 that the crown is made of, at least one.
 /// @return the trunk (a cylinder) and the crown's lumps (hulls that are drawn as they are), each called `name`.
