@@ -122,7 +122,8 @@ class SectionGridModule final : public Module {
     return true;
   }
 
-  /// [Perez2018] sec. on movement.
+  /// [Perez2018] sec. on movement. Differs: on its way to a position aside the vehicle takes a better choice only where
+  /// the way ahead is no way out any more; else every pixel's change would put the position off again.
   Command steer(const Observation& observation) {
     const Eigen::Vector3d& p_WB = observation.navigation.p_WB_est;
     if (choice_.section < 0) {
@@ -132,13 +133,15 @@ class SectionGridModule final : public Module {
       return HoverCommand{turn_ * config_.yaw_rate_radps};
     }
     const bool new_way = choice_.section != centre_ || state_ == State::look_round;
-    if (new_way) {
+    const bool arrived = aside_W_ && (*aside_W_ - p_WB).norm() < config_.arrived_m;
+    if (new_way && (!aside_W_ || arrived || (turns() && !ahead_is_free()))) {
       aside_W_ = place(observation.navigation, choice_.section);
       state_ = State::avoid;
-    } else if (aside_W_ && (*aside_W_ - p_WB).norm() < config_.arrived_m) {
+    } else if (arrived) {
       aside_W_.reset();
       state_ = State::resume;
     }
+    if (aside_W_ && !turns()) return PositionCommand{*aside_W_, heading_of(observation.navigation.q_WB_est)};
     if (aside_W_) return go_to(*aside_W_, observation);
     const Command command = go_to(observation.goal.p_WG, observation);
     if (!held_W_) state_ = State::cruise;
@@ -151,12 +154,43 @@ class SectionGridModule final : public Module {
     return geometry_.ray({s.x + s.width / 2, s.y + s.height / 2}).normalized();
   }
 
-  /// The position a threshold's distance ahead in a section's direction.
+  /// Where to go about a threat: as a rule a threshold's distance ahead in the section's direction.
   Eigen::Vector3d place(const NavigationState& navigation, int section) const {
-    const Eigen::Vector3d p_BS_B = X_BC_ * (config_.threshold_m * section_ray(section));
-    Eigen::Vector3d p_WS = navigation.p_WB_est + navigation.q_WB_est * p_BS_B;
+    using Answer = SectionGridConfig::Answer;
+    const Eigen::Vector3d ray_B = X_BC_.linear() * section_ray(section);
+    const double side = ray_B.y() < 0.0 ? -1.0 : 1.0;
+    Eigen::Vector3d p_BS_B = Eigen::Vector3d::Zero();
+    switch (config_.answer) {
+      case Answer::waypoint:
+        p_BS_B = ray_B;
+        break;
+      case Answer::heading:
+        p_BS_B = {ray_B.x(), ray_B.y(), 0.0};
+        break;
+      case Answer::sideways:
+        p_BS_B.y() = side;
+        break;
+      case Answer::climb:
+        p_BS_B.z() = -1.0;
+        break;
+      case Answer::combined:
+        p_BS_B = {0.0, side, -1.0};
+        break;
+    }
+    Eigen::Vector3d p_WS = navigation.p_WB_est + navigation.q_WB_est * (config_.threshold_m * p_BS_B.normalized());
     p_WS.z() = std::min(p_WS.z(), -config_.lowest_m);
     return p_WS;
+  }
+
+  bool ahead_is_free() const {
+    const auto centre = static_cast<size_t>(centre_);
+    return search_->threats()[centre] <= config_.most_share * search_->sections()[centre].area();
+  }
+
+  /// Whether the vehicle faces the places it goes to.
+  bool turns() const {
+    return config_.answer == SectionGridConfig::Answer::waypoint ||
+           config_.answer == SectionGridConfig::Answer::heading;
   }
 
   /// Turns to face a place, waiting where it is, then moves there.

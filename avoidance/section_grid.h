@@ -17,6 +17,8 @@ struct SectionGridConfig {
       "flies towards the emptiest of many overlapping sections of a depth picture";
 
   enum class Sight { stereo, truth };
+  /// What it does about a threat ahead; all but `waypoint` are beyond the paper.
+  enum class Answer { waypoint, heading, sideways, climb, combined };
   Sight sight = Sight::stereo;
   vision::StereoMatcherConfig stereo;
   int speck_px = 100;
@@ -26,6 +28,7 @@ struct SectionGridConfig {
   vision::Unknown unknown = vision::Unknown::free;
   double aligned_rad = 0.17453292519943295;
   double arrived_m = 1.0;
+  Answer answer = Answer::waypoint;
   double lowest_m = 2.0;
   double yaw_rate_radps = 0.5235987755982988;
 };
@@ -56,6 +59,11 @@ void describe(Visitor& v, SectionGridConfig& c) {
      .meaning = "the vehicle moves once its nose is turned to within this"});
   v("arrived", c.arrived_m,
     {.unit = "m", .above = 0.0, .meaning = "distance at which a position aside counts as reached"});
+  v("answer", c.answer,
+    {.choices = {"waypoint", "heading", "sideways", "climb", "combined"},
+     .meaning =
+         "a position in the section's direction; the same on the level; aside without turning; straight up; aside "
+         "and up"});
   v("lowest", c.lowest_m,
     {.unit = "m", .at_least = 0.0, .meaning = "no position aside lies lower, above the scene's origin"});
   v("yaw_rate", c.yaw_rate_radps,
