@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "avoidance/section_grid.h"
+#include "tests/avoidance/flow_rig.h"
+
+namespace hedgehop::avoidance {
+namespace {
+
+constexpr int kWidth_px = 160, kHeight_px = 90;
+constexpr double kThreshold_m = 9.144;
+
+/// One camera that knows depth, and a module that flies by it towards a goal far to the north.
+class Pilot {
+ public:
+  explicit Pilot(SectionGridConfig config = {}) : module_(make_section_grid(with_truth(config))) {
+    Setup setup;
+    MountedCamera camera = level_camera("depth", 0.0, kWidth_px, 12.5);
+    camera.model = vision::PinholeCamera::from_fov(kWidth_px, kHeight_px, 1.48);
+    setup.cameras = {camera};
+    setup.limits = {5.0, 2.0, 1.0};
+    module_->reset(setup);
+  }
+
+  Decision see(const cv::Mat& depth_m, const Eigen::Vector3d& p_WB = {0.0, 0.0, -5.0}, double heading_rad = 0.0) {
+    t_ns_ += 80'000'000;
+    const std::vector<CameraFrame> frames = {{"depth", t_ns_, depth_m}};
+    return module_->update({t_ns_, frames, level_flight(p_WB, heading_rad, {1.0, 0.0}), {{100.0, 0.0, -5.0}, 0.0}});
+  }
+  const Module& module() const { return *module_; }
+
+ private:
+  static SectionGridConfig with_truth(SectionGridConfig config) {
+    config.sight = SectionGridConfig::Sight::truth;
+    return config;
+  }
+  std::unique_ptr<Module> module_;
+  int64_t t_ns_ = 0;
+};
+
+cv::Mat far() { return {kHeight_px, kWidth_px, CV_32FC1, cv::Scalar(30.0)}; }
+
+/// Something near in a band of columns.
+cv::Mat near_between(int first_px, int last_px) {
+  cv::Mat depth_m = far();
+  depth_m.colRange(first_px, last_px).setTo(4.0);
+  return depth_m;
+}
+
+const PositionCommand& position(const Decision& decision) { return std::get<PositionCommand>(decision.command); }
+
+TEST(SectionGridModule, CarriesOnToTheGoalWhenTheWayIsFree) {
+  Pilot pilot;
+  const Decision decision = pilot.see(far());
+  EXPECT_EQ(decision.status, "cruise");
+  EXPECT_EQ(position(decision).p_WB, Eigen::Vector3d(100.0, 0.0, -5.0));
+}
+
+TEST(SectionGridModule, GoesAThresholdsDistanceToTheFreeSideOfAnObstacle) {
+  for (const bool left : {true, false}) {
+    Pilot pilot;
+    const Decision decision = pilot.see(left ? near_between(0, 80) : near_between(80, kWidth_px), {0.0, 0.0, -5.0});
+    EXPECT_EQ(decision.status, "avoid");
+    // It turns first, waiting where it is; what it turns to lies on the free side, within the camera's view.
+    const double heading_rad = position(decision).heading_rad;
+    EXPECT_GT(left ? heading_rad : -heading_rad, 0.17);
+    EXPECT_LT(std::abs(heading_rad), 0.74);
+    EXPECT_EQ(position(decision).p_WB, Eigen::Vector3d(0.0, 0.0, -5.0));
+    const Decision facing = pilot.see(far(), {0.0, 0.0, -5.0}, heading_rad);
+    EXPECT_NEAR((position(facing).p_WB - Eigen::Vector3d(0.0, 0.0, -5.0)).norm(), kThreshold_m, 1e-9);
+  }
+}
+
+TEST(SectionGridModule, TakesTheRouteUpAgainOnceAside) {
+  Pilot pilot;
+  const double heading_rad = position(pilot.see(near_between(0, 80))).heading_rad;
+  const Eigen::Vector3d aside = position(pilot.see(far(), {0.0, 0.0, -5.0}, heading_rad)).p_WB;
+  const Decision there = pilot.see(far(), aside, heading_rad);
+  EXPECT_EQ(there.status, "resume");
+  const double to_goal_rad = position(there).heading_rad;
+  EXPECT_NEAR(to_goal_rad, std::atan2(-aside.y(), 100.0 - aside.x()), 1e-12);
+  const Decision onwards = pilot.see(far(), aside, to_goal_rad);
+  EXPECT_EQ(onwards.status, "cruise");
+  EXPECT_EQ(position(onwards).p_WB, Eigen::Vector3d(100.0, 0.0, -5.0));
+}
+
+TEST(SectionGridModule, HoversAndTurnsBeforeAWallAndCountsTheTime) {
+  Pilot pilot;
+  const cv::Mat wall = near_between(0, kWidth_px);
+  for (int i = 0; i < 6; ++i) {
+    const Decision decision = pilot.see(wall);
+    EXPECT_EQ(decision.status, "look_round");
+    EXPECT_NE(std::get<HoverCommand>(decision.command).yaw_rate_radps, 0.0);
+  }
+  double hover_s = 0.0;
+  for (const Metric& metric : pilot.module().metrics()) {
+    if (metric.name == "hover_time_s") hover_s = metric.value;
+  }
+  EXPECT_NEAR(hover_s, 5 * 0.08, 1e-9);
+  EXPECT_EQ(pilot.see(far()).status, "avoid");  // off the route: the way found is flown first
+}
+
+TEST(SectionGridModule, EveryAnswerGoesItsOwnWay) {
+  using Answer = SectionGridConfig::Answer;
+  const auto moved = [](Answer answer) {
+    SectionGridConfig config;
+    config.answer = answer;
+    config.aligned_rad = 1.5;  // no waiting to turn
+    Pilot pilot(config);
+    return Eigen::Vector3d(position(pilot.see(near_between(0, 80))).p_WB - Eigen::Vector3d(0.0, 0.0, -5.0));
+  };
+  const Eigen::Vector3d heading = moved(Answer::heading), sideways = moved(Answer::sideways);
+  EXPECT_EQ(heading.z(), 0.0);
+  EXPECT_GT(heading.x(), 5.0);
+  EXPECT_TRUE(sideways.isApprox(Eigen::Vector3d(0.0, kThreshold_m, 0.0), 1e-9));
+  EXPECT_TRUE(moved(Answer::climb).isApprox(Eigen::Vector3d(0.0, 0.0, -kThreshold_m), 1e-9));
+  const Eigen::Vector3d combined = moved(Answer::combined);
+  EXPECT_NEAR(combined.y(), -combined.z(), 1e-9);
+  EXPECT_GT(combined.y(), 0.0);
+}
+
+TEST(SectionGridModule, NeverGoesBelowItsLowestHeight) {
+  SectionGridConfig config;
+  config.lowest_m = 4.0;
+  config.aligned_rad = 1.5;
+  Pilot pilot(config);
+  cv::Mat ceiling = far();
+  ceiling.rowRange(0, 60).setTo(4.0);
+  EXPECT_EQ(position(pilot.see(ceiling, {0.0, 0.0, -4.5})).p_WB.z(), -4.0);
+}
+
+}  // namespace
+}  // namespace hedgehop::avoidance

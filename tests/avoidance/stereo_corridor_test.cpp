@@ -1,0 +1,92 @@
+#include "avoidance/stereo_corridor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/avoidance/flow_rig.h"
+
+namespace hedgehop::avoidance {
+namespace {
+
+constexpr int kSize_px = 160;
+constexpr double kBackdrop_m = 45.0;
+
+/// Flies by what a pair of cameras sees of a far backdrop and nearer walls, towards a goal far to the north.
+class Pilot {
+ public:
+  Pilot() : setup_(stereo_pair(kSize_px, 10.0)) {
+    StereoCorridorConfig config;
+    config.stereo.disparities_px = 16;
+    config.radius_m = 1.5;
+    config.target_m = 20.0;
+    config.coarsest = 4;
+    config.finest = 2;
+    module_ = make_stereo_corridor(config);
+    module_->reset(setup_);
+  }
+
+  Decision see(std::vector<vision::TexturedPlane> walls, const Eigen::Vector2d& v_WB_W = {3.0, 0.0}) {
+    walls.push_back(wall(kBackdrop_m, 0.0, M_PI));
+    const NavigationState navigation = level_flight({0.0, 0.0, -6.0}, 0.0, v_WB_W);
+    t_ns_ += 100'000'000;
+    const vision::WaveTexture texture(7, 0.4, 6.0, 24);
+    const std::vector<CameraFrame> frames = avoidance::see(setup_, navigation, t_ns_, walls, texture);
+    return module_->update({t_ns_, frames, navigation, {{200.0, 0.0, -6.0}, 0.0}});
+  }
+  double metric(const std::string& name) const {
+    for (const Metric& metric : module_->metrics()) {
+      if (metric.name == name) return metric.value;
+    }
+    return std::nan("");
+  }
+
+ private:
+  Setup setup_;
+  std::unique_ptr<Module> module_;
+  int64_t t_ns_ = 0;
+};
+
+const VelocityCommand& velocity(const Decision& decision) { return std::get<VelocityCommand>(decision.command); }
+
+TEST(StereoCorridor, AFreeCourseIsFlownStraight) {
+  Pilot pilot;
+  const Decision decision = pilot.see({});
+  EXPECT_EQ(decision.status, "cruise");
+  const double kOnePixel_rad = 2.0 / kSize_px;
+  EXPECT_NEAR(velocity(decision).heading_rad, 0.0, kOnePixel_rad);
+  EXPECT_NEAR(velocity(decision).v_WB_W.norm(), 5.0, 1e-9);
+}
+
+TEST(StereoCorridor, AnObstacleAheadIsPassedOnItsFreeSide) {
+  for (const double side : {-1.0, 1.0}) {
+    Pilot pilot;
+    // 8 m wide at 14 m, reaching 2 m past the course.
+    const Decision decision = pilot.see({wall(14.0, -2.0 * side, M_PI, 4.0)});
+    EXPECT_NE(decision.status, "cruise");
+    const Eigen::Vector2d v_W = velocity(decision).v_WB_W;
+    // Where the way crosses the obstacle's distance, it is clear of its edge by the corridor's radius, but for a pixel.
+    const double east_m = side * 14.0 * v_W.y() / v_W.x();
+    EXPECT_GT(east_m, 2.0 + 1.5 - 0.5);
+  }
+}
+
+TEST(StereoCorridor, HoversAndTurnsWhereEverythingIsNear) {
+  Pilot pilot;
+  for (int i = 0; i < 3; ++i) {
+    const Decision decision = pilot.see({wall(9.0, 0.0, M_PI)});
+    EXPECT_EQ(decision.status, "look_round");
+    EXPECT_NE(std::get<HoverCommand>(decision.command).yaw_rate_radps, 0.0);
+  }
+  EXPECT_NEAR(pilot.metric("hover_time_s"), 0.2, 1e-9);
+  EXPECT_NEAR(pilot.metric("decision_hz"), 10.0, 1e-9);
+}
+
+TEST(StereoCorridor, TheCourseIsTakenUpAgainOnceItIsFree) {
+  Pilot pilot;
+  pilot.see({wall(14.0, -2.0, M_PI, 4.0)});
+  EXPECT_EQ(pilot.see({}, {2.8, 1.0}).status, "cruise");
+}
+
+}  // namespace
+}  // namespace hedgehop::avoidance
