@@ -15,9 +15,8 @@
 #include "scenes/generators.h"
 #include "sim/collision/proximity.h"
 #include "sim/loop/aircraft.h"
+#include "sim/loop/assessment.h"
 #include "sim/loop/cameras.h"
-#include "sim/loop/checks.h"
-#include "sim/loop/field_metrics.h"
 #include "sim/loop/flight_log.h"
 #include "sim/loop/random_stream.h"
 #include "sim/loop/route.h"
@@ -36,15 +35,6 @@ struct PendingCommand {
   int64_t tick = 0;
   avoidance::Command command;
 };
-
-/// Radius of the widest upright disc of a hull, m; 0 without one.
-double rotor_radius_m(const std::vector<dynamics::HullPart>& hull) {
-  double radius_m = 0.0;
-  for (const dynamics::HullPart& part : hull) {
-    if (part.shape == dynamics::HullPart::Shape::cylinder) radius_m = std::max(radius_m, part.half_extents_m.x());
-  }
-  return radius_m;
-}
 
 class Episode {
  public:
@@ -186,13 +176,7 @@ Flight Episode::fly() {
   for (const avoidance::Metric& metric : module_->metrics()) {
     result.metrics.push_back({metric.name, metric.value, metric.unit});
   }
-  constexpr double kBesideStart_m = 1.0;
-  result.scene = scenes::scene_figures(
-      scene_, {scenario_.start.altitude_m - kBesideStart_m, scenario_.start.altitude_m + kBesideStart_m});
-  for (MetricValue& metric : field_metrics(scenario_, flight, scene_, dynamics::radius_m(hull_))) {
-    result.metrics.push_back(std::move(metric));
-  }
-  result.checks = evaluate_checks(scenario_, flight, scene_, rotor_radius_m(hull_));
+  assess(scenario_, scene_, hull_, flight);
   return flight;
 }
 
