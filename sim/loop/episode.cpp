@@ -17,6 +17,7 @@
 #include "sim/loop/aircraft.h"
 #include "sim/loop/cameras.h"
 #include "sim/loop/checks.h"
+#include "sim/loop/corridor_truth.h"
 #include "sim/loop/flight_log.h"
 #include "sim/loop/random_stream.h"
 #include "sim/loop/route.h"
@@ -185,6 +186,7 @@ Flight Episode::fly() {
   for (const avoidance::Metric& metric : module_->metrics()) {
     result.metrics.push_back({metric.name, metric.value, metric.unit});
   }
+  for (const MetricValue& metric : corridor_metrics(scenario_, flight)) result.metrics.push_back(metric);
   constexpr double kBesideStart_m = 1.0;
   result.scene = scenes::scene_figures(
       scene_, {scenario_.start.altitude_m - kBesideStart_m, scenario_.start.altitude_m + kBesideStart_m});
