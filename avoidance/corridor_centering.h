@@ -11,7 +11,7 @@
 namespace hedgehop::avoidance {
 
 /// Keeps to the middle of a corridor by the flow that a fisheye sees of its walls.
-/// Source: [Zingg2010]; law `printed` is sec. V-C, law `pursuit` and the care for what lies ahead are ours.
+/// Source: [Zingg2010] sec. IV, law `printed` sec. V-C; law `pursuit` and the care for what lies ahead are ours.
 struct CorridorCenteringConfig {
   static constexpr std::string_view kName = "corridor_centering";
   static constexpr std::string_view kMeaning =
