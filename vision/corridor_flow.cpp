@@ -60,6 +60,7 @@ WallPoint wall_point(const RayPair& pair, Region region, const Camera& camera, c
   const Eigen::Vector3d after_H = motion.R_HC1 * derotated(pair.after_C, motion.R_HC1.transpose() * motion.R_HC2);
   WallPoint point{pair, region};
   point.flow_radps = flow_angle_rad(before_H, after_H) / motion.dt_s;
+  point.off_way_rad = flow_angle_rad(before_H, motion.travelled_H);
   point.contact_s = time_to_contact_s(before_H, after_H, motion.travelled_H, motion.dt_s);
   point.p_CP_H = distance_m(before_H, after_H, motion.travelled_H) * after_H;
   point.verdict = judge(point, before_H, after_H, camera, motion, limits);
@@ -90,7 +91,7 @@ double centering_error(double left_m, double right_m) { return (right_m - left_m
 Gap gap_ahead(const std::vector<WallPoint>& points, const GapConfig& config) {
   std::vector<Eigen::Vector2d> left, right;
   for (const WallPoint& point : points) {
-    if (point.verdict != Verdict::good) continue;
+    if (point.verdict != Verdict::good || point.off_way_rad < config.least_rad) continue;
     (point.p_CP_H.y() < 0.0 ? left : right).push_back(point.p_CP_H.head<2>());
   }
   return {narrowest(left, config), narrowest(right, config)};

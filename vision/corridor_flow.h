@@ -12,7 +12,7 @@ namespace hedgehop::vision {
 
 /// Which flow counts as wrong. The two filters of [Zingg2010] sec. IV-D, whose first limit is not printed, and ours.
 struct FlowLimits {
-  double slowest_radps = 0.01;  ///< below, noise of the pictures decides
+  double slowest_radps = 0.05;  ///< below, noise of the pictures decides
   double fastest_radps = 3.0;
   double off_tangent_rad = 50.0 * std::numbers::pi / 180.0;  ///< at the sides
   double stray_rad = 30.0 * std::numbers::pi / 180.0;
@@ -53,6 +53,7 @@ struct WallPoint {
   Region region = kAhead;
   Verdict verdict = Verdict::good;
   double flow_radps = 0.0;                           ///< derotated
+  double off_way_rad = 0.0;                          ///< angle from the direction of travel to where it was
   double contact_s = 0.0;                            ///< until it lies abeam, as time_to_contact_s()
   Eigen::Vector3d p_CP_H = Eigen::Vector3d::Zero();  ///< from the camera at the newer picture, m
 };
@@ -83,8 +84,9 @@ double centering_error(double left_m, double right_m);
 struct GapConfig {
   double behind_m = 0.4, ahead_m = 2.0;  ///< from the camera
   double slice_m = 0.4;
-  double share = 0.2;  ///< of a slice's points that may lie nearer: wrong ones
-  int least = 6;       ///< points in a slice, or nearer ahead, that are believed
+  double share = 0.2;                                  ///< of a slice's points that may lie nearer: wrong ones
+  double least_rad = 15.0 * std::numbers::pi / 180.0;  ///< from the direction of travel: nearer, the flow is noise
+  int least = 6;                                       ///< points in a slice, or nearer ahead, that are believed
 };
 
 template <class Visitor>
@@ -94,6 +96,11 @@ void describe(Visitor& v, GapConfig& c) {
   v("slice", c.slice_m, {.unit = "m", .above = 0.0, .meaning = "length of the slices that the gap is measured in"});
   v("share", c.share,
     {.at_least = 0.0, .below = 0.5, .meaning = "share of a slice's points left out as wrong, the nearest ones"});
+  v("least_angle", c.least_rad,
+    {.unit = "deg",
+     .at_least = 0.0,
+     .at_most = 90.0,
+     .meaning = "points nearer to the direction of travel do not count for the gap"});
   v("least", c.least, {.at_least = 1, .meaning = "points that a slice must have to count"});
 }
 

@@ -15,7 +15,7 @@ struct FeatureFlowConfig {
   double quality = 0.02;         ///< least strength, as a share of the region's strongest corner's
   double least_strength = 1e-4;  ///< smaller eigenvalue of the gradients' products, grey in 0..1: noise stays below
   int apart_px = 5;
-  int window_px = 15, levels = 4;  ///< of the pyramidal search
+  int window_px = 15, levels = 3;  ///< of the pyramidal search
   double round_trip_px = 0.5;      ///< followed back, a corner must end this near to where it began; 0: not checked
 };
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "sim/loop/checks.h"
+#include "sim/loop/corridor_truth.h"
 #include "sim/loop/field_metrics.h"
 
 namespace hedgehop::sim {
@@ -28,6 +29,7 @@ void assess(const Scenario& scenario, const scenes::Scene& scene, const std::vec
   for (MetricValue& metric : field_metrics(scenario, flight, scene, dynamics::radius_m(hull))) {
     flight.result.metrics.push_back(std::move(metric));
   }
+  for (const MetricValue& metric : corridor_metrics(scenario, flight)) flight.result.metrics.push_back(metric);
   flight.result.checks = evaluate_checks(scenario, flight, scene, rotor_radius_m(hull));
 }
 

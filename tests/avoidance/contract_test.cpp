@@ -17,8 +17,10 @@ namespace {
 struct Row {
   std::string name;
   ModuleConfig config;
-  bool stereo = false;        ///< looks forward with a pair of cameras
-  bool holds_heading = true;  ///< and height; else it flies where it looks
+  bool stereo = false;           ///< looks forward with a pair of cameras
+  bool holds_heading = true;     ///< and height; else it flies where it looks
+  bool fisheye = false;          ///< looks down with one camera
+  std::string blank = "cruise";  ///< status where nothing can be seen
   friend std::ostream& operator<<(std::ostream& out, const Row& row) { return out << row.name; }
 };
 
@@ -36,7 +38,10 @@ std::vector<Row> rows() {
   auto all = default_rows(std::make_index_sequence<std::variant_size_v<ModuleConfig>>{});
   for (Row& row : all) {
     row.stereo = row.name == "section_grid" || row.name == "stereo_corridor";
-    row.holds_heading = !row.stereo;
+    row.fisheye = row.name == "corridor_centering";
+    row.holds_heading = !row.stereo && !row.fisheye;
+    // Between walls that cannot be seen the way is not free.
+    if (row.fisheye) row.blank = "blind";
   }
   FlowBalanceConfig simple;
   simple.scheme = FlowBalanceConfig::Scheme::simple;
@@ -65,6 +70,8 @@ class Contract : public testing::TestWithParam<Row> {
   static const std::vector<Step>& flight() {
     static const std::vector<Step> all_round = make_flight(four_cameras(kSize_px, 25.0));
     static const std::vector<Step> ahead = make_flight(stereo_pair(kSize_px, 25.0));
+    static const std::vector<Step> below = make_flight(fisheye_below(2 * kSize_px, 25.0));
+    if (GetParam().fisheye) return below;
     return GetParam().stereo ? ahead : all_round;
   }
   static std::vector<Step> make_flight(const avoidance::Setup& rig) {
@@ -81,6 +88,7 @@ class Contract : public testing::TestWithParam<Row> {
     return made;
   }
   static avoidance::Setup setup(double speed_limit_mps = 10.0) {
+    if (GetParam().fisheye) return fisheye_below(2 * kSize_px, 25.0, speed_limit_mps);
     return GetParam().stereo ? stereo_pair(kSize_px, 25.0, speed_limit_mps)
                              : four_cameras(kSize_px, 25.0, speed_limit_mps);
   }
@@ -156,6 +164,11 @@ TEST_P(Contract, HoldsTheGoalsHeadingAndHeightOrFliesWhereItLooks) {
   const auto module = make_module(GetParam().config);
   for (const Decision& decision : fly(*module)) {
     if (const auto* velocity = std::get_if<VelocityCommand>(&decision.command)) {
+      if (GetParam().fisheye) {
+        const double way_rad = std::atan2(velocity->v_WB_W.y(), velocity->v_WB_W.x());
+        EXPECT_LT(std::abs(std::remainder(velocity->heading_rad - way_rad, 2.0 * M_PI)), 0.5 * M_PI);
+        continue;
+      }
       if (!GetParam().holds_heading) {
         EXPECT_NEAR(velocity->heading_rad, std::atan2(velocity->v_WB_W.y(), velocity->v_WB_W.x()), 1e-12);
         continue;
@@ -171,9 +184,9 @@ TEST_P(Contract, BlankPicturesAreSurvivedAndLeaveTheWayFree) {
   module->reset(setup());
   for (int i = 0; i < kSteps; ++i) {
     Step step = flight()[static_cast<size_t>(i)];
-    for (CameraFrame& frame : step.frames) frame.image = cv::Mat(kSize_px, kSize_px, CV_8UC1, cv::Scalar(i % 2 * 255));
+    for (CameraFrame& frame : step.frames) frame.image = cv::Mat(frame.image.size(), CV_8UC1, cv::Scalar(i % 2 * 255));
     const Decision decision = module->update(observation(step, i));
-    EXPECT_EQ(decision.status, "cruise");
+    EXPECT_EQ(decision.status, GetParam().blank);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "avoidance/module.h"
+#include "tests/vision/corridor_world.h"
 #include "tests/vision/textured_picture.h"
 
 /// A small rig of four level cameras and what it sees of textured walls, for tests of modules.
@@ -46,6 +47,15 @@ inline Setup stereo_pair(int size_px, double rate_hz, double speed_limit_mps = 1
   return setup;
 }
 
+/// A fisheye of 190 degrees that looks down, for pictures as high as wide.
+inline Setup fisheye_below(int size_px, double rate_hz, double speed_limit_mps = 10.0) {
+  Setup setup;
+  setup.cameras = {{"fisheye", vision::whole_fisheye(size_px, size_px), vision::looking_down(), rate_hz}};
+  setup.limits = {speed_limit_mps, 5.0, 0.27};
+  setup.seed = 1;
+  return setup;
+}
+
 inline NavigationState level_flight(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector2d& v_WB_W) {
   NavigationState navigation;
   navigation.p_WB_est = p_WB;
@@ -64,8 +74,11 @@ inline std::vector<CameraFrame> see(const Setup& setup, const NavigationState& n
   X_WB.translation() = navigation.p_WB_est;
   std::vector<CameraFrame> frames;
   for (const MountedCamera& camera : setup.cameras) {
-    frames.push_back(
-        {camera.role, t_ns, vision::draw_planes(camera.model.pinhole(), X_WB * camera.X_BC, walls, texture)});
+    const Eigen::Isometry3d X_WC = X_WB * camera.X_BC;
+    const bool straight = camera.model.is_ideal_pinhole();
+    frames.push_back({camera.role, t_ns,
+                      straight ? vision::draw_planes(camera.model.pinhole(), X_WC, walls, texture)
+                               : vision::draw_planes_through(camera.model, X_WC, walls, texture)});
   }
   return frames;
 }

@@ -24,6 +24,7 @@ WallPoint at(double x_m, double y_m, Region region, Verdict verdict = Verdict::g
   point.p_CP_H = {x_m, y_m, 0.0};
   point.region = region;
   point.verdict = verdict;
+  point.off_way_rad = std::abs(std::atan2(y_m, x_m));  // flown straight on
   return point;
 }
 
@@ -216,6 +217,15 @@ TEST(GapAhead, AFewWrongPointsDoNotNarrowIt) {
   const Gap gap = gap_ahead(points, {});
   EXPECT_EQ(gap.left_m, 1.25);
   EXPECT_EQ(gap.right_m, 1.25);
+}
+
+TEST(GapAhead, LeavesOutWhatLiesAlmostStraightAhead) {
+  std::vector<WallPoint> points(20, at(0.5, 1.0, kRight));
+  points.insert(points.end(), 20, at(1.5, 0.2, kAhead));
+  EXPECT_EQ(gap_ahead(points, {}).right_m, 1.0);
+  GapConfig all;
+  all.least_rad = 0.0;
+  EXPECT_EQ(gap_ahead(points, all).right_m, 0.2);
 }
 
 TEST(GapAhead, IsUnknownWhereNothingIsSeen) {

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+
+#include "avoidance/corridor_sight.h"
+#include "vision/corridor_flow.h"
+
+namespace hedgehop::avoidance {
+
+/// What corridor_centering shows of a decision.
+struct CorridorScene {
+  const CorridorView* view = nullptr;  ///< null before the second picture
+  vision::Gap gap;                     ///< NaN where unknown
+  std::optional<double> course_rad;    ///< to the right of the heading
+  double radius_m = 0.0;               ///< of the vehicle
+  std::string caption;
+};
+
+/// Returns the fisheye's picture, regions bright, with accepted flow in green and rejected in red, and beside it the
+/// map seen from above: walls' points, both medians, the gap and the course. CV_8UC3, RGB.
+cv::Mat corridor_picture(const CorridorSight& sight, const CorridorScene& scene);
+
+}  // namespace hedgehop::avoidance

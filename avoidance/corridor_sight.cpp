@@ -1,0 +1,91 @@
+#include "avoidance/corridor_sight.h"
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <utility>
+
+namespace hedgehop::avoidance {
+namespace {
+
+Eigen::Matrix3d R_WH(const Eigen::Quaterniond& q_WB) {
+  return Eigen::AngleAxisd(heading_rad(q_WB), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+}
+
+/// Pixels that the search for corners of the regions may look at.
+cv::Mat round_about(const std::array<cv::Mat, vision::kRegions>& regions, const vision::FeatureFlowConfig& features) {
+  cv::Mat wanted = regions[vision::kLeft] | regions[vision::kRight] | regions[vision::kAhead];
+  const int side_px = features.window_px << (features.levels - 1);  // of a window on the coarsest level
+  cv::dilate(wanted, wanted, cv::Mat::ones(side_px | 1, side_px | 1, CV_8UC1));
+  return wanted;
+}
+
+}  // namespace
+
+double heading_rad(const Eigen::Quaterniond& q_WB) {
+  const Eigen::Vector3d forward_W = q_WB * Eigen::Vector3d::UnitX();
+  return std::atan2(forward_W.y(), forward_W.x());
+}
+
+CorridorSight::CorridorSight(const CorridorSightConfig& config, const MountedCamera& camera)
+    : config_(config),
+      camera_(camera),
+      regions_(vision::region_masks(camera.model, camera.X_BC, config.regions, config.features.window_px / 2)),
+      turner_(camera.model, round_about(regions_, config.features)) {
+  if (config.least_vectors < 1) throw std::invalid_argument("least_vectors: must be at least 1");
+}
+
+/// Source: [Zingg2010] sec. IV-B. Differs: the direction of travel is that of the velocity estimated, not the nose's, and the camera
+/// may sit away from where the vehicle turns.
+vision::CameraMotion CorridorSight::motion(const NavigationState& now, double dt_s) const {
+  const Eigen::Matrix3d R_HW = R_WH(now.q_WB_est).transpose();
+  const Eigen::Matrix3d R_HB1 = R_HW * navigation_.q_WB_est, R_HB2 = R_HW * now.q_WB_est;
+  const Eigen::Vector3d v_WB_H = 0.5 * (R_HB1 * navigation_.v_WB_B_est + R_HB2 * now.v_WB_B_est);
+  const Eigen::Vector3d p_BC_B = camera_.X_BC.translation();
+  vision::CameraMotion motion;
+  motion.R_HC1 = R_HB1 * camera_.X_BC.linear();
+  motion.R_HC2 = R_HB2 * camera_.X_BC.linear();
+  motion.travelled_H = v_WB_H * dt_s + (R_HB2 - R_HB1) * p_BC_B;
+  motion.dt_s = dt_s;
+  motion.height_m = now.height_above_ground_m - (R_HB2 * p_BC_B).z();
+  return motion;
+}
+
+std::optional<CorridorView> CorridorSight::update(const CameraFrame& frame, const NavigationState& estimate) {
+  NavigationState navigation = estimate;
+  // A lag cancels between two pictures of an even turn, but not of one that begins or ends.
+  const Eigen::Vector3d turn_B = config_.attitude_lag_s * estimate.w_WB_B_est;
+  if (turn_B.norm() > 0.0) {
+    navigation.q_WB_est = estimate.q_WB_est * Eigen::AngleAxisd(turn_B.norm(), turn_B.normalized());
+  }
+  const cv::Mat older = std::exchange(picture_, frame.image.clone());
+  std::optional<CorridorView> view;
+  if (t_ns_ >= 0) {
+    using vision::kLeft, vision::kRight;
+    vision::CameraMotion moved = motion(navigation, 1e-9 * static_cast<double>(frame.t_ns - t_ns_));
+    cv::Mat newer = picture_;
+    if (config_.derotation == CorridorSightConfig::Derotation::picture) {
+      newer = turner_.turned(picture_, moved.R_HC1.transpose() * moved.R_HC2);
+      moved.R_HC2 = moved.R_HC1;
+    }
+    const auto pairs = vision::feature_flow(older, newer, regions_, camera_.model, config_.features);
+    view.emplace();
+    for (size_t k = 0; k < pairs.size(); ++k) {
+      for (const vision::RayPair& pair : pairs[k]) {
+        view->points.push_back(
+            vision::wall_point(pair, static_cast<vision::Region>(k), camera_.model, moved, config_.limits));
+      }
+    }
+    view->corners_left = static_cast<int>(pairs[kLeft].size());
+    view->corners_right = static_cast<int>(pairs[kRight].size());
+    view->left = vision::side_distance(view->points, kLeft, config_.least_vectors);
+    view->right = vision::side_distance(view->points, kRight, config_.least_vectors);
+    view->error = vision::centering_error(view->left.distance_m, view->right.distance_m);
+    view->v_H = moved.travelled_H.head<2>() / moved.dt_s;
+  }
+  t_ns_ = frame.t_ns;
+  navigation_ = navigation;
+  return view;
+}
+
+}  // namespace hedgehop::avoidance

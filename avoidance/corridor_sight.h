@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "avoidance/module.h"
+#include "vision/corridor_flow.h"
+#include "vision/picture_turner.h"
+
+namespace hedgehop::avoidance {
+
+/// What a fisheye that looks down tells of a corridor, picture by picture.
+struct CorridorView {
+  std::vector<vision::WallPoint> points;
+  vision::SideDistance left, right;               ///< medians of the sides
+  double error = 0.0;                             ///< e_n, NaN when a side is unknown
+  int corners_left = 0, corners_right = 0;        ///< followed at the sides, whatever their flow
+  Eigen::Vector2d v_H = Eigen::Vector2d::Zero();  ///< mean horizontal velocity between the pictures, m/s
+};
+
+struct CorridorSightConfig {
+  /// `rays` is the paper's; `picture` turns the newer picture back before corners are followed.
+  enum class Derotation { rays, picture };
+  Derotation derotation = Derotation::picture;
+  vision::FeatureFlowConfig features;
+  vision::CorridorRegions regions;
+  vision::FlowLimits limits;
+  int least_vectors = 12;
+  double attitude_lag_s = 0.0032;  ///< of a first-order filter of 50 Hz on the gyros
+};
+
+template <class Visitor>
+void describe(Visitor& v, CorridorSightConfig& c) {
+  v("derotation", c.derotation,
+    {.choices = {"rays", "picture"},
+     .meaning = "how the vehicle's own turning is taken away: from each followed corner's ray, or from the newer "
+                "picture before corners are followed"});
+  v("features", c.features, {.meaning = "how corners are found and followed"});
+  v("regions", c.regions, {.meaning = "where walls are looked for"});
+  v("limits", c.limits, {.meaning = "which flow counts as wrong"});
+  v("least_vectors", c.least_vectors, {.at_least = 1, .meaning = "good vectors without which a side is unknown"});
+  v("attitude_lag", c.attitude_lag_s,
+    {.unit = "s", .at_least = 0.0, .at_most = 0.1, .meaning = "by which the attitude estimated lags, as the gyros do"});
+}
+
+/// The camera, its last picture and where the vehicle was then.
+class CorridorSight {
+ public:
+  static constexpr const char* kRole = "fisheye";
+
+  /// Throws std::invalid_argument on a bad config. @param camera  looks down or so; any lens.
+  CorridorSight(const CorridorSightConfig& config, const MountedCamera& camera);
+
+  /// Takes in a picture. @return what it shows together with the one before; nothing for the first.
+  std::optional<CorridorView> update(const CameraFrame& frame, const NavigationState& navigation);
+
+  const cv::Mat& picture() const { return picture_; }  ///< CV_8UC1, the last
+  const std::array<cv::Mat, vision::kRegions>& regions() const { return regions_; }
+
+ private:
+  vision::CameraMotion motion(const NavigationState& now, double dt_s) const;
+
+  CorridorSightConfig config_;
+  MountedCamera camera_;
+  std::array<cv::Mat, vision::kRegions> regions_;
+  vision::PictureTurner turner_;
+  cv::Mat picture_;
+  int64_t t_ns_ = -1;
+  NavigationState navigation_;  ///< at the last picture, without the lag
+};
+
+/// Heading of an attitude, from north to east, rad.
+double heading_rad(const Eigen::Quaterniond& q_WB);
+
+}  // namespace hedgehop::avoidance

@@ -1,0 +1,166 @@
+#include "avoidance/corridor_centering.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include "tests/avoidance/flow_rig.h"
+
+namespace hedgehop::avoidance {
+namespace {
+
+using vision::StraightCorridor;
+
+constexpr int64_t kPeriod_ns = 100'000'000;
+constexpr double kAltitude_m = 1.5;
+
+// Flies north at a constant velocity through what is drawn, and returns the decisions.
+std::vector<Decision> fly(Module& module, const std::vector<vision::TexturedPlane>& walls,
+                          const Eigen::Vector2d& from_NE, const Eigen::Vector2d& v_WB_W, int pictures,
+                          const std::function<void(cv::Mat&)>& spoil = {}) {
+  static const vision::WaveTexture texture(11, 0.12, 0.8, 40);
+  Setup setup = fisheye_below(480, 10.0);
+  module.reset(setup);
+  std::vector<Decision> decisions;
+  for (int i = 0; i < pictures; ++i) {
+    const Eigen::Vector2d p_NE = from_NE + 0.1 * i * v_WB_W;
+    const NavigationState navigation = level_flight({p_NE.x(), p_NE.y(), -kAltitude_m}, 0.0, v_WB_W);
+    std::vector<CameraFrame> frames = see(setup, navigation, kPeriod_ns * i, walls, texture);
+    if (spoil) spoil(frames.front().image);
+    decisions.push_back(module.update({kPeriod_ns * i, frames, navigation, {{30, 0, -kAltitude_m}, 0.0}}));
+  }
+  return decisions;
+}
+
+double signal(const Module& module, const Decision& decision, const std::string& name) {
+  const auto signals = module.signals();
+  for (size_t i = 0; i < signals.size(); ++i) {
+    if (signals[i].name == name) return decision.signals[i];
+  }
+  throw std::invalid_argument(name);
+}
+
+TEST(CorridorCentering, MeasuresTheErrorAndBothWalls) {
+  for (const double east_m : {-0.5, 0.0, 0.4}) {
+    const auto module = make_corridor_centering({});
+    const StraightCorridor corridor;
+    const Decision last = fly(*module, corridor.planes(), {0, east_m}, {0.8, 0}, 3).back();
+    EXPECT_EQ(last.status, "cruise");
+    EXPECT_NEAR(signal(*module, last, "centering_error"), -east_m / 1.25, 0.03);
+    EXPECT_NEAR(signal(*module, last, "left_m"), 1.25 + east_m, 0.05);
+    EXPECT_NEAR(signal(*module, last, "right_m"), 1.25 - east_m, 0.05);
+    // Towards the middle, 1.5 m ahead.
+    const auto& command = std::get<VelocityCommand>(last.command);
+    EXPECT_NEAR(std::atan2(command.v_WB_W.y(), command.v_WB_W.x()), std::atan2(-east_m, 1.5), 0.06);
+    EXPECT_EQ(command.altitude_m, kAltitude_m);
+  }
+}
+
+TEST(CorridorCentering, DriftAcrossTheCorridorDoesNotShiftTheMiddle) {
+  const auto module = make_corridor_centering({});
+  const StraightCorridor corridor;
+  const Decision last = fly(*module, corridor.planes(), {0, 0.3}, {0.7, -0.3}, 3).back();
+  const double east_m = 0.3 - 2 * 0.1 * 0.3;
+  EXPECT_NEAR(signal(*module, last, "centering_error"), -east_m / 1.25, 0.03);
+}
+
+TEST(CorridorCentering, BothDerotationsAgree) {
+  const StraightCorridor corridor;
+  CorridorCenteringConfig rays;
+  rays.sight.derotation = CorridorSightConfig::Derotation::rays;
+  const auto a = make_corridor_centering({}), b = make_corridor_centering(rays);
+  const Decision by_picture = fly(*a, corridor.planes(), {0, 0.4}, {0.8, 0}, 2).back();
+  const Decision by_rays = fly(*b, corridor.planes(), {0, 0.4}, {0.8, 0}, 2).back();
+  EXPECT_NEAR(signal(*a, by_picture, "centering_error"), signal(*b, by_rays, "centering_error"), 0.02);
+}
+
+TEST(CorridorCentering, PrintedLawRollsAndTurnsTowardsTheMiddle) {
+  CorridorCenteringConfig config;
+  config.law = CorridorCenteringConfig::Law::printed;
+  const auto module = make_corridor_centering(config);
+  const StraightCorridor corridor;
+  const Decision last = fly(*module, corridor.planes(), {0, -0.5}, {0.4, 0}, 8).back();
+  const auto& command = std::get<AttitudeCommand>(last.command);
+  EXPECT_NEAR(command.pitch_rad, -0.5 * std::numbers::pi / 180.0, 1e-12);
+  // The error stands at 0.4; so after the first sample the controller gives kD times that, give or take its noise.
+  EXPECT_NEAR(command.roll_rad, 0.009 * 0.4, 0.2 * 0.02);
+  EXPECT_GT(command.heading_rad, 0.0);
+}
+
+TEST(CorridorCentering, HoversBetweenPlainWallsHoweverTheFloorLooks) {
+  // The floor alone is textured; walls are the flat grey of nothing.
+  const std::vector<vision::TexturedPlane> floor = {
+      {{0, 0, 0}, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), 1.25}};
+  for (const auto law : {CorridorCenteringConfig::Law::pursuit, CorridorCenteringConfig::Law::printed}) {
+    CorridorCenteringConfig config;
+    config.law = law;
+    const auto module = make_corridor_centering(config);
+    const auto decisions = fly(*module, {}, {0, 0}, {0.0, 0}, 45);
+    EXPECT_TRUE(std::holds_alternative<HoverCommand>(decisions.back().command));
+    EXPECT_EQ(decisions.back().status, "blind");
+  }
+}
+
+TEST(CorridorCentering, OneWallAloneIsUnknownNotTheMiddle) {
+  const auto module = make_corridor_centering({});
+  const Decision last = fly(*module, {wall(0, 1.2, -0.5 * std::numbers::pi)}, {0, 0}, {0.6, 0}, 12).back();
+  EXPECT_TRUE(std::isnan(signal(*module, last, "centering_error")));
+  EXPECT_GT(signal(*module, last, "vectors_right"), 12.0);
+  EXPECT_TRUE(std::holds_alternative<HoverCommand>(last.command));
+}
+
+TEST(CorridorCentering, SlowsDownBeforeAWallAcrossAndThenTurnsAway) {
+  const auto command_before = [](double way_m, double v_mps) {
+    const auto module = make_corridor_centering({});
+    StraightCorridor corridor;
+    corridor.end_m = way_m + 2 * 0.1 * v_mps;  // two pictures on
+    return fly(*module, corridor.planes(), {0, 0}, {v_mps, 0}, 3).back();
+  };
+  const Decision far = command_before(6.0, 0.8), near = command_before(0.9, 0.8), at_it = command_before(0.38, 0.3);
+  const double far_mps = std::get<VelocityCommand>(far.command).v_WB_W.norm();
+  EXPECT_NEAR(far_mps, 0.8, 1e-9);
+  EXPECT_LT(std::get<VelocityCommand>(near.command).v_WB_W.norm(), 0.75);
+  ASSERT_TRUE(std::holds_alternative<HoverCommand>(at_it.command));
+  EXPECT_NE(std::get<HoverCommand>(at_it.command).yaw_rate_radps, 0.0);
+}
+
+TEST(CorridorCentering, WhatStandsStillInThePictureDoesNotMoveTheMedians) {
+  // A band keeps what it showed first, as a part of the vehicle would.
+  cv::Mat stuck;
+  const auto spoil = [&stuck](cv::Mat& picture) {
+    cv::Mat band = picture.rowRange(200, 246);
+    if (stuck.empty()) stuck = band.clone();
+    stuck.copyTo(band);
+  };
+  const auto module = make_corridor_centering({});
+  const StraightCorridor corridor;
+  const Decision last = fly(*module, corridor.planes(), {0, 0.4}, {0.8, 0}, 3, spoil).back();
+  EXPECT_NEAR(signal(*module, last, "centering_error"), -0.4 / 1.25, 0.05);
+}
+
+TEST(CorridorCentering, DrawsTheFisheyeBesideTheMap) {
+  const auto module = make_corridor_centering({});
+  const StraightCorridor corridor;
+  fly(*module, corridor.planes(), {0, 0.3}, {0.8, 0}, 3);
+  const cv::Mat picture = module->annotate();
+  EXPECT_EQ(picture.size(), cv::Size(960, 480));
+  EXPECT_EQ(picture.type(), CV_8UC3);
+}
+
+TEST(CorridorCentering, RefusesAConfigThatCannotBe) {
+  const auto refuse = [](auto change) {
+    CorridorCenteringConfig config;
+    change(config);
+    EXPECT_THROW(make_corridor_centering(config), std::invalid_argument);
+  };
+  refuse([](CorridorCenteringConfig& c) { c.sample_s = 0.0; });
+  refuse([](CorridorCenteringConfig& c) { c.lookahead_m = 0.0; });
+  refuse([](CorridorCenteringConfig& c) { c.gap.slice_m = 0.0; });
+  refuse([](CorridorCenteringConfig& c) { c.probe_mps = 0.0; });
+}
+
+}  // namespace
+}  // namespace hedgehop::avoidance
