@@ -61,9 +61,10 @@ ScenePainter::ScenePainter(const scenes::Scene& scene, Culling culling, ContextK
   check_gl(gl_, "setting the context up");
 }
 
-void ScenePainter::paint(const vision::PinholeCamera& camera, const Eye& eye, Raster raster, cv::Mat& out) {
+void ScenePainter::paint(const vision::PinholeCamera& camera, const Eye& eye, Raster raster, int samples,
+                         cv::Mat& out) {
   context_->make_current();
-  targets_.bind(gl_, camera.width_px, camera.height_px, raster);
+  targets_.bind(gl_, {camera.width_px, camera.height_px, raster, samples});
   const float farthest = 0.0f;
   gl_.ClearBufferfv(GL_DEPTH, 0, &farthest);
   switch (raster) {
@@ -89,6 +90,11 @@ void ScenePainter::paint(const vision::PinholeCamera& camera, const Eye& eye, Ra
   }
   targets_.read(gl_, out);
   check_gl(gl_, "drawing");
+}
+
+void ScenePainter::require_samples(int samples) {
+  context_->make_current();
+  sim::require_samples(gl_, samples);
 }
 
 std::string ScenePainter::info() {

@@ -28,8 +28,12 @@ class ScenePainter {
     double t_s = 0.0;
   };
 
-  /// Draws one picture. @param out  created when its size or type does not fit, otherwise written in place.
-  void paint(const vision::PinholeCamera& camera, const Eye& eye, Raster raster, cv::Mat& out);
+  /// Draws one picture. @param samples  a pixel, see RenderTargets::Shape. @param out  created when its size or type
+  /// does not fit, otherwise written in place.
+  void paint(const vision::PinholeCamera& camera, const Eye& eye, Raster raster, int samples, cv::Mat& out);
+
+  /// Throws std::invalid_argument unless the context draws exactly so many samples a pixel.
+  void require_samples(int samples);
 
   /// Stretches of the index buffer and triangles of the pictures since the last call of start_count().
   struct Count {
