@@ -38,7 +38,8 @@ void require_samples(const CameraConfig& camera, Renderer& renderer) {
 Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, const DrawingConfig& drawing,
                  uint64_t seed)
     : renderer_(scene, Culling::frustum_and_horizon,
-                drawing.context == DrawingConfig::Context::egl ? ContextKind::egl : ContextKind::osmesa) {
+                drawing.context == DrawingConfig::Context::egl ? ContextKind::egl : ContextKind::osmesa,
+                drawing.shadows ? Shadows::sun : Shadows::none) {
   for (const CameraConfig& camera : rig.cameras) {
     require_samples(camera, renderer_);
     channels_.push_back(to_render_channel(camera.channel));

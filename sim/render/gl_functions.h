@@ -26,10 +26,12 @@
   X(DEPTHFUNC, DepthFunc)                                           \
   X(DISABLE, Disable)                                               \
   X(DRAWARRAYS, DrawArrays)                                         \
+  X(DRAWBUFFER, DrawBuffer)                                         \
   X(DRAWELEMENTS, DrawElements)                                     \
   X(ENABLE, Enable)                                                 \
   X(ENABLEVERTEXATTRIBARRAY, EnableVertexAttribArray)               \
   X(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer)               \
+  X(FRAMEBUFFERTEXTURE2D, FramebufferTexture2D)                     \
   X(FRONTFACE, FrontFace)                                           \
   X(GENBUFFERS, GenBuffers)                                         \
   X(GENFRAMEBUFFERS, GenFramebuffers)                               \
@@ -48,17 +50,22 @@
   X(LINKPROGRAM, LinkProgram)                                       \
   X(MULTIDRAWELEMENTS, MultiDrawElements)                           \
   X(PIXELSTOREI, PixelStorei)                                       \
+  X(POLYGONOFFSET, PolygonOffset)                                   \
+  X(READBUFFER, ReadBuffer)                                         \
   X(READPIXELS, ReadPixels)                                         \
   X(RENDERBUFFERSTORAGE, RenderbufferStorage)                       \
   X(RENDERBUFFERSTORAGEMULTISAMPLE, RenderbufferStorageMultisample) \
   X(SHADERSOURCE, ShaderSource)                                     \
+  X(TEXIMAGE2D, TexImage2D)                                         \
   X(TEXIMAGE3D, TexImage3D)                                         \
   X(TEXPARAMETERI, TexParameteri)                                   \
   X(TEXSUBIMAGE3D, TexSubImage3D)                                   \
+  X(UNIFORM1F, Uniform1f)                                           \
   X(UNIFORM1I, Uniform1i)                                           \
   X(UNIFORM3FV, Uniform3fv)                                         \
   X(UNIFORM4FV, Uniform4fv)                                         \
   X(UNIFORMMATRIX3FV, UniformMatrix3fv)                             \
+  X(UNIFORMMATRIX4FV, UniformMatrix4fv)                             \
   X(USEPROGRAM, UseProgram)                                         \
   X(VERTEXATTRIBPOINTER, VertexAttribPointer)                       \
   X(VIEWPORT, Viewport)

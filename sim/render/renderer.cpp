@@ -41,8 +41,8 @@ size_t chunk_count(const scenes::Scene& scene) {
 
 class Renderer::Impl {
  public:
-  Impl(const scenes::Scene& scene, Culling culling, ContextKind context)
-      : painter_(scene, culling, context), first_mover_label_(static_cast<int>(1 + chunk_count(scene))) {
+  Impl(const scenes::Scene& scene, Culling culling, ContextKind context, Shadows shadows)
+      : painter_(scene, culling, context, shadows), first_mover_label_(static_cast<int>(1 + chunk_count(scene))) {
     for (const scenes::Mover& mover : scene.movers) motions_.push_back(mover.motion);
   }
 
@@ -149,8 +149,8 @@ class Renderer::Impl {
   Drawn drawn_;
 };
 
-Renderer::Renderer(const scenes::Scene& scene, Culling culling, ContextKind context)
-    : impl_(std::make_unique<Impl>(scene, culling, context)) {}
+Renderer::Renderer(const scenes::Scene& scene, Culling culling, ContextKind context, Shadows shadows)
+    : impl_(std::make_unique<Impl>(scene, culling, context, shadows)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;

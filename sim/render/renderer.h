@@ -7,6 +7,7 @@
 
 #include "scenes/scene.h"
 #include "sim/render/gl_context.h"
+#include "sim/render/sun_map.h"
 #include "sim/render/visible_chunks.h"
 #include "vision/camera.h"
 
@@ -47,8 +48,9 @@ class Renderer {
  public:
   /// Throws std::invalid_argument when the scene contradicts itself (an index out of range, textures of several sizes),
   /// std::runtime_error with the cause when there is no OpenGL context or a shader does not compile.
+  /// @param shadows  of what stands still and is no flat sheet, on everything, movers too.
   explicit Renderer(const scenes::Scene& scene, Culling culling = Culling::frustum_and_horizon,
-                    ContextKind context = ContextKind::osmesa);
+                    ContextKind context = ContextKind::osmesa, Shadows shadows = Shadows::none);
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
   ~Renderer();
