@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "sim/loop/random_stream.h"
+#include "sim/scenario/input_error.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -23,14 +24,26 @@ Channel to_render_channel(CameraConfig::Channel channel) {
   throw std::logic_error("unknown channel");
 }
 
+/// Before the flight, not at its first picture.
+void require_samples(const CameraConfig& camera, Renderer& renderer) {
+  try {
+    renderer.require_samples(camera.samples);
+  } catch (const std::invalid_argument& fault) {
+    throw InputError(fmt::format("camera '{}': samples: {}", camera.role, fault.what()));
+  }
+}
+
 }  // namespace
 
 Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, const DrawingConfig& drawing,
                  uint64_t seed)
     : renderer_(scene, Culling::frustum_and_horizon,
-                drawing.context == DrawingConfig::Context::egl ? ContextKind::egl : ContextKind::osmesa) {
+                drawing.context == DrawingConfig::Context::egl ? ContextKind::egl : ContextKind::osmesa,
+                drawing.shadows ? Shadows::sun : Shadows::none) {
   for (const CameraConfig& camera : rig.cameras) {
+    require_samples(camera, renderer_);
     channels_.push_back(to_render_channel(camera.channel));
+    samples_.push_back(camera.samples);
     periods_.push_back(ticks.period(camera.rate_hz));
     period_ns_.push_back(ticks.t_ns(periods_.back()));
     mounted_.push_back({camera.role, camera.model(), camera.X_BC(), camera.rate_hz});
@@ -71,7 +84,8 @@ const avoidance::CameraFrame* Cameras::expose(size_t camera, int64_t t_ns, const
 std::span<const avoidance::CameraFrame> Cameras::snapshot(int64_t t_ns, const Eigen::Isometry3d& X_WB) {
   for (size_t i = 0; i < count(); ++i) {
     const double t_s = 1e-9 * static_cast<double>(t_ns);
-    renderer_.draw({mounted_[i].model, X_WB * mounted_[i].X_BC, channels_[i], t_s}, snapshot_[i].image);
+    renderer_.draw({mounted_[i].model, X_WB * mounted_[i].X_BC, channels_[i], t_s, {}, samples_[i]},
+                   snapshot_[i].image);
     snapshot_[i].t_ns = t_ns;
   }
   return snapshot_;
@@ -92,7 +106,8 @@ void Cameras::draw(size_t camera, Channel channel, const Instant& now, const Ins
   const auto draw_rows = [&](const Eigen::Isometry3d& X_WB, double dt_s, const cv::Range& rows, cv::Mat& picture) {
     const bool whole = rows.size() == mounted.model.height_px;
     const double t_s = std::max(0.0, 1e-9 * static_cast<double>(now.t_ns) + dt_s);
-    renderer_.draw({whole ? mounted.model : cut(mounted.model, rows), X_WB * mounted.X_BC, channel, t_s, seen_next},
+    renderer_.draw({whole ? mounted.model : cut(mounted.model, rows), X_WB * mounted.X_BC, channel, t_s, seen_next,
+                    samples_[camera]},
                    picture);
   };
   shutters_[camera].expose(now.body, mounted.model.height_px, std::ref(draw_rows), out);

@@ -20,6 +20,7 @@ namespace hedgehop::sim {
 class Cameras {
  public:
   /// @param seed  of the flight; each camera has its own stream.
+  /// Throws InputError for a camera that the context cannot draw.
   Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, const DrawingConfig& drawing,
           uint64_t seed);
 
@@ -53,6 +54,7 @@ class Cameras {
 
   Renderer renderer_;
   std::vector<Channel> channels_;
+  std::vector<int> samples_;
   std::vector<int64_t> periods_;  ///< ticks
   std::vector<avoidance::MountedCamera> mounted_;
   std::vector<int64_t> period_ns_;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 
 namespace hedgehop::sim {
@@ -31,57 +30,99 @@ Format format_of(Raster raster) {
   throw std::invalid_argument("unknown raster");
 }
 
-}  // namespace
-
-RenderTargets::Target RenderTargets::make(const GlFunctions& gl, int width_px, int height_px, Raster raster) {
-  GLint largest = 0;
-  gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
-  if (std::max(width_px, height_px) > largest) {
-    throw std::invalid_argument(fmt::format("a picture of {} x {} px is larger than this OpenGL can draw ({} px)",
-                                            width_px, height_px, largest));
+GLuint make_buffer(const GlFunctions& gl, GLenum storage, const RenderTargets::Shape& shape, int samples) {
+  GLuint buffer = 0;
+  gl.GenRenderbuffers(1, &buffer);
+  gl.BindRenderbuffer(GL_RENDERBUFFER, buffer);
+  if (samples > 1) {
+    gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples, storage, shape.width_px, shape.height_px);
+  } else {
+    gl.RenderbufferStorage(GL_RENDERBUFFER, storage, shape.width_px, shape.height_px);
   }
-  std::array<GLuint, 2> buffers{};
-  gl.GenRenderbuffers(2, buffers.data());
-  gl.BindRenderbuffer(GL_RENDERBUFFER, buffers[0]);
-  gl.RenderbufferStorage(GL_RENDERBUFFER, format_of(raster).storage, width_px, height_px);
-  gl.BindRenderbuffer(GL_RENDERBUFFER, buffers[1]);
-  gl.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width_px, height_px);
+  return buffer;
+}
 
-  Target target{width_px, height_px, raster, 0};
-  gl.GenFramebuffers(1, &target.framebuffer);
-  gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
-  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[0]);
-  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers[1]);
+/// @param depth  a depth buffer, or 0 for none.
+GLuint make_framebuffer(const GlFunctions& gl, GLuint color, GLuint depth, const RenderTargets::Shape& shape) {
+  GLuint framebuffer = 0;
+  gl.GenFramebuffers(1, &framebuffer);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
+  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
   const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {
-    throw std::runtime_error(
-        fmt::format("no framebuffer of {} x {} px (OpenGL status {:#06x})", width_px, height_px, status));
+    throw std::runtime_error(fmt::format("no framebuffer of {} x {} px with {} samples a pixel (OpenGL status {:#06x})",
+                                         shape.width_px, shape.height_px, shape.samples, status));
   }
+  return framebuffer;
+}
+
+}  // namespace
+
+int type_of(Raster raster) { return format_of(raster).mat_type; }
+
+void require_samples(const GlFunctions& gl, int samples) {
+  if (samples != 1 && samples != 2 && samples != 4 && samples != 8) {
+    throw std::invalid_argument(fmt::format("{} samples a pixel; valid: 1, 2, 4, 8", samples));
+  }
+  GLint most = 1, given = 1;
+  gl.GetIntegerv(GL_MAX_SAMPLES, &most);
+  if (samples > most) {
+    throw std::invalid_argument(
+        fmt::format("{} samples a pixel cannot be drawn; this OpenGL has at most {}", samples, most));
+  }
+  if (samples == 1) return;
+  const GLuint buffer = make_buffer(gl, GL_RGBA8, {1, 1, Raster::color, samples}, samples);
+  gl.GetRenderbufferParameteriv(GL_RENDERBUFFER, GL_RENDERBUFFER_SAMPLES, &given);
+  gl.DeleteRenderbuffers(1, &buffer);
+  if (given != samples) {
+    throw std::invalid_argument(
+        fmt::format("{} samples a pixel cannot be drawn; this OpenGL makes them {}", samples, given));
+  }
+}
+
+RenderTargets::Target RenderTargets::make(const GlFunctions& gl, const Shape& shape) {
+  GLint largest = 0;
+  gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+  if (std::max(shape.width_px, shape.height_px) > largest) {
+    throw std::invalid_argument(fmt::format("a picture of {} x {} px is larger than this OpenGL can draw ({} px)",
+                                            shape.width_px, shape.height_px, largest));
+  }
+  require_samples(gl, shape.samples);
+  const GLenum storage = format_of(shape.raster).storage;
+  Target target{.shape = shape};
+  if (shape.samples > 1) target.read = make_framebuffer(gl, make_buffer(gl, storage, shape, 1), 0, shape);
+  target.drawn = make_framebuffer(gl, make_buffer(gl, storage, shape, shape.samples),
+                                  make_buffer(gl, GL_DEPTH_COMPONENT32F, shape, shape.samples), shape);
+  if (shape.samples == 1) target.read = target.drawn;
   check_gl(gl, "making a framebuffer");
   return target;
 }
 
-void RenderTargets::bind(const GlFunctions& gl, int width_px, int height_px, Raster raster) {
-  const auto fits = [&](const Target& target) {
-    return target.width_px == width_px && target.height_px == height_px && target.raster == raster;
-  };
-  auto target = std::ranges::find_if(targets_, fits);
-  if (target == targets_.end()) target = targets_.insert(target, make(gl, width_px, height_px, raster));
+void RenderTargets::bind(const GlFunctions& gl, const Shape& shape) {
+  auto target = std::ranges::find(targets_, shape, &Target::shape);
+  if (target == targets_.end()) target = targets_.insert(target, make(gl, shape));
   bound_ = static_cast<size_t>(target - targets_.begin());
-  gl.BindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
-  gl.Viewport(0, 0, width_px, height_px);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, target->drawn);
+  gl.Viewport(0, 0, shape.width_px, shape.height_px);
 }
 
 void RenderTargets::read(const GlFunctions& gl, cv::Mat& out) {
   const Target& target = targets_[bound_];
-  const Format format = format_of(target.raster);
-  out.create(target.height_px, target.width_px, format.mat_type);
+  const auto& [width_px, height_px, raster, samples] = target.shape;
+  const Format format = format_of(raster);
+  out.create(height_px, width_px, format.mat_type);
   if (out.step % out.elemSize() != 0) {
     throw std::invalid_argument("the rows of a picture to draw into must be a whole number of pixels apart");
   }
+  if (samples > 1) {
+    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, target.read);
+    gl.BlitFramebuffer(0, 0, width_px, height_px, 0, 0, width_px, height_px, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    gl.BindFramebuffer(GL_READ_FRAMEBUFFER, target.read);
+  }
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
   gl.PixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(out.step / out.elemSize()));
-  gl.ReadPixels(0, 0, target.width_px, target.height_px, format.read_format, format.read_type, out.data);
+  gl.ReadPixels(0, 0, width_px, height_px, format.read_format, format.read_type, out.data);
 }
 
 }  // namespace hedgehop::sim

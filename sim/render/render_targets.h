@@ -16,23 +16,39 @@ enum class Raster {
   labels,  ///< CV_32SC1
 };
 
-/// Framebuffers to draw into, one for each size and raster asked for, made once and kept.
+/// OpenCV's type of a picture that is drawn so.
+int type_of(Raster raster);
+
+/// Throws std::invalid_argument unless the context draws exactly so many samples a pixel.
+/// @param samples  1, 2, 4 or 8.
+void require_samples(const GlFunctions& gl, int samples);
+
+/// Framebuffers to draw into, one for each size, raster and number of samples asked for, made once and kept.
 class RenderTargets {
  public:
-  /// Binds the framebuffer for a view and sets the viewport. Throws std::runtime_error when it cannot be had.
-  void bind(const GlFunctions& gl, int width_px, int height_px, Raster raster);
+  /// What a framebuffer is made for.
+  struct Shape {
+    int width_px = 0, height_px = 0;
+    Raster raster = Raster::grey;
+    int samples = 1;  ///< a pixel; more than one for grey and colour only
+    bool operator==(const Shape&) const = default;
+  };
 
-  /// Copies the bound framebuffer into a picture of its own size and type, created when it does not fit.
+  /// Binds the framebuffer for a view and sets the viewport. Throws std::runtime_error when it cannot be had,
+  /// std::invalid_argument when it is too large or require_samples() refuses.
+  void bind(const GlFunctions& gl, const Shape& shape);
+
+  /// Copies the bound framebuffer, the mean of a pixel's samples, into a picture of its own size and type, created
+  /// when it does not fit.
   /// Throws std::invalid_argument when the picture's rows are not a whole number of pixels apart.
   void read(const GlFunctions& gl, cv::Mat& out);
 
  private:
   struct Target {
-    int width_px = 0, height_px = 0;
-    Raster raster = Raster::grey;
-    GLuint framebuffer = 0;
+    Shape shape;
+    GLuint drawn = 0, read = 0;  ///< framebuffers; one and the same unless there are samples to be averaged
   };
-  static Target make(const GlFunctions& gl, int width_px, int height_px, Raster raster);
+  static Target make(const GlFunctions& gl, const Shape& shape);
 
   std::vector<Target> targets_;
   size_t bound_ = 0;

@@ -41,8 +41,8 @@ size_t chunk_count(const scenes::Scene& scene) {
 
 class Renderer::Impl {
  public:
-  Impl(const scenes::Scene& scene, Culling culling, ContextKind context)
-      : painter_(scene, culling, context), first_mover_label_(static_cast<int>(1 + chunk_count(scene))) {
+  Impl(const scenes::Scene& scene, Culling culling, ContextKind context, Shadows shadows)
+      : painter_(scene, culling, context, shadows), first_mover_label_(static_cast<int>(1 + chunk_count(scene))) {
     for (const scenes::Mover& mover : scene.movers) motions_.push_back(mover.motion);
   }
 
@@ -57,6 +57,7 @@ class Renderer::Impl {
     drawn_ = {painter_.count().stretches, painter_.count().triangles};
   }
 
+  void require_samples(int samples) { painter_.require_samples(samples); }
   const Drawn& drawn() const { return drawn_; }
   std::string info() { return painter_.info(); }
 
@@ -83,33 +84,34 @@ class Renderer::Impl {
   void draw(const CameraView& view, Channel channel, cv::Mat& out) {
     const ScenePainter::Eye eye{view.X_WC, view.t_s};
     if (view.camera.is_ideal_pinhole()) {
-      painter_.paint(view.camera.pinhole(), eye, raster_of(channel), out);
+      const bool levels = channel == Channel::grey || channel == Channel::color;
+      painter_.paint(view.camera.pinhole(), eye, raster_of(channel), levels ? view.samples : 1, out);
       return;
     }
     Lens& lens = lens_of(view.camera);
     switch (channel) {
       case Channel::grey:
-        paint_sheet(lens.faces, eye, Raster::grey, CV_8UC1, lens.levels);
+        paint_sheet(lens.faces, eye, Raster::grey, view.samples, lens.levels);
         return mix_levels(lens.faces, lens.levels, out);
       case Channel::color:
-        paint_sheet(lens.faces, eye, Raster::color, CV_8UC3, lens.colors);
+        paint_sheet(lens.faces, eye, Raster::color, view.samples, lens.colors);
         return mix_levels(lens.faces, lens.colors, out);
       case Channel::depth:
-        paint_sheet(lens.faces, eye, Raster::planes, CV_32FC4, lens.planes);
+        paint_sheet(lens.faces, eye, Raster::planes, 1, lens.planes);
         return meet_planes(lens.faces, lens.planes, out);
       default:
-        paint_sheet(lens.faces, eye, Raster::labels, CV_32SC1, lens.labels);
+        paint_sheet(lens.faces, eye, Raster::labels, 1, lens.labels);
         return pick_labels(lens.faces, lens.labels, out);
     }
   }
 
-  void paint_sheet(const LensFaces& faces, const ScenePainter::Eye& eye, Raster raster, int type, cv::Mat& sheet) {
-    sheet.create(faces.sheet, type);
+  void paint_sheet(const LensFaces& faces, const ScenePainter::Eye& eye, Raster raster, int samples, cv::Mat& sheet) {
+    sheet.create(faces.sheet, type_of(raster));
     for (const LensFaces::Face& face : faces.faces) {
       ScenePainter::Eye face_eye = eye;
       face_eye.X_WC.linear() = eye.X_WC.linear() * face.R_CF;
       cv::Mat part = sheet(cv::Rect(0, face.first_row, face.camera.width_px, face.camera.height_px));
-      painter_.paint(face.camera, face_eye, raster, part);
+      painter_.paint(face.camera, face_eye, raster, samples, part);
     }
   }
 
@@ -147,13 +149,14 @@ class Renderer::Impl {
   Drawn drawn_;
 };
 
-Renderer::Renderer(const scenes::Scene& scene, Culling culling, ContextKind context)
-    : impl_(std::make_unique<Impl>(scene, culling, context)) {}
+Renderer::Renderer(const scenes::Scene& scene, Culling culling, ContextKind context, Shadows shadows)
+    : impl_(std::make_unique<Impl>(scene, culling, context, shadows)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
 void Renderer::draw(const CameraView& view, cv::Mat& out) { impl_->draw(view, out); }
+void Renderer::require_samples(int samples) { impl_->require_samples(samples); }
 const Renderer::Drawn& Renderer::drawn() const { return impl_->drawn(); }
 std::string Renderer::info() const { return impl_->info(); }
 

@@ -7,6 +7,7 @@
 
 #include "scenes/scene.h"
 #include "sim/render/gl_context.h"
+#include "sim/render/sun_map.h"
 #include "sim/render/visible_chunks.h"
 #include "vision/camera.h"
 
@@ -34,6 +35,8 @@ struct CameraView {
     Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
     double t_s = 0.0;
   } next;
+  /// Places in each pixel, 1, 2, 4 or 8, whose mean grey and colour are; the other channels look at the middle alone.
+  int samples = 1;
 };
 
 /// Draws a scene off screen, without a display (OpenGL 3.3 core). The scene is copied to the context once. Several
@@ -45,15 +48,20 @@ class Renderer {
  public:
   /// Throws std::invalid_argument when the scene contradicts itself (an index out of range, textures of several sizes),
   /// std::runtime_error with the cause when there is no OpenGL context or a shader does not compile.
+  /// @param shadows  of what stands still and is no flat sheet, on everything, movers too.
   explicit Renderer(const scenes::Scene& scene, Culling culling = Culling::frustum_and_horizon,
-                    ContextKind context = ContextKind::osmesa);
+                    ContextKind context = ContextKind::osmesa, Shadows shadows = Shadows::none);
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
   ~Renderer();
 
   /// Draws a view. @param out  created when its size or type does not fit, otherwise written in place, row 0 on top.
-  /// Throws std::invalid_argument for a camera that vision::check() refuses, or a pose or time that is not finite.
+  /// Throws std::invalid_argument for a camera that vision::check() refuses, a pose or time that is not finite, or a
+  /// number of samples that require_samples() refuses.
   void draw(const CameraView& view, cv::Mat& out);
+
+  /// Throws std::invalid_argument, with what can be had, unless the context draws exactly so many samples a pixel.
+  void require_samples(int samples);
 
   /// What the last picture was made of.
   struct Drawn {

@@ -37,15 +37,15 @@ size_t most_stretches(const SceneBuffers& buffers) {
 
 }  // namespace
 
-ScenePainter::ScenePainter(const scenes::Scene& scene, Culling culling, ContextKind context)
+ScenePainter::ScenePainter(const scenes::Scene& scene, Culling culling, ContextKind context, Shadows shadows)
     : context_(make_context(context)),
       culling_(culling),
       sky_(scene.sky),
       motions_(motions_of(scene)),
       buffers_(upload(gl_, scene)),
       visible_(buffers_.chunks, buffers_.tiles),
-      greys_(grey_program(gl_)),
-      colors_(color_program(gl_)),
+      greys_(grey_program(gl_, shadows)),
+      colors_(color_program(gl_, shadows)),
       depths_(depth_program(gl_)),
       planes_(plane_program(gl_)),
       labels_(label_program(gl_)),
@@ -58,12 +58,14 @@ ScenePainter::ScenePainter(const scenes::Scene& scene, Culling culling, ContextK
   gl_.FrontFace(GL_CW);  // counter-clockwise in the picture, whose rows run down, is clockwise in OpenGL's window
   gl_.DepthFunc(GL_GEQUAL);
   gl_.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  if (shadows == Shadows::sun) light_by(draw_sun_map(gl_, buffers_, scene.lights.to_sun_W), scene.lights.ambient);
   check_gl(gl_, "setting the context up");
 }
 
-void ScenePainter::paint(const vision::PinholeCamera& camera, const Eye& eye, Raster raster, cv::Mat& out) {
+void ScenePainter::paint(const vision::PinholeCamera& camera, const Eye& eye, Raster raster, int samples,
+                         cv::Mat& out) {
   context_->make_current();
-  targets_.bind(gl_, camera.width_px, camera.height_px, raster);
+  targets_.bind(gl_, {camera.width_px, camera.height_px, raster, samples});
   const float farthest = 0.0f;
   gl_.ClearBufferfv(GL_DEPTH, 0, &farthest);
   switch (raster) {
@@ -91,24 +93,41 @@ void ScenePainter::paint(const vision::PinholeCamera& camera, const Eye& eye, Ra
   check_gl(gl_, "drawing");
 }
 
+void ScenePainter::require_samples(int samples) {
+  context_->make_current();
+  sim::require_samples(gl_, samples);
+}
+
 std::string ScenePainter::info() {
   context_->make_current();
   const auto word = [&](GLenum name) { return reinterpret_cast<const char*>(gl_.GetString(name)); };
   return fmt::format("{}; {}; OpenGL {}", word(GL_VENDOR), word(GL_RENDERER), word(GL_VERSION));
 }
 
-void ScenePainter::set_eye(const Program& program, const Eigen::Vector3d& p_WC, const Eigen::Matrix3d& R_WC) {
-  const Eigen::Vector3d eye_W = on_float_grid(p_WC);
-  const Eigen::Vector3f eye_low_C = (R_WC.transpose() * (p_WC - eye_W)).cast<float>();
-  gl_.Uniform3fv(program.eye_W, 1, eye_W.cast<float>().eval().data());
+void ScenePainter::light_by(const SunMap& map, float ambient) {
+  for (const Program& program : {greys_, colors_}) {
+    gl_.UseProgram(program.id);
+    gl_.UniformMatrix4fv(program.sun_from_W, 1, GL_FALSE, map.from_W.data());
+    gl_.Uniform1f(program.ambient, ambient);
+    gl_.Uniform1i(program.sun, 1);
+  }
+}
+
+/// A mover does not turn, so that it is drawn as if it stood still and the eye were where it is seen from M. What
+/// stands still does so at W's origin.
+void ScenePainter::set_eye(const Program& program, const Eigen::Isometry3d& X_WC, const Eigen::Vector3d& p_WM) {
+  const Eigen::Vector3d p_MC_W = X_WC.translation() - p_WM, eye_M = on_float_grid(p_MC_W);
+  const Eigen::Vector3f eye_low_C = (X_WC.linear().transpose() * (p_MC_W - eye_M)).cast<float>();
+  gl_.Uniform3fv(program.eye_W, 1, eye_M.cast<float>().eval().data());
   gl_.Uniform3fv(program.eye_low_C, 1, eye_low_C.data());
+  if (program.p_WM >= 0) gl_.Uniform3fv(program.p_WM, 1, p_WM.cast<float>().eval().data());
 }
 
 void ScenePainter::draw_scene(const vision::PinholeCamera& camera, const Eye& eye, const Program& program,
                               bool labelled) {
   const Eigen::Matrix3f R_CW = eye.X_WC.linear().transpose().cast<float>();
   gl_.UseProgram(program.id);
-  set_eye(program, eye.X_WC.translation(), eye.X_WC.linear());
+  set_eye(program, eye.X_WC, Eigen::Vector3d::Zero());
   gl_.UniformMatrix3fv(program.rotation, 1, GL_FALSE, R_CW.data());
   gl_.Uniform4fv(program.lens, 1, lens(camera).data());
 
@@ -123,7 +142,6 @@ void ScenePainter::draw_scene(const vision::PinholeCamera& camera, const Eye& ey
   draw_movers(eye, program, labelled);
 }
 
-/// A mover does not turn, so that it is drawn as if it stood still and the eye were where it is seen from M.
 void ScenePainter::draw_movers(const Eye& eye, const Program& program, bool labelled) {
   for (size_t mover = 0; mover < motions_.size(); ++mover) {
     const Eigen::Vector3d p_WM = scenes::p_WM(motions_[mover], eye.t_s);
@@ -140,7 +158,7 @@ void ScenePainter::draw_movers(const Eye& eye, const Program& program, bool labe
       ++stretches_;
     }
     if (stretches_ == 0) continue;
-    set_eye(program, eye.X_WC.translation() - p_WM, eye.X_WC.linear());
+    set_eye(program, eye.X_WC, p_WM);
     draw_stretches(program, labelled);
   }
 }

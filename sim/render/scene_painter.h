@@ -11,6 +11,7 @@
 #include "sim/render/render_targets.h"
 #include "sim/render/scene_buffers.h"
 #include "sim/render/shaders.h"
+#include "sim/render/sun_map.h"
 #include "sim/render/visible_chunks.h"
 #include "vision/pinhole_camera.h"
 
@@ -20,7 +21,7 @@ namespace hedgehop::sim {
 class ScenePainter {
  public:
   /// Throws as Renderer does.
-  ScenePainter(const scenes::Scene& scene, Culling culling, ContextKind context);
+  ScenePainter(const scenes::Scene& scene, Culling culling, ContextKind context, Shadows shadows);
 
   /// Where a picture is taken from, and when.
   struct Eye {
@@ -28,8 +29,12 @@ class ScenePainter {
     double t_s = 0.0;
   };
 
-  /// Draws one picture. @param out  created when its size or type does not fit, otherwise written in place.
-  void paint(const vision::PinholeCamera& camera, const Eye& eye, Raster raster, cv::Mat& out);
+  /// Draws one picture. @param samples  a pixel, see RenderTargets::Shape. @param out  created when its size or type
+  /// does not fit, otherwise written in place.
+  void paint(const vision::PinholeCamera& camera, const Eye& eye, Raster raster, int samples, cv::Mat& out);
+
+  /// Throws std::invalid_argument unless the context draws exactly so many samples a pixel.
+  void require_samples(int samples);
 
   /// Stretches of the index buffer and triangles of the pictures since the last call of start_count().
   struct Count {
@@ -43,9 +48,10 @@ class ScenePainter {
 
  private:
   void draw_scene(const vision::PinholeCamera& camera, const Eye& eye, const Program& program, bool labelled);
+  void light_by(const SunMap& map, float ambient);
   void draw_movers(const Eye& eye, const Program& program, bool labelled);
   void draw_sky(const vision::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, bool grey);
-  void set_eye(const Program& program, const Eigen::Vector3d& p_WC, const Eigen::Matrix3d& R_WC);
+  void set_eye(const Program& program, const Eigen::Isometry3d& X_WC, const Eigen::Vector3d& p_WM);
   void draw_stretches(const Program& program, bool labelled);
   int label_of(const scenes::Chunk& stretch) const;
 

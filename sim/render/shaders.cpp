@@ -22,27 +22,46 @@ uniform mat3 rotation;
 uniform vec4 lens;
 out vec3 coordinates;  // u, v, brightness
 flat out float layer;
+#ifdef SHADOWS
+uniform vec3 p_WM;
+uniform mat4 sun_from_W;
+out vec3 place_in_sun;
+#endif
 void main() {
   vec3 p_C = rotation * (p_W - eye_W) - eye_low_C;
   gl_Position = vec4(lens.xy * p_C.xy + lens.zw * p_C.z, near, p_C.z);
   coordinates = surface.xyz;
   layer = surface.w;
+#ifdef SHADOWS
+  place_in_sun = (sun_from_W * vec4(p_W + p_WM, 1.0)).xyz;
+#endif
 }
 )";
 
-constexpr const char* kColorFragment = R"(in vec3 coordinates;
+// What lies deeper than the map is compared as if it were farthest, where nothing shades what nothing covers.
+constexpr const char* kLight = R"(in vec3 coordinates;
 flat in float layer;
 uniform sampler2DArray textures;
-out vec4 pixel;
-void main() { pixel = texture(textures, vec3(coordinates.xy, layer)) * coordinates.z; }
+#ifdef SHADOWS
+in vec3 place_in_sun;
+uniform sampler2DShadow sun;
+uniform float ambient;
+float light() {
+  const float rounding = 1e-5;
+  float share = texture(sun, vec3(place_in_sun.xy, max(place_in_sun.z + rounding, 0.0)));
+  return ambient + share * (coordinates.z - ambient);
+}
+#else
+float light() { return coordinates.z; }
+#endif
 )";
 
-constexpr const char* kGreyFragment = R"(
-in vec3 coordinates;
-flat in float layer;
-uniform sampler2DArray textures;
-out float pixel;
-void main() { pixel = dot(texture(textures, vec3(coordinates.xy, layer)).rgb, vec3(coordinates.z / 3.0)); }
+constexpr const char* kColorFragment = R"(out vec4 pixel;
+void main() { pixel = texture(textures, vec3(coordinates.xy, layer)) * light(); }
+)";
+
+constexpr const char* kGreyFragment = R"(out float pixel;
+void main() { pixel = dot(texture(textures, vec3(coordinates.xy, layer)).rgb, vec3(light() / 3.0)); }
 )";
 
 constexpr const char* kDepthFragment = R"(out float z_C;
@@ -58,6 +77,16 @@ constexpr const char* kLabelFragment = R"(uniform int label;
 out int pixel;
 void main() { pixel = label; }
 )";
+
+constexpr const char* kSunMapVertex = R"(layout(location = 0) in vec3 p_W;
+uniform mat4 sun_from_W;
+void main() {
+  vec3 place = (sun_from_W * vec4(p_W, 1.0)).xyz;
+  gl_Position = vec4(2.0 * place.xy - 1.0, place.z, 1.0);
+}
+)";
+
+constexpr const char* kNoFragment = "void main() {}";
 
 constexpr const char* kSkyVertex = R"(uniform mat3 rotation;
 uniform vec4 lens;
@@ -78,9 +107,9 @@ void main() {
 }
 )";
 
-GLuint compile(const GlFunctions& gl, GLenum stage, const char* source) {
+GLuint compile(const GlFunctions& gl, GLenum stage, const std::string& source) {
   const std::string head = fmt::format("#version 330 core\nconst float near = {};\n", kNearPlaneM);
-  const GLchar* sources[] = {head.c_str(), source};
+  const GLchar* sources[] = {head.c_str(), source.c_str()};
   const GLuint shader = gl.CreateShader(stage);
   gl.ShaderSource(shader, 2, sources, nullptr);
   gl.CompileShader(shader);
@@ -94,7 +123,7 @@ GLuint compile(const GlFunctions& gl, GLenum stage, const char* source) {
   throw std::runtime_error(fmt::format("a shader does not compile: {}", log));
 }
 
-Program link(const GlFunctions& gl, const char* vertex_source, const char* fragment_source) {
+Program link(const GlFunctions& gl, const std::string& vertex_source, const std::string& fragment_source) {
   Program program{.id = gl.CreateProgram()};
   for (const GLuint shader :
        {compile(gl, GL_VERTEX_SHADER, vertex_source), compile(gl, GL_FRAGMENT_SHADER, fragment_source)}) {
@@ -118,16 +147,26 @@ Program link(const GlFunctions& gl, const char* vertex_source, const char* fragm
   program.horizon = gl.GetUniformLocation(program.id, "horizon");
   program.zenith = gl.GetUniformLocation(program.id, "zenith");
   program.label = gl.GetUniformLocation(program.id, "label");
+  program.p_WM = gl.GetUniformLocation(program.id, "p_WM");
+  program.sun_from_W = gl.GetUniformLocation(program.id, "sun_from_W");
+  program.ambient = gl.GetUniformLocation(program.id, "ambient");
+  program.sun = gl.GetUniformLocation(program.id, "sun");
   return program;
+}
+
+Program lit_program(const GlFunctions& gl, const char* fragment, Shadows shadows) {
+  const std::string choice = shadows == Shadows::sun ? "#define SHADOWS\n" : "";
+  return link(gl, choice + kSceneVertex, choice + kLight + fragment);
 }
 
 }  // namespace
 
-Program color_program(const GlFunctions& gl) { return link(gl, kSceneVertex, kColorFragment); }
-Program grey_program(const GlFunctions& gl) { return link(gl, kSceneVertex, kGreyFragment); }
+Program color_program(const GlFunctions& gl, Shadows shadows) { return lit_program(gl, kColorFragment, shadows); }
+Program grey_program(const GlFunctions& gl, Shadows shadows) { return lit_program(gl, kGreyFragment, shadows); }
 Program depth_program(const GlFunctions& gl) { return link(gl, kSceneVertex, kDepthFragment); }
 Program plane_program(const GlFunctions& gl) { return link(gl, kSceneVertex, kPlaneFragment); }
 Program label_program(const GlFunctions& gl) { return link(gl, kSceneVertex, kLabelFragment); }
+Program sun_map_program(const GlFunctions& gl) { return link(gl, kSunMapVertex, kNoFragment); }
 Program sky_program(const GlFunctions& gl) { return link(gl, kSkyVertex, kSkyFragment); }
 
 }  // namespace hedgehop::sim

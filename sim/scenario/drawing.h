@@ -6,12 +6,16 @@ namespace hedgehop::sim {
 struct DrawingConfig {
   enum class Context { osmesa, egl };
   Context context = Context::osmesa;
+  bool shadows = false;
 };
 template <class Visitor>
 void describe(Visitor& v, DrawingConfig& c) {
   v("gl", c.context,
     {.choices = {"osmesa", "egl"},
      .meaning = "who draws: Mesa's rasteriser behind OSMesa, or EGL, which takes a GPU where there is one"});
+  v("shadows", c.shadows,
+    {.meaning =
+         "whether what stands still shades all from the sun; flat sheets (ground, a ceiling) and movers cast none"});
 }
 
 }  // namespace hedgehop::sim

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -103,6 +104,7 @@ Eigen::Isometry3d CameraConfig::X_BC() const {
 }
 
 vision::Camera CameraConfig::model() const {
+  require(std::has_single_bit(static_cast<unsigned>(samples)), "samples: valid: 1, 2, 4, 8");
   require(model_kind == Model::ocam || calibration.empty(), "calibration: is for model: ocam");
   const vision::Camera camera = model_kind == Model::ocam      ? ocam(*this)
                                 : model_kind == Model::fisheye ? fisheye(*this)

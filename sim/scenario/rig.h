@@ -29,6 +29,7 @@ struct CameraConfig {
   std::filesystem::path calibration;
   double rate_hz = 50.0;
   Channel channel = Channel::grey;
+  int samples = 1;  ///< places in each pixel that grey and colour are the mean of: 1, 2, 4 or 8
   double forward_m = 0.0, right_m = 0.0, down_m = 0.0;
   double yaw_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
   ImperfectionsConfig imperfections;
@@ -69,6 +70,12 @@ void describe_without_role(Visitor& v, CameraConfig& c) {
   v("calibration", c.calibration, {.meaning = "file calib_results.txt of OCamCalib, for model: ocam"});
   v("rate", c.rate_hz, {.unit = "Hz", .above = 0.0, .meaning = "pictures a second; divides the physics rate"});
   v("channel", c.channel, {.choices = {"grey", "color", "depth"}, .meaning = "what a pixel holds"});
+  v("samples", c.samples,
+    {.at_least = 1,
+     .at_most = 8,
+     .meaning =
+         "places in each pixel that grey and colour are the mean of: 1, 2, 4 or 8; refused where the OpenGL at hand "
+         "has others (Mesa's rasteriser: 1 and 4)"});
   v("forward", c.forward_m, {.unit = "m", .meaning = "mounting position ahead of the body's origin"});
   v("right", c.right_m, {.unit = "m", .meaning = "mounting position right of the body's origin"});
   v("down", c.down_m, {.unit = "m", .meaning = "mounting position below the body's origin"});

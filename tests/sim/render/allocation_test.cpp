@@ -28,7 +28,8 @@ namespace {
 
 TEST(Renderer, AllocatesNothingForAPictureOfACameraSeenBefore) {
   const SmallWorld city = small_city(8, 91);
-  Renderer renderer(city.scene);
+  Renderer plain(city.scene);
+  Renderer shaded(city.scene, Culling::frustum_and_horizon, ContextKind::osmesa, Shadows::sun);
   vision::PinholeLens bent{90, 90, 60, 45};
   bent.k1 = -0.1;
   const std::array<vision::Camera, 3> cameras = {vision::PinholeCamera::from_fov(120, 90, 1.2),
@@ -38,10 +39,11 @@ TEST(Renderer, AllocatesNothingForAPictureOfACameraSeenBefore) {
   std::array<cv::Mat, kChannels> pictures;
   const auto draw_some = [&](uint64_t seed) {
     std::mt19937_64 random(seed);
-    for (size_t i = 0; i < 90; ++i) {
+    for (size_t i = 0; i < 120; ++i) {
       const size_t channel = i % kChannels;
-      const CameraView view{cameras[i % 3], random_pose(random, 150.0, 60.0, 0.7), static_cast<Channel>(channel)};
-      renderer.draw(view, pictures[channel]);
+      CameraView view{cameras[i % 3], random_pose(random, 150.0, 60.0, 0.7), static_cast<Channel>(channel)};
+      view.samples = i / 15 % 2 == 0 ? 1 : 4;  // all pairs of camera and channel come in fifteen
+      (i / 30 % 2 == 0 ? plain : shaded).draw(view, pictures[channel]);
     }
   };
   draw_some(92);  // Mesa translates the shaders, too

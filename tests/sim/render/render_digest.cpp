@@ -1,35 +1,99 @@
-// Prints one number for all pixels of some views of a small city: for comparing processes. One argument: osmesa or egl.
+// Prints one number for all pixels of some views of a small city and of every example world, in every channel, with
+// and without shadows and multisampling: for comparing processes. One argument: osmesa or egl.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string_view>
+#include <vector>
 
+#include "scenes/generators.h"
+#include "sim/scenario/scenario.h"
 #include "tests/sim/render/small_world.h"
 
+namespace hedgehop::sim {
 namespace {
 
-void print_digest(hedgehop::sim::ContextKind context) {
-  using namespace hedgehop;
-  const sim::SmallWorld city = sim::small_city(5, 81);
-  sim::Renderer renderer(city.scene, sim::Culling::frustum_and_horizon, context);
+constexpr size_t kChannels = 5;
+
+class Digest {
+ public:
+  void add(const cv::Mat& picture) {
+    for (size_t i = 0; i < picture.total() * picture.elemSize(); ++i) {
+      value_ = (value_ ^ picture.data[i]) * 0x100000001b3u;
+    }
+  }
+  void print(const std::string& what) const {
+    std::printf("%016lx %s\n", static_cast<unsigned long>(value_), what.c_str());
+  }
+
+ private:
+  uint64_t value_ = 0xcbf29ce484222325u;  // FNV-1a
+};
+
+void draw_small_city(ContextKind context, Shadows shadows, Digest& digest) {
+  const SmallWorld city = small_city(5, 81);
+  Renderer renderer(city.scene, Culling::frustum_and_horizon, context, shadows);
+  const std::vector<vision::Camera> cameras = {vision::PinholeCamera::from_fov(200, 150, 1.2),
+                                               vision::Camera(120, 90, vision::FisheyeLens{35, 35, 60, 45})};
   std::mt19937_64 random(82);
   cv::Mat picture;
-  uint64_t digest = 0xcbf29ce484222325u;  // FNV-1a
-  for (int view = 0; view < 12; ++view) {
-    const auto channel = static_cast<sim::Channel>(view % 3);
-    renderer.draw({vision::PinholeCamera::from_fov(200, 150, 1.2), sim::random_pose(random, 80.0, 40.0, 0.8), channel},
-                  picture);
-    for (size_t i = 0; i < picture.total() * picture.elemSize(); ++i)
-      digest = (digest ^ picture.data[i]) * 0x100000001b3u;
+  for (size_t i = 0; i < 20; ++i) {
+    CameraView view{cameras[i % 2], random_pose(random, 80.0, 40.0, 0.8), static_cast<Channel>(i % kChannels)};
+    view.next.X_WC = random_pose(random, 80.0, 40.0, 0.8);
+    view.samples = i < 10 ? 1 : 4;
+    renderer.draw(view, picture);
+    digest.add(picture);
   }
-  std::printf("%016lx\n", static_cast<unsigned long>(digest));
+}
+
+void draw_world(const std::filesystem::path& file, ContextKind context, Shadows shadows, Digest& digest) {
+  const std::vector<std::string> overrides = {"scene.texture_size=64"};
+  const Scenario scenario = load_scenario(file, overrides);
+  Renderer renderer(scenes::make_scene(scenario.scene, scenario.seed), Culling::frustum_and_horizon, context, shadows);
+  const vision::Camera camera = vision::PinholeCamera::from_fov(120, 90, 1.4);
+  cv::Mat picture;
+  for (size_t i = 0; i < kChannels; ++i) {
+    const Eigen::Vector3d p_WC(scenario.start.north_m, scenario.start.east_m, -scenario.start.altitude_m);
+    CameraView view{camera, look_at(p_WC, p_WC + Eigen::Vector3d(1.0, 0.1, 0.1)), static_cast<Channel>(i)};
+    view.next.X_WC = look_at(p_WC, p_WC + Eigen::Vector3d(1.0, 0.2, 0.1));
+    view.next.t_s = 0.1;
+    view.samples = shadows == Shadows::sun ? 4 : 1;
+    renderer.draw(view, picture);
+    digest.add(picture);
+  }
+}
+
+void print_digests(ContextKind context) {
+  std::vector<std::filesystem::path> worlds;
+  for (const auto& entry : std::filesystem::directory_iterator(HEDGEHOP_SOURCE_DIR "/configs/worlds")) {
+    worlds.push_back(entry.path());
+  }
+  std::ranges::sort(worlds);
+  for (const char* flown : {"garratt2009_city_0.yaml", "garratt2009_room_0.yaml"}) {
+    worlds.push_back(std::filesystem::path(HEDGEHOP_SOURCE_DIR "/configs") / flown);
+  }
+  for (const Shadows shadows : {Shadows::none, Shadows::sun}) {
+    const std::string suffix = shadows == Shadows::sun ? " with shadows" : "";
+    Digest city;
+    draw_small_city(context, shadows, city);
+    city.print("small city" + suffix);
+    for (const std::filesystem::path& file : worlds) {
+      Digest world;
+      draw_world(file, context, shadows, world);
+      world.print(file.stem().string() + suffix);
+    }
+  }
 }
 
 }  // namespace
+}  // namespace hedgehop::sim
 
 int main(int argc, char** argv) {
   using hedgehop::sim::ContextKind;
   try {
-    print_digest(argc > 1 && std::string_view(argv[1]) == "egl" ? ContextKind::egl : ContextKind::osmesa);
+    hedgehop::sim::print_digests(argc > 1 && std::string_view(argv[1]) == "egl" ? ContextKind::egl
+                                                                                : ContextKind::osmesa);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

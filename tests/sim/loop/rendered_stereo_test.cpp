@@ -1,0 +1,184 @@
+// Are rendered stereo pairs as hard to match as real ones? OpenCV's matchers on both, scored alike.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <numbers>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+#include "scenes/generators.h"
+#include "sim/loop/imperfections.h"
+#include "sim/render/renderer.h"
+#include "vision/disparity.h"
+#include "vision/stereo_matcher.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using Method = vision::StereoMatcherConfig::Method;
+
+/// A rectified pair and the truth about it.
+struct StereoPair {
+  cv::Mat left, right;
+  cv::Mat truth_px;  ///< CV_32F disparity of the left picture; 0 where unknown, sky, or hidden from the right camera
+  int disparities_px = 64;
+};
+
+/// Of the pixels whose truth is known.
+struct Shares {
+  double valid = 0.0;  ///< matched
+  double wrong = 0.0;  ///< matched, and off by more than a pixel
+};
+
+Shares score(const std::vector<StereoPair>& pairs, Method method) {
+  double known = 0.0, valid = 0.0, wrong = 0.0;
+  for (const StereoPair& pair : pairs) {
+    vision::StereoMatcherConfig config{.method = method, .disparities_px = pair.disparities_px};
+    if (method == Method::block) config.block_px = 9;
+    cv::Mat d16, found_px;
+    vision::StereoMatcher(config).match(pair.left, pair.right, d16);
+    d16.convertTo(found_px, CV_32F, 1.0 / vision::kDisparityUnits);
+    // Both matchers leave a band on the left, as wide as the search, without disparities.
+    const cv::Rect seen(pair.disparities_px, 0, pair.left.cols - pair.disparities_px, pair.left.rows);
+    const cv::Mat truth_px = pair.truth_px(seen), has_truth = truth_px > 0, matched = (d16(seen) >= 0) & has_truth;
+    known += cv::countNonZero(has_truth);
+    valid += cv::countNonZero(matched);
+    wrong += cv::countNonZero(matched & (cv::abs(found_px(seen) - truth_px) > 1.0));
+  }
+  return {valid / known, wrong / known};
+}
+
+StereoPair real_pair(const std::string& name, const std::string& truth, double scale, int disparities_px) {
+  const std::filesystem::path folder =
+      std::filesystem::path(HEDGEHOP_SOURCE_DIR) / "../shared/data/vision/stereo" / name;
+  StereoPair pair{.disparities_px = disparities_px};
+  pair.left = cv::imread((folder / "left.png").string(), cv::IMREAD_GRAYSCALE);
+  pair.right = cv::imread((folder / "right.png").string(), cv::IMREAD_GRAYSCALE);
+  cv::imread((folder / truth).string(), cv::IMREAD_UNCHANGED).convertTo(pair.truth_px, CV_32F, 1.0 / scale);
+  if (std::filesystem::exists(folder / "nonocc.png")) {
+    const cv::Mat seen_by_both = cv::imread((folder / "nonocc.png").string(), cv::IMREAD_GRAYSCALE);
+    pair.truth_px.setTo(0.0, seen_by_both == 0);
+  }
+  return pair;
+}
+
+// A pair that sees 3 to 300 m.
+constexpr double kBaseline_m = 0.3;
+const vision::PinholeCamera kCamera{640, 480, 600, 600, 319.5, 239.5};
+
+/// Disparity from depth, where the right camera sees the same surface.
+cv::Mat true_disparity(const cv::Mat& left_m, const cv::Mat& right_m, int disparities_px) {
+  cv::Mat truth_px(left_m.size(), CV_32F, cv::Scalar(0));
+  for (int v = 0; v < left_m.rows; ++v) {
+    for (int u = 0; u < left_m.cols; ++u) {
+      const float z_m = left_m.at<float>(v, u);
+      const double d_px = kBaseline_m * kCamera.focal_x_px / z_m;  // 0 for sky
+      const int other = static_cast<int>(std::lround(u - d_px));
+      if (d_px < 0.5 || d_px > disparities_px - 2 || other < 1 || other + 1 >= left_m.cols) continue;
+      const auto differs = [&](int column) { return std::abs(right_m.at<float>(v, column) / z_m - 1.0f); };
+      const float nearest = std::min({differs(other - 1), differs(other), differs(other + 1)});
+      constexpr float kSameSurface = 0.05f;
+      if (nearest < kSameSurface) truth_px.at<float>(v, u) = static_cast<float>(d_px);
+    }
+  }
+  return truth_px;
+}
+
+using Pairs = std::map<std::string, std::vector<StereoPair>>;
+
+/// @param noise  of both cameras, each from its own stream.
+std::vector<StereoPair> rendered_pairs(const scenes::Scene& scene, const std::vector<Eigen::Isometry3d>& poses,
+                                       const ImperfectionsConfig& noise) {
+  Renderer renderer(scene);
+  constexpr double kPeriod_s = 0.1;
+  Imperfections left_sensor(noise, kPeriod_s, 1), right_sensor(noise, kPeriod_s, 2);
+  std::vector<StereoPair> pairs;
+  for (const Eigen::Isometry3d& X_WC : poses) {
+    StereoPair& pair = pairs.emplace_back();
+    Eigen::Isometry3d X_WR = X_WC;
+    X_WR.translation() += kBaseline_m * X_WC.linear().col(0);
+    cv::Mat left_m, right_m;
+    renderer.draw({kCamera, X_WC, Channel::grey}, pair.left);
+    renderer.draw({kCamera, X_WR, Channel::grey}, pair.right);
+    const auto number = static_cast<int64_t>(pairs.size());
+    left_sensor.spoil(number, pair.left);
+    right_sensor.spoil(number, pair.right);
+    renderer.draw({kCamera, X_WC, Channel::depth}, left_m);
+    renderer.draw({kCamera, X_WR, Channel::depth}, right_m);
+    pair.truth_px = true_disparity(left_m, right_m, pair.disparities_px);
+  }
+  return pairs;
+}
+
+/// Level, looking along a heading.
+Eigen::Isometry3d level(const Eigen::Vector3d& p_WC, double heading_rad) {
+  Eigen::Isometry3d X_WC(Eigen::Translation3d{p_WC});
+  X_WC.linear() << -std::sin(heading_rad), 0, std::cos(heading_rad),  //
+      std::cos(heading_rad), 0, std::sin(heading_rad),                //
+      0, 1, 0;
+  return X_WC;
+}
+
+/// Four pairs of each world: round a tree, 12 to 21 m away; from a forest's middle; from a crossing in a city.
+Pairs rendered_worlds(const ImperfectionsConfig& noise) {
+  std::vector<Eigen::Isometry3d> round_tree, in_forest, in_city;
+  for (int k = 0; k < 4; ++k) {
+    const double quarter = k * std::numbers::pi / 2, bearing = 0.3 + quarter, range_m = 12.0 + 3.0 * k;
+    round_tree.push_back(level({-range_m * std::cos(bearing), -range_m * std::sin(bearing), -6.0}, bearing));
+    in_forest.push_back(level({0.0, 0.0, -4.0}, 0.2 + quarter));
+    in_city.push_back(level({0.0, -30.0, -10.0}, 0.4 + quarter));
+  }
+  const scenes::ForestConfig forest{.trees = 200, .keep_clear = {{0.0, 0.0, 4.0}}};
+  const scenes::UrbanConfig city{.extent_m = 300.0};
+  return {{"tree", rendered_pairs(scenes::make_scene(scenes::TreeConfig{}, 1), round_tree, noise)},
+          {"forest", rendered_pairs(scenes::make_scene(forest, 1), in_forest, noise)},
+          {"facade", rendered_pairs(scenes::make_scene(city, 1), in_city, noise)}};
+}
+
+Pairs real_worlds() {
+  return {{"teddy", {real_pair("teddy", "gt.png", 4.0, 64)}},
+          {"venus", {real_pair("venus", "gt.pgm", 8.0, 32)}},
+          {"kitti", {real_pair("kitti_000001", "gt.png", 256.0, 128)}}};
+}
+
+/// Shares of all worlds, recorded as properties of the test.
+std::vector<Shares> scores(const Pairs& worlds, Method method, const std::string& suffix = "") {
+  std::vector<Shares> all;
+  for (const auto& [name, pairs] : worlds) {
+    const Shares& shares = all.emplace_back(score(pairs, method));
+    const std::string key = name + (method == Method::block ? "_block" : "_semi_global") + suffix;
+    testing::Test::RecordProperty(key + "_valid", std::to_string(shares.valid));
+    testing::Test::RecordProperty(key + "_wrong", std::to_string(shares.wrong));
+  }
+  return all;
+}
+
+// Nothing is drawn that a sensor would spoil, so that pairs are easier without noise. The noise is that of a small
+// camera in dull light: four grey levels at mid-grey.
+TEST(RenderedStereo, IsAsHardToMatchAsRealPairsWithinAThird) {
+  if (!std::filesystem::exists(HEDGEHOP_SOURCE_DIR "/../shared/data/vision/stereo")) GTEST_SKIP() << "no real pairs";
+  const Pairs real = real_worlds(), clean = rendered_worlds({});
+  const Pairs noisy = rendered_worlds({.full_well = 3000.0, .read_noise = 2.0});
+  constexpr double kThird = 1.0 / 3.0;
+  for (const Method method : {Method::block, Method::semi_global}) {
+    std::vector<double> unmatched, wrong;  // of the real pairs
+    for (const Shares& shares : scores(real, method)) {
+      unmatched.push_back(1.0 - shares.valid);
+      wrong.push_back(shares.wrong);
+    }
+    scores(clean, method, "_without_noise");
+    for (const Shares& shares : scores(noisy, method)) {
+      EXPECT_GT(1.0 - shares.valid, (1.0 - kThird) * std::ranges::min(unmatched));
+      EXPECT_LT(1.0 - shares.valid, (1.0 + kThird) * std::ranges::max(unmatched));
+      EXPECT_GT(shares.wrong, (1.0 - kThird) * std::ranges::min(wrong));
+      EXPECT_LT(shares.wrong, (1.0 + kThird) * std::ranges::max(wrong));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hedgehop::sim

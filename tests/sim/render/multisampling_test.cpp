@@ -1,0 +1,124 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+#include <set>
+
+#include "tests/sim/render/small_world.h"
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr int kWidthPx = 200, kHeightPx = 160;
+constexpr double kFocalPx = 150.0;
+const vision::PinholeCamera kCamera{kWidthPx, kHeightPx, kFocalPx, kFocalPx, 99.5, 79.5};
+
+CameraView view_of(const vision::Camera& camera, Channel channel, int samples) {
+  CameraView view{camera, look_at({0, 0, -5}, {1, 0, -5}), channel};  // u runs east, v down
+  view.samples = samples;
+  return view;
+}
+
+/// A white plane 10 m ahead, right of a line that leans to the right by `slope` pixels a row; nothing else.
+SmallWorld half_plane(double slope) {
+  SmallWorld world;
+  world.scene.lights = {.ambient = 1.0f, .sun = 0.0f};
+  world.scene.sky = {Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
+  const auto lean = static_cast<float>(slope * 40.0);
+  world.add_quad({10, -0.5f * lean, -25}, {0, 60, 0}, {0, lean, 40});
+  return world;
+}
+
+/// Where each row's white begins, px, from the sum of its levels.
+std::vector<double> edge_px(const cv::Mat& grey) {
+  std::vector<double> edge;
+  for (int v = 0; v < grey.rows; ++v) edge.push_back(kWidthPx - 0.5 - cv::sum(grey.row(v))[0] / 255.0);
+  return edge;
+}
+
+TEST(Multisampling, PutsASlantedEdgeWhereItIs) {
+  std::mt19937_64 random(61);
+  for (int trial = 0; trial < 10; ++trial) {
+    const double slope = uniform(random, -0.7, 0.7);
+    const SmallWorld world = half_plane(slope);
+    Renderer renderer(world.scene);
+    cv::Mat one, four;
+    renderer.draw(view_of(kCamera, Channel::grey, 1), one);
+    renderer.draw(view_of(kCamera, Channel::grey, 4), four);
+    const std::vector<double> rough_px = edge_px(one), fine_px = edge_px(four);
+    double mean_px = 0.0, rough_square = 0.0, fine_square = 0.0;
+    for (int v = 0; v < kHeightPx; ++v) {
+      const double truth_px = kCamera.center_u_px + slope * (v - kCamera.center_v_px);
+      mean_px += (fine_px[static_cast<size_t>(v)] - truth_px) / kHeightPx;
+      fine_square += std::pow(fine_px[static_cast<size_t>(v)] - truth_px, 2);
+      rough_square += std::pow(rough_px[static_cast<size_t>(v)] - truth_px, 2);
+    }
+    EXPECT_NEAR(mean_px, 0.0, 0.1) << slope;
+    // A sixteenth along a row or a column; more where a slanted edge meets several of the four places at once.
+    EXPECT_LT(fine_square, 0.5 * rough_square) << slope;
+    const std::set<uint8_t> levels(four.begin<uint8_t>(), four.end<uint8_t>());
+    EXPECT_THAT(levels, testing::ElementsAre(0, 64, 128, 191, 255)) << slope;
+    EXPECT_THAT(std::set<uint8_t>(one.begin<uint8_t>(), one.end<uint8_t>()), testing::ElementsAre(0, 255));
+  }
+}
+
+TEST(Multisampling, BringsEveryLensNearerToAPictureOfManyMorePixels) {
+  const SmallWorld city = small_city(4, 62);
+  Renderer renderer(city.scene);
+  const auto fisheye = [](int times) {
+    const double k = times;
+    return vision::Camera(60 * times, 60 * times, vision::FisheyeLens{19 * k, 19 * k, 30 * k - 0.5, 30 * k - 0.5});
+  };
+  const auto bent = [](int times) {
+    const double k = times;
+    vision::PinholeLens lens{40 * k, 40 * k, 30 * k - 0.5, 30 * k - 0.5};
+    lens.k1 = -0.1;
+    return vision::Camera(60 * times, 60 * times, lens);
+  };
+  const auto error = [&](const auto& camera, Channel channel, int samples) {
+    cv::Mat drawn, many, truth;
+    renderer.draw(view_of(camera(1), channel, samples), drawn);
+    renderer.draw(view_of(camera(8), channel, 1), many);
+    cv::resize(many, truth, drawn.size(), 0, 0, cv::INTER_AREA);
+    return cv::norm(drawn, truth, cv::NORM_L2);
+  };
+  for (const Channel channel : {Channel::grey, Channel::color}) {
+    EXPECT_LT(error(fisheye, channel, 4), 0.9 * error(fisheye, channel, 1));
+    EXPECT_LT(error(bent, channel, 4), 0.9 * error(bent, channel, 1));
+  }
+}
+
+TEST(Multisampling, LeavesDepthLabelsAndFlowAlone) {
+  const SmallWorld city = small_city(4, 63);
+  Renderer renderer(city.scene);
+  for (const Channel channel : {Channel::depth, Channel::labels, Channel::flow}) {
+    cv::Mat one, four;
+    renderer.draw(view_of(kCamera, channel, 1), one);
+    renderer.draw(view_of(kCamera, channel, 4), four);
+    ASSERT_EQ(one.type(), four.type());
+    EXPECT_EQ(std::memcmp(one.data, four.data, one.total() * one.elemSize()), 0);
+  }
+}
+
+TEST(Multisampling, IsRefusedWhereTheContextHasOtherNumbersOfSamples) {
+  const SmallWorld world;
+  Renderer renderer(world.scene);
+  const auto fault = [&](int samples) -> std::string {
+    try {
+      renderer.require_samples(samples);
+      return "";
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(fault(1), "");
+  EXPECT_EQ(fault(4), "");
+  EXPECT_THAT(fault(8), testing::HasSubstr("at most 4"));  // Mesa's rasteriser knows 1 and 4 only
+  EXPECT_THAT(fault(2), testing::HasSubstr("makes them 4"));
+  EXPECT_THAT(fault(3), testing::HasSubstr("valid: 1, 2, 4, 8"));
+  cv::Mat picture;
+  EXPECT_THROW(renderer.draw(view_of(kCamera, Channel::grey, 8), picture), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
