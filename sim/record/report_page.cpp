@@ -108,10 +108,7 @@ std::string report_page(std::string_view title, std::string data_json, const Pag
                              Value{"film", film_html},
                              Value{"data", data},
                              Value{"plot_script", kPlotScript},
-                             Value{"figures_script", kFiguresScript},
-                             Value{"plan_script", kPlanScript},
-                             Value{"charts_script", kChartsScript},
-                             Value{"report_script", kReportScript}};
+                             Value{"scripts", kReportScripts}};
   return filled(kReportPage, values);
 }
 
@@ -122,9 +119,7 @@ std::string trim_page(std::string_view title, std::string data_json) {
                              Value{"style", kReportStyle},
                              Value{"data", data},
                              Value{"plot_script", kPlotScript},
-                             Value{"figures_script", kFiguresScript},
-                             Value{"charts_script", kChartsScript},
-                             Value{"trim_script", kTrimScript}};
+                             Value{"scripts", kTrimScripts}};
   return filled(kTrimPage, values);
 }
 
