@@ -123,4 +123,19 @@ std::string trim_page(std::string_view title, std::string data_json) {
   return filled(kTrimPage, values);
 }
 
+std::string campaign_page(std::string_view title, std::string data_json) {
+  const std::string safe_title = html_escaped(title), data = script_safe(std::move(data_json));
+  const std::array values = {Value{"title", safe_title}, Value{"style", kReportStyle},
+                             Value{"campaign_style", kCampaignStyle}, Value{"data", data},
+                             Value{"scripts", kCampaignScripts}};
+  return filled(kCampaignPage, values);
+}
+
+std::string replay_page(std::string_view title, std::string data_json) {
+  const std::string safe_title = html_escaped(title), data = script_safe(std::move(data_json));
+  const std::array values = {Value{"title", safe_title}, Value{"style", kReportStyle}, Value{"replay_style", kReplayStyle},
+                             Value{"data", data}, Value{"scripts", kReplayScripts}};
+  return filled(kReplayPage, values);
+}
+
 }  // namespace hedgehop::sim

@@ -109,7 +109,7 @@ class MapView {
     c.clip();
     this.drawSolids(c);
     this.drawMovers(c);
-    this.drawGoal(c);
+    if (this.plan.goal) this.drawGoal(c, this.plan.goal);
     this.on.draw(c, this);
     c.restore();
     c.strokeStyle = themeColor('line');
@@ -201,9 +201,7 @@ class MapView {
     }
   }
 
-  drawGoal(c) {
-    const {goal} = this.plan;
-    if (!goal) return;
+  drawGoal(c, goal) {
     c.strokeStyle = themeColor('c2');
     c.lineWidth = 2;
     c.setLineDash([5, 3]);
