@@ -115,6 +115,12 @@ int bless(const std::filesystem::path& run_folder, const std::string& reason);
 /// The executable that runs now, absolute. Throws std::runtime_error.
 std::filesystem::path own_program();
 
-int report(const std::filesystem::path& run_folder);
+struct ReportOptions {
+  std::filesystem::path folder;   ///< of a run, a batch or a sweep
+  std::filesystem::path against;  ///< folder of an earlier batch or sweep; empty: none
+  bool replay = false;            ///< of a run: also write replay.html
+};
+/// Writes the folder's report.html.
+int report(const ReportOptions& options);
 
 }  // namespace hedgehop::sim::cli

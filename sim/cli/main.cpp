@@ -48,7 +48,7 @@ struct VehicleOptions {
 /// Declares the commands; the one that is chosen ends up in `chosen`.
 void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, cli::RenderOptions& render,
              cli::CalibrationOptions& calibration, VehicleOptions& vehicles, std::string& topic,
-             std::filesystem::path& folder) {
+             cli::ReportOptions& report) {
   CLI::App* const run_command = app.add_subcommand("run",
                                                    "fly a scenario; leaves a folder with verdict, tables, film "
                                                    "and report");
@@ -94,9 +94,14 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
 
   cli::declare_campaigns(app, chosen);
 
-  CLI::App* const report_command = app.add_subcommand("report", "write report.html of a run's folder anew");
-  report_command->add_option("DIR", folder, "folder of a run")->required()->check(CLI::ExistingDirectory);
-  report_command->callback([&] { chosen = [&folder] { return cli::report(folder); }; });
+  CLI::App* const report_command = app.add_subcommand("report", "write report.html of a run, a batch or a sweep anew");
+  report_command->add_option("DIR", report.folder, "its folder")->required()->check(CLI::ExistingDirectory);
+  report_command
+      ->add_option("--against", report.against, "of a batch or sweep: tell what changed since this earlier one")
+      ->check(CLI::ExistingDirectory)
+      ->type_name("DIR");
+  report_command->add_flag("--replay", report.replay, "of a run: also write replay.html, the flight in three dimensions");
+  report_command->callback([&] { chosen = [&report] { return cli::report(report); }; });
 
   CLI::App* const list_command = app.add_subcommand("list", "tell what a scenario may name, and every key it takes");
   list_command->add_option("TOPIC", topic, "modules, vehicles, scenes, cameras or checks")
@@ -146,8 +151,8 @@ int run_command_line(int argc, char** argv) {
   cli::CalibrationOptions calibration;
   VehicleOptions vehicles;
   std::string topic;
-  std::filesystem::path folder;
-  declare(app, chosen, run, render, calibration, vehicles, topic, folder);
+  cli::ReportOptions report;
+  declare(app, chosen, run, render, calibration, vehicles, topic, report);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,13 +1,17 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 
+#include "sim/campaign/campaign_report.h"
+#include "sim/campaign/flight_list.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/load.h"
 #include "sim/record/report.h"
 #include "sim/scenario/calibration.h"
 #include "sim/scenario/document.h"
+#include "sim/scenario/input_error.h"
 #include "sim/scenario/scenario.h"
 
 namespace hedgehop::sim::cli {
@@ -38,9 +42,23 @@ int calibration(const CalibrationOptions& options) {
   return 0;
 }
 
-int report(const std::filesystem::path& run_folder) {
-  write_report(run_folder);
-  fmt::print("written: {}\n", (run_folder / "report.html").string());
+int report(const ReportOptions& options) {
+  const std::string folder = options.folder.string();
+  const auto written = [&](const char* name) { fmt::print("written: {}\n", (options.folder / name).string()); };
+  if (is_campaign(options.folder)) {
+    if (options.replay) throw InputError(folder + ": --replay shows one flight; name the folder of one");
+    write_campaign_report(options.folder, options.against.empty() ? std::nullopt : std::optional(options.against));
+    written("report.html");
+    return 0;
+  }
+  if (!std::filesystem::exists(options.folder / "result.json")) {
+    throw InputError(folder + ": no result.json, batch.csv or sweep.csv: not the folder of a run, batch or sweep");
+  }
+  if (!options.against.empty()) throw InputError(folder + ": --against compares batches or sweeps, and this is one run");
+  if (options.replay) write_replay(options.folder);
+  write_report(options.folder);  // links the replay
+  written("report.html");
+  if (options.replay) written("replay.html");
   return 0;
 }
 

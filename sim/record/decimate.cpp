@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <opencv2/imgproc.hpp>
 
 namespace hedgehop::sim {
 namespace {
@@ -45,6 +46,23 @@ std::vector<size_t> decimate(std::span<const std::vector<double>> series, size_t
   const auto repeated = std::ranges::unique(picked);
   picked.erase(repeated.begin(), repeated.end());
   return picked;
+}
+
+std::vector<Eigen::Vector2d> simplified(const std::vector<Eigen::Vector2d>& line_NE_m, double tolerance_m,
+                                        size_t max_points) {
+  if (line_NE_m.size() <= 2) return line_NE_m;
+  const Eigen::Vector2d& first = line_NE_m.front();
+  std::vector<cv::Point2f> line, kept;
+  for (const Eigen::Vector2d& p : line_NE_m) {
+    line.emplace_back(static_cast<float>(p.x() - first.x()), static_cast<float>(p.y() - first.y()));
+  }
+  do {
+    cv::approxPolyDP(line, kept, tolerance_m, false);
+    tolerance_m *= 2.0;
+  } while (kept.size() > max_points);
+  std::vector<Eigen::Vector2d> result;
+  for (const cv::Point2f& p : kept) result.emplace_back(first + Eigen::Vector2d(p.x, p.y));
+  return result;
 }
 
 }  // namespace hedgehop::sim

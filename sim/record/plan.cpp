@@ -69,6 +69,10 @@ std::vector<MoverWay> mover_ways(const std::vector<scenes::Mover>& movers) {
   return ways;
 }
 
+ScenePlan scene_plan(const scenes::Scene& scene) {
+  return {footprints(scene.solids), mover_ways(scene.movers), scene.bounds_NE_m};
+}
+
 Level level(const Footprint& footprint, double lowest_m, double highest_m, double margin_m) {
   if (footprint.top_m < lowest_m - margin_m) return Level::below;
   if (footprint.bottom_m > highest_m + margin_m) return Level::above;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -28,6 +28,14 @@ struct MoverWay {
 
 /// Where each mover of a scene goes.
 std::vector<MoverWay> mover_ways(const std::vector<scenes::Mover>& movers);
+
+/// A scene as maps show it.
+struct ScenePlan {
+  std::vector<Footprint> footprints;
+  std::vector<MoverWay> movers;
+  Eigen::AlignedBox2d bounds_NE_m;
+};
+ScenePlan scene_plan(const scenes::Scene& scene);
 
 /// Where a footprint lies for a flight between two altitudes: only what is beside it can be hit sideways.
 enum class Level { below, beside, above };

@@ -8,6 +8,8 @@
 
 #include "scenes/generators.h"
 #include "sim/loop/random_stream.h"
+#include "sim/record/plan_data.h"
+#include "sim/record/replay_data.h"
 #include "sim/record/report_data.h"
 #include "sim/record/report_page.h"
 #include "sim/record/whole_file.h"
@@ -40,9 +42,7 @@ ReportScenario describe_scenario(const Scenario& scenario, uint64_t seed, std::s
                         .scene = chosen(scenario.scene),
                         .vehicle = chosen(scenario.vehicle),
                         .yaml = std::move(yaml),
-                        .footprints = footprints(scene.solids),
-                        .movers = mover_ways(scene.movers),
-                        .bounds_NE_m = scene.bounds_NE_m};
+                        .plan = scene_plan(scene)};
   if (scenario.goal) {
     result.goal = PlanGoal{{scenario.goal->north_m, scenario.goal->east_m}, scenario.goal->radius_m};
   }
@@ -66,9 +66,30 @@ void write_report(const std::filesystem::path& run_folder) {
   const std::filesystem::path scenario_file = run_folder / "scenario.yaml";
   const ReportScenario scenario = describe_scenario(load_scenario(scenario_file), result.at("seed").get<uint64_t>(),
                                                     read_file_whole(scenario_file));
-  const std::string data = report_data(scenario, result, trajectory, decisions).dump();
+  nlohmann::ordered_json data = report_data(scenario, result, trajectory, decisions);
+  data["has_replay"] = std::filesystem::exists(run_folder / "replay.html");
   const std::string title = result.value("scenario", "flight");
-  write_file_whole(run_folder / "report.html", report_page(title, data, find_film(run_folder)));
+  write_file_whole(run_folder / "report.html", report_page(title, data.dump(), find_film(run_folder)));
+}
+
+void write_replay(const std::filesystem::path& run_folder) {
+  const nlohmann::ordered_json result = read_json(run_folder / "result.json");
+  const CsvTable trajectory(run_folder / "trajectory.csv");
+  const Scenario scenario = load_scenario(run_folder / "scenario.yaml");
+  const uint64_t seed = result.at("seed").get<uint64_t>();
+  const scenes::Scene scene = scenes::make_scene(scenario.scene, stream_seed(seed, kSceneStream));
+
+  nlohmann::ordered_json data;
+  data["result"] = result;
+  data["has_report"] = std::filesystem::exists(run_folder / "report.html");
+  data["scene"] = replay_scene(scene, result.at("flight_time_s").get<double>());
+  data["hull"] = replay_hull(dynamics::hull(scenario.vehicle));
+  data["path"] = replay_path(trajectory);
+  data["goal"] = nullptr;
+  if (const auto& goal = scenario.goal) {
+    data["goal"] = {milli(goal->north_m), milli(goal->east_m), milli(-goal->altitude_m), milli(goal->radius_m)};
+  }
+  write_file_whole(run_folder / "replay.html", replay_page(result.value("scenario", "flight"), data.dump()));
 }
 
 }  // namespace hedgehop::sim

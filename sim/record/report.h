@@ -10,4 +10,8 @@ namespace hedgehop::sim {
 /// Throws std::runtime_error naming the file and the cause when one is missing, malformed or cannot be written.
 void write_report(const std::filesystem::path& run_folder);
 
+/// Writes `replay.html` into a run's folder, from the same files: the flight in three dimensions, to be played in a
+/// browser without network. Throws as write_report().
+void write_replay(const std::filesystem::path& run_folder);
+
 }  // namespace hedgehop::sim

@@ -1,35 +1,19 @@
 #include "sim/record/report_data.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "sim/record/decimate.h"
 #include "sim/record/panels.h"
+#include "sim/record/plan_data.h"
 
 namespace hedgehop::sim {
 namespace {
 
 using Json = nlohmann::ordered_json;
 using Values = std::vector<double>;
-
-/// How far above or below the flown band a solid may lie and still be drawn as an obstacle: a vehicle's half height.
-constexpr double kLevelMargin_m = 1.0;
-
-/// A number short enough for a picture.
-Json brief(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return std::strtod(fmt::format("{:.5g}", value).c_str(), nullptr);
-}
-/// A place or an instant, to the millimetre or millisecond.
-Json milli(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return std::round(value * 1e3) / 1e3;
-}
 
 Json picked(const Values& values, const std::vector<size_t>& rows, Json (*number)(double)) {
   Json list = Json::array();
@@ -56,18 +40,6 @@ Json panel_json(const Panel& panel, size_t max_points) {
   return json;
 }
 
-const char* word(Level level) {
-  switch (level) {
-    case Level::below:
-      return "below";
-    case Level::beside:
-      return "beside";
-    case Level::above:
-      return "above";
-  }
-  return "";
-}
-
 Json plan_json(const ReportScenario& scenario, const Values& down_m) {
   double lowest_m = 0.0, highest_m = 0.0;
   if (!down_m.empty()) {
@@ -75,33 +47,12 @@ Json plan_json(const ReportScenario& scenario, const Values& down_m) {
     lowest_m = -most;
     highest_m = -least;
   }
-  Json json;
-  json["bounds"] = Json::array();
-  if (!scenario.bounds_NE_m.isEmpty()) {
-    const Eigen::Vector2d low = scenario.bounds_NE_m.min(), high = scenario.bounds_NE_m.max();
-    json["bounds"] = {milli(low.x()), milli(high.x()), milli(low.y()), milli(high.y())};
-  }
+  Json json = plan_data(scenario.plan, lowest_m, highest_m);
   json["goal"] = nullptr;
   if (scenario.goal) {
     json["goal"] = {{"n", milli(scenario.goal->p_NE_m.x())},
                     {"e", milli(scenario.goal->p_NE_m.y())},
                     {"radius", milli(scenario.goal->radius_m)}};
-  }
-  json["footprints"] = Json::array();
-  for (const Footprint& footprint : scenario.footprints) {
-    Json corners = Json::array();
-    for (const Eigen::Vector2d& p : footprint.corners_NE_m) corners.push_back({milli(p.x()), milli(p.y())});
-    json["footprints"].push_back({{"name", footprint.name},
-                                  {"level", word(level(footprint, lowest_m, highest_m, kLevelMargin_m))},
-                                  {"bottom", milli(footprint.bottom_m)},
-                                  {"top", milli(footprint.top_m)},
-                                  {"corners", corners}});
-  }
-  json["movers"] = Json::array();
-  for (const MoverWay& mover : scenario.movers) {
-    Json way = Json::array();
-    for (const Eigen::Vector2d& p : mover.corners_NE_m) way.push_back({milli(p.x()), milli(p.y())});
-    json["movers"].push_back({{"name", mover.name}, {"radius", milli(mover.radius_m)}, {"way", way}});
   }
   return json;
 }

@@ -21,9 +21,7 @@ struct PlanGoal {
 struct ReportScenario {
   std::string description, module, scene, vehicle;  ///< names of the parts that were chosen
   std::string yaml;                                 ///< the resolved scenario
-  std::vector<Footprint> footprints;
-  std::vector<MoverWay> movers;
-  Eigen::AlignedBox2d bounds_NE_m;
+  ScenePlan plan;
   std::optional<PlanGoal> goal;
 };
 

@@ -108,10 +108,7 @@ std::string report_page(std::string_view title, std::string data_json, const Pag
                              Value{"film", film_html},
                              Value{"data", data},
                              Value{"plot_script", kPlotScript},
-                             Value{"figures_script", kFiguresScript},
-                             Value{"plan_script", kPlanScript},
-                             Value{"charts_script", kChartsScript},
-                             Value{"report_script", kReportScript}};
+                             Value{"scripts", kReportScripts}};
   return filled(kReportPage, values);
 }
 
@@ -122,10 +119,23 @@ std::string trim_page(std::string_view title, std::string data_json) {
                              Value{"style", kReportStyle},
                              Value{"data", data},
                              Value{"plot_script", kPlotScript},
-                             Value{"figures_script", kFiguresScript},
-                             Value{"charts_script", kChartsScript},
-                             Value{"trim_script", kTrimScript}};
+                             Value{"scripts", kTrimScripts}};
   return filled(kTrimPage, values);
+}
+
+std::string campaign_page(std::string_view title, std::string data_json) {
+  const std::string safe_title = html_escaped(title), data = script_safe(std::move(data_json));
+  const std::array values = {Value{"title", safe_title}, Value{"style", kReportStyle},
+                             Value{"campaign_style", kCampaignStyle}, Value{"data", data},
+                             Value{"scripts", kCampaignScripts}};
+  return filled(kCampaignPage, values);
+}
+
+std::string replay_page(std::string_view title, std::string data_json) {
+  const std::string safe_title = html_escaped(title), data = script_safe(std::move(data_json));
+  const std::array values = {Value{"title", safe_title}, Value{"style", kReportStyle}, Value{"replay_style", kReplayStyle},
+                             Value{"data", data}, Value{"scripts", kReplayScripts}};
+  return filled(kReplayPage, values);
 }
 
 }  // namespace hedgehop::sim

@@ -23,6 +23,12 @@ struct PageFilm {
 /// @param title  any text. @param data_json  what the script reads, see report_data().
 std::string report_page(std::string_view title, std::string data_json, const PageFilm& film);
 
+/// A whole report of a batch or sweep. @param title  any text. @param data_json  see write_campaign_report().
+std::string campaign_page(std::string_view title, std::string data_json);
+
+/// A whole replay of a flight. @param title  any text. @param data_json  see write_replay().
+std::string replay_page(std::string_view title, std::string data_json);
+
 /// A whole page of plots of a vehicle's trim over speed. @param title  any text. @param data_json  see trim_data().
 std::string trim_page(std::string_view title, std::string data_json);
 

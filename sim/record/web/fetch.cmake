@@ -6,6 +6,6 @@ endforeach()
 execute_process(COMMAND "${NPM}" ci --no-audit --no-fund --ignore-scripts --prefer-offline --loglevel=error
                 WORKING_DIRECTORY "${BUILD}" RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said)
 if(NOT status EQUAL 0)
-  message(FATAL_ERROR "npm could not fetch what reports draw their plots with (uPlot, ${SOURCE}/package-lock.json). "
+  message(FATAL_ERROR "npm could not fetch what the pages draw with (${SOURCE}/package-lock.json). "
                       "It needs the npm registry once; npm said:\n${said}")
 endif()

@@ -244,8 +244,8 @@ TEST(ReportPage, HasEveryScriptClosedOnce) {
     for (size_t at = page.find(text); at != std::string::npos; at = page.find(text, at + 1)) ++n;
     return n;
   };
-  EXPECT_EQ(count("<script"), 7u);
-  EXPECT_EQ(count("</script"), 7u);
+  EXPECT_EQ(count("<script"), 4u);
+  EXPECT_EQ(count("</script"), 4u);
 }
 
 TEST(ReportPage, LoadsNothingFromElsewhere) {

@@ -65,3 +65,19 @@ function quantile(values, share) {
   const sorted = values.filter((v) => v !== null).sort((a, b) => a - b);
   return sorted.length ? sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))] : 1;
 }
+
+/** A button that copies a text. */
+function copyButton(text) {
+  const button = make('button', 'copy', 'copy');
+  button.title = 'Copy the command line that flies this again';
+  button.addEventListener('click', (event) => {
+    event.stopPropagation();
+    navigator.clipboard?.writeText(text).then(() => { button.textContent = 'copied'; }, () => { button.textContent = 'refused'; });
+  });
+  return button;
+}
+/** A command line with a button that copies it. */
+function addCommand(host, text) {
+  const command = host.appendChild(make('div', 'command'));
+  command.append(make('code', '', text), copyButton(text));
+}

@@ -12,11 +12,16 @@ function judge(outcome, goal) {
   }
 }
 
-function fillVerdict(host, {result, description, plan}) {
+function fillVerdict(host, {result, description, plan, has_replay}) {
   const what = host.appendChild(make('div', 'what'));
   what.append(make('h1', '', result.scenario));
   if (description) what.append(make('p', '', description));
   what.append(make('p', 'soft', `seed ${result.seed}, Hedgehop ${result.version}`));
+
+  if (has_replay) {
+    const link = what.appendChild(make('p')).appendChild(make('a', '', 'Replay in three dimensions'));
+    link.href = 'replay.html';
+  }
 
   const failed = result.checks.filter((c) => !c.passed).length, all = result.checks.length;
   const {words, good} = judge(result.outcome, plan.goal);
@@ -71,11 +76,7 @@ function fillChecks(host, checks) {
 
 function fillDetails(host, {result, module, scene, vehicle, scenario_yaml}) {
   host.append(make('h2', '', 'Details'));
-  const command = host.appendChild(make('div', 'command'));
-  command.append(make('code', '', result.command_line));
-  const copy = command.appendChild(make('button', '', 'copy'));
-  copy.title = 'Copy the command line that runs this again';
-  copy.addEventListener('click', () => navigator.clipboard?.writeText(result.command_line).then(() => { copy.textContent = 'copied'; }));
+  addCommand(host, result.command_line);
 
   const facts = host.appendChild(make('div', 'facts'));
   const add = (title, rows) => {

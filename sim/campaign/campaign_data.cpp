@@ -1,0 +1,185 @@
+#include "sim/campaign/campaign_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+
+#include "sim/campaign/batch_record.h"
+#include "sim/campaign/statistics.h"
+#include "sim/campaign/verdict.h"
+#include "sim/record/whole_file.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kConfidence = 0.95;
+const std::set<std::string> kWordColumns = {"id", "group", "scenario", "status", "outcome", "cause", "trajectory_hash",
+                                            "command"};
+
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// A number to six figures.
+Json six(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  if (value == std::round(value) && std::abs(value) < 1e15) return static_cast<int64_t>(value);
+  return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
+}
+
+/// The column's numbers; none when a field is a word.
+std::optional<std::vector<double>> all_numbers(const std::vector<std::string>& words) {
+  std::vector<double> numbers(words.size(), NAN);
+  for (size_t i = 0; i < words.size(); ++i) {
+    if (words[i].empty()) continue;
+    const char* const end = words[i].data() + words[i].size();
+    const auto [stop, error] = std::from_chars(words[i].data(), end, numbers[i]);
+    if (error != std::errc() || stop != end) return {};
+  }
+  return numbers;
+}
+
+std::string unit_of(const std::string& name, const std::vector<FlightNotes>& notes) {
+  for (const FlightNotes& note : notes) {
+    if (const auto found = note.units.find(name); found != note.units.end()) return found->second;
+  }
+  if (name.starts_with("time.") && name.find("_ms") != std::string::npos) return "ms";
+  if (name.ends_with("_mps")) return "m/s";
+  if (name.ends_with("_m")) return "m";
+  return name.ends_with("_s") ? "s" : "";
+}
+
+Json group_row(const GroupSummary& group) {
+  const Interval interval = wilson_interval(group.success, kConfidence);
+  return {{"group", group.group},
+          {"flights", group.flights},
+          {"passed", group.success.successes},
+          {"ended", group.success.trials},
+          {"low", interval.low},
+          {"high", interval.high},
+          {"reached", group.reached},
+          {"collided", group.collided},
+          {"timeout", group.timeout},
+          {"broken", group.fault + group.failed},
+          {"missing", group.missing},
+          {"least_clearance_m", finite(group.least_clearance_m)},
+          {"median_clearance_m", finite(group.median_clearance_m)},
+          {"median_time_s", finite(group.median_time_s)}};
+}
+
+GroupSummary all_of(std::vector<FlightRecord> records) {
+  for (FlightRecord& record : records) record.order.group = "all flights";
+  return records.empty() ? GroupSummary{.group = "all flights"} : summarise(records).front();
+}
+
+Json rate(const Count& count) {
+  const Interval interval = wilson_interval(count, kConfidence);
+  return {{"passed", count.successes}, {"ended", count.trials}, {"low", interval.low}, {"high", interval.high}};
+}
+
+Json change_row(const GroupSummary& now, const GroupSummary& before) {
+  Json row{{"group", now.group}, {"now", rate(now.success)}, {"before", rate(before.success)}, {"change", nullptr}};
+  if (now.success.trials > 0 && before.success.trials > 0) {
+    const Interval change = newcombe_difference(now.success, before.success, kConfidence);
+    row["change"] = {now.success.rate() - before.success.rate(), change.low, change.high};
+  }
+  return row;
+}
+
+}  // namespace
+
+std::vector<FlightNotes> read_notes(const std::filesystem::path& folder, const std::vector<FlightRecord>& records) {
+  std::vector<FlightNotes> notes(records.size());
+  for (size_t i = 0; i < records.size(); ++i) {
+    const std::filesystem::path flight = folder / records[i].order.id;
+    notes[i].why = passed(records[i]) ? "" : outcome_words(records[i]);
+    if (!records[i].cause.empty()) notes[i].why += ": " + records[i].cause;
+    notes[i].has_report = std::filesystem::exists(flight / "report.html");
+    notes[i].has_replay = std::filesystem::exists(flight / "replay.html");
+    if (records[i].status != FlightRecord::Status::flown || !std::filesystem::exists(flight / "result.json")) continue;
+    try {
+      FlightRecord whole = records[i];
+      whole.result = Json::parse(read_file_whole(flight / "result.json"));
+      notes[i].why = failure_words(whole);
+      for (const auto& check : whole.result.at("checks")) {
+        notes[i].units["check." + check.at("name").get<std::string>()] = check.at("unit").get<std::string>();
+      }
+      const Json units = whole.result.value("metric_units", Json::object());
+      for (const auto& [name, unit] : units.items()) {
+        notes[i].units["metric." + name] = unit.get<std::string>();
+      }
+    } catch (const nlohmann::json::exception&) {  // a result half written: the table's word stands
+    }
+  }
+  return notes;
+}
+
+Json columns_data(const CsvTable& table, const std::vector<FlightNotes>& notes) {
+  Json columns = Json::array();
+  for (const std::string& name : table.names()) {
+    const std::vector<std::string> words = table.words(name);
+    if (std::ranges::all_of(words, &std::string::empty)) continue;
+    const auto numbers = kWordColumns.contains(name) ? std::nullopt : all_numbers(words);
+    Json column{{"name", name}, {"unit", unit_of(name, notes)}, {"is_text", !numbers}, {"values", words}};
+    if (numbers) {
+      column["values"] = Json::array();
+      for (const double value : *numbers) column["values"].push_back(six(value));
+    }
+    columns.push_back(std::move(column));
+  }
+  return columns;
+}
+
+std::vector<std::string> swept_columns(const FlightList& flights) {
+  if (!flights.is_sweep) return {};
+  const auto& names = flights.table.names();
+  const auto point = std::ranges::find(names, "point"), status = std::ranges::find(names, "status");
+  return point < status ? std::vector<std::string>(point + 1, status) : std::vector<std::string>();
+}
+
+Json groups_data(const std::vector<FlightRecord>& records) {
+  const std::vector<GroupSummary> groups = summarise(records);
+  Json rows = Json::array({group_row(all_of(records))});
+  if (groups.size() > 1) {
+    for (const GroupSummary& group : groups) rows.push_back(group_row(group));
+  }
+  return rows;
+}
+
+Json against_data(const FlightList& now, const FlightList& before) {
+  std::map<std::string, size_t> rows;
+  for (size_t i = 0; i < before.records.size(); ++i) rows[before.records[i].order.id] = i;
+  const std::vector<std::string> commands = before.table.words("command");
+  Json json{{"flights", Json::array()}, {"groups", Json::array()}, {"gone", Json::array()}};
+  for (const FlightRecord& record : now.records) {
+    const auto found = rows.find(record.order.id);
+    if (found == rows.end()) {
+      json["flights"].push_back(nullptr);
+      continue;
+    }
+    const FlightRecord& old = before.records[found->second];
+    Json row{{"outcome", outcome_words(old)}, {"passed", passed(old)}, {"command", commands[found->second]}};
+    const bool flown = old.status == FlightRecord::Status::flown;
+    row["clearance_m"] = flown ? old.result.at("min_obstacle_clearance_m") : Json(nullptr);
+    row["time_s"] = flown ? old.result.at("flight_time_s") : Json(nullptr);
+    json["flights"].push_back(std::move(row));
+    rows.erase(found);
+  }
+  for (const auto& [id, row] : rows) json["gone"].push_back(id);
+
+  json["groups"].push_back(change_row(all_of(now.records), all_of(before.records)));
+  const std::vector<GroupSummary> earlier = summarise(before.records), groups = summarise(now.records);
+  for (const GroupSummary& group : groups) {
+    const auto same = std::ranges::find(earlier, group.group, &GroupSummary::group);
+    if (same != earlier.end() && groups.size() > 1) json["groups"].push_back(change_row(group, *same));
+  }
+  return json;
+}
+
+}  // namespace hedgehop::sim

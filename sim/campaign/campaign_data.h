@@ -1,0 +1,35 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "sim/campaign/flight_list.h"
+
+namespace hedgehop::sim {
+
+/// What else a flight's own folder tells.
+struct FlightNotes {
+  std::string why;                           ///< failure_words() of its result
+  std::map<std::string, std::string> units;  ///< of columns `metric.NAME` and `check.NAME`
+  bool has_report = false, has_replay = false;
+};
+/// @param folder  of the campaign.
+std::vector<FlightNotes> read_notes(const std::filesystem::path& folder, const std::vector<FlightRecord>& records);
+
+/// The table as the page reads it, column by column: `columns` of {name, unit, is_text, values}; numbers to six
+/// figures, null where the field is empty or not finite. Columns without any value are left out.
+nlohmann::ordered_json columns_data(const CsvTable& table, const std::vector<FlightNotes>& notes);
+
+/// Names of the columns that a sweep varied: those between the number of the point and the status.
+std::vector<std::string> swept_columns(const FlightList& flights);
+
+/// Flights that differ by the seed alone, one row a group with its Wilson interval (95 %), and before them one of all.
+nlohmann::ordered_json groups_data(const std::vector<FlightRecord>& records);
+
+/// What an earlier campaign's flights of the same ids did: `flights` (one a row of `now`, null where there was none),
+/// `groups` with both rates and the interval (95 %) of the rate's change, and the ids of flights that are no more.
+nlohmann::ordered_json against_data(const FlightList& now, const FlightList& before);
+
+}  // namespace hedgehop::sim

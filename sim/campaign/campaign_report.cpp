@@ -1,0 +1,66 @@
+#include "sim/campaign/campaign_report.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "sim/campaign/campaign_data.h"
+#include "sim/campaign/flight_maps.h"
+#include "sim/record/report_page.h"
+#include "sim/record/whole_file.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// All paths of a page together, so that any number of them stays small and quick to draw.
+constexpr size_t kMostPoints = 300'000, kMostPointsOfOne = 400, kLeastPointsOfOne = 10;
+
+std::string name_of(const std::filesystem::path& folder) {
+  const std::filesystem::path whole = std::filesystem::absolute(folder / "").lexically_normal();
+  return whole.parent_path().filename().string();
+}
+
+std::vector<std::optional<FlownPath>> read_paths(const std::filesystem::path& folder,
+                                                 const std::vector<FlightRecord>& records) {
+  const size_t share = kMostPoints / std::max<size_t>(1, records.size());
+  std::vector<std::optional<FlownPath>> paths;
+  for (const FlightRecord& record : records) {
+    paths.emplace_back(read_path(folder / record.order.id, record.order.seed,
+                                 std::clamp(share, kLeastPointsOfOne, kMostPointsOfOne)));
+  }
+  return paths;
+}
+
+}  // namespace
+
+void write_campaign_report(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& against) {
+  const FlightList flights = read_flights(folder);
+  const std::vector<FlightNotes> notes = read_notes(folder, flights.records);
+  std::set<std::string> scenarios;
+  for (const FlightRecord& record : flights.records) scenarios.insert(record.order.scenario.filename().string());
+
+  Json data{{"name", name_of(folder)}, {"folder", folder.string()}, {"is_sweep", flights.is_sweep}};
+  data["scenarios"] = scenarios;
+  data["swept"] = swept_columns(flights);
+  data["groups"] = groups_data(flights.records);
+  data["columns"] = columns_data(flights.table, notes);
+  for (const char* key : {"why", "report", "replay"}) data[key] = Json::array();
+  for (const FlightNotes& note : notes) {
+    data["why"].push_back(note.why);
+    data["report"].push_back(note.has_report ? 1 : 0);
+    data["replay"].push_back(note.has_replay ? 1 : 0);
+  }
+  const auto paths = read_paths(folder, flights.records);
+  data["paths"] = paths_data(flight_maps(paths), paths);
+  data["against"] = nullptr;
+  if (against) {
+    data["against"] = against_data(flights, read_flights(*against));
+    data["against"]["name"] = against->string();
+  }
+  const std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+  write_file_whole(folder / "report.html", campaign_page(name_of(folder), text));
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,65 @@
+#include "sim/campaign/flight_list.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "sim/scenario/input_error.h"
+#include "sim/scenario/numbers.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+std::filesystem::path table_of(const std::filesystem::path& folder) {
+  for (const char* name : {"sweep.csv", "batch.csv"}) {
+    if (std::filesystem::exists(folder / name)) return folder / name;
+  }
+  throw InputError(fmt::format("{}: neither a batch's folder (batch.csv) nor a sweep's (sweep.csv)", folder.string()));
+}
+
+FlightRecord::Status status_of(const std::string& word) {
+  for (const auto status : {FlightRecord::Status::flown, FlightRecord::Status::failed}) {
+    if (word == to_string(status)) return status;
+  }
+  return FlightRecord::Status::missing;
+}
+
+std::vector<FlightRecord> records_of(const CsvTable& table) {
+  const auto ids = table.words("id"), groups = table.words("group"), scenarios = table.words("scenario");
+  const auto seeds = table.words("seed"), statuses = table.words("status"), outcomes = table.words("outcome");
+  const auto causes = table.words("cause"), passes = table.words("passed");
+  const auto clearances = table.numbers("min_obstacle_clearance_m"), times = table.numbers("flight_time_s");
+  std::vector<FlightRecord> records(table.rows());
+  for (size_t i = 0; i < records.size(); ++i) {
+    FlightRecord& record = records[i];
+    record.order = {.id = ids[i], .group = groups[i], .scenario = scenarios[i]};
+    record.order.seed = parse_unsigned(seeds[i]).value_or(0);
+    record.status = status_of(statuses[i]);
+    record.cause = causes[i];
+    if (record.status != FlightRecord::Status::flown) continue;
+    record.result = Json{{"outcome", outcomes[i]},
+                         {"checks", Json::array({Json{{"passed", passes[i] == "1"}}})},
+                         {"min_obstacle_clearance_m", number(clearances[i])},
+                         {"flight_time_s", times[i]}};
+  }
+  return records;
+}
+
+}  // namespace
+
+bool is_campaign(const std::filesystem::path& folder) {
+  return std::filesystem::exists(folder / "sweep.csv") || std::filesystem::exists(folder / "batch.csv");
+}
+
+FlightList read_flights(const std::filesystem::path& folder) {
+  const std::filesystem::path file = table_of(folder);
+  FlightList list{.is_sweep = file.filename() == "sweep.csv", .table = CsvTable(file), .records = {}};
+  list.records = records_of(list.table);
+  return list;
+}
+
+}  // namespace hedgehop::sim

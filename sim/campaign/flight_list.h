@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "sim/campaign/record.h"
+#include "sim/record/csv_table.h"
+
+namespace hedgehop::sim {
+
+/// What a campaign's folder holds of its flights.
+struct FlightList {
+  bool is_sweep = false;
+  CsvTable table;                     ///< sweep.csv or batch.csv
+  std::vector<FlightRecord> records;  ///< one a row: what the table says, enough for summarise()
+};
+
+/// Whether the folder is a batch's or a sweep's.
+bool is_campaign(const std::filesystem::path& folder);
+
+/// Reads the flights of a campaign's folder. Throws InputError naming the folder when it has no table of flights, and
+/// std::runtime_error naming file, line and cause when the table is malformed.
+FlightList read_flights(const std::filesystem::path& folder);
+
+}  // namespace hedgehop::sim

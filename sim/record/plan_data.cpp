@@ -1,0 +1,67 @@
+#include "sim/record/plan_data.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+namespace hedgehop::sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// How far above or below the flown band a solid may lie and still be drawn as an obstacle: a vehicle's half height.
+constexpr double kLevelMargin_m = 1.0;
+
+const char* word(Level level) {
+  switch (level) {
+    case Level::below:
+      return "below";
+    case Level::beside:
+      return "beside";
+    case Level::above:
+      return "above";
+  }
+  return "";
+}
+
+}  // namespace
+
+nlohmann::ordered_json brief(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return std::strtod(fmt::format("{:.5g}", value).c_str(), nullptr);
+}
+nlohmann::ordered_json milli(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return std::round(value * 1e3) / 1e3;
+}
+
+
+nlohmann::ordered_json plan_data(const ScenePlan& plan, double lowest_m, double highest_m) {
+  Json json;
+  json["bounds"] = Json::array();
+  if (!plan.bounds_NE_m.isEmpty()) {
+    const Eigen::Vector2d low = plan.bounds_NE_m.min(), high = plan.bounds_NE_m.max();
+    json["bounds"] = {milli(low.x()), milli(high.x()), milli(low.y()), milli(high.y())};
+  }
+  json["footprints"] = Json::array();
+  for (const Footprint& footprint : plan.footprints) {
+    Json corners = Json::array();
+    for (const Eigen::Vector2d& p : footprint.corners_NE_m) corners.push_back({milli(p.x()), milli(p.y())});
+    json["footprints"].push_back({{"name", footprint.name},
+                                  {"level", word(level(footprint, lowest_m, highest_m, kLevelMargin_m))},
+                                  {"bottom", milli(footprint.bottom_m)},
+                                  {"top", milli(footprint.top_m)},
+                                  {"corners", corners}});
+  }
+  json["movers"] = Json::array();
+  for (const MoverWay& mover : plan.movers) {
+    Json way = Json::array();
+    for (const Eigen::Vector2d& p : mover.corners_NE_m) way.push_back({milli(p.x()), milli(p.y())});
+    json["movers"].push_back({{"name", mover.name}, {"radius", milli(mover.radius_m)}, {"way", way}});
+  }
+  return json;
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,110 @@
+#include "sim/record/replay_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sim/record/plan_data.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kMoverStep_s = 0.1;  // a mover goes straight between; faster turns than this are not drawn
+
+/// Four decimals: a tenth of a millimetre, or of a thousandth of a turn's half.
+Json fine(double value) { return std::round(value * 1e4) / 1e4; }
+
+void append(Json& list, const Eigen::Vector3d& v) {
+  for (const double value : v) list.push_back(milli(value));
+}
+
+Json body(const Eigen::Isometry3d& X_PS, const Eigen::Vector3d& half_extents_m) {
+  Json list = Json::array();
+  append(list, X_PS.translation());
+  const Eigen::Quaterniond q_PS(X_PS.rotation());
+  for (const double part : {q_PS.x(), q_PS.y(), q_PS.z(), q_PS.w()}) list.push_back(fine(part));
+  append(list, half_extents_m);
+  return list;
+}
+
+Json mesh(const Eigen::Isometry3d& X_PS, const scenes::Polyhedron& polyhedron) {
+  Json corners = Json::array(), faces = Json::array();
+  for (const Eigen::Vector3d& p_S : polyhedron.corners) append(corners, X_PS * p_S);
+  for (const auto& face : polyhedron.faces) {
+    for (const uint32_t corner : face) faces.push_back(corner);
+  }
+  return {{"corners", corners}, {"faces", faces}};
+}
+
+Json no_bodies() {
+  return {{"boxes", Json::array()}, {"cylinders", Json::array()}, {"spheres", Json::array()}, {"meshes", Json::array()}};
+}
+
+Json bodies(const std::vector<scenes::Solid>& solids) {
+  using Shape = scenes::Solid::Shape;
+  Json json = no_bodies();
+  for (const scenes::Solid& solid : solids) {
+    if (solid.shape == Shape::hull || solid.shape == Shape::surface) {
+      json["meshes"].push_back(mesh(solid.X_WS, solid.polyhedron));
+      continue;
+    }
+    const char* const list = solid.shape == Shape::box        ? "boxes"
+                             : solid.shape == Shape::cylinder ? "cylinders"
+                                                              : "spheres";
+    json[list].push_back(body(solid.X_WS, solid.half_extents_m));
+  }
+  return json;
+}
+
+}  // namespace
+
+Json replay_scene(const scenes::Scene& scene, double end_s) {
+  Json json = bodies(scene.solids);
+  json["has_ground"] = scene.has_ground;
+  json["bounds"] = plan_data({.bounds_NE_m = scene.bounds_NE_m}, 0.0, 0.0).at("bounds");
+  json["step_s"] = kMoverStep_s;
+  json["movers"] = Json::array();
+  for (const scenes::Mover& mover : scene.movers) {
+    Json way = Json::array();
+    for (int i = 0; i <= std::ceil(end_s / kMoverStep_s); ++i) append(way, scenes::p_WM(mover.motion, i * kMoverStep_s));
+    json["movers"].push_back({{"name", mover.name}, {"bodies", bodies(mover.solids)}, {"way", way}});
+  }
+  return json;
+}
+
+Json replay_hull(const std::vector<dynamics::HullPart>& hull) {
+  Json json = no_bodies();
+  for (const dynamics::HullPart& part : hull) {
+    const bool is_box = part.shape == dynamics::HullPart::Shape::box;
+    json[is_box ? "boxes" : "cylinders"].push_back(
+        body(Eigen::Isometry3d(Eigen::Translation3d(part.center_B_m)), part.half_extents_m));
+  }
+  return json;
+}
+
+Json replay_path(const CsvTable& trajectory, size_t max_rows) {
+  const size_t rows = trajectory.rows();
+  const size_t stride = std::max<size_t>(1, (rows + max_rows - 2) / std::max<size_t>(1, max_rows - 1));
+  std::vector<size_t> kept;
+  for (size_t row = 0; row < rows; row += stride) kept.push_back(row);
+  if (rows > 0 && kept.back() != rows - 1) kept.push_back(rows - 1);
+
+  Json json;
+  const auto pick = [&](const char* key, const std::vector<double>& values, Json (*number)(double)) {
+    json[key] = Json::array();
+    for (const size_t row : kept) json[key].push_back(number(values[row]));
+  };
+  for (const char* key : {"t_s", "north_m", "east_m", "down_m", "clearance_m"}) {
+    pick(key, trajectory.numbers(key), milli);
+  }
+  for (const char* key : {"roll_rad", "pitch_rad", "yaw_rad"}) pick(key, trajectory.numbers(key), fine);
+  std::vector<double> speed = trajectory.numbers("v_north_mps");
+  const auto east = trajectory.numbers("v_east_mps"), down = trajectory.numbers("v_down_mps");
+  for (size_t i = 0; i < rows; ++i) speed[i] = std::hypot(speed[i], east[i], down[i]);
+  pick("speed_mps", speed, milli);
+  return json;
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,98 @@
+'use strict';
+// What changed since an earlier campaign: flights of the same names, side by side.
+
+const outcomeOf = (table, row) => table.value('outcome', row);
+
+class AgainstView {
+  constructor(host, {against}, table, on) {
+    if (!against) {
+      host.remove();
+      return;
+    }
+    Object.assign(this, {table, on, before: against.flights});
+    host.append(make('h2', '', `Against ${against.name}`));
+    const both = [...this.before.keys()].filter((row) => this.before[row]);
+    this.changed = both.filter((row) => this.before[row].outcome !== outcomeOf(table, row)
+      || this.before[row].passed !== (table.value('passed', row) === 1));
+    const fresh = table.count - both.length;
+    host.append(make('p', 'soft', `${both.length} flights in both, ${this.changed.length} with another end; ` +
+      `${fresh} only here, ${against.gone.length} only there.`));
+    this.fillGroups(host.appendChild(make('div', 'scroll tall')), against.groups);
+    const pair = host.appendChild(make('div', 'pair halves'));
+    this.fillChanged(pair.appendChild(make('div')));
+    this.both = both.filter((row) => this.clearance(row) !== null && this.before[row].clearance_m !== null);
+    const plot = pair.appendChild(make('div'));
+    plot.append(make('h3', '', 'Least clearance to obstacles'));
+    this.axes = new Axes(plot.appendChild(make('div')), 340, {
+      draw: (c) => this.draw(c), hover: (x, y) => this.lines(x, y),
+      pick: (x, y) => { const row = this.at(x, y); if (row !== null) on.choose(row); }});
+    const all = this.both.flatMap((row) => [this.clearance(row), this.before[row].clearance_m]);
+    this.axes.set(numberAxis('before, m', all), numberAxis('now, m', all));
+    plot.append(make('div', 'plan-key', 'above the line: more room than before; ringed: another end'));
+  }
+  clearance(row) { return this.table.value('min_obstacle_clearance_m', row); }
+
+  fillGroups(host, groups) {
+    const element = host.appendChild(make('table'));
+    addRow(element, [['scenario', ''], ['passed before', 'number'], ['passed now', 'number'],
+      ['change of the rate', 'number'], ['95 % of it within', 'number']], 'th');
+    const percent = (v) => fixed(100 * v, 1) + ' %';
+    for (const {group, now, before, change} of groups) {
+      addRow(element, [[group, ''], [`${before.passed} of ${before.ended}`, 'number'], [`${now.passed} of ${now.ended}`, 'number'],
+        [change ? percent(change[0]) : '–', 'number'], [change ? `${percent(change[1])} to ${percent(change[2])}` : '–', 'number']]);
+    }
+  }
+  fillChanged(host) {
+    host.append(make('h3', '', 'Flights that end otherwise'));
+    const box = host.appendChild(make('div', 'scroll tall'));
+    if (!this.changed.length) {
+      box.append(make('p', 'soft', 'None.'));
+      return;
+    }
+    const element = box.appendChild(make('table'));
+    element.id = 'changed';
+    addRow(element, [['flight', ''], ['before', ''], ['now', ''], ['clearance before, m', 'number'], ['now, m', 'number'], ['again', '']], 'th');
+    for (const row of this.changed) {
+      const old = this.before[row], passes = this.table.value('passed', row) === 1;
+      addRow(element, [['', ''], [old.outcome, old.passed ? 'pass' : 'fail'], [outcomeOf(this.table, row), passes ? 'pass' : 'fail'],
+        [fixed(old.clearance_m, 2), 'number'], [fixed(this.clearance(row), 2), 'number'], ['', '']]);
+      const cells = element.lastChild.children;
+      cells[0].append(flightButton(this.table, row, this.on));
+      cells[5].append(copyButton(this.table.value('command', row)));
+    }
+  }
+
+  draw(c) {
+    const {axes} = this;
+    if (!this.both) return;
+    c.strokeStyle = themeColor('soft');
+    c.beginPath();
+    c.moveTo(axes.x(axes.xAxis.low), axes.y(axes.xAxis.low));
+    c.lineTo(axes.x(axes.xAxis.high), axes.y(axes.xAxis.high));
+    c.stroke();
+    const changed = new Set(this.changed);
+    for (const row of this.both) {
+      c.beginPath();
+      c.arc(axes.x(this.before[row].clearance_m), axes.y(this.clearance(row)), changed.has(row) ? 4 : 3, 0, 2 * Math.PI);
+      c.fillStyle = themeColor(verdictColors[this.table.verdict(row)]);
+      c.fill();
+      if (!changed.has(row)) continue;
+      c.strokeStyle = themeColor('ink');
+      c.lineWidth = 1.5;
+      c.stroke();
+    }
+  }
+  at(px, py) {
+    let best = null, least = 10 ** 2;
+    for (const row of this.both) {
+      const d = (this.axes.x(this.before[row].clearance_m) - px) ** 2 + (this.axes.y(this.clearance(row)) - py) ** 2;
+      if (d < least) [least, best] = [d, row];
+    }
+    return best;
+  }
+  lines(px, py) {
+    const row = this.at(px, py);
+    return row === null ? null : [...flightLines(this.table, row),
+      `before: ${this.before[row].outcome}, clearance ${metres(this.before[row].clearance_m)}`];
+  }
+}

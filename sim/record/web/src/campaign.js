@@ -1,0 +1,165 @@
+'use strict';
+// Puts the page of a batch or sweep together from its data.
+
+const shownAtFirst = ['id', 'seed', 'outcome', 'passed', 'min_obstacle_clearance_m', 'flight_time_s', 'path_length_m',
+  'mean_speed_mps', 'goal_distance_m'];
+const worstOfAKind = 5;
+
+/** A flight's name to choose it by. */
+function flightButton(table, row, on) {
+  const button = make('button', 'name', table.value('id', row));
+  button.title = table.value('id', row);
+  button.addEventListener('click', () => on.choose(row));
+  return button;
+}
+
+function addRow(table, cells, tag = 'td') {
+  const row = table.appendChild(make('tr'));
+  for (const [text, className] of cells) row.append(make(tag, className, text));
+  return row;
+}
+
+function fillHead(host, data, table) {
+  host.append(make('h1', '', data.name));
+  const swept = data.swept.length ? `, over ${data.swept.join(', ')}` : '';
+  host.append(make('p', 'soft', `${data.is_sweep ? 'sweep' : 'batch'} of ${data.scenarios.join(', ')}${swept}; ${table.count} flights`));
+  const tiles = host.appendChild(make('div', 'tiles')), all = data.groups[0];
+  const tile = (name, value, more) => {
+    const element = tiles.appendChild(make('div', 'tile'));
+    element.append(make('div', 'name', name), make('div', 'value', value), make('div', 'more', more));
+  };
+  const percent = (share) => fixed(100 * share, 1) + ' %';
+  tile('all checks hold', all.ended ? percent(all.passed / all.ended) : '–',
+    `${all.passed} of ${all.ended}; 95 % within ${percent(all.low)} to ${percent(all.high)}`);
+  tile('collided', String(all.collided), `of ${all.ended} flights that ended`);
+  tile('reached, out of time', `${all.reached}, ${all.timeout}`, all.broken || all.missing ? `${all.broken} broken, ${all.missing} not flown` : 'none broken, none missing');
+  tile('least clearance', metres(all.least_clearance_m), `to obstacles; median of flights ${metres(all.median_clearance_m)}`);
+  tile('median flight time', fixed(all.median_time_s, 1) + ' s', 'of all flights that were flown');
+}
+
+function fillGroups(host, groups) {
+  const element = host.appendChild(make('table')), head = element.appendChild(make('thead'));
+  addRow(head, [['scenario', ''], ['flights', 'number'], ['passed', 'number'], ['rate with 95 % interval', ''], ['', 'number'], ['reached', 'number'],
+    ['collided', 'number'], ['timeout', 'number'], ['broken', 'number'], ['missing', 'number'], ['least clearance, m', 'number'],
+    ['median of it, m', 'number'], ['median time, s', 'number']], 'th');
+  const body = element.appendChild(make('tbody'));
+  for (const g of groups) {
+    const row = addRow(body, [[g.group, ''], [String(g.flights), 'number'], [String(g.passed), 'number'], ['', ''],
+      [`${fixed(g.low, 2)} to ${fixed(g.high, 2)}`, 'number'],
+      ...[g.reached, g.collided, g.timeout, g.broken, g.missing].map((n) => [String(n), 'number']),
+      [fixed(g.least_clearance_m, 2), 'number'], [fixed(g.median_clearance_m, 2), 'number'], [fixed(g.median_time_s, 1), 'number']]);
+    const rate = row.children[3].appendChild(make('span', 'rate')), span = rate.appendChild(make('i'));
+    span.style.left = 100 * g.low + '%';
+    span.style.width = 100 * (g.high - g.low) + '%';
+    if (g.ended) rate.appendChild(make('b')).style.left = 100 * g.passed / g.ended + '%';
+  }
+}
+
+/** Flights worth a look: {title, rows, words(row)} of each kind. */
+function worstFlights(table, rows) {
+  const flown = rows.filter((row) => table.value('status', row) === 'flown');
+  const column = (name) => table.columns.get(name);
+  const first = (some, name, falling) => !column(name) ? []
+    : sortedRows(some.filter((row) => column(name).values[row] !== null), column(name), falling).slice(0, worstOfAKind);
+  const clear = flown.filter((row) => table.verdict(row) !== 'collided');
+  return [
+    {title: 'Collided, earliest first', rows: first(flown.filter((row) => table.verdict(row) === 'collided'), 'flight_time_s', false),
+      words: (row) => `after ${fixed(table.value('flight_time_s', row), 1)} s`},
+    {title: 'Least clearance without a collision', rows: first(clear, 'min_obstacle_clearance_m', false),
+      words: (row) => metres(table.value('min_obstacle_clearance_m', row))},
+    {title: 'Slowest', rows: first(clear, 'flight_time_s', true), words: (row) => fixed(table.value('flight_time_s', row), 1) + ' s'},
+    {title: 'Broken: no result, or a fault', rows: rows.filter((row) => table.value('status', row) === 'failed' || table.value('outcome', row) === 'fault').slice(0, worstOfAKind),
+      words: () => ''},
+  ];
+}
+function fillWorst(host, data, table, rows, on) {
+  host.replaceChildren();
+  for (const kind of worstFlights(table, rows)) {
+    if (!kind.rows.length) continue;
+    host.append(make('h3', '', kind.title));
+    for (const row of kind.rows) {
+      const line = host.appendChild(make('div', 'flight-line'));
+      line.append(flightButton(table, row, on), make('span', 'soft', kind.words(row)), linkTo(data, table, row), copyButton(table.value('command', row)));
+    }
+  }
+}
+function linkTo(data, table, row) {
+  if (!data.report[row]) return make('span');
+  const link = make('a', '', 'report');
+  link.href = flightLink(data, table, row, 'report.html');
+  return link;
+}
+
+function fillChosen(host, data, table, row) {
+  host.replaceChildren();
+  if (row === null) {
+    host.append(make('p', 'soft', 'Choose one on the map, in a plot or in a table.'));
+    return;
+  }
+  const id = table.value('id', row), verdict = table.verdict(row);
+  host.append(make('h3', '', id), make('p', verdict === 'passed' ? 'pass' : 'bad-text', table.why[row] || 'passed'));
+  const facts = data.swept.map((name) => `${name} = ${typeof table.value(name, row) === 'number' ? short(table.value(name, row)) : table.value(name, row)}`);
+  host.append(make('p', 'soft', [...facts, `clearance ${metres(table.value('min_obstacle_clearance_m', row))}`,
+    `${fixed(table.value('flight_time_s', row), 1)} s`].join(', ')));
+  const links = host.appendChild(make('p'));
+  for (const [there, name, word] of [[data.report[row], 'report.html', 'its report'], [data.replay[row], 'replay.html', 'its replay']]) {
+    if (!there) continue;
+    const link = links.appendChild(make('a', '', word));
+    link.href = flightLink(data, table, row, name);
+    links.append(' ');
+  }
+  host.append(make('p', 'soft', 'fly it again, with film and report'));
+  addCommand(host, table.value('command', row));
+  if (!data.report[row]) {
+    host.append(make('p', 'soft', 'or look at what was flown'));
+    addCommand(host, `hedgehop report --replay '${data.folder}/${id}'`);
+  }
+}
+
+function fillColumns(host, table, flights) {
+  for (const {name} of table.columns.values()) {
+    const label = host.appendChild(make('label')), box = label.appendChild(make('input'));
+    box.type = 'checkbox';
+    box.checked = flights.shown.includes(name);
+    box.addEventListener('change', () => flights.showColumn(name, box.checked));
+    label.append(' ' + name);
+  }
+}
+
+function main() {
+  const data = JSON.parse(document.getElementById('data').textContent), table = new FlightTable(data);
+  const host = (id) => document.getElementById(id);
+  fillHead(host('head'), data, table);
+  fillGroups(host('groups'), data.groups);
+  if (data.is_sweep) host('groups-card').querySelector('h2').textContent = 'Success by point';
+
+  const on = {choose: (row) => {
+    fillChosen(host('selected'), data, table, row);
+    paths.setChosen(row);
+    flights.setChosen(row);
+  }};
+  const flights = new FlightsView(host('flights'), data, table, [...shownAtFirst.slice(0, 2), ...data.swept, ...shownAtFirst.slice(2)], on);
+  const paths = new PathsView(host('paths'), host('scene'), data.paths, table, on);
+  const success = new SuccessMap(host('success'), data, table, on), scatter = new Scatter(host('scatter'), data, table, on);
+  const against = new AgainstView(host('against-card'), data, table, on);
+  fillColumns(host('columns').querySelector('div'), table, flights);
+  fillChosen(host('selected'), data, table, null);
+
+  const filter = host('filter'), example = [...data.swept.slice(0, 1).map((name) => name + '>0'), 'outcome=collided', 'seed=3'];
+  filter.placeholder = 'words, or comparisons: ' + example.join(' ');
+  const update = () => {
+    const {terms, fault} = parseFilter(table, filter.value), rows = filteredRows(table, terms);
+    host('filter-note').textContent = fault || `${rows.length} of ${table.count} flights, in the table and in all plots`;
+    host('filter-note').className = fault ? 'bad-text' : 'soft';
+    for (const view of [flights, paths, success, scatter]) view.setRows(rows);
+    fillWorst(host('worst'), data, table, rows, on);
+  };
+  filter.addEventListener('input', update);
+  update();
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
+    paths.map?.draw();
+    for (const view of [success, scatter, against]) view.axes?.draw();
+    scatter.drawKey();
+  });
+}
+main();

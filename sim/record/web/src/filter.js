@@ -1,0 +1,96 @@
+'use strict';
+// Flights by their columns: what a filter's words mean, in which order rows stand.
+
+/** The campaign's table: columns by name, and what each flight amounts to. */
+class FlightTable {
+  constructor(data) {
+    this.columns = new Map(data.columns.map((column) => [column.name, column]));
+    this.count = this.columns.get('id').values.length;
+    this.why = data.why;
+  }
+  value(name, row) { return this.columns.get(name)?.values[row] ?? null; }
+  /** 'passed', 'collided', 'failed' (another way) or 'missing'. */
+  verdict(row) {
+    if (this.value('status', row) === 'missing') return 'missing';
+    if (this.value('passed', row) === 1) return 'passed';
+    return this.value('outcome', row) === 'collided' ? 'collided' : 'failed';
+  }
+}
+const verdictColors = {passed: 'c0', collided: 'bad', failed: 'c3', missing: 'soft'};
+const verdictWords = {passed: 'all checks hold', collided: 'collided', failed: 'failed otherwise', missing: 'not flown'};
+
+/** The column that a word names: whole, or its part after the last dot. */
+function findColumn(table, word) {
+  if (table.columns.has(word)) return table.columns.get(word);
+  return [...table.columns.values()].find(({name}) => name.endsWith('.' + word)) ?? null;
+}
+
+/** Reads a filter: words that must occur, and comparisons such as seed=3 or flight_time_s>20. {terms, fault}. */
+function parseFilter(table, text) {
+  const terms = [];
+  for (const word of text.trim().split(/\s+/).filter(Boolean)) {
+    const parts = word.match(/^([\w.]+)(<=|>=|!=|=|<|>)(.+)$/);
+    if (!parts) {
+      terms.push({word: word.toLowerCase()});
+      continue;
+    }
+    const [, name, relation, value] = parts, column = findColumn(table, name);
+    if (!column) return {terms: [], fault: `no column '${name}'`};
+    const number = Number(value);
+    if (relation !== '=' && relation !== '!=' && (column.is_text || isNaN(number))) {
+      return {terms: [], fault: `'${word}': ${column.is_text ? name + ' is no number' : value + ' is no number'}`};
+    }
+    terms.push({column, relation, value, number});
+  }
+  return {terms, fault: ''};
+}
+
+function holds({column, relation, value, number}, row) {
+  const found = column.values[row];
+  const same = column.is_text ? String(found).toLowerCase() === value.toLowerCase() : found === number;
+  switch (relation) {
+    case '=': return same;
+    case '!=': return !same;
+    case '<': return found !== null && found < number;
+    case '<=': return found !== null && found <= number;
+    case '>': return found !== null && found > number;
+    default: return found !== null && found >= number;
+  }
+}
+
+/** Rows that meet every term. */
+function filteredRows(table, terms) {
+  const rows = [];
+  for (let row = 0; row < table.count; ++row) {
+    const text = terms.some((t) => t.word) ? ['id', 'group', 'scenario', 'outcome', 'command']
+      .map((name) => table.value(name, row) ?? '').concat(table.why[row]).join(' ').toLowerCase() : '';
+    if (terms.every((term) => term.word ? text.includes(term.word) : holds(term, row))) rows.push(row);
+  }
+  return rows;
+}
+
+/** Rows by a column, equal ones in their order, rows without a value last either way. */
+function sortedRows(rows, column, falling) {
+  const value = (row) => column.values[row] === '' ? null : column.values[row];
+  return [...rows].sort((a, b) => {
+    const u = value(a), v = value(b);
+    if (u === null || v === null) return (u === null) - (v === null) || a - b;
+    const order = u < v ? -1 : u > v ? 1 : 0;
+    return (falling ? -order : order) || a - b;
+  });
+}
+
+/** Rows that no other beats: none is as good in both columns and better in one. Sorted by x. */
+function paretoRows(rows, x, y, xFalls, yFalls) {
+  const cost = (values, falls, row) => falls ? values[row] : -values[row];
+  const known = rows.filter((row) => x[row] !== null && y[row] !== null);
+  known.sort((a, b) => cost(x, xFalls, a) - cost(x, xFalls, b) || cost(y, yFalls, a) - cost(y, yFalls, b) || a - b);
+  const front = [];
+  let least = Infinity, at = null;
+  for (const row of known) {
+    const u = cost(x, xFalls, row), v = cost(y, yFalls, row);
+    if (v < least || (v === least && u === at)) front.push(row);  // equal in both: neither beats the other
+    if (v < least) [least, at] = [v, u];
+  }
+  return front;
+}

@@ -1,0 +1,312 @@
+'use strict';
+// A scene seen from above, true to scale: north up, east right, metres. What flies over it is drawn by others.
+
+const mapMargin = {left: 46, right: 12, top: 12, bottom: 34};
+
+function placeText(north, east) {
+  return `north ${north.toFixed(1)} m, east ${east.toFixed(1)} m`.replaceAll('-', '−');
+}
+
+class MapView {
+  /**
+   * @param host  element to fill.
+   * @param plan  scene as in the pages' data: bounds, goal, footprints, movers.
+   * @param reach  {n, e}: places besides the scene that must be in view, m.
+   * @param on  {draw(c, map) over the scene; key(host) fills the legend; hover(x, y), leave(), click()}: pixels of the map.
+   */
+  constructor(host, plan, reach, on) {
+    Object.assign(this, {host, plan, reach, on});
+    host.classList.add('map');
+    this.canvas = host.appendChild(document.createElement('canvas'));
+    this.tip = host.appendChild(make('div', 'tip'));
+    this.tip.hidden = true;
+    this.addTools();
+    this.key = host.appendChild(make('div', 'plan-key'));
+    this.whole = this.wholeView();
+    this.view = {...this.whole};
+    this.addPointer();
+    new ResizeObserver(() => requestAnimationFrame(() => this.draw())).observe(host);
+  }
+
+  /** Centre and extent, m, of what there is to see. */
+  wholeView() {
+    const {plan, reach} = this;
+    const norths = plan.bounds.slice(0, 2).concat(reach.n), easts = plan.bounds.slice(2).concat(reach.e);
+    if (plan.goal) {
+      norths.push(plan.goal.n - plan.goal.radius, plan.goal.n + plan.goal.radius);
+      easts.push(plan.goal.e - plan.goal.radius, plan.goal.e + plan.goal.radius);
+    }
+    const [n0, n1] = finiteRange(norths), [e0, e1] = finiteRange(easts);
+    const pad = 0.03 * Math.max(n1 - n0, e1 - e0, 1);
+    return {n: (n0 + n1) / 2, e: (e0 + e1) / 2, height: n1 - n0 + 2 * pad, width: e1 - e0 + 2 * pad};
+  }
+
+  addTools() {
+    const tools = this.host.appendChild(make('div', 'plan-tools'));
+    const button = (text, title, action) => {
+      const b = tools.appendChild(make('button', '', text));
+      b.title = title;
+      b.addEventListener('click', action);
+    };
+    button('+', 'Closer', () => this.zoom(1.6));
+    button('−', 'Further', () => this.zoom(1 / 1.6));
+    button('path', 'Show what flew', () => this.showReach());
+    button('all', 'Show the whole scene', () => this.show({...this.whole}));
+  }
+
+  show(view) {
+    this.view = view;
+    const moved = view.width < this.whole.width || view.height < this.whole.height;
+    this.canvas.classList.toggle('moves', moved);
+    this.draw();
+  }
+  zoom(factor) {
+    const {n, e, width, height} = this.view;
+    const clamp = Math.max(factor, height / this.whole.height, width / this.whole.width);
+    const f = factor < 1 ? Math.min(1, clamp) : factor;
+    this.show(f === 1 ? {...this.whole} : {n, e, width: width / f, height: height / f});
+  }
+  showReach() {
+    const [n0, n1] = finiteRange(this.reach.n), [e0, e1] = finiteRange(this.reach.e);
+    const pad = 0.08 * Math.max(n1 - n0, e1 - e0, 2);
+    this.show({n: (n0 + n1) / 2, e: (e0 + e1) / 2, height: n1 - n0 + 2 * pad, width: e1 - e0 + 2 * pad});
+  }
+
+  /** Sizes the canvas and works out pixels per metre. The card keeps the shape of the whole scene. */
+  layout() {
+    const width = this.host.clientWidth;
+    const inner = width - mapMargin.left - mapMargin.right;
+    const tallest = Math.min(window.innerWidth < 600 ? 460 : 680, 1.15 * width);
+    const height = Math.min(Math.max(inner * this.whole.height / this.whole.width + mapMargin.top + mapMargin.bottom, 220), tallest);
+    const dpr = window.devicePixelRatio || 1;
+    this.canvas.width = Math.round(width * dpr);
+    this.canvas.height = Math.round(height * dpr);
+    this.canvas.style.height = height + 'px';
+    const frame = {x: mapMargin.left, y: mapMargin.top, width: inner, height: height - mapMargin.top - mapMargin.bottom};
+    this.frame = frame;
+    this.scale = Math.min(frame.width / this.view.width, frame.height / this.view.height);
+    this.dpr = dpr;
+  }
+  x(e) { return this.frame.x + this.frame.width / 2 + (e - this.view.e) * this.scale; }
+  y(n) { return this.frame.y + this.frame.height / 2 - (n - this.view.n) * this.scale; }
+  east(x) { return this.view.e + (x - this.frame.x - this.frame.width / 2) / this.scale; }
+  north(y) { return this.view.n - (y - this.frame.y - this.frame.height / 2) / this.scale; }
+
+  draw() {
+    if (!this.host.clientWidth) return;
+    this.layout();
+    const c = this.canvas.getContext('2d');
+    c.setTransform(this.dpr, 0, 0, this.dpr, 0, 0);
+    c.font = '11px system-ui, "DejaVu Sans", sans-serif';
+    c.lineJoin = c.lineCap = 'round';
+    const {x, y, width, height} = this.frame;
+    c.fillStyle = themeColor('plan');
+    c.fillRect(x, y, width, height);
+    this.drawAxes(c);
+    c.save();
+    c.beginPath();
+    c.rect(x, y, width, height);
+    c.clip();
+    this.drawSolids(c);
+    this.drawMovers(c);
+    if (this.plan.goal) this.drawGoal(c, this.plan.goal);
+    this.on.draw(c, this);
+    c.restore();
+    c.strokeStyle = themeColor('line');
+    c.lineWidth = 1;
+    c.strokeRect(x, y, width, height);
+    this.key.replaceChildren();
+    this.on.key(this.key);
+    this.drawKey();
+  }
+
+  drawAxes(c) {
+    const {x, y, width, height} = this.frame;
+    const count = (pixels) => Math.max(2, pixels / 70);
+    const easts = niceTicks(this.east(x), this.east(x + width), count(width));
+    const norths = niceTicks(this.north(y + height), this.north(y), count(height));
+    const step = Math.max(easts.step, norths.step);
+    const onStep = (v) => Math.abs(v / step - Math.round(v / step)) < 1e-6;
+    const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+    const text = (v) => (Math.abs(v) < 1e-9 ? 0 : v).toFixed(digits).replace('-', '−');
+    c.strokeStyle = themeColor('faint');
+    c.fillStyle = themeColor('soft');
+    c.lineWidth = 1;
+    c.beginPath();
+    c.textAlign = 'center';
+    c.textBaseline = 'top';
+    for (const e of easts.values.filter(onStep)) {
+      c.moveTo(this.x(e), y);
+      c.lineTo(this.x(e), y + height);
+      c.fillText(text(e), this.x(e), y + height + 5);
+    }
+    c.textAlign = 'right';
+    c.textBaseline = 'middle';
+    for (const n of norths.values.filter(onStep)) {
+      c.moveTo(x, this.y(n));
+      c.lineTo(x + width, this.y(n));
+      c.fillText(text(n), x - 6, this.y(n));
+    }
+    c.stroke();
+    c.textAlign = 'center';
+    c.textBaseline = 'alphabetic';
+    c.fillText('east, m', x + width / 2, y + height + 30);
+    c.save();
+    c.translate(11, y + height / 2);
+    c.rotate(-Math.PI / 2);
+    c.fillText('north, m', 0, 0);
+    c.restore();
+  }
+
+  drawSolids(c) {
+    const [n0, n1, e0, e1] = this.plan.bounds;
+    if (this.plan.bounds.length) {
+      c.strokeStyle = themeColor('solid-edge');
+      c.setLineDash([4, 4]);
+      c.strokeRect(this.x(e0), this.y(n1), (e1 - e0) * this.scale, (n1 - n0) * this.scale);
+      c.setLineDash([]);
+    }
+    for (const level of ['below', 'beside']) {
+      c.fillStyle = themeColor(level === 'beside' ? 'solid' : 'low');
+      c.strokeStyle = themeColor('solid-edge');
+      c.lineWidth = level === 'beside' ? 1 : 0.5;
+      for (const solid of this.plan.footprints) {
+        if (solid.level !== level) continue;
+        c.beginPath();
+        for (const [n, e] of solid.corners) c.lineTo(this.x(e), this.y(n));
+        c.closePath();
+        c.fill();
+        c.stroke();
+      }
+    }
+  }
+
+  /** The ways of movers: as wide as they are, their middle dashed. */
+  drawMovers(c) {
+    for (const {way, radius} of this.plan.movers) {
+      const trace = () => {
+        c.beginPath();
+        for (const [n, e] of way) c.lineTo(this.x(e), this.y(n));
+        if (way.length === 1) c.lineTo(this.x(way[0][1]) + 0.01, this.y(way[0][0]));
+        c.stroke();
+      };
+      c.strokeStyle = themeColor('low');
+      c.lineWidth = Math.max(2, 2 * radius * this.scale);
+      trace();
+      c.strokeStyle = themeColor('solid-edge');
+      c.lineWidth = 1;
+      c.setLineDash([6, 4]);
+      trace();
+      c.setLineDash([]);
+    }
+  }
+
+  drawGoal(c, goal) {
+    c.strokeStyle = themeColor('c2');
+    c.lineWidth = 2;
+    c.setLineDash([5, 3]);
+    c.beginPath();
+    c.arc(this.x(goal.e), this.y(goal.n), goal.radius * this.scale, 0, 2 * Math.PI);
+    c.stroke();
+    c.setLineDash([]);
+    this.cross(c, this.x(goal.e), this.y(goal.n), 5, themeColor('c2'));
+    this.label(c, 'goal', this.x(goal.e), this.y(goal.n) - Math.max(goal.radius * this.scale, 6) - 8, themeColor('c2'));
+  }
+
+  dot(c, x, y, radius, color) {
+    c.beginPath();
+    c.arc(x, y, radius, 0, 2 * Math.PI);
+    c.fillStyle = color;
+    c.strokeStyle = themeColor('plan');
+    c.lineWidth = 2;
+    c.fill();
+    c.stroke();
+  }
+  cross(c, x, y, size, color, width = 2) {
+    c.strokeStyle = color;
+    c.lineWidth = width;
+    c.beginPath();
+    c.moveTo(x - size, y - size);
+    c.lineTo(x + size, y + size);
+    c.moveTo(x - size, y + size);
+    c.lineTo(x + size, y - size);
+    c.stroke();
+  }
+  /** Text with a halo, kept inside the frame. */
+  label(c, text, x, y, color) {
+    c.font = '600 12px system-ui, "DejaVu Sans", sans-serif';
+    c.textAlign = 'center';
+    c.textBaseline = 'middle';
+    const half = c.measureText(text).width / 2 + 4, {frame} = this;
+    const inside = (v, low, high) => Math.min(Math.max(v, low), high);
+    const visible = x > frame.x && x < frame.x + frame.width && y > frame.y - 20 && y < frame.y + frame.height + 20;
+    if (!visible) return;
+    const at = [inside(x, frame.x + half, frame.x + frame.width - half), inside(y, frame.y + 9, frame.y + frame.height - 9)];
+    c.strokeStyle = themeColor('plan');
+    c.lineWidth = 4;
+    c.strokeText(text, ...at);
+    c.fillStyle = color;
+    c.fillText(text, ...at);
+  }
+
+  drawKey() {
+    const levels = new Set(this.plan.footprints.map((f) => f.level));
+    const entry = (color, text) => {
+      const item = this.key.appendChild(make('span'));
+      item.appendChild(make('i')).style.cssText = `background: ${themeColor(color)}; border: 1px solid ${themeColor('solid-edge')}`;
+      item.append(text);
+    };
+    if (levels.has('beside')) entry('solid', 'obstacle at flight height');
+    if (levels.has('below')) entry('low', 'below the flight');
+    this.key.append(make('span', '', 'north up, true to scale'));
+  }
+
+  addPointer() {
+    let drag = null;
+    this.canvas.addEventListener('pointerdown', (event) => {
+      drag = {x: event.offsetX, y: event.offsetY, view: {...this.view}, moved: false};
+    });
+    this.canvas.addEventListener('pointermove', (event) => {
+      if (drag && this.canvas.classList.contains('moves') && event.buttons) {
+        const dx = event.offsetX - drag.x, dy = event.offsetY - drag.y;
+        drag.moved ||= Math.hypot(dx, dy) > 4;
+        this.show({...drag.view, n: drag.view.n + dy / this.scale, e: drag.view.e - dx / this.scale});
+      } else {
+        this.on.hover(event.offsetX, event.offsetY);
+      }
+    });
+    this.canvas.addEventListener('pointerup', () => {
+      if (drag && !drag.moved) this.on.click();
+      drag = null;
+    });
+    this.canvas.addEventListener('pointerleave', () => {
+      this.tip.hidden = true;
+      this.on.leave();
+    });
+  }
+
+  showTip(x, y, lines) {
+    this.tip.replaceChildren(...lines.map((line, i) => make(i ? 'div' : 'b', '', line)));
+    this.tip.hidden = false;
+    const left = x + 16 + this.tip.offsetWidth > this.host.clientWidth ? x - 16 - this.tip.offsetWidth : x + 16;
+    this.tip.style.left = Math.max(0, left) + 'px';
+    this.tip.style.top = Math.max(0, y - this.tip.offsetHeight - 8) + 'px';
+  }
+
+  /** What lies under a pixel. */
+  placeLines(x, y) {
+    const solid = this.solidAt(this.north(y), this.east(x));
+    const lines = [placeText(this.north(y), this.east(x))];
+    if (solid) lines.unshift(`${solid.name || 'obstacle'}, ${solid.bottom.toFixed(1)} to ${solid.top.toFixed(1)} m high`);
+    return lines;
+  }
+
+  solidAt(n, e) {
+    return this.plan.footprints.find(({corners, level}) => level !== 'above' && corners.every(([n0, e0], i) => {
+      const [n1, e1] = corners[(i + 1) % corners.length];
+      const [n2, e2] = corners[(i + 2) % corners.length];
+      const side = (pn, pe) => (n1 - n0) * (pe - e0) - (e1 - e0) * (pn - n0);
+      return side(n, e) * side(n2, e2) >= 0;
+    }));
+  }
+}

@@ -1,0 +1,159 @@
+'use strict';
+// All paths of the flights that share a scene, over its map.
+
+/** A path as {n, e} in m, from steps in centimetres. */
+function readPath(steps) {
+  const n = [], e = [];
+  let north = 0, east = 0;
+  for (let i = 0; i < steps.length; i += 2) {
+    n.push((north += steps[i]) / 100);
+    e.push((east += steps[i + 1]) / 100);
+  }
+  return {n, e};
+}
+
+class PathsView {
+  /** @param select  element to choose the scene with. @param on  {choose(row)}. */
+  constructor(host, select, {maps, map, path, goal}, table, on) {
+    Object.assign(this, {host, select, maps, mapOf: map, goals: goal, table, on, chosen: null, near: null});
+    this.paths = path.map(readPath);
+    this.shown = new Set();
+    const counts = this.counts(map.keys());
+    // Where flights have no drawn scene they stand on an empty map of their own, named -1.
+    this.numbers = [...counts.keys()].sort((a, b) => (a < 0) - (b < 0) || counts.get(b) - counts.get(a) || a - b);
+    for (const number of this.numbers) {
+      const option = select.appendChild(make('option'));
+      option.value = number;
+    }
+    select.addEventListener('change', () => this.open(Number(select.value)));
+    if (this.numbers.length) this.open(this.numbers[0]);
+    else host.append(make('p', 'missing', 'No flight has left a path.'));
+  }
+
+  counts(rows) {
+    const counts = new Map();
+    for (const row of rows) {
+      if (this.paths[row].n.length) counts.set(this.mapOf[row], (counts.get(this.mapOf[row]) ?? 0) + 1);
+    }
+    return counts;
+  }
+
+  open(number) {
+    this.number = number;
+    this.select.value = number;
+    this.rows = this.paths.map((path, row) => row).filter((row) => this.mapOf[row] === number && this.paths[row].n.length);
+    const reach = {n: [], e: []};
+    for (const row of this.rows) {
+      for (const key of ['n', 'e']) reach[key].push(...finiteRange(this.paths[row][key]));
+    }
+    this.host.replaceChildren();
+    this.map = new MapView(this.host, this.maps[number] ?? {bounds: [], footprints: [], movers: [], goal: null}, reach, {
+      draw: (c) => this.draw(c),
+      key: (key) => this.drawKey(key),
+      hover: (x, y) => this.hover(x, y),
+      leave: () => this.setNear(null),
+      click: () => { if (this.near !== null) this.on.choose(this.near); },
+    });
+    this.nameScenes();
+    this.map.draw();
+  }
+  nameScenes() {
+    const counts = this.counts(this.shown);
+    this.numbers.forEach((number, i) => {
+      const count = counts.get(number) ?? 0;
+      this.select.options[i].textContent =
+        `${number < 0 ? 'others, not drawn' : number + 1 + ' of ' + this.maps.length}: ${count} flight${count === 1 ? '' : 's'}`;
+    });
+  }
+
+  setRows(rows) {
+    this.shown = new Set(rows);
+    this.nameScenes();
+    this.map?.draw();
+  }
+  setChosen(row) {
+    this.chosen = row;
+    if (row === null || !this.map) return;
+    if (this.paths[row].n.length && this.mapOf[row] !== this.number) this.open(this.mapOf[row]);
+    else this.map.draw();
+  }
+  setNear(row) {
+    this.map.canvas.style.cursor = row === null ? '' : 'pointer';
+    if (row === this.near) return;
+    this.near = row;
+    this.map.draw();
+  }
+
+  trace(c, row) {
+    const {n, e} = this.paths[row], {map} = this;
+    c.beginPath();
+    for (let i = 0; i < n.length; ++i) c.lineTo(map.x(e[i]), map.y(n[i]));
+    c.stroke();
+  }
+  draw(c) {
+    const rows = this.rows.filter((row) => this.shown.has(row)), {map} = this;
+    const goals = new Map(rows.map((row) => [String(this.goals[row]), this.goals[row]]));
+    if (goals.size <= 20) for (const goal of goals.values()) if (goal) map.drawGoal(c, {n: goal[0], e: goal[1], radius: goal[2]});
+    c.lineWidth = rows.length > 200 ? 1 : 1.5;
+    // The rarer ends last, so that they lie on top.
+    for (const verdict of ['passed', 'failed', 'collided']) {
+      c.globalAlpha = Math.min(1, Math.max(0.25, 30 / rows.length));
+      c.strokeStyle = themeColor(verdictColors[verdict]);
+      const alike = rows.filter((row) => this.table.verdict(row) === verdict);
+      for (const row of alike) this.trace(c, row);
+      c.globalAlpha = 1;
+      if (verdict === 'collided') for (const row of alike) this.mark(c, row, rows.length > 100 ? 3 : 5);
+    }
+    for (const row of [this.near, this.chosen]) if (row !== null && this.rows.includes(row)) this.highlight(c, row);
+  }
+  mark(c, row, size) {
+    const {n, e} = this.paths[row];
+    this.map.cross(c, this.map.x(e.at(-1)), this.map.y(n.at(-1)), size, themeColor('bad'), 1.5);
+  }
+  highlight(c, row) {
+    const {map} = this, {n, e} = this.paths[row], color = themeColor(verdictColors[this.table.verdict(row)]);
+    c.strokeStyle = themeColor('plan');
+    c.lineWidth = 7;
+    this.trace(c, row);
+    c.strokeStyle = color;
+    c.lineWidth = 3;
+    this.trace(c, row);
+    map.dot(c, map.x(e[0]), map.y(n[0]), 5, themeColor('ink'));
+    if (this.table.verdict(row) === 'collided') map.cross(c, map.x(e.at(-1)), map.y(n.at(-1)), 8, color, 3.5);
+    else map.dot(c, map.x(e.at(-1)), map.y(n.at(-1)), 4, color);
+  }
+
+  drawKey(key) {
+    const present = new Set(this.rows.filter((row) => this.shown.has(row)).map((row) => this.table.verdict(row)));
+    for (const verdict of Object.keys(verdictWords)) {
+      if (!present.has(verdict)) continue;
+      const item = key.appendChild(make('span'));
+      item.appendChild(make('i')).style.cssText = `background: ${themeColor(verdictColors[verdict])}; height: 3px; vertical-align: 3px`;
+      item.append(verdictWords[verdict]);
+    }
+  }
+
+  /** The path next to the pointer, by the way from it to each stretch. */
+  hover(x, y) {
+    let best = null, least = 8 ** 2;
+    for (const row of this.rows) {
+      if (!this.shown.has(row)) continue;
+      const {n, e} = this.paths[row];
+      for (let i = 1; i < n.length; ++i) {
+        const x0 = this.map.x(e[i - 1]), y0 = this.map.y(n[i - 1]), dx = this.map.x(e[i]) - x0, dy = this.map.y(n[i]) - y0;
+        const along = Math.min(1, Math.max(0, ((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy || 1)));
+        const d = (x0 + along * dx - x) ** 2 + (y0 + along * dy - y) ** 2;
+        if (d < least) [least, best] = [d, row];
+      }
+    }
+    this.setNear(best);
+    this.map.showTip(x, y, best === null ? this.map.placeLines(x, y) : flightLines(this.table, best));
+  }
+}
+
+/** What to say of a flight under the pointer. */
+function flightLines(table, row) {
+  const clearance = table.value('min_obstacle_clearance_m', row);
+  return [table.value('id', row), table.why[row] || table.value('outcome', row),
+    `clearance ${metres(clearance)}, ${fixed(table.value('flight_time_s', row), 1)} s`];
+}

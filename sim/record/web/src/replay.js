@@ -1,0 +1,219 @@
+// The flight in three dimensions: the vehicle follows its true path through the scene's solids.
+import * as THREE from 'three';
+import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
+
+import {goalMark, ground, moverMesh, pathLine, solidsMesh, vehicle} from './replay_scene.js';
+
+/**
+ * Frame T, three.js's world: x east, y up, z south. The one place where W (north, east, down) becomes T: all that stands
+ * in W hangs below a group with this matrix.
+ */
+const R_TW = new THREE.Matrix4().set(0, 1, 0, 0, 0, 0, -1, 0, -1, 0, 0, 0, 0, 0, 0, 1);
+function inT(north, east, down) { return new THREE.Vector3(north, east, down).applyMatrix4(R_TW); }
+
+const {result, scene: world, hull, path, goal, has_report} = JSON.parse(document.getElementById('data').textContent);
+const element = (id) => document.getElementById(id);
+const end_s = path.t_s.at(-1) ?? 0;
+const state = {t_s: 0, playing: false, speed: 1, camera: 'orbit'};
+
+// --- The scene
+
+const renderer = new THREE.WebGLRenderer({canvas: element('view'), antialias: true});
+const stage = new THREE.Scene();
+stage.background = new THREE.Color(0xb9cbe0);
+stage.add(new THREE.HemisphereLight(0xffffff, 0x6b7560, 1.3));
+// Four walls, four shades, whichever side they are seen from.
+for (const [north, east, strength] of [[-0.5, 0.3, 1.6], [0.5, 0.2, 0.7], [0.1, -0.6, 0.4]]) {
+  const light = new THREE.DirectionalLight(0xffffff, strength);
+  light.position.copy(inT(north, east, -0.6));
+  stage.add(light);
+}
+
+const inW = stage.add(new THREE.Group()).children.at(-1);
+inW.matrixAutoUpdate = false;
+inW.matrix.copy(R_TW);
+const bounds = world.bounds.length ? world.bounds
+  : [...finiteRange(path.north_m), ...finiteRange(path.east_m)].map((v, i) => v + (i % 2 ? 20 : -20));
+const floor = ground(bounds);
+floor.group.visible = world.has_ground;
+const craft = vehicle(hull), movers = world.movers.map(moverMesh);
+inW.add(floor.group, solidsMesh(world), pathLine(path), craft.group, ...movers);
+if (goal) inW.add(goalMark(goal));
+craft.group.rotation.order = 'ZYX';  // yaw, then pitch, then roll, each about the new axis
+
+// --- The instant
+
+/** Row before an instant and the share of the way to the next. */
+function place(t_s) {
+  let low = 0, high = path.t_s.length - 1;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (path.t_s[middle] <= t_s) low = middle; else high = middle - 1;
+  }
+  const next = Math.min(low + 1, path.t_s.length - 1), step = path.t_s[next] - path.t_s[low];
+  return {row: low, next, share: step > 0 ? Math.min(1, Math.max(0, (t_s - path.t_s[low]) / step)) : 0};
+}
+const between = (values, {row, next, share}) => values[row] + share * (values[next] - values[row]);
+/** An angle between two, the short way round. */
+function turnBetween(values, {row, next, share}) {
+  const turn = values[next] - values[row];
+  return values[row] + share * Math.atan2(Math.sin(turn), Math.cos(turn));
+}
+
+function pose(t_s) {
+  const at = place(t_s);
+  craft.group.position.set(between(path.north_m, at), between(path.east_m, at), between(path.down_m, at));
+  craft.group.rotation.set(turnBetween(path.roll_rad, at), turnBetween(path.pitch_rad, at), turnBetween(path.yaw_rad, at), 'ZYX');
+  movers.forEach((mover, i) => {
+    const {way} = world.movers[i], last = way.length / 3 - 1, k = Math.min(last, t_s / world.step_s), row = Math.floor(k);
+    const next = Math.min(row + 1, last);
+    mover.position.set(...[0, 1, 2].map((axis) => way[3 * row + axis] + (k - row) * (way[3 * next + axis] - way[3 * row + axis])));
+  });
+  const clearance = path.clearance_m[at.row];
+  element('clock').textContent = `${t_s.toFixed(2)} of ${end_s.toFixed(1)} s`;
+  element('facts').textContent = `clearance ${clearance === null ? 'none in reach' : metres(clearance)}, ` +
+    `speed ${fixed(between(path.speed_mps, at), 1)} m/s, altitude ${fixed(-between(path.down_m, at), 1)} m`;
+  element('time').value = t_s;
+}
+
+// --- Cameras
+
+const camera = new THREE.PerspectiveCamera(55, 1, 0.2, 3000);
+const orbit = new OrbitControls(camera, renderer.domElement);
+orbit.maxPolarAngle = 0.499 * Math.PI;
+const craftInT = () => inT(...craft.group.position.toArray());
+const behind_m = Math.max(6, 8 * craft.reach), orbit_m = 2 * behind_m;
+
+/** Puts the orbit camera south of the vehicle and above it, or right above. */
+function aim(kind) {
+  const span = Math.max(bounds[1] - bounds[0], bounds[3] - bounds[2]);
+  orbit.target.copy(craftInT());
+  const {x, y, z} = orbit.target;
+  if (kind === 'above') camera.position.set(x, y + Math.min(span, 120), z + 0.01);
+  else camera.position.set(x + 0.6 * orbit_m, y + orbit_m, z + 1.2 * orbit_m);
+  orbit.update();
+}
+function chase() {
+  const yaw = craft.group.rotation.z, p = craft.group.position;
+  camera.position.copy(inT(p.x - behind_m * Math.cos(yaw), p.y - behind_m * Math.sin(yaw), p.z - 0.35 * behind_m));
+  camera.lookAt(craftInT());
+}
+let seen = null;
+/** Orbit follows the vehicle: eye and target move as it does. */
+function follow() {
+  const now = craftInT();
+  if (state.camera === 'chase') {
+    chase();
+  } else {
+    if (seen) camera.position.add(now.clone().sub(seen));
+    orbit.target.copy(now);
+    orbit.update();
+  }
+  seen = now;
+}
+
+/** A compass whose needle points where north is on the screen. */
+function drawCompass() {
+  const c = element('compass').getContext('2d'), direction = camera.getWorldDirection(new THREE.Vector3());
+  const heading = Math.atan2(direction.x, -direction.z);  // of the camera, from north to east
+  c.clearRect(0, 0, 96, 96);
+  c.save();
+  c.translate(48, 48);
+  c.fillStyle = themeColor('card');
+  c.beginPath();
+  c.arc(0, 0, 46, 0, 2 * Math.PI);
+  c.fill();
+  c.font = '600 12px system-ui, "DejaVu Sans", sans-serif';
+  c.textAlign = 'center';
+  c.textBaseline = 'middle';
+  for (const [name, bearing] of [['N', 0], ['E', 90], ['S', 180], ['W', 270]]) {
+    const angle = bearing * Math.PI / 180 - heading;
+    c.fillStyle = themeColor(name === 'N' ? 'bad' : 'soft');
+    c.fillText(name, 36 * Math.sin(angle), -36 * Math.cos(angle));
+  }
+  c.rotate(-heading);
+  for (const [color, side] of [['bad', -1], ['soft', 1]]) {
+    c.fillStyle = themeColor(color);
+    c.beginPath();
+    c.moveTo(0, side * 26);
+    c.lineTo(6, 0);
+    c.lineTo(-6, 0);
+    c.fill();
+  }
+  c.restore();
+}
+
+// --- Controls
+
+function setTime(t_s) {
+  state.t_s = Math.min(end_s, Math.max(0, t_s));
+  pose(state.t_s);
+}
+function setPlaying(playing) {
+  if (playing && state.t_s >= end_s) setTime(0);
+  state.playing = playing;
+  element('play').textContent = playing ? 'pause' : 'play';
+}
+function setCamera(kind) {
+  state.camera = kind;
+  orbit.enabled = kind !== 'chase';
+  if (kind !== 'chase') aim(kind);
+}
+
+function fillControls() {
+  const what = element('what');
+  what.append(make('h1', '', result.scenario), make('p', 'soft', `seed ${result.seed}, ${result.outcome} after ${fixed(result.flight_time_s, 1)} s`));
+  what.appendChild(make('p')).id = 'facts';
+  what.append(make('p', 'soft', `${world.has_ground ? `lines on the ground ${short(floor.step_m)} m apart; ` : ''}bodies as the simulator collides them`));
+  if (has_report) {
+    const link = what.appendChild(make('a', '', 'report'));
+    link.href = 'report.html';
+  }
+  const speed = element('speed');
+  for (const factor of [0.1, 0.25, 0.5, 1, 2, 5, 10]) speed.appendChild(make('option', '', '× ' + factor)).value = factor;
+  speed.value = 1;
+  speed.addEventListener('change', () => { state.speed = Number(speed.value); });
+  element('time').max = end_s;
+  element('time').addEventListener('input', () => setTime(Number(element('time').value)));
+  element('play').addEventListener('click', () => setPlaying(!state.playing));
+  element('camera').addEventListener('change', () => setCamera(element('camera').value));
+  addEventListener('keydown', (event) => {
+    if (event.code !== 'Space' || event.target.tagName === 'BUTTON') return;
+    event.preventDefault();
+    setPlaying(!state.playing);
+  });
+}
+
+let last_ms = null;
+function draw(now_ms) {
+  if (state.playing && last_ms !== null) {
+    setTime(state.t_s + state.speed * (now_ms - last_ms) / 1000);
+    if (state.t_s >= end_s) setPlaying(false);
+  }
+  last_ms = now_ms;
+  follow();
+  const {innerWidth: width, innerHeight: height} = window, size = renderer.getSize(new THREE.Vector2());
+  if (size.x !== width || size.y !== height) {
+    renderer.setPixelRatio(window.devicePixelRatio || 1);
+    renderer.setSize(width, height, false);
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
+  }
+  renderer.render(stage, camera);
+  drawCompass();
+  requestAnimationFrame(draw);
+}
+
+fillControls();
+if (path.t_s.length) setTime(0);
+setCamera('orbit');
+requestAnimationFrame(draw);
+
+// What tests ask: places in T of the vehicle and of a point of its own, and the controls' state.
+window.replay = {
+  state,
+  point: (forward, right, down) => {
+    craft.group.updateMatrix();
+    return inT(...new THREE.Vector3(forward, right, down).applyMatrix4(craft.group.matrix).toArray()).toArray();
+  },
+};

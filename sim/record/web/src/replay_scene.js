@@ -1,0 +1,82 @@
+// Meshes of a scene and a vehicle, as children of a group in W (or M, or B): the numbers of the data go in as they are.
+import * as THREE from 'three';
+
+const colors = {solid: 0x9aa5b4, ground: 0x7f8f76, mover: 0xd08a2e, hull: 0x1f3a5f, goal: 0x009e73, path: 0x0072b2, nose: 0xd55e00};
+const material = (color, more = {}) => new THREE.MeshLambertMaterial({color, ...more});
+
+/** Many bodies of one form, drawn at once. @param rows  position, quaternion (x, y, z, w), half extents. */
+function copies(geometry, rows, look, color) {
+  const shades = rows.length > 5;
+  if (shades) look = new THREE.MeshLambertMaterial();  // each instance has its own colour
+  const mesh = new THREE.InstancedMesh(geometry, look, rows.length), matrix = new THREE.Matrix4();
+  rows.forEach(([x, y, z, qx, qy, qz, qw, a, b, c], i) => {
+    matrix.compose(new THREE.Vector3(x, y, z), new THREE.Quaternion(qx, qy, qz, qw).normalize(), new THREE.Vector3(a, b, c));
+    mesh.setMatrixAt(i, matrix);
+    if (shades) mesh.setColorAt(i, new THREE.Color(color).offsetHSL(0, 0, 0.05 * Math.sin(2.4 * i)));  // neighbours differ
+  });
+  mesh.frustumCulled = false;  // its bounds would be those of one
+  return mesh;
+}
+
+/** Boxes, cylinders, spheres and triangles as one group. */
+export function bodies(data, color, more) {
+  const group = new THREE.Group(), look = material(color, more);
+  if (data.boxes.length) group.add(copies(new THREE.BoxGeometry(2, 2, 2), data.boxes, look, color));
+  // three.js has a cylinder's axis along y, ours lies along z.
+  if (data.cylinders.length) group.add(copies(new THREE.CylinderGeometry(1, 1, 2, 24).rotateX(Math.PI / 2), data.cylinders, look, color));
+  if (data.spheres.length) group.add(copies(new THREE.SphereGeometry(1, 24, 16), data.spheres, look, color));
+  const both = material(color, {...more, side: THREE.DoubleSide, flatShading: true});
+  for (const {corners, faces} of data.meshes) {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.Float32BufferAttribute(corners, 3));
+    geometry.setIndex(faces);
+    geometry.computeVertexNormals();
+    group.add(new THREE.Mesh(geometry, both));
+  }
+  return group;
+}
+
+/** The ground with a grid, its lines a round number of metres apart. @return {group, step_m}. */
+export function ground([n0, n1, e0, e1]) {
+  const group = new THREE.Group(), size = Math.max(n1 - n0, e1 - e0, 10);
+  const rough = size / 20, power = 10 ** Math.floor(Math.log10(rough));
+  const step_m = power * [1, 2, 5, 10].find((s) => s * power >= rough);
+  const plane = new THREE.Mesh(new THREE.PlaneGeometry(3 * size, 3 * size), material(colors.ground, {side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 8}));
+  plane.position.set((n0 + n1) / 2, (e0 + e1) / 2, 0);
+  const points = [];
+  const [a, b, c, d] = [Math.floor(n0 / step_m), Math.ceil(n1 / step_m), Math.floor(e0 / step_m), Math.ceil(e1 / step_m)];
+  for (let n = a; n <= b; ++n) points.push(n * step_m, c * step_m, 0, n * step_m, d * step_m, 0);
+  for (let e = c; e <= d; ++e) points.push(a * step_m, e * step_m, 0, b * step_m, e * step_m, 0);
+  const grid = new THREE.BufferGeometry().setAttribute('position', new THREE.Float32BufferAttribute(points, 3));
+  group.add(plane, new THREE.LineSegments(grid, new THREE.LineBasicMaterial({color: 0xffffff, transparent: true, opacity: 0.35})));
+  return {group, step_m};
+}
+
+export function goalMark([north, east, down, radius]) {
+  const ring = new THREE.Mesh(new THREE.TorusGeometry(radius, Math.max(0.04, radius / 60), 8, 64), material(colors.goal));
+  const pole = new THREE.Mesh(new THREE.CylinderGeometry(0.06, 0.06, Math.max(0.1, -down), 8).rotateX(Math.PI / 2), material(colors.goal));
+  pole.position.z = -down / 2;
+  const group = new THREE.Group();
+  group.add(ring, pole);
+  group.position.set(north, east, down);
+  return group;
+}
+
+export function pathLine({north_m, east_m, down_m}) {
+  const points = north_m.flatMap((north, i) => [north, east_m[i], down_m[i]]);
+  const geometry = new THREE.BufferGeometry().setAttribute('position', new THREE.Float32BufferAttribute(points, 3));
+  return new THREE.Line(geometry, new THREE.LineBasicMaterial({color: colors.path}));
+}
+
+/** The hull as the simulator collides it, half transparent, and an arrow forward. */
+export function vehicle(hull) {
+  const group = new THREE.Group(), body = bodies(hull, colors.hull, {transparent: true, opacity: 0.85});
+  const reach = Math.max(0.3, ...[...hull.boxes, ...hull.cylinders].map(([x, y, z, qx, qy, qz, qw, a]) => x + a));
+  const nose = new THREE.Mesh(new THREE.ConeGeometry(0.12 * reach, 0.4 * reach, 12).rotateZ(-Math.PI / 2), material(colors.nose));
+  nose.position.x = 1.1 * reach;
+  group.add(body, nose);
+  return {group, reach};
+}
+
+export function moverMesh(mover) { return bodies(mover.bodies, colors.mover); }
+export function solidsMesh(scene) { return bodies(scene, colors.solid); }
