@@ -35,8 +35,8 @@ CorridorSight::CorridorSight(const CorridorSightConfig& config, const MountedCam
   if (config.least_vectors < 1) throw std::invalid_argument("least_vectors: must be at least 1");
 }
 
-/// Source: [Zingg2010] sec. IV-B. Differs: the direction of travel is that of the velocity estimated, not the nose's, and the camera
-/// may sit away from where the vehicle turns.
+/// Source: [Zingg2010] sec. IV-B. Differs: the direction of travel is that of the velocity estimated, not the nose's,
+/// and the camera may sit away from where the vehicle turns.
 vision::CameraMotion CorridorSight::motion(const NavigationState& now, double dt_s) const {
   const Eigen::Matrix3d R_HW = R_WH(now.q_WB_est).transpose();
   const Eigen::Matrix3d R_HB1 = R_HW * navigation_.q_WB_est, R_HB2 = R_HW * now.q_WB_est;
