@@ -8,6 +8,7 @@ struct Make {
   std::unique_ptr<Module> operator()(const FlowBalanceConfig& c) const { return make_flow_balance(c); }
   std::unique_ptr<Module> operator()(const SectionGridConfig& c) const { return make_section_grid(c); }
   std::unique_ptr<Module> operator()(const StereoCorridorConfig& c) const { return make_stereo_corridor(c); }
+  std::unique_ptr<Module> operator()(const LandmarkMapModuleConfig& c) const { return make_landmark_map(c); }
 };
 
 }  // namespace

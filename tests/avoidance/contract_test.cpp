@@ -36,7 +36,7 @@ std::vector<Row> rows() {
   auto all = default_rows(std::make_index_sequence<std::variant_size_v<ModuleConfig>>{});
   for (Row& row : all) {
     row.stereo = row.name == "section_grid" || row.name == "stereo_corridor";
-    row.holds_heading = !row.stereo;
+    row.holds_heading = !row.stereo && row.name != "landmark_map";
   }
   FlowBalanceConfig simple;
   simple.scheme = FlowBalanceConfig::Scheme::simple;
