@@ -136,6 +136,8 @@ class Module {
 
   /// Figures of the flight so far, for result.json.
   std::vector<Metric> metrics() const { return do_metrics(); }
+  /// Points of the world that the module believes in, in W, m; for those who compare them with the truth.
+  std::vector<Eigen::Vector3d> map() const { return do_map(); }
   /// A picture (CV_8UC3, RGB) of what the module saw and chose last; empty when it has none. Called for films only.
   cv::Mat annotate() const { return do_annotate(); }
 
@@ -145,6 +147,7 @@ class Module {
   virtual void do_reset(const Setup& setup) = 0;
   virtual Decision do_update(const Observation& observation) = 0;
   virtual std::vector<Metric> do_metrics() const { return {}; }
+  virtual std::vector<Eigen::Vector3d> do_map() const { return {}; }
   virtual cv::Mat do_annotate() const { return {}; }
 
   std::optional<Setup> setup_;

@@ -9,6 +9,7 @@ struct Make {
   std::unique_ptr<Module> operator()(const SectionGridConfig& c) const { return make_section_grid(c); }
   std::unique_ptr<Module> operator()(const StereoCorridorConfig& c) const { return make_stereo_corridor(c); }
   std::unique_ptr<Module> operator()(const CorridorCenteringConfig& c) const { return make_corridor_centering(c); }
+  std::unique_ptr<Module> operator()(const LandmarkMapModuleConfig& c) const { return make_landmark_map(c); }
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "avoidance/corridor_centering.h"
 #include "avoidance/flow_balance.h"
 #include "avoidance/go_to_goal.h"
+#include "avoidance/landmark_map.h"
 #include "avoidance/module.h"
 #include "avoidance/section_grid.h"
 #include "avoidance/stereo_corridor.h"
@@ -14,7 +15,8 @@ namespace hedgehop::avoidance {
 
 /// Every module of this tree: one config struct per row, with `kName` as its name in a scenario.
 using ModuleConfig =
-    std::variant<GoToGoalConfig, FlowBalanceConfig, SectionGridConfig, StereoCorridorConfig, CorridorCenteringConfig>;
+    std::variant<GoToGoalConfig, FlowBalanceConfig, SectionGridConfig, StereoCorridorConfig, CorridorCenteringConfig,
+                 LandmarkMapModuleConfig>;
 
 /// Returns the module that the config belongs to; reset() comes next. Throws std::invalid_argument on a bad config.
 std::unique_ptr<Module> make_module(const ModuleConfig& config);

@@ -39,7 +39,7 @@ std::vector<Row> rows() {
   for (Row& row : all) {
     row.stereo = row.name == "section_grid" || row.name == "stereo_corridor";
     row.fisheye = row.name == "corridor_centering";
-    row.holds_heading = !row.stereo && !row.fisheye;
+    row.holds_heading = !row.stereo && !row.fisheye && row.name != "landmark_map";
     // Between walls that cannot be seen the way is not free.
     if (row.fisheye) row.blank = "blind";
   }

@@ -1,0 +1,232 @@
+#include "avoidance/landmark_map.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "avoidance/camera_flow.h"
+#include "avoidance/go_to_goal.h"
+#include "avoidance/landmark_picture.h"
+#include "avoidance/map_route.h"
+
+namespace hedgehop::avoidance {
+namespace {
+
+constexpr const char* kRole = "front";
+
+void check(const LandmarkMapModuleConfig& c) {
+  const auto need = [](bool holds, const char* message) {
+    if (!holds) throw std::invalid_argument(std::string("landmark_map: ") + message);
+  };
+  need(c.corners.most >= 1 && c.corners.apart_px >= 1, "corners: most and apart must be at least 1");
+  need(c.corners.quality > 0.0 && c.corners.quality <= 1.0, "corners: quality must lie in (0, 1]");
+  need(c.speed_mps > 0.0, "speed must be above 0 m/s");
+  need(c.clearance_m > 0.0 && c.link_m >= 0.0 && c.most_sigma_m > 0.0,
+       "clearance and most_sigma must be above 0 m, link not below");
+  need(c.time_to_contact_s >= 0.0 && c.stop_range_m >= 0.0, "time_to_contact and stop_range must not be negative");
+  need(c.flow_share > 0.0 && c.flow_share <= 1.0, "flow_share must lie in (0, 1]");
+  need(c.braking_mps2 > 0.0, "braking must be above 0 m/s^2");
+}
+
+class LandmarkMapModule final : public Module {
+ public:
+  explicit LandmarkMapModule(const LandmarkMapModuleConfig& config) : config_(config) { check(config); }
+
+ private:
+  Needs do_needs() const override { return {{{kRole, CameraNeed::Channel::grey, /*pinhole=*/true}}}; }
+  std::vector<Signal> do_signals() const override {
+    return {{"corners", ""}, {"landmarks", ""}, {"obstacles", ""}, {"loom_per_s", "1/s"}, {"off_course_m", "m"}};
+  }
+
+  void do_reset(const Setup& setup) override {
+    camera_ = *std::ranges::find(setup.cameras, kRole, &MountedCamera::role);
+    map_.emplace(config_.map, camera_.model.pinhole());
+    flow_.emplace(camera_, CameraFlow::Options{config_.flow, /*derotate=*/true, vision::Missing::skip});
+    clearance_m_ = config_.clearance_m + setup.limits.radius_m;
+    corners_px_.clear();
+    hulls_.clear();
+    way_.clear();
+    start_NE_.reset();
+    last_t_ns_.reset();
+    stopped_ = false;
+    alarms_ = 0;
+    off_course_m_ = most_off_course_m_ = 0.0;
+  }
+
+  Decision do_update(const Observation& observation) override {
+    const NavigationState& navigation = observation.navigation;
+    if (!start_NE_) start_NE_ = navigation.p_WB_est.head<2>();
+    const auto frame = std::ranges::find(observation.frames, kRole, &CameraFrame::role);
+    if (frame != observation.frames.end()) look(*frame, navigation);
+    const auto measure = flow_->measure(observation.t_ns);
+    stopped_ = stopped_ || wall_ahead(measure, navigation);
+
+    Decision decision;
+    if (stopped_) {
+      decision = {HoverCommand{}, "stop", {}};
+    } else if (config_.orbit) {
+      decision = {fly_round(navigation, observation.goal), "orbit", {}};
+    } else {
+      decision = follow_course(navigation, observation.goal);
+    }
+    decision.signals = {static_cast<double>(corners_px_.size()), static_cast<double>(confirmed()),
+                        static_cast<double>(hulls_.size()), measure ? measure->loom_per_s : 0.0, off_course_m_};
+    return decision;
+  }
+
+  void look(const CameraFrame& frame, const NavigationState& navigation) {
+    if (last_t_ns_ && frame.t_ns <= *last_t_ns_) return;
+    const double dt_s = last_t_ns_ ? 1e-9 * static_cast<double>(frame.t_ns - *last_t_ns_) : 0.0;
+    last_t_ns_ = frame.t_ns;
+    flow_->update(frame, navigation.w_WB_B_est);
+    find_corners(frame.image);
+    Eigen::Isometry3d X_WB_est = Eigen::Isometry3d::Identity();
+    X_WB_est.linear() = navigation.q_WB_est.toRotationMatrix();
+    X_WB_est.translation() = navigation.p_WB_est;
+    pose_ = {X_WB_est * camera_.X_BC, config_.map.position_sigma_m, config_.map.attitude_sigma_rad};
+    map_->update(corners_px_, pose_, dt_s);
+  }
+
+  void find_corners(const cv::Mat& grey) {
+    std::vector<cv::Point2f> found;
+    cv::goodFeaturesToTrack(grey, found, config_.corners.most, config_.corners.quality, config_.corners.apart_px);
+    if (!found.empty()) {
+      const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.01);
+      cv::cornerSubPix(grey, found, {3, 3}, {-1, -1}, until);
+    }
+    corners_px_.clear();
+    for (const cv::Point2f& corner : found) corners_px_.emplace_back(corner.x, corner.y);
+  }
+
+  /// Whether something without corners is so near that the flight must stop: by the divergence of the flow, as
+  /// [Shah2009] ch. 7 proposes, or by a single beam. Twice running, for one measurement may err.
+  bool wall_ahead(const std::optional<CameraFlow::Measure>& measure, const NavigationState& navigation) {
+    const double v_mps = std::max(0.0, navigation.v_WB_B_est.x());
+    const bool flows = measure && config_.time_to_contact_s > 0.0 && measure->valid_share >= config_.flow_share;
+    const double reaction_m = v_mps * kReaction_s + 0.5 * v_mps * v_mps / config_.braking_mps2;
+    const bool near = (flows && measure->loom_per_s * config_.time_to_contact_s > 1.0) ||
+                      (navigation.range_m && *navigation.range_m < config_.stop_range_m + reaction_m);
+    alarms_ = near ? alarms_ + 1 : 0;
+    return alarms_ >= 2;
+  }
+
+  Command fly_round(const NavigationState& navigation, const Goal& goal) {
+    const Eigen::Vector2d middle(config_.orbit->north_m, config_.orbit->east_m);
+    const Eigen::Vector2d out = navigation.p_WB_est.head<2>() - middle;
+    const double radius_m = std::max((*start_NE_ - middle).norm(), 1.0), now_m = std::max(out.norm(), 1.0);
+    constexpr double kBack_per_s = 0.2;
+    VelocityCommand command;
+    command.v_WB_W =
+        config_.orbit->rate_radps * Eigen::Vector2d(-out.y(), out.x()) + kBack_per_s * (radius_m - now_m) * out / now_m;
+    command.heading_rad = std::atan2(-out.y(), -out.x());
+    command.altitude_m = -goal.p_WG.z();
+    return command;
+  }
+
+  /// Along the course from the start to the goal; where the map has something on it, the shortest way to the first
+  /// place from which the rest of the course is free.
+  Decision follow_course(const NavigationState& navigation, const Goal& goal) {
+    const Eigen::Vector2d at = navigation.p_WB_est.head<2>(), end = goal.p_WG.head<2>();
+    const Eigen::Vector2d course = end - *start_NE_;
+    const double length_m = course.norm();
+    const Eigen::Vector2d along = length_m > 0.0 ? Eigen::Vector2d(course / length_m) : Eigen::Vector2d::UnitX();
+    const double done_m = (at - *start_NE_).dot(along);
+    off_course_m_ = std::abs((at - *start_NE_).dot(Eigen::Vector2d(-along.y(), along.x())));
+    most_off_course_m_ = std::max(most_off_course_m_, off_course_m_);
+    hulls_ = obstacles();
+
+    const auto free = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+      return std::ranges::all_of(hulls_,
+                                 [&](const PlanHull& hull) { return distance_to_hull(hull, from, to) > clearance_m_; });
+    };
+    constexpr double kLead_m = 6.0, kStep_m = 3.0, kOnCourse_m = 2.0;
+    Eigen::Vector2d join = end;
+    for (double s = done_m + kLead_m; s < length_m; s += kStep_m) {
+      const Eigen::Vector2d place = *start_NE_ + s * along;
+      if (!free(place, end)) continue;
+      join = place;
+      break;
+    }
+    const auto way = way_round(hulls_, at, join, clearance_m_);
+    if (!way) return {HoverCommand{}, "no_way", {}};
+    way_ = *way;
+    const char* status = way_.size() > 1 ? "avoid" : off_course_m_ > kOnCourse_m ? "rejoin" : "cruise";
+    const Eigen::Vector2d to_end = end - at;
+    constexpr double kSlow_m = 4.0;
+    VelocityCommand command;
+    command.v_WB_W = velocity_to_goal(way_.front() - at, config_.speed_mps, 0.0);
+    if (to_end.norm() < kSlow_m) command.v_WB_W *= to_end.norm() / kSlow_m;
+    command.heading_rad = std::atan2(command.v_WB_W.y(), command.v_WB_W.x());
+    command.altitude_m = -goal.p_WG.z();
+    return {command, status, {}};
+  }
+
+  /// What the map knows well enough and high enough to matter, from above.
+  std::vector<PlanHull> obstacles() const {
+    std::vector<Eigen::Vector2d> points;
+    for (const vision::MappedLandmark& mapped : map_->landmarks()) {
+      if (!map_->confirmed(mapped)) continue;
+      const Eigen::Vector3d p_W = vision::position_W(mapped.landmark);
+      const Eigen::Matrix2d P = vision::covariance_W(mapped.landmark).topLeftCorner<2, 2>();
+      const double variance = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(P).eigenvalues().maxCoeff();
+      if (-p_W.z() < config_.lowest_m || variance > config_.most_sigma_m * config_.most_sigma_m) continue;
+      points.push_back(p_W.head<2>());
+    }
+    return plan_hulls(points, config_.link_m);
+  }
+
+  int64_t confirmed() const {
+    return std::ranges::count_if(map_->landmarks(), [&](const auto& mapped) { return map_->confirmed(mapped); });
+  }
+
+  std::vector<Metric> do_metrics() const override {
+    return {{"landmarks", map_ ? static_cast<double>(confirmed()) : 0.0, ""},
+            {"obstacles", static_cast<double>(hulls_.size()), ""},
+            {"most_off_course", most_off_course_m_, "m"},
+            {"off_course_at_end", off_course_m_, "m"},
+            {"stopped", stopped_ ? 1.0 : 0.0, ""}};
+  }
+
+  std::vector<Eigen::Vector3d> do_map() const override {
+    std::vector<Eigen::Vector3d> points;
+    if (!map_) return points;
+    for (const vision::MappedLandmark& mapped : map_->landmarks()) {
+      if (map_->confirmed(mapped)) points.push_back(vision::position_W(mapped.landmark));
+    }
+    return points;
+  }
+
+  cv::Mat do_annotate() const override {
+    if (!last_t_ns_) return {};
+    return landmark_picture(flow_->picture(), corners_px_, *map_, pose_, camera_.model.pinhole());
+  }
+
+  static constexpr double kReaction_s = 0.5;  ///< until a stop takes effect: latency and the vehicle's tilt
+
+  LandmarkMapModuleConfig config_;
+  MountedCamera camera_;
+  std::optional<vision::LandmarkMap> map_;
+  std::optional<CameraFlow> flow_;
+  double clearance_m_ = 0.0;  ///< of B: the hull's radius added
+  vision::CameraPose pose_;   ///< of the last picture
+  std::vector<Eigen::Vector2d> corners_px_;
+  std::vector<PlanHull> hulls_;
+  std::vector<Eigen::Vector2d> way_;
+  std::optional<Eigen::Vector2d> start_NE_;
+  std::optional<int64_t> last_t_ns_;
+  bool stopped_ = false;
+  int alarms_ = 0;
+  double off_course_m_ = 0.0, most_off_course_m_ = 0.0;
+};
+
+}  // namespace
+
+std::unique_ptr<Module> make_landmark_map(const LandmarkMapModuleConfig& config) {
+  return std::make_unique<LandmarkMapModule>(config);
+}
+
+}  // namespace hedgehop::avoidance

@@ -1,0 +1,101 @@
+#include "avoidance/map_route.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace hedgehop::avoidance {
+namespace {
+
+using Eigen::Vector2d;
+
+double uniform(std::mt19937_64& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+}
+
+double length(const Vector2d& from, const std::vector<Vector2d>& way) {
+  double sum = 0.0;
+  Vector2d at = from;
+  for (const Vector2d& next : way) {
+    sum += (next - at).norm();
+    at = next;
+  }
+  return sum;
+}
+
+/// Least distance from points all along a way to points all along a hull's edges.
+double sampled_distance(const Vector2d& from, const std::vector<Vector2d>& way, const PlanHull& hull) {
+  constexpr int kSamples = 200;
+  double least = INFINITY;
+  Vector2d at = from;
+  for (const Vector2d& next : way) {
+    for (int i = 0; i <= kSamples; ++i) {
+      const Vector2d p = at + (next - at) * i / kSamples;
+      for (size_t k = 0; k < hull.size(); ++k) {
+        for (int j = 0; j <= kSamples; ++j) {
+          const Vector2d q = hull[k] + (hull[(k + 1) % hull.size()] - hull[k]) * j / kSamples;
+          least = std::min(least, (p - q).norm());
+        }
+      }
+    }
+    at = next;
+  }
+  return least;
+}
+
+TEST(MapRoute, PointsWithinTheLinkShareAHull) {
+  const std::vector<Vector2d> points = {{0, 0}, {20, 0}, {4, 0}, {4, 4}, {0, 4}, {2, 2}, {20, 3}};
+  const auto hulls = plan_hulls(points, 5.0);
+  ASSERT_EQ(hulls.size(), 2U);
+  EXPECT_EQ(hulls[0].size(), 4U);
+  EXPECT_EQ(hulls[1].size(), 2U);
+}
+
+TEST(MapRoute, AFreeWayIsStraight) {
+  const std::vector<PlanHull> hulls = {{{10, 10}, {12, 10}}};
+  const auto way = way_round(hulls, {0, 0}, {30, 0}, 4.0);
+  ASSERT_TRUE(way);
+  EXPECT_EQ(*way, (std::vector<Vector2d>{{30, 0}}));
+}
+
+// Round one point the shortest way is two tangents and an arc; turning at eight places costs little more.
+TEST(MapRoute, RoundAPointTheWayIsNearlyTangentsAndAnArc) {
+  const double clearance_m = 5.0, half_m = 30.0;
+  const auto way = way_round(std::vector<PlanHull>{{{0, 0.1}}}, {-half_m, 0}, {half_m, 0}, clearance_m);
+  ASSERT_TRUE(way);
+  const double tangent_m = std::sqrt(half_m * half_m - clearance_m * clearance_m);
+  const double shortest_m = 2.0 * (tangent_m + clearance_m * std::asin(clearance_m / half_m));
+  EXPECT_GE(length({-half_m, 0}, *way), shortest_m - 0.1);
+  EXPECT_LE(length({-half_m, 0}, *way), 1.02 * shortest_m);
+}
+
+TEST(MapRoute, KeepsItsClearanceOfRandomHulls) {
+  std::mt19937_64 random(41);
+  int found = 0, turned = 0;
+  for (int scene = 0; scene < 30; ++scene) {
+    std::vector<Vector2d> points;
+    for (int i = 0; i < 8; ++i) points.emplace_back(uniform(random, -20, 20), uniform(random, -20, 20));
+    const auto hulls = plan_hulls(points, 6.0);
+    const Vector2d from(-40, uniform(random, -10, 10)), to(40, uniform(random, -10, 10));
+    const auto way = way_round(hulls, from, to, 3.0);
+    if (!way) continue;
+    ++found;
+    turned += way->size() > 1;
+    EXPECT_EQ(way->back(), to);
+    for (const PlanHull& hull : hulls) EXPECT_GE(sampled_distance(from, *way, hull), 3.0 - 1e-6) << scene;
+  }
+  EXPECT_EQ(found, 30);
+  EXPECT_GT(turned, 15);
+}
+
+TEST(MapRoute, LeavesAPlaceThatIsTooNearWithoutComingNearer) {
+  const std::vector<PlanHull> hulls = {{{0, 0}}};
+  const auto way = way_round(hulls, {-2, 0}, {30, 0}, 5.0);
+  ASSERT_TRUE(way);
+  EXPECT_GE(sampled_distance({-2, 0}, *way, hulls[0]), 2.0 - 1e-6);
+}
+
+}  // namespace
+}  // namespace hedgehop::avoidance

@@ -1,0 +1,105 @@
+#include "vision/landmark_map.h"
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "vision/camera_error.h"
+#include "vision/landmark_matching.h"
+
+namespace hedgehop::vision {
+namespace {
+
+void check(const LandmarkMapConfig& c) {
+  const auto need = [](bool holds, const char* message) {
+    if (!holds) throw std::invalid_argument(std::string("landmark map: ") + message);
+  };
+  need(c.start.ground_sigma > 0.0, "ground_sigma must be above 0");
+  need(c.start.nearest_m > 0.0 && c.start.beyond_horizon_m > 0.0, "nearest and beyond_horizon must be above 0 m");
+  need(c.pixel_sigma_px > 0.0, "pixel_sigma must be above 0 px");
+  need(c.position_sigma_m >= 0.0 && c.attitude_sigma_rad >= 0.0 && c.drift_m_rt_s >= 0.0,
+       "position_sigma, attitude_sigma and drift must not be negative");
+  need(c.gate > 0.0, "gate must be above 0");
+  need(c.misses >= 1 && c.young_misses >= 1 && c.confirm >= 1, "misses, young_misses and confirm must be at least 1");
+}
+
+}  // namespace
+
+LandmarkMap::LandmarkMap(const LandmarkMapConfig& config, const PinholeCamera& camera)
+    : config_(config), camera_(camera), bearing_sigma_(config.pixel_sigma_px / camera.focal_x_px) {
+  check(config);
+}
+
+std::vector<int64_t> LandmarkMap::update(std::span<const Eigen::Vector2d> corners_px, const CameraPose& pose,
+                                         double dt_s) {
+  std::vector<Eigen::Vector2d> bearings;
+  for (const Eigen::Vector2d& corner : corners_px) bearings.push_back(camera_.ray(corner).head<2>());
+  for (MappedLandmark& mapped : landmarks_) mapped.landmark = predicted(mapped.landmark, config_.drift_m_rt_s, dt_s);
+  const Predictions at_estimate = predict(pose);
+  const CameraPose better_pose =
+      corrected(pose, common_error(at_estimate, bearings, error_covariance(pose), bearing_sigma_));
+  const Predictions at_better = predict(better_pose);
+  Predictions to_match = at_better;
+  for (auto& one : to_match) {
+    if (one) one = with_known_pose(*one, bearing_sigma_);
+  }
+  const auto landmark_of = match_landmarks(to_match, bearings, config_.gate);
+
+  std::vector<bool> seen(landmarks_.size(), false);
+  std::vector<int64_t> ids;
+  for (size_t i = 0; i < bearings.size(); ++i) {
+    if (const auto k = landmark_of[i]) {
+      MappedLandmark& mapped = landmarks_[*k];
+      if (at_estimate[*k]) {
+        // Linearised where the camera rather is: at the estimated pose the Jacobian would share the pose's error with
+        // the residual, and flights that are short against that error would seem to tell depths.
+        PredictedBearing prediction = *at_better[*k];
+        prediction.bearing = at_estimate[*k]->bearing;
+        mapped.landmark = updated(mapped.landmark, prediction, bearings[i]);
+      }
+      ++mapped.matches;
+      seen[*k] = true;
+      ids.push_back(mapped.id);
+    } else {
+      landmarks_.push_back({next_id_++, first_seen(bearings[i], pose, bearing_sigma_, config_.start), 1, 0});
+      seen.push_back(true);
+      ids.push_back(landmarks_.back().id);
+    }
+  }
+  drop_missed(pose, seen);
+  return ids;
+}
+
+LandmarkMap::Predictions LandmarkMap::predict(const CameraPose& pose) const {
+  Predictions predictions;
+  for (const MappedLandmark& mapped : landmarks_) {
+    predictions.push_back(predict_bearing(mapped.landmark, pose, bearing_sigma_));
+  }
+  return predictions;
+}
+
+/// Counts the pictures that should have shown a landmark and did not, and deletes those that missed too many.
+void LandmarkMap::drop_missed(const CameraPose& pose, const std::vector<bool>& seen) {
+  constexpr double kSureOfView_sigmas = 3.0;
+  const Eigen::Isometry3d X_CW = pose.X_WC_est.inverse();
+  const auto in_view = [&](const Landmark& landmark) {
+    const auto pixel = camera_.project(X_CW * position_W(landmark));
+    const auto bearing = predict_bearing(landmark, pose, bearing_sigma_);
+    if (!pixel || !bearing) return false;
+    const double margin_px = kSureOfView_sigmas * camera_.focal_x_px * std::sqrt(bearing->covariance.trace());
+    return pixel->x() > margin_px && pixel->y() > margin_px && pixel->x() < camera_.width_px - 1 - margin_px &&
+           pixel->y() < camera_.height_px - 1 - margin_px;
+  };
+  std::vector<MappedLandmark> kept;
+  for (size_t k = 0; k < landmarks_.size(); ++k) {
+    MappedLandmark& mapped = landmarks_[k];
+    const bool missed = !seen[k] && in_view(mapped.landmark);
+    mapped.misses = seen[k] ? 0 : mapped.misses + missed;
+    const int most = confirmed(mapped) ? config_.misses : config_.young_misses;
+    if (mapped.misses < most) kept.push_back(mapped);
+  }
+  landmarks_ = std::move(kept);
+}
+
+}  // namespace hedgehop::vision
