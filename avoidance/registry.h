@@ -14,9 +14,8 @@
 namespace hedgehop::avoidance {
 
 /// Every module of this tree: one config struct per row, with `kName` as its name in a scenario.
-using ModuleConfig =
-    std::variant<GoToGoalConfig, FlowBalanceConfig, SectionGridConfig, StereoCorridorConfig, CorridorCenteringConfig,
-                 LandmarkMapModuleConfig>;
+using ModuleConfig = std::variant<GoToGoalConfig, FlowBalanceConfig, SectionGridConfig, StereoCorridorConfig,
+                                  CorridorCenteringConfig, LandmarkMapModuleConfig>;
 
 /// Returns the module that the config belongs to; reset() comes next. Throws std::invalid_argument on a bad config.
 std::unique_ptr<Module> make_module(const ModuleConfig& config);
