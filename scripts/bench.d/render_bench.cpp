@@ -107,18 +107,27 @@ scenes::Scene quad(double texels_per_pixel) {
   return scene;
 }
 
+/// What a scenario may ask for besides.
+struct Extras {
+  Shadows shadows = Shadows::none;
+  int samples = 1;
+};
+
 /// Time of one picture, the mean over the poses.
 void draw(benchmark::State& state, const scenes::Scene& scene, const std::vector<Eigen::Isometry3d>& poses,
-          const vision::Camera& camera = kCamera) {
+          const vision::Camera& camera = kCamera, const Extras& extras = {}) {
   const auto channel = static_cast<Channel>(state.range(0));
-  Renderer renderer(scene);
+  Renderer renderer(scene, Culling::frustum_and_horizon, ContextKind::osmesa, extras.shadows);
   cv::Mat picture;
-  for (const Eigen::Isometry3d& X_WC : poses) renderer.draw({camera, X_WC, channel}, picture);  // plans the lens
+  const auto draw_from = [&](const Eigen::Isometry3d& X_WC) {
+    renderer.draw({.camera = camera, .X_WC = X_WC, .channel = channel, .samples = extras.samples}, picture);
+  };
+  for (const Eigen::Isometry3d& X_WC : poses) draw_from(X_WC);  // plans the lens
   double stretches = 0.0, triangles = 0.0;
   const auto pictures = static_cast<int64_t>(poses.size());
   while (state.KeepRunningBatch(pictures)) {
     for (const Eigen::Isometry3d& X_WC : poses) {
-      renderer.draw({camera, X_WC, channel}, picture);
+      draw_from(X_WC);
       benchmark::DoNotOptimize(picture.data);
       stretches += static_cast<double>(renderer.drawn().stretches);
       triangles += static_cast<double>(renderer.drawn().triangles);
@@ -133,6 +142,14 @@ void draw(benchmark::State& state, const scenes::Scene& scene, const std::vector
 
 void City(benchmark::State& state) { draw(state, city(300.0), street_views(kFlightHeightM)); }
 void CityFloor(benchmark::State& state) { draw(state, quad(1.6), {down(0, 0, kFlightHeightM)}); }
+void CityShadows(benchmark::State& state) {
+  draw(state, city(300.0), street_views(kFlightHeightM), kCamera, {.shadows = Shadows::sun});
+}
+void CityShadowsFloor(benchmark::State& state) { City(state); }
+void CityFourSamples(benchmark::State& state) {
+  draw(state, city(300.0), street_views(kFlightHeightM), kCamera, {.samples = 4});
+}
+void CityFourSamplesFloor(benchmark::State& state) { City(state); }
 // The small city is the large one's floor: what cannot be seen should cost nothing.
 void LargeCity(benchmark::State& state) { draw(state, city(3000.0), street_views(kFlightHeightM)); }
 void LargeCityFloor(benchmark::State& state) { City(state); }
@@ -187,6 +204,10 @@ void all_channels(benchmark::internal::Benchmark* b) {
 }
 BENCHMARK(City)->Apply(all_channels);
 BENCHMARK(CityFloor)->Apply(all_channels);
+BENCHMARK(CityShadows)->Apply(grey);
+BENCHMARK(CityShadowsFloor)->Apply(grey);
+BENCHMARK(CityFourSamples)->Apply(grey);
+BENCHMARK(CityFourSamplesFloor)->Apply(grey);
 BENCHMARK(CityDistorted)->Apply(all_channels);
 BENCHMARK(CityDistortedFloor)->Apply(all_channels);
 BENCHMARK(CityFisheye)->Apply(all_channels);

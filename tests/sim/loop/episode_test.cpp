@@ -115,6 +115,22 @@ TEST(PictureAt, AnUnknownCameraIsRefusedWithTheRigsRoles) {
   }
 }
 
+TEST(PictureAt, ACameraThatTheContextCannotDrawIsRefusedByItsRole) {
+  try {
+    picture_at(short_city({"rig.cameras.1.samples=8"}), "front", Channel::grey, 0.0);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "camera 'right': samples: 8 samples a pixel cannot be drawn; this OpenGL has at most 4");
+  }
+}
+
+TEST(PictureAt, ShadowsDarkenPixelsAndBrightenNone) {
+  const cv::Mat lit = picture_at(short_city(), "down", Channel::grey, 0.0);
+  const cv::Mat shaded = picture_at(short_city({"drawing.shadows=true"}), "down", Channel::grey, 0.0);
+  EXPECT_EQ(cv::countNonZero(shaded > lit), 0);
+  EXPECT_GT(cv::countNonZero(shaded < lit), 0);
+}
+
 TEST(PictureAt, GreyIsTheMeanOfColour) {
   const cv::Mat color = picture_at(short_city(), "front", Channel::color, 0.0);
   const cv::Mat grey = picture_at(short_city(), "front", Channel::grey, 0.0);
