@@ -21,8 +21,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kConfidence = 0.95;
-const std::set<std::string> kWordColumns = {"id", "group", "scenario", "status", "outcome", "cause", "trajectory_hash",
-                                            "command"};
+const std::set<std::string> kWordColumns = {"id",      "group", "scenario",        "status",
+                                            "outcome", "cause", "trajectory_hash", "command"};
 
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 

@@ -27,8 +27,8 @@ std::vector<std::optional<FlownPath>> read_paths(const std::filesystem::path& fo
   const size_t share = kMostPoints / std::max<size_t>(1, records.size());
   std::vector<std::optional<FlownPath>> paths;
   for (const FlightRecord& record : records) {
-    paths.emplace_back(read_path(folder / record.order.id, record.order.seed,
-                                 std::clamp(share, kLeastPointsOfOne, kMostPointsOfOne)));
+    paths.emplace_back(
+        read_path(folder / record.order.id, record.order.seed, std::clamp(share, kLeastPointsOfOne, kMostPointsOfOne)));
   }
   return paths;
 }

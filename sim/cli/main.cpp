@@ -100,7 +100,8 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
       ->add_option("--against", report.against, "of a batch or sweep: tell what changed since this earlier one")
       ->check(CLI::ExistingDirectory)
       ->type_name("DIR");
-  report_command->add_flag("--replay", report.replay, "of a run: also write replay.html, the flight in three dimensions");
+  report_command->add_flag("--replay", report.replay,
+                           "of a run: also write replay.html, the flight in three dimensions");
   report_command->callback([&] { chosen = [&report] { return cli::report(report); }; });
 
   CLI::App* const list_command = app.add_subcommand("list", "tell what a scenario may name, and every key it takes");

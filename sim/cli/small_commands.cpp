@@ -54,7 +54,8 @@ int report(const ReportOptions& options) {
   if (!std::filesystem::exists(options.folder / "result.json")) {
     throw InputError(folder + ": no result.json, batch.csv or sweep.csv: not the folder of a run, batch or sweep");
   }
-  if (!options.against.empty()) throw InputError(folder + ": --against compares batches or sweeps, and this is one run");
+  if (!options.against.empty())
+    throw InputError(folder + ": --against compares batches or sweeps, and this is one run");
   if (options.replay) write_replay(options.folder);
   write_report(options.folder);  // links the replay
   written("report.html");

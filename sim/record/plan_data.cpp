@@ -37,7 +37,6 @@ nlohmann::ordered_json milli(double value) {
   return std::round(value * 1e3) / 1e3;
 }
 
-
 nlohmann::ordered_json plan_data(const ScenePlan& plan, double lowest_m, double highest_m) {
   Json json;
   json["bounds"] = Json::array();

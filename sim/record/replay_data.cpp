@@ -39,7 +39,8 @@ Json mesh(const Eigen::Isometry3d& X_PS, const scenes::Polyhedron& polyhedron) {
 }
 
 Json no_bodies() {
-  return {{"boxes", Json::array()}, {"cylinders", Json::array()}, {"spheres", Json::array()}, {"meshes", Json::array()}};
+  return {
+      {"boxes", Json::array()}, {"cylinders", Json::array()}, {"spheres", Json::array()}, {"meshes", Json::array()}};
 }
 
 Json bodies(const std::vector<scenes::Solid>& solids) {
@@ -68,7 +69,8 @@ Json replay_scene(const scenes::Scene& scene, double end_s) {
   json["movers"] = Json::array();
   for (const scenes::Mover& mover : scene.movers) {
     Json way = Json::array();
-    for (int i = 0; i <= std::ceil(end_s / kMoverStep_s); ++i) append(way, scenes::p_WM(mover.motion, i * kMoverStep_s));
+    for (int i = 0; i <= std::ceil(end_s / kMoverStep_s); ++i)
+      append(way, scenes::p_WM(mover.motion, i * kMoverStep_s));
     json["movers"].push_back({{"name", mover.name}, {"bodies", bodies(mover.solids)}, {"way", way}});
   }
   return json;

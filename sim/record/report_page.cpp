@@ -114,12 +114,9 @@ std::string report_page(std::string_view title, std::string data_json, const Pag
 
 std::string trim_page(std::string_view title, std::string data_json) {
   const std::string safe_title = html_escaped(title), data = script_safe(std::move(data_json));
-  const std::array values = {Value{"title", safe_title},
-                             Value{"plot_style", kPlotStyle},
-                             Value{"style", kReportStyle},
-                             Value{"data", data},
-                             Value{"plot_script", kPlotScript},
-                             Value{"scripts", kTrimScripts}};
+  const std::array values = {Value{"title", safe_title},        Value{"plot_style", kPlotStyle},
+                             Value{"style", kReportStyle},      Value{"data", data},
+                             Value{"plot_script", kPlotScript}, Value{"scripts", kTrimScripts}};
   return filled(kTrimPage, values);
 }
 
@@ -133,8 +130,9 @@ std::string campaign_page(std::string_view title, std::string data_json) {
 
 std::string replay_page(std::string_view title, std::string data_json) {
   const std::string safe_title = html_escaped(title), data = script_safe(std::move(data_json));
-  const std::array values = {Value{"title", safe_title}, Value{"style", kReportStyle}, Value{"replay_style", kReplayStyle},
-                             Value{"data", data}, Value{"scripts", kReplayScripts}};
+  const std::array values = {Value{"title", safe_title}, Value{"style", kReportStyle},
+                             Value{"replay_style", kReplayStyle}, Value{"data", data},
+                             Value{"scripts", kReplayScripts}};
   return filled(kReplayPage, values);
 }
 

@@ -10,13 +10,13 @@ extern const std::string_view kReportStyle;    ///< CSS of all pages
 extern const std::string_view kReportScripts;  ///< all that a run's report runs, but uPlot
 extern const std::string_view kTrimPage;       ///< HTML of the page of a vehicle's trim, as kReportPage
 extern const std::string_view kTrimScripts;
-extern const std::string_view kCampaignPage;     ///< HTML of a batch's or sweep's report, as kReportPage
-extern const std::string_view kCampaignStyle;    ///< CSS that it adds
+extern const std::string_view kCampaignPage;   ///< HTML of a batch's or sweep's report, as kReportPage
+extern const std::string_view kCampaignStyle;  ///< CSS that it adds
 extern const std::string_view kCampaignScripts;
 extern const std::string_view kReplayPage;     ///< HTML of the replay, as kReportPage
 extern const std::string_view kReplayStyle;    ///< CSS that it adds
 extern const std::string_view kReplayScripts;  ///< with three.js bundled in
-extern const std::string_view kPlotStyle;   ///< CSS of uPlot
-extern const std::string_view kPlotScript;  ///< uPlot
+extern const std::string_view kPlotStyle;      ///< CSS of uPlot
+extern const std::string_view kPlotScript;     ///< uPlot
 
 }  // namespace hedgehop::sim
