@@ -64,7 +64,7 @@ class Axes {
 
   ticks(axis, pixels, room) {
     if (axis.ticks) {
-      const every = Math.ceil(axis.ticks.length * room / pixels);
+      const every = Math.max(1, Math.ceil((axis.ticks.length - 1) * room / pixels));
       return axis.ticks.filter((tick, i) => i % every === 0);
     }
     return niceTicks(axis.low, axis.high, Math.max(2, pixels / 70)).values.map((value) => ({value, text: short(Math.abs(value) < 1e-12 ? 0 : value)}));

@@ -125,7 +125,7 @@ class PathsView {
 
   drawKey(key) {
     const present = new Set(this.rows.filter((row) => this.shown.has(row)).map((row) => this.table.verdict(row)));
-    for (const verdict of Object.keys(verdictWords)) {
+    for (const verdict of ['passed', 'failed', 'collided']) {
       if (!present.has(verdict)) continue;
       const item = key.appendChild(make('span'));
       item.appendChild(make('i')).style.cssText = `background: ${themeColor(verdictColors[verdict])}; height: 3px; vertical-align: 3px`;

@@ -73,7 +73,7 @@ export function vehicle(hull) {
   const group = new THREE.Group(), body = bodies(hull, colors.hull, {transparent: true, opacity: 0.85});
   const reach = Math.max(0.3, ...[...hull.boxes, ...hull.cylinders].map(([x, y, z, qx, qy, qz, qw, a]) => x + a));
   const nose = new THREE.Mesh(new THREE.ConeGeometry(0.12 * reach, 0.4 * reach, 12).rotateZ(-Math.PI / 2), material(colors.nose));
-  nose.position.x = 1.1 * reach;
+  nose.position.set(1.1 * reach, 0, Math.min(...[...hull.boxes, ...hull.cylinders].map(([x, y, z]) => z)));  // no rotor hides it
   group.add(body, nose);
   return {group, reach};
 }

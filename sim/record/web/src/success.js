@@ -3,21 +3,24 @@
 
 const mostCategories = 16, numberBins = 8;
 
-/** Groups of a column's values: {axis label, words, of(row) -> index or -1}. */
+/** Groups of a column's values: {axis, words, of(row) -> index or -1}. */
 function columnBins(column, rows) {
   const values = [...new Set(rows.map((row) => column.values[row]))].filter((v) => v !== null && v !== '');
   if (column.is_text || values.length <= mostCategories) {
     values.sort((a, b) => a < b ? -1 : a > b ? 1 : 0);
     const index = new Map(values.map((v, i) => [v, i]));
-    return {label: columnLabel(column), words: values.map((v) => column.is_text ? v : short(v)), of: (row) => index.get(column.values[row]) ?? -1};
+    const words = values.map((v) => column.is_text ? v : short(v));
+    return {axis: wordAxis(columnLabel(column), words), words, of: (row) => index.get(column.values[row]) ?? -1};
   }
   const [low, high] = finiteRange(values), step = (high - low) / numberBins;
-  const words = Array.from({length: numberBins}, (_, i) => `${short(low + i * step, 3)}…${short(low + (i + 1) * step, 3)}`);
+  const words = Array.from({length: numberBins}, (_, i) => `${short(low + i * step, 3)} to ${short(low + (i + 1) * step, 3)}`);
   const of = (row) => {
     const v = column.values[row];
     return v === null ? -1 : Math.min(numberBins - 1, Math.floor((v - low) / step));
   };
-  return {label: columnLabel(column) + ', in ranges', words, of};
+  const axis = wordAxis(columnLabel(column), words);
+  axis.ticks = Array.from({length: numberBins + 1}, (_, i) => ({value: i - 0.5, text: short(low + i * step, 3)}));
+  return {axis, words, of};
 }
 
 /** Counts of flights in cells "x,y": {passed, ended, rows}. Flights that were not flown do not count. */
@@ -70,7 +73,7 @@ class SuccessMap {
     this.xBins = columnBins(this.table.columns.get(this.x.value), this.rows);
     this.yBins = columnBins(this.table.columns.get(this.y.value), this.rows);
     this.cells = successCells(this.table, this.rows, this.xBins, this.yBins);
-    this.axes.set(wordAxis(this.xBins.label, this.xBins.words), wordAxis(this.yBins.label, this.yBins.words));
+    this.axes.set(this.xBins.axis, this.yBins.axis);
   }
   draw(c) {
     if (!this.cells) return;

@@ -1,0 +1,107 @@
+#include <gmock/gmock.h>
+
+#include <Eigen/Geometry>
+
+#include "sim/record/csv_table.h"
+#include "sim/record/report.h"
+#include "sim/record/result_files.h"
+#include "sim/scenario/scenario.h"
+#include "tests/sim/record/browser.h"
+#include "tests/sim/record/fake_flight.h"
+#include "tests/sim/record/temporary_folder.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+/// A run's folder with a made-up flight of ten seconds.
+class RunFolder : public TemporaryFolder {
+ public:
+  RunFolder() {
+    Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_city_0_light.yaml");
+    write_result_files(path(), {.scenario = "city </script>", .seed = 9, .scenario_yaml = to_yaml(scenario)},
+                       fake_flight(10.0, 1));
+  }
+};
+
+TEST(ReportInBrowser, OpensAloneAndFollowsThePointer) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  write_report(run.path());
+  const PageVisit page = visit(run.path() / "report.html", R"js(
+    const canvas = document.querySelector('#plan canvas'), box = canvas.getBoundingClientRect();
+    canvas.dispatchEvent(new PointerEvent('pointermove', {clientX: box.x + box.width / 2, clientY: box.y + box.height / 2}));
+    return [document.querySelector('h1').textContent, document.querySelector('#plan .tip').hidden];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_THAT(page.requests, IsEmpty());
+  EXPECT_THAT(page.value, ElementsAre("city </script>", false));
+}
+
+TEST(ReplayInBrowser, PutsTheVehicleWhereTheTrajectoryHasIt) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  write_replay(run.path());
+  const PageVisit page = visit(run.path() / "replay.html", R"js(
+    const time = document.getElementById('time'), places = [];
+    for (const t of [0, 3.21, 7.5]) {
+      time.value = t;
+      time.dispatchEvent(new Event('input'));
+      places.push([replay.state.t_s, ...replay.point(1, 2, 3)]);
+    }
+    return places;)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_THAT(page.requests, IsEmpty());
+  const CsvTable table(run.path() / "trajectory.csv");
+  const auto column = [&](const char* name) { return table.numbers(name); };
+  const auto t_s = column("t_s");
+  constexpr double kRounding_m = 3e-3;  // a millimetre of place, and of angle a tenth of a milliradian at 4 m
+  for (const auto& place : page.value) {
+    const auto row = static_cast<size_t>(
+        std::ranges::min_element(t_s, {}, [&](double t) { return std::abs(t - place[0].get<double>()); }) -
+        t_s.begin());
+    const Eigen::Quaterniond q_WB = Eigen::AngleAxisd(column("yaw_rad")[row], Eigen::Vector3d::UnitZ()) *
+                                    Eigen::AngleAxisd(column("pitch_rad")[row], Eigen::Vector3d::UnitY()) *
+                                    Eigen::AngleAxisd(column("roll_rad")[row], Eigen::Vector3d::UnitX());
+    const Eigen::Vector3d p_W = Eigen::Vector3d(column("north_m")[row], column("east_m")[row], column("down_m")[row]) +
+                                q_WB * Eigen::Vector3d(1.0, 2.0, 3.0);
+    EXPECT_NEAR(place[1].get<double>(), p_W.y(), kRounding_m);   // x east
+    EXPECT_NEAR(place[2].get<double>(), -p_W.z(), kRounding_m);  // y up
+    EXPECT_NEAR(place[3].get<double>(), -p_W.x(), kRounding_m);  // z south
+  }
+}
+
+TEST(ReplayInBrowser, PlaysPausesAndChangesCameraAndSpeed) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  write_replay(run.path());
+  const PageVisit page = visit(run.path() / "replay.html", R"js(
+    const frames = async (n) => { while (n--) await new Promise(requestAnimationFrame); };
+    const set = (id, value) => {
+      const element = document.getElementById(id);
+      element.value = value;
+      element.dispatchEvent(new Event('change'));
+    };
+    const play = document.getElementById('play'), seen = [replay.state.t_s];
+    set('speed', '0.1');
+    play.click();
+    const word = play.textContent;
+    await frames(4);
+    play.click();
+    seen.push(replay.state.t_s);
+    await frames(4);
+    seen.push(replay.state.t_s);
+    set('camera', 'chase');
+    await frames(2);
+    set('camera', 'above');
+    await frames(2);
+    return {word, moved: seen[1] > seen[0], rested: seen[2] === seen[1], speed: replay.state.speed, camera: replay.state.camera};
+    )js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value, nlohmann::json::parse(
+                            R"({"word": "pause", "moved": true, "rested": true, "speed": 0.1, "camera": "above"})"));
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
