@@ -78,6 +78,38 @@ GroupSummary all_of(std::vector<FlightRecord> records) {
   return records.empty() ? GroupSummary{.group = "all flights"} : summarise(records).front();
 }
 
+/// Scenario and seed: what flights of equal orders but for their settings share.
+std::string twin_key(const FlightRecord& record) {
+  return fmt::format("{}\n{}", record.order.scenario.string(), record.order.seed);
+}
+
+/// For each flight of `now` the one of `before` with the same id, else the only one of its scenario and seed, where it
+/// is the only one in `now` too.
+std::vector<std::optional<size_t>> partners(const std::vector<FlightRecord>& now,
+                                            const std::vector<FlightRecord>& before) {
+  std::map<std::string, size_t> by_id;
+  std::map<std::string, std::vector<size_t>> twins;
+  std::map<std::string, size_t> count;
+  for (size_t i = 0; i < before.size(); ++i) {
+    by_id[before[i].order.id] = i;
+    twins[twin_key(before[i])].push_back(i);
+  }
+  for (const FlightRecord& record : now) ++count[twin_key(record)];
+  std::vector<std::optional<size_t>> found;
+  for (const FlightRecord& record : now) {
+    const auto same = by_id.find(record.order.id);
+    const auto alike = twins.find(twin_key(record));
+    if (same != by_id.end()) {
+      found.emplace_back(same->second);
+    } else if (alike != twins.end() && alike->second.size() == 1 && count.at(alike->first) == 1) {
+      found.emplace_back(alike->second.front());
+    } else {
+      found.emplace_back();
+    }
+  }
+  return found;
+}
+
 Json rate(const Count& count) {
   const Interval interval = wilson_interval(count, kConfidence);
   return {{"passed", count.successes}, {"ended", count.trials}, {"low", interval.low}, {"high", interval.high}};
@@ -153,25 +185,24 @@ Json groups_data(const std::vector<FlightRecord>& records) {
 }
 
 Json against_data(const FlightList& now, const FlightList& before) {
-  std::map<std::string, size_t> rows;
-  for (size_t i = 0; i < before.records.size(); ++i) rows[before.records[i].order.id] = i;
+  const auto pairs = partners(now.records, before.records);
   const std::vector<std::string> commands = before.table.words("command");
   Json json{{"flights", Json::array()}, {"groups", Json::array()}, {"gone", Json::array()}};
-  for (const FlightRecord& record : now.records) {
-    const auto found = rows.find(record.order.id);
-    if (found == rows.end()) {
+  for (const std::optional<size_t>& pair : pairs) {
+    if (!pair) {
       json["flights"].push_back(nullptr);
       continue;
     }
-    const FlightRecord& old = before.records[found->second];
-    Json row{{"outcome", outcome_words(old)}, {"passed", passed(old)}, {"command", commands[found->second]}};
+    const FlightRecord& old = before.records[*pair];
+    Json row{{"outcome", outcome_words(old)}, {"passed", passed(old)}, {"command", commands[*pair]}};
     const bool flown = old.status == FlightRecord::Status::flown;
     row["clearance_m"] = flown ? old.result.at("min_obstacle_clearance_m") : Json(nullptr);
     row["time_s"] = flown ? old.result.at("flight_time_s") : Json(nullptr);
     json["flights"].push_back(std::move(row));
-    rows.erase(found);
   }
-  for (const auto& [id, row] : rows) json["gone"].push_back(id);
+  for (size_t i = 0; i < before.records.size(); ++i) {
+    if (std::ranges::find(pairs, std::optional(i)) == pairs.end()) json["gone"].push_back(before.records[i].order.id);
+  }
 
   json["groups"].push_back(change_row(all_of(now.records), all_of(before.records)));
   const std::vector<GroupSummary> earlier = summarise(before.records), groups = summarise(now.records);

@@ -28,8 +28,10 @@ std::vector<std::string> swept_columns(const FlightList& flights);
 /// Flights that differ by the seed alone, one row a group with its Wilson interval (95 %), and before them one of all.
 nlohmann::ordered_json groups_data(const std::vector<FlightRecord>& records);
 
-/// What an earlier campaign's flights of the same ids did: `flights` (one a row of `now`, null where there was none),
-/// `groups` with both rates and the interval (95 %) of the rate's change, and the ids of flights that are no more.
+/// What an earlier campaign's flights did: `flights` (one a row of `now`, null where there was none), `groups` of the
+/// same name with both rates and the interval (95 %) of the rate's change, and the ids of flights that are no more.
+/// Flights are the same by their id, else by scenario and seed where these leave no choice: so settings can be
+/// compared.
 nlohmann::ordered_json against_data(const FlightList& now, const FlightList& before);
 
 }  // namespace hedgehop::sim

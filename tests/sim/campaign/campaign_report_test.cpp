@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "sim/campaign/campaign_data.h"
 #include "sim/campaign/table.h"
 #include "sim/scenario/scenario.h"
 #include "tests/sim/campaign/campaign_folder.h"
@@ -144,7 +145,9 @@ TEST(CampaignInBrowser, TellsWhichFlightsEndOtherwiseThanBefore) {
   records[4].result["outcome"] = "collided";
   records[4].result["checks"][0]["passed"] = false;
   records[4].result["min_obstacle_clearance_m"] = -0.25;
-  records[9].order.id = "flights/new";
+  records[9].order.id = "flights/other";  // its scenario and seed are those of others too
+  records[10].order.id = "flights/new";
+  records[10].order.seed = 77;
   write_sweep(folder.path() / "now", records);
   write_campaign_report(folder.path() / "now", folder.path() / "before");
   const PageVisit page = visit(folder.path() / "now" / "report.html", R"js(
@@ -153,12 +156,26 @@ TEST(CampaignInBrowser, TellsWhichFlightsEndOtherwiseThanBefore) {
             changed: [...document.querySelectorAll('#changed tr')].slice(1).map(words)};)js");
   EXPECT_THAT(page.errors, IsEmpty());
   EXPECT_THAT(page.value.at("said").get<std::string>(),
-              HasSubstr("19 flights in both, 1 with another end; 1 only here, 1 only there."));
+              HasSubstr("18 flights in both, 1 with another end; 2 only here, 2 only there."));
   ASSERT_EQ(page.value.at("changed").size(), 1u);
   EXPECT_EQ(page.value.at("changed")[0][0], "flights/4");
   EXPECT_EQ(page.value.at("changed")[0][1], "reached");
   EXPECT_EQ(page.value.at("changed")[0][2], "collided");
   EXPECT_EQ(page.value.at("changed")[0][4], "\u22120.25");
+}
+
+TEST(AgainstData, PairsFlightsOfOtherSettingsByScenarioAndSeed) {
+  const TemporaryFolder folder;
+  auto records = made_up(4, 10);  // four seeds of one scenario
+  write_sweep(folder.path() / "before", records);
+  std::ranges::reverse(records);
+  for (FlightRecord& record : records) record.order.id += "_set";
+  write_sweep(folder.path() / "now", records);
+  const auto data = against_data(read_flights(folder.path() / "now"), read_flights(folder.path() / "before"));
+  EXPECT_THAT(data.at("gone"), IsEmpty());
+  for (size_t i = 0; i < records.size(); ++i) {
+    EXPECT_EQ(data.at("flights")[i].at("time_s"), records[i].result.at("flight_time_s")) << i;
+  }
 }
 
 TEST(CampaignReport, OfAThousandFlightsWithLongPathsStaysBelowTenMegabytes) {

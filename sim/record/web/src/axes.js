@@ -12,7 +12,7 @@ function numberAxis(label, values) {
 }
 /** An axis of categories, the i-th one from i - 0.5 to i + 0.5. */
 function wordAxis(label, words) {
-  return {label, low: -0.5, high: words.length - 0.5, ticks: words.map((text, value) => ({value, text}))};
+  return {label, words, low: -0.5, high: words.length - 0.5, ticks: words.map((text, value) => ({value, text}))};
 }
 /** Name and unit of a column. */
 function columnLabel(column) { return column.unit ? `${column.name}, ${column.unit}` : column.name; }
@@ -44,7 +44,8 @@ class Axes {
     this.canvas.width = Math.round(width * dpr);
     this.canvas.height = Math.round(this.height * dpr);
     this.canvas.style.height = this.height + 'px';
-    const {left, right, top, bottom} = axesMargin;
+    const {right, top, bottom} = axesMargin, left = axesMargin.left + (this.yAxis.words ? 60 : 0);
+    this.left = left;
     this.frame = {x: left, y: top, width: width - left - right, height: this.height - top - bottom};
     const c = this.canvas.getContext('2d');
     c.setTransform(dpr, 0, 0, dpr, 0, 0);
@@ -93,7 +94,7 @@ class Axes {
     c.textBaseline = 'middle';
     for (const {value, text} of this.ticks(this.yAxis, height, 16)) {
       if (!this.yAxis.ticks) { c.moveTo(x, this.y(value)); c.lineTo(x + width, this.y(value)); }
-      c.fillText(clipped(text, axesMargin.left - 22), x - 5, this.y(value));
+      c.fillText(clipped(text, this.left - 22), x - 5, this.y(value));
     }
     c.stroke();
     c.textAlign = 'center';

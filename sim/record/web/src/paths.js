@@ -60,9 +60,10 @@ class PathsView {
   nameScenes() {
     const counts = this.counts(this.shown);
     this.numbers.forEach((number, i) => {
-      const count = counts.get(number) ?? 0;
+      const count = counts.get(number) ?? 0, first = this.mapOf.indexOf(number);
+      const name = `${this.table.value('group', first)}, seed ${this.table.value('seed', first)}`;
       this.select.options[i].textContent =
-        `${number < 0 ? 'others, not drawn' : number + 1 + ' of ' + this.maps.length}: ${count} flight${count === 1 ? '' : 's'}`;
+        `${number < 0 ? 'others, not drawn' : number + 1 + ' of ' + this.maps.length}: ${count === 1 ? name : count + ' flights'}`;
     });
   }
 

@@ -19,6 +19,7 @@ function columnBins(column, rows) {
     return v === null ? -1 : Math.min(numberBins - 1, Math.floor((v - low) / step));
   };
   const axis = wordAxis(columnLabel(column), words);
+  axis.words = null;  // its ticks are the ranges' ends
   axis.ticks = Array.from({length: numberBins + 1}, (_, i) => ({value: i - 0.5, text: short(low + i * step, 3)}));
   return {axis, words, of};
 }
