@@ -112,21 +112,6 @@ TEST(CorridorCentering, OneWallAloneIsUnknownNotTheMiddle) {
   EXPECT_TRUE(std::holds_alternative<HoverCommand>(last.command));
 }
 
-TEST(CorridorCentering, SlowsDownBeforeAWallAcrossAndThenTurnsAway) {
-  const auto command_before = [](double way_m, double v_mps) {
-    const auto module = make_corridor_centering({});
-    StraightCorridor corridor;
-    corridor.end_m = way_m + 2 * 0.1 * v_mps;  // two pictures on
-    return fly(*module, corridor.planes(), {0, 0}, {v_mps, 0}, 3).back();
-  };
-  const Decision far = command_before(6.0, 0.8), near = command_before(0.9, 0.8), at_it = command_before(0.38, 0.3);
-  const double far_mps = std::get<VelocityCommand>(far.command).v_WB_W.norm();
-  EXPECT_NEAR(far_mps, 0.8, 1e-9);
-  EXPECT_LT(std::get<VelocityCommand>(near.command).v_WB_W.norm(), 0.75);
-  ASSERT_TRUE(std::holds_alternative<HoverCommand>(at_it.command));
-  EXPECT_NE(std::get<HoverCommand>(at_it.command).yaw_rate_radps, 0.0);
-}
-
 TEST(CorridorCentering, WhatStandsStillInThePictureDoesNotMoveTheMedians) {
   // A band keeps what it showed first, as a part of the vehicle would.
   cv::Mat stuck;
