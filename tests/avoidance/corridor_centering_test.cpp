@@ -20,8 +20,8 @@ constexpr double kAltitude_m = 1.5;
 // Flies north at a constant velocity through what is drawn, and returns the decisions.
 std::vector<Decision> fly(Module& module, const std::vector<vision::TexturedPlane>& walls,
                           const Eigen::Vector2d& from_NE, const Eigen::Vector2d& v_WB_W, int pictures,
-                          const std::function<void(cv::Mat&)>& spoil = {}) {
-  static const vision::WaveTexture texture(11, 0.12, 0.8, 40);
+                          const std::function<void(cv::Mat&)>& spoil = {}, double largest_wave_m = 0.8) {
+  const vision::WaveTexture texture(11, 0.15 * largest_wave_m, largest_wave_m, 40);
   Setup setup = fisheye_below(480, 10.0);
   module.reset(setup);
   std::vector<Decision> decisions;
@@ -110,6 +110,22 @@ TEST(CorridorCentering, OneWallAloneIsUnknownNotTheMiddle) {
   EXPECT_TRUE(std::isnan(signal(*module, last, "centering_error")));
   EXPECT_GT(signal(*module, last, "vectors_right"), 12.0);
   EXPECT_TRUE(std::holds_alternative<HoverCommand>(last.command));
+}
+
+TEST(CorridorCentering, SlowsDownBeforeAWallAcrossAndThenTurnsAway) {
+  const auto command_before = [](double way_m, double v_mps) {
+    const auto module = make_corridor_centering({});
+    StraightCorridor corridor;
+    corridor.end_m = way_m + 2 * 0.1 * v_mps;  // two pictures on
+    constexpr double kFine_m = 0.04;           // so near, coarser texture shows no corners
+    return fly(*module, corridor.planes(), {0, 0}, {v_mps, 0}, 3, {}, kFine_m).back();
+  };
+  const Decision far = command_before(6.0, 0.8), near = command_before(0.9, 0.8), at_it = command_before(0.38, 0.3);
+  const double far_mps = std::get<VelocityCommand>(far.command).v_WB_W.norm();
+  EXPECT_NEAR(far_mps, 0.8, 1e-9);
+  EXPECT_LT(std::get<VelocityCommand>(near.command).v_WB_W.norm(), 0.75);
+  ASSERT_TRUE(std::holds_alternative<HoverCommand>(at_it.command));
+  EXPECT_NE(std::get<HoverCommand>(at_it.command).yaw_rate_radps, 0.0);
 }
 
 TEST(CorridorCentering, WhatStandsStillInThePictureDoesNotMoveTheMedians) {
