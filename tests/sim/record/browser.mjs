@@ -14,7 +14,7 @@ const profile = mkdtempSync(join(tmpdir(), 'hedgehop-chromium-'));
 const browser = spawn(chromium, ['--headless', '--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader',
   '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
   '--hide-scrollbars', `--user-data-dir=${profile}`, '--remote-debugging-pipe', 'about:blank'],
-  {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']});
+  {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'], detached: true});  // a group of its own, to be ended as one
 
 // Chromium speaks its DevTools protocol over two pipes, messages ended by a zero byte.
 const waiting = new Map(), listeners = [];
@@ -78,7 +78,14 @@ async function visit() {
 }
 
 const gone = new Promise((resolve) => browser.on('exit', resolve));
-const late = setTimeout(() => browser.kill('SIGKILL'), 90_000);
+const end = () => { try { process.kill(-browser.pid, 'SIGKILL'); } catch { /* gone already */ } };
+const late = setTimeout(end, 90_000);
+/// Chromium's helpers may write into the profile until they are gone.
+async function removeProfile() {
+  for (let tries = 50; tries > 0; --tries) {
+    try { return rmSync(profile, {recursive: true, force: true}); } catch { await new Promise((later) => setTimeout(later, 100)); }
+  }
+}
 try {
   const answer = await Promise.race([visit(), gone.then(() => { throw new Error('Chromium ended too early'); })]);
   console.log(JSON.stringify(answer));
@@ -87,7 +94,7 @@ try {
   process.exitCode = 1;
 } finally {
   clearTimeout(late);
-  browser.kill('SIGKILL');
+  end();
   await gone;
-  rmSync(profile, {recursive: true, force: true, maxRetries: 5, retryDelay: 100});
+  await removeProfile();
 }
