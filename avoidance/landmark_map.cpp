@@ -24,6 +24,7 @@ void check(const LandmarkMapModuleConfig& c) {
   };
   need(c.corners.most >= 1 && c.corners.apart_px >= 1, "corners: most and apart must be at least 1");
   need(c.corners.quality > 0.0 && c.corners.quality <= 1.0, "corners: quality must lie in (0, 1]");
+  need(c.corners.blur_px > 0.0, "corners: blur must be above 0 px");
   need(c.speed_mps > 0.0, "speed must be above 0 m/s");
   need(c.clearance_m > 0.0 && c.link_m >= 0.0 && c.most_sigma_m > 0.0,
        "clearance and most_sigma must be above 0 m, link not below");
@@ -93,17 +94,19 @@ class LandmarkMapModule final : public Module {
 
   void find_corners(const cv::Mat& grey) {
     std::vector<cv::Point2f> found;
-    cv::goodFeaturesToTrack(grey, found, config_.corners.most, config_.corners.quality, config_.corners.apart_px);
+    cv::Mat smooth;
+    cv::GaussianBlur(grey, smooth, {}, config_.corners.blur_px);
+    cv::goodFeaturesToTrack(smooth, found, config_.corners.most, config_.corners.quality, config_.corners.apart_px);
     if (!found.empty()) {
       const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.01);
-      cv::cornerSubPix(grey, found, {3, 3}, {-1, -1}, until);
+      cv::cornerSubPix(smooth, found, {3, 3}, {-1, -1}, until);
     }
     corners_px_.clear();
     for (const cv::Point2f& corner : found) corners_px_.emplace_back(corner.x, corner.y);
   }
 
   /// Whether something without corners is so near that the flight must stop: by the divergence of the flow, as
-  /// [Shah2009] ch. 7 proposes, or by a single beam. Twice running, for one measurement may err.
+  /// [Shah2009] ch. 7 proposes, or by a single beam. Several times running, for one measurement may err.
   bool wall_ahead(const std::optional<CameraFlow::Measure>& measure, const NavigationState& navigation) {
     const double v_mps = std::max(0.0, navigation.v_WB_B_est.x());
     const bool flows = measure && config_.time_to_contact_s > 0.0 && measure->valid_share >= config_.flow_share;
@@ -111,7 +114,8 @@ class LandmarkMapModule final : public Module {
     const bool near = (flows && measure->loom_per_s * config_.time_to_contact_s > 1.0) ||
                       (navigation.range_m && *navigation.range_m < config_.stop_range_m + reaction_m);
     alarms_ = near ? alarms_ + 1 : 0;
-    return alarms_ >= 2;
+    constexpr int kAlarms = 6;
+    return alarms_ >= kAlarms;
   }
 
   Command fly_round(const NavigationState& navigation, const Goal& goal) {
@@ -176,7 +180,9 @@ class LandmarkMapModule final : public Module {
       if (-p_W.z() < config_.lowest_m || variance > config_.most_sigma_m * config_.most_sigma_m) continue;
       points.push_back(p_W.head<2>());
     }
-    return plan_hulls(points, config_.link_m);
+    std::vector<PlanHull> hulls = plan_hulls(points, config_.link_m);
+    std::erase_if(hulls, [](const PlanHull& hull) { return hull.size() < 2; });  // a corner alone bounds nothing
+    return hulls;
   }
 
   int64_t confirmed() const {

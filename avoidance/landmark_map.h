@@ -26,12 +26,15 @@ void describe(Visitor& v, Orbit& c) {
 struct CornerChoice {
   int most = 80;
   double quality = 0.15;
+  double blur_px = 2.0;  ///< grass has corners too, but small ones
   int apart_px = 12;
 };
 template <class Visitor>
 void describe(Visitor& v, CornerChoice& c) {
   v("most", c.most, {.at_least = 1, .at_most = 10000, .meaning = "corners taken from a picture, strongest first"});
   v("quality", c.quality, {.above = 0.0, .at_most = 1.0, .meaning = "least strength, as a share of the strongest's"});
+  v("blur", c.blur_px,
+    {.unit = "px", .above = 0.0, .at_most = 20.0, .meaning = "standard deviation of the blur before the search"});
   v("apart", c.apart_px, {.unit = "px", .at_least = 1, .at_most = 1000, .meaning = "least distance of two corners"});
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <deque>
+#include <iterator>
 #include <memory>
 #include <opencv2/core/utility.hpp>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "sim/loop/assessment.h"
 #include "sim/loop/cameras.h"
 #include "sim/loop/flight_log.h"
+#include "sim/loop/map_score.h"
 #include "sim/loop/random_stream.h"
 #include "sim/loop/route.h"
 #include "sim/loop/setpoints.h"
@@ -80,6 +82,7 @@ class Episode {
   std::deque<PendingCommand> pending_;
   dynamics::Setpoint setpoint_;
   FlightLog log_;
+  std::optional<MapScore> map_score_;  ///< where the scene's corners are known
   StageTimer physics_, render_, velocimetry_, decision_;
   std::optional<Outcome> outcome_;
   std::string cause_;
@@ -123,6 +126,9 @@ void Episode::begin() {
                   {limits.speed_limit_mps, limits.acceleration_limit_mps2, dynamics::radius_m(hull_)},
                   stream_seed(scenario_.seed, "module")});
   log_.set_signals(module_->signals());
+  if (const auto* highrise = std::get_if<scenes::HighriseConfig>(&scenario_.scene)) {
+    map_score_.emplace(scenes::highrise_corners(*highrise), aircraft_.body().p_WB);
+  }
 }
 
 void Episode::act() {
@@ -176,6 +182,7 @@ Flight Episode::fly() {
   for (const avoidance::Metric& metric : module_->metrics()) {
     result.metrics.push_back({metric.name, metric.value, metric.unit});
   }
+  if (map_score_) std::ranges::move(map_score_->metrics(), std::back_inserter(result.metrics));
   assess(scenario_, scene_, hull_, flight);
   return flight;
 }
@@ -219,6 +226,7 @@ void Episode::decide() {
     const avoidance::Decision decision = module_->update(observation);
     pending_.push_back({tick_ + latency_, decision.command});
     log_.add(ticks_.t_s(tick_), decision);
+    if (map_score_) map_score_->add(ticks_.t_s(tick_), module_->map());
   } catch (const std::exception& error) {
     end(Outcome::fault, fmt::format("the module failed at {:.3f} s: {}", ticks_.t_s(tick_), error.what()));
   }
