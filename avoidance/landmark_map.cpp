@@ -96,7 +96,9 @@ class LandmarkMapModule final : public Module {
     std::vector<cv::Point2f> found;
     cv::Mat smooth;
     cv::GaussianBlur(grey, smooth, {}, config_.corners.blur_px);
-    cv::goodFeaturesToTrack(smooth, found, config_.corners.most, config_.corners.quality, config_.corners.apart_px);
+    const int block_px = 2 * static_cast<int>(std::ceil(config_.corners.blur_px)) + 1;
+    cv::goodFeaturesToTrack(smooth, found, config_.corners.most, config_.corners.quality, config_.corners.apart_px,
+                            cv::noArray(), block_px);
     if (!found.empty()) {
       const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.01);
       cv::cornerSubPix(smooth, found, {3, 3}, {-1, -1}, until);
