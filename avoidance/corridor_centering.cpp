@@ -8,6 +8,7 @@
 #include <string>
 
 #include "avoidance/corridor_picture.h"
+#include "avoidance/heading.h"
 
 namespace hedgehop::avoidance {
 namespace {

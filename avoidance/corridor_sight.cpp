@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "avoidance/heading.h"
+
 namespace hedgehop::avoidance {
 namespace {
 
@@ -21,11 +23,6 @@ cv::Mat round_about(const std::array<cv::Mat, vision::kRegions>& regions, const 
 }
 
 }  // namespace
-
-double heading_rad(const Eigen::Quaterniond& q_WB) {
-  const Eigen::Vector3d forward_W = q_WB * Eigen::Vector3d::UnitX();
-  return std::atan2(forward_W.y(), forward_W.x());
-}
 
 CorridorSight::CorridorSight(const CorridorSightConfig& config, const MountedCamera& camera)
     : config_(config),

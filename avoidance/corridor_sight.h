@@ -72,7 +72,4 @@ class CorridorSight {
   NavigationState navigation_;  ///< at the last picture, without the lag
 };
 
-/// Heading of an attitude, from north to east, rad.
-double heading_rad(const Eigen::Quaterniond& q_WB);
-
 }  // namespace hedgehop::avoidance

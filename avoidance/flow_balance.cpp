@@ -14,6 +14,7 @@
 #include "avoidance/detour.h"
 #include "avoidance/flow_picture.h"
 #include "avoidance/go_to_goal.h"
+#include "avoidance/heading.h"
 #include "avoidance/zig_zag.h"
 #include "vision/flow_range.h"
 
@@ -47,11 +48,6 @@ void check(const FlowBalanceConfig& c) {
 }
 
 Eigen::Vector2d turned(const Eigen::Vector2d& v, double angle_rad) { return Eigen::Rotation2Dd(angle_rad) * v; }
-
-double heading_rad(const Eigen::Quaterniond& q_WB) {
-  const Eigen::Vector3d forward_W = q_WB * Eigen::Vector3d::UnitX();
-  return std::atan2(forward_W.y(), forward_W.x());
-}
 
 class FlowBalance final : public Module {
  public:

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "avoidance/depth_picture.h"
+#include "avoidance/heading.h"
 #include "avoidance/stereo_sight.h"
 
 namespace hedgehop::avoidance {
@@ -26,11 +27,6 @@ void check(const SectionGridConfig& c) {
   need(c.arrived_m > 0.0, "arrived must be above 0 m");
   need(c.yaw_rate_radps > 0.0, "yaw_rate must be above 0 deg/s");
   need(c.speck_px >= 0, "speck must be at least 0 px");
-}
-
-double heading_of(const Eigen::Quaterniond& q_WB) {
-  const Eigen::Vector3d forward_W = q_WB * Eigen::Vector3d::UnitX();
-  return std::atan2(forward_W.y(), forward_W.x());
 }
 
 class SectionGridModule final : public Module {
@@ -141,7 +137,7 @@ class SectionGridModule final : public Module {
       aside_W_.reset();
       state_ = State::resume;
     }
-    if (aside_W_ && !turns()) return PositionCommand{*aside_W_, heading_of(observation.navigation.q_WB_est)};
+    if (aside_W_ && !turns()) return PositionCommand{*aside_W_, heading_rad(observation.navigation.q_WB_est)};
     if (aside_W_) return go_to(*aside_W_, observation);
     const Command command = go_to(observation.goal.p_WG, observation);
     if (!held_W_) state_ = State::cruise;
@@ -197,10 +193,10 @@ class SectionGridModule final : public Module {
   Command go_to(const Eigen::Vector3d& p_W, const Observation& observation) {
     const Eigen::Vector3d& p_WB = observation.navigation.p_WB_est;
     const Eigen::Vector2d way_W = (p_W - p_WB).head<2>();
-    const double heading_rad = heading_of(observation.navigation.q_WB_est);
+    const double now_rad = heading_rad(observation.navigation.q_WB_est);
     constexpr double kTooNearToFace_m = 1.0;
-    const double bearing_rad = way_W.norm() > kTooNearToFace_m ? std::atan2(way_W.y(), way_W.x()) : heading_rad;
-    if (std::abs(std::remainder(bearing_rad - heading_rad, 2.0 * M_PI)) > config_.aligned_rad) {
+    const double bearing_rad = way_W.norm() > kTooNearToFace_m ? std::atan2(way_W.y(), way_W.x()) : now_rad;
+    if (std::abs(std::remainder(bearing_rad - now_rad, 2.0 * M_PI)) > config_.aligned_rad) {
       if (!held_W_) held_W_ = p_WB;
       return PositionCommand{*held_W_, bearing_rad};
     }
