@@ -23,12 +23,21 @@ function(hedgehop_library folder)
   target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${arg_HDRS})
   set_target_properties(${target} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  target_link_libraries(${target} PRIVATE hedgehop_warnings)
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:hedgehop_warnings>)
   foreach(dep IN LISTS arg_DEPS)
     string(REPLACE "/" "_" dep ${dep})
     target_link_libraries(${target} PUBLIC hedgehop_${dep})
   endforeach()
   target_link_libraries(${target} PUBLIC ${arg_PACKAGES})
+endfunction()
+
+# What modules outside this tree are built against: installed, and fit to go into their shared libraries.
+function(hedgehop_offer)
+  foreach(folder IN LISTS ARGN)
+    set_target_properties(hedgehop_${folder} PROPERTIES POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${folder})
+    target_compile_options(hedgehop_${folder} PRIVATE -fno-semantic-interposition)  # inline as without
+    install(TARGETS hedgehop_${folder} EXPORT hedgehop FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hedgehop)
+  endforeach()
 endfunction()
 
 function(hedgehop_check_layers folder deps)

@@ -12,7 +12,6 @@
 #include <optional>
 #include <utility>
 
-#include "avoidance/registry.h"
 #include "scenes/generators.h"
 #include "sim/collision/proximity.h"
 #include "sim/loop/aircraft.h"
@@ -20,6 +19,7 @@
 #include "sim/loop/cameras.h"
 #include "sim/loop/flight_log.h"
 #include "sim/loop/map_score.h"
+#include "sim/loop/plugin_module.h"
 #include "sim/loop/random_stream.h"
 #include "sim/loop/route.h"
 #include "sim/loop/setpoints.h"
@@ -98,7 +98,7 @@ Episode::Episode(const Scenario& scenario, FlightWatcher* watcher)
       aircraft_(scenario, ticks_),
       collision_(scene_, hull_),
       cameras_(scenario.rig, ticks_, scene_, scenario.drawing, scenario.seed),
-      module_(avoidance::make_module(scenario.avoidance)),
+      module_(make_module(scenario.avoidance)),
       route_(scenario),
       control_period_(ticks_.period(static_cast<double>(scenario.control_rate_hz))),
       log_(scene_, aircraft_.vehicle()) {

@@ -14,6 +14,8 @@
 /// The kinds of member that `describe(visitor, config)` may list.
 namespace hedgehop::sim {
 
+struct Node;
+
 template <class T>
 struct IsVector : std::false_type {};
 template <class T>
@@ -45,8 +47,16 @@ template <class T>
 concept IntegerField = std::integral<T> && !std::same_as<T, bool>;
 template <class T>
 concept ChoiceField = std::is_enum_v<T>;
+/// A map that is kept as it was written, for others to read.
 template <class T>
-concept StructField = std::is_class_v<T> && !VectorField<T> && !OptionalField<T> && !VariantField<T> &&
+concept OpenField = std::same_as<T, Node>;
+/// An alternative of a variant that is chosen by one of its keys instead of the variant's selector.
+template <class T>
+concept ChosenByKey = requires {
+  T::kChosenBy;
+};
+template <class T>
+concept StructField = std::is_class_v<T> && !OpenField<T> && !VectorField<T> && !OptionalField<T> && !VariantField<T> &&
                       !EigenField<T> && !std::same_as<T, std::string> && !std::same_as<T, std::filesystem::path>;
 
 /// Calls `f.operator()<A>()` for each alternative of a variant, in order.

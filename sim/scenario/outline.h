@@ -7,6 +7,7 @@
 #include "sim/scenario/field.h"
 #include "sim/scenario/field_types.h"
 #include "sim/scenario/numbers.h"
+#include "sim/scenario/tree.h"
 
 /// A config struct as a tree of described values: what the writer, the schema and the documentation are made from.
 namespace hedgehop::sim {
@@ -27,7 +28,12 @@ struct Outline {
   std::string chosen;             ///< of a variant: name of the choice
   std::vector<Outline> all;       ///< of a variant: every choice as a group of default values, keyed by its name
   std::string_view meaning = {};  ///< of a variant's choice: its kMeaning
+  bool open = false;              ///< a group that may hold any keys
+  bool chosen_by_key = false;     ///< a variant whose choice needs no selector, or such a choice
 };
+
+/// A map as written, as a group of texts.
+Outline outline_as_written(const Node& node);
 
 template <class T>
 Outline outline(const T& value, const Field& field);
@@ -63,6 +69,7 @@ std::vector<Outline> outline_alternatives() {
     Outline choice;
     choice.key = A::kName;
     choice.meaning = A::kMeaning;
+    choice.chosen_by_key = ChosenByKey<A>;
     choice.parts = outline_fields(A{});
     all.push_back(std::move(choice));
   });
@@ -78,6 +85,10 @@ Outline outline(const T& value, const Field& field) {
     node.optional = true;
     node.present = value.has_value();
     return node;
+  }
+  if constexpr (OpenField<T>) {
+    node = outline_as_written(value);
+    node.open = node.present = true;
   }
   node.field = field;
   if constexpr (NumberField<T>) {
@@ -112,6 +123,7 @@ Outline outline(const T& value, const Field& field) {
     node.kind = Outline::Kind::variant;
     node.all = outline_alternatives<T>();
     node.chosen = node.all.at(value.index()).key;
+    node.chosen_by_key = node.all.at(value.index()).chosen_by_key;
     node.parts = std::visit([](const auto& chosen) { return outline_fields(chosen); }, value);
   } else if constexpr (StructField<T>) {
     node.kind = Outline::Kind::group;

@@ -74,12 +74,30 @@ void read_struct(const Node& node, const std::string& path, std::string_view sel
   reader.finish();
 }
 
+/// Reads the alternative that one of the map's keys tells by itself. @return whether there is one.
+template <VariantField T>
+bool read_chosen_by_key(const Node& node, const std::string& path, T& value, Faults& faults) {
+  bool chosen = false;
+  for_each_alternative<T>([&]<class A>() {
+    if constexpr (ChosenByKey<A>) {
+      if (chosen || !node.find(A::kChosenBy)) return;
+      chosen = true;
+      A read;
+      read_struct(node, path, "", read, faults);
+      value = std::move(read);
+    }
+  });
+  return chosen;
+}
+
 /// The name under `selector` picks the alternative, which is read from the same map upon its defaults.
 template <VariantField T>
 void read_variant(const Node& node, const std::string& path, const Field& field, T& value, Faults& faults) {
-  if (!expect_map(node, path, faults)) return;
+  if (!expect_map(node, path, faults) || read_chosen_by_key(node, path, value, faults)) return;
   std::vector<std::string_view> names;
-  for_each_alternative<T>([&]<class A>() { names.push_back(A::kName); });
+  for_each_alternative<T>([&]<class A>() {
+    if constexpr (!ChosenByKey<A>) names.push_back(A::kName);
+  });
   const Node* selector = node.find(field.selector);
   if (!selector) {
     faults.add(node.place,
@@ -90,7 +108,8 @@ void read_variant(const Node& node, const std::string& path, const Field& field,
   if (!chosen) return;
   size_t index = 0;
   for_each_alternative<T>([&]<class A>() {
-    if (index++ == *chosen) {
+    if constexpr (!ChosenByKey<A>) {
+      if (index++ != *chosen) return;
       A read;
       read_struct(node, path, field.selector, read, faults);
       value = std::move(read);
@@ -134,6 +153,8 @@ void read_value(const Node& node, const std::string& path, const Field& field, T
     for (size_t i = 0; i < node.items.size(); ++i) {
       read_value(node.items[i], join_path(path, std::to_string(i)), field, value[i], faults);
     }
+  } else if constexpr (OpenField<T>) {
+    if (expect_map(node, path, faults)) value = node;
   } else if constexpr (VariantField<T>) {
     read_variant(node, path, field, value, faults);
   } else {

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "avoidance/registry.h"
 #include "dynamics/avionics.h"
 #include "dynamics/vehicle.h"
 #include "dynamics/wind.h"
@@ -17,6 +16,7 @@
 #include "sim/scenario/checks.h"
 #include "sim/scenario/drawing.h"
 #include "sim/scenario/input_error.h"
+#include "sim/scenario/plugin.h"
 #include "sim/scenario/rig.h"
 
 namespace hedgehop::sim {
@@ -108,7 +108,7 @@ struct Scenario {
   RigConfig rig;
   DrawingConfig drawing;
   VelocimeterConfig velocimeter;
-  avoidance::ModuleConfig avoidance;
+  AvoidanceConfig avoidance;
   std::vector<CheckConfig> checks;
   FilmConfig film;
 };

@@ -92,6 +92,7 @@ Json group_schema(const std::vector<Outline>& fields, std::string_view selector,
 Json unnamed_choice(const Outline& node, bool partial) {
   Json properties = {{"use", {{"type", "string"}}}};
   for (const Outline& choice : node.all) {
+    if (choice.chosen_by_key) continue;
     for (const Outline& field : choice.parts) properties[field.key] = true;
   }
   Json schema = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
@@ -103,7 +104,7 @@ Json variant_schema(const Outline& node, bool partial) {
   const std::string selector(node.field.selector);
   Json choices = Json::array();
   for (const Outline& choice : node.all) {
-    Json schema = group_schema(choice.parts, selector, choice.key, partial);
+    Json schema = group_schema(choice.parts, choice.chosen_by_key ? "" : selector, choice.key, partial);
     schema["title"] = choice.key;
     schema["description"] = choice.meaning;
     choices.push_back(std::move(schema));
@@ -129,7 +130,9 @@ Json scalar_schema(const Outline& node) {
 
 Json schema_of(const Outline& node, bool partial) {
   Json schema;
-  if (node.kind == Kind::group) {
+  if (node.open) {
+    schema = {{"type", "object"}};
+  } else if (node.kind == Kind::group) {
     schema = group_schema(node.parts, "", "", partial);
   } else if (node.kind == Kind::variant) {
     schema = variant_schema(node, partial);

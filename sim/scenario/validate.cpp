@@ -62,11 +62,7 @@ class Validator {
   }
 
   void module() {
-    build("avoidance", [&] {
-      for (const avoidance::CameraNeed& need : avoidance::make_module(scenario_.avoidance)->needs().cameras) {
-        needs_camera("avoidance", need.role, need.channel, need.pinhole);
-      }
-    });
+    std::visit([&](const auto& config) { this->module(config); }, scenario_.avoidance);
   }
 
   void parts() {
@@ -93,6 +89,16 @@ class Validator {
   }
 
  private:
+  template <class Config>
+  void module(const Config& config) {
+    build("avoidance", [&] {
+      for (const avoidance::CameraNeed& need : avoidance::make_module(config)->needs().cameras) {
+        needs_camera("avoidance", need.role, need.channel, need.pinhole);
+      }
+    });
+  }
+  void module(const PluginConfig&) {}  // foreign code is loaded by the flight alone
+
   void check(const std::string& path, const ReachedGoalCheck& check) {
     if (!scenario_.goal) add(path, "the scenario has no goal to reach");
     if (check.within_m && scenario_.goal && *check.within_m < scenario_.goal->radius_m) {

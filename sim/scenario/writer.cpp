@@ -41,7 +41,7 @@ void write_value(const Outline& node, int indent, std::string& out) {
     out += " {}\n";
   } else {
     out += "\n";
-    if (node.kind == Outline::Kind::variant) {
+    if (node.kind == Outline::Kind::variant && !node.chosen_by_key) {
       out += fmt::format("{:{}}{}: {}\n", "", indent, node.field.selector, node.chosen);
     }
     write_fields(node.parts, indent, out);

@@ -37,6 +37,8 @@ class Randomizer {
     } else if constexpr (VectorField<T>) {
       value.assign(random_() % 4, {});
       for (auto& item : value) (*this)("", item, field);
+    } else if constexpr (OpenField<T>) {
+      value = map(2);
     } else if constexpr (VariantField<T>) {
       size_t chosen = random_() % std::variant_size_v<T>;
       for_each_alternative<T>([&]<class A>() {
@@ -48,6 +50,21 @@ class Randomizer {
   }
 
  private:
+  /// Anything a map may hold, so many levels deep.
+  Node map(int depth) {
+    Node node{.kind = Node::Kind::map};
+    for (size_t i = random_() % 4; i > 0; --i) node.entries.push_back({"key" + std::to_string(i), {}, any(depth)});
+    return node;
+  }
+  Node any(int depth) {
+    const uint64_t kind = random_() % (depth > 0 ? 5 : 3);
+    if (kind == 0) return {};
+    if (kind == 1) return {.kind = Node::Kind::scalar, .text = std::to_string(random_() % 1000), .quoted = false};
+    if (kind == 2) return {.kind = Node::Kind::scalar, .text = text(), .quoted = true};
+    if (kind == 3) return map(depth - 1);
+    return {.kind = Node::Kind::list, .items = std::vector<Node>(1 + random_() % 3, any(0))};
+  }
+
   double number(const Field& field) {
     const double scale = field.unit == "deg" || field.unit == "deg/s" ? 3.14159265358979 / 180.0 : 1.0;
     const std::optional<double> low = field.above ? field.above : field.at_least;

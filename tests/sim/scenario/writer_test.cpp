@@ -33,6 +33,8 @@ class Bits {
     } else if constexpr (EigenField<T> || VectorField<T>) {
       bits.push_back(static_cast<uint64_t>(value.size()));
       for (auto& item : value) (*this)("", item, field);
+    } else if constexpr (OpenField<T>) {
+      add(value);
     } else if constexpr (VariantField<T>) {
       bits.push_back(value.index());
       std::visit([&](auto& chosen) { describe(*this, chosen); }, value);
@@ -41,6 +43,17 @@ class Bits {
     }
   }
   std::vector<uint64_t> bits;
+
+ private:
+  void add(const Node& node) {
+    bits.insert(bits.end(), {static_cast<uint64_t>(node.kind), node.items.size(), node.entries.size()});
+    bits.insert(bits.end(), node.text.begin(), node.text.end());
+    for (const Node& item : node.items) add(item);
+    for (const Entry& entry : node.entries) {
+      bits.insert(bits.end(), entry.key.begin(), entry.key.end());
+      add(entry.value);
+    }
+  }
 };
 
 template <class T>

@@ -1,0 +1,17 @@
+# cmake --install: the program, its scenarios, and what modules outside this tree are built against.
+include_guard()
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+hedgehop_offer(vision avoidance)
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/hedgehop)
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/hedgehopConfig.cmake.in ${PROJECT_BINARY_DIR}/hedgehopConfig.cmake
+                              INSTALL_DESTINATION ${package})
+# Modules are told apart by the interface they were built against (avoidance/plugin.h); no version promises it.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/hedgehopConfigVersion.cmake COMPATIBILITY ExactVersion)
+install(FILES ${PROJECT_BINARY_DIR}/hedgehopConfig.cmake ${PROJECT_BINARY_DIR}/hedgehopConfigVersion.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/HedgehopOpenCV.cmake
+        DESTINATION ${package})
+install(EXPORT hedgehop NAMESPACE hedgehop:: FILE hedgehopTargets.cmake DESTINATION ${package})
+install(TARGETS hedgehop)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs DESTINATION ${CMAKE_INSTALL_DATADIR}/hedgehop)

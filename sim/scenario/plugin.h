@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <variant>
+
+#include "avoidance/registry.h"
+#include "sim/scenario/tree.h"
+
+namespace hedgehop::sim {
+
+/// A module from a shared library. Its parameters are read by the library's own description, when a flight begins:
+/// reading a scenario loads no foreign code.
+struct PluginConfig {
+  static constexpr std::string_view kName = "plugin";
+  static constexpr std::string_view kMeaning = "a module from a shared library (docs/writing-a-module.md)";
+  static constexpr std::string_view kChosenBy = "plugin";  ///< the key that tells it from the modules of this tree
+
+  std::filesystem::path plugin;
+  std::string module;
+  double limit_s = 10.0;
+  Node parameters;
+};
+template <class Visitor>
+void describe(Visitor& v, PluginConfig& c) {
+  v("plugin", c.plugin, {.required = true, .meaning = "shared library, relative to this file"});
+  v("module", c.module, {.required = true, .meaning = "which of the library's modules"});
+  v("limit", c.limit_s,
+    {.unit = "s",
+     .above = 0.0,
+     .at_most = 3600.0,
+     .meaning = "wall time of a call after which the module is held to hang"});
+  v("parameters", c.parameters, {.meaning = "the module's own, as strictly read"});
+}
+
+template <class Variant, class More>
+struct Widened;
+template <class... Choices, class More>
+struct Widened<std::variant<Choices...>, More> {
+  using type = std::variant<Choices..., More>;
+};
+
+/// Who decides where to fly: a module of this tree, or one from outside.
+using AvoidanceConfig = Widened<avoidance::ModuleConfig, PluginConfig>::type;
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,87 @@
+// A module from outside that fails in the way its parameters say.
+#include <csignal>
+#include <cstdlib>
+#include <limits>
+#include <stdexcept>
+
+#include "avoidance/plugin.h"
+
+namespace {
+
+using namespace hedgehop::avoidance;
+
+struct MisbehavingConfig {
+  static constexpr std::string_view kName = "misbehaving";
+  static constexpr std::string_view kMeaning = "fails as it is told to";
+
+  enum class How { behave, raise_exception, segfault, abort, recurse, hang, not_finite, refuse };
+  How how = How::behave;
+  int at = 3;
+  double speed_mps = 1.0;
+  std::vector<double> list = {1.0, 2.0};
+  std::string word = "none";
+  bool flag = false;
+};
+template <class Visitor>
+void describe(Visitor& v, MisbehavingConfig& c) {
+  v("how", c.how,
+    {.choices = {"behave", "raise_exception", "segfault", "abort", "recurse", "hang", "not_finite", "refuse"},
+     .meaning = "which way"});
+  v("at", c.at, {.at_least = 1, .meaning = "which decision"});
+  v("speed", c.speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "ahead"});
+  v("list", c.list, {.meaning = "numbers"});
+  v("word", c.word, {.meaning = "a word"});
+  v("flag", c.flag, {.meaning = "a flag"});
+}
+
+/// Has no end but the stack's.
+int recurse(int depth) {
+  volatile int mark = depth;
+  return mark < 0 ? 0 : recurse(mark + 1) + mark;
+}
+
+class Misbehaving : public Module {
+ public:
+  explicit Misbehaving(const MisbehavingConfig& config) : config_(config) {
+    if (config.how == MisbehavingConfig::How::refuse) throw std::invalid_argument("how: not today");
+  }
+
+ private:
+  Needs do_needs() const override { return {{{.role = "front"}}}; }
+  void do_reset(const Setup&) override { decisions_ = 0; }
+
+  Decision do_update(const Observation& seen) override {
+    if (++decisions_ == config_.at) misbehave();
+    VelocityCommand command{.v_WB_W = {config_.speed_mps, 0.0}, .altitude_m = -seen.goal.p_WG.z()};
+    if (decisions_ >= config_.at && config_.how == MisbehavingConfig::How::not_finite) {
+      command.altitude_m = std::numeric_limits<double>::quiet_NaN();
+    }
+    return {.command = command, .status = "cruise", .signals = {}};
+  }
+
+  void misbehave() {
+    using How = MisbehavingConfig::How;
+    if (config_.how == How::raise_exception) throw std::runtime_error("no idea");
+    if (config_.how == How::segfault) *static_cast<volatile int*>(nullptr) = 1;
+    if (config_.how == How::abort) std::abort();
+    if (config_.how == How::recurse) decisions_ += recurse(1);
+    while (config_.how == How::hang) spins_ = spins_ + 1;
+  }
+
+  std::vector<Metric> do_metrics() const override {
+    double sum = config_.flag ? 100.0 : 0.0;
+    for (const double number : config_.list) sum += number;
+    return {{"decisions_seen", static_cast<double>(decisions_), ""},
+            {"parameters_sum", sum + static_cast<double>(config_.word.size()), ""}};
+  }
+
+  MisbehavingConfig config_;
+  int decisions_ = 0;
+  volatile unsigned spins_ = 0;
+};
+
+std::unique_ptr<Module> make(const MisbehavingConfig& config) { return std::make_unique<Misbehaving>(config); }
+
+}  // namespace
+
+HEDGEHOP_PLUGIN(ModuleRow<MisbehavingConfig, make>)

@@ -1,0 +1,118 @@
+#include <gmock/gmock.h>
+
+#include "sim/campaign/table.h"
+#include "tests/sim/campaign/campaign_folder.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// A folder whose scenario is flown by a module from outside.
+class Plugin : public ::testing::Test {
+ protected:
+  void fly_by(const std::string& library, const std::string& more) const {
+    folder.write("plug.yaml", "use: tiny.yaml\nname: plug\nduration: 0.4\navoidance: {plugin: " + library +
+                                  ", module: misbehaving, " + more + "}\n");
+  }
+  CommandEnd run(const std::string& parameters, const std::string& arguments = "") const {
+    fly_by(HEDGEHOP_MISBEHAVING, "limit: 1, parameters: {" + parameters + "}");
+    return folder.hedgehop("run plug.yaml --no-video --no-report --out out " + arguments);
+  }
+  CampaignFolder folder;
+};
+
+TEST_F(Plugin, FliesWithItsOwnParametersAndMetrics) {
+  const CommandEnd end = run("speed: 0.5, list: [4, 5], word: abc, flag: true");
+  EXPECT_EQ(end.status, 0) << end.err;
+  const auto result = folder.json("out/result.json");
+  EXPECT_EQ(result["metrics"]["parameters_sum"], 112.0);
+  EXPECT_EQ(result["metrics"]["decisions_seen"], result["decisions"]);
+  EXPECT_THAT(folder.read("out/scenario.yaml"), AllOf(HasSubstr("word: abc"), HasSubstr("list: [4, 5]")));
+}
+
+TEST_F(Plugin, TheResolvedScenarioFliesTheSameAgain) {
+  ASSERT_EQ(run("speed: 0.5, word: \"0x1\"").status, 0);
+  const CommandEnd again = folder.hedgehop("run out/scenario.yaml --no-video --no-report --out again");
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(folder.json("out/result.json")["trajectory_hash"], folder.json("again/result.json")["trajectory_hash"]);
+  EXPECT_EQ(folder.read("out/scenario.yaml"), folder.read("again/scenario.yaml"));
+}
+
+TEST_F(Plugin, ParametersAreReadAsStrictlyAsOurs) {
+  const CommandEnd unknown = run("sped: 1");
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, AllOf(HasSubstr("plug.yaml:4"), HasSubstr("did you mean 'speed'")));
+  EXPECT_EQ(run("speed: -1").status, 2);
+  EXPECT_EQ(run("how: somehow").status, 2);
+  EXPECT_EQ(run("speed: 1", "--set avoidance.parameters.speed=fast").status, 2);
+  const CommandEnd refused = run("how: refuse");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("how: not today"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+}
+
+TEST_F(Plugin, OneThatFailsFailsItsFlightWithTheCauseAndKeepsWhatWasFlown) {
+  const std::pair<std::string, std::string> ways[] = {{"raise_exception", "no idea"},
+                                                      {"segfault", "'misbehaving' crashed (Segmentation fault)"},
+                                                      {"abort", "'misbehaving' crashed (Aborted)"},
+                                                      {"recurse", "'misbehaving' crashed (Segmentation fault)"},
+                                                      {"hang", "'misbehaving' gave no answer within 1 s"},
+                                                      {"not_finite", "finite"}};
+  for (const auto& [how, cause] : ways) {
+    const CommandEnd end = run("how: " + how);
+    EXPECT_EQ(end.status, 1) << how << end.err;
+    const auto result = folder.json("out/result.json");
+    EXPECT_EQ(result["outcome"], "fault") << how;
+    EXPECT_THAT(result["cause"].get<std::string>(), HasSubstr(cause));
+    EXPECT_EQ(result["decisions"], 2) << how;
+  }
+}
+
+TEST_F(Plugin, InABatchTheOthersFlyOn) {
+  fly_by(HEDGEHOP_MISBEHAVING, "limit: 1, parameters: {how: segfault}");
+  const CommandEnd end = folder.hedgehop("batch tiny.yaml plug.yaml --seeds 1:2 --out out");
+  EXPECT_EQ(end.status, 1) << end.err;
+  for (const auto& flight : folder.json("out/batch.json")["flights"]) {
+    const bool ours = flight["group"] == "tiny";
+    EXPECT_EQ(flight["result"]["outcome"] == "fault", !ours) << flight["id"];
+    EXPECT_EQ(flight["passed"], ours);
+  }
+}
+
+TEST_F(Plugin, AnotherInterfaceNoPluginAndNoFileAreTold) {
+  const auto told = [&](const std::string& library, const std::string& words) {
+    fly_by(library, "parameters: {}");
+    const CommandEnd end = folder.hedgehop("run plug.yaml --no-video --out out");
+    EXPECT_EQ(end.status, 2);
+    EXPECT_THAT(end.err, AllOf(HasSubstr(library), HasSubstr(words)));
+    EXPECT_EQ(std::count(end.err.begin(), end.err.end(), '\n'), 1) << end.err;
+  };
+  told(HEDGEHOP_OLD, "built against another interface (modules 0)");
+  told("nowhere.so", "no such file");
+  told(folder.write("text.so", "no library").string(), "cannot be loaded");
+  fly_by(HEDGEHOP_MISBEHAVING, "parameters: {}");
+  const CommandEnd misspelt = folder.hedgehop("run plug.yaml --set avoidance.module=misbehavin --no-video --out out");
+  EXPECT_EQ(misspelt.status, 2) << misspelt.out;
+}
+
+/// As a user would: install, build the documentation's example in a folder of its own, fly it with what is installed.
+TEST_F(Plugin, TheExampleBuildsAgainstTheInstalledPackageAndFlies) {
+  const CommandEnd installed =
+      folder.shell("cmake --install '" HEDGEHOP_BUILD_DIR "' --prefix '" + (folder.path() / "prefix").string() + "'");
+  ASSERT_EQ(installed.status, 0) << installed.err;
+  const CommandEnd built =
+      folder.shell("cmake -S '" HEDGEHOP_SOURCE_DIR
+                   "/docs/keep_left' -B build -DCMAKE_PREFIX_PATH=\"$PWD/prefix\" && cmake --build build");
+  ASSERT_EQ(built.status, 0) << built.out << built.err;
+  folder.write("left.yaml",
+               "use: tiny.yaml\nname: left\navoidance: {plugin: build/libkeep_left.so, module: keep_left, "
+               "parameters: {speed: 0.5}}\n");
+  const CommandEnd end = folder.shell("prefix/bin/hedgehop run left.yaml --no-video --out out");
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_EQ(folder.json("out/result.json")["metrics"]["pictures"], folder.json("out/result.json")["decisions"]);
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
