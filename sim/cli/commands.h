@@ -80,7 +80,7 @@ struct BatchOptions {
   double limit_s = 0.0;                       ///< longest wall time of a flight, 0 for none
   std::filesystem::path out;                  ///< empty: out/<name of the one input>, else out/batch
   std::filesystem::path junit;                ///< empty: none is written
-  bool failed_only = false, json = false;
+  bool failed_only = false, resume = false, json = false;
   std::optional<double> least_success, margin;  ///< statistical checks, as in a campaign's file
   std::filesystem::path no_worse_than;
   double confidence = 0.95;
