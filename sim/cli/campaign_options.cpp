@@ -59,6 +59,7 @@ void declare_sweep(CLI::App& app, std::function<int()>& chosen) {
   command->add_option("SWEEP", options->file, "sweep file (YAML)")->required();
   add_workers(*command, options->jobs, options->limit_s);
   command->add_option("--out", options->out, "folder of the results")->type_name("DIR");
+  command->add_option("--junit", options->junit, "write a JUnit file for CI")->type_name("FILE");
   command->add_option("--shard", options->shard, "fly one part only, such as 2/8")->type_name("I/N");
   command->add_flag("--merge", options->merge, "fly nothing; write the tables of all results that are there");
   command->add_option("--from", options->merge_from, "... further folders to look for results in")->type_name("DIR");
