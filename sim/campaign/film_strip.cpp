@@ -18,7 +18,7 @@ namespace hedgehop::sim {
 namespace {
 
 constexpr size_t kPictures = 5;
-constexpr double kApart_s = 0.8;  // between two pictures: a walking vehicle's length
+constexpr double kApart_s = 0.8;  // between two pictures, less in flights too short for it
 constexpr int kWidth_px = 240, kCaption_px = 16;
 constexpr int kQuality = 70;            // of the JPEG: 30 to 60 kB a strip
 constexpr double kSameFlight_m = 1e-6;  // result.json keeps every bit; two flights that part differ by far more
@@ -53,9 +53,11 @@ class StripWatcher : public FlightWatcher {
 
 /// Side by side in the order of time, each with the time left to `end_s` written below.
 cv::Mat strip(const std::deque<Picture>& pictures, double end_s) {
+  const double apart_s =
+      std::min(kApart_s, (pictures.back().t_s - pictures.front().t_s) / static_cast<double>(kPictures - 1));
   cv::Mat sheet;
   for (size_t i = 0; i < kPictures; ++i) {
-    const double wanted_s = pictures.back().t_s - kApart_s * static_cast<double>(kPictures - 1 - i);
+    const double wanted_s = pictures.back().t_s - apart_s * static_cast<double>(kPictures - 1 - i);
     const Picture& picture =
         *std::ranges::min_element(pictures, {}, [&](const Picture& p) { return std::abs(p.t_s - wanted_s); });
     cv::Mat tile(picture.rgb.rows + kCaption_px, kWidth_px + 2, CV_8UC3, cv::Scalar::all(24));

@@ -64,12 +64,13 @@ TEST(LeaderboardInBrowser, ShowsEveryCellAndLeadsToItsFlights) {
   const PageVisit page = visit(folder.path() / "out/report.html", R"js(
     const rows = [...document.querySelectorAll('.board tbody tr')].map((tr) => [...tr.children].map((td) => td.textContent));
     document.querySelectorAll('.board tbody tr')[0].children[3].click();
-    return {rows, shown: [...document.querySelectorAll('#flights tbody td:first-child')].map((e) => e.textContent)};)js");
+    return {rows, why: document.querySelector('#board-card > p:last-child').textContent, shown: [...document.querySelectorAll('#flights tbody td:first-child')].map((e) => e.textContent)};)js");
   EXPECT_THAT(page.errors, testing::IsEmpty());
   ASSERT_EQ(page.value.at("rows").size(), 2u);
   EXPECT_EQ(page.value.at("rows")[0][0], "near");
   EXPECT_THAT(page.value.at("rows")[0][3].get<std::string>(), HasSubstr("2 of 2 0.34 to 1.00"));
-  EXPECT_EQ(page.value.at("rows")[1][4], "not flown: too far");
+  EXPECT_EQ(page.value.at("rows")[1][4], "not flown");
+  EXPECT_EQ(page.value.at("why"), "Not flown in far: slow: too far.");
   EXPECT_EQ(page.value.at("shown"), Json::array({"near_fast/seed1", "near_fast/seed2"}));
 }
 

@@ -20,13 +20,24 @@ function fillBoard(host, board, on) {
       row.append(boardCell(board.cells.find((c) => c.world === world.name && c.module === module.name), on));
     }
   }
+  for (const [reason, cells] of groupedBy(board.cells.filter((c) => c.reason), (c) => `${c.module}: ${c.reason}`)) {
+    host.append(make('p', 'soft', `Not flown in ${cells.map((c) => c.world).join(', ')}: ${reason}.`));
+  }
+}
+
+/** [[key, items], ...] in the order of the keys' first items. */
+function groupedBy(items, keyOf) {
+  const groups = new Map();
+  for (const item of items) groups.set(keyOf(item), [...groups.get(keyOf(item)) ?? [], item]);
+  return [...groups];
 }
 
 function boardCell(cell, on) {
   const element = make('td', 'cell');
   if (cell.passed === undefined) {
     element.classList.add('empty');
-    element.append(make('span', 'soft', cell.reason ? 'not flown: ' + cell.reason : 'missing'));
+    element.append(make('span', 'soft', cell.reason ? 'not flown' : 'missing'));
+    element.title = cell.reason;
     return element;
   }
   element.style.setProperty('--share', 100 * cell.passed / cell.flights + '%');
