@@ -13,6 +13,7 @@
 #include "sim/campaign/batch_record.h"
 #include "sim/campaign/statistics.h"
 #include "sim/campaign/verdict.h"
+#include "sim/record/report_page.h"
 #include "sim/record/whole_file.h"
 
 namespace hedgehop::sim {
@@ -21,6 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kConfidence = 0.95;
+constexpr size_t kMostStripBytes = 2'500'000;  // of a page that is to stay below 10 MB; in base64 a third more
 const std::set<std::string> kWordColumns = {"id",      "group", "scenario",        "status",
                                             "outcome", "cause", "trajectory_hash", "command"};
 
@@ -166,6 +168,20 @@ Json columns_data(const CsvTable& table, const std::vector<FlightNotes>& notes) 
     columns.push_back(std::move(column));
   }
   return columns;
+}
+
+Json strips_data(const std::filesystem::path& folder, const std::vector<FlightRecord>& records) {
+  Json strips = Json::array();
+  size_t bytes = 0;
+  for (size_t row = 0; row < records.size(); ++row) {
+    const std::filesystem::path file = folder / records[row].order.id / "strip.jpg";
+    std::error_code error;
+    const auto size = std::filesystem::file_size(file, error);
+    if (error || bytes + size > kMostStripBytes) continue;
+    bytes += size;
+    strips.push_back({row, base64(read_file_whole(file))});
+  }
+  return strips;
 }
 
 std::vector<std::string> swept_columns(const FlightList& flights) {

@@ -22,6 +22,10 @@ std::vector<FlightNotes> read_notes(const std::filesystem::path& folder, const s
 /// figures, null where the field is empty or not finite. Columns without any value are left out.
 nlohmann::ordered_json columns_data(const CsvTable& table, const std::vector<FlightNotes>& notes);
 
+/// Film strips that lie in the flights' folders, as [row, JPEG in base64], the files of the first rows until they make
+/// up 2.5 MB. @param folder  of the campaign.
+nlohmann::ordered_json strips_data(const std::filesystem::path& folder, const std::vector<FlightRecord>& records);
+
 /// Names of the columns that a sweep varied: those between the number of the point and the status.
 std::vector<std::string> swept_columns(const FlightList& flights);
 

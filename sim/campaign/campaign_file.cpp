@@ -48,13 +48,17 @@ class Gatherer {
     for (const fs::path& file : files) add_file(file);
   }
 
-  void add_scenario(const fs::path& file, const std::vector<uint64_t>& seeds, std::vector<std::string> overrides) {
+  /// @param name  of the group; empty: the scenario's and all that is laid over it. @return the group's name.
+  std::string add_scenario(const fs::path& file, const std::vector<uint64_t>& seeds, std::vector<std::string> overrides,
+                           const std::string& name) {
     overrides.insert(overrides.end(), overrides_.begin(), overrides_.end());
-    Order order{.scenario = file.lexically_normal(), .overrides = overrides};
+    Order order{.group = name, .scenario = file.lexically_normal(), .overrides = overrides};
     try {
       const Scenario scenario = load_scenario(file, overrides);
-      order.group = scenario.name;
-      for (const std::string& text : overrides) order.group += " " + text;
+      if (name.empty()) {
+        order.group = scenario.name;
+        for (const std::string& text : overrides) order.group += " " + text;
+      }
       const std::string folder = claim(order);
       for (const uint64_t seed : seeds.empty() ? std::vector<uint64_t>{scenario.seed} : seeds) {
         order.id = fmt::format("{}/seed{}", folder, seed);
@@ -63,10 +67,11 @@ class Gatherer {
         add(order);
       }
     } catch (const InputError& error) {
-      order.group = file.stem().string();
+      if (name.empty()) order.group = file.stem().string();
       order.id = claim(order) + "/bad";
       refuse(order, error);
     }
+    return order.group;
   }
 
   BatchOrders take() { return std::move(batch_); }
@@ -75,10 +80,10 @@ class Gatherer {
   void add_file(const fs::path& file) {
     Faults faults;
     const Node root = load_tree(file, faults);
-    if (faults.empty() && root.find("flights")) {
+    if (faults.empty() && (root.find("flights") || root.find("leaderboard"))) {
       add_campaign(file, root);
     } else {
-      add_scenario(file, seeds_, {});
+      add_scenario(file, seeds_, {}, "");
     }
   }
 
@@ -90,8 +95,9 @@ class Gatherer {
       faults.raise();
       for (const CampaignFlights& flights : campaign.flights) {
         const std::vector<uint64_t> own = flights.seeds ? parse_seeds(*flights.seeds) : std::vector<uint64_t>{};
-        add_scenario(file.parent_path() / flights.scenario, seeds_.empty() ? own : seeds_, flights.set);
+        add_scenario(file.parent_path() / flights.scenario, seeds_.empty() ? own : seeds_, flights.set, "");
       }
+      if (campaign.leaderboard) add_leaderboard(file.parent_path(), *campaign.leaderboard);
       for (CampaignCheck& check : campaign.checks) {
         if (auto* no_worse = std::get_if<NoWorseCheck>(&check)) {
           no_worse->than = (file.parent_path() / no_worse->than).lexically_normal().string();
@@ -103,6 +109,21 @@ class Gatherer {
       order.id = claim(order) + "/bad";
       refuse(order, error);
     }
+  }
+
+  void add_leaderboard(const fs::path& folder, const LeaderboardConfig& config) {
+    const std::vector<uint64_t> seeds = seeds_.empty() ? parse_seeds(config.seeds) : seeds_;
+    Leaderboard board = leaderboard_of(config);
+    auto cell = board.cells.begin();
+    for (const LeaderboardWorld& world : config.worlds) {
+      for (const LeaderboardModule& module : config.modules) {
+        if (cell->reason.empty()) {
+          cell->group = add_scenario(folder / world.scenario, seeds, module.set, world.name + " " + module.name);
+        }
+        ++cell;
+      }
+    }
+    batch_.leaderboard = std::move(board);
   }
 
   /// A folder for a scenario with its overrides; the group is made to differ where another file has the same name.
@@ -155,7 +176,7 @@ BatchOrders reread_batch(const fs::path& batch_json) {
     const auto batch = nlohmann::ordered_json::parse(read_file_whole(batch_json));
     for (const auto& flight : batch.at("flights")) {
       gatherer.add_scenario(flight.at("scenario").get<std::string>(), {flight.at("seed").get<uint64_t>()},
-                            flight.at("set").get<std::vector<std::string>>());
+                            flight.at("set").get<std::vector<std::string>>(), flight.at("group").get<std::string>());
     }
   } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("{}: no record of a batch: {}", batch_json.string(), error.what()));

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "sim/campaign/leaderboard.h"
 #include "sim/campaign/order.h"
 
 namespace hedgehop::sim {
@@ -60,16 +61,18 @@ void describe(Visitor& v, CampaignFlights& c) {
   v("set", c.set, {.meaning = "values laid over the scenario, each key.path=value"});
 }
 
-/// A file that `hedgehop batch` takes beside scenarios: it has the key `flights`.
+/// A file that `hedgehop batch` takes beside scenarios: it has the key `flights` or `leaderboard`.
 struct CampaignConfig {
   std::string description;
   std::vector<CampaignFlights> flights;
+  std::optional<LeaderboardConfig> leaderboard;
   std::vector<CampaignCheck> checks;
 };
 template <class Visitor>
 void describe(Visitor& v, CampaignConfig& c) {
   v("description", c.description, {.meaning = "what the campaign is for"});
-  v("flights", c.flights, {.required = true, .meaning = "scenarios, each with its seeds"});
+  v("flights", c.flights, {.meaning = "scenarios, each with its seeds"});
+  v("leaderboard", c.leaderboard, {.meaning = "every module in every world"});
   v("checks", c.checks, {.selector = "check", .meaning = "what must hold over the seeds of each scenario"});
 }
 
@@ -77,6 +80,7 @@ void describe(Visitor& v, CampaignConfig& c) {
 struct BatchOrders {
   std::vector<Order> orders;
   std::vector<CampaignCheck> checks;
+  std::optional<Leaderboard> leaderboard;
   std::vector<std::string> faults;  ///< one line each; the order of a bad file has the first of its own
 };
 

@@ -6,6 +6,7 @@
 
 #include "sim/campaign/campaign_data.h"
 #include "sim/campaign/flight_maps.h"
+#include "sim/campaign/leaderboard.h"
 #include "sim/record/report_page.h"
 #include "sim/record/whole_file.h"
 
@@ -44,6 +45,7 @@ void write_campaign_report(const std::filesystem::path& folder, const std::optio
   Json data{{"name", name_of(folder)}, {"folder", folder.string()}, {"is_sweep", flights.is_sweep}};
   data["scenarios"] = scenarios;
   data["swept"] = swept_columns(flights);
+  data["leaderboard"] = leaderboard_data(folder, flights);
   data["groups"] = groups_data(flights.records);
   data["columns"] = columns_data(flights.table, notes);
   for (const char* key : {"why", "report", "replay"}) data[key] = Json::array();
@@ -52,6 +54,7 @@ void write_campaign_report(const std::filesystem::path& folder, const std::optio
     data["report"].push_back(note.has_report ? 1 : 0);
     data["replay"].push_back(note.has_replay ? 1 : 0);
   }
+  data["strips"] = strips_data(folder, flights.records);
   const auto paths = read_paths(folder, flights.records);
   data["paths"] = paths_data(flight_maps(paths), paths);
   data["against"] = nullptr;

@@ -49,6 +49,7 @@ void forget_result(const std::filesystem::path& folder) {
   std::error_code ignored;
   std::filesystem::remove(folder / "result.json", ignored);
   std::filesystem::remove(folder / "report.html", ignored);
+  std::filesystem::remove(folder / "strip.jpg", ignored);
 }
 
 }  // namespace

@@ -58,7 +58,8 @@ std::string array_script(const SlurmJob& job) {
 }
 
 std::string merge_script(const SlurmJob& job) {
-  return header(job, "hedgehop-merge", "merge.log", 1) + sweep_command(job) + " --merge\n";
+  const std::string junit = job.junit.empty() ? "" : " --junit " + shell_quoted(job.junit.string());
+  return header(job, "hedgehop-merge", "merge.log", 1) + sweep_command(job) + " --merge" + junit + "\n";
 }
 
 std::string submit(const SlurmJob& job) {

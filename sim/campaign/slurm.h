@@ -13,6 +13,7 @@ struct SlurmJob {
   std::filesystem::path out;         ///< the results, absolute, on a disk that all nodes share
   std::filesystem::path folder;      ///< to run in, so that relative paths mean what they mean here; absolute
   std::filesystem::path worker;      ///< program of the workers when not hedgehop itself; absolute or empty
+  std::filesystem::path junit;       ///< written by the step that gathers the results; absolute or empty
   size_t tasks = 1;                  ///< shards, 1..1000 (Slurm's own limit of an array's index)
   size_t cores = 1;                  ///< of a task, and workers
   double limit_s = 0.0;              ///< of a flight, 0 for none

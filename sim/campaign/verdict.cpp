@@ -11,14 +11,6 @@
 namespace hedgehop::sim {
 namespace {
 
-/// NaN of nothing; the mean of the middle two of an even number.
-double median(std::vector<double> values) {
-  if (values.empty()) return std::nan("");
-  std::ranges::sort(values);
-  const size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
 /// null of result.json is "nothing near": as far as can be.
 double number_or_infinity(const nlohmann::ordered_json& value) {
   return value.is_number() ? value.get<double>() : std::numeric_limits<double>::infinity();
@@ -81,6 +73,13 @@ GroupVerdict judge(const NoWorseCheck& check, const GroupSummary& group) {
 }
 
 }  // namespace
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::nan("");
+  std::ranges::sort(values);
+  const size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
 
 std::vector<GroupSummary> summarise(const std::vector<FlightRecord>& records) {
   std::vector<GroupSummary> groups;

@@ -9,6 +9,7 @@
 #include "sim/campaign/batch_record.h"
 #include "sim/campaign/fly_orders.h"
 #include "sim/campaign/junit.h"
+#include "sim/campaign/leaderboard.h"
 #include "sim/campaign/table.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/progress.h"
@@ -68,6 +69,21 @@ std::string write_files(const std::filesystem::path& out, const std::filesystem:
   return fault;
 }
 
+/// Writes the leaderboard's matrix. @param again  the flights are an earlier batch's, and so is its leaderboard.
+/// @return its text; empty without a leaderboard.
+std::string write_matrix(const std::filesystem::path& out, const std::optional<Leaderboard>& board, bool again) {
+  if (board) {
+    write_leaderboard(out, *board);
+  } else if (!again) {
+    forget_leaderboard(out);
+  }
+  const nlohmann::ordered_json data = leaderboard_data(out, read_flights(out));
+  if (data.is_null()) return "";
+  const std::string text = leaderboard_text(data);
+  write_file_whole(out / "leaderboard.md", text);
+  return "\n" + text;
+}
+
 bool all_hold(const std::vector<FlightRecord>& records, const std::vector<GroupVerdict>& verdicts) {
   if (!verdicts.empty()) return std::ranges::all_of(verdicts, &GroupVerdict::passed);
   return std::ranges::all_of(records, passed);
@@ -94,20 +110,21 @@ int batch(const BatchOptions& options) {
                        .version = std::string(kVersion),
                        .workers = options.jobs,
                        .limit_s = options.limit_s};
+  const Reuse reuse = options.resume ? Reuse::all : options.failed_only ? Reuse::passed : Reuse::none;
   const std::vector<FlightRecord> records =
-      fly_orders(batch.orders, fly, options.failed_only ? Reuse::passed : Reuse::none, interruption,
-                 [&progress](const FlightRecord& record, bool reused) {
-                   const bool ok = passed(record);
-                   progress.add(record.order.id, ok ? outcome_words(record) : failure_words(record), ok, reused);
-                 });
+      fly_orders(batch.orders, fly, reuse, interruption, [&progress](const FlightRecord& record, bool reused) {
+        const bool ok = passed(record);
+        progress.add(record.order.id, ok ? outcome_words(record) : failure_words(record), ok, reused);
+      });
   progress.close();
 
   const std::vector<GroupVerdict> verdicts = judge(batch.checks, summarise(records));
   const std::string unwritten = write_files(out, options.junit, records, verdicts);
+  const std::string matrix = unwritten.empty() ? write_matrix(out, batch.leaderboard, options.inputs.empty()) : "";
   if (options.json) {
     fmt::print("{}", batch_json(records, verdicts, std::string(kVersion)));
   } else {
-    fmt::print("{}", summary_text(records, verdicts));
+    fmt::print("{}{}", summary_text(records, verdicts), matrix);
   }
   if (!unwritten.empty()) throw std::runtime_error(unwritten);
   if (!options.json) fmt::print("written: {}\n", (out / "batch.json").string());

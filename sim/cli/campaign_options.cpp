@@ -29,8 +29,12 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
   add_workers(*command, options->jobs, options->limit_s);
   command->add_option("--out", options->out, "folder of the results")->type_name("DIR");
   command->add_option("--junit", options->junit, "write a JUnit file for CI")->type_name("FILE");
-  command->add_flag("--failed-only", options->failed_only,
-                    "keep the flights of --out that passed; without FILES, those of its batch.json");
+  auto* const failed_only =
+      command->add_flag("--failed-only", options->failed_only,
+                        "keep the flights of --out that passed; without FILES, those of its batch.json");
+  command
+      ->add_flag("--resume", options->resume, "keep every flight of --out that left a result of the very same scenario")
+      ->excludes(failed_only);
   command
       ->add_option("--min-success", options->least_success,
                    "over the seeds, the lower end of the success rate's interval must not be below this")
@@ -55,6 +59,7 @@ void declare_sweep(CLI::App& app, std::function<int()>& chosen) {
   command->add_option("SWEEP", options->file, "sweep file (YAML)")->required();
   add_workers(*command, options->jobs, options->limit_s);
   command->add_option("--out", options->out, "folder of the results")->type_name("DIR");
+  command->add_option("--junit", options->junit, "write a JUnit file for CI")->type_name("FILE");
   command->add_option("--shard", options->shard, "fly one part only, such as 2/8")->type_name("I/N");
   command->add_flag("--merge", options->merge, "fly nothing; write the tables of all results that are there");
   command->add_option("--from", options->merge_from, "... further folders to look for results in")->type_name("DIR");

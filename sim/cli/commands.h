@@ -80,7 +80,7 @@ struct BatchOptions {
   double limit_s = 0.0;                       ///< longest wall time of a flight, 0 for none
   std::filesystem::path out;                  ///< empty: out/<name of the one input>, else out/batch
   std::filesystem::path junit;                ///< empty: none is written
-  bool failed_only = false, json = false;
+  bool failed_only = false, resume = false, json = false;
   std::optional<double> least_success, margin;  ///< statistical checks, as in a campaign's file
   std::filesystem::path no_worse_than;
   double confidence = 0.95;
@@ -95,6 +95,7 @@ struct SweepOptions {
   size_t jobs = 1;                                ///< flights at a time, >= 1
   double limit_s = 0.0;                           ///< longest wall time of a flight, 0 for none
   std::filesystem::path out;                      ///< empty: out/<the file's name>
+  std::filesystem::path junit;                    ///< empty: none is written
   std::string shard;                              ///< such as 2/8; empty: all
   bool merge = false;                             ///< fly nothing, write the tables of what is there
   std::vector<std::filesystem::path> merge_from;  ///< further folders to look for results in
@@ -130,6 +131,7 @@ struct ReportOptions {
   std::filesystem::path folder;   ///< of a run, a batch or a sweep
   std::filesystem::path against;  ///< folder of an earlier batch or sweep; empty: none
   bool replay = false;            ///< of a run: also write replay.html
+  size_t film_strips = 0;         ///< of a batch or sweep: worst flights that are flown again for a film strip
 };
 /// Writes the folder's report.html.
 int report(const ReportOptions& options);

@@ -102,6 +102,12 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
       ->type_name("DIR");
   report_command->add_flag("--replay", report.replay,
                            "of a run: also write replay.html, the flight in three dimensions");
+  report_command
+      ->add_option("--film-strips", report.film_strips,
+                   "of a batch or sweep: fly so many of the worst flights again, up to their closest approach, for "
+                   "pictures of what they saw")
+      ->check(CLI::Range(0, 50))
+      ->type_name("N");
   report_command->callback([&] { chosen = [&report] { return cli::report(report); }; });
 
   CLI::App* const list_command = app.add_subcommand("list", "tell what a scenario may name, and every key it takes");

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "sim/campaign/campaign_report.h"
+#include "sim/campaign/film_strip.h"
 #include "sim/campaign/flight_list.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/load.h"
@@ -15,6 +16,20 @@
 #include "sim/scenario/scenario.h"
 
 namespace hedgehop::sim::cli {
+namespace {
+
+/// Flies the worst flights of a campaign again, for their strips, and tells what came of it.
+void film_worst(const std::filesystem::path& folder, size_t count) {
+  const std::vector<FlightRecord> flights = read_flights(folder).records;
+  const std::vector<size_t> rows = worst_flights(flights, count);
+  size_t begun = 0;
+  const auto show = [&](const std::string& id) {
+    fmt::print(stderr, "{}/{}: flying {} again for its film strip\n", ++begun, rows.size(), id);
+  };
+  for (const std::string& fault : write_film_strips(folder, flights, rows, show)) fmt::print(stderr, "{}\n", fault);
+}
+
+}  // namespace
 
 int list(const std::string& topic) {
   fmt::print("{}", document(topic));
@@ -47,6 +62,7 @@ int report(const ReportOptions& options) {
   const auto written = [&](const char* name) { fmt::print("written: {}\n", (options.folder / name).string()); };
   if (is_campaign(options.folder)) {
     if (options.replay) throw InputError(folder + ": --replay shows one flight; name the folder of one");
+    if (options.film_strips > 0) film_worst(options.folder, options.film_strips);
     write_campaign_report(options.folder, options.against.empty() ? std::nullopt : std::optional(options.against));
     written("report.html");
     return 0;
@@ -54,6 +70,8 @@ int report(const ReportOptions& options) {
   if (!std::filesystem::exists(options.folder / "result.json")) {
     throw InputError(folder + ": no result.json, batch.csv or sweep.csv: not the folder of a run, batch or sweep");
   }
+  if (options.film_strips > 0)
+    throw InputError(folder + ": --film-strips is for batches or sweeps, and this is one run");
   if (!options.against.empty())
     throw InputError(folder + ": --against compares batches or sweeps, and this is one run");
   if (options.replay) write_replay(options.folder);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "sim/campaign/batch_record.h"
+#include "sim/campaign/junit.h"
 #include "sim/campaign/slurm.h"
 #include "sim/campaign/sweep.h"
 #include "sim/cli/commands.h"
@@ -37,6 +38,9 @@ void write_tables(const SweepRun& run, const SweepOrders& orders, const std::vec
   const Table table = sweep_table(run.sweep, orders, records);
   write_file_whole(run.out / (run.name + ".csv"), csv_text(table));
   write_sqlite(run.out / (run.name + ".sqlite"), table);
+  if (run.options.junit.empty()) return;
+  if (run.options.junit.has_parent_path()) std::filesystem::create_directories(run.options.junit.parent_path());
+  write_file_whole(run.options.junit, junit_text(records, {}));
 }
 
 /// Tells how it went and returns the exit status.
@@ -116,6 +120,7 @@ int on_slurm(const SweepRun& run, size_t flights) {
                      .out = std::filesystem::absolute(run.out).lexically_normal(),
                      .folder = std::filesystem::current_path(),
                      .worker = run.options.program,
+                     .junit = run.options.junit.empty() ? "" : std::filesystem::absolute(run.options.junit),
                      .tasks = std::min(run.options.tasks, flights),
                      .cores = run.options.jobs,
                      .limit_s = run.options.limit_s,

@@ -28,21 +28,6 @@ Json flight(const Json& batch, int seed) {
   return {};
 }
 
-/// What an XML parser of another house reads from a JUnit file: "suite/case wrong message" a line.
-std::string junit_cases(const CampaignFolder& folder, const std::string& file) {
-  folder.write(
-      "read_junit.py",
-      "import sys, xml.etree.ElementTree as tree\n"
-      "for suite in tree.parse(sys.argv[1]).getroot():\n"
-      "    for case in suite:\n"
-      "        wrong = [w for w in case if w.tag != 'system-out']\n"
-      "        print(suite.get('name') + '/' + case.get('name'), *[w.tag + ' ' + w.get('message') for w in wrong])\n"
-      "        print('  ' + case.find('system-out').text.replace('\\n', ' '))\n");
-  const CommandEnd read = folder.shell("python3 read_junit.py " + file);
-  EXPECT_EQ(read.status, 0) << read.err;
-  return read.out;
-}
-
 TEST(Batch, WorkerThatCrashesOrIsKilledFailsItsOwnFlightOnly) {
   const CampaignFolder folder;
   const std::string worker = folder.worker(

@@ -76,4 +76,18 @@ class CampaignFolder : public TemporaryFolder {
   nlohmann::ordered_json json(const std::string& name) const { return nlohmann::ordered_json::parse(read(name)); }
 };
 
+/// What an XML parser of another house reads from a JUnit file: "suite/case wrong message" a line.
+inline std::string junit_cases(const CampaignFolder& folder, const std::string& file) {
+  folder.write(
+      "read_junit.py",
+      "import sys, xml.etree.ElementTree as tree\n"
+      "for suite in tree.parse(sys.argv[1]).getroot():\n"
+      "    for case in suite:\n"
+      "        wrong = [w for w in case if w.tag != 'system-out']\n"
+      "        print(suite.get('name') + '/' + case.get('name'), *[w.tag + ' ' + w.get('message') for w in wrong])\n"
+      "        print('  ' + case.find('system-out').text.replace('\\n', ' '))\n");
+  const CommandEnd read = folder.shell("python3 read_junit.py " + file);
+  return read.status == 0 ? read.out : "no JUnit file: " + read.err;
+}
+
 }  // namespace hedgehop::sim

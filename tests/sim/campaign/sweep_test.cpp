@@ -66,6 +66,21 @@ TEST_F(Sweep, KilledAtAnyMomentItEndsWithTheSameTable) {
   EXPECT_LE(folder.read("flown.txt").size() / 2, 12u + 3u * 2u);
 }
 
+/// A case for each flight and each of its checks, as of a batch; a worker's death is its own flight's error.
+TEST_F(Sweep, JunitHasACaseForEachFlightAndCheck) {
+  const std::string worker =
+      folder.worker("case \"$*\" in *000001-seed2*) echo broken >&2; exit 3 ;; esac; fly \"$@\"");
+  EXPECT_EQ(folder.hedgehop("sweep sweep.yaml --out out --junit ci/j.xml --program " + worker).status, 1);
+  const std::string cases = junit_cases(folder, "ci/j.xml");
+  EXPECT_EQ(std::ranges::count(cases, '\n'), 2 * (12 + 11)) << cases;  // a line more each for its facts
+  EXPECT_THAT(cases, HasSubstr("flights/000001-seed2/flight error exit status 3: broken\n"));
+  EXPECT_THAT(cases, HasSubstr("flights/000005-seed1/no_collision\n  value 0.7"));
+  EXPECT_THAT(cases,
+              HasSubstr("again: hedgehop run tiny.yaml --seed 1 --set avoidance.speed=2 --set control_rate=100"));
+  const std::string script = folder.hedgehop("sweep sweep.yaml --out out --junit ci/j.xml --on slurm --dry-run").out;
+  EXPECT_THAT(script, HasSubstr("--merge --junit " + (folder.path() / "ci/j.xml").string() + "\n"));
+}
+
 TEST_F(Sweep, MergedShardsEqualTheWhole) {
   ASSERT_EQ(folder.hedgehop("sweep sweep.yaml --out whole").status, 0);
   for (const std::string shard : {"1/3", "2/3", "3/3"}) {

@@ -72,6 +72,28 @@ TEST(ReplayInBrowser, PutsTheVehicleWhereTheTrajectoryHasIt) {
   }
 }
 
+/// From above, under a ceiling; and, to see that the count counts, under a body as thick as a house, which is drawn.
+TEST(ReplayInBrowser, CeilingDoesNotHideTheFlightBelowIt) {
+  HEDGEHOP_NEEDS_BROWSER();
+  for (const double thickness_m : {0.25, 3.0}) {
+    const TemporaryFolder run;
+    Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_city_0_light.yaml");
+    scenario.scene = scenes::RoomConfig{
+        .length_m = 500.0, .width_m = 500.0, .height_m = 40.0, .wall_thickness_m = thickness_m, .texture_size_px = 64};
+    write_result_files(run.path(), {.scenario = "hall", .seed = 9, .scenario_yaml = to_yaml(scenario)},
+                       fake_flight(10.0, 1));
+    write_replay(run.path());
+    const PageVisit page = visit(run.path() / "replay.html", R"js(
+      const camera = document.getElementById('camera');
+      camera.value = 'above';
+      camera.dispatchEvent(new Event('change'));
+      return [replay.state.camera, replay.facesBefore()];)js");
+    EXPECT_THAT(page.errors, IsEmpty());
+    EXPECT_EQ(page.value[0], "above");
+    EXPECT_EQ(page.value[1], thickness_m < 1.0 ? 0 : 1) << thickness_m;
+  }
+}
+
 TEST(ReplayInBrowser, PlaysPausesAndChangesCameraAndSpeed) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;

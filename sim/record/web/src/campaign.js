@@ -133,11 +133,20 @@ function main() {
   fillGroups(host('groups'), data.groups);
   if (data.is_sweep) host('groups-card').querySelector('h2').textContent = 'Success by point';
 
-  const on = {choose: (row) => {
-    fillChosen(host('selected'), data, table, row);
-    paths.setChosen(row);
-    flights.setChosen(row);
-  }};
+  const on = {
+    choose: (row) => {
+      fillChosen(host('selected'), data, table, row);
+      paths.setChosen(row);
+      flights.setChosen(row);
+    },
+    filter: (text) => {
+      filter.value = text;
+      update();
+      host('flights-card').scrollIntoView();
+    },
+  };
+  fillBoard(host('board-card'), data.leaderboard, on);
+  fillStrips(host('strips-card'), data, table, on);
   const flights = new FlightsView(host('flights'), data, table, [...shownAtFirst.slice(0, 2), ...data.swept, ...shownAtFirst.slice(2)], on);
   const paths = new PathsView(host('paths'), host('scene'), data.paths, table, on);
   const success = new SuccessMap(host('success'), data, table, on), scatter = new Scatter(host('scatter'), data, table, on);

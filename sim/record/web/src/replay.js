@@ -36,8 +36,8 @@ const bounds = world.bounds.length ? world.bounds
   : [...finiteRange(path.north_m), ...finiteRange(path.east_m)].map((v, i) => v + (i % 2 ? 20 : -20));
 const floor = ground(bounds);
 floor.group.visible = world.has_ground;
-const craft = vehicle(hull), movers = world.movers.map(moverMesh);
-inW.add(floor.group, solidsMesh(world), pathLine(path), craft.group, ...movers);
+const solids = solidsMesh(world, path), craft = vehicle(hull), movers = world.movers.map(moverMesh);
+inW.add(floor.group, solids.group, pathLine(path), craft.group, ...movers);
 if (goal) inW.add(goalMark(goal));
 craft.group.rotation.order = 'ZYX';  // yaw, then pitch, then roll, each about the new axis
 
@@ -164,7 +164,7 @@ function fillControls() {
   const what = element('what');
   what.append(make('h1', '', result.scenario), make('p', 'soft', `seed ${result.seed}, ${result.outcome} after ${fixed(result.flight_time_s, 1)} s`));
   what.appendChild(make('p')).id = 'facts';
-  what.append(make('p', 'soft', `${world.has_ground ? `lines on the ground ${short(floor.step_m)} m apart; ` : ''}bodies as the simulator collides them`));
+  what.append(make('p', 'soft', `${world.has_ground ? `lines on the ground ${short(floor.step_m)} m apart; ` : ''}bodies as the simulator collides them${solids.ceilings ? ', ceilings as edges' : ''}`));
   if (has_report) {
     const link = what.appendChild(make('a', '', 'report'));
     link.href = 'report.html';
@@ -209,9 +209,15 @@ if (path.t_s.length) setTime(0);
 setCamera('orbit');
 requestAnimationFrame(draw);
 
-// What tests ask: places in T of the vehicle and of a point of its own, and the controls' state.
+// What tests ask: places in T of the vehicle and of a point of its own, the controls' state, and how many solids' faces
+// stand between the camera and the vehicle.
 window.replay = {
   state,
+  facesBefore: () => {
+    stage.updateMatrixWorld(true);
+    const way = craftInT().sub(camera.position), ray = new THREE.Raycaster(camera.position, way.clone().normalize(), 0, way.length());
+    return ray.intersectObject(solids.group, true).filter((hit) => hit.object.isMesh).length;
+  },
   point: (forward, right, down) => {
     craft.group.updateMatrix();
     return inT(...new THREE.Vector3(forward, right, down).applyMatrix4(craft.group.matrix).toArray()).toArray();

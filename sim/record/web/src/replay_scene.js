@@ -79,4 +79,31 @@ export function vehicle(hull) {
 }
 
 export function moverMesh(mover) { return bodies(mover.bodies, colors.mover); }
-export function solidsMesh(scene) { return bodies(scene, colors.solid); }
+
+/** Whether a body is a ceiling over the path: flat, above all of it, and over some of it. @param low, high  its corners in W. */
+function isCeiling(low, high, {north_m, east_m, down_m}) {
+  const kFlat_m = 1;
+  return high[2] < Math.min(...down_m) && high[2] - low[2] < kFlat_m &&
+    north_m.some((north, i) => low[0] < north && north < high[0] && low[1] < east_m[i] && east_m[i] < high[1]);
+}
+function boxCorners([x, y, z, qx, qy, qz, qw, a, b, c]) {
+  const box = new THREE.Box3(new THREE.Vector3(-a, -b, -c), new THREE.Vector3(a, b, c));
+  box.applyMatrix4(new THREE.Matrix4().compose(new THREE.Vector3(x, y, z), new THREE.Quaternion(qx, qy, qz, qw), new THREE.Vector3(1, 1, 1)));
+  return [box.min.toArray(), box.max.toArray()];
+}
+function meshCorners({corners}) {
+  const box = new THREE.Box3().setFromArray(corners);
+  return [box.min.toArray(), box.max.toArray()];
+}
+
+/** What stands in the scene; ceilings, which would hide the flight from above, as edges only. {group, ceilings}. */
+export function solidsMesh(scene, path) {
+  const over = {boxes: [], meshes: []}, rest = {...scene, boxes: [], meshes: []};
+  for (const box of scene.boxes) (isCeiling(...boxCorners(box), path) ? over : rest).boxes.push(box);
+  for (const mesh of scene.meshes) (isCeiling(...meshCorners(mesh), path) ? over : rest).meshes.push(mesh);
+  const group = bodies(rest, colors.solid), ceilings = [...over.boxes.map(boxCorners), ...over.meshes.map(meshCorners)];
+  for (const [low, high] of ceilings) {
+    group.add(new THREE.Box3Helper(new THREE.Box3(new THREE.Vector3(...low), new THREE.Vector3(...high)), colors.solid));
+  }
+  return {group, ceilings: ceilings.length};
+}

@@ -1,0 +1,146 @@
+#include "sim/campaign/film_strip.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "sim/loop/episode.h"
+#include "sim/record/film_watcher.h"
+#include "sim/record/whole_file.h"
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr size_t kPictures = 5;
+constexpr double kApart_s = 0.8;  // between two pictures, less in flights too short for it
+constexpr int kWidth_px = 240, kCaption_px = 16;
+constexpr int kQuality = 70;            // of the JPEG: 30 to 60 kB a strip
+constexpr double kSameFlight_m = 1e-6;  // result.json keeps every bit; two flights that part differ by far more
+
+struct Picture {
+  double t_s = 0.0;
+  cv::Mat rgb;  ///< kWidth_px wide
+};
+
+/// Keeps the last pictures of a flight, small.
+class StripWatcher : public FlightWatcher {
+ public:
+  explicit StripWatcher(double rate_hz) : rate_hz_(rate_hz) {}
+
+  double picture_rate_hz() const override { return rate_hz_; }
+  void on_pictures(int64_t t_ns, std::span<const avoidance::CameraFrame> frames, const cv::Mat& annotated) override {
+    const cv::Mat source = annotated.empty() ? contact_sheet(frames) : annotated;
+    if (source.empty()) return;
+    Picture picture{.t_s = 1e-9 * static_cast<double>(t_ns), .rgb = {}};
+    const int height_px = std::max(1, static_cast<int>(std::lround(double{kWidth_px} * source.rows / source.cols)));
+    cv::resize(source, picture.rgb, {kWidth_px, height_px}, 0, 0, cv::INTER_AREA);
+    pictures_.push_back(std::move(picture));
+    while (pictures_.front().t_s < pictures_.back().t_s - kApart_s * kPictures) pictures_.pop_front();
+  }
+
+  const std::deque<Picture>& pictures() const { return pictures_; }
+
+ private:
+  double rate_hz_;
+  std::deque<Picture> pictures_;
+};
+
+/// Side by side in the order of time, each with the time left to `end_s` written below.
+cv::Mat strip(const std::deque<Picture>& pictures, double end_s) {
+  const double apart_s =
+      std::min(kApart_s, (pictures.back().t_s - pictures.front().t_s) / static_cast<double>(kPictures - 1));
+  cv::Mat sheet;
+  for (size_t i = 0; i < kPictures; ++i) {
+    const double wanted_s = pictures.back().t_s - apart_s * static_cast<double>(kPictures - 1 - i);
+    const Picture& picture =
+        *std::ranges::min_element(pictures, {}, [&](const Picture& p) { return std::abs(p.t_s - wanted_s); });
+    cv::Mat tile(picture.rgb.rows + kCaption_px, kWidth_px + 2, CV_8UC3, cv::Scalar::all(24));
+    picture.rgb.copyTo(tile(cv::Rect({0, 0}, picture.rgb.size())));
+    cv::putText(tile, fmt::format("{:.1f} s before", std::max(0.0, end_s - picture.t_s)), {4, tile.rows - 4},
+                cv::FONT_HERSHEY_SIMPLEX, 0.4, cv::Scalar::all(220), 1, cv::LINE_AA);
+    if (sheet.empty()) {
+      sheet = tile;
+    } else {
+      cv::hconcat(sheet, tile, sheet);
+    }
+  }
+  return sheet;
+}
+
+std::string jpeg(const cv::Mat& rgb) {
+  cv::Mat bgr;
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  std::vector<uint8_t> bytes;
+  cv::imencode(".jpg", bgr, bytes, {cv::IMWRITE_JPEG_QUALITY, kQuality});
+  return {bytes.begin(), bytes.end()};
+}
+
+/// Throws std::runtime_error with the reason why there is no strip.
+void write_film_strip(const std::filesystem::path& flight) {
+  const auto result = nlohmann::ordered_json::parse(read_file_whole(flight / "result.json"));
+  const nlohmann::ordered_json& closest = result.at("closest_obstacle");
+  const bool collided = result.at("outcome") == "collided";
+  const double end_s = (collided ? result.at("flight_time_s") : closest.at("t_s")).get<double>();
+
+  Scenario scenario = load_scenario(flight / "scenario.yaml");
+  if (!collided) scenario.duration_s = end_s;
+  StripWatcher watcher(scenario.film.rate_hz);
+  const FlightResult again = fly(scenario, &watcher).result;
+  const double clearance_m = again.closest_obstacle.distance_m;
+  if (!closest.is_null() && std::abs(clearance_m - closest.at("distance_m").get<double>()) > kSameFlight_m) {
+    throw std::runtime_error(fmt::format("flown again, it came within {:.6f} m of an obstacle instead of {:.6f} m",
+                                         clearance_m, closest.at("distance_m").get<double>()));
+  }
+  if (watcher.pictures().empty()) throw std::runtime_error("no camera has drawn a picture");
+  write_file_whole(flight / "strip.jpg", jpeg(strip(watcher.pictures(), end_s)));
+}
+
+}  // namespace
+
+std::vector<size_t> worst_flights(const std::vector<FlightRecord>& records, size_t count) {
+  std::vector<std::pair<double, size_t>> collisions, near_misses;
+  for (size_t row = 0; row < records.size(); ++row) {
+    const FlightRecord& record = records[row];
+    if (record.status != FlightRecord::Status::flown) continue;
+    if (record.result.at("outcome") == "collided") {
+      collisions.emplace_back(record.result.at("flight_time_s").get<double>(), row);
+    } else if (const auto& clearance_m = record.result.at("min_obstacle_clearance_m"); clearance_m.is_number()) {
+      near_misses.emplace_back(clearance_m.get<double>(), row);
+    }
+  }
+  std::ranges::sort(collisions);
+  std::ranges::sort(near_misses);
+  const size_t half = (count + 1) / 2;
+  const size_t misses =
+      std::min(near_misses.size(), std::max(count - half, count - std::min(count, collisions.size())));
+  collisions.resize(std::min(collisions.size(), count - misses));
+  near_misses.resize(misses);
+  std::vector<size_t> rows;
+  for (const auto& [time_s, row] : collisions) rows.push_back(row);
+  for (const auto& [clearance_m, row] : near_misses) rows.push_back(row);
+  return rows;
+}
+
+std::vector<std::string> write_film_strips(const std::filesystem::path& folder,
+                                           const std::vector<FlightRecord>& records, const std::vector<size_t>& rows,
+                                           const std::function<void(const std::string&)>& on_begin) {
+  std::vector<std::string> without;
+  for (const size_t row : rows) {
+    const std::string& id = records[row].order.id;
+    on_begin(id);
+    try {
+      write_film_strip(folder / id);
+    } catch (const std::exception& error) {  // one flight's trouble must not take the others' strips
+      without.push_back(fmt::format("{}: no film strip: {}", id, error.what()));
+    }
+  }
+  return without;
+}
+
+}  // namespace hedgehop::sim

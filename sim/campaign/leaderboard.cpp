@@ -1,0 +1,222 @@
+#include "sim/campaign/leaderboard.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "sim/campaign/verdict.h"
+#include "sim/record/whole_file.h"
+#include "sim/scenario/input_error.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kConfidence = 0.95;
+constexpr const char* kFile = "leaderboard.json";
+
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+template <class Named>
+std::set<std::string> names_of(const std::vector<Named>& all, std::vector<std::string>& faults) {
+  std::set<std::string> names;
+  for (const Named& one : all) {
+    if (!names.insert(one.name).second) faults.push_back(fmt::format("leaderboard: '{}' stands twice", one.name));
+  }
+  return names;
+}
+
+/// Median of a column over some rows, fields that are empty left out.
+double median_of(const CsvTable& table, const std::string& column, const std::vector<size_t>& rows) {
+  if (std::ranges::find(table.names(), column) == table.names().end()) return std::nan("");
+  const std::vector<double> all = table.numbers(column);
+  std::vector<double> some;
+  for (const size_t row : rows) {
+    if (!std::isnan(all[row])) some.push_back(all[row]);
+  }
+  return median(some);
+}
+
+Json cell_data(const Json& cell, const FlightList& flights) {
+  std::vector<FlightRecord> records;
+  std::vector<size_t> rows;
+  for (size_t i = 0; i < flights.records.size(); ++i) {
+    if (cell.at("group") != flights.records[i].order.group) continue;
+    records.push_back(flights.records[i]);
+    rows.push_back(i);
+  }
+  Json data{{"world", cell.at("world")}, {"module", cell.at("module")}, {"reason", cell.at("reason")}};
+  if (records.empty()) return data;
+  const GroupSummary group = summarise(records).front();
+  const Interval interval = wilson_interval(group.success, kConfidence);
+  data["flights"] = group.success.trials;
+  data["passed"] = group.success.successes;
+  data["low"] = interval.low;
+  data["high"] = interval.high;
+  data["collided"] = group.collided;
+  data["timeout"] = group.timeout;
+  data["broken"] = group.fault + group.failed;
+  data["least_clearance_m"] = finite(group.least_clearance_m);
+  data["median_clearance_m"] = finite(group.median_clearance_m);
+  data["path_excess"] = finite(median_of(flights.table, "metric.path_excess", rows));
+  data["mean_speed_mps"] = finite(median_of(flights.table, "mean_speed_mps", rows));
+  data["decision_ms"] = finite(median_of(flights.table, "time.decision_ms.median", rows));
+  return data;
+}
+
+/// NaN when no module but the control has flown there.
+double difficulty(const Json& world, const Json& modules, const Json& cells) {
+  double sum = 0.0, count = 0.0;
+  for (const Json& cell : cells) {
+    if (cell.at("world") != world || cell.value("flights", 0) == 0) continue;
+    const auto module = std::ranges::find_if(modules, [&](const Json& m) { return m.at("name") == cell.at("module"); });
+    if (module->at("control").get<bool>()) continue;
+    sum += cell.at("passed").get<double>() / cell.at("flights").get<double>();
+    count += 1.0;
+  }
+  return 1.0 - sum / count;
+}
+
+const Json& cell_of(const Json& data, const Json& world, const Json& module) {
+  return *std::ranges::find_if(data.at("cells"), [&](const Json& cell) {
+    return cell.at("world") == world.at("name") && cell.at("module") == module.at("name");
+  });
+}
+
+std::string words(const Json& value, const char* format = "{:.2f}") {
+  return value.is_number() ? fmt::format(fmt::runtime(format), value.get<double>()) : "-";
+}
+
+std::string matrix_text(const Json& data) {
+  std::string text = "| world | difficulty |";
+  for (const Json& module : data.at("modules")) text += fmt::format(" {} |", module.at("name").get<std::string>());
+  text += "\n|---|---|";
+  for (size_t i = 0; i < data.at("modules").size(); ++i) text += "---|";
+  for (const Json& world : data.at("worlds")) {
+    text += fmt::format("\n| {} | {} |", world.at("name").get<std::string>(), words(world.at("difficulty")));
+    for (const Json& module : data.at("modules")) {
+      const Json& cell = cell_of(data, world, module);
+      if (cell.contains("passed")) {
+        text +=
+            fmt::format(" {} of {} ({:.2f} to {:.2f}) |", cell.at("passed").get<int64_t>(),
+                        cell.at("flights").get<int64_t>(), cell.at("low").get<double>(), cell.at("high").get<double>());
+      } else {
+        text += cell.at("reason") == "" ? " missing |" : " not flown |";
+      }
+    }
+  }
+  return text + "\n";
+}
+
+std::string rows_text(const Json& data) {
+  std::string text =
+      "| world | module | flights | passed | collided | out of time | broken | least clearance, m | median of it, m | "
+      "path excess | speed, m/s | decision, ms |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const Json& world : data.at("worlds")) {
+    for (const Json& module : data.at("modules")) {
+      const Json& cell = cell_of(data, world, module);
+      if (!cell.contains("passed")) continue;
+      text += fmt::format("| {} | {} |", world.at("name").get<std::string>(), module.at("name").get<std::string>());
+      for (const char* key : {"flights", "passed", "collided", "timeout", "broken"}) {
+        text += fmt::format(" {} |", cell.at(key).get<int64_t>());
+      }
+      for (const char* key : {"least_clearance_m", "median_clearance_m", "path_excess", "mean_speed_mps"}) {
+        text += " " + words(cell.at(key)) + " |";
+      }
+      text += " " + words(cell.at("decision_ms"), "{:.1f}") + " |\n";
+    }
+  }
+  return text;
+}
+
+/// One line for each module and reason.
+std::string reasons_text(const Json& data) {
+  std::string text;
+  std::set<std::string> told;
+  for (const Json& cell : data.at("cells")) {
+    const auto module = cell.at("module").get<std::string>(), reason = cell.at("reason").get<std::string>();
+    if (reason.empty() || !told.insert(module + "\n" + reason).second) continue;
+    std::string worlds;
+    for (const Json& other : data.at("cells")) {
+      if (other.at("module") != module || other.at("reason") != reason) continue;
+      worlds += (worlds.empty() ? "" : ", ") + other.at("world").get<std::string>();
+    }
+    text += fmt::format("Not flown: {} in {}: {}.\n", module, worlds, reason);
+  }
+  return text;
+}
+
+}  // namespace
+
+Leaderboard leaderboard_of(const LeaderboardConfig& config) {
+  std::vector<std::string> faults;
+  const std::set<std::string> worlds = names_of(config.worlds, faults), modules = names_of(config.modules, faults);
+  Leaderboard board{.worlds = config.worlds, .modules = config.modules, .cells = {}};
+  for (const LeaderboardWorld& world : config.worlds) {
+    for (const LeaderboardModule& module : config.modules) board.cells.push_back({world.name, module.name, "", ""});
+  }
+  for (const LeaderboardGap& gap : config.not_flown) {
+    if (!modules.contains(gap.module)) faults.push_back(fmt::format("leaderboard: no module '{}'", gap.module));
+    if (gap.reason.empty())
+      faults.push_back(fmt::format("leaderboard: '{}' is not flown without a reason", gap.module));
+    for (const std::string& world : gap.worlds) {
+      if (!worlds.contains(world)) faults.push_back(fmt::format("leaderboard: no world '{}'", world));
+      for (LeaderboardCell& cell : board.cells) {
+        if (cell.world == world && cell.module == gap.module) cell.reason = gap.reason;
+      }
+    }
+  }
+  if (!faults.empty()) throw InputError(faults);
+  return board;
+}
+
+void write_leaderboard(const std::filesystem::path& folder, const Leaderboard& board) {
+  Json json{{"worlds", Json::array()}, {"modules", Json::array()}, {"cells", Json::array()}};
+  for (const LeaderboardWorld& world : board.worlds) json["worlds"].push_back({{"name", world.name}});
+  for (const LeaderboardModule& module : board.modules) {
+    json["modules"].push_back({{"name", module.name}, {"control", module.control}});
+  }
+  for (const LeaderboardCell& cell : board.cells) {
+    json["cells"].push_back(
+        {{"world", cell.world}, {"module", cell.module}, {"group", cell.group}, {"reason", cell.reason}});
+  }
+  std::filesystem::create_directories(folder);
+  write_file_whole(folder / kFile, json.dump(1) + "\n");
+}
+
+void forget_leaderboard(const std::filesystem::path& folder) {
+  std::filesystem::remove(folder / kFile);
+  std::filesystem::remove(folder / "leaderboard.md");
+}
+
+Json leaderboard_data(const std::filesystem::path& folder, const FlightList& flights) {
+  if (!std::filesystem::exists(folder / kFile)) return nullptr;
+  try {
+    const Json board = Json::parse(read_file_whole(folder / kFile));
+    Json data{{"worlds", board.at("worlds")}, {"modules", board.at("modules")}, {"cells", Json::array()}};
+    for (const Json& cell : board.at("cells")) data["cells"].push_back(cell_data(cell, flights));
+    for (Json& world : data["worlds"]) {
+      world["difficulty"] = finite(difficulty(world.at("name"), data["modules"], data["cells"]));
+    }
+    // Worlds of equal difficulty stay in the campaign's order; what nobody has flown in comes last.
+    const auto key = [](const Json& world) {
+      return world.at("difficulty").is_number() ? world.at("difficulty").get<double>() : 2.0;
+    };
+    auto worlds = data["worlds"].get<std::vector<Json>>();
+    std::ranges::stable_sort(worlds, {}, key);
+    data["worlds"] = worlds;
+    return data;
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(fmt::format("{}: no leaderboard: {}", (folder / kFile).string(), error.what()));
+  }
+}
+
+std::string leaderboard_text(const Json& data) {
+  return matrix_text(data) + "\n" + rows_text(data) + "\n" + reasons_text(data);
+}
+
+}  // namespace hedgehop::sim

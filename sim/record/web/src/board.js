@@ -1,0 +1,71 @@
+'use strict';
+// A leaderboard: every module in every world, worlds from the easiest to the hardest.
+
+/** Fills the card with the matrix, or takes the card away where there is none. */
+function fillBoard(host, board, on) {
+  if (!board) {
+    host.remove();
+    return;
+  }
+  host.append(make('h2', '', 'Leaderboard'), make('p', 'soft', 'Flights whose checks all hold, with the 95 % interval of their rate; ' +
+    'below it: collisions, median least clearance, path beyond the shortest, speed, and time of a decision. A world is as difficult as ' +
+    'the share of flights that failed there, each module counted alike, the control left out.'));
+  const scroll = host.appendChild(make('div', 'scroll')), table = scroll.appendChild(make('table', 'board'));
+  const head = addRow(table.appendChild(make('thead')), [['world', ''], ['difficulty', 'number']], 'th');
+  for (const module of board.modules) head.append(make('th', '', module.name + (module.control ? ' (control)' : '')));
+  const body = table.appendChild(make('tbody'));
+  for (const world of board.worlds) {
+    const row = addRow(body, [[world.name, ''], [fixed(world.difficulty, 2), 'number']]);
+    for (const module of board.modules) {
+      row.append(boardCell(board.cells.find((c) => c.world === world.name && c.module === module.name), on));
+    }
+  }
+  for (const [reason, cells] of groupedBy(board.cells.filter((c) => c.reason), (c) => `${c.module}: ${c.reason}`)) {
+    host.append(make('p', 'soft', `Not flown in ${cells.map((c) => c.world).join(', ')}: ${reason}.`));
+  }
+}
+
+/** [[key, items], ...] in the order of the keys' first items. */
+function groupedBy(items, keyOf) {
+  const groups = new Map();
+  for (const item of items) groups.set(keyOf(item), [...groups.get(keyOf(item)) ?? [], item]);
+  return [...groups];
+}
+
+function boardCell(cell, on) {
+  const element = make('td', 'cell');
+  if (cell.passed === undefined) {
+    element.classList.add('empty');
+    element.append(make('span', 'soft', cell.reason ? 'not flown' : 'missing'));
+    element.title = cell.reason;
+    return element;
+  }
+  element.style.setProperty('--share', 100 * cell.passed / cell.flights + '%');
+  element.append(make('b', '', `${cell.passed} of ${cell.flights}`), make('span', 'soft', ` ${fixed(cell.low, 2)} to ${fixed(cell.high, 2)}`));
+  const words = [`${cell.collided} collided`];
+  if (cell.median_clearance_m !== null) words.push(`${fixed(cell.median_clearance_m, 2)} m`);
+  if (cell.path_excess !== null) words.push(`${cell.path_excess < 0 ? '' : '+'}${fixed(100 * cell.path_excess, 0)} %`);
+  words.push(`${fixed(cell.mean_speed_mps, 1)} m/s`, `${fixed(cell.decision_ms, 1)} ms`);
+  element.append(make('div', 'soft', words.join(', ')));
+  element.title = 'show these flights alone';
+  element.addEventListener('click', () => on.filter(`${cell.world}_${cell.module}/`));
+  return element;
+}
+
+/** Film strips of the flights that have one, with the way to see more of each. */
+function fillStrips(host, data, table, on) {
+  if (!data.strips.length) {
+    host.remove();
+    return;
+  }
+  host.append(make('h2', '', 'Film strips of the worst flights'),
+    make('p', 'soft', 'What their modules saw before the collision or the closest approach; flown again for these pictures.'));
+  for (const [row, jpeg] of data.strips) {
+    const figure = host.appendChild(make('figure', 'strip')), line = figure.appendChild(make('figcaption', 'flight-line'));
+    line.append(flightButton(table, row, on), make('span', 'soft', table.why[row] || `passed, clearance ${metres(table.value('min_obstacle_clearance_m', row))}`),
+      linkTo(data, table, row), copyButton(table.value('command', row)));
+    const picture = figure.appendChild(make('img'));
+    picture.src = 'data:image/jpeg;base64,' + jpeg;
+    picture.alt = `pictures before the end of ${table.value('id', row)}`;
+  }
+}
