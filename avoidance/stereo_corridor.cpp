@@ -59,6 +59,7 @@ class StereoCorridor final : public Module {
   void do_reset(const Setup& setup) override {
     sight_.emplace(config_.stereo, setup);
     tracker_ = {};
+    passed_.emplace(config_.passed);
     target_.reset();
     last_target_u_px_.reset();
     last_.reset();
@@ -74,9 +75,15 @@ class StereoCorridor final : public Module {
     cv::Mat& disparity16 = sight_->disparity16();
     if (disparity16.empty()) return {HoverCommand{}, "wait", std::vector<double>(5, kUnknown)};
     vision::remove_specks(disparity16, config_.speck_difference16, config_.speck_px);
-    vision::mark_sky(sight_->grey(), config_.sky_texture, config_.sky_brightness, disparity16);
+    vision::mark_sky(smooth_grey(), config_.sky_texture, config_.sky_brightness, config_.sky_among, disparity16);
     pyramid_.build(disparity16, config_.coarsest);
     tests_ = 0;
+    R_WC_ = observation.navigation.q_WB_est.toRotationMatrix() * sight_->X_BC().linear();
+    Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
+    X_WC.linear() = R_WC_;
+    X_WC.translation() =
+        observation.navigation.p_WB_est + observation.navigation.q_WB_est * sight_->X_BC().translation();
+    passed_->update(observation.t_ns, pyramid_, sight_->geometry(), X_WC);
 
     const std::optional<cv::Point> followed =
         tracker_.follow(target_ ? std::optional(target_->pixel) : std::nullopt, sight_->grey());
@@ -96,6 +103,12 @@ class StereoCorridor final : public Module {
     return decision;
   }
 
+  /// The left picture with less noise, which would look like texture.
+  const cv::Mat& smooth_grey() {
+    cv::blur(sight_->grey(), smooth_, {3, 3});
+    return smooth_;
+  }
+
   void count(int64_t t_ns) {
     if (first_t_ns_ < 0) first_t_ns_ = t_ns;
     if (!target_ && last_t_ns_ >= 0) hover_s_ += 1e-9 * static_cast<double>(t_ns - last_t_ns_);
@@ -110,8 +123,7 @@ class StereoCorridor final : public Module {
   /// corridor nearest to its direction is searched, so that it comes into view.
   std::optional<Target> choose(const Observation& observation, const std::optional<cv::Point>& followed) {
     const NavigationState& navigation = observation.navigation;
-    const Eigen::Matrix3d R_CW = (navigation.q_WB_est.toRotationMatrix() * sight_->X_BC().linear()).transpose();
-    const Eigen::Vector3d course_C = R_CW * (observation.goal.p_WG - navigation.p_WB_est);
+    const Eigen::Vector3d course_C = R_WC_.transpose() * (observation.goal.p_WG - navigation.p_WB_est);
     const Eigen::Vector3d v_C = sight_->X_BC().linear().transpose() * navigation.v_WB_B_est;
     constexpr double kStanding_mps = 0.5;
     const bool moving = v_C.norm() > kStanding_mps;
@@ -149,6 +161,7 @@ class StereoCorridor final : public Module {
   }
 
   Free examine(const cv::Point& pixel) {
+    if (!passed_->free(R_WC_ * sight_->geometry().ray(pixel))) return std::nullopt;
     const vision::Corridor corridor =
         vision::examine_corridor(pyramid_, sight_->geometry(), pixel, config_.radius_m, config_.target_m);
     tests_ += corridor.tests;
@@ -244,7 +257,10 @@ class StereoCorridor final : public Module {
   StereoCorridorConfig config_;
   std::optional<StereoSight> sight_;
   TargetTracker tracker_;
+  std::optional<PassedObstacles> passed_;
+  Eigen::Matrix3d R_WC_ = Eigen::Matrix3d::Identity();  ///< as estimated
   vision::DepthPyramid pyramid_;
+  cv::Mat smooth_;
   std::optional<Target> target_;
   std::optional<int> last_target_u_px_;
   std::optional<Decision> last_;
