@@ -17,6 +17,7 @@ struct StereoCorridorConfig {
   static constexpr std::string_view kMeaning = "flies through corridors that a stereo pair sees to be free";
 
   vision::StereoMatcherConfig stereo;
+  double disparity_noise_px = 0.0;
   int speck_difference16 = 16;  ///< tau_difference
   int speck_px = 60;
   int sky_texture = 6;       ///< tau_texture
@@ -37,6 +38,10 @@ struct StereoCorridorConfig {
 template <class Visitor>
 void describe(Visitor& v, StereoCorridorConfig& c) {
   v("stereo", c.stereo, {.meaning = "how the pair of cameras 'left' and 'right' is matched"});
+  v("disparity_noise", c.disparity_noise_px,
+    {.unit = "px",
+     .at_least = 0.0,
+     .meaning = "standard deviation of noise laid over every matched pixel; for experiments"});
   v("speck_difference", c.speck_difference16,
     {.at_least = 1,
      .meaning = "neighbours whose disparities differ by less, in sixteenths of a pixel, are one segment"});
