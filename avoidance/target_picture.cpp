@@ -23,6 +23,14 @@ cv::Rect block_of(const cv::Point& centre) {
   return {centre.x - half, centre.y - half, 2 * half, 2 * half};
 }
 
+/// Colours an area so that the picture is still seen; the edge stays free, so that neighbours are told apart.
+void tint(cv::Mat& panel, const cv::Rect& area, const cv::Scalar& color) {
+  const cv::Rect inner = cv::Rect(area.x + 1, area.y + 1, area.width - 2, area.height - 2) & cv::Rect({}, panel.size());
+  if (inner.empty()) return;
+  cv::Mat part = panel(inner);
+  cv::addWeighted(part, 0.5, cv::Mat(part.size(), part.type(), color), 0.5, 0.0, part);
+}
+
 }  // namespace
 
 cv::Mat draw(const TargetPicture& seen, const vision::DepthPyramid& pyramid, const vision::StereoGeometry& geometry,
@@ -34,15 +42,15 @@ cv::Mat draw(const TargetPicture& seen, const vision::DepthPyramid& pyramid, con
       left.clone(), depth_panel(seen.matched16, geometry, far_m), filtered, filtered.clone(), left.clone(), left};
   for (const TargetPicture::Candidate& candidate : seen.candidates) {
     cv::rectangle(panels[3], block_of(candidate.pixel), kRegion);
-    cv::drawMarker(panels[4], candidate.pixel, candidate.free ? kFree : kDangerous,
-                   candidate.free ? cv::MARKER_SQUARE : cv::MARKER_TILTED_CROSS, 7);
+    tint(panels[4], block_of(candidate.pixel), candidate.free ? kFree : kDangerous);
   }
   if (seen.target) {
     cv::circle(panels[5], *seen.target, seen.target_radius_px, kFree, 2, cv::LINE_AA);
     cv::drawMarker(panels[5], *seen.target, kFree);
   }
-  const std::array<std::string, 6> captions = {"left picture",         "depth, red near", "depth, filtered",
-                                               "no near objects here", "x dangerous",     "chosen: " + seen.chosen_by};
+  const std::array<std::string, 6> captions = {"left picture",      "depth, red near",
+                                               "depth, filtered",   "no near objects here",
+                                               "free or dangerous", "chosen: " + seen.chosen_by};
   for (size_t i = 0; i < panels.size(); ++i) caption(panels[i], captions[i]);
   cv::Mat upper, lower, all;
   cv::hconcat(panels.data(), 3, upper);

@@ -83,7 +83,7 @@ TEST(PassedObstacles, NoFreeWayComesNearerThanTheRadiusOrATenthNearerThanItWas) 
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   constexpr double kRadius_m = 2.0;
   int blocked = 0, open = 0;
-  for (int trial = 0; trial < 300; ++trial) {
+  for (int trial = 0; trial < 1000; ++trial) {
     PassedObstacles passed({.radius_m = kRadius_m, .near_m = 12.0, .keep_s = 5.0});
     const cv::Rect block(8 * (trial % 20), 8 * (trial % 15), 8, 8);
     passed.update(0, block_at(block, 4.0 + 3.0 * uniform(random)), kGeometry, looking(0.0));
