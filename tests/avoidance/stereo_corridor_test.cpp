@@ -15,8 +15,8 @@ constexpr double kBackdrop_m = 45.0;
 /// Flies by what a pair of cameras sees of a far backdrop and nearer walls, towards a goal far to the north.
 class Pilot {
  public:
-  Pilot() : setup_(stereo_pair(kSize_px, 10.0)) {
-    StereoCorridorConfig config;
+  explicit Pilot(StereoCorridorConfig config = {}, uint64_t seed = 1) : setup_(stereo_pair(kSize_px, 10.0)) {
+    setup_.seed = seed;
     config.stereo.disparities_px = 16;
     config.radius_m = 1.5;
     config.target_m = 20.0;
@@ -26,13 +26,14 @@ class Pilot {
     module_->reset(setup_);
   }
 
-  Decision see(std::vector<vision::TexturedPlane> walls, const Eigen::Vector2d& v_WB_W = {3.0, 0.0}) {
+  Decision see(std::vector<vision::TexturedPlane> walls, const Eigen::Vector2d& v_WB_W = {3.0, 0.0},
+               double north_m = 0.0, double goal_east_m = 0.0) {
     walls.push_back(wall(kBackdrop_m, 0.0, M_PI));
-    const NavigationState navigation = level_flight({0.0, 0.0, -6.0}, 0.0, v_WB_W);
+    const NavigationState navigation = level_flight({north_m, 0.0, -6.0}, 0.0, v_WB_W);
     t_ns_ += 100'000'000;
     const vision::WaveTexture texture(7, 0.4, 6.0, 24);
     const std::vector<CameraFrame> frames = avoidance::see(setup_, navigation, t_ns_, walls, texture);
-    return module_->update({t_ns_, frames, navigation, {{200.0, 0.0, -6.0}, 0.0}});
+    return module_->update({t_ns_, frames, navigation, {{200.0, goal_east_m, -6.0}, 0.0}});
   }
   double metric(const std::string& name) const {
     for (const Metric& metric : module_->metrics()) {
@@ -86,6 +87,32 @@ TEST(StereoCorridor, TheCourseIsTakenUpAgainOnceItIsFree) {
   Pilot pilot;
   pilot.see({wall(14.0, -2.0, M_PI, 4.0)});
   EXPECT_EQ(pilot.see({}, {2.8, 1.0}).status, "cruise");
+}
+
+TEST(StereoCorridor, DoesNotTurnIntoWhatItIsPassing) {
+  for (const bool remembers : {true, false}) {
+    StereoCorridorConfig config;
+    if (!remembers) config.passed.radius_m = 0.0;
+    Pilot pilot(config);
+    // 3 m beside the way; half a metre before it, it has left the picture, and the goal lies 43 degrees to its side.
+    const vision::TexturedPlane beside = wall(8.0, 5.0, M_PI, 2.0);
+    pilot.see({beside});
+    const Decision decision = pilot.see({beside}, {3.0, 0.0}, 7.5, 192.5 * std::tan(0.75));
+    EXPECT_EQ(decision.status == "cruise", !remembers) << decision.status;
+  }
+}
+
+TEST(StereoCorridor, NoiseOfAnExperimentHangsOnTheSeedAlone) {
+  const auto known_share = [](double noise_px, uint64_t seed) {
+    StereoCorridorConfig config;
+    config.disparity_noise_px = noise_px;
+    Pilot pilot(config, seed);
+    return pilot.see({wall(14.0, -2.0, M_PI, 4.0)}).signals.back();
+  };
+  EXPECT_EQ(known_share(0.4, 1), known_share(0.4, 1));
+  EXPECT_NE(known_share(0.4, 1), known_share(0.4, 2));
+  EXPECT_EQ(known_share(0.0, 1), known_share(0.0, 2));
+  EXPECT_LT(known_share(2.0, 1), known_share(0.0, 1));  // pixels unlike all their neighbours are specks
 }
 
 }  // namespace
