@@ -90,7 +90,7 @@ TEST(SectionGridModule, HoversAndTurnsBeforeAWallAndCountsTheTime) {
   const cv::Mat wall = near_between(0, kWidth_px);
   for (int i = 0; i < 6; ++i) {
     const Decision decision = pilot.see(wall);
-    EXPECT_EQ(decision.status, "look_round");
+    EXPECT_EQ(decision.status, "hover_and_yaw");
     EXPECT_NE(std::get<HoverCommand>(decision.command).yaw_rate_radps, 0.0);
   }
   double hover_s = 0.0;
@@ -102,11 +102,11 @@ TEST(SectionGridModule, HoversAndTurnsBeforeAWallAndCountsTheTime) {
 }
 
 TEST(SectionGridModule, EveryAnswerGoesItsOwnWay) {
-  using Answer = SectionGridConfig::Answer;
+  using Answer = SectionPilotConfig::Answer;
   const auto moved = [](Answer answer) {
     SectionGridConfig config;
-    config.answer = answer;
-    config.aligned_rad = 1.5;  // no waiting to turn
+    config.pilot.answer = answer;
+    config.pilot.aligned_rad = 1.5;  // no waiting to turn
     Pilot pilot(config);
     return Eigen::Vector3d(position(pilot.see(near_between(0, 80))).p_WB - Eigen::Vector3d(0.0, 0.0, -5.0));
   };
@@ -122,8 +122,8 @@ TEST(SectionGridModule, EveryAnswerGoesItsOwnWay) {
 
 TEST(SectionGridModule, NeverGoesBelowItsLowestHeight) {
   SectionGridConfig config;
-  config.lowest_m = 4.0;
-  config.aligned_rad = 1.5;
+  config.pilot.lowest_m = 4.0;
+  config.pilot.aligned_rad = 1.5;
   Pilot pilot(config);
   cv::Mat ceiling = far();
   ceiling.rowRange(0, 60).setTo(4.0);
