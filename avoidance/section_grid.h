@@ -31,7 +31,7 @@ void describe(Visitor& v, SectionPilotConfig& c) {
   v("keep_share", c.keep_share,
     {.at_least = 0.0,
      .at_most = 1.0,
-     .meaning = "share of threats up to which a way aside is kept, and the way to the goal counts as free again"});
+     .meaning = "share of threats up to which a way is kept, and the way to the goal counts as free again"});
   v("aligned", c.aligned_rad,
     {.unit = "deg",
      .above = 0.0,

@@ -37,6 +37,7 @@ void SectionPilot::reset(const SectionCamera& camera) {
   aside_W_.reset();
   held_W_.reset();
   post_W_.reset();
+  sweep_.reset();
   flown_ = false;
 }
 
@@ -44,7 +45,7 @@ Command SectionPilot::update(const vision::SectionSearch& seen, const vision::Se
                              const Observation& observation) {
   const NavigationState& navigation = observation.navigation;
   // A turn that has begun is finished first: what passes by on the way says nothing of where it leads.
-  if (choice.section < 0 && !held_W_) return hover_and_yaw(seen, choice);
+  if (choice.section < 0 && !held_W_) return hover_and_yaw(seen, choice, observation);
 
   const bool looked_round = state_ == State::hover_and_yaw;
   const bool arrived = aside_W_ && (*aside_W_ - navigation.p_WB_est).norm() < config_.arrived_m;
@@ -55,8 +56,9 @@ Command SectionPilot::update(const vision::SectionSearch& seen, const vision::Se
     aside_W_.reset();
     state_ = State::resume;
   }
-  const bool off_route = aside_W_ ? is_spoilt(seen, choice, navigation) : choice.section != seen.centre();
+  const bool off_route = is_spoilt(aside_W_, seen, choice, navigation);
   if (looked_round || (off_route && !held_W_)) {
+    if (!looked_round && !aside_W_) search(section_ray(camera_, seen, choice.section).x(), observation);
     aside_W_ = place(navigation, seen, choice.section, reach_m);
     state_ = State::avoid;
   }
@@ -71,14 +73,30 @@ Command SectionPilot::update(const vision::SectionSearch& seen, const vision::Se
   return command;
 }
 
-/// [Perez2018] sec. on movement: without a section the vehicle hovers and yaws until there is one. It turns to the side
-/// where the emptiest one lay when it began.
-Command SectionPilot::hover_and_yaw(const vision::SectionSearch& seen, const vision::SectionChoice& choice) {
-  if (state_ != State::hover_and_yaw) turn_ = section_ray(camera_, seen, choice.best).x() < 0.0 ? -1.0 : 1.0;
+/// [Perez2018] sec. on movement: without a section the vehicle hovers and yaws until there is one.
+Command SectionPilot::hover_and_yaw(const vision::SectionSearch& seen, const vision::SectionChoice& choice,
+                                    const Observation& observation) {
+  if (state_ != State::hover_and_yaw) search(section_ray(camera_, seen, choice.best).x(), observation);
   state_ = State::hover_and_yaw;
   aside_W_.reset();
   held_W_.reset();
   return HoverCommand{turn_ * config_.yaw_rate_radps};
+}
+
+/// Settles to which side of the way to the goal the vehicle looks round. As long as the goal comes no nearer it keeps
+/// to one side, then to the other, each time twice as far; else it would turn back before the end of a wall. `side` <
+/// 0: the emptiest section lies to the left.
+void SectionPilot::search(double side, const Observation& observation) {
+  constexpr double kFirst_m = 15.0, kProgress_m = 5.0;
+  const Eigen::Vector2d p_WB = observation.navigation.p_WB_est.head<2>();
+  const Eigen::Vector2d way_W = observation.goal.p_WG.head<2>() - p_WB;
+  if (!sweep_ || way_W.norm() < sweep_->goal_distance_m - kProgress_m) {
+    sweep_ = Sweep{p_WB, Eigen::Vector2d(-way_W.y(), way_W.x()).normalized(), way_W.norm(), kFirst_m};
+    turn_ = side < 0.0 ? -1.0 : 1.0;
+  } else if (turn_ * sweep_->right_W.dot(p_WB - sweep_->from_W) > sweep_->reach_m) {
+    turn_ = -turn_;
+    sweep_->reach_m *= 2.0;
+  }
 }
 
 /// Where to go about a threat: as a rule ahead in the section's direction.
@@ -138,11 +156,11 @@ bool SectionPilot::is_free(const Eigen::Vector3d& p_W, const vision::SectionSear
   return off_u_px < kWithin * s.width && off_v_px < kWithin * s.height && seen.share(section) <= config_.keep_share;
 }
 
-/// Whether the way to the position aside has filled up and another section is better.
-bool SectionPilot::is_spoilt(const vision::SectionSearch& seen, const vision::SectionChoice& choice,
-                             const NavigationState& navigation) const {
-  if (!turns()) return false;
-  const auto pixel = pixel_of(*aside_W_, navigation);
+/// Whether the way aside, or without one the way ahead, has filled up and another section is better.
+bool SectionPilot::is_spoilt(const std::optional<Eigen::Vector3d>& aside_W, const vision::SectionSearch& seen,
+                             const vision::SectionChoice& choice, const NavigationState& navigation) const {
+  if (aside_W && !turns()) return false;
+  const auto pixel = aside_W ? pixel_of(*aside_W, navigation) : std::nullopt;
   const int section = pixel ? seen.nearest(*pixel) : seen.centre();
   return section != choice.section && seen.share(section) > config_.keep_share;
 }

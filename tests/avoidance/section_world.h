@@ -15,7 +15,7 @@ namespace hedgehop::avoidance {
 /// Boxes on level ground, seen by a camera that knows depth, and a point that flies as it is told.
 class SectionWorld {
  public:
-  static constexpr int kWidth_px = 160, kHeight_px = 90;
+  static constexpr int kWidth_px = 96, kHeight_px = 54;
   static constexpr double kStep_s = 0.08, kLatency_steps = 1, kTurn_radps = 0.785, kClimb_mps = 1.0;
 
   struct Moment {
