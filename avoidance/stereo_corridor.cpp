@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "avoidance/depth_picture.h"
 #include "avoidance/stereo_sight.h"
+#include "avoidance/target_picture.h"
 #include "avoidance/target_tracker.h"
 #include "vision/flight_corridor.h"
 
@@ -59,6 +59,8 @@ class StereoCorridor final : public Module {
   void do_reset(const Setup& setup) override {
     sight_.emplace(config_.stereo, setup);
     tracker_ = {};
+    passed_.emplace(config_.passed);
+    random_ = cv::RNG(setup.seed);
     target_.reset();
     last_target_u_px_.reset();
     last_.reset();
@@ -73,11 +75,8 @@ class StereoCorridor final : public Module {
     if (!sight_->update(observation.frames) && last_) return *last_;
     cv::Mat& disparity16 = sight_->disparity16();
     if (disparity16.empty()) return {HoverCommand{}, "wait", std::vector<double>(5, kUnknown)};
-    vision::remove_specks(disparity16, config_.speck_difference16, config_.speck_px);
-    vision::mark_sky(sight_->grey(), config_.sky_texture, config_.sky_brightness, disparity16);
-    pyramid_.build(disparity16, config_.coarsest);
+    see(observation.navigation, observation.t_ns, disparity16);
     tests_ = 0;
-
     const std::optional<cv::Point> followed =
         tracker_.follow(target_ ? std::optional(target_->pixel) : std::nullopt, sight_->grey());
     const How before = target_ ? target_->how : How::none;
@@ -96,6 +95,29 @@ class StereoCorridor final : public Module {
     return decision;
   }
 
+  /// Improves the depth picture, [Andert2007] sec. 3.3, and takes it in. Differs: sky is looked for in a smoothed
+  /// picture, as noise would look like texture.
+  void see(const NavigationState& navigation, int64_t t_ns, cv::Mat& disparity16) {
+    if (config_.disparity_noise_px > 0.0) add_noise(disparity16);
+    disparity16.copyTo(matched16_);
+    vision::remove_specks(disparity16, config_.speck_difference16, config_.speck_px);
+    cv::blur(sight_->grey(), smooth_, {3, 3});
+    vision::mark_sky(smooth_, config_.sky_texture, config_.sky_brightness, config_.sky_among, disparity16);
+    pyramid_.build(disparity16, config_.coarsest);
+    const Eigen::Isometry3d X_WC = Eigen::Translation3d(navigation.p_WB_est) * navigation.q_WB_est * sight_->X_BC();
+    R_WC_ = X_WC.linear();
+    passed_->update(t_ns, pyramid_, sight_->geometry(), X_WC);
+  }
+
+  void add_noise(cv::Mat& disparity16) {
+    const cv::Mat known = disparity16 >= 0;
+    cv::Mat noise(disparity16.size(), CV_16SC1);
+    random_.fill(noise, cv::RNG::NORMAL, 0.0, vision::kDisparityUnits * config_.disparity_noise_px);
+    cv::add(disparity16, noise, disparity16, known);
+    cv::max(disparity16, 0, noise);
+    noise.copyTo(disparity16, known);
+  }
+
   void count(int64_t t_ns) {
     if (first_t_ns_ < 0) first_t_ns_ = t_ns;
     if (!target_ && last_t_ns_ >= 0) hover_s_ += 1e-9 * static_cast<double>(t_ns - last_t_ns_);
@@ -110,8 +132,7 @@ class StereoCorridor final : public Module {
   /// corridor nearest to its direction is searched, so that it comes into view.
   std::optional<Target> choose(const Observation& observation, const std::optional<cv::Point>& followed) {
     const NavigationState& navigation = observation.navigation;
-    const Eigen::Matrix3d R_CW = (navigation.q_WB_est.toRotationMatrix() * sight_->X_BC().linear()).transpose();
-    const Eigen::Vector3d course_C = R_CW * (observation.goal.p_WG - navigation.p_WB_est);
+    const Eigen::Vector3d course_C = R_WC_.transpose() * (observation.goal.p_WG - navigation.p_WB_est);
     const Eigen::Vector3d v_C = sight_->X_BC().linear().transpose() * navigation.v_WB_B_est;
     constexpr double kStanding_mps = 0.5;
     const bool moving = v_C.norm() > kStanding_mps;
@@ -132,9 +153,7 @@ class StereoCorridor final : public Module {
         }
       }
     }
-    const std::vector<cv::Point> blocks = vision::quadtree_targets(
-        pyramid_, sight_->geometry().disparity16(config_.target_m), config_.coarsest, config_.finest);
-    return cheapest(blocks, course && moving ? v_C : course_C, How::search);
+    return cheapest(far_blocks(), course && moving ? v_C : course_C, How::search);
   }
 
   /// The pixel that shows a direction, if it lies within the picture.
@@ -148,13 +167,20 @@ class StereoCorridor final : public Module {
     return cv::Point(static_cast<int>(std::lround(u)), static_cast<int>(std::lround(v)));
   }
 
-  Free examine(const cv::Point& pixel) {
-    const vision::Corridor corridor =
-        vision::examine_corridor(pyramid_, sight_->geometry(), pixel, config_.radius_m, config_.target_m);
-    tests_ += corridor.tests;
-    if (corridor.state != vision::Corridor::State::free) return std::nullopt;
-    return corridor;
+  std::vector<cv::Point> far_blocks() const {
+    return vision::quadtree_targets(pyramid_, sight_->geometry().disparity16(config_.target_m), config_.coarsest,
+                                    config_.finest);
   }
+
+  /// The corridor round a pixel's ray, if it is free in the picture and of what has left it.
+  Free corridor(const cv::Point& pixel, int* tests = nullptr) const {
+    if (!passed_->free(R_WC_ * sight_->geometry().ray(pixel))) return std::nullopt;
+    const vision::Corridor found =
+        vision::examine_corridor(pyramid_, sight_->geometry(), pixel, config_.radius_m, config_.target_m);
+    if (tests) *tests += found.tests;
+    return found.state == vision::Corridor::State::free ? Free(found) : std::nullopt;
+  }
+  Free examine(const cv::Point& pixel) { return corridor(pixel, &tests_); }
 
   /// The free one of some candidates that costs least; the earlier one of equals.
   std::optional<Target> cheapest(const std::vector<cv::Point>& candidates, const Eigen::Vector3d& reference_C,
@@ -215,28 +241,15 @@ class StereoCorridor final : public Module {
 
   cv::Mat do_annotate() const override {
     if (pairs_ == 0) return {};
-    cv::Mat depth_m;
-    vision::to_depth(pyramid_.level(0)(cv::Rect({}, pyramid_.picture())), sight_->geometry(), depth_m);
-    cv::Mat picture = depth_picture(depth_m, 2.0 * config_.target_m), grey;
-    cv::cvtColor(sight_->grey(), grey, cv::COLOR_GRAY2RGB);
-    const cv::Scalar green(90, 230, 110), white = cv::Scalar::all(255);
-    for (const cv::Point& block : vision::quadtree_targets(pyramid_, sight_->geometry().disparity16(config_.target_m),
-                                                           config_.coarsest, config_.finest)) {
-      cv::drawMarker(picture, block, white, cv::MARKER_SQUARE, 5);
-    }
+    TargetPicture seen{sight_->grey(), matched16_, {}, std::nullopt, 0, kHowNames[static_cast<size_t>(How::none)]};
+    for (const cv::Point& block : far_blocks()) seen.candidates.push_back({block, corridor(block).has_value()});
     if (target_) {
       const double z_m = std::min(target_->z_m, config_.look_ahead_m);
-      const int radius_px = static_cast<int>(sight_->geometry().focal_px * config_.radius_m / z_m);
-      for (cv::Mat* const view : {&picture, &grey}) {
-        cv::circle(*view, target_->pixel, radius_px, green, 2, cv::LINE_AA);
-        cv::drawMarker(*view, target_->pixel, green);
-      }
+      seen.target = target_->pixel;
+      seen.target_radius_px = static_cast<int>(sight_->geometry().focal_px * config_.radius_m / z_m);
+      seen.chosen_by = kHowNames[static_cast<size_t>(target_->how)];
     }
-    caption(grey, kHowNames[static_cast<size_t>(target_ ? target_->how : How::none)]);
-    caption(picture, "depth, red near; squares: far blocks");
-    cv::Mat both;
-    cv::hconcat(grey, picture, both);
-    return both;
+    return draw(seen, pyramid_, sight_->geometry(), 2.0 * config_.target_m);
   }
 
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -244,7 +257,11 @@ class StereoCorridor final : public Module {
   StereoCorridorConfig config_;
   std::optional<StereoSight> sight_;
   TargetTracker tracker_;
+  std::optional<PassedObstacles> passed_;
+  Eigen::Matrix3d R_WC_ = Eigen::Matrix3d::Identity();  ///< as estimated
   vision::DepthPyramid pyramid_;
+  cv::Mat smooth_, matched16_;
+  cv::RNG random_;  ///< of the noise that experiments ask for
   std::optional<Target> target_;
   std::optional<int> last_target_u_px_;
   std::optional<Decision> last_;

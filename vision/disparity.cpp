@@ -95,7 +95,7 @@ int remove_specks(cv::Mat& disparity16, int difference16, int smallest_px) {
   return removed;
 }
 
-int mark_sky(const cv::Mat& grey, int texture, int brightness, cv::Mat& disparity16) {
+int mark_sky(const cv::Mat& grey, int texture, int brightness, SkyAmong among, cv::Mat& disparity16) {
   need_disparity(disparity16);
   if (grey.type() != CV_8UC1 || grey.size() != disparity16.size()) {
     throw std::invalid_argument("the grey picture must be CV_8UC1 and of the disparity picture's size");
@@ -105,7 +105,8 @@ int mark_sky(const cv::Mat& grey, int texture, int brightness, cv::Mat& disparit
     const auto* const g = grey.ptr<uint8_t>(v);
     auto* const d = disparity16.ptr<int16_t>(v);
     for (int u = 1; u < grey.cols; ++u) {
-      const bool sky = d[u] < 0 && std::abs(int{g[u]} - int{g[u - 1]}) < texture && g[u] > brightness;
+      const bool asked = among == SkyAmong::all || d[u] < 0;
+      const bool sky = asked && std::abs(int{g[u]} - int{g[u - 1]}) < texture && g[u] > brightness;
       if (!sky) continue;
       d[u] = 0;
       ++found;

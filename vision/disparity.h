@@ -34,8 +34,13 @@ void to_depth(const cv::Mat& disparity16, const StereoGeometry& geometry, cv::Ma
 /// @return pixels taken away. Source: [Andert2007] sec. 3.3.1, eq. (5).
 int remove_specks(cv::Mat& disparity16, int difference16, int smallest_px);
 
-/// Makes unknown pixels that are bright and without texture infinitely far; column 0 is left as it is.
+/// Which pixels are asked whether they are sky.
+enum class SkyAmong {
+  unknown,  ///< as printed: where the matcher found nothing
+  all,      ///< also where it did: a semi-global one carries a tree's disparity on across the untextured sky
+};
+/// Makes pixels that are bright and without texture infinitely far; column 0 is left as it is.
 /// @param grey  CV_8UC1, the left picture. @return pixels found to be sky. Source: [Andert2007] eq. (6) to (8).
-int mark_sky(const cv::Mat& grey, int texture, int brightness, cv::Mat& disparity16);
+int mark_sky(const cv::Mat& grey, int texture, int brightness, SkyAmong among, cv::Mat& disparity16);
 
 }  // namespace hedgehop::vision

@@ -1,8 +1,10 @@
 #include "vision/stereo_matcher.h"
 
+#include <algorithm>
 #include <opencv2/calib3d.hpp>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "vision/disparity.h"
 
@@ -34,15 +36,27 @@ cv::Ptr<cv::StereoMatcher> make(const StereoMatcherConfig& c) {
                                 /*preFilterCap=*/31, c.uniqueness_percent, 0, 0, cv::StereoSGBM::MODE_SGBM);
 }
 
+/// Drops what would lie left of the right picture's edge.
+void drop_outside(cv::Mat& disparity16, int columns) {
+  for (int v = 0; v < disparity16.rows; ++v) {
+    auto* const d = disparity16.ptr<int16_t>(v);
+    for (int u = 0; u < columns; ++u) {
+      if (d[u] > kDisparityUnits * u) d[u] = kNoDisparity;
+    }
+  }
+}
+
 }  // namespace
 
 struct StereoMatcher::Engine {
   cv::Ptr<cv::StereoMatcher> matcher;
+  int margin_px;
+  cv::Mat left, right, disparity16;  ///< with a margin on the left
 };
 
 StereoMatcher::StereoMatcher(const StereoMatcherConfig& config) {
   check(config);
-  engine_ = std::make_unique<Engine>(Engine{make(config)});
+  engine_ = std::make_unique<Engine>(Engine{make(config), config.disparities_px, {}, {}, {}});
 }
 StereoMatcher::StereoMatcher(StereoMatcher&&) noexcept = default;
 StereoMatcher& StereoMatcher::operator=(StereoMatcher&&) noexcept = default;
@@ -52,8 +66,15 @@ void StereoMatcher::match(const cv::Mat& left, const cv::Mat& right, cv::Mat& di
   if (left.type() != CV_8UC1 || right.type() != CV_8UC1 || left.size() != right.size()) {
     throw std::invalid_argument("a stereo pair must be two CV_8UC1 pictures of one size");
   }
-  engine_->matcher->compute(left, right, disparity16);
+  // OpenCV leaves out as many columns on the left as it searches disparities. Before a margin it answers for them, too.
+  Engine& e = *engine_;
+  for (const auto& [picture, wide] : {std::pair(&left, &e.left), std::pair(&right, &e.right)}) {
+    cv::copyMakeBorder(*picture, *wide, 0, 0, e.margin_px, 0, cv::BORDER_REPLICATE);
+  }
+  e.matcher->compute(e.left, e.right, e.disparity16);
+  e.disparity16.colRange(e.margin_px, e.disparity16.cols).copyTo(disparity16);
   disparity16.setTo(kNoDisparity, disparity16 < 0);
+  drop_outside(disparity16, std::min(e.margin_px, disparity16.cols));
 }
 
 }  // namespace hedgehop::vision

@@ -76,7 +76,17 @@ TEST(Disparity, SkyIsUnknownBrightAndSmooth) {
   const int16_t after[] = {-1, 0, 40, -1, -1, 0};
   const cv::Mat picture(1, 6, CV_8UC1, const_cast<uint8_t*>(grey));
   cv::Mat d = cv::Mat(1, 6, CV_16SC1, const_cast<int16_t*>(before)).clone();
-  EXPECT_EQ(mark_sky(picture, 5, 220, d), 2);
+  EXPECT_EQ(mark_sky(picture, 5, 220, SkyAmong::unknown, d), 2);
+  EXPECT_EQ(cv::norm(d, cv::Mat(1, 6, CV_16SC1, const_cast<int16_t*>(after)), cv::NORM_INF), 0.0);
+}
+
+TEST(Disparity, SkyAmongAllTakesWhatWasMatchedToo) {
+  const uint8_t grey[] = {250, 250, 251, 200, 252, 253};
+  const int16_t before[] = {40, -1, 40, 40, 40, 40};
+  const int16_t after[] = {40, 0, 0, 40, 40, 0};
+  const cv::Mat picture(1, 6, CV_8UC1, const_cast<uint8_t*>(grey));
+  cv::Mat d = cv::Mat(1, 6, CV_16SC1, const_cast<int16_t*>(before)).clone();
+  EXPECT_EQ(mark_sky(picture, 5, 220, SkyAmong::all, d), 3);
   EXPECT_EQ(cv::norm(d, cv::Mat(1, 6, CV_16SC1, const_cast<int16_t*>(after)), cv::NORM_INF), 0.0);
 }
 

@@ -42,7 +42,7 @@ Shares score(const std::vector<StereoPair>& pairs, Method method) {
     cv::Mat d16, found_px;
     vision::StereoMatcher(config).match(pair.left, pair.right, d16);
     d16.convertTo(found_px, CV_32F, 1.0 / vision::kDisparityUnits);
-    // Both matchers leave a band on the left, as wide as the search, without disparities.
+    // Not every disparity searched can be found in the band on the left.
     const cv::Rect seen(pair.disparities_px, 0, pair.left.cols - pair.disparities_px, pair.left.rows);
     const cv::Mat truth_px = pair.truth_px(seen), has_truth = truth_px > 0, matched = (d16(seen) >= 0) & has_truth;
     known += cv::countNonZero(has_truth);

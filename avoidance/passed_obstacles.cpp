@@ -1,0 +1,63 @@
+#include "avoidance/passed_obstacles.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hedgehop::avoidance {
+
+void PassedObstacles::update(int64_t t_ns, const vision::DepthPyramid& pyramid, const vision::StereoGeometry& geometry,
+                             const Eigen::Isometry3d& X_WC) {
+  if (config_.radius_m == 0.0) return;
+  p_WC_ = X_WC.translation();
+  const Eigen::Isometry3d X_CW = X_WC.inverse();
+  hidden_.insert(hidden_.end(), visible_.begin(), visible_.end());
+  std::erase_if(hidden_, [&](const Point& point) {
+    const Eigen::Vector3d p_CP = X_CW * point.p_WP;
+    return 1e-9 * static_cast<double>(t_ns - point.t_ns) > config_.keep_s || p_CP.norm() > config_.near_m ||
+           in_view(p_CP, pyramid, geometry);
+  });
+
+  // The nearest point of each block stands for it.
+  constexpr int kLevel = 3;
+  const int level = std::min(kLevel, pyramid.top()), size = 1 << level;
+  const double near16 = geometry.disparity16(config_.near_m);
+  visible_.clear();
+  for (int row = 0; row < pyramid.level(level).rows; ++row) {
+    for (int col = 0; col < pyramid.level(level).cols; ++col) {
+      const int d = pyramid.disparity16(level, row, col);
+      if (d < near16) continue;
+      const cv::Point centre(col * size + size / 2, row * size + size / 2);
+      visible_.push_back({X_WC * (geometry.z_m(d) * geometry.ray(centre)), t_ns});
+    }
+  }
+}
+
+bool PassedObstacles::in_view(const Eigen::Vector3d& p_CP, const vision::DepthPyramid& pyramid,
+                              const vision::StereoGeometry& geometry) const {
+  if (!(p_CP.z() > 0.0)) return false;
+  const double u = geometry.center_u_px + geometry.focal_px * p_CP.x() / p_CP.z();
+  const double v = geometry.center_v_px + geometry.focal_px * p_CP.y() / p_CP.z();
+  // Left of its own disparity a point is out of the right camera's view.
+  const double first_u = geometry.focal_px * geometry.baseline_m / p_CP.z();
+  const cv::Size picture = pyramid.picture();
+  return u >= first_u && u <= picture.width - 1 && v >= 0 && v <= picture.height - 1;
+}
+
+bool PassedObstacles::free(const Eigen::Vector3d& direction_W) const {
+  constexpr double kNoCloser = 0.9;
+  const Eigen::Vector3d ahead = direction_W.normalized();
+  return std::ranges::none_of(hidden_, [&](const Point& point) {
+    const Eigen::Vector3d p = point.p_WP - p_WC_;
+    const double along_m = p.dot(ahead);
+    const double aside_m = std::min(config_.radius_m, kNoCloser * p.norm());
+    return along_m > 0.0 && p.squaredNorm() - along_m * along_m < aside_m * aside_m;
+  });
+}
+
+std::vector<Eigen::Vector3d> PassedObstacles::points_W() const {
+  std::vector<Eigen::Vector3d> points;
+  for (const Point& point : hidden_) points.push_back(point.p_WP);
+  return points;
+}
+
+}  // namespace hedgehop::avoidance

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vision/depth_pyramid.h"
+#include "vision/disparity.h"
+
+namespace hedgehop::avoidance {
+
+/// What a decision of the stereo corridor was made from.
+struct TargetPicture {
+  struct Candidate {
+    cv::Point pixel;  ///< centre of a block of the pyramid
+    bool free = false;
+  };
+  cv::Mat grey;       ///< CV_8UC1, left
+  cv::Mat matched16;  ///< disparity before it was filtered
+  std::vector<Candidate> candidates;
+  std::optional<cv::Point> target;
+  int target_radius_px = 0;  ///< of the corridor where the target lies
+  std::string chosen_by;     ///< the step of [Andert2007] sec. 4.3.4 that found it
+};
+
+/// Draws the chain of [Andert2007] fig. 1 in six panels, left to right, top to bottom: left picture, depth as matched,
+/// depth filtered, regions without near objects, which of them are dangerous (red) or free (green), chosen target.
+/// @param pyramid  of the filtered disparity. @param far_m  shown as far as anything, > 0. @return CV_8UC3, RGB.
+cv::Mat draw(const TargetPicture& seen, const vision::DepthPyramid& pyramid, const vision::StereoGeometry& geometry,
+             double far_m);
+
+}  // namespace hedgehop::avoidance
