@@ -9,6 +9,42 @@
 
 namespace hedgehop::avoidance {
 
+/// How a vehicle moves about what its sections show. Source: [Perez2018] sec. on movement.
+struct SectionPilotConfig {
+  /// What it does about a threat ahead; all but `waypoint` are beyond the paper.
+  enum class Answer { waypoint, heading, sideways, climb, combined };
+  Answer answer = Answer::waypoint;
+  double keep_share = 0.01;
+  double aligned_rad = 0.17453292519943295;
+  double arrived_m = 1.0;
+  double lowest_m = 2.0;
+  double yaw_rate_radps = 0.5235987755982988;
+};
+
+template <class Visitor>
+void describe(Visitor& v, SectionPilotConfig& c) {
+  v("answer", c.answer,
+    {.choices = {"waypoint", "heading", "sideways", "climb", "combined"},
+     .meaning =
+         "a position in the section's direction; the same on the level; aside without turning; straight up; aside "
+         "and up"});
+  v("keep_share", c.keep_share,
+    {.at_least = 0.0,
+     .at_most = 1.0,
+     .meaning = "share of threats up to which a way is kept, and the way to the goal counts as free again"});
+  v("aligned", c.aligned_rad,
+    {.unit = "deg",
+     .above = 0.0,
+     .at_most = 90.0,
+     .meaning = "the vehicle moves once its nose is turned to within this"});
+  v("arrived", c.arrived_m,
+    {.unit = "m", .above = 0.0, .meaning = "distance at which a position aside counts as reached"});
+  v("lowest", c.lowest_m,
+    {.unit = "m", .at_least = 0.0, .meaning = "no position aside lies lower, above the scene's origin"});
+  v("yaw_rate", c.yaw_rate_radps,
+    {.unit = "deg/s", .above = 0.0, .at_most = 360.0, .meaning = "at which it looks round when no section is free"});
+}
+
 /// Flies towards the emptiest of many overlapping sections of a depth picture.
 /// Source: [Perez2018] sec. on the selection of sections, and sec. on movement.
 struct SectionGridConfig {
@@ -17,20 +53,15 @@ struct SectionGridConfig {
       "flies towards the emptiest of many overlapping sections of a depth picture";
 
   enum class Sight { stereo, truth };
-  /// What it does about a threat ahead; all but `waypoint` are beyond the paper.
-  enum class Answer { waypoint, heading, sideways, climb, combined };
   Sight sight = Sight::stereo;
   vision::StereoMatcherConfig stereo;
   int speck_px = 100;
   vision::SectionGrid grid;
   double threshold_m = 9.144;  ///< 30 ft
+  double threshold_time_s = 0.0;
   double most_share = 0.15;
   vision::Unknown unknown = vision::Unknown::free;
-  double aligned_rad = 0.17453292519943295;
-  double arrived_m = 1.0;
-  Answer answer = Answer::waypoint;
-  double lowest_m = 2.0;
-  double yaw_rate_radps = 0.5235987755982988;
+  SectionPilotConfig pilot;
 };
 
 template <class Visitor>
@@ -48,26 +79,21 @@ void describe(Visitor& v, SectionGridConfig& c) {
     {.above = 0.0, .at_most = 1.0, .meaning = "of a section, as a share of the picture's"});
   v("height", c.grid.height_share,
     {.above = 0.0, .at_most = 1.0, .meaning = "of a section, as a share of the picture's"});
+  v("grow", c.grid.grow_px,
+    {.unit = "px",
+     .at_least = 0,
+     .at_most = 200,
+     .meaning = "threats are widened by this to every side before they are counted, that thin ones weigh more"});
   v("threshold", c.threshold_m, {.unit = "m", .above = 0.0, .meaning = "what is nearer is a threat"});
+  v("threshold_time", c.threshold_time_s,
+    {.unit = "s",
+     .at_least = 0.0,
+     .meaning = "so is what the vehicle would touch within this time if it flew straight at it at its present speed; "
+                "0: the threshold does not hang on speed"});
   v("most_share", c.most_share,
     {.at_least = 0.0, .at_most = 1.0, .meaning = "share of threats from which on a section is no way out"});
   v("unknown", c.unknown, {.choices = {"free", "threat"}, .meaning = "what a pixel without depth counts as"});
-  v("aligned", c.aligned_rad,
-    {.unit = "deg",
-     .above = 0.0,
-     .at_most = 90.0,
-     .meaning = "the vehicle moves once its nose is turned to within this"});
-  v("arrived", c.arrived_m,
-    {.unit = "m", .above = 0.0, .meaning = "distance at which a position aside counts as reached"});
-  v("answer", c.answer,
-    {.choices = {"waypoint", "heading", "sideways", "climb", "combined"},
-     .meaning =
-         "a position in the section's direction; the same on the level; aside without turning; straight up; aside "
-         "and up"});
-  v("lowest", c.lowest_m,
-    {.unit = "m", .at_least = 0.0, .meaning = "no position aside lies lower, above the scene's origin"});
-  v("yaw_rate", c.yaw_rate_radps,
-    {.unit = "deg/s", .above = 0.0, .at_most = 360.0, .meaning = "at which it looks round when no section is free"});
+  describe(v, c.pilot);
 }
 
 /// Throws std::invalid_argument on a bad config.

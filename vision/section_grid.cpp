@@ -1,5 +1,6 @@
 #include "vision/section_grid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
@@ -23,6 +24,7 @@ std::vector<cv::Rect> sections(const SectionGrid& grid, cv::Size picture) {
   need(grid.rows >= 1 && grid.cols >= 1, "a grid of sections needs at least one row and one column");
   need(grid.width_share > 0.0 && grid.width_share <= 1.0 && grid.height_share > 0.0 && grid.height_share <= 1.0,
        "a section's width and height are shares of the picture's, in (0, 1]");
+  need(grid.grow_px >= 0, "threats are widened by 0 px or more");
   const int width = static_cast<int>(std::lround(grid.width_share * picture.width));
   const int height = static_cast<int>(std::lround(grid.height_share * picture.height));
   need(width >= 1 && height >= 1, "a picture of " + std::to_string(picture.width) + " x " +
@@ -38,12 +40,29 @@ std::vector<cv::Rect> sections(const SectionGrid& grid, cv::Size picture) {
 }
 
 SectionSearch::SectionSearch(const SectionGrid& grid, cv::Size picture)
-    : picture_(picture), sections_(vision::sections(grid, picture)), threats_(sections_.size()) {
+    : picture_(picture),
+      grow_px_(grid.grow_px),
+      sections_(vision::sections(grid, picture)),
+      threats_(sections_.size()) {
   for (const cv::Rect& section : sections_) {
     const double du = section.x + 0.5 * section.width - 0.5 * picture.width;
     const double dv = section.y + 0.5 * section.height - 0.5 * picture.height;
     off_centre2_px2_.push_back(du * du + dv * dv);
   }
+  centre_ = nearest({0.5 * picture.width, 0.5 * picture.height});
+}
+
+int SectionSearch::nearest(const cv::Point2d& pixel) const {
+  const auto off2_px2 = [&](const cv::Rect& s) {
+    const double du = s.x + 0.5 * s.width - pixel.x, dv = s.y + 0.5 * s.height - pixel.y;
+    return du * du + dv * dv;
+  };
+  return static_cast<int>(std::ranges::min_element(sections_, {}, off2_px2) - sections_.begin());
+}
+
+double SectionSearch::share(int section) const {
+  const auto i = static_cast<size_t>(section);
+  return static_cast<double>(threats_[i]) / sections_[i].area();
 }
 
 SectionChoice SectionSearch::choose(const cv::Mat& depth_m, double threshold_m, double most_share, Unknown unknown) {
@@ -57,6 +76,7 @@ SectionChoice SectionSearch::choose(const cv::Mat& depth_m, double threshold_m, 
     cv::compare(depth_m, threshold_m, mask_, cv::CMP_GE);
     cv::bitwise_not(mask_, mask_);
   }
+  if (grow_px_ > 0) cv::dilate(mask_, mask_, cv::Mat(2 * grow_px_ + 1, 2 * grow_px_ + 1, CV_8U, cv::Scalar(1)));
   cv::integral(mask_, sums_, CV_32S);
 
   const auto rank = [&](int i) {
@@ -72,8 +92,7 @@ SectionChoice SectionSearch::choose(const cv::Mat& depth_m, double threshold_m, 
     const int section = static_cast<int>(i);
     if (choice.best < 0 || rank(section) < rank(choice.best)) choice.best = section;
   }
-  const auto best = static_cast<size_t>(choice.best);
-  choice.share = static_cast<double>(threats_[best]) / sections_[best].area();
+  choice.share = share(choice.best);
   if (choice.share <= most_share) choice.section = choice.best;
   return choice;
 }

@@ -12,6 +12,7 @@ struct SectionGrid {
   int rows = 17, cols = 17;          ///< at least 1
   double width_share = 628. / 1280;  ///< of the picture's width, in (0, 1]
   double height_share = 252. / 720;  ///< of the picture's height, in (0, 1]
+  int grow_px = 0;                   ///< by which threats are widened to every side, >= 0; beyond the paper
 
   bool operator==(const SectionGrid&) const = default;
 };
@@ -44,14 +45,22 @@ class SectionSearch {
   SectionChoice choose(const cv::Mat& depth_m, double threshold_m, double most_share, Unknown unknown);
 
   const std::vector<cv::Rect>& sections() const { return sections_; }
+  /// The section straight ahead: the one that wins when all are alike.
+  int centre() const { return centre_; }
+  /// The section whose centre lies nearest to a place of the picture or beyond its edges.
+  int nearest(const cv::Point2d& pixel) const;
   /// Threats per section at the last choice.
   const std::vector<int>& threats() const { return threats_; }
+  /// Share of a section's pixels that were threats at the last choice.
+  double share(int section) const;
 
  private:
   cv::Size picture_;
+  int grow_px_ = 0;
   std::vector<cv::Rect> sections_;
   std::vector<double> off_centre2_px2_;
   std::vector<int> threats_;
+  int centre_ = 0;
   cv::Mat mask_, sums_;
 };
 

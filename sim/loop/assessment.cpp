@@ -6,6 +6,7 @@
 #include "sim/loop/checks.h"
 #include "sim/loop/corridor_truth.h"
 #include "sim/loop/field_metrics.h"
+#include "sim/loop/reaction.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -28,6 +29,9 @@ void assess(const Scenario& scenario, const scenes::Scene& scene, const std::vec
   flight.result.scene = scenes::scene_figures(scene, {altitude_m - kBesideStart_m, altitude_m + kBesideStart_m});
   for (MetricValue& metric : field_metrics(scenario, flight, scene, dynamics::radius_m(hull))) {
     flight.result.metrics.push_back(std::move(metric));
+  }
+  if (const auto left_s = time_to_collision_at_reaction_s(flight, scene, hull)) {
+    flight.result.metrics.push_back({"time_to_collision_at_reaction_s", *left_s, "s"});
   }
   for (const MetricValue& metric : corridor_metrics(scenario, flight)) flight.result.metrics.push_back(metric);
   flight.result.checks = evaluate_checks(scenario, flight, scene, rotor_radius_m(hull));

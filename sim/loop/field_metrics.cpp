@@ -51,25 +51,6 @@ double actuator_effort(const Rows& rows) {
   return way / (rows.back().t_s - rows.front().t_s);
 }
 
-/// Clearance over closing speed at the last moment before the closest approach when the closing speed was within a
-/// hundredth of its greatest: from there on the vehicle gave way. None where the clearance never shrank.
-std::optional<double> time_to_collision_at_reaction_s(const Rows& rows) {
-  constexpr double kNearlyGreatest = 0.99;
-  const auto nearest = std::ranges::min_element(rows, {}, &TrajectoryRow::obstacle_clearance_m);
-  std::vector<std::pair<double, double>> approach;  // closing speed and clearance, backwards to where it began
-  double greatest_mps = 0.0;
-  for (auto row = nearest; row != rows.begin(); --row) {
-    const double closed_m = (row - 1)->obstacle_clearance_m - row->obstacle_clearance_m;
-    if (!std::isfinite(closed_m) || closed_m <= 0.0) break;
-    approach.emplace_back(closed_m / (row->t_s - (row - 1)->t_s), std::max(0.0, row->obstacle_clearance_m));
-    greatest_mps = std::max(greatest_mps, approach.back().first);
-  }
-  for (const auto& [closing_mps, clearance_m] : approach) {
-    if (closing_mps >= kNearlyGreatest * greatest_mps) return clearance_m / closing_mps;
-  }
-  return {};
-}
-
 }  // namespace
 
 std::vector<MetricValue> field_metrics(const Scenario& scenario, const Flight& flight, const scenes::Scene& scene,
@@ -94,9 +75,6 @@ std::vector<MetricValue> field_metrics(const Scenario& scenario, const Flight& f
         metrics.push_back({"path_excess", result.path_length_m / *shortest_m - 1.0, ""});
       }
     }
-  }
-  if (const auto time_s = time_to_collision_at_reaction_s(rows)) {
-    metrics.push_back({"time_to_collision_at_reaction", *time_s, "s"});
   }
   metrics.push_back({"jerk_rms", rms_jerk_mps3(rows), "m/s^3"});
   metrics.push_back({"actuator_effort", actuator_effort(rows), "1/s"});

@@ -67,22 +67,33 @@ TEST(SectionGridModule, GoesAThresholdsDistanceToTheFreeSideOfAnObstacle) {
     EXPECT_GT(left ? heading_rad : -heading_rad, 0.17);
     EXPECT_LT(std::abs(heading_rad), 0.74);
     EXPECT_EQ(position(decision).p_WB, Eigen::Vector3d(0.0, 0.0, -5.0));
-    const Decision facing = pilot.see(far(), {0.0, 0.0, -5.0}, heading_rad);
-    EXPECT_NEAR((position(facing).p_WB - Eigen::Vector3d(0.0, 0.0, -5.0)).norm(), kThreshold_m, 1e-9);
+    // Now the obstacle stands at the edge of the picture, before the goal.
+    const Decision facing =
+        pilot.see(left ? near_between(0, 30) : near_between(130, kWidth_px), {0.0, 0.0, -5.0}, heading_rad);
+    constexpr double kHalfPixel_m = 1e-3;  // the middle section's centre lies half a pixel off the camera's axis
+    EXPECT_NEAR(position(facing).p_WB.head<2>().norm(), kThreshold_m, kHalfPixel_m);
   }
+}
+
+TEST(SectionGridModule, TakesTheRouteUpAsSoonAsTheGoalIsFree) {
+  Pilot pilot;
+  const double heading_rad = position(pilot.see(near_between(0, 80))).heading_rad;
+  EXPECT_EQ(pilot.see(near_between(0, 30), {0.0, 0.0, -5.0}, heading_rad).status, "avoid");
+  EXPECT_EQ(pilot.see(far(), {0.0, 0.0, -5.0}, heading_rad).status, "resume");
 }
 
 TEST(SectionGridModule, TakesTheRouteUpAgainOnceAside) {
   Pilot pilot;
   const double heading_rad = position(pilot.see(near_between(0, 80))).heading_rad;
-  const Eigen::Vector3d aside = position(pilot.see(far(), {0.0, 0.0, -5.0}, heading_rad)).p_WB;
-  const Decision there = pilot.see(far(), aside, heading_rad);
+  const cv::Mat goal_blocked = near_between(0, 30);
+  const Eigen::Vector3d aside = position(pilot.see(goal_blocked, {0.0, 0.0, -5.0}, heading_rad)).p_WB;
+  const Decision there = pilot.see(goal_blocked, aside, heading_rad);
   EXPECT_EQ(there.status, "resume");
   const double to_goal_rad = position(there).heading_rad;
   EXPECT_NEAR(to_goal_rad, std::atan2(-aside.y(), 100.0 - aside.x()), 1e-12);
   const Decision onwards = pilot.see(far(), aside, to_goal_rad);
   EXPECT_EQ(onwards.status, "cruise");
-  EXPECT_EQ(position(onwards).p_WB, Eigen::Vector3d(100.0, 0.0, -5.0));
+  EXPECT_EQ(position(onwards).p_WB.head<2>(), Eigen::Vector2d(100.0, 0.0));
 }
 
 TEST(SectionGridModule, HoversAndTurnsBeforeAWallAndCountsTheTime) {
@@ -90,7 +101,7 @@ TEST(SectionGridModule, HoversAndTurnsBeforeAWallAndCountsTheTime) {
   const cv::Mat wall = near_between(0, kWidth_px);
   for (int i = 0; i < 6; ++i) {
     const Decision decision = pilot.see(wall);
-    EXPECT_EQ(decision.status, "look_round");
+    EXPECT_EQ(decision.status, "hover_and_yaw");
     EXPECT_NE(std::get<HoverCommand>(decision.command).yaw_rate_radps, 0.0);
   }
   double hover_s = 0.0;
@@ -102,11 +113,11 @@ TEST(SectionGridModule, HoversAndTurnsBeforeAWallAndCountsTheTime) {
 }
 
 TEST(SectionGridModule, EveryAnswerGoesItsOwnWay) {
-  using Answer = SectionGridConfig::Answer;
+  using Answer = SectionPilotConfig::Answer;
   const auto moved = [](Answer answer) {
     SectionGridConfig config;
-    config.answer = answer;
-    config.aligned_rad = 1.5;  // no waiting to turn
+    config.pilot.answer = answer;
+    config.pilot.aligned_rad = 1.5;  // no waiting to turn
     Pilot pilot(config);
     return Eigen::Vector3d(position(pilot.see(near_between(0, 80))).p_WB - Eigen::Vector3d(0.0, 0.0, -5.0));
   };
@@ -121,13 +132,35 @@ TEST(SectionGridModule, EveryAnswerGoesItsOwnWay) {
 }
 
 TEST(SectionGridModule, NeverGoesBelowItsLowestHeight) {
-  SectionGridConfig config;
-  config.lowest_m = 4.0;
-  config.aligned_rad = 1.5;
-  Pilot pilot(config);
   cv::Mat ceiling = far();
   ceiling.rowRange(0, 60).setTo(4.0);
-  EXPECT_EQ(position(pilot.see(ceiling, {0.0, 0.0, -4.5})).p_WB.z(), -4.0);
+  const auto height_told_m = [&](double lowest_m) {
+    SectionGridConfig config;
+    config.pilot.lowest_m = lowest_m;
+    Pilot pilot(config);
+    return -position(pilot.see(ceiling, {0.0, 0.0, -4.0})).p_WB.z();
+  };
+  EXPECT_LT(height_told_m(2.0), 3.9);
+  EXPECT_EQ(height_told_m(4.0), 4.0);
+}
+
+TEST(SectionGridModule, AFasterVehicleMindsWhatIsFartherWhereTheThresholdHangsOnSpeed) {
+  SectionGridConfig config;
+  config.threshold_time_s = 20.0;  // at the 1 m/s of this flight, and a radius of 1 m: 21 m
+  cv::Mat beyond = far();
+  beyond.colRange(0, 80).setTo(20.0);
+  EXPECT_EQ(Pilot(config).see(beyond).status, "avoid");
+  EXPECT_EQ(Pilot().see(beyond).status, "cruise");
+}
+
+TEST(SectionGridModule, AVehicleThatHoversStaysWhereItGaveWayTo) {
+  SectionGridConfig config;
+  config.pilot.answer = SectionPilotConfig::Answer::sideways;
+  Pilot pilot(config);
+  const Eigen::Vector3d goal(100.0, 0.0, -5.0);
+  const Eigen::Vector3d aside = position(pilot.see(near_between(0, 80), goal)).p_WB;
+  EXPECT_NEAR(aside.y(), kThreshold_m, 1e-9);
+  EXPECT_EQ(position(pilot.see(far(), aside)).p_WB, aside);
 }
 
 }  // namespace

@@ -119,6 +119,28 @@ TEST(SectionSearch, AnOpeningTooNarrowForFifteenPercentIsNone) {
   EXPECT_GT(missed.share, 0.15);
 }
 
+TEST(SectionSearch, WidenedThreatsAreTheSquaresAboutThem) {
+  const cv::Size size(100, 60);
+  SectionSearch search({.rows = 1, .cols = 1, .width_share = 1.0, .height_share = 1.0, .grow_px = 3}, size);
+  cv::Mat depth(size, CV_32F, cv::Scalar(20.0));
+  depth.at<float>(30, 50) = 5.0f;
+  search.choose(depth, kThreshold_m, 0.15, Unknown::free);
+  EXPECT_EQ(search.threats()[0], 7 * 7);
+  depth.at<float>(0, 0) = 5.0f;  // cut off by the picture's corner
+  search.choose(depth, kThreshold_m, 0.15, Unknown::free);
+  EXPECT_EQ(search.threats()[0], 7 * 7 + 4 * 4);
+}
+
+TEST(SectionSearch, TheNearestSectionIsTheOneWhoseCentreIsAskedFor) {
+  SectionSearch search({}, kZed);
+  for (int i = 0; i < 289; ++i) {
+    const cv::Rect& s = search.sections()[static_cast<size_t>(i)];
+    EXPECT_EQ(search.nearest({s.x + 0.5 * s.width, s.y + 0.5 * s.height}), i);
+  }
+  EXPECT_EQ(search.centre(), 144);
+  EXPECT_EQ(search.nearest({-500.0, -500.0}), 0);
+}
+
 // [Perez2018] fig. 16 and 17: what large sections miss, overlapping ones find.
 TEST(SectionSearch, AnOpeningAlongTheTopIsMissedByThreeByThreeAndFoundBySeventeen) {
   cv::Mat depth(kZed, CV_32F, cv::Scalar(5.0));

@@ -26,7 +26,6 @@ Flight flight_north(Law north_m, Outcome outcome) {
     row.p_WB_true = {north_m(row.t_s), 0.0, -10.0};
     row.v_WB_W_true = {(north_m(row.t_s + kDifference_s) - north_m(row.t_s - kDifference_s)) / (2.0 * kDifference_s),
                        0.0, 0.0};
-    row.obstacle_clearance_m = 100.0 - north_m(row.t_s);
     flight.trajectory.push_back(row);
   }
   flight.result.outcome = outcome;
@@ -71,20 +70,6 @@ TEST(FieldMetrics, JerkOfASwingFollowsItsThirdDerivative) {
   const Flight flight = flight_north([&](double t_s) { return amplitude_m * std::sin(w * t_s); }, Outcome::timeout);
   const auto metrics = field_metrics(with_goal(), flight, empty_scene(), 0.8);
   EXPECT_NEAR(*value(metrics, "jerk_rms") / (amplitude_m * w * w * w / std::sqrt(2.0)), 1.0, 0.005);
-}
-
-/// Towards a wall 100 m ahead, 5 m/s until 6 s, then braking evenly to a stop at 10 s: at 6 s it is 72.5 m away.
-TEST(FieldMetrics, ReactionIsWhenTheClosingSpeedStopsGrowing) {
-  const Flight flight = flight_north(
-      [](double t_s) {
-        const double braking_s = std::max(0.0, t_s - 6.0);
-        return 0.5 * std::min(t_s, 1.0) * std::min(t_s, 1.0) * 5.0 + 5.0 * std::max(0.0, t_s - 1.0) -
-               0.5 * 1.25 * braking_s * braking_s;
-      },
-      Outcome::timeout);
-  const auto metrics = field_metrics(with_goal(), flight, empty_scene(), 0.8);
-  const double within_s = 0.15;  // a hundredth of the speed is lost 0.04 s after the brakes come on
-  EXPECT_NEAR(*value(metrics, "time_to_collision_at_reaction"), (100.0 - 27.5) / 5.0, within_s);
 }
 
 }  // namespace

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "avoidance/section_grid.h"
+#include "vision/disparity.h"
+
+namespace hedgehop::avoidance {
+
+/// The camera whose picture is cut into sections.
+struct SectionCamera {
+  vision::StereoGeometry geometry;
+  Eigen::Isometry3d X_BC = Eigen::Isometry3d::Identity();
+  cv::Size picture;
+};
+
+/// Carries on to the goal while the section ahead is the emptiest, else goes to a position in the emptiest one's
+/// direction: turns to it first, then moves. Hovers and yaws where no section is free. Differs: a way is given up only
+/// where the section that holds it fills up, since else every pixel's change would put the position off again; and
+/// the route is resumed as soon as the section that holds the goal is free, where the paper says only that the vehicle
+/// continues on its path. A vehicle that hovers at its goal stays where it gave way to, as in fig. 20.
+class SectionPilot {
+ public:
+  enum class State { cruise, avoid, resume, hover_and_yaw };
+
+  /// Throws std::invalid_argument on a config out of range.
+  explicit SectionPilot(const SectionPilotConfig& config);
+
+  /// Starts a flight.
+  void reset(const SectionCamera& camera);
+
+  /// @param seen  sections and threats of the newest picture. @param choice  among them.
+  /// @param reach_m  how far ahead a position aside lies, > 0.
+  Command update(const vision::SectionSearch& seen, const vision::SectionChoice& choice, double reach_m,
+                 const Observation& observation);
+
+  State state() const { return state_; }
+
+ private:
+  /// A search for a way past something wide.
+  struct Sweep {
+    Eigen::Vector2d from_W, right_W;  ///< where it began, and the direction to the right of the goal's
+    double goal_distance_m = 0.0;     ///< when it began
+    double reach_m = 0.0;             ///< how far it goes to the side it is on
+  };
+  bool turns() const;
+  Eigen::Vector3d place(const NavigationState& navigation, const vision::SectionSearch& seen, int section,
+                        double reach_m) const;
+  std::optional<cv::Point2d> pixel_of(const Eigen::Vector3d& p_W, const NavigationState& navigation) const;
+  bool is_free(const Eigen::Vector3d& p_W, const vision::SectionSearch& seen, const NavigationState& navigation) const;
+  bool is_spoilt(const std::optional<Eigen::Vector3d>& aside_W, const vision::SectionSearch& seen,
+                 const vision::SectionChoice& choice, const NavigationState& navigation) const;
+  Command hover_and_yaw(const vision::SectionSearch& seen, const vision::SectionChoice& choice,
+                        const Observation& observation);
+  void search(double side, const Observation& observation);
+  Command go_to(const Eigen::Vector3d& p_W, const NavigationState& navigation);
+
+  SectionPilotConfig config_;
+  SectionCamera camera_;
+  State state_ = State::cruise;
+  double turn_ = 1.0;                       ///< to the right
+  std::optional<Eigen::Vector3d> aside_W_;  ///< temporary position
+  std::optional<Eigen::Vector3d> held_W_;   ///< where it waits while it turns
+  std::optional<Eigen::Vector3d> post_W_;   ///< where it hovers, of a flight that has no way to go
+  std::optional<Sweep> sweep_;
+  bool flown_ = false;
+};
+
+}  // namespace hedgehop::avoidance

@@ -1,0 +1,59 @@
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <random>
+
+#include "vision/section_grid.h"
+
+namespace hedgehop::vision {
+namespace {
+
+const cv::Size kZed(1280, 720);         // [Perez2018] sec. III B
+constexpr double kThreshold_m = 9.144;  // 30 ft
+constexpr double kMostShare = 0.15;
+
+// Blocks of random depth, a fifth of them unknown.
+cv::Mat random_depth() {
+  cv::setNumThreads(1);
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<float> depth_m(1.0f, 20.0f), chance(0.0f, 1.0f);
+  cv::Mat depth(kZed, CV_32F);
+  constexpr int kBlock_px = 16;
+  for (int v = 0; v < kZed.height; v += kBlock_px) {
+    for (int u = 0; u < kZed.width; u += kBlock_px) {
+      const bool unknown = chance(random) < 0.2f;
+      depth(cv::Rect(u, v, kBlock_px, kBlock_px)).setTo(unknown ? std::nanf("") : depth_m(random));
+    }
+  }
+  return depth;
+}
+
+// [Perez2018] table 1: rows and columns of sections from 3 to 27. Those of 3 x 3 do not overlap.
+void SectionSelection(benchmark::State& state) {
+  const int count = static_cast<int>(state.range(0));
+  SectionGrid grid{.rows = count, .cols = count};
+  if (count == 3) grid.width_share = grid.height_share = 1.0 / 3.0;
+  SectionSearch search(grid, kZed);
+  const cv::Mat depth_m = random_depth();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(search.choose(depth_m, kThreshold_m, kMostShare, Unknown::free));
+  }
+}
+BENCHMARK(SectionSelection)->DenseRange(3, 27, 2)->Unit(benchmark::kMillisecond);
+
+// No selection can do without comparing each pixel once.
+void SectionSelectionFloor(benchmark::State& state) {
+  const cv::Mat depth_m = random_depth();
+  cv::Mat mask;
+  for (auto _ : state) {
+    cv::compare(depth_m, kThreshold_m, mask, cv::CMP_LT);
+    benchmark::DoNotOptimize(mask.data);
+  }
+}
+BENCHMARK(SectionSelectionFloor)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace hedgehop::vision
+
+BENCHMARK_MAIN();

@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/avoidance/section_world.h"
+
+namespace hedgehop::avoidance {
+namespace {
+
+constexpr double kVehicleRadius_m = 0.64;  // of the hexacopter
+constexpr double kWall_m = 15.0, kThickness_m = 0.4;
+
+struct Opening {
+  double middle_m, bottom_m, width_m, height_m;
+};
+
+/// A wall across the way, with one opening.
+std::vector<Eigen::AlignedBox3d> wall_with(const Opening& o, double north_m, double height_m) {
+  constexpr double kEnd_m = 40.0;
+  const auto part = [&](double west_m, double east_m, double low_m, double high_m) {
+    return Eigen::AlignedBox3d(Eigen::Vector3d(north_m, west_m, -high_m),
+                               Eigen::Vector3d(north_m + kThickness_m, east_m, -low_m));
+  };
+  const double west_m = o.middle_m - 0.5 * o.width_m, east_m = o.middle_m + 0.5 * o.width_m;
+  return {part(-kEnd_m, west_m, 0.0, height_m), part(east_m, kEnd_m, 0.0, height_m),
+          part(west_m, east_m, 0.0, o.bottom_m), part(west_m, east_m, o.bottom_m + o.height_m, height_m)};
+}
+
+TEST(SectionFlight, FindsAnOpeningOffTheStraightWayToWhicheverSide) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> off_m(5.0, 12.0), beside_m(-1.5, 1.5);
+  for (int trial = 0; trial < 4; ++trial) {
+    SectionWorld world;
+    world.boxes_W = wall_with({trial % 2 == 0 ? off_m(random) : -off_m(random), 1.0, 12.0, 7.0}, kWall_m, 12.0);
+    world.start_W = {0.0, beside_m(random), -4.0};
+    world.goal_W = {40.0, 0.0, -4.0};
+    const SectionWorld::Flown flown = world.fly({});
+    EXPECT_TRUE(flown.reached) << trial;
+    EXPECT_GT(flown.clearance_m, kVehicleRadius_m) << trial;
+  }
+}
+
+// [Perez2018] fig. 14.
+TEST(SectionFlight, AsItClimbsTheChosenSectionComesDownToTheCentre) {
+  SectionWorld world;
+  world.boxes_W = wall_with({0.0, 9.0, 1.0, 0.0}, 9.0, 9.0);
+  world.goal_W = {40.0, 0.0, -12.0};
+  SectionGridConfig config;
+  config.pilot.answer = SectionPilotConfig::Answer::climb;
+  const SectionWorld::Flown flown = world.fly(config);
+  EXPECT_TRUE(flown.reached);
+  int rows_above = 0, most = 0;
+  for (const SectionWorld::Moment& moment : flown.moments) {
+    if (moment.rows_above_centre > most) most = rows_above = moment.rows_above_centre;
+    EXPECT_LE(moment.rows_above_centre, rows_above);
+    rows_above = moment.rows_above_centre;
+  }
+  EXPECT_GE(most, 4);
+  EXPECT_EQ(rows_above, 0);
+}
+
+// [Perez2018] fig. 16 and 17: an opening along the top that lies across the lines between 3 x 3 sections.
+TEST(SectionFlight, AnOpeningAlongTheTopIsFlownThroughWithSeventeenRowsAndNotWithThree) {
+  SectionWorld world;
+  world.boxes_W = wall_with({0.25, 5.5, 6.0, 2.4}, 6.0, 12.0);
+  world.start_W = {0.0, 0.0, -5.0};
+  world.goal_W = {30.0, 0.0, -5.0};
+  world.duration_s = 60.0;
+  const SectionWorld::Flown fine = world.fly({});
+  EXPECT_TRUE(fine.reached);
+  EXPECT_GE(fine.moments.front().rows_above_centre, 5);
+  SectionGridConfig coarse;
+  coarse.grid = {.rows = 3, .cols = 3, .width_share = 1.0 / 3.0, .height_share = 1.0 / 3.0};
+  const SectionWorld::Flown missed = world.fly(coarse);
+  EXPECT_EQ(missed.moments.front().section, -1);
+  EXPECT_EQ(missed.moments.front().status, "hover_and_yaw");
+}
+
+TEST(SectionFlight, PassesRandomPillarsByMoreThanItsRadius) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> east_m(-12.0, 12.0), half_m(0.1, 0.8);
+  for (int trial = 0; trial < 3; ++trial) {
+    SectionWorld world;
+    world.speed_mps = 2.235;
+    for (double north_m = 12.0; north_m < 60.0; north_m += 6.0) {
+      for (int k = 0; k < 2; ++k) {
+        const double half = half_m(random), at_m = east_m(random);
+        world.boxes_W.push_back(
+            {Eigen::Vector3d(north_m - half, at_m - half, -15.0), Eigen::Vector3d(north_m + half, at_m + half, 0.0)});
+      }
+    }
+    world.goal_W = {70.0, 0.0, -5.0};
+    const SectionWorld::Flown flown = world.fly({});
+    EXPECT_TRUE(flown.reached) << trial;
+    EXPECT_GT(flown.clearance_m, kVehicleRadius_m) << trial;
+  }
+}
+
+}  // namespace
+}  // namespace hedgehop::avoidance

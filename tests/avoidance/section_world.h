@@ -1,0 +1,108 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "avoidance/section_grid.h"
+#include "tests/avoidance/flow_rig.h"
+
+namespace hedgehop::avoidance {
+
+/// Boxes on level ground, seen by a camera that knows depth, and a point that flies as it is told.
+class SectionWorld {
+ public:
+  static constexpr int kWidth_px = 96, kHeight_px = 54;
+  static constexpr double kStep_s = 0.08, kLatency_steps = 1, kTurn_radps = 0.785, kClimb_mps = 1.0;
+
+  struct Moment {
+    Eigen::Vector3d p_WB;
+    std::string status;
+    int section = -1, rows_above_centre = 0;
+  };
+  struct Flown {
+    bool reached = false;
+    double clearance_m = std::numeric_limits<double>::infinity();  ///< of the point from the boxes
+    std::vector<Moment> moments;
+  };
+
+  std::vector<Eigen::AlignedBox3d> boxes_W;
+  Eigen::Vector3d start_W{0.0, 0.0, -5.0}, goal_W{40.0, 0.0, -5.0};
+  double speed_mps = 1.0, duration_s = 120.0;
+
+  Flown fly(SectionGridConfig config) const {
+    config.sight = SectionGridConfig::Sight::truth;
+    const auto module = make_section_grid(config);
+    MountedCamera camera = level_camera("depth", 0.0, kWidth_px, 1.0 / kStep_s);
+    const vision::PinholeCamera lens = vision::PinholeCamera::from_fov(kWidth_px, kHeight_px, 1.48);
+    camera.model = lens;
+    module->reset({{camera}, {speed_mps, 2.0, 0.64}, 1});
+    Flown flown;
+    Eigen::Vector3d p_WB = start_W;
+    double heading_rad = 0.0;
+    Command told = HoverCommand{};
+    for (int64_t step = 1; static_cast<double>(step) * kStep_s < duration_s; ++step) {
+      const cv::Mat depth_m = depth(lens, camera.X_BC, p_WB, heading_rad);
+      const std::vector<CameraFrame> frames = {{"depth", step * 80'000'000, depth_m}};
+      const Decision decision =
+          module->update({step * 80'000'000, frames, level_flight(p_WB, heading_rad, {speed_mps, 0.0}), {goal_W, 0.0}});
+      move(told, p_WB, heading_rad);
+      told = decision.command;  // obeyed a step later
+      flown.moments.push_back(
+          {p_WB, decision.status, static_cast<int>(decision.signals[0]), static_cast<int>(decision.signals[3])});
+      for (const Eigen::AlignedBox3d& box_W : boxes_W) {
+        flown.clearance_m = std::min(flown.clearance_m, box_W.exteriorDistance(p_WB));
+      }
+      flown.reached = (goal_W - p_WB).head<2>().norm() < 2.0;
+      if (flown.reached || flown.clearance_m <= 0.0) break;
+    }
+    return flown;
+  }
+
+ private:
+  cv::Mat depth(const vision::PinholeCamera& lens, const Eigen::Isometry3d& X_BC, const Eigen::Vector3d& p_WB,
+                double heading_rad) const {
+    Eigen::Isometry3d X_WB(Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()));
+    X_WB.translation() = p_WB;
+    const Eigen::Isometry3d X_WC = X_WB * X_BC;
+    cv::Mat depth_m(kHeight_px, kWidth_px, CV_32FC1);
+    for (int v = 0; v < kHeight_px; ++v) {
+      for (int u = 0; u < kWidth_px; ++u) {
+        const Eigen::Vector3d ray_C((u - lens.center_u_px) / lens.focal_x_px, (v - lens.center_v_px) / lens.focal_y_px,
+                                    1.0);
+        depth_m.at<float>(v, u) = static_cast<float>(along(X_WC.translation(), X_WC.linear() * ray_C));
+      }
+    }
+    return depth_m;
+  }
+
+  /// How many times a ray fits between its origin and what it meets first.
+  double along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& ray_W) const {
+    double nearest = ray_W.z() > 0.0 ? -p_W.z() / ray_W.z() : std::numeric_limits<double>::infinity();
+    for (const Eigen::AlignedBox3d& box_W : boxes_W) {
+      const Eigen::Array3d a = (box_W.min() - p_W).array() / ray_W.array();
+      const Eigen::Array3d b = (box_W.max() - p_W).array() / ray_W.array();
+      const double enters = a.min(b).maxCoeff(), leaves = a.max(b).minCoeff();
+      if (enters > 0.0 && enters <= leaves) nearest = std::min(nearest, enters);
+    }
+    return nearest;
+  }
+
+  void move(const Command& command, Eigen::Vector3d& p_WB, double& heading_rad) const {
+    if (const auto* hover = std::get_if<HoverCommand>(&command)) heading_rad += kStep_s * hover->yaw_rate_radps;
+    const auto* const place = std::get_if<PositionCommand>(&command);
+    if (!place) return;
+    const double turn_rad = std::remainder(place->heading_rad - heading_rad, 2.0 * M_PI);
+    heading_rad += std::clamp(turn_rad, -kStep_s * kTurn_radps, kStep_s * kTurn_radps);
+    const Eigen::Vector3d way_W = place->p_WB - p_WB;
+    const double level_m = way_W.head<2>().norm();
+    if (level_m > 0.0) p_WB.head<2>() += way_W.head<2>() * std::min(1.0, kStep_s * speed_mps / level_m);
+    // Height is held by a loop of its own, as an autopilot does.
+    p_WB.z() += kStep_s * std::clamp(way_W.z(), -kClimb_mps, kClimb_mps);
+  }
+};
+
+}  // namespace hedgehop::avoidance
