@@ -169,7 +169,10 @@ class CorridorCentering final : public Module {
       const double aside_m = std::min(m.gap.left_m, m.gap.right_m) - m.radius_m;
       const double free_m = std::isfinite(m.free_s) ? ahead_m : std::numeric_limits<double>::infinity();
       speed_mps = std::max(config_.probe_mps, clearance_speed_mps(aside_m, free_m, config_.speed));
-      course_rad = pursuit_course_rad(m.gap, config_.lookahead_m, config_.most_course_rad);
+      // As far off the walls' direction, not the heading, which follows the course and would turn on and on.
+      const double walls_rad = m.view->direction_rad, most_rad = config_.most_course_rad;
+      course_rad = pursuit_course_rad(m.gap, config_.lookahead_m, most_rad);
+      course_rad = std::clamp(course_rad, walls_rad - most_rad, walls_rad + most_rad);
     } else {
       if (m.probing_ns < 0) m.probing_ns = m.t_ns;
       const int least = config_.sight.least_vectors;

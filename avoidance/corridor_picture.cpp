@@ -105,7 +105,7 @@ cv::Mat map_from_above(const CorridorScene& scene, int side_px) {
 
 cv::Mat corridor_picture(const CorridorSight& sight, const CorridorScene& scene) {
   cv::Mat picture = fisheye(sight, scene.view), both;
-  caption(picture, scene.caption);
+  caption(picture, scene.caption + "  red: wrong, blue: floor");
   cv::hconcat(picture, map_from_above(scene, picture.rows), both);
   return both;
 }

@@ -155,6 +155,18 @@ TEST(CorridorCentering, ANoseTurnedAsideIsNoOffset) {
   EXPECT_GT(std::abs(error(CorridorSightConfig::Across::heading) + east_m / 1.25), 0.06);
 }
 
+TEST(CorridorCentering, TheCourseStaysWithinItsAngleOfTheWallsHoweverFarTheNoseHasTurned) {
+  const auto module = make_corridor_centering({});
+  StraightCorridor corridor;
+  corridor.left_m = 0.6, corridor.right_m = 3.0;
+  const double heading_rad = 0.6, most_rad = CorridorCenteringConfig{}.most_course_rad;
+  const Decision last = fly(*module, corridor.planes(), {0, 0}, {0.7, 0.4}, 3, {}, 0.3, heading_rad).back();
+  const auto& command = std::get<VelocityCommand>(last.command);
+  const double off_walls_rad = std::atan2(command.v_WB_W.y(), command.v_WB_W.x());
+  EXPECT_GT(off_walls_rad, 0.5 * most_rad);
+  EXPECT_LT(off_walls_rad, most_rad + 0.03);
+}
+
 TEST(CorridorCentering, CorrectionsOfTheAttitudeAreNoTurn) {
   // The filter changes its mind about the heading by two degrees between pictures; the gyros felt nothing.
   const auto module = make_corridor_centering({});
