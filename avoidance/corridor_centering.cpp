@@ -40,8 +40,9 @@ class CorridorCentering final : public Module {
   Needs do_needs() const override { return {{{CorridorSight::kRole, CameraNeed::Channel::grey}}}; }
 
   std::vector<Signal> do_signals() const override {
-    return {{"centering_error", ""}, {"left_m", "m"},     {"right_m", "m"},     {"vectors_left", ""},
-            {"vectors_right", ""},   {"gap_left_m", "m"}, {"gap_right_m", "m"}, {"free_time_s", "s"}};
+    return {{"centering_error", ""}, {"left_m", "m"},           {"right_m", "m"},     {"vectors_left", ""},
+            {"vectors_right", ""},   {"gap_left_m", "m"},       {"gap_right_m", "m"}, {"free_time_s", "s"},
+            {"walls_rad", "rad"},    {"approach_per_s", "1/s"}, {"off_middle_m", "m"}};
   }
 
   void do_reset(const Setup& setup) override {
@@ -66,14 +67,18 @@ class CorridorCentering final : public Module {
     if (std::holds_alternative<HoverCommand>(decision.command)) m.hover_s += dt_s;
     decision.status = m.status;
     const CorridorView* view = m.view ? &*m.view : nullptr;
-    decision.signals = {view && looked ? view->error : kUnknown,
-                        view && looked ? view->left.distance_m : kUnknown,
-                        view && looked ? view->right.distance_m : kUnknown,
-                        view ? view->left.count : 0.0,
-                        view ? view->right.count : 0.0,
-                        m.gap.left_m,
-                        m.gap.right_m,
-                        std::isfinite(m.free_s) ? m.free_s : kUnknown};
+    decision.signals = {
+        view && looked ? view->error : kUnknown,
+        view && looked ? view->left.distance_m : kUnknown,
+        view && looked ? view->right.distance_m : kUnknown,
+        view ? view->left.count : 0.0,
+        view ? view->right.count : 0.0,
+        m.gap.left_m,
+        m.gap.right_m,
+        std::isfinite(m.free_s) ? m.free_s : kUnknown,
+        view && looked ? view->direction_rad : kUnknown,
+        view && looked && view->approach ? view->approach->rate_per_s : kUnknown,
+        view && looked ? -vision::middle_offset_m(view->left.distance_m, view->right.distance_m) : kUnknown};
     return decision;
   }
 
@@ -88,8 +93,16 @@ class CorridorCentering final : public Module {
     m.vectors.push_back(m.view->left.count + m.view->right.count);
     m.free_s = std::numeric_limits<double>::infinity();
     constexpr double kStanding_mps = 0.2;  // below, what lies ahead is told by noise
+    if (m.view->v_H.norm() <= kStanding_mps || m.view->approach) {
+      m.dark_ns = -1;
+    } else if (m.dark_ns < 0) {
+      m.dark_ns = observation.t_ns;
+    }
     if (m.view->v_H.norm() > kStanding_mps) {
       m.free_s = vision::free_time_s(m.view->points, m.view->v_H, m.radius_m + config_.margin_m, config_.gap.least);
+      if (m.view->approach && m.view->approach->rate_per_s > 0.0) {
+        m.free_s = std::min(m.free_s, 1.0 / m.view->approach->rate_per_s);
+      }
     }
     if (std::isnan(m.view->error)) {
       ++m.unknown;
@@ -139,11 +152,12 @@ class CorridorCentering final : public Module {
     if (m.turn_from_rad) {
       if (std::abs(std::remainder(heading - *m.turn_from_rad, 2.0 * M_PI)) < kTurn_rad) return turn_away();
       m.turn_from_rad.reset();
-      m.known_ns = m.probing_ns = -1;  // what was known was known of another direction
+      m.known_ns = m.probing_ns = m.dark_ns = -1;  // what was known was known of another direction
       fresh = false;
     }
     const double ahead_m = m.free_s * (m.view ? m.view->v_H.norm() : 0.0) - m.radius_m - config_.margin_m;
-    if (m.view && std::isfinite(m.free_s) && ahead_m <= 0.0) {
+    const bool blank = m.dark_ns >= 0 && seconds(m.t_ns - m.dark_ns) > config_.patience_s;
+    if (blank || (m.view && std::isfinite(m.free_s) && ahead_m <= 0.0)) {
       m.turn_from_rad = heading;
       m.turn = m.gap.right_m < m.gap.left_m ? -1.0 : 1.0;
       return turn_away();
@@ -155,7 +169,10 @@ class CorridorCentering final : public Module {
       const double aside_m = std::min(m.gap.left_m, m.gap.right_m) - m.radius_m;
       const double free_m = std::isfinite(m.free_s) ? ahead_m : std::numeric_limits<double>::infinity();
       speed_mps = std::max(config_.probe_mps, clearance_speed_mps(aside_m, free_m, config_.speed));
-      course_rad = pursuit_course_rad(m.gap, config_.lookahead_m, config_.most_course_rad);
+      // As far off the walls' direction, not the heading, which follows the course and would turn on and on.
+      const double walls_rad = m.view->direction_rad, most_rad = config_.most_course_rad;
+      course_rad = pursuit_course_rad(m.gap, config_.lookahead_m, most_rad);
+      course_rad = std::clamp(course_rad, walls_rad - most_rad, walls_rad + most_rad);
     } else {
       if (m.probing_ns < 0) m.probing_ns = m.t_ns;
       const int least = config_.sight.least_vectors;
@@ -216,6 +233,7 @@ class CorridorCentering final : public Module {
     int64_t t_ns = -1, begun_ns = -1;
     int64_t known_ns = -1;    ///< when both sides were known last
     int64_t probing_ns = -1;  ///< since when they have not been
+    int64_t dark_ns = -1;     ///< since when, flying, nothing was known of what lies ahead
     const char* status = "wait";
     std::optional<double> course_rad;  ///< to the right of the heading
 

@@ -1,5 +1,6 @@
 #include "avoidance/corridor_picture.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -81,13 +82,15 @@ cv::Mat map_from_above(const CorridorScene& scene, int side_px) {
       if (point.verdict == Verdict::good) map.dot(point.p_CP_H.head<2>(), kGreen);
     }
     constexpr double kBack_m = -1.0, kFront_m = 3.0;
-    const auto wall = [&](double y_m, const cv::Scalar& color, double from_m, double to_m) {
-      if (std::isfinite(y_m)) map.line({from_m, y_m}, {to_m, y_m}, color, 2);
+    const auto wall = [&](double direction_rad, double y_m, const cv::Scalar& color, double from_m, double to_m) {
+      const Eigen::Rotation2Dd turn(direction_rad);
+      if (std::isfinite(y_m))
+        map.line(turn * Eigen::Vector2d(from_m, y_m), turn * Eigen::Vector2d(to_m, y_m), color, 2);
     };
-    wall(-scene.view->left.distance_m, kYellow, kBack_m, kFront_m);
-    wall(scene.view->right.distance_m, kYellow, kBack_m, kFront_m);
-    wall(-scene.gap.left_m, cv::Scalar(240, 150, 60), 0.0, 0.5 * kFront_m);
-    wall(scene.gap.right_m, cv::Scalar(240, 150, 60), 0.0, 0.5 * kFront_m);
+    wall(scene.view->direction_rad, -scene.view->left.distance_m, kYellow, kBack_m, kFront_m);
+    wall(scene.view->direction_rad, scene.view->right.distance_m, kYellow, kBack_m, kFront_m);
+    wall(0.0, -scene.gap.left_m, cv::Scalar(240, 150, 60), 0.0, 0.5 * kFront_m);
+    wall(0.0, scene.gap.right_m, cv::Scalar(240, 150, 60), 0.0, 0.5 * kFront_m);
   }
   map.circle(scene.radius_m, cv::Scalar::all(230));
   if (scene.course_rad) {
@@ -102,7 +105,7 @@ cv::Mat map_from_above(const CorridorScene& scene, int side_px) {
 
 cv::Mat corridor_picture(const CorridorSight& sight, const CorridorScene& scene) {
   cv::Mat picture = fisheye(sight, scene.view), both;
-  caption(picture, scene.caption);
+  caption(picture, scene.caption + "  red: wrong, blue: floor");
   cv::hconcat(picture, map_from_above(scene, picture.rows), both);
   return both;
 }

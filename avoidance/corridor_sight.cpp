@@ -1,11 +1,14 @@
 #include "avoidance/corridor_sight.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <utility>
 
 #include "avoidance/heading.h"
+#include "vision/wall_direction.h"
 
 namespace hedgehop::avoidance {
 namespace {
@@ -28,7 +31,8 @@ CorridorSight::CorridorSight(const CorridorSightConfig& config, const MountedCam
     : config_(config),
       camera_(camera),
       regions_(vision::region_masks(camera.model, camera.X_BC, config.regions, config.features.window_px / 2)),
-      turner_(camera.model, round_about(regions_, config.features)) {
+      turner_(camera.model, round_about(regions_, config.features)),
+      approach_(config.approach, camera.model, camera.X_BC, config.regions, config.features.window_px / 2) {
   if (config.least_vectors < 1) throw std::invalid_argument("least_vectors: must be at least 1");
 }
 
@@ -36,7 +40,8 @@ CorridorSight::CorridorSight(const CorridorSightConfig& config, const MountedCam
 /// and the camera may sit away from where the vehicle turns.
 vision::CameraMotion CorridorSight::motion(const NavigationState& now, double dt_s) const {
   const Eigen::Matrix3d R_HW = R_WH(now.q_WB_est).transpose();
-  const Eigen::Matrix3d R_HB1 = R_HW * navigation_.q_WB_est, R_HB2 = R_HW * now.q_WB_est;
+  const Eigen::Matrix3d R_HB2 = R_HW * now.q_WB_est;
+  const Eigen::Matrix3d R_HB1 = R_HB2 * (now.q_WB_gyro.conjugate() * navigation_.q_WB_gyro);
   const Eigen::Vector3d v_WB_H = 0.5 * (R_HB1 * navigation_.v_WB_B_est + R_HB2 * now.v_WB_B_est);
   const Eigen::Vector3d p_BC_B = camera_.X_BC.translation();
   vision::CameraMotion motion;
@@ -48,12 +53,27 @@ vision::CameraMotion CorridorSight::motion(const NavigationState& now, double dt
   return motion;
 }
 
+/// The median of a side; unknown too where so many corners are too slow that those left are the near ones.
+vision::SideDistance CorridorSight::side(const std::vector<vision::WallPoint>& points, vision::Region side) const {
+  vision::SideDistance found = vision::side_distance(points, side, config_.least_vectors);
+  const auto slow = std::ranges::count_if(points, [side](const vision::WallPoint& point) {
+    return point.region == side && point.verdict == vision::Verdict::too_slow;
+  });
+  const double followed = static_cast<double>(slow) + found.count;
+  if (static_cast<double>(slow) > config_.most_slow * followed) {
+    found.distance_m = std::numeric_limits<double>::quiet_NaN();
+  }
+  return found;
+}
+
 std::optional<CorridorView> CorridorSight::update(const CameraFrame& frame, const NavigationState& estimate) {
   NavigationState navigation = estimate;
   // A lag cancels between two pictures of an even turn, but not of one that begins or ends.
   const Eigen::Vector3d turn_B = config_.attitude_lag_s * estimate.w_WB_B_est;
   if (turn_B.norm() > 0.0) {
-    navigation.q_WB_est = estimate.q_WB_est * Eigen::AngleAxisd(turn_B.norm(), turn_B.normalized());
+    const Eigen::Quaterniond on(Eigen::AngleAxisd(turn_B.norm(), turn_B.normalized()));
+    navigation.q_WB_est = estimate.q_WB_est * on;
+    navigation.q_WB_gyro = estimate.q_WB_gyro * on;
   }
   const cv::Mat older = std::exchange(picture_, frame.image.clone());
   std::optional<CorridorView> view;
@@ -75,10 +95,15 @@ std::optional<CorridorView> CorridorSight::update(const CameraFrame& frame, cons
     }
     view->corners_left = static_cast<int>(pairs[kLeft].size());
     view->corners_right = static_cast<int>(pairs[kRight].size());
-    view->left = vision::side_distance(view->points, kLeft, config_.least_vectors);
-    view->right = vision::side_distance(view->points, kRight, config_.least_vectors);
+    if (config_.across == CorridorSightConfig::Across::walls) {
+      view->direction_rad = vision::wall_direction_rad(view->points, config_.most_turned_rad, config_.least_vectors);
+    }
+    const std::vector<vision::WallPoint> along = vision::looking_along(view->points, view->direction_rad);
+    view->left = side(along, kLeft);
+    view->right = side(along, kRight);
     view->error = vision::centering_error(view->left.distance_m, view->right.distance_m);
     view->v_H = moved.travelled_H.head<2>() / moved.dt_s;
+    view->approach = approach_.measure(older, newer, moved);
   }
   t_ns_ = frame.t_ns;
   navigation_ = navigation;

@@ -2,11 +2,13 @@
 
 #include <array>
 #include <cstdint>
+#include <numbers>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
 
 #include "avoidance/module.h"
+#include "vision/approach.h"
 #include "vision/corridor_flow.h"
 #include "vision/picture_turner.h"
 
@@ -15,20 +17,28 @@ namespace hedgehop::avoidance {
 /// What a fisheye that looks down tells of a corridor, picture by picture.
 struct CorridorView {
   std::vector<vision::WallPoint> points;
-  vision::SideDistance left, right;               ///< medians of the sides
+  double direction_rad = 0.0;                     ///< of the walls, to the right of the heading; 0 as printed
+  vision::SideDistance left, right;               ///< medians of the sides, across that direction
   double error = 0.0;                             ///< e_n, NaN when a side is unknown
   int corners_left = 0, corners_right = 0;        ///< followed at the sides, whatever their flow
   Eigen::Vector2d v_H = Eigen::Vector2d::Zero();  ///< mean horizontal velocity between the pictures, m/s
+  std::optional<vision::Approach> approach;       ///< of what lies ahead; nothing when too little is seen of it
 };
 
 struct CorridorSightConfig {
   /// `rays` is the paper's; `picture` turns the newer picture back before corners are followed.
   enum class Derotation { rays, picture };
   Derotation derotation = Derotation::picture;
+  /// `heading` is the paper's; `walls` does not take a nose turned aside for an offset.
+  enum class Across { heading, walls };
+  Across across = Across::walls;
   vision::FeatureFlowConfig features;
   vision::CorridorRegions regions;
   vision::FlowLimits limits;
+  vision::ApproachConfig approach;
   int least_vectors = 12;
+  double most_slow = 0.5;
+  double most_turned_rad = 50.0 * std::numbers::pi / 180.0;
   double attitude_lag_s = 0.0032;  ///< of a first-order filter of 50 Hz on the gyros
 };
 
@@ -38,10 +48,24 @@ void describe(Visitor& v, CorridorSightConfig& c) {
     {.choices = {"rays", "picture"},
      .meaning = "how the vehicle's own turning is taken away: from each followed corner's ray, or from the newer "
                 "picture before corners are followed"});
+  v("across", c.across,
+    {.choices = {"heading", "walls"}, .meaning = "whether distances aside are square to the heading or to the walls"});
   v("features", c.features, {.meaning = "how corners are found and followed"});
   v("regions", c.regions, {.meaning = "where walls are looked for"});
   v("limits", c.limits, {.meaning = "which flow counts as wrong"});
+  v("approach", c.approach, {.meaning = "how the growth of what lies ahead is measured"});
   v("least_vectors", c.least_vectors, {.at_least = 1, .meaning = "good vectors without which a side is unknown"});
+  v("most_slow", c.most_slow,
+    {.above = 0.0,
+     .at_most = 1.0,
+     .meaning =
+         "share of a side's corners too slow to tell a distance above which it is unknown: the rest are the near "
+         "ones"});
+  v("most_turned", c.most_turned_rad,
+    {.unit = "deg",
+     .at_least = 0.0,
+     .at_most = 60.0,
+     .meaning = "greatest angle between the heading and the walls that is looked for"});
   v("attitude_lag", c.attitude_lag_s,
     {.unit = "s", .at_least = 0.0, .at_most = 0.1, .meaning = "by which the attitude estimated lags, as the gyros do"});
 }
@@ -62,11 +86,13 @@ class CorridorSight {
 
  private:
   vision::CameraMotion motion(const NavigationState& now, double dt_s) const;
+  vision::SideDistance side(const std::vector<vision::WallPoint>& points, vision::Region side) const;
 
   CorridorSightConfig config_;
   MountedCamera camera_;
   std::array<cv::Mat, vision::kRegions> regions_;
   vision::PictureTurner turner_;
+  vision::ApproachMeter approach_;
   cv::Mat picture_;
   int64_t t_ns_ = -1;
   NavigationState navigation_;  ///< at the last picture, without the lag

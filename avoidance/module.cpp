@@ -28,7 +28,8 @@ int image_type(CameraNeed::Channel channel) {
 bool is_finite(const NavigationState& navigation) {
   return navigation.p_WB_est.allFinite() && navigation.q_WB_est.coeffs().allFinite() &&
          navigation.v_WB_B_est.allFinite() && navigation.w_WB_B_est.allFinite() &&
-         std::isfinite(navigation.height_above_ground_m) && std::isfinite(navigation.range_m.value_or(0.0));
+         navigation.q_WB_gyro.coeffs().allFinite() && std::isfinite(navigation.height_above_ground_m) &&
+         std::isfinite(navigation.range_m.value_or(0.0));
 }
 
 struct IsFinite {

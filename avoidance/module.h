@@ -23,7 +23,9 @@ struct NavigationState {
   Eigen::Quaterniond q_WB_est = Eigen::Quaterniond::Identity();  ///< attitude of B in W
   Eigen::Vector3d v_WB_B_est = Eigen::Vector3d::Zero();          ///< velocity of B in W, expressed in B, m/s
   Eigen::Vector3d w_WB_B_est = Eigen::Vector3d::Zero();          ///< angular velocity (gyro less bias), rad/s
-  double height_above_ground_m = 0.0;                            ///< from the height sensor, >= 0
+  /// Attitude by the gyros alone. It drifts, but no correction turns it: for turns between two instants.
+  Eigen::Quaterniond q_WB_gyro = Eigen::Quaterniond::Identity();
+  double height_above_ground_m = 0.0;  ///< from the height sensor, >= 0
   std::optional<double>
       range_m;  ///< from a range finder fixed to B, >= 0; unknown when it read nothing, or there is none
 };

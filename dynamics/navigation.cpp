@@ -44,7 +44,7 @@ Navigation::Navigation(const NavigationConfig& config, const Sensors& sensors)
 }
 
 void Navigation::reset(const RigidBodyState& known, const ImuReading& bias) {
-  q_WB_ = known.q_WB;
+  q_WB_ = q_WB_gyro_ = known.q_WB;
   v_WB_W_ = known.q_WB * known.v_WB_B;
   p_WB_ = known.p_WB;
   w_WB_B_ = known.w_WB_B;
@@ -91,7 +91,9 @@ void Navigation::predict(const ImuReading& imu) {
     const Eigen::Vector3d a_WB_W = R_WB * f + kGravityMps2 * Eigen::Vector3d::UnitZ();
     p_WB_ += dt_s_ * (v_WB_W_ + 0.5 * dt_s_ * a_WB_W);
     v_WB_W_ += dt_s_ * a_WB_W;
-    q_WB_ = (q_WB_ * rotation(dt_s_ * w)).normalized();
+    const Eigen::Quaterniond turn = rotation(dt_s_ * w);
+    q_WB_ = (q_WB_ * turn).normalized();
+    q_WB_gyro_ = (q_WB_gyro_ * turn).normalized();
     propagate_errors(R_WB, w, f);
 
     since_velocity_s_ += dt_s_;
@@ -261,6 +263,7 @@ void Navigation::correct_pressure(double pressure_meas_pa) {
 void Navigation::publish() {
   estimate_.p_WB_est = p_WB_;
   estimate_.q_WB_est = q_WB_;
+  estimate_.q_WB_gyro = q_WB_gyro_;
   estimate_.v_WB_B_est = q_WB_.conjugate() * v_WB_W_;
   estimate_.w_WB_B_est = w_WB_B_;
   estimate_.height_above_ground_m = jump_count_ > 0 ? last_height_m_ : std::max(0.0, -p_WB_.z() - surface_m_);

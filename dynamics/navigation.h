@@ -47,7 +47,10 @@ struct NavigationEstimate {
   Eigen::Quaterniond q_WB_est = Eigen::Quaterniond::Identity();  ///< attitude of B in W
   Eigen::Vector3d v_WB_B_est = Eigen::Vector3d::Zero();          ///< m/s, expressed in B
   Eigen::Vector3d w_WB_B_est = Eigen::Vector3d::Zero();          ///< gyro less estimated bias, rad/s
-  double height_above_ground_m = 0.0;                            ///< above the surface below, >= 0
+  /// Attitude by the gyros alone since the start. It drifts, but no correction turns it: for turns between two
+  /// instants.
+  Eigen::Quaterniond q_WB_gyro = Eigen::Quaterniond::Identity();
+  double height_above_ground_m = 0.0;  ///< above the surface below, >= 0
   Eigen::Vector3d sigma_p_W_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d sigma_attitude_B_rad = Eigen::Vector3d::Zero();  ///< small rotations about B's axes
   Eigen::Vector3d sigma_v_W_mps = Eigen::Vector3d::Zero();
@@ -104,7 +107,7 @@ class Navigation {
   double dt_s_;
   Square P_;
   Column correction_;  ///< of the error state, gathered and not yet injected
-  Eigen::Quaterniond q_WB_;
+  Eigen::Quaterniond q_WB_, q_WB_gyro_;
   Eigen::Vector3d v_WB_W_, p_WB_, gyro_bias_, accelerometer_bias_, w_WB_B_;
   Eigen::Vector2d gps_wander_m_;
   double compass_offset_rad_ = 0.0;

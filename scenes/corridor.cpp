@@ -28,6 +28,7 @@ void validate(const CorridorConfig& c) {
   require(c.door_height_m >= 0.5 && c.door_height_m <= c.height_m, "door_height", c.door_height_m,
           "0.5 m to the height");
   require(c.texture >= 0.0 && c.texture <= 1.0, "texture", c.texture, "0 to 1");
+  require(c.floor_texture >= 0.0 && c.floor_texture <= 1.0, "floor_texture", c.floor_texture, "0 to 1");
   require(!c.sections.empty(), "sections", 0.0, "at least one");
   double width_m = c.width_m;
   for (const CorridorSection& s : c.sections) {
@@ -121,7 +122,8 @@ std::vector<cv::Mat> paint_corridor(const CorridorConfig& c, uint64_t seed) {
                                    paint_room_walls(WallPaper::damask, size_px, 1, derived_seed(seed, 2)).front()};
   pictures.push_back(paint_parquet(size_px, derived_seed(seed, 3)));
   pictures.push_back(paint_ceiling(size_px, derived_seed(seed, 4)));
-  for (cv::Mat& picture : pictures) picture = faded(picture, c.texture);
+  for (size_t k = 0; k < pictures.size(); ++k)
+    pictures[k] = faded(pictures[k], k < kWalls ? c.texture : c.floor_texture);
   return pictures;
 }
 

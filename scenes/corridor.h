@@ -39,7 +39,7 @@ struct CorridorConfig {
   double door_height_m = 2.1;
   bool ceiling = true;
   std::vector<CorridorSection> sections = {{30.0}};
-  double texture = 1.0;
+  double texture = 1.0, floor_texture = 1.0;
   int64_t texture_size_px = 512;
   Additions added;
 };
@@ -52,6 +52,8 @@ void describe(Visitor& v, CorridorConfig& c) {
   v("ceiling", c.ceiling, {.meaning = "false: open to the sky"});
   v("sections", c.sections, {.meaning = "from the origin on"});
   v("texture", c.texture, {.at_least = 0.0, .at_most = 1.0, .meaning = "contrast of the walls: 1 strong, 0 blank"});
+  v("floor_texture", c.floor_texture,
+    {.at_least = 0.0, .at_most = 1.0, .meaning = "contrast of floor and ceiling: 1 strong, 0 blank"});
   v("texture_size", c.texture_size_px,
     {.unit = "px",
      .at_least = 64.0,

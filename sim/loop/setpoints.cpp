@@ -24,9 +24,9 @@ dynamics::Setpoint to_setpoint(const avoidance::Command& command) {
 
 avoidance::NavigationState to_navigation_state(const dynamics::Avionics& avionics) {
   const dynamics::NavigationEstimate& estimate = avionics.navigation();
-  return {
-      estimate.p_WB_est, estimate.q_WB_est, estimate.v_WB_B_est, estimate.w_WB_B_est, estimate.height_above_ground_m,
-      avionics.range_m()};
+  return {estimate.p_WB_est,   estimate.q_WB_est,  estimate.v_WB_B_est,
+          estimate.w_WB_B_est, estimate.q_WB_gyro, estimate.height_above_ground_m,
+          avionics.range_m()};
 }
 
 }  // namespace hedgehop::sim

@@ -27,11 +27,12 @@ void Velocimeter::update(const avoidance::CameraFrame& frame, dynamics::Avionics
   const vision::FlowField& field = flow_.update(frame.image);
   const dynamics::NavigationEstimate& navigation = avionics.navigation();
   const std::optional<Belief> last = last_;
-  last_ = Belief{frame.t_ns, navigation.q_WB_est, navigation.height_above_ground_m};
+  last_ = Belief{frame.t_ns, navigation.q_WB_est, navigation.q_WB_gyro, navigation.height_above_ground_m};
   if (!last) return;
 
   const double dt_s = 1e-9 * static_cast<double>(frame.t_ns - last->t_ns);
-  const Eigen::AngleAxisd turn(last->q_WB_est.conjugate() * navigation.q_WB_est);
+  // By the gyros alone: a correction that were taken for a turn would feed the next velocity, and so itself.
+  const Eigen::AngleAxisd turn(last->q_WB_gyro.conjugate() * navigation.q_WB_gyro);
   const vision::FlowMotion motion{last->q_WB_est, turn.axis() * (turn.angle() / dt_s), last->height_above_ground_m,
                                   dt_s};
   if (const auto velocity = vision::flow_velocity(field, pinhole_, X_BC_, motion)) {

@@ -26,6 +26,7 @@ class Velocimeter {
   struct Belief {
     int64_t t_ns = 0;
     Eigen::Quaterniond q_WB_est = Eigen::Quaterniond::Identity();
+    Eigen::Quaterniond q_WB_gyro = Eigen::Quaterniond::Identity();
     double height_above_ground_m = 0.0;
   };
 

@@ -214,6 +214,7 @@ TEST_P(Contract, NavigationThatIsNotFiniteIsRejected) {
   refuse([](Observation& o) { o.navigation.q_WB_est.w() = kNan; });
   refuse([](Observation& o) { o.navigation.v_WB_B_est.y() = INFINITY; });
   refuse([](Observation& o) { o.navigation.w_WB_B_est.z() = kNan; });
+  refuse([](Observation& o) { o.navigation.q_WB_gyro.x() = kNan; });
   refuse([](Observation& o) { o.navigation.height_above_ground_m = kNan; });
   refuse([](Observation& o) { o.navigation.range_m = INFINITY; });
   refuse([](Observation& o) { o.goal.p_WG.z() = kNan; });

@@ -20,16 +20,18 @@ constexpr double kAltitude_m = 1.5;
 // Flies north at a constant velocity through what is drawn, and returns the decisions.
 std::vector<Decision> fly(Module& module, const std::vector<vision::TexturedPlane>& walls,
                           const Eigen::Vector2d& from_NE, const Eigen::Vector2d& v_WB_W, int pictures,
-                          const std::function<void(cv::Mat&)>& spoil = {}, double largest_wave_m = 0.8) {
+                          const std::function<void(cv::Mat&)>& spoil = {}, double largest_wave_m = 0.8,
+                          double heading_rad = 0.0, const std::function<void(NavigationState&)>& believe = {}) {
   const vision::WaveTexture texture(11, 0.15 * largest_wave_m, largest_wave_m, 40);
   Setup setup = fisheye_below(480, 10.0);
   module.reset(setup);
   std::vector<Decision> decisions;
   for (int i = 0; i < pictures; ++i) {
     const Eigen::Vector2d p_NE = from_NE + 0.1 * i * v_WB_W;
-    const NavigationState navigation = level_flight({p_NE.x(), p_NE.y(), -kAltitude_m}, 0.0, v_WB_W);
+    NavigationState navigation = level_flight({p_NE.x(), p_NE.y(), -kAltitude_m}, heading_rad, v_WB_W);
     std::vector<CameraFrame> frames = see(setup, navigation, kPeriod_ns * i, walls, texture);
     if (spoil) spoil(frames.front().image);
+    if (believe) believe(navigation);
     decisions.push_back(module.update({kPeriod_ns * i, frames, navigation, {{30, 0, -kAltitude_m}, 0.0}}));
   }
   return decisions;
@@ -98,7 +100,7 @@ TEST(CorridorCentering, HoversBetweenPlainWallsHoweverTheFloorLooks) {
     CorridorCenteringConfig config;
     config.law = law;
     const auto module = make_corridor_centering(config);
-    const auto decisions = fly(*module, {}, {0, 0}, {0.0, 0}, 45);
+    const auto decisions = fly(*module, floor, {0, 0}, {0.0, 0}, 45);
     EXPECT_TRUE(std::holds_alternative<HoverCommand>(decisions.back().command));
     EXPECT_EQ(decisions.back().status, "blind");
   }
@@ -112,20 +114,68 @@ TEST(CorridorCentering, OneWallAloneIsUnknownNotTheMiddle) {
   EXPECT_TRUE(std::holds_alternative<HoverCommand>(last.command));
 }
 
-TEST(CorridorCentering, SlowsDownBeforeAWallAcrossAndThenTurnsAway) {
-  const auto command_before = [](double way_m, double v_mps) {
-    const auto module = make_corridor_centering({});
-    StraightCorridor corridor;
-    corridor.end_m = way_m + 2 * 0.1 * v_mps;  // two pictures on
-    constexpr double kFine_m = 0.04;           // so near, coarser texture shows no corners
-    return fly(*module, corridor.planes(), {0, 0}, {v_mps, 0}, 3, {}, kFine_m).back();
+TEST(CorridorCentering, SlowsDownBeforeAWallAcrossAndThenTurnsAwayHoweverCoarseItsTexture) {
+  for (const double largest_wave_m : {0.04, 0.3, 0.8}) {
+    const auto command_before = [&](double way_m, double v_mps) {
+      const auto module = make_corridor_centering({});
+      StraightCorridor corridor;
+      corridor.end_m = way_m + 2 * 0.1 * v_mps;  // two pictures on
+      return fly(*module, corridor.planes(), {0, 0}, {v_mps, 0}, 3, {}, largest_wave_m).back();
+    };
+    const Decision far = command_before(6.0, 0.8), near = command_before(0.9, 0.8), at_it = command_before(0.38, 0.3);
+    const double far_mps = std::get<VelocityCommand>(far.command).v_WB_W.norm();
+    EXPECT_NEAR(far_mps, 0.8, 1e-9) << largest_wave_m;
+    EXPECT_LT(std::get<VelocityCommand>(near.command).v_WB_W.norm(), 0.75) << largest_wave_m;
+    ASSERT_TRUE(std::holds_alternative<HoverCommand>(at_it.command)) << largest_wave_m;
+    EXPECT_NE(std::get<HoverCommand>(at_it.command).yaw_rate_radps, 0.0);
+  }
+}
+
+TEST(CorridorCentering, TurnsAwayFromABlankWallAcrossBetweenTexturedOnes) {
+  const auto blank_ahead = [](cv::Mat& picture) { picture(cv::Rect(145, 0, 190, 96)).setTo(128); };
+  const auto module = make_corridor_centering({});
+  const StraightCorridor corridor;
+  const Decision last = fly(*module, corridor.planes(), {0, 0}, {0.8, 0}, 8, blank_ahead).back();
+  EXPECT_EQ(last.status, "blocked");
+  ASSERT_TRUE(std::holds_alternative<HoverCommand>(last.command));
+  EXPECT_NE(std::get<HoverCommand>(last.command).yaw_rate_radps, 0.0);
+}
+
+TEST(CorridorCentering, ANoseTurnedAsideIsNoOffset) {
+  const double heading_rad = 0.3, east_m = 0.3;
+  const auto error = [&](CorridorSightConfig::Across across) {
+    CorridorCenteringConfig config;
+    config.sight.across = across;
+    const auto module = make_corridor_centering(config);
+    const StraightCorridor corridor;
+    const Decision last = fly(*module, corridor.planes(), {0, east_m}, {0.8, 0}, 3, {}, 0.3, heading_rad).back();
+    return signal(*module, last, "centering_error");
   };
-  const Decision far = command_before(6.0, 0.8), near = command_before(0.9, 0.8), at_it = command_before(0.38, 0.3);
-  const double far_mps = std::get<VelocityCommand>(far.command).v_WB_W.norm();
-  EXPECT_NEAR(far_mps, 0.8, 1e-9);
-  EXPECT_LT(std::get<VelocityCommand>(near.command).v_WB_W.norm(), 0.75);
-  ASSERT_TRUE(std::holds_alternative<HoverCommand>(at_it.command));
-  EXPECT_NE(std::get<HoverCommand>(at_it.command).yaw_rate_radps, 0.0);
+  EXPECT_NEAR(error(CorridorSightConfig::Across::walls), -east_m / 1.25, 0.03);
+  EXPECT_GT(std::abs(error(CorridorSightConfig::Across::heading) + east_m / 1.25), 0.06);
+}
+
+TEST(CorridorCentering, TheCourseStaysWithinItsAngleOfTheWallsHoweverFarTheNoseHasTurned) {
+  const auto module = make_corridor_centering({});
+  StraightCorridor corridor;
+  corridor.left_m = 0.6, corridor.right_m = 3.0;
+  const double heading_rad = 0.6, most_rad = CorridorCenteringConfig{}.most_course_rad;
+  const Decision last = fly(*module, corridor.planes(), {0, 0}, {0.7, 0.4}, 3, {}, 0.3, heading_rad).back();
+  const auto& command = std::get<VelocityCommand>(last.command);
+  const double off_walls_rad = std::atan2(command.v_WB_W.y(), command.v_WB_W.x());
+  EXPECT_GT(off_walls_rad, 0.5 * most_rad);
+  EXPECT_LT(off_walls_rad, most_rad + 0.03);
+}
+
+TEST(CorridorCentering, CorrectionsOfTheAttitudeAreNoTurn) {
+  // The filter changes its mind about the heading by two degrees between pictures; the gyros felt nothing.
+  const auto module = make_corridor_centering({});
+  const StraightCorridor corridor;
+  int picture = 0;
+  const Decision last = fly(*module, corridor.planes(), {0, 0.3}, {0.8, 0}, 3, {}, 0.8, 0.0, [&](NavigationState& n) {
+                          n.q_WB_est = n.q_WB_est * Eigen::AngleAxisd(0.035 * picture++, Eigen::Vector3d::UnitZ());
+                        }).back();
+  EXPECT_NEAR(signal(*module, last, "centering_error"), -0.3 / 1.25, 0.04);
 }
 
 TEST(CorridorCentering, WhatStandsStillInThePictureDoesNotMoveTheMedians) {

@@ -60,6 +60,7 @@ inline NavigationState level_flight(const Eigen::Vector3d& p_WB, double heading_
   NavigationState navigation;
   navigation.p_WB_est = p_WB;
   navigation.q_WB_est = Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ());
+  navigation.q_WB_gyro = navigation.q_WB_est;
   navigation.v_WB_B_est = navigation.q_WB_est.conjugate() * Eigen::Vector3d(v_WB_W.x(), v_WB_W.y(), 0.0);
   navigation.height_above_ground_m = -p_WB.z();
   return navigation;

@@ -280,6 +280,25 @@ TEST(Navigation, HeightAndAltitudeAgreeOverTheGround) {
   }
 }
 
+TEST(Navigation, NoCorrectionTurnsTheAttitudeOfTheGyros) {
+  Navigation filter({}, {});
+  RigidBodyState known;
+  known.q_WB = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX());
+  filter.reset(known, {});
+  const Eigen::Vector3d w(0.2, -0.1, 0.4);
+  constexpr int kReadings = 101;  // 1 s at 100 Hz; the first one starts the clock
+  for (int i = 0; i < kReadings; ++i) {
+    filter.predict({w, Eigen::Vector3d(0.0, 0.0, -9.80665)});
+    filter.correct_velocity({0.5, -0.5}, 0.05);
+    filter.correct_heading(1.0);
+  }
+  const NavigationEstimate& estimate = filter.estimate();
+  const Eigen::Vector3d bias = w - estimate.w_WB_B_est;  // learnt on the way, wrongly: part of what it turned by
+  const Eigen::Quaterniond turned = known.q_WB * Eigen::AngleAxisd(w.norm(), w.normalized());
+  EXPECT_LT(estimate.q_WB_gyro.angularDistance(turned), bias.norm() + 1e-9);
+  EXPECT_GT(estimate.q_WB_est.angularDistance(turned), 5.0 * estimate.q_WB_gyro.angularDistance(turned));
+}
+
 TEST(Navigation, GyroBiasIsLearnt) {
   Loop loop;
   loop.avionics.navigation.alignment_residual = 1.0;  // nobody calibrated

@@ -170,6 +170,21 @@ TEST(Corridor, WithoutTextureIsOneColourAndWithHalfOfItHalfAsContrasted) {
   EXPECT_NEAR(contrast(0.5), 0.5 * contrast(1.0), 0.5);  // grey levels are whole numbers
 }
 
+TEST(Corridor, PlainWallsLeaveTheFloorItsTexture) {
+  const auto contrast = [](const CorridorConfig& config, size_t picture) {
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(make_corridor(config, 1).textures.at(picture), mean, deviation);
+    return deviation[0];
+  };
+  constexpr size_t kWall = 0, kFloor = 3;
+  const CorridorConfig plain_walls{.texture = 0.0, .texture_size_px = 128};
+  const CorridorConfig plain_floor{.floor_texture = 0.0, .texture_size_px = 128};
+  EXPECT_EQ(contrast(plain_walls, kWall), 0.0);
+  EXPECT_GT(contrast(plain_walls, kFloor), 5.0);
+  EXPECT_GT(contrast(plain_floor, kWall), 20.0);
+  EXPECT_EQ(contrast(plain_floor, kFloor), 0.0);
+}
+
 TEST(Highrise, HasEightCornersOrThirtyFiveAndDrawsThem) {
   for (const auto& [layout, count] :
        {std::pair{HighriseConfig::Layout::cube, 8u}, {HighriseConfig::Layout::skyline, 35u}}) {

@@ -1,0 +1,64 @@
+#include "sim/reproduce/centering_runs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "avoidance/corridor_law.h"
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr double kHalfWidth_m = 2.0, kStart_m = -1.5, kSpeed_mps = 0.42;
+constexpr double kSample_s = 0.5, kDuration_s = 120.0, kSettled_m = 0.2;
+constexpr double kGravityMps2 = 9.80665;
+
+/// Roll and turn rate as the controller asks, speed along the heading held, no drag.
+struct PointMass {
+  double x_m = 0.0, off_middle_m = kStart_m, sideways_mps = 0.0, heading_rad = 0.0;
+
+  void fly(double roll_and_turn) {
+    constexpr int kSteps = 100;
+    constexpr double dt_s = kSample_s / kSteps;
+    for (int i = 0; i < kSteps; ++i) {
+      sideways_mps += kGravityMps2 * std::tan(roll_and_turn) * dt_s;
+      heading_rad += roll_and_turn * dt_s;
+      x_m += (kSpeed_mps * std::cos(heading_rad) - sideways_mps * std::sin(heading_rad)) * dt_s;
+      off_middle_m += (kSpeed_mps * std::sin(heading_rad) + sideways_mps * std::cos(heading_rad)) * dt_s;
+    }
+  }
+};
+
+template <class Noise>
+Columns run(Noise noise) {
+  PointMass mass;
+  Columns columns;
+  const auto seen = [&] { return -mass.off_middle_m / kHalfWidth_m + noise(); };
+  double last = seen(), settled_m = 0.0;
+  for (double t_s = 0.0; t_s < kDuration_s; t_s += kSample_s) {
+    columns["x_m"].push_back(mass.x_m);
+    columns["off_middle_m"].push_back(mass.off_middle_m);
+    if (std::abs(mass.off_middle_m) > kSettled_m) settled_m = mass.x_m;
+    const double error = seen();
+    mass.fly(avoidance::printed_control({}, error, last));
+    last = error;
+  }
+  columns["settled_m"].assign(columns["x_m"].size(), settled_m);
+  return columns;
+}
+
+}  // namespace
+
+Columns centering_exact() {
+  return run([] { return 0.0; });
+}
+
+Columns centering_noisy() {
+  // The mean distance of a normal distribution from its middle is 0.798 of its spread.
+  constexpr double kMean = 0.146, kLargest = 0.54, kSpread = kMean / 0.7979;
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal(0.0, kSpread);
+  return run([&] { return std::clamp(normal(random), -kLargest, kLargest); });
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,113 @@
+#include "vision/approach.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+namespace hedgehop::vision {
+namespace {
+
+constexpr int kStep_px = 3;     // between samples
+constexpr int kRoom_px = 24;    // about them, that they may move into
+constexpr double kGreys = 2.0;  // noise of pictures, that smooth surfaces must not undercut
+constexpr int kSweeps = 6;
+
+/// Between pixels, linear. @param p  at least 1 px inside.
+double grey(const cv::Mat& picture, const Eigen::Vector2d& p) {
+  const int u = static_cast<int>(p.x()), v = static_cast<int>(p.y());
+  const double a = p.x() - u, b = p.y() - v;
+  const float *above = picture.ptr<float>(v) + u, *below = picture.ptr<float>(v + 1) + u;
+  return (1 - b) * ((1 - a) * above[0] + a * above[1]) + b * ((1 - a) * below[0] + a * below[1]);
+}
+
+cv::Mat smooth(const cv::Mat& picture, const cv::Rect& box, double sigma_px) {
+  cv::Mat result;
+  picture(box).convertTo(result, CV_32F);
+  cv::GaussianBlur(result, result, {}, sigma_px, sigma_px, cv::BORDER_REPLICATE);
+  return result;
+}
+
+}  // namespace
+
+/// One step of Gauss and Newton.
+struct ApproachMeter::Fit {
+  double change_per_s = 0.0, sigma_per_s = 0.0;
+};
+
+ApproachMeter::ApproachMeter(const ApproachConfig& config, const Camera& camera, const Eigen::Isometry3d& X_BC,
+                             const CorridorRegions& regions, int rim_px)
+    : config_(config), camera_(camera) {
+  if (!(config.half_width_rad > 0.0)) throw std::invalid_argument("half_width: must be above 0 deg");
+  if (!(config.sigma_per_s > 0.0)) throw std::invalid_argument("sigma: must be above 0 1/s");
+  CorridorRegions narrow = regions;
+  narrow.ahead_rad = config.half_width_rad;
+  const cv::Mat mask = region_masks(camera, X_BC, narrow, rim_px)[kAhead];
+  box_ = cv::boundingRect(mask);
+  for (int v = box_.y; v < box_.br().y; v += kStep_px) {
+    for (int u = box_.x; u < box_.br().x; u += kStep_px) {
+      if (!mask.at<uint8_t>(v, u)) continue;
+      if (const auto ray_C = camera.ray({u, v})) samples_.push_back({{u, v}, *ray_C});
+    }
+  }
+  if (samples_.empty()) return;
+  box_ = cv::Rect(box_.tl() - cv::Point(kRoom_px, kRoom_px), box_.size() + cv::Size(2 * kRoom_px, 2 * kRoom_px)) &
+         cv::Rect(0, 0, camera.width_px, camera.height_px);
+}
+
+std::optional<ApproachMeter::Fit> ApproachMeter::fit(const cv::Mat& older, const cv::Mat& newer,
+                                                     const CameraMotion& motion, double rate_per_s) const {
+  const Eigen::Vector3d way_C = motion.R_HC1.transpose() * motion.travelled_H.normalized();
+  const Eigen::Matrix3d R_C2C1 = motion.R_HC2.transpose() * motion.R_HC1;
+  const Eigen::Vector2d corner_px(box_.x, box_.y);
+  const cv::Rect2d inside(1.0, 1.0, box_.width - 3.0, box_.height - 3.0);
+  double jj = 0.0, jr = 0.0, rr = 0.0;
+  int count = 0;
+  for (const Sample& sample : samples_) {
+    // A point at depth Z along the way keeps its place across and comes nearer by rate * dt * Z.
+    const double along = sample.ray_C.dot(way_C);
+    if (along <= 0.1) continue;
+    const auto place = [&](double rate) {
+      return camera_.project(R_C2C1 * (sample.ray_C / along - motion.dt_s * rate * way_C));
+    };
+    constexpr double kSmall_per_s = 0.05;
+    const auto at = place(rate_per_s), on = place(rate_per_s + kSmall_per_s);
+    if (!at || !on) continue;
+    const Eigen::Vector2d p = *at - corner_px, slide = (*on - *at) / kSmall_per_s;
+    if (!inside.contains({p.x(), p.y()})) continue;
+    const double right = 0.5 * (grey(newer, p + Eigen::Vector2d(1, 0)) - grey(newer, p - Eigen::Vector2d(1, 0)));
+    const double below = 0.5 * (grey(newer, p + Eigen::Vector2d(0, 1)) - grey(newer, p - Eigen::Vector2d(0, 1)));
+    const double j = right * slide.x() + below * slide.y();
+    const double r = grey(newer, p) - older.at<float>(sample.pixel - box_.tl());
+    jj += j * j, jr += j * r, rr += r * r, ++count;
+  }
+  if (count < 30 || jj == 0.0) return std::nullopt;
+  const double left = std::max(0.0, rr - jr * jr / jj) / count;
+  // Neighbours in a smoothed picture tell the same, so that some samples count as one.
+  constexpr double kAlike = 8.0;
+  return Fit{-jr / jj, std::sqrt(kAlike * (left + kGreys * kGreys) / jj)};
+}
+
+std::optional<Approach> ApproachMeter::measure(const cv::Mat& older, const cv::Mat& newer,
+                                               const CameraMotion& motion) const {
+  if (samples_.empty() || motion.travelled_H.norm() == 0.0) return std::nullopt;
+  Approach approach;
+  for (const double sigma_px : {5.0, 2.0}) {
+    const cv::Mat from = smooth(older, box_, sigma_px), to = smooth(newer, box_, sigma_px);
+    for (int i = 0; i < kSweeps; ++i) {
+      const auto step = fit(from, to, motion, approach.rate_per_s);
+      if (!step) return std::nullopt;
+      approach.rate_per_s += step->change_per_s;
+      approach.sigma_per_s = step->sigma_per_s;
+      // Never to where the wall lies behind.
+      approach.rate_per_s = std::clamp(approach.rate_per_s, -0.5 / motion.dt_s, 0.5 / motion.dt_s);
+      constexpr double kDone_per_s = 1e-3;
+      if (std::abs(step->change_per_s) < kDone_per_s) break;
+    }
+  }
+  if (approach.sigma_per_s > config_.sigma_per_s) return std::nullopt;
+  return approach;
+}
+
+}  // namespace hedgehop::vision

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "vision/corridor_flow.h"
+
+namespace hedgehop::vision {
+
+/// How the approach to what lies ahead is measured, and when it counts as known; all of it is ours.
+struct ApproachConfig {
+  double half_width_rad = 20.0 * std::numbers::pi / 180.0;  ///< of the part of the view, to each side of the nose
+  double sigma_per_s = 0.15;                                ///< greatest error at which the rate counts as known
+};
+
+template <class Visitor>
+void describe(Visitor& v, ApproachConfig& c) {
+  v("half_width", c.half_width_rad,
+    {.unit = "deg", .above = 0.0, .at_most = 60.0, .meaning = "of the view ahead that is compared, to each side"});
+  v("sigma", c.sigma_per_s,
+    {.unit = "1/s", .above = 0.0, .meaning = "error of the approach's rate above which it counts as unknown"});
+}
+
+/// How fast what lies ahead grows, from all its pixels: as a wall square to the way would. Corners are rare on a coarse
+/// texture seen from near; its slopes of grey are not.
+struct Approach {
+  double rate_per_s = 0.0;   ///< speed over distance along the way at the older picture: half the flow's divergence
+  double sigma_per_s = 0.0;  ///< standard deviation, as what is left unexplained tells
+};
+
+class ApproachMeter {
+ public:
+  /// @param X_BC  pose of the camera in B. @param lowest_rad, highest_rad  elevations in B that count.
+  /// @param rim_px  pixels this near to where the lens shows nothing stay out. Throws std::invalid_argument on a bad
+  /// config.
+  ApproachMeter(const ApproachConfig& config, const Camera& camera, const Eigen::Isometry3d& X_BC,
+                const CorridorRegions& regions, int rim_px);
+
+  /// @param older, newer  CV_8UC1. @param motion  as of wall_point(), way travelled not 0.
+  /// @return nothing where grey tells too little.
+  std::optional<Approach> measure(const cv::Mat& older, const cv::Mat& newer, const CameraMotion& motion) const;
+
+ private:
+  struct Sample {
+    cv::Point pixel;
+    Eigen::Vector3d ray_C;
+  };
+  struct Fit;
+  std::optional<Fit> fit(const cv::Mat& older, const cv::Mat& newer, const CameraMotion& motion,
+                         double rate_per_s) const;
+
+  ApproachConfig config_;
+  Camera camera_;
+  cv::Rect box_;  ///< holds all samples, with room to move
+  std::vector<Sample> samples_;
+};
+
+}  // namespace hedgehop::vision

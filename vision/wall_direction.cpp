@@ -1,0 +1,64 @@
+#include "vision/wall_direction.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace hedgehop::vision {
+namespace {
+
+using Places = std::vector<Eigen::Vector2d>;
+
+/// Mean distance from the median, measured across a direction, m.
+double scatter_m(const Places& places, double direction_rad, std::vector<double>& across_m) {
+  const Eigen::Vector2d right(-std::sin(direction_rad), std::cos(direction_rad));
+  across_m.clear();
+  for (const Eigen::Vector2d& p : places) across_m.push_back(right.dot(p));
+  const auto middle = across_m.begin() + static_cast<std::ptrdiff_t>(across_m.size() / 2);
+  std::nth_element(across_m.begin(), middle, across_m.end());
+  const double median_m = *middle;
+  double sum_m = 0.0;
+  for (const double m : across_m) sum_m += std::abs(m - median_m);
+  return sum_m / static_cast<double>(places.size());
+}
+
+}  // namespace
+
+double wall_direction_rad(const std::vector<WallPoint>& points, double most_rad, int least) {
+  std::array<Places, 2> sides;
+  for (const WallPoint& point : points) {
+    if (point.verdict != Verdict::good || point.region == kAhead) continue;
+    sides[point.region == kRight].push_back(point.p_CP_H.head<2>());
+  }
+  const auto enough = static_cast<size_t>(std::max(1, least));
+  if (sides[0].size() < enough || sides[1].size() < enough) return 0.0;
+  std::vector<double> across_m;
+  const auto cost_m = [&](double direction_rad) {
+    return scatter_m(sides[0], direction_rad, across_m) + scatter_m(sides[1], direction_rad, across_m);
+  };
+  // The whole range first, for a pillar makes a second minimum; then ever finer about the best.
+  double best_rad = 0.0, best_m = cost_m(0.0);
+  const auto search = [&](double from_rad, double to_rad, double step_rad) {
+    for (double direction_rad = from_rad; direction_rad <= to_rad; direction_rad += step_rad) {
+      const double m = cost_m(direction_rad);
+      if (m < best_m) best_m = m, best_rad = direction_rad;
+    }
+  };
+  constexpr double kCoarse_rad = 4.0 * std::numbers::pi / 180.0, kFinest_rad = 0.2 * std::numbers::pi / 180.0;
+  search(-most_rad, most_rad, kCoarse_rad);
+  for (double step_rad = 0.5 * kCoarse_rad; step_rad > kFinest_rad; step_rad *= 0.5) {
+    const double about_rad = best_rad;
+    search(std::max(-most_rad, about_rad - step_rad), std::min(most_rad, about_rad + step_rad), step_rad);
+  }
+  return best_rad;
+}
+
+std::vector<WallPoint> looking_along(std::vector<WallPoint> points, double direction_rad) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(-direction_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  for (WallPoint& point : points) point.p_CP_H = turn * point.p_CP_H;
+  return points;
+}
+
+}  // namespace hedgehop::vision
