@@ -67,6 +67,19 @@ void declare_sweep(CLI::App& app, std::function<int()>& chosen) {
   command->callback([&chosen, options] { chosen = [options] { return sweep(*options); }; });
 }
 
+void declare_reproduce(CLI::App& app, std::function<int()>& chosen) {
+  CLI::App* const command = app.add_subcommand(
+      "reproduce", "fly papers' experiments and tell their figures beside ours; picks up where it stopped");
+  const auto options = std::make_shared<ReproduceOptions>();
+  options->jobs = cores();
+  command->add_option("PAPER", options->papers, "papers, such as garratt2009, or files of them; all when not given");
+  command->add_flag("--quick", options->quick, "fly few seeds: minutes instead of hours");
+  add_workers(*command, options->jobs, options->limit_s);
+  command->add_option("--out", options->out, "folder of the results; out/reproduce when not given")->type_name("DIR");
+  command->add_option("--program", options->program)->group("");  // hidden: for tests
+  command->callback([&chosen, options] { chosen = [options] { return reproduce(*options); }; });
+}
+
 void declare_bless(CLI::App& app, std::function<int()>& chosen) {
   struct Options {
     std::filesystem::path folder;
@@ -84,6 +97,7 @@ void declare_bless(CLI::App& app, std::function<int()>& chosen) {
 void declare_campaigns(CLI::App& app, std::function<int()>& chosen) {
   declare_batch(app, chosen);
   declare_sweep(app, chosen);
+  declare_reproduce(app, chosen);
   declare_bless(app, chosen);
 }
 

@@ -108,6 +108,17 @@ struct SweepOptions {
 /// Flies a sweep, or what is left of it: flights that left a result of the very same scenario stand.
 int sweep(const SweepOptions& options);
 
+struct ReproduceOptions {
+  std::vector<std::string> papers;  ///< keys or files; empty: all there are
+  bool quick = false;               ///< few seeds
+  size_t jobs = 1;                  ///< flights at a time, >= 1
+  double limit_s = 0.0;             ///< longest wall time of a flight, 0 for none
+  std::filesystem::path out;        ///< empty: out/reproduce
+  std::filesystem::path program;    ///< of the workers, absolute; empty: this one
+};
+/// Flies papers' experiments, or what is left of them, and writes each paper's figures beside ours.
+int reproduce(const ReproduceOptions& options);
+
 /// Writes the path of a run as the reference of its scenario's `path_tolerance`, beside the scenario.
 /// @param reason  why it is the path to hold to, one line.
 int bless(const std::filesystem::path& run_folder, const std::string& reason);

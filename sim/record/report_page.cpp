@@ -128,6 +128,14 @@ std::string campaign_page(std::string_view title, std::string data_json) {
   return filled(kCampaignPage, values);
 }
 
+std::string reproduction_html(std::string_view title, std::string data_json) {
+  const std::string safe_title = html_escaped(title), data = script_safe(std::move(data_json));
+  const std::array values = {Value{"title", safe_title}, Value{"style", kReportStyle},
+                             Value{"campaign_style", kCampaignStyle}, Value{"data", data},
+                             Value{"scripts", kReproductionScripts}};
+  return filled(kReproductionPage, values);
+}
+
 std::string replay_page(std::string_view title, std::string data_json) {
   const std::string safe_title = html_escaped(title), data = script_safe(std::move(data_json));
   const std::array values = {Value{"title", safe_title}, Value{"style", kReportStyle},

@@ -32,4 +32,7 @@ std::string replay_page(std::string_view title, std::string data_json);
 /// A whole page of plots of a vehicle's trim over speed. @param title  any text. @param data_json  see trim_data().
 std::string trim_page(std::string_view title, std::string data_json);
 
+/// A whole page of papers' figures beside ours. @param title  any text. @param data_json  see reproduction_page().
+std::string reproduction_html(std::string_view title, std::string data_json);
+
 }  // namespace hedgehop::sim

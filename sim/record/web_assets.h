@@ -13,6 +13,8 @@ extern const std::string_view kTrimScripts;
 extern const std::string_view kCampaignPage;   ///< HTML of a batch's or sweep's report, as kReportPage
 extern const std::string_view kCampaignStyle;  ///< CSS that it adds
 extern const std::string_view kCampaignScripts;
+extern const std::string_view kReproductionPage;  ///< HTML of papers' figures beside ours, as kReportPage
+extern const std::string_view kReproductionScripts;
 extern const std::string_view kReplayPage;     ///< HTML of the replay, as kReportPage
 extern const std::string_view kReplayStyle;    ///< CSS that it adds
 extern const std::string_view kReplayScripts;  ///< with three.js bundled in

@@ -66,6 +66,17 @@ function quantile(values, share) {
   return sorted.length ? sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))] : 1;
 }
 
+/** A path as {n, e} in m, from steps in centimetres. */
+function readPath(steps) {
+  const n = [], e = [];
+  let north = 0, east = 0;
+  for (let i = 0; i < steps.length; i += 2) {
+    n.push((north += steps[i]) / 100);
+    e.push((east += steps[i + 1]) / 100);
+  }
+  return {n, e};
+}
+
 /** A button that copies a text. */
 function copyButton(text) {
   const button = make('button', 'copy', 'copy');

@@ -1,17 +1,6 @@
 'use strict';
 // All paths of the flights that share a scene, over its map.
 
-/** A path as {n, e} in m, from steps in centimetres. */
-function readPath(steps) {
-  const n = [], e = [];
-  let north = 0, east = 0;
-  for (let i = 0; i < steps.length; i += 2) {
-    n.push((north += steps[i]) / 100);
-    e.push((east += steps[i + 1]) / 100);
-  }
-  return {n, e};
-}
-
 class PathsView {
   /** @param select  element to choose the scene with. @param on  {choose(row)}. */
   constructor(host, select, {maps, map, path, goal}, table, on) {

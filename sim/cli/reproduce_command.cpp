@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "sim/campaign/fly_orders.h"
+#include "sim/cli/commands.h"
+#include "sim/cli/progress.h"
+#include "sim/cli/version.h"
+#include "sim/record/whole_file.h"
+#include "sim/reproduce/outcome.h"
+#include "sim/reproduce/reproduction_page.h"
+
+namespace hedgehop::sim::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFails = 1;
+constexpr int kSignalled = 128;  // what a shell reports of a process that a signal ended, less the signal's number
+
+/// Where papers' files are: in the working folder's configs, else beside the installed program.
+fs::path papers_folder() {
+  const fs::path own = fs::path("configs") / "papers";
+  std::error_code error;
+  if (fs::is_directory(own, error)) return own;
+  return own_program().parent_path().parent_path() / "share" / "hedgehop" / own;
+}
+
+std::vector<fs::path> all_papers() {
+  std::vector<fs::path> files;
+  const fs::path folder = papers_folder();
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  }
+  if (files.empty()) throw InputError(fmt::format("{}: no papers' files (*.yaml) in this folder", folder.string()));
+  std::ranges::sort(files);
+  return files;
+}
+
+/// The file of a paper's key, or the file itself.
+fs::path paper_file(const std::string& name) {
+  if (name.ends_with(".yaml")) return name;
+  const std::vector<fs::path> files = all_papers();
+  for (const fs::path& file : files) {
+    if (file.stem() == name) return file;
+  }
+  std::vector<std::string> keys;
+  for (const fs::path& file : files) keys.push_back(file.stem().string());
+  throw InputError(fmt::format("no paper is called '{}'; there are: {}", name, fmt::join(keys, ", ")));
+}
+
+std::vector<Paper> read_papers(const std::vector<std::string>& names) {
+  std::vector<fs::path> files;
+  for (const std::string& name : names) files.push_back(paper_file(name));
+  if (names.empty()) files = all_papers();
+  std::vector<Paper> papers;
+  std::vector<std::string> faults;
+  for (const fs::path& file : files) {
+    try {
+      papers.push_back(read_paper(file));
+    } catch (const InputError& error) {
+      faults.insert(faults.end(), error.faults().begin(), error.faults().end());
+    }
+  }
+  if (!faults.empty()) throw InputError(faults);
+  return papers;
+}
+
+/// Flies what is missing of all papers, in one go so that the time left is told of all. Ids begin with the paper's key.
+std::vector<FlightRecord> fly(const std::vector<Paper>& papers, const ReproduceOptions& options, const fs::path& out,
+                              Interruption& interruption) {
+  std::vector<Order> orders;
+  for (const Paper& paper : papers) {
+    for (Order& order : paper_orders(paper, options.quick)) {
+      order.id = paper.key + "/" + order.id;
+      orders.push_back(std::move(order));
+    }
+  }
+  CampaignProgress progress(orders.size());
+  const FlyOptions fly{.program = options.program.empty() ? own_program() : options.program,
+                       .out = out,
+                       .version = std::string(kVersion),
+                       .workers = options.jobs,
+                       .limit_s = options.limit_s};
+  auto records =
+      fly_orders(orders, fly, Reuse::all, interruption, [&progress](const FlightRecord& record, bool reused) {
+        const bool flown = record.status == FlightRecord::Status::flown;
+        progress.add(record.order.id, outcome_words(record), flown, reused);
+      });
+  progress.close();
+  return records;
+}
+
+}  // namespace
+
+int reproduce(const ReproduceOptions& options) {
+  const std::vector<Paper> papers = read_papers(options.papers);
+  const fs::path out = options.out.empty() ? fs::path("out") / "reproduce" : options.out;
+  Interruption interruption;
+  const std::vector<FlightRecord> records = fly(papers, options, out, interruption);
+
+  nlohmann::ordered_json pages = nlohmann::ordered_json::array();
+  std::vector<std::pair<std::string, std::vector<RowOutcome>>> rows_of_papers;
+  std::string text;
+  for (const Paper& paper : papers) {
+    std::vector<FlightRecord> own;
+    std::ranges::copy_if(records, std::back_inserter(own),
+                         [&](const FlightRecord& record) { return record.order.id.starts_with(paper.key + "/"); });
+    const PaperOutcome outcome = paper_outcome(paper, out, own);
+    const std::vector<RowOutcome> rows = row_outcomes(outcome);
+    text += rows_text(paper, rows) + "\n";
+    pages.push_back(paper_data(outcome, rows));
+    rows_of_papers.emplace_back(paper.key, rows);
+  }
+  fs::create_directories(out);
+  write_file_whole(out / "reproduction.md", text);
+  write_file_whole(out / "reproduction.csv", rows_csv(rows_of_papers));
+  write_file_whole(out / "reproduction.html", reproduction_page(pages, std::string(kVersion), options.quick));
+  fmt::print("{}written: {}\n", text, (out / "reproduction.html").string());
+  if (interruption.signal() != 0) return kSignalled + interruption.signal();
+  const auto fails = [](const RowOutcome& row) { return row.holds && !*row.holds; };
+  const bool all_hold =
+      std::ranges::none_of(rows_of_papers, [&](const auto& rows) { return std::ranges::any_of(rows.second, fails); });
+  return all_hold ? 0 : kFails;
+}
+
+}  // namespace hedgehop::sim::cli

@@ -1,0 +1,88 @@
+'use strict';
+// Puts the page of papers' figures beside ours together from its data.
+
+/** Paths of several kinds of flight over one scene: that of the first. */
+class PathChart {
+  constructor(host, paths) {
+    const lines = paths.labels.map((label) => ({label, printed: false}));
+    const first = paths.map.findIndex((map) => map >= 0);
+    this.data = paths;
+    this.colors = labelColors(lines);
+    this.paths = paths.path.map(readPath);
+    const reach = {n: [], e: []};
+    for (const {n, e} of this.paths) { reach.n.push(...finiteRange(n)); reach.e.push(...finiteRange(e)); }
+    const plan = first < 0 ? {bounds: [], footprints: [], movers: []} : paths.maps[paths.map[first]];
+    const goal = paths.goal.find((place) => place);
+    this.view = new MapView(host, {...plan, goal: goal ? {n: goal[0], e: goal[1], radius: goal[2]} : null}, reach, {
+      draw: (c) => this.draw(c), key: (key) => this.fillKey(key), leave: () => {}, click: () => {},
+      hover: (x, y) => this.view.showTip(x, y, this.view.placeLines(x, y))});
+    this.view.showReach();
+  }
+  draw(c) {
+    if (!this.view) return;
+    this.paths.forEach(({n, e}, i) => {
+      const color = themeColor(this.colors.get(this.data.labels[this.data.series[i]]));
+      c.strokeStyle = color;
+      c.lineWidth = 1.5;
+      c.globalAlpha = this.paths.length > 60 ? 0.5 : 0.9;
+      c.beginPath();
+      for (let k = 0; k < n.length; ++k) c.lineTo(this.view.x(e[k]), this.view.y(n[k]));
+      c.stroke();
+      c.globalAlpha = 1;
+      if (this.data.outcome[i] === 'collided') this.view.cross(c, this.view.x(e.at(-1)), this.view.y(n.at(-1)), 5, themeColor('bad'));
+    });
+  }
+  fillKey(key) {
+    for (const [label, color] of this.colors) {
+      const count = this.data.series.filter((s) => this.data.labels[s] === label).length;
+      const item = key.appendChild(make('span'));
+      item.appendChild(make('i')).style.cssText = `background: ${themeColor(color)}; height: 3px; vertical-align: 3px`;
+      item.append(`${label}: ${count}`);
+    }
+    if (this.data.outcome.includes('collided')) key.append(make('span', '', 'a cross: collided'));
+  }
+}
+
+function addRows(host, rows) {
+  const table = host.appendChild(make('div', 'scroll')).appendChild(make('table'));
+  const line = (cells, tag) => {
+    const row = table.appendChild(make('tr'));
+    for (const [text, className] of cells) row.append(make(tag, className, text));
+    return row;
+  };
+  line(['what', 'paper', 'asked', 'ours', ''].map((text) => [text, '']), 'th');
+  for (const {what, unit, paper, asked, ours, holds, command} of rows) {
+    const row = line([[what + (unit ? `, ${unit}` : ''), ''], [paper || '–', ''], [asked || '–', ''], [ours, ''],
+      holds === null ? ['', ''] : holds ? ['holds', 'pass'] : ['does not hold', 'fail']], 'td');
+    if (command) row.lastChild.append(' ', copyButton(command));
+  }
+}
+
+function addChart(host, chart) {
+  const card = host.appendChild(make('section', 'chart card'));
+  card.append(make('h3', '', chart.title), make('div', 'note', chart.note));
+  const drawn = card.appendChild(make('div'));
+  const empty = chart.paths ? !chart.paths.path.length : !chart.lines.some(({x}) => x.length);
+  if (empty) drawn.append(make('p', 'missing', 'Nothing was flown for this chart.'));
+  else if (chart.paths) new PathChart(drawn, chart.paths);
+  else new LineChart(drawn, chart);
+}
+
+function main() {
+  const {version, quick, papers} = JSON.parse(document.getElementById('data').textContent);
+  const head = document.getElementById('head');
+  const rows = papers.flatMap((paper) => paper.rows), asked = rows.filter(({holds}) => holds !== null);
+  head.append(make('h1', '', 'Papers reproduced'));
+  head.append(make('p', 'soft', `Hedgehop ${version}: ${asked.filter(({holds}) => holds).length} of ${asked.length} measured figures hold.`
+    + (quick ? ' A quick look: few seeds were flown.' : '')));
+  for (const paper of papers) {
+    const section = document.getElementById('papers').appendChild(make('section', 'paper'));
+    const title = section.appendChild(make('div', 'charts-head'));
+    title.append(make('h2', '', paper.title), make('span', 'soft', paper.source));
+    if (paper.rows.length) addRows(section.appendChild(make('div', 'card')), paper.rows);
+    const charts = section.appendChild(make('div', 'charts'));
+    charts.style.marginTop = '16px';
+    for (const chart of paper.charts) addChart(charts, chart);
+  }
+}
+main();

@@ -1,0 +1,182 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// A paper's experiments flown anew, and its figures beside ours.
+namespace hedgehop::sim {
+
+/// Flights of one scenario that differ by the seed alone.
+struct PaperFlights {
+  std::string name;      ///< what rows and charts call them; once read, the scenario file's name where none was given
+  std::string scenario;  ///< relative to the paper's file; once read, to the working folder
+  std::string seeds;
+  std::optional<std::string> quick;  ///< seeds of a quick look; none: not flown then
+  std::vector<std::string> set;
+};
+template <class Visitor>
+void describe(Visitor& v, PaperFlights& c) {
+  v("name", c.name, {.meaning = "what rows and charts call them; else the scenario file's name"});
+  v("scenario", c.scenario, {.required = true, .meaning = "scenario file, relative to this file"});
+  v("seeds", c.seeds, {.required = true, .meaning = "seeds such as 1:10 or 1:3,7"});
+  v("quick", c.quick, {.meaning = "seeds that --quick flies, of those above; without them it flies none"});
+  v("set", c.set, {.meaning = "values laid over the scenario, each key.path=value"});
+}
+
+/// A figure drawn from a column of a campaign's table over flights.
+struct FlightFigure {
+  enum class Statistic { count, share, least, greatest, mean, median };
+  std::vector<std::string> flights;
+  std::string column;
+  std::string is;
+  Statistic statistic = Statistic::mean;
+};
+template <class Visitor>
+void describe_figure(Visitor& v, FlightFigure& c) {
+  v("flights", c.flights, {.meaning = "names of flights"});
+  v("column", c.column, {.meaning = "of a batch's table, such as outcome, min_clearance_m or metric.jerk_rms"});
+  v("is", c.is, {.meaning = "for count and share: what the column must hold, such as collided"});
+  v("statistic", c.statistic,
+    {.choices = {"count", "share", "least", "greatest", "mean", "median"}, .meaning = "over the flights that ended"});
+}
+
+/// One figure of the paper beside ours.
+struct PaperRow : FlightFigure {
+  std::string what, paper, unit;
+  std::optional<double> at_least, at_most;  ///< what ours is asked to be
+  std::string calculation, value;           ///< in place of flights
+};
+template <class Visitor>
+void describe(Visitor& v, PaperRow& c) {
+  v("what", c.what, {.required = true, .meaning = "what is told"});
+  v("paper", c.paper, {.meaning = "the paper's figure, as printed"});
+  v("unit", c.unit, {.meaning = "of ours"});
+  v("at_least", c.at_least, {.meaning = "least that ours must be"});
+  v("at_most", c.at_most, {.meaning = "most that ours may be"});
+  describe_figure(v, c);
+  v("calculation", c.calculation, {.meaning = "a figure that needs no flight: which calculation tells it"});
+  v("value", c.value, {.meaning = "... and which of its columns, the last row"});
+}
+
+/// Points that the paper prints.
+struct PrintedSeries {
+  static constexpr std::string_view kName = "points";
+  static constexpr std::string_view kMeaning = "points as given here, of the paper";
+  std::string label;
+  std::vector<double> x, y;
+};
+template <class Visitor>
+void describe(Visitor& v, PrintedSeries& c) {
+  v("label", c.label, {.required = true, .meaning = "in the legend"});
+  v("x", c.x, {.required = true, .meaning = "across"});
+  v("y", c.y, {.required = true, .meaning = "up, as many"});
+}
+
+/// One point a group of flights.
+struct GroupSeries : FlightFigure {
+  static constexpr std::string_view kName = "groups";
+  static constexpr std::string_view kMeaning = "a statistic of each of the named flights";
+  std::string label;
+  std::vector<double> x;
+};
+template <class Visitor>
+void describe(Visitor& v, GroupSeries& c) {
+  v("label", c.label, {.required = true, .meaning = "in the legend"});
+  v("x", c.x, {.required = true, .meaning = "across, one for each of the flights"});
+  describe_figure(v, c);
+}
+
+/// Two columns of the log of each flight of a group.
+struct LogSeries {
+  enum class File { trajectory, decisions };
+  static constexpr std::string_view kName = "log";
+  static constexpr std::string_view kMeaning = "two columns of each flight's trajectory.csv or decisions.csv";
+  std::string label, flights;
+  File file = File::decisions;
+  std::string x = "t_s", y;
+  std::optional<uint64_t> seed;
+};
+template <class Visitor>
+void describe(Visitor& v, LogSeries& c) {
+  v("label", c.label, {.required = true, .meaning = "in the legend"});
+  v("flights", c.flights, {.required = true, .meaning = "name of flights"});
+  v("file", c.file, {.choices = {"trajectory", "decisions"}, .meaning = "which log"});
+  v("x", c.x, {.meaning = "its column across"});
+  v("y", c.y, {.required = true, .meaning = "its column up"});
+  v("seed", c.seed, {.meaning = "of one flight; else all are drawn"});
+}
+
+/// Paths seen from above, over the scene of the first.
+struct PathSeries {
+  static constexpr std::string_view kName = "paths";
+  static constexpr std::string_view kMeaning = "flown paths over the scene, seen from above";
+  std::string label, flights;
+  std::optional<uint64_t> seed;
+};
+template <class Visitor>
+void describe(Visitor& v, PathSeries& c) {
+  v("label", c.label, {.required = true, .meaning = "in the legend"});
+  v("flights", c.flights, {.required = true, .meaning = "name of flights"});
+  v("seed", c.seed, {.meaning = "of one flight; else all are drawn"});
+}
+
+/// Two columns of a calculation.
+struct CalculationSeries {
+  static constexpr std::string_view kName = "calculation";
+  static constexpr std::string_view kMeaning = "two columns of a calculation that needs no flight";
+  std::string label, calculation, x, y;
+};
+template <class Visitor>
+void describe(Visitor& v, CalculationSeries& c) {
+  v("label", c.label, {.required = true, .meaning = "in the legend"});
+  v("calculation", c.calculation, {.required = true, .meaning = "its name"});
+  v("x", c.x, {.required = true, .meaning = "its column across"});
+  v("y", c.y, {.required = true, .meaning = "its column up"});
+}
+
+using PaperSeries = std::variant<PrintedSeries, GroupSeries, LogSeries, PathSeries, CalculationSeries>;
+
+/// A figure of the paper drawn anew.
+struct PaperChart {
+  enum class Scale { linear, log };
+  std::string title, note, x, y;
+  Scale x_scale = Scale::linear, y_scale = Scale::linear;
+  std::vector<PaperSeries> series;
+};
+template <class Visitor>
+void describe(Visitor& v, PaperChart& c) {
+  v("title", c.title, {.required = true, .meaning = "such as 'Fig. 13: ...'"});
+  v("note", c.note, {.meaning = "what to see in it"});
+  v("x", c.x, {.meaning = "name and unit of the axis across; not of paths"});
+  v("y", c.y, {.meaning = "name and unit of the axis up; not of paths"});
+  v("x_scale", c.x_scale, {.choices = {"linear", "log"}, .meaning = "of the axis across"});
+  v("y_scale", c.y_scale, {.choices = {"linear", "log"}, .meaning = "of the axis up"});
+  v("series", c.series, {.required = true, .selector = "from", .meaning = "what is drawn; paths stand alone"});
+}
+
+/// All that `hedgehop reproduce` does for one paper.
+struct Paper {
+  std::string key;  ///< name of its file
+  std::string title, source;
+  std::vector<PaperFlights> flights;
+  std::vector<PaperRow> rows;
+  std::vector<PaperChart> charts;
+};
+template <class Visitor>
+void describe(Visitor& v, Paper& c) {
+  v("title", c.title, {.required = true, .meaning = "authors, year and subject"});
+  v("source", c.source, {.required = true, .meaning = "key in REFERENCES.md"});
+  v("flights", c.flights, {.meaning = "what is flown"});
+  v("rows", c.rows, {.meaning = "the paper's figures beside ours"});
+  v("charts", c.charts, {.meaning = "the paper's figures drawn anew"});
+}
+
+/// Reads a paper's file. Throws InputError with every fault: of the file, and names of flights or calculations that do
+/// not exist, rows without a source, bad seeds, series of unequal length, paths beside other series.
+Paper read_paper(const std::filesystem::path& file);
+
+}  // namespace hedgehop::sim

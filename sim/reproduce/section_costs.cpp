@@ -1,0 +1,62 @@
+#include "sim/reproduce/section_costs.h"
+
+#include <algorithm>
+#include <chrono>
+#include <opencv2/core.hpp>
+
+#include "vision/section_grid.h"
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr int kRounds = 41;
+constexpr double kThreshold_m = 9.144, kMostShare = 0.15;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+struct Candidate {
+  int side;
+  vision::SectionSearch search;
+  std::vector<double> costs_ms = {};
+};
+
+}  // namespace
+
+Columns section_costs() {
+  cv::Mat depth_m(720, 1280, CV_32F);
+  cv::RNG random(1);
+  random.fill(depth_m, cv::RNG::UNIFORM, 2.0, 40.0);
+
+  std::vector<Candidate> candidates;
+  for (int side = 3; side <= 27; side += 2) {
+    vision::SectionGrid grid{.rows = side, .cols = side};
+    if (side == 3) grid.width_share = grid.height_share = 1.0 / 3.0;  // the paper's 3 x 3 do not overlap
+    candidates.push_back({side, vision::SectionSearch(grid, depth_m.size())});
+  }
+  // In turns, so that what else the machine does weighs on all alike.
+  for (int round = 0; round < kRounds; ++round) {
+    for (Candidate& candidate : candidates) {
+      const auto start = std::chrono::steady_clock::now();
+      candidate.search.choose(depth_m, kThreshold_m, kMostShare, vision::Unknown::free);
+      const std::chrono::duration<double, std::milli> cost = std::chrono::steady_clock::now() - start;
+      candidate.costs_ms.push_back(cost.count());
+    }
+  }
+
+  Columns columns;
+  const double least_ms = median(candidates.front().costs_ms);
+  for (const Candidate& candidate : candidates) {
+    const double cost_ms = median(candidate.costs_ms);
+    columns["sections"].push_back(candidate.side * candidate.side);
+    columns["cost_ms"].push_back(cost_ms);
+    columns["decisions_hz"].push_back(1000.0 / cost_ms);
+    columns["cost_over_3x3"].push_back(cost_ms / least_ms);
+  }
+  return columns;
+}
+
+}  // namespace hedgehop::sim
