@@ -32,7 +32,7 @@ void describe(Visitor& v, EdgeCornerConfig& c) {
   v("aside", c.aside_px, {.unit = "px", .above = 0.0, .meaning = "pieces so far off a line do not belong to it"});
   v("beyond", c.beyond_px, {.unit = "px", .at_least = 0.0, .meaning = "an edge may end so far before its corner"});
   v("least_angle", c.least_angle_rad,
-    {.unit = "deg", .above = 0.0, .at_most = 1.5707963267948966, .meaning = "edges at a smaller angle make no corner"});
+    {.unit = "deg", .above = 0.0, .at_most = 90.0, .meaning = "edges at a smaller angle make no corner"});
 }
 
 /// Joins pieces of straight edges into whole ones, the longest first: what stands before a textured ground has edges

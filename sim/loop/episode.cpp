@@ -85,7 +85,7 @@ class Episode {
   std::deque<PendingCommand> pending_;
   dynamics::Setpoint setpoint_;
   FlightLog log_;
-  std::optional<MapScore> map_score_;  ///< where the scene's corners are known
+  std::optional<MapScore> map_score_;        ///< where the scene's corners are known
   std::optional<ProjectedCorners> corners_;  ///< for a module that asks for the true ones
   StageTimer physics_, render_, velocimetry_, decision_;
   std::optional<Outcome> outcome_;

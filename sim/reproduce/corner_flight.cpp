@@ -124,7 +124,8 @@ CornerFlightResult fly_past_corners(const CornerFlight& flight, const vision::La
     for (size_t i = 0; i < flight.corners_W.size(); ++i) {
       double percent = 100.0;
       const auto id = id_of_corner.find(i);
-      const auto mapped = std::ranges::find(map.landmarks(), id == id_of_corner.end() ? -1 : id->second, &MappedLandmark::id);
+      const auto mapped =
+          std::ranges::find(map.landmarks(), id == id_of_corner.end() ? -1 : id->second, &MappedLandmark::id);
       if (mapped != map.landmarks().end()) {
         const Eigen::Vector3d off = (position_W(mapped->landmark) - flight.corners_W[i]).cwiseAbs();
         const double per_m = 100.0 / (flight.corners_W[i] - first_W).norm();

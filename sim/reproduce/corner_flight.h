@@ -24,7 +24,8 @@ struct CornerFlight {
   vision::PinholeCamera camera;
 };
 
-/// About a cube with 8 corners, [Shah2009] table 4.1: 140 ft up, on a circle of 140 ft, 0.36 deg/s, field of view 30 deg.
+/// About a cube with 8 corners, [Shah2009] table 4.1: 140 ft up, on a circle of 140 ft, 0.36 deg/s, field of view 30
+/// deg.
 CornerFlight cube_lateral_flight();
 /// The same about high-rises with 35 corners.
 CornerFlight highrise_lateral_flight();

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "scenes/highrise.h"
 #include "sim/reproduce/corner_flight.h"
@@ -110,10 +111,25 @@ Columns map_of(const CornerFlight& flight) {
 
 }  // namespace
 
+std::vector<std::string> landmark_error_columns() {
+  return {"t_s",
+          "ground_percent",
+          "inverse_depth_percent",
+          "sample_north_percent",
+          "sample_east_percent",
+          "sample_altitude_percent"};
+}
 Columns cube_lateral_errors() { return errors_of(cube_lateral_flight()); }
 Columns highrise_lateral_errors() { return errors_of(highrise_lateral_flight()); }
 Columns highrise_forward_errors() { return errors_of(highrise_forward_flight()); }
 
+std::vector<std::string> landmark_map_columns() {
+  std::vector<std::string> columns;
+  for (const std::string when : {"true", "early", "middle", "late"}) {
+    for (const std::string axis : {"_north_m", "_east_m", "_altitude_m"}) columns.push_back(when + axis);
+  }
+  return columns;
+}
 Columns cube_lateral_map() { return map_of(cube_lateral_flight()); }
 Columns highrise_lateral_map() { return map_of(highrise_lateral_flight()); }
 Columns highrise_forward_map() { return map_of(highrise_forward_flight()); }

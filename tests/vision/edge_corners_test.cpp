@@ -157,7 +157,8 @@ TEST(JoinedEdges, APieceWiseLineIsOneEdge) {
 }
 
 TEST(JoinedEdges, ParallelLinesStayTwo) {
-  const std::vector<PictureEdge> pieces = {{{0, 0}, {50, 0}}, {{60, 0}, {100, 0}}, {{0, 5}, {50, 5}}, {{60, 5}, {100, 5}}};
+  const std::vector<PictureEdge> pieces = {
+      {{0, 0}, {50, 0}}, {{60, 0}, {100, 0}}, {{0, 5}, {50, 5}}, {{60, 5}, {100, 5}}};
   EXPECT_EQ(joined_edges(pieces, {}).size(), 2U);
 }
 

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "scenes/highrise.h"
-#include "tests/vision/landmark_flight.h"
+#include "sim/reproduce/corner_flight.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -33,14 +35,14 @@ TEST(CornersInSight, OfABoxAreThoseOfTheFacesTurnedToTheCamera) {
     const Vector3d p_WC(side(random), side(random), -height(random));
     const Vector3d out = (p_WC - middle).cwiseAbs();
     if (out.maxCoeff() < 14.0 || (p_WC.head<2>().norm() < 5.0)) continue;
-    const Eigen::Isometry3d X_WC = vision::looking_at(p_WC, middle);
+    const Eigen::Isometry3d X_WC = looking_at(p_WC, middle);
     const auto seen = corners_in_sight(corners, camera, X_WC, &world, 0.0);
     for (size_t k = 0; k < corners.size(); ++k) {
       bool expected = false, grazing = false;
       for (int axis = 0; axis < 3; ++axis) {
         const double normal = corners[k][axis] > middle[axis] ? 1.0 : -1.0;
         const double above_m = normal * (p_WC[axis] - corners[k][axis]);
-        grazing = grazing || std::abs(above_m) < 1.0;  // the ray runs along that face
+        grazing = grazing || std::abs(above_m) < 1.0;                        // the ray runs along that face
         if (axis < 2 || normal < 0.0) expected = expected || above_m > 0.0;  // nobody looks from below
       }
       if (grazing) continue;
@@ -54,16 +56,16 @@ TEST(CornersInSight, OfABoxAreThoseOfTheFacesTurnedToTheCamera) {
 TEST(CornersInSight, AreAllInThePictureThroughWalls) {
   const std::vector<Vector3d> corners = scenes::highrise_corners(kCube);
   const vision::Camera camera = vision::PinholeCamera::from_fov(640, 640, std::numbers::pi / 3.0);
-  const auto seen = corners_in_sight(corners, camera, vision::looking_at({-50, 3, -40}, {0, 0, -9}), nullptr, 0.0);
+  const auto seen = corners_in_sight(corners, camera, looking_at({-50, 3, -40}, {0, 0, -9}), nullptr, 0.0);
   EXPECT_EQ(std::ranges::count(seen, true), 8);
-  const auto aside = corners_in_sight(corners, camera, vision::looking_at({-50, 3, -40}, {-100, 0, -9}), nullptr, 0.0);
+  const auto aside = corners_in_sight(corners, camera, looking_at({-50, 3, -40}, {-100, 0, -9}), nullptr, 0.0);
   EXPECT_EQ(std::ranges::count(aside, true), 0);
 }
 
 TEST(ProjectedCorners, ScatterByHalfAPixelRoundTheProjections) {
   const std::vector<Vector3d> corners = scenes::highrise_corners(kCube);
   const vision::Camera camera = vision::PinholeCamera::from_fov(640, 640, std::numbers::pi / 3.0);
-  const Eigen::Isometry3d X_WC = vision::looking_at({-50, 3, -40}, {0, 0, -9});
+  const Eigen::Isometry3d X_WC = looking_at({-50, 3, -40}, {0, 0, -9});
   ProjectedCorners projected(corners, 11);
   constexpr int kPictures = 500;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero(), squares = Eigen::Vector2d::Zero();

@@ -16,8 +16,8 @@ std::map<std::string, double> values(const MapScore& score) {
   return found;
 }
 
-// Two corners 100 m away, long in sight; the map is 3 m off in one of three coordinates at the first: 1 %, and lacks the
-// second.
+// Two corners 100 m away, long in sight; the map is 3 m off in one of three coordinates at the first: 1 %, and lacks
+// the second.
 TEST(MapScore, MeansOverCoordinatesAndCorners) {
   MapScore score({{100, 0, 0}, {0, 100, 0}}, Vector3d::Zero());
   score.add(20.0, std::vector<Vector3d>{{103, 0, 0}}, {true, true});
@@ -42,9 +42,7 @@ TEST(MapScore, ConvergedSinceTheLastTimeItCameWithinThreePercent) {
 
 TEST(MapScore, ACornerCountsOnceItWasInSightForTenSeconds) {
   MapScore score({{100, 0, 0}, {0, 100, 0}}, Vector3d::Zero());
-  const auto at = [&](double t_s, bool second) {
-    score.add(t_s, std::vector<Vector3d>{{100, 0, 0}}, {true, second});
-  };
+  const auto at = [&](double t_s, bool second) { score.add(t_s, std::vector<Vector3d>{{100, 0, 0}}, {true, second}); };
   at(8, true);
   at(16, false);
   EXPECT_EQ(values(score).at("corners_seen"), 1.0);
