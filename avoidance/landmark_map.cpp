@@ -11,6 +11,7 @@
 #include "avoidance/go_to_goal.h"
 #include "avoidance/landmark_picture.h"
 #include "avoidance/map_route.h"
+#include "avoidance/plan_picture.h"
 
 namespace hedgehop::avoidance {
 namespace {
@@ -24,10 +25,15 @@ void check(const LandmarkMapModuleConfig& c) {
   need(c.speed_mps > 0.0, "speed must be above 0 m/s");
   need(c.clearance_m > 0.0 && c.link_m >= 0.0 && c.most_sigma_m > 0.0,
        "clearance and most_sigma must be above 0 m, link not below");
+  need(c.behind_m >= 0.0, "behind must not be negative");
   need(c.time_to_contact_s >= 0.0 && c.stop_range_m >= 0.0, "time_to_contact and stop_range must not be negative");
   need(c.loom_time_s >= 0.0, "loom_time must not be negative");
   need(c.flow_share > 0.0 && c.flow_share <= 1.0, "flow_share must lie in (0, 1]");
   need(c.braking_mps2 > 0.0, "braking must be above 0 m/s^2");
+}
+
+double greatest_variance(const Eigen::MatrixXd& P) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(P, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }
 
 class LandmarkMapModule final : public Module {
@@ -119,6 +125,8 @@ class LandmarkMapModule final : public Module {
   /// place from which the rest of the course is free.
   Decision follow_course(const NavigationState& navigation, const Goal& goal) {
     const Eigen::Vector2d at = navigation.p_WB_est.head<2>(), end = goal.p_WG.head<2>();
+    at_NE_ = at;
+    end_NE_ = end;
     const Eigen::Vector2d course = end - *start_NE_;
     const double length_m = course.norm();
     const Eigen::Vector2d along = length_m > 0.0 ? Eigen::Vector2d(course / length_m) : Eigen::Vector2d::UnitX();
@@ -153,20 +161,26 @@ class LandmarkMapModule final : public Module {
     return {command, status, {}};
   }
 
-  /// What the map knows well enough and high enough to matter, from above.
+  /// What the map knows well enough and high enough to matter, from above, and what may stand behind it.
   std::vector<PlanHull> obstacles() const {
-    std::vector<Eigen::Vector2d> points;
+    std::vector<Eigen::Vector2d> points, seen_from;
     for (const vision::MappedLandmark& mapped : map().landmarks()) {
       if (!map().confirmed(mapped)) continue;
       const Eigen::Vector3d p_W = vision::position_W(mapped.landmark);
-      const Eigen::Matrix2d P = vision::covariance_W(mapped.landmark).topLeftCorner<2, 2>();
-      const double variance = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(P).eigenvalues().maxCoeff();
+      const Eigen::Matrix3d P = vision::covariance_W(mapped.landmark);
+      const double variance = greatest_variance(P.topLeftCorner<2, 2>());
       if (-p_W.z() < config_.lowest_m || variance > config_.most_sigma_m * config_.most_sigma_m) continue;
       points.push_back(p_W.head<2>());
+      seen_from.push_back(mapped.landmark.X_WA.translation().head<2>());
     }
-    std::vector<PlanHull> hulls = plan_hulls(points, config_.link_m);
-    std::erase_if(hulls, [](const PlanHull& hull) { return hull.size() < 2; });  // a corner alone bounds nothing
-    return hulls;
+    std::vector<Eigen::Vector2d> filled;
+    for (size_t i = 0; i < points.size(); ++i) {
+      const auto near = [&](const Eigen::Vector2d& p) { return (p - points[i]).norm() <= config_.link_m; };
+      if (std::ranges::count_if(points, near) < 2) continue;  // a corner alone bounds nothing
+      filled.push_back(points[i]);
+      filled.push_back(points[i] + config_.behind_m * (points[i] - seen_from[i]).normalized());
+    }
+    return plan_hulls(filled, std::max(config_.link_m, config_.behind_m));
   }
 
   const vision::LandmarkMap& map() const { return sight_->map(); }
@@ -186,18 +200,31 @@ class LandmarkMapModule final : public Module {
             {"true_corners", config_.sight.front_end == FrontEnd::corners ? 1.0 : 0.0, ""}};
   }
 
+  /// The landmarks that are known to a tenth of their distance. What one thing hides of another ends at places that
+  /// wander over the world as the camera moves: they fit no point, and stay vague.
   std::vector<Eigen::Vector3d> do_map() const override {
+    constexpr double kKnown_share = 0.1;
     std::vector<Eigen::Vector3d> points;
     if (!sight_) return points;
     for (const vision::MappedLandmark& mapped : map().landmarks()) {
-      if (map().confirmed(mapped)) points.push_back(vision::position_W(mapped.landmark));
+      if (!map().confirmed(mapped)) continue;
+      const Eigen::Vector3d p_W = vision::position_W(mapped.landmark);
+      const double distance_m = (p_W - sight_->pose().X_WC_est.translation()).norm();
+      const double variance = greatest_variance(vision::covariance_W(mapped.landmark));
+      if (variance <= kKnown_share * kKnown_share * distance_m * distance_m) points.push_back(p_W);
     }
     return points;
   }
 
   cv::Mat do_annotate() const override {
     if (!sight_ || sight_->grey().empty()) return {};
-    return landmark_picture(sight_->grey(), sight_->corners_px(), map(), sight_->pose(), flow_->pinhole());
+    cv::Mat picture = landmark_picture(sight_->grey(), sight_->corners_px(), map(), sight_->pose(), flow_->pinhole());
+    if (!config_.orbit && start_NE_) {
+      PlanView view{{}, hulls_, *start_NE_, end_NE_, at_NE_, way_};
+      for (const Eigen::Vector3d& p_W : do_map()) view.landmarks_NE.emplace_back(p_W.head<2>());
+      draw_plan(view, picture);
+    }
+    return picture;
   }
 
   static constexpr double kInstant_s = 1e-6;
@@ -210,6 +237,7 @@ class LandmarkMapModule final : public Module {
   std::vector<PlanHull> hulls_;
   std::vector<Eigen::Vector2d> way_;
   std::optional<Eigen::Vector2d> start_NE_;
+  Eigen::Vector2d at_NE_ = Eigen::Vector2d::Zero(), end_NE_ = Eigen::Vector2d::Zero();
   bool stopped_ = false;
   int alarms_ = 0;
   double loom_per_s_ = 0.0;

@@ -34,6 +34,7 @@ struct LandmarkMapModuleConfig {
 
   double clearance_m = 6.0;
   double link_m = 14.0;
+  double behind_m = 8.0;
   double lowest_m = 4.0;
   double most_sigma_m = 2.0;
 
@@ -54,6 +55,8 @@ void describe(Visitor& v, LandmarkMapModuleConfig& c) {
     {.unit = "m", .above = 0.0, .meaning = "kept between the vehicle's hull and the obstacles of the map"});
   v("link", c.link_m,
     {.unit = "m", .at_least = 0.0, .meaning = "landmarks within this of one another bound one obstacle"});
+  v("behind", c.behind_m,
+    {.unit = "m", .at_least = 0.0, .meaning = "obstacles reach so far behind the corners seen of them"});
   v("lowest", c.lowest_m, {.unit = "m", .meaning = "landmarks below this height are no obstacles"});
   v("most_sigma", c.most_sigma_m,
     {.unit = "m", .above = 0.0, .meaning = "landmarks of a larger standard deviation are no obstacles yet"});

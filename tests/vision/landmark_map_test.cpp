@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <stdexcept>
 
 #include "sim/reproduce/corner_flight.h"
@@ -64,6 +65,23 @@ TEST_F(LandmarkMapOfAStandingCamera, KeepsALandmarkThatIsOutOfView) {
   pose_.X_WC_est = looking_at({-40, 0, -40}, {-80, 0, 0});
   for (int i = 0; i < 3 * config_.misses; ++i) see({});
   EXPECT_EQ(map_.landmarks().size(), 1U);
+}
+
+// With errors that stay alike for 1 s, twenty pictures of 0.1 s are worth one of white errors.
+TEST(LandmarkMap, PicturesWithAlikeErrorsCountAsOne) {
+  const PinholeCamera camera = PinholeCamera::from_fov(640, 480, std::numbers::pi / 6.0);
+  const CameraPose pose{looking_at({-40, 0, -40}, {0, 0, 0}), 0.3, 0.0};
+  const auto covariance_after = [&](int pictures, double correlation_s) {
+    LandmarkMap map({.pixel_sigma_px = 1e-3, .correlation_s = correlation_s}, camera);
+    const std::vector<Vector2d> corner = {{320, 240}};
+    map.update(corner, pose, 0.0);
+    for (int i = 0; i < pictures; ++i) map.update(corner, pose, kPicture_s);
+    return covariance_W(map.landmarks().at(0).landmark);
+  };
+  const Eigen::Matrix3d alike = covariance_after(200, 1.0), white = covariance_after(10, 0.0);
+  constexpr double kLinearised = 0.02;  // the depth's own variance enters the noise, and falls by smaller steps
+  EXPECT_LT((alike - white).norm(), kLinearised * white.norm());
+  EXPECT_GT((alike - covariance_after(200, 0.0)).norm(), 0.2 * alike.norm());
 }
 
 TEST(LandmarkMap, RefusesABadConfig) {
