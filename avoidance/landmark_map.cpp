@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
 
@@ -12,6 +11,7 @@
 #include "avoidance/go_to_goal.h"
 #include "avoidance/landmark_picture.h"
 #include "avoidance/map_route.h"
+#include "avoidance/plan_picture.h"
 
 namespace hedgehop::avoidance {
 namespace {
@@ -22,15 +22,18 @@ void check(const LandmarkMapModuleConfig& c) {
   const auto need = [](bool holds, const char* message) {
     if (!holds) throw std::invalid_argument(std::string("landmark_map: ") + message);
   };
-  need(c.corners.most >= 1 && c.corners.apart_px >= 1, "corners: most and apart must be at least 1");
-  need(c.corners.quality > 0.0 && c.corners.quality <= 1.0, "corners: quality must lie in (0, 1]");
-  need(c.corners.blur_px > 0.0, "corners: blur must be above 0 px");
   need(c.speed_mps > 0.0, "speed must be above 0 m/s");
   need(c.clearance_m > 0.0 && c.link_m >= 0.0 && c.most_sigma_m > 0.0,
        "clearance and most_sigma must be above 0 m, link not below");
+  need(c.behind_m >= 0.0, "behind must not be negative");
   need(c.time_to_contact_s >= 0.0 && c.stop_range_m >= 0.0, "time_to_contact and stop_range must not be negative");
+  need(c.loom_time_s >= 0.0, "loom_time must not be negative");
   need(c.flow_share > 0.0 && c.flow_share <= 1.0, "flow_share must lie in (0, 1]");
   need(c.braking_mps2 > 0.0, "braking must be above 0 m/s^2");
+}
+
+double greatest_variance(const Eigen::MatrixXd& P) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(P, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }
 
 class LandmarkMapModule final : public Module {
@@ -38,23 +41,22 @@ class LandmarkMapModule final : public Module {
   explicit LandmarkMapModule(const LandmarkMapModuleConfig& config) : config_(config) { check(config); }
 
  private:
-  Needs do_needs() const override { return {{{kRole, CameraNeed::Channel::grey, /*pinhole=*/true}}}; }
+  Needs do_needs() const override { return {{LandmarkSight::need(config_.sight)}}; }
   std::vector<Signal> do_signals() const override {
     return {{"corners", ""}, {"landmarks", ""}, {"obstacles", ""}, {"loom_per_s", "1/s"}, {"off_course_m", "m"}};
   }
 
   void do_reset(const Setup& setup) override {
-    camera_ = *std::ranges::find(setup.cameras, kRole, &MountedCamera::role);
-    map_.emplace(config_.map, camera_.model.pinhole());
-    flow_.emplace(camera_, CameraFlow::Options{config_.flow, /*derotate=*/true, vision::Missing::skip});
+    const MountedCamera& camera = *std::ranges::find(setup.cameras, kRole, &MountedCamera::role);
+    sight_.emplace(config_.sight, camera);
+    flow_.emplace(camera, CameraFlow::Options{config_.flow, /*derotate=*/true, vision::Missing::skip});
     clearance_m_ = config_.clearance_m + setup.limits.radius_m;
-    corners_px_.clear();
     hulls_.clear();
     way_.clear();
     start_NE_.reset();
-    last_t_ns_.reset();
     stopped_ = false;
     alarms_ = 0;
+    loom_per_s_ = 0.0;
     off_course_m_ = most_off_course_m_ = 0.0;
   }
 
@@ -63,8 +65,8 @@ class LandmarkMapModule final : public Module {
     if (!start_NE_) start_NE_ = navigation.p_WB_est.head<2>();
     const auto frame = std::ranges::find(observation.frames, kRole, &CameraFrame::role);
     if (frame != observation.frames.end()) look(*frame, navigation);
-    const auto measure = flow_->measure(observation.t_ns);
-    stopped_ = stopped_ || wall_ahead(measure, navigation);
+    smooth_loom(flow_->measure(observation.t_ns));
+    stopped_ = stopped_ || wall_ahead(navigation);
 
     Decision decision;
     if (stopped_) {
@@ -74,50 +76,36 @@ class LandmarkMapModule final : public Module {
     } else {
       decision = follow_course(navigation, observation.goal);
     }
-    decision.signals = {static_cast<double>(corners_px_.size()), static_cast<double>(confirmed()),
-                        static_cast<double>(hulls_.size()), measure ? measure->loom_per_s : 0.0, off_course_m_};
+    decision.signals = {static_cast<double>(sight_->corners_px().size()), static_cast<double>(confirmed()),
+                        static_cast<double>(hulls_.size()), loom_per_s_, off_course_m_};
     return decision;
   }
 
   void look(const CameraFrame& frame, const NavigationState& navigation) {
-    if (last_t_ns_ && frame.t_ns <= *last_t_ns_) return;
-    const double dt_s = last_t_ns_ ? 1e-9 * static_cast<double>(frame.t_ns - *last_t_ns_) : 0.0;
-    last_t_ns_ = frame.t_ns;
-    flow_->update(frame, navigation.w_WB_B_est);
-    find_corners(frame.image);
-    Eigen::Isometry3d X_WB_est = Eigen::Isometry3d::Identity();
-    X_WB_est.linear() = navigation.q_WB_est.toRotationMatrix();
-    X_WB_est.translation() = navigation.p_WB_est;
-    pose_ = {X_WB_est * camera_.X_BC, config_.map.position_sigma_m, config_.map.attitude_sigma_rad};
-    map_->update(corners_px_, pose_, dt_s);
-  }
-
-  void find_corners(const cv::Mat& grey) {
-    std::vector<cv::Point2f> found;
-    cv::Mat smooth;
-    cv::GaussianBlur(grey, smooth, {}, config_.corners.blur_px);
-    const int block_px = 2 * static_cast<int>(std::ceil(config_.corners.blur_px)) + 1;
-    cv::goodFeaturesToTrack(smooth, found, config_.corners.most, config_.corners.quality, config_.corners.apart_px,
-                            cv::noArray(), block_px);
-    if (!found.empty()) {
-      const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.01);
-      cv::cornerSubPix(smooth, found, {3, 3}, {-1, -1}, until);
-    }
-    corners_px_.clear();
-    for (const cv::Point2f& corner : found) corners_px_.emplace_back(corner.x, corner.y);
+    if (!sight_->update(frame, navigation)) return;
+    flow_->update({frame.role, frame.t_ns, sight_->grey(), {}}, navigation.w_WB_B_est);
   }
 
   /// Whether something without corners is so near that the flight must stop: by the divergence of the flow, as
   /// [Shah2009] ch. 7 proposes, or by a single beam. Several times running, for one measurement may err.
-  bool wall_ahead(const std::optional<CameraFlow::Measure>& measure, const NavigationState& navigation) {
+  bool wall_ahead(const NavigationState& navigation) {
     const double v_mps = std::max(0.0, navigation.v_WB_B_est.x());
-    const bool flows = measure && config_.time_to_contact_s > 0.0 && measure->valid_share >= config_.flow_share;
     const double reaction_m = v_mps * kReaction_s + 0.5 * v_mps * v_mps / config_.braking_mps2;
-    const bool near = (flows && measure->loom_per_s * config_.time_to_contact_s > 1.0) ||
+    const bool near = loom_per_s_ * config_.time_to_contact_s > 1.0 ||
                       (navigation.range_m && *navigation.range_m < config_.stop_range_m + reaction_m);
     alarms_ = near ? alarms_ + 1 : 0;
     constexpr int kAlarms = 6;
     return alarms_ >= kAlarms;
+  }
+
+  /// The flow's divergence, smoothed; 0 while too little of the picture flows to judge by.
+  void smooth_loom(const std::optional<CameraFlow::Measure>& measure) {
+    if (!measure || measure->valid_share < config_.flow_share) {
+      loom_per_s_ = 0.0;
+      return;
+    }
+    const double share = 1.0 - std::exp(-measure->dt_s / std::max(config_.loom_time_s, kInstant_s));
+    loom_per_s_ += share * (measure->loom_per_s - loom_per_s_);
   }
 
   Command fly_round(const NavigationState& navigation, const Goal& goal) {
@@ -137,6 +125,8 @@ class LandmarkMapModule final : public Module {
   /// place from which the rest of the course is free.
   Decision follow_course(const NavigationState& navigation, const Goal& goal) {
     const Eigen::Vector2d at = navigation.p_WB_est.head<2>(), end = goal.p_WG.head<2>();
+    at_NE_ = at;
+    end_NE_ = end;
     const Eigen::Vector2d course = end - *start_NE_;
     const double length_m = course.norm();
     const Eigen::Vector2d along = length_m > 0.0 ? Eigen::Vector2d(course / length_m) : Eigen::Vector2d::UnitX();
@@ -171,63 +161,86 @@ class LandmarkMapModule final : public Module {
     return {command, status, {}};
   }
 
-  /// What the map knows well enough and high enough to matter, from above.
+  /// What the map knows well enough and high enough to matter, from above, and what may stand behind it.
   std::vector<PlanHull> obstacles() const {
-    std::vector<Eigen::Vector2d> points;
-    for (const vision::MappedLandmark& mapped : map_->landmarks()) {
-      if (!map_->confirmed(mapped)) continue;
+    std::vector<Eigen::Vector2d> points, seen_from;
+    for (const vision::MappedLandmark& mapped : map().landmarks()) {
+      if (!map().confirmed(mapped)) continue;
       const Eigen::Vector3d p_W = vision::position_W(mapped.landmark);
-      const Eigen::Matrix2d P = vision::covariance_W(mapped.landmark).topLeftCorner<2, 2>();
-      const double variance = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(P).eigenvalues().maxCoeff();
+      const Eigen::Matrix3d P = vision::covariance_W(mapped.landmark);
+      const double variance = greatest_variance(P.topLeftCorner<2, 2>());
       if (-p_W.z() < config_.lowest_m || variance > config_.most_sigma_m * config_.most_sigma_m) continue;
       points.push_back(p_W.head<2>());
+      seen_from.push_back(mapped.landmark.X_WA.translation().head<2>());
     }
-    std::vector<PlanHull> hulls = plan_hulls(points, config_.link_m);
-    std::erase_if(hulls, [](const PlanHull& hull) { return hull.size() < 2; });  // a corner alone bounds nothing
-    return hulls;
+    std::vector<Eigen::Vector2d> filled;
+    for (size_t i = 0; i < points.size(); ++i) {
+      const auto near = [&](const Eigen::Vector2d& p) { return (p - points[i]).norm() <= config_.link_m; };
+      if (std::ranges::count_if(points, near) < 2) continue;  // a corner alone bounds nothing
+      filled.push_back(points[i]);
+      filled.push_back(points[i] + config_.behind_m * (points[i] - seen_from[i]).normalized());
+    }
+    return plan_hulls(filled, std::max(config_.link_m, config_.behind_m));
   }
 
+  const vision::LandmarkMap& map() const { return sight_->map(); }
+
   int64_t confirmed() const {
-    return std::ranges::count_if(map_->landmarks(), [&](const auto& mapped) { return map_->confirmed(mapped); });
+    if (!sight_) return 0;
+    return std::ranges::count_if(map().landmarks(), [&](const auto& mapped) { return map().confirmed(mapped); });
   }
 
   std::vector<Metric> do_metrics() const override {
-    return {{"landmarks", map_ ? static_cast<double>(confirmed()) : 0.0, ""},
+    return {{"landmarks", static_cast<double>(confirmed()), ""},
             {"obstacles", static_cast<double>(hulls_.size()), ""},
             {"most_off_course", most_off_course_m_, "m"},
             {"off_course_at_end", off_course_m_, "m"},
-            {"stopped", stopped_ ? 1.0 : 0.0, ""}};
+            {"stopped", stopped_ ? 1.0 : 0.0, ""},
+            {"filter_ms_total", sight_ ? sight_->filter_ms() : 0.0, "ms"},
+            {"true_corners", config_.sight.front_end == FrontEnd::corners ? 1.0 : 0.0, ""}};
   }
 
+  /// The landmarks that are known to a tenth of their distance. What one thing hides of another ends at places that
+  /// wander over the world as the camera moves: they fit no point, and stay vague.
   std::vector<Eigen::Vector3d> do_map() const override {
+    constexpr double kKnown_share = 0.1;
     std::vector<Eigen::Vector3d> points;
-    if (!map_) return points;
-    for (const vision::MappedLandmark& mapped : map_->landmarks()) {
-      if (map_->confirmed(mapped)) points.push_back(vision::position_W(mapped.landmark));
+    if (!sight_) return points;
+    for (const vision::MappedLandmark& mapped : map().landmarks()) {
+      if (!map().confirmed(mapped)) continue;
+      const Eigen::Vector3d p_W = vision::position_W(mapped.landmark);
+      const double distance_m = (p_W - sight_->pose().X_WC_est.translation()).norm();
+      const double variance = greatest_variance(vision::covariance_W(mapped.landmark));
+      if (variance <= kKnown_share * kKnown_share * distance_m * distance_m) points.push_back(p_W);
     }
     return points;
   }
 
   cv::Mat do_annotate() const override {
-    if (!last_t_ns_) return {};
-    return landmark_picture(flow_->picture(), corners_px_, *map_, pose_, camera_.model.pinhole());
+    if (!sight_ || sight_->grey().empty()) return {};
+    cv::Mat picture = landmark_picture(sight_->grey(), sight_->corners_px(), map(), sight_->pose(), flow_->pinhole());
+    if (!config_.orbit && start_NE_) {
+      PlanView view{{}, hulls_, *start_NE_, end_NE_, at_NE_, way_};
+      for (const Eigen::Vector3d& p_W : do_map()) view.landmarks_NE.emplace_back(p_W.head<2>());
+      draw_plan(view, picture);
+    }
+    return picture;
   }
 
+  static constexpr double kInstant_s = 1e-6;
   static constexpr double kReaction_s = 0.5;  ///< until a stop takes effect: latency and the vehicle's tilt
 
   LandmarkMapModuleConfig config_;
-  MountedCamera camera_;
-  std::optional<vision::LandmarkMap> map_;
+  std::optional<LandmarkSight> sight_;
   std::optional<CameraFlow> flow_;
   double clearance_m_ = 0.0;  ///< of B: the hull's radius added
-  vision::CameraPose pose_;   ///< of the last picture
-  std::vector<Eigen::Vector2d> corners_px_;
   std::vector<PlanHull> hulls_;
   std::vector<Eigen::Vector2d> way_;
   std::optional<Eigen::Vector2d> start_NE_;
-  std::optional<int64_t> last_t_ns_;
+  Eigen::Vector2d at_NE_ = Eigen::Vector2d::Zero(), end_NE_ = Eigen::Vector2d::Zero();
   bool stopped_ = false;
   int alarms_ = 0;
+  double loom_per_s_ = 0.0;
   double off_course_m_ = 0.0, most_off_course_m_ = 0.0;
 };
 

@@ -41,6 +41,9 @@ struct CameraFrame {
   std::string role;  ///< "front", "left", ... as the rig names it
   int64_t t_ns = 0;  ///< instant of exposure
   cv::Mat image;     ///< rows x cols; CV_8UC1 grey, CV_8UC3 RGB, CV_32FC1 depth (z in C, fisheye: range; m; or NaN)
+  /// True corners of the scene, through walls, with noise: for a need of `true_corners` only, an experiment. Else
+  /// empty.
+  std::vector<Eigen::Vector2d> corners_px;
 };
 
 struct Observation {
@@ -75,7 +78,8 @@ using Command = std::variant<VelocityCommand, PositionCommand, AttitudeCommand, 
 struct CameraNeed {
   std::string role;
   enum class Channel { grey, color, depth } channel = Channel::grey;
-  bool pinhole = false;  ///< the module's mathematics holds for a pinhole without distortion only
+  bool pinhole = false;       ///< the module's mathematics holds for a pinhole without distortion only
+  bool true_corners = false;  ///< an experiment: the frames come with the corners that the scene has
 };
 struct Needs {
   std::vector<CameraNeed> cameras;

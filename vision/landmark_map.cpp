@@ -1,5 +1,6 @@
 #include "vision/landmark_map.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -18,10 +19,18 @@ void check(const LandmarkMapConfig& c) {
   need(c.start.ground_sigma > 0.0, "ground_sigma must be above 0");
   need(c.start.nearest_m > 0.0 && c.start.beyond_horizon_m > 0.0, "nearest and beyond_horizon must be above 0 m");
   need(c.pixel_sigma_px > 0.0, "pixel_sigma must be above 0 px");
-  need(c.position_sigma_m >= 0.0 && c.attitude_sigma_rad >= 0.0 && c.drift_m_rt_s >= 0.0,
-       "position_sigma, attitude_sigma and drift must not be negative");
+  need(c.position_sigma_m >= 0.0 && c.attitude_sigma_rad >= 0.0 && c.drift_m_rt_s >= 0.0 && c.correlation_s >= 0.0,
+       "position_sigma, attitude_sigma, correlation and drift must not be negative");
   need(c.gate > 0.0, "gate must be above 0");
   need(c.misses >= 1 && c.young_misses >= 1 && c.confirm >= 1, "misses, young_misses and confirm must be at least 1");
+}
+
+/// The pose as one of many measurements whose errors are alike: of so many within the correlation time, all together
+/// are worth one. The integral of an exponentially fading correlation is twice its time constant.
+CameraPose as_one_of_alike(const CameraPose& pose, double correlation_s, double dt_s) {
+  if (!(dt_s > 0.0)) return pose;
+  const double times = std::sqrt(std::max(1.0, 2.0 * correlation_s / dt_s));
+  return {pose.X_WC_est, times * pose.position_sigma_m, times * pose.attitude_sigma_rad};
 }
 
 }  // namespace
@@ -39,7 +48,7 @@ std::vector<int64_t> LandmarkMap::update(std::span<const Eigen::Vector2d> corner
   const Predictions at_estimate = predict(pose);
   const CameraPose better_pose =
       corrected(pose, common_error(at_estimate, bearings, error_covariance(pose), bearing_sigma_));
-  const Predictions at_better = predict(better_pose);
+  const Predictions at_better = predict(as_one_of_alike(better_pose, config_.correlation_s, dt_s));
   Predictions to_match = at_better;
   for (auto& one : to_match) {
     if (one) one = with_known_pose(*one, bearing_sigma_);

@@ -16,6 +16,7 @@ struct LandmarkMapConfig {
   double pixel_sigma_px = 0.7;
   double position_sigma_m = 0.43;      ///< 1 % of 140 ft, [Shah2009] table 4.1
   double attitude_sigma_rad = 6.3e-4;  ///< 0.01 % of a full turn, [Shah2009] table 4.1
+  double correlation_s = 0.0;
   double drift_m_rt_s = 0.0;
   double gate = 4.0;  ///< residuals of 4 standard deviations
   int misses = 30;    ///< N of [Shah2009] ch. 4
@@ -36,9 +37,13 @@ void describe(Visitor& v, LandmarkMapConfig& c) {
   v("pixel_sigma", c.pixel_sigma_px,
     {.unit = "px", .above = 0.0, .meaning = "standard deviation of a corner in a picture, per axis"});
   v("position_sigma", c.position_sigma_m,
-    {.unit = "m", .at_least = 0.0, .meaning = "standard deviation of the position's error that changes every picture"});
+    {.unit = "m", .at_least = 0.0, .meaning = "standard deviation of the position's error, per axis"});
   v("attitude_sigma", c.attitude_sigma_rad,
     {.unit = "deg", .at_least = 0.0, .meaning = "standard deviation of the attitude's error, per axis"});
+  v("correlation", c.correlation_s,
+    {.unit = "s",
+     .at_least = 0.0,
+     .meaning = "how long errors of position and attitude stay alike; pictures within it do not average them out"});
   v("drift", c.drift_m_rt_s,
     {.unit = "m/sqrt(s)", .at_least = 0.0, .meaning = "growth of a landmark's standard deviation: process noise"});
   v("gate", c.gate, {.above = 0.0, .meaning = "largest Z value of a match; n standard deviations have n^2 / 4"});

@@ -54,10 +54,15 @@ std::vector<std::pair<std::string, Cell>> check_cells(const Json& result) {
   return cells;
 }
 
-std::vector<std::pair<std::string, Cell>> metric_cells(const Json& result) {
+/// A module's own figures; those of wall time stand among the times, which differ from flight to flight.
+bool is_time(const std::string& metric) { return metric.find("_ms") != std::string::npos; }
+
+std::vector<std::pair<std::string, Cell>> metric_cells(const Json& result, const std::string& group, bool times) {
   std::vector<std::pair<std::string, Cell>> cells;
   if (!result.is_object()) return cells;
-  for (const auto& [name, value] : result.at("metrics").items()) cells.emplace_back("metric." + name, cell(value));
+  for (const auto& [name, value] : result.at("metrics").items()) {
+    if (is_time(name) == times) cells.emplace_back(group + name, cell(value));
+  }
   return cells;
 }
 
@@ -105,12 +110,13 @@ Table flight_table(const std::vector<FlightRecord>& records, const std::vector<E
   for (const std::string name : kFigures) {
     add(table, records, name, [&](const FlightRecord& r) { return field(r.result, name); });
   }
-  add_named(table, records, metric_cells);
+  add_named(table, records, [](const Json& result) { return metric_cells(result, "metric.", /*times=*/false); });
   add_named(table, records, check_cells);
   add(table, records, "command", [](const FlightRecord& r) { return rerun_command(r.order); });
   for (const std::string name : kTimes) {
     add(table, records, "time." + name, [&](const FlightRecord& r) { return field(r.result, name); });
   }
+  add_named(table, records, [](const Json& result) { return metric_cells(result, "time.", /*times=*/true); });
   for (const std::string name : kStages) {
     for (const std::string which : {"median", "p95"}) {
       add(table, records, fmt::format("time.{}.{}", name, which), [&](const FlightRecord& r) {

@@ -26,9 +26,9 @@ struct ExtraColumn {
 };
 
 /// One row a record, in their order: what was ordered, how it ended, the result's figures, the module's metrics
-/// (`metric.NAME`), the checks' values (`check.NAME`), the command that flies it again, and last the columns that
-/// differ from run to run (those whose names begin with `time.`). Column names depend on the records alone, never on
-/// the order in which flights ended.
+/// (`metric.NAME`; those of wall time `time.NAME`), the checks' values (`check.NAME`), the command that flies it again,
+/// and last the columns that differ from run to run (those whose names begin with `time.`). Column names depend on the
+/// records alone, never on the order in which flights ended.
 Table flight_table(const std::vector<FlightRecord>& records, const std::vector<ExtraColumn>& extra = {});
 
 /// The table as comma-separated values with a header line.

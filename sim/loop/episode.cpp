@@ -17,6 +17,7 @@
 #include "sim/loop/aircraft.h"
 #include "sim/loop/assessment.h"
 #include "sim/loop/cameras.h"
+#include "sim/loop/corner_sight.h"
 #include "sim/loop/flight_log.h"
 #include "sim/loop/map_score.h"
 #include "sim/loop/plugin_module.h"
@@ -54,6 +55,7 @@ class Episode {
   void sense();
   void look();
   void decide();
+  void judge_map();
   void steer();
   void show();
   bool ended();
@@ -61,6 +63,7 @@ class Episode {
 
   void end(Outcome outcome, std::string cause = {});
   std::optional<double> goal_distance_m() const;
+  Eigen::Isometry3d X_WC(size_t camera) const;  ///< true
 
   const Scenario& scenario_;
   FlightWatcher* watcher_;
@@ -82,7 +85,8 @@ class Episode {
   std::deque<PendingCommand> pending_;
   dynamics::Setpoint setpoint_;
   FlightLog log_;
-  std::optional<MapScore> map_score_;  ///< where the scene's corners are known
+  std::optional<MapScore> map_score_;        ///< where the scene's corners are known
+  std::optional<ProjectedCorners> corners_;  ///< for a module that asks for the true ones
   StageTimer physics_, render_, velocimetry_, decision_;
   std::optional<Outcome> outcome_;
   std::string cause_;
@@ -106,9 +110,14 @@ Episode::Episode(const Scenario& scenario, FlightWatcher* watcher)
     velocimeter_.emplace(cameras_.index(scenario.velocimeter.camera), cameras_);
   }
   int64_t slowest = 0;
+  const auto* highrise = std::get_if<scenes::HighriseConfig>(&scenario.scene);
   for (const avoidance::CameraNeed& need : module_->needs().cameras) {
     module_cameras_.push_back(cameras_.index(need.role));
     slowest = std::max(slowest, cameras_.period_ticks(module_cameras_.back()));
+    if (need.true_corners) {
+      if (!highrise) throw InputError("avoidance: true corners are known of scene 'highrise' alone");
+      corners_.emplace(scenes::highrise_corners(*highrise), stream_seed(scenario.seed, "corners"));
+    }
   }
   // A module without cameras decides as often as the rig's fastest camera, so that a control compares like with like.
   decision_period_ = cameras_.count() > 0 ? cameras_.period_ticks(0) : control_period_;
@@ -126,7 +135,8 @@ void Episode::begin() {
                   {limits.speed_limit_mps, limits.acceleration_limit_mps2, dynamics::radius_m(hull_)},
                   stream_seed(scenario_.seed, "module")});
   log_.set_signals(module_->signals());
-  if (const auto* highrise = std::get_if<scenes::HighriseConfig>(&scenario_.scene)) {
+  if (const auto* highrise = std::get_if<scenes::HighriseConfig>(&scenario_.scene);
+      highrise && !module_cameras_.empty()) {
     map_score_.emplace(scenes::highrise_corners(*highrise), aircraft_.body().p_WB);
   }
 }
@@ -205,7 +215,10 @@ void Episode::look() {
   };
   for (const size_t camera : module_cameras_) {
     if (!cameras_.due(camera, tick_)) continue;
-    if (const avoidance::CameraFrame* const frame = expose(camera)) seen_.push_back(*frame);
+    const avoidance::CameraFrame* const frame = expose(camera);
+    if (!frame) continue;
+    seen_.push_back(*frame);
+    if (corners_) seen_.back().corners_px = corners_->project(cameras_.mounted(camera).model, X_WC(camera));
   }
   if (velocimeter_ && cameras_.due(velocimeter_->camera(), tick_)) {
     const avoidance::CameraFrame* const frame = expose(velocimeter_->camera());
@@ -226,11 +239,23 @@ void Episode::decide() {
     const avoidance::Decision decision = module_->update(observation);
     pending_.push_back({tick_ + latency_, decision.command});
     log_.add(ticks_.t_s(tick_), decision);
-    if (map_score_) map_score_->add(ticks_.t_s(tick_), module_->map());
+    judge_map();
   } catch (const std::exception& error) {
     end(Outcome::fault, fmt::format("the module failed at {:.3f} s: {}", ticks_.t_s(tick_), error.what()));
   }
 }
+
+/// Compares the module's map with the scene, by what its first camera can see of it.
+void Episode::judge_map() {
+  if (!map_score_) return;
+  const size_t camera = module_cameras_.front();
+  const double t_s = ticks_.t_s(tick_);
+  map_score_->add(t_s, module_->map(),
+                  corners_in_sight(map_score_->corners_W(), cameras_.mounted(camera).model, X_WC(camera),
+                                   corners_ ? nullptr : &collision_, t_s));
+}
+
+Eigen::Isometry3d Episode::X_WC(size_t camera) const { return aircraft_.X_WB() * cameras_.mounted(camera).X_BC; }
 
 /// Lets commands whose latency is over take effect and runs the autopilot.
 void Episode::steer() {

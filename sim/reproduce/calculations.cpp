@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "sim/reproduce/centering_runs.h"
+#include "sim/reproduce/landmark_costs.h"
+#include "sim/reproduce/landmark_flights.h"
 #include "sim/reproduce/section_costs.h"
 
 namespace hedgehop::sim {
@@ -21,6 +23,34 @@ const std::vector<Calculation>& calculations() {
        .meaning = "choosing among sections of a depth map, by their number",
        .columns = {"sections", "decisions_hz", "cost_over_3x3", "cost_ms"},
        .calculate = section_costs},
+      {.name = "landmark_costs",
+       .meaning = "what a picture costs the filter, by the number of landmarks",
+       .columns = {"landmarks", "picture_ms", "speed", "growth_8_to_35"},
+       .calculate = landmark_costs},
+      {.name = "cube_lateral_errors",
+       .meaning = "error of the map of a cube's projected corners, circling",
+       .columns = landmark_error_columns(),
+       .calculate = cube_lateral_errors},
+      {.name = "highrise_lateral_errors",
+       .meaning = "error of the map of 35 projected corners, circling",
+       .columns = landmark_error_columns(),
+       .calculate = highrise_lateral_errors},
+      {.name = "highrise_forward_errors",
+       .meaning = "error of the map of 35 projected corners, flying towards them",
+       .columns = landmark_error_columns(),
+       .calculate = highrise_forward_errors},
+      {.name = "cube_lateral_map",
+       .meaning = "map of a cube's projected corners, circling",
+       .columns = landmark_map_columns(),
+       .calculate = cube_lateral_map},
+      {.name = "highrise_lateral_map",
+       .meaning = "map of 35 projected corners, circling",
+       .columns = landmark_map_columns(),
+       .calculate = highrise_lateral_map},
+      {.name = "highrise_forward_map",
+       .meaning = "map of 35 projected corners, flying towards them",
+       .columns = landmark_map_columns(),
+       .calculate = highrise_forward_map},
   };
   return all;
 }

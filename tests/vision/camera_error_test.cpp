@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/vision/landmark_flight.h"
+#include "sim/reproduce/corner_flight.h"
 #include "tests/vision/random_lenses.h"
 
 namespace hedgehop::vision {
@@ -24,7 +24,7 @@ constexpr double kBearingSigma = 5e-4;
 Sight random_sight(std::mt19937_64& random, size_t points, double clutter) {
   std::normal_distribution<double> normal;
   Sight sight;
-  sight.pose = {looking_at({-42, 0, -42}, {0, 0, -5}), 0.4, 1e-3};
+  sight.pose = {sim::looking_at({-42, 0, -42}, {0, 0, -5}), 0.4, 1e-3};
   for (int i = 0; i < 6; ++i) {
     sight.error_true[i] = (i < 3 ? sight.pose.position_sigma_m : sight.pose.attitude_sigma_rad) * normal(random);
   }
@@ -72,7 +72,7 @@ TEST(CameraError, CorrectedPoseIsWhereTheCameraWas) {
   for (int trial = 0; trial < 50; ++trial) {
     CameraError error;
     for (int i = 0; i < 6; ++i) error[i] = uniform(random, -0.1, 0.1);
-    const CameraPose pose{looking_at({-42, 0, -42}, {0, 0, -5}), 0.4, 1e-3};
+    const CameraPose pose{sim::looking_at({-42, 0, -42}, {0, 0, -5}), 0.4, 1e-3};
     const Eigen::Isometry3d X_CC = pose.X_WC_est.inverse() * corrected(pose, error).X_WC_est;
     EXPECT_LT((X_CC.translation() - error.head<3>()).norm(), 1e-12);
     const Eigen::AngleAxisd turn(X_CC.linear());

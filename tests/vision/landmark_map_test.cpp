@@ -2,100 +2,26 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
+#include <numbers>
 #include <stdexcept>
 
-#include "scenes/highrise.h"
-#include "tests/vision/landmark_flight.h"
+#include "sim/reproduce/corner_flight.h"
 #include "tests/vision/random_lenses.h"
 
 namespace hedgehop::vision {
 namespace {
 
 using Eigen::Vector2d;
-using Eigen::Vector3d;
+using sim::looking_at;
 
-LandmarkMapConfig config_of(LandmarkCoordinates coordinates) {
-  LandmarkMapConfig config;
-  config.start.coordinates = coordinates;
-  return config;
-}
-
-/// A flight of the thesis with the time it must converge in.
-struct Asked {
-  std::string name;
-  CornerFlight flight;
-  double converged_s;
-  friend std::ostream& operator<<(std::ostream& out, const Asked& asked) { return out << asked.name; }
-};
-
-Asked cube_lateral() {
-  const scenes::HighriseConfig cube{.layout = scenes::HighriseConfig::Layout::cube};
-  return {"cube_lateral", lateral_flight(scenes::highrise_corners(cube), {0, 0, -9}), 30.0};
-}
-Asked skyline_lateral() {
-  return {"skyline_lateral", lateral_flight(scenes::highrise_corners({.scale = 0.5}), {0, 0, -7}), 50.0};
-}
-Asked skyline_forward() { return {"skyline_forward", forward_flight(scenes::highrise_corners({})), 100.0}; }
-
-const char* name_of(LandmarkCoordinates coordinates) {
-  return coordinates == LandmarkCoordinates::cartesian ? "ground" : "inverse_depth";
-}
-
-class ThesisFlight : public testing::TestWithParam<std::tuple<Asked, LandmarkCoordinates>> {};
-INSTANTIATE_TEST_SUITE_P(
-    LandmarkMap, ThesisFlight,
-    testing::Combine(testing::Values(cube_lateral(), skyline_lateral(), skyline_forward()),
-                     testing::Values(LandmarkCoordinates::cartesian, LandmarkCoordinates::inverse_depth)),
-    [](const auto& instance) { return std::get<0>(instance.param).name + "_" + name_of(std::get<1>(instance.param)); });
-
-TEST_P(ThesisFlight, FindsEveryCornerInTheTimeAskedAndNothingElse) {
-  const auto& [asked, coordinates] = GetParam();
-  std::string times_s;
-  for (uint64_t seed = 1; seed <= 5; ++seed) {
-    const CornerFlightResult result = fly(asked.flight, config_of(coordinates), seed);
-    EXPECT_LE(result.converged_s, asked.converged_s) << "seed " << seed;
-    EXPECT_EQ(result.landmarks, asked.flight.corners_W.size()) << "seed " << seed;
-    times_s += std::to_string(result.converged_s).substr(0, 4) + " ";
-  }
-  RecordProperty("converged_s", times_s);
-}
-
-class Consistency : public testing::TestWithParam<LandmarkCoordinates> {};
-INSTANTIATE_TEST_SUITE_P(LandmarkMap, Consistency,
-                         testing::Values(LandmarkCoordinates::cartesian, LandmarkCoordinates::inverse_depth),
-                         [](const auto& instance) { return name_of(instance.param); });
-
-// One landmark of each of 50 flights: the sum of their squared normalised errors is chi-square of 150 degrees of
-// freedom.
-TEST_P(Consistency, NormalisedErrorsLieWithinTheirChiSquareBounds) {
-  constexpr double kLeast = 99.4, kMost = 213.7;  // 0.05 % and 99.95 % of chi-square with 150 degrees of freedom
-  CornerFlight flight = skyline_lateral().flight;
-  flight.duration_s = 60.0;
-  std::map<int, double> sum_at_s;
-  for (uint64_t seed = 1; seed <= 50; ++seed) {
-    const size_t corner = static_cast<size_t>(seed) % flight.corners_W.size();
-    fly(flight, config_of(GetParam()), seed, [&](double t_s, const LandmarkMap& map, const auto& id_of) {
-      for (const int at_s : {10, 20, 40, 60}) {
-        if (std::abs(t_s - at_s) > 1e-6) continue;
-        const auto found = std::ranges::find(map.landmarks(), id_of.at(corner), &MappedLandmark::id);
-        ASSERT_NE(found, map.landmarks().end());
-        const Vector3d error = position_W(found->landmark) - flight.corners_W[corner];
-        sum_at_s[at_s] += error.dot(covariance_W(found->landmark).inverse() * error);
-      }
-    });
-  }
-  ASSERT_EQ(sum_at_s.size(), 4U);
-  for (const auto& [at_s, sum] : sum_at_s) {
-    EXPECT_GT(sum, kLeast) << at_s << " s";
-    EXPECT_LT(sum, kMost) << at_s << " s";
-  }
-}
+constexpr double kPicture_s = 0.1;
 
 /// A map seen by a camera that stands still.
 class StandingCamera : public testing::Test {
  protected:
-  std::vector<int64_t> see(const std::vector<Vector2d>& corners_px) { return map_.update(corners_px, pose_, kFrame_s); }
+  std::vector<int64_t> see(const std::vector<Vector2d>& corners_px) {
+    return map_.update(corners_px, pose_, kPicture_s);
+  }
 
   LandmarkMapConfig config_{.misses = 5, .young_misses = 2, .confirm = 3};
   PinholeCamera camera_ = PinholeCamera::from_fov(640, 480, std::numbers::pi / 6.0);
@@ -141,6 +67,23 @@ TEST_F(LandmarkMapOfAStandingCamera, KeepsALandmarkThatIsOutOfView) {
   EXPECT_EQ(map_.landmarks().size(), 1U);
 }
 
+// With errors that stay alike for 1 s, twenty pictures of 0.1 s are worth one of white errors.
+TEST(LandmarkMap, PicturesWithAlikeErrorsCountAsOne) {
+  const PinholeCamera camera = PinholeCamera::from_fov(640, 480, std::numbers::pi / 6.0);
+  const CameraPose pose{looking_at({-40, 0, -40}, {0, 0, 0}), 0.3, 0.0};
+  const auto covariance_after = [&](int pictures, double correlation_s) {
+    LandmarkMap map({.pixel_sigma_px = 1e-3, .correlation_s = correlation_s}, camera);
+    const std::vector<Vector2d> corner = {{320, 240}};
+    map.update(corner, pose, 0.0);
+    for (int i = 0; i < pictures; ++i) map.update(corner, pose, kPicture_s);
+    return covariance_W(map.landmarks().at(0).landmark);
+  };
+  const Eigen::Matrix3d alike = covariance_after(200, 1.0), white = covariance_after(10, 0.0);
+  constexpr double kLinearised = 0.02;  // the depth's own variance enters the noise, and falls by smaller steps
+  EXPECT_LT((alike - white).norm(), kLinearised * white.norm());
+  EXPECT_GT((alike - covariance_after(200, 0.0)).norm(), 0.2 * alike.norm());
+}
+
 TEST(LandmarkMap, RefusesABadConfig) {
   const PinholeCamera camera = PinholeCamera::from_fov(64, 64, 1.0);
   const auto refuse = [&](auto change) {
@@ -155,6 +98,7 @@ TEST(LandmarkMap, RefusesABadConfig) {
   refuse([](LandmarkMapConfig& c) { c.position_sigma_m = -1; });
   refuse([](LandmarkMapConfig& c) { c.attitude_sigma_rad = NAN; });
   refuse([](LandmarkMapConfig& c) { c.drift_m_rt_s = -1; });
+  refuse([](LandmarkMapConfig& c) { c.correlation_s = -1; });
   refuse([](LandmarkMapConfig& c) { c.gate = 0; });
   refuse([](LandmarkMapConfig& c) { c.misses = 0; });
   refuse([](LandmarkMapConfig& c) { c.young_misses = 0; });

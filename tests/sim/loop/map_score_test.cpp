@@ -16,10 +16,11 @@ std::map<std::string, double> values(const MapScore& score) {
   return found;
 }
 
-// Two corners 100 m away; the map is 3 m off in one of three coordinates at the first: 1 %, and lacks the second.
+// Two corners 100 m away, long in sight; the map is 3 m off in one of three coordinates at the first: 1 %, and lacks
+// the second.
 TEST(MapScore, MeansOverCoordinatesAndCorners) {
   MapScore score({{100, 0, 0}, {0, 100, 0}}, Vector3d::Zero());
-  score.add(1.0, std::vector<Vector3d>{{103, 0, 0}});
+  score.add(20.0, std::vector<Vector3d>{{103, 0, 0}}, {true, true});
   const auto found = values(score);
   const double missing = 100.0 * (103.0 + 100.0) / 3.0 / 100.0;
   EXPECT_NEAR(found.at("map_error_percent"), 0.5 * (1.0 + missing), 1e-9);
@@ -30,25 +31,38 @@ TEST(MapScore, MeansOverCoordinatesAndCorners) {
 
 TEST(MapScore, ConvergedSinceTheLastTimeItCameWithinThreePercent) {
   MapScore score({{100, 0, 0}}, Vector3d::Zero());
-  const auto at = [&](double t_s, double off_m) { score.add(t_s, std::vector<Vector3d>{{100 + off_m, 0, 0}}); };
-  at(1, 20);
-  at(2, 1);
-  at(3, 30);
-  at(4, 2);
-  at(5, 1);
-  EXPECT_EQ(values(score).at("converged_s"), 4.0);
+  const auto at = [&](double t_s, double off_m) { score.add(t_s, std::vector<Vector3d>{{100 + off_m, 0, 0}}, {true}); };
+  at(11, 20);
+  at(12, 1);
+  at(13, 30);
+  at(14, 2);
+  at(15, 1);
+  EXPECT_EQ(values(score).at("converged_s"), 14.0);
+}
+
+TEST(MapScore, ACornerCountsOnceItWasInSightForTenSeconds) {
+  MapScore score({{100, 0, 0}, {0, 100, 0}}, Vector3d::Zero());
+  const auto at = [&](double t_s, bool second) { score.add(t_s, std::vector<Vector3d>{{100, 0, 0}}, {true, second}); };
+  at(8, true);
+  at(16, false);
+  EXPECT_EQ(values(score).at("corners_seen"), 1.0);
+  EXPECT_EQ(values(score).at("corners_found"), 1.0);
+  at(19, true);
+  EXPECT_EQ(values(score).at("corners_seen"), 2.0);
+  EXPECT_EQ(values(score).at("corners_found"), 0.5);
 }
 
 TEST(MapScore, PointsNearNoCornerAreFalse) {
-  MapScore score({{100, 0, 0}}, Vector3d::Zero());
-  score.add(1.0, std::vector<Vector3d>{{101, 0, 0}, {50, 0, 0}, {100, 20, 0}, {100, 0, 1}});
+  MapScore score({{100, 0, -50}}, Vector3d::Zero());
+  score.add(1.0, std::vector<Vector3d>{{101, 0, -50}, {50, 0, 1}, {100, 20, -30}, {100, 0, -49}}, {false});
   EXPECT_EQ(values(score).at("false_landmarks"), 2.0);
+  EXPECT_EQ(values(score).at("false_on_ground"), 1.0);
   EXPECT_EQ(values(score).at("false_share"), 0.5);
 }
 
 TEST(MapScore, SaysNothingOfAModuleWithoutAMap) {
   MapScore score({{100, 0, 0}}, Vector3d::Zero());
-  score.add(1.0, {});
+  score.add(1.0, {}, {true});
   EXPECT_TRUE(score.metrics().empty());
 }
 

@@ -1,0 +1,46 @@
+#include "avoidance/plan_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace hedgehop::avoidance {
+namespace {
+
+const cv::Scalar kGreen(90, 230, 110), kRed(240, 80, 60), kGrey(150, 150, 150), kYellow(255, 220, 40);
+
+}  // namespace
+
+void draw_plan(const PlanView& view, cv::Mat& picture) {
+  constexpr int kSide_px = 200, kMargin_px = 6;
+  constexpr double kAround_m = 12.0;
+  if (picture.cols < 2 * kSide_px || picture.rows < kSide_px + 2 * kMargin_px) return;
+  cv::Mat plan = picture(cv::Rect(picture.cols - kSide_px - kMargin_px, kMargin_px, kSide_px, kSide_px));
+  plan *= 0.25;
+
+  const Eigen::Vector2d middle = 0.5 * (view.from_NE + view.to_NE);
+  const double half_m = 0.5 * (view.to_NE - view.from_NE).cwiseAbs().maxCoeff() + kAround_m;
+  const auto at = [&](const Eigen::Vector2d& p_NE) {
+    const Eigen::Vector2d off = (p_NE - middle) * (0.5 * kSide_px / half_m);
+    const auto pixel = [&](double px) {
+      return static_cast<int>(std::lround(0.5 * kSide_px + std::clamp(px, -1.0 * kSide_px, 1.0 * kSide_px)));
+    };
+    return cv::Point(pixel(off.y()), pixel(-off.x()));
+  };
+
+  cv::line(plan, at(view.from_NE), at(view.to_NE), kGrey, 1, cv::LINE_AA);
+  for (const PlanHull& hull : view.hulls) {
+    for (size_t k = 0; k < hull.size(); ++k) {
+      cv::line(plan, at(hull[k]), at(hull[(k + 1) % hull.size()]), kRed, 1, cv::LINE_AA);
+    }
+  }
+  for (const Eigen::Vector2d& landmark : view.landmarks_NE) cv::circle(plan, at(landmark), 1, kGreen, cv::FILLED);
+  Eigen::Vector2d from = view.at_NE;
+  for (const Eigen::Vector2d& turn : view.way_NE) {
+    cv::line(plan, at(from), at(turn), kYellow, 1, cv::LINE_AA);
+    from = turn;
+  }
+  cv::circle(plan, at(view.at_NE), 3, kYellow, cv::FILLED, cv::LINE_AA);
+}
+
+}  // namespace hedgehop::avoidance

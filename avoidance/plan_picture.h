@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <span>
+#include <vector>
+
+#include "avoidance/map_route.h"
+
+namespace hedgehop::avoidance {
+
+/// What a flight by a map looks like from above; north and east, m.
+struct PlanView {
+  std::vector<Eigen::Vector2d> landmarks_NE;
+  std::span<const PlanHull> hulls;
+  Eigen::Vector2d from_NE = Eigen::Vector2d::Zero(), to_NE = Eigen::Vector2d::Zero();  ///< of the course
+  Eigen::Vector2d at_NE = Eigen::Vector2d::Zero();                                     ///< the vehicle
+  std::span<const Eigen::Vector2d> way_NE;                                             ///< planned from there
+};
+
+/// Draws a view from above into the top right corner of a picture, north up: landmarks green, hulls of obstacles red,
+/// the course grey, the vehicle and its planned way yellow. All of the course lies within; what does not, is cut off.
+/// @param picture  CV_8UC3, RGB; one that is too small for it stays as it is.
+void draw_plan(const PlanView& view, cv::Mat& picture);
+
+}  // namespace hedgehop::avoidance

@@ -1,0 +1,150 @@
+#include "sim/reproduce/corner_flight.h"
+
+#include <algorithm>
+#include <chrono>
+#include <numbers>
+#include <random>
+#include <utility>
+
+#include "scenes/highrise.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using vision::LandmarkMap;
+using vision::MappedLandmark;
+
+constexpr double kFeet_m = 0.3048, kPicture_s = 0.1, kConverged_percent = 3.0;
+constexpr double kAltitude_m = 140.0 * kFeet_m;
+
+CornerFlight lateral(std::vector<Eigen::Vector3d> corners_W, const Eigen::Vector3d& middle_W) {
+  CornerFlight flight;
+  flight.corners_W = std::move(corners_W);
+  flight.camera = vision::PinholeCamera::from_fov(640, 640, std::numbers::pi / 6.0);
+  flight.X_WC = [middle_W](double t_s) {
+    const double azimuth = std::numbers::pi + 0.36 * std::numbers::pi / 180.0 * t_s;
+    const double radius_m = 140.0 * kFeet_m;
+    return looking_at({radius_m * std::cos(azimuth), radius_m * std::sin(azimuth), -kAltitude_m}, middle_W);
+  };
+  return flight;
+}
+
+/// White noise of a flight.
+class Noise {
+ public:
+  explicit Noise(uint64_t seed) : random_(seed) {}
+  Eigen::Vector2d pixel(double sigma_px) {
+    const double right = normal_(random_);
+    return sigma_px * Eigen::Vector2d(right, normal_(random_));
+  }
+  Eigen::Vector3d vector() {
+    Eigen::Vector3d v;
+    for (int i = 0; i < 3; ++i) v[i] = normal_(random_);
+    return v;
+  }
+
+ private:
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+};
+
+/// Which landmark each corner has: it stays with one until that is gone, or another one in its stead is confirmed.
+void follow(const LandmarkMap& map, const std::vector<size_t>& corner_of, const std::vector<int64_t>& ids,
+            std::map<size_t, int64_t>& id_of_corner) {
+  const auto find = [&](int64_t id) { return std::ranges::find(map.landmarks(), id, &MappedLandmark::id); };
+  for (size_t k = 0; k < ids.size(); ++k) {
+    const auto now = find(ids[k]);
+    int64_t& id = id_of_corner.try_emplace(corner_of[k], ids[k]).first->second;
+    if (find(id) == map.landmarks().end() || (now != map.landmarks().end() && map.confirmed(*now))) id = ids[k];
+  }
+}
+
+}  // namespace
+
+Eigen::Isometry3d looking_at(const Eigen::Vector3d& p_WC, const Eigen::Vector3d& target_W) {
+  Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
+  const Eigen::Vector3d forward = (target_W - p_WC).normalized();
+  const Eigen::Vector3d right = Eigen::Vector3d::UnitZ().cross(forward).normalized();
+  X_WC.linear() << right, forward.cross(right), forward;
+  X_WC.translation() = p_WC;
+  return X_WC;
+}
+
+CornerFlight cube_lateral_flight() {
+  return lateral(scenes::highrise_corners({.layout = scenes::HighriseConfig::Layout::cube}), {0, 0, -9});
+}
+
+CornerFlight highrise_lateral_flight() { return lateral(scenes::highrise_corners({.scale = 0.5}), {0, 0, -7}); }
+
+CornerFlight highrise_forward_flight() {
+  CornerFlight flight = lateral(scenes::highrise_corners({}), {0, 0, 0});
+  flight.duration_s = 125.0;
+  flight.X_WC = [](double t_s) {
+    const Eigen::Vector3d p_WC(-120.0 + 1.4 * kFeet_m * t_s, 0.0, -kAltitude_m);
+    const double down_rad = 11.0 * std::numbers::pi / 180.0;
+    return looking_at(p_WC, p_WC + Eigen::Vector3d(std::cos(down_rad), 0.0, std::sin(down_rad)));
+  };
+  return flight;
+}
+
+CornerFlightResult fly_past_corners(const CornerFlight& flight, const vision::LandmarkMapConfig& config, uint64_t seed,
+                                    const WatchMap& watch) {
+  constexpr double kCorner_px = 0.5;
+  Noise noise(seed);
+  LandmarkMap map(config, flight.camera);
+  std::map<size_t, int64_t> id_of_corner;
+  const Eigen::Vector3d first_W = flight.X_WC(0.0).translation();
+  CornerFlightResult result;
+  for (int picture = 0; picture * kPicture_s <= flight.duration_s; ++picture) {
+    const double t_s = picture * kPicture_s;
+    const Eigen::Isometry3d X_WC = flight.X_WC(t_s);
+    std::vector<Eigen::Vector2d> pixels;
+    std::vector<size_t> corner_of;
+    for (size_t i = 0; i < flight.corners_W.size(); ++i) {
+      const auto pixel = flight.camera.project(X_WC.inverse() * flight.corners_W[i]);
+      if (!pixel || (pixel->array() < 0).any() || pixel->x() > flight.camera.width_px - 1 ||
+          pixel->y() > flight.camera.height_px - 1) {
+        continue;
+      }
+      pixels.push_back(*pixel + noise.pixel(kCorner_px));
+      corner_of.push_back(i);
+    }
+    vision::CameraPose pose{X_WC, config.position_sigma_m, config.attitude_sigma_rad};
+    pose.X_WC_est.translation() += config.position_sigma_m * noise.vector();
+    const Eigen::Vector3d turn_C = config.attitude_sigma_rad * noise.vector();
+    pose.X_WC_est.linear() *= Eigen::AngleAxisd(turn_C.norm(), turn_C.normalized()).toRotationMatrix();
+    const auto start = std::chrono::steady_clock::now();
+    const std::vector<int64_t> ids = map.update(pixels, pose, picture == 0 ? 0.0 : kPicture_s);
+    const std::chrono::duration<double, std::milli> cost = std::chrono::steady_clock::now() - start;
+    result.filter_ms.push_back(cost.count());
+    follow(map, corner_of, ids, id_of_corner);
+    if (watch) watch(t_s, map, id_of_corner);
+
+    double sum = 0.0, worst = 0.0;
+    for (size_t i = 0; i < flight.corners_W.size(); ++i) {
+      double percent = 100.0;
+      const auto id = id_of_corner.find(i);
+      const auto mapped =
+          std::ranges::find(map.landmarks(), id == id_of_corner.end() ? -1 : id->second, &MappedLandmark::id);
+      if (mapped != map.landmarks().end()) {
+        const Eigen::Vector3d off = (position_W(mapped->landmark) - flight.corners_W[i]).cwiseAbs();
+        const double per_m = 100.0 / (flight.corners_W[i] - first_W).norm();
+        percent = per_m * off.mean();
+        worst = std::max(worst, per_m * off.maxCoeff());
+      }
+      sum += percent / static_cast<double>(flight.corners_W.size());
+    }
+    result.error_percent.push_back(sum);
+    result.worst_percent = worst;
+    if (sum > kConverged_percent) {
+      result.converged_s = NAN;
+    } else if (std::isnan(result.converged_s)) {
+      result.converged_s = t_s;
+    }
+  }
+  result.landmarks =
+      static_cast<size_t>(std::ranges::count_if(map.landmarks(), [&](const auto& m) { return map.confirmed(m); }));
+  return result;
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "vision/landmark_map.h"
+
+/// The flights of [Shah2009] ch. 4 and 5 as the thesis flew them: without pictures, by a camera that reports the
+/// corners of its scene, all of them through walls, 10 times a second.
+namespace hedgehop::sim {
+
+/// Camera at p_WC that looks at a point, its picture upright.
+Eigen::Isometry3d looking_at(const Eigen::Vector3d& p_WC, const Eigen::Vector3d& target_W);
+
+/// A flight: where the camera is at a time, and what it flies past.
+struct CornerFlight {
+  std::vector<Eigen::Vector3d> corners_W;  ///< m
+  std::function<Eigen::Isometry3d(double t_s)> X_WC;
+  double duration_s = 100.0;
+  vision::PinholeCamera camera;
+};
+
+/// About a cube with 8 corners, [Shah2009] table 4.1: 140 ft up, on a circle of 140 ft, 0.36 deg/s, field of view 30
+/// deg.
+CornerFlight cube_lateral_flight();
+/// The same about high-rises with 35 corners.
+CornerFlight highrise_lateral_flight();
+/// Towards 35 corners, [Shah2009] table 5.1: level, 1.4 ft/s. The distance of its start is not printed; ours is 120 m.
+CornerFlight highrise_forward_flight();
+
+/// What a flight's map came to.
+struct CornerFlightResult {
+  std::vector<double> error_percent;  ///< of every picture: mean over all coordinates of all corners
+  double converged_s = NAN;           ///< from then on that mean stays within 3 %; NaN when it never does
+  std::vector<double> filter_ms;      ///< wall time of the filter, of every picture
+  size_t landmarks = 0;               ///< confirmed, at the end
+  double worst_percent = 0.0;         ///< at the end, of any coordinate of any corner
+};
+
+/// Is shown the map after every picture, and which of its landmarks each corner has.
+using WatchMap =
+    std::function<void(double t_s, const vision::LandmarkMap& map, const std::map<size_t, int64_t>& id_of_corner)>;
+
+/// Flies with white errors of the navigation as the filter expects them, and of the corners, 0.5 px.
+/// A coordinate's error is a share of the distance from the first camera to the corner.
+CornerFlightResult fly_past_corners(const CornerFlight& flight, const vision::LandmarkMapConfig& config, uint64_t seed,
+                                    const WatchMap& watch = {});
+
+}  // namespace hedgehop::sim

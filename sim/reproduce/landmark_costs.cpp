@@ -1,0 +1,49 @@
+#include "sim/reproduce/landmark_costs.h"
+
+#include <algorithm>
+#include <random>
+
+#include "sim/reproduce/corner_flight.h"
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr double kPicture_ms = 100.0;
+
+CornerFlight flight_past(int corners) {
+  CornerFlight flight = highrise_lateral_flight();
+  std::mt19937_64 random(static_cast<uint64_t>(corners));
+  std::uniform_real_distribution<double> across_m(-10.0, 10.0), height_m(0.0, 15.0);
+  flight.corners_W.clear();
+  for (int i = 0; i < corners; ++i) {
+    const double north_m = across_m(random), east_m = across_m(random);
+    flight.corners_W.emplace_back(north_m, east_m, -height_m(random));
+  }
+  flight.duration_s = 10.0;
+  return flight;
+}
+
+double picture_ms(int corners) {
+  std::vector<double> costs_ms = fly_past_corners(flight_past(corners), {}, 1).filter_ms;
+  const auto middle = costs_ms.begin() + static_cast<std::ptrdiff_t>(costs_ms.size() / 2);
+  std::ranges::nth_element(costs_ms, middle);
+  return *middle;
+}
+
+}  // namespace
+
+Columns landmark_costs() {
+  const std::vector<int> counts = {8, 16, 35, 70, 140, 280, 560, 1000};
+  Columns columns;
+  for (const int count : counts) {
+    const double cost_ms = picture_ms(count);
+    columns["landmarks"].push_back(count);
+    columns["picture_ms"].push_back(cost_ms);
+    columns["speed"].push_back(kPicture_ms / cost_ms);
+  }
+  const double growth = columns["picture_ms"][2] / columns["picture_ms"][0];
+  columns["growth_8_to_35"].assign(counts.size(), growth);
+  return columns;
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "sim/reproduce/calculations.h"
+
+namespace hedgehop::sim {
+
+/// What a picture costs the filter, by the number of landmarks: `landmarks` (8 to 1,000), `picture_ms` (median over
+/// pictures, wall time), `speed` (of 10 pictures a second, as a multiple of real time), and `growth_8_to_35`, the same
+/// in every row. The lateral flight of [Shah2009] ch. 4 past random corners, all of them in the picture. Source:
+/// [Shah2009] ch. 6, sec. on computational effort.
+Columns landmark_costs();
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,179 @@
+#include "vision/edge_corners.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <random>
+#include <stdexcept>
+
+#include "tests/vision/random_lenses.h"
+
+namespace hedgehop::vision {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kSize_px = 320;
+
+/// A polygon drawn with soft edges: at eight times the size, then averaged.
+void draw(cv::Mat& picture, const std::vector<Vector2d>& corners_px, const cv::Scalar& colour) {
+  constexpr int kFiner = 8;
+  std::vector<cv::Point> fine;
+  for (const Vector2d& c : corners_px) {
+    fine.emplace_back(static_cast<int>(std::lround((c.x() + 0.5) * kFiner - 0.5)),
+                      static_cast<int>(std::lround((c.y() + 0.5) * kFiner - 0.5)));
+  }
+  cv::Mat large;
+  cv::resize(picture, large, {}, kFiner, kFiner, cv::INTER_NEAREST);
+  cv::fillConvexPoly(large, fine, colour);
+  cv::resize(large, picture, picture.size(), 0.0, 0.0, cv::INTER_AREA);
+}
+
+/// Four corners round the middle of the picture, none of its angles or sides small.
+std::vector<Vector2d> random_quadrilateral(std::mt19937_64& random) {
+  std::vector<Vector2d> corners;
+  const double turn = uniform(random, 0.0, 1.5);
+  for (int k = 0; k < 4; ++k) {
+    const double angle = turn + 0.5 * M_PI * k + uniform(random, -0.3, 0.3), radius_px = uniform(random, 70.0, 140.0);
+    corners.emplace_back(0.5 * kSize_px + radius_px * std::cos(angle), 0.5 * kSize_px + radius_px * std::sin(angle));
+  }
+  return corners;
+}
+
+double distance_px(const std::vector<Vector2d>& corners, const Vector2d& to) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vector2d& c : corners) least = std::min(least, (c - to).norm());
+  return least;
+}
+
+/// Grey noise of one scale: light and dark patches without straight edges.
+cv::Mat patches(uint64_t seed, double scale_px, double amplitude) {
+  cv::Mat noise(kSize_px, kSize_px, CV_32F);
+  cv::RNG random(seed);
+  random.fill(noise, cv::RNG::NORMAL, 0.0, 1.0);
+  cv::GaussianBlur(noise, noise, {}, scale_px);
+  cv::Mat picture;
+  noise.convertTo(picture, CV_8U, amplitude * scale_px * 3.5, 100.0);
+  return picture;
+}
+
+TEST(EdgeCorners, OfAQuadrilateralAreItsCorners) {
+  std::mt19937_64 random(3);
+  for (int round = 0; round < 20; ++round) {
+    const std::vector<Vector2d> corners = random_quadrilateral(random);
+    cv::Mat picture(kSize_px, kSize_px, CV_8UC1, cv::Scalar(60));
+    draw(picture, corners, 160);
+    const std::vector<Vector2d> found = edge_corners(picture, {});
+    EXPECT_EQ(found.size(), 4U) << "round " << round;
+    constexpr double kLineFit_px = 1.0;
+    for (const Vector2d& corner : corners) EXPECT_LT(distance_px(found, corner), kLineFit_px) << "round " << round;
+  }
+}
+
+TEST(EdgeCorners, StandOutFromPatchesAsLargeAsGrass) {
+  std::mt19937_64 random(4);
+  int found_of_true = 0, found_elsewhere = 0;
+  constexpr int kRounds = 20;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::vector<Vector2d> corners = random_quadrilateral(random);
+    cv::Mat picture = patches(static_cast<uint64_t>(round + 1), 3.0, 18.0);
+    draw(picture, corners, 170);
+    const std::vector<Vector2d> found = edge_corners(picture, {});
+    for (const Vector2d& corner : corners) found_of_true += distance_px(found, corner) < 3.0;
+    for (const Vector2d& place : found) found_elsewhere += distance_px(corners, place) >= 3.0;
+
+    std::vector<cv::Point2f> shi_tomasi;
+    cv::goodFeaturesToTrack(picture, shi_tomasi, 200, 0.1, 5.0);
+    EXPECT_GT(shi_tomasi.size(), 20U) << "the patches must be hard for corners of grey";
+  }
+  EXPECT_GE(found_of_true, 0.9 * 4 * kRounds);
+  EXPECT_LE(found_elsewhere, 0.1 * 4 * kRounds);
+}
+
+TEST(EdgeCorners, RedAndGreenOfOneGreyAreToldApartInColour) {
+  const std::vector<Vector2d> corners = {{60, 70}, {250, 60}, {260, 240}, {80, 250}};
+  const cv::Scalar green(60, 110, 60), red(125, 75, 75);
+  cv::Mat picture(kSize_px, kSize_px, CV_8UC3, green);
+  draw(picture, corners, red);
+  cv::Mat grey;
+  cv::cvtColor(picture, grey, cv::COLOR_RGB2GRAY);
+  EXPECT_TRUE(edge_corners(grey, {}).empty());
+  EXPECT_EQ(edge_corners(picture, {}).size(), 4U);
+}
+
+TEST(EdgeCorners, LieWhereTwoLinesCross) {
+  std::mt19937_64 random(5);
+  for (int round = 0; round < 200; ++round) {
+    const Vector2d at(uniform(random, 0, 300), uniform(random, 0, 300));
+    const double first = uniform(random, 0, 6.28), second = first + uniform(random, 0.3, 2.8);
+    const auto edge = [&](double angle) {
+      const Vector2d along(std::cos(angle), std::sin(angle));
+      return PictureEdge{at + uniform(random, -2, 5) * along, at + uniform(random, 40, 90) * along};
+    };
+    const std::vector<PictureEdge> edges = {edge(first), edge(second)};
+    const auto corners = corners_of(edges, {});
+    ASSERT_EQ(corners.size(), 1U);
+    EXPECT_LT((corners[0] - at).norm(), 1e-9);
+  }
+}
+
+TEST(EdgeCorners, AreNotWhereAnEdgePassesThroughAnothersEnd) {
+  const std::vector<PictureEdge> edges = {{{0, 0}, {100, 0}}, {{50, 1}, {50, 80}}};
+  EXPECT_TRUE(corners_of(edges, {}).empty());
+}
+
+TEST(EdgeCorners, AreNotWhereEdgesEndFarApart) {
+  const std::vector<PictureEdge> edges = {{{0, 0}, {100, 0}}, {{130, 30}, {130, 90}}};
+  EXPECT_TRUE(corners_of(edges, {}).empty());
+}
+
+TEST(JoinedEdges, APieceWiseLineIsOneEdge) {
+  std::mt19937_64 random(6);
+  const EdgeCornerConfig config;
+  for (int round = 0; round < 100; ++round) {
+    const Vector2d from(uniform(random, 0, 300), uniform(random, 0, 300));
+    const double angle = uniform(random, 0, 6.28), length_px = uniform(random, 60, 250);
+    const Vector2d along(std::cos(angle), std::sin(angle)), aside(-along.y(), along.x());
+    std::vector<PictureEdge> pieces;
+    double at_px = 0.0;
+    while (at_px < length_px) {
+      const double end_px = std::min(length_px, at_px + uniform(random, 15, 40));
+      pieces.push_back({from + at_px * along + uniform(random, -0.1, 0.1) * aside,
+                        from + end_px * along + uniform(random, -0.1, 0.1) * aside});
+      if (random() % 2) std::swap(pieces.back().from_px, pieces.back().to_px);
+      at_px = end_px + uniform(random, 1, 0.8 * config.gap_px);
+    }
+    const double whole_px = length_px;
+    std::ranges::shuffle(pieces, random);
+    const auto edges = joined_edges(pieces, config);
+    ASSERT_EQ(edges.size(), 1U) << "round " << round;
+    constexpr double kWobble_px = 0.5;
+    EXPECT_LT(std::min((edges[0].from_px - from).norm(), (edges[0].to_px - from).norm()), kWobble_px);
+    EXPECT_LT(edges[0].length_px(), whole_px + kWobble_px);
+  }
+}
+
+TEST(JoinedEdges, ParallelLinesStayTwo) {
+  const std::vector<PictureEdge> pieces = {
+      {{0, 0}, {50, 0}}, {{60, 0}, {100, 0}}, {{0, 5}, {50, 5}}, {{60, 5}, {100, 5}}};
+  EXPECT_EQ(joined_edges(pieces, {}).size(), 2U);
+}
+
+TEST(EdgeCorners, RefuseABadConfig) {
+  const auto refuse = [](auto change) {
+    EdgeCornerConfig config;
+    change(config);
+    EXPECT_THROW(check(config), std::invalid_argument);
+  };
+  refuse([](EdgeCornerConfig& c) { c.least_edge_px = 0; });
+  refuse([](EdgeCornerConfig& c) { c.gap_px = -1; });
+  refuse([](EdgeCornerConfig& c) { c.aside_px = NAN; });
+  refuse([](EdgeCornerConfig& c) { c.beyond_px = -1; });
+  refuse([](EdgeCornerConfig& c) { c.least_angle_rad = 0; });
+}
+
+}  // namespace
+}  // namespace hedgehop::vision

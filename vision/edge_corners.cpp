@@ -1,0 +1,160 @@
+#include "vision/edge_corners.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace hedgehop::vision {
+namespace {
+
+using Eigen::Vector2d;
+
+double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// An edge grown from pieces: the line that fits the mass of all of them best.
+class GrowingEdge {
+ public:
+  explicit GrowingEdge(const PictureEdge& piece) { add(piece); }
+
+  void add(const PictureEdge& piece) {
+    const double mass = piece.length_px();
+    const Vector2d middle = 0.5 * (piece.from_px + piece.to_px), half = 0.5 * (piece.to_px - piece.from_px);
+    mass_ += mass;
+    first_ += mass * middle;
+    second_ += mass * (middle * middle.transpose() + half * half.transpose() / 3.0);
+    ends_.push_back(piece.from_px);
+    ends_.push_back(piece.to_px);
+    fit();
+  }
+  /// Whether a piece lies along the line and not too far from the edge.
+  bool takes(const PictureEdge& piece, const EdgeCornerConfig& config) const {
+    const Vector2d a = piece.from_px - middle_, b = piece.to_px - middle_;
+    if (std::max(std::abs(cross(along_, a)), std::abs(cross(along_, b))) > config.aside_px) return false;
+    const double at_a = along_.dot(a), at_b = along_.dot(b);
+    return std::min(at_a, at_b) <= last_px_ + config.gap_px && std::max(at_a, at_b) >= first_px_ - config.gap_px;
+  }
+  PictureEdge edge() const { return {middle_ + first_px_ * along_, middle_ + last_px_ * along_}; }
+
+ private:
+  void fit() {
+    middle_ = first_ / mass_;
+    const Eigen::Matrix2d spread = second_ / mass_ - middle_ * middle_.transpose();
+    along_ = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvectors().col(1);
+    first_px_ = last_px_ = 0.0;
+    for (const Vector2d& end : ends_) {
+      const double at = along_.dot(end - middle_);
+      first_px_ = std::min(first_px_, at);
+      last_px_ = std::max(last_px_, at);
+    }
+  }
+
+  double mass_ = 0.0, first_px_ = 0.0, last_px_ = 0.0;
+  Vector2d first_ = Vector2d::Zero(), middle_ = Vector2d::Zero(), along_ = Vector2d::UnitX();
+  Eigen::Matrix2d second_ = Eigen::Matrix2d::Zero();
+  std::vector<Vector2d> ends_;
+};
+
+/// How far a point of an edge's line lies beyond the nearer end, px; below 0 for one on the edge.
+double beyond_px(const PictureEdge& edge, const Vector2d& at) {
+  const Vector2d along = (edge.to_px - edge.from_px) / edge.length_px();
+  return std::max(along.dot(edge.from_px - at), along.dot(at - edge.to_px));
+}
+
+/// Where two edges end together.
+std::optional<Vector2d> meeting(const PictureEdge& a, const PictureEdge& b, const EdgeCornerConfig& config) {
+  const Vector2d u = (a.to_px - a.from_px).normalized(), v = (b.to_px - b.from_px).normalized();
+  const double sine = cross(u, v);
+  if (std::abs(sine) < std::sin(config.least_angle_rad)) return std::nullopt;
+  const Vector2d at = a.from_px + cross(b.from_px - a.from_px, v) / sine * u;
+  const double least = std::min(beyond_px(a, at), beyond_px(b, at)),
+               most = std::max(beyond_px(a, at), beyond_px(b, at));
+  constexpr double kOvershoot_px = 4.0;  // an edge is blurred, and so seems to run on over its end
+  if (least < -kOvershoot_px || most > config.beyond_px) return std::nullopt;
+  return at;
+}
+
+/// What edges are searched in: the grey of a picture, and how much redder than green it is.
+std::vector<cv::Mat> planes_of(const cv::Mat& picture) {
+  if (picture.channels() == 1) return {picture};
+  cv::Mat grey, red, green, redness;
+  cv::cvtColor(picture, grey, cv::COLOR_RGB2GRAY);
+  cv::extractChannel(picture, red, 0);
+  cv::extractChannel(picture, green, 1);
+  constexpr double kMiddle = 128.0;
+  cv::addWeighted(red, 1.0, green, -1.0, kMiddle, redness);
+  return {grey, redness};
+}
+
+}  // namespace
+
+void check(const EdgeCornerConfig& c) {
+  const auto need = [](bool holds, const char* message) {
+    if (!holds) throw std::invalid_argument(std::string("corners: ") + message);
+  };
+  need(c.least_edge_px > 0.0 && c.aside_px > 0.0, "least_edge and aside must be above 0 px");
+  need(c.gap_px >= 0.0 && c.beyond_px >= 0.0, "gap and beyond must not be negative");
+  need(c.least_angle_rad > 0.0 && c.least_angle_rad <= 1.5707963267948966, "least_angle must lie in (0, 90] deg");
+}
+
+std::vector<PictureEdge> joined_edges(std::span<const PictureEdge> pieces, const EdgeCornerConfig& config) {
+  std::vector<PictureEdge> by_length(pieces.begin(), pieces.end());
+  std::ranges::stable_sort(by_length, std::ranges::greater{}, &PictureEdge::length_px);
+  std::vector<bool> taken(by_length.size(), false);
+  std::vector<PictureEdge> edges;
+  for (size_t first = 0; first < by_length.size(); ++first) {
+    if (taken[first]) continue;
+    GrowingEdge edge(by_length[first]);
+    for (bool grew = true; grew;) {  // a longer edge may reach what it passed by
+      grew = false;
+      for (size_t i = first + 1; i < by_length.size(); ++i) {
+        if (taken[i] || !edge.takes(by_length[i], config)) continue;
+        edge.add(by_length[i]);
+        taken[i] = grew = true;
+      }
+    }
+    edges.push_back(edge.edge());
+  }
+  return edges;
+}
+
+std::vector<Vector2d> corners_of(std::span<const PictureEdge> edges, const EdgeCornerConfig& config) {
+  constexpr double kSame_px = 5.0;
+  struct Group {
+    Vector2d sum = Vector2d::Zero();
+    int count = 0;
+    Vector2d mean() const { return sum / count; }
+  };
+  std::vector<Group> groups;
+  for (size_t i = 0; i < edges.size(); ++i) {
+    for (size_t j = i + 1; j < edges.size(); ++j) {
+      const auto at = meeting(edges[i], edges[j], config);
+      if (!at) continue;
+      auto group = std::ranges::find_if(groups, [&](const Group& g) { return (g.mean() - *at).norm() <= kSame_px; });
+      if (group == groups.end()) group = groups.insert(groups.end(), Group{});
+      group->sum += *at;
+      ++group->count;
+    }
+  }
+  std::vector<Vector2d> corners;
+  for (const Group& group : groups) corners.push_back(group.mean());
+  return corners;
+}
+
+std::vector<Vector2d> edge_corners(const cv::Mat& picture, const EdgeCornerConfig& config) {
+  std::vector<PictureEdge> pieces;
+  const auto detector = cv::createLineSegmentDetector(cv::LSD_REFINE_STD);
+  for (const cv::Mat& plane : planes_of(picture)) {
+    std::vector<cv::Vec4f> found;
+    detector->detect(plane, found);
+    for (const cv::Vec4f& f : found) pieces.push_back({{f[0], f[1]}, {f[2], f[3]}});
+  }
+  std::vector<PictureEdge> edges = joined_edges(pieces, config);
+  std::erase_if(edges, [&](const PictureEdge& edge) { return edge.length_px() < config.least_edge_px; });
+  return corners_of(edges, config);
+}
+
+}  // namespace hedgehop::vision
