@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "sim/campaign/campaign_file.h"
+#include "sim/campaign/table.h"
 #include "sim/scenario/field_types.h"
 #include "tests/sim/campaign/campaign_folder.h"
 #include "tests/sim/record/browser.h"
@@ -85,6 +86,27 @@ TEST(Leaderboard, SurvivesFlyingTheFailuresAgainByTheFolderAlone) {
             matrix.substr(0, matrix.find("path excess")));
   EXPECT_EQ(folder.hedgehop("batch tiny.yaml --out out").status, 0);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/leaderboard.json"));
+}
+
+/// An interrupted batch says so instead of telling 0 of 0, and its hardest world is not one where nobody has flown.
+TEST(Leaderboard, CellsNotFlownYetAreMissingAndMakeNoWorldHard) {
+  const TemporaryFolder folder;
+  const LeaderboardConfig config{
+      .seeds = "1", .worlds = {{"later", "a.yaml"}, {"lost", "b.yaml"}}, .modules = {{.name = "m"}}};
+  Leaderboard board = leaderboard_of(config);
+  std::vector<FlightRecord> records(2);
+  for (size_t i = 0; i < 2; ++i) {
+    board.cells[i].group = records[i].order.group = records[i].order.id = board.cells[i].world;
+  }
+  records[1].status = FlightRecord::Status::failed;
+  write_leaderboard(folder.path(), board);
+  write_file_whole(folder.path() / "batch.csv", csv_text(flight_table(records)));
+  const Json data = leaderboard_data(folder.path(), read_flights(folder.path()));
+  EXPECT_FALSE(cell(data, "later", "m").contains("passed"));
+  EXPECT_EQ(cell(data, "lost", "m").at("broken"), 1);
+  EXPECT_EQ(data.at("worlds").at(0).at("name"), "lost");
+  EXPECT_TRUE(data.at("worlds").at(1).at("difficulty").is_null());
+  EXPECT_THAT(leaderboard_text(data), HasSubstr("| later | - | missing |"));
 }
 
 TEST(Leaderboard, RefusesNamesThatAreNowhereOrStandTwice) {
