@@ -61,6 +61,7 @@ class StereoCorridor final : public Module {
     tracker_ = {};
     passed_.emplace(config_.passed);
     random_ = cv::RNG(setup.seed);
+    acceleration_mps2_ = setup.limits.acceleration_mps2;
     target_.reset();
     last_target_u_px_.reset();
     last_.reset();
@@ -204,6 +205,14 @@ class StereoCorridor final : public Module {
     return best;
   }
 
+  /// Slows down towards the goal, so that the circle it can turn in is no wider than its distance: a goal that was
+  /// missed is not circled for ever. Ours.
+  double speed_mps(const Observation& observation) const {
+    const double goal_m = (observation.goal.p_WG - observation.navigation.p_WB_est).head<2>().norm();
+    constexpr double kSlowest_mps = 0.5;
+    return std::min(config_.speed_mps, std::max(kSlowest_mps, std::sqrt(0.5 * acceleration_mps2_ * goal_m)));
+  }
+
   /// Flies where it looks; [Andert2007] eq. (18) for the target in B.
   Command steer(const Observation& observation, How before) {
     const NavigationState& navigation = observation.navigation;
@@ -219,7 +228,7 @@ class StereoCorridor final : public Module {
     const Eigen::Vector3d p_BT_W = navigation.q_WB_est * p_BT_B;
     const Eigen::Vector2d way_W = p_BT_W.head<2>();
     VelocityCommand command;
-    command.v_WB_W = config_.speed_mps * way_W.normalized();
+    command.v_WB_W = speed_mps(observation) * way_W.normalized();
     command.heading_rad = std::atan2(way_W.y(), way_W.x());
     command.altitude_m = -observation.goal.p_WG.z();
     if (target_->how != How::course) {
@@ -258,6 +267,7 @@ class StereoCorridor final : public Module {
   std::optional<StereoSight> sight_;
   TargetTracker tracker_;
   std::optional<PassedObstacles> passed_;
+  double acceleration_mps2_ = 0.0;                      ///< that the vehicle is allowed
   Eigen::Matrix3d R_WC_ = Eigen::Matrix3d::Identity();  ///< as estimated
   vision::DepthPyramid pyramid_;
   cv::Mat smooth_, matched16_;

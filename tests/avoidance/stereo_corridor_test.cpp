@@ -27,13 +27,13 @@ class Pilot {
   }
 
   Decision see(std::vector<vision::TexturedPlane> walls, const Eigen::Vector2d& v_WB_W = {3.0, 0.0},
-               double north_m = 0.0, double goal_east_m = 0.0) {
+               double north_m = 0.0, const Eigen::Vector2d& goal_W = {200.0, 0.0}) {
     walls.push_back(wall(kBackdrop_m, 0.0, M_PI));
     const NavigationState navigation = level_flight({north_m, 0.0, -6.0}, 0.0, v_WB_W);
     t_ns_ += 100'000'000;
     const vision::WaveTexture texture(7, 0.4, 6.0, 24);
     const std::vector<CameraFrame> frames = avoidance::see(setup_, navigation, t_ns_, walls, texture);
-    return module_->update({t_ns_, frames, navigation, {{200.0, goal_east_m, -6.0}, 0.0}});
+    return module_->update({t_ns_, frames, navigation, {{goal_W.x(), goal_W.y(), -6.0}, 0.0}});
   }
   double metric(const std::string& name) const {
     for (const Metric& metric : module_->metrics()) {
@@ -97,8 +97,18 @@ TEST(StereoCorridor, DoesNotTurnIntoWhatItIsPassing) {
     // 3 m beside the way; half a metre before it, it has left the picture, and the goal lies 43 degrees to its side.
     const vision::TexturedPlane beside = wall(8.0, 5.0, M_PI, 2.0);
     pilot.see({beside});
-    const Decision decision = pilot.see({beside}, {3.0, 0.0}, 7.5, 192.5 * std::tan(0.75));
+    const Decision decision = pilot.see({beside}, {3.0, 0.0}, 7.5, {200.0, 192.5 * std::tan(0.75)});
     EXPECT_EQ(decision.status == "cruise", !remembers) << decision.status;
+  }
+}
+
+TEST(StereoCorridor, AMissedGoalLiesOutsideNoCircleItCanTurnIn) {
+  for (const double goal_m : {1.0, 4.0, 9.0, 30.0}) {
+    Pilot pilot;
+    const double v_mps = velocity(pilot.see({}, {3.0, 0.0}, 0.0, {goal_m, 0.0})).v_WB_W.norm();
+    const double kAcceleration_mps2 = 5.0;  // of the setup
+    EXPECT_LE(2.0 * v_mps * v_mps / kAcceleration_mps2, goal_m + 1e-9);
+    EXPECT_GE(v_mps, 0.5);
   }
 }
 
