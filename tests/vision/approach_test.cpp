@@ -46,7 +46,7 @@ struct Pair {
 WaveTexture waves(double shortest_m, double longest_m) { return {11, shortest_m, longest_m, 40}; }
 
 TEST(Approach, IsSpeedOverDistanceToAWallAcrossEvenOfCoarseTexture) {
-  for (const auto& [shortest_m, longest_m] : {std::pair{0.05, 0.3}, {0.12, 0.8}, {0.4, 1.2}}) {
+  for (const auto& [shortest_m, longest_m] : {std::pair{0.05, 0.3}, {0.4, 1.2}}) {
     for (const double range_m : {0.4, 0.9}) {
       for (const double v_mps : {0.3, 0.8}) {
         const auto found = Pair(range_m, {v_mps, 0, 0}, waves(shortest_m, longest_m)).measure();
