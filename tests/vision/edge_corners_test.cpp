@@ -79,7 +79,7 @@ TEST(EdgeCorners, StandOutFromPatchesAsLargeAsGrass) {
   constexpr int kRounds = 20;
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<Vector2d> corners = random_quadrilateral(random);
-    cv::Mat picture = patches(static_cast<uint64_t>(round + 1), 3.0, 18.0);
+    cv::Mat picture = patches(static_cast<uint64_t>(round + 1), 3.0, 26.0);
     draw(picture, corners, 170);
     const std::vector<Vector2d> found = edge_corners(picture, {});
     for (const Vector2d& corner : corners) found_of_true += distance_px(found, corner) < 3.0;
