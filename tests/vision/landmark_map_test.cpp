@@ -67,8 +67,8 @@ TEST_F(LandmarkMapOfAStandingCamera, KeepsALandmarkThatIsOutOfView) {
   EXPECT_EQ(map_.landmarks().size(), 1U);
 }
 
-// With errors that stay alike for 1 s, twenty pictures of 0.1 s are worth one of white errors. Across the line of sight:
-// a camera that stands still learns nothing of the depth.
+// With errors that stay alike for 1 s, twenty pictures of 0.1 s are worth one of white errors. Across the line of
+// sight: a camera that stands still learns nothing of the depth.
 TEST(LandmarkMap, PicturesWithAlikeErrorsCountAsOne) {
   const PinholeCamera camera = PinholeCamera::from_fov(640, 480, std::numbers::pi / 6.0);
   const CameraPose pose{looking_at({-40, 0, -40}, {0, 0, 0}), 0.3, 0.0};
