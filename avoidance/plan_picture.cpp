@@ -15,7 +15,8 @@ void draw_plan(const PlanView& view, cv::Mat& picture) {
   constexpr int kSide_px = 200, kMargin_px = 6;
   constexpr double kAround_m = 12.0;
   if (picture.cols < 2 * kSide_px || picture.rows < kSide_px + 2 * kMargin_px) return;
-  cv::Mat plan = picture(cv::Rect(picture.cols - kSide_px - kMargin_px, kMargin_px, kSide_px, kSide_px));
+  cv::Mat plan =
+      picture(cv::Rect(picture.cols - kSide_px - kMargin_px, picture.rows - kSide_px - kMargin_px, kSide_px, kSide_px));
   plan *= 0.25;
 
   const Eigen::Vector2d middle = 0.5 * (view.from_NE + view.to_NE);

@@ -18,8 +18,9 @@ struct PlanView {
   std::span<const Eigen::Vector2d> way_NE;                                             ///< planned from there
 };
 
-/// Draws a view from above into the top right corner of a picture, north up: landmarks green, hulls of obstacles red,
-/// the course grey, the vehicle and its planned way yellow. All of the course lies within; what does not, is cut off.
+/// Draws a view from above into the bottom right corner of a picture, north up: landmarks green, hulls of obstacles
+/// red, the course grey, the vehicle and its planned way yellow. All of the course lies within; what does not, is cut
+/// off.
 /// @param picture  CV_8UC3, RGB; one that is too small for it stays as it is.
 void draw_plan(const PlanView& view, cv::Mat& picture);
 

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <string>
 
 #include "scenes/highrise.h"
+#include "sim/loop/episode.h"
 #include "sim/reproduce/corner_flight.h"
+#include "sim/scenario/input_error.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -34,7 +37,7 @@ TEST(CornersInSight, OfABoxAreThoseOfTheFacesTurnedToTheCamera) {
   for (int round = 0; round < 300; ++round) {
     const Vector3d p_WC(side(random), side(random), -height(random));
     const Vector3d out = (p_WC - middle).cwiseAbs();
-    if (out.maxCoeff() < 14.0 || (p_WC.head<2>().norm() < 5.0)) continue;
+    if (out.maxCoeff() < 30.0) continue;  // so near that the picture does not hold the whole box
     const Eigen::Isometry3d X_WC = looking_at(p_WC, middle);
     const auto seen = corners_in_sight(corners, camera, X_WC, &world, 0.0);
     for (size_t k = 0; k < corners.size(); ++k) {
@@ -83,6 +86,28 @@ TEST(ProjectedCorners, ScatterByHalfAPixelRoundTheProjections) {
   EXPECT_LT((sum / count).cwiseAbs().maxCoeff(), kFiveSigmas_px);
   EXPECT_NEAR(std::sqrt(squares.x() / count), 0.5, 0.03);
   EXPECT_NEAR(std::sqrt(squares.y() / count), 0.5, 0.03);
+}
+
+/// A scenario of the thesis whose module is given the true corners, cut short.
+Scenario with_true_corners(const std::string& name) {
+  return load_scenario(HEDGEHOP_SOURCE_DIR "/configs/" + name,
+                       {"duration=8", "film.enabled=false", "avoidance.front_end=corners"});
+}
+
+double metric(const Flight& flight, const std::string& name) {
+  const auto found = std::ranges::find(flight.result.metrics, name, &MetricValue::name);
+  return found == flight.result.metrics.end() ? std::nan("") : found->value;
+}
+
+TEST(TrueCorners, GiveAMapOfAllTheCubeAndTheResultSaysSo) {
+  const Flight flight = fly(with_true_corners("shah2009_cube_lateral.yaml"));
+  EXPECT_EQ(metric(flight, "landmarks"), 8.0);  // those that walls hide, too
+  EXPECT_EQ(metric(flight, "true_corners"), 1.0);
+  EXPECT_EQ(flight.decisions.back().signals.at(0), 8.0) << flight.signals.at(0).name;
+}
+
+TEST(TrueCorners, OfASceneThatDoesNotTellThemAreRefused) {
+  EXPECT_THROW(fly(with_true_corners("shah2009_wall_textured.yaml")), InputError);
 }
 
 }  // namespace
