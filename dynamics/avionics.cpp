@@ -41,6 +41,7 @@ void Avionics::reset(const SensedTruth& truth) {
   gps_ = Gps(config_.gps, physics_dt_s_, seeds_.gps);
   height_sensor_ = Ranger("height_sensor", config_.height_sensor.ranger, physics_dt_s_, seeds_.height_sensor);
   magnetometer_ = Magnetometer(config_.magnetometer, physics_dt_s_, seeds_.magnetometer);
+  imu_reading_.reset();
   reset_options();
 
   // Alignment before take-off: attitude and position known with errors, inertial biases mostly taken away.
@@ -64,7 +65,8 @@ void Avionics::sense(int64_t t_ns, const SensedTruth& truth) {
   gps_.feel(body.p_WB, body.q_WB * body.v_WB_B);
   const auto due = [tick](int64_t period) { return tick % period == 0; };
 
-  if (due(imu_.period())) navigation_.predict(imu_.read());
+  imu_reading_.reset();
+  if (due(imu_.period())) navigation_.predict(imu_reading_.emplace(imu_.read()));
   if (height_sensor_.looks(tick)) {
     height_sensor_.feel(nearest_echo_m(config_.height_sensor, truth.height_above_surface_m, truth.height_beside));
   }

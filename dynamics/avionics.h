@@ -74,6 +74,9 @@ class Avionics {
   const NavigationEstimate& navigation() const { return navigation_.estimate(); }
   /// What the range finder read last, m; none without one, out of range or on a drop-out.
   const std::optional<double>& range_m() const { return range_m_; }
+  /// What the IMU read on the tick of the last sense(); none when it was not due.
+  const std::optional<ImuReading>& imu() const { return imu_reading_; }
+  ImuReading imu_bias() const { return imu_.bias(); }
   const Autopilot& autopilot() const { return autopilot_; }
   /// What to ask of the actuators until the next call. @param dt_s  until then, > 0, the same in every call of a
   /// flight.
@@ -93,6 +96,7 @@ class Avionics {
   Eigen::Vector3d beam_direction_B_;
   Seeds seeds_;
   Imu imu_;
+  std::optional<ImuReading> imu_reading_;
   Gps gps_;
   Ranger height_sensor_;
   Magnetometer magnetometer_;

@@ -127,6 +127,15 @@ int bless(const std::filesystem::path& run_folder, const std::string& reason);
 /// The executable that runs now, absolute. Throws std::runtime_error.
 std::filesystem::path own_program();
 
+struct ExportOptions {
+  std::filesystem::path folder;      ///< of a run
+  std::string format;                ///< "euroc", "tum" or "kitti"
+  std::filesystem::path out;         ///< empty: <folder>/<format>
+  std::vector<std::string> cameras;  ///< roles; empty: all that take pictures
+};
+/// Flies a run anew and writes what its sensors say for other programs.
+int export_run(const ExportOptions& options);
+
 struct ReportOptions {
   std::filesystem::path folder;   ///< of a run, a batch or a sweep
   std::filesystem::path against;  ///< folder of an earlier batch or sweep; empty: none

@@ -48,7 +48,7 @@ struct VehicleOptions {
 /// Declares the commands; the one that is chosen ends up in `chosen`.
 void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, cli::RenderOptions& render,
              cli::CalibrationOptions& calibration, VehicleOptions& vehicles, std::string& topic,
-             cli::ReportOptions& report) {
+             cli::ExportOptions& data, cli::ReportOptions& report) {
   CLI::App* const run_command = app.add_subcommand("run",
                                                    "fly a scenario; leaves a folder with verdict, tables, film "
                                                    "and report");
@@ -93,6 +93,24 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
   calibration_command->callback([&] { chosen = [&calibration] { return cli::calibration(calibration); }; });
 
   cli::declare_campaigns(app, chosen);
+
+  CLI::App* const export_command = app.add_subcommand(
+      "export", "fly a run anew and write pictures, IMU, truth and calibration as other programs read them");
+  export_command->add_option("RUN", data.folder, "folder of a run, as `hedgehop run` leaves it")->required();
+  export_command
+      ->add_option("--format", data.format,
+                   "euroc: mav0 with all cameras; tum: RGB-D of one pinhole, its depth true; kitti: odometry, pinholes "
+                   "of one rate")
+      ->required()
+      ->check(CLI::IsMember({"euroc", "tum", "kitti"}));
+  export_command
+      ->add_option("--camera", data.cameras,
+                   "role of a camera to export; may be repeated, the first is cam0; all that take pictures "
+                   "when not given")
+      ->type_name("NAME");
+  export_command->add_option("--out", data.out, "folder to write, not there or empty; RUN/<format> when not given")
+      ->type_name("DIR");
+  export_command->callback([&] { chosen = [&data] { return cli::export_run(data); }; });
 
   CLI::App* const report_command = app.add_subcommand("report", "write report.html of a run, a batch or a sweep anew");
   report_command->add_option("DIR", report.folder, "its folder")->required()->check(CLI::ExistingDirectory);
@@ -158,8 +176,9 @@ int run_command_line(int argc, char** argv) {
   cli::CalibrationOptions calibration;
   VehicleOptions vehicles;
   std::string topic;
+  cli::ExportOptions data;
   cli::ReportOptions report;
-  declare(app, chosen, run, render, calibration, vehicles, topic, report);
+  declare(app, chosen, run, render, calibration, vehicles, topic, data, report);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

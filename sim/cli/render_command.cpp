@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
-#include <stdexcept>
+#include <opencv2/core.hpp>
 
 #include "sim/cli/commands.h"
 #include "sim/cli/load.h"
 #include "sim/loop/episode.h"
+#include "sim/record/picture_file.h"
 #include "sim/render/picture_colors.h"
 #include "sim/render/renderer.h"
 
@@ -33,16 +32,6 @@ Channel channel_of(const std::string& what) {
   return what == "color" ? Channel::color : Channel::depth;
 }
 
-void write_png(const std::filesystem::path& file, const cv::Mat& image) {
-  bool written = false;
-  try {
-    written = cv::imwrite(file.string(), image);
-  } catch (const cv::Exception& error) {
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.err));
-  }
-  if (!written) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
-}
-
 }  // namespace
 
 int render(const RenderOptions& options) {
@@ -65,7 +54,6 @@ int render(const RenderOptions& options) {
   } else if (channel == Channel::labels) {
     image = colored_labels(image);
   }
-  if (image.channels() == 3) cv::cvtColor(image, image, cv::COLOR_RGB2BGR);
   write_png(options.out, image);
   fmt::print("written: {}\n", options.out.string());
   return 0;

@@ -54,6 +54,7 @@ class Episode {
   void measure_proximity();
   void sense();
   void look();
+  void hand_over_sensors();
   void decide();
   void judge_map();
   void steer();
@@ -145,6 +146,7 @@ void Episode::act() {
   measure_proximity();
   sense();
   look();
+  hand_over_sensors();
   decide();
   if (tick_ % control_period_ == 0) steer();
   show();
@@ -226,6 +228,25 @@ void Episode::look() {
     const StageTimer::Lap flow_lap = velocimetry_.lap();
     if (frame) velocimeter_->update(*frame, aircraft_.avionics());
   }
+}
+
+/// Shows the watcher what all sensors say, if it wants that.
+void Episode::hand_over_sensors() {
+  if (!watcher_ || !watcher_->wants_sensors()) return;
+  std::vector<avoidance::CameraFrame> frames;
+  for (size_t camera = 0; camera < cameras_.count(); ++camera) {
+    if (!cameras_.due(camera, tick_)) continue;
+    if (const auto* const frame = cameras_.expose(camera, ticks_.t_ns(tick_), aircraft_.motion())) {
+      frames.push_back(*frame);
+    }
+  }
+  const dynamics::Avionics& avionics = aircraft_.avionics();
+  if (frames.empty() && !avionics.imu()) return;
+  const auto depth = [this](std::string_view role) {
+    const Cameras::Instant now{ticks_.t_ns(tick_), aircraft_.motion()};
+    return cameras_.picture(cameras_.index(role), Channel::depth, now, now);
+  };
+  watcher_->on_sensors({ticks_.t_ns(tick_), aircraft_.body(), avionics.imu(), avionics.imu_bias(), frames, depth});
 }
 
 void Episode::decide() {

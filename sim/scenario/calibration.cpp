@@ -11,36 +11,6 @@
 namespace hedgehop::sim {
 namespace {
 
-/// What both formats say of a lens.
-struct Intrinsics {
-  bool fisheye = false;
-  double focal_x_px = 0.0, focal_y_px = 0.0, center_u_px = 0.0, center_v_px = 0.0;
-  std::vector<double> distortion;  ///< k1 k2 p1 p2 k3, or k1 k2 k3 k4 of a fisheye
-};
-
-Intrinsics intrinsics(const CameraConfig& config, const vision::Camera& camera) {
-  if (const auto* lens = std::get_if<vision::PinholeLens>(&camera.lens)) {
-    return {false,
-            lens->focal_x_px,
-            lens->focal_y_px,
-            lens->center_u_px,
-            lens->center_v_px,
-            {lens->k1, lens->k2, lens->p1, lens->p2, lens->k3}};
-  }
-  if (const auto* lens = std::get_if<vision::FisheyeLens>(&camera.lens)) {
-    return {true,
-            lens->focal_x_px,
-            lens->focal_y_px,
-            lens->center_u_px,
-            lens->center_v_px,
-            {lens->k1, lens->k2, lens->k3, lens->k4}};
-  }
-  throw std::invalid_argument(
-      fmt::format("camera '{}' has an OCamCalib lens, which the format has no words for; its "
-                  "calibration is '{}' itself",
-                  config.role, config.calibration.string()));
-}
-
 std::string list(const std::vector<double>& numbers) {
   std::vector<std::string> texts;
   for (const double number : numbers) texts.push_back(number_text(number + 0.0, false));  // no -0
@@ -74,6 +44,29 @@ void require_key(const std::string& role) {
 }
 
 }  // namespace
+
+Intrinsics intrinsics(const CameraConfig& config, const vision::Camera& camera) {
+  if (const auto* lens = std::get_if<vision::PinholeLens>(&camera.lens)) {
+    return {false,
+            lens->focal_x_px,
+            lens->focal_y_px,
+            lens->center_u_px,
+            lens->center_v_px,
+            {lens->k1, lens->k2, lens->p1, lens->p2, lens->k3}};
+  }
+  if (const auto* lens = std::get_if<vision::FisheyeLens>(&camera.lens)) {
+    return {true,
+            lens->focal_x_px,
+            lens->focal_y_px,
+            lens->center_u_px,
+            lens->center_v_px,
+            {lens->k1, lens->k2, lens->k3, lens->k4}};
+  }
+  throw std::invalid_argument(
+      fmt::format("camera '{}' has an OCamCalib lens, which the format has no words for; its "
+                  "calibration is '{}' itself",
+                  config.role, config.calibration.string()));
+}
 
 std::string opencv_calibration(const RigConfig& rig) {
   std::string text = "%YAML:1.0\n---\n";

@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "sim/cli/commands.h"
+#include "sim/cli/progress.h"
+#include "sim/export/export.h"
+#include "sim/record/whole_file.h"
+#include "sim/scenario/input_error.h"
+
+namespace hedgehop::sim::cli {
+namespace {
+
+DataFormat format_of(const std::string& name) {
+  if (name == "tum") return DataFormat::tum;
+  return name == "kitti" ? DataFormat::kitti : DataFormat::euroc;
+}
+
+/// Of the trajectory that the run left.
+std::string hash_of_run(const std::filesystem::path& folder) {
+  for (const char* const name : {"scenario.yaml", "result.json"}) {
+    if (!std::filesystem::exists(folder / name)) {
+      throw InputError(fmt::format("{}: no {}: not the folder of a run", folder.string(), name));
+    }
+  }
+  try {
+    return nlohmann::json::parse(read_file_whole(folder / "result.json")).at("trajectory_hash");
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: no whole run: {}", (folder / "result.json").string(), error.what()));
+  }
+}
+
+}  // namespace
+
+int export_run(const ExportOptions& options) {
+  const std::string hash = hash_of_run(options.folder);
+  const Scenario scenario = load_scenario(options.folder / "scenario.yaml");
+  const ExportRequest request{format_of(options.format), options.cameras,
+                              options.out.empty() ? options.folder / options.format : options.out};
+  FlightProgress progress(scenario.name);
+  const Flight flight = export_flight(scenario, request, [&](double t_s, double duration_s, double goal_distance_m) {
+    progress.show(t_s, duration_s, goal_distance_m);
+  });
+  progress.close();
+  if (flight.result.trajectory_hash != hash) {
+    fmt::print(stderr,
+               "warning: flown again, the trajectory differs from the run's ({} instead of {}): another build or "
+               "another kind of processor; the data agree with each other\n",
+               flight.result.trajectory_hash, hash);
+  }
+  fmt::print("written: {} ({:.1f} s of flight)\n", request.out.string(), flight.result.flight_time_s);
+  return 0;
+}
+
+}  // namespace hedgehop::sim::cli

@@ -1,0 +1,103 @@
+#include "sim/export/euroc.h"
+
+#include <fmt/format.h>
+
+#include "sim/record/csv_line.h"
+#include "sim/scenario/input_error.h"
+
+namespace hedgehop::sim {
+namespace {
+
+const std::filesystem::path kRoot = "mav0";
+
+std::filesystem::path camera_folder(size_t camera) { return kRoot / fmt::format("cam{}", camera); }
+
+std::string pose(const Eigen::Isometry3d& X) {
+  std::string text = "T_BS:\n  cols: 4\n  rows: 4\n  data: [";
+  for (int row = 0; row < 4; ++row) {
+    const Eigen::RowVector4d r = X.matrix().row(row);
+    text += fmt::format("{}{}, {}, {}, {}", row == 0 ? "" : ",\n         ", r[0], r[1], r[2], r[3]);
+  }
+  return text + "]\n";
+}
+
+std::string camera_sensor(const RecordedCamera& camera) {
+  const Intrinsics& lens = camera.lens;
+  if (!lens.fisheye && lens.distortion[4] != 0.0) {
+    throw InputError(fmt::format("camera '{}' has k3, which EuRoC's radial-tangential has not", camera.role));
+  }
+  return fmt::format(
+      "sensor_type: camera\ncomment: {}\n{}rate_hz: {}\nresolution: [{}, {}]\ncamera_model: pinhole\n"
+      "intrinsics: [{}, {}, {}, {}]\ndistortion_model: {}\ndistortion_coefficients: [{}, {}, {}, {}]\n",
+      camera.role, pose(camera.X_FC), camera.rate_hz, camera.width_px, camera.height_px, lens.focal_x_px,
+      lens.focal_y_px, lens.center_u_px, lens.center_v_px, lens.fisheye ? "equidistant" : "radial-tangential",
+      lens.distortion[0], lens.distortion[1], lens.distortion[2], lens.distortion[3]);
+}
+
+std::string camera_data(const RecordedCamera& camera) {
+  std::string text = "#timestamp [ns],filename\n";
+  for (const int64_t t_ns : camera.t_ns) text += fmt::format("{},{}.png\n", t_ns, t_ns);
+  return text;
+}
+
+std::string imu_sensor(const dynamics::ImuConfig& imu) {
+  return fmt::format(
+      "sensor_type: imu\ncomment: of the flight computer\n{}rate_hz: {}\ngyroscope_noise_density: {}\n"
+      "gyroscope_random_walk: {}\naccelerometer_noise_density: {}\naccelerometer_random_walk: {}\n",
+      pose(Eigen::Isometry3d::Identity()), imu.rate_hz, imu.gyro_noise_density, imu.gyro_bias_walk,
+      imu.accelerometer_noise_density, imu.accelerometer_bias_walk);
+}
+
+std::string imu_data(const SensorRecord& record) {
+  fmt::memory_buffer out;
+  out.append(
+      std::string_view("#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
+                       "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\n"));
+  for (const RecordedReading& reading : record.imu) {
+    CsvLine(out).add(fmt::to_string(reading.t_ns)).add(reading.w_F).add(reading.f_F);
+  }
+  return fmt::to_string(out);
+}
+
+std::string truth_data(const SensorRecord& record) {
+  fmt::memory_buffer out;
+  out.append(std::string_view(
+      "#timestamp,p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z [],"
+      "v_RS_R_x [m s^-1],v_RS_R_y [m s^-1],v_RS_R_z [m s^-1],b_w_RS_S_x [rad s^-1],b_w_RS_S_y [rad s^-1],"
+      "b_w_RS_S_z [rad s^-1],b_a_RS_S_x [m s^-2],b_a_RS_S_y [m s^-2],b_a_RS_S_z [m s^-2]\n"));
+  for (const RecordedState& state : record.states) {
+    const Eigen::Quaterniond q(state.X_EF.linear());
+    CsvLine(out)
+        .add(fmt::to_string(state.t_ns))
+        .add(Eigen::Vector3d(state.X_EF.translation()))
+        .add(q.w())
+        .add(Eigen::Vector3d(q.vec()))
+        .add(state.v_EF_E)
+        .add(state.w_bias_F)
+        .add(state.f_bias_F);
+  }
+  return fmt::to_string(out);
+}
+
+}  // namespace
+
+std::filesystem::path euroc_picture(size_t camera, int64_t t_ns) {
+  return camera_folder(camera) / "data" / fmt::format("{}.png", t_ns);
+}
+
+std::vector<DataFile> euroc_files(const SensorRecord& record) {
+  std::vector<DataFile> files{{kRoot / "body.yaml", "comment: forward, left, up; the IMU is its origin\n"}};
+  for (size_t i = 0; i < record.cameras.size(); ++i) {
+    files.push_back({camera_folder(i) / "sensor.yaml", camera_sensor(record.cameras[i])});
+    files.push_back({camera_folder(i) / "data.csv", camera_data(record.cameras[i])});
+  }
+  files.push_back({kRoot / "imu0/sensor.yaml", imu_sensor(record.imu_config)});
+  files.push_back({kRoot / "imu0/data.csv", imu_data(record)});
+  const std::filesystem::path truth = kRoot / "state_groundtruth_estimate0";
+  files.push_back({truth / "sensor.yaml",
+                   "sensor_type: groundtruth\ncomment: the simulator's truth\n" + pose(Eigen::Isometry3d::Identity())});
+  files.push_back({truth / "data.csv", truth_data(record)});
+  return files;
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,187 @@
+#include "sim/export/export.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "sim/export/conventions.h"
+#include "sim/export/euroc.h"
+#include "sim/export/kitti.h"
+#include "sim/export/tum.h"
+#include "sim/record/picture_file.h"
+#include "sim/record/whole_file.h"
+
+namespace hedgehop::sim {
+namespace {
+
+RecordedCamera recorded(const CameraConfig& config, const dynamics::ImuConfig& imu) {
+  const vision::Camera model = config.model();
+  const Eigen::Isometry3d X_SB(Eigen::Translation3d(-imu.p_BS_m));
+  Eigen::Isometry3d X_FC = Eigen::Isometry3d::Identity();
+  X_FC.linear() = R_FB() * config.X_BC().linear();
+  X_FC.translation() = R_FB() * (X_SB * config.X_BC()).translation();
+  return {config.role, model.width_px, model.height_px, config.rate_hz, intrinsics(config, model), X_FC, {}};
+}
+
+std::string roles(const RigConfig& rig) {
+  std::string text;
+  for (const CameraConfig& camera : rig.cameras) text += (text.empty() ? "" : ", ") + camera.role;
+  return text;
+}
+
+/// The cameras asked for, in that order.
+std::vector<RecordedCamera> choose(const Scenario& scenario, const std::vector<std::string>& wanted) {
+  const auto is_depth = [](const CameraConfig& c) { return c.channel == CameraConfig::Channel::depth; };
+  std::vector<const CameraConfig*> chosen;
+  for (const CameraConfig& camera : scenario.rig.cameras) {
+    if (wanted.empty() && !is_depth(camera)) chosen.push_back(&camera);
+  }
+  for (const std::string& role : wanted) {
+    const CameraConfig* const camera = scenario.rig.find(role);
+    if (!camera) {
+      throw InputError(fmt::format("--camera {}: no such camera in the rig; it has: {}", role, roles(scenario.rig)));
+    }
+    if (is_depth(*camera)) throw InputError(fmt::format("--camera {}: it takes depth, not pictures", role));
+    if (std::ranges::find(chosen, camera) != chosen.end()) {
+      throw InputError(fmt::format("--camera {}: named twice", role));
+    }
+    chosen.push_back(camera);
+  }
+  if (chosen.empty()) throw InputError("the rig has no camera that takes pictures");
+  std::vector<RecordedCamera> cameras;
+  for (const CameraConfig* const camera : chosen) {
+    cameras.push_back(build_part("rig", [&] { return recorded(*camera, scenario.avionics.imu); }));
+  }
+  return cameras;
+}
+
+std::vector<DataFile> texts(DataFormat format, const SensorRecord& record) {
+  if (format == DataFormat::tum) return tum_files(record);
+  return format == DataFormat::kitti ? kitti_files(record) : euroc_files(record);
+}
+
+/// What a format cannot hold is told before the flight.
+void check(const ExportRequest& request, SensorRecord record) {
+  if (request.format == DataFormat::tum) {
+    if (record.cameras.size() > 1) {
+      std::string names;
+      for (const RecordedCamera& camera : record.cameras) names += (names.empty() ? "" : ", ") + camera.role;
+      throw InputError("TUM's data are of one camera; choose it by --camera among: " + names);
+    }
+    if (record.cameras[0].lens.fisheye) {
+      throw InputError(fmt::format("camera '{}': TUM's depth is that of a pinhole", record.cameras[0].role));
+    }
+  }
+  texts(request.format, record);
+  std::error_code error;
+  if (std::filesystem::exists(request.out, error) && !std::filesystem::is_empty(request.out, error)) {
+    throw InputError(fmt::format("{}: is not an empty folder; name another by --out", request.out.string()));
+  }
+}
+
+/// 16-bit, see kTumDepthPerMetre.
+cv::Mat tum_depth_picture(const cv::Mat& depth_m) {
+  cv::Mat depth(depth_m.size(), CV_16UC1, cv::Scalar(0));
+  for (int v = 0; v < depth_m.rows; ++v) {
+    for (int u = 0; u < depth_m.cols; ++u) {
+      const double units = std::round(kTumDepthPerMetre * static_cast<double>(depth_m.at<float>(v, u)));
+      if (units <= 65535.0) depth.at<uint16_t>(v, u) = static_cast<uint16_t>(units);
+    }
+  }
+  return depth;
+}
+
+/// Writes pictures as they come and keeps the rest.
+class Recorder : public FlightWatcher {
+ public:
+  using Progress = std::function<void(double, double, double)>;
+  Recorder(const ExportRequest& request, SensorRecord& record, const Progress& progress)
+      : request_(request), record_(record), progress_(progress) {}
+
+  bool wants_sensors() const override { return true; }
+  void on_progress(double t_s, double duration_s, double goal_distance_m) override {
+    progress_(t_s, duration_s, goal_distance_m);
+  }
+
+  void on_sensors(const SensorTick& tick) override {
+    if (tick.imu) {
+      const Eigen::Matrix3d R = R_FB();
+      record_.imu.push_back({tick.t_ns, R * tick.imu->w_WB_B_meas, R * tick.imu->specific_force_B_meas});
+    }
+    const bool pictures = write_pictures(tick);
+    if (tick.imu || pictures) record_.states.push_back(state(tick));
+  }
+
+ private:
+  RecordedState state(const SensorTick& tick) const {
+    const dynamics::RigidBodyState& body = tick.body_true;
+    const Eigen::Vector3d& p_BS = record_.imu_config.p_BS_m;
+    Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();
+    X_WS.linear() = body.q_WB.toRotationMatrix();
+    X_WS.translation() = body.p_WB + body.q_WB * p_BS;
+    const Eigen::Vector3d v_WS_B = body.v_WB_B + body.w_WB_B.cross(p_BS);
+    return {tick.t_ns, X_EF(X_WS), R_EW() * (body.q_WB * v_WS_B), R_FB() * tick.imu_bias.w_WB_B_meas,
+            R_FB() * tick.imu_bias.specific_force_B_meas};
+  }
+
+  const avoidance::CameraFrame* frame_of(const SensorTick& tick, const std::string& role) const {
+    const auto frame = std::ranges::find(tick.frames, role, &avoidance::CameraFrame::role);
+    return frame == tick.frames.end() ? nullptr : &*frame;
+  }
+
+  bool write_pictures(const SensorTick& tick) {
+    std::vector<const avoidance::CameraFrame*> frames;
+    for (const RecordedCamera& camera : record_.cameras) frames.push_back(frame_of(tick, camera.role));
+    // KITTI numbers the pictures of all cameras alike: an instant of which one is lost is left out.
+    const bool lost = std::ranges::find(frames, nullptr) != frames.end();
+    if (request_.format == DataFormat::kitti && lost) return false;
+    bool any = false;
+    for (size_t i = 0; i < frames.size(); ++i) {
+      if (!frames[i]) continue;
+      any = true;
+      write(picture_file(i, tick.t_ns), frames[i]->image);
+      if (request_.format == DataFormat::tum) {
+        write(tum_depth(tick.t_ns), tum_depth_picture(tick.depth(record_.cameras[i].role)));
+      }
+      record_.cameras[i].t_ns.push_back(tick.t_ns);
+    }
+    return any;
+  }
+
+  std::filesystem::path picture_file(size_t camera, int64_t t_ns) const {
+    if (request_.format == DataFormat::tum) return tum_picture(t_ns);
+    if (request_.format == DataFormat::euroc) return euroc_picture(camera, t_ns);
+    return kitti_picture(camera, record_.cameras[camera].t_ns.size());
+  }
+
+  void write(const std::filesystem::path& name, const cv::Mat& image) const {
+    const std::filesystem::path file = request_.out / name;
+    std::filesystem::create_directories(file.parent_path());
+    write_png(file, image);
+  }
+
+  const ExportRequest& request_;
+  SensorRecord& record_;
+  const Progress& progress_;
+};
+
+}  // namespace
+
+Flight export_flight(const Scenario& scenario, const ExportRequest& request,
+                     const std::function<void(double, double, double)>& progress) {
+  SensorRecord record;
+  record.cameras = choose(scenario, request.cameras);
+  record.imu_config = scenario.avionics.imu;
+  check(request, record);
+  Recorder recorder(request, record, progress);
+  Flight flight = fly(scenario, &recorder);
+  for (const DataFile& file : texts(request.format, record)) {
+    std::filesystem::create_directories((request.out / file.name).parent_path());
+    write_file_whole(request.out / file.name, file.text);
+  }
+  return flight;
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dynamics/imu.h"
+#include "sim/scenario/calibration.h"
+
+namespace hedgehop::sim {
+
+/// A camera whose pictures are exported.
+struct RecordedCamera {
+  std::string role;
+  int width_px = 0, height_px = 0;
+  double rate_hz = 0.0;
+  Intrinsics lens;
+  Eigen::Isometry3d X_FC = Eigen::Isometry3d::Identity();  ///< from F, whose origin is the IMU
+  std::vector<int64_t> t_ns;                               ///< of its pictures
+};
+
+struct RecordedReading {
+  int64_t t_ns = 0;
+  Eigen::Vector3d w_F, f_F;  ///< rad/s; specific force, m/s^2: at rest (0, 0, g)
+};
+
+/// Truth, where the IMU sits.
+struct RecordedState {
+  int64_t t_ns = 0;
+  Eigen::Isometry3d X_EF = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d v_EF_E;              ///< m/s
+  Eigen::Vector3d w_bias_F, f_bias_F;  ///< of the readings; noise and misalignment come on top
+};
+
+/// What a flight's sensors said, in the frames of conventions.h.
+struct SensorRecord {
+  std::vector<RecordedCamera> cameras;
+  dynamics::ImuConfig imu_config;
+  std::vector<RecordedReading> imu;
+  std::vector<RecordedState> states;  ///< at every reading and every picture, by time
+};
+
+/// A file of a data set, its name relative to the set's folder.
+struct DataFile {
+  std::filesystem::path name;
+  std::string text;
+};
+
+/// The state of an instant. Throws std::out_of_range unless the record has it.
+const RecordedState& state_at(const SensorRecord& record, int64_t t_ns);
+
+}  // namespace hedgehop::sim

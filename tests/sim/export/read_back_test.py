@@ -1,0 +1,332 @@
+"""Reads exported data sets with NumPy and OpenCV alone: what a program elsewhere would make of them is what was flown.
+
+    read_back_test.py PROGRAM SOURCE_FOLDER
+"""
+
+import csv
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import cv2
+import numpy as np
+
+PROGRAM, SOURCE = sys.argv[1:3]
+GRAVITY = 9.81
+IMU_POSITION = np.array([0.10, 0.05, -0.02])  # forward, right, down of the mass centre
+SCENARIO = f"""
+name: exported
+duration: 5
+scene: {{type: forest, trees: 60, spacing: 6, texture_size: 256, keep_clear: [{{north: 4, east: 4, radius: 14}}]}}
+vehicle: {{use: {SOURCE}/configs/vehicles/electric_helicopter_8kg.yaml}}
+avionics:
+  imu: {{rate: 250, cutoff: 200, gyro_noise: 0, accelerometer_noise: 0, misalignment: 0, position: [0.10, 0.05, -0.02]}}
+rig:
+  cameras:
+    - {{role: down, width: 160, height: 160, fov: 90, rate: 50, channel: grey, down: 0.25, pitch: -90}}
+  stereo:
+    - {{baseline: 0.4, width: 320, height: 240, fov: 70, rate: 10, channel: grey, forward: 0.3, pitch: -25, roll: 3,
+        imperfections: {{full_well: 20000, drop: 0.1}}}}
+start: {{north: 0, east: 0, altitude: 6, heading: 30}}
+goal: {{north: 30, east: 25, altitude: 8, radius: 2}}
+avoidance: {{module: go_to_goal, speed: 3}}
+"""
+
+
+def hedgehop(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+
+
+def rotation(w, x, y, z):
+    """Of a unit quaternion, by its definition: v -> q v q*."""
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+
+
+def pose(R, p):
+    X = np.eye(4)
+    X[:3, :3], X[:3, 3] = R, p
+    return X
+
+
+def yaml_numbers(text, key):
+    """The bracketed list that follows a key."""
+    begin = text.index("[", text.index(key)) + 1
+    return np.array([float(n) for n in text[begin:text.index("]", begin)].split(",")])
+
+
+class Euroc:
+    def __init__(self, folder):
+        self.root = folder / "mav0"
+        self.truth = np.loadtxt(self.root / "state_groundtruth_estimate0/data.csv", delimiter=",")
+        self.imu = np.loadtxt(self.root / "imu0/data.csv", delimiter=",")
+
+    def camera(self, name):
+        text = (self.root / name / "sensor.yaml").read_text()
+        fu, fv, cu, cv = yaml_numbers(text, "intrinsics")
+        return np.array([[fu, 0, cu], [0, fv, cv], [0, 0, 1]]), yaml_numbers(text, "data").reshape(4, 4)
+
+    def pictures(self, name):
+        with open(self.root / name / "data.csv") as file:
+            rows = list(csv.reader(file))
+        return {int(t): self.root / name / "data" / picture for t, picture in rows[1:]}
+
+    def state(self, t_ns):
+        row = self.truth[np.searchsorted(self.truth[:, 0], t_ns)]
+        assert row[0] == t_ns
+        return row[1:4], rotation(*row[4:8]), row[8:11], row[11:14], row[14:17]
+
+
+class ReadBack(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.temporary.name)
+        (cls.folder / "exported.yaml").write_text(SCENARIO)
+        cls.run_folder = cls.folder / "run"
+        flown = hedgehop("run", cls.folder / "exported.yaml", "--out", cls.run_folder, "--no-video", "--no-report")
+        assert flown.returncode == 0, flown.stdout + flown.stderr
+        for data_format, cameras in (("euroc", []), ("tum", ["left"]), ("kitti", ["left", "right"])):
+            options = [word for camera in cameras for word in ("--camera", camera)]
+            done = hedgehop("export", cls.run_folder, "--format", data_format, *options)
+            assert done.returncode == 0, done.stderr
+            assert "warning" not in done.stderr, done.stderr
+        cls.euroc = Euroc(cls.run_folder / "euroc")
+        with open(cls.run_folder / "trajectory.csv") as file:
+            cls.trajectory = list(csv.DictReader(file))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def flown(self, row):
+        """Where the IMU was, and how it was turned, from the run's own table, in east, north, up and forward, left, up."""
+        roll, pitch, heading = (float(row[k]) for k in ("roll_rad", "pitch_rad", "yaw_rad"))
+        turn_x = cv2.Rodrigues(np.array([roll, 0, 0]))[0]
+        turn_y = cv2.Rodrigues(np.array([0, pitch, 0]))[0]
+        turn_z = cv2.Rodrigues(np.array([0, 0, heading]))[0]
+        R_NB = turn_z @ turn_y @ turn_x
+        north, east, down = np.array([float(row[k]) for k in ("north_m", "east_m", "down_m")]) + R_NB @ IMU_POSITION
+        flu = np.array([R_NB[:, 0], -R_NB[:, 1], -R_NB[:, 2]]).T
+        return np.array([east, north, -down]), np.array([flu[1], flu[0], -flu[2]])
+
+    def test_poses_are_those_of_the_run(self):
+        compared = 0
+        for row in self.trajectory:
+            t_ns = round(float(row["t_s"]) * 1e9)
+            at = np.searchsorted(self.euroc.truth[:, 0], t_ns)
+            if at == len(self.euroc.truth) or self.euroc.truth[at, 0] != t_ns:
+                continue
+            p, R, _, _, _ = self.euroc.state(t_ns)
+            p_flown, R_flown = self.flown(row)
+            np.testing.assert_allclose(p, p_flown, atol=1e-9)
+            np.testing.assert_allclose(R, R_flown, atol=1e-9)
+            compared += 1
+        self.assertGreater(compared, 200)
+
+    def test_velocities_are_the_slope_of_the_positions(self):
+        truth = self.euroc.truth
+        t_s = truth[:, 0] * 1e-9
+        slope = (truth[2:, 1:4] - truth[:-2, 1:4]) / (t_s[2:] - t_s[:-2])[:, None]
+        self.assertLess(np.abs(slope - truth[1:-1, 8:11]).max(), 0.005)
+        self.assertGreater(np.linalg.norm(truth[:, 8:11], axis=1).max(), 2.0)
+
+    def test_integrated_imu_meets_the_truth(self):
+        imu = self.euroc.imu
+        span_ns = 1_000_000_000
+        for begin_ns in (1_000_000_000, 2_000_000_000, 3_000_000_000):
+            rows = imu[(imu[:, 0] >= begin_ns) & (imu[:, 0] <= begin_ns + span_ns)]
+            p, R, v, b_w, b_a = self.euroc.state(begin_ns)
+            for now, then in zip(rows[:-1], rows[1:]):
+                dt = (then[0] - now[0]) * 1e-9
+                w = 0.5 * (now[1:4] + then[1:4]) - b_w
+                R_then = R @ cv2.Rodrigues(w * dt)[0]
+                a = 0.5 * (R @ (now[4:7] - b_a) + R_then @ (then[4:7] - b_a)) - [0, 0, GRAVITY]
+                p, v, R = p + v * dt + 0.5 * a * dt * dt, v + a * dt, R_then
+            p_true, R_true, v_true, _, _ = self.euroc.state(int(rows[-1, 0]))
+            # What is left: the sensor's low-pass filter (cut-off 200 Hz) and the bias that wanders meanwhile.
+            self.assertLess(np.linalg.norm(p - p_true), 0.03)
+            self.assertLess(np.linalg.norm(v - v_true), 0.05)
+            self.assertLess(np.linalg.norm(cv2.Rodrigues(R.T @ R_true)[0]), 0.005)
+
+    def test_pictures_lie_at_the_times_of_their_cameras(self):
+        for name, period_ns in (("cam0", 20_000_000), ("cam1", 100_000_000), ("cam2", 100_000_000)):
+            pictures = self.euroc.pictures(name)
+            self.assertGreater(len(pictures), 30)
+            for t_ns, file in pictures.items():
+                self.assertEqual(t_ns % period_ns, 0)
+                self.assertEqual(file.stem, str(t_ns))
+                self.assertIsNotNone(cv2.imread(str(file)))
+        self.assertEqual(len(self.euroc.pictures("cam0")), 251)
+        self.assertLess(len(self.euroc.pictures("cam1")), 51)  # some are dropped
+
+    def test_pictures_are_those_of_the_flight(self):
+        t_ns = next(t for t in self.euroc.pictures("cam1") if t > 1_500_000_000)
+        drawn = self.folder / "drawn.png"
+        done = hedgehop("render", self.run_folder / "scenario.yaml", "--camera", "left", "--what", "grey", "--time",
+                        t_ns * 1e-9, "-o", drawn)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        exported = cv2.imread(str(self.euroc.pictures("cam1")[t_ns]), cv2.IMREAD_UNCHANGED)
+        np.testing.assert_array_equal(exported, cv2.imread(str(drawn), cv2.IMREAD_UNCHANGED))
+
+    def tum(self):
+        root = self.run_folder / "tum"
+        rgb = dict(line.split() for line in (root / "rgb.txt").read_text().splitlines() if line[0] != "#")
+        depth = dict(line.split() for line in (root / "depth.txt").read_text().splitlines() if line[0] != "#")
+        file = cv2.FileStorage(str(root / "calibration.yaml"), cv2.FILE_STORAGE_READ)
+        truth = {line.split()[0]: np.array(line.split()[1:], float)
+                 for line in (root / "groundtruth.txt").read_text().splitlines() if line[0] != "#"}
+        return root, rgb, depth, file, truth
+
+    def points(self, t_text, most_m):
+        """Pixels of the left camera that show no edge, and where they lie in its frame."""
+        root, _, depth, file, _ = self.tum()
+        units = cv2.imread(str(root / depth[t_text]), cv2.IMREAD_UNCHANGED)
+        self.assertEqual(units.dtype, np.uint16)
+        z = units / file.getNode("depth_per_metre").real()
+        K = file.getNode("camera_matrix").mat()
+        z_far = np.where(z > 0, z, 1e3)
+        rough = cv2.dilate(z_far, np.ones((9, 9))) - cv2.erode(z_far, np.ones((9, 9)))
+        rows, cols = np.nonzero((z > 0) & (z < most_m) & (rough < 0.15 * z_far))
+        rays = np.linalg.inv(K) @ np.array([cols, rows, np.ones_like(rows)])
+        return rows, cols, (rays * z[rows, cols]).T
+
+    def test_depth_and_pose_put_the_ground_at_height_zero(self):
+        _, rgb, _, _, truth = self.tum()
+        heights = []
+        for t_text in list(rgb)[5:45:10]:
+            rows, _, points = self.points(t_text, 13.0)
+            x, y, z, qx, qy, qz, qw = truth[t_text]
+            heights.append(((rotation(qw, qx, qy, qz) @ points.T).T + [x, y, z])[rows > 200, 2])
+        heights = np.concatenate(heights)
+        self.assertGreater(len(heights), 1000)
+        on_ground = heights[heights < 0.1]
+        self.assertGreater(len(on_ground), 0.5 * len(heights))
+        self.assertLess(np.abs(on_ground).max(), 0.01)  # depth comes in fifths of a millimetre
+
+    def test_known_depth_is_seen_where_the_calibration_says(self):
+        """Patches of the left picture, thrown into the right one by depth and calibration, lie there."""
+        K_left, X_left = self.euroc.camera("cam1")
+        K_right, X_right = self.euroc.camera("cam2")
+        X_right_left = np.linalg.inv(X_right) @ X_left
+        left, right = self.euroc.pictures("cam1"), self.euroc.pictures("cam2")
+        _, rgb, _, _, _ = self.tum()
+        random = np.random.default_rng(7)
+        off = []
+        for t_text in list(rgb)[4:44:8]:
+            t_ns = int(t_text.replace(".", ""))
+            if t_ns not in right:
+                continue
+            a, b = cv2.imread(str(left[t_ns]), 0), cv2.imread(str(right[t_ns]), 0)
+            rows, cols, points = self.points(t_text, 13.0)
+            seen = (K_right @ (X_right_left[:3, :3] @ points.T + X_right_left[:3, 3:])).T
+            seen = seen[:, :2] / seen[:, 2:]
+            for k in random.permutation(len(rows))[:60]:
+                off.extend(self.offset_of_patch(a, b, (rows[k], cols[k]), seen[k]))
+        off = np.array(off)
+        self.assertGreater(len(off), 60)
+        self.assertLess(np.abs(np.median(off, axis=0)).max(), 0.15)
+        self.assertGreater(np.mean(np.abs(off).max(axis=1) < 1.0), 0.8)
+
+    @staticmethod
+    def offset_of_patch(a, b, at, seen, half=6, reach=4):
+        """How far from where it should be seen a patch is found; nothing for one that is cut off or flat."""
+        row, col = at
+        u, v = seen
+        u0, v0 = int(round(u)), int(round(v))
+        far = half + reach + 1
+        inside = min(row, col, u0, v0) >= far and max(row, v0) < a.shape[0] - far and max(col, u0) < a.shape[1] - far
+        if not inside:
+            return []
+        patch = a[row - half:row + half + 1, col - half:col + half + 1]
+        if patch.std() < 6:
+            return []
+        window = b[v0 - half - reach:v0 + half + reach + 1, u0 - half - reach:u0 + half + reach + 1]
+        score = cv2.matchTemplate(window, patch, cv2.TM_CCOEFF_NORMED)
+        _, best, _, (du, dv) = cv2.minMaxLoc(score)
+        if best < 0.8 or not (0 < du < 2 * reach and 0 < dv < 2 * reach):
+            return []
+
+        def peak(before, middle, after):
+            return 0.5 * (before - after) / (before - 2 * middle + after)
+
+        return [(u0 + du - reach + peak(*score[dv, du - 1:du + 2]) - u,
+                 v0 + dv - reach + peak(*score[dv - 1:dv + 2, du]) - v)]
+
+    def test_kitti_has_the_same_poses_from_its_first_frame(self):
+        root = self.run_folder / "kitti"
+        times = np.loadtxt(root / "sequences/00/times.txt")
+        poses = np.loadtxt(root / "poses/00.txt").reshape(-1, 3, 4)
+        self.assertEqual(len(times), len(poses))
+        _, X_left = self.euroc.camera("cam1")
+
+        def camera_at(t_s):
+            p, R, _, _, _ = self.euroc.state(round(t_s * 1e9))
+            return pose(R, p) @ X_left
+
+        first = np.linalg.inv(camera_at(times[0]))
+        for t_s, found in zip(times, poses):
+            np.testing.assert_allclose(found, (first @ camera_at(t_s))[:3], atol=1e-9)
+        both = set(self.euroc.pictures("cam1")) & set(self.euroc.pictures("cam2"))
+        self.assertEqual([round(t * 1e9) for t in times], sorted(both))
+
+    def test_kitti_pictures_and_projections_are_those_of_the_pair(self):
+        root = self.run_folder / "kitti/sequences/00"
+        calib = {line.split(":")[0]: np.array(line.split(":")[1].split(), float).reshape(3, 4)
+                 for line in (root / "calib.txt").read_text().splitlines()}
+        K, X_left = self.euroc.camera("cam1")
+        np.testing.assert_allclose(calib["P0"], np.hstack([K, np.zeros((3, 1))]), atol=1e-9)
+        self.assertAlmostEqual(-calib["P1"][0, 3] / K[0, 0], 0.4, places=9)  # the baseline
+        np.testing.assert_allclose(calib["Tr_imu_to_cam0"], np.linalg.inv(X_left)[:3], atol=1e-9)
+        times = np.loadtxt(root / "times.txt")
+        for number, t_s in list(enumerate(times))[::7]:
+            for camera, name in ((0, "cam1"), (1, "cam2")):
+                file = root / f"image_{camera}" / f"{number:06}.png"
+                np.testing.assert_array_equal(cv2.imread(str(file), -1), cv2.imread(
+                    str(self.euroc.pictures(name)[round(t_s * 1e9)]), -1))
+
+    def test_readings_are_the_same_in_every_format(self):
+        accelerometer = np.loadtxt(self.run_folder / "tum/accelerometer.txt")
+        gyroscope = np.loadtxt(self.run_folder / "tum/gyroscope.txt")
+        kitti = np.loadtxt(self.run_folder / "kitti/sequences/00/imu.txt")
+        np.testing.assert_allclose(accelerometer[:, 0], self.euroc.imu[:, 0] * 1e-9, atol=1e-9)
+        np.testing.assert_array_equal(accelerometer[:, 1:], self.euroc.imu[:, 4:7])
+        np.testing.assert_array_equal(gyroscope[:, 1:], self.euroc.imu[:, 1:4])
+        np.testing.assert_array_equal(kitti[:, 1:], self.euroc.imu[:, 1:7])
+
+    def refused(self, *arguments):
+        done = hedgehop("export", *arguments)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        return done.stderr
+
+    def test_bad_input_is_refused_with_what_would_be_valid(self):
+        run_folder = self.run_folder
+        self.assertIn("not the folder of a run", self.refused(self.folder, "--format", "euroc"))
+        self.assertIn("not the folder of a run", self.refused(self.folder / "nowhere", "--format", "euroc"))
+        self.assertIn("euroc", self.refused(run_folder, "--format", "bag"))
+        self.assertIn("not an empty folder", self.refused(run_folder, "--format", "euroc"))
+        other = ["--out", self.folder / "other"]
+        self.assertIn("it has: down, left, right", self.refused(run_folder, "--format", "euroc", "--camera", "up", *other))
+        self.assertIn("of one camera", self.refused(run_folder, "--format", "tum", *other))
+        self.assertIn("choose cameras of one rate", self.refused(run_folder, "--format", "kitti", *other))
+        self.assertIn("named twice",
+                      self.refused(run_folder, "--format", "kitti", "--camera", "left", "--camera", "left", *other))
+        self.assertFalse((self.folder / "other").exists())
+
+    def test_another_trajectory_is_warned_of(self):
+        result = json.loads((self.run_folder / "result.json").read_text())
+        other = self.folder / "other_run"
+        other.mkdir()
+        (other / "result.json").write_text(json.dumps({**result, "trajectory_hash": "0"}))
+        (other / "scenario.yaml").write_bytes((self.run_folder / "scenario.yaml").read_bytes())
+        done = hedgehop("export", other, "--format", "kitti", "--camera", "left")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("the trajectory differs from the run's", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
