@@ -23,10 +23,14 @@ constexpr uint64_t kTreeStream = 3;
 constexpr int kLumps = 12;  // of each kind
 
 // Trees near the origin have some 60 triangles each, those farther than this 15: a view of ten thousand trees must
-// stay cheap, and no renderer here swaps meshes by distance. A tree's solids have the corners that are drawn.
+// stay cheap, and what is swapped by distance from the viewer must not show (FarDetail). A tree's solids have the
+// corners that are drawn.
 constexpr double kDetailed_m = 45.0;
 constexpr int kCorners = 26, kFewCorners = 6;
 constexpr int kTrunkSides = 6, kFewTrunkSides = 3;
+
+// Larger forests have far details: of the trees in sight, most are so far away that their trunks are hair-thin.
+constexpr int64_t kWideForest = 1000;
 
 void require_range(const char* field, double low, double high, double least, double most) {
   require(low >= least && low <= high && high <= most, field, low, "from the bound of its key to max_...");
@@ -170,6 +174,7 @@ Scene make_forest(const ForestConfig& config, uint64_t seed) {
         .crown_radius_m = places[k].crown_radius_m,
         .trunk_radius_m = 0.5 * uniform(random, config.min_trunk_diameter_m, config.max_trunk_diameter_m),
         .trunk_sides = detailed ? kTrunkSides : kFewTrunkSides,
+        .thins_out = config.trees > kWideForest,
     };
     std::vector<Solid> solids =
         add_tree("tree " + std::to_string(k + 1), shape, detailed ? lumps : coarse_lumps, leaves, bark, random, mesh);

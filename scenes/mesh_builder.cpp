@@ -1,5 +1,7 @@
 #include "scenes/mesh_builder.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace hedgehop::scenes {
@@ -78,6 +80,15 @@ void MeshBuilder::add(std::span<const Vertex> vertices, std::span<const std::arr
     for (const uint32_t corner : face) mesh_.indices.push_back(first + corner);
   }
   mesh_.chunks.back().index_count += static_cast<uint32_t>(3 * faces.size());
+}
+
+void MeshBuilder::keep_from_afar(size_t first_index, double lost_m) {
+  FarDetail& far = mesh_.chunks.back().far;
+  if (far.index_count == 0) far.first_index = static_cast<uint32_t>(mesh_.far_indices.size());
+  const auto since = mesh_.indices.begin() + static_cast<std::ptrdiff_t>(first_index);
+  mesh_.far_indices.insert(mesh_.far_indices.end(), since, mesh_.indices.end());
+  far.index_count += static_cast<uint32_t>(mesh_.indices.end() - since);
+  far.lost_m = std::max(far.lost_m, static_cast<float>(lost_m));
 }
 
 Mesh MeshBuilder::finish() { return std::move(mesh_); }

@@ -46,6 +46,13 @@ class MeshBuilder {
   /// Adds triangles; `faces` index into `vertices`.
   void add(std::span<const Vertex> vertices, std::span<const std::array<uint32_t, 3>> faces);
 
+  /// Number of indices so far.
+  size_t index_count() const { return mesh_.indices.size(); }
+
+  /// Makes the triangles since then a part of the chunk's far detail. @param first_index  an index_count() of the chunk
+  /// begun last. @param lost_m  width of what else was added, > 0; of a chunk's parts, the widest counts.
+  void keep_from_afar(size_t first_index, double lost_m);
+
   Mesh finish();
 
  private:

@@ -21,6 +21,13 @@ struct Vertex {
   uint32_t texture = 0;                          ///< index into Scene::textures
 };
 
+/// Those of a chunk's triangles that are enough from far away. Movers are drawn whole from anywhere.
+struct FarDetail {
+  uint32_t first_index = 0;  ///< into Mesh::far_indices
+  uint32_t index_count = 0;  ///< a multiple of 3; 0: the chunk is drawn whole from anywhere
+  float lost_m = 0.0f;       ///< what is left out is no wider
+};
+
 /// Triangles that are culled as one: a box of a building, a whole tree, a tile of ground; all of them near each other.
 /// A chunk has at least one triangle.
 struct Chunk {
@@ -29,6 +36,7 @@ struct Chunk {
   uint32_t index_count = 0;   ///< a multiple of 3
   /// The box is opaque, and so is all below it down to the ground: may hide what lies behind.
   bool fills_box_to_ground = false;
+  FarDetail far;
 };
 
 /// All geometry of one material: drawn with one call. Triangles are counter-clockwise seen from outside.
@@ -36,7 +44,8 @@ struct Mesh {
   std::string material;  ///< "opaque" for everything so far
   std::vector<Vertex> vertices;
   std::vector<uint32_t> indices;
-  std::vector<Chunk> chunks;  ///< cover all indices, in order
+  std::vector<Chunk> chunks;          ///< cover all indices, in order
+  std::vector<uint32_t> far_indices;  ///< of the chunks' far details
 };
 
 /// What moves through the scene, without turning: its frame M travels, the axes stay those of W, and so does its light.

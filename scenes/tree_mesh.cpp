@@ -24,6 +24,7 @@ std::vector<Solid> add_tree(const std::string& name, const TreeShape& shape, std
   const Post trunk{shape.foot_W, shape.trunk_radius_m, shape.clear_height_m + crown_half_m};
   add_post(trunk, shape.trunk_sides, bark, mesh);
   std::vector<Solid> solids{solid_of(name, trunk)};
+  const size_t first_of_crown = mesh.index_count();
 
   const auto add_lump = [&](const Vector3d& center_W, const Vector3d& radii_m) {
     const Polyhedron& lump = lumps[static_cast<size_t>(uniform_index(random, static_cast<int>(lumps.size())))];
@@ -46,6 +47,10 @@ std::vector<Solid> add_tree(const std::string& name, const TreeShape& shape, std
       const double way = (1.0 - size) * uniform(random, 0.9, 1.0);
       add_lump(crown_center_W + crown_radii.cwiseProduct(way * out), size * crown_radii);
     }
+  }
+  if (shape.thins_out) {
+    const double width_m = (shape.trunk_sides == 3 ? std::sqrt(3.0) : 2.0) * shape.trunk_radius_m;
+    mesh.keep_from_afar(first_of_crown, width_m);
   }
   return solids;
 }

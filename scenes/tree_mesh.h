@@ -18,6 +18,8 @@ struct TreeShape {
   double trunk_radius_m = 0.2;
   int lobes = 1;        ///< lumps that make up the crown: 1, or a core with lobes - 1 around it
   int trunk_sides = 6;  ///< at least 3
+  /// Whether the trunk may be left out from far away. All trees of a chunk agree, and nothing else is in it.
+  bool thins_out = false;
 };
 
 /// Adds a tree to the chunk begun last. No point is farther from the trunk's axis than

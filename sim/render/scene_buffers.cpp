@@ -29,7 +29,8 @@ void require(bool holds, const std::string& fault) {
 void check(const scenes::Mesh& mesh, size_t texture_count) {
   require(mesh.material == "opaque",
           fmt::format("material '{}' cannot be drawn; known materials: opaque", mesh.material));
-  require(std::ranges::all_of(mesh.indices, [&](uint32_t index) { return index < mesh.vertices.size(); }),
+  const auto is_known = [&](uint32_t index) { return index < mesh.vertices.size(); };
+  require(std::ranges::all_of(mesh.indices, is_known) && std::ranges::all_of(mesh.far_indices, is_known),
           fmt::format("a mesh of {} vertices has an index beyond them", mesh.vertices.size()));
   for (const scenes::Vertex& vertex : mesh.vertices) {
     require(vertex.p_W.allFinite() && vertex.n_W.allFinite() && vertex.uv.allFinite(), "a vertex is not finite");
@@ -41,6 +42,10 @@ void check(const scenes::Mesh& mesh, size_t texture_count) {
     require(chunk.first_index == covered && chunk.index_count % 3 == 0,
             "chunks must cover a mesh's triangles in order, without gaps");
     require(!chunk.box_W.isEmpty(), "a chunk's box is empty");
+    const scenes::FarDetail& far = chunk.far;
+    require(size_t{far.first_index} + far.index_count <= mesh.far_indices.size() && far.index_count % 3 == 0,
+            "a far detail is no stretch of a mesh's far indices");
+    require(far.index_count == 0 || far.lost_m > 0.0f, "a far detail loses nothing");
     covered += chunk.index_count;
   }
   require(covered == mesh.indices.size(), "chunks must cover all of a mesh's indices");
@@ -86,16 +91,22 @@ struct Geometry {
 /// Appends a mesh and returns its chunks, counted on in the shared index buffer.
 std::vector<scenes::Chunk> append(const scenes::Mesh& mesh, const scenes::Lights& lights, Geometry& geometry) {
   const auto first_vertex = static_cast<uint32_t>(geometry.vertices.size());
-  const auto first_index = static_cast<uint32_t>(geometry.indices.size());
   for (const scenes::Vertex& v : mesh.vertices) {
     geometry.vertices.push_back({{v.p_W.x(), v.p_W.y(), v.p_W.z()},
                                  {v.uv.x(), v.uv.y()},
                                  brightness(lights, v.n_W),
                                  static_cast<float>(v.texture)});
   }
-  for (const uint32_t index : mesh.indices) geometry.indices.push_back(first_vertex + index);
+  const auto append_stretch = [&](const std::vector<uint32_t>& indices, uint32_t& first, uint32_t count) {
+    const auto moved_to = static_cast<uint32_t>(geometry.indices.size());
+    for (uint32_t i = first; i < first + count; ++i) geometry.indices.push_back(first_vertex + indices[i]);
+    first = moved_to;
+  };
   std::vector<scenes::Chunk> chunks = mesh.chunks;
-  for (scenes::Chunk& chunk : chunks) chunk.first_index += first_index;
+  for (scenes::Chunk& chunk : chunks) {
+    append_stretch(mesh.indices, chunk.first_index, chunk.index_count);
+    append_stretch(mesh.far_indices, chunk.far.first_index, chunk.far.index_count);
+  }
   return chunks;
 }
 

@@ -11,9 +11,11 @@ namespace hedgehop::sim {
 /// one call draws any of them.
 struct SceneBuffers {
   GLuint vertex_array = 0;
-  GLuint textures = 0;                ///< GL_TEXTURE_2D_ARRAY, RGBA8
-  std::vector<scenes::Chunk> chunks;  ///< first_index counts in the shared index buffer
-  std::vector<scenes::Chunk> tiles;   ///< what lies flat, cut into pairs of triangles, in the order of first_index
+  GLuint textures = 0;  ///< GL_TEXTURE_2D_ARRAY, RGBA8
+  /// first_index counts in the shared index buffer; so does that of the far detail, which lies behind its chunk's
+  /// indices.
+  std::vector<scenes::Chunk> chunks;
+  std::vector<scenes::Chunk> tiles;  ///< what lies flat, cut into pairs of triangles, in the order of first_index
   std::vector<std::vector<scenes::Chunk>> mover_chunks;  ///< of each mover; boxes in M, first_index as above
 };
 

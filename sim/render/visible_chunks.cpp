@@ -25,6 +25,33 @@ std::array<Eigen::Vector3d, 4> corner_rays(const vision::PinholeCamera& camera, 
   return {ray(-1.5, -1.5), ray(right_px, -1.5), ray(-1.5, bottom_px), ray(right_px, bottom_px)};
 }
 
+/// Tells which chunks a picture is too coarse for.
+class FarDetails {
+ public:
+  FarDetails(const vision::PinholeCamera& camera, const Eigen::Isometry3d& X_WC)
+      : forward_W_(X_WC.linear().col(2)),
+        eye_m_(forward_W_.dot(X_WC.translation())),
+        z_per_lost_(std::max(camera.focal_x_px, camera.focal_y_px) / kLostPx) {}
+
+  scenes::Chunk as_seen(const scenes::Chunk& chunk) const {
+    if (chunk.far.index_count == 0 || nearest_z_m(chunk.box_W) < z_per_lost_ * chunk.far.lost_m) return chunk;
+    scenes::Chunk far = chunk;
+    far.first_index = chunk.far.first_index;
+    far.index_count = chunk.far.index_count;
+    return far;
+  }
+
+ private:
+  double nearest_z_m(const Eigen::AlignedBox3f& box_W) const {
+    const double half_m = 0.5 * forward_W_.cwiseAbs().dot(box_W.sizes().cast<double>());
+    return forward_W_.dot(box_W.center().cast<double>()) - half_m - eye_m_;
+  }
+
+  Eigen::Vector3d forward_W_;
+  double eye_m_;
+  double z_per_lost_;
+};
+
 }  // namespace
 
 /// Orders a heap so that its top is the nearest; ties go by index.
@@ -65,6 +92,7 @@ std::span<const scenes::Chunk> VisibleChunks::find(const vision::PinholeCamera& 
                                                    Culling culling) {
   const Frustum& frustum = frustum_.emplace(camera, X_WC, kNearPlaneM);
   culling_ = culling;
+  const FarDetails far_details(camera, X_WC);
   const bool use_horizon = culling == Culling::frustum_and_horizon;
   horizon_.reset(X_WC.translation());
   horizon_.look(corner_rays(camera, X_WC));
@@ -91,7 +119,7 @@ std::span<const scenes::Chunk> VisibleChunks::find(const vision::PinholeCamera& 
     } else if (lies_flat(chunks_[node.chunk])) {
       flat_.push_back(node.chunk);
     } else {
-      if (chunks_[node.chunk].index_count > 0) visible_.push_back(chunks_[node.chunk]);
+      if (chunks_[node.chunk].index_count > 0) visible_.push_back(far_details.as_seen(chunks_[node.chunk]));
       if (use_horizon && chunks_[node.chunk].fills_box_to_ground) horizon_.raise(node.box_W);
     }
   }

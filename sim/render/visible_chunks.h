@@ -20,15 +20,19 @@ inline bool lies_flat(const scenes::Chunk& chunk) { return chunk.box_W.sizes().z
 /// pixel that looks through a crack of a mesh: it may see something else behind).
 enum class Culling { none, frustum, frustum_and_horizon };
 
+/// A chunk is drawn as its far detail where nothing that is lost is wider in the picture, px.
+inline constexpr double kLostPx = 1.0;
+
 /// Finds what a view can see of a scene's chunks. Reuses its memory from view to view.
 class VisibleChunks {
  public:
   /// @param tiles  what flat chunks are made of, in the order of first_index.
   VisibleChunks(std::vector<scenes::Chunk> chunks, std::vector<scenes::Chunk> tiles);
 
-  /// Stretches of the index buffer to draw, in the order in which they hide each other best: what stands up from near
-  /// to far in plan, then what lies flat, tile by tile, which seldom hides anything. What is drawn before what does not
-  /// depend on the culling.
+  /// Stretches of the index buffer to draw, each a chunk or its far detail, in the order in which they hide each other
+  /// best: what stands up from near to far in plan, then what lies flat, tile by tile, which seldom hides anything.
+  /// What is drawn before what does not depend on the culling. Which chunks are far hangs on z in C of their boxes and
+  /// on the focal length: cameras side by side that look the same way, a rectified stereo pair, see the same.
   std::span<const scenes::Chunk> find(const vision::PinholeCamera& camera, const Eigen::Isometry3d& X_WC,
                                       Culling culling);
 

@@ -7,7 +7,8 @@
 namespace hedgehop::scenes {
 
 inline bool identical(const Mesh& p, const Mesh& q) {
-  if (p.indices != q.indices || p.vertices.size() != q.vertices.size() || p.chunks.size() != q.chunks.size())
+  if (p.indices != q.indices || p.far_indices != q.far_indices || p.vertices.size() != q.vertices.size() ||
+      p.chunks.size() != q.chunks.size())
     return false;
   for (size_t i = 0; i < p.vertices.size(); ++i) {
     const Vertex &v = p.vertices[i], &w = q.vertices[i];

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
@@ -98,6 +100,32 @@ TEST(Forest, OfTenThousandTreesHasFewTrianglesEach) {
   const Scene scene = make_forest({.trees = 10000, .texture_size_px = kSmallPx}, 1);
   EXPECT_EQ(scene.solids.size(), 20000u);
   EXPECT_LE(scene.meshes.at(0).indices.size() / 3, 150u * 10000u);
+}
+
+TEST(Forest, LeavesOnlyTrunksOutFromAfar) {
+  const Scene scene = make_forest({.trees = 1200, .texture_size_px = kSmallPx}, 2);
+  const Mesh& mesh = scene.meshes.at(0);
+  const auto triangles = [](const std::vector<uint32_t>& indices, uint32_t first, uint32_t count) {
+    std::vector<std::array<uint32_t, 3>> found;
+    for (uint32_t i = first; i < first + count; i += 3) found.push_back({indices[i], indices[i + 1], indices[i + 2]});
+    std::ranges::sort(found);
+    return found;
+  };
+  size_t left_out = 0;
+  for (const Chunk& chunk : mesh.chunks) {
+    if (chunk.far.index_count == 0) continue;
+    const auto whole = triangles(mesh.indices, chunk.first_index, chunk.index_count);
+    const auto far = triangles(mesh.far_indices, chunk.far.first_index, chunk.far.index_count);
+    ASSERT_TRUE(std::ranges::includes(whole, far));
+    std::vector<std::array<uint32_t, 3>> gone;
+    std::ranges::set_difference(whole, far, std::back_inserter(gone));
+    left_out += gone.size();
+    for (const std::array<uint32_t, 3>& triangle : gone) {
+      for (const uint32_t corner : triangle) ASSERT_GE(mesh.vertices[corner].texture, 4u);  // bark
+    }
+  }
+  EXPECT_GE(left_out, 7u * 1200u);  // three-sided and more: two to a side, and the top
+  EXPECT_TRUE(make_forest({.trees = 1000, .texture_size_px = kSmallPx}, 2).meshes.at(0).far_indices.empty());
 }
 
 TEST(Forest, RefusesMoreTreesThanFit) {

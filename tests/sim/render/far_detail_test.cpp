@@ -1,0 +1,175 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "scenes/generators.h"
+#include "scenes/mesh_builder.h"
+#include "tests/sim/render/small_world.h"
+
+namespace hedgehop::sim {
+namespace {
+
+Eigen::Isometry3d level(const Eigen::Vector3d& p_WC, double heading_rad) {
+  return look_at(p_WC, p_WC + Eigen::Vector3d(std::cos(heading_rad), std::sin(heading_rad), 0.0));
+}
+
+/// One box and a thin post on it, which the far detail leaves out, north of the origin.
+scenes::Scene post_on_box(double post_m) {
+  scenes::MeshBuilder mesh("opaque");
+  mesh.begin_chunk(false);
+  const auto add = [&](const Eigen::Vector3d& low_W, const Eigen::Vector3d& high_W) {
+    for (const scenes::Panel& panel : scenes::side_panels({low_W, high_W})) mesh.add(panel, {}, 0);
+  };
+  add({0.0, -0.5 * post_m, -3.0}, {post_m, 0.5 * post_m, -2.0});
+  const size_t box_from = mesh.index_count();
+  add({0.0, -1.0, -2.0}, {1.0, 1.0, 0.0});
+  mesh.keep_from_afar(box_from, post_m);
+  scenes::Scene scene;
+  scene.textures = {cv::Mat(4, 4, CV_8UC3, cv::Scalar::all(128))};
+  scene.meshes.push_back(mesh.finish());
+  return scene;
+}
+
+TEST(FarDetail, LeavesOutWhatIsNarrowerThanAPixel) {
+  const double post_m = 0.2, focal_px = 100.0, pixel_wide_at_m = focal_px * post_m;
+  Renderer renderer(post_on_box(post_m));
+  const vision::PinholeCamera camera{101, 101, focal_px, focal_px, 50.0, 50.0};
+  cv::Mat depth;
+  for (const double beyond_m : {-19.0, -5.0, -0.1, 0.1, 5.0, 100.0}) {
+    renderer.draw({camera, level({-pixel_wide_at_m - beyond_m, 0.0, -2.5}, 0.0), Channel::depth}, depth);
+    EXPECT_EQ(renderer.drawn().triangles, beyond_m < 0.0 ? 16u : 8u) << beyond_m;
+    EXPECT_EQ(std::isfinite(depth.at<float>(50, 50)), beyond_m < 0.0) << beyond_m;
+  }
+}
+
+struct Forest {
+  scenes::Scene scene = scenes::make_scene(
+      scenes::ForestConfig{.trees = 4000, .keep_clear = {{0.0, 0.0, 3.0}}, .texture_size_px = 128}, 5);
+  scenes::Scene whole = without_far_detail(scene);
+
+  static scenes::Scene without_far_detail(scenes::Scene scene) {
+    for (scenes::Chunk& chunk : scene.meshes.at(0).chunks) chunk.far = {};
+    return scene;
+  }
+};
+
+const vision::PinholeCamera kCamera = vision::PinholeCamera::from_fov(400, 400, 1.57);
+/// The thinnest trunk, three-sided, is a pixel wide there.
+const double kFar_m = 0.125 * std::sqrt(3.0) * kCamera.focal_x_px;
+
+CameraView random_view(std::mt19937_64& random, double height_m) {
+  const double heading_rad = uniform(random, -3.0, 3.0);
+  return {kCamera, level({uniform(random, -40.0, 40.0), uniform(random, -40.0, 40.0), -height_m}, heading_rad)};
+}
+
+/// Share of the pixels that change, and the root of the mean square of the change, grey levels.
+struct Change {
+  double share = 0.0, rms = 0.0;
+};
+
+Change mean_change(const Forest& forest, double height_m, std::mt19937_64& random) {
+  Renderer by_size(forest.scene), full(forest.whole);
+  cv::Mat grey, full_grey, difference;
+  constexpr int kViews = 12;
+  Change mean;
+  for (int k = 0; k < kViews; ++k) {
+    const CameraView view = random_view(random, height_m);
+    by_size.draw(view, grey);
+    full.draw(view, full_grey);
+    EXPECT_LT(by_size.drawn().triangles, full.drawn().triangles);
+    cv::absdiff(grey, full_grey, difference);
+    const auto pixels = static_cast<double>(difference.total());
+    mean.share += cv::countNonZero(difference) / pixels / kViews;
+    mean.rms += cv::norm(difference) / std::sqrt(pixels) / kViews;
+  }
+  return mean;
+}
+
+TEST(FarDetail, ChangesFewPixelsOfAForest) {
+  const Forest forest;
+  std::mt19937_64 random(301);
+  const Change above = mean_change(forest, 25.0, random), between = mean_change(forest, 1.8, random);
+  RecordProperty("above_share", std::to_string(above.share));
+  RecordProperty("above_rms", std::to_string(above.rms));
+  RecordProperty("between_share", std::to_string(between.share));
+  RecordProperty("between_rms", std::to_string(between.rms));
+  EXPECT_LT(above.share, 0.002);
+  EXPECT_LT(between.share, 0.005);
+}
+
+TEST(FarDetail, TakesOnlyWhatIsFarAndThin) {
+  const Forest forest;
+  Renderer by_size(forest.scene), full(forest.whole);
+  std::mt19937_64 random(302);
+  cv::Mat depth, full_depth;
+  int changed = 0;
+  // Of one trunk: thicker none is, and nowhere do two stand so near each other.
+  constexpr float kThick_m = 0.5f;
+  for (int k = 0; k < 12; ++k) {
+    CameraView view = random_view(random, k % 2 == 0 ? 1.8 : 12.0);
+    view.channel = Channel::depth;
+    by_size.draw(view, depth);
+    full.draw(view, full_depth);
+    for (int row = 0; row < depth.rows; ++row) {
+      int wide_px = 0;
+      for (int col = 0; col < depth.cols; ++col) {
+        const float z_m = depth.at<float>(row, col), full_m = full_depth.at<float>(row, col);
+        const bool is_changed = z_m != full_m;
+        const bool goes_on =
+            is_changed && wide_px > 0 && std::abs(full_m - full_depth.at<float>(row, col - 1)) < kThick_m;
+        wide_px = goes_on ? wide_px + 1 : static_cast<int>(is_changed);
+        if (!is_changed) continue;
+        ++changed;
+        ASSERT_LE(wide_px, 2);  // a pixel wide straight ahead, half as much again aside
+        // What is gone stood far away, and what lies behind is seen.
+        ASSERT_GT(static_cast<double>(full_m), kFar_m);
+        ASSERT_GT(z_m, full_m);
+      }
+    }
+  }
+  EXPECT_GT(changed, 0);
+}
+
+/// Pixels of the left camera whose point the right one looks through: it sees only what is farther, a pixel aside too.
+int seen_through(const cv::Mat& left_m, const cv::Mat& right_m, double focal_px, double baseline_m) {
+  constexpr float kSlope = 1.05f;
+  int count = 0;
+  for (int row = 0; row < left_m.rows; ++row) {
+    for (int col = 0; col < left_m.cols; ++col) {
+      const float z_m = left_m.at<float>(row, col);
+      const int at = static_cast<int>(std::lround(col - focal_px * baseline_m / static_cast<double>(z_m)));
+      if (!std::isfinite(z_m) || at < 1 || at + 1 >= left_m.cols) continue;
+      const auto sees_through = [&](int u) { return right_m.at<float>(row, u) > kSlope * z_m; };
+      if (sees_through(at - 1) && sees_through(at) && sees_through(at + 1)) ++count;
+    }
+  }
+  return count;
+}
+
+TEST(FarDetail, IsTheSameForBothCamerasOfAStereoPair) {
+  const Forest forest;
+  Renderer by_size(forest.scene), full(forest.whole);
+  std::mt19937_64 random(303);
+  constexpr double kBaseline_m = 0.5;
+  cv::Mat left_m, right_m;
+  int through = 0, through_whole = 0;
+  for (int k = 0; k < 12; ++k) {
+    CameraView left = random_view(random, 1.8);
+    left.channel = Channel::depth;
+    CameraView right = left;
+    right.X_WC = left.X_WC * Eigen::Translation3d(kBaseline_m, 0.0, 0.0);
+    for (Renderer* renderer : {&by_size, &full}) {
+      renderer->draw(left, left_m);
+      renderer->draw(right, right_m);
+      (renderer == &full ? through_whole : through) += seen_through(left_m, right_m, kCamera.focal_x_px, kBaseline_m);
+    }
+  }
+  RecordProperty("through", through);
+  RecordProperty("through_whole", through_whole);
+  EXPECT_LE(through, through_whole);  // thin trunks fall between pixels either way, less often with fewer of them
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
