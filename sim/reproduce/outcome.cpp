@@ -79,12 +79,16 @@ std::string asked_words(const PaperRow& row) {
   return "";
 }
 
-std::string ours_words(const RowOutcome& row) {
+std::string value_words(const RowOutcome& row) {
   if (std::isnan(row.value)) return row.ended == 0 ? "not measured" : "unknown";
   if (row.row.flights.empty() || !counts(row.row.statistic)) return fmt::format("{:.4g}", row.value);
   const auto ended = static_cast<double>(row.ended);
   const double successes = row.row.statistic == Statistic::count ? row.value : row.value * ended;
   return fmt::format("{:.0f} of {}", successes, row.ended);
+}
+
+std::string ours_words(const RowOutcome& row) {
+  return value_words(row) + (row.broken > 0 ? fmt::format(", {} flights broken", row.broken) : "");
 }
 
 std::string command_of(const PaperRow& row, const Paper& paper) {
@@ -102,6 +106,7 @@ RowOutcome row_outcome(const PaperRow& row, const PaperOutcome& outcome) {
   RowOutcome result{.row = row, .asked = asked_words(row), .ours = {}, .command = command_of(row, outcome.paper)};
   if (row.calculation.empty()) {
     result.ended = cells_of(row, outcome).size();
+    result.broken = flights_with(FlightRecord::Status::failed, row, outcome).size();
     result.value = figure_of(row, outcome);
   } else {
     result.value = outcome.calculations.at(row.calculation).at(row.value).back();
@@ -109,6 +114,7 @@ RowOutcome row_outcome(const PaperRow& row, const PaperOutcome& outcome) {
   if ((row.at_least || row.at_most) && !std::isnan(result.value)) {
     result.holds = result.value >= row.at_least.value_or(-INFINITY) && result.value <= row.at_most.value_or(INFINITY);
   }
+  if (result.broken > 0) result.holds = false;
   result.ours = ours_words(result);
   return result;
 }

@@ -37,7 +37,8 @@ struct RowOutcome {
   PaperRow row;
   double value = std::numeric_limits<double>::quiet_NaN();
   size_t ended = 0;           ///< flights it was taken from
-  std::optional<bool> holds;  ///< none where nothing is asked or nothing was measured
+  size_t broken = 0;          ///< flights that left no result
+  std::optional<bool> holds;  ///< none where nothing is asked or nothing was measured; never with a broken flight
   std::string asked, ours;    ///< words: "at most 0", "0 of 100"
   std::string command;        ///< what flies it again; empty for a calculation
 };

@@ -92,6 +92,12 @@ TEST(PaperOutcome, ARowHoldsOnlyWithinWhatIsAskedAndIsSilentWhenNothingFlew) {
   EXPECT_EQ(failed.asked, "at most 0");
   EXPECT_EQ(failed.command, "hedgehop batch a.yaml --seeds 1:2");
   EXPECT_THAT(rows_text(paper, {failed}), HasSubstr("| hit |  | at most 0 | 1 of 2 | **no** |"));
+  FlightRecord killed = flown("a", 3, false, 1.0);
+  killed.status = FlightRecord::Status::failed;
+  killed.result = nullptr;
+  const RowOutcome broken = row({killed, killed});
+  EXPECT_EQ(broken.holds, false);
+  EXPECT_EQ(broken.ours, "not measured, 2 flights broken");
   const RowOutcome unflown = row({});
   EXPECT_EQ(unflown.holds, std::nullopt);
   EXPECT_EQ(unflown.ours, "not measured");
