@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "scenes/highrise.h"
 #include "sim/loop/episode.h"
@@ -90,8 +91,8 @@ TEST(ProjectedCorners, ScatterByHalfAPixelRoundTheProjections) {
 
 /// A scenario of the thesis whose module is given the true corners, cut short.
 Scenario with_true_corners(const std::string& name) {
-  return load_scenario(HEDGEHOP_SOURCE_DIR "/configs/" + name,
-                       {"duration=8", "film.enabled=false", "avoidance.front_end=corners"});
+  const std::vector<std::string> overrides = {"duration=8", "film.enabled=false", "avoidance.front_end=corners"};
+  return load_scenario(HEDGEHOP_SOURCE_DIR "/configs/" + name, overrides);
 }
 
 double metric(const Flight& flight, const std::string& name) {
