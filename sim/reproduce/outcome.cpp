@@ -28,16 +28,21 @@ std::string text_of(const Cell& cell) {
   return "";
 }
 
-/// A column's cells over the flights that ended.
-std::vector<Cell> cells_of(const FlightFigure& figure, const PaperOutcome& outcome) {
-  std::vector<FlightRecord> ended;
+std::vector<FlightRecord> flights_with(FlightRecord::Status status, const FlightFigure& figure,
+                                       const PaperOutcome& outcome) {
+  std::vector<FlightRecord> chosen;
   for (const std::string& name : figure.flights) {
     const auto found = outcome.flights.find(name);
     if (found == outcome.flights.end()) continue;
-    std::ranges::copy_if(found->second, std::back_inserter(ended),
-                         [](const FlightRecord& record) { return record.status != FlightRecord::Status::missing; });
+    std::ranges::copy_if(found->second, std::back_inserter(chosen),
+                         [status](const FlightRecord& record) { return record.status == status; });
   }
-  const Table table = flight_table(ended);
+  return chosen;
+}
+
+/// A column's cells over the flights that ended.
+std::vector<Cell> cells_of(const FlightFigure& figure, const PaperOutcome& outcome) {
+  const Table table = flight_table(flights_with(FlightRecord::Status::flown, figure, outcome));
   const auto column = std::ranges::find(table.columns, figure.column);
   std::vector<Cell> cells;
   if (column == table.columns.end()) return cells;
