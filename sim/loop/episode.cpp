@@ -15,17 +15,17 @@
 #include "scenes/generators.h"
 #include "sim/collision/proximity.h"
 #include "sim/loop/aircraft.h"
-#include "sim/loop/assessment.h"
 #include "sim/loop/cameras.h"
-#include "sim/loop/corner_sight.h"
 #include "sim/loop/flight_log.h"
-#include "sim/loop/map_score.h"
-#include "sim/loop/plugin_module.h"
 #include "sim/loop/random_stream.h"
 #include "sim/loop/route.h"
 #include "sim/loop/setpoints.h"
 #include "sim/loop/stage_timer.h"
 #include "sim/loop/velocimeter.h"
+#include "sim/plugin/plugin_module.h"
+#include "sim/verdict/assessment.h"
+#include "sim/verdict/corner_sight.h"
+#include "sim/verdict/map_score.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -10,9 +10,9 @@
 #include "avoidance/module.h"
 #include "dynamics/imu.h"
 #include "dynamics/rigid_body.h"
-#include "sim/loop/flight.h"
 #include "sim/render/renderer.h"
 #include "sim/scenario/scenario.h"
+#include "sim/verdict/flight.h"
 
 namespace hedgehop::sim {
 
