@@ -9,6 +9,7 @@ void PassedObstacles::update(int64_t t_ns, const vision::DepthPyramid& pyramid, 
                              const Eigen::Isometry3d& X_WC) {
   if (config_.radius_m == 0.0) return;
   p_WC_ = X_WC.translation();
+  t_ns_ = t_ns;
   const Eigen::Isometry3d X_CW = X_WC.inverse();
   hidden_.insert(hidden_.end(), visible_.begin(), visible_.end());
   std::erase_if(hidden_, [&](const Point& point) {
@@ -49,7 +50,8 @@ bool PassedObstacles::free(const Eigen::Vector3d& direction_W) const {
   return std::ranges::none_of(hidden_, [&](const Point& point) {
     const Eigen::Vector3d p = point.p_WP - p_WC_;
     const double along_m = p.dot(ahead);
-    const double aside_m = std::min(config_.radius_m, kNoCloser * p.norm());
+    const double radius_m = config_.radius_m + config_.moves_mps * 1e-9 * static_cast<double>(t_ns_ - point.t_ns);
+    const double aside_m = std::min(radius_m, kNoCloser * p.norm());
     return along_m > 0.0 && p.squaredNorm() - along_m * along_m < aside_m * aside_m;
   });
 }

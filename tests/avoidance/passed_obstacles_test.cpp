@@ -78,6 +78,22 @@ TEST(PassedObstacles, AgeAndDistanceForget) {
   }
 }
 
+TEST(PassedObstacles, WhatMayMoveClosesMoreWaysTheLongerItHasNotBeenSeen) {
+  // One block, 4 m ahead and 2.4 m to the right; a level way straight on passes it by as much.
+  const cv::Rect block(152, 56, 8, 8);
+  const double aside_m = 4.0 * (156 - 79.5) / 128.0;
+  for (const double moves_mps : {0.0, 0.5, 1.0}) {
+    for (int tenths = 1; tenths < 40; ++tenths) {
+      PassedObstacles passed({.radius_m = 1.0, .near_m = 12.0, .keep_s = 8.0, .moves_mps = moves_mps});
+      passed.update(0, block_at(block, 4.0), kGeometry, looking(0.0));
+      passed.update(tenths * kSecond_ns / 10, kSky, kGeometry, looking(-0.8));
+      const double moved_m = 0.1 * tenths * moves_mps;
+      if (std::abs(1.0 + moved_m - aside_m) < 0.03) continue;  // the block's height and a rounded disparity
+      EXPECT_EQ(passed.free(towards(0.0)), 1.0 + moved_m < aside_m) << moves_mps << ' ' << tenths;
+    }
+  }
+}
+
 TEST(PassedObstacles, NoFreeWayComesNearerThanTheRadiusOrATenthNearerThanItWas) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
