@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "sim/loop/flight.h"
+#include "sim/verdict/flight.h"
 
 namespace hedgehop::sim {
 

@@ -1,4 +1,4 @@
-#include "sim/loop/flight.h"
+#include "sim/verdict/flight.h"
 
 namespace hedgehop::sim {
 

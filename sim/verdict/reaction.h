@@ -6,7 +6,7 @@
 
 #include "dynamics/hull.h"
 #include "scenes/scene.h"
-#include "sim/loop/flight.h"
+#include "sim/verdict/flight.h"
 
 /// How much time a module left itself.
 namespace hedgehop::sim {

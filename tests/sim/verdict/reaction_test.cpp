@@ -1,4 +1,4 @@
-#include "sim/loop/reaction.h"
+#include "sim/verdict/reaction.h"
 
 #include <gtest/gtest.h>
 

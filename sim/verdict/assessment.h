@@ -4,8 +4,8 @@
 
 #include "dynamics/hull.h"
 #include "scenes/scene.h"
-#include "sim/loop/flight.h"
 #include "sim/scenario/scenario.h"
+#include "sim/verdict/flight.h"
 
 namespace hedgehop::sim {
 

@@ -1,4 +1,4 @@
-#include "sim/loop/checks.h"
+#include "sim/verdict/checks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <numbers>
 #include <variant>
 
-#include "sim/loop/path_distance.h"
 #include "sim/scenario/reference_path.h"
+#include "sim/verdict/path_distance.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "scenes/scene.h"
-#include "sim/loop/flight.h"
 #include "sim/scenario/scenario.h"
+#include "sim/verdict/flight.h"
 
 namespace hedgehop::sim {
 

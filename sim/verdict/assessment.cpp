@@ -1,12 +1,12 @@
-#include "sim/loop/assessment.h"
+#include "sim/verdict/assessment.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "sim/loop/checks.h"
-#include "sim/loop/corridor_truth.h"
-#include "sim/loop/field_metrics.h"
-#include "sim/loop/reaction.h"
+#include "sim/verdict/checks.h"
+#include "sim/verdict/corridor_truth.h"
+#include "sim/verdict/field_metrics.h"
+#include "sim/verdict/reaction.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/loop/path_distance.h"
+#include "sim/verdict/path_distance.h"
 
 #include <algorithm>
 #include <limits>

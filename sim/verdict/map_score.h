@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/loop/flight.h"
+#include "sim/verdict/flight.h"
 
 namespace hedgehop::sim {
 

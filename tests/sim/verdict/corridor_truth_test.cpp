@@ -1,4 +1,4 @@
-#include "sim/loop/corridor_truth.h"
+#include "sim/verdict/corridor_truth.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sim/loop/corner_sight.h"
+#include "sim/verdict/corner_sight.h"
 
 #include <utility>
 

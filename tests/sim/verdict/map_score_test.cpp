@@ -1,4 +1,4 @@
-#include "sim/loop/map_score.h"
+#include "sim/verdict/map_score.h"
 
 #include <gtest/gtest.h>
 

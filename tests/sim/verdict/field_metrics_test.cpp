@@ -1,4 +1,4 @@
-#include "sim/loop/field_metrics.h"
+#include "sim/verdict/field_metrics.h"
 
 #include <gtest/gtest.h>
 

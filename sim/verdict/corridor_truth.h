@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "scenes/corridor.h"
-#include "sim/loop/flight.h"
 #include "sim/scenario/scenario.h"
+#include "sim/verdict/flight.h"
 
 /// What a module that centres itself in a corridor cannot know: where the middle is.
 namespace hedgehop::sim {

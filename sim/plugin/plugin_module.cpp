@@ -1,4 +1,4 @@
-#include "sim/loop/plugin_module.h"
+#include "sim/plugin/plugin_module.h"
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "avoidance/plugin.h"
-#include "sim/loop/call_guard.h"
+#include "sim/plugin/call_guard.h"
 #include "sim/scenario/input_error.h"
 #include "sim/scenario/reader.h"
 

@@ -1,4 +1,4 @@
-#include "sim/loop/call_guard.h"
+#include "sim/plugin/call_guard.h"
 
 #include <fmt/format.h>
 #include <sys/syscall.h>

@@ -1,4 +1,4 @@
-#include "sim/loop/checks.h"
+#include "sim/verdict/checks.h"
 
 #include <gtest/gtest.h>
 

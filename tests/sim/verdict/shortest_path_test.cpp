@@ -1,4 +1,4 @@
-#include "sim/loop/shortest_path.h"
+#include "sim/verdict/shortest_path.h"
 
 #include <gtest/gtest.h>
 

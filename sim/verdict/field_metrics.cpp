@@ -1,10 +1,10 @@
-#include "sim/loop/field_metrics.h"
+#include "sim/verdict/field_metrics.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "sim/collision/proximity.h"
-#include "sim/loop/shortest_path.h"
+#include "sim/verdict/shortest_path.h"
 
 namespace hedgehop::sim {
 namespace {
