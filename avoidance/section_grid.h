@@ -62,7 +62,7 @@ struct SectionGridConfig {
   double threshold_time_s = 0.0;
   double most_share = 0.15;
   vision::Unknown unknown = vision::Unknown::free;
-  PassedObstaclesConfig passed = {.radius_m = 1.2, .near_m = 9.144};
+  PassedObstaclesConfig passed = {.radius_m = 0.0, .near_m = 9.144};
   SectionPilotConfig pilot;
 };
 

@@ -156,7 +156,7 @@ TEST(SectionGridModule, AFasterVehicleMindsWhatIsFartherWhereTheThresholdHangsOn
 TEST(SectionGridModule, KeepsAsideWhileWhatHasLeftThePictureStandsInTheWayToTheGoal) {
   for (const bool remembers : {true, false}) {
     SectionGridConfig config;
-    if (!remembers) config.passed.radius_m = 0.0;
+    config.passed.radius_m = remembers ? 1.2 : 0.0;
     Pilot pilot(config);
     // A wall 2 m ahead, from the left edge to past the middle. Once the vehicle has turned right, the picture still
     // shows the way to the goal, but no longer the wall from half a metre to the left of that way on.
