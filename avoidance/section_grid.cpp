@@ -9,13 +9,16 @@
 #include <string>
 
 #include "avoidance/depth_picture.h"
+#include "avoidance/passed_obstacles.h"
 #include "avoidance/section_pilot.h"
 #include "avoidance/stereo_sight.h"
+#include "vision/depth_pyramid.h"
 
 namespace hedgehop::avoidance {
 namespace {
 
 constexpr const char* kDepthRole = "depth";
+constexpr double kDepthBaseline_m = 0.25;  // of the pair that would have seen the depth that a camera knows
 
 void check(const SectionGridConfig& c) {
   const auto need = [](bool holds, const char* message) {
@@ -25,6 +28,8 @@ void check(const SectionGridConfig& c) {
   need(c.threshold_time_s >= 0.0, "threshold_time must be at least 0 s");
   need(c.most_share >= 0.0 && c.most_share <= 1.0, "most_share must lie in [0, 1]");
   need(c.speck_px >= 0, "speck must be at least 0 px");
+  need(c.passed.radius_m >= 0.0 && c.passed.moves_mps >= 0.0, "passed needs a radius and a speed of at least 0");
+  need(c.passed.near_m > 0.0 && c.passed.keep_s > 0.0, "passed needs near and keep above 0");
 }
 
 class SectionGridModule final : public Module {
@@ -51,14 +56,15 @@ class SectionGridModule final : public Module {
     } else {
       const auto camera = std::ranges::find(setup.cameras, kDepthRole, &MountedCamera::role);
       const vision::PinholeCamera lens = camera->model.pinhole();
-      camera_ = {{lens.focal_x_px, lens.center_u_px, lens.center_v_px, /*baseline_m=*/1.0},
+      camera_ = {{lens.focal_x_px, lens.center_u_px, lens.center_v_px, kDepthBaseline_m},
                  camera->X_BC,
                  {lens.width_px, lens.height_px}};
     }
     search_.emplace(config_.grid, camera_.picture);
     pilot_.reset(camera_);
+    passed_.emplace(config_.passed);
     depth_m_ = cv::Mat(camera_.picture, CV_32FC1, cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
-    radius_m_ = setup.limits.radius_m;
+    hull_ahead_m_ = std::max(0.0, setup.limits.radius_m - camera_.X_BC.translation().x());
     last_.reset();
     hover_s_ = 0.0;
     rejected_ = 0;
@@ -67,15 +73,20 @@ class SectionGridModule final : public Module {
   }
 
   Decision do_update(const Observation& observation) override {
-    if (!look(observation.frames) && last_) return *last_;
+    const bool looked = look(observation.frames);
+    if (!looked && last_) return *last_;
+    if (looked) remember(observation);
     const double speed_mps = observation.navigation.v_WB_B_est.norm();
-    const double threshold_m = std::max(config_.threshold_m, radius_m_ + config_.threshold_time_s * speed_mps);
-    choice_ = search_->choose(depth_m_, threshold_m, config_.most_share, config_.unknown);
+    const double threshold_m = std::max(config_.threshold_m, hull_ahead_m_ + config_.threshold_time_s * speed_mps);
+    choice_ = search_->choose(depth_m_, threshold_m, config_.most_share, config_.unknown, [&](int section) {
+      const NavigationState& navigation = observation.navigation;
+      return passed_->free(pilot_.place(navigation, *search_, section, threshold_m) - navigation.p_WB_est);
+    });
     for (size_t i = 0; i < search_->sections().size(); ++i) {
       rejected_ += search_->threats()[i] > config_.most_share * search_->sections()[i].area();
     }
     Decision decision;
-    decision.command = pilot_.update(*search_, choice_, threshold_m, observation);
+    decision.command = pilot_.update(*search_, choice_, *passed_, threshold_m, observation);
     if (pilot_.state() == State::hover_and_yaw && t_ns_ >= 0)
       hover_s_ += 1e-9 * static_cast<double>(observation.t_ns - t_ns_);
     t_ns_ = observation.t_ns;
@@ -118,6 +129,24 @@ class SectionGridModule final : public Module {
     return true;
   }
 
+  /// Takes the newest picture in, that what leaves the next ones is not forgotten.
+  void remember(const Observation& observation) {
+    constexpr int kBlockLevel = 3;  // blocks of 8 px
+    const NavigationState& navigation = observation.navigation;
+    pyramid_.build(sight_ ? sight_->disparity16() : known_disparity16(), kBlockLevel);
+    passed_->update(observation.t_ns, pyramid_, camera_.geometry,
+                    Eigen::Translation3d(navigation.p_WB_est) * navigation.q_WB_est * camera_.X_BC);
+  }
+
+  /// The disparity that a pair would have seen.
+  cv::Mat known_disparity16() const {
+    cv::Mat disparity, disparity16;
+    cv::divide(camera_.geometry.disparity16(1.0), depth_m_, disparity);
+    disparity.setTo(vision::kNoDisparity, disparity != disparity);
+    disparity.convertTo(disparity16, CV_16S);
+    return disparity16;
+  }
+
   std::vector<Metric> do_metrics() const override {
     return {{"sections_rejected", static_cast<double>(rejected_), ""},
             {"hover_time_s", hover_s_, "s"},
@@ -145,11 +174,13 @@ class SectionGridModule final : public Module {
   cv::Mat depth_m_;
   vision::SectionChoice choice_;
   SectionPilot pilot_;
+  vision::DepthPyramid pyramid_;
+  std::optional<PassedObstacles> passed_;
   std::optional<Decision> last_;
   int64_t t_ns_ = -1, rejected_ = 0;
   double hover_s_ = 0.0;
   int rows_above_ = 0, most_rows_above_ = 0;  ///< of the chosen section, from the centre's row
-  double radius_m_ = 0.0;                     ///< of the vehicle
+  double hull_ahead_m_ = 0.0;                 ///< how far the vehicle reaches before the camera
 };
 
 }  // namespace

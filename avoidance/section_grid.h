@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "avoidance/module.h"
+#include "avoidance/passed_obstacles.h"
 #include "vision/section_grid.h"
 #include "vision/stereo_matcher.h"
 
@@ -61,6 +62,7 @@ struct SectionGridConfig {
   double threshold_time_s = 0.0;
   double most_share = 0.15;
   vision::Unknown unknown = vision::Unknown::free;
+  PassedObstaclesConfig passed = {.radius_m = 0.0, .near_m = 9.144};
   SectionPilotConfig pilot;
 };
 
@@ -93,6 +95,7 @@ void describe(Visitor& v, SectionGridConfig& c) {
   v("most_share", c.most_share,
     {.at_least = 0.0, .at_most = 1.0, .meaning = "share of threats from which on a section is no way out"});
   v("unknown", c.unknown, {.choices = {"free", "threat"}, .meaning = "what a pixel without depth counts as"});
+  v("passed", c.passed, {.meaning = "what has left the picture, which no way chosen meets where another is free"});
   describe(v, c.pilot);
 }
 

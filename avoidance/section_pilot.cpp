@@ -41,8 +41,8 @@ void SectionPilot::reset(const SectionCamera& camera) {
   flown_ = false;
 }
 
-Command SectionPilot::update(const vision::SectionSearch& seen, const vision::SectionChoice& choice, double reach_m,
-                             const Observation& observation) {
+Command SectionPilot::update(const vision::SectionSearch& seen, const vision::SectionChoice& choice,
+                             const PassedObstacles& passed, double reach_m, const Observation& observation) {
   const NavigationState& navigation = observation.navigation;
   // A turn that has begun is finished first: what passes by on the way says nothing of where it leads.
   if (choice.section < 0 && !held_W_) return hover_and_yaw(seen, choice, observation);
@@ -51,13 +51,14 @@ Command SectionPilot::update(const vision::SectionSearch& seen, const vision::Se
   const bool arrived = aside_W_ && (*aside_W_ - navigation.p_WB_est).norm() < config_.arrived_m;
   if (!flown_ && (observation.goal.p_WG - navigation.p_WB_est).norm() < reach_m) post_W_ = observation.goal.p_WG;
   flown_ = true;
-  if (aside_W_ && (arrived || (!post_W_ && is_free(observation.goal.p_WG, seen, navigation)))) {
+  if (aside_W_ && (arrived || (!post_W_ && is_free(observation.goal.p_WG, seen, passed, navigation)))) {
     if (post_W_) post_W_ = aside_W_;
     aside_W_.reset();
     state_ = State::resume;
   }
-  const bool off_route = is_spoilt(aside_W_, seen, choice, navigation);
-  if (looked_round || (off_route && !held_W_)) {
+  const Eigen::Vector3d& end_W = aside_W_ ? *aside_W_ : post_W_ ? *post_W_ : observation.goal.p_WG;
+  const bool off_route = !held_W_ && is_spoilt(end_W, seen, choice, passed, reach_m, navigation);
+  if (looked_round || off_route) {
     if (!looked_round && !aside_W_) search(section_ray(camera_, seen, choice.section).x(), observation);
     aside_W_ = place(navigation, seen, choice.section, reach_m);
     state_ = State::avoid;
@@ -144,7 +145,7 @@ std::optional<cv::Point2d> SectionPilot::pixel_of(const Eigen::Vector3d& p_W, co
 }
 
 /// Whether a place some way off is in sight with a whole section about it that is free.
-bool SectionPilot::is_free(const Eigen::Vector3d& p_W, const vision::SectionSearch& seen,
+bool SectionPilot::is_free(const Eigen::Vector3d& p_W, const vision::SectionSearch& seen, const PassedObstacles& passed,
                            const NavigationState& navigation) const {
   const auto pixel = pixel_of(p_W, navigation);
   if (!pixel || (p_W - navigation.p_WB_est).norm() < config_.arrived_m) return false;
@@ -153,16 +154,24 @@ bool SectionPilot::is_free(const Eigen::Vector3d& p_W, const vision::SectionSear
   const double off_u_px = std::abs(pixel->x - (s.x + 0.5 * s.width));
   const double off_v_px = std::abs(pixel->y - (s.y + 0.5 * s.height));
   constexpr double kWithin = 0.25;  // of the section's size: more, and it says too little of the place's far side
-  return off_u_px < kWithin * s.width && off_v_px < kWithin * s.height && seen.share(section) <= config_.keep_share;
+  return off_u_px < kWithin * s.width && off_v_px < kWithin * s.height && seen.share(section) <= config_.keep_share &&
+         passed.free(p_W - navigation.p_WB_est);
 }
 
-/// Whether the way aside, or without one the way ahead, has filled up and another section is better.
-bool SectionPilot::is_spoilt(const std::optional<Eigen::Vector3d>& aside_W, const vision::SectionSearch& seen,
-                             const vision::SectionChoice& choice, const NavigationState& navigation) const {
-  if (aside_W && !turns()) return false;
-  const auto pixel = aside_W ? pixel_of(*aside_W, navigation) : std::nullopt;
+/// Whether the way to `end_W` aside, or without one the way ahead, has filled up and another section is better.
+bool SectionPilot::is_spoilt(const Eigen::Vector3d& end_W, const vision::SectionSearch& seen,
+                             const vision::SectionChoice& choice, const PassedObstacles& passed, double reach_m,
+                             const NavigationState& navigation) const {
+  if (aside_W_ && !turns()) return false;
+  const auto pixel = aside_W_ ? pixel_of(end_W, navigation) : std::nullopt;
   const int section = pixel ? seen.nearest(*pixel) : seen.centre();
-  return section != choice.section && seen.share(section) > config_.keep_share;
+  if (section == choice.section) return false;
+  const Eigen::Vector3d way_W = end_W - navigation.p_WB_est;
+  const auto meets_passed = [&] {
+    if (way_W.norm() < config_.arrived_m || passed.free(way_W)) return false;
+    return passed.free(place(navigation, seen, choice.section, reach_m) - navigation.p_WB_est);
+  };
+  return seen.share(section) > config_.keep_share || meets_passed();
 }
 
 /// Turns to face a place, waiting where it is, then moves there, climbing evenly on the way.

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "avoidance/passed_obstacles.h"
 #include "avoidance/section_grid.h"
 #include "vision/disparity.h"
 
@@ -19,7 +20,8 @@ struct SectionCamera {
 /// direction: turns to it first, then moves. Hovers and yaws where no section is free. Differs: a way is given up only
 /// where the section that holds it fills up, since else every pixel's change would put the position off again; and
 /// the route is resumed as soon as the section that holds the goal is free, where the paper says only that the vehicle
-/// continues on its path. A vehicle that hovers at its goal stays where it gave way to, as in fig. 20.
+/// continues on its path; and no way is chosen or kept that meets what has left the picture, while another does not. A
+/// vehicle that hovers at its goal stays where it gave way to, as in fig. 20.
 class SectionPilot {
  public:
   enum class State { cruise, avoid, resume, hover_and_yaw };
@@ -31,9 +33,13 @@ class SectionPilot {
   void reset(const SectionCamera& camera);
 
   /// @param seen  sections and threats of the newest picture. @param choice  among them.
-  /// @param reach_m  how far ahead a position aside lies, > 0.
-  Command update(const vision::SectionSearch& seen, const vision::SectionChoice& choice, double reach_m,
-                 const Observation& observation);
+  /// @param passed  what has left the picture. @param reach_m  how far ahead a position aside lies, > 0.
+  Command update(const vision::SectionSearch& seen, const vision::SectionChoice& choice, const PassedObstacles& passed,
+                 double reach_m, const Observation& observation);
+
+  /// Where to go for a section, in W, m: as a rule ahead in its direction. @param reach_m  how far, > 0.
+  Eigen::Vector3d place(const NavigationState& navigation, const vision::SectionSearch& seen, int section,
+                        double reach_m) const;
 
   State state() const { return state_; }
 
@@ -45,12 +51,11 @@ class SectionPilot {
     double reach_m = 0.0;             ///< how far it goes to the side it is on
   };
   bool turns() const;
-  Eigen::Vector3d place(const NavigationState& navigation, const vision::SectionSearch& seen, int section,
-                        double reach_m) const;
   std::optional<cv::Point2d> pixel_of(const Eigen::Vector3d& p_W, const NavigationState& navigation) const;
-  bool is_free(const Eigen::Vector3d& p_W, const vision::SectionSearch& seen, const NavigationState& navigation) const;
-  bool is_spoilt(const std::optional<Eigen::Vector3d>& aside_W, const vision::SectionSearch& seen,
-                 const vision::SectionChoice& choice, const NavigationState& navigation) const;
+  bool is_free(const Eigen::Vector3d& p_W, const vision::SectionSearch& seen, const PassedObstacles& passed,
+               const NavigationState& navigation) const;
+  bool is_spoilt(const Eigen::Vector3d& end_W, const vision::SectionSearch& seen, const vision::SectionChoice& choice,
+                 const PassedObstacles& passed, double reach_m, const NavigationState& navigation) const;
   Command hover_and_yaw(const vision::SectionSearch& seen, const vision::SectionChoice& choice,
                         const Observation& observation);
   void search(double side, const Observation& observation);

@@ -65,7 +65,8 @@ double SectionSearch::share(int section) const {
   return static_cast<double>(threats_[i]) / sections_[i].area();
 }
 
-SectionChoice SectionSearch::choose(const cv::Mat& depth_m, double threshold_m, double most_share, Unknown unknown) {
+SectionChoice SectionSearch::choose(const cv::Mat& depth_m, double threshold_m, double most_share, Unknown unknown,
+                                    const std::function<bool(int)>& open) {
   if (depth_m.size() != picture_ || depth_m.type() != CV_32FC1) {
     throw std::invalid_argument("a depth picture does not have the size or type that its sections were made for");
   }
@@ -91,6 +92,14 @@ SectionChoice SectionSearch::choose(const cv::Mat& depth_m, double threshold_m, 
     threats_[i] = corners / kSet;
     const int section = static_cast<int>(i);
     if (choice.best < 0 || rank(section) < rank(choice.best)) choice.best = section;
+  }
+  if (open) {
+    int best_open = -1;
+    for (int i = 0; i < static_cast<int>(sections_.size()); ++i) {
+      const bool better = share(i) <= most_share && (best_open < 0 || rank(i) < rank(best_open));
+      if (better && open(i)) best_open = i;
+    }
+    if (best_open >= 0) choice.best = best_open;
   }
   choice.share = share(choice.best);
   if (choice.share <= most_share) choice.section = choice.best;

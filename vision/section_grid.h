@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -41,8 +42,11 @@ class SectionSearch {
   /// @param depth_m      rows x cols, CV_32F, of the size given, m; NaN unknown, +infinity sky.
   /// @param threshold_m  what is nearer is a threat, > 0.
   /// @param most_share   share of threats above which a section is no way out, in [0, 1].
+  /// @param open         whether a section may be chosen, asked of as few as can be; empty: all may. Where none that
+  ///                     is open has few enough threats, none counts as shut.
   /// @return equal shares go to the section whose centre lies nearest the picture's centre, then to the lower number.
-  SectionChoice choose(const cv::Mat& depth_m, double threshold_m, double most_share, Unknown unknown);
+  SectionChoice choose(const cv::Mat& depth_m, double threshold_m, double most_share, Unknown unknown,
+                       const std::function<bool(int)>& open = {});
 
   const std::vector<cv::Rect>& sections() const { return sections_; }
   /// The section straight ahead: the one that wins when all are alike.

@@ -153,6 +153,20 @@ TEST(SectionGridModule, AFasterVehicleMindsWhatIsFartherWhereTheThresholdHangsOn
   EXPECT_EQ(Pilot().see(beyond).status, "cruise");
 }
 
+TEST(SectionGridModule, KeepsAsideWhileWhatHasLeftThePictureStandsInTheWayToTheGoal) {
+  for (const bool remembers : {true, false}) {
+    SectionGridConfig config;
+    config.passed.radius_m = remembers ? 1.2 : 0.0;
+    Pilot pilot(config);
+    // A wall 2 m ahead, from the left edge to past the middle. Once the vehicle has turned right, the picture still
+    // shows the way to the goal, but no longer the wall from half a metre to the left of that way on.
+    cv::Mat wall = far();
+    wall.colRange(0, 90).setTo(2.0);
+    pilot.see(wall);
+    EXPECT_EQ(pilot.see(far(), {0.0, 0.0, -5.0}, 0.5).status, remembers ? "avoid" : "resume");
+  }
+}
+
 TEST(SectionGridModule, AVehicleThatHoversStaysWhereItGaveWayTo) {
   SectionGridConfig config;
   config.pilot.answer = SectionPilotConfig::Answer::sideways;

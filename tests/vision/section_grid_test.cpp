@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <tuple>
+#include <vector>
 
 namespace hedgehop::vision {
 namespace {
@@ -150,6 +153,45 @@ TEST(SectionSearch, AnOpeningAlongTheTopIsMissedByThreeByThreeAndFoundBySeventee
   const SectionChoice found = fine.choose(depth, kThreshold_m, 0.15, Unknown::free);
   ASSERT_GE(found.section, 0);
   EXPECT_LT(found.section, 3 * 17);
+}
+
+// The oracle sorts all sections and takes the first that is open and empty enough.
+TEST(SectionSearch, OfTheOpenSectionsTheEmptiestIsChosenAndWithoutAnyNoneIsShut) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  const cv::Size size(128, 72);
+  int shut = 0, disregarded = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    SectionSearch search({.rows = 5, .cols = 5}, size);
+    cv::Mat depth(size, CV_32F, cv::Scalar(20.0));
+    depth(cv::Rect(0, 0, 1 + static_cast<int>(120 * uniform(random)), 72)).setTo(5.0);
+    std::vector<bool> open;
+    const double open_share = trial % 4 == 0 ? 0.0 : uniform(random);
+    for (size_t i = 0; i < search.sections().size(); ++i) open.push_back(uniform(random) < open_share);
+    const SectionChoice all = search.choose(depth, kThreshold_m, 0.15, Unknown::free);
+    std::vector<std::tuple<int, double, int>> ranked;
+    for (int i = 0; i < static_cast<int>(open.size()); ++i) {
+      const cv::Rect& s = search.sections()[static_cast<size_t>(i)];
+      const double du = s.x + 0.5 * s.width - 64.0, dv = s.y + 0.5 * s.height - 36.0;
+      ranked.emplace_back(search.threats()[static_cast<size_t>(i)], du * du + dv * dv, i);
+    }
+    std::ranges::sort(ranked);
+    const auto first = std::ranges::find_if(ranked, [&](const auto& r) {
+      const auto i = static_cast<size_t>(std::get<2>(r));
+      return open[i] && std::get<0>(r) <= 0.15 * search.sections()[i].area();
+    });
+    const SectionChoice found = search.choose(depth, kThreshold_m, 0.15, Unknown::free,
+                                              [&](int i) { return bool(open[static_cast<size_t>(i)]); });
+    if (first == ranked.end()) {
+      ++disregarded;
+      EXPECT_EQ(found.section, all.section);
+    } else {
+      shut += found.section != all.section;
+      EXPECT_EQ(found.section, std::get<2>(*first));
+    }
+  }
+  EXPECT_GT(shut, 20);
+  EXPECT_GT(disregarded, 20);
 }
 
 TEST(SectionSearch, AllUnknownIsFreeOrBlockedAsAsked) {
