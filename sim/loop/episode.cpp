@@ -19,6 +19,7 @@
 #include "sim/loop/cameras.h"
 #include "sim/loop/corner_sight.h"
 #include "sim/loop/flight_log.h"
+#include "sim/loop/map_log.h"
 #include "sim/loop/map_score.h"
 #include "sim/loop/plugin_module.h"
 #include "sim/loop/random_stream.h"
@@ -86,6 +87,7 @@ class Episode {
   std::deque<PendingCommand> pending_;
   dynamics::Setpoint setpoint_;
   FlightLog log_;
+  MapLog map_log_;
   std::optional<MapScore> map_score_;        ///< where the scene's corners are known
   std::optional<ProjectedCorners> corners_;  ///< for a module that asks for the true ones
   StageTimer physics_, render_, velocimetry_, decision_;
@@ -195,6 +197,7 @@ Flight Episode::fly() {
     result.metrics.push_back({metric.name, metric.value, metric.unit});
   }
   if (map_score_) std::ranges::move(map_score_->metrics(), std::back_inserter(result.metrics));
+  flight.map = map_log_.take(map_score_ ? &*map_score_ : nullptr);
   assess(scenario_, scene_, hull_, flight);
   return flight;
 }
@@ -266,14 +269,19 @@ void Episode::decide() {
   }
 }
 
-/// Compares the module's map with the scene, by what its first camera can see of it.
+/// Keeps the module's chart and compares it with the scene, by what its first camera can see of it.
 void Episode::judge_map() {
-  if (!map_score_) return;
-  const size_t camera = module_cameras_.front();
   const double t_s = ticks_.t_s(tick_);
-  map_score_->add(t_s, module_->map(),
-                  corners_in_sight(map_score_->corners_W(), cameras_.mounted(camera).model, X_WC(camera),
-                                   corners_ ? nullptr : &collision_, t_s));
+  avoidance::Chart chart = module_->chart();
+  if (map_score_) {
+    std::vector<Eigen::Vector3d> points_W;
+    for (const avoidance::ChartPoint& point : chart.points) points_W.push_back(point.p_W);
+    const size_t camera = module_cameras_.front();
+    map_score_->add(t_s, points_W,
+                    corners_in_sight(map_score_->corners_W(), cameras_.mounted(camera).model, X_WC(camera),
+                                     corners_ ? nullptr : &collision_, t_s));
+  }
+  map_log_.add(t_s, std::move(chart));
 }
 
 Eigen::Isometry3d Episode::X_WC(size_t camera) const { return aircraft_.X_WB() * cameras_.mounted(camera).X_BC; }

@@ -126,6 +126,7 @@ function main() {
   fillChecks(document.getElementById('checks'), data.result.checks);
   fillDetails(document.getElementById('details'), data);
   const film = openFilm();
+  if (!data.map) document.getElementById('landmarks-card').remove();
 
   // One instant is shown by plan and plots: the pointer's, else the film's.
   let pointer = null, drawn;
@@ -134,6 +135,7 @@ function main() {
     if (t === drawn) return;
     drawn = t;
     plan.setTime(t);
+    landmarks?.setTime(t);
     charts.setTime(t);
   };
   let asked = false;
@@ -147,6 +149,7 @@ function main() {
     pick: (t) => { if (film) film.currentTime = Math.max(0, t); },
   };
   const plan = new PlanView(document.getElementById('plan'), data, on);
+  const landmarks = data.map ? new LandmarksView(document.getElementById('landmarks'), data) : null;
   const charts = new Charts(document.getElementById('charts'), data.panels, sectionNotes(data.module), on);
   if (film) {
     const follow = () => { ask(); if (!film.paused) requestAnimationFrame(follow); };
@@ -157,6 +160,6 @@ function main() {
   const color = document.getElementById('plan-color');
   plan.colorings.forEach(({name}) => color.append(make('option', '', name)));
   color.addEventListener('change', () => plan.setColoring(color.value));
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { plan.draw(); charts.build(); });
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { plan.draw(); landmarks?.draw(); charts.build(); });
 }
 main();
