@@ -121,7 +121,7 @@ struct Decision {
 
 /// A point of the world that a module believes in.
 struct ChartPoint {
-  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();         ///< m
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();           ///< m
   Eigen::Matrix3d covariance_W = Eigen::Matrix3d::Zero();  ///< m^2
 };
 /// What a module believes of the world, and where in it it means to fly.

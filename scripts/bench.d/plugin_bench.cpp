@@ -1,7 +1,7 @@
 #include <benchmark/benchmark.h>
 
 #include "avoidance/go_to_goal.h"
-#include "sim/loop/plugin_module.h"
+#include "sim/plugin/plugin_module.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -10,6 +10,7 @@
 #include "sim/export/euroc.h"
 #include "sim/export/kitti.h"
 #include "sim/export/tum.h"
+#include "sim/loop/episode.h"
 #include "sim/record/picture_file.h"
 #include "sim/record/whole_file.h"
 

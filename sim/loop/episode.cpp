@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <deque>
 #include <iterator>
-#include <memory>
 #include <opencv2/core/utility.hpp>
 #include <optional>
 #include <utility>
@@ -15,30 +12,24 @@
 #include "scenes/generators.h"
 #include "sim/collision/proximity.h"
 #include "sim/loop/aircraft.h"
-#include "sim/loop/assessment.h"
 #include "sim/loop/cameras.h"
-#include "sim/loop/corner_sight.h"
 #include "sim/loop/flight_log.h"
 #include "sim/loop/map_log.h"
-#include "sim/loop/map_score.h"
-#include "sim/loop/plugin_module.h"
+#include "sim/loop/module_pilot.h"
+#include "sim/loop/onlooker.h"
 #include "sim/loop/random_stream.h"
-#include "sim/loop/route.h"
 #include "sim/loop/setpoints.h"
 #include "sim/loop/stage_timer.h"
 #include "sim/loop/velocimeter.h"
+#include "sim/verdict/assessment.h"
+#include "sim/verdict/corner_sight.h"
+#include "sim/verdict/map_score.h"
 
 namespace hedgehop::sim {
 namespace {
 
 /// Solids farther from the hull than this count as absent, m: no clearance beyond it is of interest.
 constexpr double kSearchRadius_m = 50.0;
-
-/// A decision on its way to the autopilot.
-struct PendingCommand {
-  int64_t tick = 0;
-  avoidance::Command command;
-};
 
 class Episode {
  public:
@@ -53,22 +44,17 @@ class Episode {
 
   // What happens on a tick, in this order.
   void measure_proximity();
-  void sense();
   void look();
-  void hand_over_sensors();
   void decide();
   void judge_map();
   void steer();
-  void show();
   bool ended();
   void move();
 
   void end(Outcome outcome, std::string cause = {});
   std::optional<double> goal_distance_m() const;
-  Eigen::Isometry3d X_WC(size_t camera) const;  ///< true
 
   const Scenario& scenario_;
-  FlightWatcher* watcher_;
   const Ticks ticks_;
   const scenes::Scene scene_;
   const std::vector<dynamics::HullPart> hull_;
@@ -76,20 +62,15 @@ class Episode {
   CollisionWorld collision_;
   Cameras cameras_;
   std::optional<Velocimeter> velocimeter_;
-  std::unique_ptr<avoidance::Module> module_;
-  std::vector<size_t> module_cameras_;
-  Route route_;
-  int64_t control_period_ = 0, decision_period_ = 0, latency_ = 0, picture_period_ = 0;
+  ModulePilot pilot_;
+  Onlooker onlooker_;
+  const int64_t control_period_;
 
   int64_t tick_ = 0;
   Proximity proximity_;
-  std::vector<avoidance::CameraFrame> seen_;  ///< what the module is shown this tick
-  std::deque<PendingCommand> pending_;
-  dynamics::Setpoint setpoint_;
   FlightLog log_;
   MapLog map_log_;
-  std::optional<MapScore> map_score_;        ///< where the scene's corners are known
-  std::optional<ProjectedCorners> corners_;  ///< for a module that asks for the true ones
+  std::optional<MapScore> map_score_;  ///< where the scene's corners are known
   StageTimer physics_, render_, velocimetry_, decision_;
   std::optional<Outcome> outcome_;
   std::string cause_;
@@ -97,7 +78,6 @@ class Episode {
 
 Episode::Episode(const Scenario& scenario, FlightWatcher* watcher)
     : scenario_(scenario),
-      watcher_(watcher),
       ticks_(scenario.physics_rate_hz),
       scene_(build_part("scene",
                         [&] { return scenes::make_scene(scenario.scene, stream_seed(scenario.seed, kSceneStream)); })),
@@ -105,53 +85,33 @@ Episode::Episode(const Scenario& scenario, FlightWatcher* watcher)
       aircraft_(scenario, ticks_),
       collision_(scene_, hull_),
       cameras_(scenario.rig, ticks_, scene_, scenario.drawing, scenario.seed),
-      module_(make_module(scenario.avoidance)),
-      route_(scenario),
+      pilot_(scenario, ticks_, cameras_),
+      onlooker_(watcher, ticks_, cameras_, aircraft_),
       control_period_(ticks_.period(static_cast<double>(scenario.control_rate_hz))),
       log_(scene_, aircraft_.vehicle()) {
   if (scenario.velocimeter.enabled) {
     velocimeter_.emplace(cameras_.index(scenario.velocimeter.camera), cameras_);
   }
-  int64_t slowest = 0;
-  const auto* highrise = std::get_if<scenes::HighriseConfig>(&scenario.scene);
-  for (const avoidance::CameraNeed& need : module_->needs().cameras) {
-    module_cameras_.push_back(cameras_.index(need.role));
-    slowest = std::max(slowest, cameras_.period_ticks(module_cameras_.back()));
-    if (need.true_corners) {
-      if (!highrise) throw InputError("avoidance: true corners are known of scene 'highrise' alone");
-      corners_.emplace(scenes::highrise_corners(*highrise), stream_seed(scenario.seed, "corners"));
-    }
-  }
-  // A module without cameras decides as often as the rig's fastest camera, so that a control compares like with like.
-  decision_period_ = cameras_.count() > 0 ? cameras_.period_ticks(0) : control_period_;
-  for (size_t i = 1; i < cameras_.count(); ++i) decision_period_ = std::min(decision_period_, cameras_.period_ticks(i));
-  latency_ =
-      scenario.command_latency_s ? ticks_.ticks(*scenario.command_latency_s) : std::max(slowest, decision_period_);
-  if (watcher_ && watcher_->picture_rate_hz() > 0.0) picture_period_ = ticks_.period(watcher_->picture_rate_hz());
 }
 
 void Episode::begin() {
   aircraft_.reset(collision_);
-  setpoint_ = dynamics::PositionSetpoint{aircraft_.body().p_WB, route_.goal().heading_rad};
-  const dynamics::AutopilotConfig& limits = scenario_.avionics.autopilot;
-  module_->reset({{cameras_.mounted().begin(), cameras_.mounted().end()},
-                  {limits.speed_limit_mps, limits.acceleration_limit_mps2, dynamics::radius_m(hull_)},
-                  stream_seed(scenario_.seed, "module")});
-  log_.set_signals(module_->signals());
-  if (const auto* highrise = std::get_if<scenes::HighriseConfig>(&scenario_.scene);
-      highrise && !module_cameras_.empty()) {
+  const double heading_rad = pilot_.route().goal().heading_rad;
+  pilot_.reset(dynamics::radius_m(hull_), dynamics::PositionSetpoint{aircraft_.body().p_WB, heading_rad});
+  log_.set_signals(pilot_.module().signals());
+  if (const auto* highrise = std::get_if<scenes::HighriseConfig>(&scenario_.scene); highrise && pilot_.first_camera()) {
     map_score_.emplace(scenes::highrise_corners(*highrise), aircraft_.body().p_WB);
   }
 }
 
 void Episode::act() {
   measure_proximity();
-  sense();
+  aircraft_.sense(tick_, collision_);
   look();
-  hand_over_sensors();
-  decide();
+  onlooker_.hand_over_sensors(tick_);
+  if (pilot_.decides(tick_)) decide();
   if (tick_ % control_period_ == 0) steer();
-  show();
+  onlooker_.show(tick_, pilot_.module(), scenario_.duration_s, goal_distance_m());
 }
 
 cv::Mat Episode::picture(size_t camera, Channel channel, double t_s) {
@@ -193,7 +153,7 @@ Flight Episode::fly() {
   result.physics_ms = physics_.summary();
   result.wall_s = wall_s;
   result.realtime_factor = result.flight_time_s / wall_s;
-  for (const avoidance::Metric& metric : module_->metrics()) {
+  for (const avoidance::Metric& metric : pilot_.module().metrics()) {
     result.metrics.push_back({metric.name, metric.value, metric.unit});
   }
   if (map_score_) std::ranges::move(map_score_->metrics(), std::back_inserter(result.metrics));
@@ -207,110 +167,53 @@ void Episode::measure_proximity() {
   log_.add(ticks_.t_s(tick_), aircraft_.body().p_WB, proximity_);
 }
 
-void Episode::sense() { aircraft_.sense(tick_, collision_); }
-
 /// Exposes the cameras that are due and needed, all from this tick's state, and feeds the velocimeter.
 void Episode::look() {
-  seen_.clear();
-  const int64_t t_ns = ticks_.t_ns(tick_);
-  std::optional<StageTimer::Lap> lap;
-  const auto expose = [&](size_t camera) -> const avoidance::CameraFrame* {
-    if (!lap) lap.emplace(render_);
-    return cameras_.expose(camera, t_ns, aircraft_.motion());
-  };
-  for (const size_t camera : module_cameras_) {
-    if (!cameras_.due(camera, tick_)) continue;
-    const avoidance::CameraFrame* const frame = expose(camera);
-    if (!frame) continue;
-    seen_.push_back(*frame);
-    if (corners_) seen_.back().corners_px = corners_->project(cameras_.mounted(camera).model, X_WC(camera));
+  const bool measures = velocimeter_ && cameras_.due(velocimeter_->camera(), tick_);
+  const avoidance::CameraFrame* ground = nullptr;
+  {
+    std::optional<StageTimer::Lap> lap;
+    if (measures || pilot_.looks(tick_)) lap.emplace(render_);
+    pilot_.look(tick_, aircraft_.motion());
+    if (measures) ground = cameras_.expose(velocimeter_->camera(), ticks_.t_ns(tick_), aircraft_.motion());
   }
-  if (velocimeter_ && cameras_.due(velocimeter_->camera(), tick_)) {
-    const avoidance::CameraFrame* const frame = expose(velocimeter_->camera());
-    lap.reset();
-    const StageTimer::Lap flow_lap = velocimetry_.lap();
-    if (frame) velocimeter_->update(*frame, aircraft_.avionics());
+  if (measures) {
+    const StageTimer::Lap lap = velocimetry_.lap();
+    if (ground) velocimeter_->update(*ground, aircraft_.avionics());
   }
-}
-
-/// Shows the watcher what all sensors say, if it wants that.
-void Episode::hand_over_sensors() {
-  if (!watcher_ || !watcher_->wants_sensors()) return;
-  std::vector<avoidance::CameraFrame> frames;
-  for (size_t camera = 0; camera < cameras_.count(); ++camera) {
-    if (!cameras_.due(camera, tick_)) continue;
-    if (const auto* const frame = cameras_.expose(camera, ticks_.t_ns(tick_), aircraft_.motion())) {
-      frames.push_back(*frame);
-    }
-  }
-  const dynamics::Avionics& avionics = aircraft_.avionics();
-  if (frames.empty() && !avionics.imu()) return;
-  const auto depth = [this](std::string_view role) {
-    const Cameras::Instant now{ticks_.t_ns(tick_), aircraft_.motion()};
-    return cameras_.picture(cameras_.index(role), Channel::depth, now, now);
-  };
-  watcher_->on_sensors({ticks_.t_ns(tick_), aircraft_.body(), avionics.imu(), avionics.imu_bias(), frames, depth});
 }
 
 void Episode::decide() {
-  const bool due = module_cameras_.empty() ? tick_ % decision_period_ == 0 : !seen_.empty();
-  if (!due) return;
-  route_.update(aircraft_.navigation().p_WB_est);
-  const avoidance::Observation observation{ticks_.t_ns(tick_), seen_, to_navigation_state(aircraft_.avionics()),
-                                           route_.goal()};
   try {
     const StageTimer::Lap lap = decision_.lap();
-    const avoidance::Decision decision = module_->update(observation);
-    pending_.push_back({tick_ + latency_, decision.command});
-    log_.add(ticks_.t_s(tick_), decision);
-    judge_map();
+    log_.add(ticks_.t_s(tick_), pilot_.decide(tick_, to_navigation_state(aircraft_.avionics())));
   } catch (const std::exception& error) {
     end(Outcome::fault, fmt::format("the module failed at {:.3f} s: {}", ticks_.t_s(tick_), error.what()));
+    return;
   }
+  judge_map();
 }
 
 /// Keeps the module's chart and compares it with the scene, by what its first camera can see of it.
 void Episode::judge_map() {
   const double t_s = ticks_.t_s(tick_);
-  avoidance::Chart chart = module_->chart();
+  avoidance::Chart chart = pilot_.module().chart();
   if (map_score_) {
+    const avoidance::MountedCamera& camera = cameras_.mounted(*pilot_.first_camera());
     std::vector<Eigen::Vector3d> points_W;
     for (const avoidance::ChartPoint& point : chart.points) points_W.push_back(point.p_W);
-    const size_t camera = module_cameras_.front();
     map_score_->add(t_s, points_W,
-                    corners_in_sight(map_score_->corners_W(), cameras_.mounted(camera).model, X_WC(camera),
-                                     corners_ ? nullptr : &collision_, t_s));
+                    corners_in_sight(map_score_->corners_W(), camera.model, aircraft_.X_WB() * camera.X_BC,
+                                     pilot_.sees_through_walls() ? nullptr : &collision_, t_s));
   }
   map_log_.add(t_s, std::move(chart));
 }
 
-Eigen::Isometry3d Episode::X_WC(size_t camera) const { return aircraft_.X_WB() * cameras_.mounted(camera).X_BC; }
-
-/// Lets commands whose latency is over take effect and runs the autopilot.
+/// Runs the autopilot.
 void Episode::steer() {
-  while (!pending_.empty() && pending_.front().tick <= tick_) {
-    setpoint_ = to_setpoint(pending_.front().command);
-    pending_.pop_front();
-  }
-  aircraft_.steer(setpoint_, static_cast<double>(control_period_) * ticks_.dt_s());
-  log_.add(ticks_.t_s(tick_), aircraft_, setpoint_, proximity_);
-}
-
-/// Shows the watcher what it asked for.
-void Episode::show() {
-  if (!watcher_) return;
-  if (picture_period_ > 0 && tick_ % picture_period_ == 0) {
-    const cv::Mat annotated = module_->annotate();
-    const int64_t t_ns = ticks_.t_ns(tick_);
-    if (!annotated.empty()) {
-      watcher_->on_pictures(t_ns, {}, annotated);
-    } else {
-      watcher_->on_pictures(t_ns, cameras_.snapshot(t_ns, aircraft_.X_WB()), annotated);
-    }
-  }
-  if (tick_ % ticks_.ticks(1.0) == 0) {
-    watcher_->on_progress(ticks_.t_s(tick_), scenario_.duration_s, goal_distance_m().value_or(std::nan("")));
-  }
+  const dynamics::Setpoint& setpoint = pilot_.setpoint(tick_);
+  aircraft_.steer(setpoint, static_cast<double>(control_period_) * ticks_.dt_s());
+  log_.add(ticks_.t_s(tick_), aircraft_, setpoint, proximity_);
 }
 
 bool Episode::ended() {
@@ -322,7 +225,7 @@ bool Episode::ended() {
     const std::string what =
         ground || !proximity_.nearest_solid ? "the ground" : scenes::solid_at(scene_, *proximity_.nearest_solid).name;
     end(Outcome::collided, fmt::format("hit {} at {:.3f} s", what, ticks_.t_s(tick_)));
-  } else if (scenario_.goal && route_.on_last() && *goal_distance_m() <= scenario_.goal->radius_m) {
+  } else if (scenario_.goal && pilot_.route().on_last() && *goal_distance_m() <= scenario_.goal->radius_m) {
     end(Outcome::reached);
   } else if (tick_ >= ticks_.ticks(scenario_.duration_s)) {
     end(Outcome::timeout);

@@ -8,8 +8,8 @@
 #include "scenes/scene.h"
 #include "sim/collision/proximity.h"
 #include "sim/loop/aircraft.h"
-#include "sim/loop/flight.h"
 #include "sim/loop/trajectory_hash.h"
+#include "sim/verdict/flight.h"
 
 namespace hedgehop::sim {
 

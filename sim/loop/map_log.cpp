@@ -15,7 +15,7 @@ void MapLog::add(double t_s, avoidance::Chart chart) {
 MapRecord MapLog::take(const MapScore* score) {
   MapRecord record{.course_NE = std::move(last_.course_NE), .ways = std::move(ways_)};
   for (size_t i = 0; i < last_.points.size(); ++i) {
-    record.points.push_back({last_.points[i], std::nullopt});
+    record.points.push_back({last_.points[i].p_W, last_.points[i].covariance_W, std::nullopt});
     if (score) record.points.back().is_true = score->is_true()[i];
   }
   if (score && !record.empty()) record.corners = score->corners();

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "sim/loop/map_record.h"
-#include "sim/loop/map_score.h"
+#include "avoidance/module.h"
+#include "sim/verdict/map_record.h"
+#include "sim/verdict/map_score.h"
 
 namespace hedgehop::sim {
 

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <vector>
 
-#include "sim/loop/flight.h"
+#include "sim/verdict/flight.h"
 
 namespace hedgehop::sim {
 

@@ -15,17 +15,15 @@ Json line(const std::vector<Eigen::Vector2d>& places_NE) {
   return places;
 }
 
-Json place(const Eigen::Vector3d& p_W) {
-  return {{"n", milli(p_W.x())}, {"e", milli(p_W.y())}, {"d", milli(p_W.z())}};
-}
+Json place(const Eigen::Vector3d& p_W) { return {{"n", milli(p_W.x())}, {"e", milli(p_W.y())}, {"d", milli(p_W.z())}}; }
 
 }  // namespace
 
 Json map_data(const MapRecord& map) {
   Json json = {{"points", Json::array()}, {"corners", Json::array()}};
   for (const RecordedPoint& recorded : map.points) {
-    Json point = place(recorded.point.p_W);
-    const Eigen::Matrix3d& P = recorded.point.covariance_W;
+    Json point = place(recorded.p_W);
+    const Eigen::Matrix3d& P = recorded.covariance_W;
     point["covariance"] = {brief(P(0, 0)), brief(P(0, 1)), brief(P(1, 1))};
     point["true"] = recorded.is_true ? Json(*recorded.is_true) : Json(nullptr);
     json["points"].push_back(point);

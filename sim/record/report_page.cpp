@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -33,6 +34,21 @@ std::string filled(std::string_view page, std::span<const Value> values) {
     if (!known) throw std::logic_error(fmt::format("a page's template names unknown '{}'", name));
     page.remove_prefix(close + 2);
   }
+}
+
+std::string joined(std::initializer_list<std::string_view> parts, std::string_view between) {
+  return fmt::format("{}", fmt::join(parts, between));
+}
+
+/// A whole page: the frame that all share, with what is its own.
+std::string page(std::string_view title, std::string_view body, std::string data_json,
+                 std::initializer_list<std::string_view> styles, std::initializer_list<std::string_view> scripts) {
+  const std::string safe_title = html_escaped(title), data = script_safe(std::move(data_json));
+  const std::string all_styles = joined(styles, "</style>\n<style>");
+  const std::string all_scripts = joined(scripts, "</script>\n<script>");
+  const std::array values = {Value{"title", safe_title}, Value{"styles", all_styles}, Value{"body", body},
+                             Value{"data", data}, Value{"scripts", all_scripts}};
+  return filled(kPage, values);
 }
 
 std::string film_element(const PageFilm& film) {
@@ -100,48 +116,27 @@ std::string base64(std::string_view bytes) {
 }
 
 std::string report_page(std::string_view title, std::string data_json, const PageFilm& film) {
-  const std::string safe_title = html_escaped(title), data = script_safe(std::move(data_json));
   const std::string film_html = film_element(film);
-  const std::array values = {Value{"title", safe_title},
-                             Value{"plot_style", kPlotStyle},
-                             Value{"style", kReportStyle},
-                             Value{"film", film_html},
-                             Value{"data", data},
-                             Value{"plot_script", kPlotScript},
-                             Value{"scripts", kReportScripts}};
-  return filled(kReportPage, values);
+  const std::array values = {Value{"film", film_html}};
+  return page(title, filled(kReportBody, values), std::move(data_json), {kPlotStyle, kReportStyle},
+              {kPlotScript, kReportScripts});
 }
 
 std::string trim_page(std::string_view title, std::string data_json) {
-  const std::string safe_title = html_escaped(title), data = script_safe(std::move(data_json));
-  const std::array values = {Value{"title", safe_title},        Value{"plot_style", kPlotStyle},
-                             Value{"style", kReportStyle},      Value{"data", data},
-                             Value{"plot_script", kPlotScript}, Value{"scripts", kTrimScripts}};
-  return filled(kTrimPage, values);
+  return page(title, kTrimBody, std::move(data_json), {kPlotStyle, kReportStyle}, {kPlotScript, kTrimScripts});
 }
 
 std::string campaign_page(std::string_view title, std::string data_json) {
-  const std::string safe_title = html_escaped(title), data = script_safe(std::move(data_json));
-  const std::array values = {Value{"title", safe_title}, Value{"style", kReportStyle},
-                             Value{"campaign_style", kCampaignStyle}, Value{"data", data},
-                             Value{"scripts", kCampaignScripts}};
-  return filled(kCampaignPage, values);
+  return page(title, kCampaignBody, std::move(data_json), {kReportStyle, kCampaignStyle}, {kCampaignScripts});
 }
 
 std::string reproduction_html(std::string_view title, std::string data_json) {
-  const std::string safe_title = html_escaped(title), data = script_safe(std::move(data_json));
-  const std::array values = {Value{"title", safe_title}, Value{"style", kReportStyle},
-                             Value{"campaign_style", kCampaignStyle}, Value{"data", data},
-                             Value{"scripts", kReproductionScripts}};
-  return filled(kReproductionPage, values);
+  return page(title, kReproductionBody, std::move(data_json), {kReportStyle, kCampaignStyle}, {kReproductionScripts});
 }
 
 std::string replay_page(std::string_view title, std::string data_json) {
-  const std::string safe_title = html_escaped(title), data = script_safe(std::move(data_json));
-  const std::array values = {Value{"title", safe_title}, Value{"style", kReportStyle},
-                             Value{"replay_style", kReplayStyle}, Value{"data", data},
-                             Value{"scripts", kReplayScripts}};
-  return filled(kReplayPage, values);
+  return page(std::string(title) + ", replay", kReplayBody, std::move(data_json), {kReportStyle, kReplayStyle},
+              {kReplayScripts});
 }
 
 }  // namespace hedgehop::sim

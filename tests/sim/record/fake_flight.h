@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scenes/solid.h"
-#include "sim/loop/flight.h"
+#include "sim/verdict/flight.h"
 
 namespace hedgehop::sim {
 

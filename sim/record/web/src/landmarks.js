@@ -20,16 +20,19 @@ class LandmarksView {
     const {points, corners, course} = this.chart;
     const isAim = ({n, e, radius}) => course.some(([cn, ce]) => Math.hypot(cn - n, ce - e) <= radius);
     const goal = data.plan.goal && isAim(data.plan.goal) ? data.plan.goal : null;
-    const places = [...points, ...corners, ...course.map(([n, e]) => ({n, e}))];
-    const reach = {n: places.map((p) => p.n).concat(this.path.n), e: places.map((p) => p.e).concat(this.path.e)};
-    this.map = new MapView(host, {...data.plan, bounds: [], goal}, reach, {
+    const reachOf = (some) => {
+      const places = [...some, ...corners, ...course.map(([n, e]) => ({n, e}))];
+      return {n: places.map((p) => p.n).concat(this.path.n), e: places.map((p) => p.e).concat(this.path.e)};
+    };
+    const all = reachOf(points), bounds = [...finiteRange(all.n), ...finiteRange(all.e)];
+    this.map = new MapView(host, {...data.plan, bounds, goal}, reachOf(points.filter((p) => p.true !== false)), {
       draw: (c) => this.drawOver(c),
       key: (key) => this.drawKey(key),
       hover: (x, y) => this.hover(x, y),
       leave: () => {},
       click: () => {},
     });
-    this.draw();
+    this.map.showReach();  // false landmarks may lie far off
   }
   draw() { this.map.draw(); }
 

@@ -1,0 +1,86 @@
+#include "sim/loop/module_pilot.h"
+
+#include <algorithm>
+
+#include "sim/loop/random_stream.h"
+#include "sim/loop/setpoints.h"
+#include "sim/plugin/plugin_module.h"
+#include "sim/scenario/input_error.h"
+
+namespace hedgehop::sim {
+
+ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& cameras)
+    : scenario_(scenario),
+      ticks_(ticks),
+      cameras_(cameras),
+      module_(make_module(scenario.avoidance)),
+      route_(scenario) {
+  int64_t slowest = 0;
+  const auto* highrise = std::get_if<scenes::HighriseConfig>(&scenario.scene);
+  for (const avoidance::CameraNeed& need : module_->needs().cameras) {
+    module_cameras_.push_back(cameras_.index(need.role));
+    slowest = std::max(slowest, cameras_.period_ticks(module_cameras_.back()));
+    if (need.true_corners) {
+      if (!highrise) throw InputError("avoidance: true corners are known of scene 'highrise' alone");
+      corners_.emplace(scenes::highrise_corners(*highrise), stream_seed(scenario.seed, "corners"));
+    }
+  }
+  // A module without cameras decides as often as the rig's fastest camera, so that a control compares like with like.
+  decision_period_ = ticks_.period(static_cast<double>(scenario.control_rate_hz));
+  for (size_t i = 0; i < cameras_.count(); ++i) {
+    decision_period_ = i == 0 ? cameras_.period_ticks(i) : std::min(decision_period_, cameras_.period_ticks(i));
+  }
+  latency_ =
+      scenario.command_latency_s ? ticks_.ticks(*scenario.command_latency_s) : std::max(slowest, decision_period_);
+}
+
+void ModulePilot::reset(double vehicle_radius_m, const dynamics::Setpoint& hold) {
+  setpoint_ = hold;
+  const dynamics::AutopilotConfig& limits = scenario_.avionics.autopilot;
+  module_->reset({{cameras_.mounted().begin(), cameras_.mounted().end()},
+                  {limits.speed_limit_mps, limits.acceleration_limit_mps2, vehicle_radius_m},
+                  stream_seed(scenario_.seed, "module")});
+}
+
+bool ModulePilot::looks(int64_t tick) const {
+  return std::ranges::any_of(module_cameras_, [&](size_t camera) { return cameras_.due(camera, tick); });
+}
+
+void ModulePilot::look(int64_t tick, const BodyMotion& body) {
+  seen_.clear();
+  for (const size_t camera : module_cameras_) {
+    if (!cameras_.due(camera, tick)) continue;
+    const avoidance::CameraFrame* const frame = cameras_.expose(camera, ticks_.t_ns(tick), body);
+    if (!frame) continue;
+    seen_.push_back(*frame);
+    if (corners_) {
+      const avoidance::MountedCamera& mounted = cameras_.mounted(camera);
+      seen_.back().corners_px = corners_->project(mounted.model, body.X_WB * mounted.X_BC);
+    }
+  }
+}
+
+bool ModulePilot::decides(int64_t tick) const {
+  return module_cameras_.empty() ? tick % decision_period_ == 0 : !seen_.empty();
+}
+
+avoidance::Decision ModulePilot::decide(int64_t tick, const avoidance::NavigationState& navigation) {
+  route_.update(navigation.p_WB_est);
+  avoidance::Decision decision = module_->update({ticks_.t_ns(tick), seen_, navigation, route_.goal()});
+  pending_.push_back({tick + latency_, decision.command});
+  return decision;
+}
+
+const dynamics::Setpoint& ModulePilot::setpoint(int64_t tick) {
+  while (!pending_.empty() && pending_.front().tick <= tick) {
+    setpoint_ = to_setpoint(pending_.front().command);
+    pending_.pop_front();
+  }
+  return setpoint_;
+}
+
+std::optional<size_t> ModulePilot::first_camera() const {
+  return module_cameras_.empty() ? std::nullopt : std::optional(module_cameras_.front());
+}
+
+}  // namespace hedgehop::sim

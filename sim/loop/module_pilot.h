@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "avoidance/module.h"
+#include "dynamics/setpoint.h"
+#include "sim/loop/cameras.h"
+#include "sim/loop/route.h"
+#include "sim/loop/ticks.h"
+#include "sim/scenario/scenario.h"
+#include "sim/verdict/corner_sight.h"
+
+namespace hedgehop::sim {
+
+/// The module in flight: what it is shown, when it decides, and when its commands reach the autopilot.
+class ModulePilot {
+ public:
+  /// Throws InputError for a module that cannot be made, lacks a camera, or asks for true corners where none are known.
+  ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& cameras);
+
+  /// Starts a flight. @param vehicle_radius_m  of the vertical cylinder that holds the vehicle. @param hold  in effect
+  /// until the first command is.
+  void reset(double vehicle_radius_m, const dynamics::Setpoint& hold);
+
+  /// Whether one of its cameras exposes on this tick.
+  bool looks(int64_t tick) const;
+  /// Exposes those that do.
+  void look(int64_t tick, const BodyMotion& body);
+  /// Whether it decides on this tick, look() having been called.
+  bool decides(int64_t tick) const;
+  /// Throws what the module throws.
+  avoidance::Decision decide(int64_t tick, const avoidance::NavigationState& navigation);
+
+  /// What the autopilot holds on this tick: the last command whose latency is over. @param tick  rising.
+  const dynamics::Setpoint& setpoint(int64_t tick);
+
+  const avoidance::Module& module() const { return *module_; }
+  const Route& route() const { return route_; }
+  /// The first camera it needs, if any: what its map is made from.
+  std::optional<size_t> first_camera() const;
+  /// Whether it is shown the scene's true corners, through walls.
+  bool sees_through_walls() const { return corners_.has_value(); }
+
+ private:
+  /// A decision on its way to the autopilot.
+  struct PendingCommand {
+    int64_t tick = 0;
+    avoidance::Command command;
+  };
+
+  const Scenario& scenario_;
+  const Ticks& ticks_;
+  Cameras& cameras_;
+  std::unique_ptr<avoidance::Module> module_;
+  std::vector<size_t> module_cameras_;
+  std::optional<ProjectedCorners> corners_;  ///< for a module that asks for the true ones
+  int64_t decision_period_ = 0, latency_ = 0;
+  Route route_;
+  std::vector<avoidance::CameraFrame> seen_;  ///< what the module is shown this tick
+  std::deque<PendingCommand> pending_;
+  dynamics::Setpoint setpoint_;
+};
+
+}  // namespace hedgehop::sim

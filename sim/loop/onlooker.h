@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "avoidance/module.h"
+#include "sim/loop/aircraft.h"
+#include "sim/loop/cameras.h"
+#include "sim/loop/ticks.h"
+#include "sim/loop/watcher.h"
+
+namespace hedgehop::sim {
+
+/// Hands a flight's watcher what it asks for, tick by tick.
+class Onlooker {
+ public:
+  /// @param watcher  may be null: then nothing is handed over.
+  Onlooker(FlightWatcher* watcher, const Ticks& ticks, Cameras& cameras, const Aircraft& aircraft);
+
+  /// What all sensors say, if it wants that.
+  void hand_over_sensors(int64_t tick);
+  /// Pictures and progress, where they are due.
+  /// @param goal_distance_m  horizontal. @param duration_s  of the longest flight.
+  void show(int64_t tick, const avoidance::Module& module, double duration_s, std::optional<double> goal_distance_m);
+
+ private:
+  FlightWatcher* watcher_;
+  const Ticks& ticks_;
+  Cameras& cameras_;
+  const Aircraft& aircraft_;
+  int64_t picture_period_ = 0;
+};
+
+}  // namespace hedgehop::sim

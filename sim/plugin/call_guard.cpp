@@ -1,0 +1,100 @@
+#include "sim/plugin/call_guard.h"
+
+#include <fmt/format.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <csetjmp>
+#include <csignal>
+#include <cstring>
+#include <ctime>
+#include <vector>
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr std::array kCrashes = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+constexpr int kTimeOver = SIGALRM;
+
+// Signal handlers reach nothing but globals.
+sigjmp_buf way_back;
+volatile sig_atomic_t is_inside = 0;
+
+void leave(int signal) {
+  if (is_inside == 0 && signal == kTimeOver) return;  // the call ended as its time did
+  if (is_inside == 0) {                               // a crash of our own: die of it as ever
+    ::signal(signal, SIG_DFL);
+    ::raise(signal);
+    return;
+  }
+  is_inside = 0;
+  siglongjmp(way_back, signal);
+}
+
+/// The stack may be what has run out.
+void use_other_stack() {
+  static std::vector<char> stack(64 * 1024);
+  stack_t other{};
+  other.ss_sp = stack.data();
+  other.ss_size = stack.size();
+  ::sigaltstack(&other, nullptr);
+}
+
+timer_t make_timer() {
+  sigevent event{};
+  event.sigev_notify = SIGEV_THREAD_ID;
+  event.sigev_signo = kTimeOver;
+  event._sigev_un._tid = static_cast<pid_t>(::syscall(SYS_gettid));
+  timer_t timer{};
+  if (::timer_create(CLOCK_MONOTONIC, &event, &timer) != 0) throw std::runtime_error("no timer to watch a plugin with");
+  return timer;
+}
+
+void set(timer_t timer, double seconds) {
+  itimerspec time{};
+  const double whole = std::floor(seconds);
+  time.it_value.tv_sec = static_cast<time_t>(whole);
+  time.it_value.tv_nsec = static_cast<long>((seconds - whole) * 1e9);
+  ::timer_settime(timer, 0, &time, nullptr);
+}
+
+timer_t prepare() {
+  use_other_stack();
+  struct sigaction action {};
+  action.sa_handler = leave;
+  action.sa_flags = SA_ONSTACK | SA_NODEFER;
+  for (const int signal : kCrashes) ::sigaction(signal, &action, nullptr);
+  ::sigaction(kTimeOver, &action, nullptr);
+  return make_timer();
+}
+
+std::string words(int signal, double limit_s) {
+  if (signal == kTimeOver) return fmt::format("gave no answer within {:g} s", limit_s);
+  return fmt::format("crashed ({})", ::strsignal(signal));
+}
+
+}  // namespace
+
+void call_guarded(double limit_s, const std::function<void()>& call) {
+  static const timer_t timer = prepare();
+  const int signal = sigsetjmp(way_back, 0);
+  if (signal != 0) {
+    set(timer, 0.0);
+    throw CallBroken(words(signal, limit_s));
+  }
+  is_inside = 1;
+  set(timer, limit_s);
+  try {
+    call();
+  } catch (...) {
+    is_inside = 0;
+    set(timer, 0.0);
+    throw;
+  }
+  is_inside = 0;
+  set(timer, 0.0);
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,200 @@
+#include "sim/plugin/plugin_module.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "avoidance/plugin.h"
+#include "sim/plugin/call_guard.h"
+#include "sim/scenario/input_error.h"
+#include "sim/scenario/reader.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using avoidance::ParameterField;
+
+/// Reads a plugin's parameters as strictly as any of this tree.
+class ParameterReader : public avoidance::ParameterVisitor {
+ public:
+  ParameterReader(const Node& map, Faults& faults) : reader_(map, "avoidance.parameters", "", faults) {}
+
+  void number(std::string_view key, double& value, const ParameterField& field) override {
+    reader_(key, value, to_field(field));
+  }
+  void integer(std::string_view key, int64_t& value, const ParameterField& field) override {
+    reader_(key, value, to_field(field));
+  }
+  void boolean(std::string_view key, bool& value, const ParameterField& field) override {
+    reader_(key, value, to_field(field));
+  }
+  void text(std::string_view key, std::string& value, const ParameterField& field) override {
+    reader_(key, value, to_field(field));
+  }
+  void choice(std::string_view key, int64_t& index, const ParameterField& field) override {
+    enum class Choice : int64_t {};
+    auto chosen = static_cast<Choice>(index);
+    reader_(key, chosen, to_field(field));
+    index = static_cast<int64_t>(chosen);
+  }
+  void numbers(std::string_view key, std::vector<double>& values, const ParameterField& field) override {
+    reader_(key, values, to_field(field));
+  }
+  void finish() const { reader_.finish(); }
+
+ private:
+  static Field to_field(const ParameterField& field) {
+    return {.unit = field.unit,
+            .above = field.above,
+            .at_least = field.at_least,
+            .below = field.below,
+            .at_most = field.at_most,
+            .choices = field.choices,
+            .required = field.required,
+            .meaning = field.meaning};
+  }
+  StructReader reader_;
+};
+
+/// A module whose code is not ours.
+class GuardedModule : public avoidance::Module {
+ public:
+  GuardedModule(std::unique_ptr<avoidance::Module> module, const PluginConfig& config)
+      : module_(module.release()), name_(config.module), limit_s_(config.limit_s) {}
+  ~GuardedModule() override {
+    if (!broken_.empty()) return;  // its memory is in doubt: leave it
+    try {
+      guarded([this] { delete module_; });
+    } catch (const std::exception&) {  // the flight is over
+      return;
+    }
+  }
+  GuardedModule(const GuardedModule&) = delete;
+  GuardedModule& operator=(const GuardedModule&) = delete;
+
+ private:
+  avoidance::Needs do_needs() const override {
+    return asked<avoidance::Needs>([this] { return module_->needs(); });
+  }
+  std::vector<avoidance::Signal> do_signals() const override {
+    return asked<std::vector<avoidance::Signal>>([this] { return module_->signals(); });
+  }
+  void do_reset(const avoidance::Setup& setup) override {
+    guarded([&] { module_->reset(setup); });
+  }
+  avoidance::Decision do_update(const avoidance::Observation& observation) override {
+    return asked<avoidance::Decision>([&] { return module_->update(observation); });
+  }
+  std::vector<avoidance::Metric> do_metrics() const override {
+    return told<std::vector<avoidance::Metric>>([this] { return module_->metrics(); });
+  }
+  avoidance::Chart do_chart() const override {
+    return told<avoidance::Chart>([this] { return module_->chart(); });
+  }
+  cv::Mat do_annotate() const override {
+    return told<cv::Mat>([this] { return module_->annotate(); });
+  }
+
+  void guarded(const std::function<void()>& call) const {
+    if (broken_.empty()) {
+      try {
+        call_guarded(limit_s_, call);
+        return;
+      } catch (const CallBroken& broken) {
+        broken_ = fmt::format("'{}' {}", name_, broken.what());
+      }
+    }
+    throw CallBroken(broken_);
+  }
+
+  template <class Answer, class Call>
+  Answer asked(const Call& call) const {
+    Answer answer;
+    guarded([&] { answer = call(); });
+    return answer;
+  }
+
+  /// What is told beside the flight: nothing, once the module is broken.
+  template <class Answer, class Call>
+  Answer told(const Call& call) const {
+    if (!broken_.empty()) return {};
+    return asked<Answer>(call);
+  }
+
+  avoidance::Module* module_;  ///< owned while whole
+  std::string name_;
+  double limit_s_;
+  mutable std::string broken_;  ///< how; empty while whole
+};
+
+[[noreturn]] void refuse(const PluginConfig& config, const std::string& why) {
+  throw InputError(fmt::format("'avoidance.plugin': {}: {}", config.plugin.string(), why));
+}
+
+/// A function that the library exports, or null.
+template <class Function>
+Function* find_function(void* library, const char* name) {
+  return reinterpret_cast<Function*>(::dlsym(library, name));
+}
+
+avoidance::PluginRows load_rows(const PluginConfig& config) {
+  std::error_code error;
+  if (!std::filesystem::exists(config.plugin, error)) refuse(config, "no such file");
+  void* const library = ::dlopen(config.plugin.c_str(), RTLD_NOW | RTLD_LOCAL);  // stays: its code may be in use
+  if (!library) refuse(config, fmt::format("cannot be loaded: {}", ::dlerror()));
+  auto* const interface = find_function<const char*()>(library, "hedgehop_plugin_interface");
+  auto* const add_rows = find_function<void(avoidance::PluginRows&)>(library, "hedgehop_plugin_rows");
+  if (!interface || !add_rows) refuse(config, "is no module's library: it lacks HEDGEHOP_PLUGIN(...)");
+  if (const std::string_view theirs = interface(); theirs != HEDGEHOP_PLUGIN_INTERFACE) {
+    refuse(config, fmt::format("was built against another interface ({}); this program has: {}. Build it anew", theirs,
+                               HEDGEHOP_PLUGIN_INTERFACE));
+  }
+  avoidance::PluginRows rows;
+  add_rows(rows);
+  return rows;
+}
+
+std::unique_ptr<avoidance::Module> load_module(const PluginConfig& config) {
+  const avoidance::PluginRows rows = load_rows(config);
+  std::vector<std::string_view> names;
+  for (const auto& row : rows) names.push_back(row->name());
+  const auto row = std::ranges::find(names, config.module);
+  if (row == names.end()) {
+    refuse(config, fmt::format("has no module '{}'{}", config.module, suggestion(config.module, names)));
+  }
+  Faults faults;
+  ParameterReader parameters(config.parameters, faults);
+  std::unique_ptr<avoidance::Module> module;
+  try {
+    module = rows[static_cast<size_t>(row - names.begin())]->make(parameters);
+  } catch (const std::invalid_argument& bad) {
+    refuse(config, bad.what());
+  }
+  parameters.finish();
+  faults.raise();
+  return module;
+}
+
+std::unique_ptr<avoidance::Module> make(const PluginConfig& config) {
+  std::unique_ptr<avoidance::Module> module;
+  try {
+    call_guarded(config.limit_s, [&] { module = load_module(config); });
+  } catch (const CallBroken& broken) {
+    refuse(config, fmt::format("{} while it was loaded", broken.what()));
+  }
+  return std::make_unique<GuardedModule>(std::move(module), config);
+}
+
+template <class Config>
+std::unique_ptr<avoidance::Module> make(const Config& config) {
+  return avoidance::make_module(config);
+}
+
+}  // namespace
+
+std::unique_ptr<avoidance::Module> make_module(const AvoidanceConfig& config) {
+  return std::visit([](const auto& chosen) { return make(chosen); }, config);
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "dynamics/hull.h"
+#include "scenes/scene.h"
+#include "sim/scenario/scenario.h"
+#include "sim/verdict/flight.h"
+
+namespace hedgehop::sim {
+
+/// Adds to a flown flight's result what only looks back on it: how difficult the scene was, the field's metrics, and
+/// the scenario's checks.
+void assess(const Scenario& scenario, const scenes::Scene& scene, const std::vector<dynamics::HullPart>& hull,
+            Flight& flight);
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,47 @@
+#include "sim/verdict/corner_sight.h"
+
+#include <utility>
+
+namespace hedgehop::sim {
+namespace {
+
+bool in_picture(const vision::Camera& camera, const Eigen::Isometry3d& X_WC, const Eigen::Vector3d& p_W) {
+  const auto pixel = camera.project(X_WC.inverse() * p_W);
+  return pixel && pixel->x() >= 0.0 && pixel->y() >= 0.0 && pixel->x() <= camera.width_px - 1 &&
+         pixel->y() <= camera.height_px - 1;
+}
+
+bool nothing_before(const CollisionWorld& world, const Eigen::Vector3d& p_WC, const Eigen::Vector3d& p_W, double t_s) {
+  constexpr double kOfItself_m = 0.1;  // the surface that the point belongs to may be met a little before it
+  const Eigen::Vector3d way_W = p_W - p_WC;
+  const double distance_m = way_W.norm();
+  if (distance_m <= kOfItself_m) return true;
+  return world.distance_along(p_WC, way_W / distance_m, distance_m, t_s) >= distance_m - kOfItself_m;
+}
+
+}  // namespace
+
+ProjectedCorners::ProjectedCorners(std::vector<Eigen::Vector3d> corners_W, uint64_t seed)
+    : corners_W_(std::move(corners_W)), random_(seed) {}
+
+std::vector<Eigen::Vector2d> ProjectedCorners::project(const vision::Camera& camera, const Eigen::Isometry3d& X_WC) {
+  constexpr double kNoise_px = 0.5;  // of a corner detector that works well
+  std::vector<Eigen::Vector2d> pixels;
+  for (const Eigen::Vector3d& p_W : corners_W_) {
+    if (!in_picture(camera, X_WC, p_W)) continue;
+    const double right_px = kNoise_px * normal_(random_), down_px = kNoise_px * normal_(random_);
+    pixels.push_back(*camera.project(X_WC.inverse() * p_W) + Eigen::Vector2d(right_px, down_px));
+  }
+  return pixels;
+}
+
+std::vector<bool> corners_in_sight(std::span<const Eigen::Vector3d> corners_W, const vision::Camera& camera,
+                                   const Eigen::Isometry3d& X_WC, const CollisionWorld* world, double t_s) {
+  std::vector<bool> seen;
+  for (const Eigen::Vector3d& p_W : corners_W) {
+    seen.push_back(in_picture(camera, X_WC, p_W) && (!world || nothing_before(*world, X_WC.translation(), p_W, t_s)));
+  }
+  return seen;
+}
+
+}  // namespace hedgehop::sim

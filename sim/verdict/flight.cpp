@@ -1,0 +1,19 @@
+#include "sim/verdict/flight.h"
+
+namespace hedgehop::sim {
+
+std::string_view to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::reached:
+      return "reached";
+    case Outcome::collided:
+      return "collided";
+    case Outcome::timeout:
+      return "timeout";
+    case Outcome::fault:
+      return "fault";
+  }
+  return "fault";
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/figures.h"
+#include "sim/verdict/map_record.h"
+
+/// What a flight leaves behind: the verdict and the two tables. Frames and units as in CONTRIBUTING.md.
+namespace hedgehop::sim {
+
+/// How a flight ended.
+enum class Outcome {
+  reached,   ///< inside the goal's radius
+  collided,  ///< the hull touched a solid or the ground
+  timeout,   ///< the scenario's duration is over; for a scenario without a goal the normal end
+  fault,     ///< the module threw or the state stopped being finite
+};
+std::string_view to_string(Outcome outcome);
+
+/// One control tick: truth, estimate, command.
+struct TrajectoryRow {
+  double t_s = 0.0;
+  Eigen::Vector3d p_WB_true, rpy_true, v_WB_W_true, w_WB_B_true;  ///< m, rad (3-2-1), m/s, rad/s
+  Eigen::Vector3d p_WB_est, rpy_est, v_WB_W_est;
+  std::optional<Eigen::Vector2d> v_WB_W_cmd;  ///< north, east; none while another kind of command holds
+  std::optional<double> altitude_cmd_m, heading_cmd_rad;
+  double obstacle_clearance_m = 0.0, ground_clearance_m = 0.0;  ///< +inf where there is nothing
+  Eigen::Vector4d controls = Eigen::Vector4d::Zero();  ///< where the actuators stand, see Flight::control_names
+  Eigen::Vector3d wind_W = Eigen::Vector3d::Zero();    ///< m/s
+  bool model_valid = true;                             ///< false where the rotors leave the range of momentum theory
+  std::optional<double> range_m;                       ///< last reading of the range finder; none when it read nothing
+};
+
+/// One decision of the module.
+struct DecisionRow {
+  double t_s = 0.0;
+  std::string status;
+  std::optional<Eigen::Vector2d> v_WB_W_cmd;
+  std::optional<double> altitude_cmd_m, heading_cmd_rad;
+  std::vector<double> signals;  ///< in the order of Flight::signals; NaN where unknown
+};
+
+struct NamedUnit {
+  std::string name, unit;
+};
+
+/// Smallest distance of the hull to something, and when; +inf when nothing was ever within reach of the search.
+struct ClosestApproach {
+  double distance_m = 0.0;
+  double t_s = 0.0;
+  std::string what;                       ///< name of the solid, "ground", or "" for none
+  Eigen::Vector3d p_WB_true = {0, 0, 0};  ///< where the vehicle was
+};
+
+struct CheckResult {
+  std::string name;
+  bool passed = false;
+  double value = 0.0;  ///< NaN when it could not be measured
+  double limit = 0.0;  ///< NaN when the check has no number
+  std::string unit;
+};
+
+struct MetricValue {
+  std::string name;
+  double value = 0.0;
+  std::string unit;
+};
+
+/// Median and 95th percentile of a stage's wall time, ms. Never part of anything that affects a flight.
+struct StageTime {
+  double median_ms = 0.0, p95_ms = 0.0;
+};
+
+struct FlightResult {
+  Outcome outcome = Outcome::fault;
+  std::string cause;  ///< one line for collided and fault, else empty
+  double flight_time_s = 0.0, path_length_m = 0.0, mean_speed_mps = 0.0;
+  ClosestApproach closest_obstacle, closest_ground;
+  std::optional<double> goal_distance_m;  ///< at the end, horizontal; none without a goal
+  int64_t decisions = 0;
+  StageTime decision_ms, render_ms, velocimeter_ms,
+      physics_ms;  ///< per decision, per instant (all cameras), per frame, per tick
+  double realtime_factor = 0.0, wall_s = 0.0;
+  std::vector<CheckResult> checks;
+  std::string trajectory_hash;  ///< of the true state at every control tick, bit for bit
+  std::vector<MetricValue> metrics;
+  scenes::SceneFigures scene;  ///< of what stands at the height of the start, within a metre
+};
+
+struct Flight {
+  FlightResult result;
+  std::array<std::string, 4> control_names;  ///< of TrajectoryRow::controls, with units: "collective_rad"
+  std::vector<NamedUnit> signals;
+  std::vector<TrajectoryRow> trajectory;
+  std::vector<DecisionRow> decisions;
+  MapRecord map;  ///< empty for a module that keeps no chart
+};
+
+}  // namespace hedgehop::sim

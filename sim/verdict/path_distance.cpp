@@ -1,0 +1,56 @@
+#include "sim/verdict/path_distance.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Eigen::Vector3d position_at(const std::vector<TimedPoint>& path, double t_s) {
+  const auto after = std::ranges::upper_bound(path, t_s, {}, &TimedPoint::t_s);
+  if (after == path.begin()) return path.front().p_WB;
+  if (after == path.end()) return path.back().p_WB;
+  const TimedPoint &p = *(after - 1), &q = *after;
+  return p.p_WB + (t_s - p.t_s) / (q.t_s - p.t_s) * (q.p_WB - p.p_WB);
+}
+
+/// Fills the table of pairs row by row and returns its last cell. @param cell  of (cost of i-1 j-1, of i-1 j, of i j-1,
+/// the pair's distance); a cell outside the table is +inf, that before the first pair 0.
+template <class CellOf>
+double last_cell(const std::vector<TimedPoint>& a, const std::vector<TimedPoint>& b, CellOf cell) {
+  std::vector<double> above(b.size() + 1, kInfinity), row(b.size() + 1, kInfinity);
+  above[0] = 0.0;
+  for (const TimedPoint& p : a) {
+    row[0] = kInfinity;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      row[j] = cell(above[j - 1], above[j], row[j - 1], (p.p_WB - b[j - 1].p_WB).norm());
+    }
+    std::swap(above, row);
+  }
+  return above.back();
+}
+
+}  // namespace
+
+double largest_deviation_m(const std::vector<TimedPoint>& flown, const std::vector<TimedPoint>& reference) {
+  double largest_m = 0.0;
+  for (const TimedPoint& p : flown) largest_m = std::max(largest_m, (p.p_WB - position_at(reference, p.t_s)).norm());
+  return largest_m;
+}
+
+double discrete_frechet_m(const std::vector<TimedPoint>& a, const std::vector<TimedPoint>& b) {
+  return last_cell(a, b, [](double both, double first, double second, double d) {
+    return std::max(std::min({both, first, second}), d);
+  });
+}
+
+double mean_warped_distance_m(const std::vector<TimedPoint>& a, const std::vector<TimedPoint>& b) {
+  const double sum = last_cell(a, b, [](double both, double first, double second, double d) {
+    return std::min({both + 2.0 * d, first + d, second + d});
+  });
+  return sum / static_cast<double>(a.size() + b.size());
+}
+
+}  // namespace hedgehop::sim

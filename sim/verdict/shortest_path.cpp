@@ -1,0 +1,108 @@
+#include "sim/verdict/shortest_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <vector>
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class Search {
+ public:
+  Search(const Eigen::AlignedBox2d& bounds, double cell_m, const std::function<bool(const Eigen::Vector2d&)>& is_free)
+      : origin_(bounds.min()), cell_m_(cell_m), is_free_(is_free) {
+    rows_ = 1 + static_cast<int>(std::ceil(bounds.sizes().x() / cell_m));
+    cols_ = 1 + static_cast<int>(std::ceil(bounds.sizes().y() / cell_m));
+    const size_t count = static_cast<size_t>(rows_) * static_cast<size_t>(cols_);
+    length_.assign(count, kInfinity);
+    parent_.assign(count, -1);
+    known_.assign(count, Known::not_yet);
+    closed_.assign(count, false);
+  }
+
+  std::optional<double> run(const Eigen::Vector2d& start, const Eigen::Vector2d& goal) {
+    const int from = nearest(start), to = nearest(goal);
+    if (!free(from) || !free(to)) return {};
+    length_[index(from)] = 0.0;
+    parent_[index(from)] = from;
+    open_.push({distance(from, to), from});
+    while (!open_.empty()) {
+      const int node = open_.top().second;
+      open_.pop();
+      if (node == to) return length_[index(node)];
+      if (closed_[index(node)]) continue;
+      closed_[index(node)] = true;
+      expand(node, to);
+    }
+    return {};
+  }
+
+ private:
+  enum class Known : char { not_yet, free, taken };
+
+  static size_t index(int node) { return static_cast<size_t>(node); }
+  Eigen::Vector2d point(int node) const { return origin_ + cell_m_ * Eigen::Vector2d(node / cols_, node % cols_); }
+  double distance(int a, int b) const { return (point(a) - point(b)).norm(); }
+  int nearest(const Eigen::Vector2d& p) const {
+    const Eigen::Vector2d cell = (p - origin_) / cell_m_;
+    const int row = std::clamp(static_cast<int>(std::lround(cell.x())), 0, rows_ - 1);
+    const int col = std::clamp(static_cast<int>(std::lround(cell.y())), 0, cols_ - 1);
+    return row * cols_ + col;
+  }
+  bool free(int node) {
+    Known& known = known_[index(node)];
+    if (known == Known::not_yet) known = is_free_(point(node)) ? Known::free : Known::taken;
+    return known == Known::free;
+  }
+  /// Whether all grid points along the segment, a point each half cell, are free.
+  bool sees(int a, int b) {
+    const Eigen::Vector2d p = point(a), q = point(b);
+    const int steps = std::max(1, static_cast<int>(std::ceil(2.0 * (q - p).norm() / cell_m_)));
+    for (int i = 1; i < steps; ++i) {
+      if (!free(nearest(p + (q - p) * (static_cast<double>(i) / steps)))) return false;
+    }
+    return true;
+  }
+  void expand(int node, int to) {
+    const int row = node / cols_, col = node % cols_;
+    for (int next_row = std::max(0, row - 1); next_row <= std::min(rows_ - 1, row + 1); ++next_row) {
+      for (int next_col = std::max(0, col - 1); next_col <= std::min(cols_ - 1, col + 1); ++next_col) {
+        const int next = next_row * cols_ + next_col;
+        if (closed_[index(next)] || !free(next)) continue;
+        // Straight from the parent where it sees that far, else by way of this point.
+        const int parent = parent_[index(node)];
+        const int via = sees(parent, next) ? parent : node;
+        const double length = length_[index(via)] + distance(via, next);
+        if (length >= length_[index(next)]) continue;
+        length_[index(next)] = length;
+        parent_[index(next)] = via;
+        open_.push({length + distance(next, to), next});
+      }
+    }
+  }
+
+  using Entry = std::pair<double, int>;
+  Eigen::Vector2d origin_;
+  double cell_m_;
+  const std::function<bool(const Eigen::Vector2d&)>& is_free_;
+  int rows_ = 0, cols_ = 0;
+  std::vector<double> length_;
+  std::vector<int> parent_;
+  std::vector<Known> known_;
+  std::vector<bool> closed_;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open_;
+};
+
+}  // namespace
+
+std::optional<double> shortest_path_m(const Eigen::Vector2d& start_NE_m, const Eigen::Vector2d& goal_NE_m,
+                                      const Eigen::AlignedBox2d& bounds_NE_m, double cell_m,
+                                      const std::function<bool(const Eigen::Vector2d& p_NE_m)>& is_free) {
+  return Search(bounds_NE_m, cell_m, is_free).run(start_NE_m, goal_NE_m);
+}
+
+}  // namespace hedgehop::sim

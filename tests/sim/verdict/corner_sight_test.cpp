@@ -1,0 +1,115 @@
+#include "sim/verdict/corner_sight.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "scenes/highrise.h"
+#include "sim/loop/episode.h"
+#include "sim/reproduce/corner_flight.h"
+#include "sim/scenario/input_error.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using Eigen::Vector3d;
+
+const scenes::HighriseConfig kCube{.layout = scenes::HighriseConfig::Layout::cube};
+
+CollisionWorld cube_world() {
+  const dynamics::HullPart ball{.shape = dynamics::HullPart::Shape::box, .half_extents_m = {0.1, 0.1, 0.1}};
+  return CollisionWorld(scenes::make_highrise(kCube, 1), {ball});
+}
+
+// A corner of a box is seen exactly when one of its three faces is turned to the camera.
+TEST(CornersInSight, OfABoxAreThoseOfTheFacesTurnedToTheCamera) {
+  const CollisionWorld world = cube_world();
+  const std::vector<Vector3d> corners = scenes::highrise_corners(kCube);
+  const vision::Camera camera = vision::PinholeCamera::from_fov(640, 640, std::numbers::pi / 2.0);
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> side(-60.0, 60.0), height(1.0, 60.0);
+  const Vector3d middle(0, 0, -9);
+  int hidden = 0;
+  for (int round = 0; round < 300; ++round) {
+    const Vector3d p_WC(side(random), side(random), -height(random));
+    const Vector3d out = (p_WC - middle).cwiseAbs();
+    if (out.maxCoeff() < 30.0) continue;  // so near that the picture does not hold the whole box
+    const Eigen::Isometry3d X_WC = looking_at(p_WC, middle);
+    const auto seen = corners_in_sight(corners, camera, X_WC, &world, 0.0);
+    for (size_t k = 0; k < corners.size(); ++k) {
+      bool expected = false, grazing = false;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double normal = corners[k][axis] > middle[axis] ? 1.0 : -1.0;
+        const double above_m = normal * (p_WC[axis] - corners[k][axis]);
+        grazing = grazing || std::abs(above_m) < 1.0;                        // the ray runs along that face
+        if (axis < 2 || normal < 0.0) expected = expected || above_m > 0.0;  // nobody looks from below
+      }
+      if (grazing) continue;
+      EXPECT_EQ(seen[k], expected) << "corner " << k << " from " << p_WC.transpose();
+      hidden += !expected;
+    }
+  }
+  EXPECT_GT(hidden, 100);
+}
+
+TEST(CornersInSight, AreAllInThePictureThroughWalls) {
+  const std::vector<Vector3d> corners = scenes::highrise_corners(kCube);
+  const vision::Camera camera = vision::PinholeCamera::from_fov(640, 640, std::numbers::pi / 3.0);
+  const auto seen = corners_in_sight(corners, camera, looking_at({-50, 3, -40}, {0, 0, -9}), nullptr, 0.0);
+  EXPECT_EQ(std::ranges::count(seen, true), 8);
+  const auto aside = corners_in_sight(corners, camera, looking_at({-50, 3, -40}, {-100, 0, -9}), nullptr, 0.0);
+  EXPECT_EQ(std::ranges::count(aside, true), 0);
+}
+
+TEST(ProjectedCorners, ScatterByHalfAPixelRoundTheProjections) {
+  const std::vector<Vector3d> corners = scenes::highrise_corners(kCube);
+  const vision::Camera camera = vision::PinholeCamera::from_fov(640, 640, std::numbers::pi / 3.0);
+  const Eigen::Isometry3d X_WC = looking_at({-50, 3, -40}, {0, 0, -9});
+  ProjectedCorners projected(corners, 11);
+  constexpr int kPictures = 500;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero(), squares = Eigen::Vector2d::Zero();
+  for (int i = 0; i < kPictures; ++i) {
+    const auto pixels = projected.project(camera, X_WC);
+    ASSERT_EQ(pixels.size(), corners.size());
+    for (size_t k = 0; k < corners.size(); ++k) {
+      const Eigen::Vector2d off = pixels[k] - *camera.project(X_WC.inverse() * corners[k]);
+      sum += off;
+      squares += off.cwiseAbs2();
+    }
+  }
+  const double count = static_cast<double>(kPictures * corners.size());
+  const double kFiveSigmas_px = 5.0 * 0.5 / std::sqrt(count);
+  EXPECT_LT((sum / count).cwiseAbs().maxCoeff(), kFiveSigmas_px);
+  EXPECT_NEAR(std::sqrt(squares.x() / count), 0.5, 0.03);
+  EXPECT_NEAR(std::sqrt(squares.y() / count), 0.5, 0.03);
+}
+
+/// A scenario of the thesis whose module is given the true corners, cut short.
+Scenario with_true_corners(const std::string& name) {
+  const std::vector<std::string> overrides = {"duration=8", "film.enabled=false", "avoidance.front_end=corners"};
+  return load_scenario(HEDGEHOP_SOURCE_DIR "/configs/" + name, overrides);
+}
+
+double metric(const Flight& flight, const std::string& name) {
+  const auto found = std::ranges::find(flight.result.metrics, name, &MetricValue::name);
+  return found == flight.result.metrics.end() ? std::nan("") : found->value;
+}
+
+TEST(TrueCorners, GiveAMapOfAllTheCubeAndTheResultSaysSo) {
+  const Flight flight = fly(with_true_corners("shah2009_cube_lateral.yaml"));
+  EXPECT_EQ(metric(flight, "landmarks"), 8.0);  // those that walls hide, too
+  EXPECT_EQ(metric(flight, "true_corners"), 1.0);
+  EXPECT_EQ(flight.decisions.back().signals.at(0), 8.0) << flight.signals.at(0).name;
+}
+
+TEST(TrueCorners, OfASceneThatDoesNotTellThemAreRefused) {
+  EXPECT_THROW(fly(with_true_corners("shah2009_wall_textured.yaml")), InputError);
+}
+
+}  // namespace
+}  // namespace hedgehop::sim

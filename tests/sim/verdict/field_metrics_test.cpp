@@ -1,0 +1,76 @@
+#include "sim/verdict/field_metrics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+
+namespace hedgehop::sim {
+namespace {
+
+std::optional<double> value(const std::vector<MetricValue>& metrics, std::string_view name) {
+  for (const MetricValue& metric : metrics) {
+    if (metric.name == name) return metric.value;
+  }
+  return {};
+}
+
+/// North along a given law of motion for 10 s towards a goal 52 m away of 2 m radius, in an empty scene.
+template <class Law>
+Flight flight_north(Law north_m, Outcome outcome) {
+  Flight flight;
+  constexpr double kStep_s = 0.01, kDifference_s = 1e-4;
+  for (int i = 0; i <= 1000; ++i) {
+    TrajectoryRow row;
+    row.t_s = kStep_s * i;
+    row.p_WB_true = {north_m(row.t_s), 0.0, -10.0};
+    row.v_WB_W_true = {(north_m(row.t_s + kDifference_s) - north_m(row.t_s - kDifference_s)) / (2.0 * kDifference_s),
+                       0.0, 0.0};
+    flight.trajectory.push_back(row);
+  }
+  flight.result.outcome = outcome;
+  flight.result.flight_time_s = 10.0;
+  flight.result.goal_distance_m = std::abs(52.0 - north_m(10.0));
+  flight.result.path_length_m = north_m(10.0);
+  return flight;
+}
+
+Scenario with_goal() {
+  Scenario scenario;
+  scenario.goal = GoalConfig{.north_m = 52.0, .east_m = 0.0, .altitude_m = 10.0, .radius_m = 2.0};
+  return scenario;
+}
+
+scenes::Scene empty_scene() {
+  scenes::Scene scene;
+  scene.bounds_NE_m = {Eigen::Vector2d(-10.0, -10.0), Eigen::Vector2d(60.0, 10.0)};
+  return scene;
+}
+
+TEST(FieldMetrics, HalfTheWayIsHalfTheMission) {
+  const Flight flight = flight_north([](double t_s) { return 2.5 * t_s; }, Outcome::timeout);
+  const auto metrics = field_metrics(with_goal(), flight, empty_scene(), 0.8);
+  EXPECT_EQ(value(metrics, "success"), 0.0);
+  EXPECT_NEAR(*value(metrics, "mission_progress"), 0.5, 1e-12);
+  EXPECT_NEAR(*value(metrics, "goal_velocity"), 2.5, 1e-12);
+  EXPECT_FALSE(value(metrics, "path_excess"));
+}
+
+TEST(FieldMetrics, StraightFlightToTheGoalHasNoExcess) {
+  const Flight flight = flight_north([](double t_s) { return 5.0 * t_s; }, Outcome::reached);
+  const auto metrics = field_metrics(with_goal(), flight, empty_scene(), 0.8);
+  EXPECT_EQ(value(metrics, "success"), 1.0);
+  EXPECT_NEAR(*value(metrics, "shortest_path"), 50.0, 0.25);  // a grid's cell
+  EXPECT_NEAR(*value(metrics, "path_excess"), 0.0, 0.01);
+}
+
+/// x = A sin(wt): the jerk is A w^3 cos(wt), its root mean square over whole periods A w^3 / sqrt(2).
+TEST(FieldMetrics, JerkOfASwingFollowsItsThirdDerivative) {
+  const double amplitude_m = 3.0, w = 2.0 * std::acos(-1.0) / 2.5;
+  const Flight flight = flight_north([&](double t_s) { return amplitude_m * std::sin(w * t_s); }, Outcome::timeout);
+  const auto metrics = field_metrics(with_goal(), flight, empty_scene(), 0.8);
+  EXPECT_NEAR(*value(metrics, "jerk_rms") / (amplitude_m * w * w * w / std::sqrt(2.0)), 1.0, 0.005);
+}
+
+}  // namespace
+}  // namespace hedgehop::sim

@@ -1,0 +1,100 @@
+#include "sim/verdict/reaction.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr double kTouch_m = 1e-3;  // what counts as touching
+constexpr double kRadius_m = 0.5, kHorizon_s = 20.0;
+
+const std::vector<dynamics::HullPart> kDisc = {
+    {.shape = dynamics::HullPart::Shape::cylinder, .half_extents_m = {kRadius_m, kRadius_m, 0.05}}};
+
+scenes::Solid pole(double north_m, double east_m) {
+  scenes::Solid solid;
+  solid.name = "pole";
+  solid.shape = scenes::Solid::Shape::cylinder;
+  solid.half_extents_m = {0.1, 0.1, 10.0};
+  solid.X_WS.translation() = Eigen::Vector3d(north_m, east_m, -10.0);
+  return solid;
+}
+
+Eigen::Isometry3d at(const Eigen::Vector3d& p_W) { return Eigen::Isometry3d(Eigen::Translation3d(p_W)); }
+
+// Two upright circles, of disc and pole, one of which moves: a quadratic equation.
+TEST(TimeToCollision, OfADiscPastAPoleIsTheCirclesMeeting) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> place_m(-8.0, 8.0), speed_mps(0.5, 3.0), aside_rad(-0.3, 0.3);
+  int hits = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    scenes::Scene scene;
+    const Eigen::Vector2d pole_NE(place_m(random), place_m(random));
+    const Eigen::Vector2d v = Eigen::Rotation2Dd(aside_rad(random)) * pole_NE.normalized() * speed_mps(random);
+    const double together_m = kRadius_m + 0.1;
+    if (pole_NE.norm() < together_m + 0.1) continue;
+    scene.solids = {pole(pole_NE.x(), pole_NE.y())};
+    const double half_b = -v.dot(pole_NE), c = pole_NE.squaredNorm() - together_m * together_m;
+    const double root2 = half_b * half_b - v.squaredNorm() * c;
+    const auto found = time_to_collision_s(scene, kDisc, at({0.0, 0.0, -5.0}), {v.x(), v.y(), 0.0}, 0.0, kHorizon_s);
+    const double expected_s = (-half_b - std::sqrt(root2)) / v.squaredNorm();
+    if (root2 < 0.01 || half_b > 0.0 || expected_s > kHorizon_s - 0.1) {
+      if (root2 < -0.01) {
+        EXPECT_FALSE(found);
+      }
+      continue;
+    }
+    ++hits;
+    ASSERT_TRUE(found);
+    // A grazing touch begins sooner by a length that grows as the square root of what counts as touching.
+    EXPECT_NEAR(*found, expected_s, 2.0 * kTouch_m * together_m / std::sqrt(root2) + 1e-3);
+  }
+  EXPECT_GT(hits, 50);
+}
+
+TEST(TimeToCollision, OfAHoveringVehicleCountsTheMoversWay) {
+  scenes::Scene scene;
+  scenes::Mover mover;
+  mover.solids = {pole(0.0, 0.0)};
+  mover.motion =
+      scenes::WaypointMotion{.points = {{10.0, 0.0, 0.0}, {-10.0, 0.0, 0.0}}, .speed_mps = 2.0, .start_s = 4.0};
+  scene.movers = {mover};
+  const auto found = time_to_collision_s(scene, kDisc, at({0.0, 0.0, -5.0}), {0.0, 0.0, 0.0}, 1.0, kHorizon_s);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(*found, (4.0 - 1.0) + (10.0 - kRadius_m - 0.1) / 2.0, 0.01);
+}
+
+// North at 2 m/s towards a pole 30 m away; the module gives way at 10 s, then again at 12 s.
+TEST(TimeToCollision, AtReactionIsTheLeastOfAllReactions) {
+  scenes::Scene scene;
+  scene.solids = {pole(30.0, 0.0)};
+  Flight flight;
+  for (int i = 0; i <= 1300; ++i) {
+    TrajectoryRow row;
+    row.t_s = 0.01 * i;
+    row.p_WB_true = {2.0 * row.t_s, 0.0, -5.0};
+    row.v_WB_W_true = {2.0, 0.0, 0.0};
+    row.rpy_true.setZero();
+    flight.trajectory.push_back(row);
+  }
+  const auto decide = [&](double t_s, const char* status) {
+    DecisionRow row;
+    row.t_s = t_s;
+    row.status = status;
+    flight.decisions.push_back(row);
+  };
+  decide(0.0, "avoid");  // not from cruise
+  decide(9.0, "cruise");
+  EXPECT_FALSE(time_to_collision_at_reaction_s(flight, scene, kDisc));
+  decide(10.0, "avoid");
+  EXPECT_NEAR(*time_to_collision_at_reaction_s(flight, scene, kDisc), (30.0 - 0.6) / 2.0 - 10.0, 0.001);
+  decide(11.0, "cruise");
+  decide(12.0, "hover");
+  EXPECT_NEAR(*time_to_collision_at_reaction_s(flight, scene, kDisc), (30.0 - 0.6) / 2.0 - 12.0, 0.001);
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
