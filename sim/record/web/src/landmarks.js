@@ -18,20 +18,19 @@ class LandmarksView {
   constructor(host, data) {
     Object.assign(this, {chart: data.map, path: data.path, t: null});
     const {points, corners, course} = this.chart;
-    const isAim = ({n, e, radius}) => course.some(([cn, ce]) => Math.hypot(cn - n, ce - e) <= radius);
-    const goal = data.plan.goal && isAim(data.plan.goal) ? data.plan.goal : null;
     const reachOf = (some) => {
       const places = [...some, ...corners, ...course.map(([n, e]) => ({n, e}))];
       return {n: places.map((p) => p.n).concat(this.path.n), e: places.map((p) => p.e).concat(this.path.e)};
     };
     const all = reachOf(points), bounds = [...finiteRange(all.n), ...finiteRange(all.e)];
-    this.map = new MapView(host, {...data.plan, bounds, goal}, reachOf(points.filter((p) => p.true !== false)), {
+    this.map = new MapView(host, {...data.plan, bounds}, reachOf(points.filter((p) => p.true !== false)), {
       draw: (c) => this.drawOver(c),
       key: (key) => this.drawKey(key),
       hover: (x, y) => this.hover(x, y),
       leave: () => {},
       click: () => {},
     });
+    this.map.plan = {...data.plan, bounds: []};  // those of the landmarks are no scene's, and not drawn
     this.map.showReach();  // false landmarks may lie far off
   }
   draw() { this.map.draw(); }

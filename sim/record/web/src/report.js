@@ -120,8 +120,16 @@ function sectionNotes(module) {
   return notes;
 }
 
+/** A goal that the module's course does not lead to is not flown to: then there is none to show or to judge by. */
+function dropUnflownGoal({map, plan}) {
+  if (!map || !map.course.length || !plan.goal) return;
+  const {n, e, radius} = plan.goal;
+  if (!map.course.some(([cn, ce]) => Math.hypot(cn - n, ce - e) <= radius)) plan.goal = null;
+}
+
 function main() {
   const data = JSON.parse(document.getElementById('data').textContent);
+  dropUnflownGoal(data);
   fillVerdict(document.getElementById('verdict'), data);
   fillChecks(document.getElementById('checks'), data.result.checks);
   fillDetails(document.getElementById('details'), data);
