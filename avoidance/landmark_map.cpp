@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -202,18 +203,33 @@ class LandmarkMapModule final : public Module {
 
   /// The landmarks that are known to a tenth of their distance. What one thing hides of another ends at places that
   /// wander over the world as the camera moves: they fit no point, and stay vague.
-  std::vector<Eigen::Vector3d> do_map() const override {
+  std::vector<ChartPoint> known_points() const {
     constexpr double kKnown_share = 0.1;
-    std::vector<Eigen::Vector3d> points;
+    std::vector<ChartPoint> points;
     if (!sight_) return points;
     for (const vision::MappedLandmark& mapped : map().landmarks()) {
       if (!map().confirmed(mapped)) continue;
       const Eigen::Vector3d p_W = vision::position_W(mapped.landmark);
       const double distance_m = (p_W - sight_->pose().X_WC_est.translation()).norm();
-      const double variance = greatest_variance(vision::covariance_W(mapped.landmark));
-      if (variance <= kKnown_share * kKnown_share * distance_m * distance_m) points.push_back(p_W);
+      const Eigen::Matrix3d P_W = vision::covariance_W(mapped.landmark);
+      if (greatest_variance(P_W) <= kKnown_share * kKnown_share * distance_m * distance_m) points.push_back({p_W, P_W});
     }
     return points;
+  }
+
+  Chart do_chart() const override { return {known_points(), course(), way_}; }
+
+  /// From the start to the goal, or round the orbit's middle.
+  std::vector<Eigen::Vector2d> course() const {
+    if (!start_NE_) return {};
+    if (!config_.orbit) return {*start_NE_, end_NE_};
+    constexpr int kCorners = 72;
+    const Eigen::Vector2d middle(config_.orbit->north_m, config_.orbit->east_m);
+    std::vector<Eigen::Vector2d> circle;
+    for (int k = 0; k <= kCorners; ++k) {
+      circle.push_back(middle + Eigen::Rotation2Dd(2.0 * std::numbers::pi * k / kCorners) * (*start_NE_ - middle));
+    }
+    return circle;
   }
 
   cv::Mat do_annotate() const override {
@@ -221,7 +237,7 @@ class LandmarkMapModule final : public Module {
     cv::Mat picture = landmark_picture(sight_->grey(), sight_->corners_px(), map(), sight_->pose(), flow_->pinhole());
     if (!config_.orbit && start_NE_) {
       PlanView view{{}, hulls_, *start_NE_, end_NE_, at_NE_, way_};
-      for (const Eigen::Vector3d& p_W : do_map()) view.landmarks_NE.emplace_back(p_W.head<2>());
+      for (const ChartPoint& point : known_points()) view.landmarks_NE.emplace_back(point.p_W.head<2>());
       draw_plan(view, picture);
     }
     return picture;

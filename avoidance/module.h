@@ -119,6 +119,18 @@ struct Decision {
   std::vector<double> signals;  ///< in the order of signals(); NaN where unknown
 };
 
+/// A point of the world that a module believes in.
+struct ChartPoint {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();           ///< m
+  Eigen::Matrix3d covariance_W = Eigen::Matrix3d::Zero();  ///< m^2
+};
+/// What a module believes of the world, and where in it it means to fly.
+struct Chart {
+  std::vector<ChartPoint> points;
+  std::vector<Eigen::Vector2d> course_NE;  ///< that the flight is to keep to where it can, place by place, m
+  std::vector<Eigen::Vector2d> way_NE;     ///< planned from here, place by place, the last one included, m
+};
+
 /// Base of all modules: the public functions check, the private ones work (override only those).
 class Module {
  public:
@@ -142,8 +154,8 @@ class Module {
 
   /// Figures of the flight so far, for result.json.
   std::vector<Metric> metrics() const { return do_metrics(); }
-  /// Points of the world that the module believes in, in W, m; for those who compare them with the truth.
-  std::vector<Eigen::Vector3d> map() const { return do_map(); }
+  /// For those who compare it with the truth; empty for a module that keeps none.
+  Chart chart() const { return do_chart(); }
   /// A picture (CV_8UC3, RGB) of what the module saw and chose last; empty when it has none. Called for films only.
   cv::Mat annotate() const { return do_annotate(); }
 
@@ -153,7 +165,7 @@ class Module {
   virtual void do_reset(const Setup& setup) = 0;
   virtual Decision do_update(const Observation& observation) = 0;
   virtual std::vector<Metric> do_metrics() const { return {}; }
-  virtual std::vector<Eigen::Vector3d> do_map() const { return {}; }
+  virtual Chart do_chart() const { return {}; }
   virtual cv::Mat do_annotate() const { return {}; }
 
   std::optional<Setup> setup_;

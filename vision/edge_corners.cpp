@@ -73,7 +73,10 @@ std::optional<Vector2d> meeting(const PictureEdge& a, const PictureEdge& b, cons
   const double least = std::min(beyond_px(a, at), beyond_px(b, at)),
                most = std::max(beyond_px(a, at), beyond_px(b, at));
   constexpr double kOvershoot_px = 4.0;  // an edge is blurred, and so seems to run on over its end
-  if (least < -kOvershoot_px || most > config.beyond_px) return std::nullopt;
+  // As long as the lines lie within twice `aside` of one another, a piece may have been joined to the wrong one: of two
+  // edges at a small angle one runs on over their meeting, the other begins late.
+  const double alike_px = 2.0 * config.aside_px / std::abs(sine);
+  if (least < -std::max(kOvershoot_px, alike_px) || most > std::max(config.beyond_px, alike_px)) return std::nullopt;
   return at;
 }
 

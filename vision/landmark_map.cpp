@@ -33,6 +33,27 @@ CameraPose as_one_of_alike(const CameraPose& pose, double correlation_s, double 
   return {pose.X_WC_est, times * pose.position_sigma_m, times * pose.attitude_sigma_rad};
 }
 
+/// Matches the known landmarks first and the others with what is left. A Z value falls as the landmark's variance
+/// grows, so that one just begun beside a known one would take over its bearings, until the known one is deleted as
+/// missed.
+std::vector<std::optional<size_t>> match_known_first(std::span<const std::optional<PredictedBearing>> predicted,
+                                                     const std::vector<bool>& known,
+                                                     std::span<const Eigen::Vector2d> bearings, double gate) {
+  std::vector<std::optional<PredictedBearing>> first(predicted.begin(), predicted.end()), then = first;
+  for (size_t k = 0; k < predicted.size(); ++k) (known[k] ? then : first)[k].reset();
+  std::vector<std::optional<size_t>> landmark_of = match_landmarks(first, bearings, gate);
+  std::vector<size_t> left;
+  std::vector<Eigen::Vector2d> bearings_left;
+  for (size_t i = 0; i < bearings.size(); ++i) {
+    if (landmark_of[i]) continue;
+    left.push_back(i);
+    bearings_left.push_back(bearings[i]);
+  }
+  const auto of_left = match_landmarks(then, bearings_left, gate);
+  for (size_t j = 0; j < left.size(); ++j) landmark_of[left[j]] = of_left[j];
+  return landmark_of;
+}
+
 }  // namespace
 
 LandmarkMap::LandmarkMap(const LandmarkMapConfig& config, const PinholeCamera& camera)
@@ -53,7 +74,9 @@ std::vector<int64_t> LandmarkMap::update(std::span<const Eigen::Vector2d> corner
   for (auto& one : to_match) {
     if (one) one = with_known_pose(*one, bearing_sigma_);
   }
-  const auto landmark_of = match_landmarks(to_match, bearings, config_.gate);
+  std::vector<bool> known;
+  for (const MappedLandmark& mapped : landmarks_) known.push_back(confirmed(mapped));
+  const auto landmark_of = match_known_first(to_match, known, bearings, config_.gate);
 
   std::vector<bool> seen(landmarks_.size(), false);
   std::vector<int64_t> ids;

@@ -62,7 +62,7 @@ struct MappedLandmark {
 };
 
 /// The map of [Shah2009] ch. 4, sec. "3D Modeling Algorithm": a database of landmarks that pictures correct, add to and
-/// delete from.
+/// delete from. Differs: landmarks that are part of the map are matched before those that are not yet.
 class LandmarkMap {
  public:
   /// @param bearing scale and edges of the pictures come from `camera`.

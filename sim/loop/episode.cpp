@@ -14,6 +14,7 @@
 #include "sim/loop/aircraft.h"
 #include "sim/loop/cameras.h"
 #include "sim/loop/flight_log.h"
+#include "sim/loop/map_log.h"
 #include "sim/loop/module_pilot.h"
 #include "sim/loop/onlooker.h"
 #include "sim/loop/random_stream.h"
@@ -68,6 +69,7 @@ class Episode {
   int64_t tick_ = 0;
   Proximity proximity_;
   FlightLog log_;
+  MapLog map_log_;
   std::optional<MapScore> map_score_;  ///< where the scene's corners are known
   StageTimer physics_, render_, velocimetry_, decision_;
   std::optional<Outcome> outcome_;
@@ -155,6 +157,7 @@ Flight Episode::fly() {
     result.metrics.push_back({metric.name, metric.value, metric.unit});
   }
   if (map_score_) std::ranges::move(map_score_->metrics(), std::back_inserter(result.metrics));
+  flight.map = map_log_.take(map_score_ ? &*map_score_ : nullptr);
   assess(scenario_, scene_, hull_, flight);
   return flight;
 }
@@ -191,14 +194,19 @@ void Episode::decide() {
   judge_map();
 }
 
-/// Compares the module's map with the scene, by what its first camera can see of it.
+/// Keeps the module's chart and compares it with the scene, by what its first camera can see of it.
 void Episode::judge_map() {
-  if (!map_score_) return;
-  const avoidance::MountedCamera& camera = cameras_.mounted(*pilot_.first_camera());
   const double t_s = ticks_.t_s(tick_);
-  map_score_->add(t_s, pilot_.module().map(),
-                  corners_in_sight(map_score_->corners_W(), camera.model, aircraft_.X_WB() * camera.X_BC,
-                                   pilot_.sees_through_walls() ? nullptr : &collision_, t_s));
+  avoidance::Chart chart = pilot_.module().chart();
+  if (map_score_) {
+    const avoidance::MountedCamera& camera = cameras_.mounted(*pilot_.first_camera());
+    std::vector<Eigen::Vector3d> points_W;
+    for (const avoidance::ChartPoint& point : chart.points) points_W.push_back(point.p_W);
+    map_score_->add(t_s, points_W,
+                    corners_in_sight(map_score_->corners_W(), camera.model, aircraft_.X_WB() * camera.X_BC,
+                                     pilot_.sees_through_walls() ? nullptr : &collision_, t_s));
+  }
+  map_log_.add(t_s, std::move(chart));
 }
 
 /// Runs the autopilot.

@@ -89,8 +89,8 @@ class GuardedModule : public avoidance::Module {
   std::vector<avoidance::Metric> do_metrics() const override {
     return told<std::vector<avoidance::Metric>>([this] { return module_->metrics(); });
   }
-  std::vector<Eigen::Vector3d> do_map() const override {
-    return told<std::vector<Eigen::Vector3d>>([this] { return module_->map(); });
+  avoidance::Chart do_chart() const override {
+    return told<avoidance::Chart>([this] { return module_->chart(); });
   }
   cv::Mat do_annotate() const override {
     return told<cv::Mat>([this] { return module_->annotate(); });

@@ -67,6 +67,8 @@ void write_report(const std::filesystem::path& run_folder) {
   const ReportScenario scenario = describe_scenario(load_scenario(scenario_file), result.at("seed").get<uint64_t>(),
                                                     read_file_whole(scenario_file));
   nlohmann::ordered_json data = report_data(scenario, result, trajectory, decisions);
+  const std::filesystem::path map_file = run_folder / "map.json";
+  data["map"] = std::filesystem::exists(map_file) ? read_json(map_file) : nlohmann::ordered_json(nullptr);
   data["has_replay"] = std::filesystem::exists(run_folder / "replay.html");
   const std::string title = result.value("scenario", "flight");
   write_file_whole(run_folder / "report.html", report_page(title, data.dump(), find_film(run_folder)));

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "sim/record/csv_line.h"
+#include "sim/record/map_data.h"
 #include "sim/record/whole_file.h"
 
 namespace hedgehop::sim {
@@ -137,6 +138,7 @@ void write_result_files(const std::filesystem::path& run_folder, const RunInfo& 
   write_file_whole(run_folder / "scenario.yaml", info.scenario_yaml);
   write_file_whole(run_folder / "trajectory.csv", trajectory_csv(flight));
   write_file_whole(run_folder / "decisions.csv", decisions_csv(flight));
+  if (!flight.map.empty()) write_file_whole(run_folder / "map.json", map_data(flight.map).dump() + "\n");
   write_file_whole(run_folder / "result.json",
                    result_json(info, flight.result));  // last: a result says the run is whole
 }

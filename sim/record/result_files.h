@@ -18,9 +18,9 @@ struct RunInfo {
   std::string scenario_yaml;  ///< the resolved scenario
 };
 
-/// Writes scenario.yaml, result.json, trajectory.csv and decisions.csv into `run_folder`, which is made when missing.
-/// Each file is written aside and then renamed, so a file that is there is whole. Throws std::runtime_error naming the
-/// file and the cause (full disk, missing permission).
+/// Writes scenario.yaml, result.json, trajectory.csv, decisions.csv and, of a module that keeps a chart, map.json into
+/// `run_folder`, which is made when missing. Each file is written aside and then renamed, so a file that is there is
+/// whole. Throws std::runtime_error naming the file and the cause (full disk, missing permission).
 void write_result_files(const std::filesystem::path& run_folder, const RunInfo& info, const Flight& flight);
 
 /// Text of result.json: keys in a fixed order, two spaces of indent, `null` for what is not finite.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scenes/figures.h"
+#include "sim/verdict/map_record.h"
 
 /// What a flight leaves behind: the verdict and the two tables. Frames and units as in CONTRIBUTING.md.
 namespace hedgehop::sim {
@@ -97,6 +98,7 @@ struct Flight {
   std::vector<NamedUnit> signals;
   std::vector<TrajectoryRow> trajectory;
   std::vector<DecisionRow> decisions;
+  MapRecord map;  ///< empty for a module that keeps no chart
 };
 
 }  // namespace hedgehop::sim

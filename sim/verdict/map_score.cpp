@@ -11,7 +11,7 @@ constexpr double kConverged_percent = 3.0, kNothing_percent = 100.0, kCounts_s =
 }  // namespace
 
 MapScore::MapScore(std::vector<Eigen::Vector3d> corners_W, const Eigen::Vector3d& p_start_W)
-    : corners_W_(std::move(corners_W)), seen_s_(corners_W_.size(), 0.0) {
+    : corners_W_(std::move(corners_W)), seen_s_(corners_W_.size(), 0.0), is_found_(corners_W_.size(), false) {
   for (const Eigen::Vector3d& p_W : corners_W_) distances_m_.push_back((p_W - p_start_W).norm());
 }
 
@@ -23,14 +23,15 @@ void MapScore::add(double t_s, std::span<const Eigen::Vector3d> map_W, const std
   ever_ = ever_ || !map_W.empty();
   double sum = 0.0, found = 0.0;
   seen_count_ = 0;
-  std::vector<bool> is_true(map_W.size(), false);
+  is_true_.assign(map_W.size(), false);
   for (size_t corner = 0; corner < corners_W_.size(); ++corner) {
     double least = kNothing_percent;
     for (size_t i = 0; i < map_W.size(); ++i) {
       const double percent = error_percent(corner, map_W[i]);
       least = std::min(least, percent);
-      if (percent <= kConverged_percent) is_true[i] = true;
+      if (percent <= kConverged_percent) is_true_[i] = true;
     }
+    is_found_[corner] = least <= kConverged_percent;
     if (in_sight[corner]) seen_s_[corner] += t_s - last_t_s_;
     if (seen_s_[corner] < kCounts_s) continue;
     ++seen_count_;
@@ -50,11 +51,19 @@ void MapScore::add(double t_s, std::span<const Eigen::Vector3d> map_W, const std
   const double height_m = 0.01 * kConverged_percent * *std::ranges::min_element(distances_m_);
   false_count_ = false_on_ground_ = 0;
   for (size_t i = 0; i < map_W.size(); ++i) {
-    if (is_true[i]) continue;
+    if (is_true_[i]) continue;
     ++false_count_;
     false_on_ground_ += std::abs(map_W[i].z()) <= height_m;
   }
   false_share_ = map_W.empty() ? 0.0 : false_count_ / static_cast<double>(map_W.size());
+}
+
+std::vector<RecordedCorner> MapScore::corners() const {
+  std::vector<RecordedCorner> corners;
+  for (size_t i = 0; i < corners_W_.size(); ++i) {
+    corners.push_back({corners_W_[i], seen_s_[i] >= kCounts_s, is_found_[i]});
+  }
+  return corners;
 }
 
 std::vector<MetricValue> MapScore::metrics() const {

@@ -24,6 +24,11 @@ class MapScore {
   /// @param in_sight  which corners the camera sees now, as many as corners.
   void add(double t_s, std::span<const Eigen::Vector3d> map_W, const std::vector<bool>& in_sight);
 
+  /// The true corners, as the last map has them: found by a point within 3 %.
+  std::vector<RecordedCorner> corners() const;
+  /// Which points of the last map lie within 3 % of a corner, counting or not.
+  const std::vector<bool>& is_true() const { return is_true_; }
+
   /// `map_error_percent`, `converged_s` (since when that error has been within 3 %; NaN when it is not), of the corners
   /// that count; `corners_seen` (how many count), `corners_found` (share of those within 3 %), `false_landmarks`
   /// (points of the map within 3 % of no corner, counting or not), `false_on_ground` (those of them within 3 % of the
@@ -35,6 +40,7 @@ class MapScore {
 
   std::vector<Eigen::Vector3d> corners_W_;
   std::vector<double> distances_m_, seen_s_;
+  std::vector<bool> is_true_, is_found_;
   double last_t_s_ = 0.0;
   bool ever_ = false;
   double error_percent_ = 100.0, converged_s_ = NAN, found_ = 0.0, false_share_ = 0.0;

@@ -123,6 +123,31 @@ TEST(EdgeCorners, LieWhereTwoLinesCross) {
   }
 }
 
+// At the foot of a wall seen from nearly above the detector's pieces cut the corner: one of them begins on the first
+// line and ends on the second, and a piece of the second is missing.
+TEST(EdgeCorners, AreFoundWhereALineBendsALittle) {
+  constexpr double kDegree = M_PI / 180.0;
+  std::mt19937_64 random(7);
+  EdgeCornerConfig config;
+  config.least_angle_rad = 8.0 * kDegree;
+  for (int round = 0; round < 200; ++round) {
+    const Vector2d at(uniform(random, 0, 300), uniform(random, 0, 300));
+    const double turn = uniform(random, 0, 6.28), bend = uniform(random, 9.0 * kDegree, 20.0 * kDegree);
+    const auto first = [&](double s) { return Vector2d(at + s * Vector2d(std::cos(turn), std::sin(turn))); };
+    const auto second = [&](double s) {
+      return Vector2d(at + s * Vector2d(std::cos(turn + bend), std::sin(turn + bend)));
+    };
+    const double cut_px = uniform(random, 0.3, 0.9) * config.aside_px / std::sin(bend);
+    const double late_px = uniform(random, 1.0, 1.9) * config.aside_px / std::sin(bend);
+    const std::vector<PictureEdge> pieces = {
+        {first(-200), first(-10)}, {first(-8), second(cut_px)}, {second(late_px), second(150)}};
+    const auto corners = corners_of(joined_edges(pieces, config), config);
+    ASSERT_EQ(corners.size(), 1U) << "round " << round;
+    constexpr double kCutPieceTurnsTheLine_px = 2.0;
+    EXPECT_LT((corners[0] - at).norm(), kCutPieceTurnsTheLine_px) << "round " << round;
+  }
+}
+
 TEST(EdgeCorners, AreNotWhereAnEdgePassesThroughAnothersEnd) {
   const std::vector<PictureEdge> edges = {{{0, 0}, {100, 0}}, {{50, 1}, {50, 80}}};
   EXPECT_TRUE(corners_of(edges, {}).empty());

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <random>
 #include <stdexcept>
 
 #include "sim/reproduce/corner_flight.h"
@@ -65,6 +66,27 @@ TEST_F(LandmarkMapOfAStandingCamera, KeepsALandmarkThatIsOutOfView) {
   pose_.X_WC_est = looking_at({-40, 0, -40}, {-80, 0, 0});
   for (int i = 0; i < 3 * config_.misses; ++i) see({});
   EXPECT_EQ(map_.landmarks().size(), 1U);
+}
+
+// A landmark's vagueness lowers its Z values, so that the least of them is often that of the landmark just begun.
+TEST(LandmarkMap, AYoungLandmarkBesideAKnownOneDoesNotTakeItsCorner) {
+  std::mt19937_64 random(8);
+  const PinholeCamera camera = PinholeCamera::from_fov(640, 480, std::numbers::pi / 6.0);
+  const Eigen::Vector3d p_W(0, 0, 0);
+  constexpr int kKnowing = 100, kBegun = 40;
+  LandmarkMap map({.misses = kKnowing, .young_misses = kKnowing, .confirm = 20}, camera);
+  int64_t known = -1;
+  for (int i = 0; i < kKnowing; ++i) {
+    const CameraPose pose{looking_at({-40, 0.3 * i, -40}, p_W), 1e-3, 1e-6};
+    const Vector2d corner =
+        *camera.project(pose.X_WC_est.inverse() * p_W) + Vector2d(uniform(random, -1, 1), uniform(random, -1, 1));
+    std::vector<Vector2d> corners = {corner};
+    if (i == kBegun) corners.emplace_back(corner + Vector2d(8, 0));
+    const auto ids = map.update(corners, pose, kPicture_s);
+    if (i == 0) known = ids[0];
+    EXPECT_EQ(ids[0], known) << i;
+  }
+  EXPECT_EQ(map.landmarks().size(), 2U);
 }
 
 // With errors that stay alike for 1 s, twenty pictures of 0.1 s are worth one of white errors. Across the line of

@@ -20,9 +20,11 @@ using ::testing::IsEmpty;
 class RunFolder : public TemporaryFolder {
  public:
   RunFolder() {
-    Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_city_0_light.yaml");
-    write_result_files(path(), {.scenario = "city </script>", .seed = 9, .scenario_yaml = to_yaml(scenario)},
+    write_result_files(path(), {.scenario = "city </script>", .seed = 9, .scenario_yaml = yaml()},
                        fake_flight(10.0, 1));
+  }
+  std::string yaml() const {
+    return to_yaml(load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_city_0_light.yaml"));
   }
 };
 
@@ -37,6 +39,43 @@ TEST(ReportInBrowser, OpensAloneAndFollowsThePointer) {
   EXPECT_THAT(page.errors, IsEmpty());
   EXPECT_THAT(page.requests, IsEmpty());
   EXPECT_THAT(page.value, ElementsAre("city </script>", false));
+}
+
+// The pointer is put everywhere, and asked what it met.
+TEST(ReportInBrowser, ShowsTheMapBesideTheTruthWhereAFlightHasOne) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  Flight flight = fake_flight(10.0, 1);
+  const Eigen::Matrix3d covariance = Eigen::Vector3d(4.0, 1.0, 1.0).asDiagonal();
+  flight.map.points = {{{40, 10, -20}, covariance, true}, {{60, -30, -5}, covariance, false}};
+  flight.map.corners = {{{41, 10, -20}, true, true}, {{20, 40, -20}, true, false}};
+  flight.map.course_NE = {{0, 0}, {100, 0}};
+  flight.map.ways = {{2.0, {{30, 20}, {100, 0}}}};
+  write_result_files(run.path(), {.scenario = "map", .scenario_yaml = run.yaml()}, flight);
+  write_report(run.path());
+  const PageVisit page = visit(run.path() / "report.html", R"js(
+    const canvas = document.querySelector('#landmarks canvas'), box = canvas.getBoundingClientRect();
+    const tip = document.querySelector('#landmarks .tip'), met = {};
+    for (let x = 0; x < box.width; x += 4) {
+      for (let y = 0; y < box.height; y += 4) {
+        canvas.dispatchEvent(new PointerEvent('pointermove', {clientX: box.x + x, clientY: box.y + y}));
+        met[tip.children[0].textContent] = tip.children[1]?.textContent;
+      }
+    }
+    return [met['landmark'], met['false landmark'], document.querySelector('#landmarks .plan-key').textContent];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value[0], "north 40.0 m, east 10.0 m, 20.0 m high");
+  EXPECT_EQ(page.value[1], "north 60.0 m, east −30.0 m, 5.0 m high");
+  EXPECT_THAT(page.value[2].get<std::string>(), ::testing::HasSubstr("1 false"));
+}
+
+TEST(ReportInBrowser, HasNoMapWhereAFlightHasNone) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  write_report(run.path());
+  const PageVisit page = visit(run.path() / "report.html", "return document.getElementById('landmarks') === null;");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_TRUE(page.value.get<bool>());
 }
 
 TEST(ReplayInBrowser, PutsTheVehicleWhereTheTrajectoryHasIt) {

@@ -60,6 +60,19 @@ TEST(MapScore, PointsNearNoCornerAreFalse) {
   EXPECT_EQ(values(score).at("false_share"), 0.5);
 }
 
+TEST(MapScore, TellsWhichPointsAndCornersBelongTogether) {
+  MapScore score({{100, 0, 0}, {0, 100, 0}, {-100, 0, 0}}, Vector3d::Zero());
+  score.add(20.0, std::vector<Vector3d>{{50, 50, 0}, {-101, 0, 0}, {101, 0, 0}}, {true, true, false});
+  EXPECT_EQ(score.is_true(), (std::vector<bool>{false, true, true}));
+  const auto corners = score.corners();
+  ASSERT_EQ(corners.size(), 3U);
+  const bool counts[] = {true, true, false}, found[] = {true, false, true};
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(corners[i].counts, counts[i]) << i;
+    EXPECT_EQ(corners[i].found, found[i]) << i;
+  }
+}
+
 TEST(MapScore, SaysNothingOfAModuleWithoutAMap) {
   MapScore score({{100, 0, 0}}, Vector3d::Zero());
   score.add(1.0, {}, {true});

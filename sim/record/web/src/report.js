@@ -120,12 +120,21 @@ function sectionNotes(module) {
   return notes;
 }
 
+/** A goal that the module's course does not lead to is not flown to: then there is none to show or to judge by. */
+function dropUnflownGoal({map, plan}) {
+  if (!map || !map.course.length || !plan.goal) return;
+  const {n, e, radius} = plan.goal;
+  if (!map.course.some(([cn, ce]) => Math.hypot(cn - n, ce - e) <= radius)) plan.goal = null;
+}
+
 function main() {
   const data = JSON.parse(document.getElementById('data').textContent);
+  dropUnflownGoal(data);
   fillVerdict(document.getElementById('verdict'), data);
   fillChecks(document.getElementById('checks'), data.result.checks);
   fillDetails(document.getElementById('details'), data);
   const film = openFilm();
+  if (!data.map) document.getElementById('landmarks-card').remove();
 
   // One instant is shown by plan and plots: the pointer's, else the film's.
   let pointer = null, drawn;
@@ -134,6 +143,7 @@ function main() {
     if (t === drawn) return;
     drawn = t;
     plan.setTime(t);
+    landmarks?.setTime(t);
     charts.setTime(t);
   };
   let asked = false;
@@ -147,6 +157,7 @@ function main() {
     pick: (t) => { if (film) film.currentTime = Math.max(0, t); },
   };
   const plan = new PlanView(document.getElementById('plan'), data, on);
+  const landmarks = data.map ? new LandmarksView(document.getElementById('landmarks'), data) : null;
   const charts = new Charts(document.getElementById('charts'), data.panels, sectionNotes(data.module), on);
   if (film) {
     const follow = () => { ask(); if (!film.paused) requestAnimationFrame(follow); };
@@ -157,6 +168,6 @@ function main() {
   const color = document.getElementById('plan-color');
   plan.colorings.forEach(({name}) => color.append(make('option', '', name)));
   color.addEventListener('change', () => plan.setColoring(color.value));
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { plan.draw(); charts.build(); });
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { plan.draw(); landmarks?.draw(); charts.build(); });
 }
 main();
