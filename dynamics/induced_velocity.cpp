@@ -38,11 +38,11 @@ Balance balance(const RotorDisc& disc, double blade_mps, double upflow, double i
 
 }  // namespace
 
-RotorDisc make_rotor_disc(const RotorGeometry& rotor, double density_kgpm3) {
+RotorDisc make_rotor_disc(const RotorGeometry& rotor, double speed_radps, double density_kgpm3) {
   const double rho = density_kgpm3;
   const double R = rotor.radius_m;
-  const double omega_R = rotor.speed_radps * R;
-  const double blade_area = rotor.blades * rotor.chord_m * R;
+  const double omega_R = speed_radps * R;
+  const double blade_area = static_cast<double>(rotor.blades) * rotor.chord_m * R;
   RotorDisc disc;
   disc.density_kgpm3 = rho;
   disc.area_m2 = std::numbers::pi * R * R;

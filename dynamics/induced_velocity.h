@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 /// Thrust and induced velocity of one rotor, from blade elements and momentum theory together.
 namespace hedgehop::dynamics {
 
@@ -16,12 +18,31 @@ struct RotorDisc {
   double profile_power_growth = 0.0;  ///< kappa: P = P0 (1 + kappa mu^2)
 };
 
-/// What a rotor is built of. Speeds in rad/s, lengths in m.
+/// What a rotor is built of.
 struct RotorGeometry {
-  double speed_radps, radius_m, chord_m, blades, lift_slope_prad, profile_drag, max_thrust_coefficient;
-  double efficiency, profile_power_growth;
+  double radius_m = 0.775;
+  double chord_m = 0.058;
+  int64_t blades = 2;
+  double lift_slope_prad = 5.5;
+  double profile_drag = 0.024;
+  double profile_power_growth = 4.6;
+  double max_thrust_coefficient = 0.0055;
+  double efficiency = 1.0;
 };
-RotorDisc make_rotor_disc(const RotorGeometry& rotor, double density_kgpm3);
+template <class Visitor>
+void describe(Visitor& v, RotorGeometry& c) {
+  v("radius", c.radius_m, {.unit = "m", .above = 0.0, .meaning = "blade tip radius"});
+  v("chord", c.chord_m, {.unit = "m", .above = 0.0, .meaning = "blade chord"});
+  v("blades", c.blades, {.at_least = 2.0, .at_most = 8.0, .meaning = "number of blades"});
+  v("lift_slope", c.lift_slope_prad, {.unit = "1/rad", .above = 0.0, .meaning = "lift per angle of a blade section"});
+  v("profile_drag", c.profile_drag, {.at_least = 0.0, .meaning = "mean drag coefficient of a blade section"});
+  v("profile_power_growth", c.profile_power_growth,
+    {.at_least = 0.0, .meaning = "kappa of the profile power P0 (1 + kappa mu^2)"});
+  v("max_thrust_coefficient", c.max_thrust_coefficient, {.above = 0.0, .meaning = "C_T at which the blades stall"});
+  v("efficiency", c.efficiency, {.above = 0.0, .at_most = 1.0, .meaning = "of the momentum balance, 1 is ideal"});
+}
+/// @param speed_radps  > 0.
+RotorDisc make_rotor_disc(const RotorGeometry& rotor, double speed_radps, double density_kgpm3);
 /// Returns the same rotor turning `ratio` times as fast.
 RotorDisc at_speed(RotorDisc disc, double ratio);
 

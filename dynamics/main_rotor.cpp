@@ -66,16 +66,7 @@ FlappingModel make_flapping(const MainRotorConfig& c, double density_kgpm3) {
 
 MainRotor make_main_rotor(const MainRotorConfig& c, double density_kgpm3) {
   MainRotor rotor;
-  rotor.disc = make_rotor_disc({.speed_radps = c.speed_radps,
-                                .radius_m = c.radius_m,
-                                .chord_m = c.chord_m,
-                                .blades = static_cast<double>(c.blades),
-                                .lift_slope_prad = c.lift_slope_prad,
-                                .profile_drag = c.profile_drag,
-                                .max_thrust_coefficient = c.max_thrust_coefficient,
-                                .efficiency = c.efficiency,
-                                .profile_power_growth = c.profile_power_growth},
-                               density_kgpm3);
+  rotor.disc = make_rotor_disc(c, c.speed_radps, density_kgpm3);
   rotor.flapping = make_flapping(c, density_kgpm3);
   rotor.speed_radps = c.speed_radps;
   rotor.hub_height_m = c.hub_height_m;

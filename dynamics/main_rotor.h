@@ -10,18 +10,10 @@
 namespace hedgehop::dynamics {
 
 /// Defaults: the X-Cell .60 of [Gavrilets2015] table of parameters.
-struct MainRotorConfig {
+struct MainRotorConfig : RotorGeometry {
   enum class Turns { counter_clockwise, clockwise };
   Turns turns = Turns::clockwise;
   double speed_radps = 167.0;
-  double radius_m = 0.775;
-  double chord_m = 0.058;
-  int64_t blades = 2;
-  double lift_slope_prad = 5.5;
-  double profile_drag = 0.024;
-  double profile_power_growth = 4.6;
-  double max_thrust_coefficient = 0.0055;
-  double efficiency = 1.0;
   double blade_inertia_kgm2 = 0.038;
   double hinge_offset_m = 0.0;
   double hub_stiffness_nmprad = 54.0;
@@ -33,15 +25,7 @@ template <class Visitor>
 void describe(Visitor& v, MainRotorConfig& c) {
   v("turns", c.turns, {.choices = {"counter_clockwise", "clockwise"}, .meaning = "sense of rotation seen from above"});
   v("speed", c.speed_radps, {.unit = "rad/s", .above = 0.0, .meaning = "constant, held by the governor"});
-  v("radius", c.radius_m, {.unit = "m", .above = 0.0, .meaning = "blade tip radius"});
-  v("chord", c.chord_m, {.unit = "m", .above = 0.0, .meaning = "blade chord"});
-  v("blades", c.blades, {.at_least = 2.0, .at_most = 8.0, .meaning = "number of blades"});
-  v("lift_slope", c.lift_slope_prad, {.unit = "1/rad", .above = 0.0, .meaning = "lift per angle of a blade section"});
-  v("profile_drag", c.profile_drag, {.at_least = 0.0, .meaning = "mean drag coefficient of a blade section"});
-  v("profile_power_growth", c.profile_power_growth,
-    {.at_least = 0.0, .meaning = "kappa of the profile power P0 (1 + kappa mu^2)"});
-  v("max_thrust_coefficient", c.max_thrust_coefficient, {.above = 0.0, .meaning = "C_T at which the blades stall"});
-  v("efficiency", c.efficiency, {.above = 0.0, .at_most = 1.0, .meaning = "of the momentum balance, 1 is ideal"});
+  describe(v, static_cast<RotorGeometry&>(c));
   v("blade_inertia", c.blade_inertia_kgm2, {.unit = "kg m2", .above = 0.0, .meaning = "of one blade, flapping"});
   v("hinge_offset", c.hinge_offset_m, {.unit = "m", .at_least = 0.0, .meaning = "of the flapping hinge"});
   v("hub_stiffness", c.hub_stiffness_nmprad,

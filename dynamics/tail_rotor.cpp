@@ -13,16 +13,7 @@ constexpr double kSidewaysLimit = 1.0;
 
 TailRotor make_tail_rotor(const TailRotorConfig& c, double main_speed_radps, double clockwise, double density_kgpm3) {
   TailRotor rotor;
-  rotor.disc = make_rotor_disc({.speed_radps = c.gear_ratio * main_speed_radps,
-                                .radius_m = c.radius_m,
-                                .chord_m = c.chord_m,
-                                .blades = static_cast<double>(c.blades),
-                                .lift_slope_prad = c.lift_slope_prad,
-                                .profile_drag = c.profile_drag,
-                                .max_thrust_coefficient = c.max_thrust_coefficient,
-                                .efficiency = c.efficiency,
-                                .profile_power_growth = c.profile_power_growth},
-                               density_kgpm3);
+  rotor.disc = make_rotor_disc(c, c.gear_ratio * main_speed_radps, density_kgpm3);
   rotor.disc.descent_limit = kSidewaysLimit;
   rotor.clockwise = clockwise;
   rotor.thrust_fraction = c.thrust_fraction;

@@ -1,23 +1,16 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 
 #include "dynamics/induced_velocity.h"
 
 namespace hedgehop::dynamics {
 
 /// Defaults: the X-Cell .60 of [Gavrilets2015] table of parameters.
-struct TailRotorConfig {
+struct TailRotorConfig : RotorGeometry {
+  TailRotorConfig()
+      : RotorGeometry{.radius_m = 0.13, .chord_m = 0.029, .lift_slope_prad = 5.0, .max_thrust_coefficient = 0.05} {}
   double gear_ratio = 4.66;
-  double radius_m = 0.13;
-  double chord_m = 0.029;
-  int64_t blades = 2;
-  double lift_slope_prad = 5.0;
-  double profile_drag = 0.024;
-  double profile_power_growth = 4.6;
-  double max_thrust_coefficient = 0.05;
-  double efficiency = 1.0;
   double thrust_fraction = 1.0;
   double arm_m = 0.91;
   double height_m = 0.08;
@@ -25,15 +18,7 @@ struct TailRotorConfig {
 template <class Visitor>
 void describe(Visitor& v, TailRotorConfig& c) {
   v("gear_ratio", c.gear_ratio, {.above = 0.0, .meaning = "turns per turn of the main rotor"});
-  v("radius", c.radius_m, {.unit = "m", .above = 0.0, .meaning = "blade tip radius"});
-  v("chord", c.chord_m, {.unit = "m", .above = 0.0, .meaning = "blade chord"});
-  v("blades", c.blades, {.at_least = 2.0, .at_most = 8.0, .meaning = "number of blades"});
-  v("lift_slope", c.lift_slope_prad, {.unit = "1/rad", .above = 0.0, .meaning = "lift per angle of a blade section"});
-  v("profile_drag", c.profile_drag, {.at_least = 0.0, .meaning = "mean drag coefficient of a blade section"});
-  v("profile_power_growth", c.profile_power_growth,
-    {.at_least = 0.0, .meaning = "kappa of the profile power P0 (1 + kappa mu^2)"});
-  v("max_thrust_coefficient", c.max_thrust_coefficient, {.above = 0.0, .meaning = "C_T at which the blades stall"});
-  v("efficiency", c.efficiency, {.above = 0.0, .at_most = 1.0, .meaning = "of the momentum balance, 1 is ideal"});
+  describe(v, static_cast<RotorGeometry&>(c));
   v("thrust_fraction", c.thrust_fraction,
     {.above = 0.0, .at_most = 1.0, .meaning = "of the thrust that the fin beside the rotor leaves"});
   v("arm", c.arm_m, {.unit = "m", .above = 0.0, .meaning = "of the hub behind the mass centre"});

@@ -110,16 +110,14 @@ constexpr double kFootM = 0.3048, kPoundN = 4.4482216, kHorsepowerW = 745.69987,
 
 /// The AH-1S of [HeffleyMnich1988] table of parameters, or its rotor at another radius.
 RotorDisc ah_1s(double radius_ft) {
-  return make_rotor_disc({.speed_radps = 324.0 * std::numbers::pi / 30.0,
-                          .radius_m = radius_ft * kFootM,
+  return make_rotor_disc({.radius_m = radius_ft * kFootM,
                           .chord_m = 2.25 * kFootM,
-                          .blades = 2.0,
+                          .blades = 2,
                           .lift_slope_prad = 6.0,
                           .profile_drag = 0.01,
-                          .max_thrust_coefficient = 0.05,
-                          .efficiency = 1.0,
-                          .profile_power_growth = 4.6},
-                         1.225);
+                          .profile_power_growth = 4.6,
+                          .max_thrust_coefficient = 0.05},
+                         324.0 * std::numbers::pi / 30.0, 1.225);
 }
 double hover_inflow_mps(const RotorDisc& disc, double weight_n) {
   return solve_inflow(disc, collective_for(disc, weight_n, 0.0, 0.0), 0.0, 0.0).induced_mps;
