@@ -37,6 +37,8 @@ void SectionPilot::reset(const SectionCamera& camera) {
   aside_W_.reset();
   held_W_.reset();
   post_W_.reset();
+  away_ = 1.0;
+  watched_rad_.reset();
   sweep_.reset();
   flown_ = false;
 }
@@ -44,30 +46,32 @@ void SectionPilot::reset(const SectionCamera& camera) {
 Command SectionPilot::update(const vision::SectionSearch& seen, const vision::SectionChoice& choice,
                              const PassedObstacles& passed, double reach_m, const Observation& observation) {
   const NavigationState& navigation = observation.navigation;
+  if (!flown_ && (observation.goal.p_WG - navigation.p_WB_est).norm() < reach_m) post_W_ = observation.goal.p_WG;
+  flown_ = true;
+  const bool hovers = post_W_ && !turns();
   // A turn that has begun is finished first: what passes by on the way says nothing of where it leads.
-  if (choice.section < 0 && !held_W_) return hover_and_yaw(seen, choice, observation);
+  if (choice.section < 0 && !held_W_ && !hovers) return hover_and_yaw(seen, choice, observation);
 
   const bool looked_round = state_ == State::hover_and_yaw;
   const bool arrived = aside_W_ && (*aside_W_ - navigation.p_WB_est).norm() < config_.arrived_m;
-  if (!flown_ && (observation.goal.p_WG - navigation.p_WB_est).norm() < reach_m) post_W_ = observation.goal.p_WG;
-  flown_ = true;
   if (aside_W_ && (arrived || (!post_W_ && is_free(observation.goal.p_WG, seen, passed, navigation)))) {
     if (post_W_) post_W_ = aside_W_;
     aside_W_.reset();
     state_ = State::resume;
   }
   const Eigen::Vector3d& end_W = aside_W_ ? *aside_W_ : post_W_ ? *post_W_ : observation.goal.p_WG;
-  const bool off_route = !held_W_ && is_spoilt(end_W, seen, choice, passed, reach_m, navigation);
+  const bool off_route = hovers ? is_approached(seen, navigation) && !aside_W_
+                                : !held_W_ && is_spoilt(end_W, seen, choice, passed, reach_m, navigation);
   if (looked_round || off_route) {
-    if (!looked_round && !aside_W_) search(section_ray(camera_, seen, choice.section).x(), observation);
+    if (!looked_round && !aside_W_ && !hovers) search(section_ray(camera_, seen, choice.section).x(), observation);
     aside_W_ = place(navigation, seen, choice.section, reach_m);
     state_ = State::avoid;
   }
-  if (aside_W_ && !turns()) return PositionCommand{*aside_W_, heading_rad(navigation.q_WB_est)};
+  if (aside_W_ && !turns()) return PositionCommand{*aside_W_, watched_rad_.value_or(heading_rad(navigation.q_WB_est))};
   if (aside_W_) return go_to(*aside_W_, navigation);
   if (post_W_) {
     state_ = State::cruise;
-    return PositionCommand{*post_W_, observation.goal.heading_rad};
+    return PositionCommand{*post_W_, watched_rad_.value_or(observation.goal.heading_rad)};
   }
   const Command command = go_to(observation.goal.p_WG, navigation);
   if (!held_W_) state_ = State::cruise;
@@ -105,7 +109,8 @@ Eigen::Vector3d SectionPilot::place(const NavigationState& navigation, const vis
                                     double reach_m) const {
   using Answer = SectionPilotConfig::Answer;
   const Eigen::Vector3d ray_B = camera_.X_BC.linear() * section_ray(camera_, seen, section);
-  const double side = ray_B.y() < 0.0 ? -1.0 : 1.0;
+  const double side = post_W_ ? away_ : ray_B.y() < 0.0 ? -1.0 : 1.0;
+  const double back = post_W_ ? 1.0 : 0.0;  // what comes at the post may follow aside
   Eigen::Vector3d p_BS_B = Eigen::Vector3d::Zero();
   switch (config_.answer) {
     case Answer::waypoint:
@@ -115,13 +120,13 @@ Eigen::Vector3d SectionPilot::place(const NavigationState& navigation, const vis
       p_BS_B = {ray_B.x(), ray_B.y(), 0.0};
       break;
     case Answer::sideways:
-      p_BS_B.y() = side;
+      p_BS_B = {-back, side, 0.0};
       break;
     case Answer::climb:
       p_BS_B.z() = -1.0;
       break;
     case Answer::combined:
-      p_BS_B = {0.0, side, -1.0};
+      p_BS_B = {-back, side, -1.0};
       break;
   }
   Eigen::Vector3d p_WS = navigation.p_WB_est + navigation.q_WB_est * (reach_m * p_BS_B.normalized());
@@ -133,6 +138,25 @@ Eigen::Vector3d SectionPilot::place(const NavigationState& navigation, const vis
 bool SectionPilot::turns() const {
   return config_.answer == SectionPilotConfig::Answer::waypoint ||
          config_.answer == SectionPilotConfig::Answer::heading;
+}
+
+/// Whether anything within the threshold is in sight of a vehicle that hovers; settles where it is, and to which side
+/// it leaves room. The side stays the same for what stands straight ahead.
+bool SectionPilot::is_approached(const vision::SectionSearch& seen, const NavigationState& navigation) {
+  Eigen::Vector3d threats_C = Eigen::Vector3d::Zero();
+  bool approached = false;
+  for (size_t i = 0; i < seen.sections().size(); ++i) {
+    const int section = static_cast<int>(i);
+    threats_C += seen.threats()[i] * section_ray(camera_, seen, section);
+    approached = approached || seen.share(section) > config_.keep_share;
+  }
+  if (!approached) return false;
+  const Eigen::Vector3d threats_B = camera_.X_BC.linear() * threats_C;
+  const double bearing_rad = std::atan2(threats_B.y(), threats_B.x());
+  constexpr double kAhead_rad = 0.03;
+  if (std::abs(bearing_rad) > kAhead_rad) away_ = bearing_rad < 0.0 ? 1.0 : -1.0;
+  watched_rad_ = heading_rad(navigation.q_WB_est) + bearing_rad;
+  return true;
 }
 
 /// Where in the picture a place lies; nothing behind the camera.

@@ -51,6 +51,7 @@ class SectionPilot {
     double reach_m = 0.0;             ///< how far it goes to the side it is on
   };
   bool turns() const;
+  bool is_approached(const vision::SectionSearch& seen, const NavigationState& navigation);
   std::optional<cv::Point2d> pixel_of(const Eigen::Vector3d& p_W, const NavigationState& navigation) const;
   bool is_free(const Eigen::Vector3d& p_W, const vision::SectionSearch& seen, const PassedObstacles& passed,
                const NavigationState& navigation) const;
@@ -68,6 +69,8 @@ class SectionPilot {
   std::optional<Eigen::Vector3d> aside_W_;  ///< temporary position
   std::optional<Eigen::Vector3d> held_W_;   ///< where it waits while it turns
   std::optional<Eigen::Vector3d> post_W_;   ///< where it hovers, of a flight that has no way to go
+  double away_ = 1.0;                       ///< to the right of what comes at the post
+  std::optional<double> watched_rad_;       ///< heading to what came at it last
   std::optional<Sweep> sweep_;
   bool flown_ = false;
 };

@@ -96,5 +96,33 @@ TEST(SectionFlight, PassesRandomPillarsByMoreThanItsRadius) {
   }
 }
 
+// [Perez2018] fig. 20, from wherever in the picture; half of them then turn square to their way, to either side.
+TEST(SectionFlight, WhatComesAtAHoveringVehicleFromAnyBearingInSightStaysAway) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> bearing_rad(-0.65, 0.65), beside_m(-1.0, 1.0), turns_s(7.0, 10.0);
+  constexpr double kStart_m = 9.0, kSpeed_mps = 0.7, kHalf_m = 0.5;
+  for (int trial = 0; trial < 16; ++trial) {
+    const Eigen::AngleAxisd turn(bearing_rad(random), Eigen::Vector3d::UnitZ());
+    const Eigen::Vector3d from_W = turn * Eigen::Vector3d(kStart_m, beside_m(random), 0.0);
+    const Eigen::Vector3d v_W = kSpeed_mps * (turn * -Eigen::Vector3d::UnitX());
+    const Eigen::Vector3d later_W = kSpeed_mps * (turn * Eigen::Vector3d(0.0, trial % 4 < 2 ? 1.0 : -1.0, 0.0));
+    const double turns_at_s = trial % 2 == 0 ? 1e9 : turns_s(random);
+    SectionWorld world;
+    world.hovers = true;
+    world.duration_s = 25.0;
+    world.goal_W = world.start_W;
+    world.movers_W = [&](double t_s) {
+      const Eigen::Vector3d middle_W =
+          world.start_W + from_W + std::min(t_s, turns_at_s) * v_W + std::max(0.0, t_s - turns_at_s) * later_W;
+      const Eigen::Vector3d half_W = Eigen::Vector3d::Constant(kHalf_m);
+      return SectionWorld::Boxes{{middle_W - half_W, middle_W + half_W}};
+    };
+    SectionGridConfig config;
+    config.threshold_m = 3.048;
+    config.pilot.answer = SectionPilotConfig::Answer::sideways;
+    EXPECT_GT(world.fly(config).clearance_m - kVehicleRadius_m, 2.0) << trial;
+  }
+}
+
 }  // namespace
 }  // namespace hedgehop::avoidance

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -29,9 +31,12 @@ class SectionWorld {
     std::vector<Moment> moments;
   };
 
-  std::vector<Eigen::AlignedBox3d> boxes_W;
+  using Boxes = std::vector<Eigen::AlignedBox3d>;
+  Boxes boxes_W;
+  std::function<Boxes(double t_s)> movers_W;  ///< further boxes; none when empty
   Eigen::Vector3d start_W{0.0, 0.0, -5.0}, goal_W{40.0, 0.0, -5.0};
   double speed_mps = 1.0, duration_s = 120.0;
+  bool hovers = false;  ///< at its goal, to the end
 
   Flown fly(SectionGridConfig config) const {
     config.sight = SectionGridConfig::Sight::truth;
@@ -45,7 +50,9 @@ class SectionWorld {
     double heading_rad = 0.0;
     Command told = HoverCommand{};
     for (int64_t step = 1; static_cast<double>(step) * kStep_s < duration_s; ++step) {
-      const cv::Mat depth_m = depth(lens, camera.X_BC, p_WB, heading_rad);
+      Boxes boxes_now_W = boxes_W;
+      if (movers_W) std::ranges::copy(movers_W(static_cast<double>(step) * kStep_s), std::back_inserter(boxes_now_W));
+      const cv::Mat depth_m = depth(boxes_now_W, lens, camera.X_BC, p_WB, heading_rad);
       const std::vector<CameraFrame> frames = {{"depth", step * 80'000'000, depth_m}};
       const Decision decision =
           module->update({step * 80'000'000, frames, level_flight(p_WB, heading_rad, {speed_mps, 0.0}), {goal_W, 0.0}});
@@ -53,18 +60,18 @@ class SectionWorld {
       told = decision.command;  // obeyed a step later
       flown.moments.push_back(
           {p_WB, decision.status, static_cast<int>(decision.signals[0]), static_cast<int>(decision.signals[3])});
-      for (const Eigen::AlignedBox3d& box_W : boxes_W) {
+      for (const Eigen::AlignedBox3d& box_W : boxes_now_W) {
         flown.clearance_m = std::min(flown.clearance_m, box_W.exteriorDistance(p_WB));
       }
-      flown.reached = (goal_W - p_WB).head<2>().norm() < 2.0;
+      flown.reached = !hovers && (goal_W - p_WB).head<2>().norm() < 2.0;
       if (flown.reached || flown.clearance_m <= 0.0) break;
     }
     return flown;
   }
 
  private:
-  cv::Mat depth(const vision::PinholeCamera& lens, const Eigen::Isometry3d& X_BC, const Eigen::Vector3d& p_WB,
-                double heading_rad) const {
+  static cv::Mat depth(const Boxes& boxes_now_W, const vision::PinholeCamera& lens, const Eigen::Isometry3d& X_BC,
+                       const Eigen::Vector3d& p_WB, double heading_rad) {
     Eigen::Isometry3d X_WB(Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()));
     X_WB.translation() = p_WB;
     const Eigen::Isometry3d X_WC = X_WB * X_BC;
@@ -73,16 +80,16 @@ class SectionWorld {
       for (int u = 0; u < kWidth_px; ++u) {
         const Eigen::Vector3d ray_C((u - lens.center_u_px) / lens.focal_x_px, (v - lens.center_v_px) / lens.focal_y_px,
                                     1.0);
-        depth_m.at<float>(v, u) = static_cast<float>(along(X_WC.translation(), X_WC.linear() * ray_C));
+        depth_m.at<float>(v, u) = static_cast<float>(along(boxes_now_W, X_WC.translation(), X_WC.linear() * ray_C));
       }
     }
     return depth_m;
   }
 
   /// How many times a ray fits between its origin and what it meets first.
-  double along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& ray_W) const {
+  static double along(const Boxes& boxes_now_W, const Eigen::Vector3d& p_W, const Eigen::Vector3d& ray_W) {
     double nearest = ray_W.z() > 0.0 ? -p_W.z() / ray_W.z() : std::numeric_limits<double>::infinity();
-    for (const Eigen::AlignedBox3d& box_W : boxes_W) {
+    for (const Eigen::AlignedBox3d& box_W : boxes_now_W) {
       const Eigen::Array3d a = (box_W.min() - p_W).array() / ray_W.array();
       const Eigen::Array3d b = (box_W.max() - p_W).array() / ray_W.array();
       const double enters = a.min(b).maxCoeff(), leaves = a.max(b).minCoeff();
