@@ -86,7 +86,8 @@ class SectionGridModule final : public Module {
       rejected_ += search_->threats()[i] > config_.most_share * search_->sections()[i].area();
     }
     Decision decision;
-    decision.command = pilot_.update(*search_, choice_, *passed_, threshold_m, observation);
+    decision.command =
+        pilot_.update({*search_, choice_, *passed_, threshold_m, observation.navigation}, observation.goal);
     if (pilot_.state() == State::hover_and_yaw && t_ns_ >= 0)
       hover_s_ += 1e-9 * static_cast<double>(observation.t_ns - t_ns_);
     t_ns_ = observation.t_ns;

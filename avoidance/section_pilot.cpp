@@ -43,45 +43,46 @@ void SectionPilot::reset(const SectionCamera& camera) {
   flown_ = false;
 }
 
-Command SectionPilot::update(const vision::SectionSearch& seen, const vision::SectionChoice& choice,
-                             const PassedObstacles& passed, double reach_m, const Observation& observation) {
-  const NavigationState& navigation = observation.navigation;
-  if (!flown_ && (observation.goal.p_WG - navigation.p_WB_est).norm() < reach_m) post_W_ = observation.goal.p_WG;
+Command SectionPilot::update(const SectionView& view, const Goal& goal) {
+  const auto& [seen, choice, passed, reach_m, navigation] = view;
+  if (!flown_ && (goal.p_WG - navigation.p_WB_est).norm() < reach_m) post_W_ = goal.p_WG;
   flown_ = true;
   const bool hovers = post_W_ && !turns();
   // A turn that has begun is finished first: what passes by on the way says nothing of where it leads.
-  if (choice.section < 0 && !held_W_ && !hovers) return hover_and_yaw(seen, choice, observation);
+  if (choice.section < 0 && !held_W_ && !hovers) return hover_and_yaw(view, goal);
 
   const bool looked_round = state_ == State::hover_and_yaw;
   const bool arrived = aside_W_ && (*aside_W_ - navigation.p_WB_est).norm() < config_.arrived_m;
-  if (aside_W_ && (arrived || (!post_W_ && is_free(observation.goal.p_WG, seen, passed, navigation)))) {
+  if (aside_W_ && (arrived || (!post_W_ && is_free(goal.p_WG, view)))) {
     if (post_W_) post_W_ = aside_W_;
     aside_W_.reset();
     state_ = State::resume;
   }
-  const Eigen::Vector3d& end_W = aside_W_ ? *aside_W_ : post_W_ ? *post_W_ : observation.goal.p_WG;
-  const bool off_route = hovers ? is_approached(seen, navigation) && !aside_W_
-                                : !held_W_ && is_spoilt(end_W, seen, choice, passed, reach_m, navigation);
+  const Eigen::Vector3d& end_W = aside_W_ ? *aside_W_ : post_W_ ? *post_W_ : goal.p_WG;
+  const bool off_route = hovers ? is_approached(view) && !aside_W_ : !held_W_ && is_spoilt(end_W, view);
   if (looked_round || off_route) {
-    if (!looked_round && !aside_W_ && !hovers) search(section_ray(camera_, seen, choice.section).x(), observation);
-    aside_W_ = place(navigation, seen, choice.section, reach_m);
+    if (!looked_round && !aside_W_ && !hovers) {
+      search(section_ray(camera_, seen, choice.section).x(), navigation, goal);
+    }
+    aside_W_ = place(navigation, seen, choice.section < 0 ? choice.best : choice.section, reach_m);
     state_ = State::avoid;
   }
   if (aside_W_ && !turns()) return PositionCommand{*aside_W_, watched_rad_.value_or(heading_rad(navigation.q_WB_est))};
   if (aside_W_) return go_to(*aside_W_, navigation);
   if (post_W_) {
     state_ = State::cruise;
-    return PositionCommand{*post_W_, watched_rad_.value_or(observation.goal.heading_rad)};
+    return PositionCommand{*post_W_, watched_rad_.value_or(goal.heading_rad)};
   }
-  const Command command = go_to(observation.goal.p_WG, navigation);
+  const Command command = go_to(goal.p_WG, navigation);
   if (!held_W_) state_ = State::cruise;
   return command;
 }
 
 /// [Perez2018] sec. on movement: without a section the vehicle hovers and yaws until there is one.
-Command SectionPilot::hover_and_yaw(const vision::SectionSearch& seen, const vision::SectionChoice& choice,
-                                    const Observation& observation) {
-  if (state_ != State::hover_and_yaw) search(section_ray(camera_, seen, choice.best).x(), observation);
+Command SectionPilot::hover_and_yaw(const SectionView& view, const Goal& goal) {
+  if (state_ != State::hover_and_yaw) {
+    search(section_ray(camera_, view.seen, view.choice.best).x(), view.navigation, goal);
+  }
   state_ = State::hover_and_yaw;
   aside_W_.reset();
   held_W_.reset();
@@ -91,10 +92,10 @@ Command SectionPilot::hover_and_yaw(const vision::SectionSearch& seen, const vis
 /// Settles to which side of the way to the goal the vehicle looks round. As long as the goal comes no nearer it keeps
 /// to one side, then to the other, each time twice as far; else it would turn back before the end of a wall. `side` <
 /// 0: the emptiest section lies to the left.
-void SectionPilot::search(double side, const Observation& observation) {
+void SectionPilot::search(double side, const NavigationState& navigation, const Goal& goal) {
   constexpr double kFirst_m = 15.0, kProgress_m = 5.0;
-  const Eigen::Vector2d p_WB = observation.navigation.p_WB_est.head<2>();
-  const Eigen::Vector2d way_W = observation.goal.p_WG.head<2>() - p_WB;
+  const Eigen::Vector2d p_WB = navigation.p_WB_est.head<2>();
+  const Eigen::Vector2d way_W = goal.p_WG.head<2>() - p_WB;
   if (!sweep_ || way_W.norm() < sweep_->goal_distance_m - kProgress_m) {
     sweep_ = Sweep{p_WB, Eigen::Vector2d(-way_W.y(), way_W.x()).normalized(), way_W.norm(), kFirst_m};
     turn_ = side < 0.0 ? -1.0 : 1.0;
@@ -142,7 +143,8 @@ bool SectionPilot::turns() const {
 
 /// Whether anything within the threshold is in sight of a vehicle that hovers; settles where it is, and to which side
 /// it leaves room. The side stays the same for what stands straight ahead.
-bool SectionPilot::is_approached(const vision::SectionSearch& seen, const NavigationState& navigation) {
+bool SectionPilot::is_approached(const SectionView& view) {
+  const vision::SectionSearch& seen = view.seen;
   Eigen::Vector3d threats_C = Eigen::Vector3d::Zero();
   bool approached = false;
   for (size_t i = 0; i < seen.sections().size(); ++i) {
@@ -155,7 +157,7 @@ bool SectionPilot::is_approached(const vision::SectionSearch& seen, const Naviga
   const double bearing_rad = std::atan2(threats_B.y(), threats_B.x());
   constexpr double kAhead_rad = 0.03;
   if (std::abs(bearing_rad) > kAhead_rad) away_ = bearing_rad < 0.0 ? 1.0 : -1.0;
-  watched_rad_ = heading_rad(navigation.q_WB_est) + bearing_rad;
+  watched_rad_ = heading_rad(view.navigation.q_WB_est) + bearing_rad;
   return true;
 }
 
@@ -169,8 +171,8 @@ std::optional<cv::Point2d> SectionPilot::pixel_of(const Eigen::Vector3d& p_W, co
 }
 
 /// Whether a place some way off is in sight with a whole section about it that is free.
-bool SectionPilot::is_free(const Eigen::Vector3d& p_W, const vision::SectionSearch& seen, const PassedObstacles& passed,
-                           const NavigationState& navigation) const {
+bool SectionPilot::is_free(const Eigen::Vector3d& p_W, const SectionView& view) const {
+  const auto& [seen, choice, passed, reach_m, navigation] = view;
   const auto pixel = pixel_of(p_W, navigation);
   if (!pixel || (p_W - navigation.p_WB_est).norm() < config_.arrived_m) return false;
   const int section = seen.nearest(*pixel);
@@ -183,17 +185,17 @@ bool SectionPilot::is_free(const Eigen::Vector3d& p_W, const vision::SectionSear
 }
 
 /// Whether the way to `end_W` aside, or without one the way ahead, has filled up and another section is better.
-bool SectionPilot::is_spoilt(const Eigen::Vector3d& end_W, const vision::SectionSearch& seen,
-                             const vision::SectionChoice& choice, const PassedObstacles& passed, double reach_m,
-                             const NavigationState& navigation) const {
+bool SectionPilot::is_spoilt(const Eigen::Vector3d& end_W, const SectionView& view) const {
+  const auto& [seen, choice, passed, reach_m, navigation] = view;
   if (aside_W_ && !turns()) return false;
   const auto pixel = aside_W_ ? pixel_of(end_W, navigation) : std::nullopt;
   const int section = pixel ? seen.nearest(*pixel) : seen.centre();
   if (section == choice.section) return false;
   const Eigen::Vector3d way_W = end_W - navigation.p_WB_est;
   const auto meets_passed = [&] {
-    if (way_W.norm() < config_.arrived_m || passed.free(way_W)) return false;
-    return passed.free(place(navigation, seen, choice.section, reach_m) - navigation.p_WB_est);
+    if (way_W.norm() < config_.arrived_m || view.passed.free(way_W)) return false;
+    const Eigen::Vector3d other_W = place(view.navigation, view.seen, view.choice.section, view.reach_m);
+    return view.passed.free(other_W - view.navigation.p_WB_est);
   };
   return seen.share(section) > config_.keep_share || meets_passed();
 }

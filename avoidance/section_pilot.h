@@ -16,6 +16,15 @@ struct SectionCamera {
   cv::Size picture;
 };
 
+/// What the pilot goes by at one decision.
+struct SectionView {
+  const vision::SectionSearch& seen;    ///< sections and threats of the newest picture
+  const vision::SectionChoice& choice;  ///< among them
+  const PassedObstacles& passed;        ///< what has left the picture
+  double reach_m = 0.0;                 ///< how far ahead a position aside lies, > 0
+  const NavigationState& navigation;
+};
+
 /// Carries on to the goal while the section ahead is the emptiest, else goes to a position in the emptiest one's
 /// direction: turns to it first, then moves. Hovers and yaws where no section is free. Differs: a way is given up only
 /// where the section that holds it fills up, since else every pixel's change would put the position off again; and
@@ -32,10 +41,8 @@ class SectionPilot {
   /// Starts a flight.
   void reset(const SectionCamera& camera);
 
-  /// @param seen  sections and threats of the newest picture. @param choice  among them.
-  /// @param passed  what has left the picture. @param reach_m  how far ahead a position aside lies, > 0.
-  Command update(const vision::SectionSearch& seen, const vision::SectionChoice& choice, const PassedObstacles& passed,
-                 double reach_m, const Observation& observation);
+  /// Returns what to fly for what is seen now.
+  Command update(const SectionView& view, const Goal& goal);
 
   /// Where to go for a section, in W, m: as a rule ahead in its direction. @param reach_m  how far, > 0.
   Eigen::Vector3d place(const NavigationState& navigation, const vision::SectionSearch& seen, int section,
@@ -51,15 +58,12 @@ class SectionPilot {
     double reach_m = 0.0;             ///< how far it goes to the side it is on
   };
   bool turns() const;
-  bool is_approached(const vision::SectionSearch& seen, const NavigationState& navigation);
+  bool is_approached(const SectionView& view);
   std::optional<cv::Point2d> pixel_of(const Eigen::Vector3d& p_W, const NavigationState& navigation) const;
-  bool is_free(const Eigen::Vector3d& p_W, const vision::SectionSearch& seen, const PassedObstacles& passed,
-               const NavigationState& navigation) const;
-  bool is_spoilt(const Eigen::Vector3d& end_W, const vision::SectionSearch& seen, const vision::SectionChoice& choice,
-                 const PassedObstacles& passed, double reach_m, const NavigationState& navigation) const;
-  Command hover_and_yaw(const vision::SectionSearch& seen, const vision::SectionChoice& choice,
-                        const Observation& observation);
-  void search(double side, const Observation& observation);
+  bool is_free(const Eigen::Vector3d& p_W, const SectionView& view) const;
+  bool is_spoilt(const Eigen::Vector3d& end_W, const SectionView& view) const;
+  Command hover_and_yaw(const SectionView& view, const Goal& goal);
+  void search(double side, const NavigationState& navigation, const Goal& goal);
   Command go_to(const Eigen::Vector3d& p_W, const NavigationState& navigation);
 
   SectionPilotConfig config_;

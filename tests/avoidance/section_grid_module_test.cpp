@@ -178,5 +178,14 @@ TEST(SectionGridModule, AVehicleThatHoversStaysWhereItGaveWayTo) {
   EXPECT_EQ(position(pilot.see(far(), aside)).p_WB, aside);
 }
 
+TEST(SectionGridModule, AVehicleThatHoversGivesWayEvenWhereNoSectionIsFree) {
+  SectionGridConfig config;
+  config.pilot.answer = SectionPilotConfig::Answer::sideways;
+  Pilot pilot(config);
+  const Eigen::Vector3d goal(100.0, 0.0, -5.0);
+  const Eigen::Vector3d aside = position(pilot.see(near_between(0, kWidth_px), goal)).p_WB;
+  EXPECT_NEAR((aside - goal).norm(), kThreshold_m, 1e-9);
+}
+
 }  // namespace
 }  // namespace hedgehop::avoidance
