@@ -9,25 +9,17 @@ void PassedObstacles::update(int64_t t_ns, const vision::DepthPyramid& pyramid, 
                              const Eigen::Isometry3d& X_WC) {
   if (config_.radius_m == 0.0) return;
   p_WC_ = X_WC.translation();
-  t_ns_ = t_ns;
   const Eigen::Isometry3d X_CW = X_WC.inverse();
-  constexpr int kLevel = 3;
-  const int level = std::min(kLevel, pyramid.top()), size = 1 << level;
   hidden_.insert(hidden_.end(), visible_.begin(), visible_.end());
   std::erase_if(hidden_, [&](const Point& point) {
     const Eigen::Vector3d p_CP = X_CW * point.p_WP;
-    const double age_s = 1e-9 * static_cast<double>(t_ns - point.t_ns);
-    const auto shows = [&](double right_m, double down_m) {
-      return in_view(p_CP + Eigen::Vector3d(right_m, down_m, 0.0), pyramid, geometry);
-    };
-    // What may have moved is forgotten once the whole block would be in view wherever it may be.
-    const double half_block_m = 0.5 * size * p_CP.z() / geometry.focal_px;
-    const double moved_m = config_.moves_mps > 0.0 ? config_.moves_mps * age_s + half_block_m : 0.0;
-    return age_s > config_.keep_s || p_CP.norm() > config_.near_m ||
-           (shows(moved_m, 0.0) && shows(-moved_m, 0.0) && shows(0.0, moved_m) && shows(0.0, -moved_m));
+    return 1e-9 * static_cast<double>(t_ns - point.t_ns) > config_.keep_s || p_CP.norm() > config_.near_m ||
+           in_view(p_CP, pyramid, geometry);
   });
 
   // The nearest point of each block stands for it.
+  constexpr int kLevel = 3;
+  const int level = std::min(kLevel, pyramid.top()), size = 1 << level;
   const double near16 = geometry.disparity16(config_.near_m);
   visible_.clear();
   for (int row = 0; row < pyramid.level(level).rows; ++row) {
@@ -57,8 +49,7 @@ bool PassedObstacles::free(const Eigen::Vector3d& direction_W) const {
   return std::ranges::none_of(hidden_, [&](const Point& point) {
     const Eigen::Vector3d p = point.p_WP - p_WC_;
     const double along_m = p.dot(ahead);
-    const double radius_m = config_.radius_m + config_.moves_mps * 1e-9 * static_cast<double>(t_ns_ - point.t_ns);
-    const double aside_m = std::min(radius_m, kNoCloser * p.norm());
+    const double aside_m = std::min(config_.radius_m, kNoCloser * p.norm());
     return along_m > 0.0 && p.squaredNorm() - along_m * along_m < aside_m * aside_m;
   });
 }

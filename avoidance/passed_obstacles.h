@@ -13,7 +13,6 @@ struct PassedObstaclesConfig {
   double radius_m = 2.0;  ///< of the cylinder that must be free of them; 0 remembers nothing
   double near_m = 12.0;   ///< what is farther is not remembered: its place is too uncertain
   double keep_s = 8.0;
-  double moves_mps = 0.0;  ///< by which the radius grows with the time since a point was seen
 };
 template <class Visitor>
 void describe(Visitor& v, PassedObstaclesConfig& c) {
@@ -23,8 +22,6 @@ void describe(Visitor& v, PassedObstaclesConfig& c) {
      .meaning = "of the cylinder that must be free of what has left the picture; 0 remembers nothing"});
   v("near", c.near_m, {.unit = "m", .above = 0.0, .meaning = "obstacles seen closer than this are remembered"});
   v("keep", c.keep_s, {.unit = "s", .above = 0.0, .meaning = "for how long"});
-  v("moves", c.moves_mps,
-    {.unit = "m/s", .at_least = 0.0, .meaning = "speed it may have; what is remembered grows by it with time"});
 }
 
 /// Remembers near obstacles that have left the picture at its edges, so that the vehicle does not turn into what it is
@@ -39,9 +36,8 @@ class PassedObstacles {
   void update(int64_t t_ns, const vision::DepthPyramid& pyramid, const vision::StereoGeometry& geometry,
               const Eigen::Isometry3d& X_WC);
 
-  /// Whether a way from the camera along `direction_W` (any length above 0) keeps `radius_m`, and where a point may
-  /// have moved since it was seen, from everything remembered. What is closer already must come no closer, but for a
-  /// tenth.
+  /// Whether a way from the camera along `direction_W` (any length above 0) keeps `radius_m` from everything
+  /// remembered. What is closer already must come no closer, but for a tenth.
   bool free(const Eigen::Vector3d& direction_W) const;
 
   /// Remembered and out of view, in W, m.
@@ -59,7 +55,6 @@ class PassedObstacles {
   std::vector<Point> hidden_;   ///< out of the last picture's view
   std::vector<Point> visible_;  ///< of the last picture
   Eigen::Vector3d p_WC_ = Eigen::Vector3d::Zero();
-  int64_t t_ns_ = 0;  ///< of the last picture
 };
 
 }  // namespace hedgehop::avoidance

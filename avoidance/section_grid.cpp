@@ -28,7 +28,7 @@ void check(const SectionGridConfig& c) {
   need(c.threshold_time_s >= 0.0, "threshold_time must be at least 0 s");
   need(c.most_share >= 0.0 && c.most_share <= 1.0, "most_share must lie in [0, 1]");
   need(c.speck_px >= 0, "speck must be at least 0 px");
-  need(c.passed.radius_m >= 0.0 && c.passed.moves_mps >= 0.0, "passed needs a radius and a speed of at least 0");
+  need(c.passed.radius_m >= 0.0, "passed needs a radius of at least 0");
   need(c.passed.near_m > 0.0 && c.passed.keep_s > 0.0, "passed needs near and keep above 0");
 }
 
@@ -75,7 +75,7 @@ class SectionGridModule final : public Module {
   Decision do_update(const Observation& observation) override {
     const bool looked = look(observation.frames);
     if (!looked && last_) return *last_;
-    if (looked) remember(observation);
+    if (looked && config_.passed.radius_m > 0.0) remember(observation);
     const double speed_mps = observation.navigation.v_WB_B_est.norm();
     const double threshold_m = std::max(config_.threshold_m, hull_ahead_m_ + config_.threshold_time_s * speed_mps);
     choice_ = search_->choose(depth_m_, threshold_m, config_.most_share, config_.unknown, [&](int section) {

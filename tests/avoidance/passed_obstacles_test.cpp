@@ -62,22 +62,6 @@ TEST(PassedObstacles, WhatComesIntoViewAgainIsLeftToThePicture) {
   EXPECT_TRUE(passed.points_W().empty());
 }
 
-// A balloon that passes out of the left edge by itself, while the camera stands still.
-TEST(PassedObstacles, WhatLeavesThePictureByItsOwnMotionIsRememberedIfItMayMove) {
-  constexpr double kStep_s = 0.1, kSpeed_mps = 1.0, z_m = 5.0;
-  for (const double moves_mps : {0.0, 1.2}) {
-    PassedObstacles passed({.radius_m = 1.5, .near_m = 12.0, .keep_s = 8.0, .moves_mps = moves_mps});
-    for (int step = 0; step < 26; ++step) {
-      const int left_px = 40 - static_cast<int>(step * kStep_s * kSpeed_mps * kGeometry.focal_px / z_m);
-      const cv::Rect seen = cv::Rect(left_px, 48, 16, 16) & cv::Rect(8, 0, kWidth_px - 8, kHeight_px);
-      passed.update(static_cast<int64_t>(1e9 * kStep_s) * step, block_at(seen, z_m), kGeometry, looking(0.0));
-    }
-    // It went out 0.6 s ago, and stands 3.2 m to the left by now.
-    EXPECT_EQ(passed.free(towards(-0.56)), moves_mps == 0.0) << moves_mps;
-    EXPECT_TRUE(passed.free(towards(1.5))) << moves_mps;
-  }
-}
-
 TEST(PassedObstacles, AgeAndDistanceForget) {
   for (const bool by_age : {false, true}) {
     PassedObstacles passed({.radius_m = 2.0, .near_m = 12.0, .keep_s = 5.0});
@@ -91,22 +75,6 @@ TEST(PassedObstacles, AgeAndDistanceForget) {
       passed.update(4 * kSecond_ns + 1, kSky, kGeometry, looking(-0.8, far_away));
     }
     EXPECT_TRUE(passed.points_W().empty());
-  }
-}
-
-TEST(PassedObstacles, WhatMayMoveClosesMoreWaysTheLongerItHasNotBeenSeen) {
-  // One block, 4 m ahead and 2.4 m to the right; a level way straight on passes it by as much.
-  const cv::Rect block(152, 56, 8, 8);
-  const double aside_m = 4.0 * (156 - 79.5) / 128.0;
-  for (const double moves_mps : {0.0, 0.5, 1.0}) {
-    for (int tenths = 1; tenths < 40; ++tenths) {
-      PassedObstacles passed({.radius_m = 1.0, .near_m = 12.0, .keep_s = 8.0, .moves_mps = moves_mps});
-      passed.update(0, block_at(block, 4.0), kGeometry, looking(0.0));
-      passed.update(tenths * kSecond_ns / 10, kSky, kGeometry, looking(-0.8));
-      const double moved_m = 0.1 * tenths * moves_mps;
-      if (std::abs(1.0 + moved_m - aside_m) < 0.03) continue;  // the block's height and a rounded disparity
-      EXPECT_EQ(passed.free(towards(0.0)), 1.0 + moved_m < aside_m) << moves_mps << ' ' << tenths;
-    }
   }
 }
 
