@@ -41,7 +41,7 @@ void describe(Visitor& v, RotorGeometry& c) {
   v("max_thrust_coefficient", c.max_thrust_coefficient, {.above = 0.0, .meaning = "C_T at which the blades stall"});
   v("efficiency", c.efficiency, {.above = 0.0, .at_most = 1.0, .meaning = "of the momentum balance, 1 is ideal"});
 }
-/// @param speed_radps  > 0.
+/// Returns the disc of a rotor that turns at `speed_radps` in air of `density_kgpm3`, both > 0.
 RotorDisc make_rotor_disc(const RotorGeometry& rotor, double speed_radps, double density_kgpm3);
 /// Returns the same rotor turning `ratio` times as fast.
 RotorDisc at_speed(RotorDisc disc, double ratio);

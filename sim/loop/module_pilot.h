@@ -32,7 +32,8 @@ class ModulePilot {
   void look(int64_t tick, const BodyMotion& body);
   /// Whether it decides on this tick, look() having been called.
   bool decides(int64_t tick) const;
-  /// Throws what the module throws.
+  /// Returns what the module decides of what it was last shown; the command takes effect after the latency. Throws what
+  /// the module throws. @param navigation  the aircraft's own estimate, of this tick.
   avoidance::Decision decide(int64_t tick, const avoidance::NavigationState& navigation);
 
   /// What the autopilot holds on this tick: the last command whose latency is over. @param tick  rising.
