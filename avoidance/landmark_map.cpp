@@ -55,8 +55,6 @@ class LandmarkMapModule final : public Module {
     hulls_.clear();
     way_.clear();
     start_NE_.reset();
-    been_NE_.clear();
-    radius_m_ = setup.limits.radius_m;
     stopped_ = false;
     alarms_ = 0;
     loom_per_s_ = 0.0;
@@ -136,8 +134,6 @@ class LandmarkMapModule final : public Module {
     const double done_m = (at - *start_NE_).dot(along);
     off_course_m_ = std::abs((at - *start_NE_).dot(Eigen::Vector2d(-along.y(), along.x())));
     most_off_course_m_ = std::max(most_off_course_m_, off_course_m_);
-    constexpr double kApart_m = 0.5;
-    if (been_NE_.empty() || (been_NE_.back() - at).norm() > kApart_m) been_NE_.push_back(at);
     hulls_ = obstacles();
 
     const auto free = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
@@ -175,9 +171,6 @@ class LandmarkMapModule final : public Module {
       const Eigen::Matrix3d P = vision::covariance_W(mapped.landmark);
       const double variance = greatest_variance(P.topLeftCorner<2, 2>());
       if (-p_W.z() < config_.lowest_m || variance > config_.most_sigma_m * config_.most_sigma_m) continue;
-      // Nothing stands where the aircraft has been, and a hull round itself would leave it no way to plan.
-      const auto there = [&](const Eigen::Vector2d& been) { return (p_W.head<2>() - been).norm() < radius_m_; };
-      if (std::ranges::any_of(been_NE_, there)) continue;
       points.push_back(p_W.head<2>());
       seen_from.push_back(mapped.landmark.X_WA.translation().head<2>());
     }
@@ -256,12 +249,10 @@ class LandmarkMapModule final : public Module {
   LandmarkMapModuleConfig config_;
   std::optional<LandmarkSight> sight_;
   std::optional<CameraFlow> flow_;
-  double radius_m_ = 0.0;     ///< of the vehicle
-  double clearance_m_ = 0.0;  ///< of B: that radius added
+  double clearance_m_ = 0.0;  ///< of B: the hull's radius added
   std::vector<PlanHull> hulls_;
   std::vector<Eigen::Vector2d> way_;
   std::optional<Eigen::Vector2d> start_NE_;
-  std::vector<Eigen::Vector2d> been_NE_;  ///< where the aircraft was, step by step
   Eigen::Vector2d at_NE_ = Eigen::Vector2d::Zero(), end_NE_ = Eigen::Vector2d::Zero();
   bool stopped_ = false;
   int alarms_ = 0;

@@ -30,12 +30,34 @@ double segment_to_segment(const Vector2d& a, const Vector2d& b, const Vector2d& 
       {point_to_segment(a, c, d), point_to_segment(b, c, d), point_to_segment(c, a, b), point_to_segment(d, a, b)});
 }
 
-bool inside(const PlanHull& hull, const Vector2d& p) {
-  if (hull.size() < 3) return false;
+/// How deep inside a hull a point lies, and the way out: to its nearest edge. Depth <= 0 is outside.
+struct Depth {
+  double depth_m = -1.0;
+  Vector2d out = Vector2d::Zero();
+};
+
+Depth depth_inside(const PlanHull& hull, const Vector2d& p) {
+  if (hull.size() < 3) return {};
+  Depth least{std::numeric_limits<double>::infinity(), Vector2d::Zero()};
   for (size_t k = 0; k < hull.size(); ++k) {
-    if (cross(hull[(k + 1) % hull.size()] - hull[k], p - hull[k]) < 0.0) return false;
+    const Vector2d edge = (hull[(k + 1) % hull.size()] - hull[k]).normalized();
+    const double depth_m = cross(edge, p - hull[k]);
+    if (depth_m < least.depth_m) least = {depth_m, Vector2d(edge.y(), -edge.x())};
   }
-  return true;
+  return least;
+}
+
+bool inside(const PlanHull& hull, const Vector2d& p) { return depth_inside(hull, p).depth_m >= 0.0; }
+
+/// Whether a straight way keeps the clearance of a hull or, where an end lies nearer, comes nowhere nearer, or deeper
+/// inside, than that end. The distance to a convex hull is convex along the way, so its slope at that end decides.
+bool keeps_clear(const PlanHull& hull, const Vector2d& a, const Vector2d& b, double clearance_m) {
+  const Depth at_a = depth_inside(hull, a), at_b = depth_inside(hull, b);
+  if (at_a.depth_m > 0.0 || at_b.depth_m > 0.0) {
+    return at_a.depth_m >= at_b.depth_m ? at_a.out.dot(b - a) >= 0.0 : at_b.out.dot(a - b) >= 0.0;
+  }
+  const double at_ends_m = std::min(distance_to_hull(hull, a, a), distance_to_hull(hull, b, b));
+  return distance_to_hull(hull, a, b) >= std::min(clearance_m, at_ends_m) - 1e-9;
 }
 
 PlanHull hull_of(const std::vector<Vector2d>& points) {
@@ -85,10 +107,8 @@ std::optional<std::vector<Vector2d>> way_round(std::span<const PlanHull> hulls, 
   constexpr int kTurns = 8;  // places round a corner; the polygon through them stays outside the clearance
   const double turn_m = 1.02 * clearance_m / std::cos(std::numbers::pi / kTurns);
   const auto clear = [&](const Vector2d& a, const Vector2d& b) {
-    return std::ranges::all_of(hulls, [&](const PlanHull& hull) {
-      const double at_ends = std::min(distance_to_hull(hull, a, a), distance_to_hull(hull, b, b));
-      return distance_to_hull(hull, a, b) >= std::min(clearance_m, at_ends) - 1e-9;
-    });
+    return std::ranges::all_of(hulls,
+                               [&](const PlanHull& hull) { return keeps_clear(hull, a, b, clearance_m); });
   };
   std::vector<Vector2d> places = {from_NE, to_NE};
   for (const PlanHull& hull : hulls) {

@@ -20,7 +20,7 @@ double distance_to_hull(const PlanHull& hull, const Eigen::Vector2d& from_NE, co
 
 /// Returns the shortest way from one place to another that keeps a clearance of every hull, as the places to turn at,
 /// the last one included. Turns are taken at points a little outside the clearance round each hull's corners. Where the
-/// way begins or ends nearer than that, it may leave or arrive, but not come nearer.
+/// way begins or ends nearer than that, it may leave or arrive, but not come nearer; inside a hull, nowhere deeper.
 /// @param clearance_m  > 0. @return nothing when there is no such way.
 std::optional<std::vector<Eigen::Vector2d>> way_round(std::span<const PlanHull> hulls, const Eigen::Vector2d& from_NE,
                                                       const Eigen::Vector2d& to_NE, double clearance_m);

@@ -97,5 +97,49 @@ TEST(MapRoute, LeavesAPlaceThatIsTooNearWithoutComingNearer) {
   EXPECT_GE(sampled_distance({-2, 0}, *way, hulls[0]), 2.0 - 1e-6);
 }
 
+/// Depth below 0 outside: the signed distance to the edges' lines, by its definition.
+double depth(const PlanHull& hull, const Vector2d& p) {
+  double least_m = INFINITY;
+  for (size_t k = 0; k < hull.size(); ++k) {
+    const Vector2d edge = hull[(k + 1) % hull.size()] - hull[k];
+    least_m = std::min(least_m, (edge.x() * (p - hull[k]).y() - edge.y() * (p - hull[k]).x()) / edge.norm());
+  }
+  return least_m;
+}
+
+// The outline of a tower and of a false landmark in front of it holds the vehicle: straight on lies the tower.
+TEST(MapRoute, FromInsideAHullTheWayOutIsNotThroughIt) {
+  const PlanHull hull = {{-12, 0}, {0, -10}, {20, -10}, {20, 10}, {0, 10}};
+  const Vector2d from(-10, 0), to(60, 0);
+  const auto way = way_round(std::vector<PlanHull>{hull}, from, to, 4.0);
+  ASSERT_TRUE(way);
+  ASSERT_GT(way->size(), 1U);
+  EXPECT_GE(std::abs(way->front().y()), 13.9);
+}
+
+TEST(MapRoute, WaysFromAndToInsideRandomHullsComeNowhereDeeper) {
+  std::mt19937_64 random(43);
+  int begin = 0, end = 0;
+  for (int scene = 0; scene < 200; ++scene) {
+    std::vector<Vector2d> points;
+    for (int i = 0; i < 7; ++i) points.emplace_back(uniform(random, -15, 15), uniform(random, -15, 15));
+    const std::vector<PlanHull> hulls = plan_hulls(points, 100.0);
+    Vector2d from(uniform(random, -15, 15), uniform(random, -15, 15)), to(60, 0);
+    if (depth(hulls[0], from) <= 0.0) continue;
+    if (scene % 2 == 1) std::swap(from, to);
+    (scene % 2 == 1 ? end : begin)++;
+    const auto way = way_round(hulls, from, to, 3.0);
+    ASSERT_TRUE(way) << scene;
+    const double most_m = std::max(depth(hulls[0], from), depth(hulls[0], to));
+    Vector2d at = from;
+    for (const Vector2d& next : *way) {
+      for (int i = 0; i <= 200; ++i) EXPECT_LE(depth(hulls[0], at + (next - at) * i / 200), most_m + 1e-6) << scene;
+      at = next;
+    }
+  }
+  EXPECT_GT(begin, 20);
+  EXPECT_GT(end, 20);
+}
+
 }  // namespace
 }  // namespace hedgehop::avoidance
