@@ -107,8 +107,7 @@ std::optional<std::vector<Vector2d>> way_round(std::span<const PlanHull> hulls, 
   constexpr int kTurns = 8;  // places round a corner; the polygon through them stays outside the clearance
   const double turn_m = 1.02 * clearance_m / std::cos(std::numbers::pi / kTurns);
   const auto clear = [&](const Vector2d& a, const Vector2d& b) {
-    return std::ranges::all_of(hulls,
-                               [&](const PlanHull& hull) { return keeps_clear(hull, a, b, clearance_m); });
+    return std::ranges::all_of(hulls, [&](const PlanHull& hull) { return keeps_clear(hull, a, b, clearance_m); });
   };
   std::vector<Vector2d> places = {from_NE, to_NE};
   for (const PlanHull& hull : hulls) {
