@@ -12,6 +12,7 @@
 #include "avoidance/stereo_sight.h"
 #include "avoidance/target_picture.h"
 #include "avoidance/target_tracker.h"
+#include "avoidance/turn_back.h"
 #include "vision/flight_corridor.h"
 
 namespace hedgehop::avoidance {
@@ -63,13 +64,13 @@ class StereoCorridor final : public Module {
     random_ = cv::RNG(setup.seed);
     acceleration_mps2_ = setup.limits.acceleration_mps2;
     target_.reset();
-    last_target_u_px_.reset();
     last_.reset();
     first_t_ns_ = last_t_ns_ = -1;
     pairs_ = tracked_ = 0;
     point_tests_ = 0.0;
     hover_s_ = 0.0;
     turn_ = 1.0;
+    turn_back_ = {};
   }
 
   Decision do_update(const Observation& observation) override {
@@ -78,16 +79,15 @@ class StereoCorridor final : public Module {
     if (disparity16.empty()) return {HoverCommand{}, "wait", std::vector<double>(5, kUnknown)};
     see(observation.navigation, observation.t_ns, disparity16);
     tests_ = 0;
-    const std::optional<cv::Point> followed =
-        tracker_.follow(target_ ? std::optional(target_->pixel) : std::nullopt, sight_->grey());
-    const How before = target_ ? target_->how : How::none;
-    target_ = choose(observation, followed);
+    const Eigen::Vector3d p_CG_C = R_WC_.transpose() * (observation.goal.p_WG - observation.navigation.p_WB_est);
+    const bool turns_back = turn_back_.update(p_CG_C);
+    aim(observation.navigation, p_CG_C, turns_back);
     count(observation.t_ns);
 
     Decision decision;
-    decision.command = steer(observation, before);
+    decision.command = steer(observation);
     const How how = target_ ? target_->how : How::none;
-    decision.status = kHowNames[static_cast<size_t>(how)];
+    decision.status = turns_back ? "turn_back" : kHowNames[static_cast<size_t>(how)];
     const double valid = cv::countNonZero(disparity16 >= 0) / static_cast<double>(disparity16.total());
     decision.signals = {target_ ? target_->pixel.x : kUnknown, target_ ? target_->pixel.y : kUnknown,
                         target_ && std::isfinite(target_->z_m) ? target_->z_m : kUnknown, static_cast<double>(tests_),
@@ -128,12 +128,24 @@ class StereoCorridor final : public Module {
     point_tests_ += tests_;
   }
 
+  /// Chooses the next target; without one, the side to turn to: the last target's, or that of a goal it has passed.
+  void aim(const NavigationState& navigation, const Eigen::Vector3d& p_CG_C, bool turns_back) {
+    const std::optional<Target> before = target_;
+    const std::optional<cv::Point> followed =
+        tracker_.follow(before ? std::optional(before->pixel) : std::nullopt, sight_->grey());
+    target_ = turns_back ? std::nullopt : choose(p_CG_C, navigation, followed);
+    if (turns_back) {
+      turn_ = std::copysign(1.0, p_CG_C.x());
+    } else if (before && !target_) {
+      turn_ = before->pixel.x < sight_->geometry().center_u_px ? -1.0 : 1.0;
+    }
+  }
+
   /// The joined method, [Andert2007] sec. 4.3.4. Differs: before the direction of flight is kept, the course to the
   /// goal is tried, so that the vehicle takes it up again; and while the goal lies outside the picture, the free
   /// corridor nearest to its direction is searched, so that it comes into view.
-  std::optional<Target> choose(const Observation& observation, const std::optional<cv::Point>& followed) {
-    const NavigationState& navigation = observation.navigation;
-    const Eigen::Vector3d course_C = R_WC_.transpose() * (observation.goal.p_WG - navigation.p_WB_est);
+  std::optional<Target> choose(const Eigen::Vector3d& course_C, const NavigationState& navigation,
+                               const std::optional<cv::Point>& followed) {
     const Eigen::Vector3d v_C = sight_->X_BC().linear().transpose() * navigation.v_WB_B_est;
     constexpr double kStanding_mps = 0.5;
     const bool moving = v_C.norm() > kStanding_mps;
@@ -214,15 +226,9 @@ class StereoCorridor final : public Module {
   }
 
   /// Flies where it looks; [Andert2007] eq. (18) for the target in B.
-  Command steer(const Observation& observation, How before) {
+  Command steer(const Observation& observation) {
     const NavigationState& navigation = observation.navigation;
-    if (!target_) {
-      if (before != How::none && last_target_u_px_) {
-        turn_ = *last_target_u_px_ < sight_->geometry().center_u_px ? -1.0 : 1.0;
-      }
-      return HoverCommand{turn_ * config_.yaw_rate_radps};
-    }
-    last_target_u_px_ = target_->pixel.x;
+    if (!target_) return HoverCommand{turn_ * config_.yaw_rate_radps};
     const double z_m = std::min(target_->z_m, config_.look_ahead_m);
     const Eigen::Vector3d p_BT_B = sight_->X_BC() * (z_m * sight_->geometry().ray(target_->pixel));
     const Eigen::Vector3d p_BT_W = navigation.q_WB_est * p_BT_B;
@@ -273,7 +279,7 @@ class StereoCorridor final : public Module {
   cv::Mat smooth_, matched16_;
   cv::RNG random_;  ///< of the noise that experiments ask for
   std::optional<Target> target_;
-  std::optional<int> last_target_u_px_;
+  TurnBack turn_back_;
   std::optional<Decision> last_;
   int64_t first_t_ns_ = -1, last_t_ns_ = -1;
   int64_t pairs_ = 0, tracked_ = 0;

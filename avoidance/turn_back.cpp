@@ -1,0 +1,29 @@
+#include "avoidance/turn_back.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hedgehop::avoidance {
+
+bool TurnBack::update(const Eigen::Vector3d& p_CG_C) {
+  constexpr double kAhead = 0.2;  // of a radian, so that most of the picture lies round the goal
+  constexpr double kNearer_m = 3.0;
+  constexpr double kWander_m = 0.3;  // of a position estimate while a goal is passed
+  const double distance_m = std::hypot(p_CG_C.x(), p_CG_C.z());
+  nearest_m_ = std::min(nearest_m_, distance_m);
+  if (distance_m < nearest_ever_m_ - kNearer_m) {
+    nearest_ever_m_ = distance_m;
+    may_pass_m_ = kMayPass_m;
+  }
+  const bool recedes = distance_m > nearest_m_ + kWander_m;
+  if (!turning_ && recedes && -p_CG_C.z() > may_pass_m_) {
+    turning_ = true;
+    may_pass_m_ *= 2.0;
+  } else if (turning_ && std::abs(p_CG_C.x()) < kAhead * p_CG_C.z()) {
+    turning_ = false;
+    nearest_m_ = distance_m;
+  }
+  return turning_;
+}
+
+}  // namespace hedgehop::avoidance
