@@ -1,0 +1,157 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "avoidance/landmark_map.h"
+#include "tests/avoidance/flow_rig.h"
+
+namespace hedgehop::avoidance {
+namespace {
+
+constexpr int64_t kStep_ns = 100'000'000;
+constexpr double kStep_s = 1e-9 * kStep_ns, kSpeed_mps = 2.0, kHeight_m = 15.0, kVehicleRadius_m = 1.0;
+
+/// A tower from the ground up, seen as its eight corners.
+struct Tower {
+  Eigen::AlignedBox3d box_W;
+  Tower(double north_m, double east_m, double half_m, double height_m)
+      : box_W(Eigen::Vector3d(north_m - half_m, east_m - half_m, -height_m),
+              Eigen::Vector3d(north_m + half_m, east_m + half_m, 0.0)) {}
+};
+
+/// A point that flies as it is told, with exact navigation and a camera that sees corners to half a pixel.
+class CornerFlight {
+ public:
+  explicit CornerFlight(std::vector<Eigen::Vector3d> corners_W, LandmarkMapModuleConfig config = {})
+      : corners_W_(std::move(corners_W)) {
+    config.sight.front_end = FrontEnd::corners;
+    config.sight.map.start.coordinates = vision::LandmarkCoordinates::inverse_depth;
+    config.sight.map.position_sigma_m = 0.1;
+    config.speed_mps = kSpeed_mps;
+    module_ = make_landmark_map(config);
+    camera_ = level_camera("front", 0.0, 320, 1.0 / kStep_s);
+    module_->reset({{camera_}, {kSpeed_mps, 2.0, kVehicleRadius_m}, 1});
+  }
+
+  Decision step(std::optional<double> range_m = std::nullopt) {
+    NavigationState navigation = level_flight(p_WB_, heading_rad_, v_W_);
+    navigation.range_m = range_m;
+    t_ns_ += kStep_ns;
+    const std::vector<CameraFrame> frames = {{"front", t_ns_, cv::Mat(320, 320, CV_8UC1, cv::Scalar(128)), seen()}};
+    const Decision decision = module_->update({t_ns_, frames, navigation, {goal_W, 0.0}});
+    v_W_.setZero();
+    if (const auto* velocity = std::get_if<VelocityCommand>(&decision.command)) {
+      v_W_ = velocity->v_WB_W;
+      const double turn_rad = std::remainder(velocity->heading_rad - heading_rad_, 2.0 * M_PI);
+      heading_rad_ += std::clamp(turn_rad, -kStep_s * kTurn_radps, kStep_s * kTurn_radps);
+      p_WB_.head<2>() += kStep_s * v_W_;
+    }
+    return decision;
+  }
+  const Eigen::Vector3d& p_WB() const { return p_WB_; }
+  bool arrived() const { return (goal_W - p_WB_).norm() < 3.0; }
+
+  Eigen::Vector3d goal_W{120.0, 0.0, -kHeight_m};
+
+ private:
+  static constexpr double kTurn_radps = 0.8;
+
+  std::vector<Eigen::Vector2d> seen() {
+    Eigen::Isometry3d X_WB(Eigen::AngleAxisd(heading_rad_, Eigen::Vector3d::UnitZ()));
+    X_WB.translation() = p_WB_;
+    const Eigen::Isometry3d X_CW = (X_WB * camera_.X_BC).inverse();
+    std::normal_distribution<double> noise_px(0.0, 0.5);
+    std::vector<Eigen::Vector2d> corners_px;
+    for (const Eigen::Vector3d& corner_W : corners_W_) {
+      const Eigen::Vector3d p_C = X_CW * corner_W;
+      if (p_C.z() < 1.0) continue;
+      const auto lens = camera_.model.pinhole();
+      const Eigen::Vector2d pixel(lens.center_u_px + lens.focal_x_px * p_C.x() / p_C.z() + noise_px(random_),
+                                  lens.center_v_px + lens.focal_y_px * p_C.y() / p_C.z() + noise_px(random_));
+      if (pixel.minCoeff() >= 0.0 && pixel.maxCoeff() <= 319.0) corners_px.push_back(pixel);
+    }
+    return corners_px;
+  }
+
+  std::vector<Eigen::Vector3d> corners_W_;
+  std::unique_ptr<Module> module_;
+  MountedCamera camera_;
+  std::mt19937_64 random_{3};
+  Eigen::Vector3d p_WB_{0.0, 0.0, -kHeight_m};
+  Eigen::Vector2d v_W_ = Eigen::Vector2d::Zero();
+  double heading_rad_ = 0.0;
+  int64_t t_ns_ = 0;
+};
+
+std::vector<Eigen::Vector3d> corners_of(const std::vector<Tower>& towers) {
+  std::vector<Eigen::Vector3d> corners_W;
+  for (const Tower& tower : towers) {
+    for (int k = 0; k < 8; ++k) {
+      corners_W.emplace_back(tower.box_W.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)));
+    }
+  }
+  return corners_W;
+}
+
+TEST(LandmarkMapModule, PassesTowersByItsClearanceAndComesBackToItsCourse) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> aside_m(-4.0, 4.0);
+  const LandmarkMapModuleConfig config;
+  for (int trial = 0; trial < 4; ++trial) {
+    const Tower tower(55.0, aside_m(random), 5.0, 25.0);
+    CornerFlight flight(corners_of({tower}));
+    std::set<std::string> statuses;
+    double least_m = std::numeric_limits<double>::infinity(), most_off_m = 0.0;
+    for (int i = 0; i < 1200 && !flight.arrived(); ++i) {
+      statuses.insert(flight.step().status);
+      least_m = std::min(least_m, tower.box_W.exteriorDistance(flight.p_WB()));
+      most_off_m = std::max(most_off_m, std::abs(flight.p_WB().y()));
+    }
+    EXPECT_TRUE(flight.arrived()) << trial;
+    constexpr double kOfTheMap_m = 1.0;
+    EXPECT_GT(least_m, config.clearance_m + kVehicleRadius_m - kOfTheMap_m) << trial;
+    // "Least effort": round the nearer side, and no farther out than what may stand behind the corners asks for.
+    EXPECT_LT(most_off_m, 5.0 + config.clearance_m + kVehicleRadius_m + config.behind_m) << trial;
+    EXPECT_LT(std::abs(flight.p_WB().y()), 1.0) << trial;
+    EXPECT_TRUE(statuses.contains("avoid") && statuses.contains("rejoin") && statuses.contains("cruise")) << trial;
+  }
+}
+
+TEST(LandmarkMapModule, FliesStraightPastWhatIsNoObstacle) {
+  const std::vector<Eigen::Vector3d> alone = {{50.0, 0.0, -20.0}};
+  const std::vector<Eigen::Vector3d> low = {{50.0, -3.0, 0.0}, {50.0, 3.0, -2.0}, {55.0, 0.0, -1.0}};
+  const std::vector<Eigen::Vector3d> far_aside = corners_of({Tower(50.0, 40.0, 5.0, 25.0)});
+  for (const auto& corners_W : {std::vector<Eigen::Vector3d>{}, alone, low, far_aside}) {
+    CornerFlight flight(corners_W);
+    for (int i = 0; i < 500; ++i) {
+      ASSERT_EQ(flight.step().status, "cruise") << corners_W.size() << ' ' << flight.p_WB().x();
+      ASSERT_LT(std::abs(flight.p_WB().y()), 1e-6) << corners_W.size();
+    }
+  }
+}
+
+TEST(LandmarkMapModule, StopsForGoodBeforeWhatItsRangeFinderMeetsSixTimesRunning) {
+  const LandmarkMapModuleConfig config;
+  // Half a second of reaction and the way of braking come before the range that is left.
+  const double stops_m = config.stop_range_m + 0.5 * kSpeed_mps + 0.5 * kSpeed_mps * kSpeed_mps / config.braking_mps2;
+  CornerFlight flight({});
+  flight.step();
+  for (int i = 0; i < 50; ++i) EXPECT_NE(flight.step(stops_m + 0.1).status, "stop");
+  for (int i = 0; i < 5; ++i) EXPECT_NE(flight.step(stops_m - 0.1).status, "stop");
+  EXPECT_NE(flight.step().status, "stop");
+  for (int i = 0; i < 5; ++i) EXPECT_NE(flight.step(stops_m - 0.1).status, "stop");
+  EXPECT_EQ(flight.step(stops_m - 0.1).status, "stop");
+  const Decision after = flight.step();
+  EXPECT_EQ(after.status, "stop");
+  EXPECT_TRUE(std::holds_alternative<HoverCommand>(after.command));
+}
+
+}  // namespace
+}  // namespace hedgehop::avoidance
