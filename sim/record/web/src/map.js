@@ -23,22 +23,31 @@ class MapView {
     this.addTools();
     this.key = host.appendChild(make('div', 'plan-key'));
     this.whole = this.wholeView();
-    this.view = {...this.whole};
     this.addPointer();
+    this.setView(this.firstView());
     new ResizeObserver(() => requestAnimationFrame(() => this.draw())).observe(host);
   }
 
-  /** Centre and extent, m, of what there is to see. */
-  wholeView() {
-    const {plan, reach} = this;
-    const norths = plan.bounds.slice(0, 2).concat(reach.n), easts = plan.bounds.slice(2).concat(reach.e);
-    if (plan.goal) {
-      norths.push(plan.goal.n - plan.goal.radius, plan.goal.n + plan.goal.radius);
-      easts.push(plan.goal.e - plan.goal.radius, plan.goal.e + plan.goal.radius);
-    }
+  /** Centre and extent, m, of places with some room round them, as a share of their extent. */
+  static viewOf(norths, easts, share) {
     const [n0, n1] = finiteRange(norths), [e0, e1] = finiteRange(easts);
-    const pad = 0.03 * Math.max(n1 - n0, e1 - e0, 1);
+    const pad = share * Math.max(n1 - n0, e1 - e0, 2);
     return {n: (n0 + n1) / 2, e: (e0 + e1) / 2, height: n1 - n0 + 2 * pad, width: e1 - e0 + 2 * pad};
+  }
+  /** The goal's north ends, and its east ends; none without one. */
+  goalEnds() {
+    const {goal} = this.plan;
+    return goal ? [[goal.n - goal.radius, goal.n + goal.radius], [goal.e - goal.radius, goal.e + goal.radius]] : [[], []];
+  }
+  wholeView() {
+    const {plan, reach} = this, [norths, easts] = this.goalEnds();
+    return MapView.viewOf(plan.bounds.slice(0, 2).concat(reach.n, norths), plan.bounds.slice(2).concat(reach.e, easts), 0.03);
+  }
+  /** What flew and its goal, where the scene is much wider. */
+  firstView() {
+    const {reach, whole} = this, [norths, easts] = this.goalEnds();
+    const near = MapView.viewOf(reach.n.concat(norths), reach.e.concat(easts), 0.25);
+    return Math.max(near.height / whole.height, near.width / whole.width) < 0.5 ? near : {...whole};
   }
 
   addTools() {
@@ -54,10 +63,13 @@ class MapView {
     button('all', 'Show the whole scene', () => this.show({...this.whole}));
   }
 
-  show(view) {
+  setView(view) {
     this.view = view;
     const moved = view.width < this.whole.width || view.height < this.whole.height;
     this.canvas.classList.toggle('moves', moved);
+  }
+  show(view) {
+    this.setView(view);
     this.draw();
   }
   zoom(factor) {
@@ -66,11 +78,7 @@ class MapView {
     const f = factor < 1 ? Math.min(1, clamp) : factor;
     this.show(f === 1 ? {...this.whole} : {n, e, width: width / f, height: height / f});
   }
-  showReach() {
-    const [n0, n1] = finiteRange(this.reach.n), [e0, e1] = finiteRange(this.reach.e);
-    const pad = 0.08 * Math.max(n1 - n0, e1 - e0, 2);
-    this.show({n: (n0 + n1) / 2, e: (e0 + e1) / 2, height: n1 - n0 + 2 * pad, width: e1 - e0 + 2 * pad});
-  }
+  showReach() { this.show(MapView.viewOf(this.reach.n, this.reach.e, 0.08)); }
 
   /** Sizes the canvas and works out pixels per metre. The card keeps the shape of the whole scene. */
   layout() {
