@@ -6,11 +6,14 @@
 
 namespace hedgehop::avoidance {
 
+Eigen::Vector3d velocity_in_camera(const Eigen::Isometry3d& X_BC, const NavigationState& navigation) {
+  const Eigen::Vector3d v_WC_B = navigation.v_WB_B_est + navigation.w_WB_B_est.cross(X_BC.translation());
+  return X_BC.linear().transpose() * v_WC_B;
+}
+
 void CameraRanges::update(const CameraFlow& camera, const NavigationState& navigation, double dt_s) {
   const vision::PinholeCamera& model = camera.pinhole();
-  const Eigen::Isometry3d& X_BC = camera.camera().X_BC;
-  const Eigen::Vector3d v_WC_B = navigation.v_WB_B_est + navigation.w_WB_B_est.cross(X_BC.translation());
-  const Eigen::Vector3d v_WC_C = X_BC.linear().transpose() * v_WC_B;
+  const Eigen::Vector3d v_WC_C = velocity_in_camera(camera.camera().X_BC, navigation);
 
   const std::vector<double> near =
       vision::inverse_ranges_per_m(camera.field(), model, v_WC_C, dt_s, options_.floor_mps);

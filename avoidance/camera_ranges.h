@@ -9,6 +9,9 @@
 
 namespace hedgehop::avoidance {
 
+/// Returns the velocity of a camera mounted at `X_BC`, as estimated, in C, m/s.
+Eigen::Vector3d velocity_in_camera(const Eigen::Isometry3d& X_BC, const NavigationState& navigation);
+
 /// Inverse ranges of one camera's patches, each by its own flow, from picture to picture.
 class CameraRanges {
  public:

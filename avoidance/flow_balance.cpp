@@ -11,6 +11,7 @@
 #include "avoidance/balance_law.h"
 #include "avoidance/camera_flow.h"
 #include "avoidance/camera_ranges.h"
+#include "avoidance/camera_walls.h"
 #include "avoidance/detour.h"
 #include "avoidance/flow_picture.h"
 #include "avoidance/go_to_goal.h"
@@ -40,9 +41,10 @@ void check(const FlowBalanceConfig& c) {
   need(c.forward_speed_mps > 0.0 && c.sideways_speed_mps > 0.0, "simple: speeds must be above 0 m/s");
   need(c.range_threshold_m > 0.0, "simple: range_threshold must be above 0 m");
   need(c.near_pictures >= 1, "near_pictures must be at least 1");
-  need(c.braking_mps2 > 0.0, "simple: braking must be above 0 m/s^2");
+  need(c.braking_mps2 > 0.0 && c.reaction_s >= 0.0, "simple: braking must be above 0 m/s^2, reaction at least 0 s");
   need(c.way_angle_rad > 0.0 && c.way_angle_rad <= std::numbers::pi / 2, "simple: way_angle must lie in (0, 90] deg");
   need(c.range_memory_s >= 0.0, "range_memory must be at least 0 s");
+  need(c.wall_error >= 0.0 && c.tail_m >= 0.0, "simple: wall_error must be at least 0, tail at least 0 m");
   need(c.stray_rad >= 0.0 && c.stray_rad <= std::numbers::pi / 6, "simple: stray must lie in [0, 30] deg");
   need(c.confirmations >= 1, "simple: at least one confirmation");
 }
@@ -91,6 +93,7 @@ class FlowBalance final : public Module {
     sense_.assign(kRoles.size(), {});
     const CameraRanges::Options ranging{config_.divisor_floor_mps, config_.range_memory_s, config_.near_pictures};
     ranges_.assign(kRoles.size(), CameraRanges(ranging));
+    walls_.clear();
     v_cmd_W_.reset();
     v_tgt_W_.setZero();
     heading_rad_ = 0.0;
@@ -108,7 +111,7 @@ class FlowBalance final : public Module {
     Decision decision;
     VelocityCommand command;
     if (config_.scheme == FlowBalanceConfig::Scheme::simple) {
-      command.v_WB_W = explore(v_H, decision.status);
+      command.v_WB_W = explore(observation, v_H, decision.status);
     } else {
       command.v_WB_W = seek_goal(observation, v_H, decision.status);
     }
@@ -176,22 +179,34 @@ class FlowBalance final : public Module {
   }
 
   /// The simple scheme, [Garratt2009] sec. 4.
-  Eigen::Vector2d explore(const Eigen::Vector2d& v_H, std::string& status) {
-    std::array<ZigZag::Side, kRoles.size()> sides;
-    for (size_t i = 0; i < cameras_.size(); ++i) {
-      sides[i] = {sense_[i].axis_H, near_per_m(i, v_H, zig_zag_->way_H()), fresh_[i]};
+  Eigen::Vector2d explore(const Observation& observation, const Eigen::Vector2d& v_H, std::string& status) {
+    if (config_.wall_error > 0.0) {
+      walls_ =
+          walls_round(cameras_, observation.navigation, observation.t_ns, {config_.flow_noise_px, config_.wall_error});
     }
+    const auto sides_with = [&](bool turns_whole) {
+      std::array<ZigZag::Side, kRoles.size()> sides;
+      for (size_t i = 0; i < cameras_.size(); ++i) {
+        sides[i] = {sense_[i].axis_H, near_per_m(i, v_H, zig_zag_->way_H(), turns_whole), fresh_[i]};
+      }
+      return sides;
+    };
+    // In a corner both components turn round, and each as slowly as the whole velocity.
+    auto sides = sides_with(/*turns_whole=*/!walls_.empty());
+    if (!walls_.empty() && !zig_zag_->cornered(sides)) sides = sides_with(/*turns_whole=*/false);
     status = zig_zag_->update(sides) ? "turn" : "cruise";
     v_tgt_W_ = turned(zig_zag_->way_H(), heading_rad_);
     return v_tgt_W_;
   }
 
   /// Inverse range of the wall before a camera, 1/m, as far as it bars a way.
-  double near_per_m(size_t i, const Eigen::Vector2d& v_H, const Eigen::Vector2d& way_H) const {
+  double near_per_m(size_t i, const Eigen::Vector2d& v_H, const Eigen::Vector2d& way_H, bool turns_whole) const {
     if (config_.ranging == FlowBalanceConfig::Ranging::mean) {
       const InverseRanges near = inverse_ranges(sense_[i], v_H, config_.divisor_floor_mps);
       return std::max(near.from_flow_per_m, near.from_loom_per_m);
     }
+    if (!walls_.empty()) return nearest_wall_per_m(i, v_H, way_H, turns_whole);
+    const Stopping stopping{config_.reaction_s, config_.braking_mps2};
     std::vector<double> near = ranges_[i].near_per_m();
     const std::vector<double> bearings_rad = vision::bearings_rad(cameras_[i].field(), cameras_[i].pinhole());
     for (size_t patch = 0; patch < near.size(); ++patch) {
@@ -199,9 +214,31 @@ class FlowBalance final : public Module {
           std::cos(bearings_rad[patch]) * sense_[i].axis_H + std::sin(bearings_rad[patch]) * sense_[i].right_H;
       const bool on_the_way = to_patch_H.dot(way_H) >= std::cos(config_.way_angle_rad) * way_H.norm();
       const double closing_mps = std::max(v_H.dot(to_patch_H), way_H.dot(to_patch_H));
-      near[patch] = on_the_way ? near_once_stopped_per_m(near[patch], closing_mps, config_.braking_mps2) : 0.0;
+      const double stops_m = stopping_distance_m(closing_mps, closing_mps, stopping);
+      near[patch] = on_the_way ? near_once_stopped_per_m(near[patch], stops_m) : 0.0;
     }
     return vision::nearest_inverse_range_per_m(std::move(near), config_.near_share);
+  }
+
+  /// The same from upright walls that face the camera, counted from the vehicle's side, so that the cameras' places do
+  /// not matter.
+  double nearest_wall_per_m(size_t i, const Eigen::Vector2d& v_H, const Eigen::Vector2d& way_H,
+                            bool turns_whole) const {
+    constexpr double kLeast_m = 1e-3;
+    const Stopping stopping{config_.reaction_s, config_.braking_mps2};
+    double nearest_per_m = 0.0;
+    for (const vision::SeenWall& wall : walls_) {
+      const Eigen::Vector2d to_wall_H = wall.near_per_m.normalized();
+      if (to_wall_H.dot(sense_[i].axis_H) < std::sqrt(0.5)) continue;  // another camera's
+      if (way_H.dot(to_wall_H) <= 0.0) continue;
+      const double closing_mps = std::max(v_H.dot(to_wall_H), way_H.dot(to_wall_H));
+      const double tail_m = config_.tail_m * std::max(0.0, -to_wall_H.x());
+      const double left_m = std::max(1.0 / wall.near_per_m.norm() - tail_m, kLeast_m);
+      const double turning_mps = turns_whole ? std::max(v_H.norm(), way_H.norm()) : closing_mps;
+      const double stops_m = stopping_distance_m(closing_mps, turning_mps, stopping);
+      nearest_per_m = std::max(nearest_per_m, near_once_stopped_per_m(1.0 / left_m, stops_m));
+    }
+    return nearest_per_m;
   }
 
   std::vector<double> signal_values(int64_t now_ns) const {
@@ -245,6 +282,7 @@ class FlowBalance final : public Module {
   std::vector<CameraFlow> cameras_;  ///< in the order of kRoles, as are the next three
   std::vector<WallSense> sense_;
   std::vector<CameraRanges> ranges_;
+  std::vector<vision::SeenWall> walls_;
   std::array<bool, kRoles.size()> fresh_{};
   std::optional<Detour> detour_;
   std::optional<ZigZag> zig_zag_;

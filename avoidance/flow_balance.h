@@ -30,6 +30,9 @@ struct FlowBalanceConfig {
   double near_share = 0.1;
   int near_pictures = 3;
   double range_memory_s = 0.0;
+  double wall_error = 0.0;
+  double flow_noise_px = 0.1;
+  double tail_m = 0.0;
   double divisor_floor_mps = 0.2;
 
   double speed_mps = 2.0;
@@ -46,6 +49,7 @@ struct FlowBalanceConfig {
   double sideways_speed_mps = 1.0;
   double range_threshold_m = 2.0;
   double braking_mps2 = 1.0;
+  double reaction_s = 0.0;
   double stray_rad = 0.0;
   double way_angle_rad = std::numbers::pi / 3;
   int confirmations = 2;
@@ -77,6 +81,18 @@ void describe(Visitor& v, FlowBalanceConfig& c) {
      .at_least = 0.0,
      .meaning = "ranging nearest: a patch of which the flow tells nothing stays as it was, fading with this time "
                 "constant; 0 forgets at once"});
+  v("wall_error", c.wall_error,
+    {.at_least = 0.0,
+     .meaning = "simple, ranging nearest: where a camera's flow fits upright walls with a relative error of at most "
+                "this, they are ranged in place of its patches; 0 looks for none"});
+  v("flow_noise", c.flow_noise_px,
+    {.unit = "px",
+     .above = 0.0,
+     .meaning = "simple, walls of wall_error: standard deviation of a flow vector, per axis"});
+  v("tail", c.tail_m,
+    {.unit = "m",
+     .at_least = 0.0,
+     .meaning = "simple, walls of wall_error: the vehicle reaches so much farther aft than to its other sides"});
   v("divisor_floor", c.divisor_floor_mps,
     {.unit = "m/s", .above = 0.0, .meaning = "velocities that flow and loom are divided by are at least this large"});
   v("speed", c.speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "goal_directed: speed flown"});
@@ -107,6 +123,8 @@ void describe(Visitor& v, FlowBalanceConfig& c) {
     {.unit = "m/s^2",
      .above = 0.0,
      .meaning = "simple, ranging nearest: deceleration counted on; the distance it takes to stop is kept in hand"});
+  v("reaction", c.reaction_s,
+    {.unit = "s", .at_least = 0.0, .meaning = "simple: time that passes before the vehicle slows down by braking"});
   v("stray", c.stray_rad,
     {.unit = "deg",
      .at_least = 0.0,

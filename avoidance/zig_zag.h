@@ -8,11 +8,18 @@
 
 namespace hedgehop::avoidance {
 
-/// Inverse of the range that is left, 1/m, when the vehicle has stopped short of what is now at inverse range
-/// `near_per_m`
-/// (>= 0) and closed in on at `closing_mps` (< 0 when it recedes): 1/near - v^2 / (2 a). 1000 where nothing is left.
-/// @param braking_mps2  deceleration a, > 0.
-double near_once_stopped_per_m(double near_per_m, double closing_mps, double braking_mps2);
+/// How a vehicle stops: it goes on as it was for `reaction_s` (>= 0), then slows down by `braking_mps2` (> 0).
+struct Stopping {
+  double reaction_s = 0.0;
+  double braking_mps2 = 1.0;
+};
+/// Returns how much nearer a vehicle comes, m, to what it closes in on at `closing_mps`, until it no longer does; 0
+/// when it recedes: v_n (t + v / (2 a)). @param turning_mps  the part v of its velocity that turns round, all of it in
+/// a corner: the component towards a wall then falls as slowly as the whole.
+double stopping_distance_m(double closing_mps, double turning_mps, const Stopping& stopping);
+/// Returns the inverse of the range that is left, 1/m, of inverse range `near_per_m` (>= 0) less a distance (>= 0);
+/// 1000 where nothing is left.
+double near_once_stopped_per_m(double near_per_m, double stopping_distance_m);
 
 /// The simple scheme of [Garratt2009] sec. 4: the vehicle flies on a diagonal of frame H (x along the heading, y to the
 /// right), and the component of its velocity that leads towards a near wall turns round.
@@ -42,10 +49,15 @@ class ZigZag {
   Eigen::Vector2d way_H() const;
   int reversals() const { return reversals_; }
 
+  /// Whether walls that the way leads towards are too near on sides of both components.
+  bool cornered(std::span<const Side> sides) const;
   /// Takes in what the cameras tell, the same ones in the same order every time. @return whether a component turned.
   bool update(std::span<const Side> sides);
 
  private:
+  bool too_near(const Side& side) const { return side.near_per_m * config_.range_threshold_m > 1.0; }
+  bool leads_towards(const Side& side) const;
+
   Config config_;
   std::mt19937_64 random_;
   Eigen::Vector2d signs_H_ = {1.0, 1.0};

@@ -15,20 +15,22 @@ Eigen::Vector2d on_unit_plane(const PinholeCamera& camera, const Eigen::Vector2d
   return {(pixel.x() - camera.center_u_px) / camera.focal_x_px, (pixel.y() - camera.center_v_px) / camera.focal_y_px};
 }
 
-/// Flow of a point at z = 1 m, in units of the focal length per second.
+}  // namespace
+
 Eigen::Vector2d unit_flow(const Eigen::Vector2d& place, const Eigen::Vector3d& v_WC_C) {
   return place * v_WC_C.z() - v_WC_C.head<2>();
 }
 
-}  // namespace
+Eigen::Vector2d flow_per_s(const FlowVector& vector, const PinholeCamera& camera, double dt_s) {
+  return vector.flow_px.cwiseQuotient(dt_s * Eigen::Vector2d(camera.focal_x_px, camera.focal_y_px));
+}
 
 double inverse_depth_per_m(const FlowVector& vector, const PinholeCamera& camera, const Eigen::Vector3d& v_WC_C,
                            double dt_s, double floor_mps) {
   if (!vector.valid) return 0.0;
   const Eigen::Vector2d place = on_unit_plane(camera, vector.center_px);
   const Eigen::Vector2d b = unit_flow(place, v_WC_C);
-  const Eigen::Vector2d flow(vector.flow_px.x() / (camera.focal_x_px * dt_s),
-                             vector.flow_px.y() / (camera.focal_y_px * dt_s));
+  const Eigen::Vector2d flow = flow_per_s(vector, camera, dt_s);
   const double along = b.dot(flow), across = b.x() * flow.y() - b.y() * flow.x();
   return std::max(0.0, along - std::abs(across)) / (b.squaredNorm() + floor_mps * floor_mps);
 }

@@ -8,8 +8,16 @@
 
 namespace hedgehop::vision {
 
+/// Returns the flow of a point at z = 1 m, in units of the focal length per second, [-v_x + U v_z, -v_y + V v_z]; that
+/// of a point at z is 1 / z of it. Source: [Garratt2009] eq. (1), translation alone.
+/// @param place   (U, V) of the point, in units of the focal length. @param v_WC_C  velocity of the camera in C, m/s.
+Eigen::Vector2d unit_flow(const Eigen::Vector2d& place, const Eigen::Vector3d& v_WC_C);
+
+/// Returns a flow vector in units of the focal length per second. @param dt_s  between the two pictures, > 0.
+Eigen::Vector2d flow_per_s(const FlowVector& vector, const PinholeCamera& camera, double dt_s);
+
 /// Returns 1 / z of what one flow vector proves, 1/m, >= 0, given how the camera moves: with b the flow of a point at
-/// z = 1 m, [-v_x + U v_z, -v_y + V v_z] in units of the focal length, the flow of a point at z is b / z. Whatever lies
+/// z = 1 m, unit_flow(), the flow of a point at z is b / z. Whatever lies
 /// across b can only be error (of the flow, or of the rotation taken away), so as much is taken off along b:
 ///   1/z = max(0, b . flow - |b x flow|) / (b . b + floor^2) .
 /// The floor draws the estimate towards "far" where the camera's motion shifts a patch too little to tell, around the

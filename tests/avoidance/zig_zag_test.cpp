@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -77,13 +78,12 @@ TEST(ZigZag, StraysWithinItsAngleAndRepeatsWithTheSeed) {
   EXPECT_EQ(ways.size(), 200u);
 }
 
-TEST(NearOnceStopped, LeavesTheRangeLessTheStoppingDistance) {
+TEST(NearOnceStopped, LeavesTheRangeLessTheDistance) {
   std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> range(0.5, 20.0), speed(-3.0, 3.0), braking(0.3, 4.0);
+  std::uniform_real_distribution<double> range(0.5, 20.0), stopping(0.0, 3.0);
   for (int i = 0; i < 1000; ++i) {
-    const double range_m = range(random), closing_mps = speed(random), a_mps2 = braking(random);
-    const double closing = std::max(0.0, closing_mps), left_m = range_m - closing * closing / (2.0 * a_mps2);
-    const double near = near_once_stopped_per_m(1.0 / range_m, closing_mps, a_mps2);
+    const double range_m = range(random), distance_m = stopping(random), left_m = range_m - distance_m;
+    const double near = near_once_stopped_per_m(1.0 / range_m, distance_m);
     if (left_m > 1e-3) {
       EXPECT_NEAR(near * left_m, 1.0, 1e-9);
     } else {
@@ -92,7 +92,41 @@ TEST(NearOnceStopped, LeavesTheRangeLessTheStoppingDistance) {
   }
 }
 
-TEST(NearOnceStopped, WhatIsFarStaysFar) { EXPECT_EQ(near_once_stopped_per_m(0.0, 3.0, 1.0), 0.0); }
+TEST(NearOnceStopped, WhatIsFarStaysFar) { EXPECT_EQ(near_once_stopped_per_m(0.0, 3.0), 0.0); }
+
+// A point whose velocity turns round as a whole by a steady acceleration, in small steps.
+TEST(StoppingDistance, IsHowMuchNearerATurningPointComes) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> speed(0.2, 3.0), angle(-1.5, 1.5), braking(0.3, 4.0), reaction(0.0, 1.0);
+  for (int i = 0; i < 50; ++i) {
+    const double speed_mps = speed(random), angle_rad = angle(random);
+    const Stopping stopping{reaction(random), braking(random)};
+    const Eigen::Vector2d v0 = speed_mps * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+    constexpr double kStep_s = 1e-4;
+    Eigen::Vector2d v = v0;
+    double nearer_m = 0.0;
+    for (double t_s = 0.0; v.x() > 0.0; t_s += kStep_s) {
+      if (t_s >= stopping.reaction_s) v -= kStep_s * stopping.braking_mps2 * v0.normalized();
+      nearer_m += kStep_s * v.x();
+    }
+    EXPECT_NEAR(stopping_distance_m(v0.x(), speed_mps, stopping), nearer_m, 2e-3);
+    EXPECT_EQ(stopping_distance_m(-v0.x(), speed_mps, stopping), 0.0);
+  }
+}
+
+TEST(ZigZag, IsCorneredBetweenWallsAheadOfBothComponentsOnly) {
+  const ZigZag zig_zag({.range_threshold_m = 2.0});
+  const auto cornered = [&](double front_m, double right_m, double rear_m, double left_m) {
+    const std::array<ZigZag::Side, 4> sides = {ZigZag::Side{{1, 0}, 1.0 / front_m, true},
+                                               {{0, 1}, 1.0 / right_m, true},
+                                               {{-1, 0}, 1.0 / rear_m, true},
+                                               {{0, -1}, 1.0 / left_m, true}};
+    return zig_zag.cornered(sides);
+  };
+  EXPECT_TRUE(cornered(1.9, 1.9, 9.0, 9.0));
+  EXPECT_FALSE(cornered(1.9, 2.1, 9.0, 9.0));
+  EXPECT_FALSE(cornered(1.9, 9.0, 1.0, 1.0));  // at first the way leads to the front and the right
+}
 
 }  // namespace
 }  // namespace hedgehop::avoidance

@@ -1,0 +1,136 @@
+#include "vision/wall_flow.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "vision/flow_range.h"
+
+namespace hedgehop::vision {
+namespace {
+
+/// A room round B, turned against H: four walls by the directions and distances of their nearest points.
+struct Room {
+  std::vector<Eigen::Vector2d> n;
+  std::vector<double> d_m;
+
+  /// How many times a ray from a place fits before it meets the first wall.
+  double along(const Eigen::Vector2d& p_H, const Eigen::Vector2d& ray_H) const {
+    double nearest = INFINITY;
+    for (size_t k = 0; k < n.size(); ++k) {
+      if (n[k].dot(ray_H) > 0.0) nearest = std::min(nearest, (d_m[k] - n[k].dot(p_H)) / n[k].dot(ray_H));
+    }
+    return nearest;
+  }
+};
+
+Room random_room(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> turn(0.0, M_PI / 2.0), distance(1.2, 6.0);
+  const Eigen::Rotation2Dd turned(turn(random));
+  Room room;
+  for (int k = 0; k < 4; ++k) {
+    room.n.emplace_back(turned * Eigen::Rotation2Dd(k * M_PI / 2.0) * Eigen::Vector2d::UnitX());
+    room.d_m.push_back(distance(random));
+  }
+  return room;
+}
+
+/// What four cameras, half a metre from B, see in their middle rows while B moves, `noise` laid over it.
+std::vector<WallSight> look(const Room& room, const Eigen::Vector2d& v_H, double noise, std::mt19937_64& random) {
+  constexpr int kPatches = 8;
+  constexpr double kOff_m = 0.4, kReach = 0.75;
+  std::normal_distribution<double> error(0.0, 1.0);
+  std::vector<WallSight> sights;
+  for (int camera = 0; camera < 4; ++camera) {
+    const Eigen::Vector2d axis_H =
+        Eigen::Rotation2Dd((camera - 1.5) * M_PI / 2.0 - M_PI / 4.0) * Eigen::Vector2d::UnitX();
+    const Eigen::Vector2d right_H(-axis_H.y(), axis_H.x());
+    const Eigen::Vector3d v_WC_C(v_H.dot(right_H), 0.0, v_H.dot(axis_H));
+    for (int patch = 0; patch < kPatches; ++patch) {
+      const Eigen::Vector2d place(kReach * (2.0 * patch / (kPatches - 1.0) - 1.0), 0.0);
+      WallSight sight;
+      sight.ray_H = axis_H + place.x() * right_H;
+      sight.p_BC_H = kOff_m * axis_H;
+      sight.unit_flow = unit_flow(place, v_WC_C);
+      sight.flow = sight.unit_flow / room.along(sight.p_BC_H, sight.ray_H);
+      sight.flow += noise * Eigen::Vector2d(error(random), error(random));
+      sight.noise = std::max(noise, 1e-6);
+      sights.push_back(sight);
+    }
+  }
+  return sights;
+}
+
+Eigen::Vector2d random_velocity(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> angle(-M_PI, M_PI), speed(0.7, 1.5);
+  return speed(random) * (Eigen::Rotation2Dd(angle(random)) * Eigen::Vector2d::UnitX());
+}
+
+/// Relative error of a wall among those found; that of the one that fits best.
+double error_of(const Room& room, size_t k, const std::vector<SeenWall>& walls) {
+  double least = INFINITY;
+  for (const SeenWall& wall : walls) least = std::min(least, (wall.near_per_m * room.d_m[k] - room.n[k]).norm());
+  return least;
+}
+
+TEST(WallFlow, FindsTheWallsOfARoomFromAMovingVehicle) {
+  std::mt19937_64 random(1);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Room room = random_room(random);
+    const auto sights = look(room, random_velocity(random), 0.0, random);
+    const auto walls = walls_from_flow(sights, 0.1);
+    for (size_t k = 0; k < 4; ++k) {
+      // A wall that shows in fewer than three neighbouring patches cannot be told.
+      int run = 0, longest = 0;
+      for (const WallSight& sight : sights) {
+        const Eigen::Vector2d met_H = sight.p_BC_H + room.along(sight.p_BC_H, sight.ray_H) * sight.ray_H;
+        run = std::abs(room.n[k].dot(met_H) - room.d_m[k]) < 1e-9 ? run + 1 : 0;
+        longest = std::max(longest, run);
+      }
+      if (longest < 3) continue;
+      EXPECT_LT(error_of(room, k, walls), 1e-3) << trial << " " << k;
+    }
+  }
+}
+
+// 0.1 px at 25 pictures a second and 200 px over 90 degrees.
+TEST(WallFlow, NoisyFlowRangesTheNearestWallWithinItsStatedError) {
+  constexpr double kNoise = 0.1 * 25.0 / 100.0;
+  std::mt19937_64 random(2);
+  int within = 0, all = 0;
+  double squares = 0.0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Room room = random_room(random);
+    const auto walls = walls_from_flow(look(room, random_velocity(random), kNoise, random), 0.3);
+    const size_t k = static_cast<size_t>(std::ranges::min_element(room.d_m) - room.d_m.begin());
+    if (room.d_m[k] > 2.0) continue;
+    ++all;
+    double least = INFINITY, stated = 0.0;
+    for (const SeenWall& wall : walls) {
+      if (wall.near_per_m.normalized().dot(room.n[k]) < std::cos(0.3)) continue;
+      const double error = std::abs(wall.near_per_m.norm() * room.d_m[k] - 1.0);
+      if (error < least) stated = wall.relative_error;
+      least = std::min(least, error);
+    }
+    within += least < 3.0 * stated;
+    squares += std::min(least, 1.0) * std::min(least, 1.0);
+  }
+  EXPECT_GT(all, 100);
+  EXPECT_GT(within, 0.95 * all);
+  EXPECT_LT(std::sqrt(squares / all), 0.1);
+}
+
+TEST(WallFlow, WithoutMotionOrPatchesThereAreNone) {
+  std::mt19937_64 random(3);
+  EXPECT_TRUE(walls_from_flow({}, 0.3).empty());
+  const Room room = random_room(random);
+  EXPECT_TRUE(walls_from_flow(look(room, Eigen::Vector2d::Zero(), 0.0, random), 0.3).empty());
+  EXPECT_TRUE(walls_from_flow(look(room, Eigen::Vector2d::Zero(), 0.02, random), 0.3).empty());
+}
+
+}  // namespace
+}  // namespace hedgehop::vision
