@@ -291,7 +291,7 @@ class FlowBalance final : public Module {
   int64_t last_t_ns_ = 0;
   double heading_rad_ = 0.0;
   double least_valid_share_ = 1.0;
-  int reversals_ = 0, decisions_ = 0, avoiding_ = 0;
+  int decisions_ = 0, avoiding_ = 0;
 };
 
 }  // namespace

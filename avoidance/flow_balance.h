@@ -83,8 +83,8 @@ void describe(Visitor& v, FlowBalanceConfig& c) {
                 "constant; 0 forgets at once"});
   v("wall_error", c.wall_error,
     {.at_least = 0.0,
-     .meaning = "simple, ranging nearest: where a camera's flow fits upright walls with a relative error of at most "
-                "this, they are ranged in place of its patches; 0 looks for none"});
+     .meaning = "simple, ranging nearest: upright walls that the flow of all cameras fits with a relative error of "
+                "at most this are ranged in place of the patches; 0 looks for none"});
   v("flow_noise", c.flow_noise_px,
     {.unit = "px",
      .above = 0.0,

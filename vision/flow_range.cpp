@@ -8,15 +8,6 @@
 #include <vector>
 
 namespace hedgehop::vision {
-namespace {
-
-/// (U, V) of a pixel in units of the focal length.
-Eigen::Vector2d on_unit_plane(const PinholeCamera& camera, const Eigen::Vector2d& pixel) {
-  return {(pixel.x() - camera.center_u_px) / camera.focal_x_px, (pixel.y() - camera.center_v_px) / camera.focal_y_px};
-}
-
-}  // namespace
-
 Eigen::Vector2d unit_flow(const Eigen::Vector2d& place, const Eigen::Vector3d& v_WC_C) {
   return place * v_WC_C.z() - v_WC_C.head<2>();
 }
@@ -28,7 +19,7 @@ Eigen::Vector2d flow_per_s(const FlowVector& vector, const PinholeCamera& camera
 double inverse_depth_per_m(const FlowVector& vector, const PinholeCamera& camera, const Eigen::Vector3d& v_WC_C,
                            double dt_s, double floor_mps) {
   if (!vector.valid) return 0.0;
-  const Eigen::Vector2d place = on_unit_plane(camera, vector.center_px);
+  const Eigen::Vector2d place = camera.ray(vector.center_px).head<2>();
   const Eigen::Vector2d b = unit_flow(place, v_WC_C);
   const Eigen::Vector2d flow = flow_per_s(vector, camera, dt_s);
   const double along = b.dot(flow), across = b.x() * flow.y() - b.y() * flow.x();
@@ -40,7 +31,7 @@ std::vector<double> inverse_ranges_per_m(const FlowField& field, const PinholeCa
   std::vector<double> near;
   near.reserve(field.vectors.size());
   for (const FlowVector& vector : field.vectors) {
-    const double stretch = std::hypot(1.0, on_unit_plane(camera, vector.center_px).x());
+    const double stretch = std::hypot(1.0, camera.ray(vector.center_px).x());
     const double near_per_m = inverse_depth_per_m(vector, camera, v_WC_C, dt_s, floor_mps) / stretch;
     near.push_back(vector.valid ? near_per_m : std::numeric_limits<double>::quiet_NaN());
   }
@@ -52,7 +43,7 @@ std::vector<double> parallax_weights(const FlowField& field, const PinholeCamera
   std::vector<double> weights;
   weights.reserve(field.vectors.size());
   for (const FlowVector& vector : field.vectors) {
-    const double parallax = unit_flow(on_unit_plane(camera, vector.center_px), v_WC_C).squaredNorm();
+    const double parallax = unit_flow(camera.ray(vector.center_px).head<2>(), v_WC_C).squaredNorm();
     weights.push_back(parallax / (parallax + floor_mps * floor_mps));
   }
   return weights;
@@ -62,7 +53,7 @@ std::vector<double> bearings_rad(const FlowField& field, const PinholeCamera& ca
   std::vector<double> bearings;
   bearings.reserve(field.vectors.size());
   for (const FlowVector& vector : field.vectors) {
-    bearings.push_back(std::atan(on_unit_plane(camera, vector.center_px).x()));
+    bearings.push_back(std::atan(camera.ray(vector.center_px).x()));
   }
   return bearings;
 }

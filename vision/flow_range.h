@@ -17,8 +17,8 @@ Eigen::Vector2d unit_flow(const Eigen::Vector2d& place, const Eigen::Vector3d& v
 Eigen::Vector2d flow_per_s(const FlowVector& vector, const PinholeCamera& camera, double dt_s);
 
 /// Returns 1 / z of what one flow vector proves, 1/m, >= 0, given how the camera moves: with b the flow of a point at
-/// z = 1 m, unit_flow(), the flow of a point at z is b / z. Whatever lies
-/// across b can only be error (of the flow, or of the rotation taken away), so as much is taken off along b:
+/// z = 1 m, unit_flow(), the flow of a point at z is b / z. Whatever lies across b can only be error (of the flow, or
+/// of the rotation taken away), so as much is taken off along b:
 ///   1/z = max(0, b . flow - |b x flow|) / (b . b + floor^2) .
 /// The floor draws the estimate towards "far" where the camera's motion shifts a patch too little to tell, around the
 /// focus of expansion above all.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace hedgehop::vision {
 namespace {
@@ -54,7 +53,7 @@ Fit fit(const Sums& sums, size_t patches) {
 std::vector<SeenWall> walls_from_flow(std::span<const WallSight> sights, double relative_error) {
   constexpr size_t kFewest = 3;       // patches of a wall
   constexpr double kOneMore = 12.0;   // squares that a further wall must explain: its two numbers, six times over
-  constexpr double kNoWall = 1000.0;  // squares of patches that belong to none: never chosen where a wall fits
+  constexpr double kNoWall = 1000.0;  // squares of a patch that belongs to none: far worse than any that fits
   std::vector<Sums> upto(1);
   for (const WallSight& sight : sights) {
     upto.push_back(upto.back());

@@ -25,7 +25,8 @@ struct SeenWall {
 /// a camera at p lies at 1/z = r.m / (1 - m.p) with m = n/d, so that a flow f = b / z is linear in m, f = (b r + f
 /// p).m: least squares over all patches of a wall let those that parallax shifts most tell the range of those around
 /// the focus of expansion, which it hardly shifts. Where one wall ends and the next begins is chosen so that what is
-/// left of the flow, over its noise, is least, and no wall is more than chance would ask for (dynamic programming).
+/// left of the flow, over its noise, is least, with a price for every wall so that chance makes none (dynamic
+/// programming). Ours.
 /// @param sights  in the order of their bearings. @param relative_error  of a wall, at most; > 0.
 std::vector<SeenWall> walls_from_flow(std::span<const WallSight> sights, double relative_error);
 
