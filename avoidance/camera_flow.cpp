@@ -12,7 +12,7 @@ CameraFlow::CameraFlow(const MountedCamera& camera, const Options& options)
 bool CameraFlow::update(const CameraFrame& frame, const Eigen::Vector3d& w_WB_B) {
   if (last_t_ns_ && frame.t_ns <= *last_t_ns_) return false;
   field_ = flow_.update(frame.image);
-  frame.image.copyTo(picture_);
+  frame.image.copyTo(image_);
   const bool first = !last_t_ns_;
   const double dt_s = first ? 0.0 : 1e-9 * static_cast<double>(frame.t_ns - *last_t_ns_);
   const Eigen::Vector3d w_mean_B = 0.5 * (w_WB_B + last_w_WB_B_);
@@ -22,10 +22,10 @@ bool CameraFlow::update(const CameraFrame& frame, const Eigen::Vector3d& w_WB_B)
 
   if (options_.derotate) {
     const Eigen::Vector3d w_WC_C = camera_.X_BC.linear().transpose() * w_mean_B;
-    vision::derotate(field_, pinhole_, w_WC_C, dt_s);
+    vision::flow::derotate(field_, pinhole_, w_WC_C, dt_s);
   }
-  const auto flow = vision::mean_horizontal_flow(field_, pinhole_, dt_s, options_.missing);
-  measure_ = Measure{flow.value, vision::loom(field_, dt_s, options_.missing).value, field_.valid_share(), dt_s};
+  const auto flow = vision::flow::mean_horizontal_flow(field_, pinhole_, dt_s, options_.missing);
+  measure_ = Measure{flow.value, vision::flow::loom(field_, dt_s, options_.missing).value, field_.valid_share(), dt_s};
   return true;
 }
 

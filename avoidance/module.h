@@ -10,9 +10,9 @@
 #include <variant>
 #include <vector>
 
-#include "vision/camera.h"
+#include "vision/camera/camera.h"
 
-/// The one interface between an avoidance module and the aircraft that carries it. A module sees pictures and the
+/// The one interface between an avoidance module and the aircraft that carries it. A module sees images and the
 /// aircraft's own navigation, never truth. Frames (CONTRIBUTING.md): W north-east-down, B forward-right-down,
 /// C right-down-forward. SI units, radians.
 namespace hedgehop::avoidance {
@@ -36,7 +36,7 @@ struct Goal {
   double heading_rad = 0.0;                        ///< heading to hold, from north to east
 };
 
-/// One picture, valid during the call that receives it.
+/// One image, valid during the call that receives it.
 struct CameraFrame {
   std::string role;  ///< "front", "left", ... as the rig names it
   int64_t t_ns = 0;  ///< instant of exposure
@@ -88,7 +88,7 @@ struct Needs {
 /// A camera as mounted: model and pose in B.
 struct MountedCamera {
   std::string role;
-  vision::Camera model;
+  vision::camera::Camera model;
   Eigen::Isometry3d X_BC = Eigen::Isometry3d::Identity();
   double rate_hz = 0.0;  ///< > 0
 };
@@ -156,7 +156,7 @@ class Module {
   std::vector<Metric> metrics() const { return do_metrics(); }
   /// For those who compare it with the truth; empty for a module that keeps none.
   Chart chart() const { return do_chart(); }
-  /// A picture (CV_8UC3, RGB) of what the module saw and chose last; empty when it has none. Called for films only.
+  /// An image (CV_8UC3, RGB) of what the module saw and chose last; empty when it has none. Called for films only.
   cv::Mat annotate() const { return do_annotate(); }
 
  private:

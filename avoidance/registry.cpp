@@ -5,11 +5,21 @@ namespace {
 
 struct Make {
   std::unique_ptr<Module> operator()(const GoToGoalConfig& c) const { return make_go_to_goal(c); }
-  std::unique_ptr<Module> operator()(const FlowBalanceConfig& c) const { return make_flow_balance(c); }
-  std::unique_ptr<Module> operator()(const SectionGridConfig& c) const { return make_section_grid(c); }
-  std::unique_ptr<Module> operator()(const StereoCorridorConfig& c) const { return make_stereo_corridor(c); }
-  std::unique_ptr<Module> operator()(const CorridorCenteringConfig& c) const { return make_corridor_centering(c); }
-  std::unique_ptr<Module> operator()(const LandmarkMapModuleConfig& c) const { return make_landmark_map(c); }
+  std::unique_ptr<Module> operator()(const flow_balance::FlowBalanceConfig& c) const {
+    return flow_balance::make_flow_balance(c);
+  }
+  std::unique_ptr<Module> operator()(const section_grid::SectionGridConfig& c) const {
+    return section_grid::make_section_grid(c);
+  }
+  std::unique_ptr<Module> operator()(const stereo_corridor::StereoCorridorConfig& c) const {
+    return stereo_corridor::make_stereo_corridor(c);
+  }
+  std::unique_ptr<Module> operator()(const corridor_centering::CorridorCenteringConfig& c) const {
+    return corridor_centering::make_corridor_centering(c);
+  }
+  std::unique_ptr<Module> operator()(const landmark_map::LandmarkMapModuleConfig& c) const {
+    return landmark_map::make_landmark_map(c);
+  }
 };
 
 }  // namespace

@@ -28,7 +28,7 @@ target_link_libraries(hedgehop_assimp INTERFACE ${ASSIMP_LIBRARY})
 target_include_directories(hedgehop_assimp SYSTEM INTERFACE ${ASSIMP_INCLUDE_DIR})
 
 add_library(hedgehop_bullet INTERFACE)
-# Clearances are wanted to a millimetre a kilometre from the origin: the double-precision build, which Debian ships beside
+# Clearances are wanted to a millimeter a kilometer from the origin: the double-precision build, which Debian ships beside
 # the other. Every user must see the same btScalar.
 find_library(BULLET_COLLISION_LIBRARY BulletCollision-float64 REQUIRED)
 find_library(BULLET_LINEAR_MATH_LIBRARY LinearMath-float64 REQUIRED)

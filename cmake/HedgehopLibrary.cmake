@@ -5,7 +5,7 @@ add_library(hedgehop_warnings INTERFACE)
 target_compile_options(hedgehop_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
                        -Wold-style-cast -Woverloaded-virtual -Wno-missing-field-initializers
                        # false alarms of GCC 12 at -O3 in std::string and Eigen
-                       -Wno-restrict -Wno-maybe-uninitialized -Wno-stringop-overflow)
+                       -Wno-restrict -Wno-maybe-uninitialized -Wno-stringop-overflow -Wno-array-bounds)
 if(HEDGEHOP_WERROR)
   target_compile_options(hedgehop_warnings INTERFACE -Werror)
 endif()

@@ -9,7 +9,7 @@ Avionics::Avionics(const AvionicsConfig& config, const VehicleConfig& vehicle, d
                    const StreamSeed& stream_seed)
     : config_(config),
       physics_dt_s_(physics_dt_s),
-      beam_direction_B_(beam_direction_B(config.range_finder)),
+      beam_direction_B_(sensors::beam_direction_B(config.range_finder)),
       seeds_{stream_seed("imu"),
              stream_seed("gps"),
              stream_seed("height_sensor"),
@@ -31,27 +31,27 @@ Avionics::Avionics(const AvionicsConfig& config, const VehicleConfig& vehicle, d
 /// What need not be on board.
 void Avionics::reset_options() {
   if (config_.barometer.enabled) barometer_.emplace(config_.barometer, physics_dt_s_, seeds_.barometer);
-  const RangerConfig& beam = config_.range_finder.ranger;
+  const sensors::RangerConfig& beam = config_.range_finder.ranger;
   if (beam.enabled) range_finder_.emplace("range_finder", beam, physics_dt_s_, seeds_.range_finder);
   range_m_.reset();
 }
 
 void Avionics::reset(const SensedTruth& truth) {
-  imu_ = Imu(config_.imu, physics_dt_s_, seeds_.imu);
-  gps_ = Gps(config_.gps, physics_dt_s_, seeds_.gps);
-  height_sensor_ = Ranger("height_sensor", config_.height_sensor.ranger, physics_dt_s_, seeds_.height_sensor);
-  magnetometer_ = Magnetometer(config_.magnetometer, physics_dt_s_, seeds_.magnetometer);
+  imu_ = sensors::Imu(config_.imu, physics_dt_s_, seeds_.imu);
+  gps_ = sensors::Gps(config_.gps, physics_dt_s_, seeds_.gps);
+  height_sensor_ = sensors::Ranger("height_sensor", config_.height_sensor.ranger, physics_dt_s_, seeds_.height_sensor);
+  magnetometer_ = sensors::Magnetometer(config_.magnetometer, physics_dt_s_, seeds_.magnetometer);
   imu_reading_.reset();
   reset_options();
 
   // Alignment before take-off: attitude and position known with errors, inertial biases mostly taken away.
-  NormalStream noise(seeds_.alignment);
-  const NavigationConfig& c = config_.navigation;
+  sensors::NormalStream noise(seeds_.alignment);
+  const control::NavigationConfig& c = config_.navigation;
   RigidBodyState known = truth.body;
   const Eigen::Vector3d tilt = c.attitude_sigma_rad * noise.draw3();
   known.q_WB = truth.body.q_WB * Eigen::Quaterniond(Eigen::AngleAxisd(tilt.norm(), tilt.stableNormalized()));
   known.p_WB += c.position_sigma_m * noise.draw3();
-  ImuReading bias = imu_.bias();
+  sensors::ImuReading bias = imu_.bias();
   bias.w_WB_B_meas *= 1.0 - c.alignment_residual;
   bias.specific_force_B_meas *= 1.0 - c.alignment_residual;
   navigation_.reset(known, bias);
@@ -68,7 +68,8 @@ void Avionics::sense(int64_t t_ns, const SensedTruth& truth) {
   imu_reading_.reset();
   if (due(imu_.period())) navigation_.predict(imu_reading_.emplace(imu_.read()));
   if (height_sensor_.looks(tick)) {
-    height_sensor_.feel(nearest_echo_m(config_.height_sensor, truth.height_above_surface_m, truth.height_beside));
+    height_sensor_.feel(
+        sensors::nearest_echo_m(config_.height_sensor, truth.height_above_surface_m, truth.height_beside));
   }
   if (height_sensor_.due(tick)) {
     if (const std::optional<double> height_m = height_sensor_.read()) navigation_.correct_height(*height_m);
@@ -83,7 +84,7 @@ void Avionics::sense(int64_t t_ns, const SensedTruth& truth) {
     if (heading_rad) navigation_.correct_heading(*heading_rad);
   }
   if (due(gps_.period())) {
-    if (const std::optional<GpsFix> fix = gps_.read()) navigation_.correct_gps(*fix);
+    if (const std::optional<sensors::GpsFix> fix = gps_.read()) navigation_.correct_gps(*fix);
   }
   if (range_finder_) sense_range(tick, truth);
 }

@@ -6,30 +6,30 @@
 #include <optional>
 #include <string_view>
 
-#include "dynamics/autopilot.h"
-#include "dynamics/barometer.h"
-#include "dynamics/gps.h"
-#include "dynamics/height_sensor.h"
-#include "dynamics/imu.h"
-#include "dynamics/magnetometer.h"
-#include "dynamics/navigation.h"
-#include "dynamics/range_finder.h"
+#include "dynamics/control/autopilot.h"
+#include "dynamics/control/navigation.h"
+#include "dynamics/control/setpoint.h"
 #include "dynamics/rigid_body.h"
-#include "dynamics/setpoint.h"
+#include "dynamics/sensors/barometer.h"
+#include "dynamics/sensors/gps.h"
+#include "dynamics/sensors/height_sensor.h"
+#include "dynamics/sensors/imu.h"
+#include "dynamics/sensors/magnetometer.h"
+#include "dynamics/sensors/range_finder.h"
 #include "dynamics/vehicle.h"
 
 /// Onboard sensors, navigation filter and autopilot of one aircraft.
 namespace hedgehop::dynamics {
 
 struct AvionicsConfig {
-  ImuConfig imu;
-  GpsConfig gps;
-  HeightSensorConfig height_sensor;
-  MagnetometerConfig magnetometer;
-  BarometerConfig barometer;
-  RangeFinderConfig range_finder;
-  NavigationConfig navigation;
-  AutopilotConfig autopilot;
+  sensors::ImuConfig imu;
+  sensors::GpsConfig gps;
+  sensors::HeightSensorConfig height_sensor;
+  sensors::MagnetometerConfig magnetometer;
+  sensors::BarometerConfig barometer;
+  sensors::RangeFinderConfig range_finder;
+  control::NavigationConfig navigation;
+  control::AutopilotConfig autopilot;
 };
 template <class Visitor>
 void describe(Visitor& v, AvionicsConfig& c) {
@@ -49,10 +49,10 @@ using StreamSeed = std::function<uint64_t(std::string_view stream_name)>;
 /// What physics offers the sensors at one instant.
 struct SensedTruth {
   RigidBodyState body;
-  Eigen::Vector3d specific_force_B = Eigen::Vector3d::Zero();  ///< of the mass centre, m/s^2
+  Eigen::Vector3d specific_force_B = Eigen::Vector3d::Zero();  ///< of the mass center, m/s^2
   double height_above_surface_m = 0.0;                         ///< +inf above nothing
-  HeightBeside height_beside = {};                             ///< for a height sensor that listens in a cone
-  BeamDistance beam_distance = {};                             ///< for a range finder; without it, it meets nothing
+  sensors::HeightBeside height_beside = {};                    ///< for a height sensor that listens in a cone
+  sensors::BeamDistance beam_distance = {};                    ///< for a range finder; without it, it meets nothing
 };
 
 class Avionics {
@@ -71,16 +71,16 @@ class Avionics {
   void correct_velocity(const Eigen::Vector2d& v_WB_B_xy_meas, double sigma_mps) {
     navigation_.correct_velocity(v_WB_B_xy_meas, sigma_mps);
   }
-  const NavigationEstimate& navigation() const { return navigation_.estimate(); }
+  const control::NavigationEstimate& navigation() const { return navigation_.estimate(); }
   /// What the range finder read last, m; none without one, out of range or on a drop-out.
   const std::optional<double>& range_m() const { return range_m_; }
   /// What the IMU read on the tick of the last sense(); none when it was not due.
-  const std::optional<ImuReading>& imu() const { return imu_reading_; }
-  ImuReading imu_bias() const { return imu_.bias(); }
-  const Autopilot& autopilot() const { return autopilot_; }
+  const std::optional<sensors::ImuReading>& imu() const { return imu_reading_; }
+  sensors::ImuReading imu_bias() const { return imu_.bias(); }
+  const control::Autopilot& autopilot() const { return autopilot_; }
   /// What to ask of the actuators until the next call. @param dt_s  until then, > 0, the same in every call of a
   /// flight.
-  Controls control(const Setpoint& setpoint, double dt_s) {
+  Controls control(const control::Setpoint& setpoint, double dt_s) {
     return autopilot_.control(setpoint, navigation_.estimate(), dt_s);
   }
 
@@ -95,16 +95,16 @@ class Avionics {
   double physics_dt_s_;
   Eigen::Vector3d beam_direction_B_;
   Seeds seeds_;
-  Imu imu_;
-  std::optional<ImuReading> imu_reading_;
-  Gps gps_;
-  Ranger height_sensor_;
-  Magnetometer magnetometer_;
-  std::optional<Barometer> barometer_;
-  std::optional<Ranger> range_finder_;
+  sensors::Imu imu_;
+  std::optional<sensors::ImuReading> imu_reading_;
+  sensors::Gps gps_;
+  sensors::Ranger height_sensor_;
+  sensors::Magnetometer magnetometer_;
+  std::optional<sensors::Barometer> barometer_;
+  std::optional<sensors::Ranger> range_finder_;
   std::optional<double> range_m_;
-  Navigation navigation_;
-  Autopilot autopilot_;
+  control::Navigation navigation_;
+  control::Autopilot autopilot_;
 };
 
 }  // namespace hedgehop::dynamics

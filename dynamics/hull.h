@@ -16,25 +16,4 @@ struct HullPart {
 /// Returns the radius of the smallest vertical cylinder round B, level, that holds the hull, m; 0 for an empty hull.
 double radius_m(const std::vector<HullPart>& hull);
 
-struct HelicopterConfig;
-/// Returns rotor disc, fuselage, tail boom and tail rotor of a helicopter, in this order.
-std::vector<HullPart> hull(const HelicopterConfig& config);
-
-/// What of a helicopter's shape no other parameter tells.
-struct HelicopterHullConfig {
-  Eigen::Vector3d fuselage_center_B_m{0.10, 0.0, 0.05};  ///< of the box round canopy and skids
-  Eigen::Vector3d fuselage_size_m{0.60, 0.25, 0.42};
-  double boom_thickness_m = 0.06;
-  double disc_thickness_m = 0.04;  ///< of both rotors: blades and their flapping
-};
-template <class Visitor>
-void describe(Visitor& v, HelicopterHullConfig& c) {
-  v("fuselage_center", c.fuselage_center_B_m,
-    {.unit = "m", .meaning = "centre of the box round canopy and skids: forward, right, down of the mass centre"});
-  v("fuselage_size", c.fuselage_size_m, {.unit = "m", .above = 0.0, .meaning = "length, width and height of that box"});
-  v("boom_thickness", c.boom_thickness_m, {.unit = "m", .above = 0.0, .meaning = "width and height of the tail boom"});
-  v("disc_thickness", c.disc_thickness_m,
-    {.unit = "m", .above = 0.0, .meaning = "thickness of both rotor discs, blade and flapping"});
-}
-
 }  // namespace hedgehop::dynamics

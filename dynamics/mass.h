@@ -13,7 +13,7 @@ template <class Visitor>
 void describe(Visitor& v, MassConfig& c) {
   v("mass", c.mass_kg, {.unit = "kg", .above = 0.0, .meaning = "ready to fly"});
   v("inertia", c.inertia_kgm2,
-    {.unit = "kg m2", .above = 0.0, .meaning = "roll, pitch and yaw, about the mass centre"});
+    {.unit = "kg m2", .above = 0.0, .meaning = "roll, pitch and yaw, about the mass center"});
   v("inertia_xz", c.inertia_xz_kgm2, {.unit = "kg m2", .meaning = "product of inertia I_xz"});
 }
 

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-/// Exact motion of one rigid body. Frames: W north-east-down, B forward-right-down with its origin at the mass centre.
+/// Exact motion of one rigid body. Frames: W north-east-down, B forward-right-down with its origin at the mass center.
 namespace hedgehop::dynamics {
 
 inline constexpr double kGravityMps2 = 9.81;  ///< along W's z
@@ -23,7 +23,7 @@ RigidBodyState to_rigid_body(const RigidBodyVector& x);
 
 struct MassProperties {
   double mass_kg = 1.0;                                   ///< > 0
-  Eigen::Matrix3d I_B = Eigen::Matrix3d::Identity();      ///< inertia about the mass centre in B, kg m2
+  Eigen::Matrix3d I_B = Eigen::Matrix3d::Identity();      ///< inertia about the mass center in B, kg m2
   Eigen::Matrix3d I_B_inv = Eigen::Matrix3d::Identity();  ///< its inverse
 };
 /// @param principal_kgm2  I_xx, I_yy, I_zz. @param xz_kgm2  product of inertia I_xz (off-diagonal elements are -I_xz).
@@ -32,7 +32,7 @@ struct MassProperties {
 MassProperties make_mass_properties(double mass_kg, const Eigen::Vector3d& principal_kgm2, double xz_kgm2);
 
 /// Returns the time derivative of the state under gravity and the loads.
-/// @param f_B  force without gravity, in B, N. @param t_B  torque about the mass centre, in B, N m.
+/// @param f_B  force without gravity, in B, N. @param t_B  torque about the mass center, in B, N m.
 /// Source: [StevensLewis2003] sec. on flat-earth equations of motion.
 RigidBodyVector derivative(const MassProperties& mass, const RigidBodyState& state, const Eigen::Vector3d& f_B,
                            const Eigen::Vector3d& t_B);

@@ -6,15 +6,15 @@
 #include <numbers>
 #include <tuple>
 
-#include "dynamics/trim.h"
+#include "dynamics/helicopter/trim.h"
 
 namespace hedgehop::dynamics {
 namespace {
 
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
-SteadyFlight described(const Trim& t) {
-  const MainRotorLoads& main = t.loads.main_rotor;
+SteadyFlight described(const helicopter::Trim& t) {
+  const helicopter::MainRotorLoads& main = t.loads.main_rotor;
   return {t.roll_rad,
           t.pitch_rad,
           {{"phi", "deg", t.roll_rad * kDegPerRad, "Attitude", "roll"},
@@ -29,8 +29,8 @@ SteadyFlight described(const Trim& t) {
            {"P_t", "W", t.loads.tail_rotor.power_w, "Shaft power", "tail rotor"}}};
 }
 
-SteadyFlight described(const MulticopterModel& model, const MulticopterTrim& t) {
-  const Controls controls = wrench(model, t.state.speeds_radps);
+SteadyFlight described(const multicopter::MulticopterModel& model, const multicopter::MulticopterTrim& t) {
+  const Controls controls = multicopter::wrench(model, t.state.speeds_radps);
   return {t.roll_rad,
           t.pitch_rad,
           {{"phi", "deg", t.roll_rad * kDegPerRad, "Attitude", "roll"},
@@ -43,27 +43,27 @@ SteadyFlight described(const MulticopterModel& model, const MulticopterTrim& t) 
            {"omega_max", "rad/s", t.state.speeds_radps.maxCoeff(), "Rotor speeds", "fastest"}}};
 }
 
-std::optional<SteadyFlight> steady(const HelicopterConfig& config, const Eigen::Vector3d& v_air_W) {
-  const std::optional<Trim> found = trim(make_model(config), v_air_W);
+std::optional<SteadyFlight> steady(const helicopter::HelicopterConfig& config, const Eigen::Vector3d& v_air_W) {
+  const std::optional<helicopter::Trim> found = trim(make_model(config), v_air_W);
   return found ? std::optional(described(*found)) : std::nullopt;
 }
 
-std::optional<SteadyFlight> steady(const MulticopterConfig& config, const Eigen::Vector3d& v_air_W) {
-  const MulticopterModel model = make_model(config);
-  const std::optional<MulticopterTrim> found = trim(model, v_air_W);
+std::optional<SteadyFlight> steady(const multicopter::MulticopterConfig& config, const Eigen::Vector3d& v_air_W) {
+  const multicopter::MulticopterModel model = make_model(config);
+  const std::optional<multicopter::MulticopterTrim> found = trim(model, v_air_W);
   return found ? std::optional(described(model, *found)) : std::nullopt;
 }
 
-std::optional<NamedLinearSystem> linear(const HelicopterConfig& config, const Eigen::Vector3d& v_air_W) {
-  using L = LinearModel;
-  const HelicopterModel model = make_model(config);
-  const std::optional<Trim> found = trim(model, v_air_W);
+std::optional<NamedLinearSystem> linear(const helicopter::HelicopterConfig& config, const Eigen::Vector3d& v_air_W) {
+  using L = helicopter::LinearModel;
+  const helicopter::HelicopterModel model = make_model(config);
+  const std::optional<helicopter::Trim> found = trim(model, v_air_W);
   if (!found) return std::nullopt;
-  const L linear = linearise(model, *found);
+  const L linear = linearize(model, *found);
   static constexpr const char* kNames[L::kStates] = {"u",     "v",   "w", "p", "q", "r", "phi",
                                                      "theta", "psi", "a", "b", "c", "d"};
   NamedLinearSystem out{{}, {"theta_c", "delta_lat", "delta_lon", "theta_t"}, {}};
-  std::vector<int> kept;  // a lumped stabiliser bar has no states of its own
+  std::vector<int> kept;  // a lumped stabilizer bar has no states of its own
   for (int i = 0; i < L::kStates; ++i) {
     const bool bar = i == L::kBarBack || i == L::kBarRight;
     if (bar && linear.A.row(i).isZero(0.0) && linear.B.row(i).isZero(0.0)) continue;
@@ -81,11 +81,11 @@ std::optional<NamedLinearSystem> linear(const HelicopterConfig& config, const Ei
   return out;
 }
 
-std::optional<NamedLinearSystem> linear(const MulticopterConfig& config, const Eigen::Vector3d& v_air_W) {
-  const MulticopterModel model = make_model(config);
-  const std::optional<MulticopterTrim> found = trim(model, v_air_W);
+std::optional<NamedLinearSystem> linear(const multicopter::MulticopterConfig& config, const Eigen::Vector3d& v_air_W) {
+  const multicopter::MulticopterModel model = make_model(config);
+  const std::optional<multicopter::MulticopterTrim> found = trim(model, v_air_W);
   if (!found) return std::nullopt;
-  const MulticopterLinearModel linear = linearise(model, *found);
+  const multicopter::MulticopterLinearModel linear = linearize(model, *found);
   return NamedLinearSystem{{"u", "v", "w", "p", "q", "r", "phi", "theta", "psi", "T", "L", "M", "N"},
                            {"T_cmd", "L_cmd", "M_cmd", "N_cmd"},
                            {linear.A, linear.B}};
@@ -101,7 +101,7 @@ std::optional<NamedLinearSystem> linear_system(const VehicleConfig& vehicle, con
   return std::visit([&](const auto& config) { return linear(config, v_air_W); }, vehicle);
 }
 
-std::vector<Mode> modes(const DesignMatrix& A) {
+std::vector<Mode> modes(const control::DesignMatrix& A) {
   const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues();
   std::vector<Mode> out;
   for (Eigen::Index i = 0; i < values.size(); ++i) {

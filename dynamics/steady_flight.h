@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/control/lqr.h"
 #include "dynamics/controls.h"
-#include "dynamics/lqr.h"
 #include "dynamics/vehicle.h"
 
 /// Steady flight of any vehicle and its motion near it, for people who study vehicles.
@@ -33,7 +33,7 @@ std::optional<SteadyFlight> steady_flight(const VehicleConfig& vehicle, const Ei
 /// helicopter's servos are not.
 struct NamedLinearSystem {
   std::vector<std::string> states, inputs;  ///< names, with units where they are not SI
-  LinearSystem system;
+  control::LinearSystem system;
 };
 /// Returns the linear model of level flight at `v_air_W`, or nothing where there is no trim. Throws as steady_flight().
 std::optional<NamedLinearSystem> linear_system(const VehicleConfig& vehicle, const Eigen::Vector3d& v_air_W);
@@ -45,6 +45,6 @@ struct Mode {
   double damping = 0.0;             ///< -Re / magnitude; below 0 it grows
 };
 /// Returns the modes of dx/dt = A x, slowest first.
-std::vector<Mode> modes(const DesignMatrix& A);
+std::vector<Mode> modes(const control::DesignMatrix& A);
 
 }  // namespace hedgehop::dynamics

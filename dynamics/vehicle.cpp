@@ -3,10 +3,10 @@
 namespace hedgehop::dynamics {
 namespace {
 
-using AnyFlight = std::variant<HelicopterFlight, MulticopterFlight>;
+using AnyFlight = std::variant<helicopter::HelicopterFlight, multicopter::MulticopterFlight>;
 
-AnyFlight make_flight(const HelicopterConfig& config) { return HelicopterFlight(config); }
-AnyFlight make_flight(const MulticopterConfig& config) { return MulticopterFlight(config); }
+AnyFlight make_flight(const helicopter::HelicopterConfig& config) { return helicopter::HelicopterFlight(config); }
+AnyFlight make_flight(const multicopter::MulticopterConfig& config) { return multicopter::MulticopterFlight(config); }
 AnyFlight make_flight(const VehicleConfig& config) {
   return std::visit([](const auto& c) { return make_flight(c); }, config);
 }

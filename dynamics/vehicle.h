@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "dynamics/controls.h"
-#include "dynamics/helicopter_flight.h"
+#include "dynamics/helicopter/helicopter_flight.h"
 #include "dynamics/hull.h"
-#include "dynamics/multicopter_flight.h"
+#include "dynamics/multicopter/multicopter_flight.h"
 #include "dynamics/rigid_body.h"
 
 namespace hedgehop::dynamics {
 
 /// The vehicles that can fly; the YAML key `type` picks one.
-using VehicleConfig = std::variant<HelicopterConfig, MulticopterConfig>;
+using VehicleConfig = std::variant<helicopter::HelicopterConfig, multicopter::MulticopterConfig>;
 
 /// Returns the convex pieces a vehicle is made of, in B. Throws std::invalid_argument when one has no size.
 std::vector<HullPart> hull(const VehicleConfig& config);
@@ -48,7 +48,7 @@ class Vehicle {
   bool within_validity() const;
 
  private:
-  std::variant<HelicopterFlight, MulticopterFlight> flight_;
+  std::variant<helicopter::HelicopterFlight, multicopter::MulticopterFlight> flight_;
 };
 
 }  // namespace hedgehop::dynamics

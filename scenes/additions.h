@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "scenes/mesh_import.h"
+#include "scenes/mesh/mesh_import.h"
 #include "scenes/movers.h"
 
 namespace hedgehop::scenes {
@@ -10,7 +10,7 @@ namespace hedgehop::scenes {
 /// What any scene can have besides what its generator makes.
 struct Additions {
   std::vector<MoverConfig> movers;
-  std::vector<ImportConfig> imports;
+  std::vector<mesh::ImportConfig> imports;
 };
 
 template <class Visitor>

@@ -15,9 +15,9 @@ struct Clearing {
 
 template <class Visitor>
 void describe(Visitor& v, Clearing& c) {
-  v("north", c.north_m, {.unit = "m", .meaning = "centre of the disc, north of the origin"});
-  v("east", c.east_m, {.unit = "m", .meaning = "centre of the disc, east of the origin"});
-  v("radius", c.radius_m, {.unit = "m", .at_least = 0.0, .meaning = "nothing stands nearer to the centre than this"});
+  v("north", c.north_m, {.unit = "m", .meaning = "center of the disc, north of the origin"});
+  v("east", c.east_m, {.unit = "m", .meaning = "center of the disc, east of the origin"});
+  v("radius", c.radius_m, {.unit = "m", .at_least = 0.0, .meaning = "nothing stands nearer to the center than this"});
 }
 
 }  // namespace hedgehop::scenes

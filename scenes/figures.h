@@ -15,7 +15,7 @@ struct SceneFigures {
   double smallest_gap_m = 0.0;  ///< of all solids; +inf without two that do not touch
   double median_gap_m = 0.0;    ///< over the solids, the upper one of two; +inf without two that do not touch
   double covered_share = 0.0;   ///< of Scene::bounds_NE_m, by solids that stand on the ground and do not overlap
-  double density_pm2 = 0.0;     ///< solids that stand on the ground inside of the bounds, to a square metre of them
+  double density_pm2 = 0.0;     ///< solids that stand on the ground inside of the bounds, to a square meter of them
 };
 
 /// Heights above W's origin, m.

@@ -3,21 +3,22 @@
 #include <cstdint>
 #include <variant>
 
-#include "scenes/balloon.h"
-#include "scenes/corridor.h"
-#include "scenes/forest.h"
-#include "scenes/highrise.h"
-#include "scenes/park.h"
-#include "scenes/room.h"
 #include "scenes/scene.h"
-#include "scenes/tree.h"
-#include "scenes/urban.h"
-#include "scenes/wall.h"
+#include "scenes/worlds/balloon.h"
+#include "scenes/worlds/corridor.h"
+#include "scenes/worlds/forest.h"
+#include "scenes/worlds/highrise.h"
+#include "scenes/worlds/park.h"
+#include "scenes/worlds/room.h"
+#include "scenes/worlds/tree.h"
+#include "scenes/worlds/urban.h"
+#include "scenes/worlds/wall.h"
 
 namespace hedgehop::scenes {
 
-using SceneConfig = std::variant<UrbanConfig, RoomConfig, TreeConfig, ForestConfig, CorridorConfig, HighriseConfig,
-                                 BalloonConfig, WallConfig, ParkConfig>;
+using SceneConfig = std::variant<worlds::UrbanConfig, worlds::RoomConfig, worlds::TreeConfig, worlds::ForestConfig,
+                                 worlds::CorridorConfig, worlds::HighriseConfig, worlds::BalloonConfig,
+                                 worlds::WallConfig, worlds::ParkConfig>;
 
 /// Returns the scene of `config`: equal arguments give equal scenes, bit for bit.
 /// @throws std::invalid_argument naming the field, its value and what is valid.

@@ -48,21 +48,21 @@ struct OrbitMotion {
   static constexpr std::string_view kName = "orbit";
   static constexpr std::string_view kMeaning = "a level circle at one speed";
 
-  double north_m = 0.0, east_m = 0.0, altitude_m = 0.0;  ///< of the centre
+  double north_m = 0.0, east_m = 0.0, altitude_m = 0.0;  ///< of the center
   double radius_m = 5.0;
   double speed_mps = 1.0;    ///< > 0: clockwise seen from above, north to east
-  double bearing_rad = 0.0;  ///< of the mover seen from the centre at the start, from north to east
+  double bearing_rad = 0.0;  ///< of the mover seen from the center at the start, from north to east
   double start_s = 0.0;      ///< at rest until then
 };
 
 template <class Visitor>
 void describe(Visitor& v, OrbitMotion& c) {
-  v("north", c.north_m, {.unit = "m", .meaning = "centre, north of the origin"});
-  v("east", c.east_m, {.unit = "m", .meaning = "centre, east of the origin"});
+  v("north", c.north_m, {.unit = "m", .meaning = "center, north of the origin"});
+  v("east", c.east_m, {.unit = "m", .meaning = "center, east of the origin"});
   v("altitude", c.altitude_m, {.unit = "m", .meaning = "of the mover's foot above the origin"});
   v("radius", c.radius_m, {.unit = "m", .above = 0.0, .meaning = "of the circle"});
   v("speed", c.speed_mps, {.unit = "m/s", .meaning = "along the circle; clockwise seen from above when positive"});
-  v("bearing", c.bearing_rad, {.unit = "deg", .meaning = "seen from the centre at the start, from north to east"});
+  v("bearing", c.bearing_rad, {.unit = "deg", .meaning = "seen from the center at the start, from north to east"});
   v("start", c.start_s, {.unit = "s", .at_least = 0.0, .meaning = "at rest until then"});
 }
 

@@ -27,11 +27,11 @@ void describe(Visitor& v, MoverConfig& c) {
      .meaning = "a balloon on a thin pole, an upright cylinder, a square pillar, a tree"});
   v("radius", c.radius_m, {.unit = "m", .above = 0.0, .meaning = "of balloon, pole or crown; half the width of a box"});
   v("height", c.height_m,
-    {.unit = "m", .above = 0.0, .meaning = "of the top, or of the balloon's centre, above the foot"});
+    {.unit = "m", .above = 0.0, .meaning = "of the top, or of the balloon's center, above the foot"});
   v("motion", c.motion, {.meaning = "how the foot travels"});
 }
 
-/// Adds movers to a scene, with the pictures they need, as large as those that are there.
+/// Adds movers to a scene, with the images they need, as large as those that are there.
 /// @param seed  of the stream that belongs to the movers alone.
 /// @throws std::invalid_argument naming the field, its value and what is valid.
 void add_movers(const std::vector<MoverConfig>& movers, uint64_t seed, Scene& scene);

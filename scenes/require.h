@@ -10,7 +10,7 @@ namespace hedgehop::scenes {
 /// Throws std::invalid_argument "<field>: <value>; valid: <valid>" unless `holds`.
 void require(bool holds, std::string_view field, double value, std::string_view valid);
 
-/// Requires finite centres and radii of at least 0.
+/// Requires finite centers and radii of at least 0.
 void require_clearings(const std::vector<Clearing>& clearings);
 
 /// Requires a power of two within 64..2048.

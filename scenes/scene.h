@@ -17,8 +17,8 @@ namespace hedgehop::scenes {
 struct Vertex {
   Eigen::Vector3f p_W = Eigen::Vector3f::Zero();    ///< m
   Eigen::Vector3f n_W = -Eigen::Vector3f::UnitZ();  ///< unit outward normal
-  Eigen::Vector2f uv = Eigen::Vector2f::Zero();  ///< 1 = one repeat; row 0 of the picture at v = 0, v grows downwards
-  uint32_t texture = 0;                          ///< index into Scene::textures
+  Eigen::Vector2f uv = Eigen::Vector2f::Zero();     ///< 1 = one repeat; row 0 of the image at v = 0, v grows downwards
+  uint32_t texture = 0;                             ///< index into Scene::textures
 };
 
 /// Those of a chunk's triangles that are enough from far away. Movers are drawn whole from anywhere.
@@ -56,14 +56,14 @@ struct Mover {
   Motion motion;
 };
 
-/// Ambient light plus one sun, without colour, so that a grey picture equals the mean of the colour picture's channels.
+/// Ambient light plus one sun, without color, so that a grey image equals the mean of the color image's channels.
 struct Lights {
   float ambient = 0.55f;  ///< share of albedo, 0..1
   float sun = 0.45f;      ///< share of albedo at normal incidence, 0..1
   Eigen::Vector3f to_sun_W = Eigen::Vector3f(0.5f, -0.3f, -0.8f).normalized();
 };
 
-/// Colour above the horizon: a vertical gradient, RGB 0..1. A closed room has no sky to see, yet needs no special case.
+/// Color above the horizon: a vertical gradient, RGB 0..1. A closed room has no sky to see, yet needs no special case.
 struct Sky {
   Eigen::Vector3f horizon = {0.80f, 0.86f, 0.92f};
   Eigen::Vector3f zenith = {0.45f, 0.62f, 0.85f};

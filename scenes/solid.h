@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <string>
 
-#include "scenes/polyhedron.h"
+#include "scenes/mesh/polyhedron.h"
 
 namespace hedgehop::scenes {
 
@@ -21,7 +21,7 @@ struct Solid {
   Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();
   Eigen::Vector3d half_extents_m = Eigen::Vector3d::Ones();  ///< > 0; the polyhedra do not need them
   Shape shape = Shape::box;
-  Polyhedron polyhedron = {};  ///< in S, of hulls and surfaces only
+  mesh::Polyhedron polyhedron = {};  ///< in S, of hulls and surfaces only
 };
 
 /// Returns the smallest box along the axes of W that holds a solid (of a tilted cylinder: its enclosing box).

@@ -1,16 +1,16 @@
-#include "avoidance/corridor_law.h"
+#include "avoidance/corridor_centering/centering_law.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::corridor_centering {
 
 double printed_control(const CenteringGains& gains, double error, double last_error) {
   return (gains.kp + gains.kd) * error - gains.kp * last_error;
 }
 
-double pursuit_course_rad(const vision::Gap& gap, double ahead_m, double most_rad) {
-  const double course_rad = std::atan2(vision::middle_offset_m(gap.left_m, gap.right_m), ahead_m);
+double pursuit_course_rad(const vision::corridor::Gap& gap, double ahead_m, double most_rad) {
+  const double course_rad = std::atan2(vision::corridor::middle_offset_m(gap.left_m, gap.right_m), ahead_m);
   return std::clamp(course_rad, -most_rad, most_rad);
 }
 
@@ -22,4 +22,4 @@ double clearance_speed_mps(double aside_m, double ahead_m, const SpeedLimits& li
   return std::min({limits.speed_mps, std::max(0.0, aside_m) / limits.aside_s, stopping_mps});
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::corridor_centering

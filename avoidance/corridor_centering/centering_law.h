@@ -1,9 +1,9 @@
 #pragma once
 
-#include "vision/corridor_flow.h"
+#include "vision/corridor/corridor_flow.h"
 
 /// How corridor_centering steers, as pure functions. Frame H: B turned level, x along the heading, y to the right.
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::corridor_centering {
 
 /// The printed controller's gains. Source: [Zingg2010] eq. (13) and (14).
 struct CenteringGains {
@@ -17,7 +17,7 @@ void describe(Visitor& v, CenteringGains& c) {
   v("kd", c.kd, {.at_least = 0.0, .meaning = "on the error itself"});
 }
 
-/// Returns C(z) = ((kp + kD) z - kp) / z of the centring error: roll to the right, rad, and as well turn rate to the
+/// Returns C(z) = ((kp + kD) z - kp) / z of the centering error: roll to the right, rad, and as well turn rate to the
 /// right, rad/s. Its steady gain is kD and kp multiplies the difference, the reverse of what the letters suggest.
 /// @param error, last_error  e_n now and one sample ago, -1..1. Source: [Zingg2010] eq. (12).
 double printed_control(const CenteringGains& gains, double error, double last_error);
@@ -26,7 +26,7 @@ double printed_control(const CenteringGains& gains, double error, double last_er
 /// Flown at any speed, an offset from a straight corridor's middle falls by e in every `ahead_m` of way and cannot
 /// overshoot; the printed controller acts on acceleration, and its settling takes a fixed time, at any speed.
 /// @param gap  both sides known. @param ahead_m  > 0.
-double pursuit_course_rad(const vision::Gap& gap, double ahead_m, double most_rad);
+double pursuit_course_rad(const vision::corridor::Gap& gap, double ahead_m, double most_rad);
 
 /// What the speed leaves time for.
 struct SpeedLimits {
@@ -50,4 +50,4 @@ void describe(Visitor& v, SpeedLimits& c) {
 /// @param aside_m, ahead_m  clearances of the hull, m; below 0 counts as 0, +inf is nothing there.
 double clearance_speed_mps(double aside_m, double ahead_m, const SpeedLimits& limits);
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::corridor_centering

@@ -1,4 +1,4 @@
-#include "avoidance/corridor_centering.h"
+#include "avoidance/corridor_centering/corridor_centering.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "avoidance/corridor_picture.h"
+#include "avoidance/corridor_centering/corridor_overlay.h"
 #include "avoidance/heading.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::corridor_centering {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -78,11 +78,11 @@ class CorridorCentering final : public Module {
         std::isfinite(m.free_s) ? m.free_s : kUnknown,
         view && looked ? view->direction_rad : kUnknown,
         view && looked && view->approach ? view->approach->rate_per_s : kUnknown,
-        view && looked ? -vision::middle_offset_m(view->left.distance_m, view->right.distance_m) : kUnknown};
+        view && looked ? -vision::corridor::middle_offset_m(view->left.distance_m, view->right.distance_m) : kUnknown};
     return decision;
   }
 
-  /// Takes in the picture, if there is one. @return whether it tells of walls, known or not.
+  /// Takes in the image, if there is one. @return whether it tells of walls, known or not.
   bool look(const Observation& observation) {
     const auto frame = std::ranges::find(observation.frames, CorridorSight::kRole, &CameraFrame::role);
     if (frame == observation.frames.end()) return false;
@@ -99,7 +99,8 @@ class CorridorCentering final : public Module {
       m.dark_ns = observation.t_ns;
     }
     if (m.view->v_H.norm() > kStanding_mps) {
-      m.free_s = vision::free_time_s(m.view->points, m.view->v_H, m.radius_m + config_.margin_m, config_.gap.least);
+      m.free_s =
+          vision::corridor::free_time_s(m.view->points, m.view->v_H, m.radius_m + config_.margin_m, config_.gap.least);
       if (m.view->approach && m.view->approach->rate_per_s > 0.0) {
         m.free_s = std::min(m.free_s, 1.0 / m.view->approach->rate_per_s);
       }
@@ -108,7 +109,7 @@ class CorridorCentering final : public Module {
       ++m.unknown;
       return true;
     }
-    const vision::Gap gap = vision::gap_ahead(m.view->points, config_.gap);
+    const vision::corridor::Gap gap = vision::corridor::gap_ahead(m.view->points, config_.gap);
     const bool follows = m.known_ns >= 0 && seconds(observation.t_ns - m.known_ns) <= config_.patience_s;
     const double share =
         follows ? -std::expm1(-seconds(observation.t_ns - m.known_ns) / std::max(config_.smoothing_s, 1e-9)) : 1.0;
@@ -204,14 +205,14 @@ class CorridorCentering final : public Module {
   std::vector<Metric> do_metrics() const override {
     std::vector<int> vectors = memory_.vectors;
     std::ranges::sort(vectors);
-    const auto pictures = static_cast<double>(vectors.size());
+    const auto images = static_cast<double>(vectors.size());
     return {{"vectors_median", vectors.empty() ? 0.0 : vectors[vectors.size() / 2], ""},
-            {"unknown_share", vectors.empty() ? 1.0 : memory_.unknown / pictures, ""},
+            {"unknown_share", vectors.empty() ? 1.0 : memory_.unknown / images, ""},
             {"hover_time_s", memory_.hover_s, "s"}};
   }
 
   cv::Mat do_annotate() const override {
-    if (!sight_ || sight_->picture().empty()) return {};
+    if (!sight_ || sight_->image().empty()) return {};
     const CorridorView* view = memory_.view ? &*memory_.view : nullptr;
     CorridorScene scene{view, memory_.gap, memory_.course_rad, memory_.radius_m, memory_.status};
     if (view) {
@@ -219,7 +220,7 @@ class CorridorCentering final : public Module {
       if (!std::isnan(view->error))
         scene.caption += "  error " + std::to_string(std::lround(100.0 * view->error)) + " %";
     }
-    return corridor_picture(*sight_, scene);
+    return corridor_overlay(*sight_, scene);
   }
 
   static constexpr double kTurn_rad = 25.0 * std::numbers::pi / 180.0;  ///< then what lies ahead is another thing
@@ -227,8 +228,8 @@ class CorridorCentering final : public Module {
   /// All that changes in flight.
   struct Memory {
     double radius_m = 0.0;
-    std::optional<CorridorView> view;  ///< of the last picture
-    vision::Gap gap{kUnknown, kUnknown};
+    std::optional<CorridorView> view;  ///< of the last image
+    vision::corridor::Gap gap{kUnknown, kUnknown};
     double free_s = std::numeric_limits<double>::infinity();  ///< until the hull meets what lies straight ahead
     int64_t t_ns = -1, begun_ns = -1;
     int64_t known_ns = -1;    ///< when both sides were known last
@@ -246,8 +247,8 @@ class CorridorCentering final : public Module {
     std::optional<double> turn_from_rad;  ///< heading at which the way was blocked
     double turn = 1.0;                    ///< to the right
 
-    std::vector<int> vectors;  ///< good ones of both sides, picture by picture
-    int unknown = 0;           ///< pictures without an error
+    std::vector<int> vectors;  ///< good ones of both sides, image by image
+    int unknown = 0;           ///< images without an error
     double hover_s = 0.0;
   };
 
@@ -262,4 +263,4 @@ std::unique_ptr<Module> make_corridor_centering(const CorridorCenteringConfig& c
   return std::make_unique<CorridorCentering>(config);
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::corridor_centering

@@ -4,11 +4,11 @@
 #include <numbers>
 #include <string_view>
 
-#include "avoidance/corridor_law.h"
-#include "avoidance/corridor_sight.h"
+#include "avoidance/corridor_centering/centering_law.h"
+#include "avoidance/corridor_centering/corridor_sight.h"
 #include "avoidance/module.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::corridor_centering {
 
 /// Keeps to the middle of a corridor by the flow that a fisheye sees of its walls.
 /// Source: [Zingg2010] sec. IV, law `printed` sec. V-C; law `pursuit` and the care for what lies ahead are ours.
@@ -26,7 +26,7 @@ struct CorridorCenteringConfig {
   double sample_s = 0.5;                              ///< [Zingg2010] sec. V-C
   double pitch_rad = 0.5 * std::numbers::pi / 180.0;  ///< nose down; [Zingg2010] sec. V-C
 
-  vision::GapConfig gap;
+  vision::corridor::GapConfig gap;
   double smoothing_s = 0.25;
   double lookahead_m = 1.5;
   double heading_s = 0.7;
@@ -44,7 +44,7 @@ void describe(Visitor& v, CorridorCenteringConfig& c) {
     {.choices = {"printed", "pursuit"},
      .meaning = "printed: roll and turn rate by the paper's controller, at constant pitch; pursuit: fly towards the "
                 "middle of the gap ahead"});
-  v("sight", c.sight, {.meaning = "from the pictures of camera 'fisheye' to the places of walls"});
+  v("sight", c.sight, {.meaning = "from the images of camera 'fisheye' to the places of walls"});
   v("patience", c.patience_s,
     {.unit = "s", .at_least = 0.0, .meaning = "how long it flies by what it saw last when nothing new is known"});
   v("gains", c.gains, {.meaning = "printed: the controller's"});
@@ -76,4 +76,4 @@ void describe(Visitor& v, CorridorCenteringConfig& c) {
 /// Throws std::invalid_argument on a bad config.
 std::unique_ptr<Module> make_corridor_centering(const CorridorCenteringConfig& config);
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::corridor_centering

@@ -8,34 +8,34 @@
 #include <vector>
 
 #include "avoidance/module.h"
-#include "vision/approach.h"
-#include "vision/corridor_flow.h"
-#include "vision/picture_turner.h"
+#include "vision/camera/image_derotator.h"
+#include "vision/corridor/approach.h"
+#include "vision/corridor/corridor_flow.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::corridor_centering {
 
-/// What a fisheye that looks down tells of a corridor, picture by picture.
+/// What a fisheye that looks down tells of a corridor, image by image.
 struct CorridorView {
-  std::vector<vision::WallPoint> points;
-  double direction_rad = 0.0;                     ///< of the walls, to the right of the heading; 0 as printed
-  vision::SideDistance left, right;               ///< medians of the sides, across that direction
-  double error = 0.0;                             ///< e_n, NaN when a side is unknown
-  int corners_left = 0, corners_right = 0;        ///< followed at the sides, whatever their flow
-  Eigen::Vector2d v_H = Eigen::Vector2d::Zero();  ///< mean horizontal velocity between the pictures, m/s
-  std::optional<vision::Approach> approach;       ///< of what lies ahead; nothing when too little is seen of it
+  std::vector<vision::corridor::WallPoint> points;
+  double direction_rad = 0.0;                          ///< of the walls, to the right of the heading; 0 as printed
+  vision::corridor::SideDistance left, right;          ///< medians of the sides, across that direction
+  double error = 0.0;                                  ///< e_n, NaN when a side is unknown
+  int corners_left = 0, corners_right = 0;             ///< followed at the sides, whatever their flow
+  Eigen::Vector2d v_H = Eigen::Vector2d::Zero();       ///< mean horizontal velocity between the images, m/s
+  std::optional<vision::corridor::Approach> approach;  ///< of what lies ahead; nothing when too little is seen of it
 };
 
 struct CorridorSightConfig {
-  /// `rays` is the paper's; `picture` turns the newer picture back before corners are followed.
-  enum class Derotation { rays, picture };
-  Derotation derotation = Derotation::picture;
+  /// `rays` is the paper's; `image` turns the newer image back before corners are followed.
+  enum class Derotation { rays, image };
+  Derotation derotation = Derotation::image;
   /// `heading` is the paper's; `walls` does not take a nose turned aside for an offset.
   enum class Across { heading, walls };
   Across across = Across::walls;
-  vision::FeatureFlowConfig features;
-  vision::CorridorRegions regions;
-  vision::FlowLimits limits;
-  vision::ApproachConfig approach;
+  vision::flow::FeatureFlowConfig features;
+  vision::corridor::CorridorRegions regions;
+  vision::corridor::FlowLimits limits;
+  vision::corridor::ApproachConfig approach;
   int least_vectors = 12;
   double most_slow = 0.5;
   double most_turned_rad = 50.0 * std::numbers::pi / 180.0;
@@ -45,9 +45,9 @@ struct CorridorSightConfig {
 template <class Visitor>
 void describe(Visitor& v, CorridorSightConfig& c) {
   v("derotation", c.derotation,
-    {.choices = {"rays", "picture"},
+    {.choices = {"rays", "image"},
      .meaning = "how the vehicle's own turning is taken away: from each followed corner's ray, or from the newer "
-                "picture before corners are followed"});
+                "image before corners are followed"});
   v("across", c.across,
     {.choices = {"heading", "walls"}, .meaning = "whether distances aside are square to the heading or to the walls"});
   v("features", c.features, {.meaning = "how corners are found and followed"});
@@ -70,7 +70,7 @@ void describe(Visitor& v, CorridorSightConfig& c) {
     {.unit = "s", .at_least = 0.0, .at_most = 0.1, .meaning = "by which the attitude estimated lags, as the gyros do"});
 }
 
-/// The camera, its last picture and where the vehicle was then.
+/// The camera, its last image and where the vehicle was then.
 class CorridorSight {
  public:
   static constexpr const char* kRole = "fisheye";
@@ -78,24 +78,25 @@ class CorridorSight {
   /// Throws std::invalid_argument on a bad config. @param camera  looks down or so; any lens.
   CorridorSight(const CorridorSightConfig& config, const MountedCamera& camera);
 
-  /// Takes in a picture. @return what it shows together with the one before; nothing for the first.
+  /// Takes in an image. @return what it shows together with the one before; nothing for the first.
   std::optional<CorridorView> update(const CameraFrame& frame, const NavigationState& navigation);
 
-  const cv::Mat& picture() const { return picture_; }  ///< CV_8UC1, the last
-  const std::array<cv::Mat, vision::kRegions>& regions() const { return regions_; }
+  const cv::Mat& image() const { return image_; }  ///< CV_8UC1, the last
+  const std::array<cv::Mat, vision::corridor::kRegions>& regions() const { return regions_; }
 
  private:
-  vision::CameraMotion motion(const NavigationState& now, double dt_s) const;
-  vision::SideDistance side(const std::vector<vision::WallPoint>& points, vision::Region side) const;
+  vision::corridor::CameraMotion motion(const NavigationState& now, double dt_s) const;
+  vision::corridor::SideDistance side(const std::vector<vision::corridor::WallPoint>& points,
+                                      vision::corridor::Region side) const;
 
   CorridorSightConfig config_;
   MountedCamera camera_;
-  std::array<cv::Mat, vision::kRegions> regions_;
-  vision::PictureTurner turner_;
-  vision::ApproachMeter approach_;
-  cv::Mat picture_;
+  std::array<cv::Mat, vision::corridor::kRegions> regions_;
+  vision::camera::ImageDerotator turner_;
+  vision::corridor::ApproachMeter approach_;
+  cv::Mat image_;
   int64_t t_ns_ = -1;
-  NavigationState navigation_;  ///< at the last picture, without the lag
+  NavigationState navigation_;  ///< at the last image, without the lag
 };
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::corridor_centering

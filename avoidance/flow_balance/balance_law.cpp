@@ -1,8 +1,8 @@
-#include "avoidance/balance_law.h"
+#include "avoidance/flow_balance/balance_law.h"
 
 #include <cmath>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 
 double saturated_divisor(double velocity_mps, double floor_mps) {
   if (std::abs(velocity_mps) >= floor_mps) return velocity_mps;
@@ -30,4 +30,4 @@ Eigen::Vector2d push_from_nearest(std::span<const WallSense> senses, double gain
   return push;
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

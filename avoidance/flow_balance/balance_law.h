@@ -5,12 +5,12 @@
 
 /// The steering laws of [Garratt2009] sec. 4 as pure functions. Frame H: B turned level, x along the heading, y to the
 /// right.
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 
 /// What one camera senses of the walls it looks at.
 struct WallSense {
   Eigen::Vector2d axis_H = Eigen::Vector2d::UnitX();   ///< where it looks: C's z, level part
-  Eigen::Vector2d right_H = Eigen::Vector2d::UnitY();  ///< to the right in its picture: C's x, level part
+  Eigen::Vector2d right_H = Eigen::Vector2d::UnitY();  ///< to the right in its image: C's x, level part
   double flow_radps = 0.0;                             ///< mean horizontal flow Q
   double loom_per_s = 0.0;                             ///< loom L, > 0 when approaching
   double near_per_m = 0.0;                             ///< inverse range of the nearest patches, >= 0
@@ -45,4 +45,4 @@ Eigen::Vector2d push_from_walls(std::span<const WallSense> senses, const Eigen::
 /// right angles to a camera's axis, and unlike it also holds for what a camera sees at its edge or ahead of the motion.
 Eigen::Vector2d push_from_nearest(std::span<const WallSense> senses, double gain_m2ps);
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

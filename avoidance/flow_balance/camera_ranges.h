@@ -4,26 +4,26 @@
 #include <vector>
 
 #include "avoidance/camera_flow.h"
-#include "avoidance/lasting_ranges.h"
-#include "avoidance/range_memory.h"
+#include "avoidance/flow_balance/lasting_ranges.h"
+#include "avoidance/flow_balance/range_memory.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 
 /// Returns the velocity of a camera mounted at `X_BC`, as estimated, in C, m/s.
 Eigen::Vector3d velocity_in_camera(const Eigen::Isometry3d& X_BC, const NavigationState& navigation);
 
-/// Inverse ranges of one camera's patches, each by its own flow, from picture to picture.
+/// Inverse ranges of one camera's patches, each by its own flow, from image to image.
 class CameraRanges {
  public:
   struct Options {
-    double floor_mps = 0.2;  ///< see vision::inverse_depth_per_m(), > 0
+    double floor_mps = 0.2;  ///< see vision::flow::inverse_depth_per_m(), > 0
     double memory_s = 0.0;   ///< see RangeMemory, >= 0
-    int pictures = 3;        ///< see LastingRanges, at least 1
+    int images = 3;          ///< see LastingRanges, at least 1
   };
   explicit CameraRanges(const Options& options)
-      : options_(options), memory_(options.memory_s), lasting_(options.pictures) {}
+      : options_(options), memory_(options.memory_s), lasting_(options.images) {}
 
-  /// Takes in a camera's newest flow, `dt_s` (> 0) after the picture before.
+  /// Takes in a camera's newest flow, `dt_s` (> 0) after the image before.
   void update(const CameraFlow& camera, const NavigationState& navigation, double dt_s);
 
   /// Inverse horizontal range of every patch, 1/m, >= 0; 0 for what is far or unknown.
@@ -35,4 +35,4 @@ class CameraRanges {
   LastingRanges lasting_;
 };
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

@@ -6,9 +6,9 @@
 
 #include "avoidance/camera_flow.h"
 #include "avoidance/module.h"
-#include "vision/wall_flow.h"
+#include "vision/flow/wall_flow.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 
 struct WallOptions {
   double flow_noise_px = 0.1;   ///< standard deviation of a flow vector, per axis, > 0
@@ -18,7 +18,7 @@ struct WallOptions {
 /// Returns the upright walls round a vehicle by the newest flow of all its cameras, in frame H (B turned level, x along
 /// the heading). Tilt is left out: the cameras' axes are taken level as they are mounted in B.
 /// @param cameras  derotated, looking level. @param now_ns  measures that are too old by then are left aside.
-std::vector<vision::SeenWall> walls_round(std::span<const CameraFlow> cameras, const NavigationState& navigation,
-                                          int64_t now_ns, const WallOptions& options);
+std::vector<vision::flow::SeenWall> walls_round(std::span<const CameraFlow> cameras, const NavigationState& navigation,
+                                                int64_t now_ns, const WallOptions& options);
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

@@ -1,6 +1,6 @@
-#include "avoidance/detour.h"
+#include "avoidance/flow_balance/detour.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 
 double Detour::update(double goal_distance_m, double t_s) {
   constexpr double kProgress_m = 3.0;  // more than the position estimate wanders in a few seconds
@@ -18,4 +18,4 @@ double Detour::update(double goal_distance_m, double t_s) {
   return side_ * config_.angle_rad;
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 
 /// Leaves limit cycles on the way to a goal: when the goal has come no nearer for a while, the aim is turned aside for
 /// a while, to the one side and, if that did not help, to the other. [Garratt2009] sec. 4.1 turns the aim all the time
@@ -30,4 +30,4 @@ class Detour {
   int count_ = 0;
 };
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

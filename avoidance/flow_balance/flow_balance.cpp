@@ -1,4 +1,4 @@
-#include "avoidance/flow_balance.h"
+#include "avoidance/flow_balance/flow_balance.h"
 
 #include <algorithm>
 #include <array>
@@ -8,18 +8,18 @@
 #include <optional>
 #include <stdexcept>
 
-#include "avoidance/balance_law.h"
 #include "avoidance/camera_flow.h"
-#include "avoidance/camera_ranges.h"
-#include "avoidance/camera_walls.h"
-#include "avoidance/detour.h"
-#include "avoidance/flow_picture.h"
+#include "avoidance/flow_balance/balance_law.h"
+#include "avoidance/flow_balance/camera_ranges.h"
+#include "avoidance/flow_balance/camera_walls.h"
+#include "avoidance/flow_balance/detour.h"
+#include "avoidance/flow_balance/flow_overlay.h"
+#include "avoidance/flow_balance/zig_zag.h"
 #include "avoidance/go_to_goal.h"
 #include "avoidance/heading.h"
-#include "avoidance/zig_zag.h"
-#include "vision/flow_range.h"
+#include "vision/flow/flow_range.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 namespace {
 
 constexpr std::array<const char*, 4> kRoles = {"left", "right", "front", "rear"};
@@ -40,7 +40,7 @@ void check(const FlowBalanceConfig& c) {
   need(c.command_time_constant_s >= 0.0, "command_time_constant must be at least 0 s");
   need(c.forward_speed_mps > 0.0 && c.sideways_speed_mps > 0.0, "simple: speeds must be above 0 m/s");
   need(c.range_threshold_m > 0.0, "simple: range_threshold must be above 0 m");
-  need(c.near_pictures >= 1, "near_pictures must be at least 1");
+  need(c.near_images >= 1, "near_images must be at least 1");
   need(c.braking_mps2 > 0.0 && c.reaction_s >= 0.0, "simple: braking must be above 0 m/s^2, reaction at least 0 s");
   need(c.way_angle_rad > 0.0 && c.way_angle_rad <= std::numbers::pi / 2, "simple: way_angle must lie in (0, 90] deg");
   need(c.range_memory_s >= 0.0, "range_memory must be at least 0 s");
@@ -77,8 +77,8 @@ class FlowBalance final : public Module {
 
   void do_reset(const Setup& setup) override {
     cameras_.clear();
-    const auto missing =
-        config_.average == FlowBalanceConfig::Average::all ? vision::Missing::far_away : vision::Missing::skip;
+    const auto missing = config_.average == FlowBalanceConfig::Average::all ? vision::flow::Missing::far_away
+                                                                            : vision::flow::Missing::skip;
     for (const std::string role : kRoles) {
       const auto mounted = std::find_if(setup.cameras.begin(), setup.cameras.end(),
                                         [&](const MountedCamera& camera) { return camera.role == role; });
@@ -91,7 +91,7 @@ class FlowBalance final : public Module {
                                     setup.seed});
     detour_.emplace(Detour::Config{config_.patience_s, config_.detour_angle_rad, config_.detour_duration_s});
     sense_.assign(kRoles.size(), {});
-    const CameraRanges::Options ranging{config_.divisor_floor_mps, config_.range_memory_s, config_.near_pictures};
+    const CameraRanges::Options ranging{config_.divisor_floor_mps, config_.range_memory_s, config_.near_images};
     ranges_.assign(kRoles.size(), CameraRanges(ranging));
     walls_.clear();
     v_cmd_W_.reset();
@@ -143,7 +143,7 @@ class FlowBalance final : public Module {
         if (fresh_[i] && config_.ranging == FlowBalanceConfig::Ranging::nearest) {
           ranges_[i].update(camera, observation.navigation, measure->dt_s);
         }
-        sense_[i].near_per_m = vision::nearest_inverse_range_per_m(ranges_[i].near_per_m(), config_.near_share);
+        sense_[i].near_per_m = vision::flow::nearest_inverse_range_per_m(ranges_[i].near_per_m(), config_.near_share);
         if (fresh_[i]) least_valid_share_ = std::min(least_valid_share_, measure->valid_share);
       }
     }
@@ -208,7 +208,7 @@ class FlowBalance final : public Module {
     if (!walls_.empty()) return nearest_wall_per_m(i, v_H, way_H, turns_whole);
     const Stopping stopping{config_.reaction_s, config_.braking_mps2};
     std::vector<double> near = ranges_[i].near_per_m();
-    const std::vector<double> bearings_rad = vision::bearings_rad(cameras_[i].field(), cameras_[i].pinhole());
+    const std::vector<double> bearings_rad = vision::flow::bearings_rad(cameras_[i].field(), cameras_[i].pinhole());
     for (size_t patch = 0; patch < near.size(); ++patch) {
       const Eigen::Vector2d to_patch_H =
           std::cos(bearings_rad[patch]) * sense_[i].axis_H + std::sin(bearings_rad[patch]) * sense_[i].right_H;
@@ -217,7 +217,7 @@ class FlowBalance final : public Module {
       const double stops_m = stopping_distance_m(closing_mps, closing_mps, stopping);
       near[patch] = on_the_way ? near_once_stopped_per_m(near[patch], stops_m) : 0.0;
     }
-    return vision::nearest_inverse_range_per_m(std::move(near), config_.near_share);
+    return vision::flow::nearest_inverse_range_per_m(std::move(near), config_.near_share);
   }
 
   /// The same from upright walls that face the camera, counted from the vehicle's side, so that the cameras' places do
@@ -227,7 +227,7 @@ class FlowBalance final : public Module {
     constexpr double kLeast_m = 1e-3;
     const Stopping stopping{config_.reaction_s, config_.braking_mps2};
     double nearest_per_m = 0.0;
-    for (const vision::SeenWall& wall : walls_) {
+    for (const vision::flow::SeenWall& wall : walls_) {
       const Eigen::Vector2d to_wall_H = wall.near_per_m.normalized();
       if (to_wall_H.dot(sense_[i].axis_H) < std::sqrt(0.5)) continue;  // another camera's
       if (way_H.dot(to_wall_H) <= 0.0) continue;
@@ -268,21 +268,21 @@ class FlowBalance final : public Module {
     for (size_t i = 0; i < cameras_.size(); ++i) {
       std::array<char, 64> text{};
       std::snprintf(text.data(), text.size(), "Q %+.3f rad/s  L %+.3f /s", sense_[i].flow_radps, sense_[i].loom_per_s);
-      tiles.push_back({kRoles[i], cameras_[i].picture(), &cameras_[i].field(), text.data()});
+      tiles.push_back({kRoles[i], cameras_[i].image(), &cameras_[i].field(), text.data()});
     }
     if (tiles.empty() || tiles.front().grey.empty()) return {};
     const cv::Scalar blue(90, 170, 255), green(90, 230, 110);
     const std::array<CompassArrow, 2> arrows = {
         CompassArrow{turned(v_tgt_W_, -heading_rad_), blue},
         CompassArrow{turned(v_cmd_W_.value_or(Eigen::Vector2d::Zero()), -heading_rad_), green}};
-    return flow_picture(tiles, arrows, 1.1 * std::max(config_.speed_mps, v_tgt_W_.norm()));
+    return flow_overlay(tiles, arrows, 1.1 * std::max(config_.speed_mps, v_tgt_W_.norm()));
   }
 
   FlowBalanceConfig config_;
   std::vector<CameraFlow> cameras_;  ///< in the order of kRoles, as are the next three
   std::vector<WallSense> sense_;
   std::vector<CameraRanges> ranges_;
-  std::vector<vision::SeenWall> walls_;
+  std::vector<vision::flow::SeenWall> walls_;
   std::array<bool, kRoles.size()> fresh_{};
   std::optional<Detour> detour_;
   std::optional<ZigZag> zig_zag_;
@@ -300,4 +300,4 @@ std::unique_ptr<Module> make_flow_balance(const FlowBalanceConfig& config) {
   return std::make_unique<FlowBalance>(config);
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

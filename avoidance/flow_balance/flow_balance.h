@@ -5,9 +5,9 @@
 #include <string_view>
 
 #include "avoidance/module.h"
-#include "vision/image_interpolation_flow.h"
+#include "vision/flow/image_interpolation_flow.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 
 /// Keeps away from walls by balancing optic flow and loom of cameras that look forward, aft, left and right.
 /// Source: [Garratt2009] sec. 4 (`simple`) and sec. 4.1, eq. (4) (`goal_directed`).
@@ -18,17 +18,17 @@ struct FlowBalanceConfig {
   enum class Scheme { simple, goal_directed };
   /// `all` suits open country and sky: what has no texture is taken as infinitely far, so a wall counts by the share of
   /// the view it fills. `valid` suits rooms, where a patch without texture is a bare wall; with walls in a part of the
-  /// view only, its mean flow is that of off-centre patches, in which motion along the axis shows too.
+  /// view only, its mean flow is that of off-center patches, in which motion along the axis shows too.
   enum class Average { valid, all };
   enum class Ranging { mean, nearest };
 
   Scheme scheme = Scheme::goal_directed;
-  vision::ImageInterpolationConfig flow;
+  vision::flow::ImageInterpolationConfig flow;
   bool derotate = false;
   Average average = Average::all;
   Ranging ranging = Ranging::mean;
   double near_share = 0.1;
-  int near_pictures = 3;
+  int near_images = 3;
   double range_memory_s = 0.0;
   double wall_error = 0.0;
   double flow_noise_px = 0.1;
@@ -72,10 +72,10 @@ void describe(Visitor& v, FlowBalanceConfig& c) {
          "its own flow (ours; wants derotate)"});
   v("near_share", c.near_share,
     {.above = 0.0, .at_most = 1.0, .meaning = "ranging nearest: share of a camera's patches taken as the nearest"});
-  v("near_pictures", c.near_pictures,
+  v("near_images", c.near_images,
     {.at_least = 1,
      .at_most = 20,
-     .meaning = "ranging nearest: a patch is as near as the last pictures, this many, agree on"});
+     .meaning = "ranging nearest: a patch is as near as the last images, this many, agree on"});
   v("range_memory", c.range_memory_s,
     {.unit = "s",
      .at_least = 0.0,
@@ -136,10 +136,10 @@ void describe(Visitor& v, FlowBalanceConfig& c) {
      .at_most = 90.0,
      .meaning = "simple, ranging nearest: a wall counts that is seen within this angle of the way flown"});
   v("confirmations", c.confirmations,
-    {.at_least = 1, .meaning = "simple: successive pictures that must agree before turning round"});
+    {.at_least = 1, .meaning = "simple: successive images that must agree before turning round"});
 }
 
 /// Throws std::invalid_argument on values out of range.
 std::unique_ptr<Module> make_flow_balance(const FlowBalanceConfig& config);
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

@@ -1,41 +1,41 @@
-#include "avoidance/flow_picture.h"
+#include "avoidance/flow_balance/flow_overlay.h"
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "vision/draw_flow.h"
+#include "vision/flow/draw_flow.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 namespace {
 
 constexpr double kFlowScale = 6.0;  // drawn px per px of flow
 constexpr int kGap_px = 4;
 
-void draw_caption(const FlowTile& tile, cv::Mat& picture) {
-  const double size = std::clamp(picture.cols / 800.0, 0.3, 0.6);
+void draw_caption(const FlowTile& tile, cv::Mat& image) {
+  const double size = std::clamp(image.cols / 800.0, 0.3, 0.6);
   const int height = static_cast<int>(24 * size) + 8;
-  picture.rowRange(0, std::min(height, picture.rows)).setTo(cv::Scalar(20, 24, 28));
-  cv::putText(picture, tile.role + "  " + tile.caption, {4, height - 8}, cv::FONT_HERSHEY_SIMPLEX, size,
+  image.rowRange(0, std::min(height, image.rows)).setTo(cv::Scalar(20, 24, 28));
+  cv::putText(image, tile.role + "  " + tile.caption, {4, height - 8}, cv::FONT_HERSHEY_SIMPLEX, size,
               cv::Scalar(235, 235, 235), 1, cv::LINE_AA);
 }
 
-void draw_compass(std::span<const CompassArrow> arrows, double full_scale_mps, cv::Mat& picture) {
-  const cv::Point middle(picture.cols / 2, picture.rows / 2);
-  const int radius = std::max(12, std::min(picture.cols, picture.rows) / 14);
-  cv::circle(picture, middle, radius, cv::Scalar(20, 24, 28), cv::FILLED, cv::LINE_AA);
-  cv::circle(picture, middle, radius, cv::Scalar(235, 235, 235), 1, cv::LINE_AA);
+void draw_compass(std::span<const CompassArrow> arrows, double full_scale_mps, cv::Mat& image) {
+  const cv::Point middle(image.cols / 2, image.rows / 2);
+  const int radius = std::max(12, std::min(image.cols, image.rows) / 14);
+  cv::circle(image, middle, radius, cv::Scalar(20, 24, 28), cv::FILLED, cv::LINE_AA);
+  cv::circle(image, middle, radius, cv::Scalar(235, 235, 235), 1, cv::LINE_AA);
   for (const CompassArrow& arrow : arrows) {
     const Eigen::Vector2d tip = arrow.v_H * (radius / full_scale_mps);
     const cv::Point to(middle.x + static_cast<int>(std::lround(tip.y())),
                        middle.y - static_cast<int>(std::lround(tip.x())));
-    cv::arrowedLine(picture, middle, to, arrow.rgb, 2, cv::LINE_AA, 0, 0.25);
+    cv::arrowedLine(image, middle, to, arrow.rgb, 2, cv::LINE_AA, 0, 0.25);
   }
 }
 
 }  // namespace
 
-cv::Mat flow_picture(std::span<const FlowTile> tiles, std::span<const CompassArrow> arrows, double full_scale_mps) {
+cv::Mat flow_overlay(std::span<const FlowTile> tiles, std::span<const CompassArrow> arrows, double full_scale_mps) {
   if (tiles.empty()) return {};
   int width = 0, height = 0;
   for (const FlowTile& tile : tiles) {
@@ -43,19 +43,19 @@ cv::Mat flow_picture(std::span<const FlowTile> tiles, std::span<const CompassArr
     height = std::max(height, tile.grey.rows);
   }
   const int columns = tiles.size() > 1 ? 2 : 1, rows = static_cast<int>(tiles.size() + 1) / columns;
-  cv::Mat picture(rows * (height + kGap_px) - kGap_px, columns * (width + kGap_px) - kGap_px, CV_8UC3,
-                  cv::Scalar(20, 24, 28));
+  cv::Mat image(rows * (height + kGap_px) - kGap_px, columns * (width + kGap_px) - kGap_px, CV_8UC3,
+                cv::Scalar(20, 24, 28));
   for (size_t i = 0; i < tiles.size(); ++i) {
     const FlowTile& tile = tiles[i];
     if (tile.grey.empty()) continue;
     const int row = static_cast<int>(i) / columns, col = static_cast<int>(i) % columns;
-    cv::Mat place = picture({col * (width + kGap_px), row * (height + kGap_px), tile.grey.cols, tile.grey.rows});
+    cv::Mat place = image({col * (width + kGap_px), row * (height + kGap_px), tile.grey.cols, tile.grey.rows});
     cv::cvtColor(tile.grey, place, cv::COLOR_GRAY2RGB);
-    vision::draw_flow(*tile.field, kFlowScale, place);
+    vision::flow::draw_flow(*tile.field, kFlowScale, place);
     draw_caption(tile, place);
   }
-  draw_compass(arrows, full_scale_mps, picture);
-  return picture;
+  draw_compass(arrows, full_scale_mps, image);
+  return image;
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "vision/flow_field.h"
+#include "vision/flow/flow_field.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 
-/// One camera's part of the picture that flow_picture() makes.
+/// One camera's part of the image that flow_overlay() makes.
 struct FlowTile {
   std::string role;
   cv::Mat grey;  ///< CV_8UC1
-  const vision::FlowField* field = nullptr;
+  const vision::flow::FlowField* field = nullptr;
   std::string caption;
 };
 
@@ -24,9 +24,9 @@ struct CompassArrow {
   cv::Scalar rgb;
 };
 
-/// Returns the cameras' pictures two by two with their flow vectors, captions, and a compass of velocities.
+/// Returns the cameras' images two by two with their flow vectors, captions, and a compass of velocities.
 /// @param full_scale_mps  velocity as long as the compass's radius, > 0.
 /// @return CV_8UC3, RGB; empty when there are no tiles.
-cv::Mat flow_picture(std::span<const FlowTile> tiles, std::span<const CompassArrow> arrows, double full_scale_mps);
+cv::Mat flow_overlay(std::span<const FlowTile> tiles, std::span<const CompassArrow> arrows, double full_scale_mps);
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

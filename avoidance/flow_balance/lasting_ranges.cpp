@@ -1,11 +1,11 @@
-#include "avoidance/lasting_ranges.h"
+#include "avoidance/flow_balance/lasting_ranges.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 
 void LastingRanges::add(std::vector<double> inverse_ranges_per_m) {
   latest_[next_] = std::move(inverse_ranges_per_m);
@@ -15,10 +15,10 @@ void LastingRanges::add(std::vector<double> inverse_ranges_per_m) {
 std::vector<double> LastingRanges::lasting_per_m() const {
   std::vector<double> least(latest_.front().size(), std::numeric_limits<double>::infinity());
   std::vector<size_t> told(least.size(), 0);
-  for (const std::vector<double>& picture : latest_) {
-    for (size_t i = 0; i < picture.size(); ++i) {
-      if (std::isnan(picture[i])) continue;
-      least[i] = std::min(least[i], picture[i]);
+  for (const std::vector<double>& image : latest_) {
+    for (size_t i = 0; i < image.size(); ++i) {
+      if (std::isnan(image[i])) continue;
+      least[i] = std::min(least[i], image[i]);
       ++told[i];
     }
   }
@@ -28,4 +28,4 @@ std::vector<double> LastingRanges::lasting_per_m() const {
   return least;
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

@@ -1,9 +1,9 @@
-#include "avoidance/range_memory.h"
+#include "avoidance/flow_balance/range_memory.h"
 
 #include <cmath>
 #include <limits>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 
 const std::vector<double>& RangeMemory::update(std::span<const Sight> sights, double dt_s) {
   near_per_m_.resize(sights.size(), std::numeric_limits<double>::quiet_NaN());
@@ -12,7 +12,7 @@ const std::vector<double>& RangeMemory::update(std::span<const Sight> sights, do
     const Sight& sight = sights[i];
     double& near = near_per_m_[i];
     const double share_left = 1.0 - near * sight.closing_mps * dt_s;  // of the range, after this step
-    constexpr double kLeast = 0.5;  // no wall comes twice as near from one picture to the next
+    constexpr double kLeast = 0.5;  // no wall comes twice as near from one image to the next
     const double expected = kept * near / (share_left > kLeast ? share_left : kLeast);
     if (std::isnan(sight.near_per_m)) {
       near = kept > 0.0 ? expected : sight.near_per_m;
@@ -23,4 +23,4 @@ const std::vector<double>& RangeMemory::update(std::span<const Sight> sights, do
   return near_per_m_;
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

@@ -1,11 +1,11 @@
-#include "avoidance/zig_zag.h"
+#include "avoidance/flow_balance/zig_zag.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 namespace {
 
 int component_along(const Eigen::Vector2d& axis_H) { return std::abs(axis_H.x()) > std::abs(axis_H.y()) ? 0 : 1; }
@@ -61,4 +61,4 @@ bool ZigZag::update(std::span<const Side> sides) {
   return true;
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

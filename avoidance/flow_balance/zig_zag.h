@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 
 /// How a vehicle stops: it goes on as it was for `reaction_s` (>= 0), then slows down by `braking_mps2` (> 0).
 struct Stopping {
@@ -33,13 +33,13 @@ class ZigZag {
   struct Side {
     Eigen::Vector2d axis_H = Eigen::Vector2d::UnitX();  ///< where the camera looks
     double near_per_m = 0.0;                            ///< inverse range of the nearest wall there
-    bool fresh = false;                                 ///< is there a new picture since the last update?
+    bool fresh = false;                                 ///< is there a new image since the last update?
   };
 
   struct Config {
     Eigen::Vector2d speed_mps = {1.0, 1.0};  ///< along x and y of H, both > 0
     double range_threshold_m = 2.0;          ///< a wall within it is too near, > 0
-    int confirmations = 2;   ///< pictures in a row that must say so before a component turns round, at least 1
+    int confirmations = 2;   ///< images in a row that must say so before a component turns round, at least 1
     double stray_rad = 0.0;  ///< the way's largest angle off the diagonal, drawn at every turn
     uint64_t seed = 0;       ///< of those draws
   };
@@ -66,4 +66,4 @@ class ZigZag {
   int reversals_ = 0;
 };
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

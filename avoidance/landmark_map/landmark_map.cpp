@@ -1,4 +1,4 @@
-#include "avoidance/landmark_map.h"
+#include "avoidance/landmark_map/landmark_map.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -10,11 +10,11 @@
 
 #include "avoidance/camera_flow.h"
 #include "avoidance/go_to_goal.h"
-#include "avoidance/landmark_picture.h"
-#include "avoidance/map_route.h"
-#include "avoidance/plan_picture.h"
+#include "avoidance/landmark_map/landmark_overlay.h"
+#include "avoidance/landmark_map/map_route.h"
+#include "avoidance/landmark_map/plan_overlay.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::landmark_map {
 namespace {
 
 constexpr const char* kRole = "front";
@@ -50,7 +50,7 @@ class LandmarkMapModule final : public Module {
   void do_reset(const Setup& setup) override {
     const MountedCamera& camera = *std::ranges::find(setup.cameras, kRole, &MountedCamera::role);
     sight_.emplace(config_.sight, camera);
-    flow_.emplace(camera, CameraFlow::Options{config_.flow, /*derotate=*/true, vision::Missing::skip});
+    flow_.emplace(camera, CameraFlow::Options{config_.flow, /*derotate=*/true, vision::flow::Missing::skip});
     clearance_m_ = config_.clearance_m + setup.limits.radius_m;
     hulls_.clear();
     way_.clear();
@@ -99,7 +99,7 @@ class LandmarkMapModule final : public Module {
     return alarms_ >= kAlarms;
   }
 
-  /// The flow's divergence, smoothed; 0 while too little of the picture flows to judge by.
+  /// The flow's divergence, smoothed; 0 while too little of the image flows to judge by.
   void smooth_loom(const std::optional<CameraFlow::Measure>& measure) {
     if (!measure || measure->valid_share < config_.flow_share) {
       loom_per_s_ = 0.0;
@@ -165,10 +165,10 @@ class LandmarkMapModule final : public Module {
   /// What the map knows well enough and high enough to matter, from above, and what may stand behind it.
   std::vector<PlanHull> obstacles() const {
     std::vector<Eigen::Vector2d> points, seen_from;
-    for (const vision::MappedLandmark& mapped : map().landmarks()) {
+    for (const vision::landmarks::MappedLandmark& mapped : map().landmarks()) {
       if (!map().confirmed(mapped)) continue;
-      const Eigen::Vector3d p_W = vision::position_W(mapped.landmark);
-      const Eigen::Matrix3d P = vision::covariance_W(mapped.landmark);
+      const Eigen::Vector3d p_W = vision::landmarks::position_W(mapped.landmark);
+      const Eigen::Matrix3d P = vision::landmarks::covariance_W(mapped.landmark);
       const double variance = greatest_variance(P.topLeftCorner<2, 2>());
       if (-p_W.z() < config_.lowest_m || variance > config_.most_sigma_m * config_.most_sigma_m) continue;
       points.push_back(p_W.head<2>());
@@ -184,7 +184,7 @@ class LandmarkMapModule final : public Module {
     return plan_hulls(filled, std::max(config_.link_m, config_.behind_m));
   }
 
-  const vision::LandmarkMap& map() const { return sight_->map(); }
+  const vision::landmarks::LandmarkMap& map() const { return sight_->map(); }
 
   int64_t confirmed() const {
     if (!sight_) return 0;
@@ -207,11 +207,11 @@ class LandmarkMapModule final : public Module {
     constexpr double kKnown_share = 0.1;
     std::vector<ChartPoint> points;
     if (!sight_) return points;
-    for (const vision::MappedLandmark& mapped : map().landmarks()) {
+    for (const vision::landmarks::MappedLandmark& mapped : map().landmarks()) {
       if (!map().confirmed(mapped)) continue;
-      const Eigen::Vector3d p_W = vision::position_W(mapped.landmark);
+      const Eigen::Vector3d p_W = vision::landmarks::position_W(mapped.landmark);
       const double distance_m = (p_W - sight_->pose().X_WC_est.translation()).norm();
-      const Eigen::Matrix3d P_W = vision::covariance_W(mapped.landmark);
+      const Eigen::Matrix3d P_W = vision::landmarks::covariance_W(mapped.landmark);
       if (greatest_variance(P_W) <= kKnown_share * kKnown_share * distance_m * distance_m) points.push_back({p_W, P_W});
     }
     return points;
@@ -234,13 +234,13 @@ class LandmarkMapModule final : public Module {
 
   cv::Mat do_annotate() const override {
     if (!sight_ || sight_->grey().empty()) return {};
-    cv::Mat picture = landmark_picture(sight_->grey(), sight_->corners_px(), map(), sight_->pose(), flow_->pinhole());
+    cv::Mat image = landmark_overlay(sight_->grey(), sight_->corners_px(), map(), sight_->pose(), flow_->pinhole());
     if (!config_.orbit && start_NE_) {
       PlanView view{{}, hulls_, *start_NE_, end_NE_, at_NE_, way_};
       for (const ChartPoint& point : known_points()) view.landmarks_NE.emplace_back(point.p_W.head<2>());
-      draw_plan(view, picture);
+      draw_plan(view, image);
     }
-    return picture;
+    return image;
   }
 
   static constexpr double kInstant_s = 1e-6;
@@ -266,4 +266,4 @@ std::unique_ptr<Module> make_landmark_map(const LandmarkMapModuleConfig& config)
   return std::make_unique<LandmarkMapModule>(config);
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::landmark_map

@@ -4,11 +4,11 @@
 #include <optional>
 #include <string_view>
 
-#include "avoidance/landmark_sight.h"
+#include "avoidance/landmark_map/landmark_sight.h"
 #include "avoidance/module.h"
-#include "vision/image_interpolation_flow.h"
+#include "vision/flow/image_interpolation_flow.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::landmark_map {
 
 /// A circle flown about an object that the nose keeps pointing at: the lateral flight of [Shah2009] ch. 4.
 struct Orbit {
@@ -38,7 +38,7 @@ struct LandmarkMapModuleConfig {
   double lowest_m = 4.0;
   double most_sigma_m = 2.0;
 
-  vision::ImageInterpolationConfig flow;
+  vision::flow::ImageInterpolationConfig flow;
   double time_to_contact_s = 5.0;
   double flow_share = 0.5;
   double loom_time_s = 0.8;
@@ -64,11 +64,9 @@ void describe(Visitor& v, LandmarkMapModuleConfig& c) {
   v("time_to_contact", c.time_to_contact_s,
     {.unit = "s", .at_least = 0.0, .meaning = "flow divergence of a nearer contact stops the flight; 0 never"});
   v("flow_share", c.flow_share,
-    {.above = 0.0, .at_most = 1.0, .meaning = "share of the picture that must flow for its divergence to count"});
+    {.above = 0.0, .at_most = 1.0, .meaning = "share of the image that must flow for its divergence to count"});
   v("loom_time", c.loom_time_s,
-    {.unit = "s",
-     .at_least = 0.0,
-     .meaning = "over which the flow's divergence is smoothed: one pair of pictures errs"});
+    {.unit = "s", .at_least = 0.0, .meaning = "over which the flow's divergence is smoothed: one pair of images errs"});
   v("stop_range", c.stop_range_m,
     {.unit = "m", .at_least = 0.0, .meaning = "left to what the range finder meets once the flight has stopped"});
   v("braking", c.braking_mps2, {.unit = "m/s^2", .above = 0.0, .meaning = "deceleration counted on before a range"});
@@ -77,4 +75,4 @@ void describe(Visitor& v, LandmarkMapModuleConfig& c) {
 /// Throws std::invalid_argument on a bad config.
 std::unique_ptr<Module> make_landmark_map(const LandmarkMapModuleConfig& config);
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::landmark_map

@@ -4,15 +4,15 @@
 #include <opencv2/core.hpp>
 #include <span>
 
-#include "vision/landmark_map.h"
+#include "vision/landmarks/landmark_filter.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::landmark_map {
 
-/// A picture with its corners (yellow squares) and the landmarks of the map as the camera should see them: confirmed
+/// An image with its corners (yellow squares) and the landmarks of the map as the camera should see them: confirmed
 /// ones green, young ones grey, each with its ellipse of three standard deviations; those that were missed red.
 /// @param grey  CV_8UC1. @return CV_8UC3, RGB.
-cv::Mat landmark_picture(const cv::Mat& grey, std::span<const Eigen::Vector2d> corners_px,
-                         const vision::LandmarkMap& map, const vision::CameraPose& pose,
-                         const vision::PinholeCamera& camera);
+cv::Mat landmark_overlay(const cv::Mat& grey, std::span<const Eigen::Vector2d> corners_px,
+                         const vision::landmarks::LandmarkMap& map, const vision::landmarks::CameraPose& pose,
+                         const vision::camera::PinholeCamera& camera);
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::landmark_map

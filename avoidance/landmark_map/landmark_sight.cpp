@@ -1,12 +1,12 @@
-#include "avoidance/landmark_sight.h"
+#include "avoidance/landmark_map/landmark_sight.h"
 
 #include <opencv2/imgproc.hpp>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::landmark_map {
 
 LandmarkSight::LandmarkSight(const LandmarkSightConfig& config, const MountedCamera& camera)
     : config_(config), camera_(camera), map_(config.map, camera.model.pinhole()) {
-  vision::check(config.corners);
+  vision::landmarks::check(config.corners);
 }
 
 CameraNeed LandmarkSight::need(const LandmarkSightConfig& config) {
@@ -25,8 +25,8 @@ bool LandmarkSight::update(const CameraFrame& frame, const NavigationState& navi
   } else {
     frame.image.copyTo(grey_);
   }
-  const bool pictures = config_.front_end == FrontEnd::pictures;
-  corners_px_ = pictures ? vision::edge_corners(frame.image, config_.corners) : frame.corners_px;
+  const bool images = config_.front_end == FrontEnd::images;
+  corners_px_ = images ? vision::landmarks::edge_corners(frame.image, config_.corners) : frame.corners_px;
 
   Eigen::Isometry3d X_WB_est = Eigen::Isometry3d::Identity();
   X_WB_est.linear() = navigation.q_WB_est.toRotationMatrix();
@@ -38,4 +38,4 @@ bool LandmarkSight::update(const CameraFrame& frame, const NavigationState& navi
   return true;
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::landmark_map

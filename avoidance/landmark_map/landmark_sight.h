@@ -8,32 +8,32 @@
 #include <vector>
 
 #include "avoidance/module.h"
-#include "vision/edge_corners.h"
-#include "vision/landmark_map.h"
+#include "vision/landmarks/edge_corners.h"
+#include "vision/landmarks/landmark_filter.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::landmark_map {
 
-/// Whose corners a map is made of: those that a picture shows, or, for experiments, those that the scene has.
-enum class FrontEnd { pictures, corners };
+/// Whose corners a map is made of: those that an image shows, or, for experiments, those that the scene has.
+enum class FrontEnd { images, corners };
 
 struct LandmarkSightConfig {
-  FrontEnd front_end = FrontEnd::pictures;
+  FrontEnd front_end = FrontEnd::images;
   bool color = false;
-  vision::EdgeCornerConfig corners;
-  vision::LandmarkMapConfig map;
+  vision::landmarks::EdgeCornerConfig corners;
+  vision::landmarks::LandmarkMapConfig map;
 };
 
 template <class Visitor>
 void describe(Visitor& v, LandmarkSightConfig& c) {
   v("front_end", c.front_end,
-    {.choices = {"pictures", "corners"},
-     .meaning = "corners found in the pictures of camera 'front', or, for experiments, the true ones projected"});
-  v("color", c.color, {.meaning = "camera 'front' shows colours, and edges are searched in them as well"});
-  v("corners", c.corners, {.meaning = "which points of a picture count as corners"});
+    {.choices = {"images", "corners"},
+     .meaning = "corners found in the images of camera 'front', or, for experiments, the true ones projected"});
+  v("color", c.color, {.meaning = "camera 'front' shows colors, and edges are searched in them as well"});
+  v("corners", c.corners, {.meaning = "which points of an image count as corners"});
   v("map", c.map, {.meaning = "how landmarks are estimated, matched and deleted"});
 }
 
-/// From the pictures of one camera to a map of landmarks.
+/// From the images of one camera to a map of landmarks.
 class LandmarkSight {
  public:
   /// Throws std::invalid_argument on a bad config.
@@ -41,25 +41,25 @@ class LandmarkSight {
 
   static CameraNeed need(const LandmarkSightConfig& config);
 
-  /// Takes a picture in. @return false when it is not newer than the last.
+  /// Takes an image in. @return false when it is not newer than the last.
   bool update(const CameraFrame& frame, const NavigationState& navigation);
 
-  const vision::LandmarkMap& map() const { return map_; }
-  const std::vector<Eigen::Vector2d>& corners_px() const { return corners_px_; }  ///< of the last picture
-  const vision::CameraPose& pose() const { return pose_; }                        ///< of the last picture
-  const cv::Mat& grey() const { return grey_; }  ///< the last picture, CV_8UC1; empty before the first
+  const vision::landmarks::LandmarkMap& map() const { return map_; }
+  const std::vector<Eigen::Vector2d>& corners_px() const { return corners_px_; }  ///< of the last image
+  const vision::landmarks::CameraPose& pose() const { return pose_; }             ///< of the last image
+  const cv::Mat& grey() const { return grey_; }  ///< the last image, CV_8UC1; empty before the first
   /// Wall time that the filter took so far, for reports only.
   double filter_ms() const { return filter_time_.getTimeMilli(); }
 
  private:
   LandmarkSightConfig config_;
   MountedCamera camera_;
-  vision::LandmarkMap map_;
-  vision::CameraPose pose_;
+  vision::landmarks::LandmarkMap map_;
+  vision::landmarks::CameraPose pose_;
   std::vector<Eigen::Vector2d> corners_px_;
   cv::Mat grey_;
   std::optional<int64_t> last_t_ns_;
   cv::TickMeter filter_time_;
 };
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::landmark_map

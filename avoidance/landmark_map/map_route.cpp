@@ -1,4 +1,4 @@
-#include "avoidance/map_route.h"
+#include "avoidance/landmark_map/map_route.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::landmark_map {
 namespace {
 
 using Eigen::Vector2d;
@@ -147,4 +147,4 @@ std::optional<std::vector<Vector2d>> way_round(std::span<const PlanHull> hulls, 
   return way;
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::landmark_map

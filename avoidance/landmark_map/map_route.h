@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::landmark_map {
 
 /// An obstacle on the plan: the convex hull of points that belong together, north and east, m, counter-clockwise.
 using PlanHull = std::vector<Eigen::Vector2d>;
@@ -25,4 +25,4 @@ double distance_to_hull(const PlanHull& hull, const Eigen::Vector2d& from_NE, co
 std::optional<std::vector<Eigen::Vector2d>> way_round(std::span<const PlanHull> hulls, const Eigen::Vector2d& from_NE,
                                                       const Eigen::Vector2d& to_NE, double clearance_m);
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::landmark_map

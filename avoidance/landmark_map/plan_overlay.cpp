@@ -1,22 +1,22 @@
-#include "avoidance/plan_picture.h"
+#include "avoidance/landmark_map/plan_overlay.h"
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::landmark_map {
 namespace {
 
 const cv::Scalar kGreen(90, 230, 110), kRed(240, 80, 60), kGrey(150, 150, 150), kYellow(255, 220, 40);
 
 }  // namespace
 
-void draw_plan(const PlanView& view, cv::Mat& picture) {
+void draw_plan(const PlanView& view, cv::Mat& image) {
   constexpr int kSide_px = 200, kMargin_px = 6;
   constexpr double kAround_m = 12.0;
-  if (picture.cols < 2 * kSide_px || picture.rows < kSide_px + 2 * kMargin_px) return;
+  if (image.cols < 2 * kSide_px || image.rows < kSide_px + 2 * kMargin_px) return;
   cv::Mat plan =
-      picture(cv::Rect(picture.cols - kSide_px - kMargin_px, picture.rows - kSide_px - kMargin_px, kSide_px, kSide_px));
+      image(cv::Rect(image.cols - kSide_px - kMargin_px, image.rows - kSide_px - kMargin_px, kSide_px, kSide_px));
   plan *= 0.25;
 
   const Eigen::Vector2d middle = 0.5 * (view.from_NE + view.to_NE);
@@ -44,4 +44,4 @@ void draw_plan(const PlanView& view, cv::Mat& picture) {
   cv::circle(plan, at(view.at_NE), 3, kYellow, cv::FILLED, cv::LINE_AA);
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::landmark_map

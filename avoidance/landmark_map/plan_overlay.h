@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "avoidance/map_route.h"
+#include "avoidance/landmark_map/map_route.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::landmark_map {
 
 /// What a flight by a map looks like from above; north and east, m.
 struct PlanView {
@@ -18,10 +18,10 @@ struct PlanView {
   std::span<const Eigen::Vector2d> way_NE;                                             ///< planned from there
 };
 
-/// Draws a view from above into the bottom right corner of a picture, north up: landmarks green, hulls of obstacles
+/// Draws a view from above into the bottom right corner of an image, north up: landmarks green, hulls of obstacles
 /// red, the course grey, the vehicle and its planned way yellow. All of the course lies within; what does not, is cut
 /// off.
-/// @param picture  CV_8UC3, RGB; one that is too small for it stays as it is.
-void draw_plan(const PlanView& view, cv::Mat& picture);
+/// @param image  CV_8UC3, RGB; one that is too small for it stays as it is.
+void draw_plan(const PlanView& view, cv::Mat& image);
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::landmark_map

@@ -1,4 +1,4 @@
-#include "avoidance/section_grid.h"
+#include "avoidance/section_grid/section_grid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,13 +8,13 @@
 #include <stdexcept>
 #include <string>
 
-#include "avoidance/depth_picture.h"
-#include "avoidance/passed_obstacles.h"
-#include "avoidance/section_pilot.h"
-#include "avoidance/stereo_sight.h"
-#include "vision/depth_pyramid.h"
+#include "avoidance/section_grid/section_pilot.h"
+#include "avoidance/stereo/depth_overlay.h"
+#include "avoidance/stereo/passed_obstacles.h"
+#include "avoidance/stereo/stereo_sight.h"
+#include "vision/stereo/depth_pyramid.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::section_grid {
 namespace {
 
 constexpr const char* kDepthRole = "depth";
@@ -40,30 +40,30 @@ class SectionGridModule final : public Module {
   using State = SectionPilot::State;
 
   Needs do_needs() const override {
-    if (config_.sight == SectionGridConfig::Sight::stereo) return StereoSight::needs();
+    if (config_.sight == SectionGridConfig::Sight::stereo) return stereo::StereoSight::needs();
     return {{{kDepthRole, CameraNeed::Channel::depth, /*pinhole=*/true}}};
   }
 
   std::vector<Signal> do_signals() const override {
-    return {{"section", ""}, {"threat_share", ""}, {"unknown_share", ""}, {"rows_above_centre", ""}};
+    return {{"section", ""}, {"threat_share", ""}, {"unknown_share", ""}, {"rows_above_center", ""}};
   }
 
   void do_reset(const Setup& setup) override {
     sight_.reset();
     if (config_.sight == SectionGridConfig::Sight::stereo) {
       sight_.emplace(config_.stereo, setup);
-      camera_ = {sight_->geometry(), sight_->X_BC(), sight_->picture()};
+      camera_ = {sight_->geometry(), sight_->X_BC(), sight_->image()};
     } else {
       const auto camera = std::ranges::find(setup.cameras, kDepthRole, &MountedCamera::role);
-      const vision::PinholeCamera lens = camera->model.pinhole();
+      const vision::camera::PinholeCamera lens = camera->model.pinhole();
       camera_ = {{lens.focal_x_px, lens.center_u_px, lens.center_v_px, kDepthBaseline_m},
                  camera->X_BC,
                  {lens.width_px, lens.height_px}};
     }
-    search_.emplace(config_.grid, camera_.picture);
+    search_.emplace(config_.grid, camera_.image);
     pilot_.reset(camera_);
     passed_.emplace(config_.passed);
-    depth_m_ = cv::Mat(camera_.picture, CV_32FC1, cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
+    depth_m_ = cv::Mat(camera_.image, CV_32FC1, cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
     hull_ahead_m_ = std::max(0.0, setup.limits.radius_m - camera_.X_BC.translation().x());
     last_.reset();
     hover_s_ = 0.0;
@@ -94,7 +94,7 @@ class SectionGridModule final : public Module {
     decision.status = name_of(pilot_.state());
     const double unknown = 1.0 - cv::countNonZero(depth_m_ >= 0.0) / static_cast<double>(depth_m_.total());
     const int cols = config_.grid.cols;
-    if (choice_.section >= 0) rows_above_ = search_->centre() / cols - choice_.section / cols;
+    if (choice_.section >= 0) rows_above_ = search_->center() / cols - choice_.section / cols;
     most_rows_above_ = std::max(most_rows_above_, rows_above_);
     decision.signals = {static_cast<double>(choice_.section), choice_.share, unknown, static_cast<double>(rows_above_)};
     last_ = decision;
@@ -115,13 +115,13 @@ class SectionGridModule final : public Module {
     throw std::logic_error("unknown state");
   }
 
-  /// Brings the depth picture up to date. @return whether there is a new one.
+  /// Brings the depth image up to date. @return whether there is a new one.
   bool look(std::span<const CameraFrame> frames) {
     if (sight_) {
       if (!sight_->update(frames)) return false;
       constexpr int kSameSegment16 = 32;  // two pixels of disparity
-      vision::remove_specks(sight_->disparity16(), kSameSegment16, config_.speck_px);
-      vision::to_depth(sight_->disparity16(), camera_.geometry, depth_m_);
+      vision::stereo::remove_specks(sight_->disparity16(), kSameSegment16, config_.speck_px);
+      vision::stereo::to_depth(sight_->disparity16(), camera_.geometry, depth_m_);
       return true;
     }
     const auto frame = std::ranges::find(frames, kDepthRole, &CameraFrame::role);
@@ -130,7 +130,7 @@ class SectionGridModule final : public Module {
     return true;
   }
 
-  /// Takes the newest picture in, that what leaves the next ones is not forgotten.
+  /// Takes the newest image in, that what leaves the next ones is not forgotten.
   void remember(const Observation& observation) {
     constexpr int kBlockLevel = 3;  // blocks of 8 px
     const NavigationState& navigation = observation.navigation;
@@ -143,7 +143,7 @@ class SectionGridModule final : public Module {
   cv::Mat known_disparity16() const {
     cv::Mat disparity, disparity16;
     cv::divide(camera_.geometry.disparity16(1.0), depth_m_, disparity);
-    disparity.setTo(vision::kNoDisparity, disparity != disparity);
+    disparity.setTo(vision::stereo::kNoDisparity, disparity != disparity);
     disparity.convertTo(disparity16, CV_16S);
     return disparity16;
   }
@@ -151,36 +151,36 @@ class SectionGridModule final : public Module {
   std::vector<Metric> do_metrics() const override {
     return {{"sections_rejected", static_cast<double>(rejected_), ""},
             {"hover_time_s", hover_s_, "s"},
-            {"most_rows_above_centre", static_cast<double>(most_rows_above_), ""},
-            {"last_rows_above_centre", static_cast<double>(rows_above_), ""}};
+            {"most_rows_above_center", static_cast<double>(most_rows_above_), ""},
+            {"last_rows_above_center", static_cast<double>(rows_above_), ""}};
   }
 
   cv::Mat do_annotate() const override {
     if (t_ns_ < 0) return {};
-    cv::Mat picture = depth_picture(depth_m_, 2.0 * config_.threshold_m);
+    cv::Mat image = stereo::depth_overlay(depth_m_, 2.0 * config_.threshold_m);
     const bool found = choice_.section >= 0;
     const cv::Rect& winner = search_->sections()[static_cast<size_t>(choice_.best)];
     const cv::Scalar green(90, 230, 110), red(240, 80, 60);
-    cv::rectangle(picture, winner, found ? green : red, 2);
-    cv::drawMarker(picture, {winner.x + winner.width / 2, winner.y + winner.height / 2}, found ? green : red);
-    caption(picture, std::string(name_of(pilot_.state())) + "  section " + std::to_string(choice_.section) +
-                         "  threats " + std::to_string(std::lround(100.0 * choice_.share)) + " %");
-    return picture;
+    cv::rectangle(image, winner, found ? green : red, 2);
+    cv::drawMarker(image, {winner.x + winner.width / 2, winner.y + winner.height / 2}, found ? green : red);
+    stereo::caption(image, std::string(name_of(pilot_.state())) + "  section " + std::to_string(choice_.section) +
+                               "  threats " + std::to_string(std::lround(100.0 * choice_.share)) + " %");
+    return image;
   }
 
   SectionGridConfig config_;
-  std::optional<StereoSight> sight_;  ///< none when depth is known
+  std::optional<stereo::StereoSight> sight_;  ///< none when depth is known
   SectionCamera camera_;
-  std::optional<vision::SectionSearch> search_;
+  std::optional<vision::sections::SectionSearch> search_;
   cv::Mat depth_m_;
-  vision::SectionChoice choice_;
+  vision::sections::SectionChoice choice_;
   SectionPilot pilot_;
-  vision::DepthPyramid pyramid_;
-  std::optional<PassedObstacles> passed_;
+  vision::stereo::DepthPyramid pyramid_;
+  std::optional<stereo::PassedObstacles> passed_;
   std::optional<Decision> last_;
   int64_t t_ns_ = -1, rejected_ = 0;
   double hover_s_ = 0.0;
-  int rows_above_ = 0, most_rows_above_ = 0;  ///< of the chosen section, from the centre's row
+  int rows_above_ = 0, most_rows_above_ = 0;  ///< of the chosen section, from the center's row
   double hull_ahead_m_ = 0.0;                 ///< how far the vehicle reaches before the camera
 };
 
@@ -190,4 +190,4 @@ std::unique_ptr<Module> make_section_grid(const SectionGridConfig& config) {
   return std::make_unique<SectionGridModule>(config);
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::section_grid

@@ -4,11 +4,11 @@
 #include <string_view>
 
 #include "avoidance/module.h"
-#include "avoidance/passed_obstacles.h"
-#include "vision/section_grid.h"
-#include "vision/stereo_matcher.h"
+#include "avoidance/stereo/passed_obstacles.h"
+#include "vision/sections/section_search.h"
+#include "vision/stereo/stereo_matcher.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::section_grid {
 
 /// How a vehicle moves about what its sections show. Source: [Perez2018] sec. on movement.
 struct SectionPilotConfig {
@@ -46,23 +46,23 @@ void describe(Visitor& v, SectionPilotConfig& c) {
     {.unit = "deg/s", .above = 0.0, .at_most = 360.0, .meaning = "at which it looks round when no section is free"});
 }
 
-/// Flies towards the emptiest of many overlapping sections of a depth picture.
+/// Flies towards the emptiest of many overlapping sections of a depth image.
 /// Source: [Perez2018] sec. on the selection of sections, and sec. on movement.
 struct SectionGridConfig {
   static constexpr std::string_view kName = "section_grid";
   static constexpr std::string_view kMeaning =
-      "flies towards the emptiest of many overlapping sections of a depth picture";
+      "flies towards the emptiest of many overlapping sections of a depth image";
 
   enum class Sight { stereo, truth };
   Sight sight = Sight::stereo;
-  vision::StereoMatcherConfig stereo;
+  vision::stereo::StereoMatcherConfig stereo;
   int speck_px = 100;
-  vision::SectionGrid grid;
+  vision::sections::SectionGrid grid;
   double threshold_m = 9.144;  ///< 30 ft
   double threshold_time_s = 0.0;
   double most_share = 0.15;
-  vision::Unknown unknown = vision::Unknown::free;
-  PassedObstaclesConfig passed = {.radius_m = 0.0, .near_m = 9.144};
+  vision::sections::Unknown unknown = vision::sections::Unknown::free;
+  stereo::PassedObstaclesConfig passed = {.radius_m = 0.0, .near_m = 9.144};
   SectionPilotConfig pilot;
 };
 
@@ -77,10 +77,9 @@ void describe(Visitor& v, SectionGridConfig& c) {
     {.unit = "px", .at_least = 0, .meaning = "segments of disparity smaller than this are dropped"});
   v("rows", c.grid.rows, {.at_least = 1, .at_most = 101, .meaning = "rows of sections"});
   v("cols", c.grid.cols, {.at_least = 1, .at_most = 101, .meaning = "columns of sections"});
-  v("width", c.grid.width_share,
-    {.above = 0.0, .at_most = 1.0, .meaning = "of a section, as a share of the picture's"});
+  v("width", c.grid.width_share, {.above = 0.0, .at_most = 1.0, .meaning = "of a section, as a share of the image's"});
   v("height", c.grid.height_share,
-    {.above = 0.0, .at_most = 1.0, .meaning = "of a section, as a share of the picture's"});
+    {.above = 0.0, .at_most = 1.0, .meaning = "of a section, as a share of the image's"});
   v("grow", c.grid.grow_px,
     {.unit = "px",
      .at_least = 0,
@@ -95,11 +94,11 @@ void describe(Visitor& v, SectionGridConfig& c) {
   v("most_share", c.most_share,
     {.at_least = 0.0, .at_most = 1.0, .meaning = "share of threats from which on a section is no way out"});
   v("unknown", c.unknown, {.choices = {"free", "threat"}, .meaning = "what a pixel without depth counts as"});
-  v("passed", c.passed, {.meaning = "what has left the picture, which no way chosen meets where another is free"});
+  v("passed", c.passed, {.meaning = "what has left the image, which no way chosen meets where another is free"});
   describe(v, c.pilot);
 }
 
 /// Throws std::invalid_argument on a bad config.
 std::unique_ptr<Module> make_section_grid(const SectionGridConfig& config);
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::section_grid

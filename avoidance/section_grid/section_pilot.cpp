@@ -1,4 +1,4 @@
-#include "avoidance/section_pilot.h"
+#include "avoidance/section_grid/section_pilot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "avoidance/heading.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::section_grid {
 namespace {
 
 void check(const SectionPilotConfig& c) {
@@ -20,8 +20,8 @@ void check(const SectionPilotConfig& c) {
   need(c.yaw_rate_radps > 0.0, "yaw_rate must be above 0 deg/s");
 }
 
-/// Direction of a section's centre in C, of length 1.
-Eigen::Vector3d section_ray(const SectionCamera& camera, const vision::SectionSearch& seen, int section) {
+/// Direction of a section's center in C, of length 1.
+Eigen::Vector3d section_ray(const SectionCamera& camera, const vision::sections::SectionSearch& seen, int section) {
   const cv::Rect& s = seen.sections()[static_cast<size_t>(section)];
   return camera.geometry.ray({s.x + s.width / 2, s.y + s.height / 2}).normalized();
 }
@@ -106,8 +106,8 @@ void SectionPilot::search(double side, const NavigationState& navigation, const 
 }
 
 /// Where to go about a threat: as a rule ahead in the section's direction.
-Eigen::Vector3d SectionPilot::place(const NavigationState& navigation, const vision::SectionSearch& seen, int section,
-                                    double reach_m) const {
+Eigen::Vector3d SectionPilot::place(const NavigationState& navigation, const vision::sections::SectionSearch& seen,
+                                    int section, double reach_m) const {
   using Answer = SectionPilotConfig::Answer;
   const Eigen::Vector3d ray_B = camera_.X_BC.linear() * section_ray(camera_, seen, section);
   const double side = post_W_ ? away_ : ray_B.y() < 0.0 ? -1.0 : 1.0;
@@ -144,7 +144,7 @@ bool SectionPilot::turns() const {
 /// Whether anything within the threshold is in sight of a vehicle that hovers; settles where it is, and to which side
 /// it leaves room. The side stays the same for what stands straight ahead.
 bool SectionPilot::is_approached(const SectionView& view) {
-  const vision::SectionSearch& seen = view.seen;
+  const vision::sections::SectionSearch& seen = view.seen;
   Eigen::Vector3d threats_C = Eigen::Vector3d::Zero();
   bool approached = false;
   for (size_t i = 0; i < seen.sections().size(); ++i) {
@@ -161,12 +161,12 @@ bool SectionPilot::is_approached(const SectionView& view) {
   return true;
 }
 
-/// Where in the picture a place lies; nothing behind the camera.
+/// Where in the image a place lies; nothing behind the camera.
 std::optional<cv::Point2d> SectionPilot::pixel_of(const Eigen::Vector3d& p_W, const NavigationState& navigation) const {
   const Eigen::Vector3d p_B = navigation.q_WB_est.conjugate() * (p_W - navigation.p_WB_est);
   const Eigen::Vector3d p_C = camera_.X_BC.inverse() * p_B;
   if (p_C.z() <= 0.0) return {};
-  const vision::StereoGeometry& g = camera_.geometry;
+  const vision::stereo::StereoGeometry& g = camera_.geometry;
   return cv::Point2d(g.center_u_px + g.focal_px * p_C.x() / p_C.z(), g.center_v_px + g.focal_px * p_C.y() / p_C.z());
 }
 
@@ -189,7 +189,7 @@ bool SectionPilot::is_spoilt(const Eigen::Vector3d& end_W, const SectionView& vi
   const auto& [seen, choice, passed, reach_m, navigation] = view;
   if (aside_W_ && !turns()) return false;
   const auto pixel = aside_W_ ? pixel_of(end_W, navigation) : std::nullopt;
-  const int section = pixel ? seen.nearest(*pixel) : seen.centre();
+  const int section = pixel ? seen.nearest(*pixel) : seen.center();
   if (section == choice.section) return false;
   const Eigen::Vector3d way_W = end_W - navigation.p_WB_est;
   const auto meets_passed = [&] {
@@ -219,4 +219,4 @@ Command SectionPilot::go_to(const Eigen::Vector3d& p_W, const NavigationState& n
   return PositionCommand{{p_W.x(), p_W.y(), p_WB.z() + lead * way_W.z()}, bearing_rad};
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::section_grid

@@ -3,25 +3,25 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "avoidance/passed_obstacles.h"
-#include "avoidance/section_grid.h"
-#include "vision/disparity.h"
+#include "avoidance/section_grid/section_grid.h"
+#include "avoidance/stereo/passed_obstacles.h"
+#include "vision/stereo/disparity.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::section_grid {
 
-/// The camera whose picture is cut into sections.
+/// The camera whose image is cut into sections.
 struct SectionCamera {
-  vision::StereoGeometry geometry;
+  vision::stereo::StereoGeometry geometry;
   Eigen::Isometry3d X_BC = Eigen::Isometry3d::Identity();
-  cv::Size picture;
+  cv::Size image;
 };
 
 /// What the pilot goes by at one decision.
 struct SectionView {
-  const vision::SectionSearch& seen;    ///< sections and threats of the newest picture
-  const vision::SectionChoice& choice;  ///< among them
-  const PassedObstacles& passed;        ///< what has left the picture
-  double reach_m = 0.0;                 ///< how far ahead a position aside lies, > 0
+  const vision::sections::SectionSearch& seen;    ///< sections and threats of the newest image
+  const vision::sections::SectionChoice& choice;  ///< among them
+  const stereo::PassedObstacles& passed;          ///< what has left the image
+  double reach_m = 0.0;                           ///< how far ahead a position aside lies, > 0
   const NavigationState& navigation;
 };
 
@@ -29,7 +29,7 @@ struct SectionView {
 /// direction: turns to it first, then moves. Hovers and yaws where no section is free. Differs: a way is given up only
 /// where the section that holds it fills up, since else every pixel's change would put the position off again; and
 /// the route is resumed as soon as the section that holds the goal is free, where the paper says only that the vehicle
-/// continues on its path; and no way is chosen or kept that meets what has left the picture, while another does not. A
+/// continues on its path; and no way is chosen or kept that meets what has left the image, while another does not. A
 /// vehicle that hovers at its goal stays where it gave way to, as in fig. 20.
 class SectionPilot {
  public:
@@ -45,7 +45,7 @@ class SectionPilot {
   Command update(const SectionView& view, const Goal& goal);
 
   /// Where to go for a section, in W, m: as a rule ahead in its direction. @param reach_m  how far, > 0.
-  Eigen::Vector3d place(const NavigationState& navigation, const vision::SectionSearch& seen, int section,
+  Eigen::Vector3d place(const NavigationState& navigation, const vision::sections::SectionSearch& seen, int section,
                         double reach_m) const;
 
   State state() const { return state_; }
@@ -79,4 +79,4 @@ class SectionPilot {
   bool flown_ = false;
 };
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::section_grid

@@ -1,11 +1,11 @@
-#include "avoidance/depth_picture.h"
+#include "avoidance/stereo/depth_overlay.h"
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::stereo {
 
-cv::Mat depth_picture(const cv::Mat& depth_m, double far_m) {
+cv::Mat depth_overlay(const cv::Mat& depth_m, double far_m) {
   constexpr double kUnknown = -1.0;
   cv::Mat depth = depth_m.clone(), nearness(depth_m.size(), CV_8UC1), colors;
   for (int v = 0; v < depth_m.rows; ++v) {
@@ -21,11 +21,11 @@ cv::Mat depth_picture(const cv::Mat& depth_m, double far_m) {
   return colors;
 }
 
-void caption(cv::Mat& picture, const std::string& text) {
-  const double scale = std::max(0.4, picture.cols / 1200.0);
+void caption(cv::Mat& image, const std::string& text) {
+  const double scale = std::max(0.4, image.cols / 1200.0);
   const cv::Point where(6, static_cast<int>(24 * scale) + 4);
-  cv::putText(picture, text, where, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar::all(0), 3, cv::LINE_AA);
-  cv::putText(picture, text, where, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar::all(255), 1, cv::LINE_AA);
+  cv::putText(image, text, where, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar::all(0), 3, cv::LINE_AA);
+  cv::putText(image, text, where, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar::all(255), 1, cv::LINE_AA);
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::stereo

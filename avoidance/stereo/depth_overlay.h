@@ -3,13 +3,13 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::stereo {
 
-/// Depth in colours, red near to blue at `far_m` (> 0) and beyond, black where unknown.
+/// Depth in colors, red near to blue at `far_m` (> 0) and beyond, black where unknown.
 /// @param depth_m  CV_32FC1, m; NaN unknown. @return CV_8UC3, RGB.
-cv::Mat depth_picture(const cv::Mat& depth_m, double far_m);
+cv::Mat depth_overlay(const cv::Mat& depth_m, double far_m);
 
-/// Writes a line of text along the top edge of a CV_8UC3 picture.
-void caption(cv::Mat& picture, const std::string& text);
+/// Writes a line of text along the top edge of a CV_8UC3 image.
+void caption(cv::Mat& image, const std::string& text);
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::stereo

@@ -1,12 +1,12 @@
-#include "avoidance/passed_obstacles.h"
+#include "avoidance/stereo/passed_obstacles.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::stereo {
 
-void PassedObstacles::update(int64_t t_ns, const vision::DepthPyramid& pyramid, const vision::StereoGeometry& geometry,
-                             const Eigen::Isometry3d& X_WC) {
+void PassedObstacles::update(int64_t t_ns, const vision::stereo::DepthPyramid& pyramid,
+                             const vision::stereo::StereoGeometry& geometry, const Eigen::Isometry3d& X_WC) {
   if (config_.radius_m == 0.0) return;
   p_WC_ = X_WC.translation();
   const Eigen::Isometry3d X_CW = X_WC.inverse();
@@ -26,21 +26,21 @@ void PassedObstacles::update(int64_t t_ns, const vision::DepthPyramid& pyramid, 
     for (int col = 0; col < pyramid.level(level).cols; ++col) {
       const int d = pyramid.disparity16(level, row, col);
       if (d < near16) continue;
-      const cv::Point centre(col * size + size / 2, row * size + size / 2);
-      visible_.push_back({X_WC * (geometry.z_m(d) * geometry.ray(centre)), t_ns});
+      const cv::Point center(col * size + size / 2, row * size + size / 2);
+      visible_.push_back({X_WC * (geometry.z_m(d) * geometry.ray(center)), t_ns});
     }
   }
 }
 
-bool PassedObstacles::in_view(const Eigen::Vector3d& p_CP, const vision::DepthPyramid& pyramid,
-                              const vision::StereoGeometry& geometry) const {
+bool PassedObstacles::in_view(const Eigen::Vector3d& p_CP, const vision::stereo::DepthPyramid& pyramid,
+                              const vision::stereo::StereoGeometry& geometry) const {
   if (!(p_CP.z() > 0.0)) return false;
   const double u = geometry.center_u_px + geometry.focal_px * p_CP.x() / p_CP.z();
   const double v = geometry.center_v_px + geometry.focal_px * p_CP.y() / p_CP.z();
   // Left of its own disparity a point is out of the right camera's view.
   const double first_u = geometry.focal_px * geometry.baseline_m / p_CP.z();
-  const cv::Size picture = pyramid.picture();
-  return u >= first_u && u <= picture.width - 1 && v >= 0 && v <= picture.height - 1;
+  const cv::Size image = pyramid.image();
+  return u >= first_u && u <= image.width - 1 && v >= 0 && v <= image.height - 1;
 }
 
 bool PassedObstacles::free(const Eigen::Vector3d& direction_W) const {
@@ -60,4 +60,4 @@ std::vector<Eigen::Vector3d> PassedObstacles::points_W() const {
   return points;
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::stereo

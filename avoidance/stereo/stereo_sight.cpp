@@ -1,11 +1,11 @@
-#include "avoidance/stereo_sight.h"
+#include "avoidance/stereo/stereo_sight.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::stereo {
 namespace {
 
 const MountedCamera& camera_of(const Setup& setup, const std::string& role) {
@@ -14,8 +14,8 @@ const MountedCamera& camera_of(const Setup& setup, const std::string& role) {
   return *camera;
 }
 
-vision::StereoGeometry geometry_of(const MountedCamera& left, const MountedCamera& right) {
-  const vision::PinholeCamera a = left.model.pinhole();
+vision::stereo::StereoGeometry geometry_of(const MountedCamera& left, const MountedCamera& right) {
+  const vision::camera::PinholeCamera a = left.model.pinhole();
   const Eigen::Isometry3d X_LR = left.X_BC.inverse() * right.X_BC;
   constexpr double kNoTurn = 1e-9, kNoOffset_m = 1e-6;
   const bool parallel = (X_LR.linear() - Eigen::Matrix3d::Identity()).norm() < kNoTurn;
@@ -36,11 +36,11 @@ Needs StereoSight::needs() {
   return {{{kLeft, CameraNeed::Channel::grey, kPinhole}, {kRight, CameraNeed::Channel::grey, kPinhole}}};
 }
 
-StereoSight::StereoSight(const vision::StereoMatcherConfig& config, const Setup& setup) : matcher_(config) {
+StereoSight::StereoSight(const vision::stereo::StereoMatcherConfig& config, const Setup& setup) : matcher_(config) {
   const MountedCamera& left = camera_of(setup, kLeft);
   geometry_ = geometry_of(left, camera_of(setup, kRight));
   X_BC_ = left.X_BC;
-  picture_ = {left.model.width_px, left.model.height_px};
+  image_ = {left.model.width_px, left.model.height_px};
 }
 
 bool StereoSight::update(std::span<const CameraFrame> frames) {
@@ -53,4 +53,4 @@ bool StereoSight::update(std::span<const CameraFrame> frames) {
   return true;
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::stereo

@@ -1,4 +1,4 @@
-#include "avoidance/stereo_corridor.h"
+#include "avoidance/stereo_corridor/stereo_corridor.h"
 
 #include <algorithm>
 #include <array>
@@ -9,16 +9,16 @@
 #include <stdexcept>
 #include <string>
 
-#include "avoidance/stereo_sight.h"
-#include "avoidance/target_picture.h"
-#include "avoidance/target_tracker.h"
-#include "avoidance/turn_back.h"
-#include "vision/flight_corridor.h"
+#include "avoidance/stereo/stereo_sight.h"
+#include "avoidance/stereo_corridor/target_overlay.h"
+#include "avoidance/stereo_corridor/target_tracker.h"
+#include "avoidance/stereo_corridor/turn_back.h"
+#include "vision/stereo/flight_corridor.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::stereo_corridor {
 namespace {
 
-using Free = std::optional<vision::Corridor>;
+using Free = std::optional<vision::stereo::Corridor>;
 
 /// Who found the target, in the order of [Andert2007] sec. 4.3.4.
 enum class How { course, keep, track, near, search, none };
@@ -48,7 +48,7 @@ class StereoCorridor final : public Module {
     How how = How::none;
   };
 
-  Needs do_needs() const override { return StereoSight::needs(); }
+  Needs do_needs() const override { return stereo::StereoSight::needs(); }
   std::vector<Signal> do_signals() const override {
     return {{"target_u_px", "px"},
             {"target_v_px", "px"},
@@ -96,14 +96,14 @@ class StereoCorridor final : public Module {
     return decision;
   }
 
-  /// Improves the depth picture, [Andert2007] sec. 3.3, and takes it in. Differs: sky is looked for in a smoothed
-  /// picture, as noise would look like texture.
+  /// Improves the depth image, [Andert2007] sec. 3.3, and takes it in. Differs: sky is looked for in a smoothed
+  /// image, as noise would look like texture.
   void see(const NavigationState& navigation, int64_t t_ns, cv::Mat& disparity16) {
     if (config_.disparity_noise_px > 0.0) add_noise(disparity16);
     disparity16.copyTo(matched16_);
-    vision::remove_specks(disparity16, config_.speck_difference16, config_.speck_px);
+    vision::stereo::remove_specks(disparity16, config_.speck_difference16, config_.speck_px);
     cv::blur(sight_->grey(), smooth_, {3, 3});
-    vision::mark_sky(smooth_, config_.sky_texture, config_.sky_brightness, config_.sky_among, disparity16);
+    vision::stereo::mark_sky(smooth_, config_.sky_texture, config_.sky_brightness, config_.sky_among, disparity16);
     pyramid_.build(disparity16, config_.coarsest);
     const Eigen::Isometry3d X_WC = Eigen::Translation3d(navigation.p_WB_est) * navigation.q_WB_est * sight_->X_BC();
     R_WC_ = X_WC.linear();
@@ -113,7 +113,7 @@ class StereoCorridor final : public Module {
   void add_noise(cv::Mat& disparity16) {
     const cv::Mat known = disparity16 >= 0;
     cv::Mat noise(disparity16.size(), CV_16SC1);
-    random_.fill(noise, cv::RNG::NORMAL, 0.0, vision::kDisparityUnits * config_.disparity_noise_px);
+    random_.fill(noise, cv::RNG::NORMAL, 0.0, vision::stereo::kDisparityUnits * config_.disparity_noise_px);
     cv::add(disparity16, noise, disparity16, known);
     cv::max(disparity16, 0, noise);
     noise.copyTo(disparity16, known);
@@ -142,7 +142,7 @@ class StereoCorridor final : public Module {
   }
 
   /// The joined method, [Andert2007] sec. 4.3.4. Differs: before the direction of flight is kept, the course to the
-  /// goal is tried, so that the vehicle takes it up again; and while the goal lies outside the picture, the free
+  /// goal is tried, so that the vehicle takes it up again; and while the goal lies outside the image, the free
   /// corridor nearest to its direction is searched, so that it comes into view.
   std::optional<Target> choose(const Eigen::Vector3d& course_C, const NavigationState& navigation,
                                const std::optional<cv::Point>& followed) {
@@ -160,8 +160,8 @@ class StereoCorridor final : public Module {
       if (followed) {
         if (const Free free = examine(*followed)) return Target{*followed, free->z_m, How::track};
         const Eigen::Vector3d old_C = sight_->geometry().ray(*followed);
-        for (const auto& candidates :
-             {vision::fine_targets(*followed, config_.nearby), vision::coarse_targets(*followed, config_.nearby)}) {
+        for (const auto& candidates : {vision::stereo::fine_targets(*followed, config_.nearby),
+                                       vision::stereo::coarse_targets(*followed, config_.nearby)}) {
           if (const auto best = cheapest(candidates, old_C, How::near)) return best;
         }
       }
@@ -169,29 +169,29 @@ class StereoCorridor final : public Module {
     return cheapest(far_blocks(), course && moving ? v_C : course_C, How::search);
   }
 
-  /// The pixel that shows a direction, if it lies within the picture.
+  /// The pixel that shows a direction, if it lies within the image.
   std::optional<cv::Point> pixel_of(const Eigen::Vector3d& direction_C) const {
     if (!(direction_C.z() > 0.0)) return std::nullopt;
-    const vision::StereoGeometry& g = sight_->geometry();
+    const vision::stereo::StereoGeometry& g = sight_->geometry();
     const Eigen::Vector2d on_plane = direction_C.head<2>() / direction_C.z();
     const double u = g.center_u_px + g.focal_px * on_plane.x(), v = g.center_v_px + g.focal_px * on_plane.y();
-    const cv::Size size = sight_->picture();
+    const cv::Size size = sight_->image();
     if (!(u > -0.5 && v > -0.5 && u < size.width - 0.5 && v < size.height - 0.5)) return std::nullopt;
     return cv::Point(static_cast<int>(std::lround(u)), static_cast<int>(std::lround(v)));
   }
 
   std::vector<cv::Point> far_blocks() const {
-    return vision::quadtree_targets(pyramid_, sight_->geometry().disparity16(config_.target_m), config_.coarsest,
-                                    config_.finest);
+    return vision::stereo::quadtree_targets(pyramid_, sight_->geometry().disparity16(config_.target_m),
+                                            config_.coarsest, config_.finest);
   }
 
-  /// The corridor round a pixel's ray, if it is free in the picture and of what has left it.
+  /// The corridor round a pixel's ray, if it is free in the image and of what has left it.
   Free corridor(const cv::Point& pixel, int* tests = nullptr) const {
     if (!passed_->free(R_WC_ * sight_->geometry().ray(pixel))) return std::nullopt;
-    const vision::Corridor found =
-        vision::examine_corridor(pyramid_, sight_->geometry(), pixel, config_.radius_m, config_.target_m);
+    const vision::stereo::Corridor found =
+        vision::stereo::examine_corridor(pyramid_, sight_->geometry(), pixel, config_.radius_m, config_.target_m);
     if (tests) *tests += found.tests;
-    return found.state == vision::Corridor::State::free ? Free(found) : std::nullopt;
+    return found.state == vision::stereo::Corridor::State::free ? Free(found) : std::nullopt;
   }
   Free examine(const cv::Point& pixel) { return corridor(pixel, &tests_); }
 
@@ -202,14 +202,14 @@ class StereoCorridor final : public Module {
     double least = std::numeric_limits<double>::infinity();
     const bool by_depth = config_.cost.depth_per_m != 0.0;
     for (const cv::Point& pixel : candidates) {
-      if (!cv::Rect({}, sight_->picture()).contains(pixel)) continue;
+      if (!cv::Rect({}, sight_->image()).contains(pixel)) continue;
       const Eigen::Vector3d ray = sight_->geometry().ray(pixel);
       // Without a term of depth the cost is known before the corridor is examined.
-      if (!by_depth && vision::target_cost(config_.cost, ray, reference_C) >= least) continue;
+      if (!by_depth && vision::stereo::target_cost(config_.cost, ray, reference_C) >= least) continue;
       const Free free = examine(pixel);
       if (!free) continue;
       const double z_m = std::min(free->z_m, config_.look_ahead_m);
-      const double cost = vision::target_cost(config_.cost, z_m * ray, reference_C);
+      const double cost = vision::stereo::target_cost(config_.cost, z_m * ray, reference_C);
       if (cost >= least) continue;
       least = cost;
       best = Target{pixel, free->z_m, how};
@@ -256,7 +256,7 @@ class StereoCorridor final : public Module {
 
   cv::Mat do_annotate() const override {
     if (pairs_ == 0) return {};
-    TargetPicture seen{sight_->grey(), matched16_, {}, std::nullopt, 0, kHowNames[static_cast<size_t>(How::none)]};
+    TargetImage seen{sight_->grey(), matched16_, {}, std::nullopt, 0, kHowNames[static_cast<size_t>(How::none)]};
     for (const cv::Point& block : far_blocks()) seen.candidates.push_back({block, corridor(block).has_value()});
     if (target_) {
       const double z_m = std::min(target_->z_m, config_.look_ahead_m);
@@ -270,12 +270,12 @@ class StereoCorridor final : public Module {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
   StereoCorridorConfig config_;
-  std::optional<StereoSight> sight_;
+  std::optional<stereo::StereoSight> sight_;
   TargetTracker tracker_;
-  std::optional<PassedObstacles> passed_;
+  std::optional<stereo::PassedObstacles> passed_;
   double acceleration_mps2_ = 0.0;                      ///< that the vehicle is allowed
   Eigen::Matrix3d R_WC_ = Eigen::Matrix3d::Identity();  ///< as estimated
-  vision::DepthPyramid pyramid_;
+  vision::stereo::DepthPyramid pyramid_;
   cv::Mat smooth_, matched16_;
   cv::RNG random_;  ///< of the noise that experiments ask for
   std::optional<Target> target_;
@@ -295,4 +295,4 @@ std::unique_ptr<Module> make_stereo_corridor(const StereoCorridorConfig& config)
   return std::make_unique<StereoCorridor>(config);
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::stereo_corridor

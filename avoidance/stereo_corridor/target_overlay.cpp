@@ -1,29 +1,29 @@
-#include "avoidance/target_picture.h"
+#include "avoidance/stereo_corridor/target_overlay.h"
 
 #include <array>
 #include <opencv2/imgproc.hpp>
 
-#include "avoidance/depth_picture.h"
+#include "avoidance/stereo/depth_overlay.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::stereo_corridor {
 namespace {
 
 const cv::Scalar kFree(90, 230, 110), kDangerous(255, 70, 60), kRegion(255, 255, 255);
 
-cv::Mat depth_panel(const cv::Mat& disparity16, const vision::StereoGeometry& geometry, double far_m) {
+cv::Mat depth_panel(const cv::Mat& disparity16, const vision::stereo::StereoGeometry& geometry, double far_m) {
   cv::Mat depth_m;
-  vision::to_depth(disparity16, geometry, depth_m);
-  return depth_picture(depth_m, far_m);
+  vision::stereo::to_depth(disparity16, geometry, depth_m);
+  return stereo::depth_overlay(depth_m, far_m);
 }
 
-/// The block of the pyramid that a pixel is the centre of: column times size and half a size more, size a power of two,
+/// The block of the pyramid that a pixel is the center of: column times size and half a size more, size a power of two,
 /// so the lowest bit of its column is half the size.
-cv::Rect block_of(const cv::Point& centre) {
-  const int half = centre.x & -centre.x;
-  return {centre.x - half, centre.y - half, 2 * half, 2 * half};
+cv::Rect block_of(const cv::Point& center) {
+  const int half = center.x & -center.x;
+  return {center.x - half, center.y - half, 2 * half, 2 * half};
 }
 
-/// Colours an area so that the picture is still seen; the edge stays free, so that neighbours are told apart.
+/// Colors an area so that the image is still seen; the edge stays free, so that neighbors are told apart.
 void tint(cv::Mat& panel, const cv::Rect& area, const cv::Scalar& color) {
   const cv::Rect inner = cv::Rect(area.x + 1, area.y + 1, area.width - 2, area.height - 2) & cv::Rect({}, panel.size());
   if (inner.empty()) return;
@@ -33,14 +33,14 @@ void tint(cv::Mat& panel, const cv::Rect& area, const cv::Scalar& color) {
 
 }  // namespace
 
-cv::Mat draw(const TargetPicture& seen, const vision::DepthPyramid& pyramid, const vision::StereoGeometry& geometry,
-             double far_m) {
+cv::Mat draw(const TargetImage& seen, const vision::stereo::DepthPyramid& pyramid,
+             const vision::stereo::StereoGeometry& geometry, double far_m) {
   cv::Mat left;
   cv::cvtColor(seen.grey, left, cv::COLOR_GRAY2RGB);
-  const cv::Mat filtered = depth_panel(pyramid.level(0)(cv::Rect({}, pyramid.picture())), geometry, far_m);
+  const cv::Mat filtered = depth_panel(pyramid.level(0)(cv::Rect({}, pyramid.image())), geometry, far_m);
   std::array<cv::Mat, 6> panels = {
       left.clone(), depth_panel(seen.matched16, geometry, far_m), filtered, filtered.clone(), left.clone(), left};
-  for (const TargetPicture::Candidate& candidate : seen.candidates) {
+  for (const TargetImage::Candidate& candidate : seen.candidates) {
     cv::rectangle(panels[3], block_of(candidate.pixel), kRegion);
     tint(panels[4], block_of(candidate.pixel), candidate.free ? kFree : kDangerous);
   }
@@ -48,10 +48,10 @@ cv::Mat draw(const TargetPicture& seen, const vision::DepthPyramid& pyramid, con
     cv::circle(panels[5], *seen.target, seen.target_radius_px, kFree, 2, cv::LINE_AA);
     cv::drawMarker(panels[5], *seen.target, kFree);
   }
-  const std::array<std::string, 6> captions = {"left picture",      "depth, red near",
+  const std::array<std::string, 6> captions = {"left image",        "depth, red near",
                                                "depth, filtered",   "no near objects here",
                                                "free or dangerous", "chosen: " + seen.chosen_by};
-  for (size_t i = 0; i < panels.size(); ++i) caption(panels[i], captions[i]);
+  for (size_t i = 0; i < panels.size(); ++i) stereo::caption(panels[i], captions[i]);
   cv::Mat upper, lower, all;
   cv::hconcat(panels.data(), 3, upper);
   cv::hconcat(panels.data() + 3, 3, lower);
@@ -59,4 +59,4 @@ cv::Mat draw(const TargetPicture& seen, const vision::DepthPyramid& pyramid, con
   return all;
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::stereo_corridor

@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "vision/depth_pyramid.h"
-#include "vision/disparity.h"
+#include "vision/stereo/depth_pyramid.h"
+#include "vision/stereo/disparity.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::stereo_corridor {
 
 /// What a decision of the stereo corridor was made from.
-struct TargetPicture {
+struct TargetImage {
   struct Candidate {
-    cv::Point pixel;  ///< centre of a block of the pyramid
+    cv::Point pixel;  ///< center of a block of the pyramid
     bool free = false;
   };
   cv::Mat grey;       ///< CV_8UC1, left
@@ -24,10 +24,10 @@ struct TargetPicture {
   std::string chosen_by;     ///< the step of [Andert2007] sec. 4.3.4 that found it
 };
 
-/// Draws the chain of [Andert2007] fig. 1 in six panels, left to right, top to bottom: left picture, depth as matched,
+/// Draws the chain of [Andert2007] fig. 1 in six panels, left to right, top to bottom: left image, depth as matched,
 /// depth filtered, regions without near objects, which of them are dangerous (red) or free (green), chosen target.
 /// @param pyramid  of the filtered disparity. @param far_m  shown as far as anything, > 0. @return CV_8UC3, RGB.
-cv::Mat draw(const TargetPicture& seen, const vision::DepthPyramid& pyramid, const vision::StereoGeometry& geometry,
-             double far_m);
+cv::Mat draw(const TargetImage& seen, const vision::stereo::DepthPyramid& pyramid,
+             const vision::stereo::StereoGeometry& geometry, double far_m);
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::stereo_corridor

@@ -1,8 +1,8 @@
-#include "avoidance/target_tracker.h"
+#include "avoidance/stereo_corridor/target_tracker.h"
 
 #include <opencv2/video/tracking.hpp>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::stereo_corridor {
 
 std::optional<cv::Point> TargetTracker::follow(const std::optional<cv::Point>& pixel, const cv::Mat& grey) {
   std::optional<cv::Point> found;
@@ -18,4 +18,4 @@ std::optional<cv::Point> TargetTracker::follow(const std::optional<cv::Point>& p
   return found;
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::stereo_corridor

@@ -1,12 +1,12 @@
-#include "avoidance/turn_back.h"
+#include "avoidance/stereo_corridor/turn_back.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::stereo_corridor {
 
 bool TurnBack::update(const Eigen::Vector3d& p_CG_C) {
-  constexpr double kAhead = 0.2;  // of a radian, so that most of the picture lies round the goal
+  constexpr double kAhead = 0.2;  // of a radian, so that most of the image lies round the goal
   constexpr double kNearer_m = 3.0;
   constexpr double kWander_m = 0.3;  // of a position estimate while a goal is passed
   const double distance_m = std::hypot(p_CG_C.x(), p_CG_C.z());
@@ -26,4 +26,4 @@ bool TurnBack::update(const Eigen::Vector3d& p_CG_C) {
   return turning_;
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::stereo_corridor

@@ -3,10 +3,10 @@
 #include <Eigen/Core>
 #include <limits>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::stereo_corridor {
 
 /// Tells a vehicle that sees ahead only when to turn on the spot for a goal that it has passed: when the goal recedes
-/// and lies a metre behind, and until it lies ahead. Every turn doubles that metre, so that a long way round is still
+/// and lies a meter behind, and until it lies ahead. Every turn doubles that meter, so that a long way round is still
 /// flown, until the goal has come nearer than ever. Ours.
 class TurnBack {
  public:
@@ -21,4 +21,4 @@ class TurnBack {
   bool turning_ = false;
 };
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::stereo_corridor

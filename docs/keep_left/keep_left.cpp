@@ -1,5 +1,5 @@
 // A module built outside Hedgehop's tree: flies ahead, and the more to the left the brighter the left half of the front
-// camera's picture is than the right half. Not to be flown by anybody; see docs/writing-a-module.md.
+// camera's image is than the right half. Not to be flown by anybody; see docs/writing-a-module.md.
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -11,7 +11,7 @@ using namespace hedgehop::avoidance;
 
 struct KeepLeftConfig {
   static constexpr std::string_view kName = "keep_left";
-  static constexpr std::string_view kMeaning = "fly ahead and towards the brighter half of the picture";
+  static constexpr std::string_view kMeaning = "fly ahead and towards the brighter half of the image";
 
   double speed_mps = 1.0;
   double gain_mps = 2.0;
@@ -29,15 +29,15 @@ class KeepLeft : public Module {
  private:
   Needs do_needs() const override { return {{{.role = "front", .channel = CameraNeed::Channel::grey}}}; }
   std::vector<Signal> do_signals() const override { return {{"brightness_left", ""}}; }
-  void do_reset(const Setup&) override { start_.reset(), pictures_ = 0; }
+  void do_reset(const Setup&) override { start_.reset(), images_ = 0; }
 
   Decision do_update(const Observation& seen) override {
     if (!start_) start_ = seen.goal.heading_rad;
-    picture_ = seen.frames[0].image.clone();
-    const int half = picture_.cols / 2;
-    const double left = cv::mean(picture_.colRange(0, half))[0] / 255.0;
-    const double right = cv::mean(picture_.colRange(half, picture_.cols))[0] / 255.0;
-    ++pictures_;
+    image_ = seen.frames[0].image.clone();
+    const int half = image_.cols / 2;
+    const double left = cv::mean(image_.colRange(0, half))[0] / 255.0;
+    const double right = cv::mean(image_.colRange(half, image_.cols))[0] / 255.0;
+    ++images_;
     const double ahead = config_.speed_mps, aside = config_.gain_mps * (right - left);  // to the right
     const double c = std::cos(*start_), s = std::sin(*start_);
     const VelocityCommand command{.v_WB_W = {ahead * c - aside * s, ahead * s + aside * c},
@@ -46,19 +46,19 @@ class KeepLeft : public Module {
     return {.command = command, .status = "cruise", .signals = {left}};
   }
 
-  std::vector<Metric> do_metrics() const override { return {{"pictures", static_cast<double>(pictures_), ""}}; }
+  std::vector<Metric> do_metrics() const override { return {{"images", static_cast<double>(images_), ""}}; }
   cv::Mat do_annotate() const override {
     cv::Mat drawn;
-    if (picture_.empty()) return drawn;
-    cv::cvtColor(picture_, drawn, cv::COLOR_GRAY2RGB);
+    if (image_.empty()) return drawn;
+    cv::cvtColor(image_, drawn, cv::COLOR_GRAY2RGB);
     cv::line(drawn, {drawn.cols / 2, 0}, {drawn.cols / 2, drawn.rows}, {255, 160, 0});
     return drawn;
   }
 
   KeepLeftConfig config_;
   std::optional<double> start_;
-  cv::Mat picture_;
-  int pictures_ = 0;
+  cv::Mat image_;
+  int images_ = 0;
 };
 
 std::unique_ptr<Module> make(const KeepLeftConfig& config) { return std::make_unique<KeepLeft>(config); }

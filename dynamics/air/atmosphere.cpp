@@ -1,8 +1,8 @@
-#include "dynamics/atmosphere.h"
+#include "dynamics/air/atmosphere.h"
 
 #include <cmath>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::air {
 namespace {
 
 // [ISA1976] tables 2 and 4.
@@ -30,4 +30,4 @@ double pressure_altitude_m(double pressure_pa) {
   return kEarthRadiusM * geopotential_m / (kEarthRadiusM - geopotential_m);
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::air

@@ -1,7 +1,7 @@
 #pragma once
 
 /// The standard atmosphere up to the tropopause.
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::air {
 
 /// Air at rest at one altitude.
 struct StandardAir {
@@ -16,4 +16,4 @@ StandardAir standard_air(double altitude_m);
 /// @param pressure_pa  > 0.
 double pressure_altitude_m(double pressure_pa);
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::air

@@ -1,10 +1,10 @@
-#include "dynamics/dryden.h"
+#include "dynamics/air/dryden.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::air {
 namespace {
 
 constexpr double kFootM = 0.3048;
@@ -56,4 +56,4 @@ SecondOrderStep second_order_step(double path) {
 
 Eigen::RowVector2d second_order_output() { return {std::sqrt(1.5), 0.5 * (1.0 - sqrt3)}; }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::air

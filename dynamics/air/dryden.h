@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 /// Dryden turbulence as shaping filters of white noise, stepped exactly.
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::air {
 
 /// Lengths and intensities of turbulence below 1000 ft: u along the mean wind, v across it, w down.
 struct DrydenScales {
@@ -33,4 +33,4 @@ SecondOrderStep second_order_step(double path);
 /// The output of the second-order filter is this row times z.
 Eigen::RowVector2d second_order_output();
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::air

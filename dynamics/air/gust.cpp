@@ -1,20 +1,20 @@
-#include "dynamics/gust.h"
+#include "dynamics/air/gust.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
-#include "dynamics/sensor_noise.h"
+#include "dynamics/sensors/sensor_noise.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::air {
 
 void check(const GustConfig& c) {
-  require_not_negative("gust.speed", c.speed_mps);
+  sensors::require_not_negative("gust.speed", c.speed_mps);
   if (!std::isfinite(c.from_rad)) throw std::invalid_argument("gust.from: must be finite");
-  require_not_negative("gust.start", c.start_s);
-  require_positive("gust.length", c.length_m);
-  require_not_negative("gust.hold", c.hold_m);
+  sensors::require_not_negative("gust.start", c.start_s);
+  sensors::require_positive("gust.length", c.length_m);
+  sensors::require_not_negative("gust.hold", c.hold_m);
 }
 
 double gust_speed_mps(const GustConfig& c, double way_m) {
@@ -23,4 +23,4 @@ double gust_speed_mps(const GustConfig& c, double way_m) {
   return 0.5 * c.speed_mps * (1.0 - std::cos(std::numbers::pi * from_edge_m / c.length_m));
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::air

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::air {
 
 /// One horizontal gust of 1-cosine shape that an aircraft flies through: it rises over a length, holds, and falls as it
 /// rose.
@@ -31,4 +31,4 @@ void check(const GustConfig& config);
 /// Source: [MIL8785C] sec. 3.7.1.3. Differs: the fall mirrors the rise, where the standard's gust stays.
 double gust_speed_mps(const GustConfig& config, double way_m);
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::air

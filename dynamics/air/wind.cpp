@@ -1,4 +1,4 @@
-#include "dynamics/wind.h"
+#include "dynamics/air/wind.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -6,9 +6,9 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "dynamics/sensor_noise.h"
+#include "dynamics/sensors/sensor_noise.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::air {
 namespace {
 
 constexpr double kLowestAirspeedMps = 1.0;  ///< chosen: in a hover in still air the field still drifts past
@@ -27,7 +27,7 @@ Wind::Wind(const WindConfig& config, uint64_t seed) : config_(config), generator
   if (config.speed_mps < 0.0 || config.turbulence_w20_mps < 0.0) {
     throw std::invalid_argument("wind speeds must not be negative");
   }
-  require_range("roughness", config.roughness_m, 0.0, kRoughestM);
+  sensors::require_range("roughness", config.roughness_m, 0.0, kRoughestM);
   check(config.gust);
   gust_along_W_ = blowing_W(config.gust.from_rad);
   const Eigen::Vector3d blows_W = blowing_W(config.from_rad);
@@ -87,4 +87,4 @@ void Wind::move(Eigen::Vector2d& z, const SecondOrderStep& step) {
   z = step.decay * z + step.noise * Eigen::Vector2d{eta1, eta2};
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::air

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <random>
 
-#include "dynamics/dryden.h"
-#include "dynamics/gust.h"
+#include "dynamics/air/dryden.h"
+#include "dynamics/air/gust.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::air {
 
 /// A steady horizontal wind with Dryden turbulence and one gust upon it. They are set apart, so that each can be
 /// studied alone; by [MIL8785C] sec. 3.7.3 W20 15, 30 and 45 kt (7.7, 15.4, 23.2 m/s) are light, moderate and severe.
@@ -73,4 +73,4 @@ class Wind {
   double t_s_ = 0.0, gust_way_m_ = 0.0;  ///< since the flight began, since the gust was met
 };
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::air

@@ -1,15 +1,15 @@
-#include "dynamics/autopilot.h"
+#include "dynamics/control/autopilot.h"
 
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <variant>
 
-#include "dynamics/magnetometer.h"
 #include "dynamics/rigid_body.h"
-#include "dynamics/sensor_noise.h"
+#include "dynamics/sensors/magnetometer.h"
+#include "dynamics/sensors/sensor_noise.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::control {
 namespace {
 
 using M = HoverModel;
@@ -57,11 +57,11 @@ Eigen::Vector2d turned(double angle_rad, const Eigen::Vector2d& v) { return Eige
 
 Autopilot::Autopilot(const AutopilotConfig& config, const VehicleConfig& vehicle)
     : config_(config), model_(make_hover_model(vehicle)) {
-  require_positive("autopilot.speed_limit", config.speed_limit_mps);
-  require_positive("autopilot.acceleration_limit", config.acceleration_limit_mps2);
-  require_positive("autopilot.climb_rate_limit", config.climb_rate_limit_mps);
-  require_positive("autopilot.yaw_rate_limit", config.yaw_rate_limit_radps);
-  require_positive("autopilot.tilt_limit", config.tilt_limit_rad);
+  sensors::require_positive("autopilot.speed_limit", config.speed_limit_mps);
+  sensors::require_positive("autopilot.acceleration_limit", config.acceleration_limit_mps2);
+  sensors::require_positive("autopilot.climb_rate_limit", config.climb_rate_limit_mps);
+  sensors::require_positive("autopilot.yaw_rate_limit", config.yaw_rate_limit_radps);
+  sensors::require_positive("autopilot.tilt_limit", config.tilt_limit_rad);
   design(kUsualDtS);
   reset({});
 }
@@ -158,7 +158,7 @@ Autopilot::Target Autopilot::target(const HoverSetpoint& s, const NavigationEsti
     anchor_->p_WB = now.p_WB_est.head<2>();
   }
   const double turn = std::clamp(s.yaw_rate_radps, -config_.yaw_rate_limit_radps, config_.yaw_rate_limit_radps);
-  anchor_->heading_rad = wrap_angle(anchor_->heading_rad + turn * dt_s_);
+  anchor_->heading_rad = sensors::wrap_angle(anchor_->heading_rad + turn * dt_s_);
   Target out{.altitude_m = anchor_->altitude_m, .heading_rad = anchor_->heading_rad};
   if (anchor_->stopped) out.v_WB_W = velocity_towards(anchor_->p_WB, now.p_WB_est.head<2>());
   return out;
@@ -224,7 +224,7 @@ Controls Autopilot::plan(const Target& target) const {
   const double below_m = c.climb_rate_limit_mps / plan_slopes_.climb_per_m;
   e[M::kBelow] = std::clamp(reference_[M::kBelow] + target.altitude_m, -below_m, below_m);
   const double off_rad = c.yaw_rate_limit_radps / plan_slopes_.turn_per_rad;
-  e[M::kHeading] = std::clamp(wrap_angle(reference_[M::kHeading] - target.heading_rad), -off_rad, off_rad);
+  e[M::kHeading] = std::clamp(sensors::wrap_angle(reference_[M::kHeading] - target.heading_rad), -off_rad, off_rad);
   return cruise - K_plan_ * e;
 }
 
@@ -235,7 +235,7 @@ Controls Autopilot::hold(const DesignVector& state, const Controls& planned_cont
   DesignVector e(n + kIntegrals);
   e << state - reference_, integrals_;
   e.head<2>() = state.head<2>() - turned(reference_[M::kHeading] - heading, reference_.head<2>());
-  e[M::kHeading] = wrap_angle(heading - reference_[M::kHeading]);
+  e[M::kHeading] = sensors::wrap_angle(heading - reference_[M::kHeading]);
   Eigen::Vector4d errors{e[M::kForward], e[M::kRight], e[M::kBelow], e[M::kHeading]};
   if (attitude) e.segment<2>(n).setZero();
 
@@ -271,8 +271,8 @@ void Autopilot::advance_reference(const Controls& u) {
   DesignVector next = step_.A * x + step_.B * u;
   next.head<2>() = turned(-next[M::kHeading], next.head<2>());
   next[M::kBelow] += reference_[M::kBelow];
-  next[M::kHeading] = wrap_angle(next[M::kHeading] + reference_[M::kHeading]);
+  next[M::kHeading] = sensors::wrap_angle(next[M::kHeading] + reference_[M::kHeading]);
   reference_ = next;
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::control

@@ -3,14 +3,14 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "dynamics/control/hover_model.h"
+#include "dynamics/control/lqr.h"
+#include "dynamics/control/navigation.h"
+#include "dynamics/control/setpoint.h"
 #include "dynamics/controls.h"
-#include "dynamics/hover_model.h"
-#include "dynamics/lqr.h"
-#include "dynamics/navigation.h"
-#include "dynamics/setpoint.h"
 #include "dynamics/vehicle.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::control {
 
 /// What the autopilot keeps within; its gains follow from the vehicle.
 struct AutopilotConfig {
@@ -41,7 +41,7 @@ void describe(Visitor& v, AutopilotConfig& c) {
 /// an explicit model [Tyler1964] sec. II.
 class Autopilot {
  public:
-  /// Throws std::invalid_argument on values out of range, or on a vehicle that cannot be stabilised.
+  /// Throws std::invalid_argument on values out of range, or on a vehicle that cannot be stabilized.
   Autopilot(const AutopilotConfig& config, const VehicleConfig& vehicle);
 
   /// Starts a flight in a trimmed hover.
@@ -104,4 +104,4 @@ class Autopilot {
   std::optional<HoverAnchor> anchor_;
 };
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::control

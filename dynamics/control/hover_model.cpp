@@ -1,23 +1,23 @@
-#include "dynamics/hover_model.h"
+#include "dynamics/control/hover_model.h"
 
 #include <array>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
+#include "dynamics/helicopter/trim.h"
 #include "dynamics/rigid_body.h"
-#include "dynamics/trim.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::control {
 namespace {
 
-HoverModel make(const HelicopterConfig& config) {
-  using L = LinearModel;
+HoverModel make(const helicopter::HelicopterConfig& config) {
+  using L = helicopter::LinearModel;
   using M = HoverModel;
-  const HelicopterModel model = make_model(config);
-  const std::optional<Trim> hover = trim(model, Eigen::Vector3d::Zero());
+  const helicopter::HelicopterModel model = make_model(config);
+  const std::optional<helicopter::Trim> hover = trim(model, Eigen::Vector3d::Zero());
   if (!hover) throw std::invalid_argument("the helicopter has no steady hover in still air");
-  LinearModel linear = linearise(model, *hover);
+  helicopter::LinearModel linear = linearize(model, *hover);
 
   // From velocity in B to velocity in the level frame; at rest attitude does not enter.
   Eigen::Matrix<double, L::kStates, L::kStates> T = Eigen::Matrix<double, L::kStates, L::kStates>::Identity();
@@ -25,7 +25,7 @@ HoverModel make(const HelicopterConfig& config) {
   linear.A = (T * linear.A * T.transpose()).eval();
   linear.B = (T * linear.B).eval();
 
-  // Where each state of the linear model stands; a lumped stabiliser bar has none of its own.
+  // Where each state of the linear model stands; a lumped stabilizer bar has none of its own.
   std::vector<int> place(L::kStates);
   const std::vector<std::pair<int, int>> named = {
       {L::kU, M::kForward}, {L::kV, M::kRight},     {L::kW, M::kDown},
@@ -56,12 +56,12 @@ HoverModel make(const HelicopterConfig& config) {
   }
   A(M::kBelow, M::kDown) = 1.0;
 
-  out.trim = to_controls(hover->blades);
+  out.trim = helicopter::to_controls(hover->blades);
   out.acceptable = {0.02, 0.05, 0.05, 0.1};  // chosen, rad
-  const std::array<ServoConfig, 4> configs{config.servos.collective, config.servos.cyclic, config.servos.cyclic,
-                                           config.servos.tail};
+  const std::array<helicopter::ServoConfig, 4> configs{config.servos.collective, config.servos.cyclic,
+                                                       config.servos.cyclic, config.servos.tail};
   for (int j = 0; j < kControlAxes; ++j) {
-    const ServoConfig& servo = configs[static_cast<size_t>(j)];
+    const helicopter::ServoConfig& servo = configs[static_cast<size_t>(j)];
     const double wn2 = servo.natural_frequency_radps * servo.natural_frequency_radps;
     const int position = servos + 2 * j, rate = position + 1;
     A(position, rate) = 1.0;
@@ -74,13 +74,13 @@ HoverModel make(const HelicopterConfig& config) {
   return out;
 }
 
-HoverModel make(const MulticopterConfig& config) {
-  using L = MulticopterLinearModel;
+HoverModel make(const multicopter::MulticopterConfig& config) {
+  using L = multicopter::MulticopterLinearModel;
   using M = HoverModel;
-  const MulticopterModel model = make_model(config);
-  const std::optional<MulticopterTrim> hover = trim(model, Eigen::Vector3d::Zero());
+  const multicopter::MulticopterModel model = make_model(config);
+  const std::optional<multicopter::MulticopterTrim> hover = trim(model, Eigen::Vector3d::Zero());
   if (!hover) throw std::invalid_argument("the multicopter has no steady hover in still air");
-  const MulticopterLinearModel linear = linearise(model, *hover);
+  const multicopter::MulticopterLinearModel linear = linearize(model, *hover);
 
   HoverModel out;
   out.roll_rad = hover->roll_rad;
@@ -98,8 +98,8 @@ HoverModel make(const MulticopterConfig& config) {
   }
   out.motion.A(M::kBelow, M::kDown) = 1.0;
 
-  const Controls most = authority(model);
-  out.trim = wrench(model, hover->state.speeds_radps);
+  const Controls most = multicopter::authority(model);
+  out.trim = multicopter::wrench(model, hover->state.speeds_radps);
   out.highest = most;
   out.lowest = -most;
   out.lowest[kHeave] = 0.0;
@@ -115,4 +115,4 @@ HoverModel make_hover_model(const VehicleConfig& vehicle) {
   return std::visit([](const auto& config) { return make(config); }, vehicle);
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::control

@@ -1,10 +1,10 @@
-#include "dynamics/lqr.h"
+#include "dynamics/control/lqr.h"
 
 #include <Eigen/LU>
 #include <cmath>
 #include <stdexcept>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::control {
 namespace {
 
 /// e^M by scaling, a Taylor series and squaring.
@@ -55,9 +55,9 @@ DesignMatrix lqr_gain(const LinearSystem& system, const DesignMatrix& Q, const D
     A = (A * V1).eval();
     converged = added.cwiseAbs().maxCoeff() <= kConverged * H.cwiseAbs().maxCoeff();
   }
-  if (!converged || !H.allFinite()) throw std::invalid_argument("the vehicle cannot be stabilised by its linear model");
+  if (!converged || !H.allFinite()) throw std::invalid_argument("the vehicle cannot be stabilized by its linear model");
   const DesignMatrix S = R + system.B.transpose() * H * system.B;
   return S.partialPivLu().solve(DesignMatrix(system.B.transpose() * H * system.A));
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::control

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 /// Linear-quadratic design for sampled systems of moderate size; matrices live on the stack.
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::control {
 
 inline constexpr int kMostStates = 32, kMostInputs = 8;
 using DesignMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostStates, kMostStates>;
@@ -17,10 +17,10 @@ struct LinearSystem {
 /// Returns the exact sampled system for inputs held over steps of dt_s > 0.
 LinearSystem sampled(const LinearSystem& continuous, double dt_s);
 
-/// Returns K, inputs x states, such that u = -K x minimises the sum of x'Qx + u'Ru over all steps of a sampled system.
+/// Returns K, inputs x states, such that u = -K x minimizes the sum of x'Qx + u'Ru over all steps of a sampled system.
 /// @param Q, R  symmetric, Q at least semidefinite, R definite.
 /// Throws std::invalid_argument when no such K makes the system stable.
 /// Source: structured doubling for the discrete algebraic Riccati equation [ChuFanLinWang2004] sec. 2.
 DesignMatrix lqr_gain(const LinearSystem& system, const DesignMatrix& Q, const DesignMatrix& R);
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::control

@@ -1,11 +1,11 @@
-#include "dynamics/navigation.h"
+#include "dynamics/control/navigation.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/atmosphere.h"
+#include "dynamics/air/atmosphere.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::control {
 namespace {
 
 // Where each part of the error state stands: attitude (small rotation in B), velocity and position in W, biases of
@@ -35,15 +35,15 @@ double square(double x) { return x * x; }
 
 Navigation::Navigation(const NavigationConfig& config, const Sensors& sensors)
     : config_(config), sensors_(sensors), dt_s_(1.0 / sensors.imu.rate_hz) {
-  require_positive("navigation.attitude_sigma", config.attitude_sigma_rad);
-  require_positive("navigation.position_sigma", config.position_sigma_m);
-  require_positive("navigation.alignment_residual", config.alignment_residual);
-  require_positive("navigation.surface_jump", config.surface_jump_m);
+  sensors::require_positive("navigation.attitude_sigma", config.attitude_sigma_rad);
+  sensors::require_positive("navigation.position_sigma", config.position_sigma_m);
+  sensors::require_positive("navigation.alignment_residual", config.alignment_residual);
+  sensors::require_positive("navigation.surface_jump", config.surface_jump_m);
   history_.resize(static_cast<size_t>(std::llround(sensors.gps.latency_s / dt_s_)) + 1);
   reset({}, {});
 }
 
-void Navigation::reset(const RigidBodyState& known, const ImuReading& bias) {
+void Navigation::reset(const RigidBodyState& known, const sensors::ImuReading& bias) {
   q_WB_ = q_WB_gyro_ = known.q_WB;
   v_WB_W_ = known.q_WB * known.v_WB_B;
   p_WB_ = known.p_WB;
@@ -61,10 +61,10 @@ void Navigation::reset(const RigidBodyState& known, const ImuReading& bias) {
   std::fill(history_.begin(), history_.end(), Past{p_WB_, v_WB_W_});
   next_ = 0;
 
-  const ImuConfig& imu = sensors_.imu;
-  const double gyro = config_.alignment_residual * std::hypot(imu.gyro_offset_radps, gyro_wander(imu).sigma);
+  const sensors::ImuConfig& imu = sensors_.imu;
+  const double gyro = config_.alignment_residual * std::hypot(imu.gyro_offset_radps, sensors::gyro_wander(imu).sigma);
   const double accelerometer =
-      config_.alignment_residual * std::hypot(imu.accelerometer_offset_mps2, accelerometer_wander(imu).sigma);
+      config_.alignment_residual * std::hypot(imu.accelerometer_offset_mps2, sensors::accelerometer_wander(imu).sigma);
   Column sigma;
   sigma.segment<3>(kTheta).setConstant(config_.attitude_sigma_rad);
   sigma.segment<3>(kV).setConstant(kInitialVelocitySigmaMps);
@@ -78,8 +78,8 @@ void Navigation::reset(const RigidBodyState& known, const ImuReading& bias) {
   publish();
 }
 
-void Navigation::predict(const ImuReading& imu) {
-  const ImuReading last = last_imu_.value_or(imu);
+void Navigation::predict(const sensors::ImuReading& imu) {
+  const sensors::ImuReading last = last_imu_.value_or(imu);
   const bool first = !last_imu_;
   last_imu_ = imu;
   w_WB_B_ = imu.w_WB_B_meas - gyro_bias_;
@@ -113,9 +113,9 @@ void Navigation::predict(const ImuReading& imu) {
 }
 
 void Navigation::propagate_errors(const Eigen::Matrix3d& R_WB, const Eigen::Vector3d& w, const Eigen::Vector3d& f) {
-  const ImuConfig& imu = sensors_.imu;
-  const GaussMarkov gps{sensors_.gps.wander_horizontal_m, sensors_.gps.wander_time_s};
-  const GaussMarkov barometer = barometer_wander(sensors_.barometer);
+  const sensors::ImuConfig& imu = sensors_.imu;
+  const sensors::GaussMarkov gps{sensors_.gps.wander_horizontal_m, sensors_.gps.wander_time_s};
+  const sensors::GaussMarkov barometer = sensors::barometer_wander(sensors_.barometer);
   gps_wander_m_ *= gps.decay(dt_s_);
   barometer_wander_pa_ *= barometer.decay(dt_s_);
   Square F = Square::Identity();
@@ -131,8 +131,8 @@ void Navigation::propagate_errors(const Eigen::Matrix3d& R_WB, const Eigen::Vect
   P_.diagonal().segment<3>(kTheta).array() += square(imu.gyro_noise_density) * dt_s_;
   P_.diagonal().segment<3>(kV).array() += square(imu.accelerometer_noise_density) * dt_s_;
   P_.diagonal().segment<2>(kP).array() += square(config_.drift_mps_rt_hz) * dt_s_;
-  P_.diagonal().segment<3>(kGyro).array() += square(gyro_wander(imu).added_sigma(dt_s_));
-  P_.diagonal().segment<3>(kAccelerometer).array() += square(accelerometer_wander(imu).added_sigma(dt_s_));
+  P_.diagonal().segment<3>(kGyro).array() += square(sensors::gyro_wander(imu).added_sigma(dt_s_));
+  P_.diagonal().segment<3>(kAccelerometer).array() += square(sensors::accelerometer_wander(imu).added_sigma(dt_s_));
   P_.diagonal().segment<2>(kWander).array() += square(gps.added_sigma(dt_s_));
   P_(kBarometer, kBarometer) += square(barometer.added_sigma(dt_s_));
 }
@@ -184,8 +184,8 @@ void Navigation::correct_velocity(const Eigen::Vector2d& v_WB_B_xy_meas, double 
   inject();
 }
 
-void Navigation::correct_gps(const GpsFix& fix) {
-  const GpsConfig& gps = sensors_.gps;
+void Navigation::correct_gps(const sensors::GpsFix& fix) {
+  const sensors::GpsConfig& gps = sensors_.gps;
   const Past& then = history_[next_];  // the oldest: a latency ago
   for (int i = 0; i < 2; ++i) {
     Row H = Row::Zero();
@@ -213,7 +213,7 @@ void Navigation::correct_heading(double heading_meas_rad) {
   H[kTheta + 1] = std::sin(rpy[0]) / std::cos(rpy[1]);
   H[kTheta + 2] = std::cos(rpy[0]) / std::cos(rpy[1]);
   H[kCompass] = 1.0;
-  const double innovation = wrap_angle(heading_meas_rad - rpy[2] - compass_offset_rad_);
+  const double innovation = sensors::wrap_angle(heading_meas_rad - rpy[2] - compass_offset_rad_);
   correct(H, innovation, square(sensors_.magnetometer.noise_rad));
   inject();
 }
@@ -223,8 +223,8 @@ void Navigation::correct_heading(double heading_meas_rad) {
 void Navigation::correct_height(double height_meas_m) {
   last_height_m_ = height_meas_m;
   const double altitude_m = -p_WB_.z();
-  const RangerConfig& ranger = sensors_.height_sensor.ranger;
-  const double sigma_m = std::hypot(noise_sigma_m(ranger, height_meas_m), ranger.offset_m);
+  const sensors::RangerConfig& ranger = sensors_.height_sensor.ranger;
+  const double sigma_m = std::hypot(sensors::noise_sigma_m(ranger, height_meas_m), ranger.offset_m);
   const double altitude_sigma_m = std::sqrt(P_(kP + 2, kP + 2));
   const double near_m = config_.surface_jump_m + 3.0 * sigma_m;
   if (std::abs(height_meas_m - altitude_m) <= near_m + 3.0 * altitude_sigma_m) {
@@ -252,7 +252,7 @@ void Navigation::correct_altitude(double innovation_m, double variance_m2) {
 }
 
 void Navigation::correct_pressure(double pressure_meas_pa) {
-  const StandardAir air = standard_air(-p_WB_.z());
+  const air::StandardAir air = air::standard_air(-p_WB_.z());
   Row H = Row::Zero();
   H[kP + 2] = air.density_kgpm3 * kGravityMps2;
   H[kBarometer] = 1.0;
@@ -273,4 +273,4 @@ void Navigation::publish() {
   estimate_.sigma_p_W_m = sigma.segment<3>(kP);
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::control

@@ -5,13 +5,13 @@
 #include <optional>
 #include <vector>
 
-#include "dynamics/barometer.h"
-#include "dynamics/gps.h"
-#include "dynamics/height_sensor.h"
-#include "dynamics/imu.h"
-#include "dynamics/magnetometer.h"
+#include "dynamics/sensors/barometer.h"
+#include "dynamics/sensors/gps.h"
+#include "dynamics/sensors/height_sensor.h"
+#include "dynamics/sensors/imu.h"
+#include "dynamics/sensors/magnetometer.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::control {
 
 /// The filter's choices; the noise it expects is that of the sensors' configs.
 struct NavigationConfig {
@@ -64,23 +64,23 @@ struct NavigationEstimate {
 class Navigation {
  public:
   struct Sensors {
-    ImuConfig imu;
-    GpsConfig gps;
-    HeightSensorConfig height_sensor;
-    MagnetometerConfig magnetometer;
-    BarometerConfig barometer;
+    sensors::ImuConfig imu;
+    sensors::GpsConfig gps;
+    sensors::HeightSensorConfig height_sensor;
+    sensors::MagnetometerConfig magnetometer;
+    sensors::BarometerConfig barometer;
   };
 
   /// Throws std::invalid_argument on values out of range.
   Navigation(const NavigationConfig& config, const Sensors& sensors);
 
   /// Starts from a state known to the configured accuracy. @param known  with its errors. @param bias  as calibrated.
-  void reset(const RigidBodyState& known, const ImuReading& bias);
+  void reset(const RigidBodyState& known, const sensors::ImuReading& bias);
 
-  void predict(const ImuReading& imu);
+  void predict(const sensors::ImuReading& imu);
   /// @param v_WB_B_xy_meas  forward and right velocity in B, m/s. @param sigma_mps  of each, > 0.
   void correct_velocity(const Eigen::Vector2d& v_WB_B_xy_meas, double sigma_mps);
-  void correct_gps(const GpsFix& fix);
+  void correct_gps(const sensors::GpsFix& fix);
   void correct_heading(double heading_meas_rad);
   void correct_height(double height_meas_m);
   void correct_pressure(double pressure_meas_pa);
@@ -112,7 +112,7 @@ class Navigation {
   Eigen::Vector2d gps_wander_m_;
   double compass_offset_rad_ = 0.0;
   double barometer_wander_pa_ = 0.0;
-  std::optional<ImuReading> last_imu_;
+  std::optional<sensors::ImuReading> last_imu_;
   double since_velocity_s_ = 0.0;
 
   double surface_m_ = 0.0;        ///< altitude of the surface below; 0 is the ground
@@ -125,4 +125,4 @@ class Navigation {
   NavigationEstimate estimate_;
 };
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::control

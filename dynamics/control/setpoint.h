@@ -4,7 +4,7 @@
 #include <variant>
 
 /// What the autopilot is asked to do.
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::control {
 
 /// Fly at a horizontal velocity, hold a height and a heading.
 struct VelocitySetpoint {
@@ -27,4 +27,4 @@ struct HoverSetpoint {
 };
 using Setpoint = std::variant<VelocitySetpoint, PositionSetpoint, AttitudeSetpoint, HoverSetpoint>;
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::control

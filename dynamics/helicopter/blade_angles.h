@@ -2,7 +2,7 @@
 
 #include "dynamics/controls.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 
 /// The controls of a helicopter: what is asked of the servos, or where they stand.
 struct BladeAngles {
@@ -17,4 +17,4 @@ inline Controls to_controls(const BladeAngles& b) {
 }
 inline BladeAngles to_blade_angles(const Controls& c) { return {c[kHeave], c[kRoll], c[kPitch], c[kYaw]}; }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

@@ -1,8 +1,8 @@
-#include "dynamics/flapping.h"
+#include "dynamics/helicopter/flapping.h"
 
 #include <cmath>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 
 FlappingModel at_speed(FlappingModel model, double ratio) {
   model.lag_s /= ratio;
@@ -61,4 +61,4 @@ Eigen::Vector2d steady_cyclic(const FlappingModel& m, FlapState& flap, const Fla
   return {lateral, longitudinal};
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

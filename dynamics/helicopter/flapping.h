@@ -4,13 +4,13 @@
 #include <string_view>
 #include <variant>
 
-/// First-order flapping of the main rotor's disc and its Bell-Hiller stabiliser bar.
-namespace hedgehop::dynamics {
+/// First-order flapping of the main rotor's disc and its Bell-Hiller stabilizer bar.
+namespace hedgehop::dynamics::helicopter {
 
 /// Rotor and bar as one: the bar's lag is the disc's. Source: [Gavrilets2015] sec. on flapping.
 struct LumpedBarConfig {
   static constexpr std::string_view kName = "lumped";
-  static constexpr std::string_view kMeaning = "rotor and stabiliser bar follow the stick as one, with one lag";
+  static constexpr std::string_view kMeaning = "rotor and stabilizer bar follow the stick as one, with one lag";
   double lock_number = 0.8;   ///< effective gamma_fb
   double lateral_gain = 4.2;  ///< disc tilt per cyclic, rad/rad
   double longitudinal_gain = 4.2;
@@ -27,7 +27,7 @@ void describe(Visitor& v, LumpedBarConfig& c) {
 /// bar. The defaults are estimates that give the default helicopter the lag and gain of its lumped bar.
 struct ExplicitBarConfig {
   static constexpr std::string_view kName = "explicit";
-  static constexpr std::string_view kMeaning = "rotor and stabiliser bar flap on their own, the bar feeding the rotor";
+  static constexpr std::string_view kMeaning = "rotor and stabilizer bar flap on their own, the bar feeding the rotor";
   double mixing = 1.0;                   ///< K_s, disc tilt per bar tilt
   double lateral_gain = 1.145;           ///< B_lat, cyclic straight to the blades, rad/rad
   double longitudinal_gain = 1.145;      ///< A_lon
@@ -103,4 +103,4 @@ double heave_flapping(const FlappingModel& model, double advance_ratio);
 /// In `input` the cyclic is not read. @return lateral, longitudinal, rad.
 Eigen::Vector2d steady_cyclic(const FlappingModel& model, FlapState& flap, const FlapInput& input);
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

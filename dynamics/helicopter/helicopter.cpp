@@ -1,11 +1,11 @@
-#include "dynamics/helicopter.h"
+#include "dynamics/helicopter/helicopter.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 
 HelicopterVector to_vector(const HelicopterState& state) {
   HelicopterVector x;
@@ -81,9 +81,9 @@ HelicopterLoads helicopter_loads(const HelicopterModel& model, const HelicopterS
   loads.tail_rotor = tail_rotor_loads(model.tail_rotor, blades.tail_rad, v_air_B, w_B);
   const Loads fuselage = fuselage_loads(model.surfaces, rho, v_air_B);
   const Loads fin = fin_loads(model.surfaces, rho, model.tail_rotor.arm_m, model.tail_rotor.height_m, v_air_B, w_B);
-  const Loads stabiliser = stabiliser_loads(model.surfaces, rho, loads.main_rotor.inflow.induced_mps, v_air_B, w_B);
-  loads.f_B = loads.main_rotor.f_B + loads.tail_rotor.f_B + fuselage.f_B + fin.f_B + stabiliser.f_B;
-  loads.t_B = loads.main_rotor.t_B + loads.tail_rotor.t_B + fuselage.t_B + fin.t_B + stabiliser.t_B;
+  const Loads stabilizer = stabilizer_loads(model.surfaces, rho, loads.main_rotor.inflow.induced_mps, v_air_B, w_B);
+  loads.f_B = loads.main_rotor.f_B + loads.tail_rotor.f_B + fuselage.f_B + fin.f_B + stabilizer.f_B;
+  loads.t_B = loads.main_rotor.t_B + loads.tail_rotor.t_B + fuselage.t_B + fin.t_B + stabilizer.t_B;
   return loads;
 }
 
@@ -99,4 +99,4 @@ HelicopterVector derivative(const HelicopterModel& model, const HelicopterState&
   return derivative(model, state, helicopter_loads(model, state, blades, wind_W));
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

@@ -3,17 +3,17 @@
 #include <Eigen/Core>
 #include <string_view>
 
-#include "dynamics/blade_angles.h"
-#include "dynamics/hull.h"
-#include "dynamics/main_rotor.h"
+#include "dynamics/helicopter/blade_angles.h"
+#include "dynamics/helicopter/helicopter_hull.h"
+#include "dynamics/helicopter/main_rotor.h"
+#include "dynamics/helicopter/rotor_speed.h"
+#include "dynamics/helicopter/servo.h"
+#include "dynamics/helicopter/surfaces.h"
+#include "dynamics/helicopter/tail_rotor.h"
 #include "dynamics/mass.h"
 #include "dynamics/rigid_body.h"
-#include "dynamics/rotor_speed.h"
-#include "dynamics/servo.h"
-#include "dynamics/surfaces.h"
-#include "dynamics/tail_rotor.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 
 struct ServosConfig {
   ServoConfig collective{.lowest_rad = -0.218166156499291, .highest_rad = 0.314159265358979};  // -12.5 .. 18 deg
@@ -27,11 +27,11 @@ void describe(Visitor& v, ServosConfig& c) {
   v("tail", c.tail, {.meaning = "tail rotor collective"});
 }
 
-/// A helicopter with one main rotor, a stabiliser bar and a tail rotor. Defaults: the X-Cell .60 of [Gavrilets2015]
+/// A helicopter with one main rotor, a stabilizer bar and a tail rotor. Defaults: the X-Cell .60 of [Gavrilets2015]
 /// table of parameters.
 struct HelicopterConfig {
   static constexpr std::string_view kName = "helicopter";
-  static constexpr std::string_view kMeaning = "main and tail rotor, Bell-Hiller stabiliser bar";
+  static constexpr std::string_view kMeaning = "main and tail rotor, Bell-Hiller stabilizer bar";
   double air_density_kgpm3 = 1.225;
   MassConfig mass;
   MainRotorConfig main_rotor;
@@ -46,9 +46,9 @@ void describe(Visitor& v, HelicopterConfig& c) {
   v("air_density", c.air_density_kgpm3,
     {.unit = "kg/m3", .above = 0.0, .at_most = 2.0, .meaning = "of the air it flies in"});
   v("mass", c.mass, {.meaning = "mass and inertia"});
-  v("main_rotor", c.main_rotor, {.meaning = "main rotor and stabiliser bar"});
+  v("main_rotor", c.main_rotor, {.meaning = "main rotor and stabilizer bar"});
   v("tail_rotor", c.tail_rotor, {.meaning = "tail rotor"});
-  v("surfaces", c.surfaces, {.meaning = "fuselage, vertical fin and horizontal stabiliser"});
+  v("surfaces", c.surfaces, {.meaning = "fuselage, vertical fin and horizontal stabilizer"});
   v("servos", c.servos, {.meaning = "servos that move the blades"});
   v("rotor_speed", c.rotor_speed, {.meaning = "what turns the rotors"});
   v("hull", c.hull, {.meaning = "shape for collisions, beside the rotors and the tail arm"});
@@ -79,7 +79,7 @@ HelicopterModel make_model(const HelicopterConfig& config);
 /// slower than kSlowestRotor.
 HelicopterModel at_speed(HelicopterModel model, double main_radps);
 
-/// All loads but gravity, about the mass centre, and what the rotors do.
+/// All loads but gravity, about the mass center, and what the rotors do.
 struct HelicopterLoads {
   Eigen::Vector3d f_B = Eigen::Vector3d::Zero();  ///< N
   Eigen::Vector3d t_B = Eigen::Vector3d::Zero();  ///< N m
@@ -97,4 +97,4 @@ HelicopterVector derivative(const HelicopterModel& model, const HelicopterState&
 HelicopterVector derivative(const HelicopterModel& model, const HelicopterState& state, const BladeAngles& blades,
                             const Eigen::Vector3d& wind_W);
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

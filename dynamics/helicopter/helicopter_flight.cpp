@@ -1,4 +1,4 @@
-#include "dynamics/helicopter_flight.h"
+#include "dynamics/helicopter/helicopter_flight.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -6,10 +6,10 @@
 #include <utility>
 #include <variant>
 
+#include "dynamics/helicopter/trim.h"
 #include "dynamics/integrator.h"
-#include "dynamics/trim.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 namespace {
 
 /// HelicopterVector, then position and rate of each servo, then RotorSpeedState.
@@ -127,4 +127,4 @@ void HelicopterFlight::set_state(const HelicopterFlightState& state, const Eigen
   within_validity_ = loads.main_rotor.inflow.within_momentum_theory;
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

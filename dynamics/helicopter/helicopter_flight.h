@@ -5,10 +5,10 @@
 #include <optional>
 #include <string_view>
 
-#include "dynamics/blade_angles.h"
-#include "dynamics/helicopter.h"
+#include "dynamics/helicopter/blade_angles.h"
+#include "dynamics/helicopter/helicopter.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 
 /// Airframe, the servos that move its blades, in the order of BladeAngles, and the speed of its rotors.
 struct HelicopterFlightState {
@@ -55,4 +55,4 @@ class HelicopterFlight {
   std::optional<GovernedEngineConfig> engine_;  ///< none: the speed is constant
 };
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

@@ -1,10 +1,10 @@
-#include "dynamics/induced_velocity.h"
+#include "dynamics/helicopter/induced_velocity.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 namespace {
 
 constexpr double kFreeAdvanceRatio = 0.1;  ///< forward flight that carries the wake away
@@ -93,4 +93,4 @@ double shaft_power_w(const RotorDisc& disc, const Inflow& inflow, double upflow_
          disc.profile_power_w * (1.0 + disc.profile_power_growth * mu * mu);
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

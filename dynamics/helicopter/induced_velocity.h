@@ -3,7 +3,7 @@
 #include <cstdint>
 
 /// Thrust and induced velocity of one rotor, from blade elements and momentum theory together.
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 
 /// One rotor as a lifting disc at a constant speed.
 struct RotorDisc {
@@ -68,4 +68,4 @@ Inflow solve_inflow(const RotorDisc& disc, double collective_rad, double upflow_
 /// Returns the shaft power T (v_i - w_r) + P0 (1 + kappa mu^2), W. Source: [HeffleyMnich1988] sec. on the main rotor.
 double shaft_power_w(const RotorDisc& disc, const Inflow& inflow, double upflow_mps, double inplane_mps);
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

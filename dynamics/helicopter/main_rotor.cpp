@@ -1,11 +1,11 @@
-#include "dynamics/main_rotor.h"
+#include "dynamics/helicopter/main_rotor.h"
 
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 namespace {
 
 /// Lag of a flapping mass, s. Source: [Gavrilets2015] sec. on flapping.
@@ -110,4 +110,4 @@ MainRotorLoads main_rotor_loads(const MainRotor& rotor, const FlapState& flap, c
   return loads;
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

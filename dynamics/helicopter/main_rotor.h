@@ -3,11 +3,11 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "dynamics/blade_angles.h"
-#include "dynamics/flapping.h"
-#include "dynamics/induced_velocity.h"
+#include "dynamics/helicopter/blade_angles.h"
+#include "dynamics/helicopter/flapping.h"
+#include "dynamics/helicopter/induced_velocity.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 
 /// Defaults: the X-Cell .60 of [Gavrilets2015] table of parameters.
 struct MainRotorConfig : RotorGeometry {
@@ -30,10 +30,10 @@ void describe(Visitor& v, MainRotorConfig& c) {
   v("hinge_offset", c.hinge_offset_m, {.unit = "m", .at_least = 0.0, .meaning = "of the flapping hinge"});
   v("hub_stiffness", c.hub_stiffness_nmprad,
     {.unit = "N m/rad", .at_least = 0.0, .meaning = "hub torque per disc tilt"});
-  v("hub_height", c.hub_height_m, {.unit = "m", .above = 0.0, .meaning = "of the hub above the mass centre"});
+  v("hub_height", c.hub_height_m, {.unit = "m", .above = 0.0, .meaning = "of the hub above the mass center"});
   v("speed_flapping", c.speed_flapping,
     {.at_least = 0.0, .at_most = 1.0, .meaning = "K_mu: how much of the ideal flap-back with speed remains"});
-  v("flybar", c.flybar, {.meaning = "stabiliser bar"});
+  v("flybar", c.flybar, {.meaning = "stabilizer bar"});
 }
 
 /// A main rotor at constant speed, ready to compute.
@@ -47,10 +47,10 @@ struct MainRotor {
 /// Throws std::invalid_argument on a geometry that cannot be.
 MainRotor make_main_rotor(const MainRotorConfig& config, double density_kgpm3);
 
-/// Force at the hub and torque, reduced to the mass centre, in B.
+/// Force at the hub and torque, reduced to the mass center, in B.
 struct MainRotorLoads {
   Eigen::Vector3d f_B = Eigen::Vector3d::Zero();  ///< N
-  Eigen::Vector3d t_B = Eigen::Vector3d::Zero();  ///< about the mass centre, N m
+  Eigen::Vector3d t_B = Eigen::Vector3d::Zero();  ///< about the mass center, N m
   Inflow inflow;
   double power_w = 0.0;  ///< at the shaft
   FlapInput flap_input;  ///< what drives the disc at this instant
@@ -61,4 +61,4 @@ struct MainRotorLoads {
 MainRotorLoads main_rotor_loads(const MainRotor& rotor, const FlapState& flap, const BladeAngles& blades,
                                 const Eigen::Vector3d& v_air_B, const Eigen::Vector3d& w_WB_B);
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

@@ -1,10 +1,10 @@
-#include "dynamics/rotor_speed.h"
+#include "dynamics/helicopter/rotor_speed.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 
 void check(const GovernedEngineConfig& c) {
   const auto refuse = [](const char* what, double value) {
@@ -31,4 +31,4 @@ Eigen::Vector2d derivative(const GovernedEngineConfig& engine, double set_radps,
   return {torque_nm / engine.inertia_kgm2, at_stop ? 0.0 : engine.integral_gain_prad * missing};
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

@@ -5,7 +5,7 @@
 #include <variant>
 
 /// What turns a helicopter's rotors, and how well it holds their speed.
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 
 struct ConstantSpeedConfig {
   static constexpr std::string_view kName = "constant";
@@ -58,4 +58,4 @@ double throttle(const GovernedEngineConfig& engine, double set_radps, const Roto
 Eigen::Vector2d derivative(const GovernedEngineConfig& engine, double set_radps, const RotorSpeedState& state,
                            double shaft_power_w);
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

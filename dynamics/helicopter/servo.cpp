@@ -1,10 +1,10 @@
-#include "dynamics/servo.h"
+#include "dynamics/helicopter/servo.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 
 void check(const ServoConfig& config) {
   const auto positive = [](const char* key, double value) {
@@ -41,4 +41,4 @@ ServoState within_limits(const ServoConfig& config, const ServoState& state) {
   return limited;
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

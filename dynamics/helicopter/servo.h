@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 
 /// A position servo that moves a blade: second order, with stops and a greatest speed.
 /// Defaults: the helicopter simulator of the autopilot project (autopilot.sourceforge.net); the rate limit is an
@@ -39,4 +39,4 @@ Eigen::Vector2d derivative(const ServoConfig& config, const ServoState& state, d
 /// Returns the state brought back to stops and rate limit, for after an integration step.
 ServoState within_limits(const ServoConfig& config, const ServoState& state);
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

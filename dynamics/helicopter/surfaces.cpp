@@ -1,9 +1,9 @@
-#include "dynamics/surfaces.h"
+#include "dynamics/helicopter/surfaces.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 namespace {
 
 /// Force on a wing section: lift at small angles, drag across, no more than the air's pressure on its area.
@@ -30,12 +30,12 @@ Loads fin_loads(const SurfacesConfig& surfaces, double density_kgpm3, double tai
   return {{0.0, Y, 0.0}, {Y * tail_height_m, 0.0, -Y * tail_arm_m}};
 }
 
-Loads stabiliser_loads(const SurfacesConfig& surfaces, double density_kgpm3, double induced_mps,
+Loads stabilizer_loads(const SurfacesConfig& surfaces, double density_kgpm3, double induced_mps,
                        const Eigen::Vector3d& v_air_B, const Eigen::Vector3d& w_WB_B) {
-  const double w_ht = v_air_B.z() + surfaces.stabiliser_arm_m * w_WB_B.y() - surfaces.stabiliser_wake * induced_mps;
-  const double Z = normal_force_n(0.5 * density_kgpm3, surfaces.stabiliser_area_m2, surfaces.stabiliser_lift_slope_prad,
+  const double w_ht = v_air_B.z() + surfaces.stabilizer_arm_m * w_WB_B.y() - surfaces.stabilizer_wake * induced_mps;
+  const double Z = normal_force_n(0.5 * density_kgpm3, surfaces.stabilizer_area_m2, surfaces.stabilizer_lift_slope_prad,
                                   std::abs(v_air_B.x()), w_ht);
-  return {{0.0, 0.0, Z}, {0.0, Z * surfaces.stabiliser_arm_m, 0.0}};
+  return {{0.0, 0.0, Z}, {0.0, Z * surfaces.stabilizer_arm_m, 0.0}};
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

@@ -1,8 +1,8 @@
-#include "dynamics/tail_rotor.h"
+#include "dynamics/helicopter/tail_rotor.h"
 
 #include <cmath>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 namespace {
 
 /// Of the flow into the thrust over hover inflow. Chosen: a tail rotor's wake folds back in any brisk sideways flight,
@@ -39,4 +39,4 @@ TailRotorLoads tail_rotor_loads(const TailRotor& rotor, double collective_rad, c
   return loads;
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 
-#include "dynamics/induced_velocity.h"
+#include "dynamics/helicopter/induced_velocity.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 
 /// Defaults: the X-Cell .60 of [Gavrilets2015] table of parameters.
 struct TailRotorConfig : RotorGeometry {
@@ -21,8 +21,8 @@ void describe(Visitor& v, TailRotorConfig& c) {
   describe(v, static_cast<RotorGeometry&>(c));
   v("thrust_fraction", c.thrust_fraction,
     {.above = 0.0, .at_most = 1.0, .meaning = "of the thrust that the fin beside the rotor leaves"});
-  v("arm", c.arm_m, {.unit = "m", .above = 0.0, .meaning = "of the hub behind the mass centre"});
-  v("height", c.height_m, {.unit = "m", .meaning = "of the hub above the mass centre"});
+  v("arm", c.arm_m, {.unit = "m", .above = 0.0, .meaning = "of the hub behind the mass center"});
+  v("height", c.height_m, {.unit = "m", .meaning = "of the hub above the mass center"});
 }
 
 struct TailRotor {
@@ -37,7 +37,7 @@ TailRotor make_tail_rotor(const TailRotorConfig& config, double main_speed_radps
 
 struct TailRotorLoads {
   Eigen::Vector3d f_B = Eigen::Vector3d::Zero();  ///< N
-  Eigen::Vector3d t_B = Eigen::Vector3d::Zero();  ///< about the mass centre, N m
+  Eigen::Vector3d t_B = Eigen::Vector3d::Zero();  ///< about the mass center, N m
   Inflow inflow;
   double power_w = 0.0;
 };
@@ -46,4 +46,4 @@ struct TailRotorLoads {
 TailRotorLoads tail_rotor_loads(const TailRotor& rotor, double collective_rad, const Eigen::Vector3d& v_air_B,
                                 const Eigen::Vector3d& w_WB_B);
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

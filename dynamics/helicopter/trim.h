@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "dynamics/helicopter.h"
+#include "dynamics/helicopter/helicopter.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 
 /// Steady flight: nothing changes but the position.
 struct Trim {
@@ -31,6 +31,6 @@ struct LinearModel {
 };
 
 /// Returns the linear model by central differences about a trim; servos are not part of it.
-LinearModel linearise(const HelicopterModel& model, const Trim& trim);
+LinearModel linearize(const HelicopterModel& model, const Trim& trim);
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

@@ -1,4 +1,4 @@
-#include "dynamics/multicopter.h"
+#include "dynamics/multicopter/multicopter.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::multicopter {
 namespace {
 
 void require(bool holds, const std::string& what) {
@@ -80,7 +80,7 @@ MulticopterModel make_model(const MulticopterConfig& c) {
   const Eigen::Vector4d scale = gram.diagonal().cwiseSqrt().cwiseMax(1e-12).cwiseInverse();
   const Eigen::Matrix4d balanced = scale.asDiagonal() * gram * scale.asDiagonal();
   require(gram.diagonal().minCoeff() > 0.0 && std::abs(balanced.determinant()) > 1e-9,
-          "the arms cannot steer thrust, roll, pitch and yaw each on its own: spread them and let neighbours turn "
+          "the arms cannot steer thrust, roll, pitch and yaw each on its own: spread them and let neighbors turn "
           "opposite ways");
   model.thrusts_of_wrench = model.wrench_of_thrusts.transpose() * gram.inverse();
 
@@ -160,4 +160,4 @@ Controls authority(const MulticopterModel& model) {
   return most;
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::multicopter

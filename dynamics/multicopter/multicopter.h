@@ -10,7 +10,7 @@
 #include "dynamics/mass.h"
 #include "dynamics/rigid_body.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::multicopter {
 
 /// One arm with its rotor at the end.
 struct ArmConfig {
@@ -26,7 +26,7 @@ void describe(Visitor& v, ArmConfig& c) {
      .at_least = -360.0,
      .at_most = 360.0,
      .meaning = "where the arm points, from forward to the right"});
-  v("length", c.length_m, {.unit = "m", .above = 0.0, .at_most = 5.0, .meaning = "from the mass centre to the rotor"});
+  v("length", c.length_m, {.unit = "m", .above = 0.0, .at_most = 5.0, .meaning = "from the mass center to the rotor"});
   v("turns", c.turns, {.choices = {"counter_clockwise", "clockwise"}, .meaning = "sense of rotation seen from above"});
 }
 
@@ -75,7 +75,7 @@ void describe(Visitor& v, LiftRotorConfig& c) {
   v("radius", c.radius_m, {.unit = "m", .above = 0.0, .meaning = "blade tip radius"});
   v("tilt_in", c.tilt_in_rad,
     {.unit = "deg", .at_least = -30.0, .at_most = 30.0, .meaning = "lean of the axes towards the middle"});
-  v("height", c.height_m, {.unit = "m", .meaning = "of the rotors above the mass centre"});
+  v("height", c.height_m, {.unit = "m", .meaning = "of the rotors above the mass center"});
 }
 
 struct MulticopterHullConfig {
@@ -86,7 +86,7 @@ struct MulticopterHullConfig {
 template <class Visitor>
 void describe(Visitor& v, MulticopterHullConfig& c) {
   v("body_size", c.body_size_m,
-    {.unit = "m", .above = 0.0, .meaning = "box about the mass centre: length, width, height"});
+    {.unit = "m", .above = 0.0, .meaning = "box about the mass center: length, width, height"});
   v("disc_thickness", c.disc_thickness_m, {.unit = "m", .above = 0.0, .meaning = "of the rotor discs"});
   v("frame_thickness", c.frame_thickness_m,
     {.unit = "m", .above = 0.0, .meaning = "of the disc that holds all arms, just below the rotors"});
@@ -141,7 +141,7 @@ struct MulticopterModel {
 /// Throws std::invalid_argument on a value that cannot be, or on arms that cannot steer all four motions.
 MulticopterModel make_model(const MulticopterConfig& config);
 
-/// All loads but gravity about the mass centre, the rotors' gyroscopic torque among them.
+/// All loads but gravity about the mass center, the rotors' gyroscopic torque among them.
 struct MulticopterLoads {
   Eigen::Vector3d f_B = Eigen::Vector3d::Zero();  ///< N
   Eigen::Vector3d t_B = Eigen::Vector3d::Zero();  ///< N m
@@ -163,4 +163,4 @@ Controls wrench(const MulticopterModel& model, const PerRotor& speeds_radps);
 /// N.
 Controls authority(const MulticopterModel& model);
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::multicopter

@@ -1,4 +1,4 @@
-#include "dynamics/multicopter_flight.h"
+#include "dynamics/multicopter/multicopter_flight.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -7,7 +7,7 @@
 
 #include "dynamics/integrator.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::multicopter {
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -92,7 +92,7 @@ std::optional<MulticopterTrim> trim(const MulticopterModel& model, const Eigen::
   return found;
 }
 
-MulticopterLinearModel linearise(const MulticopterModel& model, const MulticopterTrim& trim) {
+MulticopterLinearModel linearize(const MulticopterModel& model, const MulticopterTrim& trim) {
   using L = MulticopterLinearModel;
   constexpr int kMoved = L::kThrust;  // states that are moved by differences: of body, then the wrench
   const Controls wrench0 = wrench(model, trim.state.speeds_radps);
@@ -178,4 +178,4 @@ void MulticopterFlight::step(const PerRotor& asked_radps, const Eigen::Vector3d&
   set_state(next, wind_W);
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::multicopter

@@ -6,9 +6,9 @@
 #include <string_view>
 
 #include "dynamics/controls.h"
-#include "dynamics/multicopter.h"
+#include "dynamics/multicopter/multicopter.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::multicopter {
 
 struct MulticopterFlightState {
   RigidBodyState body;
@@ -49,7 +49,7 @@ struct MulticopterLinearModel {
   Eigen::Matrix<double, kStates, kControlAxes> B;
 };
 /// Returns the linear model about a trim: central differences of the airframe, the motors in closed form.
-MulticopterLinearModel linearise(const MulticopterModel& model, const MulticopterTrim& trim);
+MulticopterLinearModel linearize(const MulticopterModel& model, const MulticopterTrim& trim);
 
 /// A multicopter in flight: constant model, explicit state. Motors move exactly, the body by Runge-Kutta steps.
 class MulticopterFlight {
@@ -80,4 +80,4 @@ class MulticopterFlight {
   Eigen::Vector3d specific_force_B_ = Eigen::Vector3d::Zero();
 };
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::multicopter

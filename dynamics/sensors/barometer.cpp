@@ -1,10 +1,10 @@
-#include "dynamics/barometer.h"
+#include "dynamics/sensors/barometer.h"
 
 #include <cmath>
 
-#include "dynamics/atmosphere.h"
+#include "dynamics/air/atmosphere.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 
 Barometer::Barometer(const BarometerConfig& config, double physics_dt_s, uint64_t seed)
     : config_(config),
@@ -30,9 +30,9 @@ std::optional<double> Barometer::read() {
   const double noise_pa = config_.noise_pa * noise_.draw();
   const bool lost = config_.dropout > 0.0 && noise_.chance(config_.dropout);
   if (lost || !altitude_m_) return std::nullopt;
-  return standard_air(*altitude_m_).pressure_pa + wander_pa_ + noise_pa;
+  return air::standard_air(*altitude_m_).pressure_pa + wander_pa_ + noise_pa;
 }
 
 GaussMarkov barometer_wander(const BarometerConfig& config) { return {config.wander_pa, config.wander_time_s}; }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "dynamics/sensor_noise.h"
+#include "dynamics/sensors/sensor_noise.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 
 /// A barometer: pressure with white noise and a slow error (weather, warming). Rate and white noise as
 /// [PX4Gazebo2024]; the slow error, about 1 m of altitude over ten minutes, and the lag of port and converter are
@@ -56,4 +56,4 @@ class Barometer {
 /// The wandering error as a process.
 GaussMarkov barometer_wander(const BarometerConfig& config);
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

@@ -1,9 +1,9 @@
-#include "dynamics/gps.h"
+#include "dynamics/sensors/gps.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 
 Gps::Gps(const GpsConfig& config, double physics_dt_s, uint64_t seed)
     : config_(config), period_(period_ticks("gps.rate", config.rate_hz, physics_dt_s)), noise_(seed) {
@@ -38,4 +38,4 @@ std::optional<GpsFix> Gps::read() {
   return GpsFix{then.p_WB + wander_m_ + p_noise, then.v_WB_W + v_noise};
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "dynamics/rigid_body.h"
-#include "dynamics/sensor_noise.h"
+#include "dynamics/sensors/sensor_noise.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 
 /// A satellite receiver: late, its position error wanders. Rate, latency and correlation time as [PX4Gazebo2024];
 /// the split of the error into wandering and white parts is an estimate.
@@ -69,4 +69,4 @@ class Gps {
   size_t next_ = 0, known_ = 0;
 };
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

@@ -1,10 +1,10 @@
-#include "dynamics/height_sensor.h"
+#include "dynamics/sensors/height_sensor.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 namespace {
 
 constexpr double kRingSpacingM = 0.5;  // chosen: obstacles on roofs and the ground are rarely narrower
@@ -34,4 +34,4 @@ double nearest_echo_m(const HeightSensorConfig& config, double below_m, const He
   return nearest_m;
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

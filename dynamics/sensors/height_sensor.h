@@ -2,9 +2,9 @@
 
 #include <functional>
 
-#include "dynamics/ranger.h"
+#include "dynamics/sensors/ranger.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 
 /// A range finder that looks down: height above whatever surface lies below. The defaults are those of a small laser
 /// altimeter. A sonar hears the nearest echo in a cone: rate 20 Hz, max 5 m, cone 15 deg [PX4Gazebo2024]; its echo is
@@ -36,4 +36,4 @@ using HeightBeside = std::function<double(double north_m, double east_m)>;
 /// the sound away.
 double nearest_echo_m(const HeightSensorConfig& config, double below_m, const HeightBeside& beside);
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

@@ -1,11 +1,11 @@
-#include "dynamics/imu.h"
+#include "dynamics/sensors/imu.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 namespace {
 
 /// One step of a first-order low-pass filter by the bilinear transform, warped so that -3 dB stands at the cut-off.
@@ -89,4 +89,4 @@ ImuReading Imu::read() {
 
 ImuReading Imu::bias() const { return {gyro_offset_ + gyro_wander_, accelerometer_offset_ + accelerometer_wander_}; }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

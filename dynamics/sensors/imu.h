@@ -4,9 +4,9 @@
 #include <cstdint>
 
 #include "dynamics/rigid_body.h"
-#include "dynamics/sensor_noise.h"
+#include "dynamics/sensors/sensor_noise.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 
 /// Gyros and accelerometers. reading = range(misaligned low-pass(truth) + offset + wandering bias + white noise).
 /// Noise of an ADIS16448: [FurrerBurriAchtelikSiegwart2016] sec. 5.4; filter, ranges and misalignment are estimates. It
@@ -25,7 +25,7 @@ struct ImuConfig {
   double gyro_range_radps = 17.453292519943295;
   double accelerometer_range_mps2 = 176.58;
   double misalignment_rad = 0.0017453292519943295;   ///< standard deviation about each axis of B
-  Eigen::Vector3d p_BS_m = Eigen::Vector3d::Zero();  ///< where it sits, from the mass centre, in B
+  Eigen::Vector3d p_BS_m = Eigen::Vector3d::Zero();  ///< where it sits, from the mass center, in B
 };
 template <class Visitor>
 void describe(Visitor& v, ImuConfig& c) {
@@ -52,7 +52,7 @@ void describe(Visitor& v, ImuConfig& c) {
     {.unit = "m/s^2", .above = 0.0, .meaning = "greatest specific force it can read"});
   v("misalignment", c.misalignment_rad,
     {.unit = "deg", .at_least = 0.0, .at_most = 5.0, .meaning = "standard deviation of the mounting error per axis"});
-  v("position", c.p_BS_m, {.unit = "m", .meaning = "where it sits: forward, right, down of the mass centre"});
+  v("position", c.p_BS_m, {.unit = "m", .meaning = "where it sits: forward, right, down of the mass center"});
 }
 
 struct ImuReading {
@@ -68,7 +68,7 @@ class Imu {
   int64_t period() const { return period_; }  ///< physics ticks between readings
 
   /// What the sensor sees on every physics tick, before noise: runs the filter.
-  /// @param w_WB_B, f_B  angular velocity, and specific force of the mass centre, in B.
+  /// @param w_WB_B, f_B  angular velocity, and specific force of the mass center, in B.
   void feel(const Eigen::Vector3d& w_WB_B, const Eigen::Vector3d& f_B);
   /// The reading at this tick; to be called once every period() ticks.
   ImuReading read();
@@ -93,4 +93,4 @@ class Imu {
 GaussMarkov gyro_wander(const ImuConfig& config);
 GaussMarkov accelerometer_wander(const ImuConfig& config);
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

@@ -1,9 +1,9 @@
-#include "dynamics/magnetometer.h"
+#include "dynamics/sensors/magnetometer.h"
 
 #include <cmath>
 #include <numbers>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 
 Magnetometer::Magnetometer(const MagnetometerConfig& config, double physics_dt_s, uint64_t seed)
     : config_(config), period_(period_ticks("magnetometer.rate", config.rate_hz, physics_dt_s)), noise_(seed) {
@@ -22,4 +22,4 @@ std::optional<double> Magnetometer::read(double heading_rad) {
 
 double wrap_angle(double angle_rad) { return std::remainder(angle_rad, 2.0 * std::numbers::pi); }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "dynamics/sensor_noise.h"
+#include "dynamics/sensors/sensor_noise.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 
 /// A tilt-compensated magnetic compass: heading with an offset that stays (iron on board, declination) and white noise.
 /// Numbers are estimates: 0.4 mG/sqrt(Hz) in a field of 215 mG horizontally is 0.1 deg/sqrt(Hz) [PX4Gazebo2024]. It has
@@ -49,4 +49,4 @@ class Magnetometer {
 /// The same angle in -pi..pi.
 double wrap_angle(double angle_rad);
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

@@ -1,8 +1,8 @@
-#include "dynamics/range_finder.h"
+#include "dynamics/sensors/range_finder.h"
 
 #include <stdexcept>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 
 Eigen::Vector3d beam_direction_B(const RangeFinderConfig& config) {
   if (!config.direction_B.allFinite() || config.direction_B.isZero(0.0)) {
@@ -12,4 +12,4 @@ Eigen::Vector3d beam_direction_B(const RangeFinderConfig& config) {
   return config.direction_B.stableNormalized();
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

@@ -1,11 +1,11 @@
-#include "dynamics/ranger.h"
+#include "dynamics/sensors/ranger.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 
 Ranger::Ranger(const std::string& key, const RangerConfig& config, double physics_dt_s, uint64_t seed)
     : config_(config), period_(period_ticks(key + ".rate", config.rate_hz, physics_dt_s)), noise_(seed) {
@@ -40,4 +40,4 @@ double noise_sigma_m(const RangerConfig& config, double range_m) {
   return std::hypot(config.noise_m, config.noise_per_range * range_m);
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/sensor_noise.h"
+#include "dynamics/sensors/sensor_noise.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 
 /// What all instruments that measure a distance share, whatever they send out. The numbers are estimates.
 struct RangerConfig {
@@ -64,4 +64,4 @@ class Ranger {
 /// Standard deviation of a reading's white noise at a range, m.
 double noise_sigma_m(const RangerConfig& config, double range_m);
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

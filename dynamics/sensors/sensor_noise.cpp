@@ -1,10 +1,10 @@
-#include "dynamics/sensor_noise.h"
+#include "dynamics/sensors/sensor_noise.h"
 
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 
 Eigen::Vector3d NormalStream::draw3() {
   Eigen::Vector3d v;
@@ -51,4 +51,4 @@ void require_not_negative(std::string_view key, double value) {
   throw std::invalid_argument(std::string(key) + ": must not be negative, got " + std::to_string(value));
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

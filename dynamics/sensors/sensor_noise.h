@@ -6,7 +6,7 @@
 #include <string_view>
 
 /// What the sensors share: a stream of random numbers, an error that wanders, a sampling clock.
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 
 /// Standard normal numbers from one seeded generator; equal seeds give equal sequences.
 class NormalStream {
@@ -44,4 +44,4 @@ void require_positive(std::string_view key, double value);
 /// Throws std::invalid_argument "<key>: ..." unless value >= 0 and finite.
 void require_not_negative(std::string_view key, double value);
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

@@ -1,16 +1,16 @@
-#include "scenes/bodies.h"
+#include "scenes/mesh/bodies.h"
 
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <utility>
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::mesh {
 namespace {
 
 using Eigen::Vector3d;
 
-// One of six sides that a picture is thrown from: the viewer's right and down, as on the panels of a box.
+// One of six sides that an image is thrown from: the viewer's right and down, as on the panels of a box.
 struct Side {
   Vector3d right, down;
 };
@@ -44,7 +44,7 @@ void add_polyhedron(const Polyhedron& body, Shading shading, const Cover& cover,
   const std::vector<Vector3d> normals = smooth_normals(body);
   std::vector<Vertex> vertices;
   std::vector<std::array<uint32_t, 3>> faces;
-  std::map<std::pair<uint32_t, int>, uint32_t> known;  // a corner as each side's picture has it
+  std::map<std::pair<uint32_t, int>, uint32_t> known;  // a corner as each side's image has it
   for (const std::array<uint32_t, 3>& face : body.faces) {
     const Vector3d a = body.corners[face[0]];
     const Vector3d across = (body.corners[face[1]] - a).cross(body.corners[face[2]] - a);
@@ -90,7 +90,7 @@ void add_post(const Post& post, int sides, const Cover& cover, MeshBuilder& mesh
     faces.push_back({foot + 3, foot, foot + 1});
   }
 
-  // The top: its picture's up is north.
+  // The top: its image's up is north.
   uint32_t first = 0;
   for (int k = 0; k < sides; ++k) {
     const Vector3d rim = post.radius_m * out(k);
@@ -145,4 +145,4 @@ Solid ball_of(const std::string& name, const Eigen::Vector3d& center_W, double r
   return solid;
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::mesh

@@ -2,12 +2,12 @@
 
 #include <string>
 
-#include "scenes/mesh_builder.h"
-#include "scenes/polyhedron.h"
+#include "scenes/mesh/mesh_builder.h"
+#include "scenes/mesh/polyhedron.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::mesh {
 
-/// A picture on a rounded body: `tile_m` metres a side, moved by `offset` repeats.
+/// An image on a rounded body: `tile_m` meters a side, moved by `offset` repeats.
 struct Cover {
   uint32_t texture = 0;
   double tile_m = 2.0;
@@ -17,12 +17,12 @@ struct Cover {
 /// Whether light plays on a body's faces as they are, or as if they were round.
 enum class Shading { flat, smooth };
 
-/// Adds a polyhedron to the chunk begun last. Each face takes the picture from the side that it looks to most: north,
+/// Adds a polyhedron to the chunk begun last. Each face takes the image from the side that it looks to most: north,
 /// east, south, west, up or down.
 /// @param body  in W, m.
 void add_polyhedron(const Polyhedron& body, Shading shading, const Cover& cover, MeshBuilder& mesh);
 
-/// An upright cylinder: foot_W is the centre of its lower end, in W, m.
+/// An upright cylinder: foot_W is the center of its lower end, in W, m.
 struct Post {
   Eigen::Vector3d foot_W = Eigen::Vector3d::Zero();
   double radius_m = 0.1;
@@ -32,7 +32,7 @@ struct Post {
 /// Adds a post with `sides` corners on its circle, closed on top, open below.
 void add_post(const Post& post, int sides, const Cover& cover, MeshBuilder& mesh);
 
-/// Adds the faces of a box, but not the bottom when it stands on the ground. Pictures are laid out from W's origin, so
+/// Adds the faces of a box, but not the bottom when it stands on the ground. Images are laid out from W's origin, so
 /// that they run on from box to box.
 /// @param box_S  in S, m. @param X_WS  any pose.
 void add_box(const Eigen::AlignedBox3d& box_S, const Eigen::Isometry3d& X_WS, const Cover& cover, MeshBuilder& mesh);
@@ -46,4 +46,4 @@ Solid solid_of(const std::string& name, const Polyhedron& body);
 /// Returns a solid ball. @param center_W  m.
 Solid ball_of(const std::string& name, const Eigen::Vector3d& center_W, double radius_m);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::mesh

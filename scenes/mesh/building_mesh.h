@@ -1,14 +1,15 @@
 #pragma once
 
-#include "scenes/city_pictures.h"
-#include "scenes/mesh_builder.h"
+#include "scenes/mesh/mesh_builder.h"
 #include "scenes/random.h"
-#include "scenes/urban_plan.h"
+#include "scenes/textures/city_textures.h"
+#include "scenes/worlds/urban_plan.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::mesh {
 
 /// Adds a building, one chunk per box: shops at its foot, whole windows up the walls, a cornice, a roof. The style of
-/// its walls, and for each face the part of the pictures and their variants, are drawn from `random`.
-void add_building(const Building& building, const CityPictures& city, Random& random, MeshBuilder& mesh);
+/// its walls, and for each face the part of the images and their variants, are drawn from `random`.
+void add_building(const worlds::Building& building, const textures::CityTextures& city, Random& random,
+                  MeshBuilder& mesh);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::mesh

@@ -1,6 +1,6 @@
-#include "scenes/ground.h"
+#include "scenes/mesh/ground.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::mesh {
 namespace {
 
 // Seen from 40 m up, the edge of the ground lies a fifth of a degree below the horizon.
@@ -24,7 +24,7 @@ void add_ground(std::vector<double> norths_m, std::vector<double> easts_m,
     for (size_t j = 1; j < easts_m.size(); ++j) {
       const Eigen::Vector3d low(norths_m[i - 1], easts_m[j - 1], 0.0), high(norths_m[i], easts_m[j], 0.0);
       const Cover cover = cover_at(0.5 * (low + high).head<2>());
-      const Eigen::Vector2d from_origin_m(low.y(), -high.x());  // the picture's up is north
+      const Eigen::Vector2d from_origin_m(low.y(), -high.x());  // the image's up is north
       mesh.add_tiled(top_panel({low, high}), cover.tile_m, cover.offset + from_origin_m / cover.tile_m, cover.texture);
     }
   }
@@ -37,4 +37,4 @@ void add_ground(double half_m, const Cover& cover, MeshBuilder& mesh) {
       lines_m, lines_m, [&](const Eigen::Vector2d&) { return cover; }, mesh);
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::mesh

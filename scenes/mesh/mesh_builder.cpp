@@ -1,10 +1,10 @@
-#include "scenes/mesh_builder.h"
+#include "scenes/mesh/mesh_builder.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::mesh {
 
 std::array<Panel, 4> side_panels(const Eigen::AlignedBox3d& box_W) {
   const Eigen::Vector3d low = box_W.min();
@@ -43,7 +43,7 @@ void MeshBuilder::begin_chunk(bool fills_box_to_ground) {
   mesh_.chunks.push_back(chunk);
 }
 
-void MeshBuilder::add(const Panel& panel, const PictureArea& area, uint32_t texture) {
+void MeshBuilder::add(const Panel& panel, const ImageArea& area, uint32_t texture) {
   const Eigen::Vector3f normal = -panel.right_m.cross(panel.down_m).normalized().cast<float>();
   const auto first = static_cast<uint32_t>(mesh_.vertices.size());
   const auto corner = [&](bool right, bool down) {
@@ -93,4 +93,4 @@ void MeshBuilder::keep_from_afar(size_t first_index, double lost_m) {
 
 Mesh MeshBuilder::finish() { return std::move(mesh_); }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::mesh

@@ -9,25 +9,25 @@
 
 #include "scenes/scene.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::mesh {
 
-/// A rectangle in space that carries a picture upright: seen from outside, `right_m` runs to the viewer's right and
-/// `down_m` down the picture. Its outward normal is -(right x down).
+/// A rectangle in space that carries an image upright: seen from outside, `right_m` runs to the viewer's right and
+/// `down_m` down the image. Its outward normal is -(right x down).
 struct Panel {
   Eigen::Vector3d top_left_W = Eigen::Vector3d::Zero();
   Eigen::Vector3d right_m = Eigen::Vector3d::UnitY();
   Eigen::Vector3d down_m = Eigen::Vector3d::UnitZ();
 };
 
-/// Part of a picture, in repeats of it: u to the right, v down, (0, 0) its top left corner.
-struct PictureArea {
+/// Part of an image, in repeats of it: u to the right, v down, (0, 0) its top left corner.
+struct ImageArea {
   double u0 = 0.0, v0 = 0.0, u1 = 1.0, v1 = 1.0;
 };
 
 /// The faces of a box by their outward normals in W: the horizontal ones in the order north, east, south, west.
 std::array<Panel, 4> side_panels(const Eigen::AlignedBox3d& box_W);
-Panel top_panel(const Eigen::AlignedBox3d& box_W);     ///< picture up = north
-Panel bottom_panel(const Eigen::AlignedBox3d& box_W);  ///< picture up = north
+Panel top_panel(const Eigen::AlignedBox3d& box_W);     ///< image up = north
+Panel bottom_panel(const Eigen::AlignedBox3d& box_W);  ///< image up = north
 
 /// Returns the box as a solid.
 Solid solid_of(const std::string& name, const Eigen::AlignedBox3d& box_W);
@@ -38,9 +38,9 @@ class MeshBuilder {
   explicit MeshBuilder(std::string material) { mesh_.material = std::move(material); }
 
   void begin_chunk(bool fills_box_to_ground);
-  void add(const Panel& panel, const PictureArea& area, uint32_t texture);
+  void add(const Panel& panel, const ImageArea& area, uint32_t texture);
 
-  /// Adds the panel with a picture of `tile_m` metres a side, its corner moved by `offset` repeats.
+  /// Adds the panel with an image of `tile_m` meters a side, its corner moved by `offset` repeats.
   void add_tiled(const Panel& panel, double tile_m, const Eigen::Vector2d& offset, uint32_t texture);
 
   /// Adds triangles; `faces` index into `vertices`.
@@ -59,4 +59,4 @@ class MeshBuilder {
   Mesh mesh_;
 };
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::mesh

@@ -1,4 +1,4 @@
-#include "scenes/mesh_import.h"
+#include "scenes/mesh/mesh_import.h"
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -11,11 +11,11 @@
 #include <span>
 #include <stdexcept>
 
-#include "scenes/mesh_builder.h"
+#include "scenes/mesh/mesh_builder.h"
 #include "scenes/require.h"
-#include "scenes/stone_textures.h"
+#include "scenes/textures/stone_textures.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::mesh {
 namespace {
 
 using Eigen::Vector3d;
@@ -46,27 +46,27 @@ Eigen::Affine3d model_to_world(const ImportConfig& c) {
          Eigen::AngleAxisd(c.heading_rad, Vector3d::UnitZ()) * Eigen::Affine3d(c.scale * to_level);
 }
 
-// The picture of a material, or its colour; CV_8UC3 RGB.
-cv::Mat material_picture(const ImportConfig& c, const aiScene& model, const aiMaterial& material, int size_px) {
+// The image of a material, or its color; CV_8UC3 RGB.
+cv::Mat material_image(const ImportConfig& c, const aiScene& model, const aiMaterial& material, int size_px) {
   aiString path;
-  const bool has_picture = material.GetTexture(aiTextureType_BASE_COLOR, 0, &path) == AI_SUCCESS ||
-                           material.GetTexture(aiTextureType_DIFFUSE, 0, &path) == AI_SUCCESS;
-  if (!has_picture) {
-    aiColor4D colour(0.7f, 0.7f, 0.7f, 1.0f);
-    if (material.Get(AI_MATKEY_BASE_COLOR, colour) != AI_SUCCESS) material.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
-    return paint_blank(size_px, {colour.r, colour.g, colour.b});
+  const bool has_image = material.GetTexture(aiTextureType_BASE_COLOR, 0, &path) == AI_SUCCESS ||
+                         material.GetTexture(aiTextureType_DIFFUSE, 0, &path) == AI_SUCCESS;
+  if (!has_image) {
+    aiColor4D color(0.7f, 0.7f, 0.7f, 1.0f);
+    if (material.Get(AI_MATKEY_BASE_COLOR, color) != AI_SUCCESS) material.Get(AI_MATKEY_COLOR_DIFFUSE, color);
+    return textures::paint_blank(size_px, {color.r, color.g, color.b});
   }
-  cv::Mat picture;
+  cv::Mat image;
   if (const aiTexture* inside = model.GetEmbeddedTexture(path.C_Str()); inside && inside->mHeight == 0) {
     const auto* bytes = reinterpret_cast<const uint8_t*>(inside->pcData);
-    picture = cv::imdecode(std::vector<uint8_t>(bytes, bytes + inside->mWidth), cv::IMREAD_COLOR);
+    image = cv::imdecode(std::vector<uint8_t>(bytes, bytes + inside->mWidth), cv::IMREAD_COLOR);
   } else {
-    picture = cv::imread((std::filesystem::path(c.file).parent_path() / path.C_Str()).string(), cv::IMREAD_COLOR);
+    image = cv::imread((std::filesystem::path(c.file).parent_path() / path.C_Str()).string(), cv::IMREAD_COLOR);
   }
-  if (picture.empty()) refuse(c, std::string("its picture '") + path.C_Str() + "' cannot be read");
-  cv::resize(picture, picture, {size_px, size_px}, 0.0, 0.0, cv::INTER_AREA);
-  cv::cvtColor(picture, picture, cv::COLOR_BGR2RGB);
-  return picture;
+  if (image.empty()) refuse(c, std::string("its image '") + path.C_Str() + "' cannot be read");
+  cv::resize(image, image, {size_px, size_px}, 0.0, 0.0, cv::INTER_AREA);
+  cv::cvtColor(image, image, cv::COLOR_BGR2RGB);
+  return image;
 }
 
 // A mesh's corners and faces in W; faces without an area are left out.
@@ -108,10 +108,10 @@ void add_import(const ImportConfig& c, Scene& scene) {
   if (!model || !model->mRootNode || (model->mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0)
     refuse(c, importer.GetErrorString());
 
-  constexpr int kSizePx = 512;  // where the scene has no pictures
+  constexpr int kSizePx = 512;  // where the scene has no images
   const int size_px = scene.textures.empty() ? kSizePx : scene.textures.front().cols;
   const Eigen::Affine3d to_W = model_to_world(c);
-  std::vector<int> pictures(model->mNumMaterials, -1);
+  std::vector<int> images(model->mNumMaterials, -1);
   MeshBuilder builder("opaque");
   size_t triangles = 0;
   for (const aiMesh* mesh : std::span(model->mMeshes, model->mNumMeshes)) {
@@ -122,13 +122,13 @@ void add_import(const ImportConfig& c, Scene& scene) {
     for (const Vector3d& corner : body.corners) {
       if (!corner.allFinite()) refuse(c, "it has corners that are not finite");
     }
-    int& picture = pictures[mesh->mMaterialIndex];
-    if (picture < 0) {
-      picture = static_cast<int>(scene.textures.size());
-      scene.textures.push_back(material_picture(c, *model, *model->mMaterials[mesh->mMaterialIndex], size_px));
+    int& image = images[mesh->mMaterialIndex];
+    if (image < 0) {
+      image = static_cast<int>(scene.textures.size());
+      scene.textures.push_back(material_image(c, *model, *model->mMaterials[mesh->mMaterialIndex], size_px));
     }
     builder.begin_chunk(false);
-    draw(*mesh, body, to_W, static_cast<uint32_t>(picture), builder);
+    draw(*mesh, body, to_W, static_cast<uint32_t>(image), builder);
     if (c.collide == ImportConfig::Collide::surface) {
       Solid solid;
       solid.name = c.name;
@@ -147,4 +147,4 @@ void add_imports(const std::vector<ImportConfig>& imports, Scene& scene) {
   for (const ImportConfig& import : imports) add_import(import, scene);
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::mesh

@@ -5,7 +5,7 @@
 
 #include "scenes/scene.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::mesh {
 
 /// A mesh from a file, OBJ or glTF (.gltf, .glb), as a scene's config lists it. The model stands upright; a model's
 /// front (-z where y is up, y where z is up) looks along the heading.
@@ -30,15 +30,15 @@ void describe(Visitor& v, ImportConfig& c) {
   v("east", c.east_m, {.unit = "m", .meaning = "of the model's origin"});
   v("altitude", c.altitude_m, {.unit = "m", .meaning = "of the model's origin"});
   v("heading", c.heading_rad, {.unit = "deg", .meaning = "of the model's front, from north to east"});
-  v("scale", c.scale, {.above = 0.0, .meaning = "metres to a unit of the model"});
+  v("scale", c.scale, {.above = 0.0, .meaning = "meters to a unit of the model"});
   v("up", c.up, {.choices = {"y", "z"}, .meaning = "the model's axis that points up"});
   v("collide", c.collide, {.choices = {"surface", "none"}, .meaning = "its triangles can be hit, or nothing of it"});
 }
 
-/// Adds imported meshes to a scene: triangles, one picture for each material (its picture, or its colour), and a solid
-/// of shape `surface` for each mesh of the file that can be hit. Pictures are made as large as those that are there.
+/// Adds imported meshes to a scene: triangles, one image for each material (its image, or its color), and a solid
+/// of shape `surface` for each mesh of the file that can be hit. Images are made as large as those that are there.
 /// @throws std::invalid_argument that begins with "imports.<field>: " and gives the file and the reason: not there, not
-/// readable, no triangles, a picture missing.
+/// readable, no triangles, an image missing.
 void add_imports(const std::vector<ImportConfig>& imports, Scene& scene);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::mesh

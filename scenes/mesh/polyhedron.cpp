@@ -1,4 +1,4 @@
-#include "scenes/polyhedron.h"
+#include "scenes/mesh/polyhedron.h"
 
 #include <cmath>
 #include <limits>
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::mesh {
 namespace {
 
 using Eigen::Vector3d;
@@ -103,4 +103,4 @@ Polyhedron convex_lump(int points, double roughness, Random& random) {
   return convex_hull(corners);
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::mesh

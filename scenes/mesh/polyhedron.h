@@ -7,7 +7,7 @@
 
 #include "scenes/random.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::mesh {
 
 /// Corners and triangular faces, counter-clockwise seen from outside.
 struct Polyhedron {
@@ -30,4 +30,4 @@ Polyhedron convex_hull(const std::vector<Eigen::Vector3d>& points);
 /// @param points  4..64; few of them may end up inside and be left out. @param roughness  0..0.5.
 Polyhedron convex_lump(int points, double roughness, Random& random);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::mesh

@@ -1,9 +1,9 @@
-#include "scenes/tree_mesh.h"
+#include "scenes/mesh/tree_mesh.h"
 
 #include <cmath>
 #include <numbers>
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::mesh {
 namespace {
 
 using Eigen::Vector3d;
@@ -55,4 +55,4 @@ std::vector<Solid> add_tree(const std::string& name, const TreeShape& shape, std
   return solids;
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::mesh

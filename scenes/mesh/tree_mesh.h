@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "scenes/bodies.h"
+#include "scenes/mesh/bodies.h"
 #include "scenes/random.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::mesh {
 
 /// A tree: a trunk from the ground into the middle of its crown.
 struct TreeShape {
@@ -29,4 +29,4 @@ struct TreeShape {
 std::vector<Solid> add_tree(const std::string& name, const TreeShape& shape, std::span<const Polyhedron> lumps,
                             const Cover& leaves, const Cover& bark, Random& random, MeshBuilder& mesh);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::mesh

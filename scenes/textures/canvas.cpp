@@ -1,11 +1,11 @@
-#include "scenes/canvas.h"
+#include "scenes/textures/canvas.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::textures {
 namespace {
 
 // Where a pixel falls on a periodic lattice: the node before it, the node after it, and the eased way between them.
@@ -82,60 +82,60 @@ cv::Mat1f fractal_noise(int size_px, const NoiseShape& shape, Random& random) {
   return sum;
 }
 
-Canvas::Canvas(int size_px, double tile_m, const Colour& background)
+Canvas::Canvas(int size_px, double tile_m, const Color& background)
     : tile_m_(tile_m), pixels_(size_px, size_px, background) {}
 
-void Canvas::blend(const Area& area, const Colour& colour, const Weight& opacity_at) {
+void Canvas::blend(const Area& area, const Color& color, const Weight& opacity_at) {
   const double px_per_m = size_px() / tile_m_;
   const double left = area.left * px_per_m, right = left + area.width * px_per_m;
   const double top = area.top * px_per_m, bottom = top + area.height * px_per_m;
   for (int r = static_cast<int>(std::floor(top)); r < bottom; ++r) {
-    Colour* row = pixels_[wrapped(r, size_px())];
+    Color* row = pixels_[wrapped(r, size_px())];
     const double rows = coverage(r, top, bottom);
     for (int c = static_cast<int>(std::floor(left)); c < right; ++c) {
-      Colour& pixel = row[wrapped(c, size_px())];
+      Color& pixel = row[wrapped(c, size_px())];
       const auto edge = static_cast<float>(rows * coverage(c, left, right));
       const float weight = edge * opacity_at((c + 0.5) / px_per_m, (r + 0.5) / px_per_m);
-      pixel += (colour - pixel) * weight;
+      pixel += (color - pixel) * weight;
     }
   }
 }
 
-void Canvas::fill(const Area& area, const Colour& colour, double opacity) {
+void Canvas::fill(const Area& area, const Color& color, double opacity) {
   const auto constant = static_cast<float>(opacity);
-  blend(area, colour, [constant](double, double) { return constant; });
+  blend(area, color, [constant](double, double) { return constant; });
 }
 
-void Canvas::fade(const Area& area, const Colour& colour, double top_opacity, double bottom_opacity) {
-  blend(area, colour, [&](double, double y) {
+void Canvas::fade(const Area& area, const Color& color, double top_opacity, double bottom_opacity) {
+  blend(area, color, [&](double, double y) {
     const double way = std::clamp((y - area.top) / area.height, 0.0, 1.0);
     return static_cast<float>(top_opacity + (bottom_opacity - top_opacity) * way);
   });
 }
 
-void Canvas::disc(double center_x, double center_y, double radius, const Colour& colour, double opacity) {
+void Canvas::disc(double center_x, double center_y, double radius, const Color& color, double opacity) {
   const double px_per_m = size_px() / tile_m_;
   const double margin = 1.0 / px_per_m;
   const Area box{center_x - radius - margin, center_y - radius - margin, 2.0 * (radius + margin),
                  2.0 * (radius + margin)};
-  blend(box, colour, [&](double x, double y) {
+  blend(box, color, [&](double x, double y) {
     const double inside_px = (radius - std::hypot(x - center_x, y - center_y)) * px_per_m + 0.5;
     return static_cast<float>(opacity * std::clamp(inside_px, 0.0, 1.0));
   });
 }
 
-void Canvas::outline(const Area& area, double line, const Colour& colour, double opacity) {
-  fill({area.left, area.top, area.width, line}, colour, opacity);
-  fill({area.left, area.top + area.height - line, area.width, line}, colour, opacity);
-  fill({area.left, area.top + line, line, area.height - 2.0 * line}, colour, opacity);
-  fill({area.left + area.width - line, area.top + line, line, area.height - 2.0 * line}, colour, opacity);
+void Canvas::outline(const Area& area, double line, const Color& color, double opacity) {
+  fill({area.left, area.top, area.width, line}, color, opacity);
+  fill({area.left, area.top + area.height - line, area.width, line}, color, opacity);
+  fill({area.left, area.top + line, line, area.height - 2.0 * line}, color, opacity);
+  fill({area.left + area.width - line, area.top + line, line, area.height - 2.0 * line}, color, opacity);
 }
 
-void Canvas::crack(double x, double y, double length, double width, const Colour& colour, double opacity,
+void Canvas::crack(double x, double y, double length, double width, const Color& color, double opacity,
                    Random& random) {
   double heading = uniform(random, 0.0, 2.0 * std::numbers::pi);
   for (double way = 0.0; way < length; way += 0.7 * width) {
-    disc(x, y, 0.5 * width, colour, opacity);
+    disc(x, y, 0.5 * width, color, opacity);
     heading += uniform(random, -0.35, 0.35);
     x += 0.7 * width * std::cos(heading);
     y += 0.7 * width * std::sin(heading);
@@ -144,44 +144,44 @@ void Canvas::crack(double x, double y, double length, double width, const Colour
 
 void Canvas::shade(const cv::Mat1f& noise, double strength) {
   auto n = noise.begin();
-  for (Colour& pixel : pixels_) pixel *= std::clamp(1.0f + static_cast<float>(strength) * *n++, 0.3f, 1.7f);
+  for (Color& pixel : pixels_) pixel *= std::clamp(1.0f + static_cast<float>(strength) * *n++, 0.3f, 1.7f);
 }
 
-void Canvas::stain(const cv::Mat1f& noise, double threshold, double softness, const Colour& colour, double opacity) {
+void Canvas::stain(const cv::Mat1f& noise, double threshold, double softness, const Color& color, double opacity) {
   auto n = noise.begin();
-  for (Colour& pixel : pixels_) {
+  for (Color& pixel : pixels_) {
     const double way = std::clamp((*n++ - threshold) / softness, 0.0, 1.0);
-    pixel += (colour - pixel) * static_cast<float>(opacity * way);
+    pixel += (color - pixel) * static_cast<float>(opacity * way);
   }
 }
 
-void Canvas::paint(const std::function<Colour(double x, double y)>& colour_at) {
+void Canvas::paint(const std::function<Color(double x, double y)>& color_at) {
   const double m_per_px = tile_m_ / size_px();
   for (int r = 0; r < size_px(); ++r) {
-    Colour* row = pixels_[r];
-    for (int c = 0; c < size_px(); ++c) row[c] = colour_at((c + 0.5) * m_per_px, (r + 0.5) * m_per_px);
+    Color* row = pixels_[r];
+    for (int c = 0; c < size_px(); ++c) row[c] = color_at((c + 0.5) * m_per_px, (r + 0.5) * m_per_px);
   }
 }
 
 cv::Mat Canvas::finished() const {
-  cv::Mat3b picture(pixels_.size());
-  auto out = picture.begin();
-  for (const Colour& pixel : pixels_) {
+  cv::Mat3b image(pixels_.size());
+  auto out = image.begin();
+  for (const Color& pixel : pixels_) {
     for (int k = 0; k < 3; ++k) {
       (*out)[k] = static_cast<uint8_t>(std::lround(255.0f * std::clamp(pixel[k], 0.0f, 1.0f)));
     }
     ++out;
   }
-  return picture;
+  return image;
 }
 
-Colour varied(const Colour& colour, double spread, Random& random) {
+Color varied(const Color& color, double spread, Random& random) {
   const double all = uniform(random, 1.0 - spread, 1.0 + spread);
-  Colour result;
+  Color result;
   for (int k = 0; k < 3; ++k) {
-    result[k] = colour[k] * static_cast<float>(all * uniform(random, 1.0 - 0.25 * spread, 1.0 + 0.25 * spread));
+    result[k] = color[k] * static_cast<float>(all * uniform(random, 1.0 - 0.25 * spread, 1.0 + 0.25 * spread));
   }
   return result;
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::textures

@@ -5,16 +5,16 @@
 
 #include "scenes/random.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::textures {
 
-using Colour = cv::Vec3f;  ///< RGB, 0..1
+using Color = cv::Vec3f;  ///< RGB, 0..1
 
-/// A rectangle of the picture, in metres from its top left corner.
+/// A rectangle of the image, in meters from its top left corner.
 struct Area {
   double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
 };
 
-/// Spectrum of a noise picture: value noise on lattices of `cells_u` x `cells_v`, then twice as many, `octaves` times,
+/// Spectrum of a noise image: value noise on lattices of `cells_u` x `cells_v`, then twice as many, `octaves` times,
 /// each `gain` times as strong as the one before.
 struct NoiseShape {
   int cells_u = 4;
@@ -26,52 +26,52 @@ struct NoiseShape {
 /// Returns tileable noise with mean 0 and standard deviation 1. Lattices finer than the pixels are left out.
 cv::Mat1f fractal_noise(int size_px, const NoiseShape& shape, Random& random);
 
-/// A square, tileable picture under the brush. Everything wraps around the edges, edges are antialiased, and lengths
-/// are metres on the surface, so that a picture looks alike at any resolution.
+/// A square, tileable image under the brush. Everything wraps around the edges, edges are antialiased, and lengths
+/// are meters on the surface, so that an image looks alike at any resolution.
 class Canvas {
  public:
-  Canvas(int size_px, double tile_m, const Colour& background);
+  Canvas(int size_px, double tile_m, const Color& background);
   Canvas(const Canvas& other) : tile_m_(other.tile_m_), pixels_(other.pixels_.clone()) {}
   Canvas& operator=(const Canvas&) = delete;
 
   int size_px() const { return pixels_.rows; }
   double tile_m() const { return tile_m_; }
 
-  void fill(const Area& area, const Colour& colour, double opacity = 1.0);
-  void fade(const Area& area, const Colour& colour, double top_opacity, double bottom_opacity);
-  void disc(double center_x, double center_y, double radius, const Colour& colour, double opacity = 1.0);
+  void fill(const Area& area, const Color& color, double opacity = 1.0);
+  void fade(const Area& area, const Color& color, double top_opacity, double bottom_opacity);
+  void disc(double center_x, double center_y, double radius, const Color& color, double opacity = 1.0);
 
   /// Draws the outline of `area`, `line` wide, inside of it.
-  void outline(const Area& area, double line, const Colour& colour, double opacity = 1.0);
+  void outline(const Area& area, double line, const Color& color, double opacity = 1.0);
 
   /// Draws a wandering dark line, as of a crack.
-  void crack(double x, double y, double length, double width, const Colour& colour, double opacity, Random& random);
+  void crack(double x, double y, double length, double width, const Color& color, double opacity, Random& random);
 
   /// Multiplies by 1 + strength * noise, within 0.3..1.7.
   void shade(const cv::Mat1f& noise, double strength);
 
-  /// Blends in `colour` where the noise exceeds `threshold`: opacity grows to `opacity` over `softness`.
-  void stain(const cv::Mat1f& noise, double threshold, double softness, const Colour& colour, double opacity);
+  /// Blends in `color` where the noise exceeds `threshold`: opacity grows to `opacity` over `softness`.
+  void stain(const cv::Mat1f& noise, double threshold, double softness, const Color& color, double opacity);
 
-  /// Gives each pixel a colour from its place in metres.
-  void paint(const std::function<Colour(double x, double y)>& colour_at);
+  /// Gives each pixel a color from its place in meters.
+  void paint(const std::function<Color(double x, double y)>& color_at);
 
-  /// Returns the picture, CV_8UC3 RGB.
+  /// Returns the image, CV_8UC3 RGB.
   cv::Mat finished() const;
 
  private:
   using Weight = std::function<float(double x, double y)>;
-  void blend(const Area& area, const Colour& colour, const Weight& opacity_at);
+  void blend(const Area& area, const Color& color, const Weight& opacity_at);
 
   double tile_m_;
   cv::Mat3f pixels_;
 };
 
-/// Returns the colour, each channel times `factor`.
-inline Colour scaled(const Colour& colour, double factor) { return colour * static_cast<float>(factor); }
+/// Returns the color, each channel times `factor`.
+inline Color scaled(const Color& color, double factor) { return color * static_cast<float>(factor); }
 
-/// Returns a colour near `colour`: all channels times one random factor within 1 +- spread, and each a little by
+/// Returns a color near `color`: all channels times one random factor within 1 +- spread, and each a little by
 /// itself.
-Colour varied(const Colour& colour, double spread, Random& random);
+Color varied(const Color& color, double spread, Random& random);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::textures

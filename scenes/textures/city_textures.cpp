@@ -1,18 +1,18 @@
-#include "scenes/city_pictures.h"
+#include "scenes/textures/city_textures.h"
 
 #include <utility>
 
-#include "scenes/facade_textures.h"
 #include "scenes/random.h"
-#include "scenes/street_textures.h"
+#include "scenes/textures/facade_textures.h"
+#include "scenes/textures/street_textures.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::textures {
 
-CityPictures paint_city(int size_px, uint64_t seed) {
-  CityPictures city;
-  const auto add = [&](cv::Mat picture) {
-    city.pictures.push_back(std::move(picture));
-    return static_cast<uint32_t>(city.pictures.size() - 1);
+CityTextures paint_city(int size_px, uint64_t seed) {
+  CityTextures city;
+  const auto add = [&](cv::Mat image) {
+    city.images.push_back(std::move(image));
+    return static_cast<uint32_t>(city.images.size() - 1);
   };
 
   city.streets = {add(paint_street(size_px, derived_seed(seed, 0))), add(paint_street(size_px, derived_seed(seed, 1)))};
@@ -26,15 +26,14 @@ CityPictures paint_city(int size_px, uint64_t seed) {
                 add(paint_roof(RoofCover::gravel, size_px, derived_seed(seed, 11)))};
   city.trims = {add(paint_trim(size_px, derived_seed(seed, 8))), add(paint_trim(size_px, derived_seed(seed, 9)))};
 
-  city.first_facade = static_cast<uint32_t>(city.pictures.size());
+  city.first_facade = static_cast<uint32_t>(city.images.size());
   uint64_t stream = 16;
   for (const FacadeStyle& style : facade_styles()) {
-    for (cv::Mat& picture :
-         paint_facades(style, size_px, CityPictures::kFacadeVariants, derived_seed(seed, stream++))) {
-      add(std::move(picture));
+    for (cv::Mat& image : paint_facades(style, size_px, CityTextures::kFacadeVariants, derived_seed(seed, stream++))) {
+      add(std::move(image));
     }
   }
   return city;
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::textures

@@ -5,13 +5,13 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::textures {
 
-/// All pictures of a city and where each stands in the list.
-struct CityPictures {
+/// All images of a city and where each stands in the list.
+struct CityTextures {
   static constexpr int kFacadeVariants = 2;
 
-  std::vector<cv::Mat> pictures;
+  std::vector<cv::Mat> images;
   std::array<uint32_t, 2> streets{};
   uint32_t crossing = 0;
   std::array<uint32_t, 3> lots{};
@@ -26,6 +26,6 @@ struct CityPictures {
   }
 };
 
-CityPictures paint_city(int size_px, uint64_t seed);
+CityTextures paint_city(int size_px, uint64_t seed);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::textures

@@ -1,17 +1,17 @@
-#include "scenes/facade_textures.h"
+#include "scenes/textures/facade_textures.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/masonry.h"
+#include "scenes/textures/masonry.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::textures {
 namespace {
 
-const Colour kGlass{0.10f, 0.13f, 0.16f};
-const Colour kSkyGlow{0.62f, 0.72f, 0.82f};
-const Colour kLamp{0.98f, 0.86f, 0.58f};
-const Colour kShadow{0.05f, 0.05f, 0.06f};
+const Color kGlass{0.10f, 0.13f, 0.16f};
+const Color kSkyGlow{0.62f, 0.72f, 0.82f};
+const Color kLamp{0.98f, 0.86f, 0.58f};
+const Color kShadow{0.05f, 0.05f, 0.06f};
 
 // What stands behind a pane, at random: night-dark rooms, lamps, blinds, curtains.
 void paint_interior(Canvas& canvas, const Area& pane, Random& random) {
@@ -26,18 +26,18 @@ void paint_interior(Canvas& canvas, const Area& pane, Random& random) {
                 {0.30f, 0.22f, 0.15f}, 0.8);
   } else if (state < 0.75) {  // a blind, drawn part of the way
     const double drawn = pane.height * uniform(random, 0.25, 1.0);
-    const Colour slat = varied({0.80f, 0.77f, 0.70f}, 0.15, random);
+    const Color slat = varied({0.80f, 0.77f, 0.70f}, 0.15, random);
     canvas.fill({pane.left, pane.top, pane.width, drawn}, slat);
     for (double y = 0.0; y < drawn - 0.05; y += 0.12) {
       canvas.fill({pane.left, pane.top + y, pane.width, 0.04}, scaled(slat, 0.6));
     }
   } else {  // curtains, folded
-    const Colour cloth =
-        varied(chance(random, 0.5) ? Colour{0.78f, 0.72f, 0.62f} : Colour{0.55f, 0.28f, 0.22f}, 0.3, random);
+    const Color cloth =
+        varied(chance(random, 0.5) ? Color{0.78f, 0.72f, 0.62f} : Color{0.55f, 0.28f, 0.22f}, 0.3, random);
     const double reach = pane.width * uniform(random, 0.15, 0.5);
     for (double x = 0.0; x < reach; x += 0.10) {
       const double strip = std::min(0.10, reach - x);
-      const Colour fold = varied(cloth, 0.25, random);
+      const Color fold = varied(cloth, 0.25, random);
       canvas.fill({pane.left + x, pane.top, strip, pane.height}, fold);
       canvas.fill({pane.left + pane.width - x - strip, pane.top, strip, pane.height}, scaled(fold, 0.92));
     }
@@ -51,13 +51,13 @@ void paint_window(Canvas& canvas, const FacadeStyle& style, const Area& hole, Ra
   // Mullions, the frame, and the shadow of the reveal.
   for (int k = 1; k < style.panes_across; ++k) {
     canvas.fill({hole.left + hole.width * k / style.panes_across - 0.5 * frame, hole.top, frame, hole.height},
-                style.trim_colour);
+                style.trim_color);
   }
   for (int k = 1; k < style.panes_down; ++k) {
     canvas.fill({hole.left, hole.top + hole.height * k / style.panes_down - 0.5 * frame, hole.width, frame},
-                style.trim_colour);
+                style.trim_color);
   }
-  canvas.outline(hole, frame, style.trim_colour);
+  canvas.outline(hole, frame, style.trim_color);
   canvas.fade({hole.left, hole.top, hole.width, 0.25}, kShadow, 0.65, 0.0);
   canvas.fade({hole.left, hole.top, 0.10, hole.height}, kShadow, 0.45, 0.35);
 }
@@ -76,7 +76,7 @@ void paint_streaks(Canvas& canvas, const Area& below, Random& random) {
 void paint_balcony(Canvas& canvas, const Area& cell, const Area& hole, Random& random) {
   const double left = hole.left - 0.3, width = hole.width + 0.6;
   const double floor_y = std::min(hole.top + hole.height, cell.top + cell.height - 0.4);
-  const Colour rail = chance(random, 0.5) ? Colour{0.16f, 0.17f, 0.18f} : Colour{0.85f, 0.85f, 0.82f};
+  const Color rail = chance(random, 0.5) ? Color{0.16f, 0.17f, 0.18f} : Color{0.85f, 0.85f, 0.82f};
   if (chance(random, 0.4)) {
     canvas.fill({left, floor_y - 0.95, width, 0.95}, varied({0.55f, 0.62f, 0.60f}, 0.35, random), 0.85);
   }
@@ -100,15 +100,15 @@ void paint_cell(Canvas& canvas, const FacadeStyle& style, const Area& cell, Rand
   const double sill_y = hole.top + hole.height;
   const Area below{hole.left - 0.1, sill_y, hole.width + 0.2, cell.top + cell.height - sill_y};
   if (style.wall == FacadeStyle::Wall::glass) {
-    canvas.fill(below, varied(style.wall_colour, 0.35, random), 0.6);
+    canvas.fill(below, varied(style.wall_color, 0.35, random), 0.6);
     paint_window(canvas, style, hole, random);
     return;
   }
 
   paint_streaks(canvas, below, random);
-  canvas.fill({hole.left - 0.12, hole.top - 0.22, hole.width + 0.24, 0.22}, style.trim_colour, 0.8);
+  canvas.fill({hole.left - 0.12, hole.top - 0.22, hole.width + 0.24, 0.22}, style.trim_color, 0.8);
   paint_window(canvas, style, hole, random);
-  canvas.fill({hole.left - 0.15, sill_y, hole.width + 0.3, 0.12}, style.trim_colour);
+  canvas.fill({hole.left - 0.15, sill_y, hole.width + 0.3, 0.12}, style.trim_color);
   canvas.fade({hole.left - 0.15, sill_y + 0.12, hole.width + 0.3, 0.15}, kShadow, 0.55, 0.0);
   if (chance(random, style.balcony_share)) {
     paint_balcony(canvas, cell, hole, random);
@@ -122,14 +122,14 @@ void paint_cell(Canvas& canvas, const FacadeStyle& style, const Area& cell, Rand
 void paint_wall(Canvas& canvas, const FacadeStyle& style, Random& random) {
   switch (style.wall) {
     case FacadeStyle::Wall::brick:
-      paint_masonry(canvas, {50, 144, 0.015, 0.28}, style.wall_colour, {0.72f, 0.69f, 0.64f}, random);
+      paint_masonry(canvas, {50, 144, 0.015, 0.28}, style.wall_color, {0.72f, 0.69f, 0.64f}, random);
       break;
     case FacadeStyle::Wall::ashlar:
-      paint_masonry(canvas, {12, 24, 0.025, 0.14}, style.wall_colour, scaled(style.wall_colour, 0.55), random);
+      paint_masonry(canvas, {12, 24, 0.025, 0.14}, style.wall_color, scaled(style.wall_color, 0.55), random);
       break;
     case FacadeStyle::Wall::panel:
-      paint_masonry(canvas, {style.bays, style.floors, 0.05, 0.10, 0.0}, style.wall_colour,
-                    scaled(style.wall_colour, 0.4), random);
+      paint_masonry(canvas, {style.bays, style.floors, 0.05, 0.10, 0.0}, style.wall_color,
+                    scaled(style.wall_color, 0.4), random);
       break;
     case FacadeStyle::Wall::plaster:
     case FacadeStyle::Wall::glass:
@@ -138,7 +138,7 @@ void paint_wall(Canvas& canvas, const FacadeStyle& style, Random& random) {
   if (style.floor_bands) {
     for (int k = 0; k < style.floors; ++k) {
       const double y = k * style.floor_m();
-      canvas.fill({0.0, y - 0.15, FacadeStyle::kTile_m, 0.25}, style.trim_colour, 0.9);
+      canvas.fill({0.0, y - 0.15, FacadeStyle::kTile_m, 0.25}, style.trim_color, 0.9);
       canvas.fade({0.0, y + 0.10, FacadeStyle::kTile_m, 0.15}, kShadow, 0.5, 0.0);
     }
   }
@@ -169,13 +169,13 @@ const std::vector<FacadeStyle>& facade_styles() {
 
 std::vector<cv::Mat> paint_facades(const FacadeStyle& style, int size_px, int variants, uint64_t seed) {
   Random wall_random(derived_seed(seed, 0));
-  const Colour wall_colour = varied(style.wall_colour, 0.06, wall_random);
-  Canvas wall(size_px, FacadeStyle::kTile_m, wall_colour);
+  const Color wall_color = varied(style.wall_color, 0.06, wall_random);
+  Canvas wall(size_px, FacadeStyle::kTile_m, wall_color);
   paint_wall(wall, style, wall_random);
   weather_wall(wall, wall_random);
   const cv::Mat1f grain = fractal_noise(size_px, {32, 32, 5, 0.9}, wall_random);
 
-  std::vector<cv::Mat> pictures;
+  std::vector<cv::Mat> images;
   for (int k = 0; k < variants; ++k) {
     Random random(derived_seed(seed, static_cast<uint64_t>(k) + 1));
     Canvas canvas = wall;
@@ -186,9 +186,9 @@ std::vector<cv::Mat> paint_facades(const FacadeStyle& style, int size_px, int va
       }
     }
     canvas.shade(grain, 0.06);
-    pictures.push_back(canvas.finished());
+    images.push_back(canvas.finished());
   }
-  return pictures;
+  return images;
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::textures

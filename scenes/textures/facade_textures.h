@@ -4,17 +4,17 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "scenes/canvas.h"
+#include "scenes/textures/canvas.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::textures {
 
-/// How the walls of one kind of building look. A picture shows `bays` x `floors` cells of one window each.
+/// How the walls of one kind of building look. An image shows `bays` x `floors` cells of one window each.
 struct FacadeStyle {
   enum class Wall { brick, plaster, panel, ashlar, glass };
 
   Wall wall = Wall::brick;
-  Colour wall_colour;
-  Colour trim_colour;  ///< frames, sills, bands
+  Color wall_color;
+  Color trim_color;  ///< frames, sills, bands
   int bays = 4;
   int floors = 4;
   double window_width = 0.45;   ///< share of the cell
@@ -32,8 +32,8 @@ struct FacadeStyle {
 /// The kinds of walls that a city draws from.
 const std::vector<FacadeStyle>& facade_styles();
 
-/// Returns `variants` pictures of one style, CV_8UC3. They differ in windows, balconies and streaks, share the wall
+/// Returns `variants` images of one style, CV_8UC3. They differ in windows, balconies and streaks, share the wall
 /// between the cells, and so continue each other in any arrangement: a facade made of them never repeats strictly.
 std::vector<cv::Mat> paint_facades(const FacadeStyle& style, int size_px, int variants, uint64_t seed);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::textures

@@ -1,10 +1,10 @@
-#include "scenes/masonry.h"
+#include "scenes/textures/masonry.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::textures {
 namespace {
 
 // Share of a pixel that lies in a joint around the multiples of `period_m`.
@@ -16,8 +16,8 @@ float joint_share(double at_m, double pixel_m, double period_m, double joint_m) 
 
 }  // namespace
 
-void paint_masonry(Canvas& canvas, const Masonry& masonry, const Colour& block, const Colour& joint, Random& random) {
-  std::vector<Colour> tones;
+void paint_masonry(Canvas& canvas, const Masonry& masonry, const Color& block, const Color& joint, Random& random) {
+  std::vector<Color> tones;
   for (int k = 0; k < masonry.rows * masonry.columns; ++k) tones.push_back(varied(block, masonry.spread, random));
 
   const double pixel_m = canvas.tile_m() / canvas.size_px();
@@ -26,11 +26,11 @@ void paint_masonry(Canvas& canvas, const Masonry& masonry, const Colour& block, 
     const int row = std::min(static_cast<int>(y / height_m), masonry.rows - 1);
     const double shifted = x + (row % 2 == 1 ? masonry.bond * width_m : 0.0);
     const int column = static_cast<int>(shifted / width_m) % masonry.columns;
-    const Colour& tone = tones[static_cast<size_t>(row * masonry.columns + column)];
+    const Color& tone = tones[static_cast<size_t>(row * masonry.columns + column)];
     const float in_joint = std::max(joint_share(shifted, pixel_m, width_m, masonry.joint_m),
                                     joint_share(y, pixel_m, height_m, masonry.joint_m));
     return tone + (joint - tone) * in_joint;
   });
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::textures

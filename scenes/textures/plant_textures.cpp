@@ -1,12 +1,12 @@
-#include "scenes/plant_textures.h"
+#include "scenes/textures/plant_textures.h"
 
-#include "scenes/canvas.h"
+#include "scenes/textures/canvas.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::textures {
 namespace {
 
 struct LeafStyle {
-  Colour shade, leaf, light;
+  Color shade, leaf, light;
   double smallest_m, largest_m;
   int leaves;
 };
@@ -34,8 +34,7 @@ cv::Mat paint_leaves(Leaves leaves, int size_px, uint64_t seed) {
   // From the depth of the crown to its surface, ever lighter; each leaf on its own shadow.
   for (int k = 0; k < style.leaves; ++k) {
     const double height = static_cast<double>(k) / style.leaves;
-    const Colour tone =
-        style.leaf + (style.light - style.leaf) * static_cast<float>(height * uniform(random, 0.2, 1.0));
+    const Color tone = style.leaf + (style.light - style.leaf) * static_cast<float>(height * uniform(random, 0.2, 1.0));
     const double x = uniform(random, 0.0, tile), y = uniform(random, 0.0, tile);
     const double radius = uniform(random, style.smallest_m, style.largest_m);
     canvas.disc(x + 0.3 * radius, y + 0.5 * radius, radius, style.shade, 0.45);
@@ -50,7 +49,7 @@ cv::Mat paint_leaves(Leaves leaves, int size_px, uint64_t seed) {
 cv::Mat paint_bark(int size_px, uint64_t seed) {
   Random random(seed);
   const double tile = kBarkTile_m;
-  const Colour bark{0.36f, 0.29f, 0.22f}, furrow{0.10f, 0.08f, 0.06f};
+  const Color bark{0.36f, 0.29f, 0.22f}, furrow{0.10f, 0.08f, 0.06f};
   Canvas canvas(size_px, tile, bark);
   canvas.shade(fractal_noise(size_px, {24, 4, 5, 0.85}, random), 0.30);
   canvas.stain(fractal_noise(size_px, {20, 3, 5, 0.7}, random), 0.5, 0.5, furrow, 0.85);
@@ -59,4 +58,4 @@ cv::Mat paint_bark(int size_px, uint64_t seed) {
   return canvas.finished();
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::textures

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::textures {
 
-/// Pictures of plants, CV_8UC3, each a function of its arguments.
+/// Images of plants, CV_8UC3, each a function of its arguments.
 inline constexpr double kLeafTile_m = 3.0;
 inline constexpr double kBarkTile_m = 1.5;
 
@@ -13,7 +13,7 @@ enum class Leaves { broad, needles, autumn };
 /// Foliage as a closed surface: thousands of leaves in layers, the lower ones in shadow.
 cv::Mat paint_leaves(Leaves leaves, int size_px, uint64_t seed);
 
-/// Bark with furrows that run up the picture.
+/// Bark with furrows that run up the image.
 cv::Mat paint_bark(int size_px, uint64_t seed);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::textures

@@ -1,24 +1,24 @@
-#include "scenes/room_textures.h"
+#include "scenes/textures/room_textures.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "scenes/canvas.h"
-#include "scenes/masonry.h"
+#include "scenes/textures/canvas.h"
+#include "scenes/textures/masonry.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::textures {
 namespace {
 
-const Colour kWood{0.52f, 0.34f, 0.19f};
-const Colour kDark{0.08f, 0.07f, 0.06f};
-const Colour kCream{0.86f, 0.82f, 0.72f};
+const Color kWood{0.52f, 0.34f, 0.19f};
+const Color kDark{0.08f, 0.07f, 0.06f};
+const Color kCream{0.86f, 0.82f, 0.72f};
 
-Colour vivid(Random& random) {
-  static const Colour colours[] = {{0.70f, 0.18f, 0.14f}, {0.14f, 0.30f, 0.52f}, {0.16f, 0.42f, 0.26f},
-                                   {0.82f, 0.62f, 0.18f}, {0.38f, 0.20f, 0.36f}, {0.84f, 0.80f, 0.70f},
-                                   {0.12f, 0.12f, 0.14f}};
-  return varied(colours[uniform_index(random, 7)], 0.25, random);
+Color vivid(Random& random) {
+  static const Color colors[] = {{0.70f, 0.18f, 0.14f}, {0.14f, 0.30f, 0.52f}, {0.16f, 0.42f, 0.26f},
+                                 {0.82f, 0.62f, 0.18f}, {0.38f, 0.20f, 0.36f}, {0.84f, 0.80f, 0.70f},
+                                 {0.12f, 0.12f, 0.14f}};
+  return varied(colors[uniform_index(random, 7)], 0.25, random);
 }
 
 void paint_paper(Canvas& canvas, WallPaper paper, Random& random) {
@@ -28,7 +28,7 @@ void paint_paper(Canvas& canvas, WallPaper paper, Random& random) {
     case WallPaper::stripes:
       for (int k = 0; k < 20; ++k) {
         canvas.fill({0.2 * k, 0.0, 0.2, tile},
-                    varied(k % 2 == 0 ? Colour{0.62f, 0.70f, 0.66f} : Colour{0.80f, 0.80f, 0.70f}, 0.08, random));
+                    varied(k % 2 == 0 ? Color{0.62f, 0.70f, 0.66f} : Color{0.80f, 0.80f, 0.70f}, 0.08, random));
         canvas.fill({0.2 * k, 0.0, 0.012, tile}, {0.32f, 0.42f, 0.40f});
         for (double y = 0.05 + 0.1 * (k % 2); y < tile; y += 0.2) {
           canvas.disc(0.2 * k + 0.1, y, uniform(random, 0.018, 0.035), {0.42f, 0.24f, 0.22f}, 0.8);
@@ -44,7 +44,7 @@ void paint_paper(Canvas& canvas, WallPaper paper, Random& random) {
         for (int column = 0; column < 10; ++column) {
           const double x = 0.4 * column + (row % 2) * 0.2 + uniform(random, -0.03, 0.03),
                        y = 0.4 * row + uniform(random, -0.03, 0.03);
-          const Colour ornament = varied({0.80f, 0.68f, 0.48f}, 0.2, random);
+          const Color ornament = varied({0.80f, 0.68f, 0.48f}, 0.2, random);
           canvas.disc(x, y, 0.10, ornament, 0.9);
           canvas.disc(x, y, 0.06, {0.45f, 0.30f, 0.24f}, 0.9);
           for (int leaf = 0; leaf < 6; ++leaf) {
@@ -75,8 +75,8 @@ void paint_skirting(Canvas& canvas) {
   canvas.fill({0.0, tile - 0.14, tile, 0.02}, {0.70f, 0.58f, 0.42f});
 }
 
-// A framed picture: horizon, discs and strokes.
-void paint_framed_picture(Canvas& canvas, const Area& frame, Random& random) {
+// A framed image: horizon, discs and strokes.
+void paint_framed_image(Canvas& canvas, const Area& frame, Random& random) {
   canvas.fade({frame.left + 0.03, frame.top + frame.height, frame.width, 0.10}, kDark, 0.5, 0.0);
   canvas.fill(frame, varied(kWood, 0.4, random));
   const Area inside{frame.left + 0.06, frame.top + 0.06, frame.width - 0.12, frame.height - 0.12};
@@ -118,7 +118,7 @@ std::vector<cv::Mat> paint_room_walls(WallPaper paper, int size_px, int variants
   paint_skirting(wall);
   const cv::Mat1f grain = fractal_noise(size_px, {48, 48, 4, 1.0}, paper_random);
 
-  std::vector<cv::Mat> pictures;
+  std::vector<cv::Mat> images;
   for (int k = 0; k < variants; ++k) {
     Random random(derived_seed(seed, static_cast<uint64_t>(k) + 1));
     Canvas canvas = wall;
@@ -129,7 +129,7 @@ std::vector<cv::Mat> paint_room_walls(WallPaper paper, int size_px, int variants
       if (chance(random, 0.35)) {
         paint_board_with_notes(canvas, thing, random);
       } else {
-        paint_framed_picture(canvas, thing, random);
+        paint_framed_image(canvas, thing, random);
       }
     }
     for (int scuff = 0; scuff < 14; ++scuff) {
@@ -137,9 +137,9 @@ std::vector<cv::Mat> paint_room_walls(WallPaper paper, int size_px, int variants
                    random);
     }
     canvas.shade(grain, 0.06);
-    pictures.push_back(canvas.finished());
+    images.push_back(canvas.finished());
   }
-  return pictures;
+  return images;
 }
 
 cv::Mat paint_parquet(int size_px, uint64_t seed) {
@@ -199,7 +199,7 @@ cv::Mat paint_shelves(int size_px, uint64_t seed) {
     for (double x = 0.0; x < kRoomTile_m;) {
       const double width = uniform(random, 0.025, 0.085), height = uniform(random, 0.20, 0.34);
       if (!chance(random, 0.08)) {
-        const Colour spine = vivid(random);
+        const Color spine = vivid(random);
         canvas.fill({x, shelf - height, width - 0.006, height - 0.03}, spine);
         canvas.fill({x, shelf - 0.75 * height, width - 0.006, 0.035}, varied({0.80f, 0.72f, 0.50f}, 0.3, random), 0.8);
       }
@@ -233,4 +233,4 @@ cv::Mat paint_drawers(int size_px, uint64_t seed) {
   return canvas.finished();
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::textures

@@ -4,14 +4,14 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::textures {
 
-/// Pictures of a room's surfaces, CV_8UC3, kRoomTile_m a side, each a function of its arguments.
+/// Images of a room's surfaces, CV_8UC3, kRoomTile_m a side, each a function of its arguments.
 inline constexpr double kRoomTile_m = 4.0;
 
 enum class WallPaper { stripes, brick, damask, plaster };
 
-/// Returns `variants` pictures of one wall: they share the paper and differ in what hangs on it, so that they continue
+/// Returns `variants` images of one wall: they share the paper and differ in what hangs on it, so that they continue
 /// each other sideways in any order. Row 0 is the top of a wall 4 m high; a lower wall shows the lower part.
 std::vector<cv::Mat> paint_room_walls(WallPaper paper, int size_px, int variants, uint64_t seed);
 
@@ -19,8 +19,8 @@ cv::Mat paint_parquet(int size_px, uint64_t seed);
 cv::Mat paint_carpet(int size_px, uint64_t seed);
 cv::Mat paint_ceiling(int size_px, uint64_t seed);
 
-/// Furniture, four pieces' worth of detail per picture: shelves full of books, and drawers of wood.
+/// Furniture, four pieces' worth of detail per image: shelves full of books, and drawers of wood.
 cv::Mat paint_shelves(int size_px, uint64_t seed);
 cv::Mat paint_drawers(int size_px, uint64_t seed);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::textures

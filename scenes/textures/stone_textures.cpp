@@ -1,11 +1,11 @@
-#include "scenes/stone_textures.h"
+#include "scenes/textures/stone_textures.h"
 
 #include <cmath>
 
-#include "scenes/canvas.h"
-#include "scenes/masonry.h"
+#include "scenes/textures/canvas.h"
+#include "scenes/textures/masonry.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::textures {
 
 cv::Mat paint_rock(int size_px, uint64_t seed) {
   Random random(seed);
@@ -24,7 +24,7 @@ cv::Mat paint_rock(int size_px, uint64_t seed) {
 cv::Mat paint_asphalt_road(int size_px, uint64_t seed) {
   Random random(seed);
   const double tile = kAsphaltTile_m;
-  const Colour asphalt{0.37f, 0.37f, 0.38f}, dark{0.12f, 0.12f, 0.12f};
+  const Color asphalt{0.37f, 0.37f, 0.38f}, dark{0.12f, 0.12f, 0.12f};
   Canvas canvas(size_px, tile, asphalt);
   canvas.shade(fractal_noise(size_px, {6, 6, 8, 0.85}, random), 0.14);
   for (int k = 0; k < 6; ++k) {
@@ -55,15 +55,15 @@ cv::Mat paint_clouded_wall(int size_px, uint64_t seed) {
   return canvas.finished();
 }
 
-cv::Mat paint_blank(int size_px, const cv::Vec3f& colour) { return Canvas(size_px, 1.0, colour).finished(); }
+cv::Mat paint_blank(int size_px, const cv::Vec3f& color) { return Canvas(size_px, 1.0, color).finished(); }
 
-cv::Mat faded(const cv::Mat& picture, double strength) {
-  const cv::Scalar mean = cv::mean(picture);
-  cv::Mat3b result = picture.clone();
+cv::Mat faded(const cv::Mat& image, double strength) {
+  const cv::Scalar mean = cv::mean(image);
+  cv::Mat3b result = image.clone();
   for (cv::Vec3b& pixel : result) {
     for (int k = 0; k < 3; ++k) pixel[k] = static_cast<uint8_t>(std::lround(mean[k] + strength * (pixel[k] - mean[k])));
   }
   return result;
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::textures

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::textures {
 
-/// Pictures of stone, walls and roads, CV_8UC3, each a function of its arguments.
+/// Images of stone, walls and roads, CV_8UC3, each a function of its arguments.
 inline constexpr double kRockTile_m = 2.0;
 inline constexpr double kAsphaltTile_m = 8.0;
 inline constexpr double kWallTile_m = 4.0;
@@ -14,13 +14,13 @@ cv::Mat paint_rock(int size_px, uint64_t seed);
 cv::Mat paint_asphalt_road(int size_px, uint64_t seed);  ///< without lines
 cv::Mat paint_brick_wall(int size_px, uint64_t seed);
 
-/// Light and dark that flow into each other over metres: a gradient nearly everywhere, a corner nowhere.
+/// Light and dark that flow into each other over meters: a gradient nearly everywhere, a corner nowhere.
 cv::Mat paint_clouded_wall(int size_px, uint64_t seed);
 
-/// One colour and nothing else.
-cv::Mat paint_blank(int size_px, const cv::Vec3f& colour);
+/// One color and nothing else.
+cv::Mat paint_blank(int size_px, const cv::Vec3f& color);
 
-/// Returns a picture with its contrast about its mean colour times `strength`, 0..1.
-cv::Mat faded(const cv::Mat& picture, double strength);
+/// Returns an image with its contrast about its mean color times `strength`, 0..1.
+cv::Mat faded(const cv::Mat& image, double strength);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::textures

@@ -1,18 +1,18 @@
-#include "scenes/street_textures.h"
+#include "scenes/textures/street_textures.h"
 
-#include "scenes/canvas.h"
-#include "scenes/masonry.h"
+#include "scenes/textures/canvas.h"
+#include "scenes/textures/masonry.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::textures {
 namespace {
 
-const Colour kAsphalt{0.37f, 0.37f, 0.38f};
-const Colour kPaint{0.86f, 0.86f, 0.82f};
-const Colour kSlab{0.64f, 0.62f, 0.58f};
-const Colour kKerb{0.74f, 0.73f, 0.70f};
-const Colour kDark{0.10f, 0.10f, 0.10f};
-const Colour kGrass{0.33f, 0.42f, 0.20f};
-const Colour kLeaf{0.18f, 0.30f, 0.10f};
+const Color kAsphalt{0.37f, 0.37f, 0.38f};
+const Color kPaint{0.86f, 0.86f, 0.82f};
+const Color kSlab{0.64f, 0.62f, 0.58f};
+const Color kKerb{0.74f, 0.73f, 0.70f};
+const Color kDark{0.10f, 0.10f, 0.10f};
+const Color kGrass{0.33f, 0.42f, 0.20f};
+const Color kLeaf{0.18f, 0.30f, 0.10f};
 
 constexpr double kPavement_m = 1.4;
 constexpr double kKerb_m = 0.14;
@@ -32,7 +32,7 @@ void paint_asphalt(Canvas& canvas, Random& random) {
   }
   for (int k = 0; k < 25; ++k) {
     canvas.disc(uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 0.03, 0.22),
-                chance(random, 0.6) ? kDark : Colour{0.48f, 0.47f, 0.45f}, uniform(random, 0.2, 0.6));
+                chance(random, 0.6) ? kDark : Color{0.48f, 0.47f, 0.45f}, uniform(random, 0.2, 0.6));
   }
 }
 
@@ -64,7 +64,7 @@ void finish_ground(Canvas& canvas, Random& random) {
 void paint_bushes(Canvas& canvas, const Area& bed, int count, Random& random) {
   for (int k = 0; k < count; ++k) {
     const bool blossom = chance(random, 0.12);
-    const Colour petal = chance(random, 0.5) ? Colour{0.85f, 0.75f, 0.30f} : Colour{0.75f, 0.35f, 0.45f};
+    const Color petal = chance(random, 0.5) ? Color{0.85f, 0.75f, 0.30f} : Color{0.75f, 0.35f, 0.45f};
     canvas.disc(bed.left + uniform(random, 0.0, bed.width), bed.top + uniform(random, 0.0, bed.height),
                 blossom ? uniform(random, 0.03, 0.06) : uniform(random, 0.06, 0.22),
                 blossom ? petal : varied(kLeaf, 0.5, random), 0.9);
@@ -190,7 +190,7 @@ cv::Mat paint_field(int size_px, uint64_t seed) {
 cv::Mat paint_roof(RoofCover cover, int size_px, uint64_t seed) {
   Random random(seed);
   const double tile = kRoofTile_m;
-  Canvas canvas(size_px, tile, cover == RoofCover::felt ? Colour{0.40f, 0.40f, 0.41f} : Colour{0.64f, 0.60f, 0.54f});
+  Canvas canvas(size_px, tile, cover == RoofCover::felt ? Color{0.40f, 0.40f, 0.41f} : Color{0.64f, 0.60f, 0.54f});
   if (cover == RoofCover::felt) {
     for (double y = 0.0; y < tile; y += 1.0) canvas.fill({0.0, y, tile, 0.05}, kDark, 0.5);
   } else {
@@ -211,4 +211,4 @@ cv::Mat paint_roof(RoofCover cover, int size_px, uint64_t seed) {
   return canvas.finished();
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::textures

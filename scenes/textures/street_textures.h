@@ -3,15 +3,15 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::textures {
 
-/// Pictures of the city's ground and roofs, CV_8UC3. Each is a function of its arguments.
-inline constexpr double kStreetTile_m = 8.0;  ///< also the width that a street's picture is painted for
+/// Images of the city's ground and roofs, CV_8UC3. Each is a function of its arguments.
+inline constexpr double kStreetTile_m = 8.0;  ///< also the width that a street's image is painted for
 inline constexpr double kLotTile_m = 8.0;
 inline constexpr double kGrassTile_m = 16.0;
 inline constexpr double kRoofTile_m = 12.0;
 
-/// A street that runs up the picture: pavement, kerb, lane, dashed line, lane, kerb, pavement.
+/// A street that runs up the image: pavement, kerb, lane, dashed line, lane, kerb, pavement.
 cv::Mat paint_street(int size_px, uint64_t seed);
 
 /// Where two streets cross: zebra crossings on all sides, pavement in the corners.
@@ -32,7 +32,7 @@ inline constexpr double kTrimTile_m = 12.0;
 inline constexpr int kShopStrips = 3;
 inline constexpr double kShop_m = 3.75;
 inline constexpr double kCornice_m = 0.75;
-inline constexpr int kShopBays = 3;  ///< across the picture
+inline constexpr int kShopBays = 3;  ///< across the image
 cv::Mat paint_trim(int size_px, uint64_t seed);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::textures

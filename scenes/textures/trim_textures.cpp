@@ -1,25 +1,25 @@
 #include <algorithm>
 
-#include "scenes/canvas.h"
-#include "scenes/street_textures.h"
+#include "scenes/textures/canvas.h"
+#include "scenes/textures/street_textures.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::textures {
 namespace {
 
-const Colour kStone{0.62f, 0.59f, 0.54f};
-const Colour kDark{0.08f, 0.08f, 0.09f};
+const Color kStone{0.62f, 0.59f, 0.54f};
+const Color kDark{0.08f, 0.08f, 0.09f};
 
-Colour sign_colour(Random& random) {
-  static const Colour colours[] = {{0.65f, 0.14f, 0.12f}, {0.12f, 0.28f, 0.52f}, {0.14f, 0.40f, 0.24f},
-                                   {0.82f, 0.62f, 0.16f}, {0.22f, 0.20f, 0.20f}, {0.85f, 0.83f, 0.78f}};
-  return varied(colours[uniform_index(random, 6)], 0.15, random);
+Color sign_color(Random& random) {
+  static const Color colors[] = {{0.65f, 0.14f, 0.12f}, {0.12f, 0.28f, 0.52f}, {0.14f, 0.40f, 0.24f},
+                                 {0.82f, 0.62f, 0.16f}, {0.22f, 0.20f, 0.20f}, {0.85f, 0.83f, 0.78f}};
+  return varied(colors[uniform_index(random, 6)], 0.15, random);
 }
 
 // A sign above the shop: blocks that look like letters from afar.
 void paint_sign(Canvas& canvas, const Area& board, Random& random) {
-  const Colour ground = sign_colour(random);
+  const Color ground = sign_color(random);
   const bool light_letters = ground[0] + ground[1] + ground[2] < 1.5f;
-  const Colour letter = light_letters ? Colour{0.92f, 0.90f, 0.84f} : Colour{0.15f, 0.12f, 0.12f};
+  const Color letter = light_letters ? Color{0.92f, 0.90f, 0.84f} : Color{0.15f, 0.12f, 0.12f};
   canvas.fill(board, ground);
   double x = board.left + uniform(random, 0.15, 0.6);
   const double end = board.left + board.width - uniform(random, 0.15, 0.6);
@@ -34,12 +34,12 @@ void paint_sign(Canvas& canvas, const Area& board, Random& random) {
 }
 
 void paint_display(Canvas& canvas, const Area& glass, Random& random) {
-  canvas.fill(glass, chance(random, 0.4) ? Colour{0.80f, 0.70f, 0.48f} : Colour{0.16f, 0.18f, 0.20f});
+  canvas.fill(glass, chance(random, 0.4) ? Color{0.80f, 0.70f, 0.48f} : Color{0.16f, 0.18f, 0.20f});
   for (int k = 0; k < 22; ++k) {  // goods on three shelves
     const double width = uniform(random, 0.08, 0.35), height = uniform(random, 0.1, 0.5);
     const double shelf = glass.top + glass.height * (1 + uniform_index(random, 3)) / 3.0;
     canvas.fill({glass.left + uniform(random, 0.0, glass.width - width), shelf - height, width, height},
-                sign_colour(random), 0.9);
+                sign_color(random), 0.9);
   }
   canvas.fade(glass, {0.75f, 0.82f, 0.88f}, uniform(random, 0.1, 0.5), 0.0);
   canvas.outline(glass, 0.07, {0.20f, 0.20f, 0.21f});
@@ -47,19 +47,19 @@ void paint_display(Canvas& canvas, const Area& glass, Random& random) {
 }
 
 void paint_shutter(Canvas& canvas, const Area& opening, Random& random) {
-  const Colour metal = varied({0.55f, 0.56f, 0.56f}, 0.25, random);
+  const Color metal = varied({0.55f, 0.56f, 0.56f}, 0.25, random);
   canvas.fill(opening, metal);
   for (double y = 0.0; y < opening.height - 0.05; y += 0.12) {
     canvas.fill({opening.left, opening.top + y, opening.width, 0.05}, scaled(metal, 0.65));
   }
   for (int k = 0; k < 5; ++k) {  // somebody had a spray can
     canvas.crack(opening.left + opening.width * uniform(random, 0.3, 0.7),
-                 opening.top + opening.height * uniform(random, 0.3, 0.7), 1.2, 0.09, sign_colour(random), 0.9, random);
+                 opening.top + opening.height * uniform(random, 0.3, 0.7), 1.2, 0.09, sign_color(random), 0.9, random);
   }
 }
 
 void paint_door(Canvas& canvas, const Area& door, Random& random) {
-  const Colour leaf = sign_colour(random);
+  const Color leaf = sign_color(random);
   canvas.fill(door, leaf);
   canvas.outline(door, 0.08, scaled(leaf, 0.5));
   canvas.fill({door.left + 0.2, door.top + 0.25, door.width - 0.4, 0.9}, {0.14f, 0.17f, 0.20f});
@@ -79,7 +79,7 @@ void paint_shop(Canvas& canvas, const Area& bay, Random& random) {
     paint_door(canvas, {door_left, opening.top, door, opening.height + plinth}, random);
   }
   if (kind > 0.6) {  // an awning
-    const Colour cloth = sign_colour(random);
+    const Color cloth = sign_color(random);
     for (double x = 0.0; x < opening.width - 0.01; x += 0.4) {
       const double strip = std::min(0.2, opening.width - x), gap = std::clamp(opening.width - x - 0.2, 0.0, 0.2);
       canvas.fill({opening.left + x, opening.top - 0.15, strip, 0.75}, cloth);
@@ -122,4 +122,4 @@ cv::Mat paint_trim(int size_px, uint64_t seed) {
   return canvas.finished();
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::textures

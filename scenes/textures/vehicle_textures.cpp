@@ -1,16 +1,16 @@
-#include "scenes/vehicle_textures.h"
+#include "scenes/textures/vehicle_textures.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::textures {
 namespace {
 
-const Colour kTyre{0.06f, 0.06f, 0.06f};
-const Colour kRim{0.60f, 0.61f, 0.63f};
-const Colour kGlass{0.10f, 0.13f, 0.16f};
-const Colour kSkyGlow{0.62f, 0.72f, 0.82f};
+const Color kTyre{0.06f, 0.06f, 0.06f};
+const Color kRim{0.60f, 0.61f, 0.63f};
+const Color kGlass{0.10f, 0.13f, 0.16f};
+const Color kSkyGlow{0.62f, 0.72f, 0.82f};
 
 }  // namespace
 
-cv::Mat paint_vehicle_body(const Colour& paint, int size_px, uint64_t seed) {
+cv::Mat paint_vehicle_body(const Color& paint, int size_px, uint64_t seed) {
   Random random(seed);
   const double tile = kVehicleTile_m, ground = tile;
   Canvas canvas(size_px, tile, paint);
@@ -21,7 +21,7 @@ cv::Mat paint_vehicle_body(const Colour& paint, int size_px, uint64_t seed) {
     canvas.fill({x, ground - 1.2, 0.025, 0.8}, {0.05f, 0.05f, 0.05f}, 0.8);     // a door's gap
     canvas.fill({x + 0.15, ground - 0.80, 0.18, 0.05}, {0.75f, 0.75f, 0.76f});  // its handle
     canvas.fill({x + 0.5, ground - 0.72, 0.28, 0.14},
-                x < 2.0 ? Colour{0.80f, 0.20f, 0.10f} : Colour{0.92f, 0.90f, 0.80f});
+                x < 2.0 ? Color{0.80f, 0.20f, 0.10f} : Color{0.92f, 0.90f, 0.80f});
   }
   for (const double x : {0.75, 3.25}) {
     canvas.disc(x, ground - 0.32, 0.40, {0.04f, 0.04f, 0.04f});
@@ -34,7 +34,7 @@ cv::Mat paint_vehicle_body(const Colour& paint, int size_px, uint64_t seed) {
   return canvas.finished();
 }
 
-cv::Mat paint_vehicle_cabin(const Colour& paint, int size_px, uint64_t seed) {
+cv::Mat paint_vehicle_cabin(const Color& paint, int size_px, uint64_t seed) {
   Random random(seed);
   const double tile = kVehicleTile_m, ground = tile;
   Canvas canvas(size_px, tile, paint);
@@ -48,4 +48,4 @@ cv::Mat paint_vehicle_cabin(const Colour& paint, int size_px, uint64_t seed) {
   return canvas.finished();
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::textures

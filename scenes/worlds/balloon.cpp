@@ -1,15 +1,15 @@
-#include "scenes/balloon.h"
+#include "scenes/worlds/balloon.h"
 
-#include "scenes/ground.h"
+#include "scenes/mesh/ground.h"
 #include "scenes/movers.h"
 #include "scenes/require.h"
-#include "scenes/stone_textures.h"
-#include "scenes/street_textures.h"
+#include "scenes/textures/stone_textures.h"
+#include "scenes/textures/street_textures.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 namespace {
 
-constexpr uint64_t kPictureStream = 0, kMoverStream = 1;  // of the scene's seed
+constexpr uint64_t kImageStream = 0, kMoverStream = 1;  // of the scene's seed
 
 constexpr double kMarkerRadius_m = 0.12, kMarkerHeight_m = 0.45, kMarkerEast_m = 1.0;
 
@@ -22,19 +22,19 @@ Scene make_balloon(const BalloonConfig& config, uint64_t seed) {
   const int size_px = static_cast<int>(config.texture_size_px);
   Scene scene;
   scene.name = "balloon";
-  scene.textures = {paint_grass(size_px, derived_seed(seed, kPictureStream)),
-                    paint_blank(size_px, {0.90f, 0.42f, 0.10f})};
+  scene.textures = {textures::paint_grass(size_px, derived_seed(seed, kImageStream)),
+                    textures::paint_blank(size_px, {0.90f, 0.42f, 0.10f})};
   constexpr double kHalf_m = 30.0;
   scene.bounds_NE_m = {Eigen::Vector2d(-kHalf_m, -kHalf_m), Eigen::Vector2d(kHalf_m, kHalf_m)};
 
-  MeshBuilder mesh("opaque");
-  add_ground(kHalf_m, {0, kGrassTile_m}, mesh);
+  mesh::MeshBuilder mesh("opaque");
+  mesh::add_ground(kHalf_m, {0, textures::kGrassTile_m}, mesh);
   for (int64_t k = 0; k < config.markers; ++k) {
     const double north_m = static_cast<double>(k + 1) * config.marker_spacing_m;
-    const Post marker{{north_m, kMarkerEast_m, 0.0}, kMarkerRadius_m, kMarkerHeight_m};
+    const mesh::Post marker{{north_m, kMarkerEast_m, 0.0}, kMarkerRadius_m, kMarkerHeight_m};
     mesh.begin_chunk(false);
-    add_post(marker, 12, {1, 1.0}, mesh);
-    scene.solids.push_back(solid_of("marker " + std::to_string(k + 1), marker));
+    mesh::add_post(marker, 12, {1, 1.0}, mesh);
+    scene.solids.push_back(mesh::solid_of("marker " + std::to_string(k + 1), marker));
   }
   scene.meshes.push_back(mesh.finish());
   add_movers({{.name = "balloon",
@@ -46,4 +46,4 @@ Scene make_balloon(const BalloonConfig& config, uint64_t seed) {
   return scene;
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

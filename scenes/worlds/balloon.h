@@ -5,7 +5,7 @@
 
 #include "scenes/additions.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 
 /// A meadow with a line of posts, and a balloon on a pole that is carried towards the origin along them, then sideways.
 struct BalloonConfig {
@@ -27,7 +27,7 @@ struct BalloonConfig {
 template <class Visitor>
 void describe(Visitor& v, BalloonConfig& c) {
   v("radius", c.radius_m, {.unit = "m", .above = 0.0, .at_most = 10.0, .meaning = "of the balloon"});
-  v("height", c.height_m, {.unit = "m", .above = 0.0, .at_most = 100.0, .meaning = "of the balloon's centre"});
+  v("height", c.height_m, {.unit = "m", .above = 0.0, .at_most = 100.0, .meaning = "of the balloon's center"});
   v("motion", c.motion, {.meaning = "how the pole's foot travels"});
   v("markers", c.markers, {.at_least = 0.0, .at_most = 100.0, .meaning = "posts in a row north of the origin"});
   v("marker_spacing", c.marker_spacing_m, {.unit = "m", .above = 0.0, .meaning = "from post to post"});
@@ -35,7 +35,7 @@ void describe(Visitor& v, BalloonConfig& c) {
     {.unit = "px",
      .at_least = 64.0,
      .at_most = 2048.0,
-     .meaning = "side of the pictures on the surfaces, a power of two"});
+     .meaning = "side of the images on the surfaces, a power of two"});
   describe(v, c.added);
 }
 
@@ -43,4 +43,4 @@ void describe(Visitor& v, BalloonConfig& c) {
 /// @throws std::invalid_argument naming the field, its value and what is valid.
 Scene make_balloon(const BalloonConfig& config, uint64_t seed);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

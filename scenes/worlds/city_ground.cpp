@@ -1,11 +1,11 @@
-#include "scenes/city_ground.h"
+#include "scenes/worlds/city_ground.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "scenes/street_textures.h"
+#include "scenes/textures/street_textures.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 namespace {
 
 enum class Band { country, near_country, street, lot };
@@ -43,8 +43,8 @@ std::vector<Strip> strips_along_axis(const UrbanPlan& plan) {
   return strips;
 }
 
-// The panel that covers a rectangle of the ground; `turned`: the picture's up is east instead of north.
-Panel ground_panel(const Strip& north, const Strip& east, bool turned) {
+// The panel that covers a rectangle of the ground; `turned`: the image's up is east instead of north.
+mesh::Panel ground_panel(const Strip& north, const Strip& east, bool turned) {
   const double size_north = north.high_m - north.low_m, size_east = east.high_m - east.low_m;
   if (turned) return {{north.high_m, east.high_m, 0.0}, {-size_north, 0.0, 0.0}, {0.0, -size_east, 0.0}};
   return {{north.high_m, east.low_m, 0.0}, {0.0, size_east, 0.0}, {-size_north, 0.0, 0.0}};
@@ -53,29 +53,30 @@ Panel ground_panel(const Strip& north, const Strip& east, bool turned) {
 bool in_country(Band band) { return band == Band::country || band == Band::near_country; }
 
 // Crop on a third of the fields, from some way off the city; grass on the rest.
-uint32_t country_picture(const Strip& north, const Strip& east, const CityPictures& city, uint64_t seed) {
+uint32_t country_image(const Strip& north, const Strip& east, const textures::CityTextures& city, uint64_t seed) {
   if (north.band != Band::country && east.band != Band::country) return city.grass;
   const uint64_t row_seed = derived_seed(seed, static_cast<uint64_t>(north.field));
   return derived_seed(row_seed, static_cast<uint64_t>(east.field)) % 3 == 0 ? city.field : city.grass;
 }
 
-void add_cell(const Strip& north, const Strip& east, const CityPictures& city, uint64_t field_seed, Random& random,
-              MeshBuilder& mesh) {
+void add_cell(const Strip& north, const Strip& east, const textures::CityTextures& city, uint64_t field_seed,
+              Random& random, mesh::MeshBuilder& mesh) {
   const double shift = uniform(random, 0.0, 1.0);
   const int choice = uniform_index(random, 6);
   const bool turned = chance(random, 0.5);
   if (in_country(north.band) || in_country(east.band)) {
-    const Panel panel = ground_panel(north, east, false);
-    const Eigen::Vector2d offset(panel.top_left_W.y() / kGrassTile_m, -panel.top_left_W.x() / kGrassTile_m);
-    mesh.add_tiled(panel, kGrassTile_m, offset, country_picture(north, east, city, field_seed));
+    const mesh::Panel panel = ground_panel(north, east, false);
+    const Eigen::Vector2d offset(panel.top_left_W.y() / textures::kGrassTile_m,
+                                 -panel.top_left_W.x() / textures::kGrassTile_m);
+    mesh.add_tiled(panel, textures::kGrassTile_m, offset, country_image(north, east, city, field_seed));
   } else if (north.band == Band::street && east.band == Band::street) {
     mesh.add(ground_panel(north, east, turned), {}, city.crossing);
   } else if (north.band == Band::lot && east.band == Band::lot) {
-    mesh.add_tiled(ground_panel(north, east, turned), kLotTile_m, {shift, shift},
+    mesh.add_tiled(ground_panel(north, east, turned), textures::kLotTile_m, {shift, shift},
                    city.lots[static_cast<size_t>(choice % 3)]);
   } else {
     const bool runs_east = north.band == Band::street;
-    const Panel panel = ground_panel(north, east, runs_east);
+    const mesh::Panel panel = ground_panel(north, east, runs_east);
     const double repeats = panel.down_m.norm() / panel.right_m.norm();
     mesh.add(panel, {0.0, shift, 1.0, shift + repeats}, city.streets[static_cast<size_t>(choice % 2)]);
   }
@@ -83,7 +84,8 @@ void add_cell(const Strip& north, const Strip& east, const CityPictures& city, u
 
 }  // namespace
 
-void add_city_ground(const UrbanPlan& plan, const CityPictures& city, uint64_t seed, MeshBuilder& mesh) {
+void add_city_ground(const UrbanPlan& plan, const textures::CityTextures& city, uint64_t seed,
+                     mesh::MeshBuilder& mesh) {
   Random random(derived_seed(seed, 0));
   const uint64_t field_seed = derived_seed(seed, 1);
   constexpr size_t kStripsPerChunk = 4;  // two cells of the city
@@ -100,4 +102,4 @@ void add_city_ground(const UrbanPlan& plan, const CityPictures& city, uint64_t s
   }
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "scenes/city_pictures.h"
-#include "scenes/mesh_builder.h"
+#include "scenes/mesh/mesh_builder.h"
 #include "scenes/random.h"
-#include "scenes/urban_plan.h"
+#include "scenes/textures/city_textures.h"
+#include "scenes/worlds/urban_plan.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 
 /// Ground reaches this far beyond the outer streets: seen from 40 m up, its edge lies a fifth of a degree below the
 /// horizon.
@@ -14,6 +14,6 @@ inline constexpr double kGroundMargin_m = 12000.0;
 /// Adds the ground at z = 0: streets on the cells' edges, crossings, a lot in each cell, grass and fields around the
 /// city. All panels lie on one grid of lines that crosses the whole plane, so that no corner meets the middle of an
 /// edge.
-void add_city_ground(const UrbanPlan& plan, const CityPictures& city, uint64_t seed, MeshBuilder& mesh);
+void add_city_ground(const UrbanPlan& plan, const textures::CityTextures& city, uint64_t seed, mesh::MeshBuilder& mesh);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

@@ -1,25 +1,25 @@
-#include "scenes/corridor.h"
+#include "scenes/worlds/corridor.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "scenes/ground.h"
+#include "scenes/mesh/ground.h"
 #include "scenes/require.h"
-#include "scenes/room_textures.h"
-#include "scenes/stone_textures.h"
+#include "scenes/textures/room_textures.h"
+#include "scenes/textures/stone_textures.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr uint64_t kPictureStream = 0, kOffsetStream = 1;  // of the scene's seed
+constexpr uint64_t kImageStream = 0, kOffsetStream = 1;  // of the scene's seed
 
 constexpr double kThickness_m = 0.2;  // of walls and ceiling
 constexpr double kPillarLength_m = 0.6;
-constexpr int kWalls = 3;  // pictures
+constexpr int kWalls = 3;  // images
 constexpr uint32_t kFloor = kWalls, kCeiling = kWalls + 1;
 
 void validate(const CorridorConfig& c) {
@@ -59,16 +59,17 @@ Eigen::Isometry3d floor_frame(const Vector2d& origin_NE, const Vector2d& along_N
   return X_WS;
 }
 
-// Adds boxes to a mesh and to the solids, each a chunk with a picture of its own.
+// Adds boxes to a mesh and to the solids, each a chunk with an image of its own.
 class Mason {
  public:
-  Mason(uint64_t seed, Scene& scene, MeshBuilder& mesh) : random_(seed), scene_(scene), mesh_(mesh) {}
+  Mason(uint64_t seed, Scene& scene, mesh::MeshBuilder& mesh) : random_(seed), scene_(scene), mesh_(mesh) {}
 
   void build(const std::string& name, const Eigen::AlignedBox3d& box_S, const Eigen::Isometry3d& X_WS) {
     const Vector2d offset(uniform(random_, 0.0, 1.0), 0.0);
     mesh_.begin_chunk(false);
-    add_box(box_S, X_WS, {static_cast<uint32_t>(uniform_index(random_, kWalls)), kWallTile_m, offset}, mesh_);
-    Solid solid = solid_of(name, box_S);
+    mesh::add_box(box_S, X_WS, {static_cast<uint32_t>(uniform_index(random_, kWalls)), textures::kWallTile_m, offset},
+                  mesh_);
+    Solid solid = mesh::solid_of(name, box_S);
     solid.X_WS = X_WS * solid.X_WS;
     scene_.solids.push_back(solid);
   }
@@ -89,7 +90,7 @@ class Mason {
  private:
   Random random_;
   Scene& scene_;
-  MeshBuilder& mesh_;
+  mesh::MeshBuilder& mesh_;
 };
 
 // What stands in a section, seen from its middle: x along it, y to the right.
@@ -117,14 +118,15 @@ void furnish(const CorridorConfig& c, const CorridorSection& section, const Eige
 
 std::vector<cv::Mat> paint_corridor(const CorridorConfig& c, uint64_t seed) {
   const int size_px = static_cast<int>(c.texture_size_px);
-  std::vector<cv::Mat> pictures = {paint_brick_wall(size_px, derived_seed(seed, 0)),
-                                   paint_room_walls(WallPaper::plaster, size_px, 1, derived_seed(seed, 1)).front(),
-                                   paint_room_walls(WallPaper::damask, size_px, 1, derived_seed(seed, 2)).front()};
-  pictures.push_back(paint_parquet(size_px, derived_seed(seed, 3)));
-  pictures.push_back(paint_ceiling(size_px, derived_seed(seed, 4)));
-  for (size_t k = 0; k < pictures.size(); ++k)
-    pictures[k] = faded(pictures[k], k < kWalls ? c.texture : c.floor_texture);
-  return pictures;
+  std::vector<cv::Mat> images = {
+      textures::paint_brick_wall(size_px, derived_seed(seed, 0)),
+      textures::paint_room_walls(textures::WallPaper::plaster, size_px, 1, derived_seed(seed, 1)).front(),
+      textures::paint_room_walls(textures::WallPaper::damask, size_px, 1, derived_seed(seed, 2)).front()};
+  images.push_back(textures::paint_parquet(size_px, derived_seed(seed, 3)));
+  images.push_back(textures::paint_ceiling(size_px, derived_seed(seed, 4)));
+  for (size_t k = 0; k < images.size(); ++k)
+    images[k] = textures::faded(images[k], k < kWalls ? c.texture : c.floor_texture);
+  return images;
 }
 
 }  // namespace
@@ -160,15 +162,15 @@ Scene make_corridor(const CorridorConfig& config, uint64_t seed) {
   scene.name = "corridor";
   scene.lights.ambient = 0.70f;
   scene.lights.sun = 0.30f;
-  scene.textures = paint_corridor(config, derived_seed(seed, kPictureStream));
+  scene.textures = paint_corridor(config, derived_seed(seed, kImageStream));
   for (size_t k = 0; k < plan.lefts_NE.size(); ++k) {
     scene.bounds_NE_m.extend(plan.lefts_NE[k]);
     scene.bounds_NE_m.extend(plan.rights_NE[k]);
   }
 
-  MeshBuilder mesh("opaque");
+  mesh::MeshBuilder mesh("opaque");
   const double reach_m = scene.bounds_NE_m.min().cwiseAbs().cwiseMax(scene.bounds_NE_m.max().cwiseAbs()).maxCoeff();
-  add_ground(reach_m, {kFloor, kRoomTile_m}, mesh);
+  mesh::add_ground(reach_m, {kFloor, textures::kRoomTile_m}, mesh);
   Mason mason(derived_seed(seed, kOffsetStream), scene, mesh);
   for (size_t k = 0; k < config.sections.size(); ++k) {
     const Vector2d from = plan.middles_NE[k], to = plan.middles_NE[k + 1], along = (to - from).normalized();
@@ -187,11 +189,11 @@ Scene make_corridor(const CorridorConfig& config, uint64_t seed) {
     const Eigen::AlignedBox3d ceiling_W(Vector3d(low.x(), low.y(), -config.height_m - kThickness_m),
                                         Vector3d(high.x(), high.y(), -config.height_m));
     mesh.begin_chunk(false);
-    add_box(ceiling_W, Eigen::Isometry3d::Identity(), {kCeiling, kRoomTile_m}, mesh);
-    scene.solids.push_back(solid_of("ceiling", ceiling_W));
+    mesh::add_box(ceiling_W, Eigen::Isometry3d::Identity(), {kCeiling, textures::kRoomTile_m}, mesh);
+    scene.solids.push_back(mesh::solid_of("ceiling", ceiling_W));
   }
   scene.meshes.push_back(mesh.finish());
   return scene;
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

@@ -6,7 +6,7 @@
 
 #include "scenes/additions.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 
 /// A stretch of a corridor: a bend where it begins, then straight on.
 struct CorridorSection {
@@ -58,7 +58,7 @@ void describe(Visitor& v, CorridorConfig& c) {
     {.unit = "px",
      .at_least = 64.0,
      .at_most = 2048.0,
-     .meaning = "side of the pictures on the surfaces, a power of two"});
+     .meaning = "side of the images on the surfaces, a power of two"});
   describe(v, c.added);
 }
 
@@ -73,4 +73,4 @@ CorridorPlan plan_corridor(const CorridorConfig& config);
 /// Returns the corridor of `config`, a function of its arguments alone. Throws as plan_corridor() does.
 Scene make_corridor(const CorridorConfig& config, uint64_t seed);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

@@ -1,22 +1,22 @@
-#include "scenes/forest.h"
+#include "scenes/worlds/forest.h"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
 
-#include "scenes/ground.h"
-#include "scenes/plant_textures.h"
+#include "scenes/mesh/ground.h"
+#include "scenes/mesh/tree_mesh.h"
 #include "scenes/require.h"
-#include "scenes/street_textures.h"
-#include "scenes/tree_mesh.h"
+#include "scenes/textures/plant_textures.h"
+#include "scenes/textures/street_textures.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 namespace {
 
 // Streams of the scene's seed.
 constexpr uint64_t kPlaceStream = 0;
-constexpr uint64_t kPictureStream = 1;
+constexpr uint64_t kImageStream = 1;
 constexpr uint64_t kLumpStream = 2;
 constexpr uint64_t kTreeStream = 3;
 
@@ -128,12 +128,12 @@ constexpr uint32_t kGrass = 0, kFirstLeaves = 1, kFirstBark = 4;
 constexpr int kLeaves = 3, kBarks = 2;
 
 std::vector<cv::Mat> paint_forest(int size_px, uint64_t seed) {
-  return {paint_grass(size_px, derived_seed(seed, 0)),
-          paint_leaves(Leaves::broad, size_px, derived_seed(seed, 1)),
-          paint_leaves(Leaves::needles, size_px, derived_seed(seed, 2)),
-          paint_leaves(Leaves::broad, size_px, derived_seed(seed, 3)),
-          paint_bark(size_px, derived_seed(seed, 4)),
-          paint_bark(size_px, derived_seed(seed, 5))};
+  return {textures::paint_grass(size_px, derived_seed(seed, 0)),
+          textures::paint_leaves(textures::Leaves::broad, size_px, derived_seed(seed, 1)),
+          textures::paint_leaves(textures::Leaves::needles, size_px, derived_seed(seed, 2)),
+          textures::paint_leaves(textures::Leaves::broad, size_px, derived_seed(seed, 3)),
+          textures::paint_bark(size_px, derived_seed(seed, 4)),
+          textures::paint_bark(size_px, derived_seed(seed, 5))};
 }
 
 }  // namespace
@@ -145,29 +145,31 @@ Scene make_forest(const ForestConfig& config, uint64_t seed) {
   Random place_random(derived_seed(seed, kPlaceStream)), lump_random(derived_seed(seed, kLumpStream));
   std::vector<Place> places = place_trees(config, place_random);
   std::ranges::stable_sort(places, {}, plot);
-  std::vector<Polyhedron> lumps, coarse_lumps;
+  std::vector<mesh::Polyhedron> lumps, coarse_lumps;
   for (int k = 0; k < kLumps; ++k) {
-    lumps.push_back(convex_lump(kCorners, 0.22, lump_random));
-    coarse_lumps.push_back(convex_lump(kFewCorners, 0.1, lump_random));
+    lumps.push_back(mesh::convex_lump(kCorners, 0.22, lump_random));
+    coarse_lumps.push_back(mesh::convex_lump(kFewCorners, 0.1, lump_random));
   }
 
   Scene scene;
   scene.name = "forest";
-  scene.textures = paint_forest(static_cast<int>(config.texture_size_px), derived_seed(seed, kPictureStream));
+  scene.textures = paint_forest(static_cast<int>(config.texture_size_px), derived_seed(seed, kImageStream));
   const double half_m = 0.5 * config.extent_m();
   scene.bounds_NE_m = {Eigen::Vector2d(-half_m, -half_m), Eigen::Vector2d(half_m, half_m)};
-  MeshBuilder mesh("opaque");
-  add_ground(half_m, {kGrass, kGrassTile_m}, mesh);
+  mesh::MeshBuilder mesh("opaque");
+  mesh::add_ground(half_m, {kGrass, textures::kGrassTile_m}, mesh);
 
   const uint64_t tree_seed = derived_seed(seed, kTreeStream);
   for (size_t k = 0; k < places.size(); ++k) {
     Random random(derived_seed(tree_seed, k));
     const Eigen::Vector2d offset(uniform(random, 0.0, 1.0), uniform(random, 0.0, 1.0));
-    const Cover leaves{kFirstLeaves + static_cast<uint32_t>(uniform_index(random, kLeaves)), kLeafTile_m, offset};
-    const Cover bark{kFirstBark + static_cast<uint32_t>(uniform_index(random, kBarks)), kBarkTile_m, offset};
+    const mesh::Cover leaves{kFirstLeaves + static_cast<uint32_t>(uniform_index(random, kLeaves)),
+                             textures::kLeafTile_m, offset};
+    const mesh::Cover bark{kFirstBark + static_cast<uint32_t>(uniform_index(random, kBarks)), textures::kBarkTile_m,
+                           offset};
     const bool detailed = is_detailed(places[k]);
     if (detailed || k == 0 || plot(places[k]) != plot(places[k - 1])) mesh.begin_chunk(false);
-    const TreeShape shape{
+    const mesh::TreeShape shape{
         .foot_W = {places[k].p_NE.x(), places[k].p_NE.y(), 0.0},
         .height_m = uniform(random, config.min_height_m, config.max_height_m),
         .clear_height_m = config.clear_height_m,
@@ -176,12 +178,12 @@ Scene make_forest(const ForestConfig& config, uint64_t seed) {
         .trunk_sides = detailed ? kTrunkSides : kFewTrunkSides,
         .thins_out = config.trees > kWideForest,
     };
-    std::vector<Solid> solids =
-        add_tree("tree " + std::to_string(k + 1), shape, detailed ? lumps : coarse_lumps, leaves, bark, random, mesh);
+    std::vector<Solid> solids = mesh::add_tree("tree " + std::to_string(k + 1), shape, detailed ? lumps : coarse_lumps,
+                                               leaves, bark, random, mesh);
     std::ranges::move(solids, std::back_inserter(scene.solids));
   }
   scene.meshes.push_back(mesh.finish());
   return scene;
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

@@ -7,7 +7,7 @@
 #include "scenes/additions.h"
 #include "scenes/clearing.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 
 /// Trees at random places, no two nearer than `spacing` (Poisson-disc), on a square round the origin with one tree to
 /// every 2 spacing^2 of it. A crown is one convex lump, a solid as it is drawn; a trunk is a cylinder.
@@ -49,7 +49,7 @@ void describe(Visitor& v, ForestConfig& c) {
     {.unit = "px",
      .at_least = 64.0,
      .at_most = 2048.0,
-     .meaning = "side of the pictures on the surfaces, a power of two"});
+     .meaning = "side of the images on the surfaces, a power of two"});
   describe(v, c.added);
 }
 
@@ -57,4 +57,4 @@ void describe(Visitor& v, ForestConfig& c) {
 /// @throws std::invalid_argument naming the field, its value and what is valid; also when the trees do not fit.
 Scene make_forest(const ForestConfig& config, uint64_t seed);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

@@ -1,12 +1,12 @@
-#include "scenes/highrise.h"
+#include "scenes/worlds/highrise.h"
 
-#include "scenes/facade_textures.h"
-#include "scenes/ground.h"
+#include "scenes/mesh/ground.h"
 #include "scenes/require.h"
-#include "scenes/stone_textures.h"
-#include "scenes/street_textures.h"
+#include "scenes/textures/facade_textures.h"
+#include "scenes/textures/stone_textures.h"
+#include "scenes/textures/street_textures.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 namespace {
 
 using Eigen::Vector3d;
@@ -46,8 +46,8 @@ std::vector<Vector3d> box_corners(const Eigen::AlignedBox3d& box) {
 }
 
 // The roof of a tower with a spire: four faces up to the top.
-Polyhedron spire_of(const Tower& tower) {
-  Polyhedron spire;
+mesh::Polyhedron spire_of(const Tower& tower) {
+  mesh::Polyhedron spire;
   spire.corners = box_corners(tower.box_W());
   spire.corners.resize(4);
   spire.corners.push_back(tower.top_W());
@@ -56,8 +56,8 @@ Polyhedron spire_of(const Tower& tower) {
 }
 
 // The whole tower with its spire, closed and convex.
-Polyhedron hull_of(const Tower& tower) {
-  Polyhedron hull;
+mesh::Polyhedron hull_of(const Tower& tower) {
+  mesh::Polyhedron hull;
   hull.corners = box_corners(tower.box_W());
   hull.corners.push_back(tower.top_W());
   hull.faces = {{0, 8, 1}, {1, 8, 2}, {2, 8, 3}, {3, 8, 0}, {4, 5, 6}, {4, 6, 7}};
@@ -73,17 +73,17 @@ constexpr uint32_t kGrass = 0, kRoof = 1, kFirstWall = 2;
 
 std::vector<cv::Mat> paint_highrise(const HighriseConfig& config, uint64_t seed) {
   const int size_px = static_cast<int>(config.texture_size_px);
-  std::vector<cv::Mat> pictures = {paint_grass(size_px, derived_seed(seed, 0)),
-                                   paint_blank(size_px, {0.62f, 0.30f, 0.24f})};
+  std::vector<cv::Mat> images = {textures::paint_grass(size_px, derived_seed(seed, 0)),
+                                 textures::paint_blank(size_px, {0.62f, 0.30f, 0.24f})};
   const cv::Vec3f plain[] = {
       {0.86f, 0.84f, 0.80f}, {0.80f, 0.72f, 0.58f}, {0.66f, 0.70f, 0.76f}, {0.90f, 0.88f, 0.86f}};
-  const std::vector<FacadeStyle>& styles = facade_styles();
+  const std::vector<textures::FacadeStyle>& styles = textures::facade_styles();
   for (size_t k = 0; k < 4; ++k) {
-    pictures.push_back(config.walls == HighriseConfig::Walls::plain
-                           ? paint_blank(size_px, plain[k])
-                           : paint_facades(styles[2 * k + 1], size_px, 1, derived_seed(seed, k + 1)).front());
+    images.push_back(config.walls == HighriseConfig::Walls::plain
+                         ? textures::paint_blank(size_px, plain[k])
+                         : textures::paint_facades(styles[2 * k + 1], size_px, 1, derived_seed(seed, k + 1)).front());
   }
-  return pictures;
+  return images;
 }
 
 }  // namespace
@@ -105,23 +105,24 @@ Scene make_highrise(const HighriseConfig& config, uint64_t seed) {
   scene.textures = paint_highrise(config, seed);
   const double half_m = 60.0 * config.scale;
   scene.bounds_NE_m = {Eigen::Vector2d(-half_m, -half_m), Eigen::Vector2d(half_m, half_m)};
-  MeshBuilder mesh("opaque");
-  add_ground(half_m, {kGrass, kGrassTile_m}, mesh);
+  mesh::MeshBuilder mesh("opaque");
+  mesh::add_ground(half_m, {kGrass, textures::kGrassTile_m}, mesh);
   uint32_t wall = kFirstWall;
   for (const Tower& tower : towers(config)) {
     const std::string name = "tower " + std::to_string(wall - kFirstWall + 1);
     const Eigen::AlignedBox3d box_W = tower.box_W();
     mesh.begin_chunk(true);
-    for (const Panel& panel : side_panels(box_W)) {
-      mesh.add_tiled(panel, FacadeStyle::kTile_m, {0.0, -tower.height_m / FacadeStyle::kTile_m}, wall);
+    for (const mesh::Panel& panel : mesh::side_panels(box_W)) {
+      mesh.add_tiled(panel, textures::FacadeStyle::kTile_m, {0.0, -tower.height_m / textures::FacadeStyle::kTile_m},
+                     wall);
     }
     if (tower.spire_m > 0.0) {
       mesh.begin_chunk(false);
-      add_polyhedron(spire_of(tower), Shading::flat, {kRoof, kRockTile_m}, mesh);
-      scene.solids.push_back(solid_of(name, hull_of(tower)));
+      mesh::add_polyhedron(spire_of(tower), mesh::Shading::flat, {kRoof, textures::kRockTile_m}, mesh);
+      scene.solids.push_back(mesh::solid_of(name, hull_of(tower)));
     } else {
-      mesh.add_tiled(top_panel(box_W), kRockTile_m, Eigen::Vector2d::Zero(), kRoof);
-      scene.solids.push_back(solid_of(name, box_W));
+      mesh.add_tiled(mesh::top_panel(box_W), textures::kRockTile_m, Eigen::Vector2d::Zero(), kRoof);
+      scene.solids.push_back(mesh::solid_of(name, box_W));
     }
     ++wall;
   }
@@ -129,4 +130,4 @@ Scene make_highrise(const HighriseConfig& config, uint64_t seed) {
   return scene;
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

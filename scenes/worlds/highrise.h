@@ -6,7 +6,7 @@
 
 #include "scenes/additions.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 
 /// The two objects of [Shah2009] fig. 4.4 and fig. 4.5 on a meadow: a cube with 8 corners, and high-rises with 35. The
 /// thesis prints no sizes: ours are a cube 18 m high, and a block tower beside three towers with spires.
@@ -33,7 +33,7 @@ void describe(Visitor& v, HighriseConfig& c) {
     {.unit = "px",
      .at_least = 64.0,
      .at_most = 2048.0,
-     .meaning = "side of the pictures on the surfaces, a power of two"});
+     .meaning = "side of the images on the surfaces, a power of two"});
   describe(v, c.added);
 }
 
@@ -45,4 +45,4 @@ std::vector<Eigen::Vector3d> highrise_corners(const HighriseConfig& config);
 /// @throws std::invalid_argument naming the field, its value and what is valid.
 Scene make_highrise(const HighriseConfig& config, uint64_t seed);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

@@ -1,4 +1,4 @@
-#include "scenes/park.h"
+#include "scenes/worlds/park.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,15 +6,15 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "scenes/ground.h"
-#include "scenes/plant_textures.h"
+#include "scenes/mesh/ground.h"
+#include "scenes/mesh/tree_mesh.h"
 #include "scenes/require.h"
-#include "scenes/stone_textures.h"
-#include "scenes/street_textures.h"
-#include "scenes/tree_mesh.h"
-#include "scenes/vehicle_textures.h"
+#include "scenes/textures/plant_textures.h"
+#include "scenes/textures/stone_textures.h"
+#include "scenes/textures/street_textures.h"
+#include "scenes/textures/vehicle_textures.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 namespace {
 
 using Eigen::Vector2d;
@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 
 // Streams of the scene's seed.
 constexpr uint64_t kPlaceStream = 0;
-constexpr uint64_t kPictureStream = 1;
+constexpr uint64_t kImageStream = 1;
 constexpr uint64_t kLumpStream = 2;
 
 constexpr double kRoadHalf_m = 3.5, kParked_m = 4.9;  // vehicles stand on the verge
@@ -85,43 +85,43 @@ constexpr uint32_t kGrass = 0, kAsphalt = 1, kBark = 2, kRock = 3, kFirstLeaves 
 constexpr int kLeaves = 3, kPaints = 3;
 
 std::vector<cv::Mat> paint_park(int size_px, uint64_t seed) {
-  std::vector<cv::Mat> pictures = {paint_grass(size_px, derived_seed(seed, 0)),
-                                   paint_asphalt_road(size_px, derived_seed(seed, 1)),
-                                   paint_bark(size_px, derived_seed(seed, 2)),
-                                   paint_rock(size_px, derived_seed(seed, 3)),
-                                   paint_leaves(Leaves::broad, size_px, derived_seed(seed, 4)),
-                                   paint_leaves(Leaves::autumn, size_px, derived_seed(seed, 5)),
-                                   paint_leaves(Leaves::broad, size_px, derived_seed(seed, 6))};
-  const Colour paints[kPaints] = {{0.62f, 0.08f, 0.08f}, {0.16f, 0.26f, 0.48f}, {0.80f, 0.80f, 0.78f}};
+  std::vector<cv::Mat> images = {textures::paint_grass(size_px, derived_seed(seed, 0)),
+                                 textures::paint_asphalt_road(size_px, derived_seed(seed, 1)),
+                                 textures::paint_bark(size_px, derived_seed(seed, 2)),
+                                 textures::paint_rock(size_px, derived_seed(seed, 3)),
+                                 textures::paint_leaves(textures::Leaves::broad, size_px, derived_seed(seed, 4)),
+                                 textures::paint_leaves(textures::Leaves::autumn, size_px, derived_seed(seed, 5)),
+                                 textures::paint_leaves(textures::Leaves::broad, size_px, derived_seed(seed, 6))};
+  const textures::Color paints[kPaints] = {{0.62f, 0.08f, 0.08f}, {0.16f, 0.26f, 0.48f}, {0.80f, 0.80f, 0.78f}};
   for (uint64_t k = 0; k < kPaints; ++k) {
-    pictures.push_back(paint_vehicle_body(paints[k], size_px, derived_seed(seed, 10 + k)));
-    pictures.push_back(paint_vehicle_cabin(paints[k], size_px, derived_seed(seed, 20 + k)));
+    images.push_back(textures::paint_vehicle_body(paints[k], size_px, derived_seed(seed, 10 + k)));
+    images.push_back(textures::paint_vehicle_cabin(paints[k], size_px, derived_seed(seed, 20 + k)));
   }
-  return pictures;
+  return images;
 }
 
 // Builds what the park holds, each thing a chunk of its own.
 class Gardener {
  public:
-  Gardener(uint64_t seed, Planner& planner, Scene& scene, MeshBuilder& mesh)
+  Gardener(uint64_t seed, Planner& planner, Scene& scene, mesh::MeshBuilder& mesh)
       : planner_(planner), scene_(scene), mesh_(mesh) {
     Random random(seed);
-    for (int k = 0; k < 6; ++k) lumps_.push_back(convex_lump(36, 0.2, random));
+    for (int k = 0; k < 6; ++k) lumps_.push_back(mesh::convex_lump(36, 0.2, random));
   }
 
   void plant_tree(int64_t number) {
     const double radius_m = uniform(random(), 1.5, 3.0);
     const Disc disc = planner_.take("trees", radius_m, false);
-    const TreeShape shape{.foot_W = {disc.p_NE.x(), disc.p_NE.y(), 0.0},
-                          .height_m = uniform(random(), 5.0, 9.0),
-                          .clear_height_m = uniform(random(), 1.6, 2.4),
-                          .crown_radius_m = radius_m,
-                          .trunk_radius_m = uniform(random(), 0.12, 0.22),
-                          .lobes = 9,
-                          .trunk_sides = 10};
+    const mesh::TreeShape shape{.foot_W = {disc.p_NE.x(), disc.p_NE.y(), 0.0},
+                                .height_m = uniform(random(), 5.0, 9.0),
+                                .clear_height_m = uniform(random(), 1.6, 2.4),
+                                .crown_radius_m = radius_m,
+                                .trunk_radius_m = uniform(random(), 0.12, 0.22),
+                                .lobes = 9,
+                                .trunk_sides = 10};
     mesh_.begin_chunk(false);
-    const std::vector<Solid> solids =
-        add_tree("tree " + std::to_string(number), shape, lumps_, leaves(), {kBark, kBarkTile_m}, random(), mesh_);
+    const std::vector<Solid> solids = mesh::add_tree("tree " + std::to_string(number), shape, lumps_, leaves(),
+                                                     {kBark, textures::kBarkTile_m}, random(), mesh_);
     scene_.solids.insert(scene_.solids.end(), solids.begin(), solids.end());
   }
 
@@ -133,7 +133,7 @@ class Gardener {
   void lay_rock(int64_t number) {
     const Vector2d offset(uniform(random(), 0.0, 1.0), uniform(random(), 0.0, 1.0));
     add_lump("rock " + std::to_string(number), planner_.take("rocks", uniform(random(), 0.4, 1.0), false),
-             uniform(random(), 0.7, 1.2), {kRock, kRockTile_m, offset});
+             uniform(random(), 0.7, 1.2), {kRock, textures::kRockTile_m, offset});
   }
 
   // A car, or one in three times a van: a body on the ground and a cabin on top of it.
@@ -156,36 +156,37 @@ class Gardener {
  private:
   Random& random() { return planner_.random(); }
 
-  Cover leaves() {
+  mesh::Cover leaves() {
     const Vector2d offset(uniform(random(), 0.0, 1.0), uniform(random(), 0.0, 1.0));
-    return {kFirstLeaves + static_cast<uint32_t>(uniform_index(random(), kLeaves)), kLeafTile_m, offset};
+    return {kFirstLeaves + static_cast<uint32_t>(uniform_index(random(), kLeaves)), textures::kLeafTile_m, offset};
   }
 
   // Half sunk into the ground, `slender` times as high above it as wide from its middle.
-  void add_lump(const std::string& name, const Disc& disc, double slender, const Cover& cover) {
-    const Polyhedron& lump = lumps_[static_cast<size_t>(uniform_index(random(), static_cast<int>(lumps_.size())))];
+  void add_lump(const std::string& name, const Disc& disc, double slender, const mesh::Cover& cover) {
+    const mesh::Polyhedron& lump =
+        lumps_[static_cast<size_t>(uniform_index(random(), static_cast<int>(lumps_.size())))];
     const double height_m = slender * disc.radius_m;
     const Eigen::Affine3d place = Eigen::Translation3d(disc.p_NE.x(), disc.p_NE.y(), -0.3 * height_m) *
                                   Eigen::Scaling(disc.radius_m, disc.radius_m, 0.8 * height_m) *
                                   Eigen::AngleAxisd(uniform(random(), 0.0, 6.0), Vector3d::UnitZ());
-    const Polyhedron placed = moved(place, lump);
+    const mesh::Polyhedron placed = mesh::moved(place, lump);
     mesh_.begin_chunk(false);
-    add_polyhedron(placed, Shading::smooth, cover, mesh_);
-    scene_.solids.push_back(solid_of(name, placed));
+    mesh::add_polyhedron(placed, mesh::Shading::smooth, cover, mesh_);
+    scene_.solids.push_back(mesh::solid_of(name, placed));
   }
 
   void add_part(const std::string& name, const Eigen::AlignedBox3d& box_S, const Eigen::Isometry3d& X_WS,
-                uint32_t picture) {
-    add_box(box_S, X_WS, {picture, kVehicleTile_m}, mesh_);
-    Solid solid = solid_of(name, box_S);
+                uint32_t image) {
+    mesh::add_box(box_S, X_WS, {image, textures::kVehicleTile_m}, mesh_);
+    Solid solid = mesh::solid_of(name, box_S);
     solid.X_WS = X_WS * solid.X_WS;
     scene_.solids.push_back(solid);
   }
 
   Planner& planner_;
   Scene& scene_;
-  MeshBuilder& mesh_;
-  std::vector<Polyhedron> lumps_;
+  mesh::MeshBuilder& mesh_;
+  std::vector<mesh::Polyhedron> lumps_;
 };
 
 }  // namespace
@@ -194,14 +195,15 @@ Scene make_park(const ParkConfig& config, uint64_t seed) {
   validate(config);
   Scene scene;
   scene.name = "park";
-  scene.textures = paint_park(static_cast<int>(config.texture_size_px), derived_seed(seed, kPictureStream));
+  scene.textures = paint_park(static_cast<int>(config.texture_size_px), derived_seed(seed, kImageStream));
   const double half_m = 0.5 * config.extent_m;
   scene.bounds_NE_m = {Vector2d(-half_m, -half_m), Vector2d(half_m, half_m)};
-  MeshBuilder mesh("opaque");
-  add_ground(
+  mesh::MeshBuilder mesh("opaque");
+  mesh::add_ground(
       {-half_m, -0.5 * half_m, 0.0, 0.5 * half_m, half_m}, {-half_m, -kRoadHalf_m, 0.0, kRoadHalf_m, half_m},
       [](const Vector2d& middle_NE) {
-        return std::abs(middle_NE.y()) < kRoadHalf_m ? Cover{kAsphalt, kAsphaltTile_m} : Cover{kGrass, kGrassTile_m};
+        return std::abs(middle_NE.y()) < kRoadHalf_m ? mesh::Cover{kAsphalt, textures::kAsphaltTile_m}
+                                                     : mesh::Cover{kGrass, textures::kGrassTile_m};
       },
       mesh);
 
@@ -216,4 +218,4 @@ Scene make_park(const ParkConfig& config, uint64_t seed) {
   return scene;
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

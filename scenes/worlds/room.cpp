@@ -1,4 +1,4 @@
-#include "scenes/room.h"
+#include "scenes/worlds/room.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,18 +7,18 @@
 #include <stdexcept>
 #include <utility>
 
-#include "scenes/mesh_builder.h"
+#include "scenes/mesh/mesh_builder.h"
 #include "scenes/random.h"
 #include "scenes/require.h"
-#include "scenes/room_textures.h"
-#include "scenes/street_textures.h"
+#include "scenes/textures/room_textures.h"
+#include "scenes/textures/street_textures.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 namespace {
 
 // Streams of the scene's seed.
 constexpr uint64_t kFurnitureStream = 0;
-constexpr uint64_t kPictureStream = 1;
+constexpr uint64_t kImageStream = 1;
 constexpr uint64_t kSurfaceStream = 2;
 
 constexpr int kWallVariants = 3;
@@ -102,70 +102,72 @@ std::vector<Eigen::AlignedBox3d> place_furniture(const RoomConfig& c, Random& ra
   return pieces;
 }
 
-struct RoomPictures {
-  std::vector<cv::Mat> pictures;
+struct RoomImages {
+  std::vector<cv::Mat> images;
   std::vector<uint32_t> first_wall;  // of kWallVariants, for each of the four walls
   uint32_t floor = 0, ceiling = 0, grass = 0;
   std::vector<uint32_t> furniture;
 };
 
-RoomPictures paint_room(const RoomConfig& c, uint64_t seed) {
+RoomImages paint_room(const RoomConfig& c, uint64_t seed) {
   const int size_px = static_cast<int>(c.texture_size_px);
-  RoomPictures room;
-  const auto add = [&](cv::Mat picture) {
-    room.pictures.push_back(std::move(picture));
-    return static_cast<uint32_t>(room.pictures.size() - 1);
+  RoomImages room;
+  const auto add = [&](cv::Mat image) {
+    room.images.push_back(std::move(image));
+    return static_cast<uint32_t>(room.images.size() - 1);
   };
   Random random(derived_seed(seed, 0));
-  room.floor = add(chance(random, 0.5) ? paint_parquet(size_px, derived_seed(seed, 1))
-                                       : paint_carpet(size_px, derived_seed(seed, 1)));
+  room.floor = add(chance(random, 0.5) ? textures::paint_parquet(size_px, derived_seed(seed, 1))
+                                       : textures::paint_carpet(size_px, derived_seed(seed, 1)));
   if (c.ceiling) {
-    room.ceiling = add(paint_ceiling(size_px, derived_seed(seed, 2)));
+    room.ceiling = add(textures::paint_ceiling(size_px, derived_seed(seed, 2)));
   } else {
-    room.grass = add(paint_grass(size_px, derived_seed(seed, 2)));
+    room.grass = add(textures::paint_grass(size_px, derived_seed(seed, 2)));
   }
   if (c.furniture > 0) {
-    room.furniture = {add(paint_shelves(size_px, derived_seed(seed, 3))),
-                      add(paint_drawers(size_px, derived_seed(seed, 4)))};
+    room.furniture = {add(textures::paint_shelves(size_px, derived_seed(seed, 3))),
+                      add(textures::paint_drawers(size_px, derived_seed(seed, 4)))};
   }
 
   // A paper for each wall, no two alike.
-  std::vector<WallPaper> papers = {WallPaper::stripes, WallPaper::brick, WallPaper::damask, WallPaper::plaster};
+  std::vector<textures::WallPaper> papers = {textures::WallPaper::stripes, textures::WallPaper::brick,
+                                             textures::WallPaper::damask, textures::WallPaper::plaster};
   for (uint64_t wall = 0; wall < 4; ++wall) {
     const auto pick = papers.begin() + uniform_index(random, static_cast<int>(papers.size()));
-    room.first_wall.push_back(static_cast<uint32_t>(room.pictures.size()));
-    for (cv::Mat& picture : paint_room_walls(*pick, size_px, kWallVariants, derived_seed(seed, 5 + wall)))
-      add(std::move(picture));
+    room.first_wall.push_back(static_cast<uint32_t>(room.images.size()));
+    for (cv::Mat& image : textures::paint_room_walls(*pick, size_px, kWallVariants, derived_seed(seed, 5 + wall)))
+      add(std::move(image));
     papers.erase(pick);
   }
   return room;
 }
 
-// Papers a face of a wall: one picture after the other, each drawn from the wall's variants; their foot on the floor.
-void paper_wall(const Panel& wall, uint32_t first_picture, Random& random, MeshBuilder& mesh) {
+// Papers a face of a wall: one image after the other, each drawn from the wall's variants; their foot on the floor.
+void paper_wall(const mesh::Panel& wall, uint32_t first_image, Random& random, mesh::MeshBuilder& mesh) {
   const double width = wall.right_m.norm(), height = wall.down_m.norm();
-  const int count = std::max(1, static_cast<int>(std::lround(width / kRoomTile_m)));
-  const double share = width / (count * kRoomTile_m) < 0.5 ? width / kRoomTile_m : 1.0;  // of the picture's width
+  const int count = std::max(1, static_cast<int>(std::lround(width / textures::kRoomTile_m)));
+  const double share =
+      width / (count * textures::kRoomTile_m) < 0.5 ? width / textures::kRoomTile_m : 1.0;  // of the image's width
   for (int k = 0; k < count; ++k) {
     const Eigen::Vector3d start = wall.top_left_W + wall.right_m * k / count;
     const Eigen::Vector3d end = wall.top_left_W + wall.right_m * (k + 1) / count;
-    mesh.add({start, end - start, wall.down_m}, {0.0, 1.0 - height / kRoomTile_m, share, 1.0},
-             first_picture + static_cast<uint32_t>(uniform_index(random, kWallVariants)));
+    mesh.add({start, end - start, wall.down_m}, {0.0, 1.0 - height / textures::kRoomTile_m, share, 1.0},
+             first_image + static_cast<uint32_t>(uniform_index(random, kWallVariants)));
   }
 }
 
-void add_box(const Eigen::AlignedBox3d& box_W, uint32_t picture, Random& random, MeshBuilder& mesh) {
+void add_box(const Eigen::AlignedBox3d& box_W, uint32_t image, Random& random, mesh::MeshBuilder& mesh) {
   mesh.begin_chunk(true);
   const Eigen::Vector2d shift(0.05 * uniform_index(random, 20), 0.1 * uniform_index(random, 10));
-  for (const Panel& panel : side_panels(box_W)) {
-    const double foot = panel.down_m.norm() / kRoomTile_m;
-    mesh.add_tiled(panel, kRoomTile_m, {shift.x(), shift.y() - foot}, picture);
+  for (const mesh::Panel& panel : mesh::side_panels(box_W)) {
+    const double foot = panel.down_m.norm() / textures::kRoomTile_m;
+    mesh.add_tiled(panel, textures::kRoomTile_m, {shift.x(), shift.y() - foot}, image);
   }
-  mesh.add_tiled(top_panel(box_W), kRoomTile_m, shift, picture);
+  mesh.add_tiled(mesh::top_panel(box_W), textures::kRoomTile_m, shift, image);
 }
 
 // Grass around a room without a ceiling, in four strips.
-void add_lawn(const Eigen::AlignedBox2d& house_NE, uint32_t picture, MeshBuilder& mesh) {
+void add_lawn(const Eigen::AlignedBox2d& house_NE, uint32_t image, mesh::MeshBuilder& mesh) {
   const double far_n = house_NE.max().x() + kGrassMargin_m, far_e = house_NE.max().y() + kGrassMargin_m;
   const double n = house_NE.max().x(), e = house_NE.max().y();
   using Eigen::Vector3d;
@@ -175,7 +177,7 @@ void add_lawn(const Eigen::AlignedBox2d& house_NE, uint32_t picture, MeshBuilder
                                         {Vector3d(-n, -far_e, 0.0), Vector3d(n, -e, 0.0)}};
   for (const Eigen::AlignedBox3d& strip : strips) {
     mesh.begin_chunk(false);
-    mesh.add_tiled(top_panel(strip), kGrassTile_m, Eigen::Vector2d::Zero(), picture);
+    mesh.add_tiled(mesh::top_panel(strip), textures::kGrassTile_m, Eigen::Vector2d::Zero(), image);
   }
 }
 
@@ -185,7 +187,7 @@ Scene make_room(const RoomConfig& config, uint64_t seed) {
   validate(config);
   Random furniture_random(derived_seed(seed, kFurnitureStream));
   const std::vector<Eigen::AlignedBox3d> furniture = place_furniture(config, furniture_random);
-  RoomPictures room = paint_room(config, derived_seed(seed, kPictureStream));
+  RoomImages room = paint_room(config, derived_seed(seed, kImageStream));
   Random random(derived_seed(seed, kSurfaceStream));
 
   Scene scene;
@@ -193,22 +195,22 @@ Scene make_room(const RoomConfig& config, uint64_t seed) {
   scene.bounds_NE_m = free_plan_NE(config);
   scene.lights.ambient = 0.70f;
   scene.lights.sun = 0.30f;
-  MeshBuilder mesh("opaque");
+  mesh::MeshBuilder mesh("opaque");
 
   // The floor ends at the middle of the walls, so that no seam shows.
   const Eigen::Vector2d floor_half = scene.bounds_NE_m.max() + Eigen::Vector2d::Constant(0.5 * config.wall_thickness_m);
   const Eigen::AlignedBox3d floor_W(Eigen::Vector3d(-floor_half.x(), -floor_half.y(), 0.0),
                                     Eigen::Vector3d(floor_half.x(), floor_half.y(), 0.0));
   mesh.begin_chunk(false);
-  mesh.add_tiled(top_panel(floor_W), kRoomTile_m, Eigen::Vector2d::Zero(), room.floor);
+  mesh.add_tiled(mesh::top_panel(floor_W), textures::kRoomTile_m, Eigen::Vector2d::Zero(), room.floor);
 
   static constexpr const char* kNames[] = {"north wall", "east wall", "south wall", "west wall"};
   const std::vector<Eigen::AlignedBox3d> walls = wall_boxes(config);
   for (size_t k = 0; k < walls.size(); ++k) {
     mesh.begin_chunk(false);
-    for (const Panel& face : side_panels(walls[k])) paper_wall(face, room.first_wall[k], random, mesh);
-    mesh.add_tiled(top_panel(walls[k]), kRoomTile_m, Eigen::Vector2d::Zero(), room.first_wall[k]);
-    scene.solids.push_back(solid_of(kNames[k], walls[k]));
+    for (const mesh::Panel& face : mesh::side_panels(walls[k])) paper_wall(face, room.first_wall[k], random, mesh);
+    mesh.add_tiled(mesh::top_panel(walls[k]), textures::kRoomTile_m, Eigen::Vector2d::Zero(), room.first_wall[k]);
+    scene.solids.push_back(mesh::solid_of(kNames[k], walls[k]));
   }
 
   if (config.ceiling) {
@@ -216,21 +218,21 @@ Scene make_room(const RoomConfig& config, uint64_t seed) {
     Eigen::AlignedBox3d ceiling_W(walls[2].min(), walls[0].max() - lift);
     ceiling_W.min().z() -= config.wall_thickness_m;
     mesh.begin_chunk(false);
-    mesh.add_tiled(bottom_panel(ceiling_W), kRoomTile_m, Eigen::Vector2d::Zero(), room.ceiling);
-    mesh.add_tiled(top_panel(ceiling_W), kRoomTile_m, Eigen::Vector2d::Zero(), room.ceiling);
-    for (const Panel& side : side_panels(ceiling_W))
-      mesh.add_tiled(side, kRoomTile_m, Eigen::Vector2d::Zero(), room.ceiling);
-    scene.solids.push_back(solid_of("ceiling", ceiling_W));
+    mesh.add_tiled(mesh::bottom_panel(ceiling_W), textures::kRoomTile_m, Eigen::Vector2d::Zero(), room.ceiling);
+    mesh.add_tiled(mesh::top_panel(ceiling_W), textures::kRoomTile_m, Eigen::Vector2d::Zero(), room.ceiling);
+    for (const mesh::Panel& side : mesh::side_panels(ceiling_W))
+      mesh.add_tiled(side, textures::kRoomTile_m, Eigen::Vector2d::Zero(), room.ceiling);
+    scene.solids.push_back(mesh::solid_of("ceiling", ceiling_W));
   } else {
     add_lawn({Eigen::Vector2d(-floor_half), floor_half}, room.grass, mesh);
   }
   for (size_t k = 0; k < furniture.size(); ++k) {
     add_box(furniture[k], room.furniture[static_cast<size_t>(uniform_index(random, 2))], random, mesh);
-    scene.solids.push_back(solid_of("furniture " + std::to_string(k + 1), furniture[k]));
+    scene.solids.push_back(mesh::solid_of("furniture " + std::to_string(k + 1), furniture[k]));
   }
   scene.meshes.push_back(mesh.finish());
-  scene.textures = std::move(room.pictures);
+  scene.textures = std::move(room.images);
   return scene;
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

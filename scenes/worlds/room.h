@@ -8,9 +8,9 @@
 #include "scenes/clearing.h"
 #include "scenes/scene.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 
-/// A closed rectangular room centred on the origin of W, floor at z = 0; its free space measures exactly
+/// A closed rectangular room centered on the origin of W, floor at z = 0; its free space measures exactly
 /// `length` (north) x `width` (east) x `height`. Walls and ceiling are solids outside of it.
 /// The default plan is the arena of [Garratt2009] sec. 4, fig. 3.
 struct RoomConfig {
@@ -48,7 +48,7 @@ void describe(Visitor& v, RoomConfig& c) {
     {.unit = "px",
      .at_least = 64.0,
      .at_most = 2048.0,
-     .meaning = "side of the pictures on the surfaces, a power of two"});
+     .meaning = "side of the images on the surfaces, a power of two"});
   describe(v, c.added);
 }
 
@@ -56,4 +56,4 @@ void describe(Visitor& v, RoomConfig& c) {
 /// @throws std::invalid_argument naming the field, its value and what is valid; also when the furniture does not fit.
 Scene make_room(const RoomConfig& config, uint64_t seed);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

@@ -1,18 +1,18 @@
-#include "scenes/tree.h"
+#include "scenes/worlds/tree.h"
 
 #include <algorithm>
 
-#include "scenes/ground.h"
+#include "scenes/mesh/ground.h"
+#include "scenes/mesh/tree_mesh.h"
 #include "scenes/require.h"
-#include "scenes/street_textures.h"
-#include "scenes/tree_mesh.h"
+#include "scenes/textures/street_textures.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 namespace {
 
 // Streams of the scene's seed.
 constexpr uint64_t kShapeStream = 0;
-constexpr uint64_t kPictureStream = 1;
+constexpr uint64_t kImageStream = 1;
 
 constexpr int kLumps = 6, kLumpCorners = 42, kLobes = 30;
 
@@ -33,32 +33,33 @@ void validate(const TreeConfig& c) {
 Scene make_tree(const TreeConfig& config, uint64_t seed) {
   validate(config);
   const int size_px = static_cast<int>(config.texture_size_px);
-  const uint64_t picture_seed = derived_seed(seed, kPictureStream);
+  const uint64_t image_seed = derived_seed(seed, kImageStream);
   Scene scene;
   scene.name = "tree";
-  scene.textures = {paint_grass(size_px, derived_seed(picture_seed, 0)),
-                    paint_leaves(config.leaves, size_px, derived_seed(picture_seed, 1)),
-                    paint_bark(size_px, derived_seed(picture_seed, 2))};
+  scene.textures = {textures::paint_grass(size_px, derived_seed(image_seed, 0)),
+                    textures::paint_leaves(config.leaves, size_px, derived_seed(image_seed, 1)),
+                    textures::paint_bark(size_px, derived_seed(image_seed, 2))};
   const Eigen::Vector2d foot_NE(config.north_m, config.east_m);
   const double around_m = std::max(40.0, 3.0 * config.crown_diameter_m);
   scene.bounds_NE_m = {Eigen::Vector2d(foot_NE.array() - around_m), Eigen::Vector2d(foot_NE.array() + around_m)};
 
   Random random(derived_seed(seed, kShapeStream));
-  std::vector<Polyhedron> lumps;
-  for (int k = 0; k < kLumps; ++k) lumps.push_back(convex_lump(kLumpCorners, 0.18, random));
-  MeshBuilder mesh("opaque");
-  add_ground(around_m, {0, kGrassTile_m}, mesh);
+  std::vector<mesh::Polyhedron> lumps;
+  for (int k = 0; k < kLumps; ++k) lumps.push_back(mesh::convex_lump(kLumpCorners, 0.18, random));
+  mesh::MeshBuilder mesh("opaque");
+  mesh::add_ground(around_m, {0, textures::kGrassTile_m}, mesh);
   mesh.begin_chunk(false);
-  const TreeShape shape{.foot_W = {config.north_m, config.east_m, 0.0},
-                        .height_m = config.height_m,
-                        .clear_height_m = config.clear_height_m,
-                        .crown_radius_m = 0.5 * config.crown_diameter_m,
-                        .trunk_radius_m = 0.5 * config.trunk_diameter_m,
-                        .lobes = kLobes,
-                        .trunk_sides = 16};
-  scene.solids = add_tree("tree", shape, lumps, {1, kLeafTile_m}, {2, kBarkTile_m}, random, mesh);
+  const mesh::TreeShape shape{.foot_W = {config.north_m, config.east_m, 0.0},
+                              .height_m = config.height_m,
+                              .clear_height_m = config.clear_height_m,
+                              .crown_radius_m = 0.5 * config.crown_diameter_m,
+                              .trunk_radius_m = 0.5 * config.trunk_diameter_m,
+                              .lobes = kLobes,
+                              .trunk_sides = 16};
+  scene.solids =
+      mesh::add_tree("tree", shape, lumps, {1, textures::kLeafTile_m}, {2, textures::kBarkTile_m}, random, mesh);
   scene.meshes.push_back(mesh.finish());
   return scene;
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

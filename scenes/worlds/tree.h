@@ -4,9 +4,9 @@
 #include <string_view>
 
 #include "scenes/additions.h"
-#include "scenes/plant_textures.h"
+#include "scenes/textures/plant_textures.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 
 /// One tree on a meadow: the obstacle of [Andert2007] sec. 5, a crown 10 m across. The crown is made of convex lumps,
 /// each a solid; height, trunk and leaves are ours.
@@ -19,7 +19,7 @@ struct TreeConfig {
   double height_m = 12.0;
   double clear_height_m = 2.5;
   double trunk_diameter_m = 0.7;
-  Leaves leaves = Leaves::broad;
+  textures::Leaves leaves = textures::Leaves::broad;
   int64_t texture_size_px = 512;
   Additions added;
 };
@@ -37,7 +37,7 @@ void describe(Visitor& v, TreeConfig& c) {
     {.unit = "px",
      .at_least = 64.0,
      .at_most = 2048.0,
-     .meaning = "side of the pictures on the surfaces, a power of two"});
+     .meaning = "side of the images on the surfaces, a power of two"});
   describe(v, c.added);
 }
 
@@ -45,4 +45,4 @@ void describe(Visitor& v, TreeConfig& c) {
 /// @throws std::invalid_argument naming the field, its value and what is valid.
 Scene make_tree(const TreeConfig& config, uint64_t seed);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

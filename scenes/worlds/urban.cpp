@@ -1,19 +1,19 @@
-#include "scenes/urban.h"
+#include "scenes/worlds/urban.h"
 
-#include "scenes/building_mesh.h"
-#include "scenes/city_ground.h"
-#include "scenes/city_pictures.h"
-#include "scenes/mesh_builder.h"
+#include "scenes/mesh/building_mesh.h"
+#include "scenes/mesh/mesh_builder.h"
 #include "scenes/random.h"
 #include "scenes/require.h"
-#include "scenes/urban_plan.h"
+#include "scenes/textures/city_textures.h"
+#include "scenes/worlds/city_ground.h"
+#include "scenes/worlds/urban_plan.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 namespace {
 
 // Streams of the scene's seed.
 constexpr uint64_t kPlanStream = 0;
-constexpr uint64_t kPictureStream = 1;
+constexpr uint64_t kImageStream = 1;
 constexpr uint64_t kGroundStream = 2;
 constexpr uint64_t kBuildingStream = 3;
 
@@ -22,7 +22,8 @@ constexpr uint64_t kBuildingStream = 3;
 Scene make_urban(const UrbanConfig& config, uint64_t seed) {
   require_texture_size(static_cast<double>(config.texture_size_px));
   const UrbanPlan plan = plan_urban(config, derived_seed(seed, kPlanStream));
-  CityPictures city = paint_city(static_cast<int>(config.texture_size_px), derived_seed(seed, kPictureStream));
+  textures::CityTextures city =
+      textures::paint_city(static_cast<int>(config.texture_size_px), derived_seed(seed, kImageStream));
 
   Scene scene;
   scene.name = "urban";
@@ -33,18 +34,18 @@ Scene make_urban(const UrbanConfig& config, uint64_t seed) {
   const double half = 0.5 * config.extent_m;
   scene.bounds_NE_m = {Eigen::Vector2d(-half, -half), Eigen::Vector2d(half, half)};
 
-  MeshBuilder mesh("opaque");
+  mesh::MeshBuilder mesh("opaque");
   add_city_ground(plan, city, derived_seed(seed, kGroundStream), mesh);
   for (const Building& building : plan.buildings) {
     Random random(derived_seed(derived_seed(seed, kBuildingStream), static_cast<uint64_t>(building.cell)));
-    add_building(building, city, random, mesh);
+    mesh::add_building(building, city, random, mesh);
     for (const Eigen::AlignedBox3d& box_W : building.boxes_W) {
-      scene.solids.push_back(solid_of("building " + std::to_string(building.cell), box_W));
+      scene.solids.push_back(mesh::solid_of("building " + std::to_string(building.cell), box_W));
     }
   }
   scene.meshes.push_back(mesh.finish());
-  scene.textures = std::move(city.pictures);
+  scene.textures = std::move(city.images);
   return scene;
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

@@ -8,7 +8,7 @@
 #include "scenes/clearing.h"
 #include "scenes/scene.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 
 /// A city of random sized buildings arranged approximately in a grid, with open space around it [Garratt2009] sec. 4.1,
 /// figs. 4 and 5. Each cell of `pitch` x `pitch` holds one building inside its lot, the cell less half a street on
@@ -36,7 +36,8 @@ struct UrbanConfig {
 
 template <class Visitor>
 void describe(Visitor& v, UrbanConfig& c) {
-  v("extent", c.extent_m, {.unit = "m", .above = 0.0, .meaning = "side of the square of cells, centred on the origin"});
+  v("extent", c.extent_m,
+    {.unit = "m", .above = 0.0, .meaning = "side of the square of cells, centered on the origin"});
   v("pitch", c.pitch_m,
     {.unit = "m", .above = 0.0, .meaning = "side of a cell: one building and half of each street around it"});
   v("street_min_width", c.street_min_width_m,
@@ -46,7 +47,7 @@ void describe(Visitor& v, UrbanConfig& c) {
   v("max_footprint", c.max_footprint,
     {.above = 0.0, .at_most = 1.0, .meaning = "largest side of a building, as a share of pitch - street_min_width"});
   v("jitter", c.jitter,
-    {.at_least = 0.0, .at_most = 1.0, .meaning = "0: buildings centred in their cells, 1: anywhere inside"});
+    {.at_least = 0.0, .at_most = 1.0, .meaning = "0: buildings centered in their cells, 1: anywhere inside"});
   v("occupancy", c.occupancy, {.at_least = 0.0, .at_most = 1.0, .meaning = "probability that a cell holds a building"});
   v("min_height", c.min_height_m,
     {.unit = "m", .at_least = 3.0, .meaning = "every point of a roof is at least this high"});
@@ -58,7 +59,7 @@ void describe(Visitor& v, UrbanConfig& c) {
     {.unit = "px",
      .at_least = 64.0,
      .at_most = 2048.0,
-     .meaning = "side of the pictures on the surfaces, a power of two"});
+     .meaning = "side of the images on the surfaces, a power of two"});
   describe(v, c.added);
 }
 
@@ -66,4 +67,4 @@ void describe(Visitor& v, UrbanConfig& c) {
 /// @throws std::invalid_argument naming the field, its value and what is valid.
 Scene make_urban(const UrbanConfig& config, uint64_t seed);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

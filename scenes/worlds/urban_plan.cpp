@@ -1,4 +1,4 @@
-#include "scenes/urban_plan.h"
+#include "scenes/worlds/urban_plan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "scenes/random.h"
 #include "scenes/require.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 namespace {
 
 constexpr double kGrain_m = 1.0 / 64.0;
@@ -133,4 +133,4 @@ UrbanPlan plan_urban(const UrbanConfig& config, uint64_t seed) {
   return plan;
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "scenes/urban.h"
+#include "scenes/worlds/urban.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 
 /// Boxes standing on one another, each within the plan of the one below; the first stands on the ground. Corners are
 /// multiples of 1/64 m, so that single-precision meshes and double-precision solids agree exactly.
@@ -32,4 +32,4 @@ struct UrbanPlan {
 /// @throws std::invalid_argument naming the field, its value and what is valid.
 UrbanPlan plan_urban(const UrbanConfig& config, uint64_t seed);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

@@ -1,14 +1,14 @@
-#include "scenes/wall.h"
+#include "scenes/worlds/wall.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/ground.h"
+#include "scenes/mesh/ground.h"
 #include "scenes/require.h"
-#include "scenes/stone_textures.h"
-#include "scenes/street_textures.h"
+#include "scenes/textures/stone_textures.h"
+#include "scenes/textures/street_textures.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 namespace {
 
 constexpr uint64_t kGrassStream = 0, kWallStream = 1;  // of the scene's seed
@@ -32,13 +32,13 @@ void validate(const WallConfig& c) {
 cv::Mat paint(WallConfig::Surface surface, int size_px, uint64_t seed) {
   switch (surface) {
     case WallConfig::Surface::clouded:
-      return paint_clouded_wall(size_px, seed);
+      return textures::paint_clouded_wall(size_px, seed);
     case WallConfig::Surface::blank:
-      return paint_blank(size_px, {0.72f, 0.71f, 0.69f});
+      return textures::paint_blank(size_px, {0.72f, 0.71f, 0.69f});
     case WallConfig::Surface::brick:
       break;
   }
-  return paint_brick_wall(size_px, seed);
+  return textures::paint_brick_wall(size_px, seed);
 }
 
 }  // namespace
@@ -50,20 +50,20 @@ Scene make_wall(const WallConfig& config, uint64_t seed) {
   scene.name = "wall";
   // A low sun from the south, that the side one flies towards stands in the light.
   scene.lights.to_sun_W = Eigen::Vector3f(-0.7f, -0.3f, -0.65f).normalized();
-  scene.textures = {paint_grass(size_px, derived_seed(seed, kGrassStream)),
+  scene.textures = {textures::paint_grass(size_px, derived_seed(seed, kGrassStream)),
                     paint(config.surface, size_px, derived_seed(seed, kWallStream))};
   const double half_m = std::max(config.width_m, std::abs(config.north_m) + 20.0);
   scene.bounds_NE_m = {Eigen::Vector2d(-half_m, -half_m), Eigen::Vector2d(half_m, half_m)};
-  MeshBuilder mesh("opaque");
-  add_ground(half_m, {0, kGrassTile_m}, mesh);
+  mesh::MeshBuilder mesh("opaque");
+  mesh::add_ground(half_m, {0, textures::kGrassTile_m}, mesh);
 
   const auto build = [&](double west_m, double east_m, double bottom_m, double top_m) {
     if (east_m <= west_m || top_m <= bottom_m) return;
     const Eigen::AlignedBox3d box_W(Eigen::Vector3d(config.north_m, west_m, -top_m),
                                     Eigen::Vector3d(config.north_m + config.thickness_m, east_m, -bottom_m));
     mesh.begin_chunk(bottom_m == 0.0);
-    add_box(box_W, Eigen::Isometry3d::Identity(), {1, kWallTile_m}, mesh);
-    scene.solids.push_back(solid_of("wall", box_W));
+    mesh::add_box(box_W, Eigen::Isometry3d::Identity(), {1, textures::kWallTile_m}, mesh);
+    scene.solids.push_back(mesh::solid_of("wall", box_W));
   };
   const double end_m = 0.5 * config.width_m;
   if (config.opening) {
@@ -80,4 +80,4 @@ Scene make_wall(const WallConfig& config, uint64_t seed) {
   return scene;
 }
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

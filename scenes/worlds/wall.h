@@ -6,7 +6,7 @@
 
 #include "scenes/additions.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 
 /// An opening in a wall; it may reach the ground or an edge of the wall.
 struct WallOpening {
@@ -43,18 +43,18 @@ struct WallConfig {
 template <class Visitor>
 void describe(Visitor& v, WallConfig& c) {
   v("north", c.north_m, {.unit = "m", .at_least = -1000.0, .at_most = 1000.0, .meaning = "of the wall's south side"});
-  v("width", c.width_m, {.unit = "m", .at_least = 1.0, .at_most = 1000.0, .meaning = "from west to east, centred"});
+  v("width", c.width_m, {.unit = "m", .at_least = 1.0, .at_most = 1000.0, .meaning = "from west to east, centered"});
   v("height", c.height_m, {.unit = "m", .at_least = 0.5, .at_most = 200.0, .meaning = "of the wall"});
   v("thickness", c.thickness_m, {.unit = "m", .at_least = 0.05, .at_most = 10.0, .meaning = "of the wall"});
   v("surface", c.surface,
     {.choices = {"brick", "clouded", "blank"},
-     .meaning = "bricks; soft light and dark without a corner; one colour all over"});
+     .meaning = "bricks; soft light and dark without a corner; one color all over"});
   v("opening", c.opening, {.meaning = "a hole in the wall"});
   v("texture_size", c.texture_size_px,
     {.unit = "px",
      .at_least = 64.0,
      .at_most = 2048.0,
-     .meaning = "side of the pictures on the surfaces, a power of two"});
+     .meaning = "side of the images on the surfaces, a power of two"});
   describe(v, c.added);
 }
 
@@ -62,4 +62,4 @@ void describe(Visitor& v, WallConfig& c) {
 /// @throws std::invalid_argument naming the field, its value and what is valid.
 Scene make_wall(const WallConfig& config, uint64_t seed);
 
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

@@ -3,14 +3,14 @@
 #include <numbers>
 #include <opencv2/core/utility.hpp>
 
-#include "avoidance/stereo_corridor.h"
-#include "tests/avoidance/flow_rig.h"
-#include "vision/stereo_matcher.h"
+#include "avoidance/stereo_corridor/stereo_corridor.h"
+#include "tests/avoidance/flow_balance/flow_rig.h"
+#include "vision/stereo/stereo_matcher.h"
 
 namespace hedgehop::avoidance {
 namespace {
 
-using Method = vision::StereoMatcherConfig::Method;
+using Method = vision::stereo::StereoMatcherConfig::Method;
 
 constexpr int kWidth_px = 320, kHeight_px = 240;
 constexpr double kFov_rad = 64.0 * std::numbers::pi / 180.0;  // [Andert2007] sec. 2
@@ -26,13 +26,13 @@ StereoCorridorConfig config_of(const benchmark::State& state) {
 Setup rig() {
   Setup setup = stereo_pair(kHeight_px, 10.0);
   for (MountedCamera& camera : setup.cameras) {
-    camera.model = vision::PinholeCamera::from_fov(kWidth_px, kHeight_px, kFov_rad);
+    camera.model = vision::camera::PinholeCamera::from_fov(kWidth_px, kHeight_px, kFov_rad);
   }
   return setup;
 }
 
 /// Walls at three distances that leave gaps: no way straight on, so every step of the search has work to do.
-std::vector<CameraFrame> pair_of_pictures(const Setup& setup, const NavigationState& navigation) {
+std::vector<CameraFrame> pair_of_images(const Setup& setup, const NavigationState& navigation) {
   const vision::WaveTexture texture(7, 0.4, 6.0, 24);
   return see(setup, navigation, 0,
              {wall(12.0, 0.0, std::numbers::pi, 2.0), wall(18.0, 7.0, std::numbers::pi, 3.0),
@@ -45,7 +45,7 @@ void Decision320(benchmark::State& state) {
   cv::setNumThreads(1);
   const Setup setup = rig();
   const NavigationState navigation = level_flight({0.0, 0.0, -6.0}, 0.0, {5.0, 0.0});
-  std::vector<CameraFrame> frames = pair_of_pictures(setup, navigation);
+  std::vector<CameraFrame> frames = pair_of_images(setup, navigation);
   const std::unique_ptr<Module> module = make_stereo_corridor(config_of(state));
   module->reset(setup);
   int64_t t_ns = 0;
@@ -61,8 +61,8 @@ BENCHMARK(Decision320)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 void Decision320Floor(benchmark::State& state) {
   cv::setNumThreads(1);
   const Setup setup = rig();
-  const std::vector<CameraFrame> frames = pair_of_pictures(setup, level_flight({0.0, 0.0, -6.0}, 0.0, {5.0, 0.0}));
-  vision::StereoMatcher matcher(config_of(state).stereo);
+  const std::vector<CameraFrame> frames = pair_of_images(setup, level_flight({0.0, 0.0, -6.0}, 0.0, {5.0, 0.0}));
+  vision::stereo::StereoMatcher matcher(config_of(state).stereo);
   cv::Mat disparity16;
   for (auto _ : state) {
     matcher.match(frames[0].image, frames[1].image, disparity16);
@@ -78,7 +78,7 @@ BENCHMARK(Matching320)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 void Matching320Floor(benchmark::State& state) {
   cv::setNumThreads(1);
   const Setup setup = rig();
-  const std::vector<CameraFrame> frames = pair_of_pictures(setup, level_flight({0.0, 0.0, -6.0}, 0.0, {5.0, 0.0}));
+  const std::vector<CameraFrame> frames = pair_of_images(setup, level_flight({0.0, 0.0, -6.0}, 0.0, {5.0, 0.0}));
   const int disparities_px = config_of(state).stereo.disparities_px;
   cv::Mat difference, best;
   for (auto _ : state) {

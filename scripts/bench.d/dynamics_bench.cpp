@@ -13,10 +13,10 @@ void one_second(benchmark::State& state, const dynamics::VehicleConfig& vehicle)
   state.counters["floor_ms"] = kRealTime_ms;
 }
 
-void HelicopterSecond(benchmark::State& state) { one_second(state, dynamics::HelicopterConfig{}); }
+void HelicopterSecond(benchmark::State& state) { one_second(state, dynamics::helicopter::HelicopterConfig{}); }
 BENCHMARK(HelicopterSecond)->Unit(benchmark::kMillisecond);
 
-void MulticopterSecond(benchmark::State& state) { one_second(state, dynamics::MulticopterConfig{}); }
+void MulticopterSecond(benchmark::State& state) { one_second(state, dynamics::multicopter::MulticopterConfig{}); }
 BENCHMARK(MulticopterSecond)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "vision/image_interpolation_flow.h"
+#include "vision/flow/image_interpolation_flow.h"
 
 namespace hedgehop::vision {
 namespace {
@@ -23,26 +23,26 @@ std::array<cv::Mat, 2> moved_texture() {
   return {noise({8, 8, kSide_px, kSide_px}).clone(), noise({5, 6, kSide_px, kSide_px}).clone()};
 }
 
-// 16 x 16 vectors of 64 px patches in each of five pictures.
+// 16 x 16 vectors of 64 px patches in each of five images.
 void FiveFlowFields(benchmark::State& state) {
-  const std::array<cv::Mat, 2> pictures = moved_texture();
+  const std::array<cv::Mat, 2> images = moved_texture();
   std::vector<ImageInterpolationFlow> flows;
   for (int i = 0; i < kCameras; ++i) flows.emplace_back(ImageInterpolationConfig{}, kSide_px, kSide_px);
   size_t frame = 0;
   for (auto _ : state) {
     ++frame;
-    for (ImageInterpolationFlow& flow : flows) benchmark::DoNotOptimize(flow.update(pictures[frame % 2]));
+    for (ImageInterpolationFlow& flow : flows) benchmark::DoNotOptimize(flow.update(images[frame % 2]));
   }
 }
 BENCHMARK(FiveFlowFields)->Unit(benchmark::kMillisecond);
 
-// No flow can do without halving each picture once and summing it once over its patches.
+// No flow can do without halving each image once and summing it once over its patches.
 void FiveFlowFieldsFloor(benchmark::State& state) {
-  const std::array<cv::Mat, 2> pictures = moved_texture();
+  const std::array<cv::Mat, 2> images = moved_texture();
   cv::Mat half, sums;
   for (auto _ : state) {
     for (int i = 0; i < kCameras; ++i) {
-      cv::resize(pictures[static_cast<size_t>(i % 2)], half, {kSide_px / 2, kSide_px / 2}, 0, 0, cv::INTER_AREA);
+      cv::resize(images[static_cast<size_t>(i % 2)], half, {kSide_px / 2, kSide_px / 2}, 0, 0, cv::INTER_AREA);
       cv::boxFilter(half, sums, CV_32F, {32, 32}, {-1, -1}, false);
       benchmark::DoNotOptimize(sums.data);
     }

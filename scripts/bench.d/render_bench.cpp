@@ -9,14 +9,15 @@
 #include "scenes/generators.h"
 #include "sim/render/renderer.h"
 
-// Cities and a room beside their floor: one textured quad that fills the picture, as finely textured as trilinear
+// Cities and a room beside their floor: one textured quad that fills the image, as finely textured as trilinear
 // filtering is dear (between two mipmap levels), drawn in the same run. Lenses of every kind beside the same floor, a
 // pinhole's, by the pixel (counter Mpx a second).
 namespace hedgehop::sim {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-const vision::PinholeCamera kCamera = vision::PinholeCamera::from_fov(400, 400, kPi / 2);  // [Garratt2009] sec. 3.2
+const vision::camera::PinholeCamera kCamera =
+    vision::camera::PinholeCamera::from_fov(400, 400, kPi / 2);  // [Garratt2009] sec. 3.2
 constexpr double kFlightHeightM = 10.0;
 
 /// Camera looking along a heading, level.
@@ -64,7 +65,7 @@ std::vector<Eigen::Isometry3d> room_views() {
 
 const scenes::Scene& city(double extent_m) {
   const auto make = [](double extent) {
-    scenes::UrbanConfig config;
+    scenes::worlds::UrbanConfig config;
     config.extent_m = extent;
     return scenes::make_scene(config, 1);
   };
@@ -74,7 +75,7 @@ const scenes::Scene& city(double extent_m) {
 
 const scenes::Scene& forest(int64_t trees) {
   const auto make = [](int64_t count) {
-    return scenes::make_scene(scenes::ForestConfig{.trees = count, .keep_clear = {{0.0, 0.0, 2.0}}}, 1);
+    return scenes::make_scene(scenes::worlds::ForestConfig{.trees = count, .keep_clear = {{0.0, 0.0, 2.0}}}, 1);
   };
   static const scenes::Scene small = make(100), large = make(10000);
   return trees > 100 ? large : small;
@@ -113,22 +114,22 @@ struct Extras {
   int samples = 1;
 };
 
-/// Time of one picture, the mean over the poses.
+/// Time of one image, the mean over the poses.
 void draw(benchmark::State& state, const scenes::Scene& scene, const std::vector<Eigen::Isometry3d>& poses,
-          const vision::Camera& camera = kCamera, const Extras& extras = {}) {
+          const vision::camera::Camera& camera = kCamera, const Extras& extras = {}) {
   const auto channel = static_cast<Channel>(state.range(0));
   Renderer renderer(scene, Culling::frustum_and_horizon, ContextKind::osmesa, extras.shadows);
-  cv::Mat picture;
+  cv::Mat image;
   const auto draw_from = [&](const Eigen::Isometry3d& X_WC) {
-    renderer.draw({.camera = camera, .X_WC = X_WC, .channel = channel, .samples = extras.samples}, picture);
+    renderer.draw({.camera = camera, .X_WC = X_WC, .channel = channel, .samples = extras.samples}, image);
   };
   for (const Eigen::Isometry3d& X_WC : poses) draw_from(X_WC);  // plans the lens
   double stretches = 0.0, triangles = 0.0;
-  const auto pictures = static_cast<int64_t>(poses.size());
-  while (state.KeepRunningBatch(pictures)) {
+  const auto images = static_cast<int64_t>(poses.size());
+  while (state.KeepRunningBatch(images)) {
     for (const Eigen::Isometry3d& X_WC : poses) {
       draw_from(X_WC);
-      benchmark::DoNotOptimize(picture.data);
+      benchmark::DoNotOptimize(image.data);
       stretches += static_cast<double>(renderer.drawn().stretches);
       triangles += static_cast<double>(renderer.drawn().triangles);
     }
@@ -157,7 +158,7 @@ void LargeCityAboveRoofs(benchmark::State& state) { draw(state, city(3000.0), st
 void LargeCityAboveRoofsFloor(benchmark::State& state) { draw(state, city(300.0), street_views(60.0)); }
 void FiveCamerasInFlight(benchmark::State& state) { draw(state, city(300.0), five_cameras_in_flight()); }
 void FiveCamerasInFlightFloor(benchmark::State& state) { CityFloor(state); }
-void Room(benchmark::State& state) { draw(state, scenes::make_scene(scenes::RoomConfig{}, 1), room_views()); }
+void Room(benchmark::State& state) { draw(state, scenes::make_scene(scenes::worlds::RoomConfig{}, 1), room_views()); }
 void RoomFloor(benchmark::State& state) { CityFloor(state); }
 void Forest(benchmark::State& state) { draw(state, forest(100), forest_views(5.0)); }
 void ForestFloor(benchmark::State& state) { CityFloor(state); }
@@ -168,25 +169,25 @@ void ForestLargeBelowCrowns(benchmark::State& state) { draw(state, forest(10000)
 void ForestLargeBelowCrownsFloor(benchmark::State& state) { draw(state, forest(100), forest_views(1.8)); }
 void ForestLargeAboveCrowns(benchmark::State& state) { draw(state, forest(10000), forest_views(25.0)); }
 void ForestLargeAboveCrownsFloor(benchmark::State& state) { draw(state, forest(100), forest_views(25.0)); }
-// Nothing to filter between levels: the cheapest textured picture there is.
+// Nothing to filter between levels: the cheapest textured image there is.
 void MagnifiedQuad(benchmark::State& state) { draw(state, quad(0.8), {down(0, 0, kFlightHeightM)}); }
 void MagnifiedQuadFloor(benchmark::State& state) { CityFloor(state); }
 
 /// 752 x 480 px and 190 degrees across.
-vision::Camera wide_fisheye() {
-  const double focal_px = vision::fisheye_focal_px({}, 752, 190.0 * kPi / 180.0);
-  return {752, 480, vision::FisheyeLens{focal_px, focal_px, 375.5, 239.5}};
+vision::camera::Camera wide_fisheye() {
+  const double focal_px = vision::camera::fisheye_focal_px({}, 752, 190.0 * kPi / 180.0);
+  return {752, 480, vision::camera::FisheyeLens{focal_px, focal_px, 375.5, 239.5}};
 }
 /// The pinhole of the other figures with a common lens before it.
-vision::Camera distorted_pinhole() {
-  vision::PinholeLens lens{kCamera.focal_x_px, kCamera.focal_y_px, kCamera.center_u_px, kCamera.center_v_px};
+vision::camera::Camera distorted_pinhole() {
+  vision::camera::PinholeLens lens{kCamera.focal_x_px, kCamera.focal_y_px, kCamera.center_u_px, kCamera.center_v_px};
   lens.k1 = -0.12;
   lens.k2 = 0.02;
   return {kCamera.width_px, kCamera.height_px, lens};
 }
 /// A pinhole of the fisheye's size that sees the quad's texels as kCamera does.
-vision::Camera wide_pinhole() {
-  return vision::PinholeCamera{752, 480, kCamera.focal_x_px, kCamera.focal_y_px, 375.5, 239.5};
+vision::camera::Camera wide_pinhole() {
+  return vision::camera::PinholeCamera{752, 480, kCamera.focal_x_px, kCamera.focal_y_px, 375.5, 239.5};
 }
 
 void CityFisheye(benchmark::State& state) { draw(state, city(300.0), street_views(kFlightHeightM), wide_fisheye()); }

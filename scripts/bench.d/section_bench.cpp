@@ -4,7 +4,7 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "vision/section_grid.h"
+#include "vision/sections/section_search.h"
 
 namespace hedgehop::vision {
 namespace {

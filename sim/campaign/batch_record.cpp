@@ -54,7 +54,7 @@ std::string group_row(const GroupSummary& g) {
 std::string batch_json(const std::vector<FlightRecord>& records, const std::vector<GroupVerdict>& verdicts,
                        const std::string& version) {
   Json json{{"version", version}, {"groups", Json::array()}, {"verdicts", Json::array()}, {"flights", Json::array()}};
-  for (const GroupSummary& group : summarise(records)) json["groups"].push_back(group_json(group));
+  for (const GroupSummary& group : summarize(records)) json["groups"].push_back(group_json(group));
   for (const GroupVerdict& verdict : verdicts) {
     json["verdicts"].push_back(Json{{"group", verdict.group},
                                     {"check", verdict.check},
@@ -72,7 +72,7 @@ std::string summary_text(const std::vector<FlightRecord>& records, const std::ve
       "| scenario | flights | passed | 95 % interval | reached | collided | timeout | fault | missing | least "
       "clearance, m | median least clearance, m | median time, s "
       "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-  for (const GroupSummary& group : summarise(records)) text += group_row(group);
+  for (const GroupSummary& group : summarize(records)) text += group_row(group);
   for (const FlightRecord& record : records) {
     if (record.status == FlightRecord::Status::missing || passed(record)) continue;
     text +=

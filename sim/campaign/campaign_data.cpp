@@ -77,7 +77,7 @@ Json group_row(const GroupSummary& group) {
 
 GroupSummary all_of(std::vector<FlightRecord> records) {
   for (FlightRecord& record : records) record.order.group = "all flights";
-  return records.empty() ? GroupSummary{.group = "all flights"} : summarise(records).front();
+  return records.empty() ? GroupSummary{.group = "all flights"} : summarize(records).front();
 }
 
 /// Scenario and seed: what flights of equal orders but for their settings share.
@@ -192,7 +192,7 @@ std::vector<std::string> swept_columns(const FlightList& flights) {
 }
 
 Json groups_data(const std::vector<FlightRecord>& records) {
-  const std::vector<GroupSummary> groups = summarise(records);
+  const std::vector<GroupSummary> groups = summarize(records);
   Json rows = Json::array({group_row(all_of(records))});
   if (groups.size() > 1) {
     for (const GroupSummary& group : groups) rows.push_back(group_row(group));
@@ -221,7 +221,7 @@ Json against_data(const FlightList& now, const FlightList& before) {
   }
 
   json["groups"].push_back(change_row(all_of(now.records), all_of(before.records)));
-  const std::vector<GroupSummary> earlier = summarise(before.records), groups = summarise(now.records);
+  const std::vector<GroupSummary> earlier = summarize(before.records), groups = summarize(now.records);
   for (const GroupSummary& group : groups) {
     const auto same = std::ranges::find(earlier, group.group, &GroupSummary::group);
     if (same != earlier.end() && groups.size() > 1) json["groups"].push_back(change_row(group, *same));

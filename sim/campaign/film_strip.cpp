@@ -17,52 +17,52 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr size_t kPictures = 5;
-constexpr double kApart_s = 0.8;  // between two pictures, less in flights too short for it
+constexpr size_t kImages = 5;
+constexpr double kApart_s = 0.8;  // between two images, less in flights too short for it
 constexpr int kWidth_px = 240, kCaption_px = 16;
 constexpr int kQuality = 70;            // of the JPEG: 30 to 60 kB a strip
 constexpr double kSameFlight_m = 1e-6;  // result.json keeps every bit; two flights that part differ by far more
 
-struct Picture {
+struct Image {
   double t_s = 0.0;
   cv::Mat rgb;  ///< kWidth_px wide
 };
 
-/// Keeps the last pictures of a flight, small.
+/// Keeps the last images of a flight, small.
 class StripWatcher : public FlightWatcher {
  public:
   explicit StripWatcher(double rate_hz) : rate_hz_(rate_hz) {}
 
-  double picture_rate_hz() const override { return rate_hz_; }
-  void on_pictures(int64_t t_ns, std::span<const avoidance::CameraFrame> frames, const cv::Mat& annotated) override {
+  double image_rate_hz() const override { return rate_hz_; }
+  void on_images(int64_t t_ns, std::span<const avoidance::CameraFrame> frames, const cv::Mat& annotated) override {
     const cv::Mat source = annotated.empty() ? contact_sheet(frames) : annotated;
     if (source.empty()) return;
-    Picture picture{.t_s = 1e-9 * static_cast<double>(t_ns), .rgb = {}};
+    Image image{.t_s = 1e-9 * static_cast<double>(t_ns), .rgb = {}};
     const int height_px = std::max(1, static_cast<int>(std::lround(double{kWidth_px} * source.rows / source.cols)));
-    cv::resize(source, picture.rgb, {kWidth_px, height_px}, 0, 0, cv::INTER_AREA);
-    pictures_.push_back(std::move(picture));
-    while (pictures_.front().t_s < pictures_.back().t_s - kApart_s * kPictures) pictures_.pop_front();
+    cv::resize(source, image.rgb, {kWidth_px, height_px}, 0, 0, cv::INTER_AREA);
+    images_.push_back(std::move(image));
+    while (images_.front().t_s < images_.back().t_s - kApart_s * kImages) images_.pop_front();
   }
 
-  const std::deque<Picture>& pictures() const { return pictures_; }
+  const std::deque<Image>& images() const { return images_; }
 
  private:
   double rate_hz_;
-  std::deque<Picture> pictures_;
+  std::deque<Image> images_;
 };
 
 /// Side by side in the order of time, each with the time left to `end_s` written below.
-cv::Mat strip(const std::deque<Picture>& pictures, double end_s) {
+cv::Mat strip(const std::deque<Image>& images, double end_s) {
   const double apart_s =
-      std::min(kApart_s, (pictures.back().t_s - pictures.front().t_s) / static_cast<double>(kPictures - 1));
+      std::min(kApart_s, (images.back().t_s - images.front().t_s) / static_cast<double>(kImages - 1));
   cv::Mat sheet;
-  for (size_t i = 0; i < kPictures; ++i) {
-    const double wanted_s = pictures.back().t_s - apart_s * static_cast<double>(kPictures - 1 - i);
-    const Picture& picture =
-        *std::ranges::min_element(pictures, {}, [&](const Picture& p) { return std::abs(p.t_s - wanted_s); });
-    cv::Mat tile(picture.rgb.rows + kCaption_px, kWidth_px + 2, CV_8UC3, cv::Scalar::all(24));
-    picture.rgb.copyTo(tile(cv::Rect({0, 0}, picture.rgb.size())));
-    cv::putText(tile, fmt::format("{:.1f} s before", std::max(0.0, end_s - picture.t_s)), {4, tile.rows - 4},
+  for (size_t i = 0; i < kImages; ++i) {
+    const double wanted_s = images.back().t_s - apart_s * static_cast<double>(kImages - 1 - i);
+    const Image& image =
+        *std::ranges::min_element(images, {}, [&](const Image& p) { return std::abs(p.t_s - wanted_s); });
+    cv::Mat tile(image.rgb.rows + kCaption_px, kWidth_px + 2, CV_8UC3, cv::Scalar::all(24));
+    image.rgb.copyTo(tile(cv::Rect({0, 0}, image.rgb.size())));
+    cv::putText(tile, fmt::format("{:.1f} s before", std::max(0.0, end_s - image.t_s)), {4, tile.rows - 4},
                 cv::FONT_HERSHEY_SIMPLEX, 0.4, cv::Scalar::all(220), 1, cv::LINE_AA);
     if (sheet.empty()) {
       sheet = tile;
@@ -97,8 +97,8 @@ void write_film_strip(const std::filesystem::path& flight) {
     throw std::runtime_error(fmt::format("flown again, it came within {:.6f} m of an obstacle instead of {:.6f} m",
                                          clearance_m, closest.at("distance_m").get<double>()));
   }
-  if (watcher.pictures().empty()) throw std::runtime_error("no camera has drawn a picture");
-  write_file_whole(flight / "strip.jpg", jpeg(strip(watcher.pictures(), end_s)));
+  if (watcher.images().empty()) throw std::runtime_error("no camera has drawn an image");
+  write_file_whole(flight / "strip.jpg", jpeg(strip(watcher.images(), end_s)));
 }
 
 }  // namespace

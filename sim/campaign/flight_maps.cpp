@@ -70,16 +70,16 @@ class PlanMaker {
   size_t made_ = 0, bytes_ = 0;
 };
 
-int64_t centimetres(double metres) { return std::llround(metres * 100.0); }
+int64_t centimeters(double meters) { return std::llround(meters * 100.0); }
 
 Json path_steps(const std::vector<Eigen::Vector2d>& path) {
   Json steps = Json::array();
   int64_t north = 0, east = 0;
   for (const Eigen::Vector2d& p : path) {
-    steps.push_back(centimetres(p.x()) - north);
-    steps.push_back(centimetres(p.y()) - east);
-    north = centimetres(p.x());
-    east = centimetres(p.y());
+    steps.push_back(centimeters(p.x()) - north);
+    steps.push_back(centimeters(p.y()) - east);
+    north = centimeters(p.x());
+    east = centimeters(p.y());
   }
   return steps;
 }

@@ -32,7 +32,7 @@ struct FlightMaps {
 FlightMaps flight_maps(const std::vector<std::optional<FlownPath>>& flights);
 
 /// What the page draws of them: `maps`, and for each flight `map` (-1 without a path or scene), `path` (north, east in
-/// centimetres: the first point, then the steps from point to point) and `goal` [north, east, radius] in m or null.
+/// centimeters: the first point, then the steps from point to point) and `goal` [north, east, radius] in m or null.
 nlohmann::ordered_json paths_data(const FlightMaps& maps, const std::vector<std::optional<FlownPath>>& flights);
 
 }  // namespace hedgehop::sim

@@ -51,7 +51,7 @@ Json cell_data(const Json& cell, const FlightList& flights) {
   }
   Json data{{"world", cell.at("world")}, {"module", cell.at("module")}, {"reason", cell.at("reason")}};
   if (records.empty()) return data;
-  const GroupSummary group = summarise(records).front();
+  const GroupSummary group = summarize(records).front();
   if (group.success.trials == 0) return data;
   const Interval interval = wilson_interval(group.success, kConfidence);
   data["flights"] = group.success.trials;

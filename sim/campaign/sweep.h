@@ -27,7 +27,7 @@ struct SweepOrders {
   void add(const SweepConfig& sweep, size_t point, const std::vector<std::string>& point_values);
 };
 
-/// Throws InputError with the faults of every point that the scenario refuses. Not for OptimiseDesign.
+/// Throws InputError with the faults of every point that the scenario refuses. Not for OptimizeDesign.
 SweepOrders sweep_orders(const SweepConfig& sweep);
 
 /// The orders of a shard.
@@ -39,7 +39,7 @@ Table sweep_table(const SweepConfig& sweep, const SweepOrders& orders, const std
 /// Flies orders that stand already as the sweep's shape demands; a former result of the very same order stands.
 using FlyPoint = std::function<std::vector<FlightRecord>(const std::vector<Order>& orders)>;
 
-/// What an optimiser has found.
+/// What an optimizer has found.
 struct Optimum {
   std::vector<std::string> values;
   double cost = 0.0;
@@ -47,9 +47,9 @@ struct Optimum {
   std::vector<FlightRecord> records;  ///< of those
 };
 
-/// Minimises the mean of the design's column over the sweep's seeds, the same at every point. Equal sweeps fly equal
+/// Minimizes the mean of the design's column over the sweep's seeds, the same at every point. Equal sweeps fly equal
 /// points in the same order, so that flights left by an interrupted search are found again.
 /// @param fly  flies one point; it may throw to end the search.
-Optimum optimise(const SweepConfig& sweep, const FlyPoint& fly);
+Optimum optimize(const SweepConfig& sweep, const FlyPoint& fly);
 
 }  // namespace hedgehop::sim

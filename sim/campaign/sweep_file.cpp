@@ -24,7 +24,7 @@ std::string parameter_fault(const SweepParameter& p, const SweepDesign& design) 
     return "a log range needs 'from' > 0";
   if (p.values.empty() && is_grid && p.count < 2) return "a grid needs 'count' >= 2 of a range";
   if (p.values.empty() && std::holds_alternative<ListDesign>(design)) return "a list needs 'values'";
-  if (!p.values.empty() && std::holds_alternative<OptimiseDesign>(design)) return "an optimiser needs a range";
+  if (!p.values.empty() && std::holds_alternative<OptimizeDesign>(design)) return "an optimizer needs a range";
   return "";
 }
 

@@ -75,18 +75,18 @@ void describe(Visitor& v, SobolDesign& c) {
     {.at_least = 1, .at_most = 1'000'000, .required = true, .meaning = "number; best a power of 2"});
 }
 
-struct OptimiseDesign {
-  static constexpr std::string_view kName = "optimise";
+struct OptimizeDesign {
+  static constexpr std::string_view kName = "optimize";
   static constexpr std::string_view kMeaning = "looks for the point with the smallest mean of a column over the seeds";
   enum class Method { subplex, nelder_mead, bobyqa, direct };
-  std::string minimise;
+  std::string minimize;
   Method method = Method::subplex;
   int64_t evaluations = 50;
   double failure_cost = 1e6;
 };
 template <class Visitor>
-void describe(Visitor& v, OptimiseDesign& c) {
-  v("minimise", c.minimise, {.required = true, .meaning = "column of the sweep's table, such as flight_time_s"});
+void describe(Visitor& v, OptimizeDesign& c) {
+  v("minimize", c.minimize, {.required = true, .meaning = "column of the sweep's table, such as flight_time_s"});
   v("method", c.method,
     {.choices = {"subplex", "nelder_mead", "bobyqa", "direct"}, .meaning = "of NLopt; direct searches the whole box"});
   v("evaluations", c.evaluations, {.at_least = 1, .at_most = 100'000, .meaning = "most points to fly"});
@@ -94,7 +94,7 @@ void describe(Visitor& v, OptimiseDesign& c) {
 }
 
 using SweepDesign =
-    std::variant<GridDesign, ListDesign, RandomDesign, LatinHypercubeDesign, SobolDesign, OptimiseDesign>;
+    std::variant<GridDesign, ListDesign, RandomDesign, LatinHypercubeDesign, SobolDesign, OptimizeDesign>;
 
 /// A sweep: one scenario, parameters, a design, the same seeds at every point.
 struct SweepConfig {
@@ -122,7 +122,7 @@ SweepConfig read_sweep(const std::filesystem::path& file);
 /// The value of a parameter at a coordinate in [0, 1], as YAML.
 std::string parameter_value(const SweepParameter& parameter, double coordinate);
 
-/// All points of a design, as values of the parameters in their order. Not for OptimiseDesign, which finds its own.
+/// All points of a design, as values of the parameters in their order. Not for OptimizeDesign, which finds its own.
 std::vector<std::vector<std::string>> design_points(const SweepConfig& sweep);
 
 /// Orders of one point, one a seed; ids and groups carry the point's number. Throws InputError when the scenario

@@ -81,7 +81,7 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-std::vector<GroupSummary> summarise(const std::vector<FlightRecord>& records) {
+std::vector<GroupSummary> summarize(const std::vector<FlightRecord>& records) {
   std::vector<GroupSummary> groups;
   std::vector<std::vector<double>> clearances, times;
   for (const FlightRecord& record : records) {

@@ -22,7 +22,7 @@ struct GroupSummary {
 double median(std::vector<double> values);
 
 /// One row a group, in the order of their first flights.
-std::vector<GroupSummary> summarise(const std::vector<FlightRecord>& records);
+std::vector<GroupSummary> summarize(const std::vector<FlightRecord>& records);
 
 /// A statistical check's answer for one group.
 struct GroupVerdict {

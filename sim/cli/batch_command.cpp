@@ -47,7 +47,7 @@ BatchOrders orders_of(const BatchOptions& options, const std::filesystem::path& 
     throw InputError(batch.faults.empty() ? std::vector<std::string>{"batch: nothing to fly"} : batch.faults);
   }
   // An earlier batch that cannot be read is better known before the flights than after.
-  judge(batch.checks, summarise(gather(batch.orders, {}, kVersion)));
+  judge(batch.checks, summarize(gather(batch.orders, {}, kVersion)));
   return batch;
 }
 
@@ -118,7 +118,7 @@ int batch(const BatchOptions& options) {
       });
   progress.close();
 
-  const std::vector<GroupVerdict> verdicts = judge(batch.checks, summarise(records));
+  const std::vector<GroupVerdict> verdicts = judge(batch.checks, summarize(records));
   const std::string unwritten = write_files(out, options.junit, records, verdicts);
   const std::string matrix = unwritten.empty() ? write_matrix(out, batch.leaderboard, options.inputs.empty()) : "";
   if (options.json) {

@@ -12,7 +12,7 @@
 namespace hedgehop::sim::cli {
 namespace {
 
-constexpr double kStep_s = 0.1;        // a vehicle at 10 m/s moves a metre
+constexpr double kStep_s = 0.1;        // a vehicle at 10 m/s moves a meter
 constexpr size_t kMostPoints = 2'000;  // Frechet distance and time warping compare every pair
 
 std::vector<TimedPoint> flown_path(const std::filesystem::path& run_folder) {

@@ -131,7 +131,7 @@ struct ExportOptions {
   std::filesystem::path folder;      ///< of a run
   std::string format;                ///< "euroc", "tum" or "kitti"
   std::filesystem::path out;         ///< empty: <folder>/<format>
-  std::vector<std::string> cameras;  ///< roles; empty: all that take pictures
+  std::vector<std::string> cameras;  ///< roles; empty: all that take images
 };
 /// Flies a run anew and writes what its sensors say for other programs.
 int export_run(const ExportOptions& options);

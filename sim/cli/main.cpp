@@ -61,18 +61,18 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
   run_command->add_flag("--json", run.json, "print result.json instead of lines for people");
   run_command->callback([&] { chosen = [&run] { return cli::run(run); }; });
 
-  CLI::App* const render_command = app.add_subcommand("render", "write the picture of one camera as PNG");
+  CLI::App* const render_command = app.add_subcommand("render", "write the image of one camera as PNG");
   auto* const file = render_command->add_option("SCENARIO", render.scenario.file, "scenario file (YAML)");
   add_layers(*render_command, render.scenario);
   auto* const camera = render_command->add_option("--camera", render.camera, "role of the camera")->type_name("NAME");
-  render_command->add_option("--time", render.time_s, "time of the picture, s; the flight is flown up to it")
+  render_command->add_option("--time", render.time_s, "time of the image, s; the flight is flown up to it")
       ->check(CLI::NonNegativeNumber)
       ->type_name("S");
   render_command
       ->add_option("--what", render.what,
                    "color, grey; depth (red 0.5 m, green 10 m, blue 200 m, sky white), depth_mm (16-bit PNG, "
-                   "millimetres, 0 beyond 65 m); flow to the camera's next picture (right red, left cyan, white at "
-                   "rest, full at 16 px); labels (a colour for each object, sky black)")
+                   "millimeters, 0 beyond 65 m); flow to the camera's next image (right red, left cyan, white at "
+                   "rest, full at 16 px); labels (a color for each object, sky black)")
       ->check(CLI::IsMember({"color", "grey", "depth", "depth_mm", "flow", "labels"}));
   auto* const out = render_command->add_option("-o", render.out, "file to write")->type_name("FILE.png");
   auto* const info = render_command->add_flag("--info", render.info, "print which OpenGL renderer draws, and stop");
@@ -95,7 +95,7 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
   cli::declare_campaigns(app, chosen);
 
   CLI::App* const export_command = app.add_subcommand(
-      "export", "fly a run anew and write pictures, IMU, truth and calibration as other programs read them");
+      "export", "fly a run anew and write images, IMU, truth and calibration as other programs read them");
   export_command->add_option("RUN", data.folder, "folder of a run, as `hedgehop run` leaves it")->required();
   export_command
       ->add_option("--format", data.format,
@@ -105,7 +105,7 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
       ->check(CLI::IsMember({"euroc", "tum", "kitti"}));
   export_command
       ->add_option("--camera", data.cameras,
-                   "role of a camera to export; may be repeated, the first is cam0; all that take pictures "
+                   "role of a camera to export; may be repeated, the first is cam0; all that take images "
                    "when not given")
       ->type_name("NAME");
   export_command->add_option("--out", data.out, "folder to write, not there or empty; RUN/<format> when not given")
@@ -123,7 +123,7 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
   report_command
       ->add_option("--film-strips", report.film_strips,
                    "of a batch or sweep: fly so many of the worst flights again, up to their closest approach, for "
-                   "pictures of what they saw")
+                   "images of what they saw")
       ->check(CLI::Range(0, 50))
       ->type_name("N");
   report_command->callback([&] { chosen = [&report] { return cli::report(report); }; });

@@ -6,15 +6,15 @@
 #include "sim/cli/commands.h"
 #include "sim/cli/load.h"
 #include "sim/loop/episode.h"
-#include "sim/record/picture_file.h"
-#include "sim/render/picture_colors.h"
+#include "sim/record/image_file.h"
+#include "sim/render/image_colors.h"
 #include "sim/render/renderer.h"
 
 namespace hedgehop::sim::cli {
 namespace {
 
-/// Depth in metres as 16-bit millimetres; 0 where it is farther than that holds, or sky.
-cv::Mat to_millimetres(const cv::Mat& depth_m) {
+/// Depth in meters as 16-bit millimeters; 0 where it is farther than that holds, or sky.
+cv::Mat to_millimeters(const cv::Mat& depth_m) {
   cv::Mat depth_mm(depth_m.size(), CV_16UC1, cv::Scalar(0));
   for (int v = 0; v < depth_m.rows; ++v) {
     for (int u = 0; u < depth_m.cols; ++u) {
@@ -41,12 +41,12 @@ int render(const RenderOptions& options) {
     return 0;
   }
   if (options.out.extension() != ".png") {
-    throw InputError(fmt::format("-o {}: the picture is a PNG; its name must end in .png", options.out.string()));
+    throw InputError(fmt::format("-o {}: the image is a PNG; its name must end in .png", options.out.string()));
   }
   const Channel channel = channel_of(options.what);
-  cv::Mat image = picture_at(load(options.scenario), options.camera, channel, options.time_s);
+  cv::Mat image = image_at(load(options.scenario), options.camera, channel, options.time_s);
   if (options.what == "depth_mm") {
-    image = to_millimetres(image);
+    image = to_millimeters(image);
   } else if (channel == Channel::depth) {
     image = colored_depth(image);
   } else if (channel == Channel::flow) {

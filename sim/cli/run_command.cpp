@@ -26,9 +26,9 @@ class RunWatcher : public FlightWatcher {
   RunWatcher(const Scenario& scenario, const std::filesystem::path& film_file, bool quiet)
       : film_(scenario.film, film_file), progress_(scenario.name), quiet_(quiet) {}
 
-  double picture_rate_hz() const override { return film_.picture_rate_hz(); }
-  void on_pictures(int64_t t_ns, std::span<const avoidance::CameraFrame> frames, const cv::Mat& annotated) override {
-    film_.on_pictures(t_ns, frames, annotated);
+  double image_rate_hz() const override { return film_.image_rate_hz(); }
+  void on_images(int64_t t_ns, std::span<const avoidance::CameraFrame> frames, const cv::Mat& annotated) override {
+    film_.on_images(t_ns, frames, annotated);
   }
   void on_progress(double t_s, double duration_s, double goal_distance_m) override {
     if (!quiet_) progress_.show(t_s, duration_s, goal_distance_m);

@@ -21,7 +21,7 @@ namespace {
 constexpr int kFails = 1;
 constexpr int kSignalled = 128;  // what a shell reports of a process that a signal ended, less the signal's number
 
-/// Ends an optimiser's search from inside.
+/// Ends an optimizer's search from inside.
 struct Interrupted : std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
@@ -85,7 +85,7 @@ int fly_all(const SweepRun& run, const SweepOrders& orders) {
   return interruption.signal() != 0 ? kSignalled + interruption.signal() : status;
 }
 
-int fly_optimiser(const SweepRun& run, const OptimiseDesign& design) {
+int fly_optimizer(const SweepRun& run, const OptimizeDesign& design) {
   Interruption interruption;
   const size_t seeds = run.sweep.seeds ? parse_seeds(*run.sweep.seeds).size() : 1;
   CampaignProgress progress(seeds * static_cast<size_t>(design.evaluations));
@@ -96,10 +96,10 @@ int fly_optimiser(const SweepRun& run, const OptimiseDesign& design) {
     return records;
   };
   try {
-    const Optimum best = optimise(run.sweep, fly);
+    const Optimum best = optimize(run.sweep, fly);
     progress.close();
     write_tables(run, best.orders, best.records);
-    nlohmann::ordered_json json{{"minimise", design.minimise}, {"cost", best.cost}, {"values", {}}};
+    nlohmann::ordered_json json{{"minimize", design.minimize}, {"cost", best.cost}, {"values", {}}};
     std::string words;
     for (size_t i = 0; i < best.values.size(); ++i) {
       json["values"][run.sweep.parameters[i].path] = best.values[i];
@@ -107,7 +107,7 @@ int fly_optimiser(const SweepRun& run, const OptimiseDesign& design) {
     }
     write_file_whole(run.out / "optimum.json", json.dump(2) + "\n");
     fmt::print("{} points flown; smallest mean of {}: {:g}, with{}\nwritten: {}\n", best.records.size() / seeds,
-               design.minimise, best.cost, words, (run.out / "optimum.json").string());
+               design.minimize, best.cost, words, (run.out / "optimum.json").string());
     return best.cost < design.failure_cost ? 0 : kFails;
   } catch (const Interrupted&) {
     return kSignalled + interruption.signal();
@@ -138,11 +138,11 @@ int on_slurm(const SweepRun& run, size_t flights) {
 int sweep(const SweepOptions& options) {
   SweepRun run{.options = options, .sweep = read_sweep(options.file), .out = options.out};
   if (run.out.empty()) run.out = std::filesystem::path("out") / options.file.stem();
-  if (const auto* design = std::get_if<OptimiseDesign>(&run.sweep.design)) {
+  if (const auto* design = std::get_if<OptimizeDesign>(&run.sweep.design)) {
     if (options.on != "local" || !options.shard.empty() || options.merge || options.missing) {
-      throw InputError("an optimiser looks at each point before the next: no --on, --shard, --merge or --missing");
+      throw InputError("an optimizer looks at each point before the next: no --on, --shard, --merge or --missing");
     }
-    return fly_optimiser(run, *design);
+    return fly_optimizer(run, *design);
   }
   SweepOrders orders = sweep_orders(run.sweep);
   if (options.on == "slurm") return on_slurm(run, orders.orders.size());

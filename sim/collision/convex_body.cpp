@@ -37,7 +37,7 @@ std::unique_ptr<const btConvexShape> bullet_shape(Shape shape, const Vector3d& h
   return made;
 }
 
-std::unique_ptr<const btConvexShape> bullet_shape(const scenes::Polyhedron& polyhedron) {
+std::unique_ptr<const btConvexShape> bullet_shape(const scenes::mesh::Polyhedron& polyhedron) {
   auto made = std::make_unique<btConvexHullShape>();
   for (const Vector3d& corner : polyhedron.corners) made->addPoint(to_bullet(corner), /*recalculateLocalAabb=*/false);
   made->setMargin(0.0);
@@ -139,7 +139,7 @@ ConvexBody::ConvexBody(Shape shape_, const Eigen::Vector3d& half_extents)
   bounding_radius_m = shape == Shape::sphere ? half_extents_m.x() : std::hypot(across_m, half_extents_m.z());
 }
 
-ConvexBody::ConvexBody(const scenes::Polyhedron& polyhedron_)
+ConvexBody::ConvexBody(const scenes::mesh::Polyhedron& polyhedron_)
     : shape(Shape::polyhedron),
       half_extents_m(Vector3d::Zero()),
       bounding_radius_m(0.0),

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "scenes/polyhedron.h"
+#include "scenes/mesh/polyhedron.h"
 
 namespace hedgehop::sim {
 
@@ -20,7 +20,7 @@ struct ConvexBody {
   /// A box, a cylinder or a sphere.
   ConvexBody(Shape shape, const Eigen::Vector3d& half_extents_m);
   /// @param polyhedron  in S, m: convex with at least 4 faces, or of one face.
-  explicit ConvexBody(const scenes::Polyhedron& polyhedron);
+  explicit ConvexBody(const scenes::mesh::Polyhedron& polyhedron);
 
   /// Point of the body nearest to p_S; p_S itself inside.
   Eigen::Vector3d nearest(const Eigen::Vector3d& p_S) const;
@@ -34,7 +34,7 @@ struct ConvexBody {
   Shape shape;
   Eigen::Vector3d half_extents_m;               ///< of the box round S's origin that holds the body
   double bounding_radius_m;                     ///< of the ball round S's origin that holds the body
-  scenes::Polyhedron polyhedron;                ///< of polyhedra only
+  scenes::mesh::Polyhedron polyhedron;          ///< of polyhedra only
   std::vector<Eigen::Vector3d> normals_S;       ///< unit; outward, of each face; of a triangle both ways
   std::unique_ptr<const btConvexShape> bullet;  ///< the same body, without Bullet's rounding margin (but for spheres)
 };

@@ -27,7 +27,7 @@ void require_extents(const Eigen::Vector3d& half_extents_m, const std::string& w
 
 ConvexBody make_body(const HullPart& part, const std::string& what) {
   require_extents(part.half_extents_m, what);
-  if (!part.center_B_m.allFinite()) throw std::invalid_argument(what + ": the centre must be finite");
+  if (!part.center_B_m.allFinite()) throw std::invalid_argument(what + ": the center must be finite");
   if (part.shape == HullPart::Shape::box) return {ConvexBody::Shape::box, part.half_extents_m};
   if (part.half_extents_m.x() != part.half_extents_m.y()) {
     throw std::invalid_argument(what + ": a cylinder's first two half extents are its radius and must be equal");
@@ -35,7 +35,7 @@ ConvexBody make_body(const HullPart& part, const std::string& what) {
   return {ConvexBody::Shape::cylinder, part.half_extents_m};
 }
 
-void require_polyhedron(const scenes::Polyhedron& polyhedron, bool convex, const std::string& what) {
+void require_polyhedron(const scenes::mesh::Polyhedron& polyhedron, bool convex, const std::string& what) {
   const auto refuse = [&](const char* why) { throw std::invalid_argument(what + ": " + why); };
   if (polyhedron.faces.empty()) refuse("a polyhedron needs faces");
   for (const Eigen::Vector3d& corner : polyhedron.corners) {
@@ -85,7 +85,7 @@ std::vector<ConvexBody> make_bodies(const Solid& solid) {
       require_polyhedron(solid.polyhedron, false, what);
       for (const auto& [a, b, c] : solid.polyhedron.faces) {
         const std::vector<Eigen::Vector3d>& corners = solid.polyhedron.corners;
-        bodies.emplace_back(scenes::Polyhedron{{corners[a], corners[b], corners[c]}, {{0, 1, 2}}});
+        bodies.emplace_back(scenes::mesh::Polyhedron{{corners[a], corners[b], corners[c]}, {{0, 1, 2}}});
       }
       break;
   }

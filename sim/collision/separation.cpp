@@ -62,7 +62,7 @@ Separation separate_by_projections(const PlacedBody& first, const PlacedBody& se
   return best;
 }
 
-// The nearest point of a body to a sphere is the one to its centre; inside, the way out is as long as the centre is
+// The nearest point of a body to a sphere is the one to its center; inside, the way out is as long as the center is
 // deep.
 Separation separate_from_sphere(const PlacedBody& body, const PlacedBody& sphere) {
   const Eigen::Vector3d center_W = sphere.X_WS.translation(), on_body_W = body.nearest(center_W);
@@ -90,7 +90,7 @@ Separation separate(const PlacedBody& first, const PlacedBody& second) {
     start_W = first.nearest(apart.on_first_W);
   }
 
-  // Bullet's search stops early at about one pair in a thousand, off by up to metres: what it cannot prove is measured
+  // Bullet's search stops early at about one pair in a thousand, off by up to meters: what it cannot prove is measured
   // a second way.
   Separation apart = separate_by_projections(first, second, start_W);
   if (apart.distance_m > kExact_m && is_proved(first, second, apart)) return apart;

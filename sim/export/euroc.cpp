@@ -40,7 +40,7 @@ std::string camera_data(const RecordedCamera& camera) {
   return text;
 }
 
-std::string imu_sensor(const dynamics::ImuConfig& imu) {
+std::string imu_sensor(const dynamics::sensors::ImuConfig& imu) {
   return fmt::format(
       "sensor_type: imu\ncomment: of the flight computer\n{}rate_hz: {}\ngyroscope_noise_density: {}\n"
       "gyroscope_random_walk: {}\naccelerometer_noise_density: {}\naccelerometer_random_walk: {}\n",
@@ -81,7 +81,7 @@ std::string truth_data(const SensorRecord& record) {
 
 }  // namespace
 
-std::filesystem::path euroc_picture(size_t camera, int64_t t_ns) {
+std::filesystem::path euroc_image(size_t camera, int64_t t_ns) {
   return camera_folder(camera) / "data" / fmt::format("{}.png", t_ns);
 }
 

@@ -9,7 +9,7 @@ namespace hedgehop::sim {
 /// Throws InputError for a lens that the format has no words for (k3 of a pinhole).
 std::vector<DataFile> euroc_files(const SensorRecord& record);
 
-/// Where a picture belongs.
-std::filesystem::path euroc_picture(size_t camera, int64_t t_ns);
+/// Where an image belongs.
+std::filesystem::path euroc_image(size_t camera, int64_t t_ns);
 
 }  // namespace hedgehop::sim

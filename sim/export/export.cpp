@@ -11,14 +11,14 @@
 #include "sim/export/kitti.h"
 #include "sim/export/tum.h"
 #include "sim/loop/episode.h"
-#include "sim/record/picture_file.h"
+#include "sim/record/image_file.h"
 #include "sim/record/whole_file.h"
 
 namespace hedgehop::sim {
 namespace {
 
-RecordedCamera recorded(const CameraConfig& config, const dynamics::ImuConfig& imu) {
-  const vision::Camera model = config.model();
+RecordedCamera recorded(const CameraConfig& config, const dynamics::sensors::ImuConfig& imu) {
+  const vision::camera::Camera model = config.model();
   const Eigen::Isometry3d X_SB(Eigen::Translation3d(-imu.p_BS_m));
   Eigen::Isometry3d X_FC = Eigen::Isometry3d::Identity();
   X_FC.linear() = R_FB() * config.X_BC().linear();
@@ -44,13 +44,13 @@ std::vector<RecordedCamera> choose(const Scenario& scenario, const std::vector<s
     if (!camera) {
       throw InputError(fmt::format("--camera {}: no such camera in the rig; it has: {}", role, roles(scenario.rig)));
     }
-    if (is_depth(*camera)) throw InputError(fmt::format("--camera {}: it takes depth, not pictures", role));
+    if (is_depth(*camera)) throw InputError(fmt::format("--camera {}: it takes depth, not images", role));
     if (std::ranges::find(chosen, camera) != chosen.end()) {
       throw InputError(fmt::format("--camera {}: named twice", role));
     }
     chosen.push_back(camera);
   }
-  if (chosen.empty()) throw InputError("the rig has no camera that takes pictures");
+  if (chosen.empty()) throw InputError("the rig has no camera that takes images");
   std::vector<RecordedCamera> cameras;
   for (const CameraConfig* const camera : chosen) {
     cameras.push_back(build_part("rig", [&] { return recorded(*camera, scenario.avionics.imu); }));
@@ -82,19 +82,19 @@ void check(const ExportRequest& request, SensorRecord record) {
   }
 }
 
-/// 16-bit, see kTumDepthPerMetre.
-cv::Mat tum_depth_picture(const cv::Mat& depth_m) {
+/// 16-bit, see kTumDepthPerMeter.
+cv::Mat tum_depth_overlay(const cv::Mat& depth_m) {
   cv::Mat depth(depth_m.size(), CV_16UC1, cv::Scalar(0));
   for (int v = 0; v < depth_m.rows; ++v) {
     for (int u = 0; u < depth_m.cols; ++u) {
-      const double units = std::round(kTumDepthPerMetre * static_cast<double>(depth_m.at<float>(v, u)));
+      const double units = std::round(kTumDepthPerMeter * static_cast<double>(depth_m.at<float>(v, u)));
       if (units <= 65535.0) depth.at<uint16_t>(v, u) = static_cast<uint16_t>(units);
     }
   }
   return depth;
 }
 
-/// Writes pictures as they come and keeps the rest.
+/// Writes images as they come and keeps the rest.
 class Recorder : public FlightWatcher {
  public:
   using Progress = std::function<void(double, double, double)>;
@@ -111,8 +111,8 @@ class Recorder : public FlightWatcher {
       const Eigen::Matrix3d R = R_FB();
       record_.imu.push_back({tick.t_ns, R * tick.imu->w_WB_B_meas, R * tick.imu->specific_force_B_meas});
     }
-    const bool pictures = write_pictures(tick);
-    if (tick.imu || pictures) record_.states.push_back(state(tick));
+    const bool images = write_images(tick);
+    if (tick.imu || images) record_.states.push_back(state(tick));
   }
 
  private:
@@ -132,29 +132,29 @@ class Recorder : public FlightWatcher {
     return frame == tick.frames.end() ? nullptr : &*frame;
   }
 
-  bool write_pictures(const SensorTick& tick) {
+  bool write_images(const SensorTick& tick) {
     std::vector<const avoidance::CameraFrame*> frames;
     for (const RecordedCamera& camera : record_.cameras) frames.push_back(frame_of(tick, camera.role));
-    // KITTI numbers the pictures of all cameras alike: an instant of which one is lost is left out.
+    // KITTI numbers the images of all cameras alike: an instant of which one is lost is left out.
     const bool lost = std::ranges::find(frames, nullptr) != frames.end();
     if (request_.format == DataFormat::kitti && lost) return false;
     bool any = false;
     for (size_t i = 0; i < frames.size(); ++i) {
       if (!frames[i]) continue;
       any = true;
-      write(picture_file(i, tick.t_ns), frames[i]->image);
+      write(image_file(i, tick.t_ns), frames[i]->image);
       if (request_.format == DataFormat::tum) {
-        write(tum_depth(tick.t_ns), tum_depth_picture(tick.depth(record_.cameras[i].role)));
+        write(tum_depth(tick.t_ns), tum_depth_overlay(tick.depth(record_.cameras[i].role)));
       }
       record_.cameras[i].t_ns.push_back(tick.t_ns);
     }
     return any;
   }
 
-  std::filesystem::path picture_file(size_t camera, int64_t t_ns) const {
-    if (request_.format == DataFormat::tum) return tum_picture(t_ns);
-    if (request_.format == DataFormat::euroc) return euroc_picture(camera, t_ns);
-    return kitti_picture(camera, record_.cameras[camera].t_ns.size());
+  std::filesystem::path image_file(size_t camera, int64_t t_ns) const {
+    if (request_.format == DataFormat::tum) return tum_image(t_ns);
+    if (request_.format == DataFormat::euroc) return euroc_image(camera, t_ns);
+    return kitti_image(camera, record_.cameras[camera].t_ns.size());
   }
 
   void write(const std::filesystem::path& name, const cv::Mat& image) const {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/flight/flight.h"
 #include "sim/scenario/scenario.h"
-#include "sim/verdict/flight.h"
 
 namespace hedgehop::sim {
 

@@ -34,11 +34,11 @@ void check(const SensorRecord& record) {
     const bool distorted = std::ranges::any_of(camera.lens.distortion, [](double k) { return k != 0.0; });
     if (camera.lens.fisheye || distorted) {
       throw InputError(
-          fmt::format("camera '{}': KITTI's pictures are those of pinholes without distortion", camera.role));
+          fmt::format("camera '{}': KITTI's images are those of pinholes without distortion", camera.role));
     }
     if (camera.rate_hz != record.cameras.front().rate_hz) {
       throw InputError(
-          fmt::format("camera '{}' takes {} pictures a second and '{}' {}: KITTI has one list of times; "
+          fmt::format("camera '{}' takes {} images a second and '{}' {}: KITTI has one list of times; "
                       "choose cameras of one rate by --camera",
                       camera.role, camera.rate_hz, record.cameras.front().role, record.cameras.front().rate_hz));
     }
@@ -47,7 +47,7 @@ void check(const SensorRecord& record) {
 
 }  // namespace
 
-std::filesystem::path kitti_picture(size_t camera, size_t number) {
+std::filesystem::path kitti_image(size_t camera, size_t number) {
   return kSequence / fmt::format("image_{}", camera) / fmt::format("{:06}.png", number);
 }
 

@@ -6,19 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/imu.h"
+#include "dynamics/sensors/imu.h"
 #include "sim/scenario/calibration.h"
 
 namespace hedgehop::sim {
 
-/// A camera whose pictures are exported.
+/// A camera whose images are exported.
 struct RecordedCamera {
   std::string role;
   int width_px = 0, height_px = 0;
   double rate_hz = 0.0;
   Intrinsics lens;
   Eigen::Isometry3d X_FC = Eigen::Isometry3d::Identity();  ///< from F, whose origin is the IMU
-  std::vector<int64_t> t_ns;                               ///< of its pictures
+  std::vector<int64_t> t_ns;                               ///< of its images
 };
 
 struct RecordedReading {
@@ -37,9 +37,9 @@ struct RecordedState {
 /// What a flight's sensors said, in the frames of conventions.h.
 struct SensorRecord {
   std::vector<RecordedCamera> cameras;
-  dynamics::ImuConfig imu_config;
+  dynamics::sensors::ImuConfig imu_config;
   std::vector<RecordedReading> imu;
-  std::vector<RecordedState> states;  ///< at every reading and every picture, by time
+  std::vector<RecordedState> states;  ///< at every reading and every image, by time
 };
 
 /// A file of a data set, its name relative to the set's folder.

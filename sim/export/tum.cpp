@@ -8,7 +8,7 @@ namespace {
 /// Seconds, every nanosecond kept.
 std::string seconds(int64_t t_ns) { return fmt::format("{}.{:09}", t_ns / 1'000'000'000, t_ns % 1'000'000'000); }
 
-std::string picture_list(const char* title, const std::vector<int64_t>& t_ns, std::filesystem::path (*file)(int64_t)) {
+std::string image_list(const char* title, const std::vector<int64_t>& t_ns, std::filesystem::path (*file)(int64_t)) {
   std::string text = fmt::format("# {}\n# of a simulated flight\n# timestamp filename\n", title);
   for (const int64_t t : t_ns) text += fmt::format("{} {}\n", seconds(t), file(t).string());
   return text;
@@ -44,24 +44,24 @@ std::string calibration(const RecordedCamera& camera) {
     pose += fmt::format("{}{}, {}, {}, {}", row == 0 ? "" : ",\n          ", r[0], r[1], r[2], r[3]);
   }
   return fmt::format(
-      "%YAML:1.0\n---\nimage_width: {}\nimage_height: {}\ndepth_per_metre: {:.1f}\n"
+      "%YAML:1.0\n---\nimage_width: {}\nimage_height: {}\ndepth_per_meter: {:.1f}\n"
       "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [{}, 0., {}, 0., {}, {}, 0., 0., "
       "1.]\n"
       "distortion_coefficients: !!opencv-matrix\n   rows: 1\n   cols: 5\n   dt: d\n   data: [{}]\n"
       "imu_from_camera: !!opencv-matrix\n   rows: 4\n   cols: 4\n   dt: d\n   data: [{}]\n",
-      camera.width_px, camera.height_px, kTumDepthPerMetre, lens.focal_x_px, lens.center_u_px, lens.focal_y_px,
+      camera.width_px, camera.height_px, kTumDepthPerMeter, lens.focal_x_px, lens.center_u_px, lens.focal_y_px,
       lens.center_v_px, fmt::join(lens.distortion, ", "), pose);
 }
 
 }  // namespace
 
-std::filesystem::path tum_picture(int64_t t_ns) { return std::filesystem::path("rgb") / (seconds(t_ns) + ".png"); }
+std::filesystem::path tum_image(int64_t t_ns) { return std::filesystem::path("rgb") / (seconds(t_ns) + ".png"); }
 std::filesystem::path tum_depth(int64_t t_ns) { return std::filesystem::path("depth") / (seconds(t_ns) + ".png"); }
 
 std::vector<DataFile> tum_files(const SensorRecord& record) {
   const RecordedCamera& camera = record.cameras.at(0);
-  return {{"rgb.txt", picture_list("color images", camera.t_ns, tum_picture)},
-          {"depth.txt", picture_list("depth maps", camera.t_ns, tum_depth)},
+  return {{"rgb.txt", image_list("color images", camera.t_ns, tum_image)},
+          {"depth.txt", image_list("depth maps", camera.t_ns, tum_depth)},
           {"groundtruth.txt", truth(record)},
           {"accelerometer.txt", readings("accelerometer data", "ax ay az", record, &RecordedReading::f_F)},
           {"gyroscope.txt", readings("gyroscope data", "wx wy wz", record, &RecordedReading::w_F)},

@@ -4,8 +4,8 @@
 
 namespace hedgehop::sim {
 
-/// Depth pictures hold 16-bit numbers, this many to a metre; 0: unknown, or farther than they reach (13.1 m).
-inline constexpr double kTumDepthPerMetre = 5000.0;
+/// Depth images hold 16-bit numbers, this many to a meter; 0: unknown, or farther than they reach (13.1 m).
+inline constexpr double kTumDepthPerMeter = 5000.0;
 
 /// The texts of a data set after [SturmEngelhardEndres2012], as it lays them out, of one pinhole: rgb.txt, depth.txt,
 /// groundtruth.txt (X_EC of the camera: t x y z qx qy qz qw), accelerometer.txt (of the IMU, along F); besides, gyros
@@ -13,7 +13,7 @@ inline constexpr double kTumDepthPerMetre = 5000.0;
 /// @param record  with one camera, a pinhole.
 std::vector<DataFile> tum_files(const SensorRecord& record);
 
-std::filesystem::path tum_picture(int64_t t_ns);
+std::filesystem::path tum_image(int64_t t_ns);
 std::filesystem::path tum_depth(int64_t t_ns);
 
 }  // namespace hedgehop::sim

@@ -1,4 +1,4 @@
-#include "sim/verdict/flight.h"
+#include "sim/flight/flight.h"
 
 namespace hedgehop::sim {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scenes/figures.h"
-#include "sim/verdict/map_record.h"
+#include "sim/flight/map_record.h"
 
 /// What a flight leaves behind: the verdict and the two tables. Frames and units as in CONTRIBUTING.md.
 namespace hedgehop::sim {
@@ -89,7 +89,7 @@ struct FlightResult {
   std::vector<CheckResult> checks;
   std::string trajectory_hash;  ///< of the true state at every control tick, bit for bit
   std::vector<MetricValue> metrics;
-  scenes::SceneFigures scene;  ///< of what stands at the height of the start, within a metre
+  scenes::SceneFigures scene;  ///< of what stands at the height of the start, within a meter
 };
 
 struct Flight {

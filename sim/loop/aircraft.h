@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 
+#include "dynamics/air/wind.h"
 #include "dynamics/avionics.h"
 #include "dynamics/vehicle.h"
-#include "dynamics/wind.h"
 #include "sim/collision/proximity.h"
 #include "sim/loop/shutter.h"
 #include "sim/loop/ticks.h"
@@ -24,7 +24,9 @@ class Aircraft {
   /// Reads the sensors that are due on this tick.
   void sense(int64_t tick, const CollisionWorld& world) { avionics_.sense(ticks_.t_ns(tick), truth(world, tick)); }
   /// Runs the autopilot. @param dt_s  until the next call.
-  void steer(const dynamics::Setpoint& setpoint, double dt_s) { actuators_ = avionics_.control(setpoint, dt_s); }
+  void steer(const dynamics::control::Setpoint& setpoint, double dt_s) {
+    actuators_ = avionics_.control(setpoint, dt_s);
+  }
   /// Moves on by one tick.
   void move();
 
@@ -32,7 +34,7 @@ class Aircraft {
   BodyMotion motion() const;
   const dynamics::RigidBodyState& body() const { return vehicle_.body(); }
   const dynamics::Vehicle& vehicle() const { return vehicle_; }
-  const dynamics::NavigationEstimate& navigation() const { return avionics_.navigation(); }
+  const dynamics::control::NavigationEstimate& navigation() const { return avionics_.navigation(); }
   const dynamics::Avionics& avionics() const { return avionics_; }
   dynamics::Avionics& avionics() { return avionics_; }
   const Eigen::Vector3d& wind_W() const { return wind_W_; }
@@ -44,7 +46,7 @@ class Aircraft {
   const Scenario& scenario_;
   const Ticks ticks_;
   dynamics::Vehicle vehicle_;
-  dynamics::Wind wind_;
+  dynamics::air::Wind wind_;
   dynamics::Avionics avionics_;
   Eigen::Vector3d wind_W_ = Eigen::Vector3d::Zero();
   struct Surroundings {

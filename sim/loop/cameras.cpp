@@ -24,7 +24,7 @@ Channel to_render_channel(CameraConfig::Channel channel) {
   throw std::logic_error("unknown channel");
 }
 
-/// Before the flight, not at its first picture.
+/// Before the flight, not at its first image.
 void require_samples(const CameraConfig& camera, Renderer& renderer) {
   try {
     renderer.require_samples(camera.samples);
@@ -66,15 +66,15 @@ const avoidance::CameraFrame* Cameras::expose(size_t camera, int64_t t_ns, const
   avoidance::CameraFrame& frame = frames_[camera];
   if (exposed_ns_[camera] != t_ns) {
     exposed_ns_[camera] = t_ns;
-    const int64_t number = picture_number(camera, t_ns);
-    const Imperfections::Fate fate = imperfections_[camera].fate(number);
-    if (fate == Imperfections::Fate::dropped) return nullptr;
-    const bool frozen = fate == Imperfections::Fate::frozen && !frame.image.empty();
+    const int64_t number = image_number(camera, t_ns);
+    const Imperfections::FrameFault fault = imperfections_[camera].frame_fault(number);
+    if (fault == Imperfections::FrameFault::dropped) return nullptr;
+    const bool frozen = fault == Imperfections::FrameFault::frozen && !frame.image.empty();
     if (!frozen) {
       const Instant now{t_ns, body};
       draw(camera, channels_[camera], now, now, frame.image);
-      imperfections_[camera].spoil(number, frame.image);
-      if (fate == Imperfections::Fate::black) blacken(frame.image);
+      imperfections_[camera].apply(number, frame.image);
+      if (fault == Imperfections::FrameFault::black) blank(frame.image);
     }
     frame.t_ns = t_ns;
   }
@@ -91,11 +91,11 @@ std::span<const avoidance::CameraFrame> Cameras::snapshot(int64_t t_ns, const Ei
   return snapshot_;
 }
 
-cv::Mat Cameras::picture(size_t camera, Channel channel, const Instant& now, const Instant& next) {
+cv::Mat Cameras::image(size_t camera, Channel channel, const Instant& now, const Instant& next) {
   cv::Mat image;
   draw(camera, channel, now, next, image);
   if (channel == Channel::grey || channel == Channel::color) {
-    imperfections_[camera].spoil(picture_number(camera, now.t_ns), image);
+    imperfections_[camera].apply(image_number(camera, now.t_ns), image);
   }
   return image;
 }
@@ -103,12 +103,12 @@ cv::Mat Cameras::picture(size_t camera, Channel channel, const Instant& now, con
 void Cameras::draw(size_t camera, Channel channel, const Instant& now, const Instant& next, cv::Mat& out) {
   const avoidance::MountedCamera& mounted = mounted_[camera];
   const CameraView::Next seen_next{next.body.X_WB * mounted.X_BC, 1e-9 * static_cast<double>(next.t_ns)};
-  const auto draw_rows = [&](const Eigen::Isometry3d& X_WB, double dt_s, const cv::Range& rows, cv::Mat& picture) {
+  const auto draw_rows = [&](const Eigen::Isometry3d& X_WB, double dt_s, const cv::Range& rows, cv::Mat& image) {
     const bool whole = rows.size() == mounted.model.height_px;
     const double t_s = std::max(0.0, 1e-9 * static_cast<double>(now.t_ns) + dt_s);
     renderer_.draw({whole ? mounted.model : cut(mounted.model, rows), X_WB * mounted.X_BC, channel, t_s, seen_next,
                     samples_[camera]},
-                   picture);
+                   image);
   };
   shutters_[camera].expose(now.body, mounted.model.height_px, std::ref(draw_rows), out);
 }

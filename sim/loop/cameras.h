@@ -29,10 +29,10 @@ class Cameras {
   size_t index(std::string_view role) const;
   bool due(size_t camera, int64_t tick) const { return tick % periods_[camera] == 0; }
 
-  /// Draws one camera's picture of this instant, spoiled as its imperfections ask; does nothing when it holds it
-  /// already. @return null when the picture is lost.
+  /// Draws one camera's image of this instant, degraded as its imperfections ask; does nothing when it holds it
+  /// already. @return null when the image is lost.
   const avoidance::CameraFrame* expose(size_t camera, int64_t t_ns, const BodyMotion& body);
-  /// Pictures of all cameras at this instant for somebody who only looks on; what modules are shown stays untouched.
+  /// Images of all cameras at this instant for somebody who only looks on; what modules are shown stays untouched.
   std::span<const avoidance::CameraFrame> snapshot(int64_t t_ns, const Eigen::Isometry3d& X_WB);
 
   /// An instant of the flight.
@@ -40,16 +40,16 @@ class Cameras {
     int64_t t_ns = 0;
     BodyMotion body;
   };
-  /// One camera's picture of an instant in a channel of the caller's choice, with the shutter's and the sensor's
+  /// One camera's image of an instant in a channel of the caller's choice, with the shutter's and the sensor's
   /// imperfections. @param next  what Channel::flow leads to.
-  cv::Mat picture(size_t camera, Channel channel, const Instant& now, const Instant& next);
+  cv::Mat image(size_t camera, Channel channel, const Instant& now, const Instant& next);
 
   const avoidance::MountedCamera& mounted(size_t camera) const { return mounted_[camera]; }
   std::span<const avoidance::MountedCamera> mounted() const { return mounted_; }
   int64_t period_ticks(size_t camera) const { return periods_[camera]; }
 
  private:
-  int64_t picture_number(size_t camera, int64_t t_ns) const { return t_ns / period_ns_[camera]; }
+  int64_t image_number(size_t camera, int64_t t_ns) const { return t_ns / period_ns_[camera]; }
   void draw(size_t camera, Channel channel, const Instant& now, const Instant& next, cv::Mat& out);
 
   Renderer renderer_;
@@ -60,7 +60,7 @@ class Cameras {
   std::vector<int64_t> period_ns_;
   std::vector<Imperfections> imperfections_;
   std::vector<Shutter> shutters_;
-  std::vector<int64_t> exposed_ns_;  ///< when each camera last exposed a picture, lost ones included
+  std::vector<int64_t> exposed_ns_;  ///< when each camera last exposed an image, lost ones included
   std::vector<avoidance::CameraFrame> frames_, snapshot_;
 };
 

@@ -35,7 +35,7 @@ class Episode {
  public:
   Episode(const Scenario& scenario, FlightWatcher* watcher);
   Flight fly();
-  cv::Mat picture(size_t camera, Channel channel, double t_s);
+  cv::Mat image(size_t camera, Channel channel, double t_s);
   const Cameras& cameras() const { return cameras_; }
 
  private:
@@ -97,10 +97,11 @@ Episode::Episode(const Scenario& scenario, FlightWatcher* watcher)
 void Episode::begin() {
   aircraft_.reset(collision_);
   const double heading_rad = pilot_.route().goal().heading_rad;
-  pilot_.reset(dynamics::radius_m(hull_), dynamics::PositionSetpoint{aircraft_.body().p_WB, heading_rad});
+  pilot_.reset(dynamics::radius_m(hull_), dynamics::control::PositionSetpoint{aircraft_.body().p_WB, heading_rad});
   log_.set_signals(pilot_.module().signals());
-  if (const auto* highrise = std::get_if<scenes::HighriseConfig>(&scenario_.scene); highrise && pilot_.first_camera()) {
-    map_score_.emplace(scenes::highrise_corners(*highrise), aircraft_.body().p_WB);
+  if (const auto* highrise = std::get_if<scenes::worlds::HighriseConfig>(&scenario_.scene);
+      highrise && pilot_.first_camera()) {
+    map_score_.emplace(scenes::worlds::highrise_corners(*highrise), aircraft_.body().p_WB);
   }
 }
 
@@ -114,7 +115,7 @@ void Episode::act() {
   onlooker_.show(tick_, pilot_.module(), scenario_.duration_s, goal_distance_m());
 }
 
-cv::Mat Episode::picture(size_t camera, Channel channel, double t_s) {
+cv::Mat Episode::image(size_t camera, Channel channel, double t_s) {
   begin();
   const auto fly_on = [&](int64_t last) -> Cameras::Instant {
     for (; tick_ < last; ++tick_) {
@@ -129,7 +130,7 @@ cv::Mat Episode::picture(size_t camera, Channel channel, double t_s) {
   };
   const Cameras::Instant now = fly_on(ticks_.ticks(t_s));
   const bool leads_on = channel == Channel::flow;
-  return cameras_.picture(camera, channel, now, leads_on ? fly_on(tick_ + cameras_.period_ticks(camera)) : now);
+  return cameras_.image(camera, channel, now, leads_on ? fly_on(tick_ + cameras_.period_ticks(camera)) : now);
 }
 
 Flight Episode::fly() {
@@ -211,7 +212,7 @@ void Episode::judge_map() {
 
 /// Runs the autopilot.
 void Episode::steer() {
-  const dynamics::Setpoint& setpoint = pilot_.setpoint(tick_);
+  const dynamics::control::Setpoint& setpoint = pilot_.setpoint(tick_);
   aircraft_.steer(setpoint, static_cast<double>(control_period_) * ticks_.dt_s());
   log_.add(ticks_.t_s(tick_), aircraft_, setpoint, proximity_);
 }
@@ -256,7 +257,7 @@ Flight fly(const Scenario& scenario, FlightWatcher* watcher) {
   return Episode(scenario, watcher).fly();
 }
 
-cv::Mat picture_at(const Scenario& scenario, std::string_view role, Channel channel, double t_s) {
+cv::Mat image_at(const Scenario& scenario, std::string_view role, Channel channel, double t_s) {
   cv::setNumThreads(1);
   if (!scenario.rig.find(role)) {
     std::string roles;
@@ -264,7 +265,7 @@ cv::Mat picture_at(const Scenario& scenario, std::string_view role, Channel chan
     throw InputError(fmt::format("the rig has no camera '{}'; its cameras: {}", role, roles));
   }
   Episode episode(scenario, nullptr);
-  return episode.picture(episode.cameras().index(role), channel, t_s);
+  return episode.image(episode.cameras().index(role), channel, t_s);
 }
 
 }  // namespace hedgehop::sim

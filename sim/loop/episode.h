@@ -3,10 +3,10 @@
 #include <opencv2/core.hpp>
 #include <string_view>
 
+#include "sim/flight/flight.h"
 #include "sim/loop/watcher.h"
 #include "sim/render/renderer.h"
 #include "sim/scenario/scenario.h"
-#include "sim/verdict/flight.h"
 
 namespace hedgehop::sim {
 
@@ -17,8 +17,8 @@ Flight fly(const Scenario& scenario, FlightWatcher* watcher = nullptr);
 
 /// What one camera of the rig sees in a flight, drawn as `channel` whatever the rig asks for.
 /// @param role   of the camera; InputError names the rig's roles when it has no such camera.
-/// @param t_s    time of the picture, >= 0; the flight is flown up to it, and for flow up to the camera's next picture.
+/// @param t_s    time of the image, >= 0; the flight is flown up to it, and for flow up to the camera's next image.
 ///               InputError when it ends before.
-cv::Mat picture_at(const Scenario& scenario, std::string_view role, Channel channel, double t_s);
+cv::Mat image_at(const Scenario& scenario, std::string_view role, Channel channel, double t_s);
 
 }  // namespace hedgehop::sim

@@ -57,10 +57,10 @@ void FlightLog::add(double t_s, const Eigen::Vector3d& p_WB_true, const Proximit
   }
 }
 
-void FlightLog::add(double t_s, const Aircraft& aircraft, const dynamics::Setpoint& setpoint,
+void FlightLog::add(double t_s, const Aircraft& aircraft, const dynamics::control::Setpoint& setpoint,
                     const Proximity& proximity) {
   const dynamics::RigidBodyState& body = aircraft.body();
-  const dynamics::NavigationEstimate& navigation = aircraft.navigation();
+  const dynamics::control::NavigationEstimate& navigation = aircraft.navigation();
   hash_.add(body);
   const CommandColumns command = columns(setpoint);
   flight_.trajectory.push_back({.t_s = t_s,

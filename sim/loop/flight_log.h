@@ -7,9 +7,9 @@
 #include "dynamics/vehicle.h"
 #include "scenes/scene.h"
 #include "sim/collision/proximity.h"
+#include "sim/flight/flight.h"
 #include "sim/loop/aircraft.h"
 #include "sim/loop/trajectory_hash.h"
-#include "sim/verdict/flight.h"
 
 namespace hedgehop::sim {
 
@@ -25,7 +25,8 @@ class FlightLog {
   /// Every physics tick: keeps the closest approaches.
   void add(double t_s, const Eigen::Vector3d& p_WB_true, const Proximity& proximity);
   /// Every control tick.
-  void add(double t_s, const Aircraft& aircraft, const dynamics::Setpoint& setpoint, const Proximity& proximity);
+  void add(double t_s, const Aircraft& aircraft, const dynamics::control::Setpoint& setpoint,
+           const Proximity& proximity);
   /// Every decision.
   void add(double t_s, const avoidance::Decision& decision);
 

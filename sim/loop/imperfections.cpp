@@ -12,8 +12,8 @@ namespace {
 constexpr double kWhite = 255.0;
 
 /// Uniform in [0, 1).
-double draw(uint64_t seed, int64_t picture, std::string_view what) {
-  const uint64_t bits = stream_seed(stream_seed(seed, what) + static_cast<uint64_t>(picture), what);
+double draw(uint64_t seed, int64_t frame, std::string_view what) {
+  const uint64_t bits = stream_seed(stream_seed(seed, what) + static_cast<uint64_t>(frame), what);
   return std::ldexp(static_cast<double>(bits >> 11), -53);
 }
 
@@ -22,14 +22,14 @@ double draw(uint64_t seed, int64_t picture, std::string_view what) {
 Imperfections::Imperfections(const ImperfectionsConfig& config, double period_s, uint64_t seed)
     : config_(config), period_s_(period_s), seed_(seed), gain_(std::exp2(config.exposure_stops)) {}
 
-Imperfections::Fate Imperfections::fate(int64_t picture) const {
-  if (draw(seed_, picture, "drop") < config_.drop) return Fate::dropped;
-  if (draw(seed_, picture, "freeze") < config_.freeze) return Fate::frozen;
-  if (draw(seed_, picture, "black") < config_.black) return Fate::black;
-  return Fate::fine;
+Imperfections::FrameFault Imperfections::frame_fault(int64_t frame) const {
+  if (draw(seed_, frame, "drop") < config_.drop) return FrameFault::dropped;
+  if (draw(seed_, frame, "freeze") < config_.freeze) return FrameFault::frozen;
+  if (draw(seed_, frame, "black") < config_.black) return FrameFault::black;
+  return FrameFault::none;
 }
 
-void Imperfections::spoil(int64_t picture, cv::Mat& image) {
+void Imperfections::apply(int64_t frame, cv::Mat& image) {
   const bool noisy = config_.full_well > 0.0 || config_.read_noise > 0.0;
   const bool exposed = config_.exposure_stops != 0.0 || config_.auto_exposure_s > 0.0;
   if (image.depth() != CV_8U || (!noisy && !exposed && config_.vignetting <= 0.0)) return;
@@ -45,7 +45,7 @@ void Imperfections::spoil(int64_t picture, cv::Mat& image) {
     levels_.convertTo(sigma_, CV_32F, per_level, config_.read_noise * config_.read_noise);
     cv::sqrt(sigma_, sigma_);
     noise_.create(levels_.size(), levels_.type());
-    cv::RNG random(stream_seed(seed_ + static_cast<uint64_t>(picture), "noise"));
+    cv::RNG random(stream_seed(seed_ + static_cast<uint64_t>(frame), "noise"));
     random.fill(noise_, cv::RNG::NORMAL, 0.0, 1.0);
     cv::multiply(noise_, sigma_, noise_);
     levels_ += noise_;
@@ -74,12 +74,12 @@ void Imperfections::expose_automatically(const cv::Mat& levels) {
   const cv::Scalar sums = cv::mean(levels);
   double mean = 0.0;
   for (int channel = 0; channel < levels.channels(); ++channel) mean += sums[channel] / levels.channels();
-  constexpr double kDarkest = 1.0;  // level; a black picture asks for no more than this
+  constexpr double kDarkest = 1.0;  // level; a black image asks for no more than this
   const double wanted = 0.5 * kWhite / std::max(kDarkest, mean);
   gain_ *= std::pow(wanted / gain_, 1.0 - std::exp(-period_s_ / config_.auto_exposure_s));
 }
 
-void blacken(cv::Mat& image) {
+void blank(cv::Mat& image) {
   const bool whole_numbers = image.depth() < CV_32F;
   image.setTo(whole_numbers ? cv::Scalar::all(0) : cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
 }

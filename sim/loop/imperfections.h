@@ -7,20 +7,20 @@
 
 namespace hedgehop::sim {
 
-/// Spoils one camera's pictures as its config asks. What becomes of a picture hangs on its number and on the camera's
-/// seed alone (automatic exposure aside, which follows the pictures before it).
+/// Spoils one camera's images as its config asks. What becomes of an image hangs on its number and on the camera's
+/// seed alone (automatic exposure aside, which follows the images before it).
 class Imperfections {
  public:
-  /// @param period_s  between pictures, > 0. @param seed  of the camera's own stream.
+  /// @param period_s  between images, > 0. @param seed  of the camera's own stream.
   Imperfections(const ImperfectionsConfig& config, double period_s, uint64_t seed);
 
-  /// What is delivered instead of a picture.
-  enum class Fate { fine, dropped, frozen, black };
-  Fate fate(int64_t picture) const;
+  /// What is delivered instead of a frame.
+  enum class FrameFault { none, dropped, frozen, black };
+  FrameFault frame_fault(int64_t frame) const;
 
   /// Vignetting, exposure, photon and read noise, in this order, as light, lens and sensor have it; grey levels are
-  /// taken as proportional to light. Pictures of 8 bits only: others are left as they are. @param image  CV_8U.
-  void spoil(int64_t picture, cv::Mat& image);
+  /// taken as proportional to light. Images of 8 bits only: others are left as they are. @param image  CV_8U.
+  void apply(int64_t frame, cv::Mat& image);
 
  private:
   const cv::Mat& brightness(const cv::Mat& levels);
@@ -34,7 +34,7 @@ class Imperfections {
   cv::Mat levels_, noise_, sigma_;  ///< CV_32F
 };
 
-/// Makes a picture what a dead sensor gives: 0 in 8 bits, NaN (unknown) in floats.
-void blacken(cv::Mat& image);
+/// Makes an image what a dead sensor gives: 0 in 8 bits, NaN (unknown) in floats.
+void blank(cv::Mat& image);
 
 }  // namespace hedgehop::sim

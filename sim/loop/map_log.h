@@ -1,7 +1,7 @@
 #pragma once
 
 #include "avoidance/module.h"
-#include "sim/verdict/map_record.h"
+#include "sim/flight/map_record.h"
 #include "sim/verdict/map_score.h"
 
 namespace hedgehop::sim {

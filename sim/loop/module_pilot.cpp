@@ -16,13 +16,13 @@ ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& 
       module_(make_module(scenario.avoidance)),
       route_(scenario) {
   int64_t slowest = 0;
-  const auto* highrise = std::get_if<scenes::HighriseConfig>(&scenario.scene);
+  const auto* highrise = std::get_if<scenes::worlds::HighriseConfig>(&scenario.scene);
   for (const avoidance::CameraNeed& need : module_->needs().cameras) {
     module_cameras_.push_back(cameras_.index(need.role));
     slowest = std::max(slowest, cameras_.period_ticks(module_cameras_.back()));
     if (need.true_corners) {
       if (!highrise) throw InputError("avoidance: true corners are known of scene 'highrise' alone");
-      corners_.emplace(scenes::highrise_corners(*highrise), stream_seed(scenario.seed, "corners"));
+      corners_.emplace(scenes::worlds::highrise_corners(*highrise), stream_seed(scenario.seed, "corners"));
     }
   }
   // A module without cameras decides as often as the rig's fastest camera, so that a control compares like with like.
@@ -34,9 +34,9 @@ ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& 
       scenario.command_latency_s ? ticks_.ticks(*scenario.command_latency_s) : std::max(slowest, decision_period_);
 }
 
-void ModulePilot::reset(double vehicle_radius_m, const dynamics::Setpoint& hold) {
+void ModulePilot::reset(double vehicle_radius_m, const dynamics::control::Setpoint& hold) {
   setpoint_ = hold;
-  const dynamics::AutopilotConfig& limits = scenario_.avionics.autopilot;
+  const dynamics::control::AutopilotConfig& limits = scenario_.avionics.autopilot;
   module_->reset({{cameras_.mounted().begin(), cameras_.mounted().end()},
                   {limits.speed_limit_mps, limits.acceleration_limit_mps2, vehicle_radius_m},
                   stream_seed(scenario_.seed, "module")});
@@ -71,7 +71,7 @@ avoidance::Decision ModulePilot::decide(int64_t tick, const avoidance::Navigatio
   return decision;
 }
 
-const dynamics::Setpoint& ModulePilot::setpoint(int64_t tick) {
+const dynamics::control::Setpoint& ModulePilot::setpoint(int64_t tick) {
   while (!pending_.empty() && pending_.front().tick <= tick) {
     setpoint_ = to_setpoint(pending_.front().command);
     pending_.pop_front();

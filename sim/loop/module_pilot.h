@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "avoidance/module.h"
-#include "dynamics/setpoint.h"
+#include "dynamics/control/setpoint.h"
 #include "sim/loop/cameras.h"
 #include "sim/loop/route.h"
 #include "sim/loop/ticks.h"
@@ -24,7 +24,7 @@ class ModulePilot {
 
   /// Starts a flight. @param vehicle_radius_m  of the vertical cylinder that holds the vehicle. @param hold  in effect
   /// until the first command is.
-  void reset(double vehicle_radius_m, const dynamics::Setpoint& hold);
+  void reset(double vehicle_radius_m, const dynamics::control::Setpoint& hold);
 
   /// Whether one of its cameras exposes on this tick.
   bool looks(int64_t tick) const;
@@ -37,7 +37,7 @@ class ModulePilot {
   avoidance::Decision decide(int64_t tick, const avoidance::NavigationState& navigation);
 
   /// What the autopilot holds on this tick: the last command whose latency is over. @param tick  rising.
-  const dynamics::Setpoint& setpoint(int64_t tick);
+  const dynamics::control::Setpoint& setpoint(int64_t tick);
 
   const avoidance::Module& module() const { return *module_; }
   const Route& route() const { return route_; }
@@ -63,7 +63,7 @@ class ModulePilot {
   Route route_;
   std::vector<avoidance::CameraFrame> seen_;  ///< what the module is shown this tick
   std::deque<PendingCommand> pending_;
-  dynamics::Setpoint setpoint_;
+  dynamics::control::Setpoint setpoint_;
 };
 
 }  // namespace hedgehop::sim

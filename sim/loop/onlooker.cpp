@@ -7,7 +7,7 @@ namespace hedgehop::sim {
 
 Onlooker::Onlooker(FlightWatcher* watcher, const Ticks& ticks, Cameras& cameras, const Aircraft& aircraft)
     : watcher_(watcher), ticks_(ticks), cameras_(cameras), aircraft_(aircraft) {
-  if (watcher_ && watcher_->picture_rate_hz() > 0.0) picture_period_ = ticks_.period(watcher_->picture_rate_hz());
+  if (watcher_ && watcher_->image_rate_hz() > 0.0) image_period_ = ticks_.period(watcher_->image_rate_hz());
 }
 
 void Onlooker::hand_over_sensors(int64_t tick) {
@@ -23,7 +23,7 @@ void Onlooker::hand_over_sensors(int64_t tick) {
   if (frames.empty() && !avionics.imu()) return;
   const auto depth = [&](std::string_view role) {
     const Cameras::Instant now{ticks_.t_ns(tick), aircraft_.motion()};
-    return cameras_.picture(cameras_.index(role), Channel::depth, now, now);
+    return cameras_.image(cameras_.index(role), Channel::depth, now, now);
   };
   watcher_->on_sensors({ticks_.t_ns(tick), aircraft_.body(), avionics.imu(), avionics.imu_bias(), frames, depth});
 }
@@ -31,13 +31,13 @@ void Onlooker::hand_over_sensors(int64_t tick) {
 void Onlooker::show(int64_t tick, const avoidance::Module& module, double duration_s,
                     std::optional<double> goal_distance_m) {
   if (!watcher_) return;
-  if (picture_period_ > 0 && tick % picture_period_ == 0) {
+  if (image_period_ > 0 && tick % image_period_ == 0) {
     const cv::Mat annotated = module.annotate();
     const int64_t t_ns = ticks_.t_ns(tick);
     if (!annotated.empty()) {
-      watcher_->on_pictures(t_ns, {}, annotated);
+      watcher_->on_images(t_ns, {}, annotated);
     } else {
-      watcher_->on_pictures(t_ns, cameras_.snapshot(t_ns, aircraft_.X_WB()), annotated);
+      watcher_->on_images(t_ns, cameras_.snapshot(t_ns, aircraft_.X_WB()), annotated);
     }
   }
   if (tick % ticks_.ticks(1.0) == 0) {

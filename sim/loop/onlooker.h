@@ -19,7 +19,7 @@ class Onlooker {
 
   /// What all sensors say, if it wants that.
   void hand_over_sensors(int64_t tick);
-  /// Pictures and progress, where they are due.
+  /// Images and progress, where they are due.
   /// @param goal_distance_m  horizontal. @param duration_s  of the longest flight.
   void show(int64_t tick, const avoidance::Module& module, double duration_s, std::optional<double> goal_distance_m);
 
@@ -28,7 +28,7 @@ class Onlooker {
   const Ticks& ticks_;
   Cameras& cameras_;
   const Aircraft& aircraft_;
-  int64_t picture_period_ = 0;
+  int64_t image_period_ = 0;
 };
 
 }  // namespace hedgehop::sim

@@ -7,7 +7,7 @@
 namespace hedgehop::sim {
 
 /// A module's command as the autopilot takes it.
-dynamics::Setpoint to_setpoint(const avoidance::Command& command);
+dynamics::control::Setpoint to_setpoint(const avoidance::Command& command);
 /// The navigation filter's estimate as a module sees it.
 avoidance::NavigationState to_navigation_state(const dynamics::Avionics& avionics);
 

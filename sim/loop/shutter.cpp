@@ -48,8 +48,8 @@ void Shutter::expose_strip(const BodyMotion& body, double end_s, const cv::Range
   sum_.convertTo(strip_, CV_8U, 1.0 / config_.shutter_samples);
 }
 
-vision::Camera cut(const vision::Camera& camera, const cv::Range& rows) {
-  vision::Camera part = camera;
+vision::camera::Camera cut(const vision::camera::Camera& camera, const cv::Range& rows) {
+  vision::camera::Camera part = camera;
   part.height_px = rows.size();
   std::visit(
       [&](auto& lens) {

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "sim/scenario/imperfections.h"
-#include "vision/camera.h"
+#include "vision/camera/camera.h"
 
 namespace hedgehop::sim {
 
@@ -19,17 +19,17 @@ struct BodyMotion {
   Eigen::Isometry3d X_WB_after(double dt_s) const;
 };
 
-/// Draws some rows of a camera's picture, seen `dt_s` after the picture's instant from a body at X_WB. The picture is
+/// Draws some rows of a camera's image, seen `dt_s` after the image's instant from a body at X_WB. The image is
 /// written in place when it fits.
 using DrawRows = std::function<void(const Eigen::Isometry3d& X_WB, double dt_s, const cv::Range& rows, cv::Mat& out)>;
 
-/// Exposes one camera's pictures: the rows one after the other for a rolling shutter, each the mean of several moments
-/// for motion blur, as the config asks. All ends at the picture's instant.
+/// Exposes one camera's images: the rows one after the other for a rolling shutter, each the mean of several moments
+/// for motion blur, as the config asks. All ends at the image's instant.
 class Shutter {
  public:
   explicit Shutter(const ImperfectionsConfig& config) : config_(config) {}
 
-  /// @param rows  of the picture. @param out  the picture, of the type that `draw` gives; pictures that are not of 8
+  /// @param rows  of the image. @param out  the image, of the type that `draw` gives; images that are not of 8
   /// bits are not blurred.
   void expose(const BodyMotion& body, int rows, const DrawRows& draw, cv::Mat& out);
 
@@ -40,7 +40,7 @@ class Shutter {
   cv::Mat strip_, moment_, sum_;
 };
 
-/// The camera that shows some rows of another's picture.
-vision::Camera cut(const vision::Camera& camera, const cv::Range& rows);
+/// The camera that shows some rows of another's image.
+vision::camera::Camera cut(const vision::camera::Camera& camera, const cv::Range& rows);
 
 }  // namespace hedgehop::sim

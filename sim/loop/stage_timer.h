@@ -3,7 +3,7 @@
 #include <chrono>
 #include <vector>
 
-#include "sim/verdict/flight.h"
+#include "sim/flight/flight.h"
 
 namespace hedgehop::sim {
 

@@ -5,9 +5,9 @@
 namespace hedgehop::sim {
 namespace {
 
-/// 8 x 8 patches, as [Garratt2009] sec. 4 has them for the ground camera; 64 px in its picture of 400 x 400.
-vision::ImageInterpolationConfig ground_grid(const vision::PinholeCamera& camera) {
-  vision::ImageInterpolationConfig grid;
+/// 8 x 8 patches, as [Garratt2009] sec. 4 has them for the ground camera; 64 px in its image of 400 x 400.
+vision::flow::ImageInterpolationConfig ground_grid(const vision::camera::PinholeCamera& camera) {
+  vision::flow::ImageInterpolationConfig grid;
   const int side_px = std::min(camera.width_px, camera.height_px);
   grid.rows = grid.cols = 8;
   grid.patch_px = std::max(16, side_px * 64 / 400);
@@ -24,8 +24,8 @@ Velocimeter::Velocimeter(size_t camera, const Cameras& cameras)
       flow_(ground_grid(pinhole_), pinhole_.width_px, pinhole_.height_px) {}
 
 void Velocimeter::update(const avoidance::CameraFrame& frame, dynamics::Avionics& avionics) {
-  const vision::FlowField& field = flow_.update(frame.image);
-  const dynamics::NavigationEstimate& navigation = avionics.navigation();
+  const vision::flow::FlowField& field = flow_.update(frame.image);
+  const dynamics::control::NavigationEstimate& navigation = avionics.navigation();
   const std::optional<Belief> last = last_;
   last_ = Belief{frame.t_ns, navigation.q_WB_est, navigation.q_WB_gyro, navigation.height_above_ground_m};
   if (!last) return;
@@ -33,9 +33,9 @@ void Velocimeter::update(const avoidance::CameraFrame& frame, dynamics::Avionics
   const double dt_s = 1e-9 * static_cast<double>(frame.t_ns - last->t_ns);
   // By the gyros alone: a correction that were taken for a turn would feed the next velocity, and so itself.
   const Eigen::AngleAxisd turn(last->q_WB_gyro.conjugate() * navigation.q_WB_gyro);
-  const vision::FlowMotion motion{last->q_WB_est, turn.axis() * (turn.angle() / dt_s), last->height_above_ground_m,
-                                  dt_s};
-  if (const auto velocity = vision::flow_velocity(field, pinhole_, X_BC_, motion)) {
+  const vision::flow::FlowMotion motion{last->q_WB_est, turn.axis() * (turn.angle() / dt_s),
+                                        last->height_above_ground_m, dt_s};
+  if (const auto velocity = vision::flow::flow_velocity(field, pinhole_, X_BC_, motion)) {
     avionics.correct_velocity(velocity->v_WB_B_xy_meas, velocity->sigma_mps);
   }
 }

@@ -4,8 +4,8 @@
 
 #include "dynamics/avionics.h"
 #include "sim/loop/cameras.h"
-#include "vision/flow_velocity.h"
-#include "vision/image_interpolation_flow.h"
+#include "vision/flow/flow_velocity.h"
+#include "vision/flow/image_interpolation_flow.h"
 
 namespace hedgehop::sim {
 
@@ -31,9 +31,9 @@ class Velocimeter {
   };
 
   size_t camera_;
-  vision::PinholeCamera pinhole_;
+  vision::camera::PinholeCamera pinhole_;
   Eigen::Isometry3d X_BC_;
-  vision::ImageInterpolationFlow flow_;
+  vision::flow::ImageInterpolationFlow flow_;
   std::optional<Belief> last_;
 };
 

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "avoidance/module.h"
-#include "dynamics/imu.h"
 #include "dynamics/rigid_body.h"
+#include "dynamics/sensors/imu.h"
 
 namespace hedgehop::sim {
 
@@ -17,9 +17,9 @@ namespace hedgehop::sim {
 struct SensorTick {
   int64_t t_ns = 0;
   dynamics::RigidBodyState body_true;
-  std::optional<dynamics::ImuReading> imu;  ///< none on a tick without a reading
-  dynamics::ImuReading imu_bias;            ///< what it is off by, noise and misalignment aside
-  /// Of all cameras that expose on this tick, lost pictures left out; good until the next tick.
+  std::optional<dynamics::sensors::ImuReading> imu;  ///< none on a tick without a reading
+  dynamics::sensors::ImuReading imu_bias;            ///< what it is off by, noise and misalignment aside
+  /// Of all cameras that expose on this tick, lost images left out; good until the next tick.
   std::span<const avoidance::CameraFrame> frames;
   /// What a camera sees on this tick as Channel::depth, without imperfections.
   std::function<cv::Mat(std::string_view role)> depth;
@@ -30,11 +30,11 @@ class FlightWatcher {
  public:
   virtual ~FlightWatcher() = default;
 
-  /// Pictures a second it wants, 0 for none.
-  virtual double picture_rate_hz() const { return 0.0; }
-  /// The module's annotated picture (CV_8UC3, RGB), or, where it draws none, all cameras at one instant.
-  virtual void on_pictures(int64_t /*t_ns*/, std::span<const avoidance::CameraFrame> /*frames*/,
-                           const cv::Mat& /*annotated*/) {}
+  /// Images a second it wants, 0 for none.
+  virtual double image_rate_hz() const { return 0.0; }
+  /// The module's annotated image (CV_8UC3, RGB), or, where it draws none, all cameras at one instant.
+  virtual void on_images(int64_t /*t_ns*/, std::span<const avoidance::CameraFrame> /*frames*/,
+                         const cv::Mat& /*annotated*/) {}
   /// Whether it wants on_sensors(). Then every camera of the rig exposes at its rate, whoever else needs it.
   virtual bool wants_sensors() const { return false; }
   /// On every tick on which the IMU or a camera measured something.

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "avoidance/module.h"
-#include "sim/scenario/plugin.h"
+#include "sim/scenario/plugin_config.h"
 
 namespace hedgehop::sim {
 

@@ -16,9 +16,9 @@ extern "C" {
 namespace hedgehop::sim {
 namespace {
 
-/// Bits per pixel and picture that keep rendered scenes legible; 1000 x 700 at 25 Hz then takes 1.4 Mbit/s.
+/// Bits per pixel and image that keep rendered scenes legible; 1000 x 700 at 25 Hz then takes 1.4 Mbit/s.
 constexpr double kBitsPerPixel = 0.08;
-/// A whole picture at least this often, so that seeking is quick.
+/// A whole image at least this often, so that seeking is quick.
 constexpr double kKeyframePeriod_s = 2.0;
 
 template <class T, void (*Free)(T**)>
@@ -52,7 +52,7 @@ CodecContext make_encoder(double rate_hz, cv::Size size_px) {
   encoder->pix_fmt = AV_PIX_FMT_YUV420P;
   encoder->color_range = AVCOL_RANGE_MPEG;
   encoder->colorspace = AVCOL_SPC_SMPTE170M;
-  // Time in microticks of a picture, so that any rate is exact enough.
+  // Time in microticks of an image, so that any rate is exact enough.
   encoder->framerate = av_d2q(rate_hz, 1 << 20);
   encoder->time_base = av_inv_q(encoder->framerate);
   encoder->gop_size = std::max(1, static_cast<int>(kKeyframePeriod_s * rate_hz));
@@ -86,20 +86,20 @@ class Film::Impl {
   void add(const cv::Mat& rgb) {
     if (format_ == nullptr) throw std::runtime_error(fmt::format("film {} is closed", file_.string()));
     if (rgb.type() != CV_8UC3 || (rgb.cols & ~1) != size_px_.width || (rgb.rows & ~1) != size_px_.height) {
-      throw std::invalid_argument(fmt::format("film {}: picture must be RGB of {} x {} px, is {} x {}", file_.string(),
+      throw std::invalid_argument(fmt::format("film {}: image must be RGB of {} x {} px, is {} x {}", file_.string(),
                                               size_px_.width, size_px_.height, rgb.cols, rgb.rows));
     }
     cv::cvtColor(rgb(cv::Rect({0, 0}, size_px_)), yuv_, cv::COLOR_RGB2YUV_I420);
     guarded([&] {
       point_frame_at_planes();
-      frame_->pts = pictures_++;
+      frame_->pts = images_++;
       encode(frame_.get());
     });
   }
 
   void close() {
     if (format_ == nullptr) return;
-    if (pictures_ == 0) return give_up();
+    if (images_ == 0) return give_up();
     guarded([&] {
       encode(nullptr);
       check(av_write_trailer(format_.get()));
@@ -129,7 +129,7 @@ class Film::Impl {
     frame_->height = size_px_.height;
   }
 
-  /// The encoder takes what it keeps of a picture before it returns, so the planes of `yuv_` serve without a copy.
+  /// The encoder takes what it keeps of an image before it returns, so the planes of `yuv_` serve without a copy.
   void point_frame_at_planes() {
     const int luma = size_px_.area(), chroma = luma / 4;
     frame_->data[0] = yuv_.data;
@@ -180,7 +180,7 @@ class Film::Impl {
   Packet packet_;
   Frame frame_;
   cv::Mat yuv_;
-  int64_t pictures_ = 0;
+  int64_t images_ = 0;
 };
 
 Film::Film(const std::filesystem::path& file_webm, double rate_hz, cv::Size size_px)

@@ -53,18 +53,18 @@ cv::Mat contact_sheet(std::span<const avoidance::CameraFrame> frames) {
 FilmWatcher::FilmWatcher(const FilmConfig& config, std::filesystem::path file_webm)
     : config_(config), file_(std::move(file_webm)) {}
 
-void FilmWatcher::on_pictures(int64_t /*t_ns*/, std::span<const avoidance::CameraFrame> frames,
-                              const cv::Mat& annotated) {
+void FilmWatcher::on_images(int64_t /*t_ns*/, std::span<const avoidance::CameraFrame> frames,
+                            const cv::Mat& annotated) {
   const cv::Mat source = annotated.empty() ? contact_sheet(frames) : annotated;
   if (source.empty() || !fault_.empty()) return;
   try {
     const double scale = static_cast<double>(config_.width_px) / source.cols;
-    cv::resize(source, picture_, {config_.width_px, static_cast<int>(source.rows * scale)}, 0, 0, cv::INTER_AREA);
+    cv::resize(source, image_, {config_.width_px, static_cast<int>(source.rows * scale)}, 0, 0, cv::INTER_AREA);
     if (!film_) {
       std::filesystem::create_directories(file_.parent_path());
-      film_.emplace(file_, config_.rate_hz, picture_.size());
+      film_.emplace(file_, config_.rate_hz, image_.size());
     }
-    film_->add(picture_);
+    film_->add(image_);
   } catch (const std::exception& error) {
     fault_ = error.what();
   }

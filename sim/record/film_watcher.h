@@ -10,14 +10,14 @@
 
 namespace hedgehop::sim {
 
-/// Films a flight: the module's annotated pictures, or, where it draws none, all cameras side by side.
+/// Films a flight: the module's annotated images, or, where it draws none, all cameras side by side.
 /// What goes wrong with the film is kept for fault() and never stops the flight.
 class FilmWatcher : public FlightWatcher {
  public:
   FilmWatcher(const FilmConfig& config, std::filesystem::path file_webm);
 
-  double picture_rate_hz() const override { return config_.enabled ? config_.rate_hz : 0.0; }
-  void on_pictures(int64_t t_ns, std::span<const avoidance::CameraFrame> frames, const cv::Mat& annotated) override;
+  double image_rate_hz() const override { return config_.enabled ? config_.rate_hz : 0.0; }
+  void on_images(int64_t t_ns, std::span<const avoidance::CameraFrame> frames, const cv::Mat& annotated) override;
   void close();
 
   /// Why there is no film, or a shorter one; empty when nothing went wrong.
@@ -27,7 +27,7 @@ class FilmWatcher : public FlightWatcher {
   FilmConfig config_;
   std::filesystem::path file_;
   std::optional<Film> film_;
-  cv::Mat picture_;
+  cv::Mat image_;
   std::string fault_;
 };
 

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "sim/verdict/map_record.h"
+#include "sim/flight/map_record.h"
 
 namespace hedgehop::sim {
 

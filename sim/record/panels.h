@@ -13,7 +13,7 @@ namespace hedgehop::sim {
 /// One line of a time plot.
 struct Series {
   std::string label;
-  std::string role;  ///< decides its look: "true", "est", "cmd", a camera's name, or "" for the next free colour
+  std::string role;  ///< decides its look: "true", "est", "cmd", a camera's name, or "" for the next free color
   std::vector<double> values;
 };
 

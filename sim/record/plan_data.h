@@ -6,9 +6,9 @@
 
 namespace hedgehop::sim {
 
-/// A number short enough for a picture, five figures; null when it is not finite.
+/// A number short enough for an image, five figures; null when it is not finite.
 nlohmann::ordered_json brief(double value);
-/// A place or an instant, to the millimetre or millisecond; null when it is not finite.
+/// A place or an instant, to the millimeter or millisecond; null when it is not finite.
 nlohmann::ordered_json milli(double value);
 
 /// What MapView (web/src/map.js) draws: `bounds` [north, north, east, east] or [], `footprints`, `movers`; places in m.

@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kMoverStep_s = 0.1;  // a mover goes straight between; faster turns than this are not drawn
 
-/// Four decimals: a tenth of a millimetre, or of a thousandth of a turn's half.
+/// Four decimals: a tenth of a millimeter, or of a thousandth of a turn's half.
 Json fine(double value) { return std::round(value * 1e4) / 1e4; }
 
 void append(Json& list, const Eigen::Vector3d& v) {
@@ -29,7 +29,7 @@ Json body(const Eigen::Isometry3d& X_PS, const Eigen::Vector3d& half_extents_m) 
   return list;
 }
 
-Json mesh(const Eigen::Isometry3d& X_PS, const scenes::Polyhedron& polyhedron) {
+Json mesh(const Eigen::Isometry3d& X_PS, const scenes::mesh::Polyhedron& polyhedron) {
   Json corners = Json::array(), faces = Json::array();
   for (const Eigen::Vector3d& p_S : polyhedron.corners) append(corners, X_PS * p_S);
   for (const auto& face : polyhedron.faces) {

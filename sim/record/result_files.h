@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "sim/verdict/flight.h"
+#include "sim/flight/flight.h"
 
 namespace hedgehop::sim {
 

@@ -2,8 +2,8 @@
 
 namespace hedgehop::sim {
 
-Frustum::Frustum(const vision::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, double near_m) {
-  constexpr double kEdgePx = 1.5;  // half a pixel to the picture's edge, one to spare for the rasteriser's grid
+Frustum::Frustum(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, double near_m) {
+  constexpr double kEdgePx = 1.5;  // half a pixel to the image's edge, one to spare for the rasterizer's grid
   const double left = camera.center_u_px + kEdgePx, right = camera.width_px - 1 + kEdgePx - camera.center_u_px;
   const double above = camera.center_v_px + kEdgePx, below = camera.height_px - 1 + kEdgePx - camera.center_v_px;
   const std::array<Eigen::Vector3d, 5> normals_C = {{{camera.focal_x_px, 0.0, left},

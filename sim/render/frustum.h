@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "vision/pinhole_camera.h"
+#include "vision/camera/pinhole_camera.h"
 
 namespace hedgehop::sim {
 
@@ -14,9 +14,9 @@ inline constexpr double kNearPlaneM = 0.05;
 class Frustum {
  public:
   /// @param X_WC    pose of the camera. @param near_m  z in C of the near plane.
-  Frustum(const vision::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, double near_m);
+  Frustum(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, double near_m);
 
-  /// False only when all of the box lies outside; sides are a pixel wider than the picture.
+  /// False only when all of the box lies outside; sides are a pixel wider than the image.
   bool may_see(const Eigen::AlignedBox3f& box_W) const;
 
  private:

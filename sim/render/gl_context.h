@@ -8,8 +8,8 @@ namespace hedgehop::sim {
 
 /// Who gives an OpenGL context without a display.
 enum class ContextKind {
-  osmesa,  ///< Mesa's software rasteriser behind OSMesa
-  egl,     ///< EGL without a surface: a GPU where there is one, else the same rasteriser
+  osmesa,  ///< Mesa's software rasterizer behind OSMesa
+  egl,     ///< EGL without a surface: a GPU where there is one, else the same rasterizer
 };
 
 /// An OpenGL 3.3 core context that needs no display. Destroying it frees every object made in it.
@@ -29,7 +29,7 @@ class GlContext {
 };
 
 /// Throws std::runtime_error with the cause when there is no such context or an entry point is missing. Mesa's
-/// rasteriser threads are switched off unless the environment has LP_NUM_THREADS.
+/// rasterizer threads are switched off unless the environment has LP_NUM_THREADS.
 std::unique_ptr<GlContext> make_context(ContextKind kind);
 
 }  // namespace hedgehop::sim

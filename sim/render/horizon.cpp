@@ -12,7 +12,7 @@ namespace {
 constexpr int kBins = 2048;  // of at most 0.22 deg; the four cardinal directions are edges of bins
 constexpr int kBinMask = kBins - 1;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// The rasteriser's 1/256 pixel and the float geometry are far below these.
+// The rasterizer's 1/256 pixel and the float geometry are far below these.
 constexpr double kInsetM = 0.02;    // a hiding box counts as this much smaller in plan
 constexpr double kSlackRad = 1e-3;  // and this much lower
 constexpr double kTooNearM = 1.0;   // the near plane may cut a nearer box open
@@ -79,7 +79,7 @@ void Horizon::look(const std::array<Eigen::Vector3d, 4>& corner_rays_W) {
     directions[i] = corner_rays_W[i].head<2>();
     middle += directions[i];
   }
-  // A picture that shows the zenith or the nadir shows all azimuths: its corners do not fit into half a turn.
+  // An image that shows the zenith or the nadir shows all azimuths: its corners do not fit into half a turn.
   const Span azimuths = span(middle, directions);
   if (!(azimuths.last - azimuths.first < kBins / 2)) return;
   look_first_ = static_cast<int>(std::floor(azimuths.first));

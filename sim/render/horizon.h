@@ -15,7 +15,7 @@ class Horizon {
   /// Forgets all boxes, and looks all around. @param eye_W  m.
   void reset(const Eigen::Vector3d& eye_W);
 
-  /// Looks only at the azimuths that a picture shows. @param corner_rays_W  through its corners, of any length.
+  /// Looks only at the azimuths that an image shows. @param corner_rays_W  through its corners, of any length.
   void look(const std::array<Eigen::Vector3d, 4>& corner_rays_W);
 
   /// Adds a box that is solid from its top down to the ground. Ignored with the eye above, inside, or nearer than 1 m.

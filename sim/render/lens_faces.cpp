@@ -36,7 +36,7 @@ struct Sighting {
   double length = 1.0;  ///< of the ray to the plane
 };
 
-std::vector<Sighting> look(const vision::Camera& camera) {
+std::vector<Sighting> look(const vision::camera::Camera& camera) {
   std::vector<Eigen::Vector3d> rays;
   double widest = 1.0;  // cosine of the angle off the axis
   for (int row = 0; row < camera.height_px; ++row) {
@@ -46,9 +46,9 @@ std::vector<Sighting> look(const vision::Camera& camera) {
       if (ray) widest = std::min(widest, ray->z());
     }
   }
-  // One face is enough where a perspective picture is not stretched too much, and for lenses that are perspective.
+  // One face is enough where a perspective image is not stretched too much, and for lenses that are perspective.
   constexpr double kOneFace_rad = 50.0 * std::numbers::pi / 180.0;
-  const bool one = std::holds_alternative<vision::PinholeLens>(camera.lens) || widest > std::cos(kOneFace_rad);
+  const bool one = std::holds_alternative<vision::camera::PinholeLens>(camera.lens) || widest > std::cos(kOneFace_rad);
   std::vector<Sighting> sightings(rays.size());
   for (size_t i = 0; i < rays.size(); ++i) {
     if (!rays[i].allFinite()) continue;
@@ -63,9 +63,9 @@ std::vector<Sighting> look(const vision::Camera& camera) {
   return sightings;
 }
 
-/// Focal length at which the faces have as many pixels as the picture takes from them: neither blurred nor coarser on
-/// the whole. Found from the area that each pixel and its neighbours span on a side.
-double focal_px(const vision::Camera& camera, const std::vector<Sighting>& sightings, int side) {
+/// Focal length at which the faces have as many pixels as the image takes from them: neither blurred nor coarser on
+/// the whole. Found from the area that each pixel and its neighbors span on a side.
+double focal_px(const vision::camera::Camera& camera, const std::vector<Sighting>& sightings, int side) {
   double area = 0.0, count = 0.0;
   for (int row = 0; row + 1 < camera.height_px; ++row) {
     for (int col = 0; col + 1 < camera.width_px; ++col) {
@@ -83,8 +83,8 @@ double focal_px(const vision::Camera& camera, const std::vector<Sighting>& sight
   return area > 0.0 ? std::sqrt(count / area) : kAFewPixels;
 }
 
-/// The face of a side, as large as its part of the picture; nothing when it has none.
-std::optional<LensFaces::Face> make_face(const vision::Camera& camera, const std::vector<Sighting>& sightings,
+/// The face of a side, as large as its part of the image; nothing when it has none.
+std::optional<LensFaces::Face> make_face(const vision::camera::Camera& camera, const std::vector<Sighting>& sightings,
                                          int side) {
   Eigen::AlignedBox2d seen;
   for (const Sighting& sighting : sightings) {
@@ -104,9 +104,11 @@ std::optional<LensFaces::Face> make_face(const vision::Camera& camera, const std
 
 }  // namespace
 
-bool depth_is_z(const vision::Camera& camera) { return std::holds_alternative<vision::PinholeLens>(camera.lens); }
+bool depth_is_z(const vision::camera::Camera& camera) {
+  return std::holds_alternative<vision::camera::PinholeLens>(camera.lens);
+}
 
-LensFaces make_lens_faces(const vision::Camera& camera) {
+LensFaces make_lens_faces(const vision::camera::Camera& camera) {
   const std::vector<Sighting> sightings = look(camera);
   LensFaces faces;
   faces.camera = camera;

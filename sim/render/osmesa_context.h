@@ -10,7 +10,7 @@ struct osmesa_context;
 
 namespace hedgehop::sim {
 
-/// Mesa's software rasteriser behind OSMesa.
+/// Mesa's software rasterizer behind OSMesa.
 class OsmesaContext final : public GlContext {
  public:
   /// Throws std::runtime_error with the cause when there is no such context or an entry point is missing.

@@ -85,7 +85,7 @@ RenderTargets::Target RenderTargets::make(const GlFunctions& gl, const Shape& sh
   GLint largest = 0;
   gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
   if (std::max(shape.width_px, shape.height_px) > largest) {
-    throw std::invalid_argument(fmt::format("a picture of {} x {} px is larger than this OpenGL can draw ({} px)",
+    throw std::invalid_argument(fmt::format("an image of {} x {} px is larger than this OpenGL can draw ({} px)",
                                             shape.width_px, shape.height_px, largest));
   }
   require_samples(gl, shape.samples);
@@ -113,7 +113,7 @@ void RenderTargets::read(const GlFunctions& gl, cv::Mat& out) {
   const Format format = format_of(raster);
   out.create(height_px, width_px, format.mat_type);
   if (out.step % out.elemSize() != 0) {
-    throw std::invalid_argument("the rows of a picture to draw into must be a whole number of pixels apart");
+    throw std::invalid_argument("the rows of an image to draw into must be a whole number of pixels apart");
   }
   if (samples > 1) {
     gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, target.read);

@@ -7,7 +7,7 @@
 
 namespace hedgehop::sim {
 
-/// What OpenGL puts into a pixel of a pinhole's picture.
+/// What OpenGL puts into a pixel of a pinhole's image.
 enum class Raster {
   grey,    ///< CV_8UC1
   color,   ///< CV_8UC3, RGB
@@ -16,7 +16,7 @@ enum class Raster {
   labels,  ///< CV_32SC1
 };
 
-/// OpenCV's type of a picture that is drawn so.
+/// OpenCV's type of an image that is drawn so.
 int type_of(Raster raster);
 
 /// Throws std::invalid_argument unless the context draws exactly so many samples a pixel.
@@ -30,7 +30,7 @@ class RenderTargets {
   struct Shape {
     int width_px = 0, height_px = 0;
     Raster raster = Raster::grey;
-    int samples = 1;  ///< a pixel; more than one for grey and colour only
+    int samples = 1;  ///< a pixel; more than one for grey and color only
     bool operator==(const Shape&) const = default;
   };
 
@@ -38,9 +38,9 @@ class RenderTargets {
   /// std::invalid_argument when it is too large or require_samples() refuses.
   void bind(const GlFunctions& gl, const Shape& shape);
 
-  /// Copies the bound framebuffer, the mean of a pixel's samples, into a picture of its own size and type, created
+  /// Copies the bound framebuffer, the mean of a pixel's samples, into an image of its own size and type, created
   /// when it does not fit.
-  /// Throws std::invalid_argument when the picture's rows are not a whole number of pixels apart.
+  /// Throws std::invalid_argument when the image's rows are not a whole number of pixels apart.
   void read(const GlFunctions& gl, cv::Mat& out);
 
  private:

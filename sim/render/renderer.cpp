@@ -14,7 +14,7 @@ namespace hedgehop::sim {
 
 namespace {
 
-/// What an ideal pinhole's picture is drawn as; flow is made of others.
+/// What an ideal pinhole's image is drawn as; flow is made of others.
 Raster raster_of(Channel channel) {
   switch (channel) {
     case Channel::grey:
@@ -62,7 +62,7 @@ class Renderer::Impl {
   std::string info() { return painter_.info(); }
 
  private:
-  /// A lens that was planned for, and what its pictures are made in.
+  /// A lens that was planned for, and what its images are made in.
   struct Lens {
     LensFaces faces;
     cv::Mat levels, colors, planes, labels;  ///< sheets
@@ -71,14 +71,14 @@ class Renderer::Impl {
 
   void check(const CameraView& view) {
     if (!view.camera.is_ideal_pinhole() && find_lens(view.camera) != lenses_.end()) return check_pose(view);
-    vision::check(view.camera);
+    vision::camera::check(view.camera);
     check_pose(view);
   }
 
   static void check_pose(const CameraView& view) {
     const bool finite = view.X_WC.matrix().allFinite() && view.next.X_WC.matrix().allFinite();
     if (!finite) throw std::invalid_argument("a camera's pose is not finite");
-    if (!(view.t_s >= 0.0 && view.next.t_s >= 0.0)) throw std::invalid_argument("a picture's time is below 0 s");
+    if (!(view.t_s >= 0.0 && view.next.t_s >= 0.0)) throw std::invalid_argument("an image's time is below 0 s");
   }
 
   void draw(const CameraView& view, Channel channel, cv::Mat& out) {
@@ -128,11 +128,11 @@ class Renderer::Impl {
               {flow_depth_, flow_labels_, view.X_WC, view.next.X_WC, first_mover_label_, moved_W_m_}, out);
   }
 
-  std::deque<Lens>::iterator find_lens(const vision::Camera& camera) {
+  std::deque<Lens>::iterator find_lens(const vision::camera::Camera& camera) {
     return std::ranges::find_if(lenses_, [&](const Lens& lens) { return lens.faces.camera == camera; });
   }
 
-  Lens& lens_of(const vision::Camera& camera) {
+  Lens& lens_of(const vision::camera::Camera& camera) {
     if (const auto known = find_lens(camera); known != lenses_.end()) return *known;
     Lens& lens = lenses_.emplace_back();
     lens.faces.camera = camera;

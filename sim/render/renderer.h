@@ -9,13 +9,13 @@
 #include "sim/render/gl_context.h"
 #include "sim/render/sun_map.h"
 #include "sim/render/visible_chunks.h"
-#include "vision/camera.h"
+#include "vision/camera/camera.h"
 
 namespace hedgehop::sim {
 
-/// What a picture holds. Where a lens shows nothing (outside a fisheye's image circle): 0, and NaN in floats.
+/// What an image holds. Where a lens shows nothing (outside a fisheye's image circle): 0, and NaN in floats.
 enum class Channel {
-  grey,    ///< CV_8UC1, the mean of the colour picture's channels
+  grey,    ///< CV_8UC1, the mean of the color image's channels
   color,   ///< CV_8UC3, RGB
   depth,   ///< CV_32FC1, m; z in C of a pinhole, distorted or not, else the distance along the ray, as z says nothing
            ///< beside the camera and behind; +infinity where nothing but sky is seen
@@ -24,25 +24,25 @@ enum class Channel {
   flow,    ///< CV_32FC2: px right and down that what is seen moves until CameraView::next; sky as if infinitely far
 };
 
-/// One picture to be drawn. C: x right, y down, z forward; pixel (0, 0) is the centre of the top-left pixel.
+/// One image to be drawn. C: x right, y down, z forward; pixel (0, 0) is the center of the top-left pixel.
 struct CameraView {
-  vision::Camera camera;
+  vision::camera::Camera camera;
   Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
   Channel channel = Channel::grey;
   double t_s = 0.0;  ///< time of the scene, for what moves, >= 0
-  /// Pose and time of the picture that Channel::flow leads to.
+  /// Pose and time of the image that Channel::flow leads to.
   struct Next {
     Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
     double t_s = 0.0;
   } next;
-  /// Places in each pixel, 1, 2, 4 or 8, whose mean grey and colour are; the other channels look at the middle alone.
+  /// Places in each pixel, 1, 2, 4 or 8, whose mean grey and color are; the other channels look at the middle alone.
   int samples = 1;
 };
 
 /// Draws a scene off screen, without a display (OpenGL 3.3 core). The scene is copied to the context once. Several
 /// renderers may live in one process; each is used by one thread at a time. Row 0 of a texture lies at v = 0. Equal
-/// views give equal pixels whatever their number. Lenses that bend rays are drawn as pinhole pictures first
-/// (LensFaces), planned when such a camera comes for the first time; after that no picture of a camera and channel seen
+/// views give equal pixels whatever their number. Lenses that bend rays are drawn as pinhole images first
+/// (LensFaces), planned when such a camera comes for the first time; after that no image of a camera and channel seen
 /// before costs an allocation.
 class Renderer {
  public:
@@ -63,7 +63,7 @@ class Renderer {
   /// Throws std::invalid_argument, with what can be had, unless the context draws exactly so many samples a pixel.
   void require_samples(int samples);
 
-  /// What the last picture was made of.
+  /// What the last image was made of.
   struct Drawn {
     size_t stretches = 0;  ///< of the index buffer; those of a face and channel are drawn by one call
     size_t triangles = 0;

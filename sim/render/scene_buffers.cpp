@@ -142,8 +142,8 @@ void upload_meshes(const GlFunctions& gl, const scenes::Scene& scene, SceneBuffe
   attribute(kSurfaceAttribute, 4, offsetof(GpuVertex, uv));
 }
 
-// One array serves grey and colour: llvmpipe filters four 8-bit channels a fifth faster than one (1.7 ms against 2.1 ms
-// for 400 x 400 pixels), and a grey that is the mean of filtered channels stays within a level of the colour picture.
+// One array serves grey and color: llvmpipe filters four 8-bit channels a fifth faster than one (1.7 ms against 2.1 ms
+// for 400 x 400 pixels), and a grey that is the mean of filtered channels stays within a level of the color image.
 GLuint upload_textures(const GlFunctions& gl, const std::vector<cv::Mat>& textures) {
   const int size = textures.empty() ? 1 : textures.front().cols;
   const int layers = std::max(1, static_cast<int>(textures.size()));
@@ -155,9 +155,9 @@ GLuint upload_textures(const GlFunctions& gl, const std::vector<cv::Mat>& textur
                   GL_UNSIGNED_BYTE, nullptr);
   }
   for (int layer = 0; const cv::Mat& texture : textures) {
-    for (int level = 0; const cv::Mat& picture : texture_pyramid(texture)) {
-      gl.TexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, 0, layer, picture.cols, picture.rows, 1, GL_RGBA,
-                       GL_UNSIGNED_BYTE, picture.data);
+    for (int level = 0; const cv::Mat& image : texture_pyramid(texture)) {
+      gl.TexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, 0, layer, image.cols, image.rows, 1, GL_RGBA, GL_UNSIGNED_BYTE,
+                       image.data);
       ++level;
     }
     ++layer;

@@ -9,8 +9,8 @@ namespace hedgehop::sim {
 
 namespace {
 
-/// Pixel to normalized device coordinates, y not flipped: (scale x, scale y, centre x, centre y).
-Eigen::Vector4f lens(const vision::PinholeCamera& camera) {
+/// Pixel to normalized device coordinates, y not flipped: (scale x, scale y, center x, center y).
+Eigen::Vector4f lens(const vision::camera::PinholeCamera& camera) {
   return Eigen::Vector4d(2.0 * camera.focal_x_px / camera.width_px, 2.0 * camera.focal_y_px / camera.height_px,
                          (2.0 * camera.center_u_px + 1.0) / camera.width_px - 1.0,
                          (2.0 * camera.center_v_px + 1.0) / camera.height_px - 1.0)
@@ -55,14 +55,14 @@ ScenePainter::ScenePainter(const scenes::Scene& scene, Culling culling, ContextK
       stretch_labels_(counts_.size()) {
   gl_.Enable(GL_CULL_FACE);
   gl_.Enable(GL_DEPTH_TEST);
-  gl_.FrontFace(GL_CW);  // counter-clockwise in the picture, whose rows run down, is clockwise in OpenGL's window
+  gl_.FrontFace(GL_CW);  // counter-clockwise in the image, whose rows run down, is clockwise in OpenGL's window
   gl_.DepthFunc(GL_GEQUAL);
   gl_.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   if (shadows == Shadows::sun) light_by(draw_sun_map(gl_, buffers_, scene.lights.to_sun_W), scene.lights.ambient);
   check_gl(gl_, "setting the context up");
 }
 
-void ScenePainter::paint(const vision::PinholeCamera& camera, const Eye& eye, Raster raster, int samples,
+void ScenePainter::paint(const vision::camera::PinholeCamera& camera, const Eye& eye, Raster raster, int samples,
                          cv::Mat& out) {
   context_->make_current();
   targets_.bind(gl_, {camera.width_px, camera.height_px, raster, samples});
@@ -123,8 +123,8 @@ void ScenePainter::set_eye(const Program& program, const Eigen::Isometry3d& X_WC
   if (program.p_WM >= 0) gl_.Uniform3fv(program.p_WM, 1, p_WM.cast<float>().eval().data());
 }
 
-void ScenePainter::draw_scene(const vision::PinholeCamera& camera, const Eye& eye, const Program& program,
-                              bool labelled) {
+void ScenePainter::draw_scene(const vision::camera::PinholeCamera& camera, const Eye& eye, const Program& program,
+                              bool labeled) {
   const Eigen::Matrix3f R_CW = eye.X_WC.linear().transpose().cast<float>();
   gl_.UseProgram(program.id);
   set_eye(program, eye.X_WC, Eigen::Vector3d::Zero());
@@ -135,14 +135,14 @@ void ScenePainter::draw_scene(const vision::PinholeCamera& camera, const Eye& ey
   for (const scenes::Chunk& chunk : visible_.find(camera, eye.X_WC, culling_)) {
     counts_[stretches_] = static_cast<GLsizei>(chunk.index_count);
     offsets_[stretches_] = reinterpret_cast<const void*>(chunk.first_index * sizeof(uint32_t));
-    if (labelled) stretch_labels_[stretches_] = label_of(chunk);
+    if (labeled) stretch_labels_[stretches_] = label_of(chunk);
     ++stretches_;
   }
-  draw_stretches(program, labelled);
-  draw_movers(eye, program, labelled);
+  draw_stretches(program, labeled);
+  draw_movers(eye, program, labeled);
 }
 
-void ScenePainter::draw_movers(const Eye& eye, const Program& program, bool labelled) {
+void ScenePainter::draw_movers(const Eye& eye, const Program& program, bool labeled) {
   for (size_t mover = 0; mover < motions_.size(); ++mover) {
     const Eigen::Vector3d p_WM = scenes::p_WM(motions_[mover], eye.t_s);
     stretches_ = 0;
@@ -159,19 +159,19 @@ void ScenePainter::draw_movers(const Eye& eye, const Program& program, bool labe
     }
     if (stretches_ == 0) continue;
     set_eye(program, eye.X_WC, p_WM);
-    draw_stretches(program, labelled);
+    draw_stretches(program, labeled);
   }
 }
 
-void ScenePainter::draw_stretches(const Program& program, bool labelled) {
+void ScenePainter::draw_stretches(const Program& program, bool labeled) {
   for (size_t i = 0; i < stretches_; ++i) {
     count_.triangles += static_cast<size_t>(counts_[i]) / 3;
-    if (!labelled) continue;
+    if (!labeled) continue;
     gl_.Uniform1i(program.label, stretch_labels_[i]);
     gl_.DrawElements(GL_TRIANGLES, counts_[i], GL_UNSIGNED_INT, offsets_[i]);
   }
   count_.stretches += stretches_;
-  if (labelled) return;
+  if (labeled) return;
   gl_.MultiDrawElements(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_INT, offsets_.data(),
                         static_cast<GLsizei>(stretches_));
 }
@@ -182,7 +182,7 @@ int ScenePainter::label_of(const scenes::Chunk& stretch) const {
   return static_cast<int>(after - buffers_.chunks.begin());
 }
 
-void ScenePainter::draw_sky(const vision::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, bool grey) {
+void ScenePainter::draw_sky(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, bool grey) {
   const Eigen::Matrix3f R_WC = X_WC.linear().cast<float>();
   gl_.UseProgram(skies_.id);
   gl_.UniformMatrix3fv(skies_.rotation, 1, GL_FALSE, R_WC.data());

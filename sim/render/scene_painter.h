@@ -13,30 +13,30 @@
 #include "sim/render/shaders.h"
 #include "sim/render/sun_map.h"
 #include "sim/render/visible_chunks.h"
-#include "vision/pinhole_camera.h"
+#include "vision/camera/pinhole_camera.h"
 
 namespace hedgehop::sim {
 
-/// Draws pinhole pictures of a scene with OpenGL: what Renderer makes all others from.
+/// Draws pinhole images of a scene with OpenGL: what Renderer makes all others from.
 class ScenePainter {
  public:
   /// Throws as Renderer does.
   ScenePainter(const scenes::Scene& scene, Culling culling, ContextKind context, Shadows shadows);
 
-  /// Where a picture is taken from, and when.
+  /// Where an image is taken from, and when.
   struct Eye {
     Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
     double t_s = 0.0;
   };
 
-  /// Draws one picture. @param samples  a pixel, see RenderTargets::Shape. @param out  created when its size or type
+  /// Draws one image. @param samples  a pixel, see RenderTargets::Shape. @param out  created when its size or type
   /// does not fit, otherwise written in place.
-  void paint(const vision::PinholeCamera& camera, const Eye& eye, Raster raster, int samples, cv::Mat& out);
+  void paint(const vision::camera::PinholeCamera& camera, const Eye& eye, Raster raster, int samples, cv::Mat& out);
 
   /// Throws std::invalid_argument unless the context draws exactly so many samples a pixel.
   void require_samples(int samples);
 
-  /// Stretches of the index buffer and triangles of the pictures since the last call of start_count().
+  /// Stretches of the index buffer and triangles of the images since the last call of start_count().
   struct Count {
     size_t stretches = 0, triangles = 0;
   };
@@ -47,12 +47,12 @@ class ScenePainter {
   std::string info();
 
  private:
-  void draw_scene(const vision::PinholeCamera& camera, const Eye& eye, const Program& program, bool labelled);
+  void draw_scene(const vision::camera::PinholeCamera& camera, const Eye& eye, const Program& program, bool labeled);
   void light_by(const SunMap& map, float ambient);
-  void draw_movers(const Eye& eye, const Program& program, bool labelled);
-  void draw_sky(const vision::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, bool grey);
+  void draw_movers(const Eye& eye, const Program& program, bool labeled);
+  void draw_sky(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, bool grey);
   void set_eye(const Program& program, const Eigen::Isometry3d& X_WC, const Eigen::Vector3d& p_WM);
-  void draw_stretches(const Program& program, bool labelled);
+  void draw_stretches(const Program& program, bool labeled);
   int label_of(const scenes::Chunk& stretch) const;
 
   std::unique_ptr<GlContext> context_;

@@ -27,7 +27,7 @@ Program depth_program(const GlFunctions& gl);
 Program plane_program(const GlFunctions& gl);
 /// One whole number for all that a call draws.
 Program label_program(const GlFunctions& gl);
-/// How near to the sun surfaces are; no colours.
+/// How near to the sun surfaces are; no colors.
 Program sun_map_program(const GlFunctions& gl);
 /// The sky behind everything: three vertices without attributes.
 Program sky_program(const GlFunctions& gl);

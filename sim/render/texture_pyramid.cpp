@@ -4,10 +4,10 @@
 
 namespace hedgehop::sim {
 
-std::vector<cv::Mat> texture_pyramid(const cv::Mat& picture) {
+std::vector<cv::Mat> texture_pyramid(const cv::Mat& image) {
   std::vector<cv::Mat> levels;
   cv::Mat exact, smaller, rounded;
-  picture.convertTo(exact, CV_32F);
+  image.convertTo(exact, CV_32F);
   for (;;) {
     exact.convertTo(rounded, CV_8U);
     cv::cvtColor(rounded, levels.emplace_back(), cv::COLOR_RGB2RGBA);

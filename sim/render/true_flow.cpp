@@ -7,7 +7,7 @@
 
 namespace hedgehop::sim {
 
-std::vector<Eigen::Vector3d> all_rays(const vision::Camera& camera) {
+std::vector<Eigen::Vector3d> all_rays(const vision::camera::Camera& camera) {
   const Eigen::Vector3d nothing = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   std::vector<Eigen::Vector3d> rays;
   rays.reserve(static_cast<size_t>(camera.width_px) * static_cast<size_t>(camera.height_px));
@@ -19,7 +19,7 @@ std::vector<Eigen::Vector3d> all_rays(const vision::Camera& camera) {
   return rays;
 }
 
-void true_flow(const vision::Camera& camera, const std::vector<Eigen::Vector3d>& rays, const FlowInput& input,
+void true_flow(const vision::camera::Camera& camera, const std::vector<Eigen::Vector3d>& rays, const FlowInput& input,
                cv::Mat& out) {
   constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
   out.create(camera.height_px, camera.width_px, CV_32FC2);

@@ -5,14 +5,14 @@
 #include <span>
 #include <vector>
 
-#include "vision/camera.h"
+#include "vision/camera/camera.h"
 
 namespace hedgehop::sim {
 
 /// The ray of every pixel, in C, row by row; NaN where the lens shows nothing.
-std::vector<Eigen::Vector3d> all_rays(const vision::Camera& camera);
+std::vector<Eigen::Vector3d> all_rays(const vision::camera::Camera& camera);
 
-/// What a picture shows, and where it will be seen next.
+/// What an image shows, and where it will be seen next.
 struct FlowInput {
   const cv::Mat& depth;   ///< as Channel::depth, of `camera`
   const cv::Mat& labels;  ///< as Channel::labels
@@ -21,9 +21,9 @@ struct FlowInput {
   std::span<const Eigen::Vector3d> moved_W_m;  ///< how far each mover travels until then
 };
 
-/// How far each pixel's point moves in the picture. @param rays  all_rays() of the camera.
+/// How far each pixel's point moves in the image. @param rays  all_rays() of the camera.
 /// @param out  CV_32FC2, right and down, px; NaN where the lens shows nothing, now or then. Sky is infinitely far away.
-void true_flow(const vision::Camera& camera, const std::vector<Eigen::Vector3d>& rays, const FlowInput& input,
+void true_flow(const vision::camera::Camera& camera, const std::vector<Eigen::Vector3d>& rays, const FlowInput& input,
                cv::Mat& out);
 
 }  // namespace hedgehop::sim

@@ -16,8 +16,8 @@ std::vector<Eigen::AlignedBox3f> boxes(const std::vector<scenes::Chunk>& chunks)
   return boxes_W;
 }
 
-/// In W, a pixel outside the picture's outermost.
-std::array<Eigen::Vector3d, 4> corner_rays(const vision::PinholeCamera& camera, const Eigen::Isometry3d& X_WC) {
+/// In W, a pixel outside the image's outermost.
+std::array<Eigen::Vector3d, 4> corner_rays(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC) {
   const auto ray = [&](double u_px, double v_px) -> Eigen::Vector3d {
     return X_WC.linear() * camera.ray({u_px, v_px});
   };
@@ -25,10 +25,10 @@ std::array<Eigen::Vector3d, 4> corner_rays(const vision::PinholeCamera& camera, 
   return {ray(-1.5, -1.5), ray(right_px, -1.5), ray(-1.5, bottom_px), ray(right_px, bottom_px)};
 }
 
-/// Tells which chunks a picture is too coarse for.
+/// Tells which chunks an image is too coarse for.
 class FarDetails {
  public:
-  FarDetails(const vision::PinholeCamera& camera, const Eigen::Isometry3d& X_WC)
+  FarDetails(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC)
       : forward_W_(X_WC.linear().col(2)),
         eye_m_(forward_W_.dot(X_WC.translation())),
         z_per_lost_(std::max(camera.focal_x_px, camera.focal_y_px) / kLostPx) {}
@@ -88,8 +88,8 @@ void VisibleChunks::add_tiles(const scenes::Chunk& flat) {
   }
 }
 
-std::span<const scenes::Chunk> VisibleChunks::find(const vision::PinholeCamera& camera, const Eigen::Isometry3d& X_WC,
-                                                   Culling culling) {
+std::span<const scenes::Chunk> VisibleChunks::find(const vision::camera::PinholeCamera& camera,
+                                                   const Eigen::Isometry3d& X_WC, Culling culling) {
   const Frustum& frustum = frustum_.emplace(camera, X_WC, kNearPlaneM);
   culling_ = culling;
   const FarDetails far_details(camera, X_WC);

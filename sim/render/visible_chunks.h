@@ -9,18 +9,18 @@
 #include "sim/render/chunk_tree.h"
 #include "sim/render/frustum.h"
 #include "sim/render/horizon.h"
-#include "vision/pinhole_camera.h"
+#include "vision/camera/pinhole_camera.h"
 
 namespace hedgehop::sim {
 
 /// No higher than a sheet: ground, a ceiling.
 inline bool lies_flat(const scenes::Chunk& chunk) { return chunk.box_W.sizes().z() <= 0.01f; }
 
-/// How much of a scene is left out before it is drawn. Pictures do not depend on it, only their cost does (but for a
+/// How much of a scene is left out before it is drawn. Images do not depend on it, only their cost does (but for a
 /// pixel that looks through a crack of a mesh: it may see something else behind).
 enum class Culling { none, frustum, frustum_and_horizon };
 
-/// A chunk is drawn as its far detail where nothing that is lost is wider in the picture, px.
+/// A chunk is drawn as its far detail where nothing that is lost is wider in the image, px.
 inline constexpr double kLostPx = 1.0;
 
 /// Finds what a view can see of a scene's chunks. Reuses its memory from view to view.
@@ -33,7 +33,7 @@ class VisibleChunks {
   /// best: what stands up from near to far in plan, then what lies flat, tile by tile, which seldom hides anything.
   /// What is drawn before what does not depend on the culling. Which chunks are far hangs on z in C of their boxes and
   /// on the focal length: cameras side by side that look the same way, a rectified stereo pair, see the same.
-  std::span<const scenes::Chunk> find(const vision::PinholeCamera& camera, const Eigen::Isometry3d& X_WC,
+  std::span<const scenes::Chunk> find(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC,
                                       Culling culling);
 
   /// Whether the view that was found last can see a box that is none of the chunks.

@@ -12,7 +12,7 @@ namespace hedgehop::sim {
 const std::vector<Calculation>& calculations() {
   static const std::vector<Calculation> all{
       {.name = "centering_exact",
-       .meaning = "a point mass centres itself in a corridor by the printed law, signal exact",
+       .meaning = "a point mass centers itself in a corridor by the printed law, signal exact",
        .columns = {"x_m", "off_middle_m", "settled_m"},
        .calculate = centering_exact},
       {.name = "centering_noisy",
@@ -24,8 +24,8 @@ const std::vector<Calculation>& calculations() {
        .columns = {"sections", "decisions_hz", "cost_over_3x3", "cost_ms"},
        .calculate = section_costs},
       {.name = "landmark_costs",
-       .meaning = "what a picture costs the filter, by the number of landmarks",
-       .columns = {"landmarks", "picture_ms", "speed", "growth_8_to_35"},
+       .meaning = "what an image costs the filter, by the number of landmarks",
+       .columns = {"landmarks", "image_ms", "speed", "growth_8_to_35"},
        .calculate = landmark_costs},
       {.name = "cube_lateral_errors",
        .meaning = "error of the map of a cube's projected corners, circling",

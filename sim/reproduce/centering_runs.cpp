@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "avoidance/corridor_law.h"
+#include "avoidance/corridor_centering/centering_law.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -40,7 +40,7 @@ Columns run(Noise noise) {
     columns["off_middle_m"].push_back(mass.off_middle_m);
     if (std::abs(mass.off_middle_m) > kSettled_m) settled_m = mass.x_m;
     const double error = seen();
-    mass.fly(avoidance::printed_control({}, error, last));
+    mass.fly(avoidance::corridor_centering::printed_control({}, error, last));
     last = error;
   }
   columns["settled_m"].assign(columns["x_m"].size(), settled_m);

@@ -6,21 +6,21 @@
 #include <random>
 #include <utility>
 
-#include "scenes/highrise.h"
+#include "scenes/worlds/highrise.h"
 
 namespace hedgehop::sim {
 namespace {
 
-using vision::LandmarkMap;
-using vision::MappedLandmark;
+using vision::landmarks::LandmarkMap;
+using vision::landmarks::MappedLandmark;
 
-constexpr double kFeet_m = 0.3048, kPicture_s = 0.1, kConverged_percent = 3.0;
+constexpr double kFeet_m = 0.3048, kImage_s = 0.1, kConverged_percent = 3.0;
 constexpr double kAltitude_m = 140.0 * kFeet_m;
 
 CornerFlight lateral(std::vector<Eigen::Vector3d> corners_W, const Eigen::Vector3d& middle_W) {
   CornerFlight flight;
   flight.corners_W = std::move(corners_W);
-  flight.camera = vision::PinholeCamera::from_fov(640, 640, std::numbers::pi / 6.0);
+  flight.camera = vision::camera::PinholeCamera::from_fov(640, 640, std::numbers::pi / 6.0);
   flight.X_WC = [middle_W](double t_s) {
     const double azimuth = std::numbers::pi + 0.36 * std::numbers::pi / 180.0 * t_s;
     const double radius_m = 140.0 * kFeet_m;
@@ -71,13 +71,14 @@ Eigen::Isometry3d looking_at(const Eigen::Vector3d& p_WC, const Eigen::Vector3d&
 }
 
 CornerFlight cube_lateral_flight() {
-  return lateral(scenes::highrise_corners({.layout = scenes::HighriseConfig::Layout::cube}), {0, 0, -9});
+  return lateral(scenes::worlds::highrise_corners({.layout = scenes::worlds::HighriseConfig::Layout::cube}),
+                 {0, 0, -9});
 }
 
-CornerFlight highrise_lateral_flight() { return lateral(scenes::highrise_corners({.scale = 0.5}), {0, 0, -7}); }
+CornerFlight highrise_lateral_flight() { return lateral(scenes::worlds::highrise_corners({.scale = 0.5}), {0, 0, -7}); }
 
 CornerFlight highrise_forward_flight() {
-  CornerFlight flight = lateral(scenes::highrise_corners({}), {0, 0, 0});
+  CornerFlight flight = lateral(scenes::worlds::highrise_corners({}), {0, 0, 0});
   flight.duration_s = 125.0;
   flight.X_WC = [](double t_s) {
     const Eigen::Vector3d p_WC(-120.0 + 1.4 * kFeet_m * t_s, 0.0, -kAltitude_m);
@@ -87,16 +88,16 @@ CornerFlight highrise_forward_flight() {
   return flight;
 }
 
-CornerFlightResult fly_past_corners(const CornerFlight& flight, const vision::LandmarkMapConfig& config, uint64_t seed,
-                                    const WatchMap& watch) {
+CornerFlightResult fly_past_corners(const CornerFlight& flight, const vision::landmarks::LandmarkMapConfig& config,
+                                    uint64_t seed, const WatchMap& watch) {
   constexpr double kCorner_px = 0.5;
   Noise noise(seed);
   LandmarkMap map(config, flight.camera);
   std::map<size_t, int64_t> id_of_corner;
   const Eigen::Vector3d first_W = flight.X_WC(0.0).translation();
   CornerFlightResult result;
-  for (int picture = 0; picture * kPicture_s <= flight.duration_s; ++picture) {
-    const double t_s = picture * kPicture_s;
+  for (int image = 0; image * kImage_s <= flight.duration_s; ++image) {
+    const double t_s = image * kImage_s;
     const Eigen::Isometry3d X_WC = flight.X_WC(t_s);
     std::vector<Eigen::Vector2d> pixels;
     std::vector<size_t> corner_of;
@@ -109,12 +110,12 @@ CornerFlightResult fly_past_corners(const CornerFlight& flight, const vision::La
       pixels.push_back(*pixel + noise.pixel(kCorner_px));
       corner_of.push_back(i);
     }
-    vision::CameraPose pose{X_WC, config.position_sigma_m, config.attitude_sigma_rad};
+    vision::landmarks::CameraPose pose{X_WC, config.position_sigma_m, config.attitude_sigma_rad};
     pose.X_WC_est.translation() += config.position_sigma_m * noise.vector();
     const Eigen::Vector3d turn_C = config.attitude_sigma_rad * noise.vector();
     pose.X_WC_est.linear() *= Eigen::AngleAxisd(turn_C.norm(), turn_C.normalized()).toRotationMatrix();
     const auto start = std::chrono::steady_clock::now();
-    const std::vector<int64_t> ids = map.update(pixels, pose, picture == 0 ? 0.0 : kPicture_s);
+    const std::vector<int64_t> ids = map.update(pixels, pose, image == 0 ? 0.0 : kImage_s);
     const std::chrono::duration<double, std::milli> cost = std::chrono::steady_clock::now() - start;
     result.filter_ms.push_back(cost.count());
     follow(map, corner_of, ids, id_of_corner);

@@ -7,13 +7,13 @@
 #include <map>
 #include <vector>
 
-#include "vision/landmark_map.h"
+#include "vision/landmarks/landmark_filter.h"
 
-/// The flights of [Shah2009] ch. 4 and 5 as the thesis flew them: without pictures, by a camera that reports the
+/// The flights of [Shah2009] ch. 4 and 5 as the thesis flew them: without images, by a camera that reports the
 /// corners of its scene, all of them through walls, 10 times a second.
 namespace hedgehop::sim {
 
-/// Camera at p_WC that looks at a point, its picture upright.
+/// Camera at p_WC that looks at a point, its image upright.
 Eigen::Isometry3d looking_at(const Eigen::Vector3d& p_WC, const Eigen::Vector3d& target_W);
 
 /// A flight: where the camera is at a time, and what it flies past.
@@ -21,7 +21,7 @@ struct CornerFlight {
   std::vector<Eigen::Vector3d> corners_W;  ///< m
   std::function<Eigen::Isometry3d(double t_s)> X_WC;
   double duration_s = 100.0;
-  vision::PinholeCamera camera;
+  vision::camera::PinholeCamera camera;
 };
 
 /// About a cube with 8 corners, [Shah2009] table 4.1: 140 ft up, on a circle of 140 ft, 0.36 deg/s, field of view 30
@@ -34,20 +34,20 @@ CornerFlight highrise_forward_flight();
 
 /// What a flight's map came to.
 struct CornerFlightResult {
-  std::vector<double> error_percent;  ///< of every picture: mean over all coordinates of all corners
+  std::vector<double> error_percent;  ///< of every image: mean over all coordinates of all corners
   double converged_s = NAN;           ///< from then on that mean stays within 3 %; NaN when it never does
-  std::vector<double> filter_ms;      ///< wall time of the filter, of every picture
+  std::vector<double> filter_ms;      ///< wall time of the filter, of every image
   size_t landmarks = 0;               ///< confirmed, at the end
   double worst_percent = 0.0;         ///< at the end, of any coordinate of any corner
 };
 
-/// Is shown the map after every picture, and which of its landmarks each corner has.
-using WatchMap =
-    std::function<void(double t_s, const vision::LandmarkMap& map, const std::map<size_t, int64_t>& id_of_corner)>;
+/// Is shown the map after every image, and which of its landmarks each corner has.
+using WatchMap = std::function<void(double t_s, const vision::landmarks::LandmarkMap& map,
+                                    const std::map<size_t, int64_t>& id_of_corner)>;
 
 /// Flies with white errors of the navigation as the filter expects them, and of the corners, 0.5 px.
 /// A coordinate's error is a share of the distance from the first camera to the corner.
-CornerFlightResult fly_past_corners(const CornerFlight& flight, const vision::LandmarkMapConfig& config, uint64_t seed,
-                                    const WatchMap& watch = {});
+CornerFlightResult fly_past_corners(const CornerFlight& flight, const vision::landmarks::LandmarkMapConfig& config,
+                                    uint64_t seed, const WatchMap& watch = {});
 
 }  // namespace hedgehop::sim

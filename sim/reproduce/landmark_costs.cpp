@@ -8,7 +8,7 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kPicture_ms = 100.0;
+constexpr double kImage_ms = 100.0;
 
 CornerFlight flight_past(int corners) {
   CornerFlight flight = highrise_lateral_flight();
@@ -23,7 +23,7 @@ CornerFlight flight_past(int corners) {
   return flight;
 }
 
-double picture_ms(int corners) {
+double image_ms(int corners) {
   std::vector<double> costs_ms = fly_past_corners(flight_past(corners), {}, 1).filter_ms;
   const auto middle = costs_ms.begin() + static_cast<std::ptrdiff_t>(costs_ms.size() / 2);
   std::ranges::nth_element(costs_ms, middle);
@@ -36,12 +36,12 @@ Columns landmark_costs() {
   const std::vector<int> counts = {8, 16, 35, 70, 140, 280, 560, 1000};
   Columns columns;
   for (const int count : counts) {
-    const double cost_ms = picture_ms(count);
+    const double cost_ms = image_ms(count);
     columns["landmarks"].push_back(count);
-    columns["picture_ms"].push_back(cost_ms);
-    columns["speed"].push_back(kPicture_ms / cost_ms);
+    columns["image_ms"].push_back(cost_ms);
+    columns["speed"].push_back(kImage_ms / cost_ms);
   }
-  const double growth = columns["picture_ms"][2] / columns["picture_ms"][0];
+  const double growth = columns["image_ms"][2] / columns["image_ms"][0];
   columns["growth_8_to_35"].assign(counts.size(), growth);
   return columns;
 }

@@ -7,20 +7,20 @@
 #include <string>
 #include <utility>
 
-#include "scenes/highrise.h"
+#include "scenes/worlds/highrise.h"
 #include "sim/reproduce/corner_flight.h"
 
 namespace hedgehop::sim {
 namespace {
 
 using Eigen::Vector3d;
-using vision::LandmarkCoordinates;
-using vision::LandmarkMap;
+using vision::landmarks::LandmarkCoordinates;
+using vision::landmarks::LandmarkMap;
 
 constexpr uint64_t kSeed = 1;
 
-vision::LandmarkMapConfig begun_by(LandmarkCoordinates coordinates) {
-  vision::LandmarkMapConfig config;
+vision::landmarks::LandmarkMapConfig begun_by(LandmarkCoordinates coordinates) {
+  vision::landmarks::LandmarkMapConfig config;
   config.start.coordinates = coordinates;
   return config;
 }
@@ -28,7 +28,7 @@ vision::LandmarkMapConfig begun_by(LandmarkCoordinates coordinates) {
 std::optional<Vector3d> place_W(const LandmarkMap& map, const std::map<size_t, int64_t>& id_of_corner, size_t corner) {
   const auto id = id_of_corner.find(corner);
   if (id == id_of_corner.end()) return std::nullopt;
-  const auto found = std::ranges::find(map.landmarks(), id->second, &vision::MappedLandmark::id);
+  const auto found = std::ranges::find(map.landmarks(), id->second, &vision::landmarks::MappedLandmark::id);
   if (found == map.landmarks().end()) return std::nullopt;
   return position_W(found->landmark);
 }
@@ -53,8 +53,8 @@ Columns errors_of(const CornerFlight& flight) {
   return columns;
 }
 
-/// Edges of the towers whose corners scenes::highrise_corners() lists: a box each, and a spire where a ninth corner
-/// follows that lies over the middle of the eight.
+/// Edges of the towers whose corners scenes::worlds::highrise_corners() lists: a box each, and a spire where a ninth
+/// corner follows that lies over the middle of the eight.
 std::vector<std::pair<size_t, size_t>> outline(const std::vector<Vector3d>& corners_W) {
   std::vector<std::pair<size_t, size_t>> edges;
   for (size_t first = 0; first < corners_W.size();) {
@@ -91,13 +91,13 @@ Columns map_of(const CornerFlight& flight) {
   const auto edges = outline(flight.corners_W);
   Columns columns;
   add_outline("true", edges, flight.corners_W, columns);
-  int picture = 0;
+  int image = 0;
   const int last = static_cast<int>(std::floor(flight.duration_s * 10.0));
   fly_past_corners(flight, begun_by(LandmarkCoordinates::cartesian), kSeed,
                    [&](double, const LandmarkMap& map, const auto& id_of_corner) {
-                     const char* name = picture == 0 ? "early" : picture == last / 5 ? "middle" : "late";
-                     const bool asked = picture == 0 || picture == last / 5 || picture == last;
-                     ++picture;
+                     const char* name = image == 0 ? "early" : image == last / 5 ? "middle" : "late";
+                     const bool asked = image == 0 || image == last / 5 || image == last;
+                     ++image;
                      if (!asked) return;
                      std::vector<Vector3d> places_W;
                      const Vector3d unknown = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());

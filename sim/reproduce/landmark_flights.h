@@ -14,7 +14,7 @@ Columns highrise_lateral_errors();
 Columns highrise_forward_errors();
 
 /// The map as the outlines of the towers between its landmarks, begun on the ground: `true_north_m`, `true_east_m`,
-/// `true_altitude_m`, and the same of `early_` (first picture), `middle_` and `late_` (end). NaN between two edges.
+/// `true_altitude_m`, and the same of `early_` (first image), `middle_` and `late_` (end). NaN between two edges.
 /// Source: [Shah2009] fig. 4.5, fig. 4.6 and fig. 5.1.
 std::vector<std::string> landmark_map_columns();
 Columns cube_lateral_map();

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <opencv2/core.hpp>
 
-#include "vision/section_grid.h"
+#include "vision/sections/section_search.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -20,7 +20,7 @@ double median(std::vector<double> values) {
 
 struct Candidate {
   int side;
-  vision::SectionSearch search;
+  vision::sections::SectionSearch search;
   std::vector<double> costs_ms = {};
 };
 
@@ -33,15 +33,15 @@ Columns section_costs() {
 
   std::vector<Candidate> candidates;
   for (int side = 3; side <= 27; side += 2) {
-    vision::SectionGrid grid{.rows = side, .cols = side};
+    vision::sections::SectionGrid grid{.rows = side, .cols = side};
     if (side == 3) grid.width_share = grid.height_share = 1.0 / 3.0;  // the paper's 3 x 3 do not overlap
-    candidates.push_back({side, vision::SectionSearch(grid, depth_m.size())});
+    candidates.push_back({side, vision::sections::SectionSearch(grid, depth_m.size())});
   }
   // In turns, so that what else the machine does weighs on all alike.
   for (int round = 0; round < kRounds; ++round) {
     for (Candidate& candidate : candidates) {
       const auto start = std::chrono::steady_clock::now();
-      candidate.search.choose(depth_m, kThreshold_m, kMostShare, vision::Unknown::free);
+      candidate.search.choose(depth_m, kThreshold_m, kMostShare, vision::sections::Unknown::free);
       const std::chrono::duration<double, std::milli> cost = std::chrono::steady_clock::now() - start;
       candidate.costs_ms.push_back(cost.count());
     }

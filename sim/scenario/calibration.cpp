@@ -45,8 +45,8 @@ void require_key(const std::string& role) {
 
 }  // namespace
 
-Intrinsics intrinsics(const CameraConfig& config, const vision::Camera& camera) {
-  if (const auto* lens = std::get_if<vision::PinholeLens>(&camera.lens)) {
+Intrinsics intrinsics(const CameraConfig& config, const vision::camera::Camera& camera) {
+  if (const auto* lens = std::get_if<vision::camera::PinholeLens>(&camera.lens)) {
     return {false,
             lens->focal_x_px,
             lens->focal_y_px,
@@ -54,7 +54,7 @@ Intrinsics intrinsics(const CameraConfig& config, const vision::Camera& camera) 
             lens->center_v_px,
             {lens->k1, lens->k2, lens->p1, lens->p2, lens->k3}};
   }
-  if (const auto* lens = std::get_if<vision::FisheyeLens>(&camera.lens)) {
+  if (const auto* lens = std::get_if<vision::camera::FisheyeLens>(&camera.lens)) {
     return {true,
             lens->focal_x_px,
             lens->focal_y_px,
@@ -72,7 +72,7 @@ std::string opencv_calibration(const RigConfig& rig) {
   std::string text = "%YAML:1.0\n---\n";
   for (const CameraConfig& config : rig.cameras) {
     require_key(config.role);
-    const vision::Camera camera = config.model();
+    const vision::camera::Camera camera = config.model();
     const Intrinsics lens = intrinsics(config, camera);
     const std::vector<double> matrix = {
         lens.focal_x_px, 0, lens.center_u_px, 0, lens.focal_y_px, lens.center_v_px, 0, 0, 1};
@@ -89,7 +89,7 @@ std::string kalibr_calibration(const RigConfig& rig) {
   std::string text;
   for (size_t i = 0; i < rig.cameras.size(); ++i) {
     const CameraConfig& config = rig.cameras[i];
-    const vision::Camera camera = config.model();
+    const vision::camera::Camera camera = config.model();
     Intrinsics lens = intrinsics(config, camera);
     if (!lens.fisheye) {
       if (lens.distortion.back() != 0.0) {

@@ -7,7 +7,7 @@
 
 namespace hedgehop::sim {
 
-// The cameras of a rig for other programs, every number exact. Pixel (0, 0) is the centre of the top-left pixel in both
+// The cameras of a rig for other programs, every number exact. Pixel (0, 0) is the center of the top-left pixel in both
 // formats, and the camera frame is ours: right, down, forward. The body is forward, right, down. Throw
 // std::invalid_argument, naming the camera, for a lens that the format has no words for, and as CameraConfig::model().
 
@@ -17,7 +17,7 @@ struct Intrinsics {
   double focal_x_px = 0.0, focal_y_px = 0.0, center_u_px = 0.0, center_v_px = 0.0;
   std::vector<double> distortion;  ///< k1 k2 p1 p2 k3, or k1 k2 k3 k4 of a fisheye
 };
-Intrinsics intrinsics(const CameraConfig& config, const vision::Camera& camera);
+Intrinsics intrinsics(const CameraConfig& config, const vision::camera::Camera& camera);
 
 /// A file of OpenCV's FileStorage: a map for each role with image_width, image_height, camera_model ("pinhole" for
 /// calib3d, "fisheye" for its fisheye module), camera_matrix, distortion_coefficients (k1 k2 p1 p2 k3 or k1 k2 k3 k4)

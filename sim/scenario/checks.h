@@ -103,7 +103,7 @@ struct FloorVisitedCheck {
   static constexpr std::string_view kName = "floor_visited";
   static constexpr std::string_view kMeaning =
       "enough of the scene's plan is flown over: a cell counts when the rotor "
-      "disc has covered its centre";
+      "disc has covered its center";
   double cell_m = 1.0;
   double at_least = 0.7;
 };

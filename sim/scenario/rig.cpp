@@ -26,13 +26,13 @@ void place(const CameraConfig& c, double fov_focal_px, Lens& lens) {
   lens.center_v_px = c.center_v_px.value_or(0.5 * (c.height_px - 1));
 }
 
-vision::Camera pinhole(const CameraConfig& c) {
+vision::camera::Camera pinhole(const CameraConfig& c) {
   const size_t count = c.distortion.size();
   require(count == 0 || count == 4 || count == 5,
           fmt::format("distortion: a pinhole takes k1 k2 p1 p2 or k1 k2 p1 p2 k3, got {} numbers", count));
   require(!c.view_limit_rad, "view_limit: is for a fisheye");
   require(c.focal_x_px || c.fov_rad < std::numbers::pi, "fov: a pinhole shows less than 180 deg");
-  vision::PinholeLens lens{1.0, 1.0};
+  vision::camera::PinholeLens lens{1.0, 1.0};
   if (count > 0) {
     lens.k1 = c.distortion[0];
     lens.k2 = c.distortion[1];
@@ -43,17 +43,17 @@ vision::Camera pinhole(const CameraConfig& c) {
   double fov_focal_px = 0.0;
   if (!c.focal_x_px) {
     const auto edge = lens.project({std::tan(0.5 * c.fov_rad), 0.0, 1.0});
-    require(edge && edge->x() > 0.0, "fov: the distortion folds the picture back before its edge");
+    require(edge && edge->x() > 0.0, "fov: the distortion folds the image back before its edge");
     fov_focal_px = 0.5 * c.width_px / edge->x();
   }
   place(c, fov_focal_px, lens);
   return {c.width_px, c.height_px, lens};
 }
 
-vision::Camera fisheye(const CameraConfig& c) {
+vision::camera::Camera fisheye(const CameraConfig& c) {
   const size_t count = c.distortion.size();
   require(count == 0 || count == 4, fmt::format("distortion: a fisheye takes k1 k2 k3 k4, got {} numbers", count));
-  vision::FisheyeLens lens;
+  vision::camera::FisheyeLens lens;
   if (count > 0) {
     lens.k1 = c.distortion[0];
     lens.k2 = c.distortion[1];
@@ -61,11 +61,11 @@ vision::Camera fisheye(const CameraConfig& c) {
     lens.k4 = c.distortion[3];
   }
   lens.limit_rad = c.view_limit_rad.value_or(lens.growth_limit_rad());
-  place(c, c.focal_x_px ? 0.0 : vision::fisheye_focal_px(lens, c.width_px, c.fov_rad), lens);
+  place(c, c.focal_x_px ? 0.0 : vision::camera::fisheye_focal_px(lens, c.width_px, c.fov_rad), lens);
   return {c.width_px, c.height_px, lens};
 }
 
-vision::Camera ocam(const CameraConfig& c) {
+vision::camera::Camera ocam(const CameraConfig& c) {
   require(!c.calibration.empty(), "calibration: model: ocam needs the file");
   require(
       !c.focal_x_px && !c.focal_y_px && !c.center_u_px && !c.center_v_px && !c.view_limit_rad && c.distortion.empty(),
@@ -76,7 +76,7 @@ vision::Camera ocam(const CameraConfig& c) {
           fmt::format("calibration: '{}' cannot be read", c.calibration.string()));
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   try {
-    const vision::Camera camera(vision::parse_ocam_calibration(text));
+    const vision::camera::Camera camera(vision::camera::parse_ocam_calibration(text));
     require(camera.width_px == c.width_px && camera.height_px == c.height_px,
             fmt::format("width and height must be {} and {}", camera.width_px, camera.height_px));
     return camera;
@@ -103,13 +103,13 @@ Eigen::Isometry3d CameraConfig::X_BC() const {
   return X_BC;
 }
 
-vision::Camera CameraConfig::model() const {
+vision::camera::Camera CameraConfig::model() const {
   require(std::has_single_bit(static_cast<unsigned>(samples)), "samples: valid: 1, 2, 4, 8");
   require(model_kind == Model::ocam || calibration.empty(), "calibration: is for model: ocam");
-  const vision::Camera camera = model_kind == Model::ocam      ? ocam(*this)
-                                : model_kind == Model::fisheye ? fisheye(*this)
-                                                               : pinhole(*this);
-  vision::check(camera);
+  const vision::camera::Camera camera = model_kind == Model::ocam      ? ocam(*this)
+                                        : model_kind == Model::fisheye ? fisheye(*this)
+                                                                       : pinhole(*this);
+  vision::camera::check(camera);
   return camera;
 }
 

@@ -10,7 +10,7 @@
 
 #include "avoidance/module.h"
 #include "sim/scenario/imperfections.h"
-#include "vision/camera.h"
+#include "vision/camera/camera.h"
 
 namespace hedgehop::sim {
 
@@ -29,7 +29,7 @@ struct CameraConfig {
   std::filesystem::path calibration;
   double rate_hz = 50.0;
   Channel channel = Channel::grey;
-  int samples = 1;  ///< places in each pixel that grey and colour are the mean of: 1, 2, 4 or 8
+  int samples = 1;  ///< places in each pixel that grey and color are the mean of: 1, 2, 4 or 8
   double forward_m = 0.0, right_m = 0.0, down_m = 0.0;
   double yaw_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
   ImperfectionsConfig imperfections;
@@ -39,7 +39,7 @@ struct CameraConfig {
   Eigen::Isometry3d X_BC() const;
   /// Throws std::invalid_argument that begins with the key at fault, for keys that do not go together or a calibration
   /// file that cannot be used.
-  vision::Camera model() const;
+  vision::camera::Camera model() const;
   /// Whether it is a pinhole without distortion.
   bool straight() const;
 };
@@ -50,8 +50,8 @@ void describe_without_role(Visitor& v, CameraConfig& c) {
   v("model", c.model_kind,
     {.choices = {"pinhole", "fisheye", "ocam"},
      .meaning = "perspective; equidistant fisheye; omnidirectional, from a file of OCamCalib"});
-  v("width", c.width_px, {.unit = "px", .at_least = 8, .at_most = 8192, .meaning = "columns of the picture"});
-  v("height", c.height_px, {.unit = "px", .at_least = 8, .at_most = 8192, .meaning = "rows of the picture"});
+  v("width", c.width_px, {.unit = "px", .at_least = 8, .at_most = 8192, .meaning = "columns of the image"});
+  v("height", c.height_px, {.unit = "px", .at_least = 8, .at_most = 8192, .meaning = "rows of the image"});
   v("fov", c.fov_rad,
     {.unit = "deg",
      .above = 0.0,
@@ -66,16 +66,16 @@ void describe_without_role(Visitor& v, CameraConfig& c) {
     {.unit = "deg",
      .above = 0.0,
      .at_most = 180.0,
-     .meaning = "angle off the axis where a fisheye's picture ends; else as far as its lens goes"});
+     .meaning = "angle off the axis where a fisheye's image ends; else as far as its lens goes"});
   v("calibration", c.calibration, {.meaning = "file calib_results.txt of OCamCalib, for model: ocam"});
-  v("rate", c.rate_hz, {.unit = "Hz", .above = 0.0, .meaning = "pictures a second; divides the physics rate"});
+  v("rate", c.rate_hz, {.unit = "Hz", .above = 0.0, .meaning = "images a second; divides the physics rate"});
   v("channel", c.channel, {.choices = {"grey", "color", "depth"}, .meaning = "what a pixel holds"});
   v("samples", c.samples,
     {.at_least = 1,
      .at_most = 8,
      .meaning =
-         "places in each pixel that grey and colour are the mean of: 1, 2, 4 or 8; refused where the OpenGL at hand "
-         "has others (Mesa's rasteriser: 1 and 4)"});
+         "places in each pixel that grey and color are the mean of: 1, 2, 4 or 8; refused where the OpenGL at hand "
+         "has others (Mesa's rasterizer: 1 and 4)"});
   v("forward", c.forward_m, {.unit = "m", .meaning = "mounting position ahead of the body's origin"});
   v("right", c.right_m, {.unit = "m", .meaning = "mounting position right of the body's origin"});
   v("down", c.down_m, {.unit = "m", .meaning = "mounting position below the body's origin"});

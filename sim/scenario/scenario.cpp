@@ -29,7 +29,7 @@ namespace {
 // Imported files are seen from the folder of the file that names them; from then on their paths are whole, so that the
 // scenario reads back anywhere.
 void find_imports(scenes::SceneConfig& scene, const Node& root) {
-  std::vector<scenes::ImportConfig>& imports = std::visit(
+  std::vector<scenes::mesh::ImportConfig>& imports = std::visit(
       [](auto& chosen) -> auto& { return chosen.added.imports; }, scene);
   for (size_t k = 0; k < imports.size(); ++k) {
     const Place place = place_of(root, "scene.imports." + std::to_string(k) + ".file");

@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/air/wind.h"
 #include "dynamics/avionics.h"
 #include "dynamics/vehicle.h"
-#include "dynamics/wind.h"
 #include "scenes/generators.h"
 #include "sim/scenario/checks.h"
 #include "sim/scenario/drawing.h"
 #include "sim/scenario/input_error.h"
-#include "sim/scenario/plugin.h"
+#include "sim/scenario/plugin_config.h"
 #include "sim/scenario/rig.h"
 
 namespace hedgehop::sim {
@@ -84,8 +84,8 @@ struct FilmConfig {
 };
 template <class Visitor>
 void describe(Visitor& v, FilmConfig& c) {
-  v("enabled", c.enabled, {.meaning = "whether a run films its cameras and the module's picture"});
-  v("rate", c.rate_hz, {.unit = "Hz", .above = 0.0, .meaning = "pictures a second; divides the physics rate"});
+  v("enabled", c.enabled, {.meaning = "whether a run films its cameras and the module's image"});
+  v("rate", c.rate_hz, {.unit = "Hz", .above = 0.0, .meaning = "images a second; divides the physics rate"});
   v("width", c.width_px, {.unit = "px", .at_least = 64, .at_most = 4096, .meaning = "width of the film"});
 }
 
@@ -101,7 +101,7 @@ struct Scenario {
   scenes::SceneConfig scene;
   dynamics::VehicleConfig vehicle;
   dynamics::AvionicsConfig avionics;
-  dynamics::WindConfig wind;
+  dynamics::air::WindConfig wind;
   StartConfig start;
   std::vector<GoalConfig> route;   ///< places to pass before the goal
   std::optional<GoalConfig> goal;  ///< without one, the flight holds the start's altitude and heading
@@ -135,7 +135,7 @@ void describe(Visitor& v, Scenario& c) {
   v("route", c.route, {.meaning = "places to pass within their radii, in order, before the goal"});
   v("goal", c.goal, {.meaning = "where the flight should end; none for a flight that explores"});
   v("rig", c.rig, {.meaning = "the cameras on board"});
-  v("drawing", c.drawing, {.meaning = "how their pictures are made"});
+  v("drawing", c.drawing, {.meaning = "how their images are made"});
   v("velocimeter", c.velocimeter, {.meaning = "horizontal velocity from the optic flow of one camera"});
   v("avoidance", c.avoidance, {.required = true, .selector = "module", .meaning = "who decides where to fly"});
   v("checks", c.checks, {.selector = "check", .meaning = "what must hold of the flight"});

@@ -70,7 +70,7 @@ std::string path_words(std::string_view path);
 /// Place of the deepest part of `path` that was written at all.
 Place place_of(const Node& root, std::string_view path);
 
-/// Number of letters to insert, delete, replace or swap with their neighbour to turn `a` into `b`.
+/// Number of letters to insert, delete, replace or swap with their neighbor to turn `a` into `b`.
 int edit_distance(std::string_view a, std::string_view b);
 
 /// "; did you mean 'x'? allowed: x, y", the guess only when one is near.

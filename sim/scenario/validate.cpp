@@ -69,10 +69,10 @@ class Validator {
     if (!scenario_.route.empty() && !scenario_.goal) add("route", "needs a 'goal' where it ends");
     build("scene", [&] {
       scenes::Scene alone;
-      std::visit([&](const auto& chosen) { scenes::add_imports(chosen.added.imports, alone); }, scenario_.scene);
+      std::visit([&](const auto& chosen) { scenes::mesh::add_imports(chosen.added.imports, alone); }, scenario_.scene);
     });
     const bool flies = build("vehicle", [&] { dynamics::Vehicle(scenario_.vehicle); });
-    build("wind", [&] { dynamics::Wind(scenario_.wind, 0); });
+    build("wind", [&] { dynamics::air::Wind(scenario_.wind, 0); });
     // What is wrong with the vehicle is told once: beside a bad one the avionics are looked at alone.
     const dynamics::VehicleConfig carrier = flies ? scenario_.vehicle : dynamics::VehicleConfig{};
     build("avionics", [&] {
@@ -146,7 +146,7 @@ class Validator {
         add(path, fmt::format("needs camera '{}' to be a pinhole without distortion", role));
       }
       if (camera->channel != channel) {
-        add(path, fmt::format("needs camera '{}' to give {} pictures; its channel is {}", role, words(channel),
+        add(path, fmt::format("needs camera '{}' to give {} images; its channel is {}", role, words(channel),
                               words(camera->channel)));
       }
       return;
@@ -173,7 +173,7 @@ class Validator {
   static std::string named_key(std::string_view message) {
     const size_t end = message.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_.");
     if (end == 0 || end == std::string_view::npos || message[end] != ':') return "";
-    return "." + std::string(message.substr(0, end));
+    return fmt::format(".{}", message.substr(0, end));
   }
 
   void add(const std::string& path, std::string_view message) {

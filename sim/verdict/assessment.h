@@ -4,8 +4,8 @@
 
 #include "dynamics/hull.h"
 #include "scenes/scene.h"
+#include "sim/flight/flight.h"
 #include "sim/scenario/scenario.h"
-#include "sim/verdict/flight.h"
 
 namespace hedgehop::sim {
 

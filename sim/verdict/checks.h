@@ -1,8 +1,8 @@
 #pragma once
 
 #include "scenes/scene.h"
+#include "sim/flight/flight.h"
 #include "sim/scenario/scenario.h"
-#include "sim/verdict/flight.h"
 
 namespace hedgehop::sim {
 
@@ -12,7 +12,7 @@ namespace hedgehop::sim {
 std::vector<CheckResult> evaluate_checks(const Scenario& scenario, const Flight& flight, const scenes::Scene& scene,
                                          double rotor_radius_m);
 
-/// Share of the square cells of a plan whose centres a disc has covered while its centre moved along a path, 0..1.
+/// Share of the square cells of a plan whose centers a disc has covered while its center moved along a path, 0..1.
 /// @param plan_NE_m  north, east extent; cells start at its south-west corner, those cut by the far edges count too.
 /// @param path_NE_m  positions dense enough to stand for the curve.
 double visited_share(const Eigen::AlignedBox2d& plan_NE_m, double cell_m, const std::vector<Eigen::Vector2d>& path_NE_m,

@@ -5,7 +5,7 @@
 namespace hedgehop::sim {
 namespace {
 
-bool in_picture(const vision::Camera& camera, const Eigen::Isometry3d& X_WC, const Eigen::Vector3d& p_W) {
+bool in_image(const vision::camera::Camera& camera, const Eigen::Isometry3d& X_WC, const Eigen::Vector3d& p_W) {
   const auto pixel = camera.project(X_WC.inverse() * p_W);
   return pixel && pixel->x() >= 0.0 && pixel->y() >= 0.0 && pixel->x() <= camera.width_px - 1 &&
          pixel->y() <= camera.height_px - 1;
@@ -24,22 +24,23 @@ bool nothing_before(const CollisionWorld& world, const Eigen::Vector3d& p_WC, co
 ProjectedCorners::ProjectedCorners(std::vector<Eigen::Vector3d> corners_W, uint64_t seed)
     : corners_W_(std::move(corners_W)), random_(seed) {}
 
-std::vector<Eigen::Vector2d> ProjectedCorners::project(const vision::Camera& camera, const Eigen::Isometry3d& X_WC) {
+std::vector<Eigen::Vector2d> ProjectedCorners::project(const vision::camera::Camera& camera,
+                                                       const Eigen::Isometry3d& X_WC) {
   constexpr double kNoise_px = 0.5;  // of a corner detector that works well
   std::vector<Eigen::Vector2d> pixels;
   for (const Eigen::Vector3d& p_W : corners_W_) {
-    if (!in_picture(camera, X_WC, p_W)) continue;
+    if (!in_image(camera, X_WC, p_W)) continue;
     const double right_px = kNoise_px * normal_(random_), down_px = kNoise_px * normal_(random_);
     pixels.push_back(*camera.project(X_WC.inverse() * p_W) + Eigen::Vector2d(right_px, down_px));
   }
   return pixels;
 }
 
-std::vector<bool> corners_in_sight(std::span<const Eigen::Vector3d> corners_W, const vision::Camera& camera,
+std::vector<bool> corners_in_sight(std::span<const Eigen::Vector3d> corners_W, const vision::camera::Camera& camera,
                                    const Eigen::Isometry3d& X_WC, const CollisionWorld* world, double t_s) {
   std::vector<bool> seen;
   for (const Eigen::Vector3d& p_W : corners_W) {
-    seen.push_back(in_picture(camera, X_WC, p_W) && (!world || nothing_before(*world, X_WC.translation(), p_W, t_s)));
+    seen.push_back(in_image(camera, X_WC, p_W) && (!world || nothing_before(*world, X_WC.translation(), p_W, t_s)));
   }
   return seen;
 }

@@ -19,7 +19,7 @@ double reach_m(const Vector2d& p, const Vector2d& direction, const Vector2d& a, 
 }
 
 /// Half the difference between each known signal and the truth.
-std::vector<double> centering_deviations(const scenes::CorridorPlan& plan, const Flight& flight) {
+std::vector<double> centering_deviations(const scenes::worlds::CorridorPlan& plan, const Flight& flight) {
   const auto signal = std::ranges::find(flight.signals, "centering_error", &NamedUnit::name);
   std::vector<double> deviations;
   if (signal == flight.signals.end()) return deviations;
@@ -42,7 +42,7 @@ double mean(const std::vector<double>& values) {
 
 }  // namespace
 
-CorridorPlace corridor_place(const scenes::CorridorPlan& plan, const Vector2d& p_NE) {
+CorridorPlace corridor_place(const scenes::worlds::CorridorPlan& plan, const Vector2d& p_NE) {
   CorridorPlace place;
   double nearest_m = std::numeric_limits<double>::infinity(), begun_m = 0.0;
   for (size_t k = 0; k + 1 < plan.middles_NE.size(); ++k) {
@@ -61,9 +61,9 @@ CorridorPlace corridor_place(const scenes::CorridorPlan& plan, const Vector2d& p
 }
 
 std::vector<MetricValue> corridor_metrics(const Scenario& scenario, const Flight& flight) {
-  const auto* corridor = std::get_if<scenes::CorridorConfig>(&scenario.scene);
+  const auto* corridor = std::get_if<scenes::worlds::CorridorConfig>(&scenario.scene);
   if (!corridor || flight.trajectory.empty()) return {};
-  const scenes::CorridorPlan plan = scenes::plan_corridor(*corridor);
+  const scenes::worlds::CorridorPlan plan = scenes::worlds::plan_corridor(*corridor);
   std::vector<double> offs_m;
   double late_m = std::numeric_limits<double>::quiet_NaN();
   constexpr double kSettled_m = 15.0;

@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "scenes/corridor.h"
+#include "scenes/worlds/corridor.h"
+#include "sim/flight/flight.h"
 #include "sim/scenario/scenario.h"
-#include "sim/verdict/flight.h"
 
-/// What a module that centres itself in a corridor cannot know: where the middle is.
+/// What a module that centers itself in a corridor cannot know: where the middle is.
 namespace hedgehop::sim {
 
 /// Where a place lies between a corridor's walls, doorways and pillars left aside.
@@ -18,7 +18,7 @@ struct CorridorPlace {
 };
 
 /// Returns the place in the section whose middle line is nearest.
-CorridorPlace corridor_place(const scenes::CorridorPlan& plan, const Eigen::Vector2d& p_NE);
+CorridorPlace corridor_place(const scenes::worlds::CorridorPlan& plan, const Eigen::Vector2d& p_NE);
 
 /// Returns figures of a flight through a corridor; none in another scene:
 /// - off_middle_mean_m, off_middle_max_m, and off_middle_after_15m_m, the largest from 15 m of corridor past the start

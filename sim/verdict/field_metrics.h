@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "scenes/scene.h"
+#include "sim/flight/flight.h"
 #include "sim/scenario/scenario.h"
-#include "sim/verdict/flight.h"
 
 namespace hedgehop::sim {
 

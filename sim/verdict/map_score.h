@@ -5,14 +5,14 @@
 #include <span>
 #include <vector>
 
-#include "sim/verdict/flight.h"
+#include "sim/flight/flight.h"
 
 namespace hedgehop::sim {
 
 /// Compares a module's map with the corners that the scene truly has, from decision to decision. The error of a corner
 /// is the mean over its coordinates of |estimate - truth|, of the map's nearest point, as a share of the distance from
 /// where the flight began to the corner. [Shah2009] ch. 6 leaves its denominator open. A corner counts once it was in
-/// sight for 10 s in all: what walls hide all the while, no picture shows.
+/// sight for 10 s in all: what walls hide all the while, no image shows.
 class MapScore {
  public:
   /// @param corners_W  true corners, m, at least one. @param p_start_W  where the flight began, m.

@@ -6,7 +6,7 @@
 
 #include "dynamics/hull.h"
 #include "scenes/scene.h"
-#include "sim/verdict/flight.h"
+#include "sim/flight/flight.h"
 
 /// How much time a module left itself.
 namespace hedgehop::sim {

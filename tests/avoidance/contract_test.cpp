@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "avoidance/registry.h"
-#include "tests/avoidance/flow_rig.h"
+#include "tests/avoidance/flow_balance/flow_rig.h"
 
 /// What every module of the registry promises, whatever it is for.
 namespace hedgehop::avoidance {
@@ -43,14 +43,14 @@ std::vector<Row> rows() {
     // Between walls that cannot be seen the way is not free.
     if (row.fisheye) row.blank = "blind";
   }
-  FlowBalanceConfig simple;
-  simple.scheme = FlowBalanceConfig::Scheme::simple;
+  flow_balance::FlowBalanceConfig simple;
+  simple.scheme = flow_balance::FlowBalanceConfig::Scheme::simple;
   simple.flow.rows = 1;
   simple.flow.cols = 8;
   all.push_back({"flow_balance_simple", simple});
-  FlowBalanceConfig refined;
+  flow_balance::FlowBalanceConfig refined;
   refined.derotate = true;
-  refined.average = FlowBalanceConfig::Average::valid;
+  refined.average = flow_balance::FlowBalanceConfig::Average::valid;
   refined.flow.margin_px = 0;
   refined.command_time_constant_s = 0.3;
   refined.spiral_angle_rad = 0.1;
@@ -143,9 +143,9 @@ TEST_P(Contract, ResetEqualsANewModule) {
 TEST_P(Contract, DrawingChangesNothingAndGivesRgb) {
   const auto drawn = make_module(GetParam().config), plain = make_module(GetParam().config);
   expect_same(fly(*drawn, 10.0, true), fly(*plain));
-  const cv::Mat picture = drawn->annotate();
-  if (!picture.empty()) {
-    EXPECT_EQ(picture.type(), CV_8UC3);
+  const cv::Mat image = drawn->annotate();
+  if (!image.empty()) {
+    EXPECT_EQ(image.type(), CV_8UC3);
   }
   const auto unused = make_module(GetParam().config);
   EXPECT_NO_THROW(unused->annotate());
@@ -179,7 +179,7 @@ TEST_P(Contract, HoldsTheGoalsHeadingAndHeightOrFliesWhereItLooks) {
   }
 }
 
-TEST_P(Contract, BlankPicturesAreSurvivedAndLeaveTheWayFree) {
+TEST_P(Contract, BlankImagesAreSurvivedAndLeaveTheWayFree) {
   const auto module = make_module(GetParam().config);
   module->reset(setup());
   for (int i = 0; i < kSteps; ++i) {

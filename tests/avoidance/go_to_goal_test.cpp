@@ -5,7 +5,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "tests/avoidance/flow_rig.h"
+#include "tests/avoidance/flow_balance/flow_rig.h"
 
 namespace hedgehop::avoidance {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "tests/avoidance/flow_rig.h"
+#include "tests/avoidance/flow_balance/flow_rig.h"
 
 namespace hedgehop::avoidance {
 namespace {
@@ -52,7 +52,7 @@ TEST_F(Checked, AFailedResetLeavesTheModuleUnready) {
 }
 
 TEST_F(Checked, ResetRefusesAFisheyeWhereThePinholeIsNeeded) {
-  setup.cameras[0].model = {32, 32, vision::FisheyeLens{10.0, 10.0, 15.5, 15.5}};
+  setup.cameras[0].model = {32, 32, vision::camera::FisheyeLens{10.0, 10.0, 15.5, 15.5}};
   EXPECT_NO_THROW(module.reset(setup));
   module.pinhole = true;
   EXPECT_THROW(module.reset(setup), std::invalid_argument);

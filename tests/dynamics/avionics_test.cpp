@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "tests/dynamics/closed_loop.h"
+#include "tests/dynamics/control/closed_loop.h"
 
 namespace hedgehop::dynamics {
 namespace {
 
-Setpoint away(double t_s) { return VelocitySetpoint{{t_s < 3.0 ? 2.0 : -1.0, 1.0}, 11.0, 0.3}; }
+control::Setpoint away(double t_s) { return control::VelocitySetpoint{{t_s < 3.0 ? 2.0 : -1.0, 1.0}, 11.0, 0.3}; }
 
 bool same(const Sample& a, const Sample& b) {
   return a.controls == b.controls && a.body.p_WB == b.body.p_WB && a.body.q_WB.coeffs() == b.body.q_WB.coeffs() &&
@@ -23,7 +23,7 @@ bool same(const Sample& a, const Sample& b) {
 
 TEST(Avionics, EqualSeedsGiveEqualFlightsBitForBit) {
   Loop loop;
-  loop.weather = WindConfig{.speed_mps = 3.0, .turbulence_w20_mps = 7.7};
+  loop.weather = air::WindConfig{.speed_mps = 3.0, .turbulence_w20_mps = 7.7};
   const std::vector<Sample> a = fly(loop, 6.0, away), b = fly(loop, 6.0, away);
   ASSERT_EQ(a.size(), b.size());
   for (size_t i = 0; i < a.size(); ++i) ASSERT_TRUE(same(a[i], b[i])) << i;
@@ -32,8 +32,8 @@ TEST(Avionics, EqualSeedsGiveEqualFlightsBitForBit) {
 }
 
 /// Feeds two avionics the same hover and compares what they believe at its end.
-NavigationEstimate after_hover(Avionics& avionics, double duration_s = 3.0) {
-  Vehicle vehicle{VehicleConfig(HelicopterConfig())};
+control::NavigationEstimate after_hover(Avionics& avionics, double duration_s = 3.0) {
+  Vehicle vehicle{VehicleConfig(helicopter::HelicopterConfig())};
   vehicle.reset({0.0, 0.0, -10.0}, 0.0, Eigen::Vector3d::Zero());
   const SensedTruth truth{vehicle.body(), vehicle.specific_force_B(), 10.0};
   avionics.reset(truth);
@@ -42,27 +42,27 @@ NavigationEstimate after_hover(Avionics& avionics, double duration_s = 3.0) {
   return avionics.navigation();
 }
 
-bool same(const NavigationEstimate& a, const NavigationEstimate& b) {
+bool same(const control::NavigationEstimate& a, const control::NavigationEstimate& b) {
   return a.p_WB_est == b.p_WB_est && a.q_WB_est.coeffs() == b.q_WB_est.coeffs() && a.v_WB_B_est == b.v_WB_B_est &&
          a.w_WB_B_est == b.w_WB_B_est;
 }
 
 TEST(Avionics, ResetEqualsNew) {
   const auto make = [] {
-    return Avionics({}, HelicopterConfig(), 0.002, [](std::string_view n) { return seed_of(1, n); });
+    return Avionics({}, helicopter::HelicopterConfig(), 0.002, [](std::string_view n) { return seed_of(1, n); });
   };
   Avionics used = make(), fresh = make();
   after_hover(used);
-  for (int i = 0; i < 10; ++i) used.control(VelocitySetpoint{{3.0, 0.0}, 20.0, 1.0}, 0.01);
+  for (int i = 0; i < 10; ++i) used.control(control::VelocitySetpoint{{3.0, 0.0}, 20.0, 1.0}, 0.01);
   EXPECT_TRUE(same(after_hover(used), after_hover(fresh)));
-  const Setpoint s = VelocitySetpoint{{1.0, 0.0}, 10.0, 0.0};
+  const control::Setpoint s = control::VelocitySetpoint{{1.0, 0.0}, 10.0, 0.0};
   const Controls a = used.control(s, 0.01), b = fresh.control(s, 0.01);
   EXPECT_EQ(a, b);
 }
 
 TEST(Avionics, EachSourceOfNoiseHasAStreamOfItsOwn) {
   std::vector<std::string> names;
-  Avionics avionics({}, HelicopterConfig(), 0.002, [&](std::string_view n) {
+  Avionics avionics({}, helicopter::HelicopterConfig(), 0.002, [&](std::string_view n) {
     names.emplace_back(n);
     return seed_of(1, n);
   });
@@ -70,7 +70,8 @@ TEST(Avionics, EachSourceOfNoiseHasAStreamOfItsOwn) {
 
   // Another seed for one stream reaches the estimate through that sensor alone.
   const auto believed = [](AvionicsConfig c, std::string_view other) {
-    Avionics a(c, HelicopterConfig(), 0.002, [&](std::string_view n) { return seed_of(n == other ? 2 : 1, n); });
+    Avionics a(c, helicopter::HelicopterConfig(), 0.002,
+               [&](std::string_view n) { return seed_of(n == other ? 2 : 1, n); });
     return after_hover(a);
   };
   AvionicsConfig all;
@@ -86,7 +87,7 @@ TEST(Avionics, EachSourceOfNoiseHasAStreamOfItsOwn) {
   AvionicsConfig with_options;
   with_options.barometer.enabled = with_options.range_finder.ranger.enabled = true;
   names.clear();
-  Avionics(with_options, HelicopterConfig(), 0.002, [&](std::string_view n) {
+  Avionics(with_options, helicopter::HelicopterConfig(), 0.002, [&](std::string_view n) {
     names.emplace_back(n);
     return seed_of(1, n);
   });
@@ -101,7 +102,7 @@ TEST(Avionics, RangesAlongTheBeamFromItsPlaceOnBoard) {
   c.range_finder = {.ranger = {.noise_m = 0.0, .noise_per_range = 0.0, .dropout = 0.0, .latency_s = 0.0},
                     .direction_B = {0.0, 2.0, 0.0},
                     .p_BS_m = {0.5, 0.0, 0.1}};
-  Avionics avionics(c, HelicopterConfig(), 0.002, [](std::string_view n) { return seed_of(1, n); });
+  Avionics avionics(c, helicopter::HelicopterConfig(), 0.002, [](std::string_view n) { return seed_of(1, n); });
   // Nose to the east, banked to the right by 30 degrees: the beam over the right wing points south and down.
   SensedTruth truth;
   truth.body.p_WB = {3.0, 4.0, -10.0};
@@ -138,7 +139,7 @@ TEST(Avionics, FliesAtOtherPhysicsAndSensorRates) {
 TEST(Avionics, NamesTheRateThatDoesNotFit) {
   AvionicsConfig c;
   c.magnetometer.rate_hz = 30.0;
-  EXPECT_THAT([&] { Avionics(c, HelicopterConfig(), 0.002, [](std::string_view) { return uint64_t{1}; }); },
+  EXPECT_THAT([&] { Avionics(c, helicopter::HelicopterConfig(), 0.002, [](std::string_view) { return uint64_t{1}; }); },
               testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("magnetometer.rate: ")));
 }
 

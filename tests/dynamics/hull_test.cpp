@@ -17,7 +17,7 @@ TEST(Hull, RotorDiscIsAsWideAsTheRotorAndAtItsHub) {
 }
 
 TEST(Hull, FollowsTheVehiclesDimensions) {
-  HelicopterConfig config;
+  helicopter::HelicopterConfig config;
   config.main_rotor.radius_m = 0.9;
   config.tail_rotor.arm_m = 1.1;
   const std::vector<HullPart> parts = hull(config);
@@ -28,7 +28,7 @@ TEST(Hull, FollowsTheVehiclesDimensions) {
 }
 
 TEST(Hull, BoomJoinsFuselageAndTailRotor) {
-  const std::vector<HullPart> parts = hull(HelicopterConfig{});
+  const std::vector<HullPart> parts = hull(helicopter::HelicopterConfig{});
   const HullPart &fuselage = parts[1], &boom = parts[2], &tail = parts[3];
   EXPECT_NEAR(boom.center_B_m.x() + boom.half_extents_m.x(), fuselage.center_B_m.x() - fuselage.half_extents_m.x(),
               1e-12);
@@ -38,7 +38,7 @@ TEST(Hull, BoomJoinsFuselageAndTailRotor) {
 }
 
 TEST(Hull, RadiusHoldsEveryCorner) {
-  const std::vector<HullPart> parts = hull(HelicopterConfig{});
+  const std::vector<HullPart> parts = hull(helicopter::HelicopterConfig{});
   // The tail rotor's far edge is the farthest: 0.91 + 0.13 back, 0.02 aside.
   EXPECT_NEAR(radius_m(parts), std::hypot(1.04, 0.02), 1e-12);
   EXPECT_EQ(radius_m({}), 0.0);
@@ -46,7 +46,7 @@ TEST(Hull, RadiusHoldsEveryCorner) {
 }
 
 TEST(Hull, RefusesAPartWithoutSize) {
-  HelicopterConfig config;
+  helicopter::HelicopterConfig config;
   config.hull.disc_thickness_m = 0.0;
   EXPECT_THROW(hull(config), std::invalid_argument);
 }

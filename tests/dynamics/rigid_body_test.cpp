@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "dynamics/helicopter_flight.h"
+#include "dynamics/helicopter/helicopter_flight.h"
+#include "dynamics/helicopter/trim.h"
 #include "dynamics/integrator.h"
-#include "dynamics/trim.h"
 #include "tests/dynamics/recorded_check.h"
 
 namespace hedgehop::dynamics {
@@ -21,9 +21,9 @@ MassProperties mass_of(double xx, double yy, double zz) { return make_mass_prope
 /// Steps a body without loads; the quaternion is made unit again as in flight.
 RigidBodyState step_free(const MassProperties& mass, const RigidBodyState& state, double h) {
   const auto rate = [&](double, const RigidBodyVector& x) {
-    return derivative(mass, to_rigid_body(x), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+    return helicopter::derivative(mass, to_rigid_body(x), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
   };
-  RigidBodyState next = to_rigid_body(rk4_step<13>(to_vector(state), 0.0, h, rate));
+  RigidBodyState next = to_rigid_body(rk4_step<13>(helicopter::to_vector(state), 0.0, h, rate));
   next.q_WB.normalize();
   return next;
 }
@@ -159,7 +159,7 @@ TEST(RigidBody, RB4_SymmetricTopPrecessesInBodyAxes) {
   expect_recorded("period in body axes, s", 2.0 * std::numbers::pi * n * h / std::abs(angle), 0.879646, 1e-5);
 }
 
-BladeAngles wiggle(const BladeAngles& trim, double t_s) {
+helicopter::BladeAngles wiggle(const helicopter::BladeAngles& trim, double t_s) {
   return {trim.collective_rad + 0.01 * std::sin(2.0 * t_s), trim.lateral_rad + 0.004 * std::sin(3.0 * t_s),
           trim.longitudinal_rad + 0.004 * std::sin(2.5 * t_s + 1.0), trim.tail_rad + 0.01 * std::sin(1.5 * t_s)};
 }
@@ -167,15 +167,15 @@ BladeAngles wiggle(const BladeAngles& trim, double t_s) {
 // Check RB5.
 TEST(Helicopter, RB5_UniformWindOnlyCarriesItAlong) {
   const Eigen::Vector3d wind_W{3.0, -4.0, 0.0};
-  HelicopterFlight still{HelicopterConfig{}}, carried{HelicopterConfig{}};
-  HelicopterFlightState start = still.state();
+  helicopter::HelicopterFlight still{helicopter::HelicopterConfig{}}, carried{helicopter::HelicopterConfig{}};
+  helicopter::HelicopterFlightState start = still.state();
   start.airframe.body.v_WB_B += start.airframe.body.q_WB.conjugate() * wind_W;
   carried.set_state(start, wind_W);
-  const BladeAngles hover = still.actuators();
+  const helicopter::BladeAngles hover = still.actuators();
   const double dt = 0.002;
   double worst = 0.0;
   for (int i = 1; i <= 5000; ++i) {
-    const BladeAngles command = wiggle(hover, (i - 1) * dt);
+    const helicopter::BladeAngles command = wiggle(hover, (i - 1) * dt);
     still.step(command, Eigen::Vector3d::Zero(), dt);
     carried.step(command, wind_W, dt);
     worst = std::max(worst, (carried.body().p_WB - still.body().p_WB - wind_W * i * dt).norm());
@@ -187,15 +187,15 @@ TEST(Helicopter, RB5_UniformWindOnlyCarriesItAlong) {
 /// Change of kinetic and potential energy less the work of all loads but gravity, after 10 s of manoeuvre, over the
 /// greatest change of energy on the way.
 double energy_residual(double h) {
-  const HelicopterModel model = make_model(HelicopterConfig{});
-  const std::optional<Trim> start = trim(model, {8.0, 0.0, 0.0});
+  const helicopter::HelicopterModel model = make_model(helicopter::HelicopterConfig{});
+  const std::optional<helicopter::Trim> start = trim(model, {8.0, 0.0, 0.0});
   using Vector = Eigen::Matrix<double, 18, 1>;
   const auto rate = [&](double t, const Vector& x) {
-    const HelicopterState s = to_helicopter(x.head<17>());
-    const BladeAngles blades = wiggle(start->blades, t);
-    const HelicopterLoads loads = helicopter_loads(model, s, blades, Eigen::Vector3d::Zero());
+    const helicopter::HelicopterState s = helicopter::to_helicopter(x.head<17>());
+    const helicopter::BladeAngles blades = wiggle(start->blades, t);
+    const helicopter::HelicopterLoads loads = helicopter::helicopter_loads(model, s, blades, Eigen::Vector3d::Zero());
     Vector dx;
-    dx << derivative(model, s, blades, Eigen::Vector3d::Zero()),
+    dx << helicopter::derivative(model, s, blades, Eigen::Vector3d::Zero()),
         loads.f_B.dot(s.body.v_WB_B) + loads.t_B.dot(s.body.w_WB_B);
     return dx;
   };
@@ -205,7 +205,7 @@ double energy_residual(double h) {
            model.mass.mass_kg * kGravityMps2 * b.p_WB.z();
   };
   Vector x;
-  x << to_vector(start->state), 0.0;
+  x << helicopter::to_vector(start->state), 0.0;
   const double E0 = total(x);
   double greatest = 0.0;
   for (int i = 0, n = static_cast<int>(std::lround(10.0 / h)); i < n; ++i) {

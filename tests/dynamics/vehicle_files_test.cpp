@@ -11,9 +11,9 @@
 #include <variant>
 #include <vector>
 
-#include "dynamics/trim.h"
+#include "dynamics/helicopter/trim.h"
 #include "dynamics/vehicle.h"
-#include "tests/dynamics/closed_loop.h"
+#include "tests/dynamics/control/closed_loop.h"
 
 namespace hedgehop::dynamics {
 namespace {
@@ -123,9 +123,9 @@ class Reader {
   YAML::Node map_;
 };
 
-HelicopterConfig read(const std::string& file) {
+helicopter::HelicopterConfig read(const std::string& file) {
   const YAML::Node root = YAML::LoadFile(HEDGEHOP_SOURCE_DIR "/configs/vehicles/" + file + ".yaml");
-  HelicopterConfig config;
+  helicopter::HelicopterConfig config;
   Reader reader(root);
   describe(reader, config);
   Comparison::compare(root, file + ": ", config);  // no key too many
@@ -135,8 +135,8 @@ HelicopterConfig read(const std::string& file) {
 TEST(VehicleFiles, HoldEveryKeyWithTheDefaultValues) {
   for (const char* file : {"xcell_60.yaml", "electric_helicopter_8kg.yaml"}) {
     const YAML::Node root = YAML::LoadFile(std::string(HEDGEHOP_SOURCE_DIR "/configs/vehicles/") + file);
-    EXPECT_EQ(root["type"].as<std::string>(), HelicopterConfig::kName);
-    HelicopterConfig config;
+    EXPECT_EQ(root["type"].as<std::string>(), helicopter::HelicopterConfig::kName);
+    helicopter::HelicopterConfig config;
     Comparison::compare(root, std::string(file) + ": ", config);
   }
 }
@@ -153,17 +153,17 @@ INSTANTIATE_TEST_SUITE_P(Vehicles, HelicopterFiles,
 
 // Check HT4, for any helicopter.
 TEST_P(HelicopterFiles, HT4_TrimFromRearwardFlightToCruise) {
-  const HelicopterConfig config = read(GetParam().file);
-  const HelicopterModel model = make_model(config);
+  const helicopter::HelicopterConfig config = read(GetParam().file);
+  const helicopter::HelicopterModel model = make_model(config);
   double pitch = 1e9, least_w = 1e9, hover_w = 0.0, cruise_w = 0.0;
   for (double V = -4.0; V <= GetParam().cruise_mps; V += 1.0) {
     SCOPED_TRACE(V);
-    const std::optional<Trim> t = trim(model, {V, 0.0, 0.0});
+    const std::optional<helicopter::Trim> t = trim(model, {V, 0.0, 0.0});
     ASSERT_TRUE(t);
     EXPECT_TRUE(t->loads.main_rotor.inflow.within_momentum_theory);
     EXPECT_LT(t->loads.main_rotor.inflow.thrust_n, 0.9 * model.main_rotor.disc.max_thrust_n);
     EXPECT_LT(t->pitch_rad, pitch);
-    const auto within = [](const ServoConfig& servo, double angle) {
+    const auto within = [](const helicopter::ServoConfig& servo, double angle) {
       return angle > servo.lowest_rad && angle < servo.highest_rad;
     };
     EXPECT_TRUE(within(config.servos.collective, t->blades.collective_rad)) << t->blades.collective_rad;
@@ -186,9 +186,9 @@ TEST_P(HelicopterFiles, HT4_TrimFromRearwardFlightToCruise) {
 
 // Checks LM6 and LM7, for any helicopter.
 TEST_P(HelicopterFiles, LM6_HeaveDampingLiesInThePublishedBand) {
-  using L = LinearModel;
-  const HelicopterModel model = make_model(read(GetParam().file));
-  const LinearModel m = linearise(model, *trim(model, Eigen::Vector3d::Zero()));
+  using L = helicopter::LinearModel;
+  const helicopter::HelicopterModel model = make_model(read(GetParam().file));
+  const helicopter::LinearModel m = linearize(model, *trim(model, Eigen::Vector3d::Zero()));
   EXPECT_LT(m.A(L::kW, L::kW), -0.4);
   EXPECT_GT(m.A(L::kW, L::kW), -1.0);
   EXPECT_LT(m.A(L::kP, L::kV), 0.0);
@@ -202,7 +202,7 @@ TEST_P(HelicopterFiles, AutopilotSettlesOnAVelocityStep) {
   loop.perfect = true;
   constexpr double kStepMps = 3.0;
   const std::vector<Sample> flight = fly(loop, 16.0, [](double t_s) {
-    return VelocitySetpoint{{t_s < 1.0 ? 0.0 : kStepMps, 0.0}, 10.0, 0.0};
+    return control::VelocitySetpoint{{t_s < 1.0 ? 0.0 : kStepMps, 0.0}, 10.0, 0.0};
   });
   double overshoot = 0.0;
   for (const Sample& s : flight) {

@@ -8,17 +8,17 @@
 #include <random>
 
 #include "scene_equality.h"
-#include "scenes/bodies.h"
 #include "scenes/generators.h"
+#include "scenes/mesh/bodies.h"
 
 namespace hedgehop::scenes {
 namespace {
 
 TEST(SceneFigures, SmallestGapIsThatOfAllPairs) {
-  UrbanConfig config;
+  worlds::UrbanConfig config;
   config.texture_size_px = 64;
   for (uint64_t seed = 0; seed < 5; ++seed) {
-    const Scene city = make_urban(config, seed);
+    const Scene city = worlds::make_urban(config, seed);
     double smallest = std::numeric_limits<double>::infinity();
     for (const Solid& a : city.solids) {
       for (const Solid& b : city.solids) {
@@ -35,10 +35,10 @@ TEST(SceneFigures, SmallestGapIsThatOfAllPairs) {
 }
 
 TEST(SceneFigures, AnEmptyRoomIsAsWideAsItsWallsAreApart) {
-  RoomConfig config;
+  worlds::RoomConfig config;
   config.texture_size_px = 64;
   config.ceiling = false;
-  const SceneFigures figures = scene_figures(make_room(config, 1));
+  const SceneFigures figures = scene_figures(worlds::make_room(config, 1));
   EXPECT_NEAR(figures.smallest_gap_m, 8.0, 1e-9);
   EXPECT_NEAR(figures.covered_share, 0.0, 1e-9);
 }
@@ -49,8 +49,8 @@ TEST(SceneFigures, OfAGridOfPostsFollowPitchAndRadius) {
   Scene grid;
   grid.bounds_NE_m = {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(10 * pitch_m, 10 * pitch_m)};
   for (int k = 0; k < 100; ++k) {
-    const Post post{{pitch_m * (k % 10 + 0.5), pitch_m * (k / 10 + 0.5), 0.0}, radius_m, 5.0};
-    grid.solids.push_back(solid_of("post", post));
+    const mesh::Post post{{pitch_m * (k % 10 + 0.5), pitch_m * (k / 10 + 0.5), 0.0}, radius_m, 5.0};
+    grid.solids.push_back(mesh::solid_of("post", post));
   }
   const SceneFigures figures = scene_figures(grid);
   EXPECT_EQ(figures.solids, 100u);
@@ -68,8 +68,8 @@ TEST(SceneFigures, MedianGapIsThatOfAllPairsSorted) {
     Scene scene;
     scene.bounds_NE_m = {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(50.0, 50.0)};
     for (int k = 0; k < 41; ++k) {
-      scene.solids.push_back(
-          ball_of("ball", {uniform(random, 0.0, 50.0), uniform(random, 0.0, 50.0), -3.0}, uniform(random, 0.1, 3.0)));
+      scene.solids.push_back(mesh::ball_of("ball", {uniform(random, 0.0, 50.0), uniform(random, 0.0, 50.0), -3.0},
+                                           uniform(random, 0.1, 3.0)));
     }
     std::vector<double> gaps;
     for (const Solid& a : scene.solids) {

@@ -11,8 +11,8 @@ namespace {
 
 using Shape = MoverConfig::Shape;
 
-RoomConfig room_with(std::vector<MoverConfig> movers) {
-  RoomConfig config;
+worlds::RoomConfig room_with(std::vector<MoverConfig> movers) {
+  worlds::RoomConfig config;
   config.texture_size_px = 64;
   config.added.movers = std::move(movers);
   return config;

@@ -1,10 +1,10 @@
-#include "vision/camera.h"
+#include "vision/camera/camera.h"
 
 #include <cmath>
 #include <initializer_list>
 #include <stdexcept>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::camera {
 
 namespace {
 
@@ -19,7 +19,7 @@ bool finite(std::initializer_list<double> numbers) {
   return true;
 }
 
-// Checked for every picture: no text is put together unless there is something to tell.
+// Checked for every image: no text is put together unless there is something to tell.
 void check_lens(const PinholeLens& lens) {
   require(finite({lens.focal_x_px, lens.focal_y_px, lens.center_u_px, lens.center_v_px, lens.k1, lens.k2, lens.p1,
                   lens.p2, lens.k3}),
@@ -95,10 +95,10 @@ double fisheye_focal_px(const FisheyeLens& coefficients, int width_px, double ho
 
 void check(const Camera& camera) {
   if (camera.width_px < 1 || camera.height_px < 1) {
-    throw std::invalid_argument("a camera's picture needs at least one pixel each way, got " +
+    throw std::invalid_argument("a camera's image needs at least one pixel each way, got " +
                                 std::to_string(camera.width_px) + " x " + std::to_string(camera.height_px));
   }
   std::visit([](const auto& lens) { check_lens(lens); }, camera.lens);
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::camera

@@ -5,15 +5,15 @@
 #include <string>
 #include <variant>
 
-#include "vision/fisheye_lens.h"
-#include "vision/ocam_lens.h"
-#include "vision/pinhole_camera.h"
-#include "vision/pinhole_lens.h"
+#include "vision/camera/fisheye_lens.h"
+#include "vision/camera/ocam_lens.h"
+#include "vision/camera/pinhole_camera.h"
+#include "vision/camera/pinhole_lens.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::camera {
 
-/// Any camera: the size of its pictures and its lens. Frame C: x right, y down, z forward along the optical axis. Pixel
-/// (0, 0) is the centre of the top-left pixel, u right, v down, so a picture covers u in [-0.5, width - 0.5].
+/// Any camera: the size of its images and its lens. Frame C: x right, y down, z forward along the optical axis. Pixel
+/// (0, 0) is the center of the top-left pixel, u right, v down, so an image covers u in [-0.5, width - 0.5].
 /// What it projects is what the simulator draws. A value: copying it allocates nothing.
 struct Camera {
   using Lens = std::variant<PinholeLens, FisheyeLens, OcamLens>;
@@ -30,7 +30,7 @@ struct Camera {
 
   bool operator==(const Camera&) const = default;
 
-  /// Pixel (u, v) of a point in C, m; nothing when the lens does not see so far aside. Not clipped to the picture.
+  /// Pixel (u, v) of a point in C, m; nothing when the lens does not see so far aside. Not clipped to the image.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_C) const;
   /// Ray through a pixel, in C, of length 1; nothing where the lens shows nothing. The inverse of project().
   std::optional<Eigen::Vector3d> ray(const Eigen::Vector2d& pixel) const;
@@ -44,7 +44,7 @@ struct Camera {
   std::string lens_name() const;
 };
 
-/// Focal length at which a fisheye of these coefficients shows a field of view across a picture's full width, px.
+/// Focal length at which a fisheye of these coefficients shows a field of view across an image's full width, px.
 /// @param horizontal_fov_rad  in (0, 2 pi). Throws std::invalid_argument when the lens does not reach so far.
 double fisheye_focal_px(const FisheyeLens& coefficients, int width_px, double horizontal_fov_rad);
 
@@ -52,4 +52,4 @@ double fisheye_focal_px(const FisheyeLens& coefficients, int width_px, double ho
 /// that is not positive, a number that is not finite, or a limit beyond what its lens can tell apart.
 void check(const Camera& camera);
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::camera

@@ -1,11 +1,11 @@
-#include "vision/fisheye_lens.h"
+#include "vision/camera/fisheye_lens.h"
 
 #include <cmath>
 #include <utility>
 
-#include "vision/rising_root.h"
+#include "vision/camera/rising_root.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::camera {
 
 double FisheyeLens::radius(double angle_rad) const {
   const double s = angle_rad * angle_rad;
@@ -44,4 +44,4 @@ std::optional<Eigen::Vector3d> FisheyeLens::ray(const Eigen::Vector2d& pixel) co
   return Eigen::Vector3d(aside.x(), aside.y(), std::cos(angle_rad)).normalized();
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::camera

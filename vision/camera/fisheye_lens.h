@@ -4,10 +4,10 @@
 #include <numbers>
 #include <optional>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::camera {
 
 /// A lens that may see behind itself: a ray at angle theta off the axis lands
-/// theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8) focal lengths from the centre, the equidistant
+/// theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8) focal lengths from the center, the equidistant
 /// projection when all four are zero. Coefficients as in OpenCV's fisheye module, after [KannalaBrandt2006].
 struct FisheyeLens {
   double focal_x_px = 0.0, focal_y_px = 0.0;
@@ -18,7 +18,7 @@ struct FisheyeLens {
 
   bool operator==(const FisheyeLens&) const = default;
 
-  /// Focal lengths from the centre to where a ray shows, and how it grows; the same at any angle, limit or not.
+  /// Focal lengths from the center to where a ray shows, and how it grows; the same at any angle, limit or not.
   double radius(double angle_rad) const;
   double radius_slope(double angle_rad) const;
   /// Angle up to which the radius grows, at most pi, to 0.1 mrad.
@@ -30,4 +30,4 @@ struct FisheyeLens {
   std::optional<Eigen::Vector3d> ray(const Eigen::Vector2d& pixel) const;
 };
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::camera

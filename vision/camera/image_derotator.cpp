@@ -1,11 +1,11 @@
-#include "vision/picture_turner.h"
+#include "vision/camera/image_derotator.h"
 
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::camera {
 
-PictureTurner::PictureTurner(const Camera& camera, const cv::Mat& wanted)
+ImageDerotator::ImageDerotator(const Camera& camera, const cv::Mat& wanted)
     : camera_(camera), box_(cv::boundingRect(wanted)) {
   if (wanted.size() != cv::Size(camera.width_px, camera.height_px)) {
     throw std::invalid_argument("what is wanted differs from the camera's size");
@@ -18,8 +18,8 @@ PictureTurner::PictureTurner(const Camera& camera, const cv::Mat& wanted)
   }
 }
 
-cv::Mat PictureTurner::turned(const cv::Mat& picture, const Eigen::Matrix3d& R_C1C2) const {
-  cv::Mat result = cv::Mat::zeros(picture.size(), CV_8UC1);
+cv::Mat ImageDerotator::turned(const cv::Mat& image, const Eigen::Matrix3d& R_C1C2) const {
+  cv::Mat result = cv::Mat::zeros(image.size(), CV_8UC1);
   if (box_.empty()) return result;
   cv::Mat places(box_.size(), CV_32FC2, cv::Scalar::all(-1.0));
   const Eigen::Matrix3d R_C2C1 = R_C1C2.transpose();
@@ -30,8 +30,8 @@ cv::Mat PictureTurner::turned(const cv::Mat& picture, const Eigen::Matrix3d& R_C
                                                                 static_cast<float>(pixel->y())};
   }
   cv::Mat shown = result(box_);
-  cv::remap(picture, shown, places, cv::noArray(), cv::INTER_CUBIC, cv::BORDER_CONSTANT, cv::Scalar::all(0));
+  cv::remap(image, shown, places, cv::noArray(), cv::INTER_CUBIC, cv::BORDER_CONSTANT, cv::Scalar::all(0));
   return result;
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::camera

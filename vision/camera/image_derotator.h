@@ -4,21 +4,21 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "vision/camera.h"
+#include "vision/camera/camera.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::camera {
 
-/// Shows pictures of one camera as they would be, had it not turned. A corner's surroundings then keep their shape, and
+/// Shows images of one camera as they would be, had it not turned. A corner's surroundings then keep their shape, and
 /// it is found better than when rays are turned afterwards: a window near a fisheye's rim turns with the vehicle.
-class PictureTurner {
+class ImageDerotator {
  public:
   /// @param wanted  CV_8UC1, of the camera's size: pixels to be shown where it is not 0.
-  PictureTurner(const Camera& camera, const cv::Mat& wanted);
+  ImageDerotator(const Camera& camera, const cv::Mat& wanted);
 
-  /// @param picture  CV_8UC1, taken by C2. @param R_C1C2  rotation of C2 in C1, the camera not turned.
-  /// @return what C1 would see of things infinitely far, 0 where `picture` shows nothing of it or nothing is wanted.
+  /// @param image  CV_8UC1, taken by C2. @param R_C1C2  rotation of C2 in C1, the camera not turned.
+  /// @return what C1 would see of things infinitely far, 0 where `image` shows nothing of it or nothing is wanted.
   /// Source: [Zingg2010] eq. (5). Differs: turns the rays of all pixels, before corners are followed.
-  cv::Mat turned(const cv::Mat& picture, const Eigen::Matrix3d& R_C1C2) const;
+  cv::Mat turned(const cv::Mat& image, const Eigen::Matrix3d& R_C1C2) const;
 
  private:
   struct Ray {
@@ -30,4 +30,4 @@ class PictureTurner {
   std::vector<Ray> rays_;
 };
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::camera

@@ -1,4 +1,4 @@
-#include "vision/ocam_lens.h"
+#include "vision/camera/ocam_lens.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "vision/rising_root.h"
+#include "vision/camera/rising_root.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::camera {
 
 namespace {
 
@@ -67,7 +67,7 @@ OcamCalibration parse_ocam_calibration(const std::string& text) {
   OcamCalibration calibration;
   calibration.direct = next_polynomial(lines, "direct polynomial");
   calibration.inverse = next_polynomial(lines, "inverse polynomial");
-  const std::vector<double> center = next_row(lines, "centre", 2);
+  const std::vector<double> center = next_row(lines, "center", 2);
   const std::vector<double> affine = next_row(lines, "affine parameters", 3);
   const std::vector<double> size = next_row(lines, "image size", 2);
   constexpr double kMostPixels = 32768.0;
@@ -118,7 +118,7 @@ OcamLens ocam_lens(const OcamCalibration& calibration) {
   lens.c = calibration.c;
   lens.d = calibration.d;
   lens.e = calibration.e;
-  require(affine(lens).determinant() > 0.0, "the affine parameters must not mirror or flatten the picture");
+  require(affine(lens).determinant() > 0.0, "the affine parameters must not mirror or flatten the image");
 
   double farthest_px = 0.0;
   for (const double row : {-0.5, calibration.height_px - 0.5}) {
@@ -127,13 +127,13 @@ OcamLens ocam_lens(const OcamCalibration& calibration) {
       farthest_px = std::max(farthest_px, (affine(lens).inverse() * from_center).norm());
     }
   }
-  constexpr double kStep_px = 0.25, kPast_px = 1.0;  // a little past the corner, for a pixel's neighbours
+  constexpr double kStep_px = 0.25, kPast_px = 1.0;  // a little past the corner, for a pixel's neighbors
   while (lens.limit_px < farthest_px + kPast_px &&
          lens.angle_rad(lens.limit_px + kStep_px) > lens.angle_rad(lens.limit_px)) {
     lens.limit_px += kStep_px;
   }
-  require(lens.limit_px > 0.0, "the angle off the axis must grow from the centre outwards");
+  require(lens.limit_px > 0.0, "the angle off the axis must grow from the center outwards");
   return lens;
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::camera

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::camera {
 
 /// What an OCamCalib file holds (calib_results.txt), in its own convention: x down the rows, y along the columns, the
-/// optical axis along -z, pixel (0, 0) the centre of the top-left one; after [Scaramuzza2006].
+/// optical axis along -z, pixel (0, 0) the center of the top-left one; after [Scaramuzza2006].
 /// [row - center_row, col - center_col] = [c d; e 1] [x, y], and the ray through (x, y) is (x, y, f(hypot(x, y))).
 struct OcamCalibration {
   std::vector<double> direct;   ///< f, px, coefficients from power 0 up; f(0) < 0
@@ -35,7 +35,7 @@ struct OcamLens {
 
   bool operator==(const OcamLens&) const = default;
 
-  /// Angle off the axis of the ray through a point so far from the centre, rad.
+  /// Angle off the axis of the ray through a point so far from the center, rad.
   double angle_rad(double radius_px) const;
 
   /// As Camera::project(). Solves the direct polynomial, so that it is the inverse of ray() to rounding.
@@ -44,8 +44,8 @@ struct OcamLens {
   std::optional<Eigen::Vector3d> ray(const Eigen::Vector2d& pixel) const;
 };
 
-/// Sees as far as the picture's farthest corner, or to where the angle off the axis stops growing. Throws
+/// Sees as far as the image's farthest corner, or to where the angle off the axis stops growing. Throws
 /// std::invalid_argument for a calibration that contradicts itself.
 OcamLens ocam_lens(const OcamCalibration& calibration);
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::camera

@@ -1,10 +1,10 @@
-#include "vision/pinhole_lens.h"
+#include "vision/camera/pinhole_lens.h"
 
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::camera {
 
 namespace {
 
@@ -29,7 +29,7 @@ Distorted distort(const PinholeLens& lens, const Eigen::Vector2d& p) {
   return {stretch * p + tangential, slope};
 }
 
-/// Whether the radial part grows all the way to `p`, and the whole does there: one place in the picture shows one ray.
+/// Whether the radial part grows all the way to `p`, and the whole does there: one place in the image shows one ray.
 bool sees(const PinholeLens& lens, const Eigen::Vector2d& p, const Eigen::Matrix2d& slope) {
   const double end = p.squaredNorm();
   // The growth d(r (1 + ...)) / dr, a cubic in s = r^2, is least at an end of [0, end] or where its own slope is 0.
@@ -88,4 +88,4 @@ std::optional<Eigen::Vector3d> PinholeLens::ray(const Eigen::Vector2d& pixel) co
   return Eigen::Vector3d(p->x(), p->y(), 1.0).normalized();
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::camera

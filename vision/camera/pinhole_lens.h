@@ -3,10 +3,10 @@
 #include <Eigen/Core>
 #include <optional>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::camera {
 
 /// A perspective lens that may bend rays (Brown-Conrady), in the convention of OpenCV's calib3d module: with
-/// x = x_C / z_C, y = y_C / z_C, r^2 = x^2 + y^2 the picture shows
+/// x = x_C / z_C, y = y_C / z_C, r^2 = x^2 + y^2 the image shows
 /// x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2), y likewise with p1 and p2 exchanged.
 /// It sees up to where that stops growing with r.
 struct PinholeLens {
@@ -24,4 +24,4 @@ struct PinholeLens {
   std::optional<Eigen::Vector3d> ray(const Eigen::Vector2d& pixel) const;
 };
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::camera

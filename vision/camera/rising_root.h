@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::camera {
 
 /// Returns where a function that rises over [low, high] takes the value 0: Newton's steps, halving where one leaves the
 /// interval still in question. @param f  (x) -> pair of value and slope; f(low) <= 0 <= f(high).
@@ -23,4 +23,4 @@ double rising_root(const Function& f, double low, double high, double guess) {
   return x;
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::camera

@@ -1,4 +1,4 @@
-#include "vision/approach.h"
+#include "vision/corridor/approach.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -6,25 +6,25 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::corridor {
 namespace {
 
 constexpr int kStep_px = 3;     // between samples
 constexpr int kRoom_px = 24;    // about them, that they may move into
-constexpr double kGreys = 2.0;  // noise of pictures, that smooth surfaces must not undercut
+constexpr double kGreys = 2.0;  // noise of images, that smooth surfaces must not undercut
 constexpr int kSweeps = 6;
 
 /// Between pixels, linear. @param p  at least 1 px inside.
-double grey(const cv::Mat& picture, const Eigen::Vector2d& p) {
+double grey(const cv::Mat& image, const Eigen::Vector2d& p) {
   const int u = static_cast<int>(p.x()), v = static_cast<int>(p.y());
   const double a = p.x() - u, b = p.y() - v;
-  const float *above = picture.ptr<float>(v) + u, *below = picture.ptr<float>(v + 1) + u;
+  const float *above = image.ptr<float>(v) + u, *below = image.ptr<float>(v + 1) + u;
   return (1 - b) * ((1 - a) * above[0] + a * above[1]) + b * ((1 - a) * below[0] + a * below[1]);
 }
 
-cv::Mat smooth(const cv::Mat& picture, const cv::Rect& box, double sigma_px) {
+cv::Mat smooth(const cv::Mat& image, const cv::Rect& box, double sigma_px) {
   cv::Mat result;
-  picture(box).convertTo(result, CV_32F);
+  image(box).convertTo(result, CV_32F);
   cv::GaussianBlur(result, result, {}, sigma_px, sigma_px, cv::BORDER_REPLICATE);
   return result;
 }
@@ -36,7 +36,7 @@ struct ApproachMeter::Fit {
   double change_per_s = 0.0, sigma_per_s = 0.0;
 };
 
-ApproachMeter::ApproachMeter(const ApproachConfig& config, const Camera& camera, const Eigen::Isometry3d& X_BC,
+ApproachMeter::ApproachMeter(const ApproachConfig& config, const camera::Camera& camera, const Eigen::Isometry3d& X_BC,
                              const CorridorRegions& regions, int rim_px)
     : config_(config), camera_(camera) {
   if (!(config.half_width_rad > 0.0)) throw std::invalid_argument("half_width: must be above 0 deg");
@@ -58,7 +58,7 @@ ApproachMeter::ApproachMeter(const ApproachConfig& config, const Camera& camera,
 
 std::optional<ApproachMeter::Fit> ApproachMeter::fit(const cv::Mat& older, const cv::Mat& newer,
                                                      const CameraMotion& motion, double rate_per_s) const {
-  const Eigen::Vector3d way_C = motion.R_HC1.transpose() * motion.travelled_H.normalized();
+  const Eigen::Vector3d way_C = motion.R_HC1.transpose() * motion.traveled_H.normalized();
   const Eigen::Matrix3d R_C2C1 = motion.R_HC2.transpose() * motion.R_HC1;
   const Eigen::Vector2d corner_px(box_.x, box_.y);
   const cv::Rect2d inside(1.0, 1.0, box_.width - 3.0, box_.height - 3.0);
@@ -84,14 +84,14 @@ std::optional<ApproachMeter::Fit> ApproachMeter::fit(const cv::Mat& older, const
   }
   if (count < 30 || jj == 0.0) return std::nullopt;
   const double left = std::max(0.0, rr - jr * jr / jj) / count;
-  // Neighbours in a smoothed picture tell the same, so that some samples count as one.
+  // Neighbors in a smoothed image tell the same, so that some samples count as one.
   constexpr double kAlike = 8.0;
   return Fit{-jr / jj, std::sqrt(kAlike * (left + kGreys * kGreys) / jj)};
 }
 
 std::optional<Approach> ApproachMeter::measure(const cv::Mat& older, const cv::Mat& newer,
                                                const CameraMotion& motion) const {
-  if (samples_.empty() || motion.travelled_H.norm() == 0.0) return std::nullopt;
+  if (samples_.empty() || motion.traveled_H.norm() == 0.0) return std::nullopt;
   Approach approach;
   for (const double sigma_px : {5.0, 2.0}) {
     const cv::Mat from = smooth(older, box_, sigma_px), to = smooth(newer, box_, sigma_px);
@@ -110,4 +110,4 @@ std::optional<Approach> ApproachMeter::measure(const cv::Mat& older, const cv::M
   return approach;
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::corridor

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "vision/corridor_flow.h"
+#include "vision/corridor/corridor_flow.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::corridor {
 
 /// How the approach to what lies ahead is measured, and when it counts as known; all of it is ours.
 struct ApproachConfig {
@@ -26,7 +26,7 @@ void describe(Visitor& v, ApproachConfig& c) {
 /// How fast what lies ahead grows, from all its pixels: as a wall square to the way would. Corners are rare on a coarse
 /// texture seen from near; its slopes of grey are not.
 struct Approach {
-  double rate_per_s = 0.0;   ///< speed over distance along the way at the older picture: half the flow's divergence
+  double rate_per_s = 0.0;   ///< speed over distance along the way at the older image: half the flow's divergence
   double sigma_per_s = 0.0;  ///< standard deviation, as what is left unexplained tells
 };
 
@@ -35,10 +35,10 @@ class ApproachMeter {
   /// @param X_BC  pose of the camera in B. @param lowest_rad, highest_rad  elevations in B that count.
   /// @param rim_px  pixels this near to where the lens shows nothing stay out. Throws std::invalid_argument on a bad
   /// config.
-  ApproachMeter(const ApproachConfig& config, const Camera& camera, const Eigen::Isometry3d& X_BC,
+  ApproachMeter(const ApproachConfig& config, const camera::Camera& camera, const Eigen::Isometry3d& X_BC,
                 const CorridorRegions& regions, int rim_px);
 
-  /// @param older, newer  CV_8UC1. @param motion  as of wall_point(), way travelled not 0.
+  /// @param older, newer  CV_8UC1. @param motion  as of wall_point(), way traveled not 0.
   /// @return nothing where grey tells too little.
   std::optional<Approach> measure(const cv::Mat& older, const cv::Mat& newer, const CameraMotion& motion) const;
 
@@ -52,9 +52,9 @@ class ApproachMeter {
                          double rate_per_s) const;
 
   ApproachConfig config_;
-  Camera camera_;
+  camera::Camera camera_;
   cv::Rect box_;  ///< holds all samples, with room to move
   std::vector<Sample> samples_;
 };
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::corridor

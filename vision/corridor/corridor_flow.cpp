@@ -1,4 +1,4 @@
-#include "vision/corridor_flow.h"
+#include "vision/corridor/corridor_flow.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -6,24 +6,24 @@
 #include <limits>
 #include <optional>
 
-#include "vision/ray_flow.h"
+#include "vision/flow/ray_flow.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::corridor {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 Verdict judge(const WallPoint& point, const Eigen::Vector3d& before_H, const Eigen::Vector3d& after_H,
-              const Camera& camera, const CameraMotion& motion, const FlowLimits& limits) {
+              const camera::Camera& camera, const CameraMotion& motion, const FlowLimits& limits) {
   if (point.flow_radps < limits.slowest_radps) return Verdict::too_slow;
   if (point.flow_radps > limits.fastest_radps) return Verdict::too_fast;
-  if (stray_rad(before_H, after_H, motion.travelled_H) > limits.stray_rad) return Verdict::astray;
+  if (flow::stray_rad(before_H, after_H, motion.traveled_H) > limits.stray_rad) return Verdict::astray;
   if (point.region != kAhead) {
     const auto center_px = camera.project(Eigen::Vector3d::UnitZ());
     const auto after_px = camera.project(motion.R_HC1.transpose() * after_H);
     if (!center_px || !after_px ||
-        off_tangent_rad(point.pair.before_px, *after_px, *center_px) > limits.off_tangent_rad) {
+        flow::off_tangent_rad(point.pair.before_px, *after_px, *center_px) > limits.off_tangent_rad) {
       return Verdict::off_tangent;
     }
   }
@@ -54,15 +54,15 @@ double narrowest(const std::vector<Eigen::Vector2d>& places, const GapConfig& co
 
 }  // namespace
 
-WallPoint wall_point(const RayPair& pair, Region region, const Camera& camera, const CameraMotion& motion,
+WallPoint wall_point(const flow::RayPair& pair, Region region, const camera::Camera& camera, const CameraMotion& motion,
                      const FlowLimits& limits) {
   const Eigen::Vector3d before_H = motion.R_HC1 * pair.before_C;
-  const Eigen::Vector3d after_H = motion.R_HC1 * derotated(pair.after_C, motion.R_HC1.transpose() * motion.R_HC2);
+  const Eigen::Vector3d after_H = motion.R_HC1 * flow::derotated(pair.after_C, motion.R_HC1.transpose() * motion.R_HC2);
   WallPoint point{pair, region};
-  point.flow_radps = flow_angle_rad(before_H, after_H) / motion.dt_s;
-  point.off_way_rad = flow_angle_rad(before_H, motion.travelled_H);
-  point.contact_s = time_to_contact_s(before_H, after_H, motion.travelled_H, motion.dt_s);
-  point.p_CP_H = distance_m(before_H, after_H, motion.travelled_H) * after_H;
+  point.flow_radps = flow::flow_angle_rad(before_H, after_H) / motion.dt_s;
+  point.off_way_rad = flow::flow_angle_rad(before_H, motion.traveled_H);
+  point.contact_s = time_to_contact_s(before_H, after_H, motion.traveled_H, motion.dt_s);
+  point.p_CP_H = flow::distance_m(before_H, after_H, motion.traveled_H) * after_H;
   point.verdict = judge(point, before_H, after_H, camera, motion, limits);
   return point;
 }
@@ -97,9 +97,9 @@ Gap gap_ahead(const std::vector<WallPoint>& points, const GapConfig& config) {
   return {narrowest(left, config), narrowest(right, config)};
 }
 
-double time_to_contact_s(const Eigen::Vector3d& before, const Eigen::Vector3d& after, const Eigen::Vector3d& travelled,
+double time_to_contact_s(const Eigen::Vector3d& before, const Eigen::Vector3d& after, const Eigen::Vector3d& traveled,
                          double dt_s) {
-  const Eigen::Vector3d way = travelled.normalized();
+  const Eigen::Vector3d way = traveled.normalized();
   const double sin_flow = before.cross(after).norm();
   // D cos(alpha) / v, with D / (v dt) by the law of sines as in distance_m().
   return sin_flow > 0.0 ? dt_s * before.cross(way).norm() * after.dot(way) / sin_flow : kNever;
@@ -118,4 +118,4 @@ double free_time_s(const std::vector<WallPoint>& points, const Eigen::Vector2d& 
   return times_s.size() < enough ? kNever : kth(times_s, enough - 1);
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::corridor

@@ -4,15 +4,15 @@
 #include <numbers>
 #include <vector>
 
-#include "vision/corridor_regions.h"
-#include "vision/feature_flow.h"
+#include "vision/corridor/corridor_regions.h"
+#include "vision/flow/feature_flow.h"
 
 /// From followed corners to places of walls. Frame H: B turned level, x along the heading, y to the right.
-namespace hedgehop::vision {
+namespace hedgehop::vision::corridor {
 
 /// Which flow counts as wrong. The two filters of [Zingg2010] sec. IV-D, whose first limit is not printed, and ours.
 struct FlowLimits {
-  double slowest_radps = 0.05;  ///< below, noise of the pictures decides
+  double slowest_radps = 0.05;  ///< below, noise of the images decides
   double fastest_radps = 3.0;
   double off_tangent_rad = 50.0 * std::numbers::pi / 180.0;  ///< at the sides
   double stray_rad = 30.0 * std::numbers::pi / 180.0;
@@ -27,7 +27,7 @@ void describe(Visitor& v, FlowLimits& c) {
     {.unit = "deg",
      .above = 0.0,
      .at_most = 90.0,
-     .meaning = "at the sides, greatest angle of the flow to a circle round the picture's centre; 90: any"});
+     .meaning = "at the sides, greatest angle of the flow to a circle round the image's center; 90: any"});
   v("stray", c.stray_rad,
     {.unit = "deg",
      .above = 0.0,
@@ -37,30 +37,30 @@ void describe(Visitor& v, FlowLimits& c) {
     {.above = 0.0, .meaning = "what lies lower than this share of the height above ground is the floor"});
 }
 
-/// How the camera moved between the older picture (C1) and the newer (C2).
+/// How the camera moved between the older image (C1) and the newer (C2).
 struct CameraMotion {
-  Eigen::Matrix3d R_HC1, R_HC2;  ///< H at the newer picture
-  Eigen::Vector3d travelled_H;   ///< m
+  Eigen::Matrix3d R_HC1, R_HC2;  ///< H at the newer image
+  Eigen::Vector3d traveled_H;    ///< m
   double dt_s = 0.0;             ///< > 0
-  double height_m = 0.0;         ///< of the camera above ground at the newer picture
+  double height_m = 0.0;         ///< of the camera above ground at the newer image
 };
 
 enum class Verdict { good, too_slow, too_fast, off_tangent, astray, floor };
 
 /// A followed corner and what its flow tells.
 struct WallPoint {
-  RayPair pair;
+  flow::RayPair pair;
   Region region = kAhead;
   Verdict verdict = Verdict::good;
   double flow_radps = 0.0;                           ///< derotated
   double off_way_rad = 0.0;                          ///< angle from the direction of travel to where it was
   double contact_s = 0.0;                            ///< until it lies abeam, as time_to_contact_s()
-  Eigen::Vector3d p_CP_H = Eigen::Vector3d::Zero();  ///< from the camera at the newer picture, m
+  Eigen::Vector3d p_CP_H = Eigen::Vector3d::Zero();  ///< from the camera at the newer image, m
 };
 
 /// Returns the point that a corner's flow tells, with the verdict on it.
 /// Source: [Zingg2010] eq. (2), (5) to (7), (9) and sec. IV-D.
-WallPoint wall_point(const RayPair& pair, Region region, const Camera& camera, const CameraMotion& motion,
+WallPoint wall_point(const flow::RayPair& pair, Region region, const camera::Camera& camera, const CameraMotion& motion,
                      const FlowLimits& limits);
 
 /// Distance of the wall at one side.
@@ -112,12 +112,12 @@ struct Gap {
 Gap gap_ahead(const std::vector<WallPoint>& points, const GapConfig& config);
 
 /// Returns the time after which a fixed point lies abeam, s, < 0 for a point behind, +inf without flow: straight ahead
-/// two over the flow's divergence. Parameters as distance_m(), of the way travelled the direction only.
-double time_to_contact_s(const Eigen::Vector3d& before, const Eigen::Vector3d& after, const Eigen::Vector3d& travelled,
+/// two over the flow's divergence. Parameters as distance_m(), of the way traveled the direction only.
+double time_to_contact_s(const Eigen::Vector3d& before, const Eigen::Vector3d& after, const Eigen::Vector3d& traveled,
                          double dt_s);
 
 /// Returns the least time to contact that `least` good points agree on, s, among those that a body of the given half
 /// width meets when it flies straight on; +inf when there are fewer. @param way_H  direction of travel, not 0.
 double free_time_s(const std::vector<WallPoint>& points, const Eigen::Vector2d& way_H, double half_width_m, int least);
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::corridor

@@ -1,11 +1,11 @@
-#include "vision/corridor_regions.h"
+#include "vision/corridor/corridor_regions.h"
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <stdexcept>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::corridor {
 namespace {
 
 std::optional<Region> region_of(const Eigen::Vector3d& ray_B, const CorridorRegions& regions) {
@@ -19,7 +19,7 @@ std::optional<Region> region_of(const Eigen::Vector3d& ray_B, const CorridorRegi
 
 }  // namespace
 
-std::array<cv::Mat, kRegions> region_masks(const Camera& camera, const Eigen::Isometry3d& X_BC,
+std::array<cv::Mat, kRegions> region_masks(const camera::Camera& camera, const Eigen::Isometry3d& X_BC,
                                            const CorridorRegions& regions, int rim_px) {
   if (!(regions.lowest_rad < regions.highest_rad)) {
     throw std::invalid_argument("highest: must be above the lowest elevation");
@@ -43,4 +43,4 @@ std::array<cv::Mat, kRegions> region_masks(const Camera& camera, const Eigen::Is
   return masks;
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::corridor

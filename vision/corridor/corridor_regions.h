@@ -6,9 +6,9 @@
 #include <numbers>
 #include <opencv2/core.hpp>
 
-#include "vision/camera.h"
+#include "vision/camera/camera.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::corridor {
 
 /// The parts of the view in which walls are looked for. Azimuth from B's x axis, elevation from B's x-y plane upwards.
 /// Source: [Zingg2010] sec. IV-D and fig. 7: two segments of 80 deg, 50 deg ahead left out. The elevations are ours.
@@ -33,11 +33,11 @@ void describe(Visitor& v, CorridorRegions& c) {
 /// Places in the array that region_masks() returns.
 enum Region { kLeft, kRight, kAhead, kRegions };
 
-/// Returns where a camera sees each region: CV_8UC1 masks of its picture's size, 255 inside.
+/// Returns where a camera sees each region: CV_8UC1 masks of its image's size, 255 inside.
 /// @param X_BC  pose of the camera in B.
-/// @param rim_px  pixels this near to the picture's edge, or to where the lens shows nothing, stay out, >= 0.
+/// @param rim_px  pixels this near to the image's edge, or to where the lens shows nothing, stay out, >= 0.
 /// Throws std::invalid_argument on angles that leave a region empty.
-std::array<cv::Mat, kRegions> region_masks(const Camera& camera, const Eigen::Isometry3d& X_BC,
+std::array<cv::Mat, kRegions> region_masks(const camera::Camera& camera, const Eigen::Isometry3d& X_BC,
                                            const CorridorRegions& regions, int rim_px);
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::corridor

@@ -1,4 +1,4 @@
-#include "vision/wall_direction.h"
+#include "vision/corridor/wall_direction.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::corridor {
 namespace {
 
 using Places = std::vector<Eigen::Vector2d>;
@@ -61,4 +61,4 @@ std::vector<WallPoint> looking_along(std::vector<WallPoint> points, double direc
   return points;
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::corridor

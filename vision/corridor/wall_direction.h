@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "vision/corridor_flow.h"
+#include "vision/corridor/corridor_flow.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::corridor {
 
 /// Returns the direction of a corridor's walls, rad to the right of the heading, within `most_rad`: the one across
 /// which the good points of each side scatter least about their median. 0 where there are fewer than `least` on either
@@ -15,4 +15,4 @@ double wall_direction_rad(const std::vector<WallPoint>& points, double most_rad,
 /// Returns the points as seen by one who looks along a direction, rad to the right of the heading.
 std::vector<WallPoint> looking_along(std::vector<WallPoint> points, double direction_rad);
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::corridor

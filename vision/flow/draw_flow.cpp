@@ -1,9 +1,9 @@
-#include "vision/draw_flow.h"
+#include "vision/flow/draw_flow.h"
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 
 void draw_flow(const FlowField& field, double scale, cv::Mat& rgb) {
   const cv::Scalar yellow(255, 220, 40), red(220, 50, 40);
@@ -21,4 +21,4 @@ void draw_flow(const FlowField& field, double scale, cv::Mat& rgb) {
   }
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

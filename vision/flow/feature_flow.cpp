@@ -1,11 +1,11 @@
-#include "vision/feature_flow.h"
+#include "vision/flow/feature_flow.h"
 
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 #include <optional>
 #include <stdexcept>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 namespace {
 
 void check(const FeatureFlowConfig& c) {
@@ -17,13 +17,13 @@ void check(const FeatureFlowConfig& c) {
 }
 
 /// The strongest corners of a region, strongest first.
-std::vector<cv::Point2f> corners(const cv::Mat& picture, const cv::Mat& region, const FeatureFlowConfig& config) {
+std::vector<cv::Point2f> corners(const cv::Mat& image, const cv::Mat& region, const FeatureFlowConfig& config) {
   const cv::Rect box = cv::boundingRect(region);
   std::vector<cv::Point2f> found;
   if (box.empty()) return found;
   std::vector<float> strengths;
   constexpr int kBlock_px = 3, kGradient_px = 3;
-  cv::goodFeaturesToTrack(picture(box), found, config.most, config.quality, config.apart_px, region(box), strengths,
+  cv::goodFeaturesToTrack(image(box), found, config.most, config.quality, config.apart_px, region(box), strengths,
                           kBlock_px, kGradient_px);
   size_t strong = 0;
   while (strong < found.size() && strengths[strong] >= config.least_strength) ++strong;
@@ -32,7 +32,7 @@ std::vector<cv::Point2f> corners(const cv::Mat& picture, const cv::Mat& region, 
   return found;
 }
 
-/// Where corners of one picture are in another; nothing for those that are lost.
+/// Where corners of one image are in another; nothing for those that are lost.
 std::vector<std::optional<cv::Point2f>> follow(const std::vector<cv::Mat>& from, const std::vector<cv::Mat>& to,
                                                const std::vector<cv::Point2f>& corners,
                                                const FeatureFlowConfig& config) {
@@ -59,11 +59,11 @@ std::vector<std::optional<cv::Point2f>> follow(const std::vector<cv::Mat>& from,
 }  // namespace
 
 std::vector<std::vector<RayPair>> feature_flow(const cv::Mat& older, const cv::Mat& newer,
-                                               std::span<const cv::Mat> regions, const Camera& camera,
+                                               std::span<const cv::Mat> regions, const camera::Camera& camera,
                                                const FeatureFlowConfig& config) {
   check(config);
   const cv::Size size(camera.width_px, camera.height_px);
-  if (older.size() != size || newer.size() != size) throw std::invalid_argument("pictures differ from the camera");
+  if (older.size() != size || newer.size() != size) throw std::invalid_argument("images differ from the camera");
   std::vector<std::vector<RayPair>> pairs(regions.size());
   std::vector<cv::Point2f> all;
   std::vector<size_t> region_of;
@@ -90,4 +90,4 @@ std::vector<std::vector<RayPair>> feature_flow(const cv::Mat& older, const cv::M
   return pairs;
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "vision/camera.h"
+#include "vision/camera/camera.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 
 /// How corners are found and followed.
 struct FeatureFlowConfig {
@@ -36,20 +36,20 @@ void describe(Visitor& v, FeatureFlowConfig& c) {
      .meaning = "followed back, a corner must end this near to where it began; 0: not checked"});
 }
 
-/// One corner in two pictures.
+/// One corner in two images.
 struct RayPair {
   Eigen::Vector2d before_px, after_px;
-  Eigen::Vector3d before_C, after_C;  ///< rays of length 1, each in C at its own picture
+  Eigen::Vector3d before_C, after_C;  ///< rays of length 1, each in C at its own image
 };
 
-/// Returns the corners of the older picture that are found in the newer one, region by region: Shi and Tomasi's
+/// Returns the corners of the older image that are found in the newer one, region by region: Shi and Tomasi's
 /// corners, followed by pyramidal Lucas-Kanade, as rays.
 /// @param older, newer  CV_8UC1, of the camera's size.
 /// @param regions  masks of that size, CV_8UC1; corners begin where one is not 0.
 /// @return as many lists as regions. Throws std::invalid_argument on sizes that differ or a bad config.
 /// Source: [Zingg2010] sec. IV-A, eq. (3), (4) and (8). Differs: corners are also followed back.
 std::vector<std::vector<RayPair>> feature_flow(const cv::Mat& older, const cv::Mat& newer,
-                                               std::span<const cv::Mat> regions, const Camera& camera,
+                                               std::span<const cv::Mat> regions, const camera::Camera& camera,
                                                const FeatureFlowConfig& config);
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

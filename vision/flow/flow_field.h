@@ -4,16 +4,16 @@
 #include <cstddef>
 #include <vector>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 
-/// Optic flow at one place of a picture.
+/// Optic flow at one place of an image.
 struct FlowVector {
-  Eigen::Vector2d center_px = Eigen::Vector2d::Zero();  ///< pixel (u, v) of the patch centre in the older picture
-  Eigen::Vector2d flow_px = Eigen::Vector2d::Zero();    ///< motion to the newer picture, px per frame; 0 when not valid
+  Eigen::Vector2d center_px = Eigen::Vector2d::Zero();  ///< pixel (u, v) of the patch center in the older image
+  Eigen::Vector2d flow_px = Eigen::Vector2d::Zero();    ///< motion to the newer image, px per frame; 0 when not valid
   bool valid = false;
 };
 
-/// A grid of flow vectors, row by row from the top left; columns (rows) mirror one another about the picture's middle.
+/// A grid of flow vectors, row by row from the top left; columns (rows) mirror one another about the image's middle.
 struct FlowField {
   int rows = 0, cols = 0;
   std::vector<FlowVector> vectors;  ///< rows * cols
@@ -26,4 +26,4 @@ struct FlowField {
   double valid_share() const;
 };
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

@@ -1,10 +1,10 @@
-#include "vision/flow_level.h"
+#include "vision/flow/flow_level.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 namespace {
 
 // Share of a pixel's noise (standard deviation) left by 1 3 3 1 halving and by 1 2 1 smoothing, both ways.
@@ -163,7 +163,7 @@ void FlowLevel::begin() {
 }
 
 void FlowLevel::iterate(NodeFlow& flow) {
-  // Re-centre: the newer picture goes back by the flow known so far.
+  // Re-center: the newer image goes back by the flow known so far.
   smooth_by_confidence(flow, spare_);
   for (size_t i = 0; i < flow.size(); ++i) {
     level_u_[i] = flow.u_px[i] / reduction_;
@@ -173,7 +173,7 @@ void FlowLevel::iterate(NodeFlow& flow) {
   sums_.begin();
   for (int y = sums_.first_row(); y < sums_.end_row(); ++y) {
     spread_.go_to(y);
-    recentred_difference(older_, newer_, y, spread_.u_q16(), spread_.v_q16(), difference_.data());
+    recentered_difference(older_, newer_, y, spread_.u_q16(), spread_.v_q16(), difference_.data());
     sums_.add(0, copies_x_.data() + static_cast<ptrdiff_t>(y) * line_, difference_.data());
     sums_.add(1, copies_y_.data() + static_cast<ptrdiff_t>(y) * line_, difference_.data());
     sums_.add(2, difference_.data(), difference_.data());
@@ -234,4 +234,4 @@ void FlowLevel::finish(const NodeFlow& flow, FlowField& field) const {
   }
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

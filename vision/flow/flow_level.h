@@ -5,14 +5,14 @@
 #include <utility>
 #include <vector>
 
-#include "vision/flow_field.h"
-#include "vision/image_interpolation_flow.h"
-#include "vision/patch_grid.h"
-#include "vision/patch_sums.h"
-#include "vision/recentred_difference.h"
-#include "vision/reduced_picture.h"
+#include "vision/flow/flow_field.h"
+#include "vision/flow/image_interpolation_flow.h"
+#include "vision/flow/patch_grid.h"
+#include "vision/flow/patch_sums.h"
+#include "vision/flow/recentered_difference.h"
+#include "vision/flow/reduced_image.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 
 /// What is known of the flow at the nodes of the patch grid while levels and passes improve it.
 struct NodeFlow {
@@ -21,15 +21,15 @@ struct NodeFlow {
   size_t size() const { return u_px.size(); }
 
   int rows, cols;
-  std::vector<double> u_px, v_px;  ///< px of the full picture per frame
+  std::vector<double> u_px, v_px;  ///< px of the full image per frame
   std::vector<double> confidence;  ///< 0 (no texture) to 1
 };
 
-/// Smooths the flow between neighbouring nodes (1 2 1 both ways, weighted by confidence): a node without texture takes
-/// its neighbours' flow. `spare` is scratch space of the same size.
+/// Smooths the flow between neighboring nodes (1 2 1 both ways, weighted by confidence): a node without texture takes
+/// its neighbors' flow. `spare` is scratch space of the same size.
 void smooth_by_confidence(NodeFlow& flow, NodeFlow& spare);
 
-/// Means, over the patches of a grid, of flow that is spread bilinearly between the patch centres and constant beyond.
+/// Means, over the patches of a grid, of flow that is spread bilinearly between the patch centers and constant beyond.
 class PatchMeans {
  public:
   explicit PatchMeans(const PatchGrid& grid);
@@ -41,36 +41,36 @@ class PatchMeans {
   Eigen::MatrixXd spare_;
 };
 
-/// The image interpolation algorithm on one pair of reduced pictures.
+/// The image interpolation algorithm on one pair of reduced images.
 ///
-/// A patch of the newer picture, moved back by the flow known so far, is written as the older picture plus a linear
+/// A patch of the newer image, moved back by the flow known so far, is written as the older image plus a linear
 /// combination of differences of copies of the older one shifted by one reduced pixel either way,
 ///   newer(x + F) = older(x) - r_x [older(x + 1) - older(x - 1)] / 2 - r_y [...] / 2 ,
 /// and the r that makes the squared error over the patch least solves a 2 x 2 system.
-/// Source: [Garratt2009] sec. 3.2, after [Srinivasan1994]. Differs: iterated, the newer picture re-centred by the flow
-/// found so far (spread bilinearly between patches), since one pass is off by the curvature of the picture over the
-/// reference shift. The remaining r is added to the patch's mean of the flow used for re-centring, so that how that
+/// Source: [Garratt2009] sec. 3.2, after [Srinivasan1994]. Differs: iterated, the newer image re-centered by the flow
+/// found so far (spread bilinearly between patches), since one pass is off by the curvature of the image over the
+/// reference shift. The remaining r is added to the patch's mean of the flow used for re-centering, so that how that
 /// varies within the patch leaves no trace.
 class FlowLevel {
  public:
-  /// @param band_begin_px  row of the full picture where the band looked at begins.
-  /// @param width_px, height_px  of the band in full pixels.  @param bits  of the pictures' numbers.
+  /// @param band_begin_px  row of the full image where the band looked at begins.
+  /// @param width_px, height_px  of the band in full pixels.  @param bits  of the images' numbers.
   FlowLevel(const ImageInterpolationConfig& config, const PatchGrid& grid, int reduction, int band_begin_px,
             int width_px, int height_px, int bits);
 
   int reduction() const { return reduction_; }
-  ReducedPicture& newer() { return newer_; }
-  void swap_pictures() { std::swap(older_, newer_); }
+  ReducedImage& newer() { return newer_; }
+  void swap_images() { std::swap(older_, newer_); }
 
-  /// Prepares what depends on the older picture alone.
+  /// Prepares what depends on the older image alone.
   void begin();
-  /// One re-centred pass: improves `flow`.
+  /// One re-centered pass: improves `flow`.
   void iterate(NodeFlow& flow);
   /// Writes the flow after the last pass, with what makes a vector invalid.
   void finish(const NodeFlow& flow, FlowField& field) const;
 
  private:
-  /// Least squares of one patch: normal matrix, right side, squared difference; in numbers of the reduced pictures.
+  /// Least squares of one patch: normal matrix, right side, squared difference; in numbers of the reduced images.
   struct Patch {
     double a_xx = 0.0, a_xy = 0.0, a_yy = 0.0, b_x = 0.0, b_y = 0.0, dd = 0.0;
     double least_eigenvalue = 0.0;
@@ -85,7 +85,7 @@ class FlowLevel {
   double pixels_;        ///< per patch
   double noise_energy_;  ///< expected square of a difference of two pixels that differ by noise only
   PatchGrid grid_;
-  ReducedPicture older_, newer_;
+  ReducedImage older_, newer_;
   int line_;                                  ///< padded width
   std::vector<int16_t> copies_x_, copies_y_;  ///< older(x + 1) - older(x - 1), and along y; 0 at the rim
   std::vector<int16_t> difference_;           ///< one row
@@ -97,4 +97,4 @@ class FlowLevel {
   std::vector<double> level_u_, level_v_;  ///< node flow in reduced px
 };
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

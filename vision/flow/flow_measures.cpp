@@ -1,10 +1,11 @@
-#include "vision/flow_measures.h"
+#include "vision/flow/flow_measures.h"
 
 #include <Eigen/Geometry>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 
-Eigen::Matrix<double, 2, 6> image_jacobian(const PinholeCamera& camera, const Eigen::Vector2d& pixel, double depth_m) {
+Eigen::Matrix<double, 2, 6> image_jacobian(const camera::PinholeCamera& camera, const Eigen::Vector2d& pixel,
+                                           double depth_m) {
   const double U = pixel.x() - camera.center_u_px, V = pixel.y() - camera.center_v_px;
   const double f_x = camera.focal_x_px, f_y = camera.focal_y_px;
   const double near = 1.0 / depth_m;
@@ -14,7 +15,7 @@ Eigen::Matrix<double, 2, 6> image_jacobian(const PinholeCamera& camera, const Ei
   return J;
 }
 
-Eigen::Vector2d rotation_flow_px(const PinholeCamera& camera, const Eigen::Vector2d& pixel,
+Eigen::Vector2d rotation_flow_px(const camera::PinholeCamera& camera, const Eigen::Vector2d& pixel,
                                  const Eigen::Vector3d& w_WC_C, double dt_s) {
   const double angle_rad = w_WC_C.norm() * dt_s;
   if (angle_rad == 0.0) return Eigen::Vector2d::Zero();
@@ -25,13 +26,14 @@ Eigen::Vector2d rotation_flow_px(const PinholeCamera& camera, const Eigen::Vecto
                : Eigen::Vector2d(image_jacobian(camera, pixel, 1.0).rightCols<3>() * w_WC_C * dt_s);
 }
 
-void derotate(FlowField& field, const PinholeCamera& camera, const Eigen::Vector3d& w_WC_C, double dt_s) {
+void derotate(FlowField& field, const camera::PinholeCamera& camera, const Eigen::Vector3d& w_WC_C, double dt_s) {
   for (FlowVector& vector : field.vectors) {
     if (vector.valid) vector.flow_px -= rotation_flow_px(camera, vector.center_px, w_WC_C, dt_s);
   }
 }
 
-FlowAverage mean_horizontal_flow(const FlowField& field, const PinholeCamera& camera, double dt_s, Missing missing) {
+FlowAverage mean_horizontal_flow(const FlowField& field, const camera::PinholeCamera& camera, double dt_s,
+                                 Missing missing) {
   FlowAverage mean;
   double sum_px = 0.0;
   for (const FlowVector& vector : field.vectors) {
@@ -62,4 +64,4 @@ FlowAverage loom(const FlowField& field, double dt_s, Missing missing) {
   return mean;
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

@@ -1,4 +1,4 @@
-#include "vision/flow_range.h"
+#include "vision/flow/flow_range.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,16 +7,16 @@
 #include <numeric>
 #include <vector>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 Eigen::Vector2d unit_flow(const Eigen::Vector2d& place, const Eigen::Vector3d& v_WC_C) {
   return place * v_WC_C.z() - v_WC_C.head<2>();
 }
 
-Eigen::Vector2d flow_per_s(const FlowVector& vector, const PinholeCamera& camera, double dt_s) {
+Eigen::Vector2d flow_per_s(const FlowVector& vector, const camera::PinholeCamera& camera, double dt_s) {
   return vector.flow_px.cwiseQuotient(dt_s * Eigen::Vector2d(camera.focal_x_px, camera.focal_y_px));
 }
 
-double inverse_depth_per_m(const FlowVector& vector, const PinholeCamera& camera, const Eigen::Vector3d& v_WC_C,
+double inverse_depth_per_m(const FlowVector& vector, const camera::PinholeCamera& camera, const Eigen::Vector3d& v_WC_C,
                            double dt_s, double floor_mps) {
   if (!vector.valid) return 0.0;
   const Eigen::Vector2d place = camera.ray(vector.center_px).head<2>();
@@ -26,7 +26,7 @@ double inverse_depth_per_m(const FlowVector& vector, const PinholeCamera& camera
   return std::max(0.0, along - std::abs(across)) / (b.squaredNorm() + floor_mps * floor_mps);
 }
 
-std::vector<double> inverse_ranges_per_m(const FlowField& field, const PinholeCamera& camera,
+std::vector<double> inverse_ranges_per_m(const FlowField& field, const camera::PinholeCamera& camera,
                                          const Eigen::Vector3d& v_WC_C, double dt_s, double floor_mps) {
   std::vector<double> near;
   near.reserve(field.vectors.size());
@@ -38,8 +38,8 @@ std::vector<double> inverse_ranges_per_m(const FlowField& field, const PinholeCa
   return near;
 }
 
-std::vector<double> parallax_weights(const FlowField& field, const PinholeCamera& camera, const Eigen::Vector3d& v_WC_C,
-                                     double floor_mps) {
+std::vector<double> parallax_weights(const FlowField& field, const camera::PinholeCamera& camera,
+                                     const Eigen::Vector3d& v_WC_C, double floor_mps) {
   std::vector<double> weights;
   weights.reserve(field.vectors.size());
   for (const FlowVector& vector : field.vectors) {
@@ -49,7 +49,7 @@ std::vector<double> parallax_weights(const FlowField& field, const PinholeCamera
   return weights;
 }
 
-std::vector<double> bearings_rad(const FlowField& field, const PinholeCamera& camera) {
+std::vector<double> bearings_rad(const FlowField& field, const camera::PinholeCamera& camera) {
   std::vector<double> bearings;
   bearings.reserve(field.vectors.size());
   for (const FlowVector& vector : field.vectors) {
@@ -69,4 +69,4 @@ double nearest_inverse_range_per_m(std::vector<double> near, double share) {
   return std::accumulate(near.begin(), end, 0.0) / static_cast<double>(count);
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

@@ -3,18 +3,18 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "vision/flow_field.h"
-#include "vision/pinhole_camera.h"
+#include "vision/camera/pinhole_camera.h"
+#include "vision/flow/flow_field.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 
 /// Returns the flow of a point at z = 1 m, in units of the focal length per second, [-v_x + U v_z, -v_y + V v_z]; that
 /// of a point at z is 1 / z of it. Source: [Garratt2009] eq. (1), translation alone.
 /// @param place   (U, V) of the point, in units of the focal length. @param v_WC_C  velocity of the camera in C, m/s.
 Eigen::Vector2d unit_flow(const Eigen::Vector2d& place, const Eigen::Vector3d& v_WC_C);
 
-/// Returns a flow vector in units of the focal length per second. @param dt_s  between the two pictures, > 0.
-Eigen::Vector2d flow_per_s(const FlowVector& vector, const PinholeCamera& camera, double dt_s);
+/// Returns a flow vector in units of the focal length per second. @param dt_s  between the two images, > 0.
+Eigen::Vector2d flow_per_s(const FlowVector& vector, const camera::PinholeCamera& camera, double dt_s);
 
 /// Returns 1 / z of what one flow vector proves, 1/m, >= 0, given how the camera moves: with b the flow of a point at
 /// z = 1 m, unit_flow(), the flow of a point at z is b / z. Whatever lies across b can only be error (of the flow, or
@@ -23,30 +23,30 @@ Eigen::Vector2d flow_per_s(const FlowVector& vector, const PinholeCamera& camera
 /// The floor draws the estimate towards "far" where the camera's motion shifts a patch too little to tell, around the
 /// focus of expansion above all.
 /// @param v_WC_C     velocity of the camera in C, m/s.
-/// @param dt_s       between the two pictures, > 0.
+/// @param dt_s       between the two images, > 0.
 /// @param floor_mps  > 0.
 /// Source: [Garratt2009] eq. (1) with rotation taken away, solved for one depth per vector.
-double inverse_depth_per_m(const FlowVector& vector, const PinholeCamera& camera, const Eigen::Vector3d& v_WC_C,
+double inverse_depth_per_m(const FlowVector& vector, const camera::PinholeCamera& camera, const Eigen::Vector3d& v_WC_C,
                            double dt_s, double floor_mps);
 
 /// Returns the inverse horizontal range of every patch of a field, 1/m, in the field's order: inverse_depth_per_m(),
 /// with range measured in the plane of C's x and z. NaN where a patch is not valid: nothing is known of it.
 /// @param field  less the flow of rotation.
-std::vector<double> inverse_ranges_per_m(const FlowField& field, const PinholeCamera& camera,
+std::vector<double> inverse_ranges_per_m(const FlowField& field, const camera::PinholeCamera& camera,
                                          const Eigen::Vector3d& v_WC_C, double dt_s, double floor_mps);
 
 /// Returns how far the camera's motion lets each patch tell a range, in the field's order: 0 at the focus of expansion,
 /// towards 1 where parallax is large, b . b / (b . b + floor^2) with b as in inverse_depth_per_m(). An estimate of that
 /// function is the true value times this weight.
-std::vector<double> parallax_weights(const FlowField& field, const PinholeCamera& camera, const Eigen::Vector3d& v_WC_C,
-                                     double floor_mps);
+std::vector<double> parallax_weights(const FlowField& field, const camera::PinholeCamera& camera,
+                                     const Eigen::Vector3d& v_WC_C, double floor_mps);
 
-/// Returns the azimuth of every patch's centre right of the optical axis, rad, in the field's order.
-std::vector<double> bearings_rad(const FlowField& field, const PinholeCamera& camera);
+/// Returns the azimuth of every patch's center right of the optical axis, rad, in the field's order.
+std::vector<double> bearings_rad(const FlowField& field, const camera::PinholeCamera& camera);
 
 /// Returns the mean of the largest `share` of inverse ranges, 1/m, 0 for none: an obstacle that fills that share of the
 /// view counts in full, however far the rest is. NaN counts as far. @param share  in (0, 1]; at least one value is
 /// taken.
 double nearest_inverse_range_per_m(std::vector<double> inverse_ranges_per_m, double share);
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

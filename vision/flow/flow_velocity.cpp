@@ -1,13 +1,13 @@
-#include "vision/flow_velocity.h"
+#include "vision/flow/flow_velocity.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "vision/flow_measures.h"
+#include "vision/flow/flow_measures.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 namespace {
 
 // One flow vector as equations: rows * v_WB_B = flow, both scaled by range / focal length to m/s across the ray.
@@ -23,8 +23,9 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-std::vector<Equation> equations(const FlowField& field, const PinholeCamera& camera, const Eigen::Isometry3d& X_BC,
-                                const FlowMotion& motion, const FlowVelocityConfig& config) {
+std::vector<Equation> equations(const FlowField& field, const camera::PinholeCamera& camera,
+                                const Eigen::Isometry3d& X_BC, const FlowMotion& motion,
+                                const FlowVelocityConfig& config) {
   const Eigen::Matrix3d R_CB = X_BC.linear().transpose();
   const Eigen::Vector3d w_C = R_CB * motion.w_WB_B;
   const Eigen::Vector3d down_C = R_CB * (motion.q_WB.conjugate() * Eigen::Vector3d::UnitZ());
@@ -86,7 +87,7 @@ double reweigh(std::vector<Equation>& all, const Eigen::Vector3d& v_B) {
 
 }  // namespace
 
-std::optional<FlowVelocity> flow_velocity(const FlowField& field, const PinholeCamera& camera,
+std::optional<FlowVelocity> flow_velocity(const FlowField& field, const camera::PinholeCamera& camera,
                                           const Eigen::Isometry3d& X_BC, const FlowMotion& motion,
                                           const FlowVelocityConfig& config) {
   if (!(motion.dt_s > 0.0) || !(motion.height_above_ground_m >= config.min_height_m)) return std::nullopt;
@@ -123,4 +124,4 @@ std::optional<FlowVelocity> flow_velocity(const FlowField& field, const PinholeC
   return velocity;
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

@@ -4,10 +4,10 @@
 #include <Eigen/Geometry>
 #include <optional>
 
-#include "vision/flow_field.h"
-#include "vision/pinhole_camera.h"
+#include "vision/camera/pinhole_camera.h"
+#include "vision/flow/flow_field.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 
 /// How a velocity is read off a camera that looks at the ground.
 struct FlowVelocityConfig {
@@ -34,12 +34,12 @@ struct FlowVelocity {
   int agreeing = 0;                                          ///< vectors that the fit went by
 };
 
-/// Motion of the aircraft between the two pictures of a field, as far as other sensors know it.
+/// Motion of the aircraft between the two images of a field, as far as other sensors know it.
 struct FlowMotion {
-  Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();  ///< attitude at the older picture
+  Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();  ///< attitude at the older image
   Eigen::Vector3d w_WB_B = Eigen::Vector3d::Zero();          ///< mean angular velocity (gyros), rad/s
-  double height_above_ground_m = 0.0;                        ///< of B, measured vertically, at the older picture
-  double dt_s = 0.0;                                         ///< between the pictures, > 0
+  double height_above_ground_m = 0.0;                        ///< of B, measured vertically, at the older image
+  double dt_s = 0.0;                                         ///< between the images, > 0
 };
 
 /// Returns the body's horizontal velocity from the flow of level ground seen by one camera: each vector, less what
@@ -49,8 +49,8 @@ struct FlowMotion {
 /// view do no harm.
 /// @param X_BC  pose of the camera in B.  @return nothing when too little is seen, or too little agrees.
 /// Source: [Garratt2009] eq. (1) and sec. 4 (velocity from the down camera). Differs: a robust fit over the field.
-std::optional<FlowVelocity> flow_velocity(const FlowField& field, const PinholeCamera& camera,
+std::optional<FlowVelocity> flow_velocity(const FlowField& field, const camera::PinholeCamera& camera,
                                           const Eigen::Isometry3d& X_BC, const FlowMotion& motion,
                                           const FlowVelocityConfig& config = {});
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

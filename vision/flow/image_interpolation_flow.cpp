@@ -1,4 +1,4 @@
-#include "vision/image_interpolation_flow.h"
+#include "vision/flow/image_interpolation_flow.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -8,14 +8,14 @@
 #include <utility>
 #include <vector>
 
-#include "vision/flow_level.h"
-#include "vision/patch_grid.h"
-#include "vision/reduced_picture.h"
+#include "vision/flow/flow_level.h"
+#include "vision/flow/patch_grid.h"
+#include "vision/flow/reduced_image.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 namespace {
 
-// Rows of the picture that are looked at above and below the patches of a grid that does not fill the picture.
+// Rows of the image that are looked at above and below the patches of a grid that does not fill the image.
 constexpr int kBandRim_px = 16;
 
 void check(const ImageInterpolationConfig& c) {
@@ -30,7 +30,7 @@ void check(const ImageInterpolationConfig& c) {
   need(c.max_flow_px > 0.0 && c.noise_grey > 0.0 && c.max_sigma_px > 0.0 && c.max_misfit_px > 0.0,
        "max_flow, noise, max_sigma and max_misfit must be above 0");
   need(c.patch_px >= 4 * (c.reduction << (c.levels - 1)),
-       "patch must be at least four pixels of the coarsest picture (patch / reduction / 2^(levels - 1) >= 4)");
+       "patch must be at least four pixels of the coarsest image (patch / reduction / 2^(levels - 1) >= 4)");
 }
 
 }  // namespace
@@ -42,12 +42,12 @@ class ImageInterpolationFlow::Impl {
     check(config);
     grid_ = make_patch_grid(config.rows, config.cols, config.patch_px, config.margin_px, config.reduction, width_px,
                             height_px);
-    // Only a band of the picture is looked at when the patches lie in one; it begins where every level has a pixel row.
+    // Only a band of the image is looked at when the patches lie in one; it begins where every level has a pixel row.
     const int step = config.reduction << (config.levels - 1);
     band_begin_ = std::max(0, (grid_.rows.front().begin - kBandRim_px) / step * step);
     band_end_ = std::min(height_, (grid_.rows.back().end + kBandRim_px + step - 1) / step * step);
     const int bits = bits_for(config.patch_px / config.reduction);
-    reducer_ = PictureReducer(width_, bits);
+    reducer_ = ImageReducer(width_, bits);
 
     for (int reduction = 2; reduction <= step; reduction *= 2) {
       halves_.emplace_back(width_ / reduction, (band_end_ - band_begin_) / reduction, 0);
@@ -69,10 +69,10 @@ class ImageInterpolationFlow::Impl {
 
   const FlowField& update(const cv::Mat& grey) {
     if (grey.cols != width_ || grey.rows != height_ || grey.type() != CV_8UC1) {
-      throw std::invalid_argument("flow: the picture must be grey, 8 bits, " + std::to_string(width_) + " x " +
+      throw std::invalid_argument("flow: the image must be grey, 8 bits, " + std::to_string(width_) + " x " +
                                   std::to_string(height_));
     }
-    for (FlowLevel& level : levels_) level.swap_pictures();
+    for (FlowLevel& level : levels_) level.swap_images();
     reduce(grey.rowRange(band_begin_, band_end_));
     if (has_older_) {
       estimate();
@@ -91,7 +91,7 @@ class ImageInterpolationFlow::Impl {
   const FlowField& field() const { return field_; }
 
  private:
-  // Bits of the reduced pictures such that a patch's sums of products stay exact (PatchSums::add).
+  // Bits of the reduced images such that a patch's sums of products stay exact (PatchSums::add).
   static int bits_for(int patch_px) { return patch_px <= 64 ? 12 : patch_px <= 256 ? 11 : 10; }
 
   void reduce(const cv::Mat& band) {
@@ -121,8 +121,8 @@ class ImageInterpolationFlow::Impl {
   int width_, height_, iterations_;
   PatchGrid grid_;
   int band_begin_ = 0, band_end_ = 0;
-  PictureReducer reducer_{1, 8};
-  std::vector<ReducedPicture> halves_;
+  ImageReducer reducer_{1, 8};
+  std::vector<ReducedImage> halves_;
   std::vector<FlowLevel> levels_;  ///< finest first
   NodeFlow flow_{1, 1};
   FlowField field_;
@@ -138,4 +138,4 @@ const FlowField& ImageInterpolationFlow::update(const cv::Mat& grey) { return im
 void ImageInterpolationFlow::reset() { impl_->reset(); }
 const FlowField& ImageInterpolationFlow::field() const { return impl_->field(); }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

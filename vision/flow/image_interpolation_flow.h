@@ -3,18 +3,18 @@
 #include <memory>
 #include <opencv2/core.hpp>
 
-#include "vision/flow_field.h"
+#include "vision/flow/flow_field.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 
 /// Where the image interpolation algorithm looks and how hard it works.
 struct ImageInterpolationConfig {
   int rows = 16, cols = 16;    ///< patches in the grid
   int patch_px = 64;           ///< side of a square patch
-  int margin_px = 28;          ///< rim of the picture that no patch enters
-  int reduction = 1;           ///< the finest pictures compared are reduced this many times: 1, 2 or 4
-  int levels = 3;              ///< pictures compared, each half as large as the one before
-  int iterations = 2;          ///< re-centred passes per level
+  int margin_px = 28;          ///< rim of the image that no patch enters
+  int reduction = 1;           ///< the finest images compared are reduced this many times: 1, 2 or 4
+  int levels = 3;              ///< images compared, each half as large as the one before
+  int iterations = 2;          ///< re-centered passes per level
   double max_flow_px = 16.0;   ///< a longer vector is invalid
   double noise_grey = 1.0;     ///< standard deviation of a pixel's noise that texture must stand out from
   double max_sigma_px = 0.4;   ///< a vector whose expected error is larger is invalid
@@ -27,11 +27,11 @@ void describe(Visitor& v, ImageInterpolationConfig& c) {
   v("cols", c.cols, {.at_least = 1, .at_most = 128, .meaning = "columns of patches, evenly spaced"});
   v("patch", c.patch_px, {.unit = "px", .at_least = 8, .at_most = 512, .meaning = "side of a square patch"});
   v("margin", c.margin_px,
-    {.unit = "px", .at_least = 0, .meaning = "rim of the picture that no patch enters; 0 looks as far as the edges"});
+    {.unit = "px", .at_least = 0, .meaning = "rim of the image that no patch enters; 0 looks as far as the edges"});
   v("reduction", c.reduction,
-    {.at_least = 1, .at_most = 4, .meaning = "the finest pictures compared are reduced this many times: 1, 2 or 4"});
-  v("levels", c.levels, {.at_least = 1, .at_most = 4, .meaning = "pictures compared, each half as large as the last"});
-  v("iterations", c.iterations, {.at_least = 1, .at_most = 20, .meaning = "re-centred passes per level"});
+    {.at_least = 1, .at_most = 4, .meaning = "the finest images compared are reduced this many times: 1, 2 or 4"});
+  v("levels", c.levels, {.at_least = 1, .at_most = 4, .meaning = "images compared, each half as large as the last"});
+  v("iterations", c.iterations, {.at_least = 1, .at_most = 20, .meaning = "re-centered passes per level"});
   v("max_flow", c.max_flow_px, {.unit = "px", .above = 0.0, .meaning = "a longer vector (per frame) is invalid"});
   v("noise", c.noise_grey,
     {.above = 0.0, .meaning = "standard deviation of pixel noise, in grey levels, that texture must stand out from"});
@@ -41,20 +41,20 @@ void describe(Visitor& v, ImageInterpolationConfig& c) {
     {.unit = "px", .above = 0.0, .meaning = "a patch whose pixels moved apart by more (rms) is invalid"});
 }
 
-/// Optic flow between successive pictures by the image interpolation algorithm.
+/// Optic flow between successive images by the image interpolation algorithm.
 class ImageInterpolationFlow {
  public:
-  /// Throws std::invalid_argument when the config is out of range or the patches do not fit the picture.
+  /// Throws std::invalid_argument when the config is out of range or the patches do not fit the image.
   ImageInterpolationFlow(const ImageInterpolationConfig& config, int width_px, int height_px);
   ~ImageInterpolationFlow();
   ImageInterpolationFlow(ImageInterpolationFlow&&) noexcept;
   ImageInterpolationFlow& operator=(ImageInterpolationFlow&&) noexcept;
 
-  /// Flow from the picture of the last call to this one; no vector is valid on the first call.
+  /// Flow from the image of the last call to this one; no vector is valid on the first call.
   /// @param grey  height x width, CV_8UC1. Throws std::invalid_argument for another size or type.
   /// @return valid until the next call.
   const FlowField& update(const cv::Mat& grey);
-  /// Forgets the last picture.
+  /// Forgets the last image.
   void reset();
   /// The last result.
   const FlowField& field() const;
@@ -64,4 +64,4 @@ class ImageInterpolationFlow {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

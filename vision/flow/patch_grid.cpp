@@ -1,11 +1,11 @@
-#include "vision/patch_grid.h"
+#include "vision/flow/patch_grid.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 namespace {
 
 // All in units of the alignment, so that rounding keeps the mirror symmetry.
@@ -56,4 +56,4 @@ PatchGrid reduce_patch_grid(const PatchGrid& grid, int reduction, int first_row_
           reduce_ranges(grid.cols, reduction, 0, 2, width_px)};
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

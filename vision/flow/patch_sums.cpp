@@ -1,10 +1,10 @@
-#include "vision/patch_sums.h"
+#include "vision/flow/patch_sums.h"
 
 #include <algorithm>
 #include <opencv2/core/hal/intrin.hpp>
 #include <stdexcept>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 
 PatchSums::PatchSums(std::span<const PatchRange> rows, std::span<const PatchRange> cols, int padded_width, int height,
                      int channels)
@@ -13,13 +13,13 @@ PatchSums::PatchSums(std::span<const PatchRange> rows, std::span<const PatchRang
   if (padded_width % 8 != 0) throw std::invalid_argument("patch sums need rows padded to a multiple of 8");
   for (const PatchRange& c : cols) {
     if (c.begin % 2 != 0 || c.end % 2 != 0 || c.begin < 0 || c.end <= c.begin || c.end > padded_width) {
-      throw std::invalid_argument("patch columns must begin and end at even pixels of the picture");
+      throw std::invalid_argument("patch columns must begin and end at even pixels of the image");
     }
     cols_.push_back({c.begin / 2, c.end / 2});
   }
   for (const PatchRange& r : rows) {
     if (r.begin < 0 || r.end <= r.begin || r.end > height) {
-      throw std::invalid_argument("patch rows must lie in the picture");
+      throw std::invalid_argument("patch rows must lie in the image");
     }
     boundaries_.push_back(r.begin);
     boundaries_.push_back(r.end);
@@ -85,4 +85,4 @@ void PatchSums::sum_sideways() {
   }
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

@@ -4,18 +4,18 @@
 #include <span>
 #include <vector>
 
-#include "vision/patch_grid.h"
+#include "vision/flow/patch_grid.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 
-/// Sums of products of pictures over a grid of equal, possibly overlapping patches, at a cost per pixel that does not
+/// Sums of products of images over a grid of equal, possibly overlapping patches, at a cost per pixel that does not
 /// depend on patch size or overlap: columns are summed downwards, kept at the rows where patches begin or end, and
 /// summed sideways once per row of patches. Exact integers.
 class PatchSums {
  public:
   /// @param rows, cols  patches; column ranges begin and end at even pixels.
   /// @param padded_width  a multiple of 8.  @param channels  sums kept side by side.
-  /// Throws std::invalid_argument on odd columns or ranges outside the picture.
+  /// Throws std::invalid_argument on odd columns or ranges outside the image.
   PatchSums(std::span<const PatchRange> rows, std::span<const PatchRange> cols, int padded_width, int height,
             int channels);
 
@@ -43,8 +43,8 @@ class PatchSums {
 
   std::vector<PatchRange> rows_, cols_;  ///< rows: indices of boundaries; columns: pairs of pixels
   int pairs_, channels_;
-  std::vector<int> boundaries_;  ///< picture rows where a patch begins or ends, rising
-  int row_ = 0;                  ///< the current picture row
+  std::vector<int> boundaries_;  ///< image rows where a patch begins or ends, rising
+  int row_ = 0;                  ///< the current image row
   size_t next_boundary_ = 0;
   std::vector<int32_t> columns_;   ///< channels x pairs: running sums, wrapping
   std::vector<int32_t> kept_;      ///< boundaries x channels x pairs
@@ -52,4 +52,4 @@ class PatchSums {
   std::vector<int64_t> sums_;      ///< channels x rows x cols
 };
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

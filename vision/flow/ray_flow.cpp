@@ -1,11 +1,11 @@
-#include "vision/ray_flow.h"
+#include "vision/flow/ray_flow.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 
 Eigen::Vector3d derotated(const Eigen::Vector3d& after_C, const Eigen::Matrix3d& R_C1C2) { return R_C1C2 * after_C; }
 
@@ -13,15 +13,15 @@ double flow_angle_rad(const Eigen::Vector3d& before, const Eigen::Vector3d& afte
   return std::atan2(before.cross(after).norm(), before.dot(after));
 }
 
-double distance_m(const Eigen::Vector3d& before, const Eigen::Vector3d& after, const Eigen::Vector3d& travelled) {
+double distance_m(const Eigen::Vector3d& before, const Eigen::Vector3d& after, const Eigen::Vector3d& traveled) {
   const double sin_flow = before.cross(after).norm();
-  const double across_m = before.cross(travelled).norm();  // v dt sin(alpha)
+  const double across_m = before.cross(traveled).norm();  // v dt sin(alpha)
   return sin_flow > 0.0 ? across_m / sin_flow : std::numeric_limits<double>::infinity();
 }
 
-double stray_rad(const Eigen::Vector3d& before, const Eigen::Vector3d& after, const Eigen::Vector3d& travelled) {
+double stray_rad(const Eigen::Vector3d& before, const Eigen::Vector3d& after, const Eigen::Vector3d& traveled) {
   const Eigen::Vector3d moved = after - after.dot(before) * before;
-  const Eigen::Vector3d fixed = travelled.dot(before) * before - travelled;
+  const Eigen::Vector3d fixed = traveled.dot(before) * before - traveled;
   if (moved.norm() == 0.0 || fixed.norm() == 0.0) return std::numbers::pi / 2.0;
   return flow_angle_rad(moved, fixed);
 }
@@ -34,4 +34,4 @@ double off_tangent_rad(const Eigen::Vector2d& before_px, const Eigen::Vector2d& 
   return std::atan2(along, across);
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

@@ -3,31 +3,31 @@
 #include <Eigen/Core>
 
 /// Optic flow on the unit sphere: rays instead of pixels, so that it holds for any lens.
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 
-/// Returns the ray that a corner would have in the newer picture, had the camera not turned.
-/// @param after_C  in C at the newer picture (C2). @param R_C1C2  rotation of C2 in C at the older picture (C1).
+/// Returns the ray that a corner would have in the newer image, had the camera not turned.
+/// @param after_C  in C at the newer image (C2). @param R_C1C2  rotation of C2 in C at the older image (C1).
 /// @return in C1. Source: [Zingg2010] eq. (5). Differs: the whole rotation, not a product of three changes of angle.
 Eigen::Vector3d derotated(const Eigen::Vector3d& after_C, const Eigen::Matrix3d& R_C1C2);
 
-/// Returns the angle between two rays of any length, rad, 0..pi. Over the time between the pictures it is the flow.
+/// Returns the angle between two rays of any length, rad, 0..pi. Over the time between the images it is the flow.
 /// Source: [Zingg2010] eq. (6) and (7). Differs: from the sine as well, for the arc cosine of 1 loses half the digits.
 double flow_angle_rad(const Eigen::Vector3d& before, const Eigen::Vector3d& after);
 
-/// Returns the distance of a fixed point from where the camera is at the newer picture, m; +inf without flow.
-/// @param before, after  rays in the older and newer picture in one frame, derotated, length 1.
-/// @param travelled  of the camera between the pictures, in that frame, m.
+/// Returns the distance of a fixed point from where the camera is at the newer image, m; +inf without flow.
+/// @param before, after  rays in the older and newer image in one frame, derotated, length 1.
+/// @param traveled  of the camera between the images, in that frame, m.
 /// Source: [Zingg2010] eq. (2). Differs: the sine of the flow's angle instead of the angle: by the law of sines it then
 /// holds for finite motion, from the newer place.
-double distance_m(const Eigen::Vector3d& before, const Eigen::Vector3d& after, const Eigen::Vector3d& travelled);
+double distance_m(const Eigen::Vector3d& before, const Eigen::Vector3d& after, const Eigen::Vector3d& traveled);
 
 /// Returns the angle between the way a ray moves and the way rays of fixed points move, rad, 0..pi: on the great circle
 /// away from where the camera travels to. pi / 2 where either is not defined. Parameters as distance_m().
-double stray_rad(const Eigen::Vector3d& before, const Eigen::Vector3d& after, const Eigen::Vector3d& travelled);
+double stray_rad(const Eigen::Vector3d& before, const Eigen::Vector3d& after, const Eigen::Vector3d& traveled);
 
 /// Returns the angle between a flow vector and the tangent of the circle round `center_px` on which it begins, rad,
 /// 0..pi/2; pi / 2 where there is no flow. Source: [Zingg2010] sec. IV-D.
 double off_tangent_rad(const Eigen::Vector2d& before_px, const Eigen::Vector2d& after_px,
                        const Eigen::Vector2d& center_px);
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

@@ -1,4 +1,4 @@
-#include "vision/recentred_difference.h"
+#include "vision/flow/recentered_difference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,13 +6,13 @@
 #include <limits>
 #include <opencv2/core/hal/intrin.hpp>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 namespace {
 
 constexpr double kQ16 = 65536.0;
 
-// Two neighbouring numbers at each of four places (which need not be aligned to 32 bits).
-cv::v_int16x8 neighbours(const int16_t* base, const int (&index)[4]) {
+// Two neighboring numbers at each of four places (which need not be aligned to 32 bits).
+cv::v_int16x8 neighbors(const int16_t* base, const int (&index)[4]) {
   int32_t pairs[4];
   for (int i = 0; i < 4; ++i) std::memcpy(&pairs[i], base + index[i], sizeof(int32_t));
   return cv::v_reinterpret_as_s16(cv::v_int32x4(pairs[0], pairs[1], pairs[2], pairs[3]));
@@ -95,8 +95,8 @@ void SpreadFlow::start_band(int y) {
   spread(lines_v_, v_, step_v_);
 }
 
-void recentred_difference(const ReducedPicture& older, const ReducedPicture& newer, int y, const int32_t* u_q16,
-                          const int32_t* v_q16, int16_t* out) {
+void recentered_difference(const ReducedImage& older, const ReducedImage& newer, int y, const int32_t* u_q16,
+                           const int32_t* v_q16, int16_t* out) {
   constexpr int kFraction = 7, kOne = 1 << kFraction;  // positions in 1/128 px
   constexpr int kShift = 16 - kFraction, kHalf = 1 << (kShift - 1);
   constexpr int kKeep = 4;  // bits dropped after the sideways step, to fit 16
@@ -129,11 +129,11 @@ void recentred_difference(const ReducedPicture& older, const ReducedPicture& new
     int index[4];
     cv::v_store(index, cv::v_dotprod(pair(at_y >> kFraction, at_x >> kFraction), address));
     const auto weight_x = pair(one - share_x, share_x);
-    const auto top = (cv::v_dotprod(neighbours(base, index), weight_x) + keep_half) >> kKeep;
-    const auto bottom = (cv::v_dotprod(neighbours(base + stride, index), weight_x) + keep_half) >> kKeep;
+    const auto top = (cv::v_dotprod(neighbors(base, index), weight_x) + keep_half) >> kKeep;
+    const auto bottom = (cv::v_dotprod(neighbors(base + stride, index), weight_x) + keep_half) >> kKeep;
     const auto value = (cv::v_dotprod(pair(top, bottom), pair(one - share_y, share_y)) + drop_half) >> kDrop;
 
-    // Outside, the newer picture is taken to look like the older one.
+    // Outside, the newer image is taken to look like the older one.
     return (value & inside) | (cv::v_load_expand(old_row + x) & ~inside);
   };
   for (int x = 0; x < older.width(); x += 8) {
@@ -143,4 +143,4 @@ void recentred_difference(const ReducedPicture& older, const ReducedPicture& new
   }
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

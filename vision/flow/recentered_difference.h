@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "vision/reduced_picture.h"
+#include "vision/flow/reduced_image.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 
-/// Flow at the nodes of a grid, spread bilinearly over a picture and constant beyond the outer nodes; made row by row.
+/// Flow at the nodes of a grid, spread bilinearly over an image and constant beyond the outer nodes; made row by row.
 class SpreadFlow {
  public:
   /// @param node_u, node_v  positions of the grid's columns and rows, px, rising.
@@ -35,10 +35,10 @@ class SpreadFlow {
   int y_ = -1, band_end_ = -1;  ///< the steps hold for rows before band_end_
 };
 
-/// Difference of the older picture and the newer one moved back by the flow, over one row: 0 where the newer picture
-/// ends. Bilinear, in steps of 1/128 px. Flow must stay within the pictures' rim.
-/// @param out  padded width; beyond the picture's width it holds no meaning.
-void recentred_difference(const ReducedPicture& older, const ReducedPicture& newer, int y, const int32_t* u_q16,
-                          const int32_t* v_q16, int16_t* out);
+/// Difference of the older image and the newer one moved back by the flow, over one row: 0 where the newer image
+/// ends. Bilinear, in steps of 1/128 px. Flow must stay within the images' rim.
+/// @param out  padded width; beyond the image's width it holds no meaning.
+void recentered_difference(const ReducedImage& older, const ReducedImage& newer, int y, const int32_t* u_q16,
+                           const int32_t* v_q16, int16_t* out);
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

@@ -1,10 +1,10 @@
-#include "vision/reduced_picture.h"
+#include "vision/flow/reduced_image.h"
 
 #include <algorithm>
 #include <opencv2/core/hal/intrin.hpp>
 #include <stdexcept>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 namespace {
 
 constexpr int kLeftRoom = 8, kRightRoom = 16;
@@ -17,7 +17,7 @@ void repeat_ends(int16_t* line, int width) {
 
 }  // namespace
 
-ReducedPicture::ReducedPicture(int width, int height, int rim_px)
+ReducedImage::ReducedImage(int width, int height, int rim_px)
     : width_(width),
       height_(height),
       rim_rows_(rim_px + 1),
@@ -25,26 +25,26 @@ ReducedPicture::ReducedPicture(int width, int height, int rim_px)
       stride_(padded(width) + 2 * padded(rim_px + 1)),
       data_(static_cast<size_t>(stride_) * static_cast<size_t>(height + 2 * (rim_px + 1)), int16_t{0}) {}
 
-PictureReducer::PictureReducer(int max_width, int bits)
+ImageReducer::ImageReducer(int max_width, int bits)
     : bits_(bits), line_(static_cast<size_t>(kLeftRoom + padded(max_width) + kRightRoom), int16_t{0}) {
-  if (bits < 8 || bits > 12) throw std::invalid_argument("reduced pictures hold 8 to 12 bits");
+  if (bits < 8 || bits > 12) throw std::invalid_argument("reduced images hold 8 to 12 bits");
 }
 
-void PictureReducer::smooth(const cv::Mat& grey, ReducedPicture& out) {
+void ImageReducer::smooth(const cv::Mat& grey, ReducedImage& out) {
   smooth_rows([&](int y) { return grey.ptr<uint8_t>(y); }, grey.cols, grey.rows, 12 - bits_, out);
 }
-void PictureReducer::smooth(const ReducedPicture& in, ReducedPicture& out) {
+void ImageReducer::smooth(const ReducedImage& in, ReducedImage& out) {
   smooth_rows([&](int y) { return in.row(y); }, in.width(), in.height(), 4, out);
 }
-void PictureReducer::halve(const cv::Mat& grey, ReducedPicture& out) {
+void ImageReducer::halve(const cv::Mat& grey, ReducedImage& out) {
   halve_rows([&](int y) { return grey.ptr<uint8_t>(y); }, grey.cols, grey.rows, 14 - bits_, out);
 }
-void PictureReducer::halve(const ReducedPicture& in, ReducedPicture& out) {
+void ImageReducer::halve(const ReducedImage& in, ReducedImage& out) {
   halve_rows([&](int y) { return in.row(y); }, in.width(), in.height(), 6, out);
 }
 
 template <class Row>
-void PictureReducer::smooth_rows(Row row, int width, int height, int shift, ReducedPicture& out) {
+void ImageReducer::smooth_rows(Row row, int width, int height, int shift, ReducedImage& out) {
   int16_t* line = line_.data() + kLeftRoom;
   const int half = shift > 0 ? 1 << (shift - 1) : 0;
   for (int y = 0; y < height; ++y) {
@@ -63,7 +63,7 @@ void PictureReducer::smooth_rows(Row row, int width, int height, int shift, Redu
 }
 
 template <class Row>
-void PictureReducer::halve_rows(Row row, int width, int height, int shift, ReducedPicture& out) {
+void ImageReducer::halve_rows(Row row, int width, int height, int shift, ReducedImage& out) {
   int16_t* line = line_.data() + kLeftRoom;
   const auto left = cv::v_int16x8(1, 3, 1, 3, 1, 3, 1, 3), right = cv::v_int16x8(3, 1, 3, 1, 3, 1, 3, 1);
   const auto half = cv::v_setall_s32(shift > 0 ? 1 << (shift - 1) : 0);
@@ -74,7 +74,7 @@ void PictureReducer::halve_rows(Row row, int width, int height, int shift, Reduc
     const auto* d = row(std::min(2 * y + 2, height - 1));
     for (int x = 0; x < width; ++x) line[x] = static_cast<int16_t>(a[x] + 3 * (b[x] + c[x]) + d[x]);
     repeat_ends(line, width);
-    // Four results at a time: neighbours 2i - 1 and 2i with weights 1 and 3, then 2i + 1 and 2i + 2 with 3 and 1.
+    // Four results at a time: neighbors 2i - 1 and 2i with weights 1 and 3, then 2i + 1 and 2i + 2 with 3 and 1.
     int16_t* to = out.row(y);
     for (int i = 0; i < out.width(); i += 4) {
       const int16_t* from = line + 2 * i;
@@ -86,4 +86,4 @@ void PictureReducer::halve_rows(Row row, int width, int height, int shift, Reduc
   }
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

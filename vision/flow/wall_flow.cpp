@@ -1,11 +1,11 @@
-#include "vision/wall_flow.h"
+#include "vision/flow/wall_flow.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 namespace {
 
 /// Sums of the least squares for m over the first patches, in units of their noise.
@@ -81,4 +81,4 @@ std::vector<SeenWall> walls_from_flow(std::span<const WallSight> sights, double 
   return walls;
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 
 /// What one patch of one of several cameras sees of the walls round a vehicle, in a level frame H at its origin B.
 struct WallSight {
-  Eigen::Vector2d ray_H = Eigen::Vector2d::Zero();      ///< of its centre, at z = 1 m of its camera; the level part
+  Eigen::Vector2d ray_H = Eigen::Vector2d::Zero();      ///< of its center, at z = 1 m of its camera; the level part
   Eigen::Vector2d p_BC_H = Eigen::Vector2d::Zero();     ///< of its camera, m
   Eigen::Vector2d unit_flow = Eigen::Vector2d::Zero();  ///< of a point at z = 1 m, see unit_flow(), focal lengths per s
   Eigen::Vector2d flow = Eigen::Vector2d::Zero();       ///< less that of rotation, focal lengths per s
@@ -30,4 +30,4 @@ struct SeenWall {
 /// @param sights  in the order of their bearings. @param relative_error  of a wall, at most; > 0.
 std::vector<SeenWall> walls_from_flow(std::span<const WallSight> sights, double relative_error);
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

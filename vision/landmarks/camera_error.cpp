@@ -1,4 +1,4 @@
-#include "vision/camera_error.h"
+#include "vision/landmarks/camera_error.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::landmarks {
 namespace {
 
 using Eigen::Vector2d;
@@ -122,4 +122,4 @@ PredictedBearing with_known_pose(const PredictedBearing& seen, double bearing_si
   return known;
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::landmarks

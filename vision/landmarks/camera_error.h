@@ -4,16 +4,16 @@
 #include <optional>
 #include <span>
 
-#include "vision/landmark.h"
+#include "vision/landmarks/landmark.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::landmarks {
 
 /// A camera's error: shift of its position, m, and small rotation, rad, both along the axes of C.
 using CameraError = Eigen::Matrix<double, 6, 1>;
 
 /// Returns the error of the camera's estimated pose that brings most landmarks near to a measured bearing each; zero
-/// when there is nothing to judge by. All landmarks of a picture share it, so that it must not be mistaken for their
-/// own errors when they are matched: half a metre of it at 60 m moves a picture of 30 degrees by many pixels. Each near
+/// when there is nothing to judge by. All landmarks of an image share it, so that it must not be mistaken for their
+/// own errors when they are matched: half a meter of it at 60 m moves an image of 30 degrees by many pixels. Each near
 /// pair of a few well-known landmarks is tried as a guess, the guess with most support is refined by least squares.
 /// A step that [Shah2009] ch. 4 does not have.
 /// @param prior  covariance of the error. @param bearing_sigma  of a measured bearing, per axis, > 0.
@@ -28,4 +28,4 @@ CameraPose corrected(const CameraPose& pose, const CameraError& error);
 /// landmark's own and a measurement's.
 PredictedBearing with_known_pose(const PredictedBearing& seen, double bearing_sigma);
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::landmarks

@@ -1,4 +1,4 @@
-#include "vision/edge_corners.h"
+#include "vision/landmarks/edge_corners.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::landmarks {
 namespace {
 
 using Eigen::Vector2d;
@@ -18,9 +18,9 @@ double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y(
 /// An edge grown from pieces: the line that fits the mass of all of them best.
 class GrowingEdge {
  public:
-  explicit GrowingEdge(const PictureEdge& piece) { add(piece); }
+  explicit GrowingEdge(const ImageEdge& piece) { add(piece); }
 
-  void add(const PictureEdge& piece) {
+  void add(const ImageEdge& piece) {
     const double mass = piece.length_px();
     const Vector2d middle = 0.5 * (piece.from_px + piece.to_px), half = 0.5 * (piece.to_px - piece.from_px);
     mass_ += mass;
@@ -31,13 +31,13 @@ class GrowingEdge {
     fit();
   }
   /// Whether a piece lies along the line and not too far from the edge.
-  bool takes(const PictureEdge& piece, const EdgeCornerConfig& config) const {
+  bool takes(const ImageEdge& piece, const EdgeCornerConfig& config) const {
     const Vector2d a = piece.from_px - middle_, b = piece.to_px - middle_;
     if (std::max(std::abs(cross(along_, a)), std::abs(cross(along_, b))) > config.aside_px) return false;
     const double at_a = along_.dot(a), at_b = along_.dot(b);
     return std::min(at_a, at_b) <= last_px_ + config.gap_px && std::max(at_a, at_b) >= first_px_ - config.gap_px;
   }
-  PictureEdge edge() const { return {middle_ + first_px_ * along_, middle_ + last_px_ * along_}; }
+  ImageEdge edge() const { return {middle_ + first_px_ * along_, middle_ + last_px_ * along_}; }
 
  private:
   void fit() {
@@ -59,13 +59,13 @@ class GrowingEdge {
 };
 
 /// How far a point of an edge's line lies beyond the nearer end, px; below 0 for one on the edge.
-double beyond_px(const PictureEdge& edge, const Vector2d& at) {
+double beyond_px(const ImageEdge& edge, const Vector2d& at) {
   const Vector2d along = (edge.to_px - edge.from_px) / edge.length_px();
   return std::max(along.dot(edge.from_px - at), along.dot(at - edge.to_px));
 }
 
 /// Where two edges end together.
-std::optional<Vector2d> meeting(const PictureEdge& a, const PictureEdge& b, const EdgeCornerConfig& config) {
+std::optional<Vector2d> meeting(const ImageEdge& a, const ImageEdge& b, const EdgeCornerConfig& config) {
   const Vector2d u = (a.to_px - a.from_px).normalized(), v = (b.to_px - b.from_px).normalized();
   const double sine = cross(u, v);
   if (std::abs(sine) < std::sin(config.least_angle_rad)) return std::nullopt;
@@ -80,13 +80,13 @@ std::optional<Vector2d> meeting(const PictureEdge& a, const PictureEdge& b, cons
   return at;
 }
 
-/// What edges are searched in: the grey of a picture, and how much redder than green it is.
-std::vector<cv::Mat> planes_of(const cv::Mat& picture) {
-  if (picture.channels() == 1) return {picture};
+/// What edges are searched in: the grey of an image, and how much redder than green it is.
+std::vector<cv::Mat> planes_of(const cv::Mat& image) {
+  if (image.channels() == 1) return {image};
   cv::Mat grey, red, green, redness;
-  cv::cvtColor(picture, grey, cv::COLOR_RGB2GRAY);
-  cv::extractChannel(picture, red, 0);
-  cv::extractChannel(picture, green, 1);
+  cv::cvtColor(image, grey, cv::COLOR_RGB2GRAY);
+  cv::extractChannel(image, red, 0);
+  cv::extractChannel(image, green, 1);
   constexpr double kMiddle = 128.0;
   cv::addWeighted(red, 1.0, green, -1.0, kMiddle, redness);
   return {grey, redness};
@@ -103,11 +103,11 @@ void check(const EdgeCornerConfig& c) {
   need(c.least_angle_rad > 0.0 && c.least_angle_rad <= 1.5707963267948966, "least_angle must lie in (0, 90] deg");
 }
 
-std::vector<PictureEdge> joined_edges(std::span<const PictureEdge> pieces, const EdgeCornerConfig& config) {
-  std::vector<PictureEdge> by_length(pieces.begin(), pieces.end());
-  std::ranges::stable_sort(by_length, std::ranges::greater{}, &PictureEdge::length_px);
+std::vector<ImageEdge> joined_edges(std::span<const ImageEdge> pieces, const EdgeCornerConfig& config) {
+  std::vector<ImageEdge> by_length(pieces.begin(), pieces.end());
+  std::ranges::stable_sort(by_length, std::ranges::greater{}, &ImageEdge::length_px);
   std::vector<bool> taken(by_length.size(), false);
-  std::vector<PictureEdge> edges;
+  std::vector<ImageEdge> edges;
   for (size_t first = 0; first < by_length.size(); ++first) {
     if (taken[first]) continue;
     GrowingEdge edge(by_length[first]);
@@ -124,7 +124,7 @@ std::vector<PictureEdge> joined_edges(std::span<const PictureEdge> pieces, const
   return edges;
 }
 
-std::vector<Vector2d> corners_of(std::span<const PictureEdge> edges, const EdgeCornerConfig& config) {
+std::vector<Vector2d> corners_of(std::span<const ImageEdge> edges, const EdgeCornerConfig& config) {
   constexpr double kSame_px = 5.0;
   struct Group {
     Vector2d sum = Vector2d::Zero();
@@ -147,17 +147,17 @@ std::vector<Vector2d> corners_of(std::span<const PictureEdge> edges, const EdgeC
   return corners;
 }
 
-std::vector<Vector2d> edge_corners(const cv::Mat& picture, const EdgeCornerConfig& config) {
-  std::vector<PictureEdge> pieces;
+std::vector<Vector2d> edge_corners(const cv::Mat& image, const EdgeCornerConfig& config) {
+  std::vector<ImageEdge> pieces;
   const auto detector = cv::createLineSegmentDetector(cv::LSD_REFINE_STD);
-  for (const cv::Mat& plane : planes_of(picture)) {
+  for (const cv::Mat& plane : planes_of(image)) {
     std::vector<cv::Vec4f> found;
     detector->detect(plane, found);
     for (const cv::Vec4f& f : found) pieces.push_back({{f[0], f[1]}, {f[2], f[3]}});
   }
-  std::vector<PictureEdge> edges = joined_edges(pieces, config);
-  std::erase_if(edges, [&](const PictureEdge& edge) { return edge.length_px() < config.least_edge_px; });
+  std::vector<ImageEdge> edges = joined_edges(pieces, config);
+  std::erase_if(edges, [&](const ImageEdge& edge) { return edge.length_px() < config.least_edge_px; });
   return corners_of(edges, config);
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::landmarks

@@ -5,12 +5,12 @@
 #include <span>
 #include <vector>
 
-/// Corners of what has straight edges: where two edges of a picture end together. Grass, clouds and other texture have
+/// Corners of what has straight edges: where two edges of an image end together. Grass, clouds and other texture have
 /// corners of grey at every scale, but few long straight edges, and hardly two that end at one place.
-namespace hedgehop::vision {
+namespace hedgehop::vision::landmarks {
 
-/// A straight edge in a picture, from end to end, px.
-struct PictureEdge {
+/// A straight edge in an image, from end to end, px.
+struct ImageEdge {
   Eigen::Vector2d from_px = Eigen::Vector2d::Zero(), to_px = Eigen::Vector2d::Zero();
 
   double length_px() const { return (to_px - from_px).norm(); }
@@ -37,18 +37,18 @@ void describe(Visitor& v, EdgeCornerConfig& c) {
 
 /// Joins pieces of straight edges into whole ones, the longest first: what stands before a textured ground has edges
 /// that break wherever the ground is as bright.
-std::vector<PictureEdge> joined_edges(std::span<const PictureEdge> pieces, const EdgeCornerConfig& config);
+std::vector<ImageEdge> joined_edges(std::span<const ImageEdge> pieces, const EdgeCornerConfig& config);
 
 /// Returns where two edges or more end together, px. An edge that passes through another's end makes no corner with it:
 /// there one thing hides another, and the place is none of the world.
-std::vector<Eigen::Vector2d> corners_of(std::span<const PictureEdge> edges, const EdgeCornerConfig& config);
+std::vector<Eigen::Vector2d> corners_of(std::span<const ImageEdge> edges, const EdgeCornerConfig& config);
 
 /// Throws std::invalid_argument, naming the key, on a bad config.
 void check(const EdgeCornerConfig& config);
 
-/// Returns the corners of a picture, px. @param picture  CV_8UC1, or CV_8UC3 (RGB): then edges between red and green of
+/// Returns the corners of an image, px. @param image  CV_8UC1, or CV_8UC3 (RGB): then edges between red and green of
 /// one brightness are seen, too.
 /// Source: the pieces of edges are those of the line segment detector, [Gioi2010] sec. 2.
-std::vector<Eigen::Vector2d> edge_corners(const cv::Mat& picture, const EdgeCornerConfig& config);
+std::vector<Eigen::Vector2d> edge_corners(const cv::Mat& image, const EdgeCornerConfig& config);
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::landmarks

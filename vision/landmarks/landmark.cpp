@@ -1,10 +1,10 @@
-#include "vision/landmark.h"
+#include "vision/landmarks/landmark.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::landmarks {
 namespace {
 
 using Matrix23 = Eigen::Matrix<double, 2, 3>;
@@ -138,4 +138,4 @@ Landmark first_seen(const Eigen::Vector2d& bearing_meas, const CameraPose& pose,
   return landmark;
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::landmarks

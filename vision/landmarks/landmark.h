@@ -7,7 +7,7 @@
 /// One point of the world, estimated from the bearings under which a moving camera sees it: the extended Kalman filter
 /// of [Shah2009] ch. 4. The thesis's camera frame has x along the optical axis; ours (C) has z forward, so its
 /// (X_c, Y_c, Z_c) is our (z, x, y).
-namespace hedgehop::vision {
+namespace hedgehop::vision::landmarks {
 
 /// Which three numbers the filter keeps of a landmark.
 enum class LandmarkCoordinates {
@@ -32,7 +32,7 @@ struct CameraPose {
 
 /// A landmark as the camera should see it.
 struct PredictedBearing {
-  Eigen::Vector2d bearing = Eigen::Vector2d::Zero();  ///< (x_C / z_C, y_C / z_C): the picture plane at focal length 1
+  Eigen::Vector2d bearing = Eigen::Vector2d::Zero();  ///< (x_C / z_C, y_C / z_C): the image plane at focal length 1
   Eigen::Matrix<double, 2, 3> d_bearing_x = Eigen::Matrix<double, 2, 3>::Zero();  ///< with respect to Landmark::x
   /// With respect to an error of the camera: shift of its position and small rotation, both along the axes of C.
   Eigen::Matrix<double, 2, 6> d_bearing_pose = Eigen::Matrix<double, 2, 6>::Zero();
@@ -84,4 +84,4 @@ struct LandmarkStart {
 Landmark first_seen(const Eigen::Vector2d& bearing_meas, const CameraPose& pose, double bearing_sigma,
                     const LandmarkStart& start);
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::landmarks

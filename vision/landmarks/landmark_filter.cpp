@@ -1,4 +1,4 @@
-#include "vision/landmark_map.h"
+#include "vision/landmarks/landmark_filter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "vision/camera_error.h"
-#include "vision/landmark_matching.h"
+#include "vision/landmarks/camera_error.h"
+#include "vision/landmarks/landmark_matching.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::landmarks {
 namespace {
 
 void check(const LandmarkMapConfig& c) {
@@ -56,7 +56,7 @@ std::vector<std::optional<size_t>> match_known_first(std::span<const std::option
 
 }  // namespace
 
-LandmarkMap::LandmarkMap(const LandmarkMapConfig& config, const PinholeCamera& camera)
+LandmarkMap::LandmarkMap(const LandmarkMapConfig& config, const camera::PinholeCamera& camera)
     : config_(config), camera_(camera), bearing_sigma_(config.pixel_sigma_px / camera.focal_x_px) {
   check(config);
 }
@@ -84,7 +84,7 @@ std::vector<int64_t> LandmarkMap::update(std::span<const Eigen::Vector2d> corner
     if (const auto k = landmark_of[i]) {
       MappedLandmark& mapped = landmarks_[*k];
       if (at_estimate[*k]) {
-        // Linearised where the camera rather is: at the estimated pose the Jacobian would share the pose's error with
+        // Linearized where the camera rather is: at the estimated pose the Jacobian would share the pose's error with
         // the residual, and flights that are short against that error would seem to tell depths.
         PredictedBearing prediction = *at_better[*k];
         prediction.bearing = at_estimate[*k]->bearing;
@@ -111,7 +111,7 @@ LandmarkMap::Predictions LandmarkMap::predict(const CameraPose& pose) const {
   return predictions;
 }
 
-/// Counts the pictures that should have shown a landmark and did not, and deletes those that missed too many.
+/// Counts the images that should have shown a landmark and did not, and deletes those that missed too many.
 void LandmarkMap::drop_missed(const CameraPose& pose, const std::vector<bool>& seen) {
   constexpr double kSureOfView_sigmas = 3.0;
   const Eigen::Isometry3d X_CW = pose.X_WC_est.inverse();
@@ -134,4 +134,4 @@ void LandmarkMap::drop_missed(const CameraPose& pose, const std::vector<bool>& s
   landmarks_ = std::move(kept);
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::landmarks

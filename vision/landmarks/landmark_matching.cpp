@@ -1,11 +1,11 @@
-#include "vision/landmark_matching.h"
+#include "vision/landmarks/landmark_matching.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <tuple>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::landmarks {
 namespace {
 
 struct Pair {
@@ -57,4 +57,4 @@ std::vector<std::optional<size_t>> match_landmarks(std::span<const std::optional
   return landmark_of;
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::landmarks

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "vision/landmark.h"
+#include "vision/landmarks/landmark.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::landmarks {
 
 /// Returns for each measured bearing the landmark it belongs to, one to one: of all pairs whose Z value lies below the
 /// gate the one with the least is matched first, then the least of those that are left.
@@ -19,4 +19,4 @@ namespace hedgehop::vision {
 std::vector<std::optional<size_t>> match_landmarks(std::span<const std::optional<PredictedBearing>> predicted,
                                                    std::span<const Eigen::Vector2d> bearings_meas, double gate);
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::landmarks

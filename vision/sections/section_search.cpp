@@ -1,4 +1,4 @@
-#include "vision/section_grid.h"
+#include "vision/sections/section_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <string>
 #include <tuple>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::sections {
 namespace {
 
 /// First pixel of the k-th of `count` sections of `length` pixels within `whole`.
@@ -17,39 +17,36 @@ int first_pixel(int k, int count, int length, int whole) {
 
 }  // namespace
 
-std::vector<cv::Rect> sections(const SectionGrid& grid, cv::Size picture) {
+std::vector<cv::Rect> sections(const SectionGrid& grid, cv::Size image) {
   const auto need = [](bool holds, const std::string& fault) {
     if (!holds) throw std::invalid_argument(fault);
   };
   need(grid.rows >= 1 && grid.cols >= 1, "a grid of sections needs at least one row and one column");
   need(grid.width_share > 0.0 && grid.width_share <= 1.0 && grid.height_share > 0.0 && grid.height_share <= 1.0,
-       "a section's width and height are shares of the picture's, in (0, 1]");
+       "a section's width and height are shares of the image's, in (0, 1]");
   need(grid.grow_px >= 0, "threats are widened by 0 px or more");
-  const int width = static_cast<int>(std::lround(grid.width_share * picture.width));
-  const int height = static_cast<int>(std::lround(grid.height_share * picture.height));
-  need(width >= 1 && height >= 1, "a picture of " + std::to_string(picture.width) + " x " +
-                                      std::to_string(picture.height) + " px leaves a section no pixel");
+  const int width = static_cast<int>(std::lround(grid.width_share * image.width));
+  const int height = static_cast<int>(std::lround(grid.height_share * image.height));
+  need(width >= 1 && height >= 1, "an image of " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+                                      " px leaves a section no pixel");
   std::vector<cv::Rect> found;
   for (int row = 0; row < grid.rows; ++row) {
     for (int col = 0; col < grid.cols; ++col) {
-      found.emplace_back(first_pixel(col, grid.cols, width, picture.width),
-                         first_pixel(row, grid.rows, height, picture.height), width, height);
+      found.emplace_back(first_pixel(col, grid.cols, width, image.width),
+                         first_pixel(row, grid.rows, height, image.height), width, height);
     }
   }
   return found;
 }
 
-SectionSearch::SectionSearch(const SectionGrid& grid, cv::Size picture)
-    : picture_(picture),
-      grow_px_(grid.grow_px),
-      sections_(vision::sections(grid, picture)),
-      threats_(sections_.size()) {
+SectionSearch::SectionSearch(const SectionGrid& grid, cv::Size image)
+    : image_(image), grow_px_(grid.grow_px), sections_(sections::sections(grid, image)), threats_(sections_.size()) {
   for (const cv::Rect& section : sections_) {
-    const double du = section.x + 0.5 * section.width - 0.5 * picture.width;
-    const double dv = section.y + 0.5 * section.height - 0.5 * picture.height;
-    off_centre2_px2_.push_back(du * du + dv * dv);
+    const double du = section.x + 0.5 * section.width - 0.5 * image.width;
+    const double dv = section.y + 0.5 * section.height - 0.5 * image.height;
+    off_center2_px2_.push_back(du * du + dv * dv);
   }
-  centre_ = nearest({0.5 * picture.width, 0.5 * picture.height});
+  center_ = nearest({0.5 * image.width, 0.5 * image.height});
 }
 
 int SectionSearch::nearest(const cv::Point2d& pixel) const {
@@ -67,8 +64,8 @@ double SectionSearch::share(int section) const {
 
 SectionChoice SectionSearch::choose(const cv::Mat& depth_m, double threshold_m, double most_share, Unknown unknown,
                                     const std::function<bool(int)>& open) {
-  if (depth_m.size() != picture_ || depth_m.type() != CV_32FC1) {
-    throw std::invalid_argument("a depth picture does not have the size or type that its sections were made for");
+  if (depth_m.size() != image_ || depth_m.type() != CV_32FC1) {
+    throw std::invalid_argument("a depth image does not have the size or type that its sections were made for");
   }
   // Comparisons are false for NaN.
   if (unknown == Unknown::free) {
@@ -81,7 +78,7 @@ SectionChoice SectionSearch::choose(const cv::Mat& depth_m, double threshold_m, 
   cv::integral(mask_, sums_, CV_32S);
 
   const auto rank = [&](int i) {
-    return std::tuple(threats_[static_cast<size_t>(i)], off_centre2_px2_[static_cast<size_t>(i)]);
+    return std::tuple(threats_[static_cast<size_t>(i)], off_center2_px2_[static_cast<size_t>(i)]);
   };
   SectionChoice choice;
   for (size_t i = 0; i < sections_.size(); ++i) {
@@ -106,4 +103,4 @@ SectionChoice SectionSearch::choose(const cv::Mat& depth_m, double threshold_m, 
   return choice;
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::sections

@@ -4,22 +4,22 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::sections {
 
-/// Overlapping sections of a picture: rows x cols rectangles of one size, spread evenly so that the outermost touch the
-/// picture's edges, numbered from the top left, row by row, from 0. Source: [Perez2018] sec. on the selection of
+/// Overlapping sections of an image: rows x cols rectangles of one size, spread evenly so that the outermost touch the
+/// image's edges, numbered from the top left, row by row, from 0. Source: [Perez2018] sec. on the selection of
 /// sections.
 struct SectionGrid {
   int rows = 17, cols = 17;          ///< at least 1
-  double width_share = 628. / 1280;  ///< of the picture's width, in (0, 1]
-  double height_share = 252. / 720;  ///< of the picture's height, in (0, 1]
+  double width_share = 628. / 1280;  ///< of the image's width, in (0, 1]
+  double height_share = 252. / 720;  ///< of the image's height, in (0, 1]
   int grow_px = 0;                   ///< by which threats are widened to every side, >= 0; beyond the paper
 
   bool operator==(const SectionGrid&) const = default;
 };
 
-/// Sections of a picture, in their order. Throws std::invalid_argument on a grid or size out of range.
-std::vector<cv::Rect> sections(const SectionGrid& grid, cv::Size picture);
+/// Sections of an image, in their order. Throws std::invalid_argument on a grid or size out of range.
+std::vector<cv::Rect> sections(const SectionGrid& grid, cv::Size image);
 
 /// What is to be thought of a pixel without depth.
 enum class Unknown { free, threat };
@@ -32,26 +32,26 @@ struct SectionChoice {
 };
 
 /// Chooses the section with the smallest share of pixels that are threats. Sums come from an integral image, so that
-/// the cost does not hang on the number and size of sections. Reuses its memory from picture to picture. Differs: the
+/// the cost does not hang on the number and size of sections. Reuses its memory from image to image. Differs: the
 /// paper counts every section pixel by pixel, and its cost grows with their number (table 1).
 class SectionSearch {
  public:
   /// Throws as sections().
-  SectionSearch(const SectionGrid& grid, cv::Size picture);
+  SectionSearch(const SectionGrid& grid, cv::Size image);
 
   /// @param depth_m      rows x cols, CV_32F, of the size given, m; NaN unknown, +infinity sky.
   /// @param threshold_m  what is nearer is a threat, > 0.
   /// @param most_share   share of threats above which a section is no way out, in [0, 1].
   /// @param open         whether a section may be chosen, asked of as few as can be; empty: all may. Where none that
   ///                     is open has few enough threats, none counts as shut.
-  /// @return equal shares go to the section whose centre lies nearest the picture's centre, then to the lower number.
+  /// @return equal shares go to the section whose center lies nearest the image's center, then to the lower number.
   SectionChoice choose(const cv::Mat& depth_m, double threshold_m, double most_share, Unknown unknown,
                        const std::function<bool(int)>& open = {});
 
   const std::vector<cv::Rect>& sections() const { return sections_; }
   /// The section straight ahead: the one that wins when all are alike.
-  int centre() const { return centre_; }
-  /// The section whose centre lies nearest to a place of the picture or beyond its edges.
+  int center() const { return center_; }
+  /// The section whose center lies nearest to a place of the image or beyond its edges.
   int nearest(const cv::Point2d& pixel) const;
   /// Threats per section at the last choice.
   const std::vector<int>& threats() const { return threats_; }
@@ -59,13 +59,13 @@ class SectionSearch {
   double share(int section) const;
 
  private:
-  cv::Size picture_;
+  cv::Size image_;
   int grow_px_ = 0;
   std::vector<cv::Rect> sections_;
-  std::vector<double> off_centre2_px2_;
+  std::vector<double> off_center2_px2_;
   std::vector<int> threats_;
-  int centre_ = 0;
+  int center_ = 0;
   cv::Mat mask_, sums_;
 };
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::sections

@@ -1,8 +1,8 @@
-#include "vision/corridor_targets.h"
+#include "vision/stereo/corridor_targets.h"
 
 #include <cmath>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::stereo {
 namespace {
 
 void divide(const DepthPyramid& pyramid, double far_disparity16, int level, int row, int col, int finest,
@@ -11,8 +11,8 @@ void divide(const DepthPyramid& pyramid, double far_disparity16, int level, int 
   if (d < 0) return;
   if (d < far_disparity16) {
     const int size = 1 << level;
-    const cv::Point centre(col * size + size / 2, row * size + size / 2);
-    if (cv::Rect({}, pyramid.picture()).contains(centre)) targets.push_back(centre);
+    const cv::Point center(col * size + size / 2, row * size + size / 2);
+    if (cv::Rect({}, pyramid.image()).contains(center)) targets.push_back(center);
     return;
   }
   if (level == finest) return;
@@ -21,15 +21,15 @@ void divide(const DepthPyramid& pyramid, double far_disparity16, int level, int 
   }
 }
 
-/// Points of a square lattice round `centre` with inner^2 < distance^2 <= outer^2.
-std::vector<cv::Point> ring(const cv::Point& centre, int step, int inner2, int outer) {
+/// Points of a square lattice round `center` with inner^2 < distance^2 <= outer^2.
+std::vector<cv::Point> ring(const cv::Point& center, int step, int inner2, int outer) {
   std::vector<cv::Point> points;
   const int steps = outer / step;
   for (int j = -steps; j <= steps; ++j) {
     for (int i = -steps; i <= steps; ++i) {
       const int distance2 = step * step * (i * i + j * j);
       if (distance2 > inner2 && distance2 <= outer * outer)
-        points.emplace_back(centre.x + step * i, centre.y + step * j);
+        points.emplace_back(center.x + step * i, center.y + step * j);
     }
   }
   return points;
@@ -52,8 +52,8 @@ std::vector<cv::Point> quadtree_targets(const DepthPyramid& pyramid, double far_
 }
 
 std::vector<cv::Point> fine_targets(const cv::Point& last, const NearbyLattice& lattice) {
-  constexpr int kCentreToo = -1;
-  return ring(last, lattice.fine_step_px, kCentreToo, lattice.fine_radius_px);
+  constexpr int kCenterToo = -1;
+  return ring(last, lattice.fine_step_px, kCenterToo, lattice.fine_radius_px);
 }
 
 std::vector<cv::Point> coarse_targets(const cv::Point& last, const NearbyLattice& lattice) {
@@ -66,4 +66,4 @@ double target_cost(const TargetCost& cost, const Eigen::Vector3d& p_C, const Eig
          cost.elevation_per_rad * std::abs(elevation_rad(p_C) - elevation_rad(reference_C));
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::stereo

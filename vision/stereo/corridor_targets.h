@@ -4,11 +4,11 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "vision/depth_pyramid.h"
+#include "vision/stereo/depth_pyramid.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::stereo {
 
-/// Centres of the pyramid's blocks whose nearest point is still farther than `far_disparity16` tells: a far block is
+/// Centers of the pyramid's blocks whose nearest point is still farther than `far_disparity16` tells: a far block is
 /// taken as a whole, a near one divided, down to level `finest`; blocks without any depth are left out.
 /// @param coarsest  level to begin with, in [finest, top]. @param finest  >= 0.
 /// Source: [Andert2007] sec. 4.3.1.
@@ -20,7 +20,7 @@ struct NearbyLattice {
   int fine_radius_px = 5, coarse_radius_px = 19;  ///< r_1 <= r_2
 };
 /// Candidates of the circle, [Andert2007] eq. (16). Differs: the print has steps d_1 and d_2; its fig. 11 shows d_1 in
-/// both directions. They may lie outside the picture.
+/// both directions. They may lie outside the image.
 std::vector<cv::Point> fine_targets(const cv::Point& last, const NearbyLattice& lattice);
 /// Candidates of the ring, [Andert2007] eq. (17).
 std::vector<cv::Point> coarse_targets(const cv::Point& last, const NearbyLattice& lattice);
@@ -35,4 +35,4 @@ struct TargetCost {
 /// z zero; of the reference only the direction counts. [Andert2007] eq. (12) to (14).
 double target_cost(const TargetCost& cost, const Eigen::Vector3d& p_C, const Eigen::Vector3d& reference_C);
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::stereo

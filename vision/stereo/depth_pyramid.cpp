@@ -1,11 +1,11 @@
-#include "vision/depth_pyramid.h"
+#include "vision/stereo/depth_pyramid.h"
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "vision/disparity.h"
+#include "vision/stereo/disparity.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::stereo {
 namespace {
 
 void halve(const cv::Mat& fine, cv::Mat& coarse) {
@@ -23,16 +23,16 @@ void halve(const cv::Mat& fine, cv::Mat& coarse) {
 }  // namespace
 
 void DepthPyramid::build(const cv::Mat& disparity16, int top) {
-  if (disparity16.type() != CV_16SC1) throw std::invalid_argument("a disparity picture must be CV_16SC1");
+  if (disparity16.type() != CV_16SC1) throw std::invalid_argument("a disparity image must be CV_16SC1");
   if (top < 0 || top > 15) throw std::invalid_argument("a pyramid's coarsest level lies in [0, 15]");
-  picture_ = disparity16.size();
+  image_ = disparity16.size();
   levels_.resize(static_cast<size_t>(top) + 1);
   const int block = 1 << top;
   const auto whole_blocks = [&](int pixels) { return (pixels + block - 1) / block * block; };
-  levels_[0].create(whole_blocks(picture_.height), whole_blocks(picture_.width), CV_16SC1);
+  levels_[0].create(whole_blocks(image_.height), whole_blocks(image_.width), CV_16SC1);
   levels_[0].setTo(kNoDisparity);
-  disparity16.copyTo(levels_[0](cv::Rect({}, picture_)));
+  disparity16.copyTo(levels_[0](cv::Rect({}, image_)));
   for (size_t n = 1; n < levels_.size(); ++n) halve(levels_[n - 1], levels_[n]);
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::stereo

@@ -1,4 +1,4 @@
-#include "vision/disparity.h"
+#include "vision/stereo/disparity.h"
 
 #include <array>
 #include <cstdlib>
@@ -7,11 +7,11 @@
 #include <stdexcept>
 #include <vector>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::stereo {
 namespace {
 
 void need_disparity(const cv::Mat& disparity16) {
-  if (disparity16.type() != CV_16SC1) throw std::invalid_argument("a disparity picture must be CV_16SC1");
+  if (disparity16.type() != CV_16SC1) throw std::invalid_argument("a disparity image must be CV_16SC1");
 }
 
 /// Union-find over segments that grow line by line.
@@ -66,7 +66,7 @@ int remove_specks(cv::Mat& disparity16, int difference16, int smallest_px) {
   Segments segments;
   std::vector<int> labels(disparity16.total(), kNone);
   const int width = disparity16.cols;
-  // Those of the eight neighbours that come earlier, line by line.
+  // Those of the eight neighbors that come earlier, line by line.
   constexpr std::array<std::array<int, 2>, 4> kEarlier = {{{-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
   for (int v = 0; v < disparity16.rows; ++v) {
     for (int u = 0; u < width; ++u) {
@@ -76,8 +76,8 @@ int remove_specks(cv::Mat& disparity16, int difference16, int smallest_px) {
       for (const auto& [du, dv] : kEarlier) {
         const int nu = u + du, nv = v + dv;
         if (nu < 0 || nu >= width || nv < 0) continue;
-        const int neighbour = disparity16.at<int16_t>(nv, nu);
-        if (neighbour < 0 || std::abs(d - neighbour) >= difference16) continue;
+        const int neighbor = disparity16.at<int16_t>(nv, nu);
+        if (neighbor < 0 || std::abs(d - neighbor) >= difference16) continue;
         const int theirs = labels[static_cast<size_t>(nv * width + nu)];
         segment = segment == kNone ? segments.root(theirs) : segments.join(segment, theirs);
       }
@@ -98,7 +98,7 @@ int remove_specks(cv::Mat& disparity16, int difference16, int smallest_px) {
 int mark_sky(const cv::Mat& grey, int texture, int brightness, SkyAmong among, cv::Mat& disparity16) {
   need_disparity(disparity16);
   if (grey.type() != CV_8UC1 || grey.size() != disparity16.size()) {
-    throw std::invalid_argument("the grey picture must be CV_8UC1 and of the disparity picture's size");
+    throw std::invalid_argument("the grey image must be CV_8UC1 and of the disparity image's size");
   }
   int found = 0;
   for (int v = 0; v < grey.rows; ++v) {
@@ -115,4 +115,4 @@ int mark_sky(const cv::Mat& grey, int texture, int brightness, SkyAmong among, c
   return found;
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::stereo

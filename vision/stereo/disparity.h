@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::stereo {
 
-// A disparity picture belongs to the left of two rectified cameras: CV_16SC1, disparity x 16; 0 infinitely far;
+// A disparity image belongs to the left of two rectified cameras: CV_16SC1, disparity x 16; 0 infinitely far;
 // negative where nothing is known. [Andert2007] eq. (4). Differs from eq. (2) in sign: disparity is x_left - x_right.
 inline constexpr double kDisparityUnits = 16.0;  ///< per pixel
 inline constexpr int16_t kNoDisparity = -1;
@@ -29,7 +29,7 @@ struct StereoGeometry {
 /// Turns disparity into depth: CV_32FC1, z in C, m; +infinity for 0, NaN where nothing is known.
 void to_depth(const cv::Mat& disparity16, const StereoGeometry& geometry, cv::Mat& depth_m);
 
-/// Marks segments smaller than `smallest_px` pixels as unknown. Neighbours, of eight, belong together when their
+/// Marks segments smaller than `smallest_px` pixels as unknown. Neighbors, of eight, belong together when their
 /// disparities differ by less than `difference16`; unknown pixels belong to none.
 /// @return pixels taken away. Source: [Andert2007] sec. 3.3.1, eq. (5).
 int remove_specks(cv::Mat& disparity16, int difference16, int smallest_px);
@@ -40,7 +40,7 @@ enum class SkyAmong {
   all,      ///< also where it did: a semi-global one carries a tree's disparity on across the untextured sky
 };
 /// Makes pixels that are bright and without texture infinitely far; column 0 is left as it is.
-/// @param grey  CV_8UC1, the left picture. @return pixels found to be sky. Source: [Andert2007] eq. (6) to (8).
+/// @param grey  CV_8UC1, the left image. @return pixels found to be sky. Source: [Andert2007] eq. (6) to (8).
 int mark_sky(const cv::Mat& grey, int texture, int brightness, SkyAmong among, cv::Mat& disparity16);
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::stereo

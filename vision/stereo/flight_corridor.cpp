@@ -1,10 +1,10 @@
-#include "vision/flight_corridor.h"
+#include "vision/stereo/flight_corridor.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::stereo {
 namespace {
 
 /// With z = 16 b f / d, [Andert2007] eq. (9) to (11) come to
@@ -78,4 +78,4 @@ Corridor examine_corridor(const DepthPyramid& pyramid, const StereoGeometry& geo
   return Search(pyramid, geometry, path, radius_m, target_m).run(geometry);
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::stereo

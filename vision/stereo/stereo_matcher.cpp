@@ -1,4 +1,4 @@
-#include "vision/stereo_matcher.h"
+#include "vision/stereo/stereo_matcher.h"
 
 #include <algorithm>
 #include <opencv2/calib3d.hpp>
@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "vision/disparity.h"
+#include "vision/stereo/disparity.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::stereo {
 namespace {
 
 void check(const StereoMatcherConfig& c) {
@@ -36,7 +36,7 @@ cv::Ptr<cv::StereoMatcher> make(const StereoMatcherConfig& c) {
                                 /*preFilterCap=*/31, c.uniqueness_percent, 0, 0, cv::StereoSGBM::MODE_SGBM);
 }
 
-/// Drops what would lie left of the right picture's edge.
+/// Drops what would lie left of the right image's edge.
 void drop_outside(cv::Mat& disparity16, int columns) {
   for (int v = 0; v < disparity16.rows; ++v) {
     auto* const d = disparity16.ptr<int16_t>(v);
@@ -64,12 +64,12 @@ StereoMatcher::~StereoMatcher() = default;
 
 void StereoMatcher::match(const cv::Mat& left, const cv::Mat& right, cv::Mat& disparity16) {
   if (left.type() != CV_8UC1 || right.type() != CV_8UC1 || left.size() != right.size()) {
-    throw std::invalid_argument("a stereo pair must be two CV_8UC1 pictures of one size");
+    throw std::invalid_argument("a stereo pair must be two CV_8UC1 images of one size");
   }
   // OpenCV leaves out as many columns on the left as it searches disparities. Before a margin it answers for them, too.
   Engine& e = *engine_;
-  for (const auto& [picture, wide] : {std::pair(&left, &e.left), std::pair(&right, &e.right)}) {
-    cv::copyMakeBorder(*picture, *wide, 0, 0, e.margin_px, 0, cv::BORDER_REPLICATE);
+  for (const auto& [image, wide] : {std::pair(&left, &e.left), std::pair(&right, &e.right)}) {
+    cv::copyMakeBorder(*image, *wide, 0, 0, e.margin_px, 0, cv::BORDER_REPLICATE);
   }
   e.matcher->compute(e.left, e.right, e.disparity16);
   e.disparity16.colRange(e.margin_px, e.disparity16.cols).copyTo(disparity16);
@@ -77,4 +77,4 @@ void StereoMatcher::match(const cv::Mat& left, const cv::Mat& right, cv::Mat& di
   drop_outside(disparity16, std::min(e.margin_px, disparity16.cols));
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::stereo

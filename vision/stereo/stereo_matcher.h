@@ -3,7 +3,7 @@
 #include <memory>
 #include <opencv2/core.hpp>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::stereo {
 
 /// Which of OpenCV's matchers turns a rectified pair into disparity, and how.
 struct StereoMatcherConfig {
@@ -40,7 +40,7 @@ class StereoMatcher {
   ~StereoMatcher();
 
   /// @param left, right  CV_8UC1, of one size, rectified. @param disparity16  as in vision/disparity.h, of the left.
-  /// Throws std::invalid_argument when the pictures do not fit together.
+  /// Throws std::invalid_argument when the images do not fit together.
   void match(const cv::Mat& left, const cv::Mat& right, cv::Mat& disparity16);
 
  private:
@@ -48,4 +48,4 @@ class StereoMatcher {
   std::unique_ptr<Engine> engine_;
 };
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::stereo

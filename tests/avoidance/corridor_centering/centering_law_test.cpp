@@ -1,4 +1,4 @@
-#include "avoidance/corridor_law.h"
+#include "avoidance/corridor_centering/centering_law.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::corridor_centering {
 namespace {
 
 constexpr double kGravityMps2 = 9.80665;
@@ -168,4 +168,4 @@ TEST(ClearanceSpeed, LeavesWayEnoughToStopIn) {
 }
 
 }  // namespace
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::corridor_centering

@@ -1,4 +1,4 @@
-#include "avoidance/corridor_centering.h"
+#include "avoidance/corridor_centering/corridor_centering.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "tests/avoidance/flow_rig.h"
+#include "tests/avoidance/flow_balance/flow_rig.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::corridor_centering {
 namespace {
 
 using vision::StraightCorridor;
@@ -19,14 +19,14 @@ constexpr double kAltitude_m = 1.5;
 
 // Flies north at a constant velocity through what is drawn, and returns the decisions.
 std::vector<Decision> fly(Module& module, const std::vector<vision::TexturedPlane>& walls,
-                          const Eigen::Vector2d& from_NE, const Eigen::Vector2d& v_WB_W, int pictures,
+                          const Eigen::Vector2d& from_NE, const Eigen::Vector2d& v_WB_W, int images,
                           const std::function<void(cv::Mat&)>& spoil = {}, double largest_wave_m = 0.8,
                           double heading_rad = 0.0, const std::function<void(NavigationState&)>& believe = {}) {
   const vision::WaveTexture texture(11, 0.15 * largest_wave_m, largest_wave_m, 40);
   Setup setup = fisheye_below(480, 10.0);
   module.reset(setup);
   std::vector<Decision> decisions;
-  for (int i = 0; i < pictures; ++i) {
+  for (int i = 0; i < images; ++i) {
     const Eigen::Vector2d p_NE = from_NE + 0.1 * i * v_WB_W;
     NavigationState navigation = level_flight({p_NE.x(), p_NE.y(), -kAltitude_m}, heading_rad, v_WB_W);
     std::vector<CameraFrame> frames = see(setup, navigation, kPeriod_ns * i, walls, texture);
@@ -74,9 +74,9 @@ TEST(CorridorCentering, BothDerotationsAgree) {
   CorridorCenteringConfig rays;
   rays.sight.derotation = CorridorSightConfig::Derotation::rays;
   const auto a = make_corridor_centering({}), b = make_corridor_centering(rays);
-  const Decision by_picture = fly(*a, corridor.planes(), {0, 0.4}, {0.8, 0}, 2).back();
+  const Decision by_image = fly(*a, corridor.planes(), {0, 0.4}, {0.8, 0}, 2).back();
   const Decision by_rays = fly(*b, corridor.planes(), {0, 0.4}, {0.8, 0}, 2).back();
-  EXPECT_NEAR(signal(*a, by_picture, "centering_error"), signal(*b, by_rays, "centering_error"), 0.02);
+  EXPECT_NEAR(signal(*a, by_image, "centering_error"), signal(*b, by_rays, "centering_error"), 0.02);
 }
 
 TEST(CorridorCentering, PrintedLawRollsAndTurnsTowardsTheMiddle) {
@@ -119,7 +119,7 @@ TEST(CorridorCentering, SlowsDownBeforeAWallAcrossAndThenTurnsAwayHoweverCoarseI
     const auto command_before = [&](double way_m, double v_mps) {
       const auto module = make_corridor_centering({});
       StraightCorridor corridor;
-      corridor.end_m = way_m + 2 * 0.1 * v_mps;  // two pictures on
+      corridor.end_m = way_m + 2 * 0.1 * v_mps;  // two images on
       return fly(*module, corridor.planes(), {0, 0}, {v_mps, 0}, 3, {}, largest_wave_m).back();
     };
     const Decision far = command_before(6.0, 0.8), near = command_before(0.9, 0.8), at_it = command_before(0.38, 0.3);
@@ -132,7 +132,7 @@ TEST(CorridorCentering, SlowsDownBeforeAWallAcrossAndThenTurnsAwayHoweverCoarseI
 }
 
 TEST(CorridorCentering, TurnsAwayFromABlankWallAcrossBetweenTexturedOnes) {
-  const auto blank_ahead = [](cv::Mat& picture) { picture(cv::Rect(145, 0, 190, 96)).setTo(128); };
+  const auto blank_ahead = [](cv::Mat& image) { image(cv::Rect(145, 0, 190, 96)).setTo(128); };
   const auto module = make_corridor_centering({});
   const StraightCorridor corridor;
   const Decision last = fly(*module, corridor.planes(), {0, 0}, {0.8, 0}, 8, blank_ahead).back();
@@ -168,21 +168,21 @@ TEST(CorridorCentering, TheCourseStaysWithinItsAngleOfTheWallsHoweverFarTheNoseH
 }
 
 TEST(CorridorCentering, CorrectionsOfTheAttitudeAreNoTurn) {
-  // The filter changes its mind about the heading by two degrees between pictures; the gyros felt nothing.
+  // The filter changes its mind about the heading by two degrees between images; the gyros felt nothing.
   const auto module = make_corridor_centering({});
   const StraightCorridor corridor;
-  int picture = 0;
+  int image = 0;
   const Decision last = fly(*module, corridor.planes(), {0, 0.3}, {0.8, 0}, 3, {}, 0.8, 0.0, [&](NavigationState& n) {
-                          n.q_WB_est = n.q_WB_est * Eigen::AngleAxisd(0.035 * picture++, Eigen::Vector3d::UnitZ());
+                          n.q_WB_est = n.q_WB_est * Eigen::AngleAxisd(0.035 * image++, Eigen::Vector3d::UnitZ());
                         }).back();
   EXPECT_NEAR(signal(*module, last, "centering_error"), -0.3 / 1.25, 0.04);
 }
 
-TEST(CorridorCentering, WhatStandsStillInThePictureDoesNotMoveTheMedians) {
+TEST(CorridorCentering, WhatStandsStillInTheImageDoesNotMoveTheMedians) {
   // A band keeps what it showed first, as a part of the vehicle would.
   cv::Mat stuck;
-  const auto spoil = [&stuck](cv::Mat& picture) {
-    cv::Mat band = picture.rowRange(200, 246);
+  const auto spoil = [&stuck](cv::Mat& image) {
+    cv::Mat band = image.rowRange(200, 246);
     if (stuck.empty()) stuck = band.clone();
     stuck.copyTo(band);
   };
@@ -196,9 +196,9 @@ TEST(CorridorCentering, DrawsTheFisheyeBesideTheMap) {
   const auto module = make_corridor_centering({});
   const StraightCorridor corridor;
   fly(*module, corridor.planes(), {0, 0.3}, {0.8, 0}, 3);
-  const cv::Mat picture = module->annotate();
-  EXPECT_EQ(picture.size(), cv::Size(960, 480));
-  EXPECT_EQ(picture.type(), CV_8UC3);
+  const cv::Mat image = module->annotate();
+  EXPECT_EQ(image.size(), cv::Size(960, 480));
+  EXPECT_EQ(image.type(), CV_8UC3);
 }
 
 TEST(CorridorCentering, RefusesAConfigThatCannotBe) {
@@ -214,4 +214,4 @@ TEST(CorridorCentering, RefusesAConfigThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::corridor_centering

@@ -1,4 +1,4 @@
-#include "avoidance/balance_law.h"
+#include "avoidance/flow_balance/balance_law.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <random>
 #include <vector>
 
-#include "tests/avoidance/flow_rig.h"
-#include "tests/vision/projected_flow.h"
-#include "vision/flow_measures.h"
+#include "tests/avoidance/flow_balance/flow_rig.h"
+#include "tests/vision/flow/projected_flow.h"
+#include "vision/flow/flow_measures.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 namespace {
 
 using std::numbers::pi;
@@ -25,8 +25,8 @@ WallSense sense_of_wall(const MountedCamera& camera, const Eigen::Vector2d& v_B,
   const auto field = vision::plane_flow(camera.model.pinhole(), vision::grid_field(8, 8, 30, 200), {0, 0, range_m},
                                         {0, 0, 1}, R_CB * Eigen::Vector3d(v_B.x(), v_B.y(), 0), {0, 0, 0}, kStep_s);
   return {camera.X_BC.linear().col(2).head<2>(), camera.X_BC.linear().col(0).head<2>(),
-          vision::mean_horizontal_flow(field, camera.model.pinhole(), kStep_s, vision::Missing::skip).value,
-          vision::loom(field, kStep_s, vision::Missing::skip).value};
+          vision::flow::mean_horizontal_flow(field, camera.model.pinhole(), kStep_s, vision::flow::Missing::skip).value,
+          vision::flow::loom(field, kStep_s, vision::flow::Missing::skip).value};
 }
 
 TEST(InverseRanges, FlowAndLoomTellTheRangeOfAWallOnAnySideForAnyMotion) {
@@ -120,4 +120,4 @@ TEST(PushFromNearest, EqualsThePapersPushBeforeWallsThatTheCamerasFace) {
 }
 
 }  // namespace
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

@@ -1,8 +1,8 @@
-#include "avoidance/detour.h"
+#include "avoidance/flow_balance/detour.h"
 
 #include <gtest/gtest.h>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 namespace {
 
 constexpr Detour::Config kConfig{.patience_s = 20.0, .angle_rad = 1.0, .duration_s = 10.0};
@@ -36,4 +36,4 @@ TEST(Detour, WithoutPatienceConfiguredNeverTurns) {
 }
 
 }  // namespace
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

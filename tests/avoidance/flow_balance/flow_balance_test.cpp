@@ -1,4 +1,4 @@
-#include "avoidance/flow_balance.h"
+#include "avoidance/flow_balance/flow_balance.h"
 
 #include <gtest/gtest.h>
 
@@ -10,16 +10,16 @@
 #include <stdexcept>
 #include <utility>
 
-#include "tests/avoidance/flow_rig.h"
+#include "tests/avoidance/flow_balance/flow_rig.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 namespace {
 
 using std::numbers::pi;
 using Walls = std::vector<vision::TexturedPlane>;
 constexpr int kSize_px = 96;
 
-FlowBalanceConfig small_pictures() {
+FlowBalanceConfig small_images() {
   FlowBalanceConfig config;
   config.flow.rows = config.flow.cols = 6;
   config.flow.patch_px = 24;
@@ -37,7 +37,7 @@ Eigen::Vector2d polar(double length, double azimuth) {
   return {length * std::cos(azimuth), length * std::sin(azimuth)};
 }
 
-// The velocity commanded after a few pictures of steady flight at v_WB_W.
+// The velocity commanded after a few images of steady flight at v_WB_W.
 VelocityCommand command_in_flight(const FlowBalanceConfig& config, const Walls& walls, double heading_rad,
                                   const Eigen::Vector2d& v_WB_W, const Goal& goal,
                                   const Eigen::Vector3d& w_WB_B = {0, 0, 0}) {
@@ -69,7 +69,7 @@ TEST(FlowBalance, TurnsAwayFromAWallOnEverySideWhereverItFlies) {
       const Walls walls = {wall(5.0 * n.x(), 5.0 * n.y(), to_wall + pi)};
       const Eigen::Vector2d v = speed(random) * (++i % 2 ? 1 : -1) * n + speed(random) * along;
       const Goal goal{{100 * along.x(), 100 * along.y(), -5.0}, heading};
-      const VelocityCommand command = command_in_flight(small_pictures(), walls, heading, v, goal);
+      const VelocityCommand command = command_in_flight(small_images(), walls, heading, v, goal);
       EXPECT_LT(command.v_WB_W.dot(n), -0.4) << "heading " << heading << " side " << side;
       EXPECT_GT(command.v_WB_W.dot(along), 0.3) << "heading " << heading << " side " << side;
       EXPECT_NEAR(command.v_WB_W.norm(), 2.0, 1e-9);
@@ -79,7 +79,7 @@ TEST(FlowBalance, TurnsAwayFromAWallOnEverySideWhereverItFlies) {
 
 TEST(FlowBalance, FliesStraightToTheGoalWithNothingInSight) {
   const Goal goal{{30, 40, -5.0}, 0.2};
-  const VelocityCommand command = command_in_flight(small_pictures(), {}, 0.2, {1, 1}, goal);
+  const VelocityCommand command = command_in_flight(small_images(), {}, 0.2, {1, 1}, goal);
   const Eigen::Vector2d left = Eigen::Vector2d(30, 40) - Eigen::Vector2d(1, 1) * 0.08;  // 0.08 s were flown
   EXPECT_LT((command.v_WB_W - 2.0 * left.normalized()).norm(), 1e-9);
 }
@@ -88,7 +88,7 @@ TEST(FlowBalance, NearerWallsAreGivenAWiderBerth) {
   double last = 0.0;
   for (const double range : {30.0, 12.0, 6.0, 3.0}) {
     const VelocityCommand command =
-        command_in_flight(small_pictures(), {wall(0, range, -0.5 * pi)}, 0.0, {1.2, 0.8}, {{100, 0, -5}, 0.0});
+        command_in_flight(small_images(), {wall(0, range, -0.5 * pi)}, 0.0, {1.2, 0.8}, {{100, 0, -5}, 0.0});
     EXPECT_LT(command.v_WB_W.y(), last) << range;
     last = command.v_WB_W.y();
   }
@@ -97,15 +97,15 @@ TEST(FlowBalance, NearerWallsAreGivenAWiderBerth) {
 TEST(FlowBalance, SlowsTowardsTheGoalInsteadOfCirclingIt) {
   const Walls walls = {wall(0, 6, -0.5 * pi)};
   for (const double distance : {3.0, 1.0, 0.2}) {
-    const Eigen::Vector2d flown = Eigen::Vector2d(0.3, 0.2) * 0.08;  // the position of the third picture
+    const Eigen::Vector2d flown = Eigen::Vector2d(0.3, 0.2) * 0.08;  // the position of the third image
     const VelocityCommand command =
-        command_in_flight(small_pictures(), walls, 0.0, {0.3, 0.2}, {{flown.x() + distance, flown.y(), -5}, 0.0});
+        command_in_flight(small_images(), walls, 0.0, {0.3, 0.2}, {{flown.x() + distance, flown.y(), -5}, 0.0});
     EXPECT_NEAR(command.v_WB_W.norm(), 2.0 * distance / 4.0, 1e-9);
   }
 }
 
 TEST(FlowBalance, SpiralAngleAimsRightOfTheGoal) {
-  FlowBalanceConfig config = small_pictures();
+  FlowBalanceConfig config = small_images();
   config.spiral_angle_rad = 0.3;
   const VelocityCommand command = command_in_flight(config, {}, 0.0, {1, 0}, {{100, 0, -5}, 0.0});
   // The vehicle has flown 0.08 m meanwhile.
@@ -113,7 +113,7 @@ TEST(FlowBalance, SpiralAngleAimsRightOfTheGoal) {
 }
 
 TEST(FlowBalance, CommandFilterLeavesItsShareOfTheOldCommand) {
-  FlowBalanceConfig plain = small_pictures(), filtered = plain;
+  FlowBalanceConfig plain = small_images(), filtered = plain;
   filtered.command_time_constant_s = 1e9;
   const Walls walls = {wall(0, 4, -0.5 * pi)};
   const Goal goal{{100, 0, -5}, 0.0};
@@ -124,7 +124,7 @@ TEST(FlowBalance, CommandFilterLeavesItsShareOfTheOldCommand) {
 TEST(FlowBalance, SkyDilutesAWallWhenItCountsAsFarAway) {
   // A wall in the middle third of the left camera's view, open country beside it.
   const Walls walls = {wall(0.0, -5.0, 0.5 * pi, 1.0)};
-  FlowBalanceConfig all = small_pictures();
+  FlowBalanceConfig all = small_images();
   all.loom_gain_m2ps = all.flow_gain_m2ps = 1.0;
   FlowBalanceConfig valid = all;
   valid.average = FlowBalanceConfig::Average::valid;
@@ -138,7 +138,7 @@ TEST(FlowBalance, SkyDilutesAWallWhenItCountsAsFarAway) {
 TEST(FlowBalance, DerotationTakesOutTheFlowOfATurn) {
   // Yaw rate makes flow that looks like a wall's; the open space to the rear shows how much is left.
   const Walls walls = {wall(8, 0, pi), wall(-8, 0, 0)};
-  FlowBalanceConfig plain = small_pictures(), derotated = plain;
+  FlowBalanceConfig plain = small_images(), derotated = plain;
   derotated.derotate = true;
   const Goal goal{{0, 100, -5}, 0.0};
   const Eigen::Vector2d v(0.9, 1.2);
@@ -183,7 +183,7 @@ PointFlight fly(const FlowBalanceConfig& config, const Walls& walls, double head
 TEST(FlowBalance, SimpleSchemeZigZagsThroughTheRoomWithoutTouching) {
   // [Garratt2009] sec. 4: 8 m x 16 m, heading along the long walls and 22.5 degrees off.
   const Walls room = {wall(8, 0, pi), wall(-8, 0, 0), wall(0, 4, -0.5 * pi), wall(0, -4, 0.5 * pi)};
-  FlowBalanceConfig config = small_pictures();
+  FlowBalanceConfig config = small_images();
   config.scheme = FlowBalanceConfig::Scheme::simple;
   config.flow.rows = 1;
   config.flow.cols = 8;
@@ -207,14 +207,14 @@ TEST(FlowBalance, SimpleSchemeZigZagsThroughTheRoomWithoutTouching) {
 
 TEST(FlowBalance, SimpleSchemeRangingPatchByPatchFillsTheRoomCloserToItsWalls) {
   const Walls room = {wall(8, 0, pi), wall(-8, 0, 0), wall(0, 4, -0.5 * pi), wall(0, -4, 0.5 * pi)};
-  FlowBalanceConfig config = small_pictures();
+  FlowBalanceConfig config = small_images();
   config.scheme = FlowBalanceConfig::Scheme::simple;
   config.ranging = FlowBalanceConfig::Ranging::nearest;
   config.flow.rows = 1;
   config.flow.cols = 8;
   config.derotate = true;
   config.divisor_floor_mps = 0.05;
-  config.near_pictures = 1;
+  config.near_images = 1;
   config.range_memory_s = 1.0;
   config.range_threshold_m = 0.6;
   config.stray_rad = pi / 9;
@@ -239,32 +239,32 @@ TEST(FlowBalance, GoalDirectedSchemePassesABuildingThatStandsInTheWay) {
     return std::hypot(std::max(north, 0.0), std::max(east, 0.0)) + std::min(std::max(north, east), 0.0);
   };
   const Goal goal{{36, 1.5, -1}, 0.0};
-  const PointFlight flight = fly(small_pictures(), building, 0.0, goal, {0, -1.0}, 40.0, clearance);
+  const PointFlight flight = fly(small_images(), building, 0.0, goal, {0, -1.0}, 40.0, clearance);
   EXPECT_GT(flight.least_clearance_m, 0.5);
   EXPECT_LT((flight.path.back() - goal.p_WG.head<2>()).norm(), 2.0);
   // The control run, gains at nothing, goes through it.
-  FlowBalanceConfig blind = small_pictures();
+  FlowBalanceConfig blind = small_images();
   blind.loom_gain_m2ps = blind.flow_gain_m2ps = 0.0;
   EXPECT_LT(fly(blind, building, 0.0, goal, {0, -1.0}, 9.0, clearance).least_clearance_m, 0.0);
 }
 
-TEST(FlowBalance, AnnotatesAllFourCamerasInOnePicture) {
-  const auto module = make_flow_balance(small_pictures());
+TEST(FlowBalance, AnnotatesAllFourCamerasInOneImage) {
+  const auto module = make_flow_balance(small_images());
   const avoidance::Setup setup = four_cameras(kSize_px, 25.0);
   module->reset(setup);
   EXPECT_TRUE(module->annotate().empty());
   const NavigationState navigation = level_flight({0, 0, -5}, 0.0, {1, 0});
   const auto frames = see(setup, navigation, 1, {wall(8, 0, pi)}, texture());
   module->update({1, frames, navigation, {{9, 9, -5}, 0.0}});
-  const cv::Mat picture = module->annotate();
-  EXPECT_EQ(picture.type(), CV_8UC3);
-  EXPECT_GE(picture.cols, 2 * kSize_px);
-  EXPECT_GE(picture.rows, 2 * kSize_px);
+  const cv::Mat image = module->annotate();
+  EXPECT_EQ(image.type(), CV_8UC3);
+  EXPECT_GE(image.cols, 2 * kSize_px);
+  EXPECT_GE(image.rows, 2 * kSize_px);
 }
 
 TEST(FlowBalance, RefusesConfigsOutOfRangeAndPatchesThatDoNotFit) {
   const auto refuse = [](auto change) {
-    FlowBalanceConfig config = small_pictures();
+    FlowBalanceConfig config = small_images();
     change(config);
     EXPECT_THROW(make_flow_balance(config), std::invalid_argument);
   };
@@ -281,11 +281,11 @@ TEST(FlowBalance, RefusesConfigsOutOfRangeAndPatchesThatDoNotFit) {
   refuse([](auto& c) { c.way_angle_rad = 0.0; });
   refuse([](auto& c) { c.stray_rad = -0.1; });
   refuse([](auto& c) { c.range_memory_s = std::nan(""); });
-  FlowBalanceConfig large = small_pictures();
+  FlowBalanceConfig large = small_images();
   large.flow.patch_px = 128;
   const auto module = make_flow_balance(large);
   EXPECT_THROW(module->reset(four_cameras(kSize_px, 25.0)), std::invalid_argument);
 }
 
 }  // namespace
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

@@ -8,21 +8,21 @@
 #include <vector>
 
 #include "avoidance/module.h"
-#include "tests/vision/corridor_world.h"
-#include "tests/vision/textured_picture.h"
+#include "tests/vision/corridor/corridor_world.h"
+#include "tests/vision/flow/textured_image.h"
 
 /// A small rig of four level cameras and what it sees of textured walls, for tests of modules.
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 
 /// Camera that looks along `azimuth_rad` (from forward to the right), level, at B's origin.
 inline MountedCamera level_camera(std::string role, double azimuth_rad, int size_px, double rate_hz) {
   MountedCamera camera;
   camera.role = std::move(role);
-  camera.model = vision::PinholeCamera::from_fov(size_px, size_px, std::numbers::pi / 2);
+  camera.model = vision::camera::PinholeCamera::from_fov(size_px, size_px, std::numbers::pi / 2);
   camera.rate_hz = rate_hz;
   const double c = std::cos(azimuth_rad), s = std::sin(azimuth_rad);
-  camera.X_BC.linear().col(0) = Eigen::Vector3d(-s, c, 0);  // picture's right
-  camera.X_BC.linear().col(1) = Eigen::Vector3d(0, 0, 1);   // picture's down
+  camera.X_BC.linear().col(0) = Eigen::Vector3d(-s, c, 0);  // image's right
+  camera.X_BC.linear().col(1) = Eigen::Vector3d(0, 0, 1);   // image's down
   camera.X_BC.linear().col(2) = Eigen::Vector3d(c, s, 0);   // where it looks
   return camera;
 }
@@ -47,7 +47,7 @@ inline Setup stereo_pair(int size_px, double rate_hz, double speed_limit_mps = 1
   return setup;
 }
 
-/// A fisheye of 190 degrees that looks down, for pictures as high as wide.
+/// A fisheye of 190 degrees that looks down, for images as high as wide.
 inline Setup fisheye_below(int size_px, double rate_hz, double speed_limit_mps = 10.0) {
   Setup setup;
   setup.cameras = {{"fisheye", vision::whole_fisheye(size_px, size_px), vision::looking_down(), rate_hz}};
@@ -93,4 +93,4 @@ inline vision::TexturedPlane wall(double north_m, double east_m, double normal_a
           half_width_m};
 }
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

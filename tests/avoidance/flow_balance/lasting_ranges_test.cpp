@@ -1,15 +1,15 @@
-#include "avoidance/lasting_ranges.h"
+#include "avoidance/flow_balance/lasting_ranges.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-TEST(LastingRanges, OneWrongPictureBringsNothingNear) {
+TEST(LastingRanges, OneWrongImageBringsNothingNear) {
   LastingRanges ranges(3);
   for (const double near : {0.1, 0.9, 0.1}) ranges.add({near});
   EXPECT_EQ(ranges.lasting_per_m(), std::vector<double>{0.1});
@@ -31,11 +31,11 @@ TEST(LastingRanges, MostlyUnknownIsFar) {
   EXPECT_EQ(ranges.lasting_per_m(), std::vector<double>{0.0});
 }
 
-TEST(LastingRanges, OldPicturesAreForgotten) {
+TEST(LastingRanges, OldImagesAreForgotten) {
   LastingRanges ranges(2);
   for (const double near : {0.1, 0.6, 0.7}) ranges.add({near});
   EXPECT_EQ(ranges.lasting_per_m(), std::vector<double>{0.6});
 }
 
 }  // namespace
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

@@ -1,11 +1,11 @@
-#include "avoidance/range_memory.h"
+#include "avoidance/flow_balance/range_memory.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -54,4 +54,4 @@ TEST(RangeMemory, OfNoneForgetsAtOnce) {
 }
 
 }  // namespace
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

@@ -1,4 +1,4 @@
-#include "avoidance/zig_zag.h"
+#include "avoidance/flow_balance/zig_zag.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <set>
 #include <vector>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::flow_balance {
 namespace {
 
 using Side = ZigZag::Side;
@@ -48,7 +48,7 @@ TEST(ZigZag, OfAWallThatTwoCamerasSeeTurnsTheNearerSideOnly) {
   EXPECT_EQ(way.way_H(), Eigen::Vector2d(1.0, -0.5));
 }
 
-TEST(ZigZag, WantsItsConfirmationsInARowOfFreshPictures) {
+TEST(ZigZag, WantsItsConfirmationsInARowOfFreshImages) {
   ZigZag way = zig_zag(2);
   EXPECT_FALSE(way.update(sides(0.9, 0.0, 0.0, 0.0)));
   EXPECT_FALSE(way.update(sides(0.1, 0.0, 0.0, 0.0)));
@@ -129,4 +129,4 @@ TEST(ZigZag, IsCorneredBetweenWallsAheadOfBothComponentsOnly) {
 }
 
 }  // namespace
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::flow_balance

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "avoidance/landmark_map.h"
-#include "tests/avoidance/flow_rig.h"
+#include "avoidance/landmark_map/landmark_map.h"
+#include "tests/avoidance/flow_balance/flow_rig.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::landmark_map {
 namespace {
 
 constexpr int64_t kStep_ns = 100'000'000;
@@ -32,7 +32,7 @@ class CornerFlight {
   explicit CornerFlight(std::vector<Eigen::Vector3d> corners_W, LandmarkMapModuleConfig config = {})
       : corners_W_(std::move(corners_W)) {
     config.sight.front_end = FrontEnd::corners;
-    config.sight.map.start.coordinates = vision::LandmarkCoordinates::inverse_depth;
+    config.sight.map.start.coordinates = vision::landmarks::LandmarkCoordinates::inverse_depth;
     config.sight.map.position_sigma_m = 0.1;
     config.speed_mps = kSpeed_mps;
     module_ = make_landmark_map(config);
@@ -154,4 +154,4 @@ TEST(LandmarkMapModule, StopsForGoodBeforeWhatItsRangeFinderMeetsSixTimesRunning
 }
 
 }  // namespace
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::landmark_map

@@ -1,4 +1,4 @@
-#include "avoidance/map_route.h"
+#include "avoidance/landmark_map/map_route.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::landmark_map {
 namespace {
 
 using Eigen::Vector2d;
@@ -142,4 +142,4 @@ TEST(MapRoute, WaysFromAndToInsideRandomHullsComeNowhereDeeper) {
 }
 
 }  // namespace
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::landmark_map

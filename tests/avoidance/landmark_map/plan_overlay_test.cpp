@@ -1,8 +1,8 @@
-#include "avoidance/plan_picture.h"
+#include "avoidance/landmark_map/plan_overlay.h"
 
 #include <gtest/gtest.h>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::landmark_map {
 namespace {
 
 using Eigen::Vector2d;
@@ -13,13 +13,13 @@ Vector2d vehicle_px(const Vector2d& at_NE) {
   view.from_NE = {-90, 0};
   view.to_NE = {100, 0};
   view.at_NE = at_NE;
-  cv::Mat picture(480, 640, CV_8UC3, cv::Scalar::all(0));
-  draw_plan(view, picture);
+  cv::Mat image(480, 640, CV_8UC3, cv::Scalar::all(0));
+  draw_plan(view, image);
   Vector2d sum = Vector2d::Zero();
   int count = 0;
-  for (int v = 0; v < picture.rows; ++v) {
-    for (int u = 0; u < picture.cols; ++u) {
-      const auto rgb = picture.at<cv::Vec3b>(v, u);
+  for (int v = 0; v < image.rows; ++v) {
+    for (int u = 0; u < image.cols; ++u) {
+      const auto rgb = image.at<cv::Vec3b>(v, u);
       if (rgb[0] < 200 || rgb[1] < 180 || rgb[2] > 120) continue;
       sum += Vector2d(u, v);
       ++count;
@@ -29,7 +29,7 @@ Vector2d vehicle_px(const Vector2d& at_NE) {
   return sum / count;
 }
 
-TEST(PlanPicture, NorthIsUpAndEastIsRightByOneScale) {
+TEST(PlanImage, NorthIsUpAndEastIsRightByOneScale) {
   const Vector2d middle = vehicle_px({5, 0}), north = vehicle_px({65, 0}), east = vehicle_px({5, 60});
   constexpr double kPixel = 1.0;
   EXPECT_NEAR(north.x(), middle.x(), kPixel);
@@ -38,12 +38,12 @@ TEST(PlanPicture, NorthIsUpAndEastIsRightByOneScale) {
   EXPECT_NEAR(middle.y() - north.y(), east.x() - middle.x(), kPixel);
 }
 
-TEST(PlanPicture, LeavesASmallPictureAsItIs) {
-  cv::Mat picture(160, 160, CV_8UC3, cv::Scalar::all(77));
-  const cv::Mat before = picture.clone();
-  draw_plan({}, picture);
-  EXPECT_EQ(cv::norm(picture, before, cv::NORM_INF), 0.0);
+TEST(PlanImage, LeavesASmallImageAsItIs) {
+  cv::Mat image(160, 160, CV_8UC3, cv::Scalar::all(77));
+  const cv::Mat before = image.clone();
+  draw_plan({}, image);
+  EXPECT_EQ(cv::norm(image, before, cv::NORM_INF), 0.0);
 }
 
 }  // namespace
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::landmark_map

@@ -2,9 +2,9 @@
 
 #include <random>
 
-#include "tests/avoidance/section_world.h"
+#include "tests/avoidance/section_grid/section_world.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::section_grid {
 namespace {
 
 constexpr double kVehicleRadius_m = 0.64;  // of the hexacopter
@@ -41,7 +41,7 @@ TEST(SectionFlight, FindsAnOpeningOffTheStraightWayToWhicheverSide) {
 }
 
 // [Perez2018] fig. 14.
-TEST(SectionFlight, AsItClimbsTheChosenSectionComesDownToTheCentre) {
+TEST(SectionFlight, AsItClimbsTheChosenSectionComesDownToTheCenter) {
   SectionWorld world;
   world.boxes_W = wall_with({0.0, 9.0, 1.0, 0.0}, 9.0, 9.0);
   world.goal_W = {40.0, 0.0, -12.0};
@@ -51,9 +51,9 @@ TEST(SectionFlight, AsItClimbsTheChosenSectionComesDownToTheCentre) {
   EXPECT_TRUE(flown.reached);
   int rows_above = 0, most = 0;
   for (const SectionWorld::Moment& moment : flown.moments) {
-    if (moment.rows_above_centre > most) most = rows_above = moment.rows_above_centre;
-    EXPECT_LE(moment.rows_above_centre, rows_above);
-    rows_above = moment.rows_above_centre;
+    if (moment.rows_above_center > most) most = rows_above = moment.rows_above_center;
+    EXPECT_LE(moment.rows_above_center, rows_above);
+    rows_above = moment.rows_above_center;
   }
   EXPECT_GE(most, 4);
   EXPECT_EQ(rows_above, 0);
@@ -68,7 +68,7 @@ TEST(SectionFlight, AnOpeningAlongTheTopIsFlownThroughWithSeventeenRowsAndNotWit
   world.duration_s = 60.0;
   const SectionWorld::Flown fine = world.fly({});
   EXPECT_TRUE(fine.reached);
-  EXPECT_GE(fine.moments.front().rows_above_centre, 5);
+  EXPECT_GE(fine.moments.front().rows_above_center, 5);
   SectionGridConfig coarse;
   coarse.grid = {.rows = 3, .cols = 3, .width_share = 1.0 / 3.0, .height_share = 1.0 / 3.0};
   const SectionWorld::Flown missed = world.fly(coarse);
@@ -96,7 +96,7 @@ TEST(SectionFlight, PassesRandomPillarsByMoreThanItsRadius) {
   }
 }
 
-// [Perez2018] fig. 20, from wherever in the picture; half of them then turn square to their way, to either side.
+// [Perez2018] fig. 20, from wherever in the image; half of them then turn square to their way, to either side.
 TEST(SectionFlight, WhatComesAtAHoveringVehicleFromAnyBearingInSightStaysAway) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> bearing_rad(-0.65, 0.65), beside_m(-1.0, 1.0), turns_s(7.0, 10.0);
@@ -125,4 +125,4 @@ TEST(SectionFlight, WhatComesAtAHoveringVehicleFromAnyBearingInSightStaysAway) {
 }
 
 }  // namespace
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::section_grid

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "avoidance/section_grid.h"
-#include "tests/avoidance/flow_rig.h"
+#include "avoidance/section_grid/section_grid.h"
+#include "tests/avoidance/flow_balance/flow_rig.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::section_grid {
 namespace {
 
 constexpr int kWidth_px = 160, kHeight_px = 90;
@@ -17,7 +17,7 @@ class Pilot {
   explicit Pilot(SectionGridConfig config = {}) : module_(make_section_grid(with_truth(config))) {
     Setup setup;
     MountedCamera camera = level_camera("depth", 0.0, kWidth_px, 12.5);
-    camera.model = vision::PinholeCamera::from_fov(kWidth_px, kHeight_px, 1.48);
+    camera.model = vision::camera::PinholeCamera::from_fov(kWidth_px, kHeight_px, 1.48);
     setup.cameras = {camera};
     setup.limits = {5.0, 2.0, 1.0};
     module_->reset(setup);
@@ -67,10 +67,10 @@ TEST(SectionGridModule, GoesAThresholdsDistanceToTheFreeSideOfAnObstacle) {
     EXPECT_GT(left ? heading_rad : -heading_rad, 0.17);
     EXPECT_LT(std::abs(heading_rad), 0.74);
     EXPECT_EQ(position(decision).p_WB, Eigen::Vector3d(0.0, 0.0, -5.0));
-    // Now the obstacle stands at the edge of the picture, before the goal.
+    // Now the obstacle stands at the edge of the image, before the goal.
     const Decision facing =
         pilot.see(left ? near_between(0, 30) : near_between(130, kWidth_px), {0.0, 0.0, -5.0}, heading_rad);
-    constexpr double kHalfPixel_m = 1e-3;  // the middle section's centre lies half a pixel off the camera's axis
+    constexpr double kHalfPixel_m = 1e-3;  // the middle section's center lies half a pixel off the camera's axis
     EXPECT_NEAR(position(facing).p_WB.head<2>().norm(), kThreshold_m, kHalfPixel_m);
   }
 }
@@ -153,13 +153,13 @@ TEST(SectionGridModule, AFasterVehicleMindsWhatIsFartherWhereTheThresholdHangsOn
   EXPECT_EQ(Pilot().see(beyond).status, "cruise");
 }
 
-TEST(SectionGridModule, KeepsAsideWhileWhatHasLeftThePictureStandsInTheWayToTheGoal) {
+TEST(SectionGridModule, KeepsAsideWhileWhatHasLeftTheImageStandsInTheWayToTheGoal) {
   for (const bool remembers : {true, false}) {
     SectionGridConfig config;
     config.passed.radius_m = remembers ? 1.2 : 0.0;
     Pilot pilot(config);
-    // A wall 2 m ahead, from the left edge to past the middle. Once the vehicle has turned right, the picture still
-    // shows the way to the goal, but no longer the wall from half a metre to the left of that way on.
+    // A wall 2 m ahead, from the left edge to past the middle. Once the vehicle has turned right, the image still
+    // shows the way to the goal, but no longer the wall from half a meter to the left of that way on.
     cv::Mat wall = far();
     wall.colRange(0, 90).setTo(2.0);
     pilot.see(wall);
@@ -188,4 +188,4 @@ TEST(SectionGridModule, AVehicleThatHoversGivesWayEvenWhereNoSectionIsFree) {
 }
 
 }  // namespace
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::section_grid

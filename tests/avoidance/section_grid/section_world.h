@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "avoidance/section_grid.h"
-#include "tests/avoidance/flow_rig.h"
+#include "avoidance/section_grid/section_grid.h"
+#include "tests/avoidance/flow_balance/flow_rig.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::section_grid {
 
 /// Boxes on level ground, seen by a camera that knows depth, and a point that flies as it is told.
 class SectionWorld {
@@ -23,7 +23,7 @@ class SectionWorld {
   struct Moment {
     Eigen::Vector3d p_WB;
     std::string status;
-    int section = -1, rows_above_centre = 0;
+    int section = -1, rows_above_center = 0;
   };
   struct Flown {
     bool reached = false;
@@ -42,7 +42,7 @@ class SectionWorld {
     config.sight = SectionGridConfig::Sight::truth;
     const auto module = make_section_grid(config);
     MountedCamera camera = level_camera("depth", 0.0, kWidth_px, 1.0 / kStep_s);
-    const vision::PinholeCamera lens = vision::PinholeCamera::from_fov(kWidth_px, kHeight_px, 1.48);
+    const vision::camera::PinholeCamera lens = vision::camera::PinholeCamera::from_fov(kWidth_px, kHeight_px, 1.48);
     camera.model = lens;
     module->reset({{camera}, {speed_mps, 2.0, 0.64}, 1});
     Flown flown;
@@ -70,8 +70,8 @@ class SectionWorld {
   }
 
  private:
-  static cv::Mat depth(const Boxes& boxes_now_W, const vision::PinholeCamera& lens, const Eigen::Isometry3d& X_BC,
-                       const Eigen::Vector3d& p_WB, double heading_rad) {
+  static cv::Mat depth(const Boxes& boxes_now_W, const vision::camera::PinholeCamera& lens,
+                       const Eigen::Isometry3d& X_BC, const Eigen::Vector3d& p_WB, double heading_rad) {
     Eigen::Isometry3d X_WB(Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()));
     X_WB.translation() = p_WB;
     const Eigen::Isometry3d X_WC = X_WB * X_BC;
@@ -112,4 +112,4 @@ class SectionWorld {
   }
 };
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::section_grid

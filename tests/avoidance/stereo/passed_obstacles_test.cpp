@@ -1,15 +1,15 @@
-#include "avoidance/passed_obstacles.h"
+#include "avoidance/stereo/passed_obstacles.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::stereo {
 namespace {
 
 constexpr int kWidth_px = 160, kHeight_px = 120;
-constexpr vision::StereoGeometry kGeometry{128.0, 79.5, 59.5, 0.3};
+constexpr vision::stereo::StereoGeometry kGeometry{128.0, 79.5, 59.5, 0.3};
 constexpr int64_t kSecond_ns = 1'000'000'000;
 
 /// A camera at B's origin that looks along `heading_rad`, level.
@@ -22,20 +22,20 @@ Eigen::Isometry3d looking(double heading_rad, const Eigen::Vector3d& p_WC = Eige
 }
 
 /// Depth of a world that holds one block of pixels at `z_m`, before the sky.
-vision::DepthPyramid block_at(const cv::Rect& pixels, double z_m) {
+vision::stereo::DepthPyramid block_at(const cv::Rect& pixels, double z_m) {
   cv::Mat disparity16(kHeight_px, kWidth_px, CV_16SC1, cv::Scalar(0));
   disparity16(pixels).setTo(std::lround(kGeometry.disparity16(z_m)));
-  vision::DepthPyramid pyramid;
+  vision::stereo::DepthPyramid pyramid;
   pyramid.build(disparity16, 4);
   return pyramid;
 }
-const vision::DepthPyramid kSky = block_at({}, 1.0);
+const vision::stereo::DepthPyramid kSky = block_at({}, 1.0);
 
 Eigen::Vector3d towards(double heading_rad) { return {std::cos(heading_rad), std::sin(heading_rad), 0.0}; }
 
-TEST(PassedObstacles, WhatHasLeftThePictureClosesTheWaysThatPassItWithinTheRadius) {
+TEST(PassedObstacles, WhatHasLeftTheImageClosesTheWaysThatPassItWithinTheRadius) {
   PassedObstacles passed({.radius_m = 1.5, .near_m = 12.0, .keep_s = 8.0});
-  // A block of one pyramid pixel, whose place is known: 6 m ahead, at the picture's right edge.
+  // A block of one pyramid pixel, whose place is known: 6 m ahead, at the image's right edge.
   const cv::Rect block(152, 56, 8, 8);
   passed.update(0, block_at(block, 6.0), kGeometry, looking(0.0));
   EXPECT_TRUE(passed.points_W().empty());  // still in view
@@ -52,7 +52,7 @@ TEST(PassedObstacles, WhatHasLeftThePictureClosesTheWaysThatPassItWithinTheRadiu
   }
 }
 
-TEST(PassedObstacles, WhatComesIntoViewAgainIsLeftToThePicture) {
+TEST(PassedObstacles, WhatComesIntoViewAgainIsLeftToTheImage) {
   PassedObstacles passed({});
   passed.update(0, block_at({140, 50, 16, 16}, 6.0), kGeometry, looking(0.0));
   passed.update(kSecond_ns, kSky, kGeometry, looking(-0.8));
@@ -106,4 +106,4 @@ TEST(PassedObstacles, NoFreeWayComesNearerThanTheRadiusOrATenthNearerThanItWas) 
 }
 
 }  // namespace
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::stereo

@@ -1,12 +1,12 @@
-#include "avoidance/stereo_corridor.h"
+#include "avoidance/stereo_corridor/stereo_corridor.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "tests/avoidance/flow_rig.h"
+#include "tests/avoidance/flow_balance/flow_rig.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::stereo_corridor {
 namespace {
 
 constexpr int kSize_px = 160;
@@ -94,7 +94,7 @@ TEST(StereoCorridor, DoesNotTurnIntoWhatItIsPassing) {
     StereoCorridorConfig config;
     if (!remembers) config.passed.radius_m = 0.0;
     Pilot pilot(config);
-    // 3 m beside the way; half a metre before it, it has left the picture, and the goal lies 43 degrees to its side.
+    // 3 m beside the way; half a meter before it, it has left the image, and the goal lies 43 degrees to its side.
     const vision::TexturedPlane beside = wall(8.0, 5.0, M_PI, 2.0);
     pilot.see({beside});
     const Decision decision = pilot.see({beside}, {3.0, 0.0}, 7.5, {200.0, 192.5 * std::tan(0.75)});
@@ -122,8 +122,8 @@ TEST(StereoCorridor, NoiseOfAnExperimentHangsOnTheSeedAlone) {
   EXPECT_EQ(known_share(0.4, 1), known_share(0.4, 1));
   EXPECT_NE(known_share(0.4, 1), known_share(0.4, 2));
   EXPECT_EQ(known_share(0.0, 1), known_share(0.0, 2));
-  EXPECT_LT(known_share(2.0, 1), known_share(0.0, 1));  // pixels unlike all their neighbours are specks
+  EXPECT_LT(known_share(2.0, 1), known_share(0.0, 1));  // pixels unlike all their neighbors are specks
 }
 
 }  // namespace
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::stereo_corridor

@@ -1,44 +1,44 @@
-#include "avoidance/target_picture.h"
+#include "avoidance/stereo_corridor/target_overlay.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/vision/random_disparity.h"
-#include "vision/corridor_targets.h"
+#include "tests/vision/stereo/random_disparity.h"
+#include "vision/stereo/corridor_targets.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::stereo_corridor {
 namespace {
 
-const cv::Size kPicture(64, 48);
+const cv::Size kImage(64, 48);
 constexpr int kCaption_px = 20;  // rows that a caption may cover
 
-/// The six panels of a picture, left to right, top to bottom.
-cv::Mat panel(const cv::Mat& picture, int i) {
-  return picture(cv::Rect({i % 3 * kPicture.width, i / 3 * kPicture.height}, kPicture));
+/// The six panels of an image, left to right, top to bottom.
+cv::Mat panel(const cv::Mat& image, int i) {
+  return image(cv::Rect({i % 3 * kImage.width, i / 3 * kImage.height}, kImage));
 }
 
-TEST(TargetPicture, EveryBlockIsTintedToItsOwnEdgeRedWhereDangerous) {
+TEST(TargetImage, EveryBlockIsTintedToItsOwnEdgeRedWhereDangerous) {
   std::mt19937_64 random(3);
   constexpr int kTop = 4, kFinest = 2;
   constexpr double kFar16 = 150.0;
   for (int trial = 0; trial < 50; ++trial) {
-    vision::DepthPyramid pyramid;
-    pyramid.build(vision::random_disparity(random, kPicture, trial), kTop);
-    TargetPicture seen;
-    seen.grey = cv::Mat(kPicture, CV_8UC1, cv::Scalar(100));
-    seen.matched16 = cv::Mat(kPicture, CV_16SC1, cv::Scalar(0));
-    for (const cv::Point& block : vision::quadtree_targets(pyramid, kFar16, kTop, kFinest)) {
+    vision::stereo::DepthPyramid pyramid;
+    pyramid.build(vision::random_disparity(random, kImage, trial), kTop);
+    TargetImage seen;
+    seen.grey = cv::Mat(kImage, CV_8UC1, cv::Scalar(100));
+    seen.matched16 = cv::Mat(kImage, CV_16SC1, cv::Scalar(0));
+    for (const cv::Point& block : vision::stereo::quadtree_targets(pyramid, kFar16, kTop, kFinest)) {
       seen.candidates.push_back({block, seen.candidates.size() % 2 == 0});
     }
     const cv::Mat drawn = panel(draw(seen, pyramid, {80.0, 31.5, 23.5, 0.3}, 60.0), 4);
-    for (const TargetPicture::Candidate& candidate : seen.candidates) {
+    for (const TargetImage::Candidate& candidate : seen.candidates) {
       if (candidate.pixel.y < kCaption_px) continue;
       const auto color = drawn.at<cv::Vec3b>(candidate.pixel);
       EXPECT_EQ(color[0] > color[1], !candidate.free) << trial;
     }
     // No block that holds something near is tinted, whatever its size.
     const cv::Mat near_there = pyramid.level(kFinest) >= kFar16;
-    for (int v = kCaption_px; v < kPicture.height; ++v) {
-      for (int u = 0; u < kPicture.width; ++u) {
+    for (int v = kCaption_px; v < kImage.height; ++v) {
+      for (int u = 0; u < kImage.width; ++u) {
         if (!near_there.at<uint8_t>(v >> kFinest, u >> kFinest)) continue;
         EXPECT_EQ(drawn.at<cv::Vec3b>(v, u), cv::Vec3b(100, 100, 100)) << trial << ": " << u << " " << v;
       }
@@ -46,13 +46,13 @@ TEST(TargetPicture, EveryBlockIsTintedToItsOwnEdgeRedWhereDangerous) {
   }
 }
 
-TEST(TargetPicture, TheChosenTargetIsRinged) {
-  vision::DepthPyramid pyramid;
-  pyramid.build(cv::Mat(kPicture, CV_16SC1, cv::Scalar(0)), 2);
-  TargetPicture seen;
-  seen.grey = cv::Mat(kPicture, CV_8UC1, cv::Scalar(100));
-  seen.matched16 = cv::Mat(kPicture, CV_16SC1, cv::Scalar(0));
-  const vision::StereoGeometry geometry{80.0, 31.5, 23.5, 0.3};
+TEST(TargetImage, TheChosenTargetIsRinged) {
+  vision::stereo::DepthPyramid pyramid;
+  pyramid.build(cv::Mat(kImage, CV_16SC1, cv::Scalar(0)), 2);
+  TargetImage seen;
+  seen.grey = cv::Mat(kImage, CV_8UC1, cv::Scalar(100));
+  seen.matched16 = cv::Mat(kImage, CV_16SC1, cv::Scalar(0));
+  const vision::stereo::StereoGeometry geometry{80.0, 31.5, 23.5, 0.3};
   const cv::Mat nothing = panel(draw(seen, pyramid, geometry, 60.0), 5).clone();
   seen.target = cv::Point(40, 32);
   seen.target_radius_px = 9;
@@ -62,4 +62,4 @@ TEST(TargetPicture, TheChosenTargetIsRinged) {
 }
 
 }  // namespace
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::stereo_corridor

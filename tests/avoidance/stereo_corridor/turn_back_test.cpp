@@ -1,4 +1,4 @@
-#include "avoidance/turn_back.h"
+#include "avoidance/stereo_corridor/turn_back.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::stereo_corridor {
 namespace {
 
 /// A camera at a place in the plan, looking along a heading, both as north and east.
@@ -61,10 +61,10 @@ TEST(TurnBack, OneThatHelpedIsFollowedByThePatienceOfTheFirst) {
     EXPECT_FALSE(turn_back.update({0.0, 0.0, 20.0}));
     double passed_m = -10.0;
     while (!turn_back.update({aside_m, 0.0, -passed_m})) passed_m += 0.1;
-    // A metre behind and 0.3 m farther than at the nearest.
+    // A meter behind and 0.3 m farther than at the nearest.
     EXPECT_NEAR(passed_m, std::max(1.0, std::sqrt(0.09 + 0.6 * aside_m)), 0.11) << aside_m;
   }
 }
 
 }  // namespace
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::stereo_corridor

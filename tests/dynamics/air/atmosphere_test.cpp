@@ -1,4 +1,4 @@
-#include "dynamics/atmosphere.h"
+#include "dynamics/air/atmosphere.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "tests/dynamics/recorded_check.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::air {
 namespace {
 
 constexpr double kPrinted = 5e-5;  // the tables print five figures
@@ -47,7 +47,7 @@ TEST(Atmosphere, AS4_PressureGivesTheAltitudeBackToAMillimetre) {
 }
 
 TEST(Atmosphere, AS4_AirRestsOnTheAirBelow) {
-  // Hydrostatics: dp/dz = -g rho, g falling with the square of the distance from the Earth's centre.
+  // Hydrostatics: dp/dz = -g rho, g falling with the square of the distance from the Earth's center.
   for (const double altitude_m : {0.0, 300.0, 3000.0}) {
     const double slope =
         (standard_air(altitude_m + 1.0).pressure_pa - standard_air(altitude_m - 1.0).pressure_pa) / 2.0;
@@ -57,4 +57,4 @@ TEST(Atmosphere, AS4_AirRestsOnTheAirBelow) {
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::air

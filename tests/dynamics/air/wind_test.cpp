@@ -1,4 +1,4 @@
-#include "dynamics/wind.h"
+#include "dynamics/air/wind.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 #include "tests/dynamics/recorded_check.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::air {
 namespace {
 
 constexpr double kKnotMps = 0.514444;
@@ -282,4 +282,4 @@ TEST(Wind, RefusesWhatIsNotAWind) {
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::air

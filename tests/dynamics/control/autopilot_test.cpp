@@ -1,4 +1,4 @@
-#include "dynamics/autopilot.h"
+#include "dynamics/control/autopilot.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,10 +10,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "tests/dynamics/closed_loop.h"
-#include "tests/dynamics/step_response.h"
+#include "tests/dynamics/control/closed_loop.h"
+#include "tests/dynamics/control/step_response.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::control {
 namespace {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
@@ -69,23 +69,27 @@ TEST(Autopilot, StepsStayCrispInWind) {
 
 TEST(Autopilot, FliesVehiclesItTakesForOthers) {
   const auto changed = [](const auto& change) {
-    HelicopterConfig c;
+    helicopter::HelicopterConfig c;
     change(c);
     return c;
   };
-  const HelicopterConfig others[] = {
-      changed([](HelicopterConfig& c) { c.mass.mass_kg *= 1.2; }),
-      changed([](HelicopterConfig& c) { c.mass.inertia_kgm2 *= 1.4; }),
-      changed([](HelicopterConfig& c) { c.mass.inertia_kgm2 *= 0.7; }),
-      changed([](HelicopterConfig& c) { std::get<LumpedBarConfig>(c.main_rotor.flybar).lateral_gain *= 1.3; }),
-      changed([](HelicopterConfig& c) { std::get<LumpedBarConfig>(c.main_rotor.flybar).lock_number *= 1.4; }),
-      changed([](HelicopterConfig& c) { c.servos.cyclic.natural_frequency_radps *= 0.8; }),
+  const helicopter::HelicopterConfig others[] = {
+      changed([](helicopter::HelicopterConfig& c) { c.mass.mass_kg *= 1.2; }),
+      changed([](helicopter::HelicopterConfig& c) { c.mass.inertia_kgm2 *= 1.4; }),
+      changed([](helicopter::HelicopterConfig& c) { c.mass.inertia_kgm2 *= 0.7; }),
+      changed([](helicopter::HelicopterConfig& c) {
+        std::get<helicopter::LumpedBarConfig>(c.main_rotor.flybar).lateral_gain *= 1.3;
+      }),
+      changed([](helicopter::HelicopterConfig& c) {
+        std::get<helicopter::LumpedBarConfig>(c.main_rotor.flybar).lock_number *= 1.4;
+      }),
+      changed([](helicopter::HelicopterConfig& c) { c.servos.cyclic.natural_frequency_radps *= 0.8; }),
   };
-  for (const HelicopterConfig& other : others) {
+  for (const helicopter::HelicopterConfig& other : others) {
     SCOPED_TRACE(&other - others);
     Loop loop = perfect();
     loop.vehicle = other;
-    loop.designed_for = HelicopterConfig();
+    loop.designed_for = helicopter::HelicopterConfig();
     const StepResponse r = step_response(loop, {1.0, 1.0});
     EXPECT_LT(r.rise_s, 1.0);
     EXPECT_LT(r.overshoot, 0.25);
@@ -94,13 +98,13 @@ TEST(Autopilot, FliesVehiclesItTakesForOthers) {
 }
 
 TEST(Autopilot, DesignsItselfForOtherHelicopters) {
-  HelicopterConfig left;
-  left.main_rotor.turns = MainRotorConfig::Turns::counter_clockwise;
-  HelicopterConfig bar;
-  bar.main_rotor.flybar = ExplicitBarConfig{};
-  HelicopterConfig heavy;
+  helicopter::HelicopterConfig left;
+  left.main_rotor.turns = helicopter::MainRotorConfig::Turns::counter_clockwise;
+  helicopter::HelicopterConfig bar;
+  bar.main_rotor.flybar = helicopter::ExplicitBarConfig{};
+  helicopter::HelicopterConfig heavy;
   heavy.mass.mass_kg = 11.0;
-  for (const HelicopterConfig& c : {left, bar, heavy}) {
+  for (const helicopter::HelicopterConfig& c : {left, bar, heavy}) {
     Loop loop = perfect();
     loop.vehicle = c;
     const StepResponse r = step_response(loop, {1.0, 1.0});
@@ -138,7 +142,7 @@ TEST(Autopilot, HoldsAttitudeAndHeight) {
   const std::vector<Sample> flight = fly(perfect(), 4.0, [](double) {
     return AttitudeSetpoint{5.0 * kDeg, -3.0 * kDeg, 0.0, 10.0};
   });
-  const HoverModel hover = make_hover_model(HelicopterConfig());
+  const HoverModel hover = make_hover_model(helicopter::HelicopterConfig());
   EXPECT_NEAR(flight.back().rpy()[0] - hover.roll_rad, 5.0 * kDeg, 1.0 * kDeg);
   EXPECT_NEAR(flight.back().rpy()[1] - hover.pitch_rad, -3.0 * kDeg, 1.0 * kDeg);
   EXPECT_NEAR(flight.back().body.p_WB.z(), -10.0, 0.2);
@@ -163,12 +167,12 @@ TEST(Autopilot, HoverStopsStaysAndTurns) {
   });
   const Eigen::Vector3d stopped = flight[800].body.p_WB;
   for (size_t i = 800; i < flight.size(); ++i) EXPECT_LT((flight[i].body.p_WB - stopped).norm(), 0.4);
-  EXPECT_NEAR(wrap_angle(flight[1900].rpy()[2] - flight[900].rpy()[2]), 2.0, 0.03);
+  EXPECT_NEAR(sensors::wrap_angle(flight[1900].rpy()[2] - flight[900].rpy()[2]), 2.0, 0.03);
 }
 
 TEST(Autopilot, HoldsTheHoverInTurbulence) {
   Loop loop;
-  loop.weather = WindConfig{.speed_mps = 5.0, .from_rad = 0.5, .turbulence_w20_mps = 7.7};
+  loop.weather = air::WindConfig{.speed_mps = 5.0, .from_rad = 0.5, .turbulence_w20_mps = 7.7};
   for (uint64_t seed = 1; seed <= 3; ++seed) {
     loop.seed = seed;
     double v2 = 0.0;
@@ -205,7 +209,8 @@ TEST(Autopilot, WindsUpWithNothing) {
 TEST(Autopilot, FliesSquaresForAMinuteOnItsOwnSensors) {
   for (const double weather : {0.0, 7.7}) {
     Loop loop;
-    loop.weather = WindConfig{.speed_mps = weather > 0.0 ? 5.0 : 0.0, .from_rad = 2.0, .turbulence_w20_mps = weather};
+    loop.weather =
+        air::WindConfig{.speed_mps = weather > 0.0 ? 5.0 : 0.0, .from_rad = 2.0, .turbulence_w20_mps = weather};
     const auto v = [](double t_s) {
       const double angle = (static_cast<int>(t_s / 2.5) % 4) * std::numbers::pi / 2.0;
       return Eigen::Vector2d(2.0 * std::cos(angle), 2.0 * std::sin(angle));
@@ -226,7 +231,7 @@ TEST(Autopilot, FliesSquaresForAMinuteOnItsOwnSensors) {
 
 TEST(HoverModel, IsTheVehicleNearItsHover) {
   // A small step of each actuator, flown by the vehicle and by the model.
-  const HelicopterConfig config;
+  const helicopter::HelicopterConfig config;
   const HoverModel model = make_hover_model(config);
   const LinearSystem step = sampled(model.motion, 0.002);
   for (int input = 0; input < kControlAxes; ++input) {
@@ -251,9 +256,9 @@ TEST(HoverModel, IsTheVehicleNearItsHover) {
 TEST(Autopilot, RefusesWhatCannotBe) {
   AutopilotConfig c;
   c.tilt_limit_rad = 0.0;
-  EXPECT_THAT([&] { Autopilot(c, HelicopterConfig()); },
+  EXPECT_THAT([&] { Autopilot(c, helicopter::HelicopterConfig()); },
               testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("autopilot.tilt_limit: ")));
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::control

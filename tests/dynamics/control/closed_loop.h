@@ -7,12 +7,12 @@
 #include <string_view>
 #include <vector>
 
+#include "dynamics/air/wind.h"
 #include "dynamics/avionics.h"
 #include "dynamics/vehicle.h"
-#include "dynamics/wind.h"
 
 /// A vehicle flown by its avionics, or by its autopilot alone on perfect navigation, for tests.
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::control {
 
 /// An independent seed per stream name: FNV-1a.
 inline uint64_t seed_of(uint64_t seed, std::string_view name) {
@@ -26,7 +26,7 @@ struct Loop {
   VehicleConfig vehicle;
   std::optional<VehicleConfig> designed_for;  ///< what the autopilot takes the vehicle for
   std::function<Eigen::Vector3d(double t_s)> wind_W = [](double) { return Eigen::Vector3d(Eigen::Vector3d::Zero()); };
-  std::optional<WindConfig> weather;  ///< instead of wind_W
+  std::optional<air::WindConfig> weather;  ///< instead of wind_W
   std::function<double(const Eigen::Vector3d& p_WB)> surface_m = [](const Eigen::Vector3d&) { return 0.0; };
   bool perfect = false;     ///< the autopilot knows the true state
   double flow_sigma = 0.1;  ///< of the velocity that stands for the down camera's, 50 Hz, m/s; 0 for none
@@ -47,7 +47,7 @@ struct Sample {
   /// Small rotation about B's axes from the estimate to the truth.
   Eigen::Vector3d attitude_error() const {
     const Eigen::AngleAxisd error(estimate.q_WB_est.conjugate() * body.q_WB);
-    return wrap_angle(error.angle()) * error.axis();
+    return sensors::wrap_angle(error.angle()) * error.axis();
   }
 };
 
@@ -59,8 +59,8 @@ inline std::vector<Sample> fly(const Loop& loop, double duration_s,
   Vehicle vehicle(loop.vehicle);
   Avionics avionics(loop.avionics, loop.designed_for.value_or(loop.vehicle), dt, seed);
   Autopilot autopilot(loop.avionics.autopilot, loop.designed_for.value_or(loop.vehicle));
-  Wind weather(loop.weather.value_or(WindConfig{}), seed("wind"));
-  NormalStream flow(seed("flow"));
+  air::Wind weather(loop.weather.value_or(air::WindConfig{}), seed("wind"));
+  sensors::NormalStream flow(seed("flow"));
 
   const auto wind_W = [&](double t_s) {
     const RigidBodyState& b = vehicle.body();
@@ -104,4 +104,4 @@ inline std::vector<Sample> fly(const Loop& loop, double duration_s,
   return samples;
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::control

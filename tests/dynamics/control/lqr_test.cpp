@@ -1,4 +1,4 @@
-#include "dynamics/lqr.h"
+#include "dynamics/control/lqr.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::control {
 namespace {
 
 DesignMatrix scalar(double x) { return DesignMatrix::Constant(1, 1, x); }
@@ -73,4 +73,4 @@ TEST(Lqr, RefusesAnUnstableSystemThatNoInputReaches) {
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::control

@@ -1,4 +1,4 @@
-#include "dynamics/navigation.h"
+#include "dynamics/control/navigation.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "tests/dynamics/closed_loop.h"
+#include "tests/dynamics/control/closed_loop.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::control {
 namespace {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
@@ -89,7 +89,7 @@ TEST(Navigation, IsAccurateAndHonestInAcceleratedFlight) {
 
 TEST(Navigation, IsHonestInTurbulence) {
   Loop loop;
-  loop.weather = WindConfig{.speed_mps = 5.0, .from_rad = 1.0, .turbulence_w20_mps = 7.7};
+  loop.weather = air::WindConfig{.speed_mps = 5.0, .from_rad = 1.0, .turbulence_w20_mps = 7.7};
   const Errors e = errors(flights(loop, 6, 40.0, square));
   EXPECT_LT(e.attitude_rms_rad, 1.0 * kDeg);
   EXPECT_LT(e.velocity_rms_mps, 0.05);
@@ -126,7 +126,7 @@ TEST(Navigation, AnOutlierOfTheFlowMovesLittle) {
   const Navigation::Sensors sensors;
   Navigation navigation({}, sensors);
   navigation.reset({}, {});
-  const ImuReading hover{Eigen::Vector3d::Zero(), {0.0, 0.0, -kGravityMps2}};
+  const sensors::ImuReading hover{Eigen::Vector3d::Zero(), {0.0, 0.0, -kGravityMps2}};
   for (int i = 0; i < 200; ++i) {
     navigation.predict(hover);
     if (i % 2 == 0) navigation.correct_velocity(Eigen::Vector2d::Zero(), 0.1);
@@ -229,7 +229,7 @@ struct ChiSquares {
 // Bounds: chi-square, 0.05 and 99.95 per cent, of 36, 24 and 12 degrees of freedom.
 TEST(Navigation, StaysWithinItsClaimsForFiveMinutesOnTheBarometer) {
   Loop loop;
-  loop.vehicle = MulticopterConfig();
+  loop.vehicle = multicopter::MulticopterConfig();
   loop.avionics.height_sensor.ranger.max_m = 5.0;  // it flies 10 m up
   loop.avionics.barometer.enabled = true;
   constexpr int kFlights = 12;
@@ -316,4 +316,4 @@ TEST(Navigation, GyroBiasIsLearnt) {
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::control

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/dynamics/closed_loop.h"
+#include "tests/dynamics/control/closed_loop.h"
 
 /// What a vehicle and its autopilot make of a step of the commanded velocity, for tests.
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::control {
 
 /// How a velocity step went, in the direction of the step.
 struct StepResponse {
@@ -42,11 +42,11 @@ inline StepResponse step_response(const Loop& loop, const Eigen::Vector2d& v_WB_
     r.across_mps = std::max(r.across_mps, std::abs(v.dot(across)));
     r.altitude_m = std::max(r.altitude_m, std::abs(s.body.p_WB.z() + 10.0));
     const Eigen::Vector3d rpy = s.rpy();
-    r.heading_rad = std::max(r.heading_rad, std::abs(wrap_angle(rpy[2] - loop.heading_rad)));
+    r.heading_rad = std::max(r.heading_rad, std::abs(sensors::wrap_angle(rpy[2] - loop.heading_rad)));
     r.tilt_rad = std::max(r.tilt_rad, std::hypot(rpy[0] - hover.roll_rad, rpy[1] - hover.pitch_rad));
   }
   r.rise_s = t90 > 0.0 ? t90 - t10 : INFINITY;
   return r;
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::control

@@ -1,4 +1,4 @@
-#include "dynamics/flapping.h"
+#include "dynamics/helicopter/flapping.h"
 
 #include <gtest/gtest.h>
 
@@ -6,13 +6,13 @@
 
 #include <cmath>
 
-#include "dynamics/helicopter.h"
-#include "dynamics/helion.h"
+#include "dynamics/helicopter/helicopter.h"
+#include "dynamics/helicopter/trim.h"
 #include "dynamics/integrator.h"
-#include "dynamics/trim.h"
+#include "tests/dynamics/helicopter/helion.h"
 #include "tests/dynamics/recorded_check.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 namespace {
 
 /// HeLion's rotor, bar explicit; gains are per unit of stick.
@@ -138,4 +138,4 @@ TEST(Flapping, AHelicopterWithAnExplicitBarTrimsToo) {
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

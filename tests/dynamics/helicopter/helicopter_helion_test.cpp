@@ -6,10 +6,10 @@
 #include <complex>
 #include <numbers>
 
-#include "dynamics/helion.h"
+#include "tests/dynamics/helicopter/helion.h"
 #include "tests/dynamics/recorded_check.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 namespace {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
@@ -99,7 +99,7 @@ void expect_mode(const Eigen::MatrixXd& A, std::complex<double> expected) {
 // Check LM2.
 TEST(Helion, LM2_ModesOfTheHover) {
   using L = LinearModel;
-  const LinearModel m = linearise(make_helion(), trimmed(0.0));
+  const LinearModel m = linearize(make_helion(), trimmed(0.0));
   expect_recorded_relative("L_b, 1/s2", m.A(L::kP, L::kRight), 583.51, 0.01);
   expect_recorded_relative("M_a, 1/s2", m.A(L::kQ, L::kBack), 267.01, 0.01);
   const Eigen::MatrixXd A = m.A.topLeftCorner<L::kBarBack, L::kBarBack>();
@@ -128,7 +128,7 @@ Eigen::Matrix3d roll_subsystem(const FlappingModel& model, double L_b) {
   return A;
 }
 
-TEST(Helion, LM2_StabiliserBarSlowsTheRollMode) {
+TEST(Helion, LM2_StabilizerBarSlowsTheRollMode) {
   FlappingModel bar = make_main_rotor(helion_main_rotor(), 1.292).flapping;
   const Eigen::Matrix3d with_bar = roll_subsystem(bar, 583.51);
   expect_mode(with_bar, {-0.750, 25.02});
@@ -141,7 +141,7 @@ TEST(Helion, LM2_StabiliserBarSlowsTheRollMode) {
 TEST(Helion, LM6_RollRatePerStickAndHeaveLieInThePublishedBands) {
   using L = LinearModel;
   const HelionModel model = make_helion();
-  const LinearModel m = linearise(model, trimmed(0.0));
+  const LinearModel m = linearize(model, trimmed(0.0));
   // Roll rate and disc at rest under a steady stick.
   Eigen::Matrix2d A;
   A << m.A(L::kP, L::kP), m.A(L::kP, L::kRight), m.A(L::kRight, L::kP), m.A(L::kRight, L::kRight);
@@ -154,4 +154,4 @@ TEST(Helion, LM6_RollRatePerStickAndHeaveLieInThePublishedBands) {
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "dynamics/helicopter/trim.h"
 #include "dynamics/integrator.h"
-#include "dynamics/trim.h"
 #include "tests/dynamics/recorded_check.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 namespace {
 
 using L = LinearModel;
@@ -21,7 +21,7 @@ using L = LinearModel;
 struct Hover {
   HelicopterModel model = make_model(HelicopterConfig{});
   Trim trim = *dynamics::trim(model, Eigen::Vector3d::Zero());
-  LinearModel linear = linearise(model, trim);
+  LinearModel linear = linearize(model, trim);
 };
 const Hover& hover() {
   static const Hover h;
@@ -149,4 +149,4 @@ TEST(HelicopterLinear, PredictsSmallMotionsOfTheFullModel) {
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

@@ -7,7 +7,7 @@
 
 #include "dynamics/vehicle.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 namespace {
 
 /// The message with which a default helicopter is refused after a change.
@@ -59,4 +59,4 @@ TEST(HelicopterRefusals, NameWhyAHoverIsImpossible) {
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

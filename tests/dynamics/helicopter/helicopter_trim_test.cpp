@@ -5,11 +5,11 @@
 #include <numbers>
 #include <string>
 
-#include "dynamics/trim.h"
+#include "dynamics/helicopter/trim.h"
 #include "dynamics/vehicle.h"
 #include "tests/dynamics/recorded_check.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 namespace {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
@@ -202,4 +202,4 @@ TEST(Vehicle, RefusesWhatCannotFly) {
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

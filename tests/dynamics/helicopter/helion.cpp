@@ -1,10 +1,12 @@
-#include "dynamics/helion.h"
+#include "tests/dynamics/helicopter/helion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <variant>
 
-namespace hedgehop::dynamics {
+#include "dynamics/helicopter/trim_solver.h"
+
+namespace hedgehop::dynamics::helicopter {
 namespace {
 
 constexpr double kMassKg = 9.75;
@@ -74,10 +76,10 @@ HelionModel make_helion() {
   f.mixing = f.bar_longitudinal_gain = f.bar_lateral_gain = 0.0;
 
   m.fuselage_drag_areas_m2 = {0.1026, 0.9, 0.084};
-  m.stabiliser_area_m2 = 0.011;
+  m.stabilizer_area_m2 = 0.011;
   m.fin_area_m2 = 0.0072;
   m.surface_lift_slope_prad = 2.865;
-  m.stabiliser_arm_m = 0.751;
+  m.stabilizer_arm_m = 0.751;
   m.fin_arm_m = 0.984;
   m.fin_height_m = 0.184;
   return m;
@@ -103,11 +105,11 @@ HelicopterLoads helicopter_loads(const HelionModel& m, const HelicopterState& st
                               std::abs(in_wake.z())};
   const Eigen::Vector3d fuselage = -half_density * m.fuselage_drag_areas_m2.cwiseProduct(speed).cwiseProduct(in_wake);
 
-  // Stabiliser in the wake, fin.
+  // Stabilizer in the wake, fin.
   const double slope = m.surface_lift_slope_prad;
-  const double w_hf = in_wake.z() + w_B.y() * m.stabiliser_arm_m;
+  const double w_hf = in_wake.z() + w_B.y() * m.stabilizer_arm_m;
   const double v_vf = v_air_B.y() - w_B.z() * m.fin_arm_m + w_B.x() * m.fin_height_m;
-  const double Z_hf = surface_force_n(half_density, m.stabiliser_area_m2, slope, v_air_B.x(), w_hf);
+  const double Z_hf = surface_force_n(half_density, m.stabilizer_area_m2, slope, v_air_B.x(), w_hf);
   const double Y_vf = surface_force_n(half_density, m.fin_area_m2, slope, v_air_B.x(), v_vf);
 
   // The engine also pays for climb and drag.
@@ -122,8 +124,13 @@ HelicopterLoads helicopter_loads(const HelionModel& m, const HelicopterState& st
   loads.f_B = loads.main_rotor.f_B + loads.tail_rotor.f_B + fuselage + Eigen::Vector3d(0.0, Y_vf, Z_hf) +
               heavier_n * R_WB.row(2).transpose();
   loads.t_B = loads.main_rotor.t_B + loads.tail_rotor.t_B +
-              Eigen::Vector3d(Y_vf * m.fin_height_m, Z_hf * m.stabiliser_arm_m, -Y_vf * m.fin_arm_m);
+              Eigen::Vector3d(Y_vf * m.fin_height_m, Z_hf * m.stabilizer_arm_m, -Y_vf * m.fin_arm_m);
   return loads;
 }
 
-}  // namespace hedgehop::dynamics
+std::optional<Trim> trim(const HelionModel& model, const Eigen::Vector3d& v_air_W, double heading_rad) {
+  return solver::find_trim(model, v_air_W, heading_rad);
+}
+LinearModel linearize(const HelionModel& model, const Trim& trim) { return solver::linear_model(model, trim); }
+
+}  // namespace hedgehop::dynamics::helicopter

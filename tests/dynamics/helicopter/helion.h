@@ -3,22 +3,22 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "dynamics/trim.h"
+#include "dynamics/helicopter/trim.h"
 
 /// HeLion as its makers published it, kept to hold the parts it shares with other helicopters against printed trims and
 /// modes; nothing flies it. Source: [HeLionCode] sec. on the 15-state model.
 /// Its rotors, disc and rigid body are those of HelicopterModel. What differs: main rotor and fuselage stand in the
 /// rotor's wake, rotation does not change the air at the main rotor's hub, the fin stands apart from the tail rotor,
 /// and shaft power includes that of the fuselage's drag.
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 
 struct HelionModel {
   MassProperties mass;
   MainRotor main_rotor;  ///< its lumped bar is written as a rotor with the lag of both, and a bar that feeds nothing
   TailRotor tail_rotor;
   Eigen::Vector3d fuselage_drag_areas_m2;
-  double stabiliser_area_m2, fin_area_m2, surface_lift_slope_prad;
-  double stabiliser_arm_m, fin_arm_m, fin_height_m;
+  double stabilizer_area_m2, fin_area_m2, surface_lift_slope_prad;
+  double stabilizer_arm_m, fin_arm_m, fin_height_m;
   double density_kgpm3, gravity_mps2;
 };
 
@@ -31,6 +31,6 @@ HelionModel make_helion();
 HelicopterLoads helicopter_loads(const HelionModel& model, const HelicopterState& state, const BladeAngles& blades,
                                  const Eigen::Vector3d& wind_W);
 std::optional<Trim> trim(const HelionModel& model, const Eigen::Vector3d& v_air_W, double heading_rad = 0.0);
-LinearModel linearise(const HelionModel& model, const Trim& trim);
+LinearModel linearize(const HelionModel& model, const Trim& trim);
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

@@ -1,4 +1,4 @@
-#include "dynamics/induced_velocity.h"
+#include "dynamics/helicopter/induced_velocity.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <numbers>
 #include <random>
 
-#include "dynamics/helicopter.h"
-#include "dynamics/helion.h"
+#include "dynamics/helicopter/helicopter.h"
+#include "tests/dynamics/helicopter/helion.h"
 #include "tests/dynamics/recorded_check.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 namespace {
 
 constexpr double kWeightN = 8.2 * 9.81;
@@ -238,4 +238,4 @@ TEST(InducedVelocity, ThrustHasNoJumps) {
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

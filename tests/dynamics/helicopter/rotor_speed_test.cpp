@@ -1,4 +1,4 @@
-#include "dynamics/rotor_speed.h"
+#include "dynamics/helicopter/rotor_speed.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "tests/dynamics/closed_loop.h"
+#include "tests/dynamics/control/closed_loop.h"
 #include "tests/dynamics/recorded_check.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 namespace {
 
 HelicopterConfig governed(double max_power_w = 2000.0) {
@@ -86,8 +86,8 @@ TEST(RotorSpeed, SpeedDroopsWhenTheEngineIsAtItsLimit) {
 
 TEST(RotorSpeed, AutopilotClimbsAndTheGovernorRecoversTheSpeed) {
   HelicopterFlight flight(governed());
-  Autopilot autopilot({}, VehicleConfig(governed()));
-  NavigationEstimate known;
+  control::Autopilot autopilot({}, VehicleConfig(governed()));
+  control::NavigationEstimate known;
   const auto look = [&] {
     const RigidBodyState& b = flight.body();
     known.p_WB_est = b.p_WB, known.q_WB_est = b.q_WB, known.v_WB_B_est = b.v_WB_B, known.w_WB_B_est = b.w_WB_B;
@@ -97,7 +97,8 @@ TEST(RotorSpeed, AutopilotClimbsAndTheGovernorRecoversTheSpeed) {
   autopilot.reset(look());
   double slowest = kSetRadps;
   for (int i = 0; i < 2000; ++i) {
-    const Controls controls = autopilot.control(VelocitySetpoint{{0.0, 0.0}, i < 100 ? 10.0 : 13.0, 0.0}, look(), 0.01);
+    const Controls controls =
+        autopilot.control(control::VelocitySetpoint{{0.0, 0.0}, i < 100 ? 10.0 : 13.0, 0.0}, look(), 0.01);
     for (int k = 0; k < 5; ++k) flight.step(to_blade_angles(controls), kStill, 0.002);
     slowest = std::min(slowest, flight.state().rotor.speed_radps);
   }
@@ -130,4 +131,4 @@ TEST(RotorSpeed, RefusesAnEngineTooWeakToHover) {
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

@@ -1,4 +1,4 @@
-#include "dynamics/servo.h"
+#include "dynamics/helicopter/servo.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "dynamics/integrator.h"
 #include "tests/dynamics/recorded_check.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::helicopter {
 namespace {
 
 constexpr double kStep = 1e-4;
@@ -98,4 +98,4 @@ TEST(Servo, RefusesStopsOutOfOrder) {
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::helicopter

@@ -2,9 +2,9 @@
 
 #include <random>
 
-#include "tests/dynamics/published_multicopters.h"
+#include "tests/dynamics/multicopter/published_multicopters.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::multicopter {
 namespace {
 
 TEST(Multicopter, AllocationGivesWhatIsWithinReach) {
@@ -50,4 +50,4 @@ TEST(Multicopter, AllocationStaysWithinTheRotorsForAnyWish) {
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::multicopter

@@ -7,14 +7,14 @@
 #include <stdexcept>
 #include <string>
 
-#include "dynamics/hover_model.h"
-#include "dynamics/multicopter_flight.h"
+#include "dynamics/control/hover_model.h"
+#include "dynamics/multicopter/multicopter_flight.h"
 #include "dynamics/vehicle.h"
-#include "tests/dynamics/published_multicopters.h"
+#include "tests/dynamics/multicopter/published_multicopters.h"
 #include "tests/dynamics/recorded_check.h"
 
 // Values marked MC.. are worked out from the published parameter sets by closed forms.
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::multicopter {
 namespace {
 
 constexpr double kDensity = 1.225;
@@ -122,7 +122,7 @@ TEST(Multicopter, MC5_HoverDamping) {
   using L = MulticopterLinearModel;
   const auto linear = [](const MulticopterConfig& c) {
     const MulticopterModel model = make_model(c);
-    return linearise(model, *trim(model, Eigen::Vector3d::Zero()));
+    return linearize(model, *trim(model, Eigen::Vector3d::Zero()));
   };
   expect_recorded_relative("X_u of Hummingbird B, 1/s", linear(hummingbird_b()).A(L::kU, L::kU), -0.4467, 5e-3);
   expect_recorded_relative("Z_w of Hummingbird B, 1/s", linear(hummingbird_b()).A(L::kW, L::kW), -0.871, 5e-3);
@@ -192,16 +192,16 @@ TEST(Multicopter, HoverModelIsTheVehicleNearItsHover) {
   for (const MulticopterConfig& plain : {hummingbird_a(), hummingbird_b(), firefly(), s900()}) {
     MulticopterConfig config = plain;
     config.rotor.time_constant_down_s = config.rotor.time_constant_up_s;  // one lag, as a linear model has it
-    const HoverModel model = make_hover_model(config);
-    const LinearSystem step = sampled(model.motion, 0.002);
+    const control::HoverModel model = control::make_hover_model(config);
+    const control::LinearSystem step = control::sampled(model.motion, 0.002);
     for (int input = 0; input < kControlAxes; ++input) {
       Vehicle vehicle{VehicleConfig(config)};
       Controls u = Controls::Zero();
       u[input] = 1e-4 * model.acceptable[input];
-      DesignVector x = DesignVector::Zero(model.motion.A.rows());
+      control::DesignVector x = control::DesignVector::Zero(model.motion.A.rows());
       for (int i = 0; i < 200; ++i) {
         vehicle.step(model.trim + u, Eigen::Vector3d::Zero(), 0.002);
-        x = DesignVector(step.A * x + step.B * u);
+        x = control::DesignVector(step.A * x + step.B * u);
       }
       const RigidBodyState& b = vehicle.body();
       Eigen::Matrix<double, 10, 1> truth;
@@ -220,7 +220,7 @@ TEST(Multicopter, FliesWithAnyNumberOfArms) {
       config.arms.push_back(
           {2.0 * std::numbers::pi * i / arms, 0.2, i % 2 == 0 ? Turns::clockwise : Turns::counter_clockwise});
     }
-    EXPECT_NO_THROW(make_hover_model(config)) << arms;
+    EXPECT_NO_THROW(control::make_hover_model(config)) << arms;
   }
 }
 
@@ -256,4 +256,4 @@ TEST(Multicopter, HullHoldsEveryRotorAndArm) {
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::multicopter

@@ -4,10 +4,10 @@
 #include <numbers>
 #include <utility>
 
-#include "dynamics/multicopter.h"
+#include "dynamics/multicopter/multicopter.h"
 
 /// Multicopters with published parameters, for tests.
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::multicopter {
 
 using Turns = ArmConfig::Turns;
 inline constexpr double kDeg = std::numbers::pi / 180.0;
@@ -78,4 +78,4 @@ inline MulticopterConfig s900() {
   return c;
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::multicopter

@@ -1,4 +1,4 @@
-#include "dynamics/barometer.h"
+#include "dynamics/sensors/barometer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 namespace {
 
 using testing::HasSubstr;
@@ -100,4 +100,4 @@ TEST(Barometer, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

@@ -1,4 +1,4 @@
-#include "dynamics/gps.h"
+#include "dynamics/sensors/gps.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "tests/dynamics/recorded_check.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 namespace {
 
 using testing::HasSubstr;
@@ -99,4 +99,4 @@ TEST(Gps, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

@@ -1,4 +1,4 @@
-#include "dynamics/height_sensor.h"
+#include "dynamics/sensors/height_sensor.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 namespace {
 
 /// A sonar 4 m above the ground.
@@ -52,4 +52,4 @@ TEST(HeightSensor, RefusesAConeThatSeesTheHorizon) {
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

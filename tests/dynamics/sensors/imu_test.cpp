@@ -1,4 +1,4 @@
-#include "dynamics/imu.h"
+#include "dynamics/sensors/imu.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 #include "tests/dynamics/recorded_check.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 namespace {
 
 using testing::HasSubstr;
@@ -207,4 +207,4 @@ TEST(Imu, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

@@ -1,4 +1,4 @@
-#include "dynamics/magnetometer.h"
+#include "dynamics/sensors/magnetometer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 namespace {
 
 TEST(Magnetometer, KeepsItsOffsetAndScattersRoundIt) {
@@ -48,4 +48,4 @@ TEST(Magnetometer, ReadsNothingWhenOffAndRefusesAShareAboveOne) {
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

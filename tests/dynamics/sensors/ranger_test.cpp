@@ -1,4 +1,4 @@
-#include "dynamics/ranger.h"
+#include "dynamics/sensors/ranger.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,9 +8,9 @@
 #include <optional>
 #include <stdexcept>
 
-#include "dynamics/range_finder.h"
+#include "dynamics/sensors/range_finder.h"
 
-namespace hedgehop::dynamics {
+namespace hedgehop::dynamics::sensors {
 namespace {
 
 using testing::HasSubstr;
@@ -150,4 +150,4 @@ TEST(RangeFinder, BeamHasLengthOneWhateverLengthItIsGiven) {
 }
 
 }  // namespace
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop::dynamics::sensors

@@ -1,4 +1,4 @@
-#include "scenes/mesh_import.h"
+#include "scenes/mesh/mesh_import.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::mesh {
 namespace {
 
 using Eigen::Vector3d;
@@ -93,10 +93,10 @@ TEST_F(MeshImport, WithZUpAndWithoutCollisionIsScenery) {
   EXPECT_LT((box.max() - Eigen::Vector3f(3, 1, 1)).norm(), 1e-5f);
 }
 
-TEST_F(MeshImport, CarriesItsPictureTheRightWayRound) {
-  cv::Mat picture(8, 8, CV_8UC3, cv::Scalar(0, 0, 200));  // red, as OpenCV writes it
-  picture.rowRange(0, 4) = cv::Scalar(200, 0, 0);         // its upper half is blue
-  cv::imwrite((folder_ / "flag.png").string(), picture);
+TEST_F(MeshImport, CarriesItsImageTheRightWayRound) {
+  cv::Mat image(8, 8, CV_8UC3, cv::Scalar(0, 0, 200));  // red, as OpenCV writes it
+  image.rowRange(0, 4) = cv::Scalar(200, 0, 0);         // its upper half is blue
+  cv::imwrite((folder_ / "flag.png").string(), image);
   const std::string file = write("quad.obj", kQuad);
   write("quad.mtl", "newmtl paint\nmap_Kd flag.png\n");
   const Scene scene = imported({.file = file});
@@ -128,8 +128,8 @@ TEST_F(MeshImport, RefusesWhatItCannotReadWithTheReason) {
   EXPECT_THAT(refused(write("notes.txt", "no mesh")), ThrowsMessage<E>(HasSubstr("notes.txt': ")));
   EXPECT_THAT(refused(write("empty.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n")), ThrowsMessage<E>(HasSubstr("empty.obj': ")));
   write("quad.mtl", "newmtl paint\nmap_Kd gone.png\n");
-  EXPECT_THAT(refused(write("quad.obj", kQuad)), ThrowsMessage<E>(HasSubstr("its picture 'gone.png' cannot be read")));
+  EXPECT_THAT(refused(write("quad.obj", kQuad)), ThrowsMessage<E>(HasSubstr("its image 'gone.png' cannot be read")));
 }
 
 }  // namespace
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::mesh

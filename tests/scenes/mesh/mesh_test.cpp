@@ -1,4 +1,4 @@
-// What holds of every generated mesh: geometry, pictures' placement, and agreement with the solids.
+// What holds of every generated mesh: geometry, images' placement, and agreement with the solids.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "scene_equality.h"
 #include "scenes/generators.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::mesh {
 namespace {
 
 struct Case {
@@ -22,32 +22,33 @@ struct Case {
 };
 
 std::vector<Case> cases() {
-  UrbanConfig city;
+  worlds::UrbanConfig city;
   city.texture_size_px = 64;
-  UrbanConfig towers = city;
+  worlds::UrbanConfig towers = city;
   towers.setback_share = 1.0;
   towers.min_height_m = 4.0;
   towers.street_min_width_m = 9.3;
-  RoomConfig room;
+  worlds::RoomConfig room;
   room.texture_size_px = 64;
   room.furniture = 4;
-  RoomConfig open = room;
+  worlds::RoomConfig open = room;
   open.ceiling = false;
   open.length_m = 11.3;
   open.furniture_gap_m = 1.5;
-  return {{"city", city},
-          {"towers", towers},
-          {"room", room},
-          {"open", open},
-          {"tree", TreeConfig{.texture_size_px = 64}, false, false},
-          {"forest", ForestConfig{.trees = 30, .texture_size_px = 64}, false, false},
-          {"corridor",
-           CorridorConfig{.sections = {{12.0}, {8.0, 0.5, 2.0}, {9.0, -0.7, 3.0, 1.2}, {7.0, 0.2, 0.0, 0.0, -0.8}},
-                          .texture_size_px = 64},
-           false},
-          {"highrise", HighriseConfig{.scale = 0.2, .texture_size_px = 64}, false},
-          {"wall", WallConfig{.opening = WallOpening{.bottom_m = 2.0}, .texture_size_px = 64}},
-          {"park", ParkConfig{.extent_m = 50.0, .texture_size_px = 64}, false, false}};
+  return {
+      {"city", city},
+      {"towers", towers},
+      {"room", room},
+      {"open", open},
+      {"tree", worlds::TreeConfig{.texture_size_px = 64}, false, false},
+      {"forest", worlds::ForestConfig{.trees = 30, .texture_size_px = 64}, false, false},
+      {"corridor",
+       worlds::CorridorConfig{.sections = {{12.0}, {8.0, 0.5, 2.0}, {9.0, -0.7, 3.0, 1.2}, {7.0, 0.2, 0.0, 0.0, -0.8}},
+                              .texture_size_px = 64},
+       false},
+      {"highrise", worlds::HighriseConfig{.scale = 0.2, .texture_size_px = 64}, false},
+      {"wall", worlds::WallConfig{.opening = worlds::WallOpening{.bottom_m = 2.0}, .texture_size_px = 64}},
+      {"park", worlds::ParkConfig{.extent_m = 50.0, .texture_size_px = 64}, false, false}};
 }
 
 class EveryMesh : public testing::TestWithParam<Case> {
@@ -71,7 +72,7 @@ TEST_P(EveryMesh, WindingAgreesWithUnitNormals) {
   }
 }
 
-TEST_P(EveryMesh, PicturesAreUprightAndNeverMirrored) {
+TEST_P(EveryMesh, ImagesAreUprightAndNeverMirrored) {
   for (size_t t = 0; t < triangles(); ++t) {
     const Vertex &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
     const Eigen::Vector3f e1 = b.p_W - a.p_W, e2 = c.p_W - a.p_W;
@@ -185,7 +186,7 @@ double cast_at_solids(const Scene& scene, const Eigen::Vector3d& from_W, const E
 TEST_P(EveryMesh, WhatIsSeenIsWhatCanBeHit) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> share(-1.0, 1.0);
-  constexpr double kFarthest_m = 1000.0;  // the ground's picture ends somewhere, its plane does not
+  constexpr double kFarthest_m = 1000.0;  // the ground's image ends somewhere, its plane does not
   int compared = 0;
   while (compared < 400) {
     const Eigen::Vector2d half = 0.5 * scene_.bounds_NE_m.sizes();
@@ -213,4 +214,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EveryMesh, testing::ValuesIn(cases()),
                          [](const auto& each) { return each.param.name; });
 
 }  // namespace
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::mesh

@@ -1,4 +1,4 @@
-#include "scenes/canvas.h"
+#include "scenes/textures/canvas.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::textures {
 namespace {
 
 double rms_step(const cv::Mat1f& noise, int from_column, int to_column) {
@@ -59,11 +59,11 @@ TEST(Canvas, BrushesWrapAroundTheEdges) {
 TEST(Canvas, PartlyCoveredPixelsGetTheirShare) {
   Canvas canvas(4, 4.0, {0.0f, 0.0f, 0.0f});
   canvas.fill({1.5, 1.25, 1.0, 1.0}, {1.0f, 1.0f, 1.0f});
-  const cv::Mat3b picture = canvas.finished();
-  EXPECT_NEAR(picture(1, 1)[0], 255 * 0.5 * 0.75, 1.0);
-  EXPECT_NEAR(picture(2, 1)[0], 255 * 0.5 * 0.25, 1.0);
-  EXPECT_NEAR(picture(1, 2)[0], 255 * 0.5 * 0.75, 1.0);
-  EXPECT_EQ(picture(0, 1)[0], 0);
+  const cv::Mat3b image = canvas.finished();
+  EXPECT_NEAR(image(1, 1)[0], 255 * 0.5 * 0.75, 1.0);
+  EXPECT_NEAR(image(2, 1)[0], 255 * 0.5 * 0.25, 1.0);
+  EXPECT_NEAR(image(1, 2)[0], 255 * 0.5 * 0.75, 1.0);
+  EXPECT_EQ(image(0, 1)[0], 0);
 }
 
 TEST(Canvas, CopiesDoNotShareTheirPixels) {
@@ -81,4 +81,4 @@ TEST(DerivedSeed, StreamsAreSplitMix64) {
 }
 
 }  // namespace
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::textures

@@ -1,26 +1,26 @@
-// What every picture on a surface must offer to optic flow.
+// What every image on a surface must offer to optic flow.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "scenes/city_pictures.h"
-#include "scenes/facade_textures.h"
 #include "scenes/generators.h"
-#include "scenes/room_textures.h"
-#include "scenes/street_textures.h"
+#include "scenes/textures/city_textures.h"
+#include "scenes/textures/facade_textures.h"
+#include "scenes/textures/room_textures.h"
+#include "scenes/textures/street_textures.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::textures {
 namespace {
 
 constexpr int kSize = 512;
 
-cv::Mat1f grey(const cv::Mat& picture) {
-  cv::Mat1f result(picture.size());
-  for (int r = 0; r < picture.rows; ++r) {
-    for (int c = 0; c < picture.cols; ++c) {
-      const auto pixel = picture.at<cv::Vec3b>(r, c);
+cv::Mat1f grey(const cv::Mat& image) {
+  cv::Mat1f result(image.size());
+  for (int r = 0; r < image.rows; ++r) {
+    for (int c = 0; c < image.cols; ++c) {
+      const auto pixel = image.at<cv::Vec3b>(r, c);
       result(r, c) = static_cast<float>(pixel[0] + pixel[1] + pixel[2]) / 3.0f;
     }
   }
@@ -59,7 +59,7 @@ double step_between(const cv::Mat1f& left, int left_column, const cv::Mat1f& rig
   return sum / left.rows;
 }
 
-// The roughest step between neighbouring columns inside a picture.
+// The roughest step between neighboring columns inside an image.
 double roughest_step(const cv::Mat1f& image) {
   double worst = 0.0;
   for (int c = 0; c + 1 < image.cols; ++c) worst = std::max(worst, step_between(image, c, image, c + 1));
@@ -73,45 +73,45 @@ double correlation(const cv::Mat1f& a, const cv::Mat1f& b) {
   return (a.dot(b) / static_cast<double>(a.total()) - mean_a[0] * mean_b[0]) / (dev_a[0] * dev_b[0]);
 }
 
-std::vector<cv::Mat> all_pictures() {
-  std::vector<cv::Mat> pictures = paint_city(kSize, 21).pictures;
+std::vector<cv::Mat> all_images() {
+  std::vector<cv::Mat> images = paint_city(kSize, 21).images;
   for (auto paper : {WallPaper::stripes, WallPaper::brick, WallPaper::damask, WallPaper::plaster}) {
-    for (cv::Mat& picture : paint_room_walls(paper, kSize, 3, 22)) pictures.push_back(picture);
+    for (cv::Mat& image : paint_room_walls(paper, kSize, 3, 22)) images.push_back(image);
   }
   for (auto paint : {paint_parquet, paint_carpet, paint_ceiling, paint_shelves, paint_drawers})
-    pictures.push_back(paint(kSize, 23));
-  return pictures;
+    images.push_back(paint(kSize, 23));
+  return images;
 }
 
-TEST(Pictures, HaveContrastInEveryOctaveFromOnePixelToAnEighthOfThePicture) {
+TEST(Images, HaveContrastInEveryOctaveFromOnePixelToAnEighthOfTheImage) {
   constexpr double kWeakest = 2.0;  // of 255: several times the noise of a camera
-  const std::vector<cv::Mat> pictures = all_pictures();
-  for (size_t k = 0; k < pictures.size(); ++k) {
-    const std::vector<double> octaves = octave_deviations(grey(pictures[k]), 6);
+  const std::vector<cv::Mat> images = all_images();
+  for (size_t k = 0; k < images.size(); ++k) {
+    const std::vector<double> octaves = octave_deviations(grey(images[k]), 6);
     for (size_t octave = 0; octave < octaves.size(); ++octave) {
-      EXPECT_GT(octaves[octave], kWeakest) << "picture " << k << ", wavelength " << (2 << octave) << " px";
+      EXPECT_GT(octaves[octave], kWeakest) << "image " << k << ", wavelength " << (2 << octave) << " px";
     }
   }
 }
 
-TEST(Pictures, TileSideways) {
-  const std::vector<cv::Mat> pictures = all_pictures();
-  for (size_t k = 0; k < pictures.size(); ++k) {
-    const cv::Mat1f image = grey(pictures[k]);
-    EXPECT_LE(step_between(image, kSize - 1, image, 0), roughest_step(image)) << "picture " << k;
+TEST(Images, TileSideways) {
+  const std::vector<cv::Mat> images = all_images();
+  for (size_t k = 0; k < images.size(); ++k) {
+    const cv::Mat1f image = grey(images[k]);
+    EXPECT_LE(step_between(image, kSize - 1, image, 0), roughest_step(image)) << "image " << k;
   }
 }
 
-TEST(Pictures, OfGroundTileBothWays) {
-  const CityPictures city = paint_city(kSize, 24);
+TEST(Images, OfGroundTileBothWays) {
+  const CityTextures city = paint_city(kSize, 24);
   for (uint32_t k : {city.streets[0], city.streets[1], city.lots[0], city.lots[1], city.lots[2], city.grass, city.field,
                      city.roofs[0]}) {
-    const cv::Mat1f turned = grey(city.pictures[k]).t();
-    EXPECT_LE(step_between(turned, kSize - 1, turned, 0), roughest_step(turned)) << "picture " << k;
+    const cv::Mat1f turned = grey(city.images[k]).t();
+    EXPECT_LE(step_between(turned, kSize - 1, turned, 0), roughest_step(turned)) << "image " << k;
   }
 }
 
-TEST(Pictures, FacadeVariantsContinueEachOtherAndDiffer) {
+TEST(Images, FacadeVariantsContinueEachOtherAndDiffer) {
   for (const FacadeStyle& style : facade_styles()) {
     const std::vector<cv::Mat> variants = paint_facades(style, kSize, 2, 25);
     const cv::Mat1f a = grey(variants[0]), b = grey(variants[1]);
@@ -122,7 +122,7 @@ TEST(Pictures, FacadeVariantsContinueEachOtherAndDiffer) {
   }
 }
 
-TEST(Pictures, OfFacadesDoNotRepeatFromBayToBay) {
+TEST(Images, OfFacadesDoNotRepeatFromBayToBay) {
   // Moved by whole bays and floors a facade looks alike, yet never the same: flow must not lock on to the next window.
   constexpr double kMostAlike = 0.85;
   for (const FacadeStyle& style : facade_styles()) {
@@ -137,12 +137,12 @@ TEST(Pictures, OfFacadesDoNotRepeatFromBayToBay) {
   }
 }
 
-TEST(Pictures, AreOneSquareSizeAndNeitherBlackNorWhite) {
-  for (const SceneConfig& config : {SceneConfig(UrbanConfig{}), SceneConfig(RoomConfig{})}) {
-    for (const cv::Mat& picture : make_scene(config, 27).textures) {
-      ASSERT_EQ(picture.type(), CV_8UC3);
-      ASSERT_EQ(picture.size(), cv::Size(512, 512));
-      const double mean = cv::mean(grey(picture))[0];
+TEST(Images, AreOneSquareSizeAndNeitherBlackNorWhite) {
+  for (const SceneConfig& config : {SceneConfig(worlds::UrbanConfig{}), SceneConfig(worlds::RoomConfig{})}) {
+    for (const cv::Mat& image : make_scene(config, 27).textures) {
+      ASSERT_EQ(image.type(), CV_8UC3);
+      ASSERT_EQ(image.size(), cv::Size(512, 512));
+      const double mean = cv::mean(grey(image))[0];
       EXPECT_GT(mean, 55.0);
       EXPECT_LT(mean, 205.0);
     }
@@ -150,4 +150,4 @@ TEST(Pictures, AreOneSquareSizeAndNeitherBlackNorWhite) {
 }
 
 }  // namespace
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::textures

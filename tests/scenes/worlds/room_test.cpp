@@ -1,4 +1,4 @@
-#include "scenes/room.h"
+#include "scenes/worlds/room.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,13 +8,13 @@
 #include "scene_equality.h"
 #include "scenes/generators.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 namespace {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-RoomConfig small_pictures() {
+RoomConfig small_images() {
   RoomConfig config;
   config.texture_size_px = 64;
   return config;
@@ -27,8 +27,8 @@ bool inside_a_solid(const Scene& scene, const Eigen::Vector3d& p_W) {
   return false;
 }
 
-TEST(Room, FreeSpaceIsEightBySixteenMetresAndClosed) {
-  const Scene room = make_room(small_pictures(), 1);
+TEST(Room, FreeSpaceIsEightBySixteenMetersAndClosed) {
+  const Scene room = make_room(small_images(), 1);
   EXPECT_EQ(room.bounds_NE_m.sizes(), Eigen::Vector2d(16.0, 8.0));
   EXPECT_TRUE(room.has_ground);
   std::mt19937_64 random(5);
@@ -49,7 +49,7 @@ TEST(Room, FreeSpaceIsEightBySixteenMetresAndClosed) {
 }
 
 TEST(Room, WithoutCeilingOnlyWallsRemain) {
-  RoomConfig config = small_pictures();
+  RoomConfig config = small_images();
   config.ceiling = false;
   const Scene room = make_room(config, 1);
   EXPECT_EQ(room.solids.size(), 4u);
@@ -58,7 +58,7 @@ TEST(Room, WithoutCeilingOnlyWallsRemain) {
 
 TEST(Room, FurnitureKeepsItsGapsAndTheClearings) {
   for (uint64_t seed = 0; seed < 40; ++seed) {
-    RoomConfig config = small_pictures();
+    RoomConfig config = small_images();
     config.furniture = 4;
     const Scene room = make_room(config, seed);
     ASSERT_EQ(room.solids.size(), 9u);
@@ -85,7 +85,7 @@ TEST(Room, FurnitureKeepsItsGapsAndTheClearings) {
 }
 
 TEST(Room, SameSeedSameRoomAnotherSeedAnother) {
-  RoomConfig config = small_pictures();
+  RoomConfig config = small_images();
   config.furniture = 3;
   EXPECT_TRUE(identical(make_scene(config, 4), make_scene(config, 4)));
   EXPECT_FALSE(identical(make_scene(config, 4), make_scene(config, 5)));
@@ -93,7 +93,7 @@ TEST(Room, SameSeedSameRoomAnotherSeedAnother) {
 
 TEST(Room, RefusesWhatCannotBeBuilt) {
   const auto refused = [](auto change) {
-    RoomConfig config = small_pictures();
+    RoomConfig config = small_images();
     change(config);
     return [config] { make_room(config, 1); };
   };
@@ -106,4 +106,4 @@ TEST(Room, RefusesWhatCannotBeBuilt) {
 }
 
 }  // namespace
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

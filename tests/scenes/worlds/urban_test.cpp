@@ -1,4 +1,4 @@
-#include "scenes/urban.h"
+#include "scenes/worlds/urban.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,15 +9,15 @@
 
 #include "scene_equality.h"
 #include "scenes/generators.h"
-#include "scenes/urban_plan.h"
+#include "scenes/worlds/urban_plan.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 namespace {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-UrbanConfig small_pictures() {
+UrbanConfig small_images() {
   UrbanConfig config;
   config.texture_size_px = 64;
   return config;
@@ -37,12 +37,12 @@ double distance_to_plan(const Eigen::AlignedBox3d& box, double north, double eas
 }
 
 TEST(Urban, SameSeedGivesTheSameSceneBitForBit) {
-  const SceneConfig config = small_pictures();
+  const SceneConfig config = small_images();
   EXPECT_TRUE(identical(make_scene(config, 7), make_scene(config, 7)));
 }
 
-TEST(Urban, AnotherSeedGivesAnotherCityAndOtherPictures) {
-  const Scene a = make_scene(small_pictures(), 7), b = make_scene(small_pictures(), 8);
+TEST(Urban, AnotherSeedGivesAnotherCityAndOtherImages) {
+  const Scene a = make_scene(small_images(), 7), b = make_scene(small_images(), 8);
   EXPECT_FALSE(identical(a, b));
   EXPECT_GT(cv::norm(a.textures.back(), b.textures.back(), cv::NORM_L1), 0.0);
   EXPECT_NE(a.solids.front().half_extents_m, b.solids.front().half_extents_m);
@@ -160,7 +160,7 @@ TEST(Urban, TenThousandBuildingsAreAsDenseAsAHundred) {
 
 TEST(Urban, RefusesWhatCannotBeBuilt) {
   const auto refused = [](auto change) {
-    UrbanConfig config = small_pictures();
+    UrbanConfig config = small_images();
     change(config);
     return [config] { make_urban(config, 1); };
   };
@@ -177,4 +177,4 @@ TEST(Urban, RefusesWhatCannotBeBuilt) {
 }
 
 }  // namespace
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

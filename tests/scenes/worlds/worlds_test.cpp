@@ -11,9 +11,9 @@
 
 #include "scene_equality.h"
 #include "scenes/generators.h"
-#include "scenes/stone_textures.h"
+#include "scenes/textures/stone_textures.h"
 
-namespace hedgehop::scenes {
+namespace hedgehop::scenes::worlds {
 namespace {
 
 using Eigen::Vector2d;
@@ -46,14 +46,14 @@ TEST(Worlds, AreTheSameForTheSameSeedAndOthersForAnother) {
   }
 }
 
-TEST(Worlds, RefusePicturesOfOddSizes) {
+TEST(Worlds, RefuseImagesOfOddSizes) {
   for (SceneConfig config : small_worlds()) {
     std::visit([](auto& chosen) { chosen.texture_size_px = 100; }, config);
     EXPECT_THAT([&] { make_scene(config, 1); }, ThrowsMessage<E>(HasSubstr("texture_size: 100")));
   }
 }
 
-TEST(Tree, CrownIsTenMetresAcrossAndTheTreeTwelveHigh) {
+TEST(Tree, CrownIsTenMetersAcrossAndTheTreeTwelveHigh) {
   for (uint64_t seed = 0; seed < 10; ++seed) {
     const Scene scene = make_tree({.north_m = 3.0, .east_m = -2.0, .texture_size_px = kSmallPx}, seed);
     Eigen::AlignedBox3d box;
@@ -187,7 +187,7 @@ TEST(Corridor, DoorwayAndPillarLeaveTheWidthThatTheySay) {
   EXPECT_FALSE(free_at(15.0, 0.801, 1.0));
 }
 
-TEST(Corridor, WithoutTextureIsOneColourAndWithHalfOfItHalfAsContrasted) {
+TEST(Corridor, WithoutTextureIsOneColorAndWithHalfOfItHalfAsContrasted) {
   const auto contrast = [](double texture) {
     cv::Scalar mean, deviation;
     cv::meanStdDev(make_corridor({.texture = texture, .texture_size_px = 128}, 1).textures.at(0), mean, deviation);
@@ -199,9 +199,9 @@ TEST(Corridor, WithoutTextureIsOneColourAndWithHalfOfItHalfAsContrasted) {
 }
 
 TEST(Corridor, PlainWallsLeaveTheFloorItsTexture) {
-  const auto contrast = [](const CorridorConfig& config, size_t picture) {
+  const auto contrast = [](const CorridorConfig& config, size_t image) {
     cv::Scalar mean, deviation;
-    cv::meanStdDev(make_corridor(config, 1).textures.at(picture), mean, deviation);
+    cv::meanStdDev(make_corridor(config, 1).textures.at(image), mean, deviation);
     return deviation[0];
   };
   constexpr size_t kWall = 0, kFloor = 3;
@@ -244,9 +244,9 @@ TEST(Wall, IsOpenInItsOpeningAndClosedAroundIt) {
 }
 
 // The smaller eigenvalue of the gradients around the best corner, as detectors of corners rank them.
-double best_corner(const cv::Mat& picture) {
+double best_corner(const cv::Mat& image) {
   cv::Mat grey, strength;
-  cv::cvtColor(picture, grey, cv::COLOR_RGB2GRAY);
+  cv::cvtColor(image, grey, cv::COLOR_RGB2GRAY);
   cv::cornerMinEigenVal(grey, strength, 3);
   double best = 0.0;
   cv::minMaxLoc(strength, nullptr, &best);
@@ -255,12 +255,12 @@ double best_corner(const cv::Mat& picture) {
 
 TEST(Wall, CloudsHaveGradientsButNoCorners) {
   constexpr int kSizePx = 512;
-  const cv::Mat clouds = paint_clouded_wall(kSizePx, 1), bricks = paint_brick_wall(kSizePx, 1);
+  const cv::Mat clouds = textures::paint_clouded_wall(kSizePx, 1), bricks = textures::paint_brick_wall(kSizePx, 1);
   EXPECT_LT(best_corner(clouds), 0.01 * best_corner(bricks));
   cv::Scalar mean, deviation;
   cv::meanStdDev(clouds, mean, deviation);
   EXPECT_GT(deviation[0], 15.0);
-  cv::meanStdDev(paint_blank(kSizePx, {0.5f, 0.5f, 0.5f}), mean, deviation);
+  cv::meanStdDev(textures::paint_blank(kSizePx, {0.5f, 0.5f, 0.5f}), mean, deviation);
   EXPECT_EQ(deviation[0], 0.0);
 }
 
@@ -289,4 +289,4 @@ TEST(Balloon, ComesNearAtTwentyFeet) {
 }
 
 }  // namespace
-}  // namespace hedgehop::scenes
+}  // namespace hedgehop::scenes::worlds

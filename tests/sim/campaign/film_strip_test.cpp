@@ -75,13 +75,13 @@ TEST(FilmStrip, ShowsTheWorstFlightsInTheReport) {
   ASSERT_EQ(end.status, 0) << end.err;
   EXPECT_EQ(end.err, "1/1: flying wall/seed1 again for its film strip\n");
   const PageVisit page = visit(folder.path() / "out/report.html", R"js(
-    const picture = document.querySelector('#strips-card img');
-    await picture.decode();
-    return {width: picture.naturalWidth, height: picture.naturalHeight,
+    const image = document.querySelector('#strips-card img');
+    await image.decode();
+    return {width: image.naturalWidth, height: image.naturalHeight,
             why: document.querySelector('#strips-card figcaption .soft').textContent,
             boards: document.querySelectorAll('#board-card').length};)js");
   EXPECT_THAT(page.errors, IsEmpty());
-  EXPECT_EQ(page.value.at("width"), 5 * 242);            // five pictures of 240 px and a gap
+  EXPECT_EQ(page.value.at("width"), 5 * 242);            // five images of 240 px and a gap
   EXPECT_EQ(page.value.at("height"), 240 * 3 / 4 + 16);  // 64 x 48 px, and a line below
   EXPECT_THAT(page.value.at("why").get<std::string>(), HasSubstr("collided (hit north wall"));
   EXPECT_EQ(page.value.at("boards"), 0);

@@ -14,13 +14,13 @@ std::optional<FlownPath> flight(const scenes::SceneConfig& scene, uint64_t seed)
   return FlownPath{.scene = scene, .seed = seed, .p_NE_m = {{0.0, 0.0}, {1.0, 2.0}}};
 }
 scenes::SceneConfig small_city() {
-  scenes::UrbanConfig city;
+  scenes::worlds::UrbanConfig city;
   city.extent_m = 100.0;
   city.texture_size_px = 64;
   return city;
 }
 scenes::SceneConfig small_room() {
-  scenes::RoomConfig room;
+  scenes::worlds::RoomConfig room;
   room.texture_size_px = 64;
   return room;
 }

@@ -106,10 +106,10 @@ TEST_F(Sweep, BadPathsAreRefusedBeforeAnyFlightWithTheNearestKey) {
 }
 
 /// The speed that brings the vehicle nearest to the goal within a second is the highest allowed.
-TEST_F(Sweep, OptimiserFindsTheEndOfAMonotoneCost) {
+TEST_F(Sweep, OptimizerFindsTheEndOfAMonotoneCost) {
   folder.write("best.yaml",
                "scenario: tiny.yaml\nseeds: 1:2\nset: [duration=1]\n"
-               "design: {type: optimise, minimise: goal_distance_m, evaluations: 12}\n"
+               "design: {type: optimize, minimize: goal_distance_m, evaluations: 12}\n"
                "parameters: [{path: avoidance.speed, from: 0.2, to: 1}]\n");
   const CommandEnd end = folder.hedgehop("sweep best.yaml --out out");
   ASSERT_EQ(end.status, 0) << end.err;

@@ -77,7 +77,7 @@ TEST(Proximity, OfALevelHullToAWall) {
   EXPECT_FALSE(found.collided);
 }
 
-// The rim of a disc banked by phi hangs R sin(phi) + h cos(phi) below its centre.
+// The rim of a disc banked by phi hangs R sin(phi) + h cos(phi) below its center.
 TEST(Proximity, GroundClearanceOfABankedRotorFollowsItsSine) {
   const double radius_m = 0.9, half_thickness_m = 0.05, height_m = 2.0;
   CollisionWorld world(scene_of({}), {{HullPart::Shape::cylinder, {0, 0, 0}, {radius_m, radius_m, half_thickness_m}}});
@@ -148,12 +148,12 @@ TEST(Proximity, AmongTenThousandSolidsIsTheNearestOfAll) {
 
 TEST(Proximity, DoesNotDependOnEarlierQueries) {
   const scenes::Scene scene = city(20, 4);
-  CollisionWorld travelled(scene, helicopter());
+  CollisionWorld traveled(scene, helicopter());
   RandomPoses poses{std::mt19937_64(6)};
   for (int i = 0; i < 300; ++i) {
     const Isometry3d X_WB = poses({300, 300, -15}, {350, 350, 15});
     CollisionWorld fresh(scene, helicopter());
-    const Proximity a = travelled.query(X_WB, 60.0, 0.0), b = fresh.query(X_WB, 60.0, 0.0);
+    const Proximity a = traveled.query(X_WB, 60.0, 0.0), b = fresh.query(X_WB, 60.0, 0.0);
     EXPECT_EQ(a.obstacle_clearance_m, b.obstacle_clearance_m);
     EXPECT_EQ(a.nearest_solid, b.nearest_solid);
     EXPECT_EQ(a.nearest_point_W, b.nearest_point_W);
@@ -169,7 +169,7 @@ TEST(Proximity, OfEquallyNearSolidsNamesTheFirst) {
   EXPECT_EQ(world.query(pose({0, 0, 0}), 20.0, 0.0).nearest_solid, 1u);
 }
 
-// Moving scene and vehicle together changes nothing, be it by a kilometre and a half.
+// Moving scene and vehicle together changes nothing, be it by a kilometer and a half.
 TEST(Proximity, IsInvariantUnderRigidMotionAndFarFromTheOrigin) {
   scenes::Scene here = city(5, 8);
   here.has_ground = false;

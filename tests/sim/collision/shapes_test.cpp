@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
-#include "scenes/bodies.h"
-#include "scenes/mesh_builder.h"
+#include "scenes/mesh/bodies.h"
+#include "scenes/mesh/mesh_builder.h"
 #include "sim/collision/proximity.h"
 #include "sim/collision/separation.h"
 
@@ -45,13 +45,13 @@ ConvexBody random_body(std::mt19937_64& random) {
     case 1:
       return {Shape::cylinder, {r, r, size(random)}};
     default:
-      return ConvexBody(scenes::convex_lump(12, 0.4, random));
+      return ConvexBody(scenes::mesh::convex_lump(12, 0.4, random));
   }
 }
 
 // The corners of a box as a polyhedron of twelve triangles.
-scenes::Polyhedron box_faces(const Vector3d& half_m) {
-  scenes::Polyhedron box;
+scenes::mesh::Polyhedron box_faces(const Vector3d& half_m) {
+  scenes::mesh::Polyhedron box;
   for (int k = 0; k < 8; ++k) {
     const Vector3d sign((k & 1) != 0 ? 1 : -1, (k & 2) != 0 ? 1 : -1, (k & 4) != 0 ? 1 : -1);
     box.corners.push_back(half_m.cwiseProduct(sign));
@@ -61,7 +61,7 @@ scenes::Polyhedron box_faces(const Vector3d& half_m) {
   return box;
 }
 
-TEST(Spheres, AreACentreDistanceLessTheirRadiiApart) {
+TEST(Spheres, AreACenterDistanceLessTheirRadiiApart) {
   const ConvexBody ball(Shape::sphere, Vector3d::Constant(0.7)), marble(Shape::sphere, Vector3d::Constant(0.2));
   std::mt19937_64 random(1);
   for (int i = 0; i < 1000; ++i) {
@@ -117,7 +117,7 @@ TEST(Polyhedra, HaveTheNearestPointThatManySamplesApproach) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   for (int i = 0; i < 100; ++i) {
-    const ConvexBody lump(scenes::convex_lump(24, 0.4, random));
+    const ConvexBody lump(scenes::mesh::convex_lump(24, 0.4, random));
     const Vector3d p = random_vector(random, 3.0);
     const double found_m = (lump.nearest(p) - p).norm();
     if (found_m == 0.0) {
@@ -138,7 +138,7 @@ TEST(Polyhedra, HaveTheNearestPointThatManySamplesApproach) {
 }
 
 TEST(Polyhedra, OfOneTriangleAreFlat) {
-  const ConvexBody triangle(scenes::Polyhedron{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}});
+  const ConvexBody triangle(scenes::mesh::Polyhedron{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}});
   const ConvexBody disc(Shape::cylinder, {0.5, 0.5, 0.1});
   const PlacedBody flat(triangle, at(Vector3d::Zero()));
   EXPECT_NEAR(separate(PlacedBody(disc, at({1, 1, -3})), flat).distance_m, 2.9, kExact_m);
@@ -187,10 +187,10 @@ std::vector<HullPart> helicopter() {
 TEST(Movers, AreHitWhereTheyAreAtTheTime) {
   scenes::Mover mover;
   mover.motion = scenes::WaypointMotion{.points = {{10, 0, 5}, {-10, 0, 5}}, .speed_mps = 2.0};
-  mover.solids = {scenes::ball_of("ball", {0, 0, -1}, 1.0),
-                  scenes::solid_of("post", scenes::Post{{0, 0, 0}, 0.1, 1.0})};
+  mover.solids = {scenes::mesh::ball_of("ball", {0, 0, -1}, 1.0),
+                  scenes::mesh::solid_of("post", scenes::mesh::Post{{0, 0, 0}, 0.1, 1.0})};
   scenes::Scene scene =
-      scene_of({scenes::solid_of("wall", Eigen::AlignedBox3d(Vector3d(-1, 30, -9), Vector3d(1, 31, 0)))});
+      scene_of({scenes::mesh::solid_of("wall", Eigen::AlignedBox3d(Vector3d(-1, 30, -9), Vector3d(1, 31, 0)))});
   scene.movers = {mover};
   CollisionWorld world(scene, helicopter());
   std::mt19937_64 random(6);
@@ -218,8 +218,8 @@ TEST(Movers, AreHitWhereTheyAreAtTheTime) {
 }
 
 TEST(HeightAboveSurface, OfABallAndAPostIsTheirTop) {
-  const CollisionWorld world(scene_of({scenes::ball_of("ball", {0, 0, -10}, 2.0),
-                                       scenes::solid_of("post", scenes::Post{{9, 0, 0}, 1.0, 4.0})}),
+  const CollisionWorld world(scene_of({scenes::mesh::ball_of("ball", {0, 0, -10}, 2.0),
+                                       scenes::mesh::solid_of("post", scenes::mesh::Post{{9, 0, 0}, 1.0, 4.0})}),
                              helicopter());
   EXPECT_NEAR(world.height_above_surface({0, 0, -20}, 0.0), 8.0, 1e-12);
   EXPECT_NEAR(world.height_above_surface({0, 1, -20}, 0.0), 10.0 - std::sqrt(3.0), 1e-12);

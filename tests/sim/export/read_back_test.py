@@ -16,7 +16,7 @@ import numpy as np
 
 PROGRAM, SOURCE = sys.argv[1:3]
 GRAVITY = 9.81
-IMU_POSITION = np.array([0.10, 0.05, -0.02])  # forward, right, down of the mass centre
+IMU_POSITION = np.array([0.10, 0.05, -0.02])  # forward, right, down of the mass center
 SCENARIO = f"""
 name: exported
 duration: 5
@@ -70,10 +70,10 @@ class Euroc:
         fu, fv, cu, cv = yaml_numbers(text, "intrinsics")
         return np.array([[fu, 0, cu], [0, fv, cv], [0, 0, 1]]), yaml_numbers(text, "data").reshape(4, 4)
 
-    def pictures(self, name):
+    def images(self, name):
         with open(self.root / name / "data.csv") as file:
             rows = list(csv.reader(file))
-        return {int(t): self.root / name / "data" / picture for t, picture in rows[1:]}
+        return {int(t): self.root / name / "data" / image for t, image in rows[1:]}
 
     def state(self, t_ns):
         row = self.truth[np.searchsorted(self.truth[:, 0], t_ns)]
@@ -153,24 +153,24 @@ class ReadBack(unittest.TestCase):
             self.assertLess(np.linalg.norm(v - v_true), 0.05)
             self.assertLess(np.linalg.norm(cv2.Rodrigues(R.T @ R_true)[0]), 0.005)
 
-    def test_pictures_lie_at_the_times_of_their_cameras(self):
+    def test_images_lie_at_the_times_of_their_cameras(self):
         for name, period_ns in (("cam0", 20_000_000), ("cam1", 100_000_000), ("cam2", 100_000_000)):
-            pictures = self.euroc.pictures(name)
-            self.assertGreater(len(pictures), 30)
-            for t_ns, file in pictures.items():
+            images = self.euroc.images(name)
+            self.assertGreater(len(images), 30)
+            for t_ns, file in images.items():
                 self.assertEqual(t_ns % period_ns, 0)
                 self.assertEqual(file.stem, str(t_ns))
                 self.assertIsNotNone(cv2.imread(str(file)))
-        self.assertEqual(len(self.euroc.pictures("cam0")), 251)
-        self.assertLess(len(self.euroc.pictures("cam1")), 51)  # some are dropped
+        self.assertEqual(len(self.euroc.images("cam0")), 251)
+        self.assertLess(len(self.euroc.images("cam1")), 51)  # some are dropped
 
-    def test_pictures_are_those_of_the_flight(self):
-        t_ns = next(t for t in self.euroc.pictures("cam1") if t > 1_500_000_000)
+    def test_images_are_those_of_the_flight(self):
+        t_ns = next(t for t in self.euroc.images("cam1") if t > 1_500_000_000)
         drawn = self.folder / "drawn.png"
         done = hedgehop("render", self.run_folder / "scenario.yaml", "--camera", "left", "--what", "grey", "--time",
                         t_ns * 1e-9, "-o", drawn)
         self.assertEqual(done.returncode, 0, done.stderr)
-        exported = cv2.imread(str(self.euroc.pictures("cam1")[t_ns]), cv2.IMREAD_UNCHANGED)
+        exported = cv2.imread(str(self.euroc.images("cam1")[t_ns]), cv2.IMREAD_UNCHANGED)
         np.testing.assert_array_equal(exported, cv2.imread(str(drawn), cv2.IMREAD_UNCHANGED))
 
     def tum(self):
@@ -187,7 +187,7 @@ class ReadBack(unittest.TestCase):
         root, _, depth, file, _ = self.tum()
         units = cv2.imread(str(root / depth[t_text]), cv2.IMREAD_UNCHANGED)
         self.assertEqual(units.dtype, np.uint16)
-        z = units / file.getNode("depth_per_metre").real()
+        z = units / file.getNode("depth_per_meter").real()
         K = file.getNode("camera_matrix").mat()
         z_far = np.where(z > 0, z, 1e3)
         rough = cv2.dilate(z_far, np.ones((9, 9))) - cv2.erode(z_far, np.ones((9, 9)))
@@ -206,14 +206,14 @@ class ReadBack(unittest.TestCase):
         self.assertGreater(len(heights), 1000)
         on_ground = heights[heights < 0.1]
         self.assertGreater(len(on_ground), 0.5 * len(heights))
-        self.assertLess(np.abs(on_ground).max(), 0.001)  # depth comes in fifths of a millimetre
+        self.assertLess(np.abs(on_ground).max(), 0.001)  # depth comes in fifths of a millimeter
 
     def test_known_depth_is_seen_where_the_calibration_says(self):
-        """Patches of the left picture, thrown into the right one by depth and calibration, lie there."""
+        """Patches of the left image, thrown into the right one by depth and calibration, lie there."""
         K_left, X_left = self.euroc.camera("cam1")
         K_right, X_right = self.euroc.camera("cam2")
         X_right_left = np.linalg.inv(X_right) @ X_left
-        left, right = self.euroc.pictures("cam1"), self.euroc.pictures("cam2")
+        left, right = self.euroc.images("cam1"), self.euroc.images("cam2")
         _, rgb, _, _, _ = self.tum()
         random = np.random.default_rng(7)
         off = []
@@ -271,10 +271,10 @@ class ReadBack(unittest.TestCase):
         first = np.linalg.inv(camera_at(times[0]))
         for t_s, found in zip(times, poses):
             np.testing.assert_allclose(found, (first @ camera_at(t_s))[:3], atol=1e-9)
-        both = set(self.euroc.pictures("cam1")) & set(self.euroc.pictures("cam2"))
+        both = set(self.euroc.images("cam1")) & set(self.euroc.images("cam2"))
         self.assertEqual([round(t * 1e9) for t in times], sorted(both))
 
-    def test_kitti_pictures_and_projections_are_those_of_the_pair(self):
+    def test_kitti_images_and_projections_are_those_of_the_pair(self):
         root = self.run_folder / "kitti/sequences/00"
         calib = {line.split(":")[0]: np.array(line.split(":")[1].split(), float).reshape(3, 4)
                  for line in (root / "calib.txt").read_text().splitlines()}
@@ -287,7 +287,7 @@ class ReadBack(unittest.TestCase):
             for camera, name in ((0, "cam1"), (1, "cam2")):
                 file = root / f"image_{camera}" / f"{number:06}.png"
                 np.testing.assert_array_equal(cv2.imread(str(file), -1), cv2.imread(
-                    str(self.euroc.pictures(name)[round(t_s * 1e9)]), -1))
+                    str(self.euroc.images(name)[round(t_s * 1e9)]), -1))
 
     def test_readings_are_the_same_in_every_format(self):
         accelerometer = np.loadtxt(self.run_folder / "tum/accelerometer.txt")

@@ -15,8 +15,8 @@ namespace {
 class EitherKind : public testing::TestWithParam<std::string> {
  protected:
   static dynamics::VehicleConfig vehicle() {
-    if (GetParam() == "Helicopter") return dynamics::HelicopterConfig{};
-    return dynamics::MulticopterConfig{};
+    if (GetParam() == "Helicopter") return dynamics::helicopter::HelicopterConfig{};
+    return dynamics::multicopter::MulticopterConfig{};
   }
 };
 INSTANTIATE_TEST_SUITE_P(Aircraft, EitherKind, testing::Values("Helicopter", "Multicopter"),

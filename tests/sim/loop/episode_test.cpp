@@ -20,17 +20,17 @@ Scenario short_city(std::vector<std::string> overrides = {}) {
   return load_scenario(std::string(HEDGEHOP_SOURCE_DIR) + "/configs/garratt2009_city_0_light.yaml", overrides);
 }
 
-/// Asks for pictures and draws over them, as a careless watcher might.
+/// Asks for images and draws over them, as a careless watcher might.
 class ScribblingWatcher : public FlightWatcher {
  public:
-  double picture_rate_hz() const override { return 10.0; }
-  void on_pictures(int64_t, std::span<const avoidance::CameraFrame> frames, const cv::Mat& annotated) override {
-    ++pictures;
+  double image_rate_hz() const override { return 10.0; }
+  void on_images(int64_t, std::span<const avoidance::CameraFrame> frames, const cv::Mat& annotated) override {
+    ++images;
     for (const avoidance::CameraFrame& frame : frames) cv::Mat(frame.image).setTo(255);
     if (!annotated.empty()) cv::Mat(annotated).setTo(255);
   }
   void on_progress(double, double, double) override { ++seconds; }
-  int pictures = 0, seconds = 0;
+  int images = 0, seconds = 0;
 };
 
 TEST(Episode, SameScenarioGivesTheSameFlightBitForBit) {
@@ -44,7 +44,7 @@ TEST(Episode, LookingOnDoesNotChangeTheFlight) {
   ScribblingWatcher watcher;
   const Flight watched = fly(short_city(), &watcher);
   EXPECT_EQ(watched.result.trajectory_hash, fly(short_city()).result.trajectory_hash);
-  EXPECT_EQ(watcher.pictures, 41);  // 10 a second over 4 s, both ends included
+  EXPECT_EQ(watcher.images, 41);  // 10 a second over 4 s, both ends included
   EXPECT_EQ(watcher.seconds, 5);
 }
 
@@ -106,34 +106,34 @@ TEST(Episode, ASceneThatCannotBeIsBadInputAndSaysWhy) {
   }
 }
 
-TEST(PictureAt, AnUnknownCameraIsRefusedWithTheRigsRoles) {
+TEST(ImageAt, AnUnknownCameraIsRefusedWithTheRigsRoles) {
   try {
-    picture_at(short_city(), "top", Channel::grey, 0.0);
+    image_at(short_city(), "top", Channel::grey, 0.0);
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "the rig has no camera 'top'; its cameras: left, right, front, rear, down");
   }
 }
 
-TEST(PictureAt, ACameraThatTheContextCannotDrawIsRefusedByItsRole) {
+TEST(ImageAt, ACameraThatTheContextCannotDrawIsRefusedByItsRole) {
   try {
-    picture_at(short_city({"rig.cameras.1.samples=8"}), "front", Channel::grey, 0.0);
+    image_at(short_city({"rig.cameras.1.samples=8"}), "front", Channel::grey, 0.0);
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "camera 'right': samples: 8 samples a pixel cannot be drawn; this OpenGL has at most 4");
   }
 }
 
-TEST(PictureAt, ShadowsDarkenPixelsAndBrightenNone) {
-  const cv::Mat lit = picture_at(short_city(), "down", Channel::grey, 0.0);
-  const cv::Mat shaded = picture_at(short_city({"drawing.shadows=true"}), "down", Channel::grey, 0.0);
+TEST(ImageAt, ShadowsDarkenPixelsAndBrightenNone) {
+  const cv::Mat lit = image_at(short_city(), "down", Channel::grey, 0.0);
+  const cv::Mat shaded = image_at(short_city({"drawing.shadows=true"}), "down", Channel::grey, 0.0);
   EXPECT_EQ(cv::countNonZero(shaded > lit), 0);
   EXPECT_GT(cv::countNonZero(shaded < lit), 0);
 }
 
-TEST(PictureAt, GreyIsTheMeanOfColour) {
-  const cv::Mat color = picture_at(short_city(), "front", Channel::color, 0.0);
-  const cv::Mat grey = picture_at(short_city(), "front", Channel::grey, 0.0);
+TEST(ImageAt, GreyIsTheMeanOfColor) {
+  const cv::Mat color = image_at(short_city(), "front", Channel::color, 0.0);
+  const cv::Mat grey = image_at(short_city(), "front", Channel::grey, 0.0);
   double largest = 0.0;
   for (int v = 0; v < grey.rows; ++v) {
     for (int u = 0; u < grey.cols; ++u) {

@@ -24,9 +24,9 @@ TEST(Imperfections, OffByDefaultNoPixelChanges) {
   cv::Mat image(50, 60, CV_8UC3);
   cv::randu(image, 0, 256);
   const cv::Mat before = image.clone();
-  camera.spoil(3, image);
+  camera.apply(3, image);
   EXPECT_EQ(cv::norm(image, before, cv::NORM_INF), 0.0);
-  for (int64_t picture = 0; picture < 1000; ++picture) EXPECT_EQ(camera.fate(picture), Imperfections::Fate::fine);
+  for (int64_t image = 0; image < 1000; ++image) EXPECT_EQ(camera.frame_fault(image), Imperfections::FrameFault::none);
 }
 
 // Poisson: the variance of the electrons is their mean, so in levels it is mean * 255 / full well; rounding adds 1/12.
@@ -36,7 +36,7 @@ TEST(Imperfections, PhotonNoiseHasPoissonsVariance) {
   Imperfections camera(config, kPeriod_s, 7);
   for (const double level : {20.0, 60.0, 120.0, 200.0}) {
     cv::Mat image = flat(level);
-    camera.spoil(static_cast<int64_t>(level), image);
+    camera.apply(static_cast<int64_t>(level), image);
     const double expected = level * 255.0 / config.full_well + 1.0 / 12.0;
     const double kSampling = 4.0 * expected * std::sqrt(2.0 / 160000.0);  // four standard errors of a variance
     EXPECT_NEAR(variance_of(image), expected, kSampling) << level;
@@ -50,7 +50,7 @@ TEST(Imperfections, ReadNoiseAddsToPhotonNoiseInVariance) {
   config.read_noise = 2.0;
   Imperfections camera(config, kPeriod_s, 8);
   cv::Mat image = flat(100.0);
-  camera.spoil(0, image);
+  camera.apply(0, image);
   const double expected = 100.0 * 255.0 / 10000.0 + 4.0 + 1.0 / 12.0;
   EXPECT_NEAR(variance_of(image), expected, 4.0 * expected * std::sqrt(2.0 / 160000.0));
 }
@@ -60,8 +60,8 @@ TEST(Imperfections, ExposureMultipliesLightAndSaturates) {
   config.exposure_stops = 1.0;
   Imperfections camera(config, kPeriod_s, 1);
   cv::Mat dim = flat(60.0), bright = flat(200.0);
-  camera.spoil(0, dim);
-  camera.spoil(1, bright);
+  camera.apply(0, dim);
+  camera.apply(1, bright);
   EXPECT_EQ(mean_of(dim), 120.0);
   EXPECT_EQ(mean_of(bright), 255.0);
 }
@@ -71,7 +71,7 @@ TEST(Imperfections, VignettingTakesItsShareInTheCornersAndNothingInTheMiddle) {
   config.vignetting = 0.4;
   Imperfections camera(config, kPeriod_s, 1);
   cv::Mat image = flat(200.0, CV_8UC3, 401);
-  camera.spoil(0, image);
+  camera.apply(0, image);
   EXPECT_EQ(image.at<cv::Vec3b>(200, 200), cv::Vec3b(200, 200, 200));
   EXPECT_EQ(image.at<cv::Vec3b>(0, 0), cv::Vec3b(120, 120, 120));
   EXPECT_EQ(image.at<cv::Vec3b>(400, 0), cv::Vec3b(120, 120, 120));
@@ -84,27 +84,27 @@ TEST(Imperfections, AutomaticExposureSettlesToMidGreyInItsTimeConstant) {
   config.auto_exposure_s = 0.2;
   Imperfections camera(config, kPeriod_s, 1);
   cv::Mat image;
-  for (int picture = 0; picture < 10; ++picture) {
+  for (int image = 0; image < 10; ++image) {
     image = flat(40.0);
-    camera.spoil(picture, image);
+    camera.apply(image, image);
   }
   EXPECT_NEAR(mean_of(image), 127.5 * std::pow(40.0 / 127.5, std::exp(-1.0)), 0.5 + 1e-6);  // rounding to levels
-  for (int picture = 10; picture < 200; ++picture) {
+  for (int image = 10; image < 200; ++image) {
     image = flat(40.0);
-    camera.spoil(picture, image);
+    camera.apply(image, image);
   }
   EXPECT_NEAR(mean_of(image), 127.5, 0.5 + 1e-6);
 }
 
-TEST(Imperfections, EqualSeedsGiveEqualNoiseAndEveryPictureItsOwn) {
+TEST(Imperfections, EqualSeedsGiveEqualNoiseAndEveryImageItsOwn) {
   ImperfectionsConfig config;
   config.read_noise = 3.0;
   Imperfections one(config, kPeriod_s, 5), same(config, kPeriod_s, 5), other(config, kPeriod_s, 6);
   cv::Mat a = flat(100.0), b = flat(100.0), c = flat(100.0), d = flat(100.0);
-  one.spoil(4, a);
-  same.spoil(3, d);
-  same.spoil(4, b);
-  other.spoil(4, c);
+  one.apply(4, a);
+  same.apply(3, d);
+  same.apply(4, b);
+  other.apply(4, c);
   EXPECT_EQ(cv::norm(a, b, cv::NORM_INF), 0.0);
   EXPECT_GT(cv::norm(a, c, cv::NORM_INF), 0.0);
   EXPECT_GT(cv::norm(a, d, cv::NORM_INF), 0.0);
@@ -116,12 +116,12 @@ TEST(Imperfections, FatesComeAsOftenAsAsked) {
   config.freeze = 0.2;
   config.black = 0.05;
   const Imperfections camera(config, kPeriod_s, 11);
-  constexpr int kPictures = 100000;
+  constexpr int kImages = 100000;
   std::array<double, 4> share{};
-  for (int64_t picture = 0; picture < kPictures; ++picture) {
-    share[static_cast<size_t>(camera.fate(picture))] += 1.0 / kPictures;
+  for (int64_t image = 0; image < kImages; ++image) {
+    share[static_cast<size_t>(camera.frame_fault(image))] += 1.0 / kImages;
   }
-  const double kSampling = 4.0 * std::sqrt(0.25 / kPictures);
+  const double kSampling = 4.0 * std::sqrt(0.25 / kImages);
   EXPECT_NEAR(share[1], 0.1, kSampling);
   EXPECT_NEAR(share[2], 0.9 * 0.2, kSampling);
   EXPECT_NEAR(share[3], 0.9 * 0.8 * 0.05, kSampling);

@@ -21,7 +21,7 @@ TEST(RandomStream, NamesAndSeedsNeverCollideInTenThousand) {
   EXPECT_EQ(seeds.size(), 10'000u);
 }
 
-TEST(RandomStream, NeighbouringRunSeedsDifferInAboutHalfTheBits) {
+TEST(RandomStream, NeighboringRunSeedsDifferInAboutHalfTheBits) {
   double bits = 0.0;
   constexpr int kPairs = 2000;
   for (uint64_t run_seed = 0; run_seed < kPairs; ++run_seed) {

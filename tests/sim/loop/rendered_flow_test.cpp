@@ -1,4 +1,4 @@
-// Optic flow of rendered pictures against the motion they were rendered with.
+// Optic flow of rendered images against the motion they were rendered with.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <random>
 
 #include "scenes/generators.h"
-#include "scenes/mesh_builder.h"
+#include "scenes/mesh/mesh_builder.h"
 #include "sim/render/renderer.h"
-#include "vision/flow_measures.h"
-#include "vision/image_interpolation_flow.h"
+#include "vision/flow/flow_measures.h"
+#include "vision/flow/image_interpolation_flow.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -19,11 +19,11 @@ constexpr double kPeriod_s = 0.02;
 
 /// A wall of the city's kind, 60 m wide, 5 m north of the origin and facing it.
 scenes::Scene textured_plane(uint64_t seed) {
-  const scenes::Scene city = scenes::make_scene(scenes::UrbanConfig{.extent_m = 60.0}, seed);
+  const scenes::Scene city = scenes::make_scene(scenes::worlds::UrbanConfig{.extent_m = 60.0}, seed);
   scenes::Scene scene;
   scene.textures = {city.textures.at(seed % city.textures.size())};
   scene.lights = city.lights;
-  scenes::MeshBuilder builder("opaque");
+  scenes::mesh::MeshBuilder builder("opaque");
   builder.begin_chunk(false);
   builder.add_tiled({{kRange_m, -30.0, -30.0}, {0.0, 60.0, 0.0}, {0.0, 0.0, 60.0}}, 8.0, {0.3, 0.7}, 0);
   scene.meshes = {builder.finish()};
@@ -35,7 +35,7 @@ CameraView looking_north(const Eigen::Vector3d& p_WC, const Eigen::Vector3d& tur
   Eigen::Matrix3d R_WC;
   R_WC << 0, 0, 1, 1, 0, 0, 0, 1, 0;  // columns: C's right, down, forward in W
   CameraView view;
-  view.camera = vision::PinholeCamera::from_fov(400, 400, std::numbers::pi / 2);
+  view.camera = vision::camera::PinholeCamera::from_fov(400, 400, std::numbers::pi / 2);
   view.X_WC.translation() = p_WC;
   view.X_WC.linear() = R_WC;
   if (turn_C.norm() > 0.0) view.X_WC.rotate(Eigen::AngleAxisd(turn_C.norm(), turn_C.normalized()));
@@ -51,14 +51,14 @@ TEST(RenderedFlow, ErrorOnAPlaneMovingUpToTwoPixelsIsBelowATwentiethPixel) {
     for (int step = 0; step <= 8; ++step) {
       const double flow_px = 0.25 * step, angle = 0.7 * step + static_cast<double>(seed);
       const Eigen::Vector2d expected = flow_px * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-      vision::ImageInterpolationFlow flow({}, 400, 400);
+      vision::flow::ImageInterpolationFlow flow({}, 400, 400);
       cv::Mat older, newer;
       renderer.draw(looking_north({0, 0, 0}), older);
-      // Moving the camera right and down by d moves the wall's picture left and up by f d / range.
+      // Moving the camera right and down by d moves the wall's image left and up by f d / range.
       const Eigen::Vector2d d_m = -expected * (kRange_m / kFocal_px);
       renderer.draw(looking_north({0, d_m.x(), d_m.y()}), newer);
       flow.update(older);
-      for (const vision::FlowVector& vector : flow.update(newer).vectors) {
+      for (const vision::flow::FlowVector& vector : flow.update(newer).vectors) {
         ++all;
         if (!vector.valid) continue;
         ++valid;
@@ -73,20 +73,21 @@ TEST(RenderedFlow, ErrorOnAPlaneMovingUpToTwoPixelsIsBelowATwentiethPixel) {
 }
 
 /// Largest loom that turning alone, up to 0.3 rad/s about each axis, pretends to on three surfaces of a city, 1/s.
-double largest_loom_of_rotation_per_s(const vision::ImageInterpolationConfig& config) {
+double largest_loom_of_rotation_per_s(const vision::flow::ImageInterpolationConfig& config) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> rate(-0.3, 0.3);
   double largest_per_s = 0.0;
   for (uint64_t seed = 1; seed <= 3; ++seed) {
     Renderer renderer(textured_plane(seed));
     for (int trial = 0; trial < 10; ++trial) {
-      vision::ImageInterpolationFlow flow(config, 400, 400);
+      vision::flow::ImageInterpolationFlow flow(config, 400, 400);
       cv::Mat older, newer;
       renderer.draw(looking_north({0, 0, 0}), older);
       const Eigen::Vector3d w_C(rate(random), rate(random), rate(random));
       renderer.draw(looking_north({0, 0, 0}, w_C * kPeriod_s), newer);
       flow.update(older);
-      const vision::FlowAverage loom = vision::loom(flow.update(newer), kPeriod_s, vision::Missing::skip);
+      const vision::flow::FlowAverage loom =
+          vision::flow::loom(flow.update(newer), kPeriod_s, vision::flow::Missing::skip);
       largest_per_s = std::max(largest_per_s, std::abs(loom.value));
     }
   }
@@ -100,7 +101,7 @@ TEST(RenderedFlow, LoomOfPureRotationIsBelowAHundredthPerSecond) {
 }
 
 TEST(RenderedFlow, LoomOfPureRotationStaysSmallAtHalfResolution) {
-  // Halving the pictures first is faster and costs accuracy: docs/results.md has the figure.
+  // Halving the images first is faster and costs accuracy: docs/results.md has the figure.
   const double largest_per_s = largest_loom_of_rotation_per_s({.reduction = 2, .levels = 2});
   RecordProperty("largest_loom_per_s", std::to_string(largest_per_s));
   EXPECT_LT(largest_per_s, 0.02);
@@ -108,14 +109,14 @@ TEST(RenderedFlow, LoomOfPureRotationStaysSmallAtHalfResolution) {
 
 TEST(RenderedFlow, LoomOfAnApproachIsSpeedOverRange) {
   Renderer renderer(textured_plane(2));
-  vision::ImageInterpolationFlow flow({}, 400, 400);
+  vision::flow::ImageInterpolationFlow flow({}, 400, 400);
   cv::Mat older, newer;
   constexpr double kStep_m = 0.04;  // 2 m/s
   renderer.draw(looking_north({0, 0, 0}), older);
   renderer.draw(looking_north({kStep_m, 0, 0}), newer);
   flow.update(older);
-  const double loom_per_s = vision::loom(flow.update(newer), kPeriod_s, vision::Missing::skip).value;
-  // Between the two pictures the range shrinks by a factor: flow is measured from the older one.
+  const double loom_per_s = vision::flow::loom(flow.update(newer), kPeriod_s, vision::flow::Missing::skip).value;
+  // Between the two images the range shrinks by a factor: flow is measured from the older one.
   EXPECT_NEAR(loom_per_s, kStep_m / (kRange_m - kStep_m) / kPeriod_s, 0.01);
 }
 

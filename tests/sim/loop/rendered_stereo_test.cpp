@@ -13,18 +13,18 @@
 #include "scenes/generators.h"
 #include "sim/loop/imperfections.h"
 #include "sim/render/renderer.h"
-#include "vision/disparity.h"
-#include "vision/stereo_matcher.h"
+#include "vision/stereo/disparity.h"
+#include "vision/stereo/stereo_matcher.h"
 
 namespace hedgehop::sim {
 namespace {
 
-using Method = vision::StereoMatcherConfig::Method;
+using Method = vision::stereo::StereoMatcherConfig::Method;
 
 /// A rectified pair and the truth about it.
 struct StereoPair {
   cv::Mat left, right;
-  cv::Mat truth_px;  ///< CV_32F disparity of the left picture; 0 where unknown, sky, or hidden from the right camera
+  cv::Mat truth_px;  ///< CV_32F disparity of the left image; 0 where unknown, sky, or hidden from the right camera
   int disparities_px = 64;
 };
 
@@ -37,11 +37,11 @@ struct Shares {
 Shares score(const std::vector<StereoPair>& pairs, Method method) {
   double known = 0.0, valid = 0.0, wrong = 0.0;
   for (const StereoPair& pair : pairs) {
-    vision::StereoMatcherConfig config{.method = method, .disparities_px = pair.disparities_px};
+    vision::stereo::StereoMatcherConfig config{.method = method, .disparities_px = pair.disparities_px};
     if (method == Method::block) config.block_px = 9;
     cv::Mat d16, found_px;
-    vision::StereoMatcher(config).match(pair.left, pair.right, d16);
-    d16.convertTo(found_px, CV_32F, 1.0 / vision::kDisparityUnits);
+    vision::stereo::StereoMatcher(config).match(pair.left, pair.right, d16);
+    d16.convertTo(found_px, CV_32F, 1.0 / vision::stereo::kDisparityUnits);
     // Not every disparity searched can be found in the band on the left.
     const cv::Rect seen(pair.disparities_px, 0, pair.left.cols - pair.disparities_px, pair.left.rows);
     const cv::Mat truth_px = pair.truth_px(seen), has_truth = truth_px > 0, matched = (d16(seen) >= 0) & has_truth;
@@ -68,7 +68,7 @@ StereoPair real_pair(const std::string& name, const std::string& truth, double s
 
 // A pair that sees 3 to 300 m.
 constexpr double kBaseline_m = 0.3;
-const vision::PinholeCamera kCamera{640, 480, 600, 600, 319.5, 239.5};
+const vision::camera::PinholeCamera kCamera{640, 480, 600, 600, 319.5, 239.5};
 
 /// Disparity from depth, where the right camera sees the same surface.
 cv::Mat true_disparity(const cv::Mat& left_m, const cv::Mat& right_m, int disparities_px) {
@@ -105,8 +105,8 @@ std::vector<StereoPair> rendered_pairs(const scenes::Scene& scene, const std::ve
     renderer.draw({kCamera, X_WC, Channel::grey}, pair.left);
     renderer.draw({kCamera, X_WR, Channel::grey}, pair.right);
     const auto number = static_cast<int64_t>(pairs.size());
-    left_sensor.spoil(number, pair.left);
-    right_sensor.spoil(number, pair.right);
+    left_sensor.apply(number, pair.left);
+    right_sensor.apply(number, pair.right);
     renderer.draw({kCamera, X_WC, Channel::depth}, left_m);
     renderer.draw({kCamera, X_WR, Channel::depth}, right_m);
     pair.truth_px = true_disparity(left_m, right_m, pair.disparities_px);
@@ -132,9 +132,9 @@ Pairs rendered_worlds(const ImperfectionsConfig& noise) {
     in_forest.push_back(level({0.0, 0.0, -4.0}, 0.2 + quarter));
     in_city.push_back(level({0.0, -30.0, -10.0}, 0.4 + quarter));
   }
-  const scenes::ForestConfig forest{.trees = 200, .keep_clear = {{0.0, 0.0, 4.0}}};
-  const scenes::UrbanConfig city{.extent_m = 300.0};
-  return {{"tree", rendered_pairs(scenes::make_scene(scenes::TreeConfig{}, 1), round_tree, noise)},
+  const scenes::worlds::ForestConfig forest{.trees = 200, .keep_clear = {{0.0, 0.0, 4.0}}};
+  const scenes::worlds::UrbanConfig city{.extent_m = 300.0};
+  return {{"tree", rendered_pairs(scenes::make_scene(scenes::worlds::TreeConfig{}, 1), round_tree, noise)},
           {"forest", rendered_pairs(scenes::make_scene(forest, 1), in_forest, noise)},
           {"facade", rendered_pairs(scenes::make_scene(city, 1), in_city, noise)}};
 }

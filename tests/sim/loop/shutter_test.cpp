@@ -10,7 +10,7 @@ namespace {
 constexpr int kRows = 64, kCols = 8;
 constexpr double kGrey_per_m = 10.0;
 
-/// A picture whose every pixel tells how far north the body was.
+/// An image whose every pixel tells how far north the body was.
 void draw_north(const Eigen::Isometry3d& X_WB, double, const cv::Range& rows, cv::Mat& out) {
   out.create(rows.size(), kCols, CV_8UC1);
   out.setTo(cv::saturate_cast<uint8_t>(kGrey_per_m * X_WB.translation().x()));
@@ -25,7 +25,7 @@ BodyMotion flying_north(double north_m, double speed_mps) {
 
 TEST(Shutter, WithoutImperfectionsThereIsOneMomentAndOneDrawing) {
   Shutter shutter({});
-  cv::Mat picture;
+  cv::Mat image;
   int drawings = 0;
   shutter.expose(
       flying_north(12.0, 5.0), kRows,
@@ -34,21 +34,21 @@ TEST(Shutter, WithoutImperfectionsThereIsOneMomentAndOneDrawing) {
         EXPECT_EQ(dt_s, 0.0);
         draw_north(X_WB, dt_s, rows, out);
       },
-      picture);
+      image);
   EXPECT_EQ(drawings, 1);
-  EXPECT_EQ(picture.size(), cv::Size(kCols, kRows));
-  EXPECT_EQ(cv::mean(picture)[0], 120.0);
+  EXPECT_EQ(image.size(), cv::Size(kCols, kRows));
+  EXPECT_EQ(cv::mean(image)[0], 120.0);
 }
 
 // Brightness grows linearly in time, so its mean is that of the exposure's middle.
-TEST(Shutter, ABlurredPictureIsTheMeanOverItsExposure) {
+TEST(Shutter, ABlurredImageIsTheMeanOverItsExposure) {
   ImperfectionsConfig config;
   config.shutter_s = 0.4;
   config.shutter_samples = 64;
   Shutter shutter(config);
-  cv::Mat picture;
-  shutter.expose(flying_north(12.0, 5.0), kRows, draw_north, picture);
-  EXPECT_NEAR(cv::mean(picture)[0], kGrey_per_m * (12.0 - 5.0 * 0.2), 1.0);  // levels are rounded twice
+  cv::Mat image;
+  shutter.expose(flying_north(12.0, 5.0), kRows, draw_north, image);
+  EXPECT_NEAR(cv::mean(image)[0], kGrey_per_m * (12.0 - 5.0 * 0.2), 1.0);  // levels are rounded twice
 }
 
 TEST(Shutter, RowsOfARollingShutterAreExposedOneAfterTheOtherTheLastAtTheInstant) {
@@ -56,20 +56,20 @@ TEST(Shutter, RowsOfARollingShutterAreExposedOneAfterTheOtherTheLastAtTheInstant
   config.readout_s = 0.5;
   config.readout_strips = kRows;
   Shutter shutter(config);
-  cv::Mat picture;
-  shutter.expose(flying_north(20.0, 20.0), kRows, draw_north, picture);
+  cv::Mat image;
+  shutter.expose(flying_north(20.0, 20.0), kRows, draw_north, image);
   for (int row = 0; row < kRows; ++row) {
     const double t_s = -0.5 * (1.0 - static_cast<double>(row) / (kRows - 1));
-    EXPECT_NEAR(picture.at<uint8_t>(row, 3), kGrey_per_m * (20.0 + 20.0 * t_s), 0.5 + 1e-9) << row;
+    EXPECT_NEAR(image.at<uint8_t>(row, 3), kGrey_per_m * (20.0 + 20.0 * t_s), 0.5 + 1e-9) << row;
   }
 }
 
-TEST(Shutter, StripsThatDoNotDivideThePictureStillCoverIt) {
+TEST(Shutter, StripsThatDoNotDivideTheImageStillCoverIt) {
   ImperfectionsConfig config;
   config.readout_s = 0.1;
   config.readout_strips = 7;
   Shutter shutter(config);
-  cv::Mat picture;
+  cv::Mat image;
   int rows_drawn = 0;
   shutter.expose(
       flying_north(10.0, 0.0), kRows,
@@ -78,9 +78,9 @@ TEST(Shutter, StripsThatDoNotDivideThePictureStillCoverIt) {
         rows_drawn = rows.end;
         draw_north(X_WB, dt_s, rows, out);
       },
-      picture);
+      image);
   EXPECT_EQ(rows_drawn, kRows);
-  EXPECT_EQ(cv::countNonZero(picture == 100), kRows * kCols);
+  EXPECT_EQ(cv::countNonZero(image == 100), kRows * kCols);
 }
 
 TEST(Shutter, ABodyTurnsAboutItsOwnAxes) {
@@ -92,8 +92,8 @@ TEST(Shutter, ABodyTurnsAboutItsOwnAxes) {
 }
 
 TEST(Shutter, ACutCameraSeesItsRowsAsTheWholeOneDoes) {
-  const vision::Camera whole = vision::PinholeCamera::from_fov(64, 48, std::numbers::pi / 2);
-  const vision::Camera part = cut(whole, {10, 20});
+  const vision::camera::Camera whole = vision::camera::PinholeCamera::from_fov(64, 48, std::numbers::pi / 2);
+  const vision::camera::Camera part = cut(whole, {10, 20});
   EXPECT_EQ(part.height_px, 10);
   for (const Eigen::Vector3d& p_C : {Eigen::Vector3d(0.1, -0.4, 1.0), Eigen::Vector3d(-0.7, -0.2, 2.0)}) {
     EXPECT_TRUE((*part.project(p_C) + Eigen::Vector2d(0.0, 10.0)).isApprox(*whole.project(p_C), 1e-12));

@@ -111,7 +111,7 @@ TEST_F(Plugin, TheExampleBuildsAgainstTheInstalledPackageAndFlies) {
                "parameters: {speed: 0.5}}\n");
   const CommandEnd end = folder.shell("prefix/bin/hedgehop run left.yaml --no-video --out out");
   EXPECT_EQ(end.status, 0) << end.err;
-  EXPECT_EQ(folder.json("out/result.json")["metrics"]["pictures"], folder.json("out/result.json")["decisions"]);
+  EXPECT_EQ(folder.json("out/result.json")["metrics"]["images"], folder.json("out/result.json")["decisions"]);
 }
 
 }  // namespace

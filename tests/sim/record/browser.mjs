@@ -8,7 +8,7 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {pathToFileURL} from 'node:url';
 
-const [chromium, page, steps, picture, size = '1400x1000'] = process.argv.slice(2);
+const [chromium, page, steps, image, size = '1400x1000'] = process.argv.slice(2);
 const [width, height] = size.split('x').map(Number);
 const profile = mkdtempSync(join(tmpdir(), 'hedgehop-chromium-'));
 const browser = spawn(chromium, ['--headless', '--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader',
@@ -70,9 +70,9 @@ async function visit() {
   const opened_ms = Math.round(performance.now() - began);
   const value = await run(readFileSync(steps, 'utf8'));
   await run(frame);
-  if (picture) {
+  if (image) {
     const {data} = await ask('Page.captureScreenshot', {format: 'png'});
-    writeFileSync(picture, Buffer.from(data, 'base64'));
+    writeFileSync(image, Buffer.from(data, 'base64'));
   }
   return {value: value ?? null, errors, requests, opened_ms};
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scenes/solid.h"
-#include "sim/verdict/flight.h"
+#include "sim/flight/flight.h"
 
 namespace hedgehop::sim {
 

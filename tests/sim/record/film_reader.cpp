@@ -44,13 +44,13 @@ ReadFilm read_film(const std::filesystem::path& file) {
   AVPacket* packet = av_packet_alloc();
   AVFrame* frame = av_frame_alloc();
 
-  ReadFilm film{.duration_s = static_cast<double>(format->duration) / AV_TIME_BASE, .pictures = {}};
+  ReadFilm film{.duration_s = static_cast<double>(format->duration) / AV_TIME_BASE, .images = {}};
   while (true) {
     const bool more = av_read_frame(format, packet) >= 0;
     check(avcodec_send_packet(decoder, more ? packet : nullptr), "bad packet");
     if (more) av_packet_unref(packet);
     while (avcodec_receive_frame(decoder, frame) >= 0) {
-      film.pictures.push_back({static_cast<double>(frame->pts) * av_q2d(stream.time_base), to_rgb(*frame)});
+      film.images.push_back({static_cast<double>(frame->pts) * av_q2d(stream.time_base), to_rgb(*frame)});
     }
     if (!more) break;
   }

@@ -16,28 +16,28 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// Each picture has one grey level over a red left half: what a decoder must give back in order.
-cv::Mat picture(int i, cv::Size size_px) {
+/// Each image has one grey level over a red left half: what a decoder must give back in order.
+cv::Mat image(int i, cv::Size size_px) {
   cv::Mat rgb(size_px, CV_8UC3, cv::Scalar::all(40 + 8 * i));
   rgb.colRange(0, size_px.width / 2) = cv::Scalar(200, 30, 30);
   return rgb;
 }
 
-/// Lossy coding of flat pictures stays this close, of 255.
+/// Lossy coding of flat images stays this close, of 255.
 constexpr double kCodingError = 12.0;
 
-TEST(Film, ReadsBackWithEveryPictureInOrder) {
+TEST(Film, ReadsBackWithEveryImageInOrder) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "video.webm";
   Film film(file, 12.5, {320, 240});
-  for (int i = 0; i < 25; ++i) film.add(picture(i, {320, 240}));
+  for (int i = 0; i < 25; ++i) film.add(image(i, {320, 240}));
   film.close();
 
   const ReadFilm read = read_film(file);
   EXPECT_NEAR(read.duration_s, 25 / 12.5, 1e-3);
-  ASSERT_EQ(read.pictures.size(), 25u);
+  ASSERT_EQ(read.images.size(), 25u);
   for (int i = 0; i < 25; ++i) {
-    const auto& [t_s, rgb] = read.pictures[static_cast<size_t>(i)];
+    const auto& [t_s, rgb] = read.images[static_cast<size_t>(i)];
     EXPECT_NEAR(t_s, i / 12.5, 1e-3);
     ASSERT_EQ(rgb.size(), cv::Size(320, 240));
     const cv::Scalar left = cv::mean(rgb.colRange(20, 140)), right = cv::mean(rgb.colRange(180, 300));
@@ -51,32 +51,32 @@ TEST(Film, ReadsBackWithEveryPictureInOrder) {
 TEST(Film, CutsAnOddRowAndColumnOff) {
   const TemporaryFolder folder;
   Film film(folder.path() / "video.webm", 10.0, {161, 121});
-  film.add(picture(0, {161, 121}));
+  film.add(image(0, {161, 121}));
   film.close();
-  EXPECT_EQ(read_film(folder.path() / "video.webm").pictures.at(0).rgb.size(), cv::Size(160, 120));
+  EXPECT_EQ(read_film(folder.path() / "video.webm").images.at(0).rgb.size(), cv::Size(160, 120));
 }
 
 TEST(Film, IsFinishedWhenItGoes) {
   const TemporaryFolder folder;
-  { Film(folder.path() / "video.webm", 10.0, {64, 64}).add(picture(0, {64, 64})); }
-  EXPECT_EQ(read_film(folder.path() / "video.webm").pictures.size(), 1u);
+  { Film(folder.path() / "video.webm", 10.0, {64, 64}).add(image(0, {64, 64})); }
+  EXPECT_EQ(read_film(folder.path() / "video.webm").images.size(), 1u);
 }
 
-TEST(Film, LeavesNoFileWithoutAPicture) {
+TEST(Film, LeavesNoFileWithoutAImage) {
   const TemporaryFolder folder;
   Film(folder.path() / "video.webm", 10.0, {64, 64}).close();
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-TEST(Film, DoesNotWriteToThePicture) {
+TEST(Film, DoesNotWriteToTheImage) {
   const TemporaryFolder folder;
-  const cv::Mat rgb = picture(3, {64, 64}), before = rgb.clone();
+  const cv::Mat rgb = image(3, {64, 64}), before = rgb.clone();
   Film film(folder.path() / "video.webm", 10.0, {64, 64});
   film.add(rgb);
   EXPECT_EQ(cv::norm(rgb, before, cv::NORM_INF), 0.0);
 }
 
-TEST(Film, RefusesPicturesOfAnotherKind) {
+TEST(Film, RefusesImagesOfAnotherKind) {
   const TemporaryFolder folder;
   Film film(folder.path() / "video.webm", 10.0, {64, 64});
   EXPECT_THROW(film.add(cv::Mat(64, 32, CV_8UC3)), std::invalid_argument);

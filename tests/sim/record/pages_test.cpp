@@ -95,7 +95,7 @@ TEST(ReplayInBrowser, PutsTheVehicleWhereTheTrajectoryHasIt) {
   const CsvTable table(run.path() / "trajectory.csv");
   const auto column = [&](const char* name) { return table.numbers(name); };
   const auto t_s = column("t_s");
-  constexpr double kRounding_m = 3e-3;  // a millimetre of place, and of angle a tenth of a milliradian at 4 m
+  constexpr double kRounding_m = 3e-3;  // a millimeter of place, and of angle a tenth of a milliradian at 4 m
   for (const auto& place : page.value) {
     const auto row = static_cast<size_t>(
         std::ranges::min_element(t_s, {}, [&](double t) { return std::abs(t - place[0].get<double>()); }) -
@@ -117,7 +117,7 @@ TEST(ReplayInBrowser, CeilingDoesNotHideTheFlightBelowIt) {
   for (const double thickness_m : {0.25, 3.0}) {
     const TemporaryFolder run;
     Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_city_0_light.yaml");
-    scenario.scene = scenes::RoomConfig{
+    scenario.scene = scenes::worlds::RoomConfig{
         .length_m = 500.0, .width_m = 500.0, .height_m = 40.0, .wall_thickness_m = thickness_m, .texture_size_px = 64};
     write_result_files(run.path(), {.scenario = "hall", .seed = 9, .scenario_yaml = to_yaml(scenario)},
                        fake_flight(10.0, 1));

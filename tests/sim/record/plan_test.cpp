@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "scenes/bodies.h"
+#include "scenes/mesh/bodies.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -25,8 +25,9 @@ double area_m2(const std::vector<Vector2d>& corners) {
 
 TEST(Plan, ShowsRoundSolidsAsPolygonsOf32Corners) {
   const double of_circle = 16.0 * std::sin(std::numbers::pi / 16.0);  // area of the polygon in the unit circle
-  const std::vector<Footprint> plan = footprints(
-      {scenes::solid_of("post", scenes::Post{{3.0, 4.0, -1.0}, 0.5, 2.0}), scenes::ball_of("ball", {0, 0, -9}, 2.0)});
+  const std::vector<Footprint> plan =
+      footprints({scenes::mesh::solid_of("post", scenes::mesh::Post{{3.0, 4.0, -1.0}, 0.5, 2.0}),
+                  scenes::mesh::ball_of("ball", {0, 0, -9}, 2.0)});
   EXPECT_NEAR(area_m2(plan[0].corners_NE_m), of_circle * 0.25, 1e-4);
   EXPECT_NEAR(area_m2(plan[1].corners_NE_m), of_circle * 4.0, 1e-3);
   for (const Vector2d& corner : plan[0].corners_NE_m) EXPECT_NEAR((corner - Vector2d(3, 4)).norm(), 0.5, kFloat_m);
@@ -36,9 +37,9 @@ TEST(Plan, ShowsRoundSolidsAsPolygonsOf32Corners) {
 }
 
 TEST(Plan, ShowsTheOutlineOfAPolyhedron) {
-  const scenes::Polyhedron tip{{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {1, 1, -5}},
-                               {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
-  const Footprint plan = footprints({scenes::solid_of("tip", tip)}).front();
+  const scenes::mesh::Polyhedron tip{{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {1, 1, -5}},
+                                     {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
+  const Footprint plan = footprints({scenes::mesh::solid_of("tip", tip)}).front();
   EXPECT_NEAR(area_m2(plan.corners_NE_m), 6.0, kFloat_m);
   EXPECT_NEAR(plan.top_m, 5.0, 1e-12);
 }
@@ -48,7 +49,7 @@ TEST(Plan, ShowsTheWayOfAMoverAsWideAsTheMover) {
   mover.name = "van";
   mover.motion =
       scenes::WaypointMotion{.points = {{1, 2, 0}, {3, 4, 0}}, .repeat = scenes::WaypointMotion::Repeat::round};
-  mover.solids = {scenes::solid_of("van", Eigen::AlignedBox3d(Vector3d(-3, -4, -2), Vector3d(3, 4, 0)))};
+  mover.solids = {scenes::mesh::solid_of("van", Eigen::AlignedBox3d(Vector3d(-3, -4, -2), Vector3d(3, 4, 0)))};
   const MoverWay way = mover_ways({mover}).front();
   EXPECT_EQ(way.corners_NE_m, (std::vector<Vector2d>{{1, 2}, {3, 4}, {1, 2}}));
   EXPECT_NEAR(way.radius_m, 5.0, kFloat_m);

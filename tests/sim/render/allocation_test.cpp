@@ -26,24 +26,24 @@ std::atomic<size_t> allocations = 0;
 namespace hedgehop::sim {
 namespace {
 
-TEST(Renderer, AllocatesNothingForAPictureOfACameraSeenBefore) {
+TEST(Renderer, AllocatesNothingForAImageOfACameraSeenBefore) {
   const SmallWorld city = small_city(8, 91);
   Renderer plain(city.scene);
   Renderer shaded(city.scene, Culling::frustum_and_horizon, ContextKind::osmesa, Shadows::sun);
-  vision::PinholeLens bent{90, 90, 60, 45};
+  vision::camera::PinholeLens bent{90, 90, 60, 45};
   bent.k1 = -0.1;
-  const std::array<vision::Camera, 3> cameras = {vision::PinholeCamera::from_fov(120, 90, 1.2),
-                                                 vision::Camera(120, 90, bent),
-                                                 vision::Camera(120, 90, vision::FisheyeLens{35, 35, 60, 45})};
+  const std::array<vision::camera::Camera, 3> cameras = {
+      vision::camera::PinholeCamera::from_fov(120, 90, 1.2), vision::camera::Camera(120, 90, bent),
+      vision::camera::Camera(120, 90, vision::camera::FisheyeLens{35, 35, 60, 45})};
   constexpr size_t kChannels = 5;
-  std::array<cv::Mat, kChannels> pictures;
+  std::array<cv::Mat, kChannels> images;
   const auto draw_some = [&](uint64_t seed) {
     std::mt19937_64 random(seed);
     for (size_t i = 0; i < 120; ++i) {
       const size_t channel = i % kChannels;
       CameraView view{cameras[i % 3], random_pose(random, 150.0, 60.0, 0.7), static_cast<Channel>(channel)};
       view.samples = i / 15 % 2 == 0 ? 1 : 4;  // all pairs of camera and channel come in fifteen
-      (i / 30 % 2 == 0 ? plain : shaded).draw(view, pictures[channel]);
+      (i / 30 % 2 == 0 ? plain : shaded).draw(view, images[channel]);
     }
   };
   draw_some(92);  // Mesa translates the shaders, too

@@ -9,13 +9,13 @@
 namespace hedgehop::sim {
 namespace {
 
-const vision::PinholeCamera kCamera = vision::PinholeCamera::from_fov(240, 180, 1.3);
+const vision::camera::PinholeCamera kCamera = vision::camera::PinholeCamera::from_fov(240, 180, 1.3);
 
 bool same_pixels(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0.0;
 }
 
-TEST(Channels, GreyIsTheMeanOfTheColours) {
+TEST(Channels, GreyIsTheMeanOfTheColors) {
   const SmallWorld city = small_city(6, 31);
   Renderer renderer(city.scene);
   std::mt19937_64 random(32);
@@ -41,11 +41,11 @@ TEST(Channels, HaveTheTypesPromised) {
   EXPECT_EQ(grey.type(), CV_8UC1);
   EXPECT_EQ(color.type(), CV_8UC3);
   EXPECT_EQ(depth.type(), CV_32FC1);
-  for (const cv::Mat& picture : {grey, color, depth}) EXPECT_EQ(picture.size(), cv::Size(240, 180));
+  for (const cv::Mat& image : {grey, color, depth}) EXPECT_EQ(image.size(), cv::Size(240, 180));
 }
 
 TEST(Channels, AFaceTowardsTheSunIsBrighterByItsCosine) {
-  SmallWorld world(std::vector{plain_picture(8, {200, 100, 50})});
+  SmallWorld world(std::vector{plain_image(8, {200, 100, 50})});
   world.scene.lights = {.ambient = 0.4f, .sun = 0.5f, .to_sun_W = Eigen::Vector3f(-0.6f, 0.0f, -0.8f)};
   world.add_box({Eigen::Vector3f(-5, -5, -10), Eigen::Vector3f(5, 5, 0)});
   Renderer renderer(world.scene);
@@ -64,7 +64,7 @@ TEST(Channels, SkyGoesFromHorizonToZenith) {
   SmallWorld world;
   world.scene.sky = {.horizon = {0.8f, 0.6f, 0.4f}, .zenith = {0.2f, 0.4f, 1.0f}};
   Renderer renderer(world.scene);
-  const vision::PinholeCamera camera{101, 101, 40.0, 40.0, 50.0, 50.0};
+  const vision::camera::PinholeCamera camera{101, 101, 40.0, 40.0, 50.0, 50.0};
   cv::Mat color;
   renderer.draw({camera, look_at({0, 0, -5}, {0, 0, -6}), Channel::color}, color);
   EXPECT_EQ(color.at<cv::Vec3b>(50, 50), cv::Vec3b(51, 102, 255));
@@ -84,28 +84,28 @@ TEST(Renderer, DrawsEqualPixelsAgainAndFromASecondRenderer) {
     const CameraView view{kCamera, random_pose(random, 80.0, 50.0, 0.8), channel};
     first.draw(view, once);
     second.draw(view, elsewhere);
-    second.draw({vision::PinholeCamera::from_fov(64, 32, 2.0), view.X_WC, channel}, other_size);
+    second.draw({vision::camera::PinholeCamera::from_fov(64, 32, 2.0), view.X_WC, channel}, other_size);
     first.draw(view, twice);
     EXPECT_TRUE(same_pixels(once, twice));
     EXPECT_TRUE(same_pixels(once, elsewhere));
   }
 }
 
-TEST(Renderer, WritesIntoThePictureItIsGiven) {
+TEST(Renderer, WritesIntoTheImageItIsGiven) {
   const SmallWorld city = small_city(3, 51);
   Renderer renderer(city.scene);
   const CameraView view{kCamera, look_at({-60, 3, -8}, {0, 0, -8}), Channel::color};
-  cv::Mat picture;
-  renderer.draw(view, picture);
-  const uint8_t* const data = picture.data;
+  cv::Mat image;
+  renderer.draw(view, image);
+  const uint8_t* const data = image.data;
   cv::Mat wide(180, 500, CV_8UC3, cv::Scalar::all(7));
   cv::Mat half = wide(cv::Rect(250, 0, 240, 180));
   renderer.draw(view, half);
-  EXPECT_TRUE(same_pixels(half, picture));
+  EXPECT_TRUE(same_pixels(half, image));
   EXPECT_EQ(wide.at<cv::Vec3b>(90, 249), cv::Vec3b::all(7));
   EXPECT_EQ(wide.at<cv::Vec3b>(90, 490), cv::Vec3b::all(7));
-  renderer.draw(view, picture);
-  EXPECT_EQ(picture.data, data);
+  renderer.draw(view, image);
+  EXPECT_EQ(image.data, data);
 }
 
 TEST(Renderer, SaysWhoDraws) { EXPECT_THAT(Renderer(SmallWorld().scene).info(), testing::HasSubstr("OpenGL")); }
@@ -116,7 +116,7 @@ TEST(Renderer, RefusesWhatCannotBeDrawn) {
   bad_index.scene.meshes.front().indices.back() = 1000;
   EXPECT_THROW(Renderer{bad_index.scene}, std::invalid_argument);
 
-  SmallWorld two_sizes({plain_picture(8, {}), plain_picture(16, {})});
+  SmallWorld two_sizes({plain_image(8, {}), plain_image(16, {})});
   EXPECT_THROW(Renderer{two_sizes.scene}, std::invalid_argument);
 
   SmallWorld no_such_texture;
@@ -124,11 +124,11 @@ TEST(Renderer, RefusesWhatCannotBeDrawn) {
   EXPECT_THROW(Renderer{no_such_texture.scene}, std::invalid_argument);
 
   Renderer renderer(SmallWorld().scene);
-  cv::Mat picture;
-  EXPECT_THROW(renderer.draw({}, picture), std::invalid_argument);
+  cv::Mat image;
+  EXPECT_THROW(renderer.draw({}, image), std::invalid_argument);
   Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
   X_WC.translation().x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(renderer.draw({kCamera, X_WC, Channel::grey}, picture), std::invalid_argument);
+  EXPECT_THROW(renderer.draw({kCamera, X_WC, Channel::grey}, image), std::invalid_argument);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace hedgehop::sim {
 namespace {
 
-const vision::PinholeCamera kCamera = vision::PinholeCamera::from_fov(200, 150, 1.4);
+const vision::camera::PinholeCamera kCamera = vision::camera::PinholeCamera::from_fov(200, 150, 1.4);
 
 /// z in C where a pixel's ray meets the first solid, met analytically (slabs); infinite where it meets none.
 double first_solid_m(const scenes::Scene& scene, const CameraView& view, int col, int row) {
@@ -69,7 +69,7 @@ TEST(Culling, LeavesEveryPixelOfASmallCity) {
 }
 
 TEST(Culling, LeavesEveryPixelOfAGeneratedCity) {
-  scenes::UrbanConfig config;
+  scenes::worlds::UrbanConfig config;
   config.texture_size_px = 64;
   expect_equal_pixels(scenes::make_scene(config, 7), 170.0, 15.0, 300, 66);
   config.setback_share = 1.0;
@@ -77,13 +77,13 @@ TEST(Culling, LeavesEveryPixelOfAGeneratedCity) {
 }
 
 TEST(Culling, LeavesEveryPixelOfAGeneratedRoom) {
-  scenes::RoomConfig config;
+  scenes::worlds::RoomConfig config;
   config.furniture = 8;
   config.texture_size_px = 64;
   expect_equal_pixels(scenes::make_scene(config, 9), 3.5, 2.8, 200, 68);
 }
 
-TEST(Culling, LeavesGreyAndColourOfASmallCity) {
+TEST(Culling, LeavesGreyAndColorOfASmallCity) {
   const SmallWorld city = small_city(12, 69);
   Renderer everything(city.scene, Culling::none), horizon(city.scene);
   std::mt19937_64 random(70);

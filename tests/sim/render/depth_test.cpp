@@ -27,7 +27,7 @@ TEST(Depth, EqualsRaysMetByBoxesAndGround) {
     cast.boxes_W.push_back(box_W.cast<double>());
   }
   Renderer renderer(world.scene);
-  const vision::PinholeCamera camera{200, 150, 130.0, 170.0, 90.0, 80.0};
+  const vision::camera::PinholeCamera camera{200, 150, 130.0, 170.0, 90.0, 80.0};
   cv::Mat depth;
   size_t compared = 0, surfaces = 0;
   for (int trial = 0; trial < 30; ++trial) {
@@ -55,7 +55,7 @@ TEST(Depth, EqualsRaysMetByBoxesAndGround) {
   EXPECT_GT(surfaces, 300'000u);
 }
 
-// Two kilometres from the origin a float holds 0.1 mm: the eye must not lose more than that.
+// Two kilometers from the origin a float holds 0.1 mm: the eye must not lose more than that.
 TEST(Depth, HoldsFarFromTheOriginAndVeryNear) {
   for (const double range_m : {0.06, 0.3, 5.0, 900.0}) {
     const Eigen::Vector3d eye_W(2000.0123, -1500.0456, -30.0789);
@@ -65,9 +65,9 @@ TEST(Depth, HoldsFarFromTheOriginAndVeryNear) {
     Renderer renderer(world.scene);
     const Eigen::Vector3d at(static_cast<double>(wall_m) - range_m, eye_W.y(), eye_W.z());
     cv::Mat depth;
-    renderer.draw(
-        {vision::PinholeCamera::from_fov(60, 40, 1.5), look_at(at, at + Eigen::Vector3d::UnitX()), Channel::depth},
-        depth);
+    renderer.draw({vision::camera::PinholeCamera::from_fov(60, 40, 1.5), look_at(at, at + Eigen::Vector3d::UnitX()),
+                   Channel::depth},
+                  depth);
     double nearest = 0, farthest = 0;
     cv::minMaxLoc(depth, &nearest, &farthest);
     EXPECT_NEAR(nearest / range_m, 1.0, kRelative);

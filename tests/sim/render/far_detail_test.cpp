@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "scenes/generators.h"
-#include "scenes/mesh_builder.h"
+#include "scenes/mesh/mesh_builder.h"
 #include "tests/sim/render/small_world.h"
 
 namespace hedgehop::sim {
@@ -17,10 +17,10 @@ Eigen::Isometry3d level(const Eigen::Vector3d& p_WC, double heading_rad) {
 
 /// One box and a thin post on it, which the far detail leaves out, north of the origin.
 scenes::Scene post_on_box(double post_m) {
-  scenes::MeshBuilder mesh("opaque");
+  scenes::mesh::MeshBuilder mesh("opaque");
   mesh.begin_chunk(false);
   const auto add = [&](const Eigen::Vector3d& low_W, const Eigen::Vector3d& high_W) {
-    for (const scenes::Panel& panel : scenes::side_panels({low_W, high_W})) mesh.add(panel, {}, 0);
+    for (const scenes::mesh::Panel& panel : scenes::mesh::side_panels({low_W, high_W})) mesh.add(panel, {}, 0);
   };
   add({0.0, -0.5 * post_m, -3.0}, {post_m, 0.5 * post_m, -2.0});
   const size_t box_from = mesh.index_count();
@@ -35,7 +35,7 @@ scenes::Scene post_on_box(double post_m) {
 TEST(FarDetail, LeavesOutWhatIsNarrowerThanAPixel) {
   const double post_m = 0.2, focal_px = 100.0, pixel_wide_at_m = focal_px * post_m;
   Renderer renderer(post_on_box(post_m));
-  const vision::PinholeCamera camera{101, 101, focal_px, focal_px, 50.0, 50.0};
+  const vision::camera::PinholeCamera camera{101, 101, focal_px, focal_px, 50.0, 50.0};
   cv::Mat depth;
   for (const double beyond_m : {-19.0, -5.0, -0.1, 0.1, 5.0, 100.0}) {
     renderer.draw({camera, level({-pixel_wide_at_m - beyond_m, 0.0, -2.5}, 0.0), Channel::depth}, depth);
@@ -46,7 +46,7 @@ TEST(FarDetail, LeavesOutWhatIsNarrowerThanAPixel) {
 
 struct Forest {
   scenes::Scene scene = scenes::make_scene(
-      scenes::ForestConfig{.trees = 4000, .keep_clear = {{0.0, 0.0, 3.0}}, .texture_size_px = 128}, 5);
+      scenes::worlds::ForestConfig{.trees = 4000, .keep_clear = {{0.0, 0.0, 3.0}}, .texture_size_px = 128}, 5);
   scenes::Scene whole = without_far_detail(scene);
 
   static scenes::Scene without_far_detail(scenes::Scene scene) {
@@ -55,7 +55,7 @@ struct Forest {
   }
 };
 
-const vision::PinholeCamera kCamera = vision::PinholeCamera::from_fov(400, 400, 1.57);
+const vision::camera::PinholeCamera kCamera = vision::camera::PinholeCamera::from_fov(400, 400, 1.57);
 /// The thinnest trunk, three-sided, is a pixel wide there.
 const double kFar_m = 0.125 * std::sqrt(3.0) * kCamera.focal_x_px;
 

@@ -16,7 +16,7 @@ TEST(Moving, DepthAndLabelsShowMoversWhereTheyAreThen) {
   cv::Mat depth, labels;
   int compared = 0, movers = 0;
   for (int trial = 0; trial < 30; ++trial) {
-    CameraView view{vision::PinholeCamera::from_fov(160, 120, 1.5), random_pose(random, 50.0, 30.0, 0.8),
+    CameraView view{vision::camera::PinholeCamera::from_fov(160, 120, 1.5), random_pose(random, 50.0, 30.0, 0.8),
                     Channel::depth};
     view.t_s = uniform(random, 0.0, 99.0);
     const RayCaster cast = world.at(view.t_s);
@@ -49,7 +49,7 @@ TEST(Moving, CullingLeavesEveryPixel) {
   std::mt19937_64 random(304);
   cv::Mat all, some;
   for (int trial = 0; trial < 60; ++trial) {
-    CameraView view{vision::PinholeCamera::from_fov(160, 120, 1.2), random_pose(random, 70.0, 30.0, 0.8),
+    CameraView view{vision::camera::PinholeCamera::from_fov(160, 120, 1.2), random_pose(random, 70.0, 30.0, 0.8),
                     trial % 2 == 0 ? Channel::depth : Channel::labels};
     view.t_s = uniform(random, 0.0, 99.0);
     everything.draw(view, all);

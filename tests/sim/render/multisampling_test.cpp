@@ -11,9 +11,9 @@ namespace {
 
 constexpr int kWidthPx = 200, kHeightPx = 160;
 constexpr double kFocalPx = 150.0;
-const vision::PinholeCamera kCamera{kWidthPx, kHeightPx, kFocalPx, kFocalPx, 99.5, 79.5};
+const vision::camera::PinholeCamera kCamera{kWidthPx, kHeightPx, kFocalPx, kFocalPx, 99.5, 79.5};
 
-CameraView view_of(const vision::Camera& camera, Channel channel, int samples) {
+CameraView view_of(const vision::camera::Camera& camera, Channel channel, int samples) {
   CameraView view{camera, look_at({0, 0, -5}, {1, 0, -5}), channel};  // u runs east, v down
   view.samples = samples;
   return view;
@@ -62,18 +62,19 @@ TEST(Multisampling, PutsASlantedEdgeWhereItIs) {
   }
 }
 
-TEST(Multisampling, BringsEveryLensNearerToAPictureOfManyMorePixels) {
+TEST(Multisampling, BringsEveryLensNearerToAImageOfManyMorePixels) {
   const SmallWorld city = small_city(4, 62);
   Renderer renderer(city.scene);
   const auto fisheye = [](int times) {
     const double k = times;
-    return vision::Camera(60 * times, 60 * times, vision::FisheyeLens{19 * k, 19 * k, 30 * k - 0.5, 30 * k - 0.5});
+    return vision::camera::Camera(60 * times, 60 * times,
+                                  vision::camera::FisheyeLens{19 * k, 19 * k, 30 * k - 0.5, 30 * k - 0.5});
   };
   const auto bent = [](int times) {
     const double k = times;
-    vision::PinholeLens lens{40 * k, 40 * k, 30 * k - 0.5, 30 * k - 0.5};
+    vision::camera::PinholeLens lens{40 * k, 40 * k, 30 * k - 0.5, 30 * k - 0.5};
     lens.k1 = -0.1;
-    return vision::Camera(60 * times, 60 * times, lens);
+    return vision::camera::Camera(60 * times, 60 * times, lens);
   };
   const auto error = [&](const auto& camera, Channel channel, int samples) {
     cv::Mat drawn, many, truth;
@@ -113,11 +114,11 @@ TEST(Multisampling, IsRefusedWhereTheContextHasOtherNumbersOfSamples) {
   };
   EXPECT_EQ(fault(1), "");
   EXPECT_EQ(fault(4), "");
-  EXPECT_THAT(fault(8), testing::HasSubstr("at most 4"));  // Mesa's rasteriser knows 1 and 4 only
+  EXPECT_THAT(fault(8), testing::HasSubstr("at most 4"));  // Mesa's rasterizer knows 1 and 4 only
   EXPECT_THAT(fault(2), testing::HasSubstr("makes them 4"));
   EXPECT_THAT(fault(3), testing::HasSubstr("valid: 1, 2, 4, 8"));
-  cv::Mat picture;
-  EXPECT_THROW(renderer.draw(view_of(kCamera, Channel::grey, 8), picture), std::invalid_argument);
+  cv::Mat image;
+  EXPECT_THROW(renderer.draw(view_of(kCamera, Channel::grey, 8), image), std::invalid_argument);
 }
 
 }  // namespace

@@ -9,22 +9,22 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kSubPixel = 0.05;  // 8-bit levels and the rasteriser's 1/256 px grid leave about a tenth of it
+constexpr double kSubPixel = 0.05;  // 8-bit levels and the rasterizer's 1/256 px grid leave about a tenth of it
 
 /// White in the middle, falling smoothly to black before the sides.
-cv::Mat dome_picture(int size_px) {
-  cv::Mat picture(size_px, size_px, CV_8UC3);
+cv::Mat dome_image(int size_px) {
+  cv::Mat image(size_px, size_px, CV_8UC3);
   for (int row = 0; row < size_px; ++row) {
     for (int col = 0; col < size_px; ++col) {
       const double r = std::hypot(col - 0.5 * (size_px - 1), row - 0.5 * (size_px - 1)) / (0.48 * size_px);
       const double level = r < 1.0 ? 127.5 * (1.0 + std::cos(std::numbers::pi * r)) : 0.0;
-      picture.at<cv::Vec3b>(row, col) = cv::Vec3b::all(cv::saturate_cast<uint8_t>(level));
+      image.at<cv::Vec3b>(row, col) = cv::Vec3b::all(cv::saturate_cast<uint8_t>(level));
     }
   }
-  return picture;
+  return image;
 }
 
-vision::PinholeCamera random_camera(std::mt19937_64& random) {
+vision::camera::PinholeCamera random_camera(std::mt19937_64& random) {
   const int width = 100 + static_cast<int>(random() % 300), height = 100 + static_cast<int>(random() % 300);
   return {width,
           height,
@@ -39,7 +39,7 @@ Eigen::Vector2d expected_pixel(const CameraView& view, const Eigen::Vector3d& p_
   const Eigen::Vector3d from_eye_W = p_W - view.X_WC.translation();
   const double x = from_eye_W.dot(view.X_WC.linear().col(0)), y = from_eye_W.dot(view.X_WC.linear().col(1));
   const double z = from_eye_W.dot(view.X_WC.linear().col(2));
-  const vision::PinholeCamera camera = view.camera.pinhole();
+  const vision::camera::PinholeCamera camera = view.camera.pinhole();
   return {camera.focal_x_px * x / z + camera.center_u_px, camera.focal_y_px * y / z + camera.center_v_px};
 }
 
@@ -48,7 +48,7 @@ Eigen::Vector2d centroid(const cv::Mat& grey) {
   return {moments.m10 / moments.m00, moments.m01 / moments.m00};
 }
 
-// A dome of light parallel to the picture plane has its centroid at its centre's projection, for any lens and pose.
+// A dome of light parallel to the image plane has its centroid at its center's projection, for any lens and pose.
 TEST(Projection, KnownPointsLandOnTheirPixels) {
   std::mt19937_64 random(11);
   cv::Mat grey;
@@ -63,7 +63,7 @@ TEST(Projection, KnownPointsLandOnTheirPixels) {
                  height_m = 40.0 * z_m / view.camera.pinhole().focal_y_px;
     const Eigen::Vector3d right_W = width_m * view.X_WC.linear().col(0), down_W = height_m * view.X_WC.linear().col(1);
 
-    SmallWorld world(std::vector{dome_picture(64)});
+    SmallWorld world(std::vector{dome_image(64)});
     world.scene.sky = {Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
     world.scene.lights = {.ambient = 1.0f, .sun = 0.0f};
     const Eigen::Vector3d top_left_W = center_W - 0.5 * (right_W + down_W);
@@ -78,11 +78,11 @@ TEST(Projection, KnownPointsLandOnTheirPixels) {
 }
 
 TEST(Projection, StereoSeesAPointOnOneRowAtItsDisparity) {
-  SmallWorld world(std::vector{dome_picture(64)});
+  SmallWorld world(std::vector{dome_image(64)});
   world.scene.sky = {Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
   world.add_quad({12.0f, 0.3f, -6.0f}, {0, 1.2f, 0}, {0, 0, 1.2f});
   Renderer renderer(world.scene);
-  const auto camera = vision::PinholeCamera::from_fov(320, 240, 1.0);
+  const auto camera = vision::camera::PinholeCamera::from_fov(320, 240, 1.0);
   const Eigen::Isometry3d X_WL = look_at({0, 0, -5}, {1, 0, -5});
   const double baseline_m = 0.5;
   const Eigen::Isometry3d X_WR = X_WL * Eigen::Translation3d(baseline_m, 0, 0);
@@ -95,7 +95,7 @@ TEST(Projection, StereoSeesAPointOnOneRowAtItsDisparity) {
 }
 
 // North-east-down, looking north: east is on the right, up is on top, and a texture's first row is on top.
-TEST(Projection, PicturesAreNeitherMirroredNorUpsideDown) {
+TEST(Projection, ImagesAreNeitherMirroredNorUpsideDown) {
   cv::Mat quadrants(64, 64, CV_8UC3, cv::Scalar(0, 0, 0));
   quadrants(cv::Rect(0, 0, 32, 32)).setTo(cv::Scalar(250, 0, 0));
   quadrants(cv::Rect(32, 0, 32, 32)).setTo(cv::Scalar(0, 250, 0));
@@ -104,16 +104,16 @@ TEST(Projection, PicturesAreNeitherMirroredNorUpsideDown) {
   world.scene.lights = {.ambient = 1.0f, .sun = 0.0f};
   world.add_box({Eigen::Vector3f(10, -2, -7), Eigen::Vector3f(14, 2, -3)});
   Renderer renderer(world.scene);
-  const auto camera = vision::PinholeCamera::from_fov(100, 100, 0.5);
-  cv::Mat picture;
+  const auto camera = vision::camera::PinholeCamera::from_fov(100, 100, 0.5);
+  cv::Mat image;
   for (const Eigen::Vector3d& side : {Eigen::Vector3d(-1, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0),
                                       Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(0, 0, -1)}) {
     const Eigen::Vector3d center_W(12, 0, -5);
-    renderer.draw({camera, look_at(center_W + 12.0 * side, center_W), Channel::color}, picture);
-    EXPECT_EQ(picture.at<cv::Vec3b>(40, 40), cv::Vec3b(250, 0, 0)) << side.transpose();
-    EXPECT_EQ(picture.at<cv::Vec3b>(40, 60), cv::Vec3b(0, 250, 0)) << side.transpose();
-    EXPECT_EQ(picture.at<cv::Vec3b>(60, 40), cv::Vec3b(0, 0, 250)) << side.transpose();
-    EXPECT_EQ(picture.at<cv::Vec3b>(60, 60), cv::Vec3b(0, 0, 0)) << side.transpose();
+    renderer.draw({camera, look_at(center_W + 12.0 * side, center_W), Channel::color}, image);
+    EXPECT_EQ(image.at<cv::Vec3b>(40, 40), cv::Vec3b(250, 0, 0)) << side.transpose();
+    EXPECT_EQ(image.at<cv::Vec3b>(40, 60), cv::Vec3b(0, 250, 0)) << side.transpose();
+    EXPECT_EQ(image.at<cv::Vec3b>(60, 40), cv::Vec3b(0, 0, 250)) << side.transpose();
+    EXPECT_EQ(image.at<cv::Vec3b>(60, 60), cv::Vec3b(0, 0, 0)) << side.transpose();
   }
 }
 
@@ -122,7 +122,7 @@ TEST(Projection, SurfacesAreSeenFromTheirFrontOnly) {
   world.add_box({Eigen::Vector3f(-5, -5, -10), Eigen::Vector3f(5, 5, 0)});
   Renderer renderer(world.scene);
   cv::Mat inside, outside;
-  const auto camera = vision::PinholeCamera::from_fov(64, 48, 1.2);
+  const auto camera = vision::camera::PinholeCamera::from_fov(64, 48, 1.2);
   renderer.draw({camera, look_at({0, 0, -5}, {1, 0.2, -5}), Channel::depth}, inside);
   renderer.draw({camera, look_at({-9, 0, -5}, {0, 0, -5}), Channel::depth}, outside);
   EXPECT_EQ(cv::countNonZero(inside == std::numeric_limits<float>::infinity()), inside.rows * inside.cols);

@@ -9,7 +9,7 @@
 
 #include "sim/render/renderer.h"
 
-/// What cameras see of boxes and ground, found ray by ray: an oracle that shares nothing with the rasteriser.
+/// What cameras see of boxes and ground, found ray by ray: an oracle that shares nothing with the rasterizer.
 namespace hedgehop::sim {
 
 /// What a ray meets first, and which face of what (an odd number for each; -1 for nothing).
@@ -53,7 +53,7 @@ struct RayCaster {
   }
 };
 
-/// The hit of a pixel, or nothing within `edge_px` of an edge, where the rasteriser may fairly choose either side, or
+/// The hit of a pixel, or nothing within `edge_px` of an edge, where the rasterizer may fairly choose either side, or
 /// where the lens shows nothing.
 inline std::optional<Hit> clear_hit(const RayCaster& cast, const CameraView& view, int col, int row, double edge_px) {
   const auto at = [&](double du, double dv) -> std::optional<Hit> {

@@ -18,9 +18,9 @@ constexpr size_t kChannels = 5;
 
 class Digest {
  public:
-  void add(const cv::Mat& picture) {
-    for (size_t i = 0; i < picture.total() * picture.elemSize(); ++i) {
-      value_ = (value_ ^ picture.data[i]) * 0x100000001b3u;
+  void add(const cv::Mat& image) {
+    for (size_t i = 0; i < image.total() * image.elemSize(); ++i) {
+      value_ = (value_ ^ image.data[i]) * 0x100000001b3u;
     }
   }
   void print(const std::string& what) const {
@@ -34,16 +34,17 @@ class Digest {
 void draw_small_city(ContextKind context, Shadows shadows, Digest& digest) {
   const SmallWorld city = small_city(5, 81);
   Renderer renderer(city.scene, Culling::frustum_and_horizon, context, shadows);
-  const std::vector<vision::Camera> cameras = {vision::PinholeCamera::from_fov(200, 150, 1.2),
-                                               vision::Camera(120, 90, vision::FisheyeLens{35, 35, 60, 45})};
+  const std::vector<vision::camera::Camera> cameras = {
+      vision::camera::PinholeCamera::from_fov(200, 150, 1.2),
+      vision::camera::Camera(120, 90, vision::camera::FisheyeLens{35, 35, 60, 45})};
   std::mt19937_64 random(82);
-  cv::Mat picture;
+  cv::Mat image;
   for (size_t i = 0; i < 20; ++i) {
     CameraView view{cameras[i % 2], random_pose(random, 80.0, 40.0, 0.8), static_cast<Channel>(i % kChannels)};
     view.next.X_WC = random_pose(random, 80.0, 40.0, 0.8);
     view.samples = i < 10 ? 1 : 4;
-    renderer.draw(view, picture);
-    digest.add(picture);
+    renderer.draw(view, image);
+    digest.add(image);
   }
 }
 
@@ -51,16 +52,16 @@ void draw_world(const std::filesystem::path& file, ContextKind context, Shadows 
   const std::vector<std::string> overrides = {"scene.texture_size=64"};
   const Scenario scenario = load_scenario(file, overrides);
   Renderer renderer(scenes::make_scene(scenario.scene, scenario.seed), Culling::frustum_and_horizon, context, shadows);
-  const vision::Camera camera = vision::PinholeCamera::from_fov(120, 90, 1.4);
-  cv::Mat picture;
+  const vision::camera::Camera camera = vision::camera::PinholeCamera::from_fov(120, 90, 1.4);
+  cv::Mat image;
   for (size_t i = 0; i < kChannels; ++i) {
     const Eigen::Vector3d p_WC(scenario.start.north_m, scenario.start.east_m, -scenario.start.altitude_m);
     CameraView view{camera, look_at(p_WC, p_WC + Eigen::Vector3d(1.0, 0.1, 0.1)), static_cast<Channel>(i)};
     view.next.X_WC = look_at(p_WC, p_WC + Eigen::Vector3d(1.0, 0.2, 0.1));
     view.next.t_s = 0.1;
     view.samples = shadows == Shadows::sun ? 4 : 1;
-    renderer.draw(view, picture);
-    digest.add(picture);
+    renderer.draw(view, image);
+    digest.add(image);
   }
 }
 

@@ -7,7 +7,7 @@
 namespace hedgehop::sim {
 namespace {
 
-const vision::PinholeCamera kCamera{320, 320, 200, 200, 159.5, 159.5};
+const vision::camera::PinholeCamera kCamera{320, 320, 200, 200, 159.5, 159.5};
 constexpr uint8_t kLit = 255, kShaded = 102;  // white, times 1 and 0.4
 
 /// White ground and a box on it, under a sun that gives the ground the rest of what the ambient light leaves.

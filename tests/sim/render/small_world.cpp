@@ -6,7 +6,7 @@
 namespace hedgehop::sim {
 
 SmallWorld::SmallWorld(std::vector<cv::Mat> textures) {
-  if (textures.empty()) textures.push_back(plain_picture(4, {255, 255, 255}));
+  if (textures.empty()) textures.push_back(plain_image(4, {255, 255, 255}));
   scene.name = "small";
   scene.textures = std::move(textures);
   scene.meshes.push_back({.material = "opaque"});
@@ -90,7 +90,7 @@ Eigen::Isometry3d random_pose(std::mt19937_64& random, double half_m, double hei
 
 SmallWorld small_city(int blocks_a_side, uint64_t seed) {
   std::mt19937_64 random(seed);
-  SmallWorld world({noise_picture(256, seed + 1), noise_picture(256, seed + 2), noise_picture(256, seed + 3)});
+  SmallWorld world({noise_image(256, seed + 1), noise_image(256, seed + 2), noise_image(256, seed + 3)});
   const double pitch_m = 34.0, half_m = 0.5 * pitch_m * blocks_a_side;
   world.add_ground(static_cast<float>(half_m + 20.0), blocks_a_side, 0);
   for (int i = 0; i < blocks_a_side; ++i) {
@@ -106,17 +106,17 @@ SmallWorld small_city(int blocks_a_side, uint64_t seed) {
   return world;
 }
 
-cv::Mat noise_picture(int size_px, uint64_t seed) {
+cv::Mat noise_image(int size_px, uint64_t seed) {
   std::mt19937_64 random(seed);
-  cv::Mat picture(size_px, size_px, CV_8UC3);
-  for (auto it = picture.begin<cv::Vec3b>(); it != picture.end<cv::Vec3b>(); ++it) {
+  cv::Mat image(size_px, size_px, CV_8UC3);
+  for (auto it = image.begin<cv::Vec3b>(); it != image.end<cv::Vec3b>(); ++it) {
     for (int c = 0; c < 3; ++c) (*it)[c] = static_cast<uint8_t>(random());
   }
-  cv::GaussianBlur(picture, picture, {0, 0}, 1.5);
-  cv::normalize(picture, picture, 0, 255, cv::NORM_MINMAX);
-  return picture;
+  cv::GaussianBlur(image, image, {0, 0}, 1.5);
+  cv::normalize(image, image, 0, 255, cv::NORM_MINMAX);
+  return image;
 }
 
-cv::Mat plain_picture(int size_px, const cv::Scalar& rgb) { return {size_px, size_px, CV_8UC3, rgb}; }
+cv::Mat plain_image(int size_px, const cv::Scalar& rgb) { return {size_px, size_px, CV_8UC3, rgb}; }
 
 }  // namespace hedgehop::sim

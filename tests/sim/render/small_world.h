@@ -12,12 +12,12 @@ namespace hedgehop::sim {
 /// Scenes of a few boxes and quads, built by hand.
 class SmallWorld {
  public:
-  /// One texture per picture; a plain white one when there are none.
+  /// One texture per image; a plain white one when there are none.
   explicit SmallWorld(std::vector<cv::Mat> textures = {});
 
   /// A box with outward faces, one chunk. Each face shows its texture once, upright for who stands outside.
   void add_box(const Eigen::AlignedBox3f& box_W, uint32_t texture = 0, bool fills_box_to_ground = false);
-  /// A parallelogram that shows its texture once: `right` and `down` run along the picture's sides as seen from its
+  /// A parallelogram that shows its texture once: `right` and `down` run along the image's sides as seen from its
   /// front. One chunk.
   void add_quad(const Eigen::Vector3f& top_left_W, const Eigen::Vector3f& right_W, const Eigen::Vector3f& down_W,
                 uint32_t texture = 0);
@@ -35,13 +35,13 @@ class SmallWorld {
 /// Camera at p_WC looking at a point, turned by roll about its axis.
 Eigen::Isometry3d look_at(const Eigen::Vector3d& p_WC, const Eigen::Vector3d& target_W, double roll_rad = 0.0);
 
-/// A city on a jittered grid with streets of about 10 m, heights 8 to 40 m, on tiles of ground, centred on the origin.
+/// A city on a jittered grid with streets of about 10 m, heights 8 to 40 m, on tiles of ground, centered on the origin.
 SmallWorld small_city(int blocks_a_side, uint64_t seed);
 
 /// Smoothed noise, RGB, with different values in each channel.
-cv::Mat noise_picture(int size_px, uint64_t seed);
+cv::Mat noise_image(int size_px, uint64_t seed);
 /// One value everywhere.
-cv::Mat plain_picture(int size_px, const cv::Scalar& rgb);
+cv::Mat plain_image(int size_px, const cv::Scalar& rgb);
 
 /// Pose within +-half_m of the origin and up to height_m above ground, any heading, pitch and roll within +-tilt_rad.
 Eigen::Isometry3d random_pose(std::mt19937_64& random, double half_m, double height_m, double tilt_rad);

@@ -20,7 +20,7 @@ std::string digest_with(const std::string& environment, const std::string& conte
   return digests;
 }
 
-TEST(Threads, RasteriserThreadsChangeNoPixel) {
+TEST(Threads, RasterizerThreadsChangeNoPixel) {
   const std::string alone = digest_with("LP_NUM_THREADS=0");
   EXPECT_EQ(std::ranges::count(alone, '\n'), 20) << alone;  // ten scenes, with shadows and without
   EXPECT_EQ(digest_with("LP_NUM_THREADS=0"), alone);
@@ -29,7 +29,7 @@ TEST(Threads, RasteriserThreadsChangeNoPixel) {
   EXPECT_EQ(digest_with("env -u LP_NUM_THREADS"), alone);
 }
 
-TEST(Contexts, EglDrawsTheSamePixelsAsOsmesaWithTheSameRasteriser) {
+TEST(Contexts, EglDrawsTheSamePixelsAsOsmesaWithTheSameRasterizer) {
   const std::string software = "LIBGL_ALWAYS_SOFTWARE=1";
   EXPECT_EQ(digest_with(software, "egl"), digest_with(software, "osmesa"));
 }

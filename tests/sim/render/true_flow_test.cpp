@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "tests/sim/render/moving_world.h"
-#include "tests/vision/random_lenses.h"
+#include "tests/vision/camera/random_lenses.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -17,7 +17,7 @@ std::optional<Eigen::Vector2d> next_pixel(const MovingWorld& world, const Camera
   return view.camera.project(view.next.X_WC.inverse() * p_W);
 }
 
-/// Worst error over a picture's clear pixels, px. @param edge_px  see clear_hit().
+/// Worst error over an image's clear pixels, px. @param edge_px  see clear_hit().
 double worst_error_px(const MovingWorld& world, const CameraView& view, const cv::Mat& flow, double edge_px,
                       int& compared, int& on_movers) {
   const RayCaster cast = world.at(view.t_s);
@@ -33,7 +33,7 @@ double worst_error_px(const MovingWorld& world, const CameraView& view, const cv
       const Eigen::Vector2d drawn = Eigen::Vector2d(seen[0], seen[1]) + Eigen::Vector2d(col, row);
       ++compared;
       on_movers += hit->body() > 20;
-      // A point that comes close to the lens flies off any picture.
+      // A point that comes close to the lens flies off any image.
       if ((*next - Eigen::Vector2d(col, row)).norm() > 300.0) continue;
       worst_px = std::max(worst_px, (drawn - *next).norm());
     }
@@ -50,7 +50,7 @@ TEST(TrueFlow, EqualsPointsProjectedAtBothTimes) {
   double worst_px = 0.0;
   for (int trial = 0; trial < 24; ++trial) {
     CameraView view;
-    view.camera = trial % 3 == 0   ? vision::Camera(vision::PinholeCamera::from_fov(160, 120, 1.5))
+    view.camera = trial % 3 == 0   ? vision::camera::Camera(vision::camera::PinholeCamera::from_fov(160, 120, 1.5))
                   : trial % 3 == 1 ? vision::random_distorted_pinhole(random)
                                    : vision::random_fisheye(random);
     view.channel = Channel::flow;
@@ -76,7 +76,8 @@ TEST(TrueFlow, EqualsPointsProjectedAtBothTimes) {
 TEST(TrueFlow, OfTheSkyIsThatOfTurningAlone) {
   SmallWorld empty;
   Renderer renderer(empty.scene);
-  CameraView view{vision::PinholeCamera{101, 81, 90.0, 90.0, 50.0, 40.0}, Eigen::Isometry3d::Identity(), Channel::flow};
+  CameraView view{vision::camera::PinholeCamera{101, 81, 90.0, 90.0, 50.0, 40.0}, Eigen::Isometry3d::Identity(),
+                  Channel::flow};
   view.next.X_WC = Eigen::Translation3d(5.0, -3.0, 2.0) * Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY());
   cv::Mat flow;
   renderer.draw(view, flow);
@@ -91,9 +92,9 @@ TEST(TrueFlow, OfTheSkyIsThatOfTurningAlone) {
 TEST(TrueFlow, IsUnknownWhereALensShowsNothing) {
   SmallWorld empty;
   Renderer renderer(empty.scene);
-  vision::FisheyeLens lens{40, 40, 49.5, 49.5};
+  vision::camera::FisheyeLens lens{40, 40, 49.5, 49.5};
   lens.limit_rad = 1.0;
-  CameraView view{vision::Camera(100, 100, lens), Eigen::Isometry3d::Identity(), Channel::flow};
+  CameraView view{vision::camera::Camera(100, 100, lens), Eigen::Isometry3d::Identity(), Channel::flow};
   view.next.X_WC = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY());
   cv::Mat flow;
   renderer.draw(view, flow);

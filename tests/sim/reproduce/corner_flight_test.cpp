@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-vision::LandmarkMapConfig config_of(vision::LandmarkCoordinates coordinates) {
-  vision::LandmarkMapConfig config;
+vision::landmarks::LandmarkMapConfig config_of(vision::landmarks::LandmarkCoordinates coordinates) {
+  vision::landmarks::LandmarkMapConfig config;
   config.start.coordinates = coordinates;
   return config;
 }
@@ -28,17 +28,17 @@ struct Asked {
   friend std::ostream& operator<<(std::ostream& out, const Asked& asked) { return out << asked.name; }
 };
 
-const char* name_of(vision::LandmarkCoordinates coordinates) {
-  return coordinates == vision::LandmarkCoordinates::cartesian ? "ground" : "inverse_depth";
+const char* name_of(vision::landmarks::LandmarkCoordinates coordinates) {
+  return coordinates == vision::landmarks::LandmarkCoordinates::cartesian ? "ground" : "inverse_depth";
 }
 
-class ThesisFlight : public testing::TestWithParam<std::tuple<Asked, vision::LandmarkCoordinates>> {};
+class ThesisFlight : public testing::TestWithParam<std::tuple<Asked, vision::landmarks::LandmarkCoordinates>> {};
 INSTANTIATE_TEST_SUITE_P(LandmarkMap, ThesisFlight,
                          testing::Combine(testing::Values(Asked{"cube_lateral", cube_lateral_flight(), 30.0},
                                                           Asked{"highrise_lateral", highrise_lateral_flight(), 50.0},
                                                           Asked{"highrise_forward", highrise_forward_flight(), 100.0}),
-                                          testing::Values(vision::LandmarkCoordinates::cartesian,
-                                                          vision::LandmarkCoordinates::inverse_depth)),
+                                          testing::Values(vision::landmarks::LandmarkCoordinates::cartesian,
+                                                          vision::landmarks::LandmarkCoordinates::inverse_depth)),
                          [](const auto& instance) {
                            return std::get<0>(instance.param).name + "_" + name_of(std::get<1>(instance.param));
                          });
@@ -55,13 +55,13 @@ TEST_P(ThesisFlight, FindsEveryCornerInTheTimeAskedAndNothingElse) {
   RecordProperty("converged_s", times_s);
 }
 
-class Consistency : public testing::TestWithParam<vision::LandmarkCoordinates> {};
+class Consistency : public testing::TestWithParam<vision::landmarks::LandmarkCoordinates> {};
 INSTANTIATE_TEST_SUITE_P(LandmarkMap, Consistency,
-                         testing::Values(vision::LandmarkCoordinates::cartesian,
-                                         vision::LandmarkCoordinates::inverse_depth),
+                         testing::Values(vision::landmarks::LandmarkCoordinates::cartesian,
+                                         vision::landmarks::LandmarkCoordinates::inverse_depth),
                          [](const auto& instance) { return name_of(instance.param); });
 
-// One landmark of each of 50 flights: the sum of their squared normalised errors is chi-square of 150 degrees of
+// One landmark of each of 50 flights: the sum of their squared normalized errors is chi-square of 150 degrees of
 // freedom.
 TEST_P(Consistency, NormalisedErrorsLieWithinTheirChiSquareBounds) {
   constexpr double kLeast = 99.4, kMost = 213.7;  // 0.05 % and 99.95 % of chi-square with 150 degrees of freedom
@@ -70,16 +70,17 @@ TEST_P(Consistency, NormalisedErrorsLieWithinTheirChiSquareBounds) {
   std::map<int, double> sum_at_s;
   for (uint64_t seed = 1; seed <= 50; ++seed) {
     const size_t corner = static_cast<size_t>(seed) % flight.corners_W.size();
-    fly_past_corners(
-        flight, config_of(GetParam()), seed, [&](double t_s, const vision::LandmarkMap& map, const auto& id_of) {
-          for (const int at_s : {10, 20, 40, 60}) {
-            if (std::abs(t_s - at_s) > 1e-6) continue;
-            const auto found = std::ranges::find(map.landmarks(), id_of.at(corner), &vision::MappedLandmark::id);
-            ASSERT_NE(found, map.landmarks().end());
-            const Vector3d error = position_W(found->landmark) - flight.corners_W[corner];
-            sum_at_s[at_s] += error.dot(covariance_W(found->landmark).inverse() * error);
-          }
-        });
+    fly_past_corners(flight, config_of(GetParam()), seed,
+                     [&](double t_s, const vision::landmarks::LandmarkMap& map, const auto& id_of) {
+                       for (const int at_s : {10, 20, 40, 60}) {
+                         if (std::abs(t_s - at_s) > 1e-6) continue;
+                         const auto found = std::ranges::find(map.landmarks(), id_of.at(corner),
+                                                              &vision::landmarks::MappedLandmark::id);
+                         ASSERT_NE(found, map.landmarks().end());
+                         const Vector3d error = position_W(found->landmark) - flight.corners_W[corner];
+                         sum_at_s[at_s] += error.dot(covariance_W(found->landmark).inverse() * error);
+                       }
+                     });
   }
   ASSERT_EQ(sum_at_s.size(), 4U);
   for (const auto& [at_s, sum] : sum_at_s) {

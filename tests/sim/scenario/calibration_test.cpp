@@ -8,7 +8,7 @@
 #include <opencv2/calib3d.hpp>
 #include <random>
 
-#include "tests/vision/random_lenses.h"
+#include "tests/vision/camera/random_lenses.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -8,7 +8,7 @@
 #include "sim/scenario/rig.h"
 #include "sim/scenario/scenario.h"
 #include "sim/scenario/writer.h"
-#include "tests/vision/random_lenses.h"
+#include "tests/vision/camera/random_lenses.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -36,12 +36,13 @@ std::string refusal(const std::string& keys) {
 
 TEST(RigFile, APinholeTakesOpenCvsNumbers) {
   Folder folder;
-  const vision::Camera camera =
+  const vision::camera::Camera camera =
       camera_of(
           "width: 640, height: 480, focal_x: 500, focal_y: 510, center_u: 300, center_v: 250, "
           "distortion: [-0.2, 0.05, 1e-3, -2e-3, 0.01]")
           .model();
-  EXPECT_EQ(camera, vision::Camera(640, 480, vision::PinholeLens{500, 510, 300, 250, -0.2, 0.05, 1e-3, -2e-3, 0.01}));
+  EXPECT_EQ(camera, vision::camera::Camera(
+                        640, 480, vision::camera::PinholeLens{500, 510, 300, 250, -0.2, 0.05, 1e-3, -2e-3, 0.01}));
 }
 
 TEST(RigFile, TheFieldOfViewHoldsAcrossTheRowOfADistortedLens) {
@@ -61,7 +62,7 @@ TEST(RigFile, TheFieldOfViewHoldsAcrossTheRowOfADistortedLens) {
 
 TEST(RigFile, AFisheyeEndsAtItsLimit) {
   Folder folder;
-  const vision::Camera camera = camera_of("model: fisheye, fov: 190, view_limit: 97").model();
+  const vision::camera::Camera camera = camera_of("model: fisheye, fov: 190, view_limit: 97").model();
   EXPECT_TRUE(camera.project({std::sin(96.9 * kRadPerDeg), 0, std::cos(96.9 * kRadPerDeg)}).has_value());
   EXPECT_FALSE(camera.project({std::sin(97.1 * kRadPerDeg), 0, std::cos(97.1 * kRadPerDeg)}).has_value());
 }
@@ -72,7 +73,7 @@ TEST(RigFile, ACalibrationIsFoundBesideTheFileThatNamesIt) {
   Folder::write("rigs/rig.yaml",
                 "cameras:\n  - {role: a, model: ocam, calibration: lens.txt, width: 752, height: 480}\n");
   const CameraConfig camera = load_struct<RigConfig>("rigs/rig.yaml").cameras.at(0);
-  EXPECT_EQ(camera.model(), vision::Camera(vision::parse_ocam_calibration(vision::kSmallCalibration)));
+  EXPECT_EQ(camera.model(), vision::camera::Camera(vision::camera::parse_ocam_calibration(vision::kSmallCalibration)));
   EXPECT_TRUE(camera.calibration.is_absolute());
 
   // What is written back names the same file from any folder.

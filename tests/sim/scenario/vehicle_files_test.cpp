@@ -11,8 +11,8 @@
 
 #include "dynamics/steady_flight.h"
 #include "sim/scenario/scenario.h"
-#include "tests/dynamics/published_multicopters.h"
-#include "tests/dynamics/step_response.h"
+#include "tests/dynamics/control/step_response.h"
+#include "tests/dynamics/multicopter/published_multicopters.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -42,7 +42,7 @@ TEST_P(VehicleFile, HoversAndFliesForwardsAndBackwardsInTrim) {
 }
 
 // The properties are the table of step responses in docs/results.md.
-TEST_P(VehicleFile, FollowsAVelocityStepOfTwoMetresASecond) {
+TEST_P(VehicleFile, FollowsAVelocityStepOfTwoMetersASecond) {
   dynamics::Loop loop;
   loop.perfect = true;
   loop.vehicle = load_vehicle(GetParam());
@@ -70,19 +70,19 @@ TEST_P(VehicleFile, FollowsAVelocityStepOfTwoMetresASecond) {
 
 // The checks of the published parameter sets hold for the files that are flown.
 TEST(MulticopterFiles, HoldThePublishedParameters) {
-  const std::vector<std::pair<std::string, dynamics::MulticopterConfig>> published = {
+  const std::vector<std::pair<std::string, dynamics::multicopter::MulticopterConfig>> published = {
       {"hummingbird", dynamics::hummingbird_a()}, {"firefly", dynamics::firefly()}, {"s900", dynamics::s900()}};
   for (const auto& [name, config] : published) {
     SCOPED_TRACE(name);
-    const auto flown =
-        std::get<dynamics::MulticopterConfig>(load_vehicle(HEDGEHOP_SOURCE_DIR "/configs/vehicles/" + name + ".yaml"));
-    const dynamics::MulticopterModel a = dynamics::make_model(flown), b = dynamics::make_model(config);
+    const auto flown = std::get<dynamics::multicopter::MulticopterConfig>(
+        load_vehicle(HEDGEHOP_SOURCE_DIR "/configs/vehicles/" + name + ".yaml"));
+    const dynamics::multicopter::MulticopterModel a = dynamics::make_model(flown), b = dynamics::make_model(config);
     ASSERT_EQ(a.rotors.size(), b.rotors.size());
     EXPECT_LT((a.wrench_of_thrusts - b.wrench_of_thrusts).norm(), 1e-12);
     EXPECT_EQ(a.mass.mass_kg, b.mass.mass_kg);
     EXPECT_LT((a.mass.I_B - b.mass.I_B).norm(), 1e-12);
     EXPECT_EQ(a.body_drag_ns2pm2, b.body_drag_ns2pm2);
-    const dynamics::LiftRotorConfig &x = a.rotor, &y = b.rotor;
+    const dynamics::multicopter::LiftRotorConfig &x = a.rotor, &y = b.rotor;
     EXPECT_EQ(x.thrust_ns2, y.thrust_ns2);
     EXPECT_EQ(x.drag_ns2pm, y.drag_ns2pm);
     EXPECT_EQ(x.rolling_nms2pm, y.rolling_nms2pm);

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/highrise.h"
+#include "scenes/worlds/highrise.h"
 #include "sim/loop/episode.h"
 #include "sim/reproduce/corner_flight.h"
 #include "sim/scenario/input_error.h"
@@ -19,18 +19,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-const scenes::HighriseConfig kCube{.layout = scenes::HighriseConfig::Layout::cube};
+const scenes::worlds::HighriseConfig kCube{.layout = scenes::worlds::HighriseConfig::Layout::cube};
 
 CollisionWorld cube_world() {
   const dynamics::HullPart ball{.shape = dynamics::HullPart::Shape::box, .half_extents_m = {0.1, 0.1, 0.1}};
-  return CollisionWorld(scenes::make_highrise(kCube, 1), {ball});
+  return CollisionWorld(scenes::worlds::make_highrise(kCube, 1), {ball});
 }
 
 // A corner of a box is seen exactly when one of its three faces is turned to the camera.
 TEST(CornersInSight, OfABoxAreThoseOfTheFacesTurnedToTheCamera) {
   const CollisionWorld world = cube_world();
-  const std::vector<Vector3d> corners = scenes::highrise_corners(kCube);
-  const vision::Camera camera = vision::PinholeCamera::from_fov(640, 640, std::numbers::pi / 2.0);
+  const std::vector<Vector3d> corners = scenes::worlds::highrise_corners(kCube);
+  const vision::camera::Camera camera = vision::camera::PinholeCamera::from_fov(640, 640, std::numbers::pi / 2.0);
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> side(-60.0, 60.0), height(1.0, 60.0);
   const Vector3d middle(0, 0, -9);
@@ -38,7 +38,7 @@ TEST(CornersInSight, OfABoxAreThoseOfTheFacesTurnedToTheCamera) {
   for (int round = 0; round < 300; ++round) {
     const Vector3d p_WC(side(random), side(random), -height(random));
     const Vector3d out = (p_WC - middle).cwiseAbs();
-    if (out.maxCoeff() < 30.0) continue;  // so near that the picture does not hold the whole box
+    if (out.maxCoeff() < 30.0) continue;  // so near that the image does not hold the whole box
     const Eigen::Isometry3d X_WC = looking_at(p_WC, middle);
     const auto seen = corners_in_sight(corners, camera, X_WC, &world, 0.0);
     for (size_t k = 0; k < corners.size(); ++k) {
@@ -57,9 +57,9 @@ TEST(CornersInSight, OfABoxAreThoseOfTheFacesTurnedToTheCamera) {
   EXPECT_GT(hidden, 100);
 }
 
-TEST(CornersInSight, AreAllInThePictureThroughWalls) {
-  const std::vector<Vector3d> corners = scenes::highrise_corners(kCube);
-  const vision::Camera camera = vision::PinholeCamera::from_fov(640, 640, std::numbers::pi / 3.0);
+TEST(CornersInSight, AreAllInTheImageThroughWalls) {
+  const std::vector<Vector3d> corners = scenes::worlds::highrise_corners(kCube);
+  const vision::camera::Camera camera = vision::camera::PinholeCamera::from_fov(640, 640, std::numbers::pi / 3.0);
   const auto seen = corners_in_sight(corners, camera, looking_at({-50, 3, -40}, {0, 0, -9}), nullptr, 0.0);
   EXPECT_EQ(std::ranges::count(seen, true), 8);
   const auto aside = corners_in_sight(corners, camera, looking_at({-50, 3, -40}, {-100, 0, -9}), nullptr, 0.0);
@@ -67,13 +67,13 @@ TEST(CornersInSight, AreAllInThePictureThroughWalls) {
 }
 
 TEST(ProjectedCorners, ScatterByHalfAPixelRoundTheProjections) {
-  const std::vector<Vector3d> corners = scenes::highrise_corners(kCube);
-  const vision::Camera camera = vision::PinholeCamera::from_fov(640, 640, std::numbers::pi / 3.0);
+  const std::vector<Vector3d> corners = scenes::worlds::highrise_corners(kCube);
+  const vision::camera::Camera camera = vision::camera::PinholeCamera::from_fov(640, 640, std::numbers::pi / 3.0);
   const Eigen::Isometry3d X_WC = looking_at({-50, 3, -40}, {0, 0, -9});
   ProjectedCorners projected(corners, 11);
-  constexpr int kPictures = 500;
+  constexpr int kImages = 500;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero(), squares = Eigen::Vector2d::Zero();
-  for (int i = 0; i < kPictures; ++i) {
+  for (int i = 0; i < kImages; ++i) {
     const auto pixels = projected.project(camera, X_WC);
     ASSERT_EQ(pixels.size(), corners.size());
     for (size_t k = 0; k < corners.size(); ++k) {
@@ -82,7 +82,7 @@ TEST(ProjectedCorners, ScatterByHalfAPixelRoundTheProjections) {
       squares += off.cwiseAbs2();
     }
   }
-  const double count = static_cast<double>(kPictures * corners.size());
+  const double count = static_cast<double>(kImages * corners.size());
   const double kFiveSigmas_px = 5.0 * 0.5 / std::sqrt(count);
   EXPECT_LT((sum / count).cwiseAbs().maxCoeff(), kFiveSigmas_px);
   EXPECT_NEAR(std::sqrt(squares.x() / count), 0.5, 0.03);

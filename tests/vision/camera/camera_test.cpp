@@ -1,4 +1,4 @@
-#include "vision/camera.h"
+#include "vision/camera/camera.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,9 +11,9 @@
 #include <opencv2/calib3d.hpp>
 #include <vector>
 
-#include "tests/vision/random_lenses.h"
+#include "tests/vision/camera/random_lenses.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::camera {
 namespace {
 
 constexpr double kRoundTripPx = 1e-6;
@@ -43,7 +43,7 @@ RoundTrips round_trips(const Camera& camera) {
   return found;
 }
 
-TEST(Camera, ProjectUndoesRayOverTheWholePicture) {
+TEST(Camera, ProjectUndoesRayOverTheWholeImage) {
   std::mt19937_64 random(101);
   for (int trial = 0; trial < 12; ++trial) {
     for (const Camera& camera : {random_distorted_pinhole(random), random_fisheye(random)}) {
@@ -58,7 +58,7 @@ TEST(Camera, ProjectUndoesRayOverTheWholePicture) {
 }
 
 TEST(Camera, RaysOfDifferentPixelsDiffer) {
-  // A lens that folds back within the picture shows nothing there, rather than something twice.
+  // A lens that folds back within the image shows nothing there, rather than something twice.
   PinholeLens folding{200, 200, 160, 120};
   folding.k1 = -0.6;
   const Camera camera(320, 240, folding);
@@ -126,7 +126,7 @@ TEST(Camera, EquidistantFisheyeSeesBehindItself) {
   const double half_rad = 97.5 * std::numbers::pi / 180.0;
   const double focal_px = fisheye_focal_px({}, 600, 2.0 * half_rad);
   const Camera camera(600, 600, FisheyeLens{focal_px, focal_px, 299.5, 299.5});
-  // The picture's left edge, half a pixel out, shows 97.5 deg to the left.
+  // The image's left edge, half a pixel out, shows 97.5 deg to the left.
   const std::optional<Eigen::Vector2d> edge = camera.project({-std::sin(half_rad), 0.0, std::cos(half_rad)});
   ASSERT_TRUE(edge.has_value());
   EXPECT_NEAR(edge->x(), -0.5, 1e-9);
@@ -199,4 +199,4 @@ TEST(Camera, CheckRefusesCamerasThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::camera

@@ -1,4 +1,4 @@
-#include "vision/ocam_lens.h"
+#include "vision/camera/ocam_lens.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,10 +11,10 @@
 #include <numbers>
 #include <sstream>
 
-#include "tests/vision/random_lenses.h"
+#include "tests/vision/camera/random_lenses.h"
 
 /// Real calibrations stand beside the source tree where there are any.
-namespace hedgehop::vision {
+namespace hedgehop::vision::camera {
 namespace {
 
 const std::filesystem::path kCalibrations = std::filesystem::path(HEDGEHOP_SOURCE_DIR) / "../shared/data/vision/ocam";
@@ -47,7 +47,7 @@ class RealCalibration : public testing::TestWithParam<const char*> {
   OcamCalibration calibration_;
 };
 
-TEST_P(RealCalibration, RoundTripOverThePictureIsBelowATwentiethPixel) {
+TEST_P(RealCalibration, RoundTripOverTheImageIsBelowATwentiethPixel) {
   const Camera camera(calibration_);
   size_t shown = 0;
   double worst_px = 0.0, worst_by_inverse_px = 0.0;
@@ -57,7 +57,7 @@ TEST_P(RealCalibration, RoundTripOverThePictureIsBelowATwentiethPixel) {
       if (!ray) continue;
       ++shown;
       worst_px = std::max(worst_px, (camera.project(*ray).value() - Eigen::Vector2d(col, row)).norm());
-      // The file's own inverse polynomial is fitted to where there is a picture, within 100 deg or so.
+      // The file's own inverse polynomial is fitted to where there is an image, within 100 deg or so.
       if (std::acos(ray->z()) > 93.0 * std::numbers::pi / 180.0 || ray->head<2>().norm() == 0.0) continue;
       const Eigen::Vector3d ray_O(ray->y(), ray->x(), -ray->z());
       worst_by_inverse_px =
@@ -87,7 +87,7 @@ std::vector<std::vector<double>> read_table(const std::filesystem::path& file) {
   return rows;
 }
 
-// Corners of a chessboard as found in real pictures, and where the board was: the published mean errors come out.
+// Corners of a chessboard as found in real images, and where the board was: the published mean errors come out.
 TEST(OcamLens, ReprojectsAChessboardAsWellAsPublished) {
   const std::filesystem::path folder = kCalibrations / "board";
   if (!std::filesystem::exists(folder / "corners.csv")) GTEST_SKIP() << "no chessboard " << folder.string();
@@ -160,4 +160,4 @@ TEST(OcamLens, RefusesBrokenCalibrationsWithTheReason) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::camera

@@ -1,4 +1,4 @@
-#include "vision/pinhole_camera.h"
+#include "vision/camera/pinhole_camera.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::camera {
 namespace {
 
 using std::numbers::pi;
@@ -20,7 +20,7 @@ TEST(PinholeCamera, NinetyDegreesAcross400PixelsIsAFocalLengthOf200) {
   EXPECT_EQ(camera.center_v_px, 149.5);
 }
 
-TEST(PinholeCamera, PictureEdgesLieAtHalfTheFieldOfView) {
+TEST(PinholeCamera, ImageEdgesLieAtHalfTheFieldOfView) {
   const auto camera = PinholeCamera::from_fov(641, 480, 1.1);
   const auto left = camera.ray({-0.5, camera.center_v_px});
   const auto right = camera.ray({640.5, camera.center_v_px});
@@ -40,7 +40,7 @@ TEST(PinholeCamera, ProjectionUndoesRay) {
   }
 }
 
-TEST(PinholeCamera, RightAndDownInFrontOfTheCameraAreRightAndDownInThePicture) {
+TEST(PinholeCamera, RightAndDownInFrontOfTheCameraAreRightAndDownInTheImage) {
   const auto camera = PinholeCamera::from_fov(400, 400, pi / 2);
   const auto right = camera.project({1.0, 0.0, 2.0});
   const auto down = camera.project({0.0, 1.0, 2.0});
@@ -56,7 +56,7 @@ TEST(PinholeCamera, NothingBesideOrBehindTheCameraIsSeen) {
   EXPECT_FALSE(camera.project({0.0, 0.0, std::nan("")}));
 }
 
-TEST(PinholeCamera, RefusesPicturesAndFieldsOfViewThatCannotBe) {
+TEST(PinholeCamera, RefusesImagesAndFieldsOfViewThatCannotBe) {
   EXPECT_THROW(PinholeCamera::from_fov(0, 10, 1.0), std::invalid_argument);
   EXPECT_THROW(PinholeCamera::from_fov(10, -1, 1.0), std::invalid_argument);
   EXPECT_THROW(PinholeCamera::from_fov(10, 10, 0.0), std::invalid_argument);
@@ -65,4 +65,4 @@ TEST(PinholeCamera, RefusesPicturesAndFieldsOfViewThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::camera

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <random>
 
-#include "vision/camera.h"
+#include "vision/camera/camera.h"
 
 /// Cameras of every kind for property tests, as different as cameras are.
-namespace hedgehop::vision {
+namespace hedgehop::vision::camera {
 
 inline double uniform(std::mt19937_64& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
@@ -56,4 +56,4 @@ inline constexpr const char* kSmallCalibration = R"(#polynomial coefficients for
 480 752
 )";
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::camera

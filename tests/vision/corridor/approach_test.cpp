@@ -1,4 +1,4 @@
-#include "vision/approach.h"
+#include "vision/corridor/approach.h"
 
 #include <gtest/gtest.h>
 
@@ -7,23 +7,23 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "tests/vision/corridor_world.h"
+#include "tests/vision/corridor/corridor_world.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::corridor {
 namespace {
 
 constexpr double kDt_s = 0.1;
 constexpr int kRim_px = 7;
 
-// Two pictures of a wall across the way, the second a tenth of a second of flight nearer.
+// Two images of a wall across the way, the second a tenth of a second of flight nearer.
 struct Pair {
-  Camera camera = whole_fisheye(480, 480);
+  camera::Camera camera = whole_fisheye(480, 480);
   CameraMotion motion{looking_down().linear(), looking_down().linear(), Eigen::Vector3d::Zero(), kDt_s, 1.5};
   cv::Mat older, newer;
 
   Pair(double range_m, const Eigen::Vector3d& v_H, const WaveTexture& texture, double half_width_m = 1.25,
        double roll_rad = 0.0) {
-    motion.travelled_H = kDt_s * v_H;
+    motion.traveled_H = kDt_s * v_H;
     motion.R_HC2 = Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX()) * motion.R_HC1;
     StraightCorridor corridor;
     corridor.left_m = corridor.right_m = half_width_m;
@@ -36,7 +36,7 @@ struct Pair {
     };
     const Eigen::Vector3d p_WC1(0, 0, -1.5);
     older = draw(p_WC1, motion.R_HC1);
-    newer = draw(p_WC1 + motion.travelled_H, motion.R_HC2);
+    newer = draw(p_WC1 + motion.traveled_H, motion.R_HC2);
   }
   std::optional<Approach> measure() const {
     return ApproachMeter({}, camera, looking_down(), {}, kRim_px).measure(older, newer, motion);
@@ -93,4 +93,4 @@ TEST(Approach, RefusesAConfigThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::corridor

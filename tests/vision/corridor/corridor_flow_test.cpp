@@ -1,4 +1,4 @@
-#include "vision/corridor_flow.h"
+#include "vision/corridor/corridor_flow.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "tests/vision/corridor_world.h"
-#include "tests/vision/random_lenses.h"
+#include "tests/vision/camera/random_lenses.h"
+#include "tests/vision/corridor/corridor_world.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::corridor {
 namespace {
 
 using Eigen::Vector3d;
@@ -30,13 +30,13 @@ WallPoint at(double x_m, double y_m, Region region, Verdict verdict = Verdict::g
 
 // Level flight north from a place in a corridor, and the pair of rays that a fixed point gives.
 struct LevelFlight {
-  Camera camera = whole_fisheye();
+  camera::Camera camera = whole_fisheye();
   Vector3d p_WC2 = {0.0, 0.0, -1.5};
   CameraMotion motion{looking_down().linear(), looking_down().linear(), Vector3d(0.08, 0.0, 0.0), 0.1, 1.5};
 
-  RayPair pair(const Vector3d& p_WP) const {
-    RayPair pair;
-    const Vector3d p_WC1 = p_WC2 - motion.travelled_H;
+  flow::RayPair pair(const Vector3d& p_WP) const {
+    flow::RayPair pair;
+    const Vector3d p_WC1 = p_WC2 - motion.traveled_H;
     pair.before_C = (motion.R_HC1.transpose() * (p_WP - p_WC1)).normalized();
     pair.after_C = (motion.R_HC2.transpose() * (p_WP - p_WC2)).normalized();
     pair.before_px = camera.project(pair.before_C).value();
@@ -46,7 +46,7 @@ struct LevelFlight {
 };
 
 TEST(CorridorRegions, CoverTheAnglesPrintedAndNothingElse) {
-  const Camera camera = whole_fisheye();
+  const camera::Camera camera = whole_fisheye();
   const auto masks = region_masks(camera, looking_down(), {}, 0);
   const auto seen_in = [&](double azimuth_deg, double elevation_deg) {
     const double a = azimuth_deg * pi / 180.0, e = elevation_deg * pi / 180.0;
@@ -75,7 +75,7 @@ TEST(CorridorRegions, CoverTheAnglesPrintedAndNothingElse) {
 }
 
 TEST(CorridorRegions, KeepClearOfTheLensRim) {
-  const Camera camera = whole_fisheye();
+  const camera::Camera camera = whole_fisheye();
   constexpr int kRim_px = 10;
   const auto masks = region_masks(camera, looking_down(), {}, kRim_px);
   int inside = 0;
@@ -111,7 +111,7 @@ TEST(WallPoint, LiesWhereTheSimulatedPointDoesWhateverTheCameraTurns) {
     };
     flight.motion.R_HC1 = turn() * flight.motion.R_HC1;
     flight.motion.R_HC2 = turn() * flight.motion.R_HC2;
-    flight.motion.travelled_H += Vector3d(0.0, uniform(random, -0.02, 0.02), uniform(random, -0.02, 0.02));
+    flight.motion.traveled_H += Vector3d(0.0, uniform(random, -0.02, 0.02), uniform(random, -0.02, 0.02));
     const double side = trial % 2 ? 1.0 : -1.0;
     const Vector3d p_WP(uniform(random, -0.2, 2.0), side * uniform(random, 0.4, 3.0), uniform(random, -1.45, -1.0));
     const WallPoint point = wall_point(flight.pair(p_WP), side > 0 ? kRight : kLeft, flight.camera, flight.motion, {});
@@ -124,13 +124,13 @@ TEST(WallPoint, VerdictsTellWhatIsWrong) {
   const LevelFlight flight;
   const Vector3d wall(0.5, 1.2, -1.4);
   FlowLimits limits;
-  const auto verdict = [&](const RayPair& pair) {
+  const auto verdict = [&](const flow::RayPair& pair) {
     return wall_point(pair, kRight, flight.camera, flight.motion, limits).verdict;
   };
   EXPECT_EQ(verdict(flight.pair(wall)), Verdict::good);
   EXPECT_EQ(verdict(flight.pair({1.5, 1.2, -0.05})), Verdict::floor);
 
-  const RayPair good = flight.pair(wall);
+  const flow::RayPair good = flight.pair(wall);
   const double flow_radps = wall_point(good, kRight, flight.camera, flight.motion, limits).flow_radps;
   limits.fastest_radps = 0.99 * flow_radps;
   EXPECT_EQ(verdict(good), Verdict::too_fast);
@@ -140,12 +140,12 @@ TEST(WallPoint, VerdictsTellWhatIsWrong) {
   limits = {};
 
   // A match on the wrong side of the corner moves the other way round the circle: tangential, and yet impossible.
-  RayPair backwards = good;
+  flow::RayPair backwards = good;
   backwards.after_px = 2.0 * good.before_px - good.after_px;
   backwards.after_C = flight.camera.ray(backwards.after_px).value();
   EXPECT_EQ(verdict(backwards), Verdict::astray);
-  // One that moves towards the centre is caught by the printed filter alone.
-  RayPair inwards = good;
+  // One that moves towards the center is caught by the printed filter alone.
+  flow::RayPair inwards = good;
   const Eigen::Vector2d radius = good.before_px - flight.camera.project(Vector3d::UnitZ()).value();
   inwards.after_px = good.before_px - 4.0 * radius.normalized();
   inwards.after_C = flight.camera.ray(inwards.after_px).value();
@@ -182,9 +182,9 @@ TEST(CenteringError, DoesNotDependOnTheSpeedAssumed) {
     LevelFlight flight;
     for (int i = 0; i < 200; ++i) {
       const double east_m = i % 2 ? 1.9 : -0.6;
-      const RayPair pair = flight.pair({uniform(random, -0.2, 1.0), east_m, uniform(random, -1.5, -1.2)});
+      const flow::RayPair pair = flight.pair({uniform(random, -0.2, 1.0), east_m, uniform(random, -1.5, -1.2)});
       CameraMotion assumed = flight.motion;
-      assumed.travelled_H *= scale;
+      assumed.traveled_H *= scale;
       assumed.height_m *= scale;
       points.push_back(wall_point(pair, i % 2 ? kRight : kLeft, flight.camera, assumed, {}));
     }
@@ -237,7 +237,7 @@ TEST(GapAhead, IsUnknownWhereNothingIsSeen) {
 TEST(TimeToContact, IsTwoOverTheDivergenceOfFlowStraightAhead) {
   // A wall across the way at 2 m, approached at 0.8 m/s; the flow's divergence by differences on the unit sphere.
   const double dt_s = 1e-3, range_m = 2.0, v_mps = 0.8, small_rad = 0.01;
-  const Vector3d travelled(v_mps * dt_s, 0, 0);
+  const Vector3d traveled(v_mps * dt_s, 0, 0);
   const auto ray = [&](double y, double z, double x_m) { return Vector3d(x_m, range_m * y, range_m * z).normalized(); };
   const auto flow = [&](double y, double z) -> Vector3d {
     return (ray(y, z, range_m - v_mps * dt_s) - ray(y, z, range_m)) / dt_s;
@@ -246,7 +246,7 @@ TEST(TimeToContact, IsTwoOverTheDivergenceOfFlowStraightAhead) {
       (flow(small_rad, 0).y() - flow(-small_rad, 0).y() + flow(0, small_rad).z() - flow(0, -small_rad).z()) /
       (2.0 * small_rad);
   const double found_s =
-      time_to_contact_s(ray(small_rad, 0, range_m), ray(small_rad, 0, range_m - v_mps * dt_s), travelled, dt_s);
+      time_to_contact_s(ray(small_rad, 0, range_m), ray(small_rad, 0, range_m - v_mps * dt_s), traveled, dt_s);
   EXPECT_NEAR(found_s, 2.0 / divergence_per_s, 2e-3);
   EXPECT_NEAR(found_s, range_m / v_mps - dt_s, 1e-9);
 }
@@ -266,4 +266,4 @@ TEST(FreeTime, CountsOnlyWhatTheBodyMeets) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::corridor

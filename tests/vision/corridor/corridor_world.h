@@ -6,15 +6,15 @@
 #include <limits>
 #include <vector>
 
-#include "tests/vision/textured_picture.h"
-#include "vision/camera.h"
+#include "tests/vision/flow/textured_image.h"
+#include "vision/camera/camera.h"
 
 /// A straight corridor along north and what a fisheye below a vehicle sees of it, drawn ray by ray.
-namespace hedgehop::vision {
+namespace hedgehop::vision::corridor {
 
-/// 190 degrees wide, the whole circle in the picture.
-inline Camera whole_fisheye(int width_px = 752, int height_px = 480) {
-  FisheyeLens lens;
+/// 190 degrees wide, the whole circle in the image.
+inline camera::Camera whole_fisheye(int width_px = 752, int height_px = 480) {
+  camera::FisheyeLens lens;
   lens.limit_rad = 95.0 * std::numbers::pi / 180.0;
   lens.focal_x_px = lens.focal_y_px = 0.5 * height_px / lens.limit_rad;
   lens.center_u_px = 0.5 * (width_px - 1);
@@ -22,7 +22,7 @@ inline Camera whole_fisheye(int width_px = 752, int height_px = 480) {
   return {width_px, height_px, lens};
 }
 
-/// Looks down, the nose up in the picture: C's x is B's y, C's y is -B's x.
+/// Looks down, the nose up in the image: C's x is B's y, C's y is -B's x.
 inline Eigen::Isometry3d looking_down() {
   Eigen::Isometry3d X_BC = Eigen::Isometry3d::Identity();
   X_BC.linear().col(0) = Eigen::Vector3d::UnitY();
@@ -58,8 +58,8 @@ struct StraightCorridor {
 };
 
 /// Draws textured planes through any lens, as draw_planes() does for pinholes; black where the lens shows nothing.
-/// Waves too short for the picture at that range are smeared by a mean over `oversample` squared places in each pixel.
-inline cv::Mat draw_planes_through(const Camera& camera, const Eigen::Isometry3d& X_WC,
+/// Waves too short for the image at that range are smeared by a mean over `oversample` squared places in each pixel.
+inline cv::Mat draw_planes_through(const camera::Camera& camera, const Eigen::Isometry3d& X_WC,
                                    const std::vector<TexturedPlane>& planes, const WaveTexture& texture,
                                    int oversample = 1) {
   const auto seen = [&](const Eigen::Vector2d& pixel) {
@@ -77,7 +77,7 @@ inline cv::Mat draw_planes_through(const Camera& camera, const Eigen::Isometry3d
     }
     return grey;
   };
-  return draw_picture(camera.width_px, camera.height_px, [&](double u, double v) {
+  return draw_image(camera.width_px, camera.height_px, [&](double u, double v) {
     double sum = 0.0;
     for (int i = 0; i < oversample; ++i) {
       for (int j = 0; j < oversample; ++j) {
@@ -88,4 +88,4 @@ inline cv::Mat draw_planes_through(const Camera& camera, const Eigen::Isometry3d
   });
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::corridor

@@ -1,4 +1,4 @@
-#include "vision/wall_direction.h"
+#include "vision/corridor/wall_direction.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <numbers>
 #include <random>
 
-#include "tests/vision/random_lenses.h"
+#include "tests/vision/camera/random_lenses.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::corridor {
 namespace {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
@@ -67,4 +67,4 @@ TEST(WallDirection, AcrossItANoseTurnedAsideShiftsNoMedian) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::corridor

@@ -1,4 +1,4 @@
-#include "vision/feature_flow.h"
+#include "vision/flow/feature_flow.h"
 
 #include <gtest/gtest.h>
 
@@ -6,13 +6,13 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "tests/vision/corridor_world.h"
-#include "tests/vision/random_lenses.h"
-#include "vision/corridor_regions.h"
-#include "vision/picture_turner.h"
-#include "vision/ray_flow.h"
+#include "tests/vision/camera/random_lenses.h"
+#include "tests/vision/corridor/corridor_world.h"
+#include "vision/camera/image_derotator.h"
+#include "vision/corridor/corridor_regions.h"
+#include "vision/flow/ray_flow.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 namespace {
 
 using Eigen::Vector3d;
@@ -35,21 +35,22 @@ Eigen::Isometry3d pose(const Vector3d& p_WB, const Vector3d& rpy_rad) {
 }
 
 struct Seen {
-  std::vector<RayPair> pairs, turned;  ///< without and with the newer picture turned back
+  std::vector<RayPair> pairs, turned;  ///< without and with the newer image turned back
   Eigen::Isometry3d X_WC1, X_WC2;
   Eigen::Matrix3d R_C1C2() const { return X_WC1.linear().transpose() * X_WC2.linear(); }
 };
 
 Seen see(const Eigen::Isometry3d& X_WB1, const Eigen::Isometry3d& X_WB2) {
-  static const Camera camera = whole_fisheye();
-  static const auto masks = region_masks(camera, looking_down(), {}, 8);
-  static const PictureTurner turner(camera, cv::Mat(camera.height_px, camera.width_px, CV_8UC1, cv::Scalar(255)));
+  static const camera::Camera camera = whole_fisheye();
+  static const auto masks = corridor::region_masks(camera, looking_down(), {}, 8);
+  static const camera::ImageDerotator turner(camera,
+                                             cv::Mat(camera.height_px, camera.width_px, CV_8UC1, cv::Scalar(255)));
   Seen seen{{}, {}, X_WB1 * looking_down(), X_WB2 * looking_down()};
   const StraightCorridor corridor;
   const cv::Mat older = draw_planes_through(camera, seen.X_WC1, corridor.planes(), texture());
   const cv::Mat newer = draw_planes_through(camera, seen.X_WC2, corridor.planes(), texture());
-  const auto follow = [&](const cv::Mat& picture, std::vector<RayPair>& pairs) {
-    for (const auto& list : feature_flow(older, picture, std::span(masks).first(kAhead), camera, {})) {
+  const auto follow = [&](const cv::Mat& image, std::vector<RayPair>& pairs) {
+    for (const auto& list : feature_flow(older, image, std::span(masks).first(corridor::kAhead), camera, {})) {
       pairs.insert(pairs.end(), list.begin(), list.end());
     }
   };
@@ -63,7 +64,7 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-double px_per_rad() { return std::get<FisheyeLens>(whole_fisheye().lens).focal_x_px; }
+double px_per_rad() { return std::get<camera::FisheyeLens>(whole_fisheye().lens).focal_x_px; }
 
 Vector3d random_angles(std::mt19937_64& random, double most_rad) {
   return {uniform(random, -most_rad, most_rad), uniform(random, -most_rad, most_rad),
@@ -79,7 +80,7 @@ double median_flow_px(const std::vector<RayPair>& pairs, const Eigen::Matrix3d& 
 }
 
 TEST(FeatureFlow, PureRotationLeavesLessThanATwentiethOfAPixel) {
-  // Up to 0.3 and 1 rad/s about each axis at ten pictures a second.
+  // Up to 0.3 and 1 rad/s about each axis at ten images a second.
   std::mt19937_64 random(3);
   double worst_turned_px = 0.0, worst_rays_px = 0.0;
   for (const double turn_rad : {0.03, 0.03, 0.03, 0.1, 0.1, 0.1}) {
@@ -101,27 +102,27 @@ TEST(FeatureFlow, PureRotationLeavesLessThanATwentiethOfAPixel) {
 }
 
 TEST(FeatureFlow, MixedMotionMeetsTheTrueFlowAndDistance) {
-  const Camera camera = whole_fisheye();
+  const camera::Camera camera = whole_fisheye();
   const StraightCorridor corridor;
   const Seen seen =
       see(pose({0.0, 0.3, -kHeight_m}, {0.02, -0.03, 0.1}), pose({0.08, 0.31, -1.51}, {-0.02, 0.01, 0.15}));
   ASSERT_GT(seen.turned.size(), 80u);
-  const Vector3d travelled = seen.X_WC1.linear().transpose() * (seen.X_WC2.translation() - seen.X_WC1.translation());
+  const Vector3d traveled = seen.X_WC1.linear().transpose() * (seen.X_WC2.translation() - seen.X_WC1.translation());
   std::vector<double> errors_px, ranges;
   for (const RayPair& pair : seen.turned) {
     const Vector3d ray_W = seen.X_WC1.linear() * pair.before_C;
     const Vector3d p_WP = seen.X_WC1.translation() + corridor.range_m(seen.X_WC1.translation(), ray_W) * ray_W;
     const Vector3d p_C2P_C1 = seen.X_WC1.linear().transpose() * (p_WP - seen.X_WC2.translation());
     errors_px.push_back((camera.project(p_C2P_C1).value() - pair.after_px).norm());
-    ranges.push_back(distance_m(pair.before_C, pair.after_C, travelled) / p_C2P_C1.norm());
+    ranges.push_back(distance_m(pair.before_C, pair.after_C, traveled) / p_C2P_C1.norm());
   }
   EXPECT_LT(median(errors_px), 0.15);  // of some 8 px: what is near also changes its shape
   EXPECT_NEAR(median(ranges), 1.0, 0.01);
 }
 
-TEST(FeatureFlow, PlainPicturesHaveNoCorners) {
-  const Camera camera = whole_fisheye();
-  const auto masks = region_masks(camera, looking_down(), {}, 8);
+TEST(FeatureFlow, PlainImagesHaveNoCorners) {
+  const camera::Camera camera = whole_fisheye();
+  const auto masks = corridor::region_masks(camera, looking_down(), {}, 8);
   cv::Mat older(camera.height_px, camera.width_px, CV_8UC1, cv::Scalar(120)), newer = older.clone();
   add_noise(older, 1.0, 1);
   add_noise(newer, 1.0, 2);
@@ -129,14 +130,14 @@ TEST(FeatureFlow, PlainPicturesHaveNoCorners) {
 }
 
 TEST(FeatureFlow, CornersBeginInTheirRegionsAndApart) {
-  const Camera camera = whole_fisheye();
-  const auto masks = region_masks(camera, looking_down(), {}, 8);
+  const camera::Camera camera = whole_fisheye();
+  const auto masks = corridor::region_masks(camera, looking_down(), {}, 8);
   const StraightCorridor corridor;
   const Eigen::Isometry3d X_WC = pose({0, 0, -kHeight_m}, Vector3d::Zero()) * looking_down();
-  const cv::Mat picture = draw_planes_through(camera, X_WC, corridor.planes(), texture());
+  const cv::Mat image = draw_planes_through(camera, X_WC, corridor.planes(), texture());
   FeatureFlowConfig config;
   config.apart_px = 12;
-  const auto lists = feature_flow(picture, picture, masks, camera, config);
+  const auto lists = feature_flow(image, image, masks, camera, config);
   for (size_t k = 0; k < lists.size(); ++k) {
     ASSERT_FALSE(lists[k].empty());
     for (const RayPair& a : lists[k]) {
@@ -150,8 +151,8 @@ TEST(FeatureFlow, CornersBeginInTheirRegionsAndApart) {
   }
 }
 
-TEST(FeatureFlow, RefusesPicturesOfAnotherSizeAndEvenWindows) {
-  const Camera camera = whole_fisheye(160, 120);
+TEST(FeatureFlow, RefusesImagesOfAnotherSizeAndEvenWindows) {
+  const camera::Camera camera = whole_fisheye(160, 120);
   const cv::Mat good = cv::Mat::zeros(120, 160, CV_8UC1), bad = cv::Mat::zeros(120, 161, CV_8UC1);
   EXPECT_THROW(feature_flow(good, bad, {}, camera, {}), std::invalid_argument);
   FeatureFlowConfig even;
@@ -160,4 +161,4 @@ TEST(FeatureFlow, RefusesPicturesOfAnotherSizeAndEvenWindows) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/vision/textured_picture.h"
-#include "vision/flow_field.h"
+#include "tests/vision/flow/textured_image.h"
+#include "vision/flow/flow_field.h"
 
 /// How far a flow field is from the truth, for tests.
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 
 inline constexpr int kSize = 400;
 
@@ -32,8 +32,8 @@ Errors errors(const FlowField& field, TrueFlow true_flow) {
 
 inline cv::Mat shifted(const WaveTexture& texture, const Eigen::Vector2d& shift_px, int width = kSize,
                        int height = kSize) {
-  return draw_picture(width, height,
-                      [&](double u, double v) { return texture.grey(u - shift_px.x(), v - shift_px.y()); });
+  return draw_image(width, height,
+                    [&](double u, double v) { return texture.grey(u - shift_px.x(), v - shift_px.y()); });
 }
 
 inline double largest(const FlowField& field) {
@@ -42,4 +42,4 @@ inline double largest(const FlowField& field) {
   return length;
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

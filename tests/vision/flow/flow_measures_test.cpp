@@ -1,4 +1,4 @@
-#include "vision/flow_measures.h"
+#include "vision/flow/flow_measures.h"
 
 #include <gtest/gtest.h>
 
@@ -6,14 +6,14 @@
 #include <numbers>
 #include <random>
 
-#include "tests/vision/projected_flow.h"
-#include "tests/vision/textured_picture.h"
-#include "vision/image_interpolation_flow.h"
+#include "tests/vision/flow/projected_flow.h"
+#include "tests/vision/flow/textured_image.h"
+#include "vision/flow/image_interpolation_flow.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 namespace {
 
-const PinholeCamera kCamera = PinholeCamera::from_fov(400, 400, std::numbers::pi / 2);
+const camera::PinholeCamera kCamera = camera::PinholeCamera::from_fov(400, 400, std::numbers::pi / 2);
 constexpr double kPeriod_s = 0.02;
 
 Eigen::Vector3d random_vector(std::mt19937_64& random, double largest) {
@@ -24,7 +24,7 @@ Eigen::Vector3d random_vector(std::mt19937_64& random, double largest) {
 TEST(ImageJacobian, EqualsFiniteDifferencesOfProjectedPoints) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> pixel(0.0, 399.0), depth(1.0, 30.0);
-  PinholeCamera camera = kCamera;
+  camera::PinholeCamera camera = kCamera;
   camera.focal_y_px = 170.0;  // unequal focal lengths and an axis off the middle, so that no term hides
   camera.center_u_px = 180.0;
   camera.center_v_px = 215.0;
@@ -197,4 +197,4 @@ TEST(MeanFlowAndLoom, NothingSeenIsZeroWithNoCount) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

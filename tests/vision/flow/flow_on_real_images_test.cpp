@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "vision/draw_flow.h"
-#include "vision/image_interpolation_flow.h"
+#include "vision/flow/draw_flow.h"
+#include "vision/flow/image_interpolation_flow.h"
 
-/// Real picture pairs with measured flow (Middlebury, Baker et al. 2011), beside the source tree where there are any.
-namespace hedgehop::vision {
+/// Real image pairs with measured flow (Middlebury, Baker et al. 2011), beside the source tree where there are any.
+namespace hedgehop::vision::flow {
 namespace {
 
-const std::filesystem::path kPictures = std::filesystem::path(HEDGEHOP_SOURCE_DIR) / "../shared/data/vision/flow";
+const std::filesystem::path kImages = std::filesystem::path(HEDGEHOP_SOURCE_DIR) / "../shared/data/vision/flow";
 
 cv::Mat read_flow(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -36,11 +36,11 @@ struct Case {
   friend std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
 };
 
-class FlowOnRealPictures : public testing::TestWithParam<Case> {};
+class FlowOnRealImages : public testing::TestWithParam<Case> {};
 
-TEST_P(FlowOnRealPictures, IsNearTheTrueMeanFlowOfEachPatch) {
-  const std::filesystem::path folder = kPictures / GetParam().name;
-  if (!std::filesystem::exists(folder / "gt.flo")) GTEST_SKIP() << "no picture pair " << GetParam().name;
+TEST_P(FlowOnRealImages, IsNearTheTrueMeanFlowOfEachPatch) {
+  const std::filesystem::path folder = kImages / GetParam().name;
+  if (!std::filesystem::exists(folder / "gt.flo")) GTEST_SKIP() << "no image pair " << GetParam().name;
   const cv::Mat older = cv::imread((folder / "frame1.png").string(), cv::IMREAD_GRAYSCALE);
   const cv::Mat newer = cv::imread((folder / "frame2.png").string(), cv::IMREAD_GRAYSCALE);
   const cv::Mat truth = read_flow(folder / "gt.flo");
@@ -83,22 +83,22 @@ TEST_P(FlowOnRealPictures, IsNearTheTrueMeanFlowOfEachPatch) {
   EXPECT_LT(mean_px, GetParam().mean_px);
 }
 
-INSTANTIATE_TEST_SUITE_P(Middlebury, FlowOnRealPictures,
+INSTANTIATE_TEST_SUITE_P(Middlebury, FlowOnRealImages,
                          testing::Values(Case{"RubberWhale", 0.2, 0.4}, Case{"Grove2", 0.16, 0.3}),
                          [](const auto& instance) { return instance.param.name; });
 
 TEST(DrawFlow, MarksVectorsWhereTheyAreAndLeavesTheRestAlone) {
-  cv::Mat picture(60, 60, CV_8UC3, cv::Scalar(9, 9, 9));
+  cv::Mat image(60, 60, CV_8UC3, cv::Scalar(9, 9, 9));
   FlowField field;
   field.rows = 1;
   field.cols = 2;
   field.vectors = {{{15, 30}, {2, 0}, true}, {{45, 30}, {0, 0}, false}};
-  draw_flow(field, 5.0, picture);
-  EXPECT_NE(picture.at<cv::Vec3b>(30, 22), cv::Vec3b(9, 9, 9));  // half way along the drawn vector
-  EXPECT_EQ(picture.at<cv::Vec3b>(30, 30), cv::Vec3b(9, 9, 9));
-  EXPECT_GT(picture.at<cv::Vec3b>(30, 45)[0], picture.at<cv::Vec3b>(30, 45)[1] + 50);  // a red dot
-  EXPECT_EQ(picture.at<cv::Vec3b>(5, 5), cv::Vec3b(9, 9, 9));
+  draw_flow(field, 5.0, image);
+  EXPECT_NE(image.at<cv::Vec3b>(30, 22), cv::Vec3b(9, 9, 9));  // half way along the drawn vector
+  EXPECT_EQ(image.at<cv::Vec3b>(30, 30), cv::Vec3b(9, 9, 9));
+  EXPECT_GT(image.at<cv::Vec3b>(30, 45)[0], image.at<cv::Vec3b>(30, 45)[1] + 50);  // a red dot
+  EXPECT_EQ(image.at<cv::Vec3b>(5, 5), cv::Vec3b(9, 9, 9));
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

@@ -1,4 +1,4 @@
-#include "vision/flow_range.h"
+#include "vision/flow/flow_range.h"
 
 #include <gtest/gtest.h>
 
@@ -6,15 +6,15 @@
 #include <numbers>
 #include <random>
 
-#include "tests/vision/projected_flow.h"
+#include "tests/vision/flow/projected_flow.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 namespace {
 
 constexpr double kStep_s = 1e-4;
 constexpr double kTinyFloor_mps = 1e-3;
 
-PinholeCamera camera() { return PinholeCamera::from_fov(400, 400, std::numbers::pi / 2); }
+camera::PinholeCamera camera() { return camera::PinholeCamera::from_fov(400, 400, std::numbers::pi / 2); }
 
 Eigen::Vector3d random_velocity(std::mt19937_64& random) {
   std::uniform_real_distribution<double> speed(-2.0, 2.0);
@@ -115,7 +115,7 @@ TEST(FlowRange, TheNearestTenthCountsInFullHoweverFarTheRestIs) {
   EXPECT_LT(told, 1.01 / least_range_m);
 }
 
-TEST(FlowRange, BlankPicturesAreFar) {
+TEST(FlowRange, BlankImagesAreFar) {
   FlowField field = grid_field(4, 4, 32, 400);
   for (FlowVector& vector : field.vectors) vector.valid = false;
   EXPECT_EQ(nearest_inverse_range_per_m(inverse_ranges_per_m(field, camera(), {1, 0, 1}, 0.02, 0.2), 0.1), 0.0);
@@ -123,4 +123,4 @@ TEST(FlowRange, BlankPicturesAreFar) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

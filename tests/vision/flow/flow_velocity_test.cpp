@@ -1,4 +1,4 @@
-#include "vision/flow_velocity.h"
+#include "vision/flow/flow_velocity.h"
 
 #include <gtest/gtest.h>
 
@@ -6,12 +6,12 @@
 #include <numbers>
 #include <random>
 
-#include "tests/vision/projected_flow.h"
+#include "tests/vision/flow/projected_flow.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 namespace {
 
-const PinholeCamera kCamera = PinholeCamera::from_fov(400, 400, std::numbers::pi / 2);
+const camera::PinholeCamera kCamera = camera::PinholeCamera::from_fov(400, 400, std::numbers::pi / 2);
 constexpr double kPeriod_s = 0.02;
 
 // A camera below the belly that looks down: C's x is B's y, C's y is -B's x.
@@ -139,4 +139,4 @@ TEST(FlowVelocity, SaysNothingWhenItSeesTooLittle) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

@@ -1,4 +1,4 @@
-#include "vision/image_interpolation_flow.h"
+#include "vision/flow/image_interpolation_flow.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "tests/vision/flow_errors.h"
+#include "tests/vision/flow/flow_errors.h"
 
 namespace {
 size_t allocations = 0;  // of the whole test program, counted below
@@ -25,7 +25,7 @@ void* operator new(size_t size) {
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, size_t) noexcept { std::free(memory); }
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 namespace {
 
 Eigen::Vector2d polar(double length, double angle) { return {length * std::cos(angle), length * std::sin(angle)}; }
@@ -83,9 +83,9 @@ TEST(ImageInterpolationFlow, FollowsMovesUpTo12Px) {
 }
 
 TEST(ImageInterpolationFlow, OnePassIsOffByTheTexturesCurvatureAndIterationIsNot) {
-  // The paper's algorithm: one pass, no re-centring. Waves of 14 px, seven reduced pixels.
+  // The paper's algorithm: one pass, no re-centering. Waves of 14 px, seven reduced pixels.
   const auto waves = [](const Eigen::Vector2d& shift) {
-    return draw_picture(128, 128, [=](double u, double v) {
+    return draw_image(128, 128, [=](double u, double v) {
       constexpr double k = 2 * std::numbers::pi / 14.0;
       return 127 + 40 * std::sin(k * (u - shift.x())) + 40 * std::sin(k * (v - shift.y()));
     });
@@ -110,13 +110,13 @@ TEST(ImageInterpolationFlow, OnePassIsOffByTheTexturesCurvatureAndIterationIsNot
 
 TEST(ImageInterpolationFlow, FollowsExpansionAndPlanarWarpsAtEveryPatch) {
   const WaveTexture texture(24, 8.0, 200.0);
-  // Newer picture(x) = older picture(A (x - c) + c - shift): affine, so the flow at the older place is known exactly.
+  // Newer image(x) = older image(A (x - c) + c - shift): affine, so the flow at the older place is known exactly.
   Eigen::Matrix2d growth;
   growth << 1.012, 0.006, -0.004, 1.008;
   const Eigen::Vector2d middle(199.5, 199.5), shift(0.8, -0.5);
   const Eigen::Matrix2d back = growth.inverse();
   const auto older = shifted(texture, {0, 0});
-  const auto newer = draw_picture(kSize, kSize, [&](double u, double v) {
+  const auto newer = draw_image(kSize, kSize, [&](double u, double v) {
     const Eigen::Vector2d x = back * (Eigen::Vector2d(u, v) - middle - shift) + middle;
     return texture.grey(x.x(), x.y());
   });
@@ -133,13 +133,13 @@ TEST(ImageInterpolationFlow, FollowsExpansionAndPlanarWarpsAtEveryPatch) {
   }
 }
 
-TEST(ImageInterpolationFlow, MirroredPicturesGiveMirroredFlow) {
+TEST(ImageInterpolationFlow, MirroredImagesGiveMirroredFlow) {
   const WaveTexture texture(27, 8.0, 100.0);
   const Eigen::Vector2d move(1.2, 0.7);
-  const auto mirrored = [](const cv::Mat& picture) {
-    cv::Mat other(picture.size(), CV_8UC1);
-    for (int v = 0; v < picture.rows; ++v) {
-      for (int u = 0; u < picture.cols; ++u) other.at<uint8_t>(v, u) = picture.at<uint8_t>(v, picture.cols - 1 - u);
+  const auto mirrored = [](const cv::Mat& image) {
+    cv::Mat other(image.size(), CV_8UC1);
+    for (int v = 0; v < image.rows; ++v) {
+      for (int u = 0; u < image.cols; ++u) other.at<uint8_t>(v, u) = image.at<uint8_t>(v, image.cols - 1 - u);
     }
     return other;
   };
@@ -152,7 +152,7 @@ TEST(ImageInterpolationFlow, MirroredPicturesGiveMirroredFlow) {
   for (int row = 0; row < 16; ++row) {
     for (int col = 0; col < 16; ++col) {
       const FlowVector &a = flow.field().at(row, col), &b = mirror.field().at(row, 15 - col);
-      constexpr double kRounding = 0.008;  // half a step of the re-centring, in full pixels
+      constexpr double kRounding = 0.008;  // half a step of the re-centering, in full pixels
       EXPECT_NEAR(a.flow_px.x(), -b.flow_px.x(), kRounding);
       EXPECT_NEAR(a.flow_px.y(), b.flow_px.y(), kRounding);
     }
@@ -173,16 +173,16 @@ TEST(ImageInterpolationFlow, OneRowOfPatchesLooksAtABandOnly) {
   EXPECT_LT(e.rms_px, 0.05);
 
   // 64 rows of patches and a rim: what lies above 130 and below 270 is not looked at.
-  for (cv::Mat* picture : {&first, &second}) {
-    picture->rowRange(0, 130).setTo(0);
-    picture->rowRange(270, kSize).setTo(255);
+  for (cv::Mat* image : {&first, &second}) {
+    image->rowRange(0, 130).setTo(0);
+    image->rowRange(270, kSize).setTo(255);
   }
   blinded.update(first);
   blinded.update(second);
   EXPECT_TRUE(same(whole.field(), blinded.field()));
 }
 
-TEST(ImageInterpolationFlow, SmallPicturesAndOddSizesWork) {
+TEST(ImageInterpolationFlow, SmallImagesAndOddSizesWork) {
   struct Case {
     int width, height, rows, cols, patch, margin, reduction, levels;
   };
@@ -206,7 +206,7 @@ TEST(ImageInterpolationFlow, SmallPicturesAndOddSizesWork) {
   }
 }
 
-TEST(ImageInterpolationFlow, SamePicturesGiveTheSameBitsAndNoMemoryIsTaken) {
+TEST(ImageInterpolationFlow, SameImagesGiveTheSameBitsAndNoMemoryIsTaken) {
   const WaveTexture texture(30, 8.0, 100.0);
   const auto first = shifted(texture, {0, 0}), second = shifted(texture, {1.0, 0.3});
   ImageInterpolationFlow a({}, kSize, kSize), b({}, kSize, kSize);
@@ -221,7 +221,7 @@ TEST(ImageInterpolationFlow, SamePicturesGiveTheSameBitsAndNoMemoryIsTaken) {
   EXPECT_TRUE(same(a.field(), b.field()));
 }
 
-TEST(ImageInterpolationFlow, RefusesWrongPicturesAndConfigs) {
+TEST(ImageInterpolationFlow, RefusesWrongImagesAndConfigs) {
   ImageInterpolationFlow flow({}, kSize, kSize);
   EXPECT_THROW(flow.update(cv::Mat(300, kSize, CV_8UC1, cv::Scalar(0))), std::invalid_argument);
   EXPECT_THROW(flow.update(cv::Mat(kSize, kSize, CV_8UC3, cv::Scalar(0))), std::invalid_argument);
@@ -242,4 +242,4 @@ TEST(ImageInterpolationFlow, RefusesWrongPicturesAndConfigs) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

@@ -2,35 +2,35 @@
 
 #include <cmath>
 
-#include "tests/vision/flow_errors.h"
-#include "vision/image_interpolation_flow.h"
+#include "tests/vision/flow/flow_errors.h"
+#include "vision/flow/image_interpolation_flow.h"
 
 // Which vectors may be believed.
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 namespace {
 
-TEST(ImageInterpolationFlow, NothingIsValidOnTheFirstPictureOrAfterReset) {
+TEST(ImageInterpolationFlow, NothingIsValidOnTheFirstImageOrAfterReset) {
   const WaveTexture texture(25, 8.0, 100.0);
-  const auto picture = shifted(texture, {0, 0});
+  const auto image = shifted(texture, {0, 0});
   ImageInterpolationFlow flow({}, kSize, kSize);
-  EXPECT_EQ(flow.update(picture).valid_count(), 0);
-  EXPECT_EQ(flow.update(picture).valid_count(), 256);
+  EXPECT_EQ(flow.update(image).valid_count(), 0);
+  EXPECT_EQ(flow.update(image).valid_count(), 256);
   flow.reset();
   EXPECT_EQ(flow.field().valid_count(), 0);
-  EXPECT_EQ(flow.update(picture).valid_count(), 0);
+  EXPECT_EQ(flow.update(image).valid_count(), 0);
 }
 
-TEST(ImageInterpolationFlow, PicturesWithoutTextureGiveNoVectors) {
-  const auto flat = draw_picture(kSize, kSize, [](double, double) { return 90.0; });
-  const auto brighter = draw_picture(kSize, kSize, [](double, double) { return 140.0; });
-  const auto ramp = draw_picture(kSize, kSize, [](double u, double v) { return 40.0 + 0.3 * u + 0.1 * v; });
+TEST(ImageInterpolationFlow, ImagesWithoutTextureGiveNoVectors) {
+  const auto flat = draw_image(kSize, kSize, [](double, double) { return 90.0; });
+  const auto brighter = draw_image(kSize, kSize, [](double, double) { return 140.0; });
+  const auto ramp = draw_image(kSize, kSize, [](double u, double v) { return 40.0 + 0.3 * u + 0.1 * v; });
   auto noise = flat.clone(), more_noise = flat.clone();
   add_noise(noise, 1.0, 1);
   add_noise(more_noise, 1.0, 2);
   ImageInterpolationFlow flow({}, kSize, kSize);
   flow.update(flat);
-  for (const cv::Mat& picture : {flat, brighter, flat, ramp, ramp, noise, more_noise}) {
-    EXPECT_EQ(flow.update(picture).valid_count(), 0);
+  for (const cv::Mat& image : {flat, brighter, flat, ramp, ramp, noise, more_noise}) {
+    EXPECT_EQ(flow.update(image).valid_count(), 0);
     EXPECT_EQ(largest(flow.field()), 0.0);
   }
 }
@@ -38,20 +38,20 @@ TEST(ImageInterpolationFlow, PicturesWithoutTextureGiveNoVectors) {
 TEST(ImageInterpolationFlow, StripesTellNothing) {
   // The aperture problem: only motion across the stripes can be seen.
   const auto stripes = [](double shift) {
-    return draw_picture(kSize, kSize,
-                        [=](double u, double v) { return 127 + 60 * std::sin(0.25 * (u + 0.5 * v - shift)); });
+    return draw_image(kSize, kSize,
+                      [=](double u, double v) { return 127 + 60 * std::sin(0.25 * (u + 0.5 * v - shift)); });
   };
   ImageInterpolationFlow flow({}, kSize, kSize);
   flow.update(stripes(0.0));
   EXPECT_EQ(flow.update(stripes(1.0)).valid_count(), 0);
 }
 
-TEST(ImageInterpolationFlow, HalfAPictureOfSkyIsInvalidAndLeavesTheOtherHalfAlone) {
+TEST(ImageInterpolationFlow, HalfAImageOfSkyIsInvalidAndLeavesTheOtherHalfAlone) {
   const WaveTexture texture(26, 8.0, 100.0);
   const Eigen::Vector2d move(1.5, 0.0);
   const auto scene = [&](const Eigen::Vector2d& shift) {
-    return draw_picture(
-        kSize, kSize, [&](double u, double v) { return v < 200 ? 210.0 : texture.grey(u - shift.x(), v - shift.y()); });
+    return draw_image(kSize, kSize,
+                      [&](double u, double v) { return v < 200 ? 210.0 : texture.grey(u - shift.x(), v - shift.y()); });
   };
   ImageInterpolationFlow flow({}, kSize, kSize);
   flow.update(scene({0, 0}));
@@ -68,7 +68,7 @@ TEST(ImageInterpolationFlow, HalfAPictureOfSkyIsInvalidAndLeavesTheOtherHalfAlon
   }
 }
 
-TEST(ImageInterpolationFlow, UnrelatedPicturesGiveFewVectorsAndNoneBeyondTheLimit) {
+TEST(ImageInterpolationFlow, UnrelatedImagesGiveFewVectorsAndNoneBeyondTheLimit) {
   ImageInterpolationConfig config;
   config.max_flow_px = 10.0;
   ImageInterpolationFlow flow(config, kSize, kSize);
@@ -81,4 +81,4 @@ TEST(ImageInterpolationFlow, UnrelatedPicturesGiveFewVectorsAndNoneBeyondTheLimi
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

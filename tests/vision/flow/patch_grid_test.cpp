@@ -1,4 +1,4 @@
-#include "vision/patch_grid.h"
+#include "vision/flow/patch_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 namespace {
 
 TEST(PatchGrid, PaperGridKeepsItsMarginAndSize) {
@@ -16,7 +16,7 @@ TEST(PatchGrid, PaperGridKeepsItsMarginAndSize) {
   EXPECT_EQ(grid.cols.front().begin, 28);
   EXPECT_EQ(grid.cols.back().end, 372);
   for (const PatchRange& range : grid.cols) EXPECT_EQ(range.end - range.begin, 64);
-  // Patch centres then span the paper's useful field of about 70 degrees (f = 200 px).
+  // Patch centers then span the paper's useful field of about 70 degrees (f = 200 px).
   const double half = grid.cols.back().center() - 199.5;
   EXPECT_NEAR(2.0 * std::atan(half / 200.0) * 180.0 / M_PI, 70.0, 1.0);
 }
@@ -38,7 +38,7 @@ TEST(PatchGrid, MirrorsAboutTheMiddleAndSpacesEvenlyForRandomLayouts) {
       EXPECT_EQ(cols[i].begin % unit, 0);
       EXPECT_NEAR(cols[i].center(), cols.front().center() + spacing * static_cast<double>(i), unit);
       const double mirrored = cols[i].center() + cols[cols.size() - 1 - i].center();
-      // A single middle patch may be half a step off when the picture has no middle step.
+      // A single middle patch may be half a step off when the image has no middle step.
       EXPECT_NEAR(mirrored, width - 1, 2 * i + 1 == cols.size() ? unit : 1e-9);
     }
   }
@@ -71,4 +71,4 @@ TEST(PatchGrid, ReducedPatchesCoverTheSamePlaces) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

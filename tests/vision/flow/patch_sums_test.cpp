@@ -1,4 +1,4 @@
-#include "vision/patch_sums.h"
+#include "vision/flow/patch_sums.h"
 
 #include <gtest/gtest.h>
 
@@ -6,21 +6,21 @@
 #include <stdexcept>
 #include <vector>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 namespace {
 
-std::vector<int16_t> random_picture(int count, int largest, std::mt19937_64& random) {
+std::vector<int16_t> random_image(int count, int largest, std::mt19937_64& random) {
   std::uniform_int_distribution<int> number(-largest, largest);
-  std::vector<int16_t> picture;
-  for (int i = 0; i < count; ++i) picture.push_back(static_cast<int16_t>(number(random)));
-  return picture;
+  std::vector<int16_t> image;
+  for (int i = 0; i < count; ++i) image.push_back(static_cast<int16_t>(number(random)));
+  return image;
 }
 
 TEST(PatchSums, EqualSumsPixelByPixelForRandomPatches) {
   std::mt19937_64 random(11);
   for (int trial = 0; trial < 40; ++trial) {
     const int width = 8 * static_cast<int>(2 + random() % 8), height = static_cast<int>(10 + random() % 60);
-    const auto a = random_picture(width * height, 4080, random), b = random_picture(width * height, 4080, random);
+    const auto a = random_image(width * height, 4080, random), b = random_image(width * height, 4080, random);
     std::vector<PatchRange> rows, cols;
     for (size_t i = 0; i < 1 + random() % 6; ++i) {
       const int begin = static_cast<int>(random() % static_cast<uint64_t>(height - 4));
@@ -82,4 +82,4 @@ TEST(PatchSums, RefuseOddColumnsAndPatchesOutside) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

@@ -3,13 +3,13 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "vision/flow_field.h"
-#include "vision/pinhole_camera.h"
+#include "vision/camera/pinhole_camera.h"
+#include "vision/flow/flow_field.h"
 
 /// Exact flow of points on a plane, by projecting them before and after a camera's finite motion.
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 
-/// Evenly spaced places between `rim_px` and the picture's other side, all valid, no flow.
+/// Evenly spaced places between `rim_px` and the image's other side, all valid, no flow.
 inline FlowField grid_field(int rows, int cols, double rim_px, int size_px) {
   FlowField field;
   field.rows = rows;
@@ -27,7 +27,7 @@ inline FlowField grid_field(int rows, int cols, double rim_px, int size_px) {
 /// @param field  where the flow is wanted; invalid vectors stay as they are.
 /// @param on_plane_C, normal_C  the plane in the camera before it moves, m.
 /// @param v_WC_C, w_WC_C  constant in the camera as it was before the motion, m/s and rad/s.
-inline FlowField plane_flow(const PinholeCamera& camera, FlowField field, const Eigen::Vector3d& on_plane_C,
+inline FlowField plane_flow(const camera::PinholeCamera& camera, FlowField field, const Eigen::Vector3d& on_plane_C,
                             const Eigen::Vector3d& normal_C, const Eigen::Vector3d& v_WC_C,
                             const Eigen::Vector3d& w_WC_C, double dt_s) {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
@@ -42,4 +42,4 @@ inline FlowField plane_flow(const PinholeCamera& camera, FlowField field, const 
   return field;
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

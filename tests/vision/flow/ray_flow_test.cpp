@@ -1,4 +1,4 @@
-#include "vision/ray_flow.h"
+#include "vision/flow/ray_flow.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <limits>
 #include <numbers>
 
-#include "tests/vision/random_lenses.h"
+#include "tests/vision/camera/random_lenses.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 namespace {
 
 using Eigen::Vector3d;
@@ -39,13 +39,13 @@ TEST(RayFlow, PureRotationLeavesNone) {
 TEST(RayFlow, MixedMotionTellsTheDistanceOfEveryPoint) {
   std::mt19937_64 random(2);
   for (int trial = 0; trial < 500; ++trial) {
-    const Vector3d p_C1P = random_vector(random, 5.0), travelled = random_vector(random, 0.3);
+    const Vector3d p_C1P = random_vector(random, 5.0), traveled = random_vector(random, 0.3);
     const Eigen::Matrix3d R_C1C2 = random_rotation(random, 0.5);
-    const Vector3d p_C2P_C1 = p_C1P - travelled;
+    const Vector3d p_C2P_C1 = p_C1P - traveled;
     const Vector3d before = p_C1P.normalized(), after = (R_C1C2.transpose() * p_C2P_C1).normalized();
-    const double measured_m = distance_m(before, derotated(after, R_C1C2), travelled);
+    const double measured_m = distance_m(before, derotated(after, R_C1C2), traveled);
     EXPECT_NEAR(measured_m / p_C2P_C1.norm(), 1.0, 1e-7);
-    EXPECT_LT(stray_rad(before, derotated(after, R_C1C2), travelled), 1e-6);
+    EXPECT_LT(stray_rad(before, derotated(after, R_C1C2), traveled), 1e-6);
   }
 }
 
@@ -74,7 +74,7 @@ TEST(RayFlow, FlowTowardsTheWayTravelledStraysByAHalfTurn) {
   EXPECT_NEAR(stray_rad(before, after, -Vector3d::UnitX()), 0.0, kRoundOff);
 }
 
-TEST(RayFlow, TangentIsMeasuredRoundTheCentreEitherWay) {
+TEST(RayFlow, TangentIsMeasuredRoundTheCenterEitherWay) {
   const Eigen::Vector2d center(100, 80), before = center + Eigen::Vector2d(30, 0);
   for (const double sign : {1.0, -1.0}) {
     for (const double degrees : {0.0, 20.0, 50.0, 90.0}) {
@@ -86,4 +86,4 @@ TEST(RayFlow, TangentIsMeasuredRoundTheCentreEitherWay) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

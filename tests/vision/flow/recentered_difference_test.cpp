@@ -1,4 +1,4 @@
-#include "vision/recentred_difference.h"
+#include "vision/flow/recentered_difference.h"
 
 #include <gtest/gtest.h>
 
@@ -7,24 +7,24 @@
 #include <random>
 #include <vector>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 namespace {
 
 constexpr int kWidth = 45, kHeight = 30, kRim = 8;
 
-ReducedPicture random_picture(uint64_t seed) {
+ReducedImage random_image(uint64_t seed) {
   std::mt19937_64 random(seed);
-  ReducedPicture picture(kWidth, kHeight, kRim);
+  ReducedImage image(kWidth, kHeight, kRim);
   for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) picture.row(y)[x] = static_cast<int16_t>(random() % 4081);
+    for (int x = 0; x < kWidth; ++x) image.row(y)[x] = static_cast<int16_t>(random() % 4081);
   }
-  return picture;
+  return image;
 }
 
-TEST(RecentredDifference, EqualsBilinearInterpolationWrittenOut) {
+TEST(RecenteredDifference, EqualsBilinearInterpolationWrittenOut) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> flow(-6.0, 6.0);
-  const ReducedPicture older = random_picture(1), newer = random_picture(2);
+  const ReducedImage older = random_image(1), newer = random_image(2);
   std::vector<int32_t> u(static_cast<size_t>(padded(kWidth))), v(u.size());
   std::vector<int16_t> out(u.size());
   for (int y = 0; y < kHeight; ++y) {
@@ -33,7 +33,7 @@ TEST(RecentredDifference, EqualsBilinearInterpolationWrittenOut) {
       u[x] = static_cast<int32_t>(std::lround(flow(random) * 128)) * 512;
       v[x] = static_cast<int32_t>(std::lround(flow(random) * 128)) * 512;
     }
-    recentred_difference(older, newer, y, u.data(), v.data(), out.data());
+    recentered_difference(older, newer, y, u.data(), v.data(), out.data());
     for (int x = 0; x < kWidth; ++x) {
       const double at_x = x + u[static_cast<size_t>(x)] / 65536.0, at_y = y + v[static_cast<size_t>(x)] / 65536.0;
       const int16_t got = out[static_cast<size_t>(x)];
@@ -85,7 +85,7 @@ TEST(SpreadFlow, IsBilinearBetweenNodesAndConstantBeyond) {
   }
 }
 
-TEST(SpreadFlow, OneNodeFillsThePicture) {
+TEST(SpreadFlow, OneNodeFillsTheImage) {
   const std::vector<double> node = {10.0}, flow_u = {1.25}, flow_v = {-0.5};
   SpreadFlow spread(node, node, kWidth);
   spread.set(flow_u, flow_v);
@@ -99,4 +99,4 @@ TEST(SpreadFlow, OneNodeFillsThePicture) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

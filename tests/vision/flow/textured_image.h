@@ -11,11 +11,11 @@
 #include <random>
 #include <vector>
 
-#include "vision/pinhole_camera.h"
+#include "vision/camera/pinhole_camera.h"
 
-/// Pictures with known motion: a texture is a sum of waves, so that it can be evaluated exactly at any place and needs
+/// Images with known motion: a texture is a sum of waves, so that it can be evaluated exactly at any place and needs
 /// no interpolation when it moves by a part of a pixel.
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 
 class WaveTexture {
  public:
@@ -47,37 +47,37 @@ class WaveTexture {
 
 inline uint8_t to_pixel(double grey) { return cv::saturate_cast<uint8_t>(std::lround(grey)); }
 
-/// Picture of which pixel (u, v) shows `grey(u, v)`.
+/// Image of which pixel (u, v) shows `grey(u, v)`.
 template <class Grey>
-cv::Mat draw_picture(int width, int height, Grey grey) {
-  cv::Mat picture(height, width, CV_8UC1);
+cv::Mat draw_image(int width, int height, Grey grey) {
+  cv::Mat image(height, width, CV_8UC1);
   for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) picture.at<uint8_t>(v, u) = to_pixel(grey(u, v));
+    for (int u = 0; u < width; ++u) image.at<uint8_t>(v, u) = to_pixel(grey(u, v));
   }
-  return picture;
+  return image;
 }
 
-inline void add_noise(cv::Mat& picture, double sigma_grey, uint64_t seed) {
+inline void add_noise(cv::Mat& image, double sigma_grey, uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> noise(0.0, sigma_grey);
-  for (int v = 0; v < picture.rows; ++v) {
-    for (int u = 0; u < picture.cols; ++u) {
-      uint8_t& pixel = picture.at<uint8_t>(v, u);
+  for (int v = 0; v < image.rows; ++v) {
+    for (int u = 0; u < image.cols; ++u) {
+      uint8_t& pixel = image.at<uint8_t>(v, u);
       pixel = to_pixel(pixel + noise(random));
     }
   }
 }
 
-/// A textured plane through `p_WO` with in-plane unit axes, cut off along the first; texture coordinates in metres.
+/// A textured plane through `p_WO` with in-plane unit axes, cut off along the first; texture coordinates in meters.
 struct TexturedPlane {
   Eigen::Vector3d p_WO, s_W, t_W;
   double half_width_m = std::numeric_limits<double>::infinity();
 };
 
 /// What a camera sees of planes (the nearest hit is shown); flat grey `sky` where there is none.
-inline cv::Mat draw_planes(const PinholeCamera& camera, const Eigen::Isometry3d& X_WC,
+inline cv::Mat draw_planes(const camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC,
                            const std::vector<TexturedPlane>& planes, const WaveTexture& texture, double sky = 200.0) {
-  return draw_picture(camera.width_px, camera.height_px, [&](double u, double v) {
+  return draw_image(camera.width_px, camera.height_px, [&](double u, double v) {
     const Eigen::Vector3d ray_W = X_WC.linear() * camera.ray({u, v});
     double nearest = std::numeric_limits<double>::infinity(), s = 0.0, t = 0.0;
     for (const TexturedPlane& plane : planes) {
@@ -94,4 +94,4 @@ inline cv::Mat draw_planes(const PinholeCamera& camera, const Eigen::Isometry3d&
   });
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

@@ -1,4 +1,4 @@
-#include "vision/wall_flow.h"
+#include "vision/flow/wall_flow.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <random>
 #include <vector>
 
-#include "vision/flow_range.h"
+#include "vision/flow/flow_range.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::flow {
 namespace {
 
 /// A room round B, turned against H: four walls by the directions and distances of their nearest points.
@@ -39,7 +39,7 @@ Room random_room(std::mt19937_64& random) {
   return room;
 }
 
-/// What four cameras, half a metre from B, see in their middle rows while B moves, `noise` laid over it.
+/// What four cameras, half a meter from B, see in their middle rows while B moves, `noise` laid over it.
 std::vector<WallSight> look(const Room& room, const Eigen::Vector2d& v_H, double noise, std::mt19937_64& random) {
   constexpr int kPatches = 8;
   constexpr double kOff_m = 0.4, kReach = 0.75;
@@ -84,7 +84,7 @@ TEST(WallFlow, FindsTheWallsOfARoomFromAMovingVehicle) {
     const auto sights = look(room, random_velocity(random), 0.0, random);
     const auto walls = walls_from_flow(sights, 0.1);
     for (size_t k = 0; k < 4; ++k) {
-      // A wall that shows in fewer than three neighbouring patches cannot be told.
+      // A wall that shows in fewer than three neighboring patches cannot be told.
       int run = 0, longest = 0;
       for (const WallSight& sight : sights) {
         const Eigen::Vector2d met_H = sight.p_BC_H + room.along(sight.p_BC_H, sight.ray_H) * sight.ray_H;
@@ -97,7 +97,7 @@ TEST(WallFlow, FindsTheWallsOfARoomFromAMovingVehicle) {
   }
 }
 
-// 0.1 px at 25 pictures a second and 200 px over 90 degrees.
+// 0.1 px at 25 images a second and 200 px over 90 degrees.
 TEST(WallFlow, NoisyFlowRangesTheNearestWallWithinItsStatedError) {
   constexpr double kNoise = 0.1 * 25.0 / 100.0;
   std::mt19937_64 random(2);
@@ -133,4 +133,4 @@ TEST(WallFlow, WithoutMotionOrPatchesThereAreNone) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::flow

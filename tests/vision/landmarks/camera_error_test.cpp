@@ -1,11 +1,11 @@
-#include "vision/camera_error.h"
+#include "vision/landmarks/camera_error.h"
 
 #include <gtest/gtest.h>
 
 #include "sim/reproduce/corner_flight.h"
-#include "tests/vision/random_lenses.h"
+#include "tests/vision/camera/random_lenses.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::landmarks {
 namespace {
 
 using Eigen::Vector2d;
@@ -99,4 +99,4 @@ TEST(CameraError, KnownPoseLeavesTheLandmarksOwnCovarianceAndTheMeasurements) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::landmarks

@@ -1,4 +1,4 @@
-#include "vision/edge_corners.h"
+#include "vision/landmarks/edge_corners.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <random>
 #include <stdexcept>
 
-#include "tests/vision/random_lenses.h"
+#include "tests/vision/camera/random_lenses.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::landmarks {
 namespace {
 
 using Eigen::Vector2d;
@@ -19,7 +19,7 @@ using Eigen::Vector2d;
 constexpr int kSize_px = 320;
 
 /// A polygon drawn with soft edges: at eight times the size, then averaged.
-void draw(cv::Mat& picture, const std::vector<Vector2d>& corners_px, const cv::Scalar& colour) {
+void draw(cv::Mat& image, const std::vector<Vector2d>& corners_px, const cv::Scalar& color) {
   constexpr int kFiner = 8;
   std::vector<cv::Point> fine;
   for (const Vector2d& c : corners_px) {
@@ -27,12 +27,12 @@ void draw(cv::Mat& picture, const std::vector<Vector2d>& corners_px, const cv::S
                       static_cast<int>(std::lround((c.y() + 0.5) * kFiner - 0.5)));
   }
   cv::Mat large;
-  cv::resize(picture, large, {}, kFiner, kFiner, cv::INTER_NEAREST);
-  cv::fillConvexPoly(large, fine, colour);
-  cv::resize(large, picture, picture.size(), 0.0, 0.0, cv::INTER_AREA);
+  cv::resize(image, large, {}, kFiner, kFiner, cv::INTER_NEAREST);
+  cv::fillConvexPoly(large, fine, color);
+  cv::resize(large, image, image.size(), 0.0, 0.0, cv::INTER_AREA);
 }
 
-/// Four corners round the middle of the picture, none of its angles or sides small.
+/// Four corners round the middle of the image, none of its angles or sides small.
 std::vector<Vector2d> random_quadrilateral(std::mt19937_64& random) {
   std::vector<Vector2d> corners;
   const double turn = uniform(random, 0.0, 1.5);
@@ -55,56 +55,56 @@ cv::Mat patches(uint64_t seed, double scale_px, double amplitude) {
   cv::RNG random(seed);
   random.fill(noise, cv::RNG::NORMAL, 0.0, 1.0);
   cv::GaussianBlur(noise, noise, {}, scale_px);
-  cv::Mat picture;
-  noise.convertTo(picture, CV_8U, amplitude * scale_px * 3.5, 100.0);
-  return picture;
+  cv::Mat image;
+  noise.convertTo(image, CV_8U, amplitude * scale_px * 3.5, 100.0);
+  return image;
 }
 
 TEST(EdgeCorners, OfAQuadrilateralAreItsCorners) {
   std::mt19937_64 random(3);
   for (int round = 0; round < 20; ++round) {
     const std::vector<Vector2d> corners = random_quadrilateral(random);
-    cv::Mat picture(kSize_px, kSize_px, CV_8UC1, cv::Scalar(60));
-    draw(picture, corners, 160);
-    const std::vector<Vector2d> found = edge_corners(picture, {});
+    cv::Mat image(kSize_px, kSize_px, CV_8UC1, cv::Scalar(60));
+    draw(image, corners, 160);
+    const std::vector<Vector2d> found = edge_corners(image, {});
     EXPECT_EQ(found.size(), 4U) << "round " << round;
     constexpr double kLineFit_px = 1.0;
     for (const Vector2d& corner : corners) EXPECT_LT(distance_px(found, corner), kLineFit_px) << "round " << round;
   }
 }
 
-// Patches and contrast as measured in rendered pictures of towers before grass: 12 and 45 grey levels.
+// Patches and contrast as measured in rendered images of towers before grass: 12 and 45 grey levels.
 TEST(EdgeCorners, StandOutFromPatchesOfGrass) {
   std::mt19937_64 random(4);
   int found_of_true = 0, found_elsewhere = 0, grey_elsewhere = 0;
   constexpr int kRounds = 20;
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<Vector2d> corners = random_quadrilateral(random);
-    cv::Mat picture = patches(static_cast<uint64_t>(round + 1), 3.0, 12.0);
-    draw(picture, corners, 145);
-    const std::vector<Vector2d> found = edge_corners(picture, {});
+    cv::Mat image = patches(static_cast<uint64_t>(round + 1), 3.0, 12.0);
+    draw(image, corners, 145);
+    const std::vector<Vector2d> found = edge_corners(image, {});
     for (const Vector2d& corner : corners) found_of_true += distance_px(found, corner) < 3.0;
     for (const Vector2d& place : found) found_elsewhere += distance_px(corners, place) >= 3.0;
 
     std::vector<cv::Point2f> shi_tomasi;
-    cv::goodFeaturesToTrack(picture, shi_tomasi, 200, 0.1, 5.0);
+    cv::goodFeaturesToTrack(image, shi_tomasi, 200, 0.1, 5.0);
     for (const cv::Point2f& p : shi_tomasi) grey_elsewhere += distance_px(corners, {p.x, p.y}) >= 3.0;
   }
   EXPECT_GT(grey_elsewhere, 4 * kRounds) << "the patches must be hard for corners of grey";
-  constexpr double kOfOnePicture = 0.75;  // an edge breaks where the patches are as bright; the next picture has others
-  EXPECT_GE(found_of_true, kOfOnePicture * 4 * kRounds);
+  constexpr double kOfOneImage = 0.75;  // an edge breaks where the patches are as bright; the next image has others
+  EXPECT_GE(found_of_true, kOfOneImage * 4 * kRounds);
   EXPECT_LE(found_elsewhere, 0.1 * 4 * kRounds);
 }
 
-TEST(EdgeCorners, RedAndGreenOfOneGreyAreToldApartInColour) {
+TEST(EdgeCorners, RedAndGreenOfOneGreyAreToldApartInColor) {
   const std::vector<Vector2d> corners = {{60, 70}, {250, 60}, {260, 240}, {80, 250}};
   const cv::Scalar green(60, 110, 60), red(125, 75, 75);
-  cv::Mat picture(kSize_px, kSize_px, CV_8UC3, green);
-  draw(picture, corners, red);
+  cv::Mat image(kSize_px, kSize_px, CV_8UC3, green);
+  draw(image, corners, red);
   cv::Mat grey;
-  cv::cvtColor(picture, grey, cv::COLOR_RGB2GRAY);
+  cv::cvtColor(image, grey, cv::COLOR_RGB2GRAY);
   EXPECT_TRUE(edge_corners(grey, {}).empty());
-  EXPECT_EQ(edge_corners(picture, {}).size(), 4U);
+  EXPECT_EQ(edge_corners(image, {}).size(), 4U);
 }
 
 TEST(EdgeCorners, LieWhereTwoLinesCross) {
@@ -114,9 +114,9 @@ TEST(EdgeCorners, LieWhereTwoLinesCross) {
     const double first = uniform(random, 0, 6.28), second = first + uniform(random, 0.3, 2.8);
     const auto edge = [&](double angle) {
       const Vector2d along(std::cos(angle), std::sin(angle));
-      return PictureEdge{at + uniform(random, -2, 5) * along, at + uniform(random, 40, 90) * along};
+      return ImageEdge{at + uniform(random, -2, 5) * along, at + uniform(random, 40, 90) * along};
     };
-    const std::vector<PictureEdge> edges = {edge(first), edge(second)};
+    const std::vector<ImageEdge> edges = {edge(first), edge(second)};
     const auto corners = corners_of(edges, {});
     ASSERT_EQ(corners.size(), 1U);
     EXPECT_LT((corners[0] - at).norm(), 1e-9);
@@ -139,7 +139,7 @@ TEST(EdgeCorners, AreFoundWhereALineBendsALittle) {
     };
     const double cut_px = uniform(random, 0.3, 0.9) * config.aside_px / std::sin(bend);
     const double late_px = uniform(random, 1.0, 1.9) * config.aside_px / std::sin(bend);
-    const std::vector<PictureEdge> pieces = {
+    const std::vector<ImageEdge> pieces = {
         {first(-200), first(-10)}, {first(-8), second(cut_px)}, {second(late_px), second(150)}};
     const auto corners = corners_of(joined_edges(pieces, config), config);
     ASSERT_EQ(corners.size(), 1U) << "round " << round;
@@ -149,12 +149,12 @@ TEST(EdgeCorners, AreFoundWhereALineBendsALittle) {
 }
 
 TEST(EdgeCorners, AreNotWhereAnEdgePassesThroughAnothersEnd) {
-  const std::vector<PictureEdge> edges = {{{0, 0}, {100, 0}}, {{50, 1}, {50, 80}}};
+  const std::vector<ImageEdge> edges = {{{0, 0}, {100, 0}}, {{50, 1}, {50, 80}}};
   EXPECT_TRUE(corners_of(edges, {}).empty());
 }
 
 TEST(EdgeCorners, AreNotWhereEdgesEndFarApart) {
-  const std::vector<PictureEdge> edges = {{{0, 0}, {100, 0}}, {{130, 30}, {130, 90}}};
+  const std::vector<ImageEdge> edges = {{{0, 0}, {100, 0}}, {{130, 30}, {130, 90}}};
   EXPECT_TRUE(corners_of(edges, {}).empty());
 }
 
@@ -165,7 +165,7 @@ TEST(JoinedEdges, APieceWiseLineIsOneEdge) {
     const Vector2d from(uniform(random, 0, 300), uniform(random, 0, 300));
     const double angle = uniform(random, 0, 6.28), length_px = uniform(random, 60, 250);
     const Vector2d along(std::cos(angle), std::sin(angle)), aside(-along.y(), along.x());
-    std::vector<PictureEdge> pieces;
+    std::vector<ImageEdge> pieces;
     double at_px = 0.0;
     while (at_px < length_px) {
       const double end_px = std::min(length_px, at_px + uniform(random, 15, 40));
@@ -185,7 +185,7 @@ TEST(JoinedEdges, APieceWiseLineIsOneEdge) {
 }
 
 TEST(JoinedEdges, ParallelLinesStayTwo) {
-  const std::vector<PictureEdge> pieces = {
+  const std::vector<ImageEdge> pieces = {
       {{0, 0}, {50, 0}}, {{60, 0}, {100, 0}}, {{0, 5}, {50, 5}}, {{60, 5}, {100, 5}}};
   EXPECT_EQ(joined_edges(pieces, {}).size(), 2U);
 }
@@ -204,4 +204,4 @@ TEST(EdgeCorners, RefuseABadConfig) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::landmarks

@@ -1,4 +1,4 @@
-#include "vision/landmark_map.h"
+#include "vision/landmarks/landmark_filter.h"
 
 #include <gtest/gtest.h>
 
@@ -7,25 +7,23 @@
 #include <stdexcept>
 
 #include "sim/reproduce/corner_flight.h"
-#include "tests/vision/random_lenses.h"
+#include "tests/vision/camera/random_lenses.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::landmarks {
 namespace {
 
 using Eigen::Vector2d;
 using sim::looking_at;
 
-constexpr double kPicture_s = 0.1;
+constexpr double kImage_s = 0.1;
 
 /// A map seen by a camera that stands still.
 class StandingCamera : public testing::Test {
  protected:
-  std::vector<int64_t> see(const std::vector<Vector2d>& corners_px) {
-    return map_.update(corners_px, pose_, kPicture_s);
-  }
+  std::vector<int64_t> see(const std::vector<Vector2d>& corners_px) { return map_.update(corners_px, pose_, kImage_s); }
 
   LandmarkMapConfig config_{.misses = 5, .young_misses = 2, .confirm = 3};
-  PinholeCamera camera_ = PinholeCamera::from_fov(640, 480, std::numbers::pi / 6.0);
+  camera::PinholeCamera camera_ = camera::PinholeCamera::from_fov(640, 480, std::numbers::pi / 6.0);
   CameraPose pose_{looking_at({-40, 0, -40}, {0, 0, 0}), 0.1, 1e-4};
   LandmarkMap map_{config_, camera_};
 };
@@ -71,7 +69,7 @@ TEST_F(LandmarkMapOfAStandingCamera, KeepsALandmarkThatIsOutOfView) {
 // A landmark's vagueness lowers its Z values, so that the least of them is often that of the landmark just begun.
 TEST(LandmarkMap, AYoungLandmarkBesideAKnownOneDoesNotTakeItsCorner) {
   std::mt19937_64 random(8);
-  const PinholeCamera camera = PinholeCamera::from_fov(640, 480, std::numbers::pi / 6.0);
+  const camera::PinholeCamera camera = camera::PinholeCamera::from_fov(640, 480, std::numbers::pi / 6.0);
   const Eigen::Vector3d p_W(0, 0, 0);
   constexpr int kKnowing = 100, kBegun = 40;
   LandmarkMap map({.misses = kKnowing, .young_misses = kKnowing, .confirm = 20}, camera);
@@ -82,35 +80,35 @@ TEST(LandmarkMap, AYoungLandmarkBesideAKnownOneDoesNotTakeItsCorner) {
         *camera.project(pose.X_WC_est.inverse() * p_W) + Vector2d(uniform(random, -1, 1), uniform(random, -1, 1));
     std::vector<Vector2d> corners = {corner};
     if (i == kBegun) corners.emplace_back(corner + Vector2d(8, 0));
-    const auto ids = map.update(corners, pose, kPicture_s);
+    const auto ids = map.update(corners, pose, kImage_s);
     if (i == 0) known = ids[0];
     EXPECT_EQ(ids[0], known) << i;
   }
   EXPECT_EQ(map.landmarks().size(), 2U);
 }
 
-// With errors that stay alike for 1 s, twenty pictures of 0.1 s are worth one of white errors. Across the line of
+// With errors that stay alike for 1 s, twenty images of 0.1 s are worth one of white errors. Across the line of
 // sight: a camera that stands still learns nothing of the depth.
-TEST(LandmarkMap, PicturesWithAlikeErrorsCountAsOne) {
-  const PinholeCamera camera = PinholeCamera::from_fov(640, 480, std::numbers::pi / 6.0);
+TEST(LandmarkMap, ImagesWithAlikeErrorsCountAsOne) {
+  const camera::PinholeCamera camera = camera::PinholeCamera::from_fov(640, 480, std::numbers::pi / 6.0);
   const CameraPose pose{looking_at({-40, 0, -40}, {0, 0, 0}), 0.3, 0.0};
-  const auto east_variance_after = [&](int pictures, double correlation_s) {
+  const auto east_variance_after = [&](int images, double correlation_s) {
     LandmarkMapConfig config{.pixel_sigma_px = 1e-3, .correlation_s = correlation_s};
     config.start = {.coordinates = LandmarkCoordinates::cartesian, .ground_sigma = 1e-3};
     LandmarkMap map(config, camera);
     const std::vector<Vector2d> corner = {{320, 240}};
     map.update(corner, pose, 0.0);
-    for (int i = 0; i < pictures; ++i) map.update(corner, pose, kPicture_s);
+    for (int i = 0; i < images; ++i) map.update(corner, pose, kImage_s);
     return covariance_W(map.landmarks().at(0).landmark)(1, 1);
   };
   const double white = east_variance_after(10, 0.0);
-  constexpr double kStart = 0.01;  // the first picture is worth a whole one either way
+  constexpr double kStart = 0.01;  // the first image is worth a whole one either way
   EXPECT_NEAR(east_variance_after(200, 1.0) / white, 1.0, kStart);
   EXPECT_LT(east_variance_after(200, 0.0), 0.1 * white);
 }
 
 TEST(LandmarkMap, RefusesABadConfig) {
-  const PinholeCamera camera = PinholeCamera::from_fov(64, 64, 1.0);
+  const camera::PinholeCamera camera = camera::PinholeCamera::from_fov(64, 64, 1.0);
   const auto refuse = [&](auto change) {
     LandmarkMapConfig config;
     change(config);
@@ -131,4 +129,4 @@ TEST(LandmarkMap, RefusesABadConfig) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::landmarks

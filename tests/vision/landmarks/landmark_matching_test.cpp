@@ -1,13 +1,13 @@
-#include "vision/landmark_matching.h"
+#include "vision/landmarks/landmark_matching.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <random>
 
-#include "tests/vision/random_lenses.h"
+#include "tests/vision/camera/random_lenses.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::landmarks {
 namespace {
 
 using Eigen::Vector2d;
@@ -107,4 +107,4 @@ TEST(LandmarkMatching, NothingMatchesNothing) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::landmarks

@@ -1,13 +1,13 @@
-#include "vision/landmark.h"
+#include "vision/landmarks/landmark.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <random>
 
-#include "tests/vision/random_lenses.h"
+#include "tests/vision/camera/random_lenses.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::landmarks {
 namespace {
 
 using Eigen::Vector2d;
@@ -225,4 +225,4 @@ TEST(Landmark, BehindTheCameraIsNotSeen) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::landmarks

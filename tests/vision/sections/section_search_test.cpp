@@ -1,4 +1,4 @@
-#include "vision/section_grid.h"
+#include "vision/sections/section_search.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::sections {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -49,10 +49,10 @@ TEST(Sections, ThePapersGridHas289OfThemFromEdgeToEdge) {
   EXPECT_EQ(found[16], cv::Rect(1280 - 628, 0, 628, 252));                       // end of the first row
   EXPECT_EQ(found[17], cv::Rect(0, 29, 628, 252));                               // a step of 29.25 px down
   EXPECT_EQ(found[1].x, 41);                                                     // a step of 40.75 px to the right
-  EXPECT_EQ(found[144], cv::Rect((1280 - 628) / 2, (720 - 252) / 2, 628, 252));  // the centre
+  EXPECT_EQ(found[144], cv::Rect((1280 - 628) / 2, (720 - 252) / 2, 628, 252));  // the center
 }
 
-TEST(Sections, ThreeByThreeWithoutOverlapTileThePicture) {
+TEST(Sections, ThreeByThreeWithoutOverlapTileTheImage) {
   const std::vector<cv::Rect> found = sections({3, 3, 1.0 / 3.0, 1.0 / 3.0}, {1281, 720});
   cv::Mat covered(720, 1281, CV_8U, cv::Scalar(0));
   for (const cv::Rect& section : found) covered(section) += 1;
@@ -95,7 +95,7 @@ TEST(SectionSearch, TheEmptiestSectionWins) {
   }
 }
 
-TEST(SectionSearch, EqualSharesGoToTheCentre) {
+TEST(SectionSearch, EqualSharesGoToTheCenter) {
   SectionSearch search({}, kZed);
   cv::Mat depth(kZed, CV_32F, cv::Scalar(20.0));
   EXPECT_EQ(search.choose(depth, kThreshold_m, 0.15, Unknown::free).section, 144);
@@ -129,18 +129,18 @@ TEST(SectionSearch, WidenedThreatsAreTheSquaresAboutThem) {
   depth.at<float>(30, 50) = 5.0f;
   search.choose(depth, kThreshold_m, 0.15, Unknown::free);
   EXPECT_EQ(search.threats()[0], 7 * 7);
-  depth.at<float>(0, 0) = 5.0f;  // cut off by the picture's corner
+  depth.at<float>(0, 0) = 5.0f;  // cut off by the image's corner
   search.choose(depth, kThreshold_m, 0.15, Unknown::free);
   EXPECT_EQ(search.threats()[0], 7 * 7 + 4 * 4);
 }
 
-TEST(SectionSearch, TheNearestSectionIsTheOneWhoseCentreIsAskedFor) {
+TEST(SectionSearch, TheNearestSectionIsTheOneWhoseCenterIsAskedFor) {
   SectionSearch search({}, kZed);
   for (int i = 0; i < 289; ++i) {
     const cv::Rect& s = search.sections()[static_cast<size_t>(i)];
     EXPECT_EQ(search.nearest({s.x + 0.5 * s.width, s.y + 0.5 * s.height}), i);
   }
-  EXPECT_EQ(search.centre(), 144);
+  EXPECT_EQ(search.center(), 144);
   EXPECT_EQ(search.nearest({-500.0, -500.0}), 0);
 }
 
@@ -210,4 +210,4 @@ TEST(SectionSearch, SkyIsFree) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::sections

@@ -1,4 +1,4 @@
-#include "vision/corridor_targets.h"
+#include "vision/stereo/corridor_targets.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <numbers>
 #include <set>
 
-#include "tests/vision/random_disparity.h"
+#include "tests/vision/stereo/random_disparity.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::stereo {
 namespace {
 
 // [Andert2007] fig. 11, counted there.
@@ -66,4 +66,4 @@ TEST(CorridorTargets, CostIsTheWeightedChangeOfDirection) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::stereo

@@ -1,10 +1,10 @@
-#include "vision/depth_pyramid.h"
+#include "vision/stereo/depth_pyramid.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/vision/random_disparity.h"
+#include "tests/vision/stereo/random_disparity.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::stereo {
 namespace {
 
 TEST(DepthPyramid, EveryPixelIsTheNearestOfItsSquare) {
@@ -28,11 +28,11 @@ TEST(DepthPyramid, EveryPixelIsTheNearestOfItsSquare) {
   }
 }
 
-TEST(DepthPyramid, WhatIsNoDisparityPictureIsRefused) {
+TEST(DepthPyramid, WhatIsNoDisparityImageIsRefused) {
   DepthPyramid pyramid;
   EXPECT_THROW(pyramid.build(cv::Mat(8, 8, CV_8UC1), 2), std::invalid_argument);
   EXPECT_THROW(pyramid.build(cv::Mat(8, 8, CV_16SC1), -1), std::invalid_argument);
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::stereo

@@ -1,13 +1,13 @@
-#include "vision/disparity.h"
+#include "vision/stereo/disparity.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <queue>
 
-#include "tests/vision/random_disparity.h"
+#include "tests/vision/stereo/random_disparity.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::stereo {
 namespace {
 
 /// Segments found by flooding, pixel by pixel: another way than line by line.
@@ -74,9 +74,9 @@ TEST(Disparity, SkyIsUnknownBrightAndSmooth) {
   const int16_t before[] = {-1, -1, 40, -1, -1, -1};
   //                        column 0, sky, known, edge and dark, edge, sky
   const int16_t after[] = {-1, 0, 40, -1, -1, 0};
-  const cv::Mat picture(1, 6, CV_8UC1, const_cast<uint8_t*>(grey));
+  const cv::Mat image(1, 6, CV_8UC1, const_cast<uint8_t*>(grey));
   cv::Mat d = cv::Mat(1, 6, CV_16SC1, const_cast<int16_t*>(before)).clone();
-  EXPECT_EQ(mark_sky(picture, 5, 220, SkyAmong::unknown, d), 2);
+  EXPECT_EQ(mark_sky(image, 5, 220, SkyAmong::unknown, d), 2);
   EXPECT_EQ(cv::norm(d, cv::Mat(1, 6, CV_16SC1, const_cast<int16_t*>(after)), cv::NORM_INF), 0.0);
 }
 
@@ -84,9 +84,9 @@ TEST(Disparity, SkyAmongAllTakesWhatWasMatchedToo) {
   const uint8_t grey[] = {250, 250, 251, 200, 252, 253};
   const int16_t before[] = {40, -1, 40, 40, 40, 40};
   const int16_t after[] = {40, 0, 0, 40, 40, 0};
-  const cv::Mat picture(1, 6, CV_8UC1, const_cast<uint8_t*>(grey));
+  const cv::Mat image(1, 6, CV_8UC1, const_cast<uint8_t*>(grey));
   cv::Mat d = cv::Mat(1, 6, CV_16SC1, const_cast<int16_t*>(before)).clone();
-  EXPECT_EQ(mark_sky(picture, 5, 220, SkyAmong::all, d), 3);
+  EXPECT_EQ(mark_sky(image, 5, 220, SkyAmong::all, d), 3);
   EXPECT_EQ(cv::norm(d, cv::Mat(1, 6, CV_16SC1, const_cast<int16_t*>(after)), cv::NORM_INF), 0.0);
 }
 
@@ -100,4 +100,4 @@ TEST(Disparity, ToDepthKeepsUnknownAndInfinity) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::stereo

@@ -1,4 +1,4 @@
-#include "vision/flight_corridor.h"
+#include "vision/stereo/flight_corridor.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/vision/random_disparity.h"
+#include "tests/vision/stereo/random_disparity.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::stereo {
 namespace {
 
 using State = Corridor::State;
@@ -38,7 +38,7 @@ Corridor by_definition(const cv::Mat& d16, const StereoGeometry& g, const cv::Po
   return {nearest_m <= target_m ? State::blocked : State::free, nearest_m, 0};
 }
 
-TEST(FlightCorridor, PyramidAgreesWithTheDefinitionOnRandomPictures) {
+TEST(FlightCorridor, PyramidAgreesWithTheDefinitionOnRandomImages) {
   std::mt19937_64 random(5);
   std::array<int, 3> states{};
   for (int trial = 0; trial < 1200; ++trial) {
@@ -68,7 +68,7 @@ TEST(FlightCorridor, PyramidAgreesWithTheDefinitionOnRandomPictures) {
       ASSERT_LE(found.z_m, target_m) << trial;
     }
   }
-  for (const int count : states) EXPECT_GE(count, 50);  // the pictures are of every kind
+  for (const int count : states) EXPECT_GE(count, 50);  // the images are of every kind
 }
 
 TEST(FlightCorridor, ThePyramidsHeightChangesNoAnswer) {
@@ -117,4 +117,4 @@ TEST(FlightCorridor, ThePyramidTestsAHundredthOfThePoints) {
 }
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::stereo

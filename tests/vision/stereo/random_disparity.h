@@ -4,11 +4,11 @@
 #include <opencv2/core.hpp>
 #include <random>
 
-#include "vision/disparity.h"
+#include "vision/stereo/disparity.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::stereo {
 
-/// Disparity pictures of several kinds, by `kind` modulo 5: dense and smooth, dense noise, sparse, slanted planes with
+/// Disparity images of several kinds, by `kind` modulo 5: dense and smooth, dense noise, sparse, slanted planes with
 /// holes, blocks before a sky.
 inline cv::Mat random_disparity(std::mt19937_64& random, cv::Size size, int kind) {
   const auto uniform = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
@@ -45,4 +45,4 @@ inline cv::Mat random_disparity(std::mt19937_64& random, cv::Size size, int kind
   return d;
 }
 
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::stereo

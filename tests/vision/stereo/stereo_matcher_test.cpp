@@ -1,4 +1,4 @@
-#include "vision/stereo_matcher.h"
+#include "vision/stereo/stereo_matcher.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "vision/disparity.h"
+#include "vision/stereo/disparity.h"
 
-namespace hedgehop::vision {
+namespace hedgehop::vision::stereo {
 namespace {
 
 using Method = StereoMatcherConfig::Method;
@@ -25,7 +25,7 @@ cv::Mat texture(uint64_t seed, cv::Size size) {
   return both;
 }
 
-/// The right picture of a wall at a disparity that need not be whole.
+/// The right image of a wall at a disparity that need not be whole.
 cv::Mat seen_from_the_right(const cv::Mat& left, double disparity_px) {
   cv::Mat right;
   const cv::Mat shift = (cv::Mat_<double>(2, 3) << 1, 0, -disparity_px, 0, 1, 0);
@@ -67,7 +67,7 @@ TEST(StereoMatcher, ColumnsAreMatchedWhereverTheRightCameraSeesThem) {
     for (int u = 0; u < kWall_px; ++u) {
       double largest = 0.0;
       cv::minMaxLoc(d16.col(u), nullptr, &largest);
-      EXPECT_LE(largest, kDisparityUnits * u) << "matched with what is left of the right picture's edge";
+      EXPECT_LE(largest, kDisparityUnits * u) << "matched with what is left of the right image's edge";
     }
   }
 }
@@ -147,4 +147,4 @@ INSTANTIATE_TEST_SUITE_P(Pairs, StereoOnRealPairs,
                          [](const auto& pair) { return pair.param.name; });
 
 }  // namespace
-}  // namespace hedgehop::vision
+}  // namespace hedgehop::vision::stereo

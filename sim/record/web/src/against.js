@@ -93,6 +93,6 @@ class AgainstView {
   lines(px, py) {
     const row = this.at(px, py);
     return row === null ? null : [...flightLines(this.table, row),
-      `before: ${this.before[row].outcome}, clearance ${metres(this.before[row].clearance_m)}`];
+      `before: ${this.before[row].outcome}, clearance ${meters(this.before[row].clearance_m)}`];
   }
 }

@@ -59,13 +59,13 @@ function fillStrips(host, data, table, on) {
     return;
   }
   host.append(make('h2', '', 'Film strips of the worst flights'),
-    make('p', 'soft', 'What their modules saw before the collision or the closest approach; flown again for these pictures.'));
+    make('p', 'soft', 'What their modules saw before the collision or the closest approach; flown again for these images.'));
   for (const [row, jpeg] of data.strips) {
     const figure = host.appendChild(make('figure', 'strip')), line = figure.appendChild(make('figcaption', 'flight-line'));
-    line.append(flightButton(table, row, on), make('span', 'soft', table.why[row] || `passed, clearance ${metres(table.value('min_obstacle_clearance_m', row))}`),
+    line.append(flightButton(table, row, on), make('span', 'soft', table.why[row] || `passed, clearance ${meters(table.value('min_obstacle_clearance_m', row))}`),
       linkTo(data, table, row), copyButton(table.value('command', row)));
-    const picture = figure.appendChild(make('img'));
-    picture.src = 'data:image/jpeg;base64,' + jpeg;
-    picture.alt = `pictures before the end of ${table.value('id', row)}`;
+    const image = figure.appendChild(make('img'));
+    image.src = 'data:image/jpeg;base64,' + jpeg;
+    image.alt = `images before the end of ${table.value('id', row)}`;
   }
 }

@@ -33,7 +33,7 @@ function fillHead(host, data, table) {
     `${all.passed} of ${all.ended}; 95 % within ${percent(all.low)} to ${percent(all.high)}`);
   tile('collided', String(all.collided), `of ${all.ended} flights that ended`);
   tile('reached, out of time', `${all.reached}, ${all.timeout}`, all.broken || all.missing ? `${all.broken} broken, ${all.missing} not flown` : 'none broken, none missing');
-  tile('least clearance', metres(all.least_clearance_m), `to obstacles; median of flights ${metres(all.median_clearance_m)}`);
+  tile('least clearance', meters(all.least_clearance_m), `to obstacles; median of flights ${meters(all.median_clearance_m)}`);
   tile('median flight time', fixed(all.median_time_s, 1) + ' s', 'of all flights that were flown');
 }
 
@@ -66,7 +66,7 @@ function worstFlights(table, rows) {
     {title: 'Collided, earliest first', rows: first(flown.filter((row) => table.verdict(row) === 'collided'), 'flight_time_s', false),
       words: (row) => `after ${fixed(table.value('flight_time_s', row), 1)} s`},
     {title: 'Least clearance without a collision', rows: first(clear, 'min_obstacle_clearance_m', false),
-      words: (row) => metres(table.value('min_obstacle_clearance_m', row))},
+      words: (row) => meters(table.value('min_obstacle_clearance_m', row))},
     {title: 'Slowest', rows: first(clear, 'flight_time_s', true), words: (row) => fixed(table.value('flight_time_s', row), 1) + ' s'},
     {title: 'Broken: no result, or a fault', rows: rows.filter((row) => table.value('status', row) === 'failed' || table.value('outcome', row) === 'fault').slice(0, worstOfAKind),
       words: () => ''},
@@ -99,7 +99,7 @@ function fillChosen(host, data, table, row) {
   const id = table.value('id', row), verdict = table.verdict(row);
   host.append(make('h3', '', id), make('p', verdict === 'passed' ? 'pass' : 'bad-text', table.why[row] || 'passed'));
   const facts = data.swept.map((name) => `${name} = ${typeof table.value(name, row) === 'number' ? short(table.value(name, row)) : table.value(name, row)}`);
-  host.append(make('p', 'soft', [...facts, `clearance ${metres(table.value('min_obstacle_clearance_m', row))}`,
+  host.append(make('p', 'soft', [...facts, `clearance ${meters(table.value('min_obstacle_clearance_m', row))}`,
     `${fixed(table.value('flight_time_s', row), 1)} s`].join(', ')));
   const links = host.appendChild(make('p'));
   for (const [there, name, word] of [[data.report[row], 'report.html', 'its report'], [data.replay[row], 'replay.html', 'its replay']]) {

@@ -7,7 +7,7 @@ const timeAxis = {key: 't_s', label: 'time, s', symbol: 't', unit: 's', points: 
 const roleColors = {left: 'c0', right: 'c1', front: 'c2', rear: 'c3', down: 'c4',
   true: 'true', est: 'est', cmd: 'cmd', a: 'c0', b: 'c1', c: 'c2', d: 'c3'};
 
-/** Look of each series of a panel: colour, width. */
+/** Look of each series of a panel: color, width. */
 function seriesLooks(series) {
   let next = 0;
   return series.map(({role}) => ({
@@ -76,7 +76,7 @@ class Charts {
     return host.appendChild(make('div', 'charts'));
   }
 
-  /** Makes all plots anew, in the colours of the theme in force. */
+  /** Makes all plots anew, in the colors of the theme in force. */
   build() {
     for (const plot of this.plots) {
       plot.u?.destroy();

@@ -1,5 +1,5 @@
 'use strict';
-// What plan, plots and page share: elements, numbers for people, colours, ticks.
+// What plan, plots and page share: elements, numbers for people, colors, ticks.
 
 /** A new element. Text is always text, never markup. */
 function make(tag, className = '', text = '') {
@@ -23,14 +23,14 @@ function fixed(value, decimals) {
   if (value === null || value === undefined) return '–';
   return value.toFixed(decimals).replace(/^-(?=0\.?0*$)/, '').replace('-', '−');
 }
-function metres(value) { return value === null ? '–' : fixed(value, 2) + ' m'; }
+function meters(value) { return value === null ? '–' : fixed(value, 2) + ' m'; }
 
 /** Value of a CSS variable of the theme in force. */
 function themeColor(name) {
   return getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
 }
 
-/** A function from 0..1 to a colour, through evenly spaced stops "#rrggbb, ...". */
+/** A function from 0..1 to a color, through evenly spaced stops "#rrggbb, ...". */
 function makeRamp(stops) {
   const colors = stops.split(',').map((s) => [1, 3, 5].map((i) => parseInt(s.trim().slice(i, i + 2), 16)));
   return (share) => {
@@ -66,7 +66,7 @@ function quantile(values, share) {
   return sorted.length ? sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))] : 1;
 }
 
-/** A path as {n, e} in m, from steps in centimetres. */
+/** A path as {n, e} in m, from steps in centimeters. */
 function readPath(steps) {
   const n = [], e = [];
   let north = 0, east = 0;

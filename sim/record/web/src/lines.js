@@ -1,7 +1,7 @@
 'use strict';
 // Lines of points over two axes, each of which may be logarithmic.
 
-/** Colours of labels in their order; what a paper prints is drawn in ink. */
+/** Colors of labels in their order; what a paper prints is drawn in ink. */
 function labelColors(lines) {
   const colors = new Map();
   for (const {label, printed} of lines) {

@@ -1,5 +1,5 @@
 'use strict';
-// A scene seen from above, true to scale: north up, east right, metres. What flies over it is drawn by others.
+// A scene seen from above, true to scale: north up, east right, meters. What flies over it is drawn by others.
 
 const mapMargin = {left: 46, right: 12, top: 12, bottom: 34};
 
@@ -28,7 +28,7 @@ class MapView {
     new ResizeObserver(() => requestAnimationFrame(() => this.draw())).observe(host);
   }
 
-  /** Centre and extent, m, of places with some room round them, as a share of their extent. */
+  /** Center and extent, m, of places with some room round them, as a share of their extent. */
   static viewOf(norths, easts, share) {
     const [n0, n1] = finiteRange(norths), [e0, e1] = finiteRange(easts);
     const pad = share * Math.max(n1 - n0, e1 - e0, 2);
@@ -80,7 +80,7 @@ class MapView {
   }
   showReach() { this.show(MapView.viewOf(this.reach.n, this.reach.e, 0.08)); }
 
-  /** Sizes the canvas and works out pixels per metre. The card keeps the shape of the whole scene. */
+  /** Sizes the canvas and works out pixels per meter. The card keeps the shape of the whole scene. */
   layout() {
     const width = this.host.clientWidth;
     const inner = width - mapMargin.left - mapMargin.right;

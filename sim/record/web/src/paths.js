@@ -145,5 +145,5 @@ class PathsView {
 function flightLines(table, row) {
   const clearance = table.value('min_obstacle_clearance_m', row);
   return [table.value('id', row), table.why[row] || table.value('outcome', row),
-    `clearance ${metres(clearance)}, ${fixed(table.value('flight_time_s', row), 1)} s`];
+    `clearance ${meters(clearance)}, ${fixed(table.value('flight_time_s', row), 1)} s`];
 }

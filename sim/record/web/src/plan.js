@@ -1,7 +1,7 @@
 'use strict';
-// One flight over its map: the path in colours, its marks, the vehicle at an instant.
+// One flight over its map: the path in colors, its marks, the vehicle at an instant.
 
-/** What the path can be coloured by. The clearance scale ends where more of it no longer matters. */
+/** What the path can be colored by. The clearance scale ends where more of it no longer matters. */
 function pathColorings(path) {
   const colorings = [];
   if (path.clearance.some((v) => v !== null)) {
@@ -79,7 +79,7 @@ class PlanView {
       c.beginPath();
       c.arc(x, y, 9, 0, 2 * Math.PI);
       c.stroke();
-      const text = result.outcome === 'collided' && near.distance_m <= 0 ? 'collided' : 'closest: ' + metres(near.distance_m);
+      const text = result.outcome === 'collided' && near.distance_m <= 0 ? 'collided' : 'closest: ' + meters(near.distance_m);
       map.label(c, text, x, y + 20, themeColor('bad'));
     }
     if (this.row !== null) this.drawVehicle(c, this.row, ink);
@@ -130,7 +130,7 @@ class PlanView {
     const {path} = this;
     const status = path.status[i] >= 0 ? ', ' + path.statuses[path.status[i]] : '';
     return [`t = ${path.t[i].toFixed(2)} s${status}`,
-      `clearance ${path.clearance[i] === null ? 'none in reach' : metres(path.clearance[i])}`,
+      `clearance ${path.clearance[i] === null ? 'none in reach' : meters(path.clearance[i])}`,
       `speed ${path.speed[i].toFixed(2)} m/s, altitude ${path.altitude[i].toFixed(1)} m`,
       placeText(path.n[i], path.e[i])];
   }

@@ -71,7 +71,7 @@ function pose(t_s) {
   });
   const clearance = path.clearance_m[at.row];
   element('clock').textContent = `${t_s.toFixed(2)} of ${end_s.toFixed(1)} s`;
-  element('facts').textContent = `clearance ${clearance === null ? 'none in reach' : metres(clearance)}, ` +
+  element('facts').textContent = `clearance ${clearance === null ? 'none in reach' : meters(clearance)}, ` +
     `speed ${fixed(between(path.speed_mps, at), 1)} m/s, altitude ${fixed(-between(path.down_m, at), 1)} m`;
   element('time').value = t_s;
 }

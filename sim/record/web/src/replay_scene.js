@@ -7,12 +7,12 @@ const material = (color, more = {}) => new THREE.MeshLambertMaterial({color, ...
 /** Many bodies of one form, drawn at once. @param rows  position, quaternion (x, y, z, w), half extents. */
 function copies(geometry, rows, look, color) {
   const shades = rows.length > 5;
-  if (shades) look = new THREE.MeshLambertMaterial();  // each instance has its own colour
+  if (shades) look = new THREE.MeshLambertMaterial();  // each instance has its own color
   const mesh = new THREE.InstancedMesh(geometry, look, rows.length), matrix = new THREE.Matrix4();
   rows.forEach(([x, y, z, qx, qy, qz, qw, a, b, c], i) => {
     matrix.compose(new THREE.Vector3(x, y, z), new THREE.Quaternion(qx, qy, qz, qw).normalize(), new THREE.Vector3(a, b, c));
     mesh.setMatrixAt(i, matrix);
-    if (shades) mesh.setColorAt(i, new THREE.Color(color).offsetHSL(0, 0, 0.05 * Math.sin(2.4 * i)));  // neighbours differ
+    if (shades) mesh.setColorAt(i, new THREE.Color(color).offsetHSL(0, 0, 0.05 * Math.sin(2.4 * i)));  // neighbors differ
   });
   mesh.frustumCulled = false;  // its bounds would be those of one
   return mesh;
@@ -36,7 +36,7 @@ export function bodies(data, color, more) {
   return group;
 }
 
-/** The ground with a grid, its lines a round number of metres apart. @return {group, step_m}. */
+/** The ground with a grid, its lines a round number of meters apart. @return {group, step_m}. */
 export function ground([n0, n1, e0, e1]) {
   const group = new THREE.Group(), size = Math.max(n1 - n0, e1 - e0, 10);
   const rough = size / 20, power = 10 ** Math.floor(Math.log10(rough));

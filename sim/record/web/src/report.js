@@ -50,7 +50,7 @@ function fillTiles(host, result) {
   tile('closest to the ground', fixed(result.min_ground_clearance_m, 2), 'm', where(result.closest_ground));
   if (result.goal_distance_m !== null) tile('distance to the goal', fixed(result.goal_distance_m, 1), 'm', 'at the end, horizontal');
   tile('decision', short(result.decision_ms.median, 3), 'ms', `95 % below ${short(result.decision_ms.p95, 3)} ms`);
-  tile('all pictures', short(result.render_ms.median, 3), 'ms', `95 % below ${short(result.render_ms.p95, 3)} ms`);
+  tile('all images', short(result.render_ms.median, 3), 'ms', `95 % below ${short(result.render_ms.p95, 3)} ms`);
   tile('speed of simulation', short(result.realtime_factor, 3), '× real time', `${short(result.wall_s, 3)} s of wall time`);
 }
 
@@ -86,7 +86,7 @@ function fillDetails(host, {result, module, scene, vehicle, scenario_yaml}) {
   };
   const stage = (s) => s ? `${short(s.median, 3)} ms, 95 % below ${short(s.p95, 3)} ms` : '–';
   add('run', [['module', module], ['scene', scene], ['vehicle', vehicle], ['trajectory hash', result.trajectory_hash]]);
-  add('wall time, median', [['decision', stage(result.decision_ms)], ['pictures of all cameras', stage(result.render_ms)],
+  add('wall time, median', [['decision', stage(result.decision_ms)], ['images of all cameras', stage(result.render_ms)],
     ['velocity from flow', stage(result.velocimeter_ms)], ['physics step', stage(result.physics_ms)]]);
   const metrics = Object.entries(result.metrics);
   if (metrics.length) {

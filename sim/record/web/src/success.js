@@ -40,7 +40,7 @@ function successCells(table, rows, xBins, yBins) {
   return cells;
 }
 
-/** A labelled list to choose a column with. */
+/** A labeled list to choose a column with. */
 function columnSelect(host, label, columns, chosen, on) {
   const element = host.appendChild(make('label', '', label)).appendChild(make('select'));
   for (const {name} of columns) element.append(make('option', '', name));

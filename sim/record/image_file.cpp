@@ -1,4 +1,4 @@
-#include "sim/record/picture_file.h"
+#include "sim/record/image_file.h"
 
 #include <fmt/format.h>
 

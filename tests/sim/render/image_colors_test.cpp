@@ -1,4 +1,4 @@
-#include "sim/render/picture_colors.h"
+#include "sim/render/image_colors.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ cv::Vec3b flow_color(float right_px, float down_px) {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
 
-TEST(PictureColors, DepthGoesFromRedThroughGreenToBlue) {
+TEST(ImageColors, DepthGoesFromRedThroughGreenToBlue) {
   const cv::Vec3b near = depth_color(0.7f), middle = depth_color(10.0f), far = depth_color(120.0f);
   EXPECT_TRUE(near[0] > near[1] && near[0] > near[2]);
   EXPECT_TRUE(middle[1] > middle[0] && middle[1] > middle[2]);
@@ -28,7 +28,7 @@ TEST(PictureColors, DepthGoesFromRedThroughGreenToBlue) {
   EXPECT_EQ(depth_color(kNan), cv::Vec3b::all(0));
 }
 
-TEST(PictureColors, FlowIsColouredByDirectionAndPaledBySlowness) {
+TEST(ImageColors, FlowIsColoredByDirectionAndPaledBySlowness) {
   EXPECT_EQ(flow_color(0, 0), cv::Vec3b::all(255));
   EXPECT_EQ(flow_color(16, 0), cv::Vec3b(255, 0, 0));
   EXPECT_EQ(flow_color(90, 0), cv::Vec3b(255, 0, 0));
@@ -40,7 +40,7 @@ TEST(PictureColors, FlowIsColouredByDirectionAndPaledBySlowness) {
   EXPECT_EQ(flow_color(kNan, kNan), cv::Vec3b::all(0));
 }
 
-TEST(PictureColors, NeighbouringLabelsDiffer) {
+TEST(ImageColors, NeighboringLabelsDiffer) {
   cv::Mat labels(1, 200, CV_32SC1);
   for (int i = 0; i < labels.cols; ++i) labels.at<int>(i) = i;
   const cv::Mat colors = colored_labels(labels);

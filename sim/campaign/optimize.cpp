@@ -10,29 +10,29 @@
 namespace hedgehop::sim {
 namespace {
 
-nlopt::algorithm algorithm(OptimiseDesign::Method method) {
+nlopt::algorithm algorithm(OptimizeDesign::Method method) {
   switch (method) {
-    case OptimiseDesign::Method::subplex:
+    case OptimizeDesign::Method::subplex:
       return nlopt::LN_SBPLX;
-    case OptimiseDesign::Method::nelder_mead:
+    case OptimizeDesign::Method::nelder_mead:
       return nlopt::LN_NELDERMEAD;
-    case OptimiseDesign::Method::bobyqa:
+    case OptimizeDesign::Method::bobyqa:
       return nlopt::LN_BOBYQA;
-    case OptimiseDesign::Method::direct:
+    case OptimizeDesign::Method::direct:
       return nlopt::GN_DIRECT_L;
   }
   return nlopt::LN_SBPLX;
 }
 
 /// Mean of a column over a point's flights; a flight that does not pass or lacks a number there counts its cost.
-double mean_cost(const OptimiseDesign& design, const std::vector<FlightRecord>& records) {
+double mean_cost(const OptimizeDesign& design, const std::vector<FlightRecord>& records) {
   const Table table = flight_table(records);
-  const auto column = std::ranges::find(table.columns, design.minimise);
+  const auto column = std::ranges::find(table.columns, design.minimize);
   double sum = 0.0;
   for (size_t i = 0; i < records.size(); ++i) {
     if (records[i].status == FlightRecord::Status::flown && column == table.columns.end()) {
-      throw InputError(fmt::format("'design.minimise': no column '{}'{}", design.minimise,
-                                   suggestion(design.minimise, {table.columns.begin(), table.columns.end()})));
+      throw InputError(fmt::format("'design.minimize': no column '{}'{}", design.minimize,
+                                   suggestion(design.minimize, {table.columns.begin(), table.columns.end()})));
     }
     double cost = design.failure_cost;
     if (passed(records[i])) {
@@ -48,7 +48,7 @@ double mean_cost(const OptimiseDesign& design, const std::vector<FlightRecord>& 
 /// The search's own view: it moves in the unit cube, whose points become values.
 struct Search {
   const SweepConfig& sweep;
-  const OptimiseDesign& design;
+  const OptimizeDesign& design;
   const FlyPoint& fly;
   Optimum best{.values = {}, .cost = std::numeric_limits<double>::infinity(), .orders = {}, .records = {}};
   size_t points = 0;
@@ -74,25 +74,25 @@ struct Search {
 
 }  // namespace
 
-Optimum optimise(const SweepConfig& sweep, const FlyPoint& fly) {
-  const auto& design = std::get<OptimiseDesign>(sweep.design);
+Optimum optimize(const SweepConfig& sweep, const FlyPoint& fly) {
+  const auto& design = std::get<OptimizeDesign>(sweep.design);
   const size_t dimensions = sweep.parameters.size();
   Search search{.sweep = sweep, .design = design, .fly = fly};
-  nlopt::opt optimiser(algorithm(design.method), static_cast<unsigned>(dimensions));
-  optimiser.set_lower_bounds(0.0);
-  optimiser.set_upper_bounds(1.0);
-  optimiser.set_maxeval(static_cast<int>(design.evaluations));
+  nlopt::opt optimizer(algorithm(design.method), static_cast<unsigned>(dimensions));
+  optimizer.set_lower_bounds(0.0);
+  optimizer.set_upper_bounds(1.0);
+  optimizer.set_maxeval(static_cast<int>(design.evaluations));
   constexpr double kTolerance = 1e-4;  // of a range: finer differences of a gain are of no interest
-  optimiser.set_xtol_abs(kTolerance);
+  optimizer.set_xtol_abs(kTolerance);
   constexpr double kFirstStep = 0.25;  // of a range
-  optimiser.set_initial_step(kFirstStep);
-  optimiser.set_min_objective([](const std::vector<double>& x, std::vector<double>&,
+  optimizer.set_initial_step(kFirstStep);
+  optimizer.set_min_objective([](const std::vector<double>& x, std::vector<double>&,
                                  void* data) { return static_cast<Search*>(data)->cost(x); },
                               &search);
   std::vector<double> x(dimensions, 0.5);
   double cost = 0.0;
   try {
-    optimiser.optimize(x, cost);
+    optimizer.optimize(x, cost);
   } catch (const nlopt::roundoff_limited&) {  // as good as it gets
   }
   return std::move(search.best);

@@ -7,25 +7,26 @@
 #include "sim/scenario/rig.h"
 #include "tests/sim/render/ray_caster.h"
 #include "tests/sim/render/small_world.h"
-#include "tests/vision/random_lenses.h"
+#include "tests/vision/camera/random_lenses.h"
 
-/// Pictures of lenses that bend rays, put together from several.
+/// Images of lenses that bend rays, put together from several.
 namespace hedgehop::sim {
 namespace {
 
-using vision::Camera;
+using vision::camera::Camera;
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kPinholeRmsPx = 0.05, kFisheyeRmsPx = 0.1;
 
 Camera fisheye(int width_px, int height_px, double fov_deg) {
-  const double focal_px = vision::fisheye_focal_px({}, width_px, fov_deg * kRadPerDeg);
-  return {width_px, height_px, vision::FisheyeLens{focal_px, focal_px, 0.5 * (width_px - 1), 0.5 * (height_px - 1)}};
+  const double focal_px = vision::camera::fisheye_focal_px({}, width_px, fov_deg * kRadPerDeg);
+  return {width_px, height_px,
+          vision::camera::FisheyeLens{focal_px, focal_px, 0.5 * (width_px - 1), 0.5 * (height_px - 1)}};
 }
 
-Camera ocam() { return Camera(vision::parse_ocam_calibration(vision::kSmallCalibration)); }
+Camera ocam() { return Camera(vision::camera::parse_ocam_calibration(vision::kSmallCalibration)); }
 
-/// One white spot on the plane x = 0 that fades to black, one metre wide, seen from the south; all else is black.
+/// One white spot on the plane x = 0 that fades to black, one meter wide, seen from the south; all else is black.
 SmallWorld spot() {
   cv::Mat dome(64, 64, CV_8UC3);
   for (int row = 0; row < 64; ++row) {
@@ -56,7 +57,7 @@ Eigen::Vector2d centroid(const cv::Mat& grey) {
   return {moments.m10 / moments.m00, moments.m01 / moments.m00};
 }
 
-/// Root mean square of the distances between where spots are drawn and where their middles project, all over a picture.
+/// Root mean square of the distances between where spots are drawn and where their middles project, all over an image.
 double spot_rms_px(Renderer& renderer, const Camera& camera, double focal_px, int spots, std::mt19937_64& random) {
   constexpr double kSpotPx = 14.0;
   double sum_squares = 0.0;
@@ -75,7 +76,7 @@ double spot_rms_px(Renderer& renderer, const Camera& camera, double focal_px, in
   return std::sqrt(sum_squares / spots);
 }
 
-TEST(LensPicture, SpotsOfADistortedPinholeLandOnTheirPixels) {
+TEST(LensImage, SpotsOfADistortedPinholeLandOnTheirPixels) {
   Renderer renderer(spot().scene);
   std::mt19937_64 random(201);
   for (int trial = 0; trial < 3; ++trial) {
@@ -86,7 +87,7 @@ TEST(LensPicture, SpotsOfADistortedPinholeLandOnTheirPixels) {
   }
 }
 
-TEST(LensPicture, SpotsOfAFisheyeLandOnTheirPixelsAllOverThePicture) {
+TEST(LensImage, SpotsOfAFisheyeLandOnTheirPixelsAllOverTheImage) {
   Renderer renderer(spot().scene);
   std::mt19937_64 random(202);
   const std::vector<std::pair<std::string, Camera>> cameras = {
@@ -99,7 +100,7 @@ TEST(LensPicture, SpotsOfAFisheyeLandOnTheirPixelsAllOverThePicture) {
 }
 
 // A gradient all round shows the slightest seam.
-TEST(LensPicture, TheSkyHasNoSeams) {
+TEST(LensImage, TheSkyHasNoSeams) {
   SmallWorld world;
   world.scene.sky = {.horizon = {1.0f, 0.1f, 0.5f}, .zenith = {0.0f, 0.9f, 0.6f}};
   Renderer renderer(world.scene);
@@ -125,10 +126,10 @@ TEST(LensPicture, TheSkyHasNoSeams) {
   EXPECT_LE(worst, 1.5);
 }
 
-TEST(LensPicture, ShowsNothingOutsideItsImageCircle) {
+TEST(LensImage, ShowsNothingOutsideItsImageCircle) {
   SmallWorld world;
   Renderer renderer(world.scene);
-  vision::FisheyeLens lens{60, 60, 99.5, 99.5};
+  vision::camera::FisheyeLens lens{60, 60, 99.5, 99.5};
   lens.limit_rad = 1.5;  // 90 px
   const Camera camera(200, 200, lens);
   cv::Mat color, depth, labels;
@@ -146,12 +147,13 @@ TEST(LensPicture, ShowsNothingOutsideItsImageCircle) {
   }
 }
 
-// The same rays, bent and not: OpenCV takes the distortion out of a picture again.
-TEST(LensPicture, ADistortedPictureIsTheStraightOneBent) {
+// The same rays, bent and not: OpenCV takes the distortion out of an image again.
+TEST(LensImage, ADistortedImageIsTheStraightOneBent) {
   const SmallWorld city = small_city(6, 204);
   Renderer renderer(city.scene);
-  const vision::PinholeCamera straight = vision::PinholeCamera::from_fov(320, 240, 1.1);
-  vision::PinholeLens lens{straight.focal_x_px, straight.focal_y_px, straight.center_u_px, straight.center_v_px};
+  const vision::camera::PinholeCamera straight = vision::camera::PinholeCamera::from_fov(320, 240, 1.1);
+  vision::camera::PinholeLens lens{straight.focal_x_px, straight.focal_y_px, straight.center_u_px,
+                                   straight.center_v_px};
   lens.k1 = -0.2;
   lens.k2 = 0.05;
   lens.p1 = 2e-3;
@@ -167,7 +169,7 @@ TEST(LensPicture, ADistortedPictureIsTheStraightOneBent) {
       const int u = static_cast<int>(std::lround(there->x())), v = static_cast<int>(std::lround(there->y()));
       if (u < 0 || v < 0 || u >= 320 || v >= 240) continue;
       ++compared;
-      // The nearest pixel of the straight picture; surfaces seen at a slant differ a little over half a pixel.
+      // The nearest pixel of the straight image; surfaces seen at a slant differ a little over half a pixel.
       const float a = bent.at<float>(row, col), b = expected_depth.at<float>(v, u);
       different += a == b || std::abs(a / b - 1.0f) < 0.03f ? 0 : 1;
     }
@@ -176,9 +178,9 @@ TEST(LensPicture, ADistortedPictureIsTheStraightOneBent) {
   EXPECT_LT(different, compared / 40);  // at edges
 }
 
-TEST(LensPicture, DepthEqualsRaysMetByBoxesAndGround) {
+TEST(LensImage, DepthEqualsRaysMetByBoxesAndGround) {
   constexpr double kRelative = 1e-4;
-  constexpr double kEdgePx = 1.5;  // half a pixel of a face, which may be finer or coarser than the picture's, and one
+  constexpr double kEdgePx = 1.5;  // half a pixel of a face, which may be finer or coarser than the image's, and one
   std::mt19937_64 random(205);
   SmallWorld world;
   RayCaster cast;
@@ -218,7 +220,7 @@ TEST(LensPicture, DepthEqualsRaysMetByBoxesAndGround) {
           continue;
         }
         ++surfaces;
-        const bool z = std::holds_alternative<vision::PinholeLens>(camera.lens);
+        const bool z = std::holds_alternative<vision::camera::PinholeLens>(camera.lens);
         const double relative = depth_m / (z ? hit->z_m : hit->distance_m);
         ASSERT_NEAR(relative, 1.0, kRelative) << "trial " << trial << ": " << col << ", " << row;
         worst = std::max(worst, std::abs(relative - 1.0));
@@ -235,28 +237,28 @@ TEST(LensPicture, DepthEqualsRaysMetByBoxesAndGround) {
   EXPECT_GT(surfaces, 20'000u);
 }
 
-/// Mean square difference between a picture and what a much finer one averages to, 0..255^2.
+/// Mean square difference between an image and what a much finer one averages to, 0..255^2.
 double coarseness(Renderer& renderer, const Camera& camera, const Camera& fine, const Eigen::Isometry3d& X_WC) {
-  cv::Mat picture, fine_picture, mean;
-  renderer.draw({camera, X_WC, Channel::grey}, picture);
-  renderer.draw({fine, X_WC, Channel::grey}, fine_picture);
-  cv::resize(fine_picture, mean, picture.size(), 0, 0, cv::INTER_AREA);
-  const double norm = cv::norm(picture, mean, cv::NORM_L2);
-  return norm * norm / static_cast<double>(picture.total());
+  cv::Mat image, fine_image, mean;
+  renderer.draw({camera, X_WC, Channel::grey}, image);
+  renderer.draw({fine, X_WC, Channel::grey}, fine_image);
+  cv::resize(fine_image, mean, image.size(), 0, 0, cv::INTER_AREA);
+  const double norm = cv::norm(image, mean, cv::NORM_L2);
+  return norm * norm / static_cast<double>(image.total());
 }
 
-// Blur and aliasing together: a lens's picture may differ from the ideal one little more than a pinhole's does.
-TEST(LensPicture, IsHardlyCoarserThanAPinholes) {
+// Blur and aliasing together: a lens's image may differ from the ideal one little more than a pinhole's does.
+TEST(LensImage, IsHardlyCoarserThanAPinholes) {
   SmallWorld city = small_city(6, 206);
-  for (cv::Mat& texture : city.scene.textures) texture = noise_picture(256, 207);
+  for (cv::Mat& texture : city.scene.textures) texture = noise_image(256, 207);
   Renderer renderer(city.scene);
   std::mt19937_64 random(208);
   double of_pinhole = 0.0, of_fisheye = 0.0;
   for (int trial = 0; trial < 10; ++trial) {
     const Eigen::Isometry3d X_WC = look_at({uniform(random, -60, 60), uniform(random, -60, 60), -45.0},
                                            {uniform(random, -60, 60), uniform(random, -60, 60), 0.0});
-    of_pinhole += coarseness(renderer, vision::PinholeCamera::from_fov(240, 240, 1.2),
-                             vision::PinholeCamera::from_fov(1440, 1440, 1.2), X_WC);
+    of_pinhole += coarseness(renderer, vision::camera::PinholeCamera::from_fov(240, 240, 1.2),
+                             vision::camera::PinholeCamera::from_fov(1440, 1440, 1.2), X_WC);
     of_fisheye += coarseness(renderer, fisheye(240, 240, 190), fisheye(1440, 1440, 190), X_WC);
   }
   RecordProperty("pinhole_rms_levels", std::to_string(std::sqrt(of_pinhole / 10)));
@@ -264,7 +266,7 @@ TEST(LensPicture, IsHardlyCoarserThanAPinholes) {
   EXPECT_LT(std::sqrt(of_fisheye / of_pinhole), 1.25);
 }
 
-TEST(LensPicture, AStereoPairSeesAPointOnOneRowAtItsDisparity) {
+TEST(LensImage, AStereoPairSeesAPointOnOneRowAtItsDisparity) {
   Renderer renderer(spot().scene);
   std::mt19937_64 random(209);
   cv::Mat left, right;
@@ -279,8 +281,8 @@ TEST(LensPicture, AStereoPairSeesAPointOnOneRowAtItsDisparity) {
     pair.camera.pitch_rad = uniform(random, -1.5, 1.5);
     pair.camera.roll_rad = uniform(random, -3, 3);
     mount_stereo_pairs(rig);
-    const vision::PinholeCamera camera = rig.cameras[0].model().pinhole();
-    // The spot stands parallel to the pictures' plane, somewhere in the left one.
+    const vision::camera::PinholeCamera camera = rig.cameras[0].model().pinhole();
+    // The spot stands parallel to the images' plane, somewhere in the left one.
     const double z_m = uniform(random, 6.0, 14.0);
     const Eigen::Vector3d p_L = z_m * camera.ray({uniform(random, 80, 290), uniform(random, 30, 210)});
     Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();

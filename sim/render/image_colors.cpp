@@ -1,4 +1,4 @@
-#include "sim/render/picture_colors.h"
+#include "sim/render/image_colors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +60,7 @@ cv::Mat colored_flow(const cv::Mat& flow_px) {
 }
 
 cv::Mat colored_labels(const cv::Mat& labels) {
-  constexpr double kGolden = 0.6180339887498949;  // spreads neighbouring numbers over the circle
+  constexpr double kGolden = 0.6180339887498949;  // spreads neighboring numbers over the circle
   cv::Mat hsv(labels.size(), CV_8UC3);
   for (int row = 0; row < labels.rows; ++row) {
     for (int col = 0; col < labels.cols; ++col) {
