@@ -8,7 +8,7 @@
 namespace hedgehop::scenes {
 namespace {
 
-constexpr double kTouching_m = 1e-6;
+constexpr double kTouchingM = 1e-6;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A rectangle of the plan, or a disc: a point with a radius.
@@ -44,7 +44,7 @@ std::vector<double> gaps_m(std::vector<Outline> outlines) {
     double least_m = kInfinity;
     const auto consider = [&](size_t j) {
       const double gap = gap_m(outlines[i], outlines[j]);
-      if (gap > kTouching_m) least_m = std::min(least_m, gap);
+      if (gap > kTouchingM) least_m = std::min(least_m, gap);
     };
     for (size_t j = i + 1; j < outlines.size() && outlines[j].south_m() - outlines[i].north_m() < least_m; ++j)
       consider(j);
@@ -65,7 +65,7 @@ SceneFigures scene_figures(const Scene& scene, const AltitudeBand& band) {
     if (-box_W.min().z() < band.lowest_m || -box_W.max().z() > band.highest_m) continue;
     const Outline& added = outlines.emplace_back(outline(solid, box_W));
     const Eigen::AlignedBox2d inside_NE = added.core_NE.intersection(scene.bounds_NE_m);
-    if (box_W.max().z() < -kTouching_m || inside_NE.isEmpty()) continue;
+    if (box_W.max().z() < -kTouchingM || inside_NE.isEmpty()) continue;
     const double disc_m2 = std::numbers::pi * added.radius_m * added.radius_m;
     const double inside_m2 = added.radius_m > 0.0 ? disc_m2 : inside_NE.volume();
     covered_m2 += inside_m2;

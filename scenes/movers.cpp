@@ -15,14 +15,14 @@ namespace {
 using Eigen::Vector3d;
 using Shape = MoverConfig::Shape;
 
-constexpr double kSignalTile_m = 2.0;
-constexpr double kPoleRadius_m = 0.03;  // that a balloon is carried on
+constexpr double kSignalTileM = 2.0;
+constexpr double kPoleRadiusM = 0.03;  // that a balloon is carried on
 constexpr int kPostSides = 16;
 
 // Red and white bands with specks: seen well against anything.
 cv::Mat paint_signal(int size_px, uint64_t seed) {
   Random random(seed);
-  const double tile = kSignalTile_m;
+  const double tile = kSignalTileM;
   textures::Canvas canvas(size_px, tile, {0.86f, 0.84f, 0.80f});
   for (int k = 0; k < 4; ++k) canvas.fill({0.0, 0.25 * k * tile, tile, 0.125 * tile}, {0.75f, 0.10f, 0.08f});
   for (int k = 0; k < 60; ++k) {
@@ -40,13 +40,13 @@ class MoverImages {
  public:
   MoverImages(uint64_t seed, std::vector<cv::Mat>& images) : seed_(seed), images_(images) {}
 
-  mesh::Cover signal() { return {index(signal_, paint_signal, 0), kSignalTile_m}; }
-  mesh::Cover bark() { return {index(bark_, textures::paint_bark, 1), textures::kBarkTile_m}; }
+  mesh::Cover signal() { return {index(signal_, paint_signal, 0), kSignalTileM}; }
+  mesh::Cover bark() { return {index(bark_, textures::paint_bark, 1), textures::kBarkTileM}; }
   mesh::Cover leaves() {
     const auto paint = [](int size_px, uint64_t seed) {
       return textures::paint_leaves(textures::Leaves::broad, size_px, seed);
     };
-    return {index(leaves_, paint, 2), textures::kLeafTile_m};
+    return {index(leaves_, paint, 2), textures::kLeafTileM};
   }
 
  private:
@@ -97,7 +97,7 @@ Mover make_mover(const MoverConfig& c, uint64_t seed, MoverImages& images) {
     const Eigen::AlignedBox3d box_M(Vector3d(-c.radius_m, -c.radius_m, -c.height_m),
                                     Vector3d(c.radius_m, c.radius_m, 0.0));
     mesh::add_box(box_M, Eigen::Isometry3d::Identity(), images.signal(), mesh);
-    mesh.add_tiled(mesh::bottom_panel(box_M), kSignalTile_m, Eigen::Vector2d::Zero(),
+    mesh.add_tiled(mesh::bottom_panel(box_M), kSignalTileM, Eigen::Vector2d::Zero(),
                    images.signal().texture);  // it may rise
     mover.solids.push_back(mesh::solid_of(c.name, box_M));
   }
@@ -107,7 +107,7 @@ Mover make_mover(const MoverConfig& c, uint64_t seed, MoverImages& images) {
     mesh::add_polyhedron(mesh::moved(place, mesh::ball(3)), mesh::Shading::smooth, images.signal(), mesh);
     mover.solids.push_back(mesh::ball_of(c.name, center_M, c.radius_m));
     const double pole_m = c.height_m - c.radius_m;
-    if (pole_m > 0.0) add_standing({Vector3d::Zero(), kPoleRadius_m, pole_m}, kPostSides);
+    if (pole_m > 0.0) add_standing({Vector3d::Zero(), kPoleRadiusM, pole_m}, kPostSides);
   }
   mover.mesh = mesh.finish();
   return mover;

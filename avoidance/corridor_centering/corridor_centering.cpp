@@ -92,13 +92,13 @@ class CorridorCentering final : public Module {
     m.view = std::move(view);
     m.vectors.push_back(m.view->left.count + m.view->right.count);
     m.free_s = std::numeric_limits<double>::infinity();
-    constexpr double kStanding_mps = 0.2;  // below, what lies ahead is told by noise
-    if (m.view->v_H.norm() <= kStanding_mps || m.view->approach) {
+    constexpr double kStandingMps = 0.2;  // below, what lies ahead is told by noise
+    if (m.view->v_H.norm() <= kStandingMps || m.view->approach) {
       m.dark_ns = -1;
     } else if (m.dark_ns < 0) {
       m.dark_ns = observation.t_ns;
     }
-    if (m.view->v_H.norm() > kStanding_mps) {
+    if (m.view->v_H.norm() > kStandingMps) {
       m.free_s =
           vision::corridor::free_time_s(m.view->points, m.view->v_H, m.radius_m + config_.margin_m, config_.gap.least);
       if (m.view->approach && m.view->approach->rate_per_s > 0.0) {
@@ -151,7 +151,7 @@ class CorridorCentering final : public Module {
     const NavigationState& navigation = observation.navigation;
     const double heading = heading_rad(navigation.q_WB_est);
     if (m.turn_from_rad) {
-      if (std::abs(std::remainder(heading - *m.turn_from_rad, 2.0 * M_PI)) < kTurn_rad) return turn_away();
+      if (std::abs(std::remainder(heading - *m.turn_from_rad, 2.0 * M_PI)) < kTurnRad) return turn_away();
       m.turn_from_rad.reset();
       m.known_ns = m.probing_ns = m.dark_ns = -1;  // what was known was known of another direction
       fresh = false;
@@ -223,7 +223,7 @@ class CorridorCentering final : public Module {
     return corridor_overlay(*sight_, scene);
   }
 
-  static constexpr double kTurn_rad = 25.0 * std::numbers::pi / 180.0;  ///< then what lies ahead is another thing
+  static constexpr double kTurnRad = 25.0 * std::numbers::pi / 180.0;  ///< then what lies ahead is another thing
 
   /// All that changes in flight.
   struct Memory {

@@ -50,8 +50,8 @@ class Map {
  public:
   explicit Map(int side_px) : image_(side_px, side_px, CV_8UC3, cv::Scalar(28, 30, 34)) {
     for (int meter = -4; meter <= 4; ++meter) {
-      line({-kHalf_m, meter}, {kHalf_m, meter}, cv::Scalar(48, 52, 58), 1);
-      line({meter, -kHalf_m}, {meter, kHalf_m}, cv::Scalar(48, 52, 58), 1);
+      line({-kHalfM, meter}, {kHalfM, meter}, cv::Scalar(48, 52, 58), 1);
+      line({meter, -kHalfM}, {meter, kHalfM}, cv::Scalar(48, 52, 58), 1);
     }
   }
   void dot(const Eigen::Vector2d& p_H, const cv::Scalar& color) {
@@ -68,10 +68,10 @@ class Map {
   cv::Mat& image() { return image_; }
 
  private:
-  static constexpr double kHalf_m = 4.0;
-  double scale() const { return image_.rows / (2.0 * kHalf_m); }
+  static constexpr double kHalfM = 4.0;
+  double scale() const { return image_.rows / (2.0 * kHalfM); }
   cv::Point place(const Eigen::Vector2d& p_H) const {
-    return fixed(scale() * (kHalf_m + p_H.y()), scale() * (kHalf_m - p_H.x()));
+    return fixed(scale() * (kHalfM + p_H.y()), scale() * (kHalfM - p_H.x()));
   }
   cv::Mat image_;
 };
@@ -82,16 +82,16 @@ cv::Mat map_from_above(const CorridorScene& scene, int side_px) {
     for (const vision::corridor::WallPoint& point : scene.view->points) {
       if (point.verdict == Verdict::good) map.dot(point.p_CP_H.head<2>(), kGreen);
     }
-    constexpr double kBack_m = -1.0, kFront_m = 3.0;
+    constexpr double kBackM = -1.0, kFrontM = 3.0;
     const auto wall = [&](double direction_rad, double y_m, const cv::Scalar& color, double from_m, double to_m) {
       const Eigen::Rotation2Dd turn(direction_rad);
       if (std::isfinite(y_m))
         map.line(turn * Eigen::Vector2d(from_m, y_m), turn * Eigen::Vector2d(to_m, y_m), color, 2);
     };
-    wall(scene.view->direction_rad, -scene.view->left.distance_m, kYellow, kBack_m, kFront_m);
-    wall(scene.view->direction_rad, scene.view->right.distance_m, kYellow, kBack_m, kFront_m);
-    wall(0.0, -scene.gap.left_m, cv::Scalar(240, 150, 60), 0.0, 0.5 * kFront_m);
-    wall(0.0, scene.gap.right_m, cv::Scalar(240, 150, 60), 0.0, 0.5 * kFront_m);
+    wall(scene.view->direction_rad, -scene.view->left.distance_m, kYellow, kBackM, kFrontM);
+    wall(scene.view->direction_rad, scene.view->right.distance_m, kYellow, kBackM, kFrontM);
+    wall(0.0, -scene.gap.left_m, cv::Scalar(240, 150, 60), 0.0, 0.5 * kFrontM);
+    wall(0.0, scene.gap.right_m, cv::Scalar(240, 150, 60), 0.0, 0.5 * kFrontM);
   }
   map.circle(scene.radius_m, cv::Scalar::all(230));
   if (scene.course_rad) {

@@ -3,9 +3,9 @@
 namespace hedgehop::avoidance::flow_balance {
 
 double Detour::update(double goal_distance_m, double t_s) {
-  constexpr double kProgress_m = 3.0;  // more than the position estimate wanders in a few seconds
+  constexpr double kProgressM = 3.0;  // more than the position estimate wanders in a few seconds
   if (config_.patience_s <= 0.0) return 0.0;
-  if (goal_distance_m < nearest_m_ - kProgress_m) {
+  if (goal_distance_m < nearest_m_ - kProgressM) {
     nearest_m_ = goal_distance_m;
     progress_s_ = t_s;
   }

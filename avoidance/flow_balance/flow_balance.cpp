@@ -163,8 +163,8 @@ class FlowBalance final : public Module {
             ? push_from_nearest(sense_, config_.loom_gain_m2ps + config_.flow_gain_m2ps)
             : push_from_walls(sense_, v_H, config_.loom_gain_m2ps, config_.flow_gain_m2ps, config_.divisor_floor_mps);
     Eigen::Vector2d way_H = full_H + push_H;
-    constexpr double kNoWay_mps = 1e-6;
-    if (way_H.norm() < kNoWay_mps) way_H = full_H;
+    constexpr double kNoWayMps = 1e-6;
+    if (way_H.norm() < kNoWayMps) way_H = full_H;
     const double speed_mps = v_tgt_W_.norm();
     const Eigen::Vector2d v_W = speed_mps > 0.0 ? turned(way_H.normalized() * speed_mps, heading_rad_) : v_tgt_W_;
     constexpr double kAvoidCosine = 0.966;  // 15 deg off the target
@@ -224,7 +224,7 @@ class FlowBalance final : public Module {
   /// not matter.
   double nearest_wall_per_m(size_t i, const Eigen::Vector2d& v_H, const Eigen::Vector2d& way_H,
                             bool turns_whole) const {
-    constexpr double kLeast_m = 1e-3;
+    constexpr double kLeastM = 1e-3;
     const Stopping stopping{config_.reaction_s, config_.braking_mps2};
     double nearest_per_m = 0.0;
     for (const vision::flow::SeenWall& wall : walls_) {
@@ -233,7 +233,7 @@ class FlowBalance final : public Module {
       if (way_H.dot(to_wall_H) <= 0.0) continue;
       const double closing_mps = std::max(v_H.dot(to_wall_H), way_H.dot(to_wall_H));
       const double tail_m = config_.tail_m * std::max(0.0, -to_wall_H.x());
-      const double left_m = std::max(1.0 / wall.near_per_m.norm() - tail_m, kLeast_m);
+      const double left_m = std::max(1.0 / wall.near_per_m.norm() - tail_m, kLeastM);
       const double turning_mps = turns_whole ? std::max(v_H.norm(), way_H.norm()) : closing_mps;
       const double stops_m = stopping_distance_m(closing_mps, turning_mps, stopping);
       nearest_per_m = std::max(nearest_per_m, near_once_stopped_per_m(1.0 / left_m, stops_m));

@@ -10,7 +10,7 @@ namespace hedgehop::avoidance::flow_balance {
 namespace {
 
 constexpr double kFlowScale = 6.0;  // drawn px per px of flow
-constexpr int kGap_px = 4;
+constexpr int kGapPx = 4;
 
 void draw_caption(const FlowTile& tile, cv::Mat& image) {
   const double size = std::clamp(image.cols / 800.0, 0.3, 0.6);
@@ -43,13 +43,13 @@ cv::Mat flow_overlay(std::span<const FlowTile> tiles, std::span<const CompassArr
     height = std::max(height, tile.grey.rows);
   }
   const int columns = tiles.size() > 1 ? 2 : 1, rows = static_cast<int>(tiles.size() + 1) / columns;
-  cv::Mat image(rows * (height + kGap_px) - kGap_px, columns * (width + kGap_px) - kGap_px, CV_8UC3,
+  cv::Mat image(rows * (height + kGapPx) - kGapPx, columns * (width + kGapPx) - kGapPx, CV_8UC3,
                 cv::Scalar(20, 24, 28));
   for (size_t i = 0; i < tiles.size(); ++i) {
     const FlowTile& tile = tiles[i];
     if (tile.grey.empty()) continue;
     const int row = static_cast<int>(i) / columns, col = static_cast<int>(i) % columns;
-    cv::Mat place = image({col * (width + kGap_px), row * (height + kGap_px), tile.grey.cols, tile.grey.rows});
+    cv::Mat place = image({col * (width + kGapPx), row * (height + kGapPx), tile.grey.cols, tile.grey.rows});
     cv::cvtColor(tile.grey, place, cv::COLOR_GRAY2RGB);
     vision::flow::draw_flow(*tile.field, kFlowScale, place);
     draw_caption(tile, place);

@@ -20,9 +20,9 @@ double stopping_distance_m(double closing_mps, double turning_mps, const Stoppin
 }
 
 double near_once_stopped_per_m(double near_per_m, double stopping_distance_m) {
-  constexpr double kTouching_per_m = 1e3;
+  constexpr double kTouchingPerM = 1e3;
   const double share_left = 1.0 - near_per_m * stopping_distance_m;
-  return near_per_m < kTouching_per_m * share_left ? near_per_m / share_left : kTouching_per_m;
+  return near_per_m < kTouchingPerM * share_left ? near_per_m / share_left : kTouchingPerM;
 }
 
 Eigen::Vector2d ZigZag::way_H() const {

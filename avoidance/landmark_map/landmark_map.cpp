@@ -91,7 +91,7 @@ class LandmarkMapModule final : public Module {
   /// [Shah2009] ch. 7 proposes, or by a single beam. Several times running, for one measurement may err.
   bool wall_ahead(const NavigationState& navigation) {
     const double v_mps = std::max(0.0, navigation.v_WB_B_est.x());
-    const double reaction_m = v_mps * kReaction_s + 0.5 * v_mps * v_mps / config_.braking_mps2;
+    const double reaction_m = v_mps * kReactionS + 0.5 * v_mps * v_mps / config_.braking_mps2;
     const bool near = loom_per_s_ * config_.time_to_contact_s > 1.0 ||
                       (navigation.range_m && *navigation.range_m < config_.stop_range_m + reaction_m);
     alarms_ = near ? alarms_ + 1 : 0;
@@ -105,7 +105,7 @@ class LandmarkMapModule final : public Module {
       loom_per_s_ = 0.0;
       return;
     }
-    const double share = 1.0 - std::exp(-measure->dt_s / std::max(config_.loom_time_s, kInstant_s));
+    const double share = 1.0 - std::exp(-measure->dt_s / std::max(config_.loom_time_s, kInstantS));
     loom_per_s_ += share * (measure->loom_per_s - loom_per_s_);
   }
 
@@ -113,10 +113,10 @@ class LandmarkMapModule final : public Module {
     const Eigen::Vector2d middle(config_.orbit->north_m, config_.orbit->east_m);
     const Eigen::Vector2d out = navigation.p_WB_est.head<2>() - middle;
     const double radius_m = std::max((*start_NE_ - middle).norm(), 1.0), now_m = std::max(out.norm(), 1.0);
-    constexpr double kBack_per_s = 0.2;
+    constexpr double kBackPerS = 0.2;
     VelocityCommand command;
     command.v_WB_W =
-        config_.orbit->rate_radps * Eigen::Vector2d(-out.y(), out.x()) + kBack_per_s * (radius_m - now_m) * out / now_m;
+        config_.orbit->rate_radps * Eigen::Vector2d(-out.y(), out.x()) + kBackPerS * (radius_m - now_m) * out / now_m;
     command.heading_rad = std::atan2(-out.y(), -out.x());
     command.altitude_m = -goal.p_WG.z();
     return command;
@@ -140,9 +140,9 @@ class LandmarkMapModule final : public Module {
       return std::ranges::all_of(hulls_,
                                  [&](const PlanHull& hull) { return distance_to_hull(hull, from, to) > clearance_m_; });
     };
-    constexpr double kLead_m = 6.0, kStep_m = 3.0, kOnCourse_m = 2.0;
+    constexpr double kLeadM = 6.0, kStepM = 3.0, kOnCourseM = 2.0;
     Eigen::Vector2d join = end;
-    for (double s = done_m + kLead_m; s < length_m; s += kStep_m) {
+    for (double s = done_m + kLeadM; s < length_m; s += kStepM) {
       const Eigen::Vector2d place = *start_NE_ + s * along;
       if (!free(place, end)) continue;
       join = place;
@@ -151,12 +151,12 @@ class LandmarkMapModule final : public Module {
     const auto way = way_round(hulls_, at, join, clearance_m_);
     if (!way) return {HoverCommand{}, "no_way", {}};
     way_ = *way;
-    const char* status = way_.size() > 1 ? "avoid" : off_course_m_ > kOnCourse_m ? "rejoin" : "cruise";
+    const char* status = way_.size() > 1 ? "avoid" : off_course_m_ > kOnCourseM ? "rejoin" : "cruise";
     const Eigen::Vector2d to_end = end - at;
-    constexpr double kSlow_m = 4.0;
+    constexpr double kSlowM = 4.0;
     VelocityCommand command;
     command.v_WB_W = velocity_to_goal(way_.front() - at, config_.speed_mps, 0.0);
-    if (to_end.norm() < kSlow_m) command.v_WB_W *= to_end.norm() / kSlow_m;
+    if (to_end.norm() < kSlowM) command.v_WB_W *= to_end.norm() / kSlowM;
     command.heading_rad = std::atan2(command.v_WB_W.y(), command.v_WB_W.x());
     command.altitude_m = -goal.p_WG.z();
     return {command, status, {}};
@@ -204,7 +204,7 @@ class LandmarkMapModule final : public Module {
   /// The landmarks that are known to a tenth of their distance. What one thing hides of another ends at places that
   /// wander over the world as the camera moves: they fit no point, and stay vague.
   std::vector<ChartPoint> known_points() const {
-    constexpr double kKnown_share = 0.1;
+    constexpr double kKnownShare = 0.1;
     std::vector<ChartPoint> points;
     if (!sight_) return points;
     for (const vision::landmarks::MappedLandmark& mapped : map().landmarks()) {
@@ -212,7 +212,7 @@ class LandmarkMapModule final : public Module {
       const Eigen::Vector3d p_W = vision::landmarks::position_W(mapped.landmark);
       const double distance_m = (p_W - sight_->pose().X_WC_est.translation()).norm();
       const Eigen::Matrix3d P_W = vision::landmarks::covariance_W(mapped.landmark);
-      if (greatest_variance(P_W) <= kKnown_share * kKnown_share * distance_m * distance_m) points.push_back({p_W, P_W});
+      if (greatest_variance(P_W) <= kKnownShare * kKnownShare * distance_m * distance_m) points.push_back({p_W, P_W});
     }
     return points;
   }
@@ -243,8 +243,8 @@ class LandmarkMapModule final : public Module {
     return image;
   }
 
-  static constexpr double kInstant_s = 1e-6;
-  static constexpr double kReaction_s = 0.5;  ///< until a stop takes effect: latency and the vehicle's tilt
+  static constexpr double kInstantS = 1e-6;
+  static constexpr double kReactionS = 0.5;  ///< until a stop takes effect: latency and the vehicle's tilt
 
   LandmarkMapModuleConfig config_;
   std::optional<LandmarkSight> sight_;

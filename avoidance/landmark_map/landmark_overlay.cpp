@@ -14,13 +14,13 @@ namespace {
 
 void draw_landmark(const vision::landmarks::PredictedBearing& seen, const vision::camera::PinholeCamera& camera,
                    const cv::Scalar& rgb, cv::Mat& image) {
-  constexpr double kSigmas = 3.0, kLargest_px = 4000.0;
+  constexpr double kSigmas = 3.0, kLargestPx = 4000.0;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(seen.covariance - seen.noise);
   const Eigen::Vector2d half_px =
-      (kSigmas * camera.focal_x_px * axes.eigenvalues().cwiseMax(0.0).cwiseSqrt()).cwiseMin(kLargest_px);
+      (kSigmas * camera.focal_x_px * axes.eigenvalues().cwiseMax(0.0).cwiseSqrt()).cwiseMin(kLargestPx);
   const Eigen::Vector2d at(camera.center_u_px + camera.focal_x_px * seen.bearing.x(),
                            camera.center_v_px + camera.focal_y_px * seen.bearing.y());
-  if (at.cwiseAbs().maxCoeff() > kLargest_px) return;
+  if (at.cwiseAbs().maxCoeff() > kLargestPx) return;
   const cv::Point middle(static_cast<int>(std::lround(at.x())), static_cast<int>(std::lround(at.y())));
   const Eigen::Vector2d major = axes.eigenvectors().col(1);
   const double angle_deg = std::atan2(major.y(), major.x()) * 180.0 / std::numbers::pi;

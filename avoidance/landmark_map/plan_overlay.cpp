@@ -12,19 +12,18 @@ const cv::Scalar kGreen(90, 230, 110), kRed(240, 80, 60), kGrey(150, 150, 150), 
 }  // namespace
 
 void draw_plan(const PlanView& view, cv::Mat& image) {
-  constexpr int kSide_px = 200, kMargin_px = 6;
-  constexpr double kAround_m = 12.0;
-  if (image.cols < 2 * kSide_px || image.rows < kSide_px + 2 * kMargin_px) return;
-  cv::Mat plan =
-      image(cv::Rect(image.cols - kSide_px - kMargin_px, image.rows - kSide_px - kMargin_px, kSide_px, kSide_px));
+  constexpr int kSidePx = 200, kMarginPx = 6;
+  constexpr double kAroundM = 12.0;
+  if (image.cols < 2 * kSidePx || image.rows < kSidePx + 2 * kMarginPx) return;
+  cv::Mat plan = image(cv::Rect(image.cols - kSidePx - kMarginPx, image.rows - kSidePx - kMarginPx, kSidePx, kSidePx));
   plan *= 0.25;
 
   const Eigen::Vector2d middle = 0.5 * (view.from_NE + view.to_NE);
-  const double half_m = 0.5 * (view.to_NE - view.from_NE).cwiseAbs().maxCoeff() + kAround_m;
+  const double half_m = 0.5 * (view.to_NE - view.from_NE).cwiseAbs().maxCoeff() + kAroundM;
   const auto at = [&](const Eigen::Vector2d& p_NE) {
-    const Eigen::Vector2d off = (p_NE - middle) * (0.5 * kSide_px / half_m);
+    const Eigen::Vector2d off = (p_NE - middle) * (0.5 * kSidePx / half_m);
     const auto pixel = [&](double px) {
-      return static_cast<int>(std::lround(0.5 * kSide_px + std::clamp(px, -1.0 * kSide_px, 1.0 * kSide_px)));
+      return static_cast<int>(std::lround(0.5 * kSidePx + std::clamp(px, -1.0 * kSidePx, 1.0 * kSidePx)));
     };
     return cv::Point(pixel(off.y()), pixel(-off.x()));
   };

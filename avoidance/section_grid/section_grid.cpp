@@ -18,7 +18,7 @@ namespace hedgehop::avoidance::section_grid {
 namespace {
 
 constexpr const char* kDepthRole = "depth";
-constexpr double kDepthBaseline_m = 0.25;  // of the pair that would have seen the depth that a camera knows
+constexpr double kDepthBaselineM = 0.25;  // of the pair that would have seen the depth that a camera knows
 
 void check(const SectionGridConfig& c) {
   const auto need = [](bool holds, const char* message) {
@@ -56,7 +56,7 @@ class SectionGridModule final : public Module {
     } else {
       const auto camera = std::ranges::find(setup.cameras, kDepthRole, &MountedCamera::role);
       const vision::camera::PinholeCamera lens = camera->model.pinhole();
-      camera_ = {{lens.focal_x_px, lens.center_u_px, lens.center_v_px, kDepthBaseline_m},
+      camera_ = {{lens.focal_x_px, lens.center_u_px, lens.center_v_px, kDepthBaselineM},
                  camera->X_BC,
                  {lens.width_px, lens.height_px}};
     }

@@ -93,11 +93,11 @@ Command SectionPilot::hover_and_yaw(const SectionView& view, const Goal& goal) {
 /// to one side, then to the other, each time twice as far; else it would turn back before the end of a wall. `side` <
 /// 0: the emptiest section lies to the left.
 void SectionPilot::search(double side, const NavigationState& navigation, const Goal& goal) {
-  constexpr double kFirst_m = 15.0, kProgress_m = 5.0;
+  constexpr double kFirstM = 15.0, kProgressM = 5.0;
   const Eigen::Vector2d p_WB = navigation.p_WB_est.head<2>();
   const Eigen::Vector2d way_W = goal.p_WG.head<2>() - p_WB;
-  if (!sweep_ || way_W.norm() < sweep_->goal_distance_m - kProgress_m) {
-    sweep_ = Sweep{p_WB, Eigen::Vector2d(-way_W.y(), way_W.x()).normalized(), way_W.norm(), kFirst_m};
+  if (!sweep_ || way_W.norm() < sweep_->goal_distance_m - kProgressM) {
+    sweep_ = Sweep{p_WB, Eigen::Vector2d(-way_W.y(), way_W.x()).normalized(), way_W.norm(), kFirstM};
     turn_ = side < 0.0 ? -1.0 : 1.0;
   } else if (turn_ * sweep_->right_W.dot(p_WB - sweep_->from_W) > sweep_->reach_m) {
     turn_ = -turn_;
@@ -155,8 +155,8 @@ bool SectionPilot::is_approached(const SectionView& view) {
   if (!approached) return false;
   const Eigen::Vector3d threats_B = camera_.X_BC.linear() * threats_C;
   const double bearing_rad = std::atan2(threats_B.y(), threats_B.x());
-  constexpr double kAhead_rad = 0.03;
-  if (std::abs(bearing_rad) > kAhead_rad) away_ = bearing_rad < 0.0 ? 1.0 : -1.0;
+  constexpr double kAheadRad = 0.03;
+  if (std::abs(bearing_rad) > kAheadRad) away_ = bearing_rad < 0.0 ? 1.0 : -1.0;
   watched_rad_ = heading_rad(view.navigation.q_WB_est) + bearing_rad;
   return true;
 }
@@ -206,16 +206,16 @@ Command SectionPilot::go_to(const Eigen::Vector3d& p_W, const NavigationState& n
   const Eigen::Vector3d way_W = p_W - p_WB;
   const double distance_m = way_W.head<2>().norm();
   const double now_rad = heading_rad(navigation.q_WB_est);
-  constexpr double kTooNearToFace_m = 1.0;
-  const double bearing_rad = distance_m > kTooNearToFace_m ? std::atan2(way_W.y(), way_W.x()) : now_rad;
+  constexpr double kTooNearToFaceM = 1.0;
+  const double bearing_rad = distance_m > kTooNearToFaceM ? std::atan2(way_W.y(), way_W.x()) : now_rad;
   if (std::abs(std::remainder(bearing_rad - now_rad, 2.0 * M_PI)) > config_.aligned_rad) {
     if (!held_W_) held_W_ = p_WB;
     return PositionCommand{*held_W_, bearing_rad};
   }
   held_W_.reset();
   // An autopilot told the final height would leave the straight line, which alone was found free.
-  constexpr double kLead_m = 2.0;
-  const double lead = distance_m > kLead_m ? kLead_m / distance_m : 1.0;
+  constexpr double kLeadM = 2.0;
+  const double lead = distance_m > kLeadM ? kLeadM / distance_m : 1.0;
   return PositionCommand{{p_W.x(), p_W.y(), p_WB.z() + lead * way_W.z()}, bearing_rad};
 }
 

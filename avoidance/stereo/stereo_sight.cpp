@@ -17,9 +17,9 @@ const MountedCamera& camera_of(const Setup& setup, const std::string& role) {
 vision::stereo::StereoGeometry geometry_of(const MountedCamera& left, const MountedCamera& right) {
   const vision::camera::PinholeCamera a = left.model.pinhole();
   const Eigen::Isometry3d X_LR = left.X_BC.inverse() * right.X_BC;
-  constexpr double kNoTurn = 1e-9, kNoOffset_m = 1e-6;
+  constexpr double kNoTurn = 1e-9, kNoOffsetM = 1e-6;
   const bool parallel = (X_LR.linear() - Eigen::Matrix3d::Identity()).norm() < kNoTurn;
-  const bool beside = X_LR.translation().tail<2>().norm() < kNoOffset_m && X_LR.translation().x() > 0.0;
+  const bool beside = X_LR.translation().tail<2>().norm() < kNoOffsetM && X_LR.translation().x() > 0.0;
   if (!(left.model == right.model) || !parallel || !beside || a.focal_x_px != a.focal_y_px) {
     throw std::invalid_argument("cameras '" + left.role + "' and '" + right.role +
                                 "' must be equal pinholes with square pixels, parallel, the second to the right of the "

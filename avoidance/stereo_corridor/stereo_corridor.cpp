@@ -147,8 +147,8 @@ class StereoCorridor final : public Module {
   std::optional<Target> choose(const Eigen::Vector3d& course_C, const NavigationState& navigation,
                                const std::optional<cv::Point>& followed) {
     const Eigen::Vector3d v_C = sight_->X_BC().linear().transpose() * navigation.v_WB_B_est;
-    constexpr double kStanding_mps = 0.5;
-    const bool moving = v_C.norm() > kStanding_mps;
+    constexpr double kStandingMps = 0.5;
+    const bool moving = v_C.norm() > kStandingMps;
 
     const std::optional<cv::Point> course = pixel_of(course_C);
     if (course) {
@@ -221,8 +221,8 @@ class StereoCorridor final : public Module {
   /// missed is not circled for ever. Ours.
   double speed_mps(const Observation& observation) const {
     const double goal_m = (observation.goal.p_WG - observation.navigation.p_WB_est).head<2>().norm();
-    constexpr double kSlowest_mps = 0.5;
-    return std::min(config_.speed_mps, std::max(kSlowest_mps, std::sqrt(0.5 * acceleration_mps2_ * goal_m)));
+    constexpr double kSlowestMps = 0.5;
+    return std::min(config_.speed_mps, std::max(kSlowestMps, std::sqrt(0.5 * acceleration_mps2_ * goal_m)));
   }
 
   /// Flies where it looks; [Andert2007] eq. (18) for the target in B.
@@ -238,9 +238,9 @@ class StereoCorridor final : public Module {
     command.heading_rad = std::atan2(way_W.y(), way_W.x());
     command.altitude_m = -observation.goal.p_WG.z();
     if (target_->how != How::course) {
-      constexpr double kLead_s = 2.0;  // the height that the ray to the target has after this time
+      constexpr double kLeadS = 2.0;  // the height that the ray to the target has after this time
       const double slope = p_BT_W.z() / way_W.norm();
-      command.altitude_m = -(navigation.p_WB_est.z() + kLead_s * config_.speed_mps * slope);
+      command.altitude_m = -(navigation.p_WB_est.z() + kLeadS * config_.speed_mps * slope);
     }
     command.altitude_m = std::max(command.altitude_m, config_.lowest_m);
     return command;

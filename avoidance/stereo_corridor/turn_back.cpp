@@ -7,15 +7,15 @@ namespace hedgehop::avoidance::stereo_corridor {
 
 bool TurnBack::update(const Eigen::Vector3d& p_CG_C) {
   constexpr double kAhead = 0.2;  // of a radian, so that most of the image lies round the goal
-  constexpr double kNearer_m = 3.0;
-  constexpr double kWander_m = 0.3;  // of a position estimate while a goal is passed
+  constexpr double kNearerM = 3.0;
+  constexpr double kWanderM = 0.3;  // of a position estimate while a goal is passed
   const double distance_m = std::hypot(p_CG_C.x(), p_CG_C.z());
   nearest_m_ = std::min(nearest_m_, distance_m);
-  if (distance_m < nearest_ever_m_ - kNearer_m) {
+  if (distance_m < nearest_ever_m_ - kNearerM) {
     nearest_ever_m_ = distance_m;
-    may_pass_m_ = kMayPass_m;
+    may_pass_m_ = kMayPassM;
   }
-  const bool recedes = distance_m > nearest_m_ + kWander_m;
+  const bool recedes = distance_m > nearest_m_ + kWanderM;
   if (!turning_ && recedes && -p_CG_C.z() > may_pass_m_) {
     turning_ = true;
     may_pass_m_ *= 2.0;

@@ -14,8 +14,8 @@ class TurnBack {
   bool update(const Eigen::Vector3d& p_CG_C);
 
  private:
-  static constexpr double kMayPass_m = 1.0;
-  double may_pass_m_ = kMayPass_m;
+  static constexpr double kMayPassM = 1.0;
+  double may_pass_m_ = kMayPassM;
   double nearest_m_ = std::numeric_limits<double>::infinity();  ///< to the goal, since the last turn
   double nearest_ever_m_ = std::numeric_limits<double>::infinity();
   bool turning_ = false;

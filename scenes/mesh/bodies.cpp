@@ -110,9 +110,9 @@ void add_box(const Eigen::AlignedBox3d& box_S, const Eigen::Isometry3d& X_WS, co
   };
   for (const Panel& panel : side_panels(box_S)) add(panel);
   add(top_panel(box_S));
-  constexpr double kOnGround_m = 1e-6;
+  constexpr double kOnGroundM = 1e-6;
   const Eigen::Vector3d foot_S(box_S.center().x(), box_S.center().y(), box_S.max().z());
-  if ((X_WS * foot_S).z() < -kOnGround_m) add(bottom_panel(box_S));
+  if ((X_WS * foot_S).z() < -kOnGroundM) add(bottom_panel(box_S));
 }
 
 Solid solid_of(const std::string& name, const Post& post) {

@@ -40,9 +40,9 @@ Panel part(const Panel& wall, double left, double right, double top_m, double bo
 // Storeys of a box, the same on its four walls.
 struct Elevation {
   int style = 0;
-  double cornice_m = textures::kCornice_m;  // height at the top
-  double shop_m = 0.0;                      // height at the foot, 0: no shops
-  int first_floor = 0;                      // within the image
+  double cornice_m = textures::kCorniceM;  // height at the top
+  double shop_m = 0.0;                     // height at the foot, 0: no shops
+  int first_floor = 0;                     // within the image
 };
 
 void add_wall(const Panel& wall, const Elevation& elevation, const textures::CityTextures& city, Random& random,
@@ -56,11 +56,11 @@ void add_wall(const Panel& wall, const Elevation& elevation, const textures::Cit
   const auto rows = spans(floors, elevation.first_floor, style.floors);
 
   // Whole shops across the wall.
-  const double shops = std::max(1.0, std::round(width * textures::kShopBays / textures::kTrimTile_m));
+  const double shops = std::max(1.0, std::round(width * textures::kShopBays / textures::kTrimTileM));
   const double shop_u = static_cast<double>(uniform_index(random, textures::kShopBays)) / textures::kShopBays;
-  const double shop_v = uniform_index(random, textures::kShopStrips) * textures::kShop_m / textures::kTrimTile_m;
+  const double shop_v = uniform_index(random, textures::kShopStrips) * textures::kShopM / textures::kTrimTileM;
   const uint32_t trim = city.trims[static_cast<size_t>(uniform_index(random, 2))];
-  const double cornice_v = textures::kShopStrips * textures::kShop_m / textures::kTrimTile_m;
+  const double cornice_v = textures::kShopStrips * textures::kShopM / textures::kTrimTileM;
 
   int first_variant = uniform_index(random, textures::CityTextures::kFacadeVariants);
   for (const Span& column : columns) {
@@ -76,15 +76,14 @@ void add_wall(const Panel& wall, const Elevation& elevation, const textures::Cit
       mesh.add(panel, area, city.facade(elevation.style, variant++ % textures::CityTextures::kFacadeVariants));
     }
     if (elevation.cornice_m > 0.0) {
-      mesh.add(
-          part(wall, column.start, column.end, 0.0, floors_top),
-          {column.start * width / textures::kTrimTile_m, cornice_v, column.end * width / textures::kTrimTile_m, 1.0},
-          trim);
+      mesh.add(part(wall, column.start, column.end, 0.0, floors_top),
+               {column.start * width / textures::kTrimTileM, cornice_v, column.end * width / textures::kTrimTileM, 1.0},
+               trim);
     }
     if (elevation.shop_m > 0.0) {
       mesh.add(part(wall, column.start, column.end, floors_bottom, height),
                {shop_u + column.start * shops / textures::kShopBays, shop_v,
-                shop_u + column.end * shops / textures::kShopBays, shop_v + textures::kShop_m / textures::kTrimTile_m},
+                shop_u + column.end * shops / textures::kShopBays, shop_v + textures::kShopM / textures::kTrimTileM},
                trim);
     }
   }
@@ -94,7 +93,7 @@ void add_wall(const Panel& wall, const Elevation& elevation, const textures::Cit
 
 void add_building(const worlds::Building& building, const textures::CityTextures& city, Random& random,
                   MeshBuilder& mesh) {
-  constexpr double kSmallestStorey_m = 2.0;
+  constexpr double kSmallestStoreyM = 2.0;
   const int style = uniform_index(random, static_cast<int>(textures::facade_styles().size()));
   for (size_t k = 0; k < building.boxes_W.size(); ++k) {
     const Eigen::AlignedBox3d& box_W = building.boxes_W[k];
@@ -102,18 +101,18 @@ void add_building(const worlds::Building& building, const textures::CityTextures
     const uint32_t roof = city.roofs[static_cast<size_t>(uniform_index(random, 2))];
     const Eigen::Vector2d roof_shift(uniform(random, 0.0, 1.0), uniform(random, 0.0, 1.0));
     mesh.begin_chunk(true);
-    mesh.add_tiled(top_panel(box_W), textures::kRoofTile_m, roof_shift, roof);
+    mesh.add_tiled(top_panel(box_W), textures::kRoofTileM, roof_shift, roof);
     if (housing) {
-      for (const Panel& wall : side_panels(box_W)) mesh.add_tiled(wall, textures::kRoofTile_m, roof_shift, roof);
+      for (const Panel& wall : side_panels(box_W)) mesh.add_tiled(wall, textures::kRoofTileM, roof_shift, roof);
       continue;
     }
     Elevation elevation;
     elevation.style = style;
     elevation.first_floor = uniform_index(random, textures::facade_styles()[static_cast<size_t>(style)].floors);
     const double height = box_W.sizes().z();
-    if (height < textures::kCornice_m + kSmallestStorey_m) elevation.cornice_m = 0.0;
-    if (k == 0 && height > textures::kShop_m + textures::kCornice_m + kSmallestStorey_m)
-      elevation.shop_m = textures::kShop_m;
+    if (height < textures::kCorniceM + kSmallestStoreyM) elevation.cornice_m = 0.0;
+    if (k == 0 && height > textures::kShopM + textures::kCorniceM + kSmallestStoreyM)
+      elevation.shop_m = textures::kShopM;
     for (const Panel& wall : side_panels(box_W)) add_wall(wall, elevation, city, random, mesh);
   }
 }

@@ -4,12 +4,12 @@ namespace hedgehop::scenes::mesh {
 namespace {
 
 // Seen from 40 m up, the edge of the ground lies a fifth of a degree below the horizon.
-constexpr double kFar_m = 12000.0;
+constexpr double kFarM = 12000.0;
 
 // Adds lines outside of those given, ever farther apart.
 void reach_out(std::vector<double>& lines_m) {
-  while (lines_m.back() < kFar_m) lines_m.push_back(lines_m.back() + 0.5 * (lines_m.back() - lines_m.front()));
-  while (lines_m.front() > -kFar_m)
+  while (lines_m.back() < kFarM) lines_m.push_back(lines_m.back() + 0.5 * (lines_m.back() - lines_m.front()));
+  while (lines_m.front() > -kFarM)
     lines_m.insert(lines_m.begin(), lines_m.front() - 0.5 * (lines_m.back() - lines_m.front()));
 }
 

@@ -138,8 +138,8 @@ void paint_wall(Canvas& canvas, const FacadeStyle& style, Random& random) {
   if (style.floor_bands) {
     for (int k = 0; k < style.floors; ++k) {
       const double y = k * style.floor_m();
-      canvas.fill({0.0, y - 0.15, FacadeStyle::kTile_m, 0.25}, style.trim_color, 0.9);
-      canvas.fade({0.0, y + 0.10, FacadeStyle::kTile_m, 0.15}, kShadow, 0.5, 0.0);
+      canvas.fill({0.0, y - 0.15, FacadeStyle::kTileM, 0.25}, style.trim_color, 0.9);
+      canvas.fade({0.0, y + 0.10, FacadeStyle::kTileM, 0.15}, kShadow, 0.5, 0.0);
     }
   }
 }
@@ -170,7 +170,7 @@ const std::vector<FacadeStyle>& facade_styles() {
 std::vector<cv::Mat> paint_facades(const FacadeStyle& style, int size_px, int variants, uint64_t seed) {
   Random wall_random(derived_seed(seed, 0));
   const Color wall_color = varied(style.wall_color, 0.06, wall_random);
-  Canvas wall(size_px, FacadeStyle::kTile_m, wall_color);
+  Canvas wall(size_px, FacadeStyle::kTileM, wall_color);
   paint_wall(wall, style, wall_random);
   weather_wall(wall, wall_random);
   const cv::Mat1f grain = fractal_noise(size_px, {32, 32, 5, 0.9}, wall_random);

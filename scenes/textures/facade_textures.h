@@ -24,9 +24,9 @@ struct FacadeStyle {
   double balcony_share = 0.0;
   bool floor_bands = false;
 
-  static constexpr double kTile_m = 12.0;
-  double bay_m() const { return kTile_m / bays; }
-  double floor_m() const { return kTile_m / floors; }
+  static constexpr double kTileM = 12.0;
+  double bay_m() const { return kTileM / bays; }
+  double floor_m() const { return kTileM / floors; }
 };
 
 /// The kinds of walls that a city draws from.

@@ -28,7 +28,7 @@ LeafStyle style_of(Leaves leaves) {
 cv::Mat paint_leaves(Leaves leaves, int size_px, uint64_t seed) {
   Random random(seed);
   const LeafStyle style = style_of(leaves);
-  const double tile = kLeafTile_m;
+  const double tile = kLeafTileM;
   Canvas canvas(size_px, tile, style.shade);
 
   // From the depth of the crown to its surface, ever lighter; each leaf on its own shadow.
@@ -48,7 +48,7 @@ cv::Mat paint_leaves(Leaves leaves, int size_px, uint64_t seed) {
 
 cv::Mat paint_bark(int size_px, uint64_t seed) {
   Random random(seed);
-  const double tile = kBarkTile_m;
+  const double tile = kBarkTileM;
   const Color bark{0.36f, 0.29f, 0.22f}, furrow{0.10f, 0.08f, 0.06f};
   Canvas canvas(size_px, tile, bark);
   canvas.shade(fractal_noise(size_px, {24, 4, 5, 0.85}, random), 0.30);

@@ -6,8 +6,8 @@
 namespace hedgehop::scenes::textures {
 
 /// Images of plants, CV_8UC3, each a function of its arguments.
-inline constexpr double kLeafTile_m = 3.0;
-inline constexpr double kBarkTile_m = 1.5;
+inline constexpr double kLeafTileM = 3.0;
+inline constexpr double kBarkTileM = 1.5;
 
 enum class Leaves { broad, needles, autumn };
 /// Foliage as a closed surface: thousands of leaves in layers, the lower ones in shadow.

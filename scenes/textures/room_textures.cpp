@@ -113,7 +113,7 @@ void paint_wood(Canvas& canvas, Random& random) {
 
 std::vector<cv::Mat> paint_room_walls(WallPaper paper, int size_px, int variants, uint64_t seed) {
   Random paper_random(derived_seed(seed, 0));
-  Canvas wall(size_px, kRoomTile_m, kCream);
+  Canvas wall(size_px, kRoomTileM, kCream);
   paint_paper(wall, paper, paper_random);
   paint_skirting(wall);
   const cv::Mat1f grain = fractal_noise(size_px, {48, 48, 4, 1.0}, paper_random);
@@ -144,16 +144,16 @@ std::vector<cv::Mat> paint_room_walls(WallPaper paper, int size_px, int variants
 
 cv::Mat paint_parquet(int size_px, uint64_t seed) {
   Random random(seed);
-  Canvas canvas(size_px, kRoomTile_m, kWood);
+  Canvas canvas(size_px, kRoomTileM, kWood);
   paint_masonry(canvas, {32, 4, 0.008, 0.30, 0.0}, kWood, scaled(kWood, 0.3), random);
   for (int k = 0; k < 32; ++k) {  // each row of planks ends elsewhere
     const double x = 0.125 * k;
     for (int end = 0; end < 3; ++end) {
-      const double y = uniform(random, 0.0, kRoomTile_m);
+      const double y = uniform(random, 0.0, kRoomTileM);
       canvas.fill({x, y, 0.125, uniform(random, 0.3, 1.2)}, varied(kWood, 0.35, random), 0.8);
       canvas.fill({x, y, 0.125, 0.01}, kDark, 0.8);
     }
-    canvas.fill({x, 0.0, 0.008, kRoomTile_m}, kDark, 0.7);
+    canvas.fill({x, 0.0, 0.008, kRoomTileM}, kDark, 0.7);
   }
   canvas.shade(fractal_noise(size_px, {64, 4, 4, 0.85}, random), 0.12);
   canvas.shade(fractal_noise(size_px, {3, 3, 8, 0.75}, random), 0.09);
@@ -165,7 +165,7 @@ cv::Mat paint_parquet(int size_px, uint64_t seed) {
 
 cv::Mat paint_carpet(int size_px, uint64_t seed) {
   Random random(seed);
-  Canvas canvas(size_px, kRoomTile_m, {0.36f, 0.37f, 0.42f});
+  Canvas canvas(size_px, kRoomTileM, {0.36f, 0.37f, 0.42f});
   paint_masonry(canvas, {8, 8, 0.012, 0.22, 0.0}, {0.36f, 0.37f, 0.42f}, {0.18f, 0.18f, 0.22f}, random);
   for (int k = 0; k < 260; ++k) {
     canvas.fill({uniform(random, 0.0, 4.0), uniform(random, 0.0, 4.0), uniform(random, 0.02, 0.14),
@@ -178,7 +178,7 @@ cv::Mat paint_carpet(int size_px, uint64_t seed) {
 
 cv::Mat paint_ceiling(int size_px, uint64_t seed) {
   Random random(seed);
-  Canvas canvas(size_px, kRoomTile_m, kCream);
+  Canvas canvas(size_px, kRoomTileM, kCream);
   paint_masonry(canvas, {8, 8, 0.03, 0.06, 0.0}, {0.84f, 0.84f, 0.81f}, {0.50f, 0.50f, 0.50f}, random);
   for (int k = 0; k < 2200; ++k) {
     canvas.disc(uniform(random, 0.0, 4.0), uniform(random, 0.0, 4.0), uniform(random, 0.006, 0.018),
@@ -193,10 +193,10 @@ cv::Mat paint_ceiling(int size_px, uint64_t seed) {
 
 cv::Mat paint_shelves(int size_px, uint64_t seed) {
   Random random(seed);
-  Canvas canvas(size_px, kRoomTile_m, scaled(kWood, 0.35));
-  constexpr double kShelf_m = 0.4;
-  for (double shelf = kShelf_m; shelf < kRoomTile_m + 0.01; shelf += kShelf_m) {
-    for (double x = 0.0; x < kRoomTile_m;) {
+  Canvas canvas(size_px, kRoomTileM, scaled(kWood, 0.35));
+  constexpr double kShelfM = 0.4;
+  for (double shelf = kShelfM; shelf < kRoomTileM + 0.01; shelf += kShelfM) {
+    for (double x = 0.0; x < kRoomTileM;) {
       const double width = uniform(random, 0.025, 0.085), height = uniform(random, 0.20, 0.34);
       if (!chance(random, 0.08)) {
         const Color spine = vivid(random);
@@ -205,17 +205,17 @@ cv::Mat paint_shelves(int size_px, uint64_t seed) {
       }
       x += width;
     }
-    canvas.fill({0.0, shelf - 0.03, kRoomTile_m, 0.03}, kWood);
-    canvas.fade({0.0, shelf, kRoomTile_m, 0.12}, kDark, 0.6, 0.0);
+    canvas.fill({0.0, shelf - 0.03, kRoomTileM, 0.03}, kWood);
+    canvas.fade({0.0, shelf, kRoomTileM, 0.12}, kDark, 0.6, 0.0);
   }
-  for (double x = 0.0; x < kRoomTile_m; x += 1.0) canvas.fill({x, 0.0, 0.035, kRoomTile_m}, kWood);
+  for (double x = 0.0; x < kRoomTileM; x += 1.0) canvas.fill({x, 0.0, 0.035, kRoomTileM}, kWood);
   canvas.shade(fractal_noise(size_px, {4, 4, 8, 0.8}, random), 0.07);
   return canvas.finished();
 }
 
 cv::Mat paint_drawers(int size_px, uint64_t seed) {
   Random random(seed);
-  Canvas canvas(size_px, kRoomTile_m, kWood);
+  Canvas canvas(size_px, kRoomTileM, kWood);
   paint_wood(canvas, random);
   for (int row = 0; row < 10; ++row) {
     for (int column = 0; column < 5; ++column) {

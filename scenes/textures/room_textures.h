@@ -6,8 +6,8 @@
 
 namespace hedgehop::scenes::textures {
 
-/// Images of a room's surfaces, CV_8UC3, kRoomTile_m a side, each a function of its arguments.
-inline constexpr double kRoomTile_m = 4.0;
+/// Images of a room's surfaces, CV_8UC3, kRoomTileM a side, each a function of its arguments.
+inline constexpr double kRoomTileM = 4.0;
 
 enum class WallPaper { stripes, brick, damask, plaster };
 

@@ -9,7 +9,7 @@ namespace hedgehop::scenes::textures {
 
 cv::Mat paint_rock(int size_px, uint64_t seed) {
   Random random(seed);
-  const double tile = kRockTile_m;
+  const double tile = kRockTileM;
   Canvas canvas(size_px, tile, {0.50f, 0.48f, 0.45f});
   canvas.shade(fractal_noise(size_px, {3, 3, 8, 0.8}, random), 0.22);
   canvas.stain(fractal_noise(size_px, {5, 9, 6, 0.75}, random), 0.6, 0.8, {0.22f, 0.20f, 0.19f}, 0.7);
@@ -23,7 +23,7 @@ cv::Mat paint_rock(int size_px, uint64_t seed) {
 
 cv::Mat paint_asphalt_road(int size_px, uint64_t seed) {
   Random random(seed);
-  const double tile = kAsphaltTile_m;
+  const double tile = kAsphaltTileM;
   const Color asphalt{0.37f, 0.37f, 0.38f}, dark{0.12f, 0.12f, 0.12f};
   Canvas canvas(size_px, tile, asphalt);
   canvas.shade(fractal_noise(size_px, {6, 6, 8, 0.85}, random), 0.14);
@@ -41,7 +41,7 @@ cv::Mat paint_asphalt_road(int size_px, uint64_t seed) {
 
 cv::Mat paint_brick_wall(int size_px, uint64_t seed) {
   Random random(seed);
-  Canvas canvas(size_px, kWallTile_m, {0.55f, 0.28f, 0.21f});
+  Canvas canvas(size_px, kWallTileM, {0.55f, 0.28f, 0.21f});
   paint_masonry(canvas, {16, 48, 0.012, 0.30}, {0.58f, 0.29f, 0.21f}, {0.72f, 0.69f, 0.64f}, random);
   canvas.shade(fractal_noise(size_px, {3, 3, 8, 0.75}, random), 0.12);
   canvas.stain(fractal_noise(size_px, {24, 3, 4, 0.7}, random), 0.8, 1.5, {0.16f, 0.14f, 0.12f}, 0.4);
@@ -50,7 +50,7 @@ cv::Mat paint_brick_wall(int size_px, uint64_t seed) {
 
 cv::Mat paint_clouded_wall(int size_px, uint64_t seed) {
   Random random(seed);
-  Canvas canvas(size_px, kWallTile_m, {0.55f, 0.54f, 0.52f});
+  Canvas canvas(size_px, kWallTileM, {0.55f, 0.54f, 0.52f});
   canvas.shade(fractal_noise(size_px, {4, 4, 2, 0.4}, random), 0.22);
   return canvas.finished();
 }

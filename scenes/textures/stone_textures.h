@@ -6,9 +6,9 @@
 namespace hedgehop::scenes::textures {
 
 /// Images of stone, walls and roads, CV_8UC3, each a function of its arguments.
-inline constexpr double kRockTile_m = 2.0;
-inline constexpr double kAsphaltTile_m = 8.0;
-inline constexpr double kWallTile_m = 4.0;
+inline constexpr double kRockTileM = 2.0;
+inline constexpr double kAsphaltTileM = 8.0;
+inline constexpr double kWallTileM = 4.0;
 
 cv::Mat paint_rock(int size_px, uint64_t seed);
 cv::Mat paint_asphalt_road(int size_px, uint64_t seed);  ///< without lines

@@ -14,8 +14,8 @@ const Color kDark{0.10f, 0.10f, 0.10f};
 const Color kGrass{0.33f, 0.42f, 0.20f};
 const Color kLeaf{0.18f, 0.30f, 0.10f};
 
-constexpr double kPavement_m = 1.4;
-constexpr double kKerb_m = 0.14;
+constexpr double kPavementM = 1.4;
+constexpr double kKerbM = 0.14;
 
 // Worn asphalt: mottled, patched, cracked, spotted with oil.
 void paint_asphalt(Canvas& canvas, Random& random) {
@@ -83,22 +83,22 @@ void paint_lawn(Canvas& canvas, Random& random) {
 
 cv::Mat paint_street(int size_px, uint64_t seed) {
   Random random(seed);
-  const double tile = kStreetTile_m;
+  const double tile = kStreetTileM;
   Canvas canvas(size_px, tile, kAsphalt);
   paint_asphalt(canvas, random);
 
   // Wheel tracks, then paint worn through by the asphalt's grain.
   for (double x : {2.2, 3.2, 4.5, 5.5}) canvas.fill({x, 0.0, 0.4, tile}, kDark, 0.18);
   for (double y : {0.5, 4.5}) canvas.fill({0.5 * tile - 0.07, y, 0.14, 2.2}, kPaint, 0.85);
-  for (double x : {kPavement_m + 0.30, tile - kPavement_m - 0.42}) canvas.fill({x, 0.0, 0.12, tile}, kPaint, 0.7);
+  for (double x : {kPavementM + 0.30, tile - kPavementM - 0.42}) canvas.fill({x, 0.0, 0.12, tile}, kPaint, 0.7);
   paint_manhole(canvas, uniform(random, 2.3, 3.4), uniform(random, 1.0, 7.0));
   if (chance(random, 0.6)) paint_manhole(canvas, uniform(random, 4.7, 5.6), uniform(random, 1.0, 7.0));
 
-  for (double left : {0.0, tile - kPavement_m}) {
-    paint_slabs(canvas, {left, 0.0, kPavement_m, tile}, 0.5, random);
-    const double kerb = left == 0.0 ? kPavement_m - kKerb_m : left;
-    canvas.fill({kerb, 0.0, kKerb_m, tile}, kKerb);
-    for (double y = 0.0; y < tile; y += 1.0) canvas.fill({kerb, y, kKerb_m, 0.04}, kDark, 0.6);
+  for (double left : {0.0, tile - kPavementM}) {
+    paint_slabs(canvas, {left, 0.0, kPavementM, tile}, 0.5, random);
+    const double kerb = left == 0.0 ? kPavementM - kKerbM : left;
+    canvas.fill({kerb, 0.0, kKerbM, tile}, kKerb);
+    for (double y = 0.0; y < tile; y += 1.0) canvas.fill({kerb, y, kKerbM, 0.04}, kDark, 0.6);
   }
   finish_ground(canvas, random);
   return canvas.finished();
@@ -106,18 +106,18 @@ cv::Mat paint_street(int size_px, uint64_t seed) {
 
 cv::Mat paint_crossing(int size_px, uint64_t seed) {
   Random random(seed);
-  const double tile = kStreetTile_m, far = tile - kPavement_m;
+  const double tile = kStreetTileM, far = tile - kPavementM;
   Canvas canvas(size_px, tile, kAsphalt);
   paint_asphalt(canvas, random);
-  for (double x = kPavement_m + 0.35; x < far - 0.5; x += 0.9) {
+  for (double x = kPavementM + 0.35; x < far - 0.5; x += 0.9) {
     for (double y : {0.15, tile - 1.35}) canvas.fill({x, y, 0.5, 1.2}, kPaint, 0.85);
     for (double y : {0.15, tile - 1.35}) canvas.fill({y, x, 1.2, 0.5}, kPaint, 0.85);
   }
   for (double left : {0.0, far}) {
     for (double top : {0.0, far}) {
-      canvas.fill({left, top, kPavement_m, kPavement_m}, kKerb);
-      const double inset_x = left == 0.0 ? 0.0 : kKerb_m, inset_y = top == 0.0 ? 0.0 : kKerb_m;
-      paint_slabs(canvas, {left + inset_x, top + inset_y, kPavement_m - kKerb_m, kPavement_m - kKerb_m}, 0.42, random);
+      canvas.fill({left, top, kPavementM, kPavementM}, kKerb);
+      const double inset_x = left == 0.0 ? 0.0 : kKerbM, inset_y = top == 0.0 ? 0.0 : kKerbM;
+      paint_slabs(canvas, {left + inset_x, top + inset_y, kPavementM - kKerbM, kPavementM - kKerbM}, 0.42, random);
     }
   }
   paint_manhole(canvas, uniform(random, 3.0, 5.0), uniform(random, 3.0, 5.0));
@@ -127,7 +127,7 @@ cv::Mat paint_crossing(int size_px, uint64_t seed) {
 
 cv::Mat paint_paved_lot(int size_px, uint64_t seed) {
   Random random(seed);
-  const double tile = kLotTile_m;
+  const double tile = kLotTileM;
   Canvas canvas(size_px, tile, kSlab);
   paint_masonry(canvas, {16, 16, 0.03, 0.18, 0.5}, kSlab, scaled(kSlab, 0.5), random);
   for (double x : {0.0, 4.0}) canvas.fill({x, 0.0, 0.5, tile}, {0.42f, 0.26f, 0.20f}, 0.8);
@@ -145,7 +145,7 @@ cv::Mat paint_paved_lot(int size_px, uint64_t seed) {
 
 cv::Mat paint_parking_lot(int size_px, uint64_t seed) {
   Random random(seed);
-  const double tile = kLotTile_m;
+  const double tile = kLotTileM;
   Canvas canvas(size_px, tile, varied(kAsphalt, 0.1, random));
   paint_asphalt(canvas, random);
   paint_asphalt(canvas, random);
@@ -157,7 +157,7 @@ cv::Mat paint_parking_lot(int size_px, uint64_t seed) {
 
 cv::Mat paint_garden_lot(int size_px, uint64_t seed) {
   Random random(seed);
-  const double tile = kLotTile_m;
+  const double tile = kLotTileM;
   Canvas canvas(size_px, tile, kGrass);
   paint_lawn(canvas, random);
   paint_slabs(canvas, {3.4, 0.0, 1.0, tile}, 0.5, random);
@@ -169,18 +169,17 @@ cv::Mat paint_garden_lot(int size_px, uint64_t seed) {
 
 cv::Mat paint_grass(int size_px, uint64_t seed) {
   Random random(seed);
-  Canvas canvas(size_px, kGrassTile_m, kGrass);
+  Canvas canvas(size_px, kGrassTileM, kGrass);
   paint_lawn(canvas, random);
-  paint_bushes(canvas, {0.0, 0.0, kGrassTile_m, kGrassTile_m}, 120, random);
+  paint_bushes(canvas, {0.0, 0.0, kGrassTileM, kGrassTileM}, 120, random);
   return canvas.finished();
 }
 
 cv::Mat paint_field(int size_px, uint64_t seed) {
   Random random(seed);
-  Canvas canvas(size_px, kGrassTile_m, {0.60f, 0.52f, 0.28f});
-  for (double x = 0.0; x < kGrassTile_m; x += 0.5)
-    canvas.fill({x, 0.0, 0.16, kGrassTile_m}, {0.36f, 0.31f, 0.16f}, 0.6);
-  for (double x : {3.9, 11.9}) canvas.fill({x, 0.0, 0.7, kGrassTile_m}, {0.40f, 0.31f, 0.20f}, 0.8);
+  Canvas canvas(size_px, kGrassTileM, {0.60f, 0.52f, 0.28f});
+  for (double x = 0.0; x < kGrassTileM; x += 0.5) canvas.fill({x, 0.0, 0.16, kGrassTileM}, {0.36f, 0.31f, 0.16f}, 0.6);
+  for (double x : {3.9, 11.9}) canvas.fill({x, 0.0, 0.7, kGrassTileM}, {0.40f, 0.31f, 0.20f}, 0.8);
   canvas.shade(fractal_noise(size_px, {64, 16, 5, 0.9}, random), 0.14);
   canvas.stain(fractal_noise(size_px, {4, 4, 8, 0.75}, random), 0.6, 1.2, {0.40f, 0.42f, 0.18f}, 0.7);
   canvas.shade(fractal_noise(size_px, {3, 3, 9, 0.85}, random), 0.12);
@@ -189,7 +188,7 @@ cv::Mat paint_field(int size_px, uint64_t seed) {
 
 cv::Mat paint_roof(RoofCover cover, int size_px, uint64_t seed) {
   Random random(seed);
-  const double tile = kRoofTile_m;
+  const double tile = kRoofTileM;
   Canvas canvas(size_px, tile, cover == RoofCover::felt ? Color{0.40f, 0.40f, 0.41f} : Color{0.64f, 0.60f, 0.54f});
   if (cover == RoofCover::felt) {
     for (double y = 0.0; y < tile; y += 1.0) canvas.fill({0.0, y, tile, 0.05}, kDark, 0.5);

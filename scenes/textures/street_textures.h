@@ -6,10 +6,10 @@
 namespace hedgehop::scenes::textures {
 
 /// Images of the city's ground and roofs, CV_8UC3. Each is a function of its arguments.
-inline constexpr double kStreetTile_m = 8.0;  ///< also the width that a street's image is painted for
-inline constexpr double kLotTile_m = 8.0;
-inline constexpr double kGrassTile_m = 16.0;
-inline constexpr double kRoofTile_m = 12.0;
+inline constexpr double kStreetTileM = 8.0;  ///< also the width that a street's image is painted for
+inline constexpr double kLotTileM = 8.0;
+inline constexpr double kGrassTileM = 16.0;
+inline constexpr double kRoofTileM = 12.0;
 
 /// A street that runs up the image: pavement, kerb, lane, dashed line, lane, kerb, pavement.
 cv::Mat paint_street(int size_px, uint64_t seed);
@@ -21,17 +21,17 @@ cv::Mat paint_paved_lot(int size_px, uint64_t seed);
 cv::Mat paint_parking_lot(int size_px, uint64_t seed);
 cv::Mat paint_garden_lot(int size_px, uint64_t seed);
 cv::Mat paint_grass(int size_px, uint64_t seed);
-cv::Mat paint_field(int size_px, uint64_t seed);  ///< rows of ripe crop, kGrassTile_m a side
+cv::Mat paint_field(int size_px, uint64_t seed);  ///< rows of ripe crop, kGrassTileM a side
 
 enum class RoofCover { felt, gravel };
 cv::Mat paint_roof(RoofCover cover, int size_px, uint64_t seed);
 
 /// Strips for the foot and the top of buildings, one above the other and tileable sideways: kShopStrips strips of shop
-/// fronts, kShop_m high, then a cornice of kCornice_m.
-inline constexpr double kTrimTile_m = 12.0;
+/// fronts, kShopM high, then a cornice of kCorniceM.
+inline constexpr double kTrimTileM = 12.0;
 inline constexpr int kShopStrips = 3;
-inline constexpr double kShop_m = 3.75;
-inline constexpr double kCornice_m = 0.75;
+inline constexpr double kShopM = 3.75;
+inline constexpr double kCorniceM = 0.75;
 inline constexpr int kShopBays = 3;  ///< across the image
 cv::Mat paint_trim(int size_px, uint64_t seed);
 

@@ -94,30 +94,30 @@ void paint_shop(Canvas& canvas, const Area& bay, Random& random) {
 
 cv::Mat paint_trim(int size_px, uint64_t seed) {
   Random random(seed);
-  Canvas canvas(size_px, kTrimTile_m, varied(kStone, 0.12, random));
+  Canvas canvas(size_px, kTrimTileM, varied(kStone, 0.12, random));
   canvas.shade(fractal_noise(size_px, {4, 4, 8, 0.75}, random), 0.10);
   canvas.stain(fractal_noise(size_px, {48, 4, 4, 0.7}, random), 0.5, 2.0, {0.14f, 0.12f, 0.11f}, 0.5);
 
   // Shops: plinth, joints of the pillars, then what stands between them.
   for (int strip = 0; strip < kShopStrips; ++strip) {
-    const double top = strip * kShop_m;
-    canvas.fill({0.0, top + kShop_m - 0.45, kTrimTile_m, 0.45}, {0.28f, 0.27f, 0.26f}, 0.75);
-    for (double y = top + 0.5; y < top + kShop_m; y += 0.5) canvas.fill({0.0, y, kTrimTile_m, 0.03}, kDark, 0.5);
-    canvas.fill({0.0, top, kTrimTile_m, 0.18}, {0.76f, 0.74f, 0.68f});
-    canvas.fade({0.0, top + 0.18, kTrimTile_m, 0.12}, kDark, 0.5, 0.0);
-    const double bay = kTrimTile_m / kShopBays;
-    for (int k = 0; k < kShopBays; ++k) paint_shop(canvas, {k * bay, top, bay, kShop_m}, random);
+    const double top = strip * kShopM;
+    canvas.fill({0.0, top + kShopM - 0.45, kTrimTileM, 0.45}, {0.28f, 0.27f, 0.26f}, 0.75);
+    for (double y = top + 0.5; y < top + kShopM; y += 0.5) canvas.fill({0.0, y, kTrimTileM, 0.03}, kDark, 0.5);
+    canvas.fill({0.0, top, kTrimTileM, 0.18}, {0.76f, 0.74f, 0.68f});
+    canvas.fade({0.0, top + 0.18, kTrimTileM, 0.12}, kDark, 0.5, 0.0);
+    const double bay = kTrimTileM / kShopBays;
+    for (int k = 0; k < kShopBays; ++k) paint_shop(canvas, {k * bay, top, bay, kShopM}, random);
   }
 
   // The cornice: coping, frieze with blocks, shadow on the wall below.
-  const double top = kShopStrips * kShop_m;
-  canvas.fill({0.0, top, kTrimTile_m, 0.22}, {0.78f, 0.76f, 0.71f});
-  canvas.fade({0.0, top + 0.22, kTrimTile_m, 0.10}, kDark, 0.6, 0.1);
-  for (double x = 0.0; x < kTrimTile_m; x += 0.6) {
+  const double top = kShopStrips * kShopM;
+  canvas.fill({0.0, top, kTrimTileM, 0.22}, {0.78f, 0.76f, 0.71f});
+  canvas.fade({0.0, top + 0.22, kTrimTileM, 0.10}, kDark, 0.6, 0.1);
+  for (double x = 0.0; x < kTrimTileM; x += 0.6) {
     canvas.fill({x + 0.1, top + 0.30, 0.28, 0.25}, varied({0.74f, 0.72f, 0.66f}, 0.15, random));
     canvas.fill({x + 0.38, top + 0.30, 0.08, 0.25}, kDark, 0.5);
   }
-  canvas.fade({0.0, top + 0.55, kTrimTile_m, 0.20}, kDark, 0.15, 0.5);
+  canvas.fade({0.0, top + 0.55, kTrimTileM, 0.20}, kDark, 0.15, 0.5);
   canvas.shade(fractal_noise(size_px, {32, 32, 5, 0.9}, random), 0.06);
   return canvas.finished();
 }

@@ -12,7 +12,7 @@ const Color kSkyGlow{0.62f, 0.72f, 0.82f};
 
 cv::Mat paint_vehicle_body(const Color& paint, int size_px, uint64_t seed) {
   Random random(seed);
-  const double tile = kVehicleTile_m, ground = tile;
+  const double tile = kVehicleTileM, ground = tile;
   Canvas canvas(size_px, tile, paint);
   canvas.fade({0.0, ground - 0.9, tile, 0.6}, {0.0f, 0.0f, 0.0f}, 0.0, 0.45);
   canvas.fill({0.0, ground - 0.30, tile, 0.30}, kTyre);  // the shadow below
@@ -36,7 +36,7 @@ cv::Mat paint_vehicle_body(const Color& paint, int size_px, uint64_t seed) {
 
 cv::Mat paint_vehicle_cabin(const Color& paint, int size_px, uint64_t seed) {
   Random random(seed);
-  const double tile = kVehicleTile_m, ground = tile;
+  const double tile = kVehicleTileM, ground = tile;
   Canvas canvas(size_px, tile, paint);
   for (double x = 0.0; x < tile - 0.1; x += 1.25) {
     const Area pane{x + 0.08, ground - 1.42, 1.09, 0.46};

@@ -8,8 +8,8 @@
 namespace hedgehop::scenes::textures {
 
 /// Images of parked vehicles, CV_8UC3, each a function of its arguments. Their foot lies on the ground: the lower end
-/// of an image is at multiples of kVehicleTile_m above it.
-inline constexpr double kVehicleTile_m = 5.0;
+/// of an image is at multiples of kVehicleTileM above it.
+inline constexpr double kVehicleTileM = 5.0;
 
 /// The lower body: paint, doors, bumpers, and wheels in their shadow.
 cv::Mat paint_vehicle_body(const Color& paint, int size_px, uint64_t seed);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint64_t kImageStream = 0, kMoverStream = 1;  // of the scene's seed
 
-constexpr double kMarkerRadius_m = 0.12, kMarkerHeight_m = 0.45, kMarkerEast_m = 1.0;
+constexpr double kMarkerRadiusM = 0.12, kMarkerHeightM = 0.45, kMarkerEastM = 1.0;
 
 }  // namespace
 
@@ -24,14 +24,14 @@ Scene make_balloon(const BalloonConfig& config, uint64_t seed) {
   scene.name = "balloon";
   scene.textures = {textures::paint_grass(size_px, derived_seed(seed, kImageStream)),
                     textures::paint_blank(size_px, {0.90f, 0.42f, 0.10f})};
-  constexpr double kHalf_m = 30.0;
-  scene.bounds_NE_m = {Eigen::Vector2d(-kHalf_m, -kHalf_m), Eigen::Vector2d(kHalf_m, kHalf_m)};
+  constexpr double kHalfM = 30.0;
+  scene.bounds_NE_m = {Eigen::Vector2d(-kHalfM, -kHalfM), Eigen::Vector2d(kHalfM, kHalfM)};
 
   mesh::MeshBuilder mesh("opaque");
-  mesh::add_ground(kHalf_m, {0, textures::kGrassTile_m}, mesh);
+  mesh::add_ground(kHalfM, {0, textures::kGrassTileM}, mesh);
   for (int64_t k = 0; k < config.markers; ++k) {
     const double north_m = static_cast<double>(k + 1) * config.marker_spacing_m;
-    const mesh::Post marker{{north_m, kMarkerEast_m, 0.0}, kMarkerRadius_m, kMarkerHeight_m};
+    const mesh::Post marker{{north_m, kMarkerEastM, 0.0}, kMarkerRadiusM, kMarkerHeightM};
     mesh.begin_chunk(false);
     mesh::add_post(marker, 12, {1, 1.0}, mesh);
     scene.solids.push_back(mesh::solid_of("marker " + std::to_string(k + 1), marker));

@@ -22,7 +22,7 @@ struct Strip {
 std::vector<Strip> strips_along_axis(const UrbanPlan& plan) {
   const double half_street = 0.5 * plan.street_width_m;
   const double city = plan.cell_edge_m(plan.cells_per_side) + half_street;
-  const std::vector<double> rings = {city + kGroundMargin_m, city + 1000.0, city + 250.0, city + 60.0, city};
+  const std::vector<double> rings = {city + kGroundMarginM, city + 1000.0, city + 250.0, city + 60.0, city};
   const auto band = [&](size_t ring) { return ring + 2 == rings.size() ? Band::near_country : Band::country; };
   std::vector<Strip> strips;
   for (size_t k = 0; k + 1 < rings.size(); ++k) strips.push_back({band(k), -rings[k], -rings[k + 1]});
@@ -66,13 +66,13 @@ void add_cell(const Strip& north, const Strip& east, const textures::CityTexture
   const bool turned = chance(random, 0.5);
   if (in_country(north.band) || in_country(east.band)) {
     const mesh::Panel panel = ground_panel(north, east, false);
-    const Eigen::Vector2d offset(panel.top_left_W.y() / textures::kGrassTile_m,
-                                 -panel.top_left_W.x() / textures::kGrassTile_m);
-    mesh.add_tiled(panel, textures::kGrassTile_m, offset, country_image(north, east, city, field_seed));
+    const Eigen::Vector2d offset(panel.top_left_W.y() / textures::kGrassTileM,
+                                 -panel.top_left_W.x() / textures::kGrassTileM);
+    mesh.add_tiled(panel, textures::kGrassTileM, offset, country_image(north, east, city, field_seed));
   } else if (north.band == Band::street && east.band == Band::street) {
     mesh.add(ground_panel(north, east, turned), {}, city.crossing);
   } else if (north.band == Band::lot && east.band == Band::lot) {
-    mesh.add_tiled(ground_panel(north, east, turned), textures::kLotTile_m, {shift, shift},
+    mesh.add_tiled(ground_panel(north, east, turned), textures::kLotTileM, {shift, shift},
                    city.lots[static_cast<size_t>(choice % 3)]);
   } else {
     const bool runs_east = north.band == Band::street;

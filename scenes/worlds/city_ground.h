@@ -9,7 +9,7 @@ namespace hedgehop::scenes::worlds {
 
 /// Ground reaches this far beyond the outer streets: seen from 40 m up, its edge lies a fifth of a degree below the
 /// horizon.
-inline constexpr double kGroundMargin_m = 12000.0;
+inline constexpr double kGroundMarginM = 12000.0;
 
 /// Adds the ground at z = 0: streets on the cells' edges, crossings, a lot in each cell, grass and fields around the
 /// city. All panels lie on one grid of lines that crosses the whole plane, so that no corner meets the middle of an

@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 
 constexpr uint64_t kImageStream = 0, kOffsetStream = 1;  // of the scene's seed
 
-constexpr double kThickness_m = 0.2;  // of walls and ceiling
-constexpr double kPillarLength_m = 0.6;
+constexpr double kThicknessM = 0.2;  // of walls and ceiling
+constexpr double kPillarLengthM = 0.6;
 constexpr int kWalls = 3;  // images
 constexpr uint32_t kFloor = kWalls, kCeiling = kWalls + 1;
 
@@ -67,7 +67,7 @@ class Mason {
   void build(const std::string& name, const Eigen::AlignedBox3d& box_S, const Eigen::Isometry3d& X_WS) {
     const Vector2d offset(uniform(random_, 0.0, 1.0), 0.0);
     mesh_.begin_chunk(false);
-    mesh::add_box(box_S, X_WS, {static_cast<uint32_t>(uniform_index(random_, kWalls)), textures::kWallTile_m, offset},
+    mesh::add_box(box_S, X_WS, {static_cast<uint32_t>(uniform_index(random_, kWalls)), textures::kWallTileM, offset},
                   mesh_);
     Solid solid = mesh::solid_of(name, box_S);
     solid.X_WS = X_WS * solid.X_WS;
@@ -81,9 +81,9 @@ class Mason {
       const Vector2d from = way_NE[k - 1], along = (way_NE[k] - from).normalized();
       const bool on_before = k == 1 || turns_right(from - way_NE[k - 2], along);
       const bool on_after = k + 1 == way_NE.size() || turns_right(along, way_NE[k + 1] - way_NE[k]);
-      const double first_m = on_before ? -kThickness_m : 0.0;
-      const double last_m = (way_NE[k] - from).norm() + (on_after ? kThickness_m : 0.0);
-      build(name, {Vector3d(first_m, -kThickness_m, -height_m), Vector3d(last_m, 0.0, 0.0)}, floor_frame(from, along));
+      const double first_m = on_before ? -kThicknessM : 0.0;
+      const double last_m = (way_NE[k] - from).norm() + (on_after ? kThicknessM : 0.0);
+      build(name, {Vector3d(first_m, -kThicknessM, -height_m), Vector3d(last_m, 0.0, 0.0)}, floor_frame(from, along));
     }
   }
 
@@ -96,7 +96,7 @@ class Mason {
 // What stands in a section, seen from its middle: x along it, y to the right.
 void furnish(const CorridorConfig& c, const CorridorSection& section, const Eigen::Isometry3d& X_WS, double width_m,
              Mason& mason) {
-  const double half_m = 0.5 * width_m, thin_m = 0.5 * kThickness_m, outer_m = half_m + thin_m;
+  const double half_m = 0.5 * width_m, thin_m = 0.5 * kThicknessM, outer_m = half_m + thin_m;
   if (section.doorway_m > 0.0) {
     const double jamb_m = 0.5 * section.doorway_m;
     mason.build("doorway", {Vector3d(-thin_m, -outer_m, -c.height_m), Vector3d(thin_m, -jamb_m, 0.0)}, X_WS);
@@ -108,7 +108,7 @@ void furnish(const CorridorConfig& c, const CorridorSection& section, const Eige
   }
   if (section.obstacle_m != 0.0) {
     const double inner_m = half_m - std::abs(section.obstacle_m), side = section.obstacle_m > 0.0 ? 1.0 : -1.0;
-    const double one_m = side * inner_m, other_m = side * outer_m, long_m = 0.5 * kPillarLength_m;
+    const double one_m = side * inner_m, other_m = side * outer_m, long_m = 0.5 * kPillarLengthM;
     mason.build(
         "pillar",
         {Vector3d(-long_m, std::min(one_m, other_m), -c.height_m), Vector3d(long_m, std::max(one_m, other_m), 0.0)},
@@ -170,7 +170,7 @@ Scene make_corridor(const CorridorConfig& config, uint64_t seed) {
 
   mesh::MeshBuilder mesh("opaque");
   const double reach_m = scene.bounds_NE_m.min().cwiseAbs().cwiseMax(scene.bounds_NE_m.max().cwiseAbs()).maxCoeff();
-  mesh::add_ground(reach_m, {kFloor, textures::kRoomTile_m}, mesh);
+  mesh::add_ground(reach_m, {kFloor, textures::kRoomTileM}, mesh);
   Mason mason(derived_seed(seed, kOffsetStream), scene, mesh);
   for (size_t k = 0; k < config.sections.size(); ++k) {
     const Vector2d from = plan.middles_NE[k], to = plan.middles_NE[k + 1], along = (to - from).normalized();
@@ -184,12 +184,12 @@ Scene make_corridor(const CorridorConfig& config, uint64_t seed) {
   mason.build_wall("end wall", {plan.lefts_NE.back(), plan.rights_NE.back()}, config.height_m);
 
   if (config.ceiling) {
-    const Vector2d low = scene.bounds_NE_m.min().array() - kThickness_m,
-                   high = scene.bounds_NE_m.max().array() + kThickness_m;
-    const Eigen::AlignedBox3d ceiling_W(Vector3d(low.x(), low.y(), -config.height_m - kThickness_m),
+    const Vector2d low = scene.bounds_NE_m.min().array() - kThicknessM,
+                   high = scene.bounds_NE_m.max().array() + kThicknessM;
+    const Eigen::AlignedBox3d ceiling_W(Vector3d(low.x(), low.y(), -config.height_m - kThicknessM),
                                         Vector3d(high.x(), high.y(), -config.height_m));
     mesh.begin_chunk(false);
-    mesh::add_box(ceiling_W, Eigen::Isometry3d::Identity(), {kCeiling, textures::kRoomTile_m}, mesh);
+    mesh::add_box(ceiling_W, Eigen::Isometry3d::Identity(), {kCeiling, textures::kRoomTileM}, mesh);
     scene.solids.push_back(mesh::solid_of("ceiling", ceiling_W));
   }
   scene.meshes.push_back(mesh.finish());

@@ -25,7 +25,7 @@ constexpr int kLumps = 12;  // of each kind
 // Trees near the origin have some 60 triangles each, those farther than this 15: a view of ten thousand trees must
 // stay cheap, and what is swapped by distance from the viewer must not show (FarDetail). A tree's solids have the
 // corners that are drawn.
-constexpr double kDetailed_m = 45.0;
+constexpr double kDetailedM = 45.0;
 constexpr int kCorners = 26, kFewCorners = 6;
 constexpr int kTrunkSides = 6, kFewTrunkSides = 3;
 
@@ -113,14 +113,14 @@ std::vector<Place> place_trees(const ForestConfig& c, Random& random) {
 }
 
 // Far trees are culled by plots of this side; the near ones each by itself.
-constexpr double kPlot_m = 16.0;
+constexpr double kPlotM = 16.0;
 
-bool is_detailed(const Place& place) { return place.p_NE.norm() < kDetailed_m; }
+bool is_detailed(const Place& place) { return place.p_NE.norm() < kDetailedM; }
 
 // Which plot a tree stands on, row by row; -1 of a tree by itself.
 int64_t plot(const Place& place) {
   constexpr int64_t kPerRow = 1 << 20;
-  const Eigen::Array2d at = (place.p_NE.array() / kPlot_m).floor() + 0.5 * kPerRow;
+  const Eigen::Array2d at = (place.p_NE.array() / kPlotM).floor() + 0.5 * kPerRow;
   return is_detailed(place) ? -1 : static_cast<int64_t>(at.x()) * kPerRow + static_cast<int64_t>(at.y());
 }
 
@@ -157,15 +157,15 @@ Scene make_forest(const ForestConfig& config, uint64_t seed) {
   const double half_m = 0.5 * config.extent_m();
   scene.bounds_NE_m = {Eigen::Vector2d(-half_m, -half_m), Eigen::Vector2d(half_m, half_m)};
   mesh::MeshBuilder mesh("opaque");
-  mesh::add_ground(half_m, {kGrass, textures::kGrassTile_m}, mesh);
+  mesh::add_ground(half_m, {kGrass, textures::kGrassTileM}, mesh);
 
   const uint64_t tree_seed = derived_seed(seed, kTreeStream);
   for (size_t k = 0; k < places.size(); ++k) {
     Random random(derived_seed(tree_seed, k));
     const Eigen::Vector2d offset(uniform(random, 0.0, 1.0), uniform(random, 0.0, 1.0));
-    const mesh::Cover leaves{kFirstLeaves + static_cast<uint32_t>(uniform_index(random, kLeaves)),
-                             textures::kLeafTile_m, offset};
-    const mesh::Cover bark{kFirstBark + static_cast<uint32_t>(uniform_index(random, kBarks)), textures::kBarkTile_m,
+    const mesh::Cover leaves{kFirstLeaves + static_cast<uint32_t>(uniform_index(random, kLeaves)), textures::kLeafTileM,
+                             offset};
+    const mesh::Cover bark{kFirstBark + static_cast<uint32_t>(uniform_index(random, kBarks)), textures::kBarkTileM,
                            offset};
     const bool detailed = is_detailed(places[k]);
     if (detailed || k == 0 || plot(places[k]) != plot(places[k - 1])) mesh.begin_chunk(false);

@@ -106,22 +106,22 @@ Scene make_highrise(const HighriseConfig& config, uint64_t seed) {
   const double half_m = 60.0 * config.scale;
   scene.bounds_NE_m = {Eigen::Vector2d(-half_m, -half_m), Eigen::Vector2d(half_m, half_m)};
   mesh::MeshBuilder mesh("opaque");
-  mesh::add_ground(half_m, {kGrass, textures::kGrassTile_m}, mesh);
+  mesh::add_ground(half_m, {kGrass, textures::kGrassTileM}, mesh);
   uint32_t wall = kFirstWall;
   for (const Tower& tower : towers(config)) {
     const std::string name = "tower " + std::to_string(wall - kFirstWall + 1);
     const Eigen::AlignedBox3d box_W = tower.box_W();
     mesh.begin_chunk(true);
     for (const mesh::Panel& panel : mesh::side_panels(box_W)) {
-      mesh.add_tiled(panel, textures::FacadeStyle::kTile_m, {0.0, -tower.height_m / textures::FacadeStyle::kTile_m},
+      mesh.add_tiled(panel, textures::FacadeStyle::kTileM, {0.0, -tower.height_m / textures::FacadeStyle::kTileM},
                      wall);
     }
     if (tower.spire_m > 0.0) {
       mesh.begin_chunk(false);
-      mesh::add_polyhedron(spire_of(tower), mesh::Shading::flat, {kRoof, textures::kRockTile_m}, mesh);
+      mesh::add_polyhedron(spire_of(tower), mesh::Shading::flat, {kRoof, textures::kRockTileM}, mesh);
       scene.solids.push_back(mesh::solid_of(name, hull_of(tower)));
     } else {
-      mesh.add_tiled(mesh::top_panel(box_W), textures::kRockTile_m, Eigen::Vector2d::Zero(), kRoof);
+      mesh.add_tiled(mesh::top_panel(box_W), textures::kRockTileM, Eigen::Vector2d::Zero(), kRoof);
       scene.solids.push_back(mesh::solid_of(name, box_W));
     }
     ++wall;

@@ -25,7 +25,7 @@ constexpr uint64_t kPlaceStream = 0;
 constexpr uint64_t kImageStream = 1;
 constexpr uint64_t kLumpStream = 2;
 
-constexpr double kRoadHalf_m = 3.5, kParked_m = 4.9;  // vehicles stand on the verge
+constexpr double kRoadHalfM = 3.5, kParkedM = 4.9;  // vehicles stand on the verge
 
 void validate(const ParkConfig& c) {
   require(c.extent_m >= 30.0 && c.extent_m <= 1000.0, "extent", c.extent_m, "30 to 1000 m");
@@ -57,8 +57,8 @@ class Planner {
     const double half_m = 0.5 * config_.extent_m - radius_m;
     for (int k = 0; k < kTries; ++k) {
       Disc disc{{uniform(random_, -half_m, half_m), uniform(random_, -half_m, half_m)}, radius_m};
-      if (parked) disc.p_NE.y() = chance(random_, 0.5) ? kParked_m : -kParked_m;
-      if (!parked && std::abs(disc.p_NE.y()) - radius_m < kRoadHalf_m) continue;
+      if (parked) disc.p_NE.y() = chance(random_, 0.5) ? kParkedM : -kParkedM;
+      if (!parked && std::abs(disc.p_NE.y()) - radius_m < kRoadHalfM) continue;
       const bool is_free = std::ranges::none_of(taken_, [&](const Disc& other) {
         return (other.p_NE - disc.p_NE).norm() - other.radius_m - radius_m < config_.gap_m;
       });
@@ -121,7 +121,7 @@ class Gardener {
                                 .trunk_sides = 10};
     mesh_.begin_chunk(false);
     const std::vector<Solid> solids = mesh::add_tree("tree " + std::to_string(number), shape, lumps_, leaves(),
-                                                     {kBark, textures::kBarkTile_m}, random(), mesh_);
+                                                     {kBark, textures::kBarkTileM}, random(), mesh_);
     scene_.solids.insert(scene_.solids.end(), solids.begin(), solids.end());
   }
 
@@ -133,7 +133,7 @@ class Gardener {
   void lay_rock(int64_t number) {
     const Vector2d offset(uniform(random(), 0.0, 1.0), uniform(random(), 0.0, 1.0));
     add_lump("rock " + std::to_string(number), planner_.take("rocks", uniform(random(), 0.4, 1.0), false),
-             uniform(random(), 0.7, 1.2), {kRock, textures::kRockTile_m, offset});
+             uniform(random(), 0.7, 1.2), {kRock, textures::kRockTileM, offset});
   }
 
   // A car, or one in three times a van: a body on the ground and a cabin on top of it.
@@ -158,7 +158,7 @@ class Gardener {
 
   mesh::Cover leaves() {
     const Vector2d offset(uniform(random(), 0.0, 1.0), uniform(random(), 0.0, 1.0));
-    return {kFirstLeaves + static_cast<uint32_t>(uniform_index(random(), kLeaves)), textures::kLeafTile_m, offset};
+    return {kFirstLeaves + static_cast<uint32_t>(uniform_index(random(), kLeaves)), textures::kLeafTileM, offset};
   }
 
   // Half sunk into the ground, `slender` times as high above it as wide from its middle.
@@ -177,7 +177,7 @@ class Gardener {
 
   void add_part(const std::string& name, const Eigen::AlignedBox3d& box_S, const Eigen::Isometry3d& X_WS,
                 uint32_t image) {
-    mesh::add_box(box_S, X_WS, {image, textures::kVehicleTile_m}, mesh_);
+    mesh::add_box(box_S, X_WS, {image, textures::kVehicleTileM}, mesh_);
     Solid solid = mesh::solid_of(name, box_S);
     solid.X_WS = X_WS * solid.X_WS;
     scene_.solids.push_back(solid);
@@ -200,10 +200,10 @@ Scene make_park(const ParkConfig& config, uint64_t seed) {
   scene.bounds_NE_m = {Vector2d(-half_m, -half_m), Vector2d(half_m, half_m)};
   mesh::MeshBuilder mesh("opaque");
   mesh::add_ground(
-      {-half_m, -0.5 * half_m, 0.0, 0.5 * half_m, half_m}, {-half_m, -kRoadHalf_m, 0.0, kRoadHalf_m, half_m},
+      {-half_m, -0.5 * half_m, 0.0, 0.5 * half_m, half_m}, {-half_m, -kRoadHalfM, 0.0, kRoadHalfM, half_m},
       [](const Vector2d& middle_NE) {
-        return std::abs(middle_NE.y()) < kRoadHalf_m ? mesh::Cover{kAsphalt, textures::kAsphaltTile_m}
-                                                     : mesh::Cover{kGrass, textures::kGrassTile_m};
+        return std::abs(middle_NE.y()) < kRoadHalfM ? mesh::Cover{kAsphalt, textures::kAsphaltTileM}
+                                                    : mesh::Cover{kGrass, textures::kGrassTileM};
       },
       mesh);
 

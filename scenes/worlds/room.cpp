@@ -22,7 +22,7 @@ constexpr uint64_t kImageStream = 1;
 constexpr uint64_t kSurfaceStream = 2;
 
 constexpr int kWallVariants = 3;
-constexpr double kGrassMargin_m = 1000.0;
+constexpr double kGrassMarginM = 1000.0;
 
 void validate(const RoomConfig& c) {
   require(c.length_m >= 1.0 && c.length_m <= 1000.0, "length", c.length_m, "1 to 1000 m");
@@ -145,13 +145,13 @@ RoomImages paint_room(const RoomConfig& c, uint64_t seed) {
 // Papers a face of a wall: one image after the other, each drawn from the wall's variants; their foot on the floor.
 void paper_wall(const mesh::Panel& wall, uint32_t first_image, Random& random, mesh::MeshBuilder& mesh) {
   const double width = wall.right_m.norm(), height = wall.down_m.norm();
-  const int count = std::max(1, static_cast<int>(std::lround(width / textures::kRoomTile_m)));
+  const int count = std::max(1, static_cast<int>(std::lround(width / textures::kRoomTileM)));
   const double share =
-      width / (count * textures::kRoomTile_m) < 0.5 ? width / textures::kRoomTile_m : 1.0;  // of the image's width
+      width / (count * textures::kRoomTileM) < 0.5 ? width / textures::kRoomTileM : 1.0;  // of the image's width
   for (int k = 0; k < count; ++k) {
     const Eigen::Vector3d start = wall.top_left_W + wall.right_m * k / count;
     const Eigen::Vector3d end = wall.top_left_W + wall.right_m * (k + 1) / count;
-    mesh.add({start, end - start, wall.down_m}, {0.0, 1.0 - height / textures::kRoomTile_m, share, 1.0},
+    mesh.add({start, end - start, wall.down_m}, {0.0, 1.0 - height / textures::kRoomTileM, share, 1.0},
              first_image + static_cast<uint32_t>(uniform_index(random, kWallVariants)));
   }
 }
@@ -160,15 +160,15 @@ void add_box(const Eigen::AlignedBox3d& box_W, uint32_t image, Random& random, m
   mesh.begin_chunk(true);
   const Eigen::Vector2d shift(0.05 * uniform_index(random, 20), 0.1 * uniform_index(random, 10));
   for (const mesh::Panel& panel : mesh::side_panels(box_W)) {
-    const double foot = panel.down_m.norm() / textures::kRoomTile_m;
-    mesh.add_tiled(panel, textures::kRoomTile_m, {shift.x(), shift.y() - foot}, image);
+    const double foot = panel.down_m.norm() / textures::kRoomTileM;
+    mesh.add_tiled(panel, textures::kRoomTileM, {shift.x(), shift.y() - foot}, image);
   }
-  mesh.add_tiled(mesh::top_panel(box_W), textures::kRoomTile_m, shift, image);
+  mesh.add_tiled(mesh::top_panel(box_W), textures::kRoomTileM, shift, image);
 }
 
 // Grass around a room without a ceiling, in four strips.
 void add_lawn(const Eigen::AlignedBox2d& house_NE, uint32_t image, mesh::MeshBuilder& mesh) {
-  const double far_n = house_NE.max().x() + kGrassMargin_m, far_e = house_NE.max().y() + kGrassMargin_m;
+  const double far_n = house_NE.max().x() + kGrassMarginM, far_e = house_NE.max().y() + kGrassMarginM;
   const double n = house_NE.max().x(), e = house_NE.max().y();
   using Eigen::Vector3d;
   const Eigen::AlignedBox3d strips[] = {{Vector3d(n, -far_e, 0.0), Vector3d(far_n, far_e, 0.0)},
@@ -177,7 +177,7 @@ void add_lawn(const Eigen::AlignedBox2d& house_NE, uint32_t image, mesh::MeshBui
                                         {Vector3d(-n, -far_e, 0.0), Vector3d(n, -e, 0.0)}};
   for (const Eigen::AlignedBox3d& strip : strips) {
     mesh.begin_chunk(false);
-    mesh.add_tiled(mesh::top_panel(strip), textures::kGrassTile_m, Eigen::Vector2d::Zero(), image);
+    mesh.add_tiled(mesh::top_panel(strip), textures::kGrassTileM, Eigen::Vector2d::Zero(), image);
   }
 }
 
@@ -202,14 +202,14 @@ Scene make_room(const RoomConfig& config, uint64_t seed) {
   const Eigen::AlignedBox3d floor_W(Eigen::Vector3d(-floor_half.x(), -floor_half.y(), 0.0),
                                     Eigen::Vector3d(floor_half.x(), floor_half.y(), 0.0));
   mesh.begin_chunk(false);
-  mesh.add_tiled(mesh::top_panel(floor_W), textures::kRoomTile_m, Eigen::Vector2d::Zero(), room.floor);
+  mesh.add_tiled(mesh::top_panel(floor_W), textures::kRoomTileM, Eigen::Vector2d::Zero(), room.floor);
 
   static constexpr const char* kNames[] = {"north wall", "east wall", "south wall", "west wall"};
   const std::vector<Eigen::AlignedBox3d> walls = wall_boxes(config);
   for (size_t k = 0; k < walls.size(); ++k) {
     mesh.begin_chunk(false);
     for (const mesh::Panel& face : mesh::side_panels(walls[k])) paper_wall(face, room.first_wall[k], random, mesh);
-    mesh.add_tiled(mesh::top_panel(walls[k]), textures::kRoomTile_m, Eigen::Vector2d::Zero(), room.first_wall[k]);
+    mesh.add_tiled(mesh::top_panel(walls[k]), textures::kRoomTileM, Eigen::Vector2d::Zero(), room.first_wall[k]);
     scene.solids.push_back(mesh::solid_of(kNames[k], walls[k]));
   }
 
@@ -218,10 +218,10 @@ Scene make_room(const RoomConfig& config, uint64_t seed) {
     Eigen::AlignedBox3d ceiling_W(walls[2].min(), walls[0].max() - lift);
     ceiling_W.min().z() -= config.wall_thickness_m;
     mesh.begin_chunk(false);
-    mesh.add_tiled(mesh::bottom_panel(ceiling_W), textures::kRoomTile_m, Eigen::Vector2d::Zero(), room.ceiling);
-    mesh.add_tiled(mesh::top_panel(ceiling_W), textures::kRoomTile_m, Eigen::Vector2d::Zero(), room.ceiling);
+    mesh.add_tiled(mesh::bottom_panel(ceiling_W), textures::kRoomTileM, Eigen::Vector2d::Zero(), room.ceiling);
+    mesh.add_tiled(mesh::top_panel(ceiling_W), textures::kRoomTileM, Eigen::Vector2d::Zero(), room.ceiling);
     for (const mesh::Panel& side : mesh::side_panels(ceiling_W))
-      mesh.add_tiled(side, textures::kRoomTile_m, Eigen::Vector2d::Zero(), room.ceiling);
+      mesh.add_tiled(side, textures::kRoomTileM, Eigen::Vector2d::Zero(), room.ceiling);
     scene.solids.push_back(mesh::solid_of("ceiling", ceiling_W));
   } else {
     add_lawn({Eigen::Vector2d(-floor_half), floor_half}, room.grass, mesh);

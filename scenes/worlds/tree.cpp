@@ -47,7 +47,7 @@ Scene make_tree(const TreeConfig& config, uint64_t seed) {
   std::vector<mesh::Polyhedron> lumps;
   for (int k = 0; k < kLumps; ++k) lumps.push_back(mesh::convex_lump(kLumpCorners, 0.18, random));
   mesh::MeshBuilder mesh("opaque");
-  mesh::add_ground(around_m, {0, textures::kGrassTile_m}, mesh);
+  mesh::add_ground(around_m, {0, textures::kGrassTileM}, mesh);
   mesh.begin_chunk(false);
   const mesh::TreeShape shape{.foot_W = {config.north_m, config.east_m, 0.0},
                               .height_m = config.height_m,
@@ -57,7 +57,7 @@ Scene make_tree(const TreeConfig& config, uint64_t seed) {
                               .lobes = kLobes,
                               .trunk_sides = 16};
   scene.solids =
-      mesh::add_tree("tree", shape, lumps, {1, textures::kLeafTile_m}, {2, textures::kBarkTile_m}, random, mesh);
+      mesh::add_tree("tree", shape, lumps, {1, textures::kLeafTileM}, {2, textures::kBarkTileM}, random, mesh);
   scene.meshes.push_back(mesh.finish());
   return scene;
 }

@@ -10,18 +10,18 @@
 namespace hedgehop::scenes::worlds {
 namespace {
 
-constexpr double kGrain_m = 1.0 / 64.0;
+constexpr double kGrainM = 1.0 / 64.0;
 constexpr int kPlacementTries = 64;
-constexpr double kSmallestLot_m = 3.0;
+constexpr double kSmallestLotM = 3.0;
 constexpr double kMostCellsPerSide = 1000.0;
 
-double snapped_up(double x_m) { return std::ceil(x_m / kGrain_m) * kGrain_m; }
-double snapped_down(double x_m) { return std::floor(x_m / kGrain_m) * kGrain_m; }
+double snapped_up(double x_m) { return std::ceil(x_m / kGrainM) * kGrainM; }
+double snapped_down(double x_m) { return std::floor(x_m / kGrainM) * kGrainM; }
 
 void validate(const UrbanConfig& c) {
   const double lot_m = c.pitch_m - c.street_min_width_m;
   require(c.street_min_width_m >= 1.0, "street_min_width", c.street_min_width_m, "at least 1 m");
-  require(lot_m >= kSmallestLot_m, "pitch", c.pitch_m, "at least street_min_width + 3 m");
+  require(lot_m >= kSmallestLotM, "pitch", c.pitch_m, "at least street_min_width + 3 m");
   require(c.extent_m >= c.pitch_m && c.extent_m <= kMostCellsPerSide * c.pitch_m, "extent", c.extent_m,
           "from pitch to 1000 pitch");
   require(c.min_footprint > 0.0 && c.min_footprint <= c.max_footprint, "min_footprint", c.min_footprint,
@@ -77,20 +77,20 @@ Eigen::AlignedBox2d inset(const Eigen::AlignedBox2d& below_NE, const Eigen::Vect
 
 // Stacks the boxes of one building: a base, a tower on some, a roof housing on half of those with room for one.
 void stack_boxes(const UrbanConfig& c, const Eigen::AlignedBox2d& footprint_NE, Random& random, Building& building) {
-  constexpr double kHousingHeight_m = 2.5;
-  constexpr double kSmallestTower_m = 5.0;
+  constexpr double kHousingHeightM = 2.5;
+  constexpr double kSmallestTowerM = 5.0;
   const double rise = std::pow(uniform(random, 0.0, 1.0), 1.4);  // low buildings are commoner
   const double height = snapped_down(c.min_height_m + (c.max_height_m - c.min_height_m) * rise);
   const bool wants_tower = chance(random, c.setback_share);
   const bool wants_housing = chance(random, 0.5);
   const double tower_start = snapped_up(c.min_height_m + (height - c.min_height_m) * uniform(random, 0.1, 0.6));
   const Eigen::Vector2d tower_size =
-      footprint_NE.sizes() * uniform(random, 0.5, 0.8) - Eigen::Vector2d::Constant(2.0 * kGrain_m);
+      footprint_NE.sizes() * uniform(random, 0.5, 0.8) - Eigen::Vector2d::Constant(2.0 * kGrainM);
 
-  const bool housing = wants_housing && height - kHousingHeight_m >= c.min_height_m;
-  const double roof = std::max(housing ? height - kHousingHeight_m : height, snapped_up(c.min_height_m));
+  const bool housing = wants_housing && height - kHousingHeightM >= c.min_height_m;
+  const double roof = std::max(housing ? height - kHousingHeightM : height, snapped_up(c.min_height_m));
   Eigen::AlignedBox2d top_NE = footprint_NE;
-  if (wants_tower && roof - tower_start >= kSmallestTower_m && tower_size.minCoeff() >= kSmallestTower_m) {
+  if (wants_tower && roof - tower_start >= kSmallestTowerM && tower_size.minCoeff() >= kSmallestTowerM) {
     building.boxes_W.push_back(box_on(footprint_NE, 0.0, tower_start));
     top_NE = inset(footprint_NE, tower_size, random);
     building.boxes_W.push_back(box_on(top_NE, tower_start, roof));
@@ -99,7 +99,7 @@ void stack_boxes(const UrbanConfig& c, const Eigen::AlignedBox2d& footprint_NE, 
   }
   const Eigen::Vector2d housing_size(uniform(random, 2.5, 4.5), uniform(random, 2.5, 4.5));
   if (housing && ((top_NE.sizes() - housing_size).array() >= 1.0).all()) {
-    building.boxes_W.push_back(box_on(inset(top_NE, housing_size, random), roof, roof + kHousingHeight_m));
+    building.boxes_W.push_back(box_on(inset(top_NE, housing_size, random), roof, roof + kHousingHeightM));
     building.has_roof_housing = true;
   }
 }

@@ -55,14 +55,14 @@ Scene make_wall(const WallConfig& config, uint64_t seed) {
   const double half_m = std::max(config.width_m, std::abs(config.north_m) + 20.0);
   scene.bounds_NE_m = {Eigen::Vector2d(-half_m, -half_m), Eigen::Vector2d(half_m, half_m)};
   mesh::MeshBuilder mesh("opaque");
-  mesh::add_ground(half_m, {0, textures::kGrassTile_m}, mesh);
+  mesh::add_ground(half_m, {0, textures::kGrassTileM}, mesh);
 
   const auto build = [&](double west_m, double east_m, double bottom_m, double top_m) {
     if (east_m <= west_m || top_m <= bottom_m) return;
     const Eigen::AlignedBox3d box_W(Eigen::Vector3d(config.north_m, west_m, -top_m),
                                     Eigen::Vector3d(config.north_m + config.thickness_m, east_m, -bottom_m));
     mesh.begin_chunk(bottom_m == 0.0);
-    mesh::add_box(box_W, Eigen::Isometry3d::Identity(), {1, textures::kWallTile_m}, mesh);
+    mesh::add_box(box_W, Eigen::Isometry3d::Identity(), {1, textures::kWallTileM}, mesh);
     scene.solids.push_back(mesh::solid_of("wall", box_W));
   };
   const double end_m = 0.5 * config.width_m;

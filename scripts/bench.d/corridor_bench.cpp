@@ -12,8 +12,8 @@ namespace {
 
 using Method = vision::stereo::StereoMatcherConfig::Method;
 
-constexpr int kWidth_px = 320, kHeight_px = 240;
-constexpr double kFov_rad = 64.0 * std::numbers::pi / 180.0;  // [Andert2007] sec. 2
+constexpr int kWidthPx = 320, kHeightPx = 240;
+constexpr double kFovRad = 64.0 * std::numbers::pi / 180.0;  // [Andert2007] sec. 2
 
 StereoCorridorConfig config_of(const benchmark::State& state) {
   StereoCorridorConfig config;
@@ -24,9 +24,9 @@ StereoCorridorConfig config_of(const benchmark::State& state) {
 }
 
 Setup rig() {
-  Setup setup = stereo_pair(kHeight_px, 10.0);
+  Setup setup = stereo_pair(kHeightPx, 10.0);
   for (MountedCamera& camera : setup.cameras) {
-    camera.model = vision::camera::PinholeCamera::from_fov(kWidth_px, kHeight_px, kFov_rad);
+    camera.model = vision::camera::PinholeCamera::from_fov(kWidthPx, kHeightPx, kFovRad);
   }
   return setup;
 }
@@ -83,10 +83,10 @@ void Matching320Floor(benchmark::State& state) {
   cv::Mat difference, best;
   for (auto _ : state) {
     for (int d = 0; d < disparities_px; ++d) {
-      const cv::Mat left = frames[0].image.colRange(d, kWidth_px), right = frames[1].image.colRange(0, kWidth_px - d);
+      const cv::Mat left = frames[0].image.colRange(d, kWidthPx), right = frames[1].image.colRange(0, kWidthPx - d);
       cv::absdiff(left, right, difference);
       if (d == 0) difference.copyTo(best);
-      cv::Mat rest = best.colRange(d, kWidth_px);
+      cv::Mat rest = best.colRange(d, kWidthPx);
       cv::min(rest, difference, rest);
     }
     benchmark::DoNotOptimize(best.data);

@@ -9,8 +9,8 @@ namespace {
 void one_second(benchmark::State& state, const dynamics::VehicleConfig& vehicle) {
   OutdoorFlight flight(vehicle);
   for (auto _ : state) flight.fly(1.0);
-  constexpr double kRealTime_ms = 1000.0;
-  state.counters["floor_ms"] = kRealTime_ms;
+  constexpr double kRealTimeMs = 1000.0;
+  state.counters["floor_ms"] = kRealTimeMs;
 }
 
 void HelicopterSecond(benchmark::State& state) { one_second(state, dynamics::helicopter::HelicopterConfig{}); }

@@ -9,8 +9,8 @@
 namespace hedgehop::vision {
 namespace {
 
-const cv::Size kZed(1280, 720);         // [Perez2018] sec. III B
-constexpr double kThreshold_m = 9.144;  // 30 ft
+const cv::Size kZed(1280, 720);        // [Perez2018] sec. III B
+constexpr double kThresholdM = 9.144;  // 30 ft
 constexpr double kMostShare = 0.15;
 
 // Blocks of random depth, a fifth of them unknown.
@@ -19,11 +19,11 @@ cv::Mat random_depth() {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<float> depth_m(1.0f, 20.0f), chance(0.0f, 1.0f);
   cv::Mat depth(kZed, CV_32F);
-  constexpr int kBlock_px = 16;
-  for (int v = 0; v < kZed.height; v += kBlock_px) {
-    for (int u = 0; u < kZed.width; u += kBlock_px) {
+  constexpr int kBlockPx = 16;
+  for (int v = 0; v < kZed.height; v += kBlockPx) {
+    for (int u = 0; u < kZed.width; u += kBlockPx) {
       const bool unknown = chance(random) < 0.2f;
-      depth(cv::Rect(u, v, kBlock_px, kBlock_px)).setTo(unknown ? std::nanf("") : depth_m(random));
+      depth(cv::Rect(u, v, kBlockPx, kBlockPx)).setTo(unknown ? std::nanf("") : depth_m(random));
     }
   }
   return depth;
@@ -37,7 +37,7 @@ void SectionSelection(benchmark::State& state) {
   SectionSearch search(grid, kZed);
   const cv::Mat depth_m = random_depth();
   for (auto _ : state) {
-    benchmark::DoNotOptimize(search.choose(depth_m, kThreshold_m, kMostShare, Unknown::free));
+    benchmark::DoNotOptimize(search.choose(depth_m, kThresholdM, kMostShare, Unknown::free));
   }
 }
 BENCHMARK(SectionSelection)->DenseRange(3, 27, 2)->Unit(benchmark::kMillisecond);
@@ -47,7 +47,7 @@ void SectionSelectionWidened(benchmark::State& state) {
   SectionSearch search({.grow_px = 8}, kZed);
   const cv::Mat depth_m = random_depth();
   for (auto _ : state) {
-    benchmark::DoNotOptimize(search.choose(depth_m, kThreshold_m, kMostShare, Unknown::free));
+    benchmark::DoNotOptimize(search.choose(depth_m, kThresholdM, kMostShare, Unknown::free));
   }
 }
 BENCHMARK(SectionSelectionWidened)->Unit(benchmark::kMillisecond);
@@ -57,7 +57,7 @@ void SectionSelectionFloor(benchmark::State& state) {
   const cv::Mat depth_m = random_depth();
   cv::Mat mask;
   for (auto _ : state) {
-    cv::compare(depth_m, kThreshold_m, mask, cv::CMP_LT);
+    cv::compare(depth_m, kThresholdM, mask, cv::CMP_LT);
     benchmark::DoNotOptimize(mask.data);
   }
 }

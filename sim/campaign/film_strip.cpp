@@ -18,14 +18,14 @@ namespace hedgehop::sim {
 namespace {
 
 constexpr size_t kImages = 5;
-constexpr double kApart_s = 0.8;  // between two images, less in flights too short for it
-constexpr int kWidth_px = 240, kCaption_px = 16;
-constexpr int kQuality = 70;            // of the JPEG: 30 to 60 kB a strip
-constexpr double kSameFlight_m = 1e-6;  // result.json keeps every bit; two flights that part differ by far more
+constexpr double kApartS = 0.8;  // between two images, less in flights too short for it
+constexpr int kWidthPx = 240, kCaptionPx = 16;
+constexpr int kQuality = 70;           // of the JPEG: 30 to 60 kB a strip
+constexpr double kSameFlightM = 1e-6;  // result.json keeps every bit; two flights that part differ by far more
 
 struct Image {
   double t_s = 0.0;
-  cv::Mat rgb;  ///< kWidth_px wide
+  cv::Mat rgb;  ///< kWidthPx wide
 };
 
 /// Keeps the last images of a flight, small.
@@ -38,10 +38,10 @@ class StripWatcher : public FlightWatcher {
     const cv::Mat source = annotated.empty() ? contact_sheet(frames) : annotated;
     if (source.empty()) return;
     Image image{.t_s = 1e-9 * static_cast<double>(t_ns), .rgb = {}};
-    const int height_px = std::max(1, static_cast<int>(std::lround(double{kWidth_px} * source.rows / source.cols)));
-    cv::resize(source, image.rgb, {kWidth_px, height_px}, 0, 0, cv::INTER_AREA);
+    const int height_px = std::max(1, static_cast<int>(std::lround(double{kWidthPx} * source.rows / source.cols)));
+    cv::resize(source, image.rgb, {kWidthPx, height_px}, 0, 0, cv::INTER_AREA);
     images_.push_back(std::move(image));
-    while (images_.front().t_s < images_.back().t_s - kApart_s * kImages) images_.pop_front();
+    while (images_.front().t_s < images_.back().t_s - kApartS * kImages) images_.pop_front();
   }
 
   const std::deque<Image>& images() const { return images_; }
@@ -53,14 +53,13 @@ class StripWatcher : public FlightWatcher {
 
 /// Side by side in the order of time, each with the time left to `end_s` written below.
 cv::Mat strip(const std::deque<Image>& images, double end_s) {
-  const double apart_s =
-      std::min(kApart_s, (images.back().t_s - images.front().t_s) / static_cast<double>(kImages - 1));
+  const double apart_s = std::min(kApartS, (images.back().t_s - images.front().t_s) / static_cast<double>(kImages - 1));
   cv::Mat sheet;
   for (size_t i = 0; i < kImages; ++i) {
     const double wanted_s = images.back().t_s - apart_s * static_cast<double>(kImages - 1 - i);
     const Image& image =
         *std::ranges::min_element(images, {}, [&](const Image& p) { return std::abs(p.t_s - wanted_s); });
-    cv::Mat tile(image.rgb.rows + kCaption_px, kWidth_px + 2, CV_8UC3, cv::Scalar::all(24));
+    cv::Mat tile(image.rgb.rows + kCaptionPx, kWidthPx + 2, CV_8UC3, cv::Scalar::all(24));
     image.rgb.copyTo(tile(cv::Rect({0, 0}, image.rgb.size())));
     cv::putText(tile, fmt::format("{:.1f} s before", std::max(0.0, end_s - image.t_s)), {4, tile.rows - 4},
                 cv::FONT_HERSHEY_SIMPLEX, 0.4, cv::Scalar::all(220), 1, cv::LINE_AA);
@@ -93,7 +92,7 @@ void write_film_strip(const std::filesystem::path& flight) {
   StripWatcher watcher(scenario.film.rate_hz);
   const FlightResult again = fly(scenario, &watcher).result;
   const double clearance_m = again.closest_obstacle.distance_m;
-  if (!closest.is_null() && std::abs(clearance_m - closest.at("distance_m").get<double>()) > kSameFlight_m) {
+  if (!closest.is_null() && std::abs(clearance_m - closest.at("distance_m").get<double>()) > kSameFlightM) {
     throw std::runtime_error(fmt::format("flown again, it came within {:.6f} m of an obstacle instead of {:.6f} m",
                                          clearance_m, closest.at("distance_m").get<double>()));
   }

@@ -16,9 +16,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kPathTolerance_m = 0.05;     // less than a line's width on any map
-constexpr double kOutlineTolerance_m = 0.02;  // as much less than a trunk's radius
-constexpr size_t kMostScenes = 24;            // each takes up to a second to make
+constexpr double kPathToleranceM = 0.05;     // less than a line's width on any map
+constexpr double kOutlineToleranceM = 0.02;  // as much less than a trunk's radius
+constexpr size_t kMostScenes = 24;           // each takes up to a second to make
 constexpr size_t kTriedSeeds = 8;
 constexpr size_t kMostMapBytes = 3'000'000;  // of a page that is to stay below 10 MB
 
@@ -36,7 +36,7 @@ std::string plan_key(const ScenePlan& plan) { return plan_data(plan, 0.0, 0.0).d
 void coarsen(ScenePlan& plan) {
   for (Footprint& footprint : plan.footprints) {
     std::vector<Eigen::Vector2d>& corners = footprint.corners_NE_m;
-    if (corners.size() > 8) corners = simplified(corners, kOutlineTolerance_m, corners.size());
+    if (corners.size() > 8) corners = simplified(corners, kOutlineToleranceM, corners.size());
   }
 }
 
@@ -94,7 +94,7 @@ std::optional<FlownPath> read_path(const std::filesystem::path& flight_folder, u
     const auto down = trajectory.numbers("down_m");
     FlownPath path{.scene = scenario.scene, .seed = seed, .goal = scenario.goal};
     for (size_t i = 0; i < north.size(); ++i) path.p_NE_m.emplace_back(north[i], east[i]);
-    path.p_NE_m = simplified(path.p_NE_m, kPathTolerance_m, max_points);
+    path.p_NE_m = simplified(path.p_NE_m, kPathToleranceM, max_points);
     if (!down.empty()) {
       path.lowest_m = -*std::ranges::max_element(down);
       path.highest_m = -*std::ranges::min_element(down);

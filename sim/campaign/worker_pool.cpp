@@ -30,8 +30,8 @@ void wait(const std::list<Running>& running, double limit_s, const Interruption&
     const double left = std::max(0.0, left_s(r.worker, limit_s));
     timeout_s = timeout_s < 0.0 ? left : std::min(timeout_s, left);
   }
-  constexpr double kLongest_s = 1e6;  // what poll's int holds in ms
-  const int timeout_ms = timeout_s < 0.0 ? -1 : static_cast<int>(std::ceil(1e3 * std::min(timeout_s, kLongest_s)));
+  constexpr double kLongestS = 1e6;  // what poll's int holds in ms
+  const int timeout_ms = timeout_s < 0.0 ? -1 : static_cast<int>(std::ceil(1e3 * std::min(timeout_s, kLongestS)));
   ::poll(watched.data(), watched.size(), timeout_ms);
 }
 

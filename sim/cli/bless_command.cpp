@@ -12,7 +12,7 @@
 namespace hedgehop::sim::cli {
 namespace {
 
-constexpr double kStep_s = 0.1;        // a vehicle at 10 m/s moves a meter
+constexpr double kStepS = 0.1;         // a vehicle at 10 m/s moves a meter
 constexpr size_t kMostPoints = 2'000;  // Frechet distance and time warping compare every pair
 
 std::vector<TimedPoint> flown_path(const std::filesystem::path& run_folder) {
@@ -53,7 +53,7 @@ int bless(const std::filesystem::path& run_folder, const std::string& reason) {
   ReferencePath reference{.reason = reason,
                           .version = result.value("version", ""),
                           .seed = result.value("seed", uint64_t{0}),
-                          .step_s = kStep_s * std::max(1.0, std::ceil(duration_s / (kStep_s * kMostPoints)))};
+                          .step_s = kStepS * std::max(1.0, std::ceil(duration_s / (kStepS * kMostPoints)))};
   reference.points = thinned(flown, reference.step_s);
   const std::filesystem::path file = reference_file(run_folder, result.value("scenario_file", ""));
   write_file_whole(file, reference_text(reference));

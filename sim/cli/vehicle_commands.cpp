@@ -115,11 +115,10 @@ void print_modes(const std::vector<dynamics::Mode>& modes, bool csv) {
       continue;
     }
     const std::string value = im > 0.0 ? fmt::format("{:.4f} +- {:.4f}i", re, im) : fmt::format("{:.4f}", re);
-    constexpr double kStays_radps = 1e-9;
-    const std::string time =
-        std::abs(re) < kStays_radps
-            ? "stays"
-            : fmt::format("{} in {:.2f} s", re < 0.0 ? "halves" : "doubles", std::numbers::ln2 / std::abs(re));
+    constexpr double kStaysRadps = 1e-9;
+    const std::string time = std::abs(re) < kStaysRadps ? "stays"
+                                                        : fmt::format("{} in {:.2f} s", re < 0.0 ? "halves" : "doubles",
+                                                                      std::numbers::ln2 / std::abs(re));
     fmt::print("{:>24}{:>20.4f}{:>10.3f}{:>24}\n", value, mode.frequency_radps, mode.damping, time);
   }
 }

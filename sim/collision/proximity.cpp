@@ -17,7 +17,7 @@ using dynamics::HullPart;
 using scenes::Solid;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRounding_m = 1e-9;  // by which closed-form bounds may be off, far from the origin too
+constexpr double kRoundingM = 1e-9;  // by which closed-form bounds may be off, far from the origin too
 
 void require_extents(const Eigen::Vector3d& half_extents_m, const std::string& what) {
   if (!half_extents_m.allFinite() || half_extents_m.minCoeff() <= 0.0) {
@@ -49,7 +49,7 @@ void require_polyhedron(const scenes::mesh::Polyhedron& polyhedron, bool convex,
     const Eigen::Vector3d n = (polyhedron.corners[face[1]] - a).cross(polyhedron.corners[face[2]] - a);
     if (n.norm() == 0.0) refuse("a face has no area");
     for (const Eigen::Vector3d& corner : polyhedron.corners) {
-      if (convex && n.normalized().dot(corner - a) > kRounding_m) refuse("a hull must be convex, its faces outward");
+      if (convex && n.normalized().dot(corner - a) > kRoundingM) refuse("a hull must be convex, its faces outward");
     }
   }
   if (convex && polyhedron.faces.size() < 4) refuse("a hull needs at least 4 faces");
@@ -130,7 +130,7 @@ class CollisionWorld::World {
 
     // What was nearest last time is near now: its distance narrows the search without touching the answer.
     if (last_nearest_) consider(*last_nearest_, placed_[*last_nearest_], nearest);
-    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(std::max(nearest.clearance_m, 0.0) + kRounding_m);
+    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(std::max(nearest.clearance_m, 0.0) + kRoundingM);
     visit_still(hull_box_W_.min() - reach, hull_box_W_.max() + reach, [&](size_t index) {
       if (index != last_nearest_) consider(index, placed_[index], nearest);
     });
@@ -246,7 +246,7 @@ class CollisionWorld::World {
   void consider(size_t index, const PlacedBody& body, Nearest& nearest) const {
     for (const PlacedBody& part : placed_parts_) {
       const Eigen::Vector3d center_W = part.X_WS.translation();
-      const double part_radius_m = part.body->bounding_radius_m + kRounding_m;
+      const double part_radius_m = part.body->bounding_radius_m + kRoundingM;
       const double balls_m = (body.X_WS.translation() - center_W).norm() - body.body->bounding_radius_m - part_radius_m;
       if (balls_m > std::max(nearest.clearance_m, 0.0)) continue;
       const double center_distance_m = (body.nearest(center_W) - center_W).norm();

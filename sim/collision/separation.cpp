@@ -11,7 +11,7 @@ static_assert(sizeof(btScalar) == sizeof(double), "Bullet's double-precision lib
 
 namespace {
 
-constexpr double kExact_m = 1e-7;      // what a distance may be off
+constexpr double kExactM = 1e-7;       // what a distance may be off
 constexpr int kMaxProjections = 2000;  // tens are enough for the worst of a million random pairs
 
 Eigen::Vector3d to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
@@ -37,18 +37,18 @@ double widest_slab_m(const PlacedBody& first, const PlacedBody& second, const Ei
 Eigen::Vector3d direction(const Separation& apart) { return (apart.on_second_W - apart.on_first_W).normalized(); }
 
 bool is_proved(const PlacedBody& first, const PlacedBody& second, const Separation& apart) {
-  return apart.distance_m == 0.0 || apart.distance_m - slab_m(first, second, direction(apart)) <= kExact_m;
+  return apart.distance_m == 0.0 || apart.distance_m - slab_m(first, second, direction(apart)) <= kExactM;
 }
 
 // From a point `a` of the first body, projections to the one body and back, with momentum that restarts when it points
-// uphill, lead to the nearest points, or to a common one. The result is proved unless it is nearer than kExact_m.
+// uphill, lead to the nearest points, or to a common one. The result is proved unless it is nearer than kExactM.
 Separation separate_by_projections(const PlacedBody& first, const PlacedBody& second, const Eigen::Vector3d& a) {
   Separation best{0.0, a, second.nearest(a)};
   Eigen::Vector3d previous_a = a;
   double momentum = 1.0;
   for (int i = 0; i < kMaxProjections; ++i) {
     best.distance_m = (best.on_second_W - best.on_first_W).norm();
-    if (best.distance_m <= kExact_m || is_proved(first, second, best)) break;
+    if (best.distance_m <= kExactM || is_proved(first, second, best)) break;
     double next_momentum = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * momentum * momentum));
     const Eigen::Vector3d step = best.on_first_W - previous_a;
     const Eigen::Vector3d ahead = best.on_first_W + (momentum - 1.0) / next_momentum * step;
@@ -86,20 +86,20 @@ Separation separate(const PlacedBody& first, const PlacedBody& second) {
   Eigen::Vector3d start_W = first.X_WS.translation();
   if (btGjkEpaSolver2::Distance(a, first.bullet_X_WS, b, second.bullet_X_WS, guess, found)) {
     const Separation apart{found.distance, to_eigen(found.witnesses[0]), to_eigen(found.witnesses[1])};
-    if (apart.distance_m > kExact_m && is_proved(first, second, apart)) return apart;
+    if (apart.distance_m > kExactM && is_proved(first, second, apart)) return apart;
     start_W = first.nearest(apart.on_first_W);
   }
 
   // Bullet's search stops early at about one pair in a thousand, off by up to meters: what it cannot prove is measured
   // a second way.
   Separation apart = separate_by_projections(first, second, start_W);
-  if (apart.distance_m > kExact_m && is_proved(first, second, apart)) return apart;
+  if (apart.distance_m > kExactM && is_proved(first, second, apart)) return apart;
 
   // Where a face is parallel to an edge but for some 1e-6 rad, the nearest points slide on and on; the slab between the
   // bodies is then square to the face.
-  if (apart.distance_m > kExact_m) {
+  if (apart.distance_m > kExactM) {
     const double widest_m = widest_slab_m(first, second, direction(apart));
-    if (widest_m > kExact_m) {
+    if (widest_m > kExactM) {
       apart.distance_m = std::min(apart.distance_m, widest_m);
       return apart;
     }

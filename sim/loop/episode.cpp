@@ -29,7 +29,7 @@ namespace hedgehop::sim {
 namespace {
 
 /// Solids farther from the hull than this count as absent, m: no clearance beyond it is of interest.
-constexpr double kSearchRadius_m = 50.0;
+constexpr double kSearchRadiusM = 50.0;
 
 class Episode {
  public:
@@ -164,7 +164,7 @@ Flight Episode::fly() {
 }
 
 void Episode::measure_proximity() {
-  proximity_ = collision_.query(aircraft_.X_WB(), kSearchRadius_m, ticks_.t_s(tick_));
+  proximity_ = collision_.query(aircraft_.X_WB(), kSearchRadiusM, ticks_.t_s(tick_));
   log_.add(ticks_.t_s(tick_), aircraft_.body().p_WB, proximity_);
 }
 

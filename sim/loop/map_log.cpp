@@ -5,10 +5,10 @@
 namespace hedgehop::sim {
 
 void MapLog::add(double t_s, avoidance::Chart chart) {
-  constexpr double kBetween_s = 2.0;
+  constexpr double kBetweenS = 2.0;
   const size_t places = chart.way_NE.size(), before = ways_.empty() ? 1 : ways_.back().places_NE.size();
   const bool is_detour = places > 1;
-  if (places != before || (is_detour && t_s >= ways_.back().t_s + kBetween_s)) ways_.push_back({t_s, chart.way_NE});
+  if (places != before || (is_detour && t_s >= ways_.back().t_s + kBetweenS)) ways_.push_back({t_s, chart.way_NE});
   last_ = std::move(chart);
 }
 

@@ -19,7 +19,7 @@ namespace {
 /// Bits per pixel and image that keep rendered scenes legible; 1000 x 700 at 25 Hz then takes 1.4 Mbit/s.
 constexpr double kBitsPerPixel = 0.08;
 /// A whole image at least this often, so that seeking is quick.
-constexpr double kKeyframePeriod_s = 2.0;
+constexpr double kKeyframePeriodS = 2.0;
 
 template <class T, void (*Free)(T**)>
 struct Deleter {
@@ -55,7 +55,7 @@ CodecContext make_encoder(double rate_hz, cv::Size size_px) {
   // Time in microticks of an image, so that any rate is exact enough.
   encoder->framerate = av_d2q(rate_hz, 1 << 20);
   encoder->time_base = av_inv_q(encoder->framerate);
-  encoder->gop_size = std::max(1, static_cast<int>(kKeyframePeriod_s * rate_hz));
+  encoder->gop_size = std::max(1, static_cast<int>(kKeyframePeriodS * rate_hz));
   encoder->bit_rate = static_cast<int64_t>(kBitsPerPixel * rate_hz * size_px.area());
   encoder->thread_count = 1;  // the flight is the unit of parallelism
   av_opt_set(encoder->priv_data, "deadline", "realtime", 0);

@@ -8,7 +8,7 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr float kDarkAt_m = 50.0f;
+constexpr float kDarkAtM = 50.0f;
 
 cv::Mat to_rgb(const cv::Mat& image) {
   cv::Mat rgb;
@@ -20,7 +20,7 @@ cv::Mat to_rgb(const cv::Mat& image) {
       return rgb;
     default: {
       cv::Mat nearness;
-      image.convertTo(nearness, CV_8UC1, -255.0 / kDarkAt_m, 255.0);
+      image.convertTo(nearness, CV_8UC1, -255.0 / kDarkAtM, 255.0);
       cv::cvtColor(nearness, rgb, cv::COLOR_GRAY2RGB);
       return rgb;
     }

@@ -14,7 +14,7 @@ constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr std::string_view kTruthNote = "true: known to the simulator only";
 constexpr std::string_view kHeadingNote = "in the frame of the true heading; true: known to the simulator only";
 /// Clearances beyond this say nothing about the danger of a flight; the plot ends there.
-constexpr double kClearanceShown_m = 20.0;
+constexpr double kClearanceShownM = 20.0;
 
 template <class Function>
 Values each(const Values& a, const Values& b, Function function) {
@@ -102,7 +102,7 @@ void add_motion(TrajectoryPanels& p, const std::vector<Limit>& clearance_limits)
       if (std::isfinite(value)) largest = std::max(largest, value);
     }
   }
-  if (largest > kClearanceShown_m) panel.highest = kClearanceShown_m;
+  if (largest > kClearanceShownM) panel.highest = kClearanceShownM;
 
   p.add(kMotionSection, "Altitude", "m", kTruthNote,
         {{"commanded", "cmd", p.column("cmd_altitude_m")},

@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// How far above or below the flown band a solid may lie and still be drawn as an obstacle: a vehicle's half height.
-constexpr double kLevelMargin_m = 1.0;
+constexpr double kLevelMarginM = 1.0;
 
 const char* word(Level level) {
   switch (level) {
@@ -49,7 +49,7 @@ nlohmann::ordered_json plan_data(const ScenePlan& plan, double lowest_m, double 
     Json corners = Json::array();
     for (const Eigen::Vector2d& p : footprint.corners_NE_m) corners.push_back({milli(p.x()), milli(p.y())});
     json["footprints"].push_back({{"name", footprint.name},
-                                  {"level", word(level(footprint, lowest_m, highest_m, kLevelMargin_m))},
+                                  {"level", word(level(footprint, lowest_m, highest_m, kLevelMarginM))},
                                   {"bottom", milli(footprint.bottom_m)},
                                   {"top", milli(footprint.top_m)},
                                   {"corners", corners}});

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMoverStep_s = 0.1;  // a mover goes straight between; faster turns than this are not drawn
+constexpr double kMoverStepS = 0.1;  // a mover goes straight between; faster turns than this are not drawn
 
 /// Four decimals: a tenth of a millimeter, or of a thousandth of a turn's half.
 Json fine(double value) { return std::round(value * 1e4) / 1e4; }
@@ -65,12 +65,11 @@ Json replay_scene(const scenes::Scene& scene, double end_s) {
   Json json = bodies(scene.solids);
   json["has_ground"] = scene.has_ground;
   json["bounds"] = plan_data({.bounds_NE_m = scene.bounds_NE_m}, 0.0, 0.0).at("bounds");
-  json["step_s"] = kMoverStep_s;
+  json["step_s"] = kMoverStepS;
   json["movers"] = Json::array();
   for (const scenes::Mover& mover : scene.movers) {
     Json way = Json::array();
-    for (int i = 0; i <= std::ceil(end_s / kMoverStep_s); ++i)
-      append(way, scenes::p_WM(mover.motion, i * kMoverStep_s));
+    for (int i = 0; i <= std::ceil(end_s / kMoverStepS); ++i) append(way, scenes::p_WM(mover.motion, i * kMoverStepS));
     json["movers"].push_back({{"name", mover.name}, {"bodies", bodies(mover.solids)}, {"way", way}});
   }
   return json;

@@ -47,8 +47,8 @@ std::vector<Sighting> look(const vision::camera::Camera& camera) {
     }
   }
   // One face is enough where a perspective image is not stretched too much, and for lenses that are perspective.
-  constexpr double kOneFace_rad = 50.0 * std::numbers::pi / 180.0;
-  const bool one = std::holds_alternative<vision::camera::PinholeLens>(camera.lens) || widest > std::cos(kOneFace_rad);
+  constexpr double kOneFaceRad = 50.0 * std::numbers::pi / 180.0;
+  const bool one = std::holds_alternative<vision::camera::PinholeLens>(camera.lens) || widest > std::cos(kOneFaceRad);
   std::vector<Sighting> sightings(rays.size());
   for (size_t i = 0; i < rays.size(); ++i) {
     if (!rays[i].allFinite()) continue;

@@ -15,7 +15,7 @@ namespace hedgehop::sim {
 namespace {
 
 constexpr int kFewTexels = 2048, kManyTexels = 4096;
-constexpr double kFineEnough_m = 0.05;
+constexpr double kFineEnoughM = 0.05;
 
 std::vector<scenes::Chunk> casters(const SceneBuffers& buffers) {
   std::vector<scenes::Chunk> chunks;
@@ -82,7 +82,7 @@ SunMap draw_sun_map(const GlFunctions& gl, const SceneBuffers& buffers, const Ei
   const Eigen::Matrix3d R_LW = sun_axes(to_sun_W);
   const Eigen::AlignedBox3d box = bounds(chunks, R_LW);
   const double across_m = box.sizes().head<2>().maxCoeff();
-  const int texels = across_m > kFewTexels * kFineEnough_m ? kManyTexels : kFewTexels;
+  const int texels = across_m > kFewTexels * kFineEnoughM ? kManyTexels : kFewTexels;
   constexpr int kMarginTexels = 4;
 
   SunMap map;

@@ -9,22 +9,22 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kHalfWidth_m = 2.0, kStart_m = -1.5, kSpeed_mps = 0.42;
-constexpr double kSample_s = 0.5, kDuration_s = 120.0, kSettled_m = 0.2;
+constexpr double kHalfWidthM = 2.0, kStartM = -1.5, kSpeedMps = 0.42;
+constexpr double kSampleS = 0.5, kDurationS = 120.0, kSettledM = 0.2;
 constexpr double kGravityMps2 = 9.80665;
 
 /// Roll and turn rate as the controller asks, speed along the heading held, no drag.
 struct PointMass {
-  double x_m = 0.0, off_middle_m = kStart_m, sideways_mps = 0.0, heading_rad = 0.0;
+  double x_m = 0.0, off_middle_m = kStartM, sideways_mps = 0.0, heading_rad = 0.0;
 
   void fly(double roll_and_turn) {
     constexpr int kSteps = 100;
-    constexpr double dt_s = kSample_s / kSteps;
+    constexpr double dt_s = kSampleS / kSteps;
     for (int i = 0; i < kSteps; ++i) {
       sideways_mps += kGravityMps2 * std::tan(roll_and_turn) * dt_s;
       heading_rad += roll_and_turn * dt_s;
-      x_m += (kSpeed_mps * std::cos(heading_rad) - sideways_mps * std::sin(heading_rad)) * dt_s;
-      off_middle_m += (kSpeed_mps * std::sin(heading_rad) + sideways_mps * std::cos(heading_rad)) * dt_s;
+      x_m += (kSpeedMps * std::cos(heading_rad) - sideways_mps * std::sin(heading_rad)) * dt_s;
+      off_middle_m += (kSpeedMps * std::sin(heading_rad) + sideways_mps * std::cos(heading_rad)) * dt_s;
     }
   }
 };
@@ -33,12 +33,12 @@ template <class Noise>
 Columns run(Noise noise) {
   PointMass mass;
   Columns columns;
-  const auto seen = [&] { return -mass.off_middle_m / kHalfWidth_m + noise(); };
+  const auto seen = [&] { return -mass.off_middle_m / kHalfWidthM + noise(); };
   double last = seen(), settled_m = 0.0;
-  for (double t_s = 0.0; t_s < kDuration_s; t_s += kSample_s) {
+  for (double t_s = 0.0; t_s < kDurationS; t_s += kSampleS) {
     columns["x_m"].push_back(mass.x_m);
     columns["off_middle_m"].push_back(mass.off_middle_m);
-    if (std::abs(mass.off_middle_m) > kSettled_m) settled_m = mass.x_m;
+    if (std::abs(mass.off_middle_m) > kSettledM) settled_m = mass.x_m;
     const double error = seen();
     mass.fly(avoidance::corridor_centering::printed_control({}, error, last));
     last = error;

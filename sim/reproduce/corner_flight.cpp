@@ -14,8 +14,8 @@ namespace {
 using vision::landmarks::LandmarkMap;
 using vision::landmarks::MappedLandmark;
 
-constexpr double kFeet_m = 0.3048, kImage_s = 0.1, kConverged_percent = 3.0;
-constexpr double kAltitude_m = 140.0 * kFeet_m;
+constexpr double kFeetM = 0.3048, kImageS = 0.1, kConvergedPercent = 3.0;
+constexpr double kAltitudeM = 140.0 * kFeetM;
 
 CornerFlight lateral(std::vector<Eigen::Vector3d> corners_W, const Eigen::Vector3d& middle_W) {
   CornerFlight flight;
@@ -23,8 +23,8 @@ CornerFlight lateral(std::vector<Eigen::Vector3d> corners_W, const Eigen::Vector
   flight.camera = vision::camera::PinholeCamera::from_fov(640, 640, std::numbers::pi / 6.0);
   flight.X_WC = [middle_W](double t_s) {
     const double azimuth = std::numbers::pi + 0.36 * std::numbers::pi / 180.0 * t_s;
-    const double radius_m = 140.0 * kFeet_m;
-    return looking_at({radius_m * std::cos(azimuth), radius_m * std::sin(azimuth), -kAltitude_m}, middle_W);
+    const double radius_m = 140.0 * kFeetM;
+    return looking_at({radius_m * std::cos(azimuth), radius_m * std::sin(azimuth), -kAltitudeM}, middle_W);
   };
   return flight;
 }
@@ -81,7 +81,7 @@ CornerFlight highrise_forward_flight() {
   CornerFlight flight = lateral(scenes::worlds::highrise_corners({}), {0, 0, 0});
   flight.duration_s = 125.0;
   flight.X_WC = [](double t_s) {
-    const Eigen::Vector3d p_WC(-120.0 + 1.4 * kFeet_m * t_s, 0.0, -kAltitude_m);
+    const Eigen::Vector3d p_WC(-120.0 + 1.4 * kFeetM * t_s, 0.0, -kAltitudeM);
     const double down_rad = 11.0 * std::numbers::pi / 180.0;
     return looking_at(p_WC, p_WC + Eigen::Vector3d(std::cos(down_rad), 0.0, std::sin(down_rad)));
   };
@@ -90,14 +90,14 @@ CornerFlight highrise_forward_flight() {
 
 CornerFlightResult fly_past_corners(const CornerFlight& flight, const vision::landmarks::LandmarkMapConfig& config,
                                     uint64_t seed, const WatchMap& watch) {
-  constexpr double kCorner_px = 0.5;
+  constexpr double kCornerPx = 0.5;
   Noise noise(seed);
   LandmarkMap map(config, flight.camera);
   std::map<size_t, int64_t> id_of_corner;
   const Eigen::Vector3d first_W = flight.X_WC(0.0).translation();
   CornerFlightResult result;
-  for (int image = 0; image * kImage_s <= flight.duration_s; ++image) {
-    const double t_s = image * kImage_s;
+  for (int image = 0; image * kImageS <= flight.duration_s; ++image) {
+    const double t_s = image * kImageS;
     const Eigen::Isometry3d X_WC = flight.X_WC(t_s);
     std::vector<Eigen::Vector2d> pixels;
     std::vector<size_t> corner_of;
@@ -107,7 +107,7 @@ CornerFlightResult fly_past_corners(const CornerFlight& flight, const vision::la
           pixel->y() > flight.camera.height_px - 1) {
         continue;
       }
-      pixels.push_back(*pixel + noise.pixel(kCorner_px));
+      pixels.push_back(*pixel + noise.pixel(kCornerPx));
       corner_of.push_back(i);
     }
     vision::landmarks::CameraPose pose{X_WC, config.position_sigma_m, config.attitude_sigma_rad};
@@ -115,7 +115,7 @@ CornerFlightResult fly_past_corners(const CornerFlight& flight, const vision::la
     const Eigen::Vector3d turn_C = config.attitude_sigma_rad * noise.vector();
     pose.X_WC_est.linear() *= Eigen::AngleAxisd(turn_C.norm(), turn_C.normalized()).toRotationMatrix();
     const auto start = std::chrono::steady_clock::now();
-    const std::vector<int64_t> ids = map.update(pixels, pose, image == 0 ? 0.0 : kImage_s);
+    const std::vector<int64_t> ids = map.update(pixels, pose, image == 0 ? 0.0 : kImageS);
     const std::chrono::duration<double, std::milli> cost = std::chrono::steady_clock::now() - start;
     result.filter_ms.push_back(cost.count());
     follow(map, corner_of, ids, id_of_corner);
@@ -137,7 +137,7 @@ CornerFlightResult fly_past_corners(const CornerFlight& flight, const vision::la
     }
     result.error_percent.push_back(sum);
     result.worst_percent = worst;
-    if (sum > kConverged_percent) {
+    if (sum > kConvergedPercent) {
       result.converged_s = NAN;
     } else if (std::isnan(result.converged_s)) {
       result.converged_s = t_s;

@@ -8,7 +8,7 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kImage_ms = 100.0;
+constexpr double kImageMs = 100.0;
 
 CornerFlight flight_past(int corners) {
   CornerFlight flight = highrise_lateral_flight();
@@ -39,7 +39,7 @@ Columns landmark_costs() {
     const double cost_ms = image_ms(count);
     columns["landmarks"].push_back(count);
     columns["image_ms"].push_back(cost_ms);
-    columns["speed"].push_back(kImage_ms / cost_ms);
+    columns["speed"].push_back(kImageMs / cost_ms);
   }
   const double growth = columns["image_ms"][2] / columns["image_ms"][0];
   columns["growth_8_to_35"].assign(counts.size(), growth);

@@ -10,7 +10,7 @@ namespace hedgehop::sim {
 namespace {
 
 constexpr int kRounds = 41;
-constexpr double kThreshold_m = 9.144, kMostShare = 0.15;
+constexpr double kThresholdM = 9.144, kMostShare = 0.15;
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -41,7 +41,7 @@ Columns section_costs() {
   for (int round = 0; round < kRounds; ++round) {
     for (Candidate& candidate : candidates) {
       const auto start = std::chrono::steady_clock::now();
-      candidate.search.choose(depth_m, kThreshold_m, kMostShare, vision::sections::Unknown::free);
+      candidate.search.choose(depth_m, kThresholdM, kMostShare, vision::sections::Unknown::free);
       const std::chrono::duration<double, std::milli> cost = std::chrono::steady_clock::now() - start;
       candidate.costs_ms.push_back(cost.count());
     }

@@ -45,10 +45,10 @@ TimedPoint point(std::string_view line, const std::filesystem::path& file, int n
 }  // namespace
 
 std::vector<TimedPoint> thinned(const std::vector<TimedPoint>& points, double step_s) {
-  constexpr double kRoundOff_s = 1e-9;
+  constexpr double kRoundOffS = 1e-9;
   std::vector<TimedPoint> kept;
   for (size_t i = 0; i < points.size(); ++i) {
-    const bool due = kept.empty() || points[i].t_s - kept.back().t_s >= step_s - kRoundOff_s;
+    const bool due = kept.empty() || points[i].t_s - kept.back().t_s >= step_s - kRoundOffS;
     if (due || i + 1 == points.size()) kept.push_back(points[i]);
   }
   return kept;

@@ -24,9 +24,9 @@ double rotor_radius_m(const std::vector<dynamics::HullPart>& hull) {
 
 void assess(const Scenario& scenario, const scenes::Scene& scene, const std::vector<dynamics::HullPart>& hull,
             Flight& flight) {
-  constexpr double kBesideStart_m = 1.0;
+  constexpr double kBesideStartM = 1.0;
   const double altitude_m = scenario.start.altitude_m;
-  flight.result.scene = scenes::scene_figures(scene, {altitude_m - kBesideStart_m, altitude_m + kBesideStart_m});
+  flight.result.scene = scenes::scene_figures(scene, {altitude_m - kBesideStartM, altitude_m + kBesideStartM});
   for (MetricValue& metric : field_metrics(scenario, flight, scene, dynamics::radius_m(hull))) {
     flight.result.metrics.push_back(std::move(metric));
   }

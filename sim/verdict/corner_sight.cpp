@@ -12,11 +12,11 @@ bool in_image(const vision::camera::Camera& camera, const Eigen::Isometry3d& X_W
 }
 
 bool nothing_before(const CollisionWorld& world, const Eigen::Vector3d& p_WC, const Eigen::Vector3d& p_W, double t_s) {
-  constexpr double kOfItself_m = 0.1;  // the surface that the point belongs to may be met a little before it
+  constexpr double kOfItselfM = 0.1;  // the surface that the point belongs to may be met a little before it
   const Eigen::Vector3d way_W = p_W - p_WC;
   const double distance_m = way_W.norm();
-  if (distance_m <= kOfItself_m) return true;
-  return world.distance_along(p_WC, way_W / distance_m, distance_m, t_s) >= distance_m - kOfItself_m;
+  if (distance_m <= kOfItselfM) return true;
+  return world.distance_along(p_WC, way_W / distance_m, distance_m, t_s) >= distance_m - kOfItselfM;
 }
 
 }  // namespace
@@ -26,11 +26,11 @@ ProjectedCorners::ProjectedCorners(std::vector<Eigen::Vector3d> corners_W, uint6
 
 std::vector<Eigen::Vector2d> ProjectedCorners::project(const vision::camera::Camera& camera,
                                                        const Eigen::Isometry3d& X_WC) {
-  constexpr double kNoise_px = 0.5;  // of a corner detector that works well
+  constexpr double kNoisePx = 0.5;  // of a corner detector that works well
   std::vector<Eigen::Vector2d> pixels;
   for (const Eigen::Vector3d& p_W : corners_W_) {
     if (!in_image(camera, X_WC, p_W)) continue;
-    const double right_px = kNoise_px * normal_(random_), down_px = kNoise_px * normal_(random_);
+    const double right_px = kNoisePx * normal_(random_), down_px = kNoisePx * normal_(random_);
     pixels.push_back(*camera.project(X_WC.inverse() * p_W) + Eigen::Vector2d(right_px, down_px));
   }
   return pixels;

@@ -26,8 +26,8 @@ std::vector<double> centering_deviations(const scenes::worlds::CorridorPlan& pla
   const auto column = static_cast<size_t>(signal - flight.signals.begin());
   for (const DecisionRow& decision : flight.decisions) {
     const double error = decision.signals[column];
-    constexpr double kSameTick_s = 1e-6;
-    const auto row = std::ranges::lower_bound(flight.trajectory, decision.t_s - kSameTick_s, {}, &TrajectoryRow::t_s);
+    constexpr double kSameTickS = 1e-6;
+    const auto row = std::ranges::lower_bound(flight.trajectory, decision.t_s - kSameTickS, {}, &TrajectoryRow::t_s);
     if (std::isnan(error) || row == flight.trajectory.end()) continue;
     const CorridorPlace place = corridor_place(plan, row->p_WB_true.head<2>());
     const double true_error = (place.right_m - place.left_m) / (place.right_m + place.left_m);
@@ -66,12 +66,12 @@ std::vector<MetricValue> corridor_metrics(const Scenario& scenario, const Flight
   const scenes::worlds::CorridorPlan plan = scenes::worlds::plan_corridor(*corridor);
   std::vector<double> offs_m;
   double late_m = std::numeric_limits<double>::quiet_NaN();
-  constexpr double kSettled_m = 15.0;
+  constexpr double kSettledM = 15.0;
   const double begin_m = corridor_place(plan, flight.trajectory.front().p_WB_true.head<2>()).along_m;
   for (const TrajectoryRow& row : flight.trajectory) {
     const CorridorPlace place = corridor_place(plan, row.p_WB_true.head<2>());
     offs_m.push_back(0.5 * std::abs(place.right_m - place.left_m));
-    if (place.along_m >= begin_m + kSettled_m) late_m = std::fmax(late_m, offs_m.back());
+    if (place.along_m >= begin_m + kSettledM) late_m = std::fmax(late_m, offs_m.back());
   }
   std::vector<MetricValue> metrics = {{"off_middle_mean_m", mean(offs_m), "m"},
                                       {"off_middle_max_m", *std::ranges::max_element(offs_m), "m"},

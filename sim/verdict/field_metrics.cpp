@@ -15,18 +15,18 @@ using Rows = std::vector<TrajectoryRow>;
 /// goal's altitude.
 std::optional<double> shortest_free_path_m(const GoalConfig& goal, const Eigen::Vector3d& start_W,
                                            const scenes::Scene& scene, double vehicle_radius_m) {
-  constexpr double kHalfThickness_m = 0.05, kFinestCell_m = 0.25, kMostCells = 400.0, kMargin_m = 5.0, kAtStart_s = 0.0;
+  constexpr double kHalfThicknessM = 0.05, kFinestCellM = 0.25, kMostCells = 400.0, kMarginM = 5.0, kAtStartS = 0.0;
   const dynamics::HullPart disc{.shape = dynamics::HullPart::Shape::cylinder,
-                                .half_extents_m = {vehicle_radius_m, vehicle_radius_m, kHalfThickness_m}};
+                                .half_extents_m = {vehicle_radius_m, vehicle_radius_m, kHalfThicknessM}};
   CollisionWorld world(scene, {disc});
   Eigen::AlignedBox2d bounds = scene.bounds_NE_m;
   bounds.extend(Eigen::Vector2d(start_W.head<2>())).extend(Eigen::Vector2d(goal.p_WG().head<2>()));
-  bounds = {bounds.min().array() - kMargin_m, bounds.max().array() + kMargin_m};
-  const double cell_m = std::max(kFinestCell_m, bounds.sizes().maxCoeff() / kMostCells);
+  bounds = {bounds.min().array() - kMarginM, bounds.max().array() + kMarginM};
+  const double cell_m = std::max(kFinestCellM, bounds.sizes().maxCoeff() / kMostCells);
   const auto is_free = [&](const Eigen::Vector2d& p_NE_m) {
     Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
     X_WB.translation() = Eigen::Vector3d(p_NE_m.x(), p_NE_m.y(), goal.p_WG().z());
-    return !world.query(X_WB, kHalfThickness_m, kAtStart_s).collided;
+    return !world.query(X_WB, kHalfThicknessM, kAtStartS).collided;
   };
   const auto length_m = shortest_path_m(start_W.head<2>(), goal.p_WG().head<2>(), bounds, cell_m, is_free);
   if (!length_m) return {};

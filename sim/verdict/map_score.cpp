@@ -6,7 +6,7 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kConverged_percent = 3.0, kNothing_percent = 100.0, kCounts_s = 10.0;
+constexpr double kConvergedPercent = 3.0, kNothingPercent = 100.0, kCountsS = 10.0;
 
 }  // namespace
 
@@ -25,30 +25,30 @@ void MapScore::add(double t_s, std::span<const Eigen::Vector3d> map_W, const std
   seen_count_ = 0;
   is_true_.assign(map_W.size(), false);
   for (size_t corner = 0; corner < corners_W_.size(); ++corner) {
-    double least = kNothing_percent;
+    double least = kNothingPercent;
     for (size_t i = 0; i < map_W.size(); ++i) {
       const double percent = error_percent(corner, map_W[i]);
       least = std::min(least, percent);
-      if (percent <= kConverged_percent) is_true_[i] = true;
+      if (percent <= kConvergedPercent) is_true_[i] = true;
     }
-    is_found_[corner] = least <= kConverged_percent;
+    is_found_[corner] = least <= kConvergedPercent;
     if (in_sight[corner]) seen_s_[corner] += t_s - last_t_s_;
-    if (seen_s_[corner] < kCounts_s) continue;
+    if (seen_s_[corner] < kCountsS) continue;
     ++seen_count_;
     sum += least;
-    found += least <= kConverged_percent;
+    found += least <= kConvergedPercent;
   }
   last_t_s_ = t_s;
   const double count = std::max(1, seen_count_);
-  error_percent_ = seen_count_ > 0 ? sum / count : kNothing_percent;
+  error_percent_ = seen_count_ > 0 ? sum / count : kNothingPercent;
   found_ = found / count;
-  if (error_percent_ > kConverged_percent) {
+  if (error_percent_ > kConvergedPercent) {
     converged_s_ = NAN;
   } else if (std::isnan(converged_s_)) {
     converged_s_ = t_s;
   }
 
-  const double height_m = 0.01 * kConverged_percent * *std::ranges::min_element(distances_m_);
+  const double height_m = 0.01 * kConvergedPercent * *std::ranges::min_element(distances_m_);
   false_count_ = false_on_ground_ = 0;
   for (size_t i = 0; i < map_W.size(); ++i) {
     if (is_true_[i]) continue;
@@ -61,7 +61,7 @@ void MapScore::add(double t_s, std::span<const Eigen::Vector3d> map_W, const std
 std::vector<RecordedCorner> MapScore::corners() const {
   std::vector<RecordedCorner> corners;
   for (size_t i = 0; i < corners_W_.size(); ++i) {
-    corners.push_back({corners_W_[i], seen_s_[i] >= kCounts_s, is_found_[i]});
+    corners.push_back({corners_W_[i], seen_s_[i] >= kCountsS, is_found_[i]});
   }
   return corners;
 }

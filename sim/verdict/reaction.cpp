@@ -17,21 +17,21 @@ Eigen::Quaterniond attitude(const Eigen::Vector3d& rpy_rad) {
 /// Steps forward by the time that the clearance lasts at the greatest closing speed, so that nothing is stepped over.
 std::optional<double> time_to_collision_s(CollisionWorld& world, const scenes::Scene& scene, Eigen::Isometry3d X_WB,
                                           const Eigen::Vector3d& v_WB_W, double t_s, double horizon_s) {
-  constexpr double kTouches_m = 1e-3, kStill_mps = 1e-3, kShortest_s = 1e-4, kLongest_s = 0.1;
+  constexpr double kTouchesM = 1e-3, kStillMps = 1e-3, kShortestS = 1e-4, kLongestS = 0.1;
   const Eigen::Vector3d start_W = X_WB.translation();
   for (double after_s = 0.0; after_s <= horizon_s;) {
     double mover_mps = 0.0;
     for (const scenes::Mover& mover : scene.movers) {
       mover_mps = std::max(mover_mps, scenes::v_WM(mover.motion, t_s + after_s).norm());
     }
-    const double closing_mps = std::max(kStill_mps, v_WB_W.norm() + mover_mps);
+    const double closing_mps = std::max(kStillMps, v_WB_W.norm() + mover_mps);
     X_WB.translation() = start_W + after_s * v_WB_W;
-    const double reach_m = closing_mps * horizon_s + kTouches_m;
+    const double reach_m = closing_mps * horizon_s + kTouchesM;
     const double clearance_m = world.query(X_WB, reach_m, t_s + after_s).obstacle_clearance_m;
-    if (clearance_m <= kTouches_m) return after_s;
+    if (clearance_m <= kTouchesM) return after_s;
     // A mover may set off meanwhile, so no step is long where there is one.
-    const double step_s = std::max(kShortest_s, clearance_m / closing_mps);
-    after_s += scene.movers.empty() ? step_s : std::min(step_s, kLongest_s);
+    const double step_s = std::max(kShortestS, clearance_m / closing_mps);
+    after_s += scene.movers.empty() ? step_s : std::min(step_s, kLongestS);
   }
   return {};
 }
@@ -47,7 +47,7 @@ std::optional<double> time_to_collision_s(const scenes::Scene& scene, const std:
 
 std::optional<double> time_to_collision_at_reaction_s(const Flight& flight, const scenes::Scene& scene,
                                                       const std::vector<dynamics::HullPart>& hull) {
-  constexpr double kHorizon_s = 10.0;
+  constexpr double kHorizonS = 10.0;
   std::optional<double> least_s;
   CollisionWorld world(scene, hull);
   for (size_t i = 1; i < flight.decisions.size(); ++i) {
@@ -57,8 +57,8 @@ std::optional<double> time_to_collision_at_reaction_s(const Flight& flight, cons
     if (row == flight.trajectory.end()) continue;
     Eigen::Isometry3d X_WB(attitude(row->rpy_true));
     X_WB.translation() = row->p_WB_true;
-    const auto left_s = time_to_collision_s(world, scene, X_WB, row->v_WB_W_true, row->t_s, kHorizon_s);
-    if (left_s) least_s = std::min(*left_s, least_s.value_or(kHorizon_s));
+    const auto left_s = time_to_collision_s(world, scene, X_WB, row->v_WB_W_true, row->t_s, kHorizonS);
+    if (left_s) least_s = std::min(*left_s, least_s.value_or(kHorizonS));
   }
   return least_s;
 }

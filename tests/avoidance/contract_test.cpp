@@ -60,7 +60,7 @@ std::vector<Row> rows() {
 
 class Contract : public testing::TestWithParam<Row> {
  protected:
-  static constexpr int kSize_px = 160, kSteps = 4;
+  static constexpr int kSizePx = 160, kSteps = 4;
 
   // A flight past two walls; made once, for drawing takes most of a test's time.
   struct Step {
@@ -68,9 +68,9 @@ class Contract : public testing::TestWithParam<Row> {
     std::vector<CameraFrame> frames;
   };
   static const std::vector<Step>& flight() {
-    static const std::vector<Step> all_round = make_flight(four_cameras(kSize_px, 25.0));
-    static const std::vector<Step> ahead = make_flight(stereo_pair(kSize_px, 25.0));
-    static const std::vector<Step> below = make_flight(fisheye_below(2 * kSize_px, 25.0));
+    static const std::vector<Step> all_round = make_flight(four_cameras(kSizePx, 25.0));
+    static const std::vector<Step> ahead = make_flight(stereo_pair(kSizePx, 25.0));
+    static const std::vector<Step> below = make_flight(fisheye_below(2 * kSizePx, 25.0));
     if (GetParam().fisheye) return below;
     return GetParam().stereo ? ahead : all_round;
   }
@@ -88,9 +88,9 @@ class Contract : public testing::TestWithParam<Row> {
     return made;
   }
   static avoidance::Setup setup(double speed_limit_mps = 10.0) {
-    if (GetParam().fisheye) return fisheye_below(2 * kSize_px, 25.0, speed_limit_mps);
-    return GetParam().stereo ? stereo_pair(kSize_px, 25.0, speed_limit_mps)
-                             : four_cameras(kSize_px, 25.0, speed_limit_mps);
+    if (GetParam().fisheye) return fisheye_below(2 * kSizePx, 25.0, speed_limit_mps);
+    return GetParam().stereo ? stereo_pair(kSizePx, 25.0, speed_limit_mps)
+                             : four_cameras(kSizePx, 25.0, speed_limit_mps);
   }
   static Observation observation(const Step& step, int i) {
     return {int64_t{40'000'000} * i, step.frames, step.navigation, {{40, 10, -8}, 0.3}};

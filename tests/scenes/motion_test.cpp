@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using Repeat = WaypointMotion::Repeat;
 
-constexpr double kRounding_m = 1e-9;
+constexpr double kRoundingM = 1e-9;
 
 // An L of 3 m north, then 4 m east, 2 m high.
 WaypointMotion bent(Repeat repeat) {
@@ -21,7 +21,7 @@ WaypointMotion bent(Repeat repeat) {
 }
 
 void expect_at(const Motion& motion, double t_s, const Vector3d& p_W) {
-  EXPECT_LT((p_WM(motion, t_s) - p_W).norm(), kRounding_m) << "at " << t_s << " s: " << p_WM(motion, t_s).transpose();
+  EXPECT_LT((p_WM(motion, t_s) - p_W).norm(), kRoundingM) << "at " << t_s << " s: " << p_WM(motion, t_s).transpose();
 }
 
 TEST(WaypointMotion, WaitsWalksAndStopsAtTheEnd) {
@@ -87,13 +87,13 @@ Motion random_motion(std::mt19937_64& random) {
 TEST(Motion, VelocityIsTheDerivativeOfThePosition) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> time(0.0, 100.0);
-  constexpr double kStep_s = 1e-5;
+  constexpr double kStepS = 1e-5;
   int compared = 0;
   for (int k = 0; k < 3000; ++k) {
     const Motion motion = random_motion(random);
     const double t_s = time(random);
-    const Vector3d before = (p_WM(motion, t_s) - p_WM(motion, t_s - kStep_s)) / kStep_s;
-    const Vector3d after = (p_WM(motion, t_s + kStep_s) - p_WM(motion, t_s)) / kStep_s;
+    const Vector3d before = (p_WM(motion, t_s) - p_WM(motion, t_s - kStepS)) / kStepS;
+    const Vector3d after = (p_WM(motion, t_s + kStepS) - p_WM(motion, t_s)) / kStepS;
     if ((after - before).norm() > 1e-3) continue;  // a corner between the three
     ++compared;
     ASSERT_LT((v_WM(motion, t_s) - after).norm(), 1e-3);
@@ -117,7 +117,7 @@ TEST(Motion, NeverLeavesItsWay) {
     }
     // An orbit's 64 chords lie up to r (1 - cos(pi / 64)) inside of it.
     const auto* orbit = std::get_if<OrbitMotion>(&motion);
-    ASSERT_LE(nearest_m, orbit ? orbit->radius_m * (1.0 - std::cos(std::numbers::pi / 64)) + kRounding_m : kRounding_m);
+    ASSERT_LE(nearest_m, orbit ? orbit->radius_m * (1.0 - std::cos(std::numbers::pi / 64)) + kRoundingM : kRoundingM);
   }
 }
 

@@ -18,9 +18,9 @@ double FisheyeLens::radius_slope(double angle_rad) const {
 }
 
 double FisheyeLens::growth_limit_rad() const {
-  constexpr double kStep_rad = 1e-4;
+  constexpr double kStepRad = 1e-4;
   double angle_rad = 0.0;
-  while (angle_rad < std::numbers::pi && radius_slope(angle_rad + kStep_rad) > 0.0) angle_rad += kStep_rad;
+  while (angle_rad < std::numbers::pi && radius_slope(angle_rad + kStepRad) > 0.0) angle_rad += kStepRad;
   return std::fmin(angle_rad, std::numbers::pi);
 }
 

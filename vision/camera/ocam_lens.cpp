@@ -127,10 +127,10 @@ OcamLens ocam_lens(const OcamCalibration& calibration) {
       farthest_px = std::max(farthest_px, (affine(lens).inverse() * from_center).norm());
     }
   }
-  constexpr double kStep_px = 0.25, kPast_px = 1.0;  // a little past the corner, for a pixel's neighbors
-  while (lens.limit_px < farthest_px + kPast_px &&
-         lens.angle_rad(lens.limit_px + kStep_px) > lens.angle_rad(lens.limit_px)) {
-    lens.limit_px += kStep_px;
+  constexpr double kStepPx = 0.25, kPastPx = 1.0;  // a little past the corner, for a pixel's neighbors
+  while (lens.limit_px < farthest_px + kPastPx &&
+         lens.angle_rad(lens.limit_px + kStepPx) > lens.angle_rad(lens.limit_px)) {
+    lens.limit_px += kStepPx;
   }
   require(lens.limit_px > 0.0, "the angle off the axis must grow from the center outwards");
   return lens;

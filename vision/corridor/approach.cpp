@@ -9,8 +9,8 @@
 namespace hedgehop::vision::corridor {
 namespace {
 
-constexpr int kStep_px = 3;     // between samples
-constexpr int kRoom_px = 24;    // about them, that they may move into
+constexpr int kStepPx = 3;      // between samples
+constexpr int kRoomPx = 24;     // about them, that they may move into
 constexpr double kGreys = 2.0;  // noise of images, that smooth surfaces must not undercut
 constexpr int kSweeps = 6;
 
@@ -45,14 +45,14 @@ ApproachMeter::ApproachMeter(const ApproachConfig& config, const camera::Camera&
   narrow.ahead_rad = config.half_width_rad;
   const cv::Mat mask = region_masks(camera, X_BC, narrow, rim_px)[kAhead];
   box_ = cv::boundingRect(mask);
-  for (int v = box_.y; v < box_.br().y; v += kStep_px) {
-    for (int u = box_.x; u < box_.br().x; u += kStep_px) {
+  for (int v = box_.y; v < box_.br().y; v += kStepPx) {
+    for (int u = box_.x; u < box_.br().x; u += kStepPx) {
       if (!mask.at<uint8_t>(v, u)) continue;
       if (const auto ray_C = camera.ray({u, v})) samples_.push_back({{u, v}, *ray_C});
     }
   }
   if (samples_.empty()) return;
-  box_ = cv::Rect(box_.tl() - cv::Point(kRoom_px, kRoom_px), box_.size() + cv::Size(2 * kRoom_px, 2 * kRoom_px)) &
+  box_ = cv::Rect(box_.tl() - cv::Point(kRoomPx, kRoomPx), box_.size() + cv::Size(2 * kRoomPx, 2 * kRoomPx)) &
          cv::Rect(0, 0, camera.width_px, camera.height_px);
 }
 
@@ -71,10 +71,10 @@ std::optional<ApproachMeter::Fit> ApproachMeter::fit(const cv::Mat& older, const
     const auto place = [&](double rate) {
       return camera_.project(R_C2C1 * (sample.ray_C / along - motion.dt_s * rate * way_C));
     };
-    constexpr double kSmall_per_s = 0.05;
-    const auto at = place(rate_per_s), on = place(rate_per_s + kSmall_per_s);
+    constexpr double kSmallPerS = 0.05;
+    const auto at = place(rate_per_s), on = place(rate_per_s + kSmallPerS);
     if (!at || !on) continue;
-    const Eigen::Vector2d p = *at - corner_px, slide = (*on - *at) / kSmall_per_s;
+    const Eigen::Vector2d p = *at - corner_px, slide = (*on - *at) / kSmallPerS;
     if (!inside.contains({p.x(), p.y()})) continue;
     const double right = 0.5 * (grey(newer, p + Eigen::Vector2d(1, 0)) - grey(newer, p - Eigen::Vector2d(1, 0)));
     const double below = 0.5 * (grey(newer, p + Eigen::Vector2d(0, 1)) - grey(newer, p - Eigen::Vector2d(0, 1)));
@@ -102,8 +102,8 @@ std::optional<Approach> ApproachMeter::measure(const cv::Mat& older, const cv::M
       approach.sigma_per_s = step->sigma_per_s;
       // Never to where the wall lies behind.
       approach.rate_per_s = std::clamp(approach.rate_per_s, -0.5 / motion.dt_s, 0.5 / motion.dt_s);
-      constexpr double kDone_per_s = 1e-3;
-      if (std::abs(step->change_per_s) < kDone_per_s) break;
+      constexpr double kDonePerS = 1e-3;
+      if (std::abs(step->change_per_s) < kDonePerS) break;
     }
   }
   if (approach.sigma_per_s > config_.sigma_per_s) return std::nullopt;

@@ -46,9 +46,9 @@ double wall_direction_rad(const std::vector<WallPoint>& points, double most_rad,
       if (m < best_m) best_m = m, best_rad = direction_rad;
     }
   };
-  constexpr double kCoarse_rad = 4.0 * std::numbers::pi / 180.0, kFinest_rad = 0.2 * std::numbers::pi / 180.0;
-  search(-most_rad, most_rad, kCoarse_rad);
-  for (double step_rad = 0.5 * kCoarse_rad; step_rad > kFinest_rad; step_rad *= 0.5) {
+  constexpr double kCoarseRad = 4.0 * std::numbers::pi / 180.0, kFinestRad = 0.2 * std::numbers::pi / 180.0;
+  search(-most_rad, most_rad, kCoarseRad);
+  for (double step_rad = 0.5 * kCoarseRad; step_rad > kFinestRad; step_rad *= 0.5) {
     const double about_rad = best_rad;
     search(std::max(-most_rad, about_rad - step_rad), std::min(most_rad, about_rad + step_rad), step_rad);
   }

@@ -22,9 +22,9 @@ std::vector<cv::Point2f> corners(const cv::Mat& image, const cv::Mat& region, co
   std::vector<cv::Point2f> found;
   if (box.empty()) return found;
   std::vector<float> strengths;
-  constexpr int kBlock_px = 3, kGradient_px = 3;
+  constexpr int kBlockPx = 3, kGradientPx = 3;
   cv::goodFeaturesToTrack(image(box), found, config.most, config.quality, config.apart_px, region(box), strengths,
-                          kBlock_px, kGradient_px);
+                          kBlockPx, kGradientPx);
   size_t strong = 0;
   while (strong < found.size() && strengths[strong] >= config.least_strength) ++strong;
   found.resize(strong);

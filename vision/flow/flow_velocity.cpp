@@ -71,13 +71,13 @@ Eigen::Vector3d median_velocity(const std::vector<Equation>& all, const FlowMoti
 double reweigh(std::vector<Equation>& all, const Eigen::Vector3d& v_B) {
   constexpr double kBiweight = 4.685;         // 95 % efficiency for Gaussian errors
   constexpr double kRayleighMedian = 1.1774;  // median length of a Gaussian pair, in standard deviations
-  constexpr double kLeastScale_mps = 1e-6;
+  constexpr double kLeastScaleMps = 1e-6;
   std::vector<double> lengths;
   for (Equation& e : all) {
     e.residual_mps = (e.rows * v_B - e.flow_mps).norm();
     lengths.push_back(e.residual_mps);
   }
-  const double sigma = std::max(median(lengths) / kRayleighMedian, kLeastScale_mps);
+  const double sigma = std::max(median(lengths) / kRayleighMedian, kLeastScaleMps);
   for (Equation& e : all) {
     const double t = e.residual_mps / (kBiweight * sigma);
     e.weight = t < 1.0 ? (1.0 - t * t) * (1.0 - t * t) : 0.0;

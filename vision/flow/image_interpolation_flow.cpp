@@ -16,7 +16,7 @@ namespace hedgehop::vision::flow {
 namespace {
 
 // Rows of the image that are looked at above and below the patches of a grid that does not fill the image.
-constexpr int kBandRim_px = 16;
+constexpr int kBandRimPx = 16;
 
 void check(const ImageInterpolationConfig& c) {
   const auto need = [](bool holds, const char* message) {
@@ -44,8 +44,8 @@ class ImageInterpolationFlow::Impl {
                             height_px);
     // Only a band of the image is looked at when the patches lie in one; it begins where every level has a pixel row.
     const int step = config.reduction << (config.levels - 1);
-    band_begin_ = std::max(0, (grid_.rows.front().begin - kBandRim_px) / step * step);
-    band_end_ = std::min(height_, (grid_.rows.back().end + kBandRim_px + step - 1) / step * step);
+    band_begin_ = std::max(0, (grid_.rows.front().begin - kBandRimPx) / step * step);
+    band_end_ = std::min(height_, (grid_.rows.back().end + kBandRimPx + step - 1) / step * step);
     const int bits = bits_for(config.patch_px / config.reduction);
     reducer_ = ImageReducer(width_, bits);
 

@@ -72,7 +72,7 @@ CameraError refined(std::span<const PredictedBearing> landmarks, const SortedBea
 CameraError common_error(std::span<const std::optional<PredictedBearing>> predicted,
                          std::span<const Vector2d> bearings_meas, const Matrix6& prior, double bearing_sigma) {
   constexpr size_t kGuessing = 6, kJudging = 16, kRefining = 60;
-  constexpr double kSupport_sigmas = 10.0, kLargest_sigmas = 4.0, kLeastVariance = 1e-12;
+  constexpr double kSupportSigmas = 10.0, kLargestSigmas = 4.0, kLeastVariance = 1e-12;
   std::vector<PredictedBearing> landmarks;
   for (const auto& seen : predicted) {
     if (seen) landmarks.push_back(*seen);
@@ -84,14 +84,14 @@ CameraError common_error(std::span<const std::optional<PredictedBearing>> predic
   const auto judges = std::span(landmarks).first(std::min(kJudging, landmarks.size()));
 
   const SortedBearings bearings(bearings_meas);
-  const double within = kSupport_sigmas * bearing_sigma;
+  const double within = kSupportSigmas * bearing_sigma;
   CameraError best = CameraError::Zero();
   double most = support(judges, bearings, best, within);
   for (const PredictedBearing& seen : std::span(landmarks).first(std::min(kGuessing, landmarks.size()))) {
     const Eigen::Matrix2d S = seen.d_bearing_pose * prior * seen.d_bearing_pose.transpose() +
                               bearing_sigma * bearing_sigma * Eigen::Matrix2d::Identity();
     const Eigen::Matrix<double, 6, 2> gain = prior * seen.d_bearing_pose.transpose() * S.inverse();
-    bearings.near(seen.bearing, kLargest_sigmas * std::sqrt(S.trace()), [&](const Vector2d& b) {
+    bearings.near(seen.bearing, kLargestSigmas * std::sqrt(S.trace()), [&](const Vector2d& b) {
       const CameraError guess = gain * (b - seen.bearing);
       const double found = support(judges, bearings, guess, within);
       if (found > most) {

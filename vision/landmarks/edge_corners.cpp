@@ -72,11 +72,11 @@ std::optional<Vector2d> meeting(const ImageEdge& a, const ImageEdge& b, const Ed
   const Vector2d at = a.from_px + cross(b.from_px - a.from_px, v) / sine * u;
   const double least = std::min(beyond_px(a, at), beyond_px(b, at)),
                most = std::max(beyond_px(a, at), beyond_px(b, at));
-  constexpr double kOvershoot_px = 4.0;  // an edge is blurred, and so seems to run on over its end
+  constexpr double kOvershootPx = 4.0;  // an edge is blurred, and so seems to run on over its end
   // As long as the lines lie within twice `aside` of one another, a piece may have been joined to the wrong one: of two
   // edges at a small angle one runs on over their meeting, the other begins late.
   const double alike_px = 2.0 * config.aside_px / std::abs(sine);
-  if (least < -std::max(kOvershoot_px, alike_px) || most > std::max(config.beyond_px, alike_px)) return std::nullopt;
+  if (least < -std::max(kOvershootPx, alike_px) || most > std::max(config.beyond_px, alike_px)) return std::nullopt;
   return at;
 }
 
@@ -125,7 +125,7 @@ std::vector<ImageEdge> joined_edges(std::span<const ImageEdge> pieces, const Edg
 }
 
 std::vector<Vector2d> corners_of(std::span<const ImageEdge> edges, const EdgeCornerConfig& config) {
-  constexpr double kSame_px = 5.0;
+  constexpr double kSamePx = 5.0;
   struct Group {
     Vector2d sum = Vector2d::Zero();
     int count = 0;
@@ -136,7 +136,7 @@ std::vector<Vector2d> corners_of(std::span<const ImageEdge> edges, const EdgeCor
     for (size_t j = i + 1; j < edges.size(); ++j) {
       const auto at = meeting(edges[i], edges[j], config);
       if (!at) continue;
-      auto group = std::ranges::find_if(groups, [&](const Group& g) { return (g.mean() - *at).norm() <= kSame_px; });
+      auto group = std::ranges::find_if(groups, [&](const Group& g) { return (g.mean() - *at).norm() <= kSamePx; });
       if (group == groups.end()) group = groups.insert(groups.end(), Group{});
       group->sum += *at;
       ++group->count;

@@ -113,13 +113,13 @@ LandmarkMap::Predictions LandmarkMap::predict(const CameraPose& pose) const {
 
 /// Counts the images that should have shown a landmark and did not, and deletes those that missed too many.
 void LandmarkMap::drop_missed(const CameraPose& pose, const std::vector<bool>& seen) {
-  constexpr double kSureOfView_sigmas = 3.0;
+  constexpr double kSureOfViewSigmas = 3.0;
   const Eigen::Isometry3d X_CW = pose.X_WC_est.inverse();
   const auto in_view = [&](const Landmark& landmark) {
     const auto pixel = camera_.project(X_CW * position_W(landmark));
     const auto bearing = predict_bearing(landmark, pose, bearing_sigma_);
     if (!pixel || !bearing) return false;
-    const double margin_px = kSureOfView_sigmas * camera_.focal_x_px * std::sqrt(bearing->covariance.trace());
+    const double margin_px = kSureOfViewSigmas * camera_.focal_x_px * std::sqrt(bearing->covariance.trace());
     return pixel->x() > margin_px && pixel->y() > margin_px && pixel->x() < camera_.width_px - 1 - margin_px &&
            pixel->y() < camera_.height_px - 1 - margin_px;
   };

@@ -48,7 +48,7 @@ struct Path {
   }
 };
 
-constexpr double kSample_s = 0.5;
+constexpr double kSampleS = 0.5;
 
 template <class Noise>
 Path fly_printed(Noise noise, double t_s) {
@@ -56,11 +56,11 @@ Path fly_printed(Noise noise, double t_s) {
   mass.y_m = -1.5;  // 1.5 m left of the middle of 4 m: fig. 11 and 12
   Path path;
   double last = mass.error() + noise();
-  for (double t = 0.0; t < t_s; t += kSample_s) {
+  for (double t = 0.0; t < t_s; t += kSampleS) {
     const double error = mass.error() + noise();
     const double control = printed_control({}, error, last);
     last = error;
-    mass.fly(control, control, kSample_s);
+    mass.fly(control, control, kSampleS);
     path.x_m.push_back(mass.x_m);
     path.y_m.push_back(mass.y_m);
   }
@@ -117,11 +117,11 @@ Path fly_pursuit(Noise noise, double speed_mps, double t_s) {
   mass.speed_mps = speed_mps;
   mass.y_m = -1.5;
   Path path;
-  constexpr double kPeriod_s = 0.1, kAhead_m = 1.5;
-  for (double t = 0.0; t < t_s; t += kPeriod_s) {
+  constexpr double kPeriodS = 0.1, kAheadM = 1.5;
+  for (double t = 0.0; t < t_s; t += kPeriodS) {
     const double seen_m = mass.y_m - noise() * mass.half_width_m;
-    mass.heading_rad = pursuit_course_rad({mass.half_width_m + seen_m, mass.half_width_m - seen_m}, kAhead_m, 1.0);
-    mass.fly(0.0, 0.0, kPeriod_s);
+    mass.heading_rad = pursuit_course_rad({mass.half_width_m + seen_m, mass.half_width_m - seen_m}, kAheadM, 1.0);
+    mass.fly(0.0, 0.0, kPeriodS);
     path.x_m.push_back(mass.x_m);
     path.y_m.push_back(mass.y_m);
   }

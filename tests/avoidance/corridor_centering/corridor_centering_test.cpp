@@ -14,8 +14,8 @@ namespace {
 
 using vision::StraightCorridor;
 
-constexpr int64_t kPeriod_ns = 100'000'000;
-constexpr double kAltitude_m = 1.5;
+constexpr int64_t kPeriodNs = 100'000'000;
+constexpr double kAltitudeM = 1.5;
 
 // Flies north at a constant velocity through what is drawn, and returns the decisions.
 std::vector<Decision> fly(Module& module, const std::vector<vision::TexturedPlane>& walls,
@@ -28,11 +28,11 @@ std::vector<Decision> fly(Module& module, const std::vector<vision::TexturedPlan
   std::vector<Decision> decisions;
   for (int i = 0; i < images; ++i) {
     const Eigen::Vector2d p_NE = from_NE + 0.1 * i * v_WB_W;
-    NavigationState navigation = level_flight({p_NE.x(), p_NE.y(), -kAltitude_m}, heading_rad, v_WB_W);
-    std::vector<CameraFrame> frames = see(setup, navigation, kPeriod_ns * i, walls, texture);
+    NavigationState navigation = level_flight({p_NE.x(), p_NE.y(), -kAltitudeM}, heading_rad, v_WB_W);
+    std::vector<CameraFrame> frames = see(setup, navigation, kPeriodNs * i, walls, texture);
     if (spoil) spoil(frames.front().image);
     if (believe) believe(navigation);
-    decisions.push_back(module.update({kPeriod_ns * i, frames, navigation, {{30, 0, -kAltitude_m}, 0.0}}));
+    decisions.push_back(module.update({kPeriodNs * i, frames, navigation, {{30, 0, -kAltitudeM}, 0.0}}));
   }
   return decisions;
 }
@@ -57,7 +57,7 @@ TEST(CorridorCentering, MeasuresTheErrorAndBothWalls) {
     // Towards the middle, 1.5 m ahead.
     const auto& command = std::get<VelocityCommand>(last.command);
     EXPECT_NEAR(std::atan2(command.v_WB_W.y(), command.v_WB_W.x()), std::atan2(-east_m, 1.5), 0.06);
-    EXPECT_EQ(command.altitude_m, kAltitude_m);
+    EXPECT_EQ(command.altitude_m, kAltitudeM);
   }
 }
 

@@ -16,17 +16,17 @@ namespace hedgehop::avoidance::flow_balance {
 namespace {
 
 using std::numbers::pi;
-constexpr double kFloor_mps = 0.2;
+constexpr double kFloorMps = 0.2;
 
 // What a camera senses of a wall that it faces, from projected points and not from any formula for flow.
 WallSense sense_of_wall(const MountedCamera& camera, const Eigen::Vector2d& v_B, double range_m) {
-  constexpr double kStep_s = 1e-4;
+  constexpr double kStepS = 1e-4;
   const Eigen::Matrix3d R_CB = camera.X_BC.linear().transpose();
   const auto field = vision::plane_flow(camera.model.pinhole(), vision::grid_field(8, 8, 30, 200), {0, 0, range_m},
-                                        {0, 0, 1}, R_CB * Eigen::Vector3d(v_B.x(), v_B.y(), 0), {0, 0, 0}, kStep_s);
+                                        {0, 0, 1}, R_CB * Eigen::Vector3d(v_B.x(), v_B.y(), 0), {0, 0, 0}, kStepS);
   return {camera.X_BC.linear().col(2).head<2>(), camera.X_BC.linear().col(0).head<2>(),
-          vision::flow::mean_horizontal_flow(field, camera.model.pinhole(), kStep_s, vision::flow::Missing::skip).value,
-          vision::flow::loom(field, kStep_s, vision::flow::Missing::skip).value};
+          vision::flow::mean_horizontal_flow(field, camera.model.pinhole(), kStepS, vision::flow::Missing::skip).value,
+          vision::flow::loom(field, kStepS, vision::flow::Missing::skip).value};
 }
 
 TEST(InverseRanges, FlowAndLoomTellTheRangeOfAWallOnAnySideForAnyMotion) {
@@ -36,7 +36,7 @@ TEST(InverseRanges, FlowAndLoomTellTheRangeOfAWallOnAnySideForAnyMotion) {
     const MountedCamera camera = level_camera("any", 0.5 * pi * static_cast<double>(random() % 4), 200, 50.0);
     const Eigen::Vector2d v_B((random() % 2 ? 1 : -1) * speed(random), (random() % 2 ? 1 : -1) * speed(random));
     const double z = range(random);
-    const InverseRanges near = inverse_ranges(sense_of_wall(camera, v_B, z), v_B, kFloor_mps);
+    const InverseRanges near = inverse_ranges(sense_of_wall(camera, v_B, z), v_B, kFloorMps);
     EXPECT_NEAR(near.from_flow_per_m, 1.0 / z, 0.01 / z);
     EXPECT_NEAR(near.from_loom_per_m, 1.0 / z, 0.01 / z);
   }
@@ -47,7 +47,7 @@ TEST(InverseRanges, OneFormulaEqualsThePapersPerCamera) {
   const auto near = [&](double azimuth) {
     const MountedCamera camera = level_camera("any", azimuth, 200, 50.0);
     return inverse_ranges({camera.X_BC.linear().col(2).head<2>(), camera.X_BC.linear().col(0).head<2>(), 0.1, 0.2}, v,
-                          kFloor_mps);
+                          kFloorMps);
   };
   const std::array<InverseRanges, 4> expected = {InverseRanges{-0.1 / v.y(), 0.2 / v.x()},    // front
                                                  InverseRanges{0.1 / v.x(), 0.2 / v.y()},     // right
@@ -66,7 +66,7 @@ TEST(PushFromWalls, PointsAwayFromAWallOnEachSide) {
     const MountedCamera camera = level_camera("any", 0.5 * pi * static_cast<double>(random() % 4), 200, 50.0);
     const Eigen::Vector2d v_B((random() % 2 ? 1 : -1) * speed(random), (random() % 2 ? 1 : -1) * speed(random));
     const std::array senses = {sense_of_wall(camera, v_B, 5.0)};
-    const Eigen::Vector2d push = push_from_walls(senses, v_B, 4.0, 5.0, kFloor_mps);
+    const Eigen::Vector2d push = push_from_walls(senses, v_B, 4.0, 5.0, kFloorMps);
     EXPECT_NEAR(push.dot(senses[0].axis_H), -(4.0 + 5.0) / 5.0, 0.05);
     EXPECT_NEAR(push.dot(senses[0].right_H), 0.0, 1e-9);
   }
@@ -78,9 +78,9 @@ TEST(PushFromWalls, IsNothingInTheMiddleBetweenTwoWallsAndNeverDependsOnSpeed) {
     const MountedCamera left = level_camera("left", -0.5 * pi, 200, 50.0),
                         right = level_camera("right", 0.5 * pi, 200, 50.0);
     const std::array middle = {sense_of_wall(left, v_B, 4.0), sense_of_wall(right, v_B, 4.0)};
-    EXPECT_LT(push_from_walls(middle, v_B, 4.0, 5.0, kFloor_mps).norm(), 1e-2);
+    EXPECT_LT(push_from_walls(middle, v_B, 4.0, 5.0, kFloorMps).norm(), 1e-2);
     const std::array off = {sense_of_wall(left, v_B, 3.0), sense_of_wall(right, v_B, 5.0)};
-    EXPECT_NEAR(push_from_walls(off, v_B, 4.0, 5.0, kFloor_mps).y(), 9.0 * (1 / 3.0 - 1 / 5.0), 2e-2);
+    EXPECT_NEAR(push_from_walls(off, v_B, 4.0, 5.0, kFloorMps).y(), 9.0 * (1 / 3.0 - 1 / 5.0), 2e-2);
   }
 }
 
@@ -96,7 +96,7 @@ TEST(SaturatedDivisor, KeepsThePushOfASlowVehicleBounded) {
   const MountedCamera front = level_camera("front", 0.0, 200, 50.0);
   for (const double v : {0.01, -0.01, 0.1, -0.1}) {
     const std::array senses = {sense_of_wall(front, {v, v}, 5.0)};
-    const double push = -push_from_walls(senses, {v, v}, 4.0, 5.0, kFloor_mps).x();
+    const double push = -push_from_walls(senses, {v, v}, 4.0, 5.0, kFloorMps).x();
     EXPECT_GE(push, 0.0);
     EXPECT_LE(push, 9.0 / 5.0);
   }
@@ -114,7 +114,7 @@ TEST(PushFromNearest, EqualsThePapersPushBeforeWallsThatTheCamerasFace) {
       senses.push_back(sense_of_wall(level_camera("any", 0.5 * pi * i, 200, 50.0), v_B, z));
       senses.back().near_per_m = 1.0 / z;
     }
-    const Eigen::Vector2d paper = push_from_walls(senses, v_B, k0, k1, kFloor_mps);
+    const Eigen::Vector2d paper = push_from_walls(senses, v_B, k0, k1, kFloorMps);
     EXPECT_LT((push_from_nearest(senses, k0 + k1) - paper).norm(), 0.02 * (k0 + k1) / 2.0);
   }
 }

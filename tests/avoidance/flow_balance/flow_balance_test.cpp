@@ -17,7 +17,7 @@ namespace {
 
 using std::numbers::pi;
 using Walls = std::vector<vision::TexturedPlane>;
-constexpr int kSize_px = 96;
+constexpr int kSizePx = 96;
 
 FlowBalanceConfig small_images() {
   FlowBalanceConfig config;
@@ -41,15 +41,15 @@ Eigen::Vector2d polar(double length, double azimuth) {
 VelocityCommand command_in_flight(const FlowBalanceConfig& config, const Walls& walls, double heading_rad,
                                   const Eigen::Vector2d& v_WB_W, const Goal& goal,
                                   const Eigen::Vector3d& w_WB_B = {0, 0, 0}) {
-  constexpr double kPeriod_s = 0.04;
+  constexpr double kPeriodS = 0.04;
   const auto module = make_flow_balance(config);
-  const Setup setup = four_cameras(kSize_px, 1.0 / kPeriod_s);
+  const Setup setup = four_cameras(kSizePx, 1.0 / kPeriodS);
   module->reset(setup);
   VelocityCommand command;
   for (int i = 0; i < 3; ++i) {
     const int64_t t_ns = int64_t{40'000'000} * i;
-    const Eigen::Vector2d p = v_WB_W * (kPeriod_s * i);
-    NavigationState navigation = level_flight({p.x(), p.y(), -5.0}, heading_rad + w_WB_B.z() * kPeriod_s * i, v_WB_W);
+    const Eigen::Vector2d p = v_WB_W * (kPeriodS * i);
+    NavigationState navigation = level_flight({p.x(), p.y(), -5.0}, heading_rad + w_WB_B.z() * kPeriodS * i, v_WB_W);
     navigation.w_WB_B_est = w_WB_B;
     const auto frames = see(setup, navigation, t_ns, walls, texture());
     command = std::get<VelocityCommand>(module->update({t_ns, frames, navigation, goal}).command);
@@ -160,19 +160,19 @@ struct PointFlight {
 template <class Clearance>
 PointFlight fly(const FlowBalanceConfig& config, const Walls& walls, double heading_rad, const Goal& goal,
                 Eigen::Vector2d p, double duration_s, Clearance clearance) {
-  constexpr double kPeriod_s = 0.1, kLag_s = 0.4;
+  constexpr double kPeriodS = 0.1, kLagS = 0.4;
   const auto module = make_flow_balance(config);
-  const Setup setup = four_cameras(kSize_px, 1.0 / kPeriod_s);
+  const Setup setup = four_cameras(kSizePx, 1.0 / kPeriodS);
   module->reset(setup);
   PointFlight flight;
   Eigen::Vector2d v = Eigen::Vector2d::Zero();
-  for (int i = 0; i * kPeriod_s < duration_s; ++i) {
+  for (int i = 0; i * kPeriodS < duration_s; ++i) {
     const int64_t t_ns = int64_t{100'000'000} * i;
     const NavigationState navigation = level_flight({p.x(), p.y(), -1.0}, heading_rad, v);
     const auto frames = see(setup, navigation, t_ns, walls, texture());
     const auto command = std::get<VelocityCommand>(module->update({t_ns, frames, navigation, goal}).command);
-    p += v * kPeriod_s;
-    v += (command.v_WB_W - v) * (kPeriod_s / kLag_s);
+    p += v * kPeriodS;
+    v += (command.v_WB_W - v) * (kPeriodS / kLagS);
     flight.path.push_back(p);
     flight.least_clearance_m = std::min(flight.least_clearance_m, clearance(p));
   }
@@ -250,7 +250,7 @@ TEST(FlowBalance, GoalDirectedSchemePassesABuildingThatStandsInTheWay) {
 
 TEST(FlowBalance, AnnotatesAllFourCamerasInOneImage) {
   const auto module = make_flow_balance(small_images());
-  const avoidance::Setup setup = four_cameras(kSize_px, 25.0);
+  const avoidance::Setup setup = four_cameras(kSizePx, 25.0);
   module->reset(setup);
   EXPECT_TRUE(module->annotate().empty());
   const NavigationState navigation = level_flight({0, 0, -5}, 0.0, {1, 0});
@@ -258,8 +258,8 @@ TEST(FlowBalance, AnnotatesAllFourCamerasInOneImage) {
   module->update({1, frames, navigation, {{9, 9, -5}, 0.0}});
   const cv::Mat image = module->annotate();
   EXPECT_EQ(image.type(), CV_8UC3);
-  EXPECT_GE(image.cols, 2 * kSize_px);
-  EXPECT_GE(image.rows, 2 * kSize_px);
+  EXPECT_GE(image.cols, 2 * kSizePx);
+  EXPECT_GE(image.rows, 2 * kSizePx);
 }
 
 TEST(FlowBalance, RefusesConfigsOutOfRangeAndPatchesThatDoNotFit) {
@@ -284,7 +284,7 @@ TEST(FlowBalance, RefusesConfigsOutOfRangeAndPatchesThatDoNotFit) {
   FlowBalanceConfig large = small_images();
   large.flow.patch_px = 128;
   const auto module = make_flow_balance(large);
-  EXPECT_THROW(module->reset(four_cameras(kSize_px, 25.0)), std::invalid_argument);
+  EXPECT_THROW(module->reset(four_cameras(kSizePx, 25.0)), std::invalid_argument);
 }
 
 }  // namespace

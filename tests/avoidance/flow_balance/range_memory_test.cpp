@@ -25,9 +25,9 @@ TEST(RangeMemory, TakesAWellToldRangeAsItIs) {
 TEST(RangeMemory, CarriesAWallOnAtTheSpeedItIsClosedInOn) {
   // From 4 m at 1.5 m/s for 1.2 s, blind: 2.2 m are left.
   RangeMemory memory(1e6);
-  constexpr double kStep_s = 1e-4;
-  double near_per_m = told(memory, {0.25, 1.0, 1.5}, kStep_s);
-  for (int i = 0; i < 12000; ++i) near_per_m = told(memory, {0.0, 0.0, 1.5}, kStep_s);
+  constexpr double kStepS = 1e-4;
+  double near_per_m = told(memory, {0.25, 1.0, 1.5}, kStepS);
+  for (int i = 0; i < 12000; ++i) near_per_m = told(memory, {0.0, 0.0, 1.5}, kStepS);
   EXPECT_NEAR(1.0 / near_per_m, 2.2, 2e-3);
 }
 

@@ -102,12 +102,12 @@ TEST(StoppingDistance, IsHowMuchNearerATurningPointComes) {
     const double speed_mps = speed(random), angle_rad = angle(random);
     const Stopping stopping{reaction(random), braking(random)};
     const Eigen::Vector2d v0 = speed_mps * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
-    constexpr double kStep_s = 1e-4;
+    constexpr double kStepS = 1e-4;
     Eigen::Vector2d v = v0;
     double nearer_m = 0.0;
-    for (double t_s = 0.0; v.x() > 0.0; t_s += kStep_s) {
-      if (t_s >= stopping.reaction_s) v -= kStep_s * stopping.braking_mps2 * v0.normalized();
-      nearer_m += kStep_s * v.x();
+    for (double t_s = 0.0; v.x() > 0.0; t_s += kStepS) {
+      if (t_s >= stopping.reaction_s) v -= kStepS * stopping.braking_mps2 * v0.normalized();
+      nearer_m += kStepS * v.x();
     }
     EXPECT_NEAR(stopping_distance_m(v0.x(), speed_mps, stopping), nearer_m, 2e-3);
     EXPECT_EQ(stopping_distance_m(-v0.x(), speed_mps, stopping), 0.0);

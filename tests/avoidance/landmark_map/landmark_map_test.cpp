@@ -15,8 +15,8 @@
 namespace hedgehop::avoidance::landmark_map {
 namespace {
 
-constexpr int64_t kStep_ns = 100'000'000;
-constexpr double kStep_s = 1e-9 * kStep_ns, kSpeed_mps = 2.0, kHeight_m = 15.0, kVehicleRadius_m = 1.0;
+constexpr int64_t kStepNs = 100'000'000;
+constexpr double kStepS = 1e-9 * kStepNs, kSpeedMps = 2.0, kHeightM = 15.0, kVehicleRadiusM = 1.0;
 
 /// A tower from the ground up, seen as its eight corners.
 struct Tower {
@@ -34,34 +34,34 @@ class CornerFlight {
     config.sight.front_end = FrontEnd::corners;
     config.sight.map.start.coordinates = vision::landmarks::LandmarkCoordinates::inverse_depth;
     config.sight.map.position_sigma_m = 0.1;
-    config.speed_mps = kSpeed_mps;
+    config.speed_mps = kSpeedMps;
     module_ = make_landmark_map(config);
-    camera_ = level_camera("front", 0.0, 320, 1.0 / kStep_s);
-    module_->reset({{camera_}, {kSpeed_mps, 2.0, kVehicleRadius_m}, 1});
+    camera_ = level_camera("front", 0.0, 320, 1.0 / kStepS);
+    module_->reset({{camera_}, {kSpeedMps, 2.0, kVehicleRadiusM}, 1});
   }
 
   Decision step(std::optional<double> range_m = std::nullopt) {
     NavigationState navigation = level_flight(p_WB_, heading_rad_, v_W_);
     navigation.range_m = range_m;
-    t_ns_ += kStep_ns;
+    t_ns_ += kStepNs;
     const std::vector<CameraFrame> frames = {{"front", t_ns_, cv::Mat(320, 320, CV_8UC1, cv::Scalar(128)), seen()}};
     const Decision decision = module_->update({t_ns_, frames, navigation, {goal_W, 0.0}});
     v_W_.setZero();
     if (const auto* velocity = std::get_if<VelocityCommand>(&decision.command)) {
       v_W_ = velocity->v_WB_W;
       const double turn_rad = std::remainder(velocity->heading_rad - heading_rad_, 2.0 * M_PI);
-      heading_rad_ += std::clamp(turn_rad, -kStep_s * kTurn_radps, kStep_s * kTurn_radps);
-      p_WB_.head<2>() += kStep_s * v_W_;
+      heading_rad_ += std::clamp(turn_rad, -kStepS * kTurnRadps, kStepS * kTurnRadps);
+      p_WB_.head<2>() += kStepS * v_W_;
     }
     return decision;
   }
   const Eigen::Vector3d& p_WB() const { return p_WB_; }
   bool arrived() const { return (goal_W - p_WB_).norm() < 3.0; }
 
-  Eigen::Vector3d goal_W{120.0, 0.0, -kHeight_m};
+  Eigen::Vector3d goal_W{120.0, 0.0, -kHeightM};
 
  private:
-  static constexpr double kTurn_radps = 0.8;
+  static constexpr double kTurnRadps = 0.8;
 
   std::vector<Eigen::Vector2d> seen() {
     Eigen::Isometry3d X_WB(Eigen::AngleAxisd(heading_rad_, Eigen::Vector3d::UnitZ()));
@@ -84,7 +84,7 @@ class CornerFlight {
   std::unique_ptr<Module> module_;
   MountedCamera camera_;
   std::mt19937_64 random_{3};
-  Eigen::Vector3d p_WB_{0.0, 0.0, -kHeight_m};
+  Eigen::Vector3d p_WB_{0.0, 0.0, -kHeightM};
   Eigen::Vector2d v_W_ = Eigen::Vector2d::Zero();
   double heading_rad_ = 0.0;
   int64_t t_ns_ = 0;
@@ -115,10 +115,10 @@ TEST(LandmarkMapModule, PassesTowersByItsClearanceAndComesBackToItsCourse) {
       most_off_m = std::max(most_off_m, std::abs(flight.p_WB().y()));
     }
     EXPECT_TRUE(flight.arrived()) << trial;
-    constexpr double kOfTheMap_m = 1.0;
-    EXPECT_GT(least_m, config.clearance_m + kVehicleRadius_m - kOfTheMap_m) << trial;
+    constexpr double kOfTheMapM = 1.0;
+    EXPECT_GT(least_m, config.clearance_m + kVehicleRadiusM - kOfTheMapM) << trial;
     // "Least effort": round the nearer side, and no farther out than what may stand behind the corners asks for.
-    EXPECT_LT(most_off_m, 5.0 + config.clearance_m + kVehicleRadius_m + config.behind_m) << trial;
+    EXPECT_LT(most_off_m, 5.0 + config.clearance_m + kVehicleRadiusM + config.behind_m) << trial;
     EXPECT_LT(std::abs(flight.p_WB().y()), 1.0) << trial;
     EXPECT_TRUE(statuses.contains("avoid") && statuses.contains("rejoin") && statuses.contains("cruise")) << trial;
   }
@@ -140,7 +140,7 @@ TEST(LandmarkMapModule, FliesStraightPastWhatIsNoObstacle) {
 TEST(LandmarkMapModule, StopsForGoodBeforeWhatItsRangeFinderMeetsSixTimesRunning) {
   const LandmarkMapModuleConfig config;
   // Half a second of reaction and the way of braking come before the range that is left.
-  const double stops_m = config.stop_range_m + 0.5 * kSpeed_mps + 0.5 * kSpeed_mps * kSpeed_mps / config.braking_mps2;
+  const double stops_m = config.stop_range_m + 0.5 * kSpeedMps + 0.5 * kSpeedMps * kSpeedMps / config.braking_mps2;
   CornerFlight flight({});
   flight.step();
   for (int i = 0; i < 50; ++i) EXPECT_NE(flight.step(stops_m + 0.1).status, "stop");

@@ -7,8 +7,8 @@
 namespace hedgehop::avoidance::section_grid {
 namespace {
 
-constexpr double kVehicleRadius_m = 0.64;  // of the hexacopter
-constexpr double kWall_m = 15.0, kThickness_m = 0.4;
+constexpr double kVehicleRadiusM = 0.64;  // of the hexacopter
+constexpr double kWallM = 15.0, kThicknessM = 0.4;
 
 struct Opening {
   double middle_m, bottom_m, width_m, height_m;
@@ -16,13 +16,13 @@ struct Opening {
 
 /// A wall across the way, with one opening.
 std::vector<Eigen::AlignedBox3d> wall_with(const Opening& o, double north_m, double height_m) {
-  constexpr double kEnd_m = 40.0;
+  constexpr double kEndM = 40.0;
   const auto part = [&](double west_m, double east_m, double low_m, double high_m) {
     return Eigen::AlignedBox3d(Eigen::Vector3d(north_m, west_m, -high_m),
-                               Eigen::Vector3d(north_m + kThickness_m, east_m, -low_m));
+                               Eigen::Vector3d(north_m + kThicknessM, east_m, -low_m));
   };
   const double west_m = o.middle_m - 0.5 * o.width_m, east_m = o.middle_m + 0.5 * o.width_m;
-  return {part(-kEnd_m, west_m, 0.0, height_m), part(east_m, kEnd_m, 0.0, height_m),
+  return {part(-kEndM, west_m, 0.0, height_m), part(east_m, kEndM, 0.0, height_m),
           part(west_m, east_m, 0.0, o.bottom_m), part(west_m, east_m, o.bottom_m + o.height_m, height_m)};
 }
 
@@ -31,12 +31,12 @@ TEST(SectionFlight, FindsAnOpeningOffTheStraightWayToWhicheverSide) {
   std::uniform_real_distribution<double> off_m(5.0, 12.0), beside_m(-1.5, 1.5);
   for (int trial = 0; trial < 4; ++trial) {
     SectionWorld world;
-    world.boxes_W = wall_with({trial % 2 == 0 ? off_m(random) : -off_m(random), 1.0, 12.0, 7.0}, kWall_m, 12.0);
+    world.boxes_W = wall_with({trial % 2 == 0 ? off_m(random) : -off_m(random), 1.0, 12.0, 7.0}, kWallM, 12.0);
     world.start_W = {0.0, beside_m(random), -4.0};
     world.goal_W = {40.0, 0.0, -4.0};
     const SectionWorld::Flown flown = world.fly({});
     EXPECT_TRUE(flown.reached) << trial;
-    EXPECT_GT(flown.clearance_m, kVehicleRadius_m) << trial;
+    EXPECT_GT(flown.clearance_m, kVehicleRadiusM) << trial;
   }
 }
 
@@ -92,7 +92,7 @@ TEST(SectionFlight, PassesRandomPillarsByMoreThanItsRadius) {
     world.goal_W = {70.0, 0.0, -5.0};
     const SectionWorld::Flown flown = world.fly({});
     EXPECT_TRUE(flown.reached) << trial;
-    EXPECT_GT(flown.clearance_m, kVehicleRadius_m) << trial;
+    EXPECT_GT(flown.clearance_m, kVehicleRadiusM) << trial;
   }
 }
 
@@ -100,12 +100,12 @@ TEST(SectionFlight, PassesRandomPillarsByMoreThanItsRadius) {
 TEST(SectionFlight, WhatComesAtAHoveringVehicleFromAnyBearingInSightStaysAway) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> bearing_rad(-0.65, 0.65), beside_m(-1.0, 1.0), turns_s(7.0, 10.0);
-  constexpr double kStart_m = 9.0, kSpeed_mps = 0.7, kHalf_m = 0.5;
+  constexpr double kStartM = 9.0, kSpeedMps = 0.7, kHalfM = 0.5;
   for (int trial = 0; trial < 16; ++trial) {
     const Eigen::AngleAxisd turn(bearing_rad(random), Eigen::Vector3d::UnitZ());
-    const Eigen::Vector3d from_W = turn * Eigen::Vector3d(kStart_m, beside_m(random), 0.0);
-    const Eigen::Vector3d v_W = kSpeed_mps * (turn * -Eigen::Vector3d::UnitX());
-    const Eigen::Vector3d later_W = kSpeed_mps * (turn * Eigen::Vector3d(0.0, trial % 4 < 2 ? 1.0 : -1.0, 0.0));
+    const Eigen::Vector3d from_W = turn * Eigen::Vector3d(kStartM, beside_m(random), 0.0);
+    const Eigen::Vector3d v_W = kSpeedMps * (turn * -Eigen::Vector3d::UnitX());
+    const Eigen::Vector3d later_W = kSpeedMps * (turn * Eigen::Vector3d(0.0, trial % 4 < 2 ? 1.0 : -1.0, 0.0));
     const double turns_at_s = trial % 2 == 0 ? 1e9 : turns_s(random);
     SectionWorld world;
     world.hovers = true;
@@ -114,13 +114,13 @@ TEST(SectionFlight, WhatComesAtAHoveringVehicleFromAnyBearingInSightStaysAway) {
     world.movers_W = [&](double t_s) {
       const Eigen::Vector3d middle_W =
           world.start_W + from_W + std::min(t_s, turns_at_s) * v_W + std::max(0.0, t_s - turns_at_s) * later_W;
-      const Eigen::Vector3d half_W = Eigen::Vector3d::Constant(kHalf_m);
+      const Eigen::Vector3d half_W = Eigen::Vector3d::Constant(kHalfM);
       return SectionWorld::Boxes{{middle_W - half_W, middle_W + half_W}};
     };
     SectionGridConfig config;
     config.threshold_m = 3.048;
     config.pilot.answer = SectionPilotConfig::Answer::sideways;
-    EXPECT_GT(world.fly(config).clearance_m - kVehicleRadius_m, 2.0) << trial;
+    EXPECT_GT(world.fly(config).clearance_m - kVehicleRadiusM, 2.0) << trial;
   }
 }
 

@@ -8,16 +8,16 @@
 namespace hedgehop::avoidance::section_grid {
 namespace {
 
-constexpr int kWidth_px = 160, kHeight_px = 90;
-constexpr double kThreshold_m = 9.144;
+constexpr int kWidthPx = 160, kHeightPx = 90;
+constexpr double kThresholdM = 9.144;
 
 /// One camera that knows depth, and a module that flies by it towards a goal far to the north.
 class Pilot {
  public:
   explicit Pilot(SectionGridConfig config = {}) : module_(make_section_grid(with_truth(config))) {
     Setup setup;
-    MountedCamera camera = level_camera("depth", 0.0, kWidth_px, 12.5);
-    camera.model = vision::camera::PinholeCamera::from_fov(kWidth_px, kHeight_px, 1.48);
+    MountedCamera camera = level_camera("depth", 0.0, kWidthPx, 12.5);
+    camera.model = vision::camera::PinholeCamera::from_fov(kWidthPx, kHeightPx, 1.48);
     setup.cameras = {camera};
     setup.limits = {5.0, 2.0, 1.0};
     module_->reset(setup);
@@ -39,7 +39,7 @@ class Pilot {
   int64_t t_ns_ = 0;
 };
 
-cv::Mat far() { return {kHeight_px, kWidth_px, CV_32FC1, cv::Scalar(30.0)}; }
+cv::Mat far() { return {kHeightPx, kWidthPx, CV_32FC1, cv::Scalar(30.0)}; }
 
 /// Something near in a band of columns.
 cv::Mat near_between(int first_px, int last_px) {
@@ -60,7 +60,7 @@ TEST(SectionGridModule, CarriesOnToTheGoalWhenTheWayIsFree) {
 TEST(SectionGridModule, GoesAThresholdsDistanceToTheFreeSideOfAnObstacle) {
   for (const bool left : {true, false}) {
     Pilot pilot;
-    const Decision decision = pilot.see(left ? near_between(0, 80) : near_between(80, kWidth_px), {0.0, 0.0, -5.0});
+    const Decision decision = pilot.see(left ? near_between(0, 80) : near_between(80, kWidthPx), {0.0, 0.0, -5.0});
     EXPECT_EQ(decision.status, "avoid");
     // It turns first, waiting where it is; what it turns to lies on the free side, within the camera's view.
     const double heading_rad = position(decision).heading_rad;
@@ -69,9 +69,9 @@ TEST(SectionGridModule, GoesAThresholdsDistanceToTheFreeSideOfAnObstacle) {
     EXPECT_EQ(position(decision).p_WB, Eigen::Vector3d(0.0, 0.0, -5.0));
     // Now the obstacle stands at the edge of the image, before the goal.
     const Decision facing =
-        pilot.see(left ? near_between(0, 30) : near_between(130, kWidth_px), {0.0, 0.0, -5.0}, heading_rad);
-    constexpr double kHalfPixel_m = 1e-3;  // the middle section's center lies half a pixel off the camera's axis
-    EXPECT_NEAR(position(facing).p_WB.head<2>().norm(), kThreshold_m, kHalfPixel_m);
+        pilot.see(left ? near_between(0, 30) : near_between(130, kWidthPx), {0.0, 0.0, -5.0}, heading_rad);
+    constexpr double kHalfPixelM = 1e-3;  // the middle section's center lies half a pixel off the camera's axis
+    EXPECT_NEAR(position(facing).p_WB.head<2>().norm(), kThresholdM, kHalfPixelM);
   }
 }
 
@@ -98,7 +98,7 @@ TEST(SectionGridModule, TakesTheRouteUpAgainOnceAside) {
 
 TEST(SectionGridModule, HoversAndTurnsBeforeAWallAndCountsTheTime) {
   Pilot pilot;
-  const cv::Mat wall = near_between(0, kWidth_px);
+  const cv::Mat wall = near_between(0, kWidthPx);
   for (int i = 0; i < 6; ++i) {
     const Decision decision = pilot.see(wall);
     EXPECT_EQ(decision.status, "hover_and_yaw");
@@ -124,8 +124,8 @@ TEST(SectionGridModule, EveryAnswerGoesItsOwnWay) {
   const Eigen::Vector3d heading = moved(Answer::heading), sideways = moved(Answer::sideways);
   EXPECT_EQ(heading.z(), 0.0);
   EXPECT_GT(heading.x(), 5.0);
-  EXPECT_TRUE(sideways.isApprox(Eigen::Vector3d(0.0, kThreshold_m, 0.0), 1e-9));
-  EXPECT_TRUE(moved(Answer::climb).isApprox(Eigen::Vector3d(0.0, 0.0, -kThreshold_m), 1e-9));
+  EXPECT_TRUE(sideways.isApprox(Eigen::Vector3d(0.0, kThresholdM, 0.0), 1e-9));
+  EXPECT_TRUE(moved(Answer::climb).isApprox(Eigen::Vector3d(0.0, 0.0, -kThresholdM), 1e-9));
   const Eigen::Vector3d combined = moved(Answer::combined);
   EXPECT_NEAR(combined.y(), -combined.z(), 1e-9);
   EXPECT_GT(combined.y(), 0.0);
@@ -173,8 +173,8 @@ TEST(SectionGridModule, AVehicleThatHoversStaysWhereItGaveWayTo) {
   Pilot pilot(config);
   const Eigen::Vector3d goal(100.0, 0.0, -5.0);
   const Eigen::Vector3d aside = position(pilot.see(near_between(0, 80), goal)).p_WB;
-  EXPECT_NEAR((aside - goal).norm(), kThreshold_m, 1e-9);
-  EXPECT_GT(aside.y(), 0.5 * kThreshold_m);
+  EXPECT_NEAR((aside - goal).norm(), kThresholdM, 1e-9);
+  EXPECT_GT(aside.y(), 0.5 * kThresholdM);
   EXPECT_EQ(position(pilot.see(far(), aside)).p_WB, aside);
 }
 
@@ -183,8 +183,8 @@ TEST(SectionGridModule, AVehicleThatHoversGivesWayEvenWhereNoSectionIsFree) {
   config.pilot.answer = SectionPilotConfig::Answer::sideways;
   Pilot pilot(config);
   const Eigen::Vector3d goal(100.0, 0.0, -5.0);
-  const Eigen::Vector3d aside = position(pilot.see(near_between(0, kWidth_px), goal)).p_WB;
-  EXPECT_NEAR((aside - goal).norm(), kThreshold_m, 1e-9);
+  const Eigen::Vector3d aside = position(pilot.see(near_between(0, kWidthPx), goal)).p_WB;
+  EXPECT_NEAR((aside - goal).norm(), kThresholdM, 1e-9);
 }
 
 }  // namespace

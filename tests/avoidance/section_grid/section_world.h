@@ -17,8 +17,8 @@ namespace hedgehop::avoidance::section_grid {
 /// Boxes on level ground, seen by a camera that knows depth, and a point that flies as it is told.
 class SectionWorld {
  public:
-  static constexpr int kWidth_px = 96, kHeight_px = 54;
-  static constexpr double kStep_s = 0.08, kLatency_steps = 1, kTurn_radps = 0.785, kClimb_mps = 1.0;
+  static constexpr int kWidthPx = 96, kHeightPx = 54;
+  static constexpr double kStepS = 0.08, kLatencySteps = 1, kTurnRadps = 0.785, kClimbMps = 1.0;
 
   struct Moment {
     Eigen::Vector3d p_WB;
@@ -41,17 +41,17 @@ class SectionWorld {
   Flown fly(SectionGridConfig config) const {
     config.sight = SectionGridConfig::Sight::truth;
     const auto module = make_section_grid(config);
-    MountedCamera camera = level_camera("depth", 0.0, kWidth_px, 1.0 / kStep_s);
-    const vision::camera::PinholeCamera lens = vision::camera::PinholeCamera::from_fov(kWidth_px, kHeight_px, 1.48);
+    MountedCamera camera = level_camera("depth", 0.0, kWidthPx, 1.0 / kStepS);
+    const vision::camera::PinholeCamera lens = vision::camera::PinholeCamera::from_fov(kWidthPx, kHeightPx, 1.48);
     camera.model = lens;
     module->reset({{camera}, {speed_mps, 2.0, 0.64}, 1});
     Flown flown;
     Eigen::Vector3d p_WB = start_W;
     double heading_rad = 0.0;
     Command told = HoverCommand{};
-    for (int64_t step = 1; static_cast<double>(step) * kStep_s < duration_s; ++step) {
+    for (int64_t step = 1; static_cast<double>(step) * kStepS < duration_s; ++step) {
       Boxes boxes_now_W = boxes_W;
-      if (movers_W) std::ranges::copy(movers_W(static_cast<double>(step) * kStep_s), std::back_inserter(boxes_now_W));
+      if (movers_W) std::ranges::copy(movers_W(static_cast<double>(step) * kStepS), std::back_inserter(boxes_now_W));
       const cv::Mat depth_m = depth(boxes_now_W, lens, camera.X_BC, p_WB, heading_rad);
       const std::vector<CameraFrame> frames = {{"depth", step * 80'000'000, depth_m}};
       const Decision decision =
@@ -75,9 +75,9 @@ class SectionWorld {
     Eigen::Isometry3d X_WB(Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()));
     X_WB.translation() = p_WB;
     const Eigen::Isometry3d X_WC = X_WB * X_BC;
-    cv::Mat depth_m(kHeight_px, kWidth_px, CV_32FC1);
-    for (int v = 0; v < kHeight_px; ++v) {
-      for (int u = 0; u < kWidth_px; ++u) {
+    cv::Mat depth_m(kHeightPx, kWidthPx, CV_32FC1);
+    for (int v = 0; v < kHeightPx; ++v) {
+      for (int u = 0; u < kWidthPx; ++u) {
         const Eigen::Vector3d ray_C((u - lens.center_u_px) / lens.focal_x_px, (v - lens.center_v_px) / lens.focal_y_px,
                                     1.0);
         depth_m.at<float>(v, u) = static_cast<float>(along(boxes_now_W, X_WC.translation(), X_WC.linear() * ray_C));
@@ -99,16 +99,16 @@ class SectionWorld {
   }
 
   void move(const Command& command, Eigen::Vector3d& p_WB, double& heading_rad) const {
-    if (const auto* hover = std::get_if<HoverCommand>(&command)) heading_rad += kStep_s * hover->yaw_rate_radps;
+    if (const auto* hover = std::get_if<HoverCommand>(&command)) heading_rad += kStepS * hover->yaw_rate_radps;
     const auto* const place = std::get_if<PositionCommand>(&command);
     if (!place) return;
     const double turn_rad = std::remainder(place->heading_rad - heading_rad, 2.0 * M_PI);
-    heading_rad += std::clamp(turn_rad, -kStep_s * kTurn_radps, kStep_s * kTurn_radps);
+    heading_rad += std::clamp(turn_rad, -kStepS * kTurnRadps, kStepS * kTurnRadps);
     const Eigen::Vector3d way_W = place->p_WB - p_WB;
     const double level_m = way_W.head<2>().norm();
-    if (level_m > 0.0) p_WB.head<2>() += way_W.head<2>() * std::min(1.0, kStep_s * speed_mps / level_m);
+    if (level_m > 0.0) p_WB.head<2>() += way_W.head<2>() * std::min(1.0, kStepS * speed_mps / level_m);
     // Height is held by a loop of its own, as an autopilot does.
-    p_WB.z() += kStep_s * std::clamp(way_W.z(), -kClimb_mps, kClimb_mps);
+    p_WB.z() += kStepS * std::clamp(way_W.z(), -kClimbMps, kClimbMps);
   }
 };
 

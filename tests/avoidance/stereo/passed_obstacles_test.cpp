@@ -8,9 +8,9 @@
 namespace hedgehop::avoidance::stereo {
 namespace {
 
-constexpr int kWidth_px = 160, kHeight_px = 120;
+constexpr int kWidthPx = 160, kHeightPx = 120;
 constexpr vision::stereo::StereoGeometry kGeometry{128.0, 79.5, 59.5, 0.3};
-constexpr int64_t kSecond_ns = 1'000'000'000;
+constexpr int64_t kSecondNs = 1'000'000'000;
 
 /// A camera at B's origin that looks along `heading_rad`, level.
 Eigen::Isometry3d looking(double heading_rad, const Eigen::Vector3d& p_WC = Eigen::Vector3d::Zero()) {
@@ -23,7 +23,7 @@ Eigen::Isometry3d looking(double heading_rad, const Eigen::Vector3d& p_WC = Eige
 
 /// Depth of a world that holds one block of pixels at `z_m`, before the sky.
 vision::stereo::DepthPyramid block_at(const cv::Rect& pixels, double z_m) {
-  cv::Mat disparity16(kHeight_px, kWidth_px, CV_16SC1, cv::Scalar(0));
+  cv::Mat disparity16(kHeightPx, kWidthPx, CV_16SC1, cv::Scalar(0));
   disparity16(pixels).setTo(std::lround(kGeometry.disparity16(z_m)));
   vision::stereo::DepthPyramid pyramid;
   pyramid.build(disparity16, 4);
@@ -39,7 +39,7 @@ TEST(PassedObstacles, WhatHasLeftTheImageClosesTheWaysThatPassItWithinTheRadius)
   const cv::Rect block(152, 56, 8, 8);
   passed.update(0, block_at(block, 6.0), kGeometry, looking(0.0));
   EXPECT_TRUE(passed.points_W().empty());  // still in view
-  passed.update(kSecond_ns / 10, kSky, kGeometry, looking(-0.3));
+  passed.update(kSecondNs / 10, kSky, kGeometry, looking(-0.3));
   ASSERT_EQ(passed.points_W().size(), 1u);
   const Eigen::Vector3d p = passed.points_W().front();
   EXPECT_NEAR(p.x(), 6.0, 0.05);
@@ -55,9 +55,9 @@ TEST(PassedObstacles, WhatHasLeftTheImageClosesTheWaysThatPassItWithinTheRadius)
 TEST(PassedObstacles, WhatComesIntoViewAgainIsLeftToTheImage) {
   PassedObstacles passed({});
   passed.update(0, block_at({140, 50, 16, 16}, 6.0), kGeometry, looking(0.0));
-  passed.update(kSecond_ns, kSky, kGeometry, looking(-0.8));
+  passed.update(kSecondNs, kSky, kGeometry, looking(-0.8));
   EXPECT_FALSE(passed.free(towards(0.45)));
-  passed.update(2 * kSecond_ns, kSky, kGeometry, looking(0.4));
+  passed.update(2 * kSecondNs, kSky, kGeometry, looking(0.4));
   EXPECT_TRUE(passed.free(towards(0.45)));
   EXPECT_TRUE(passed.points_W().empty());
 }
@@ -66,13 +66,13 @@ TEST(PassedObstacles, AgeAndDistanceForget) {
   for (const bool by_age : {false, true}) {
     PassedObstacles passed({.radius_m = 2.0, .near_m = 12.0, .keep_s = 5.0});
     passed.update(0, block_at({140, 50, 16, 16}, 6.0), kGeometry, looking(0.0));
-    passed.update(4 * kSecond_ns, kSky, kGeometry, looking(-0.8));
+    passed.update(4 * kSecondNs, kSky, kGeometry, looking(-0.8));
     EXPECT_FALSE(passed.points_W().empty());
     const Eigen::Vector3d far_away(-8.0, 0.0, 0.0);
     if (by_age) {
-      passed.update(6 * kSecond_ns, kSky, kGeometry, looking(-0.8));
+      passed.update(6 * kSecondNs, kSky, kGeometry, looking(-0.8));
     } else {
-      passed.update(4 * kSecond_ns + 1, kSky, kGeometry, looking(-0.8, far_away));
+      passed.update(4 * kSecondNs + 1, kSky, kGeometry, looking(-0.8, far_away));
     }
     EXPECT_TRUE(passed.points_W().empty());
   }
@@ -81,10 +81,10 @@ TEST(PassedObstacles, AgeAndDistanceForget) {
 TEST(PassedObstacles, NoFreeWayComesNearerThanTheRadiusOrATenthNearerThanItWas) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  constexpr double kRadius_m = 2.0;
+  constexpr double kRadiusM = 2.0;
   int blocked = 0, open = 0;
   for (int trial = 0; trial < 1000; ++trial) {
-    PassedObstacles passed({.radius_m = kRadius_m, .near_m = 12.0, .keep_s = 5.0});
+    PassedObstacles passed({.radius_m = kRadiusM, .near_m = 12.0, .keep_s = 5.0});
     const cv::Rect block(8 * (trial % 20), 8 * (trial % 15), 8, 8);
     passed.update(0, block_at(block, 4.0 + 3.0 * uniform(random)), kGeometry, looking(0.0));
     const Eigen::Vector3d moved(2.0 * uniform(random), uniform(random), uniform(random));
@@ -92,7 +92,7 @@ TEST(PassedObstacles, NoFreeWayComesNearerThanTheRadiusOrATenthNearerThanItWas) 
     const Eigen::Vector3d direction(uniform(random), uniform(random), uniform(random));
     double worst_m = std::numeric_limits<double>::infinity();  // by which the way stays clear, stepped along
     for (const Eigen::Vector3d& p : passed.points_W()) {
-      const double allowed_m = std::min(kRadius_m, 0.9 * (p - moved).norm());
+      const double allowed_m = std::min(kRadiusM, 0.9 * (p - moved).norm());
       for (double s_m = 0.0; s_m < 20.0; s_m += 0.01) {
         worst_m = std::min(worst_m, (moved + s_m * direction.normalized() - p).norm() - allowed_m);
       }

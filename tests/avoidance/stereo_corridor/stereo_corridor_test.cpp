@@ -9,13 +9,13 @@
 namespace hedgehop::avoidance::stereo_corridor {
 namespace {
 
-constexpr int kSize_px = 160;
-constexpr double kBackdrop_m = 45.0;
+constexpr int kSizePx = 160;
+constexpr double kBackdropM = 45.0;
 
 /// Flies by what a pair of cameras sees of a far backdrop and nearer walls, towards a goal far to the north.
 class Pilot {
  public:
-  explicit Pilot(StereoCorridorConfig config = {}, uint64_t seed = 1) : setup_(stereo_pair(kSize_px, 10.0)) {
+  explicit Pilot(StereoCorridorConfig config = {}, uint64_t seed = 1) : setup_(stereo_pair(kSizePx, 10.0)) {
     setup_.seed = seed;
     config.stereo.disparities_px = 16;
     config.radius_m = 1.5;
@@ -28,7 +28,7 @@ class Pilot {
 
   Decision see(std::vector<vision::TexturedPlane> walls, const Eigen::Vector2d& v_WB_W = {3.0, 0.0},
                double north_m = 0.0, const Eigen::Vector2d& goal_W = {200.0, 0.0}) {
-    walls.push_back(wall(kBackdrop_m, 0.0, M_PI));
+    walls.push_back(wall(kBackdropM, 0.0, M_PI));
     const NavigationState navigation = level_flight({north_m, 0.0, -6.0}, 0.0, v_WB_W);
     t_ns_ += 100'000'000;
     const vision::WaveTexture texture(7, 0.4, 6.0, 24);
@@ -54,8 +54,8 @@ TEST(StereoCorridor, AFreeCourseIsFlownStraight) {
   Pilot pilot;
   const Decision decision = pilot.see({});
   EXPECT_EQ(decision.status, "cruise");
-  const double kOnePixel_rad = 2.0 / kSize_px;
-  EXPECT_NEAR(velocity(decision).heading_rad, 0.0, kOnePixel_rad);
+  const double kOnePixelRad = 2.0 / kSizePx;
+  EXPECT_NEAR(velocity(decision).heading_rad, 0.0, kOnePixelRad);
   EXPECT_NEAR(velocity(decision).v_WB_W.norm(), 5.0, 1e-9);
 }
 
@@ -106,8 +106,8 @@ TEST(StereoCorridor, AMissedGoalLiesOutsideNoCircleItCanTurnIn) {
   for (const double goal_m : {1.0, 4.0, 9.0, 30.0}) {
     Pilot pilot;
     const double v_mps = velocity(pilot.see({}, {3.0, 0.0}, 0.0, {goal_m, 0.0})).v_WB_W.norm();
-    const double kAcceleration_mps2 = 5.0;  // of the setup
-    EXPECT_LE(2.0 * v_mps * v_mps / kAcceleration_mps2, goal_m + 1e-9);
+    const double kAccelerationMps2 = 5.0;  // of the setup
+    EXPECT_LE(2.0 * v_mps * v_mps / kAccelerationMps2, goal_m + 1e-9);
     EXPECT_GE(v_mps, 0.5);
   }
 }

@@ -9,7 +9,7 @@ namespace hedgehop::avoidance::stereo_corridor {
 namespace {
 
 const cv::Size kImage(64, 48);
-constexpr int kCaption_px = 20;  // rows that a caption may cover
+constexpr int kCaptionPx = 20;  // rows that a caption may cover
 
 /// The six panels of an image, left to right, top to bottom.
 cv::Mat panel(const cv::Mat& image, int i) {
@@ -31,13 +31,13 @@ TEST(TargetImage, EveryBlockIsTintedToItsOwnEdgeRedWhereDangerous) {
     }
     const cv::Mat drawn = panel(draw(seen, pyramid, {80.0, 31.5, 23.5, 0.3}, 60.0), 4);
     for (const TargetImage::Candidate& candidate : seen.candidates) {
-      if (candidate.pixel.y < kCaption_px) continue;
+      if (candidate.pixel.y < kCaptionPx) continue;
       const auto color = drawn.at<cv::Vec3b>(candidate.pixel);
       EXPECT_EQ(color[0] > color[1], !candidate.free) << trial;
     }
     // No block that holds something near is tinted, whatever its size.
     const cv::Mat near_there = pyramid.level(kFinest) >= kFar16;
-    for (int v = kCaption_px; v < kImage.height; ++v) {
+    for (int v = kCaptionPx; v < kImage.height; ++v) {
       for (int u = 0; u < kImage.width; ++u) {
         if (!near_there.at<uint8_t>(v >> kFinest, u >> kFinest)) continue;
         EXPECT_EQ(drawn.at<cv::Vec3b>(v, u), cv::Vec3b(100, 100, 100)) << trial << ": " << u << " " << v;

@@ -112,9 +112,9 @@ TEST_P(EveryMesh, EverySolidIsTheBoxOfOneChunkAndFillersReachTheGround) {
   ASSERT_EQ(upright.size(), scene_.solids.size());
   for (size_t k = 0; k < upright.size(); ++k) {
     const Eigen::AlignedBox3d solid = box_of(scene_.solids[k]);
-    constexpr float kSinglePrecision_m = 1e-5f;
-    ASSERT_LE((upright[k]->box_W.min() - solid.min().cast<float>()).cwiseAbs().maxCoeff(), kSinglePrecision_m);
-    ASSERT_LE((upright[k]->box_W.max() - solid.max().cast<float>()).cwiseAbs().maxCoeff(), kSinglePrecision_m);
+    constexpr float kSinglePrecisionM = 1e-5f;
+    ASSERT_LE((upright[k]->box_W.min() - solid.min().cast<float>()).cwiseAbs().maxCoeff(), kSinglePrecisionM);
+    ASSERT_LE((upright[k]->box_W.max() - solid.max().cast<float>()).cwiseAbs().maxCoeff(), kSinglePrecisionM);
     if (!upright[k]->fills_box_to_ground) continue;
     // Every column under the top, down to the ground, lies in this solid or in one below it.
     for (double height = 0.0; height < -solid.max().z(); height += 0.5) {
@@ -186,7 +186,7 @@ double cast_at_solids(const Scene& scene, const Eigen::Vector3d& from_W, const E
 TEST_P(EveryMesh, WhatIsSeenIsWhatCanBeHit) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> share(-1.0, 1.0);
-  constexpr double kFarthest_m = 1000.0;  // the ground's image ends somewhere, its plane does not
+  constexpr double kFarthestM = 1000.0;  // the ground's image ends somewhere, its plane does not
   int compared = 0;
   while (compared < 400) {
     const Eigen::Vector2d half = 0.5 * scene_.bounds_NE_m.sizes();
@@ -197,7 +197,7 @@ TEST_P(EveryMesh, WhatIsSeenIsWhatCanBeHit) {
     if (in_solid) continue;
     const double truth = cast_at_solids(scene_, from_W, ray_W);
     if (std::isnan(truth)) continue;
-    if (truth > kFarthest_m && truth < std::numeric_limits<double>::infinity()) continue;
+    if (truth > kFarthestM && truth < std::numeric_limits<double>::infinity()) continue;
     bool front = true;
     const double seen = cast_at_mesh(mesh(), from_W, ray_W, front);
     if (std::isinf(truth)) {

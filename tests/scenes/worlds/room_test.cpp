@@ -33,18 +33,18 @@ TEST(Room, FreeSpaceIsEightBySixteenMetersAndClosed) {
   EXPECT_TRUE(room.has_ground);
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> share(-1.0, 1.0);
-  constexpr double kHair_m = 1e-6;
+  constexpr double kHairM = 1e-6;
   for (int k = 0; k < 2000; ++k) {
     const Eigen::Vector3d p_W(8.0 * share(random), 4.0 * share(random), -1.5 + 1.5 * share(random));
     ASSERT_FALSE(inside_a_solid(room, p_W));
     // Straight out to each side there is wall, from a hair's breadth behind the surface on.
     for (double sign : {-1.0, 1.0}) {
-      ASSERT_TRUE(inside_a_solid(room, {sign * (8.0 + kHair_m), p_W.y(), p_W.z()}));
-      ASSERT_TRUE(inside_a_solid(room, {p_W.x(), sign * (4.0 + kHair_m), p_W.z()}));
-      ASSERT_FALSE(inside_a_solid(room, {sign * (8.0 - kHair_m), p_W.y(), p_W.z()}));
-      ASSERT_FALSE(inside_a_solid(room, {p_W.x(), sign * (4.0 - kHair_m), p_W.z()}));
+      ASSERT_TRUE(inside_a_solid(room, {sign * (8.0 + kHairM), p_W.y(), p_W.z()}));
+      ASSERT_TRUE(inside_a_solid(room, {p_W.x(), sign * (4.0 + kHairM), p_W.z()}));
+      ASSERT_FALSE(inside_a_solid(room, {sign * (8.0 - kHairM), p_W.y(), p_W.z()}));
+      ASSERT_FALSE(inside_a_solid(room, {p_W.x(), sign * (4.0 - kHairM), p_W.z()}));
     }
-    ASSERT_TRUE(inside_a_solid(room, {p_W.x(), p_W.y(), -3.0 - kHair_m}));
+    ASSERT_TRUE(inside_a_solid(room, {p_W.x(), p_W.y(), -3.0 - kHairM}));
   }
 }
 

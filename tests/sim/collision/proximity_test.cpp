@@ -18,7 +18,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kExact_m = 1e-6;
+constexpr double kExactM = 1e-6;
 
 std::vector<HullPart> helicopter() {
   return {{HullPart::Shape::cylinder, {0.0, 0.0, -0.5}, {0.9, 0.9, 0.05}},
@@ -70,10 +70,10 @@ scenes::Scene city(int side, uint64_t seed) {
 TEST(Proximity, OfALevelHullToAWall) {
   CollisionWorld world(scene_of({box({13.0, 0.0, -20.0}, {1.0, 30.0, 20.0})}), helicopter());
   const Proximity found = world.query(pose({5.0, 2.0, -10.0}), 100.0, 0.0);
-  EXPECT_NEAR(found.obstacle_clearance_m, 12.0 - 5.0 - 0.9, kExact_m);  // the rotor reaches farthest
+  EXPECT_NEAR(found.obstacle_clearance_m, 12.0 - 5.0 - 0.9, kExactM);  // the rotor reaches farthest
   EXPECT_EQ(found.nearest_solid, 0u);
-  EXPECT_NEAR(found.nearest_point_W.x(), 12.0, kExact_m);
-  EXPECT_NEAR(found.ground_clearance_m, 9.75, kExact_m);  // under the fuselage
+  EXPECT_NEAR(found.nearest_point_W.x(), 12.0, kExactM);
+  EXPECT_NEAR(found.ground_clearance_m, 9.75, kExactM);  // under the fuselage
   EXPECT_FALSE(found.collided);
 }
 
@@ -123,7 +123,7 @@ TEST(Proximity, NothingWithinTheSearchRadiusIsInfinitelyFar) {
   EXPECT_EQ(beyond.ground_clearance_m, kInfinity);
   EXPECT_FALSE(beyond.nearest_solid.has_value());
   EXPECT_FALSE(beyond.collided);
-  EXPECT_NEAR(world.query(pose({0, 0, 0}), 48.2, 0.0).obstacle_clearance_m, 48.1, kExact_m);
+  EXPECT_NEAR(world.query(pose({0, 0, 0}), 48.2, 0.0).obstacle_clearance_m, 48.1, kExactM);
   EXPECT_EQ(world.query(pose({0, 0, 0}), 48.0, 0.0).obstacle_clearance_m, kInfinity);  // though now it is remembered
 }
 
@@ -186,7 +186,7 @@ TEST(Proximity, IsInvariantUnderRigidMotionAndFarFromTheOrigin) {
     ASSERT_EQ(a.collided, b.collided);
     if (a.collided) continue;
     ++apart;
-    ASSERT_NEAR(a.obstacle_clearance_m, b.obstacle_clearance_m, kExact_m);
+    ASSERT_NEAR(a.obstacle_clearance_m, b.obstacle_clearance_m, kExactM);
   }
   EXPECT_GT(apart, 1000);
 }

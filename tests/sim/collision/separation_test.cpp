@@ -15,8 +15,8 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using Shape = ConvexBody::Shape;
 
-constexpr double kExact_m = 2e-7;        // separate() promises 1e-7, the closed forms round
-constexpr double kBulletDepth_m = 1e-4;  // separate() promises no more inside
+constexpr double kExactM = 2e-7;        // separate() promises 1e-7, the closed forms round
+constexpr double kBulletDepthM = 1e-4;  // separate() promises no more inside
 
 const Eigen::Quaterniond kLevel = Eigen::Quaterniond::Identity();
 
@@ -44,10 +44,10 @@ TEST(Separation, OfBoxesAcrossAFaceAnEdgeAndACorner) {
   const ConvexBody small(Shape::box, {1.0, 2.0, 3.0}), large(Shape::box, {4.0, 5.0, 6.0});
   const PlacedBody origin(large, Isometry3d::Identity());
   const auto distance = [&](const Vector3d& p) { return separate(PlacedBody(small, at(p)), origin).distance_m; };
-  EXPECT_NEAR(distance({8.0, 1.0, -2.0}), 3.0, kExact_m);
-  EXPECT_NEAR(distance({0.5, -8.5, 2.0}), 1.5, kExact_m);
-  EXPECT_NEAR(distance({8.0, 11.0, 1.0}), 5.0, kExact_m);    // 3 and 4
-  EXPECT_NEAR(distance({-7.0, 10.0, 15.0}), 7.0, kExact_m);  // 2, 3 and 6
+  EXPECT_NEAR(distance({8.0, 1.0, -2.0}), 3.0, kExactM);
+  EXPECT_NEAR(distance({0.5, -8.5, 2.0}), 1.5, kExactM);
+  EXPECT_NEAR(distance({8.0, 11.0, 1.0}), 5.0, kExactM);    // 3 and 4
+  EXPECT_NEAR(distance({-7.0, 10.0, 15.0}), 7.0, kExactM);  // 2, 3 and 6
 }
 
 TEST(Separation, OfCrossedEdgesIsTheLengthOfTheirCommonNormal) {
@@ -58,7 +58,7 @@ TEST(Separation, OfCrossedEdgesIsTheLengthOfTheirCommonNormal) {
   const Eigen::Quaterniond across(AngleAxisd(std::numbers::pi / 2, Vector3d::UnitZ()));
   const PlacedBody lower(bar, at(Vector3d::Zero(), on_edge));
   const PlacedBody upper(bar, at({0.3, -0.4, -2.0 * half_diagonal_m - gap_m}, across * on_edge));
-  EXPECT_NEAR(separate(upper, lower).distance_m, gap_m, kExact_m);
+  EXPECT_NEAR(separate(upper, lower).distance_m, gap_m, kExactM);
 }
 
 // A disc of radius R and half thickness h, tilted by theta from the wall's normal, reaches R sin(theta) + h cos(theta).
@@ -74,7 +74,7 @@ TEST(Separation, OfATiltedDiscFromAWallFollowsSineAndCosine) {
     const Vector3d axis_W(std::cos(tilt), std::sin(tilt) * std::cos(yaw), std::sin(tilt) * std::sin(yaw));
     const PlacedBody placed(disc, at({0, 1, 2}, Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis_W)));
     const double reach_m = radius_m * std::abs(std::sin(tilt)) + half_thickness_m * std::abs(std::cos(tilt));
-    EXPECT_NEAR(separate(placed, wall).distance_m, wall_m - reach_m, kExact_m) << "tilt " << tilt;
+    EXPECT_NEAR(separate(placed, wall).distance_m, wall_m - reach_m, kExactM) << "tilt " << tilt;
   }
 }
 
@@ -92,7 +92,7 @@ TEST(Separation, UnderAWideCeilingIsThatOfTheHighestPointHoweverNearlyParallel) 
       const PlacedBody below(body, at({0.4, -0.2, 0.0}, q));
       const double gap_m = gap(random);
       const PlacedBody ceiling(slab, at({0.0, 0.0, -below.reach(-Vector3d::UnitZ()) - gap_m - 0.1}));
-      ASSERT_NEAR(separate(below, ceiling).distance_m, gap_m, kExact_m) << "roll " << roll << " pitch " << pitch;
+      ASSERT_NEAR(separate(below, ceiling).distance_m, gap_m, kExactM) << "roll " << roll << " pitch " << pitch;
     }
   }
 }
@@ -114,7 +114,7 @@ TEST(Separation, IsBelowEverySampledDistanceAndNearTheBest) {
       best_m = std::min(best_m, (p_2.cwiseAbs() - box.half_extents_m).cwiseMax(0.0).norm());
     }
     const double distance_m = separate(first, second).distance_m;
-    EXPECT_LE(distance_m, best_m + kExact_m);
+    EXPECT_LE(distance_m, best_m + kExactM);
     EXPECT_GT(distance_m, best_m - 0.06);  // sampling leaves gaps of about a 20th of the radius
   }
 }
@@ -141,7 +141,7 @@ TEST(Separation, IsProvedByASlabThatFitsBetween) {
     ASSERT_NEAR((first.nearest(a) - a).norm(), 0.0, 1e-9) << "pair " << i;
     ASSERT_NEAR((second.nearest(b) - b).norm(), 0.0, 1e-9) << "pair " << i;
     ASSERT_NEAR((b - a).norm(), found.distance_m, 1e-9) << "pair " << i;
-    ASSERT_NEAR(-second.reach(-n) - first.reach(n), found.distance_m, kExact_m) << "pair " << i;
+    ASSERT_NEAR(-second.reach(-n) - first.reach(n), found.distance_m, kExactM) << "pair " << i;
   }
   EXPECT_GT(apart, 50000);
 }
@@ -150,17 +150,17 @@ TEST(Separation, DepthOfAnOverlapAcrossTheNearestFace) {
   const ConvexBody small(Shape::box, {1.0, 1.0, 1.0}), large(Shape::box, {10.0, 10.0, 10.0});
   const ConvexBody disc(Shape::cylinder, {2.0, 2.0, 0.5});
   const PlacedBody origin(large, Isometry3d::Identity());
-  EXPECT_NEAR(separate(PlacedBody(small, at({10.6, 0.3, -0.2})), origin).distance_m, -0.4, kBulletDepth_m);
-  EXPECT_NEAR(separate(PlacedBody(small, at({8.0, 0.3, -0.2})), origin).distance_m, -3.0, kBulletDepth_m);
-  EXPECT_NEAR(separate(PlacedBody(disc, at({11.7, 0.3, -0.2})), origin).distance_m, -0.3, kBulletDepth_m);
-  EXPECT_NEAR(separate(PlacedBody(disc, at({0.1, 0.3, -10.4})), origin).distance_m, -0.1, kBulletDepth_m);
+  EXPECT_NEAR(separate(PlacedBody(small, at({10.6, 0.3, -0.2})), origin).distance_m, -0.4, kBulletDepthM);
+  EXPECT_NEAR(separate(PlacedBody(small, at({8.0, 0.3, -0.2})), origin).distance_m, -3.0, kBulletDepthM);
+  EXPECT_NEAR(separate(PlacedBody(disc, at({11.7, 0.3, -0.2})), origin).distance_m, -0.3, kBulletDepthM);
+  EXPECT_NEAR(separate(PlacedBody(disc, at({0.1, 0.3, -10.4})), origin).distance_m, -0.1, kBulletDepthM);
 }
 
 TEST(Separation, ChangesSignWhereADiscTouchesAWall) {
   const ConvexBody disc(Shape::cylinder, {0.9, 0.9, 0.05}), slab(Shape::box, {1.0, 40.0, 40.0});
   const PlacedBody wall(slab, at({1.0, 0.0, 0.0}));
   for (const double gap_m : {1e-3, 1e-4, 1e-5, 1e-6}) {
-    EXPECT_NEAR(separate(PlacedBody(disc, at({-0.9 - gap_m, 3.0, 5.0})), wall).distance_m, gap_m, kExact_m);
+    EXPECT_NEAR(separate(PlacedBody(disc, at({-0.9 - gap_m, 3.0, 5.0})), wall).distance_m, gap_m, kExactM);
     EXPECT_LE(separate(PlacedBody(disc, at({-0.9 + gap_m, 3.0, 5.0})), wall).distance_m, 0.0);
   }
 }

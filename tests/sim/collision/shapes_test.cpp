@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 using scenes::Solid;
 using Shape = ConvexBody::Shape;
 
-constexpr double kExact_m = 2e-7;  // separate() promises 1e-7, the closed forms round
+constexpr double kExactM = 2e-7;  // separate() promises 1e-7, the closed forms round
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Isometry3d at(const Vector3d& p) { return Isometry3d(Eigen::Translation3d(p)); }
@@ -104,11 +104,11 @@ TEST(Polyhedra, OfABoxAreTheBox) {
     const double with_box = separate(PlacedBody(box, X), second).distance_m;
     const double with_faces = separate(PlacedBody(faces, X), second).distance_m;
     if (with_box <= 0.0) {
-      ASSERT_LE(with_faces, kExact_m);
+      ASSERT_LE(with_faces, kExactM);
       continue;
     }
     ++apart;
-    ASSERT_NEAR(with_faces, with_box, kExact_m) << "pair " << i;
+    ASSERT_NEAR(with_faces, with_box, kExactM) << "pair " << i;
   }
   EXPECT_GT(apart, 1500);
 }
@@ -141,10 +141,10 @@ TEST(Polyhedra, OfOneTriangleAreFlat) {
   const ConvexBody triangle(scenes::mesh::Polyhedron{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}});
   const ConvexBody disc(Shape::cylinder, {0.5, 0.5, 0.1});
   const PlacedBody flat(triangle, at(Vector3d::Zero()));
-  EXPECT_NEAR(separate(PlacedBody(disc, at({1, 1, -3})), flat).distance_m, 2.9, kExact_m);
-  EXPECT_NEAR(separate(PlacedBody(disc, at({1, 1, 3})), flat).distance_m, 2.9, kExact_m);
-  EXPECT_NEAR(separate(PlacedBody(disc, at({-2, 1, 0})), flat).distance_m, 1.5, kExact_m);
-  EXPECT_NEAR(separate(PlacedBody(disc, at({3, 3, 0})), flat).distance_m, std::numbers::sqrt2 - 0.5, kExact_m);
+  EXPECT_NEAR(separate(PlacedBody(disc, at({1, 1, -3})), flat).distance_m, 2.9, kExactM);
+  EXPECT_NEAR(separate(PlacedBody(disc, at({1, 1, 3})), flat).distance_m, 2.9, kExactM);
+  EXPECT_NEAR(separate(PlacedBody(disc, at({-2, 1, 0})), flat).distance_m, 1.5, kExactM);
+  EXPECT_NEAR(separate(PlacedBody(disc, at({3, 3, 0})), flat).distance_m, std::numbers::sqrt2 - 0.5, kExactM);
   EXPECT_LE(separate(PlacedBody(disc, at({1, 1, 0.05})), flat).distance_m, 0.0);
 }
 
@@ -207,7 +207,7 @@ TEST(Movers, AreHitWhereTheyAreAtTheTime) {
     const Proximity a = world.query(X_WB, 100.0, t_s), b = frozen.query(X_WB, 100.0, 0.0);
     ASSERT_EQ(a.collided, b.collided);
     ASSERT_EQ(a.nearest_solid, b.nearest_solid);
-    ASSERT_NEAR(a.obstacle_clearance_m, b.obstacle_clearance_m, a.collided ? 1e-3 : kExact_m);
+    ASSERT_NEAR(a.obstacle_clearance_m, b.obstacle_clearance_m, a.collided ? 1e-3 : kExactM);
     const Vector3d above = X_WB.translation();
     ASSERT_EQ(std::isfinite(world.height_above_surface(above, t_s)),
               std::isfinite(frozen.height_above_surface(above, 0)));
@@ -236,11 +236,11 @@ TEST(CollisionWorld, SurfacesAreHitAtTheirTrianglesAndHollowInside) {
   CollisionWorld hollow(scene_of({shell}), helicopter()), full(scene_of({hull}), helicopter());
   const Proximity inside = hollow.query(at(Vector3d::Zero()), 50.0, 0.0);
   EXPECT_FALSE(inside.collided);
-  EXPECT_NEAR(inside.obstacle_clearance_m, 4.1, kExact_m);
+  EXPECT_NEAR(inside.obstacle_clearance_m, 4.1, kExactM);
   EXPECT_TRUE(full.query(at(Vector3d::Zero()), 50.0, 0.0).collided);
   for (const double north_m : {7.0, 20.0, -30.0}) {
     EXPECT_NEAR(hollow.query(at({north_m, 1, 0}), 50.0, 0.0).obstacle_clearance_m,
-                full.query(at({north_m, 1, 0}), 50.0, 0.0).obstacle_clearance_m, kExact_m);
+                full.query(at({north_m, 1, 0}), 50.0, 0.0).obstacle_clearance_m, kExactM);
   }
 }
 

@@ -47,7 +47,7 @@ TEST_P(EitherKind, RangesTheWallAheadOfIt) {
   const Aircraft& aircraft = flight.aircraft();
   // The wall stands across north, the nose points to it: the beam's length follows from the attitude.
   const Eigen::Vector3d ahead_W = aircraft.body().q_WB * Eigen::Vector3d::UnitX();
-  const double distance_m = (OutdoorFlight::kWallNorth_m - aircraft.body().p_WB.x()) / ahead_W.x();
+  const double distance_m = (OutdoorFlight::kWallNorthM - aircraft.body().p_WB.x()) / ahead_W.x();
   ASSERT_TRUE(aircraft.avionics().range_m());
   const double sigma_m = 0.01 + 0.005 * distance_m, stale_m = 0.03 * 5.0 + 0.02 * distance_m;  // moved and turned since
   EXPECT_NEAR(*aircraft.avionics().range_m(), distance_m, 3.0 * sigma_m + stale_m);

@@ -7,7 +7,7 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kPeriod_s = 0.02;
+constexpr double kPeriodS = 0.02;
 
 cv::Mat flat(double level, int type = CV_8UC1, int size = 400) { return {size, size, type, cv::Scalar::all(level)}; }
 
@@ -20,7 +20,7 @@ double variance_of(const cv::Mat& image) {
 }
 
 TEST(Imperfections, OffByDefaultNoPixelChanges) {
-  Imperfections camera({}, kPeriod_s, 1);
+  Imperfections camera({}, kPeriodS, 1);
   cv::Mat image(50, 60, CV_8UC3);
   cv::randu(image, 0, 256);
   const cv::Mat before = image.clone();
@@ -33,7 +33,7 @@ TEST(Imperfections, OffByDefaultNoPixelChanges) {
 TEST(Imperfections, PhotonNoiseHasPoissonsVariance) {
   ImperfectionsConfig config;
   config.full_well = 5000.0;
-  Imperfections camera(config, kPeriod_s, 7);
+  Imperfections camera(config, kPeriodS, 7);
   for (const double level : {20.0, 60.0, 120.0, 200.0}) {
     cv::Mat image = flat(level);
     camera.apply(static_cast<int64_t>(level), image);
@@ -48,7 +48,7 @@ TEST(Imperfections, ReadNoiseAddsToPhotonNoiseInVariance) {
   ImperfectionsConfig config;
   config.full_well = 10000.0;
   config.read_noise = 2.0;
-  Imperfections camera(config, kPeriod_s, 8);
+  Imperfections camera(config, kPeriodS, 8);
   cv::Mat image = flat(100.0);
   camera.apply(0, image);
   const double expected = 100.0 * 255.0 / 10000.0 + 4.0 + 1.0 / 12.0;
@@ -58,7 +58,7 @@ TEST(Imperfections, ReadNoiseAddsToPhotonNoiseInVariance) {
 TEST(Imperfections, ExposureMultipliesLightAndSaturates) {
   ImperfectionsConfig config;
   config.exposure_stops = 1.0;
-  Imperfections camera(config, kPeriod_s, 1);
+  Imperfections camera(config, kPeriodS, 1);
   cv::Mat dim = flat(60.0), bright = flat(200.0);
   camera.apply(0, dim);
   camera.apply(1, bright);
@@ -69,7 +69,7 @@ TEST(Imperfections, ExposureMultipliesLightAndSaturates) {
 TEST(Imperfections, VignettingTakesItsShareInTheCornersAndNothingInTheMiddle) {
   ImperfectionsConfig config;
   config.vignetting = 0.4;
-  Imperfections camera(config, kPeriod_s, 1);
+  Imperfections camera(config, kPeriodS, 1);
   cv::Mat image = flat(200.0, CV_8UC3, 401);
   camera.apply(0, image);
   EXPECT_EQ(image.at<cv::Vec3b>(200, 200), cv::Vec3b(200, 200, 200));
@@ -82,7 +82,7 @@ TEST(Imperfections, VignettingTakesItsShareInTheCornersAndNothingInTheMiddle) {
 TEST(Imperfections, AutomaticExposureSettlesToMidGreyInItsTimeConstant) {
   ImperfectionsConfig config;
   config.auto_exposure_s = 0.2;
-  Imperfections camera(config, kPeriod_s, 1);
+  Imperfections camera(config, kPeriodS, 1);
   cv::Mat image;
   for (int image = 0; image < 10; ++image) {
     image = flat(40.0);
@@ -99,7 +99,7 @@ TEST(Imperfections, AutomaticExposureSettlesToMidGreyInItsTimeConstant) {
 TEST(Imperfections, EqualSeedsGiveEqualNoiseAndEveryImageItsOwn) {
   ImperfectionsConfig config;
   config.read_noise = 3.0;
-  Imperfections one(config, kPeriod_s, 5), same(config, kPeriod_s, 5), other(config, kPeriod_s, 6);
+  Imperfections one(config, kPeriodS, 5), same(config, kPeriodS, 5), other(config, kPeriodS, 6);
   cv::Mat a = flat(100.0), b = flat(100.0), c = flat(100.0), d = flat(100.0);
   one.apply(4, a);
   same.apply(3, d);
@@ -115,7 +115,7 @@ TEST(Imperfections, FatesComeAsOftenAsAsked) {
   config.drop = 0.1;
   config.freeze = 0.2;
   config.black = 0.05;
-  const Imperfections camera(config, kPeriod_s, 11);
+  const Imperfections camera(config, kPeriodS, 11);
   constexpr int kImages = 100000;
   std::array<double, 4> share{};
   for (int64_t image = 0; image < kImages; ++image) {

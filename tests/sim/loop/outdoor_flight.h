@@ -8,7 +8,7 @@ namespace hedgehop::sim {
 /// 500 physics steps a second and an autopilot step every fifth of them.
 class OutdoorFlight {
  public:
-  static constexpr double kWallNorth_m = 40.0;  ///< of the near side of the wall to the north
+  static constexpr double kWallNorthM = 40.0;  ///< of the near side of the wall to the north
 
   explicit OutdoorFlight(const dynamics::VehicleConfig& vehicle)
       : scenario_(in_turbulence(vehicle)),
@@ -44,7 +44,7 @@ class OutdoorFlight {
   }
   static scenes::Scene between_walls() {
     scenes::Scene scene;
-    for (const double north_m : {-kWallNorth_m - 1.0, kWallNorth_m + 1.0}) {
+    for (const double north_m : {-kWallNorthM - 1.0, kWallNorthM + 1.0}) {
       scenes::Solid wall;
       wall.X_WS = Eigen::Translation3d(north_m, 0.0, -20.0);
       wall.half_extents_m = {1.0, 500.0, 20.0};

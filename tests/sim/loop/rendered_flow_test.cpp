@@ -14,8 +14,8 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kRange_m = 5.0;
-constexpr double kPeriod_s = 0.02;
+constexpr double kRangeM = 5.0;
+constexpr double kPeriodS = 0.02;
 
 /// A wall of the city's kind, 60 m wide, 5 m north of the origin and facing it.
 scenes::Scene textured_plane(uint64_t seed) {
@@ -25,7 +25,7 @@ scenes::Scene textured_plane(uint64_t seed) {
   scene.lights = city.lights;
   scenes::mesh::MeshBuilder builder("opaque");
   builder.begin_chunk(false);
-  builder.add_tiled({{kRange_m, -30.0, -30.0}, {0.0, 60.0, 0.0}, {0.0, 0.0, 60.0}}, 8.0, {0.3, 0.7}, 0);
+  builder.add_tiled({{kRangeM, -30.0, -30.0}, {0.0, 60.0, 0.0}, {0.0, 0.0, 60.0}}, 8.0, {0.3, 0.7}, 0);
   scene.meshes = {builder.finish()};
   return scene;
 }
@@ -43,7 +43,7 @@ CameraView looking_north(const Eigen::Vector3d& p_WC, const Eigen::Vector3d& tur
 }
 
 TEST(RenderedFlow, ErrorOnAPlaneMovingUpToTwoPixelsIsBelowATwentiethPixel) {
-  constexpr double kFocal_px = 200.0;
+  constexpr double kFocalPx = 200.0;
   double sum_squares = 0.0;
   int valid = 0, all = 0;
   for (uint64_t seed = 1; seed <= 6; ++seed) {
@@ -55,7 +55,7 @@ TEST(RenderedFlow, ErrorOnAPlaneMovingUpToTwoPixelsIsBelowATwentiethPixel) {
       cv::Mat older, newer;
       renderer.draw(looking_north({0, 0, 0}), older);
       // Moving the camera right and down by d moves the wall's image left and up by f d / range.
-      const Eigen::Vector2d d_m = -expected * (kRange_m / kFocal_px);
+      const Eigen::Vector2d d_m = -expected * (kRangeM / kFocalPx);
       renderer.draw(looking_north({0, d_m.x(), d_m.y()}), newer);
       flow.update(older);
       for (const vision::flow::FlowVector& vector : flow.update(newer).vectors) {
@@ -84,10 +84,10 @@ double largest_loom_of_rotation_per_s(const vision::flow::ImageInterpolationConf
       cv::Mat older, newer;
       renderer.draw(looking_north({0, 0, 0}), older);
       const Eigen::Vector3d w_C(rate(random), rate(random), rate(random));
-      renderer.draw(looking_north({0, 0, 0}, w_C * kPeriod_s), newer);
+      renderer.draw(looking_north({0, 0, 0}, w_C * kPeriodS), newer);
       flow.update(older);
       const vision::flow::FlowAverage loom =
-          vision::flow::loom(flow.update(newer), kPeriod_s, vision::flow::Missing::skip);
+          vision::flow::loom(flow.update(newer), kPeriodS, vision::flow::Missing::skip);
       largest_per_s = std::max(largest_per_s, std::abs(loom.value));
     }
   }
@@ -111,13 +111,13 @@ TEST(RenderedFlow, LoomOfAnApproachIsSpeedOverRange) {
   Renderer renderer(textured_plane(2));
   vision::flow::ImageInterpolationFlow flow({}, 400, 400);
   cv::Mat older, newer;
-  constexpr double kStep_m = 0.04;  // 2 m/s
+  constexpr double kStepM = 0.04;  // 2 m/s
   renderer.draw(looking_north({0, 0, 0}), older);
-  renderer.draw(looking_north({kStep_m, 0, 0}), newer);
+  renderer.draw(looking_north({kStepM, 0, 0}), newer);
   flow.update(older);
-  const double loom_per_s = vision::flow::loom(flow.update(newer), kPeriod_s, vision::flow::Missing::skip).value;
+  const double loom_per_s = vision::flow::loom(flow.update(newer), kPeriodS, vision::flow::Missing::skip).value;
   // Between the two images the range shrinks by a factor: flow is measured from the older one.
-  EXPECT_NEAR(loom_per_s, kStep_m / (kRange_m - kStep_m) / kPeriod_s, 0.01);
+  EXPECT_NEAR(loom_per_s, kStepM / (kRangeM - kStepM) / kPeriodS, 0.01);
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ StereoPair real_pair(const std::string& name, const std::string& truth, double s
 }
 
 // A pair that sees 3 to 300 m.
-constexpr double kBaseline_m = 0.3;
+constexpr double kBaselineM = 0.3;
 const vision::camera::PinholeCamera kCamera{640, 480, 600, 600, 319.5, 239.5};
 
 /// Disparity from depth, where the right camera sees the same surface.
@@ -76,7 +76,7 @@ cv::Mat true_disparity(const cv::Mat& left_m, const cv::Mat& right_m, int dispar
   for (int v = 0; v < left_m.rows; ++v) {
     for (int u = 0; u < left_m.cols; ++u) {
       const float z_m = left_m.at<float>(v, u);
-      const double d_px = kBaseline_m * kCamera.focal_x_px / z_m;  // 0 for sky
+      const double d_px = kBaselineM * kCamera.focal_x_px / z_m;  // 0 for sky
       const int other = static_cast<int>(std::lround(u - d_px));
       if (d_px < 0.5 || d_px > disparities_px - 2 || other < 1 || other + 1 >= left_m.cols) continue;
       const auto differs = [&](int column) { return std::abs(right_m.at<float>(v, column) / z_m - 1.0f); };
@@ -94,13 +94,13 @@ using Pairs = std::map<std::string, std::vector<StereoPair>>;
 std::vector<StereoPair> rendered_pairs(const scenes::Scene& scene, const std::vector<Eigen::Isometry3d>& poses,
                                        const ImperfectionsConfig& noise) {
   Renderer renderer(scene);
-  constexpr double kPeriod_s = 0.1;
-  Imperfections left_sensor(noise, kPeriod_s, 1), right_sensor(noise, kPeriod_s, 2);
+  constexpr double kPeriodS = 0.1;
+  Imperfections left_sensor(noise, kPeriodS, 1), right_sensor(noise, kPeriodS, 2);
   std::vector<StereoPair> pairs;
   for (const Eigen::Isometry3d& X_WC : poses) {
     StereoPair& pair = pairs.emplace_back();
     Eigen::Isometry3d X_WR = X_WC;
-    X_WR.translation() += kBaseline_m * X_WC.linear().col(0);
+    X_WR.translation() += kBaselineM * X_WC.linear().col(0);
     cv::Mat left_m, right_m;
     renderer.draw({kCamera, X_WC, Channel::grey}, pair.left);
     renderer.draw({kCamera, X_WR, Channel::grey}, pair.right);

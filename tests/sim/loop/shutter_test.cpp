@@ -8,12 +8,12 @@ namespace hedgehop::sim {
 namespace {
 
 constexpr int kRows = 64, kCols = 8;
-constexpr double kGrey_per_m = 10.0;
+constexpr double kGreyPerM = 10.0;
 
 /// An image whose every pixel tells how far north the body was.
 void draw_north(const Eigen::Isometry3d& X_WB, double, const cv::Range& rows, cv::Mat& out) {
   out.create(rows.size(), kCols, CV_8UC1);
-  out.setTo(cv::saturate_cast<uint8_t>(kGrey_per_m * X_WB.translation().x()));
+  out.setTo(cv::saturate_cast<uint8_t>(kGreyPerM * X_WB.translation().x()));
 }
 
 BodyMotion flying_north(double north_m, double speed_mps) {
@@ -48,7 +48,7 @@ TEST(Shutter, ABlurredImageIsTheMeanOverItsExposure) {
   Shutter shutter(config);
   cv::Mat image;
   shutter.expose(flying_north(12.0, 5.0), kRows, draw_north, image);
-  EXPECT_NEAR(cv::mean(image)[0], kGrey_per_m * (12.0 - 5.0 * 0.2), 1.0);  // levels are rounded twice
+  EXPECT_NEAR(cv::mean(image)[0], kGreyPerM * (12.0 - 5.0 * 0.2), 1.0);  // levels are rounded twice
 }
 
 TEST(Shutter, RowsOfARollingShutterAreExposedOneAfterTheOtherTheLastAtTheInstant) {
@@ -60,7 +60,7 @@ TEST(Shutter, RowsOfARollingShutterAreExposedOneAfterTheOtherTheLastAtTheInstant
   shutter.expose(flying_north(20.0, 20.0), kRows, draw_north, image);
   for (int row = 0; row < kRows; ++row) {
     const double t_s = -0.5 * (1.0 - static_cast<double>(row) / (kRows - 1));
-    EXPECT_NEAR(image.at<uint8_t>(row, 3), kGrey_per_m * (20.0 + 20.0 * t_s), 0.5 + 1e-9) << row;
+    EXPECT_NEAR(image.at<uint8_t>(row, 3), kGreyPerM * (20.0 + 20.0 * t_s), 0.5 + 1e-9) << row;
   }
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 TEST(Velocimeter, IsRightFromTheStartWhileTheFilterStillLearnsItsAttitude) {
   // Half a degree of tilt unknown at the start is 0.09 m/s after a second; what the camera sees must hold it down.
-  constexpr double kMost_mps = 0.1;
+  constexpr double kMostMps = 0.1;
   for (const char* seed : {"seed=1", "seed=2", "seed=3"}) {
     const std::vector<std::string> overrides = {"duration=2", "film.enabled=false", "checks=[]", seed};
     const Flight flight =
@@ -22,7 +22,7 @@ TEST(Velocimeter, IsRightFromTheStartWhileTheFilterStillLearnsItsAttitude) {
     for (const TrajectoryRow& row : flight.trajectory) {
       worst_mps = std::max(worst_mps, (row.v_WB_W_est - row.v_WB_W_true).head<2>().norm());
     }
-    EXPECT_LT(worst_mps, kMost_mps) << seed;
+    EXPECT_LT(worst_mps, kMostMps) << seed;
   }
 }
 

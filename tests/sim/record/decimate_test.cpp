@@ -45,7 +45,7 @@ TEST(Decimate, LosesNoExtremeOfAnyStretchOfAnySeries) {
 TEST(Simplified, NoPointOfALineIsFartherThanTheToleranceAndItsEndsStay) {
   std::mt19937_64 random(11);
   std::normal_distribution<double> step(0.0, 0.1);
-  constexpr double kTolerance_m = 0.05, kFloat_m = 1e-4;
+  constexpr double kToleranceM = 0.05, kFloatM = 1e-4;
   for (int trial = 0; trial < 20; ++trial) {
     std::vector<Eigen::Vector2d> line = {{1000.0, -2000.0}};
     Eigen::Vector2d velocity(0.0, 0.0);
@@ -53,9 +53,9 @@ TEST(Simplified, NoPointOfALineIsFartherThanTheToleranceAndItsEndsStay) {
       velocity += 0.1 * Eigen::Vector2d(step(random), step(random));
       line.push_back(line.back() + velocity);
     }
-    const std::vector<Eigen::Vector2d> kept = simplified(line, kTolerance_m, line.size());
+    const std::vector<Eigen::Vector2d> kept = simplified(line, kToleranceM, line.size());
     EXPECT_LT(kept.size(), line.size());
-    EXPECT_LT((kept.front() - line.front()).norm() + (kept.back() - line.back()).norm(), kFloat_m);
+    EXPECT_LT((kept.front() - line.front()).norm() + (kept.back() - line.back()).norm(), kFloatM);
     for (const Eigen::Vector2d& p : line) {
       double nearest_m = 1e9;
       for (size_t i = 1; i < kept.size(); ++i) {
@@ -63,9 +63,9 @@ TEST(Simplified, NoPointOfALineIsFartherThanTheToleranceAndItsEndsStay) {
         const double along = std::clamp((p - kept[i - 1]).dot(way) / way.squaredNorm(), 0.0, 1.0);
         nearest_m = std::min(nearest_m, (p - kept[i - 1] - along * way).norm());
       }
-      EXPECT_LE(nearest_m, kTolerance_m + kFloat_m);
+      EXPECT_LE(nearest_m, kToleranceM + kFloatM);
     }
-    EXPECT_LE(simplified(line, kTolerance_m, 10).size(), 10u);
+    EXPECT_LE(simplified(line, kToleranceM, 10).size(), 10u);
   }
 }
 

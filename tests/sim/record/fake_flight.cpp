@@ -9,7 +9,7 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kAltitude_m = 10.0;
+constexpr double kAltitudeM = 10.0;
 
 /// Horizontal distance to the nearest box less the hull's radius.
 double distance_m(const std::vector<scenes::Solid>& city, const Eigen::Vector3d& p_W, std::string& name) {
@@ -29,7 +29,7 @@ Eigen::Vector3d path_W(double share) {
   const Eigen::Vector2d along = (goal - start).normalized(), across(-along.y(), along.x());
   const double weave_m = 14.0 * std::sin(9.0 * share) * share * (1.0 - share) * 4.0;
   const Eigen::Vector2d p = start + share * (goal - start) + weave_m * across;
-  return {p.x(), p.y(), -kAltitude_m + 0.3 * std::sin(40.0 * share)};
+  return {p.x(), p.y(), -kAltitudeM + 0.3 * std::sin(40.0 * share)};
 }
 
 TrajectoryRow row_at(double t_s, double seconds, std::mt19937_64& random) {
@@ -51,7 +51,7 @@ TrajectoryRow row_at(double t_s, double seconds, std::mt19937_64& random) {
   row.v_WB_W_est = row.v_WB_W_true + jitter(0.04);
   row.v_WB_W_cmd = row.v_WB_W_true.head<2>() +
                    0.3 * Eigen::Vector2d(std::sin(std::floor(3.0 * t_s)), std::cos(std::floor(2.0 * t_s)));
-  row.altitude_cmd_m = kAltitude_m;
+  row.altitude_cmd_m = kAltitudeM;
   row.heading_cmd_rad = std::numbers::pi;
   row.ground_clearance_m = -row.p_WB_true.z() - 0.6;
   row.controls[0] = 0.09 + 0.004 * noise(random);

@@ -95,7 +95,7 @@ TEST(ReplayInBrowser, PutsTheVehicleWhereTheTrajectoryHasIt) {
   const CsvTable table(run.path() / "trajectory.csv");
   const auto column = [&](const char* name) { return table.numbers(name); };
   const auto t_s = column("t_s");
-  constexpr double kRounding_m = 3e-3;  // a millimeter of place, and of angle a tenth of a milliradian at 4 m
+  constexpr double kRoundingM = 3e-3;  // a millimeter of place, and of angle a tenth of a milliradian at 4 m
   for (const auto& place : page.value) {
     const auto row = static_cast<size_t>(
         std::ranges::min_element(t_s, {}, [&](double t) { return std::abs(t - place[0].get<double>()); }) -
@@ -105,9 +105,9 @@ TEST(ReplayInBrowser, PutsTheVehicleWhereTheTrajectoryHasIt) {
                                     Eigen::AngleAxisd(column("roll_rad")[row], Eigen::Vector3d::UnitX());
     const Eigen::Vector3d p_W = Eigen::Vector3d(column("north_m")[row], column("east_m")[row], column("down_m")[row]) +
                                 q_WB * Eigen::Vector3d(1.0, 2.0, 3.0);
-    EXPECT_NEAR(place[1].get<double>(), p_W.y(), kRounding_m);   // x east
-    EXPECT_NEAR(place[2].get<double>(), -p_W.z(), kRounding_m);  // y up
-    EXPECT_NEAR(place[3].get<double>(), -p_W.x(), kRounding_m);  // z south
+    EXPECT_NEAR(place[1].get<double>(), p_W.y(), kRoundingM);   // x east
+    EXPECT_NEAR(place[2].get<double>(), -p_W.z(), kRoundingM);  // y up
+    EXPECT_NEAR(place[3].get<double>(), -p_W.x(), kRoundingM);  // z south
   }
 }
 

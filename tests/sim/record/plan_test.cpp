@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kFloat_m = 1e-5;  // outlines are found in floats
+constexpr double kFloatM = 1e-5;  // outlines are found in floats
 
 double area_m2(const std::vector<Vector2d>& corners) {
   double twice = 0.0;
@@ -30,7 +30,7 @@ TEST(Plan, ShowsRoundSolidsAsPolygonsOf32Corners) {
                   scenes::mesh::ball_of("ball", {0, 0, -9}, 2.0)});
   EXPECT_NEAR(area_m2(plan[0].corners_NE_m), of_circle * 0.25, 1e-4);
   EXPECT_NEAR(area_m2(plan[1].corners_NE_m), of_circle * 4.0, 1e-3);
-  for (const Vector2d& corner : plan[0].corners_NE_m) EXPECT_NEAR((corner - Vector2d(3, 4)).norm(), 0.5, kFloat_m);
+  for (const Vector2d& corner : plan[0].corners_NE_m) EXPECT_NEAR((corner - Vector2d(3, 4)).norm(), 0.5, kFloatM);
   EXPECT_NEAR(plan[0].bottom_m, 1.0, 1e-12);
   EXPECT_NEAR(plan[0].top_m, 3.0, 1e-12);
   EXPECT_NEAR(plan[1].bottom_m, 7.0, 1e-12);
@@ -40,7 +40,7 @@ TEST(Plan, ShowsTheOutlineOfAPolyhedron) {
   const scenes::mesh::Polyhedron tip{{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {1, 1, -5}},
                                      {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
   const Footprint plan = footprints({scenes::mesh::solid_of("tip", tip)}).front();
-  EXPECT_NEAR(area_m2(plan.corners_NE_m), 6.0, kFloat_m);
+  EXPECT_NEAR(area_m2(plan.corners_NE_m), 6.0, kFloatM);
   EXPECT_NEAR(plan.top_m, 5.0, 1e-12);
 }
 
@@ -52,7 +52,7 @@ TEST(Plan, ShowsTheWayOfAMoverAsWideAsTheMover) {
   mover.solids = {scenes::mesh::solid_of("van", Eigen::AlignedBox3d(Vector3d(-3, -4, -2), Vector3d(3, 4, 0)))};
   const MoverWay way = mover_ways({mover}).front();
   EXPECT_EQ(way.corners_NE_m, (std::vector<Vector2d>{{1, 2}, {3, 4}, {1, 2}}));
-  EXPECT_NEAR(way.radius_m, 5.0, kFloat_m);
+  EXPECT_NEAR(way.radius_m, 5.0, kFloatM);
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ struct Forest {
 
 const vision::camera::PinholeCamera kCamera = vision::camera::PinholeCamera::from_fov(400, 400, 1.57);
 /// The thinnest trunk, three-sided, is a pixel wide there.
-const double kFar_m = 0.125 * std::sqrt(3.0) * kCamera.focal_x_px;
+const double kFarM = 0.125 * std::sqrt(3.0) * kCamera.focal_x_px;
 
 CameraView random_view(std::mt19937_64& random, double height_m) {
   const double heading_rad = uniform(random, -3.0, 3.0);
@@ -106,7 +106,7 @@ TEST(FarDetail, TakesOnlyWhatIsFarAndThin) {
   cv::Mat depth, full_depth;
   int changed = 0;
   // Of one trunk: thicker none is, and nowhere do two stand so near each other.
-  constexpr float kThick_m = 0.5f;
+  constexpr float kThickM = 0.5f;
   for (int k = 0; k < 12; ++k) {
     CameraView view = random_view(random, k % 2 == 0 ? 1.8 : 12.0);
     view.channel = Channel::depth;
@@ -118,13 +118,13 @@ TEST(FarDetail, TakesOnlyWhatIsFarAndThin) {
         const float z_m = depth.at<float>(row, col), full_m = full_depth.at<float>(row, col);
         const bool is_changed = z_m != full_m;
         const bool goes_on =
-            is_changed && wide_px > 0 && std::abs(full_m - full_depth.at<float>(row, col - 1)) < kThick_m;
+            is_changed && wide_px > 0 && std::abs(full_m - full_depth.at<float>(row, col - 1)) < kThickM;
         wide_px = goes_on ? wide_px + 1 : static_cast<int>(is_changed);
         if (!is_changed) continue;
         ++changed;
         ASSERT_LE(wide_px, 2);  // a pixel wide straight ahead, half as much again aside
         // What is gone stood far away, and what lies behind is seen.
-        ASSERT_GT(static_cast<double>(full_m), kFar_m);
+        ASSERT_GT(static_cast<double>(full_m), kFarM);
         ASSERT_GT(z_m, full_m);
       }
     }
@@ -152,18 +152,18 @@ TEST(FarDetail, IsTheSameForBothCamerasOfAStereoPair) {
   const Forest forest;
   Renderer by_size(forest.scene), full(forest.whole);
   std::mt19937_64 random(303);
-  constexpr double kBaseline_m = 0.5;
+  constexpr double kBaselineM = 0.5;
   cv::Mat left_m, right_m;
   int through = 0, through_whole = 0;
   for (int k = 0; k < 12; ++k) {
     CameraView left = random_view(random, 1.8);
     left.channel = Channel::depth;
     CameraView right = left;
-    right.X_WC = left.X_WC * Eigen::Translation3d(kBaseline_m, 0.0, 0.0);
+    right.X_WC = left.X_WC * Eigen::Translation3d(kBaselineM, 0.0, 0.0);
     for (Renderer* renderer : {&by_size, &full}) {
       renderer->draw(left, left_m);
       renderer->draw(right, right_m);
-      (renderer == &full ? through_whole : through) += seen_through(left_m, right_m, kCamera.focal_x_px, kBaseline_m);
+      (renderer == &full ? through_whole : through) += seen_through(left_m, right_m, kCamera.focal_x_px, kBaselineM);
     }
   }
   RecordProperty("through", through);

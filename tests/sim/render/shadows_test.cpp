@@ -61,12 +61,11 @@ TEST(Shadows, OfABoxEndOnTheGroundWhereItsRaysDo) {
           return way_in_box(p_W, to_sun_W.cast<double>(), box_W, margin_m) > 0.0;
         };
         const uint8_t level = grey.at<uint8_t>(v, u);
-        constexpr double kTexels_m =
-            0.03;  // a box of 6 m has texels of some 5 mm; a slanted roof's slip by two of them
-        if (hit(-kTexels_m)) {
+        constexpr double kTexelsM = 0.03;  // a box of 6 m has texels of some 5 mm; a slanted roof's slip by two of them
+        if (hit(-kTexelsM)) {
           EXPECT_NEAR(level, kShaded, 1) << u << " " << v;
           ++shaded;
-        } else if (!hit(kTexels_m)) {
+        } else if (!hit(kTexelsM)) {
           EXPECT_NEAR(level, kLit, 1) << u << " " << v;
         }
         error_m2 += pixel_m2 * ((kLit - level) / double{kLit - kShaded} - (hit(0.0) ? 1.0 : 0.0));
@@ -78,18 +77,18 @@ TEST(Shadows, OfABoxEndOnTheGroundWhereItsRaysDo) {
   }
 }
 
-constexpr double kHalf_m = 4.0;  // of a cube on the ground
+constexpr double kHalfM = 4.0;  // of a cube on the ground
 
 /// Distance of a point on the cube from the next edge, as the light sees it, in texels of the widened map.
 double edge_texels(const Eigen::Vector3d& p_W, const Eigen::Vector3d& to_sun_W) {
-  constexpr double kTexel_m = 0.12;
-  const Eigen::Array3d from_middle = p_W.array() + Eigen::Array3d(0, 0, kHalf_m);
-  Eigen::Array3d inside_m = kHalf_m - from_middle.abs();
+  constexpr double kTexelM = 0.12;
+  const Eigen::Array3d from_middle = p_W.array() + Eigen::Array3d(0, 0, kHalfM);
+  Eigen::Array3d inside_m = kHalfM - from_middle.abs();
   Eigen::Index face = 0;
   inside_m.minCoeff(&face);
   const double cosine = std::copysign(to_sun_W[face], to_sun_W[face] * from_middle[face]);
-  inside_m[face] = 2.0 * kHalf_m;
-  return inside_m.minCoeff() * std::max(cosine, 0.0) / kTexel_m;
+  inside_m[face] = 2.0 * kHalfM;
+  return inside_m.minCoeff() * std::max(cosine, 0.0) / kTexelM;
 }
 
 // Next to an edge a texel may hold the other face, which rises more steeply.
@@ -100,7 +99,7 @@ TEST(Shadows, DarkenNoFaceThatTheSunSees) {
     SmallWorld world;
     const Eigen::Vector3f to_sun_W = random_sun(random);
     world.scene.lights = {.ambient = 0.3f, .sun = 0.7f, .to_sun_W = to_sun_W};
-    const auto half = static_cast<float>(kHalf_m);
+    const auto half = static_cast<float>(kHalfM);
     world.add_box({Eigen::Vector3f(-half, -half, -2 * half), Eigen::Vector3f(half, half, 0)});
     world.add_quad({300, 300, -20}, {1, 0, 0}, {0, 0, 1});  // widens the map: coarse texels, where faces rise steeply
     Renderer plain(world.scene);

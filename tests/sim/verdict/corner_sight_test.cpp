@@ -83,8 +83,8 @@ TEST(ProjectedCorners, ScatterByHalfAPixelRoundTheProjections) {
     }
   }
   const double count = static_cast<double>(kImages * corners.size());
-  const double kFiveSigmas_px = 5.0 * 0.5 / std::sqrt(count);
-  EXPECT_LT((sum / count).cwiseAbs().maxCoeff(), kFiveSigmas_px);
+  const double kFiveSigmasPx = 5.0 * 0.5 / std::sqrt(count);
+  EXPECT_LT((sum / count).cwiseAbs().maxCoeff(), kFiveSigmasPx);
   EXPECT_NEAR(std::sqrt(squares.x() / count), 0.5, 0.03);
   EXPECT_NEAR(std::sqrt(squares.y() / count), 0.5, 0.03);
 }

@@ -19,13 +19,13 @@ std::optional<double> value(const std::vector<MetricValue>& metrics, std::string
 template <class Law>
 Flight flight_north(Law north_m, Outcome outcome) {
   Flight flight;
-  constexpr double kStep_s = 0.01, kDifference_s = 1e-4;
+  constexpr double kStepS = 0.01, kDifferenceS = 1e-4;
   for (int i = 0; i <= 1000; ++i) {
     TrajectoryRow row;
-    row.t_s = kStep_s * i;
+    row.t_s = kStepS * i;
     row.p_WB_true = {north_m(row.t_s), 0.0, -10.0};
-    row.v_WB_W_true = {(north_m(row.t_s + kDifference_s) - north_m(row.t_s - kDifference_s)) / (2.0 * kDifference_s),
-                       0.0, 0.0};
+    row.v_WB_W_true = {(north_m(row.t_s + kDifferenceS) - north_m(row.t_s - kDifferenceS)) / (2.0 * kDifferenceS), 0.0,
+                       0.0};
     flight.trajectory.push_back(row);
   }
   flight.result.outcome = outcome;

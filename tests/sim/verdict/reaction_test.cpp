@@ -8,11 +8,11 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kTouch_m = 1e-3;  // what counts as touching
-constexpr double kRadius_m = 0.5, kHorizon_s = 20.0;
+constexpr double kTouchM = 1e-3;  // what counts as touching
+constexpr double kRadiusM = 0.5, kHorizonS = 20.0;
 
 const std::vector<dynamics::HullPart> kDisc = {
-    {.shape = dynamics::HullPart::Shape::cylinder, .half_extents_m = {kRadius_m, kRadius_m, 0.05}}};
+    {.shape = dynamics::HullPart::Shape::cylinder, .half_extents_m = {kRadiusM, kRadiusM, 0.05}}};
 
 scenes::Solid pole(double north_m, double east_m) {
   scenes::Solid solid;
@@ -34,14 +34,14 @@ TEST(TimeToCollision, OfADiscPastAPoleIsTheCirclesMeeting) {
     scenes::Scene scene;
     const Eigen::Vector2d pole_NE(place_m(random), place_m(random));
     const Eigen::Vector2d v = Eigen::Rotation2Dd(aside_rad(random)) * pole_NE.normalized() * speed_mps(random);
-    const double together_m = kRadius_m + 0.1;
+    const double together_m = kRadiusM + 0.1;
     if (pole_NE.norm() < together_m + 0.1) continue;
     scene.solids = {pole(pole_NE.x(), pole_NE.y())};
     const double half_b = -v.dot(pole_NE), c = pole_NE.squaredNorm() - together_m * together_m;
     const double root2 = half_b * half_b - v.squaredNorm() * c;
-    const auto found = time_to_collision_s(scene, kDisc, at({0.0, 0.0, -5.0}), {v.x(), v.y(), 0.0}, 0.0, kHorizon_s);
+    const auto found = time_to_collision_s(scene, kDisc, at({0.0, 0.0, -5.0}), {v.x(), v.y(), 0.0}, 0.0, kHorizonS);
     const double expected_s = (-half_b - std::sqrt(root2)) / v.squaredNorm();
-    if (root2 < 0.01 || half_b > 0.0 || expected_s > kHorizon_s - 0.1) {
+    if (root2 < 0.01 || half_b > 0.0 || expected_s > kHorizonS - 0.1) {
       if (root2 < -0.01) {
         EXPECT_FALSE(found);
       }
@@ -50,7 +50,7 @@ TEST(TimeToCollision, OfADiscPastAPoleIsTheCirclesMeeting) {
     ++hits;
     ASSERT_TRUE(found);
     // A grazing touch begins sooner by a length that grows as the square root of what counts as touching.
-    EXPECT_NEAR(*found, expected_s, 2.0 * kTouch_m * together_m / std::sqrt(root2) + 1e-3);
+    EXPECT_NEAR(*found, expected_s, 2.0 * kTouchM * together_m / std::sqrt(root2) + 1e-3);
   }
   EXPECT_GT(hits, 50);
 }
@@ -62,9 +62,9 @@ TEST(TimeToCollision, OfAHoveringVehicleCountsTheMoversWay) {
   mover.motion =
       scenes::WaypointMotion{.points = {{10.0, 0.0, 0.0}, {-10.0, 0.0, 0.0}}, .speed_mps = 2.0, .start_s = 4.0};
   scene.movers = {mover};
-  const auto found = time_to_collision_s(scene, kDisc, at({0.0, 0.0, -5.0}), {0.0, 0.0, 0.0}, 1.0, kHorizon_s);
+  const auto found = time_to_collision_s(scene, kDisc, at({0.0, 0.0, -5.0}), {0.0, 0.0, 0.0}, 1.0, kHorizonS);
   ASSERT_TRUE(found);
-  EXPECT_NEAR(*found, (4.0 - 1.0) + (10.0 - kRadius_m - 0.1) / 2.0, 0.01);
+  EXPECT_NEAR(*found, (4.0 - 1.0) + (10.0 - kRadiusM - 0.1) / 2.0, 0.01);
 }
 
 // North at 2 m/s towards a pole 30 m away; the module gives way at 10 s, then again at 12 s.

@@ -12,18 +12,18 @@
 namespace hedgehop::vision::corridor {
 namespace {
 
-constexpr double kDt_s = 0.1;
-constexpr int kRim_px = 7;
+constexpr double kDtS = 0.1;
+constexpr int kRimPx = 7;
 
 // Two images of a wall across the way, the second a tenth of a second of flight nearer.
 struct Pair {
   camera::Camera camera = whole_fisheye(480, 480);
-  CameraMotion motion{looking_down().linear(), looking_down().linear(), Eigen::Vector3d::Zero(), kDt_s, 1.5};
+  CameraMotion motion{looking_down().linear(), looking_down().linear(), Eigen::Vector3d::Zero(), kDtS, 1.5};
   cv::Mat older, newer;
 
   Pair(double range_m, const Eigen::Vector3d& v_H, const WaveTexture& texture, double half_width_m = 1.25,
        double roll_rad = 0.0) {
-    motion.traveled_H = kDt_s * v_H;
+    motion.traveled_H = kDtS * v_H;
     motion.R_HC2 = Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX()) * motion.R_HC1;
     StraightCorridor corridor;
     corridor.left_m = corridor.right_m = half_width_m;
@@ -39,7 +39,7 @@ struct Pair {
     newer = draw(p_WC1 + motion.traveled_H, motion.R_HC2);
   }
   std::optional<Approach> measure() const {
-    return ApproachMeter({}, camera, looking_down(), {}, kRim_px).measure(older, newer, motion);
+    return ApproachMeter({}, camera, looking_down(), {}, kRimPx).measure(older, newer, motion);
   }
 };
 
@@ -88,7 +88,7 @@ TEST(Approach, IsUnknownBeforeABlankWall) {
 
 TEST(Approach, RefusesAConfigThatCannotBe) {
   for (const ApproachConfig& config : {ApproachConfig{.half_width_rad = 0.0}, ApproachConfig{.sigma_per_s = 0.0}}) {
-    EXPECT_THROW(ApproachMeter(config, whole_fisheye(), looking_down(), {}, kRim_px), std::invalid_argument);
+    EXPECT_THROW(ApproachMeter(config, whole_fisheye(), looking_down(), {}, kRimPx), std::invalid_argument);
   }
 }
 

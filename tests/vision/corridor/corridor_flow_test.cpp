@@ -76,15 +76,15 @@ TEST(CorridorRegions, CoverTheAnglesPrintedAndNothingElse) {
 
 TEST(CorridorRegions, KeepClearOfTheLensRim) {
   const camera::Camera camera = whole_fisheye();
-  constexpr int kRim_px = 10;
-  const auto masks = region_masks(camera, looking_down(), {}, kRim_px);
+  constexpr int kRimPx = 10;
+  const auto masks = region_masks(camera, looking_down(), {}, kRimPx);
   int inside = 0;
   for (const cv::Mat& mask : masks) {
     for (int v = 0; v < mask.rows; ++v) {
       for (int u = 0; u < mask.cols; ++u) {
         if (!mask.at<uint8_t>(v, u)) continue;
         ++inside;
-        for (const auto& [du, dv] : {std::pair{-kRim_px, 0}, {kRim_px, 0}, {0, -kRim_px}, {0, kRim_px}}) {
+        for (const auto& [du, dv] : {std::pair{-kRimPx, 0}, {kRimPx, 0}, {0, -kRimPx}, {0, kRimPx}}) {
           EXPECT_TRUE(camera.ray({u + du, v + dv})) << u << ' ' << v;
         }
       }

@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kHeight_m = 1.5;
+constexpr double kHeightM = 1.5;
 
 const WaveTexture& texture() {
   static const WaveTexture texture(11, 0.12, 0.8, 40);
@@ -85,7 +85,7 @@ TEST(FeatureFlow, PureRotationLeavesLessThanATwentiethOfAPixel) {
   double worst_turned_px = 0.0, worst_rays_px = 0.0;
   for (const double turn_rad : {0.03, 0.03, 0.03, 0.1, 0.1, 0.1}) {
     const Vector3d before_rad = random_angles(random, 0.1), change_rad = random_angles(random, turn_rad);
-    const Vector3d p_WB(0.0, 0.0, -kHeight_m);
+    const Vector3d p_WB(0.0, 0.0, -kHeightM);
     const Seen seen = see(pose(p_WB, before_rad), pose(p_WB, before_rad + change_rad));
     ASSERT_GT(seen.turned.size(), 80u);
     const double turned_px = median_flow_px(seen.turned, Eigen::Matrix3d::Identity());
@@ -105,7 +105,7 @@ TEST(FeatureFlow, MixedMotionMeetsTheTrueFlowAndDistance) {
   const camera::Camera camera = whole_fisheye();
   const StraightCorridor corridor;
   const Seen seen =
-      see(pose({0.0, 0.3, -kHeight_m}, {0.02, -0.03, 0.1}), pose({0.08, 0.31, -1.51}, {-0.02, 0.01, 0.15}));
+      see(pose({0.0, 0.3, -kHeightM}, {0.02, -0.03, 0.1}), pose({0.08, 0.31, -1.51}, {-0.02, 0.01, 0.15}));
   ASSERT_GT(seen.turned.size(), 80u);
   const Vector3d traveled = seen.X_WC1.linear().transpose() * (seen.X_WC2.translation() - seen.X_WC1.translation());
   std::vector<double> errors_px, ranges;
@@ -133,7 +133,7 @@ TEST(FeatureFlow, CornersBeginInTheirRegionsAndApart) {
   const camera::Camera camera = whole_fisheye();
   const auto masks = corridor::region_masks(camera, looking_down(), {}, 8);
   const StraightCorridor corridor;
-  const Eigen::Isometry3d X_WC = pose({0, 0, -kHeight_m}, Vector3d::Zero()) * looking_down();
+  const Eigen::Isometry3d X_WC = pose({0, 0, -kHeightM}, Vector3d::Zero()) * looking_down();
   const cv::Mat image = draw_planes_through(camera, X_WC, corridor.planes(), texture());
   FeatureFlowConfig config;
   config.apart_px = 12;

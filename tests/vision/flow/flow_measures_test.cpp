@@ -14,7 +14,7 @@ namespace hedgehop::vision::flow {
 namespace {
 
 const camera::PinholeCamera kCamera = camera::PinholeCamera::from_fov(400, 400, std::numbers::pi / 2);
-constexpr double kPeriod_s = 0.02;
+constexpr double kPeriodS = 0.02;
 
 Eigen::Vector3d random_vector(std::mt19937_64& random, double largest) {
   std::uniform_real_distribution<double> uniform(-largest, largest);
@@ -34,12 +34,12 @@ TEST(ImageJacobian, EqualsFiniteDifferencesOfProjectedPoints) {
     const Eigen::Vector3d v = random_vector(random, 3.0), w = random_vector(random, 1.0), p_CP = z * camera.ray(at);
     Eigen::Matrix<double, 6, 1> twist;
     twist << v, w;
-    constexpr double kStep_s = 1e-6;
+    constexpr double kStepS = 1e-6;
     const auto moved = [&](double t) {
       const Eigen::Matrix3d R = Eigen::AngleAxisd(w.norm() * t, w.normalized()).toRotationMatrix();
       return *camera.project(R.transpose() * (p_CP - v * t));
     };
-    const Eigen::Vector2d rate = (moved(kStep_s) - moved(-kStep_s)) / (2 * kStep_s);
+    const Eigen::Vector2d rate = (moved(kStepS) - moved(-kStepS)) / (2 * kStepS);
     EXPECT_LT((image_jacobian(camera, at, z) * twist - rate).norm(), 1e-4 * (1.0 + rate.norm()));
   }
 }
@@ -51,9 +51,9 @@ TEST(RotationFlow, MovesPixelsAsTurningTheCameraDoes) {
     const Eigen::Vector2d at{pixel(random), pixel(random)};
     const Eigen::Vector3d w = random_vector(random, 2.0);
     Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-    X.rotate(Eigen::AngleAxisd(w.norm() * kPeriod_s, w.normalized()));
+    X.rotate(Eigen::AngleAxisd(w.norm() * kPeriodS, w.normalized()));
     const Eigen::Vector2d expected = *kCamera.project(X.inverse() * (7.0 * kCamera.ray(at))) - at;
-    EXPECT_LT((rotation_flow_px(kCamera, at, w, kPeriod_s) - expected).norm(), 1e-9);
+    EXPECT_LT((rotation_flow_px(kCamera, at, w, kPeriodS) - expected).norm(), 1e-9);
   }
 }
 
@@ -61,8 +61,8 @@ TEST(Derotate, LeavesExactlyNothingOfAPureRotation) {
   std::mt19937_64 random(3);
   for (int trial = 0; trial < 20; ++trial) {
     const Eigen::Vector3d w = random_vector(random, 3.0);
-    FlowField field = plane_flow(kCamera, grid_field(16, 16, 60, 400), {0, 0, 5}, {0, 0, 1}, {0, 0, 0}, w, kPeriod_s);
-    derotate(field, kCamera, w, kPeriod_s);
+    FlowField field = plane_flow(kCamera, grid_field(16, 16, 60, 400), {0, 0, 5}, {0, 0, 1}, {0, 0, 0}, w, kPeriodS);
+    derotate(field, kCamera, w, kPeriodS);
     for (const FlowVector& vector : field.vectors) EXPECT_LT(vector.flow_px.norm(), 1e-9);
   }
 }
@@ -72,9 +72,9 @@ TEST(Derotate, LeavesTheFlowOfTranslation) {
   for (int trial = 0; trial < 20; ++trial) {
     const Eigen::Vector3d v = random_vector(random, 2.0), w = random_vector(random, 0.5);
     const auto grid = grid_field(16, 16, 60, 400);
-    FlowField field = plane_flow(kCamera, grid, {0, 0, 6}, {0.3, -0.2, 1}, v, w, kPeriod_s);
-    const FlowField still = plane_flow(kCamera, grid, {0, 0, 6}, {0.3, -0.2, 1}, v, {0, 0, 0}, kPeriod_s);
-    derotate(field, kCamera, w, kPeriod_s);
+    FlowField field = plane_flow(kCamera, grid, {0, 0, 6}, {0.3, -0.2, 1}, v, w, kPeriodS);
+    const FlowField still = plane_flow(kCamera, grid, {0, 0, 6}, {0.3, -0.2, 1}, v, {0, 0, 0}, kPeriodS);
+    derotate(field, kCamera, w, kPeriodS);
     for (size_t i = 0; i < field.vectors.size(); ++i) {
       // Turned by w dt = 0.01 rad meanwhile, the translation's flow of some px differs by its hundredth.
       EXPECT_LT((field.vectors[i].flow_px - still.vectors[i].flow_px).norm(), 0.06);
@@ -126,8 +126,8 @@ TEST(Loom, StaysBelowAHundredthUnderPureRotation) {
   for (int trial = 0; trial < 100; ++trial) {
     const Eigen::Vector3d w = random_vector(random, 0.35);  // up to 20 deg/s about each axis
     const FlowField field =
-        plane_flow(kCamera, grid_field(16, 16, 60, 400), {0, 0, 5}, {0, 0, 1}, {0, 0, 0}, w, kPeriod_s);
-    EXPECT_LT(std::abs(loom(field, kPeriod_s, Missing::skip).value), 0.01);
+        plane_flow(kCamera, grid_field(16, 16, 60, 400), {0, 0, 5}, {0, 0, 1}, {0, 0, 0}, w, kPeriodS);
+    EXPECT_LT(std::abs(loom(field, kPeriodS, Missing::skip).value), 0.01);
   }
 }
 
@@ -143,17 +143,17 @@ TEST(Loom, StaysBelowAHundredthWhenATurningCameraSeesAWall) {
   for (const Eigen::Vector3d& w : {Eigen::Vector3d(0, 0.3, 0), {0.3, 0, 0}, {0, 0, 0.4}, {-0.2, -0.2, 0.2}}) {
     ImageInterpolationFlow flow({}, 400, 400);
     flow.update(still);
-    const FlowField& field = flow.update(view(w * kPeriod_s));
+    const FlowField& field = flow.update(view(w * kPeriodS));
     EXPECT_GT(field.valid_share(), 0.99);
-    EXPECT_LT(std::abs(loom(field, kPeriod_s, Missing::skip).value), 0.01) << w.transpose();
-    EXPECT_NEAR(mean_horizontal_flow(field, kCamera, kPeriod_s, Missing::skip).value,
-                mean_horizontal_flow(plane_flow(kCamera, field, {0, 0, 5}, {0, 0, 1}, {0, 0, 0}, w, kPeriod_s), kCamera,
-                                     kPeriod_s, Missing::skip)
+    EXPECT_LT(std::abs(loom(field, kPeriodS, Missing::skip).value), 0.01) << w.transpose();
+    EXPECT_NEAR(mean_horizontal_flow(field, kCamera, kPeriodS, Missing::skip).value,
+                mean_horizontal_flow(plane_flow(kCamera, field, {0, 0, 5}, {0, 0, 1}, {0, 0, 0}, w, kPeriodS), kCamera,
+                                     kPeriodS, Missing::skip)
                     .value,
                 0.003);
     FlowField derotated = field;
-    derotate(derotated, kCamera, w, kPeriod_s);
-    EXPECT_LT(std::abs(mean_horizontal_flow(derotated, kCamera, kPeriod_s, Missing::skip).value), 0.003);
+    derotate(derotated, kCamera, w, kPeriodS);
+    EXPECT_LT(std::abs(mean_horizontal_flow(derotated, kCamera, kPeriodS, Missing::skip).value), 0.003);
   }
 }
 
@@ -164,11 +164,11 @@ TEST(MeanFlowAndLoom, FollowAnApproachToARenderedWall) {
   const Eigen::Vector3d v(0.8, 0.0, 1.8);
   ImageInterpolationFlow flow({}, 400, 400);
   flow.update(draw_planes(kCamera, X_WC, wall, texture));
-  X_WC.translation() = v * kPeriod_s;
+  X_WC.translation() = v * kPeriodS;
   const FlowField& field = flow.update(draw_planes(kCamera, X_WC, wall, texture));
-  constexpr double kMidRange_m = 6.0 - 0.5 * 1.8 * kPeriod_s;
-  EXPECT_NEAR(loom(field, kPeriod_s, Missing::skip).value, 1.8 / kMidRange_m, 0.01);
-  EXPECT_NEAR(mean_horizontal_flow(field, kCamera, kPeriod_s, Missing::skip).value, -0.8 / kMidRange_m, 0.003);
+  constexpr double kMidRangeM = 6.0 - 0.5 * 1.8 * kPeriodS;
+  EXPECT_NEAR(loom(field, kPeriodS, Missing::skip).value, 1.8 / kMidRangeM, 0.01);
+  EXPECT_NEAR(mean_horizontal_flow(field, kCamera, kPeriodS, Missing::skip).value, -0.8 / kMidRangeM, 0.003);
 }
 
 TEST(MeanFlowAndLoom, InvalidVectorsAreLeftOutOrFarAway) {

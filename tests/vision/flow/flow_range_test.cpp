@@ -11,8 +11,8 @@
 namespace hedgehop::vision::flow {
 namespace {
 
-constexpr double kStep_s = 1e-4;
-constexpr double kTinyFloor_mps = 1e-3;
+constexpr double kStepS = 1e-4;
+constexpr double kTinyFloorMps = 1e-3;
 
 camera::PinholeCamera camera() { return camera::PinholeCamera::from_fov(400, 400, std::numbers::pi / 2); }
 
@@ -28,14 +28,13 @@ TEST(FlowRange, EveryPatchTellsItsOwnDepthOnASlantedWallForAnyMotion) {
     const Eigen::Vector3d v_WC_C = random_velocity(random);
     const Eigen::Vector3d on_plane(0, 0, range(random)), normal(slant(random), 0.0, 1.0);
     const FlowField field =
-        plane_flow(camera(), grid_field(16, 16, 32, 400), on_plane, normal, v_WC_C, {0, 0, 0}, kStep_s);
+        plane_flow(camera(), grid_field(16, 16, 32, 400), on_plane, normal, v_WC_C, {0, 0, 0}, kStepS);
     for (const FlowVector& vector : field.vectors) {
       const Eigen::Vector3d ray = camera().ray(vector.center_px);
       const double depth_m = normal.dot(on_plane) / normal.dot(ray);
       const Eigen::Vector2d b(-v_WC_C.x() + ray.x() * v_WC_C.z(), -v_WC_C.y() + ray.y() * v_WC_C.z());
       if (b.norm() < 0.1 || depth_m < 0.5) continue;  // around the focus of expansion nothing is told
-      EXPECT_NEAR(inverse_depth_per_m(vector, camera(), v_WC_C, kStep_s, kTinyFloor_mps), 1.0 / depth_m,
-                  2e-3 / depth_m);
+      EXPECT_NEAR(inverse_depth_per_m(vector, camera(), v_WC_C, kStepS, kTinyFloorMps), 1.0 / depth_m, 2e-3 / depth_m);
     }
   }
 }
@@ -43,14 +42,14 @@ TEST(FlowRange, EveryPatchTellsItsOwnDepthOnASlantedWallForAnyMotion) {
 TEST(FlowRange, NothingIsNearerThanItsFlowProves) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> noise_px(0.0, 0.05);
-  constexpr double kFrame_s = 0.02, kFloor_mps = 0.2;
+  constexpr double kFrameS = 0.02, kFloorMps = 0.2;
   int too_near = 0, all = 0;
   for (int trial = 0; trial < 200; ++trial) {
     const Eigen::Vector3d v_WC_C = random_velocity(random);
     for (FlowVector vector : grid_field(16, 16, 32, 400).vectors) {  // open space: no flow but noise
       vector.flow_px = {noise_px(random), noise_px(random)};
       ++all;
-      too_near += inverse_depth_per_m(vector, camera(), v_WC_C, kFrame_s, kFloor_mps) > 0.05;
+      too_near += inverse_depth_per_m(vector, camera(), v_WC_C, kFrameS, kFloorMps) > 0.05;
     }
   }
   EXPECT_LT(too_near, 0.01 * all);  // an obstacle within 20 m is seen in less than one patch of a hundred
@@ -58,15 +57,15 @@ TEST(FlowRange, NothingIsNearerThanItsFlowProves) {
 
 TEST(FlowRange, WhatTheFloorTakesAwayIsTheWeight) {
   std::mt19937_64 random(5);
-  constexpr double kFloor_mps = 0.4, kRange_m = 3.0;
+  constexpr double kFloorMps = 0.4, kRangeM = 3.0;
   for (int trial = 0; trial < 50; ++trial) {
     const Eigen::Vector3d v_WC_C = random_velocity(random);
     const FlowField field =
-        plane_flow(camera(), grid_field(8, 8, 32, 400), {0, 0, kRange_m}, {0, 0, 1}, v_WC_C, {0, 0, 0}, kStep_s);
-    const std::vector<double> weights = parallax_weights(field, camera(), v_WC_C, kFloor_mps);
+        plane_flow(camera(), grid_field(8, 8, 32, 400), {0, 0, kRangeM}, {0, 0, 1}, v_WC_C, {0, 0, 0}, kStepS);
+    const std::vector<double> weights = parallax_weights(field, camera(), v_WC_C, kFloorMps);
     for (size_t i = 0; i < weights.size(); ++i) {
-      EXPECT_NEAR(inverse_depth_per_m(field.vectors[i], camera(), v_WC_C, kStep_s, kFloor_mps), weights[i] / kRange_m,
-                  2e-3 / kRange_m);
+      EXPECT_NEAR(inverse_depth_per_m(field.vectors[i], camera(), v_WC_C, kStepS, kFloorMps), weights[i] / kRangeM,
+                  2e-3 / kRangeM);
     }
   }
 }
@@ -82,11 +81,11 @@ TEST(FlowRange, BearingsAreTheAzimuthsOfThePatchesRays) {
 
 TEST(FlowRange, TheFloorOnlyMakesThingsFarther) {
   const FlowField field =
-      plane_flow(camera(), grid_field(8, 8, 32, 400), {0, 0, 4}, {0, 0, 1}, {1, 0, 1}, {0, 0, 0}, kStep_s);
+      plane_flow(camera(), grid_field(8, 8, 32, 400), {0, 0, 4}, {0, 0, 1}, {1, 0, 1}, {0, 0, 0}, kStepS);
   for (const FlowVector& vector : field.vectors) {
     double last = 1.0 / 4.0 + 1e-3;
     for (const double floor_mps : {0.01, 0.1, 0.3, 1.0, 5.0}) {
-      const double near = inverse_depth_per_m(vector, camera(), {1, 0, 1}, kStep_s, floor_mps);
+      const double near = inverse_depth_per_m(vector, camera(), {1, 0, 1}, kStepS, floor_mps);
       EXPECT_LE(near, last);
       last = near;
     }
@@ -96,10 +95,9 @@ TEST(FlowRange, TheFloorOnlyMakesThingsFarther) {
 TEST(FlowRange, TheNearestTenthCountsInFullHoweverFarTheRestIs) {
   // A wall at 3 m in the two left columns of 16 (an eighth of the view), the others see one at 50 m.
   const Eigen::Vector3d v_WC_C(1.5, 0, 1.0);
-  FlowField field =
-      plane_flow(camera(), grid_field(16, 16, 32, 400), {0, 0, 50}, {0, 0, 1}, v_WC_C, {0, 0, 0}, kStep_s);
+  FlowField field = plane_flow(camera(), grid_field(16, 16, 32, 400), {0, 0, 50}, {0, 0, 1}, v_WC_C, {0, 0, 0}, kStepS);
   const FlowField near =
-      plane_flow(camera(), grid_field(16, 16, 32, 400), {0, 0, 3}, {0, 0, 1}, v_WC_C, {0, 0, 0}, kStep_s);
+      plane_flow(camera(), grid_field(16, 16, 32, 400), {0, 0, 3}, {0, 0, 1}, v_WC_C, {0, 0, 0}, kStepS);
   double least_range_m = 1e9, largest_range_m = 0.0;
   for (int row = 0; row < 16; ++row) {
     for (int col = 0; col < 2; ++col) {
@@ -110,7 +108,7 @@ TEST(FlowRange, TheNearestTenthCountsInFullHoweverFarTheRestIs) {
     }
   }
   const double told =
-      nearest_inverse_range_per_m(inverse_ranges_per_m(field, camera(), v_WC_C, kStep_s, kTinyFloor_mps), 0.1);
+      nearest_inverse_range_per_m(inverse_ranges_per_m(field, camera(), v_WC_C, kStepS, kTinyFloorMps), 0.1);
   EXPECT_GT(told, 0.99 / largest_range_m);
   EXPECT_LT(told, 1.01 / least_range_m);
 }

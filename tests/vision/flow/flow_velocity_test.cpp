@@ -12,7 +12,7 @@ namespace hedgehop::vision::flow {
 namespace {
 
 const camera::PinholeCamera kCamera = camera::PinholeCamera::from_fov(400, 400, std::numbers::pi / 2);
-constexpr double kPeriod_s = 0.02;
+constexpr double kPeriodS = 0.02;
 
 // A camera below the belly that looks down: C's x is B's y, C's y is -B's x.
 Eigen::Isometry3d down_camera() {
@@ -40,7 +40,7 @@ Flight random_flight(std::mt19937_64& random) {
                 Eigen::AngleAxisd(0.25 * uniform(random), Eigen::Vector3d::UnitX());
   motion.w_WB_B = 0.4 * Eigen::Vector3d{uniform(random), uniform(random), uniform(random)};
   motion.height_above_ground_m = 6.0 + 4.0 * uniform(random);
-  motion.dt_s = kPeriod_s;
+  motion.dt_s = kPeriodS;
   flight.v_WB_B = 2.0 * Eigen::Vector3d{uniform(random), uniform(random), 0.3 * uniform(random)};
 
   const Eigen::Isometry3d X_BC = down_camera();
@@ -49,7 +49,7 @@ Flight random_flight(std::mt19937_64& random) {
   const double height_m = motion.height_above_ground_m - (motion.q_WB * X_BC.translation()).z();
   const Eigen::Vector3d v_WC_B = flight.v_WB_B + motion.w_WB_B.cross(X_BC.translation());
   flight.field = plane_flow(kCamera, grid_field(8, 8, 60, 400), height_m * down_C, down_C, R_CB * v_WC_B,
-                            R_CB * motion.w_WB_B, kPeriod_s);
+                            R_CB * motion.w_WB_B, kPeriodS);
   return flight;
 }
 

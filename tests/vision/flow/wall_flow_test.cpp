@@ -42,7 +42,7 @@ Room random_room(std::mt19937_64& random) {
 /// What four cameras, half a meter from B, see in their middle rows while B moves, `noise` laid over it.
 std::vector<WallSight> look(const Room& room, const Eigen::Vector2d& v_H, double noise, std::mt19937_64& random) {
   constexpr int kPatches = 8;
-  constexpr double kOff_m = 0.4, kReach = 0.75;
+  constexpr double kOffM = 0.4, kReach = 0.75;
   std::normal_distribution<double> error(0.0, 1.0);
   std::vector<WallSight> sights;
   for (int camera = 0; camera < 4; ++camera) {
@@ -54,7 +54,7 @@ std::vector<WallSight> look(const Room& room, const Eigen::Vector2d& v_H, double
       const Eigen::Vector2d place(kReach * (2.0 * patch / (kPatches - 1.0) - 1.0), 0.0);
       WallSight sight;
       sight.ray_H = axis_H + place.x() * right_H;
-      sight.p_BC_H = kOff_m * axis_H;
+      sight.p_BC_H = kOffM * axis_H;
       sight.unit_flow = unit_flow(place, v_WC_C);
       sight.flow = sight.unit_flow / room.along(sight.p_BC_H, sight.ray_H);
       sight.flow += noise * Eigen::Vector2d(error(random), error(random));

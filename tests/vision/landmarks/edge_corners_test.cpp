@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kSize_px = 320;
+constexpr int kSizePx = 320;
 
 /// A polygon drawn with soft edges: at eight times the size, then averaged.
 void draw(cv::Mat& image, const std::vector<Vector2d>& corners_px, const cv::Scalar& color) {
@@ -38,7 +38,7 @@ std::vector<Vector2d> random_quadrilateral(std::mt19937_64& random) {
   const double turn = uniform(random, 0.0, 1.5);
   for (int k = 0; k < 4; ++k) {
     const double angle = turn + 0.5 * M_PI * k + uniform(random, -0.3, 0.3), radius_px = uniform(random, 70.0, 140.0);
-    corners.emplace_back(0.5 * kSize_px + radius_px * std::cos(angle), 0.5 * kSize_px + radius_px * std::sin(angle));
+    corners.emplace_back(0.5 * kSizePx + radius_px * std::cos(angle), 0.5 * kSizePx + radius_px * std::sin(angle));
   }
   return corners;
 }
@@ -51,7 +51,7 @@ double distance_px(const std::vector<Vector2d>& corners, const Vector2d& to) {
 
 /// Grey noise of one scale: light and dark patches without straight edges.
 cv::Mat patches(uint64_t seed, double scale_px, double amplitude) {
-  cv::Mat noise(kSize_px, kSize_px, CV_32F);
+  cv::Mat noise(kSizePx, kSizePx, CV_32F);
   cv::RNG random(seed);
   random.fill(noise, cv::RNG::NORMAL, 0.0, 1.0);
   cv::GaussianBlur(noise, noise, {}, scale_px);
@@ -64,12 +64,12 @@ TEST(EdgeCorners, OfAQuadrilateralAreItsCorners) {
   std::mt19937_64 random(3);
   for (int round = 0; round < 20; ++round) {
     const std::vector<Vector2d> corners = random_quadrilateral(random);
-    cv::Mat image(kSize_px, kSize_px, CV_8UC1, cv::Scalar(60));
+    cv::Mat image(kSizePx, kSizePx, CV_8UC1, cv::Scalar(60));
     draw(image, corners, 160);
     const std::vector<Vector2d> found = edge_corners(image, {});
     EXPECT_EQ(found.size(), 4U) << "round " << round;
-    constexpr double kLineFit_px = 1.0;
-    for (const Vector2d& corner : corners) EXPECT_LT(distance_px(found, corner), kLineFit_px) << "round " << round;
+    constexpr double kLineFitPx = 1.0;
+    for (const Vector2d& corner : corners) EXPECT_LT(distance_px(found, corner), kLineFitPx) << "round " << round;
   }
 }
 
@@ -99,7 +99,7 @@ TEST(EdgeCorners, StandOutFromPatchesOfGrass) {
 TEST(EdgeCorners, RedAndGreenOfOneGreyAreToldApartInColor) {
   const std::vector<Vector2d> corners = {{60, 70}, {250, 60}, {260, 240}, {80, 250}};
   const cv::Scalar green(60, 110, 60), red(125, 75, 75);
-  cv::Mat image(kSize_px, kSize_px, CV_8UC3, green);
+  cv::Mat image(kSizePx, kSizePx, CV_8UC3, green);
   draw(image, corners, red);
   cv::Mat grey;
   cv::cvtColor(image, grey, cv::COLOR_RGB2GRAY);
@@ -143,8 +143,8 @@ TEST(EdgeCorners, AreFoundWhereALineBendsALittle) {
         {first(-200), first(-10)}, {first(-8), second(cut_px)}, {second(late_px), second(150)}};
     const auto corners = corners_of(joined_edges(pieces, config), config);
     ASSERT_EQ(corners.size(), 1U) << "round " << round;
-    constexpr double kCutPieceTurnsTheLine_px = 2.0;
-    EXPECT_LT((corners[0] - at).norm(), kCutPieceTurnsTheLine_px) << "round " << round;
+    constexpr double kCutPieceTurnsTheLinePx = 2.0;
+    EXPECT_LT((corners[0] - at).norm(), kCutPieceTurnsTheLinePx) << "round " << round;
   }
 }
 
@@ -178,9 +178,9 @@ TEST(JoinedEdges, APieceWiseLineIsOneEdge) {
     std::ranges::shuffle(pieces, random);
     const auto edges = joined_edges(pieces, config);
     ASSERT_EQ(edges.size(), 1U) << "round " << round;
-    constexpr double kWobble_px = 0.5;
-    EXPECT_LT(std::min((edges[0].from_px - from).norm(), (edges[0].to_px - from).norm()), kWobble_px);
-    EXPECT_LT(edges[0].length_px(), whole_px + kWobble_px);
+    constexpr double kWobblePx = 0.5;
+    EXPECT_LT(std::min((edges[0].from_px - from).norm(), (edges[0].to_px - from).norm()), kWobblePx);
+    EXPECT_LT(edges[0].length_px(), whole_px + kWobblePx);
   }
 }
 

@@ -15,12 +15,12 @@ namespace {
 using Eigen::Vector2d;
 using sim::looking_at;
 
-constexpr double kImage_s = 0.1;
+constexpr double kImageS = 0.1;
 
 /// A map seen by a camera that stands still.
 class StandingCamera : public testing::Test {
  protected:
-  std::vector<int64_t> see(const std::vector<Vector2d>& corners_px) { return map_.update(corners_px, pose_, kImage_s); }
+  std::vector<int64_t> see(const std::vector<Vector2d>& corners_px) { return map_.update(corners_px, pose_, kImageS); }
 
   LandmarkMapConfig config_{.misses = 5, .young_misses = 2, .confirm = 3};
   camera::PinholeCamera camera_ = camera::PinholeCamera::from_fov(640, 480, std::numbers::pi / 6.0);
@@ -80,7 +80,7 @@ TEST(LandmarkMap, AYoungLandmarkBesideAKnownOneDoesNotTakeItsCorner) {
         *camera.project(pose.X_WC_est.inverse() * p_W) + Vector2d(uniform(random, -1, 1), uniform(random, -1, 1));
     std::vector<Vector2d> corners = {corner};
     if (i == kBegun) corners.emplace_back(corner + Vector2d(8, 0));
-    const auto ids = map.update(corners, pose, kImage_s);
+    const auto ids = map.update(corners, pose, kImageS);
     if (i == 0) known = ids[0];
     EXPECT_EQ(ids[0], known) << i;
   }
@@ -98,7 +98,7 @@ TEST(LandmarkMap, ImagesWithAlikeErrorsCountAsOne) {
     LandmarkMap map(config, camera);
     const std::vector<Vector2d> corner = {{320, 240}};
     map.update(corner, pose, 0.0);
-    for (int i = 0; i < images; ++i) map.update(corner, pose, kImage_s);
+    for (int i = 0; i < images; ++i) map.update(corner, pose, kImageS);
     return covariance_W(map.landmarks().at(0).landmark)(1, 1);
   };
   const double white = east_variance_after(10, 0.0);

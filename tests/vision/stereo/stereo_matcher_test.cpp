@@ -53,18 +53,18 @@ TEST(StereoMatcher, AWallsDisparityIsFoundToAFifthOfAPixel) {
 
 // OpenCV by itself leaves out the 64 columns left of the largest disparity searched.
 TEST(StereoMatcher, ColumnsAreMatchedWhereverTheRightCameraSeesThem) {
-  const int kWall_px = 12;
-  const cv::Mat left = texture(4, {320, 240}), right = seen_from_the_right(left, kWall_px);
+  const int kWallPx = 12;
+  const cv::Mat left = texture(4, {320, 240}), right = seen_from_the_right(left, kWallPx);
   for (const Method method : {Method::block, Method::semi_global}) {
     StereoMatcherConfig config;
     config.method = method;
     config.block_px = 9;
     cv::Mat d16;
     StereoMatcher(config).match(left, right, d16);
-    const cv::Mat seen = d16(cv::Rect(kWall_px + config.block_px, 20, config.disparities_px, 200));
-    EXPECT_GT(cv::countNonZero(cv::abs(seen - kDisparityUnits * kWall_px) < 4),
+    const cv::Mat seen = d16(cv::Rect(kWallPx + config.block_px, 20, config.disparities_px, 200));
+    EXPECT_GT(cv::countNonZero(cv::abs(seen - kDisparityUnits * kWallPx) < 4),
               0.95 * static_cast<double>(seen.total()));
-    for (int u = 0; u < kWall_px; ++u) {
+    for (int u = 0; u < kWallPx; ++u) {
       double largest = 0.0;
       cv::minMaxLoc(d16.col(u), nullptr, &largest);
       EXPECT_LE(largest, kDisparityUnits * u) << "matched with what is left of the right image's edge";
