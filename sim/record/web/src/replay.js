@@ -43,7 +43,7 @@ craft.group.rotation.order = 'ZYX';  // yaw, then pitch, then roll, each about t
 
 // --- The instant
 
-/** Row before an instant and the share of the way to the next. */
+/** Row before an instant and the share of the step to the next. */
 function place(t_s) {
   let low = 0, high = path.t_s.length - 1;
   while (low < high) {
@@ -54,7 +54,7 @@ function place(t_s) {
   return {row: low, next, share: step > 0 ? Math.min(1, Math.max(0, (t_s - path.t_s[low]) / step)) : 0};
 }
 const between = (values, {row, next, share}) => values[row] + share * (values[next] - values[row]);
-/** An angle between two, the short way round. */
+/** An angle between two, the shorter way around. */
 function turnBetween(values, {row, next, share}) {
   const turn = values[next] - values[row];
   return values[row] + share * Math.atan2(Math.sin(turn), Math.cos(turn));
@@ -71,7 +71,7 @@ function pose(t_s) {
   });
   const clearance = path.clearance_m[at.row];
   element('clock').textContent = `${t_s.toFixed(2)} of ${end_s.toFixed(1)} s`;
-  element('facts').textContent = `clearance ${clearance === null ? 'none in reach' : meters(clearance)}, ` +
+  element('facts').textContent = `clearance ${clearance === null ? 'none within range' : meters(clearance)}, ` +
     `speed ${fixed(between(path.speed_mps, at), 1)} m/s, altitude ${fixed(-between(path.down_m, at), 1)} m`;
   element('time').value = t_s;
 }
@@ -209,13 +209,13 @@ if (path.t_s.length) setTime(0);
 setCamera('orbit');
 requestAnimationFrame(draw);
 
-// What tests ask: places in T of the vehicle and of a point of its own, the controls' state, and how many solids' faces
+// What tests read: places in T of the vehicle and of a point of its own, the controls' state, and how many solids' faces
 // stand between the camera and the vehicle.
 window.replay = {
   state,
   facesBefore: () => {
     stage.updateMatrixWorld(true);
-    const way = craftInT().sub(camera.position), ray = new THREE.Raycaster(camera.position, way.clone().normalize(), 0, way.length());
+    const toCraft = craftInT().sub(camera.position), ray = new THREE.Raycaster(camera.position, toCraft.clone().normalize(), 0, toCraft.length());
     return ray.intersectObject(solids.group, true).filter((hit) => hit.object.isMesh).length;
   },
   point: (forward, right, down) => {
