@@ -64,7 +64,7 @@ def false_numbers(text, place, counts):
 
 
 def check_citations(root):
-    """Every [Key] is listed in REFERENCES.md and says where; the paper has that equation, figure or table."""
+    """Every [Key] is listed in REFERENCES.md and names its place; the paper has that equation, figure or table."""
     faults = []
     references = read(root, "REFERENCES.md")
     keys = re.findall(r"^\W*\[([A-Za-z0-9]+)\]", references, re.M)
@@ -128,6 +128,19 @@ def check_frames(root):
                         faults.append(Fault(path, number, f"{found.group()}: {letter} has its meaning only in {', '.join(where)}"))
                     elif point and prefix not in "pv":
                         faults.append(Fault(path, number, f"{found.group()}: {letter} is a point and has no axes"))
+    return faults
+
+
+def check_paths(root):
+    """Files and folders that documents name in backticks exist."""
+    faults = []
+    for path in files(root, {".md"}):
+        text = read(root, path)
+        for named in re.finditer(r"`((?:scenes|dynamics|vision|avoidance|sim|configs|scripts|tests|docs|cmake)/[\w./{},*-]+)`", text):
+            stem, _, ends = named.group(1).partition("{")
+            names = [stem + end for end in ends.rstrip("}").split(",")] if ends else [stem]
+            faults += [Fault(path, line_of(text, named.start()), f"`{name}` does not exist")
+                       for name in names if not any(root.glob(name.rstrip("/")))]
     return faults
 
 

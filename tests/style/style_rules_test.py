@@ -34,6 +34,7 @@ GOOD_TREE = {
     "CONTRIBUTING.md": "# Rules\n\n## Frames\n\n| letter | kind | meaning | only in |\n|---|---|---|---|\n"
                        "| `W` | frame | world | |\n| `C` | frame | camera | |\n| `Cr` | frame | right camera | |\n"
                        "| `L` | frame | light | `sim/render` |\n| `NE` | frame | plan | |\n| `P` | point | any | |\n\n## Next\n",
+    "sim/render/sun.h": "#pragma once\n",
     ".clang-format": "BasedOnStyle: Google\nColumnLimit: 120\n",
     "build/vision/bad.cpp": "int   badly( ) ;\n",
 }
@@ -75,7 +76,7 @@ class Layers(Tree):
 
     def test_a_row_that_looks_down(self):
         table = 'set(HEDGEHOP_LAYERS\n    "vision: avoidance"\n    "avoidance: vision")\n'
-        self.assert_refused("layers", {"CMakeLists.txt": table}, "stands not above it")
+        self.assert_refused("layers", {"CMakeLists.txt": table}, "is not above it")
 
     def test_yaml_outside_the_scenario_room(self):
         self.assert_refused("layers", {"sim/loop/x.h": "#include <yaml-cpp/yaml.h>\n"}, "belongs into sim/scenario")
@@ -162,6 +163,18 @@ class Frames(Tree):
 
     def test_texts_are_no_names(self):
         self.assertEqual(self.faults("frames", {"vision/flow.cpp": 'auto a = "p_RS_R";\n'}), [])
+
+
+class Paths(Tree):
+    def test_a_file_that_is_gone(self):
+        self.assert_refused("paths", {"docs/a.md": "\nSee `vision/gone.h`.\n"}, "docs/a.md:2:", "`vision/gone.h` does not exist")
+
+    def test_one_of_two_files(self):
+        self.assert_refused("paths", {"docs/a.md": "See `avoidance/steer.{h,cpp}`.\n"}, "`avoidance/steer.cpp` does not exist")
+
+    def test_files_folders_and_patterns_that_are_there(self):
+        text = "`vision/flow.{h,cpp}`, `vision/`, `avoidance/steer.h`, `vision/*.h`, `sim/loop/NAME: no path`\n"
+        self.assertEqual(self.faults("paths", {"docs/a.md": text}), [])
 
 
 class Words(Tree):
