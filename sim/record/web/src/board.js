@@ -59,7 +59,7 @@ function fillStrips(host, data, table, on) {
     return;
   }
   host.append(make('h2', '', 'Film strips of the worst flights'),
-    make('p', 'soft', 'Camera images with the modules' overlays before the collision or the closest approach, from a re-simulation.'));
+    make('p', 'soft', 'Camera images with the overlays of the modules before the collision or the closest approach, from a re-simulation.'));
   for (const [row, jpeg] of data.strips) {
     const figure = host.appendChild(make('figure', 'strip')), line = figure.appendChild(make('figcaption', 'flight-line'));
     line.append(flightButton(table, row, on), make('span', 'soft', table.why[row] || `passed, clearance ${meters(table.value('min_obstacle_clearance_m', row))}`),
