@@ -23,7 +23,7 @@ SHORT_S = 0.2
 ALLOWED = (0, 1)
 PAGES = ["README.md", "CONTRIBUTING.md", *sorted(f"docs/{path.name}" for path in (SOURCE / "docs").glob("*.md"))]
 LOOKED_UP = re.compile(r"(scripts/|\./scripts/|build/\w+/tests/|ctest |gdb |cmake --preset|bash \.ci/|[A-Z]+=\S+ scripts/)")
-START = r"(?:hedgehop |build/|ctest |gdb |cmake |bash \.ci/|(?:[A-Z]+=\S+ )?(?:\./)?scripts/)"
+START = r"(?:hedgehop |build/|ctest |gdb |cmake |bash \.ci/|(?:[A-Z]+=\S+ )?(?:\./)?scripts/\w)"
 
 
 def commands(text):
@@ -44,10 +44,12 @@ def shortened_file(text):
 
 
 def shortened_command(line):
-    """The command with shorter flights and fewer seeds; large sweeps of the results only count what they would fly."""
+    """The command with shorter flights and fewer seeds."""
     if line.startswith("hedgehop"):
         line = re.sub(r"duration=[0-9.]+", f"duration={SHORT_S}", line)
         line = re.sub(r"--seeds [0-9:,]+", "--seeds 1", line)
+    if line.startswith("hedgehop reproduce") and "--quick" not in line:
+        line += " --quick"  # what getting-started.md has flown is reused
     if line.startswith("hedgehop render"):
         line = re.sub(r"--time [0-9.]+", f"--time {SHORT_S / 2}", line)
     if "--on slurm" in line and "--dry-run" not in line:
@@ -97,6 +99,7 @@ class Commands(unittest.TestCase):
             self.assertNotIn("Total Tests: 0", self.shell(f"ctest --test-dir {BUILD} -N -R {shlex.quote(pattern)}"), line)
 
     def run_line(self, line, counts_sweeps=False):
+        """@param counts_sweeps  whether a sweep only counts what it would fly."""
         if LOOKED_UP.match(line):
             self.look_up(line)
         elif counts_sweeps and line.startswith("hedgehop sweep"):
