@@ -1,5 +1,5 @@
 'use strict';
-// A module's map beside the truth, from above: landmarks with their ellipses, true corners, route, path, planned detours.
+// A module's map beside the truth, from above: landmarks with their ellipses, true corners, course, path, planned ways.
 
 const mapSigmas = 3, waysShown = 4;
 
@@ -118,7 +118,7 @@ class LandmarksView {
     }
     entry('c0', 'flown');
     if (course.length) entry('soft', 'route', 'dashed');
-    if (ways.length) entry('c3', `planned detours, the latest ${waysShown}`, 'dotted');
+    if (ways.length) entry('c3', `planned, the latest ${waysShown}`, 'dotted');
   }
 
   hover(x, y) {
@@ -136,7 +136,7 @@ class LandmarksView {
     map.showTip(x, y, lines.length ? lines : map.placeLines(x, y));
   }
 
-  /** Shows the detours planned until an instant; null for the end. */
+  /** Shows the ways planned until an instant; null for the end. */
   setTime(t) {
     if (t === this.t) return;
     this.t = t;
