@@ -38,8 +38,8 @@ struct CameraConfig {
   /// Pose of the camera in B: the mounting position, and yaw about down, pitch about right, roll about forward, in that
   /// order, applied to a camera that looks forward. Yaw 90 deg looks right, pitch -90 deg looks down.
   Eigen::Isometry3d X_BC() const;
-  /// Throws std::invalid_argument that begins with the key at fault, for keys that do not go together or a calibration
-  /// file that cannot be used.
+  /// Throws std::invalid_argument that begins with the key at fault, for values out of bounds, keys that do not go
+  /// together or a calibration file that cannot be used.
   vision::camera::Camera model() const;
   /// Whether it is a pinhole without distortion.
   bool straight() const;
