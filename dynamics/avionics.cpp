@@ -3,11 +3,13 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/fields/bounds.h"
+
 namespace hedgehop::dynamics {
 
 Avionics::Avionics(const AvionicsConfig& config, const VehicleConfig& vehicle, double physics_dt_s,
                    const StreamSeed& stream_seed)
-    : config_(config),
+    : config_(fields::require_bounds(config)),
       physics_dt_s_(physics_dt_s),
       beam_direction_B_(sensors::beam_direction_B(config.range_finder)),
       seeds_{stream_seed("imu"),
@@ -24,7 +26,6 @@ Avionics::Avionics(const AvionicsConfig& config, const VehicleConfig& vehicle, d
       navigation_(config.navigation,
                   {config.imu, config.gps, config.height_sensor, config.magnetometer, config.barometer}),
       autopilot_(config.autopilot, vehicle) {
-  check(config.height_sensor);
   reset_options();
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "scenes/require.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes {
 namespace {
@@ -69,28 +70,13 @@ PlaceOnWay place(const OrbitMotion& motion, double t_s) {
           started ? Vector3d(motion.speed_mps * onward) : Vector3d::Zero()};
 }
 
-void require_valid(const WaypointMotion& motion) {
-  require(!motion.points.empty(), "motion.points", 0.0, "at least one point");
-  for (const Waypoint& point : motion.points) {
-    for (double x_m : {point.north_m, point.east_m, point.altitude_m})
-      require(std::isfinite(x_m), "motion.points", x_m, "finite numbers");
-  }
-  require(std::isfinite(motion.speed_mps) && motion.speed_mps >= 0.0, "motion.speed", motion.speed_mps,
-          "at least 0 m/s");
-  require(std::isfinite(motion.start_s) && motion.start_s >= 0.0, "motion.start", motion.start_s, "at least 0 s");
-}
-
-void require_valid(const OrbitMotion& motion) {
-  for (double x : {motion.north_m, motion.east_m, motion.altitude_m, motion.speed_mps, motion.bearing_rad})
-    require(std::isfinite(x), "motion", x, "finite numbers");
-  require(std::isfinite(motion.radius_m) && motion.radius_m > 0.0, "motion.radius", motion.radius_m, "above 0 m");
-  require(std::isfinite(motion.start_s) && motion.start_s >= 0.0, "motion.start", motion.start_s, "at least 0 s");
-}
-
 }  // namespace
 
 void require_motion(const Motion& motion) {
-  std::visit([](const auto& chosen) { require_valid(chosen); }, motion);
+  std::visit([](const auto& chosen) { fields::require_bounds(chosen, "motion"); }, motion);
+  if (const auto* straight = std::get_if<WaypointMotion>(&motion)) {
+    require(!straight->points.empty(), "motion.points", 0.0, "at least one point");
+  }
 }
 
 Eigen::Vector3d p_WM(const Motion& motion, double t_s) {

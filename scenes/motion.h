@@ -69,8 +69,8 @@ void describe(Visitor& v, OrbitMotion& c) {
 /// How a mover's frame M travels; its axes stay those of W.
 using Motion = std::variant<WaypointMotion, OrbitMotion>;
 
-/// Throws std::invalid_argument "<field>: <value>; valid: ..." unless all numbers are finite, there is a point, and
-/// radius, speed and start are in range.
+/// Throws std::invalid_argument "motion.<field>: <value>; ..." unless every field keeps its bounds and there is a
+/// point.
 void require_motion(const Motion& motion);
 
 /// Returns the position of M, in W, m; continuous in time.

@@ -24,9 +24,6 @@ void describe(Visitor& v, GustConfig& c) {
   v("hold", c.hold_m, {.unit = "m", .at_least = 0.0, .meaning = "way through the air at full strength"});
 }
 
-/// Throws std::invalid_argument "gust.<key>: ..." on values that cannot be.
-void check(const GustConfig& config);
-
 /// Returns the speed of the air a way behind the gust's front, m/s. @param way_m  through the air; 0 before and beyond.
 /// Source: [MIL8785C] sec. 3.7.1.3. Differs: the fall mirrors the rise, where the standard's gust stays.
 double gust_speed_mps(const GustConfig& config, double way_m);

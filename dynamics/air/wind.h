@@ -30,7 +30,7 @@ void describe(Visitor& v, WindConfig& c) {
   v("roughness", c.roughness_m,
     {.unit = "m",
      .at_least = 0.0,
-     .at_most = 5.0,
+     .at_most = 5.0,  // clearly below 20 ft
      .meaning = "roughness length of a logarithmic wind shear: 0.046 at airfields, 0.61 elsewhere, 0 no shear"});
   v("turbulence_w20", c.turbulence_w20_mps,
     {.unit = "m/s",
@@ -43,7 +43,7 @@ void describe(Visitor& v, WindConfig& c) {
 /// The air one vehicle meets. Equal seeds and equal arguments give equal sequences, bit for bit.
 class Wind {
  public:
-  /// Throws std::invalid_argument when a value is not finite, a speed is negative, or the ground rougher than 5 m.
+  /// Throws std::invalid_argument "<key>: ..." on values out of bounds.
   Wind(const WindConfig& config, uint64_t seed);
 
   /// The steady wind in W, m/s. @param height_m  above ground; below the roughness it is still, from 1000 ft on

@@ -7,7 +7,7 @@
 
 #include "dynamics/rigid_body.h"
 #include "dynamics/sensors/magnetometer.h"
-#include "dynamics/sensors/sensor_noise.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::dynamics::control {
 namespace {
@@ -56,12 +56,7 @@ Eigen::Vector2d turned(double angle_rad, const Eigen::Vector2d& v) { return Eige
 }  // namespace
 
 Autopilot::Autopilot(const AutopilotConfig& config, const VehicleConfig& vehicle)
-    : config_(config), model_(make_hover_model(vehicle)) {
-  sensors::require_positive("autopilot.speed_limit", config.speed_limit_mps);
-  sensors::require_positive("autopilot.acceleration_limit", config.acceleration_limit_mps2);
-  sensors::require_positive("autopilot.climb_rate_limit", config.climb_rate_limit_mps);
-  sensors::require_positive("autopilot.yaw_rate_limit", config.yaw_rate_limit_radps);
-  sensors::require_positive("autopilot.tilt_limit", config.tilt_limit_rad);
+    : config_(fields::require_bounds(config, "autopilot")), model_(make_hover_model(vehicle)) {
   design(kUsualDtS);
   reset({});
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dynamics/air/atmosphere.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::dynamics::control {
 namespace {
@@ -34,11 +35,7 @@ double square(double x) { return x * x; }
 }  // namespace
 
 Navigation::Navigation(const NavigationConfig& config, const Sensors& sensors)
-    : config_(config), sensors_(sensors), dt_s_(1.0 / sensors.imu.rate_hz) {
-  sensors::require_positive("navigation.attitude_sigma", config.attitude_sigma_rad);
-  sensors::require_positive("navigation.position_sigma", config.position_sigma_m);
-  sensors::require_positive("navigation.alignment_residual", config.alignment_residual);
-  sensors::require_positive("navigation.surface_jump", config.surface_jump_m);
+    : config_(fields::require_bounds(config, "navigation")), sensors_(sensors), dt_s_(1.0 / sensors.imu.rate_hz) {
   history_.resize(static_cast<size_t>(std::llround(sensors.gps.latency_s / dt_s_)) + 1);
   reset({}, {});
 }

@@ -44,9 +44,6 @@ struct RotorSpeedState {
   double integral_throttle = 0.0;  ///< what the governor's integral adds to the throttle
 };
 
-/// Throws std::invalid_argument unless power and inertia are positive and no gain is negative.
-void check(const GovernedEngineConfig& engine);
-
 /// Returns the governor's throttle, 0 closed to 1 open. @param set_radps  the speed it is to hold.
 double throttle(const GovernedEngineConfig& engine, double set_radps, const RotorSpeedState& state);
 

@@ -23,9 +23,6 @@ void describe(Visitor& v, HeightSensorConfig& c) {
      .meaning = "half angle of the cone whose nearest echo it reads: about 15 for a sonar, 0 for a laser"});
 }
 
-/// Throws std::invalid_argument unless the cone is one: 0 to 45 degrees.
-void check(const HeightSensorConfig& config);
-
 /// Height of a point above the surface below it, m; +inf above nothing. The point lies level with the sensor, so far to
 /// the north and east of it, m.
 using HeightBeside = std::function<double(double north_m, double east_m)>;

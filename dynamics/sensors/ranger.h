@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dynamics/sensors/sensor_noise.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::dynamics::sensors {
 
@@ -23,7 +24,7 @@ struct RangerConfig {
 template <class Visitor>
 void describe(Visitor& v, RangerConfig& c) {
   v("enabled", c.enabled, {.meaning = "whether there is one"});
-  v("rate", c.rate_hz, {.unit = "Hz", .above = 0.0, .meaning = "readings a second; divides the physics rate"});
+  v("rate", c.rate_hz, {.unit = "Hz", .at_least = fields::kSlowestHz, .meaning = "readings a second; divides the physics rate"});
   v("min", c.min_m, {.unit = "m", .at_least = 0.0, .meaning = "shortest range it reads"});
   v("max", c.max_m, {.unit = "m", .above = 0.0, .meaning = "longest range it reads"});
   v("noise", c.noise_m, {.unit = "m", .at_least = 0.0, .meaning = "white noise at range 0"});

@@ -37,7 +37,7 @@ void describe(Visitor& v, ImportConfig& c) {
 
 /// Adds imported meshes to a scene: triangles, one image for each material (its image, or its color), and a solid
 /// of shape `surface` for each mesh of the file that can be hit. Images are made as large as those that are there.
-/// @throws std::invalid_argument that begins with "imports.<field>: " and gives the file and the reason: not there, not
+/// @throws std::invalid_argument that begins with the key at fault; of a file, with the reason: not there, not
 /// readable, no triangles, an image missing.
 void add_imports(const std::vector<ImportConfig>& imports, Scene& scene);
 

@@ -13,6 +13,7 @@
 #include "scenes/textures/stone_textures.h"
 #include "scenes/textures/street_textures.h"
 #include "scenes/textures/vehicle_textures.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {
@@ -28,17 +29,8 @@ constexpr uint64_t kLumpStream = 2;
 constexpr double kRoadHalfM = 3.5, kParkedM = 4.9;  // vehicles stand on the verge
 
 void validate(const ParkConfig& c) {
-  require(c.extent_m >= 30.0 && c.extent_m <= 1000.0, "extent", c.extent_m, "30 to 1000 m");
-  const auto count = [](const char* field, int64_t n, int64_t most) {
-    require(n >= 0 && n <= most, field, static_cast<double>(n), "0 to " + std::to_string(most));
-  };
-  count("trees", c.trees, 1000);
-  count("bushes", c.bushes, 1000);
-  count("rocks", c.rocks, 1000);
-  count("vehicles", c.vehicles, 200);
-  require(c.gap_m >= 0.0, "gap", c.gap_m, "at least 0 m");
-  require_clearings(c.keep_clear);
-  require_texture_size(static_cast<double>(c.texture_size_px));
+  fields::require_bounds(c);
+  require_texture_size(c.texture_size_px);
 }
 
 struct Disc {

@@ -12,6 +12,7 @@
 #include "scenes/require.h"
 #include "scenes/textures/room_textures.h"
 #include "scenes/textures/street_textures.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {
@@ -25,14 +26,8 @@ constexpr int kWallVariants = 3;
 constexpr double kGrassMarginM = 1000.0;
 
 void validate(const RoomConfig& c) {
-  require(c.length_m >= 1.0 && c.length_m <= 1000.0, "length", c.length_m, "1 to 1000 m");
-  require(c.width_m >= 1.0 && c.width_m <= 1000.0, "width", c.width_m, "1 to 1000 m");
-  require(c.height_m >= 1.0 && c.height_m <= 100.0, "height", c.height_m, "1 to 100 m");
-  require(c.wall_thickness_m >= 0.05 && c.wall_thickness_m <= 5.0, "wall_thickness", c.wall_thickness_m, "0.05 to 5 m");
-  require(c.furniture >= 0 && c.furniture <= 1000, "furniture", static_cast<double>(c.furniture), "0 to 1000");
-  require(c.furniture_gap_m >= 0.0, "furniture_gap", c.furniture_gap_m, "at least 0 m");
-  require_clearings(c.keep_clear);
-  require_texture_size(static_cast<double>(c.texture_size_px));
+  fields::require_bounds(c);
+  require_texture_size(c.texture_size_px);
 }
 
 Eigen::AlignedBox2d free_plan_NE(const RoomConfig& c) {

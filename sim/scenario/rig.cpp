@@ -9,6 +9,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "sim/fields/bounds.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -104,6 +106,7 @@ Eigen::Isometry3d CameraConfig::X_BC() const {
 }
 
 vision::camera::Camera CameraConfig::model() const {
+  fields::require_bounds(*this);
   require(std::has_single_bit(static_cast<unsigned>(samples)), "samples: valid: 1, 2, 4, 8");
   require(model_kind == Model::ocam || calibration.empty(), "calibration: is for model: ocam");
   const vision::camera::Camera camera = model_kind == Model::ocam      ? ocam(*this)

@@ -11,6 +11,7 @@
 #include "avoidance/module.h"
 #include "sim/scenario/imperfections.h"
 #include "vision/camera/camera.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::sim {
 
@@ -37,8 +38,8 @@ struct CameraConfig {
   /// Pose of the camera in B: the mounting position, and yaw about down, pitch about right, roll about forward, in that
   /// order, applied to a camera that looks forward. Yaw 90 deg looks right, pitch -90 deg looks down.
   Eigen::Isometry3d X_BC() const;
-  /// Throws std::invalid_argument that begins with the key at fault, for keys that do not go together or a calibration
-  /// file that cannot be used.
+  /// Throws std::invalid_argument that begins with the key at fault, for values out of bounds, keys that do not go
+  /// together or a calibration file that cannot be used.
   vision::camera::Camera model() const;
   /// Whether it is a pinhole without distortion.
   bool straight() const;
@@ -68,7 +69,7 @@ void describe_without_role(Visitor& v, CameraConfig& c) {
      .at_most = 180.0,
      .meaning = "angle off the axis where a fisheye's image ends; else as far as its lens goes"});
   v("calibration", c.calibration, {.meaning = "file calib_results.txt of OCamCalib, for model: ocam"});
-  v("rate", c.rate_hz, {.unit = "Hz", .above = 0.0, .meaning = "images a second; divides the physics rate"});
+  v("rate", c.rate_hz, {.unit = "Hz", .at_least = fields::kSlowestHz, .meaning = "images a second; divides the physics rate"});
   v("channel", c.channel, {.choices = {"grey", "color", "depth"}, .meaning = "what a pixel holds"});
   v("samples", c.samples,
     {.at_least = 1,

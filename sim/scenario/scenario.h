@@ -18,6 +18,7 @@
 #include "sim/scenario/input_error.h"
 #include "sim/scenario/plugin_config.h"
 #include "sim/scenario/rig.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::sim {
 
@@ -85,7 +86,7 @@ struct FilmConfig {
 template <class Visitor>
 void describe(Visitor& v, FilmConfig& c) {
   v("enabled", c.enabled, {.meaning = "whether a run films its cameras and the module's image"});
-  v("rate", c.rate_hz, {.unit = "Hz", .above = 0.0, .meaning = "images a second; divides the physics rate"});
+  v("rate", c.rate_hz, {.unit = "Hz", .at_least = fields::kSlowestHz, .meaning = "images a second; divides the physics rate"});
   v("width", c.width_px, {.unit = "px", .at_least = 64, .at_most = 4096, .meaning = "width of the film"});
 }
 
