@@ -101,7 +101,7 @@ Eigen::Vector3d v_WM(const Motion& motion, double t_s) {
   return std::visit([t_s](const auto& chosen) { return place(chosen, t_s).v_W; }, motion);
 }
 
-std::vector<Eigen::Vector3d> way_W(const Motion& motion) {
+std::vector<Eigen::Vector3d> path_W(const Motion& motion) {
   if (const auto* straight = std::get_if<WaypointMotion>(&motion)) return corners_W(*straight);
   constexpr int kCorners = 64;
   OrbitMotion orbit = std::get<OrbitMotion>(motion);

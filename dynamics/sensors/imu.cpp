@@ -61,7 +61,7 @@ Imu::Imu(const ImuConfig& config, double physics_dt_s, uint64_t seed)
   R_SB_ = Eigen::AngleAxisd(tilt.norm(), tilt.stableNormalized()).toRotationMatrix();
 }
 
-void Imu::feel(const Eigen::Vector3d& w_WB_B, const Eigen::Vector3d& f_B) {
+void Imu::observe(const Eigen::Vector3d& w_WB_B, const Eigen::Vector3d& f_B) {
   // At the sensor's place: Euler and centripetal acceleration, the former by the difference over a tick.
   const Eigen::Vector3d w_dot = started_ ? Eigen::Vector3d((w_WB_B - w_in_) / dt_s_) : Eigen::Vector3d::Zero();
   const Eigen::Vector3d& r = config_.p_BS_m;

@@ -62,14 +62,14 @@ struct ImuReading {
 
 class Imu {
  public:
-  /// Throws std::invalid_argument on values out of range. @param physics_dt_s  between calls of feel(), > 0.
+  /// Throws std::invalid_argument on values out of range. @param physics_dt_s  between calls of observe(), > 0.
   Imu(const ImuConfig& config, double physics_dt_s, uint64_t seed);
 
   int64_t period() const { return period_; }  ///< physics ticks between readings
 
   /// What the sensor sees on every physics tick, before noise: runs the filter.
   /// @param w_WB_B, f_B  angular velocity, and specific force of the mass center, in B.
-  void feel(const Eigen::Vector3d& w_WB_B, const Eigen::Vector3d& f_B);
+  void observe(const Eigen::Vector3d& w_WB_B, const Eigen::Vector3d& f_B);
   /// The reading at this tick; to be called once every period() ticks.
   ImuReading read();
 

@@ -21,7 +21,7 @@ Ranger::Ranger(const std::string& key, const RangerConfig& config, double physic
   if (config.offset_m > 0.0) offset_m_ = config.offset_m * noise_.draw();
 }
 
-void Ranger::feel(double distance_m) {
+void Ranger::observe(double distance_m) {
   seen_m_[next_] = distance_m;
   next_ = (next_ + 1) % seen_m_.size();
 }

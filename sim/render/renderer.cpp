@@ -70,7 +70,7 @@ class Renderer::Impl {
   };
 
   void check(const CameraView& view) {
-    if (!view.camera.is_ideal_pinhole() && find_lens(view.camera) != lenses_.end()) return check_pose(view);
+    if (!view.camera.is_undistorted_pinhole() && find_lens(view.camera) != lenses_.end()) return check_pose(view);
     vision::camera::check(view.camera);
     check_pose(view);
   }
@@ -83,7 +83,7 @@ class Renderer::Impl {
 
   void draw(const CameraView& view, Channel channel, cv::Mat& out) {
     const ScenePainter::Eye eye{view.X_WC, view.t_s};
-    if (view.camera.is_ideal_pinhole()) {
+    if (view.camera.is_undistorted_pinhole()) {
       const bool levels = channel == Channel::grey || channel == Channel::color;
       painter_.paint(view.camera.pinhole(), eye, raster_of(channel), levels ? view.samples : 1, out);
       return;
@@ -136,7 +136,7 @@ class Renderer::Impl {
     if (const auto known = find_lens(camera); known != lenses_.end()) return *known;
     Lens& lens = lenses_.emplace_back();
     lens.faces.camera = camera;
-    if (!camera.is_ideal_pinhole()) lens.faces = make_lens_faces(camera);
+    if (!camera.is_undistorted_pinhole()) lens.faces = make_lens_faces(camera);
     return lens;
   }
 

@@ -65,13 +65,13 @@ std::optional<Eigen::Vector3d> Camera::ray(const Eigen::Vector2d& pixel) const {
   return std::visit([&](const auto& its_lens) { return its_lens.ray(pixel); }, lens);
 }
 
-bool Camera::is_ideal_pinhole() const {
+bool Camera::is_undistorted_pinhole() const {
   const auto* const pinhole_lens = std::get_if<PinholeLens>(&lens);
-  return pinhole_lens != nullptr && pinhole_lens->ideal();
+  return pinhole_lens != nullptr && pinhole_lens->is_undistorted();
 }
 
 PinholeCamera Camera::pinhole() const {
-  if (!is_ideal_pinhole()) {
+  if (!is_undistorted_pinhole()) {
     throw std::invalid_argument("needs a pinhole camera without distortion, got a " + lens_name());
   }
   const auto& ideal = std::get<PinholeLens>(lens);
@@ -81,7 +81,7 @@ PinholeCamera Camera::pinhole() const {
 std::string Camera::lens_name() const {
   if (std::holds_alternative<FisheyeLens>(lens)) return "fisheye";
   if (std::holds_alternative<OcamLens>(lens)) return "omnidirectional (OCamCalib)";
-  return is_ideal_pinhole() ? "pinhole" : "distorted pinhole";
+  return is_undistorted_pinhole() ? "pinhole" : "distorted pinhole";
 }
 
 double fisheye_focal_px(const FisheyeLens& coefficients, int width_px, double horizontal_fov_rad) {

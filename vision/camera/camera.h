@@ -36,7 +36,7 @@ struct Camera {
   std::optional<Eigen::Vector3d> ray(const Eigen::Vector2d& pixel) const;
 
   /// Whether straight lines stay straight: a pinhole without distortion.
-  bool is_ideal_pinhole() const;
+  bool is_undistorted_pinhole() const;
   /// This camera as a pinhole, for algorithms that hold for nothing else.
   /// Throws std::invalid_argument, naming the lens, when it is none.
   PinholeCamera pinhole() const;

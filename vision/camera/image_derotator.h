@@ -18,7 +18,7 @@ class ImageDerotator {
   /// @param image  CV_8UC1, taken by C2. @param R_C1C2  rotation of C2 in C1, the camera not turned.
   /// @return what C1 would see of things infinitely far, 0 where `image` shows nothing of it or nothing is wanted.
   /// Source: [Zingg2010] eq. (5). Differs: turns the rays of all pixels, before corners are followed.
-  cv::Mat turned(const cv::Mat& image, const Eigen::Matrix3d& R_C1C2) const;
+  cv::Mat derotate(const cv::Mat& image, const Eigen::Matrix3d& R_C1C2) const;
 
  private:
   struct Ray {

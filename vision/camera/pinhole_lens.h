@@ -16,7 +16,7 @@ struct PinholeLens {
 
   bool operator==(const PinholeLens&) const = default;
   /// Whether rays stay straight.
-  bool ideal() const { return *this == PinholeLens{focal_x_px, focal_y_px, center_u_px, center_v_px}; }
+  bool is_undistorted() const { return *this == PinholeLens{focal_x_px, focal_y_px, center_u_px, center_v_px}; }
 
   /// As Camera::project().
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_C) const;

@@ -45,20 +45,21 @@ struct CameraMotion {
   double height_m = 0.0;         ///< of the camera above ground at the newer image
 };
 
-enum class Verdict { good, too_slow, too_fast, off_tangent, astray, floor };
+/// Why a flow vector does not count; `none` for one that does.
+enum class RejectionReason { none, too_slow, too_fast, off_tangent, outlier, floor };
 
 /// A followed corner and what its flow tells.
 struct WallPoint {
   flow::RayPair pair;
   Region region = kAhead;
-  Verdict verdict = Verdict::good;
+  RejectionReason rejection = RejectionReason::none;
   double flow_radps = 0.0;                           ///< derotated
-  double off_way_rad = 0.0;                          ///< angle from the direction of travel to where it was
+  double off_travel_rad = 0.0;                       ///< angle from the direction of travel to where it was
   double contact_s = 0.0;                            ///< until it lies abeam, as time_to_contact_s()
   Eigen::Vector3d p_CP_H = Eigen::Vector3d::Zero();  ///< from the camera at the newer image, m
 };
 
-/// Returns the point that a corner's flow tells, with the verdict on it.
+/// Returns the point that a corner's flow measures, and whether it is rejected.
 /// Source: [Zingg2010] eq. (2), (5) to (7), (9) and sec. IV-D.
 WallPoint wall_point(const flow::RayPair& pair, Region region, const camera::Camera& camera, const CameraMotion& motion,
                      const FlowLimits& limits);

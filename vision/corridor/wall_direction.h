@@ -13,6 +13,6 @@ namespace hedgehop::vision::corridor {
 double wall_direction_rad(const std::vector<WallPoint>& points, double most_rad, int least);
 
 /// Returns the points as seen by one who looks along a direction, rad to the right of the heading.
-std::vector<WallPoint> looking_along(std::vector<WallPoint> points, double direction_rad);
+std::vector<WallPoint> rotate_points(std::vector<WallPoint> points, double direction_rad);
 
 }  // namespace hedgehop::vision::corridor

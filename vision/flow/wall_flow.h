@@ -7,7 +7,7 @@
 namespace hedgehop::vision::flow {
 
 /// What one patch of one of several cameras sees of the walls round a vehicle, in a level frame H at its origin B.
-struct WallSight {
+struct WallObservation {
   Eigen::Vector2d ray_H = Eigen::Vector2d::Zero();      ///< of its center, at z = 1 m of its camera; the level part
   Eigen::Vector2d p_BC_H = Eigen::Vector2d::Zero();     ///< of its camera, m
   Eigen::Vector2d unit_flow = Eigen::Vector2d::Zero();  ///< of a point at z = 1 m, see unit_flow(), focal lengths per s
@@ -16,8 +16,8 @@ struct WallSight {
 };
 
 /// An upright wall: the direction n of its nearest point over that point's distance d from B, 1/m, in H.
-struct SeenWall {
-  Eigen::Vector2d near_per_m = Eigen::Vector2d::Zero();
+struct WallEstimate {
+  Eigen::Vector2d inverse_range_per_m = Eigen::Vector2d::Zero();
   double relative_error = 0.0;  ///< standard deviation of 1/d over 1/d
 };
 
@@ -27,7 +27,7 @@ struct SeenWall {
 /// the focus of expansion, which it hardly shifts. Where one wall ends and the next begins is chosen so that what is
 /// left of the flow, over its noise, is least, with a price for every wall so that chance makes none (dynamic
 /// programming). Ours.
-/// @param sights  in the order of their bearings. @param relative_error  of a wall, at most; > 0.
-std::vector<SeenWall> walls_from_flow(std::span<const WallSight> sights, double relative_error);
+/// @param observations  in the order of their bearings. @param relative_error  of a wall, at most; > 0.
+std::vector<WallEstimate> walls_from_flow(std::span<const WallObservation> observations, double relative_error);
 
 }  // namespace hedgehop::vision::flow
