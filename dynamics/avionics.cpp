@@ -67,7 +67,7 @@ void Avionics::sense(int64_t t_ns, const SensedTruth& truth) {
 
   imu_reading_.reset();
   if (due(imu_.period())) navigation_.predict(imu_reading_.emplace(imu_.read()));
-  if (height_sensor_.looks(tick)) {
+  if (height_sensor_.observes(tick)) {
     height_sensor_.observe(
         sensors::nearest_echo_m(config_.height_sensor, truth.height_above_surface_m, truth.height_beside));
   }
@@ -91,9 +91,9 @@ void Avionics::sense(int64_t t_ns, const SensedTruth& truth) {
 
 /// Casts the beam only on the ticks on which a reading begins.
 void Avionics::sense_range(int64_t tick, const SensedTruth& truth) {
-  if (range_finder_->looks(tick)) {
+  if (range_finder_->observes(tick)) {
     const RigidBodyState& body = truth.body;
-    const Eigen::Vector3d from_W = body.p_WB + body.q_WB * config_.range_finder.p_BS_m;
+    const Eigen::Vector3d from_W = body.p_WB + body.q_WB * config_.range_finder.p_BI_m;
     const double reach_m = config_.range_finder.ranger.max_m;
     range_finder_->observe(truth.beam_distance ? truth.beam_distance(from_W, body.q_WB * beam_direction_B_, reach_m)
                                                : std::numeric_limits<double>::infinity());

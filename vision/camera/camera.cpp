@@ -19,7 +19,7 @@ bool finite(std::initializer_list<double> numbers) {
   return true;
 }
 
-// Checked for every image: no text is put together unless there is something to tell.
+// Checked for every image: builds no text unless there is a fault to report.
 void check_lens(const PinholeLens& lens) {
   require(finite({lens.focal_x_px, lens.focal_y_px, lens.center_u_px, lens.center_v_px, lens.k1, lens.k2, lens.p1,
                   lens.p2, lens.k3}),
@@ -72,10 +72,10 @@ bool Camera::is_undistorted_pinhole() const {
 
 PinholeCamera Camera::pinhole() const {
   if (!is_undistorted_pinhole()) {
-    throw std::invalid_argument("needs a pinhole camera without distortion, got a " + lens_name());
+    throw std::invalid_argument("needs an undistorted pinhole camera, got a " + lens_name());
   }
-  const auto& ideal = std::get<PinholeLens>(lens);
-  return {width_px, height_px, ideal.focal_x_px, ideal.focal_y_px, ideal.center_u_px, ideal.center_v_px};
+  const auto& pinhole_lens = std::get<PinholeLens>(lens);
+  return {width_px, height_px, pinhole_lens.focal_x_px, ideal.focal_y_px, ideal.center_u_px, ideal.center_v_px};
 }
 
 std::string Camera::lens_name() const {

@@ -109,8 +109,9 @@ double time_to_contact_s(const Eigen::Vector3d& before, const Eigen::Vector3d& a
   return sin_flow > 0.0 ? dt_s * before.cross(way).norm() * after.dot(way) / sin_flow : kNever;
 }
 
-double free_time_s(const std::vector<WallPoint>& points, const Eigen::Vector2d& way_H, double half_width_m, int least) {
-  const Eigen::Vector2d along = way_H.normalized();
+double free_time_s(const std::vector<WallPoint>& points, const Eigen::Vector2d& direction_H, double half_width_m,
+                   int least) {
+  const Eigen::Vector2d along = direction_H.normalized();
   const auto enough = static_cast<size_t>(std::max(1, least));
   std::vector<double> times_s;
   for (const WallPoint& point : points) {

@@ -11,7 +11,7 @@ namespace {
 /// Sums of the least squares for m over the first patches, in units of their noise.
 struct Sums {
   Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
-  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  ///< what the vehicle's motion tells of m, without the noise
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  ///< on m from the vehicle's motion, without the noise
   Eigen::Vector2d c = Eigen::Vector2d::Zero();
   double squares = 0.0;
 
@@ -34,7 +34,7 @@ struct Sums {
 
 struct Fit {
   WallEstimate wall;
-  double squares = std::numeric_limits<double>::infinity();  ///< of what is left of the flow
+  double squares = std::numeric_limits<double>::infinity();  ///< of the residual flow
 };
 
 Fit fit(const Sums& sums, size_t patches) {

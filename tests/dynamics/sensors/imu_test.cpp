@@ -145,7 +145,7 @@ TEST(Imu, TurnOnOffsetsSpreadAsSet) {
 // Check AS5.
 TEST(Imu, AS5_FeelsCentripetalAndEulerAccelerationAtItsPlace) {
   ImuConfig c = no_noise();
-  c.p_BS_m = {0.1, 0.0, 0.0};
+  c.p_BI_m = {0.1, 0.0, 0.0};
   Imu spinning(c, 0.002, 1);
   for (int i = 0; i < 200; ++i) spinning.observe({0.0, 0.0, 2.0}, kLevelRest);
   expect_recorded("f_x at 2 rad/s, 0.1 m off, m/s2", spinning.read().specific_force_B_meas.x(), -0.4, 1e-9);

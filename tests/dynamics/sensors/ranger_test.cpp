@@ -90,7 +90,7 @@ TEST(Ranger, AS6_ReadingsOfAWallThatNearsAreALatencyOld) {
     int looks = 0;
     for (int64_t tick = 0; tick < 1000; ++tick) {
       const double distance_m = 30.0 - kSpeed * kDt * static_cast<double>(tick);
-      if (ranger.looks(tick)) {
+      if (ranger.observes(tick)) {
         ranger.observe(distance_m);
         ++looks;
       }
