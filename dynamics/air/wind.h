@@ -9,12 +9,12 @@
 
 namespace hedgehop::dynamics::air {
 
-/// A steady horizontal wind with Dryden turbulence and one gust upon it. They are set apart, so that each can be
-/// studied alone; by [MIL8785C] sec. 3.7.3 W20 15, 30 and 45 kt (7.7, 15.4, 23.2 m/s) are light, moderate and severe.
+/// A steady horizontal wind, Dryden turbulence and one gust. Each is set on its own, so that it can be studied alone;
+/// by [MIL8785C] sec. 3.7.3 W20 15, 30 and 45 kt (7.7, 15.4, 23.2 m/s) are light, moderate and severe.
 struct WindConfig {
   double speed_mps = 0.0;           ///< with shear, at 20 ft
   double from_rad = 0.0;            ///< heading the wind comes from, from north to east
-  double roughness_m = 0.0;         ///< height at which the ground has stilled the wind; 0 for a wind without shear
+  double roughness_m = 0.0;         ///< height below which the air is still; 0 for a wind without shear
   double turbulence_w20_mps = 0.0;  ///< wind at 20 ft that sets the turbulence; 0 for smooth air
   GustConfig gust;
 };
@@ -46,8 +46,8 @@ class Wind {
   /// Throws std::invalid_argument when a value is not finite, a speed is negative, or the ground rougher than 5 m.
   Wind(const WindConfig& config, uint64_t seed);
 
-  /// The steady wind in W, m/s. @param height_m  above ground; below the roughness it is still, from 1000 ft on
-  /// uniform. Source: [MIL8785C] sec. 3.7.3.
+  /// The steady wind in W, m/s. @param height_m  above ground; below the roughness the air is still, above 1000 ft
+  /// the wind is uniform. Source: [MIL8785C] sec. 3.7.3.
   Eigen::Vector3d steady_W(double height_m) const;
 
   /// Moves turbulence and gust on by dt and returns the velocity of the air in W, m/s. The first call begins a flight.

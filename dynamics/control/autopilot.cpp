@@ -184,8 +184,8 @@ Controls Autopilot::control(const Setpoint& setpoint, const NavigationEstimate& 
   DesignVector state = state_of(now);
   if (target.attitude) reference_.head<2>() = state.head<2>();  // there is no velocity to follow
   const Controls planned = plan(target);
-  const Controls asked = model_.trim + planned + hold(state, planned, target.attitude);
-  const Controls given = asked.cwiseMax(model_.lowest).cwiseMin(model_.highest);
+  const Controls wanted = model_.trim + planned + hold(state, planned, target.attitude);
+  const Controls given = wanted.cwiseMax(model_.lowest).cwiseMin(model_.highest);
 
   hidden_ =
       (step_.A.bottomRows(hidden_.size()) * state + step_.B.bottomRows(hidden_.size()) * (given - model_.trim)).eval();

@@ -37,8 +37,8 @@ class Barometer {
 
   int64_t period() const { return period_; }  ///< physics ticks between readings
 
-  /// What it is exposed to on every physics tick. @param altitude_m  in a standard atmosphere whose sea level is W's
-  /// origin.
+  /// Takes in the true altitude on every physics tick. @param altitude_m  in a standard atmosphere whose sea level is
+  /// W's origin.
   void observe(double altitude_m);
   /// @return pressure with its errors, Pa; none on a drop-out. To be called once every period() ticks, after observe().
   std::optional<double> read();
@@ -49,7 +49,7 @@ class Barometer {
   double sample_dt_s_;
   NormalStream noise_;
   double wander_pa_;
-  double keeps_;                      ///< share of the last tick's altitude that the lag keeps, 0..1
+  double memory_;                     ///< weight of the last tick's altitude in the lag, 0..1
   std::optional<double> altitude_m_;  ///< as it lags; none before the first tick
 };
 

@@ -42,7 +42,7 @@ class Ranger {
   /// @param physics_dt_s  the duration of a tick, > 0.
   Ranger(const std::string& key, const RangerConfig& config, double physics_dt_s, uint64_t seed);
 
-  /// Whether it observes out on this physics tick, counted from 0: then, and only then, observe() is called.
+  /// Whether it measures on this physics tick, counted from 0: then, and only then, observe() is called.
   bool observes(int64_t tick) const { return (tick + latency_) % period_ == 0; }
   /// Takes in the true distance, m; +inf where there is nothing.
   void observe(double distance_m);
@@ -57,7 +57,7 @@ class Ranger {
   int64_t period_, latency_;  ///< ticks
   NormalStream noise_;
   double offset_m_ = 0.0;
-  std::vector<double> observed_m_;  ///< a ring of what was felt and not yet read
+  std::vector<double> observed_m_;  ///< a ring of ranges observed and not yet read
   size_t next_ = 0;
 };
 

@@ -79,7 +79,7 @@ void add_post(const Post& post, int sides, const Cover& cover, MeshBuilder& mesh
     return {std::cos(turn), std::sin(turn), 0.0};
   };
 
-  // The mantle: the viewer's right is against the turn.
+  // The mantle: the viewer's right is opposite to the direction of rotation.
   for (int k = 0; k <= sides; ++k) {
     const Vector3d p_W = post.foot_W + post.radius_m * out(k % sides);
     const double across_m = -2.0 * std::numbers::pi * post.radius_m * k / sides;

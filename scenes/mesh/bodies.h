@@ -14,7 +14,7 @@ struct Cover {
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();
 };
 
-/// Whether light plays on a body's faces as they are, or as if they were round.
+/// Whether a body's faces are lit as they are, or with smoothed normals.
 enum class Shading { flat, smooth };
 
 /// Adds a polyhedron to the chunk begun last. Each face takes the image from the side that it looks to most: north,

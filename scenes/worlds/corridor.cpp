@@ -75,8 +75,8 @@ class Mason {
     scene_.solids.push_back(solid);
   }
 
-  /// A wall along corners of the plan, all of it on the left side of the way. Where the way turns right, and at both
-  /// ends, stretches run on past the corner, so that no wedge stays open behind it.
+  /// A wall along corners of the plan, all of it to the left of the path. Where the path turns right, and at both
+  /// ends, sections extend past the corner, so that no wedge stays open behind it.
   void build_wall(const std::string& name, const std::vector<Vector2d>& path_NE, double height_m) {
     for (size_t k = 1; k < path_NE.size(); ++k) {
       const Vector2d from = path_NE[k - 1], along = (path_NE[k] - from).normalized();

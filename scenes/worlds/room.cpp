@@ -58,22 +58,22 @@ std::optional<Eigen::AlignedBox3d> draw_piece(const RoomConfig& c, bool at_wall,
   const auto snapped = [grain](double x_m) { return std::round(x_m * grain) / grain; };
   const Eigen::Vector2d size(snapped(uniform(random, 0.5, 1.6)), snapped(uniform(random, 0.4, 1.0)));
   const int side = uniform_index(random, 4);
-  const Eigen::Vector2d turned = side % 2 == 0 ? Eigen::Vector2d(size.y(), size.x()) : size;
+  const Eigen::Vector2d rotated = side % 2 == 0 ? Eigen::Vector2d(size.y(), size.x()) : size;
   const double height = std::min(snapped(uniform(random, 0.6, 2.2)), c.height_m);
 
   Eigen::Vector2d low;
   for (int axis = 0; axis < 2; ++axis) {
     const double first = plan_NE.min()[axis] + c.furniture_gap_m;
-    const double last = plan_NE.max()[axis] - c.furniture_gap_m - turned[axis];
+    const double last = plan_NE.max()[axis] - c.furniture_gap_m - rotated[axis];
     if (last < first) return std::nullopt;
     low[axis] = std::clamp(snapped(uniform(random, first, last)), first, last);
   }
-  if (at_wall && side == 0) low.x() = plan_NE.max().x() - turned.x();
-  if (at_wall && side == 1) low.y() = plan_NE.max().y() - turned.y();
+  if (at_wall && side == 0) low.x() = plan_NE.max().x() - rotated.x();
+  if (at_wall && side == 1) low.y() = plan_NE.max().y() - rotated.y();
   if (at_wall && side == 2) low.x() = plan_NE.min().x();
   if (at_wall && side == 3) low.y() = plan_NE.min().y();
 
-  const Eigen::AlignedBox2d footprint_NE(low, Eigen::Vector2d(low + turned));
+  const Eigen::AlignedBox2d footprint_NE(low, Eigen::Vector2d(low + rotated));
   for (const Eigen::AlignedBox3d& other : pieces) {
     const Eigen::AlignedBox2d other_NE(Eigen::Vector2d(other.min().head<2>()), Eigen::Vector2d(other.max().head<2>()));
     if (footprint_NE.exteriorDistance(other_NE) < c.furniture_gap_m) return std::nullopt;
@@ -82,7 +82,7 @@ std::optional<Eigen::AlignedBox3d> draw_piece(const RoomConfig& c, bool at_wall,
     if (footprint_NE.exteriorDistance(clearing.center_NE_m()) < clearing.radius_m) return std::nullopt;
   }
   return Eigen::AlignedBox3d(Eigen::Vector3d(low.x(), low.y(), -height),
-                             Eigen::Vector3d(low.x() + turned.x(), low.y() + turned.y(), 0.0));
+                             Eigen::Vector3d(low.x() + rotated.x(), low.y() + rotated.y(), 0.0));
 }
 
 std::vector<Eigen::AlignedBox3d> place_furniture(const RoomConfig& c, Random& random) {

@@ -15,7 +15,7 @@ namespace hedgehop::scenes::worlds {
 /// The default plan is the arena of [Garratt2009] sec. 4, fig. 3.
 struct RoomConfig {
   static constexpr std::string_view kName = "room";
-  static constexpr std::string_view kMeaning = "a closed rectangular room, with furniture if asked for";
+  static constexpr std::string_view kMeaning = "a closed rectangular room, with optional furniture";
 
   double length_m = 16.0;
   double width_m = 8.0;

@@ -141,7 +141,7 @@ class Gatherer {
     return folder;
   }
 
-  /// A flight asked for twice is flown once.
+  /// A flight listed twice is flown once.
   void add(const Order& order) {
     if (ids_.insert({order.id, 0}).second) batch_.orders.push_back(order);
   }

@@ -128,7 +128,7 @@ class CollisionWorld::World {
     place_hull(X_WB);
     Nearest nearest{search_radius_m, {}, Eigen::Vector3d::Zero()};
 
-    // What was nearest last time is near now: its distance narrows the search without touching the answer.
+    // The solid that was nearest last time is close now: its distance narrows the search, not the result.
     if (last_nearest_) consider(*last_nearest_, placed_[*last_nearest_], nearest);
     const Eigen::Vector3d reach = Eigen::Vector3d::Constant(std::max(nearest.clearance_m, 0.0) + kRoundingM);
     visit_still(hull_box_W_.min() - reach, hull_box_W_.max() + reach, [&](size_t index) {

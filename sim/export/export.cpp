@@ -32,7 +32,7 @@ std::string roles(const RigConfig& rig) {
   return text;
 }
 
-/// The cameras asked for, in that order.
+/// The cameras to export, in that order.
 std::vector<RecordedCamera> choose(const Scenario& scenario, const std::vector<std::string>& wanted) {
   const auto is_depth = [](const CameraConfig& c) { return c.channel == CameraConfig::Channel::depth; };
   std::vector<const CameraConfig*> chosen;
@@ -63,7 +63,7 @@ std::vector<DataFile> texts(DataFormat format, const SensorRecord& record) {
   return format == DataFormat::kitti ? kitti_files(record) : euroc_files(record);
 }
 
-/// What a format cannot hold is told before the flight.
+/// What a format cannot hold is reported before the flight.
 void check(const ExportRequest& request, SensorRecord record) {
   if (request.format == DataFormat::tum) {
     if (record.cameras.size() > 1) {

@@ -14,7 +14,7 @@ namespace hedgehop::sim {
 
 namespace {
 
-/// What an ideal pinhole's image is drawn as; flow is made of others.
+/// The raster of an undistorted pinhole's image; flow is computed from others.
 Raster raster_of(Channel channel) {
   switch (channel) {
     case Channel::grey:
@@ -66,7 +66,7 @@ class Renderer::Impl {
   struct Lens {
     LensFaces faces;
     cv::Mat levels, colors, planes, labels;  ///< sheets
-    std::vector<Eigen::Vector3d> rays;       ///< once flow was asked for
+    std::vector<Eigen::Vector3d> rays;       ///< once flow was drawn
   };
 
   void check(const CameraView& view) {

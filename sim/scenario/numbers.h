@@ -12,7 +12,7 @@ namespace hedgehop::sim {
 /// Whether a field's unit is degrees or degrees a second, whose member is in radians.
 bool is_degrees(std::string_view unit);
 
-/// What a text says: a number; or why it is none.
+/// A text's number, or why it is none.
 struct ParsedNumber {
   enum class Kind { number, not_a_number, not_finite } kind = Kind::not_a_number;
   double written = 0.0;  ///< in the unit of the text, for bounds

@@ -30,7 +30,7 @@ struct StartConfig {
 
   /// The position without the spread, in W, m.
   Eigen::Vector3d p_WB() const { return {north_m, east_m, -altitude_m}; }
-  /// A position drawn evenly from the horizontal disc of radius `spread_m` round p_WB(), in W, m.
+  /// A position drawn evenly from the horizontal disc of radius `spread_m` around p_WB(), in W, m.
   /// @param seed  of the stream that belongs to the start alone; equal seeds give equal positions.
   Eigen::Vector3d draw_p_WB(uint64_t seed) const;
 };
@@ -103,7 +103,7 @@ struct Scenario {
   dynamics::AvionicsConfig avionics;
   dynamics::air::WindConfig wind;
   StartConfig start;
-  std::vector<GoalConfig> route;   ///< places to pass before the goal
+  std::vector<GoalConfig> route;   ///< waypoints to pass before the goal
   std::optional<GoalConfig> goal;  ///< without one, the flight holds the start's altitude and heading
   RigConfig rig;
   DrawingConfig drawing;
