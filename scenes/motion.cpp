@@ -109,7 +109,7 @@ std::vector<Eigen::Vector3d> path_W(const Motion& motion) {
   std::vector<Vector3d> corners;
   for (int k = 0; k < kCorners; ++k) {
     orbit.bearing_rad = first_rad + 2.0 * std::numbers::pi * k / kCorners;
-    corners.push_back(place(orbit, 0.0).p_W);
+    corners.push_back(point_at(orbit, 0.0).p_W);
   }
   corners.push_back(corners.front());
   return corners;

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/record/whole_file.h"
-#include "sim/scenario/parse.h"
+#include "sim/scenario/include.h"
 #include "sim/scenario/reader.h"
 
 namespace hedgehop::sim {

@@ -1,10 +1,11 @@
+#include "sim/campaign/optimize.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 #include <nlopt.hpp>
 
-#include "sim/campaign/sweep.h"
 #include "sim/scenario/tree.h"
 
 namespace hedgehop::sim {

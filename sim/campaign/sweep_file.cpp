@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "sim/scenario/include.h"
 #include "sim/scenario/numbers.h"
-#include "sim/scenario/parse.h"
 #include "sim/scenario/reader.h"
 
 namespace hedgehop::sim {

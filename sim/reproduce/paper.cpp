@@ -8,7 +8,7 @@
 
 #include "sim/campaign/order.h"
 #include "sim/reproduce/calculations.h"
-#include "sim/scenario/parse.h"
+#include "sim/scenario/include.h"
 #include "sim/scenario/reader.h"
 
 namespace hedgehop::sim {

@@ -1,3 +1,5 @@
+#include "sim/scenario/include.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/campaign/sweep.h"
+
+namespace hedgehop::sim {
+
+/// Flies the orders of one point; an earlier result of the same order is reused.
+using FlyPoint = std::function<std::vector<FlightRecord>(const std::vector<Order>& orders)>;
+
+/// The result of an optimization.
+struct Optimum {
+  std::vector<std::string> values;
+  double cost = 0.0;
+  SweepOrders orders;                 ///< of every point flown, in order
+  std::vector<FlightRecord> records;  ///< of those
+};
+
+/// Minimizes the mean of the design's column over the sweep's seeds, the same at every point. Equal sweeps fly equal
+/// points in the same order, so that flights left by an interrupted search are found again.
+/// @param fly  flies one point; it may throw to end the search.
+Optimum optimize(const SweepConfig& sweep, const FlyPoint& fly);
+
+}  // namespace hedgehop::sim
