@@ -166,6 +166,14 @@ void add_box(const Eigen::AlignedBox3d& box_W, uint32_t image, Random& random, m
   mesh.add_tiled(mesh::top_panel(box_W), textures::kRoomTileM, shift, image);
 }
 
+void add_ceiling(const Eigen::AlignedBox3d& box_W, uint32_t image, mesh::MeshBuilder& mesh) {
+  mesh.begin_chunk(false);
+  mesh.add_tiled(mesh::bottom_panel(box_W), textures::kRoomTileM, Eigen::Vector2d::Zero(), image);
+  mesh.add_tiled(mesh::top_panel(box_W), textures::kRoomTileM, Eigen::Vector2d::Zero(), image);
+  for (const mesh::Panel& side : mesh::side_panels(box_W))
+    mesh.add_tiled(side, textures::kRoomTileM, Eigen::Vector2d::Zero(), image);
+}
+
 // Grass around a room without a ceiling, in four strips.
 void add_lawn(const Eigen::AlignedBox2d& house_NE, uint32_t image, mesh::MeshBuilder& mesh) {
   const double far_n = house_NE.max().x() + kGrassMarginM, far_e = house_NE.max().y() + kGrassMarginM;
@@ -217,11 +225,7 @@ Scene make_room(const RoomConfig& config, uint64_t seed) {
     const Eigen::Vector3d lift(0.0, 0.0, config.height_m);
     Eigen::AlignedBox3d ceiling_W(walls[2].min(), walls[0].max() - lift);
     ceiling_W.min().z() -= config.wall_thickness_m;
-    mesh.begin_chunk(false);
-    mesh.add_tiled(mesh::bottom_panel(ceiling_W), textures::kRoomTileM, Eigen::Vector2d::Zero(), room.ceiling);
-    mesh.add_tiled(mesh::top_panel(ceiling_W), textures::kRoomTileM, Eigen::Vector2d::Zero(), room.ceiling);
-    for (const mesh::Panel& side : mesh::side_panels(ceiling_W))
-      mesh.add_tiled(side, textures::kRoomTileM, Eigen::Vector2d::Zero(), room.ceiling);
+    add_ceiling(ceiling_W, room.ceiling, mesh);
     scene.solids.push_back(mesh::solid_of("ceiling", ceiling_W));
   } else {
     add_lawn({Eigen::Vector2d(-floor_half), floor_half}, room.grass, mesh);
