@@ -34,7 +34,7 @@ cv::Mat paint_signal(int size_px, uint64_t seed) {
   return canvas.finished();
 }
 
-// The images of movers in the scene's list, painted when first asked for.
+// The images of movers in the scene's list, painted on first use.
 class MoverImages {
  public:
   MoverImages(uint64_t seed, std::vector<cv::Mat>& images) : seed_(seed), images_(images) {}

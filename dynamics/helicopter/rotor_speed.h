@@ -31,11 +31,11 @@ void describe(Visitor& v, GovernedEngineConfig& c) {
   v("integral_gain", c.integral_gain_prad,
     {.unit = "1/rad", .at_least = 0.0, .meaning = "throttle per angle that has been missed"});
   v("inertia", c.inertia_kgm2,
-    {.unit = "kg m2", .above = 0.0, .meaning = "of all that turns, as the main rotor's shaft feels it"});
+    {.unit = "kg m2", .above = 0.0, .meaning = "of all that rotates, reflected to the main rotor's shaft"});
 }
 using RotorSpeedConfig = std::variant<ConstantSpeedConfig, GovernedEngineConfig>;
 
-/// Of the set speed: slower rotors are taken to turn as fast as this. Chosen: a rotor that hardly turns has no
+/// As a share of the set speed: slower rotors are computed at this speed. Chosen: a rotor that hardly turns has no
 /// first-order flapping.
 inline constexpr double kSlowestRotor = 0.1;
 

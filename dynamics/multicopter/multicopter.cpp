@@ -80,7 +80,7 @@ MulticopterModel make_model(const MulticopterConfig& c) {
   const Eigen::Matrix4d balanced = scale.asDiagonal() * gram * scale.asDiagonal();
   require(gram.diagonal().minCoeff() > 0.0 && std::abs(balanced.determinant()) > 1e-9,
           "the arms cannot steer thrust, roll, pitch and yaw each on its own: spread them and let neighbors turn "
-          "opposite ways");
+          "in opposite directions");
   model.thrusts_of_wrench = model.wrench_of_thrusts.transpose() * gram.inverse();
 
   const PerRotor hover_n = model.thrusts_of_wrench.col(0) * (c.mass.mass_kg * kGravityMps2);

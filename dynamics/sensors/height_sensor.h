@@ -28,7 +28,7 @@ void describe(Visitor& v, HeightSensorConfig& c) {
 using HeightBeside = std::function<double(double north_m, double east_m)>;
 
 /// Returns the distance of what the sensor hears first, m: the nearest point in its cone about the plumb line.
-/// @param below_m  height above the surface right below. @param beside  of the surfaces round about; none is asked for
+/// @param below_m  height above the surface right below. @param beside  of the surfaces around; it is not called
 /// a single beam. Simplified: surfaces are seen from above, on rings at most 0.5 m apart; walls beside the cone reflect
 /// the sound away.
 double nearest_echo_m(const HeightSensorConfig& config, double below_m, const HeightBeside& beside);

@@ -25,7 +25,7 @@ struct ImportConfig {
 template <class Visitor>
 void describe(Visitor& v, ImportConfig& c) {
   v("file", c.file, {.required = true, .meaning = "OBJ or glTF; seen from the folder of the file that names it"});
-  v("name", c.name, {.meaning = "as results tell what was hit"});
+  v("name", c.name, {.meaning = "of the obstacle in results"});
   v("north", c.north_m, {.unit = "m", .meaning = "of the model's origin"});
   v("east", c.east_m, {.unit = "m", .meaning = "of the model's origin"});
   v("altitude", c.altitude_m, {.unit = "m", .meaning = "of the model's origin"});

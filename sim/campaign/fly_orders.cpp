@@ -43,7 +43,7 @@ void conclude(FlightRecord& record, const WorkerEnd& end, const FlyOptions& opti
   if (has_verdict) record.cause += "; left no result of this scenario";
 }
 
-/// A worker that dies must not leave the verdict of an earlier flight standing. The folder's other files say nothing
+/// A worker that dies must not leave the result of an earlier flight behind. The folder's other files say nothing
 /// without it.
 void forget_result(const std::filesystem::path& folder) {
   std::error_code ignored;

@@ -19,10 +19,10 @@ struct FlyOptions {
   double limit_s = 0.0;           ///< longest wall time of a flight, 0 for none
 };
 
-/// Told as a flight ends, or at once for one that is not flown. @param reused  its former result stands.
+/// Called when a flight ends, or at once for one that is not flown. @param reused  its former result is reused.
 using OnRecord = std::function<void(const FlightRecord& record, bool reused)>;
 
-/// Which former results stand, so that their orders are not flown again.
+/// Which former results are reused, so that their orders are not flown again.
 enum class Reuse {
   none,
   passed,  ///< those whose checks all hold

@@ -8,6 +8,7 @@
 
 #include "sim/campaign/batch_record.h"
 #include "sim/campaign/junit.h"
+#include "sim/campaign/optimize.h"
 #include "sim/campaign/slurm.h"
 #include "sim/campaign/sweep.h"
 #include "sim/cli/commands.h"

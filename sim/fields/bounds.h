@@ -113,7 +113,8 @@ class BoundsVisitor {
   std::string prefix_;
 };
 
-/// Returns the config after requiring that every number in `config` is finite and that every value keeps the bounds of its field.
+/// Returns the config after requiring that every number in `config` is finite and that every value keeps the bounds of
+/// its field.
 /// @param config  a struct with describe(); structs, lists, optionals and variants inside it are judged too.
 /// @param prefix  dotted key of the config, or "" when the keys are to begin with its own.
 /// Throws std::invalid_argument "<dotted.key>: <value>; must be <bound> <unit>", as in "lens.fov: 190; must be < 180

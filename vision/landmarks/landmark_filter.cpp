@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "sim/fields/bounds.h"
 #include "vision/landmarks/camera_error.h"
 #include "vision/landmarks/landmark_matching.h"
-#include "sim/fields/bounds.h"
 
 namespace hedgehop::vision::landmarks {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "vision/stereo/disparity.h"
 #include "sim/fields/bounds.h"
+#include "vision/stereo/disparity.h"
 
 namespace hedgehop::vision::stereo {
 namespace {
@@ -17,8 +17,7 @@ void check(const StereoMatcherConfig& c) {
     if (!holds) throw std::invalid_argument(fault);
   };
   fields::require_bounds(c);
-  need(c.disparities_px % 16 == 0,
-       "disparities: " + std::to_string(c.disparities_px) + " is not a multiple of 16");
+  need(c.disparities_px % 16 == 0, "disparities: " + std::to_string(c.disparities_px) + " is not a multiple of 16");
   need(c.block_px % 2 == 1, "block: " + std::to_string(c.block_px) + " is not odd");
   need(c.method == StereoMatcherConfig::Method::semi_global || c.block_px >= 5,
        "block: the block matcher takes squares of 5 px or more, got " + std::to_string(c.block_px));
