@@ -39,7 +39,7 @@ void write_tables(const SweepRun& run, const SweepOrders& orders, const std::vec
   write_file_whole(run.options.junit, junit_text(records, {}));
 }
 
-/// Tells how it went and returns the exit status.
+/// Prints the counts and returns the exit status.
 int conclude(const SweepRun& run, const SweepOrders& orders, const std::vector<FlightRecord>& records) {
   write_tables(run, orders, records);
   const auto count = [&](auto holds) { return std::ranges::count_if(records, holds); };
