@@ -10,11 +10,15 @@ namespace {
 
 size_t cores() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-void add_workers(CLI::App& command, size_t& jobs, double& limit_s) {
-  command.add_option("-j,--jobs", jobs, "flights at a time; all cores when not given")->check(CLI::Range(1, 4096));
-  command.add_option("--limit", limit_s, "longest wall time of a flight; it is killed then, and fails")
+template <class Options>
+void add_flying(CLI::App& command, Options& options) {
+  command.add_option("-j,--jobs", options.jobs, "flights at a time; all cores when not given")
+      ->check(CLI::Range(1, 4096));
+  command.add_option("--limit", options.limit_s, "longest wall time of a flight; it is killed then, and fails")
       ->check(CLI::PositiveNumber)
       ->type_name("S");
+  command.add_flag("--reuse-other-builds", options.reuse_other_builds,
+                   "let results that other builds of Hedgehop left stand, too; every row names its build");
 }
 
 void declare_batch(CLI::App& app, std::function<int()>& chosen) {
@@ -26,14 +30,15 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
   command->add_option("--set", options->overrides, "override a value of every scenario")
       ->type_name("KEY.PATH=VALUE")
       ->take_all();
-  add_workers(*command, options->jobs, options->limit_s);
+  add_flying(*command, *options);
   command->add_option("--out", options->out, "folder of the results")->type_name("DIR");
   command->add_option("--junit", options->junit, "write a JUnit file for CI")->type_name("FILE");
   auto* const failed_only =
       command->add_flag("--failed-only", options->failed_only,
                         "keep the flights of --out that passed; without FILES, those of its batch.json");
   command
-      ->add_flag("--resume", options->resume, "keep every flight of --out that left a result of the very same scenario")
+      ->add_flag("--resume", options->resume,
+                 "keep every flight of --out that left a result of the very same scenario and build")
       ->excludes(failed_only);
   command
       ->add_option("--min-success", options->least_success,
@@ -59,7 +64,7 @@ void declare_sweep(CLI::App& app, std::function<int()>& chosen) {
   const auto options = std::make_shared<SweepOptions>();
   options->jobs = cores();
   command->add_option("SWEEP", options->file, "sweep file (YAML)")->required();
-  add_workers(*command, options->jobs, options->limit_s);
+  add_flying(*command, *options);
   command->add_option("--out", options->out, "folder of the results")->type_name("DIR");
   command->add_option("--junit", options->junit, "write a JUnit file for CI")->type_name("FILE");
   command->add_option("--shard", options->shard, "fly one part only, such as 2/8")->type_name("I/N");
@@ -82,7 +87,7 @@ void declare_reproduce(CLI::App& app, std::function<int()>& chosen) {
   options->jobs = cores();
   command->add_option("PAPER", options->papers, "papers, such as garratt2009, or files of them; all when not given");
   command->add_flag("--quick", options->quick, "fly few seeds: minutes instead of hours");
-  add_workers(*command, options->jobs, options->limit_s);
+  add_flying(*command, *options);
   command->add_option("--out", options->out, "folder of the results; out/reproduce when not given")->type_name("DIR");
   command->add_option("--program", options->program)->group("");  // hidden: for tests
   command->callback([&chosen, options] { chosen = [options] { return reproduce(*options); }; });

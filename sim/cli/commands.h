@@ -78,6 +78,7 @@ struct BatchOptions {
   std::vector<std::string> overrides;         ///< "a.b=value", override every scenario
   size_t jobs = 1;                            ///< flights at a time, >= 1
   double limit_s = 0.0;                       ///< longest wall time of a flight, 0 for none
+  bool reuse_other_builds = false;            ///< results of other builds stand, too
   std::filesystem::path out;                  ///< empty: out/<name of the one input>, else out/batch
   std::filesystem::path junit;                ///< empty: none is written
   bool failed_only = false, resume = false, json = false;
@@ -94,6 +95,7 @@ struct SweepOptions {
   std::filesystem::path file;
   size_t jobs = 1;                                ///< flights at a time, >= 1
   double limit_s = 0.0;                           ///< longest wall time of a flight, 0 for none
+  bool reuse_other_builds = false;                ///< results of other builds stand, too
   std::filesystem::path out;                      ///< empty: out/<the file's name>
   std::filesystem::path junit;                    ///< empty: none is written
   std::string shard;                              ///< such as 2/8; empty: all
@@ -106,7 +108,7 @@ struct SweepOptions {
   bool dry_run = false;                           ///< only print the batch scripts
   std::filesystem::path program;                  ///< of the workers, absolute; empty: this one
 };
-/// Flies a sweep, or what is left of it: results of the very same scenario are reused.
+/// Flies a sweep, or what is left of it: results of the very same scenario and build are reused.
 int sweep(const SweepOptions& options);
 
 struct ReproduceOptions {
@@ -114,6 +116,7 @@ struct ReproduceOptions {
   bool quick = false;               ///< few seeds
   size_t jobs = 1;                  ///< flights at a time, >= 1
   double limit_s = 0.0;             ///< longest wall time of a flight, 0 for none
+  bool reuse_other_builds = false;  ///< results of other builds stand, too
   std::filesystem::path out;        ///< empty: out/reproduce
   std::filesystem::path program;    ///< of the workers, absolute; empty: this one
 };

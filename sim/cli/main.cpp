@@ -7,7 +7,7 @@
 
 #include "sim/cli/campaign_options.h"
 #include "sim/cli/commands.h"
-#include "sim/cli/version.h"
+#include "sim/flight/build.h"
 #include "sim/scenario/input_error.h"
 
 namespace {
@@ -167,7 +167,8 @@ int run_command_line(int argc, char** argv) {
       "Hedgehop flies rotorcraft through scenes they must see to survive: closed-loop simulation of\n"
       "vision-based obstacle avoidance, without display, GPU or network.",
       "hedgehop"};
-  app.set_version_flag("--version", std::string{cli::kVersion});
+  app.set_version_flag("--version",
+                       fmt::format("{} (build {})", hedgehop::sim::version(), hedgehop::sim::build_identity()));
   app.require_subcommand(1);
   app.footer("Exit status: 0 all checks hold; 1 a check fails; 2 the input is bad; 3 an internal error.");
 

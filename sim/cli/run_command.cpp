@@ -11,7 +11,7 @@
 #include "sim/cli/commands.h"
 #include "sim/cli/load.h"
 #include "sim/cli/progress.h"
-#include "sim/cli/version.h"
+#include "sim/flight/build.h"
 #include "sim/loop/episode.h"
 #include "sim/record/film_watcher.h"
 #include "sim/record/report.h"
@@ -97,7 +97,8 @@ int run(const RunOptions& options) {
 
   const RunInfo info{scenario.name,
                      scenario.seed,
-                     std::string{kVersion},
+                     std::string(version()),
+                     std::string(build_identity()),
                      options.scenario.file.string(),
                      command_line(options, scenario),
                      to_yaml(scenario)};

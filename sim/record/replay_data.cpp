@@ -20,18 +20,18 @@ void append(Json& list, const Eigen::Vector3d& v) {
   for (const double value : v) list.push_back(milli(value));
 }
 
-Json body(const Eigen::Isometry3d& X_PS, const Eigen::Vector3d& half_extents_m) {
+Json body(const Eigen::Isometry3d& X_NS, const Eigen::Vector3d& half_extents_m) {
   Json list = Json::array();
-  append(list, X_PS.translation());
-  const Eigen::Quaterniond q_PS(X_PS.rotation());
-  for (const double part : {q_PS.x(), q_PS.y(), q_PS.z(), q_PS.w()}) list.push_back(fine(part));
+  append(list, X_NS.translation());
+  const Eigen::Quaterniond q_NS(X_NS.rotation());
+  for (const double part : {q_NS.x(), q_NS.y(), q_NS.z(), q_NS.w()}) list.push_back(fine(part));
   append(list, half_extents_m);
   return list;
 }
 
-Json mesh(const Eigen::Isometry3d& X_PS, const scenes::mesh::Polyhedron& polyhedron) {
+Json mesh(const Eigen::Isometry3d& X_NS, const scenes::mesh::Polyhedron& polyhedron) {
   Json corners = Json::array(), faces = Json::array();
-  for (const Eigen::Vector3d& p_S : polyhedron.corners) append(corners, X_PS * p_S);
+  for (const Eigen::Vector3d& p_S : polyhedron.corners) append(corners, X_NS * p_S);
   for (const auto& face : polyhedron.faces) {
     for (const uint32_t corner : face) faces.push_back(corner);
   }
