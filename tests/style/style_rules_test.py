@@ -74,6 +74,10 @@ class Layers(Tree):
     def test_an_include_of_a_missing_file(self):
         self.assert_refused("layers", {"avoidance/steer.h": '#include "vision/gone.h"\n'}, "does not exist")
 
+    def test_an_include_of_a_header_that_cmake_writes(self):
+        changes = {"avoidance/steer.h": '#include "vision/identity.h"\n', "cmake/Identity.cmake": "set(x ${B}/generated/vision/identity.h)\n"}
+        self.assertEqual(self.faults("layers", changes), [])
+
     def test_a_row_that_looks_down(self):
         table = 'set(HEDGEHOP_LAYERS\n    "vision: avoidance"\n    "avoidance: vision")\n'
         self.assert_refused("layers", {"CMakeLists.txt": table}, "is not above it")
