@@ -15,57 +15,6 @@
 /// that is added is tested without being named.
 namespace hedgehop::fields {
 
-/// Fills a config so that every kind of leaf is there: optionals hold a value, lists have an item, and variants hold
-/// the alternatives that `picks` names, in the order in which they are met.
-class Filler {
- public:
-  explicit Filler(std::vector<size_t> picks) : picks_(std::move(picks)) {}
-
-  template <class T>
-  void operator()(std::string_view, T& value, const Field& field) {
-    if constexpr (OptionalField<T>) {
-      if (!value) value.emplace();
-      (*this)("", *value, field);
-    } else if constexpr (VectorField<T>) {
-      if (value.empty()) value.emplace_back();
-      (*this)("", value.front(), field);
-    } else if constexpr (VariantField<T>) {
-      const size_t slot = counts.size(), pick = slot < picks_.size() ? picks_[slot] : 0;
-      counts.push_back(std::variant_size_v<T>);
-      size_t index = 0;
-      for_each_alternative<T>([&]<class A>() {
-        if (index++ == pick && !std::holds_alternative<A>(value)) value.template emplace<A>();
-      });
-      std::visit([&](auto& chosen) { describe(*this, chosen); }, value);
-    } else if constexpr (StructField<T>) {
-      describe(*this, value);
-    }
-  }
-
-  std::vector<size_t> counts;  ///< alternatives of each variant that was met
-
- private:
-  std::vector<size_t> picks_;
-};
-
-/// Calls `use(config)` for each combination of a config's alternatives.
-template <class T>
-void for_each_filled(const std::function<void(const T&)>& use, std::vector<size_t> picks = {}) {
-  T config;
-  Filler filler(picks);
-  filler("", config, {});
-  use(config);
-  for (size_t slot = picks.size(); slot < filler.counts.size(); ++slot) {
-    std::vector<size_t> next = picks;
-    next.resize(slot, 0);
-    next.push_back(0);
-    for (size_t pick = 1; pick < filler.counts[slot]; ++pick) {
-      next.back() = pick;
-      for_each_filled(use, next);
-    }
-  }
-}
-
 /// A value just inside or just outside one side of a field's bounds.
 enum class Edge { inside_low, outside_low, inside_high, outside_high, not_a_number };
 inline constexpr Edge kEdges[] = {Edge::inside_low, Edge::outside_low, Edge::inside_high, Edge::outside_high,
@@ -95,6 +44,59 @@ std::optional<T> value_at(Edge edge, const Field& listed) {
     const double value = bound + step;
     if (std::is_unsigned_v<T> && value < 0.0) return {};
     return static_cast<T>(value);
+  }
+}
+
+/// Fills a config so that every kind of leaf is there: optionals hold a value, lists have an item, and variants hold
+/// the alternatives that `picks` names, in the order in which they are met.
+class Filler {
+ public:
+  explicit Filler(std::vector<size_t> picks) : picks_(std::move(picks)) {}
+
+  template <class T>
+  void operator()(std::string_view, T& value, const Field& field) {
+    if constexpr (OptionalField<T>) {
+      if (!value) value.emplace();
+      (*this)("", *value, field);
+    } else if constexpr (VectorField<T>) {
+      if (value.empty()) value.emplace_back();
+      (*this)("", value.front(), field);
+    } else if constexpr (VariantField<T>) {
+      const size_t slot = counts.size(), pick = slot < picks_.size() ? picks_[slot] : 0;
+      counts.push_back(std::variant_size_v<T>);
+      size_t index = 0;
+      for_each_alternative<T>([&]<class A>() {
+        if (index++ == pick && !std::holds_alternative<A>(value)) value.template emplace<A>();
+      });
+      std::visit([&](auto& chosen) { describe(*this, chosen); }, value);
+    } else if constexpr (StructField<T>) {
+      describe(*this, value);
+    } else if constexpr (NumberField<T> || IntegerField<T>) {  // an optional's 0 may lie outside
+      if (broken_bound(static_cast<double>(value), field)) value = value_at<T>(Edge::inside_high, field).value();
+    }
+  }
+
+  std::vector<size_t> counts;  ///< alternatives of each variant that was met
+
+ private:
+  std::vector<size_t> picks_;
+};
+
+/// Calls `use(config)` for each combination of a config's alternatives.
+template <class T>
+void for_each_filled(const std::function<void(const T&)>& use, std::vector<size_t> picks = {}) {
+  T config;
+  Filler filler(picks);
+  filler("", config, {});
+  use(config);
+  for (size_t slot = picks.size(); slot < filler.counts.size(); ++slot) {
+    std::vector<size_t> next = picks;
+    next.resize(slot, 0);
+    next.push_back(0);
+    for (size_t pick = 1; pick < filler.counts[slot]; ++pick) {
+      next.back() = pick;
+      for_each_filled(use, next);
+    }
   }
 }
 
