@@ -50,7 +50,7 @@ class Gatherer {
     for (const fs::path& file : files) add_file(file);
   }
 
-  /// @param name  of the group; empty: the scenario's and all that is laid over it. @return the group's name.
+  /// @param name  of the group; empty: the scenario's name and its overrides. @return the group's name.
   std::string add_scenario(const fs::path& file, const std::vector<uint64_t>& seeds, std::vector<std::string> overrides,
                            const std::string& name) {
     overrides.insert(overrides.end(), overrides_.begin(), overrides_.end());

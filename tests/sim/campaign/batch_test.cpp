@@ -90,7 +90,7 @@ TEST(Batch, ScenarioThatChangedIsFlownAgain) {
   EXPECT_EQ(folder.read("flown.txt").size(), 8u);
 }
 
-/// A result of another build stands only when that is asked for, and then every table names both builds.
+/// A result of another build is reused only with the option for it, and then every table names both builds.
 TEST(Batch, ResultOfAnotherBuildIsFlownAgainUnlessAskedFor) {
   const CampaignFolder folder;
   ASSERT_EQ(folder.hedgehop("batch tiny.yaml --seeds 1:2 --out out").status, 0);

@@ -157,7 +157,7 @@ std::vector<Shares> scores(const Pairs& worlds, Method method, const std::string
   return all;
 }
 
-// Nothing is drawn that a sensor would spoil, so that pairs are easier without noise. The noise is that of a small
+// The images have no sensor noise, so that pairs are easier. The noise is that of a small
 // camera in dull light: four grey levels at mid-grey.
 TEST(RenderedStereo, IsAsHardToMatchAsRealPairsWithinAThird) {
   if (!std::filesystem::exists(HEDGEHOP_SOURCE_DIR "/../shared/data/vision/stereo")) GTEST_SKIP() << "no real pairs";
