@@ -17,8 +17,8 @@ struct Approach {
   Eigen::Vector2d v_H = Eigen::Vector2d::Zero();      ///< velocity in H, m/s
   Eigen::Vector2d v_cmd_H = Eigen::Vector2d::Zero();  ///< velocity that it is to fly, in H, m/s
   Stopping stopping;
-  double tail_m = 0.0;             ///< the vehicle reaches so much farther aft than to its other sides, >= 0
-  bool reverses_both = false;      ///< both components of the velocity are reversed at once, as in a corner
+  double tail_m = 0.0;         ///< the vehicle reaches so much farther aft than to its other sides, >= 0
+  bool reverses_both = false;  ///< both components of the velocity are reversed at once, as in a corner
 };
 
 /// A method to get ranges from the flow of four cameras.

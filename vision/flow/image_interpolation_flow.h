@@ -8,7 +8,8 @@
 namespace hedgehop::vision::flow {
 
 /// The grid of patches of the image interpolation algorithm, and its effort and thresholds. Keys of a scenario are the
-/// grid and `levels`; the defaults of the rest suit 8-bit images of 100 to 400 px, from simulation and from real cameras.
+/// grid and `levels`; the defaults of the rest suit 8-bit images of 100 to 400 px, from simulation and from real
+/// cameras.
 struct ImageInterpolationConfig {
   int rows = 16, cols = 16;    ///< patches in the grid
   int patch_px = 64;           ///< side of a square patch
