@@ -13,8 +13,8 @@ namespace hedgehop::avoidance::flow_balance {
 /// Returns the upright walls round a vehicle by the newest flow of all its cameras, in frame H. Tilt is left out: the
 /// cameras' axes are taken level as they are mounted in B.
 /// @param cameras  derotated, looking level.  @param now_ns  measures that are too old by then are left out.
-std::vector<vision::flow::SeenWall> fit_walls(std::span<const CameraFlow> cameras, const NavigationState& navigation,
-                                              int64_t now_ns);
+std::vector<vision::flow::WallEstimate> fit_walls(std::span<const CameraFlow> cameras,
+                                                  const NavigationState& navigation, int64_t now_ns);
 
 /// Ranges of upright walls that are fitted to the flow of all cameras at once. Where no wall fits, ranges of patches
 /// stand in. The flow must be derotated. Ours.
@@ -33,7 +33,7 @@ class WallRanging final : public Ranging {
 
   PatchRanging patches_;
   SideAxes axes_H_{};
-  std::vector<vision::flow::SeenWall> walls_;
+  std::vector<vision::flow::WallEstimate> walls_;
 };
 
 }  // namespace hedgehop::avoidance::flow_balance

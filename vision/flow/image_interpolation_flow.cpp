@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "sim/fields/bounds.h"
 #include "vision/flow/flow_level.h"
 #include "vision/flow/patch_grid.h"
 #include "vision/flow/reduced_image.h"
-#include "sim/fields/bounds.h"
 
 namespace hedgehop::vision::flow {
 namespace {
