@@ -24,7 +24,7 @@ Wind::Wind(const WindConfig& config, uint64_t seed) : config_(fields::require_bo
   steady_W_ = config.speed_mps * blows_W;
   // Without a mean wind the axes are W's.
   const Eigen::Vector3d along_W = config.speed_mps > 0.0 ? blows_W : Eigen::Vector3d::UnitX();
-  R_WD_ << along_W, Eigen::Vector3d::UnitZ().cross(along_W), Eigen::Vector3d::UnitZ();
+  R_WT_ << along_W, Eigen::Vector3d::UnitZ().cross(along_W), Eigen::Vector3d::UnitZ();
   draw_stationary();
 }
 
@@ -66,8 +66,8 @@ Eigen::Vector3d Wind::turbulence_W(double height_m, double path_m) {
   move(w_, second_order_step(path_m / s.length_w_m));
 
   const Eigen::RowVector2d output = second_order_output();
-  const Eigen::Vector3d gust_D{s.sigma_uv_mps * u_, s.sigma_uv_mps * output.dot(v_), s.sigma_w_mps * output.dot(w_)};
-  return R_WD_ * gust_D;
+  const Eigen::Vector3d gust_T{s.sigma_uv_mps * u_, s.sigma_uv_mps * output.dot(v_), s.sigma_w_mps * output.dot(w_)};
+  return R_WT_ * gust_T;
 }
 
 void Wind::move(Eigen::Vector2d& z, const SecondOrderStep& step) {

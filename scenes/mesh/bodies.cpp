@@ -101,18 +101,18 @@ void add_post(const Post& post, int sides, const Cover& cover, MeshBuilder& mesh
   mesh.add(vertices, faces);
 }
 
-void add_box(const Eigen::AlignedBox3d& box_P, const Eigen::Isometry3d& X_WP, const Cover& cover, MeshBuilder& mesh) {
+void add_box(const Eigen::AlignedBox3d& box_K, const Eigen::Isometry3d& X_WK, const Cover& cover, MeshBuilder& mesh) {
   const auto add = [&](const Panel& panel) {
-    const Panel placed{X_WP * panel.top_left_W, X_WP.linear() * panel.right_m, X_WP.linear() * panel.down_m};
+    const Panel placed{X_WK * panel.top_left_W, X_WK.linear() * panel.right_m, X_WK.linear() * panel.down_m};
     const Eigen::Vector2d from_origin_m(placed.right_m.normalized().dot(placed.top_left_W),
                                         placed.down_m.normalized().dot(placed.top_left_W));
     mesh.add_tiled(placed, cover.tile_m, cover.offset + from_origin_m / cover.tile_m, cover.texture);
   };
-  for (const Panel& panel : side_panels(box_P)) add(panel);
-  add(top_panel(box_P));
+  for (const Panel& panel : side_panels(box_K)) add(panel);
+  add(top_panel(box_K));
   constexpr double kOnGroundM = 1e-6;
-  const Eigen::Vector3d foot_P(box_P.center().x(), box_P.center().y(), box_P.max().z());
-  if ((X_WP * foot_P).z() < -kOnGroundM) add(bottom_panel(box_P));
+  const Eigen::Vector3d foot_K(box_K.center().x(), box_K.center().y(), box_K.max().z());
+  if ((X_WK * foot_K).z() < -kOnGroundM) add(bottom_panel(box_K));
 }
 
 Solid solid_of(const std::string& name, const Post& post) {

@@ -34,8 +34,8 @@ void add_post(const Post& post, int sides, const Cover& cover, MeshBuilder& mesh
 
 /// Adds the faces of a box, but not the bottom when it stands on the ground. Images are laid out from W's origin, so
 /// that they run on from box to box.
-/// @param box_P  in a frame P, m. @param X_WP  pose of P.
-void add_box(const Eigen::AlignedBox3d& box_P, const Eigen::Isometry3d& X_WP, const Cover& cover, MeshBuilder& mesh);
+/// @param box_K  in a frame K, m. @param X_WK  pose of K.
+void add_box(const Eigen::AlignedBox3d& box_K, const Eigen::Isometry3d& X_WK, const Cover& cover, MeshBuilder& mesh);
 
 Solid solid_of(const std::string& name, const Post& post);
 

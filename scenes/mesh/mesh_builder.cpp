@@ -36,9 +36,9 @@ Solid solid_of(const std::string& name, const Eigen::AlignedBox3d& box_W) {
   return solid;
 }
 
-Solid solid_of(const std::string& name, const Eigen::AlignedBox3d& box_P, const Eigen::Isometry3d& X_WP) {
-  Solid solid = solid_of(name, box_P);
-  solid.X_WS = X_WP * solid.X_WS;
+Solid solid_of(const std::string& name, const Eigen::AlignedBox3d& box_K, const Eigen::Isometry3d& X_WK) {
+  Solid solid = solid_of(name, box_K);
+  solid.X_WS = X_WK * solid.X_WS;
   return solid;
 }
 

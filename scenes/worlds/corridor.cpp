@@ -44,14 +44,14 @@ Vector2d to_the_right(const Vector2d& along_NE) { return {-along_NE.y(), along_N
 
 bool turns_right(const Vector2d& before, const Vector2d& after) { return to_the_right(before).dot(after) > 0.0; }
 
-// A frame P on the floor: x along a direction of the plan, y to the right of it, z down.
+// A frame K on the floor: x along a direction of the plan, y to the right of it, z down.
 Eigen::Isometry3d floor_frame(const Vector2d& origin_NE, const Vector2d& along_NE) {
-  Eigen::Isometry3d X_WP = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d X_WK = Eigen::Isometry3d::Identity();
   const Vector2d right = to_the_right(along_NE);
-  X_WP.linear().col(0) = Vector3d(along_NE.x(), along_NE.y(), 0.0);
-  X_WP.linear().col(1) = Vector3d(right.x(), right.y(), 0.0);
-  X_WP.translation() = Vector3d(origin_NE.x(), origin_NE.y(), 0.0);
-  return X_WP;
+  X_WK.linear().col(0) = Vector3d(along_NE.x(), along_NE.y(), 0.0);
+  X_WK.linear().col(1) = Vector3d(right.x(), right.y(), 0.0);
+  X_WK.translation() = Vector3d(origin_NE.x(), origin_NE.y(), 0.0);
+  return X_WK;
 }
 
 // Adds boxes to a mesh and to the solids, each a chunk with an image of its own.
@@ -59,12 +59,12 @@ class Mason {
  public:
   Mason(uint64_t seed, Scene& scene, mesh::MeshBuilder& mesh) : random_(seed), scene_(scene), mesh_(mesh) {}
 
-  void build(const std::string& name, const Eigen::AlignedBox3d& box_P, const Eigen::Isometry3d& X_WP) {
+  void build(const std::string& name, const Eigen::AlignedBox3d& box_K, const Eigen::Isometry3d& X_WK) {
     const Vector2d offset(uniform(random_, 0.0, 1.0), 0.0);
     mesh_.begin_chunk(false);
-    mesh::add_box(box_P, X_WP, {static_cast<uint32_t>(uniform_index(random_, kWalls)), textures::kWallTileM, offset},
+    mesh::add_box(box_K, X_WK, {static_cast<uint32_t>(uniform_index(random_, kWalls)), textures::kWallTileM, offset},
                   mesh_);
-    scene_.solids.push_back(mesh::solid_of(name, box_P, X_WP));
+    scene_.solids.push_back(mesh::solid_of(name, box_K, X_WK));
   }
 
   /// A wall along corners of the plan, all of it to the left of the path. Where the path turns right, and at both
@@ -87,16 +87,16 @@ class Mason {
 };
 
 // What stands in a section, seen from its middle: x along it, y to the right.
-void furnish(const CorridorConfig& c, const CorridorSection& section, const Eigen::Isometry3d& X_WP, double width_m,
+void furnish(const CorridorConfig& c, const CorridorSection& section, const Eigen::Isometry3d& X_WK, double width_m,
              Mason& mason) {
   const double half_m = 0.5 * width_m, thin_m = 0.5 * kThicknessM, outer_m = half_m + thin_m;
   if (section.doorway_m > 0.0) {
     const double jamb_m = 0.5 * section.doorway_m;
-    mason.build("doorway", {Vector3d(-thin_m, -outer_m, -c.height_m), Vector3d(thin_m, -jamb_m, 0.0)}, X_WP);
-    mason.build("doorway", {Vector3d(-thin_m, jamb_m, -c.height_m), Vector3d(thin_m, outer_m, 0.0)}, X_WP);
+    mason.build("doorway", {Vector3d(-thin_m, -outer_m, -c.height_m), Vector3d(thin_m, -jamb_m, 0.0)}, X_WK);
+    mason.build("doorway", {Vector3d(-thin_m, jamb_m, -c.height_m), Vector3d(thin_m, outer_m, 0.0)}, X_WK);
     if (c.door_height_m < c.height_m) {
       mason.build("lintel", {Vector3d(-thin_m, -jamb_m, -c.height_m), Vector3d(thin_m, jamb_m, -c.door_height_m)},
-                  X_WP);
+                  X_WK);
     }
   }
   if (section.obstacle_m != 0.0) {
@@ -105,7 +105,7 @@ void furnish(const CorridorConfig& c, const CorridorSection& section, const Eige
     mason.build(
         "pillar",
         {Vector3d(-long_m, std::min(one_m, other_m), -c.height_m), Vector3d(long_m, std::max(one_m, other_m), 0.0)},
-        X_WP);
+        X_WK);
   }
 }
 

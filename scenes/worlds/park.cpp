@@ -134,14 +134,14 @@ class Gardener {
     const double length_m = is_van ? 5.0 : 4.4, width_m = is_van ? 1.95 : 1.75, top_m = is_van ? 2.3 : 1.45;
     const Disc disc = planner_.take("vehicles", 0.5 * std::hypot(length_m, width_m), true);
     const double turn_rad = uniform(random(), -0.08, 0.08) + (chance(random(), 0.5) ? std::numbers::pi : 0.0);
-    const Eigen::Isometry3d X_WP =
+    const Eigen::Isometry3d X_WK =
         Eigen::Translation3d(disc.p_NE.x(), disc.p_NE.y(), 0.0) * Eigen::AngleAxisd(turn_rad, Vector3d::UnitZ());
     const double l = 0.5 * length_m, w = 0.5 * width_m, front = is_van ? 0.78 * l : 0.45 * l, body_m = 0.92;
     const uint32_t paint = kFirstPaint + 2 * static_cast<uint32_t>(uniform_index(random(), kPaints));
     const std::string name = (is_van ? "van " : "car ") + std::to_string(number);
     mesh_.begin_chunk(false);
-    add_part(name, {Vector3d(-l, -w, -body_m), Vector3d(l, w, 0.0)}, X_WP, paint);
-    add_part(name, {Vector3d(is_van ? -l : -0.8 * l, -0.9 * w, -top_m), Vector3d(front, 0.9 * w, -body_m)}, X_WP,
+    add_part(name, {Vector3d(-l, -w, -body_m), Vector3d(l, w, 0.0)}, X_WK, paint);
+    add_part(name, {Vector3d(is_van ? -l : -0.8 * l, -0.9 * w, -top_m), Vector3d(front, 0.9 * w, -body_m)}, X_WK,
              paint + 1);
   }
 
@@ -167,10 +167,10 @@ class Gardener {
     scene_.solids.push_back(mesh::solid_of(name, placed));
   }
 
-  void add_part(const std::string& name, const Eigen::AlignedBox3d& box_P, const Eigen::Isometry3d& X_WP,
+  void add_part(const std::string& name, const Eigen::AlignedBox3d& box_K, const Eigen::Isometry3d& X_WK,
                 uint32_t image) {
-    mesh::add_box(box_P, X_WP, {image, textures::kVehicleTileM}, mesh_);
-    scene_.solids.push_back(mesh::solid_of(name, box_P, X_WP));
+    mesh::add_box(box_K, X_WK, {image, textures::kVehicleTileM}, mesh_);
+    scene_.solids.push_back(mesh::solid_of(name, box_K, X_WK));
   }
 
   Planner& planner_;

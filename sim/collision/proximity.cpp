@@ -161,12 +161,12 @@ class CollisionWorld::World {
   void place_hull(const Eigen::Isometry3d& X_WB) {
     placed_parts_.clear();
     hull_box_W_.setEmpty();
-    Eigen::Isometry3d X_WP = X_WB;
+    Eigen::Isometry3d X_WS = X_WB;
     for (const Part& part : parts_) {
-      X_WP.translation() = X_WB * part.center_B_m;
-      placed_parts_.emplace_back(part.body, X_WP);
+      X_WS.translation() = X_WB * part.center_B_m;
+      placed_parts_.emplace_back(part.body, X_WS);
       const Eigen::Vector3d half_m = placed_parts_.back().half_size_W();
-      hull_box_W_.extend(Eigen::AlignedBox3d(X_WP.translation() - half_m, X_WP.translation() + half_m));
+      hull_box_W_.extend(Eigen::AlignedBox3d(X_WS.translation() - half_m, X_WS.translation() + half_m));
     }
   }
 

@@ -11,12 +11,12 @@ namespace hedgehop::sim {
 
 /// How an image of any lens is composed of pinhole images ("faces"): one for a lens with a narrow view, else up to six
 /// sides of a cube, each only as large as its part of the image needs. The faces' images lie below each other in one
-/// sheet. They overlap far enough that the four neighbors of a sampled position lie in one face. K: frame of a face,
+/// sheet. They overlap far enough that the four neighbors of a sampled position lie in one face. Cf: frame of a face,
 /// its origin and handedness those of C, z through the middle of the cube's side.
 struct LensFaces {
   struct Face {
     vision::camera::PinholeCamera camera;
-    Eigen::Matrix3d R_CK = Eigen::Matrix3d::Identity();
+    Eigen::Matrix3d R_CCf = Eigen::Matrix3d::Identity();
     int first_row = 0;  ///< in the sheet
   };
   /// Position of a pixel in the sheet.
@@ -28,7 +28,7 @@ struct LensFaces {
   struct Nearest {
     int32_t index = -1;
     float right = 0.0f, down = 0.0f;  ///< offset from there, px, at most half a pixel
-    float per_depth = 1.0f;           ///< depth in the camera's image over z in K
+    float per_depth = 1.0f;           ///< depth in the camera's image over z in Cf
   };
 
   vision::camera::Camera camera;

@@ -109,7 +109,7 @@ class Renderer::Impl {
     sheet.create(faces.sheet, type_of(raster));
     for (const LensFaces::Face& face : faces.faces) {
       ScenePainter::Eye face_eye = eye;
-      face_eye.X_WC.linear() = eye.X_WC.linear() * face.R_CK;
+      face_eye.X_WC.linear() = eye.X_WC.linear() * face.R_CCf;
       cv::Mat part = sheet(cv::Rect(0, face.first_row, face.camera.width_px, face.camera.height_px));
       painter_.paint(face.camera, face_eye, raster, samples, part);
     }
