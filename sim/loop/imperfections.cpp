@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/loop/random_stream.h"
+#include "sim/scenario/random_stream.h"
 
 namespace hedgehop::sim {
 namespace {

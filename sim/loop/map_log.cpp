@@ -1,5 +1,6 @@
 #include "sim/loop/map_log.h"
 
+#include <optional>
 #include <utility>
 
 namespace hedgehop::sim {
@@ -12,13 +13,11 @@ void MapLog::add(double t_s, avoidance::Chart chart) {
   last_ = std::move(chart);
 }
 
-MapRecord MapLog::take(const MapScore* score) {
+MapRecord MapLog::take() {
   MapRecord record{.course_NE = std::move(last_.course_NE), .ways = std::move(ways_)};
-  for (size_t i = 0; i < last_.points.size(); ++i) {
-    record.points.push_back({last_.points[i].p_W, last_.points[i].covariance_W, std::nullopt});
-    if (score) record.points.back().is_true = score->is_true()[i];
+  for (const avoidance::ChartPoint& point : last_.points) {
+    record.points.push_back({point.p_W, point.covariance_W, std::nullopt});
   }
-  if (score && !record.empty()) record.corners = score->corners();
   return record;
 }
 

@@ -9,18 +9,20 @@
 #include "avoidance/module.h"
 #include "dynamics/control/setpoint.h"
 #include "sim/loop/cameras.h"
+#include "sim/loop/corner_detector.h"
 #include "sim/loop/route.h"
 #include "sim/loop/ticks.h"
 #include "sim/scenario/scenario.h"
-#include "sim/verdict/corner_sight.h"
 
 namespace hedgehop::sim {
 
 /// The module in flight: what it is shown, when it decides, and when its commands reach the autopilot.
 class ModulePilot {
  public:
-  /// Throws InputError for a module that cannot be made, lacks a camera, or asks for true corners where none are known.
-  ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& cameras);
+  /// @param module  of the scenario; null for one that is to be loaded from its shared library.
+  /// Throws InputError for a module that cannot be loaded, lacks a camera, or needs true corners where none are known.
+  ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& cameras,
+              std::unique_ptr<avoidance::Module> module);
 
   /// Starts a flight. @param vehicle_radius_m  of the vertical cylinder that holds the vehicle. @param hold  in effect
   /// until the first command is.

@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "avoidance/module.h"
+#include "sim/flight/flight_watcher.h"
 #include "sim/loop/aircraft.h"
 #include "sim/loop/cameras.h"
 #include "sim/loop/ticks.h"
-#include "sim/loop/watcher.h"
 
 namespace hedgehop::sim {
 

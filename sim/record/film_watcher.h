@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "sim/loop/watcher.h"
+#include "sim/flight/flight_watcher.h"
 #include "sim/record/film.h"
 #include "sim/scenario/scenario.h"
 

@@ -85,7 +85,7 @@ Json replay_hull(const std::vector<dynamics::HullPart>& hull) {
   return json;
 }
 
-Json replay_path(const CsvTable& trajectory, size_t max_rows) {
+Json replay_path(const ColumnTable& trajectory, size_t max_rows) {
   const size_t rows = trajectory.rows();
   const size_t stride = std::max<size_t>(1, (rows + max_rows - 2) / std::max<size_t>(1, max_rows - 1));
   std::vector<size_t> kept;
