@@ -21,11 +21,6 @@ namespace {
 constexpr int kFails = 1;
 constexpr int kSignalled = 128;  // what a shell reports of a process that a signal ended, less the signal's number
 
-/// Ends an optimizer's search from inside.
-struct Interrupted : std::runtime_error {
-  Interrupted() : std::runtime_error("interrupted") {}
-};
-
 struct SweepRun {
   const SweepOptions& options;
   SweepConfig sweep;
@@ -90,28 +85,25 @@ int fly_optimizer(const SweepRun& run, const OptimizeDesign& design) {
   const size_t seeds = run.sweep.seeds ? parse_seeds(*run.sweep.seeds).size() : 1;
   CampaignProgress progress(seeds * static_cast<size_t>(design.evaluations));
   const FlyOptions options = fly_options(run);
-  const FlyPoint fly = [&](const std::vector<Order>& orders) {
+  const FlyPoint fly = [&](const std::vector<Order>& orders) -> std::optional<std::vector<FlightRecord>> {
     auto records = fly_orders(orders, options, Reuse::all, interruption, show_on(progress));
-    if (interruption.signal() != 0) throw Interrupted();
+    if (interruption.signal() != 0) return std::nullopt;
     return records;
   };
-  try {
-    const Optimum best = optimize(run.sweep, fly);
-    progress.close();
-    write_tables(run, best.orders, best.records);
-    nlohmann::ordered_json json{{"minimize", design.minimize}, {"cost", best.cost}, {"values", {}}};
-    std::string words;
-    for (size_t i = 0; i < best.values.size(); ++i) {
-      json["values"][run.sweep.parameters[i].path] = best.values[i];
-      words += fmt::format(" --set {}={}", run.sweep.parameters[i].path, best.values[i]);
-    }
-    write_file_whole(run.out / "optimum.json", json.dump(2) + "\n");
-    fmt::print("{} points flown; smallest mean of {}: {:g}, with{}\nwritten: {}\n", best.records.size() / seeds,
-               design.minimize, best.cost, words, (run.out / "optimum.json").string());
-    return best.cost < design.failure_cost ? 0 : kFails;
-  } catch (const Interrupted&) {
-    return kSignalled + interruption.signal();
+  const Optimum best = optimize(run.sweep, fly);
+  progress.close();
+  write_tables(run, best.orders, best.records);
+  if (best.stopped) return kSignalled + interruption.signal();
+  nlohmann::ordered_json json{{"minimize", design.minimize}, {"cost", best.cost}, {"values", {}}};
+  std::string words;
+  for (size_t i = 0; i < best.values.size(); ++i) {
+    json["values"][run.sweep.parameters[i].path] = best.values[i];
+    words += fmt::format(" --set {}={}", run.sweep.parameters[i].path, best.values[i]);
   }
+  write_file_whole(run.out / "optimum.json", json.dump(2) + "\n");
+  fmt::print("{} points flown; smallest mean of {}: {:g}, with{}\nwritten: {}\n", best.records.size() / seeds,
+             design.minimize, best.cost, words, (run.out / "optimum.json").string());
+  return best.cost < design.failure_cost ? 0 : kFails;
 }
 
 int on_slurm(const SweepRun& run, size_t flights) {

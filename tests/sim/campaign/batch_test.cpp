@@ -212,5 +212,16 @@ TEST(Batch, CampaignFileNamesScenariosSeedsAndValues) {
               HasSubstr("campaign.yaml:2:27: unknown key 'seds' in 'flights.0'; did you mean 'seeds'?"));
 }
 
+TEST(Batch, EntriesThatDifferBeyondTheFolderNamesLengthKeepTheirFoldersApart) {
+  const CampaignFolder folder;
+  const std::string zeros(150, '0');
+  folder.write("campaign.yaml", "flights:\n  - {scenario: tiny.yaml, set: [avoidance.speed=0.5" + zeros +
+                                    "1]}\n  - {scenario: tiny.yaml, set: [avoidance.speed=0.5" + zeros + "2]}\n");
+  ASSERT_EQ(folder.hedgehop("batch campaign.yaml --out out").status, 0);
+  const Json batch = folder.json("out/batch.json");
+  ASSERT_EQ(batch.at("flights").size(), 2u);
+  EXPECT_NE(batch.at("flights").at(0).at("id"), batch.at("flights").at(1).at("id"));
+}
+
 }  // namespace
 }  // namespace hedgehop::sim
