@@ -20,7 +20,7 @@ namespace hedgehop::sim {
 /// How a flight ended.
 enum class Outcome {
   reached,   ///< inside the goal's radius
-  collided,  ///< the hull touched a solid or the ground
+  collided,  ///< contact of the hull with a solid or the ground
   timeout,   ///< the scenario's duration is over; for a scenario without a goal the normal end
   fault,     ///< the module threw or the state stopped being finite
 };

@@ -7,14 +7,14 @@ namespace hedgehop::sim {
 
 void MapLog::add(double t_s, avoidance::Chart chart) {
   constexpr double kBetweenS = 2.0;
-  const size_t places = chart.way_NE.size(), before = ways_.empty() ? 1 : ways_.back().places_NE.size();
+  const size_t places = chart.way_NE.size(), before = paths_.empty() ? 1 : paths_.back().places_NE.size();
   const bool is_detour = places > 1;
-  if (places != before || (is_detour && t_s >= ways_.back().t_s + kBetweenS)) ways_.push_back({t_s, chart.way_NE});
+  if (places != before || (is_detour && t_s >= paths_.back().t_s + kBetweenS)) paths_.push_back({t_s, chart.way_NE});
   last_ = std::move(chart);
 }
 
 MapRecord MapLog::take() {
-  MapRecord record{.course_NE = std::move(last_.course_NE), .ways = std::move(ways_)};
+  MapRecord record{.course_NE = std::move(last_.course_NE), .paths = std::move(paths_)};
   for (const avoidance::ChartPoint& point : last_.points) {
     record.points.push_back({point.p_W, point.covariance_W, std::nullopt});
   }

@@ -20,7 +20,7 @@ class MapLog {
 
  private:
   avoidance::Chart last_;
-  std::vector<PlannedWay> ways_;
+  std::vector<PlannedPath> paths_;
 };
 
 }  // namespace hedgehop::sim

@@ -15,7 +15,7 @@ struct MapInstant {
   Eigen::Isometry3d X_WB_true;
   Eigen::Vector3d p_WB_start_true;  ///< where the flight began, m
   const CollisionWorld& world;
-  bool sees_through_walls = false;  ///< whether the module is shown corners that solids hide
+  bool sees_through_walls = false;  ///< whether the module gets corners that solids hide
 };
 
 /// Observes a module's map, decision by decision; cannot reach the flight.

@@ -9,7 +9,7 @@
 
 namespace hedgehop::sim {
 
-/// One line of comma-separated values, as CsvTable reads them; its end comes with its destruction. Numbers are the
+/// One line of comma-separated values, as CsvTable reads them; it ends with its destruction. Numbers are the
 /// shortest that read back to the same double, what is not known (NaN) an empty field.
 class CsvLine {
  public:

@@ -15,7 +15,7 @@ using Values = std::vector<double>;
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr std::string_view kTruthNote = "true: known to the simulator only";
 constexpr std::string_view kHeadingNote = "in the frame of the true heading; true: known to the simulator only";
-/// Clearances beyond this say nothing about the danger of a flight; the plot ends there.
+/// Clearances beyond this are no danger to a flight; the plot ends there.
 constexpr double kClearanceShownM = 20.0;
 
 template <class Function>
@@ -175,7 +175,7 @@ constexpr std::array<Unit, 17> kUnits = {{{"_radps2", "rad/s²"},
                                           {"_s", "s"}}};
 constexpr std::array<std::string_view, 6> kCameras = {"left", "right", "front", "rear", "aft", "down"};
 
-/// What a signal's name says: "flow_left_radps" is the flow of "left" in rad/s.
+/// The parts of a signal's name: "flow_left_radps" is the flow of "left" in rad/s.
 struct SignalName {
   std::string group, label, role;
   std::string_view unit;

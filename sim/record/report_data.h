@@ -17,7 +17,7 @@ struct PlanGoal {
   double radius_m = 0.0;
 };
 
-/// What the report tells of the scenario.
+/// What the report shows of the scenario.
 struct ReportScenario {
   std::string description, module, scene, vehicle;  ///< names of the parts that were chosen
   std::string yaml;                                 ///< the resolved scenario

@@ -103,13 +103,13 @@ std::string decisions_csv(const Flight& flight) { return decision_columns(flight
 void write_result_files(const std::filesystem::path& run_folder, const RunInfo& info, const Flight& flight) {
   std::error_code error;
   std::filesystem::create_directories(run_folder, error);
-  if (error) throw std::runtime_error(fmt::format("cannot make {}: {}", run_folder.string(), error.message()));
+  if (error) throw std::runtime_error(fmt::format("cannot create {}: {}", run_folder.string(), error.message()));
   write_file_whole(run_folder / "scenario.yaml", info.scenario_yaml);
   write_file_whole(run_folder / "trajectory.csv", trajectory_csv(flight));
   write_file_whole(run_folder / "decisions.csv", decisions_csv(flight));
   if (!flight.map.empty()) write_file_whole(run_folder / "map.json", map_data(flight.map).dump() + "\n");
   write_file_whole(run_folder / "result.json",
-                   result_json(info, flight.result));  // last: a result says the run is whole
+                   result_json(info, flight.result));  // last: a run with a result is whole
 }
 
 }  // namespace hedgehop::sim

@@ -29,7 +29,7 @@ TEST(MapLog, KeepsDetoursEveryTwoSecondsAndWhereTheirTurnsChange) {
   }
   const MapRecord record = log.take();
   std::vector<std::pair<double, size_t>> kept;
-  for (const PlannedWay& way : record.ways) kept.emplace_back(way.t_s, way.places_NE.size());
+  for (const PlannedPath& path : record.paths) kept.emplace_back(path.t_s, path.places_NE.size());
   EXPECT_EQ(kept, (std::vector<std::pair<double, size_t>>{{2.0, 2}, {4.0, 2}, {6.0, 2}, {7.0, 3}, {8.0, 1}}));
   EXPECT_EQ(record.course_NE.size(), 2U);
 }
