@@ -78,7 +78,7 @@ using Command = std::variant<VelocityCommand, PositionCommand, AttitudeCommand, 
 struct CameraNeed {
   std::string role;
   enum class Channel { grey, color, depth } channel = Channel::grey;
-  bool pinhole = false;       ///< the module's mathematics holds for a pinhole without distortion only
+  bool pinhole = false;       ///< the module's mathematics holds for an undistorted pinhole only
   bool true_corners = false;  ///< an experiment: the frames come with the corners that the scene has
 };
 struct Needs {

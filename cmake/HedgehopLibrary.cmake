@@ -70,7 +70,7 @@ function(hedgehop_check_layers folder deps)
 endfunction()
 
 # hedgehop_test(<name> SRCS ... DEPS <folders> [LABEL unit|physics|vision|render|loop]): one GoogleTest program.
-# Every test gets the label; tests/support is on the include path.
+# Every test gets the label.
 function(hedgehop_test name)
   cmake_parse_arguments(arg "" "LABEL" "SRCS;DEPS;PACKAGES" ${ARGN})
   if(NOT arg_LABEL)

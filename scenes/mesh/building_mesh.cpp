@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scenes/textures/facade_textures.h"
-#include "scenes/textures/street_textures.h"
+#include "scenes/textures/trim_textures.h"
 
 namespace hedgehop::scenes::mesh {
 namespace {

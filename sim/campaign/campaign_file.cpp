@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/record/whole_file.h"
-#include "sim/scenario/parse.h"
+#include "sim/scenario/include.h"
 #include "sim/scenario/reader.h"
 
 namespace hedgehop::sim {
@@ -144,7 +144,7 @@ class Gatherer {
     return folder;
   }
 
-  /// A flight asked for twice is flown once.
+  /// A flight listed twice is flown once.
   void add(const Order& order) {
     if (ids_.insert({order.id, 0}).second) batch_.orders.push_back(order);
   }

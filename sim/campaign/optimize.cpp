@@ -1,3 +1,5 @@
+#include "sim/campaign/optimize.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 #include <limits>
 #include <nlopt.hpp>
 
-#include "sim/campaign/sweep.h"
 #include "sim/scenario/tree.h"
 
 namespace hedgehop::sim {

@@ -8,11 +8,12 @@
 
 #include "sim/campaign/batch_record.h"
 #include "sim/campaign/junit.h"
+#include "sim/campaign/optimize.h"
 #include "sim/campaign/slurm.h"
 #include "sim/campaign/sweep.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/progress.h"
-#include "sim/cli/version.h"
+#include "sim/flight/build.h"
 #include "sim/record/whole_file.h"
 
 namespace hedgehop::sim::cli {
@@ -38,7 +39,7 @@ void write_tables(const SweepRun& run, const SweepOrders& orders, const std::vec
   write_file_whole(run.options.junit, junit_text(records, {}));
 }
 
-/// Tells how it went and returns the exit status.
+/// Prints the counts and returns the exit status.
 int conclude(const SweepRun& run, const SweepOrders& orders, const std::vector<FlightRecord>& records) {
   write_tables(run, orders, records);
   const auto count = [&](auto holds) { return std::ranges::count_if(records, holds); };
@@ -59,7 +60,7 @@ int conclude(const SweepRun& run, const SweepOrders& orders, const std::vector<F
 FlyOptions fly_options(const SweepRun& run) {
   return {.program = run.options.program.empty() ? own_program() : run.options.program,
           .out = run.out,
-          .version = std::string(kVersion),
+          .other_builds = run.options.reuse_other_builds,
           .workers = run.options.jobs,
           .limit_s = run.options.limit_s};
 }
@@ -146,7 +147,7 @@ int sweep(const SweepOptions& options) {
   if (options.merge || options.missing) {
     std::vector<std::filesystem::path> folders{run.out};
     folders.insert(folders.end(), options.merge_from.begin(), options.merge_from.end());
-    const std::vector<FlightRecord> records = gather(orders.orders, folders, kVersion);
+    const std::vector<FlightRecord> records = gather(orders.orders, folders, run.options.reuse_other_builds);
     if (options.merge) return conclude(run, orders, records);
     fmt::print("{}\n", std::ranges::count(records, FlightRecord::Status::missing, &FlightRecord::status));
     return 0;

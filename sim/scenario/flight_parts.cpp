@@ -3,6 +3,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "sim/fields/bounds.h"
 #include "sim/scenario/random_stream.h"
 
 namespace hedgehop::sim {
@@ -37,6 +38,7 @@ AircraftParts build_aircraft(const Scenario& scenario) {
 }
 
 FlightParts build_parts(const Scenario& scenario) {
+  build_part("scenario", [&] { return &fields::require_bounds(scenario); });
   return {build_aircraft(scenario), build_part("avoidance", [&] { return build_module(scenario.avoidance); })};
 }
 

@@ -41,7 +41,8 @@ struct LoadedScenario {
 LoadedScenario load_flight(const std::filesystem::path& file, std::span<const std::string> overrides = {},
                            std::optional<uint64_t> seed = {});
 
-/// Builds the parts of a scenario that no file was read for. Throw InputError beginning with the part's key.
+/// Builds the parts of a scenario that no file was read for. Throw InputError beginning with the part's key, or with
+/// 'scenario' for a value out of its bounds.
 FlightParts build_parts(const Scenario& scenario);
 AircraftParts build_aircraft(const Scenario& scenario);
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "sim/scenario/flight_parts.h"
-#include "sim/scenario/parse.h"
+#include "sim/scenario/include.h"
 #include "sim/scenario/reader.h"
 #include "sim/scenario/schema.h"
 #include "sim/scenario/validate.h"

@@ -145,8 +145,8 @@ class Validator {
 
   void needs_camera(const std::string& path, const std::string& role, Channel channel, bool pinhole) {
     if (const CameraConfig* camera = scenario_.rig.find(role)) {
-      if (pinhole && !camera->straight()) {
-        add(path, fmt::format("needs camera '{}' to be a pinhole without distortion", role));
+      if (pinhole && !camera->is_undistorted_pinhole()) {
+        add(path, fmt::format("needs camera '{}' to be an undistorted pinhole", role));
       }
       if (camera->channel != channel) {
         add(path, fmt::format("needs camera '{}' to give {} images; its channel is {}", role, words(channel),

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "sim/fields/bounds.h"
+
 namespace hedgehop::vision::landmarks {
 namespace {
 
@@ -94,14 +96,7 @@ std::vector<cv::Mat> planes_of(const cv::Mat& image) {
 
 }  // namespace
 
-void check(const EdgeCornerConfig& c) {
-  const auto need = [](bool holds, const char* message) {
-    if (!holds) throw std::invalid_argument(std::string("corners: ") + message);
-  };
-  need(c.least_edge_px > 0.0 && c.aside_px > 0.0, "least_edge and aside must be above 0 px");
-  need(c.gap_px >= 0.0 && c.beyond_px >= 0.0, "gap and beyond must not be negative");
-  need(c.least_angle_rad > 0.0 && c.least_angle_rad <= 1.5707963267948966, "least_angle must lie in (0, 90] deg");
-}
+void check(const EdgeCornerConfig& c) { fields::require_bounds(c, "corners"); }
 
 std::vector<ImageEdge> joined_edges(std::span<const ImageEdge> pieces, const EdgeCornerConfig& config) {
   std::vector<ImageEdge> by_length(pieces.begin(), pieces.end());

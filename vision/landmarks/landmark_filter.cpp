@@ -6,24 +6,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "sim/fields/bounds.h"
 #include "vision/landmarks/camera_error.h"
 #include "vision/landmarks/landmark_matching.h"
 
 namespace hedgehop::vision::landmarks {
 namespace {
-
-void check(const LandmarkMapConfig& c) {
-  const auto need = [](bool holds, const char* message) {
-    if (!holds) throw std::invalid_argument(std::string("landmark map: ") + message);
-  };
-  need(c.start.ground_sigma > 0.0, "ground_sigma must be above 0");
-  need(c.start.nearest_m > 0.0 && c.start.beyond_horizon_m > 0.0, "nearest and beyond_horizon must be above 0 m");
-  need(c.pixel_sigma_px > 0.0, "pixel_sigma must be above 0 px");
-  need(c.position_sigma_m >= 0.0 && c.attitude_sigma_rad >= 0.0 && c.drift_m_rt_s >= 0.0 && c.correlation_s >= 0.0,
-       "position_sigma, attitude_sigma, correlation and drift must not be negative");
-  need(c.gate > 0.0, "gate must be above 0");
-  need(c.misses >= 1 && c.young_misses >= 1 && c.confirm >= 1, "misses, young_misses and confirm must be at least 1");
-}
 
 /// The pose as one of many measurements whose errors are alike: of so many within the correlation time, all together
 /// are worth one. The integral of an exponentially fading correlation is twice its time constant.
@@ -58,7 +46,7 @@ std::vector<std::optional<size_t>> match_known_first(std::span<const std::option
 
 LandmarkMap::LandmarkMap(const LandmarkMapConfig& config, const camera::PinholeCamera& camera)
     : config_(config), camera_(camera), bearing_sigma_(config.pixel_sigma_px / camera.focal_x_px) {
-  check(config);
+  fields::require_bounds(config, "map");
 }
 
 std::vector<int64_t> LandmarkMap::update(std::span<const Eigen::Vector2d> corners_px, const CameraPose& pose,
