@@ -111,6 +111,7 @@ struct Metric {
   std::string name;
   double value = 0.0;
   std::string unit;
+  bool is_wall_time = false;  ///< differs from run to run
 };
 
 struct Decision {

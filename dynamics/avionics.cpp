@@ -59,7 +59,7 @@ void Avionics::reset(const SensedTruth& truth) {
   autopilot_.reset(navigation_.estimate());
 }
 
-void Avionics::sense(int64_t t_ns, const SensedTruth& truth) {
+void Avionics::sense(int64_t t_ns, const SensedTruth& truth, const VelocitySensor& flow_velocity) {
   const int64_t tick = std::llround(static_cast<double>(t_ns) * 1e-9 / physics_dt_s_);
   const RigidBodyState& body = truth.body;
   imu_.observe(body.w_WB_B, truth.specific_force_B);
@@ -88,6 +88,10 @@ void Avionics::sense(int64_t t_ns, const SensedTruth& truth) {
     if (const std::optional<sensors::GpsFix> fix = gps_.read()) navigation_.correct_gps(*fix);
   }
   if (range_finder_) sense_range(tick, truth);
+  if (!flow_velocity) return;
+  if (const std::optional<VelocityReading> reading = flow_velocity(navigation_.estimate())) {
+    navigation_.correct_velocity(reading->v_WB_B_xy_meas, reading->sigma_mps);
+  }
 }
 
 /// Casts the beam only on the ticks on which a reading begins.

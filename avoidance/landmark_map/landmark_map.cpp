@@ -197,7 +197,7 @@ class LandmarkMapModule final : public Module {
             {"most_off_course", most_off_course_m_, "m"},
             {"off_course_at_end", off_course_m_, "m"},
             {"stopped", stopped_ ? 1.0 : 0.0, ""},
-            {"filter_ms_total", sight_ ? sight_->filter_ms() : 0.0, "ms"},
+            {"filter_ms_total", sight_ ? sight_->filter_ms() : 0.0, "ms", /*is_wall_time=*/true},
             {"true_corners", config_.sight.front_end == FrontEnd::corners ? 1.0 : 0.0, ""}};
   }
 

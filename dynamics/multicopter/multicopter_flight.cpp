@@ -100,7 +100,7 @@ MulticopterLinearModel linearize(const MulticopterModel& model, const Multicopte
   const PerRotor none = still(model);
   const auto rate = [&](const Eigen::Matrix<double, L::kStates, 1>& d) {
     RigidBodyState body = trim.state.body;
-    const Eigen::Vector3d rpy = Eigen::Vector3d(trim.roll_rad, trim.pitch_rad, heading0) + d.segment<3>(L::kRoll);
+    const Eigen::Vector3d rpy = Eigen::Vector3d(trim.roll_rad, trim.pitch_rad, heading0) + d.segment<3>(L::kRollAngle);
     body.q_WB = from_roll_pitch_heading(rpy[0], rpy[1], rpy[2]);
     body.v_WB_B += d.head<3>();
     body.w_WB_B += d.segment<3>(L::kP);

@@ -29,16 +29,18 @@ nlopt::algorithm algorithm(OptimizeDesign::Method method) {
 /// Mean of a column over a point's flights; a flight that does not pass or lacks a number there counts its cost.
 double mean_cost(const OptimizeDesign& design, const std::vector<FlightRecord>& records) {
   const Table table = flight_table(records);
-  const auto column = std::ranges::find(table.columns, design.minimize);
+  const size_t column = column_index(table, design.minimize);
   double sum = 0.0;
   for (size_t i = 0; i < records.size(); ++i) {
-    if (records[i].status == FlightRecord::Status::flown && column == table.columns.end()) {
-      throw InputError(fmt::format("'design.minimize': no column '{}'{}", design.minimize,
-                                   suggestion(design.minimize, {table.columns.begin(), table.columns.end()})));
+    if (records[i].status == FlightRecord::Status::flown && column == table.columns.size()) {
+      std::vector<std::string_view> names;
+      for (const TableColumn& known : table.columns) names.push_back(known.name);
+      throw InputError(
+          fmt::format("'design.minimize': no column '{}'{}", design.minimize, suggestion(design.minimize, names)));
     }
     double cost = design.failure_cost;
     if (passed(records[i])) {
-      const Cell& cell = table.rows[i][static_cast<size_t>(column - table.columns.begin())];
+      const Cell& cell = table.rows[i][column];
       if (const auto* number = std::get_if<double>(&cell)) cost = *number;
       if (const auto* whole = std::get_if<int64_t>(&cell)) cost = static_cast<double>(*whole);
     }

@@ -6,16 +6,17 @@
 #include <csignal>
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 
 #include "sim/campaign/order.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/load.h"
 #include "sim/cli/progress.h"
 #include "sim/flight/build.h"
-#include "sim/loop/episode.h"
 #include "sim/record/film_watcher.h"
 #include "sim/record/report.h"
 #include "sim/record/result_files.h"
+#include "sim/simulation/simulation.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -86,13 +87,14 @@ void print_verdict(const Scenario& scenario, const FlightResult& result, const s
 
 int run(const RunOptions& options) {
   if (options.worker_of != 0) die_with(static_cast<pid_t>(options.worker_of));
-  Scenario scenario = load(options.scenario);
+  LoadedScenario loaded = load(options.scenario);
+  Scenario& scenario = loaded.scenario;
   if (options.no_video) scenario.film.enabled = false;
   const std::filesystem::path out =
       options.out.empty() ? std::filesystem::path{"out"} / fmt::format("{}-seed{}", scenario.name, scenario.seed)
                           : options.out;
   RunWatcher watcher(scenario, out / "video.webm", options.worker_of != 0);
-  const Flight flight = fly(scenario, &watcher);
+  const Flight flight = fly(scenario, std::move(loaded.parts), &watcher);
   watcher.close();
 
   const RunInfo info{scenario.name,
@@ -103,7 +105,7 @@ int run(const RunOptions& options) {
                      command_line(options, scenario),
                      to_yaml(scenario)};
   write_result_files(out, info, flight);
-  if (!options.no_report) write_report(out);
+  if (!options.no_report) write_report(out, run_record(scenario, info, flight));
   if (options.json) {
     fmt::print("{}\n", result_json(info, flight.result));
   } else {

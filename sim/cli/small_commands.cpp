@@ -42,7 +42,7 @@ int schema() {
 }
 
 int calibration(const CalibrationOptions& options) {
-  const RigConfig rig = load(options.scenario).rig;
+  const RigConfig rig = load(options.scenario).scenario.rig;
   const std::string text =
       build_part("rig", [&] { return options.format == "kalibr" ? kalibr_calibration(rig) : opencv_calibration(rig); });
   if (options.out.empty()) {
@@ -74,8 +74,9 @@ int report(const ReportOptions& options) {
     throw InputError(folder + ": --film-strips is for batches or sweeps, and this is one run");
   if (!options.against.empty())
     throw InputError(folder + ": --against compares batches or sweeps, and this is one run");
-  if (options.replay) write_replay(options.folder);
-  write_report(options.folder);  // links the replay
+  const RunRecord run = read_run(options.folder);
+  if (options.replay) write_replay(options.folder, run);
+  write_report(options.folder, run);  // links the replay
   written("report.html");
   if (options.replay) written("replay.html");
   return 0;

@@ -29,10 +29,10 @@ class Cameras {
   size_t index(std::string_view role) const;
   bool due(size_t camera, int64_t tick) const { return tick % periods_[camera] == 0; }
 
-  /// Draws one camera's image of this instant, degraded as its imperfections ask; does nothing when it holds it
+  /// Draws one camera's image of this instant, degraded by its imperfections; does nothing when it holds it
   /// already. @return null when the image is lost.
   const avoidance::CameraFrame* expose(size_t camera, int64_t t_ns, const BodyMotion& body);
-  /// Images of all cameras at this instant for somebody who only looks on; what modules are shown stays untouched.
+  /// Images of all cameras at this instant for a watcher; the frames of modules stay as they are.
   std::span<const avoidance::CameraFrame> snapshot(int64_t t_ns, const Eigen::Isometry3d& X_WB);
 
   /// An instant of the flight.

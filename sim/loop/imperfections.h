@@ -7,8 +7,8 @@
 
 namespace hedgehop::sim {
 
-/// Spoils one camera's images as its config asks. What becomes of an image hangs on its number and on the camera's
-/// seed alone (automatic exposure aside, which follows the images before it).
+/// Degrades one camera's images as its config says. The result depends on the image's number and the camera's seed
+/// alone (automatic exposure aside, which follows the images before it).
 class Imperfections {
  public:
   /// @param period_s  between images, > 0. @param seed  of the camera's own stream.

@@ -1,19 +1,21 @@
 #include "sim/loop/module_pilot.h"
 
 #include <algorithm>
+#include <utility>
 
-#include "sim/loop/random_stream.h"
 #include "sim/loop/setpoints.h"
 #include "sim/plugin/plugin_module.h"
 #include "sim/scenario/input_error.h"
+#include "sim/scenario/random_stream.h"
 
 namespace hedgehop::sim {
 
-ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& cameras)
+ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& cameras,
+                         std::unique_ptr<avoidance::Module> module)
     : scenario_(scenario),
       ticks_(ticks),
       cameras_(cameras),
-      module_(make_module(scenario.avoidance)),
+      module_(module ? std::move(module) : make_module(scenario.avoidance)),
       route_(scenario) {
   int64_t slowest = 0;
   const auto* highrise = std::get_if<scenes::worlds::HighriseConfig>(&scenario.scene);

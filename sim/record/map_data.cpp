@@ -36,8 +36,8 @@ Json map_data(const MapRecord& map) {
   }
   json["course"] = line(map.course_NE);
   json["ways"] = Json::array();
-  for (const PlannedWay& way : map.ways) {
-    json["ways"].push_back({{"t", milli(way.t_s)}, {"places", line(way.places_NE)}});
+  for (const PlannedPath& path : map.paths) {
+    json["ways"].push_back({{"t", milli(path.t_s)}, {"places", line(path.places_NE)}});
   }
   return json;
 }
