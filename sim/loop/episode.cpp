@@ -99,9 +99,8 @@ void Episode::begin() {
   const double heading_rad = pilot_.route().goal().heading_rad;
   pilot_.reset(dynamics::radius_m(hull_), dynamics::control::PositionSetpoint{aircraft_.body().p_WB, heading_rad});
   log_.set_signals(pilot_.module().signals());
-  if (const auto* highrise = std::get_if<scenes::worlds::HighriseConfig>(&scenario_.scene);
-      highrise && pilot_.first_camera()) {
-    map_score_.emplace(scenes::worlds::highrise_corners(*highrise), aircraft_.body().p_WB);
+  if (!scene_.corners_W.empty() && pilot_.first_camera()) {
+    map_score_.emplace(scene_.corners_W, aircraft_.body().p_WB);
   }
 }
 
@@ -147,6 +146,7 @@ Flight Episode::fly() {
   FlightResult& result = flight.result;
   result.outcome = *outcome_;
   result.cause = cause_;
+  result.truth_used = pilot_.truth_used();
   result.goal_distance_m = goal_distance_m();
   result.decision_ms = decision_.summary();
   result.render_ms = render_.summary();
@@ -195,19 +195,19 @@ void Episode::decide() {
   judge_map();
 }
 
-/// Keeps the module's chart and compares it with the scene, by what its first camera can see of it.
+/// Keeps the module's map and compares it with the scene, by what its first camera can see of it.
 void Episode::judge_map() {
   const double t_s = ticks_.t_s(tick_);
-  avoidance::Chart chart = pilot_.module().chart();
+  avoidance::Map map = pilot_.module().map();
   if (map_score_) {
     const avoidance::MountedCamera& camera = cameras_.mounted(*pilot_.first_camera());
     std::vector<Eigen::Vector3d> points_W;
-    for (const avoidance::ChartPoint& point : chart.points) points_W.push_back(point.p_W);
+    for (const avoidance::MapPoint& point : map.points) points_W.push_back(point.p_W);
     map_score_->add(t_s, points_W,
                     corners_in_sight(map_score_->corners_W(), camera.model, aircraft_.X_WB() * camera.X_BC,
                                      pilot_.sees_through_walls() ? nullptr : &collision_, t_s));
   }
-  map_log_.add(t_s, std::move(chart));
+  map_log_.add(t_s, std::move(map));
 }
 
 /// Runs the autopilot.

@@ -4,6 +4,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "avoidance/module.h"
@@ -12,14 +13,13 @@
 #include "sim/loop/route.h"
 #include "sim/loop/ticks.h"
 #include "sim/scenario/scenario.h"
-#include "sim/verdict/corner_sight.h"
 
 namespace hedgehop::sim {
 
 /// The module in flight: what it is shown, when it decides, and when its commands reach the autopilot.
 class ModulePilot {
  public:
-  /// Throws InputError for a module that cannot be made, lacks a camera, or asks for true corners where none are known.
+  /// Throws InputError for a module that cannot be made or lacks a camera.
   ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& cameras);
 
   /// Starts a flight. @param vehicle_radius_m  of the vertical cylinder that holds the vehicle. @param hold  in effect
@@ -43,8 +43,10 @@ class ModulePilot {
   const Route& route() const { return route_; }
   /// The first camera it needs, if any: what its map is made from.
   std::optional<size_t> first_camera() const;
-  /// Whether it is shown the scene's true corners, through walls.
-  bool sees_through_walls() const { return corners_.has_value(); }
+  /// Whether that camera delivers the scene's corners through walls.
+  bool sees_through_walls() const;
+  /// Which of its cameras deliver truth: "camera 'front': projected corners", "camera 'left': depth".
+  const std::vector<std::string>& truth_used() const { return truth_used_; }
 
  private:
   /// A decision on its way to the autopilot.
@@ -58,7 +60,7 @@ class ModulePilot {
   Cameras& cameras_;
   std::unique_ptr<avoidance::Module> module_;
   std::vector<size_t> module_cameras_;
-  std::optional<ProjectedCorners> corners_;  ///< for a module that asks for the true ones
+  std::vector<std::string> truth_used_;
   int64_t decision_period_ = 0, latency_ = 0;
   Route route_;
   std::vector<avoidance::CameraFrame> seen_;  ///< what the module is shown this tick

@@ -15,11 +15,13 @@ using Channel = CameraConfig::Channel;
 std::string_view words(Channel channel) {
   switch (channel) {
     case Channel::grey:
-      return "grey";
+      return "grey images";
     case Channel::color:
-      return "color";
+      return "color images";
     case Channel::depth:
-      return "depth";
+      return "depth images";
+    case Channel::corners:
+      return "corners";
   }
   return "?";
 }
@@ -143,10 +145,10 @@ class Validator {
   void needs_camera(const std::string& path, const std::string& role, Channel channel, bool pinhole) {
     if (const CameraConfig* camera = scenario_.rig.find(role)) {
       if (pinhole && !camera->straight()) {
-        add(path, fmt::format("needs camera '{}' to be a pinhole without distortion", role));
+        add(path, fmt::format("needs camera '{}' to be an undistorted pinhole", role));
       }
       if (camera->channel != channel) {
-        add(path, fmt::format("needs camera '{}' to give {} images; its channel is {}", role, words(channel),
+        add(path, fmt::format("needs camera '{}' to deliver {}; it delivers {}", role, words(channel),
                               words(camera->channel)));
       }
       return;

@@ -55,6 +55,9 @@ std::vector<Row> rows() {
   refined.command_time_constant_s = 0.3;
   refined.spiral_angle_rad = 0.1;
   all.push_back({"flow_balance_refined", refined});
+  landmark_map::LandmarkMapModuleConfig thesis;
+  thesis.law = landmark_map::Law::printed;
+  all.push_back({.name = "landmark_map_printed", .config = thesis, .holds_heading = false});
   return all;
 }
 

@@ -50,7 +50,7 @@ TEST(ReportInBrowser, ShowsTheMapBesideTheTruthWhereAFlightHasOne) {
   flight.map.points = {{{40, 10, -20}, covariance, true}, {{60, -30, -5}, covariance, false}};
   flight.map.corners = {{{41, 10, -20}, true, true}, {{20, 40, -20}, true, false}};
   flight.map.course_NE = {{0, 0}, {100, 0}};
-  flight.map.ways = {{2.0, {{30, 20}, {100, 0}}}};
+  flight.map.paths = {{2.0, {{30, 20}, {100, 0}}}};
   write_result_files(run.path(), {.scenario = "map", .scenario_yaml = run.yaml()}, flight);
   write_report(run.path());
   const PageVisit page = visit(run.path() / "report.html", R"js(

@@ -114,7 +114,7 @@ TEST(RigFile, AScenarioNamesThePlaceOfAFaultyLens) {
                   std::vector<std::string>{"rig.cameras.2.model=fisheye", "rig.cameras.2.distortion=[1, 2]"});
   });
   EXPECT_THAT(faults, testing::Contains(HasSubstr("--set rig.cameras.2.distortion: 'rig.cameras.2.distortion'")));
-  EXPECT_THAT(faults, testing::Contains(HasSubstr("needs camera 'front' to be a pinhole without distortion")));
+  EXPECT_THAT(faults, testing::Contains(HasSubstr("needs camera 'front' to be an undistorted pinhole")));
 }
 
 TEST(RigFile, AStereoPairIsTwoParallelCamerasABaselineApart) {
