@@ -3,7 +3,7 @@ include_guard()
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-hedgehop_offer(vision avoidance)
+hedgehop_offer(sim/fields vision avoidance)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/hedgehop)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/hedgehopConfig.cmake.in ${PROJECT_BINARY_DIR}/hedgehopConfig.cmake
                               INSTALL_DESTINATION ${package})

@@ -44,7 +44,7 @@ class ParameterReader : public avoidance::ParameterVisitor {
   void finish() const { reader_.finish(); }
 
  private:
-  static Field to_field(const ParameterField& field) {
+  static fields::Field to_field(const ParameterField& field) {
     return {.unit = field.unit,
             .above = field.above,
             .at_least = field.at_least,

@@ -41,7 +41,7 @@ std::string type_words(const Outline& node) {
   return node.fixed_size > 0 ? fmt::format("{} x {}", node.fixed_size, item) : "list of " + item;
 }
 
-std::string bounds_words(const Field& field) {
+std::string bounds_words(const fields::Field& field) {
   std::vector<std::string> bounds;
   const auto put = [&](std::string_view relation, const std::optional<double>& bound) {
     if (bound) bounds.push_back(fmt::format("{} {}", relation, *bound));

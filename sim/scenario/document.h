@@ -14,7 +14,7 @@ std::string document_fields(const std::vector<Outline>& fields, int indent);
 std::string document_choices(const std::vector<Outline>& choices);
 
 /// Documentation of every choice of a variant.
-template <VariantField Variant>
+template <fields::VariantField Variant>
 std::string describe_choices() {
   return document_choices(outline_alternatives<Variant>());
 }

@@ -7,14 +7,10 @@
 #include <limits>
 #include <numbers>
 
+#include "sim/fields/bounds.h"
+
 namespace hedgehop::sim {
 namespace {
-
-/// Degrees are converted with more digits than a double has: the doubles in radians are here and there closer together
-/// than those in degrees, and each of them must have a decimal in degrees.
-double to_radians(long double degrees) {
-  return static_cast<double>(degrees * (std::numbers::pi_v<long double> / 180.0L));
-}
 
 std::string_view without_plus(std::string_view text) {
   return text.size() > 1 && text[0] == '+' && text[1] != '-' ? text.substr(1) : text;
@@ -31,8 +27,6 @@ std::optional<T> parse_whole(std::string_view text) {
 
 }  // namespace
 
-bool is_degrees(std::string_view unit) { return unit == "deg" || unit == "deg/s"; }
-
 ParsedNumber parse_number(std::string_view text, bool degrees) {
   using Kind = ParsedNumber::Kind;
   text = without_plus(text);
@@ -46,15 +40,14 @@ ParsedNumber parse_number(std::string_view text, bool degrees) {
 
   ParsedNumber parsed;
   const char* last = text.data() + text.size();
-  const auto [end, error] = std::from_chars(text.data(), last, parsed.written);
+  const auto [end, error] = std::from_chars(text.data(), last, parsed.member);
   if (error == std::errc::invalid_argument || end != last) return {};
   if (error == std::errc::result_out_of_range) return {Kind::not_finite};
   parsed.kind = Kind::number;
-  parsed.member = parsed.written;
   if (degrees) {
     long double precise = 0.0L;
     std::from_chars(text.data(), last, precise);
-    parsed.member = to_radians(precise);
+    parsed.member = fields::to_radians(precise);
   }
   return parsed;
 }

@@ -9,14 +9,10 @@
 /// the same bits.
 namespace hedgehop::sim {
 
-/// Whether a field's unit is degrees or degrees a second, whose member is in radians.
-bool is_degrees(std::string_view unit);
-
 /// What a text says: a number; or why it is none.
 struct ParsedNumber {
   enum class Kind { number, not_a_number, not_finite } kind = Kind::not_a_number;
-  double written = 0.0;  ///< in the unit of the text, for bounds
-  double member = 0.0;   ///< in the unit of the member
+  double member = 0.0;  ///< in the unit of the member
 };
 
 /// Decimal numbers such as 3, -0.5, +1e3; ".inf", ".nan" and what no double can hold are not finite.

@@ -4,8 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/scenario/field.h"
-#include "sim/scenario/field_types.h"
+#include "sim/fields/bounds.h"
+#include "sim/fields/field.h"
+#include "sim/fields/field_types.h"
 #include "sim/scenario/numbers.h"
 #include "sim/scenario/tree.h"
 
@@ -17,7 +18,7 @@ struct Outline {
 
   Kind kind = Kind::group;
   std::string key;                ///< in its group; empty for items
-  Field field;                    ///< unit, bounds, choices, meaning
+  fields::Field field;            ///< unit, bounds, choices, meaning
   std::string value;              ///< of a scalar: as YAML holds it, not quoted
   bool non_negative = false;      ///< an integer whose type has no sign
   bool optional = false;          ///< may be null
@@ -36,7 +37,7 @@ struct Outline {
 Outline outline_as_written(const Node& node);
 
 template <class T>
-Outline outline(const T& value, const Field& field);
+Outline outline(const T& value, const fields::Field& field);
 
 /// The visitor that outlines the fields of one struct.
 class StructOutliner {
@@ -44,7 +45,7 @@ class StructOutliner {
   explicit StructOutliner(std::vector<Outline>& parts) : parts_(parts) {}
 
   template <class T>
-  void operator()(std::string_view key, const T& value, const Field& field) {
+  void operator()(std::string_view key, const T& value, const fields::Field& field) {
     parts_.push_back(outline(value, field));
     parts_.back().key = key;
   }
@@ -53,7 +54,7 @@ class StructOutliner {
   std::vector<Outline>& parts_;
 };
 
-template <StructField T>
+template <fields::StructField T>
 std::vector<Outline> outline_fields(const T& value) {
   std::vector<Outline> parts;
   StructOutliner outliner(parts);
@@ -62,14 +63,14 @@ std::vector<Outline> outline_fields(const T& value) {
   return parts;
 }
 
-template <VariantField T>
+template <fields::VariantField T>
 std::vector<Outline> outline_alternatives() {
   std::vector<Outline> all;
-  for_each_alternative<T>([&]<class A>() {
+  fields::for_each_alternative<T>([&]<class A>() {
     Outline choice;
     choice.key = A::kName;
     choice.meaning = A::kMeaning;
-    choice.chosen_by_key = ChosenByKey<A>;
+    choice.chosen_by_key = fields::ChosenByKey<A>;
     choice.parts = outline_fields(A{});
     all.push_back(std::move(choice));
   });
@@ -77,27 +78,27 @@ std::vector<Outline> outline_alternatives() {
 }
 
 template <class T>
-Outline outline(const T& value, const Field& field) {
+Outline outline(const T& value, const fields::Field& field) {
   Outline node;
-  if constexpr (OptionalField<T>) {
+  if constexpr (fields::OptionalField<T>) {
     using Value = typename T::value_type;
     node = outline(value ? *value : Value{}, field);
     node.optional = true;
     node.present = value.has_value();
     return node;
   }
-  if constexpr (OpenField<T>) {
+  if constexpr (fields::OpenField<T>) {
     node = outline_as_written(value);
     node.open = node.present = true;
   }
   node.field = field;
-  if constexpr (NumberField<T>) {
+  if constexpr (fields::NumberField<T>) {
     node.kind = Outline::Kind::number;
-    node.value = number_text(value, is_degrees(field.unit));
+    node.value = number_text(value, fields::is_degrees(field.unit));
   } else if constexpr (std::same_as<T, bool>) {
     node.kind = Outline::Kind::boolean;
     node.value = value ? "true" : "false";
-  } else if constexpr (IntegerField<T>) {
+  } else if constexpr (fields::IntegerField<T>) {
     node.kind = Outline::Kind::integer;
     node.value = std::to_string(value);
     node.non_negative = std::is_unsigned_v<T>;
@@ -107,25 +108,25 @@ Outline outline(const T& value, const Field& field) {
   } else if constexpr (std::same_as<T, std::filesystem::path>) {
     node.kind = Outline::Kind::text;
     node.value = value.string();
-  } else if constexpr (ChoiceField<T>) {
+  } else if constexpr (fields::ChoiceField<T>) {
     node.kind = Outline::Kind::choice;
     node.value = field.choices.at(static_cast<size_t>(value));
-  } else if constexpr (EigenField<T>) {
+  } else if constexpr (fields::EigenField<T>) {
     node.kind = Outline::Kind::list;
     node.fixed_size = static_cast<size_t>(value.size());
     for (double component : value) node.parts.push_back(outline(component, field));
     node.item.push_back(outline(0.0, field));
-  } else if constexpr (VectorField<T>) {
+  } else if constexpr (fields::VectorField<T>) {
     node.kind = Outline::Kind::list;
     for (const auto& item : value) node.parts.push_back(outline(item, field));
     node.item.push_back(outline(typename T::value_type{}, field));
-  } else if constexpr (VariantField<T>) {
+  } else if constexpr (fields::VariantField<T>) {
     node.kind = Outline::Kind::variant;
     node.all = outline_alternatives<T>();
     node.chosen = node.all.at(value.index()).key;
     node.chosen_by_key = node.all.at(value.index()).chosen_by_key;
     node.parts = std::visit([](const auto& chosen) { return outline_fields(chosen); }, value);
-  } else if constexpr (StructField<T>) {
+  } else if constexpr (fields::StructField<T>) {
     node.kind = Outline::Kind::group;
     node.parts = outline_fields(value);
   }

@@ -4,31 +4,21 @@
 
 #include <algorithm>
 
+#include "sim/fields/bounds.h"
+
 namespace hedgehop::sim {
 namespace {
 
-std::string with_unit(std::string_view value, const Field& field) {
-  return field.unit.empty() ? std::string(value) : fmt::format("{} {}", value, field.unit);
-}
-
 /// "a number", "a number in m".
-std::string number_words(std::string_view noun, const Field& field) {
+std::string number_words(std::string_view noun, const fields::Field& field) {
   return field.unit.empty() ? std::string(noun) : fmt::format("{} in {}", noun, field.unit);
 }
 
 template <class T>
-bool within_bounds(T value, const Node& node, const std::string& path, const Field& field, Faults& faults) {
-  const auto refuse = [&](std::string_view relation, double bound) {
-    faults.add(node.place, fmt::format("'{}' must be {} {}, got {}", path, relation,
-                                       with_unit(fmt::format("{}", bound), field), node.text));
-    return false;
-  };
-  const double v = static_cast<double>(value);
-  if (field.above && !(v > *field.above)) return refuse(">", *field.above);
-  if (field.at_least && !(v >= *field.at_least)) return refuse(">=", *field.at_least);
-  if (field.below && !(v < *field.below)) return refuse("<", *field.below);
-  if (field.at_most && !(v <= *field.at_most)) return refuse("<=", *field.at_most);
-  return true;
+bool within_bounds(T member, const Node& node, const std::string& path, const fields::Field& field, Faults& faults) {
+  const std::optional<std::string> bound = fields::broken_bound(static_cast<double>(member), field);
+  if (bound) faults.add(node.place, fmt::format("'{}' must be {}, got {}", path, *bound, node.text));
+  return !bound;
 }
 
 void expected(std::string_view what, const Node& node, const std::string& path, Faults& faults) {
@@ -39,7 +29,7 @@ bool is_plain_scalar(const Node& node) { return node.kind == Node::Kind::scalar 
 
 /// A whole number that its type cannot hold, or no whole number at all.
 template <class T>
-void refuse_integer(T lowest, T highest, const Node& node, const std::string& path, const Field& field,
+void refuse_integer(T lowest, T highest, const Node& node, const std::string& path, const fields::Field& field,
                     Faults& faults) {
   const size_t sign = node.text.starts_with('-') || node.text.starts_with('+') ? 1 : 0;
   const bool digits_only =
@@ -53,21 +43,23 @@ void refuse_integer(T lowest, T highest, const Node& node, const std::string& pa
 
 }  // namespace
 
-std::optional<double> read_number(const Node& node, const std::string& path, const Field& field, Faults& faults) {
+std::optional<double> read_number(const Node& node, const std::string& path, const fields::Field& field,
+                                  Faults& faults) {
   using Kind = ParsedNumber::Kind;
-  const ParsedNumber parsed = is_plain_scalar(node) ? parse_number(node.text, is_degrees(field.unit)) : ParsedNumber{};
+  const ParsedNumber parsed =
+      is_plain_scalar(node) ? parse_number(node.text, fields::is_degrees(field.unit)) : ParsedNumber{};
   if (parsed.kind == Kind::not_finite) {
     faults.add(node.place, fmt::format("'{}' must be finite, got {}", path, node.text));
   } else if (parsed.kind == Kind::not_a_number) {
     expected(number_words("a number", field), node, path, faults);
-  } else if (within_bounds(parsed.written, node, path, field, faults)) {
+  } else if (within_bounds(parsed.member, node, path, field, faults)) {
     return parsed.member;
   }
   return {};
 }
 
-std::optional<int64_t> read_signed(const Node& node, const std::string& path, const Field& field, int64_t lowest,
-                                   int64_t highest, Faults& faults) {
+std::optional<int64_t> read_signed(const Node& node, const std::string& path, const fields::Field& field,
+                                   int64_t lowest, int64_t highest, Faults& faults) {
   const std::optional<int64_t> value = is_plain_scalar(node) ? parse_signed(node.text) : std::nullopt;
   if (!value || *value < lowest || *value > highest) {
     refuse_integer(lowest, highest, node, path, field, faults);
@@ -76,8 +68,8 @@ std::optional<int64_t> read_signed(const Node& node, const std::string& path, co
   return within_bounds(*value, node, path, field, faults) ? value : std::nullopt;
 }
 
-std::optional<uint64_t> read_unsigned(const Node& node, const std::string& path, const Field& field, uint64_t highest,
-                                      Faults& faults) {
+std::optional<uint64_t> read_unsigned(const Node& node, const std::string& path, const fields::Field& field,
+                                      uint64_t highest, Faults& faults) {
   const std::optional<uint64_t> value = is_plain_scalar(node) ? parse_unsigned(node.text) : std::nullopt;
   if (!value || *value > highest) {
     refuse_integer(uint64_t{0}, highest, node, path, field, faults);
@@ -143,7 +135,7 @@ bool expect_map(const Node& node, const std::string& path, Faults& faults) {
   return false;
 }
 
-void StructReader::missing(std::string_view key, const Field& field) const {
+void StructReader::missing(std::string_view key, const fields::Field& field) const {
   const std::string unit = field.unit.empty() ? "" : fmt::format(" ({})", field.unit);
   const std::string meaning = field.meaning.empty() ? "" : fmt::format(": {}{}", field.meaning, unit);
   faults_.add(map_.place, fmt::format("missing key '{}' in {}{}", key, path_words(path_), meaning));

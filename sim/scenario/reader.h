@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "sim/scenario/field.h"
-#include "sim/scenario/field_types.h"
+#include "sim/fields/field.h"
+#include "sim/fields/field_types.h"
 #include "sim/scenario/numbers.h"
 #include "sim/scenario/tree.h"
 
@@ -16,11 +16,12 @@
 namespace hedgehop::sim {
 
 // Each reads one value or adds a fault; `path` is dotted, from the root.
-std::optional<double> read_number(const Node& node, const std::string& path, const Field& field, Faults& faults);
-std::optional<int64_t> read_signed(const Node& node, const std::string& path, const Field& field, int64_t lowest,
-                                   int64_t highest, Faults& faults);
-std::optional<uint64_t> read_unsigned(const Node& node, const std::string& path, const Field& field, uint64_t highest,
-                                      Faults& faults);
+std::optional<double> read_number(const Node& node, const std::string& path, const fields::Field& field,
+                                  Faults& faults);
+std::optional<int64_t> read_signed(const Node& node, const std::string& path, const fields::Field& field,
+                                   int64_t lowest, int64_t highest, Faults& faults);
+std::optional<uint64_t> read_unsigned(const Node& node, const std::string& path, const fields::Field& field,
+                                      uint64_t highest, Faults& faults);
 std::optional<bool> read_bool(const Node& node, const std::string& path, Faults& faults);
 std::optional<std::string> read_text(const Node& node, const std::string& path, Faults& faults);
 /// The path of a file, made absolute: one written in a file counts from that file's folder, one after --set from the
@@ -33,7 +34,7 @@ bool expect_list(const Node& node, const std::string& path, size_t size, Faults&
 bool expect_map(const Node& node, const std::string& path, Faults& faults);
 
 template <class T>
-void read_value(const Node& node, const std::string& path, const Field& field, T& value, Faults& faults);
+void read_value(const Node& node, const std::string& path, const fields::Field& field, T& value, Faults& faults);
 
 /// The visitor that reads one struct from one map.
 class StructReader {
@@ -45,7 +46,7 @@ class StructReader {
   }
 
   template <class T>
-  void operator()(std::string_view key, T& value, const Field& field) {
+  void operator()(std::string_view key, T& value, const fields::Field& field) {
     keys_.push_back(key);
     if (const Node* node = map_.find(key)) {
       read_value(*node, join_path(path_, key), field, value, faults_);
@@ -58,7 +59,7 @@ class StructReader {
   void finish() const;
 
  private:
-  void missing(std::string_view key, const Field& field) const;
+  void missing(std::string_view key, const fields::Field& field) const;
 
   const Node& map_;
   std::string path_;
@@ -66,7 +67,7 @@ class StructReader {
   std::vector<std::string_view> keys_;
 };
 
-template <StructField T>
+template <fields::StructField T>
 void read_struct(const Node& node, const std::string& path, std::string_view selector, T& value, Faults& faults) {
   if (!expect_map(node, path, faults)) return;
   StructReader reader(node, path, selector, faults);
@@ -75,11 +76,11 @@ void read_struct(const Node& node, const std::string& path, std::string_view sel
 }
 
 /// Reads the alternative that one of the map's keys tells by itself. @return whether there is one.
-template <VariantField T>
+template <fields::VariantField T>
 bool read_chosen_by_key(const Node& node, const std::string& path, T& value, Faults& faults) {
   bool chosen = false;
-  for_each_alternative<T>([&]<class A>() {
-    if constexpr (ChosenByKey<A>) {
+  fields::for_each_alternative<T>([&]<class A>() {
+    if constexpr (fields::ChosenByKey<A>) {
       if (chosen || !node.find(A::kChosenBy)) return;
       chosen = true;
       A read;
@@ -91,12 +92,12 @@ bool read_chosen_by_key(const Node& node, const std::string& path, T& value, Fau
 }
 
 /// The name under `selector` picks the alternative, which is read from the same map upon its defaults.
-template <VariantField T>
-void read_variant(const Node& node, const std::string& path, const Field& field, T& value, Faults& faults) {
+template <fields::VariantField T>
+void read_variant(const Node& node, const std::string& path, const fields::Field& field, T& value, Faults& faults) {
   if (!expect_map(node, path, faults) || read_chosen_by_key(node, path, value, faults)) return;
   std::vector<std::string_view> names;
-  for_each_alternative<T>([&]<class A>() {
-    if constexpr (!ChosenByKey<A>) names.push_back(A::kName);
+  fields::for_each_alternative<T>([&]<class A>() {
+    if constexpr (!fields::ChosenByKey<A>) names.push_back(A::kName);
   });
   const Node* selector = node.find(field.selector);
   if (!selector) {
@@ -107,8 +108,8 @@ void read_variant(const Node& node, const std::string& path, const Field& field,
   const std::optional<size_t> chosen = read_choice(*selector, join_path(path, field.selector), names, faults);
   if (!chosen) return;
   size_t index = 0;
-  for_each_alternative<T>([&]<class A>() {
-    if constexpr (!ChosenByKey<A>) {
+  fields::for_each_alternative<T>([&]<class A>() {
+    if constexpr (!fields::ChosenByKey<A>) {
       if (index++ != *chosen) return;
       A read;
       read_struct(node, path, field.selector, read, faults);
@@ -118,44 +119,44 @@ void read_variant(const Node& node, const std::string& path, const Field& field,
 }
 
 template <class T>
-void read_value(const Node& node, const std::string& path, const Field& field, T& value, Faults& faults) {
-  if constexpr (NumberField<T>) {
+void read_value(const Node& node, const std::string& path, const fields::Field& field, T& value, Faults& faults) {
+  if constexpr (fields::NumberField<T>) {
     if (auto read = read_number(node, path, field, faults)) value = *read;
   } else if constexpr (std::same_as<T, bool>) {
     if (auto read = read_bool(node, path, faults)) value = *read;
-  } else if constexpr (IntegerField<T> && std::is_signed_v<T>) {
+  } else if constexpr (fields::IntegerField<T> && std::is_signed_v<T>) {
     using Limits = std::numeric_limits<T>;
     if (auto read = read_signed(node, path, field, Limits::min(), Limits::max(), faults)) value = static_cast<T>(*read);
-  } else if constexpr (IntegerField<T>) {
+  } else if constexpr (fields::IntegerField<T>) {
     const uint64_t highest = std::numeric_limits<T>::max();
     if (auto read = read_unsigned(node, path, field, highest, faults)) value = static_cast<T>(*read);
   } else if constexpr (std::same_as<T, std::string>) {
     if (auto read = read_text(node, path, faults)) value = std::move(*read);
   } else if constexpr (std::same_as<T, std::filesystem::path>) {
     if (auto read = read_path(node, path, faults)) value = std::move(*read);
-  } else if constexpr (ChoiceField<T>) {
+  } else if constexpr (fields::ChoiceField<T>) {
     if (auto read = read_choice(node, path, field.choices, faults)) value = static_cast<T>(*read);
-  } else if constexpr (OptionalField<T>) {
+  } else if constexpr (fields::OptionalField<T>) {
     if (node.kind == Node::Kind::null) {
       value.reset();
     } else {
       value.emplace();
       read_value(node, path, field, *value, faults);
     }
-  } else if constexpr (EigenField<T>) {
+  } else if constexpr (fields::EigenField<T>) {
     if (!expect_list(node, path, static_cast<size_t>(value.size()), faults)) return;
     for (size_t i = 0; i < node.items.size(); ++i) {
       read_value(node.items[i], join_path(path, std::to_string(i)), field, value[static_cast<Eigen::Index>(i)], faults);
     }
-  } else if constexpr (VectorField<T>) {
+  } else if constexpr (fields::VectorField<T>) {
     if (!expect_list(node, path, 0, faults)) return;
     value.assign(node.items.size(), {});
     for (size_t i = 0; i < node.items.size(); ++i) {
       read_value(node.items[i], join_path(path, std::to_string(i)), field, value[i], faults);
     }
-  } else if constexpr (OpenField<T>) {
+  } else if constexpr (fields::OpenField<T>) {
     if (expect_map(node, path, faults)) value = node;
-  } else if constexpr (VariantField<T>) {
+  } else if constexpr (fields::VariantField<T>) {
     read_variant(node, path, field, value, faults);
   } else {
     read_struct(node, path, "", value, faults);

@@ -17,7 +17,7 @@ bool is_scalar(const Outline& node) {
   return node.kind != Kind::list && node.kind != Kind::group && node.kind != Kind::variant;
 }
 
-std::string description(const Field& field) {
+std::string description(const fields::Field& field) {
   if (field.unit.empty()) return std::string(field.meaning);
   return field.meaning.empty() ? fmt::format("[{}]", field.unit) : fmt::format("{} [{}]", field.meaning, field.unit);
 }

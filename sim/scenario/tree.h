@@ -20,6 +20,7 @@ struct Entry;
 
 /// A scalar, a list or a map.
 struct Node {
+  static constexpr bool kIsOpen = true;  ///< as a field it holds any keys
   enum class Kind { null, scalar, list, map };
 
   Kind kind = Kind::null;

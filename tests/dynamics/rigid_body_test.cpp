@@ -21,9 +21,9 @@ MassProperties mass_of(double xx, double yy, double zz) { return make_mass_prope
 /// Steps a body without loads; the quaternion is made unit again as in flight.
 RigidBodyState step_free(const MassProperties& mass, const RigidBodyState& state, double h) {
   const auto rate = [&](double, const RigidBodyVector& x) {
-    return helicopter::derivative(mass, to_rigid_body(x), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+    return derivative(mass, to_rigid_body(x), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
   };
-  RigidBodyState next = to_rigid_body(rk4_step<13>(helicopter::to_vector(state), 0.0, h, rate));
+  RigidBodyState next = to_rigid_body(rk4_step<13>(to_vector(state), 0.0, h, rate));
   next.q_WB.normalize();
   return next;
 }
@@ -195,7 +195,7 @@ double energy_residual(double h) {
     const helicopter::BladeAngles blades = wiggle(start->blades, t);
     const helicopter::HelicopterLoads loads = helicopter::helicopter_loads(model, s, blades, Eigen::Vector3d::Zero());
     Vector dx;
-    dx << helicopter::derivative(model, s, blades, Eigen::Vector3d::Zero()),
+    dx << derivative(model, s, blades, Eigen::Vector3d::Zero()),
         loads.f_B.dot(s.body.v_WB_B) + loads.t_B.dot(s.body.w_WB_B);
     return dx;
   };
@@ -205,7 +205,7 @@ double energy_residual(double h) {
            model.mass.mass_kg * kGravityMps2 * b.p_WB.z();
   };
   Vector x;
-  x << helicopter::to_vector(start->state), 0.0;
+  x << to_vector(start->state), 0.0;
   const double E0 = total(x);
   double greatest = 0.0;
   for (int i = 0, n = static_cast<int>(std::lround(10.0 / h)); i < n; ++i) {

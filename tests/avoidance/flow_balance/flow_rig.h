@@ -12,7 +12,7 @@
 #include "tests/vision/flow/textured_image.h"
 
 /// A small rig of four level cameras and what it sees of textured walls, for tests of modules.
-namespace hedgehop::avoidance::flow_balance {
+namespace hedgehop::avoidance {
 
 /// Camera that looks along `azimuth_rad` (from forward to the right), level, at B's origin.
 inline MountedCamera level_camera(std::string role, double azimuth_rad, int size_px, double rate_hz) {
@@ -93,4 +93,4 @@ inline vision::TexturedPlane wall(double north_m, double east_m, double normal_a
           half_width_m};
 }
 
-}  // namespace hedgehop::avoidance::flow_balance
+}  // namespace hedgehop::avoidance

@@ -12,7 +12,7 @@
 #include "avoidance/section_grid/section_grid.h"
 #include "tests/avoidance/flow_balance/flow_rig.h"
 
-namespace hedgehop::avoidance::section_grid {
+namespace hedgehop::avoidance {
 
 /// Boxes on level ground, seen by a camera that knows depth, and a point that flies as it is told.
 class SectionWorld {
@@ -112,4 +112,4 @@ class SectionWorld {
   }
 };
 
-}  // namespace hedgehop::avoidance::section_grid
+}  // namespace hedgehop::avoidance

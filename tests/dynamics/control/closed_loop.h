@@ -12,7 +12,7 @@
 #include "dynamics/vehicle.h"
 
 /// A vehicle flown by its avionics, or by its autopilot alone on perfect navigation, for tests.
-namespace hedgehop::dynamics::control {
+namespace hedgehop::dynamics {
 
 /// An independent seed per stream name: FNV-1a.
 inline uint64_t seed_of(uint64_t seed, std::string_view name) {
@@ -38,7 +38,7 @@ struct Loop {
 struct Sample {
   double t_s = 0.0;
   RigidBodyState body;
-  NavigationEstimate estimate;
+  control::NavigationEstimate estimate;
   Controls controls;
 
   Eigen::Vector3d v_WB_W() const { return body.q_WB * body.v_WB_B; }
@@ -53,12 +53,12 @@ struct Sample {
 
 /// Flies from a trimmed hover 10 m above W's origin and returns a sample per control tick (100 Hz).
 inline std::vector<Sample> fly(const Loop& loop, double duration_s,
-                               const std::function<Setpoint(double t_s)>& setpoint) {
+                               const std::function<control::Setpoint(double t_s)>& setpoint) {
   const double dt = 1.0 / loop.physics_rate_hz;
   const auto seed = [&](std::string_view name) { return seed_of(loop.seed, name); };
   Vehicle vehicle(loop.vehicle);
   Avionics avionics(loop.avionics, loop.designed_for.value_or(loop.vehicle), dt, seed);
-  Autopilot autopilot(loop.avionics.autopilot, loop.designed_for.value_or(loop.vehicle));
+  control::Autopilot autopilot(loop.avionics.autopilot, loop.designed_for.value_or(loop.vehicle));
   air::Wind weather(loop.weather.value_or(air::WindConfig{}), seed("wind"));
   sensors::NormalStream flow(seed("flow"));
 
@@ -73,7 +73,7 @@ inline std::vector<Sample> fly(const Loop& loop, double duration_s,
   };
   avionics.reset(truth());
   const auto known = [&] {
-    NavigationEstimate e = avionics.navigation();
+    control::NavigationEstimate e = avionics.navigation();
     if (loop.perfect) {
       const RigidBodyState& b = vehicle.body();
       e.p_WB_est = b.p_WB, e.q_WB_est = b.q_WB, e.v_WB_B_est = b.v_WB_B, e.w_WB_B_est = b.w_WB_B;
@@ -104,4 +104,4 @@ inline std::vector<Sample> fly(const Loop& loop, double duration_s,
   return samples;
 }
 
-}  // namespace hedgehop::dynamics::control
+}  // namespace hedgehop::dynamics

@@ -8,7 +8,7 @@
 #include "tests/dynamics/control/closed_loop.h"
 
 /// What a vehicle and its autopilot make of a step of the commanded velocity, for tests.
-namespace hedgehop::dynamics::control {
+namespace hedgehop::dynamics {
 
 /// How a velocity step went, in the direction of the step.
 struct StepResponse {
@@ -24,11 +24,11 @@ struct StepResponse {
 inline StepResponse step_response(const Loop& loop, const Eigen::Vector2d& v_WB_W, double duration_s = 6.0) {
   constexpr double kStepAtS = 1.0;
   const std::vector<Sample> flight = fly(loop, kStepAtS + duration_s, [&](double t_s) {
-    return VelocitySetpoint{t_s < kStepAtS ? Eigen::Vector2d(0.0, 0.0) : v_WB_W, 10.0, loop.heading_rad};
+    return control::VelocitySetpoint{t_s < kStepAtS ? Eigen::Vector2d(0.0, 0.0) : v_WB_W, 10.0, loop.heading_rad};
   });
   const double size = v_WB_W.norm();
   const Eigen::Vector2d along = v_WB_W / size, across{-along.y(), along.x()};
-  const HoverModel hover = make_hover_model(loop.vehicle);
+  const control::HoverModel hover = control::make_hover_model(loop.vehicle);
   StepResponse r;
   double t10 = 0.0, t90 = 0.0;
   for (const Sample& s : flight) {
@@ -49,4 +49,4 @@ inline StepResponse step_response(const Loop& loop, const Eigen::Vector2d& v_WB_
   return r;
 }
 
-}  // namespace hedgehop::dynamics::control
+}  // namespace hedgehop::dynamics

@@ -20,7 +20,7 @@ using L = LinearModel;
 
 struct Hover {
   HelicopterModel model = make_model(HelicopterConfig{});
-  Trim trim = *dynamics::trim(model, Eigen::Vector3d::Zero());
+  Trim trim = *helicopter::trim(model, Eigen::Vector3d::Zero());
   LinearModel linear = linearize(model, trim);
 };
 const Hover& hover() {

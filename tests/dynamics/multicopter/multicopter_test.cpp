@@ -246,7 +246,7 @@ TEST(Multicopter, RefusesWhatCannotFly) {
 }
 
 TEST(Multicopter, HullHoldsEveryRotorAndArm) {
-  const std::vector<HullPart> parts = hull(VehicleConfig(s900()));
+  const std::vector<HullPart> parts = dynamics::hull(VehicleConfig(s900()));
   ASSERT_EQ(parts.size(), 8u);
   EXPECT_NEAR(radius_m(parts), 0.45 + 0.1905, 1e-12);
   for (size_t i = 0; i < 6; ++i) {

@@ -7,17 +7,17 @@
 #include "dynamics/multicopter/multicopter.h"
 
 /// Multicopters with published parameters, for tests.
-namespace hedgehop::dynamics::multicopter {
+namespace hedgehop::dynamics {
 
-using Turns = ArmConfig::Turns;
+using Turns = multicopter::ArmConfig::Turns;
 inline constexpr double kDeg = std::numbers::pi / 180.0;
 
 // [FurrerBurriAchtelikSiegwart2016] table of parameters in the model file; the default.
-inline MulticopterConfig hummingbird_a() { return {}; }
+inline multicopter::MulticopterConfig hummingbird_a() { return {}; }
 
 // [FolkPaulosKumar2023] table of the Hummingbird's parameters: another set.
-inline MulticopterConfig hummingbird_b() {
-  MulticopterConfig c;
+inline multicopter::MulticopterConfig hummingbird_b() {
+  multicopter::MulticopterConfig c;
   c.mass = {0.5, {3.65e-3, 3.68e-3, 7.03e-3}, 0.0};
   c.arms = {{45 * kDeg, 0.17, Turns::clockwise},
             {135 * kDeg, 0.17, Turns::counter_clockwise},
@@ -38,8 +38,8 @@ inline MulticopterConfig hummingbird_b() {
 
 // [FurrerBurriAchtelikSiegwart2016] table of parameters in the model file; the published yaw inertia, 0.0977, is larger
 // than the other two together, which no body's is: their sum stands for it.
-inline MulticopterConfig firefly() {
-  MulticopterConfig c;
+inline multicopter::MulticopterConfig firefly() {
+  multicopter::MulticopterConfig c;
   c.mass = {1.53, {0.0347563, 0.0458929, 0.0806492}, 0.0};
   c.arms.clear();
   for (const auto& [azimuth_deg, turns] :
@@ -56,8 +56,8 @@ inline MulticopterConfig firefly() {
   return c;
 }
 
-inline MulticopterConfig s900() {
-  MulticopterConfig c;
+inline multicopter::MulticopterConfig s900() {
+  multicopter::MulticopterConfig c;
   c.mass = {4.606, {0.25665, 0.25024, 0.36309}, -0.00241};
   c.arms.clear();
   for (int i = 0; i < 6; ++i) {
@@ -78,4 +78,4 @@ inline MulticopterConfig s900() {
   return c;
 }
 
-}  // namespace hedgehop::dynamics::multicopter
+}  // namespace hedgehop::dynamics

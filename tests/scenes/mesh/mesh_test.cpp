@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-#include "scene_equality.h"
+#include "tests/scenes/scene_equality.h"
 #include "scenes/generators.h"
 
 namespace hedgehop::scenes::mesh {

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "scene_equality.h"
+#include "tests/scenes/scene_equality.h"
 #include "scenes/generators.h"
 
 namespace hedgehop::scenes::worlds {

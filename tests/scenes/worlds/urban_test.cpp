@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "scene_equality.h"
+#include "tests/scenes/scene_equality.h"
 #include "scenes/generators.h"
 #include "scenes/worlds/urban_plan.h"
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "scene_equality.h"
+#include "tests/scenes/scene_equality.h"
 #include "scenes/generators.h"
 #include "scenes/textures/stone_textures.h"
 

@@ -4,7 +4,7 @@
 
 #include "sim/campaign/campaign_file.h"
 #include "sim/campaign/table.h"
-#include "sim/scenario/field_types.h"
+#include "sim/fields/field_types.h"
 #include "tests/sim/campaign/campaign_folder.h"
 #include "tests/sim/record/browser.h"
 
@@ -134,7 +134,7 @@ TEST(Leaderboard, TheShippedOneHasEveryModuleAndNoCellWithoutFlightOrReason) {
   std::vector<std::string> flown;
   for (const LeaderboardModule& module : batch.leaderboard->modules) flown.push_back(module.name);
   std::vector<std::string> all;
-  for_each_alternative<avoidance::ModuleConfig>([&]<class A>() { all.emplace_back(A::kName); });
+  fields::for_each_alternative<avoidance::ModuleConfig>([&]<class A>() { all.emplace_back(A::kName); });
   EXPECT_THAT(flown, testing::UnorderedElementsAreArray(all));
 }
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <random>
 
-#include "sim/scenario/field.h"
-#include "sim/scenario/field_types.h"
+#include "sim/fields/field.h"
+#include "sim/fields/field_types.h"
 
 namespace hedgehop::sim {
 
@@ -14,12 +14,12 @@ class Randomizer {
   explicit Randomizer(uint64_t seed) : random_(seed) {}
 
   template <class T>
-  void operator()(std::string_view, T& value, const Field& field) {
-    if constexpr (NumberField<T>) {
+  void operator()(std::string_view, T& value, const fields::Field& field) {
+    if constexpr (fields::NumberField<T>) {
       value = number(field);
     } else if constexpr (std::same_as<T, bool>) {
       value = random_() % 2 == 0;
-    } else if constexpr (IntegerField<T>) {
+    } else if constexpr (fields::IntegerField<T>) {
       const double low = field.at_least.value_or(field.above ? *field.above + 1.0 : 0.0);
       const double high = field.at_most.value_or(field.below ? *field.below - 1.0 : low + 1e6);
       value = static_cast<T>(low) + static_cast<T>(random_() % static_cast<uint64_t>(high - low + 1.0));
@@ -27,21 +27,21 @@ class Randomizer {
       value = text();
     } else if constexpr (std::same_as<T, std::filesystem::path>) {
       value = random_() % 2 == 0 ? "" : "/calibrations/a b.txt";
-    } else if constexpr (ChoiceField<T>) {
+    } else if constexpr (fields::ChoiceField<T>) {
       value = static_cast<T>(random_() % field.choices.size());
-    } else if constexpr (OptionalField<T>) {
+    } else if constexpr (fields::OptionalField<T>) {
       value.reset();
       if (random_() % 2 == 0) (*this)("", value.emplace(), field);
-    } else if constexpr (EigenField<T>) {
+    } else if constexpr (fields::EigenField<T>) {
       for (double& component : value) component = number(field);
-    } else if constexpr (VectorField<T>) {
+    } else if constexpr (fields::VectorField<T>) {
       value.assign(random_() % 4, {});
       for (auto& item : value) (*this)("", item, field);
-    } else if constexpr (OpenField<T>) {
+    } else if constexpr (fields::OpenField<T>) {
       value = map(2);
-    } else if constexpr (VariantField<T>) {
+    } else if constexpr (fields::VariantField<T>) {
       size_t chosen = random_() % std::variant_size_v<T>;
-      for_each_alternative<T>([&]<class A>() {
+      fields::for_each_alternative<T>([&]<class A>() {
         if (chosen-- == 0) describe(*this, value.template emplace<A>());
       });
     } else {
@@ -65,7 +65,7 @@ class Randomizer {
     return {.kind = Node::Kind::list, .items = std::vector<Node>(1 + random_() % 3, any(0))};
   }
 
-  double number(const Field& field) {
+  double number(const fields::Field& field) {
     const double scale = field.unit == "deg" || field.unit == "deg/s" ? 3.14159265358979 / 180.0 : 1.0;
     const std::optional<double> low = field.above ? field.above : field.at_least;
     const std::optional<double> high = field.below ? field.below : field.at_most;

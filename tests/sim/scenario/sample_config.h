@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "sim/scenario/field.h"
-#include "sim/scenario/field_types.h"
+#include "sim/fields/field.h"
+#include "sim/fields/field_types.h"
 
 /// A config with every kind of field, for tests that must not change when a vehicle does.
 namespace hedgehop::sample {

@@ -76,7 +76,7 @@ TEST(MulticopterFiles, HoldThePublishedParameters) {
     SCOPED_TRACE(name);
     const auto flown = std::get<dynamics::multicopter::MulticopterConfig>(
         load_vehicle(HEDGEHOP_SOURCE_DIR "/configs/vehicles/" + name + ".yaml"));
-    const dynamics::multicopter::MulticopterModel a = dynamics::make_model(flown), b = dynamics::make_model(config);
+    const dynamics::multicopter::MulticopterModel a = make_model(flown), b = make_model(config);
     ASSERT_EQ(a.rotors.size(), b.rotors.size());
     EXPECT_LT((a.wrench_of_thrusts - b.wrench_of_thrusts).norm(), 1e-12);
     EXPECT_EQ(a.mass.mass_kg, b.mass.mass_kg);

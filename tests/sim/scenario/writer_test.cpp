@@ -16,10 +16,10 @@ namespace {
 class Bits {
  public:
   template <class T>
-  void operator()(std::string_view, T& value, const Field& field) {
-    if constexpr (NumberField<T>) {
+  void operator()(std::string_view, T& value, const fields::Field& field) {
+    if constexpr (fields::NumberField<T>) {
       bits.push_back(std::bit_cast<uint64_t>(value));
-    } else if constexpr (std::same_as<T, bool> || IntegerField<T> || ChoiceField<T>) {
+    } else if constexpr (std::same_as<T, bool> || fields::IntegerField<T> || fields::ChoiceField<T>) {
       bits.push_back(static_cast<uint64_t>(value));
     } else if constexpr (std::same_as<T, std::string>) {
       bits.insert(bits.end(), value.begin(), value.end());
@@ -27,15 +27,15 @@ class Bits {
     } else if constexpr (std::same_as<T, std::filesystem::path>) {
       std::string text = value.string();
       (*this)("", text, field);
-    } else if constexpr (OptionalField<T>) {
+    } else if constexpr (fields::OptionalField<T>) {
       bits.push_back(value.has_value());
       if (value) (*this)("", *value, field);
-    } else if constexpr (EigenField<T> || VectorField<T>) {
+    } else if constexpr (fields::EigenField<T> || fields::VectorField<T>) {
       bits.push_back(static_cast<uint64_t>(value.size()));
       for (auto& item : value) (*this)("", item, field);
-    } else if constexpr (OpenField<T>) {
+    } else if constexpr (fields::OpenField<T>) {
       add(value);
-    } else if constexpr (VariantField<T>) {
+    } else if constexpr (fields::VariantField<T>) {
       bits.push_back(value.index());
       std::visit([&](auto& chosen) { describe(*this, chosen); }, value);
     } else {

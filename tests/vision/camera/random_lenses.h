@@ -6,14 +6,14 @@
 #include "vision/camera/camera.h"
 
 /// Cameras of every kind for property tests, as different as cameras are.
-namespace hedgehop::vision::camera {
+namespace hedgehop::vision {
 
 inline double uniform(std::mt19937_64& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-inline Camera random_distorted_pinhole(std::mt19937_64& random) {
-  PinholeLens lens{uniform(random, 250, 500), uniform(random, 250, 500), uniform(random, 150, 170),
+inline camera::Camera random_distorted_pinhole(std::mt19937_64& random) {
+  camera::PinholeLens lens{uniform(random, 250, 500), uniform(random, 250, 500), uniform(random, 150, 170),
                    uniform(random, 110, 130)};
   lens.k1 = uniform(random, -0.35, 0.3);
   lens.k2 = uniform(random, -0.05, 0.15);
@@ -23,8 +23,8 @@ inline Camera random_distorted_pinhole(std::mt19937_64& random) {
   return {320, 240, lens};
 }
 
-inline Camera random_fisheye(std::mt19937_64& random) {
-  FisheyeLens lens{uniform(random, 70, 130), uniform(random, 70, 130), uniform(random, 150, 170),
+inline camera::Camera random_fisheye(std::mt19937_64& random) {
+  camera::FisheyeLens lens{uniform(random, 70, 130), uniform(random, 70, 130), uniform(random, 150, 170),
                    uniform(random, 110, 130)};
   lens.k1 = uniform(random, -0.05, 0.05);
   lens.k2 = uniform(random, -0.01, 0.01);
@@ -56,4 +56,4 @@ inline constexpr const char* kSmallCalibration = R"(#polynomial coefficients for
 480 752
 )";
 
-}  // namespace hedgehop::vision::camera
+}  // namespace hedgehop::vision

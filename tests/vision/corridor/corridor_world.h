@@ -10,7 +10,7 @@
 #include "vision/camera/camera.h"
 
 /// A straight corridor along north and what a fisheye below a vehicle sees of it, drawn ray by ray.
-namespace hedgehop::vision::corridor {
+namespace hedgehop::vision {
 
 /// 190 degrees wide, the whole circle in the image.
 inline camera::Camera whole_fisheye(int width_px = 752, int height_px = 480) {
@@ -88,4 +88,4 @@ inline cv::Mat draw_planes_through(const camera::Camera& camera, const Eigen::Is
   });
 }
 
-}  // namespace hedgehop::vision::corridor
+}  // namespace hedgehop::vision

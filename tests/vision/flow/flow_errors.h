@@ -7,7 +7,7 @@
 #include "vision/flow/flow_field.h"
 
 /// How far a flow field is from the truth, for tests.
-namespace hedgehop::vision::flow {
+namespace hedgehop::vision {
 
 inline constexpr int kSize = 400;
 
@@ -17,9 +17,9 @@ struct Errors {
 };
 
 template <class TrueFlow>
-Errors errors(const FlowField& field, TrueFlow true_flow) {
+Errors errors(const flow::FlowField& field, TrueFlow true_flow) {
   Errors e;
-  for (const FlowVector& vector : field.vectors) {
+  for (const flow::FlowVector& vector : field.vectors) {
     if (!vector.valid) continue;
     const double error = (vector.flow_px - true_flow(vector.center_px)).norm();
     e.rms_px += error * error;
@@ -36,10 +36,10 @@ inline cv::Mat shifted(const WaveTexture& texture, const Eigen::Vector2d& shift_
                     [&](double u, double v) { return texture.grey(u - shift_px.x(), v - shift_px.y()); });
 }
 
-inline double largest(const FlowField& field) {
+inline double largest(const flow::FlowField& field) {
   double length = 0.0;
-  for (const FlowVector& vector : field.vectors) length = std::max(length, vector.flow_px.norm());
+  for (const flow::FlowVector& vector : field.vectors) length = std::max(length, vector.flow_px.norm());
   return length;
 }
 
-}  // namespace hedgehop::vision::flow
+}  // namespace hedgehop::vision

@@ -7,11 +7,11 @@
 #include "vision/flow/flow_field.h"
 
 /// Exact flow of points on a plane, by projecting them before and after a camera's finite motion.
-namespace hedgehop::vision::flow {
+namespace hedgehop::vision {
 
 /// Evenly spaced places between `rim_px` and the image's other side, all valid, no flow.
-inline FlowField grid_field(int rows, int cols, double rim_px, int size_px) {
-  FlowField field;
+inline flow::FlowField grid_field(int rows, int cols, double rim_px, int size_px) {
+  flow::FlowField field;
   field.rows = rows;
   field.cols = cols;
   const double span = size_px - 1 - 2 * rim_px;
@@ -27,13 +27,13 @@ inline FlowField grid_field(int rows, int cols, double rim_px, int size_px) {
 /// @param field  where the flow is wanted; invalid vectors stay as they are.
 /// @param on_plane_C, normal_C  the plane in the camera before it moves, m.
 /// @param v_WC_C, w_WC_C  constant in the camera as it was before the motion, m/s and rad/s.
-inline FlowField plane_flow(const camera::PinholeCamera& camera, FlowField field, const Eigen::Vector3d& on_plane_C,
+inline flow::FlowField plane_flow(const camera::PinholeCamera& camera, flow::FlowField field, const Eigen::Vector3d& on_plane_C,
                             const Eigen::Vector3d& normal_C, const Eigen::Vector3d& v_WC_C,
                             const Eigen::Vector3d& w_WC_C, double dt_s) {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   motion.translation() = v_WC_C * dt_s;
   if (w_WC_C.norm() > 0.0) motion.rotate(Eigen::AngleAxisd(w_WC_C.norm() * dt_s, w_WC_C.normalized()));
-  for (FlowVector& vector : field.vectors) {
+  for (flow::FlowVector& vector : field.vectors) {
     if (!vector.valid) continue;
     const Eigen::Vector3d ray = camera.ray(vector.center_px);
     const Eigen::Vector3d p = ray * (normal_C.dot(on_plane_C) / normal_C.dot(ray));
@@ -42,4 +42,4 @@ inline FlowField plane_flow(const camera::PinholeCamera& camera, FlowField field
   return field;
 }
 
-}  // namespace hedgehop::vision::flow
+}  // namespace hedgehop::vision

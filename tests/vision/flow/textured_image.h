@@ -15,7 +15,7 @@
 
 /// Images with known motion: a texture is a sum of waves, so that it can be evaluated exactly at any place and needs
 /// no interpolation when it moves by a part of a pixel.
-namespace hedgehop::vision::flow {
+namespace hedgehop::vision {
 
 class WaveTexture {
  public:
@@ -94,4 +94,4 @@ inline cv::Mat draw_planes(const camera::PinholeCamera& camera, const Eigen::Iso
   });
 }
 
-}  // namespace hedgehop::vision::flow
+}  // namespace hedgehop::vision

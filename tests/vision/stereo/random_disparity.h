@@ -6,13 +6,13 @@
 
 #include "vision/stereo/disparity.h"
 
-namespace hedgehop::vision::stereo {
+namespace hedgehop::vision {
 
 /// Disparity images of several kinds, by `kind` modulo 5: dense and smooth, dense noise, sparse, slanted planes with
 /// holes, blocks before a sky.
 inline cv::Mat random_disparity(std::mt19937_64& random, cv::Size size, int kind) {
   const auto uniform = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
-  cv::Mat d(size, CV_16SC1, cv::Scalar(kNoDisparity));
+  cv::Mat d(size, CV_16SC1, cv::Scalar(stereo::kNoDisparity));
   const int base = uniform(20, 300), slope_u = uniform(-4, 4), slope_v = uniform(-4, 4);
   const auto each = [&](auto value) {
     for (int v = 0; v < size.height; ++v) {
@@ -27,11 +27,11 @@ inline cv::Mat random_disparity(std::mt19937_64& random, cv::Size size, int kind
       each([&](int, int) { return uniform(0, 400); });
       break;
     case 2:
-      each([&](int, int) { return uniform(0, 99) < 1 ? uniform(0, 400) : int{kNoDisparity}; });
+      each([&](int, int) { return uniform(0, 99) < 1 ? uniform(0, 400) : int{stereo::kNoDisparity}; });
       break;
     case 3:
       each([&](int u, int v) {
-        return uniform(0, 9) < 3 ? int{kNoDisparity} : std::max(0, base + slope_u * u + slope_v * v);
+        return uniform(0, 9) < 3 ? int{stereo::kNoDisparity} : std::max(0, base + slope_u * u + slope_v * v);
       });
       break;
     default:
@@ -45,4 +45,4 @@ inline cv::Mat random_disparity(std::mt19937_64& random, cv::Size size, int kind
   return d;
 }
 
-}  // namespace hedgehop::vision::stereo
+}  // namespace hedgehop::vision

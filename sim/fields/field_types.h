@@ -12,9 +12,7 @@
 #include <vector>
 
 /// The kinds of member that `describe(visitor, config)` may list.
-namespace hedgehop::sim {
-
-struct Node;
+namespace hedgehop::fields {
 
 template <class T>
 struct IsVector : std::false_type {};
@@ -47,9 +45,11 @@ template <class T>
 concept IntegerField = std::integral<T> && !std::same_as<T, bool>;
 template <class T>
 concept ChoiceField = std::is_enum_v<T>;
-/// A map that is kept as it was written, for others to read.
+/// A map that is kept as it was written, for others to read: its type has a kIsOpen.
 template <class T>
-concept OpenField = std::same_as<T, Node>;
+concept OpenField = requires {
+  T::kIsOpen;
+};
 /// An alternative of a variant that is chosen by one of its keys instead of the variant's selector.
 template <class T>
 concept ChosenByKey = requires {
@@ -68,4 +68,4 @@ void for_each_alternative(F&& f) {
   (std::make_index_sequence<std::variant_size_v<Variant>>());
 }
 
-}  // namespace hedgehop::sim
+}  // namespace hedgehop::fields

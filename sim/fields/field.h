@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hedgehop::sim {
+namespace hedgehop::fields {
 
 /// What `describe(visitor, config)` says of one field. Bounds are in the unit that YAML uses ("deg" and "deg/s" are
 /// read as degrees into a member in radians; every other unit is SI and read as it stands).
@@ -21,4 +21,4 @@ struct Field {
   std::string_view meaning = "";
 };
 
-}  // namespace hedgehop::sim
+}  // namespace hedgehop::fields
