@@ -147,8 +147,8 @@ class Module {
 
   /// Returns the decision for what is seen now. Throws std::logic_error when called before reset(), when time does not
   /// rise, when navigation or goal are not finite, when a frame comes from the future or does not fit its camera's size
-  /// or the needed channel (corners have no size), or when do_update() returns a command that is not finite or has the wrong number of
-  /// signals. A speed above the limit is scaled down to it.
+  /// or the needed channel (corners have no size), or when do_update() returns a command that is not finite or has the
+  /// wrong number of signals. A speed above the limit is scaled down to it.
   Decision update(const Observation& observation);
 
   /// Figures of the flight so far, for result.json.

@@ -48,7 +48,8 @@ class LandmarkMapModule final : public Module {
     if (frame != observation.frames.end()) look(*frame, navigation);
 
     Decision decision;
-    if (stops_before_walls() && wall_stop_.update(flow_ ? flow_->measure(observation.t_ns) : std::nullopt, navigation)) {
+    if (stops_before_walls() &&
+        wall_stop_.update(flow_ ? flow_->measure(observation.t_ns) : std::nullopt, navigation)) {
       decision = {HoverCommand{}, "stop", {}};
     } else if (config_.orbit) {
       decision = {orbit_command(*config_.orbit, *start_NE_, at_NE_, -observation.goal.p_WG.z()), "orbit", {}};
@@ -92,8 +93,8 @@ class LandmarkMapModule final : public Module {
             {"filter_ms_total", sight_ ? sight_->filter_ms() : 0.0, "ms"}};
   }
 
-  /// The landmarks that are known to a tenth of their distance. Places where one thing hides another move over the world
-  /// as the camera does: they fit no point, and stay vague.
+  /// The landmarks that are known to a tenth of their distance. Places where one thing hides another move over the
+  /// world as the camera does: they fit no point, and stay vague.
   std::vector<MapPoint> known_points() const {
     constexpr double kKnownShare = 0.1;
     std::vector<MapPoint> points;

@@ -14,8 +14,7 @@ VelocityCommand orbit_command(const Orbit& orbit, const Eigen::Vector2d& start_N
   const Eigen::Vector2d out = at_NE - middle;
   const double radius_m = std::max((start_NE - middle).norm(), 1.0), now_m = std::max(out.norm(), 1.0);
   VelocityCommand command;
-  command.v_WB_W =
-      orbit.rate_radps * Eigen::Vector2d(-out.y(), out.x()) + kBackPerS * (radius_m - now_m) * out / now_m;
+  command.v_WB_W = orbit.rate_radps * Eigen::Vector2d(-out.y(), out.x()) + kBackPerS * (radius_m - now_m) * out / now_m;
   command.heading_rad = std::atan2(-out.y(), -out.x());
   command.altitude_m = altitude_m;
   return command;

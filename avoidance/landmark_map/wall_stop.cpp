@@ -10,8 +10,8 @@ bool WallStop::update(const std::optional<CameraFlow::Measure>& flow, const Navi
   smooth(flow);
   const double v_mps = std::max(0.0, navigation.v_WB_B_est.x());
   const double reaction_m = v_mps * kReactionS + 0.5 * v_mps * v_mps / kBrakingMps2;
-  const bool near = loom_per_s_ * time_to_contact_s_ > 1.0 ||
-                    (navigation.range_m && *navigation.range_m < kStopRangeM + reaction_m);
+  const bool near =
+      loom_per_s_ * time_to_contact_s_ > 1.0 || (navigation.range_m && *navigation.range_m < kStopRangeM + reaction_m);
   alarms_ = near ? alarms_ + 1 : 0;
   stopped_ = stopped_ || alarms_ >= kAlarms;
   return stopped_;

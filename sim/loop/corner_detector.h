@@ -11,9 +11,9 @@
 
 namespace hedgehop::sim {
 
-/// An ideal corner detector in a camera's place, made from the truth: positions of those known corners of the scene that
-/// lie in the image, whatever stands before them, each with white noise. It is the front end of [Shah2009] ch. 4, which
-/// has no images.
+/// An ideal corner detector in a camera's place, made from the truth: positions of those known corners of the scene
+/// that lie in the image, whatever stands before them, each with white noise. It is the front end of [Shah2009] ch. 4,
+/// which has no images.
 class CornerDetector {
  public:
   /// @param corners_W  m. @param noise_px  standard deviation per axis, >= 0. @param seed  of the noise's stream.

@@ -30,7 +30,7 @@ struct CameraConfig {
   double rate_hz = 50.0;
   Channel channel = Channel::grey;
   double corner_noise_px = 0.5;  ///< of a corner detector that works well
-  int samples = 1;  ///< places in each pixel that grey and color are the mean of: 1, 2, 4 or 8
+  int samples = 1;               ///< places in each pixel that grey and color are the mean of: 1, 2, 4 or 8
   double forward_m = 0.0, right_m = 0.0, down_m = 0.0;
   double yaw_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
   ImperfectionsConfig imperfections;

@@ -36,8 +36,8 @@ CameraPose as_one_of_correlated(const CameraPose& pose, double correlation_s, do
 /// Matches the confirmed landmarks first and the others with what is left. A Z value falls as the landmark's variance
 /// grows, so one just begun beside a confirmed one would take over its bearings, until that one is deleted as missed.
 std::vector<std::optional<size_t>> match_confirmed_first(std::span<const std::optional<PredictedBearing>> predicted,
-                                                     const std::vector<bool>& confirmed,
-                                                     std::span<const Eigen::Vector2d> bearings, double gate) {
+                                                         const std::vector<bool>& confirmed,
+                                                         std::span<const Eigen::Vector2d> bearings, double gate) {
   std::vector<std::optional<PredictedBearing>> first(predicted.begin(), predicted.end()), then = first;
   for (size_t k = 0; k < predicted.size(); ++k) (confirmed[k] ? then : first)[k].reset();
   std::vector<std::optional<size_t>> landmark_of = match_landmarks(first, bearings, gate);

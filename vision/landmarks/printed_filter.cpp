@@ -26,9 +26,9 @@ std::optional<Projected> project(const Vector3d& X_v, const CameraPose& camera, 
   const Vector3d X_c = L_bv * X;                           // eq. (4.9); our optical axis is z
   if (!(X_c.z() > kNearestM)) return std::nullopt;
   Projected seen;
-  seen.x_k = X_c.head<2>() / X_c.z();              // eq. (4.11), f = 1
-  seen.H << Matrix2d::Identity(), -seen.x_k;       // eq. (4.19)
-  seen.H = (seen.H / X_c.z() * L_bv).eval();       // eq. (4.20)
+  seen.x_k = X_c.head<2>() / X_c.z();         // eq. (4.11), f = 1
+  seen.H << Matrix2d::Identity(), -seen.x_k;  // eq. (4.19)
+  seen.H = (seen.H / X_c.z() * L_bv).eval();  // eq. (4.20)
   const double shift = camera.position_sigma_m / X_c.z();
   const double variance =
       bearing_sigma * bearing_sigma + shift * shift + camera.attitude_sigma_rad * camera.attitude_sigma_rad;
@@ -38,12 +38,12 @@ std::optional<Projected> project(const Vector3d& X_v, const CameraPose& camera, 
 
 /// Z value: the error index J squared over its variance C.
 double z_of(const Projected& seen, const Matrix3d& P, const Vector2d& Z) {
-  const Vector2d d = Z - seen.x_k;      // eq. (4.7)
-  const double J = d.squaredNorm();     // eq. (4.5)
+  const Vector2d d = Z - seen.x_k;   // eq. (4.7)
+  const double J = d.squaredNorm();  // eq. (4.5)
   if (J == 0.0) return 0.0;
-  const Eigen::RowVector3d C_x = 2.0 * d.transpose() * seen.H;                                 // eq. (4.23)
-  const Eigen::RowVector2d C_z = 2.0 * d.transpose();                                          // eq. (4.24)
-  const double C = (C_x * P * C_x.transpose() + C_z * seen.R * C_z.transpose()).value();       // eq. (4.5)
+  const Eigen::RowVector3d C_x = 2.0 * d.transpose() * seen.H;                            // eq. (4.23)
+  const Eigen::RowVector2d C_z = 2.0 * d.transpose();                                     // eq. (4.24)
+  const double C = (C_x * P * C_x.transpose() + C_z * seen.R * C_z.transpose()).value();  // eq. (4.5)
   return J * J / C;
 }
 

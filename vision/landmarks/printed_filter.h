@@ -19,7 +19,8 @@ struct PrintedFilter {
 
 /// One image of the thesis's modeling algorithm: predicts the database, matches it by the Z-test, corrects what is
 /// matched, begins new points on the ground, and deletes points that were missed N times.
-/// @param bearings_meas  at focal length 1. @param pose  of the camera, estimated. @param dt_s  since the last image, s,
+/// @param bearings_meas  at focal length 1. @param pose  of the camera, estimated. @param dt_s  since the last image,
+/// s,
 /// >= 0. @param database  the points so far, in W; changed. @param next_id  of the next new point; raised.
 /// @return for each bearing the id of its point, new or known.
 /// Source: [Shah2009] ch. 4, fig. 4.4, eq. (4.5) to (4.24), equation by equation. Differs: the Jacobian carries the

@@ -44,8 +44,7 @@ TEST(CornerDetector, ScattersByItsNoiseAroundTheProjections) {
     ASSERT_EQ(detected.size(), cv::Size(1, static_cast<int>(corners.size())));
     for (size_t k = 0; k < corners.size(); ++k) {
       const auto& pixel = detected.at<cv::Vec2d>(static_cast<int>(k));
-      const Eigen::Vector2d off =
-          Eigen::Vector2d(pixel[0], pixel[1]) - *kCamera.project(X_WC.inverse() * corners[k]);
+      const Eigen::Vector2d off = Eigen::Vector2d(pixel[0], pixel[1]) - *kCamera.project(X_WC.inverse() * corners[k]);
       sum += off;
       squares += off.cwiseAbs2();
     }
