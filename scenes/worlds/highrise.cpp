@@ -127,6 +127,7 @@ Scene make_highrise(const HighriseConfig& config, uint64_t seed) {
     }
     ++wall;
   }
+  scene.corners_W = highrise_corners(config);
   scene.meshes.push_back(mesh.finish());
   return scene;
 }

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
@@ -79,6 +80,7 @@ void print_verdict(const Scenario& scenario, const FlightResult& result, const s
   }
   fmt::print("  {:.2f} times real time: {:.1f} s; per instant of the cameras: drawing {:.1f} ms, deciding {:.1f} ms\n",
              result.realtime_factor, result.wall_s, result.render_ms.median_ms, result.decision_ms.median_ms);
+  if (!result.truth_used.empty()) fmt::print("  truth used: {}\n", fmt::join(result.truth_used, "; "));
   for (const CheckResult& check : result.checks) print_check(check);
   fmt::print("  written: {}\n", (out / (has_report ? "report.html" : "result.json")).string());
 }

@@ -34,23 +34,29 @@ std::string roles(const RigConfig& rig) {
 
 /// The cameras to export, in that order.
 std::vector<RecordedCamera> choose(const Scenario& scenario, const std::vector<std::string>& wanted) {
-  const auto is_depth = [](const CameraConfig& c) { return c.channel == CameraConfig::Channel::depth; };
+  using Channel = CameraConfig::Channel;
+  const auto has_images = [](const CameraConfig& c) {
+    return c.channel == Channel::grey || c.channel == Channel::color;
+  };
   std::vector<const CameraConfig*> chosen;
   for (const CameraConfig& camera : scenario.rig.cameras) {
-    if (wanted.empty() && !is_depth(camera)) chosen.push_back(&camera);
+    if (wanted.empty() && has_images(camera)) chosen.push_back(&camera);
   }
   for (const std::string& role : wanted) {
     const CameraConfig* const camera = scenario.rig.find(role);
     if (!camera) {
       throw InputError(fmt::format("--camera {}: no such camera in the rig; it has: {}", role, roles(scenario.rig)));
     }
-    if (is_depth(*camera)) throw InputError(fmt::format("--camera {}: it takes depth, not images", role));
+    if (!has_images(*camera)) {
+      const std::string_view what = camera->channel == Channel::depth ? "depth" : "corners";
+      throw InputError(fmt::format("--camera {}: it delivers {}, not images", role, what));
+    }
     if (std::ranges::find(chosen, camera) != chosen.end()) {
       throw InputError(fmt::format("--camera {}: named twice", role));
     }
     chosen.push_back(camera);
   }
-  if (chosen.empty()) throw InputError("the rig has no camera that takes images");
+  if (chosen.empty()) throw InputError("the rig has no camera that delivers images");
   std::vector<RecordedCamera> cameras;
   for (const CameraConfig* const camera : chosen) {
     cameras.push_back(build_part("rig", [&] { return recorded(*camera, scenario.avionics.imu); }));

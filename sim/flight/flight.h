@@ -92,6 +92,8 @@ struct StageTime {
 struct FlightResult {
   Outcome outcome = Outcome::fault;
   std::string cause;  ///< one line for collided and fault, else empty
+  /// Sensors of the module that deliver truth: "camera 'front': projected corners"; empty for real ones alone.
+  std::vector<std::string> truth_used;
   double flight_time_s = 0.0, path_length_m = 0.0, mean_speed_mps = 0.0;
   ClosestApproach closest_obstacle, closest_ground;
   std::optional<double> goal_distance_m;  ///< at the end, horizontal; none without a goal

@@ -86,6 +86,7 @@ Flight Episode::fly() {
   FlightResult& result = flight.result;
   result.outcome = *outcome_;
   result.cause = cause_;
+  result.truth_used = pilot_.truth_used();
   result.goal_distance_m = goal_distance_m();
   result.decision_ms = decision_.summary();
   result.render_ms = render_.summary();
@@ -142,12 +143,12 @@ void Episode::decide() {
 /// Records the module's map, and shows it to who observes it, beside the truth.
 void Episode::observe_map() {
   const double t_s = ticks_.t_s(tick_);
-  avoidance::Chart chart = pilot_.module().chart();
+  avoidance::Map map = pilot_.module().map();
   if (const std::optional<size_t> camera = pilot_.first_camera(); camera && map_observer_) {
-    map_observer_->on_map({t_s, chart, cameras_.mounted(*camera), aircraft_.X_WB(), p_WB_start_, collision_,
-                           pilot_.sees_through_walls()});
+    map_observer_->on_map({t_s, map, cameras_.mounted(*camera), aircraft_.X_WB(), p_WB_start_, scene_.corners_W,
+                           collision_, pilot_.sees_through_walls()});
   }
-  map_log_.add(t_s, std::move(chart));
+  map_log_.add(t_s, std::move(map));
 }
 
 /// Runs the autopilot.

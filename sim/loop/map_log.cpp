@@ -5,17 +5,17 @@
 
 namespace hedgehop::sim {
 
-void MapLog::add(double t_s, avoidance::Chart chart) {
+void MapLog::add(double t_s, avoidance::Map map) {
   constexpr double kBetweenS = 2.0;
-  const size_t places = chart.way_NE.size(), before = paths_.empty() ? 1 : paths_.back().places_NE.size();
+  const size_t places = map.path_NE.size(), before = paths_.empty() ? 1 : paths_.back().places_NE.size();
   const bool is_detour = places > 1;
-  if (places != before || (is_detour && t_s >= paths_.back().t_s + kBetweenS)) paths_.push_back({t_s, chart.way_NE});
-  last_ = std::move(chart);
+  if (places != before || (is_detour && t_s >= paths_.back().t_s + kBetweenS)) paths_.push_back({t_s, map.path_NE});
+  last_ = std::move(map);
 }
 
 MapRecord MapLog::take() {
   MapRecord record{.course_NE = std::move(last_.course_NE), .paths = std::move(paths_)};
-  for (const avoidance::ChartPoint& point : last_.points) {
+  for (const avoidance::MapPoint& point : last_.points) {
     record.points.push_back({point.p_W, point.covariance_W, std::nullopt});
   }
   return record;

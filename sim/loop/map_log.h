@@ -12,14 +12,14 @@ namespace hedgehop::sim {
 class MapLog {
  public:
   /// @param t_s  rising.
-  void add(double t_s, avoidance::Chart chart);
+  void add(double t_s, avoidance::Map map);
 
   /// The record so far, empty for a module that makes no map; the log is empty afterwards. What is true of it, a judge
   /// adds (MapScore::complete()).
   MapRecord take();
 
  private:
-  avoidance::Chart last_;
+  avoidance::Map last_;
   std::vector<PlannedPath> paths_;
 };
 

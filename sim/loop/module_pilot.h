@@ -4,12 +4,12 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "avoidance/module.h"
 #include "dynamics/control/setpoint.h"
 #include "sim/loop/cameras.h"
-#include "sim/loop/corner_detector.h"
 #include "sim/loop/route.h"
 #include "sim/loop/ticks.h"
 #include "sim/scenario/scenario.h"
@@ -20,7 +20,7 @@ namespace hedgehop::sim {
 class ModulePilot {
  public:
   /// @param module  of the scenario; null for one that is to be loaded from its shared library.
-  /// Throws InputError for a module that cannot be loaded, lacks a camera, or needs true corners where none are known.
+  /// Throws InputError for a module that cannot be loaded or lacks a camera.
   ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& cameras,
               std::unique_ptr<avoidance::Module> module);
 
@@ -45,8 +45,10 @@ class ModulePilot {
   const Route& route() const { return route_; }
   /// The first camera it needs, if any: its map comes from this one.
   std::optional<size_t> first_camera() const;
-  /// Whether it gets the scene's true corners, through walls.
-  bool sees_through_walls() const { return corners_.has_value(); }
+  /// Whether that camera delivers the scene's corners through walls.
+  bool sees_through_walls() const;
+  /// Which of its cameras deliver truth: "camera 'front': projected corners", "camera 'left': depth".
+  const std::vector<std::string>& truth_used() const { return truth_used_; }
 
  private:
   /// A command before its latency is over.
@@ -60,7 +62,7 @@ class ModulePilot {
   Cameras& cameras_;
   std::unique_ptr<avoidance::Module> module_;
   std::vector<size_t> module_cameras_;
-  std::optional<ProjectedCorners> corners_;  ///< for a module that needs the true ones
+  std::vector<std::string> truth_used_;
   int64_t decision_period_ = 0, latency_ = 0;
   Route route_;
   std::vector<avoidance::CameraFrame> seen_;  ///< the module's frames of this tick

@@ -58,6 +58,7 @@ Json result_data(const RunInfo& info, const FlightResult& result) {
   json["command_line"] = info.command_line;
   json["outcome"] = std::string(to_string(result.outcome));
   json["cause"] = result.cause;
+  json["truth_used"] = result.truth_used;
   json["flight_time_s"] = number(result.flight_time_s);
   json["path_length_m"] = number(result.path_length_m);
   json["min_clearance_m"] = number(closest.distance_m);
@@ -109,8 +110,7 @@ void write_result_files(const std::filesystem::path& run_folder, const RunInfo& 
   write_file_whole(run_folder / "trajectory.csv", trajectory_csv(flight));
   write_file_whole(run_folder / "decisions.csv", decisions_csv(flight));
   if (!flight.map.empty()) write_file_whole(run_folder / "map.json", map_data(flight.map).dump() + "\n");
-  write_file_whole(run_folder / "result.json",
-                   result_json(info, flight.result));  // last: a run with a result is whole
+  write_file_whole(run_folder / "result.json", result_json(info, flight.result));  // last: a run with a result is whole
 }
 
 }  // namespace hedgehop::sim

@@ -30,7 +30,8 @@ struct CameraConfig {
   std::filesystem::path calibration;
   double rate_hz = 50.0;
   Channel channel = Channel::grey;
-  int samples = 1;  ///< samples in each pixel, averaged for grey and color: 1, 2, 4 or 8
+  double corner_noise_px = 0.5;  ///< of a corner detector that works well
+  int samples = 1;               ///< samples in each pixel, averaged for grey and color: 1, 2, 4 or 8
   double forward_m = 0.0, right_m = 0.0, down_m = 0.0;
   double yaw_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
   ImperfectionsConfig imperfections;
@@ -71,7 +72,12 @@ void describe_without_role(Visitor& v, CameraConfig& c) {
   v("calibration", c.calibration, {.meaning = "file calib_results.txt of OCamCalib, for model: ocam"});
   v("rate", c.rate_hz,
     {.unit = "Hz", .at_least = fields::kSlowestHz, .meaning = "images a second; divides the physics rate"});
-  v("channel", c.channel, {.choices = {"grey", "color", "depth"}, .meaning = "what a pixel holds"});
+  v("channel", c.channel,
+    {.choices = {"grey", "color", "depth", "corners"},
+     .meaning = "what a pixel holds; or corners, from an ideal detector of the scene's known corners: truth, for an "
+                "experiment"});
+  v("corner_noise", c.corner_noise_px,
+    {.unit = "px", .at_least = 0.0, .meaning = "of channel corners: standard deviation of a position, per axis"});
   v("samples", c.samples,
     {.at_least = 1,
      .at_most = 8,

@@ -18,11 +18,13 @@ using Channel = CameraConfig::Channel;
 std::string_view words(Channel channel) {
   switch (channel) {
     case Channel::grey:
-      return "grey";
+      return "grey images";
     case Channel::color:
-      return "color";
+      return "color images";
     case Channel::depth:
-      return "depth";
+      return "depth images";
+    case Channel::corners:
+      return "corners";
   }
   return "?";
 }
@@ -149,7 +151,7 @@ class Validator {
         add(path, fmt::format("needs camera '{}' to be an undistorted pinhole", role));
       }
       if (camera->channel != channel) {
-        add(path, fmt::format("needs camera '{}' to give {} images; its channel is {}", role, words(channel),
+        add(path, fmt::format("needs camera '{}' to deliver {}; it delivers {}", role, words(channel),
                               words(camera->channel)));
       }
       return;

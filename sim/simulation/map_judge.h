@@ -1,12 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
-#include <vector>
 
 #include "sim/flight/flight.h"
 #include "sim/loop/map_observer.h"
-#include "sim/scenario/scenario.h"
 #include "sim/verdict/map_score.h"
 
 namespace hedgehop::sim {
@@ -14,14 +11,11 @@ namespace hedgehop::sim {
 /// Scores a module's map during a flight, where the scene's corners are known.
 class MapJudge : public MapObserver {
  public:
-  explicit MapJudge(const Scenario& scenario);
-
   void on_map(const MapInstant& now) override;
   /// Adds the map's metrics to the flight's result, and to its record which points are true.
   void conclude(Flight& flight) const;
 
  private:
-  std::vector<Eigen::Vector3d> corners_W_;  ///< empty where unknown
   std::optional<MapScore> score_;
 };
 

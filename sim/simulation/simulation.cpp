@@ -14,7 +14,7 @@ namespace hedgehop::sim {
 
 Flight fly(const Scenario& scenario, FlightParts parts, FlightWatcher* watcher) {
   cv::setNumThreads(1);  // flights are the unit of parallelism
-  MapJudge judge(scenario);
+  MapJudge judge;
   Episode episode(scenario, std::move(parts), watcher, &judge);
   Flight flight = episode.fly();
   judge.conclude(flight);

@@ -55,6 +55,9 @@ std::vector<Row> rows() {
   flow_balance::ZigZagConfig zig_zag;
   zig_zag.law = flow_balance::ZigZagConfig::Law::printed;
   all.push_back({"zig_zag_printed", zig_zag});
+  landmark_map::LandmarkMapModuleConfig thesis;
+  thesis.law = landmark_map::Law::printed;
+  all.push_back({.name = "landmark_map_printed", .config = thesis, .holds_heading = false});
   return all;
 }
 

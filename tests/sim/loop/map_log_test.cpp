@@ -7,11 +7,11 @@ namespace {
 
 using Eigen::Vector2d;
 
-avoidance::Chart planning(size_t places) {
-  avoidance::Chart chart;
-  chart.course_NE = {Vector2d(0, 0), Vector2d(100, 0)};
-  for (size_t i = 0; i < places; ++i) chart.way_NE.emplace_back(10.0 * static_cast<double>(i), 5.0);
-  return chart;
+avoidance::Map planning(size_t places) {
+  avoidance::Map map;
+  map.course_NE = {Vector2d(0, 0), Vector2d(100, 0)};
+  for (size_t i = 0; i < places; ++i) map.path_NE.emplace_back(10.0 * static_cast<double>(i), 5.0);
+  return map;
 }
 
 TEST(MapLog, OfAModuleWithoutAMapIsEmpty) {

@@ -131,6 +131,7 @@ TEST(ResultJson, HasTheKeysOfTheContractInOrder) {
                                   "seed",
                                   "version",
                                   "outcome",
+                                  "truth_used",
                                   "flight_time_s",
                                   "path_length_m",
                                   "min_clearance_m",

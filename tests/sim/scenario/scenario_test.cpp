@@ -87,9 +87,9 @@ TEST_F(CrossRules, TheRigHasTheCamerasThatAreAskedFor) {
   EXPECT_THAT(
       faults({"rig.cameras.0.role=port"}),
       testing::Contains(HasSubstr("'avoidance': needs a camera 'left', which the rig does not have; it has: port")));
-  EXPECT_THAT(
-      faults({"rig.cameras.0.channel=depth"}),
-      testing::Contains(HasSubstr("'avoidance': needs camera 'left' to give grey images; its channel is depth")));
+  EXPECT_THAT(faults({"rig.cameras.0.channel=depth"}),
+              testing::Contains(
+                  HasSubstr("'avoidance': needs camera 'left' to deliver grey images; it delivers depth images")));
 }
 
 TEST_F(CrossRules, ChecksMakeSense) {

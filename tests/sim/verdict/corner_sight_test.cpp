@@ -6,13 +6,10 @@
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "scenes/worlds/highrise.h"
 #include "sim/reproduce/corner_flight.h"
-#include "sim/scenario/input_error.h"
-#include "sim/simulation/simulation.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -64,28 +61,6 @@ TEST(CornersInSight, AreAllInTheImageThroughWalls) {
   EXPECT_EQ(std::ranges::count(seen, true), 8);
   const auto aside = corners_in_sight(corners, camera, looking_at({-50, 3, -40}, {-100, 0, -9}), nullptr, 0.0);
   EXPECT_EQ(std::ranges::count(aside, true), 0);
-}
-
-/// A scenario of the thesis whose module is given the true corners, cut short.
-Scenario with_true_corners(const std::string& name) {
-  const std::vector<std::string> overrides = {"duration=8", "film.enabled=false", "avoidance.front_end=corners"};
-  return load_scenario(HEDGEHOP_SOURCE_DIR "/configs/" + name, overrides);
-}
-
-double metric(const Flight& flight, const std::string& name) {
-  const auto found = std::ranges::find(flight.result.metrics, name, &MetricValue::name);
-  return found == flight.result.metrics.end() ? std::nan("") : found->value;
-}
-
-TEST(TrueCorners, GiveAMapOfAllTheCubeAndTheResultSaysSo) {
-  const Flight flight = fly(with_true_corners("shah2009_cube_lateral.yaml"));
-  EXPECT_EQ(metric(flight, "landmarks"), 8.0);  // those that walls hide, too
-  EXPECT_EQ(metric(flight, "true_corners"), 1.0);
-  EXPECT_EQ(flight.decisions.back().signals.at(0), 8.0) << flight.signals.at(0).name;
-}
-
-TEST(TrueCorners, OfASceneThatDoesNotTellThemAreRefused) {
-  EXPECT_THROW(fly(with_true_corners("shah2009_wall_textured.yaml")), InputError);
 }
 
 }  // namespace
