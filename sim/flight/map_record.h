@@ -28,7 +28,7 @@ struct MapRecord {
   std::vector<RecordedPoint> points;
   std::vector<RecordedCorner> corners;
   std::vector<Eigen::Vector2d> course_NE;  ///< m
-  std::vector<PlannedPath> paths;           ///< detours, in order of time; MapLog (sim/loop) chooses them
+  std::vector<PlannedPath> paths;          ///< detours, in order of time; MapLog (sim/loop) chooses them
 
   bool empty() const { return points.empty() && course_NE.empty(); }
 };

@@ -61,7 +61,8 @@ std::vector<MoverPath> mover_paths(const std::vector<scenes::Mover>& movers) {
   std::vector<MoverPath> paths;
   for (const scenes::Mover& mover : movers) {
     MoverPath& path = paths.emplace_back(MoverPath{.name = mover.name});
-    for (const Eigen::Vector3d& corner_W : scenes::path_W(mover.motion)) path.corners_NE_m.push_back(corner_W.head<2>());
+    for (const Eigen::Vector3d& corner_W : scenes::path_W(mover.motion))
+      path.corners_NE_m.push_back(corner_W.head<2>());
     for (const Footprint& part : footprints(mover.solids)) {
       for (const Eigen::Vector2d& corner : part.corners_NE_m) path.radius_m = std::max(path.radius_m, corner.norm());
     }

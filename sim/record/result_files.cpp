@@ -109,8 +109,7 @@ void write_result_files(const std::filesystem::path& run_folder, const RunInfo& 
   write_file_whole(run_folder / "trajectory.csv", trajectory_csv(flight));
   write_file_whole(run_folder / "decisions.csv", decisions_csv(flight));
   if (!flight.map.empty()) write_file_whole(run_folder / "map.json", map_data(flight.map).dump() + "\n");
-  write_file_whole(run_folder / "result.json",
-                   result_json(info, flight.result));  // last: a run with a result is whole
+  write_file_whole(run_folder / "result.json", result_json(info, flight.result));  // last: a run with a result is whole
 }
 
 }  // namespace hedgehop::sim
