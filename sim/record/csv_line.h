@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <string_view>
 
 namespace hedgehop::sim {
@@ -23,6 +24,7 @@ class CsvLine {
     if (!std::isnan(value)) fmt::format_to(std::back_inserter(out_), "{}", value);
     return *this;
   }
+  CsvLine& add(const std::optional<double>& value) { return add(value.value_or(NAN)); }
   CsvLine& add(const Eigen::Vector3d& v) { return add(v.x()).add(v.y()).add(v.z()); }
   /// Quoted when it has to be (RFC 4180).
   CsvLine& add(std::string_view text) {
