@@ -104,8 +104,9 @@ TEST_F(CrossRules, ChecksMakeSense) {
                   "--set checks: 'checks.0.before': is after the flight's end (400 s)"));
 }
 
-/// Keys of all lengths below an outline.
+/// Keys of all lengths below an outline; not those in vectors, which an override sets as a whole.
 void collect_lengths(const Outline& node, const std::string& path, std::vector<std::string>& keys) {
+  if (node.fixed_size > 0) return;
   if (node.kind == Outline::Kind::number && node.field.unit == "m" && node.present) keys.push_back(path);
   size_t index = 0;
   for (const Outline& part : node.parts) {
