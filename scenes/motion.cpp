@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 using Repeat = WaypointMotion::Repeat;
 
-struct PlaceOnWay {
+struct PathPoint {
   Vector3d p_W = Vector3d::Zero();
   Vector3d v_W = Vector3d::Zero();
 };
@@ -30,36 +30,36 @@ double length_m(const std::vector<Vector3d>& corners) {
   return length;
 }
 
-// The place `way_m` along the corners, and the direction (a unit vector) there: of the leg ahead, or, on the way back,
+// The place `path_m` along the corners, and the direction (a unit vector) there: of the leg ahead, or, on the way back,
 // of the leg behind.
-PlaceOnWay along(const std::vector<Vector3d>& corners, double way_m, bool back) {
-  PlaceOnWay place{corners.front(), Vector3d::Zero()};
+PathPoint along(const std::vector<Vector3d>& corners, double path_m, bool back) {
+  PathPoint place{corners.front(), Vector3d::Zero()};
   for (size_t i = 1; i < corners.size(); ++i) {
     const Vector3d leg = corners[i] - corners[i - 1];
     const double leg_m = leg.norm();
     if (leg_m == 0.0) continue;
-    place = {corners[i - 1] + std::min(way_m / leg_m, 1.0) * leg, leg / leg_m};
-    if (back ? way_m <= leg_m : way_m < leg_m) break;
-    way_m -= leg_m;
+    place = {corners[i - 1] + std::min(path_m / leg_m, 1.0) * leg, leg / leg_m};
+    if (back ? path_m <= leg_m : path_m < leg_m) break;
+    path_m -= leg_m;
   }
   return place;
 }
 
-PlaceOnWay place(const WaypointMotion& motion, double t_s) {
+PathPoint place(const WaypointMotion& motion, double t_s) {
   const std::vector<Vector3d> corners = corners_W(motion);
   const double total_m = length_m(corners), run_m = motion.speed_mps * (t_s - motion.start_s);
   if (total_m == 0.0 || motion.speed_mps == 0.0 || run_m < 0.0) return {corners.front(), Vector3d::Zero()};
   if (motion.repeat == Repeat::once && run_m >= total_m) return {corners.back(), Vector3d::Zero()};
 
   const double lap_m = motion.repeat == Repeat::back_and_forth ? 2.0 * total_m : total_m;
-  const double way_m = motion.repeat == Repeat::once ? run_m : std::fmod(run_m, lap_m);
-  const bool back = way_m >= total_m;
-  PlaceOnWay here = along(corners, back ? lap_m - way_m : way_m, back);
+  const double path_m = motion.repeat == Repeat::once ? run_m : std::fmod(run_m, lap_m);
+  const bool back = path_m >= total_m;
+  PathPoint here = along(corners, back ? lap_m - path_m : path_m, back);
   here.v_W *= back ? -motion.speed_mps : motion.speed_mps;
   return here;
 }
 
-PlaceOnWay place(const OrbitMotion& motion, double t_s) {
+PathPoint place(const OrbitMotion& motion, double t_s) {
   const bool started = t_s >= motion.start_s;
   const double turned_rad = started ? motion.speed_mps * (t_s - motion.start_s) / motion.radius_m : 0.0;
   const double bearing_rad = motion.bearing_rad + turned_rad;
@@ -101,7 +101,7 @@ Eigen::Vector3d v_WM(const Motion& motion, double t_s) {
   return std::visit([t_s](const auto& chosen) { return place(chosen, t_s).v_W; }, motion);
 }
 
-std::vector<Eigen::Vector3d> way_W(const Motion& motion) {
+std::vector<Eigen::Vector3d> path_W(const Motion& motion) {
   if (const auto* straight = std::get_if<WaypointMotion>(&motion)) return corners_W(*straight);
   constexpr int kCorners = 64;
   OrbitMotion orbit = std::get<OrbitMotion>(motion);

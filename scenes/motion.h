@@ -81,6 +81,6 @@ Eigen::Vector3d p_WM(const Motion& motion, double t_s);
 Eigen::Vector3d v_WM(const Motion& motion, double t_s);
 
 /// Returns the corners of the way, in order, in W, m; a way that closes ends where it begins. An orbit has 64 of them.
-std::vector<Eigen::Vector3d> way_W(const Motion& motion);
+std::vector<Eigen::Vector3d> path_W(const Motion& motion);
 
 }  // namespace hedgehop::scenes

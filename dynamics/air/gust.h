@@ -27,8 +27,8 @@ void describe(Visitor& v, GustConfig& c) {
 /// Throws std::invalid_argument "gust.<key>: ..." on values that cannot be.
 void check(const GustConfig& config);
 
-/// Returns the speed of the air a way behind the gust's front, m/s. @param way_m  through the air; 0 before and beyond.
-/// Source: [MIL8785C] sec. 3.7.1.3. Differs: the fall mirrors the rise, where the standard's gust stays.
-double gust_speed_mps(const GustConfig& config, double way_m);
+/// Returns the speed of the air a way behind the gust's front, m/s. @param path_m  through the air; 0 before and
+/// beyond. Source: [MIL8785C] sec. 3.7.1.3. Differs: the fall mirrors the rise, where the standard's gust stays.
+double gust_speed_mps(const GustConfig& config, double path_m);
 
 }  // namespace hedgehop::dynamics::air

@@ -34,7 +34,7 @@ Wind::Wind(const WindConfig& config, uint64_t seed) : config_(config), generator
   steady_W_ = config.speed_mps * blows_W;
   // Without a mean wind the axes are W's.
   const Eigen::Vector3d along_W = config.speed_mps > 0.0 ? blows_W : Eigen::Vector3d::UnitX();
-  R_WT_ << along_W, Eigen::Vector3d::UnitZ().cross(along_W), Eigen::Vector3d::UnitZ();
+  R_WD_ << along_W, Eigen::Vector3d::UnitZ().cross(along_W), Eigen::Vector3d::UnitZ();
   draw_stationary();
 }
 
@@ -61,8 +61,8 @@ Eigen::Vector3d Wind::sample(double height_m, const Eigen::Vector3d& v_WB_W, dou
   if (config_.turbulence_w20_mps > 0.0) air_W += turbulence_W(height_m, airspeed_mps * dt_s);
   if (config_.gust.speed_mps > 0.0) {
     t_s_ += dt_s;
-    gust_way_m_ += airspeed_mps * std::clamp(t_s_ - config_.gust.start_s, 0.0, dt_s);
-    air_W += gust_speed_mps(config_.gust, gust_way_m_) * gust_along_W_;
+    gust_path_m_ += airspeed_mps * std::clamp(t_s_ - config_.gust.start_s, 0.0, dt_s);
+    air_W += gust_speed_mps(config_.gust, gust_path_m_) * gust_along_W_;
   }
   return air_W;
 }
@@ -76,8 +76,8 @@ Eigen::Vector3d Wind::turbulence_W(double height_m, double path_m) {
   move(w_, second_order_step(path_m / s.length_w_m));
 
   const Eigen::RowVector2d output = second_order_output();
-  const Eigen::Vector3d gust_T{s.sigma_uv_mps * u_, s.sigma_uv_mps * output.dot(v_), s.sigma_w_mps * output.dot(w_)};
-  return R_WT_ * gust_T;
+  const Eigen::Vector3d gust_D{s.sigma_uv_mps * u_, s.sigma_uv_mps * output.dot(v_), s.sigma_w_mps * output.dot(w_)};
+  return R_WD_ * gust_D;
 }
 
 void Wind::move(Eigen::Vector2d& z, const SecondOrderStep& step) {

@@ -65,12 +65,12 @@ class Wind {
   WindConfig config_;
   Eigen::Vector3d steady_W_;  ///< without shear, or at 20 ft
   Eigen::Vector3d gust_along_W_;
-  Eigen::Matrix3d R_WT_;  ///< T: turbulence axes, x along the steady wind, z down
+  Eigen::Matrix3d R_WD_;  ///< D: axes of the turbulence, x along the steady wind, z down
   std::mt19937_64 generator_;
   std::normal_distribution<double> normal_;
   double u_ = 0.0;  ///< filter states, scaled to unit stationary variance
   Eigen::Vector2d v_ = Eigen::Vector2d::Zero(), w_ = Eigen::Vector2d::Zero();
-  double t_s_ = 0.0, gust_way_m_ = 0.0;  ///< since the flight began, since the gust was met
+  double t_s_ = 0.0, gust_path_m_ = 0.0;  ///< since the flight began, since the gust was met
 };
 
 }  // namespace hedgehop::dynamics::air

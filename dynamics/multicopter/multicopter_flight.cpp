@@ -53,7 +53,7 @@ MulticopterTrim flight_at(const MulticopterModel& model, const Vector6& x, const
 }
 
 /// Accelerations of a flight, linear then angular.
-Vector6 unrest(const MulticopterModel& model, const MulticopterTrim& t) {
+Vector6 trim_residual(const MulticopterModel& model, const MulticopterTrim& t) {
   const MulticopterLoads loads =
       multicopter_loads(model, t.state.body, t.state.speeds_radps, still(model), Eigen::Vector3d::Zero());
   return derivative(model.mass, t.state.body, loads.f_B, loads.t_B).tail<6>();
@@ -66,22 +66,22 @@ std::optional<MulticopterTrim> trim(const MulticopterModel& model, const Eigen::
   x[2] = model.mass.mass_kg * kGravityMps2;
   constexpr int kMostSteps = 60;
   constexpr double kAtRest = 1e-11, kStep = 1e-6, kLongestTilt = 0.2;
-  Vector6 f = unrest(model, flight_at(model, x, v_air_W, heading_rad));
+  Vector6 f = trim_residual(model, flight_at(model, x, v_air_W, heading_rad));
   for (int i = 0; i < kMostSteps && !(f.norm() < kAtRest); ++i) {
     Matrix6 J;
     for (int k = 0; k < 6; ++k) {
       Vector6 ahead = x, behind = x;
       ahead[k] += kStep;
       behind[k] -= kStep;
-      J.col(k) = (unrest(model, flight_at(model, ahead, v_air_W, heading_rad)) -
-                  unrest(model, flight_at(model, behind, v_air_W, heading_rad))) /
+      J.col(k) = (trim_residual(model, flight_at(model, ahead, v_air_W, heading_rad)) -
+                  trim_residual(model, flight_at(model, behind, v_air_W, heading_rad))) /
                  (2.0 * kStep);
     }
     Vector6 step = J.partialPivLu().solve(-f);
     const double tilt = step.head<2>().norm();
     if (tilt > kLongestTilt) step *= kLongestTilt / tilt;
     x += step;
-    f = unrest(model, flight_at(model, x, v_air_W, heading_rad));
+    f = trim_residual(model, flight_at(model, x, v_air_W, heading_rad));
   }
   constexpr double kSettled = 1e-8;
   const MulticopterTrim found = flight_at(model, x, v_air_W, heading_rad);

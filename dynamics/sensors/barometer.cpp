@@ -20,7 +20,7 @@ Barometer::Barometer(const BarometerConfig& config, double physics_dt_s, uint64_
   wander_pa_ = config.wander_pa * noise_.draw();
 }
 
-void Barometer::feel(double altitude_m) {
+void Barometer::observe(double altitude_m) {
   altitude_m_ = altitude_m + keeps_ * (altitude_m_.value_or(altitude_m) - altitude_m);
 }
 

@@ -32,15 +32,15 @@ void describe(Visitor& v, BarometerConfig& c) {
 
 class Barometer {
  public:
-  /// Throws std::invalid_argument on values out of range. @param physics_dt_s  between calls of feel(), > 0.
+  /// Throws std::invalid_argument on values out of range. @param physics_dt_s  between calls of observe(), > 0.
   Barometer(const BarometerConfig& config, double physics_dt_s, uint64_t seed);
 
   int64_t period() const { return period_; }  ///< physics ticks between readings
 
   /// What it is exposed to on every physics tick. @param altitude_m  in a standard atmosphere whose sea level is W's
   /// origin.
-  void feel(double altitude_m);
-  /// @return pressure with its errors, Pa; none on a drop-out. To be called once every period() ticks, after feel().
+  void observe(double altitude_m);
+  /// @return pressure with its errors, Pa; none on a drop-out. To be called once every period() ticks, after observe().
   std::optional<double> read();
 
  private:

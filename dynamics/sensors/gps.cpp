@@ -20,7 +20,7 @@ Gps::Gps(const GpsConfig& config, double physics_dt_s, uint64_t seed)
   wander_m_ = wander_sigma_m_.cwiseProduct(noise_.draw3());
 }
 
-void Gps::feel(const Eigen::Vector3d& p_WB, const Eigen::Vector3d& v_WB_W) {
+void Gps::observe(const Eigen::Vector3d& p_WB, const Eigen::Vector3d& v_WB_W) {
   past_[next_] = {p_WB, v_WB_W};
   next_ = (next_ + 1) % past_.size();
   known_ = std::min(known_ + 1, past_.size());

@@ -45,13 +45,13 @@ struct GpsFix {
 
 class Gps {
  public:
-  /// Throws std::invalid_argument on values out of range. @param physics_dt_s  between calls of feel(), > 0.
+  /// Throws std::invalid_argument on values out of range. @param physics_dt_s  between calls of observe(), > 0.
   Gps(const GpsConfig& config, double physics_dt_s, uint64_t seed);
 
   int64_t period() const { return period_; }
 
   /// Remembers where the vehicle is on this physics tick.
-  void feel(const Eigen::Vector3d& p_WB, const Eigen::Vector3d& v_WB_W);
+  void observe(const Eigen::Vector3d& p_WB, const Eigen::Vector3d& v_WB_W);
   /// The fix that arrives at this tick; none without reception, on a drop-out or before the first is old enough.
   /// To be called once every period() ticks.
   std::optional<GpsFix> read();

@@ -30,7 +30,7 @@ void check(const ImuConfig& c, double physics_dt_s) {
   require_not_negative("imu.misalignment", c.misalignment_rad);
   require_positive("imu.cutoff", c.cutoff_hz);
   if (c.cutoff_hz * physics_dt_s >= 0.5) throw std::invalid_argument("imu.cutoff: must be below half the physics rate");
-  if (!c.p_BS_m.allFinite()) throw std::invalid_argument("imu.position: must be finite");
+  if (!c.p_BI_m.allFinite()) throw std::invalid_argument("imu.position: must be finite");
 }
 
 }  // namespace
@@ -58,13 +58,13 @@ Imu::Imu(const ImuConfig& config, double physics_dt_s, uint64_t seed)
   gyro_wander_ = gyro_wander_model_.sigma * noise_.draw3();
   accelerometer_wander_ = accelerometer_wander_model_.sigma * noise_.draw3();
   const Eigen::Vector3d tilt = config.misalignment_rad * noise_.draw3();
-  R_SB_ = Eigen::AngleAxisd(tilt.norm(), tilt.stableNormalized()).toRotationMatrix();
+  R_IB_ = Eigen::AngleAxisd(tilt.norm(), tilt.stableNormalized()).toRotationMatrix();
 }
 
-void Imu::feel(const Eigen::Vector3d& w_WB_B, const Eigen::Vector3d& f_B) {
+void Imu::observe(const Eigen::Vector3d& w_WB_B, const Eigen::Vector3d& f_B) {
   // At the sensor's place: Euler and centripetal acceleration, the former by the difference over a tick.
   const Eigen::Vector3d w_dot = started_ ? Eigen::Vector3d((w_WB_B - w_in_) / dt_s_) : Eigen::Vector3d::Zero();
-  const Eigen::Vector3d& r = config_.p_BS_m;
+  const Eigen::Vector3d& r = config_.p_BI_m;
   const Eigen::Vector3d f = f_B + w_dot.cross(r) + w_WB_B.cross(w_WB_B.cross(r));
   w_out_ = started_ ? filtered(filter_, w_out_, w_in_, w_WB_B) : w_WB_B;
   f_out_ = started_ ? filtered(filter_, f_out_, f_in_, f) : f;
@@ -81,9 +81,9 @@ ImuReading Imu::read() {
                           accelerometer_wander_model_.added_sigma(sample_dt_s_) * noise_.draw3();
   const ImuReading errors = bias();
   const Eigen::Vector3d w =
-      R_SB_ * w_out_ + errors.w_WB_B_meas + config_.gyro_noise_density * root_rate * noise_.draw3();
+      R_IB_ * w_out_ + errors.w_WB_B_meas + config_.gyro_noise_density * root_rate * noise_.draw3();
   const Eigen::Vector3d f =
-      R_SB_ * f_out_ + errors.specific_force_B_meas + config_.accelerometer_noise_density * root_rate * noise_.draw3();
+      R_IB_ * f_out_ + errors.specific_force_B_meas + config_.accelerometer_noise_density * root_rate * noise_.draw3();
   return {within(w, config_.gyro_range_radps), within(f, config_.accelerometer_range_mps2)};
 }
 

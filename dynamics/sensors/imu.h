@@ -25,7 +25,7 @@ struct ImuConfig {
   double gyro_range_radps = 17.453292519943295;
   double accelerometer_range_mps2 = 176.58;
   double misalignment_rad = 0.0017453292519943295;   ///< standard deviation about each axis of B
-  Eigen::Vector3d p_BS_m = Eigen::Vector3d::Zero();  ///< where it sits, from the mass center, in B
+  Eigen::Vector3d p_BI_m = Eigen::Vector3d::Zero();  ///< where it sits, from the mass center, in B
 };
 template <class Visitor>
 void describe(Visitor& v, ImuConfig& c) {
@@ -52,7 +52,7 @@ void describe(Visitor& v, ImuConfig& c) {
     {.unit = "m/s^2", .above = 0.0, .meaning = "greatest specific force it can read"});
   v("misalignment", c.misalignment_rad,
     {.unit = "deg", .at_least = 0.0, .at_most = 5.0, .meaning = "standard deviation of the mounting error per axis"});
-  v("position", c.p_BS_m, {.unit = "m", .meaning = "where it sits: forward, right, down of the mass center"});
+  v("position", c.p_BI_m, {.unit = "m", .meaning = "where it sits: forward, right, down of the mass center"});
 }
 
 struct ImuReading {
@@ -62,14 +62,14 @@ struct ImuReading {
 
 class Imu {
  public:
-  /// Throws std::invalid_argument on values out of range. @param physics_dt_s  between calls of feel(), > 0.
+  /// Throws std::invalid_argument on values out of range. @param physics_dt_s  between calls of observe(), > 0.
   Imu(const ImuConfig& config, double physics_dt_s, uint64_t seed);
 
   int64_t period() const { return period_; }  ///< physics ticks between readings
 
   /// What the sensor sees on every physics tick, before noise: runs the filter.
   /// @param w_WB_B, f_B  angular velocity, and specific force of the mass center, in B.
-  void feel(const Eigen::Vector3d& w_WB_B, const Eigen::Vector3d& f_B);
+  void observe(const Eigen::Vector3d& w_WB_B, const Eigen::Vector3d& f_B);
   /// The reading at this tick; to be called once every period() ticks.
   ImuReading read();
 
@@ -83,7 +83,7 @@ class Imu {
   NormalStream noise_;
   GaussMarkov gyro_wander_model_, accelerometer_wander_model_;
   double filter_;  ///< tan(pi cutoff dt)
-  Eigen::Matrix3d R_SB_;
+  Eigen::Matrix3d R_IB_;
   Eigen::Vector3d gyro_offset_, accelerometer_offset_, gyro_wander_, accelerometer_wander_;
   bool started_ = false;
   Eigen::Vector3d w_in_, f_in_, w_out_, f_out_;  ///< of the filter, at the last tick

@@ -8,7 +8,7 @@ Eigen::Vector3d beam_direction_B(const RangeFinderConfig& config) {
   if (!config.direction_B.allFinite() || config.direction_B.isZero(0.0)) {
     throw std::invalid_argument("range_finder.direction: must be finite and not zero");
   }
-  if (!config.p_BS_m.allFinite()) throw std::invalid_argument("range_finder.position: must be finite");
+  if (!config.p_BI_m.allFinite()) throw std::invalid_argument("range_finder.position: must be finite");
   return config.direction_B.stableNormalized();
 }
 

@@ -42,11 +42,11 @@ class Ranger {
   /// @param physics_dt_s  the duration of a tick, > 0.
   Ranger(const std::string& key, const RangerConfig& config, double physics_dt_s, uint64_t seed);
 
-  /// Whether it looks out on this physics tick, counted from 0: then, and only then, feel() is called.
-  bool looks(int64_t tick) const { return (tick + latency_) % period_ == 0; }
+  /// Whether it observes out on this physics tick, counted from 0: then, and only then, observe() is called.
+  bool observes(int64_t tick) const { return (tick + latency_) % period_ == 0; }
   /// Takes in the true distance, m; +inf where there is nothing.
-  void feel(double distance_m);
-  /// Whether a reading is due on this tick: then read() is called, after feel().
+  void observe(double distance_m);
+  /// Whether a reading is due on this tick: then read() is called, after observe().
   bool due(int64_t tick) const { return tick % period_ == 0; }
   /// @return the range a latency ago, m; none out of range, on a drop-out, when disabled, or before the first is old
   /// enough.
@@ -57,7 +57,7 @@ class Ranger {
   int64_t period_, latency_;  ///< ticks
   NormalStream noise_;
   double offset_m_ = 0.0;
-  std::vector<double> seen_m_;  ///< a ring of what was felt and not yet read
+  std::vector<double> observed_m_;  ///< a ring of what was felt and not yet read
   size_t next_ = 0;
 };
 

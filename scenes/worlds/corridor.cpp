@@ -36,10 +36,11 @@ void validate(const CorridorConfig& c) {
     require(std::abs(s.bend_rad) <= std::numbers::pi / 3, "sections.bend", s.bend_rad, "-pi/3 to pi/3 rad");
     const double end_m = s.width_m > 0.0 ? s.width_m : width_m;
     require(end_m >= 0.5 && end_m <= 100.0, "sections.width", end_m, "0.5 to 100 m, or 0");
-    const double half_way_m = 0.5 * (width_m + end_m);
-    require(s.doorway_m == 0.0 || (s.doorway_m >= 0.3 && s.doorway_m < half_way_m), "sections.doorway", s.doorway_m,
+    const double middle_width_m = 0.5 * (width_m + end_m);
+    require(s.doorway_m == 0.0 || (s.doorway_m >= 0.3 && s.doorway_m < middle_width_m), "sections.doorway", s.doorway_m,
             "0, or 0.3 m to the corridor's width");
-    require(std::abs(s.obstacle_m) < half_way_m, "sections.obstacle", s.obstacle_m, "less than the corridor's width");
+    require(std::abs(s.obstacle_m) < middle_width_m, "sections.obstacle", s.obstacle_m,
+            "less than the corridor's width");
     width_m = end_m;
   }
   require_texture_size(static_cast<double>(c.texture_size_px));
@@ -76,13 +77,13 @@ class Mason {
 
   /// A wall along corners of the plan, all of it on the left side of the way. Where the way turns right, and at both
   /// ends, stretches run on past the corner, so that no wedge stays open behind it.
-  void build_wall(const std::string& name, const std::vector<Vector2d>& way_NE, double height_m) {
-    for (size_t k = 1; k < way_NE.size(); ++k) {
-      const Vector2d from = way_NE[k - 1], along = (way_NE[k] - from).normalized();
-      const bool on_before = k == 1 || turns_right(from - way_NE[k - 2], along);
-      const bool on_after = k + 1 == way_NE.size() || turns_right(along, way_NE[k + 1] - way_NE[k]);
+  void build_wall(const std::string& name, const std::vector<Vector2d>& path_NE, double height_m) {
+    for (size_t k = 1; k < path_NE.size(); ++k) {
+      const Vector2d from = path_NE[k - 1], along = (path_NE[k] - from).normalized();
+      const bool on_before = k == 1 || turns_right(from - path_NE[k - 2], along);
+      const bool on_after = k + 1 == path_NE.size() || turns_right(along, path_NE[k + 1] - path_NE[k]);
       const double first_m = on_before ? -kThicknessM : 0.0;
-      const double last_m = (way_NE[k] - from).norm() + (on_after ? kThicknessM : 0.0);
+      const double last_m = (path_NE[k] - from).norm() + (on_after ? kThicknessM : 0.0);
       build(name, {Vector3d(first_m, -kThicknessM, -height_m), Vector3d(last_m, 0.0, 0.0)}, floor_frame(from, along));
     }
   }

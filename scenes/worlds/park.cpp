@@ -130,7 +130,7 @@ class Gardener {
              uniform(random(), 0.8, 1.4), leaves());
   }
 
-  void lay_rock(int64_t number) {
+  void place_rock(int64_t number) {
     const Vector2d offset(uniform(random(), 0.0, 1.0), uniform(random(), 0.0, 1.0));
     add_lump("rock " + std::to_string(number), planner_.take("rocks", uniform(random(), 0.4, 1.0), false),
              uniform(random(), 0.7, 1.2), {kRock, textures::kRockTileM, offset});
@@ -213,7 +213,7 @@ Scene make_park(const ParkConfig& config, uint64_t seed) {
   for (int64_t k = 1; k <= config.vehicles; ++k) gardener.park_vehicle(k);
   for (int64_t k = 1; k <= config.trees; ++k) gardener.plant_tree(k);
   for (int64_t k = 1; k <= config.bushes; ++k) gardener.plant_bush(k);
-  for (int64_t k = 1; k <= config.rocks; ++k) gardener.lay_rock(k);
+  for (int64_t k = 1; k <= config.rocks; ++k) gardener.place_rock(k);
   scene.meshes.push_back(mesh.finish());
   return scene;
 }

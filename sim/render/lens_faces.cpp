@@ -17,14 +17,14 @@ constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 const std::array<Eigen::Matrix3d, 6>& cube() {
   static const std::array<Eigen::Matrix3d, 6> sides = [] {
     const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
-    std::array<Eigen::Matrix3d, 6> R_CF;
-    R_CF[0] << x, y, z;
-    R_CF[1] << -z, y, x;
-    R_CF[2] << z, y, -x;
-    R_CF[3] << x, -z, y;
-    R_CF[4] << x, z, -y;
-    R_CF[5] << -x, y, -z;
-    return R_CF;
+    std::array<Eigen::Matrix3d, 6> R_CK;
+    R_CK[0] << x, y, z;
+    R_CK[1] << -z, y, x;
+    R_CK[2] << z, y, -x;
+    R_CK[3] << x, -z, y;
+    R_CK[4] << x, z, -y;
+    R_CK[5] << -x, y, -z;
+    return R_CK;
   }();
   return sides;
 }
@@ -54,10 +54,10 @@ std::vector<Sighting> look(const vision::camera::Camera& camera) {
     if (!rays[i].allFinite()) continue;
     double best = -1.0;
     for (int side = 0; side < (one ? 1 : 6); ++side) {
-      const Eigen::Vector3d ray_F = cube()[static_cast<size_t>(side)].transpose() * rays[i];
-      if (ray_F.z() <= best) continue;
-      best = ray_F.z();
-      sightings[i] = {side, ray_F.head<2>() / ray_F.z(), 1.0 / ray_F.z()};
+      const Eigen::Vector3d ray_K = cube()[static_cast<size_t>(side)].transpose() * rays[i];
+      if (ray_K.z() <= best) continue;
+      best = ray_K.z();
+      sightings[i] = {side, ray_K.head<2>() / ray_K.z(), 1.0 / ray_K.z()};
     }
   }
   return sightings;
@@ -92,7 +92,7 @@ std::optional<LensFaces::Face> make_face(const vision::camera::Camera& camera, c
   }
   if (seen.isEmpty()) return std::nullopt;
   LensFaces::Face face;
-  face.R_CF = cube()[static_cast<size_t>(side)];
+  face.R_CK = cube()[static_cast<size_t>(side)];
   const double focal = focal_px(camera, sightings, side);
   const Eigen::Vector2d first = (focal * seen.min()).array().floor(), last = (focal * seen.max()).array().ceil();
   constexpr double kMarginPx = 1.0;

@@ -15,7 +15,7 @@ namespace hedgehop::sim {
 struct LensFaces {
   struct Face {
     vision::camera::PinholeCamera camera;
-    Eigen::Matrix3d R_CF = Eigen::Matrix3d::Identity();
+    Eigen::Matrix3d R_CK = Eigen::Matrix3d::Identity();
     int first_row = 0;  ///< in the sheet
   };
   /// Where a pixel is found in the sheet.

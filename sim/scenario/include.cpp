@@ -95,7 +95,7 @@ class Includer {
     Node base = load(folder / used.value.text, &used.value.place);
     if (base.kind != Node::Kind::map) return;
     base.place = node.place;
-    lay_over(base, node);
+    override_with(base, node);
     node = std::move(base);
   }
 
@@ -191,7 +191,7 @@ void apply_override(Node& root, const std::string& text, const fs::path& folder,
 
 }  // namespace
 
-void lay_over(Node& base, const Node& over) {
+void override_with(Node& base, const Node& over) {
   if (base.kind != Node::Kind::map || over.kind != Node::Kind::map || changes_choice(base, over)) {
     base = over;
     return;
@@ -204,7 +204,7 @@ void lay_over(Node& base, const Node& over) {
       base.entries.push_back(entry);
     } else {
       same->place = entry.place;
-      lay_over(same->value, entry.value);
+      override_with(same->value, entry.value);
     }
   }
 }

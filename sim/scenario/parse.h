@@ -21,7 +21,7 @@ Node parse_yaml(const std::string& text, const std::string& file, Faults& faults
 Node load_tree(const std::filesystem::path& file, Faults& faults);
 
 /// Lays `over` upon `base`: maps key by key (see kSelectors), all else by replacement.
-void lay_over(Node& base, const Node& over);
+void override_with(Node& base, const Node& over);
 
 /// Applies `a.b.0.c=value` in order; the value is YAML. `a.b.use=file` replaces `a.b` by the file's map, its path
 /// relative to the folder of `file`. Missing maps on the way are made (whether they may exist, the reader will tell).

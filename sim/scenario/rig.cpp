@@ -113,7 +113,7 @@ vision::camera::Camera CameraConfig::model() const {
   return camera;
 }
 
-bool CameraConfig::straight() const {
+bool CameraConfig::is_undistorted_pinhole() const {
   const auto is_zero = [](double coefficient) { return coefficient == 0.0; };
   return model_kind == Model::pinhole && std::ranges::all_of(distortion, is_zero);
 }

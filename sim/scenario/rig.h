@@ -41,7 +41,7 @@ struct CameraConfig {
   /// file that cannot be used.
   vision::camera::Camera model() const;
   /// Whether it is a pinhole without distortion.
-  bool straight() const;
+  bool is_undistorted_pinhole() const;
 };
 
 /// What a camera is, apart from what it is called.

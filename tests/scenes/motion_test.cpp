@@ -106,7 +106,7 @@ TEST(Motion, NeverLeavesItsWay) {
   std::uniform_real_distribution<double> time(0.0, 100.0);
   for (int k = 0; k < 500; ++k) {
     const Motion motion = random_motion(random);
-    const std::vector<Vector3d> way = way_W(motion);
+    const std::vector<Vector3d> way = path_W(motion);
     const Vector3d p_W = p_WM(motion, time(random));
     double nearest_m = (p_W - way.front()).norm();
     for (size_t i = 1; i < way.size(); ++i) {

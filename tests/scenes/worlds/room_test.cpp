@@ -5,8 +5,8 @@
 
 #include <random>
 
-#include "tests/scenes/scene_equality.h"
 #include "scenes/generators.h"
+#include "tests/scenes/scene_equality.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {

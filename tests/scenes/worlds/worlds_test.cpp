@@ -9,9 +9,9 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "tests/scenes/scene_equality.h"
 #include "scenes/generators.h"
 #include "scenes/textures/stone_textures.h"
+#include "tests/scenes/scene_equality.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {
