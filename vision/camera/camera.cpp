@@ -75,7 +75,12 @@ PinholeCamera Camera::pinhole() const {
     throw std::invalid_argument("needs an undistorted pinhole camera, got a " + lens_name());
   }
   const auto& pinhole_lens = std::get<PinholeLens>(lens);
-  return {width_px, height_px, pinhole_lens.focal_x_px, ideal.focal_y_px, ideal.center_u_px, ideal.center_v_px};
+  return {width_px,
+          height_px,
+          pinhole_lens.focal_x_px,
+          pinhole_lens.focal_y_px,
+          pinhole_lens.center_u_px,
+          pinhole_lens.center_v_px};
 }
 
 std::string Camera::lens_name() const {
