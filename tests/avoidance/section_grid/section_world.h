@@ -12,7 +12,7 @@
 #include "avoidance/section_grid/section_grid.h"
 #include "tests/avoidance/flow_balance/flow_rig.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::section_grid {
 
 /// Boxes on level ground, seen by a depth camera, and a point that obeys.
 class SectionWorld {
@@ -112,4 +112,4 @@ class SectionWorld {
   }
 };
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::section_grid
