@@ -1,9 +1,16 @@
 #pragma once
 
-#include "vision/corridor/corridor_flow.h"
+#include <cstdint>
+#include <limits>
+#include <optional>
 
-/// How corridor_centering steers, as pure functions. Frame H: B turned level, x along the heading, y to the right.
+#include "avoidance/module.h"
+
+/// The controller of [Zingg2010] sec. V-C.
 namespace hedgehop::avoidance::corridor_centering {
+
+/// How long a vehicle flies by its last measurement of both walls, s: four images at 10 Hz.
+inline constexpr double kPatienceS = 0.45;
 
 /// The printed controller's gains. Source: [Zingg2010] eq. (13) and (14).
 struct CenteringGains {
@@ -22,32 +29,33 @@ void describe(Visitor& v, CenteringGains& c) {
 /// @param error, last_error  e_n now and one sample ago, -1..1. Source: [Zingg2010] eq. (12).
 double printed_control(const CenteringGains& gains, double error, double last_error);
 
-/// Returns the course to the middle of the gap `ahead_m` in front, rad to the right of the heading, within `most_rad`.
-/// Flown at any speed, an offset from a straight corridor's middle falls by e in every `ahead_m` of way and cannot
-/// overshoot; the printed controller acts on acceleration, and its settling takes a fixed time, at any speed.
-/// @param gap  both sides known. @param ahead_m  > 0.
-double pursuit_course_rad(const vision::corridor::Gap& gap, double ahead_m, double most_rad);
+/// The controller in flight: roll and turn rate by eq. (12), sampled, at constant pitch.
+/// Source: [Zingg2010] sec. V-C. Differs: the paper keeps the thrust constant, we hold the height with the height
+/// sensor; and it hovers while no walls are measured.
+class CenteringLaw {
+ public:
+  struct Config {
+    CenteringGains gains;
+    double sample_s = 0.5;   ///< T, > 0
+    double pitch_rad = 0.0;  ///< nose down, >= 0
+    double probe_s = 0.0;    ///< time for which it flies before it measures anything
+  };
+  explicit CenteringLaw(const Config& config) : config_(config) {}
 
-/// What the speed leaves time for.
-struct SpeedLimits {
-  double speed_mps = 0.8;    ///< where nothing is near
-  double aside_s = 0.8;      ///< time in which it could fly the free distance at its narrower side
-  double stop_mps2 = 1.0;    ///< deceleration counted on
-  double reaction_s = 0.35;  ///< from what is seen to what is done
+  /// Takes the error e_n that an image of this instant shows, NaN when a side is unknown.
+  void observe(double error, int64_t t_ns);
+  /// Returns what to fly now. @param dt_s  since the last call, >= 0.
+  Command update(const Observation& observation, double dt_s);
+  /// Of the last command: "cruise", "probe" or "blind".
+  const char* status() const { return status_; }
+
+ private:
+  Config config_;
+  const char* status_ = "wait";
+  double error_ = std::numeric_limits<double>::quiet_NaN();  ///< of the last image
+  double control_ = 0.0;                                     ///< roll, rad, and turn rate, rad/s
+  std::optional<double> sampled_error_, heading_rad_;
+  int64_t begun_ns_ = -1, known_ns_ = -1, sampled_ns_ = -1;
 };
-
-template <class Visitor>
-void describe(Visitor& v, SpeedLimits& c) {
-  v("speed", c.speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "where nothing is near"});
-  v("aside", c.aside_s,
-    {.unit = "s", .above = 0.0, .meaning = "time in which it could fly the clearance at its sides"});
-  v("braking", c.stop_mps2, {.unit = "m/s^2", .above = 0.0, .meaning = "deceleration counted on"});
-  v("reaction", c.reaction_s, {.unit = "s", .at_least = 0.0, .meaning = "from seeing to acting"});
-}
-
-/// Returns the greatest speed at which the clearance aside is flown in no less than `aside_s` and the way ahead is long
-/// enough to stop in, m/s, >= 0.
-/// @param aside_m, ahead_m  clearances of the hull, m; below 0 counts as 0, +inf is nothing there.
-double clearance_speed_mps(double aside_m, double ahead_m, const SpeedLimits& limits);
 
 }  // namespace hedgehop::avoidance::corridor_centering

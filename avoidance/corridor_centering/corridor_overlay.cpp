@@ -24,20 +24,20 @@ cv::Scalar color_of(RejectionReason rejection) {
   return rejection == RejectionReason::floor ? kFloor : kRed;
 }
 
-cv::Mat fisheye(const CorridorSight& sight, const CorridorView* view) {
-  cv::Mat wanted = sight.regions()[vision::corridor::kLeft] | sight.regions()[vision::corridor::kRight],
-          dim = 0.55 * sight.image();
-  sight.image().copyTo(dim, wanted);
+cv::Mat fisheye(const WallObserver& observer, const WallObservation* seen) {
+  cv::Mat wanted = observer.regions()[vision::corridor::kLeft] | observer.regions()[vision::corridor::kRight],
+          dim = 0.55 * observer.image();
+  observer.image().copyTo(dim, wanted);
   cv::Mat image;
   cv::cvtColor(dim, image, cv::COLOR_GRAY2RGB);
-  for (size_t k = 0; k < sight.regions().size(); ++k) {
+  for (size_t k = 0; k < observer.regions().size(); ++k) {
     std::vector<std::vector<cv::Point>> outline;
-    cv::findContours(sight.regions()[k].clone(), outline, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+    cv::findContours(observer.regions()[k].clone(), outline, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
     cv::drawContours(image, outline, -1, k == vision::corridor::kAhead ? cv::Scalar(150, 150, 150) : kYellow, 1);
   }
-  if (!view) return image;
+  if (!seen) return image;
   constexpr double kLonger = 2.0;
-  for (const vision::corridor::WallPoint& point : view->points) {
+  for (const vision::corridor::WallPoint& point : seen->points) {
     const Eigen::Vector2d from = point.pair.before_px, to = from + kLonger * (point.pair.after_px - from);
     cv::line(image, fixed(from.x(), from.y()), fixed(to.x(), to.y()), color_of(point.rejection), 1, cv::LINE_AA,
              kFractionBits);
@@ -78,8 +78,8 @@ class Map {
 
 cv::Mat map_from_above(const CorridorScene& scene, int side_px) {
   Map map(side_px);
-  if (scene.view) {
-    for (const vision::corridor::WallPoint& point : scene.view->points) {
+  if (scene.seen) {
+    for (const vision::corridor::WallPoint& point : scene.seen->points) {
       if (point.rejection == RejectionReason::none) map.dot(point.p_CP_H.head<2>(), kGreen);
     }
     constexpr double kBackM = -1.0, kFrontM = 3.0;
@@ -88,8 +88,8 @@ cv::Mat map_from_above(const CorridorScene& scene, int side_px) {
       if (std::isfinite(y_m))
         map.line(turn * Eigen::Vector2d(from_m, y_m), turn * Eigen::Vector2d(to_m, y_m), color, 2);
     };
-    wall(scene.view->direction_rad, -scene.view->left.distance_m, kYellow, kBackM, kFrontM);
-    wall(scene.view->direction_rad, scene.view->right.distance_m, kYellow, kBackM, kFrontM);
+    wall(scene.seen->direction_rad, -scene.seen->left.distance_m, kYellow, kBackM, kFrontM);
+    wall(scene.seen->direction_rad, scene.seen->right.distance_m, kYellow, kBackM, kFrontM);
     wall(0.0, -scene.gap.left_m, cv::Scalar(240, 150, 60), 0.0, 0.5 * kFrontM);
     wall(0.0, scene.gap.right_m, cv::Scalar(240, 150, 60), 0.0, 0.5 * kFrontM);
   }
@@ -104,8 +104,8 @@ cv::Mat map_from_above(const CorridorScene& scene, int side_px) {
 
 }  // namespace
 
-cv::Mat corridor_overlay(const CorridorSight& sight, const CorridorScene& scene) {
-  cv::Mat image = fisheye(sight, scene.view), both;
+cv::Mat corridor_overlay(const WallObserver& observer, const CorridorScene& scene) {
+  cv::Mat image = fisheye(observer, scene.seen), both;
   stereo::caption(image, scene.caption + "  red: wrong, blue: floor");
   cv::hconcat(image, map_from_above(scene, image.rows), both);
   return both;

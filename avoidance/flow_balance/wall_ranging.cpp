@@ -10,9 +10,9 @@
 namespace hedgehop::avoidance::flow_balance {
 namespace {
 
-/// Standard deviation of a flow vector per axis, px: what the image interpolation reaches on rendered walls.
+/// Standard deviation of a flow vector per axis, px. Chosen: some hundredths on a plane, more across a wall's edge.
 constexpr double kFlowNoisePx = 0.1;
-/// Of a wall's distance, at most. Looser fits turned the helicopter round in the middle of the room.
+/// Of a wall's distance, at most. Chosen: a worse fit may be off by a third, and patches stand in.
 constexpr double kRelativeError = 0.3;
 /// A wall is never nearer than this, m, so that its inverse range stays finite.
 constexpr double kLeastRangeM = 1e-3;

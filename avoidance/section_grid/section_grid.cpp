@@ -2,67 +2,51 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
+#include "avoidance/section_grid/section_law.h"
 #include "avoidance/section_grid/section_pilot.h"
 #include "avoidance/stereo/depth_overlay.h"
 #include "avoidance/stereo/passed_obstacles.h"
-#include "avoidance/stereo/stereo_sight.h"
+#include "sim/fields/bounds.h"
 #include "vision/stereo/depth_pyramid.h"
 
 namespace hedgehop::avoidance::section_grid {
 namespace {
 
-constexpr const char* kDepthRole = "depth";
-constexpr double kDepthBaselineM = 0.25;  // of the pair that would have seen the depth that a camera knows
+using stereo::DisparitySource;
 
-void check(const SectionGridConfig& c) {
-  const auto need = [](bool holds, const char* message) {
-    if (!holds) throw std::invalid_argument(std::string("section_grid: ") + message);
-  };
-  need(c.threshold_m > 0.0, "threshold must be above 0 m");
-  need(c.threshold_time_s >= 0.0, "threshold_time must be at least 0 s");
-  need(c.most_share >= 0.0 && c.most_share <= 1.0, "most_share must lie in [0, 1]");
-  need(c.speck_px >= 0, "speck must be at least 0 px");
-  need(c.passed.radius_m >= 0.0, "passed needs a radius of at least 0");
-  need(c.passed.near_m > 0.0 && c.passed.keep_s > 0.0, "passed needs near and keep above 0");
-}
+/// How long what has left the image is remembered: at 1 m/s the vehicle has passed it by then.
+constexpr double kKeepPassedS = 8.0;
 
 class SectionGridModule final : public Module {
  public:
-  explicit SectionGridModule(const SectionGridConfig& config) : config_(config), pilot_(config.pilot) { check(config); }
+  explicit SectionGridModule(const SectionGridConfig& config) : config_(config), law_(config.lowest_m), pilot_(config) {
+    fields::require_bounds(config);
+  }
 
  private:
-  using State = SectionPilot::State;
+  bool is_ours() const { return config_.law == Law::ours; }
+  State state() const { return is_ours() ? pilot_.state() : law_.state(); }
 
-  Needs do_needs() const override {
-    if (config_.sight == SectionGridConfig::Sight::stereo) return stereo::StereoSight::needs();
-    return {{{kDepthRole, CameraNeed::Channel::depth, /*pinhole=*/true}}};
-  }
+  Needs do_needs() const override { return DisparitySource::needs(config_.depth, DisparitySource::Grey::unused); }
 
   std::vector<Signal> do_signals() const override {
     return {{"section", ""}, {"threat_share", ""}, {"unknown_share", ""}, {"rows_above_center", ""}};
   }
 
   void do_reset(const Setup& setup) override {
-    sight_.reset();
-    if (config_.sight == SectionGridConfig::Sight::stereo) {
-      sight_.emplace(config_.stereo, setup);
-      camera_ = {sight_->geometry(), sight_->X_BC(), sight_->image()};
-    } else {
-      const auto camera = std::ranges::find(setup.cameras, kDepthRole, &MountedCamera::role);
-      const vision::camera::PinholeCamera lens = camera->model.pinhole();
-      camera_ = {{lens.focal_x_px, lens.center_u_px, lens.center_v_px, kDepthBaselineM},
-                 camera->X_BC,
-                 {lens.width_px, lens.height_px}};
-    }
-    search_.emplace(config_.grid, camera_.image);
+    source_.emplace(config_.depth, DisparitySource::Grey::unused, config_.stereo, setup);
+    camera_ = {source_->geometry(), source_->X_BC(), source_->image()};
+    search_.emplace(grid(), camera_.image);
+    law_.reset(camera_);
     pilot_.reset(camera_);
-    passed_.emplace(config_.passed);
+    passed_.emplace(stereo::PassedObstaclesConfig{
+        .radius_m = is_ours() ? config_.passed_radius_m : 0.0, .near_m = config_.threshold_m, .keep_s = kKeepPassedS});
     depth_m_ = cv::Mat(camera_.image, CV_32FC1, cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
     hull_ahead_m_ = std::max(0.0, setup.limits.radius_m - camera_.X_BC.translation().x());
     last_.reset();
@@ -72,28 +56,31 @@ class SectionGridModule final : public Module {
     t_ns_ = -1;
   }
 
+  vision::sections::SectionGrid grid() const {
+    vision::sections::SectionGrid grid{.rows = config_.sections, .cols = config_.sections};
+    if (!config_.overlapping) grid.width_share = grid.height_share = 1.0 / config_.sections;
+    if (is_ours()) grid.grow_px = config_.grow_px;
+    return grid;
+  }
+
   Decision do_update(const Observation& observation) override {
-    const bool looked = look(observation.frames);
-    if (!looked && last_) return *last_;
-    if (looked && config_.passed.radius_m > 0.0) remember(observation);
-    const double speed_mps = observation.navigation.v_WB_B_est.norm();
-    const double threshold_m = std::max(config_.threshold_m, hull_ahead_m_ + config_.threshold_time_s * speed_mps);
-    choice_ = search_->choose(depth_m_, threshold_m, config_.most_share, config_.unknown, [&](int section) {
-      const NavigationState& navigation = observation.navigation;
-      return passed_->free(pilot_.place(navigation, *search_, section, threshold_m) - navigation.p_WB_est);
-    });
-    for (size_t i = 0; i < search_->sections().size(); ++i) {
-      rejected_ += search_->threats()[i] > config_.most_share * search_->sections()[i].area();
-    }
+    const bool is_new = read_depth(observation.frames);
+    if (!is_new && last_) return *last_;
+    const NavigationState& navigation = observation.navigation;
+    if (is_new && is_ours() && config_.passed_radius_m > 0.0) remember(observation);
+    const double threshold_m = threshold(navigation.v_WB_B_est.norm());
+    choice_ = choose(navigation, threshold_m);
+
     Decision decision;
-    decision.command =
-        pilot_.update({*search_, choice_, *passed_, threshold_m, observation.navigation}, observation.goal);
-    if (pilot_.state() == State::hover_and_yaw && t_ns_ >= 0)
+    const SectionView view{*search_, choice_, *passed_, threshold_m, navigation};
+    decision.command = is_ours() ? pilot_.update(view, observation.goal) : law_.update(view, observation.goal);
+    if (state() == State::hover_and_yaw && t_ns_ >= 0) {
       hover_s_ += 1e-9 * static_cast<double>(observation.t_ns - t_ns_);
+    }
     t_ns_ = observation.t_ns;
-    decision.status = name_of(pilot_.state());
+    decision.status = name_of(state());
     const double unknown = 1.0 - cv::countNonZero(depth_m_ >= 0.0) / static_cast<double>(depth_m_.total());
-    const int cols = config_.grid.cols;
+    const int cols = config_.sections;
     if (choice_.section >= 0) rows_above_ = search_->center() / cols - choice_.section / cols;
     most_rows_above_ = std::max(most_rows_above_, rows_above_);
     decision.signals = {static_cast<double>(choice_.section), choice_.share, unknown, static_cast<double>(rows_above_)};
@@ -101,51 +88,49 @@ class SectionGridModule final : public Module {
     return decision;
   }
 
-  static const char* name_of(State state) {
-    switch (state) {
-      case State::cruise:
-        return "cruise";
-      case State::avoid:
-        return "avoid";
-      case State::resume:
-        return "resume";
-      case State::hover_and_yaw:
-        return "hover_and_yaw";
-    }
-    throw std::logic_error("unknown state");
-  }
-
-  /// Brings the depth image up to date. @return whether there is a new one.
-  bool look(std::span<const CameraFrame> frames) {
-    if (sight_) {
-      if (!sight_->update(frames)) return false;
-      constexpr int kSameSegment16 = 32;  // two pixels of disparity
-      vision::stereo::remove_specks(sight_->disparity16(), kSameSegment16, config_.speck_px);
-      vision::stereo::to_depth(sight_->disparity16(), camera_.geometry, depth_m_);
+  /// Updates the depth image. @return whether there is a new one.
+  bool read_depth(std::span<const CameraFrame> frames) {
+    if (!source_->update(frames)) return false;
+    if (config_.depth == DisparitySource::From::camera) {
+      source_->depth_m().copyTo(depth_m_);
       return true;
     }
-    const auto frame = std::ranges::find(frames, kDepthRole, &CameraFrame::role);
-    if (frame == frames.end()) return false;
-    frame->image.copyTo(depth_m_);
+    constexpr int kSameSegment16 = 32;  // two pixels of disparity: the block matcher scatters by about one
+    vision::stereo::remove_specks(source_->disparity16(), kSameSegment16, config_.speck_px);
+    vision::stereo::to_depth(source_->disparity16(), camera_.geometry, depth_m_);
     return true;
   }
 
-  /// Takes the newest image in, that what leaves the next ones is not forgotten.
+  /// Remembers the newest image for when it has left the view.
   void remember(const Observation& observation) {
     constexpr int kBlockLevel = 3;  // blocks of 8 px
     const NavigationState& navigation = observation.navigation;
-    pyramid_.build(sight_ ? sight_->disparity16() : known_disparity16(), kBlockLevel);
+    pyramid_.build(source_->disparity16(), kBlockLevel);
     passed_->update(observation.t_ns, pyramid_, camera_.geometry,
                     Eigen::Translation3d(navigation.p_WB_est) * navigation.q_WB_est * camera_.X_BC);
   }
 
-  /// The disparity that a pair would have seen.
-  cv::Mat known_disparity16() const {
-    cv::Mat disparity, disparity16;
-    cv::divide(camera_.geometry.disparity16(1.0), depth_m_, disparity);
-    disparity.setTo(vision::stereo::kNoDisparity, disparity != disparity);
-    disparity.convertTo(disparity16, CV_16S);
-    return disparity16;
+  /// What is nearer is a threat, m. Ours: it grows with speed.
+  double threshold(double speed_mps) const {
+    if (!is_ours()) return config_.threshold_m;
+    return std::max(config_.threshold_m, hull_ahead_m_ + config_.threshold_time_s * speed_mps);
+  }
+
+  /// [Perez2018] sec. V-C; ours: among the sections that do not lead to what has left the image.
+  vision::sections::SectionChoice choose(const NavigationState& navigation, double threshold_m) {
+    std::function<bool(int)> open;
+    if (is_ours()) {
+      open = [&](int section) {
+        return passed_->free(pilot_.position_W(navigation, *search_, section, threshold_m) - navigation.p_WB_est);
+      };
+    }
+    // A pixel without depth is no threat: mostly sky and what the two images do not share.
+    const vision::sections::SectionChoice choice =
+        search_->choose(depth_m_, threshold_m, kMostShare, vision::sections::Unknown::free, open);
+    for (size_t i = 0; i < search_->sections().size(); ++i) {
+      rejected_ += search_->threats()[i] > kMostShare * search_->sections()[i].area();
+    }
+    return choice;
   }
 
   std::vector<Metric> do_metrics() const override {
@@ -163,24 +148,25 @@ class SectionGridModule final : public Module {
     const cv::Scalar green(90, 230, 110), red(240, 80, 60);
     cv::rectangle(image, winner, found ? green : red, 2);
     cv::drawMarker(image, {winner.x + winner.width / 2, winner.y + winner.height / 2}, found ? green : red);
-    stereo::caption(image, std::string(name_of(pilot_.state())) + "  section " + std::to_string(choice_.section) +
+    stereo::caption(image, std::string(name_of(state())) + "  section " + std::to_string(choice_.section) +
                                "  threats " + std::to_string(std::lround(100.0 * choice_.share)) + " %");
     return image;
   }
 
   SectionGridConfig config_;
-  std::optional<stereo::StereoSight> sight_;  ///< none when depth is known
+  std::optional<DisparitySource> source_;
   SectionCamera camera_;
   std::optional<vision::sections::SectionSearch> search_;
   cv::Mat depth_m_;
   vision::sections::SectionChoice choice_;
+  SectionLaw law_;
   SectionPilot pilot_;
   vision::stereo::DepthPyramid pyramid_;
   std::optional<stereo::PassedObstacles> passed_;
   std::optional<Decision> last_;
   int64_t t_ns_ = -1, rejected_ = 0;
   double hover_s_ = 0.0;
-  int rows_above_ = 0, most_rows_above_ = 0;  ///< of the chosen section, from the center's row
+  int rows_above_ = 0, most_rows_above_ = 0;  ///< of the chosen section, above the center's row
   double hull_ahead_m_ = 0.0;                 ///< how far the vehicle reaches before the camera
 };
 

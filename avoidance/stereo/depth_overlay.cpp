@@ -7,14 +7,14 @@ namespace hedgehop::avoidance::stereo {
 
 cv::Mat depth_overlay(const cv::Mat& depth_m, double far_m) {
   constexpr double kUnknown = -1.0;
-  cv::Mat depth = depth_m.clone(), nearness(depth_m.size(), CV_8UC1), colors;
+  cv::Mat depth = depth_m.clone(), closeness(depth_m.size(), CV_8UC1), colors;
   for (int v = 0; v < depth_m.rows; ++v) {
     for (int u = 0; u < depth_m.cols; ++u) {
       const double share = std::min(1.0, depth_m.at<float>(v, u) / far_m);  // 1 for NaN
-      nearness.at<uint8_t>(v, u) = static_cast<uint8_t>(255.0 * (1.0 - share));
+      closeness.at<uint8_t>(v, u) = static_cast<uint8_t>(255.0 * (1.0 - share));
     }
   }
-  cv::applyColorMap(nearness, colors, cv::COLORMAP_TURBO);
+  cv::applyColorMap(closeness, colors, cv::COLORMAP_TURBO);
   cv::cvtColor(colors, colors, cv::COLOR_BGR2RGB);
   cv::patchNaNs(depth, kUnknown);
   colors.setTo(cv::Scalar::all(0), depth == kUnknown);

@@ -16,14 +16,14 @@ cv::Mat depth_panel(const cv::Mat& disparity16, const vision::stereo::StereoGeom
   return stereo::depth_overlay(depth_m, far_m);
 }
 
-/// The block of the pyramid that a pixel is the center of: column times size and half a size more, size a power of two,
-/// so the lowest bit of its column is half the size.
+/// The block of the pyramid around its center pixel. The column is a multiple of the size and half a size more, and the
+/// size is a power of two, so the lowest bit of the column is half the size.
 cv::Rect block_of(const cv::Point& center) {
   const int half = center.x & -center.x;
   return {center.x - half, center.y - half, 2 * half, 2 * half};
 }
 
-/// Colors an area so that the image is still seen; the edge stays free, so that neighbors are told apart.
+/// Colors an area so that the image shows through; its edge stays free, so that neighbors can be distinguished.
 void tint(cv::Mat& panel, const cv::Rect& area, const cv::Scalar& color) {
   const cv::Rect inner = cv::Rect(area.x + 1, area.y + 1, area.width - 2, area.height - 2) & cv::Rect({}, panel.size());
   if (inner.empty()) return;
@@ -33,24 +33,24 @@ void tint(cv::Mat& panel, const cv::Rect& area, const cv::Scalar& color) {
 
 }  // namespace
 
-cv::Mat draw(const TargetImage& seen, const vision::stereo::DepthPyramid& pyramid,
+cv::Mat draw(const TargetImage& shown, const vision::stereo::DepthPyramid& pyramid,
              const vision::stereo::StereoGeometry& geometry, double far_m) {
   cv::Mat left;
-  cv::cvtColor(seen.grey, left, cv::COLOR_GRAY2RGB);
+  cv::cvtColor(shown.grey, left, cv::COLOR_GRAY2RGB);
   const cv::Mat filtered = depth_panel(pyramid.level(0)(cv::Rect({}, pyramid.image())), geometry, far_m);
   std::array<cv::Mat, 6> panels = {
-      left.clone(), depth_panel(seen.matched16, geometry, far_m), filtered, filtered.clone(), left.clone(), left};
-  for (const TargetImage::Candidate& candidate : seen.candidates) {
+      left.clone(), depth_panel(shown.matched16, geometry, far_m), filtered, filtered.clone(), left.clone(), left};
+  for (const TargetImage::Candidate& candidate : shown.candidates) {
     cv::rectangle(panels[3], block_of(candidate.pixel), kRegion);
     tint(panels[4], block_of(candidate.pixel), candidate.free ? kFree : kDangerous);
   }
-  if (seen.target) {
-    cv::circle(panels[5], *seen.target, seen.target_radius_px, kFree, 2, cv::LINE_AA);
-    cv::drawMarker(panels[5], *seen.target, kFree);
+  if (shown.target) {
+    cv::circle(panels[5], *shown.target, shown.target_radius_px, kFree, 2, cv::LINE_AA);
+    cv::drawMarker(panels[5], *shown.target, kFree);
   }
   const std::array<std::string, 6> captions = {"left image",        "depth, red near",
                                                "depth, filtered",   "no near objects here",
-                                               "free or dangerous", "chosen: " + seen.chosen_by};
+                                               "free or dangerous", "chosen: " + shown.chosen_by};
   for (size_t i = 0; i < panels.size(); ++i) stereo::caption(panels[i], captions[i]);
   cv::Mat upper, lower, all;
   cv::hconcat(panels.data(), 3, upper);

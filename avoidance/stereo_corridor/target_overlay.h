@@ -10,7 +10,7 @@
 
 namespace hedgehop::avoidance::stereo_corridor {
 
-/// What a decision of the stereo corridor was made from.
+/// What a decision of the stereo corridor was based on.
 struct TargetImage {
   struct Candidate {
     cv::Point pixel;  ///< center of a block of the pyramid
@@ -21,13 +21,14 @@ struct TargetImage {
   std::vector<Candidate> candidates;
   std::optional<cv::Point> target;
   int target_radius_px = 0;  ///< of the corridor where the target lies
-  std::string chosen_by;     ///< the step of [Andert2007] sec. 4.3.4 that found it
+  std::string chosen_by;     ///< the step of [Andert2007] sec. 4.3.4 that found the target
 };
 
 /// Draws the chain of [Andert2007] fig. 1 in six panels, left to right, top to bottom: left image, depth as matched,
 /// depth filtered, regions without near objects, which of them are dangerous (red) or free (green), chosen target.
-/// @param pyramid  of the filtered disparity. @param far_m  shown as far as anything, > 0. @return CV_8UC3, RGB.
-cv::Mat draw(const TargetImage& seen, const vision::stereo::DepthPyramid& pyramid,
+/// @param pyramid  of the filtered disparity. @param far_m  depth from which on the color stays the same, > 0. @return
+/// CV_8UC3, RGB.
+cv::Mat draw(const TargetImage& shown, const vision::stereo::DepthPyramid& pyramid,
              const vision::stereo::StereoGeometry& geometry, double far_m);
 
 }  // namespace hedgehop::avoidance::stereo_corridor

@@ -6,9 +6,9 @@
 namespace hedgehop::avoidance::stereo_corridor {
 
 bool TurnBack::update(const Eigen::Vector3d& p_CG_C) {
-  constexpr double kAhead = 0.2;  // of a radian, so that most of the image lies round the goal
-  constexpr double kNearerM = 3.0;
-  constexpr double kWanderM = 0.3;  // of a position estimate while a goal is passed
+  constexpr double kAhead = 0.2;    // tangent of the bearing: most of the image lies round the goal
+  constexpr double kNearerM = 3.0;  // progress that makes the last turn a success
+  constexpr double kWanderM = 0.3;  // drift of a position estimate while a goal is passed
   const double distance_m = std::hypot(p_CG_C.x(), p_CG_C.z());
   nearest_m_ = std::min(nearest_m_, distance_m);
   if (distance_m < nearest_ever_m_ - kNearerM) {

@@ -5,12 +5,12 @@
 
 namespace hedgehop::avoidance::stereo_corridor {
 
-/// Tells a vehicle that sees ahead only when to turn on the spot for a goal that it has passed: when the goal recedes
-/// and lies a meter behind, and until it lies ahead. Every turn doubles that meter, so that a long way round is still
-/// flown, until the goal has come nearer than ever. Ours.
+/// Decides when a vehicle that sees ahead only turns on the spot towards a goal that it has passed: as soon as the goal
+/// recedes and lies a meter behind, and until it lies ahead. Every turn doubles that meter, so that a long detour is
+/// still flown, until the goal has been closer than ever. Ours.
 class TurnBack {
  public:
-  /// @param p_CG_C  the goal in the camera's frame, m. @return whether to turn towards it on the spot now.
+  /// @param p_CG_C  the goal, from the camera, m. @return whether to turn towards it on the spot now.
   bool update(const Eigen::Vector3d& p_CG_C);
 
  private:

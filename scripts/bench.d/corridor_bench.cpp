@@ -11,6 +11,7 @@ namespace hedgehop::avoidance {
 namespace {
 
 using Method = vision::stereo::StereoMatcherConfig::Method;
+using stereo_corridor::make_stereo_corridor, stereo_corridor::StereoCorridorConfig;
 
 constexpr int kWidthPx = 320, kHeightPx = 240;
 constexpr double kFovRad = 64.0 * std::numbers::pi / 180.0;  // [Andert2007] sec. 2

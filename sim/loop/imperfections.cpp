@@ -19,8 +19,8 @@ double draw(uint64_t seed, int64_t frame, std::string_view what) {
 
 }  // namespace
 
-Imperfections::Imperfections(const ImperfectionsConfig& config, double period_s, uint64_t seed)
-    : config_(config), period_s_(period_s), seed_(seed), gain_(std::exp2(config.exposure_stops)) {}
+Imperfections::Imperfections(const ImperfectionsConfig& config, double period_s, uint64_t seed, double focal_px)
+    : config_(config), period_s_(period_s), seed_(seed), focal_px_(focal_px), gain_(std::exp2(config.exposure_stops)) {}
 
 Imperfections::FrameFault Imperfections::frame_fault(int64_t frame) const {
   if (draw(seed_, frame, "drop") < config_.drop) return FrameFault::dropped;
@@ -30,6 +30,7 @@ Imperfections::FrameFault Imperfections::frame_fault(int64_t frame) const {
 }
 
 void Imperfections::apply(int64_t frame, cv::Mat& image) {
+  if (image.type() == CV_32FC1 && config_.disparity_noise_px > 0.0) return apply_to_depth(frame, image);
   const bool noisy = config_.full_well > 0.0 || config_.read_noise > 0.0;
   const bool exposed = config_.exposure_stops != 0.0 || config_.auto_exposure_s > 0.0;
   if (image.depth() != CV_8U || (!noisy && !exposed && config_.vignetting <= 0.0)) return;
@@ -51,6 +52,23 @@ void Imperfections::apply(int64_t frame, cv::Mat& image) {
     levels_ += noise_;
   }
   levels_.convertTo(image, CV_8U);
+}
+
+void Imperfections::apply_to_depth(int64_t frame, cv::Mat& depth_m) {
+  const double disparity_m_px = focal_px_ * ImperfectionsConfig::kBaselineM;  // disparity times depth
+  cv::divide(disparity_m_px, depth_m, levels_);                               // 0 for the sky, NaN stays NaN
+  noise_.create(levels_.size(), levels_.type());
+  cv::RNG random(stream_seed(seed_ + static_cast<uint64_t>(frame), "disparity"));
+  random.fill(noise_, cv::RNG::NORMAL, 0.0, config_.disparity_noise_px);
+  levels_ += noise_;
+  for (int v = 0; v < depth_m.rows; ++v) {
+    for (int u = 0; u < depth_m.cols; ++u) {
+      const float disparity_px = levels_.at<float>(v, u);
+      float& z_m = depth_m.at<float>(v, u);
+      if (disparity_px > 0.0F) z_m = static_cast<float>(disparity_m_px / disparity_px);
+      if (disparity_px <= 0.0F) z_m = std::numeric_limits<float>::infinity();
+    }
+  }
 }
 
 const cv::Mat& Imperfections::brightness(const cv::Mat& levels) {

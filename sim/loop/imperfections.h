@@ -11,24 +11,28 @@ namespace hedgehop::sim {
 /// alone (automatic exposure aside, which follows the images before it).
 class Imperfections {
  public:
-  /// @param period_s  between images, > 0. @param seed  of the camera's own stream.
-  Imperfections(const ImperfectionsConfig& config, double period_s, uint64_t seed);
+  /// @param period_s  between images, > 0. @param seed  of the camera's own stream. @param focal_px  of the lens, > 0;
+  /// for disparity noise only.
+  Imperfections(const ImperfectionsConfig& config, double period_s, uint64_t seed, double focal_px = 0.0);
 
   /// What is delivered instead of a frame.
   enum class FrameFault { none, dropped, frozen, black };
   FrameFault frame_fault(int64_t frame) const;
 
   /// Vignetting, exposure, photon and read noise, in this order, as light, lens and sensor have it; grey levels are
-  /// taken as proportional to light. Images of 8 bits only: others are left as they are. @param image  CV_8U.
+  /// taken as proportional to light. Of depth: noise of its disparity; a disparity that falls to 0 is infinitely far.
+  /// @param image  CV_8U, or CV_32FC1 of depth, z in C, m, NaN unknown; others are left as they are.
   void apply(int64_t frame, cv::Mat& image);
 
  private:
+  void apply_to_depth(int64_t frame, cv::Mat& depth_m);
   const cv::Mat& brightness(const cv::Mat& levels);
   void expose_automatically(const cv::Mat& levels);
 
   ImperfectionsConfig config_;
   double period_s_;
   uint64_t seed_;
+  double focal_px_;
   double gain_;
   cv::Mat brightness_;              ///< CV_32F, as many channels: share that the lens lets through
   cv::Mat levels_, noise_, sigma_;  ///< CV_32F

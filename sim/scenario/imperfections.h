@@ -2,20 +2,25 @@
 
 namespace hedgehop::sim {
 
-/// What a real camera does to its images. All off by default. Numbers are per camera, drawn from its own stream.
+/// What a real camera does to its images. All off by default. Numbers are per camera, drawn from its own stream. Those
+/// of light, lens and sensor are for grey and color, disparity noise for depth, frame faults and readout for all.
 struct ImperfectionsConfig {
-  double vignetting = 0.0;       ///< share of brightness missing in the corner
-  double exposure_stops = 0.0;   ///< brighter (> 0) or darker than drawn, in powers of two
-  double auto_exposure_s = 0.0;  ///< time constant that draws the mean to mid-grey; 0: off
-  double full_well = 0.0;        ///< photo-electrons at white; 0: no photon noise
-  double read_noise = 0.0;       ///< standard deviation, grey levels
-  double shutter_s = 0.0;        ///< how long the image is exposed
-  int shutter_samples = 8;       ///< moments that a blurred image is the mean of
-  double readout_s = 0.0;        ///< from the first row's exposure to the last's; 0: global shutter
-  int readout_strips = 16;       ///< of rows that share a moment
-  double drop = 0.0;             ///< probability that an image is lost
-  double freeze = 0.0;           ///< probability that the last image is delivered again
-  double black = 0.0;            ///< probability that an image is black
+  /// Of the stereo pair that a depth camera stands for: [Andert2007] sec. 2. It turns disparity noise into depth noise.
+  static constexpr double kBaselineM = 0.3;
+
+  double vignetting = 0.0;          ///< share of brightness missing in the corner
+  double exposure_stops = 0.0;      ///< brighter (> 0) or darker than drawn, in powers of two
+  double auto_exposure_s = 0.0;     ///< time constant that draws the mean to mid-grey; 0: off
+  double full_well = 0.0;           ///< photo-electrons at white; 0: no photon noise
+  double read_noise = 0.0;          ///< standard deviation, grey levels
+  double disparity_noise_px = 0.0;  ///< standard deviation, of focal length times kBaselineM over depth
+  double shutter_s = 0.0;           ///< how long the image is exposed
+  int shutter_samples = 8;          ///< moments that a blurred image is the mean of
+  double readout_s = 0.0;           ///< from the first row's exposure to the last's; 0: global shutter
+  int readout_strips = 16;          ///< of rows that share a moment
+  double drop = 0.0;                ///< probability that an image is lost
+  double freeze = 0.0;              ///< probability that the last image is delivered again
+  double black = 0.0;               ///< probability that an image is black
 };
 
 template <class Visitor>
@@ -34,6 +39,11 @@ void describe(Visitor& v, ImperfectionsConfig& c) {
     {.at_least = 0.0,
      .at_most = 255.0,
      .meaning = "standard deviation of the noise of reading, in grey levels of 255"});
+  v("disparity_noise", c.disparity_noise_px,
+    {.unit = "px",
+     .at_least = 0.0,
+     .at_most = 100.0,
+     .meaning = "standard deviation of a depth camera's noise, as disparity of a pair with a baseline of 0.3 m"});
   v("shutter", c.shutter_s,
     {.unit = "s", .at_least = 0.0, .at_most = 1.0, .meaning = "how long an image is exposed, ending at its instant"});
   v("shutter_samples", c.shutter_samples,

@@ -53,6 +53,7 @@ class Validator {
     const std::vector<CameraConfig>& cameras = scenario_.rig.cameras;
     for (size_t i = 0; i < cameras.size(); ++i) {
       build(fmt::format("rig.cameras.{}", i), [&] { cameras[i].model(); });
+      imperfections(fmt::format("rig.cameras.{}.imperfections", i), cameras[i]);
       const std::string path = fmt::format("rig.cameras.{}.role", i);
       if (cameras[i].role.empty()) add(path, "must not be empty");
       for (size_t j = 0; j < i; ++j) {
@@ -133,6 +134,30 @@ class Validator {
   }
   template <class Check>
   void check(const std::string&, const Check&) {}
+
+  /// None may be silently without effect.
+  void imperfections(const std::string& path, const CameraConfig& camera) {
+    const ImperfectionsConfig& c = camera.imperfections;
+    const auto refuse = [&](std::string_view key, bool is_on) {
+      if (is_on)
+        add(fmt::format("{}.{}", path, key),
+            "is not for depth images; valid: disparity_noise, readout, drop, "
+            "freeze, black");
+    };
+    if (camera.channel == Channel::depth) {
+      refuse("vignetting", c.vignetting != 0.0);
+      refuse("exposure", c.exposure_stops != 0.0);
+      refuse("auto_exposure", c.auto_exposure_s != 0.0);
+      refuse("full_well", c.full_well != 0.0);
+      refuse("read_noise", c.read_noise != 0.0);
+      refuse("shutter", c.shutter_s != 0.0);
+      if (c.disparity_noise_px != 0.0 && !camera.is_undistorted_pinhole()) {
+        add(path + ".disparity_noise", "needs an undistorted pinhole");
+      }
+    } else if (c.disparity_noise_px != 0.0) {
+      add(path + ".disparity_noise", "is for channel: depth alone");
+    }
+  }
 
   void ordered(const std::string& path, std::string_view lower, double min, double max) {
     if (!(min < max)) add(path, fmt::format("must be greater than '{}' ({} m), got {}", lower, min, max));

@@ -7,8 +7,7 @@
 namespace hedgehop::vision::sections {
 
 /// Overlapping sections of an image: rows x cols rectangles of one size, spread evenly so that the outermost reach the
-/// image's edges, numbered from the top left, row by row, from 0. Source: [Perez2018] sec. on the selection of
-/// sections.
+/// image's edges, numbered from the top left, row by row, from 0. Source: [Perez2018] sec. V-B.
 struct SectionGrid {
   int rows = 17, cols = 17;          ///< at least 1
   double width_share = 628. / 1280;  ///< of the image's width, in (0, 1]

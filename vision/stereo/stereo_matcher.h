@@ -5,7 +5,8 @@
 
 namespace hedgehop::vision::stereo {
 
-/// Which of OpenCV's matchers turns a rectified pair into disparity, and how.
+/// Which of OpenCV's matchers turns a rectified pair into disparity, and how. describe() lists what a scene and a
+/// camera decide; the other values fit every pair so far.
 struct StereoMatcherConfig {
   enum class Method { block, semi_global };
   Method method = Method::semi_global;
@@ -23,11 +24,6 @@ void describe(Visitor& v, StereoMatcherConfig& c) {
   v("disparities", c.disparities_px,
     {.unit = "px", .at_least = 16, .at_most = 512, .meaning = "disparities searched from 0 on; a multiple of 16"});
   v("block", c.block_px, {.unit = "px", .at_least = 1, .at_most = 51, .meaning = "side of the compared squares; odd"});
-  v("uniqueness", c.uniqueness_percent,
-    {.at_least = 0, .at_most = 100, .meaning = "per cent by which the best match must beat the second"});
-  v("texture", c.texture, {.at_least = 0, .meaning = "least texture of a square (block matcher only)"});
-  v("left_right", c.left_right_px,
-    {.unit = "px", .at_least = -1, .meaning = "by which matching from either side may differ; -1: not compared"});
 }
 
 /// Disparity of rectified grey pairs. Keeps its memory from pair to pair; equal pairs give equal disparities.

@@ -10,6 +10,8 @@
 #include <random>
 #include <vector>
 
+#include "avoidance/corridor_centering/pursuit.h"
+
 namespace hedgehop::avoidance::corridor_centering {
 namespace {
 
@@ -38,7 +40,7 @@ struct PointMass {
 struct Path {
   std::vector<double> x_m, y_m;
   double largest_y_m() const { return *std::max_element(y_m.begin(), y_m.end()); }
-  /// Way after which |y| stays within a band.
+  /// Path after which |y| stays within a band.
   double settled_after_m(double band_m) const {
     double after_m = 0.0;
     for (size_t i = 0; i < y_m.size(); ++i) {
@@ -110,7 +112,7 @@ TEST(PrintedControl, Figure12StaysRoundTheMiddleUnderTheNoiseMeasured) {
   RecordProperty("rms_m", std::to_string(std::sqrt(sum_m2 / count)));
 }
 
-// The same start with the pursuit law: a point that flies its course at once.
+// The same start with our law: a point that flies its course at once.
 template <class Noise>
 Path fly_pursuit(Noise noise, double speed_mps, double t_s) {
   PointMass mass;
@@ -155,11 +157,11 @@ TEST(Pursuit, StaysCloserToTheMiddleThanThePrintedLawUnderTheSameNoise) {
   }
 }
 
-TEST(ClearanceSpeed, LeavesWayEnoughToStopIn) {
+TEST(ClearanceSpeed, LeavesPathEnoughToStopIn) {
   const SpeedLimits limits{5.0, 0.1, 1.3, 0.4};
-  for (const double way_m : {0.0, 0.05, 0.3, 1.0, 4.0}) {
-    const double v = clearance_speed_mps(10.0, way_m, limits);
-    EXPECT_NEAR(v * 0.4 + v * v / (2.0 * 1.3), way_m, 1e-12);
+  for (const double path_m : {0.0, 0.05, 0.3, 1.0, 4.0}) {
+    const double v = clearance_speed_mps(10.0, path_m, limits);
+    EXPECT_NEAR(v * 0.4 + v * v / (2.0 * 1.3), path_m, 1e-12);
   }
   EXPECT_EQ(clearance_speed_mps(10.0, std::numeric_limits<double>::infinity(), limits), 5.0);
   EXPECT_EQ(clearance_speed_mps(10.0, -1.0, limits), 0.0);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "avoidance/corridor_centering/pursuit.h"
 #include "tests/avoidance/flow_balance/flow_rig.h"
 
 namespace hedgehop::avoidance::corridor_centering {
@@ -20,8 +21,8 @@ constexpr double kAltitudeM = 1.5;
 // Flies north at a constant velocity through what is drawn, and returns the decisions.
 std::vector<Decision> fly(Module& module, const std::vector<vision::TexturedPlane>& walls,
                           const Eigen::Vector2d& from_NE, const Eigen::Vector2d& v_WB_W, int images,
-                          const std::function<void(cv::Mat&)>& spoil = {}, double largest_wave_m = 0.8,
-                          double heading_rad = 0.0, const std::function<void(NavigationState&)>& believe = {}) {
+                          const std::function<void(cv::Mat&)>& alter = {}, double largest_wave_m = 0.8,
+                          double heading_rad = 0.0, const std::function<void(NavigationState&)>& disturb = {}) {
   const vision::WaveTexture texture(11, 0.15 * largest_wave_m, largest_wave_m, 40);
   Setup setup = fisheye_below(480, 10.0);
   module.reset(setup);
@@ -30,8 +31,8 @@ std::vector<Decision> fly(Module& module, const std::vector<vision::TexturedPlan
     const Eigen::Vector2d p_NE = from_NE + 0.1 * i * v_WB_W;
     NavigationState navigation = level_flight({p_NE.x(), p_NE.y(), -kAltitudeM}, heading_rad, v_WB_W);
     std::vector<CameraFrame> frames = see(setup, navigation, kPeriodNs * i, walls, texture);
-    if (spoil) spoil(frames.front().image);
-    if (believe) believe(navigation);
+    if (alter) alter(frames.front().image);
+    if (disturb) disturb(navigation);
     decisions.push_back(module.update({kPeriodNs * i, frames, navigation, {{30, 0, -kAltitudeM}, 0.0}}));
   }
   return decisions;
@@ -71,8 +72,8 @@ TEST(CorridorCentering, DriftAcrossTheCorridorDoesNotShiftTheMiddle) {
 
 TEST(CorridorCentering, BothDerotationsAgree) {
   const StraightCorridor corridor;
-  CorridorCenteringConfig rays;
-  rays.sight.derotation = CorridorSightConfig::Derotation::rays;
+  CorridorCenteringConfig rays;  // the printed law derotates rays, ours the image
+  rays.law = Law::printed;
   const auto a = make_corridor_centering({}), b = make_corridor_centering(rays);
   const Decision by_image = fly(*a, corridor.planes(), {0, 0.4}, {0.8, 0}, 2).back();
   const Decision by_rays = fly(*b, corridor.planes(), {0, 0.4}, {0.8, 0}, 2).back();
@@ -81,7 +82,7 @@ TEST(CorridorCentering, BothDerotationsAgree) {
 
 TEST(CorridorCentering, PrintedLawRollsAndTurnsTowardsTheMiddle) {
   CorridorCenteringConfig config;
-  config.law = CorridorCenteringConfig::Law::printed;
+  config.law = Law::printed;
   const auto module = make_corridor_centering(config);
   const StraightCorridor corridor;
   const Decision last = fly(*module, corridor.planes(), {0, -0.5}, {0.4, 0}, 8).back();
@@ -96,7 +97,7 @@ TEST(CorridorCentering, HoversBetweenPlainWallsHoweverTheFloorLooks) {
   // The floor alone is textured; walls are the flat grey of nothing.
   const std::vector<vision::TexturedPlane> floor = {
       {{0, 0, 0}, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), 1.25}};
-  for (const auto law : {CorridorCenteringConfig::Law::pursuit, CorridorCenteringConfig::Law::printed}) {
+  for (const auto law : {Law::ours, Law::printed}) {
     CorridorCenteringConfig config;
     config.law = law;
     const auto module = make_corridor_centering(config);
@@ -116,10 +117,10 @@ TEST(CorridorCentering, OneWallAloneIsUnknownNotTheMiddle) {
 
 TEST(CorridorCentering, SlowsDownBeforeAWallAcrossAndThenTurnsAwayHoweverCoarseItsTexture) {
   for (const double largest_wave_m : {0.04, 0.3, 0.8}) {
-    const auto command_before = [&](double way_m, double v_mps) {
+    const auto command_before = [&](double path_m, double v_mps) {
       const auto module = make_corridor_centering({});
       StraightCorridor corridor;
-      corridor.end_m = way_m + 2 * 0.1 * v_mps;  // two images on
+      corridor.end_m = path_m + 2 * 0.1 * v_mps;  // two images on
       return fly(*module, corridor.planes(), {0, 0}, {v_mps, 0}, 3, {}, largest_wave_m).back();
     };
     const Decision far = command_before(6.0, 0.8), near = command_before(0.9, 0.8), at_it = command_before(0.38, 0.3);
@@ -141,25 +142,25 @@ TEST(CorridorCentering, TurnsAwayFromABlankWallAcrossBetweenTexturedOnes) {
   EXPECT_NE(std::get<HoverCommand>(last.command).yaw_rate_radps, 0.0);
 }
 
-TEST(CorridorCentering, ANoseTurnedAsideIsNoOffset) {
+TEST(CorridorCentering, ANoseTurnedAsideIsNoOffsetExceptAsPrinted) {
   const double heading_rad = 0.3, east_m = 0.3;
-  const auto error = [&](CorridorSightConfig::Across across) {
+  const auto error = [&](Law law) {
     CorridorCenteringConfig config;
-    config.sight.across = across;
+    config.law = law;
     const auto module = make_corridor_centering(config);
     const StraightCorridor corridor;
     const Decision last = fly(*module, corridor.planes(), {0, east_m}, {0.8, 0}, 3, {}, 0.3, heading_rad).back();
     return signal(*module, last, "centering_error");
   };
-  EXPECT_NEAR(error(CorridorSightConfig::Across::walls), -east_m / 1.25, 0.03);
-  EXPECT_GT(std::abs(error(CorridorSightConfig::Across::heading) + east_m / 1.25), 0.06);
+  EXPECT_NEAR(error(Law::ours), -east_m / 1.25, 0.03);
+  EXPECT_GT(std::abs(error(Law::printed) + east_m / 1.25), 0.06);
 }
 
 TEST(CorridorCentering, TheCourseStaysWithinItsAngleOfTheWallsHoweverFarTheNoseHasTurned) {
   const auto module = make_corridor_centering({});
   StraightCorridor corridor;
   corridor.left_m = 0.6, corridor.right_m = 3.0;
-  const double heading_rad = 0.6, most_rad = CorridorCenteringConfig{}.most_course_rad;
+  const double heading_rad = 0.6, most_rad = kMostCourseRad;
   const Decision last = fly(*module, corridor.planes(), {0, 0}, {0.7, 0.4}, 3, {}, 0.3, heading_rad).back();
   const auto& command = std::get<VelocityCommand>(last.command);
   const double off_walls_rad = std::atan2(command.v_WB_W.y(), command.v_WB_W.x());
@@ -168,7 +169,7 @@ TEST(CorridorCentering, TheCourseStaysWithinItsAngleOfTheWallsHoweverFarTheNoseH
 }
 
 TEST(CorridorCentering, CorrectionsOfTheAttitudeAreNoTurn) {
-  // The filter changes its mind about the heading by two degrees between images; the gyros felt nothing.
+  // The filter corrects the heading by two degrees between images; the gyros measured no rotation.
   const auto module = make_corridor_centering({});
   const StraightCorridor corridor;
   int image = 0;
@@ -181,14 +182,14 @@ TEST(CorridorCentering, CorrectionsOfTheAttitudeAreNoTurn) {
 TEST(CorridorCentering, WhatStandsStillInTheImageDoesNotMoveTheMedians) {
   // A band keeps what it showed first, as a part of the vehicle would.
   cv::Mat stuck;
-  const auto spoil = [&stuck](cv::Mat& image) {
+  const auto alter = [&stuck](cv::Mat& image) {
     cv::Mat band = image.rowRange(200, 246);
     if (stuck.empty()) stuck = band.clone();
     stuck.copyTo(band);
   };
   const auto module = make_corridor_centering({});
   const StraightCorridor corridor;
-  const Decision last = fly(*module, corridor.planes(), {0, 0.4}, {0.8, 0}, 3, spoil).back();
+  const Decision last = fly(*module, corridor.planes(), {0, 0.4}, {0.8, 0}, 3, alter).back();
   EXPECT_NEAR(signal(*module, last, "centering_error"), -0.4 / 1.25, 0.05);
 }
 
@@ -209,7 +210,7 @@ TEST(CorridorCentering, RefusesAConfigThatCannotBe) {
   };
   refuse([](CorridorCenteringConfig& c) { c.sample_s = 0.0; });
   refuse([](CorridorCenteringConfig& c) { c.lookahead_m = 0.0; });
-  refuse([](CorridorCenteringConfig& c) { c.gap.slice_m = 0.0; });
+  refuse([](CorridorCenteringConfig& c) { c.margin_m = -0.1; });
   refuse([](CorridorCenteringConfig& c) { c.probe_mps = 0.0; });
 }
 

@@ -14,7 +14,7 @@ struct Opening {
   double middle_m, bottom_m, width_m, height_m;
 };
 
-/// A wall across the way, with one opening.
+/// A wall across the path, with one opening.
 std::vector<Eigen::AlignedBox3d> wall_with(const Opening& o, double north_m, double height_m) {
   constexpr double kEndM = 40.0;
   const auto part = [&](double west_m, double east_m, double low_m, double high_m) {
@@ -26,7 +26,7 @@ std::vector<Eigen::AlignedBox3d> wall_with(const Opening& o, double north_m, dou
           part(west_m, east_m, 0.0, o.bottom_m), part(west_m, east_m, o.bottom_m + o.height_m, height_m)};
 }
 
-TEST(SectionFlight, FindsAnOpeningOffTheStraightWayToWhicheverSide) {
+TEST(SectionFlight, FindsAnOpeningOffTheStraightPathToWhicheverSide) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> off_m(5.0, 12.0), beside_m(-1.5, 1.5);
   for (int trial = 0; trial < 4; ++trial) {
@@ -46,7 +46,7 @@ TEST(SectionFlight, AsItClimbsTheChosenSectionComesDownToTheCenter) {
   world.boxes_W = wall_with({0.0, 9.0, 1.0, 0.0}, 9.0, 9.0);
   world.goal_W = {40.0, 0.0, -12.0};
   SectionGridConfig config;
-  config.pilot.answer = SectionPilotConfig::Answer::climb;
+  config.answer = Answer::climb;
   const SectionWorld::Flown flown = world.fly(config);
   EXPECT_TRUE(flown.reached);
   int rows_above = 0, most = 0;
@@ -70,7 +70,8 @@ TEST(SectionFlight, AnOpeningAlongTheTopIsFlownThroughWithSeventeenRowsAndNotWit
   EXPECT_TRUE(fine.reached);
   EXPECT_GE(fine.moments.front().rows_above_center, 5);
   SectionGridConfig coarse;
-  coarse.grid = {.rows = 3, .cols = 3, .width_share = 1.0 / 3.0, .height_share = 1.0 / 3.0};
+  coarse.sections = 3;
+  coarse.overlapping = false;
   const SectionWorld::Flown missed = world.fly(coarse);
   EXPECT_EQ(missed.moments.front().section, -1);
   EXPECT_EQ(missed.moments.front().status, "hover_and_yaw");
@@ -96,7 +97,7 @@ TEST(SectionFlight, PassesRandomPillarsByMoreThanItsRadius) {
   }
 }
 
-// [Perez2018] fig. 20, from wherever in the image; half of them then turn square to their way, to either side.
+// [Perez2018] fig. 20, from wherever in the image; half of them then turn square to their path, to either side.
 TEST(SectionFlight, WhatComesAtAHoveringVehicleFromAnyBearingInSightStaysAway) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> bearing_rad(-0.65, 0.65), beside_m(-1.0, 1.0), turns_s(7.0, 10.0);
@@ -119,7 +120,7 @@ TEST(SectionFlight, WhatComesAtAHoveringVehicleFromAnyBearingInSightStaysAway) {
     };
     SectionGridConfig config;
     config.threshold_m = 3.048;
-    config.pilot.answer = SectionPilotConfig::Answer::sideways;
+    config.answer = Answer::sideways;
     EXPECT_GT(world.fly(config).clearance_m - kVehicleRadiusM, 2.0) << trial;
   }
 }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "avoidance/section_grid/section_grid.h"
 #include "tests/avoidance/flow_balance/flow_rig.h"
@@ -11,10 +12,10 @@ namespace {
 constexpr int kWidthPx = 160, kHeightPx = 90;
 constexpr double kThresholdM = 9.144;
 
-/// One camera that knows depth, and a module that flies by it towards a goal far to the north.
+/// One depth camera, and a module that flies by it towards a goal far to the north.
 class Pilot {
  public:
-  explicit Pilot(SectionGridConfig config = {}) : module_(make_section_grid(with_truth(config))) {
+  explicit Pilot(SectionGridConfig config = {}) : module_(make_section_grid(with_camera(config))) {
     Setup setup;
     MountedCamera camera = level_camera("depth", 0.0, kWidthPx, 12.5);
     camera.model = vision::camera::PinholeCamera::from_fov(kWidthPx, kHeightPx, 1.48);
@@ -31,8 +32,8 @@ class Pilot {
   const Module& module() const { return *module_; }
 
  private:
-  static SectionGridConfig with_truth(SectionGridConfig config) {
-    config.sight = SectionGridConfig::Sight::truth;
+  static SectionGridConfig with_camera(SectionGridConfig config) {
+    config.depth = stereo::DisparitySource::From::camera;
     return config;
   }
   std::unique_ptr<Module> module_;
@@ -50,7 +51,7 @@ cv::Mat near_between(int first_px, int last_px) {
 
 const PositionCommand& position(const Decision& decision) { return std::get<PositionCommand>(decision.command); }
 
-TEST(SectionGridModule, CarriesOnToTheGoalWhenTheWayIsFree) {
+TEST(SectionGridModule, CarriesOnToTheGoalWhenThePathIsFree) {
   Pilot pilot;
   const Decision decision = pilot.see(far());
   EXPECT_EQ(decision.status, "cruise");
@@ -109,17 +110,18 @@ TEST(SectionGridModule, HoversAndTurnsBeforeAWallAndCountsTheTime) {
     if (metric.name == "hover_time_s") hover_s = metric.value;
   }
   EXPECT_NEAR(hover_s, 5 * 0.08, 1e-9);
-  EXPECT_EQ(pilot.see(far()).status, "avoid");  // off the route: the way found is flown first
+  EXPECT_EQ(pilot.see(far()).status, "avoid");  // off the route: the path found is flown first
 }
 
-TEST(SectionGridModule, EveryAnswerGoesItsOwnWay) {
-  using Answer = SectionPilotConfig::Answer;
+TEST(SectionGridModule, EveryAnswerGoesItsOwnDirection) {
   const auto moved = [](Answer answer) {
     SectionGridConfig config;
-    config.pilot.answer = answer;
-    config.pilot.aligned_rad = 1.5;  // no waiting to turn
+    config.answer = answer;
     Pilot pilot(config);
-    return Eigen::Vector3d(position(pilot.see(near_between(0, 80))).p_WB - Eigen::Vector3d(0.0, 0.0, -5.0));
+    const Eigen::Vector3d start(0.0, 0.0, -5.0);
+    Decision decision = pilot.see(near_between(0, 80), start);
+    if (answer == Answer::heading) decision = pilot.see(near_between(0, 30), start, position(decision).heading_rad);
+    return Eigen::Vector3d(position(decision).p_WB - start);
   };
   const Eigen::Vector3d heading = moved(Answer::heading), sideways = moved(Answer::sideways);
   EXPECT_EQ(heading.z(), 0.0);
@@ -131,20 +133,63 @@ TEST(SectionGridModule, EveryAnswerGoesItsOwnWay) {
   EXPECT_GT(combined.y(), 0.0);
 }
 
+SectionGridConfig printed() {
+  SectionGridConfig config;
+  config.law = Law::printed;
+  return config;
+}
+
+// [Perez2018] sec. V-D: "if another new position is determined to be a better solution, the UAS will adjust".
+TEST(SectionGridModule, ThePrintedLawGoesToABetterPositionWhereOursKeepsItsPath) {
+  for (const Law law : {Law::printed, Law::ours}) {
+    SectionGridConfig config;
+    config.law = law;
+    Pilot pilot(config);
+    const double heading_rad = position(pilot.see(near_between(0, 80))).heading_rad;
+    const Eigen::Vector3d start(0.0, 0.0, -5.0);
+    const Eigen::Vector3d aside = position(pilot.see(near_between(0, 30), start, heading_rad)).p_WB;
+    // A few pixels of the path's section show a threat; another section has none.
+    cv::Mat later = near_between(0, 30);
+    later(cv::Rect(78, 43, 3, 3)).setTo(4.0);
+    const Eigen::Vector3d path = position(pilot.see(later, start, heading_rad)).p_WB;
+    EXPECT_EQ((path - aside).norm() > 0.1, law == Law::printed) << path.transpose() << " " << aside.transpose();
+  }
+}
+
+TEST(SectionGridModule, ThePrintedLawCarriesOnTurnsThenMovesOrHovers) {
+  Pilot free(printed()), beside(printed()), before(printed());
+  EXPECT_EQ(position(free.see(far())).p_WB, Eigen::Vector3d(100.0, 0.0, -5.0));
+  const Decision waits = beside.see(near_between(0, 80));
+  EXPECT_EQ(waits.status, "avoid");
+  EXPECT_EQ(position(waits).p_WB, Eigen::Vector3d(0.0, 0.0, -5.0));
+  const Decision moves = beside.see(far(), {0.0, 0.0, -5.0}, position(waits).heading_rad);
+  constexpr double kHalfPixelM = 1e-3;
+  EXPECT_NEAR(position(moves).p_WB.head<2>().norm(), kThresholdM, kHalfPixelM);
+  const Decision hovers = before.see(near_between(0, kWidthPx));
+  EXPECT_EQ(hovers.status, "hover_and_yaw");
+  EXPECT_GT(std::get<HoverCommand>(hovers.command).yaw_rate_radps, 0.0);
+}
+
+TEST(SectionGridModule, RefusesValuesOutOfRangeByTheirKey) {
+  SectionGridConfig config;
+  config.threshold_m = 0.0;
+  EXPECT_THROW(make_section_grid(config), std::invalid_argument);
+}
+
 TEST(SectionGridModule, NeverGoesBelowItsLowestHeight) {
   cv::Mat ceiling = far();
   ceiling.rowRange(0, 60).setTo(4.0);
-  const auto height_told_m = [&](double lowest_m) {
+  const auto altitude_m = [&](double lowest_m) {
     SectionGridConfig config;
-    config.pilot.lowest_m = lowest_m;
+    config.lowest_m = lowest_m;
     Pilot pilot(config);
     return -position(pilot.see(ceiling, {0.0, 0.0, -4.0})).p_WB.z();
   };
-  EXPECT_LT(height_told_m(2.0), 3.9);
-  EXPECT_EQ(height_told_m(4.0), 4.0);
+  EXPECT_LT(altitude_m(2.0), 3.9);
+  EXPECT_EQ(altitude_m(4.0), 4.0);
 }
 
-TEST(SectionGridModule, AFasterVehicleMindsWhatIsFartherWhereTheThresholdHangsOnSpeed) {
+TEST(SectionGridModule, AFasterVehicleMindsWhatIsFartherWhereTheThresholdDependsOnSpeed) {
   SectionGridConfig config;
   config.threshold_time_s = 20.0;  // at the 1 m/s of this flight, and a radius of 1 m: 21 m
   cv::Mat beyond = far();
@@ -153,13 +198,13 @@ TEST(SectionGridModule, AFasterVehicleMindsWhatIsFartherWhereTheThresholdHangsOn
   EXPECT_EQ(Pilot().see(beyond).status, "cruise");
 }
 
-TEST(SectionGridModule, KeepsAsideWhileWhatHasLeftTheImageStandsInTheWayToTheGoal) {
+TEST(SectionGridModule, KeepsAsideWhileWhatHasLeftTheImageStandsOnThePathToTheGoal) {
   for (const bool remembers : {true, false}) {
     SectionGridConfig config;
-    config.passed.radius_m = remembers ? 1.2 : 0.0;
+    config.passed_radius_m = remembers ? 1.2 : 0.0;
     Pilot pilot(config);
     // A wall 2 m ahead, from the left edge to past the middle. Once the vehicle has turned right, the image still
-    // shows the way to the goal, but no longer the wall from half a meter to the left of that way on.
+    // shows the path to the goal, but no longer the wall from half a meter to the left of that path on.
     cv::Mat wall = far();
     wall.colRange(0, 90).setTo(2.0);
     pilot.see(wall);
@@ -169,7 +214,7 @@ TEST(SectionGridModule, KeepsAsideWhileWhatHasLeftTheImageStandsInTheWayToTheGoa
 
 TEST(SectionGridModule, AVehicleThatHoversStaysWhereItGaveWayTo) {
   SectionGridConfig config;
-  config.pilot.answer = SectionPilotConfig::Answer::sideways;
+  config.answer = Answer::sideways;
   Pilot pilot(config);
   const Eigen::Vector3d goal(100.0, 0.0, -5.0);
   const Eigen::Vector3d aside = position(pilot.see(near_between(0, 80), goal)).p_WB;
@@ -180,7 +225,7 @@ TEST(SectionGridModule, AVehicleThatHoversStaysWhereItGaveWayTo) {
 
 TEST(SectionGridModule, AVehicleThatHoversGivesWayEvenWhereNoSectionIsFree) {
   SectionGridConfig config;
-  config.pilot.answer = SectionPilotConfig::Answer::sideways;
+  config.answer = Answer::sideways;
   Pilot pilot(config);
   const Eigen::Vector3d goal(100.0, 0.0, -5.0);
   const Eigen::Vector3d aside = position(pilot.see(near_between(0, kWidthPx), goal)).p_WB;

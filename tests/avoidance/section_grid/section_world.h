@@ -12,9 +12,9 @@
 #include "avoidance/section_grid/section_grid.h"
 #include "tests/avoidance/flow_balance/flow_rig.h"
 
-namespace hedgehop::avoidance {
+namespace hedgehop::avoidance::section_grid {
 
-/// Boxes on level ground, seen by a camera that knows depth, and a point that flies as it is told.
+/// Boxes on level ground, seen by a depth camera, and a point that obeys.
 class SectionWorld {
  public:
   static constexpr int kWidthPx = 96, kHeightPx = 54;
@@ -39,7 +39,7 @@ class SectionWorld {
   bool hovers = false;  ///< at its goal, to the end
 
   Flown fly(SectionGridConfig config) const {
-    config.sight = SectionGridConfig::Sight::truth;
+    config.depth = stereo::DisparitySource::From::camera;
     const auto module = make_section_grid(config);
     MountedCamera camera = level_camera("depth", 0.0, kWidthPx, 1.0 / kStepS);
     const vision::camera::PinholeCamera lens = vision::camera::PinholeCamera::from_fov(kWidthPx, kHeightPx, 1.48);
@@ -48,7 +48,7 @@ class SectionWorld {
     Flown flown;
     Eigen::Vector3d p_WB = start_W;
     double heading_rad = 0.0;
-    Command told = HoverCommand{};
+    Command command = HoverCommand{};
     for (int64_t step = 1; static_cast<double>(step) * kStepS < duration_s; ++step) {
       Boxes boxes_now_W = boxes_W;
       if (movers_W) std::ranges::copy(movers_W(static_cast<double>(step) * kStepS), std::back_inserter(boxes_now_W));
@@ -56,8 +56,8 @@ class SectionWorld {
       const std::vector<CameraFrame> frames = {{"depth", step * 80'000'000, depth_m}};
       const Decision decision =
           module->update({step * 80'000'000, frames, level_flight(p_WB, heading_rad, {speed_mps, 0.0}), {goal_W, 0.0}});
-      move(told, p_WB, heading_rad);
-      told = decision.command;  // obeyed a step later
+      move(command, p_WB, heading_rad);
+      command = decision.command;  // obeyed a step later
       flown.moments.push_back(
           {p_WB, decision.status, static_cast<int>(decision.signals[0]), static_cast<int>(decision.signals[3])});
       for (const Eigen::AlignedBox3d& box_W : boxes_now_W) {
@@ -104,12 +104,12 @@ class SectionWorld {
     if (!place) return;
     const double turn_rad = std::remainder(place->heading_rad - heading_rad, 2.0 * M_PI);
     heading_rad += std::clamp(turn_rad, -kStepS * kTurnRadps, kStepS * kTurnRadps);
-    const Eigen::Vector3d way_W = place->p_WB - p_WB;
-    const double level_m = way_W.head<2>().norm();
-    if (level_m > 0.0) p_WB.head<2>() += way_W.head<2>() * std::min(1.0, kStepS * speed_mps / level_m);
+    const Eigen::Vector3d path_W = place->p_WB - p_WB;
+    const double level_m = path_W.head<2>().norm();
+    if (level_m > 0.0) p_WB.head<2>() += path_W.head<2>() * std::min(1.0, kStepS * speed_mps / level_m);
     // Height is held by a loop of its own, as an autopilot does.
-    p_WB.z() += kStepS * std::clamp(way_W.z(), -kClimbMps, kClimbMps);
+    p_WB.z() += kStepS * std::clamp(path_W.z(), -kClimbMps, kClimbMps);
   }
 };
 
-}  // namespace hedgehop::avoidance
+}  // namespace hedgehop::avoidance::section_grid

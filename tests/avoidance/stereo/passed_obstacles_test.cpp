@@ -33,7 +33,7 @@ const vision::stereo::DepthPyramid kSky = block_at({}, 1.0);
 
 Eigen::Vector3d towards(double heading_rad) { return {std::cos(heading_rad), std::sin(heading_rad), 0.0}; }
 
-TEST(PassedObstacles, WhatHasLeftTheImageClosesTheWaysThatPassItWithinTheRadius) {
+TEST(PassedObstacles, WhatHasLeftTheImageClosesThePathsThatPassItWithinTheRadius) {
   PassedObstacles passed({.radius_m = 1.5, .near_m = 12.0, .keep_s = 8.0});
   // A block of one pyramid pixel, whose place is known: 6 m ahead, at the image's right edge.
   const cv::Rect block(152, 56, 8, 8);
@@ -78,7 +78,7 @@ TEST(PassedObstacles, AgeAndDistanceForget) {
   }
 }
 
-TEST(PassedObstacles, NoFreeWayComesNearerThanTheRadiusOrATenthNearerThanItWas) {
+TEST(PassedObstacles, NoFreePathComesNearerThanTheRadiusOrATenthNearerThanItWas) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   constexpr double kRadiusM = 2.0;
@@ -90,14 +90,14 @@ TEST(PassedObstacles, NoFreeWayComesNearerThanTheRadiusOrATenthNearerThanItWas) 
     const Eigen::Vector3d moved(2.0 * uniform(random), uniform(random), uniform(random));
     passed.update(1, kSky, kGeometry, looking(M_PI, moved));
     const Eigen::Vector3d direction(uniform(random), uniform(random), uniform(random));
-    double worst_m = std::numeric_limits<double>::infinity();  // by which the way stays clear, stepped along
+    double worst_m = std::numeric_limits<double>::infinity();  // by which the path stays clear, stepped along
     for (const Eigen::Vector3d& p : passed.points_W()) {
       const double allowed_m = std::min(kRadiusM, 0.9 * (p - moved).norm());
       for (double s_m = 0.0; s_m < 20.0; s_m += 0.01) {
         worst_m = std::min(worst_m, (moved + s_m * direction.normalized() - p).norm() - allowed_m);
       }
     }
-    if (std::abs(worst_m) < 1e-4) continue;  // steps of 1 cm see the nearest way to 0.05 mm of 0.5 m or more
+    if (std::abs(worst_m) < 1e-4) continue;  // steps of 1 cm see the nearest path to 0.05 mm of 0.5 m or more
     (worst_m > 0.0 ? open : blocked) += 1;
     EXPECT_EQ(passed.free(direction), worst_m > 0.0) << trial;
   }

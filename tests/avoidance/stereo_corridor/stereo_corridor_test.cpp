@@ -15,13 +15,9 @@ constexpr double kBackdropM = 45.0;
 /// Flies by what a pair of cameras sees of a far backdrop and nearer walls, towards a goal far to the north.
 class Pilot {
  public:
-  explicit Pilot(StereoCorridorConfig config = {}, uint64_t seed = 1) : setup_(stereo_pair(kSizePx, 10.0)) {
-    setup_.seed = seed;
+  explicit Pilot(StereoCorridorConfig config = {}) : setup_(stereo_pair(kSizePx, 10.0)) {
     config.stereo.disparities_px = 16;
-    config.radius_m = 1.5;
-    config.target_m = 20.0;
-    config.coarsest = 4;
-    config.finest = 2;
+    config.corridor = {.radius_m = 1.5, .target_m = 20.0};
     module_ = make_stereo_corridor(config);
     module_->reset(setup_);
   }
@@ -66,7 +62,8 @@ TEST(StereoCorridor, AnObstacleAheadIsPassedOnItsFreeSide) {
     const Decision decision = pilot.see({wall(14.0, -2.0 * side, M_PI, 4.0)});
     EXPECT_NE(decision.status, "cruise");
     const Eigen::Vector2d v_W = velocity(decision).v_WB_W;
-    // Where the way crosses the obstacle's distance, it is clear of its edge by the corridor's radius, but for a pixel.
+    // Where the path crosses the obstacle's distance, it is clear of its edge by the corridor's radius, but for a
+    // pixel.
     const double east_m = side * 14.0 * v_W.y() / v_W.x();
     EXPECT_GT(east_m, 2.0 + 1.5 - 0.5);
   }
@@ -91,15 +88,35 @@ TEST(StereoCorridor, TheCourseIsTakenUpAgainOnceItIsFree) {
 
 TEST(StereoCorridor, DoesNotTurnIntoWhatItIsPassing) {
   for (const bool remembers : {true, false}) {
-    StereoCorridorConfig config;
-    if (!remembers) config.passed.radius_m = 0.0;
-    Pilot pilot(config);
-    // 3 m beside the way; half a meter before it, it has left the image, and the goal lies 43 degrees to its side.
+    Pilot pilot;
+    // 3 m beside the path; half a meter before it, it has left the image, and the goal lies 43 degrees to its side.
     const vision::TexturedPlane beside = wall(8.0, 5.0, M_PI, 2.0);
-    pilot.see({beside});
+    if (remembers) pilot.see({beside});
     const Decision decision = pilot.see({beside}, {3.0, 0.0}, 7.5, {200.0, 192.5 * std::tan(0.75)});
     EXPECT_EQ(decision.status == "cruise", !remembers) << decision.status;
   }
+}
+
+TEST(StereoCorridor, ThePrintedLawKeepsTheDirectionOfFlightWhereOursGoesToTheGoal) {
+  const Eigen::Vector2d goal_W{100.0, 50.0};
+  const auto flown = [&](Law law) {
+    StereoCorridorConfig config;
+    config.law = law;
+    return Pilot(config).see({}, {3.0, 0.0}, 0.0, goal_W);
+  };
+  const Decision printed = flown(Law::printed), ours = flown(Law::ours);
+  const double kOnePixelRad = 2.0 / kSizePx;
+  EXPECT_EQ(printed.status, "keep");
+  EXPECT_NEAR(velocity(printed).heading_rad, 0.0, kOnePixelRad);
+  EXPECT_EQ(ours.status, "cruise");
+  EXPECT_NEAR(velocity(ours).heading_rad, std::atan2(50.0, 100.0), kOnePixelRad);
+}
+
+TEST(StereoCorridor, ThePrintedLawPassesAnObstacleAndHoversWhereEverythingIsNear) {
+  StereoCorridorConfig config;
+  config.law = Law::printed;
+  EXPECT_EQ(Pilot(config).see({wall(14.0, -2.0, M_PI, 4.0)}).status, "search");
+  EXPECT_EQ(Pilot(config).see({wall(9.0, 0.0, M_PI)}).status, "look_round");
 }
 
 TEST(StereoCorridor, AMissedGoalLiesOutsideNoCircleItCanTurnIn) {
@@ -110,19 +127,6 @@ TEST(StereoCorridor, AMissedGoalLiesOutsideNoCircleItCanTurnIn) {
     EXPECT_LE(2.0 * v_mps * v_mps / kAccelerationMps2, goal_m + 1e-9);
     EXPECT_GE(v_mps, 0.5);
   }
-}
-
-TEST(StereoCorridor, NoiseOfAnExperimentHangsOnTheSeedAlone) {
-  const auto known_share = [](double noise_px, uint64_t seed) {
-    StereoCorridorConfig config;
-    config.disparity_noise_px = noise_px;
-    Pilot pilot(config, seed);
-    return pilot.see({wall(14.0, -2.0, M_PI, 4.0)}).signals.back();
-  };
-  EXPECT_EQ(known_share(0.4, 1), known_share(0.4, 1));
-  EXPECT_NE(known_share(0.4, 1), known_share(0.4, 2));
-  EXPECT_EQ(known_share(0.0, 1), known_share(0.0, 2));
-  EXPECT_LT(known_share(2.0, 1), known_share(0.0, 1));  // pixels unlike all their neighbors are specks
 }
 
 }  // namespace

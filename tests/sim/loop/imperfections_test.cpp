@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace hedgehop::sim {
 namespace {
@@ -110,7 +111,39 @@ TEST(Imperfections, EqualSeedsGiveEqualNoiseAndEveryImageItsOwn) {
   EXPECT_GT(cv::norm(a, d, cv::NORM_INF), 0.0);
 }
 
-TEST(Imperfections, FatesComeAsOftenAsAsked) {
+TEST(Imperfections, DisparityNoiseScattersDepthWithItsSquare) {
+  ImperfectionsConfig config;
+  config.disparity_noise_px = 0.25;
+  constexpr double kFocalPx = 200.0;
+  const auto spread_m = [&](double z_m) {
+    Imperfections camera(config, kPeriodS, 3, kFocalPx);
+    cv::Mat depth_m(200, 200, CV_32FC1, cv::Scalar(z_m));
+    camera.apply(1, depth_m);
+    cv::Scalar mean, spread;
+    cv::meanStdDev(depth_m, mean, spread);
+    return spread[0];
+  };
+  // dz = z^2 / (f b) d(disparity), to first order.
+  const double kSampling = 0.03;
+  EXPECT_NEAR(spread_m(2.0) / (4.0 / (kFocalPx * 0.3) * 0.25), 1.0, kSampling);
+  EXPECT_NEAR(spread_m(4.0) / (16.0 / (kFocalPx * 0.3) * 0.25), 1.0, kSampling);
+}
+
+TEST(Imperfections, DisparityNoiseLeavesTheUnknownUnknownAndTheSkyFar) {
+  ImperfectionsConfig config;
+  config.disparity_noise_px = 1.0;
+  Imperfections camera(config, kPeriodS, 3, 200.0);
+  cv::Mat depth_m(100, 100, CV_32FC1, cv::Scalar(std::numeric_limits<double>::infinity()));
+  depth_m.rowRange(0, 10).setTo(std::numeric_limits<double>::quiet_NaN());
+  camera.apply(1, depth_m);
+  EXPECT_TRUE(std::isnan(depth_m.at<float>(5, 5)));
+  const cv::Mat sky = depth_m.rowRange(10, 100);
+  const int infinite = cv::countNonZero(sky == std::numeric_limits<float>::infinity());
+  EXPECT_NEAR(infinite / 9000.0, 0.5, 0.03);  // noise below 0
+  EXPECT_EQ(cv::countNonZero(sky > 0.0F), 9000);
+}
+
+TEST(Imperfections, FrameFaultsComeAsOftenAsRequired) {
   ImperfectionsConfig config;
   config.drop = 0.1;
   config.freeze = 0.2;

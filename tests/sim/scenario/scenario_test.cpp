@@ -92,6 +92,22 @@ TEST_F(CrossRules, TheRigHasTheCamerasThatAreAskedFor) {
                   HasSubstr("'avoidance': needs camera 'left' to deliver grey images; it delivers depth images")));
 }
 
+TEST_F(CrossRules, NoImperfectionIsSilentlyWithoutEffect) {
+  EXPECT_THAT(
+      faults({"rig.cameras.0.imperfections.disparity_noise=1"}),
+      testing::Contains(HasSubstr("'rig.cameras.0.imperfections.disparity_noise': is for channel: depth alone")));
+  for (const std::string key : {"vignetting", "exposure", "auto_exposure", "full_well", "read_noise", "shutter"}) {
+    EXPECT_THAT(faults({"rig.cameras.0.channel=depth", "rig.cameras.0.imperfections." + key + "=0.5"}),
+                testing::Contains(HasSubstr("'rig.cameras.0.imperfections." + key + "': is not for depth images")));
+  }
+  EXPECT_THAT(faults({"rig.cameras.0.channel=depth", "rig.cameras.0.model=fisheye",
+                      "rig.cameras.0.imperfections.disparity_noise=1"}),
+              testing::Contains(HasSubstr("disparity_noise': needs an undistorted pinhole")));
+  EXPECT_THAT(faults({"rig.cameras.0.channel=depth", "rig.cameras.0.imperfections.disparity_noise=1",
+                      "rig.cameras.0.imperfections.drop=0.1", "rig.cameras.0.imperfections.readout=0.01"}),
+              testing::Not(testing::Contains(HasSubstr("imperfections"))));
+}
+
 TEST_F(CrossRules, ChecksMakeSense) {
   EXPECT_THAT(faults({"goal=~"}), testing::Contains(HasSubstr("'checks.0': the scenario has no goal to reach")));
   EXPECT_THAT(faults({"checks=[{check: altitude_band, min: 3, max: 2}]"}),

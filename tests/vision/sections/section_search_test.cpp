@@ -13,7 +13,7 @@ namespace hedgehop::vision::sections {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr double kThresholdM = 9.144;  // [Perez2018] sec. on flight tests: 30 ft
+constexpr double kThresholdM = 9.144;  // [Perez2018] sec. V-C: 30 ft
 const cv::Size kZed(1280, 720);
 
 cv::Mat random_depth(std::mt19937_64& random, cv::Size size, double unknown_share) {

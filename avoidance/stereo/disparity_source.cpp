@@ -1,0 +1,110 @@
+#include "avoidance/stereo/disparity_source.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace hedgehop::avoidance::stereo {
+namespace {
+
+constexpr bool kPinhole = true;
+
+const MountedCamera& camera_of(const Setup& setup, const std::string& role) {
+  const auto camera = std::ranges::find(setup.cameras, role, &MountedCamera::role);
+  if (camera == setup.cameras.end()) throw std::invalid_argument("a camera '" + role + "' is needed");
+  return *camera;
+}
+
+const CameraFrame* frame_of(std::span<const CameraFrame> frames, const char* role) {
+  const auto frame = std::ranges::find(frames, role, &CameraFrame::role);
+  return frame == frames.end() ? nullptr : &*frame;
+}
+
+void require_one_rate(const MountedCamera& a, const MountedCamera& b) {
+  if (a.rate_hz == b.rate_hz) return;
+  throw std::invalid_argument("cameras '" + a.role + "' and '" + b.role + "' need one rate");
+}
+
+bool is_parallel(const Eigen::Isometry3d& X_LR) {
+  constexpr double kNoTurn = 1e-9;
+  return (X_LR.linear() - Eigen::Matrix3d::Identity()).norm() < kNoTurn;
+}
+
+constexpr double kNoOffsetM = 1e-6;
+
+vision::stereo::StereoGeometry geometry_of_pair(const MountedCamera& left, const MountedCamera& right) {
+  const vision::camera::PinholeCamera a = left.model.pinhole();
+  const Eigen::Isometry3d X_LR = left.X_BC.inverse() * right.X_BC;
+  const bool beside = X_LR.translation().tail<2>().norm() < kNoOffsetM && X_LR.translation().x() > 0.0;
+  if (!(left.model == right.model) || !is_parallel(X_LR) || !beside || a.focal_x_px != a.focal_y_px) {
+    throw std::invalid_argument("cameras '" + left.role + "' and '" + right.role +
+                                "' must be equal pinholes with square pixels, parallel, the second to the right of the "
+                                "first");
+  }
+  require_one_rate(left, right);
+  return {a.focal_x_px, a.center_u_px, a.center_v_px, X_LR.translation().x()};
+}
+
+void require_one_view(const MountedCamera& grey, const MountedCamera& depth) {
+  const Eigen::Isometry3d X_GD = grey.X_BC.inverse() * depth.X_BC;
+  if (!(grey.model == depth.model) || !is_parallel(X_GD) || X_GD.translation().norm() > kNoOffsetM) {
+    throw std::invalid_argument("cameras '" + grey.role + "' and '" + depth.role + "' must have one lens and one pose");
+  }
+  require_one_rate(grey, depth);
+}
+
+}  // namespace
+
+Needs DisparitySource::needs(From from, Grey grey) {
+  using Channel = CameraNeed::Channel;
+  if (from == From::stereo) return {{{kLeft, Channel::grey, kPinhole}, {kRight, Channel::grey, kPinhole}}};
+  if (grey == Grey::unused) return {{{kDepth, Channel::depth, kPinhole}}};
+  return {{{kLeft, Channel::grey, kPinhole}, {kDepth, Channel::depth, kPinhole}}};
+}
+
+DisparitySource::DisparitySource(From from, Grey grey, const vision::stereo::StereoMatcherConfig& config,
+                                 const Setup& setup)
+    : from_(from), grey_use_(grey), matcher_(config) {
+  const MountedCamera& camera = camera_of(setup, from == From::stereo ? kLeft : kDepth);
+  if (from == From::stereo) {
+    geometry_ = geometry_of_pair(camera, camera_of(setup, kRight));
+  } else {
+    const vision::camera::PinholeCamera lens = camera.model.pinhole();
+    geometry_ = {lens.focal_x_px, lens.center_u_px, lens.center_v_px, kBaselineM};
+    if (grey == Grey::needed) require_one_view(camera_of(setup, kLeft), camera);
+  }
+  X_BC_ = camera.X_BC;
+  image_ = {camera.model.width_px, camera.model.height_px};
+}
+
+bool DisparitySource::update(std::span<const CameraFrame> frames) {
+  return from_ == From::stereo ? match(frames) : convert(frames);
+}
+
+bool DisparitySource::match(std::span<const CameraFrame> frames) {
+  const CameraFrame *left = frame_of(frames, kLeft), *right = frame_of(frames, kRight);
+  if (!left || !right || left->t_ns != right->t_ns || left->t_ns <= t_ns_) return false;
+  t_ns_ = left->t_ns;
+  left->image.copyTo(grey_);
+  matcher_.match(left->image, right->image, disparity16_);
+  return true;
+}
+
+bool DisparitySource::convert(std::span<const CameraFrame> frames) {
+  const CameraFrame *depth = frame_of(frames, kDepth), *left = frame_of(frames, kLeft);
+  if (!depth || depth->t_ns <= t_ns_) return false;
+  if (grey_use_ == Grey::needed) {
+    if (!left || left->t_ns != depth->t_ns) return false;
+    left->image.copyTo(grey_);
+  }
+  t_ns_ = depth->t_ns;
+  depth->image.copyTo(depth_m_);
+  cv::Mat disparity;
+  cv::divide(geometry_.disparity16(1.0), depth_m_, disparity);         // 0 where the depth is infinite
+  disparity.setTo(vision::stereo::kNoDisparity, ~(disparity >= 0.0));  // NaN compares false
+  disparity.convertTo(disparity16_, CV_16S);
+  return true;
+}
+
+}  // namespace hedgehop::avoidance::stereo
