@@ -23,7 +23,7 @@ class FlowBalance final : public Module {
   explicit FlowBalance(const FlowBalanceConfig& config) : config_(config) { fields::require_bounds(config); }
 
  private:
-  bool printed() const { return config_.law == FlowBalanceConfig::Law::printed; }
+  bool printed() const { return config_.law == Law::printed; }
 
   Needs do_needs() const override { return SideCameras::needs(); }
 

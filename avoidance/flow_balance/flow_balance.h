@@ -3,6 +3,7 @@
 #include <memory>
 #include <string_view>
 
+#include "avoidance/law.h"
 #include "avoidance/module.h"
 #include "vision/flow/image_interpolation_flow.h"
 
@@ -14,8 +15,6 @@ struct FlowBalanceConfig {
   static constexpr std::string_view kName = "flow_balance";
   static constexpr std::string_view kMeaning =
       "seeks a goal while four cameras' optic flow and loom push the vehicle away from walls";
-
-  enum class Law { printed, ours };
 
   Law law = Law::ours;
   vision::flow::ImageInterpolationConfig flow;

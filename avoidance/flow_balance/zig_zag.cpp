@@ -24,7 +24,7 @@ class ZigZag final : public Module {
   explicit ZigZag(const ZigZagConfig& config) : config_(config) { fields::require_bounds(config); }
 
  private:
-  bool printed() const { return config_.law == ZigZagConfig::Law::printed; }
+  bool printed() const { return config_.law == Law::printed; }
 
   Needs do_needs() const override { return SideCameras::needs(); }
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string_view>
 
+#include "avoidance/law.h"
 #include "avoidance/module.h"
 #include "vision/flow/image_interpolation_flow.h"
 
@@ -13,8 +14,6 @@ namespace hedgehop::avoidance::flow_balance {
 struct ZigZagConfig {
   static constexpr std::string_view kName = "zig_zag";
   static constexpr std::string_view kMeaning = "explores a room in diagonals, reversing before walls by optic flow";
-
-  enum class Law { printed, ours };
 
   Law law = Law::ours;
   vision::flow::ImageInterpolationConfig flow{.rows = 1, .cols = 8};

@@ -44,7 +44,7 @@ std::vector<Row> rows() {
     if (row.fisheye) row.blank = "blind";
   }
   flow_balance::FlowBalanceConfig balance;
-  balance.law = flow_balance::FlowBalanceConfig::Law::printed;
+  balance.law = Law::printed;
   balance.spiral_angle_rad = 0.1;
   all.push_back({"flow_balance_printed", balance});
   flow_balance::FlowBalanceConfig filtered;
@@ -53,7 +53,7 @@ std::vector<Row> rows() {
   filtered.spiral_angle_rad = 0.1;
   all.push_back({"flow_balance_filtered", filtered});
   flow_balance::ZigZagConfig zig_zag;
-  zig_zag.law = flow_balance::ZigZagConfig::Law::printed;
+  zig_zag.law = Law::printed;
   all.push_back({"zig_zag_printed", zig_zag});
   landmark_map::LandmarkMapModuleConfig thesis;
   thesis.law = landmark_map::Law::printed;

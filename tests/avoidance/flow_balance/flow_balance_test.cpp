@@ -23,7 +23,7 @@ FlowBalanceConfig small_images() {
 
 FlowBalanceConfig as_printed() {
   FlowBalanceConfig config = small_images();
-  config.law = FlowBalanceConfig::Law::printed;
+  config.law = Law::printed;
   return config;
 }
 
@@ -51,7 +51,7 @@ VelocityCommand command_in_flight(const FlowBalanceConfig& config, const Walls& 
   return command;
 }
 
-class BothLaws : public testing::TestWithParam<FlowBalanceConfig::Law> {
+class BothLaws : public testing::TestWithParam<Law> {
  protected:
   static FlowBalanceConfig config() {
     FlowBalanceConfig config = small_images();
@@ -59,8 +59,7 @@ class BothLaws : public testing::TestWithParam<FlowBalanceConfig::Law> {
     return config;
   }
 };
-INSTANTIATE_TEST_SUITE_P(FlowBalance, BothLaws,
-                         testing::Values(FlowBalanceConfig::Law::printed, FlowBalanceConfig::Law::ours),
+INSTANTIATE_TEST_SUITE_P(FlowBalance, BothLaws, testing::Values(Law::printed, Law::ours),
                          [](const auto& law) { return law.index == 0 ? "printed" : "ours"; });
 
 TEST_P(BothLaws, TurnAwayFromAWallOnEverySideWhereverTheVehicleFlies) {
