@@ -2,6 +2,11 @@
 
 namespace hedgehop::avoidance {
 
+Eigen::Vector3d velocity_in_camera(const Eigen::Isometry3d& X_BC, const NavigationState& navigation) {
+  const Eigen::Vector3d v_WC_B = navigation.v_WB_B_est + navigation.w_WB_B_est.cross(X_BC.translation());
+  return X_BC.linear().transpose() * v_WC_B;
+}
+
 CameraFlow::CameraFlow(const MountedCamera& camera, const Options& options)
     : camera_(camera),
       pinhole_(camera.model.pinhole()),
@@ -30,7 +35,7 @@ bool CameraFlow::update(const CameraFrame& frame, const Eigen::Vector3d& w_WB_B)
 }
 
 std::optional<CameraFlow::Measure> CameraFlow::measure(int64_t now_ns) const {
-  constexpr double kFreshPeriods = 3.0;
+  constexpr double kFreshPeriods = 3.0;  // an older measure is of another place
   if (!measure_ || 1e-9 * static_cast<double>(now_ns - *last_t_ns_) > kFreshPeriods / camera_.rate_hz) {
     return std::nullopt;
   }

@@ -11,6 +11,9 @@
 
 namespace hedgehop::avoidance {
 
+/// Returns the estimated velocity of a camera that is mounted at `X_BC`, in C, m/s.
+Eigen::Vector3d velocity_in_camera(const Eigen::Isometry3d& X_BC, const NavigationState& navigation);
+
 /// Mean flow and loom of one camera, from image to image.
 class CameraFlow {
  public:
@@ -19,19 +22,20 @@ class CameraFlow {
     bool derotate = false;
     vision::flow::Missing missing = vision::flow::Missing::far_away;
   };
-  /// What the last pair of images told.
+  /// What the last pair of images measured.
   struct Measure {
-    double flow_radps = 0.0, loom_per_s = 0.0;
-    double valid_share = 0.0;  ///< of the patches
-    double dt_s = 0.0;         ///< between the two images
+    double flow_radps = 0.0;   ///< mean horizontal flow Q, positive to the right in the image
+    double loom_per_s = 0.0;   ///< loom L, > 0 when approaching
+    double valid_share = 0.0;  ///< of the patches, 0 to 1
+    double dt_s = 0.0;         ///< between the two images, > 0
   };
 
-  /// Throws std::invalid_argument when the camera is not a pinhole without distortion, or the patches do not fit its
+  /// Throws std::invalid_argument when the camera is not an undistorted pinhole, or the patches do not fit its
   /// image.
   CameraFlow(const MountedCamera& camera, const Options& options);
 
-  /// Takes an image in; one that is not newer than the last is left aside. @param w_WB_B  from the gyros, rad/s.
-  /// @return true when there is a new measure.
+  /// Takes in an image; one that is not newer than the last is ignored.  @param w_WB_B  from the gyros, rad/s.
+  /// @return whether there is a new measure.
   bool update(const CameraFrame& frame, const Eigen::Vector3d& w_WB_B);
   /// The newest measure; nothing before the second image, or when it is older than three camera periods.
   std::optional<Measure> measure(int64_t now_ns) const;

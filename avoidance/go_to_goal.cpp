@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
+
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::avoidance {
 namespace {
 
 class GoToGoal final : public Module {
  public:
-  explicit GoToGoal(const GoToGoalConfig& config) : config_(config) {
-    if (!(config.speed_mps > 0.0)) throw std::invalid_argument("go_to_goal: speed must be above 0 m/s");
-    if (!(config.slow_radius_m >= 0.0)) throw std::invalid_argument("go_to_goal: slow_radius must be at least 0 m");
-  }
+  explicit GoToGoal(const GoToGoalConfig& config) : config_(config) { fields::require_bounds(config); }
 
  private:
   Needs do_needs() const override { return {}; }

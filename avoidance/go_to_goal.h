@@ -7,7 +7,7 @@
 
 namespace hedgehop::avoidance {
 
-/// Flies straight to the goal and sees nothing: the control that every avoiding module is compared with.
+/// Flies straight to the goal without cameras: the control that every avoiding module is compared with.
 struct GoToGoalConfig {
   static constexpr std::string_view kName = "go_to_goal";
   static constexpr std::string_view kMeaning = "fly straight to the goal without looking: the control experiment";
@@ -23,12 +23,12 @@ void describe(Visitor& v, GoToGoalConfig& c) {
     {.unit = "m", .at_least = 0.0, .meaning = "distance to the goal within which the speed falls in proportion to it"});
 }
 
-/// Horizontal velocity towards a goal, constant outside `slow_radius_m` and falling linearly to zero inside it.
-/// @param p_BG_W_xy  goal seen from B, north and east, m.
-/// @return north and east, m/s.
+/// Returns the horizontal velocity towards a goal, north and east, m/s; 0 at the goal itself.
+/// @param p_BG_W_xy  position of the goal from B, north and east, m.  @param speed_mps  > 0.
+/// @param slow_radius_m  distance within which the speed falls linearly to zero; 0 for never.
 Eigen::Vector2d velocity_to_goal(const Eigen::Vector2d& p_BG_W_xy, double speed_mps, double slow_radius_m);
 
-/// Throws std::invalid_argument when the speed is not positive or the radius is negative.
+/// Throws std::invalid_argument on values out of range.
 std::unique_ptr<Module> make_go_to_goal(const GoToGoalConfig& config);
 
 }  // namespace hedgehop::avoidance

@@ -21,6 +21,8 @@ int image_type(CameraNeed::Channel channel) {
       return CV_8UC3;
     case CameraNeed::Channel::depth:
       return CV_32FC1;
+    case CameraNeed::Channel::corners:
+      return CV_64FC2;
   }
   throw std::logic_error("a camera need names no channel");
 }
@@ -48,8 +50,12 @@ void check_frame(const CameraFrame& frame, int64_t now_ns, const Setup& setup, c
   const MountedCamera* camera = find_camera(setup, frame.role);
   if (!camera) throw std::logic_error("a frame comes from camera '" + frame.role + "', which reset() did not name");
   if (frame.t_ns > now_ns) throw std::logic_error("a frame of camera '" + frame.role + "' comes from the future");
-  if (frame.image.cols != camera->model.width_px || frame.image.rows != camera->model.height_px) {
+  const bool is_image = frame.image.type() != image_type(CameraNeed::Channel::corners);
+  if (is_image && frame.image.size() != cv::Size(camera->model.width_px, camera->model.height_px)) {
     throw std::logic_error("a frame of camera '" + frame.role + "' does not have its camera's size");
+  }
+  if (!is_image && frame.image.cols != 1) {
+    throw std::logic_error("the corners of camera '" + frame.role + "' are not one to a row");
   }
   for (const CameraNeed& need : needs.cameras) {
     if (need.role == frame.role && frame.image.type() != image_type(need.channel)) {
@@ -69,8 +75,8 @@ void Module::reset(const Setup& setup) {
     if (!camera) throw std::invalid_argument("the module needs a camera '" + need.role + "', which the rig lacks");
     if (!(camera->rate_hz > 0.0)) throw std::invalid_argument("camera '" + need.role + "' needs a rate above 0 Hz");
     if (need.pinhole && !camera->model.is_undistorted_pinhole()) {
-      throw std::invalid_argument("the module needs camera '" + need.role +
-                                  "' to be a pinhole without distortion, got a " + camera->model.lens_name());
+      throw std::invalid_argument("the module needs camera '" + need.role + "' to be an undistorted pinhole, got a " +
+                                  camera->model.lens_name());
     }
   }
   if (!(setup.limits.speed_mps > 0.0)) throw std::invalid_argument("the vehicle's speed limit must be above 0 m/s");

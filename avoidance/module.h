@@ -17,13 +17,13 @@
 /// C right-down-forward. SI units, radians.
 namespace hedgehop::avoidance {
 
-/// What the aircraft believes of itself, from its noisy sensors.
+/// The aircraft's estimate of its own motion, from its noisy sensors.
 struct NavigationState {
   Eigen::Vector3d p_WB_est = Eigen::Vector3d::Zero();            ///< position of B in W, m
   Eigen::Quaterniond q_WB_est = Eigen::Quaterniond::Identity();  ///< attitude of B in W
   Eigen::Vector3d v_WB_B_est = Eigen::Vector3d::Zero();          ///< velocity of B in W, expressed in B, m/s
   Eigen::Vector3d w_WB_B_est = Eigen::Vector3d::Zero();          ///< angular velocity (gyro less bias), rad/s
-  /// Attitude by the gyros alone. It drifts, but no correction turns it: for turns between two instants.
+  /// Attitude by the gyros alone. It drifts, but no correction rotates it: for rotations between two instants.
   Eigen::Quaterniond q_WB_gyro = Eigen::Quaterniond::Identity();
   double height_above_ground_m = 0.0;  ///< from the height sensor, >= 0
   std::optional<double>
@@ -40,10 +40,9 @@ struct Goal {
 struct CameraFrame {
   std::string role;  ///< "front", "left", ... as the rig names it
   int64_t t_ns = 0;  ///< instant of exposure
-  cv::Mat image;     ///< rows x cols; CV_8UC1 grey, CV_8UC3 RGB, CV_32FC1 depth (z in C, fisheye: range; m; or NaN)
-  /// True corners of the scene, through walls, with noise: for a need of `true_corners` only, an experiment. Else
-  /// empty.
-  std::vector<Eigen::Vector2d> corners_px;
+  /// rows x cols; CV_8UC1 grey, CV_8UC3 RGB, CV_32FC1 depth (z in C, fisheye: range; m; or NaN). Of a corner detector
+  /// N x 1, CV_64FC2: the positions (u, v) of N >= 0 corners, px.
+  cv::Mat image;
 };
 
 struct Observation {
@@ -77,9 +76,9 @@ using Command = std::variant<VelocityCommand, PositionCommand, AttitudeCommand, 
 /// A camera a module cannot fly without.
 struct CameraNeed {
   std::string role;
-  enum class Channel { grey, color, depth } channel = Channel::grey;
-  bool pinhole = false;       ///< the module's mathematics holds for a pinhole without distortion only
-  bool true_corners = false;  ///< an experiment: the frames come with the corners that the scene has
+  /// What its frames hold; `corners`: those of a corner detector in its place, instead of images.
+  enum class Channel { grey, color, depth, corners } channel = Channel::grey;
+  bool pinhole = false;  ///< the module's mathematics holds for an undistorted pinhole only
 };
 struct Needs {
   std::vector<CameraNeed> cameras;
@@ -111,6 +110,7 @@ struct Metric {
   std::string name;
   double value = 0.0;
   std::string unit;
+  bool is_wall_time = false;  ///< differs from run to run
 };
 
 struct Decision {
@@ -119,16 +119,16 @@ struct Decision {
   std::vector<double> signals;  ///< in the order of signals(); NaN where unknown
 };
 
-/// A point of the world that a module believes in.
-struct ChartPoint {
+/// An estimated point of the world.
+struct MapPoint {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();           ///< m
   Eigen::Matrix3d covariance_W = Eigen::Matrix3d::Zero();  ///< m^2
 };
-/// What a module believes of the world, and where in it it means to fly.
-struct Chart {
-  std::vector<ChartPoint> points;
-  std::vector<Eigen::Vector2d> course_NE;  ///< that the flight is to keep to where it can, place by place, m
-  std::vector<Eigen::Vector2d> way_NE;     ///< planned from here, place by place, the last one included, m
+/// A module's estimate of the world, and its path through it. North and east, m.
+struct Map {
+  std::vector<MapPoint> points;
+  std::vector<Eigen::Vector2d> course_NE;  ///< the mission's, point by point: to be kept where it is free
+  std::vector<Eigen::Vector2d> path_NE;    ///< planned from here, turn by turn, its end included
 };
 
 /// Base of all modules: the public functions check, the private ones work (override only those).
@@ -148,14 +148,14 @@ class Module {
 
   /// Returns the decision for what is seen now. Throws std::logic_error when called before reset(), when time does not
   /// rise, when navigation or goal are not finite, when a frame comes from the future or does not fit its camera's size
-  /// or the needed channel, or when do_update() returns a command that is not finite or has the wrong number of
-  /// signals. A speed above the limit is scaled down to it.
+  /// or the needed channel (corners have no size), or when do_update() returns a command that is not finite or has the
+  /// wrong number of signals. A speed above the limit is scaled down to it.
   Decision update(const Observation& observation);
 
   /// Figures of the flight so far, for result.json.
   std::vector<Metric> metrics() const { return do_metrics(); }
-  /// For those who compare it with the truth; empty for a module that keeps none.
-  Chart chart() const { return do_chart(); }
+  /// The map so far; empty for a module that keeps none.
+  Map map() const { return do_map(); }
   /// An image (CV_8UC3, RGB) of what the module saw and chose last; empty when it has none. Called for films only.
   cv::Mat annotate() const { return do_annotate(); }
 
@@ -165,7 +165,7 @@ class Module {
   virtual void do_reset(const Setup& setup) = 0;
   virtual Decision do_update(const Observation& observation) = 0;
   virtual std::vector<Metric> do_metrics() const { return {}; }
-  virtual Chart do_chart() const { return {}; }
+  virtual Map do_map() const { return {}; }
   virtual cv::Mat do_annotate() const { return {}; }
 
   std::optional<Setup> setup_;

@@ -8,6 +8,9 @@ struct Make {
   std::unique_ptr<Module> operator()(const flow_balance::FlowBalanceConfig& c) const {
     return flow_balance::make_flow_balance(c);
   }
+  std::unique_ptr<Module> operator()(const flow_balance::ZigZagConfig& c) const {
+    return flow_balance::make_zig_zag(c);
+  }
   std::unique_ptr<Module> operator()(const section_grid::SectionGridConfig& c) const {
     return section_grid::make_section_grid(c);
   }

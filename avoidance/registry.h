@@ -5,6 +5,7 @@
 
 #include "avoidance/corridor_centering/corridor_centering.h"
 #include "avoidance/flow_balance/flow_balance.h"
+#include "avoidance/flow_balance/zig_zag.h"
 #include "avoidance/go_to_goal.h"
 #include "avoidance/landmark_map/landmark_map.h"
 #include "avoidance/module.h"
@@ -14,9 +15,9 @@
 namespace hedgehop::avoidance {
 
 /// Every module of this tree: one config struct per row, with `kName` as its name in a scenario.
-using ModuleConfig = std::variant<GoToGoalConfig, flow_balance::FlowBalanceConfig, section_grid::SectionGridConfig,
-                                  stereo_corridor::StereoCorridorConfig, corridor_centering::CorridorCenteringConfig,
-                                  landmark_map::LandmarkMapModuleConfig>;
+using ModuleConfig = std::variant<GoToGoalConfig, flow_balance::FlowBalanceConfig, flow_balance::ZigZagConfig,
+                                  section_grid::SectionGridConfig, stereo_corridor::StereoCorridorConfig,
+                                  corridor_centering::CorridorCenteringConfig, landmark_map::LandmarkMapModuleConfig>;
 
 /// Returns the module that the config belongs to; reset() comes next. Throws std::invalid_argument on a bad config.
 std::unique_ptr<Module> make_module(const ModuleConfig& config);

@@ -3,11 +3,13 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/fields/bounds.h"
+
 namespace hedgehop::dynamics {
 
 Avionics::Avionics(const AvionicsConfig& config, const VehicleConfig& vehicle, double physics_dt_s,
                    const StreamSeed& stream_seed)
-    : config_(config),
+    : config_(fields::require_bounds(config)),
       physics_dt_s_(physics_dt_s),
       beam_direction_B_(sensors::beam_direction_B(config.range_finder)),
       seeds_{stream_seed("imu"),
@@ -24,7 +26,6 @@ Avionics::Avionics(const AvionicsConfig& config, const VehicleConfig& vehicle, d
       navigation_(config.navigation,
                   {config.imu, config.gps, config.height_sensor, config.magnetometer, config.barometer}),
       autopilot_(config.autopilot, vehicle) {
-  check(config.height_sensor);
   reset_options();
 }
 
@@ -58,7 +59,7 @@ void Avionics::reset(const SensedTruth& truth) {
   autopilot_.reset(navigation_.estimate());
 }
 
-void Avionics::sense(int64_t t_ns, const SensedTruth& truth) {
+void Avionics::sense(int64_t t_ns, const SensedTruth& truth, const VelocitySensor& flow_velocity) {
   const int64_t tick = std::llround(static_cast<double>(t_ns) * 1e-9 / physics_dt_s_);
   const RigidBodyState& body = truth.body;
   imu_.observe(body.w_WB_B, truth.specific_force_B);
@@ -87,6 +88,10 @@ void Avionics::sense(int64_t t_ns, const SensedTruth& truth) {
     if (const std::optional<sensors::GpsFix> fix = gps_.read()) navigation_.correct_gps(*fix);
   }
   if (range_finder_) sense_range(tick, truth);
+  if (!flow_velocity) return;
+  if (const std::optional<VelocityReading> reading = flow_velocity(navigation_.estimate())) {
+    navigation_.correct_velocity(reading->v_WB_B_xy_meas, reading->sigma_mps);
+  }
 }
 
 /// Casts the beam only on the ticks on which a reading begins.

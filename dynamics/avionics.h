@@ -46,7 +46,16 @@ void describe(Visitor& v, AvionicsConfig& c) {
 /// Gives each named random stream its seed.
 using StreamSeed = std::function<uint64_t(std::string_view stream_name)>;
 
-/// What physics offers the sensors at one instant.
+/// The velocity over ground, as a camera that looks down measures it.
+struct VelocityReading {
+  Eigen::Vector2d v_WB_B_xy_meas = Eigen::Vector2d::Zero();  ///< forward and right in B, m/s
+  double sigma_mps = 1.0;                                    ///< 1-sigma uncertainty per axis, > 0
+};
+/// Measures the velocity over ground by means of the estimated attitude and height; none where the ground shows too
+/// little texture.
+using VelocitySensor = std::function<std::optional<VelocityReading>(const control::NavigationEstimate& navigation)>;
+
+/// What the sensors can measure at one instant.
 struct SensedTruth {
   RigidBodyState body;
   Eigen::Vector3d specific_force_B = Eigen::Vector3d::Zero();  ///< of the mass center, m/s^2
@@ -61,16 +70,12 @@ class Avionics {
   Avionics(const AvionicsConfig& config, const VehicleConfig& vehicle, double physics_dt_s,
            const StreamSeed& stream_seed);
 
-  /// Starts a flight; afterwards it behaves as one newly made.
+  /// Starts a flight; afterwards it behaves as one newly built.
   void reset(const SensedTruth& truth);
   /// To be called on every physics tick, from the first: reads the sensors that are due and runs the filter.
   /// @param t_ns  since the flight began, a whole number of physics steps.
-  void sense(int64_t t_ns, const SensedTruth& truth);
-  /// Corrects the filter by a velocity seen by the down camera. @param v_WB_B_xy_meas  forward and right in B, m/s.
-  /// @param sigma_mps  standard deviation per axis, > 0.
-  void correct_velocity(const Eigen::Vector2d& v_WB_B_xy_meas, double sigma_mps) {
-    navigation_.correct_velocity(v_WB_B_xy_meas, sigma_mps);
-  }
+  /// @param flow_velocity  the velocimeter, on ticks with an image; read last, since it needs this tick's estimate.
+  void sense(int64_t t_ns, const SensedTruth& truth, const VelocitySensor& flow_velocity = {});
   const control::NavigationEstimate& navigation() const { return navigation_.estimate(); }
   /// What the range finder read last, m; none without one, out of range or on a drop-out.
   const std::optional<double>& range_m() const { return range_m_; }
@@ -78,7 +83,7 @@ class Avionics {
   const std::optional<sensors::ImuReading>& imu() const { return imu_reading_; }
   sensors::ImuReading imu_bias() const { return imu_.bias(); }
   const control::Autopilot& autopilot() const { return autopilot_; }
-  /// What to ask of the actuators until the next call. @param dt_s  until then, > 0, the same in every call of a
+  /// Returns the actuators' commands until the next call. @param dt_s  until then, > 0, the same in every call of a
   /// flight.
   Controls control(const control::Setpoint& setpoint, double dt_s) {
     return autopilot_.control(setpoint, navigation_.estimate(), dt_s);

@@ -78,6 +78,8 @@ struct Scene {
   Sky sky;
   std::vector<Solid> solids;  ///< what can be hit and stands still, besides the ground
   std::vector<Mover> movers;
+  /// Corners that a map of the scene should hold, m; empty where the generator does not list them.
+  std::vector<Eigen::Vector3d> corners_W;
   bool has_ground = true;           ///< the plane z = 0 of W can be hit
   Eigen::AlignedBox2d bounds_NE_m;  ///< extent of the plan (north, east) that flights care about
 };

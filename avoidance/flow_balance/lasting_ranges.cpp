@@ -14,16 +14,16 @@ void LastingRanges::add(std::vector<double> inverse_ranges_per_m) {
 
 std::vector<double> LastingRanges::lasting_per_m() const {
   std::vector<double> least(latest_.front().size(), std::numeric_limits<double>::infinity());
-  std::vector<size_t> told(least.size(), 0);
+  std::vector<size_t> known(least.size(), 0);
   for (const std::vector<double>& image : latest_) {
     for (size_t i = 0; i < image.size(); ++i) {
       if (std::isnan(image[i])) continue;
       least[i] = std::min(least[i], image[i]);
-      ++told[i];
+      ++known[i];
     }
   }
   for (size_t i = 0; i < least.size(); ++i) {
-    if (2 * told[i] <= latest_.size()) least[i] = 0.0;
+    if (2 * known[i] <= latest_.size()) least[i] = 0.0;
   }
   return least;
 }

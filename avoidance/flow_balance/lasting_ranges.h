@@ -5,7 +5,7 @@
 
 namespace hedgehop::avoidance::flow_balance {
 
-/// Believes of every patch of one camera only what its last images agree on: a wrong flow vector seldom lasts, and a
+/// Retains of every patch of one camera only what its last images agree on: a wrong flow vector seldom lasts, and a
 /// vector missing from one image does not make a wall vanish.
 class LastingRanges {
  public:
@@ -14,7 +14,7 @@ class LastingRanges {
 
   /// Takes in the inverse ranges of an image's patches, 1/m, NaN where unknown; the same number every time.
   void add(std::vector<double> inverse_ranges_per_m);
-  /// The least known inverse range of each patch over the last images, 1/m; 0 where fewer than half tell one.
+  /// The least known inverse range of each patch over the last images, 1/m; 0 where at most half know one.
   std::vector<double> lasting_per_m() const;
 
  private:

@@ -5,22 +5,23 @@
 
 namespace hedgehop::avoidance::flow_balance {
 
-const std::vector<double>& RangeMemory::update(std::span<const Sight> sights, double dt_s) {
-  near_per_m_.resize(sights.size(), std::numeric_limits<double>::quiet_NaN());
-  const double kept = time_constant_s_ > 0.0 ? std::exp(-dt_s / time_constant_s_) : 0.0;
-  for (size_t i = 0; i < sights.size(); ++i) {
-    const Sight& sight = sights[i];
-    double& near = near_per_m_[i];
-    const double share_left = 1.0 - near * sight.closing_mps * dt_s;  // of the range, after this step
-    constexpr double kLeast = 0.5;  // no wall comes twice as near from one image to the next
-    const double expected = kept * near / (share_left > kLeast ? share_left : kLeast);
-    if (std::isnan(sight.near_per_m)) {
-      near = kept > 0.0 ? expected : sight.near_per_m;
+const std::vector<double>& RangeMemory::update(std::span<const Measurement> measurements, double dt_s) {
+  constexpr double kLeastShare = 0.5;  // of the range: no wall comes twice as near from one image to the next
+  inverse_ranges_per_m_.resize(measurements.size(), std::numeric_limits<double>::quiet_NaN());
+  const double retained = time_constant_s_ > 0.0 ? std::exp(-dt_s / time_constant_s_) : 0.0;
+  for (size_t i = 0; i < measurements.size(); ++i) {
+    const Measurement& measured = measurements[i];
+    double& inverse_per_m = inverse_ranges_per_m_[i];
+    const double share_left = 1.0 - inverse_per_m * measured.closing_mps * dt_s;  // of the range, after this step
+    const double expected = retained * inverse_per_m / (share_left > kLeastShare ? share_left : kLeastShare);
+    if (std::isnan(measured.inverse_range_per_m)) {
+      inverse_per_m = retained > 0.0 ? expected : measured.inverse_range_per_m;
     } else {
-      near = std::isnan(expected) ? sight.near_per_m : sight.near_per_m + (1.0 - sight.weight) * expected;
+      inverse_per_m = std::isnan(expected) ? measured.inverse_range_per_m
+                                           : measured.inverse_range_per_m + (1.0 - measured.weight) * expected;
     }
   }
-  return near_per_m_;
+  return inverse_ranges_per_m_;
 }
 
 }  // namespace hedgehop::avoidance::flow_balance

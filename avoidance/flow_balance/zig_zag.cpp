@@ -1,64 +1,122 @@
 #include "avoidance/flow_balance/zig_zag.h"
 
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+
+#include "avoidance/flow_balance/confirmed_zig_zag.h"
+#include "avoidance/flow_balance/mean_ranging.h"
+#include "avoidance/flow_balance/side_cameras.h"
+#include "avoidance/flow_balance/wall_ranging.h"
+#include "avoidance/flow_balance/zig_zag_law.h"
+#include "avoidance/heading.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::avoidance::flow_balance {
 namespace {
 
-int component_along(const Eigen::Vector2d& axis_H) { return std::abs(axis_H.x()) > std::abs(axis_H.y()) ? 0 : 1; }
+/// Where no wall fits, patches are ranged. In a room all of them see walls: a low floor and a memory of 1 s keep the
+/// range of a wall that the path leads straight at, and one image is enough, for reversals are confirmed.
+constexpr PatchRanging::Options kRoomPatches{.floor_mps = 0.05, .memory_s = 1.0, .images = 1};
 
-/// Uniform in [-1, 1), the same with every standard library.
-double symmetric_draw(std::mt19937_64& random) { return std::ldexp(static_cast<double>(random() >> 11), -52) - 1.0; }
+class ZigZag final : public Module {
+ public:
+  explicit ZigZag(const ZigZagConfig& config) : config_(config) { fields::require_bounds(config); }
+
+ private:
+  bool printed() const { return config_.law == ZigZagConfig::Law::printed; }
+
+  Needs do_needs() const override { return SideCameras::needs(); }
+
+  std::vector<Signal> do_signals() const override {
+    auto signals = SideCameras::signals();
+    signals.push_back({"target_v_north_mps", "m/s"});
+    signals.push_back({"target_v_east_mps", "m/s"});
+    return signals;
+  }
+
+  void do_reset(const Setup& setup) override {
+    cameras_.emplace(setup, config_.flow, /*derotate=*/!printed());
+    const Diagonal diagonal{{config_.forward_speed_mps, config_.sideways_speed_mps}, config_.range_threshold_m};
+    law_.emplace(diagonal);
+    ours_.emplace(diagonal, config_.stray_rad, setup.seed);
+    if (printed()) {
+      ranging_ = std::make_unique<MeanRanging>();
+    } else {
+      ranging_ = std::make_unique<WallRanging>(kRoomPatches);
+    }
+    v_cmd_W_.setZero();
+    heading_rad_ = 0.0;
+    decisions_ = turns_ = 0;
+  }
+
+  Decision do_update(const Observation& observation) override {
+    heading_rad_ = heading_rad(observation.navigation.q_WB_est);
+    cameras_->update(observation);
+    ranging_->update(*cameras_, observation.navigation);
+    const bool turned = printed() ? law_->update(sides(ranging_->nearest_per_m()))
+                                  : ours_->update(sides_in_approach(velocity_H(observation.navigation)));
+    v_cmd_W_ = rotated(velocity_cmd_H(), heading_rad_);
+
+    Decision decision;
+    decision.command = VelocityCommand{v_cmd_W_, -observation.goal.p_WG.z(), observation.goal.heading_rad};
+    decision.status = turned ? "turn" : "cruise";
+    decision.signals = cameras_->signal_values(printed() ? std::nullopt : std::optional(ranging_->nearest_per_m()));
+    decision.signals.insert(decision.signals.end(), {v_cmd_W_.x(), v_cmd_W_.y()});
+    ++decisions_;
+    turns_ += turned ? 1 : 0;
+    return decision;
+  }
+
+  Eigen::Vector2d velocity_cmd_H() const { return printed() ? law_->velocity_H() : ours_->velocity_H(); }
+
+  std::array<SideRange, kSideCount> sides(const PerSide& inverse_ranges_per_m) const {
+    std::array<SideRange, kSideCount> sides;
+    for (size_t i = 0; i < kSideCount; ++i) {
+      sides[i] = {cameras_->axes_H()[i], inverse_ranges_per_m[i], cameras_->fresh(i)};
+    }
+    return sides;
+  }
+
+  /// What is left of the ranges once the vehicle has stopped. In a corner both components are reversed, and each falls
+  /// as slowly as the whole velocity.
+  std::array<SideRange, kSideCount> sides_in_approach(const Eigen::Vector2d& v_H) const {
+    Approach approach{.v_H = v_H,
+                      .v_cmd_H = ours_->velocity_H(),
+                      .stopping = {config_.reaction_s, config_.braking_mps2},
+                      .tail_m = config_.tail_m,
+                      .reverses_both = true};
+    const auto cornered = sides(ranging_->left_once_stopped_per_m(approach));
+    if (ours_->cornered(cornered)) return cornered;
+    approach.reverses_both = false;
+    return sides(ranging_->left_once_stopped_per_m(approach));
+  }
+
+  std::vector<Metric> do_metrics() const override {
+    const int reversals = !ours_ ? 0 : printed() ? law_->reversals() : ours_->reversals();
+    return {{"least_valid_share", cameras_ ? cameras_->least_valid_share() : 1.0, ""},
+            {"avoiding_share", decisions_ > 0 ? static_cast<double>(turns_) / decisions_ : 0.0, ""},
+            {"reversals", static_cast<double>(reversals), ""}};
+  }
+
+  cv::Mat do_annotate() const override {
+    if (!cameras_) return {};
+    const Eigen::Vector2d v_cmd_H = rotated(v_cmd_W_, -heading_rad_);
+    return cameras_->annotate(v_cmd_H, v_cmd_H, std::hypot(config_.forward_speed_mps, config_.sideways_speed_mps));
+  }
+
+  ZigZagConfig config_;
+  std::optional<SideCameras> cameras_;
+  std::unique_ptr<Ranging> ranging_;
+  std::optional<ZigZagLaw> law_;         ///< flies where the law is printed
+  std::optional<ConfirmedZigZag> ours_;  ///< flies where it is ours
+  Eigen::Vector2d v_cmd_W_ = Eigen::Vector2d::Zero();
+  double heading_rad_ = 0.0;
+  int decisions_ = 0, turns_ = 0;
+};
 
 }  // namespace
 
-double stopping_distance_m(double closing_mps, double turning_mps, const Stopping& stopping) {
-  return std::max(0.0, closing_mps) * (stopping.reaction_s + 0.5 * std::abs(turning_mps) / stopping.braking_mps2);
-}
-
-double near_once_stopped_per_m(double near_per_m, double stopping_distance_m) {
-  constexpr double kTouchingPerM = 1e3;
-  const double share_left = 1.0 - near_per_m * stopping_distance_m;
-  return near_per_m < kTouchingPerM * share_left ? near_per_m / share_left : kTouchingPerM;
-}
-
-Eigen::Vector2d ZigZag::way_H() const {
-  return Eigen::Rotation2Dd(stray_rad_) * signs_H_.cwiseProduct(config_.speed_mps);
-}
-
-bool ZigZag::leads_towards(const Side& side) const {
-  const int component = component_along(side.axis_H);
-  return signs_H_[component] * side.axis_H[component] > 0.0;
-}
-
-bool ZigZag::cornered(std::span<const Side> sides) const {
-  std::array<bool, 2> near{};
-  for (const Side& side : sides) {
-    if (too_near(side) && leads_towards(side)) near[static_cast<size_t>(component_along(side.axis_H))] = true;
-  }
-  return near[0] && near[1];
-}
-
-bool ZigZag::update(std::span<const Side> sides) {
-  confirmed_.resize(sides.size(), 0);
-  const Side* nearest = nullptr;
-  for (size_t i = 0; i < sides.size(); ++i) {
-    const Side& side = sides[i];
-    if (!side.fresh) continue;
-    confirmed_[i] = too_near(side) ? confirmed_[i] + 1 : 0;
-    if (confirmed_[i] < config_.confirmations || !leads_towards(side)) continue;
-    if (!nearest || side.near_per_m > nearest->near_per_m) nearest = &side;
-  }
-  if (!nearest) return false;
-  double& turning = signs_H_[component_along(nearest->axis_H)];
-  turning = -turning;
-  std::fill(confirmed_.begin(), confirmed_.end(), 0);
-  stray_rad_ = config_.stray_rad * symmetric_draw(random_);
-  ++reversals_;
-  return true;
-}
+std::unique_ptr<Module> make_zig_zag(const ZigZagConfig& config) { return std::make_unique<ZigZag>(config); }
 
 }  // namespace hedgehop::avoidance::flow_balance

@@ -35,7 +35,7 @@ void draw_landmark(const vision::landmarks::PredictedBearing& seen, const vision
 cv::Mat landmark_overlay(const cv::Mat& grey, std::span<const Eigen::Vector2d> corners_px,
                          const vision::landmarks::LandmarkMap& map, const vision::landmarks::CameraPose& pose,
                          const vision::camera::PinholeCamera& camera) {
-  const cv::Scalar green(90, 230, 110), young(190, 190, 190), red(240, 80, 60), yellow(255, 220, 40);
+  const cv::Scalar green(90, 230, 110), grey_tone(190, 190, 190), red(240, 80, 60), yellow(255, 220, 40);
   cv::Mat image;
   cv::cvtColor(grey, image, cv::COLOR_GRAY2RGB);
   for (const Eigen::Vector2d& corner : corners_px) {
@@ -46,7 +46,7 @@ cv::Mat landmark_overlay(const cv::Mat& grey, std::span<const Eigen::Vector2d> c
   for (const vision::landmarks::MappedLandmark& mapped : map.landmarks()) {
     confirmed += map.confirmed(mapped);
     const auto seen = vision::landmarks::predict_bearing(mapped.landmark, pose, 1.0 / camera.focal_x_px);
-    if (seen) draw_landmark(*seen, camera, mapped.misses > 0 ? red : map.confirmed(mapped) ? green : young, image);
+    if (seen) draw_landmark(*seen, camera, mapped.misses > 0 ? red : map.confirmed(mapped) ? green : grey_tone, image);
   }
   stereo::caption(image, std::to_string(corners_px.size()) + " corners  " + std::to_string(confirmed) + " landmarks");
   return image;

@@ -9,7 +9,7 @@
 namespace hedgehop::avoidance::landmark_map {
 
 /// An image with its corners (yellow squares) and the landmarks of the map as the camera should see them: confirmed
-/// ones green, young ones grey, each with its ellipse of three standard deviations; those that were missed red.
+/// ones green, others grey, each with its ellipse of three standard deviations; missed ones red.
 /// @param grey  CV_8UC1. @return CV_8UC3, RGB.
 cv::Mat landmark_overlay(const cv::Mat& grey, std::span<const Eigen::Vector2d> corners_px,
                          const vision::landmarks::LandmarkMap& map, const vision::landmarks::CameraPose& pose,

@@ -1,32 +1,64 @@
 #include "avoidance/landmark_map/landmark_sight.h"
 
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
 
 namespace hedgehop::avoidance::landmark_map {
+namespace {
 
-LandmarkSight::LandmarkSight(const LandmarkSightConfig& config, const MountedCamera& camera)
-    : config_(config), camera_(camera), map_(config.map, camera.model.pinhole()) {
-  vision::landmarks::check(config.corners);
+/// Three standard deviations. Wider, a landmark takes the corners of its neighbors.
+constexpr double kGate = 2.25;
+
+vision::landmarks::LandmarkMapConfig with_law(vision::landmarks::LandmarkMapConfig map, Law law) {
+  map.law = law;
+  map.gate = kGate;
+  return map;
 }
 
+CameraNeed::Channel channel(CornerSource source) {
+  switch (source) {
+    case CornerSource::grey:
+      return CameraNeed::Channel::grey;
+    case CornerSource::color:
+      return CameraNeed::Channel::color;
+    case CornerSource::corners:
+      return CameraNeed::Channel::corners;
+  }
+  throw std::logic_error("unknown source of corners");
+}
+
+std::vector<Eigen::Vector2d> listed_corners(const cv::Mat& corners) {
+  std::vector<Eigen::Vector2d> listed;
+  for (int i = 0; i < corners.rows; ++i) {
+    const auto& pixel = corners.at<cv::Vec2d>(i);
+    listed.emplace_back(pixel[0], pixel[1]);
+  }
+  return listed;
+}
+
+}  // namespace
+
+LandmarkSight::LandmarkSight(const LandmarkSightConfig& config, Law law, const MountedCamera& camera)
+    : config_(config), camera_(camera), map_(with_law(config.map, law), camera.model.pinhole()) {}
+
 CameraNeed LandmarkSight::need(const LandmarkSightConfig& config) {
-  return {.role = "front",
-          .channel = config.color ? CameraNeed::Channel::color : CameraNeed::Channel::grey,
-          .pinhole = true,
-          .true_corners = config.front_end == FrontEnd::corners};
+  return {.role = "front", .channel = channel(config.source), .pinhole = true};
 }
 
 bool LandmarkSight::update(const CameraFrame& frame, const NavigationState& navigation) {
   if (last_t_ns_ && frame.t_ns <= *last_t_ns_) return false;
   const double dt_s = last_t_ns_ ? 1e-9 * static_cast<double>(frame.t_ns - *last_t_ns_) : 0.0;
   last_t_ns_ = frame.t_ns;
-  if (frame.image.channels() == 3) {
-    cv::cvtColor(frame.image, grey_, cv::COLOR_RGB2GRAY);
+  if (config_.source == CornerSource::corners) {
+    corners_px_ = listed_corners(frame.image);
   } else {
-    frame.image.copyTo(grey_);
+    if (frame.image.channels() == 3) {
+      cv::cvtColor(frame.image, grey_, cv::COLOR_RGB2GRAY);
+    } else {
+      frame.image.copyTo(grey_);
+    }
+    corners_px_ = vision::landmarks::edge_corners(frame.image, config_.least_corner_angle_rad);
   }
-  const bool images = config_.front_end == FrontEnd::images;
-  corners_px_ = images ? vision::landmarks::edge_corners(frame.image, config_.corners) : frame.corners_px;
 
   Eigen::Isometry3d X_WB_est = Eigen::Isometry3d::Identity();
   X_WB_est.linear() = navigation.q_WB_est.toRotationMatrix();

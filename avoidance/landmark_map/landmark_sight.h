@@ -13,41 +13,44 @@
 
 namespace hedgehop::avoidance::landmark_map {
 
-/// Whose corners a map is made of: those that an image shows, or, for experiments, those that the scene has.
-enum class FrontEnd { images, corners };
+using vision::landmarks::Law;
+
+/// What camera 'front' delivers: images in which corners are searched, or a corner detector's output.
+enum class CornerSource { grey, color, corners };
 
 struct LandmarkSightConfig {
-  FrontEnd front_end = FrontEnd::images;
-  bool color = false;
-  vision::landmarks::EdgeCornerConfig corners;
+  CornerSource source = CornerSource::grey;
+  double least_corner_angle_rad = 0.2;
   vision::landmarks::LandmarkMapConfig map;
 };
 
 template <class Visitor>
 void describe(Visitor& v, LandmarkSightConfig& c) {
-  v("front_end", c.front_end,
-    {.choices = {"images", "corners"},
-     .meaning = "corners found in the images of camera 'front', or, for experiments, the true ones projected"});
-  v("color", c.color, {.meaning = "camera 'front' shows colors, and edges are searched in them as well"});
-  v("corners", c.corners, {.meaning = "which points of an image count as corners"});
+  v("source", c.source,
+    {.choices = {"grey", "color", "corners"},
+     .meaning = "channel of camera 'front': images in which edges are searched, in color between red and green too, or "
+                "corners"});
+  v("least_corner_angle", c.least_corner_angle_rad,
+    {.unit = "deg", .above = 0.0, .at_most = 90.0, .meaning = "edges at a smaller angle make no corner"});
   v("map", c.map, {.meaning = "how landmarks are estimated, matched and deleted"});
 }
 
-/// From the images of one camera to a map of landmarks.
+/// From the frames of one camera to a map of landmarks.
 class LandmarkSight {
  public:
-  /// Throws std::invalid_argument on a bad config.
-  LandmarkSight(const LandmarkSightConfig& config, const MountedCamera& camera);
+  /// @param law  of the map. Throws std::invalid_argument on a bad config.
+  LandmarkSight(const LandmarkSightConfig& config, Law law, const MountedCamera& camera);
 
   static CameraNeed need(const LandmarkSightConfig& config);
 
-  /// Takes an image in. @return false when it is not newer than the last.
+  /// Takes a frame in. @return false when it is not newer than the last.
   bool update(const CameraFrame& frame, const NavigationState& navigation);
 
   const vision::landmarks::LandmarkMap& map() const { return map_; }
-  const std::vector<Eigen::Vector2d>& corners_px() const { return corners_px_; }  ///< of the last image
-  const vision::landmarks::CameraPose& pose() const { return pose_; }             ///< of the last image
-  const cv::Mat& grey() const { return grey_; }  ///< the last image, CV_8UC1; empty before the first
+  const std::vector<Eigen::Vector2d>& corners_px() const { return corners_px_; }  ///< of the last frame
+  const vision::landmarks::CameraPose& pose() const { return pose_; }             ///< of the last frame
+  vision::camera::PinholeCamera camera() const { return camera_.model.pinhole(); }
+  const cv::Mat& grey() const { return grey_; }  ///< the last image, CV_8UC1; empty before the first, or without images
   /// Wall time that the filter took so far, for reports only.
   double filter_ms() const { return filter_time_.getTimeMilli(); }
 

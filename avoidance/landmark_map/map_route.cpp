@@ -30,7 +30,7 @@ double segment_to_segment(const Vector2d& a, const Vector2d& b, const Vector2d& 
       {point_to_segment(a, c, d), point_to_segment(b, c, d), point_to_segment(c, a, b), point_to_segment(d, a, b)});
 }
 
-/// How deep inside a hull a point lies, and the way out: to its nearest edge. Depth <= 0 is outside.
+/// How deep inside a hull a point lies, and the direction out, to its nearest edge. Depth <= 0 is outside.
 struct Depth {
   double depth_m = -1.0;
   Vector2d out = Vector2d::Zero();
@@ -49,8 +49,8 @@ Depth depth_inside(const PlanHull& hull, const Vector2d& p) {
 
 bool inside(const PlanHull& hull, const Vector2d& p) { return depth_inside(hull, p).depth_m >= 0.0; }
 
-/// Whether a straight way keeps the clearance of a hull or, where an end lies nearer, comes nowhere nearer, or deeper
-/// inside, than that end. The distance to a convex hull is convex along the way, so its slope at that end decides.
+/// Whether a straight path keeps the clearance of a hull or, where an end lies nearer, comes nowhere nearer, or deeper
+/// inside, than that end. The distance to a convex hull is convex along the path, so its slope at that end decides.
 bool keeps_clear(const PlanHull& hull, const Vector2d& a, const Vector2d& b, double clearance_m) {
   const Depth at_a = depth_inside(hull, a), at_b = depth_inside(hull, b);
   if (at_a.depth_m > 0.0 || at_b.depth_m > 0.0) {
@@ -102,9 +102,9 @@ double distance_to_hull(const PlanHull& hull, const Vector2d& from_NE, const Vec
   return least;
 }
 
-std::optional<std::vector<Vector2d>> way_round(std::span<const PlanHull> hulls, const Vector2d& from_NE,
-                                               const Vector2d& to_NE, double clearance_m) {
-  constexpr int kTurns = 8;  // places round a corner; the polygon through them stays outside the clearance
+std::optional<std::vector<Vector2d>> path_around(std::span<const PlanHull> hulls, const Vector2d& from_NE,
+                                                 const Vector2d& to_NE, double clearance_m) {
+  constexpr int kTurns = 8;  // places around a corner; the polygon through them stays outside the clearance
   const double turn_m = 1.02 * clearance_m / std::cos(std::numbers::pi / kTurns);
   const auto clear = [&](const Vector2d& a, const Vector2d& b) {
     return std::ranges::all_of(hulls, [&](const PlanHull& hull) { return keeps_clear(hull, a, b, clearance_m); });
@@ -142,9 +142,9 @@ std::optional<std::vector<Vector2d>> way_round(std::span<const PlanHull> hulls, 
       before[i] = at;
     }
   }
-  std::vector<Vector2d> way;
-  for (size_t at = 1; at != 0; at = before[at]) way.insert(way.begin(), places[at]);
-  return way;
+  std::vector<Vector2d> path;
+  for (size_t at = 1; at != 0; at = before[at]) path.insert(path.begin(), places[at]);
+  return path;
 }
 
 }  // namespace hedgehop::avoidance::landmark_map

@@ -36,7 +36,7 @@ void draw_plan(const PlanView& view, cv::Mat& image) {
   }
   for (const Eigen::Vector2d& landmark : view.landmarks_NE) cv::circle(plan, at(landmark), 1, kGreen, cv::FILLED);
   Eigen::Vector2d from = view.at_NE;
-  for (const Eigen::Vector2d& turn : view.way_NE) {
+  for (const Eigen::Vector2d& turn : view.path_NE) {
     cv::line(plan, at(from), at(turn), kYellow, 1, cv::LINE_AA);
     from = turn;
   }

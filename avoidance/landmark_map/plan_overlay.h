@@ -15,11 +15,11 @@ struct PlanView {
   std::span<const PlanHull> hulls;
   Eigen::Vector2d from_NE = Eigen::Vector2d::Zero(), to_NE = Eigen::Vector2d::Zero();  ///< of the course
   Eigen::Vector2d at_NE = Eigen::Vector2d::Zero();                                     ///< the vehicle
-  std::span<const Eigen::Vector2d> way_NE;                                             ///< planned from there
+  std::span<const Eigen::Vector2d> path_NE;                                            ///< planned from there
 };
 
 /// Draws a view from above into the bottom right corner of an image, north up: landmarks green, hulls of obstacles
-/// red, the course grey, the vehicle and its planned way yellow. All of the course lies within; what does not, is cut
+/// red, the course grey, the vehicle and its planned path yellow. The whole course is inside; anything beyond is cut
 /// off.
 /// @param image  CV_8UC3, RGB; one that is too small for it stays as it is.
 void draw_plan(const PlanView& view, cv::Mat& image);

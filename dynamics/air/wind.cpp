@@ -4,37 +4,27 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
-#include "dynamics/sensors/sensor_noise.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::dynamics::air {
 namespace {
 
 constexpr double kLowestAirspeedMps = 1.0;  ///< chosen: in a hover in still air the field still drifts past
 constexpr double kW20HeightM = 6.096, kShearTopM = 304.8;  ///< 20 ft and 1000 ft
-constexpr double kRoughestM = 5.0;                         ///< chosen: clearly below 20 ft
 
 /// The way a wind blows that comes from a heading.
 Eigen::Vector3d blowing_W(double from_rad) { return {-std::cos(from_rad), -std::sin(from_rad), 0.0}; }
 
 }  // namespace
 
-Wind::Wind(const WindConfig& config, uint64_t seed) : config_(config), generator_(seed) {
-  for (const double value : {config.speed_mps, config.from_rad, config.roughness_m, config.turbulence_w20_mps}) {
-    if (!std::isfinite(value)) throw std::invalid_argument("the wind must be finite");
-  }
-  if (config.speed_mps < 0.0 || config.turbulence_w20_mps < 0.0) {
-    throw std::invalid_argument("wind speeds must not be negative");
-  }
-  sensors::require_range("roughness", config.roughness_m, 0.0, kRoughestM);
-  check(config.gust);
+Wind::Wind(const WindConfig& config, uint64_t seed) : config_(fields::require_bounds(config)), generator_(seed) {
   gust_along_W_ = blowing_W(config.gust.from_rad);
   const Eigen::Vector3d blows_W = blowing_W(config.from_rad);
   steady_W_ = config.speed_mps * blows_W;
   // Without a mean wind the axes are W's.
   const Eigen::Vector3d along_W = config.speed_mps > 0.0 ? blows_W : Eigen::Vector3d::UnitX();
-  R_WD_ << along_W, Eigen::Vector3d::UnitZ().cross(along_W), Eigen::Vector3d::UnitZ();
+  R_WT_ << along_W, Eigen::Vector3d::UnitZ().cross(along_W), Eigen::Vector3d::UnitZ();
   draw_stationary();
 }
 
@@ -76,8 +66,8 @@ Eigen::Vector3d Wind::turbulence_W(double height_m, double path_m) {
   move(w_, second_order_step(path_m / s.length_w_m));
 
   const Eigen::RowVector2d output = second_order_output();
-  const Eigen::Vector3d gust_D{s.sigma_uv_mps * u_, s.sigma_uv_mps * output.dot(v_), s.sigma_w_mps * output.dot(w_)};
-  return R_WD_ * gust_D;
+  const Eigen::Vector3d gust_T{s.sigma_uv_mps * u_, s.sigma_uv_mps * output.dot(v_), s.sigma_w_mps * output.dot(w_)};
+  return R_WT_ * gust_T;
 }
 
 void Wind::move(Eigen::Vector2d& z, const SecondOrderStep& step) {

@@ -7,7 +7,7 @@
 
 #include "dynamics/rigid_body.h"
 #include "dynamics/sensors/magnetometer.h"
-#include "dynamics/sensors/sensor_noise.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::dynamics::control {
 namespace {
@@ -35,7 +35,7 @@ DesignMatrix state_weights(const Acceptable& a, Eigen::Index size) {
   DesignVector q = DesignVector::Zero(size);
   q[M::kForward] = q[M::kRight] = weight(a.velocity_mps);
   q[M::kDown] = weight(a.climb_mps);
-  q[M::kRoll] = q[M::kPitch] = weight(a.tilt_rad);
+  q[M::kRollAngle] = q[M::kPitchAngle] = weight(a.tilt_rad);
   q[M::kHeading] = weight(a.heading_rad);
   q.segment<3>(M::kP).setConstant(weight(a.rate_radps));
   q[M::kBelow] = weight(a.below_m);
@@ -56,12 +56,7 @@ Eigen::Vector2d rotate(double angle_rad, const Eigen::Vector2d& v) { return Eige
 }  // namespace
 
 Autopilot::Autopilot(const AutopilotConfig& config, const VehicleConfig& vehicle)
-    : config_(config), model_(make_hover_model(vehicle)) {
-  sensors::require_positive("autopilot.speed_limit", config.speed_limit_mps);
-  sensors::require_positive("autopilot.acceleration_limit", config.acceleration_limit_mps2);
-  sensors::require_positive("autopilot.climb_rate_limit", config.climb_rate_limit_mps);
-  sensors::require_positive("autopilot.yaw_rate_limit", config.yaw_rate_limit_radps);
-  sensors::require_positive("autopilot.tilt_limit", config.tilt_limit_rad);
+    : config_(fields::require_bounds(config, "autopilot")), model_(make_hover_model(vehicle)) {
   design(kUsualDtS);
   reset({});
 }
@@ -92,11 +87,11 @@ void Autopilot::solve_cruise() {
   const Eigen::Index n = A.rows(), hidden = n - M::kHidden;
   // Unknown: roll and pitch, the hidden states, the controls. The distance below the set altitude drops out.
   Eigen::MatrixXd unknown(n, 2 + hidden + kControlAxes);
-  unknown << A.middleCols(M::kRoll, 2), A.rightCols(hidden), model_.motion.B;
+  unknown << A.middleCols(M::kRollAngle, 2), A.rightCols(hidden), model_.motion.B;
   const Eigen::MatrixXd found = unknown.completeOrthogonalDecomposition().solve(-A.leftCols(2));
   cruise_state_ = DesignMatrix::Zero(n, 2);
   cruise_state_.topRows(2).setIdentity();
-  cruise_state_.middleRows(M::kRoll, 2) = found.topRows(2);
+  cruise_state_.middleRows(M::kRollAngle, 2) = found.topRows(2);
   cruise_state_.bottomRows(hidden) = found.middleRows(2, hidden);
   cruise_controls_ = found.bottomRows(kControlAxes);
 }
@@ -104,10 +99,10 @@ void Autopilot::solve_cruise() {
 Autopilot::Slopes Autopilot::slopes(const DesignMatrix& K) const {
   const Eigen::Index n = model_.motion.A.rows();
   Slopes s;
-  s.tilt_per_mps << K(kPitch, M::kForward) / K(kPitch, M::kPitch), K(kRoll, M::kRight) / K(kRoll, M::kRoll);
+  s.tilt_per_mps << K(kPitch, M::kForward) / K(kPitch, M::kPitchAngle), K(kRoll, M::kRight) / K(kRoll, M::kRollAngle);
   s.tilt_per_m.setZero();
   if (K.cols() > n) {
-    s.tilt_per_m << K(kPitch, n) / K(kPitch, M::kPitch), K(kRoll, n + 1) / K(kRoll, M::kRoll);
+    s.tilt_per_m << K(kPitch, n) / K(kPitch, M::kPitchAngle), K(kRoll, n + 1) / K(kRoll, M::kRollAngle);
   }
   s.climb_per_m = K(kHeave, M::kBelow) / K(kHeave, M::kDown);
   s.turn_per_rad = K(kYaw, M::kHeading) / K(kYaw, M::kR);
@@ -184,8 +179,8 @@ Controls Autopilot::control(const Setpoint& setpoint, const NavigationEstimate& 
   DesignVector state = state_of(now);
   if (target.attitude) reference_.head<2>() = state.head<2>();  // there is no velocity to follow
   const Controls planned = plan(target);
-  const Controls asked = model_.trim + planned + hold(state, planned, target.attitude);
-  const Controls given = asked.cwiseMax(model_.lowest).cwiseMin(model_.highest);
+  const Controls wanted = model_.trim + planned + hold(state, planned, target.attitude);
+  const Controls given = wanted.cwiseMax(model_.lowest).cwiseMin(model_.highest);
 
   hidden_ =
       (step_.A.bottomRows(hidden_.size()) * state + step_.B.bottomRows(hidden_.size()) * (given - model_.trim)).eval();
@@ -212,8 +207,8 @@ Controls Autopilot::plan(const Target& target) const {
   Controls cruise = Controls::Zero();
   if (target.attitude) {
     e.head<2>().setZero();
-    e[M::kRoll] -= target.roll_rad;
-    e[M::kPitch] -= target.pitch_rad;
+    e[M::kRollAngle] -= target.roll_rad;
+    e[M::kPitchAngle] -= target.pitch_rad;
   } else {
     const Eigen::Vector2d v_H = rotate(-reference_[M::kHeading], target.v_WB_W);
     const Eigen::Vector2d error = e.head<2>() - v_H;
@@ -241,7 +236,7 @@ Controls Autopilot::hold(const DesignVector& state, const Controls& planned_cont
   if (attitude) e.segment<2>(n).setZero();
 
   // Velocity errors and their integrals may not ask for more tilt than the reference flight leaves.
-  const Eigen::Vector2d planned{reference_[M::kPitch], reference_[M::kRoll]};
+  const Eigen::Vector2d planned{reference_[M::kPitchAngle], reference_[M::kRollAngle]};
   const Eigen::Vector2d from_error = -hold_slopes_.tilt_per_mps.cwiseProduct(Eigen::Vector2d(e.head<2>()));
   const Eigen::Vector2d from_integral = -hold_slopes_.tilt_per_m.cwiseProduct(Eigen::Vector2d(e.segment<2>(n)));
   const Eigen::Vector2d wanted = planned + from_error + from_integral;

@@ -27,15 +27,20 @@ HoverModel make(const helicopter::HelicopterConfig& config) {
 
   // Where each state of the linear model stands; a lumped stabilizer bar has none of its own.
   std::vector<int> place(L::kStates);
-  const std::vector<std::pair<int, int>> named = {
-      {L::kU, M::kForward}, {L::kV, M::kRight},     {L::kW, M::kDown},
-      {L::kP, M::kP},       {L::kQ, M::kQ},         {L::kR, M::kR},
-      {L::kRoll, M::kRoll}, {L::kPitch, M::kPitch}, {L::kHeading, M::kHeading}};
+  const std::vector<std::pair<int, int>> named = {{L::kU, M::kForward},
+                                                  {L::kV, M::kRight},
+                                                  {L::kW, M::kDown},
+                                                  {L::kP, M::kP},
+                                                  {L::kQ, M::kQ},
+                                                  {L::kR, M::kR},
+                                                  {L::kRollAngle, M::kRollAngle},
+                                                  {L::kPitchAngle, M::kPitchAngle},
+                                                  {L::kHeading, M::kHeading}};
   for (const auto& [from, to] : named) place[static_cast<size_t>(from)] = to;
   int size = M::kHidden;
-  for (const int k : {L::kBack, L::kRight, L::kBarBack, L::kBarRight}) {
-    const bool lives = !linear.A.row(k).isZero(0.0) || !linear.B.row(k).isZero(0.0);
-    place[static_cast<size_t>(k)] = lives ? size++ : -1;
+  for (const int k : {L::kDiscBack, L::kDiscRight, L::kBarBack, L::kBarRight}) {
+    const bool is_used = !linear.A.row(k).isZero(0.0) || !linear.B.row(k).isZero(0.0);
+    place[static_cast<size_t>(k)] = is_used ? size++ : -1;
   }
   const int servos = size;
   size += 2 * kControlAxes;
@@ -90,8 +95,8 @@ HoverModel make(const multicopter::MulticopterConfig& config) {
   out.motion.B = DesignMatrix::Zero(kSize, kControlAxes);
   // A level hover: velocities in B are those in the level frame.
   constexpr std::array<int, L::kStates> kPlace = {
-      M::kForward, M::kRight,   M::kDown,   M::kP,          M::kQ,          M::kR,         M::kRoll,
-      M::kPitch,   M::kHeading, M::kHidden, M::kHidden + 1, M::kHidden + 2, M::kHidden + 3};
+      M::kForward,    M::kRight,   M::kDown,   M::kP,          M::kQ,          M::kR,         M::kRollAngle,
+      M::kPitchAngle, M::kHeading, M::kHidden, M::kHidden + 1, M::kHidden + 2, M::kHidden + 3};
   for (int i = 0; i < L::kStates; ++i) {
     for (int j = 0; j < L::kStates; ++j) out.motion.A(kPlace[i], kPlace[j]) = linear.A(i, j);
     for (int j = 0; j < kControlAxes; ++j) out.motion.B(kPlace[i], j) = linear.B(i, j);

@@ -23,7 +23,22 @@ std::optional<Trim> trim(const HelicopterModel& model, const Eigen::Vector3d& v_
 /// Motion near a trim: dx/dt = A x + B u, deviations from the trim.
 struct LinearModel {
   /// u, v, w (m/s, in B), p, q, r, roll, pitch, heading, disc back, disc right, bar back, bar right (rad, rad/s).
-  enum State { kU, kV, kW, kP, kQ, kR, kRoll, kPitch, kHeading, kBack, kRight, kBarBack, kBarRight, kStates };
+  enum State {
+    kU,
+    kV,
+    kW,
+    kP,
+    kQ,
+    kR,
+    kRollAngle,
+    kPitchAngle,
+    kHeading,
+    kDiscBack,
+    kDiscRight,
+    kBarBack,
+    kBarRight,
+    kStates
+  };
   /// In the order of BladeAngles, rad.
   enum Input { kCollective, kLateral, kLongitudinal, kTail, kInputs };
   Eigen::Matrix<double, kStates, kStates> A;  ///< rows and columns of the bar are zero when it is lumped

@@ -63,7 +63,7 @@ bool solve(const Model& model, Unknowns& x, const Eigen::Vector3d& v_air_W, doub
 
 template <class Model>
 std::optional<Trim> find_trim(const Model& model, const Eigen::Vector3d& v_air_W, double heading_rad) {
-  // From the hover to the speed asked for, each trim the start of the next.
+  // From the hover to the speed required, each trim the start of the next.
   const int steps = std::max(1, static_cast<int>(std::ceil(v_air_W.norm() / kSpeedStepMps)));
   if (!v_air_W.allFinite() || steps > 100) return std::nullopt;
   Unknowns x;
@@ -89,14 +89,14 @@ template <class Model>
 StateVector rates(const Model& model, const Trim& trim, double heading_rad, const StateVector& dx,
                   const InputVector& du) {
   using L = LinearModel;
-  const double roll = trim.roll_rad + dx[L::kRoll];
-  const double pitch = trim.pitch_rad + dx[L::kPitch];
+  const double roll = trim.roll_rad + dx[L::kRollAngle];
+  const double pitch = trim.pitch_rad + dx[L::kPitchAngle];
   HelicopterState s = trim.state;
   s.body.q_WB = from_roll_pitch_heading(roll, pitch, heading_rad + dx[L::kHeading]);
   s.body.v_WB_B += dx.segment<3>(L::kU);
   s.body.w_WB_B += dx.segment<3>(L::kP);
-  s.flap = {s.flap.back_rad + dx[L::kBack], s.flap.right_rad + dx[L::kRight], s.flap.bar_back_rad + dx[L::kBarBack],
-            s.flap.bar_right_rad + dx[L::kBarRight]};
+  s.flap = {s.flap.back_rad + dx[L::kDiscBack], s.flap.right_rad + dx[L::kDiscRight],
+            s.flap.bar_back_rad + dx[L::kBarBack], s.flap.bar_right_rad + dx[L::kBarRight]};
   const BladeAngles& b = trim.blades;
   const BladeAngles blades{b.collective_rad + du[0], b.lateral_rad + du[1], b.longitudinal_rad + du[2],
                            b.tail_rad + du[3]};

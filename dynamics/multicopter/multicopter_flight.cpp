@@ -19,23 +19,23 @@ PerRotor speeds_for(const MulticopterModel& model, const Controls& wrench) {
   return (model.thrusts_of_wrench * wrench / model.rotor.thrust_ns2).cwiseMax(0.0).cwiseSqrt();
 }
 
-/// Speeds after t_s of first-order motors on their way to `asked`.
-PerRotor spun(const MulticopterModel& model, const PerRotor& speeds, const PerRotor& asked, double t_s) {
+/// Speeds after t_s of first-order motors approaching `commanded`.
+PerRotor spun(const MulticopterModel& model, const PerRotor& speeds, const PerRotor& commanded, double t_s) {
   const LiftRotorConfig& c = model.rotor;
   PerRotor out = speeds;
   for (Eigen::Index i = 0; i < out.size(); ++i) {
-    const double tau_s = asked[i] > speeds[i] ? c.time_constant_up_s : c.time_constant_down_s;
-    out[i] = asked[i] + (speeds[i] - asked[i]) * std::exp(-t_s / tau_s);
+    const double tau_s = commanded[i] > speeds[i] ? c.time_constant_up_s : c.time_constant_down_s;
+    out[i] = commanded[i] + (speeds[i] - commanded[i]) * std::exp(-t_s / tau_s);
   }
   return out;
 }
 
-PerRotor spin_ups(const MulticopterModel& model, const PerRotor& speeds, const PerRotor& asked) {
+PerRotor spin_ups(const MulticopterModel& model, const PerRotor& speeds, const PerRotor& commanded) {
   const LiftRotorConfig& c = model.rotor;
   PerRotor out = speeds;
   for (Eigen::Index i = 0; i < out.size(); ++i) {
-    const double tau_s = asked[i] > speeds[i] ? c.time_constant_up_s : c.time_constant_down_s;
-    out[i] = (asked[i] - speeds[i]) / tau_s;
+    const double tau_s = commanded[i] > speeds[i] ? c.time_constant_up_s : c.time_constant_down_s;
+    out[i] = (commanded[i] - speeds[i]) / tau_s;
   }
   return out;
 }
@@ -100,7 +100,7 @@ MulticopterLinearModel linearize(const MulticopterModel& model, const Multicopte
   const PerRotor none = still(model);
   const auto rate = [&](const Eigen::Matrix<double, L::kStates, 1>& d) {
     RigidBodyState body = trim.state.body;
-    const Eigen::Vector3d rpy = Eigen::Vector3d(trim.roll_rad, trim.pitch_rad, heading0) + d.segment<3>(L::kRoll);
+    const Eigen::Vector3d rpy = Eigen::Vector3d(trim.roll_rad, trim.pitch_rad, heading0) + d.segment<3>(L::kRollAngle);
     body.q_WB = from_roll_pitch_heading(rpy[0], rpy[1], rpy[2]);
     body.v_WB_B += d.head<3>();
     body.w_WB_B += d.segment<3>(L::kP);
@@ -163,18 +163,18 @@ void MulticopterFlight::step_controls(const Controls& command, const Eigen::Vect
   step(allocate(model_, command), wind_W, dt_s);
 }
 
-void MulticopterFlight::step(const PerRotor& asked_radps, const Eigen::Vector3d& wind_W, double dt_s) {
-  const PerRotor asked = asked_radps.cwiseMax(0.0).cwiseMin(model_.rotor.highest_radps);
+void MulticopterFlight::step(const PerRotor& commanded_radps, const Eigen::Vector3d& wind_W, double dt_s) {
+  const PerRotor commanded = commanded_radps.cwiseMax(0.0).cwiseMin(model_.rotor.highest_radps);
   const auto rate = [&](double t_s, const RigidBodyVector& x) -> RigidBodyVector {
-    const PerRotor speeds = spun(model_, state_.speeds_radps, asked, t_s);
+    const PerRotor speeds = spun(model_, state_.speeds_radps, commanded, t_s);
     const RigidBodyState body = to_rigid_body(x);
-    const MulticopterLoads loads = multicopter_loads(model_, body, speeds, spin_ups(model_, speeds, asked), wind_W);
+    const MulticopterLoads loads = multicopter_loads(model_, body, speeds, spin_ups(model_, speeds, commanded), wind_W);
     return derivative(model_.mass, body, loads.f_B, loads.t_B);
   };
   MulticopterFlightState next;
   next.body = to_rigid_body(rk4_step<13>(to_vector(state_.body), 0.0, dt_s, rate));
   next.body.q_WB.normalize();
-  next.speeds_radps = spun(model_, state_.speeds_radps, asked, dt_s);
+  next.speeds_radps = spun(model_, state_.speeds_radps, commanded, dt_s);
   set_state(next, wind_W);
 }
 

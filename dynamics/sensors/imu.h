@@ -5,6 +5,7 @@
 
 #include "dynamics/rigid_body.h"
 #include "dynamics/sensors/sensor_noise.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::dynamics::sensors {
 
@@ -29,7 +30,8 @@ struct ImuConfig {
 };
 template <class Visitor>
 void describe(Visitor& v, ImuConfig& c) {
-  v("rate", c.rate_hz, {.unit = "Hz", .above = 0.0, .meaning = "readings a second; divides the physics rate"});
+  v("rate", c.rate_hz,
+    {.unit = "Hz", .at_least = fields::kSlowestHz, .meaning = "readings a second; divides the physics rate"});
   v("gyro_noise", c.gyro_noise_density, {.unit = "rad/s/sqrt(Hz)", .at_least = 0.0, .meaning = "white noise density"});
   v("gyro_bias_walk", c.gyro_bias_walk,
     {.unit = "rad/s^2/sqrt(Hz)", .at_least = 0.0, .meaning = "noise density that drives the wandering bias"});
@@ -46,7 +48,9 @@ void describe(Visitor& v, ImuConfig& c) {
   v("accelerometer_offset", c.accelerometer_offset_mps2,
     {.unit = "m/s^2", .at_least = 0.0, .meaning = "standard deviation of the offset drawn at turn-on"});
   v("cutoff", c.cutoff_hz,
-    {.unit = "Hz", .above = 0.0, .meaning = "-3 dB frequency of the low-pass filter; below half the physics rate"});
+    {.unit = "Hz",
+     .at_least = fields::kSlowestHz,
+     .meaning = "-3 dB frequency of the low-pass filter; below half the physics rate"});
   v("gyro_range", c.gyro_range_radps, {.unit = "rad/s", .above = 0.0, .meaning = "greatest rate it can read"});
   v("accelerometer_range", c.accelerometer_range_mps2,
     {.unit = "m/s^2", .above = 0.0, .meaning = "greatest specific force it can read"});

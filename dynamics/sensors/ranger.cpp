@@ -5,16 +5,14 @@
 #include <limits>
 #include <stdexcept>
 
+#include "sim/fields/bounds.h"
+
 namespace hedgehop::dynamics::sensors {
 
 Ranger::Ranger(const std::string& key, const RangerConfig& config, double physics_dt_s, uint64_t seed)
-    : config_(config), period_(period_ticks(key + ".rate", config.rate_hz, physics_dt_s)), noise_(seed) {
-  require_not_negative(key + ".min", config.min_m);
-  require_not_negative(key + ".noise", config.noise_m);
-  require_not_negative(key + ".noise_per_range", config.noise_per_range);
-  require_not_negative(key + ".offset", config.offset_m);
-  require_range(key + ".dropout", config.dropout, 0.0, 1.0);
-  require_not_negative(key + ".latency", config.latency_s);
+    : config_(fields::require_bounds(config, key)),
+      period_(period_ticks(key + ".rate", config.rate_hz, physics_dt_s)),
+      noise_(seed) {
   if (!(config.max_m > config.min_m)) throw std::invalid_argument(key + ".max: must be greater than 'min'");
   latency_ = std::llround(config.latency_s / physics_dt_s);
   observed_m_.assign(static_cast<size_t>(latency_ / period_) + 1, std::numeric_limits<double>::infinity());

@@ -8,7 +8,7 @@
 
 namespace hedgehop::scenes::worlds {
 
-/// The two objects of [Shah2009] fig. 4.4 and fig. 4.5 on a meadow: a cube with 8 corners, and high-rises with 35. The
+/// The two objects of [Shah2009] fig. 4.5 and fig. 4.6 on a meadow: a cube with 8 corners, and high-rises with 35. The
 /// thesis prints no sizes: ours are a cube 18 m high, and a block tower beside three towers with spires.
 struct HighriseConfig {
   static constexpr std::string_view kName = "highrise";

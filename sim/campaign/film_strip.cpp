@@ -10,9 +10,9 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "sim/loop/episode.h"
 #include "sim/record/film_watcher.h"
 #include "sim/record/whole_file.h"
+#include "sim/simulation/simulation.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -87,10 +87,11 @@ void write_film_strip(const std::filesystem::path& flight) {
   const bool collided = result.at("outcome") == "collided";
   const double end_s = (collided ? result.at("flight_time_s") : closest.at("t_s")).get<double>();
 
-  Scenario scenario = load_scenario(flight / "scenario.yaml");
+  LoadedScenario loaded = load_flight(flight / "scenario.yaml");
+  Scenario& scenario = loaded.scenario;
   if (!collided) scenario.duration_s = end_s;
   StripWatcher watcher(scenario.film.rate_hz);
-  const FlightResult again = fly(scenario, &watcher).result;
+  const FlightResult again = fly(scenario, std::move(loaded.parts), &watcher).result;
   const double clearance_m = again.closest_obstacle.distance_m;
   if (!closest.is_null() && std::abs(clearance_m - closest.at("distance_m").get<double>()) > kSameFlightM) {
     throw std::runtime_error(fmt::format("flown again, it came within {:.6f} m of an obstacle instead of {:.6f} m",

@@ -5,11 +5,10 @@
 #include <map>
 #include <stdexcept>
 
-#include "scenes/generators.h"
-#include "sim/loop/random_stream.h"
 #include "sim/record/csv_table.h"
 #include "sim/record/decimate.h"
 #include "sim/record/plan_data.h"
+#include "sim/scenario/flight_parts.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -45,7 +44,7 @@ struct SeededFlights {
   std::vector<size_t> flights;
 };
 
-/// Makes plans and tells equal ones.
+/// Makes plans and finds equal ones.
 class PlanMaker {
  public:
   explicit PlanMaker(std::vector<ScenePlan>& plans) : plans_(plans) {}
@@ -54,7 +53,7 @@ class PlanMaker {
   std::optional<size_t> make(const scenes::SceneConfig& config, uint64_t seed) {
     if (made_ == kMostScenes || bytes_ > kMostMapBytes) return {};
     ++made_;
-    ScenePlan plan = scene_plan(scenes::make_scene(config, stream_seed(seed, kSceneStream)));
+    ScenePlan plan = scene_plan(build_scene(config, seed));
     coarsen(plan);
     const auto [entry, is_new] = known_.try_emplace(plan_key(plan), plans_.size());
     if (is_new) {

@@ -1,10 +1,12 @@
+#include "sim/campaign/optimize.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <limits>
 #include <nlopt.hpp>
 
-#include "sim/campaign/sweep.h"
 #include "sim/scenario/tree.h"
 
 namespace hedgehop::sim {
@@ -27,16 +29,18 @@ nlopt::algorithm algorithm(OptimizeDesign::Method method) {
 /// Mean of a column over a point's flights; a flight that does not pass or lacks a number there counts its cost.
 double mean_cost(const OptimizeDesign& design, const std::vector<FlightRecord>& records) {
   const Table table = flight_table(records);
-  const auto column = std::ranges::find(table.columns, design.minimize);
+  const size_t column = column_index(table, design.minimize);
   double sum = 0.0;
   for (size_t i = 0; i < records.size(); ++i) {
-    if (records[i].status == FlightRecord::Status::flown && column == table.columns.end()) {
-      throw InputError(fmt::format("'design.minimize': no column '{}'{}", design.minimize,
-                                   suggestion(design.minimize, {table.columns.begin(), table.columns.end()})));
+    if (records[i].status == FlightRecord::Status::flown && column == table.columns.size()) {
+      std::vector<std::string_view> names;
+      for (const TableColumn& known : table.columns) names.push_back(known.name);
+      throw InputError(
+          fmt::format("'design.minimize': no column '{}'{}", design.minimize, suggestion(design.minimize, names)));
     }
     double cost = design.failure_cost;
     if (passed(records[i])) {
-      const Cell& cell = table.rows[i][static_cast<size_t>(column - table.columns.begin())];
+      const Cell& cell = table.rows[i][column];
       if (const auto* number = std::get_if<double>(&cell)) cost = *number;
       if (const auto* whole = std::get_if<int64_t>(&cell)) cost = static_cast<double>(*whole);
     }
@@ -52,6 +56,7 @@ struct Search {
   const FlyPoint& fly;
   Optimum best{.values = {}, .cost = std::numeric_limits<double>::infinity(), .orders = {}, .records = {}};
   size_t points = 0;
+  std::exception_ptr fault = {};  ///< nlopt passes on only exceptions of its own
 
   double cost(const std::vector<double>& coordinates) {
     std::vector<std::string> values;
@@ -60,15 +65,31 @@ struct Search {
     }
     SweepOrders point;
     point.add(sweep, points, values);
+    const std::optional<std::vector<FlightRecord>> records = fly(point.orders);
+    if (!records) {
+      best.stopped = true;
+      throw nlopt::forced_stop();
+    }
     best.orders.add(sweep, points++, values);
-    const std::vector<FlightRecord> records = fly(point.orders);
-    best.records.insert(best.records.end(), records.begin(), records.end());
-    const double cost = mean_cost(design, records);
+    best.records.insert(best.records.end(), records->begin(), records->end());
+    const double cost = mean_cost(design, *records);
     if (cost < best.cost) {
       best.cost = cost;
       best.values = values;
     }
     return cost;
+  }
+
+  static double objective(const std::vector<double>& coordinates, std::vector<double>&, void* data) {
+    auto& search = *static_cast<Search*>(data);
+    try {
+      return search.cost(coordinates);
+    } catch (const nlopt::forced_stop&) {
+      throw;
+    } catch (...) {
+      search.fault = std::current_exception();
+      throw nlopt::forced_stop();
+    }
   }
 };
 
@@ -86,14 +107,14 @@ Optimum optimize(const SweepConfig& sweep, const FlyPoint& fly) {
   optimizer.set_xtol_abs(kTolerance);
   constexpr double kFirstStep = 0.25;  // of a range
   optimizer.set_initial_step(kFirstStep);
-  optimizer.set_min_objective([](const std::vector<double>& x, std::vector<double>&,
-                                 void* data) { return static_cast<Search*>(data)->cost(x); },
-                              &search);
+  optimizer.set_min_objective(Search::objective, &search);
   std::vector<double> x(dimensions, 0.5);
   double cost = 0.0;
   try {
     optimizer.optimize(x, cost);
   } catch (const nlopt::roundoff_limited&) {  // as good as it gets
+  } catch (const nlopt::forced_stop&) {
+    if (search.fault) std::rethrow_exception(search.fault);
   }
   return std::move(search.best);
 }

@@ -47,7 +47,7 @@ void fill(const std::filesystem::path& file, const Table& table) {
              SQLITE_OK,
          opened);
   std::vector<std::string> names;
-  for (const std::string& name : table.columns) names.push_back(quoted_name(name));
+  for (const TableColumn& column : table.columns) names.push_back(quoted_name(column.name));
   const std::string create = fmt::format("CREATE TABLE flights ({})", fmt::join(names, ", "));
   expect(sqlite3_exec(opened, create.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK, opened);
 

@@ -2,20 +2,29 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
 #include "sim/campaign/record.h"
+#include "sim/flight/flight.h"
 
 namespace hedgehop::sim {
 
 /// A field of a table: nothing, a number or a text.
 using Cell = std::variant<std::monostate, int64_t, double, std::string>;
 
+struct TableColumn {
+  std::string name;
+  std::string unit;                ///< "" for none, or unknown
+  std::optional<FigureKind> kind;  ///< none for what was ordered and how it ended
+};
+
 /// Rows of equal width under named columns.
 struct Table {
-  std::vector<std::string> columns;
+  std::vector<TableColumn> columns;
   std::vector<std::vector<Cell>> rows;
 };
 
@@ -25,11 +34,13 @@ struct ExtraColumn {
   std::vector<Cell> cells;
 };
 
-/// One row a record, in their order: what was ordered, how it ended, the result's figures, the module's metrics
-/// (`metric.NAME`; those of wall time `time.NAME`), the checks' values (`check.NAME`), the command that flies it again,
-/// and last the columns that differ from run to run (those whose names begin with `time.`). Column names depend on the
-/// records alone, never on the order in which flights ended.
+/// One row a record, in their order: what was ordered, how it ended, the result's figures, the metrics (`metric.NAME`),
+/// the checks' values (`check.NAME`), the command that flies it again, and last the columns of FigureKind::wall_time,
+/// metrics among them (`time.NAME`). Columns depend on the records alone, never on the order in which flights ended.
 Table flight_table(const std::vector<FlightRecord>& records, const std::vector<ExtraColumn>& extra = {});
+
+/// Index of a column; columns.size() when it is missing.
+size_t column_index(const Table& table, std::string_view name);
 
 /// The table as comma-separated values with a header line.
 std::string csv_text(const Table& table);

@@ -2,12 +2,11 @@
 
 namespace hedgehop::sim::cli {
 
-Scenario load(const ScenarioOptions& options) {
-  Scenario scenario = load_scenario(options.file, options.overrides);
-  if (options.seed) scenario.seed = *options.seed;
+LoadedScenario load(const ScenarioOptions& options) {
+  LoadedScenario loaded = load_flight(options.file, options.overrides, options.seed);
   using Context = DrawingConfig::Context;
-  if (!options.gl.empty()) scenario.drawing.context = options.gl == "egl" ? Context::egl : Context::osmesa;
-  return scenario;
+  if (!options.gl.empty()) loaded.scenario.drawing.context = options.gl == "egl" ? Context::egl : Context::osmesa;
+  return loaded;
 }
 
 }  // namespace hedgehop::sim::cli

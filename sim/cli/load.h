@@ -1,11 +1,11 @@
 #pragma once
 
 #include "sim/cli/commands.h"
-#include "sim/scenario/scenario.h"
+#include "sim/scenario/flight_parts.h"
 
 namespace hedgehop::sim::cli {
 
-/// The scenario of a command line, its overrides and seed applied. Throws InputError.
-Scenario load(const ScenarioOptions& options);
+/// The scenario of a command line, its overrides and seed applied, and its parts. Throws InputError.
+LoadedScenario load(const ScenarioOptions& options);
 
 }  // namespace hedgehop::sim::cli

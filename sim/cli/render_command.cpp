@@ -2,13 +2,14 @@
 
 #include <cmath>
 #include <opencv2/core.hpp>
+#include <utility>
 
 #include "sim/cli/commands.h"
 #include "sim/cli/load.h"
-#include "sim/loop/episode.h"
 #include "sim/record/image_file.h"
 #include "sim/render/image_colors.h"
 #include "sim/render/renderer.h"
+#include "sim/simulation/simulation.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -44,7 +45,8 @@ int render(const RenderOptions& options) {
     throw InputError(fmt::format("-o {}: the image is a PNG; its name must end in .png", options.out.string()));
   }
   const Channel channel = channel_of(options.what);
-  cv::Mat image = image_at(load(options.scenario), options.camera, channel, options.time_s);
+  LoadedScenario loaded = load(options.scenario);
+  cv::Mat image = image_at(loaded.scenario, std::move(loaded.parts), options.camera, channel, options.time_s);
   if (options.what == "depth_mm") {
     image = to_millimeters(image);
   } else if (channel == Channel::depth) {

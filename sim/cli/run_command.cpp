@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
@@ -6,21 +7,22 @@
 #include <csignal>
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 
 #include "sim/campaign/order.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/load.h"
 #include "sim/cli/progress.h"
-#include "sim/cli/version.h"
-#include "sim/loop/episode.h"
+#include "sim/flight/build.h"
 #include "sim/record/film_watcher.h"
 #include "sim/record/report.h"
 #include "sim/record/result_files.h"
+#include "sim/simulation/simulation.h"
 
 namespace hedgehop::sim::cli {
 namespace {
 
-/// Films and shows progress.
+/// Records the video and shows progress.
 class RunWatcher : public FlightWatcher {
  public:
   RunWatcher(const Scenario& scenario, const std::filesystem::path& film_file, bool quiet)
@@ -33,11 +35,11 @@ class RunWatcher : public FlightWatcher {
   void on_progress(double t_s, double duration_s, double goal_distance_m) override {
     if (!quiet_) progress_.show(t_s, duration_s, goal_distance_m);
   }
-  /// Ends line and film.
+  /// Ends the line and the video.
   void close() {
     progress_.close();
     film_.close();
-    if (!film_.fault().empty()) fmt::print(stderr, "warning: no whole film: {}\n", film_.fault());
+    if (!film_.fault().empty()) fmt::print(stderr, "warning: incomplete video: {}\n", film_.fault());
   }
 
  private:
@@ -78,6 +80,7 @@ void print_verdict(const Scenario& scenario, const FlightResult& result, const s
   }
   fmt::print("  {:.2f} times real time: {:.1f} s; per instant of the cameras: drawing {:.1f} ms, deciding {:.1f} ms\n",
              result.realtime_factor, result.wall_s, result.render_ms.median_ms, result.decision_ms.median_ms);
+  if (!result.truth_used.empty()) fmt::print("  truth used: {}\n", fmt::join(result.truth_used, "; "));
   for (const CheckResult& check : result.checks) print_check(check);
   fmt::print("  written: {}\n", (out / (has_report ? "report.html" : "result.json")).string());
 }
@@ -86,23 +89,25 @@ void print_verdict(const Scenario& scenario, const FlightResult& result, const s
 
 int run(const RunOptions& options) {
   if (options.worker_of != 0) die_with(static_cast<pid_t>(options.worker_of));
-  Scenario scenario = load(options.scenario);
+  LoadedScenario loaded = load(options.scenario);
+  Scenario& scenario = loaded.scenario;
   if (options.no_video) scenario.film.enabled = false;
   const std::filesystem::path out =
       options.out.empty() ? std::filesystem::path{"out"} / fmt::format("{}-seed{}", scenario.name, scenario.seed)
                           : options.out;
   RunWatcher watcher(scenario, out / "video.webm", options.worker_of != 0);
-  const Flight flight = fly(scenario, &watcher);
+  const Flight flight = fly(scenario, std::move(loaded.parts), &watcher);
   watcher.close();
 
   const RunInfo info{scenario.name,
                      scenario.seed,
-                     std::string{kVersion},
+                     std::string(version()),
+                     std::string(build_identity()),
                      options.scenario.file.string(),
                      command_line(options, scenario),
                      to_yaml(scenario)};
   write_result_files(out, info, flight);
-  if (!options.no_report) write_report(out);
+  if (!options.no_report) write_report(out, run_record(scenario, info, flight));
   if (options.json) {
     fmt::print("{}\n", result_json(info, flight.result));
   } else {

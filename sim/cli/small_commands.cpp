@@ -18,13 +18,13 @@
 namespace hedgehop::sim::cli {
 namespace {
 
-/// Flies the worst flights of a campaign again, for their strips, and tells what came of it.
+/// Re-simulates the worst flights of a campaign for their strips, and prints the outcome.
 void film_worst(const std::filesystem::path& folder, size_t count) {
   const std::vector<FlightRecord> flights = read_flights(folder).records;
   const std::vector<size_t> rows = worst_flights(flights, count);
   size_t begun = 0;
   const auto show = [&](const std::string& id) {
-    fmt::print(stderr, "{}/{}: flying {} again for its film strip\n", ++begun, rows.size(), id);
+    fmt::print(stderr, "{}/{}: re-simulating {} for its film strip\n", ++begun, rows.size(), id);
   };
   for (const std::string& fault : write_film_strips(folder, flights, rows, show)) fmt::print(stderr, "{}\n", fault);
 }
@@ -42,7 +42,7 @@ int schema() {
 }
 
 int calibration(const CalibrationOptions& options) {
-  const RigConfig rig = load(options.scenario).rig;
+  const RigConfig rig = load(options.scenario).scenario.rig;
   const std::string text =
       build_part("rig", [&] { return options.format == "kalibr" ? kalibr_calibration(rig) : opencv_calibration(rig); });
   if (options.out.empty()) {
@@ -74,8 +74,9 @@ int report(const ReportOptions& options) {
     throw InputError(folder + ": --film-strips is for batches or sweeps, and this is one run");
   if (!options.against.empty())
     throw InputError(folder + ": --against compares batches or sweeps, and this is one run");
-  if (options.replay) write_replay(options.folder);
-  write_report(options.folder);  // links the replay
+  const RunRecord run = read_run(options.folder);
+  if (options.replay) write_replay(options.folder, run);
+  write_report(options.folder, run);  // links the replay
   written("report.html");
   if (options.replay) written("replay.html");
   return 0;

@@ -10,9 +10,9 @@
 #include "sim/export/euroc.h"
 #include "sim/export/kitti.h"
 #include "sim/export/tum.h"
-#include "sim/loop/episode.h"
 #include "sim/record/image_file.h"
 #include "sim/record/whole_file.h"
+#include "sim/simulation/simulation.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -32,25 +32,31 @@ std::string roles(const RigConfig& rig) {
   return text;
 }
 
-/// The cameras asked for, in that order.
+/// The cameras to export, in that order.
 std::vector<RecordedCamera> choose(const Scenario& scenario, const std::vector<std::string>& wanted) {
-  const auto is_depth = [](const CameraConfig& c) { return c.channel == CameraConfig::Channel::depth; };
+  using Channel = CameraConfig::Channel;
+  const auto has_images = [](const CameraConfig& c) {
+    return c.channel == Channel::grey || c.channel == Channel::color;
+  };
   std::vector<const CameraConfig*> chosen;
   for (const CameraConfig& camera : scenario.rig.cameras) {
-    if (wanted.empty() && !is_depth(camera)) chosen.push_back(&camera);
+    if (wanted.empty() && has_images(camera)) chosen.push_back(&camera);
   }
   for (const std::string& role : wanted) {
     const CameraConfig* const camera = scenario.rig.find(role);
     if (!camera) {
       throw InputError(fmt::format("--camera {}: no such camera in the rig; it has: {}", role, roles(scenario.rig)));
     }
-    if (is_depth(*camera)) throw InputError(fmt::format("--camera {}: it takes depth, not images", role));
+    if (!has_images(*camera)) {
+      const std::string_view what = camera->channel == Channel::depth ? "depth" : "corners";
+      throw InputError(fmt::format("--camera {}: it delivers {}, not images", role, what));
+    }
     if (std::ranges::find(chosen, camera) != chosen.end()) {
       throw InputError(fmt::format("--camera {}: named twice", role));
     }
     chosen.push_back(camera);
   }
-  if (chosen.empty()) throw InputError("the rig has no camera that takes images");
+  if (chosen.empty()) throw InputError("the rig has no camera that delivers images");
   std::vector<RecordedCamera> cameras;
   for (const CameraConfig* const camera : chosen) {
     cameras.push_back(build_part("rig", [&] { return recorded(*camera, scenario.avionics.imu); }));
@@ -63,7 +69,7 @@ std::vector<DataFile> texts(DataFormat format, const SensorRecord& record) {
   return format == DataFormat::kitti ? kitti_files(record) : euroc_files(record);
 }
 
-/// What a format cannot hold is told before the flight.
+/// What a format cannot hold is reported before the flight.
 void check(const ExportRequest& request, SensorRecord record) {
   if (request.format == DataFormat::tum) {
     if (record.cameras.size() > 1) {

@@ -16,4 +16,16 @@ std::string_view to_string(Outcome outcome) {
   return "fault";
 }
 
+std::string_view to_string(FigureKind kind) {
+  switch (kind) {
+    case FigureKind::judged:
+      return "judged";
+    case FigureKind::module:
+      return "module";
+    case FigureKind::wall_time:
+      return "wall_time";
+  }
+  return "judged";
+}
+
 }  // namespace hedgehop::sim

@@ -2,21 +2,25 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenes/figures.h"
+#include "scenes/scene.h"
 #include "sim/flight/map_record.h"
 
-/// What a flight leaves behind: the verdict and the two tables. Frames and units as in CONTRIBUTING.md.
+/// What a flight leaves: the result, the two tables, the map. Frames and units as in CONTRIBUTING.md.
 namespace hedgehop::sim {
 
 /// How a flight ended.
 enum class Outcome {
   reached,   ///< inside the goal's radius
-  collided,  ///< the hull touched a solid or the ground
+  collided,  ///< contact of the hull with a solid or the ground
   timeout,   ///< the scenario's duration is over; for a scenario without a goal the normal end
   fault,     ///< the module threw or the state stopped being finite
 };
@@ -65,10 +69,19 @@ struct CheckResult {
   std::string unit;
 };
 
+/// Where a figure of a flight comes from.
+enum class FigureKind {
+  judged,    ///< from the true flight
+  module,    ///< from the module itself
+  wall_time  ///< from the machine: differs from run to run, so two flights that are equal may differ in it
+};
+std::string_view to_string(FigureKind kind);
+
 struct MetricValue {
   std::string name;
   double value = 0.0;
   std::string unit;
+  FigureKind kind = FigureKind::judged;
 };
 
 /// Median and 95th percentile of a stage's wall time, ms. Never part of anything that affects a flight.
@@ -79,6 +92,8 @@ struct StageTime {
 struct FlightResult {
   Outcome outcome = Outcome::fault;
   std::string cause;  ///< one line for collided and fault, else empty
+  /// Sensors of the module that deliver truth: "camera 'front': projected corners"; empty for real ones alone.
+  std::vector<std::string> truth_used;
   double flight_time_s = 0.0, path_length_m = 0.0, mean_speed_mps = 0.0;
   ClosestApproach closest_obstacle, closest_ground;
   std::optional<double> goal_distance_m;  ///< at the end, horizontal; none without a goal
@@ -98,7 +113,8 @@ struct Flight {
   std::vector<NamedUnit> signals;
   std::vector<TrajectoryRow> trajectory;
   std::vector<DecisionRow> decisions;
-  MapRecord map;  ///< empty for a module that keeps no chart
+  MapRecord map;                               ///< empty for a module that makes no map
+  std::shared_ptr<const scenes::Scene> scene;  ///< that was flown through
 };
 
 }  // namespace hedgehop::sim

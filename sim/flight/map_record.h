@@ -19,7 +19,7 @@ struct RecordedCorner {
   bool found = false;                             ///< has a point of the map near it (MapScore)
 };
 
-struct PlannedWay {
+struct PlannedPath {
   double t_s = 0.0;                        ///< of the decision; it holds until the next one
   std::vector<Eigen::Vector2d> places_NE;  ///< to turn at, m, the last one included
 };
@@ -28,7 +28,7 @@ struct MapRecord {
   std::vector<RecordedPoint> points;
   std::vector<RecordedCorner> corners;
   std::vector<Eigen::Vector2d> course_NE;  ///< m
-  std::vector<PlannedWay> ways;            ///< detours, in order of time; the loop's MapLog says which
+  std::vector<PlannedPath> paths;          ///< detours, in order of time; MapLog (sim/loop) chooses them
 
   bool empty() const { return points.empty() && course_NE.empty(); }
 };

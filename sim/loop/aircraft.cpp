@@ -1,18 +1,17 @@
 #include "sim/loop/aircraft.h"
 
-#include <string_view>
+#include <utility>
 
-#include "sim/loop/random_stream.h"
+#include "sim/scenario/random_stream.h"
 
 namespace hedgehop::sim {
 
-Aircraft::Aircraft(const Scenario& scenario, const Ticks& ticks)
+Aircraft::Aircraft(const Scenario& scenario, const Ticks& ticks, AircraftParts parts)
     : scenario_(scenario),
       ticks_(ticks),
-      vehicle_(scenario.vehicle),
-      wind_(scenario.wind, stream_seed(scenario.seed, "wind")),
-      avionics_(scenario.avionics, scenario.vehicle, ticks_.dt_s(),
-                [seed = scenario.seed](std::string_view name) { return stream_seed(seed, name); }) {}
+      vehicle_(std::move(parts.vehicle)),
+      wind_(std::move(parts.wind)),
+      avionics_(std::move(parts.avionics)) {}
 
 void Aircraft::reset(const CollisionWorld& world) {
   const Eigen::Vector3d p_WB = scenario_.start.draw_p_WB(stream_seed(scenario_.seed, "start"));

@@ -3,26 +3,25 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 
-#include "dynamics/air/wind.h"
-#include "dynamics/avionics.h"
-#include "dynamics/vehicle.h"
 #include "sim/collision/proximity.h"
 #include "sim/loop/shutter.h"
 #include "sim/loop/ticks.h"
-#include "sim/scenario/scenario.h"
+#include "sim/scenario/flight_parts.h"
 
 namespace hedgehop::sim {
 
-/// The vehicle in its air, with its avionics: what flies, whoever tells it where.
+/// The vehicle in its air, with its avionics: what flies, whoever commands it.
 class Aircraft {
  public:
-  /// Throws InputError or std::invalid_argument on a vehicle, wind or avionics that cannot be.
-  Aircraft(const Scenario& scenario, const Ticks& ticks);
+  /// @param scenario  outlives the aircraft. @param parts  of the scenario.
+  Aircraft(const Scenario& scenario, const Ticks& ticks, AircraftParts parts);
 
   /// Puts it into its drawn start, in a trimmed hover. Throws InputError where it cannot hover.
   void reset(const CollisionWorld& world);
-  /// Reads the sensors that are due on this tick.
-  void sense(int64_t tick, const CollisionWorld& world) { avionics_.sense(ticks_.t_ns(tick), truth(world, tick)); }
+  /// Reads the sensors that are due on this tick. @param flow_velocity  the velocimeter, where it has an image.
+  void sense(int64_t tick, const CollisionWorld& world, const dynamics::VelocitySensor& flow_velocity = {}) {
+    avionics_.sense(ticks_.t_ns(tick), truth(world, tick), flow_velocity);
+  }
   /// Runs the autopilot. @param dt_s  until the next call.
   void steer(const dynamics::control::Setpoint& setpoint, double dt_s) {
     actuators_ = avionics_.control(setpoint, dt_s);
@@ -36,11 +35,10 @@ class Aircraft {
   const dynamics::Vehicle& vehicle() const { return vehicle_; }
   const dynamics::control::NavigationEstimate& navigation() const { return avionics_.navigation(); }
   const dynamics::Avionics& avionics() const { return avionics_; }
-  dynamics::Avionics& avionics() { return avionics_; }
   const Eigen::Vector3d& wind_W() const { return wind_W_; }
 
  private:
-  /// What the sensors may look at; good until the next call.
+  /// What the sensors measure; good until the next call.
   dynamics::SensedTruth truth(const CollisionWorld& world, int64_t tick);
 
   const Scenario& scenario_;

@@ -6,8 +6,8 @@
 #include <functional>
 #include <stdexcept>
 
-#include "sim/loop/random_stream.h"
 #include "sim/scenario/input_error.h"
+#include "sim/scenario/random_stream.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -20,6 +20,8 @@ Channel to_render_channel(CameraConfig::Channel channel) {
       return Channel::color;
     case CameraConfig::Channel::depth:
       return Channel::depth;
+    case CameraConfig::Channel::corners:
+      return Channel::grey;
   }
   throw std::logic_error("unknown channel");
 }
@@ -33,6 +35,15 @@ void require_samples(const CameraConfig& camera, Renderer& renderer) {
   }
 }
 
+std::optional<CornerDetector> detector_of(const CameraConfig& camera, const scenes::Scene& scene, uint64_t seed) {
+  if (camera.channel != CameraConfig::Channel::corners) return std::nullopt;
+  if (scene.corners_W.empty()) {
+    throw InputError(fmt::format("camera '{}': channel: corners: scene '{}' has no known corners; 'highrise' has",
+                                 camera.role, scene.name));
+  }
+  return CornerDetector(scene.corners_W, camera.corner_noise_px, stream_seed(seed, "corners." + camera.role));
+}
+
 }  // namespace
 
 Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, const DrawingConfig& drawing,
@@ -43,6 +54,7 @@ Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& 
   for (const CameraConfig& camera : rig.cameras) {
     require_samples(camera, renderer_);
     channels_.push_back(to_render_channel(camera.channel));
+    detectors_.push_back(detector_of(camera, scene, seed));
     samples_.push_back(camera.samples);
     periods_.push_back(ticks.period(camera.rate_hz));
     period_ns_.push_back(ticks.t_ns(periods_.back()));
@@ -71,13 +83,8 @@ const avoidance::CameraFrame* Cameras::expose(size_t camera, int64_t t_ns, const
     const int64_t number = image_number(camera, t_ns);
     const Imperfections::FrameFault fault = imperfections_[camera].frame_fault(number);
     if (fault == Imperfections::FrameFault::dropped) return nullptr;
-    const bool frozen = fault == Imperfections::FrameFault::frozen && !frame.image.empty();
-    if (!frozen) {
-      const Instant now{t_ns, body};
-      draw(camera, channels_[camera], now, now, frame.image);
-      imperfections_[camera].apply(number, frame.image);
-      if (fault == Imperfections::FrameFault::black) blank(frame.image);
-    }
+    const bool frozen = fault == Imperfections::FrameFault::frozen && frame.t_ns >= 0;
+    if (!frozen) sense(camera, {t_ns, body}, fault == Imperfections::FrameFault::black, frame.image);
     frame.t_ns = t_ns;
   }
   return frame.t_ns == t_ns ? &frame : nullptr;
@@ -91,6 +98,19 @@ std::span<const avoidance::CameraFrame> Cameras::snapshot(int64_t t_ns, const Ei
     snapshot_[i].t_ns = t_ns;
   }
   return snapshot_;
+}
+
+/// A frame of this instant. @param dead  what a dead sensor delivers instead.
+void Cameras::sense(size_t camera, const Instant& now, bool dead, cv::Mat& out) {
+  if (std::optional<CornerDetector>& detector = detectors_[camera]) {
+    const avoidance::MountedCamera& mounted = mounted_[camera];
+    out = detector->detect(mounted.model, now.body.X_WB * mounted.X_BC);
+    if (dead) out = CornerDetector::nothing();
+    return;
+  }
+  draw(camera, channels_[camera], now, now, out);
+  imperfections_[camera].apply(image_number(camera, now.t_ns), out);
+  if (dead) blank(out);
 }
 
 cv::Mat Cameras::image(size_t camera, Channel channel, const Instant& now, const Instant& next) {

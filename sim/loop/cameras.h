@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "avoidance/module.h"
+#include "sim/loop/corner_detector.h"
 #include "sim/loop/imperfections.h"
 #include "sim/loop/shutter.h"
 #include "sim/loop/ticks.h"
@@ -20,7 +22,7 @@ namespace hedgehop::sim {
 class Cameras {
  public:
   /// @param seed  of the flight; each camera has its own stream.
-  /// Throws InputError for a camera that the context cannot draw.
+  /// Throws InputError for a camera that the context cannot draw, or a corner detector where no corners are known.
   Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, const DrawingConfig& drawing,
           uint64_t seed);
 
@@ -29,10 +31,11 @@ class Cameras {
   size_t index(std::string_view role) const;
   bool due(size_t camera, int64_t tick) const { return tick % periods_[camera] == 0; }
 
-  /// Draws one camera's image of this instant, degraded as its imperfections ask; does nothing when it holds it
-  /// already. @return null when the image is lost.
+  /// Returns one camera's frame of this instant, with its imperfections; draws it on the first call of the instant.
+  /// @return null when the frame is lost.
   const avoidance::CameraFrame* expose(size_t camera, int64_t t_ns, const BodyMotion& body);
-  /// Images of all cameras at this instant for somebody who only looks on; what modules are shown stays untouched.
+  /// Images of all cameras at this instant for films, also of those that deliver corners; the frames of expose() stay
+  /// as they are.
   std::span<const avoidance::CameraFrame> snapshot(int64_t t_ns, const Eigen::Isometry3d& X_WB);
 
   /// An instant of the flight.
@@ -50,10 +53,12 @@ class Cameras {
 
  private:
   int64_t image_number(size_t camera, int64_t t_ns) const { return t_ns / period_ns_[camera]; }
+  void sense(size_t camera, const Instant& now, bool dead, cv::Mat& out);
   void draw(size_t camera, Channel channel, const Instant& now, const Instant& next, cv::Mat& out);
 
   Renderer renderer_;
-  std::vector<Channel> channels_;
+  std::vector<Channel> channels_;  ///< to draw; grey where a corner detector is mounted
+  std::vector<std::optional<CornerDetector>> detectors_;
   std::vector<int> samples_;
   std::vector<int64_t> periods_;  ///< ticks
   std::vector<avoidance::MountedCamera> mounted_;

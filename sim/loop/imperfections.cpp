@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/loop/random_stream.h"
+#include "sim/scenario/random_stream.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -92,7 +92,7 @@ void Imperfections::expose_automatically(const cv::Mat& levels) {
   const cv::Scalar sums = cv::mean(levels);
   double mean = 0.0;
   for (int channel = 0; channel < levels.channels(); ++channel) mean += sums[channel] / levels.channels();
-  constexpr double kDarkest = 1.0;  // level; a black image asks for no more than this
+  constexpr double kDarkest = 1.0;  // level; the gain rises no further for a darker image
   const double wanted = 0.5 * kWhite / std::max(kDarkest, mean);
   gain_ *= std::pow(wanted / gain_, 1.0 - std::exp(-period_s_ / config_.auto_exposure_s));
 }

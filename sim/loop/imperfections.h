@@ -7,7 +7,7 @@
 
 namespace hedgehop::sim {
 
-/// Degrades one camera's images as its config asks. The result depends on the image's number and the camera's seed
+/// Degrades one camera's images as its config says. The result depends on the image's number and the camera's seed
 /// alone (automatic exposure aside, which follows the images before it).
 class Imperfections {
  public:

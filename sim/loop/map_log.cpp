@@ -1,24 +1,23 @@
 #include "sim/loop/map_log.h"
 
+#include <optional>
 #include <utility>
 
 namespace hedgehop::sim {
 
-void MapLog::add(double t_s, avoidance::Chart chart) {
+void MapLog::add(double t_s, avoidance::Map map) {
   constexpr double kBetweenS = 2.0;
-  const size_t places = chart.way_NE.size(), before = ways_.empty() ? 1 : ways_.back().places_NE.size();
+  const size_t places = map.path_NE.size(), before = paths_.empty() ? 1 : paths_.back().places_NE.size();
   const bool is_detour = places > 1;
-  if (places != before || (is_detour && t_s >= ways_.back().t_s + kBetweenS)) ways_.push_back({t_s, chart.way_NE});
-  last_ = std::move(chart);
+  if (places != before || (is_detour && t_s >= paths_.back().t_s + kBetweenS)) paths_.push_back({t_s, map.path_NE});
+  last_ = std::move(map);
 }
 
-MapRecord MapLog::take(const MapScore* score) {
-  MapRecord record{.course_NE = std::move(last_.course_NE), .ways = std::move(ways_)};
-  for (size_t i = 0; i < last_.points.size(); ++i) {
-    record.points.push_back({last_.points[i].p_W, last_.points[i].covariance_W, std::nullopt});
-    if (score) record.points.back().is_true = score->is_true()[i];
+MapRecord MapLog::take() {
+  MapRecord record{.course_NE = std::move(last_.course_NE), .paths = std::move(paths_)};
+  for (const avoidance::MapPoint& point : last_.points) {
+    record.points.push_back({point.p_W, point.covariance_W, std::nullopt});
   }
-  if (score && !record.empty()) record.corners = score->corners();
   return record;
 }
 

@@ -1,28 +1,41 @@
 #include "sim/loop/module_pilot.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
-#include "sim/loop/random_stream.h"
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
 #include "sim/loop/setpoints.h"
 #include "sim/plugin/plugin_module.h"
 #include "sim/scenario/input_error.h"
+#include "sim/scenario/random_stream.h"
 
 namespace hedgehop::sim {
+namespace {
 
-ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& cameras)
+/// What of the truth a channel holds; empty for images.
+std::string_view truth_in(avoidance::CameraNeed::Channel channel) {
+  using Channel = avoidance::CameraNeed::Channel;
+  if (channel == Channel::corners) return "projected corners";
+  return channel == Channel::depth ? "depth" : "";
+}
+
+}  // namespace
+
+ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& cameras,
+                         std::unique_ptr<avoidance::Module> module)
     : scenario_(scenario),
       ticks_(ticks),
       cameras_(cameras),
-      module_(make_module(scenario.avoidance)),
+      module_(module ? std::move(module) : make_module(scenario.avoidance)),
       route_(scenario) {
   int64_t slowest = 0;
-  const auto* highrise = std::get_if<scenes::worlds::HighriseConfig>(&scenario.scene);
   for (const avoidance::CameraNeed& need : module_->needs().cameras) {
     module_cameras_.push_back(cameras_.index(need.role));
     slowest = std::max(slowest, cameras_.period_ticks(module_cameras_.back()));
-    if (need.true_corners) {
-      if (!highrise) throw InputError("avoidance: true corners are known of scene 'highrise' alone");
-      corners_.emplace(scenes::worlds::highrise_corners(*highrise), stream_seed(scenario.seed, "corners"));
+    if (const std::string_view truth = truth_in(need.channel); !truth.empty()) {
+      truth_used_.push_back(fmt::format("camera '{}': {}", need.role, truth));
     }
   }
   // A module without cameras decides as often as the rig's fastest camera, so that a control compares like with like.
@@ -50,12 +63,8 @@ void ModulePilot::look(int64_t tick, const BodyMotion& body) {
   seen_.clear();
   for (const size_t camera : module_cameras_) {
     if (!cameras_.due(camera, tick)) continue;
-    const avoidance::CameraFrame* const frame = cameras_.expose(camera, ticks_.t_ns(tick), body);
-    if (!frame) continue;
-    seen_.push_back(*frame);
-    if (corners_) {
-      const avoidance::MountedCamera& mounted = cameras_.mounted(camera);
-      seen_.back().corners_px = corners_->project(mounted.model, body.X_WB * mounted.X_BC);
+    if (const avoidance::CameraFrame* const frame = cameras_.expose(camera, ticks_.t_ns(tick), body)) {
+      seen_.push_back(*frame);
     }
   }
 }
@@ -77,6 +86,11 @@ const dynamics::control::Setpoint& ModulePilot::setpoint(int64_t tick) {
     pending_.pop_front();
   }
   return setpoint_;
+}
+
+bool ModulePilot::sees_through_walls() const {
+  const std::vector<avoidance::CameraNeed> cameras = module_->needs().cameras;
+  return !cameras.empty() && cameras.front().channel == avoidance::CameraNeed::Channel::corners;
 }
 
 std::optional<size_t> ModulePilot::first_camera() const {

@@ -4,6 +4,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "avoidance/module.h"
@@ -12,15 +13,16 @@
 #include "sim/loop/route.h"
 #include "sim/loop/ticks.h"
 #include "sim/scenario/scenario.h"
-#include "sim/verdict/corner_sight.h"
 
 namespace hedgehop::sim {
 
-/// The module in flight: what it is shown, when it decides, and when its commands reach the autopilot.
+/// The module in flight: which frames it gets, when it decides, and when its commands reach the autopilot.
 class ModulePilot {
  public:
-  /// Throws InputError for a module that cannot be made, lacks a camera, or asks for true corners where none are known.
-  ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& cameras);
+  /// @param module  of the scenario; null for one that is to be loaded from its shared library.
+  /// Throws InputError for a module that cannot be loaded or lacks a camera.
+  ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& cameras,
+              std::unique_ptr<avoidance::Module> module);
 
   /// Starts a flight. @param vehicle_radius_m  of the vertical cylinder that holds the vehicle. @param hold  in effect
   /// until the first command is.
@@ -32,7 +34,7 @@ class ModulePilot {
   void look(int64_t tick, const BodyMotion& body);
   /// Whether it decides on this tick, look() having been called.
   bool decides(int64_t tick) const;
-  /// Returns what the module decides of what it was last shown; the command takes effect after the latency. Throws what
+  /// Returns the module's decision on its last frames; the command takes effect after the latency. Throws what
   /// the module throws. @param navigation  the aircraft's own estimate, of this tick.
   avoidance::Decision decide(int64_t tick, const avoidance::NavigationState& navigation);
 
@@ -41,13 +43,15 @@ class ModulePilot {
 
   const avoidance::Module& module() const { return *module_; }
   const Route& route() const { return route_; }
-  /// The first camera it needs, if any: what its map is made from.
+  /// The first camera it needs, if any: its map comes from this one.
   std::optional<size_t> first_camera() const;
-  /// Whether it is shown the scene's true corners, through walls.
-  bool sees_through_walls() const { return corners_.has_value(); }
+  /// Whether that camera delivers the scene's corners through walls.
+  bool sees_through_walls() const;
+  /// Which of its cameras deliver truth: "camera 'front': projected corners", "camera 'left': depth".
+  const std::vector<std::string>& truth_used() const { return truth_used_; }
 
  private:
-  /// A decision on its way to the autopilot.
+  /// A command before its latency is over.
   struct PendingCommand {
     int64_t tick = 0;
     avoidance::Command command;
@@ -58,10 +62,10 @@ class ModulePilot {
   Cameras& cameras_;
   std::unique_ptr<avoidance::Module> module_;
   std::vector<size_t> module_cameras_;
-  std::optional<ProjectedCorners> corners_;  ///< for a module that asks for the true ones
+  std::vector<std::string> truth_used_;
   int64_t decision_period_ = 0, latency_ = 0;
   Route route_;
-  std::vector<avoidance::CameraFrame> seen_;  ///< what the module is shown this tick
+  std::vector<avoidance::CameraFrame> seen_;  ///< the module's frames of this tick
   std::deque<PendingCommand> pending_;
   dynamics::control::Setpoint setpoint_;
 };

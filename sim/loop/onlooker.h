@@ -4,20 +4,20 @@
 #include <optional>
 
 #include "avoidance/module.h"
+#include "sim/flight/flight_watcher.h"
 #include "sim/loop/aircraft.h"
 #include "sim/loop/cameras.h"
 #include "sim/loop/ticks.h"
-#include "sim/loop/watcher.h"
 
 namespace hedgehop::sim {
 
-/// Hands a flight's watcher what it asks for, tick by tick.
+/// Passes to a flight's watcher what it wants, tick by tick.
 class Onlooker {
  public:
   /// @param watcher  may be null: then nothing is handed over.
   Onlooker(FlightWatcher* watcher, const Ticks& ticks, Cameras& cameras, const Aircraft& aircraft);
 
-  /// What all sensors say, if it wants that.
+  /// The readings of all sensors, if it wants them.
   void hand_over_sensors(int64_t tick);
   /// Images and progress, where they are due.
   /// @param goal_distance_m  horizontal. @param duration_s  of the longest flight.

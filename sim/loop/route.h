@@ -17,7 +17,7 @@ class Route {
   /// Where to fly now.
   const avoidance::Goal& goal() const { return places_[next_].goal; }
   bool on_last() const { return next_ + 1 == places_.size(); }
-  /// Goes on to the next place once the aircraft believes itself within the radius of this one, horizontally; never
+  /// Advances to the next place once the estimated position is within the radius of this one, horizontally; never
   /// past the last.
   void update(const Eigen::Vector3d& p_WB_est);
 

@@ -24,7 +24,7 @@ struct BodyMotion {
 using DrawRows = std::function<void(const Eigen::Isometry3d& X_WB, double dt_s, const cv::Range& rows, cv::Mat& out)>;
 
 /// Exposes one camera's images: the rows one after the other for a rolling shutter, each the mean of several moments
-/// for motion blur, as the config asks. All ends at the image's instant.
+/// for motion blur, as the config says. Exposure ends at the image's instant.
 class Shutter {
  public:
   explicit Shutter(const ImperfectionsConfig& config) : config_(config) {}

@@ -7,7 +7,7 @@
 
 namespace hedgehop::sim {
 
-/// 64-bit FNV-1a over the bytes of the true states it is shown: equal hashes mean equal flights, bit for bit.
+/// 64-bit FNV-1a over the bytes of the true states: equal hashes mean equal flights, bit for bit.
 class TrajectoryHash {
  public:
   void add(const dynamics::RigidBodyState& body);

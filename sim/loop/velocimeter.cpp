@@ -23,21 +23,21 @@ Velocimeter::Velocimeter(size_t camera, const Cameras& cameras)
       X_BC_(cameras.mounted(camera).X_BC),
       flow_(ground_grid(pinhole_), pinhole_.width_px, pinhole_.height_px) {}
 
-void Velocimeter::update(const avoidance::CameraFrame& frame, dynamics::Avionics& avionics) {
+std::optional<dynamics::VelocityReading> Velocimeter::measure(const avoidance::CameraFrame& frame,
+                                                              const dynamics::control::NavigationEstimate& navigation) {
   const vision::flow::FlowField& field = flow_.update(frame.image);
-  const dynamics::control::NavigationEstimate& navigation = avionics.navigation();
-  const std::optional<Belief> last = last_;
-  last_ = Belief{frame.t_ns, navigation.q_WB_est, navigation.q_WB_gyro, navigation.height_above_ground_m};
-  if (!last) return;
+  const std::optional<Exposure> last = last_;
+  last_ = Exposure{frame.t_ns, navigation.q_WB_est, navigation.q_WB_gyro, navigation.height_above_ground_m};
+  if (!last) return {};
 
   const double dt_s = 1e-9 * static_cast<double>(frame.t_ns - last->t_ns);
-  // By the gyros alone: a correction that were taken for a turn would feed the next velocity, and so itself.
-  const Eigen::AngleAxisd turn(last->q_WB_gyro.conjugate() * navigation.q_WB_gyro);
-  const vision::flow::FlowMotion motion{last->q_WB_est, turn.axis() * (turn.angle() / dt_s),
+  // By the gyros alone: a filter's correction, taken for a rotation, would feed the next velocity and so itself.
+  const Eigen::AngleAxisd rotation(last->q_WB_gyro.conjugate() * navigation.q_WB_gyro);
+  const vision::flow::FlowMotion motion{last->q_WB_est, rotation.axis() * (rotation.angle() / dt_s),
                                         last->height_above_ground_m, dt_s};
-  if (const auto velocity = vision::flow::flow_velocity(field, pinhole_, X_BC_, motion)) {
-    avionics.correct_velocity(velocity->v_WB_B_xy_meas, velocity->sigma_mps);
-  }
+  const auto velocity = vision::flow::flow_velocity(field, pinhole_, X_BC_, motion);
+  if (!velocity) return {};
+  return dynamics::VelocityReading{velocity->v_WB_B_xy_meas, velocity->sigma_mps};
 }
 
 }  // namespace hedgehop::sim

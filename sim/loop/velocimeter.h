@@ -10,20 +10,23 @@
 namespace hedgehop::sim {
 
 /// The aircraft's own velocity sensor: optic flow of the camera that looks down, made metric by the height sensor and
-/// derotated by the gyros, fed to the navigation filter. Source: [Garratt2009] sec. 4, after [GarrattChahl2007]
+/// derotated by the gyros. Source: [Garratt2009] sec. 4, after [GarrattChahl2007]
 /// sec. 2 (hover damping by optic flow).
 class Velocimeter {
  public:
-  /// Throws std::invalid_argument when the camera is not a pinhole without distortion.
+  /// Throws std::invalid_argument when the camera is not an undistorted pinhole.
   Velocimeter(size_t camera, const Cameras& cameras);
 
   size_t camera() const { return camera_; }
-  /// Corrects the filter with the flow since the last frame; does nothing where the ground shows too little texture.
-  void update(const avoidance::CameraFrame& frame, dynamics::Avionics& avionics);
+  /// Measures the velocity by the flow since the last frame. @param frame  of the camera, later than the last.
+  /// @param navigation  the estimate of the frame's time. @return none for the first frame, and where the ground shows
+  /// too little texture.
+  std::optional<dynamics::VelocityReading> measure(const avoidance::CameraFrame& frame,
+                                                   const dynamics::control::NavigationEstimate& navigation);
 
  private:
-  /// What the aircraft believed of itself when the last frame was exposed.
-  struct Belief {
+  /// The estimate when a frame was exposed.
+  struct Exposure {
     int64_t t_ns = 0;
     Eigen::Quaterniond q_WB_est = Eigen::Quaterniond::Identity();
     Eigen::Quaterniond q_WB_gyro = Eigen::Quaterniond::Identity();
@@ -34,7 +37,7 @@ class Velocimeter {
   vision::camera::PinholeCamera pinhole_;
   Eigen::Isometry3d X_BC_;
   vision::flow::ImageInterpolationFlow flow_;
-  std::optional<Belief> last_;
+  std::optional<Exposure> last_;
 };
 
 }  // namespace hedgehop::sim

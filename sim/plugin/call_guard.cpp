@@ -19,18 +19,18 @@ constexpr std::array kCrashes = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 constexpr int kTimeOver = SIGALRM;
 
 // Signal handlers reach nothing but globals.
-sigjmp_buf way_back;
+sigjmp_buf return_point;
 volatile sig_atomic_t is_inside = 0;
 
 void leave(int signal) {
   if (is_inside == 0 && signal == kTimeOver) return;  // the call ended as its time did
-  if (is_inside == 0) {                               // a crash of our own: die of it as ever
+  if (is_inside == 0) {                               // a crash of our own: end by it
     ::signal(signal, SIG_DFL);
     ::raise(signal);
     return;
   }
   is_inside = 0;
-  siglongjmp(way_back, signal);
+  siglongjmp(return_point, signal);
 }
 
 /// The stack may be what has run out.
@@ -79,7 +79,7 @@ std::string words(int signal, double limit_s) {
 
 void call_guarded(double limit_s, const std::function<void()>& call) {
   static const timer_t timer = prepare();
-  const int signal = sigsetjmp(way_back, 0);
+  const int signal = sigsetjmp(return_point, 0);
   if (signal != 0) {
     set(timer, 0.0);
     throw CallBroken(words(signal, limit_s));

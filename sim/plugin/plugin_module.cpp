@@ -75,25 +75,25 @@ class GuardedModule : public avoidance::Module {
 
  private:
   avoidance::Needs do_needs() const override {
-    return asked<avoidance::Needs>([this] { return module_->needs(); });
+    return answer_of<avoidance::Needs>([this] { return module_->needs(); });
   }
   std::vector<avoidance::Signal> do_signals() const override {
-    return asked<std::vector<avoidance::Signal>>([this] { return module_->signals(); });
+    return answer_of<std::vector<avoidance::Signal>>([this] { return module_->signals(); });
   }
   void do_reset(const avoidance::Setup& setup) override {
     guarded([&] { module_->reset(setup); });
   }
   avoidance::Decision do_update(const avoidance::Observation& observation) override {
-    return asked<avoidance::Decision>([&] { return module_->update(observation); });
+    return answer_of<avoidance::Decision>([&] { return module_->update(observation); });
   }
   std::vector<avoidance::Metric> do_metrics() const override {
-    return told<std::vector<avoidance::Metric>>([this] { return module_->metrics(); });
+    return reported<std::vector<avoidance::Metric>>([this] { return module_->metrics(); });
   }
-  avoidance::Chart do_chart() const override {
-    return told<avoidance::Chart>([this] { return module_->chart(); });
+  avoidance::Map do_map() const override {
+    return reported<avoidance::Map>([this] { return module_->map(); });
   }
   cv::Mat do_annotate() const override {
-    return told<cv::Mat>([this] { return module_->annotate(); });
+    return reported<cv::Mat>([this] { return module_->annotate(); });
   }
 
   void guarded(const std::function<void()>& call) const {
@@ -109,17 +109,17 @@ class GuardedModule : public avoidance::Module {
   }
 
   template <class Answer, class Call>
-  Answer asked(const Call& call) const {
+  Answer answer_of(const Call& call) const {
     Answer answer;
     guarded([&] { answer = call(); });
     return answer;
   }
 
-  /// What is told beside the flight: nothing, once the module is broken.
+  /// What is reported beside the flight: nothing, once the module is broken.
   template <class Answer, class Call>
-  Answer told(const Call& call) const {
+  Answer reported(const Call& call) const {
     if (!broken_.empty()) return {};
-    return asked<Answer>(call);
+    return answer_of<Answer>(call);
   }
 
   avoidance::Module* module_;  ///< owned while whole
@@ -147,7 +147,7 @@ avoidance::PluginRows load_rows(const PluginConfig& config) {
   auto* const add_rows = find_function<void(avoidance::PluginRows&)>(library, "hedgehop_plugin_rows");
   if (!interface || !add_rows) refuse(config, "is no module's library: it lacks HEDGEHOP_PLUGIN(...)");
   if (const std::string_view theirs = interface(); theirs != HEDGEHOP_PLUGIN_INTERFACE) {
-    refuse(config, fmt::format("was built against another interface ({}); this program has: {}. Build it anew", theirs,
+    refuse(config, fmt::format("was built against another interface ({}); this program has: {}. Build it again", theirs,
                                HEDGEHOP_PLUGIN_INTERFACE));
   }
   avoidance::PluginRows rows;

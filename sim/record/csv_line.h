@@ -10,7 +10,7 @@
 
 namespace hedgehop::sim {
 
-/// One line of comma-separated values, as CsvTable reads them; its end comes with its destruction. Numbers are the
+/// One line of comma-separated values, as CsvTable reads them; it ends with its destruction. Numbers are the
 /// shortest that read back to the same double, what is not known (NaN) an empty field.
 class CsvLine {
  public:
@@ -26,7 +26,6 @@ class CsvLine {
   }
   CsvLine& add(const std::optional<double>& value) { return add(value.value_or(NAN)); }
   CsvLine& add(const Eigen::Vector3d& v) { return add(v.x()).add(v.y()).add(v.z()); }
-  CsvLine& add(const std::optional<Eigen::Vector2d>& v) { return add(v ? v->x() : NAN).add(v ? v->y() : NAN); }
   /// Quoted when it has to be (RFC 4180).
   CsvLine& add(std::string_view text) {
     separate();

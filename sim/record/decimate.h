@@ -14,7 +14,7 @@ namespace hedgehop::sim {
 std::vector<size_t> decimate(std::span<const std::vector<double>> series, size_t max_points);
 
 /// Picks points of a line so that no other lies farther than `tolerance_m` from the line through those; its ends stay.
-/// The tolerance is doubled until `max_points` are enough. Precise to a float's rounding of the way from the first
+/// The tolerance is doubled until `max_points` are enough. Precise to a float's rounding of the distance from the first
 /// point.
 /// @param line_NE_m  open, in order. @param tolerance_m  > 0. @param max_points  >= 2.
 /// Source: after [DouglasPeucker1973], as OpenCV does it.

@@ -19,9 +19,9 @@ cv::Mat to_rgb(const cv::Mat& image) {
       cv::cvtColor(image, rgb, cv::COLOR_GRAY2RGB);
       return rgb;
     default: {
-      cv::Mat nearness;
-      image.convertTo(nearness, CV_8UC1, -255.0 / kDarkAtM, 255.0);
-      cv::cvtColor(nearness, rgb, cv::COLOR_GRAY2RGB);
+      cv::Mat brightness;
+      image.convertTo(brightness, CV_8UC1, -255.0 / kDarkAtM, 255.0);
+      cv::cvtColor(brightness, rgb, cv::COLOR_GRAY2RGB);
       return rgb;
     }
   }

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "sim/loop/watcher.h"
+#include "sim/flight/flight_watcher.h"
 #include "sim/record/film.h"
 #include "sim/scenario/scenario.h"
 
@@ -32,7 +32,7 @@ class FilmWatcher : public FlightWatcher {
 };
 
 /// All frames side by side, three in a row, each with its role written in; CV_8UC3, RGB. Depth is shown as
-/// nearness: white at 0 m, black at 50 m and beyond.
+/// brightness: white at 0 m, black at 50 m and beyond.
 cv::Mat contact_sheet(std::span<const avoidance::CameraFrame> frames);
 
 }  // namespace hedgehop::sim

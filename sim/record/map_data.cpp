@@ -35,9 +35,9 @@ Json map_data(const MapRecord& map) {
     json["corners"].push_back(corner);
   }
   json["course"] = line(map.course_NE);
-  json["ways"] = Json::array();
-  for (const PlannedWay& way : map.ways) {
-    json["ways"].push_back({{"t", milli(way.t_s)}, {"places", line(way.places_NE)}});
+  json["paths"] = Json::array();
+  for (const PlannedPath& path : map.paths) {
+    json["paths"].push_back({{"t", milli(path.t_s)}, {"places", line(path.places_NE)}});
   }
   return json;
 }

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "sim/record/flight_columns.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -13,7 +15,7 @@ using Values = std::vector<double>;
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr std::string_view kTruthNote = "true: known to the simulator only";
 constexpr std::string_view kHeadingNote = "in the frame of the true heading; true: known to the simulator only";
-/// Clearances beyond this say nothing about the danger of a flight; the plot ends there.
+/// Clearances beyond this are no danger to a flight; the plot ends there.
 constexpr double kClearanceShownM = 20.0;
 
 template <class Function>
@@ -56,7 +58,7 @@ Values unwrapped(Values yaw_rad, const Values* reference = nullptr) {
 /// Reads columns of the trajectory and makes panels over its time axis.
 class TrajectoryPanels {
  public:
-  explicit TrajectoryPanels(const CsvTable& table) : table_(table), t_s_(column("t_s")) {}
+  explicit TrajectoryPanels(const ColumnTable& table) : table_(table), t_s_(column("t_s")) {}
 
   bool has(std::string_view name) const { return std::ranges::count(table_.names(), name) > 0; }
   Values column(std::string_view name) const { return table_.numbers(name); }
@@ -76,7 +78,7 @@ class TrajectoryPanels {
   std::vector<Panel> take() { return std::move(panels_); }
 
  private:
-  const CsvTable& table_;
+  const ColumnTable& table_;
   Values t_s_;
   std::vector<Panel> panels_;
 };
@@ -172,10 +174,8 @@ constexpr std::array<Unit, 17> kUnits = {{{"_radps2", "rad/s²"},
                                           {"_m", "m"},
                                           {"_s", "s"}}};
 constexpr std::array<std::string_view, 6> kCameras = {"left", "right", "front", "rear", "aft", "down"};
-/// So many columns of decisions.csv are there for every module.
-constexpr size_t kCommonColumns = 6;
 
-/// What a signal's name says: "flow_left_radps" is the flow of "left" in rad/s.
+/// The parts of a signal's name: "flow_left_radps" is the flow of "left" in rad/s.
 struct SignalName {
   std::string group, label, role;
   std::string_view unit;
@@ -226,7 +226,7 @@ void move_common_words(Panel& panel) {
 
 }  // namespace
 
-std::vector<Panel> trajectory_panels(const CsvTable& trajectory, const std::vector<Limit>& clearance_limits) {
+std::vector<Panel> trajectory_panels(const ColumnTable& trajectory, const std::vector<Limit>& clearance_limits) {
   TrajectoryPanels panels(trajectory);
   add_motion(panels, clearance_limits);
   add_aircraft(panels);
@@ -234,10 +234,10 @@ std::vector<Panel> trajectory_panels(const CsvTable& trajectory, const std::vect
   return panels.take();
 }
 
-std::vector<Panel> signal_panels(const CsvTable& decisions) {
+std::vector<Panel> signal_panels(const ColumnTable& decisions) {
   std::vector<Panel> panels;
   std::vector<std::string> groups;
-  for (size_t c = kCommonColumns; c < decisions.names().size(); ++c) {
+  for (size_t c = kCommonDecisionColumns; c < decisions.names().size(); ++c) {
     const std::string& column = decisions.names()[c];
     const SignalName name = read_name(column);
     const std::string key = name.group + " " + std::string(name.unit);

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/record/csv_table.h"
+#include "sim/record/column_table.h"
 
 namespace hedgehop::sim {
 
@@ -42,10 +42,10 @@ inline constexpr std::array kSections = {kMotionSection, kModuleSection, kAircra
 
 /// Time plots of trajectory.csv, as in [Garratt2009] fig. 6 and beyond. Velocities are along and across the true
 /// heading. @param clearance_limits  drawn into the clearance plot.
-std::vector<Panel> trajectory_panels(const CsvTable& trajectory, const std::vector<Limit>& clearance_limits);
+std::vector<Panel> trajectory_panels(const ColumnTable& trajectory, const std::vector<Limit>& clearance_limits);
 
 /// Time plots of the module's signals in decisions.csv, as in [Garratt2009] fig. 7: one for all signals whose names
 /// share the first word and the unit ("flow_left_radps", "flow_right_radps"). The unit is read from the name's end.
-std::vector<Panel> signal_panels(const CsvTable& decisions);
+std::vector<Panel> signal_panels(const ColumnTable& decisions);
 
 }  // namespace hedgehop::sim

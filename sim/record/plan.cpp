@@ -57,20 +57,21 @@ std::vector<Footprint> footprints(const std::vector<scenes::Solid>& solids) {
   return result;
 }
 
-std::vector<MoverWay> mover_ways(const std::vector<scenes::Mover>& movers) {
-  std::vector<MoverWay> ways;
+std::vector<MoverPath> mover_paths(const std::vector<scenes::Mover>& movers) {
+  std::vector<MoverPath> paths;
   for (const scenes::Mover& mover : movers) {
-    MoverWay& way = ways.emplace_back(MoverWay{.name = mover.name});
-    for (const Eigen::Vector3d& corner_W : scenes::path_W(mover.motion)) way.corners_NE_m.push_back(corner_W.head<2>());
+    MoverPath& path = paths.emplace_back(MoverPath{.name = mover.name});
+    for (const Eigen::Vector3d& corner_W : scenes::path_W(mover.motion))
+      path.corners_NE_m.push_back(corner_W.head<2>());
     for (const Footprint& part : footprints(mover.solids)) {
-      for (const Eigen::Vector2d& corner : part.corners_NE_m) way.radius_m = std::max(way.radius_m, corner.norm());
+      for (const Eigen::Vector2d& corner : part.corners_NE_m) path.radius_m = std::max(path.radius_m, corner.norm());
     }
   }
-  return ways;
+  return paths;
 }
 
 ScenePlan scene_plan(const scenes::Scene& scene) {
-  return {footprints(scene.solids), mover_ways(scene.movers), scene.bounds_NE_m};
+  return {footprints(scene.solids), mover_paths(scene.movers), scene.bounds_NE_m};
 }
 
 Level level(const Footprint& footprint, double lowest_m, double highest_m, double margin_m) {

@@ -19,20 +19,20 @@ struct Footprint {
 /// have 32 corners, a surface that of its convex hull.
 std::vector<Footprint> footprints(const std::vector<scenes::Solid>& solids);
 
-/// The way of a mover seen from above.
-struct MoverWay {
+/// The path of a mover seen from above.
+struct MoverPath {
   std::string name;
-  std::vector<Eigen::Vector2d> corners_NE_m;  ///< of the way of M, in order; one when it stands still
+  std::vector<Eigen::Vector2d> corners_NE_m;  ///< of the path of M, in order; one when it stands still
   double radius_m = 0.0;                      ///< nothing of the mover is farther from M's origin, in the plan
 };
 
 /// Where each mover of a scene goes.
-std::vector<MoverWay> mover_ways(const std::vector<scenes::Mover>& movers);
+std::vector<MoverPath> mover_paths(const std::vector<scenes::Mover>& movers);
 
 /// A scene as maps show it.
 struct ScenePlan {
   std::vector<Footprint> footprints;
-  std::vector<MoverWay> movers;
+  std::vector<MoverPath> movers;
   Eigen::AlignedBox2d bounds_NE_m;
 };
 ScenePlan scene_plan(const scenes::Scene& scene);

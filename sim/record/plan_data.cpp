@@ -55,10 +55,10 @@ nlohmann::ordered_json plan_data(const ScenePlan& plan, double lowest_m, double 
                                   {"corners", corners}});
   }
   json["movers"] = Json::array();
-  for (const MoverWay& mover : plan.movers) {
-    Json way = Json::array();
-    for (const Eigen::Vector2d& p : mover.corners_NE_m) way.push_back({milli(p.x()), milli(p.y())});
-    json["movers"].push_back({{"name", mover.name}, {"radius", milli(mover.radius_m)}, {"way", way}});
+  for (const MoverPath& mover : plan.movers) {
+    Json path = Json::array();
+    for (const Eigen::Vector2d& p : mover.corners_NE_m) path.push_back({milli(p.x()), milli(p.y())});
+    json["movers"].push_back({{"name", mover.name}, {"radius", milli(mover.radius_m)}, {"way", path}});
   }
   return json;
 }

@@ -12,7 +12,7 @@ nlohmann::ordered_json brief(double value);
 nlohmann::ordered_json milli(double value);
 
 /// What MapView (web/src/map.js) draws: `bounds` [north, north, east, east] or [], `footprints`, `movers`; places in m.
-/// @param lowest_m, highest_m  altitudes between which was flown; they tell which solids are beside the flight.
+/// @param lowest_m, highest_m  altitudes between which was flown; they decide which solids are beside the flight.
 nlohmann::ordered_json plan_data(const ScenePlan& plan, double lowest_m, double highest_m);
 
 }  // namespace hedgehop::sim

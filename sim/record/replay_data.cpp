@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMoverStepS = 0.1;  // a mover goes straight between; faster turns than this are not drawn
+constexpr double kMoverStepS = 0.1;  // a mover moves in a straight line between; faster turns than this are not drawn
 
 /// Four decimals: a tenth of a millimeter, or of a thousandth of a turn's half.
 Json fine(double value) { return std::round(value * 1e4) / 1e4; }
@@ -20,18 +20,18 @@ void append(Json& list, const Eigen::Vector3d& v) {
   for (const double value : v) list.push_back(milli(value));
 }
 
-Json body(const Eigen::Isometry3d& X_PS, const Eigen::Vector3d& half_extents_m) {
+Json body(const Eigen::Isometry3d& X_NS, const Eigen::Vector3d& half_extents_m) {
   Json list = Json::array();
-  append(list, X_PS.translation());
-  const Eigen::Quaterniond q_PS(X_PS.rotation());
-  for (const double part : {q_PS.x(), q_PS.y(), q_PS.z(), q_PS.w()}) list.push_back(fine(part));
+  append(list, X_NS.translation());
+  const Eigen::Quaterniond q_NS(X_NS.rotation());
+  for (const double part : {q_NS.x(), q_NS.y(), q_NS.z(), q_NS.w()}) list.push_back(fine(part));
   append(list, half_extents_m);
   return list;
 }
 
-Json mesh(const Eigen::Isometry3d& X_PS, const scenes::mesh::Polyhedron& polyhedron) {
+Json mesh(const Eigen::Isometry3d& X_NS, const scenes::mesh::Polyhedron& polyhedron) {
   Json corners = Json::array(), faces = Json::array();
-  for (const Eigen::Vector3d& p_S : polyhedron.corners) append(corners, X_PS * p_S);
+  for (const Eigen::Vector3d& p_S : polyhedron.corners) append(corners, X_NS * p_S);
   for (const auto& face : polyhedron.faces) {
     for (const uint32_t corner : face) faces.push_back(corner);
   }
@@ -68,9 +68,9 @@ Json replay_scene(const scenes::Scene& scene, double end_s) {
   json["step_s"] = kMoverStepS;
   json["movers"] = Json::array();
   for (const scenes::Mover& mover : scene.movers) {
-    Json way = Json::array();
-    for (int i = 0; i <= std::ceil(end_s / kMoverStepS); ++i) append(way, scenes::p_WM(mover.motion, i * kMoverStepS));
-    json["movers"].push_back({{"name", mover.name}, {"bodies", bodies(mover.solids)}, {"way", way}});
+    Json path = Json::array();
+    for (int i = 0; i <= std::ceil(end_s / kMoverStepS); ++i) append(path, scenes::p_WM(mover.motion, i * kMoverStepS));
+    json["movers"].push_back({{"name", mover.name}, {"bodies", bodies(mover.solids)}, {"way", path}});
   }
   return json;
 }
@@ -85,7 +85,7 @@ Json replay_hull(const std::vector<dynamics::HullPart>& hull) {
   return json;
 }
 
-Json replay_path(const CsvTable& trajectory, size_t max_rows) {
+Json replay_path(const ColumnTable& trajectory, size_t max_rows) {
   const size_t rows = trajectory.rows();
   const size_t stride = std::max<size_t>(1, (rows + max_rows - 2) / std::max<size_t>(1, max_rows - 1));
   std::vector<size_t> kept;

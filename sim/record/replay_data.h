@@ -4,7 +4,7 @@
 
 #include "dynamics/hull.h"
 #include "scenes/scene.h"
-#include "sim/record/csv_table.h"
+#include "sim/record/column_table.h"
 
 namespace hedgehop::sim {
 
@@ -19,6 +19,6 @@ nlohmann::ordered_json replay_hull(const std::vector<dynamics::HullPart>& hull);
 
 /// The flight: true position, attitude (rad, 3-2-1), clearance and speed at no more than `max_rows` rows of the
 /// trajectory, evenly spaced, the last one among them. Throws std::runtime_error when the table lacks a column.
-nlohmann::ordered_json replay_path(const CsvTable& trajectory, size_t max_rows = 6000);
+nlohmann::ordered_json replay_path(const ColumnTable& trajectory, size_t max_rows = 6000);
 
 }  // namespace hedgehop::sim

@@ -58,7 +58,7 @@ Json plan_json(const ReportScenario& scenario, const Values& down_m) {
 }
 
 /// Which status held at each picked row: an index into the names, -1 before the first decision.
-Json status_json(const Values& t_s, const std::vector<size_t>& rows, const CsvTable& decisions, Json& names) {
+Json status_json(const Values& t_s, const std::vector<size_t>& rows, const ColumnTable& decisions, Json& names) {
   const Values decided_s = decisions.numbers("t_s");
   const std::vector<std::string> words = decisions.words("status");
   std::vector<std::string> known;
@@ -78,7 +78,7 @@ Json status_json(const Values& t_s, const std::vector<size_t>& rows, const CsvTa
   return list;
 }
 
-Json path_json(const CsvTable& trajectory, const CsvTable& decisions, size_t max_points) {
+Json path_json(const ColumnTable& trajectory, const ColumnTable& decisions, size_t max_points) {
   const Values t_s = trajectory.numbers("t_s"), north = trajectory.numbers("north_m");
   const Values east = trajectory.numbers("east_m"), clearance = trajectory.numbers("clearance_m");
   const Values v_north = trajectory.numbers("v_north_mps"), v_east = trajectory.numbers("v_east_mps");
@@ -112,8 +112,8 @@ std::vector<Limit> clearance_limits(const Json& result) {
 
 }  // namespace
 
-Json report_data(const ReportScenario& scenario, const Json& result, const CsvTable& trajectory,
-                 const CsvTable& decisions, size_t max_points) {
+Json report_data(const ReportScenario& scenario, const Json& result, const ColumnTable& trajectory,
+                 const ColumnTable& decisions, size_t max_points) {
   Json json;
   json["result"] = result;
   json["description"] = scenario.description;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/record/csv_table.h"
+#include "sim/record/column_table.h"
 #include "sim/record/plan.h"
 
 namespace hedgehop::sim {
@@ -17,7 +17,7 @@ struct PlanGoal {
   double radius_m = 0.0;
 };
 
-/// What the report tells of the scenario.
+/// What the report shows of the scenario.
 struct ReportScenario {
   std::string description, module, scene, vehicle;  ///< names of the parts that were chosen
   std::string yaml;                                 ///< the resolved scenario
@@ -28,6 +28,7 @@ struct ReportScenario {
 /// All that the report's script draws: the verdict as in result.json, the plan, the path and the time plots, each
 /// decimated to about `max_points`. Throws std::runtime_error when a table lacks a column.
 nlohmann::ordered_json report_data(const ReportScenario& scenario, const nlohmann::ordered_json& result,
-                                   const CsvTable& trajectory, const CsvTable& decisions, size_t max_points = 4000);
+                                   const ColumnTable& trajectory, const ColumnTable& decisions,
+                                   size_t max_points = 4000);
 
 }  // namespace hedgehop::sim

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "sim/record/csv_line.h"
+#include "sim/record/flight_columns.h"
 #include "sim/record/map_data.h"
 #include "sim/record/whole_file.h"
 
@@ -19,15 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kTrajectoryHeader =
-    "t_s,north_m,east_m,down_m,roll_rad,pitch_rad,yaw_rad,v_north_mps,v_east_mps,v_down_mps,p_radps,q_radps,r_radps,"
-    "est_north_m,est_east_m,est_down_m,est_roll_rad,est_pitch_rad,est_yaw_rad,est_v_north_mps,est_v_east_mps,"
-    "est_v_down_mps,cmd_v_north_mps,cmd_v_east_mps,cmd_altitude_m,cmd_heading_rad,clearance_m,ground_clearance_m,";
-constexpr std::string_view kTrajectoryHeaderEnd = ",wind_north_mps,wind_east_mps,wind_down_mps,model_valid,range_m\n";
-constexpr std::string_view kDecisionsHeader =
-    "t_s,status,cmd_v_north_mps,cmd_v_east_mps,cmd_altitude_m,cmd_heading_rad";
-
-/// nlohmann writes null for what is not finite already; this says that it is meant.
+/// nlohmann writes null for what is not finite already; this makes it explicit, also for pages made in memory.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json point(const ClosestApproach& approach) {
@@ -54,17 +46,19 @@ Json checks(const std::vector<CheckResult>& results) {
 
 }  // namespace
 
-std::string result_json(const RunInfo& info, const FlightResult& result) {
+Json result_data(const RunInfo& info, const FlightResult& result) {
   const bool by_obstacle = result.closest_obstacle.distance_m <= result.closest_ground.distance_m;
   const ClosestApproach& closest = by_obstacle ? result.closest_obstacle : result.closest_ground;
   Json json;
   json["scenario"] = info.scenario;
   json["seed"] = info.seed;
   json["version"] = info.version;
+  json["build"] = info.build;
   json["scenario_file"] = info.scenario_file;
   json["command_line"] = info.command_line;
   json["outcome"] = std::string(to_string(result.outcome));
   json["cause"] = result.cause;
+  json["truth_used"] = result.truth_used;
   json["flight_time_s"] = number(result.flight_time_s);
   json["path_length_m"] = number(result.path_length_m);
   json["min_clearance_m"] = number(closest.distance_m);
@@ -91,56 +85,32 @@ std::string result_json(const RunInfo& info, const FlightResult& result) {
                        {"density_per_m2", number(result.scene.density_pm2)}};
   json["metrics"] = Json::object();
   json["metric_units"] = Json::object();
+  json["metric_kinds"] = Json::object();
   for (const MetricValue& metric : result.metrics) {
     json["metrics"][metric.name] = number(metric.value);
     json["metric_units"][metric.name] = metric.unit;
+    json["metric_kinds"][metric.name] = std::string(to_string(metric.kind));
   }
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json;
 }
 
-std::string trajectory_csv(const Flight& flight) {
-  fmt::memory_buffer out;
-  out.append(kTrajectoryHeader);
-  fmt::format_to(std::back_inserter(out), "{}", fmt::join(flight.control_names, ","));
-  out.append(kTrajectoryHeaderEnd);
-  for (const TrajectoryRow& row : flight.trajectory) {
-    CsvLine line(out);
-    line.add(row.t_s).add(row.p_WB_true).add(row.rpy_true).add(row.v_WB_W_true).add(row.w_WB_B_true);
-    line.add(row.p_WB_est).add(row.rpy_est).add(row.v_WB_W_est);
-    line.add(row.v_WB_W_cmd).add(row.altitude_cmd_m).add(row.heading_cmd_rad);
-    line.add(row.obstacle_clearance_m).add(row.ground_clearance_m);
-    for (const double control : row.controls) line.add(control);
-    line.add(row.wind_W).add(row.model_valid ? 1.0 : 0.0).add(row.range_m);
-  }
-  return fmt::to_string(out);
+std::string result_json(const RunInfo& info, const FlightResult& result) {
+  return result_data(info, result).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string decisions_csv(const Flight& flight) {
-  fmt::memory_buffer out;
-  out.append(kDecisionsHeader);
-  for (const NamedUnit& signal : flight.signals) {
-    out.push_back(',');
-    out.append(signal.name);
-  }
-  out.push_back('\n');
-  for (const DecisionRow& row : flight.decisions) {
-    CsvLine line(out);
-    line.add(row.t_s).add(row.status).add(row.v_WB_W_cmd).add(row.altitude_cmd_m).add(row.heading_cmd_rad);
-    for (const double value : row.signals) line.add(value);
-  }
-  return fmt::to_string(out);
-}
+std::string trajectory_csv(const Flight& flight) { return trajectory_columns(flight).csv(); }
+
+std::string decisions_csv(const Flight& flight) { return decision_columns(flight).csv(); }
 
 void write_result_files(const std::filesystem::path& run_folder, const RunInfo& info, const Flight& flight) {
   std::error_code error;
   std::filesystem::create_directories(run_folder, error);
-  if (error) throw std::runtime_error(fmt::format("cannot make {}: {}", run_folder.string(), error.message()));
+  if (error) throw std::runtime_error(fmt::format("cannot create {}: {}", run_folder.string(), error.message()));
   write_file_whole(run_folder / "scenario.yaml", info.scenario_yaml);
   write_file_whole(run_folder / "trajectory.csv", trajectory_csv(flight));
   write_file_whole(run_folder / "decisions.csv", decisions_csv(flight));
   if (!flight.map.empty()) write_file_whole(run_folder / "map.json", map_data(flight.map).dump() + "\n");
-  write_file_whole(run_folder / "result.json",
-                   result_json(info, flight.result));  // last: a result says the run is whole
+  write_file_whole(run_folder / "result.json", result_json(info, flight.result));  // last: a run with a result is whole
 }
 
 }  // namespace hedgehop::sim

@@ -16,7 +16,7 @@ struct TrimPoint {
 
 /// All that the page of a vehicle's trim draws: a plot over speed for each group of quantities of one unit.
 /// @param points       of one vehicle, at least one, by rising speed.
-/// @param missing_mps  speeds at which there is no trim; the page tells of them.
+/// @param missing_mps  speeds at which there is no trim; the page lists them.
 nlohmann::ordered_json trim_data(const std::string& vehicle, const std::vector<TrimPoint>& points,
                                  const std::vector<double>& missing_mps);
 

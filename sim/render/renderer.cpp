@@ -14,7 +14,7 @@ namespace hedgehop::sim {
 
 namespace {
 
-/// What an ideal pinhole's image is drawn as; flow is made of others.
+/// The raster of an undistorted pinhole's image; flow is computed from others.
 Raster raster_of(Channel channel) {
   switch (channel) {
     case Channel::grey:
@@ -66,7 +66,7 @@ class Renderer::Impl {
   struct Lens {
     LensFaces faces;
     cv::Mat levels, colors, planes, labels;  ///< sheets
-    std::vector<Eigen::Vector3d> rays;       ///< once flow was asked for
+    std::vector<Eigen::Vector3d> rays;       ///< once flow was drawn
   };
 
   void check(const CameraView& view) {
@@ -109,7 +109,7 @@ class Renderer::Impl {
     sheet.create(faces.sheet, type_of(raster));
     for (const LensFaces::Face& face : faces.faces) {
       ScenePainter::Eye face_eye = eye;
-      face_eye.X_WC.linear() = eye.X_WC.linear() * face.R_CK;
+      face_eye.X_WC.linear() = eye.X_WC.linear() * face.R_CCf;
       cv::Mat part = sheet(cv::Rect(0, face.first_row, face.camera.width_px, face.camera.height_px));
       painter_.paint(face.camera, face_eye, raster, samples, part);
     }

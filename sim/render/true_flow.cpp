@@ -23,8 +23,8 @@ void true_flow(const vision::camera::Camera& camera, const std::vector<Eigen::Ve
                cv::Mat& out) {
   constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
   out.create(camera.height_px, camera.width_px, CV_32FC2);
-  const Eigen::Isometry3d X_NC = input.X_WC_next.inverse() * input.X_WC;  // N: C, next
-  const Eigen::Matrix3d R_NW = input.X_WC_next.linear().transpose();
+  const Eigen::Isometry3d X_CnC = input.X_WC_next.inverse() * input.X_WC;  // Cn: C at the next image
+  const Eigen::Matrix3d R_CnW = input.X_WC_next.linear().transpose();
   const bool z = depth_is_z(camera);
   auto ray = rays.begin();
   for (int row = 0; row < out.rows; ++row) {
@@ -33,13 +33,13 @@ void true_flow(const vision::camera::Camera& camera, const std::vector<Eigen::Ve
       flow = {kNothing, kNothing};
       if (!ray->allFinite()) continue;
       const auto depth_m = static_cast<double>(input.depth.at<float>(row, col));
-      Eigen::Vector3d p_N = X_NC.linear() * *ray;
+      Eigen::Vector3d p_Cn = X_CnC.linear() * *ray;
       if (std::isfinite(depth_m)) {
-        p_N = X_NC * Eigen::Vector3d(*ray * (z ? depth_m / ray->z() : depth_m));
+        p_Cn = X_CnC * Eigen::Vector3d(*ray * (z ? depth_m / ray->z() : depth_m));
         const int mover = input.labels.at<int>(row, col) - input.first_mover_label;
-        if (mover >= 0) p_N += R_NW * input.moved_W_m[static_cast<size_t>(mover)];
+        if (mover >= 0) p_Cn += R_CnW * input.moved_W_m[static_cast<size_t>(mover)];
       }
-      if (const auto pixel = camera.project(p_N)) {
+      if (const auto pixel = camera.project(p_Cn)) {
         flow = {static_cast<float>(pixel->x() - col), static_cast<float>(pixel->y() - row)};
       }
     }

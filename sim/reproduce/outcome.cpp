@@ -43,10 +43,10 @@ std::vector<FlightRecord> flights_with(FlightRecord::Status status, const Flight
 /// A column's cells over the flights that ended.
 std::vector<Cell> cells_of(const FlightFigure& figure, const PaperOutcome& outcome) {
   const Table table = flight_table(flights_with(FlightRecord::Status::flown, figure, outcome));
-  const auto column = std::ranges::find(table.columns, figure.column);
+  const size_t column = column_index(table, figure.column);
   std::vector<Cell> cells;
-  if (column == table.columns.end()) return cells;
-  for (const auto& row : table.rows) cells.push_back(row[static_cast<size_t>(column - table.columns.begin())]);
+  if (column == table.columns.size()) return cells;
+  for (const auto& row : table.rows) cells.push_back(row[column]);
   return cells;
 }
 

@@ -1,3 +1,5 @@
+#include "sim/scenario/include.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,7 +40,7 @@ class Includer {
  public:
   explicit Includer(Faults& faults) : faults_(faults) {}
 
-  /// @param from  place of the `use` that asks for it, or null for the scenario itself.
+  /// @param from  place of the `use` that names it, or null for the scenario itself.
   Node load(const fs::path& file, const Place* from) {
     const std::string name = file.lexically_normal().string();
     const Place place = from ? *from : Place{name, 0, 0};

@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 
-#include "sim/scenario/parse.h"
+#include "sim/scenario/flight_parts.h"
+#include "sim/scenario/include.h"
 #include "sim/scenario/reader.h"
 #include "sim/scenario/schema.h"
 #include "sim/scenario/validate.h"
@@ -40,7 +42,8 @@ void find_imports(scenes::SceneConfig& scene, const Node& root) {
 
 }  // namespace
 
-Scenario load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {
+LoadedScenario load_flight(const std::filesystem::path& file, std::span<const std::string> overrides,
+                           std::optional<uint64_t> seed) {
   Faults faults;
   Node root = load_tree(file, faults);
   if (root.kind != Node::Kind::map) faults.raise();
@@ -49,6 +52,7 @@ Scenario load_scenario(const std::filesystem::path& file, std::span<const std::s
   Scenario scenario;
   read_struct(root, "", "", scenario, faults);
   faults.raise();
+  if (seed) scenario.seed = *seed;
   mount_stereo_pairs(scenario.rig);
   find_imports(scenario.scene, root);
   for (CheckConfig& check : scenario.checks) {
@@ -56,9 +60,13 @@ Scenario load_scenario(const std::filesystem::path& file, std::span<const std::s
       path->reference = std::filesystem::absolute(file.parent_path() / path->reference).lexically_normal().string();
     }
   }
-  validate(scenario, root, faults);
+  std::optional<FlightParts> parts = validate(scenario, root, faults);
   faults.raise();
-  return scenario;
+  return {std::move(scenario), *std::move(parts)};
+}
+
+Scenario load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  return load_flight(file, overrides).scenario;
 }
 
 dynamics::VehicleConfig load_vehicle(const std::filesystem::path& file) {

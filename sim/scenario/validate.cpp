@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <exception>
+#include <memory>
+#include <utility>
+#include <variant>
 
 #include "sim/scenario/reference_path.h"
 
@@ -15,11 +18,13 @@ using Channel = CameraConfig::Channel;
 std::string_view words(Channel channel) {
   switch (channel) {
     case Channel::grey:
-      return "grey";
+      return "grey images";
     case Channel::color:
-      return "color";
+      return "color images";
     case Channel::depth:
-      return "depth";
+      return "depth images";
+    case Channel::corners:
+      return "corners";
   }
   return "?";
 }
@@ -63,7 +68,13 @@ class Validator {
   }
 
   void module() {
-    std::visit([&](const auto& config) { this->module(config); }, scenario_.avoidance);
+    build("avoidance", [&] {
+      module_ = build_module(scenario_.avoidance);
+      if (!module_) return;
+      for (const avoidance::CameraNeed& need : module_->needs().cameras) {
+        needs_camera("avoidance", need.role, need.channel, need.pinhole);
+      }
+    });
   }
 
   void parts() {
@@ -72,14 +83,11 @@ class Validator {
       scenes::Scene alone;
       std::visit([&](const auto& chosen) { scenes::mesh::add_imports(chosen.added.imports, alone); }, scenario_.scene);
     });
-    const bool flies = build("vehicle", [&] { dynamics::Vehicle(scenario_.vehicle); });
-    build("wind", [&] { dynamics::air::Wind(scenario_.wind, 0); });
-    // What is wrong with the vehicle is told once: beside a bad one the avionics are looked at alone.
-    const dynamics::VehicleConfig carrier = flies ? scenario_.vehicle : dynamics::VehicleConfig{};
-    build("avionics", [&] {
-      dynamics::Avionics(scenario_.avionics, carrier, 1.0 / static_cast<double>(scenario_.physics_rate_hz),
-                         [](std::string_view) { return uint64_t{0}; });
-    });
+    build("vehicle", [&] { vehicle_.emplace(scenario_.vehicle); });
+    build("wind", [&] { wind_.emplace(build_wind(scenario_)); });
+    // A fault of the vehicle is reported once: beside a bad one the avionics are checked with a good one.
+    const dynamics::VehicleConfig carrier = vehicle_ ? scenario_.vehicle : dynamics::VehicleConfig{};
+    build("avionics", [&] { avionics_.emplace(build_avionics(scenario_, carrier)); });
   }
 
   void checks() {
@@ -89,17 +97,14 @@ class Validator {
     }
   }
 
- private:
-  template <class Config>
-  void module(const Config& config) {
-    build("avoidance", [&] {
-      for (const avoidance::CameraNeed& need : avoidance::make_module(config)->needs().cameras) {
-        needs_camera("avoidance", need.role, need.channel, need.pinhole);
-      }
-    });
+  /// The parts; none when one could not be built.
+  std::optional<FlightParts> take() {
+    const bool has_module = module_ || std::holds_alternative<PluginConfig>(scenario_.avoidance);
+    if (!vehicle_ || !wind_ || !avionics_ || !has_module) return {};
+    return FlightParts{{*std::move(vehicle_), *std::move(wind_), *std::move(avionics_)}, std::move(module_)};
   }
-  void module(const PluginConfig&) {}  // foreign code is loaded by the flight alone
 
+ private:
   void check(const std::string& path, const ReachedGoalCheck& check) {
     if (!scenario_.goal) add(path, "the scenario has no goal to reach");
     if (check.within_m && scenario_.goal && *check.within_m < scenario_.goal->radius_m) {
@@ -168,10 +173,10 @@ class Validator {
   void needs_camera(const std::string& path, const std::string& role, Channel channel, bool pinhole) {
     if (const CameraConfig* camera = scenario_.rig.find(role)) {
       if (pinhole && !camera->is_undistorted_pinhole()) {
-        add(path, fmt::format("needs camera '{}' to be a pinhole without distortion", role));
+        add(path, fmt::format("needs camera '{}' to be an undistorted pinhole", role));
       }
       if (camera->channel != channel) {
-        add(path, fmt::format("needs camera '{}' to give {} images; its channel is {}", role, words(channel),
+        add(path, fmt::format("needs camera '{}' to deliver {}; it delivers {}", role, words(channel),
                               words(camera->channel)));
       }
       return;
@@ -182,15 +187,13 @@ class Validator {
                           roles.empty() ? "none" : fmt::format("{}", fmt::join(roles, ", "))));
   }
 
-  /// Returns whether a part can be built; why not is a fault.
+  /// Runs a builder; a part that cannot be built is a fault.
   template <class Build>
-  bool build(const std::string& path, Build&& build) {
+  void build(const std::string& path, Build&& build) {
     try {
       build();
-      return true;
     } catch (const std::invalid_argument& error) {
       add(path + named_key(error.what()), error.what());
-      return false;
     }
   }
 
@@ -208,17 +211,22 @@ class Validator {
   const Scenario& scenario_;
   const Node& root_;
   Faults& faults_;
+  std::optional<dynamics::Vehicle> vehicle_;
+  std::optional<dynamics::air::Wind> wind_;
+  std::optional<dynamics::Avionics> avionics_;
+  std::unique_ptr<avoidance::Module> module_;
 };
 
 }  // namespace
 
-void validate(const Scenario& scenario, const Node& root, Faults& faults) {
+std::optional<FlightParts> validate(const Scenario& scenario, const Node& root, Faults& faults) {
   Validator validator(scenario, root, faults);
   validator.rates();
   validator.rig();
   validator.module();
   validator.parts();
   validator.checks();
+  return validator.take();
 }
 
 }  // namespace hedgehop::sim

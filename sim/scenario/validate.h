@@ -1,12 +1,15 @@
 #pragma once
 
-#include "sim/scenario/scenario.h"
+#include <optional>
+
+#include "sim/scenario/flight_parts.h"
 #include "sim/scenario/tree.h"
 
 namespace hedgehop::sim {
 
-/// Adds a fault for each thing that does not fit another, or that a part refuses when it is built.
+/// Builds the parts of a scenario, and adds a fault for each thing that does not fit another or that a part refuses.
 /// @param root  what the scenario was read from, for the places.
-void validate(const Scenario& scenario, const Node& root, Faults& faults);
+/// @return the parts; none when one cannot be built, with a fault added.
+std::optional<FlightParts> validate(const Scenario& scenario, const Node& root, Faults& faults);
 
 }  // namespace hedgehop::sim

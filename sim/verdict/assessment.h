@@ -9,8 +9,8 @@
 
 namespace hedgehop::sim {
 
-/// Adds to a flown flight's result what only looks back on it: how difficult the scene was, the field's metrics, and
-/// the scenario's checks.
+/// Adds to a flown flight's result what follows from the record alone: how difficult the scene was, the field's
+/// metrics, and the scenario's checks.
 void assess(const Scenario& scenario, const scenes::Scene& scene, const std::vector<dynamics::HullPart>& hull,
             Flight& flight);
 

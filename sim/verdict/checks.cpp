@@ -15,7 +15,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// All a check may look at.
+/// All that a check can use.
 struct Evidence {
   const Scenario& scenario;
   const Flight& flight;

@@ -1,7 +1,5 @@
 #include "sim/verdict/corner_sight.h"
 
-#include <utility>
-
 namespace hedgehop::sim {
 namespace {
 
@@ -11,36 +9,21 @@ bool in_image(const vision::camera::Camera& camera, const Eigen::Isometry3d& X_W
          pixel->y() <= camera.height_px - 1;
 }
 
-bool nothing_before(const CollisionWorld& world, const Eigen::Vector3d& p_WC, const Eigen::Vector3d& p_W, double t_s) {
-  constexpr double kOfItselfM = 0.1;  // the surface that the point belongs to may be met a little before it
-  const Eigen::Vector3d way_W = p_W - p_WC;
-  const double distance_m = way_W.norm();
+bool nothing_hides(const CollisionWorld& world, const Eigen::Vector3d& p_WC, const Eigen::Vector3d& p_W, double t_s) {
+  constexpr double kOfItselfM = 0.1;  // the ray may meet the point's own surface a little before the point
+  const Eigen::Vector3d ray_W = p_W - p_WC;
+  const double distance_m = ray_W.norm();
   if (distance_m <= kOfItselfM) return true;
-  return world.distance_along(p_WC, way_W / distance_m, distance_m, t_s) >= distance_m - kOfItselfM;
+  return world.distance_along(p_WC, ray_W / distance_m, distance_m, t_s) >= distance_m - kOfItselfM;
 }
 
 }  // namespace
-
-ProjectedCorners::ProjectedCorners(std::vector<Eigen::Vector3d> corners_W, uint64_t seed)
-    : corners_W_(std::move(corners_W)), random_(seed) {}
-
-std::vector<Eigen::Vector2d> ProjectedCorners::project(const vision::camera::Camera& camera,
-                                                       const Eigen::Isometry3d& X_WC) {
-  constexpr double kNoisePx = 0.5;  // of a corner detector that works well
-  std::vector<Eigen::Vector2d> pixels;
-  for (const Eigen::Vector3d& p_W : corners_W_) {
-    if (!in_image(camera, X_WC, p_W)) continue;
-    const double right_px = kNoisePx * normal_(random_), down_px = kNoisePx * normal_(random_);
-    pixels.push_back(*camera.project(X_WC.inverse() * p_W) + Eigen::Vector2d(right_px, down_px));
-  }
-  return pixels;
-}
 
 std::vector<bool> corners_in_sight(std::span<const Eigen::Vector3d> corners_W, const vision::camera::Camera& camera,
                                    const Eigen::Isometry3d& X_WC, const CollisionWorld* world, double t_s) {
   std::vector<bool> seen;
   for (const Eigen::Vector3d& p_W : corners_W) {
-    seen.push_back(in_image(camera, X_WC, p_W) && (!world || nothing_before(*world, X_WC.translation(), p_W, t_s)));
+    seen.push_back(in_image(camera, X_WC, p_W) && (!world || nothing_hides(*world, X_WC.translation(), p_W, t_s)));
   }
   return seen;
 }

@@ -46,16 +46,16 @@ CorridorPlace corridor_place(const scenes::worlds::CorridorPlan& plan, const Vec
   CorridorPlace place;
   double nearest_m = std::numeric_limits<double>::infinity(), begun_m = 0.0;
   for (size_t k = 0; k + 1 < plan.middles_NE.size(); ++k) {
-    const Vector2d way = plan.middles_NE[k + 1] - plan.middles_NE[k], along = way.normalized();
+    const Vector2d section = plan.middles_NE[k + 1] - plan.middles_NE[k], along = section.normalized();
     const Vector2d right(-along.y(), along.x());
-    const double along_m = std::clamp(along.dot(p_NE - plan.middles_NE[k]), 0.0, way.norm());
+    const double along_m = std::clamp(along.dot(p_NE - plan.middles_NE[k]), 0.0, section.norm());
     const double off_m = (plan.middles_NE[k] + along_m * along - p_NE).norm();
     if (off_m < nearest_m) {
       nearest_m = off_m;
       place = {reach_m(p_NE, -right, plan.lefts_NE[k], plan.lefts_NE[k + 1]),
                reach_m(p_NE, right, plan.rights_NE[k], plan.rights_NE[k + 1]), begun_m + along_m};
     }
-    begun_m += way.norm();
+    begun_m += section.norm();
   }
   return place;
 }

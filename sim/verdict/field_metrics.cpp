@@ -44,11 +44,11 @@ double rms_jerk_mps3(const Rows& rows) {
   return std::sqrt(sum / static_cast<double>(rows.size() - 2));
 }
 
-/// Way of all actuators together, per second, each in its own unit.
+/// Path of all actuators together, per second, each in its own unit.
 double actuator_effort(const Rows& rows) {
-  double way = 0.0;
-  for (size_t i = 1; i < rows.size(); ++i) way += (rows[i].controls - rows[i - 1].controls).lpNorm<1>();
-  return way / (rows.back().t_s - rows.front().t_s);
+  double path = 0.0;
+  for (size_t i = 1; i < rows.size(); ++i) path += (rows[i].controls - rows[i - 1].controls).lpNorm<1>();
+  return path / (rows.back().t_s - rows.front().t_s);
 }
 
 }  // namespace

@@ -66,6 +66,11 @@ std::vector<RecordedCorner> MapScore::corners() const {
   return corners;
 }
 
+void MapScore::complete(MapRecord& map) const {
+  for (size_t i = 0; i < map.points.size(); ++i) map.points[i].is_true = is_true_[i];
+  if (!map.empty()) map.corners = corners();
+}
+
 std::vector<MetricValue> MapScore::metrics() const {
   if (!ever_) return {};
   return {{"map_error_percent", error_percent_, "%"},

@@ -17,7 +17,7 @@ Eigen::Quaterniond attitude(const Eigen::Vector3d& rpy_rad) {
 /// Steps forward by the time that the clearance lasts at the greatest closing speed, so that nothing is stepped over.
 std::optional<double> time_to_collision_s(CollisionWorld& world, const scenes::Scene& scene, Eigen::Isometry3d X_WB,
                                           const Eigen::Vector3d& v_WB_W, double t_s, double horizon_s) {
-  constexpr double kTouchesM = 1e-3, kStillMps = 1e-3, kShortestS = 1e-4, kLongestS = 0.1;
+  constexpr double kContactM = 1e-3, kStillMps = 1e-3, kShortestS = 1e-4, kLongestS = 0.1;
   const Eigen::Vector3d start_W = X_WB.translation();
   for (double after_s = 0.0; after_s <= horizon_s;) {
     double mover_mps = 0.0;
@@ -26,9 +26,9 @@ std::optional<double> time_to_collision_s(CollisionWorld& world, const scenes::S
     }
     const double closing_mps = std::max(kStillMps, v_WB_W.norm() + mover_mps);
     X_WB.translation() = start_W + after_s * v_WB_W;
-    const double reach_m = closing_mps * horizon_s + kTouchesM;
+    const double reach_m = closing_mps * horizon_s + kContactM;
     const double clearance_m = world.query(X_WB, reach_m, t_s + after_s).obstacle_clearance_m;
-    if (clearance_m <= kTouchesM) return after_s;
+    if (clearance_m <= kContactM) return after_s;
     // A mover may set off meanwhile, so no step is long where there is one.
     const double step_s = std::max(kShortestS, clearance_m / closing_mps);
     after_s += scene.movers.empty() ? step_s : std::min(step_s, kLongestS);

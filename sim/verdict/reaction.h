@@ -11,15 +11,15 @@
 /// How much time a module left itself.
 namespace hedgehop::sim {
 
-/// Returns how long the hull would take to touch a solid if the vehicle kept its velocity and attitude, while movers go
-/// on as they do, s; none within `horizon_s`.
+/// Returns how long the hull would take to contact a solid if the vehicle kept its velocity and attitude, while movers
+/// go on as they do, s; none within `horizon_s`.
 /// @param X_WB  pose, @param v_WB_W  velocity, m/s. @param t_s  when, >= 0. @param horizon_s  > 0.
 std::optional<double> time_to_collision_s(const scenes::Scene& scene, const std::vector<dynamics::HullPart>& hull,
                                           const Eigen::Isometry3d& X_WB, const Eigen::Vector3d& v_WB_W, double t_s,
                                           double horizon_s);
 
-/// Returns the least time to a collision that was left when the module gave way: at each first decision of another
-/// status after one of status "cruise", within ten seconds. None where no collision was near at any of them.
+/// Returns the least time to a collision that was left when the module began to avoid: at each first decision of
+/// another status after one of status "cruise", within ten seconds. None where no collision was near at any of them.
 std::optional<double> time_to_collision_at_reaction_s(const Flight& flight, const scenes::Scene& scene,
                                                       const std::vector<dynamics::HullPart>& hull);
 

@@ -73,7 +73,7 @@ class Search {
       for (int next_col = std::max(0, col - 1); next_col <= std::min(cols_ - 1, col + 1); ++next_col) {
         const int next = next_row * cols_ + next_col;
         if (closed_[index(next)] || !free(next)) continue;
-        // Straight from the parent where it sees that far, else by way of this point.
+        // Directly from the parent where nothing stands between, else through this point.
         const int parent = parent_[index(node)];
         const int via = sees(parent, next) ? parent : node;
         const double length = length_[index(via)] + distance(via, next);

@@ -43,18 +43,21 @@ std::vector<Row> rows() {
     // Between walls that cannot be seen the way is not free.
     if (row.fisheye) row.blank = "blind";
   }
-  flow_balance::FlowBalanceConfig simple;
-  simple.scheme = flow_balance::FlowBalanceConfig::Scheme::simple;
-  simple.flow.rows = 1;
-  simple.flow.cols = 8;
-  all.push_back({"flow_balance_simple", simple});
-  flow_balance::FlowBalanceConfig refined;
-  refined.derotate = true;
-  refined.average = flow_balance::FlowBalanceConfig::Average::valid;
-  refined.flow.margin_px = 0;
-  refined.command_time_constant_s = 0.3;
-  refined.spiral_angle_rad = 0.1;
-  all.push_back({"flow_balance_refined", refined});
+  flow_balance::FlowBalanceConfig balance;
+  balance.law = flow_balance::FlowBalanceConfig::Law::printed;
+  balance.spiral_angle_rad = 0.1;
+  all.push_back({"flow_balance_printed", balance});
+  flow_balance::FlowBalanceConfig filtered;
+  filtered.flow.margin_px = 0;
+  filtered.command_time_constant_s = 0.3;
+  filtered.spiral_angle_rad = 0.1;
+  all.push_back({"flow_balance_filtered", filtered});
+  flow_balance::ZigZagConfig zig_zag;
+  zig_zag.law = flow_balance::ZigZagConfig::Law::printed;
+  all.push_back({"zig_zag_printed", zig_zag});
+  landmark_map::LandmarkMapModuleConfig thesis;
+  thesis.law = landmark_map::Law::printed;
+  all.push_back({.name = "landmark_map_printed", .config = thesis, .holds_heading = false});
   return all;
 }
 

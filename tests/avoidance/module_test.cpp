@@ -72,6 +72,29 @@ TEST_F(Checked, ResetRefusesMissingCamerasAndRatesAndLimitsThatAreNotPositive) {
   EXPECT_THROW(module.reset(bad), std::invalid_argument);
 }
 
+/// Needs a corner detector.
+class CornerReader final : public Module {
+  Needs do_needs() const override { return {{{"front", CameraNeed::Channel::corners}}}; }
+  void do_reset(const Setup&) override {}
+  Decision do_update(const Observation&) override { return {HoverCommand{}, "hover", {}}; }
+};
+
+TEST(CornerFrames, HaveNoSizeButOneCornerToARow) {
+  CornerReader reader;
+  reader.reset(four_cameras(32, 50.0, 3.0));
+  int64_t t_ns = 0;
+  const auto see = [&](const cv::Mat& image) {
+    t_ns += 20'000'000;
+    const std::vector<CameraFrame> frames = {{"front", t_ns, image}};
+    return reader.update({.t_ns = t_ns, .frames = frames});
+  };
+  EXPECT_NO_THROW(see(cv::Mat(0, 1, CV_64FC2)));
+  EXPECT_NO_THROW(see(cv::Mat(100, 1, CV_64FC2, cv::Scalar(1.0, 2.0))));
+  EXPECT_THROW(see(cv::Mat(1, 100, CV_64FC2, cv::Scalar(1.0, 2.0))), std::logic_error);
+  EXPECT_THROW(see(cv::Mat(32, 32, CV_8UC1, cv::Scalar(0))), std::logic_error);
+  EXPECT_THROW(see(cv::Mat()), std::logic_error);
+}
+
 TEST_F(Checked, TimeMustRiseUntilReset) {
   module.reset(setup);
   update();

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
+
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::vision::corridor {
 namespace {
@@ -39,8 +40,7 @@ struct ApproachMeter::Fit {
 ApproachMeter::ApproachMeter(const ApproachConfig& config, const camera::Camera& camera, const Eigen::Isometry3d& X_BC,
                              const CorridorRegions& regions, int rim_px)
     : config_(config), camera_(camera) {
-  if (!(config.half_width_rad > 0.0)) throw std::invalid_argument("half_width: must be above 0 deg");
-  if (!(config.sigma_per_s > 0.0)) throw std::invalid_argument("sigma: must be above 0 1/s");
+  fields::require_bounds(config);
   CorridorRegions narrow = regions;
   narrow.ahead_rad = config.half_width_rad;
   const cv::Mat mask = region_masks(camera, X_BC, narrow, rim_px)[kAhead];

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/fields/bounds.h"
 #include "vision/flow/flow_level.h"
 #include "vision/flow/patch_grid.h"
 #include "vision/flow/reduced_image.h"
@@ -18,17 +19,20 @@ namespace {
 // Rows of the image that are looked at above and below the patches of a grid that does not fill the image.
 constexpr int kBandRimPx = 16;
 
+/// Of the fields that are no keys of a scenario.
+void check_effort(const ImageInterpolationConfig& c) {
+  if (c.iterations < 1) throw std::invalid_argument("flow: iterations must be at least 1");
+  if (!(c.max_flow_px > 0.0 && c.noise_grey > 0.0 && c.max_sigma_px > 0.0 && c.max_misfit_px > 0.0)) {
+    throw std::invalid_argument("flow: max_flow, noise, max_sigma and max_misfit must be above 0");
+  }
+}
+
 void check(const ImageInterpolationConfig& c) {
+  fields::require_bounds(c, "flow");
   const auto need = [](bool holds, const char* message) {
     if (!holds) throw std::invalid_argument(std::string("flow: ") + message);
   };
-  need(c.rows >= 1 && c.cols >= 1, "at least one row and one column of patches");
-  need(c.margin_px >= 0, "margin must be at least 0 px");
   need(c.reduction == 1 || c.reduction == 2 || c.reduction == 4, "reduction must be 1, 2 or 4");
-  need(c.levels >= 1 && c.levels <= 4, "levels must be 1 to 4");
-  need(c.iterations >= 1, "at least one iteration");
-  need(c.max_flow_px > 0.0 && c.noise_grey > 0.0 && c.max_sigma_px > 0.0 && c.max_misfit_px > 0.0,
-       "max_flow, noise, max_sigma and max_misfit must be above 0");
   need(c.patch_px >= 4 * (c.reduction << (c.levels - 1)),
        "patch must be at least four pixels of the coarsest image (patch / reduction / 2^(levels - 1) >= 4)");
 }
@@ -40,6 +44,7 @@ class ImageInterpolationFlow::Impl {
   Impl(const ImageInterpolationConfig& config, int width_px, int height_px)
       : width_(width_px), height_(height_px), iterations_(config.iterations) {
     check(config);
+    check_effort(config);
     grid_ = make_patch_grid(config.rows, config.cols, config.patch_px, config.margin_px, config.reduction, width_px,
                             height_px);
     // Only a band of the image is looked at when the patches lie in one; it begins where every level has a pixel row.

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <optional>
-#include <stdexcept>
-#include <string>
+
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::vision::landmarks {
 namespace {
@@ -31,11 +31,11 @@ class GrowingEdge {
     fit();
   }
   /// Whether a piece lies along the line and not too far from the edge.
-  bool takes(const ImageEdge& piece, const EdgeCornerConfig& config) const {
+  bool takes(const ImageEdge& piece) const {
     const Vector2d a = piece.from_px - middle_, b = piece.to_px - middle_;
-    if (std::max(std::abs(cross(along_, a)), std::abs(cross(along_, b))) > config.aside_px) return false;
+    if (std::max(std::abs(cross(along_, a)), std::abs(cross(along_, b))) > kAsidePx) return false;
     const double at_a = along_.dot(a), at_b = along_.dot(b);
-    return std::min(at_a, at_b) <= last_px_ + config.gap_px && std::max(at_a, at_b) >= first_px_ - config.gap_px;
+    return std::min(at_a, at_b) <= last_px_ + kGapPx && std::max(at_a, at_b) >= first_px_ - kGapPx;
   }
   ImageEdge edge() const { return {middle_ + first_px_ * along_, middle_ + last_px_ * along_}; }
 
@@ -65,18 +65,18 @@ double beyond_px(const ImageEdge& edge, const Vector2d& at) {
 }
 
 /// Where two edges end together.
-std::optional<Vector2d> meeting(const ImageEdge& a, const ImageEdge& b, const EdgeCornerConfig& config) {
+std::optional<Vector2d> meeting(const ImageEdge& a, const ImageEdge& b, double least_angle_rad) {
   const Vector2d u = (a.to_px - a.from_px).normalized(), v = (b.to_px - b.from_px).normalized();
   const double sine = cross(u, v);
-  if (std::abs(sine) < std::sin(config.least_angle_rad)) return std::nullopt;
+  if (std::abs(sine) < std::sin(least_angle_rad)) return std::nullopt;
   const Vector2d at = a.from_px + cross(b.from_px - a.from_px, v) / sine * u;
   const double least = std::min(beyond_px(a, at), beyond_px(b, at)),
                most = std::max(beyond_px(a, at), beyond_px(b, at));
   constexpr double kOvershootPx = 4.0;  // an edge is blurred, and so seems to run on over its end
-  // As long as the lines lie within twice `aside` of one another, a piece may have been joined to the wrong one: of two
+  // While the lines lie within twice kAsidePx of one another, a piece may have been joined to the wrong one: of two
   // edges at a small angle one runs on over their meeting, the other begins late.
-  const double alike_px = 2.0 * config.aside_px / std::abs(sine);
-  if (least < -std::max(kOvershootPx, alike_px) || most > std::max(config.beyond_px, alike_px)) return std::nullopt;
+  const double alike_px = 2.0 * kAsidePx / std::abs(sine);
+  if (least < -std::max(kOvershootPx, alike_px) || most > std::max(kBeyondPx, alike_px)) return std::nullopt;
   return at;
 }
 
@@ -94,16 +94,7 @@ std::vector<cv::Mat> planes_of(const cv::Mat& image) {
 
 }  // namespace
 
-void check(const EdgeCornerConfig& c) {
-  const auto need = [](bool holds, const char* message) {
-    if (!holds) throw std::invalid_argument(std::string("corners: ") + message);
-  };
-  need(c.least_edge_px > 0.0 && c.aside_px > 0.0, "least_edge and aside must be above 0 px");
-  need(c.gap_px >= 0.0 && c.beyond_px >= 0.0, "gap and beyond must not be negative");
-  need(c.least_angle_rad > 0.0 && c.least_angle_rad <= 1.5707963267948966, "least_angle must lie in (0, 90] deg");
-}
-
-std::vector<ImageEdge> joined_edges(std::span<const ImageEdge> pieces, const EdgeCornerConfig& config) {
+std::vector<ImageEdge> joined_edges(std::span<const ImageEdge> pieces) {
   std::vector<ImageEdge> by_length(pieces.begin(), pieces.end());
   std::ranges::stable_sort(by_length, std::ranges::greater{}, &ImageEdge::length_px);
   std::vector<bool> taken(by_length.size(), false);
@@ -114,7 +105,7 @@ std::vector<ImageEdge> joined_edges(std::span<const ImageEdge> pieces, const Edg
     for (bool grew = true; grew;) {  // a longer edge may reach what it passed by
       grew = false;
       for (size_t i = first + 1; i < by_length.size(); ++i) {
-        if (taken[i] || !edge.takes(by_length[i], config)) continue;
+        if (taken[i] || !edge.takes(by_length[i])) continue;
         edge.add(by_length[i]);
         taken[i] = grew = true;
       }
@@ -124,7 +115,7 @@ std::vector<ImageEdge> joined_edges(std::span<const ImageEdge> pieces, const Edg
   return edges;
 }
 
-std::vector<Vector2d> corners_of(std::span<const ImageEdge> edges, const EdgeCornerConfig& config) {
+std::vector<Vector2d> corners_of(std::span<const ImageEdge> edges, double least_angle_rad) {
   constexpr double kSamePx = 5.0;
   struct Group {
     Vector2d sum = Vector2d::Zero();
@@ -134,7 +125,7 @@ std::vector<Vector2d> corners_of(std::span<const ImageEdge> edges, const EdgeCor
   std::vector<Group> groups;
   for (size_t i = 0; i < edges.size(); ++i) {
     for (size_t j = i + 1; j < edges.size(); ++j) {
-      const auto at = meeting(edges[i], edges[j], config);
+      const auto at = meeting(edges[i], edges[j], least_angle_rad);
       if (!at) continue;
       auto group = std::ranges::find_if(groups, [&](const Group& g) { return (g.mean() - *at).norm() <= kSamePx; });
       if (group == groups.end()) group = groups.insert(groups.end(), Group{});
@@ -147,7 +138,7 @@ std::vector<Vector2d> corners_of(std::span<const ImageEdge> edges, const EdgeCor
   return corners;
 }
 
-std::vector<Vector2d> edge_corners(const cv::Mat& image, const EdgeCornerConfig& config) {
+std::vector<Vector2d> edge_corners(const cv::Mat& image, double least_angle_rad) {
   std::vector<ImageEdge> pieces;
   const auto detector = cv::createLineSegmentDetector(cv::LSD_REFINE_STD);
   for (const cv::Mat& plane : planes_of(image)) {
@@ -155,9 +146,9 @@ std::vector<Vector2d> edge_corners(const cv::Mat& image, const EdgeCornerConfig&
     detector->detect(plane, found);
     for (const cv::Vec4f& f : found) pieces.push_back({{f[0], f[1]}, {f[2], f[3]}});
   }
-  std::vector<ImageEdge> edges = joined_edges(pieces, config);
-  std::erase_if(edges, [&](const ImageEdge& edge) { return edge.length_px() < config.least_edge_px; });
-  return corners_of(edges, config);
+  std::vector<ImageEdge> edges = joined_edges(pieces);
+  std::erase_if(edges, [&](const ImageEdge& edge) { return edge.length_px() < kShortestEdgePx; });
+  return corners_of(edges, least_angle_rad);
 }
 
 }  // namespace hedgehop::vision::landmarks

@@ -72,8 +72,7 @@ std::optional<PredictedBearing> predict_bearing(const Landmark& landmark, const 
   seen.d_bearing_x = d_bearing_p * d_p_C;
   seen.d_bearing_pose = d_bearing_pose(seen.bearing, d_bearing_p);
   // A shift of the camera moves the bearing by the inverse depth, which is uncertain itself: its mean square is taken.
-  // With its estimate alone, measurements would weigh the more the farther a landmark is believed to be, and drive it
-  // to infinity.
+  // With its estimate alone, measurements of a landmark estimated far away would weigh more, and drive it to infinity.
   const double relative_sigma2 = d_p_C.row(2).dot(landmark.P * d_p_C.row(2).transpose()) / (p_C.z() * p_C.z());
   seen.d_bearing_pose.leftCols<3>() *= std::sqrt(1.0 + relative_sigma2);
   seen.noise = noise_of(seen.d_bearing_pose, pose, bearing_sigma);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <optional>
 
 /// One point of the world, estimated from the bearings under which a moving camera sees it: the extended Kalman filter
@@ -23,7 +24,15 @@ struct Landmark {
   Eigen::Matrix3d P = Eigen::Matrix3d::Zero();             ///< covariance of x
 };
 
-/// Where the aircraft believes its camera is, with the accuracy of that belief.
+/// A landmark of a map, with its history.
+struct MappedLandmark {
+  int64_t id = 0;  ///< counted from 0 in the order in which the landmarks began
+  Landmark landmark;
+  int matches = 0;  ///< images in which it was seen, the first included
+  int misses = 0;   ///< consecutive images that should have shown it and did not
+};
+
+/// The camera's estimated pose and its 1-sigma uncertainty.
 struct CameraPose {
   Eigen::Isometry3d X_WC_est = Eigen::Isometry3d::Identity();
   double position_sigma_m = 0.0;    ///< per axis, >= 0
@@ -67,10 +76,10 @@ Landmark predicted(const Landmark& landmark, double drift_m_rt_s, double dt_s);
 Landmark updated(const Landmark& landmark, const PredictedBearing& seen, const Eigen::Vector2d& bearing_meas);
 
 /// Z value of a measurement for a landmark: the squared residual's square over its variance, >= 0; 0 for no residual.
-/// Small values speak for a match. Source: [Shah2009] eq. (4.5) to (4.7), (4.12), (4.23), (4.24).
+/// Small values indicate a match. Source: [Shah2009] eq. (4.5) to (4.7), (4.12), (4.23), (4.24).
 double z_value(const PredictedBearing& seen, const Eigen::Vector2d& bearing_meas);
 
-/// How new landmarks begin.
+/// How new landmarks begin. No number of it is printed in the thesis.
 struct LandmarkStart {
   LandmarkCoordinates coordinates = LandmarkCoordinates::inverse_depth;
   double ground_sigma = 0.3;        ///< of a start on the ground: of the depth, as a share of it, > 0

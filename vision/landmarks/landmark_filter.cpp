@@ -6,41 +6,29 @@
 #include <stdexcept>
 #include <string>
 
+#include "sim/fields/bounds.h"
 #include "vision/landmarks/camera_error.h"
 #include "vision/landmarks/landmark_matching.h"
+#include "vision/landmarks/printed_filter.h"
 
 namespace hedgehop::vision::landmarks {
 namespace {
 
-void check(const LandmarkMapConfig& c) {
-  const auto need = [](bool holds, const char* message) {
-    if (!holds) throw std::invalid_argument(std::string("landmark map: ") + message);
-  };
-  need(c.start.ground_sigma > 0.0, "ground_sigma must be above 0");
-  need(c.start.nearest_m > 0.0 && c.start.beyond_horizon_m > 0.0, "nearest and beyond_horizon must be above 0 m");
-  need(c.pixel_sigma_px > 0.0, "pixel_sigma must be above 0 px");
-  need(c.position_sigma_m >= 0.0 && c.attitude_sigma_rad >= 0.0 && c.drift_m_rt_s >= 0.0 && c.correlation_s >= 0.0,
-       "position_sigma, attitude_sigma, correlation and drift must not be negative");
-  need(c.gate > 0.0, "gate must be above 0");
-  need(c.misses >= 1 && c.young_misses >= 1 && c.confirm >= 1, "misses, young_misses and confirm must be at least 1");
-}
-
-/// The pose as one of many measurements whose errors are alike: of so many within the correlation time, all together
-/// are worth one. The integral of an exponentially fading correlation is twice its time constant.
-CameraPose as_one_of_alike(const CameraPose& pose, double correlation_s, double dt_s) {
+/// Widens a pose's uncertainty as one of many with correlated errors: all within the correlation time count as one
+/// measurement. The integral of an exponentially fading correlation is twice its time constant.
+CameraPose as_one_of_correlated(const CameraPose& pose, double correlation_s, double dt_s) {
   if (!(dt_s > 0.0)) return pose;
   const double times = std::sqrt(std::max(1.0, 2.0 * correlation_s / dt_s));
   return {pose.X_WC_est, times * pose.position_sigma_m, times * pose.attitude_sigma_rad};
 }
 
-/// Matches the known landmarks first and the others with what is left. A Z value falls as the landmark's variance
-/// grows, so that one just begun beside a known one would take over its bearings, until the known one is deleted as
-/// missed.
-std::vector<std::optional<size_t>> match_known_first(std::span<const std::optional<PredictedBearing>> predicted,
-                                                     const std::vector<bool>& known,
-                                                     std::span<const Eigen::Vector2d> bearings, double gate) {
+/// Matches the confirmed landmarks first and the others with what is left. A Z value falls as the landmark's variance
+/// grows, so one just begun beside a confirmed one would take over its bearings, until that one is deleted as missed.
+std::vector<std::optional<size_t>> match_confirmed_first(std::span<const std::optional<PredictedBearing>> predicted,
+                                                         const std::vector<bool>& confirmed,
+                                                         std::span<const Eigen::Vector2d> bearings, double gate) {
   std::vector<std::optional<PredictedBearing>> first(predicted.begin(), predicted.end()), then = first;
-  for (size_t k = 0; k < predicted.size(); ++k) (known[k] ? then : first)[k].reset();
+  for (size_t k = 0; k < predicted.size(); ++k) (confirmed[k] ? then : first)[k].reset();
   std::vector<std::optional<size_t>> landmark_of = match_landmarks(first, bearings, gate);
   std::vector<size_t> left;
   std::vector<Eigen::Vector2d> bearings_left;
@@ -58,25 +46,32 @@ std::vector<std::optional<size_t>> match_known_first(std::span<const std::option
 
 LandmarkMap::LandmarkMap(const LandmarkMapConfig& config, const camera::PinholeCamera& camera)
     : config_(config), camera_(camera), bearing_sigma_(config.pixel_sigma_px / camera.focal_x_px) {
-  check(config);
+  fields::require_bounds(config, "map");
 }
 
 std::vector<int64_t> LandmarkMap::update(std::span<const Eigen::Vector2d> corners_px, const CameraPose& pose,
                                          double dt_s) {
   std::vector<Eigen::Vector2d> bearings;
   for (const Eigen::Vector2d& corner : corners_px) bearings.push_back(camera_.ray(corner).head<2>());
+  if (config_.law == Law::ours) return update_as_ours(bearings, pose, dt_s);
+  return update_as_printed({bearing_sigma_, config_.drift_m_rt_s, config_.gate, config_.misses}, bearings, pose, dt_s,
+                           landmarks_, next_id_);
+}
+
+std::vector<int64_t> LandmarkMap::update_as_ours(std::span<const Eigen::Vector2d> bearings, const CameraPose& pose,
+                                                 double dt_s) {
   for (MappedLandmark& mapped : landmarks_) mapped.landmark = predicted(mapped.landmark, config_.drift_m_rt_s, dt_s);
   const Predictions at_estimate = predict(pose);
   const CameraPose better_pose =
       corrected(pose, common_error(at_estimate, bearings, error_covariance(pose), bearing_sigma_));
-  const Predictions at_better = predict(as_one_of_alike(better_pose, config_.correlation_s, dt_s));
+  const Predictions at_better = predict(as_one_of_correlated(better_pose, config_.correlation_s, dt_s));
   Predictions to_match = at_better;
   for (auto& one : to_match) {
     if (one) one = with_known_pose(*one, bearing_sigma_);
   }
   std::vector<bool> known;
   for (const MappedLandmark& mapped : landmarks_) known.push_back(confirmed(mapped));
-  const auto landmark_of = match_known_first(to_match, known, bearings, config_.gate);
+  const auto landmark_of = match_confirmed_first(to_match, known, bearings, config_.gate);
 
   std::vector<bool> seen(landmarks_.size(), false);
   std::vector<int64_t> ids;
@@ -84,8 +79,8 @@ std::vector<int64_t> LandmarkMap::update(std::span<const Eigen::Vector2d> corner
     if (const auto k = landmark_of[i]) {
       MappedLandmark& mapped = landmarks_[*k];
       if (at_estimate[*k]) {
-        // Linearized where the camera rather is: at the estimated pose the Jacobian would share the pose's error with
-        // the residual, and flights that are short against that error would seem to tell depths.
+        // Linearized at the better pose: at the estimated one the Jacobian would share the pose's error with the
+        // residual, and flights that are short against that error would seem to measure depths.
         PredictedBearing prediction = *at_better[*k];
         prediction.bearing = at_estimate[*k]->bearing;
         mapped.landmark = updated(mapped.landmark, prediction, bearings[i]);
@@ -111,7 +106,7 @@ LandmarkMap::Predictions LandmarkMap::predict(const CameraPose& pose) const {
   return predictions;
 }
 
-/// Counts the images that should have shown a landmark and did not, and deletes those that missed too many.
+/// Counts the images that should have shown a landmark and did not, and deletes landmarks with too many.
 void LandmarkMap::drop_missed(const CameraPose& pose, const std::vector<bool>& seen) {
   constexpr double kSureOfViewSigmas = 3.0;
   const Eigen::Isometry3d X_CW = pose.X_WC_est.inverse();
@@ -128,7 +123,7 @@ void LandmarkMap::drop_missed(const CameraPose& pose, const std::vector<bool>& s
     MappedLandmark& mapped = landmarks_[k];
     const bool missed = !seen[k] && in_view(mapped.landmark);
     mapped.misses = seen[k] ? 0 : mapped.misses + missed;
-    const int most = confirmed(mapped) ? config_.misses : config_.young_misses;
+    const int most = confirmed(mapped) ? config_.misses : config_.unconfirmed_misses;
     if (mapped.misses < most) kept.push_back(mapped);
   }
   landmarks_ = std::move(kept);

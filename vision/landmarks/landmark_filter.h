@@ -10,30 +10,32 @@
 
 namespace hedgehop::vision::landmarks {
 
-/// How a map of landmarks is kept. The accuracies are what the filter believes, not what the sensors do.
+/// Whose algorithm keeps the map.
+enum class Law {
+  printed,  ///< [Shah2009] ch. 4 alone: update_as_printed()
+  ours,     ///< with the camera's common error, starts at any depth, and confirmation
+};
+
+/// How a map of landmarks is kept. The uncertainties are what the filter assumes, not what the sensors do. Members
+/// without a key are the caller's choice, not the user's.
 struct LandmarkMapConfig {
-  LandmarkStart start;
+  Law law = Law::ours;
+  LandmarkStart start;  ///< ours; the printed law begins on the ground
+  double gate = 4.0;    ///< > 0: largest Z value of a match; n standard deviations have n^2 / 4
+  /// N of [Shah2009] ch. 4, >= 1: a landmark is deleted after so many consecutive misses. Not printed; 3 s of 10 Hz.
+  int misses = 30;
+
   double pixel_sigma_px = 0.7;
   double position_sigma_m = 0.43;      ///< 1 % of 140 ft, [Shah2009] table 4.1
   double attitude_sigma_rad = 6.3e-4;  ///< 0.01 % of a full turn, [Shah2009] table 4.1
   double correlation_s = 0.0;
   double drift_m_rt_s = 0.0;
-  double gate = 4.0;  ///< residuals of 4 standard deviations
-  int misses = 30;    ///< N of [Shah2009] ch. 4
-  int young_misses = 3;
   int confirm = 10;
+  int unconfirmed_misses = 3;
 };
 
 template <class Visitor>
 void describe(Visitor& v, LandmarkMapConfig& c) {
-  v("start", c.start.coordinates,
-    {.choices = {"ground", "inverse_depth"}, .meaning = "where a landmark begins: on the ground, or at any depth"});
-  v("ground_sigma", c.start.ground_sigma,
-    {.above = 0.0, .meaning = "standard deviation of the depth of a start on the ground, as a share of it"});
-  v("nearest", c.start.nearest_m,
-    {.unit = "m", .above = 0.0, .meaning = "of a start by inverse depth: landmarks may lie as near as this"});
-  v("beyond_horizon", c.start.beyond_horizon_m,
-    {.unit = "m", .above = 0.0, .meaning = "depth of a start on the ground whose ray does not meet it nearer"});
   v("pixel_sigma", c.pixel_sigma_px,
     {.unit = "px", .above = 0.0, .meaning = "standard deviation of a corner in an image, per axis"});
   v("position_sigma", c.position_sigma_m,
@@ -43,29 +45,22 @@ void describe(Visitor& v, LandmarkMapConfig& c) {
   v("correlation", c.correlation_s,
     {.unit = "s",
      .at_least = 0.0,
-     .meaning = "how long errors of position and attitude stay alike; images within it do not average them out"});
+     .meaning = "correlation time of the errors of position and attitude; images within it do not average them out"});
   v("drift", c.drift_m_rt_s,
     {.unit = "m/sqrt(s)", .at_least = 0.0, .meaning = "growth of a landmark's standard deviation: process noise"});
-  v("gate", c.gate, {.above = 0.0, .meaning = "largest Z value of a match; n standard deviations have n^2 / 4"});
-  v("misses", c.misses,
-    {.at_least = 1, .meaning = "a landmark in view but unmatched in so many images running is deleted"});
-  v("young_misses", c.young_misses, {.at_least = 1, .meaning = "the same for one that is not yet confirmed"});
   v("confirm", c.confirm, {.at_least = 1, .meaning = "matches that make a landmark part of the map"});
+  v("unconfirmed_misses", c.unconfirmed_misses,
+    {.at_least = 1,
+     .meaning = "consecutive images without it that delete a landmark in view that is not confirmed; a confirmed one "
+                "stands 30"});
 }
 
-/// A landmark with its history.
-struct MappedLandmark {
-  int64_t id = 0;  ///< counted from 0 in the order of their first sight
-  Landmark landmark;
-  int matches = 0;  ///< images in which it was seen, the first included
-  int misses = 0;   ///< images running in which it was in view and not seen
-};
-
-/// The map of [Shah2009] ch. 4, sec. "3D Modeling Algorithm": a database of landmarks that images correct, add to and
-/// delete from. Differs: landmarks that are part of the map are matched before those that are not yet.
+/// A database of landmarks that images correct, add to and delete from. Source: [Shah2009] ch. 4, sec. "3D Modeling
+/// Algorithm"; as printed by `Law::printed`. Differs, by `Law::ours`: the camera's common error is estimated before
+/// landmarks are matched, confirmed landmarks are matched first, and only landmarks in view can be missed.
 class LandmarkMap {
  public:
-  /// @param bearing scale and edges of the images come from `camera`.
+  /// @param camera  of the images: scale of the bearings, edges of the view.
   /// Throws std::invalid_argument, naming the key, on a bad config.
   LandmarkMap(const LandmarkMapConfig& config, const camera::PinholeCamera& camera);
 
@@ -75,11 +70,15 @@ class LandmarkMap {
 
   /// All landmarks, in rising order of id.
   const std::vector<MappedLandmark>& landmarks() const { return landmarks_; }
-  bool confirmed(const MappedLandmark& landmark) const { return landmark.matches >= config_.confirm; }
+  /// Whether a landmark is part of the map: under the printed law every one.
+  bool confirmed(const MappedLandmark& landmark) const {
+    return config_.law == Law::printed || landmark.matches >= config_.confirm;
+  }
 
  private:
   using Predictions = std::vector<std::optional<PredictedBearing>>;
 
+  std::vector<int64_t> update_as_ours(std::span<const Eigen::Vector2d> bearings, const CameraPose& pose, double dt_s);
   Predictions predict(const CameraPose& pose) const;
   void drop_missed(const CameraPose& pose, const std::vector<bool>& seen);
 

@@ -6,37 +6,23 @@
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <vector>
 
-#include "tests/avoidance/flow_balance/flow_rig.h"
-#include "tests/vision/flow/projected_flow.h"
-#include "vision/flow/flow_measures.h"
+#include "tests/avoidance/flow_balance/wall_flow.h"
 
 namespace hedgehop::avoidance::flow_balance {
 namespace {
 
 using std::numbers::pi;
-constexpr double kFloorMps = 0.2;
+constexpr BalanceGains kGains{.loom_m2ps = 4.0, .flow_m2ps = 5.0};
 
-// What a camera senses of a wall that it faces, from projected points and not from any formula for flow.
-WallSense sense_of_wall(const MountedCamera& camera, const Eigen::Vector2d& v_B, double range_m) {
-  constexpr double kStepS = 1e-4;
-  const Eigen::Matrix3d R_CB = camera.X_BC.linear().transpose();
-  const auto field = vision::plane_flow(camera.model.pinhole(), vision::grid_field(8, 8, 30, 200), {0, 0, range_m},
-                                        {0, 0, 1}, R_CB * Eigen::Vector3d(v_B.x(), v_B.y(), 0), {0, 0, 0}, kStepS);
-  return {camera.X_BC.linear().col(2).head<2>(), camera.X_BC.linear().col(0).head<2>(),
-          vision::flow::mean_horizontal_flow(field, camera.model.pinhole(), kStepS, vision::flow::Missing::skip).value,
-          vision::flow::loom(field, kStepS, vision::flow::Missing::skip).value};
-}
-
-TEST(InverseRanges, FlowAndLoomTellTheRangeOfAWallOnAnySideForAnyMotion) {
+TEST(InverseRanges, FlowAndLoomMeasureTheRangeOfAWallOnAnySideForAnyMotion) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> speed(0.3, 2.0), range(2.0, 30.0);
   for (int trial = 0; trial < 200; ++trial) {
     const MountedCamera camera = level_camera("any", 0.5 * pi * static_cast<double>(random() % 4), 200, 50.0);
     const Eigen::Vector2d v_B((random() % 2 ? 1 : -1) * speed(random), (random() % 2 ? 1 : -1) * speed(random));
     const double z = range(random);
-    const InverseRanges near = inverse_ranges(sense_of_wall(camera, v_B, z), v_B, kFloorMps);
+    const InverseRanges near = inverse_ranges(flow_of_wall(camera, v_B, z), v_B);
     EXPECT_NEAR(near.from_flow_per_m, 1.0 / z, 0.01 / z);
     EXPECT_NEAR(near.from_loom_per_m, 1.0 / z, 0.01 / z);
   }
@@ -46,8 +32,7 @@ TEST(InverseRanges, OneFormulaEqualsThePapersPerCamera) {
   const Eigen::Vector2d v(1.3, -0.7);
   const auto near = [&](double azimuth) {
     const MountedCamera camera = level_camera("any", azimuth, 200, 50.0);
-    return inverse_ranges({camera.X_BC.linear().col(2).head<2>(), camera.X_BC.linear().col(0).head<2>(), 0.1, 0.2}, v,
-                          kFloorMps);
+    return inverse_ranges({camera.X_BC.linear().col(2).head<2>(), camera.X_BC.linear().col(0).head<2>(), 0.1, 0.2}, v);
   };
   const std::array<InverseRanges, 4> expected = {InverseRanges{-0.1 / v.y(), 0.2 / v.x()},    // front
                                                  InverseRanges{0.1 / v.x(), 0.2 / v.y()},     // right
@@ -65,10 +50,10 @@ TEST(PushFromWalls, PointsAwayFromAWallOnEachSide) {
   for (int trial = 0; trial < 100; ++trial) {
     const MountedCamera camera = level_camera("any", 0.5 * pi * static_cast<double>(random() % 4), 200, 50.0);
     const Eigen::Vector2d v_B((random() % 2 ? 1 : -1) * speed(random), (random() % 2 ? 1 : -1) * speed(random));
-    const std::array senses = {sense_of_wall(camera, v_B, 5.0)};
-    const Eigen::Vector2d push = push_from_walls(senses, v_B, 4.0, 5.0, kFloorMps);
-    EXPECT_NEAR(push.dot(senses[0].axis_H), -(4.0 + 5.0) / 5.0, 0.05);
-    EXPECT_NEAR(push.dot(senses[0].right_H), 0.0, 1e-9);
+    const std::array sides = {flow_of_wall(camera, v_B, 5.0)};
+    const Eigen::Vector2d push = push_from_walls(sides, v_B, kGains);
+    EXPECT_NEAR(push.dot(sides[0].axis_H), -(4.0 + 5.0) / 5.0, 0.05);
+    EXPECT_NEAR(push.dot(sides[0].right_H), 0.0, 1e-9);
   }
 }
 
@@ -77,46 +62,39 @@ TEST(PushFromWalls, IsNothingInTheMiddleBetweenTwoWallsAndNeverDependsOnSpeed) {
     const Eigen::Vector2d v_B = speed * Eigen::Vector2d(0.8, 0.6);
     const MountedCamera left = level_camera("left", -0.5 * pi, 200, 50.0),
                         right = level_camera("right", 0.5 * pi, 200, 50.0);
-    const std::array middle = {sense_of_wall(left, v_B, 4.0), sense_of_wall(right, v_B, 4.0)};
-    EXPECT_LT(push_from_walls(middle, v_B, 4.0, 5.0, kFloorMps).norm(), 1e-2);
-    const std::array off = {sense_of_wall(left, v_B, 3.0), sense_of_wall(right, v_B, 5.0)};
-    EXPECT_NEAR(push_from_walls(off, v_B, 4.0, 5.0, kFloorMps).y(), 9.0 * (1 / 3.0 - 1 / 5.0), 2e-2);
+    const std::array middle = {flow_of_wall(left, v_B, 4.0), flow_of_wall(right, v_B, 4.0)};
+    EXPECT_LT(push_from_walls(middle, v_B, kGains).norm(), 1e-2);
+    const std::array off = {flow_of_wall(left, v_B, 3.0), flow_of_wall(right, v_B, 5.0)};
+    EXPECT_NEAR(push_from_walls(off, v_B, kGains).y(), 9.0 * (1 / 3.0 - 1 / 5.0), 2e-2);
   }
 }
 
 TEST(SaturatedDivisor, KeepsSignAndLeastMagnitude) {
-  EXPECT_EQ(saturated_divisor(1.5, 0.2), 1.5);
-  EXPECT_EQ(saturated_divisor(-1.5, 0.2), -1.5);
-  EXPECT_EQ(saturated_divisor(0.05, 0.2), 0.2);
-  EXPECT_EQ(saturated_divisor(-0.05, 0.2), -0.2);
-  EXPECT_EQ(saturated_divisor(0.0, 0.2), 0.2);
+  EXPECT_EQ(saturated_divisor(1.5), 1.5);
+  EXPECT_EQ(saturated_divisor(-1.5), -1.5);
+  EXPECT_EQ(saturated_divisor(0.05), 0.2);
+  EXPECT_EQ(saturated_divisor(-0.05), -0.2);
+  EXPECT_EQ(saturated_divisor(0.0), 0.2);
 }
 
 TEST(SaturatedDivisor, KeepsThePushOfASlowVehicleBounded) {
   const MountedCamera front = level_camera("front", 0.0, 200, 50.0);
   for (const double v : {0.01, -0.01, 0.1, -0.1}) {
-    const std::array senses = {sense_of_wall(front, {v, v}, 5.0)};
-    const double push = -push_from_walls(senses, {v, v}, 4.0, 5.0, kFloorMps).x();
+    const std::array sides = {flow_of_wall(front, {v, v}, 5.0)};
+    const double push = -push_from_walls(sides, {v, v}, kGains).x();
     EXPECT_GE(push, 0.0);
     EXPECT_LE(push, 9.0 / 5.0);
   }
 }
 
-TEST(PushFromNearest, EqualsThePapersPushBeforeWallsThatTheCamerasFace) {
-  std::mt19937_64 random(8);
-  std::uniform_real_distribution<double> speed(0.3, 2.0), range(2.0, 30.0);
-  constexpr double k0 = 4.0, k1 = 5.0;
-  for (int trial = 0; trial < 50; ++trial) {
-    const Eigen::Vector2d v_B(speed(random), -speed(random));
-    std::vector<WallSense> senses;
-    for (int i = 0; i < 4; ++i) {
-      const double z = range(random);
-      senses.push_back(sense_of_wall(level_camera("any", 0.5 * pi * i, 200, 50.0), v_B, z));
-      senses.back().near_per_m = 1.0 / z;
-    }
-    const Eigen::Vector2d paper = push_from_walls(senses, v_B, k0, k1, kFloorMps);
-    EXPECT_LT((push_from_nearest(senses, k0 + k1) - paper).norm(), 0.02 * (k0 + k1) / 2.0);
-  }
+TEST(NormalizedCommand, HasTheSpeedAndTheDirectionOfTheSum) {
+  const Eigen::Vector2d v_H = normalized_command({2.0, 0.0}, {-2.0, 3.0}, 1.5);
+  EXPECT_NEAR(v_H.x(), 0.0, 1e-12);
+  EXPECT_NEAR(v_H.y(), 1.5, 1e-12);
+}
+
+TEST(NormalizedCommand, FallsBackToTheTargetWhereThePushCancelsIt) {
+  EXPECT_EQ(normalized_command({0.0, 2.0}, {0.0, -2.0}, 2.0), Eigen::Vector2d(0.0, 2.0));
 }
 
 }  // namespace

@@ -3,129 +3,77 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <set>
-#include <vector>
+#include <stdexcept>
+#include <utility>
+
+#include "tests/avoidance/flow_balance/point_flight.h"
 
 namespace hedgehop::avoidance::flow_balance {
 namespace {
 
-using Side = ZigZag::Side;
+using std::numbers::pi;
 
-// Front, right, rear, left: one inverse range each.
-std::vector<Side> sides(double front, double right, double rear, double left) {
-  return {{{1, 0}, front, true}, {{0, 1}, right, true}, {{-1, 0}, rear, true}, {{0, -1}, left, true}};
+// [Garratt2009] sec. 4: 8 m x 16 m.
+const Walls kRoom = {wall(8, 0, pi), wall(-8, 0, 0), wall(0, 4, -0.5 * pi), wall(0, -4, 0.5 * pi)};
+double clearance_m(const Eigen::Vector2d& p) { return std::min(8.0 - std::abs(p.x()), 4.0 - std::abs(p.y())); }
+
+ZigZagConfig small_images() {
+  ZigZagConfig config;
+  config.flow = {.rows = 1, .cols = 8, .patch_px = 24, .margin_px = 6};
+  return config;
 }
 
-ZigZag zig_zag(int confirmations = 1, double stray_rad = 0.0) {
-  return ZigZag({{1.0, 0.5}, 2.0, confirmations, stray_rad, 7});
-}
-
-TEST(ZigZag, StartsForwardToTheRightAtItsSpeeds) { EXPECT_EQ(zig_zag().way_H(), Eigen::Vector2d(1.0, 0.5)); }
-
-TEST(ZigZag, TurnsTheComponentThatLeadsTowardsAWallWithinTheThreshold) {
-  ZigZag way = zig_zag();
-  EXPECT_FALSE(way.update(sides(0.49, 0.49, 0.0, 0.0)));
-  EXPECT_TRUE(way.update(sides(0.51, 0.0, 0.0, 0.0)));
-  EXPECT_EQ(way.way_H(), Eigen::Vector2d(-1.0, 0.5));
-  EXPECT_TRUE(way.update(sides(0.51, 0.51, 0.0, 0.0)));  // the wall ahead is left behind already
-  EXPECT_EQ(way.way_H(), Eigen::Vector2d(-1.0, -0.5));
-  EXPECT_EQ(way.reversals(), 2);
-}
-
-TEST(ZigZag, LeavesAWallBehindItAlone) {
-  ZigZag way = zig_zag();
-  EXPECT_FALSE(way.update(sides(0.0, 0.0, 9.0, 9.0)));
-  EXPECT_EQ(way.way_H(), Eigen::Vector2d(1.0, 0.5));
-}
-
-TEST(ZigZag, OfAWallThatTwoCamerasSeeTurnsTheNearerSideOnly) {
-  ZigZag way = zig_zag();
-  EXPECT_TRUE(way.update(sides(0.8, 0.9, 0.0, 0.0)));
-  EXPECT_EQ(way.way_H(), Eigen::Vector2d(1.0, -0.5));
-}
-
-TEST(ZigZag, WantsItsConfirmationsInARowOfFreshImages) {
-  ZigZag way = zig_zag(2);
-  EXPECT_FALSE(way.update(sides(0.9, 0.0, 0.0, 0.0)));
-  EXPECT_FALSE(way.update(sides(0.1, 0.0, 0.0, 0.0)));
-  EXPECT_FALSE(way.update(sides(0.9, 0.0, 0.0, 0.0)));
-  std::vector<Side> stale = sides(0.9, 0.0, 0.0, 0.0);
-  for (Side& side : stale) side.fresh = false;
-  EXPECT_FALSE(way.update(stale));
-  EXPECT_TRUE(way.update(sides(0.9, 0.0, 0.0, 0.0)));
-}
-
-TEST(ZigZag, StraysWithinItsAngleAndRepeatsWithTheSeed) {
-  ZigZag one = zig_zag(1, 0.3), same = zig_zag(1, 0.3);
-  std::set<double> ways;
-  double largest_rad = 0.0;
-  for (int i = 0; i < 200; ++i) {
-    const auto walls = i % 2 == 0 ? sides(0.9, 0.0, 0.0, 0.0) : sides(0.0, 0.0, 0.9, 0.0);
-    ASSERT_TRUE(one.update(walls));
-    same.update(walls);
-    ASSERT_EQ(one.way_H(), same.way_H());
-    EXPECT_NEAR(one.way_H().norm(), std::hypot(1.0, 0.5), 1e-12);
-    const Eigen::Vector2d diagonal(i % 2 == 0 ? -1.0 : 1.0, 0.5);
-    largest_rad = std::max(largest_rad, std::acos(one.way_H().normalized().dot(diagonal.normalized())));
-    ways.insert(one.way_H().x());
-  }
-  EXPECT_LE(largest_rad, 0.3 + 1e-9);
-  EXPECT_GT(largest_rad, 0.28);
-  EXPECT_EQ(ways.size(), 200u);
-}
-
-TEST(NearOnceStopped, LeavesTheRangeLessTheDistance) {
-  std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> range(0.5, 20.0), stopping(0.0, 3.0);
-  for (int i = 0; i < 1000; ++i) {
-    const double range_m = range(random), distance_m = stopping(random), left_m = range_m - distance_m;
-    const double near = near_once_stopped_per_m(1.0 / range_m, distance_m);
-    if (left_m > 1e-3) {
-      EXPECT_NEAR(near * left_m, 1.0, 1e-9);
-    } else {
-      EXPECT_EQ(near, 1000.0);
+TEST(ZigZag, AsPrintedReachesTheRoomsEndsAndSidesWithoutCollision) {
+  ZigZagConfig config = small_images();
+  config.law = ZigZagConfig::Law::printed;
+  for (const double heading : {0.0, pi / 8}) {
+    const PointFlight flight =
+        fly(*make_zig_zag(config), kRoom, heading, {{0, 0, -1}, heading}, {-5.0, 0.5}, 40.0, clearance_m);
+    EXPECT_GT(flight.least_clearance_m, 0.4) << heading;
+    double north = 0.0, east = 0.0;
+    for (const Eigen::Vector2d& p : flight.path) {
+      north = std::max(north, std::abs(p.x()));
+      east = std::max(east, std::abs(p.y()));
     }
+    EXPECT_GT(north, 5.0) << heading;
+    EXPECT_GT(east, 1.5) << heading;
+    EXPECT_EQ(flight.metrics.back().name, "reversals");
+    EXPECT_GT(flight.metrics.back().value, 6.0);
+    EXPECT_LT(flight.metrics.back().value, 60.0);
   }
 }
 
-TEST(NearOnceStopped, WhatIsFarStaysFar) { EXPECT_EQ(near_once_stopped_per_m(0.0, 3.0), 0.0); }
-
-// A point whose velocity turns round as a whole by a steady acceleration, in small steps.
-TEST(StoppingDistance, IsHowMuchNearerATurningPointComes) {
-  std::mt19937_64 random(2);
-  std::uniform_real_distribution<double> speed(0.2, 3.0), angle(-1.5, 1.5), braking(0.3, 4.0), reaction(0.0, 1.0);
-  for (int i = 0; i < 50; ++i) {
-    const double speed_mps = speed(random), angle_rad = angle(random);
-    const Stopping stopping{reaction(random), braking(random)};
-    const Eigen::Vector2d v0 = speed_mps * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
-    constexpr double kStepS = 1e-4;
-    Eigen::Vector2d v = v0;
-    double nearer_m = 0.0;
-    for (double t_s = 0.0; v.x() > 0.0; t_s += kStepS) {
-      if (t_s >= stopping.reaction_s) v -= kStepS * stopping.braking_mps2 * v0.normalized();
-      nearer_m += kStepS * v.x();
+TEST(ZigZag, WithOurAdditionsFillsTheRoomCloserToItsWalls) {
+  ZigZagConfig config = small_images();
+  config.range_threshold_m = 0.6;
+  config.stray_rad = pi / 9;
+  for (const double heading : {0.0, pi / 8}) {
+    const PointFlight flight =
+        fly(*make_zig_zag(config), kRoom, heading, {{0, 0, -1}, heading}, {-3.0, 0.5}, 120.0, clearance_m);
+    EXPECT_GT(flight.least_clearance_m, 0.3) << heading;
+    std::set<std::pair<int, int>> cells;
+    for (const Eigen::Vector2d& p : flight.path) {
+      cells.insert({static_cast<int>(std::floor(p.x() / 2.0)), static_cast<int>(std::floor(p.y() / 2.0))});
     }
-    EXPECT_NEAR(stopping_distance_m(v0.x(), speed_mps, stopping), nearer_m, 2e-3);
-    EXPECT_EQ(stopping_distance_m(-v0.x(), speed_mps, stopping), 0.0);
+    EXPECT_GE(cells.size(), 28u) << heading;  // of 8 x 4 squares of 2 m
   }
 }
 
-TEST(ZigZag, IsCorneredBetweenWallsAheadOfBothComponentsOnly) {
-  const ZigZag zig_zag({.range_threshold_m = 2.0});
-  const auto cornered = [&](double front_m, double right_m, double rear_m, double left_m) {
-    const std::array<ZigZag::Side, 4> sides = {ZigZag::Side{{1, 0}, 1.0 / front_m, true},
-                                               {{0, 1}, 1.0 / right_m, true},
-                                               {{-1, 0}, 1.0 / rear_m, true},
-                                               {{0, -1}, 1.0 / left_m, true}};
-    return zig_zag.cornered(sides);
+TEST(ZigZag, RefusesConfigsOutOfRange) {
+  const auto refuse = [](auto change) {
+    ZigZagConfig config = small_images();
+    change(config);
+    EXPECT_THROW(make_zig_zag(config), std::invalid_argument);
   };
-  EXPECT_TRUE(cornered(1.9, 1.9, 9.0, 9.0));
-  EXPECT_FALSE(cornered(1.9, 2.1, 9.0, 9.0));
-  EXPECT_FALSE(cornered(1.9, 9.0, 1.0, 1.0));  // at first the way leads to the front and the right
+  refuse([](auto& c) { c.forward_speed_mps = 0.0; });
+  refuse([](auto& c) { c.range_threshold_m = 0.0; });
+  refuse([](auto& c) { c.braking_mps2 = 0.0; });
+  refuse([](auto& c) { c.reaction_s = std::nan(""); });
+  refuse([](auto& c) { c.tail_m = -0.1; });
+  refuse([](auto& c) { c.stray_rad = -0.1; });
 }
 
 }  // namespace

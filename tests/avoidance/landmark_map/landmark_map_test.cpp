@@ -6,10 +6,12 @@
 #include <optional>
 #include <random>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "avoidance/landmark_map/landmark_map.h"
+#include "avoidance/landmark_map/wall_stop.h"
 #include "tests/avoidance/flow_balance/flow_rig.h"
 
 namespace hedgehop::avoidance::landmark_map {
@@ -26,13 +28,12 @@ struct Tower {
               Eigen::Vector3d(north_m + half_m, east_m + half_m, 0.0)) {}
 };
 
-/// A point that flies as it is told, with exact navigation and a camera that sees corners to half a pixel.
+/// A point that follows its commands exactly, with exact navigation and a corner detector of half a pixel's noise.
 class CornerFlight {
  public:
   explicit CornerFlight(std::vector<Eigen::Vector3d> corners_W, LandmarkMapModuleConfig config = {})
       : corners_W_(std::move(corners_W)) {
-    config.sight.front_end = FrontEnd::corners;
-    config.sight.map.start.coordinates = vision::landmarks::LandmarkCoordinates::inverse_depth;
+    config.sight.source = CornerSource::corners;
     config.sight.map.position_sigma_m = 0.1;
     config.speed_mps = kSpeedMps;
     module_ = make_landmark_map(config);
@@ -44,7 +45,7 @@ class CornerFlight {
     NavigationState navigation = level_flight(p_WB_, heading_rad_, v_W_);
     navigation.range_m = range_m;
     t_ns_ += kStepNs;
-    const std::vector<CameraFrame> frames = {{"front", t_ns_, cv::Mat(320, 320, CV_8UC1, cv::Scalar(128)), seen()}};
+    const std::vector<CameraFrame> frames = {{"front", t_ns_, seen()}};
     const Decision decision = module_->update({t_ns_, frames, navigation, {goal_W, 0.0}});
     v_W_.setZero();
     if (const auto* velocity = std::get_if<VelocityCommand>(&decision.command)) {
@@ -63,19 +64,19 @@ class CornerFlight {
  private:
   static constexpr double kTurnRadps = 0.8;
 
-  std::vector<Eigen::Vector2d> seen() {
+  cv::Mat seen() {
     Eigen::Isometry3d X_WB(Eigen::AngleAxisd(heading_rad_, Eigen::Vector3d::UnitZ()));
     X_WB.translation() = p_WB_;
     const Eigen::Isometry3d X_CW = (X_WB * camera_.X_BC).inverse();
     std::normal_distribution<double> noise_px(0.0, 0.5);
-    std::vector<Eigen::Vector2d> corners_px;
+    cv::Mat corners_px(0, 1, CV_64FC2);
     for (const Eigen::Vector3d& corner_W : corners_W_) {
       const Eigen::Vector3d p_C = X_CW * corner_W;
       if (p_C.z() < 1.0) continue;
       const auto lens = camera_.model.pinhole();
       const Eigen::Vector2d pixel(lens.center_u_px + lens.focal_x_px * p_C.x() / p_C.z() + noise_px(random_),
                                   lens.center_v_px + lens.focal_y_px * p_C.y() / p_C.z() + noise_px(random_));
-      if (pixel.minCoeff() >= 0.0 && pixel.maxCoeff() <= 319.0) corners_px.push_back(pixel);
+      if (pixel.minCoeff() >= 0.0 && pixel.maxCoeff() <= 319.0) corners_px.push_back(cv::Vec2d(pixel.x(), pixel.y()));
     }
     return corners_px;
   }
@@ -138,9 +139,8 @@ TEST(LandmarkMapModule, FliesStraightPastWhatIsNoObstacle) {
 }
 
 TEST(LandmarkMapModule, StopsForGoodBeforeWhatItsRangeFinderMeetsSixTimesRunning) {
-  const LandmarkMapModuleConfig config;
-  // Half a second of reaction and the way of braking come before the range that is left.
-  const double stops_m = config.stop_range_m + 0.5 * kSpeedMps + 0.5 * kSpeedMps * kSpeedMps / config.braking_mps2;
+  // Half a second of reaction and the distance of braking come before the range that is left.
+  const double stops_m = kStopRangeM + kReactionS * kSpeedMps + 0.5 * kSpeedMps * kSpeedMps / kBrakingMps2;
   CornerFlight flight({});
   flight.step();
   for (int i = 0; i < 50; ++i) EXPECT_NE(flight.step(stops_m + 0.1).status, "stop");
@@ -151,6 +151,39 @@ TEST(LandmarkMapModule, StopsForGoodBeforeWhatItsRangeFinderMeetsSixTimesRunning
   const Decision after = flight.step();
   EXPECT_EQ(after.status, "stop");
   EXPECT_TRUE(std::holds_alternative<HoverCommand>(after.command));
+}
+
+TEST(LandmarkMapModule, WithoutClearanceMapsAndFliesStraight) {
+  const Tower tower(55.0, 2.0, 5.0, 25.0);
+  LandmarkMapModuleConfig config;
+  config.clearance_m = 0.0;
+  CornerFlight flight(corners_of({tower}), config);
+  double landmarks = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    const Decision decision = flight.step();
+    ASSERT_EQ(decision.status, "cruise") << flight.p_WB().x();
+    landmarks = std::max(landmarks, decision.signals.at(1));
+  }
+  EXPECT_GE(landmarks, 4.0);
+}
+
+// The thesis leaves avoiding and stopping to others.
+TEST(LandmarkMapModule, AsPrintedNeitherAvoidsNorStops) {
+  LandmarkMapModuleConfig config;
+  config.law = Law::printed;
+  CornerFlight flight(corners_of({Tower(55.0, 2.0, 5.0, 25.0)}), config);
+  for (int i = 0; i < 300; ++i) ASSERT_EQ(flight.step(0.5).status, "cruise") << flight.p_WB().x();
+}
+
+TEST(LandmarkMapModule, RefusesABadConfigByItsKey) {
+  LandmarkMapModuleConfig config;
+  config.sight.map.pixel_sigma_px = 0.0;
+  try {
+    make_landmark_map(config);
+    FAIL();
+  } catch (const std::invalid_argument& fault) {
+    EXPECT_EQ(std::string(fault.what()), "map.pixel_sigma: 0; must be > 0 px");
+  }
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ TEST(MapRoute, PointsWithinTheLinkShareAHull) {
 
 TEST(MapRoute, AFreeWayIsStraight) {
   const std::vector<PlanHull> hulls = {{{10, 10}, {12, 10}}};
-  const auto way = way_round(hulls, {0, 0}, {30, 0}, 4.0);
+  const auto way = path_around(hulls, {0, 0}, {30, 0}, 4.0);
   ASSERT_TRUE(way);
   EXPECT_EQ(*way, (std::vector<Vector2d>{{30, 0}}));
 }
@@ -63,7 +63,7 @@ TEST(MapRoute, AFreeWayIsStraight) {
 // Round one point the shortest way is two tangents and an arc; turning at eight places costs little more.
 TEST(MapRoute, RoundAPointTheWayIsNearlyTangentsAndAnArc) {
   const double clearance_m = 5.0, half_m = 30.0;
-  const auto way = way_round(std::vector<PlanHull>{{{0, 0.1}}}, {-half_m, 0}, {half_m, 0}, clearance_m);
+  const auto way = path_around(std::vector<PlanHull>{{{0, 0.1}}}, {-half_m, 0}, {half_m, 0}, clearance_m);
   ASSERT_TRUE(way);
   const double tangent_m = std::sqrt(half_m * half_m - clearance_m * clearance_m);
   const double shortest_m = 2.0 * (tangent_m + clearance_m * std::asin(clearance_m / half_m));
@@ -79,7 +79,7 @@ TEST(MapRoute, KeepsItsClearanceOfRandomHulls) {
     for (int i = 0; i < 8; ++i) points.emplace_back(uniform(random, -20, 20), uniform(random, -20, 20));
     const auto hulls = plan_hulls(points, 6.0);
     const Vector2d from(-40, uniform(random, -10, 10)), to(40, uniform(random, -10, 10));
-    const auto way = way_round(hulls, from, to, 3.0);
+    const auto way = path_around(hulls, from, to, 3.0);
     if (!way) continue;
     ++found;
     turned += way->size() > 1;
@@ -92,7 +92,7 @@ TEST(MapRoute, KeepsItsClearanceOfRandomHulls) {
 
 TEST(MapRoute, LeavesAPlaceThatIsTooNearWithoutComingNearer) {
   const std::vector<PlanHull> hulls = {{{0, 0}}};
-  const auto way = way_round(hulls, {-2, 0}, {30, 0}, 5.0);
+  const auto way = path_around(hulls, {-2, 0}, {30, 0}, 5.0);
   ASSERT_TRUE(way);
   EXPECT_GE(sampled_distance({-2, 0}, *way, hulls[0]), 2.0 - 1e-6);
 }
@@ -111,7 +111,7 @@ double depth(const PlanHull& hull, const Vector2d& p) {
 TEST(MapRoute, FromInsideAHullTheWayOutIsNotThroughIt) {
   const PlanHull hull = {{-12, 0}, {0, -10}, {20, -10}, {20, 10}, {0, 10}};
   const Vector2d from(-10, 0), to(60, 0);
-  const auto way = way_round(std::vector<PlanHull>{hull}, from, to, 4.0);
+  const auto way = path_around(std::vector<PlanHull>{hull}, from, to, 4.0);
   ASSERT_TRUE(way);
   ASSERT_GT(way->size(), 1U);
   EXPECT_GE(std::abs(way->front().y()), 13.9);
@@ -128,7 +128,7 @@ TEST(MapRoute, WaysFromAndToInsideRandomHullsComeNowhereDeeper) {
     if (depth(hulls[0], from) <= 0.0) continue;
     if (scene % 2 == 1) std::swap(from, to);
     (scene % 2 == 1 ? end : begin)++;
-    const auto way = way_round(hulls, from, to, 3.0);
+    const auto way = path_around(hulls, from, to, 3.0);
     ASSERT_TRUE(way) << scene;
     const double most_m = std::max(depth(hulls[0], from), depth(hulls[0], to));
     Vector2d at = from;

@@ -221,7 +221,7 @@ TEST(Autopilot, FliesSquaresForAMinuteOnItsOwnSensors) {
         ASSERT_NEAR(s.body.p_WB.z(), -10.0, 0.6) << s.t_s;
       }
       ASSERT_LT(s.v_WB_W().head<2>().norm(), 2.6) << s.t_s;
-      // In the last half second of a side it flies as told.
+      // In the last half second of a side it flies as commanded.
       if (std::fmod(s.t_s, 2.5) > 2.0) {
         EXPECT_LT((s.v_WB_W().head<2>() - v(s.t_s)).norm(), 0.4) << s.t_s;
       }

@@ -88,12 +88,15 @@ inline std::vector<Sample> fly(const Loop& loop, double duration_s,
   Controls controls;
   for (int64_t tick = 0; tick < std::llround(duration_s / dt); ++tick) {
     const double t_s = static_cast<double>(tick) * dt;
-    avionics.sense(std::llround(t_s * 1e9), truth());
+    VelocitySensor flow_velocity;
     if (loop.flow_sigma > 0.0 && tick % per_flow == 0) {
-      const double forward = flow.draw(), right = flow.draw();
-      avionics.correct_velocity(vehicle.body().v_WB_B.head<2>() + loop.flow_sigma * Eigen::Vector2d(forward, right),
-                                loop.flow_sigma);
+      flow_velocity = [&](const NavigationEstimate&) {
+        const double forward = flow.draw(), right = flow.draw();
+        return VelocityReading{vehicle.body().v_WB_B.head<2>() + loop.flow_sigma * Eigen::Vector2d(forward, right),
+                               loop.flow_sigma};
+      };
     }
+    avionics.sense(std::llround(t_s * 1e9), truth(), flow_velocity);
     if (tick % per_control == 0) {
       controls = loop.perfect ? autopilot.control(setpoint(t_s), known(), kControlDt)
                               : avionics.control(setpoint(t_s), kControlDt);

@@ -133,7 +133,7 @@ TEST(Navigation, AnOutlierOfTheFlowMovesLittle) {
   }
   navigation.correct_velocity({5.0, 0.0}, 0.1);
   EXPECT_LT(navigation.estimate().v_WB_B_est.norm(), 0.03);
-  // Yet many that agree are believed in the end.
+  // Many that agree are accepted in the end.
   for (int i = 0; i < 500; ++i) {
     navigation.predict(hover);
     navigation.correct_velocity({1.0, 0.0}, 0.1);
@@ -293,10 +293,10 @@ TEST(Navigation, NoCorrectionTurnsTheAttitudeOfTheGyros) {
     filter.correct_heading(1.0);
   }
   const NavigationEstimate& estimate = filter.estimate();
-  const Eigen::Vector3d bias = w - estimate.w_WB_B_est;  // learnt on the way, wrongly: part of what it turned by
-  const Eigen::Quaterniond turned = known.q_WB * Eigen::AngleAxisd(w.norm(), w.normalized());
-  EXPECT_LT(estimate.q_WB_gyro.angularDistance(turned), bias.norm() + 1e-9);
-  EXPECT_GT(estimate.q_WB_est.angularDistance(turned), 5.0 * estimate.q_WB_gyro.angularDistance(turned));
+  const Eigen::Vector3d bias = w - estimate.w_WB_B_est;  // a wrong estimate, made in flight: part of the rotation
+  const Eigen::Quaterniond rotated = known.q_WB * Eigen::AngleAxisd(w.norm(), w.normalized());
+  EXPECT_LT(estimate.q_WB_gyro.angularDistance(rotated), bias.norm() + 1e-9);
+  EXPECT_GT(estimate.q_WB_est.angularDistance(rotated), 5.0 * estimate.q_WB_gyro.angularDistance(rotated));
 }
 
 TEST(Navigation, GyroBiasIsLearnt) {

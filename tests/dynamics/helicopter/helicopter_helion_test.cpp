@@ -100,8 +100,8 @@ void expect_mode(const Eigen::MatrixXd& A, std::complex<double> expected) {
 TEST(Helion, LM2_ModesOfTheHover) {
   using L = LinearModel;
   const LinearModel m = linearize(make_helion(), trimmed(0.0));
-  expect_recorded_relative("L_b, 1/s2", m.A(L::kP, L::kRight), 583.51, 0.01);
-  expect_recorded_relative("M_a, 1/s2", m.A(L::kQ, L::kBack), 267.01, 0.01);
+  expect_recorded_relative("L_b, 1/s2", m.A(L::kP, L::kDiscRight), 583.51, 0.01);
+  expect_recorded_relative("M_a, 1/s2", m.A(L::kQ, L::kDiscBack), 267.01, 0.01);
   const Eigen::MatrixXd A = m.A.topLeftCorner<L::kBarBack, L::kBarBack>();
   for (const std::complex<double> mode : {std::complex<double>(-1.698, 24.10),
                                           {-1.719, 16.26},
@@ -144,8 +144,8 @@ TEST(Helion, LM6_RollRatePerStickAndHeaveLieInThePublishedBands) {
   const LinearModel m = linearize(model, trimmed(0.0));
   // Roll rate and disc at rest under a steady stick.
   Eigen::Matrix2d A;
-  A << m.A(L::kP, L::kP), m.A(L::kP, L::kRight), m.A(L::kRight, L::kP), m.A(L::kRight, L::kRight);
-  const Eigen::Vector2d B{m.B(L::kP, L::kLateral), m.B(L::kRight, L::kLateral)};
+  A << m.A(L::kP, L::kP), m.A(L::kP, L::kDiscRight), m.A(L::kDiscRight, L::kP), m.A(L::kDiscRight, L::kDiscRight);
+  const Eigen::Vector2d B{m.B(L::kP, L::kLateral), m.B(L::kDiscRight, L::kLateral)};
   const double p_per_stick = -(A.inverse() * B)[0];
   expect_recorded_relative("p per stick, rad/s", p_per_stick, 2.592, 0.01);
   expect_recorded_relative("p per stick, rad/s, XCell Tempest, [AbbeelGanapathiNg2006] table of coefficients",

@@ -58,8 +58,8 @@ TEST(HelicopterLinear, LM1_YawHeaveAndSlowModesOfTheHover) {
 
 TEST(HelicopterLinear, LM1_DerivativesOfTheHover) {
   const LinearModel& m = hover().linear;
-  expect_recorded_relative("L_b, 1/s2", m.A(L::kP, L::kRight), 404.70, 0.01);
-  expect_recorded_relative("M_a, 1/s2", m.A(L::kQ, L::kBack), 214.25, 0.01);
+  expect_recorded_relative("L_b, 1/s2", m.A(L::kP, L::kDiscRight), 404.70, 0.01);
+  expect_recorded_relative("M_a, 1/s2", m.A(L::kQ, L::kDiscBack), 214.25, 0.01);
   expect_recorded_relative("N_r, 1/s", m.A(L::kR, L::kR), -1.069, 0.02);
   expect_recorded_relative("N_v, rad/s/m", m.A(L::kR, L::kV), 1.175, 0.02);
   expect_recorded_relative("L_v, rad/s/m", m.A(L::kP, L::kV), -0.161, 0.02);
@@ -114,8 +114,10 @@ TEST(HelicopterLinear, LM4_HeaveAfterACollectiveStep) {
 TEST(HelicopterLinear, LM7_SignsAreThoseOfAHelicopter) {
   const LinearModel& m = hover().linear;
   // Speed tilts the body directly and by way of the disc, once that has settled.
-  const double L_v = m.A(L::kP, L::kV) - m.A(L::kP, L::kRight) * m.A(L::kRight, L::kV) / m.A(L::kRight, L::kRight);
-  const double M_u = m.A(L::kQ, L::kU) - m.A(L::kQ, L::kBack) * m.A(L::kBack, L::kU) / m.A(L::kBack, L::kBack);
+  const double L_v =
+      m.A(L::kP, L::kV) - m.A(L::kP, L::kDiscRight) * m.A(L::kDiscRight, L::kV) / m.A(L::kDiscRight, L::kDiscRight);
+  const double M_u =
+      m.A(L::kQ, L::kU) - m.A(L::kQ, L::kDiscBack) * m.A(L::kDiscBack, L::kU) / m.A(L::kDiscBack, L::kDiscBack);
   EXPECT_LT(L_v, 0.0);
   EXPECT_LT(m.A(L::kP, L::kV), 0.0);
   EXPECT_GT(M_u, 0.0);

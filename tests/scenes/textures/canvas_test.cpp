@@ -30,8 +30,8 @@ TEST(FractalNoise, HasMeanZeroDeviationOne) {
 TEST(FractalNoise, StepsAcrossTheSeamAreLikeStepsInside) {
   Random random(3);
   const cv::Mat1f noise = fractal_noise(256, {3, 5, 7, 0.75}, random);
-  const cv::Mat1f turned = noise.t();
-  for (const cv::Mat1f& n : {noise, turned}) {
+  const cv::Mat1f rotated = noise.t();
+  for (const cv::Mat1f& n : {noise, rotated}) {
     std::vector<double> inside;
     for (int c = 0; c + 1 < n.cols; ++c) inside.push_back(rms_step(n, c, c + 1));
     EXPECT_LE(rms_step(n, n.cols - 1, 0), *std::max_element(inside.begin(), inside.end()));

@@ -106,8 +106,8 @@ TEST(Images, OfGroundTileBothWays) {
   const CityTextures city = paint_city(kSize, 24);
   for (uint32_t k : {city.streets[0], city.streets[1], city.lots[0], city.lots[1], city.lots[2], city.grass, city.field,
                      city.roofs[0]}) {
-    const cv::Mat1f turned = grey(city.images[k]).t();
-    EXPECT_LE(step_between(turned, kSize - 1, turned, 0), roughest_step(turned)) << "image " << k;
+    const cv::Mat1f rotated = grey(city.images[k]).t();
+    EXPECT_LE(step_between(rotated, kSize - 1, rotated, 0), roughest_step(rotated)) << "image " << k;
   }
 }
 

@@ -220,6 +220,7 @@ TEST(Highrise, HasEightCornersOrThirtyFiveAndDrawsThem) {
     const std::vector<Vector3d> corners = highrise_corners(config);
     EXPECT_EQ(corners.size(), count);
     const Scene scene = make_highrise(config, 1);
+    EXPECT_EQ(scene.corners_W, corners);
     for (const Vector3d& corner : corners) {
       EXPECT_TRUE(std::ranges::any_of(scene.meshes[0].vertices, [&](const Vertex& vertex) {
         return (vertex.p_W.cast<double>() - corner).norm() < 1e-4;

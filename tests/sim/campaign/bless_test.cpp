@@ -47,7 +47,7 @@ TEST(ShippedCampaigns, AreAcceptedWhole) {
   const std::string nothing = folder.worker("exit 3");
   for (const auto& entry : std::filesystem::directory_iterator(HEDGEHOP_SOURCE_DIR "/configs/campaigns")) {
     const CommandEnd end = folder.hedgehop("batch '" + entry.path().string() + "' --out out --program " + nothing);
-    EXPECT_EQ(end.status, 1) << end.err;  // 2 would tell of a bad file
+    EXPECT_EQ(end.status, 1) << end.err;  // 2 would mean a bad file
   }
 }
 

@@ -88,7 +88,7 @@ TEST(Leaderboard, SurvivesFlyingTheFailuresAgainByTheFolderAlone) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/leaderboard.json"));
 }
 
-/// An interrupted batch says so instead of telling 0 of 0, and its hardest world is not one where nobody has flown.
+/// An interrupted batch is reported as such instead of 0 of 0, and its hardest world is not one where nobody has flown.
 TEST(Leaderboard, CellsNotFlownYetAreMissingAndMakeNoWorldHard) {
   const TemporaryFolder folder;
   const LeaderboardConfig config{

@@ -2,23 +2,27 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 namespace hedgehop::sim {
 namespace {
 
-TEST(FlightTable, MetricsOfWallTimeStandAmongTheTimes) {
+TEST(FlightTable, MetricsOfWallTimeStandAmongTheTimesByTheirKindNotTheirName) {
   FlightRecord record{.status = FlightRecord::Status::flown};
   record.result = {{"outcome", "reached"},
-                   {"metrics", {{"landmarks", 8.0}, {"filter_ms_total", 12.5}}},
+                   {"metrics", {{"landmarks", 8.0}, {"filter_total", 12.5}, {"delay_ms", 40.0}}},
+                   {"metric_units", {{"landmarks", ""}, {"filter_total", "ms"}, {"delay_ms", "ms"}}},
+                   {"metric_kinds", {{"landmarks", "module"}, {"filter_total", "wall_time"}, {"delay_ms", "judged"}}},
                    {"checks", nlohmann::ordered_json::array()}};
   const Table table = flight_table({record});
-  const auto column = [&](const char* name) { return std::ranges::find(table.columns, name); };
-  EXPECT_NE(column("metric.landmarks"), table.columns.end());
-  EXPECT_EQ(column("metric.filter_ms_total"), table.columns.end());
-  const auto time = column("time.filter_ms_total");
-  ASSERT_NE(time, table.columns.end());
-  EXPECT_EQ(std::get<double>(table.rows[0][static_cast<size_t>(time - table.columns.begin())]), 12.5);
+  const auto column = [&](const char* name) { return column_index(table, name); };
+  ASSERT_LT(column("metric.landmarks"), table.columns.size());
+  ASSERT_LT(column("metric.delay_ms"), table.columns.size());
+  EXPECT_EQ(column("metric.filter_total"), table.columns.size());
+  ASSERT_LT(column("time.filter_total"), table.columns.size());
+  EXPECT_EQ(std::get<double>(table.rows[0][column("time.filter_total")]), 12.5);
+  EXPECT_EQ(table.columns[column("time.filter_total")].unit, "ms");
+  EXPECT_EQ(table.columns[column("time.filter_total")].kind, FigureKind::wall_time);
+  EXPECT_EQ(table.columns[column("metric.landmarks")].kind, FigureKind::module);
+  EXPECT_EQ(table.columns[column("metric.delay_ms")].kind, FigureKind::judged);
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ struct RandomPoses {
   }
 };
 
-// A city of `side` x `side` turned blocks, 30 m apart.
+// A city of `side` x `side` rotated blocks, 30 m apart.
 scenes::Scene city(int side, uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> u(0.0, 1.0);

@@ -7,17 +7,17 @@ namespace {
 
 using Eigen::Vector2d;
 
-avoidance::Chart planning(size_t places) {
-  avoidance::Chart chart;
-  chart.course_NE = {Vector2d(0, 0), Vector2d(100, 0)};
-  for (size_t i = 0; i < places; ++i) chart.way_NE.emplace_back(10.0 * static_cast<double>(i), 5.0);
-  return chart;
+avoidance::Map planning(size_t places) {
+  avoidance::Map map;
+  map.course_NE = {Vector2d(0, 0), Vector2d(100, 0)};
+  for (size_t i = 0; i < places; ++i) map.path_NE.emplace_back(10.0 * static_cast<double>(i), 5.0);
+  return map;
 }
 
-TEST(MapLog, OfAModuleWithoutAChartIsEmpty) {
+TEST(MapLog, OfAModuleWithoutAMapIsEmpty) {
   MapLog log;
   for (int i = 0; i < 20; ++i) log.add(i, {});
-  EXPECT_TRUE(log.take(nullptr).empty());
+  EXPECT_TRUE(log.take().empty());
 }
 
 // A decision every 0.5 s: straight on, a detour of 2 places from 2 s on, one of 3 from 7 s on, straight again from 8 s.
@@ -27,25 +27,11 @@ TEST(MapLog, KeepsDetoursEveryTwoSecondsAndWhereTheirTurnsChange) {
     const double t_s = 0.5 * i;
     log.add(t_s, planning(t_s < 2.0 ? 1 : t_s < 7.0 ? 2 : t_s < 8.0 ? 3 : 1));
   }
-  const MapRecord record = log.take(nullptr);
+  const MapRecord record = log.take();
   std::vector<std::pair<double, size_t>> kept;
-  for (const PlannedWay& way : record.ways) kept.emplace_back(way.t_s, way.places_NE.size());
+  for (const PlannedPath& path : record.paths) kept.emplace_back(path.t_s, path.places_NE.size());
   EXPECT_EQ(kept, (std::vector<std::pair<double, size_t>>{{2.0, 2}, {4.0, 2}, {6.0, 2}, {7.0, 3}, {8.0, 1}}));
   EXPECT_EQ(record.course_NE.size(), 2U);
-}
-
-TEST(MapLog, SaysOfThePointsWhatTheScoreSays) {
-  MapLog log;
-  avoidance::Chart chart;
-  chart.points = {{{50, 50, 0}, Eigen::Matrix3d::Identity()}, {{101, 0, 0}, Eigen::Matrix3d::Identity()}};
-  MapScore score({{100, 0, 0}}, Eigen::Vector3d::Zero());
-  score.add(20.0, std::vector<Eigen::Vector3d>{chart.points[0].p_W, chart.points[1].p_W}, {true});
-  log.add(20.0, chart);
-  const MapRecord record = log.take(&score);
-  ASSERT_EQ(record.points.size(), 2U);
-  EXPECT_EQ(record.points[0].is_true, std::optional(false));
-  EXPECT_EQ(record.points[1].is_true, std::optional(true));
-  EXPECT_EQ(record.corners.size(), 1U);
 }
 
 }  // namespace

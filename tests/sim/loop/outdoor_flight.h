@@ -14,7 +14,7 @@ class OutdoorFlight {
       : scenario_(in_turbulence(vehicle)),
         ticks_(scenario_.physics_rate_hz),
         world_(between_walls(), dynamics::hull(vehicle)),
-        aircraft_(scenario_, ticks_) {
+        aircraft_(scenario_, ticks_, build_aircraft(scenario_)) {
     aircraft_.reset(world_);
   }
   OutdoorFlight(const OutdoorFlight&) = delete;  // the aircraft refers to the scenario

@@ -99,16 +99,16 @@ std::vector<StereoPair> rendered_pairs(const scenes::Scene& scene, const std::ve
   std::vector<StereoPair> pairs;
   for (const Eigen::Isometry3d& X_WC : poses) {
     StereoPair& pair = pairs.emplace_back();
-    Eigen::Isometry3d X_WR = X_WC;
-    X_WR.translation() += kBaselineM * X_WC.linear().col(0);
+    Eigen::Isometry3d X_WCr = X_WC;
+    X_WCr.translation() += kBaselineM * X_WC.linear().col(0);
     cv::Mat left_m, right_m;
     renderer.draw({kCamera, X_WC, Channel::grey}, pair.left);
-    renderer.draw({kCamera, X_WR, Channel::grey}, pair.right);
+    renderer.draw({kCamera, X_WCr, Channel::grey}, pair.right);
     const auto number = static_cast<int64_t>(pairs.size());
     left_sensor.apply(number, pair.left);
     right_sensor.apply(number, pair.right);
     renderer.draw({kCamera, X_WC, Channel::depth}, left_m);
-    renderer.draw({kCamera, X_WR, Channel::depth}, right_m);
+    renderer.draw({kCamera, X_WCr, Channel::depth}, right_m);
     pair.truth_px = true_disparity(left_m, right_m, pair.disparities_px);
   }
   return pairs;
@@ -157,7 +157,7 @@ std::vector<Shares> scores(const Pairs& worlds, Method method, const std::string
   return all;
 }
 
-// Nothing is drawn that a sensor would spoil, so that pairs are easier without noise. The noise is that of a small
+// The images have no sensor noise, so that pairs are easier. The noise is that of a small
 // camera in dull light: four grey levels at mid-grey.
 TEST(RenderedStereo, IsAsHardToMatchAsRealPairsWithinAThird) {
   if (!std::filesystem::exists(HEDGEHOP_SOURCE_DIR "/../shared/data/vision/stereo")) GTEST_SKIP() << "no real pairs";

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/loop/episode.h"
+#include "sim/simulation/simulation.h"
 
 namespace hedgehop::sim {
 namespace {

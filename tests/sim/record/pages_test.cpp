@@ -31,7 +31,7 @@ class RunFolder : public TemporaryFolder {
 TEST(ReportInBrowser, OpensAloneAndFollowsThePointer) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;
-  write_report(run.path());
+  write_report(run.path(), read_run(run.path()));
   const PageVisit page = visit(run.path() / "report.html", R"js(
     const canvas = document.querySelector('#plan canvas'), box = canvas.getBoundingClientRect();
     canvas.dispatchEvent(new PointerEvent('pointermove', {clientX: box.x + box.width / 2, clientY: box.y + box.height / 2}));
@@ -50,9 +50,9 @@ TEST(ReportInBrowser, ShowsTheMapBesideTheTruthWhereAFlightHasOne) {
   flight.map.points = {{{40, 10, -20}, covariance, true}, {{60, -30, -5}, covariance, false}};
   flight.map.corners = {{{41, 10, -20}, true, true}, {{20, 40, -20}, true, false}};
   flight.map.course_NE = {{0, 0}, {100, 0}};
-  flight.map.ways = {{2.0, {{30, 20}, {100, 0}}}};
+  flight.map.paths = {{2.0, {{30, 20}, {100, 0}}}};
   write_result_files(run.path(), {.scenario = "map", .scenario_yaml = run.yaml()}, flight);
-  write_report(run.path());
+  write_report(run.path(), read_run(run.path()));
   const PageVisit page = visit(run.path() / "report.html", R"js(
     const canvas = document.querySelector('#landmarks canvas'), box = canvas.getBoundingClientRect();
     const tip = document.querySelector('#landmarks .tip'), met = {};
@@ -72,7 +72,7 @@ TEST(ReportInBrowser, ShowsTheMapBesideTheTruthWhereAFlightHasOne) {
 TEST(ReportInBrowser, HasNoMapWhereAFlightHasNone) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;
-  write_report(run.path());
+  write_report(run.path(), read_run(run.path()));
   const PageVisit page = visit(run.path() / "report.html", "return document.getElementById('landmarks') === null;");
   EXPECT_THAT(page.errors, IsEmpty());
   EXPECT_TRUE(page.value.get<bool>());
@@ -81,7 +81,7 @@ TEST(ReportInBrowser, HasNoMapWhereAFlightHasNone) {
 TEST(ReplayInBrowser, PutsTheVehicleWhereTheTrajectoryHasIt) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;
-  write_replay(run.path());
+  write_replay(run.path(), read_run(run.path()));
   const PageVisit page = visit(run.path() / "replay.html", R"js(
     const time = document.getElementById('time'), places = [];
     for (const t of [0, 3.21, 7.5]) {
@@ -121,7 +121,7 @@ TEST(ReplayInBrowser, CeilingDoesNotHideTheFlightBelowIt) {
         .length_m = 500.0, .width_m = 500.0, .height_m = 40.0, .wall_thickness_m = thickness_m, .texture_size_px = 64};
     write_result_files(run.path(), {.scenario = "hall", .seed = 9, .scenario_yaml = to_yaml(scenario)},
                        fake_flight(10.0, 1));
-    write_replay(run.path());
+    write_replay(run.path(), read_run(run.path()));
     const PageVisit page = visit(run.path() / "replay.html", R"js(
       const camera = document.getElementById('camera');
       camera.value = 'above';
@@ -136,7 +136,7 @@ TEST(ReplayInBrowser, CeilingDoesNotHideTheFlightBelowIt) {
 TEST(ReplayInBrowser, PlaysPausesAndChangesCameraAndSpeed) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;
-  write_replay(run.path());
+  write_replay(run.path(), read_run(run.path()));
   const PageVisit page = visit(run.path() / "replay.html", R"js(
     const frames = async (n) => { while (n--) await new Promise(requestAnimationFrame); };
     const set = (id, value) => {

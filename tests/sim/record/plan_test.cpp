@@ -50,9 +50,9 @@ TEST(Plan, ShowsTheWayOfAMoverAsWideAsTheMover) {
   mover.motion =
       scenes::WaypointMotion{.points = {{1, 2, 0}, {3, 4, 0}}, .repeat = scenes::WaypointMotion::Repeat::round};
   mover.solids = {scenes::mesh::solid_of("van", Eigen::AlignedBox3d(Vector3d(-3, -4, -2), Vector3d(3, 4, 0)))};
-  const MoverWay way = mover_ways({mover}).front();
-  EXPECT_EQ(way.corners_NE_m, (std::vector<Vector2d>{{1, 2}, {3, 4}, {1, 2}}));
-  EXPECT_NEAR(way.radius_m, 5.0, kFloatM);
+  const MoverPath path = mover_paths({mover}).front();
+  EXPECT_EQ(path.corners_NE_m, (std::vector<Vector2d>{{1, 2}, {3, 4}, {1, 2}}));
+  EXPECT_NEAR(path.radius_m, 5.0, kFloatM);
 }
 
 }  // namespace

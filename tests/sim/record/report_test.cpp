@@ -5,19 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <regex>
 
-#include "scenes/generators.h"
-#include "sim/loop/random_stream.h"
+#include "sim/record/flight_columns.h"
 #include "sim/record/panels.h"
 #include "sim/record/plan.h"
 #include "sim/record/report_data.h"
 #include "sim/record/report_page.h"
 #include "sim/record/result_files.h"
 #include "sim/record/whole_file.h"
-#include "sim/scenario/scenario.h"
+#include "sim/scenario/flight_parts.h"
 #include "tests/sim/record/fake_flight.h"
 #include "tests/sim/record/temporary_folder.h"
 
@@ -53,21 +54,20 @@ TEST(Plan, CeilingIsAboveAndKerbBelowTheFlight) {
 
 // --- Panels
 
-/// Tables of a made-up flight, as files.
+/// Tables of a made-up flight.
 class Tables {
  public:
-  explicit Tables(const Flight& flight) {
-    const RunInfo info{.scenario = "name", .version = "0", .scenario_yaml = "name: x\n"};
-    write_result_files(folder_.path(), info, flight);
-  }
-  CsvTable trajectory() const { return CsvTable(folder_.path() / "trajectory.csv"); }
-  CsvTable decisions() const { return CsvTable(folder_.path() / "decisions.csv"); }
-  nlohmann::ordered_json result() const {
-    return nlohmann::ordered_json::parse(read_file_whole(folder_.path() / "result.json"));
-  }
+  explicit Tables(const Flight& flight)
+      : trajectory_(trajectory_columns(flight)),
+        decisions_(decision_columns(flight)),
+        result_(result_data({.scenario = "name"}, flight.result)) {}
+  const ColumnTable& trajectory() const { return trajectory_; }
+  const ColumnTable& decisions() const { return decisions_; }
+  const nlohmann::ordered_json& result() const { return result_; }
 
  private:
-  TemporaryFolder folder_;
+  ColumnTable trajectory_, decisions_;
+  nlohmann::ordered_json result_;
 };
 
 const Panel& panel(const std::vector<Panel>& panels, std::string_view title) {
@@ -134,7 +134,7 @@ TEST(Panels, WordsThatAllSignalsShareAreTheTitle) {
   EXPECT_EQ(panels[2].series[0].label, "north");
 }
 
-TEST(ReportData, SaysWhatNoOneMeasuredAsNull) {
+TEST(ReportData, WritesNullForWhatNoOneMeasured) {
   Flight flight = fake_flight(1.0, 1);
   for (TrajectoryRow& row : flight.trajectory) row.obstacle_clearance_m = std::numeric_limits<double>::infinity();
   const Tables tables(flight);
@@ -236,9 +236,9 @@ TEST(Report, DrawsTheSceneThatWasFlown) {
   constexpr uint64_t kSeed = 9;  // of the run; the file's own is another
   write_result_files(folder.path(), {.scenario = "city </script>", .seed = kSeed, .scenario_yaml = to_yaml(scenario)},
                      fake_flight(2.0, 1));
-  write_report(folder.path());
+  write_report(folder.path(), read_run(folder.path()));
   const nlohmann::json data = data_of(read_file_whole(folder.path() / "report.html"));
-  const scenes::Scene scene = scenes::make_scene(scenario.scene, stream_seed(kSeed, kSceneStream));
+  const scenes::Scene scene = build_scene(scenario.scene, kSeed);
   ASSERT_EQ(data.at("plan").at("footprints").size(), scene.solids.size());
   EXPECT_EQ(data.at("plan").at("footprints")[3].at("name"), scene.solids[3].name);
   EXPECT_EQ(data.at("plan").at("goal").at("n"), scenario.goal->north_m);
@@ -247,10 +247,28 @@ TEST(Report, DrawsTheSceneThatWasFlown) {
   EXPECT_EQ(data.at("scenario_yaml"), to_yaml(scenario));
 }
 
+TEST(Report, OfAFlightInMemoryEqualsThatOfItsFiles) {
+  const TemporaryFolder folder;
+  const Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_city_0_light.yaml");
+  const RunInfo info{.scenario = "city", .seed = 9, .scenario_yaml = to_yaml(scenario)};
+  Flight flight = fake_flight(2.0, 1);
+  flight.trajectory[3].v_WB_W_cmd.reset();
+  flight.trajectory[4].obstacle_clearance_m = std::numeric_limits<double>::infinity();
+  flight.map.points = {{{40, 10, -20}, Eigen::Matrix3d::Identity(), true}};
+  write_result_files(folder.path(), info, flight);
+  for (const auto& [write, page] : {std::pair(write_report, "report.html"), std::pair(write_replay, "replay.html")}) {
+    write(folder.path(), run_record(scenario, info, flight));
+    const std::string in_memory = read_file_whole(folder.path() / page);
+    std::filesystem::remove(folder.path() / page);
+    write(folder.path(), read_run(folder.path()));
+    EXPECT_EQ(read_file_whole(folder.path() / page) == in_memory, true) << page;
+  }
+}
+
 TEST(Report, NamesTheFileThatIsMissing) {
   const TemporaryFolder folder;
   try {
-    write_report(folder.path());
+    read_run(folder.path());
     FAIL() << "nothing was thrown";
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("result.json: No such file"));

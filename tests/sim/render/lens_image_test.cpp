@@ -284,13 +284,13 @@ TEST(LensImage, AStereoPairSeesAPointOnOneRowAtItsDisparity) {
     const vision::camera::PinholeCamera camera = rig.cameras[0].model().pinhole();
     // The spot stands parallel to the images' plane, somewhere in the left one.
     const double z_m = uniform(random, 6.0, 14.0);
-    const Eigen::Vector3d p_L = z_m * camera.ray({uniform(random, 80, 290), uniform(random, 30, 210)});
-    Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();
-    X_WL.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-    X_WL.translation() = -(X_WL.linear() * p_L);
-    const Eigen::Isometry3d X_WR = X_WL * rig.cameras[0].X_BC().inverse() * rig.cameras[1].X_BC();
-    renderer.draw({camera, X_WL, Channel::grey}, left);
-    renderer.draw({camera, X_WR, Channel::grey}, right);
+    const Eigen::Vector3d p_C = z_m * camera.ray({uniform(random, 80, 290), uniform(random, 30, 210)});
+    Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
+    X_WC.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+    X_WC.translation() = -(X_WC.linear() * p_C);
+    const Eigen::Isometry3d X_WCr = X_WC * rig.cameras[0].X_BC().inverse() * rig.cameras[1].X_BC();
+    renderer.draw({camera, X_WC, Channel::grey}, left);
+    renderer.draw({camera, X_WCr, Channel::grey}, right);
     const Eigen::Vector2d shift_px = centroid(left) - centroid(right);
     worst_row_px = std::max(worst_row_px, std::abs(shift_px.y()));
     EXPECT_NEAR(shift_px.x(), camera.focal_x_px * pair.baseline_m / z_m, kPinholeRmsPx) << "trial " << trial;

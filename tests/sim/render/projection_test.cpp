@@ -83,12 +83,12 @@ TEST(Projection, StereoSeesAPointOnOneRowAtItsDisparity) {
   world.add_quad({12.0f, 0.3f, -6.0f}, {0, 1.2f, 0}, {0, 0, 1.2f});
   Renderer renderer(world.scene);
   const auto camera = vision::camera::PinholeCamera::from_fov(320, 240, 1.0);
-  const Eigen::Isometry3d X_WL = look_at({0, 0, -5}, {1, 0, -5});
+  const Eigen::Isometry3d X_WC = look_at({0, 0, -5}, {1, 0, -5});
   const double baseline_m = 0.5;
-  const Eigen::Isometry3d X_WR = X_WL * Eigen::Translation3d(baseline_m, 0, 0);
+  const Eigen::Isometry3d X_WCr = X_WC * Eigen::Translation3d(baseline_m, 0, 0);
   cv::Mat left, right;
-  renderer.draw({camera, X_WL, Channel::grey}, left);
-  renderer.draw({camera, X_WR, Channel::grey}, right);
+  renderer.draw({camera, X_WC, Channel::grey}, left);
+  renderer.draw({camera, X_WCr, Channel::grey}, right);
   const Eigen::Vector2d shift_px = centroid(left) - centroid(right);
   EXPECT_NEAR(shift_px.y(), 0.0, 0.01);
   EXPECT_NEAR(shift_px.x(), camera.focal_x_px * baseline_m / 12.0, kSubPixel);

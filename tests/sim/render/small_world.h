@@ -32,7 +32,7 @@ class SmallWorld {
   void close_chunk(bool fills_box_to_ground);
 };
 
-/// Camera at p_WC looking at a point, turned by roll about its axis.
+/// Camera at p_WC looking at a point, rotated by roll about its axis.
 Eigen::Isometry3d look_at(const Eigen::Vector3d& p_WC, const Eigen::Vector3d& target_W, double roll_rad = 0.0);
 
 /// A city on a jittered grid with streets of about 10 m, heights 8 to 40 m, on tiles of ground, centered on the origin.

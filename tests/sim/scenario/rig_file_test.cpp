@@ -114,7 +114,7 @@ TEST(RigFile, AScenarioNamesThePlaceOfAFaultyLens) {
                   std::vector<std::string>{"rig.cameras.2.model=fisheye", "rig.cameras.2.distortion=[1, 2]"});
   });
   EXPECT_THAT(faults, testing::Contains(HasSubstr("--set rig.cameras.2.distortion: 'rig.cameras.2.distortion'")));
-  EXPECT_THAT(faults, testing::Contains(HasSubstr("needs camera 'front' to be a pinhole without distortion")));
+  EXPECT_THAT(faults, testing::Contains(HasSubstr("needs camera 'front' to be an undistorted pinhole")));
 }
 
 TEST(RigFile, AStereoPairIsTwoParallelCamerasABaselineApart) {
@@ -134,8 +134,8 @@ TEST(RigFile, AStereoPairIsTwoParallelCamerasABaselineApart) {
   const CameraConfig &left = *rig.find("left"), &right = *rig.find("right");
   EXPECT_EQ(left.model(), right.model());
   EXPECT_EQ(left.X_BC().linear(), right.X_BC().linear());
-  const Eigen::Isometry3d X_LR = left.X_BC().inverse() * right.X_BC();
-  EXPECT_NEAR((X_LR.translation() - Eigen::Vector3d(0.5, 0, 0)).norm(), 0.0, 1e-15);
+  const Eigen::Isometry3d X_CCr = left.X_BC().inverse() * right.X_BC();
+  EXPECT_NEAR((X_CCr.translation() - Eigen::Vector3d(0.5, 0, 0)).norm(), 0.0, 1e-15);
   const Eigen::Vector3d middle = 0.5 * (left.X_BC().translation() + right.X_BC().translation());
   EXPECT_NEAR((middle - Eigen::Vector3d(0.2, 0, 0)).norm(), 0.0, 1e-15);
   EXPECT_EQ(rig.find("rear_right")->channel, CameraConfig::Channel::color);

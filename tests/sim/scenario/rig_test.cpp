@@ -15,7 +15,7 @@ void expect_axes(const CameraConfig& camera, const Eigen::Vector3d& forward, con
   EXPECT_LT((R_BC.col(1) - forward.cross(right)).norm(), kRoundOff);
 }
 
-CameraConfig turned(double yaw_deg, double pitch_deg, double roll_deg) {
+CameraConfig mounted(double yaw_deg, double pitch_deg, double roll_deg) {
   constexpr double kRadPerDeg = std::numbers::pi / 180.0;
   CameraConfig camera;
   camera.yaw_rad = yaw_deg * kRadPerDeg;
@@ -26,14 +26,14 @@ CameraConfig turned(double yaw_deg, double pitch_deg, double roll_deg) {
 
 TEST(Rig, MountsCamerasInTheDirectionsTheirAnglesSay) {
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
-  expect_axes(turned(0, 0, 0), x, y);
-  expect_axes(turned(90, 0, 0), y, -x);    // looks right
-  expect_axes(turned(-90, 0, 0), -y, x);   // looks left
-  expect_axes(turned(180, 0, 0), -x, -y);  // looks aft
-  expect_axes(turned(0, -90, 0), z, y);    // looks down, its top towards the nose
-  expect_axes(turned(0, 90, 0), -z, y);    // looks up
-  expect_axes(turned(0, 0, 90), x, z);     // rolled clockwise: its right points down
-  expect_axes(turned(90, -90, 0), z, -x);  // yaw first, then pitch about the camera's own right
+  expect_axes(mounted(0, 0, 0), x, y);
+  expect_axes(mounted(90, 0, 0), y, -x);    // looks right
+  expect_axes(mounted(-90, 0, 0), -y, x);   // looks left
+  expect_axes(mounted(180, 0, 0), -x, -y);  // looks aft
+  expect_axes(mounted(0, -90, 0), z, y);    // looks down, its top towards the nose
+  expect_axes(mounted(0, 90, 0), -z, y);    // looks up
+  expect_axes(mounted(0, 0, 90), x, z);     // rolled clockwise: its right points down
+  expect_axes(mounted(90, -90, 0), z, -x);  // yaw first, then pitch about the camera's own right
 }
 
 TEST(Rig, PlacesCamerasAtTheirMountingPosition) {

@@ -87,7 +87,7 @@ TEST_F(Schema, SaysUnitBoundsAndDefaultOfAKey) {
 }
 
 /// Each selector must be known to the rule by which a laid-over choice replaces a map, and no field may bear its name,
-/// but in a choice that another key tells: there, too, another name makes another choice.
+/// but in a choice that another key identifies: there, too, another name makes another choice.
 TEST(Selectors, AreTheOnesThatLayingOverKnows) {
   const std::vector<std::string_view> known(std::begin(kSelectors), std::end(kSelectors));
   const auto is_known = [&](std::string_view key) { return std::find(known.begin(), known.end(), key) != known.end(); };

@@ -6,13 +6,10 @@
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "scenes/worlds/highrise.h"
-#include "sim/loop/episode.h"
 #include "sim/reproduce/corner_flight.h"
-#include "sim/scenario/input_error.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -64,51 +61,6 @@ TEST(CornersInSight, AreAllInTheImageThroughWalls) {
   EXPECT_EQ(std::ranges::count(seen, true), 8);
   const auto aside = corners_in_sight(corners, camera, looking_at({-50, 3, -40}, {-100, 0, -9}), nullptr, 0.0);
   EXPECT_EQ(std::ranges::count(aside, true), 0);
-}
-
-TEST(ProjectedCorners, ScatterByHalfAPixelRoundTheProjections) {
-  const std::vector<Vector3d> corners = scenes::worlds::highrise_corners(kCube);
-  const vision::camera::Camera camera = vision::camera::PinholeCamera::from_fov(640, 640, std::numbers::pi / 3.0);
-  const Eigen::Isometry3d X_WC = looking_at({-50, 3, -40}, {0, 0, -9});
-  ProjectedCorners projected(corners, 11);
-  constexpr int kImages = 500;
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero(), squares = Eigen::Vector2d::Zero();
-  for (int i = 0; i < kImages; ++i) {
-    const auto pixels = projected.project(camera, X_WC);
-    ASSERT_EQ(pixels.size(), corners.size());
-    for (size_t k = 0; k < corners.size(); ++k) {
-      const Eigen::Vector2d off = pixels[k] - *camera.project(X_WC.inverse() * corners[k]);
-      sum += off;
-      squares += off.cwiseAbs2();
-    }
-  }
-  const double count = static_cast<double>(kImages * corners.size());
-  const double kFiveSigmasPx = 5.0 * 0.5 / std::sqrt(count);
-  EXPECT_LT((sum / count).cwiseAbs().maxCoeff(), kFiveSigmasPx);
-  EXPECT_NEAR(std::sqrt(squares.x() / count), 0.5, 0.03);
-  EXPECT_NEAR(std::sqrt(squares.y() / count), 0.5, 0.03);
-}
-
-/// A scenario of the thesis whose module is given the true corners, cut short.
-Scenario with_true_corners(const std::string& name) {
-  const std::vector<std::string> overrides = {"duration=8", "film.enabled=false", "avoidance.front_end=corners"};
-  return load_scenario(HEDGEHOP_SOURCE_DIR "/configs/" + name, overrides);
-}
-
-double metric(const Flight& flight, const std::string& name) {
-  const auto found = std::ranges::find(flight.result.metrics, name, &MetricValue::name);
-  return found == flight.result.metrics.end() ? std::nan("") : found->value;
-}
-
-TEST(TrueCorners, GiveAMapOfAllTheCubeAndTheResultSaysSo) {
-  const Flight flight = fly(with_true_corners("shah2009_cube_lateral.yaml"));
-  EXPECT_EQ(metric(flight, "landmarks"), 8.0);  // those that walls hide, too
-  EXPECT_EQ(metric(flight, "true_corners"), 1.0);
-  EXPECT_EQ(flight.decisions.back().signals.at(0), 8.0) << flight.signals.at(0).name;
-}
-
-TEST(TrueCorners, OfASceneThatDoesNotTellThemAreRefused) {
-  EXPECT_THROW(fly(with_true_corners("shah2009_wall_textured.yaml")), InputError);
 }
 
 }  // namespace

@@ -79,5 +79,24 @@ TEST(MapScore, SaysNothingOfAModuleWithoutAMap) {
   EXPECT_TRUE(score.metrics().empty());
 }
 
+TEST(MapScore, MarksWhichRecordedPointsAreTrue) {
+  MapScore score({{100, 0, 0}}, Vector3d::Zero());
+  MapRecord map;
+  map.points = {{{50, 50, 0}, Eigen::Matrix3d::Identity(), {}}, {{101, 0, 0}, Eigen::Matrix3d::Identity(), {}}};
+  score.add(20.0, std::vector<Vector3d>{map.points[0].p_W, map.points[1].p_W}, {true});
+  score.complete(map);
+  EXPECT_EQ(map.points[0].is_true, std::optional(false));
+  EXPECT_EQ(map.points[1].is_true, std::optional(true));
+  EXPECT_EQ(map.corners.size(), 1U);
+}
+
+TEST(MapScore, LeavesTheRecordOfAModuleWithoutAMapEmpty) {
+  MapScore score({{100, 0, 0}}, Vector3d::Zero());
+  score.add(20.0, {}, {true});
+  MapRecord map;
+  score.complete(map);
+  EXPECT_TRUE(map.corners.empty());
+}
+
 }  // namespace
 }  // namespace hedgehop::sim

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 using std::numbers::pi;
 
-// A place that flow has told, and of which the rest does not matter.
+// A point that flow has measured; its other members do not matter.
 WallPoint at(double x_m, double y_m, Region region, RejectionReason rejection = RejectionReason::none) {
   WallPoint point;
   point.p_CP_H = {x_m, y_m, 0.0};
@@ -139,7 +139,8 @@ TEST(WallPoint, RejectionReasonsNameWhatIsWrong) {
   EXPECT_EQ(rejection(good), RejectionReason::too_slow);
   limits = {};
 
-  // A match on the wrong side of the corner moves the other way round the circle: tangential, and yet impossible.
+  // A match on the wrong side of the corner moves in the opposite direction along the circle: tangential, and yet
+  // impossible.
   flow::RayPair backwards = good;
   backwards.after_px = 2.0 * good.before_px - good.after_px;
   backwards.after_C = flight.camera.ray(backwards.after_px).value();

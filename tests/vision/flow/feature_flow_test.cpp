@@ -35,7 +35,7 @@ Eigen::Isometry3d pose(const Vector3d& p_WB, const Vector3d& rpy_rad) {
 }
 
 struct Seen {
-  std::vector<RayPair> pairs, turned;  ///< without and with the newer image turned back
+  std::vector<RayPair> pairs, derotated;  ///< without and with the newer image derotated
   Eigen::Isometry3d X_WC1, X_WC2;
   Eigen::Matrix3d R_C1C2() const { return X_WC1.linear().transpose() * X_WC2.linear(); }
 };
@@ -43,8 +43,8 @@ struct Seen {
 Seen see(const Eigen::Isometry3d& X_WB1, const Eigen::Isometry3d& X_WB2) {
   static const camera::Camera camera = whole_fisheye();
   static const auto masks = corridor::region_masks(camera, looking_down(), {}, 8);
-  static const camera::ImageDerotator turner(camera,
-                                             cv::Mat(camera.height_px, camera.width_px, CV_8UC1, cv::Scalar(255)));
+  static const camera::ImageDerotator derotator(camera,
+                                                cv::Mat(camera.height_px, camera.width_px, CV_8UC1, cv::Scalar(255)));
   Seen seen{{}, {}, X_WB1 * looking_down(), X_WB2 * looking_down()};
   const StraightCorridor corridor;
   const cv::Mat older = draw_planes_through(camera, seen.X_WC1, corridor.planes(), texture());
@@ -55,7 +55,7 @@ Seen see(const Eigen::Isometry3d& X_WB1, const Eigen::Isometry3d& X_WB2) {
     }
   };
   follow(newer, seen.pairs);
-  follow(turner.derotate(newer, seen.R_C1C2()), seen.turned);
+  follow(derotator.derotate(newer, seen.R_C1C2()), seen.derotated);
   return seen;
 }
 
@@ -87,17 +87,17 @@ TEST(FeatureFlow, PureRotationLeavesLessThanATwentiethOfAPixel) {
     const Vector3d before_rad = random_angles(random, 0.1), change_rad = random_angles(random, turn_rad);
     const Vector3d p_WB(0.0, 0.0, -kHeightM);
     const Seen seen = see(pose(p_WB, before_rad), pose(p_WB, before_rad + change_rad));
-    ASSERT_GT(seen.turned.size(), 80u);
-    const double turned_px = median_flow_px(seen.turned, Eigen::Matrix3d::Identity());
-    EXPECT_LT(turned_px, 0.05) << change_rad.transpose();
+    ASSERT_GT(seen.derotated.size(), 80u);
+    const double derotated_px = median_flow_px(seen.derotated, Eigen::Matrix3d::Identity());
+    EXPECT_LT(derotated_px, 0.05) << change_rad.transpose();
     EXPECT_GT(median_flow_px(seen.pairs, Eigen::Matrix3d::Identity()), 1.0);  // there was something to take away
-    // Rays turned afterwards, as printed: more is left, for windows turn.
+    // Rays rotated afterwards, as printed: the residual is larger, for windows rotate.
     const double rays_px = median_flow_px(seen.pairs, seen.R_C1C2());
     EXPECT_LT(rays_px, 0.25) << change_rad.transpose();
-    worst_turned_px = std::max(worst_turned_px, turned_px);
+    worst_turned_px = std::max(worst_turned_px, derotated_px);
     worst_rays_px = std::max(worst_rays_px, rays_px);
   }
-  RecordProperty("turned_px", std::to_string(worst_turned_px));
+  RecordProperty("derotated_px", std::to_string(worst_turned_px));
   RecordProperty("rays_px", std::to_string(worst_rays_px));
 }
 
@@ -106,10 +106,10 @@ TEST(FeatureFlow, MixedMotionMeetsTheTrueFlowAndDistance) {
   const StraightCorridor corridor;
   const Seen seen =
       see(pose({0.0, 0.3, -kHeightM}, {0.02, -0.03, 0.1}), pose({0.08, 0.31, -1.51}, {-0.02, 0.01, 0.15}));
-  ASSERT_GT(seen.turned.size(), 80u);
+  ASSERT_GT(seen.derotated.size(), 80u);
   const Vector3d traveled = seen.X_WC1.linear().transpose() * (seen.X_WC2.translation() - seen.X_WC1.translation());
   std::vector<double> errors_px, ranges;
-  for (const RayPair& pair : seen.turned) {
+  for (const RayPair& pair : seen.derotated) {
     const Vector3d ray_W = seen.X_WC1.linear() * pair.before_C;
     const Vector3d p_WP = seen.X_WC1.translation() + corridor.range_m(seen.X_WC1.translation(), ray_W) * ray_W;
     const Vector3d p_C2P_C1 = seen.X_WC1.linear().transpose() * (p_WP - seen.X_WC2.translation());

@@ -33,7 +33,7 @@ TEST(FlowRange, EveryPatchTellsItsOwnDepthOnASlantedWallForAnyMotion) {
       const Eigen::Vector3d ray = camera().ray(vector.center_px);
       const double depth_m = normal.dot(on_plane) / normal.dot(ray);
       const Eigen::Vector2d b(-v_WC_C.x() + ray.x() * v_WC_C.z(), -v_WC_C.y() + ray.y() * v_WC_C.z());
-      if (b.norm() < 0.1 || depth_m < 0.5) continue;  // around the focus of expansion nothing is told
+      if (b.norm() < 0.1 || depth_m < 0.5) continue;  // around the focus of expansion nothing is measured
       EXPECT_NEAR(inverse_depth_per_m(vector, camera(), v_WC_C, kStepS, kTinyFloorMps), 1.0 / depth_m, 2e-3 / depth_m);
     }
   }
@@ -107,10 +107,10 @@ TEST(FlowRange, TheNearestTenthCountsInFullHoweverFarTheRestIs) {
       largest_range_m = std::max(largest_range_m, range_m);
     }
   }
-  const double told =
+  const double measured_per_m =
       nearest_inverse_range_per_m(inverse_ranges_per_m(field, camera(), v_WC_C, kStepS, kTinyFloorMps), 0.1);
-  EXPECT_GT(told, 0.99 / largest_range_m);
-  EXPECT_LT(told, 1.01 / least_range_m);
+  EXPECT_GT(measured_per_m, 0.99 / largest_range_m);
+  EXPECT_LT(measured_per_m, 1.01 / least_range_m);
 }
 
 TEST(FlowRange, BlankImagesAreFar) {

@@ -109,7 +109,7 @@ TEST(FlowVelocity, TellsItsOwnError) {
     ASSERT_TRUE(found);
     squares += (found->v_WB_B_xy_meas - flight.v_WB_B.head<2>()).squaredNorm() / (found->sigma_mps * found->sigma_mps);
   }
-  const double ratio = squares / (2 * kTrials);  // 1 when errors are as large as told
+  const double ratio = squares / (2 * kTrials);  // 1 when errors match the reported sigma
   EXPECT_GT(ratio, 0.5);
   EXPECT_LT(ratio, 1.6);
 }

@@ -5,7 +5,7 @@
 #include "tests/vision/flow/flow_errors.h"
 #include "vision/flow/image_interpolation_flow.h"
 
-// Which vectors may be believed.
+// Which vectors are valid.
 namespace hedgehop::vision::flow {
 namespace {
 

@@ -13,7 +13,7 @@
 namespace hedgehop::vision::flow {
 namespace {
 
-/// A room round B, turned against H: four walls by the directions and distances of their nearest points.
+/// A room around B, rotated against H: four walls by the directions and distances of their nearest points.
 struct Room {
   std::vector<Eigen::Vector2d> n;
   std::vector<double> d_m;
@@ -30,16 +30,16 @@ struct Room {
 
 Room random_room(std::mt19937_64& random) {
   std::uniform_real_distribution<double> turn(0.0, M_PI / 2.0), distance(1.2, 6.0);
-  const Eigen::Rotation2Dd turned(turn(random));
+  const Eigen::Rotation2Dd rotated(turn(random));
   Room room;
   for (int k = 0; k < 4; ++k) {
-    room.n.emplace_back(turned * Eigen::Rotation2Dd(k * M_PI / 2.0) * Eigen::Vector2d::UnitX());
+    room.n.emplace_back(rotated * Eigen::Rotation2Dd(k * M_PI / 2.0) * Eigen::Vector2d::UnitX());
     room.d_m.push_back(distance(random));
   }
   return room;
 }
 
-/// What four cameras, half a meter from B, see in their middle rows while B moves, `noise` laid over it.
+/// What four cameras, half a meter from B, see in their middle rows while B moves, with `noise` added.
 std::vector<WallObservation> look(const Room& room, const Eigen::Vector2d& v_H, double noise, std::mt19937_64& random) {
   constexpr int kPatches = 8;
   constexpr double kOffM = 0.4, kReach = 0.75;
@@ -85,7 +85,7 @@ TEST(WallFlow, FindsTheWallsOfARoomFromAMovingVehicle) {
     const auto observations = look(room, random_velocity(random), 0.0, random);
     const auto walls = walls_from_flow(observations, 0.1);
     for (size_t k = 0; k < 4; ++k) {
-      // A wall that shows in fewer than three neighboring patches cannot be told.
+      // A wall that shows in fewer than three neighboring patches cannot be detected.
       int run = 0, longest = 0;
       for (const WallObservation& observation : observations) {
         const Eigen::Vector2d met_H =

@@ -7,7 +7,6 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <random>
-#include <stdexcept>
 
 #include "tests/vision/camera/random_lenses.h"
 
@@ -17,6 +16,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr int kSizePx = 320;
+constexpr double kLeastAngleRad = 0.2;
 
 /// A polygon drawn with soft edges: at eight times the size, then averaged.
 void draw(cv::Mat& image, const std::vector<Vector2d>& corners_px, const cv::Scalar& color) {
@@ -66,7 +66,7 @@ TEST(EdgeCorners, OfAQuadrilateralAreItsCorners) {
     const std::vector<Vector2d> corners = random_quadrilateral(random);
     cv::Mat image(kSizePx, kSizePx, CV_8UC1, cv::Scalar(60));
     draw(image, corners, 160);
-    const std::vector<Vector2d> found = edge_corners(image, {});
+    const std::vector<Vector2d> found = edge_corners(image, kLeastAngleRad);
     EXPECT_EQ(found.size(), 4U) << "round " << round;
     constexpr double kLineFitPx = 1.0;
     for (const Vector2d& corner : corners) EXPECT_LT(distance_px(found, corner), kLineFitPx) << "round " << round;
@@ -82,7 +82,7 @@ TEST(EdgeCorners, StandOutFromPatchesOfGrass) {
     const std::vector<Vector2d> corners = random_quadrilateral(random);
     cv::Mat image = patches(static_cast<uint64_t>(round + 1), 3.0, 12.0);
     draw(image, corners, 145);
-    const std::vector<Vector2d> found = edge_corners(image, {});
+    const std::vector<Vector2d> found = edge_corners(image, kLeastAngleRad);
     for (const Vector2d& corner : corners) found_of_true += distance_px(found, corner) < 3.0;
     for (const Vector2d& place : found) found_elsewhere += distance_px(corners, place) >= 3.0;
 
@@ -103,8 +103,8 @@ TEST(EdgeCorners, RedAndGreenOfOneGreyAreToldApartInColor) {
   draw(image, corners, red);
   cv::Mat grey;
   cv::cvtColor(image, grey, cv::COLOR_RGB2GRAY);
-  EXPECT_TRUE(edge_corners(grey, {}).empty());
-  EXPECT_EQ(edge_corners(image, {}).size(), 4U);
+  EXPECT_TRUE(edge_corners(grey, kLeastAngleRad).empty());
+  EXPECT_EQ(edge_corners(image, kLeastAngleRad).size(), 4U);
 }
 
 TEST(EdgeCorners, LieWhereTwoLinesCross) {
@@ -117,7 +117,7 @@ TEST(EdgeCorners, LieWhereTwoLinesCross) {
       return ImageEdge{at + uniform(random, -2, 5) * along, at + uniform(random, 40, 90) * along};
     };
     const std::vector<ImageEdge> edges = {edge(first), edge(second)};
-    const auto corners = corners_of(edges, {});
+    const auto corners = corners_of(edges, kLeastAngleRad);
     ASSERT_EQ(corners.size(), 1U);
     EXPECT_LT((corners[0] - at).norm(), 1e-9);
   }
@@ -128,8 +128,6 @@ TEST(EdgeCorners, LieWhereTwoLinesCross) {
 TEST(EdgeCorners, AreFoundWhereALineBendsALittle) {
   constexpr double kDegree = M_PI / 180.0;
   std::mt19937_64 random(7);
-  EdgeCornerConfig config;
-  config.least_angle_rad = 8.0 * kDegree;
   for (int round = 0; round < 200; ++round) {
     const Vector2d at(uniform(random, 0, 300), uniform(random, 0, 300));
     const double turn = uniform(random, 0, 6.28), bend = uniform(random, 9.0 * kDegree, 20.0 * kDegree);
@@ -137,11 +135,11 @@ TEST(EdgeCorners, AreFoundWhereALineBendsALittle) {
     const auto second = [&](double s) {
       return Vector2d(at + s * Vector2d(std::cos(turn + bend), std::sin(turn + bend)));
     };
-    const double cut_px = uniform(random, 0.3, 0.9) * config.aside_px / std::sin(bend);
-    const double late_px = uniform(random, 1.0, 1.9) * config.aside_px / std::sin(bend);
+    const double cut_px = uniform(random, 0.3, 0.9) * kAsidePx / std::sin(bend);
+    const double late_px = uniform(random, 1.0, 1.9) * kAsidePx / std::sin(bend);
     const std::vector<ImageEdge> pieces = {
         {first(-200), first(-10)}, {first(-8), second(cut_px)}, {second(late_px), second(150)}};
-    const auto corners = corners_of(joined_edges(pieces, config), config);
+    const auto corners = corners_of(joined_edges(pieces), 8.0 * kDegree);
     ASSERT_EQ(corners.size(), 1U) << "round " << round;
     constexpr double kCutPieceTurnsTheLinePx = 2.0;
     EXPECT_LT((corners[0] - at).norm(), kCutPieceTurnsTheLinePx) << "round " << round;
@@ -150,17 +148,16 @@ TEST(EdgeCorners, AreFoundWhereALineBendsALittle) {
 
 TEST(EdgeCorners, AreNotWhereAnEdgePassesThroughAnothersEnd) {
   const std::vector<ImageEdge> edges = {{{0, 0}, {100, 0}}, {{50, 1}, {50, 80}}};
-  EXPECT_TRUE(corners_of(edges, {}).empty());
+  EXPECT_TRUE(corners_of(edges, kLeastAngleRad).empty());
 }
 
 TEST(EdgeCorners, AreNotWhereEdgesEndFarApart) {
   const std::vector<ImageEdge> edges = {{{0, 0}, {100, 0}}, {{130, 30}, {130, 90}}};
-  EXPECT_TRUE(corners_of(edges, {}).empty());
+  EXPECT_TRUE(corners_of(edges, kLeastAngleRad).empty());
 }
 
 TEST(JoinedEdges, APieceWiseLineIsOneEdge) {
   std::mt19937_64 random(6);
-  const EdgeCornerConfig config;
   for (int round = 0; round < 100; ++round) {
     const Vector2d from(uniform(random, 0, 300), uniform(random, 0, 300));
     const double angle = uniform(random, 0, 6.28), length_px = uniform(random, 60, 250);
@@ -172,11 +169,11 @@ TEST(JoinedEdges, APieceWiseLineIsOneEdge) {
       pieces.push_back({from + at_px * along + uniform(random, -0.1, 0.1) * aside,
                         from + end_px * along + uniform(random, -0.1, 0.1) * aside});
       if (random() % 2) std::swap(pieces.back().from_px, pieces.back().to_px);
-      at_px = end_px + uniform(random, 1, 0.8 * config.gap_px);
+      at_px = end_px + uniform(random, 1, 0.8 * kGapPx);
     }
     const double whole_px = length_px;
     std::ranges::shuffle(pieces, random);
-    const auto edges = joined_edges(pieces, config);
+    const auto edges = joined_edges(pieces);
     ASSERT_EQ(edges.size(), 1U) << "round " << round;
     constexpr double kWobblePx = 0.5;
     EXPECT_LT(std::min((edges[0].from_px - from).norm(), (edges[0].to_px - from).norm()), kWobblePx);
@@ -187,20 +184,7 @@ TEST(JoinedEdges, APieceWiseLineIsOneEdge) {
 TEST(JoinedEdges, ParallelLinesStayTwo) {
   const std::vector<ImageEdge> pieces = {
       {{0, 0}, {50, 0}}, {{60, 0}, {100, 0}}, {{0, 5}, {50, 5}}, {{60, 5}, {100, 5}}};
-  EXPECT_EQ(joined_edges(pieces, {}).size(), 2U);
-}
-
-TEST(EdgeCorners, RefuseABadConfig) {
-  const auto refuse = [](auto change) {
-    EdgeCornerConfig config;
-    change(config);
-    EXPECT_THROW(check(config), std::invalid_argument);
-  };
-  refuse([](EdgeCornerConfig& c) { c.least_edge_px = 0; });
-  refuse([](EdgeCornerConfig& c) { c.gap_px = -1; });
-  refuse([](EdgeCornerConfig& c) { c.aside_px = NAN; });
-  refuse([](EdgeCornerConfig& c) { c.beyond_px = -1; });
-  refuse([](EdgeCornerConfig& c) { c.least_angle_rad = 0; });
+  EXPECT_EQ(joined_edges(pieces).size(), 2U);
 }
 
 }  // namespace

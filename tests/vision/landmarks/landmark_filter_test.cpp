@@ -22,7 +22,7 @@ class StandingCamera : public testing::Test {
  protected:
   std::vector<int64_t> see(const std::vector<Vector2d>& corners_px) { return map_.update(corners_px, pose_, kImageS); }
 
-  LandmarkMapConfig config_{.misses = 5, .young_misses = 2, .confirm = 3};
+  LandmarkMapConfig config_{.misses = 5, .confirm = 3, .unconfirmed_misses = 2};
   camera::PinholeCamera camera_ = camera::PinholeCamera::from_fov(640, 480, std::numbers::pi / 6.0);
   CameraPose pose_{looking_at({-40, 0, -40}, {0, 0, 0}), 0.1, 1e-4};
   LandmarkMap map_{config_, camera_};
@@ -53,9 +53,9 @@ TEST_F(LandmarkMapOfAStandingCamera, ForgetsAConfirmedLandmarkAfterSoManyMisses)
   EXPECT_TRUE(map_.landmarks().empty());
 }
 
-TEST_F(LandmarkMapOfAStandingCamera, ForgetsAYoungLandmarkSooner) {
+TEST_F(LandmarkMapOfAStandingCamera, ForgetsAnUnconfirmedLandmarkSooner) {
   see({{320, 240}});
-  for (int i = 0; i < config_.young_misses; ++i) see({});
+  for (int i = 0; i < config_.unconfirmed_misses; ++i) see({});
   EXPECT_TRUE(map_.landmarks().empty());
 }
 
@@ -67,12 +67,12 @@ TEST_F(LandmarkMapOfAStandingCamera, KeepsALandmarkThatIsOutOfView) {
 }
 
 // A landmark's vagueness lowers its Z values, so that the least of them is often that of the landmark just begun.
-TEST(LandmarkMap, AYoungLandmarkBesideAKnownOneDoesNotTakeItsCorner) {
+TEST(LandmarkMap, AnUnconfirmedLandmarkBesideAConfirmedOneDoesNotTakeItsCorner) {
   std::mt19937_64 random(8);
   const camera::PinholeCamera camera = camera::PinholeCamera::from_fov(640, 480, std::numbers::pi / 6.0);
   const Eigen::Vector3d p_W(0, 0, 0);
   constexpr int kKnowing = 100, kBegun = 40;
-  LandmarkMap map({.misses = kKnowing, .young_misses = kKnowing, .confirm = 20}, camera);
+  LandmarkMap map({.misses = kKnowing, .confirm = 20, .unconfirmed_misses = kKnowing}, camera);
   int64_t known = -1;
   for (int i = 0; i < kKnowing; ++i) {
     const CameraPose pose{looking_at({-40, 0.3 * i, -40}, p_W), 1e-3, 1e-6};
@@ -87,9 +87,9 @@ TEST(LandmarkMap, AYoungLandmarkBesideAKnownOneDoesNotTakeItsCorner) {
   EXPECT_EQ(map.landmarks().size(), 2U);
 }
 
-// With errors that stay alike for 1 s, twenty images of 0.1 s are worth one of white errors. Across the line of
+// With errors correlated over 1 s, twenty images of 0.1 s are worth one of white errors. Across the line of
 // sight: a camera that stands still learns nothing of the depth.
-TEST(LandmarkMap, ImagesWithAlikeErrorsCountAsOne) {
+TEST(LandmarkMap, ImagesWithCorrelatedErrorsCountAsOne) {
   const camera::PinholeCamera camera = camera::PinholeCamera::from_fov(640, 480, std::numbers::pi / 6.0);
   const CameraPose pose{looking_at({-40, 0, -40}, {0, 0, 0}), 0.3, 0.0};
   const auto east_variance_after = [&](int images, double correlation_s) {
@@ -124,7 +124,7 @@ TEST(LandmarkMap, RefusesABadConfig) {
   refuse([](LandmarkMapConfig& c) { c.correlation_s = -1; });
   refuse([](LandmarkMapConfig& c) { c.gate = 0; });
   refuse([](LandmarkMapConfig& c) { c.misses = 0; });
-  refuse([](LandmarkMapConfig& c) { c.young_misses = 0; });
+  refuse([](LandmarkMapConfig& c) { c.unconfirmed_misses = 0; });
   refuse([](LandmarkMapConfig& c) { c.confirm = 0; });
 }
 

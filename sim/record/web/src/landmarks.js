@@ -1,7 +1,7 @@
 'use strict';
-// A module's map beside the truth, from above: landmarks with their ellipses, true corners, course, path, planned ways.
+// A module's map beside the truth, from above: landmarks with their ellipses, true corners, course, path, planned paths.
 
-const mapSigmas = 3, waysShown = 4;
+const mapSigmas = 3, pathsShown = 4;
 
 /** Half axes and turn, from north to east, of an ellipse of one standard deviation, m and rad. */
 function ellipseOf([nn, ne, ee]) {
@@ -38,9 +38,9 @@ class LandmarksView {
   drawOver(c) {
     this.trace(c, this.chart.course, 'soft', 1.5, [7, 5]);
     this.trace(c, this.path.n.map((n, i) => [n, this.path.e[i]]), 'c0', 2);
-    const ways = this.waysUntil(this.t ?? Infinity);
-    ways.forEach(({places, from}, i) => {
-      c.globalAlpha = (i + 1) / ways.length;
+    const paths = this.pathsUntil(this.t ?? Infinity);
+    paths.forEach(({places, from}, i) => {
+      c.globalAlpha = (i + 1) / paths.length;
       this.trace(c, [from, ...places], 'c3', 2, [3, 4]);
       for (const [n, e] of places.slice(0, -1)) this.map.dot(c, this.map.x(e), this.map.y(n), 3.5, themeColor('c3'));
     });
@@ -60,9 +60,9 @@ class LandmarksView {
   }
 
   /** The latest detours planned until an instant, each with the place where it was planned. */
-  waysUntil(t) {
-    const ways = this.chart.ways.filter((way) => way.t <= t && way.places.length > 1).slice(-waysShown);
-    return ways.map((way) => ({...way, from: this.placeAt(way.t)}));
+  pathsUntil(t) {
+    const paths = this.chart.paths.filter((path) => path.t <= t && path.places.length > 1).slice(-pathsShown);
+    return paths.map((path) => ({...path, from: this.placeAt(path.t)}));
   }
   placeAt(t) {
     const after = this.path.t.findIndex((s) => s >= t), row = after < 0 ? this.path.t.length - 1 : after;
@@ -96,7 +96,7 @@ class LandmarksView {
   }
 
   drawKey(host) {
-    const {points, corners, course, ways} = this.chart;
+    const {points, corners, course, paths} = this.chart;
     const entry = (color, text, style = 'solid') => {
       const item = host.appendChild(make('span'));
       const mark = item.appendChild(make('i'));
@@ -118,7 +118,7 @@ class LandmarksView {
     }
     entry('c0', 'flown');
     if (course.length) entry('soft', 'course', 'dashed');
-    if (ways.length) entry('c3', `planned, the latest ${waysShown}`, 'dotted');
+    if (paths.length) entry('c3', `planned, the latest ${pathsShown}`, 'dotted');
   }
 
   hover(x, y) {
@@ -136,10 +136,10 @@ class LandmarksView {
     map.showTip(x, y, lines.length ? lines : map.placeLines(x, y));
   }
 
-  /** Shows the ways planned until an instant; null for the end. */
+  /** Shows the paths planned until an instant; null for the end. */
   setTime(t) {
     if (t === this.t) return;
     this.t = t;
-    if (this.chart.ways.length) this.draw();
+    if (this.chart.paths.length) this.draw();
   }
 }

@@ -9,7 +9,7 @@ namespace hedgehop::sim {
 /// ones, so that adding a stream disturbs no other. FNV-1a of the name, mixed with the run's seed by splitmix64.
 uint64_t stream_seed(uint64_t run_seed, std::string_view stream_name);
 
-/// Streams named in one place, so that a report can rebuild the scene that was flown.
+/// Streams named in one place, so that a report can regenerate the scene of a flight.
 inline constexpr std::string_view kSceneStream = "scene";
 
 }  // namespace hedgehop::sim

@@ -1,4 +1,4 @@
-#include "sim/loop/random_stream.h"
+#include "sim/scenario/random_stream.h"
 
 #include <gtest/gtest.h>
 

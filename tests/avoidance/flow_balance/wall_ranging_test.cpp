@@ -1,4 +1,4 @@
-#include "avoidance/flow_balance/camera_walls.h"
+#include "avoidance/flow_balance/wall_ranging.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@ constexpr int kSizePx = 200;
 constexpr double kImageS = 0.04;
 constexpr double kNorthM = 4.0, kEastM = 2.5, kSouthM = 5.0, kWestM = 3.0;  // of the walls from the origin
 
-// Drawn images of a room, its walls across the heading; the flight leads aslant, and straight at a wall.
-TEST(CameraWalls, ARoomIsRangedFromTwoImagesOfFourCameras) {
+// Drawn images of a room, its walls across the heading; the path leads aslant, and straight at a wall.
+TEST(FitWalls, ARoomIsRangedFromTwoImagesOfFourCameras) {
   const std::vector<vision::TexturedPlane> room = {wall(kNorthM, 0.0, M_PI), wall(0.0, kEastM, -0.5 * M_PI),
                                                    wall(-kSouthM, 0.0, 0.0), wall(0.0, -kWestM, 0.5 * M_PI)};
   const vision::WaveTexture texture(7, 0.05, 0.8, 24);
@@ -35,7 +35,7 @@ TEST(CameraWalls, ARoomIsRangedFromTwoImagesOfFourCameras) {
       const auto frames = see(setup, navigation, k * 40'000'000, room, texture);
       for (size_t i = 0; i < cameras.size(); ++i) cameras[i].update(frames[i], Eigen::Vector3d::Zero());
     }
-    const auto walls = walls_round(cameras, navigation, 40'000'000, {});
+    const auto walls = fit_walls(cameras, navigation, 40'000'000);
     const Eigen::Vector2d moved_m = kImageS * v_mps;
     for (const Eigen::Vector2d& to_wall_m :
          {Eigen::Vector2d(kNorthM - moved_m.x(), 0.0), Eigen::Vector2d(0.0, kEastM - moved_m.y()),
@@ -49,7 +49,7 @@ TEST(CameraWalls, ARoomIsRangedFromTwoImagesOfFourCameras) {
         nearest = &found;
       }
       ASSERT_NE(nearest, nullptr);
-      // What is near is told well; all of it as well as the fit says.
+      // Near walls are measured well, all walls as well as the fit states.
       if (to_wall_m.norm() < 3.5) {
         EXPECT_LT(least, 0.1) << v_mps.transpose() << " to " << to_wall_m.transpose();
       }

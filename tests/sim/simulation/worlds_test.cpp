@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "sim/loop/episode.h"
+#include "sim/simulation/simulation.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -1,0 +1,90 @@
+#include "avoidance/flow_balance/side_cameras.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+#include "avoidance/flow_balance/flow_overlay.h"
+
+namespace hedgehop::avoidance::flow_balance {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// A patch without texture is taken as infinitely far, which suits open country and sky: a wall counts by the share of
+/// the view that it fills. Averages over the valid patches alone would be those of off-center patches, in which motion
+/// along the axis shows too.
+constexpr vision::flow::Missing kMissing = vision::flow::Missing::far_away;
+
+}  // namespace
+
+Needs SideCameras::needs() {
+  Needs needs;
+  for (const char* role : kSideRoles) needs.cameras.push_back({role, CameraNeed::Channel::grey, /*pinhole=*/true});
+  return needs;
+}
+
+std::vector<Signal> SideCameras::signals() {
+  std::vector<Signal> signals;
+  for (const std::string role : kSideRoles) {
+    signals.push_back({"flow_" + role + "_radps", "rad/s"});
+    signals.push_back({"loom_" + role + "_per_s", "1/s"});
+    signals.push_back({"valid_share_" + role, ""});
+    signals.push_back({"inverse_range_" + role + "_per_m", "1/m"});
+  }
+  return signals;
+}
+
+SideCameras::SideCameras(const Setup& setup, const vision::flow::ImageInterpolationConfig& flow, bool derotate) {
+  for (size_t i = 0; i < kSideCount; ++i) {
+    const auto mounted = std::find_if(setup.cameras.begin(), setup.cameras.end(),
+                                      [&](const MountedCamera& camera) { return camera.role == kSideRoles[i]; });
+    cameras_.emplace_back(*mounted, CameraFlow::Options{flow, derotate, kMissing});
+    const Eigen::Matrix3d& R_BC = mounted->X_BC.linear();
+    axes_H_[i] = R_BC.col(2).head<2>();
+    flows_[i] = {axes_H_[i], R_BC.col(0).head<2>()};
+  }
+}
+
+void SideCameras::update(const Observation& observation) {
+  now_ns_ = observation.t_ns;
+  for (size_t i = 0; i < kSideCount; ++i) {
+    fresh_[i] = false;
+    for (const CameraFrame& frame : observation.frames) {
+      if (frame.role == kSideRoles[i]) fresh_[i] |= cameras_[i].update(frame, observation.navigation.w_WB_B_est);
+    }
+    measures_[i] = cameras_[i].measure(observation.t_ns);
+    flows_[i].flow_radps = measures_[i] ? measures_[i]->flow_radps : 0.0;
+    flows_[i].loom_per_s = measures_[i] ? measures_[i]->loom_per_s : 0.0;
+    if (fresh_[i] && measures_[i]) least_valid_share_ = std::min(least_valid_share_, measures_[i]->valid_share);
+  }
+}
+
+std::vector<double> SideCameras::signal_values(
+    const std::optional<std::array<double, kSideCount>>& inverse_ranges_per_m) const {
+  std::vector<double> values;
+  for (size_t i = 0; i < kSideCount; ++i) {
+    const auto& measure = measures_[i];
+    values.push_back(measure ? measure->flow_radps : kUnknown);
+    values.push_back(measure ? measure->loom_per_s : kUnknown);
+    values.push_back(measure ? measure->valid_share : kUnknown);
+    values.push_back(measure && inverse_ranges_per_m ? (*inverse_ranges_per_m)[i] : kUnknown);
+  }
+  return values;
+}
+
+cv::Mat SideCameras::annotate(const Eigen::Vector2d& v_tgt_H, const Eigen::Vector2d& v_cmd_H, double speed_mps) const {
+  if (cameras_.front().image().empty()) return {};
+  std::vector<FlowTile> tiles;
+  for (size_t i = 0; i < kSideCount; ++i) {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "Q %+.3f rad/s  L %+.3f /s", flows_[i].flow_radps, flows_[i].loom_per_s);
+    tiles.push_back({kSideRoles[i], cameras_[i].image(), &cameras_[i].field(), text.data()});
+  }
+  const cv::Scalar blue(90, 170, 255), green(90, 230, 110);
+  const std::array<CompassArrow, 2> arrows = {CompassArrow{v_tgt_H, blue}, CompassArrow{v_cmd_H, green}};
+  constexpr double kMargin = 1.1;  // an arrow of that speed stays inside the circle
+  return flow_overlay(tiles, arrows, kMargin * speed_mps);
+}
+
+}  // namespace hedgehop::avoidance::flow_balance

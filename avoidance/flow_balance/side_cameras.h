@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "avoidance/camera_flow.h"
+#include "avoidance/flow_balance/balance_law.h"
+#include "avoidance/module.h"
+
+namespace hedgehop::avoidance::flow_balance {
+
+inline constexpr size_t kSideCount = 4;
+inline constexpr std::array<const char*, kSideCount> kSideRoles = {"left", "right", "front", "rear"};
+
+/// The optical axes, level parts in H, in the order of kSideRoles.
+using SideAxes = std::array<Eigen::Vector2d, kSideCount>;
+
+/// Flow and loom of four level cameras that look to the left, right, front and rear: what the modules of this folder
+/// share. Tilt is left out: the cameras' axes are taken level as they are mounted in B.
+class SideCameras {
+ public:
+  /// The cameras that a module with SideCameras needs.
+  static Needs needs();
+  /// Columns of signal_values().
+  static std::vector<Signal> signals();
+
+  /// @param setup  with a camera for each role. Throws as CameraFlow does.
+  SideCameras(const Setup& setup, const vision::flow::ImageInterpolationConfig& flow, bool derotate);
+
+  /// Takes in the newest images.
+  void update(const Observation& observation);
+
+  /// In the order of kSideRoles.
+  std::span<const CameraFlow> cameras() const { return cameras_; }
+  const SideAxes& axes_H() const { return axes_H_; }
+  /// Mean flow and loom at the last update, in the order of kSideRoles; 0 where measure() has none.
+  std::span<const SideFlow> flows() const { return flows_; }
+  /// Of the last update; nothing before a camera's second image, or when the last one is too old.
+  const std::optional<CameraFlow::Measure>& measure(size_t side) const { return measures_[side]; }
+  /// Did the last update bring a new measure?
+  bool fresh(size_t side) const { return fresh_[side]; }
+  /// Time of the last update.
+  int64_t now_ns() const { return now_ns_; }
+  /// Smallest share of valid patches so far, of any image; 1 before the first.
+  double least_valid_share() const { return least_valid_share_; }
+
+  /// Per side: flow, loom, share of valid patches and inverse range; NaN where unknown.
+  /// @param inverse_ranges_per_m  nothing where the module measures none.
+  std::vector<double> signal_values(const std::optional<std::array<double, kSideCount>>& inverse_ranges_per_m) const;
+  /// Returns the four images with their flow and a compass of velocities (CV_8UC3, RGB); empty before the first image.
+  /// @param v_tgt_H, v_cmd_H  target and command in H, m/s.  @param speed_mps  just inside the compass's circle, > 0.
+  cv::Mat annotate(const Eigen::Vector2d& v_tgt_H, const Eigen::Vector2d& v_cmd_H, double speed_mps) const;
+
+ private:
+  std::vector<CameraFlow> cameras_;
+  SideAxes axes_H_;
+  std::array<SideFlow, kSideCount> flows_;
+  std::array<std::optional<CameraFlow::Measure>, kSideCount> measures_;
+  std::array<bool, kSideCount> fresh_{};
+  int64_t now_ns_ = 0;
+  double least_valid_share_ = 1.0;
+};
+
+}  // namespace hedgehop::avoidance::flow_balance

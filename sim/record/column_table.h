@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace hedgehop::sim {
+
+/// A table in memory: named columns of equal length, each of numbers (NaN where unknown) or of words.
+class ColumnTable {
+ public:
+  void add(std::string name, std::vector<double> numbers);
+  void add(std::string name, std::vector<std::string> words);
+
+  size_t rows() const { return rows_; }
+  const std::vector<std::string>& names() const { return names_; }
+  /// A column of numbers or words. Throws std::runtime_error naming the column when it is missing or of the other kind.
+  const std::vector<double>& numbers(std::string_view name) const;
+  const std::vector<std::string>& words(std::string_view name) const;
+
+  /// The table as comma-separated values with a header line (RFC 4180). Numbers are the shortest that read back to the
+  /// same double; a number that is unknown (NaN) is an empty field.
+  std::string csv() const;
+
+ private:
+  using Column = std::variant<std::vector<double>, std::vector<std::string>>;
+  template <class Values>
+  const Values& column(std::string_view name) const;
+
+  std::vector<std::string> names_;
+  std::vector<Column> columns_;
+  size_t rows_ = 0;
+};
+
+/// Reads a CSV file. @param words  names of its columns of words; all others are numbers.
+/// Throws std::runtime_error naming file, line and column for what cannot be read.
+ColumnTable read_columns(const std::filesystem::path& file, std::span<const std::string_view> words = {});
+
+}  // namespace hedgehop::sim

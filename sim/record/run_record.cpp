@@ -1,0 +1,53 @@
+#include "sim/record/run_record.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "sim/record/flight_columns.h"
+#include "sim/record/map_data.h"
+#include "sim/record/whole_file.h"
+#include "sim/scenario/flight_parts.h"
+
+namespace hedgehop::sim {
+namespace {
+
+nlohmann::ordered_json read_json(const std::filesystem::path& file) {
+  try {
+    return nlohmann::ordered_json::parse(read_file_whole(file));
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+std::shared_ptr<const scenes::Scene> regenerate_scene(const Scenario& scenario, uint64_t seed) {
+  return std::make_shared<const scenes::Scene>(build_scene(scenario.scene, seed));
+}
+
+}  // namespace
+
+RunRecord run_record(const Scenario& scenario, const RunInfo& info, const Flight& flight) {
+  return {.scenario = scenario,
+          .scenario_yaml = info.scenario_yaml,
+          .scene = flight.scene ? flight.scene : regenerate_scene(scenario, info.seed),
+          .result = result_data(info, flight.result),
+          .trajectory = trajectory_columns(flight),
+          .decisions = decision_columns(flight),
+          .map = flight.map.empty() ? nlohmann::ordered_json(nullptr) : map_data(flight.map)};
+}
+
+RunRecord read_run(const std::filesystem::path& run_folder) {
+  RunRecord run;
+  run.result = read_json(run_folder / "result.json");
+  run.trajectory = read_columns(run_folder / "trajectory.csv");
+  run.decisions = read_columns(run_folder / "decisions.csv", kDecisionWords);
+  run.scenario = load_scenario(run_folder / "scenario.yaml");
+  run.scenario_yaml = read_file_whole(run_folder / "scenario.yaml");
+  run.scene = regenerate_scene(run.scenario, run.result.at("seed").get<uint64_t>());
+  if (const std::filesystem::path map = run_folder / "map.json"; std::filesystem::exists(map)) {
+    run.map = read_json(map);
+  }
+  return run;
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,45 @@
+#include "sim/scenario/flight_parts.h"
+
+#include <type_traits>
+#include <variant>
+
+#include "sim/fields/bounds.h"
+#include "sim/scenario/random_stream.h"
+
+namespace hedgehop::sim {
+
+dynamics::air::Wind build_wind(const Scenario& scenario) { return {scenario.wind, stream_seed(scenario.seed, "wind")}; }
+
+dynamics::Avionics build_avionics(const Scenario& scenario, const dynamics::VehicleConfig& carrier) {
+  return {scenario.avionics, carrier, 1.0 / static_cast<double>(scenario.physics_rate_hz),
+          [seed = scenario.seed](std::string_view name) { return stream_seed(seed, name); }};
+}
+
+std::unique_ptr<avoidance::Module> build_module(const AvoidanceConfig& config) {
+  return std::visit(
+      [](const auto& chosen) -> std::unique_ptr<avoidance::Module> {
+        if constexpr (std::is_same_v<std::decay_t<decltype(chosen)>, PluginConfig>) {
+          return nullptr;
+        } else {
+          return avoidance::make_module(chosen);
+        }
+      },
+      config);
+}
+
+scenes::Scene build_scene(const scenes::SceneConfig& config, uint64_t run_seed) {
+  return scenes::make_scene(config, stream_seed(run_seed, kSceneStream));
+}
+
+AircraftParts build_aircraft(const Scenario& scenario) {
+  return {build_part("vehicle", [&] { return dynamics::Vehicle(scenario.vehicle); }),
+          build_part("wind", [&] { return build_wind(scenario); }),
+          build_part("avionics", [&] { return build_avionics(scenario, scenario.vehicle); })};
+}
+
+FlightParts build_parts(const Scenario& scenario) {
+  build_part("scenario", [&] { return &fields::require_bounds(scenario); });
+  return {build_aircraft(scenario), build_part("avoidance", [&] { return build_module(scenario.avoidance); })};
+}
+
+}  // namespace hedgehop::sim

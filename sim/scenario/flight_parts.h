@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "avoidance/module.h"
+#include "dynamics/air/wind.h"
+#include "dynamics/avionics.h"
+#include "dynamics/vehicle.h"
+#include "scenes/scene.h"
+#include "sim/scenario/scenario.h"
+
+/// The parts of a flight that follow from the scenario's parameters alone. A part is built once: the reader builds it
+/// to check its parameters, and the flight uses what the reader built.
+namespace hedgehop::sim {
+
+/// The vehicle, its air and its avionics.
+struct AircraftParts {
+  dynamics::Vehicle vehicle;
+  dynamics::air::Wind wind;
+  dynamics::Avionics avionics;
+};
+
+struct FlightParts {
+  AircraftParts aircraft;
+  std::unique_ptr<avoidance::Module> module;  ///< null for a module of a shared library, which the flight loads
+};
+
+/// A scenario and its parts. Who changes a parameter of a part afterwards, or the seed, builds the parts again.
+struct LoadedScenario {
+  Scenario scenario;
+  FlightParts parts;
+};
+
+/// Reads a scenario, as strictly as load_scenario(), and keeps the parts that were built to check it.
+/// @param seed  replaces the file's. Throws InputError with every fault found.
+LoadedScenario load_flight(const std::filesystem::path& file, std::span<const std::string> overrides = {},
+                           std::optional<uint64_t> seed = {});
+
+/// Builds the parts of a scenario that no file was read for. Throw InputError beginning with the part's key, or with
+/// 'scenario' for a value out of its bounds.
+FlightParts build_parts(const Scenario& scenario);
+AircraftParts build_aircraft(const Scenario& scenario);
+
+/// Builders of single parts. Throw std::invalid_argument on values that cannot be.
+dynamics::air::Wind build_wind(const Scenario& scenario);
+/// @param carrier  the vehicle that the autopilot is designed for.
+dynamics::Avionics build_avionics(const Scenario& scenario, const dynamics::VehicleConfig& carrier);
+/// Null for a module of a shared library: reading a scenario loads no foreign code.
+std::unique_ptr<avoidance::Module> build_module(const AvoidanceConfig& config);
+
+/// The scene of a flight, by the run's own seed. Throws std::invalid_argument on a scene that cannot be.
+scenes::Scene build_scene(const scenes::SceneConfig& config, uint64_t run_seed);
+
+}  // namespace hedgehop::sim

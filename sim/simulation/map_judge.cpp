@@ -1,0 +1,26 @@
+#include "sim/simulation/map_judge.h"
+
+#include <utility>
+#include <vector>
+
+#include "sim/verdict/corner_sight.h"
+
+namespace hedgehop::sim {
+
+void MapJudge::on_map(const MapInstant& now) {
+  if (now.corners_W.empty()) return;
+  if (!score_) score_.emplace(std::vector(now.corners_W.begin(), now.corners_W.end()), now.p_WB_start_true);
+  std::vector<Eigen::Vector3d> points_W;
+  for (const avoidance::MapPoint& point : now.map.points) points_W.push_back(point.p_W);
+  score_->add(now.t_s, points_W,
+              corners_in_sight(now.corners_W, now.camera.model, now.X_WB_true * now.camera.X_BC,
+                               now.sees_through_walls ? nullptr : &now.world, now.t_s));
+}
+
+void MapJudge::conclude(Flight& flight) const {
+  if (!score_) return;
+  for (MetricValue& metric : score_->metrics()) flight.result.metrics.push_back(std::move(metric));
+  score_->complete(flight.map);
+}
+
+}  // namespace hedgehop::sim
