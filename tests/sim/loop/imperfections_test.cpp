@@ -27,7 +27,7 @@ TEST(Imperfections, OffByDefaultNoPixelChanges) {
   const cv::Mat before = image.clone();
   camera.apply(3, image);
   EXPECT_EQ(cv::norm(image, before, cv::NORM_INF), 0.0);
-  for (int64_t image = 0; image < 1000; ++image) EXPECT_EQ(camera.frame_fault(image), Imperfections::FrameFault::none);
+  for (int64_t frame = 0; frame < 1000; ++frame) EXPECT_EQ(camera.frame_fault(frame), Imperfections::FrameFault::none);
 }
 
 // Poisson: the variance of the electrons is their mean, so in levels it is mean * 255 / full well; rounding adds 1/12.
