@@ -65,7 +65,7 @@ class StereoCorridor final : public Module {
     R_WC_ = X_WC.linear();
     passed_->update(observation.t_ns, pyramid_, source_->geometry(), X_WC);
 
-    const Eigen::Vector3d p_CG_C = R_WC_.transpose() * (observation.goal.p_WG - navigation.p_WB_est);
+    const Eigen::Vector3d p_CG_C = X_WC.inverse() * observation.goal.p_WG;
     const bool turns_back = is_ours() && turn_back_.update(p_CG_C);
     const int tests = aim(navigation, p_CG_C, turns_back);
     count(observation.t_ns, tests);

@@ -15,7 +15,8 @@ constexpr double kBackdropM = 45.0;
 /// Flies by what a pair of cameras sees of a far backdrop and nearer walls, towards a goal far to the north.
 class Pilot {
  public:
-  explicit Pilot(StereoCorridorConfig config = {}) : setup_(stereo_pair(kSizePx, 10.0)) {
+  explicit Pilot(StereoCorridorConfig config = {}, double pair_right_m = 0.0) : setup_(stereo_pair(kSizePx, 10.0)) {
+    for (MountedCamera& camera : setup_.cameras) camera.X_BC.translation().y() += pair_right_m;
     config.stereo.disparities_px = 16;
     config.corridor = {.radius_m = 1.5, .target_m = 20.0};
     module_ = make_stereo_corridor(config);
@@ -53,6 +54,15 @@ TEST(StereoCorridor, AFreeCourseIsFlownStraight) {
   const double kOnePixelRad = 2.0 / kSizePx;
   EXPECT_NEAR(velocity(decision).heading_rad, 0.0, kOnePixelRad);
   EXPECT_NEAR(velocity(decision).v_WB_W.norm(), 5.0, 1e-9);
+}
+
+TEST(StereoCorridor, TheGoalIsLookedForFromTheCameraNotFromTheBody) {
+  constexpr double kGoalM = 25.0, kFocalPx = 0.5 * kSizePx, kRounding = 0.6;
+  for (const double pair_right_m : {-2.0, 0.0, 3.0}) {
+    const Decision decision = Pilot({}, pair_right_m).see({}, {3.0, 0.0}, 0.0, {kGoalM, 0.0});
+    EXPECT_EQ(decision.status, "cruise");
+    EXPECT_NEAR(decision.signals[0], 0.5 * (kSizePx - 1) - kFocalPx * pair_right_m / kGoalM, kRounding);
+  }
 }
 
 TEST(StereoCorridor, AnObstacleAheadIsPassedOnItsFreeSide) {

@@ -27,7 +27,7 @@ TEST(Imperfections, OffByDefaultNoPixelChanges) {
   const cv::Mat before = image.clone();
   camera.apply(3, image);
   EXPECT_EQ(cv::norm(image, before, cv::NORM_INF), 0.0);
-  for (int64_t image = 0; image < 1000; ++image) EXPECT_EQ(camera.frame_fault(image), Imperfections::FrameFault::none);
+  for (int64_t frame = 0; frame < 1000; ++frame) EXPECT_EQ(camera.frame_fault(frame), Imperfections::FrameFault::none);
 }
 
 // Poisson: the variance of the electrons is their mean, so in levels it is mean * 255 / full well; rounding adds 1/12.
@@ -85,14 +85,14 @@ TEST(Imperfections, AutomaticExposureSettlesToMidGreyInItsTimeConstant) {
   config.auto_exposure_s = 0.2;
   Imperfections camera(config, kPeriodS, 1);
   cv::Mat image;
-  for (int image = 0; image < 10; ++image) {
+  for (int frame = 0; frame < 10; ++frame) {
     image = flat(40.0);
-    camera.apply(image, image);
+    camera.apply(frame, image);
   }
   EXPECT_NEAR(mean_of(image), 127.5 * std::pow(40.0 / 127.5, std::exp(-1.0)), 0.5 + 1e-6);  // rounding to levels
-  for (int image = 10; image < 200; ++image) {
+  for (int frame = 10; frame < 200; ++frame) {
     image = flat(40.0);
-    camera.apply(image, image);
+    camera.apply(frame, image);
   }
   EXPECT_NEAR(mean_of(image), 127.5, 0.5 + 1e-6);
 }
