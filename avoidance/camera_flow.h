@@ -26,7 +26,7 @@ class CameraFlow {
     double dt_s = 0.0;         ///< between the two images
   };
 
-  /// Throws std::invalid_argument when the camera is not a pinhole without distortion, or the patches do not fit its
+  /// Throws std::invalid_argument when the camera is not an undistorted pinhole, or the patches do not fit its
   /// image.
   CameraFlow(const MountedCamera& camera, const Options& options);
 

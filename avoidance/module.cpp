@@ -74,7 +74,7 @@ void Module::reset(const Setup& setup) {
     const MountedCamera* camera = find_camera(setup, need.role);
     if (!camera) throw std::invalid_argument("the module needs a camera '" + need.role + "', which the rig lacks");
     if (!(camera->rate_hz > 0.0)) throw std::invalid_argument("camera '" + need.role + "' needs a rate above 0 Hz");
-    if (need.pinhole && !camera->model.is_ideal_pinhole()) {
+    if (need.pinhole && !camera->model.is_undistorted_pinhole()) {
       throw std::invalid_argument("the module needs camera '" + need.role + "' to be an undistorted pinhole, got a " +
                                   camera->model.lens_name());
     }

@@ -7,7 +7,7 @@ hedgehop_offer(sim/fields vision avoidance)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/hedgehop)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/hedgehopConfig.cmake.in ${PROJECT_BINARY_DIR}/hedgehopConfig.cmake
                               INSTALL_DESTINATION ${package})
-# Modules are told apart by the interface they were built against (avoidance/plugin.h); no version promises it.
+# Modules are distinguished by the interface they were built against (avoidance/plugin.h); no version promises it.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/hedgehopConfigVersion.cmake COMPATIBILITY ExactVersion)
 install(FILES ${PROJECT_BINARY_DIR}/hedgehopConfig.cmake ${PROJECT_BINARY_DIR}/hedgehopConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/HedgehopOpenCV.cmake

@@ -25,7 +25,9 @@ function(hedgehop_library folder)
     add_library(${target} STATIC ${arg_SRCS})
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
     target_compile_options(${target} PRIVATE ${HEDGEHOP_LIBRARY_OPTIONS})
+    if(COMMAND hedgehop_use_precompiled)  # absent in the small projects of tests/style
     hedgehop_use_precompiled(${target} hedgehop_library_headers)
+  endif()
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:hedgehop_warnings>)
   else()
     set(scope INTERFACE)
@@ -68,7 +70,7 @@ function(hedgehop_check_layers folder deps)
 endfunction()
 
 # hedgehop_test(<name> SRCS ... DEPS <folders> [LABEL unit|physics|vision|render|loop]): one GoogleTest program.
-# Every test gets the label; tests/support is on the include path.
+# Every test gets the label.
 function(hedgehop_test name)
   cmake_parse_arguments(arg "" "LABEL" "SRCS;DEPS;PACKAGES" ${ARGN})
   if(NOT arg_LABEL)

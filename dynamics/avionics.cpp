@@ -3,11 +3,13 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/fields/bounds.h"
+
 namespace hedgehop::dynamics {
 
 Avionics::Avionics(const AvionicsConfig& config, const VehicleConfig& vehicle, double physics_dt_s,
                    const StreamSeed& stream_seed)
-    : config_(config),
+    : config_(fields::require_bounds(config)),
       physics_dt_s_(physics_dt_s),
       beam_direction_B_(sensors::beam_direction_B(config.range_finder)),
       seeds_{stream_seed("imu"),
@@ -24,7 +26,6 @@ Avionics::Avionics(const AvionicsConfig& config, const VehicleConfig& vehicle, d
       navigation_(config.navigation,
                   {config.imu, config.gps, config.height_sensor, config.magnetometer, config.barometer}),
       autopilot_(config.autopilot, vehicle) {
-  check(config.height_sensor);
   reset_options();
 }
 
@@ -61,21 +62,21 @@ void Avionics::reset(const SensedTruth& truth) {
 void Avionics::sense(int64_t t_ns, const SensedTruth& truth) {
   const int64_t tick = std::llround(static_cast<double>(t_ns) * 1e-9 / physics_dt_s_);
   const RigidBodyState& body = truth.body;
-  imu_.feel(body.w_WB_B, truth.specific_force_B);
-  gps_.feel(body.p_WB, body.q_WB * body.v_WB_B);
+  imu_.observe(body.w_WB_B, truth.specific_force_B);
+  gps_.observe(body.p_WB, body.q_WB * body.v_WB_B);
   const auto due = [tick](int64_t period) { return tick % period == 0; };
 
   imu_reading_.reset();
   if (due(imu_.period())) navigation_.predict(imu_reading_.emplace(imu_.read()));
-  if (height_sensor_.looks(tick)) {
-    height_sensor_.feel(
+  if (height_sensor_.observes(tick)) {
+    height_sensor_.observe(
         sensors::nearest_echo_m(config_.height_sensor, truth.height_above_surface_m, truth.height_beside));
   }
   if (height_sensor_.due(tick)) {
     if (const std::optional<double> height_m = height_sensor_.read()) navigation_.correct_height(*height_m);
   }
   if (barometer_) {
-    barometer_->feel(-body.p_WB.z());
+    barometer_->observe(-body.p_WB.z());
     const std::optional<double> pressure_pa = due(barometer_->period()) ? barometer_->read() : std::nullopt;
     if (pressure_pa) navigation_.correct_pressure(*pressure_pa);
   }
@@ -91,12 +92,12 @@ void Avionics::sense(int64_t t_ns, const SensedTruth& truth) {
 
 /// Casts the beam only on the ticks on which a reading begins.
 void Avionics::sense_range(int64_t tick, const SensedTruth& truth) {
-  if (range_finder_->looks(tick)) {
+  if (range_finder_->observes(tick)) {
     const RigidBodyState& body = truth.body;
-    const Eigen::Vector3d from_W = body.p_WB + body.q_WB * config_.range_finder.p_BS_m;
+    const Eigen::Vector3d from_W = body.p_WB + body.q_WB * config_.range_finder.p_BI_m;
     const double reach_m = config_.range_finder.ranger.max_m;
-    range_finder_->feel(truth.beam_distance ? truth.beam_distance(from_W, body.q_WB * beam_direction_B_, reach_m)
-                                            : std::numeric_limits<double>::infinity());
+    range_finder_->observe(truth.beam_distance ? truth.beam_distance(from_W, body.q_WB * beam_direction_B_, reach_m)
+                                               : std::numeric_limits<double>::infinity());
   }
   if (range_finder_->due(tick)) range_m_ = range_finder_->read();
 }

@@ -13,7 +13,7 @@ struct HullPart {
   Eigen::Vector3d half_extents_m = Eigen::Vector3d::Ones();  ///< > 0; a cylinder's axis is B's z: (r, r, half height)
 };
 
-/// Returns the radius of the smallest vertical cylinder round B, level, that holds the hull, m; 0 for an empty hull.
+/// Returns the radius of the smallest vertical cylinder around B, level, that holds the hull, m; 0 for an empty hull.
 double radius_m(const std::vector<HullPart>& hull);
 
 }  // namespace hedgehop::dynamics

@@ -63,19 +63,19 @@ std::optional<NamedLinearSystem> linear(const helicopter::HelicopterConfig& conf
   static constexpr const char* kNames[L::kStates] = {"u",     "v",   "w", "p", "q", "r", "phi",
                                                      "theta", "psi", "a", "b", "c", "d"};
   NamedLinearSystem out{{}, {"theta_c", "delta_lat", "delta_lon", "theta_t"}, {}};
-  std::vector<int> kept;  // a lumped stabilizer bar has no states of its own
+  std::vector<int> used;  // a lumped stabilizer bar has no states of its own
   for (int i = 0; i < L::kStates; ++i) {
     const bool bar = i == L::kBarBack || i == L::kBarRight;
     if (bar && linear.A.row(i).isZero(0.0) && linear.B.row(i).isZero(0.0)) continue;
-    kept.push_back(i);
+    used.push_back(i);
     out.states.emplace_back(kNames[i]);
   }
-  const auto size = static_cast<Eigen::Index>(kept.size());
+  const auto size = static_cast<Eigen::Index>(used.size());
   out.system.A.resize(size, size);
   out.system.B.resize(size, L::kInputs);
   for (Eigen::Index i = 0; i < size; ++i) {
-    const int row = kept[static_cast<size_t>(i)];
-    for (Eigen::Index j = 0; j < size; ++j) out.system.A(i, j) = linear.A(row, kept[static_cast<size_t>(j)]);
+    const int row = used[static_cast<size_t>(i)];
+    for (Eigen::Index j = 0; j < size; ++j) out.system.A(i, j) = linear.A(row, used[static_cast<size_t>(j)]);
     out.system.B.row(i) = linear.B.row(row);
   }
   return out;

@@ -8,8 +8,8 @@
 namespace hedgehop::scenes {
 
 /// How cramped a scene is, from its solids alone: its difficulty. In the plan, upright cylinders and spheres are discs,
-/// all others their axis-aligned outlines seen from above. The gap of a solid is that to the nearest solid that it does
-/// not touch.
+/// all others their axis-aligned outlines seen from above. The gap of a solid is its distance to the nearest solid that
+/// it does not touch.
 struct SceneFigures {
   size_t solids = 0;
   double smallest_gap_m = 0.0;  ///< of all solids; +inf without two that do not touch

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "scenes/require.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using Repeat = WaypointMotion::Repeat;
 
-struct PlaceOnWay {
+struct PathPoint {
   Vector3d p_W = Vector3d::Zero();
   Vector3d v_W = Vector3d::Zero();
 };
@@ -30,36 +31,36 @@ double length_m(const std::vector<Vector3d>& corners) {
   return length;
 }
 
-// The place `way_m` along the corners, and the direction (a unit vector) there: of the leg ahead, or, on the way back,
-// of the leg behind.
-PlaceOnWay along(const std::vector<Vector3d>& corners, double way_m, bool back) {
-  PlaceOnWay place{corners.front(), Vector3d::Zero()};
+// The point at distance `path_m` along the corners, and its direction (a unit vector): that of the leg ahead or, when
+// flying back, of the leg behind.
+PathPoint point_along(const std::vector<Vector3d>& corners, double path_m, bool back) {
+  PathPoint point{corners.front(), Vector3d::Zero()};
   for (size_t i = 1; i < corners.size(); ++i) {
     const Vector3d leg = corners[i] - corners[i - 1];
     const double leg_m = leg.norm();
     if (leg_m == 0.0) continue;
-    place = {corners[i - 1] + std::min(way_m / leg_m, 1.0) * leg, leg / leg_m};
-    if (back ? way_m <= leg_m : way_m < leg_m) break;
-    way_m -= leg_m;
+    point = {corners[i - 1] + std::min(path_m / leg_m, 1.0) * leg, leg / leg_m};
+    if (back ? path_m <= leg_m : path_m < leg_m) break;
+    path_m -= leg_m;
   }
-  return place;
+  return point;
 }
 
-PlaceOnWay place(const WaypointMotion& motion, double t_s) {
+PathPoint point_at(const WaypointMotion& motion, double t_s) {
   const std::vector<Vector3d> corners = corners_W(motion);
   const double total_m = length_m(corners), run_m = motion.speed_mps * (t_s - motion.start_s);
   if (total_m == 0.0 || motion.speed_mps == 0.0 || run_m < 0.0) return {corners.front(), Vector3d::Zero()};
   if (motion.repeat == Repeat::once && run_m >= total_m) return {corners.back(), Vector3d::Zero()};
 
   const double lap_m = motion.repeat == Repeat::back_and_forth ? 2.0 * total_m : total_m;
-  const double way_m = motion.repeat == Repeat::once ? run_m : std::fmod(run_m, lap_m);
-  const bool back = way_m >= total_m;
-  PlaceOnWay here = along(corners, back ? lap_m - way_m : way_m, back);
+  const double path_m = motion.repeat == Repeat::once ? run_m : std::fmod(run_m, lap_m);
+  const bool back = path_m >= total_m;
+  PathPoint here = point_along(corners, back ? lap_m - path_m : path_m, back);
   here.v_W *= back ? -motion.speed_mps : motion.speed_mps;
   return here;
 }
 
-PlaceOnWay place(const OrbitMotion& motion, double t_s) {
+PathPoint point_at(const OrbitMotion& motion, double t_s) {
   const bool started = t_s >= motion.start_s;
   const double turned_rad = started ? motion.speed_mps * (t_s - motion.start_s) / motion.radius_m : 0.0;
   const double bearing_rad = motion.bearing_rad + turned_rad;
@@ -69,39 +70,24 @@ PlaceOnWay place(const OrbitMotion& motion, double t_s) {
           started ? Vector3d(motion.speed_mps * onward) : Vector3d::Zero()};
 }
 
-void require_valid(const WaypointMotion& motion) {
-  require(!motion.points.empty(), "motion.points", 0.0, "at least one point");
-  for (const Waypoint& point : motion.points) {
-    for (double x_m : {point.north_m, point.east_m, point.altitude_m})
-      require(std::isfinite(x_m), "motion.points", x_m, "finite numbers");
-  }
-  require(std::isfinite(motion.speed_mps) && motion.speed_mps >= 0.0, "motion.speed", motion.speed_mps,
-          "at least 0 m/s");
-  require(std::isfinite(motion.start_s) && motion.start_s >= 0.0, "motion.start", motion.start_s, "at least 0 s");
-}
-
-void require_valid(const OrbitMotion& motion) {
-  for (double x : {motion.north_m, motion.east_m, motion.altitude_m, motion.speed_mps, motion.bearing_rad})
-    require(std::isfinite(x), "motion", x, "finite numbers");
-  require(std::isfinite(motion.radius_m) && motion.radius_m > 0.0, "motion.radius", motion.radius_m, "above 0 m");
-  require(std::isfinite(motion.start_s) && motion.start_s >= 0.0, "motion.start", motion.start_s, "at least 0 s");
-}
-
 }  // namespace
 
 void require_motion(const Motion& motion) {
-  std::visit([](const auto& chosen) { require_valid(chosen); }, motion);
+  std::visit([](const auto& chosen) { fields::require_bounds(chosen, "motion"); }, motion);
+  if (const auto* straight = std::get_if<WaypointMotion>(&motion)) {
+    require(!straight->points.empty(), "motion.points", 0.0, "at least one point");
+  }
 }
 
 Eigen::Vector3d p_WM(const Motion& motion, double t_s) {
-  return std::visit([t_s](const auto& chosen) { return place(chosen, t_s).p_W; }, motion);
+  return std::visit([t_s](const auto& chosen) { return point_at(chosen, t_s).p_W; }, motion);
 }
 
 Eigen::Vector3d v_WM(const Motion& motion, double t_s) {
-  return std::visit([t_s](const auto& chosen) { return place(chosen, t_s).v_W; }, motion);
+  return std::visit([t_s](const auto& chosen) { return point_at(chosen, t_s).v_W; }, motion);
 }
 
-std::vector<Eigen::Vector3d> way_W(const Motion& motion) {
+std::vector<Eigen::Vector3d> path_W(const Motion& motion) {
   if (const auto* straight = std::get_if<WaypointMotion>(&motion)) return corners_W(*straight);
   constexpr int kCorners = 64;
   OrbitMotion orbit = std::get<OrbitMotion>(motion);
@@ -109,7 +95,7 @@ std::vector<Eigen::Vector3d> way_W(const Motion& motion) {
   std::vector<Vector3d> corners;
   for (int k = 0; k < kCorners; ++k) {
     orbit.bearing_rad = first_rad + 2.0 * std::numbers::pi * k / kCorners;
-    corners.push_back(place(orbit, 0.0).p_W);
+    corners.push_back(point_at(orbit, 0.0).p_W);
   }
   corners.push_back(corners.front());
   return corners;

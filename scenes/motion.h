@@ -36,10 +36,10 @@ struct WaypointMotion {
 
 template <class Visitor>
 void describe(Visitor& v, WaypointMotion& c) {
-  v("points", c.points, {.meaning = "the way, in order; at least one point"});
-  v("speed", c.speed_mps, {.unit = "m/s", .at_least = 0.0, .meaning = "along the way"});
+  v("points", c.points, {.meaning = "the path, in order; at least one point"});
+  v("speed", c.speed_mps, {.unit = "m/s", .at_least = 0.0, .meaning = "along the path"});
   v("repeat", c.repeat,
-    {.choices = {"once", "back_and_forth", "round"}, .meaning = "stop at the end, turn there, or close the way"});
+    {.choices = {"once", "back_and_forth", "round"}, .meaning = "stop at the end, fly back, or close the path"});
   v("start", c.start_s, {.unit = "s", .at_least = 0.0, .meaning = "at rest on the first point until then"});
 }
 
@@ -69,8 +69,8 @@ void describe(Visitor& v, OrbitMotion& c) {
 /// How a mover's frame M travels; its axes stay those of W.
 using Motion = std::variant<WaypointMotion, OrbitMotion>;
 
-/// Throws std::invalid_argument "<field>: <value>; valid: ..." unless all numbers are finite, there is a point, and
-/// radius, speed and start are in range.
+/// Throws std::invalid_argument "motion.<field>: <value>; ..." unless every field keeps its bounds and there is a
+/// point.
 void require_motion(const Motion& motion);
 
 /// Returns the position of M, in W, m; continuous in time.
@@ -80,7 +80,7 @@ Eigen::Vector3d p_WM(const Motion& motion, double t_s);
 /// Returns the velocity of M, in W, m/s: the derivative of p_WM() towards later times.
 Eigen::Vector3d v_WM(const Motion& motion, double t_s);
 
-/// Returns the corners of the way, in order, in W, m; a way that closes ends where it begins. An orbit has 64 of them.
-std::vector<Eigen::Vector3d> way_W(const Motion& motion);
+/// Returns the corners of the path, in order, in W, m; a closed path ends where it begins. An orbit has 64 corners.
+std::vector<Eigen::Vector3d> path_W(const Motion& motion);
 
 }  // namespace hedgehop::scenes

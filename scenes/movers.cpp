@@ -1,13 +1,12 @@
 #include "scenes/movers.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "scenes/mesh/bodies.h"
 #include "scenes/mesh/tree_mesh.h"
-#include "scenes/require.h"
 #include "scenes/textures/canvas.h"
 #include "scenes/textures/plant_textures.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes {
 namespace {
@@ -35,7 +34,7 @@ cv::Mat paint_signal(int size_px, uint64_t seed) {
   return canvas.finished();
 }
 
-// The images of movers in the scene's list, painted when first asked for.
+// The images of movers in the scene's list, painted on first use.
 class MoverImages {
  public:
   MoverImages(uint64_t seed, std::vector<cv::Mat>& images) : seed_(seed), images_(images) {}
@@ -65,12 +64,6 @@ class MoverImages {
   std::vector<cv::Mat>& images_;
   int signal_ = -1, bark_ = -1, leaves_ = -1;
 };
-
-void validate(const MoverConfig& c) {
-  require(std::isfinite(c.radius_m) && c.radius_m > 0.0, "movers.radius", c.radius_m, "above 0 m");
-  require(std::isfinite(c.height_m) && c.height_m > 0.0, "movers.height", c.height_m, "above 0 m");
-  require_motion(c.motion);
-}
 
 Mover make_mover(const MoverConfig& c, uint64_t seed, MoverImages& images) {
   mesh::MeshBuilder mesh("opaque");
@@ -118,7 +111,8 @@ Mover make_mover(const MoverConfig& c, uint64_t seed, MoverImages& images) {
 void add_movers(const std::vector<MoverConfig>& movers, uint64_t seed, Scene& scene) {
   MoverImages images(derived_seed(seed, 0), scene.textures);
   for (size_t k = 0; k < movers.size(); ++k) {
-    validate(movers[k]);
+    fields::require_bounds(movers[k], "movers." + std::to_string(k));
+    require_motion(movers[k].motion);
     scene.movers.push_back(make_mover(movers[k], derived_seed(seed, k + 1), images));
   }
 }

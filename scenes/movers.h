@@ -21,7 +21,7 @@ struct MoverConfig {
 
 template <class Visitor>
 void describe(Visitor& v, MoverConfig& c) {
-  v("name", c.name, {.meaning = "as results tell what was hit"});
+  v("name", c.name, {.meaning = "of the obstacle in results"});
   v("shape", c.shape,
     {.choices = {"balloon", "pole", "box", "tree"},
      .meaning = "a balloon on a thin pole, an upright cylinder, a square pillar, a tree"});

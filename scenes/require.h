@@ -1,19 +1,15 @@
 #pragma once
 
+#include <cstdint>
 #include <string_view>
-#include <vector>
-
-#include "scenes/clearing.h"
 
 namespace hedgehop::scenes {
 
+/// For what relates fields to each other; fields::require_bounds() judges each alone.
 /// Throws std::invalid_argument "<field>: <value>; valid: <valid>" unless `holds`.
 void require(bool holds, std::string_view field, double value, std::string_view valid);
 
-/// Requires finite centers and radii of at least 0.
-void require_clearings(const std::vector<Clearing>& clearings);
-
-/// Requires a power of two within 64..2048.
-void require_texture_size(double size_px);
+/// Requires a power of two.
+void require_texture_size(int64_t size_px);
 
 }  // namespace hedgehop::scenes

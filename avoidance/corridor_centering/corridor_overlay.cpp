@@ -9,7 +9,7 @@
 namespace hedgehop::avoidance::corridor_centering {
 namespace {
 
-using vision::corridor::Verdict;
+using vision::corridor::RejectionReason;
 
 const cv::Scalar kGreen(90, 230, 110), kRed(240, 80, 60), kFloor(90, 140, 255), kYellow(255, 220, 40);
 constexpr int kFractionBits = 4;  // positions to 1/16 px
@@ -19,9 +19,9 @@ cv::Point fixed(double u, double v) {
           static_cast<int>(std::lround(v * (1 << kFractionBits)))};
 }
 
-cv::Scalar color_of(Verdict verdict) {
-  if (verdict == Verdict::good) return kGreen;
-  return verdict == Verdict::floor ? kFloor : kRed;
+cv::Scalar color_of(RejectionReason rejection) {
+  if (rejection == RejectionReason::none) return kGreen;
+  return rejection == RejectionReason::floor ? kFloor : kRed;
 }
 
 cv::Mat fisheye(const CorridorSight& sight, const CorridorView* view) {
@@ -39,7 +39,7 @@ cv::Mat fisheye(const CorridorSight& sight, const CorridorView* view) {
   constexpr double kLonger = 2.0;
   for (const vision::corridor::WallPoint& point : view->points) {
     const Eigen::Vector2d from = point.pair.before_px, to = from + kLonger * (point.pair.after_px - from);
-    cv::line(image, fixed(from.x(), from.y()), fixed(to.x(), to.y()), color_of(point.verdict), 1, cv::LINE_AA,
+    cv::line(image, fixed(from.x(), from.y()), fixed(to.x(), to.y()), color_of(point.rejection), 1, cv::LINE_AA,
              kFractionBits);
   }
   return image;
@@ -80,7 +80,7 @@ cv::Mat map_from_above(const CorridorScene& scene, int side_px) {
   Map map(side_px);
   if (scene.view) {
     for (const vision::corridor::WallPoint& point : scene.view->points) {
-      if (point.verdict == Verdict::good) map.dot(point.p_CP_H.head<2>(), kGreen);
+      if (point.rejection == RejectionReason::none) map.dot(point.p_CP_H.head<2>(), kGreen);
     }
     constexpr double kBackM = -1.0, kFrontM = 3.0;
     const auto wall = [&](double direction_rad, double y_m, const cv::Scalar& color, double from_m, double to_m) {

@@ -61,7 +61,7 @@ vision::corridor::SideDistance CorridorSight::side(const std::vector<vision::cor
                                                    vision::corridor::Region side) const {
   vision::corridor::SideDistance found = vision::corridor::side_distance(points, side, config_.least_vectors);
   const auto slow = std::ranges::count_if(points, [side](const vision::corridor::WallPoint& point) {
-    return point.region == side && point.verdict == vision::corridor::Verdict::too_slow;
+    return point.region == side && point.rejection == vision::corridor::RejectionReason::too_slow;
   });
   const double followed = static_cast<double>(slow) + found.count;
   if (static_cast<double>(slow) > config_.most_slow * followed) {
@@ -86,7 +86,7 @@ std::optional<CorridorView> CorridorSight::update(const CameraFrame& frame, cons
     vision::corridor::CameraMotion moved = motion(navigation, 1e-9 * static_cast<double>(frame.t_ns - t_ns_));
     cv::Mat newer = image_;
     if (config_.derotation == CorridorSightConfig::Derotation::image) {
-      newer = turner_.turned(image_, moved.R_HC1.transpose() * moved.R_HC2);
+      newer = turner_.derotate(image_, moved.R_HC1.transpose() * moved.R_HC2);
       moved.R_HC2 = moved.R_HC1;
     }
     const auto pairs = vision::flow::feature_flow(older, newer, regions_, camera_.model, config_.features);
@@ -104,7 +104,7 @@ std::optional<CorridorView> CorridorSight::update(const CameraFrame& frame, cons
           vision::corridor::wall_direction_rad(view->points, config_.most_turned_rad, config_.least_vectors);
     }
     const std::vector<vision::corridor::WallPoint> along =
-        vision::corridor::looking_along(view->points, view->direction_rad);
+        vision::corridor::rotate_points(view->points, view->direction_rad);
     view->left = side(along, kLeft);
     view->right = side(along, kRight);
     view->error = vision::corridor::centering_error(view->left.distance_m, view->right.distance_m);

@@ -10,10 +10,11 @@
 
 namespace hedgehop::avoidance::flow_balance {
 
-std::vector<vision::flow::SeenWall> walls_round(std::span<const CameraFlow> cameras, const NavigationState& navigation,
-                                                int64_t now_ns, const WallOptions& options) {
+std::vector<vision::flow::WallEstimate> walls_round(std::span<const CameraFlow> cameras,
+                                                    const NavigationState& navigation, int64_t now_ns,
+                                                    const WallOptions& options) {
   using std::numbers::pi;
-  std::vector<std::pair<double, vision::flow::WallSight>> by_bearing;
+  std::vector<std::pair<double, vision::flow::WallObservation>> by_bearing;
   for (const CameraFlow& camera : cameras) {
     const auto measure = camera.measure(now_ns);
     if (!measure) continue;
@@ -23,7 +24,7 @@ std::vector<vision::flow::SeenWall> walls_round(std::span<const CameraFlow> came
     for (const vision::flow::FlowVector& vector : camera.field().vectors) {
       if (!vector.valid) continue;
       const Eigen::Vector2d place = lens.ray(vector.center_px).head<2>();
-      vision::flow::WallSight sight;
+      vision::flow::WallObservation sight;
       sight.ray_H = X_BC.linear().col(2).head<2>() + place.x() * X_BC.linear().col(0).head<2>();
       sight.p_BC_H = X_BC.translation().head<2>();
       sight.unit_flow = vision::flow::unit_flow(place, v_WC_C);
@@ -35,7 +36,7 @@ std::vector<vision::flow::SeenWall> walls_round(std::span<const CameraFlow> came
     }
   }
   std::ranges::stable_sort(by_bearing, {}, [](const auto& item) { return item.first; });
-  std::vector<vision::flow::WallSight> sights;
+  std::vector<vision::flow::WallObservation> sights;
   for (const auto& [bearing_rad, sight] : by_bearing) sights.push_back(sight);
   return vision::flow::walls_from_flow(sights, options.relative_error);
 }

@@ -18,7 +18,8 @@ struct WallOptions {
 /// Returns the upright walls round a vehicle by the newest flow of all its cameras, in frame H (B turned level, x along
 /// the heading). Tilt is left out: the cameras' axes are taken level as they are mounted in B.
 /// @param cameras  derotated, looking level. @param now_ns  measures that are too old by then are left aside.
-std::vector<vision::flow::SeenWall> walls_round(std::span<const CameraFlow> cameras, const NavigationState& navigation,
-                                                int64_t now_ns, const WallOptions& options);
+std::vector<vision::flow::WallEstimate> walls_round(std::span<const CameraFlow> cameras,
+                                                    const NavigationState& navigation, int64_t now_ns,
+                                                    const WallOptions& options);
 
 }  // namespace hedgehop::avoidance::flow_balance

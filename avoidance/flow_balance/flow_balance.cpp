@@ -227,13 +227,13 @@ class FlowBalance final : public Module {
     constexpr double kLeastM = 1e-3;
     const Stopping stopping{config_.reaction_s, config_.braking_mps2};
     double nearest_per_m = 0.0;
-    for (const vision::flow::SeenWall& wall : walls_) {
-      const Eigen::Vector2d to_wall_H = wall.near_per_m.normalized();
+    for (const vision::flow::WallEstimate& wall : walls_) {
+      const Eigen::Vector2d to_wall_H = wall.inverse_range_per_m.normalized();
       if (to_wall_H.dot(sense_[i].axis_H) < std::sqrt(0.5)) continue;  // another camera's
       if (way_H.dot(to_wall_H) <= 0.0) continue;
       const double closing_mps = std::max(v_H.dot(to_wall_H), way_H.dot(to_wall_H));
       const double tail_m = config_.tail_m * std::max(0.0, -to_wall_H.x());
-      const double left_m = std::max(1.0 / wall.near_per_m.norm() - tail_m, kLeastM);
+      const double left_m = std::max(1.0 / wall.inverse_range_per_m.norm() - tail_m, kLeastM);
       const double turning_mps = turns_whole ? std::max(v_H.norm(), way_H.norm()) : closing_mps;
       const double stops_m = stopping_distance_m(closing_mps, turning_mps, stopping);
       nearest_per_m = std::max(nearest_per_m, near_once_stopped_per_m(1.0 / left_m, stops_m));
@@ -282,7 +282,7 @@ class FlowBalance final : public Module {
   std::vector<CameraFlow> cameras_;  ///< in the order of kRoles, as are the next three
   std::vector<WallSense> sense_;
   std::vector<CameraRanges> ranges_;
-  std::vector<vision::flow::SeenWall> walls_;
+  std::vector<vision::flow::WallEstimate> walls_;
   std::array<bool, kRoles.size()> fresh_{};
   std::optional<Detour> detour_;
   std::optional<ZigZag> zig_zag_;

@@ -19,12 +19,12 @@ DrydenScales dryden_scales(double height_m, double w20_mps);
 struct FirstOrderStep {
   double decay = 1.0, noise = 0.0;
 };
-/// @param path  V dt / L, >= 0: the way flown in one step over the length of the turbulence.
+/// @param path  V dt / L, >= 0: the distance flown in one step over the length of the turbulence.
 FirstOrderStep first_order_step(double path);
 
 /// Shaping filter of the v and w gusts, H = sqrt(L/V) (1 + sqrt(3) s L/V) / (1 + s L/V)^2 scaled to unit variance, over
 /// one step: z' = decay z + noise eta, eta two unit normals. Each state has unit stationary variance, their correlation
-/// is 1/sqrt(2), whatever the step; so V and L may change on the way.
+/// is 1/sqrt(2), for any step; V and L may therefore change during a flight.
 struct SecondOrderStep {
   Eigen::Matrix2d decay = Eigen::Matrix2d::Identity();
   Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();  ///< lower triangular

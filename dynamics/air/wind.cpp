@@ -4,31 +4,21 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
-#include "dynamics/sensors/sensor_noise.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::dynamics::air {
 namespace {
 
 constexpr double kLowestAirspeedMps = 1.0;  ///< chosen: in a hover in still air the field still drifts past
 constexpr double kW20HeightM = 6.096, kShearTopM = 304.8;  ///< 20 ft and 1000 ft
-constexpr double kRoughestM = 5.0;                         ///< chosen: clearly below 20 ft
 
 /// The way a wind blows that comes from a heading.
 Eigen::Vector3d blowing_W(double from_rad) { return {-std::cos(from_rad), -std::sin(from_rad), 0.0}; }
 
 }  // namespace
 
-Wind::Wind(const WindConfig& config, uint64_t seed) : config_(config), generator_(seed) {
-  for (const double value : {config.speed_mps, config.from_rad, config.roughness_m, config.turbulence_w20_mps}) {
-    if (!std::isfinite(value)) throw std::invalid_argument("the wind must be finite");
-  }
-  if (config.speed_mps < 0.0 || config.turbulence_w20_mps < 0.0) {
-    throw std::invalid_argument("wind speeds must not be negative");
-  }
-  sensors::require_range("roughness", config.roughness_m, 0.0, kRoughestM);
-  check(config.gust);
+Wind::Wind(const WindConfig& config, uint64_t seed) : config_(fields::require_bounds(config)), generator_(seed) {
   gust_along_W_ = blowing_W(config.gust.from_rad);
   const Eigen::Vector3d blows_W = blowing_W(config.from_rad);
   steady_W_ = config.speed_mps * blows_W;
@@ -61,8 +51,8 @@ Eigen::Vector3d Wind::sample(double height_m, const Eigen::Vector3d& v_WB_W, dou
   if (config_.turbulence_w20_mps > 0.0) air_W += turbulence_W(height_m, airspeed_mps * dt_s);
   if (config_.gust.speed_mps > 0.0) {
     t_s_ += dt_s;
-    gust_way_m_ += airspeed_mps * std::clamp(t_s_ - config_.gust.start_s, 0.0, dt_s);
-    air_W += gust_speed_mps(config_.gust, gust_way_m_) * gust_along_W_;
+    gust_path_m_ += airspeed_mps * std::clamp(t_s_ - config_.gust.start_s, 0.0, dt_s);
+    air_W += gust_speed_mps(config_.gust, gust_path_m_) * gust_along_W_;
   }
   return air_W;
 }

@@ -9,12 +9,12 @@
 
 namespace hedgehop::dynamics::air {
 
-/// A steady horizontal wind with Dryden turbulence and one gust upon it. They are set apart, so that each can be
-/// studied alone; by [MIL8785C] sec. 3.7.3 W20 15, 30 and 45 kt (7.7, 15.4, 23.2 m/s) are light, moderate and severe.
+/// A steady horizontal wind, Dryden turbulence and one gust. Each is set on its own, so that it can be studied alone;
+/// by [MIL8785C] sec. 3.7.3 W20 15, 30 and 45 kt (7.7, 15.4, 23.2 m/s) are light, moderate and severe.
 struct WindConfig {
   double speed_mps = 0.0;           ///< with shear, at 20 ft
   double from_rad = 0.0;            ///< heading the wind comes from, from north to east
-  double roughness_m = 0.0;         ///< height at which the ground has stilled the wind; 0 for a wind without shear
+  double roughness_m = 0.0;         ///< height below which the air is still; 0 for a wind without shear
   double turbulence_w20_mps = 0.0;  ///< wind at 20 ft that sets the turbulence; 0 for smooth air
   GustConfig gust;
 };
@@ -30,7 +30,7 @@ void describe(Visitor& v, WindConfig& c) {
   v("roughness", c.roughness_m,
     {.unit = "m",
      .at_least = 0.0,
-     .at_most = 5.0,
+     .at_most = 5.0,  // clearly below 20 ft
      .meaning = "roughness length of a logarithmic wind shear: 0.046 at airfields, 0.61 elsewhere, 0 no shear"});
   v("turbulence_w20", c.turbulence_w20_mps,
     {.unit = "m/s",
@@ -43,11 +43,11 @@ void describe(Visitor& v, WindConfig& c) {
 /// The air one vehicle meets. Equal seeds and equal arguments give equal sequences, bit for bit.
 class Wind {
  public:
-  /// Throws std::invalid_argument when a value is not finite, a speed is negative, or the ground rougher than 5 m.
+  /// Throws std::invalid_argument "<key>: ..." on values out of bounds.
   Wind(const WindConfig& config, uint64_t seed);
 
-  /// The steady wind in W, m/s. @param height_m  above ground; below the roughness it is still, from 1000 ft on
-  /// uniform. Source: [MIL8785C] sec. 3.7.3.
+  /// The steady wind in W, m/s. @param height_m  above ground; below the roughness the air is still, above 1000 ft
+  /// the wind is uniform. Source: [MIL8785C] sec. 3.7.3.
   Eigen::Vector3d steady_W(double height_m) const;
 
   /// Moves turbulence and gust on by dt and returns the velocity of the air in W, m/s. The first call begins a flight.
@@ -65,12 +65,12 @@ class Wind {
   WindConfig config_;
   Eigen::Vector3d steady_W_;  ///< without shear, or at 20 ft
   Eigen::Vector3d gust_along_W_;
-  Eigen::Matrix3d R_WT_;  ///< T: turbulence axes, x along the steady wind, z down
+  Eigen::Matrix3d R_WT_;  ///< T: axes of the turbulence, x along the steady wind, z down
   std::mt19937_64 generator_;
   std::normal_distribution<double> normal_;
   double u_ = 0.0;  ///< filter states, scaled to unit stationary variance
   Eigen::Vector2d v_ = Eigen::Vector2d::Zero(), w_ = Eigen::Vector2d::Zero();
-  double t_s_ = 0.0, gust_way_m_ = 0.0;  ///< since the flight began, since the gust was met
+  double t_s_ = 0.0, gust_path_m_ = 0.0;  ///< since the flight began, since the gust was met
 };
 
 }  // namespace hedgehop::dynamics::air

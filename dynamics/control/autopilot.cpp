@@ -7,7 +7,7 @@
 
 #include "dynamics/rigid_body.h"
 #include "dynamics/sensors/magnetometer.h"
-#include "dynamics/sensors/sensor_noise.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::dynamics::control {
 namespace {
@@ -46,22 +46,17 @@ DesignMatrix input_weights(const Controls& acceptable) {
   return DesignVector(acceptable.array().square().inverse()).asDiagonal();
 }
 
-Eigen::Vector2d shortened(const Eigen::Vector2d& v, double longest) {
+Eigen::Vector2d clamp_norm(const Eigen::Vector2d& v, double longest) {
   const double length = v.norm();
   return length > longest ? Eigen::Vector2d(v * (longest / length)) : v;
 }
 
-Eigen::Vector2d turned(double angle_rad, const Eigen::Vector2d& v) { return Eigen::Rotation2Dd(angle_rad) * v; }
+Eigen::Vector2d rotate(double angle_rad, const Eigen::Vector2d& v) { return Eigen::Rotation2Dd(angle_rad) * v; }
 
 }  // namespace
 
 Autopilot::Autopilot(const AutopilotConfig& config, const VehicleConfig& vehicle)
-    : config_(config), model_(make_hover_model(vehicle)) {
-  sensors::require_positive("autopilot.speed_limit", config.speed_limit_mps);
-  sensors::require_positive("autopilot.acceleration_limit", config.acceleration_limit_mps2);
-  sensors::require_positive("autopilot.climb_rate_limit", config.climb_rate_limit_mps);
-  sensors::require_positive("autopilot.yaw_rate_limit", config.yaw_rate_limit_radps);
-  sensors::require_positive("autopilot.tilt_limit", config.tilt_limit_rad);
+    : config_(fields::require_bounds(config, "autopilot")), model_(make_hover_model(vehicle)) {
   design(kUsualDtS);
   reset({});
 }
@@ -126,13 +121,14 @@ void Autopilot::reset(const NavigationEstimate& now) {
 
 Eigen::Vector3d Autopilot::reference_v_WB_W() const {
   Eigen::Vector3d v;
-  v << turned(reference_[M::kHeading], reference_.head<2>()), reference_[M::kDown];
+  v << rotate(reference_[M::kHeading], reference_.head<2>()), reference_[M::kDown];
   return v;
 }
 
 Autopilot::Target Autopilot::target(const VelocitySetpoint& s, const NavigationEstimate&) {
-  return {
-      .v_WB_W = shortened(s.v_WB_W, config_.speed_limit_mps), .altitude_m = s.altitude_m, .heading_rad = s.heading_rad};
+  return {.v_WB_W = clamp_norm(s.v_WB_W, config_.speed_limit_mps),
+          .altitude_m = s.altitude_m,
+          .heading_rad = s.heading_rad};
 }
 
 Autopilot::Target Autopilot::target(const PositionSetpoint& s, const NavigationEstimate& now) {
@@ -142,7 +138,7 @@ Autopilot::Target Autopilot::target(const PositionSetpoint& s, const NavigationE
 }
 
 Autopilot::Target Autopilot::target(const AttitudeSetpoint& s, const NavigationEstimate&) {
-  const Eigen::Vector2d tilt = shortened({s.pitch_rad, s.roll_rad}, config_.tilt_limit_rad);
+  const Eigen::Vector2d tilt = clamp_norm({s.pitch_rad, s.roll_rad}, config_.tilt_limit_rad);
   return {.altitude_m = s.altitude_m,
           .heading_rad = s.heading_rad,
           .attitude = true,
@@ -183,8 +179,8 @@ Controls Autopilot::control(const Setpoint& setpoint, const NavigationEstimate& 
   DesignVector state = state_of(now);
   if (target.attitude) reference_.head<2>() = state.head<2>();  // there is no velocity to follow
   const Controls planned = plan(target);
-  const Controls asked = model_.trim + planned + hold(state, planned, target.attitude);
-  const Controls given = asked.cwiseMax(model_.lowest).cwiseMin(model_.highest);
+  const Controls wanted = model_.trim + planned + hold(state, planned, target.attitude);
+  const Controls given = wanted.cwiseMax(model_.lowest).cwiseMin(model_.highest);
 
   hidden_ =
       (step_.A.bottomRows(hidden_.size()) * state + step_.B.bottomRows(hidden_.size()) * (given - model_.trim)).eval();
@@ -198,7 +194,7 @@ DesignVector Autopilot::state_of(const NavigationEstimate& now) const {
   const Eigen::Vector3d rpy = to_roll_pitch_heading(now.q_WB_est);
   const Eigen::Vector3d v_WB_W = now.q_WB_est * now.v_WB_B_est;
   DesignVector x(reference_.size());
-  x << turned(-rpy[2], v_WB_W.head<2>()), v_WB_W.z(), rpy[0] - model_.roll_rad, rpy[1] - model_.pitch_rad, rpy[2],
+  x << rotate(-rpy[2], v_WB_W.head<2>()), v_WB_W.z(), rpy[0] - model_.roll_rad, rpy[1] - model_.pitch_rad, rpy[2],
       now.w_WB_B_est, now.p_WB_est.z(), hidden_;
   return x;
 }
@@ -214,12 +210,12 @@ Controls Autopilot::plan(const Target& target) const {
     e[M::kRoll] -= target.roll_rad;
     e[M::kPitch] -= target.pitch_rad;
   } else {
-    const Eigen::Vector2d v_H = turned(-reference_[M::kHeading], target.v_WB_W);
+    const Eigen::Vector2d v_H = rotate(-reference_[M::kHeading], target.v_WB_W);
     const Eigen::Vector2d error = e.head<2>() - v_H;
     e -= cruise_state_ * v_H;
     cruise = cruise_controls_ * v_H;
     const Eigen::Vector2d tilt = plan_slopes_.tilt_per_mps.cwiseProduct(error);
-    e.head<2>() = shortened(tilt, c.acceleration_limit_mps2 / kGravityMps2).cwiseQuotient(plan_slopes_.tilt_per_mps);
+    e.head<2>() = clamp_norm(tilt, c.acceleration_limit_mps2 / kGravityMps2).cwiseQuotient(plan_slopes_.tilt_per_mps);
   }
   const double below_m = c.climb_rate_limit_mps / plan_slopes_.climb_per_m;
   e[M::kBelow] = std::clamp(reference_[M::kBelow] + target.altitude_m, -below_m, below_m);
@@ -234,7 +230,7 @@ Controls Autopilot::hold(const DesignVector& state, const Controls& planned_cont
   const double heading = state[M::kHeading];
   DesignVector e(n + kIntegrals);
   e << state - reference_, integrals_;
-  e.head<2>() = state.head<2>() - turned(reference_[M::kHeading] - heading, reference_.head<2>());
+  e.head<2>() = state.head<2>() - rotate(reference_[M::kHeading] - heading, reference_.head<2>());
   e[M::kHeading] = sensors::wrap_angle(heading - reference_[M::kHeading]);
   Eigen::Vector4d errors{e[M::kForward], e[M::kRight], e[M::kBelow], e[M::kHeading]};
   if (attitude) e.segment<2>(n).setZero();
@@ -246,7 +242,7 @@ Controls Autopilot::hold(const DesignVector& state, const Controls& planned_cont
   const Eigen::Vector2d wanted = planned + from_error + from_integral;
   const bool tilted_out = wanted.norm() > config_.tilt_limit_rad;
   if (tilted_out) {
-    const Eigen::Vector2d left = shortened(wanted, config_.tilt_limit_rad) - planned - from_integral;
+    const Eigen::Vector2d left = clamp_norm(wanted, config_.tilt_limit_rad) - planned - from_integral;
     e.head<2>() = -left.cwiseQuotient(hold_slopes_.tilt_per_mps);
   }
   const Controls u = -K_hold_ * e;
@@ -269,7 +265,7 @@ void Autopilot::advance_reference(const Controls& u) {
   x[M::kHeading] = 0.0;
   x[M::kBelow] = 0.0;
   DesignVector next = step_.A * x + step_.B * u;
-  next.head<2>() = turned(-next[M::kHeading], next.head<2>());
+  next.head<2>() = rotate(-next[M::kHeading], next.head<2>());
   next[M::kBelow] += reference_[M::kBelow];
   next[M::kHeading] = sensors::wrap_angle(next[M::kHeading] + reference_[M::kHeading]);
   reference_ = next;

@@ -23,7 +23,7 @@ struct AutopilotConfig {
 template <class Visitor>
 void describe(Visitor& v, AutopilotConfig& c) {
   v("speed_limit", c.speed_limit_mps,
-    {.unit = "m/s", .above = 0.0, .at_most = 20.0, .meaning = "greatest horizontal speed it lets itself be told"});
+    {.unit = "m/s", .above = 0.0, .at_most = 20.0, .meaning = "limit of a commanded horizontal speed"});
   v("acceleration_limit", c.acceleration_limit_mps2,
     {.unit = "m/s2", .above = 0.0, .at_most = 6.0, .meaning = "greatest horizontal acceleration it plans"});
   v("climb_rate_limit", c.climb_rate_limit_mps,

@@ -34,8 +34,8 @@ HoverModel make(const helicopter::HelicopterConfig& config) {
   for (const auto& [from, to] : named) place[static_cast<size_t>(from)] = to;
   int size = M::kHidden;
   for (const int k : {L::kBack, L::kRight, L::kBarBack, L::kBarRight}) {
-    const bool lives = !linear.A.row(k).isZero(0.0) || !linear.B.row(k).isZero(0.0);
-    place[static_cast<size_t>(k)] = lives ? size++ : -1;
+    const bool is_used = !linear.A.row(k).isZero(0.0) || !linear.B.row(k).isZero(0.0);
+    place[static_cast<size_t>(k)] = is_used ? size++ : -1;
   }
   const int servos = size;
   size += 2 * kControlAxes;

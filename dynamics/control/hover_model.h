@@ -13,8 +13,8 @@ namespace hedgehop::dynamics::control {
 /// dx/dt = A x + B u, in deviations from the trim; u are the Controls.
 struct HoverModel {
   /// Velocity over ground forward, right, down in the level frame that turns with the heading (m/s); roll, pitch,
-  /// heading (rad); p, q, r (rad/s); distance below the set altitude (m). Behind them come the states that no sensor
-  /// tells of: disc, stabilizer bar, servos.
+  /// heading (rad); p, q, r (rad/s); distance below the set altitude (m). Then come the states that no sensor
+  /// measures: disc, stabilizer bar, servos.
   enum State { kForward, kRight, kDown, kRoll, kPitch, kHeading, kP, kQ, kR, kBelow, kHidden };
   LinearSystem motion;
   double roll_rad = 0.0, pitch_rad = 0.0;  ///< of the trim

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dynamics/air/atmosphere.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::dynamics::control {
 namespace {
@@ -15,7 +16,7 @@ constexpr int kTheta = 0, kV = 3, kP = 6, kGyro = 9, kAccelerometer = 12, kWande
 
 constexpr double kInitialVelocitySigmaMps = 0.05;  // chosen: a hover before take-over
 constexpr double kGate = 9.0;           // of an innovation's squared ratio to its sigma; beyond it the weight falls
-constexpr int kJumpReadings = 3;        // readings that must agree before another surface is believed
+constexpr int kJumpReadings = 3;        // readings that must agree before another surface is accepted
 constexpr double kCoastAfterS = 1.0;    // without any velocity or position ...
 constexpr double kCoastSigmaMps = 3.0;  // ... the aircraft is taken to fly no faster than about this, once a second
 
@@ -34,11 +35,7 @@ double square(double x) { return x * x; }
 }  // namespace
 
 Navigation::Navigation(const NavigationConfig& config, const Sensors& sensors)
-    : config_(config), sensors_(sensors), dt_s_(1.0 / sensors.imu.rate_hz) {
-  sensors::require_positive("navigation.attitude_sigma", config.attitude_sigma_rad);
-  sensors::require_positive("navigation.position_sigma", config.position_sigma_m);
-  sensors::require_positive("navigation.alignment_residual", config.alignment_residual);
-  sensors::require_positive("navigation.surface_jump", config.surface_jump_m);
+    : config_(fields::require_bounds(config, "navigation")), sensors_(sensors), dt_s_(1.0 / sensors.imu.rate_hz) {
   history_.resize(static_cast<size_t>(std::llround(sensors.gps.latency_s / dt_s_)) + 1);
   reset({}, {});
 }
@@ -84,7 +81,7 @@ void Navigation::predict(const sensors::ImuReading& imu) {
   last_imu_ = imu;
   w_WB_B_ = imu.w_WB_B_meas - gyro_bias_;
   if (!first) {
-    // Means over the step by the trapezoidal rule, specific force turned by the attitude halfway.
+    // Means over the step by the trapezoidal rule, specific force rotated by the attitude halfway.
     const Eigen::Vector3d w = 0.5 * (last.w_WB_B_meas + imu.w_WB_B_meas) - gyro_bias_;
     const Eigen::Vector3d f = 0.5 * (last.specific_force_B_meas + imu.specific_force_B_meas) - accelerometer_bias_;
     const Eigen::Matrix3d R_WB = (q_WB_ * rotation(0.5 * dt_s_ * w)).toRotationMatrix();

@@ -19,7 +19,7 @@ struct NavigationConfig {
   double attitude_sigma_rad = 0.008726646259971648;  ///< of the known initial attitude, per axis: 0.5 deg
   double position_sigma_m = 0.1;                     ///< of the known initial position, per axis
   double alignment_residual = 0.1;  ///< share of the inertial sensors' biases that calibration before take-off leaves
-  double surface_jump_m = 0.5;      ///< a range off by more tells of another surface below
+  double surface_jump_m = 0.5;      ///< a range error above this indicates another surface below
   double drift_mps_rt_hz = 0.3;     ///< position drift that the velocity's slow errors cause, m / sqrt(s)
 };
 template <class Visitor>
@@ -34,21 +34,21 @@ void describe(Visitor& v, NavigationConfig& c) {
      .at_most = 1.0,
      .meaning = "share of the inertial sensors' biases that calibration before take-off leaves"});
   v("surface_jump", c.surface_jump_m,
-    {.unit = "m", .above = 0.0, .meaning = "a height reading off by more tells of another surface below"});
+    {.unit = "m", .above = 0.0, .meaning = "a height residual above this indicates another surface below"});
   v("drift", c.drift_mps_rt_hz,
     {.unit = "m/s/sqrt(Hz)",
      .at_least = 0.0,
      .meaning = "position drift allowed for: velocities from optic flow err by the same few per cent for minutes"});
 }
 
-/// What the aircraft believes of itself. Standard deviations are the filter's own claim.
+/// The estimated state of the aircraft. Standard deviations are the filter's own, 1 sigma.
 struct NavigationEstimate {
   Eigen::Vector3d p_WB_est = Eigen::Vector3d::Zero();            ///< m
   Eigen::Quaterniond q_WB_est = Eigen::Quaterniond::Identity();  ///< attitude of B in W
   Eigen::Vector3d v_WB_B_est = Eigen::Vector3d::Zero();          ///< m/s, expressed in B
   Eigen::Vector3d w_WB_B_est = Eigen::Vector3d::Zero();          ///< gyro less estimated bias, rad/s
-  /// Attitude by the gyros alone since the start. It drifts, but no correction turns it: for turns between two
-  /// instants.
+  /// Attitude by the gyros alone since the start. It drifts, but no correction changes it: for rotations between
+  /// two instants.
   Eigen::Quaterniond q_WB_gyro = Eigen::Quaterniond::Identity();
   double height_above_ground_m = 0.0;  ///< above the surface below, >= 0
   Eigen::Vector3d sigma_p_W_m = Eigen::Vector3d::Zero();
@@ -58,9 +58,9 @@ struct NavigationEstimate {
 
 /// An error-state extended Kalman filter over attitude, velocity, position, the inertial sensors' biases, the wandering
 /// errors of the satellite position and the barometer and the compass offset. Inertial prediction; corrections by the
-/// velocity of the down camera's flow, height, heading and satellites. Accelerations mislead nothing, as attitude is
-/// corrected through the velocity it explains. Sources: the fusion of flow, height and inertial data [GarrattChahl2007]
-/// sec. 3; error-state form [Sola2017] sec. 5-6.
+/// velocity of the down camera's flow, height, heading and satellites. Accelerations do not bias the attitude, as it is
+/// corrected through the velocity that it explains. Sources: the fusion of flow, height and inertial data
+/// [GarrattChahl2007] sec. 3; error-state form [Sola2017] sec. 5-6.
 class Navigation {
  public:
   struct Sensors {

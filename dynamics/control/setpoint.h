@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <variant>
 
-/// What the autopilot is asked to do.
+/// What the autopilot is commanded to do.
 namespace hedgehop::dynamics::control {
 
 /// Fly at a horizontal velocity, hold a height and a heading.

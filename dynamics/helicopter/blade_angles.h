@@ -4,7 +4,7 @@
 
 namespace hedgehop::dynamics::helicopter {
 
-/// The controls of a helicopter: what is asked of the servos, or where they stand.
+/// The controls of a helicopter: commanded to the servos, or their positions.
 struct BladeAngles {
   double collective_rad = 0.0;    ///< main rotor, at 3/4 radius; positive climbs
   double lateral_rad = 0.0;       ///< cyclic; positive tilts the disc right and rolls right

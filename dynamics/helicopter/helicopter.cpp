@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
+
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::dynamics::helicopter {
 
@@ -18,38 +18,9 @@ HelicopterState to_helicopter(const HelicopterVector& x) {
   return {to_rigid_body(x.head<13>()), {x[13], x[14], x[15], x[16]}};
 }
 
-namespace {
-
-void require_positive(const std::string& key, double value) {
-  if (value > 0.0 && std::isfinite(value)) return;
-  throw std::invalid_argument(key + " must be positive, got " + std::to_string(value));
-}
-
-/// Of the main or the tail rotor.
-template <class Rotor>
-void check_rotor(const std::string& name, const Rotor& c) {
-  require_positive(name + ".radius", c.radius_m);
-  require_positive(name + ".chord", c.chord_m);
-  require_positive(name + ".blades", static_cast<double>(c.blades));
-  require_positive(name + ".lift_slope", c.lift_slope_prad);
-  require_positive(name + ".max_thrust_coefficient", c.max_thrust_coefficient);
-  require_positive(name + ".efficiency", c.efficiency);
-}
-
-void check(const HelicopterConfig& c) {
-  require_positive("air_density", c.air_density_kgpm3);
-  require_positive("main_rotor.speed", c.main_rotor.speed_radps);
-  require_positive("main_rotor.blade_inertia", c.main_rotor.blade_inertia_kgm2);
-  check_rotor("main_rotor", c.main_rotor);
-  require_positive("tail_rotor.gear_ratio", c.tail_rotor.gear_ratio);
-  check_rotor("tail_rotor", c.tail_rotor);
-}
-
-}  // namespace
-
 HelicopterModel make_model(const HelicopterConfig& config) {
   const double density = config.air_density_kgpm3;
-  check(config);
+  fields::require_bounds(config);
   HelicopterModel model;
   model.mass = make_mass_properties(config.mass.mass_kg, config.mass.inertia_kgm2, config.mass.inertia_xz_kgm2);
   model.main_rotor = make_main_rotor(config.main_rotor, density);

@@ -50,10 +50,7 @@ HelicopterFlight::HelicopterFlight(const HelicopterConfig& config)
     : model_(make_model(config)),
       servos_{config.servos.collective, config.servos.cyclic, config.servos.cyclic, config.servos.tail} {
   for (const ServoConfig& servo : servos_) check(servo);
-  if (const auto* engine = std::get_if<GovernedEngineConfig>(&config.rotor_speed)) {
-    check(*engine);
-    engine_ = *engine;
-  }
+  if (const auto* engine = std::get_if<GovernedEngineConfig>(&config.rotor_speed)) engine_ = *engine;
   reset(Eigen::Vector3d::Zero(), 0.0, Eigen::Vector3d::Zero());
 }
 

@@ -11,9 +11,9 @@ struct HelicopterConfig;
 /// Returns rotor disc, fuselage, tail boom and tail rotor of a helicopter, in this order.
 std::vector<HullPart> hull(const HelicopterConfig& config);
 
-/// What of a helicopter's shape no other parameter tells.
+/// The part of a helicopter's shape that no other parameter gives.
 struct HelicopterHullConfig {
-  Eigen::Vector3d fuselage_center_B_m{0.10, 0.0, 0.05};  ///< of the box round canopy and skids
+  Eigen::Vector3d fuselage_center_B_m{0.10, 0.0, 0.05};  ///< of the box around canopy and skids
   Eigen::Vector3d fuselage_size_m{0.60, 0.25, 0.42};
   double boom_thickness_m = 0.06;
   double disc_thickness_m = 0.04;  ///< of both rotors: blades and their flapping
@@ -21,7 +21,7 @@ struct HelicopterHullConfig {
 template <class Visitor>
 void describe(Visitor& v, HelicopterHullConfig& c) {
   v("fuselage_center", c.fuselage_center_B_m,
-    {.unit = "m", .meaning = "center of the box round canopy and skids: forward, right, down of the mass center"});
+    {.unit = "m", .meaning = "center of the box around canopy and skids: forward, right, down of the mass center"});
   v("fuselage_size", c.fuselage_size_m, {.unit = "m", .above = 0.0, .meaning = "length, width and height of that box"});
   v("boom_thickness", c.boom_thickness_m, {.unit = "m", .above = 0.0, .meaning = "width and height of the tail boom"});
   v("disc_thickness", c.disc_thickness_m,

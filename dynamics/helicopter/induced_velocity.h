@@ -59,10 +59,10 @@ struct Inflow {
 /// @param upflow_mps      w_r, air through the disc along the thrust; negative in climb.
 /// @param inplane_mps     V, air speed along the disc, >= 0.
 /// Below advance ratio 0.1 the momentum balance takes w_r no larger than `descent_limit` times the hover inflow of the
-/// thrust, where it ceases to hold; the result then says so. Thrust is limited to what the blades bear. Finite for all
-/// finite arguments. Source: [HeffleyMnich1988] sec. on thrust and induced velocity. Differs: solved by a
-/// bracketed Newton iteration rather than a fixed number of passes; above advance ratio 0.1 the limit on w_r rises
-/// steeply rather than vanishing, so that the thrust has no jump.
+/// thrust, where it ceases to hold; the result then reports it. Thrust is limited to what the blades bear. Finite for
+/// all finite arguments. Source: [HeffleyMnich1988] sec. on thrust and induced velocity. Differs: solved by a bracketed
+/// Newton iteration rather than a fixed number of passes; above advance ratio 0.1 the limit on w_r rises steeply rather
+/// than vanishing, so that the thrust has no jump.
 Inflow solve_inflow(const RotorDisc& disc, double collective_rad, double upflow_mps, double inplane_mps);
 
 /// Returns the shaft power T (v_i - w_r) + P0 (1 + kappa mu^2), W. Source: [HeffleyMnich1988] sec. on the main rotor.

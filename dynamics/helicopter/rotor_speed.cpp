@@ -1,20 +1,8 @@
 #include "dynamics/helicopter/rotor_speed.h"
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 
 namespace hedgehop::dynamics::helicopter {
-
-void check(const GovernedEngineConfig& c) {
-  const auto refuse = [](const char* what, double value) {
-    throw std::invalid_argument(std::string("rotor_speed.") + what + ", got " + std::to_string(value));
-  };
-  if (!(c.max_power_w > 0.0)) refuse("max_power must be positive", c.max_power_w);
-  if (!(c.inertia_kgm2 > 0.0)) refuse("inertia must be positive", c.inertia_kgm2);
-  if (!(c.proportional_gain_sprad >= 0.0)) refuse("proportional_gain must not be negative", c.proportional_gain_sprad);
-  if (!(c.integral_gain_prad >= 0.0)) refuse("integral_gain must not be negative", c.integral_gain_prad);
-}
 
 double throttle(const GovernedEngineConfig& engine, double set_radps, const RotorSpeedState& state) {
   return std::clamp(engine.proportional_gain_sprad * (set_radps - state.speed_radps) + state.integral_throttle, 0.0,

@@ -31,11 +31,11 @@ void describe(Visitor& v, GovernedEngineConfig& c) {
   v("integral_gain", c.integral_gain_prad,
     {.unit = "1/rad", .at_least = 0.0, .meaning = "throttle per angle that has been missed"});
   v("inertia", c.inertia_kgm2,
-    {.unit = "kg m2", .above = 0.0, .meaning = "of all that turns, as the main rotor's shaft feels it"});
+    {.unit = "kg m2", .above = 0.0, .meaning = "of all that rotates, reflected to the main rotor's shaft"});
 }
 using RotorSpeedConfig = std::variant<ConstantSpeedConfig, GovernedEngineConfig>;
 
-/// Of the set speed: slower rotors are taken to turn as fast as this. Chosen: a rotor that hardly turns has no
+/// As a share of the set speed: slower rotors are computed at this speed. Chosen: a rotor that hardly turns has no
 /// first-order flapping.
 inline constexpr double kSlowestRotor = 0.1;
 
@@ -43,9 +43,6 @@ struct RotorSpeedState {
   double speed_radps = 0.0;        ///< Omega of the main rotor
   double integral_throttle = 0.0;  ///< what the governor's integral adds to the throttle
 };
-
-/// Throws std::invalid_argument unless power and inertia are positive and no gain is negative.
-void check(const GovernedEngineConfig& engine);
 
 /// Returns the governor's throttle, 0 closed to 1 open. @param set_radps  the speed it is to hold.
 double throttle(const GovernedEngineConfig& engine, double set_radps, const RotorSpeedState& state);

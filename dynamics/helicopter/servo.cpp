@@ -7,13 +7,6 @@
 namespace hedgehop::dynamics::helicopter {
 
 void check(const ServoConfig& config) {
-  const auto positive = [](const char* key, double value) {
-    if (!(value > 0.0))
-      throw std::invalid_argument(std::string(key) + " must be positive, got " + std::to_string(value));
-  };
-  positive("a servo's natural_frequency", config.natural_frequency_radps);
-  positive("a servo's damping", config.damping);
-  positive("a servo's rate_limit", config.rate_limit_radps);
   if (!(config.lowest_rad < config.highest_rad)) {
     throw std::invalid_argument("a servo's lowest angle must be below its highest, got " +
                                 std::to_string(config.lowest_rad) + " and " + std::to_string(config.highest_rad) +

@@ -29,7 +29,7 @@ struct ServoState {
   double rate_radps = 0.0;
 };
 
-/// Throws std::invalid_argument unless frequency, damping and rate limit are positive and the stops are in order.
+/// Throws std::invalid_argument unless the stops are in order.
 void check(const ServoConfig& config);
 
 /// Returns the time derivative (rate, acceleration): y'' = wn2 (u - y) - 2 zeta wn y', |y'| limited, u within the

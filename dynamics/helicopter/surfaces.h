@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-/// Air loads on what does not turn: fuselage, vertical fin, horizontal stabilizer.
+/// Air loads on what does not rotate: fuselage, vertical fin, horizontal stabilizer.
 namespace hedgehop::dynamics::helicopter {
 
 /// Defaults: the X-Cell .60 of [Gavrilets2015] table of parameters.

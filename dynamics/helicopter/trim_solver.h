@@ -63,7 +63,7 @@ bool solve(const Model& model, Unknowns& x, const Eigen::Vector3d& v_air_W, doub
 
 template <class Model>
 std::optional<Trim> find_trim(const Model& model, const Eigen::Vector3d& v_air_W, double heading_rad) {
-  // From the hover to the speed asked for, each trim the start of the next.
+  // From the hover to the speed required, each trim the start of the next.
   const int steps = std::max(1, static_cast<int>(std::ceil(v_air_W.norm() / kSpeedStepMps)));
   if (!v_air_W.allFinite() || steps > 100) return std::nullopt;
   Unknowns x;

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "sim/fields/bounds.h"
+
 namespace hedgehop::dynamics::multicopter {
 namespace {
 
@@ -54,11 +56,8 @@ std::vector<HullPart> hull(const MulticopterConfig& config) {
 }
 
 MulticopterModel make_model(const MulticopterConfig& c) {
+  fields::require_bounds(c);
   require(c.arms.size() >= 3 && c.arms.size() <= MulticopterConfig::kMostArms, "a multicopter has 3 to 16 arms");
-  require(c.rotor.thrust_ns2 > 0.0 && c.rotor.highest_radps > 0.0, "rotor: thrust and highest_speed must be positive");
-  require(c.rotor.time_constant_up_s > 0.0 && c.rotor.time_constant_down_s > 0.0,
-          "rotor: the motor's time constants must be positive");
-  require(c.rotor.inertia_kgm2 >= 0.0 && c.rotor.torque_m >= 0.0, "rotor: inertia and torque must not be negative");
   MulticopterModel model;
   model.mass = make_mass_properties(c.mass.mass_kg, c.mass.inertia_kgm2, c.mass.inertia_xz_kgm2);
   model.rotor = c.rotor;
@@ -81,7 +80,7 @@ MulticopterModel make_model(const MulticopterConfig& c) {
   const Eigen::Matrix4d balanced = scale.asDiagonal() * gram * scale.asDiagonal();
   require(gram.diagonal().minCoeff() > 0.0 && std::abs(balanced.determinant()) > 1e-9,
           "the arms cannot steer thrust, roll, pitch and yaw each on its own: spread them and let neighbors turn "
-          "opposite ways");
+          "in opposite directions");
   model.thrusts_of_wrench = model.wrench_of_thrusts.transpose() * gram.inverse();
 
   const PerRotor hover_n = model.thrusts_of_wrench.col(0) * (c.mass.mass_kg * kGravityMps2);

@@ -129,7 +129,7 @@ struct MulticopterModel {
   struct Rotor {
     Eigen::Vector3d p_BR = Eigen::Vector3d::Zero();   ///< of the hub, m
     Eigen::Vector3d n_B = -Eigen::Vector3d::UnitZ();  ///< direction of the thrust, unit
-    double clockwise = 1.0;                           ///< seen from above; -1 the other way
+    double clockwise = 1.0;                           ///< seen from above; -1 counter-clockwise
   };
   MassProperties mass;
   std::vector<Rotor> rotors;
@@ -154,8 +154,8 @@ MulticopterLoads multicopter_loads(const MulticopterModel& model, const RigidBod
                                    const PerRotor& speeds_radps, const PerRotor& spin_ups_radps2,
                                    const Eigen::Vector3d& wind_W);
 
-/// Rotor speeds for thrust and torques, within [0, highest]. What the rotors cannot give is given up in this order: yaw
-/// torque, then thrust, then roll and pitch torque.
+/// Rotor speeds for thrust and torques, within [0, highest]. What exceeds the rotors' limits is reduced in this order:
+/// yaw torque, then thrust, then roll and pitch torque.
 PerRotor allocate(const MulticopterModel& model, const Controls& wanted);
 /// Thrust and torques that the rotors give at rest in still air.
 Controls wrench(const MulticopterModel& model, const PerRotor& speeds_radps);

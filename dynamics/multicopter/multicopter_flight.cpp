@@ -19,23 +19,23 @@ PerRotor speeds_for(const MulticopterModel& model, const Controls& wrench) {
   return (model.thrusts_of_wrench * wrench / model.rotor.thrust_ns2).cwiseMax(0.0).cwiseSqrt();
 }
 
-/// Speeds after t_s of first-order motors on their way to `asked`.
-PerRotor spun(const MulticopterModel& model, const PerRotor& speeds, const PerRotor& asked, double t_s) {
+/// Speeds after t_s of first-order motors approaching `commanded`.
+PerRotor spun(const MulticopterModel& model, const PerRotor& speeds, const PerRotor& commanded, double t_s) {
   const LiftRotorConfig& c = model.rotor;
   PerRotor out = speeds;
   for (Eigen::Index i = 0; i < out.size(); ++i) {
-    const double tau_s = asked[i] > speeds[i] ? c.time_constant_up_s : c.time_constant_down_s;
-    out[i] = asked[i] + (speeds[i] - asked[i]) * std::exp(-t_s / tau_s);
+    const double tau_s = commanded[i] > speeds[i] ? c.time_constant_up_s : c.time_constant_down_s;
+    out[i] = commanded[i] + (speeds[i] - commanded[i]) * std::exp(-t_s / tau_s);
   }
   return out;
 }
 
-PerRotor spin_ups(const MulticopterModel& model, const PerRotor& speeds, const PerRotor& asked) {
+PerRotor spin_ups(const MulticopterModel& model, const PerRotor& speeds, const PerRotor& commanded) {
   const LiftRotorConfig& c = model.rotor;
   PerRotor out = speeds;
   for (Eigen::Index i = 0; i < out.size(); ++i) {
-    const double tau_s = asked[i] > speeds[i] ? c.time_constant_up_s : c.time_constant_down_s;
-    out[i] = (asked[i] - speeds[i]) / tau_s;
+    const double tau_s = commanded[i] > speeds[i] ? c.time_constant_up_s : c.time_constant_down_s;
+    out[i] = (commanded[i] - speeds[i]) / tau_s;
   }
   return out;
 }
@@ -53,7 +53,7 @@ MulticopterTrim flight_at(const MulticopterModel& model, const Vector6& x, const
 }
 
 /// Accelerations of a flight, linear then angular.
-Vector6 unrest(const MulticopterModel& model, const MulticopterTrim& t) {
+Vector6 trim_residual(const MulticopterModel& model, const MulticopterTrim& t) {
   const MulticopterLoads loads =
       multicopter_loads(model, t.state.body, t.state.speeds_radps, still(model), Eigen::Vector3d::Zero());
   return derivative(model.mass, t.state.body, loads.f_B, loads.t_B).tail<6>();
@@ -66,22 +66,22 @@ std::optional<MulticopterTrim> trim(const MulticopterModel& model, const Eigen::
   x[2] = model.mass.mass_kg * kGravityMps2;
   constexpr int kMostSteps = 60;
   constexpr double kAtRest = 1e-11, kStep = 1e-6, kLongestTilt = 0.2;
-  Vector6 f = unrest(model, flight_at(model, x, v_air_W, heading_rad));
+  Vector6 f = trim_residual(model, flight_at(model, x, v_air_W, heading_rad));
   for (int i = 0; i < kMostSteps && !(f.norm() < kAtRest); ++i) {
     Matrix6 J;
     for (int k = 0; k < 6; ++k) {
       Vector6 ahead = x, behind = x;
       ahead[k] += kStep;
       behind[k] -= kStep;
-      J.col(k) = (unrest(model, flight_at(model, ahead, v_air_W, heading_rad)) -
-                  unrest(model, flight_at(model, behind, v_air_W, heading_rad))) /
+      J.col(k) = (trim_residual(model, flight_at(model, ahead, v_air_W, heading_rad)) -
+                  trim_residual(model, flight_at(model, behind, v_air_W, heading_rad))) /
                  (2.0 * kStep);
     }
     Vector6 step = J.partialPivLu().solve(-f);
     const double tilt = step.head<2>().norm();
     if (tilt > kLongestTilt) step *= kLongestTilt / tilt;
     x += step;
-    f = unrest(model, flight_at(model, x, v_air_W, heading_rad));
+    f = trim_residual(model, flight_at(model, x, v_air_W, heading_rad));
   }
   constexpr double kSettled = 1e-8;
   const MulticopterTrim found = flight_at(model, x, v_air_W, heading_rad);
@@ -163,18 +163,18 @@ void MulticopterFlight::step_controls(const Controls& command, const Eigen::Vect
   step(allocate(model_, command), wind_W, dt_s);
 }
 
-void MulticopterFlight::step(const PerRotor& asked_radps, const Eigen::Vector3d& wind_W, double dt_s) {
-  const PerRotor asked = asked_radps.cwiseMax(0.0).cwiseMin(model_.rotor.highest_radps);
+void MulticopterFlight::step(const PerRotor& commanded_radps, const Eigen::Vector3d& wind_W, double dt_s) {
+  const PerRotor commanded = commanded_radps.cwiseMax(0.0).cwiseMin(model_.rotor.highest_radps);
   const auto rate = [&](double t_s, const RigidBodyVector& x) -> RigidBodyVector {
-    const PerRotor speeds = spun(model_, state_.speeds_radps, asked, t_s);
+    const PerRotor speeds = spun(model_, state_.speeds_radps, commanded, t_s);
     const RigidBodyState body = to_rigid_body(x);
-    const MulticopterLoads loads = multicopter_loads(model_, body, speeds, spin_ups(model_, speeds, asked), wind_W);
+    const MulticopterLoads loads = multicopter_loads(model_, body, speeds, spin_ups(model_, speeds, commanded), wind_W);
     return derivative(model_.mass, body, loads.f_B, loads.t_B);
   };
   MulticopterFlightState next;
   next.body = to_rigid_body(rk4_step<13>(to_vector(state_.body), 0.0, dt_s, rate));
   next.body.q_WB.normalize();
-  next.speeds_radps = spun(model_, state_.speeds_radps, asked, dt_s);
+  next.speeds_radps = spun(model_, state_.speeds_radps, commanded, dt_s);
   set_state(next, wind_W);
 }
 

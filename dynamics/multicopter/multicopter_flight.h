@@ -25,8 +25,8 @@ struct MulticopterTrim {
 std::optional<MulticopterTrim> trim(const MulticopterModel& model, const Eigen::Vector3d& v_air_W,
                                     double heading_rad = 0.0);
 
-/// Motion near a trim: dx/dt = A x + B u, deviations from the trim; u are thrust and torques that the motors are asked
-/// for, their lag between up and down.
+/// Motion near a trim: dx/dt = A x + B u, deviations from the trim; u are the commanded thrust and torques; the motors'
+/// lag is the mean of speeding up and slowing down.
 struct MulticopterLinearModel {
   /// u, v, w (m/s, in B), p, q, r, roll, pitch, heading, then thrust and torques that the rotors give (N, N m).
   enum State {
@@ -69,8 +69,8 @@ class MulticopterFlight {
 
   const MulticopterModel& model() const { return model_; }
   const MulticopterFlightState& state() const { return state_; }
-  /// Moves on with rotor speeds asked for, rad/s. Parameters as Vehicle::step().
-  void step(const PerRotor& asked_radps, const Eigen::Vector3d& wind_W, double dt_s);
+  /// Moves on with commanded rotor speeds, rad/s. Parameters as Vehicle::step().
+  void step(const PerRotor& commanded_radps, const Eigen::Vector3d& wind_W, double dt_s);
   /// Goes on from a state. @param wind_W  velocity of the air in W at this instant, m/s.
   void set_state(const MulticopterFlightState& state, const Eigen::Vector3d& wind_W);
 

@@ -3,25 +3,21 @@
 #include <cmath>
 
 #include "dynamics/air/atmosphere.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::dynamics::sensors {
 
 Barometer::Barometer(const BarometerConfig& config, double physics_dt_s, uint64_t seed)
-    : config_(config),
+    : config_(fields::require_bounds(config, "barometer")),
       period_(period_ticks("barometer.rate", config.rate_hz, physics_dt_s)),
       sample_dt_s_(static_cast<double>(period_) * physics_dt_s),
       noise_(seed),
-      keeps_(config.lag_s > 0.0 ? std::exp(-physics_dt_s / config.lag_s) : 0.0) {
-  require_not_negative("barometer.noise", config.noise_pa);
-  require_not_negative("barometer.wander", config.wander_pa);
-  require_positive("barometer.wander_time", config.wander_time_s);
-  require_not_negative("barometer.lag", config.lag_s);
-  require_range("barometer.dropout", config.dropout, 0.0, 1.0);
+      memory_(config.lag_s > 0.0 ? std::exp(-physics_dt_s / config.lag_s) : 0.0) {
   wander_pa_ = config.wander_pa * noise_.draw();
 }
 
-void Barometer::feel(double altitude_m) {
-  altitude_m_ = altitude_m + keeps_ * (altitude_m_.value_or(altitude_m) - altitude_m);
+void Barometer::observe(double altitude_m) {
+  altitude_m_ = altitude_m + memory_ * (altitude_m_.value_or(altitude_m) - altitude_m);
 }
 
 std::optional<double> Barometer::read() {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "dynamics/sensors/sensor_noise.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::dynamics::sensors {
 
@@ -22,7 +23,8 @@ struct BarometerConfig {
 template <class Visitor>
 void describe(Visitor& v, BarometerConfig& c) {
   v("enabled", c.enabled, {.meaning = "whether there is one"});
-  v("rate", c.rate_hz, {.unit = "Hz", .above = 0.0, .meaning = "readings a second; divides the physics rate"});
+  v("rate", c.rate_hz,
+    {.unit = "Hz", .at_least = fields::kSlowestHz, .meaning = "readings a second; divides the physics rate"});
   v("noise", c.noise_pa, {.unit = "Pa", .at_least = 0.0, .meaning = "white noise of a reading"});
   v("wander", c.wander_pa, {.unit = "Pa", .at_least = 0.0, .meaning = "standard deviation of the wandering error"});
   v("wander_time", c.wander_time_s, {.unit = "s", .above = 0.0, .meaning = "correlation time of the wandering error"});
@@ -32,15 +34,15 @@ void describe(Visitor& v, BarometerConfig& c) {
 
 class Barometer {
  public:
-  /// Throws std::invalid_argument on values out of range. @param physics_dt_s  between calls of feel(), > 0.
+  /// Throws std::invalid_argument on values out of range. @param physics_dt_s  between calls of observe(), > 0.
   Barometer(const BarometerConfig& config, double physics_dt_s, uint64_t seed);
 
   int64_t period() const { return period_; }  ///< physics ticks between readings
 
-  /// What it is exposed to on every physics tick. @param altitude_m  in a standard atmosphere whose sea level is W's
-  /// origin.
-  void feel(double altitude_m);
-  /// @return pressure with its errors, Pa; none on a drop-out. To be called once every period() ticks, after feel().
+  /// Takes in the true altitude on every physics tick. @param altitude_m  in a standard atmosphere whose sea level is
+  /// W's origin.
+  void observe(double altitude_m);
+  /// @return pressure with its errors, Pa; none on a drop-out. To be called once every period() ticks, after observe().
   std::optional<double> read();
 
  private:
@@ -49,7 +51,7 @@ class Barometer {
   double sample_dt_s_;
   NormalStream noise_;
   double wander_pa_;
-  double keeps_;                      ///< share of the last tick's altitude that the lag keeps, 0..1
+  double memory_;                     ///< weight of the last tick's altitude in the lag, 0..1
   std::optional<double> altitude_m_;  ///< as it lags; none before the first tick
 };
 

@@ -3,24 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/fields/bounds.h"
+
 namespace hedgehop::dynamics::sensors {
 
 Gps::Gps(const GpsConfig& config, double physics_dt_s, uint64_t seed)
-    : config_(config), period_(period_ticks("gps.rate", config.rate_hz, physics_dt_s)), noise_(seed) {
-  require_not_negative("gps.latency", config.latency_s);
-  require_not_negative("gps.wander_horizontal", config.wander_horizontal_m);
-  require_not_negative("gps.wander_vertical", config.wander_vertical_m);
-  require_positive("gps.wander_time", config.wander_time_s);
-  require_not_negative("gps.noise", config.noise_m);
-  require_not_negative("gps.velocity_noise", config.velocity_noise_mps);
-  require_range("gps.dropout", config.dropout, 0.0, 1.0);
+    : config_(fields::require_bounds(config, "gps")),
+      period_(period_ticks("gps.rate", config.rate_hz, physics_dt_s)),
+      noise_(seed) {
   sample_dt_s_ = static_cast<double>(period_) * physics_dt_s;
   past_.resize(static_cast<size_t>(std::llround(config.latency_s / physics_dt_s)) + 1);
   wander_sigma_m_ << config.wander_horizontal_m, config.wander_horizontal_m, config.wander_vertical_m;
   wander_m_ = wander_sigma_m_.cwiseProduct(noise_.draw3());
 }
 
-void Gps::feel(const Eigen::Vector3d& p_WB, const Eigen::Vector3d& v_WB_W) {
+void Gps::observe(const Eigen::Vector3d& p_WB, const Eigen::Vector3d& v_WB_W) {
   past_[next_] = {p_WB, v_WB_W};
   next_ = (next_ + 1) % past_.size();
   known_ = std::min(known_ + 1, past_.size());

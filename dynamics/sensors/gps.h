@@ -7,6 +7,7 @@
 
 #include "dynamics/rigid_body.h"
 #include "dynamics/sensors/sensor_noise.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::dynamics::sensors {
 
@@ -25,7 +26,8 @@ struct GpsConfig {
 template <class Visitor>
 void describe(Visitor& v, GpsConfig& c) {
   v("enabled", c.enabled, {.meaning = "whether there is reception"});
-  v("rate", c.rate_hz, {.unit = "Hz", .above = 0.0, .meaning = "fixes a second; divides the physics rate"});
+  v("rate", c.rate_hz,
+    {.unit = "Hz", .at_least = fields::kSlowestHz, .meaning = "fixes a second; divides the physics rate"});
   v("latency", c.latency_s, {.unit = "s", .at_least = 0.0, .at_most = 2.0, .meaning = "age of a fix when it arrives"});
   v("wander_horizontal", c.wander_horizontal_m,
     {.unit = "m", .at_least = 0.0, .meaning = "standard deviation per axis of the wandering position error"});
@@ -45,13 +47,13 @@ struct GpsFix {
 
 class Gps {
  public:
-  /// Throws std::invalid_argument on values out of range. @param physics_dt_s  between calls of feel(), > 0.
+  /// Throws std::invalid_argument on values out of range. @param physics_dt_s  between calls of observe(), > 0.
   Gps(const GpsConfig& config, double physics_dt_s, uint64_t seed);
 
   int64_t period() const { return period_; }
 
   /// Remembers where the vehicle is on this physics tick.
-  void feel(const Eigen::Vector3d& p_WB, const Eigen::Vector3d& v_WB_W);
+  void observe(const Eigen::Vector3d& p_WB, const Eigen::Vector3d& v_WB_W);
   /// The fix that arrives at this tick; none without reception, on a drop-out or before the first is old enough.
   /// To be called once every period() ticks.
   std::optional<GpsFix> read();

@@ -8,13 +8,8 @@ namespace hedgehop::dynamics::sensors {
 namespace {
 
 constexpr double kRingSpacingM = 0.5;  // chosen: obstacles on roofs and the ground are rarely narrower
-constexpr double kWidestConeRad = 0.7853981633974483;
 
 }  // namespace
-
-void check(const HeightSensorConfig& config) {
-  require_range("height_sensor.cone", config.cone_rad, 0.0, kWidestConeRad);
-}
 
 double nearest_echo_m(const HeightSensorConfig& config, double below_m, const HeightBeside& beside) {
   if (config.cone_rad == 0.0 || !beside) return below_m;

@@ -23,15 +23,12 @@ void describe(Visitor& v, HeightSensorConfig& c) {
      .meaning = "half angle of the cone whose nearest echo it reads: about 15 for a sonar, 0 for a laser"});
 }
 
-/// Throws std::invalid_argument unless the cone is one: 0 to 45 degrees.
-void check(const HeightSensorConfig& config);
-
 /// Height of a point above the surface below it, m; +inf above nothing. The point lies level with the sensor, so far to
 /// the north and east of it, m.
 using HeightBeside = std::function<double(double north_m, double east_m)>;
 
 /// Returns the distance of what the sensor hears first, m: the nearest point in its cone about the plumb line.
-/// @param below_m  height above the surface right below. @param beside  of the surfaces round about; none is asked for
+/// @param below_m  height above the surface right below. @param beside  of the surfaces around; it is not called
 /// a single beam. Simplified: surfaces are seen from above, on rings at most 0.5 m apart; walls beside the cone reflect
 /// the sound away.
 double nearest_echo_m(const HeightSensorConfig& config, double below_m, const HeightBeside& beside);

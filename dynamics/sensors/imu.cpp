@@ -5,6 +5,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "sim/fields/bounds.h"
+
 namespace hedgehop::dynamics::sensors {
 namespace {
 
@@ -15,23 +17,6 @@ Eigen::Vector3d filtered(double k, const Eigen::Vector3d& out, const Eigen::Vect
 }
 
 Eigen::Vector3d within(const Eigen::Vector3d& v, double range) { return v.cwiseMax(-range).cwiseMin(range); }
-
-void check(const ImuConfig& c, double physics_dt_s) {
-  require_not_negative("imu.gyro_noise", c.gyro_noise_density);
-  require_not_negative("imu.gyro_bias_walk", c.gyro_bias_walk);
-  require_positive("imu.gyro_bias_time", c.gyro_bias_time_s);
-  require_not_negative("imu.gyro_offset", c.gyro_offset_radps);
-  require_not_negative("imu.accelerometer_noise", c.accelerometer_noise_density);
-  require_not_negative("imu.accelerometer_bias_walk", c.accelerometer_bias_walk);
-  require_positive("imu.accelerometer_bias_time", c.accelerometer_bias_time_s);
-  require_not_negative("imu.accelerometer_offset", c.accelerometer_offset_mps2);
-  require_positive("imu.gyro_range", c.gyro_range_radps);
-  require_positive("imu.accelerometer_range", c.accelerometer_range_mps2);
-  require_not_negative("imu.misalignment", c.misalignment_rad);
-  require_positive("imu.cutoff", c.cutoff_hz);
-  if (c.cutoff_hz * physics_dt_s >= 0.5) throw std::invalid_argument("imu.cutoff: must be below half the physics rate");
-  if (!c.p_BS_m.allFinite()) throw std::invalid_argument("imu.position: must be finite");
-}
 
 }  // namespace
 
@@ -44,27 +29,29 @@ GaussMarkov accelerometer_wander(const ImuConfig& c) {
 }
 
 Imu::Imu(const ImuConfig& config, double physics_dt_s, uint64_t seed)
-    : config_(config),
+    : config_(fields::require_bounds(config, "imu")),
       dt_s_(physics_dt_s),
       period_(period_ticks("imu.rate", config.rate_hz, physics_dt_s)),
       noise_(seed),
       gyro_wander_model_(gyro_wander(config)),
       accelerometer_wander_model_(accelerometer_wander(config)),
       filter_(std::tan(std::numbers::pi * config.cutoff_hz * physics_dt_s)) {
-  check(config, physics_dt_s);
+  if (config.cutoff_hz * physics_dt_s >= 0.5) {
+    throw std::invalid_argument("imu.cutoff: must be below half the physics rate");
+  }
   sample_dt_s_ = static_cast<double>(period_) * dt_s_;
   gyro_offset_ = config.gyro_offset_radps * noise_.draw3();
   accelerometer_offset_ = config.accelerometer_offset_mps2 * noise_.draw3();
   gyro_wander_ = gyro_wander_model_.sigma * noise_.draw3();
   accelerometer_wander_ = accelerometer_wander_model_.sigma * noise_.draw3();
   const Eigen::Vector3d tilt = config.misalignment_rad * noise_.draw3();
-  R_SB_ = Eigen::AngleAxisd(tilt.norm(), tilt.stableNormalized()).toRotationMatrix();
+  R_IB_ = Eigen::AngleAxisd(tilt.norm(), tilt.stableNormalized()).toRotationMatrix();
 }
 
-void Imu::feel(const Eigen::Vector3d& w_WB_B, const Eigen::Vector3d& f_B) {
+void Imu::observe(const Eigen::Vector3d& w_WB_B, const Eigen::Vector3d& f_B) {
   // At the sensor's place: Euler and centripetal acceleration, the former by the difference over a tick.
   const Eigen::Vector3d w_dot = started_ ? Eigen::Vector3d((w_WB_B - w_in_) / dt_s_) : Eigen::Vector3d::Zero();
-  const Eigen::Vector3d& r = config_.p_BS_m;
+  const Eigen::Vector3d& r = config_.p_BI_m;
   const Eigen::Vector3d f = f_B + w_dot.cross(r) + w_WB_B.cross(w_WB_B.cross(r));
   w_out_ = started_ ? filtered(filter_, w_out_, w_in_, w_WB_B) : w_WB_B;
   f_out_ = started_ ? filtered(filter_, f_out_, f_in_, f) : f;
@@ -81,9 +68,9 @@ ImuReading Imu::read() {
                           accelerometer_wander_model_.added_sigma(sample_dt_s_) * noise_.draw3();
   const ImuReading errors = bias();
   const Eigen::Vector3d w =
-      R_SB_ * w_out_ + errors.w_WB_B_meas + config_.gyro_noise_density * root_rate * noise_.draw3();
+      R_IB_ * w_out_ + errors.w_WB_B_meas + config_.gyro_noise_density * root_rate * noise_.draw3();
   const Eigen::Vector3d f =
-      R_SB_ * f_out_ + errors.specific_force_B_meas + config_.accelerometer_noise_density * root_rate * noise_.draw3();
+      R_IB_ * f_out_ + errors.specific_force_B_meas + config_.accelerometer_noise_density * root_rate * noise_.draw3();
   return {within(w, config_.gyro_range_radps), within(f, config_.accelerometer_range_mps2)};
 }
 

@@ -5,6 +5,7 @@
 
 #include "dynamics/rigid_body.h"
 #include "dynamics/sensors/sensor_noise.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::dynamics::sensors {
 
@@ -25,11 +26,12 @@ struct ImuConfig {
   double gyro_range_radps = 17.453292519943295;
   double accelerometer_range_mps2 = 176.58;
   double misalignment_rad = 0.0017453292519943295;   ///< standard deviation about each axis of B
-  Eigen::Vector3d p_BS_m = Eigen::Vector3d::Zero();  ///< where it sits, from the mass center, in B
+  Eigen::Vector3d p_BI_m = Eigen::Vector3d::Zero();  ///< where it sits, from the mass center, in B
 };
 template <class Visitor>
 void describe(Visitor& v, ImuConfig& c) {
-  v("rate", c.rate_hz, {.unit = "Hz", .above = 0.0, .meaning = "readings a second; divides the physics rate"});
+  v("rate", c.rate_hz,
+    {.unit = "Hz", .at_least = fields::kSlowestHz, .meaning = "readings a second; divides the physics rate"});
   v("gyro_noise", c.gyro_noise_density, {.unit = "rad/s/sqrt(Hz)", .at_least = 0.0, .meaning = "white noise density"});
   v("gyro_bias_walk", c.gyro_bias_walk,
     {.unit = "rad/s^2/sqrt(Hz)", .at_least = 0.0, .meaning = "noise density that drives the wandering bias"});
@@ -46,13 +48,15 @@ void describe(Visitor& v, ImuConfig& c) {
   v("accelerometer_offset", c.accelerometer_offset_mps2,
     {.unit = "m/s^2", .at_least = 0.0, .meaning = "standard deviation of the offset drawn at turn-on"});
   v("cutoff", c.cutoff_hz,
-    {.unit = "Hz", .above = 0.0, .meaning = "-3 dB frequency of the low-pass filter; below half the physics rate"});
+    {.unit = "Hz",
+     .at_least = fields::kSlowestHz,
+     .meaning = "-3 dB frequency of the low-pass filter; below half the physics rate"});
   v("gyro_range", c.gyro_range_radps, {.unit = "rad/s", .above = 0.0, .meaning = "greatest rate it can read"});
   v("accelerometer_range", c.accelerometer_range_mps2,
     {.unit = "m/s^2", .above = 0.0, .meaning = "greatest specific force it can read"});
   v("misalignment", c.misalignment_rad,
     {.unit = "deg", .at_least = 0.0, .at_most = 5.0, .meaning = "standard deviation of the mounting error per axis"});
-  v("position", c.p_BS_m, {.unit = "m", .meaning = "where it sits: forward, right, down of the mass center"});
+  v("position", c.p_BI_m, {.unit = "m", .meaning = "where it sits: forward, right, down of the mass center"});
 }
 
 struct ImuReading {
@@ -62,14 +66,14 @@ struct ImuReading {
 
 class Imu {
  public:
-  /// Throws std::invalid_argument on values out of range. @param physics_dt_s  between calls of feel(), > 0.
+  /// Throws std::invalid_argument on values out of range. @param physics_dt_s  between calls of observe(), > 0.
   Imu(const ImuConfig& config, double physics_dt_s, uint64_t seed);
 
   int64_t period() const { return period_; }  ///< physics ticks between readings
 
   /// What the sensor sees on every physics tick, before noise: runs the filter.
   /// @param w_WB_B, f_B  angular velocity, and specific force of the mass center, in B.
-  void feel(const Eigen::Vector3d& w_WB_B, const Eigen::Vector3d& f_B);
+  void observe(const Eigen::Vector3d& w_WB_B, const Eigen::Vector3d& f_B);
   /// The reading at this tick; to be called once every period() ticks.
   ImuReading read();
 
@@ -83,7 +87,7 @@ class Imu {
   NormalStream noise_;
   GaussMarkov gyro_wander_model_, accelerometer_wander_model_;
   double filter_;  ///< tan(pi cutoff dt)
-  Eigen::Matrix3d R_SB_;
+  Eigen::Matrix3d R_IB_;
   Eigen::Vector3d gyro_offset_, accelerometer_offset_, gyro_wander_, accelerometer_wander_;
   bool started_ = false;
   Eigen::Vector3d w_in_, f_in_, w_out_, f_out_;  ///< of the filter, at the last tick

@@ -3,13 +3,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/fields/bounds.h"
+
 namespace hedgehop::dynamics::sensors {
 
 Magnetometer::Magnetometer(const MagnetometerConfig& config, double physics_dt_s, uint64_t seed)
-    : config_(config), period_(period_ticks("magnetometer.rate", config.rate_hz, physics_dt_s)), noise_(seed) {
-  require_not_negative("magnetometer.noise", config.noise_rad);
-  require_not_negative("magnetometer.offset", config.offset_rad);
-  require_range("magnetometer.dropout", config.dropout, 0.0, 1.0);
+    : config_(fields::require_bounds(config, "magnetometer")),
+      period_(period_ticks("magnetometer.rate", config.rate_hz, physics_dt_s)),
+      noise_(seed) {
   offset_rad_ = config.offset_rad * noise_.draw();
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "dynamics/sensors/sensor_noise.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::dynamics::sensors {
 
@@ -20,7 +21,8 @@ struct MagnetometerConfig {
 template <class Visitor>
 void describe(Visitor& v, MagnetometerConfig& c) {
   v("enabled", c.enabled, {.meaning = "whether the compass works"});
-  v("rate", c.rate_hz, {.unit = "Hz", .above = 0.0, .meaning = "readings a second; divides the physics rate"});
+  v("rate", c.rate_hz,
+    {.unit = "Hz", .at_least = fields::kSlowestHz, .meaning = "readings a second; divides the physics rate"});
   v("noise", c.noise_rad, {.unit = "deg", .at_least = 0.0, .at_most = 90.0, .meaning = "white noise of a reading"});
   v("offset", c.offset_rad,
     {.unit = "deg", .at_least = 0.0, .at_most = 90.0, .meaning = "standard deviation of the offset drawn at turn-on"});

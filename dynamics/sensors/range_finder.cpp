@@ -2,13 +2,15 @@
 
 #include <stdexcept>
 
+#include "sim/fields/bounds.h"
+
 namespace hedgehop::dynamics::sensors {
 
 Eigen::Vector3d beam_direction_B(const RangeFinderConfig& config) {
-  if (!config.direction_B.allFinite() || config.direction_B.isZero(0.0)) {
-    throw std::invalid_argument("range_finder.direction: must be finite and not zero");
+  fields::require_bounds(config, "range_finder");
+  if (config.direction_B.isZero(0.0)) {
+    throw std::invalid_argument("range_finder.direction: must not be zero");
   }
-  if (!config.p_BS_m.allFinite()) throw std::invalid_argument("range_finder.position: must be finite");
   return config.direction_B.stableNormalized();
 }
 

@@ -11,13 +11,13 @@ namespace hedgehop::dynamics::sensors {
 struct RangeFinderConfig {
   RangerConfig ranger = {.enabled = false, .min_m = 0.1, .max_m = 40.0, .latency_s = 0.01};
   Eigen::Vector3d direction_B = Eigen::Vector3d::UnitX();  ///< of the beam; any length but 0
-  Eigen::Vector3d p_BS_m = Eigen::Vector3d::Zero();        ///< where the beam begins, from the mass center, in B
+  Eigen::Vector3d p_BI_m = Eigen::Vector3d::Zero();        ///< where the beam begins, from the mass center, in B
 };
 template <class Visitor>
 void describe(Visitor& v, RangeFinderConfig& c) {
   describe(v, c.ranger);
   v("direction", c.direction_B, {.meaning = "of the beam: forward, right, down; of any length but 0"});
-  v("position", c.p_BS_m, {.unit = "m", .meaning = "where the beam begins: forward, right, down of the mass center"});
+  v("position", c.p_BI_m, {.unit = "m", .meaning = "where the beam begins: forward, right, down of the mass center"});
 }
 
 /// Distance from a point to what a beam meets, m; +inf where that is nothing within reach. @param p_W  m.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dynamics/sensors/sensor_noise.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::dynamics::sensors {
 
@@ -23,7 +24,8 @@ struct RangerConfig {
 template <class Visitor>
 void describe(Visitor& v, RangerConfig& c) {
   v("enabled", c.enabled, {.meaning = "whether there is one"});
-  v("rate", c.rate_hz, {.unit = "Hz", .above = 0.0, .meaning = "readings a second; divides the physics rate"});
+  v("rate", c.rate_hz,
+    {.unit = "Hz", .at_least = fields::kSlowestHz, .meaning = "readings a second; divides the physics rate"});
   v("min", c.min_m, {.unit = "m", .at_least = 0.0, .meaning = "shortest range it reads"});
   v("max", c.max_m, {.unit = "m", .above = 0.0, .meaning = "longest range it reads"});
   v("noise", c.noise_m, {.unit = "m", .at_least = 0.0, .meaning = "white noise at range 0"});
@@ -42,11 +44,11 @@ class Ranger {
   /// @param physics_dt_s  the duration of a tick, > 0.
   Ranger(const std::string& key, const RangerConfig& config, double physics_dt_s, uint64_t seed);
 
-  /// Whether it looks out on this physics tick, counted from 0: then, and only then, feel() is called.
-  bool looks(int64_t tick) const { return (tick + latency_) % period_ == 0; }
+  /// Whether it measures on this physics tick, counted from 0: then, and only then, observe() is called.
+  bool observes(int64_t tick) const { return (tick + latency_) % period_ == 0; }
   /// Takes in the true distance, m; +inf where there is nothing.
-  void feel(double distance_m);
-  /// Whether a reading is due on this tick: then read() is called, after feel().
+  void observe(double distance_m);
+  /// Whether a reading is due on this tick: then read() is called, after observe().
   bool due(int64_t tick) const { return tick % period_ == 0; }
   /// @return the range a latency ago, m; none out of range, on a drop-out, when disabled, or before the first is old
   /// enough.
@@ -57,7 +59,7 @@ class Ranger {
   int64_t period_, latency_;  ///< ticks
   NormalStream noise_;
   double offset_m_ = 0.0;
-  std::vector<double> seen_m_;  ///< a ring of what was felt and not yet read
+  std::vector<double> observed_m_;  ///< a ring of ranges observed and not yet read
   size_t next_ = 0;
 };
 

@@ -24,7 +24,6 @@ double GaussMarkov::added_sigma(double dt_s) const {
 }
 
 int64_t period_ticks(std::string_view key, double rate_hz, double physics_dt_s) {
-  require_positive(key, rate_hz);
   const double ticks = 1.0 / (rate_hz * physics_dt_s);
   constexpr double kRoundOff = 1e-9;
   if (ticks < 1.0 - kRoundOff || std::abs(ticks - std::round(ticks)) > kRoundOff * ticks) {
@@ -33,22 +32,6 @@ int64_t period_ticks(std::string_view key, double rate_hz, double physics_dt_s) 
                                 " Hz");
   }
   return std::llround(ticks);
-}
-
-void require_range(std::string_view key, double value, double low, double high) {
-  if (value >= low && value <= high) return;
-  throw std::invalid_argument(std::string(key) + ": must lie between " + std::to_string(low) + " and " +
-                              std::to_string(high) + ", got " + std::to_string(value));
-}
-
-void require_positive(std::string_view key, double value) {
-  if (value > 0.0 && std::isfinite(value)) return;
-  throw std::invalid_argument(std::string(key) + ": must be positive, got " + std::to_string(value));
-}
-
-void require_not_negative(std::string_view key, double value) {
-  if (value >= 0.0 && std::isfinite(value)) return;
-  throw std::invalid_argument(std::string(key) + ": must not be negative, got " + std::to_string(value));
 }
 
 }  // namespace hedgehop::dynamics::sensors

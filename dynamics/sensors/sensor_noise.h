@@ -33,15 +33,8 @@ struct GaussMarkov {
 };
 
 /// Returns every how many physics ticks a sensor reads.
-/// @param key  of the rate in the config, for the message.
+/// @param key  of the rate in the config, for the message. @param rate_hz  > 0.
 /// Throws std::invalid_argument "<key>: ..." unless the rate divides the physics rate.
 int64_t period_ticks(std::string_view key, double rate_hz, double physics_dt_s);
-
-/// Throws std::invalid_argument "<key>: ..." unless low <= value <= high (both finite).
-void require_range(std::string_view key, double value, double low, double high);
-/// Throws std::invalid_argument "<key>: ..." unless value > 0 and finite.
-void require_positive(std::string_view key, double value);
-/// Throws std::invalid_argument "<key>: ..." unless value >= 0 and finite.
-void require_not_negative(std::string_view key, double value);
 
 }  // namespace hedgehop::dynamics::sensors

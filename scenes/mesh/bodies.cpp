@@ -79,7 +79,7 @@ void add_post(const Post& post, int sides, const Cover& cover, MeshBuilder& mesh
     return {std::cos(turn), std::sin(turn), 0.0};
   };
 
-  // The mantle: the viewer's right is against the turn.
+  // The mantle: the viewer's right is opposite to the direction of rotation.
   for (int k = 0; k <= sides; ++k) {
     const Vector3d p_W = post.foot_W + post.radius_m * out(k % sides);
     const double across_m = -2.0 * std::numbers::pi * post.radius_m * k / sides;
@@ -101,18 +101,18 @@ void add_post(const Post& post, int sides, const Cover& cover, MeshBuilder& mesh
   mesh.add(vertices, faces);
 }
 
-void add_box(const Eigen::AlignedBox3d& box_S, const Eigen::Isometry3d& X_WS, const Cover& cover, MeshBuilder& mesh) {
+void add_box(const Eigen::AlignedBox3d& box_K, const Eigen::Isometry3d& X_WK, const Cover& cover, MeshBuilder& mesh) {
   const auto add = [&](const Panel& panel) {
-    const Panel placed{X_WS * panel.top_left_W, X_WS.linear() * panel.right_m, X_WS.linear() * panel.down_m};
+    const Panel placed{X_WK * panel.top_left_W, X_WK.linear() * panel.right_m, X_WK.linear() * panel.down_m};
     const Eigen::Vector2d from_origin_m(placed.right_m.normalized().dot(placed.top_left_W),
                                         placed.down_m.normalized().dot(placed.top_left_W));
     mesh.add_tiled(placed, cover.tile_m, cover.offset + from_origin_m / cover.tile_m, cover.texture);
   };
-  for (const Panel& panel : side_panels(box_S)) add(panel);
-  add(top_panel(box_S));
+  for (const Panel& panel : side_panels(box_K)) add(panel);
+  add(top_panel(box_K));
   constexpr double kOnGroundM = 1e-6;
-  const Eigen::Vector3d foot_S(box_S.center().x(), box_S.center().y(), box_S.max().z());
-  if ((X_WS * foot_S).z() < -kOnGroundM) add(bottom_panel(box_S));
+  const Eigen::Vector3d foot_K(box_K.center().x(), box_K.center().y(), box_K.max().z());
+  if ((X_WK * foot_K).z() < -kOnGroundM) add(bottom_panel(box_K));
 }
 
 Solid solid_of(const std::string& name, const Post& post) {

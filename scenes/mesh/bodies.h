@@ -14,7 +14,7 @@ struct Cover {
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();
 };
 
-/// Whether light plays on a body's faces as they are, or as if they were round.
+/// Whether a body's faces are lit as they are, or with smoothed normals.
 enum class Shading { flat, smooth };
 
 /// Adds a polyhedron to the chunk begun last. Each face takes the image from the side that it looks to most: north,
@@ -34,8 +34,8 @@ void add_post(const Post& post, int sides, const Cover& cover, MeshBuilder& mesh
 
 /// Adds the faces of a box, but not the bottom when it stands on the ground. Images are laid out from W's origin, so
 /// that they run on from box to box.
-/// @param box_S  in S, m. @param X_WS  any pose.
-void add_box(const Eigen::AlignedBox3d& box_S, const Eigen::Isometry3d& X_WS, const Cover& cover, MeshBuilder& mesh);
+/// @param box_K  in a frame K, m. @param X_WK  pose of K.
+void add_box(const Eigen::AlignedBox3d& box_K, const Eigen::Isometry3d& X_WK, const Cover& cover, MeshBuilder& mesh);
 
 Solid solid_of(const std::string& name, const Post& post);
 

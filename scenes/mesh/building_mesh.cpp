@@ -6,6 +6,7 @@
 
 #include "scenes/textures/facade_textures.h"
 #include "scenes/textures/street_textures.h"
+#include "scenes/textures/trim_textures.h"
 
 namespace hedgehop::scenes::mesh {
 namespace {

@@ -7,7 +7,7 @@ namespace {
 constexpr double kFarM = 12000.0;
 
 // Adds lines outside of those given, ever farther apart.
-void reach_out(std::vector<double>& lines_m) {
+void extend_to_horizon(std::vector<double>& lines_m) {
   while (lines_m.back() < kFarM) lines_m.push_back(lines_m.back() + 0.5 * (lines_m.back() - lines_m.front()));
   while (lines_m.front() > -kFarM)
     lines_m.insert(lines_m.begin(), lines_m.front() - 0.5 * (lines_m.back() - lines_m.front()));
@@ -17,8 +17,8 @@ void reach_out(std::vector<double>& lines_m) {
 
 void add_ground(std::vector<double> norths_m, std::vector<double> easts_m,
                 const std::function<Cover(const Eigen::Vector2d& middle_NE)>& cover_at, MeshBuilder& mesh) {
-  reach_out(norths_m);
-  reach_out(easts_m);
+  extend_to_horizon(norths_m);
+  extend_to_horizon(easts_m);
   mesh.begin_chunk(false);
   for (size_t i = 1; i < norths_m.size(); ++i) {
     for (size_t j = 1; j < easts_m.size(); ++j) {

@@ -36,6 +36,12 @@ Solid solid_of(const std::string& name, const Eigen::AlignedBox3d& box_W) {
   return solid;
 }
 
+Solid solid_of(const std::string& name, const Eigen::AlignedBox3d& box_K, const Eigen::Isometry3d& X_WK) {
+  Solid solid = solid_of(name, box_K);
+  solid.X_WS = X_WK * solid.X_WS;
+  return solid;
+}
+
 void MeshBuilder::begin_chunk(bool fills_box_to_ground) {
   Chunk chunk;
   chunk.first_index = static_cast<uint32_t>(mesh_.indices.size());

@@ -31,6 +31,8 @@ Panel bottom_panel(const Eigen::AlignedBox3d& box_W);  ///< image up = north
 
 /// Returns the box as a solid.
 Solid solid_of(const std::string& name, const Eigen::AlignedBox3d& box_W);
+/// Returns a box of any pose as a solid. @param box_K  in a frame K, m. @param X_WK  pose of K.
+Solid solid_of(const std::string& name, const Eigen::AlignedBox3d& box_K, const Eigen::Isometry3d& X_WK);
 
 /// Grows a mesh chunk by chunk. Every panel belongs to the chunk begun last; close with `finish()`.
 class MeshBuilder {

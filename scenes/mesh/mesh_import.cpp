@@ -4,7 +4,6 @@
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
-#include <cmath>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -12,8 +11,8 @@
 #include <stdexcept>
 
 #include "scenes/mesh/mesh_builder.h"
-#include "scenes/require.h"
 #include "scenes/textures/stone_textures.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes::mesh {
 namespace {
@@ -26,10 +25,7 @@ constexpr unsigned kMostTriangles = 500000;
   throw std::invalid_argument("imports.file: '" + c.file + "': " + why);
 }
 
-void validate(const ImportConfig& c) {
-  for (const double x : {c.north_m, c.east_m, c.altitude_m, c.heading_rad})
-    require(std::isfinite(x), "imports", x, "finite numbers");
-  require(std::isfinite(c.scale) && c.scale > 0.0, "imports.scale", c.scale, "above 0");
+void require_file(const ImportConfig& c) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(c.file, error)) refuse(c, "there is no such file");
 }
@@ -99,7 +95,7 @@ void draw(const aiMesh& mesh, const Polyhedron& body, const Eigen::Affine3d& to_
 }
 
 void add_import(const ImportConfig& c, Scene& scene) {
-  validate(c);
+  require_file(c);
   Assimp::Importer importer;
   const aiScene* model =
       importer.ReadFile(c.file, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_GenNormals |
@@ -144,7 +140,10 @@ void add_import(const ImportConfig& c, Scene& scene) {
 }  // namespace
 
 void add_imports(const std::vector<ImportConfig>& imports, Scene& scene) {
-  for (const ImportConfig& import : imports) add_import(import, scene);
+  for (size_t k = 0; k < imports.size(); ++k) {
+    fields::require_bounds(imports[k], "imports." + std::to_string(k));
+    add_import(imports[k], scene);
+  }
 }
 
 }  // namespace hedgehop::scenes::mesh

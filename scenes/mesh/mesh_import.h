@@ -25,7 +25,7 @@ struct ImportConfig {
 template <class Visitor>
 void describe(Visitor& v, ImportConfig& c) {
   v("file", c.file, {.required = true, .meaning = "OBJ or glTF; seen from the folder of the file that names it"});
-  v("name", c.name, {.meaning = "as results tell what was hit"});
+  v("name", c.name, {.meaning = "of the obstacle in results"});
   v("north", c.north_m, {.unit = "m", .meaning = "of the model's origin"});
   v("east", c.east_m, {.unit = "m", .meaning = "of the model's origin"});
   v("altitude", c.altitude_m, {.unit = "m", .meaning = "of the model's origin"});
@@ -37,7 +37,7 @@ void describe(Visitor& v, ImportConfig& c) {
 
 /// Adds imported meshes to a scene: triangles, one image for each material (its image, or its color), and a solid
 /// of shape `surface` for each mesh of the file that can be hit. Images are made as large as those that are there.
-/// @throws std::invalid_argument that begins with "imports.<field>: " and gives the file and the reason: not there, not
+/// @throws std::invalid_argument that begins with the key at fault; of a file, with the reason: not there, not
 /// readable, no triangles, an image missing.
 void add_imports(const std::vector<ImportConfig>& imports, Scene& scene);
 

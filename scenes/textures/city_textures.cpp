@@ -5,6 +5,7 @@
 #include "scenes/random.h"
 #include "scenes/textures/facade_textures.h"
 #include "scenes/textures/street_textures.h"
+#include "scenes/textures/trim_textures.h"
 
 namespace hedgehop::scenes::textures {
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "scenes/textures/asphalt.h"
 #include "scenes/textures/canvas.h"
 #include "scenes/textures/masonry.h"
 
@@ -23,19 +24,8 @@ cv::Mat paint_rock(int size_px, uint64_t seed) {
 
 cv::Mat paint_asphalt_road(int size_px, uint64_t seed) {
   Random random(seed);
-  const double tile = kAsphaltTileM;
-  const Color asphalt{0.37f, 0.37f, 0.38f}, dark{0.12f, 0.12f, 0.12f};
-  Canvas canvas(size_px, tile, asphalt);
-  canvas.shade(fractal_noise(size_px, {6, 6, 8, 0.85}, random), 0.14);
-  for (int k = 0; k < 6; ++k) {
-    canvas.fill(
-        {uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 0.5, 1.8), uniform(random, 0.5, 1.8)},
-        varied(asphalt, 0.35, random), 0.8);
-  }
-  for (int k = 0; k < 12; ++k) {
-    canvas.crack(uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 1.0, 4.0), 0.035, dark, 0.7,
-                 random);
-  }
+  Canvas canvas(size_px, kAsphaltTileM, kAsphalt);
+  paint_worn_asphalt(canvas, {0.14, 6, 12, 0.7, {0.12f, 0.12f, 0.12f}}, random);
   return canvas.finished();
 }
 

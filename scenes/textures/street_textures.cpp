@@ -1,12 +1,12 @@
 #include "scenes/textures/street_textures.h"
 
+#include "scenes/textures/asphalt.h"
 #include "scenes/textures/canvas.h"
 #include "scenes/textures/masonry.h"
 
 namespace hedgehop::scenes::textures {
 namespace {
 
-const Color kAsphalt{0.37f, 0.37f, 0.38f};
 const Color kPaint{0.86f, 0.86f, 0.82f};
 const Color kSlab{0.64f, 0.62f, 0.58f};
 const Color kKerb{0.74f, 0.73f, 0.70f};
@@ -17,19 +17,10 @@ const Color kLeaf{0.18f, 0.30f, 0.10f};
 constexpr double kPavementM = 1.4;
 constexpr double kKerbM = 0.14;
 
-// Worn asphalt: mottled, patched, cracked, spotted with oil.
+// Worn asphalt, spotted with oil.
 void paint_asphalt(Canvas& canvas, Random& random) {
   const double tile = canvas.tile_m();
-  canvas.shade(fractal_noise(canvas.size_px(), {6, 6, 8, 0.85}, random), 0.11);
-  for (int k = 0; k < 5; ++k) {
-    canvas.fill(
-        {uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 0.5, 1.8), uniform(random, 0.5, 1.8)},
-        varied(kAsphalt, 0.35, random), 0.8);
-  }
-  for (int k = 0; k < 10; ++k) {
-    canvas.crack(uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 1.0, 4.0), 0.035, kDark, 0.6,
-                 random);
-  }
+  paint_worn_asphalt(canvas, {}, random);
   for (int k = 0; k < 25; ++k) {
     canvas.disc(uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 0.03, 0.22),
                 chance(random, 0.6) ? kDark : Color{0.48f, 0.47f, 0.45f}, uniform(random, 0.2, 0.6));

@@ -26,13 +26,4 @@ cv::Mat paint_field(int size_px, uint64_t seed);  ///< rows of ripe crop, kGrass
 enum class RoofCover { felt, gravel };
 cv::Mat paint_roof(RoofCover cover, int size_px, uint64_t seed);
 
-/// Strips for the foot and the top of buildings, one above the other and tileable sideways: kShopStrips strips of shop
-/// fronts, kShopM high, then a cornice of kCorniceM.
-inline constexpr double kTrimTileM = 12.0;
-inline constexpr int kShopStrips = 3;
-inline constexpr double kShopM = 3.75;
-inline constexpr double kCorniceM = 0.75;
-inline constexpr int kShopBays = 3;  ///< across the image
-cv::Mat paint_trim(int size_px, uint64_t seed);
-
 }  // namespace hedgehop::scenes::textures

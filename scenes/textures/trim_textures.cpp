@@ -1,7 +1,9 @@
+#include "scenes/textures/trim_textures.h"
+
 #include <algorithm>
 
+#include "scenes/random.h"
 #include "scenes/textures/canvas.h"
-#include "scenes/textures/street_textures.h"
 
 namespace hedgehop::scenes::textures {
 namespace {

@@ -5,6 +5,7 @@
 #include "scenes/require.h"
 #include "scenes/textures/stone_textures.h"
 #include "scenes/textures/street_textures.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {
@@ -16,9 +17,8 @@ constexpr double kMarkerRadiusM = 0.12, kMarkerHeightM = 0.45, kMarkerEastM = 1.
 }  // namespace
 
 Scene make_balloon(const BalloonConfig& config, uint64_t seed) {
-  require(config.markers >= 0 && config.markers <= 100, "markers", static_cast<double>(config.markers), "0 to 100");
-  require(config.marker_spacing_m > 0.0, "marker_spacing", config.marker_spacing_m, "above 0 m");
-  require_texture_size(static_cast<double>(config.texture_size_px));
+  fields::require_bounds(config);
+  require_texture_size(config.texture_size_px);
   const int size_px = static_cast<int>(config.texture_size_px);
   Scene scene;
   scene.name = "balloon";

@@ -43,10 +43,10 @@ std::vector<Strip> strips_along_axis(const UrbanPlan& plan) {
   return strips;
 }
 
-// The panel that covers a rectangle of the ground; `turned`: the image's up is east instead of north.
-mesh::Panel ground_panel(const Strip& north, const Strip& east, bool turned) {
+// The panel that covers a rectangle of the ground; `rotated`: the image's up is east instead of north.
+mesh::Panel ground_panel(const Strip& north, const Strip& east, bool rotated) {
   const double size_north = north.high_m - north.low_m, size_east = east.high_m - east.low_m;
-  if (turned) return {{north.high_m, east.high_m, 0.0}, {-size_north, 0.0, 0.0}, {0.0, -size_east, 0.0}};
+  if (rotated) return {{north.high_m, east.high_m, 0.0}, {-size_north, 0.0, 0.0}, {0.0, -size_east, 0.0}};
   return {{north.high_m, east.low_m, 0.0}, {0.0, size_east, 0.0}, {-size_north, 0.0, 0.0}};
 }
 
@@ -63,16 +63,16 @@ void add_cell(const Strip& north, const Strip& east, const textures::CityTexture
               Random& random, mesh::MeshBuilder& mesh) {
   const double shift = uniform(random, 0.0, 1.0);
   const int choice = uniform_index(random, 6);
-  const bool turned = chance(random, 0.5);
+  const bool rotated = chance(random, 0.5);
   if (in_country(north.band) || in_country(east.band)) {
     const mesh::Panel panel = ground_panel(north, east, false);
     const Eigen::Vector2d offset(panel.top_left_W.y() / textures::kGrassTileM,
                                  -panel.top_left_W.x() / textures::kGrassTileM);
     mesh.add_tiled(panel, textures::kGrassTileM, offset, country_image(north, east, city, field_seed));
   } else if (north.band == Band::street && east.band == Band::street) {
-    mesh.add(ground_panel(north, east, turned), {}, city.crossing);
+    mesh.add(ground_panel(north, east, rotated), {}, city.crossing);
   } else if (north.band == Band::lot && east.band == Band::lot) {
-    mesh.add_tiled(ground_panel(north, east, turned), textures::kLotTileM, {shift, shift},
+    mesh.add_tiled(ground_panel(north, east, rotated), textures::kLotTileM, {shift, shift},
                    city.lots[static_cast<size_t>(choice % 3)]);
   } else {
     const bool runs_east = north.band == Band::street;

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "scenes/mesh/ground.h"
 #include "scenes/require.h"
 #include "scenes/textures/room_textures.h"
 #include "scenes/textures/stone_textures.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {
@@ -23,40 +23,35 @@ constexpr int kWalls = 3;  // images
 constexpr uint32_t kFloor = kWalls, kCeiling = kWalls + 1;
 
 void validate(const CorridorConfig& c) {
-  require(c.width_m >= 0.5 && c.width_m <= 100.0, "width", c.width_m, "0.5 to 100 m");
-  require(c.height_m >= 1.0 && c.height_m <= 100.0, "height", c.height_m, "1 to 100 m");
-  require(c.door_height_m >= 0.5 && c.door_height_m <= c.height_m, "door_height", c.door_height_m,
-          "0.5 m to the height");
-  require(c.texture >= 0.0 && c.texture <= 1.0, "texture", c.texture, "0 to 1");
-  require(c.floor_texture >= 0.0 && c.floor_texture <= 1.0, "floor_texture", c.floor_texture, "0 to 1");
+  fields::require_bounds(c);
+  require(c.door_height_m <= c.height_m, "door_height", c.door_height_m, "at most the height");
   require(!c.sections.empty(), "sections", 0.0, "at least one");
   double width_m = c.width_m;
   for (const CorridorSection& s : c.sections) {
-    require(s.length_m >= 1.0 && s.length_m <= 1000.0, "sections.length", s.length_m, "1 to 1000 m");
-    require(std::abs(s.bend_rad) <= std::numbers::pi / 3, "sections.bend", s.bend_rad, "-pi/3 to pi/3 rad");
     const double end_m = s.width_m > 0.0 ? s.width_m : width_m;
-    require(end_m >= 0.5 && end_m <= 100.0, "sections.width", end_m, "0.5 to 100 m, or 0");
-    const double half_way_m = 0.5 * (width_m + end_m);
-    require(s.doorway_m == 0.0 || (s.doorway_m >= 0.3 && s.doorway_m < half_way_m), "sections.doorway", s.doorway_m,
+    require(end_m >= 0.5, "sections.width", end_m, "at least 0.5 m, or 0");
+    const double middle_width_m = 0.5 * (width_m + end_m);
+    require(s.doorway_m == 0.0 || (s.doorway_m >= 0.3 && s.doorway_m < middle_width_m), "sections.doorway", s.doorway_m,
             "0, or 0.3 m to the corridor's width");
-    require(std::abs(s.obstacle_m) < half_way_m, "sections.obstacle", s.obstacle_m, "less than the corridor's width");
+    require(std::abs(s.obstacle_m) < middle_width_m, "sections.obstacle", s.obstacle_m,
+            "less than the corridor's width");
     width_m = end_m;
   }
-  require_texture_size(static_cast<double>(c.texture_size_px));
+  require_texture_size(c.texture_size_px);
 }
 
 Vector2d to_the_right(const Vector2d& along_NE) { return {-along_NE.y(), along_NE.x()}; }
 
 bool turns_right(const Vector2d& before, const Vector2d& after) { return to_the_right(before).dot(after) > 0.0; }
 
-// A frame S on the floor: x along a direction of the plan, y to the right of it, z down.
+// A frame K on the floor: x along a direction of the plan, y to the right of it, z down.
 Eigen::Isometry3d floor_frame(const Vector2d& origin_NE, const Vector2d& along_NE) {
-  Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d X_WK = Eigen::Isometry3d::Identity();
   const Vector2d right = to_the_right(along_NE);
-  X_WS.linear().col(0) = Vector3d(along_NE.x(), along_NE.y(), 0.0);
-  X_WS.linear().col(1) = Vector3d(right.x(), right.y(), 0.0);
-  X_WS.translation() = Vector3d(origin_NE.x(), origin_NE.y(), 0.0);
-  return X_WS;
+  X_WK.linear().col(0) = Vector3d(along_NE.x(), along_NE.y(), 0.0);
+  X_WK.linear().col(1) = Vector3d(right.x(), right.y(), 0.0);
+  X_WK.translation() = Vector3d(origin_NE.x(), origin_NE.y(), 0.0);
+  return X_WK;
 }
 
 // Adds boxes to a mesh and to the solids, each a chunk with an image of its own.
@@ -64,25 +59,23 @@ class Mason {
  public:
   Mason(uint64_t seed, Scene& scene, mesh::MeshBuilder& mesh) : random_(seed), scene_(scene), mesh_(mesh) {}
 
-  void build(const std::string& name, const Eigen::AlignedBox3d& box_S, const Eigen::Isometry3d& X_WS) {
+  void build(const std::string& name, const Eigen::AlignedBox3d& box_K, const Eigen::Isometry3d& X_WK) {
     const Vector2d offset(uniform(random_, 0.0, 1.0), 0.0);
     mesh_.begin_chunk(false);
-    mesh::add_box(box_S, X_WS, {static_cast<uint32_t>(uniform_index(random_, kWalls)), textures::kWallTileM, offset},
+    mesh::add_box(box_K, X_WK, {static_cast<uint32_t>(uniform_index(random_, kWalls)), textures::kWallTileM, offset},
                   mesh_);
-    Solid solid = mesh::solid_of(name, box_S);
-    solid.X_WS = X_WS * solid.X_WS;
-    scene_.solids.push_back(solid);
+    scene_.solids.push_back(mesh::solid_of(name, box_K, X_WK));
   }
 
-  /// A wall along corners of the plan, all of it on the left side of the way. Where the way turns right, and at both
-  /// ends, stretches run on past the corner, so that no wedge stays open behind it.
-  void build_wall(const std::string& name, const std::vector<Vector2d>& way_NE, double height_m) {
-    for (size_t k = 1; k < way_NE.size(); ++k) {
-      const Vector2d from = way_NE[k - 1], along = (way_NE[k] - from).normalized();
-      const bool on_before = k == 1 || turns_right(from - way_NE[k - 2], along);
-      const bool on_after = k + 1 == way_NE.size() || turns_right(along, way_NE[k + 1] - way_NE[k]);
+  /// A wall along corners of the plan, all of it to the left of the path. Where the path turns right, and at both
+  /// ends, sections extend past the corner, so that no wedge stays open behind it.
+  void build_wall(const std::string& name, const std::vector<Vector2d>& path_NE, double height_m) {
+    for (size_t k = 1; k < path_NE.size(); ++k) {
+      const Vector2d from = path_NE[k - 1], along = (path_NE[k] - from).normalized();
+      const bool on_before = k == 1 || turns_right(from - path_NE[k - 2], along);
+      const bool on_after = k + 1 == path_NE.size() || turns_right(along, path_NE[k + 1] - path_NE[k]);
       const double first_m = on_before ? -kThicknessM : 0.0;
-      const double last_m = (way_NE[k] - from).norm() + (on_after ? kThicknessM : 0.0);
+      const double last_m = (path_NE[k] - from).norm() + (on_after ? kThicknessM : 0.0);
       build(name, {Vector3d(first_m, -kThicknessM, -height_m), Vector3d(last_m, 0.0, 0.0)}, floor_frame(from, along));
     }
   }
@@ -94,16 +87,16 @@ class Mason {
 };
 
 // What stands in a section, seen from its middle: x along it, y to the right.
-void furnish(const CorridorConfig& c, const CorridorSection& section, const Eigen::Isometry3d& X_WS, double width_m,
+void furnish(const CorridorConfig& c, const CorridorSection& section, const Eigen::Isometry3d& X_WK, double width_m,
              Mason& mason) {
   const double half_m = 0.5 * width_m, thin_m = 0.5 * kThicknessM, outer_m = half_m + thin_m;
   if (section.doorway_m > 0.0) {
     const double jamb_m = 0.5 * section.doorway_m;
-    mason.build("doorway", {Vector3d(-thin_m, -outer_m, -c.height_m), Vector3d(thin_m, -jamb_m, 0.0)}, X_WS);
-    mason.build("doorway", {Vector3d(-thin_m, jamb_m, -c.height_m), Vector3d(thin_m, outer_m, 0.0)}, X_WS);
+    mason.build("doorway", {Vector3d(-thin_m, -outer_m, -c.height_m), Vector3d(thin_m, -jamb_m, 0.0)}, X_WK);
+    mason.build("doorway", {Vector3d(-thin_m, jamb_m, -c.height_m), Vector3d(thin_m, outer_m, 0.0)}, X_WK);
     if (c.door_height_m < c.height_m) {
       mason.build("lintel", {Vector3d(-thin_m, -jamb_m, -c.height_m), Vector3d(thin_m, jamb_m, -c.door_height_m)},
-                  X_WS);
+                  X_WK);
     }
   }
   if (section.obstacle_m != 0.0) {
@@ -112,7 +105,7 @@ void furnish(const CorridorConfig& c, const CorridorSection& section, const Eige
     mason.build(
         "pillar",
         {Vector3d(-long_m, std::min(one_m, other_m), -c.height_m), Vector3d(long_m, std::max(one_m, other_m), 0.0)},
-        X_WS);
+        X_WK);
   }
 }
 

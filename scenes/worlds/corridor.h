@@ -22,10 +22,18 @@ void describe(Visitor& v, CorridorSection& c) {
   v("length", c.length_m, {.unit = "m", .at_least = 1.0, .at_most = 1000.0, .meaning = "along the middle"});
   v("bend", c.bend_rad,
     {.unit = "deg", .at_least = -60.0, .at_most = 60.0, .meaning = "where the section begins, to the right"});
-  v("width", c.width_m, {.unit = "m", .at_least = 0.0, .meaning = "where the section ends; 0: as where it begins"});
-  v("doorway", c.doorway_m, {.unit = "m", .at_least = 0.0, .meaning = "width of a doorway half way; 0: none"});
+  v("width", c.width_m,
+    {.unit = "m",
+     .at_least = 0.0,
+     .at_most = 100.0,
+     .meaning = "where the section ends, at least 0.5; 0: as where it begins"});
+  v("doorway", c.doorway_m,
+    {.unit = "m", .at_least = 0.0, .at_most = 100.0, .meaning = "width of a doorway half way, at least 0.3; 0: none"});
   v("obstacle", c.obstacle_m,
-    {.unit = "m", .meaning = "how far a pillar stands out of the wall half way; right > 0, left < 0; 0: none"});
+    {.unit = "m",
+     .at_least = -100.0,
+     .at_most = 100.0,
+     .meaning = "how far a pillar stands out of the wall half way; right > 0, left < 0; 0: none"});
 }
 
 /// A corridor that begins at W's origin, closed by a wall, and heads north; each section carries on from the one
@@ -48,7 +56,8 @@ template <class Visitor>
 void describe(Visitor& v, CorridorConfig& c) {
   v("width", c.width_m, {.unit = "m", .at_least = 0.5, .at_most = 100.0, .meaning = "where the corridor begins"});
   v("height", c.height_m, {.unit = "m", .at_least = 1.0, .at_most = 100.0, .meaning = "from floor to ceiling"});
-  v("door_height", c.door_height_m, {.unit = "m", .at_least = 0.5, .meaning = "of doorways, at most the height"});
+  v("door_height", c.door_height_m,
+    {.unit = "m", .at_least = 0.5, .at_most = 100.0, .meaning = "of doorways, at most the height"});
   v("ceiling", c.ceiling, {.meaning = "false: open to the sky"});
   v("sections", c.sections, {.meaning = "from the origin on"});
   v("texture", c.texture, {.at_least = 0.0, .at_most = 1.0, .meaning = "contrast of the walls: 1 strong, 0 blank"});

@@ -10,6 +10,7 @@
 #include "scenes/require.h"
 #include "scenes/textures/plant_textures.h"
 #include "scenes/textures/street_textures.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {
@@ -32,20 +33,19 @@ constexpr int kTrunkSides = 6, kFewTrunkSides = 3;
 // Larger forests have far details: of the trees in sight, most are so far away that their trunks are hair-thin.
 constexpr int64_t kWideForest = 1000;
 
-void require_range(const char* field, double low, double high, double least, double most) {
-  require(low >= least && low <= high && high <= most, field, low, "from the bound of its key to max_...");
+void require_ordered(const char* field, double low, double high) {
+  require(low <= high, field, low, "at most its max_...");
 }
 
 void validate(const ForestConfig& c) {
-  require(c.trees >= 1 && c.trees <= 10000, "trees", static_cast<double>(c.trees), "1 to 10000");
-  require(c.spacing_m >= 0.5 && c.spacing_m <= 100.0, "spacing", c.spacing_m, "0.5 to 100 m");
-  require_range("min_height", c.min_height_m, c.max_height_m, 1.0, 100.0);
-  require_range("min_crown_diameter", c.min_crown_diameter_m, c.max_crown_diameter_m, 0.2, 50.0);
-  require_range("min_trunk_diameter", c.min_trunk_diameter_m, c.max_trunk_diameter_m, 1e-3, c.min_crown_diameter_m);
-  require(c.clear_height_m >= 0.0 && c.clear_height_m < c.min_height_m, "clear_height", c.clear_height_m,
-          "at least 0 m and less than min_height");
-  require_clearings(c.keep_clear);
-  require_texture_size(static_cast<double>(c.texture_size_px));
+  fields::require_bounds(c);
+  require_ordered("min_height", c.min_height_m, c.max_height_m);
+  require_ordered("min_crown_diameter", c.min_crown_diameter_m, c.max_crown_diameter_m);
+  require_ordered("min_trunk_diameter", c.min_trunk_diameter_m, c.max_trunk_diameter_m);
+  require(c.max_trunk_diameter_m <= c.min_crown_diameter_m, "max_trunk_diameter", c.max_trunk_diameter_m,
+          "at most min_crown_diameter");
+  require(c.clear_height_m < c.min_height_m, "clear_height", c.clear_height_m, "less than min_height");
+  require_texture_size(c.texture_size_px);
 }
 
 struct Place {

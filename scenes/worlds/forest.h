@@ -36,14 +36,18 @@ void describe(Visitor& v, ForestConfig& c) {
      .at_least = 0.5,
      .at_most = 100.0,
      .meaning = "least distance of two trunks; a tree has 2 spacing^2"});
-  v("min_height", c.min_height_m, {.unit = "m", .at_least = 1.0, .meaning = "of the lowest tree"});
-  v("max_height", c.max_height_m, {.unit = "m", .at_most = 100.0, .meaning = "of the highest tree"});
-  v("min_crown_diameter", c.min_crown_diameter_m, {.unit = "m", .at_least = 0.2, .meaning = "of the narrowest crown"});
-  v("max_crown_diameter", c.max_crown_diameter_m, {.unit = "m", .at_most = 50.0, .meaning = "of the widest crown"});
+  v("min_height", c.min_height_m, {.unit = "m", .at_least = 1.0, .at_most = 100.0, .meaning = "of the lowest tree"});
+  v("max_height", c.max_height_m, {.unit = "m", .at_least = 1.0, .at_most = 100.0, .meaning = "of the highest tree"});
+  v("min_crown_diameter", c.min_crown_diameter_m,
+    {.unit = "m", .at_least = 0.2, .at_most = 50.0, .meaning = "of the narrowest crown"});
+  v("max_crown_diameter", c.max_crown_diameter_m,
+    {.unit = "m", .at_least = 0.2, .at_most = 50.0, .meaning = "of the widest crown"});
   v("clear_height", c.clear_height_m,
     {.unit = "m", .at_least = 0.0, .meaning = "of the trunks below the crowns; less than min_height"});
-  v("min_trunk_diameter", c.min_trunk_diameter_m, {.unit = "m", .above = 0.0, .meaning = "of the thinnest trunk"});
-  v("max_trunk_diameter", c.max_trunk_diameter_m, {.unit = "m", .above = 0.0, .meaning = "of the thickest trunk"});
+  v("min_trunk_diameter", c.min_trunk_diameter_m,
+    {.unit = "m", .at_least = 0.001, .at_most = 50.0, .meaning = "of the thinnest trunk"});
+  v("max_trunk_diameter", c.max_trunk_diameter_m,
+    {.unit = "m", .at_least = 0.001, .at_most = 50.0, .meaning = "of the thickest trunk; at most min_crown_diameter"});
   v("keep_clear", c.keep_clear, {.meaning = "discs of the plan without trees, crowns included: start, goal"});
   v("texture_size", c.texture_size_px,
     {.unit = "px",

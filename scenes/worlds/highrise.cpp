@@ -5,6 +5,7 @@
 #include "scenes/textures/facade_textures.h"
 #include "scenes/textures/stone_textures.h"
 #include "scenes/textures/street_textures.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {
@@ -98,8 +99,8 @@ std::vector<Eigen::Vector3d> highrise_corners(const HighriseConfig& config) {
 }
 
 Scene make_highrise(const HighriseConfig& config, uint64_t seed) {
-  require(config.scale >= 0.1 && config.scale <= 10.0, "scale", config.scale, "0.1 to 10");
-  require_texture_size(static_cast<double>(config.texture_size_px));
+  fields::require_bounds(config);
+  require_texture_size(config.texture_size_px);
   Scene scene;
   scene.name = "highrise";
   scene.textures = paint_highrise(config, seed);

@@ -13,6 +13,7 @@
 #include "scenes/textures/stone_textures.h"
 #include "scenes/textures/street_textures.h"
 #include "scenes/textures/vehicle_textures.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {
@@ -28,17 +29,8 @@ constexpr uint64_t kLumpStream = 2;
 constexpr double kRoadHalfM = 3.5, kParkedM = 4.9;  // vehicles stand on the verge
 
 void validate(const ParkConfig& c) {
-  require(c.extent_m >= 30.0 && c.extent_m <= 1000.0, "extent", c.extent_m, "30 to 1000 m");
-  const auto count = [](const char* field, int64_t n, int64_t most) {
-    require(n >= 0 && n <= most, field, static_cast<double>(n), "0 to " + std::to_string(most));
-  };
-  count("trees", c.trees, 1000);
-  count("bushes", c.bushes, 1000);
-  count("rocks", c.rocks, 1000);
-  count("vehicles", c.vehicles, 200);
-  require(c.gap_m >= 0.0, "gap", c.gap_m, "at least 0 m");
-  require_clearings(c.keep_clear);
-  require_texture_size(static_cast<double>(c.texture_size_px));
+  fields::require_bounds(c);
+  require_texture_size(c.texture_size_px);
 }
 
 struct Disc {
@@ -130,7 +122,7 @@ class Gardener {
              uniform(random(), 0.8, 1.4), leaves());
   }
 
-  void lay_rock(int64_t number) {
+  void place_rock(int64_t number) {
     const Vector2d offset(uniform(random(), 0.0, 1.0), uniform(random(), 0.0, 1.0));
     add_lump("rock " + std::to_string(number), planner_.take("rocks", uniform(random(), 0.4, 1.0), false),
              uniform(random(), 0.7, 1.2), {kRock, textures::kRockTileM, offset});
@@ -142,14 +134,14 @@ class Gardener {
     const double length_m = is_van ? 5.0 : 4.4, width_m = is_van ? 1.95 : 1.75, top_m = is_van ? 2.3 : 1.45;
     const Disc disc = planner_.take("vehicles", 0.5 * std::hypot(length_m, width_m), true);
     const double turn_rad = uniform(random(), -0.08, 0.08) + (chance(random(), 0.5) ? std::numbers::pi : 0.0);
-    const Eigen::Isometry3d X_WS =
+    const Eigen::Isometry3d X_WK =
         Eigen::Translation3d(disc.p_NE.x(), disc.p_NE.y(), 0.0) * Eigen::AngleAxisd(turn_rad, Vector3d::UnitZ());
     const double l = 0.5 * length_m, w = 0.5 * width_m, front = is_van ? 0.78 * l : 0.45 * l, body_m = 0.92;
     const uint32_t paint = kFirstPaint + 2 * static_cast<uint32_t>(uniform_index(random(), kPaints));
     const std::string name = (is_van ? "van " : "car ") + std::to_string(number);
     mesh_.begin_chunk(false);
-    add_part(name, {Vector3d(-l, -w, -body_m), Vector3d(l, w, 0.0)}, X_WS, paint);
-    add_part(name, {Vector3d(is_van ? -l : -0.8 * l, -0.9 * w, -top_m), Vector3d(front, 0.9 * w, -body_m)}, X_WS,
+    add_part(name, {Vector3d(-l, -w, -body_m), Vector3d(l, w, 0.0)}, X_WK, paint);
+    add_part(name, {Vector3d(is_van ? -l : -0.8 * l, -0.9 * w, -top_m), Vector3d(front, 0.9 * w, -body_m)}, X_WK,
              paint + 1);
   }
 
@@ -175,12 +167,10 @@ class Gardener {
     scene_.solids.push_back(mesh::solid_of(name, placed));
   }
 
-  void add_part(const std::string& name, const Eigen::AlignedBox3d& box_S, const Eigen::Isometry3d& X_WS,
+  void add_part(const std::string& name, const Eigen::AlignedBox3d& box_K, const Eigen::Isometry3d& X_WK,
                 uint32_t image) {
-    mesh::add_box(box_S, X_WS, {image, textures::kVehicleTileM}, mesh_);
-    Solid solid = mesh::solid_of(name, box_S);
-    solid.X_WS = X_WS * solid.X_WS;
-    scene_.solids.push_back(solid);
+    mesh::add_box(box_K, X_WK, {image, textures::kVehicleTileM}, mesh_);
+    scene_.solids.push_back(mesh::solid_of(name, box_K, X_WK));
   }
 
   Planner& planner_;
@@ -213,7 +203,7 @@ Scene make_park(const ParkConfig& config, uint64_t seed) {
   for (int64_t k = 1; k <= config.vehicles; ++k) gardener.park_vehicle(k);
   for (int64_t k = 1; k <= config.trees; ++k) gardener.plant_tree(k);
   for (int64_t k = 1; k <= config.bushes; ++k) gardener.plant_bush(k);
-  for (int64_t k = 1; k <= config.rocks; ++k) gardener.lay_rock(k);
+  for (int64_t k = 1; k <= config.rocks; ++k) gardener.place_rock(k);
   scene.meshes.push_back(mesh.finish());
   return scene;
 }

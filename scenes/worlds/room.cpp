@@ -12,6 +12,7 @@
 #include "scenes/require.h"
 #include "scenes/textures/room_textures.h"
 #include "scenes/textures/street_textures.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {
@@ -25,14 +26,8 @@ constexpr int kWallVariants = 3;
 constexpr double kGrassMarginM = 1000.0;
 
 void validate(const RoomConfig& c) {
-  require(c.length_m >= 1.0 && c.length_m <= 1000.0, "length", c.length_m, "1 to 1000 m");
-  require(c.width_m >= 1.0 && c.width_m <= 1000.0, "width", c.width_m, "1 to 1000 m");
-  require(c.height_m >= 1.0 && c.height_m <= 100.0, "height", c.height_m, "1 to 100 m");
-  require(c.wall_thickness_m >= 0.05 && c.wall_thickness_m <= 5.0, "wall_thickness", c.wall_thickness_m, "0.05 to 5 m");
-  require(c.furniture >= 0 && c.furniture <= 1000, "furniture", static_cast<double>(c.furniture), "0 to 1000");
-  require(c.furniture_gap_m >= 0.0, "furniture_gap", c.furniture_gap_m, "at least 0 m");
-  require_clearings(c.keep_clear);
-  require_texture_size(static_cast<double>(c.texture_size_px));
+  fields::require_bounds(c);
+  require_texture_size(c.texture_size_px);
 }
 
 Eigen::AlignedBox2d free_plan_NE(const RoomConfig& c) {
@@ -58,22 +53,22 @@ std::optional<Eigen::AlignedBox3d> draw_piece(const RoomConfig& c, bool at_wall,
   const auto snapped = [grain](double x_m) { return std::round(x_m * grain) / grain; };
   const Eigen::Vector2d size(snapped(uniform(random, 0.5, 1.6)), snapped(uniform(random, 0.4, 1.0)));
   const int side = uniform_index(random, 4);
-  const Eigen::Vector2d turned = side % 2 == 0 ? Eigen::Vector2d(size.y(), size.x()) : size;
+  const Eigen::Vector2d rotated = side % 2 == 0 ? Eigen::Vector2d(size.y(), size.x()) : size;
   const double height = std::min(snapped(uniform(random, 0.6, 2.2)), c.height_m);
 
   Eigen::Vector2d low;
   for (int axis = 0; axis < 2; ++axis) {
     const double first = plan_NE.min()[axis] + c.furniture_gap_m;
-    const double last = plan_NE.max()[axis] - c.furniture_gap_m - turned[axis];
+    const double last = plan_NE.max()[axis] - c.furniture_gap_m - rotated[axis];
     if (last < first) return std::nullopt;
     low[axis] = std::clamp(snapped(uniform(random, first, last)), first, last);
   }
-  if (at_wall && side == 0) low.x() = plan_NE.max().x() - turned.x();
-  if (at_wall && side == 1) low.y() = plan_NE.max().y() - turned.y();
+  if (at_wall && side == 0) low.x() = plan_NE.max().x() - rotated.x();
+  if (at_wall && side == 1) low.y() = plan_NE.max().y() - rotated.y();
   if (at_wall && side == 2) low.x() = plan_NE.min().x();
   if (at_wall && side == 3) low.y() = plan_NE.min().y();
 
-  const Eigen::AlignedBox2d footprint_NE(low, Eigen::Vector2d(low + turned));
+  const Eigen::AlignedBox2d footprint_NE(low, Eigen::Vector2d(low + rotated));
   for (const Eigen::AlignedBox3d& other : pieces) {
     const Eigen::AlignedBox2d other_NE(Eigen::Vector2d(other.min().head<2>()), Eigen::Vector2d(other.max().head<2>()));
     if (footprint_NE.exteriorDistance(other_NE) < c.furniture_gap_m) return std::nullopt;
@@ -82,7 +77,7 @@ std::optional<Eigen::AlignedBox3d> draw_piece(const RoomConfig& c, bool at_wall,
     if (footprint_NE.exteriorDistance(clearing.center_NE_m()) < clearing.radius_m) return std::nullopt;
   }
   return Eigen::AlignedBox3d(Eigen::Vector3d(low.x(), low.y(), -height),
-                             Eigen::Vector3d(low.x() + turned.x(), low.y() + turned.y(), 0.0));
+                             Eigen::Vector3d(low.x() + rotated.x(), low.y() + rotated.y(), 0.0));
 }
 
 std::vector<Eigen::AlignedBox3d> place_furniture(const RoomConfig& c, Random& random) {
@@ -166,6 +161,14 @@ void add_box(const Eigen::AlignedBox3d& box_W, uint32_t image, Random& random, m
   mesh.add_tiled(mesh::top_panel(box_W), textures::kRoomTileM, shift, image);
 }
 
+void add_ceiling(const Eigen::AlignedBox3d& box_W, uint32_t image, mesh::MeshBuilder& mesh) {
+  mesh.begin_chunk(false);
+  mesh.add_tiled(mesh::bottom_panel(box_W), textures::kRoomTileM, Eigen::Vector2d::Zero(), image);
+  mesh.add_tiled(mesh::top_panel(box_W), textures::kRoomTileM, Eigen::Vector2d::Zero(), image);
+  for (const mesh::Panel& side : mesh::side_panels(box_W))
+    mesh.add_tiled(side, textures::kRoomTileM, Eigen::Vector2d::Zero(), image);
+}
+
 // Grass around a room without a ceiling, in four strips.
 void add_lawn(const Eigen::AlignedBox2d& house_NE, uint32_t image, mesh::MeshBuilder& mesh) {
   const double far_n = house_NE.max().x() + kGrassMarginM, far_e = house_NE.max().y() + kGrassMarginM;
@@ -217,11 +220,7 @@ Scene make_room(const RoomConfig& config, uint64_t seed) {
     const Eigen::Vector3d lift(0.0, 0.0, config.height_m);
     Eigen::AlignedBox3d ceiling_W(walls[2].min(), walls[0].max() - lift);
     ceiling_W.min().z() -= config.wall_thickness_m;
-    mesh.begin_chunk(false);
-    mesh.add_tiled(mesh::bottom_panel(ceiling_W), textures::kRoomTileM, Eigen::Vector2d::Zero(), room.ceiling);
-    mesh.add_tiled(mesh::top_panel(ceiling_W), textures::kRoomTileM, Eigen::Vector2d::Zero(), room.ceiling);
-    for (const mesh::Panel& side : mesh::side_panels(ceiling_W))
-      mesh.add_tiled(side, textures::kRoomTileM, Eigen::Vector2d::Zero(), room.ceiling);
+    add_ceiling(ceiling_W, room.ceiling, mesh);
     scene.solids.push_back(mesh::solid_of("ceiling", ceiling_W));
   } else {
     add_lawn({Eigen::Vector2d(-floor_half), floor_half}, room.grass, mesh);

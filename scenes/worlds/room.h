@@ -15,7 +15,7 @@ namespace hedgehop::scenes::worlds {
 /// The default plan is the arena of [Garratt2009] sec. 4, fig. 3.
 struct RoomConfig {
   static constexpr std::string_view kName = "room";
-  static constexpr std::string_view kMeaning = "a closed rectangular room, with furniture if asked for";
+  static constexpr std::string_view kMeaning = "a closed rectangular room, with optional furniture";
 
   double length_m = 16.0;
   double width_m = 8.0;
@@ -31,9 +31,11 @@ struct RoomConfig {
 
 template <class Visitor>
 void describe(Visitor& v, RoomConfig& c) {
-  v("length", c.length_m, {.unit = "m", .at_least = 1.0, .meaning = "free space from the south to the north wall"});
-  v("width", c.width_m, {.unit = "m", .at_least = 1.0, .meaning = "free space from the west to the east wall"});
-  v("height", c.height_m, {.unit = "m", .at_least = 1.0, .meaning = "height of the walls"});
+  v("length", c.length_m,
+    {.unit = "m", .at_least = 1.0, .at_most = 1000.0, .meaning = "free space from the south to the north wall"});
+  v("width", c.width_m,
+    {.unit = "m", .at_least = 1.0, .at_most = 1000.0, .meaning = "free space from the west to the east wall"});
+  v("height", c.height_m, {.unit = "m", .at_least = 1.0, .at_most = 100.0, .meaning = "height of the walls"});
   v("wall_thickness", c.wall_thickness_m,
     {.unit = "m", .at_least = 0.05, .at_most = 5.0, .meaning = "of walls and ceiling"});
   v("ceiling", c.ceiling, {.meaning = "false: the walls stand in the open, under the sky"});

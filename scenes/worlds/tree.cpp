@@ -6,6 +6,7 @@
 #include "scenes/mesh/tree_mesh.h"
 #include "scenes/require.h"
 #include "scenes/textures/street_textures.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {
@@ -17,15 +18,10 @@ constexpr uint64_t kImageStream = 1;
 constexpr int kLumps = 6, kLumpCorners = 42, kLobes = 30;
 
 void validate(const TreeConfig& c) {
-  require(std::abs(c.north_m) <= 1000.0, "north", c.north_m, "-1000 to 1000 m");
-  require(std::abs(c.east_m) <= 1000.0, "east", c.east_m, "-1000 to 1000 m");
-  require(c.crown_diameter_m >= 0.5 && c.crown_diameter_m <= 50.0, "crown_diameter", c.crown_diameter_m, "0.5 to 50 m");
-  require(c.height_m >= 1.0 && c.height_m <= 100.0, "height", c.height_m, "1 to 100 m");
-  require(c.clear_height_m >= 0.0 && c.clear_height_m < c.height_m, "clear_height", c.clear_height_m,
-          "at least 0 m and less than the height");
-  require(c.trunk_diameter_m > 0.0 && c.trunk_diameter_m <= c.crown_diameter_m, "trunk_diameter", c.trunk_diameter_m,
-          "above 0 m and at most the crown's");
-  require_texture_size(static_cast<double>(c.texture_size_px));
+  fields::require_bounds(c);
+  require(c.clear_height_m < c.height_m, "clear_height", c.clear_height_m, "less than the height");
+  require(c.trunk_diameter_m <= c.crown_diameter_m, "trunk_diameter", c.trunk_diameter_m, "at most the crown's");
+  require_texture_size(c.texture_size_px);
 }
 
 }  // namespace

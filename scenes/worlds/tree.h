@@ -30,8 +30,9 @@ void describe(Visitor& v, TreeConfig& c) {
   v("east", c.east_m, {.unit = "m", .at_least = -1000.0, .at_most = 1000.0, .meaning = "of the trunk"});
   v("crown_diameter", c.crown_diameter_m, {.unit = "m", .at_least = 0.5, .at_most = 50.0, .meaning = "of the crown"});
   v("height", c.height_m, {.unit = "m", .at_least = 1.0, .at_most = 100.0, .meaning = "of the whole tree"});
-  v("clear_height", c.clear_height_m, {.unit = "m", .at_least = 0.0, .meaning = "of the trunk below the crown"});
-  v("trunk_diameter", c.trunk_diameter_m, {.unit = "m", .above = 0.0, .meaning = "of the trunk"});
+  v("clear_height", c.clear_height_m,
+    {.unit = "m", .at_least = 0.0, .meaning = "of the trunk below the crown; less than the height"});
+  v("trunk_diameter", c.trunk_diameter_m, {.unit = "m", .above = 0.0, .meaning = "of the trunk; at most the crown's"});
   v("leaves", c.leaves, {.choices = {"broad", "needles", "autumn"}, .meaning = "how the crown looks"});
   v("texture_size", c.texture_size_px,
     {.unit = "px",

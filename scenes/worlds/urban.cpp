@@ -20,8 +20,8 @@ constexpr uint64_t kBuildingStream = 3;
 }  // namespace
 
 Scene make_urban(const UrbanConfig& config, uint64_t seed) {
-  require_texture_size(static_cast<double>(config.texture_size_px));
   const UrbanPlan plan = plan_urban(config, derived_seed(seed, kPlanStream));
+  require_texture_size(config.texture_size_px);
   textures::CityTextures city =
       textures::paint_city(static_cast<int>(config.texture_size_px), derived_seed(seed, kImageStream));
 

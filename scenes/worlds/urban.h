@@ -50,8 +50,8 @@ void describe(Visitor& v, UrbanConfig& c) {
     {.at_least = 0.0, .at_most = 1.0, .meaning = "0: buildings centered in their cells, 1: anywhere inside"});
   v("occupancy", c.occupancy, {.at_least = 0.0, .at_most = 1.0, .meaning = "probability that a cell holds a building"});
   v("min_height", c.min_height_m,
-    {.unit = "m", .at_least = 3.0, .meaning = "every point of a roof is at least this high"});
-  v("max_height", c.max_height_m, {.unit = "m", .at_least = 3.0, .meaning = "nothing is higher"});
+    {.unit = "m", .at_least = 3.0, .at_most = 1000.0, .meaning = "every point of a roof is at least this high"});
+  v("max_height", c.max_height_m, {.unit = "m", .at_least = 3.0, .at_most = 1000.0, .meaning = "nothing is higher"});
   v("setback_share", c.setback_share,
     {.at_least = 0.0, .at_most = 1.0, .meaning = "share of the buildings that carry a narrower tower"});
   v("keep_clear", c.keep_clear, {.meaning = "discs of the plan without buildings: start, goal"});

@@ -6,6 +6,7 @@
 
 #include "scenes/random.h"
 #include "scenes/require.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {
@@ -19,22 +20,14 @@ double snapped_up(double x_m) { return std::ceil(x_m / kGrainM) * kGrainM; }
 double snapped_down(double x_m) { return std::floor(x_m / kGrainM) * kGrainM; }
 
 void validate(const UrbanConfig& c) {
+  fields::require_bounds(c);
   const double lot_m = c.pitch_m - c.street_min_width_m;
-  require(c.street_min_width_m >= 1.0, "street_min_width", c.street_min_width_m, "at least 1 m");
   require(lot_m >= kSmallestLotM, "pitch", c.pitch_m, "at least street_min_width + 3 m");
   require(c.extent_m >= c.pitch_m && c.extent_m <= kMostCellsPerSide * c.pitch_m, "extent", c.extent_m,
           "from pitch to 1000 pitch");
-  require(c.min_footprint > 0.0 && c.min_footprint <= c.max_footprint, "min_footprint", c.min_footprint,
-          "above 0, at most max_footprint");
-  require(c.max_footprint <= 1.0, "max_footprint", c.max_footprint, "at most 1");
+  require(c.min_footprint <= c.max_footprint, "min_footprint", c.min_footprint, "at most max_footprint");
   require(c.min_footprint * lot_m >= 1.0, "min_footprint", c.min_footprint, "at least 1 m of the lot's side");
-  require(c.jitter >= 0.0 && c.jitter <= 1.0, "jitter", c.jitter, "0 to 1");
-  require(c.occupancy >= 0.0 && c.occupancy <= 1.0, "occupancy", c.occupancy, "0 to 1");
-  require(c.min_height_m >= 3.0, "min_height", c.min_height_m, "at least 3 m");
-  require(c.max_height_m >= c.min_height_m && c.max_height_m <= 1000.0, "max_height", c.max_height_m,
-          "from min_height to 1000 m");
-  require(c.setback_share >= 0.0 && c.setback_share <= 1.0, "setback_share", c.setback_share, "0 to 1");
-  require_clearings(c.keep_clear);
+  require(c.max_height_m >= c.min_height_m, "max_height", c.max_height_m, "at least min_height");
 }
 
 // Places a footprint in the lot, by the jitter, clear of the clearings; draws again until it is.

@@ -7,6 +7,7 @@
 #include "scenes/require.h"
 #include "scenes/textures/stone_textures.h"
 #include "scenes/textures/street_textures.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {
@@ -14,17 +15,12 @@ namespace {
 constexpr uint64_t kGrassStream = 0, kWallStream = 1;  // of the scene's seed
 
 void validate(const WallConfig& c) {
-  require(std::abs(c.north_m) <= 1000.0, "north", c.north_m, "-1000 to 1000 m");
-  require(c.width_m >= 1.0 && c.width_m <= 1000.0, "width", c.width_m, "1 to 1000 m");
-  require(c.height_m >= 0.5 && c.height_m <= 200.0, "height", c.height_m, "0.5 to 200 m");
-  require(c.thickness_m >= 0.05 && c.thickness_m <= 10.0, "thickness", c.thickness_m, "0.05 to 10 m");
-  require_texture_size(static_cast<double>(c.texture_size_px));
+  fields::require_bounds(c);
+  require_texture_size(c.texture_size_px);
   if (!c.opening) return;
   const WallOpening& o = *c.opening;
-  require(o.width_m > 0.0, "opening.width", o.width_m, "above 0 m");
-  require(o.height_m > 0.0, "opening.height", o.height_m, "above 0 m");
-  require(o.bottom_m >= 0.0 && o.bottom_m + o.height_m <= c.height_m, "opening.bottom", o.bottom_m,
-          "inside the wall: 0 m to its height less the opening's");
+  require(o.bottom_m + o.height_m <= c.height_m, "opening.bottom", o.bottom_m,
+          "at most the wall's height less the opening's");
   require(std::abs(o.middle_m) + 0.5 * o.width_m <= 0.5 * c.width_m, "opening.middle", o.middle_m,
           "such that the opening lies inside the wall");
 }

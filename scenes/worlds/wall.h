@@ -27,7 +27,7 @@ void describe(Visitor& v, WallOpening& c) {
 /// A free-standing wall on a meadow, from west to east; its south side stands at `north`.
 struct WallConfig {
   static constexpr std::string_view kName = "wall";
-  static constexpr std::string_view kMeaning = "a wall across the way, with an opening if asked for";
+  static constexpr std::string_view kMeaning = "a wall across the path, with an optional opening";
 
   enum class Surface { brick, clouded, blank };
   double north_m = 20.0;

@@ -2,7 +2,7 @@
 
 The floor of the first is what two copies of a loop that touches no memory gain over one copy: cores that share one core's
 units, or are lent to others, gain less than twice, and no batch can do better. All four kinds of runs take turns, so that
-what else the machine does meets them alike; medians are told. The share of the machine that others took is told too.
+what else the machine does affects them alike; it prints medians, and the share of the machine that others took.
 """
 
 import os

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "sim/flight/build.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -53,7 +55,11 @@ std::string group_row(const GroupSummary& g) {
 
 std::string batch_json(const std::vector<FlightRecord>& records, const std::vector<GroupVerdict>& verdicts,
                        const std::string& version) {
-  Json json{{"version", version}, {"groups", Json::array()}, {"verdicts", Json::array()}, {"flights", Json::array()}};
+  Json json{{"version", version},
+            {"build", std::string(build_identity())},
+            {"groups", Json::array()},
+            {"verdicts", Json::array()},
+            {"flights", Json::array()}};
   for (const GroupSummary& group : summarize(records)) json["groups"].push_back(group_json(group));
   for (const GroupVerdict& verdict : verdicts) {
     json["verdicts"].push_back(Json{{"group", verdict.group},
@@ -69,6 +75,7 @@ std::string batch_json(const std::vector<FlightRecord>& records, const std::vect
 
 std::string summary_text(const std::vector<FlightRecord>& records, const std::vector<GroupVerdict>& verdicts) {
   std::string text =
+      several_builds_words(records) +
       "| scenario | flights | passed | 95 % interval | reached | collided | timeout | fault | missing | least "
       "clearance, m | median least clearance, m | median time, s "
       "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";

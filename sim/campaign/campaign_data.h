@@ -9,7 +9,7 @@
 
 namespace hedgehop::sim {
 
-/// What else a flight's own folder tells.
+/// What only a flight's own folder holds.
 struct FlightNotes {
   std::string why;                           ///< failure_words() of its result
   std::map<std::string, std::string> units;  ///< of columns `metric.NAME` and `check.NAME`
@@ -33,9 +33,8 @@ std::vector<std::string> swept_columns(const FlightList& flights);
 nlohmann::ordered_json groups_data(const std::vector<FlightRecord>& records);
 
 /// What an earlier campaign's flights did: `flights` (one a row of `now`, null where there was none), `groups` of the
-/// same name with both rates and the interval (95 %) of the rate's change, and the ids of flights that are no more.
-/// Flights are the same by their id, else by scenario and seed where these leave no choice: so settings can be
-/// compared.
+/// same name with both rates and the interval (95 %) of the rate's change, and the ids of flights that exist no longer.
+/// Flights correspond by their id, else by scenario and seed where these are unique, so that settings can be compared.
 nlohmann::ordered_json against_data(const FlightList& now, const FlightList& before);
 
 }  // namespace hedgehop::sim

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/record/whole_file.h"
-#include "sim/scenario/parse.h"
+#include "sim/scenario/include.h"
 #include "sim/scenario/reader.h"
 
 namespace hedgehop::sim {
@@ -17,14 +17,16 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Letters that are safe in a folder's name everywhere.
-std::string folder_name(const std::string& group) {
+/// @param number  of the group among those whose names give the same folder, from 1.
+std::string folder_name(const std::string& group, int number) {
   std::string name;
   for (const char c : group) {
     const bool safe = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' || c == '=' || c == '_';
     name += safe ? c : '_';
   }
   constexpr size_t kLongest = 120;
-  return name.empty() || name[0] == '.' ? "_" + name : name.substr(0, kLongest);
+  name = name.empty() || name[0] == '.' ? "_" + name : name.substr(0, kLongest);
+  return number == 1 ? name : fmt::format("{}~{}", name, number);
 }
 
 /// Gathers orders and keeps their groups and folders apart.
@@ -133,15 +135,16 @@ class Gatherer {
       order.group = known->second.first;
       return known->second.second;
     }
-    const std::string base = order.group;
-    for (int i = 2; taken_.contains(folder_name(order.group)); ++i) order.group = fmt::format("{}~{}", base, i);
-    const std::string folder = folder_name(order.group);
+    int number = 1;
+    while (taken_.contains(folder_name(order.group, number))) ++number;
+    const std::string folder = folder_name(order.group, number);
+    if (number > 1) order.group += fmt::format("~{}", number);
     taken_.insert({folder, 0});
     folders_[key] = {order.group, folder};
     return folder;
   }
 
-  /// A flight asked for twice is flown once.
+  /// A flight listed twice is flown once.
   void add(const Order& order) {
     if (ids_.insert({order.id, 0}).second) batch_.orders.push_back(order);
   }

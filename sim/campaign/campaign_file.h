@@ -58,7 +58,7 @@ template <class Visitor>
 void describe(Visitor& v, CampaignFlights& c) {
   v("scenario", c.scenario, {.required = true, .meaning = "scenario file, relative to this file"});
   v("seeds", c.seeds, {.meaning = "seeds such as 1:10 or 1:3,7; else the scenario's own"});
-  v("set", c.set, {.meaning = "values laid over the scenario, each key.path=value"});
+  v("set", c.set, {.meaning = "overrides of the scenario, each key.path=value"});
 }
 
 /// A file that `hedgehop batch` takes beside scenarios: it has the key `flights` or `leaderboard`.
@@ -86,12 +86,12 @@ struct BatchOrders {
 
 /// Orders of scenario files, campaign files and folders (all `*.yaml` right in them, by name), in this order.
 /// @param seeds      replace those of files and campaigns when not empty.
-/// @param overrides  "a.b=value", laid over every scenario, after a campaign's own.
+/// @param overrides  "a.b=value", applied to every scenario after a campaign's own.
 BatchOrders read_batch(const std::vector<std::filesystem::path>& inputs, const std::vector<uint64_t>& seeds,
                        const std::vector<std::string>& overrides);
 
-/// The orders of an earlier batch, from its batch.json. Scenario files are read anew. Throws InputError naming the file
-/// when it is no such record.
+/// The orders of an earlier batch, from its batch.json. Scenario files are read again. Throws InputError naming the
+/// file when it is no such record.
 BatchOrders reread_batch(const std::filesystem::path& batch_json);
 
 }  // namespace hedgehop::sim

@@ -12,7 +12,7 @@ namespace hedgehop::sim {
 struct FlightList {
   bool is_sweep = false;
   CsvTable table;                     ///< sweep.csv or batch.csv
-  std::vector<FlightRecord> records;  ///< one a row: what the table says, enough for summarize()
+  std::vector<FlightRecord> records;  ///< one a row: from the table, enough for summarize()
 };
 
 /// Whether the folder is a batch's or a sweep's.

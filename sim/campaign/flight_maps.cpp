@@ -45,7 +45,7 @@ struct SeededFlights {
   std::vector<size_t> flights;
 };
 
-/// Makes plans and tells equal ones.
+/// Makes plans and finds equal ones.
 class PlanMaker {
  public:
   explicit PlanMaker(std::vector<ScenePlan>& plans) : plans_(plans) {}

@@ -23,8 +23,8 @@ struct FlownPath {
 /// @param max_points  of the path, >= 2.
 std::optional<FlownPath> read_path(const std::filesystem::path& flight_folder, uint64_t seed, size_t max_points);
 
-/// Which flights share a map. Scenes are made anew, at most 24 of them; where the first eight seeds of a configuration
-/// give one and the same scene, its other seeds are taken to give it too.
+/// Which flights share a map. At most 24 scenes are generated again; where the first eight seeds of a configuration
+/// give the same scene, its other seeds are assumed to give it too.
 struct FlightMaps {
   std::vector<ScenePlan> plans;
   std::vector<std::optional<size_t>> map_of;  ///< one a flight: index into plans; none where the scene was not made

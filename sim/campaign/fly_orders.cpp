@@ -19,9 +19,9 @@ std::vector<std::string> worker_command(const Order& order, const FlyOptions& op
 }
 
 /// What a former flight left of an order; missing when it left nothing.
-FlightRecord recall(const Order& order, const std::filesystem::path& folder, std::string_view version) {
+FlightRecord recall(const Order& order, const std::filesystem::path& folder, bool other_builds) {
   FlightRecord record{.order = order};
-  if (auto result = result_left_by(order, folder, version)) {
+  if (auto result = result_left_by(order, folder, other_builds)) {
     record.status = Status::flown;
     record.result = std::move(*result);
   }
@@ -31,7 +31,7 @@ FlightRecord recall(const Order& order, const std::filesystem::path& folder, std
 void conclude(FlightRecord& record, const WorkerEnd& end, const FlyOptions& options) {
   const bool has_verdict = end.kind == WorkerEnd::Kind::exited && (end.code == 0 || end.code == 1);
   if (has_verdict) {
-    if (FlightRecord left = recall(record.order, options.out / record.order.id, options.version);
+    if (FlightRecord left = recall(record.order, options.out / record.order.id, options.other_builds);
         left.status == Status::flown) {
       record = std::move(left);
       return;
@@ -43,7 +43,7 @@ void conclude(FlightRecord& record, const WorkerEnd& end, const FlyOptions& opti
   if (has_verdict) record.cause += "; left no result of this scenario";
 }
 
-/// A worker that dies must not leave the verdict of an earlier flight standing. The folder's other files say nothing
+/// A worker that dies must not leave the result of an earlier flight behind. The folder's other files say nothing
 /// without it.
 void forget_result(const std::filesystem::path& folder) {
   std::error_code ignored;
@@ -67,7 +67,7 @@ std::vector<FlightRecord> fly_orders(const std::vector<Order>& orders, const Fly
       continue;
     }
     if (reuse != Reuse::none) {
-      FlightRecord former = recall(order, options.out / order.id, options.version);
+      FlightRecord former = recall(order, options.out / order.id, options.other_builds);
       if (former.status == Status::flown && (reuse == Reuse::all || passed(former))) {
         record = std::move(former);
         on_record(record, true);
@@ -92,12 +92,12 @@ std::vector<FlightRecord> fly_orders(const std::vector<Order>& orders, const Fly
 }
 
 std::vector<FlightRecord> gather(const std::vector<Order>& orders, const std::vector<std::filesystem::path>& folders,
-                                 std::string_view version) {
+                                 bool other_builds) {
   std::vector<FlightRecord> records;
   for (const Order& order : orders) {
     FlightRecord& record = records.emplace_back(FlightRecord{.order = order});
     for (const std::filesystem::path& folder : folders) {
-      if (record.status == Status::missing) record = recall(order, folder / order.id, version);
+      if (record.status == Status::missing) record = recall(order, folder / order.id, other_builds);
     }
   }
   return records;

@@ -14,15 +14,15 @@ namespace hedgehop::sim {
 struct FlyOptions {
   std::filesystem::path program;  ///< of the workers: the hedgehop that runs now, absolute
   std::filesystem::path out;      ///< each flight's folder is <out>/<order.id>
-  std::string version;            ///< of Hedgehop
+  bool other_builds = false;      ///< results of other builds stand, too
   size_t workers = 1;             ///< >= 1
   double limit_s = 0.0;           ///< longest wall time of a flight, 0 for none
 };
 
-/// Told as a flight ends, or at once for one that is not flown. @param reused  its former result stands.
+/// Called when a flight ends, or at once for one that is not flown. @param reused  its former result is reused.
 using OnRecord = std::function<void(const FlightRecord& record, bool reused)>;
 
-/// Which former results stand, so that their orders are not flown again.
+/// Which former results are reused, so that their orders are not flown again.
 enum class Reuse {
   none,
   passed,  ///< those whose checks all hold
@@ -36,7 +36,8 @@ std::vector<FlightRecord> fly_orders(const std::vector<Order>& orders, const Fly
                                      Interruption& interruption, const OnRecord& on_record);
 
 /// The records that former flights left, none flown. @param folders  campaigns' folders, searched in this order.
+/// @param other_builds  whether results of other builds stand, too.
 std::vector<FlightRecord> gather(const std::vector<Order>& orders, const std::vector<std::filesystem::path>& folders,
-                                 std::string_view version);
+                                 bool other_builds);
 
 }  // namespace hedgehop::sim

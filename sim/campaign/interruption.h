@@ -4,10 +4,11 @@
 
 namespace hedgehop::sim {
 
-/// While it lives, SIGINT and SIGTERM end nothing but are told by a descriptor. One at a time, made before threads.
+/// While it exists, SIGINT and SIGTERM do not end the process but make a descriptor readable. One at a time, created
+/// before threads.
 class Interruption {
  public:
-  /// Throws std::runtime_error when the descriptor cannot be had.
+  /// Throws std::runtime_error when the descriptor cannot be created.
   Interruption();
   ~Interruption();
   Interruption(const Interruption&) = delete;
@@ -15,7 +16,7 @@ class Interruption {
 
   /// Readable once a signal has come.
   int descriptor() const { return descriptor_; }
-  /// Takes what has come; true from the first signal on.
+  /// Reads the pending signals; true from the first signal on.
   bool came();
   /// The first signal, 0 before it.
   int signal() const { return signal_; }

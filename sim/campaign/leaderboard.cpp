@@ -137,10 +137,10 @@ std::string rows_text(const Json& data) {
 /// One line for each module and reason.
 std::string reasons_text(const Json& data) {
   std::string text;
-  std::set<std::string> told;
+  std::set<std::string> listed;
   for (const Json& cell : data.at("cells")) {
     const auto module = cell.at("module").get<std::string>(), reason = cell.at("reason").get<std::string>();
-    if (reason.empty() || !told.insert(module + "\n" + reason).second) continue;
+    if (reason.empty() || !listed.insert(module + "\n" + reason).second) continue;
     std::string worlds;
     for (const Json& other : data.at("cells")) {
       if (other.at("module") != module || other.at("reason") != reason) continue;

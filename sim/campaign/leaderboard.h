@@ -16,11 +16,11 @@ struct LeaderboardWorld {
 };
 template <class Visitor>
 void describe(Visitor& v, LeaderboardWorld& c) {
-  v("name", c.name, {.required = true, .meaning = "as the matrix tells it"});
+  v("name", c.name, {.required = true, .meaning = "in the matrix"});
   v("scenario", c.scenario, {.required = true, .meaning = "scenario file without what flies, relative to this file"});
 }
 
-/// A module with the aircraft and cameras that it asks for.
+/// A module with the aircraft and cameras that it needs.
 struct LeaderboardModule {
   std::string name;
   bool control = false;
@@ -28,11 +28,10 @@ struct LeaderboardModule {
 };
 template <class Visitor>
 void describe(Visitor& v, LeaderboardModule& c) {
-  v("name", c.name, {.required = true, .meaning = "as the matrix tells it"});
+  v("name", c.name, {.required = true, .meaning = "in the matrix"});
   v("control", c.control, {.meaning = "flies without looking: it does not count for the difficulty of worlds"});
   v("set", c.set,
-    {.required = true,
-     .meaning = "values laid over each world: vehicle, rig, avoidance; files relative to the world's"});
+    {.required = true, .meaning = "overrides of each world: vehicle, rig, avoidance; files relative to the world's"});
 }
 
 /// Why a module flies in some worlds not at all.
@@ -74,14 +73,14 @@ struct Leaderboard {
   std::vector<LeaderboardCell> cells;  ///< one for each world and module, world by world
 };
 
-/// Its cells, with groups that are not flown yet. Throws InputError for names that stand twice or are nowhere, and for
+/// Its cells, with groups that are not flown yet. Throws InputError for names that are listed twice or unknown, and for
 /// a gap without a reason.
 Leaderboard leaderboard_of(const LeaderboardConfig& config);
 
-/// Keeps it beside the flights, so that a report can be made of the folder alone. @param folder  of the batch.
+/// Writes it beside the flights, so that a report needs the folder alone. @param folder  of the batch.
 void write_leaderboard(const std::filesystem::path& folder, const Leaderboard& board);
 
-/// What an earlier batch kept in the folder is no longer so.
+/// Removes what an earlier batch wrote into the folder.
 void forget_leaderboard(const std::filesystem::path& folder);
 
 /// The matrix of a batch's flights; null where the folder has no leaderboard. `worlds` from the easiest to the hardest,

@@ -1,10 +1,12 @@
+#include "sim/campaign/optimize.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <limits>
 #include <nlopt.hpp>
 
-#include "sim/campaign/sweep.h"
 #include "sim/scenario/tree.h"
 
 namespace hedgehop::sim {
@@ -52,6 +54,7 @@ struct Search {
   const FlyPoint& fly;
   Optimum best{.values = {}, .cost = std::numeric_limits<double>::infinity(), .orders = {}, .records = {}};
   size_t points = 0;
+  std::exception_ptr fault = {};  ///< nlopt passes on only exceptions of its own
 
   double cost(const std::vector<double>& coordinates) {
     std::vector<std::string> values;
@@ -60,15 +63,31 @@ struct Search {
     }
     SweepOrders point;
     point.add(sweep, points, values);
+    const std::optional<std::vector<FlightRecord>> records = fly(point.orders);
+    if (!records) {
+      best.stopped = true;
+      throw nlopt::forced_stop();
+    }
     best.orders.add(sweep, points++, values);
-    const std::vector<FlightRecord> records = fly(point.orders);
-    best.records.insert(best.records.end(), records.begin(), records.end());
-    const double cost = mean_cost(design, records);
+    best.records.insert(best.records.end(), records->begin(), records->end());
+    const double cost = mean_cost(design, *records);
     if (cost < best.cost) {
       best.cost = cost;
       best.values = values;
     }
     return cost;
+  }
+
+  static double objective(const std::vector<double>& coordinates, std::vector<double>&, void* data) {
+    auto& search = *static_cast<Search*>(data);
+    try {
+      return search.cost(coordinates);
+    } catch (const nlopt::forced_stop&) {
+      throw;
+    } catch (...) {
+      search.fault = std::current_exception();
+      throw nlopt::forced_stop();
+    }
   }
 };
 
@@ -86,14 +105,14 @@ Optimum optimize(const SweepConfig& sweep, const FlyPoint& fly) {
   optimizer.set_xtol_abs(kTolerance);
   constexpr double kFirstStep = 0.25;  // of a range
   optimizer.set_initial_step(kFirstStep);
-  optimizer.set_min_objective([](const std::vector<double>& x, std::vector<double>&,
-                                 void* data) { return static_cast<Search*>(data)->cost(x); },
-                              &search);
+  optimizer.set_min_objective(Search::objective, &search);
   std::vector<double> x(dimensions, 0.5);
   double cost = 0.0;
   try {
     optimizer.optimize(x, cost);
   } catch (const nlopt::roundoff_limited&) {  // as good as it gets
+  } catch (const nlopt::forced_stop&) {
+    if (search.fault) std::rethrow_exception(search.fault);
   }
   return std::move(search.best);
 }

@@ -17,14 +17,14 @@ struct Order {
   std::filesystem::path scenario;  ///< file, as the user named it
   uint64_t seed = 0;
   std::vector<std::string> overrides;  ///< "a.b=value", in order
-  std::string scenario_yaml;           ///< the resolved scenario: what tells a flight of this order from any other
+  std::string scenario_yaml;           ///< the resolved scenario: what distinguishes this order's flight from any other
   std::string fault;                   ///< why it cannot be flown at all, one line; else empty
 };
 
-/// The flight's scenario in full, as a worker writes it: seed laid over, no film. Throws InputError.
+/// The flight's scenario in full, as a worker writes it: with the seed, without film. Throws InputError.
 std::string resolved_yaml(Scenario scenario, uint64_t seed);
 
-/// Arguments of `hedgehop` that fly an order again: "run", the file, the seed, each override.
+/// Arguments of `hedgehop` that re-simulate an order: "run", the file, the seed, each override.
 std::vector<std::string> run_arguments(const Order& order);
 
 /// "hedgehop run FILE --seed 3 --set 'a.b=1'", ready for a POSIX shell.

@@ -1,7 +1,12 @@
 #include "sim/campaign/record.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <set>
 #include <stdexcept>
 
+#include "sim/flight/build.h"
 #include "sim/record/whole_file.h"
 
 namespace hedgehop::sim {
@@ -31,8 +36,21 @@ std::string outcome_words(const FlightRecord& record) {
   return std::string(to_string(record.status));
 }
 
+std::string build_of(const FlightRecord& record) {
+  return record.result.is_object() ? record.result.value("build", "") : "";
+}
+
+std::string several_builds_words(const std::vector<FlightRecord>& records) {
+  std::set<std::string> builds;
+  for (const FlightRecord& record : records) {
+    if (record.status == FlightRecord::Status::flown) builds.insert(build_of(record));
+  }
+  if (builds.size() < 2) return "";
+  return fmt::format("Flights of {} builds: {}\n", builds.size(), fmt::join(builds, ", "));
+}
+
 std::optional<nlohmann::ordered_json> result_left_by(const Order& order, const std::filesystem::path& folder,
-                                                     std::string_view version) {
+                                                     bool other_builds) {
   std::error_code ignored;
   if (!std::filesystem::exists(folder / "result.json", ignored)) return {};
   try {
@@ -41,7 +59,8 @@ std::optional<nlohmann::ordered_json> result_left_by(const Order& order, const s
     for (const char* key : {"outcome", "checks", "metrics", "trajectory_hash"}) {
       if (!result.contains(key)) return {};
     }
-    if (result.value("version", "") != version || result.value("seed", uint64_t{0}) != order.seed) return {};
+    if (!other_builds && result.value("build", "") != build_identity()) return {};
+    if (result.value("seed", uint64_t{0}) != order.seed) return {};
     return result;
   } catch (const nlohmann::json::exception&) {
   } catch (const std::runtime_error&) {

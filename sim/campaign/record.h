@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sim/campaign/order.h"
 
@@ -28,10 +29,16 @@ bool passed(const FlightRecord& record);
 /// "reached", "collided", "timeout", "fault" of a flight that was flown; "failed" or "missing" of any other.
 std::string outcome_words(const FlightRecord& record);
 
-/// The result that a flight of this very order left in its folder: same resolved scenario, same version, whole. None
+/// The identity of the build that flew it, as its result names it; "" when it has none.
+std::string build_of(const FlightRecord& record);
+
+/// Returns a line that names the builds when flights of several stand beside each other, else "".
+std::string several_builds_words(const std::vector<FlightRecord>& records);
+
+/// The result that a flight of this very order left in its folder: same resolved scenario, same build, whole. None
 /// for anything else, so that it is flown (again).
-/// @param folder  of the flight. @param version  of Hedgehop.
+/// @param folder  of the flight. @param other_builds  whether a result of another build will do.
 std::optional<nlohmann::ordered_json> result_left_by(const Order& order, const std::filesystem::path& folder,
-                                                     std::string_view version);
+                                                     bool other_builds);
 
 }  // namespace hedgehop::sim

@@ -48,7 +48,7 @@ std::string array_script(const SlurmJob& job) {
          fmt::format(
              "#SBATCH --array=1-{0}\n#SBATCH --requeue\n"
              "{1} --shard $SLURM_ARRAY_TASK_ID/{0} -j {2}{3}\nstatus=$?\n"
-             "# A failed check is a result; a flight that left none is worth a second try, perhaps on another node.\n"
+             "# A failed check is a result; a flight that left none is tried once more, perhaps on another node.\n"
              "missing=$({1} --shard $SLURM_ARRAY_TASK_ID/{0} --missing) || exit $status\n"
              "if [ \"$missing\" != 0 ] && [ \"${{SLURM_RESTART_COUNT:-0}}\" = 0 ]; then\n"
              "  scontrol requeue ${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID\n  sleep 60  # until Slurm ends this "
@@ -68,7 +68,7 @@ std::string submit(const SlurmJob& job) {
   write_file_whole(array, array_script(job));
   write_file_whole(merge, merge_script(job));
   const std::string number = output_of("sbatch --parsable " + shell_quoted(array.string()));
-  // afterany: the merge tells of failures too.
+  // afterany: the merge reports failures too.
   output_of(fmt::format("sbatch --parsable --dependency=afterany:{} {}", number, shell_quoted(merge.string())));
   return number;
 }

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-/// What a few seeds say of all of them.
+/// What a sample of seeds shows about all of them.
 namespace hedgehop::sim {
 
 /// Successes out of a number of trials.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <vector>
 
 #include "sim/campaign/fly_orders.h"
@@ -35,21 +34,5 @@ SweepOrders part_of(const SweepOrders& all, Shard shard);
 
 /// The flights' table with the point's number and the parameters' values as columns of their own.
 Table sweep_table(const SweepConfig& sweep, const SweepOrders& orders, const std::vector<FlightRecord>& records);
-
-/// Flies orders that stand already as the sweep's shape demands; a former result of the very same order stands.
-using FlyPoint = std::function<std::vector<FlightRecord>(const std::vector<Order>& orders)>;
-
-/// What an optimizer has found.
-struct Optimum {
-  std::vector<std::string> values;
-  double cost = 0.0;
-  SweepOrders orders;                 ///< of every point flown, in order
-  std::vector<FlightRecord> records;  ///< of those
-};
-
-/// Minimizes the mean of the design's column over the sweep's seeds, the same at every point. Equal sweeps fly equal
-/// points in the same order, so that flights left by an interrupted search are found again.
-/// @param fly  flies one point; it may throw to end the search.
-Optimum optimize(const SweepConfig& sweep, const FlyPoint& fly);
 
 }  // namespace hedgehop::sim

@@ -6,14 +6,14 @@
 #include <cmath>
 #include <set>
 
+#include "sim/scenario/include.h"
 #include "sim/scenario/numbers.h"
-#include "sim/scenario/parse.h"
 #include "sim/scenario/reader.h"
 
 namespace hedgehop::sim {
 namespace {
 
-/// What a parameter says that cannot be meant; nothing when all is well.
+/// The fault of a parameter that makes no sense; nothing when there is none.
 std::string parameter_fault(const SweepParameter& p, const SweepDesign& design) {
   const bool is_grid = std::holds_alternative<GridDesign>(design);
   if (p.path == "seed") return "varied by 'seeds', not as a parameter";
@@ -50,7 +50,7 @@ std::vector<std::vector<std::string>> grid(const std::vector<SweepParameter>& pa
   return points;
 }
 
-/// Tries each parameter's extreme or listed values alone, so that all bad paths are told at once.
+/// Tries each parameter's extreme or listed values alone, so that all bad paths are reported at once.
 void try_parameters(const SweepConfig& sweep, std::vector<std::string>& faults) {
   for (const SweepParameter& p : sweep.parameters) {
     std::vector<std::string> values = p.values;

@@ -110,7 +110,7 @@ void describe(Visitor& v, SweepConfig& c) {
   v("description", c.description, {.meaning = "what the sweep is for"});
   v("scenario", c.scenario, {.required = true, .meaning = "scenario file, relative to this file"});
   v("seeds", c.seeds, {.meaning = "seeds flown at every point, such as 1:10; else the scenario's own"});
-  v("set", c.set, {.meaning = "values laid over the scenario at every point, each key.path=value"});
+  v("set", c.set, {.meaning = "overrides of the scenario at every point, each key.path=value"});
   v("design", c.design, {.meaning = "which points of the parameters' ranges are flown"});
   v("parameters", c.parameters, {.required = true, .meaning = "what is varied"});
 }

@@ -112,6 +112,7 @@ Table flight_table(const std::vector<FlightRecord>& records, const std::vector<E
   }
   add_named(table, records, [](const Json& result) { return metric_cells(result, "metric.", /*times=*/false); });
   add_named(table, records, check_cells);
+  add(table, records, "build", [](const FlightRecord& r) { return build_of(r); });
   add(table, records, "command", [](const FlightRecord& r) { return rerun_command(r.order); });
   for (const std::string name : kTimes) {
     add(table, records, "time." + name, [&](const FlightRecord& r) { return field(r.result, name); });

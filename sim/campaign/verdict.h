@@ -24,7 +24,7 @@ double median(std::vector<double> values);
 /// One row a group, in the order of their first flights.
 std::vector<GroupSummary> summarize(const std::vector<FlightRecord>& records);
 
-/// A statistical check's answer for one group.
+/// A statistical check's result for one group.
 struct GroupVerdict {
   std::string group, check;
   bool passed = false;
@@ -32,7 +32,7 @@ struct GroupVerdict {
   std::string words;  ///< the whole sentence, with counts and interval
 };
 
-/// Answers of all checks for all groups. A group that the earlier batch lacks fails no_worse.
+/// Results of all checks for all groups. A group that the earlier batch lacks fails no_worse.
 /// Throws InputError naming the file when an earlier batch cannot be read.
 std::vector<GroupVerdict> judge(const std::vector<CampaignCheck>& checks, const std::vector<GroupSummary>& groups);
 

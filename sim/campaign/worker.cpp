@@ -57,19 +57,19 @@ int spawn(const std::vector<std::string>& command, const sigset_t& mask, int err
 }  // namespace
 
 std::string cause_words(const WorkerEnd& end, double limit_s) {
-  const std::string said = end.last_line.empty() ? "" : ": " + end.last_line;
+  const std::string message = end.last_line.empty() ? "" : ": " + end.last_line;
   switch (end.kind) {
     case WorkerEnd::Kind::exited:
-      return fmt::format("exit status {}{}", end.code, said);
+      return fmt::format("exit status {}{}", end.code, message);
     case WorkerEnd::Kind::signalled:
       return fmt::format("killed by SIG{} ({}){}", sigabbrev_np(end.code) ? sigabbrev_np(end.code) : "?",
-                         strsignal(end.code), said);
+                         strsignal(end.code), message);
     case WorkerEnd::Kind::overdue:
       return fmt::format("killed: over its limit of {:g} s of wall time", limit_s);
     case WorkerEnd::Kind::stopped:
       return "stopped: the campaign was interrupted";
     case WorkerEnd::Kind::unstarted:
-      return "cannot be started" + said;
+      return "cannot be started" + message;
   }
   return "";
 }

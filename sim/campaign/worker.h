@@ -50,9 +50,9 @@ class Worker {
 
   /// Reads what standard error holds now.
   void take_errors();
-  /// Ends the whole process group; `why` is how the end will be told.
+  /// Ends the whole process group; `why` is how the end will be reported.
   void kill(WorkerEnd::Kind why);
-  /// Waits for the end and tells it. Call it once process_descriptor() is readable.
+  /// Waits for the end and returns it. Call it once process_descriptor() is readable.
   WorkerEnd join();
 
  private:

@@ -14,8 +14,8 @@ struct WorkerPool {
   size_t workers = 1;    ///< processes at a time, >= 1
   double limit_s = 0.0;  ///< longest wall time of one process, then it is killed; 0 for no limit
 
-  /// Runs a process for each job and calls `ended` as each ends. When the interruption comes, all are killed, told as
-  /// stopped, and no other is started. @param command  of a job: absolute path and arguments.
+  /// Runs a process for each job and calls `ended` as each ends. When the interruption comes, all are killed, reported
+  /// as stopped, and no other is started. @param command  of a job: absolute path and arguments.
   /// @return false when it was interrupted. Waits in poll(2), never busily.
   bool run(size_t jobs, const std::function<std::vector<std::string>(size_t job)>& command, Interruption& interruption,
            const std::function<void(size_t job, const WorkerEnd&)>& ended) const;

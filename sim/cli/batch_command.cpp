@@ -13,7 +13,7 @@
 #include "sim/campaign/table.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/progress.h"
-#include "sim/cli/version.h"
+#include "sim/flight/build.h"
 #include "sim/record/whole_file.h"
 
 namespace hedgehop::sim::cli {
@@ -47,7 +47,7 @@ BatchOrders orders_of(const BatchOptions& options, const std::filesystem::path& 
     throw InputError(batch.faults.empty() ? std::vector<std::string>{"batch: nothing to fly"} : batch.faults);
   }
   // An earlier batch that cannot be read is better known before the flights than after.
-  judge(batch.checks, summarize(gather(batch.orders, {}, kVersion)));
+  judge(batch.checks, summarize(gather(batch.orders, {}, /*other_builds=*/false)));
   return batch;
 }
 
@@ -63,7 +63,7 @@ std::string write_files(const std::filesystem::path& out, const std::filesystem:
       if (fault.empty()) fault = error.what();
     }
   };
-  attempt(out / "batch.json", batch_json(records, verdicts, std::string(kVersion)));
+  attempt(out / "batch.json", batch_json(records, verdicts, std::string(version())));
   attempt(out / "batch.csv", csv_text(flight_table(records)));
   if (!junit.empty()) attempt(junit, junit_text(records, verdicts));
   return fault;
@@ -107,7 +107,7 @@ int batch(const BatchOptions& options) {
   CampaignProgress progress(batch.orders.size());
   const FlyOptions fly{.program = options.program.empty() ? own_program() : options.program,
                        .out = out,
-                       .version = std::string(kVersion),
+                       .other_builds = options.reuse_other_builds,
                        .workers = options.jobs,
                        .limit_s = options.limit_s};
   const Reuse reuse = options.resume ? Reuse::all : options.failed_only ? Reuse::passed : Reuse::none;
@@ -122,7 +122,7 @@ int batch(const BatchOptions& options) {
   const std::string unwritten = write_files(out, options.junit, records, verdicts);
   const std::string matrix = unwritten.empty() ? write_matrix(out, batch.leaderboard, options.inputs.empty()) : "";
   if (options.json) {
-    fmt::print("{}", batch_json(records, verdicts, std::string(kVersion)));
+    fmt::print("{}", batch_json(records, verdicts, std::string(version())));
   } else {
     fmt::print("{}{}", summary_text(records, verdicts), matrix);
   }

@@ -30,7 +30,8 @@ std::filesystem::path reference_file(const std::filesystem::path& run_folder, co
   for (const CheckConfig& check : scenario.checks) {
     if (const auto* path = std::get_if<PathToleranceCheck>(&check)) return path->reference;
   }
-  if (scenario_file.empty()) throw InputError(fmt::format("{}: tells no scenario's file", run_folder.string()));
+  if (scenario_file.empty())
+    throw InputError(fmt::format("{}: its result.json names no scenario file", run_folder.string()));
   return std::filesystem::path(scenario_file).replace_extension("reference.csv");
 }
 
@@ -38,7 +39,7 @@ std::filesystem::path reference_file(const std::filesystem::path& run_folder, co
 
 int bless(const std::filesystem::path& run_folder, const std::string& reason) {
   if (reason.empty() || reason.find('\n') != std::string::npos) {
-    throw InputError("--reason: say in one line why this path is the one to hold to");
+    throw InputError("--reason: give in one line why this path is the reference");
   }
   nlohmann::ordered_json result;
   std::vector<TimedPoint> flown;

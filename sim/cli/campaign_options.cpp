@@ -10,11 +10,15 @@ namespace {
 
 size_t cores() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-void add_workers(CLI::App& command, size_t& jobs, double& limit_s) {
-  command.add_option("-j,--jobs", jobs, "flights at a time; all cores when not given")->check(CLI::Range(1, 4096));
-  command.add_option("--limit", limit_s, "longest wall time of a flight; it is killed then, and fails")
+template <class Options>
+void add_flying(CLI::App& command, Options& options) {
+  command.add_option("-j,--jobs", options.jobs, "flights at a time; all cores when not given")
+      ->check(CLI::Range(1, 4096));
+  command.add_option("--limit", options.limit_s, "longest wall time of a flight; it is killed then, and fails")
       ->check(CLI::PositiveNumber)
       ->type_name("S");
+  command.add_flag("--reuse-other-builds", options.reuse_other_builds,
+                   "let results that other builds of Hedgehop left stand, too; every row names its build");
 }
 
 void declare_batch(CLI::App& app, std::function<int()>& chosen) {
@@ -23,17 +27,18 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
   options->jobs = cores();
   command->add_option("FILES", options->inputs, "scenarios, campaigns (files with the key `flights`), or folders");
   command->add_option("--seeds", options->seeds, "seeds to fly of each scenario, such as 1:10 or 1:3,7");
-  command->add_option("--set", options->overrides, "lay a value over every scenario")
+  command->add_option("--set", options->overrides, "override a value of every scenario")
       ->type_name("KEY.PATH=VALUE")
       ->take_all();
-  add_workers(*command, options->jobs, options->limit_s);
+  add_flying(*command, *options);
   command->add_option("--out", options->out, "folder of the results")->type_name("DIR");
   command->add_option("--junit", options->junit, "write a JUnit file for CI")->type_name("FILE");
   auto* const failed_only =
       command->add_flag("--failed-only", options->failed_only,
                         "keep the flights of --out that passed; without FILES, those of its batch.json");
   command
-      ->add_flag("--resume", options->resume, "keep every flight of --out that left a result of the very same scenario")
+      ->add_flag("--resume", options->resume,
+                 "keep every flight of --out that left a result of the very same scenario and build")
       ->excludes(failed_only);
   command
       ->add_option("--min-success", options->least_success,
@@ -44,7 +49,9 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
       ->add_option("--no-worse-than", options->no_worse_than,
                    "over the seeds, the success rate must be no worse than in this earlier batch")
       ->type_name("DIR");
-  command->add_option("--margin", options->margin, "... a loss that must be ruled out, not merely not shown")
+  command
+      ->add_option("--margin", options->margin,
+                   "with --no-worse-than: a loss of the success rate that must be ruled out, 0 to 1")
       ->check(CLI::Range(0.0, 1.0));
   command->add_option("--confidence", options->confidence, "of both; default 0.95")->check(CLI::Range(0.5, 0.99999));
   command->add_flag("--json", options->json, "print batch.json instead of a table for people");
@@ -53,16 +60,17 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
 }
 
 void declare_sweep(CLI::App& app, std::function<int()>& chosen) {
-  CLI::App* const command = app.add_subcommand("sweep", "vary parameters of a scenario; picks up where it stopped");
+  CLI::App* const command = app.add_subcommand("sweep", "vary parameters of a scenario; resumes where it stopped");
   const auto options = std::make_shared<SweepOptions>();
   options->jobs = cores();
   command->add_option("SWEEP", options->file, "sweep file (YAML)")->required();
-  add_workers(*command, options->jobs, options->limit_s);
+  add_flying(*command, *options);
   command->add_option("--out", options->out, "folder of the results")->type_name("DIR");
   command->add_option("--junit", options->junit, "write a JUnit file for CI")->type_name("FILE");
   command->add_option("--shard", options->shard, "fly one part only, such as 2/8")->type_name("I/N");
   command->add_flag("--merge", options->merge, "fly nothing; write the tables of all results that are there");
-  command->add_option("--from", options->merge_from, "... further folders to look for results in")->type_name("DIR");
+  command->add_option("--from", options->merge_from, "with --merge: further folders to search for results")
+      ->type_name("DIR");
   command->add_flag("--missing", options->missing, "only print how many flights have no result yet");
   command->add_option("--on", options->on, "local (default) or slurm")->check(CLI::IsMember({"local", "slurm"}));
   command->add_option("--tasks", options->tasks, "shards of a Slurm job array; default 8")->check(CLI::Range(1, 1000));
@@ -74,12 +82,12 @@ void declare_sweep(CLI::App& app, std::function<int()>& chosen) {
 
 void declare_reproduce(CLI::App& app, std::function<int()>& chosen) {
   CLI::App* const command = app.add_subcommand(
-      "reproduce", "fly papers' experiments and tell their figures beside ours; picks up where it stopped");
+      "reproduce", "fly papers' experiments and print their figures beside ours; resumes where it stopped");
   const auto options = std::make_shared<ReproduceOptions>();
   options->jobs = cores();
   command->add_option("PAPER", options->papers, "papers, such as garratt2009, or files of them; all when not given");
   command->add_flag("--quick", options->quick, "fly few seeds: minutes instead of hours");
-  add_workers(*command, options->jobs, options->limit_s);
+  add_flying(*command, *options);
   command->add_option("--out", options->out, "folder of the results; out/reproduce when not given")->type_name("DIR");
   command->add_option("--program", options->program)->group("");  // hidden: for tests
   command->callback([&chosen, options] { chosen = [options] { return reproduce(*options); }; });
@@ -93,7 +101,7 @@ void declare_bless(CLI::App& app, std::function<int()>& chosen) {
   CLI::App* const command = app.add_subcommand("bless", "make a run's path the reference of its scenario");
   const auto options = std::make_shared<Options>();
   command->add_option("RUN", options->folder, "folder of the run")->required()->check(CLI::ExistingDirectory);
-  command->add_option("--reason", options->reason, "why it is the path to hold to, one line")->required();
+  command->add_option("--reason", options->reason, "why this path is the reference, one line")->required();
   command->callback([&chosen, options] { chosen = [options] { return bless(options->folder, options->reason); }; });
 }
 

@@ -11,7 +11,7 @@
 /// into status 2 and everything else into 3.
 namespace hedgehop::sim::cli {
 
-/// A scenario file and what is laid over it.
+/// A scenario file and what overrides it.
 struct ScenarioOptions {
   std::filesystem::path file;
   std::vector<std::string> overrides;  ///< "a.b=value"
@@ -75,9 +75,10 @@ int schema();
 struct BatchOptions {
   std::vector<std::filesystem::path> inputs;  ///< scenarios, campaigns, folders
   std::string seeds;                          ///< such as 1:10; empty: those of the inputs
-  std::vector<std::string> overrides;         ///< "a.b=value", laid over every scenario
+  std::vector<std::string> overrides;         ///< "a.b=value", override every scenario
   size_t jobs = 1;                            ///< flights at a time, >= 1
   double limit_s = 0.0;                       ///< longest wall time of a flight, 0 for none
+  bool reuse_other_builds = false;            ///< results of other builds stand, too
   std::filesystem::path out;                  ///< empty: out/<name of the one input>, else out/batch
   std::filesystem::path junit;                ///< empty: none is written
   bool failed_only = false, resume = false, json = false;
@@ -94,6 +95,7 @@ struct SweepOptions {
   std::filesystem::path file;
   size_t jobs = 1;                                ///< flights at a time, >= 1
   double limit_s = 0.0;                           ///< longest wall time of a flight, 0 for none
+  bool reuse_other_builds = false;                ///< results of other builds stand, too
   std::filesystem::path out;                      ///< empty: out/<the file's name>
   std::filesystem::path junit;                    ///< empty: none is written
   std::string shard;                              ///< such as 2/8; empty: all
@@ -106,7 +108,7 @@ struct SweepOptions {
   bool dry_run = false;                           ///< only print the batch scripts
   std::filesystem::path program;                  ///< of the workers, absolute; empty: this one
 };
-/// Flies a sweep, or what is left of it: flights that left a result of the very same scenario stand.
+/// Flies a sweep, or what is left of it: results of the very same scenario and build are reused.
 int sweep(const SweepOptions& options);
 
 struct ReproduceOptions {
@@ -114,6 +116,7 @@ struct ReproduceOptions {
   bool quick = false;               ///< few seeds
   size_t jobs = 1;                  ///< flights at a time, >= 1
   double limit_s = 0.0;             ///< longest wall time of a flight, 0 for none
+  bool reuse_other_builds = false;  ///< results of other builds stand, too
   std::filesystem::path out;        ///< empty: out/reproduce
   std::filesystem::path program;    ///< of the workers, absolute; empty: this one
 };
@@ -121,7 +124,7 @@ struct ReproduceOptions {
 int reproduce(const ReproduceOptions& options);
 
 /// Writes the path of a run as the reference of its scenario's `path_tolerance`, beside the scenario.
-/// @param reason  why it is the path to hold to, one line.
+/// @param reason  why this path is the reference, one line.
 int bless(const std::filesystem::path& run_folder, const std::string& reason);
 
 /// The executable that runs now, absolute. Throws std::runtime_error.
@@ -133,14 +136,14 @@ struct ExportOptions {
   std::filesystem::path out;         ///< empty: <folder>/<format>
   std::vector<std::string> cameras;  ///< roles; empty: all that take images
 };
-/// Flies a run anew and writes what its sensors say for other programs.
+/// Re-simulates a run and writes its sensors' readings for other programs.
 int export_run(const ExportOptions& options);
 
 struct ReportOptions {
   std::filesystem::path folder;   ///< of a run, a batch or a sweep
   std::filesystem::path against;  ///< folder of an earlier batch or sweep; empty: none
   bool replay = false;            ///< of a run: also write replay.html
-  size_t film_strips = 0;         ///< of a batch or sweep: worst flights that are flown again for a film strip
+  size_t film_strips = 0;         ///< of a batch or sweep: worst flights to re-simulate for a film strip
 };
 /// Writes the folder's report.html.
 int report(const ReportOptions& options);

@@ -44,7 +44,7 @@ int export_run(const ExportOptions& options) {
   progress.close();
   if (flight.result.trajectory_hash != hash) {
     fmt::print(stderr,
-               "warning: flown again, the trajectory differs from the run's ({} instead of {}): another build or "
+               "warning: the re-simulated trajectory differs from the run's ({} instead of {}): another build or "
                "another kind of processor; the data agree with each other\n",
                flight.result.trajectory_hash, hash);
   }

@@ -7,7 +7,7 @@
 
 #include "sim/cli/campaign_options.h"
 #include "sim/cli/commands.h"
-#include "sim/cli/version.h"
+#include "sim/flight/build.h"
 #include "sim/scenario/input_error.h"
 
 namespace {
@@ -17,14 +17,15 @@ namespace cli = hedgehop::sim::cli;
 constexpr int kBadInput = 2;
 constexpr int kInternalError = 3;
 
-/// What may be laid over a scenario.
+/// What may override a scenario.
 void add_layers(CLI::App& command, cli::ScenarioOptions& scenario) {
-  command.add_option("--seed", scenario.seed, "seed of every random stream; replaces the scenario's");
-  command.add_option("--set", scenario.overrides, "lay a value over the scenario, e.g. --set avoidance.speed=1.5")
+  command.add_option("--seed", scenario.seed, "seed of every random stream; overrides the scenario's");
+  command.add_option("--set", scenario.overrides, "override a value of the scenario, e.g. --set avoidance.speed=1.5")
       ->type_name("KEY.PATH=VALUE")
       ->take_all();
   command
-      .add_option("--gl", scenario.gl, "who draws: osmesa, or egl (a GPU where there is one); replaces the scenario's")
+      .add_option("--gl", scenario.gl,
+                  "OpenGL context: osmesa, or egl (a GPU where there is one); overrides the scenario's")
       ->check(CLI::IsMember({"osmesa", "egl"}));
 }
 
@@ -38,7 +39,7 @@ void add_formats(CLI::App& command, bool& json, bool& csv) {
   command.add_flag("--csv", csv, "print comma-separated values")->excludes(as_json);
 }
 
-/// What the commands about vehicles are told.
+/// Options of the commands about vehicles.
 struct VehicleOptions {
   cli::TrimOptions trim;
   std::string speeds = "0";
@@ -50,12 +51,12 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
              cli::CalibrationOptions& calibration, VehicleOptions& vehicles, std::string& topic,
              cli::ExportOptions& data, cli::ReportOptions& report) {
   CLI::App* const run_command = app.add_subcommand("run",
-                                                   "fly a scenario; leaves a folder with verdict, tables, film "
+                                                   "fly a scenario; write a folder with verdict, tables, film "
                                                    "and report");
   add_scenario(*run_command, run.scenario);
   run_command->add_option("--out", run.out, "folder of the results; out/<name>-seed<seed> when not given")
       ->type_name("DIR");
-  run_command->add_flag("--no-video", run.no_video, "make no film");
+  run_command->add_flag("--no-video", run.no_video, "write no video");
   run_command->add_flag("--no-report", run.no_report, "write no report.html; `hedgehop report DIR` does so later");
   run_command->add_option("--worker-of", run.worker_of)->group("");  // hidden: for batch and sweep
   run_command->add_flag("--json", run.json, "print result.json instead of lines for people");
@@ -75,7 +76,7 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
                    "rest, full at 16 px); labels (a color for each object, sky black)")
       ->check(CLI::IsMember({"color", "grey", "depth", "depth_mm", "flow", "labels"}));
   auto* const out = render_command->add_option("-o", render.out, "file to write")->type_name("FILE.png");
-  auto* const info = render_command->add_flag("--info", render.info, "print which OpenGL renderer draws, and stop");
+  auto* const info = render_command->add_flag("--info", render.info, "print the OpenGL renderer, and stop");
   render_command->callback([&, file, camera, out, info] {
     if (!*info && (!*file || !*camera || !*out)) {
       throw CLI::RequiredError("render: SCENARIO, --camera and -o (or --info)");
@@ -94,8 +95,8 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
 
   cli::declare_campaigns(app, chosen);
 
-  CLI::App* const export_command = app.add_subcommand(
-      "export", "fly a run anew and write images, IMU, truth and calibration as other programs read them");
+  CLI::App* const export_command =
+      app.add_subcommand("export", "re-simulate a run and write images, IMU, truth and calibration for other programs");
   export_command->add_option("RUN", data.folder, "folder of a run, as `hedgehop run` leaves it")->required();
   export_command
       ->add_option("--format", data.format,
@@ -112,23 +113,23 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
       ->type_name("DIR");
   export_command->callback([&] { chosen = [&data] { return cli::export_run(data); }; });
 
-  CLI::App* const report_command = app.add_subcommand("report", "write report.html of a run, a batch or a sweep anew");
+  CLI::App* const report_command = app.add_subcommand("report", "write report.html of a run, a batch or a sweep again");
   report_command->add_option("DIR", report.folder, "its folder")->required()->check(CLI::ExistingDirectory);
   report_command
-      ->add_option("--against", report.against, "of a batch or sweep: tell what changed since this earlier one")
+      ->add_option("--against", report.against, "of a batch or sweep: list what changed since this earlier one")
       ->check(CLI::ExistingDirectory)
       ->type_name("DIR");
   report_command->add_flag("--replay", report.replay,
                            "of a run: also write replay.html, the flight in three dimensions");
   report_command
       ->add_option("--film-strips", report.film_strips,
-                   "of a batch or sweep: fly so many of the worst flights again, up to their closest approach, for "
+                   "of a batch or sweep: re-simulate so many of the worst flights, up to their closest approach, for "
                    "images of what they saw")
       ->check(CLI::Range(0, 50))
       ->type_name("N");
   report_command->callback([&] { chosen = [&report] { return cli::report(report); }; });
 
-  CLI::App* const list_command = app.add_subcommand("list", "tell what a scenario may name, and every key it takes");
+  CLI::App* const list_command = app.add_subcommand("list", "list what a scenario may name, and every key it takes");
   list_command->add_option("TOPIC", topic, "modules, vehicles, scenes, cameras or checks")
       ->required()
       ->check(CLI::IsMember({"modules", "vehicles", "scenes", "cameras", "checks"}));
@@ -166,7 +167,8 @@ int run_command_line(int argc, char** argv) {
       "Hedgehop flies rotorcraft through scenes they must see to survive: closed-loop simulation of\n"
       "vision-based obstacle avoidance, without display, GPU or network.",
       "hedgehop"};
-  app.set_version_flag("--version", std::string{cli::kVersion});
+  app.set_version_flag("--version",
+                       fmt::format("{} (build {})", hedgehop::sim::version(), hedgehop::sim::build_identity()));
   app.require_subcommand(1);
   app.footer("Exit status: 0 all checks hold; 1 a check fails; 2 the input is bad; 3 an internal error.");
 

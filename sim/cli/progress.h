@@ -10,7 +10,7 @@ class StatusLine {
  public:
   StatusLine();
   bool terminal() const { return terminal_; }
-  /// Draws the line anew, or, where there is no terminal, adds it.
+  /// Redraws the line, or, where there is no terminal, adds it.
   void show(const std::string& line) const;
   /// Adds a line that stays.
   void keep(const std::string& line) const;

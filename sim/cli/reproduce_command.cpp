@@ -8,7 +8,7 @@
 #include "sim/campaign/fly_orders.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/progress.h"
-#include "sim/cli/version.h"
+#include "sim/flight/build.h"
 #include "sim/record/whole_file.h"
 #include "sim/reproduce/outcome.h"
 #include "sim/reproduce/reproduction_page.h"
@@ -70,7 +70,7 @@ std::vector<Paper> read_papers(const std::vector<std::string>& names) {
   return papers;
 }
 
-/// Flies what is missing of all papers, in one go so that the time left is told of all. Ids begin with the paper's key.
+/// Flies what is missing of all papers, in one go so that the time left is that of all. Ids begin with the paper's key.
 std::vector<FlightRecord> fly(const std::vector<Paper>& papers, const ReproduceOptions& options, const fs::path& out,
                               Interruption& interruption) {
   std::vector<Order> orders;
@@ -83,7 +83,7 @@ std::vector<FlightRecord> fly(const std::vector<Paper>& papers, const ReproduceO
   CampaignProgress progress(orders.size());
   const FlyOptions fly{.program = options.program.empty() ? own_program() : options.program,
                        .out = out,
-                       .version = std::string(kVersion),
+                       .other_builds = options.reuse_other_builds,
                        .workers = options.jobs,
                        .limit_s = options.limit_s};
   auto records =
@@ -119,7 +119,7 @@ int reproduce(const ReproduceOptions& options) {
   fs::create_directories(out);
   write_file_whole(out / "reproduction.md", text);
   write_file_whole(out / "reproduction.csv", rows_csv(rows_of_papers));
-  write_file_whole(out / "reproduction.html", reproduction_page(pages, std::string(kVersion), options.quick));
+  write_file_whole(out / "reproduction.html", reproduction_page(pages, std::string(version()), options.quick));
   fmt::print("{}written: {}\n", text, (out / "reproduction.html").string());
   if (interruption.signal() != 0) return kSignalled + interruption.signal();
   const auto fails = [](const RowOutcome& row) { return row.holds && !*row.holds; };

@@ -12,7 +12,7 @@
 #include "sim/cli/commands.h"
 #include "sim/cli/load.h"
 #include "sim/cli/progress.h"
-#include "sim/cli/version.h"
+#include "sim/flight/build.h"
 #include "sim/loop/episode.h"
 #include "sim/record/film_watcher.h"
 #include "sim/record/report.h"
@@ -21,7 +21,7 @@
 namespace hedgehop::sim::cli {
 namespace {
 
-/// Films and shows progress.
+/// Records the video and shows progress.
 class RunWatcher : public FlightWatcher {
  public:
   RunWatcher(const Scenario& scenario, const std::filesystem::path& film_file, bool quiet)
@@ -34,11 +34,11 @@ class RunWatcher : public FlightWatcher {
   void on_progress(double t_s, double duration_s, double goal_distance_m) override {
     if (!quiet_) progress_.show(t_s, duration_s, goal_distance_m);
   }
-  /// Ends line and film.
+  /// Ends the line and the video.
   void close() {
     progress_.close();
     film_.close();
-    if (!film_.fault().empty()) fmt::print(stderr, "warning: no whole film: {}\n", film_.fault());
+    if (!film_.fault().empty()) fmt::print(stderr, "warning: incomplete video: {}\n", film_.fault());
   }
 
  private:
@@ -99,7 +99,8 @@ int run(const RunOptions& options) {
 
   const RunInfo info{scenario.name,
                      scenario.seed,
-                     std::string{kVersion},
+                     std::string(version()),
+                     std::string(build_identity()),
                      options.scenario.file.string(),
                      command_line(options, scenario),
                      to_yaml(scenario)};

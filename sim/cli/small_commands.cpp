@@ -18,13 +18,13 @@
 namespace hedgehop::sim::cli {
 namespace {
 
-/// Flies the worst flights of a campaign again, for their strips, and tells what came of it.
+/// Re-simulates the worst flights of a campaign for their strips, and prints the outcome.
 void film_worst(const std::filesystem::path& folder, size_t count) {
   const std::vector<FlightRecord> flights = read_flights(folder).records;
   const std::vector<size_t> rows = worst_flights(flights, count);
   size_t begun = 0;
   const auto show = [&](const std::string& id) {
-    fmt::print(stderr, "{}/{}: flying {} again for its film strip\n", ++begun, rows.size(), id);
+    fmt::print(stderr, "{}/{}: re-simulating {} for its film strip\n", ++begun, rows.size(), id);
   };
   for (const std::string& fault : write_film_strips(folder, flights, rows, show)) fmt::print(stderr, "{}\n", fault);
 }

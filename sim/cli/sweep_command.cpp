@@ -8,11 +8,12 @@
 
 #include "sim/campaign/batch_record.h"
 #include "sim/campaign/junit.h"
+#include "sim/campaign/optimize.h"
 #include "sim/campaign/slurm.h"
 #include "sim/campaign/sweep.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/progress.h"
-#include "sim/cli/version.h"
+#include "sim/flight/build.h"
 #include "sim/record/whole_file.h"
 
 namespace hedgehop::sim::cli {
@@ -20,11 +21,6 @@ namespace {
 
 constexpr int kFails = 1;
 constexpr int kSignalled = 128;  // what a shell reports of a process that a signal ended, less the signal's number
-
-/// Ends an optimizer's search from inside.
-struct Interrupted : std::runtime_error {
-  Interrupted() : std::runtime_error("interrupted") {}
-};
 
 struct SweepRun {
   const SweepOptions& options;
@@ -43,7 +39,7 @@ void write_tables(const SweepRun& run, const SweepOrders& orders, const std::vec
   write_file_whole(run.options.junit, junit_text(records, {}));
 }
 
-/// Tells how it went and returns the exit status.
+/// Prints the counts and returns the exit status.
 int conclude(const SweepRun& run, const SweepOrders& orders, const std::vector<FlightRecord>& records) {
   write_tables(run, orders, records);
   const auto count = [&](auto holds) { return std::ranges::count_if(records, holds); };
@@ -64,7 +60,7 @@ int conclude(const SweepRun& run, const SweepOrders& orders, const std::vector<F
 FlyOptions fly_options(const SweepRun& run) {
   return {.program = run.options.program.empty() ? own_program() : run.options.program,
           .out = run.out,
-          .version = std::string(kVersion),
+          .other_builds = run.options.reuse_other_builds,
           .workers = run.options.jobs,
           .limit_s = run.options.limit_s};
 }
@@ -90,28 +86,25 @@ int fly_optimizer(const SweepRun& run, const OptimizeDesign& design) {
   const size_t seeds = run.sweep.seeds ? parse_seeds(*run.sweep.seeds).size() : 1;
   CampaignProgress progress(seeds * static_cast<size_t>(design.evaluations));
   const FlyOptions options = fly_options(run);
-  const FlyPoint fly = [&](const std::vector<Order>& orders) {
+  const FlyPoint fly = [&](const std::vector<Order>& orders) -> std::optional<std::vector<FlightRecord>> {
     auto records = fly_orders(orders, options, Reuse::all, interruption, show_on(progress));
-    if (interruption.signal() != 0) throw Interrupted();
+    if (interruption.signal() != 0) return std::nullopt;
     return records;
   };
-  try {
-    const Optimum best = optimize(run.sweep, fly);
-    progress.close();
-    write_tables(run, best.orders, best.records);
-    nlohmann::ordered_json json{{"minimize", design.minimize}, {"cost", best.cost}, {"values", {}}};
-    std::string words;
-    for (size_t i = 0; i < best.values.size(); ++i) {
-      json["values"][run.sweep.parameters[i].path] = best.values[i];
-      words += fmt::format(" --set {}={}", run.sweep.parameters[i].path, best.values[i]);
-    }
-    write_file_whole(run.out / "optimum.json", json.dump(2) + "\n");
-    fmt::print("{} points flown; smallest mean of {}: {:g}, with{}\nwritten: {}\n", best.records.size() / seeds,
-               design.minimize, best.cost, words, (run.out / "optimum.json").string());
-    return best.cost < design.failure_cost ? 0 : kFails;
-  } catch (const Interrupted&) {
-    return kSignalled + interruption.signal();
+  const Optimum best = optimize(run.sweep, fly);
+  progress.close();
+  write_tables(run, best.orders, best.records);
+  if (best.stopped) return kSignalled + interruption.signal();
+  nlohmann::ordered_json json{{"minimize", design.minimize}, {"cost", best.cost}, {"values", {}}};
+  std::string words;
+  for (size_t i = 0; i < best.values.size(); ++i) {
+    json["values"][run.sweep.parameters[i].path] = best.values[i];
+    words += fmt::format(" --set {}={}", run.sweep.parameters[i].path, best.values[i]);
   }
+  write_file_whole(run.out / "optimum.json", json.dump(2) + "\n");
+  fmt::print("{} points flown; smallest mean of {}: {:g}, with{}\nwritten: {}\n", best.records.size() / seeds,
+             design.minimize, best.cost, words, (run.out / "optimum.json").string());
+  return best.cost < design.failure_cost ? 0 : kFails;
 }
 
 int on_slurm(const SweepRun& run, size_t flights) {
@@ -154,7 +147,7 @@ int sweep(const SweepOptions& options) {
   if (options.merge || options.missing) {
     std::vector<std::filesystem::path> folders{run.out};
     folders.insert(folders.end(), options.merge_from.begin(), options.merge_from.end());
-    const std::vector<FlightRecord> records = gather(orders.orders, folders, kVersion);
+    const std::vector<FlightRecord> records = gather(orders.orders, folders, run.options.reuse_other_builds);
     if (options.merge) return conclude(run, orders, records);
     fmt::print("{}\n", std::ranges::count(records, FlightRecord::Status::missing, &FlightRecord::status));
     return 0;

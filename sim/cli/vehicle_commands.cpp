@@ -25,12 +25,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Runs `compute` on a vehicle; what the vehicle cannot be is bad input, told with the file's name.
+/// Runs `compute` on a vehicle; a vehicle that cannot fly is bad input, reported with the file's name.
 template <class Compute>
 auto about(const std::filesystem::path& file, Compute compute) {
   const dynamics::VehicleConfig vehicle = load_vehicle(file);
   try {
-    dynamics::Vehicle{vehicle};  // says why, where it could never fly
+    dynamics::Vehicle{vehicle};  // throws with the reason, where it could never fly
     return compute(vehicle);
   } catch (const std::invalid_argument& error) {
     throw InputError(fmt::format("{}: {}", file.string(), error.what()));

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "sim/collision/separation.h"
+#include "sim/collision/solid_bodies.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -18,79 +19,6 @@ using scenes::Solid;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRoundingM = 1e-9;  // by which closed-form bounds may be off, far from the origin too
-
-void require_extents(const Eigen::Vector3d& half_extents_m, const std::string& what) {
-  if (!half_extents_m.allFinite() || half_extents_m.minCoeff() <= 0.0) {
-    throw std::invalid_argument(what + ": half extents must be finite and above 0");
-  }
-}
-
-ConvexBody make_body(const HullPart& part, const std::string& what) {
-  require_extents(part.half_extents_m, what);
-  if (!part.center_B_m.allFinite()) throw std::invalid_argument(what + ": the center must be finite");
-  if (part.shape == HullPart::Shape::box) return {ConvexBody::Shape::box, part.half_extents_m};
-  if (part.half_extents_m.x() != part.half_extents_m.y()) {
-    throw std::invalid_argument(what + ": a cylinder's first two half extents are its radius and must be equal");
-  }
-  return {ConvexBody::Shape::cylinder, part.half_extents_m};
-}
-
-void require_polyhedron(const scenes::mesh::Polyhedron& polyhedron, bool convex, const std::string& what) {
-  const auto refuse = [&](const char* why) { throw std::invalid_argument(what + ": " + why); };
-  if (polyhedron.faces.empty()) refuse("a polyhedron needs faces");
-  for (const Eigen::Vector3d& corner : polyhedron.corners) {
-    if (!corner.allFinite()) refuse("corners must be finite");
-  }
-  for (const auto& face : polyhedron.faces) {
-    for (const uint32_t corner : face) {
-      if (corner >= polyhedron.corners.size()) refuse("a face has a corner that is not there");
-    }
-    const Eigen::Vector3d a = polyhedron.corners[face[0]];
-    const Eigen::Vector3d n = (polyhedron.corners[face[1]] - a).cross(polyhedron.corners[face[2]] - a);
-    if (n.norm() == 0.0) refuse("a face has no area");
-    for (const Eigen::Vector3d& corner : polyhedron.corners) {
-      if (convex && n.normalized().dot(corner - a) > kRoundingM) refuse("a hull must be convex, its faces outward");
-    }
-  }
-  if (convex && polyhedron.faces.size() < 4) refuse("a hull needs at least 4 faces");
-}
-
-// The convex bodies that a solid is made of: one, or each triangle of a surface.
-std::vector<ConvexBody> make_bodies(const Solid& solid) {
-  const std::string what = "solid '" + solid.name + "'";
-  if (!solid.X_WS.matrix().allFinite()) throw std::invalid_argument(what + ": the pose must be finite");
-  const Eigen::Vector3d& half_m = solid.half_extents_m;
-  std::vector<ConvexBody> bodies;
-  switch (solid.shape) {
-    case Solid::Shape::box:
-      require_extents(half_m, what);
-      bodies.emplace_back(ConvexBody::Shape::box, half_m);
-      break;
-    case Solid::Shape::cylinder:
-      require_extents(half_m, what);
-      if (half_m.x() != half_m.y()) throw std::invalid_argument(what + ": a cylinder's first two half extents differ");
-      bodies.emplace_back(ConvexBody::Shape::cylinder, half_m);
-      break;
-    case Solid::Shape::sphere:
-      require_extents(half_m, what);
-      if (half_m.minCoeff() != half_m.maxCoeff())
-        throw std::invalid_argument(what + ": a sphere's half extents differ");
-      bodies.emplace_back(ConvexBody::Shape::sphere, half_m);
-      break;
-    case Solid::Shape::hull:
-      require_polyhedron(solid.polyhedron, true, what);
-      bodies.emplace_back(solid.polyhedron);
-      break;
-    case Solid::Shape::surface:
-      require_polyhedron(solid.polyhedron, false, what);
-      for (const auto& [a, b, c] : solid.polyhedron.faces) {
-        const std::vector<Eigen::Vector3d>& corners = solid.polyhedron.corners;
-        bodies.emplace_back(scenes::mesh::Polyhedron{{corners[a], corners[b], corners[c]}, {{0, 1, 2}}});
-      }
-      break;
-  }
-  return bodies;
-}
 
 btVector3 to_bullet(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -128,7 +56,7 @@ class CollisionWorld::World {
     place_hull(X_WB);
     Nearest nearest{search_radius_m, {}, Eigen::Vector3d::Zero()};
 
-    // What was nearest last time is near now: its distance narrows the search without touching the answer.
+    // The solid that was nearest last time is close now: its distance narrows the search, not the result.
     if (last_nearest_) consider(*last_nearest_, placed_[*last_nearest_], nearest);
     const Eigen::Vector3d reach = Eigen::Vector3d::Constant(std::max(nearest.clearance_m, 0.0) + kRoundingM);
     visit_still(hull_box_W_.min() - reach, hull_box_W_.max() + reach, [&](size_t index) {
@@ -233,12 +161,12 @@ class CollisionWorld::World {
   void place_hull(const Eigen::Isometry3d& X_WB) {
     placed_parts_.clear();
     hull_box_W_.setEmpty();
-    Eigen::Isometry3d X_WP = X_WB;
+    Eigen::Isometry3d X_WS = X_WB;
     for (const Part& part : parts_) {
-      X_WP.translation() = X_WB * part.center_B_m;
-      placed_parts_.emplace_back(part.body, X_WP);
+      X_WS.translation() = X_WB * part.center_B_m;
+      placed_parts_.emplace_back(part.body, X_WS);
       const Eigen::Vector3d half_m = placed_parts_.back().half_size_W();
-      hull_box_W_.extend(Eigen::AlignedBox3d(X_WP.translation() - half_m, X_WP.translation() + half_m));
+      hull_box_W_.extend(Eigen::AlignedBox3d(X_WS.translation() - half_m, X_WS.translation() + half_m));
     }
   }
 

@@ -105,7 +105,7 @@ Separation separate(const PlacedBody& first, const PlacedBody& second) {
     }
   }
 
-  // Overlapping, or too near to tell: ask for the depth. No answer means that they just touch.
+  // Overlapping, or too close to decide: compute the depth. No result means that they are just in contact.
   constexpr bool kUseMargins = false;
   if (btGjkEpaSolver2::Penetration(a, first.bullet_X_WS, b, second.bullet_X_WS, guess, found, kUseMargins)) {
     return {std::min(found.distance, 0.0), to_eigen(found.witnesses[0]), to_eigen(found.witnesses[1])};

@@ -12,9 +12,8 @@ struct Separation {
   Eigen::Vector3d on_second_W = Eigen::Vector3d::Zero();  ///< and the second's nearest to the first
 };
 
-/// Returns the distance of two bodies, to 1e-7 m, by a certificate. Nearer than that they touch: then the result is 0
-/// or, as Bullet tells it, the depth of their overlap, good to about 1e-4 m. With a sphere, distance and depth are
-/// closed forms.
+/// Returns the distance of two bodies, certified to 1e-7 m. Closer bodies are in contact: the result is then 0 or the
+/// depth of their overlap as Bullet computes it, to about 1e-4 m. With a sphere, distance and depth are closed forms.
 Separation separate(const PlacedBody& first, const PlacedBody& second);
 
 }  // namespace hedgehop::sim

@@ -2,8 +2,8 @@
 
 #include <Eigen/Geometry>
 
-/// The one place where frames leave the house. E: east, north, up, fixed at W's origin. F: forward, left, up, fixed to
-/// the vehicle. Cameras' own axes stay as they are: right, down, forward.
+/// The one place that converts to other programs' frames. E: east, north, up, fixed at W's origin. F: forward, left,
+/// up, fixed to the vehicle. Cameras' own axes stay as they are: right, down, forward.
 namespace hedgehop::sim {
 
 inline Eigen::Matrix3d R_EW() {
@@ -16,7 +16,7 @@ inline Eigen::Matrix3d R_EW() {
 
 inline Eigen::Matrix3d R_FB() { return Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal(); }
 
-/// Where F is, its origin where that of the given frame along B's axes is.
+/// Pose of F in E for a frame along B's axes; both have the same origin.
 inline Eigen::Isometry3d X_EF(const Eigen::Isometry3d& X_WB) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   X.linear() = R_EW() * X_WB.linear() * R_FB().transpose();

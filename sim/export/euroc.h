@@ -4,12 +4,12 @@
 
 namespace hedgehop::sim {
 
-/// The texts of a data set after [BurriNikolicGohl2016], as it lays them out: mav0/ with cam0.., imu0 and
+/// The texts of a data set after [BurriNikolicGohl2016], in its layout: mav0/ with cam0.., imu0 and
 /// state_groundtruth_estimate0, each with sensor.yaml and data.csv. R is E, S of the IMU is F, times are ns of flight.
-/// Throws InputError for a lens that the format has no words for (k3 of a pinhole).
+/// Throws InputError for a lens that the format cannot describe (k3 of a pinhole).
 std::vector<DataFile> euroc_files(const SensorRecord& record);
 
-/// Where an image belongs.
+/// File of an image, relative to the data set's folder.
 std::filesystem::path euroc_image(size_t camera, int64_t t_ns);
 
 }  // namespace hedgehop::sim

@@ -19,10 +19,10 @@ namespace {
 
 RecordedCamera recorded(const CameraConfig& config, const dynamics::sensors::ImuConfig& imu) {
   const vision::camera::Camera model = config.model();
-  const Eigen::Isometry3d X_SB(Eigen::Translation3d(-imu.p_BS_m));
+  const Eigen::Isometry3d X_IB(Eigen::Translation3d(-imu.p_BI_m));
   Eigen::Isometry3d X_FC = Eigen::Isometry3d::Identity();
   X_FC.linear() = R_FB() * config.X_BC().linear();
-  X_FC.translation() = R_FB() * (X_SB * config.X_BC()).translation();
+  X_FC.translation() = R_FB() * (X_IB * config.X_BC()).translation();
   return {config.role, model.width_px, model.height_px, config.rate_hz, intrinsics(config, model), X_FC, {}};
 }
 
@@ -32,7 +32,7 @@ std::string roles(const RigConfig& rig) {
   return text;
 }
 
-/// The cameras asked for, in that order.
+/// The cameras to export, in that order.
 std::vector<RecordedCamera> choose(const Scenario& scenario, const std::vector<std::string>& wanted) {
   using Channel = CameraConfig::Channel;
   const auto has_images = [](const CameraConfig& c) {
@@ -69,7 +69,7 @@ std::vector<DataFile> texts(DataFormat format, const SensorRecord& record) {
   return format == DataFormat::kitti ? kitti_files(record) : euroc_files(record);
 }
 
-/// What a format cannot hold is told before the flight.
+/// What a format cannot hold is reported before the flight.
 void check(const ExportRequest& request, SensorRecord record) {
   if (request.format == DataFormat::tum) {
     if (record.cameras.size() > 1) {
@@ -124,12 +124,12 @@ class Recorder : public FlightWatcher {
  private:
   RecordedState state(const SensorTick& tick) const {
     const dynamics::RigidBodyState& body = tick.body_true;
-    const Eigen::Vector3d& p_BS = record_.imu_config.p_BS_m;
-    Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();
-    X_WS.linear() = body.q_WB.toRotationMatrix();
-    X_WS.translation() = body.p_WB + body.q_WB * p_BS;
-    const Eigen::Vector3d v_WS_B = body.v_WB_B + body.w_WB_B.cross(p_BS);
-    return {tick.t_ns, X_EF(X_WS), R_EW() * (body.q_WB * v_WS_B), R_FB() * tick.imu_bias.w_WB_B_meas,
+    const Eigen::Vector3d& p_BI = record_.imu_config.p_BI_m;
+    Eigen::Isometry3d X_WI = Eigen::Isometry3d::Identity();
+    X_WI.linear() = body.q_WB.toRotationMatrix();
+    X_WI.translation() = body.p_WB + body.q_WB * p_BI;
+    const Eigen::Vector3d v_WI_B = body.v_WB_B + body.w_WB_B.cross(p_BI);
+    return {tick.t_ns, X_EF(X_WI), R_EW() * (body.q_WB * v_WI_B), R_FB() * tick.imu_bias.w_WB_B_meas,
             R_FB() * tick.imu_bias.specific_force_B_meas};
   }
 

@@ -33,8 +33,7 @@ void check(const SensorRecord& record) {
   for (const RecordedCamera& camera : record.cameras) {
     const bool distorted = std::ranges::any_of(camera.lens.distortion, [](double k) { return k != 0.0; });
     if (camera.lens.fisheye || distorted) {
-      throw InputError(
-          fmt::format("camera '{}': KITTI's images are those of pinholes without distortion", camera.role));
+      throw InputError(fmt::format("camera '{}': KITTI's images are those of undistorted pinholes", camera.role));
     }
     if (camera.rate_hz != record.cameras.front().rate_hz) {
       throw InputError(

@@ -26,7 +26,7 @@ struct RecordedReading {
   Eigen::Vector3d w_F, f_F;  ///< rad/s; specific force, m/s^2: at rest (0, 0, g)
 };
 
-/// Truth, where the IMU sits.
+/// Truth at the IMU.
 struct RecordedState {
   int64_t t_ns = 0;
   Eigen::Isometry3d X_EF = Eigen::Isometry3d::Identity();
@@ -34,7 +34,7 @@ struct RecordedState {
   Eigen::Vector3d w_bias_F, f_bias_F;  ///< of the readings; noise and misalignment come on top
 };
 
-/// What a flight's sensors said, in the frames of conventions.h.
+/// Readings of a flight's sensors, in the frames of conventions.h.
 struct SensorRecord {
   std::vector<RecordedCamera> cameras;
   dynamics::sensors::ImuConfig imu_config;

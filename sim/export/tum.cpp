@@ -5,7 +5,7 @@
 namespace hedgehop::sim {
 namespace {
 
-/// Seconds, every nanosecond kept.
+/// Seconds, to the nanosecond.
 std::string seconds(int64_t t_ns) { return fmt::format("{}.{:09}", t_ns / 1'000'000'000, t_ns % 1'000'000'000); }
 
 std::string image_list(const char* title, const std::vector<int64_t>& t_ns, std::filesystem::path (*file)(int64_t)) {

@@ -4,10 +4,10 @@
 
 namespace hedgehop::sim {
 
-/// Depth images hold 16-bit numbers, this many to a meter; 0: unknown, or farther than they reach (13.1 m).
+/// Depth images hold 16-bit numbers, this many to a meter; 0: unknown, or beyond their range (13.1 m).
 inline constexpr double kTumDepthPerMeter = 5000.0;
 
-/// The texts of a data set after [SturmEngelhardEndres2012], as it lays them out, of one pinhole: rgb.txt, depth.txt,
+/// The texts of a data set after [SturmEngelhardEndres2012], in its layout, of one pinhole: rgb.txt, depth.txt,
 /// groundtruth.txt (X_EC of the camera: t x y z qx qy qz qw), accelerometer.txt (of the IMU, along F); besides, gyros
 /// in gyroscope.txt and calibration.yaml for OpenCV's reader. Times are s of flight.
 /// @param record  with one camera, a pinhole.

@@ -37,9 +37,11 @@ inline std::string decimal(double value) {
 }
 
 /// Returns what a value must be and is not: "finite", "> 0 m", "<= 90 deg"; nothing when it is within its bounds.
-/// @param member  in the unit of the member: rad and rad/s for fields in deg and deg/s. @param field  bounds, unit.
-inline std::optional<std::string> broken_bound(double member, const Field& field) {
+/// @param member  in the unit of the member: rad and rad/s for fields in deg and deg/s.
+/// @param listed  as describe() lists it; a side without a bound has the limit of the unit.
+inline std::optional<std::string> broken_bound(double member, const Field& listed) {
   if (!std::isfinite(member)) return "finite";
+  const Field field = bounded(listed);
   // Both sides are rounded to radians alike, so a value written equal to its bound stays equal to it.
   const auto in_member_unit = [&](double bound) { return is_degrees(field.unit) ? to_radians(bound) : bound; };
   const auto words = [&](std::string_view relation, double bound) {
@@ -111,16 +113,18 @@ class BoundsVisitor {
   std::string prefix_;
 };
 
-/// Requires that every number in `config` is finite and that every value keeps the bounds of its field.
+/// Returns the config after requiring that every number in `config` is finite and that every value keeps the bounds of
+/// its field.
 /// @param config  a struct with describe(); structs, lists, optionals and variants inside it are judged too.
 /// @param prefix  dotted key of the config, or "" when the keys are to begin with its own.
 /// Throws std::invalid_argument "<dotted.key>: <value>; must be <bound> <unit>", as in "lens.fov: 190; must be < 180
 /// deg".
 template <class Config>
-void require_bounds(const Config& config, std::string_view prefix = "") {
+const Config& require_bounds(const Config& config, std::string_view prefix = "") {
   BoundsVisitor visitor(prefix);
   Config copy = config;  // describe() takes what a reader may write to
   describe(visitor, copy);
+  return config;
 }
 
 }  // namespace hedgehop::fields

@@ -7,7 +7,7 @@
 
 namespace hedgehop::fields {
 
-/// What `describe(visitor, config)` says of one field. Bounds are in the unit that YAML uses ("deg" and "deg/s" are
+/// What `describe(visitor, config)` lists of one field. Bounds are in the unit that YAML uses ("deg" and "deg/s" are
 /// read as degrees into a member in radians; every other unit is SI and read as it stands).
 struct Field {
   std::string_view unit = "";                  ///< "m", "s", "deg", "deg/s", "Hz", "px", "m/s", "kg", ...; "" for none
@@ -20,5 +20,27 @@ struct Field {
   std::string_view selector = "type";  ///< for a std::variant of structs with kName: the key that names the choice
   std::string_view meaning = "";
 };
+
+/// Returns the greatest magnitude of a field in this unit that states no bound of its own; nothing for other units.
+/// They keep what is computed from a config finite.
+constexpr std::optional<double> unit_limit(std::string_view unit) {
+  if (unit == "m") return 100e3;  // farther out, the images' single precision shows (8 mm)
+  if (unit == "m/s") return 1e3;  // no rotorcraft, obstacle or wind is as fast
+  if (unit == "s") return 1e9;    // longer than any flight: a time constant that stands for never
+  if (unit == "px") return 1e6;   // beyond any image
+  return {};
+}
+
+/// The lowest rate of what happens again and again, Hz: once in 100 s.
+inline constexpr double kSlowestHz = 0.01;
+
+/// Returns the field with a bound on either side where its unit has a limit.
+inline Field bounded(Field field) {
+  if (const std::optional<double> limit = unit_limit(field.unit)) {
+    if (!field.above && !field.at_least) field.at_least = -*limit;
+    if (!field.below && !field.at_most) field.at_most = *limit;
+  }
+  return field;
+}
 
 }  // namespace hedgehop::fields

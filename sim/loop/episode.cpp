@@ -11,6 +11,7 @@
 
 #include "scenes/generators.h"
 #include "sim/collision/proximity.h"
+#include "sim/fields/bounds.h"
 #include "sim/loop/aircraft.h"
 #include "sim/loop/cameras.h"
 #include "sim/loop/flight_log.h"
@@ -30,6 +31,12 @@ namespace {
 
 /// Solids farther from the hull than this count as absent, m: no clearance beyond it is of interest.
 constexpr double kSearchRadiusM = 50.0;
+
+/// Throws InputError naming the key when a scenario that no file was read for has a value out of its bounds.
+const Scenario& within_bounds(const Scenario& scenario) {
+  build_part("scenario", [&] { return &fields::require_bounds(scenario); });
+  return scenario;
+}
 
 class Episode {
  public:
@@ -77,7 +84,7 @@ class Episode {
 };
 
 Episode::Episode(const Scenario& scenario, FlightWatcher* watcher)
-    : scenario_(scenario),
+    : scenario_(within_bounds(scenario)),
       ticks_(scenario.physics_rate_hz),
       scene_(build_part("scene",
                         [&] { return scenes::make_scene(scenario.scene, stream_seed(scenario.seed, kSceneStream)); })),

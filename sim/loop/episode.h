@@ -11,8 +11,8 @@
 namespace hedgehop::sim {
 
 /// Flies a scenario to its end. Equal scenarios give equal flights, bit for bit, the wall-time fields aside.
-/// Throws InputError for what only the assembled parts can tell (a module without its camera, a vehicle that cannot
-/// hover); a fault in flight is an outcome, not an exception.
+/// Throws InputError for a value out of its bounds and for what only the assembled parts can tell (a module without its
+/// camera, a vehicle that cannot hover); a fault in flight is an outcome, not an exception.
 Flight fly(const Scenario& scenario, FlightWatcher* watcher = nullptr);
 
 /// What one camera of the rig sees in a flight, drawn as `channel` whatever the rig asks for.

@@ -14,7 +14,7 @@ namespace hedgehop::sim {
 /// sec. 2 (hover damping by optic flow).
 class Velocimeter {
  public:
-  /// Throws std::invalid_argument when the camera is not a pinhole without distortion.
+  /// Throws std::invalid_argument when the camera is not an undistorted pinhole.
   Velocimeter(size_t camera, const Cameras& cameras);
 
   size_t camera() const { return camera_; }

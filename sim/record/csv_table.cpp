@@ -12,16 +12,24 @@
 namespace hedgehop::sim {
 namespace {
 
-/// Splits a line at its commas outside quotes.
-void split(std::string_view line, std::vector<std::string_view>& fields) {
-  size_t begin = 0;
+/// Takes the next record off `rest`, split at its commas; a line break inside quotes belongs to its field (RFC 4180).
+/// @return how many lines it spans.
+size_t take_record(std::string_view& rest, std::vector<std::string_view>& fields) {
+  size_t begin = 0, lines = 1;
   bool quoted = false;
-  for (size_t i = 0; i <= line.size(); ++i) {
-    if (i < line.size() && line[i] == '"') quoted = !quoted;
-    if (i == line.size() || (line[i] == ',' && !quoted)) {
-      fields.push_back(line.substr(begin, i - begin));
-      begin = i + 1;
-    }
+  for (size_t i = 0;; ++i) {
+    const bool at_end = i == rest.size();
+    if (!at_end && rest[i] == '"') quoted = !quoted;
+    if (!at_end && rest[i] == '\n' && quoted) ++lines;
+    const bool ends_record = at_end || (rest[i] == '\n' && !quoted);
+    if (!ends_record && (rest[i] != ',' || quoted)) continue;
+    std::string_view field = rest.substr(begin, i - begin);
+    if (ends_record && field.ends_with('\r')) field.remove_suffix(1);
+    fields.push_back(field);
+    begin = i + 1;
+    if (!ends_record) continue;
+    rest.remove_prefix(at_end ? i : i + 1);
+    return lines;
   }
 }
 
@@ -39,14 +47,9 @@ std::string unquoted(std::string_view field) {
 
 CsvTable::CsvTable(const std::filesystem::path& file) : file_(file.string()), text_(read_file_whole(file)) {
   std::string_view rest = text_;
-  for (size_t number = 1; !rest.empty(); ++number) {
-    const size_t end = rest.find('\n');
-    std::string_view line = rest.substr(0, end);
-    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-    if (line.ends_with('\r')) line.remove_suffix(1);
-
+  for (size_t number = 1, lines = 0; !rest.empty(); number += lines) {
     std::vector<std::string_view> fields;
-    split(line, fields);
+    lines = take_record(rest, fields);
     if (number == 1) {
       for (const std::string_view name : fields) names_.push_back(unquoted(name));
       continue;
@@ -56,7 +59,7 @@ CsvTable::CsvTable(const std::filesystem::path& file) : file_(file.string()), te
           fmt::format("{}:{}: {} fields where the header has {}", file_, number, fields.size(), names_.size()));
     }
     fields_.insert(fields_.end(), fields.begin(), fields.end());
-    ++rows_;
+    first_lines_.push_back(number);
   }
   if (names_.empty()) throw std::runtime_error(fmt::format("{}: no header line", file_));
 }
@@ -69,13 +72,14 @@ size_t CsvTable::column(std::string_view name) const {
 
 std::vector<double> CsvTable::numbers(std::string_view name) const {
   const size_t c = column(name);
-  std::vector<double> values(rows_, NAN);
-  for (size_t r = 0; r < rows_; ++r) {
+  std::vector<double> values(rows(), NAN);
+  for (size_t r = 0; r < rows(); ++r) {
     const std::string_view text = field(r, c);
     if (text.empty()) continue;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), values[r]);
     if (error != std::errc() || end != text.data() + text.size()) {
-      throw std::runtime_error(fmt::format("{}:{}: '{}' in column '{}' is no number", file_, r + 2, text, name));
+      throw std::runtime_error(
+          fmt::format("{}:{}: '{}' in column '{}' is no number", file_, first_lines_[r], text, name));
     }
   }
   return values;
@@ -84,8 +88,8 @@ std::vector<double> CsvTable::numbers(std::string_view name) const {
 std::vector<std::string> CsvTable::words(std::string_view name) const {
   const size_t c = column(name);
   std::vector<std::string> words;
-  words.reserve(rows_);
-  for (size_t r = 0; r < rows_; ++r) words.push_back(unquoted(field(r, c)));
+  words.reserve(rows());
+  for (size_t r = 0; r < rows(); ++r) words.push_back(unquoted(field(r, c)));
   return words;
 }
 

@@ -61,7 +61,7 @@ std::vector<MoverWay> mover_ways(const std::vector<scenes::Mover>& movers) {
   std::vector<MoverWay> ways;
   for (const scenes::Mover& mover : movers) {
     MoverWay& way = ways.emplace_back(MoverWay{.name = mover.name});
-    for (const Eigen::Vector3d& corner_W : scenes::way_W(mover.motion)) way.corners_NE_m.push_back(corner_W.head<2>());
+    for (const Eigen::Vector3d& corner_W : scenes::path_W(mover.motion)) way.corners_NE_m.push_back(corner_W.head<2>());
     for (const Footprint& part : footprints(mover.solids)) {
       for (const Eigen::Vector2d& corner : part.corners_NE_m) way.radius_m = std::max(way.radius_m, corner.norm());
     }

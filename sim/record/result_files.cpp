@@ -61,6 +61,7 @@ std::string result_json(const RunInfo& info, const FlightResult& result) {
   json["scenario"] = info.scenario;
   json["seed"] = info.seed;
   json["version"] = info.version;
+  json["build"] = info.build;
   json["scenario_file"] = info.scenario_file;
   json["command_line"] = info.command_line;
   json["outcome"] = std::string(to_string(result.outcome));

@@ -13,6 +13,7 @@ struct RunInfo {
   std::string scenario;       ///< the scenario's name
   uint64_t seed = 0;          ///< of the run
   std::string version;        ///< of Hedgehop
+  std::string build;          ///< identity of the build
   std::string scenario_file;  ///< as it was named
   std::string command_line;   ///< that runs this again
   std::string scenario_yaml;  ///< the resolved scenario

@@ -6,7 +6,7 @@
 
 namespace hedgehop::sim {
 
-/// Who gives an OpenGL context without a display.
+/// Which library creates an OpenGL context without a display.
 enum class ContextKind {
   osmesa,  ///< Mesa's software rasterizer behind OSMesa
   egl,     ///< EGL without a surface: a GPU where there is one, else the same rasterizer

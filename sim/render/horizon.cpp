@@ -67,8 +67,8 @@ Horizon::Horizon() : bins_(kBins) {
 
 void Horizon::reset(const Eigen::Vector3d& eye_W) {
   eye_W_ = eye_W;
-  look_first_ = 0;
-  look_count_ = kBins;
+  first_bin_ = 0;
+  bin_count_ = kBins;
   std::ranges::fill(bins_, Bin{{-kInfinity, 0.0}, {-kInfinity, 0.0}});
 }
 
@@ -82,13 +82,13 @@ void Horizon::look(const std::array<Eigen::Vector3d, 4>& corner_rays_W) {
   // An image that shows the zenith or the nadir shows all azimuths: its corners do not fit into half a turn.
   const Span azimuths = span(middle, directions);
   if (!(azimuths.last - azimuths.first < kBins / 2)) return;
-  look_first_ = static_cast<int>(std::floor(azimuths.first));
-  look_count_ = static_cast<int>(std::floor(azimuths.last)) - look_first_ + 1;
+  first_bin_ = static_cast<int>(std::floor(azimuths.first));
+  bin_count_ = static_cast<int>(std::floor(azimuths.last)) - first_bin_ + 1;
 }
 
 const Eigen::Array2d& Horizon::edge(int bin) const { return edges_[static_cast<size_t>(bin & kBinMask)]; }
 
-bool Horizon::looks_at(int bin) const { return ((bin - look_first_) & kBinMask) < look_count_; }
+bool Horizon::covers(int bin) const { return ((bin - first_bin_) & kBinMask) < bin_count_; }
 
 Eigen::AlignedBox2d Horizon::plan(const Eigen::AlignedBox3f& box_W) const {
   return {box_W.min().head<2>().cast<double>() - eye_W_.head<2>(),
@@ -133,7 +133,7 @@ void Horizon::raise(const Eigen::AlignedBox3f& box_W) {
   const Span azimuths = span(box);
   const int first = static_cast<int>(std::ceil(azimuths.first)), last = static_cast<int>(std::floor(azimuths.last));
   for (int bin = first; bin < last; ++bin) {
-    if (!looks_at(bin)) continue;
+    if (!covers(bin)) continue;
     const Eigen::Array2d &a = edge(bin), &b = edge(bin + 1);
     Screen screen;
     if (top_m > 0.0) {
@@ -145,9 +145,9 @@ void Horizon::raise(const Eigen::AlignedBox3f& box_W) {
       screen.slope = top_m * at_a.max(at_b).maxCoeff() / kChord;
     }
     screen.slope -= kSlackRad * (1.0 + screen.slope * screen.slope);
-    Bin& kept = bins_[static_cast<size_t>(bin & kBinMask)];
-    if (screen.slope > kept.highest.slope) std::swap(screen, kept.highest);
-    if (screen.slope > kept.second.slope) kept.second = screen;
+    Bin& stored = bins_[static_cast<size_t>(bin & kBinMask)];
+    if (screen.slope > stored.highest.slope) std::swap(screen, stored.highest);
+    if (screen.slope > stored.second.slope) stored.second = screen;
   }
 }
 
@@ -161,7 +161,7 @@ bool Horizon::hides(const Eigen::AlignedBox3f& box_W) const {
   const Span azimuths = span(box);
   const int first = static_cast<int>(std::floor(azimuths.first)), last = static_cast<int>(std::floor(azimuths.last));
   for (int bin = first; bin <= last; ++bin) {
-    if (!looks_at(bin)) continue;
+    if (!covers(bin)) continue;
     // Its steepest point in this bin is no steeper than its top would be at its nearest, seen from below, or farthest.
     const Eigen::Array2d &a = edge(bin), &b = edge(bin + 1);
     const double enter_pm = sides.enter(a).max(sides.enter(b)).minCoeff() / kChord;
@@ -171,8 +171,8 @@ bool Horizon::hides(const Eigen::AlignedBox3f& box_W) const {
     const auto hidden_by = [&](const Screen& screen) {
       return slope < screen.slope && nearest_pm <= screen.reciprocal_pm;
     };
-    const Bin& kept = bins_[static_cast<size_t>(bin & kBinMask)];
-    if (!hidden_by(kept.highest) && !hidden_by(kept.second)) return false;
+    const Bin& stored = bins_[static_cast<size_t>(bin & kBinMask)];
+    if (!hidden_by(stored.highest) && !hidden_by(stored.second)) return false;
   }
   return true;
 }

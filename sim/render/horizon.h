@@ -7,21 +7,21 @@
 namespace hedgehop::sim {
 
 /// How high the solid boxes around an eye rise, by azimuth: what lies behind them and below is hidden. Conservative: it
-/// may call hidden things visible, never the reverse. Azimuth is kept as the angle on a square standing on its corner.
+/// may report hidden things as visible, never the reverse. Azimuth is stored as the angle on a square on its corner.
 class Horizon {
  public:
   Horizon();
 
-  /// Forgets all boxes, and looks all around. @param eye_W  m.
+  /// Removes all boxes and covers all azimuths. @param eye_W  m.
   void reset(const Eigen::Vector3d& eye_W);
 
-  /// Looks only at the azimuths that an image shows. @param corner_rays_W  through its corners, of any length.
+  /// Covers only the azimuths that an image shows. @param corner_rays_W  through its corners, of any length.
   void look(const std::array<Eigen::Vector3d, 4>& corner_rays_W);
 
   /// Adds a box that is solid from its top down to the ground. Ignored with the eye above, inside, or nearer than 1 m.
   void raise(const Eigen::AlignedBox3f& box_W);
 
-  /// True when no point of the box can be seen past the boxes raised so far, at the azimuths looked at.
+  /// True when no point of the box can be seen past the boxes added so far, at the azimuths covered.
   bool hides(const Eigen::AlignedBox3f& box_W) const;
 
   /// Plan distance from the eye to the box's nearest point, m.
@@ -45,11 +45,11 @@ class Horizon {
   static Span span(const Eigen::AlignedBox2d& plan);
   Eigen::AlignedBox2d plan(const Eigen::AlignedBox3f& box_W) const;
   double height_above_eye_m(float down_m) const { return eye_W_.z() - static_cast<double>(down_m); }
-  bool looks_at(int bin) const;
+  bool covers(int bin) const;
   const Eigen::Array2d& edge(int bin) const;
 
   Eigen::Vector3d eye_W_ = Eigen::Vector3d::Zero();
-  int look_first_ = 0, look_count_ = 0;
+  int first_bin_ = 0, bin_count_ = 0;
   std::vector<Bin> bins_;
   std::vector<Eigen::Array2d> edges_;  ///< unit vector of each bin's first edge
 };

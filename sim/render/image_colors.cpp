@@ -26,11 +26,11 @@ cv::Mat colored_depth(const cv::Mat& depth_m) {
   constexpr double kBlue = 25.0, kRed = 255.0;  // below, the map is nearly black
   for (int row = 0; row < depth_m.rows; ++row) {
     for (int col = 0; col < depth_m.cols; ++col) {
-      const double nearness = std::log(kFarthestColorM / static_cast<double>(depth_m.at<float>(row, col))) / span;
+      const double color_share = std::log(kFarthestColorM / static_cast<double>(depth_m.at<float>(row, col))) / span;
       levels.at<uint8_t>(row, col) =
-          std::isnan(nearness)
+          std::isnan(color_share)
               ? uint8_t{0}
-              : static_cast<uint8_t>(std::lround(kBlue + (kRed - kBlue) * std::clamp(nearness, 0.0, 1.0)));
+              : static_cast<uint8_t>(std::lround(kBlue + (kRed - kBlue) * std::clamp(color_share, 0.0, 1.0)));
     }
   }
   cv::applyColorMap(levels, rgb, cv::COLORMAP_TURBO);

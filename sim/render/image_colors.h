@@ -4,7 +4,7 @@
 
 namespace hedgehop::sim {
 
-// Images of numbers for people to look at, CV_8UC3, RGB. Black is what is not known.
+// Images of numbers in colors for people, CV_8UC3, RGB. Unknown is black.
 
 inline constexpr double kNearestColorM = 0.5, kFarthestColorM = 200.0;
 /// Depth by its logarithm, in the colors of OpenCV's "turbo" map: red at 0.5 m and nearer, through yellow and green

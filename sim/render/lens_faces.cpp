@@ -17,26 +17,26 @@ constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 const std::array<Eigen::Matrix3d, 6>& cube() {
   static const std::array<Eigen::Matrix3d, 6> sides = [] {
     const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
-    std::array<Eigen::Matrix3d, 6> R_CF;
-    R_CF[0] << x, y, z;
-    R_CF[1] << -z, y, x;
-    R_CF[2] << z, y, -x;
-    R_CF[3] << x, -z, y;
-    R_CF[4] << x, z, -y;
-    R_CF[5] << -x, y, -z;
-    return R_CF;
+    std::array<Eigen::Matrix3d, 6> R_CCf;
+    R_CCf[0] << x, y, z;
+    R_CCf[1] << -z, y, x;
+    R_CCf[2] << z, y, -x;
+    R_CCf[3] << x, -z, y;
+    R_CCf[4] << x, z, -y;
+    R_CCf[5] << -x, y, -z;
+    return R_CCf;
   }();
   return sides;
 }
 
 /// Where a pixel's ray meets the planes z = 1 of the sides.
-struct Sighting {
+struct FaceRay {
   int side = -1;  ///< -1 where the lens shows nothing
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
   double length = 1.0;  ///< of the ray to the plane
 };
 
-std::vector<Sighting> look(const vision::camera::Camera& camera) {
+std::vector<FaceRay> look(const vision::camera::Camera& camera) {
   std::vector<Eigen::Vector3d> rays;
   double widest = 1.0;  // cosine of the angle off the axis
   for (int row = 0; row < camera.height_px; ++row) {
@@ -49,30 +49,30 @@ std::vector<Sighting> look(const vision::camera::Camera& camera) {
   // One face is enough where a perspective image is not stretched too much, and for lenses that are perspective.
   constexpr double kOneFaceRad = 50.0 * std::numbers::pi / 180.0;
   const bool one = std::holds_alternative<vision::camera::PinholeLens>(camera.lens) || widest > std::cos(kOneFaceRad);
-  std::vector<Sighting> sightings(rays.size());
+  std::vector<FaceRay> face_rays(rays.size());
   for (size_t i = 0; i < rays.size(); ++i) {
     if (!rays[i].allFinite()) continue;
     double best = -1.0;
     for (int side = 0; side < (one ? 1 : 6); ++side) {
-      const Eigen::Vector3d ray_F = cube()[static_cast<size_t>(side)].transpose() * rays[i];
-      if (ray_F.z() <= best) continue;
-      best = ray_F.z();
-      sightings[i] = {side, ray_F.head<2>() / ray_F.z(), 1.0 / ray_F.z()};
+      const Eigen::Vector3d ray_Cf = cube()[static_cast<size_t>(side)].transpose() * rays[i];
+      if (ray_Cf.z() <= best) continue;
+      best = ray_Cf.z();
+      face_rays[i] = {side, ray_Cf.head<2>() / ray_Cf.z(), 1.0 / ray_Cf.z()};
     }
   }
-  return sightings;
+  return face_rays;
 }
 
 /// Focal length at which the faces have as many pixels as the image takes from them: neither blurred nor coarser on
 /// the whole. Found from the area that each pixel and its neighbors span on a side.
-double focal_px(const vision::camera::Camera& camera, const std::vector<Sighting>& sightings, int side) {
+double focal_px(const vision::camera::Camera& camera, const std::vector<FaceRay>& face_rays, int side) {
   double area = 0.0, count = 0.0;
   for (int row = 0; row + 1 < camera.height_px; ++row) {
     for (int col = 0; col + 1 < camera.width_px; ++col) {
-      const auto at = [&](int down, int right) -> const Sighting& {
-        return sightings[static_cast<size_t>((row + down) * camera.width_px + col + right)];
+      const auto at = [&](int down, int right) -> const FaceRay& {
+        return face_rays[static_cast<size_t>((row + down) * camera.width_px + col + right)];
       };
-      const Sighting &here = at(0, 0), &right = at(0, 1), &below = at(1, 0);
+      const FaceRay &here = at(0, 0), &right = at(0, 1), &below = at(1, 0);
       if (here.side != side || right.side != side || below.side != side) continue;
       const Eigen::Vector2d a = right.at - here.at, b = below.at - here.at;
       area += std::abs(a.x() * b.y() - a.y() * b.x());
@@ -84,16 +84,16 @@ double focal_px(const vision::camera::Camera& camera, const std::vector<Sighting
 }
 
 /// The face of a side, as large as its part of the image; nothing when it has none.
-std::optional<LensFaces::Face> make_face(const vision::camera::Camera& camera, const std::vector<Sighting>& sightings,
+std::optional<LensFaces::Face> make_face(const vision::camera::Camera& camera, const std::vector<FaceRay>& face_rays,
                                          int side) {
   Eigen::AlignedBox2d seen;
-  for (const Sighting& sighting : sightings) {
-    if (sighting.side == side) seen.extend(sighting.at);
+  for (const FaceRay& face_ray : face_rays) {
+    if (face_ray.side == side) seen.extend(face_ray.at);
   }
   if (seen.isEmpty()) return std::nullopt;
   LensFaces::Face face;
-  face.R_CF = cube()[static_cast<size_t>(side)];
-  const double focal = focal_px(camera, sightings, side);
+  face.R_CCf = cube()[static_cast<size_t>(side)];
+  const double focal = focal_px(camera, face_rays, side);
   const Eigen::Vector2d first = (focal * seen.min()).array().floor(), last = (focal * seen.max()).array().ceil();
   constexpr double kMarginPx = 1.0;
   const Eigen::Vector2d center = Eigen::Vector2d::Constant(kMarginPx) - first;
@@ -109,12 +109,12 @@ bool depth_is_z(const vision::camera::Camera& camera) {
 }
 
 LensFaces make_lens_faces(const vision::camera::Camera& camera) {
-  const std::vector<Sighting> sightings = look(camera);
+  const std::vector<FaceRay> face_rays = look(camera);
   LensFaces faces;
   faces.camera = camera;
   std::array<size_t, 6> face_of_side{};
   for (int side = 0; side < 6; ++side) {
-    std::optional<LensFaces::Face> face = make_face(camera, sightings, side);
+    std::optional<LensFaces::Face> face = make_face(camera, face_rays, side);
     if (!face) continue;
     face->first_row = faces.sheet.height;
     faces.sheet.height += face->camera.height_px;
@@ -123,13 +123,13 @@ LensFaces make_lens_faces(const vision::camera::Camera& camera) {
     faces.faces.push_back(*face);
   }
 
-  faces.places.resize(sightings.size());
-  faces.nearest.resize(sightings.size());
-  for (size_t i = 0; i < sightings.size(); ++i) {
-    if (sightings[i].side < 0) continue;
-    const LensFaces::Face& face = faces.faces[face_of_side[static_cast<size_t>(sightings[i].side)]];
-    const double u = face.camera.center_u_px + face.camera.focal_x_px * sightings[i].at.x();
-    const double v = face.camera.center_v_px + face.camera.focal_y_px * sightings[i].at.y();
+  faces.places.resize(face_rays.size());
+  faces.nearest.resize(face_rays.size());
+  for (size_t i = 0; i < face_rays.size(); ++i) {
+    if (face_rays[i].side < 0) continue;
+    const LensFaces::Face& face = faces.faces[face_of_side[static_cast<size_t>(face_rays[i].side)]];
+    const double u = face.camera.center_u_px + face.camera.focal_x_px * face_rays[i].at.x();
+    const double v = face.camera.center_v_px + face.camera.focal_y_px * face_rays[i].at.y();
     const auto index = [&](double col, double row) {
       return static_cast<int32_t>((face.first_row + static_cast<int>(row)) * faces.sheet.width + static_cast<int>(col));
     };
@@ -137,7 +137,7 @@ LensFaces make_lens_faces(const vision::camera::Camera& camera) {
     faces.places[i] = {index(left, top), static_cast<uint16_t>(std::lround(256.0 * (u - left))),
                        static_cast<uint16_t>(std::lround(256.0 * (v - top)))};
     faces.nearest[i] = {index(near_u, near_v), static_cast<float>(u - near_u), static_cast<float>(v - near_v),
-                        static_cast<float>(depth_is_z(camera) ? 1.0 : sightings[i].length)};
+                        static_cast<float>(depth_is_z(camera) ? 1.0 : face_rays[i].length)};
   }
   return faces;
 }

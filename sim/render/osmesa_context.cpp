@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #ifdef __SANITIZE_ADDRESS__
-// OSMesa keeps 480 bytes for as long as the process lives, and loses sight of them.
+// OSMesa leaks 480 bytes: it holds them until the process ends, without a pointer.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa"; }
 #endif

@@ -16,14 +16,14 @@ enum class Raster {
   labels,  ///< CV_32SC1
 };
 
-/// OpenCV's type of an image that is drawn so.
+/// OpenCV's type of an image of this raster.
 int type_of(Raster raster);
 
 /// Throws std::invalid_argument unless the context draws exactly so many samples a pixel.
 /// @param samples  1, 2, 4 or 8.
 void require_samples(const GlFunctions& gl, int samples);
 
-/// Framebuffers to draw into, one for each size, raster and number of samples asked for, made once and kept.
+/// Framebuffers to draw into, one for each size, raster and number of samples, created once and reused.
 class RenderTargets {
  public:
   /// What a framebuffer is made for.
@@ -34,7 +34,7 @@ class RenderTargets {
     bool operator==(const Shape&) const = default;
   };
 
-  /// Binds the framebuffer for a view and sets the viewport. Throws std::runtime_error when it cannot be had,
+  /// Binds the framebuffer for a view and sets the viewport. Throws std::runtime_error when it cannot be created,
   /// std::invalid_argument when it is too large or require_samples() refuses.
   void bind(const GlFunctions& gl, const Shape& shape);
 

@@ -14,7 +14,7 @@ namespace hedgehop::sim {
 
 namespace {
 
-/// What an ideal pinhole's image is drawn as; flow is made of others.
+/// The raster of an undistorted pinhole's image; flow is computed from others.
 Raster raster_of(Channel channel) {
   switch (channel) {
     case Channel::grey:
@@ -66,11 +66,11 @@ class Renderer::Impl {
   struct Lens {
     LensFaces faces;
     cv::Mat levels, colors, planes, labels;  ///< sheets
-    std::vector<Eigen::Vector3d> rays;       ///< once flow was asked for
+    std::vector<Eigen::Vector3d> rays;       ///< once flow was drawn
   };
 
   void check(const CameraView& view) {
-    if (!view.camera.is_ideal_pinhole() && find_lens(view.camera) != lenses_.end()) return check_pose(view);
+    if (!view.camera.is_undistorted_pinhole() && find_lens(view.camera) != lenses_.end()) return check_pose(view);
     vision::camera::check(view.camera);
     check_pose(view);
   }
@@ -83,7 +83,7 @@ class Renderer::Impl {
 
   void draw(const CameraView& view, Channel channel, cv::Mat& out) {
     const ScenePainter::Eye eye{view.X_WC, view.t_s};
-    if (view.camera.is_ideal_pinhole()) {
+    if (view.camera.is_undistorted_pinhole()) {
       const bool levels = channel == Channel::grey || channel == Channel::color;
       painter_.paint(view.camera.pinhole(), eye, raster_of(channel), levels ? view.samples : 1, out);
       return;
@@ -109,7 +109,7 @@ class Renderer::Impl {
     sheet.create(faces.sheet, type_of(raster));
     for (const LensFaces::Face& face : faces.faces) {
       ScenePainter::Eye face_eye = eye;
-      face_eye.X_WC.linear() = eye.X_WC.linear() * face.R_CF;
+      face_eye.X_WC.linear() = eye.X_WC.linear() * face.R_CCf;
       cv::Mat part = sheet(cv::Rect(0, face.first_row, face.camera.width_px, face.camera.height_px));
       painter_.paint(face.camera, face_eye, raster, samples, part);
     }
@@ -136,7 +136,7 @@ class Renderer::Impl {
     if (const auto known = find_lens(camera); known != lenses_.end()) return *known;
     Lens& lens = lenses_.emplace_back();
     lens.faces.camera = camera;
-    if (!camera.is_ideal_pinhole()) lens.faces = make_lens_faces(camera);
+    if (!camera.is_undistorted_pinhole()) lens.faces = make_lens_faces(camera);
     return lens;
   }
 

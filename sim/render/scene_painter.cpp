@@ -113,7 +113,7 @@ void ScenePainter::light_by(const SunMap& map, float ambient) {
   }
 }
 
-/// A mover does not turn, so that it is drawn as if it stood still and the eye were where it is seen from M. What
+/// A mover does not rotate, so that it is drawn as if it stood still and the eye were where it is seen from M. What
 /// stands still does so at W's origin.
 void ScenePainter::set_eye(const Program& program, const Eigen::Isometry3d& X_WC, const Eigen::Vector3d& p_WM) {
   const Eigen::Vector3d p_MC_W = X_WC.translation() - p_WM, eye_M = on_float_grid(p_MC_W);

@@ -17,7 +17,7 @@
 
 namespace hedgehop::sim {
 
-/// Draws pinhole images of a scene with OpenGL: what Renderer makes all others from.
+/// Draws undistorted pinhole images of a scene with OpenGL; Renderer composes all others from them.
 class ScenePainter {
  public:
   /// Throws as Renderer does.

@@ -17,17 +17,17 @@ inline constexpr GLuint kPositionAttribute = 0;  ///< p_W, m
 inline constexpr GLuint kSurfaceAttribute = 1;   ///< u, v, brightness 0..1, texture layer
 
 /// Textured and lit surfaces, from the bound array of textures: RGB, or the mean of its channels. Each throws
-/// std::runtime_error with the compiler's words when it does not compile. With shadows, the sun's part of the
-/// brightness is what a SunMap leaves of it.
+/// std::runtime_error with the compiler's message when it does not compile. With shadows, a SunMap scales the
+/// sun's part of the brightness.
 Program color_program(const GlFunctions& gl, Shadows shadows);
 Program grey_program(const GlFunctions& gl, Shadows shadows);
 /// Metric depth: z in C, m.
 Program depth_program(const GlFunctions& gl);
 /// 1 / z in C, 1/m, and how it changes to the next pixel on the right and below: the surface's own plane.
 Program plane_program(const GlFunctions& gl);
-/// One whole number for all that a call draws.
+/// One integer for all that a call draws.
 Program label_program(const GlFunctions& gl);
-/// How near to the sun surfaces are; no colors.
+/// Depth of surfaces as seen from the sun; no colors.
 Program sun_map_program(const GlFunctions& gl);
 /// The sky behind everything: three vertices without attributes.
 Program sky_program(const GlFunctions& gl);

@@ -25,7 +25,7 @@ std::vector<scenes::Chunk> casters(const SceneBuffers& buffers) {
   return chunks;
 }
 
-/// From W to L, the axes of a camera that looks along the light, so that triangles turn as in images.
+/// From W to L, the axes of a camera that looks along the light, so that triangles have the same winding as in images.
 Eigen::Matrix3d sun_axes(const Eigen::Vector3f& to_sun_W) {
   const Eigen::Vector3d forward = -to_sun_W.cast<double>().normalized(), right = forward.unitOrthogonal();
   Eigen::Matrix3d R_LW;

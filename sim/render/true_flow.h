@@ -12,16 +12,16 @@ namespace hedgehop::sim {
 /// The ray of every pixel, in C, row by row; NaN where the lens shows nothing.
 std::vector<Eigen::Vector3d> all_rays(const vision::camera::Camera& camera);
 
-/// What an image shows, and where it will be seen next.
+/// What an image shows, and the pose and time of the next one.
 struct FlowInput {
   const cv::Mat& depth;   ///< as Channel::depth, of `camera`
   const cv::Mat& labels;  ///< as Channel::labels
   Eigen::Isometry3d X_WC, X_WC_next;
   int first_mover_label = 0;                   ///< labels from here on are movers
-  std::span<const Eigen::Vector3d> moved_W_m;  ///< how far each mover travels until then
+  std::span<const Eigen::Vector3d> moved_W_m;  ///< displacement of each mover until then
 };
 
-/// How far each pixel's point moves in the image. @param rays  all_rays() of the camera.
+/// Motion of each pixel's point in the image. @param rays  all_rays() of the camera.
 /// @param out  CV_32FC2, right and down, px; NaN where the lens shows nothing, now or then. Sky is infinitely far away.
 void true_flow(const vision::camera::Camera& camera, const std::vector<Eigen::Vector3d>& rays, const FlowInput& input,
                cv::Mat& out);

@@ -25,7 +25,7 @@ std::array<Eigen::Vector3d, 4> corner_rays(const vision::camera::PinholeCamera& 
   return {ray(-1.5, -1.5), ray(right_px, -1.5), ray(-1.5, bottom_px), ray(right_px, bottom_px)};
 }
 
-/// Tells which chunks an image is too coarse for.
+/// Finds the chunks that an image is too coarse for.
 class FarDetails {
  public:
   FarDetails(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC)
@@ -33,7 +33,7 @@ class FarDetails {
         eye_m_(forward_W_.dot(X_WC.translation())),
         z_per_lost_(std::max(camera.focal_x_px, camera.focal_y_px) / kLostPx) {}
 
-  scenes::Chunk as_seen(const scenes::Chunk& chunk) const {
+  scenes::Chunk detail_for_view(const scenes::Chunk& chunk) const {
     if (chunk.far.index_count == 0 || nearest_z_m(chunk.box_W) < z_per_lost_ * chunk.far.lost_m) return chunk;
     scenes::Chunk far = chunk;
     far.first_index = chunk.far.first_index;
@@ -119,7 +119,7 @@ std::span<const scenes::Chunk> VisibleChunks::find(const vision::camera::Pinhole
     } else if (lies_flat(chunks_[node.chunk])) {
       flat_.push_back(node.chunk);
     } else {
-      if (chunks_[node.chunk].index_count > 0) visible_.push_back(far_details.as_seen(chunks_[node.chunk]));
+      if (chunks_[node.chunk].index_count > 0) visible_.push_back(far_details.detail_for_view(chunks_[node.chunk]));
       if (use_horizon && chunks_[node.chunk].fills_box_to_ground) horizon_.raise(node.box_W);
     }
   }

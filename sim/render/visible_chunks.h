@@ -16,8 +16,8 @@ namespace hedgehop::sim {
 /// No higher than a sheet: ground, a ceiling.
 inline bool lies_flat(const scenes::Chunk& chunk) { return chunk.box_W.sizes().z() <= 0.01f; }
 
-/// How much of a scene is left out before it is drawn. Images do not depend on it, only their cost does (but for a
-/// pixel that looks through a crack of a mesh: it may see something else behind).
+/// How much of a scene is left out before it is drawn. Images do not depend on it, only their cost does (except a
+/// pixel in a crack of a mesh, which may show something else behind).
 enum class Culling { none, frustum, frustum_and_horizon };
 
 /// A chunk is drawn as its far detail where nothing that is lost is wider in the image, px.
@@ -30,9 +30,9 @@ class VisibleChunks {
   VisibleChunks(std::vector<scenes::Chunk> chunks, std::vector<scenes::Chunk> tiles);
 
   /// Stretches of the index buffer to draw, each a chunk or its far detail, in the order in which they hide each other
-  /// best: what stands up from near to far in plan, then what lies flat, tile by tile, which seldom hides anything.
-  /// What is drawn before what does not depend on the culling. Which chunks are far hangs on z in C of their boxes and
-  /// on the focal length: cameras side by side that look the same way, a rectified stereo pair, see the same.
+  /// best: upright chunks from near to far in plan, then flat ones, tile by tile, which seldom hide anything. The order
+  /// does not depend on the culling. Which chunks are far depends on z in C of their boxes and on the focal length: the
+  /// cameras of a rectified stereo pair see the same.
   std::span<const scenes::Chunk> find(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC,
                                       Culling culling);
 

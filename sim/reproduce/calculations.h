@@ -10,10 +10,10 @@ namespace hedgehop::sim {
 /// Columns of numbers, each with a name, of equal length.
 using Columns = std::map<std::string, std::vector<double>>;
 
-/// A figure of a paper that needs no flight: a cost measured, a closed loop of a point mass.
+/// A figure of a paper that needs no flight: a measured cost, a closed loop of a point mass.
 struct Calculation {
   std::string_view name, meaning;
-  std::vector<std::string> columns;  ///< what it tells
+  std::vector<std::string> columns;  ///< of its result
   Columns (*calculate)();            ///< seconds at most
 };
 

@@ -13,7 +13,7 @@ constexpr double kHalfWidthM = 2.0, kStartM = -1.5, kSpeedMps = 0.42;
 constexpr double kSampleS = 0.5, kDurationS = 120.0, kSettledM = 0.2;
 constexpr double kGravityMps2 = 9.80665;
 
-/// Roll and turn rate as the controller asks, speed along the heading held, no drag.
+/// Roll and turn rate as the controller commands, speed along the heading held, no drag.
 struct PointMass {
   double x_m = 0.0, off_middle_m = kStartM, sideways_mps = 0.0, heading_rad = 0.0;
 

@@ -16,6 +16,7 @@ using vision::landmarks::MappedLandmark;
 
 constexpr double kFeetM = 0.3048, kImageS = 0.1, kConvergedPercent = 3.0;
 constexpr double kAltitudeM = 140.0 * kFeetM;
+constexpr double kCornerPx = 0.5;  // standard deviation of a corner's pixel
 
 CornerFlight lateral(std::vector<Eigen::Vector3d> corners_W, const Eigen::Vector3d& middle_W) {
   CornerFlight flight;
@@ -59,6 +60,57 @@ void follow(const LandmarkMap& map, const std::vector<size_t>& corner_of, const 
   }
 }
 
+/// Corners in one image: pixels with noise, and the index of each one's corner.
+struct ObservedCorners {
+  std::vector<Eigen::Vector2d> pixels;
+  std::vector<size_t> corner_of;
+};
+ObservedCorners observe_corners(const CornerFlight& flight, const Eigen::Isometry3d& X_WC, Noise& noise) {
+  ObservedCorners observed;
+  for (size_t i = 0; i < flight.corners_W.size(); ++i) {
+    const auto pixel = flight.camera.project(X_WC.inverse() * flight.corners_W[i]);
+    if (!pixel || (pixel->array() < 0).any() || pixel->x() > flight.camera.width_px - 1 ||
+        pixel->y() > flight.camera.height_px - 1) {
+      continue;
+    }
+    observed.pixels.push_back(*pixel + noise.pixel(kCornerPx));
+    observed.corner_of.push_back(i);
+  }
+  return observed;
+}
+
+vision::landmarks::CameraPose estimate_pose(const Eigen::Isometry3d& X_WC,
+                                            const vision::landmarks::LandmarkMapConfig& config, Noise& noise) {
+  vision::landmarks::CameraPose pose{X_WC, config.position_sigma_m, config.attitude_sigma_rad};
+  pose.X_WC_est.translation() += config.position_sigma_m * noise.vector();
+  const Eigen::Vector3d turn_C = config.attitude_sigma_rad * noise.vector();
+  pose.X_WC_est.linear() *= Eigen::AngleAxisd(turn_C.norm(), turn_C.normalized()).toRotationMatrix();
+  return pose;
+}
+
+/// Errors of the corners' coordinates, % of the distance from the first camera; 100 for a corner without a landmark.
+struct MapError {
+  double mean_percent = 0.0, worst_percent = 0.0;
+};
+MapError map_error(const LandmarkMap& map, const std::vector<Eigen::Vector3d>& corners_W,
+                   const std::map<size_t, int64_t>& id_of_corner, const Eigen::Vector3d& first_W) {
+  MapError error;
+  for (size_t i = 0; i < corners_W.size(); ++i) {
+    double percent = 100.0;
+    const auto id = id_of_corner.find(i);
+    const auto mapped =
+        std::ranges::find(map.landmarks(), id == id_of_corner.end() ? -1 : id->second, &MappedLandmark::id);
+    if (mapped != map.landmarks().end()) {
+      const Eigen::Vector3d off = (position_W(mapped->landmark) - corners_W[i]).cwiseAbs();
+      const double per_m = 100.0 / (corners_W[i] - first_W).norm();
+      percent = per_m * off.mean();
+      error.worst_percent = std::max(error.worst_percent, per_m * off.maxCoeff());
+    }
+    error.mean_percent += percent / static_cast<double>(corners_W.size());
+  }
+  return error;
+}
+
 }  // namespace
 
 Eigen::Isometry3d looking_at(const Eigen::Vector3d& p_WC, const Eigen::Vector3d& target_W) {
@@ -90,7 +142,6 @@ CornerFlight highrise_forward_flight() {
 
 CornerFlightResult fly_past_corners(const CornerFlight& flight, const vision::landmarks::LandmarkMapConfig& config,
                                     uint64_t seed, const WatchMap& watch) {
-  constexpr double kCornerPx = 0.5;
   Noise noise(seed);
   LandmarkMap map(config, flight.camera);
   std::map<size_t, int64_t> id_of_corner;
@@ -99,45 +150,19 @@ CornerFlightResult fly_past_corners(const CornerFlight& flight, const vision::la
   for (int image = 0; image * kImageS <= flight.duration_s; ++image) {
     const double t_s = image * kImageS;
     const Eigen::Isometry3d X_WC = flight.X_WC(t_s);
-    std::vector<Eigen::Vector2d> pixels;
-    std::vector<size_t> corner_of;
-    for (size_t i = 0; i < flight.corners_W.size(); ++i) {
-      const auto pixel = flight.camera.project(X_WC.inverse() * flight.corners_W[i]);
-      if (!pixel || (pixel->array() < 0).any() || pixel->x() > flight.camera.width_px - 1 ||
-          pixel->y() > flight.camera.height_px - 1) {
-        continue;
-      }
-      pixels.push_back(*pixel + noise.pixel(kCornerPx));
-      corner_of.push_back(i);
-    }
-    vision::landmarks::CameraPose pose{X_WC, config.position_sigma_m, config.attitude_sigma_rad};
-    pose.X_WC_est.translation() += config.position_sigma_m * noise.vector();
-    const Eigen::Vector3d turn_C = config.attitude_sigma_rad * noise.vector();
-    pose.X_WC_est.linear() *= Eigen::AngleAxisd(turn_C.norm(), turn_C.normalized()).toRotationMatrix();
+    const ObservedCorners observed = observe_corners(flight, X_WC, noise);
+    const vision::landmarks::CameraPose pose = estimate_pose(X_WC, config, noise);
     const auto start = std::chrono::steady_clock::now();
-    const std::vector<int64_t> ids = map.update(pixels, pose, image == 0 ? 0.0 : kImageS);
+    const std::vector<int64_t> ids = map.update(observed.pixels, pose, image == 0 ? 0.0 : kImageS);
     const std::chrono::duration<double, std::milli> cost = std::chrono::steady_clock::now() - start;
     result.filter_ms.push_back(cost.count());
-    follow(map, corner_of, ids, id_of_corner);
+    follow(map, observed.corner_of, ids, id_of_corner);
     if (watch) watch(t_s, map, id_of_corner);
 
-    double sum = 0.0, worst = 0.0;
-    for (size_t i = 0; i < flight.corners_W.size(); ++i) {
-      double percent = 100.0;
-      const auto id = id_of_corner.find(i);
-      const auto mapped =
-          std::ranges::find(map.landmarks(), id == id_of_corner.end() ? -1 : id->second, &MappedLandmark::id);
-      if (mapped != map.landmarks().end()) {
-        const Eigen::Vector3d off = (position_W(mapped->landmark) - flight.corners_W[i]).cwiseAbs();
-        const double per_m = 100.0 / (flight.corners_W[i] - first_W).norm();
-        percent = per_m * off.mean();
-        worst = std::max(worst, per_m * off.maxCoeff());
-      }
-      sum += percent / static_cast<double>(flight.corners_W.size());
-    }
-    result.error_percent.push_back(sum);
-    result.worst_percent = worst;
-    if (sum > kConvergedPercent) {
+    const MapError error = map_error(map, flight.corners_W, id_of_corner, first_W);
+    result.error_percent.push_back(error.mean_percent);
+    result.worst_percent = error.worst_percent;
+    if (error.mean_percent > kConvergedPercent) {
       result.converged_s = NAN;
     } else if (std::isnan(result.converged_s)) {
       result.converged_s = t_s;

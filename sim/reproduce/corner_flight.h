@@ -9,14 +9,14 @@
 
 #include "vision/landmarks/landmark_filter.h"
 
-/// The flights of [Shah2009] ch. 4 and 5 as the thesis flew them: without images, by a camera that reports the
-/// corners of its scene, all of them through walls, 10 times a second.
+/// The flights of [Shah2009] ch. 4 and 5 as the thesis flew them: without images, by a camera that reports all
+/// corners of its scene, also through walls, 10 times a second.
 namespace hedgehop::sim {
 
 /// Camera at p_WC that looks at a point, its image upright.
 Eigen::Isometry3d looking_at(const Eigen::Vector3d& p_WC, const Eigen::Vector3d& target_W);
 
-/// A flight: where the camera is at a time, and what it flies past.
+/// A flight: the camera's trajectory and the corners.
 struct CornerFlight {
   std::vector<Eigen::Vector3d> corners_W;  ///< m
   std::function<Eigen::Isometry3d(double t_s)> X_WC;
@@ -32,7 +32,7 @@ CornerFlight highrise_lateral_flight();
 /// Towards 35 corners, [Shah2009] table 5.1: level, 1.4 ft/s. The distance of its start is not printed; ours is 120 m.
 CornerFlight highrise_forward_flight();
 
-/// What a flight's map came to.
+/// Errors of a flight's map.
 struct CornerFlightResult {
   std::vector<double> error_percent;  ///< of every image: mean over all coordinates of all corners
   double converged_s = NAN;           ///< from then on that mean stays within 3 %; NaN when it never does
@@ -41,7 +41,7 @@ struct CornerFlightResult {
   double worst_percent = 0.0;         ///< at the end, of any coordinate of any corner
 };
 
-/// Is shown the map after every image, and which of its landmarks each corner has.
+/// Called after every image with the map and each corner's landmark in it.
 using WatchMap = std::function<void(double t_s, const vision::landmarks::LandmarkMap& map,
                                     const std::map<size_t, int64_t>& id_of_corner)>;
 

@@ -17,7 +17,7 @@ namespace hedgehop::sim {
 /// @param quick  only the seeds of a quick look.
 std::vector<Order> paper_orders(const Paper& paper, bool quick);
 
-/// What came of a paper's flights and calculations.
+/// Results of a paper's flights and calculations.
 struct PaperOutcome {
   Paper paper;
   std::filesystem::path folder;  ///< each flight's is <folder>/<order.id>
@@ -38,9 +38,9 @@ struct RowOutcome {
   double value = std::numeric_limits<double>::quiet_NaN();
   size_t ended = 0;           ///< flights it was taken from
   size_t broken = 0;          ///< flights that left no result
-  std::optional<bool> holds;  ///< none where nothing is asked or nothing was measured; never with a broken flight
+  std::optional<bool> holds;  ///< none without a requirement or a measurement; never with a broken flight
   std::string asked, ours;    ///< words: "at most 0", "0 of 100"
-  std::string command;        ///< what flies it again; empty for a calculation
+  std::string command;        ///< re-simulates it; empty for a calculation
 };
 std::vector<RowOutcome> row_outcomes(const PaperOutcome& outcome);
 

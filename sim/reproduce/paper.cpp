@@ -8,13 +8,13 @@
 
 #include "sim/campaign/order.h"
 #include "sim/reproduce/calculations.h"
-#include "sim/scenario/parse.h"
+#include "sim/scenario/include.h"
 #include "sim/scenario/reader.h"
 
 namespace hedgehop::sim {
 namespace {
 
-/// Finds what a paper's file says that cannot be meant.
+/// Finds what in a paper's file makes no sense.
 class Examiner {
  public:
   Examiner(const Paper& paper, const Node& root, Faults& faults) : root_(root), faults_(faults) {
@@ -62,7 +62,7 @@ class Examiner {
       fault(at, fmt::format("no calculation is called '{}'; there are: {}", calculation,
                             fmt::join(calculation_names(), ", ")));
     } else if (std::ranges::find(found->columns, name) == found->columns.end()) {
-      fault(at, fmt::format("'{}' tells no '{}', but: {}", calculation, name, fmt::join(found->columns, ", ")));
+      fault(at, fmt::format("'{}' has no column '{}', but: {}", calculation, name, fmt::join(found->columns, ", ")));
     }
   }
 

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-/// A paper's experiments flown anew, and its figures beside ours.
+/// A paper's experiments re-simulated, and its figures beside ours.
 namespace hedgehop::sim {
 
 /// Flights of one scenario that differ by the seed alone.
@@ -24,7 +24,7 @@ void describe(Visitor& v, PaperFlights& c) {
   v("scenario", c.scenario, {.required = true, .meaning = "scenario file, relative to this file"});
   v("seeds", c.seeds, {.required = true, .meaning = "seeds such as 1:10 or 1:3,7"});
   v("quick", c.quick, {.meaning = "seeds that --quick flies, of those above; without them it flies none"});
-  v("set", c.set, {.meaning = "values laid over the scenario, each key.path=value"});
+  v("set", c.set, {.meaning = "overrides of the scenario, each key.path=value"});
 }
 
 /// A figure drawn from a column of a campaign's table over flights.
@@ -47,18 +47,18 @@ void describe_figure(Visitor& v, FlightFigure& c) {
 /// One figure of the paper beside ours.
 struct PaperRow : FlightFigure {
   std::string what, paper, unit;
-  std::optional<double> at_least, at_most;  ///< what ours is asked to be
+  std::optional<double> at_least, at_most;  ///< bounds that ours must meet
   std::string calculation, value;           ///< in place of flights
 };
 template <class Visitor>
 void describe(Visitor& v, PaperRow& c) {
-  v("what", c.what, {.required = true, .meaning = "what is told"});
+  v("what", c.what, {.required = true, .meaning = "what the figure measures"});
   v("paper", c.paper, {.meaning = "the paper's figure, as printed"});
   v("unit", c.unit, {.meaning = "of ours"});
   v("at_least", c.at_least, {.meaning = "least that ours must be"});
   v("at_most", c.at_most, {.meaning = "most that ours may be"});
   describe_figure(v, c);
-  v("calculation", c.calculation, {.meaning = "a figure that needs no flight: which calculation tells it"});
+  v("calculation", c.calculation, {.meaning = "a figure that needs no flight: name of the calculation"});
   v("value", c.value, {.meaning = "... and which of its columns, the last row"});
 }
 
@@ -72,8 +72,8 @@ struct PrintedSeries {
 template <class Visitor>
 void describe(Visitor& v, PrintedSeries& c) {
   v("label", c.label, {.required = true, .meaning = "in the legend"});
-  v("x", c.x, {.required = true, .meaning = "across"});
-  v("y", c.y, {.required = true, .meaning = "up, as many"});
+  v("x", c.x, {.required = true, .meaning = "on the horizontal axis"});
+  v("y", c.y, {.required = true, .meaning = "on the vertical axis, as many"});
 }
 
 /// One point a group of flights.
@@ -86,7 +86,7 @@ struct GroupSeries : FlightFigure {
 template <class Visitor>
 void describe(Visitor& v, GroupSeries& c) {
   v("label", c.label, {.required = true, .meaning = "in the legend"});
-  v("x", c.x, {.required = true, .meaning = "across, one for each of the flights"});
+  v("x", c.x, {.required = true, .meaning = "on the horizontal axis, one for each of the flights"});
   describe_figure(v, c);
 }
 
@@ -105,8 +105,8 @@ void describe(Visitor& v, LogSeries& c) {
   v("label", c.label, {.required = true, .meaning = "in the legend"});
   v("flights", c.flights, {.required = true, .meaning = "name of flights"});
   v("file", c.file, {.choices = {"trajectory", "decisions"}, .meaning = "which log"});
-  v("x", c.x, {.meaning = "its column across"});
-  v("y", c.y, {.required = true, .meaning = "its column up"});
+  v("x", c.x, {.meaning = "its column on the horizontal axis"});
+  v("y", c.y, {.required = true, .meaning = "its column on the vertical axis"});
   v("seed", c.seed, {.meaning = "of one flight; else all are drawn"});
 }
 
@@ -134,13 +134,13 @@ template <class Visitor>
 void describe(Visitor& v, CalculationSeries& c) {
   v("label", c.label, {.required = true, .meaning = "in the legend"});
   v("calculation", c.calculation, {.required = true, .meaning = "its name"});
-  v("x", c.x, {.required = true, .meaning = "its column across"});
-  v("y", c.y, {.required = true, .meaning = "its column up"});
+  v("x", c.x, {.required = true, .meaning = "its column on the horizontal axis"});
+  v("y", c.y, {.required = true, .meaning = "its column on the vertical axis"});
 }
 
 using PaperSeries = std::variant<PrintedSeries, GroupSeries, LogSeries, PathSeries, CalculationSeries>;
 
-/// A figure of the paper drawn anew.
+/// A figure of the paper redrawn.
 struct PaperChart {
   enum class Scale { linear, log };
   std::string title, note, x, y;
@@ -151,10 +151,10 @@ template <class Visitor>
 void describe(Visitor& v, PaperChart& c) {
   v("title", c.title, {.required = true, .meaning = "such as 'Fig. 13: ...'"});
   v("note", c.note, {.meaning = "what to see in it"});
-  v("x", c.x, {.meaning = "name and unit of the axis across; not of paths"});
-  v("y", c.y, {.meaning = "name and unit of the axis up; not of paths"});
-  v("x_scale", c.x_scale, {.choices = {"linear", "log"}, .meaning = "of the axis across"});
-  v("y_scale", c.y_scale, {.choices = {"linear", "log"}, .meaning = "of the axis up"});
+  v("x", c.x, {.meaning = "name and unit of the horizontal axis; not of paths"});
+  v("y", c.y, {.meaning = "name and unit of the vertical axis; not of paths"});
+  v("x_scale", c.x_scale, {.choices = {"linear", "log"}, .meaning = "of the horizontal axis"});
+  v("y_scale", c.y_scale, {.choices = {"linear", "log"}, .meaning = "of the vertical axis"});
   v("series", c.series, {.required = true, .selector = "from", .meaning = "what is drawn; paths stand alone"});
 }
 
@@ -172,7 +172,7 @@ void describe(Visitor& v, Paper& c) {
   v("source", c.source, {.required = true, .meaning = "key in REFERENCES.md"});
   v("flights", c.flights, {.meaning = "what is flown"});
   v("rows", c.rows, {.meaning = "the paper's figures beside ours"});
-  v("charts", c.charts, {.meaning = "the paper's figures drawn anew"});
+  v("charts", c.charts, {.meaning = "the paper's figures redrawn"});
 }
 
 /// Reads a paper's file. Throws InputError with every fault: of the file, and names of flights or calculations that do

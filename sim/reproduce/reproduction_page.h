@@ -13,7 +13,7 @@ namespace hedgehop::sim {
 nlohmann::ordered_json paper_data(const PaperOutcome& outcome, const std::vector<RowOutcome>& rows);
 
 /// One HTML text for all papers. @param papers  each as paper_data() gives it. @param quick  whether few seeds were
-/// flown; the page says so.
+/// flown; the page shows it.
 std::string reproduction_page(const nlohmann::ordered_json& papers, const std::string& version, bool quick);
 
 }  // namespace hedgehop::sim

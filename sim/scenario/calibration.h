@@ -9,9 +9,9 @@ namespace hedgehop::sim {
 
 // The cameras of a rig for other programs, every number exact. Pixel (0, 0) is the center of the top-left pixel in both
 // formats, and the camera frame is ours: right, down, forward. The body is forward, right, down. Throw
-// std::invalid_argument, naming the camera, for a lens that the format has no words for, and as CameraConfig::model().
+// std::invalid_argument, naming the camera, for a lens that the format cannot describe, and as CameraConfig::model().
 
-/// What other programs are told of a lens.
+/// A lens as other programs describe it.
 struct Intrinsics {
   bool fisheye = false;
   double focal_x_px = 0.0, focal_y_px = 0.0, center_u_px = 0.0, center_v_px = 0.0;

@@ -23,7 +23,7 @@ void describe(Visitor& v, ReachedGoalCheck& c) {
 
 struct NoCollisionCheck {
   static constexpr std::string_view kName = "no_collision";
-  static constexpr std::string_view kMeaning = "the hull touches nothing";
+  static constexpr std::string_view kMeaning = "the hull has no contact";
 };
 template <class Visitor>
 void describe(Visitor&, NoCollisionCheck&) {}
@@ -115,7 +115,7 @@ void describe(Visitor& v, FloorVisitedCheck& c) {
 
 struct PathToleranceCheck {
   static constexpr std::string_view kName = "path_tolerance";
-  static constexpr std::string_view kMeaning = "the path stays near a reference that `hedgehop bless` has written";
+  static constexpr std::string_view kMeaning = "the path stays close to a reference that `hedgehop bless` has written";
   enum class Measure { band, frechet, dtw };
   std::string reference;  ///< file; absolute once a scenario is loaded
   double at_most_m = 0.0;

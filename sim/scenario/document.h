@@ -19,7 +19,7 @@ std::string describe_choices() {
   return document_choices(outline_alternatives<Variant>());
 }
 
-/// What `hedgehop list` can be asked for: "modules", "vehicles", "scenes", "cameras", "checks", "scenario".
+/// Topics of `hedgehop list`: "modules", "vehicles", "scenes", "cameras", "checks", "scenario".
 const std::vector<std::string>& document_topics();
 /// Text of a topic. Throws InputError, naming the topics, for any other.
 std::string document(const std::string& topic);

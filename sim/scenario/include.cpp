@@ -1,3 +1,5 @@
+#include "sim/scenario/include.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,7 +40,7 @@ class Includer {
  public:
   explicit Includer(Faults& faults) : faults_(faults) {}
 
-  /// @param from  place of the `use` that asks for it, or null for the scenario itself.
+  /// @param from  place of the `use` that names it, or null for the scenario itself.
   Node load(const fs::path& file, const Place* from) {
     const std::string name = file.lexically_normal().string();
     const Place place = from ? *from : Place{name, 0, 0};
@@ -95,7 +97,7 @@ class Includer {
     Node base = load(folder / used.value.text, &used.value.place);
     if (base.kind != Node::Kind::map) return;
     base.place = node.place;
-    lay_over(base, node);
+    override_with(base, node);
     node = std::move(base);
   }
 
@@ -191,7 +193,7 @@ void apply_override(Node& root, const std::string& text, const fs::path& folder,
 
 }  // namespace
 
-void lay_over(Node& base, const Node& over) {
+void override_with(Node& base, const Node& over) {
   if (base.kind != Node::Kind::map || over.kind != Node::Kind::map || changes_choice(base, over)) {
     base = over;
     return;
@@ -204,7 +206,7 @@ void lay_over(Node& base, const Node& over) {
       base.entries.push_back(entry);
     } else {
       same->place = entry.place;
-      lay_over(same->value, entry.value);
+      override_with(same->value, entry.value);
     }
   }
 }

@@ -7,7 +7,7 @@
 
 namespace hedgehop::sim {
 
-/// Input that its author can mend: every fault found, each with its place. Only the command line catches it.
+/// Input that its author can fix: every fault found, each with its place. Only the command line catches it.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<std::string> faults) : std::runtime_error(join(faults)), faults_(std::move(faults)) {}

@@ -9,7 +9,7 @@
 /// the same bits.
 namespace hedgehop::sim {
 
-/// What a text says: a number; or why it is none.
+/// A text's number, or why it is none.
 struct ParsedNumber {
   enum class Kind { number, not_a_number, not_finite } kind = Kind::not_a_number;
   double member = 0.0;  ///< in the unit of the member

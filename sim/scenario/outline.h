@@ -91,7 +91,7 @@ Outline outline(const T& value, const fields::Field& field) {
     node = outline_as_written(value);
     node.open = node.present = true;
   }
-  node.field = field;
+  node.field = fields::bounded(field);
   if constexpr (fields::NumberField<T>) {
     node.kind = Outline::Kind::number;
     node.value = number_text(value, fields::is_degrees(field.unit));

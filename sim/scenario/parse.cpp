@@ -31,7 +31,7 @@ class Builder : public YAML::EventHandler {
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     Node node = make(Node::Kind::null, mark, "", anchor);
-    // An empty value is marked where the next token stands; its key says better where it is missing.
+    // An empty value is marked where the next token stands; the place of its key is clearer.
     if (!open_.empty() && open_.back().has_key && node.place.line > open_.back().key_place.line) {
       node.place = open_.back().key_place;
     }
@@ -74,7 +74,7 @@ class Builder : public YAML::EventHandler {
     Node node;
     YAML::anchor_t anchor = 0;
     bool has_key = false;  ///< of a map: a key waits for its value
-    bool drop = false;     ///< ... which is not kept
+    bool drop = false;     ///< ... which is discarded
     std::string key = {};
     Place key_place = {};
   };

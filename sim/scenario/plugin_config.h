@@ -14,7 +14,8 @@ namespace hedgehop::sim {
 struct PluginConfig {
   static constexpr std::string_view kName = "plugin";
   static constexpr std::string_view kMeaning = "a module from a shared library (docs/writing-a-module.md)";
-  static constexpr std::string_view kChosenBy = "plugin";  ///< the key that tells it from the modules of this tree
+  static constexpr std::string_view kChosenBy =
+      "plugin";  ///< the key that distinguishes it from the modules of this tree
 
   std::filesystem::path plugin;
   std::string module;
@@ -29,8 +30,8 @@ void describe(Visitor& v, PluginConfig& c) {
     {.unit = "s",
      .above = 0.0,
      .at_most = 3600.0,
-     .meaning = "wall time of a call after which the module is held to hang"});
-  v("parameters", c.parameters, {.meaning = "the module's own, as strictly read"});
+     .meaning = "wall time of a call after which the module counts as hung"});
+  v("parameters", c.parameters, {.meaning = "the module's own, read as strictly"});
 }
 
 template <class Variant, class More>

@@ -55,7 +55,7 @@ class StructReader {
     }
   }
 
-  /// Refuses the keys that no field asked for.
+  /// Reports the keys that no field has.
   void finish() const;
 
  private:
@@ -75,7 +75,7 @@ void read_struct(const Node& node, const std::string& path, std::string_view sel
   reader.finish();
 }
 
-/// Reads the alternative that one of the map's keys tells by itself. @return whether there is one.
+/// Reads the alternative that one of the map's keys identifies by itself. @return whether there is one.
 template <fields::VariantField T>
 bool read_chosen_by_key(const Node& node, const std::string& path, T& value, Faults& faults) {
   bool chosen = false;

@@ -14,7 +14,7 @@ struct TimedPoint {
   Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  ///< m
 };
 
-/// A flight's path that was looked at and found good, to hold later flights to.
+/// A flight's path that a person accepted as the reference for later flights.
 struct ReferencePath {
   std::string reason;   ///< why it is good, one line
   std::string version;  ///< of Hedgehop

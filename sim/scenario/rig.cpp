@@ -9,6 +9,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "sim/fields/bounds.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -69,7 +71,7 @@ vision::camera::Camera ocam(const CameraConfig& c) {
   require(!c.calibration.empty(), "calibration: model: ocam needs the file");
   require(
       !c.focal_x_px && !c.focal_y_px && !c.center_u_px && !c.center_v_px && !c.view_limit_rad && c.distortion.empty(),
-      "calibration: says all of the lens; no other key may");
+      "calibration: defines the lens; no other key of the lens may stand beside it");
   std::ifstream stream(c.calibration, std::ios::binary);
   std::error_code error;
   require(stream && !std::filesystem::is_directory(c.calibration, error),
@@ -104,6 +106,7 @@ Eigen::Isometry3d CameraConfig::X_BC() const {
 }
 
 vision::camera::Camera CameraConfig::model() const {
+  fields::require_bounds(*this);
   require(std::has_single_bit(static_cast<unsigned>(samples)), "samples: valid: 1, 2, 4, 8");
   require(model_kind == Model::ocam || calibration.empty(), "calibration: is for model: ocam");
   const vision::camera::Camera camera = model_kind == Model::ocam      ? ocam(*this)
@@ -113,7 +116,7 @@ vision::camera::Camera CameraConfig::model() const {
   return camera;
 }
 
-bool CameraConfig::straight() const {
+bool CameraConfig::is_undistorted_pinhole() const {
   const auto is_zero = [](double coefficient) { return coefficient == 0.0; };
   return model_kind == Model::pinhole && std::ranges::all_of(distortion, is_zero);
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "avoidance/module.h"
+#include "sim/fields/field.h"
 #include "sim/scenario/imperfections.h"
 #include "vision/camera/camera.h"
 
@@ -30,7 +31,7 @@ struct CameraConfig {
   double rate_hz = 50.0;
   Channel channel = Channel::grey;
   double corner_noise_px = 0.5;  ///< of a corner detector that works well
-  int samples = 1;               ///< places in each pixel that grey and color are the mean of: 1, 2, 4 or 8
+  int samples = 1;               ///< samples in each pixel, averaged for grey and color: 1, 2, 4 or 8
   double forward_m = 0.0, right_m = 0.0, down_m = 0.0;
   double yaw_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
   ImperfectionsConfig imperfections;
@@ -38,14 +39,14 @@ struct CameraConfig {
   /// Pose of the camera in B: the mounting position, and yaw about down, pitch about right, roll about forward, in that
   /// order, applied to a camera that looks forward. Yaw 90 deg looks right, pitch -90 deg looks down.
   Eigen::Isometry3d X_BC() const;
-  /// Throws std::invalid_argument that begins with the key at fault, for keys that do not go together or a calibration
-  /// file that cannot be used.
+  /// Throws std::invalid_argument that begins with the key at fault, for values out of bounds, keys that do not go
+  /// together or a calibration file that cannot be used.
   vision::camera::Camera model() const;
-  /// Whether it is an undistorted pinhole.
-  bool straight() const;
+  /// Whether the lens is an undistorted pinhole.
+  bool is_undistorted_pinhole() const;
 };
 
-/// What a camera is, apart from what it is called.
+/// All keys of a camera but its role.
 template <class Visitor>
 void describe_without_role(Visitor& v, CameraConfig& c) {
   v("model", c.model_kind,
@@ -69,7 +70,8 @@ void describe_without_role(Visitor& v, CameraConfig& c) {
      .at_most = 180.0,
      .meaning = "angle off the axis where a fisheye's image ends; else as far as its lens goes"});
   v("calibration", c.calibration, {.meaning = "file calib_results.txt of OCamCalib, for model: ocam"});
-  v("rate", c.rate_hz, {.unit = "Hz", .above = 0.0, .meaning = "images a second; divides the physics rate"});
+  v("rate", c.rate_hz,
+    {.unit = "Hz", .at_least = fields::kSlowestHz, .meaning = "images a second; divides the physics rate"});
   v("channel", c.channel,
     {.choices = {"grey", "color", "depth", "corners"},
      .meaning = "what a pixel holds; or corners, from an ideal detector of the scene's known corners: truth, for an "
@@ -85,15 +87,15 @@ void describe_without_role(Visitor& v, CameraConfig& c) {
   v("forward", c.forward_m, {.unit = "m", .meaning = "mounting position ahead of the body's origin"});
   v("right", c.right_m, {.unit = "m", .meaning = "mounting position right of the body's origin"});
   v("down", c.down_m, {.unit = "m", .meaning = "mounting position below the body's origin"});
-  v("yaw", c.yaw_rad, {.unit = "deg", .at_least = -180.0, .at_most = 180.0, .meaning = "turn to the right, first"});
-  v("pitch", c.pitch_rad, {.unit = "deg", .at_least = -90.0, .at_most = 90.0, .meaning = "turn upwards, second"});
-  v("roll", c.roll_rad, {.unit = "deg", .at_least = -180.0, .at_most = 180.0, .meaning = "turn clockwise, last"});
-  v("imperfections", c.imperfections, {.meaning = "noise, blur, rolling shutter and faults, all off unless asked for"});
+  v("yaw", c.yaw_rad, {.unit = "deg", .at_least = -180.0, .at_most = 180.0, .meaning = "rotation to the right, first"});
+  v("pitch", c.pitch_rad, {.unit = "deg", .at_least = -90.0, .at_most = 90.0, .meaning = "rotation upwards, second"});
+  v("roll", c.roll_rad, {.unit = "deg", .at_least = -180.0, .at_most = 180.0, .meaning = "rotation clockwise, last"});
+  v("imperfections", c.imperfections, {.meaning = "noise, blur, rolling shutter and faults, all off by default"});
 }
 
 template <class Visitor>
 void describe(Visitor& v, CameraConfig& c) {
-  v("role", c.role, {.required = true, .meaning = "name by which modules and sensors ask for the camera"});
+  v("role", c.role, {.required = true, .meaning = "name by which modules and sensors refer to the camera"});
   describe_without_role(v, c);
 }
 
@@ -112,7 +114,7 @@ void describe(Visitor& v, StereoConfig& c) {
   describe_without_role(v, c.camera);
 }
 
-/// The cameras a vehicle carries.
+/// The cameras of a vehicle.
 struct RigConfig {
   std::vector<CameraConfig> cameras;
   std::vector<StereoConfig> stereo;
@@ -127,7 +129,7 @@ void describe(Visitor& v, RigConfig& c) {
   v("stereo", c.stereo, {.meaning = "pairs, each two more cameras; a resolved scenario lists them as such"});
 }
 
-/// Turns every pair into its two cameras, left before right, behind those that are there.
+/// Replaces every pair by its two cameras, left before right, after the other cameras.
 void mount_stereo_pairs(RigConfig& rig);
 
 }  // namespace hedgehop::sim

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "sim/scenario/parse.h"
+#include "sim/scenario/include.h"
 #include "sim/scenario/reader.h"
 #include "sim/scenario/schema.h"
 #include "sim/scenario/validate.h"

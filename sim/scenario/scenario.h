@@ -13,6 +13,7 @@
 #include "dynamics/avionics.h"
 #include "dynamics/vehicle.h"
 #include "scenes/generators.h"
+#include "sim/fields/field.h"
 #include "sim/scenario/checks.h"
 #include "sim/scenario/drawing.h"
 #include "sim/scenario/input_error.h"
@@ -30,7 +31,7 @@ struct StartConfig {
 
   /// The position without the spread, in W, m.
   Eigen::Vector3d p_WB() const { return {north_m, east_m, -altitude_m}; }
-  /// A position drawn evenly from the horizontal disc of radius `spread_m` round p_WB(), in W, m.
+  /// A position drawn evenly from the horizontal disc of radius `spread_m` around p_WB(), in W, m.
   /// @param seed  of the stream that belongs to the start alone; equal seeds give equal positions.
   Eigen::Vector3d draw_p_WB(uint64_t seed) const;
 };
@@ -85,7 +86,8 @@ struct FilmConfig {
 template <class Visitor>
 void describe(Visitor& v, FilmConfig& c) {
   v("enabled", c.enabled, {.meaning = "whether a run films its cameras and the module's image"});
-  v("rate", c.rate_hz, {.unit = "Hz", .above = 0.0, .meaning = "images a second; divides the physics rate"});
+  v("rate", c.rate_hz,
+    {.unit = "Hz", .at_least = fields::kSlowestHz, .meaning = "images a second; divides the physics rate"});
   v("width", c.width_px, {.unit = "px", .at_least = 64, .at_most = 4096, .meaning = "width of the film"});
 }
 
@@ -103,7 +105,7 @@ struct Scenario {
   dynamics::AvionicsConfig avionics;
   dynamics::air::WindConfig wind;
   StartConfig start;
-  std::vector<GoalConfig> route;   ///< places to pass before the goal
+  std::vector<GoalConfig> route;   ///< waypoints to pass before the goal
   std::optional<GoalConfig> goal;  ///< without one, the flight holds the start's altitude and heading
   RigConfig rig;
   DrawingConfig drawing;

@@ -10,7 +10,7 @@ namespace hedgehop::sim {
 /// Where something was written.
 struct Place {
   std::string file;          ///< as the user named it, or "--set key.path"
-  int line = 0, column = 0;  ///< from 1; 0 when `file` says it all
+  int line = 0, column = 0;  ///< from 1; 0 when `file` alone is the place
 
   /// "file:line:column", or "file" alone.
   std::string text() const;
@@ -74,7 +74,7 @@ Place place_of(const Node& root, std::string_view path);
 /// Number of letters to insert, delete, replace or swap with their neighbor to turn `a` into `b`.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// "; did you mean 'x'? allowed: x, y", the guess only when one is near.
+/// "; did you mean 'x'? allowed: x, y", the guess only when one is close.
 std::string suggestion(std::string_view word, const std::vector<std::string_view>& allowed);
 
 }  // namespace hedgehop::sim

@@ -144,7 +144,7 @@ class Validator {
 
   void needs_camera(const std::string& path, const std::string& role, Channel channel, bool pinhole) {
     if (const CameraConfig* camera = scenario_.rig.find(role)) {
-      if (pinhole && !camera->straight()) {
+      if (pinhole && !camera->is_undistorted_pinhole()) {
         add(path, fmt::format("needs camera '{}' to be an undistorted pinhole", role));
       }
       if (camera->channel != channel) {

@@ -1,11 +1,16 @@
-"""Every command of README.md and docs/ runs as written, on scenarios cut to a fifth of a second.
+"""Every command of README.md, CONTRIBUTING.md and docs/ is right.
+
+Commands of `hedgehop` and of the shell run as written, on scenarios cut to a fifth of a second. Commands that build or
+measure are only looked up: the script, the test program and its tests, the preset must exist.
 
 usage: commands_test.py SOURCE BUILD PROGRAM
 """
 
+import json
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -16,25 +21,40 @@ SOURCE, BUILD, PROGRAM = (pathlib.Path(argument) for argument in sys.argv[1:4])
 SHORT_S = 0.2
 # A flight is cut short, so its checks may fail; anything worse means that the text is wrong.
 ALLOWED = (0, 1)
+PAGES = ["README.md", "CONTRIBUTING.md", *sorted(f"docs/{path.name}" for path in (SOURCE / "docs").glob("*.md"))]
+LOOKED_UP = re.compile(r"(scripts/|\./scripts/|build/\w+/tests/|ctest |gdb |cmake --preset|bash \.ci/|[A-Z]+=\S+ scripts/)")
+START = r"(?:hedgehop |build/|ctest |gdb |cmake |bash \.ci/|(?:[A-Z]+=\S+ )?(?:\./)?scripts/\w)"
 
 
-def fenced_commands(text):
-    """Lines of the fenced blocks of shell."""
+def commands(text):
+    """Commands in fenced blocks of shell, in indented lines, and whole commands in table cells; comments cut off."""
     for block in re.findall(r"^```sh\n(.*?)^```", text, re.S | re.M):
         yield from (line for line in block.splitlines() if line.strip())
+    for line in re.findall(rf"^    ({START}.*)$", text, re.M):
+        yield re.split(r"\s{2,}", line)[0]
+    for row in re.findall(r"^\|.*\|$", text, re.M):
+        yield from re.findall(r"\| `(hedgehop (?!list scenes`)[^`]*|(?:build|scripts)/[^`]* [^`]*|scripts/[^`]+)`(?= \|)", row)
 
 
-def indented_commands(text):
-    """Lines that are indented and call the program, without what is said of them behind #."""
-    for line in re.findall(r"^    (hedgehop .*)$", text, re.M):
-        yield line
-
-
-def shortened(text):
+def shortened_file(text):
     text = re.sub(r"^(duration): .*$", rf"\1: {SHORT_S}", text, flags=re.M)
     text = re.sub(r"before: [0-9.]+", f"before: {SHORT_S}", text)
     text = re.sub(r"points: [0-9]+", "points: 2", text)
     return re.sub(r"(seeds|quick): [0-9]+(:[0-9]+)?(,[0-9:]+)*", r"\1: 1", text)
+
+
+def shortened_command(line):
+    """The command with shorter flights and fewer seeds."""
+    if line.startswith("hedgehop"):
+        line = re.sub(r"duration=[0-9.]+", f"duration={SHORT_S}", line)
+        line = re.sub(r"--seeds [0-9:,]+", "--seeds 1", line)
+    if line.startswith("hedgehop reproduce") and "--quick" not in line:
+        line += " --quick"  # what getting-started.md has flown is reused
+    if line.startswith("hedgehop render"):
+        line = re.sub(r"--time [0-9.]+", f"--time {SHORT_S / 2}", line)
+    if "--on slurm" in line and "--dry-run" not in line:
+        line = line.replace("--on slurm", "--on slurm --dry-run")
+    return line
 
 
 class Commands(unittest.TestCase):
@@ -45,7 +65,7 @@ class Commands(unittest.TestCase):
         shutil.copytree(SOURCE / "configs", folder / "configs")
         shutil.copytree(SOURCE / "docs" / "keep_left", folder / "docs" / "keep_left")
         for file in (folder / "configs").rglob("*.yaml"):
-            file.write_text(shortened(file.read_text()))
+            file.write_text(shortened_file(file.read_text()))
         (folder / "build").mkdir()
         (folder / "build" / "release").symlink_to(BUILD)
         (folder / "out").mkdir()
@@ -55,43 +75,71 @@ class Commands(unittest.TestCase):
     def tearDownClass(cls):
         cls.scratch.cleanup()
 
-    def run_line(self, line):
-        if "--on slurm" in line and "--dry-run" not in line:
-            line = re.sub(r"--on slurm", "--on slurm --dry-run", line)
-        if line.startswith("hedgehop render") and "--time" in line:
-            line = re.sub(r"--time [0-9.]+", f"--time {SHORT_S / 2}", line)
+    def shell(self, line, allowed=ALLOWED):
         done = subprocess.run(["bash", "-c", line], cwd=self.folder, env=self.environment, capture_output=True,
                               text=True, timeout=600)
-        self.assertIn(done.returncode, ALLOWED, f"{line}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
+        self.assertIn(done.returncode, allowed, f"{line}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
+        return done.stdout
 
-    def run_page(self, page, commands):
-        lines = list(commands((SOURCE / page).read_text()))
-        self.assertGreater(len(lines), 0, page)
+    def look_up(self, line):
+        """What a command names exists: scripts, presets, test programs, and tests of its filter."""
+        words = [word for word in shlex.split(line) if not re.match(r"[A-Z]+=", word)]
+        for script in (word for word in words if re.match(r"(\./)?(scripts|\.ci)/", word)):
+            self.assertTrue(os.access(SOURCE / script, os.R_OK), script)
+        presets = json.loads((SOURCE / "CMakePresets.json").read_text())["configurePresets"]
+        for preset in re.findall(r"--preset (\w+)", line):
+            self.assertIn(preset, [known["name"] for known in presets])
+        for program in (word for word in words if re.match(r"build/\w+/tests/", word)):
+            listed = BUILD / pathlib.Path(*pathlib.Path(program).parts[2:])
+            self.assertTrue(listed.exists(), f"{listed} is not built")
+            filters = [word for word in words if word.startswith("--gtest_filter")]
+            self.assertIn("\n  ", self.shell(" ".join(shlex.quote(w) for w in [str(listed), "--gtest_list_tests", *filters])), line)
+        if words[0] == "ctest":
+            pattern = words[words.index("-R") + 1]
+            self.assertNotIn("Total Tests: 0", self.shell(f"ctest --test-dir {BUILD} -N -R {shlex.quote(pattern)}"), line)
+
+    def run_line(self, line, counts_sweeps=False):
+        """@param counts_sweeps  whether a sweep only counts what it would fly."""
+        if LOOKED_UP.match(line):
+            self.look_up(line)
+        elif counts_sweeps and line.startswith("hedgehop sweep"):
+            self.shell(line + " --missing", (0,))
+        else:
+            self.shell(shortened_command(line))
+
+    def run_page(self, page):
+        lines = list(dict.fromkeys(commands((SOURCE / page).read_text())))
         for line in lines:
             with self.subTest(page=page, line=line):
-                self.run_line(line)
+                self.run_line(line, counts_sweeps=page == "docs/results.md")
 
-    def test_pages_keep_their_commands_where_this_looks(self):
-        pages = [path for path in (SOURCE / "docs").glob("*.md") if path.name != "results.md"]
-        self.assertGreater(len(pages), 5)
-        for page in pages:
-            self.assertEqual(list(indented_commands(page.read_text())), [], page)
+    def test_every_page_with_figures_has_commands(self):
+        for page in ("README.md", "CONTRIBUTING.md", "docs/results.md", "docs/verification.md", "docs/known-failures.md"):
+            self.assertGreater(len(list(commands((SOURCE / page).read_text()))), 0, page)
+
+    def test_every_row_of_the_results_has_a_command(self):
+        """A row's own, one of the row above (an empty cell or `the same`), or one of a block before its table."""
+        text = (SOURCE / "docs" / "results.md").read_text()
+        for heads, rows in re.findall(r"^\|(.*)\|\n\|[-|]+\|\n((?:\|.*\|\n?)+)", text, re.M):
+            if heads.split("|")[-1].strip() != "command":
+                continue
+            last = ""
+            for row in rows.splitlines():
+                cell = row.rstrip("|").rsplit("|", 1)[-1].strip()
+                last = last if cell in ("", "the same") else cell
+                self.assertRegex(last, r"^`.*`$", row)
 
     def test_readme(self):
         # What README's commands look at lies in out/ once its quickstart and its batch have been run.
         self.run_line("hedgehop run configs/garratt2009_city_0.yaml --out out/quickstart")
         self.run_line("hedgehop batch configs/garratt2009_room_0_light.yaml --out out/before")
-        self.run_page("README.md", indented_commands)
+        self.run_page("README.md")
 
 
-def page_test(page):
-    return lambda self: self.run_page(page, fenced_commands)
-
-
-# results.md tells commands of hours, and of programs that only developers build.
-for _path in sorted((SOURCE / "docs").glob("*.md")):
-    if _path.name != "results.md" and "```sh" in _path.read_text():
-        setattr(Commands, "test_" + _path.stem.replace("-", "_"), page_test(f"docs/{_path.name}"))
+for _page in PAGES:
+    if _page != "README.md":
+        _name = "test_" + pathlib.Path(_page).stem.lower().replace("-", "_")
+        setattr(Commands, _name, lambda self, page=_page: self.run_page(page))
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

@@ -101,7 +101,7 @@ TEST(Avionics, RangesAlongTheBeamFromItsPlaceOnBoard) {
   AvionicsConfig c;
   c.range_finder = {.ranger = {.noise_m = 0.0, .noise_per_range = 0.0, .dropout = 0.0, .latency_s = 0.0},
                     .direction_B = {0.0, 2.0, 0.0},
-                    .p_BS_m = {0.5, 0.0, 0.1}};
+                    .p_BI_m = {0.5, 0.0, 0.1}};
   Avionics avionics(c, helicopter::HelicopterConfig(), 0.002, [](std::string_view n) { return seed_of(1, n); });
   // Nose to the east, banked to the right by 30 degrees: the beam over the right wing points south and down.
   SensedTruth truth;

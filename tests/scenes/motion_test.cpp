@@ -106,7 +106,7 @@ TEST(Motion, NeverLeavesItsWay) {
   std::uniform_real_distribution<double> time(0.0, 100.0);
   for (int k = 0; k < 500; ++k) {
     const Motion motion = random_motion(random);
-    const std::vector<Vector3d> way = way_W(motion);
+    const std::vector<Vector3d> way = path_W(motion);
     const Vector3d p_W = p_WM(motion, time(random));
     double nearest_m = (p_W - way.front()).norm();
     for (size_t i = 1; i < way.size(); ++i) {
@@ -126,8 +126,10 @@ TEST(Motion, RefusesWhatCannotMove) {
   using testing::HasSubstr;
   using testing::ThrowsMessage;
   EXPECT_THAT([] { require_motion(WaypointMotion{.points = {}}); }, ThrowsMessage<E>(HasSubstr("motion.points")));
-  EXPECT_THAT([] { require_motion(WaypointMotion{.speed_mps = -1}); }, ThrowsMessage<E>(HasSubstr("motion.speed: -1")));
-  EXPECT_THAT([] { require_motion(OrbitMotion{.radius_m = 0}); }, ThrowsMessage<E>(HasSubstr("motion.radius: 0")));
+  EXPECT_THAT([] { require_motion(WaypointMotion{.speed_mps = -1}); },
+              ThrowsMessage<E>(HasSubstr("motion.speed: -1; must be >= 0 m/s")));
+  EXPECT_THAT([] { require_motion(OrbitMotion{.radius_m = 0}); },
+              ThrowsMessage<E>(HasSubstr("motion.radius: 0; must be > 0 m")));
 }
 
 }  // namespace

@@ -76,8 +76,10 @@ TEST(Movers, RefuseWhatCannotBeBuilt) {
   using E = std::invalid_argument;
   using testing::HasSubstr;
   using testing::ThrowsMessage;
-  EXPECT_THAT([] { make_scene(room_with({{.radius_m = 0.0}}), 1); }, ThrowsMessage<E>(HasSubstr("movers.radius: 0")));
-  EXPECT_THAT([] { make_scene(room_with({{.height_m = -2.0}}), 1); }, ThrowsMessage<E>(HasSubstr("movers.height: -2")));
+  EXPECT_THAT([] { make_scene(room_with({{.radius_m = 0.0}}), 1); },
+              ThrowsMessage<E>(HasSubstr("movers.0.radius: 0; must be > 0 m")));
+  EXPECT_THAT([] { make_scene(room_with({{.height_m = -2.0}}), 1); },
+              ThrowsMessage<E>(HasSubstr("movers.0.height: -2; must be > 0 m")));
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ def configure(library):
         (root / "a.cpp").write_text("int a = 1;\n")
         (root / "CMakeLists.txt").write_text(PROJECT.format(modules=ROOT / "cmake", library=library))
         cmake = os.environ.get("CMAKE_COMMAND", "cmake")
-        done = subprocess.run([cmake, "-S", folder, "-B", root / "build"], capture_output=True, text=True)
+        done = subprocess.run([cmake, "-G", "Ninja", "-S", folder, "-B", root / "build"], capture_output=True, text=True)
         return done.returncode, " ".join((done.stdout + done.stderr).split())
 
 

@@ -7,6 +7,7 @@ import io
 import pathlib
 import tempfile
 import unittest
+import unittest.mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -27,7 +28,13 @@ GOOD_TREE = {
     "vision/flow.cpp": '#include "vision/flow.h"\n\n#include <opencv2/core.hpp>\n\n// [Garratt2009]\n// sec. 3\nint flow() { return 1; }\n',
     "avoidance/CMakeLists.txt": "hedgehop_library(avoidance HDRS steer.h)\n",
     "avoidance/steer.h": '#pragma once\n\n#include "vision/flow.h"\n',
-    "REFERENCES.md": "- **[Garratt2009]** A. Author: A title, 2009.\n",
+    "REFERENCES.md": "- **[Garratt2009]** A. Author: A title, 2009.\n- **[Shah2009]** B. Author: A thesis, 2009.\n\n"
+                     "| paper | equations | figures | tables |\n|---|---|---|---|\n"
+                     "| Garratt2009 | 4 | 7 | |\n| Shah2009 | 4.24 | 4.6, 5.1 | 4.1 |\n",
+    "CONTRIBUTING.md": "# Rules\n\n## Frames\n\n| letter | kind | meaning | only in |\n|---|---|---|---|\n"
+                       "| `W` | frame | world | |\n| `C` | frame | camera | |\n| `Cr` | frame | right camera | |\n"
+                       "| `L` | frame | light | `sim/render` |\n| `NE` | frame | plan | |\n| `P` | point | any | |\n\n## Next\n",
+    "sim/render/sun.h": "#pragma once\n",
     ".clang-format": "BasedOnStyle: Google\nColumnLimit: 120\n",
     "build/vision/bad.cpp": "int   badly( ) ;\n",
 }
@@ -69,7 +76,7 @@ class Layers(Tree):
 
     def test_a_row_that_looks_down(self):
         table = 'set(HEDGEHOP_LAYERS\n    "vision: avoidance"\n    "avoidance: vision")\n'
-        self.assert_refused("layers", {"CMakeLists.txt": table}, "stands not above it")
+        self.assert_refused("layers", {"CMakeLists.txt": table}, "is not above it")
 
     def test_yaml_outside_the_scenario_room(self):
         self.assert_refused("layers", {"sim/loop/x.h": "#include <yaml-cpp/yaml.h>\n"}, "belongs into sim/scenario")
@@ -97,14 +104,104 @@ class Citations(Tree):
         self.assertEqual(self.faults("citations", {"vision/flow.cpp": "// iterated after [Garratt2009]\n"}), [])
 
     def test_a_key_listed_twice(self):
-        twice = GOOD_TREE["REFERENCES.md"] * 2
+        twice = GOOD_TREE["REFERENCES.md"] + "- **[Garratt2009]** again\n"
         self.assert_refused("citations", {"REFERENCES.md": twice}, "listed twice")
+
+    def test_a_figure_that_the_paper_does_not_have(self):
+        self.assert_refused("citations", {"vision/flow.cpp": "\n// [Garratt2009] fig. 8\n"},
+                            "vision/flow.cpp:2:", "[Garratt2009] has no fig. 8; its highest of figures: 7")
+
+    def test_an_equation_that_the_paper_does_not_have_behind_one_that_it_has(self):
+        for place in ("eq. (3) to (5)", "eq. (4) and eq. (5)", "fig. 7, eq. (5)", "eqs. (4)\n/// and (5)", "eq. (0)"):
+            self.assert_refused("citations", {"vision/flow.cpp": f"/// [Garratt2009] {place}\n"}, "[Garratt2009] has no eq")
+
+    def test_a_table_of_a_paper_without_tables(self):
+        self.assert_refused("citations", {"vision/flow.cpp": "// [Garratt2009] table 1\n"}, "has no table 1", "none")
+
+    def test_numbers_by_chapter(self):
+        self.assert_refused("citations", {"vision/flow.cpp": "// [Shah2009] fig. 4.6 and fig. 5.2\n"}, "has no fig. 5.2")
+        self.assert_refused("citations", {"vision/flow.cpp": "// [Shah2009] eq. (3.1)\n"}, "has no eq. 3.1")
+        self.assertEqual(self.faults("citations", {"vision/flow.cpp": "// [Shah2009] eq. (4.24), fig. 4.2 and table 4.1\n"}), [])
+
+    def test_documents_are_read_too(self):
+        self.assert_refused("citations", {"docs/a.md": "See [Garratt2009] fig. 9.\n"}, "docs/a.md:1:", "has no fig. 9")
 
     def test_configs_are_read_too(self):
         self.assert_refused("citations", {"configs/a.yaml": "gain: 4.0  # [Nobody1999] table 1\n"}, "configs/a.yaml:1:")
 
     def test_array_subscripts_are_no_citations(self):
         self.assertEqual(self.faults("citations", {"vision/flow.cpp": "int a = b[kCount2] + c[2009];\n"}), [])
+
+
+class Constants(Tree):
+    def test_a_unit_behind_an_underscore(self):
+        for name in ("kGravity_mps2", "kRange_m", "kMax_Range"):
+            self.assert_refused("constants", {"vision/flow.cpp": f"constexpr double {name} = 1.0;\n"},
+                                "vision/flow.cpp:1:", name, "kGravityMps2")
+
+    def test_names_of_the_form_kNameUnit(self):
+        self.assertEqual(self.faults("constants", {"vision/flow.cpp": "constexpr double kGravityMps2 = 9.8, k = 1.0;\n"}), [])
+
+
+class Frames(Tree):
+    def test_a_letter_that_is_not_declared(self):
+        for name, letter in (("p_WQ", "Q"), ("v_QC_C", "Q"), ("X_WC_Q", "Q"), ("draw_q_QW", "Q"), ("w_WC_Q", "Q"),
+                             ("R_CxW", "Cx")):
+            self.assert_refused("frames", {"vision/flow.cpp": f"\nint {name};\n"},
+                                "vision/flow.cpp:2:", name, f"frame {letter} is not declared")
+
+    def test_a_letter_outside_its_folders(self):
+        self.assert_refused("frames", {"vision/flow.cpp": "int R_LW;\n"}, "R_LW: L has its meaning only in sim/render")
+        self.assertEqual(self.faults("frames", {"sim/render/sun.h": "int R_LW;\n"}), [])
+
+    def test_a_point_that_is_used_as_a_frame(self):
+        self.assert_refused("frames", {"vision/flow.cpp": "int X_WP;\n"}, "X_WP: P is a point and has no axes")
+
+    def test_declared_frames_points_and_pairs(self):
+        for name in ("p_WC", "v_WC_C", "X_CCr", "p_CrP_W", "p_NE", "X_WC_est", "p_CP_m", "sp_pool", "x_T", "e_p_W"):
+            self.assertEqual(self.faults("frames", {"vision/flow.cpp": f"int {name};\n"}), [], name)
+
+    def test_texts_are_no_names(self):
+        self.assertEqual(self.faults("frames", {"vision/flow.cpp": 'auto a = "p_RS_R";\n'}), [])
+
+
+class Paths(Tree):
+    def test_a_file_that_is_gone(self):
+        self.assert_refused("paths", {"docs/a.md": "\nSee `vision/gone.h`.\n"}, "docs/a.md:2:", "`vision/gone.h` does not exist")
+
+    def test_one_of_two_files(self):
+        self.assert_refused("paths", {"docs/a.md": "See `avoidance/steer.{h,cpp}`.\n"}, "`avoidance/steer.cpp` does not exist")
+
+    def test_files_folders_and_patterns_that_are_there(self):
+        text = "`vision/flow.{h,cpp}`, `vision/`, `avoidance/steer.h`, `vision/*.h`, `sim/loop/NAME: no path`\n"
+        self.assertEqual(self.faults("paths", {"docs/a.md": text}), [])
+
+
+class Words(Tree):
+    def test_each_word_in_text_and_in_names(self):
+        for text in ("the picture of a camera", "draws it anew", "int nearness_m;", "two are astray", "it hangs on z", "Of no use.",
+                     "what it believes", "int spoiled;"):
+            self.assert_refused("words", {"docs/a.md": f"\n{text}\n"}, "docs/a.md:2:", ": write ")
+
+    def test_the_message_names_the_word_of_the_field(self):
+        self.assert_refused("words", {"configs/a.yaml": "# One picture.\n"}, '"picture": write image')
+
+    def test_parts_of_other_words(self):
+        self.assertEqual(self.faults("words", {"docs/a.md": "manewood, pictured, unbelieved\n"}), [])
+
+
+class Pending(Tree):
+    def test_faults_in_pending_files_are_warnings(self):
+        said = io.StringIO()
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(said):
+            root = pathlib.Path(folder)
+            for name in ("vision/a.h", "visions/a.h"):
+                (root / name).parent.mkdir()
+                (root / name).write_text("// drawn anew\n")
+            with unittest.mock.patch.dict(style.PENDING, {"words": ["vision"]}):
+                faults = style.faults_of("words", root)
+        self.assertEqual([str(fault.path) for fault in faults], ["visions/a.h"])
+        self.assertIn("vision/a.h:1: warning:", said.getvalue())
 
 
 class Format(Tree):

@@ -19,7 +19,7 @@ bool finite(std::initializer_list<double> numbers) {
   return true;
 }
 
-// Checked for every image: no text is put together unless there is something to tell.
+// Checked for every image: builds no text unless there is a fault to report.
 void check_lens(const PinholeLens& lens) {
   require(finite({lens.focal_x_px, lens.focal_y_px, lens.center_u_px, lens.center_v_px, lens.k1, lens.k2, lens.p1,
                   lens.p2, lens.k3}),
@@ -65,23 +65,28 @@ std::optional<Eigen::Vector3d> Camera::ray(const Eigen::Vector2d& pixel) const {
   return std::visit([&](const auto& its_lens) { return its_lens.ray(pixel); }, lens);
 }
 
-bool Camera::is_ideal_pinhole() const {
+bool Camera::is_undistorted_pinhole() const {
   const auto* const pinhole_lens = std::get_if<PinholeLens>(&lens);
-  return pinhole_lens != nullptr && pinhole_lens->ideal();
+  return pinhole_lens != nullptr && pinhole_lens->is_undistorted();
 }
 
 PinholeCamera Camera::pinhole() const {
-  if (!is_ideal_pinhole()) {
-    throw std::invalid_argument("needs a pinhole camera without distortion, got a " + lens_name());
+  if (!is_undistorted_pinhole()) {
+    throw std::invalid_argument("needs an undistorted pinhole camera, got a " + lens_name());
   }
-  const auto& ideal = std::get<PinholeLens>(lens);
-  return {width_px, height_px, ideal.focal_x_px, ideal.focal_y_px, ideal.center_u_px, ideal.center_v_px};
+  const auto& pinhole_lens = std::get<PinholeLens>(lens);
+  return {width_px,
+          height_px,
+          pinhole_lens.focal_x_px,
+          pinhole_lens.focal_y_px,
+          pinhole_lens.center_u_px,
+          pinhole_lens.center_v_px};
 }
 
 std::string Camera::lens_name() const {
   if (std::holds_alternative<FisheyeLens>(lens)) return "fisheye";
   if (std::holds_alternative<OcamLens>(lens)) return "omnidirectional (OCamCalib)";
-  return is_ideal_pinhole() ? "pinhole" : "distorted pinhole";
+  return is_undistorted_pinhole() ? "pinhole" : "distorted pinhole";
 }
 
 double fisheye_focal_px(const FisheyeLens& coefficients, int width_px, double horizontal_fov_rad) {

@@ -23,22 +23,22 @@ struct Camera {
 
   Camera() = default;
   Camera(int width, int height, const Lens& its_lens) : width_px(width), height_px(height), lens(its_lens) {}
-  /// Every pinhole camera is a camera. Not explicit, so that it can stand wherever one is asked for.
+  /// A pinhole camera. Not explicit, so that it can stand wherever a camera is expected.
   Camera(const PinholeCamera& pinhole);
   /// Throws std::invalid_argument as ocam_lens().
   explicit Camera(const OcamCalibration& calibration);
 
   bool operator==(const Camera&) const = default;
 
-  /// Pixel (u, v) of a point in C, m; nothing when the lens does not see so far aside. Not clipped to the image.
+  /// Pixel (u, v) of a point in C, m; nothing beyond the lens's limit. Not clipped to the image.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_C) const;
   /// Ray through a pixel, in C, of length 1; nothing where the lens shows nothing. The inverse of project().
   std::optional<Eigen::Vector3d> ray(const Eigen::Vector2d& pixel) const;
 
-  /// Whether straight lines stay straight: a pinhole without distortion.
-  bool is_ideal_pinhole() const;
-  /// This camera as a pinhole, for algorithms that hold for nothing else.
-  /// Throws std::invalid_argument, naming the lens, when it is none.
+  /// Whether the lens is an undistorted pinhole, which shows straight lines as straight lines.
+  bool is_undistorted_pinhole() const;
+  /// This camera as an undistorted pinhole, for algorithms that hold for no other lens.
+  /// Throws std::invalid_argument, naming the lens, when it is another.
   PinholeCamera pinhole() const;
   /// "pinhole", "distorted pinhole", "fisheye" or "omnidirectional (OCamCalib)".
   std::string lens_name() const;
@@ -48,8 +48,8 @@ struct Camera {
 /// @param horizontal_fov_rad  in (0, 2 pi). Throws std::invalid_argument when the lens does not reach so far.
 double fisheye_focal_px(const FisheyeLens& coefficients, int width_px, double horizontal_fov_rad);
 
-/// Throws std::invalid_argument, saying what is wrong, for a camera that cannot be: without pixels, with a focal length
-/// that is not positive, a number that is not finite, or a limit beyond what its lens can tell apart.
+/// Throws std::invalid_argument, naming the fault, for a camera that cannot be: without pixels, with a focal length
+/// that is not positive, a number that is not finite, or a limit beyond which its lens folds back.
 void check(const Camera& camera);
 
 }  // namespace hedgehop::vision::camera

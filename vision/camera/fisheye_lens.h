@@ -6,7 +6,7 @@
 
 namespace hedgehop::vision::camera {
 
-/// A lens that may see behind itself: a ray at angle theta off the axis lands
+/// A lens that may see behind itself: a ray at angle theta to the axis is imaged
 /// theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8) focal lengths from the center, the equidistant
 /// projection when all four are zero. Coefficients as in OpenCV's fisheye module, after [KannalaBrandt2006].
 struct FisheyeLens {
@@ -18,7 +18,7 @@ struct FisheyeLens {
 
   bool operator==(const FisheyeLens&) const = default;
 
-  /// Focal lengths from the center to where a ray shows, and how it grows; the same at any angle, limit or not.
+  /// Distance of a ray's pixel from the center, in focal lengths, and its derivative; defined beyond the limit, too.
   double radius(double angle_rad) const;
   double radius_slope(double angle_rad) const;
   /// Angle up to which the radius grows, at most pi, to 0.1 mrad.

@@ -18,7 +18,7 @@ ImageDerotator::ImageDerotator(const Camera& camera, const cv::Mat& wanted)
   }
 }
 
-cv::Mat ImageDerotator::turned(const cv::Mat& image, const Eigen::Matrix3d& R_C1C2) const {
+cv::Mat ImageDerotator::derotate(const cv::Mat& image, const Eigen::Matrix3d& R_C1C2) const {
   cv::Mat result = cv::Mat::zeros(image.size(), CV_8UC1);
   if (box_.empty()) return result;
   cv::Mat places(box_.size(), CV_32FC2, cv::Scalar::all(-1.0));

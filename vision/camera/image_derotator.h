@@ -8,17 +8,18 @@
 
 namespace hedgehop::vision::camera {
 
-/// Shows images of one camera as they would be, had it not turned. A corner's surroundings then keep their shape, and
-/// it is found better than when rays are turned afterwards: a window near a fisheye's rim turns with the vehicle.
+/// Resamples images of one camera to those of a camera that did not rotate. A corner's window then keeps its shape, and
+/// tracking it succeeds more often than when rays are rotated afterwards: near a fisheye's rim the window rotates with
+/// the vehicle.
 class ImageDerotator {
  public:
-  /// @param wanted  CV_8UC1, of the camera's size: pixels to be shown where it is not 0.
+  /// @param wanted  CV_8UC1, of the camera's size: not 0 at the pixels to compute.
   ImageDerotator(const Camera& camera, const cv::Mat& wanted);
 
-  /// @param image  CV_8UC1, taken by C2. @param R_C1C2  rotation of C2 in C1, the camera not turned.
-  /// @return what C1 would see of things infinitely far, 0 where `image` shows nothing of it or nothing is wanted.
-  /// Source: [Zingg2010] eq. (5). Differs: turns the rays of all pixels, before corners are followed.
-  cv::Mat turned(const cv::Mat& image, const Eigen::Matrix3d& R_C1C2) const;
+  /// Returns the image that C1 would take of points infinitely far; 0 where `image` does not show them or no pixel is
+  /// wanted. @param image  CV_8UC1, taken by C2. @param R_C1C2  rotation of C2 in C1, the camera that did not rotate.
+  /// Source: [Zingg2010] eq. (5). Differs: rotates the rays of all pixels, before corners are tracked.
+  cv::Mat derotate(const cv::Mat& image, const Eigen::Matrix3d& R_C1C2) const;
 
  private:
   struct Ray {

@@ -5,7 +5,7 @@
 
 namespace hedgehop::vision::camera {
 
-/// Ideal pinhole camera. Frame C: x right, y down, z forward. Pixel (0, 0) is the center of the top-left pixel,
+/// Undistorted pinhole camera. Frame C: x right, y down, z forward. Pixel (0, 0) is the center of the top-left pixel,
 /// u right, v down, so an image covers u in [-0.5, width - 0.5].
 struct PinholeCamera {
   int width_px = 0, height_px = 0;

@@ -73,7 +73,7 @@ std::optional<Eigen::Vector2d> straighten(const PinholeLens& lens, const Eigen::
 std::optional<Eigen::Vector2d> PinholeLens::project(const Eigen::Vector3d& p_C) const {
   if (!(p_C.z() > 0.0)) return std::nullopt;
   Eigen::Vector2d p = p_C.head<2>() / p_C.z();
-  if (!ideal()) {
+  if (!is_undistorted()) {
     const Distorted at = distort(*this, p);
     if (!sees(*this, p, at.slope)) return std::nullopt;
     p = at.point;
@@ -83,7 +83,7 @@ std::optional<Eigen::Vector2d> PinholeLens::project(const Eigen::Vector3d& p_C) 
 
 std::optional<Eigen::Vector3d> PinholeLens::ray(const Eigen::Vector2d& pixel) const {
   const Eigen::Vector2d seen((pixel.x() - center_u_px) / focal_x_px, (pixel.y() - center_v_px) / focal_y_px);
-  const std::optional<Eigen::Vector2d> p = ideal() ? seen : straighten(*this, seen);
+  const std::optional<Eigen::Vector2d> p = is_undistorted() ? seen : straighten(*this, seen);
   if (!p) return std::nullopt;
   return Eigen::Vector3d(p->x(), p->y(), 1.0).normalized();
 }

@@ -15,8 +15,8 @@ struct PinholeLens {
   double k1 = 0.0, k2 = 0.0, p1 = 0.0, p2 = 0.0, k3 = 0.0;
 
   bool operator==(const PinholeLens&) const = default;
-  /// Whether rays stay straight.
-  bool ideal() const { return *this == PinholeLens{focal_x_px, focal_y_px, center_u_px, center_v_px}; }
+  /// Whether this is an undistorted pinhole: all five coefficients are zero.
+  bool is_undistorted() const { return *this == PinholeLens{focal_x_px, focal_y_px, center_u_px, center_v_px}; }
 
   /// As Camera::project().
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_C) const;

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
+
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::vision::corridor {
 namespace {
@@ -39,8 +40,7 @@ struct ApproachMeter::Fit {
 ApproachMeter::ApproachMeter(const ApproachConfig& config, const camera::Camera& camera, const Eigen::Isometry3d& X_BC,
                              const CorridorRegions& regions, int rim_px)
     : config_(config), camera_(camera) {
-  if (!(config.half_width_rad > 0.0)) throw std::invalid_argument("half_width: must be above 0 deg");
-  if (!(config.sigma_per_s > 0.0)) throw std::invalid_argument("sigma: must be above 0 1/s");
+  fields::require_bounds(config);
   CorridorRegions narrow = regions;
   narrow.ahead_rad = config.half_width_rad;
   const cv::Mat mask = region_masks(camera, X_BC, narrow, rim_px)[kAhead];
@@ -58,18 +58,18 @@ ApproachMeter::ApproachMeter(const ApproachConfig& config, const camera::Camera&
 
 std::optional<ApproachMeter::Fit> ApproachMeter::fit(const cv::Mat& older, const cv::Mat& newer,
                                                      const CameraMotion& motion, double rate_per_s) const {
-  const Eigen::Vector3d way_C = motion.R_HC1.transpose() * motion.traveled_H.normalized();
+  const Eigen::Vector3d travel_C = motion.R_HC1.transpose() * motion.traveled_H.normalized();
   const Eigen::Matrix3d R_C2C1 = motion.R_HC2.transpose() * motion.R_HC1;
   const Eigen::Vector2d corner_px(box_.x, box_.y);
   const cv::Rect2d inside(1.0, 1.0, box_.width - 3.0, box_.height - 3.0);
   double jj = 0.0, jr = 0.0, rr = 0.0;
   int count = 0;
   for (const Sample& sample : samples_) {
-    // A point at depth Z along the way keeps its place across and comes nearer by rate * dt * Z.
-    const double along = sample.ray_C.dot(way_C);
+    // A point at depth Z along the travel keeps its lateral position and comes nearer by rate * dt * Z.
+    const double along = sample.ray_C.dot(travel_C);
     if (along <= 0.1) continue;
     const auto place = [&](double rate) {
-      return camera_.project(R_C2C1 * (sample.ray_C / along - motion.dt_s * rate * way_C));
+      return camera_.project(R_C2C1 * (sample.ray_C / along - motion.dt_s * rate * travel_C));
     };
     constexpr double kSmallPerS = 0.05;
     const auto at = place(rate_per_s), on = place(rate_per_s + kSmallPerS);
@@ -84,7 +84,7 @@ std::optional<ApproachMeter::Fit> ApproachMeter::fit(const cv::Mat& older, const
   }
   if (count < 30 || jj == 0.0) return std::nullopt;
   const double left = std::max(0.0, rr - jr * jr / jj) / count;
-  // Neighbors in a smoothed image tell the same, so that some samples count as one.
+  // Neighbors in a smoothed image are correlated: this many samples count as one.
   constexpr double kAlike = 8.0;
   return Fit{-jr / jj, std::sqrt(kAlike * (left + kGreys * kGreys) / jj)};
 }
@@ -100,7 +100,7 @@ std::optional<Approach> ApproachMeter::measure(const cv::Mat& older, const cv::M
       if (!step) return std::nullopt;
       approach.rate_per_s += step->change_per_s;
       approach.sigma_per_s = step->sigma_per_s;
-      // Never to where the wall lies behind.
+      // The wall never lies behind.
       approach.rate_per_s = std::clamp(approach.rate_per_s, -0.5 / motion.dt_s, 0.5 / motion.dt_s);
       constexpr double kDonePerS = 1e-3;
       if (std::abs(step->change_per_s) < kDonePerS) break;

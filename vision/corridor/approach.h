@@ -9,25 +9,25 @@
 
 namespace hedgehop::vision::corridor {
 
-/// How the approach to what lies ahead is measured, and when it counts as known; all of it is ours.
+/// How the approach to what lies ahead is measured, and when the result is accepted; all of it is ours.
 struct ApproachConfig {
   double half_width_rad = 20.0 * std::numbers::pi / 180.0;  ///< of the part of the view, to each side of the nose
-  double sigma_per_s = 0.15;                                ///< greatest error at which the rate counts as known
+  double sigma_per_s = 0.15;                                ///< greatest error of an accepted rate
 };
 
 template <class Visitor>
 void describe(Visitor& v, ApproachConfig& c) {
   v("half_width", c.half_width_rad,
-    {.unit = "deg", .above = 0.0, .at_most = 60.0, .meaning = "of the view ahead that is compared, to each side"});
+    {.unit = "deg", .above = 0.0, .at_most = 60.0, .meaning = "half the width of the view ahead that is compared"});
   v("sigma", c.sigma_per_s,
-    {.unit = "1/s", .above = 0.0, .meaning = "error of the approach's rate above which it counts as unknown"});
+    {.unit = "1/s", .above = 0.0, .meaning = "standard deviation of the approach rate above which it is rejected"});
 }
 
-/// How fast what lies ahead grows, from all its pixels: as a wall square to the way would. Corners are rare on a coarse
-/// texture seen from near; its slopes of grey are not.
+/// How fast a wall ahead, perpendicular to the direction of travel, expands in the image. Measured from all its pixels:
+/// a coarse texture seen from close range has few corners, but grey gradients everywhere.
 struct Approach {
-  double rate_per_s = 0.0;   ///< speed over distance along the way at the older image: half the flow's divergence
-  double sigma_per_s = 0.0;  ///< standard deviation, as what is left unexplained tells
+  double rate_per_s = 0.0;   ///< speed over distance at the older image, half the flow's divergence
+  double sigma_per_s = 0.0;  ///< standard deviation, from the residuals of the fit
 };
 
 class ApproachMeter {
@@ -38,8 +38,8 @@ class ApproachMeter {
   ApproachMeter(const ApproachConfig& config, const camera::Camera& camera, const Eigen::Isometry3d& X_BC,
                 const CorridorRegions& regions, int rim_px);
 
-  /// @param older, newer  CV_8UC1. @param motion  as of wall_point(), way traveled not 0.
-  /// @return nothing where grey tells too little.
+  /// @param older, newer  CV_8UC1. @param motion  as of wall_point(), distance traveled not 0.
+  /// @return nothing where the image has too little texture.
   std::optional<Approach> measure(const cv::Mat& older, const cv::Mat& newer, const CameraMotion& motion) const;
 
  private:

@@ -7,10 +7,10 @@
 #include "vision/corridor/corridor_regions.h"
 #include "vision/flow/feature_flow.h"
 
-/// From followed corners to places of walls. Frame H: B turned level, x along the heading, y to the right.
+/// From tracked corners to positions of walls. Frame H: level, x along the heading, y to the right.
 namespace hedgehop::vision::corridor {
 
-/// Which flow counts as wrong. The two filters of [Zingg2010] sec. IV-D, whose first limit is not printed, and ours.
+/// Which flow is rejected: by the two filters of [Zingg2010] sec. IV-D, whose first limit is not printed, and by ours.
 struct FlowLimits {
   double slowest_radps = 0.05;  ///< below, noise of the images decides
   double fastest_radps = 3.0;
@@ -21,8 +21,9 @@ struct FlowLimits {
 
 template <class Visitor>
 void describe(Visitor& v, FlowLimits& c) {
-  v("slowest", c.slowest_radps, {.unit = "rad/s", .at_least = 0.0, .meaning = "flow below this tells no distance"});
-  v("fastest", c.fastest_radps, {.unit = "rad/s", .above = 0.0, .meaning = "flow above this is a wrong match"});
+  v("slowest", c.slowest_radps,
+    {.unit = "rad/s", .at_least = 0.0, .meaning = "slower flow is rejected: noise decides it"});
+  v("fastest", c.fastest_radps, {.unit = "rad/s", .above = 0.0, .meaning = "faster flow is rejected as a wrong match"});
   v("off_tangent", c.off_tangent_rad,
     {.unit = "deg",
      .above = 0.0,
@@ -32,7 +33,7 @@ void describe(Visitor& v, FlowLimits& c) {
     {.unit = "deg",
      .above = 0.0,
      .at_most = 180.0,
-     .meaning = "greatest angle of the flow to the way in which fixed points move; 180: any"});
+     .meaning = "greatest angle between the flow and the direction in which fixed points move; 180: any"});
   v("floor_share", c.floor_share,
     {.above = 0.0, .meaning = "what lies lower than this share of the height above ground is the floor"});
 }
@@ -45,20 +46,21 @@ struct CameraMotion {
   double height_m = 0.0;         ///< of the camera above ground at the newer image
 };
 
-enum class Verdict { good, too_slow, too_fast, off_tangent, astray, floor };
+/// Why a flow vector does not count; `none` for one that does.
+enum class RejectionReason { none, too_slow, too_fast, off_tangent, outlier, floor };
 
-/// A followed corner and what its flow tells.
+/// A tracked corner and what its flow measures.
 struct WallPoint {
   flow::RayPair pair;
   Region region = kAhead;
-  Verdict verdict = Verdict::good;
+  RejectionReason rejection = RejectionReason::none;
   double flow_radps = 0.0;                           ///< derotated
-  double off_way_rad = 0.0;                          ///< angle from the direction of travel to where it was
+  double off_travel_rad = 0.0;                       ///< angle from the direction of travel to the older ray
   double contact_s = 0.0;                            ///< until it lies abeam, as time_to_contact_s()
   Eigen::Vector3d p_CP_H = Eigen::Vector3d::Zero();  ///< from the camera at the newer image, m
 };
 
-/// Returns the point that a corner's flow tells, with the verdict on it.
+/// Returns the point that a corner's flow measures, and whether it is rejected.
 /// Source: [Zingg2010] eq. (2), (5) to (7), (9) and sec. IV-D.
 WallPoint wall_point(const flow::RayPair& pair, Region region, const camera::Camera& camera, const CameraMotion& motion,
                      const FlowLimits& limits);
@@ -66,10 +68,10 @@ WallPoint wall_point(const flow::RayPair& pair, Region region, const camera::Cam
 /// Distance of the wall at one side.
 struct SideDistance {
   double distance_m = 0.0;  ///< NaN when unknown
-  int count = 0;            ///< good points of the side
+  int count = 0;            ///< accepted points of the side
 };
 
-/// Returns the median of |y| over a side's good points; unknown when they are fewer than `least` (>= 1).
+/// Returns the median of |y| over a side's accepted points; unknown when they are fewer than `least` (>= 1).
 /// Source: [Zingg2010] sec. IV-E.
 SideDistance side_distance(const std::vector<WallPoint>& points, Region side, int least);
 
@@ -86,38 +88,39 @@ struct GapConfig {
   double slice_m = 0.4;
   double share = 0.2;                                  ///< of a slice's points that may lie nearer: wrong ones
   double least_rad = 15.0 * std::numbers::pi / 180.0;  ///< from the direction of travel: nearer, the flow is noise
-  int least = 6;                                       ///< points in a slice, or nearer ahead, that are believed
+  int least = 6;                                       ///< points that a slice, or a free time, needs
 };
 
 template <class Visitor>
 void describe(Visitor& v, GapConfig& c) {
-  v("behind", c.behind_m, {.unit = "m", .at_least = 0.0, .meaning = "the gap's reach behind"});
-  v("ahead", c.ahead_m, {.unit = "m", .above = 0.0, .meaning = "the gap's reach ahead"});
-  v("slice", c.slice_m, {.unit = "m", .above = 0.0, .meaning = "length of the slices that the gap is measured in"});
+  v("behind", c.behind_m, {.unit = "m", .at_least = 0.0, .meaning = "how far behind the camera the gap is measured"});
+  v("ahead", c.ahead_m, {.unit = "m", .above = 0.0, .meaning = "how far ahead of the camera the gap is measured"});
+  v("slice", c.slice_m, {.unit = "m", .above = 0.0, .meaning = "length of the slices in which the gap is measured"});
   v("share", c.share,
-    {.at_least = 0.0, .below = 0.5, .meaning = "share of a slice's points left out as wrong, the nearest ones"});
+    {.at_least = 0.0, .below = 0.5, .meaning = "share of a slice's points, the nearest, left out as outliers"});
   v("least_angle", c.least_rad,
     {.unit = "deg",
      .at_least = 0.0,
      .at_most = 90.0,
-     .meaning = "points nearer to the direction of travel do not count for the gap"});
+     .meaning = "points closer to the direction of travel do not count for the gap"});
   v("least", c.least, {.at_least = 1, .meaning = "points that a slice must have to count"});
 }
 
-/// Free distance to the left and right over the whole reach, m; NaN where no slice has points enough.
+/// Free distance to the left and right over the measured length, m; NaN where no slice has enough points.
 struct Gap {
   double left_m = 0.0, right_m = 0.0;
 };
-/// Returns the narrowest that any slice across the heading leaves on each side.
+/// Returns the smallest free distance of all slices, on each side.
 Gap gap_ahead(const std::vector<WallPoint>& points, const GapConfig& config);
 
 /// Returns the time after which a fixed point lies abeam, s, < 0 for a point behind, +inf without flow: straight ahead
-/// two over the flow's divergence. Parameters as distance_m(), of the way traveled the direction only.
+/// two over the flow's divergence. Parameters as distance_m(); only the direction of `traveled` counts.
 double time_to_contact_s(const Eigen::Vector3d& before, const Eigen::Vector3d& after, const Eigen::Vector3d& traveled,
                          double dt_s);
 
-/// Returns the least time to contact that `least` good points agree on, s, among those that a body of the given half
-/// width meets when it flies straight on; +inf when there are fewer. @param way_H  direction of travel, not 0.
-double free_time_s(const std::vector<WallPoint>& points, const Eigen::Vector2d& way_H, double half_width_m, int least);
+/// Returns the time until `least` accepted points are met, s, by a body of the given half width that flies straight
+/// on; +inf when it meets fewer. @param direction_H  direction of travel, not 0.
+double free_time_s(const std::vector<WallPoint>& points, const Eigen::Vector2d& direction_H, double half_width_m,
+                   int least);
 
 }  // namespace hedgehop::vision::corridor

@@ -5,6 +5,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "sim/fields/bounds.h"
+
 namespace hedgehop::vision::corridor {
 namespace {
 
@@ -21,10 +23,10 @@ std::optional<Region> region_of(const Eigen::Vector3d& ray_B, const CorridorRegi
 
 std::array<cv::Mat, kRegions> region_masks(const camera::Camera& camera, const Eigen::Isometry3d& X_BC,
                                            const CorridorRegions& regions, int rim_px) {
+  fields::require_bounds(regions);
   if (!(regions.lowest_rad < regions.highest_rad)) {
     throw std::invalid_argument("highest: must be above the lowest elevation");
   }
-  if (!(regions.segment_rad > 0.0)) throw std::invalid_argument("segment: must be above 0 deg");
   std::array<cv::Mat, kRegions> masks;
   for (cv::Mat& mask : masks) mask = cv::Mat::zeros(camera.height_px, camera.width_px, CV_8UC1);
   cv::Mat shown = cv::Mat::zeros(camera.height_px, camera.width_px, CV_8UC1);

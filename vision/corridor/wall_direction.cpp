@@ -29,7 +29,7 @@ double scatter_m(const Places& places, double direction_rad, std::vector<double>
 double wall_direction_rad(const std::vector<WallPoint>& points, double most_rad, int least) {
   std::array<Places, 2> sides;
   for (const WallPoint& point : points) {
-    if (point.verdict != Verdict::good || point.region == kAhead) continue;
+    if (point.rejection != RejectionReason::none || point.region == kAhead) continue;
     sides[point.region == kRight].push_back(point.p_CP_H.head<2>());
   }
   const auto enough = static_cast<size_t>(std::max(1, least));
@@ -55,7 +55,7 @@ double wall_direction_rad(const std::vector<WallPoint>& points, double most_rad,
   return best_rad;
 }
 
-std::vector<WallPoint> looking_along(std::vector<WallPoint> points, double direction_rad) {
+std::vector<WallPoint> rotate_points(std::vector<WallPoint> points, double direction_rad) {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(-direction_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   for (WallPoint& point : points) point.p_CP_H = turn * point.p_CP_H;
   return points;

@@ -5,15 +5,14 @@
 #include <optional>
 #include <stdexcept>
 
+#include "sim/fields/bounds.h"
+
 namespace hedgehop::vision::flow {
 namespace {
 
 void check(const FeatureFlowConfig& c) {
-  if (c.most < 1) throw std::invalid_argument("most: must be at least 1");
-  if (!(c.quality > 0.0 && c.quality <= 1.0)) throw std::invalid_argument("quality: must lie in (0, 1]");
-  if (c.apart_px < 1) throw std::invalid_argument("apart: must be at least 1 px");
-  if (c.window_px < 3 || c.window_px % 2 == 0) throw std::invalid_argument("window: must be odd, at least 3 px");
-  if (c.levels < 1) throw std::invalid_argument("levels: must be at least 1");
+  fields::require_bounds(c);
+  if (c.window_px % 2 == 0) throw std::invalid_argument("window: must be odd");
 }
 
 /// The strongest corners of a region, strongest first.

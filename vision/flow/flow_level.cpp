@@ -13,7 +13,7 @@ constexpr double kHalvingGain = 20.0 / 64.0, kSmoothingGain = 6.0 / 16.0;
 constexpr double kNoiseArea = 1.0 / (kSmoothingGain * kSmoothingGain);
 // Texture must exceed noise by this much (mean squares) along the direction where it is weakest.
 constexpr double kLeastContrast = 3.0;
-// Shifted copies one pixel either way tell nothing of larger steps; in reduced pixels.
+// Copies shifted by one pixel do not measure larger steps; in reduced pixels.
 constexpr double kLargestStep = 2.0, kLargestLastStep = 1.0;
 
 double noise_energy(const ImageInterpolationConfig& config, int reduction, int bits) {

@@ -53,7 +53,7 @@ class PatchMeans {
 /// varies within the patch leaves no trace.
 class FlowLevel {
  public:
-  /// @param band_begin_px  row of the full image where the band looked at begins.
+  /// @param band_begin_px  row of the full image where the examined band begins.
   /// @param width_px, height_px  of the band in full pixels.  @param bits  of the images' numbers.
   FlowLevel(const ImageInterpolationConfig& config, const PatchGrid& grid, int reduction, int band_begin_px,
             int width_px, int height_px, int bits);

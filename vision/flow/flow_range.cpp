@@ -32,8 +32,8 @@ std::vector<double> inverse_ranges_per_m(const FlowField& field, const camera::P
   near.reserve(field.vectors.size());
   for (const FlowVector& vector : field.vectors) {
     const double stretch = std::hypot(1.0, camera.ray(vector.center_px).x());
-    const double near_per_m = inverse_depth_per_m(vector, camera, v_WC_C, dt_s, floor_mps) / stretch;
-    near.push_back(vector.valid ? near_per_m : std::numeric_limits<double>::quiet_NaN());
+    const double inverse_range_per_m = inverse_depth_per_m(vector, camera, v_WC_C, dt_s, floor_mps) / stretch;
+    near.push_back(vector.valid ? inverse_range_per_m : std::numeric_limits<double>::quiet_NaN());
   }
   return near;
 }

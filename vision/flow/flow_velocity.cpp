@@ -44,7 +44,7 @@ std::vector<Equation> equations(const FlowField& field, const camera::PinholeCam
     const double depth_m = camera_height_m / down;
     const Eigen::Vector2d flow_px = vector.flow_px - rotation_flow_px(camera, vector.center_px, w_C, motion.dt_s);
     const Eigen::Matrix<double, 2, 3> per_velocity = image_jacobian(camera, vector.center_px, depth_m).leftCols<3>();
-    // Velocity of C is velocity of B plus that of the lever arm, which the gyros tell.
+    // Velocity of C is velocity of B plus that of the lever arm, which the gyros measure.
     const Eigen::Vector2d rate_pxps = flow_px / motion.dt_s - per_velocity * v_lever_C;
     const double scale = depth_m / camera.focal_x_px;
     all.push_back({scale * per_velocity * R_CB, scale * rate_pxps});
@@ -107,7 +107,7 @@ std::optional<FlowVelocity> flow_velocity(const FlowField& field, const camera::
       right += e.weight * e.rows.transpose() * e.flow_mps;
     }
     const Eigen::LDLT<Eigen::Matrix3d> solver(information);
-    // Vectors that all lie in one corner cannot tell sideways from vertical motion.
+    // Vectors that all lie in one corner cannot separate sideways from vertical motion.
     if (!(solver.rcond() > 1e-4)) return std::nullopt;
     v_B = solver.solve(right);
     sigma_mps = reweigh(all, v_B);

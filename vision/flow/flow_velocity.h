@@ -9,10 +9,10 @@
 
 namespace hedgehop::vision::flow {
 
-/// How a velocity is read off a camera that looks at the ground.
+/// How a velocity is measured by a camera that sees the ground.
 struct FlowVelocityConfig {
-  int min_vectors = 8;              ///< fewer valid vectors, or fewer that agree, tell nothing
-  double min_height_m = 0.1;        ///< below this nothing is told
+  int min_vectors = 8;              ///< with fewer valid or agreeing vectors there is no velocity
+  double min_height_m = 0.1;        ///< below this there is no velocity
   double max_view_angle_rad = 1.2;  ///< rays further from the vertical are left out: their range is too uncertain
   double sigma_floor_mps = 0.02;    ///< what no number of vectors improves on
 };
@@ -20,18 +20,18 @@ struct FlowVelocityConfig {
 template <class Visitor>
 void describe(Visitor& v, FlowVelocityConfig& c) {
   v("min_vectors", c.min_vectors, {.at_least = 3, .meaning = "valid flow vectors needed for a velocity"});
-  v("min_height", c.min_height_m, {.unit = "m", .above = 0.0, .meaning = "height below which no velocity is told"});
+  v("min_height", c.min_height_m, {.unit = "m", .above = 0.0, .meaning = "height below which no velocity is measured"});
   v("max_view_angle", c.max_view_angle_rad,
     {.unit = "deg", .above = 0.0, .at_most = 85.0, .meaning = "rays further from the vertical are left out"});
   v("sigma_floor", c.sigma_floor_mps,
     {.unit = "m/s", .at_least = 0.0, .meaning = "standard deviation that no number of vectors improves on"});
 }
 
-/// A velocity read off a flow field.
+/// A velocity measured from a flow field.
 struct FlowVelocity {
   Eigen::Vector2d v_WB_B_xy_meas = Eigen::Vector2d::Zero();  ///< forward and right, m/s
   double sigma_mps = 0.0;                                    ///< of each component
-  int agreeing = 0;                                          ///< vectors that the fit went by
+  int agreeing = 0;                                          ///< vectors that entered the fit
 };
 
 /// Motion of the aircraft between the two images of a field, as far as other sensors know it.

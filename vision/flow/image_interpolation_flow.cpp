@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/fields/bounds.h"
 #include "vision/flow/flow_level.h"
 #include "vision/flow/patch_grid.h"
 #include "vision/flow/reduced_image.h"
@@ -19,16 +20,11 @@ namespace {
 constexpr int kBandRimPx = 16;
 
 void check(const ImageInterpolationConfig& c) {
+  fields::require_bounds(c, "flow");
   const auto need = [](bool holds, const char* message) {
     if (!holds) throw std::invalid_argument(std::string("flow: ") + message);
   };
-  need(c.rows >= 1 && c.cols >= 1, "at least one row and one column of patches");
-  need(c.margin_px >= 0, "margin must be at least 0 px");
   need(c.reduction == 1 || c.reduction == 2 || c.reduction == 4, "reduction must be 1, 2 or 4");
-  need(c.levels >= 1 && c.levels <= 4, "levels must be 1 to 4");
-  need(c.iterations >= 1, "at least one iteration");
-  need(c.max_flow_px > 0.0 && c.noise_grey > 0.0 && c.max_sigma_px > 0.0 && c.max_misfit_px > 0.0,
-       "max_flow, noise, max_sigma and max_misfit must be above 0");
   need(c.patch_px >= 4 * (c.reduction << (c.levels - 1)),
        "patch must be at least four pixels of the coarsest image (patch / reduction / 2^(levels - 1) >= 4)");
 }

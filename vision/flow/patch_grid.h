@@ -16,7 +16,7 @@ struct PatchGrid {
   std::vector<PatchRange> rows, cols;
 };
 
-/// Returns evenly spaced square patches, mirrored about the image's middle, that keep out of its rim.
+/// Returns evenly spaced square patches, mirrored about the image's middle, that stay out of its rim.
 /// @param alignment_px  rows begin and end at multiples of it, columns at multiples of twice as much, >= 1; `patch_px`
 ///                      and the spacing are rounded to that.
 /// Throws std::invalid_argument when the patches do not fit.

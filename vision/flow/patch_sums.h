@@ -9,12 +9,12 @@
 namespace hedgehop::vision::flow {
 
 /// Sums of products of images over a grid of equal, possibly overlapping patches, at a cost per pixel that does not
-/// depend on patch size or overlap: columns are summed downwards, kept at the rows where patches begin or end, and
+/// depend on patch size or overlap: columns are summed downwards, stored at the rows where patches begin or end, and
 /// summed sideways once per row of patches. Exact integers.
 class PatchSums {
  public:
   /// @param rows, cols  patches; column ranges begin and end at even pixels.
-  /// @param padded_width  a multiple of 8.  @param channels  sums kept side by side.
+  /// @param padded_width  a multiple of 8.  @param channels  sums computed side by side.
   /// Throws std::invalid_argument on odd columns or ranges outside the image.
   PatchSums(std::span<const PatchRange> rows, std::span<const PatchRange> cols, int padded_width, int height,
             int channels);
@@ -23,7 +23,7 @@ class PatchSums {
   int first_row() const { return boundaries_.front(); }
   int end_row() const { return boundaries_.back(); }
 
-  /// Starts anew at first_row().
+  /// Starts again at first_row().
   void begin();
   /// Adds products of the current row. A patch's columns of a channel must sum up within 31 bits:
   /// 2 * |a| * |b| * patch height < 2^31.

@@ -7,7 +7,7 @@
 
 namespace hedgehop::vision::flow {
 
-Eigen::Vector3d derotated(const Eigen::Vector3d& after_C, const Eigen::Matrix3d& R_C1C2) { return R_C1C2 * after_C; }
+Eigen::Vector3d derotate_ray(const Eigen::Vector3d& after_C, const Eigen::Matrix3d& R_C1C2) { return R_C1C2 * after_C; }
 
 double flow_angle_rad(const Eigen::Vector3d& before, const Eigen::Vector3d& after) {
   return std::atan2(before.cross(after).norm(), before.dot(after));
@@ -19,7 +19,8 @@ double distance_m(const Eigen::Vector3d& before, const Eigen::Vector3d& after, c
   return sin_flow > 0.0 ? across_m / sin_flow : std::numeric_limits<double>::infinity();
 }
 
-double stray_rad(const Eigen::Vector3d& before, const Eigen::Vector3d& after, const Eigen::Vector3d& traveled) {
+double direction_error_rad(const Eigen::Vector3d& before, const Eigen::Vector3d& after,
+                           const Eigen::Vector3d& traveled) {
   const Eigen::Vector3d moved = after - after.dot(before) * before;
   const Eigen::Vector3d fixed = traveled.dot(before) * before - traveled;
   if (moved.norm() == 0.0 || fixed.norm() == 0.0) return std::numbers::pi / 2.0;

@@ -11,16 +11,17 @@ namespace {
 /// Sums of the least squares for m over the first patches, in units of their noise.
 struct Sums {
   Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
-  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  ///< what the vehicle's motion tells of m, without the noise
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  ///< on m from the vehicle's motion, without the noise
   Eigen::Vector2d c = Eigen::Vector2d::Zero();
   double squares = 0.0;
 
-  void add(const WallSight& sight) {
+  void add(const WallObservation& observation) {
     for (int k = 0; k < 2; ++k) {
-      const Eigen::Vector2d slope = (sight.unit_flow[k] * sight.ray_H + sight.flow[k] * sight.p_BC_H) / sight.noise;
-      const double flow = sight.flow[k] / sight.noise;
+      const Eigen::Vector2d slope =
+          (observation.unit_flow[k] * observation.ray_H + observation.flow[k] * observation.p_BC_H) / observation.noise;
+      const double flow = observation.flow[k] / observation.noise;
       A += slope * slope.transpose();
-      const Eigen::Vector2d shift = sight.unit_flow[k] * sight.ray_H / sight.noise;
+      const Eigen::Vector2d shift = observation.unit_flow[k] * observation.ray_H / observation.noise;
       information += shift * shift.transpose();
       c += flow * slope;
       squares += flow * flow;
@@ -32,32 +33,32 @@ struct Sums {
 };
 
 struct Fit {
-  SeenWall wall;
-  double squares = std::numeric_limits<double>::infinity();  ///< of what is left of the flow
+  WallEstimate wall;
+  double squares = std::numeric_limits<double>::infinity();  ///< of the residual flow
 };
 
 Fit fit(const Sums& sums, size_t patches) {
   const Eigen::FullPivLU<Eigen::Matrix2d> lu(sums.A), information(sums.information);
   if (!lu.isInvertible() || !information.isInvertible()) return {};
   const Eigen::Vector2d near = lu.solve(sums.c);
-  const double near_per_m = near.norm();
-  if (!(near_per_m > 0.0)) return {};
+  const double inverse_range_per_m = near.norm();
+  if (!(inverse_range_per_m > 0.0)) return {};
   const double squares = std::max(0.0, sums.squares - sums.c.dot(near));
   const double scatter = std::max(1.0, squares / (2.0 * static_cast<double>(patches) - 2.0));
-  const Eigen::Vector2d n = near / near_per_m;
-  return {{near, std::sqrt(scatter * n.dot(information.solve(n))) / near_per_m}, squares};
+  const Eigen::Vector2d n = near / inverse_range_per_m;
+  return {{near, std::sqrt(scatter * n.dot(information.solve(n))) / inverse_range_per_m}, squares};
 }
 
 }  // namespace
 
-std::vector<SeenWall> walls_from_flow(std::span<const WallSight> sights, double relative_error) {
+std::vector<WallEstimate> walls_from_flow(std::span<const WallObservation> observations, double relative_error) {
   constexpr size_t kFewest = 3;       // patches of a wall
   constexpr double kOneMore = 12.0;   // squares that a further wall must explain: its two numbers, six times over
   constexpr double kNoWall = 1000.0;  // squares of a patch that belongs to none: far worse than any that fits
   std::vector<Sums> upto(1);
-  for (const WallSight& sight : sights) {
+  for (const WallObservation& observation : observations) {
     upto.push_back(upto.back());
-    upto.back().add(sight);
+    upto.back().add(observation);
   }
   std::vector<double> least(upto.size(), std::numeric_limits<double>::infinity());
   std::vector<size_t> begin(upto.size(), 0);
@@ -72,7 +73,7 @@ std::vector<SeenWall> walls_from_flow(std::span<const WallSight> sights, double 
       begin[end] = first;
     }
   }
-  std::vector<SeenWall> walls;
+  std::vector<WallEstimate> walls;
   for (size_t end = upto.size() - 1; end > 0; end = begin[end]) {
     if (end - begin[end] < kFewest) continue;
     const Fit found = fit(upto[end].minus(upto[begin[end]]), end - begin[end]);

@@ -15,7 +15,7 @@ namespace hedgehop::vision::landmarks {
 namespace {
 
 void check(const LandmarkMapConfig& c) {
-  fields::require_bounds(c);
+  fields::require_bounds(c, "map");
   const auto need = [](bool holds, const char* message) {
     if (!holds) throw std::invalid_argument(std::string("landmark map: ") + message);
   };
@@ -57,7 +57,7 @@ std::vector<std::optional<size_t>> match_confirmed_first(std::span<const std::op
 
 LandmarkMap::LandmarkMap(const LandmarkMapConfig& config, const camera::PinholeCamera& camera)
     : config_(config), camera_(camera), bearing_sigma_(config.pixel_sigma_px / camera.focal_x_px) {
-  check(config);
+  fields::require_bounds(config, "map");
 }
 
 std::vector<int64_t> LandmarkMap::update(std::span<const Eigen::Vector2d> corners_px, const CameraPose& pose,

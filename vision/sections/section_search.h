@@ -6,14 +6,14 @@
 
 namespace hedgehop::vision::sections {
 
-/// Overlapping sections of an image: rows x cols rectangles of one size, spread evenly so that the outermost touch the
+/// Overlapping sections of an image: rows x cols rectangles of one size, spread evenly so that the outermost reach the
 /// image's edges, numbered from the top left, row by row, from 0. Source: [Perez2018] sec. on the selection of
 /// sections.
 struct SectionGrid {
   int rows = 17, cols = 17;          ///< at least 1
   double width_share = 628. / 1280;  ///< of the image's width, in (0, 1]
   double height_share = 252. / 720;  ///< of the image's height, in (0, 1]
-  int grow_px = 0;                   ///< by which threats are widened to every side, >= 0; beyond the paper
+  int grow_px = 0;                   ///< by which threats are dilated, >= 0; beyond the paper
 
   bool operator==(const SectionGrid&) const = default;
 };
@@ -21,7 +21,7 @@ struct SectionGrid {
 /// Sections of an image, in their order. Throws std::invalid_argument on a grid or size out of range.
 std::vector<cv::Rect> sections(const SectionGrid& grid, cv::Size image);
 
-/// What is to be thought of a pixel without depth.
+/// What a pixel without depth counts as.
 enum class Unknown { free, threat };
 
 /// One choice among sections.
@@ -32,7 +32,7 @@ struct SectionChoice {
 };
 
 /// Chooses the section with the smallest share of pixels that are threats. Sums come from an integral image, so that
-/// the cost does not hang on the number and size of sections. Reuses its memory from image to image. Differs: the
+/// the cost does not depend on the number and size of sections. Reuses its memory from image to image. Differs: the
 /// paper counts every section pixel by pixel, and its cost grows with their number (table 1).
 class SectionSearch {
  public:
@@ -41,9 +41,9 @@ class SectionSearch {
 
   /// @param depth_m      rows x cols, CV_32F, of the size given, m; NaN unknown, +infinity sky.
   /// @param threshold_m  what is nearer is a threat, > 0.
-  /// @param most_share   share of threats above which a section is no way out, in [0, 1].
-  /// @param open         whether a section may be chosen, asked of as few as can be; empty: all may. Where none that
-  ///                     is open has few enough threats, none counts as shut.
+  /// @param most_share   share of threats above which a section is not chosen, in [0, 1].
+  /// @param open         whether a section may be chosen, called as seldom as possible; empty: all may. Where no
+  ///                     open section has few enough threats, all count as open.
   /// @return equal shares go to the section whose center lies nearest the image's center, then to the lower number.
   SectionChoice choose(const cv::Mat& depth_m, double threshold_m, double most_share, Unknown unknown,
                        const std::function<bool(int)>& open = {});

@@ -8,13 +8,13 @@
 
 namespace hedgehop::vision::stereo {
 
-/// Centers of the pyramid's blocks whose nearest point is still farther than `far_disparity16` tells: a far block is
-/// taken as a whole, a near one divided, down to level `finest`; blocks without any depth are left out.
+/// Centers of the pyramid's blocks whose nearest point is farther than `far_disparity16`: a far block is taken as a
+/// whole, a near one divided, down to level `finest`; blocks without any depth are left out.
 /// @param coarsest  level to begin with, in [finest, top]. @param finest  >= 0.
 /// Source: [Andert2007] sec. 4.3.1.
 std::vector<cv::Point> quadtree_targets(const DepthPyramid& pyramid, double far_disparity16, int coarsest, int finest);
 
-/// Where to look near the last target: a fine square lattice within a circle, a coarser one in the ring round it.
+/// Candidates near the last target: a fine square lattice within a circle, a coarser one in the ring round it.
 struct NearbyLattice {
   int fine_step_px = 2, coarse_step_px = 4;       ///< d_1, d_2, at least 1
   int fine_radius_px = 5, coarse_radius_px = 19;  ///< r_1 <= r_2

@@ -5,9 +5,9 @@
 
 namespace hedgehop::vision::stereo {
 
-/// A disparity image (vision/disparity.h) and coarser ones above it: each pixel of level n + 1 holds the largest,
-/// that is nearest, disparity of a 2 x 2 block of level n; edges are filled up with unknown. Level 0 is the image
-/// itself, filled up to multiples of 2^top. Keeps its memory from image to image. Source: [Andert2007] sec. 4.2.
+/// A disparity image (vision/stereo/disparity.h) and coarser ones above it: each pixel of level n + 1 holds the
+/// largest, that is nearest, disparity of a 2 x 2 block of level n; edges are padded with unknown. Level 0 is the image
+/// itself, padded to multiples of 2^top. Keeps its memory from image to image. Source: [Andert2007] sec. 4.2.
 class DepthPyramid {
  public:
   /// @param disparity16  CV_16SC1. @param top  the coarsest level, in [0, 15]. Throws std::invalid_argument otherwise.

@@ -105,8 +105,8 @@ int mark_sky(const cv::Mat& grey, int texture, int brightness, SkyAmong among, c
     const auto* const g = grey.ptr<uint8_t>(v);
     auto* const d = disparity16.ptr<int16_t>(v);
     for (int u = 1; u < grey.cols; ++u) {
-      const bool asked = among == SkyAmong::all || d[u] < 0;
-      const bool sky = asked && std::abs(int{g[u]} - int{g[u - 1]}) < texture && g[u] > brightness;
+      const bool tested = among == SkyAmong::all || d[u] < 0;
+      const bool sky = tested && std::abs(int{g[u]} - int{g[u - 1]}) < texture && g[u] > brightness;
       if (!sky) continue;
       d[u] = 0;
       ++found;

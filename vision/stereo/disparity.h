@@ -10,7 +10,7 @@ namespace hedgehop::vision::stereo {
 inline constexpr double kDisparityUnits = 16.0;  ///< per pixel
 inline constexpr int16_t kNoDisparity = -1;
 
-/// Two rectified pinholes side by side. Frame C is the left one's.
+/// Two rectified undistorted pinholes side by side. Frame C is the left one's.
 struct StereoGeometry {
   double focal_px = 0.0;  ///< > 0
   double center_u_px = 0.0, center_v_px = 0.0;
@@ -31,13 +31,13 @@ void to_depth(const cv::Mat& disparity16, const StereoGeometry& geometry, cv::Ma
 
 /// Marks segments smaller than `smallest_px` pixels as unknown. Neighbors, of eight, belong together when their
 /// disparities differ by less than `difference16`; unknown pixels belong to none.
-/// @return pixels taken away. Source: [Andert2007] sec. 3.3.1, eq. (5).
+/// @return pixels removed. Source: [Andert2007] sec. 3.3.1, eq. (5).
 int remove_specks(cv::Mat& disparity16, int difference16, int smallest_px);
 
-/// Which pixels are asked whether they are sky.
+/// Which pixels are tested for sky.
 enum class SkyAmong {
   unknown,  ///< as printed: where the matcher found nothing
-  all,      ///< also where it did: a semi-global one carries a tree's disparity on across the untextured sky
+  all,      ///< also where it did: a semi-global matcher extends a tree's disparity across the untextured sky
 };
 /// Makes pixels that are bright and without texture infinitely far; column 0 is left as it is.
 /// @param grey  CV_8UC1, the left image. @return pixels found to be sky. Source: [Andert2007] eq. (6) to (8).

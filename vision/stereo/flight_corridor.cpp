@@ -9,7 +9,7 @@ namespace {
 
 /// With z = 16 b f / d, [Andert2007] eq. (9) to (11) come to
 ///   dx^2 / (f^2 + (x_path - x_0)^2) + dy^2 / (f^2 + (y_path - y_0)^2)  <=  (r d / (16 b f))^2 ,
-/// so the offset from the path on the left tells which disparities d put a point inside the corridor.
+/// so the offset from the path on the left determines which disparities d put a point inside the corridor.
 class Search {
  public:
   Search(const DepthPyramid& pyramid, const StereoGeometry& geometry, const cv::Point& path, double radius_m,

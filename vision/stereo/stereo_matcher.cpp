@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "sim/fields/bounds.h"
 #include "vision/stereo/disparity.h"
 
 namespace hedgehop::vision::stereo {
@@ -15,9 +16,9 @@ void check(const StereoMatcherConfig& c) {
   const auto need = [](bool holds, const std::string& fault) {
     if (!holds) throw std::invalid_argument(fault);
   };
-  need(c.disparities_px >= 16 && c.disparities_px % 16 == 0,
-       "disparities: " + std::to_string(c.disparities_px) + " is not a multiple of 16");
-  need(c.block_px >= 1 && c.block_px % 2 == 1, "block: " + std::to_string(c.block_px) + " is not odd");
+  fields::require_bounds(c);
+  need(c.disparities_px % 16 == 0, "disparities: " + std::to_string(c.disparities_px) + " is not a multiple of 16");
+  need(c.block_px % 2 == 1, "block: " + std::to_string(c.block_px) + " is not odd");
   need(c.method == StereoMatcherConfig::Method::semi_global || c.block_px >= 5,
        "block: the block matcher takes squares of 5 px or more, got " + std::to_string(c.block_px));
 }

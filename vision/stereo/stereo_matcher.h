@@ -39,8 +39,8 @@ class StereoMatcher {
   StereoMatcher& operator=(StereoMatcher&&) noexcept;
   ~StereoMatcher();
 
-  /// @param left, right  CV_8UC1, of one size, rectified. @param disparity16  as in vision/disparity.h, of the left.
-  /// Throws std::invalid_argument when the images do not fit together.
+  /// @param left, right  CV_8UC1, of one size, rectified. @param disparity16  as in vision/stereo/disparity.h, of the
+  /// left. Throws std::invalid_argument when the images do not fit together.
   void match(const cv::Mat& left, const cv::Mat& right, cv::Mat& disparity16);
 
  private:

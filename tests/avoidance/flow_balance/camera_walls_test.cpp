@@ -40,10 +40,10 @@ TEST(CameraWalls, ARoomIsRangedFromTwoImagesOfFourCameras) {
     for (const Eigen::Vector2d& to_wall_m :
          {Eigen::Vector2d(kNorthM - moved_m.x(), 0.0), Eigen::Vector2d(0.0, kEastM - moved_m.y()),
           Eigen::Vector2d(-kSouthM - moved_m.x(), 0.0), Eigen::Vector2d(0.0, -kWestM - moved_m.y())}) {
-      const vision::flow::SeenWall* nearest = nullptr;
+      const vision::flow::WallEstimate* nearest = nullptr;
       double least = INFINITY;
-      for (const vision::flow::SeenWall& found : walls) {
-        const double error = (found.near_per_m * to_wall_m.norm() - to_wall_m.normalized()).norm();
+      for (const vision::flow::WallEstimate& found : walls) {
+        const double error = (found.inverse_range_per_m * to_wall_m.norm() - to_wall_m.normalized()).norm();
         if (error >= least) continue;
         least = error;
         nearest = &found;
@@ -53,7 +53,7 @@ TEST(CameraWalls, ARoomIsRangedFromTwoImagesOfFourCameras) {
       if (to_wall_m.norm() < 3.5) {
         EXPECT_LT(least, 0.1) << v_mps.transpose() << " to " << to_wall_m.transpose();
       }
-      EXPECT_LT(std::abs(nearest->near_per_m.norm() * to_wall_m.norm() - 1.0), 3.0 * nearest->relative_error)
+      EXPECT_LT(std::abs(nearest->inverse_range_per_m.norm() * to_wall_m.norm() - 1.0), 3.0 * nearest->relative_error)
           << v_mps.transpose() << " to " << to_wall_m.transpose();
     }
   }

@@ -76,7 +76,7 @@ inline std::vector<CameraFrame> see(const Setup& setup, const NavigationState& n
   std::vector<CameraFrame> frames;
   for (const MountedCamera& camera : setup.cameras) {
     const Eigen::Isometry3d X_WC = X_WB * camera.X_BC;
-    const bool straight = camera.model.is_ideal_pinhole();
+    const bool straight = camera.model.is_undistorted_pinhole();
     frames.push_back({camera.role, t_ns,
                       straight ? vision::draw_planes(camera.model.pinhole(), X_WC, walls, texture)
                                : vision::draw_planes_through(camera.model, X_WC, walls, texture)});

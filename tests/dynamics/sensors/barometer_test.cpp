@@ -16,7 +16,7 @@ using testing::ThrowsMessage;
 constexpr double kSeaLevelPa = 101325.0;
 
 std::optional<double> at(Barometer& barometer, double altitude_m) {
-  barometer.feel(altitude_m);
+  barometer.observe(altitude_m);
   return barometer.read();
 }
 
@@ -71,7 +71,7 @@ TEST(Barometer, ReadsAClimbATimeConstantLateInTheEnd) {
   constexpr double kClimbMps = 2.0;
   double late_pa = 0.0;
   for (int tick = 0; tick <= 500; ++tick) {
-    late.feel(kClimbMps * 0.002 * tick);
+    late.observe(kClimbMps * 0.002 * tick);
     late_pa = *late.read();
   }
   // A first-order lag of a ramp is behind by the time constant; sampled, by up to half a tick more or less.

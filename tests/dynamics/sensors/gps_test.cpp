@@ -29,7 +29,7 @@ TEST(Gps, AS6_FixesAreALatencyOld) {
   int fixes = 0;
   for (int64_t tick = 0; tick < 1000; ++tick) {
     const double t = static_cast<double>(tick) * kDt;
-    gps.feel({kSpeed * t, 0.0, -10.0}, {kSpeed, 0.0, 0.0});
+    gps.observe({kSpeed * t, 0.0, -10.0}, {kSpeed, 0.0, 0.0});
     if (tick % gps.period() != 0) continue;
     const std::optional<GpsFix> fix = gps.read();
     EXPECT_EQ(fix.has_value(), tick > 0);  // the first would be older than the flight
@@ -49,7 +49,7 @@ TEST(Gps, ErrorsHaveTheirSpreadAndCorrelation) {
   double wander2 = 0.0, product = 0.0, vertical2 = 0.0, velocity2 = 0.0;
   for (int i = 0; i < kFlights; ++i) {
     Gps gps(c, 0.2, static_cast<uint64_t>(i));
-    gps.feel(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+    gps.observe(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
     const GpsFix first = *gps.read();
     for (int k = 1; k < kLater; ++k) gps.read();
     const GpsFix last = *gps.read();
@@ -70,7 +70,7 @@ TEST(Gps, GivesNothingWithoutReception) {
   c.enabled = false;
   Gps gps(c, 0.2, 1);
   for (int i = 0; i < 10; ++i) {
-    gps.feel(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+    gps.observe(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
     EXPECT_FALSE(gps.read().has_value());
   }
 }
@@ -83,7 +83,7 @@ TEST(Gps, LosesItsShareOfFixes) {
   constexpr int kCount = 20000;
   int lost = 0;
   for (int i = 0; i < kCount; ++i) {
-    gps.feel(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+    gps.observe(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
     if (!gps.read()) ++lost;
   }
   EXPECT_NEAR(static_cast<double>(lost) / kCount, 0.3, 0.013);  // four standard errors

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "sim/fields/bounds.h"
+
 namespace hedgehop::dynamics::sensors {
 namespace {
 
@@ -47,7 +49,7 @@ TEST(HeightSensor, AConeOverNothingHearsNothing) {
 TEST(HeightSensor, RefusesAConeThatSeesTheHorizon) {
   HeightSensorConfig c;
   c.cone_rad = 1.0;
-  EXPECT_THAT([&] { check(c); },
+  EXPECT_THAT([&] { fields::require_bounds(c, "height_sensor"); },
               testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("height_sensor.cone: ")));
 }
 

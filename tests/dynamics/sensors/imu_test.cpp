@@ -46,7 +46,7 @@ Rms white_level(double rate_hz) {
   constexpr int kCount = 40000;  // on three axes
   double w2 = 0.0, f2 = 0.0;
   for (int i = 0; i < kCount; ++i) {
-    imu.feel(Eigen::Vector3d::Zero(), kLevelRest);
+    imu.observe(Eigen::Vector3d::Zero(), kLevelRest);
     const ImuReading r = imu.read();
     w2 += r.w_WB_B_meas.squaredNorm();
     f2 += (r.specific_force_B_meas - kLevelRest).squaredNorm();
@@ -89,7 +89,7 @@ TEST(Imu, AS3_AllanDeviationOfTheGyroIsTheDensityAtOneSecondAndFallsWithTheRoot)
   for (int s = 0; s < kSeconds; ++s) {
     double sum = 0.0;
     for (int i = 0; i < 100; ++i) {
-      imu.feel(Eigen::Vector3d::Zero(), kLevelRest);
+      imu.observe(Eigen::Vector3d::Zero(), kLevelRest);
       sum += imu.read().w_WB_B_meas.x();
     }
     mean_1s.push_back(sum / 100.0);
@@ -113,7 +113,7 @@ TEST(Imu, WanderingBiasIsStationaryAndForgetsWithItsCorrelationTime) {
   double gyro2 = 0.0, first2 = 0.0, last2 = 0.0, product = 0.0;
   for (int i = 0; i < kFlights; ++i) {
     Imu imu(c, 0.01, static_cast<uint64_t>(i) + 1);
-    imu.feel(Eigen::Vector3d::Zero(), kLevelRest);
+    imu.observe(Eigen::Vector3d::Zero(), kLevelRest);
     gyro2 += imu.read().w_WB_B_meas.squaredNorm();
     const Eigen::Vector3d first = imu.bias().specific_force_B_meas;
     for (int k = 0; k < 100; ++k) imu.read();
@@ -145,20 +145,20 @@ TEST(Imu, TurnOnOffsetsSpreadAsSet) {
 // Check AS5.
 TEST(Imu, AS5_FeelsCentripetalAndEulerAccelerationAtItsPlace) {
   ImuConfig c = no_noise();
-  c.p_BS_m = {0.1, 0.0, 0.0};
+  c.p_BI_m = {0.1, 0.0, 0.0};
   Imu spinning(c, 0.002, 1);
-  for (int i = 0; i < 200; ++i) spinning.feel({0.0, 0.0, 2.0}, kLevelRest);
+  for (int i = 0; i < 200; ++i) spinning.observe({0.0, 0.0, 2.0}, kLevelRest);
   expect_recorded("f_x at 2 rad/s, 0.1 m off, m/s2", spinning.read().specific_force_B_meas.x(), -0.4, 1e-9);
 
   Imu rest(c, 0.002, 1);
-  rest.feel(Eigen::Vector3d::Zero(), kLevelRest);
+  rest.observe(Eigen::Vector3d::Zero(), kLevelRest);
   const Eigen::Vector3d at_rest = rest.read().specific_force_B_meas;
   EXPECT_EQ(at_rest.head<2>().norm(), 0.0);
   expect_recorded("f_z at rest, m/s2", at_rest.z(), -9.81, 1e-12);
 
   // Yaw acceleration of 3 rad/s2 from rest: 0.3 m/s2 to the right.
   Imu turning(c, 0.002, 1);
-  for (int i = 0; i <= 200; ++i) turning.feel({0.0, 0.0, 3.0 * 0.002 * i}, kLevelRest);
+  for (int i = 0; i <= 200; ++i) turning.observe({0.0, 0.0, 3.0 * 0.002 * i}, kLevelRest);
   EXPECT_NEAR(turning.read().specific_force_B_meas.y(), 0.3, 1e-3);
 }
 
@@ -172,7 +172,7 @@ TEST(Imu, AS6_FilterStandsAtMinusThreeDecibelsAtItsCutoff) {
       double in2 = 0.0, out2 = 0.0;
       for (int i = 0; i < 3000; ++i) {
         const double in = std::sin(2.0 * std::numbers::pi * cutoff_hz * i / physics_hz);
-        imu.feel({in, 0.0, 0.0}, kLevelRest);
+        imu.observe({in, 0.0, 0.0}, kLevelRest);
         if (i < 1000) continue;
         in2 += in * in;
         out2 += std::pow(imu.read().w_WB_B_meas.x(), 2);
@@ -187,7 +187,7 @@ TEST(Imu, AS6_FilterStandsAtMinusThreeDecibelsAtItsCutoff) {
 TEST(Imu, SaturatesAtItsRange) {
   ImuConfig c = no_noise();
   Imu imu(c, 0.002, 1);
-  imu.feel({100.0, -100.0, 0.0}, {0.0, 500.0, 0.0});
+  imu.observe({100.0, -100.0, 0.0}, {0.0, 500.0, 0.0});
   const ImuReading r = imu.read();
   EXPECT_DOUBLE_EQ(r.w_WB_B_meas.x(), c.gyro_range_radps);
   EXPECT_DOUBLE_EQ(r.w_WB_B_meas.y(), -c.gyro_range_radps);

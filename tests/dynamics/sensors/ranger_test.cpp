@@ -26,7 +26,7 @@ RangerConfig exact() {
 }
 
 std::optional<double> read(Ranger& ranger, double distance_m) {
-  ranger.feel(distance_m);
+  ranger.observe(distance_m);
   return ranger.read();
 }
 
@@ -90,8 +90,8 @@ TEST(Ranger, AS6_ReadingsOfAWallThatNearsAreALatencyOld) {
     int looks = 0;
     for (int64_t tick = 0; tick < 1000; ++tick) {
       const double distance_m = 30.0 - kSpeed * kDt * static_cast<double>(tick);
-      if (ranger.looks(tick)) {
-        ranger.feel(distance_m);
+      if (ranger.observes(tick)) {
+        ranger.observe(distance_m);
         ++looks;
       }
       if (!ranger.due(tick)) continue;

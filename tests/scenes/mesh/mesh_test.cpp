@@ -7,8 +7,8 @@
 #include <random>
 #include <string>
 
-#include "tests/scenes/scene_equality.h"
 #include "scenes/generators.h"
+#include "tests/scenes/scene_equality.h"
 
 namespace hedgehop::scenes::mesh {
 namespace {

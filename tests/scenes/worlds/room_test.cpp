@@ -5,8 +5,8 @@
 
 #include <random>
 
-#include "tests/scenes/scene_equality.h"
 #include "scenes/generators.h"
+#include "tests/scenes/scene_equality.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {
@@ -98,7 +98,7 @@ TEST(Room, RefusesWhatCannotBeBuilt) {
     return [config] { make_room(config, 1); };
   };
   using E = std::invalid_argument;
-  EXPECT_THAT(refused([](auto& c) { c.length_m = 0.0; }), ThrowsMessage<E>(HasSubstr("length: 0; valid: ")));
+  EXPECT_THAT(refused([](auto& c) { c.length_m = 0.0; }), ThrowsMessage<E>(HasSubstr("length: 0; must be >= 1 m")));
   EXPECT_THAT(refused([](auto& c) { c.furniture = -1; }), ThrowsMessage<E>(HasSubstr("furniture: -1")));
   EXPECT_THAT(refused([](auto& c) { c.furniture = 200; }),
               ThrowsMessage<E>(HasSubstr("furniture: 200; valid: what fits: ")));

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "tests/scenes/scene_equality.h"
 #include "scenes/generators.h"
 #include "scenes/worlds/urban_plan.h"
+#include "tests/scenes/scene_equality.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {

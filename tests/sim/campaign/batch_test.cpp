@@ -16,8 +16,10 @@ namespace hedgehop::sim {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using ::testing::AllOf;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 /// The flight of a seed in a batch.json.
@@ -86,6 +88,28 @@ TEST(Batch, ScenarioThatChangedIsFlownAgain) {
   EXPECT_EQ(folder.hedgehop("batch tiny.yaml --seeds 1:2 --failed-only -j 1 --out out --program " + worker).status, 0);
   EXPECT_THAT(folder.read("flown.txt"), EndsWith("1\n2\n"));
   EXPECT_EQ(folder.read("flown.txt").size(), 8u);
+}
+
+/// A result of another build stands only when that is asked for, and then every table names both builds.
+TEST(Batch, ResultOfAnotherBuildIsFlownAgainUnlessAskedFor) {
+  const CampaignFolder folder;
+  ASSERT_EQ(folder.hedgehop("batch tiny.yaml --seeds 1:2 --out out").status, 0);
+  const std::string own = folder.json("out/tiny/seed1/result.json").at("build");
+  EXPECT_EQ(own.size(), 16u);
+  Json result = folder.json("out/tiny/seed1/result.json");
+  result["build"] = "0123456789abcdef";
+  const auto leave_another = [&] { folder.write("out/tiny/seed1/result.json", result.dump()); };
+
+  leave_another();
+  const CommandEnd asked = folder.hedgehop("batch tiny.yaml --seeds 1:2 --out out --resume --reuse-other-builds");
+  EXPECT_EQ(folder.json("out/tiny/seed1/result.json").at("build"), "0123456789abcdef");
+  EXPECT_THAT(asked.out, HasSubstr("Flights of 2 builds: "));
+  EXPECT_THAT(folder.read("out/batch.csv"), AllOf(HasSubstr(",0123456789abcdef,"), HasSubstr("," + own + ",")));
+
+  leave_another();
+  const CommandEnd resumed = folder.hedgehop("batch tiny.yaml --seeds 1:2 --out out --resume");
+  EXPECT_EQ(folder.json("out/tiny/seed1/result.json").at("build"), own);
+  EXPECT_THAT(resumed.out, Not(HasSubstr("builds")));
 }
 
 TEST(Batch, BadFileAmongGoodOnesIsToldWithItsPlaceAndTheRestIsFlown) {
@@ -210,6 +234,17 @@ TEST(Batch, CampaignFileNamesScenariosSeedsAndValues) {
   folder.write("campaign.yaml", "flights:\n  - {scenario: tiny.yaml, seds: 1:2}\n");
   EXPECT_THAT(folder.hedgehop("batch campaign.yaml --out out2").err,
               HasSubstr("campaign.yaml:2:27: unknown key 'seds' in 'flights.0'; did you mean 'seeds'?"));
+}
+
+TEST(Batch, EntriesThatDifferBeyondTheFolderNamesLengthKeepTheirFoldersApart) {
+  const CampaignFolder folder;
+  const std::string zeros(150, '0');
+  folder.write("campaign.yaml", "flights:\n  - {scenario: tiny.yaml, set: [avoidance.speed=0.5" + zeros +
+                                    "1]}\n  - {scenario: tiny.yaml, set: [avoidance.speed=0.5" + zeros + "2]}\n");
+  ASSERT_EQ(folder.hedgehop("batch campaign.yaml --out out").status, 0);
+  const Json batch = folder.json("out/batch.json");
+  ASSERT_EQ(batch.at("flights").size(), 2u);
+  EXPECT_NE(batch.at("flights").at(0).at("id"), batch.at("flights").at(1).at("id"));
 }
 
 }  // namespace

@@ -156,7 +156,7 @@ TEST(CampaignInBrowser, TellsWhichFlightsEndOtherwiseThanBefore) {
             changed: [...document.querySelectorAll('#changed tr')].slice(1).map(words)};)js");
   EXPECT_THAT(page.errors, IsEmpty());
   EXPECT_THAT(page.value.at("said").get<std::string>(),
-              HasSubstr("18 flights in both, 1 with another end; 2 only here, 2 only there."));
+              HasSubstr("18 flights in both, 1 with another outcome; 2 only here, 2 only there."));
   ASSERT_EQ(page.value.at("changed").size(), 1u);
   EXPECT_EQ(page.value.at("changed")[0][0], "flights/4");
   EXPECT_EQ(page.value.at("changed")[0][1], "reached");

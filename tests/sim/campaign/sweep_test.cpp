@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <sqlite3.h>
 
+#include <csignal>
+
 #include "sim/record/csv_table.h"
 #include "tests/sim/campaign/campaign_folder.h"
 
@@ -120,6 +122,28 @@ TEST_F(Sweep, OptimizerFindsTheEndOfAMonotoneCost) {
   const auto distances = table.numbers("goal_distance_m");
   for (size_t i = 0; i < distances.size(); i += 2) best = std::min(best, 0.5 * (distances[i] + distances[i + 1]));
   EXPECT_NEAR(optimum.at("cost").get<double>(), best, 1e-12);
+}
+
+TEST_F(Sweep, OptimizerRefusesAnUnknownColumnAfterItsFirstPoint) {
+  folder.write("best.yaml",
+               "scenario: tiny.yaml\nset: [duration=1]\n"
+               "design: {type: optimize, minimize: goal_distance, evaluations: 12}\n"
+               "parameters: [{path: avoidance.speed, from: 0.2, to: 1}]\n");
+  const CommandEnd end = folder.hedgehop("sweep best.yaml --out out");
+  EXPECT_EQ(end.status, 2);
+  EXPECT_THAT(end.err, HasSubstr("'design.minimize': no column 'goal_distance'; did you mean 'goal_distance_m'?"));
+}
+
+TEST_F(Sweep, InterruptedOptimizerKeepsTheTableOfItsPoints) {
+  folder.write("best.yaml",
+               "scenario: tiny.yaml\nset: [duration=1]\n"
+               "design: {type: optimize, minimize: goal_distance_m, evaluations: 12}\n"
+               "parameters: [{path: avoidance.speed, from: 0.2, to: 1}]\n");
+  const std::string worker = folder.worker(
+      "echo x >> flown.txt; if [ $(wc -l < flown.txt) = 3 ]; then kill -INT $PPID; exec sleep 1000; fi; fly \"$@\"");
+  const CommandEnd end = folder.hedgehop("sweep best.yaml --out out --program " + worker);
+  EXPECT_EQ(end.status, 128 + SIGINT) << end.err;
+  EXPECT_EQ(CsvTable(folder.path() / "out/sweep.csv").rows(), 2u);
 }
 
 TEST_F(Sweep, SlurmScriptFliesOneShardATask) {

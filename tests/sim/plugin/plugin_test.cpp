@@ -103,7 +103,7 @@ TEST_F(Plugin, TheExampleBuildsAgainstTheInstalledPackageAndFlies) {
       folder.shell("cmake --install '" HEDGEHOP_BUILD_DIR "' --prefix '" + (folder.path() / "prefix").string() + "'");
   ASSERT_EQ(installed.status, 0) << installed.err;
   const CommandEnd built =
-      folder.shell("cmake -S '" HEDGEHOP_SOURCE_DIR
+      folder.shell("cmake -G Ninja -S '" HEDGEHOP_SOURCE_DIR
                    "/docs/keep_left' -B build -DCMAKE_PREFIX_PATH=\"$PWD/prefix\" && cmake --build build");
   ASSERT_EQ(built.status, 0) << built.out << built.err;
   folder.write("left.yaml",

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "sim/record/csv_line.h"
 #include "sim/record/csv_table.h"
 #include "sim/record/whole_file.h"
 #include "tests/sim/record/fake_flight.h"
@@ -229,6 +230,25 @@ TEST(CsvTable, RefusesARowOfAnotherWidth) {
   write_file_whole(folder.path() / "t.csv", "t_s,a_m\n0,1\n1\n");
   EXPECT_THAT(error_of([&] { CsvTable(folder.path() / "t.csv"); }),
               HasSubstr("t.csv:3: 1 fields where the header has 2"));
+}
+
+TEST(CsvTable, ReadsBackTextWithLineBreaksQuotesAndCommas) {
+  const std::vector<std::string> texts = {"two\nlines", "\"quoted\", and\r\na comma", "plain", "\n", ","};
+  fmt::memory_buffer out;
+  CsvLine(out).add("cause").add("t_s");
+  for (const std::string& text : texts) CsvLine(out).add(text).add(1.5);
+  const TemporaryFolder folder;
+  write_file_whole(folder.path() / "t.csv", {out.data(), out.size()});
+  const CsvTable table(folder.path() / "t.csv");
+  EXPECT_EQ(table.words("cause"), texts);
+  EXPECT_EQ(table.numbers("t_s"), std::vector<double>(texts.size(), 1.5));
+}
+
+TEST(CsvTable, CountsTheLinesInsideQuotes) {
+  const TemporaryFolder folder;
+  write_file_whole(folder.path() / "t.csv", "cause,a_m\n\"two\nlines\",1\nx,two\n");
+  const CsvTable table(folder.path() / "t.csv");
+  EXPECT_THAT(error_of([&] { table.numbers("a_m"); }), HasSubstr("t.csv:4:"));
 }
 
 TEST(CsvTable, ReadsWindowsLineEndsAndAMissingLastOne) {

@@ -63,7 +63,7 @@ TEST(TrueFlow, EqualsPointsProjectedAtBothTimes) {
     if (std::ranges::any_of(world.at(view.t_s).boxes_W, near)) continue;
     renderer.draw(view, flow);
     ASSERT_EQ(flow.type(), CV_32FC2);
-    const double edge_px = view.camera.is_ideal_pinhole() ? 0.02 : 1.5;
+    const double edge_px = view.camera.is_undistorted_pinhole() ? 0.02 : 1.5;
     const double error_px = worst_error_px(world, view, flow, edge_px, compared, on_movers);
     EXPECT_LT(error_px, kFlowPx) << "trial " << trial;
     worst_px = std::max(worst_px, error_px);

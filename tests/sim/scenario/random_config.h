@@ -14,7 +14,8 @@ class Randomizer {
   explicit Randomizer(uint64_t seed) : random_(seed) {}
 
   template <class T>
-  void operator()(std::string_view, T& value, const fields::Field& field) {
+  void operator()(std::string_view, T& value, const fields::Field& listed) {
+    const fields::Field field = fields::bounded(listed);
     if constexpr (fields::NumberField<T>) {
       value = number(field);
     } else if constexpr (std::same_as<T, bool>) {

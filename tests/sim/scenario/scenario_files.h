@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/scenario/include.h"
 #include "sim/scenario/input_error.h"
-#include "sim/scenario/parse.h"
 #include "sim/scenario/reader.h"
 
 namespace hedgehop::sim {

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "scenario_files.h"
+#include "sim/scenario/outline.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -101,6 +102,27 @@ TEST_F(CrossRules, ChecksMakeSense) {
       faults({"checks=[{check: reached_goal, within: 4, before: 500}]"}),
       ElementsAre("--set checks: 'checks.0.within': is less than the goal's radius (5 m), where the flight ends",
                   "--set checks: 'checks.0.before': is after the flight's end (400 s)"));
+}
+
+/// Keys of all lengths below an outline.
+void collect_lengths(const Outline& node, const std::string& path, std::vector<std::string>& keys) {
+  if (node.kind == Outline::Kind::number && node.field.unit == "m" && node.present) keys.push_back(path);
+  size_t index = 0;
+  for (const Outline& part : node.parts) {
+    collect_lengths(part, join_path(path, part.key.empty() ? std::to_string(index++) : part.key), keys);
+  }
+}
+
+TEST(Scenario, RefusesALengthBeyondAnyWorldByItsPlace) {
+  const auto file = kConfigs / "garratt2009_room_0_light.yaml";
+  std::vector<std::string> keys;
+  collect_lengths(outline(load_scenario(file), {}), "", keys);
+  ASSERT_GT(keys.size(), 40u);
+  for (const std::string& key : keys) {
+    EXPECT_THAT(faults_of([&] { load_scenario(file, std::vector<std::string>{key + "=1e308"}); }),
+                testing::Contains(testing::AllOf(HasSubstr("--set " + key + ": '" + key + "' must be <"),
+                                                 HasSubstr(" m, got 1e308"))));
+  }
 }
 
 TEST_F(CrossRules, AGoalNeedsItsWholePosition) {

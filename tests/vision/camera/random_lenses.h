@@ -14,7 +14,7 @@ inline double uniform(std::mt19937_64& random, double low, double high) {
 
 inline camera::Camera random_distorted_pinhole(std::mt19937_64& random) {
   camera::PinholeLens lens{uniform(random, 250, 500), uniform(random, 250, 500), uniform(random, 150, 170),
-                   uniform(random, 110, 130)};
+                           uniform(random, 110, 130)};
   lens.k1 = uniform(random, -0.35, 0.3);
   lens.k2 = uniform(random, -0.05, 0.15);
   lens.p1 = uniform(random, -5e-3, 5e-3);
@@ -25,7 +25,7 @@ inline camera::Camera random_distorted_pinhole(std::mt19937_64& random) {
 
 inline camera::Camera random_fisheye(std::mt19937_64& random) {
   camera::FisheyeLens lens{uniform(random, 70, 130), uniform(random, 70, 130), uniform(random, 150, 170),
-                   uniform(random, 110, 130)};
+                           uniform(random, 110, 130)};
   lens.k1 = uniform(random, -0.05, 0.05);
   lens.k2 = uniform(random, -0.01, 0.01);
   lens.k3 = uniform(random, -2e-3, 2e-3);

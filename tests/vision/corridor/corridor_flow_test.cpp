@@ -19,12 +19,12 @@ using Eigen::Vector3d;
 using std::numbers::pi;
 
 // A place that flow has told, and of which the rest does not matter.
-WallPoint at(double x_m, double y_m, Region region, Verdict verdict = Verdict::good) {
+WallPoint at(double x_m, double y_m, Region region, RejectionReason rejection = RejectionReason::none) {
   WallPoint point;
   point.p_CP_H = {x_m, y_m, 0.0};
   point.region = region;
-  point.verdict = verdict;
-  point.off_way_rad = std::abs(std::atan2(y_m, x_m));  // flown straight on
+  point.rejection = rejection;
+  point.off_travel_rad = std::abs(std::atan2(y_m, x_m));  // flown straight on
   return point;
 }
 
@@ -116,34 +116,34 @@ TEST(WallPoint, LiesWhereTheSimulatedPointDoesWhateverTheCameraTurns) {
     const Vector3d p_WP(uniform(random, -0.2, 2.0), side * uniform(random, 0.4, 3.0), uniform(random, -1.45, -1.0));
     const WallPoint point = wall_point(flight.pair(p_WP), side > 0 ? kRight : kLeft, flight.camera, flight.motion, {});
     EXPECT_LT((point.p_CP_H - (p_WP - flight.p_WC2)).norm(), 1e-6);
-    EXPECT_NE(point.verdict, Verdict::astray);
+    EXPECT_NE(point.rejection, RejectionReason::outlier);
   }
 }
 
-TEST(WallPoint, VerdictsTellWhatIsWrong) {
+TEST(WallPoint, RejectionReasonsNameWhatIsWrong) {
   const LevelFlight flight;
   const Vector3d wall(0.5, 1.2, -1.4);
   FlowLimits limits;
-  const auto verdict = [&](const flow::RayPair& pair) {
-    return wall_point(pair, kRight, flight.camera, flight.motion, limits).verdict;
+  const auto rejection = [&](const flow::RayPair& pair) {
+    return wall_point(pair, kRight, flight.camera, flight.motion, limits).rejection;
   };
-  EXPECT_EQ(verdict(flight.pair(wall)), Verdict::good);
-  EXPECT_EQ(verdict(flight.pair({1.5, 1.2, -0.05})), Verdict::floor);
+  EXPECT_EQ(rejection(flight.pair(wall)), RejectionReason::none);
+  EXPECT_EQ(rejection(flight.pair({1.5, 1.2, -0.05})), RejectionReason::floor);
 
   const flow::RayPair good = flight.pair(wall);
   const double flow_radps = wall_point(good, kRight, flight.camera, flight.motion, limits).flow_radps;
   limits.fastest_radps = 0.99 * flow_radps;
-  EXPECT_EQ(verdict(good), Verdict::too_fast);
+  EXPECT_EQ(rejection(good), RejectionReason::too_fast);
   limits = {};
   limits.slowest_radps = 1.01 * flow_radps;
-  EXPECT_EQ(verdict(good), Verdict::too_slow);
+  EXPECT_EQ(rejection(good), RejectionReason::too_slow);
   limits = {};
 
   // A match on the wrong side of the corner moves the other way round the circle: tangential, and yet impossible.
   flow::RayPair backwards = good;
   backwards.after_px = 2.0 * good.before_px - good.after_px;
   backwards.after_C = flight.camera.ray(backwards.after_px).value();
-  EXPECT_EQ(verdict(backwards), Verdict::astray);
+  EXPECT_EQ(rejection(backwards), RejectionReason::outlier);
   // One that moves towards the center is caught by the printed filter alone.
   flow::RayPair inwards = good;
   const Eigen::Vector2d radius = good.before_px - flight.camera.project(Vector3d::UnitZ()).value();
@@ -151,13 +151,14 @@ TEST(WallPoint, VerdictsTellWhatIsWrong) {
   inwards.after_C = flight.camera.ray(inwards.after_px).value();
   limits = {};
   limits.stray_rad = pi;
-  EXPECT_EQ(verdict(inwards), Verdict::off_tangent);
-  EXPECT_EQ(verdict(backwards), Verdict::good);
+  EXPECT_EQ(rejection(inwards), RejectionReason::off_tangent);
+  EXPECT_EQ(rejection(backwards), RejectionReason::none);
 }
 
 TEST(SideDistance, IsTheMedianOfGoodPointsOfThatSide) {
-  std::vector<WallPoint> points = {at(0, 1.0, kRight), at(1, 2.0, kRight), at(2, 9.0, kRight),
-                                   at(0, -3.0, kLeft), at(0, -5.0, kLeft), at(0, 0.1, kRight, Verdict::too_fast),
+  std::vector<WallPoint> points = {at(0, 1.0, kRight), at(1, 2.0, kRight),
+                                   at(2, 9.0, kRight), at(0, -3.0, kLeft),
+                                   at(0, -5.0, kLeft), at(0, 0.1, kRight, RejectionReason::too_fast),
                                    at(2, 0.2, kAhead)};
   EXPECT_EQ(side_distance(points, kRight, 1).distance_m, 2.0);
   EXPECT_EQ(side_distance(points, kRight, 1).count, 3);

@@ -52,14 +52,14 @@ TEST(WallDirection, NoisyFlowAndATenthOfWrongPointsTurnItLittle) {
 TEST(WallDirection, IsTheHeadingWhereOneSideIsUnknown) {
   auto points = two_walls(20.0 * kDeg, 1.2, 1.2, 1);
   for (WallPoint& point : points) {
-    if (point.region == kLeft) point.verdict = Verdict::too_slow;
+    if (point.region == kLeft) point.rejection = RejectionReason::too_slow;
   }
   EXPECT_EQ(wall_direction_rad(points, kMostRad, 12), 0.0);
 }
 
 TEST(WallDirection, AcrossItANoseTurnedAsideShiftsNoMedian) {
   const auto points = two_walls(25.0 * kDeg, 0.8, 1.7, 5);
-  const auto along = looking_along(points, wall_direction_rad(points, kMostRad, 12));
+  const auto along = rotate_points(points, wall_direction_rad(points, kMostRad, 12));
   EXPECT_NEAR(side_distance(along, kLeft, 1).distance_m, 0.8, 0.02);
   EXPECT_NEAR(side_distance(along, kRight, 1).distance_m, 1.7, 0.02);
   // Across the heading the left wall seems twice as near.

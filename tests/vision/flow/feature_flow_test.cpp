@@ -55,7 +55,7 @@ Seen see(const Eigen::Isometry3d& X_WB1, const Eigen::Isometry3d& X_WB2) {
     }
   };
   follow(newer, seen.pairs);
-  follow(turner.turned(newer, seen.R_C1C2()), seen.turned);
+  follow(turner.derotate(newer, seen.R_C1C2()), seen.turned);
   return seen;
 }
 
@@ -74,7 +74,7 @@ Vector3d random_angles(std::mt19937_64& random, double most_rad) {
 double median_flow_px(const std::vector<RayPair>& pairs, const Eigen::Matrix3d& R_C1C2) {
   std::vector<double> flow_px;
   for (const RayPair& pair : pairs) {
-    flow_px.push_back(px_per_rad() * flow_angle_rad(pair.before_C, derotated(pair.after_C, R_C1C2)));
+    flow_px.push_back(px_per_rad() * flow_angle_rad(pair.before_C, derotate_ray(pair.after_C, R_C1C2)));
   }
   return median(flow_px);
 }

@@ -32,7 +32,7 @@ TEST(RayFlow, PureRotationLeavesNone) {
     const Vector3d p_C1 = random_vector(random, 5.0);
     const Eigen::Matrix3d R_C1C2 = random_rotation(random, 0.5);
     const Vector3d before = p_C1.normalized(), after = (R_C1C2.transpose() * p_C1).normalized();
-    EXPECT_LT(flow_angle_rad(before, derotated(after, R_C1C2)), 1e-14);
+    EXPECT_LT(flow_angle_rad(before, derotate_ray(after, R_C1C2)), 1e-14);
   }
 }
 
@@ -43,9 +43,9 @@ TEST(RayFlow, MixedMotionTellsTheDistanceOfEveryPoint) {
     const Eigen::Matrix3d R_C1C2 = random_rotation(random, 0.5);
     const Vector3d p_C2P_C1 = p_C1P - traveled;
     const Vector3d before = p_C1P.normalized(), after = (R_C1C2.transpose() * p_C2P_C1).normalized();
-    const double measured_m = distance_m(before, derotated(after, R_C1C2), traveled);
+    const double measured_m = distance_m(before, derotate_ray(after, R_C1C2), traveled);
     EXPECT_NEAR(measured_m / p_C2P_C1.norm(), 1.0, 1e-7);
-    EXPECT_LT(stray_rad(before, derotated(after, R_C1C2), traveled), 1e-6);
+    EXPECT_LT(direction_error_rad(before, derotate_ray(after, R_C1C2), traveled), 1e-6);
   }
 }
 
@@ -70,8 +70,8 @@ TEST(RayFlow, WithoutFlowAPointIsInfinitelyFar) {
 
 TEST(RayFlow, FlowTowardsTheWayTravelledStraysByAHalfTurn) {
   const Vector3d before = Vector3d::UnitY(), after = Vector3d(0.1, 1.0, 0.0).normalized();
-  EXPECT_NEAR(stray_rad(before, after, Vector3d::UnitX()), pi, kRoundOff);
-  EXPECT_NEAR(stray_rad(before, after, -Vector3d::UnitX()), 0.0, kRoundOff);
+  EXPECT_NEAR(direction_error_rad(before, after, Vector3d::UnitX()), pi, kRoundOff);
+  EXPECT_NEAR(direction_error_rad(before, after, -Vector3d::UnitX()), 0.0, kRoundOff);
 }
 
 TEST(RayFlow, TangentIsMeasuredRoundTheCenterEitherWay) {

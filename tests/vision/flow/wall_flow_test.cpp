@@ -40,11 +40,11 @@ Room random_room(std::mt19937_64& random) {
 }
 
 /// What four cameras, half a meter from B, see in their middle rows while B moves, `noise` laid over it.
-std::vector<WallSight> look(const Room& room, const Eigen::Vector2d& v_H, double noise, std::mt19937_64& random) {
+std::vector<WallObservation> look(const Room& room, const Eigen::Vector2d& v_H, double noise, std::mt19937_64& random) {
   constexpr int kPatches = 8;
   constexpr double kOffM = 0.4, kReach = 0.75;
   std::normal_distribution<double> error(0.0, 1.0);
-  std::vector<WallSight> sights;
+  std::vector<WallObservation> observations;
   for (int camera = 0; camera < 4; ++camera) {
     const Eigen::Vector2d axis_H =
         Eigen::Rotation2Dd((camera - 1.5) * M_PI / 2.0 - M_PI / 4.0) * Eigen::Vector2d::UnitX();
@@ -52,17 +52,17 @@ std::vector<WallSight> look(const Room& room, const Eigen::Vector2d& v_H, double
     const Eigen::Vector3d v_WC_C(v_H.dot(right_H), 0.0, v_H.dot(axis_H));
     for (int patch = 0; patch < kPatches; ++patch) {
       const Eigen::Vector2d place(kReach * (2.0 * patch / (kPatches - 1.0) - 1.0), 0.0);
-      WallSight sight;
-      sight.ray_H = axis_H + place.x() * right_H;
-      sight.p_BC_H = kOffM * axis_H;
-      sight.unit_flow = unit_flow(place, v_WC_C);
-      sight.flow = sight.unit_flow / room.along(sight.p_BC_H, sight.ray_H);
-      sight.flow += noise * Eigen::Vector2d(error(random), error(random));
-      sight.noise = std::max(noise, 1e-6);
-      sights.push_back(sight);
+      WallObservation observation;
+      observation.ray_H = axis_H + place.x() * right_H;
+      observation.p_BC_H = kOffM * axis_H;
+      observation.unit_flow = unit_flow(place, v_WC_C);
+      observation.flow = observation.unit_flow / room.along(observation.p_BC_H, observation.ray_H);
+      observation.flow += noise * Eigen::Vector2d(error(random), error(random));
+      observation.noise = std::max(noise, 1e-6);
+      observations.push_back(observation);
     }
   }
-  return sights;
+  return observations;
 }
 
 Eigen::Vector2d random_velocity(std::mt19937_64& random) {
@@ -71,9 +71,10 @@ Eigen::Vector2d random_velocity(std::mt19937_64& random) {
 }
 
 /// Relative error of a wall among those found; that of the one that fits best.
-double error_of(const Room& room, size_t k, const std::vector<SeenWall>& walls) {
+double error_of(const Room& room, size_t k, const std::vector<WallEstimate>& walls) {
   double least = INFINITY;
-  for (const SeenWall& wall : walls) least = std::min(least, (wall.near_per_m * room.d_m[k] - room.n[k]).norm());
+  for (const WallEstimate& wall : walls)
+    least = std::min(least, (wall.inverse_range_per_m * room.d_m[k] - room.n[k]).norm());
   return least;
 }
 
@@ -81,13 +82,14 @@ TEST(WallFlow, FindsTheWallsOfARoomFromAMovingVehicle) {
   std::mt19937_64 random(1);
   for (int trial = 0; trial < 100; ++trial) {
     const Room room = random_room(random);
-    const auto sights = look(room, random_velocity(random), 0.0, random);
-    const auto walls = walls_from_flow(sights, 0.1);
+    const auto observations = look(room, random_velocity(random), 0.0, random);
+    const auto walls = walls_from_flow(observations, 0.1);
     for (size_t k = 0; k < 4; ++k) {
       // A wall that shows in fewer than three neighboring patches cannot be told.
       int run = 0, longest = 0;
-      for (const WallSight& sight : sights) {
-        const Eigen::Vector2d met_H = sight.p_BC_H + room.along(sight.p_BC_H, sight.ray_H) * sight.ray_H;
+      for (const WallObservation& observation : observations) {
+        const Eigen::Vector2d met_H =
+            observation.p_BC_H + room.along(observation.p_BC_H, observation.ray_H) * observation.ray_H;
         run = std::abs(room.n[k].dot(met_H) - room.d_m[k]) < 1e-9 ? run + 1 : 0;
         longest = std::max(longest, run);
       }
@@ -110,9 +112,9 @@ TEST(WallFlow, NoisyFlowRangesTheNearestWallWithinItsStatedError) {
     if (room.d_m[k] > 2.0) continue;
     ++all;
     double least = INFINITY, stated = 0.0;
-    for (const SeenWall& wall : walls) {
-      if (wall.near_per_m.normalized().dot(room.n[k]) < std::cos(0.3)) continue;
-      const double error = std::abs(wall.near_per_m.norm() * room.d_m[k] - 1.0);
+    for (const WallEstimate& wall : walls) {
+      if (wall.inverse_range_per_m.normalized().dot(room.n[k]) < std::cos(0.3)) continue;
+      const double error = std::abs(wall.inverse_range_per_m.norm() * room.d_m[k] - 1.0);
       if (error < least) stated = wall.relative_error;
       least = std::min(least, error);
     }

@@ -10,12 +10,12 @@ class AgainstView {
       return;
     }
     Object.assign(this, {table, on, before: against.flights});
-    host.append(make('h2', '', `Against ${against.name}`));
+    host.append(make('h2', '', `Compared with ${against.name}`));
     const both = [...this.before.keys()].filter((row) => this.before[row]);
     this.changed = both.filter((row) => this.before[row].outcome !== outcomeOf(table, row)
       || this.before[row].passed !== (table.value('passed', row) === 1));
     const fresh = table.count - both.length;
-    host.append(make('p', 'soft', `${both.length} flights in both, ${this.changed.length} with another end; ` +
+    host.append(make('p', 'soft', `${both.length} flights in both, ${this.changed.length} with another outcome; ` +
       `${fresh} only here, ${against.gone.length} only there.`));
     this.fillGroups(host.appendChild(make('div', 'scroll tall')), against.groups);
     const pair = host.appendChild(make('div', 'pair halves'));
@@ -28,7 +28,7 @@ class AgainstView {
       pick: (x, y) => { const row = this.at(x, y); if (row !== null) on.choose(row); }});
     const all = this.both.flatMap((row) => [this.clearance(row), this.before[row].clearance_m]);
     this.axes.set(numberAxis('before, m', all), numberAxis('now, m', all));
-    plot.append(make('div', 'plan-key', 'above the line: more room than before; ringed: another end'));
+    plot.append(make('div', 'plan-key', 'above the line: more clearance than before; ringed: another outcome'));
   }
   clearance(row) { return this.table.value('min_obstacle_clearance_m', row); }
 
@@ -43,7 +43,7 @@ class AgainstView {
     }
   }
   fillChanged(host) {
-    host.append(make('h3', '', 'Flights that end otherwise'));
+    host.append(make('h3', '', 'Flights with another outcome'));
     const box = host.appendChild(make('div', 'scroll tall'));
     if (!this.changed.length) {
       box.append(make('p', 'soft', 'None.'));

@@ -63,9 +63,9 @@ class Axes {
     c.strokeRect(this.frame.x, this.frame.y, this.frame.width, this.frame.height);
   }
 
-  ticks(axis, pixels, room) {
+  ticks(axis, pixels, spacing) {
     if (axis.ticks) {
-      const every = Math.max(1, Math.ceil((axis.ticks.length - 1) * room / pixels));
+      const every = Math.max(1, Math.ceil((axis.ticks.length - 1) * spacing / pixels));
       return axis.ticks.filter((tick, i) => i % every === 0);
     }
     return niceTicks(axis.low, axis.high, Math.max(2, pixels / 70)).values.map((value) => ({value, text: short(Math.abs(value) < 1e-12 ? 0 : value)}));
@@ -80,9 +80,9 @@ class Axes {
     c.textAlign = 'center';
     c.textBaseline = 'top';
     c.beginPath();
-    const clipped = (text, room) => {
+    const clipped = (text, width_px) => {
       let shown = text;
-      while (shown.length > 2 && c.measureText(shown).width > room) shown = shown.slice(0, -2) + '…';
+      while (shown.length > 2 && c.measureText(shown).width > width_px) shown = shown.slice(0, -2) + '…';
       return shown;
     };
     const wide = this.xAxis.ticks ? Math.max(38, Math.min(90, width / this.xAxis.ticks.length)) : 70;

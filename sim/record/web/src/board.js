@@ -52,14 +52,14 @@ function boardCell(cell, on) {
   return element;
 }
 
-/** Film strips of the flights that have one, with the way to see more of each. */
+/** Film strips of the flights that have one, with links to more of each. */
 function fillStrips(host, data, table, on) {
   if (!data.strips.length) {
     host.remove();
     return;
   }
   host.append(make('h2', '', 'Film strips of the worst flights'),
-    make('p', 'soft', 'What their modules saw before the collision or the closest approach; flown again for these images.'));
+    make('p', 'soft', 'Camera images with the overlays of the modules before the collision or the closest approach, from a re-simulation.'));
   for (const [row, jpeg] of data.strips) {
     const figure = host.appendChild(make('figure', 'strip')), line = figure.appendChild(make('figcaption', 'flight-line'));
     line.append(flightButton(table, row, on), make('span', 'soft', table.why[row] || `passed, clearance ${meters(table.value('min_obstacle_clearance_m', row))}`),

@@ -108,10 +108,10 @@ function fillChosen(host, data, table, row) {
     link.href = flightLink(data, table, row, name);
     links.append(' ');
   }
-  host.append(make('p', 'soft', 'fly it again, with film and report'));
+  host.append(make('p', 'soft', 're-simulate it, with video and report'));
   addCommand(host, table.value('command', row));
   if (!data.report[row]) {
-    host.append(make('p', 'soft', 'or look at what was flown'));
+    host.append(make('p', 'soft', 'or open the replay of its recorded flight'));
     addCommand(host, `hedgehop report --replay '${data.folder}/${id}'`);
   }
 }

@@ -1,5 +1,5 @@
 'use strict';
-// Plots that share their horizontal axis and cursor: over time, unless another axis is asked for.
+// Plots that share their horizontal axis and cursor: over time, unless the data name another axis.
 
 const plotHeight = 190;
 /** Where a panel holds the axis' values, how it is called, and whether its points are marked. */
@@ -76,7 +76,7 @@ class Charts {
     return host.appendChild(make('div', 'charts'));
   }
 
-  /** Makes all plots anew, in the colors of the theme in force. */
+  /** Builds all plots again, in the colors of the theme in force. */
   build() {
     for (const plot of this.plots) {
       plot.u?.destroy();

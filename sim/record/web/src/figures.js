@@ -80,7 +80,7 @@ function readPath(steps) {
 /** A button that copies a text. */
 function copyButton(text) {
   const button = make('button', 'copy', 'copy');
-  button.title = 'Copy the command line that flies this again';
+  button.title = 'Copy the command line that re-simulates this flight';
   button.addEventListener('click', (event) => {
     event.stopPropagation();
     navigator.clipboard?.writeText(text).then(() => { button.textContent = 'copied'; }, () => { button.textContent = 'refused'; });

@@ -9,7 +9,7 @@ class FlightTable {
     this.why = data.why;
   }
   value(name, row) { return this.columns.get(name)?.values[row] ?? null; }
-  /** 'passed', 'collided', 'failed' (another way) or 'missing'. */
+  /** 'passed', 'collided', 'failed' (another check) or 'missing'. */
   verdict(row) {
     if (this.value('status', row) === 'missing') return 'missing';
     if (this.value('passed', row) === 1) return 'passed';
@@ -69,7 +69,7 @@ function filteredRows(table, terms) {
   return rows;
 }
 
-/** Rows by a column, equal ones in their order, rows without a value last either way. */
+/** Rows by a column, equal ones in their order, rows without a value last in both orders. */
 function sortedRows(rows, column, falling) {
   const value = (row) => column.values[row] === '' ? null : column.values[row];
   return [...rows].sort((a, b) => {

@@ -1,5 +1,5 @@
 'use strict';
-// A module's map beside the truth, from above: landmarks with their ellipses, true corners, course, path, planned paths.
+// A module's map beside the truth, from above: landmarks with their ellipses, true corners, route, path, planned detours.
 
 const mapSigmas = 3, pathsShown = 4;
 
@@ -69,7 +69,7 @@ class LandmarksView {
     return [this.path.n[row], this.path.e[row]];
   }
 
-  /** Squares; one of the ground is smaller, so that it can be told from the one above it. */
+  /** Squares; one of the ground is smaller, to distinguish it from the one above it. */
   drawCorner(c, corner) {
     const half = this.onGround(corner) ? 3.5 : 6;
     c.strokeStyle = themeColor(this.cornerColor(corner));
@@ -110,15 +110,15 @@ class LandmarksView {
     if (corners.length) {
       entry('ink', share(counting.filter((corner) => corner.found)) + 'true corners found (small: on the ground)', 'box');
       entry('c1', share(counting.filter((corner) => !corner.found)) + 'missing', 'box');
-      entry('solid-edge', share(corners.filter((corner) => !corner.counts)) + 'hardly ever in sight', 'box');
+      entry('solid-edge', share(corners.filter((corner) => !corner.counts)) + 'rarely visible', 'box');
       entry('c2', share(points.filter((point) => point.true)) + `landmarks, ellipses of ${mapSigmas} standard deviations`, 'disc');
       entry('bad', share(points.filter((point) => !point.true)) + 'false (✕)', 'disc');
     } else {
       entry('c0', share(points) + `landmarks, ellipses of ${mapSigmas} standard deviations`, 'disc');
     }
     entry('c0', 'flown');
-    if (course.length) entry('soft', 'course', 'dashed');
-    if (paths.length) entry('c3', `planned, the latest ${pathsShown}`, 'dotted');
+    if (course.length) entry('soft', 'route', 'dashed');
+    if (paths.length) entry('c3', `planned detours, the latest ${pathsShown}`, 'dotted');
   }
 
   hover(x, y) {
@@ -136,7 +136,7 @@ class LandmarksView {
     map.showTip(x, y, lines.length ? lines : map.placeLines(x, y));
   }
 
-  /** Shows the paths planned until an instant; null for the end. */
+  /** Shows the detours planned until an instant; null for the end. */
   setTime(t) {
     if (t === this.t) return;
     this.t = t;

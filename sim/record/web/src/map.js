@@ -28,7 +28,7 @@ class MapView {
     new ResizeObserver(() => requestAnimationFrame(() => this.draw())).observe(host);
   }
 
-  /** Center and extent, m, of places with some room round them, as a share of their extent. */
+  /** Center and extent, m, of places with a margin around them, as a share of their extent. */
   static viewOf(norths, easts, share) {
     const [n0, n1] = finiteRange(norths), [e0, e1] = finiteRange(easts);
     const pad = share * Math.max(n1 - n0, e1 - e0, 2);
@@ -189,7 +189,7 @@ class MapView {
     }
   }
 
-  /** The ways of movers: as wide as they are, their middle dashed. */
+  /** The paths of movers: as wide as they are, their middle dashed. */
   drawMovers(c) {
     for (const {way, radius} of this.plan.movers) {
       const trace = () => {

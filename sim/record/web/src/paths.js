@@ -123,7 +123,7 @@ class PathsView {
     }
   }
 
-  /** The path next to the pointer, by the way from it to each stretch. */
+  /** The path next to the pointer, by its distance to each segment. */
   hover(x, y) {
     let best = null, least = 8 ** 2;
     for (const row of this.rows) {
@@ -141,7 +141,7 @@ class PathsView {
   }
 }
 
-/** What to say of a flight under the pointer. */
+/** Lines of text about the flight under the pointer. */
 function flightLines(table, row) {
   const clearance = table.value('min_obstacle_clearance_m', row);
   return [table.value('id', row), table.why[row] || table.value('outcome', row),

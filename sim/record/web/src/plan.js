@@ -18,7 +18,7 @@ class PlanView {
   /**
    * @param host  element to fill.
    * @param data  the report's data.
-   * @param on  {hover(t), pick(t)}: told of the instant under the pointer, null for none.
+   * @param on  {hover(t), pick(t)}: called with the instant under the pointer, null for none.
    */
   constructor(host, data, on) {
     Object.assign(this, {on, path: data.path, result: data.result});
@@ -130,7 +130,7 @@ class PlanView {
     const {path} = this;
     const status = path.status[i] >= 0 ? ', ' + path.statuses[path.status[i]] : '';
     return [`t = ${path.t[i].toFixed(2)} s${status}`,
-      `clearance ${path.clearance[i] === null ? 'none in reach' : meters(path.clearance[i])}`,
+      `clearance ${path.clearance[i] === null ? 'none within range' : meters(path.clearance[i])}`,
       `speed ${path.speed[i].toFixed(2)} m/s, altitude ${path.altitude[i].toFixed(1)} m`,
       placeText(path.n[i], path.e[i])];
   }

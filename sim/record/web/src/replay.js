@@ -5,11 +5,11 @@ import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
 import {goalMark, ground, moverMesh, pathLine, solidsMesh, vehicle} from './replay_scene.js';
 
 /**
- * Frame T, three.js's world: x east, y up, z south. The one place where W (north, east, down) becomes T: all that stands
+ * Frame V, three.js's world: x east, y up, z south. The one place where W (north, east, down) becomes V: all that stands
  * in W hangs below a group with this matrix.
  */
-const R_TW = new THREE.Matrix4().set(0, 1, 0, 0, 0, 0, -1, 0, -1, 0, 0, 0, 0, 0, 0, 1);
-function inT(north, east, down) { return new THREE.Vector3(north, east, down).applyMatrix4(R_TW); }
+const R_VW = new THREE.Matrix4().set(0, 1, 0, 0, 0, 0, -1, 0, -1, 0, 0, 0, 0, 0, 0, 1);
+function inV(north, east, down) { return new THREE.Vector3(north, east, down).applyMatrix4(R_VW); }
 
 const {result, scene: world, hull, path, goal, has_report} = JSON.parse(document.getElementById('data').textContent);
 const element = (id) => document.getElementById(id);
@@ -25,13 +25,13 @@ stage.add(new THREE.HemisphereLight(0xffffff, 0x6b7560, 1.3));
 // Four walls, four shades, whichever side they are seen from.
 for (const [north, east, strength] of [[-0.5, 0.3, 1.6], [0.5, 0.2, 0.7], [0.1, -0.6, 0.4]]) {
   const light = new THREE.DirectionalLight(0xffffff, strength);
-  light.position.copy(inT(north, east, -0.6));
+  light.position.copy(inV(north, east, -0.6));
   stage.add(light);
 }
 
 const inW = stage.add(new THREE.Group()).children.at(-1);
 inW.matrixAutoUpdate = false;
-inW.matrix.copy(R_TW);
+inW.matrix.copy(R_VW);
 const bounds = world.bounds.length ? world.bounds
   : [...finiteRange(path.north_m), ...finiteRange(path.east_m)].map((v, i) => v + (i % 2 ? 20 : -20));
 const floor = ground(bounds);
@@ -43,7 +43,7 @@ craft.group.rotation.order = 'ZYX';  // yaw, then pitch, then roll, each about t
 
 // --- The instant
 
-/** Row before an instant and the share of the way to the next. */
+/** Row before an instant and the share of the step to the next. */
 function place(t_s) {
   let low = 0, high = path.t_s.length - 1;
   while (low < high) {
@@ -54,7 +54,7 @@ function place(t_s) {
   return {row: low, next, share: step > 0 ? Math.min(1, Math.max(0, (t_s - path.t_s[low]) / step)) : 0};
 }
 const between = (values, {row, next, share}) => values[row] + share * (values[next] - values[row]);
-/** An angle between two, the short way round. */
+/** An angle between two, the shorter way around. */
 function turnBetween(values, {row, next, share}) {
   const turn = values[next] - values[row];
   return values[row] + share * Math.atan2(Math.sin(turn), Math.cos(turn));
@@ -71,7 +71,7 @@ function pose(t_s) {
   });
   const clearance = path.clearance_m[at.row];
   element('clock').textContent = `${t_s.toFixed(2)} of ${end_s.toFixed(1)} s`;
-  element('facts').textContent = `clearance ${clearance === null ? 'none in reach' : meters(clearance)}, ` +
+  element('facts').textContent = `clearance ${clearance === null ? 'none within range' : meters(clearance)}, ` +
     `speed ${fixed(between(path.speed_mps, at), 1)} m/s, altitude ${fixed(-between(path.down_m, at), 1)} m`;
   element('time').value = t_s;
 }
@@ -81,13 +81,13 @@ function pose(t_s) {
 const camera = new THREE.PerspectiveCamera(55, 1, 0.2, 3000);
 const orbit = new OrbitControls(camera, renderer.domElement);
 orbit.maxPolarAngle = 0.499 * Math.PI;
-const craftInT = () => inT(...craft.group.position.toArray());
+const craftInV = () => inV(...craft.group.position.toArray());
 const behind_m = Math.max(6, 8 * craft.reach), orbit_m = 2 * behind_m;
 
 /** Puts the orbit camera south of the vehicle and above it, or right above. */
 function aim(kind) {
   const span = Math.max(bounds[1] - bounds[0], bounds[3] - bounds[2]);
-  orbit.target.copy(craftInT());
+  orbit.target.copy(craftInV());
   const {x, y, z} = orbit.target;
   if (kind === 'above') camera.position.set(x, y + Math.min(span, 120), z + 0.01);
   else camera.position.set(x + 0.6 * orbit_m, y + orbit_m, z + 1.2 * orbit_m);
@@ -95,13 +95,13 @@ function aim(kind) {
 }
 function chase() {
   const yaw = craft.group.rotation.z, p = craft.group.position;
-  camera.position.copy(inT(p.x - behind_m * Math.cos(yaw), p.y - behind_m * Math.sin(yaw), p.z - 0.35 * behind_m));
-  camera.lookAt(craftInT());
+  camera.position.copy(inV(p.x - behind_m * Math.cos(yaw), p.y - behind_m * Math.sin(yaw), p.z - 0.35 * behind_m));
+  camera.lookAt(craftInV());
 }
 let seen = null;
 /** Orbit follows the vehicle: eye and target move as it does. */
 function follow() {
-  const now = craftInT();
+  const now = craftInV();
   if (state.camera === 'chase') {
     chase();
   } else {
@@ -209,17 +209,17 @@ if (path.t_s.length) setTime(0);
 setCamera('orbit');
 requestAnimationFrame(draw);
 
-// What tests ask: places in T of the vehicle and of a point of its own, the controls' state, and how many solids' faces
+// What tests read: places in V of the vehicle and of a point of its own, the controls' state, and how many solids' faces
 // stand between the camera and the vehicle.
 window.replay = {
   state,
   facesBefore: () => {
     stage.updateMatrixWorld(true);
-    const way = craftInT().sub(camera.position), ray = new THREE.Raycaster(camera.position, way.clone().normalize(), 0, way.length());
+    const toCraft = craftInV().sub(camera.position), ray = new THREE.Raycaster(camera.position, toCraft.clone().normalize(), 0, toCraft.length());
     return ray.intersectObject(solids.group, true).filter((hit) => hit.object.isMesh).length;
   },
   point: (forward, right, down) => {
     craft.group.updateMatrix();
-    return inT(...new THREE.Vector3(forward, right, down).applyMatrix4(craft.group.matrix).toArray()).toArray();
+    return inV(...new THREE.Vector3(forward, right, down).applyMatrix4(craft.group.matrix).toArray()).toArray();
   },
 };

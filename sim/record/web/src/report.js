@@ -1,7 +1,7 @@
 'use strict';
-// Puts the page together from its data: verdict, checks, plan, film, plots, details.
+// Puts the page together from its data: verdict, checks, plan, video, plots, details.
 
-/** What to say of an outcome, and whether it is good in itself. */
+/** The text of an outcome, and whether it is good in itself. */
 function judge(outcome, goal) {
   switch (outcome) {
     case 'reached': return {words: 'Reached the goal', good: true};
@@ -30,7 +30,7 @@ function fillVerdict(host, {result, description, plan, has_replay}) {
   badge.append(make('span', 'mark', bad ? '✕' : '✓'));
   const lines = badge.appendChild(make('div'));
   lines.append(make('strong', '', words));
-  lines.append(make('span', '', !all ? 'no checks asked for' : failed ? `${failed} of ${all} checks fail` : `all ${all} checks hold`));
+  lines.append(make('span', '', !all ? 'no checks in the scenario' : failed ? `${failed} of ${all} checks fail` : `all ${all} checks hold`));
   if (result.cause) what.append(make('p', 'fail', result.cause));
   if (result.truth_used?.length) what.append(make('p', 'fail', `The module used the truth: ${result.truth_used.join('; ')}`));
   fillTiles(host.appendChild(make('div', 'tiles')), result);
@@ -44,7 +44,7 @@ function fillTiles(host, result) {
     if (unit) line.append(' ', make('small', '', unit));
     element.append(make('div', 'more', more));
   };
-  const where = (p) => p ? `${p.what || 'obstacle'} at ${p.t_s.toFixed(1)} s` : 'nothing in reach';
+  const where = (p) => p ? `${p.what || 'obstacle'} at ${p.t_s.toFixed(1)} s` : 'nothing within range';
   tile('flight time', fixed(result.flight_time_s, 1), 's', `${result.decisions} decisions`);
   tile('path length', fixed(result.path_length_m, 1), 'm', `mean speed ${fixed(result.mean_speed_mps, 2)} m/s`);
   tile('closest to an obstacle', fixed(result.min_obstacle_clearance_m, 2), 'm', where(result.closest_obstacle));
@@ -62,7 +62,7 @@ function addRow(table, cells, tag = 'td') {
 
 function fillChecks(host, checks) {
   if (!checks.length) {
-    host.append(make('p', 'soft', 'The scenario asks for none.'));
+    host.append(make('p', 'soft', 'The scenario has none.'));
     return;
   }
   host.classList.add('scroll');
@@ -98,7 +98,7 @@ function fillDetails(host, {result, module, scene, vehicle, scenario_yaml}) {
   scenario.append(make('summary', '', 'Resolved scenario'), make('pre', '', scenario_yaml));
 }
 
-/** The film inside the page becomes a file in memory, which browsers can seek in. */
+/** The video inside the page becomes a file in memory, which browsers can seek in. */
 function openFilm() {
   const film = document.getElementById('film');
   if (!film) {
@@ -116,12 +116,12 @@ function openFilm() {
 
 /** Notes beside the plots' section heads. */
 function sectionNotes(module) {
-  const notes = {'Command and motion': 'drag to zoom, double click to see all, click to go there in the film'};
+  const notes = {'Command and motion': 'drag to zoom, double click to see all, click to seek the video there'};
   if (module === 'flow_balance') notes['What the module saw'] = 'as in Garratt and Cheung 2009, fig. 7';
   return notes;
 }
 
-/** A goal that the module's course does not lead to is not flown to: then there is none to show or to judge by. */
+/** Removes a goal that the module's planned route does not lead to: it is neither shown nor judged by. */
 function dropUnflownGoal({map, plan}) {
   if (!map || !map.course.length || !plan.goal) return;
   const {n, e, radius} = plan.goal;
@@ -137,7 +137,7 @@ function main() {
   const film = openFilm();
   if (!data.map) document.getElementById('landmarks-card').remove();
 
-  // One instant is shown by plan and plots: the pointer's, else the film's.
+  // One instant is shown by plan and plots: the pointer's, else the video's.
   let pointer = null, drawn;
   const show = () => {
     const t = pointer ?? (film && film.currentTime > 0 ? film.currentTime : null);
@@ -147,11 +147,11 @@ function main() {
     landmarks?.setTime(t);
     charts.setTime(t);
   };
-  let asked = false;
+  let pending = false;
   const ask = () => {
-    if (asked) return;
-    asked = true;
-    requestAnimationFrame(() => { asked = false; show(); });
+    if (pending) return;
+    pending = true;
+    requestAnimationFrame(() => { pending = false; show(); });
   };
   const on = {
     hover: (t) => { pointer = t; ask(); },

@@ -50,7 +50,7 @@ function addRows(host, rows) {
     for (const [text, className] of cells) row.append(make(tag, className, text));
     return row;
   };
-  line(['what', 'paper', 'asked', 'ours', ''].map((text) => [text, '']), 'th');
+  line(['figure', 'paper', 'required', 'ours', ''].map((text) => [text, '']), 'th');
   for (const {what, unit, paper, asked, ours, holds, command} of rows) {
     const row = line([[what + (unit ? `, ${unit}` : ''), ''], [paper || '–', ''], [asked || '–', ''], [ours, ''],
       holds === null ? ['', ''] : holds ? ['holds', 'pass'] : ['does not hold', 'fail']], 'td');
@@ -71,10 +71,10 @@ function addChart(host, chart) {
 function main() {
   const {version, quick, papers} = JSON.parse(document.getElementById('data').textContent);
   const head = document.getElementById('head');
-  const rows = papers.flatMap((paper) => paper.rows), asked = rows.filter(({holds}) => holds !== null);
+  const rows = papers.flatMap((paper) => paper.rows), judged = rows.filter(({holds}) => holds !== null);
   head.append(make('h1', '', 'Papers reproduced'));
-  head.append(make('p', 'soft', `Hedgehop ${version}: ${asked.filter(({holds}) => holds).length} of ${asked.length} measured figures hold.`
-    + (quick ? ' A quick look: few seeds were flown.' : '')));
+  head.append(make('p', 'soft', `Hedgehop ${version}: ${judged.filter(({holds}) => holds).length} of ${judged.length} measured figures hold.`
+    + (quick ? ' Quick run: few seeds were flown.' : '')));
   for (const paper of papers) {
     const section = document.getElementById('papers').appendChild(make('section', 'paper'));
     const title = section.appendChild(make('div', 'charts-head'));

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "sim/scenario/tree.h"
+
+/// Files that use other files, and overrides of their values.
+namespace hedgehop::sim {
+
+/// Keys that name the choice of a variant (Field::selector): overriding one of these by another value replaces the
+/// whole map, for the keys beside it belong to the other choice.
+inline constexpr std::string_view kSelectors[] = {"type", "module", "check"};
+
+/// Reads a file whose root is a map, and the files that it uses: with `use: other.yaml` a map overrides
+/// the other file's root, map by map; lists and scalars replace. Paths are relative to the file that names them.
+Node load_tree(const std::filesystem::path& file, Faults& faults);
+
+/// Overrides `base` with `over`: maps key by key (see kSelectors), all else by replacement.
+void override_with(Node& base, const Node& over);
+
+/// Applies `a.b.0.c=value` in order; the value is YAML. `a.b.use=file` replaces `a.b` by the file's map, its path
+/// relative to the folder of `file`. Missing maps of the path are created (the reader reports those that may not
+/// exist).
+void apply_overrides(Node& root, std::span<const std::string> overrides, const std::filesystem::path& file,
+                     Faults& faults);
+
+}  // namespace hedgehop::sim
