@@ -6,8 +6,6 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "sim/fields/bounds.h"
-
 namespace hedgehop::vision::landmarks {
 namespace {
 

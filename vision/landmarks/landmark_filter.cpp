@@ -14,6 +14,17 @@
 namespace hedgehop::vision::landmarks {
 namespace {
 
+void check(const LandmarkMapConfig& c) {
+  fields::require_bounds(c, "map");
+  const auto need = [](bool holds, const char* message) {
+    if (!holds) throw std::invalid_argument(std::string("landmark map: ") + message);
+  };
+  need(c.start.ground_sigma > 0.0, "ground_sigma must be above 0");
+  need(c.start.nearest_m > 0.0 && c.start.beyond_horizon_m > 0.0, "nearest and beyond_horizon must be above 0 m");
+  need(c.gate > 0.0, "gate must be above 0");
+  need(c.misses >= 1, "misses must be at least 1");
+}
+
 /// Widens a pose's uncertainty as one of many with correlated errors: all within the correlation time count as one
 /// measurement. The integral of an exponentially fading correlation is twice its time constant.
 CameraPose as_one_of_correlated(const CameraPose& pose, double correlation_s, double dt_s) {
@@ -46,7 +57,7 @@ std::vector<std::optional<size_t>> match_confirmed_first(std::span<const std::op
 
 LandmarkMap::LandmarkMap(const LandmarkMapConfig& config, const camera::PinholeCamera& camera)
     : config_(config), camera_(camera), bearing_sigma_(config.pixel_sigma_px / camera.focal_x_px) {
-  fields::require_bounds(config, "map");
+  check(config);
 }
 
 std::vector<int64_t> LandmarkMap::update(std::span<const Eigen::Vector2d> corners_px, const CameraPose& pose,

@@ -1,5 +1,5 @@
 'use strict';
-// A module's map beside the truth, from above: landmarks with their ellipses, true corners, course, path, planned paths.
+// A module's map beside the truth, from above: landmarks with their ellipses, true corners, route, path, planned detours.
 
 const mapSigmas = 3, pathsShown = 4;
 
@@ -117,8 +117,8 @@ class LandmarksView {
       entry('c0', share(points) + `landmarks, ellipses of ${mapSigmas} standard deviations`, 'disc');
     }
     entry('c0', 'flown');
-    if (course.length) entry('soft', 'course', 'dashed');
-    if (paths.length) entry('c3', `planned, the latest ${pathsShown}`, 'dotted');
+    if (course.length) entry('soft', 'route', 'dashed');
+    if (paths.length) entry('c3', `planned detours, the latest ${pathsShown}`, 'dotted');
   }
 
   hover(x, y) {
@@ -136,7 +136,7 @@ class LandmarksView {
     map.showTip(x, y, lines.length ? lines : map.placeLines(x, y));
   }
 
-  /** Shows the paths planned until an instant; null for the end. */
+  /** Shows the detours planned until an instant; null for the end. */
   setTime(t) {
     if (t === this.t) return;
     this.t = t;
