@@ -93,10 +93,10 @@ Eigen::Vector3d SectionPilot::position_W(const NavigationState& navigation,
   const Eigen::Vector3d ray_B = camera_.X_BC.linear() * section_ray_C(camera_, search, section);
   const double side = post_W_ ? away_ : ray_B.y() < 0.0 ? -1.0 : 1.0;
   const bool recedes = post_W_.has_value();  // what approaches the post may follow aside
-  const Eigen::Vector3d p_BS_B = reach_m * direction_B(answer_, ray_B, side, recedes);
-  Eigen::Vector3d p_WS = navigation.p_WB_est + navigation.q_WB_est * p_BS_B;
-  p_WS.z() = std::min(p_WS.z(), -lowest_m_);
-  return p_WS;
+  const Eigen::Vector3d p_BP_B = reach_m * direction_B(answer_, ray_B, side, recedes);
+  Eigen::Vector3d p_WP = navigation.p_WB_est + navigation.q_WB_est * p_BP_B;
+  p_WP.z() = std::min(p_WP.z(), -lowest_m_);
+  return p_WP;
 }
 
 /// Whether the image of a vehicle that hovers shows a threat; notes its bearing and the side on which it leaves room.

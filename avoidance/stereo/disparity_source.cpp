@@ -26,29 +26,29 @@ void require_one_rate(const MountedCamera& a, const MountedCamera& b) {
   throw std::invalid_argument("cameras '" + a.role + "' and '" + b.role + "' need one rate");
 }
 
-bool is_parallel(const Eigen::Isometry3d& X_LR) {
+bool is_parallel(const Eigen::Isometry3d& X_CCr) {
   constexpr double kNoTurn = 1e-9;
-  return (X_LR.linear() - Eigen::Matrix3d::Identity()).norm() < kNoTurn;
+  return (X_CCr.linear() - Eigen::Matrix3d::Identity()).norm() < kNoTurn;
 }
 
 constexpr double kNoOffsetM = 1e-6;
 
 vision::stereo::StereoGeometry geometry_of_pair(const MountedCamera& left, const MountedCamera& right) {
   const vision::camera::PinholeCamera a = left.model.pinhole();
-  const Eigen::Isometry3d X_LR = left.X_BC.inverse() * right.X_BC;
-  const bool beside = X_LR.translation().tail<2>().norm() < kNoOffsetM && X_LR.translation().x() > 0.0;
-  if (!(left.model == right.model) || !is_parallel(X_LR) || !beside || a.focal_x_px != a.focal_y_px) {
+  const Eigen::Isometry3d X_CCr = left.X_BC.inverse() * right.X_BC;
+  const bool beside = X_CCr.translation().tail<2>().norm() < kNoOffsetM && X_CCr.translation().x() > 0.0;
+  if (!(left.model == right.model) || !is_parallel(X_CCr) || !beside || a.focal_x_px != a.focal_y_px) {
     throw std::invalid_argument("cameras '" + left.role + "' and '" + right.role +
                                 "' must be equal pinholes with square pixels, parallel, the second to the right of the "
                                 "first");
   }
   require_one_rate(left, right);
-  return {a.focal_x_px, a.center_u_px, a.center_v_px, X_LR.translation().x()};
+  return {a.focal_x_px, a.center_u_px, a.center_v_px, X_CCr.translation().x()};
 }
 
 void require_one_view(const MountedCamera& grey, const MountedCamera& depth) {
-  const Eigen::Isometry3d X_GD = grey.X_BC.inverse() * depth.X_BC;
-  if (!(grey.model == depth.model) || !is_parallel(X_GD) || X_GD.translation().norm() > kNoOffsetM) {
+  const Eigen::Isometry3d X_CCd = grey.X_BC.inverse() * depth.X_BC;
+  if (!(grey.model == depth.model) || !is_parallel(X_CCd) || X_CCd.translation().norm() > kNoOffsetM) {
     throw std::invalid_argument("cameras '" + grey.role + "' and '" + depth.role + "' must have one lens and one pose");
   }
   require_one_rate(grey, depth);

@@ -141,16 +141,16 @@ class StereoCorridor final : public Module {
     const NavigationState& navigation = observation.navigation;
     if (!target_) return HoverCommand{turn_ * config_.yaw_rate_radps};
     const double z_m = std::min(target_->z_m, CorridorSearch::kLookAheadM);
-    const Eigen::Vector3d p_BT_B = source_->X_BC() * (z_m * source_->geometry().ray(target_->pixel));
-    const Eigen::Vector3d p_BT_W = navigation.q_WB_est * p_BT_B;
-    const Eigen::Vector2d level_W = p_BT_W.head<2>();
+    const Eigen::Vector3d p_BP_B = source_->X_BC() * (z_m * source_->geometry().ray(target_->pixel));
+    const Eigen::Vector3d p_BP_W = navigation.q_WB_est * p_BP_B;
+    const Eigen::Vector2d level_W = p_BP_W.head<2>();
     VelocityCommand command;
     command.v_WB_W = speed_mps(observation) * level_W.normalized();
     command.heading_rad = std::atan2(level_W.y(), level_W.x());
     command.altitude_m = -observation.goal.p_WG.z();
     if (target_->found_by != FoundBy::goal) {
       constexpr double kLeadS = 2.0;  // the height that the ray to the target has after this time
-      const double slope = p_BT_W.z() / level_W.norm();
+      const double slope = p_BP_W.z() / level_W.norm();
       command.altitude_m = -(navigation.p_WB_est.z() + kLeadS * config_.speed_mps * slope);
     }
     command.altitude_m = std::max(command.altitude_m, config_.lowest_m);

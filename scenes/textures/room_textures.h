@@ -11,8 +11,8 @@ inline constexpr double kRoomTileM = 4.0;
 
 enum class WallPaper { stripes, brick, damask, plaster };
 
-/// Returns `variants` images of one wall: they share the paper and differ in the pictures on it, so that they continue
-/// each other sideways in any order. Row 0 is the top of a wall 4 m high; a lower wall shows the lower part.
+/// Returns `variants` images of one wall: they share the paper and differ in the framed posters on it, so that they
+/// continue each other sideways in any order. Row 0 is the top of a wall 4 m high; a lower wall shows the lower part.
 std::vector<cv::Mat> paint_room_walls(WallPaper paper, int size_px, int variants, uint64_t seed);
 
 cv::Mat paint_parquet(int size_px, uint64_t seed);

@@ -31,7 +31,7 @@ TEST(Avionics, EqualSeedsGiveEqualFlightsBitForBit) {
   EXPECT_FALSE(same(fly(loop, 6.0, away).back(), a.back()));
 }
 
-/// Feeds two avionics the same hover and compares what they believe at its end.
+/// Feeds two avionics the same hover and compares their estimates at its end.
 control::NavigationEstimate after_hover(Avionics& avionics, double duration_s = 3.0) {
   Vehicle vehicle{VehicleConfig(helicopter::HelicopterConfig())};
   vehicle.reset({0.0, 0.0, -10.0}, 0.0, Eigen::Vector3d::Zero());
@@ -69,7 +69,7 @@ TEST(Avionics, EachSourceOfNoiseHasAStreamOfItsOwn) {
   EXPECT_THAT(names, testing::UnorderedElementsAre("imu", "gps", "height_sensor", "magnetometer", "alignment"));
 
   // Another seed for one stream reaches the estimate through that sensor alone.
-  const auto believed = [](AvionicsConfig c, std::string_view other) {
+  const auto estimated = [](AvionicsConfig c, std::string_view other) {
     Avionics a(c, helicopter::HelicopterConfig(), 0.002,
                [&](std::string_view n) { return seed_of(n == other ? 2 : 1, n); });
     return after_hover(a);
@@ -78,10 +78,10 @@ TEST(Avionics, EachSourceOfNoiseHasAStreamOfItsOwn) {
   AvionicsConfig blind;
   blind.gps.enabled = blind.magnetometer.enabled = blind.height_sensor.ranger.enabled = false;
   for (const std::string_view name : {"gps", "height_sensor", "magnetometer"}) {
-    EXPECT_FALSE(same(believed(all, name), believed(all, "none"))) << name;
-    EXPECT_TRUE(same(believed(blind, name), believed(blind, "none"))) << name;
+    EXPECT_FALSE(same(estimated(all, name), estimated(all, "none"))) << name;
+    EXPECT_TRUE(same(estimated(blind, name), estimated(blind, "none"))) << name;
   }
-  EXPECT_FALSE(same(believed(blind, "imu"), believed(blind, "none")));
+  EXPECT_FALSE(same(estimated(blind, "imu"), estimated(blind, "none")));
 
   // What is not on board asks for none.
   AvionicsConfig with_options;
@@ -93,8 +93,8 @@ TEST(Avionics, EachSourceOfNoiseHasAStreamOfItsOwn) {
   });
   EXPECT_THAT(names, testing::UnorderedElementsAre("imu", "gps", "height_sensor", "magnetometer", "alignment",
                                                    "barometer", "range_finder"));
-  EXPECT_FALSE(same(believed(with_options, "barometer"), believed(with_options, "none")));
-  EXPECT_TRUE(same(believed(with_options, "range_finder"), believed(with_options, "none")));
+  EXPECT_FALSE(same(estimated(with_options, "barometer"), estimated(with_options, "none")));
+  EXPECT_TRUE(same(estimated(with_options, "range_finder"), estimated(with_options, "none")));
 }
 
 TEST(Avionics, RangesAlongTheBeamFromItsPlaceOnBoard) {
