@@ -145,7 +145,7 @@ void Episode::observe_map() {
   const double t_s = ticks_.t_s(tick_);
   avoidance::Map map = pilot_.module().map();
   if (const std::optional<size_t> camera = pilot_.first_camera(); camera && map_observer_) {
-    map_observer_->on_map({t_s, map, cameras_.mounted(*camera), aircraft_.X_WB(), p_WB_start_, scene_.corners_W,
+    map_observer_->on_map({t_s, map, cameras_.mounted(*camera), aircraft_.X_WB(), p_WB_start_, scene_->corners_W,
                            collision_, pilot_.sees_through_walls()});
   }
   map_log_.add(t_s, std::move(map));
