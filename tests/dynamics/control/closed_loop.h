@@ -90,7 +90,7 @@ inline std::vector<Sample> fly(const Loop& loop, double duration_s,
     const double t_s = static_cast<double>(tick) * dt;
     VelocitySensor flow_velocity;
     if (loop.flow_sigma > 0.0 && tick % per_flow == 0) {
-      flow_velocity = [&](const NavigationEstimate&) {
+      flow_velocity = [&](const control::NavigationEstimate&) {
         const double forward = flow.draw(), right = flow.draw();
         return VelocityReading{vehicle.body().v_WB_B.head<2>() + loop.flow_sigma * Eigen::Vector2d(forward, right),
                                loop.flow_sigma};

@@ -9,6 +9,7 @@
 #include "sample_config.h"
 #include "scenario_files.h"
 #include "sim/scenario/document.h"
+#include "sim/scenario/parse.h"
 #include "sim/scenario/scenario.h"
 #include "sim/scenario/writer.h"
 

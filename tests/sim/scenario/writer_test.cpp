@@ -7,6 +7,7 @@
 #include "random_config.h"
 #include "sample_config.h"
 #include "scenario_files.h"
+#include "sim/scenario/parse.h"
 #include "sim/scenario/scenario.h"
 
 namespace hedgehop::sim {
