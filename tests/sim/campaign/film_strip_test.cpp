@@ -73,7 +73,7 @@ TEST(FilmStrip, ShowsTheWorstFlightsInTheReport) {
   ASSERT_EQ(folder.json("out/batch.json").at("flights").at(0).at("result").at("outcome"), "collided");
   const CommandEnd end = folder.hedgehop("report out --film-strips 3");
   ASSERT_EQ(end.status, 0) << end.err;
-  EXPECT_EQ(end.err, "1/1: flying wall/seed1 again for its film strip\n");
+  EXPECT_EQ(end.err, "1/1: re-simulating wall/seed1 for its film strip\n");
   const PageVisit page = visit(folder.path() / "out/report.html", R"js(
     const image = document.querySelector('#strips-card img');
     await image.decode();

@@ -325,7 +325,7 @@ class ReadBack(unittest.TestCase):
         (other / "scenario.yaml").write_bytes((self.run_folder / "scenario.yaml").read_bytes())
         done = hedgehop("export", other, "--format", "kitti", "--camera", "left")
         self.assertEqual(done.returncode, 0)
-        self.assertIn("the trajectory differs from the run's", done.stderr)
+        self.assertIn("the re-simulated trajectory differs from the run's", done.stderr)
 
 
 if __name__ == "__main__":
