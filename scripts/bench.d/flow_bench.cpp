@@ -26,12 +26,12 @@ std::array<cv::Mat, 2> moved_texture() {
 // 16 x 16 vectors of 64 px patches in each of five images.
 void FiveFlowFields(benchmark::State& state) {
   const std::array<cv::Mat, 2> images = moved_texture();
-  std::vector<ImageInterpolationFlow> flows;
-  for (int i = 0; i < kCameras; ++i) flows.emplace_back(ImageInterpolationConfig{}, kSidePx, kSidePx);
+  std::vector<flow::ImageInterpolationFlow> flows;
+  for (int i = 0; i < kCameras; ++i) flows.emplace_back(flow::ImageInterpolationConfig{}, kSidePx, kSidePx);
   size_t frame = 0;
   for (auto _ : state) {
     ++frame;
-    for (ImageInterpolationFlow& flow : flows) benchmark::DoNotOptimize(flow.update(images[frame % 2]));
+    for (flow::ImageInterpolationFlow& each : flows) benchmark::DoNotOptimize(each.update(images[frame % 2]));
   }
 }
 BENCHMARK(FiveFlowFields)->Unit(benchmark::kMillisecond);

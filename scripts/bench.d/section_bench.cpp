@@ -32,22 +32,22 @@ cv::Mat random_depth() {
 // [Perez2018] table 1: rows and columns of sections from 3 to 27. Those of 3 x 3 do not overlap.
 void SectionSelection(benchmark::State& state) {
   const int count = static_cast<int>(state.range(0));
-  SectionGrid grid{.rows = count, .cols = count};
+  sections::SectionGrid grid{.rows = count, .cols = count};
   if (count == 3) grid.width_share = grid.height_share = 1.0 / 3.0;
-  SectionSearch search(grid, kZed);
+  sections::SectionSearch search(grid, kZed);
   const cv::Mat depth_m = random_depth();
   for (auto _ : state) {
-    benchmark::DoNotOptimize(search.choose(depth_m, kThresholdM, kMostShare, Unknown::free));
+    benchmark::DoNotOptimize(search.choose(depth_m, kThresholdM, kMostShare, sections::Unknown::free));
   }
 }
 BENCHMARK(SectionSelection)->DenseRange(3, 27, 2)->Unit(benchmark::kMillisecond);
 
 // Threats widened by 8 px to every side, the remedy for thin obstacles.
 void SectionSelectionWidened(benchmark::State& state) {
-  SectionSearch search({.grow_px = 8}, kZed);
+  sections::SectionSearch search({.grow_px = 8}, kZed);
   const cv::Mat depth_m = random_depth();
   for (auto _ : state) {
-    benchmark::DoNotOptimize(search.choose(depth_m, kThresholdM, kMostShare, Unknown::free));
+    benchmark::DoNotOptimize(search.choose(depth_m, kThresholdM, kMostShare, sections::Unknown::free));
   }
 }
 BENCHMARK(SectionSelectionWidened)->Unit(benchmark::kMillisecond);
