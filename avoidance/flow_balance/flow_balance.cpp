@@ -6,6 +6,7 @@
 #include "avoidance/flow_balance/detour.h"
 #include "avoidance/flow_balance/patch_ranging.h"
 #include "avoidance/flow_balance/range_balance.h"
+#include "avoidance/flow_balance/range_ring.h"
 #include "avoidance/flow_balance/side_cameras.h"
 #include "avoidance/go_to_goal.h"
 #include "avoidance/heading.h"
@@ -37,6 +38,7 @@ class FlowBalance final : public Module {
   void do_reset(const Setup& setup) override {
     cameras_.emplace(setup, config_.flow, /*derotate=*/!printed());
     ranging_.emplace(kCityPatches);
+    ring_ = {};
     detour_.emplace(config_.patience_s);
     v_cmd_W_.reset();
     v_tgt_W_.setZero();
@@ -47,7 +49,7 @@ class FlowBalance final : public Module {
   Decision do_update(const Observation& observation) override {
     heading_rad_ = heading_rad(observation.navigation.q_WB_est);
     cameras_->update(observation);
-    if (!printed()) ranging_->update(*cameras_, observation.navigation);
+    if (!printed()) look_around(observation);
     const Eigen::Vector2d p_BG_W = (observation.goal.p_WG - observation.navigation.p_WB_est).head<2>();
     const Eigen::Vector2d v_W =
         printed() ? printed_command(p_BG_W, velocity_H(observation.navigation)) : our_command(p_BG_W, observation.t_ns);
@@ -66,6 +68,16 @@ class FlowBalance final : public Module {
     return decision;
   }
 
+  /// Puts what the cameras measured into the ring.
+  void look_around(const Observation& observation) {
+    const NavigationState& navigation = observation.navigation;
+    ranging_->update(*cameras_, navigation);
+    ring_.carry((navigation.q_WB_est * navigation.v_WB_B_est).head<2>(), observation.t_ns);
+    for (size_t side = 0; side < kSideCount; ++side) {
+      if (cameras_->fresh(side)) ring_.add(ranging_->columns(side), heading_rad_);
+    }
+  }
+
   /// [Garratt2009] eq. (4). @return in W, m/s, as the next two.
   Eigen::Vector2d printed_command(const Eigen::Vector2d& p_BG_W, const Eigen::Vector2d& v_H) {
     v_tgt_W_ = velocity_to_goal(rotated(p_BG_W, config_.spiral_angle_rad), config_.speed_mps, /*slow_radius_m=*/0.0);
@@ -74,16 +86,16 @@ class FlowBalance final : public Module {
     return rotated(normalized_command(rotated(v_tgt_W_, -heading_rad_), push_H, v_tgt_W_.norm()), heading_rad_);
   }
 
-  /// With ranges of the nearest patches and with detours.
+  /// With the nearest places all round and with detours.
   Eigen::Vector2d our_command(const Eigen::Vector2d& p_BG_W, int64_t t_ns) {
     const double aside_rad = detour_->update(p_BG_W.norm(), 1e-9 * static_cast<double>(t_ns));
     const Eigen::Vector2d aim_W = rotated(p_BG_W, config_.spiral_angle_rad + aside_rad);
     v_tgt_W_ = velocity_to_goal(aim_W, config_.speed_mps, config_.slow_radius_m);
     // The direction is chosen as at full speed, so that walls do not outweigh a goal that is near.
-    const Eigen::Vector2d full_H = rotated(velocity_to_goal(aim_W, config_.speed_mps, 0.0), -heading_rad_);
-    const Eigen::Vector2d push_H = push_from_ranges(cameras_->axes_H(), ranging_->nearest_per_m(),
-                                                    config_.loom_gain_m2ps + config_.flow_gain_m2ps);
-    return rotated(normalized_command(full_H, push_H, v_tgt_W_.norm()), heading_rad_);
+    const Eigen::Vector2d full_W = velocity_to_goal(aim_W, config_.speed_mps, 0.0);
+    const Eigen::Vector2d push_W =
+        push_from_places(ring_.places_W(), aim_W, config_.loom_gain_m2ps + config_.flow_gain_m2ps);
+    return normalized_command(full_W, push_W, v_tgt_W_.norm());
   }
 
   Eigen::Vector2d filtered(const Eigen::Vector2d& v_W, int64_t t_ns) const {
@@ -106,6 +118,7 @@ class FlowBalance final : public Module {
   FlowBalanceConfig config_;
   std::optional<SideCameras> cameras_;
   std::optional<PatchRanging> ranging_;
+  RangeRing ring_;
   std::optional<Detour> detour_;
   Eigen::Vector2d v_tgt_W_ = Eigen::Vector2d::Zero();
   std::optional<Eigen::Vector2d> v_cmd_W_;

@@ -26,7 +26,7 @@ std::vector<Eigen::Vector2d> patch_directions_H(const CameraFlow& camera, const 
 }  // namespace
 
 PatchRanging::PatchRanging(const Options& options)
-    : options_(options), sides_(kSideCount, Side{RangeMemory(options.memory_s), LastingRanges(options.images), {}}) {}
+    : options_(options), sides_(kSideCount, Side{RangeMemory(options.memory_s), LastingRanges(options.images), {}, {}, 0}) {}
 
 void PatchRanging::update(const SideCameras& cameras, const NavigationState& navigation) {
   for (size_t i = 0; i < kSideCount; ++i) {
@@ -55,6 +55,29 @@ void PatchRanging::add_image(const CameraFlow& camera, const NavigationState& na
     measurements.push_back({inverse_ranges_per_m[i], weights[i], closing_mps});
   }
   side.lasting.add(side.memory.update(measurements, dt_s));
+  side.weights = weights;
+  for (size_t i = 0; i < weights.size(); ++i) side.weights[i] *= camera.field().vectors[i].valid ? 1.0 : 0.0;
+  side.cols = camera.field().cols;
+}
+
+std::vector<RangeColumn> PatchRanging::columns(size_t side) const {
+  constexpr double kNearestRows = 0.25;
+  const auto& [memory, lasting, directions_H, weights, cols] = sides_[side];
+  std::vector<RangeColumn> columns;
+  if (cols == 0) return columns;
+  const std::vector<double> lasting_per_m = lasting.lasting_per_m();
+  const auto count = static_cast<size_t>(cols), rows = weights.size() / count;
+  for (size_t col = 0; col < count; ++col) {
+    RangeColumn column{.direction_H = directions_H[col]};
+    std::vector<double> near_per_m;
+    for (size_t i = col; i < weights.size(); i += count) {
+      near_per_m.push_back(lasting_per_m[i]);
+      column.weight += weights[i] / static_cast<double>(rows);
+    }
+    column.inverse_range_per_m = vision::flow::nearest_inverse_range_per_m(std::move(near_per_m), kNearestRows);
+    columns.push_back(column);
+  }
+  return columns;
 }
 
 PerSide PatchRanging::left_once_stopped_per_m(const Approach& approach) const {

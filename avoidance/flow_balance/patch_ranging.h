@@ -26,11 +26,17 @@ class PatchRanging final : public Ranging {
   /// Counts the patches that lie within 60 degrees of the path.
   PerSide left_once_stopped_per_m(const Approach& approach) const override;
 
+  /// The columns of one camera, from left to right: of each the mean of its nearest quarter of patches, for sky, ground
+  /// and far roofs must not hide a wall between them. Empty before the first image.
+  std::vector<RangeColumn> columns(size_t side) const;
+
  private:
   struct Side {
     RangeMemory memory;
     LastingRanges lasting;
     std::vector<Eigen::Vector2d> directions_H;  ///< of the patches, level, length 1
+    std::vector<double> weights;                ///< of the last image's patches, 0 for one without flow
+    int cols = 0;
   };
   void add_image(const CameraFlow& camera, const NavigationState& navigation, double dt_s, Side& side) const;
 

@@ -1,19 +1,18 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <span>
-
-#include "avoidance/flow_balance/ranging.h"
+#include <vector>
 
 /// Our additions to the goal-directed law of balance_law.h.
 namespace hedgehop::avoidance::flow_balance {
 
-/// Returns the velocity to add to the target velocity, in H, m/s: each camera pushes back along its axis by `gain_m2ps`
-/// times the inverse range of the nearest obstacle on its side. With a gain of k0 + k1 it equals push_from_walls()
-/// before walls at right angles to a camera's axis. It also holds for what a camera sees at its edge, and for what lies
-/// straight ahead of the motion.
-/// @param inverse_ranges_per_m  per side, >= 0.
-Eigen::Vector2d push_from_ranges(const SideAxes& axes_H, const PerSide& inverse_ranges_per_m, double gain_m2ps);
+/// Returns the velocity to add to the target velocity, in W, m/s. In each quarter of the plan, the first about the aim,
+/// the three nearest places push back along their directions, together by `gain_m2ps` times their mean inverse range.
+/// With a gain of k0 + k1 and walls at right angles to the aim it equals push_from_walls(). It also holds for what a
+/// camera sees at its edge, and for what lies straight ahead of the motion.
+/// @param places_W  from the vehicle, m. @param aim_W  direction to fly, not zero.
+Eigen::Vector2d push_from_places(const std::vector<Eigen::Vector2d>& places_W, const Eigen::Vector2d& aim_W,
+                                 double gain_m2ps);
 
 /// Returns a command after a first-order low-pass filter, m/s. [Garratt2009] sec. 4.1 suggests one.
 /// @param v_last_W  the last filtered command, m/s.  @param dt_s  since then, >= 0.

@@ -21,6 +21,13 @@ struct Approach {
   bool reverses_both = false;  ///< both components of the velocity are reversed at once, as in a corner
 };
 
+/// What a column of a camera's patches measures.
+struct RangeColumn {
+  Eigen::Vector2d direction_H = Eigen::Vector2d::UnitX();  ///< level, length 1
+  double inverse_range_per_m = 0.0;                        ///< of what is near in it; 0 where nothing is known
+  double weight = 0.0;  ///< mean of vision::flow::parallax_weights(), patches without flow counting 0
+};
+
 /// A method to get ranges from the flow of four cameras.
 class Ranging {
  public:

@@ -23,10 +23,15 @@ constexpr const char* kLookRound = "look_round";  ///< [Andert2007] sec. 4.3.4, 
 
 class StereoCorridor final : public Module {
  public:
-  explicit StereoCorridor(const StereoCorridorConfig& config) : config_(config) { fields::require_bounds(config); }
+  explicit StereoCorridor(const StereoCorridorConfig& config) : config_(with_additions(config)) {
+    fields::require_bounds(config);
+  }
 
  private:
-  bool is_ours() const { return config_.law == Law::ours; }
+  static StereoCorridorConfig with_additions(StereoCorridorConfig config) {
+    if (config.law == Law::printed) config.additions = {false, false, false};
+    return config;
+  }
 
   Needs do_needs() const override { return DisparitySource::needs(config_.depth, DisparitySource::Grey::needed); }
   std::vector<Signal> do_signals() const override {
@@ -41,7 +46,7 @@ class StereoCorridor final : public Module {
     source_.emplace(config_.depth, DisparitySource::Grey::needed, config_.stereo, setup);
     tracker_ = {};
     stereo::PassedObstaclesConfig passed;
-    if (!is_ours()) passed.radius_m = 0.0;
+    if (!config_.additions.memory) passed.radius_m = 0.0;
     passed_.emplace(passed);
     acceleration_mps2_ = setup.limits.acceleration_mps2;
     target_.reset();
@@ -66,7 +71,7 @@ class StereoCorridor final : public Module {
     passed_->update(observation.t_ns, pyramid_, source_->geometry(), X_WC);
 
     const Eigen::Vector3d p_CG_C = X_WC.inverse() * observation.goal.p_WG;
-    const bool turns_back = is_ours() && turn_back_.update(p_CG_C);
+    const bool turns_back = config_.additions.goal_first && turn_back_.update(p_CG_C);
     const int tests = aim(navigation, p_CG_C, turns_back);
     count(observation.t_ns, tests);
 
@@ -87,9 +92,9 @@ class StereoCorridor final : public Module {
     constexpr int kSameSegment16 = 16;  // tau_difference, a pixel: neighbors on a slanted plane stay together
     disparity16.copyTo(matched16_);
     vision::stereo::remove_specks(disparity16, kSameSegment16, config_.speck_px);
-    if (is_ours()) cv::blur(source_->grey(), smooth_, {3, 3});
-    const cv::Mat& grey = is_ours() ? smooth_ : source_->grey();
-    const auto among = is_ours() ? vision::stereo::SkyAmong::all : vision::stereo::SkyAmong::unknown;
+    if (config_.additions.sky) cv::blur(source_->grey(), smooth_, {3, 3});
+    const cv::Mat& grey = config_.additions.sky ? smooth_ : source_->grey();
+    const auto among = config_.additions.sky ? vision::stereo::SkyAmong::all : vision::stereo::SkyAmong::unknown;
     vision::stereo::mark_sky(grey, config_.sky_texture, config_.sky_brightness, among, disparity16);
   }
 
@@ -111,7 +116,7 @@ class StereoCorridor final : public Module {
       turn_ = std::copysign(1.0, p_CG_C.x());
       return 0;
     }
-    if (is_ours()) {
+    if (config_.additions.goal_first) {
       target_ = choose_goal_first(images, p_CG_C, v_WB_C, followed);
     } else {
       // A vehicle that stands has no direction of flight; the paper begins with "the way straight on".
@@ -131,7 +136,7 @@ class StereoCorridor final : public Module {
   }
 
   double speed_mps(const Observation& observation) const {
-    if (!is_ours()) return config_.speed_mps;
+    if (!config_.additions.goal_first) return config_.speed_mps;
     const double goal_m = (observation.goal.p_WG - observation.navigation.p_WB_est).head<2>().norm();
     return approach_speed_mps(config_.speed_mps, goal_m, acceleration_mps2_);
   }

@@ -11,6 +11,13 @@
 
 namespace hedgehop::avoidance::stereo_corridor {
 
+/// What law `ours` adds to the paper's. Each can be left out, so that its effect can be told apart.
+struct Additions {
+  bool goal_first = true;  ///< goal_first.h, turn_back.h
+  bool memory = true;      ///< stereo::PassedObstacles
+  bool sky = true;         ///< vision::stereo::SkyAmong::all, in a smoothed image
+};
+
 /// Flies through corridors that a depth image shows to be free.
 /// Source: [Andert2007] sec. 3 and 4: corridor_search.h. Law `ours` adds the goal, memory and slowing down.
 struct StereoCorridorConfig {
@@ -18,6 +25,7 @@ struct StereoCorridorConfig {
   static constexpr std::string_view kMeaning = "flies through corridors that a stereo pair sees to be free";
 
   Law law = Law::ours;
+  Additions additions;
   stereo::DisparitySource::From depth = stereo::DisparitySource::From::stereo;
   vision::stereo::StereoMatcherConfig stereo;
   int speck_px = 60;
@@ -33,8 +41,13 @@ template <class Visitor>
 void describe(Visitor& v, StereoCorridorConfig& c) {
   v("law", c.law,
     {.choices = {"printed", "ours"},
-     .meaning = "printed: keep the direction of flight while it is free; ours: go to the goal, remember what was "
-                "passed, turn back to a goal that was missed"});
+     .meaning = "printed: keep the direction of flight while it is free; ours: with the additions goal_first, memory "
+                "and sky"});
+  v("goal_first", c.additions.goal_first,
+    {.meaning = "ours: fly to the goal where its direction is free, slow down before it, turn back to one that was "
+                "missed"});
+  v("memory", c.additions.memory, {.meaning = "ours: remember obstacles that have left the image"});
+  v("sky", c.additions.sky, {.meaning = "ours: look for sky among matched pixels too, in a smoothed image"});
   v("depth", c.depth,
     {.choices = {"stereo", "camera"},
      .meaning = "by matching cameras 'left' and 'right', or from a camera 'depth' with the lens and pose of 'left'"});

@@ -129,6 +129,38 @@ TEST(StereoCorridor, ThePrintedLawPassesAnObstacleAndHoversWhereEverythingIsNear
   EXPECT_EQ(Pilot(config).see({wall(9.0, 0.0, M_PI)}).status, "look_round");
 }
 
+/// The course of one addition at a time: what each alone does of the tests above.
+TEST(StereoCorridor, EachAdditionActsAlone) {
+  StereoCorridorConfig goal_first, memory;
+  goal_first.additions = {.goal_first = true, .memory = false, .sky = false};
+  memory.additions = {.goal_first = false, .memory = true, .sky = false};
+  const Eigen::Vector2d aside_W(200.0, 60.0);
+  EXPECT_NEAR(velocity(Pilot(goal_first).see({}, {3.0, 0.0}, 0.0, aside_W)).heading_rad, std::atan2(60.0, 200.0), 0.02);
+  EXPECT_NEAR(velocity(Pilot(memory).see({}, {3.0, 0.0}, 0.0, aside_W)).heading_rad, 0.0, 0.02);
+
+  const vision::TexturedPlane beside = wall(8.0, 5.0, M_PI, 2.0);
+  const Eigen::Vector2d past_it_W(200.0, 192.5 * std::tan(0.75));
+  Pilot forgetful(goal_first);
+  forgetful.see({beside});
+  EXPECT_EQ(forgetful.see({beside}, {3.0, 0.0}, 7.5, past_it_W).status, "cruise");
+}
+
+TEST(StereoCorridor, WithoutAnyAdditionOursIsThePrintedLaw) {
+  StereoCorridorConfig bare, printed;
+  bare.additions = {.goal_first = false, .memory = false, .sky = false};
+  printed.law = Law::printed;
+  Pilot a(bare), b(printed);
+  for (int i = 0; i < 5; ++i) {
+    const double east_m = -2.0 + i;
+    const Decision ours = a.see({wall(14.0, east_m, M_PI, 4.0)}), paper = b.see({wall(14.0, east_m, M_PI, 4.0)});
+    EXPECT_EQ(ours.status, paper.status);
+    EXPECT_EQ(ours.command.index(), paper.command.index());
+    for (size_t k = 0; k < ours.signals.size(); ++k) {
+      EXPECT_TRUE(ours.signals[k] == paper.signals[k] || std::isnan(paper.signals[k]));
+    }
+  }
+}
+
 TEST(StereoCorridor, AMissedGoalLiesOutsideNoCircleItCanTurnIn) {
   for (const double goal_m : {1.0, 4.0, 9.0, 30.0}) {
     Pilot pilot;
