@@ -26,7 +26,8 @@ std::vector<Eigen::Vector2d> patch_directions_H(const CameraFlow& camera, const 
 }  // namespace
 
 PatchRanging::PatchRanging(const Options& options)
-    : options_(options), sides_(kSideCount, Side{RangeMemory(options.memory_s), LastingRanges(options.images), {}, {}, 0}) {}
+    : options_(options),
+      sides_(kSideCount, Side{RangeMemory(options.memory_s), LastingRanges(options.images), {}, {}, 0}) {}
 
 void PatchRanging::update(const SideCameras& cameras, const NavigationState& navigation) {
   for (size_t i = 0; i < kSideCount; ++i) {
