@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
@@ -80,7 +81,8 @@ struct Scene {
   std::vector<Mover> movers;
   /// Corners that a map of the scene should hold, m; empty where the generator does not list them.
   std::vector<Eigen::Vector3d> corners_W;
-  bool has_ground = true;           ///< the plane z = 0 of W can be hit
+  double shortest_edge_m = std::numeric_limits<double>::infinity();  ///< between two of them on one building
+  bool has_ground = true;                                            ///< the plane z = 0 of W can be hit
   Eigen::AlignedBox2d bounds_NE_m;  ///< extent of the plan (north, east) that flights care about
 };
 

@@ -17,6 +17,13 @@ constexpr double kMostSigmaM = 2.0;  // vaguer landmarks are no obstacles yet
 
 }  // namespace
 
+bool bounds_obstacle(const LandmarkMap& map, const vision::landmarks::MappedLandmark& mapped) {
+  if (!map.confirmed(mapped)) return false;
+  const Eigen::Matrix3d P_W = vision::landmarks::covariance_W(mapped.landmark);
+  const double variance = greatest_variance(P_W.topLeftCorner<2, 2>());
+  return -vision::landmarks::position_W(mapped.landmark).z() >= kLowestM && variance <= kMostSigmaM * kMostSigmaM;
+}
+
 double greatest_variance(const Eigen::MatrixXd& P) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(P, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }
@@ -24,12 +31,8 @@ double greatest_variance(const Eigen::MatrixXd& P) {
 void CourseKeeper::set_obstacles(const LandmarkMap& map) {
   std::vector<Eigen::Vector2d> points, seen_from;
   for (const vision::landmarks::MappedLandmark& mapped : map.landmarks()) {
-    if (!map.confirmed(mapped)) continue;
-    const Eigen::Vector3d p_W = vision::landmarks::position_W(mapped.landmark);
-    const Eigen::Matrix3d P = vision::landmarks::covariance_W(mapped.landmark);
-    const double variance = greatest_variance(P.topLeftCorner<2, 2>());
-    if (-p_W.z() < kLowestM || variance > kMostSigmaM * kMostSigmaM) continue;
-    points.push_back(p_W.head<2>());
+    if (!bounds_obstacle(map, mapped)) continue;
+    points.push_back(vision::landmarks::position_W(mapped.landmark).head<2>());
     seen_from.push_back(mapped.landmark.X_WA.translation().head<2>());
   }
   std::vector<Eigen::Vector2d> filled;

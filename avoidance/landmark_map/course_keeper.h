@@ -40,6 +40,9 @@ class CourseKeeper {
   double off_course_m_ = 0.0, most_off_course_m_ = 0.0;
 };
 
+/// Whether a landmark is certain and high enough to bound an obstacle, where another lies near.
+bool bounds_obstacle(const vision::landmarks::LandmarkMap& map, const vision::landmarks::MappedLandmark& mapped);
+
 /// Returns the largest eigenvalue of a covariance.
 double greatest_variance(const Eigen::MatrixXd& P);
 

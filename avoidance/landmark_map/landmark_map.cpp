@@ -88,13 +88,13 @@ class LandmarkMapModule final : public Module {
     return {{"landmarks", static_cast<double>(confirmed()), ""},
             {"obstacles", keeper_ ? static_cast<double>(keeper_->obstacles().size()) : 0.0, ""},
             {"most_off_course", keeper_ ? keeper_->most_off_course_m() : 0.0, "m"},
-            {"off_course_at_end", keeper_ ? keeper_->off_course_m() : 0.0, "m"},
             {"stopped", wall_stop_.stopped() ? 1.0 : 0.0, ""},
             {"filter_ms_total", sight_ ? sight_->filter_ms() : 0.0, "ms", /*is_wall_time=*/true}};
   }
 
-  /// The landmarks that are known to a tenth of their distance. Places where one thing hides another move over the
-  /// world as the camera does: they fit no point, and stay vague.
+  /// The landmarks that are known to a tenth of their distance, and all that may bound an obstacle: nothing that the
+  /// module acts on is kept from who judges its map. Places where one thing hides another move over the world as the
+  /// camera does: they fit no point, and stay vague.
   std::vector<MapPoint> known_points() const {
     constexpr double kKnownShare = 0.1;
     std::vector<MapPoint> points;
@@ -104,7 +104,8 @@ class LandmarkMapModule final : public Module {
       const Eigen::Vector3d p_W = vision::landmarks::position_W(mapped.landmark);
       const double distance_m = (p_W - sight_->pose().X_WC_est.translation()).norm();
       const Eigen::Matrix3d P_W = vision::landmarks::covariance_W(mapped.landmark);
-      if (greatest_variance(P_W) <= kKnownShare * kKnownShare * distance_m * distance_m) points.push_back({p_W, P_W});
+      const bool known = greatest_variance(P_W) <= kKnownShare * kKnownShare * distance_m * distance_m;
+      if (known || bounds_obstacle(map(), mapped)) points.push_back({p_W, P_W});
     }
     return points;
   }

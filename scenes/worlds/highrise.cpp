@@ -1,5 +1,7 @@
 #include "scenes/worlds/highrise.h"
 
+#include <algorithm>
+
 #include "scenes/mesh/ground.h"
 #include "scenes/require.h"
 #include "scenes/textures/facade_textures.h"
@@ -21,6 +23,10 @@ struct Tower {
     return {Vector3d(middle - half - Vector3d(0.0, 0.0, height_m)), Vector3d(middle + half)};
   }
   Vector3d top_W() const { return {north_m, east_m, -height_m - spire_m}; }
+  double shortest_edge_m() const {
+    const double slant_m = (top_W() - box_W().min()).norm();
+    return std::min({side_north_m, side_east_m, height_m, spire_m > 0.0 ? slant_m : height_m});
+  }
 };
 
 std::vector<Tower> towers(const HighriseConfig& config) {
@@ -125,6 +131,7 @@ Scene make_highrise(const HighriseConfig& config, uint64_t seed) {
       mesh.add_tiled(mesh::top_panel(box_W), textures::kRockTileM, Eigen::Vector2d::Zero(), kRoof);
       scene.solids.push_back(mesh::solid_of(name, box_W));
     }
+    scene.shortest_edge_m = std::min(scene.shortest_edge_m, tower.shortest_edge_m());
     ++wall;
   }
   scene.corners_W = highrise_corners(config);

@@ -19,7 +19,7 @@ namespace hedgehop::sim {
 
 /// How a flight ended.
 enum class Outcome {
-  reached,   ///< inside the goal's radius
+  reached,   ///< at the goal: inside its radius, and at its height (GoalConfig::holds)
   collided,  ///< contact of the hull with a solid or the ground
   timeout,   ///< the scenario's duration is over; for a scenario without a goal the normal end
   fault,     ///< the module threw or the state stopped being finite
@@ -48,6 +48,9 @@ struct DecisionRow {
   std::optional<double> altitude_cmd_m, heading_cmd_rad;
   std::vector<double> signals;  ///< in the order of Flight::signals; NaN where unknown
 };
+
+/// Begins the name of every figure that a module reports of itself, so that none can pass for one of the judge's.
+inline constexpr std::string_view kModulePrefix = "module.";
 
 struct NamedUnit {
   std::string name, unit;
@@ -92,7 +95,8 @@ struct StageTime {
 struct FlightResult {
   Outcome outcome = Outcome::fault;
   std::string cause;  ///< one line for collided and fault, else empty
-  /// Sensors of the module that deliver truth: "camera 'front': projected corners"; empty for real ones alone.
+  /// What is true of all that the module got: "camera 'front': projected corners", "sensor 'gps': exact"; empty where
+  /// all of it was measured.
   std::vector<std::string> truth_used;
   double flight_time_s = 0.0, path_length_m = 0.0, mean_speed_mps = 0.0;
   ClosestApproach closest_obstacle, closest_ground;
@@ -113,6 +117,7 @@ struct Flight {
   std::vector<NamedUnit> signals;
   std::vector<TrajectoryRow> trajectory;
   std::vector<DecisionRow> decisions;
+  double command_latency_s = 0.0;              ///< from a decision to its command's effect, >= 0
   MapRecord map;                               ///< empty for a module that makes no map
   std::shared_ptr<const scenes::Scene> scene;  ///< that was flown through
 };

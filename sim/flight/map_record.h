@@ -10,13 +10,14 @@ namespace hedgehop::sim {
 struct RecordedPoint {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();           ///< m
   Eigen::Matrix3d covariance_W = Eigen::Matrix3d::Zero();  ///< m^2
-  std::optional<bool> is_true;  ///< lies at a true corner (MapScore); none where the scene's corners are unknown
+  std::optional<bool>
+      is_true;  ///< is matched with a true corner (MapScore); none where the scene's corners are unknown
 };
 
 struct RecordedCorner {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< true, m
   bool counts = false;                            ///< was in sight long enough (MapScore)
-  bool found = false;                             ///< has a point of the map near it (MapScore)
+  bool found = false;                             ///< is matched with a point of the map (MapScore)
 };
 
 struct PlannedPath {

@@ -95,9 +95,10 @@ Flight Episode::fly() {
   result.wall_s = wall_s;
   result.realtime_factor = result.flight_time_s / wall_s;
   for (const avoidance::Metric& metric : pilot_.module().metrics()) {
-    result.metrics.push_back(
-        {metric.name, metric.value, metric.unit, metric.is_wall_time ? FigureKind::wall_time : FigureKind::module});
+    result.metrics.push_back({std::string(kModulePrefix) + metric.name, metric.value, metric.unit,
+                              metric.is_wall_time ? FigureKind::wall_time : FigureKind::module});
   }
+  flight.command_latency_s = pilot_.command_latency_s();
   flight.map = map_log_.take();
   flight.scene = scene_;
   return flight;
@@ -145,8 +146,8 @@ void Episode::observe_map() {
   const double t_s = ticks_.t_s(tick_);
   avoidance::Map map = pilot_.module().map();
   if (const std::optional<size_t> camera = pilot_.first_camera(); camera && map_observer_) {
-    map_observer_->on_map({t_s, map, cameras_.mounted(*camera), aircraft_.X_WB(), p_WB_start_, scene_->corners_W,
-                           collision_, pilot_.sees_through_walls()});
+    map_observer_->on_map({t_s, map, cameras_.mounted(*camera), aircraft_.X_WB(), p_WB_start_, *scene_, collision_,
+                           pilot_.sees_through_walls()});
   }
   map_log_.add(t_s, std::move(map));
 }
@@ -167,7 +168,7 @@ bool Episode::ended() {
     const std::string what =
         ground || !proximity_.nearest_solid ? "the ground" : scenes::solid_at(*scene_, *proximity_.nearest_solid).name;
     end(Outcome::collided, fmt::format("hit {} at {:.3f} s", what, ticks_.t_s(tick_)));
-  } else if (scenario_.goal && pilot_.route().on_last() && *goal_distance_m() <= scenario_.goal->radius_m) {
+  } else if (scenario_.goal && pilot_.route().on_last() && scenario_.goal->holds(aircraft_.body().p_WB)) {
     end(Outcome::reached);
   } else if (tick_ >= ticks_.ticks(scenario_.duration_s)) {
     end(Outcome::timeout);

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <span>
 
 #include "avoidance/module.h"
+#include "scenes/scene.h"
 #include "sim/collision/proximity.h"
 
 namespace hedgehop::sim {
@@ -14,8 +14,8 @@ struct MapInstant {
   const avoidance::Map& map;
   const avoidance::MountedCamera& camera;  ///< the first that the module needs
   Eigen::Isometry3d X_WB_true;
-  Eigen::Vector3d p_WB_start_true;             ///< where the flight began, m
-  std::span<const Eigen::Vector3d> corners_W;  ///< that the scene knows, m; empty where it knows none
+  Eigen::Vector3d p_WB_start_true;  ///< where the flight began, m
+  const scenes::Scene& scene;
   const CollisionWorld& world;
   bool sees_through_walls = false;  ///< whether the module gets corners that solids hide
 };

@@ -1,27 +1,15 @@
 #include "sim/loop/module_pilot.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <string_view>
 #include <utility>
 
 #include "sim/loop/setpoints.h"
+#include "sim/loop/truth_used.h"
 #include "sim/plugin/plugin_module.h"
 #include "sim/scenario/input_error.h"
 #include "sim/scenario/random_stream.h"
 
 namespace hedgehop::sim {
-namespace {
-
-/// What of the truth a channel holds; empty for images.
-std::string_view truth_in(avoidance::CameraNeed::Channel channel) {
-  using Channel = avoidance::CameraNeed::Channel;
-  if (channel == Channel::corners) return "projected corners";
-  return channel == Channel::depth ? "depth" : "";
-}
-
-}  // namespace
 
 ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& cameras,
                          std::unique_ptr<avoidance::Module> module)
@@ -29,14 +17,12 @@ ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& 
       ticks_(ticks),
       cameras_(cameras),
       module_(module ? std::move(module) : make_module(scenario.avoidance)),
+      truth_used_(sim::truth_used(module_->needs(), scenario.avionics)),
       route_(scenario) {
   int64_t slowest = 0;
   for (const avoidance::CameraNeed& need : module_->needs().cameras) {
     module_cameras_.push_back(cameras_.index(need.role));
     slowest = std::max(slowest, cameras_.period_ticks(module_cameras_.back()));
-    if (const std::string_view truth = truth_in(need.channel); !truth.empty()) {
-      truth_used_.push_back(fmt::format("camera '{}': {}", need.role, truth));
-    }
   }
   // A module without cameras decides as often as the rig's fastest camera, so that a control compares like with like.
   decision_period_ = ticks_.period(static_cast<double>(scenario.control_rate_hz));

@@ -47,8 +47,9 @@ class ModulePilot {
   std::optional<size_t> first_camera() const;
   /// Whether that camera delivers the scene's corners through walls.
   bool sees_through_walls() const;
-  /// Which of its cameras deliver truth: "camera 'front': projected corners", "camera 'left': depth".
+  /// What is true of all that it gets (truth_used.h).
   const std::vector<std::string>& truth_used() const { return truth_used_; }
+  double command_latency_s() const { return ticks_.t_s(latency_); }  ///< from a decision to its command's effect
 
  private:
   /// A command before its latency is over.

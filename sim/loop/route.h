@@ -17,14 +17,13 @@ class Route {
   /// Where to fly now.
   const avoidance::Goal& goal() const { return places_[next_].goal; }
   bool on_last() const { return next_ + 1 == places_.size(); }
-  /// Advances to the next place once the estimated position is within the radius of this one, horizontally; never
-  /// past the last.
+  /// Advances to the next place once this one holds the estimated position (GoalConfig::holds); never past the last.
   void update(const Eigen::Vector3d& p_WB_est);
 
  private:
   struct Place {
     avoidance::Goal goal;
-    double radius_m = 0.0;
+    GoalConfig config;
   };
   std::vector<Place> places_;
   size_t next_ = 0;

@@ -11,7 +11,7 @@ namespace hedgehop::sim {
 
 struct ReachedGoalCheck {
   static constexpr std::string_view kName = "reached_goal";
-  static constexpr std::string_view kMeaning = "the flight ends at the goal";
+  static constexpr std::string_view kMeaning = "the flight ends at the goal, in the plan and in height";
   std::optional<double> within_m;  ///< horizontal; the goal's radius when not given
   std::optional<double> before_s;  ///< the scenario's duration when not given
 };
@@ -23,7 +23,8 @@ void describe(Visitor& v, ReachedGoalCheck& c) {
 
 struct NoCollisionCheck {
   static constexpr std::string_view kName = "no_collision";
-  static constexpr std::string_view kMeaning = "the hull has no contact";
+  static constexpr std::string_view kMeaning =
+      "the hull has no contact; checked of every flight, unless the scenario says may_collide";
 };
 template <class Visitor>
 void describe(Visitor&, NoCollisionCheck&) {}
@@ -88,7 +89,8 @@ void describe(Visitor& v, MaxTiltCheck& c) {
 
 struct MetricCheck {
   static constexpr std::string_view kName = "metric";
-  static constexpr std::string_view kMeaning = "a figure of the avoidance module lies between bounds";
+  static constexpr std::string_view kMeaning =
+      "a figure of the flight lies between bounds: the judge's (docs/metrics.md) or, as module.NAME, the module's own";
   std::string name;
   std::optional<double> at_least, at_most;
 };
@@ -115,7 +117,8 @@ void describe(Visitor& v, FloorVisitedCheck& c) {
 
 struct PathToleranceCheck {
   static constexpr std::string_view kName = "path_tolerance";
-  static constexpr std::string_view kMeaning = "the path stays close to a reference that `hedgehop bless` has written";
+  static constexpr std::string_view kMeaning =
+      "the path follows a reference that `hedgehop bless` has written, close by and to its end";
   enum class Measure { band, frechet, dtw };
   std::string reference;  ///< file; absolute once a scenario is loaded
   double at_most_m = 0.0;
@@ -131,6 +134,13 @@ void describe(Visitor& v, PathToleranceCheck& c) {
                 "warping"});
 }
 
+struct NoTruthUsedCheck {
+  static constexpr std::string_view kName = "no_truth_used";
+  static constexpr std::string_view kMeaning = "the avoidance module gets nothing true: truth_used is empty";
+};
+template <class Visitor>
+void describe(Visitor&, NoTruthUsedCheck&) {}
+
 struct RealtimeFactorCheck {
   static constexpr std::string_view kName = "realtime_factor";
   static constexpr std::string_view kMeaning =
@@ -142,8 +152,8 @@ void describe(Visitor& v, RealtimeFactorCheck& c) {
   v("at_least", c.at_least, {.above = 0.0, .required = true, .meaning = "flight time over wall time"});
 }
 
-using CheckConfig =
-    std::variant<ReachedGoalCheck, NoCollisionCheck, MinClearanceCheck, AltitudeBandCheck, InsideBoxCheck,
-                 MaxSpeedCheck, MaxTiltCheck, MetricCheck, FloorVisitedCheck, PathToleranceCheck, RealtimeFactorCheck>;
+using CheckConfig = std::variant<ReachedGoalCheck, NoCollisionCheck, MinClearanceCheck, AltitudeBandCheck,
+                                 InsideBoxCheck, MaxSpeedCheck, MaxTiltCheck, MetricCheck, FloorVisitedCheck,
+                                 PathToleranceCheck, NoTruthUsedCheck, RealtimeFactorCheck>;
 
 }  // namespace hedgehop::sim

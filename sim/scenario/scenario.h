@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -47,14 +48,20 @@ void describe(Visitor& v, StartConfig& c) {
     {.unit = "m", .at_least = 0.0, .meaning = "radius of the disc the start is drawn from, by the seed"});
 }
 
-/// Where the flight should end.
+/// Where the flight should end, or a place to pass on the way: an upright cylinder.
 struct GoalConfig {
   double north_m = 0.0, east_m = 0.0;
-  double altitude_m = 10.0;  ///< above W's origin, positive up
-  double heading_rad = 0.0;  ///< from north to east
-  double radius_m = 5.0;     ///< horizontal distance that counts as reached, or passed
+  double altitude_m = 10.0;         ///< above W's origin, positive up
+  double heading_rad = 0.0;         ///< from north to east
+  double radius_m = 5.0;            ///< horizontal distance that counts as reached, or passed
+  double height_tolerance_m = 3.0;  ///< difference of altitude that does
 
   Eigen::Vector3d p_WG() const { return {north_m, east_m, -altitude_m}; }
+  /// Whether a position counts as reached, or passed: what flies over a place, or under it, has not been there.
+  bool holds(const Eigen::Vector3d& p_WB) const {
+    const Eigen::Vector3d p_GB_W = p_WB - p_WG();
+    return p_GB_W.head<2>().norm() <= radius_m && std::abs(p_GB_W.z()) <= height_tolerance_m;
+  }
 };
 template <class Visitor>
 void describe(Visitor& v, GoalConfig& c) {
@@ -65,6 +72,8 @@ void describe(Visitor& v, GoalConfig& c) {
   v("heading", c.heading_rad,
     {.unit = "deg", .at_least = -360.0, .at_most = 360.0, .meaning = "heading to hold, from north to east"});
   v("radius", c.radius_m, {.unit = "m", .above = 0.0, .meaning = "horizontal distance that counts as reached"});
+  v("height_tolerance", c.height_tolerance_m,
+    {.unit = "m", .above = 0.0, .meaning = "difference from the altitude that counts as reached"});
 }
 
 /// Which camera's flow measures the horizontal velocity for the navigation filter.
@@ -112,6 +121,7 @@ struct Scenario {
   VelocimeterConfig velocimeter;
   AvoidanceConfig avoidance;
   std::vector<CheckConfig> checks;
+  bool may_collide = false;  ///< else `no_collision` is checked, listed or not
   FilmConfig film;
 };
 template <class Visitor>
@@ -134,13 +144,15 @@ void describe(Visitor& v, Scenario& c) {
   v("avionics", c.avionics, {.meaning = "onboard sensors, navigation filter and autopilot"});
   v("wind", c.wind, {.meaning = "steady wind and turbulence"});
   v("start", c.start, {.required = true, .meaning = "where the flight begins, in a trimmed hover"});
-  v("route", c.route, {.meaning = "places to pass within their radii, in order, before the goal"});
+  v("route", c.route, {.meaning = "places to pass, in order, before the goal: within their radii, at their heights"});
   v("goal", c.goal, {.meaning = "where the flight should end; none for a flight that explores"});
   v("rig", c.rig, {.meaning = "the cameras on board"});
   v("drawing", c.drawing, {.meaning = "how their images are made"});
   v("velocimeter", c.velocimeter, {.meaning = "horizontal velocity from the optic flow of one camera"});
   v("avoidance", c.avoidance, {.required = true, .selector = "module", .meaning = "who decides where to fly"});
-  v("checks", c.checks, {.selector = "check", .meaning = "what must hold of the flight"});
+  v("checks", c.checks, {.selector = "check", .meaning = "what must hold of the flight, beside no_collision"});
+  v("may_collide", c.may_collide,
+    {.meaning = "whether a collision is no failure, so that no_collision is not checked"});
   v("film", c.film, {.meaning = "film of the flight"});
 }
 

@@ -115,6 +115,9 @@ class Validator {
       add(path + ".before", fmt::format("is after the flight's end ({} s)", scenario_.duration_s));
     }
   }
+  void check(const std::string& path, const NoCollisionCheck&) {
+    if (scenario_.may_collide) add(path, "contradicts 'may_collide: true'");
+  }
   void check(const std::string& path, const AltitudeBandCheck& check) {
     ordered(path + ".max", "min", check.min_m, check.max_m);
   }

@@ -8,12 +8,13 @@
 namespace hedgehop::sim {
 
 void MapJudge::on_map(const MapInstant& now) {
-  if (now.corners_W.empty()) return;
-  if (!score_) score_.emplace(std::vector(now.corners_W.begin(), now.corners_W.end()), now.p_WB_start_true);
+  const std::vector<Eigen::Vector3d>& corners_W = now.scene.corners_W;
+  if (corners_W.empty()) return;
+  if (!score_) score_.emplace(corners_W, now.p_WB_start_true, MapScore::tolerance_m(now.scene.shortest_edge_m));
   std::vector<Eigen::Vector3d> points_W;
   for (const avoidance::MapPoint& point : now.map.points) points_W.push_back(point.p_W);
   score_->add(now.t_s, points_W,
-              corners_in_sight(now.corners_W, now.camera.model, now.X_WB_true * now.camera.X_BC,
+              corners_in_sight(corners_W, now.camera.model, now.X_WB_true * now.camera.X_BC,
                                now.sees_through_walls ? nullptr : &now.world, now.t_s));
 }
 

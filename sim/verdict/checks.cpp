@@ -38,6 +38,11 @@ CheckResult evaluate(const ReachedGoalCheck& check, const Evidence& e) {
   const double within_m = check.within_m.value_or(e.scenario.goal->radius_m);
   const double before_s = check.before_s.value_or(e.scenario.duration_s);
   const bool near = *result.goal_distance_m <= within_m;
+  if (near && result.outcome != Outcome::reached && !e.flight.trajectory.empty()) {
+    const double off_height_m = std::abs((e.flight.trajectory.back().p_WB_true - e.scenario.goal->p_WG()).z());
+    const double tolerance_m = e.scenario.goal->height_tolerance_m;
+    if (off_height_m > tolerance_m) return {name, false, off_height_m, tolerance_m, "m"};
+  }
   if (near && result.flight_time_s > before_s) return {name, false, result.flight_time_s, before_s, "s"};
   return {name, near && result.outcome == Outcome::reached, *result.goal_distance_m, within_m, "m"};
 }
@@ -111,15 +116,30 @@ CheckResult evaluate(const PathToleranceCheck& check, const Evidence& e) {
   const ReferencePath reference = read_reference_path(check.reference);
   std::vector<TimedPoint> flown;
   for (const TrajectoryRow& row : e.flight.trajectory) flown.push_back({row.t_s, row.p_WB_true});
+  const std::string name{PathToleranceCheck::kName};
+  if (flown.empty()) return {name, false, kNaN, check.at_most_m, "m"};
   double value_m = kNaN;
   if (check.measure == Measure::band) {
+    // At its goal a flight may be early; one that stopped elsewhere has not flown the rest, wherever that leads.
+    const double early_s = reference.points.back().t_s - flown.back().t_s;
+    if (early_s > reference.step_s && e.flight.result.outcome != Outcome::reached) {
+      return {name, false, flown.back().t_s, reference.points.back().t_s, "s"};
+    }
     value_m = largest_deviation_m(flown, reference.points);
   } else {
     const std::vector<TimedPoint> coarse = thinned(flown, reference.step_s);
     value_m = check.measure == Measure::frechet ? discrete_frechet_m(coarse, reference.points)
                                                 : mean_warped_distance_m(coarse, reference.points);
+    // A mean forgives an end that is missing.
+    const double ends_apart_m = (flown.back().p_WB - reference.points.back().p_WB).norm();
+    if (ends_apart_m > check.at_most_m) value_m = std::max(value_m, ends_apart_m);
   }
-  return {std::string{PathToleranceCheck::kName}, value_m <= check.at_most_m, value_m, check.at_most_m, "m"};
+  return {name, value_m <= check.at_most_m, value_m, check.at_most_m, "m"};
+}
+
+CheckResult evaluate(const NoTruthUsedCheck&, const Evidence& e) {
+  const auto used = static_cast<double>(e.flight.result.truth_used.size());
+  return {std::string{NoTruthUsedCheck::kName}, used == 0.0, used, 0.0, ""};
 }
 
 CheckResult evaluate(const RealtimeFactorCheck& check, const Evidence& e) {
@@ -156,9 +176,14 @@ std::vector<CheckResult> evaluate_checks(const Scenario& scenario, const Flight&
                                          double rotor_radius_m) {
   const Evidence evidence{scenario, flight, scene, rotor_radius_m};
   std::vector<CheckResult> results;
+  bool forbids_collision = false;
   for (const CheckConfig& check : scenario.checks) {
+    const bool again = forbids_collision && std::holds_alternative<NoCollisionCheck>(check);
+    forbids_collision = forbids_collision || std::holds_alternative<NoCollisionCheck>(check);
+    if (again) continue;
     results.push_back(std::visit([&evidence](const auto& c) { return evaluate(c, evidence); }, check));
   }
+  if (!forbids_collision && !scenario.may_collide) results.push_back(evaluate(NoCollisionCheck{}, evidence));
   return results;
 }
 

@@ -6,7 +6,8 @@
 
 namespace hedgehop::sim {
 
-/// Evaluates a scenario's checks on a flight that has ended, in the order of the scenario.
+/// Evaluates a scenario's checks on a flight that has ended, in the order of the scenario; NoCollisionCheck once, last
+/// where the scenario does not list it, and not at all where it may collide. Empty means that nothing was asked.
 /// @param scene           the scene that was flown.
 /// @param rotor_radius_m  radius of the disc that covers floor cells, > 0.
 std::vector<CheckResult> evaluate_checks(const Scenario& scenario, const Flight& flight, const scenes::Scene& scene,

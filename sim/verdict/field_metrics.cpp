@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/collision/proximity.h"
 #include "sim/verdict/shortest_path.h"
@@ -31,6 +32,20 @@ std::optional<double> shortest_free_path_m(const GoalConfig& goal, const Eigen::
   const auto length_m = shortest_path_m(start_W.head<2>(), goal.p_WG().head<2>(), bounds, cell_m, is_free);
   if (!length_m) return {};
   return std::max(0.0, *length_m - goal.radius_m);
+}
+
+/// Distance in the plan from the course that leads straight from the start over the route's places to the goal, m.
+double off_course_m(const Scenario& scenario, const Eigen::Vector2d& start_NE, const Eigen::Vector2d& p_NE) {
+  std::vector<Eigen::Vector2d> turns{start_NE};
+  for (const GoalConfig& place : scenario.route) turns.emplace_back(place.p_WG().head<2>());
+  turns.emplace_back(scenario.goal->p_WG().head<2>());
+  double least_m = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i + 1 < turns.size(); ++i) {
+    const Eigen::Vector2d leg = turns[i + 1] - turns[i];
+    const double share = std::clamp((p_NE - turns[i]).dot(leg) / std::max(leg.squaredNorm(), 1e-12), 0.0, 1.0);
+    least_m = std::min(least_m, (turns[i] + share * leg - p_NE).norm());
+  }
+  return least_m;
 }
 
 /// Root of the mean square of the second difference of the velocity, m/s^3.
@@ -69,6 +84,8 @@ std::vector<MetricValue> field_metrics(const Scenario& scenario, const Flight& f
       metrics.push_back({"mission_progress", std::clamp(gained_m / before_m, 0.0, 1.0), ""});
       metrics.push_back({"goal_velocity", gained_m / result.flight_time_s, "m/s"});
     }
+    metrics.push_back({"off_course_at_end_m",
+                       off_course_m(scenario, rows.front().p_WB_true.head<2>(), rows.back().p_WB_true.head<2>()), "m"});
     if (const auto shortest_m = shortest_free_path_m(goal, rows.front().p_WB_true, scene, vehicle_radius_m)) {
       metrics.push_back({"shortest_path", *shortest_m, "m"});
       if (result.outcome == Outcome::reached && *shortest_m > 0.0) {

@@ -1,17 +1,32 @@
 #include "sim/verdict/map_score.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
+
+#include "sim/verdict/assignment.h"
 
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kConvergedPercent = 3.0, kNothingPercent = 100.0, kCountsS = 10.0;
+constexpr double kConvergedPercent = 3.0, kNothingPercent = 100.0, kCountsS = 10.0, kCompleteShare = 0.9;
+
+/// Keeps since when something holds; NaN while it does not.
+void keep_since(double& since_s, bool holds, double t_s) {
+  if (!holds) {
+    since_s = NAN;
+  } else if (std::isnan(since_s)) {
+    since_s = t_s;
+  }
+}
 
 }  // namespace
 
-MapScore::MapScore(std::vector<Eigen::Vector3d> corners_W, const Eigen::Vector3d& p_start_W)
-    : corners_W_(std::move(corners_W)), seen_s_(corners_W_.size(), 0.0), is_found_(corners_W_.size(), false) {
+MapScore::MapScore(std::vector<Eigen::Vector3d> corners_W, const Eigen::Vector3d& p_start_W, double tolerance_m)
+    : corners_W_(std::move(corners_W)),
+      tolerance_m_(tolerance_m),
+      seen_s_(corners_W_.size(), 0.0),
+      is_found_(corners_W_.size(), false) {
   for (const Eigen::Vector3d& p_W : corners_W_) distances_m_.push_back((p_W - p_start_W).norm());
 }
 
@@ -21,41 +36,41 @@ double MapScore::error_percent(size_t corner, const Eigen::Vector3d& p_W) const 
 
 void MapScore::add(double t_s, std::span<const Eigen::Vector3d> map_W, const std::vector<bool>& in_sight) {
   ever_ = ever_ || !map_W.empty();
-  double sum = 0.0, found = 0.0;
+  const std::vector<std::optional<Eigen::Index>> matches = match_points(corners_W_, map_W, tolerance_m_);
+  double sum_percent = 0.0, found = 0.0;
   seen_count_ = 0;
   is_true_.assign(map_W.size(), false);
   for (size_t corner = 0; corner < corners_W_.size(); ++corner) {
-    double least = kNothingPercent;
-    for (size_t i = 0; i < map_W.size(); ++i) {
-      const double percent = error_percent(corner, map_W[i]);
-      least = std::min(least, percent);
-      if (percent <= kConvergedPercent) is_true_[i] = true;
+    double percent = kNothingPercent;
+    is_found_[corner] = matches[corner].has_value();
+    if (is_found_[corner]) {
+      const auto point = static_cast<size_t>(*matches[corner]);
+      is_true_[point] = true;
+      percent = error_percent(corner, map_W[point]);
     }
-    is_found_[corner] = least <= kConvergedPercent;
     if (in_sight[corner]) seen_s_[corner] += t_s - last_t_s_;
     if (seen_s_[corner] < kCountsS) continue;
     ++seen_count_;
-    sum += least;
-    found += least <= kConvergedPercent;
+    sum_percent += percent;
+    found += is_found_[corner] ? 1.0 : 0.0;
   }
   last_t_s_ = t_s;
-  const double count = std::max(1, seen_count_);
-  error_percent_ = seen_count_ > 0 ? sum / count : kNothingPercent;
-  found_ = found / count;
-  if (error_percent_ > kConvergedPercent) {
-    converged_s_ = NAN;
-  } else if (std::isnan(converged_s_)) {
-    converged_s_ = t_s;
-  }
+  error_percent_ = seen_count_ > 0 ? sum_percent / seen_count_ : kNothingPercent;
+  recall_ = seen_count_ > 0 ? found / seen_count_ : 0.0;
+  count_false(map_W);
+  keep_since(converged_s_, error_percent_ <= kConvergedPercent, t_s);
+  keep_since(complete_s_, recall_ >= kCompleteShare && precision_ >= kCompleteShare, t_s);
+}
 
-  const double height_m = 0.01 * kConvergedPercent * *std::ranges::min_element(distances_m_);
+void MapScore::count_false(std::span<const Eigen::Vector3d> map_W) {
   false_count_ = false_on_ground_ = 0;
   for (size_t i = 0; i < map_W.size(); ++i) {
     if (is_true_[i]) continue;
     ++false_count_;
-    false_on_ground_ += std::abs(map_W[i].z()) <= height_m;
+    false_on_ground_ += std::abs(map_W[i].z()) <= tolerance_m_ ? 1 : 0;
   }
-  false_share_ = map_W.empty() ? 0.0 : false_count_ / static_cast<double>(map_W.size());
+  const auto points = static_cast<double>(map_W.size());
+  precision_ = map_W.empty() ? 0.0 : (points - false_count_) / points;
 }
 
 std::vector<RecordedCorner> MapScore::corners() const {
@@ -73,13 +88,15 @@ void MapScore::complete(MapRecord& map) const {
 
 std::vector<MetricValue> MapScore::metrics() const {
   if (!ever_) return {};
-  return {{"map_error_percent", error_percent_, "%"},
+  return {{"corners_seen", static_cast<double>(seen_count_), ""},
+          {"corners_found", recall_, ""},
+          {"map_precision", precision_, ""},
+          {"map_tolerance_m", tolerance_m_, "m"},
+          {"map_complete_s", complete_s_, "s"},
+          {"map_error_percent", error_percent_, "%"},
           {"converged_s", converged_s_, "s"},
-          {"corners_seen", static_cast<double>(seen_count_), ""},
-          {"corners_found", found_, ""},
           {"false_landmarks", static_cast<double>(false_count_), ""},
-          {"false_on_ground", static_cast<double>(false_on_ground_), ""},
-          {"false_share", false_share_, ""}};
+          {"false_on_ground", static_cast<double>(false_on_ground_), ""}};
 }
 
 }  // namespace hedgehop::sim

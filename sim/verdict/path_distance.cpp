@@ -37,6 +37,7 @@ double last_cell(const std::vector<TimedPoint>& a, const std::vector<TimedPoint>
 double largest_deviation_m(const std::vector<TimedPoint>& flown, const std::vector<TimedPoint>& reference) {
   double largest_m = 0.0;
   for (const TimedPoint& p : flown) largest_m = std::max(largest_m, (p.p_WB - position_at(reference, p.t_s)).norm());
+  for (const TimedPoint& p : reference) largest_m = std::max(largest_m, (p.p_WB - position_at(flown, p.t_s)).norm());
   return largest_m;
 }
 

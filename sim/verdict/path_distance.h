@@ -7,8 +7,9 @@
 /// How far two paths of the same vehicle lie apart. Every list needs a point; times rise.
 namespace hedgehop::sim {
 
-/// Largest distance of a flown point from where the reference is at the same time, m: linear between its points, its
-/// first and last point before and after it.
+/// Largest distance between the two at equal times, over the points of both, m: linear between the points of either,
+/// its first and last point before and after it. So what ends first is compared by its end with all that the other does
+/// later.
 double largest_deviation_m(const std::vector<TimedPoint>& flown, const std::vector<TimedPoint>& reference);
 
 /// Shortest leash with which both can be walked from point to point, never back, m; times do not matter.

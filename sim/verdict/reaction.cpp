@@ -47,19 +47,25 @@ std::optional<double> time_to_collision_s(const scenes::Scene& scene, const std:
 
 std::optional<double> time_to_collision_at_reaction_s(const Flight& flight, const scenes::Scene& scene,
                                                       const std::vector<dynamics::HullPart>& hull) {
-  constexpr double kHorizonS = 10.0;
+  constexpr double kHorizonS = 10.0, kSameTickS = 1e-6;
+  const bool collided = flight.result.outcome == Outcome::collided;
   std::optional<double> least_s;
+  bool foreseen = false;  // a collision, at a reaction that took effect not long before the contact
   CollisionWorld world(scene, hull);
   for (size_t i = 1; i < flight.decisions.size(); ++i) {
     const DecisionRow& decision = flight.decisions[i];
-    if (decision.status == "cruise" || flight.decisions[i - 1].status != "cruise") continue;
-    const auto row = std::ranges::lower_bound(flight.trajectory, decision.t_s, {}, &TrajectoryRow::t_s);
-    if (row == flight.trajectory.end()) continue;
+    if (decision.status == "cruise" || decision.status == flight.decisions[i - 1].status) continue;
+    const double effect_s = decision.t_s + flight.command_latency_s;
+    const auto row = std::ranges::lower_bound(flight.trajectory, effect_s - kSameTickS, {}, &TrajectoryRow::t_s);
+    if (row == flight.trajectory.end()) break;  // the flight was over before
     Eigen::Isometry3d X_WB(attitude(row->rpy_true));
     X_WB.translation() = row->p_WB_true;
     const auto left_s = time_to_collision_s(world, scene, X_WB, row->v_WB_W_true, row->t_s, kHorizonS);
-    if (left_s) least_s = std::min(*left_s, least_s.value_or(kHorizonS));
+    if (!left_s) continue;
+    least_s = std::min(*left_s, least_s.value_or(kHorizonS));
+    foreseen = foreseen || row->t_s >= flight.result.flight_time_s - kHorizonS;
   }
+  if (collided && !foreseen) return 0.0;
   return least_s;
 }
 

@@ -77,7 +77,7 @@ double metric(const Flight& flight, const std::string& name) {
 
 TEST(ProjectedCorners, GiveAMapOfAllTheCubeAndTheResultListsThem) {
   const Flight flight = fly(from_corners("shah2009_cube_lateral.yaml"));
-  EXPECT_EQ(metric(flight, "landmarks"), 8.0);  // those that walls hide, too
+  EXPECT_EQ(metric(flight, "module.landmarks"), 8.0);  // those that walls hide, too
   EXPECT_THAT(flight.result.truth_used, ElementsAre("camera 'front': projected corners"));
   EXPECT_EQ(flight.decisions.back().signals.at(0), 8.0) << flight.signals.at(0).name;
 }

@@ -19,7 +19,7 @@ TEST(Route, PlacesArePassedInOrderAndTheGoalIsKept) {
   scenario.goal = place(30.0, 1.0);
   Route route(scenario);
   const auto fly_to = [&](double north_m) {
-    route.update({north_m, 0.0, -7.0});  // height does not count
+    route.update({north_m, 0.0, -7.0});  // 3 m low: just within the tolerance
     return route.goal().p_WG.x();
   };
   EXPECT_EQ(fly_to(0.0), 10.0);
@@ -29,6 +29,21 @@ TEST(Route, PlacesArePassedInOrderAndTheGoalIsKept) {
   EXPECT_EQ(fly_to(17.0), 30.0);
   EXPECT_TRUE(route.on_last());
   EXPECT_EQ(fly_to(30.0), 30.0);
+}
+
+TEST(Route, APlaceIsNotPassedFarAboveOrBelowIt) {
+  Scenario scenario;
+  scenario.route = {place(10.0, 2.0)};
+  scenario.goal = place(30.0, 1.0);
+  Route route(scenario);
+  for (const double altitude_m : {13.5, 6.5}) {
+    route.update({10.0, 0.0, -altitude_m});
+    EXPECT_FALSE(route.on_last()) << altitude_m;
+  }
+  scenario.route[0].height_tolerance_m = 4.0;
+  Route wide(scenario);
+  wide.update({10.0, 0.0, -13.5});
+  EXPECT_TRUE(wide.on_last());
 }
 
 TEST(Route, WithoutAnyPlaceTheStartIsHeld) {

@@ -27,9 +27,18 @@ TEST_F(Plugin, FliesWithItsOwnParametersAndMetrics) {
   const CommandEnd end = run("speed: 0.5, list: [4, 5], word: abc, flag: true");
   EXPECT_EQ(end.status, 0) << end.err;
   const auto result = folder.json("out/result.json");
-  EXPECT_EQ(result["metrics"]["parameters_sum"], 112.0);
-  EXPECT_EQ(result["metrics"]["decisions_seen"], result["decisions"]);
+  EXPECT_EQ(result["metrics"]["module.parameters_sum"], 112.0);
+  EXPECT_EQ(result["metrics"]["module.decisions_seen"], result["decisions"]);
   EXPECT_THAT(folder.read("out/scenario.yaml"), AllOf(HasSubstr("word: abc"), HasSubstr("list: [4, 5]")));
+}
+
+TEST_F(Plugin, ItsMetricsCannotPassForTheJudges) {
+  const auto check = [](const std::string& name) {
+    return "--set 'checks=[{check: metric, name: " + name + ", at_least: 0.9}]'";
+  };
+  EXPECT_EQ(run("speed: 0.5", check("corners_found")).status, 1);
+  EXPECT_EQ(folder.json("out/result.json")["metrics"].count("corners_found"), 0U);
+  EXPECT_EQ(run("speed: 0.5", check("module.corners_found")).status, 0);
 }
 
 TEST_F(Plugin, TheResolvedScenarioFliesTheSameAgain) {
@@ -111,7 +120,7 @@ TEST_F(Plugin, TheExampleBuildsAgainstTheInstalledPackageAndFlies) {
                "parameters: {speed: 0.5}}\n");
   const CommandEnd end = folder.shell("prefix/bin/hedgehop run left.yaml --no-video --out out");
   EXPECT_EQ(end.status, 0) << end.err;
-  EXPECT_EQ(folder.json("out/result.json")["metrics"]["images"], folder.json("out/result.json")["decisions"]);
+  EXPECT_EQ(folder.json("out/result.json")["metrics"]["module.images"], folder.json("out/result.json")["decisions"]);
 }
 
 }  // namespace

@@ -112,6 +112,8 @@ TEST_F(CrossRules, ChecksMakeSense) {
   EXPECT_THAT(faults({"goal=~"}), testing::Contains(HasSubstr("'checks.0': the scenario has no goal to reach")));
   EXPECT_THAT(faults({"checks=[{check: altitude_band, min: 3, max: 2}]"}),
               ElementsAre("--set checks: 'checks.0.max': must be greater than 'min' (3 m), got 2"));
+  EXPECT_THAT(faults({"checks=[{check: no_collision}]", "may_collide=true"}),
+              ElementsAre("--set checks: 'checks.0': contradicts 'may_collide: true'"));
   EXPECT_THAT(faults({"checks=[{check: metric, name: a}]"}),
               ElementsAre("--set checks: 'checks.0': needs 'at_least' or 'at_most'"));
   EXPECT_THAT(

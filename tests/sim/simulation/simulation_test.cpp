@@ -81,11 +81,25 @@ TEST(Simulation, CommandsTakeEffectAfterTheirLatency) {
   for (const double latency_s : {0.0, 0.04, 0.5}) {
     const Flight flight = fly(short_city({"duration=1", fmt::format("command_latency={}", latency_s)}));
     const DecisionRow& first = flight.decisions.front();
+    EXPECT_EQ(flight.command_latency_s, latency_s);
     for (const TrajectoryRow& row : flight.trajectory) {
       // Until then the aircraft holds its start: no velocity is commanded.
       EXPECT_EQ(row.v_WB_W_cmd.has_value(), row.t_s >= first.t_s + latency_s - 1e-9) << row.t_s;
     }
   }
+}
+
+TEST(Simulation, AGoalIsReachedAtItsHeightNotFromUnderIt) {
+  Scenario scenario =
+      short_city({"duration=30", "avoidance={module: go_to_goal}", "rig={cameras: []}", "velocimeter.enabled=false"});
+  scenario.goal = GoalConfig{.north_m = scenario.start.north_m,
+                             .east_m = scenario.start.east_m,
+                             .altitude_m = scenario.start.altitude_m + 8.0};
+  const Flight flight = fly(scenario);
+  EXPECT_EQ(flight.result.outcome, Outcome::reached);
+  EXPECT_NEAR(-flight.trajectory.back().p_WB_true.z(), scenario.goal->altitude_m - 3.0, 0.1);
+  scenario.duration_s = 0.5;
+  EXPECT_EQ(fly(scenario).result.outcome, Outcome::timeout);
 }
 
 TEST(Simulation, TablesHaveTheScenariosRates) {

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <random>
+
+#include "sim/scenario/reference_path.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -47,6 +50,12 @@ TEST(Checks, ReachedGoalNeedsDistanceTimeAndOutcome) {
   EXPECT_TRUE(f.evaluate(ReachedGoalCheck{}).passed);
   EXPECT_FALSE(f.evaluate(ReachedGoalCheck{.within_m = 0.5}).passed);
   EXPECT_FALSE(f.evaluate(ReachedGoalCheck{.before_s = 19.0}).passed);
+  f.flight.result.outcome = Outcome::timeout;
+  f.scenario.goal->altitude_m = 14.5;  // under it
+  const CheckResult low = f.evaluate(ReachedGoalCheck{});
+  EXPECT_FALSE(low.passed);
+  EXPECT_DOUBLE_EQ(low.value, 4.5);
+  EXPECT_DOUBLE_EQ(low.limit, 3.0);
   f.flight.result.outcome = Outcome::collided;
   EXPECT_FALSE(f.evaluate(ReachedGoalCheck{}).passed);
 }
@@ -109,6 +118,146 @@ TEST(Checks, MetricOutsideBoundsUnknownOrNotFiniteFails) {
   EXPECT_FALSE(f.evaluate(MetricCheck{.name = "nothing", .at_most = 2.0}).passed);
   f.flight.result.metrics[0].value = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(f.evaluate(MetricCheck{.name = "reversals"}).passed);
+}
+
+TEST(Checks, AModulesOwnMetricCannotPassForTheJudges) {
+  StraightFlight f;
+  f.flight.result.metrics = {{"module.corners_found", 1.0, "", FigureKind::module}};
+  EXPECT_FALSE(f.evaluate(MetricCheck{.name = "corners_found", .at_least = 0.9}).passed);
+  EXPECT_TRUE(f.evaluate(MetricCheck{.name = "module.corners_found", .at_least = 0.9}).passed);
+}
+
+TEST(Checks, CollisionIsCheckedOnceListedOrNotUnlessTheScenarioMayCollide) {
+  StraightFlight f;
+  f.flight.result.outcome = Outcome::collided;
+  const auto names = [&f](const std::vector<CheckConfig>& listed) {
+    f.scenario.checks = listed;
+    std::string all;
+    for (const CheckResult& check : evaluate_checks(f.scenario, f.flight, f.scene, 0.8)) {
+      all += check.name + (check.passed ? " " : "! ");
+    }
+    return all;
+  };
+  EXPECT_EQ(names({}), "no_collision! ");
+  EXPECT_EQ(names({NoCollisionCheck{}}), "no_collision! ");
+  EXPECT_EQ(names({NoCollisionCheck{}, NoCollisionCheck{}}), "no_collision! ");
+  EXPECT_EQ(names({MaxSpeedCheck{.at_most_mps = 3.0}}), "max_speed no_collision! ");
+  f.scenario.may_collide = true;
+  EXPECT_EQ(names({}), "");
+  EXPECT_EQ(names({MaxSpeedCheck{.at_most_mps = 3.0}}), "max_speed ");
+}
+
+TEST(Checks, NoTruthUsedCountsWhatTheResultLists) {
+  StraightFlight f;
+  EXPECT_TRUE(f.evaluate(NoTruthUsedCheck{}).passed);
+  f.flight.result.truth_used = {"camera 'front': depth", "sensor 'gps': exact"};
+  const CheckResult result = f.evaluate(NoTruthUsedCheck{});
+  EXPECT_FALSE(result.passed);
+  EXPECT_EQ(result.value, 2.0);
+}
+
+/// The straight flight as a reference in a file, and flights that end before or after it.
+class PathTolerance : public ::testing::TestWithParam<PathToleranceCheck::Measure> {
+ protected:
+  PathTolerance() : file_(std::string(testing::TempDir()) + "/straight_reference.csv") {
+    ReferencePath reference{.reason = "straight", .version = "0", .seed = 1, .step_s = 0.1, .points = {}};
+    for (const TrajectoryRow& row : flown_.flight.trajectory) reference.points.push_back({row.t_s, row.p_WB_true});
+    std::ofstream(file_) << reference_text(reference);
+  }
+  /// @param rows  of the flight, one every 0.1 s and 0.2 m; beyond 201 it goes on.
+  CheckResult fly(size_t rows, Outcome outcome, double at_most_m) {
+    auto& trajectory = flown_.flight.trajectory;
+    while (trajectory.size() < rows) {
+      trajectory.push_back(trajectory.back());
+      trajectory.back().t_s += 0.1;
+      trajectory.back().p_WB_true.x() += 0.2;
+    }
+    trajectory.resize(rows);
+    flown_.flight.result.outcome = outcome;
+    return flown_.evaluate(PathToleranceCheck{.reference = file_, .at_most_m = at_most_m, .measure = GetParam()});
+  }
+
+ private:
+  StraightFlight flown_;
+  std::string file_;
+};
+
+TEST_P(PathTolerance, HoldsForTheReferenceItself) { EXPECT_TRUE(fly(201, Outcome::timeout, 0.01).passed); }
+
+// Nine tenths of the way, exactly on it: the mean of a warping is well below a meter.
+TEST_P(PathTolerance, FailsAFlightThatEndsEarly) {
+  for (const Outcome outcome : {Outcome::collided, Outcome::timeout, Outcome::reached}) {
+    const CheckResult result = fly(181, outcome, 1.0);
+    EXPECT_FALSE(result.passed);
+    EXPECT_TRUE(result.unit == "s" ? result.value < result.limit : result.value > result.limit) << result.value;
+  }
+}
+
+TEST_P(PathTolerance, AtTheGoalAFlightMayBeEarlyByWhatItsToleranceCovers) {
+  EXPECT_TRUE(fly(198, Outcome::reached, 1.0).passed);
+}
+
+TEST_P(PathTolerance, ComparesWhatAFlightDoesAfterTheReferenceWithItsEnd) {
+  EXPECT_TRUE(fly(204, Outcome::timeout, 1.0).passed);
+  const CheckResult beyond = fly(221, Outcome::timeout, 1.0);
+  EXPECT_FALSE(beyond.passed);
+  EXPECT_NEAR(beyond.value, 4.0, 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Measures, PathTolerance,
+                         ::testing::Values(PathToleranceCheck::Measure::band, PathToleranceCheck::Measure::frechet,
+                                           PathToleranceCheck::Measure::dtw));
+
+// A flight that stops on its way stays where the reference passes by, yet it has not flown the rest.
+TEST(PathToleranceBand, FailsAFlightThatStopsWhereTheReferenceHovers) {
+  StraightFlight f;
+  const std::string file = std::string(testing::TempDir()) + "/hover_reference.csv";
+  ReferencePath reference{.reason = "hover", .version = "0", .seed = 1, .step_s = 0.1, .points = {}};
+  for (TrajectoryRow& row : f.flight.trajectory) {
+    row.p_WB_true = {0.0, 0.0, -10.0};
+    reference.points.push_back({row.t_s, row.p_WB_true});
+  }
+  std::ofstream(file) << reference_text(reference);
+  f.flight.trajectory.resize(100);
+  f.flight.result.outcome = Outcome::fault;
+  const CheckResult result = f.evaluate(PathToleranceCheck{.reference = file, .at_most_m = 1.0});
+  EXPECT_FALSE(result.passed);
+  EXPECT_EQ(result.unit, "s");
+  EXPECT_NEAR(result.value, 9.9, 1e-9);
+  EXPECT_NEAR(result.limit, 20.0, 1e-9);
+}
+
+/// Flies a line of places at 1 m/s through the scenario of a wall that is to be climbed, and tells whether all checks
+/// hold. The module's own figures are as asked.
+bool climb_holds(const std::vector<Eigen::Vector3d>& places_W) {
+  Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/perez2018_climb.yaml");
+  Flight flight;
+  for (size_t i = 0; i + 1 < places_W.size(); ++i) {
+    const Eigen::Vector3d way = places_W[i + 1] - places_W[i];
+    for (double s = 0.0; s <= way.norm(); s += 0.1) {
+      TrajectoryRow row;
+      row.t_s = flight.trajectory.empty() ? 0.0 : flight.trajectory.back().t_s + 0.1;
+      row.p_WB_true = places_W[i] + s * way.normalized();
+      flight.trajectory.push_back(row);
+    }
+  }
+  const Eigen::Vector3d end_W = flight.trajectory.back().p_WB_true;
+  flight.result.outcome = scenario.goal->holds(end_W) ? Outcome::reached : Outcome::timeout;
+  flight.result.flight_time_s = flight.trajectory.back().t_s;
+  flight.result.goal_distance_m = (end_W - scenario.goal->p_WG()).head<2>().norm();
+  flight.result.metrics = {{"module.most_rows_above_center", 8.0, ""}, {"module.last_rows_above_center", 0.0, ""}};
+  for (const CheckResult& check : evaluate_checks(scenario, flight, {}, 0.5)) {
+    if (!check.passed) return false;
+  }
+  return true;
+}
+
+TEST(ClimbOverTheWall, HoldsForAClimbAloneNotForWhatStaysLowFliesRoundOrFarAbove) {
+  EXPECT_TRUE(climb_holds({{0, 0, -4}, {8, 0, -4}, {9, 0, -12}, {37, 0, -12}}));
+  EXPECT_FALSE(climb_holds({{0, 0, -4}, {8, 0, -4}, {8, 0, -12}}));  // stays before it
+  EXPECT_FALSE(climb_holds({{0, 0, -4}, {37, 0, -4}}));              // as if it were not there
+  EXPECT_FALSE(climb_holds({{0, 0, -4}, {8, 32, -4}, {20, 32, -4}, {30, 0, -12}, {37, 0, -12}}));  // round it
+  EXPECT_FALSE(climb_holds({{0, 0, -4}, {0, 0, -40}, {37, 0, -40}, {37, 0, -12}}));                // over everything
 }
 
 TEST(VisitedShare, EqualsTheDefinitionOnRandomPaths) {

@@ -64,6 +64,25 @@ TEST(FieldMetrics, StraightFlightToTheGoalHasNoExcess) {
   EXPECT_NEAR(*value(metrics, "path_excess"), 0.0, 0.01);
 }
 
+TEST(FieldMetrics, OffTheCourseIsTheEndsDistanceFromTheStraightLinesOfThePlan) {
+  const auto off_course_m = [](const Scenario& scenario, double east_m) {
+    Flight flight = flight_north([](double t_s) { return 2.5 * t_s; }, Outcome::timeout);
+    flight.trajectory.back().p_WB_true.y() = east_m;
+    flight.trajectory.back().p_WB_est = Eigen::Vector3d::Zero();  // what the vehicle takes itself to be does not count
+    return *value(field_metrics(scenario, flight, empty_scene(), 0.8), "off_course_at_end_m");
+  };
+  EXPECT_NEAR(off_course_m(with_goal(), 0.0), 0.0, 1e-12);
+  EXPECT_NEAR(off_course_m(with_goal(), -7.0), 7.0, 1e-12);
+  Scenario askew = with_goal();
+  askew.goal->east_m = 52.0;  // the end lies 25 m north: 25 sin(45 deg) off
+  EXPECT_NEAR(off_course_m(askew, 0.0), 25.0 / std::sqrt(2.0), 1e-9);
+  askew.route = {GoalConfig{.north_m = 52.0}};  // north first, then east
+  EXPECT_NEAR(off_course_m(askew, 0.0), 0.0, 1e-12);
+  Scenario passed = with_goal();
+  passed.goal->north_m = 21.0;  // 4 m beyond the goal and 3 m aside
+  EXPECT_NEAR(off_course_m(passed, 3.0), 5.0, 1e-12);
+}
+
 /// x = A sin(wt): the jerk is A w^3 cos(wt), its root mean square over whole periods A w^3 / sqrt(2).
 TEST(FieldMetrics, JerkOfASwingFollowsItsThirdDerivative) {
   const double amplitude_m = 3.0, w = 2.0 * std::acos(-1.0) / 2.5;

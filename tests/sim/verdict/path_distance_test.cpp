@@ -83,8 +83,20 @@ TEST(PathDistance, LatenessCountsForTheBandAlone) {
 
 TEST(PathDistance, BandRunsStraightBetweenTheReferencesPoints) {
   const Path reference{{0.0, {0.0, 0.0, 0.0}}, {10.0, {20.0, 0.0, 0.0}}};
-  EXPECT_NEAR(largest_deviation_m({{2.5, {5.0, 0.0, 0.0}}, {7.0, {14.0, 1.0, 0.0}}}, reference), 1.0, 1e-12);
-  EXPECT_NEAR(largest_deviation_m({{12.0, {23.0, 0.0, 0.0}}}, reference), 3.0, 1e-12);
+  EXPECT_NEAR(
+      largest_deviation_m({{0.0, {0.0, 0.0, 0.0}}, {7.0, {14.0, 1.0, 0.0}}, {10.0, {20.0, 0.0, 0.0}}}, reference), 1.0,
+      1e-12);
+  EXPECT_NEAR(
+      largest_deviation_m({{0.0, {0.0, 0.0, 0.0}}, {10.0, {20.0, 0.0, 0.0}}, {12.0, {23.0, 0.0, 0.0}}}, reference), 3.0,
+      1e-12);
+}
+
+TEST(PathDistance, BandComparesAnEarlyEndWithAllThatTheReferenceStillDoes) {
+  Path reference, flown;
+  for (int i = 0; i <= 100; ++i) reference.push_back({0.1 * i, {0.2 * i, 0.0, -10.0}});
+  flown.assign(reference.begin(), reference.begin() + 61);
+  EXPECT_NEAR(largest_deviation_m(flown, reference), 8.0, 1e-12);
+  EXPECT_NEAR(largest_deviation_m(reference, flown), 8.0, 1e-12);
 }
 
 TEST(Thinned, KeepsFirstLastAndTheStep) {

@@ -67,33 +67,91 @@ TEST(TimeToCollision, OfAHoveringVehicleCountsTheMoversWay) {
   EXPECT_NEAR(*found, (4.0 - 1.0) + (10.0 - kRadiusM - 0.1) / 2.0, 0.01);
 }
 
-// North at 2 m/s towards a pole 30 m away; the module gives way at 10 s, then again at 12 s.
-TEST(TimeToCollision, AtReactionIsTheLeastOfAllReactions) {
+/// North at 2 m/s towards a pole 30 m away, which it would touch after 14.7 s.
+struct PoleFlight {
+  static constexpr double kTouchS = (30.0 - kRadiusM - 0.1) / 2.0;
   scenes::Scene scene;
-  scene.solids = {pole(30.0, 0.0)};
   Flight flight;
-  for (int i = 0; i <= 1300; ++i) {
-    TrajectoryRow row;
-    row.t_s = 0.01 * i;
-    row.p_WB_true = {2.0 * row.t_s, 0.0, -5.0};
-    row.v_WB_W_true = {2.0, 0.0, 0.0};
-    row.rpy_true.setZero();
-    flight.trajectory.push_back(row);
+
+  explicit PoleFlight(double end_s, Outcome outcome = Outcome::timeout) {
+    scene.solids = {pole(30.0, 0.0)};
+    for (int i = 0; i <= static_cast<int>(100.0 * end_s + 0.5); ++i) {
+      TrajectoryRow row;
+      row.t_s = 0.01 * i;
+      row.p_WB_true = {2.0 * row.t_s, 0.0, -5.0};
+      row.v_WB_W_true = {2.0, 0.0, 0.0};
+      row.rpy_true.setZero();
+      flight.trajectory.push_back(row);
+    }
+    flight.result.outcome = outcome;
+    flight.result.flight_time_s = end_s;
   }
-  const auto decide = [&](double t_s, const char* status) {
+  void decide(double t_s, const char* status) {
     DecisionRow row;
     row.t_s = t_s;
     row.status = status;
     flight.decisions.push_back(row);
-  };
-  decide(0.0, "avoid");  // not from cruise
-  decide(9.0, "cruise");
-  EXPECT_FALSE(time_to_collision_at_reaction_s(flight, scene, kDisc));
-  decide(10.0, "avoid");
-  EXPECT_NEAR(*time_to_collision_at_reaction_s(flight, scene, kDisc), (30.0 - 0.6) / 2.0 - 10.0, 0.001);
-  decide(11.0, "cruise");
-  decide(12.0, "hover");
-  EXPECT_NEAR(*time_to_collision_at_reaction_s(flight, scene, kDisc), (30.0 - 0.6) / 2.0 - 12.0, 0.001);
+  }
+  std::optional<double> left_s() const { return time_to_collision_at_reaction_s(flight, scene, kDisc); }
+};
+
+TEST(TimeToCollision, AtReactionIsTheLeastOfAllReactionsNotOnlyOfThoseFromCruise) {
+  PoleFlight f(13.0);
+  f.decide(0.0, "avoid");
+  f.decide(9.0, "cruise");
+  EXPECT_FALSE(f.left_s());
+  f.decide(10.0, "avoid");
+  EXPECT_NEAR(*f.left_s(), PoleFlight::kTouchS - 10.0, 0.001);
+  f.decide(10.5, "avoid");  // goes on
+  EXPECT_NEAR(*f.left_s(), PoleFlight::kTouchS - 10.0, 0.001);
+  f.decide(11.0, "hover");
+  EXPECT_NEAR(*f.left_s(), PoleFlight::kTouchS - 11.0, 0.001);
+  f.decide(12.0, "cruise");
+  EXPECT_NEAR(*f.left_s(), PoleFlight::kTouchS - 11.0, 0.001);
+}
+
+TEST(TimeToCollision, AtReactionCountsFromWhenTheCommandTakesEffect) {
+  PoleFlight f(13.0);
+  f.flight.command_latency_s = 0.4;
+  f.decide(9.0, "cruise");
+  f.decide(10.0, "avoid");
+  EXPECT_NEAR(*f.left_s(), PoleFlight::kTouchS - 10.4, 0.001);
+  f.decide(12.8, "hover");  // takes effect at 13.2 s, when the flight is over
+  EXPECT_NEAR(*f.left_s(), PoleFlight::kTouchS - 10.4, 0.001);
+}
+
+TEST(TimeToCollision, OfAFlightThatCollidesWithoutReactionIsZero) {
+  PoleFlight f(14.7, Outcome::collided);
+  EXPECT_EQ(f.left_s(), std::optional(0.0));
+  f.decide(9.0, "cruise");
+  EXPECT_EQ(f.left_s(), std::optional(0.0));
+  f.flight.command_latency_s = 0.2;
+  f.decide(14.6, "avoid");  // too late to take effect
+  EXPECT_EQ(f.left_s(), std::optional(0.0));
+  f.flight.command_latency_s = 0.1;
+  f.decide(14.6, "avoid");
+  f.flight.decisions.erase(f.flight.decisions.begin() + 1);
+  EXPECT_NEAR(*f.left_s(), 0.0, 0.01);
+}
+
+TEST(TimeToCollision, AReactionLongBeforeTheContactIsNoneToIt) {
+  PoleFlight f(14.7, Outcome::collided);
+  f.scene.solids.push_back(pole(8.0, 0.0));  // passed by the flight as if it were not there
+  f.decide(0.0, "cruise");
+  f.decide(1.0, "avoid");
+  EXPECT_EQ(f.left_s(), std::optional(0.0));
+  f.decide(9.7, "hover");
+  EXPECT_NEAR(*f.left_s(), (8.0 - 0.6) / 2.0 - 1.0, 0.001);
+}
+
+TEST(TimeToCollision, AReactionThatForeseesNoCollisionIsNoneToTheContact) {
+  PoleFlight f(14.7, Outcome::collided);
+  f.scene.solids = {pole(30.0, 20.0)};  // what was hit is the ground, say
+  f.decide(9.0, "cruise");
+  f.decide(10.0, "avoid");
+  EXPECT_EQ(f.left_s(), std::optional(0.0));
+  f.flight.result.outcome = Outcome::reached;
+  EXPECT_FALSE(f.left_s());
 }
 
 }  // namespace
