@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "sim/campaign/judging_seeds.h"
 #include "sim/record/whole_file.h"
 #include "sim/scenario/include.h"
 #include "sim/scenario/reader.h"
@@ -27,6 +28,20 @@ std::string folder_name(const std::string& group, int number) {
   constexpr size_t kLongest = 120;
   name = name.empty() || name[0] == '.' ? "_" + name : name.substr(0, kLongest);
   return number == 1 ? name : fmt::format("{}~{}", name, number);
+}
+
+void examine_seeds(const CampaignConfig& campaign, const Node& root, Faults& faults) {
+  const auto examine = [&](const std::string& at, const std::optional<std::string>& tuned_on,
+                           const std::string& seeds) {
+    if (std::string fault = judging_fault(tuned_on, seeds); !fault.empty()) {
+      faults.add(place_of(root, at + ".seeds"), std::move(fault));
+    }
+  };
+  for (size_t i = 0; i < campaign.flights.size(); ++i) {
+    const CampaignFlights& flights = campaign.flights[i];
+    examine(fmt::format("flights.{}", i), flights.tuned_on ? flights.tuned_on : campaign.tuned_on, flights.seeds);
+  }
+  if (campaign.leaderboard) examine("leaderboard", campaign.tuned_on, campaign.leaderboard->seeds);
 }
 
 /// Gathers orders and keeps their groups and folders apart.
@@ -95,9 +110,11 @@ class Gatherer {
       CampaignConfig campaign;
       read_struct(root, "", "", campaign, faults);
       faults.raise();
+      examine_seeds(campaign, root, faults);
+      faults.raise();
       for (const CampaignFlights& flights : campaign.flights) {
-        const std::vector<uint64_t> own = flights.seeds ? parse_seeds(*flights.seeds) : std::vector<uint64_t>{};
-        add_scenario(file.parent_path() / flights.scenario, seeds_.empty() ? own : seeds_, flights.set, "");
+        add_scenario(file.parent_path() / flights.scenario, seeds_.empty() ? parse_seeds(flights.seeds) : seeds_,
+                     flights.set, "");
       }
       if (campaign.leaderboard) add_leaderboard(file.parent_path(), *campaign.leaderboard);
       for (CampaignCheck& check : campaign.checks) {

@@ -51,19 +51,23 @@ using CampaignCheck = std::variant<SuccessRateCheck, NoWorseCheck>;
 /// One scenario of a campaign.
 struct CampaignFlights {
   std::string scenario;
-  std::optional<std::string> seeds;
+  std::string seeds;
+  std::optional<std::string> tuned_on;  ///< else the campaign's
   std::vector<std::string> set;
 };
 template <class Visitor>
 void describe(Visitor& v, CampaignFlights& c) {
   v("scenario", c.scenario, {.required = true, .meaning = "scenario file, relative to this file"});
-  v("seeds", c.seeds, {.meaning = "seeds such as 1:10 or 1:3,7; else the scenario's own"});
+  v("seeds", c.seeds, {.required = true, .meaning = "seeds such as 1001:1010 or 1001:1003,1007, none of tuned_on"});
+  v("tuned_on", c.tuned_on, {.meaning = "in place of the file's"});
   v("set", c.set, {.meaning = "overrides of the scenario, each key.path=value"});
 }
 
 /// A file that `hedgehop batch` takes beside scenarios: it has the key `flights` or `leaderboard`.
 struct CampaignConfig {
   std::string description;
+  std::optional<std::string> tuned_on;
+  std::string moved_on;
   std::vector<CampaignFlights> flights;
   std::optional<LeaderboardConfig> leaderboard;
   std::vector<CampaignCheck> checks;
@@ -71,6 +75,8 @@ struct CampaignConfig {
 template <class Visitor>
 void describe(Visitor& v, CampaignConfig& c) {
   v("description", c.description, {.meaning = "what the campaign is for"});
+  v("tuned_on", c.tuned_on, {.meaning = "seeds that parameters were chosen on, such as 1:100, or none; must be given"});
+  v("moved_on", c.moved_on, {.meaning = "why the seeds to judge by are others than before"});
   v("flights", c.flights, {.meaning = "scenarios, each with its seeds"});
   v("leaderboard", c.leaderboard, {.meaning = "every module in every world"});
   v("checks", c.checks, {.selector = "check", .meaning = "what must hold over the seeds of each scenario"});

@@ -40,6 +40,11 @@ std::string build_of(const FlightRecord& record) {
   return record.result.is_object() ? record.result.value("build", "") : "";
 }
 
+std::vector<std::string> truth_used(const FlightRecord& record) {
+  if (!record.result.is_object()) return {};
+  return record.result.value("truth_used", std::vector<std::string>{});
+}
+
 std::string several_builds_words(const std::vector<FlightRecord>& records) {
   std::set<std::string> builds;
   for (const FlightRecord& record : records) {

@@ -32,6 +32,9 @@ std::string outcome_words(const FlightRecord& record);
 /// The identity of the build that flew it, as its result names it; "" when it has none.
 std::string build_of(const FlightRecord& record);
 
+/// What its module got of the truth, as its result lists it; empty for real sensors alone.
+std::vector<std::string> truth_used(const FlightRecord& record);
+
 /// Returns a line that names the builds when flights of several stand beside each other, else "".
 std::string several_builds_words(const std::vector<FlightRecord>& records);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "sim/campaign/judging_seeds.h"
 #include "sim/scenario/include.h"
 #include "sim/scenario/numbers.h"
 #include "sim/scenario/reader.h"
@@ -93,10 +94,15 @@ SweepConfig read_sweep(const std::filesystem::path& file) {
     }
   }
   if (sweep.parameters.empty()) faults.add(place_of(root, "parameters"), "needs a parameter");
+  if (sweep.seeds) parse_seeds(*sweep.seeds);
+  if (sweep.seeds && sweep.tuned_on && !within(*sweep.seeds, *sweep.tuned_on)) {
+    faults.add(place_of(root, "seeds"), fmt::format("seeds '{}' are not all of tuned_on '{}': a sweep chooses "
+                                                    "parameters, so its seeds must not judge",
+                                                    *sweep.seeds, *sweep.tuned_on));
+  }
   faults.raise();
   sweep.scenario = (file.parent_path() / sweep.scenario).lexically_normal().string();
   std::vector<std::string> refused;
-  if (sweep.seeds) parse_seeds(*sweep.seeds);
   try_parameters(sweep, refused);
   if (!refused.empty()) throw InputError(refused);
   return sweep;

@@ -96,11 +96,13 @@ void describe(Visitor& v, OptimizeDesign& c) {
 using SweepDesign =
     std::variant<GridDesign, ListDesign, RandomDesign, LatinHypercubeDesign, SobolDesign, OptimizeDesign>;
 
-/// A sweep: one scenario, parameters, a design, the same seeds at every point.
+/// A sweep: one scenario, parameters, a design, the same seeds at every point. Parameters are chosen by it, so its
+/// seeds judge nothing: where it states `tuned_on`, they lie within.
 struct SweepConfig {
   std::string description;
   std::string scenario;  ///< relative to the sweep's file; once read, to the working folder
   std::optional<std::string> seeds;
+  std::optional<std::string> tuned_on;
   std::vector<std::string> set;
   SweepDesign design;
   std::vector<SweepParameter> parameters;
@@ -110,6 +112,8 @@ void describe(Visitor& v, SweepConfig& c) {
   v("description", c.description, {.meaning = "what the sweep is for"});
   v("scenario", c.scenario, {.required = true, .meaning = "scenario file, relative to this file"});
   v("seeds", c.seeds, {.meaning = "seeds flown at every point, such as 1:10; else the scenario's own"});
+  v("tuned_on", c.tuned_on,
+    {.meaning = "all seeds that parameters are chosen on, such as 1:100; a sweep's own are among them"});
   v("set", c.set, {.meaning = "overrides of the scenario at every point, each key.path=value"});
   v("design", c.design, {.meaning = "which points of the parameters' ranges are flown"});
   v("parameters", c.parameters, {.required = true, .meaning = "what is varied"});

@@ -118,6 +118,7 @@ struct ReproduceOptions {
   double limit_s = 0.0;             ///< longest wall time of a flight, 0 for none
   bool reuse_other_builds = false;  ///< results of other builds stand, too
   std::filesystem::path out;        ///< empty: out/reproduce
+  std::filesystem::path write;      ///< page of results in Markdown, such as docs/results.md; empty: none
   std::filesystem::path program;    ///< of the workers, absolute; empty: this one
 };
 /// Flies papers' experiments, or what is left of them, and writes each paper's figures beside ours.

@@ -4,14 +4,15 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
 
 #include "sim/campaign/fly_orders.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/progress.h"
-#include "sim/flight/build.h"
 #include "sim/record/whole_file.h"
-#include "sim/reproduce/outcome.h"
+#include "sim/render/renderer.h"
 #include "sim/reproduce/reproduction_page.h"
+#include "sim/reproduce/results_page.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -95,37 +96,54 @@ std::vector<FlightRecord> fly(const std::vector<Paper>& papers, const ReproduceO
   return records;
 }
 
+/// The packages that images and what is seen in them depend on.
+std::string packages() {
+  const std::string renderer = Renderer(scenes::Scene{}, Culling::none, ContextKind::osmesa).info();
+  const size_t mesa = renderer.find("Mesa ");
+  const std::string name =
+      mesa == std::string::npos ? renderer : renderer.substr(mesa, renderer.find_first_of(" ,)\n", mesa + 5) - mesa);
+  return fmt::format("{}, OpenCV {}", name, cv::getVersionString());
+}
+
+void write_pages(const ReproduceOptions& options, const fs::path& out, const RowsOfPapers& papers,
+                 const nlohmann::ordered_json& pages) {
+  const PageFacts facts = page_facts(papers, packages(), options.quick);
+  fs::create_directories(out);
+  const std::string text = results_page(papers, facts);
+  write_file_whole(out / "reproduction.md", text);
+  write_file_whole(out / "reproduction.csv", rows_csv(papers));
+  write_file_whole(out / "reproduction.html", reproduction_page(pages, facts));
+  if (!options.write.empty()) write_file_whole(options.write, text);
+  if (const std::string several = several_builds_line(facts); !several.empty()) fmt::print("{}\n", several);
+  for (const auto& [paper, rows] : papers) fmt::print("{}\n", rows_text(paper, rows));
+  fmt::print("written: {}\n", (out / "reproduction.html").string());
+  if (!options.write.empty()) fmt::print("written: {}\n", options.write.string());
+}
+
 }  // namespace
 
 int reproduce(const ReproduceOptions& options) {
+  if (options.quick && !options.write.empty()) throw InputError("--write: a quick look is no page of results");
   const std::vector<Paper> papers = read_papers(options.papers);
   const fs::path out = options.out.empty() ? fs::path("out") / "reproduce" : options.out;
   Interruption interruption;
   const std::vector<FlightRecord> records = fly(papers, options, out, interruption);
+  if (interruption.signal() != 0 && !options.write.empty()) return kSignalled + interruption.signal();
 
   nlohmann::ordered_json pages = nlohmann::ordered_json::array();
-  std::vector<std::pair<std::string, std::vector<RowOutcome>>> rows_of_papers;
-  std::string text;
+  RowsOfPapers rows_of_papers;
   for (const Paper& paper : papers) {
     std::vector<FlightRecord> own;
     std::ranges::copy_if(records, std::back_inserter(own),
                          [&](const FlightRecord& record) { return record.order.id.starts_with(paper.key + "/"); });
     const PaperOutcome outcome = paper_outcome(paper, out, own);
     const std::vector<RowOutcome> rows = row_outcomes(outcome);
-    text += rows_text(paper, rows) + "\n";
     pages.push_back(paper_data(outcome, rows));
-    rows_of_papers.emplace_back(paper.key, rows);
+    rows_of_papers.emplace_back(paper, rows);
   }
-  fs::create_directories(out);
-  write_file_whole(out / "reproduction.md", text);
-  write_file_whole(out / "reproduction.csv", rows_csv(rows_of_papers));
-  write_file_whole(out / "reproduction.html", reproduction_page(pages, std::string(version()), options.quick));
-  fmt::print("{}written: {}\n", text, (out / "reproduction.html").string());
+  write_pages(options, out, rows_of_papers, pages);
   if (interruption.signal() != 0) return kSignalled + interruption.signal();
-  const auto fails = [](const RowOutcome& row) { return row.holds && !*row.holds; };
-  const bool all_hold =
-      std::ranges::none_of(rows_of_papers, [&](const auto& rows) { return std::ranges::any_of(rows.second, fails); });
-  return all_hold ? 0 : kFails;
+  return std::ranges::all_of(rows_of_papers, [](const auto& paper) { return all_hold(paper.second); }) ? 0 : kFails;
 }
 
 }  // namespace hedgehop::sim::cli

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <set>
 
+#include "sim/campaign/judging_seeds.h"
 #include "sim/campaign/order.h"
 #include "sim/reproduce/calculations.h"
 #include "sim/scenario/include.h"
+#include "sim/scenario/numbers.h"
 #include "sim/scenario/reader.h"
 
 namespace hedgehop::sim {
@@ -17,25 +19,34 @@ namespace {
 /// Finds what in a paper's file makes no sense.
 class Examiner {
  public:
-  Examiner(const Paper& paper, const Node& root, Faults& faults) : root_(root), faults_(faults) {
-    for (const PaperFlights& flights : paper.flights) names_.insert(flights.name);
+  Examiner(const Paper& paper, const Node& root, Faults& faults)
+      : root_(root), faults_(faults), tuned_on_(paper.tuned_on) {
+    for (const FlightGroup& group : flight_groups(paper)) names_.insert(group.name);
   }
 
   void examine(const PaperFlights& flights, const std::string& at) {
     if (!used_.insert(flights.name).second) fault(at, fmt::format("two flights are called '{}'", flights.name));
-    for (const auto& seeds : {std::optional(flights.seeds), flights.quick}) {
-      try {
-        if (seeds) parse_seeds(*seeds);
-      } catch (const InputError& error) {
-        fault(at, error.faults().front());
-      }
+    if (flights.name.find('/') != std::string::npos) fault(at, "a name has no '/': what follows one is the variant's");
+    const auto known = [](const std::string& sensor) { return sensor == "ideal" || sensor == "dull"; };
+    if (!std::ranges::all_of(flights.sensors, known)) fault(at + ".sensors", "sensors beside 'day' are: ideal, dull");
+    if (flights.beside && flights.sensors.empty()) fault(at + ".beside", "'beside' goes with 'sensors'");
+    const std::string wrong = judging_fault(flights.tuned_on ? flights.tuned_on : tuned_on_, flights.seeds);
+    if (!wrong.empty()) {
+      fault(at + ".seeds", wrong);
+      return;
     }
+    part(flights.quick, flights.seeds, at + ".quick");
+    part(flights.beside, flights.seeds, at + ".beside");
   }
 
   void examine(const PaperRow& row, const std::string& at) {
     if (row.flights.empty() == row.calculation.empty()) fault(at, "needs either 'flights' or 'calculation'");
     if (!row.calculation.empty()) column(row.calculation, row.value, at);
     if (!row.flights.empty()) figure(row, at);
+    if (row.missing.empty()) fault(at + ".missing", "needs 'fails', a number, or why the flight does not count");
+    if (counts(row.statistic) && parse_number(row.missing, false).kind == ParsedNumber::Kind::number) {
+      fault(at + ".missing", "a number does not go with count and share");
+    }
   }
 
   void examine(const PaperChart& chart, const std::string& at) {
@@ -51,6 +62,17 @@ class Examiner {
 
  private:
   void fault(const std::string& at, const std::string& words) { faults_.add(place_of(root_, at), words); }
+
+  /// Seeds of a look that must be seeds of the flights.
+  void part(const std::optional<std::string>& seeds, const std::string& whole, const std::string& at) {
+    try {
+      if (seeds && !within(*seeds, whole)) {
+        fault(at, fmt::format("seeds '{}' are not all of the flights' seeds '{}'", *seeds, whole));
+      }
+    } catch (const InputError& error) {
+      fault(at, error.faults().front());
+    }
+  }
 
   void known_flights(const std::string& name, const std::string& at) {
     if (!names_.contains(name)) fault(at, fmt::format("no flights are called '{}'", name));
@@ -69,9 +91,10 @@ class Examiner {
   void figure(const FlightFigure& figure, const std::string& at) {
     for (const std::string& name : figure.flights) known_flights(name, at);
     if (figure.column.empty()) fault(at, "needs a 'column'");
-    const bool counts =
-        figure.statistic == FlightFigure::Statistic::count || figure.statistic == FlightFigure::Statistic::share;
-    if (counts == figure.is.empty()) fault(at, counts ? "needs 'is', what to count" : "'is' goes with count and share");
+    const bool counting = counts(figure.statistic);
+    if (counting == figure.is.empty()) {
+      fault(at, counting ? "needs 'is', what to count" : "'is' goes with count and share");
+    }
   }
 
   void equal(size_t x, size_t y, const std::string& at) {
@@ -94,15 +117,49 @@ class Examiner {
 
   const Node& root_;
   Faults& faults_;
+  std::optional<std::string> tuned_on_;
   std::set<std::string> names_, used_;
 };
 
+/// Key and file of the sensors' override, for a scenario whose paths count from its own folder.
+std::string sensor_override(const Paper& paper, const std::string& scenario, const std::string& sensor) {
+  namespace fs = std::filesystem;
+  const fs::path file = fs::absolute(paper.folder / ".." / "sensors" / (sensor + ".yaml")).lexically_normal();
+  const fs::path folder = fs::absolute(scenario).lexically_normal().parent_path();
+  return "rig.sensor.use=" + file.lexically_relative(folder).string();
+}
+
 }  // namespace
+
+bool counts(FlightFigure::Statistic statistic) {
+  return statistic == FlightFigure::Statistic::count || statistic == FlightFigure::Statistic::share;
+}
+
+std::vector<FlightGroup> flight_groups(const Paper& paper) {
+  std::vector<FlightGroup> groups;
+  for (const PaperFlights& flights : paper.flights) {
+    const FlightGroup ours{flights.name, flights.scenario, flights.seeds, flights.quick, flights.set};
+    groups.push_back(ours);
+    if (!flights.printed.empty()) {
+      FlightGroup& printed = groups.emplace_back(ours);
+      printed.name += "/printed";
+      printed.set.insert(printed.set.end(), flights.printed.begin(), flights.printed.end());
+    }
+    for (const std::string& sensor : flights.sensors) {
+      FlightGroup& other = groups.emplace_back(ours);
+      other.name += "/" + sensor;
+      other.seeds = flights.beside.value_or(flights.seeds);
+      other.quick.reset();
+      other.set.push_back(sensor_override(paper, flights.scenario, sensor));
+    }
+  }
+  return groups;
+}
 
 Paper read_paper(const std::filesystem::path& file) {
   Faults faults;
   const Node root = load_tree(file, faults);
-  Paper paper{.key = file.stem().string()};
+  Paper paper{.key = file.stem().string(), .folder = file.parent_path()};
   read_struct(root, "", "", paper, faults);
   faults.raise();
   for (PaperFlights& flights : paper.flights) {

@@ -10,21 +10,31 @@
 /// A paper's experiments re-simulated, and its figures beside ours.
 namespace hedgehop::sim {
 
-/// Flights of one scenario that differ by the seed alone.
+/// Flights of one scenario that differ by the seed alone, and the same with the paper's own law or other sensors.
 struct PaperFlights {
   std::string name;      ///< what rows and charts call them; once read, the scenario file's name where none was given
   std::string scenario;  ///< relative to the paper's file; once read, to the working folder
   std::string seeds;
-  std::optional<std::string> quick;  ///< seeds of a quick look; none: not flown then
+  std::optional<std::string> tuned_on;  ///< else the paper's
+  std::optional<std::string> quick;     ///< seeds of a quick look; none: not flown then
   std::vector<std::string> set;
+  std::vector<std::string> printed;
+  std::vector<std::string> sensors;
+  std::optional<std::string> beside;
 };
 template <class Visitor>
 void describe(Visitor& v, PaperFlights& c) {
   v("name", c.name, {.meaning = "what rows and charts call them; else the scenario file's name"});
   v("scenario", c.scenario, {.required = true, .meaning = "scenario file, relative to this file"});
-  v("seeds", c.seeds, {.required = true, .meaning = "seeds such as 1:10 or 1:3,7"});
+  v("seeds", c.seeds, {.required = true, .meaning = "seeds such as 1001:1030 or 1001:1003,1007, none of tuned_on"});
+  v("tuned_on", c.tuned_on, {.meaning = "in place of the file's"});
   v("quick", c.quick, {.meaning = "seeds that --quick flies, of those above; without them it flies none"});
   v("set", c.set, {.meaning = "overrides of the scenario, each key.path=value"});
+  v("printed", c.printed,
+    {.meaning = "further overrides for the law as the paper prints it: the same seeds again, called NAME/printed"});
+  v("sensors", c.sensors,
+    {.meaning = "ideal, dull: flown with ../sensors/ideal.yaml, dull.yaml, too, called NAME/ideal, NAME/dull"});
+  v("beside", c.beside, {.meaning = "seeds flown with those sensors, of those above; else all"});
 }
 
 /// A figure drawn from a column of a campaign's table over flights.
@@ -35,19 +45,23 @@ struct FlightFigure {
   std::string is;
   Statistic statistic = Statistic::mean;
 };
+/// Whether the statistic counts flights, so that the column is compared with a word.
+bool counts(FlightFigure::Statistic statistic);
 template <class Visitor>
 void describe_figure(Visitor& v, FlightFigure& c) {
   v("flights", c.flights, {.meaning = "names of flights"});
   v("column", c.column, {.meaning = "of a batch's table, such as outcome, min_clearance_m or metric.jerk_rms"});
   v("is", c.is, {.meaning = "for count and share: what the column must hold, such as collided"});
   v("statistic", c.statistic,
-    {.choices = {"count", "share", "least", "greatest", "mean", "median"}, .meaning = "over the flights that ended"});
+    {.choices = {"count", "share", "least", "greatest", "mean", "median"},
+     .meaning = "over the flights that have the column"});
 }
 
 /// One figure of the paper beside ours.
 struct PaperRow : FlightFigure {
   std::string what, paper, unit;
   std::optional<double> at_least, at_most;  ///< bounds that ours must meet
+  std::string missing = "fails";            ///< what a flight without the figure means
   std::string calculation, value;           ///< in place of flights
 };
 template <class Visitor>
@@ -58,6 +72,9 @@ void describe(Visitor& v, PaperRow& c) {
   v("at_least", c.at_least, {.meaning = "least that ours must be"});
   v("at_most", c.at_most, {.meaning = "most that ours may be"});
   describe_figure(v, c);
+  v("missing", c.missing,
+    {.meaning = "what a flight means that has not the figure: 'fails'; a number, to be taken in its place; or why the "
+                "flight does not count, such as 'met no collision course'"});
   v("calculation", c.calculation, {.meaning = "a figure that needs no flight: name of the calculation"});
   v("value", c.value, {.meaning = "... and which of its columns, the last row"});
 }
@@ -160,8 +177,12 @@ void describe(Visitor& v, PaperChart& c) {
 
 /// All that `hedgehop reproduce` does for one paper.
 struct Paper {
-  std::string key;  ///< name of its file
+  std::string key;               ///< name of its file
+  std::filesystem::path folder;  ///< of its file
   std::string title, source;
+  std::optional<std::string> tuned_on;
+  std::string moved_on;
+  std::vector<std::string> deviations;
   std::vector<PaperFlights> flights;
   std::vector<PaperRow> rows;
   std::vector<PaperChart> charts;
@@ -170,13 +191,27 @@ template <class Visitor>
 void describe(Visitor& v, Paper& c) {
   v("title", c.title, {.required = true, .meaning = "authors, year and subject"});
   v("source", c.source, {.required = true, .meaning = "key in REFERENCES.md"});
+  v("tuned_on", c.tuned_on, {.meaning = "seeds that parameters were chosen on, such as 1:100, or none; must be given"});
+  v("moved_on", c.moved_on, {.meaning = "why the seeds to judge by are others than before"});
+  v("deviations", c.deviations, {.meaning = "where what flies 'as printed' departs from the paper, one text each"});
   v("flights", c.flights, {.meaning = "what is flown"});
   v("rows", c.rows, {.meaning = "the paper's figures beside ours"});
   v("charts", c.charts, {.meaning = "the paper's figures redrawn"});
 }
 
+/// Flights that share a name and differ by the seed alone: an entry's own, or a variant of them.
+struct FlightGroup {
+  std::string name, scenario, seeds;
+  std::optional<std::string> quick;  ///< none: not part of a quick look
+  std::vector<std::string> set;
+};
+
+/// What a paper flies: each entry's own flights, then those as printed, then those with other sensors.
+std::vector<FlightGroup> flight_groups(const Paper& paper);
+
 /// Reads a paper's file. Throws InputError with every fault: of the file, and names of flights or calculations that do
-/// not exist, rows without a source, bad seeds, series of unequal length, paths beside other series.
+/// not exist, rows without a source, bad seeds, seeds that parameters were chosen on, series of unequal length, paths
+/// beside other series.
 Paper read_paper(const std::filesystem::path& file);
 
 }  // namespace hedgehop::sim

@@ -1,6 +1,7 @@
 #include "sim/reproduce/reproduction_page.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "sim/campaign/flight_maps.h"
@@ -46,7 +47,8 @@ class LineMaker {
     for (const std::string& name : series.flights) {
       FlightFigure figure = series;
       figure.flights = {name};
-      y.push_back(figure_of(figure, outcome_));
+      const MeasuredFigure measured = measure(figure, outcome_);
+      y.push_back(measured.complete() ? measured.value : NAN);  // of some flights alone it would flatter
     }
     lines_.push_back(line_data(series.label, false, series.x, y));
   }
@@ -126,23 +128,32 @@ Json paper_data(const PaperOutcome& outcome, const std::vector<RowOutcome>& rows
   Json json{{"key", outcome.paper.key},
             {"title", outcome.paper.title},
             {"source", outcome.paper.source},
+            {"moved_on", outcome.paper.moved_on},
+            {"deviations", outcome.paper.deviations},
             {"rows", Json::array()},
             {"charts", Json::array()}};
   for (const RowOutcome& row : rows) {
     json["rows"].push_back(Json{{"what", row.row.what},
                                 {"unit", row.row.unit},
                                 {"paper", row.row.paper},
-                                {"asked", row.asked},
-                                {"ours", row.ours},
+                                {"required", row.required_words()},
+                                {"printed", row.variant_words("printed")},
+                                {"ideal", row.variant_words("ideal")},
+                                {"day", row.ours_words()},
+                                {"dull", row.variant_words("dull")},
+                                {"flights", row.flights_words()},
+                                {"interval", row.interval_words()},
                                 {"holds", row.holds ? Json(*row.holds) : Json(nullptr)},
+                                {"build", row.builds},
                                 {"command", row.command}});
   }
   for (const PaperChart& chart : outcome.paper.charts) json["charts"].push_back(chart_data(chart, outcome));
   return json;
 }
 
-std::string reproduction_page(const Json& papers, const std::string& version, bool quick) {
-  const Json data{{"version", version}, {"quick", quick}, {"papers", papers}};
+std::string reproduction_page(const Json& papers, const PageFacts& facts) {
+  const Json data{{"version", facts.version},   {"build", facts.build}, {"builds", facts.builds},
+                  {"packages", facts.packages}, {"quick", facts.quick}, {"papers", papers}};
   return reproduction_html("Papers reproduced", data.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 

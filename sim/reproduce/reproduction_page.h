@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/reproduce/outcome.h"
+#include "sim/reproduce/paper_row.h"
+#include "sim/reproduce/results_page.h"
 
 namespace hedgehop::sim {
 
@@ -12,8 +13,7 @@ namespace hedgehop::sim {
 /// that left no log are left out.
 nlohmann::ordered_json paper_data(const PaperOutcome& outcome, const std::vector<RowOutcome>& rows);
 
-/// One HTML text for all papers. @param papers  each as paper_data() gives it. @param quick  whether few seeds were
-/// flown; the page shows it.
-std::string reproduction_page(const nlohmann::ordered_json& papers, const std::string& version, bool quick);
+/// One HTML text for all papers. @param papers  each as paper_data() gives it.
+std::string reproduction_page(const nlohmann::ordered_json& papers, const PageFacts& facts);
 
 }  // namespace hedgehop::sim

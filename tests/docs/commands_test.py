@@ -40,7 +40,7 @@ def shortened_file(text):
     text = re.sub(r"^(duration): .*$", rf"\1: {SHORT_S}", text, flags=re.M)
     text = re.sub(r"before: [0-9.]+", f"before: {SHORT_S}", text)
     text = re.sub(r"points: [0-9]+", "points: 2", text)
-    return re.sub(r"(seeds|quick): [0-9]+(:[0-9]+)?(,[0-9:]+)*", r"\1: 1", text)
+    return re.sub(r"(seeds|quick|beside): ([0-9]+)(:[0-9]+)?(,[0-9:]+)*", r"\1: \2", text)
 
 
 def shortened_command(line):
@@ -49,7 +49,7 @@ def shortened_command(line):
         line = re.sub(r"duration=[0-9.]+", f"duration={SHORT_S}", line)
         line = re.sub(r"--seeds [0-9:,]+", "--seeds 1", line)
     if line.startswith("hedgehop reproduce") and "--quick" not in line:
-        line += " --quick"  # what getting-started.md has flown is reused
+        line = re.sub(r" --write \S+", "", line) + " --quick"  # what getting-started.md has flown is reused
     if line.startswith("hedgehop render"):
         line = re.sub(r"--time [0-9.]+", f"--time {SHORT_S / 2}", line)
     if "--on slurm" in line and "--dry-run" not in line:
@@ -111,15 +111,16 @@ class Commands(unittest.TestCase):
         lines = list(dict.fromkeys(commands((SOURCE / page).read_text())))
         for line in lines:
             with self.subTest(page=page, line=line):
-                self.run_line(line, counts_sweeps=page == "docs/results.md")
+                self.run_line(line, counts_sweeps=page == "docs/verification.md")
 
     def test_every_page_with_figures_has_commands(self):
-        for page in ("README.md", "CONTRIBUTING.md", "docs/results.md", "docs/verification.md", "docs/known-failures.md"):
+        for page in ("README.md", "CONTRIBUTING.md", "docs/results.md", "docs/verification.md", "docs/performance.md",
+                     "docs/known-failures.md"):
             self.assertGreater(len(list(commands((SOURCE / page).read_text()))), 0, page)
 
-    def test_every_row_of_the_results_has_a_command(self):
+    def test_every_row_of_results_and_measurements_has_a_command(self):
         """A row's own, one of the row above (an empty cell or `the same`), or one of a block before its table."""
-        text = (SOURCE / "docs" / "results.md").read_text()
+        text = "\n".join((SOURCE / "docs" / page).read_text() for page in ("results.md", "verification.md", "performance.md"))
         for heads, rows in re.findall(r"^\|(.*)\|\n\|[-|]+\|\n((?:\|.*\|\n?)+)", text, re.M):
             if heads.split("|")[-1].strip() != "command":
                 continue

@@ -10,7 +10,7 @@
 namespace hedgehop::dynamics {
 
 /// Expects a value within `tolerance` of the published or derived one, and writes both down as a property of the test:
-/// scripts/check_table makes the table of docs/results.md of them.
+/// scripts/check_table makes the tables of docs/verification.md of them.
 /// @param what  the quantity with its unit, "thrust, N".
 inline void expect_recorded(const std::string& what, double here, double asked, double tolerance) {
   EXPECT_NEAR(here, asked, tolerance) << what;

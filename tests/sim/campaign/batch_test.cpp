@@ -222,7 +222,7 @@ TEST(Batch, StatisticalChecksDecideInPlaceOfSingleFlights) {
 TEST(Batch, CampaignFileNamesScenariosSeedsAndValues) {
   const CampaignFolder folder;
   folder.write("campaign.yaml",
-               "description: two speeds\nflights:\n"
+               "description: two speeds\ntuned_on: 5:9\nflights:\n"
                "  - {scenario: tiny.yaml, seeds: 1:2}\n"
                "  - {scenario: tiny.yaml, seeds: 4, set: [avoidance.speed=0.5]}\n"
                "checks: [{check: success_rate, at_least: 0.1}]\n");
@@ -236,11 +236,23 @@ TEST(Batch, CampaignFileNamesScenariosSeedsAndValues) {
               HasSubstr("campaign.yaml:2:27: unknown key 'seds' in 'flights.0'; did you mean 'seeds'?"));
 }
 
+TEST(Batch, CampaignDoesNotJudgeBySeedsThatParametersWereChosenOn) {
+  const CampaignFolder folder;
+  folder.write("campaign.yaml", "flights:\n  - {scenario: tiny.yaml, seeds: 1:2}\n");
+  const CommandEnd unsaid = folder.hedgehop("batch campaign.yaml --out out");
+  EXPECT_EQ(unsaid.status, 2);
+  EXPECT_THAT(unsaid.err, HasSubstr("campaign.yaml:2:34: needs 'tuned_on'"));
+  folder.write("campaign.yaml", "tuned_on: 2:9\nflights:\n  - {scenario: tiny.yaml, seeds: 1:2}\n");
+  EXPECT_THAT(folder.hedgehop("batch campaign.yaml --out out").err,
+              HasSubstr("campaign.yaml:3:34: seeds '1:2' judge by seed 2, which parameters were chosen on"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+}
+
 TEST(Batch, EntriesThatDifferBeyondTheFolderNamesLengthKeepTheirFoldersApart) {
   const CampaignFolder folder;
   const std::string zeros(150, '0');
-  folder.write("campaign.yaml", "flights:\n  - {scenario: tiny.yaml, set: [avoidance.speed=0.5" + zeros +
-                                    "1]}\n  - {scenario: tiny.yaml, set: [avoidance.speed=0.5" + zeros + "2]}\n");
+  const std::string entry = "  - {scenario: tiny.yaml, seeds: 1, set: [avoidance.speed=0.5" + zeros;
+  folder.write("campaign.yaml", "tuned_on: none\nflights:\n" + entry + "1]}\n" + entry + "2]}\n");
   ASSERT_EQ(folder.hedgehop("batch campaign.yaml --out out").status, 0);
   const Json batch = folder.json("out/batch.json");
   ASSERT_EQ(batch.at("flights").size(), 2u);

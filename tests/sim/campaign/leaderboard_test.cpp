@@ -26,7 +26,8 @@ class LeaderboardFolder : public CampaignFolder {
                                 "}\nchecks: [{check: reached_goal}, {check: no_collision}]\n");
     }
     write("board.yaml",
-          "leaderboard:\n  seeds: 1:2\n  worlds: [{name: far, scenario: far.yaml}, {name: near, scenario: near.yaml}]\n"
+          "tuned_on: none\nleaderboard:\n  seeds: 1:2\n  worlds: [{name: far, scenario: far.yaml}, {name: near, "
+          "scenario: near.yaml}]\n"
           "  modules:\n    - {name: still, control: true, set: [avoidance.speed=0.01]}\n"
           "    - {name: fast, set: [avoidance.speed=2]}\n    - {name: slow, set: [avoidance.speed=0.1]}\n"
           "  not_flown: [{module: slow, worlds: [far], reason: too far}]\n");

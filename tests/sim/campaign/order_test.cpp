@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <random>
 
+#include "sim/campaign/judging_seeds.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -18,6 +20,24 @@ TEST(Seeds, RefusesWhatIsNoListOfSeeds) {
   for (const char* text : {"", "1:", ":3", "a", "3:1", "1,1", "1:3,2", "1,,2", "-1", "1.5", "1:2:3", "0:99999999"}) {
     EXPECT_THROW(parse_seeds(text), InputError) << text;
   }
+}
+
+TEST(JudgingSeeds, AreThoseThatNoRangeOfTuningHolds) {
+  std::mt19937_64 generator(3);
+  const auto range = [&](uint64_t& first, uint64_t& last) {
+    first = generator() % 20;
+    last = first + generator() % 8;
+    return std::to_string(first) + ":" + std::to_string(last);
+  };
+  for (int i = 0; i < 300; ++i) {
+    uint64_t a = 0, b = 0, c = 0, d = 0;
+    const std::string tuned = range(a, b), judging = range(c, d);
+    EXPECT_EQ(judging_fault(tuned, judging).empty(), b < c || d < a) << tuned << " " << judging;
+    EXPECT_EQ(within(judging, tuned), a <= c && d <= b) << tuned << " " << judging;
+  }
+  EXPECT_EQ(judging_fault("none", "1:3"), "");
+  EXPECT_NE(judging_fault({}, "1:3"), "");
+  EXPECT_NE(judging_fault("some", "1:3"), "");
 }
 
 TEST(ShellQuoted, ShellReadsBackTheSameWord) {

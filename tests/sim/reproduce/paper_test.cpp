@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "sim/campaign/sweep_file.h"
 #include "sim/record/whole_file.h"
 #include "sim/reproduce/calculations.h"
 #include "sim/reproduce/outcome.h"
@@ -16,13 +17,15 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 const std::filesystem::path kPapers = HEDGEHOP_SOURCE_DIR "/configs/papers";
 
 std::vector<std::string> faults_of(const std::string& text) {
   const TemporaryFolder folder;
-  write_file_whole(folder.path() / "paper.yaml", "title: A\nsource: B\n" + text);
+  write_file_whole(folder.path() / "paper.yaml", "title: A\nsource: B\ntuned_on: none\n" + text);
   try {
     read_paper(folder.path() / "paper.yaml");
   } catch (const InputError& error) {
@@ -54,7 +57,7 @@ TEST(PaperFile, SourcesStandInTheReferences) {
 TEST(PaperFile, NamesNobodyHasAreRefusedWithTheirPlace) {
   const std::string flights = "flights: [{scenario: a.yaml, seeds: '1:2'}]\n";
   EXPECT_THAT(faults_of(flights + "rows: [{what: w, flights: [b], column: outcome, is: x, statistic: count}]"),
-              Contains(AllOf(HasSubstr("paper.yaml:4"), HasSubstr("no flights are called 'b'"))));
+              Contains(AllOf(HasSubstr("paper.yaml:5"), HasSubstr("no flights are called 'b'"))));
   EXPECT_THAT(faults_of("rows: [{what: w, calculation: none, value: x}]"), Contains(HasSubstr("section_costs")));
   EXPECT_THAT(faults_of("rows: [{what: w, calculation: section_costs, value: x}]"), Contains(HasSubstr("cost_ms")));
   EXPECT_THAT(faults_of("charts: [{title: t, series: [{from: log, label: l, flights: c, y: d}]}]"),
@@ -74,6 +77,62 @@ TEST(PaperFile, WhatCannotBeMeantIsRefused) {
   EXPECT_THAT(faults_of(flights + "charts: [{title: t, series: [{from: paths, label: l, flights: a}, "
                                   "{from: points, label: p, x: [], y: []}]}]"),
               Contains(HasSubstr("cannot share a chart")));
+}
+
+TEST(PaperFile, SeedsThatParametersWereChosenOnJudgeNothing) {
+  const TemporaryFolder folder;
+  const auto faults = [&](const std::string& text) -> std::vector<std::string> {
+    write_file_whole(folder.path() / "p.yaml", "title: A\nsource: B\n" + text);
+    try {
+      read_paper(folder.path() / "p.yaml");
+    } catch (const InputError& error) {
+      return error.faults();
+    }
+    return {};
+  };
+  EXPECT_THAT(faults("flights: [{scenario: a.yaml, seeds: 1:2}]"), Contains(HasSubstr("needs 'tuned_on'")));
+  EXPECT_THAT(faults("tuned_on: 1:10\nflights: [{scenario: a.yaml, seeds: 10:12}]"),
+              Contains(AllOf(HasSubstr("p.yaml:4:"), HasSubstr("seed 10"))));
+  EXPECT_THAT(faults("tuned_on: 1:10\nflights: [{scenario: a.yaml, seeds: 11:12}]"), IsEmpty());
+  EXPECT_THAT(faults("tuned_on: 1:10\nflights: [{scenario: a.yaml, seeds: 11:12, tuned_on: 12}]"),
+              Contains(HasSubstr("seed 12")));
+  EXPECT_THAT(faults("tuned_on: 1:10\nflights: [{scenario: a.yaml, seeds: 11:12, quick: 12:13}]"),
+              Contains(HasSubstr("'12:13' are not all")));
+}
+
+TEST(PaperFile, VariantsFlyTheSameScenarioWithTheirOwnOverrides) {
+  Paper paper{.folder = "configs/papers"};
+  paper.flights = {{.name = "tree",
+                    .scenario = "configs/deep/tree.yaml",
+                    .seeds = "1001:1030",
+                    .quick = "1001",
+                    .set = {"a=1"},
+                    .printed = {"b=2"},
+                    .sensors = {"ideal", "dull"},
+                    .beside = "1001:1010"}};
+  const std::vector<FlightGroup> groups = flight_groups(paper);
+  ASSERT_EQ(groups.size(), 4u);
+  EXPECT_EQ(groups[1].name, "tree/printed");
+  EXPECT_EQ(groups[1].seeds, "1001:1030");
+  EXPECT_THAT(groups[1].set, ElementsAre("a=1", "b=2"));
+  EXPECT_EQ(groups[3].name, "tree/dull");
+  EXPECT_EQ(groups[3].seeds, "1001:1010");
+  EXPECT_THAT(groups[3].set, ElementsAre("a=1", "rig.sensor.use=../sensors/dull.yaml"));
+  EXPECT_FALSE(groups[3].quick);
+}
+
+TEST(PaperFile, NoShippedFileJudgesByASeedOfASweep) {
+  std::set<uint64_t> swept;
+  for (const auto& entry : std::filesystem::directory_iterator(kPapers / "../sweeps")) {
+    const SweepConfig sweep = read_sweep(entry.path());
+    EXPECT_TRUE(sweep.tuned_on) << entry.path();
+    for (const uint64_t seed : parse_seeds(sweep.seeds.value_or("1"))) swept.insert(seed);
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(kPapers)) {
+    for (const PaperFlights& flights : read_paper(entry.path()).flights) {
+      for (const uint64_t seed : parse_seeds(flights.seeds)) EXPECT_FALSE(swept.contains(seed)) << flights.name;
+    }
+  }
 }
 
 TEST(Calculations, TellTheColumnsTheyPromiseAllOfOneLength) {

@@ -7,10 +7,12 @@
 namespace hedgehop::sim {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 class Reproduce : public ::testing::Test {
  protected:
@@ -18,10 +20,13 @@ class Reproduce : public ::testing::Test {
     folder.write("small.yaml", R"(
 title: "Nobody 1900: a small paper"
 source: Garratt2009
+tuned_on: 11:20
+deviations: [it flies faster]
 flights:
-  - {scenario: tiny.yaml, seeds: 1:3, quick: 1:2}
+  - {scenario: tiny.yaml, seeds: 1:3, quick: 1:2, printed: [avoidance.speed=3]}
   - {name: fast, scenario: tiny.yaml, seeds: 1:2, set: [avoidance.speed=2]}
 rows:
+  - {what: length, unit: m, flights: [tiny], column: path_length_m, statistic: greatest}
   - {what: collided, paper: none, at_most: 0, flights: [tiny, fast], column: outcome, is: collided, statistic: count}
   - {what: farthest way, unit: m, at_least: 1000, flights: [fast], column: path_length_m, statistic: greatest}
 charts:
@@ -39,22 +44,48 @@ charts:
 TEST_F(Reproduce, TellsEachFigureAndFailsWhenOneDoesNotHold) {
   const CommandEnd end = folder.hedgehop("reproduce small.yaml --out out");
   EXPECT_EQ(end.status, 1) << end.err;
-  EXPECT_THAT(end.out, HasSubstr("| collided | none | at most 0 | 0 of 5 | yes |"));
+  // No flight reaches the goal in a tenth of a second: "no contact" is not enough.
+  EXPECT_THAT(end.out, HasSubstr("| collided | none | at most 0 | - | - | 0 of 5 | - | 5, 5, 0, 5; 5 not finished |"));
+  EXPECT_THAT(end.out, HasSubstr("- it flies faster\n"));
   const CsvTable rows(folder.path() / "out/reproduction.csv");
-  EXPECT_THAT(rows.words("holds"), ElementsAre("yes", "no"));
-  EXPECT_THAT(rows.numbers("flights"), ElementsAre(5, 2));
-  EXPECT_EQ(rows.words("command")[1], "hedgehop batch tiny.yaml --seeds 1:2 --set avoidance.speed=2");
+  EXPECT_THAT(rows.words("holds"), ElementsAre("", "no", "no"));
+  EXPECT_THAT(rows.numbers("asked"), ElementsAre(3, 5, 2));
+  EXPECT_THAT(rows.numbers("with_figure"), ElementsAre(3, 5, 2));
+  EXPECT_NE(rows.words("as_printed")[0], rows.words("day")[0]);
+  EXPECT_EQ(rows.words("as_printed")[1], "");  // `fast` has no law of a paper
+  EXPECT_EQ(rows.words("command")[2], "hedgehop batch tiny.yaml --seeds 1:2 --set avoidance.speed=2");
+}
+
+TEST_F(Reproduce, ARowThatNothingMeasuresSetsTheExitStatus) {
+  const auto paper = [&](const std::string& column) {
+    return "title: t\nsource: s\ntuned_on: none\nflights: [{scenario: tiny.yaml, seeds: 1}]\n"
+           "rows: [{what: w, flights: [tiny], column: " +
+           column + ", statistic: mean}]\n";
+  };
+  folder.write("known.yaml", paper("path_length_m"));
+  folder.write("unknown.yaml", paper("metric.no_such_figure"));
+  EXPECT_EQ(folder.hedgehop("reproduce known.yaml --out out").status, 0);
+  const CommandEnd unknown = folder.hedgehop("reproduce unknown.yaml --out out");
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_THAT(unknown.out, HasSubstr("| not measured |"));
+}
+
+TEST_F(Reproduce, WritesItsTablesAsAPageButNotOfAQuickLook) {
+  EXPECT_EQ(folder.hedgehop("reproduce small.yaml --quick --out out --write r.md").status, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "r.md"));
+  folder.hedgehop("reproduce small.yaml --out out --write r.md");
+  EXPECT_THAT(folder.read("r.md"), AllOf(StartsWith("# Results\n\nBuild `"), HasSubstr("Mesa "), HasSubstr("OpenCV ")));
+  EXPECT_EQ(folder.read("r.md"), folder.read("out/reproduction.md"));
 }
 
 TEST_F(Reproduce, AQuickLookFliesPartAndTheWholeFliesOnlyTheRest) {
   const std::string counting = folder.worker("echo $seed >> flown.txt; fly \"$@\"");
   const std::string with = " -j 1 --out out --program " + counting;
   const CommandEnd quick = folder.hedgehop("reproduce small.yaml --quick" + with);
-  EXPECT_EQ(quick.status, 0) << quick.err;
-  EXPECT_THAT(quick.out, HasSubstr("| farthest way, m |  | at least 1000 | not measured | - |"));
-  EXPECT_EQ(folder.read("flown.txt"), "1\n2\n");
+  EXPECT_THAT(quick.out, HasSubstr("| farthest way, m | - | at least 1000 | - | - | not in the quick look |"));
+  EXPECT_EQ(folder.read("flown.txt"), "1\n2\n1\n2\n");  // ours, then as printed
   EXPECT_EQ(folder.hedgehop("reproduce small.yaml" + with).status, 1);
-  EXPECT_EQ(folder.read("flown.txt"), "1\n2\n3\n1\n2\n");
+  EXPECT_EQ(folder.read("flown.txt"), "1\n2\n1\n2\n3\n3\n1\n2\n");
 }
 
 TEST_F(Reproduce, BadInputIsNamedAndNothingIsWritten) {
@@ -84,7 +115,7 @@ TEST_F(Reproduce, ItsPageDrawsEveryChartAlone) {
   EXPECT_THAT(page.errors, IsEmpty());
   EXPECT_THAT(page.requests, IsEmpty());
   EXPECT_EQ(page.value.at("inked"), nlohmann::json({true, true, true}));
-  EXPECT_EQ(page.value.at("verdicts"), nlohmann::json({"pass", "fail"}));
+  EXPECT_EQ(page.value.at("verdicts"), nlohmann::json({"fail", "fail"}));
   EXPECT_THAT(page.value.at("labels")[0].get<std::string>(), HasSubstr("slow: 3fast: 2"));
   EXPECT_THAT(page.value.at("labels")[1].get<std::string>(), HasSubstr("ours"));
   EXPECT_THAT(page.value.at("head").get<std::string>(), Not(HasSubstr("quick look")));

@@ -41,7 +41,7 @@ TEST_P(VehicleFile, HoversAndFliesForwardsAndBackwardsInTrim) {
   }
 }
 
-// The properties are the table of step responses in docs/results.md.
+// The properties are the table of step responses in docs/verification.md.
 TEST_P(VehicleFile, FollowsAVelocityStepOfTwoMetersASecond) {
   dynamics::Loop loop;
   loop.perfect = true;

@@ -50,11 +50,13 @@ function addRows(host, rows) {
     for (const [text, className] of cells) row.append(make(tag, className, text));
     return row;
   };
-  line(['figure', 'paper', 'required', 'ours', ''].map((text) => [text, '']), 'th');
-  for (const {what, unit, paper, asked, ours, holds, command} of rows) {
-    const row = line([[what + (unit ? `, ${unit}` : ''), ''], [paper || '–', ''], [asked || '–', ''], [ours, ''],
-      holds === null ? ['', ''] : holds ? ['holds', 'pass'] : ['does not hold', 'fail']], 'td');
-    if (command) row.lastChild.append(' ', copyButton(command));
+  line(['claim', 'paper', 'asked', 'as printed', 'ours: ideal', 'ours: day', 'ours: dull', 'flights: asked, flown, faulted, with figure',
+    '95 % interval', 'holds', 'build'].map((text) => [text, '']), 'th');
+  for (const r of rows) {
+    const row = line([[r.what + (r.unit ? `, ${r.unit}` : ''), ''], [r.paper || '–', ''],
+      ...[r.required, r.printed, r.ideal, r.day, r.dull, r.flights, r.interval].map((text) => [text, '']),
+      r.holds === null ? ['–', ''] : r.holds ? ['holds', 'pass'] : ['does not hold', 'fail'], [r.build.join(', '), '']], 'td');
+    row.lastChild.append(' ', copyButton(r.command));
   }
 }
 
@@ -69,17 +71,21 @@ function addChart(host, chart) {
 }
 
 function main() {
-  const {version, quick, papers} = JSON.parse(document.getElementById('data').textContent);
+  const {version, build, builds, packages, quick, papers} = JSON.parse(document.getElementById('data').textContent);
   const head = document.getElementById('head');
   const rows = papers.flatMap((paper) => paper.rows), judged = rows.filter(({holds}) => holds !== null);
+  if (builds.length > 1) head.append(make('p', 'fail', `Rows of ${builds.length} builds: ${builds.join(', ')}`));
   head.append(make('h1', '', 'Papers reproduced'));
-  head.append(make('p', 'soft', `Hedgehop ${version}: ${judged.filter(({holds}) => holds).length} of ${judged.length} measured figures hold.`
+  head.append(make('p', 'soft', `Hedgehop ${version}, build ${build}, ${packages}: `
+    + `${judged.filter(({holds}) => holds).length} of ${judged.length} figures that are required hold.`
     + (quick ? ' Quick run: few seeds were flown.' : '')));
   for (const paper of papers) {
     const section = document.getElementById('papers').appendChild(make('section', 'paper'));
     const title = section.appendChild(make('div', 'charts-head'));
     title.append(make('h2', '', paper.title), make('span', 'soft', paper.source));
+    if (paper.moved_on) section.append(make('p', 'soft', `Seeds moved on: ${paper.moved_on}`));
     if (paper.rows.length) addRows(section.appendChild(make('div', 'card')), paper.rows);
+    for (const deviation of paper.deviations) section.append(make('p', 'soft', `"As printed" departs from the paper: ${deviation}`));
     const charts = section.appendChild(make('div', 'charts'));
     charts.style.marginTop = '16px';
     for (const chart of paper.charts) addChart(charts, chart);

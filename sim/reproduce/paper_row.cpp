@@ -1,0 +1,183 @@
+#include "sim/reproduce/paper_row.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/campaign/order.h"
+#include "sim/flight/build.h"
+#include "sim/record/csv_line.h"
+#include "sim/scenario/numbers.h"
+
+namespace hedgehop::sim {
+namespace {
+
+/// Whether flights without the figure do not count; `missing` gives the reason.
+bool excuses_missing(const PaperRow& row) {
+  return row.missing != "fails" && parse_number(row.missing, false).kind != ParsedNumber::Kind::number;
+}
+
+/// "No touch": a vehicle that hovers for ever touches nothing either, so the flights must finish, too.
+bool forbids_contact(const PaperRow& row) {
+  return counts(row.statistic) && row.is == "collided" && row.column == "outcome" && row.at_most.has_value();
+}
+
+bool judged(const RowOutcome& result) {
+  const PaperRow& row = result.row;
+  const double value = result.ours.value;
+  if (!(value >= row.at_least.value_or(-INFINITY) && value <= row.at_most.value_or(INFINITY))) return false;
+  if (!row.calculation.empty()) return true;
+  if (forbids_contact(row) && result.ours.unfinished > 0) return false;
+  return result.ours.all_flown() && (result.ours.complete() || excuses_missing(row));
+}
+
+std::string command_of(const PaperRow& row, const Paper& paper) {
+  if (!row.calculation.empty()) return "hedgehop reproduce " + shell_quoted(paper.key);
+  std::string command;
+  for (const FlightGroup& group : flight_groups(paper)) {
+    if (std::ranges::find(row.flights, group.name) == row.flights.end()) continue;
+    command += fmt::format("{}hedgehop batch {} --seeds {}", command.empty() ? "" : "; ", shell_quoted(group.scenario),
+                           group.seeds);
+    for (const std::string& text : group.set) command += " --set " + shell_quoted(text);
+  }
+  return command;
+}
+
+/// The row's figure over a variant of its flights; nothing where one of them has no such variant.
+std::optional<MeasuredFigure> variant_figure(const PaperRow& row, const std::string& variant,
+                                             const PaperOutcome& outcome) {
+  FlightFigure figure = row;
+  const std::vector<FlightGroup> groups = flight_groups(outcome.paper);
+  for (std::string& name : figure.flights) {
+    name += "/" + variant;
+    if (std::ranges::find(groups, name, &FlightGroup::name) == groups.end()) return {};
+  }
+  return measure(figure, outcome, row.missing);
+}
+
+RowOutcome row_outcome(const PaperRow& row, const PaperOutcome& outcome) {
+  RowOutcome result{.row = row, .ours = {}, .variants = {}, .holds = {}, .command = command_of(row, outcome.paper)};
+  if (row.calculation.empty()) {
+    result.ours = measure(row, outcome, row.missing);
+    for (const char* variant : {"printed", "ideal", "dull"}) {
+      if (auto figure = variant_figure(row, variant, outcome)) result.variants[variant] = *std::move(figure);
+    }
+  } else {
+    result.ours.value = outcome.calculations.at(row.calculation).at(row.value).back();
+    result.ours.builds.insert(std::string(build_identity()));
+  }
+  result.builds = result.ours.builds;
+  for (const auto& [variant, figure] : result.variants)
+    result.builds.insert(figure.builds.begin(), figure.builds.end());
+  const bool left_out = row.calculation.empty() && result.ours.asked == 0;
+  if ((row.at_least || row.at_most) && !left_out) result.holds = judged(result);
+  return result;
+}
+
+}  // namespace
+
+bool RowOutcome::measured() const { return !std::isnan(ours.value) || (row.calculation.empty() && ours.asked == 0); }
+
+std::string RowOutcome::required_words() const {
+  if (row.at_least && row.at_most) return fmt::format("{:g} to {:g}", *row.at_least, *row.at_most);
+  if (row.at_least) return fmt::format("at least {:g}", *row.at_least);
+  return row.at_most ? fmt::format("at most {:g}", *row.at_most) : "-";
+}
+
+std::string RowOutcome::ours_words() const {
+  if (row.calculation.empty() && ours.asked == 0) return "not in the quick look";
+  return figure_words(row, ours);
+}
+
+std::string RowOutcome::variant_words(const std::string& variant) const {
+  const auto found = variants.find(variant);
+  if (found == variants.end()) return "-";
+  return found->second.asked == 0 ? "not in the quick look" : figure_words(row, found->second);
+}
+
+std::string RowOutcome::flights_words() const {
+  if (!row.calculation.empty()) return "-";
+  std::string words = fmt::format("{}, {}, {}, {}", ours.asked, ours.flown, ours.faulted, ours.with_figure);
+  const size_t without = ours.flown - ours.faulted - ours.with_figure;
+  if (without > 0 && excuses_missing(row)) words += fmt::format("; {} {}", without, row.missing);
+  if (ours.stand_ins > 0) words += fmt::format("; {} without taken as {}", ours.stand_ins, row.missing);
+  if (forbids_contact(row) && ours.unfinished > 0) words += fmt::format("; {} not finished", ours.unfinished);
+  std::set<std::string> truth = ours.truth_used;
+  for (const auto& [variant, figure] : variants) truth.insert(figure.truth_used.begin(), figure.truth_used.end());
+  if (!truth.empty()) words += fmt::format("; truth used: {}", fmt::join(truth, ", "));
+  return words;
+}
+
+std::string RowOutcome::interval_words() const {
+  return ours.interval ? fmt::format("{:.2f} to {:.2f}", ours.interval->low, ours.interval->high) : "-";
+}
+
+std::string RowOutcome::holds_words() const { return holds ? (*holds ? "yes" : "no") : "-"; }
+
+std::vector<RowOutcome> row_outcomes(const PaperOutcome& outcome) {
+  std::vector<RowOutcome> rows;
+  for (const PaperRow& row : outcome.paper.rows) rows.push_back(row_outcome(row, outcome));
+  return rows;
+}
+
+bool all_hold(const std::vector<RowOutcome>& rows) {
+  return std::ranges::all_of(rows, [](const RowOutcome& row) { return row.measured() && row.holds.value_or(true); });
+}
+
+std::string rows_text(const Paper& paper, const std::vector<RowOutcome>& rows) {
+  std::string text = fmt::format(
+      "## {} [{}]\n\n| claim | paper | asked | as printed | ours: ideal | ours: day | ours: dull | flights: asked, "
+      "flown, faulted, with figure | 95 % interval | holds | build | command "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+      paper.title, paper.source);
+  for (const RowOutcome& row : rows) {
+    const std::string unit = row.row.unit.empty() ? "" : ", " + row.row.unit;
+    text += fmt::format("| {}{} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | `{}` |\n", row.row.what, unit,
+                        row.row.paper.empty() ? "-" : row.row.paper, row.required_words(), row.variant_words("printed"),
+                        row.variant_words("ideal"), row.ours_words(), row.variant_words("dull"), row.flights_words(),
+                        row.interval_words(), row.holds == false ? "**no**" : row.holds_words(),
+                        row.builds.empty() ? "-" : fmt::format("{}", fmt::join(row.builds, ", ")), row.command);
+  }
+  if (!paper.moved_on.empty()) text += fmt::format("\nSeeds moved on: {}\n", paper.moved_on);
+  if (!paper.deviations.empty()) text += "\n\"As printed\" departs from the paper:\n\n";
+  for (const std::string& deviation : paper.deviations) text += fmt::format("- {}\n", deviation);
+  return text;
+}
+
+std::string rows_csv(const RowsOfPapers& papers) {
+  fmt::memory_buffer out;
+  {
+    CsvLine header(out);
+    for (const char* name : {"paper",      "claim",  "unit",    "in_paper", "at_least",   "at_most", "as_printed",
+                             "ideal",      "day",    "dull",    "asked",    "flown",      "faulted", "with_figure",
+                             "unfinished", "low_95", "high_95", "holds",    "truth_used", "build",   "command"}) {
+      header.add(std::string_view(name));
+    }
+  }
+  for (const auto& [paper, rows] : papers) {
+    for (const RowOutcome& row : rows) {
+      const auto variant = [&](const char* name) {
+        const auto found = row.variants.find(name);
+        return found == row.variants.end() ? std::nullopt : std::optional(found->second.value);
+      };
+      const auto& interval = row.ours.interval;
+      CsvLine line(out);
+      for (const std::string& text : {paper.key, row.row.what, row.row.unit, row.row.paper}) line.add(text);
+      line.add(row.row.at_least).add(row.row.at_most).add(variant("printed")).add(variant("ideal"));
+      line.add(row.ours.value).add(variant("dull"));
+      for (const size_t count :
+           {row.ours.asked, row.ours.flown, row.ours.faulted, row.ours.with_figure, row.ours.unfinished}) {
+        line.add(std::to_string(count));
+      }
+      line.add(interval ? std::optional(interval->low) : std::nullopt);
+      line.add(interval ? std::optional(interval->high) : std::nullopt);
+      line.add(row.holds ? row.holds_words() : "").add(fmt::format("{}", fmt::join(row.ours.truth_used, "; ")));
+      line.add(fmt::format("{}", fmt::join(row.builds, "; "))).add(row.command);
+    }
+  }
+  return fmt::to_string(out);
+}
+
+}  // namespace hedgehop::sim

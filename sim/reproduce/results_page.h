@@ -1,0 +1,28 @@
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "sim/reproduce/paper_row.h"
+
+namespace hedgehop::sim {
+
+/// What a page of papers' figures says of its origin.
+struct PageFacts {
+  std::string version, build;    ///< of the program that writes it
+  std::string packages;          ///< those that figures depend on, with versions: "Mesa 22.3.6, OpenCV 4.6.0"
+  std::set<std::string> builds;  ///< of all rows
+  bool quick = false;            ///< few seeds were flown
+};
+
+/// The facts of rows: `version` and `build` of this program, the builds of all rows.
+PageFacts page_facts(const RowsOfPapers& papers, const std::string& packages, bool quick);
+
+/// "Rows of 2 builds: a, b", or "" where all rows are of one.
+std::string several_builds_line(const PageFacts& facts);
+
+/// The page as docs/results.md has it, in Markdown, without a date: the builds where there are several, the origin, how
+/// to read it, and each paper's rows.
+std::string results_page(const RowsOfPapers& papers, const PageFacts& facts);
+
+}  // namespace hedgehop::sim

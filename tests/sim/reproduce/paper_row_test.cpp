@@ -1,0 +1,226 @@
+#include "sim/reproduce/paper_row.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "sim/record/csv_table.h"
+#include "sim/record/whole_file.h"
+#include "tests/sim/record/temporary_folder.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using Statistic = FlightFigure::Statistic;
+
+FlightRecord flown(const std::string& group, uint64_t seed, const std::string& outcome, double clearance_m) {
+  FlightRecord record{.status = FlightRecord::Status::flown};
+  record.order = {.id = group + "/seed" + std::to_string(seed), .group = group, .scenario = group + ".yaml"};
+  record.order.seed = seed;
+  record.result = {{"outcome", outcome},
+                   {"build", "b1"},
+                   {"min_clearance_m", clearance_m},
+                   {"goal_distance_m", 3.0},
+                   {"metrics", nlohmann::ordered_json::object()},
+                   {"checks", nlohmann::ordered_json::array()}};
+  return record;
+}
+
+FlightRecord with_metric(FlightRecord record, double value) {
+  record.result["metrics"]["m"] = value;
+  return record;
+}
+
+FlightRecord not_flown(FlightRecord record, FlightRecord::Status status) {
+  record.status = status;
+  record.result = nullptr;
+  return record;
+}
+
+double brute(Statistic statistic, std::vector<double> values) {
+  std::ranges::sort(values);
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  const size_t n = values.size();
+  if (statistic == Statistic::least) return values[0];
+  if (statistic == Statistic::greatest) return values[n - 1];
+  if (statistic == Statistic::mean) return sum / static_cast<double>(n);
+  return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2.0;
+}
+
+TEST(MeasuredFigure, IsThatOfBruteForceOverTheFlightsWithoutAFault) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> clearance(0.0, 5.0);
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<FlightRecord> records;
+    std::vector<double> clearances;
+    size_t asked = 0, flew = 0, faulted = 0;
+    double collided = 0.0;
+    const auto count = 1 + random() % 20;
+    for (uint64_t seed = 0; seed < count; ++seed) {
+      const bool is_a = random() % 2 == 0, hit = random() % 3 == 0;
+      FlightRecord record = flown(is_a ? "a" : "b", seed, hit ? "collided" : "reached", clearance(random));
+      const auto fate = random() % 6;
+      if (fate == 0) record = not_flown(record, FlightRecord::Status::missing);
+      if (fate == 1) record.result["outcome"] = "fault";
+      records.push_back(record);
+      if (!is_a) continue;
+      ++asked;
+      flew += fate == 0 ? 0 : 1;
+      faulted += fate == 1 ? 1 : 0;
+      if (fate <= 1) continue;
+      clearances.push_back(record.result["min_clearance_m"].get<double>());
+      collided += hit ? 1.0 : 0.0;
+    }
+    const PaperOutcome outcome = paper_outcome({}, "", records);
+    const auto figure = [&](Statistic statistic, const char* column, const char* is) {
+      return measure({.flights = {"a"}, .column = column, .is = is, .statistic = statistic}, outcome);
+    };
+    const MeasuredFigure share = figure(Statistic::share, "outcome", "collided");
+    EXPECT_EQ(share.asked, asked);
+    EXPECT_EQ(share.flown, flew);
+    EXPECT_EQ(share.faulted, faulted);
+    EXPECT_EQ(share.with_figure, clearances.size());
+    EXPECT_TRUE(std::isnan(figure(Statistic::mean, "no_such_column", "").value));
+    if (clearances.empty()) {
+      EXPECT_TRUE(std::isnan(figure(Statistic::mean, "min_clearance_m", "").value));
+      EXPECT_TRUE(std::isnan(share.value));
+      continue;
+    }
+    for (const Statistic statistic : {Statistic::least, Statistic::greatest, Statistic::mean, Statistic::median}) {
+      EXPECT_NEAR(figure(statistic, "min_clearance_m", "").value, brute(statistic, clearances), 1e-12);
+    }
+    EXPECT_EQ(figure(Statistic::count, "outcome", "collided").value, collided);
+    EXPECT_EQ(share.value, collided / static_cast<double>(clearances.size()));
+  }
+}
+
+class PaperRows : public ::testing::Test {
+ protected:
+  PaperRows() {
+    paper.title = "T";
+    paper.source = "S";
+    paper.flights = {{.name = "a", .scenario = "a.yaml", .seeds = "1:2"}};
+    hits.what = "hit";
+    hits.flights = {"a"};
+    hits.column = "outcome";
+    hits.is = "collided";
+    hits.statistic = Statistic::count;
+    hits.at_most = 0.0;
+    worst.what = "worst";
+    worst.flights = {"a"};
+    worst.column = "metric.m";
+    worst.statistic = Statistic::greatest;
+    worst.at_most = 60.0;
+  }
+  RowOutcome row(const PaperRow& asked, const std::vector<FlightRecord>& records) {
+    paper.rows = {asked};
+    return row_outcomes(paper_outcome(paper, "", records)).front();
+  }
+  Paper paper;
+  PaperRow hits, worst;
+};
+
+TEST_F(PaperRows, HoldOnlyWithinWhatIsAsked) {
+  EXPECT_EQ(row(hits, {flown("a", 1, "reached", 1.0)}).holds, true);
+  const RowOutcome failed = row(hits, {flown("a", 1, "reached", 1.0), flown("a", 2, "collided", 0.0)});
+  EXPECT_EQ(failed.holds, false);
+  EXPECT_EQ(failed.ours_words(), "1 of 2");
+  EXPECT_EQ(failed.required_words(), "at most 0");
+  EXPECT_EQ(failed.command, "hedgehop batch a.yaml --seeds 1:2");
+  EXPECT_THAT(
+      rows_text(paper, {failed}),
+      HasSubstr("| hit | - | at most 0 | - | - | 1 of 2 | - | 2, 2, 0, 2 | 0.09 to 0.91 | **no** | b1 | `hedgehop"));
+}
+
+TEST_F(PaperRows, NineFlightsWithoutTheFigureAndOneWithItDoNotHold) {
+  std::vector<FlightRecord> records{with_metric(flown("a", 1, "reached", 1.0), 20.0)};
+  for (uint64_t seed = 2; seed <= 10; ++seed) records.push_back(flown("a", seed, "reached", 1.0));
+  const RowOutcome result = row(worst, records);
+  EXPECT_EQ(result.holds, false);
+  EXPECT_EQ(result.ours_words(), "20 (1 of 10 flights)");
+  EXPECT_EQ(result.flights_words(), "10, 10, 0, 1");
+  EXPECT_FALSE(all_hold({result}));
+}
+
+TEST_F(PaperRows, AMissingFigureIsWhatTheRowSaysItIs) {
+  const std::vector<FlightRecord> records{with_metric(flown("a", 1, "reached", 1.0), 20.0),
+                                          flown("a", 2, "reached", 1.0)};
+  worst.missing = "met no collision course";
+  EXPECT_EQ(row(worst, records).holds, true);
+  EXPECT_EQ(row(worst, records).flights_words(), "2, 2, 0, 1; 1 met no collision course");
+  worst.missing = "90";
+  EXPECT_EQ(row(worst, records).holds, false);
+  EXPECT_EQ(row(worst, records).ours.value, 90.0);
+  EXPECT_THAT(row(worst, records).flights_words(), HasSubstr("1 without taken as 90"));
+  worst.missing = "30";
+  EXPECT_EQ(row(worst, records).holds, true);
+}
+
+TEST_F(PaperRows, NoReasonExcusesAFlightThatFaultedOrWasNotFlown) {
+  const FlightRecord good = with_metric(flown("a", 1, "reached", 1.0), 20.0);
+  worst.missing = "met no collision course";
+  EXPECT_EQ(row(worst, {good, with_metric(flown("a", 2, "fault", 1.0), 20.0)}).holds, false);
+  for (const auto status : {FlightRecord::Status::failed, FlightRecord::Status::missing}) {
+    EXPECT_EQ(row(worst, {good, not_flown(good, status)}).holds, false);
+    EXPECT_EQ(row(hits, {good, not_flown(good, status)}).holds, false);
+  }
+  EXPECT_EQ(row(hits, {good, flown("a", 2, "fault", 1.0)}).flights_words(), "2, 2, 1, 1");
+}
+
+TEST_F(PaperRows, HoveringForEverIsNoFlightWithoutContact) {
+  const FlightRecord reached = flown("a", 1, "reached", 1.0);
+  FlightRecord hovers = flown("a", 2, "timeout", 1.0);
+  const RowOutcome stuck = row(hits, {reached, hovers});
+  EXPECT_EQ(stuck.holds, false);
+  EXPECT_EQ(stuck.ours_words(), "0 of 2");
+  EXPECT_THAT(stuck.flights_words(), HasSubstr("1 not finished"));
+  hovers.result["goal_distance_m"] = nullptr;  // without a goal, the full time is what was to be flown
+  EXPECT_EQ(row(hits, {reached, hovers}).holds, true);
+}
+
+TEST_F(PaperRows, WhatWasNotMeasuredIsNoPass) {
+  const RowOutcome lacking = row(worst, {flown("a", 1, "reached", 1.0)});
+  EXPECT_EQ(lacking.ours_words(), "not measured");
+  EXPECT_EQ(lacking.holds, false);
+  worst.at_most.reset();
+  const RowOutcome free = row(worst, {flown("a", 1, "reached", 1.0)});
+  EXPECT_EQ(free.holds, std::nullopt);
+  EXPECT_FALSE(all_hold({free}));
+  const RowOutcome not_asked = row(worst, {});  // a quick look leaves it out
+  EXPECT_TRUE(all_hold({not_asked}));
+  EXPECT_EQ(not_asked.ours_words(), "not in the quick look");
+}
+
+TEST_F(PaperRows, VariantsStandBesideOursAndDecideNothing) {
+  paper.flights[0].printed = {"x=1"};
+  paper.flights[0].sensors = {"dull"};
+  const RowOutcome result = row(
+      hits, {flown("a", 1, "reached", 1.0), flown("a/printed", 1, "collided", 0.0), flown("a/dull", 1, "fault", 0.0)});
+  EXPECT_EQ(result.holds, true);
+  EXPECT_EQ(result.variant_words("printed"), "1 of 1");
+  EXPECT_EQ(result.variant_words("dull"), "not measured");
+  EXPECT_EQ(result.variant_words("ideal"), "-");
+}
+
+TEST_F(PaperRows, SayWhichBuildsFlewAndWhichTruthTheyUsed) {
+  FlightRecord other = flown("a", 2, "reached", 1.0);
+  other.result["build"] = "b2";
+  other.result["truth_used"] = {"camera 'front': projected corners"};
+  const RowOutcome result = row(hits, {flown("a", 1, "reached", 1.0), other});
+  EXPECT_THAT(result.builds, ElementsAre("b1", "b2"));
+  EXPECT_THAT(result.flights_words(), HasSubstr("truth used: camera 'front': projected corners"));
+  const TemporaryFolder folder;
+  write_file_whole(folder.path() / "rows.csv", rows_csv({{paper, {result}}}));
+  const CsvTable table(folder.path() / "rows.csv");
+  EXPECT_EQ(table.words("build")[0], "b1; b2");
+  EXPECT_EQ(table.words("truth_used")[0], "camera 'front': projected corners");
+  EXPECT_EQ(table.numbers("with_figure")[0], 2);
+}
+
+}  // namespace
+}  // namespace hedgehop::sim

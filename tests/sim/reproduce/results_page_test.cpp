@@ -1,0 +1,91 @@
+#include "sim/reproduce/results_page.h"
+
+#include <gmock/gmock.h>
+
+#include <regex>
+#include <sstream>
+
+#include "sim/flight/build.h"
+#include "sim/record/whole_file.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream stream(line.substr(1));
+  for (std::string cell; std::getline(stream, cell, '|');) {
+    cells.push_back(cell.size() > 1 ? cell.substr(1, cell.size() - 2) : "");
+  }
+  return cells;
+}
+
+/// Rows whose column `build` holds another build than the page's header, or a header without one.
+std::vector<std::string> wrong_builds(const std::string& page) {
+  std::smatch header;
+  if (!std::regex_search(page, header, std::regex("\\nBuild `([0-9a-f]{16})`"))) return {"no build in the header"};
+  std::vector<std::string> wrong;
+  std::istringstream lines(page);
+  size_t column = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("|") || line.starts_with("|---")) continue;
+    const std::vector<std::string> cells = cells_of(line);
+    const auto heading = std::ranges::find(cells, "build");
+    if (heading != cells.end()) {
+      column = static_cast<size_t>(heading - cells.begin());
+    } else if (column == 0 || cells.at(column) != header[1]) {
+      wrong.push_back(cells[0]);
+    }
+  }
+  return wrong;
+}
+
+RowsOfPapers rows_of(const std::vector<std::string>& builds) {
+  RowsOfPapers papers{{Paper{.key = "p", .title = "T", .source = "S"}, {}}};
+  for (const std::string& build : builds) {
+    RowOutcome row{.row = {}, .ours = {}, .variants = {}, .holds = true, .command = "hedgehop batch a.yaml"};
+    row.row.what = "claim of " + build;
+    row.builds = {build};
+    papers[0].second.push_back(row);
+  }
+  return papers;
+}
+
+std::string page_of(const std::vector<std::string>& builds) {
+  const RowsOfPapers papers = rows_of(builds);
+  return results_page(papers, page_facts(papers, "Mesa 1", false));
+}
+
+TEST(ResultsPage, NamesItsBuildAndThatOfEachRow) {
+  const std::string own(build_identity());
+  EXPECT_THAT(wrong_builds(page_of({own, own})), IsEmpty());
+  EXPECT_THAT(page_of({own}), StartsWith("# Results\n\nBuild `" + own + "`"));
+}
+
+TEST(ResultsPage, OfSeveralBuildsSaysSoInItsFirstLineAndIsRefused) {
+  const std::string own(build_identity());
+  const std::string page = page_of({own, "0123456789abcdef"});
+  EXPECT_THAT(page.substr(0, page.find('\n')), HasSubstr("Rows of 2 builds: "));
+  EXPECT_THAT(wrong_builds(page), ElementsAre("claim of 0123456789abcdef"));
+}
+
+TEST(ResultsPage, TheOneOfTheDocumentsHasOneBuild) {
+  EXPECT_THAT(wrong_builds(read_file_whole(HEDGEHOP_SOURCE_DIR "/docs/results.md")), IsEmpty());
+}
+
+TEST(ResultsPage, ListsWhereAsPrintedDepartsFromThePaper) {
+  RowsOfPapers papers = rows_of({"b"});
+  papers[0].first.deviations = {"images of another camera"};
+  papers[0].first.moved_on = "the law was changed after a look";
+  const std::string page = results_page(papers, page_facts(papers, "Mesa 1", false));
+  EXPECT_THAT(page, HasSubstr("- images of another camera\n"));
+  EXPECT_THAT(page, HasSubstr("the law was changed after a look"));
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
