@@ -59,10 +59,11 @@ Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& 
     periods_.push_back(ticks.period(camera.rate_hz));
     period_ns_.push_back(ticks.t_ns(periods_.back()));
     mounted_.push_back({camera.role, camera.model(), camera.X_BC(), camera.rate_hz});
-    const bool disparity = camera.imperfections.disparity_noise_px > 0.0;
-    imperfections_.emplace_back(camera.imperfections, 1.0 / camera.rate_hz, stream_seed(seed, "camera." + camera.role),
+    const ImperfectionsConfig imperfections = camera.imperfections.value_or(ImperfectionsConfig{});
+    const bool disparity = imperfections.disparity_noise_px > 0.0;
+    imperfections_.emplace_back(imperfections, 1.0 / camera.rate_hz, stream_seed(seed, "camera." + camera.role),
                                 disparity ? mounted_.back().model.pinhole().focal_x_px : 0.0);
-    shutters_.emplace_back(camera.imperfections);
+    shutters_.emplace_back(imperfections);
     frames_.push_back({camera.role, /*t_ns=*/-1, {}});
   }
   exposed_ns_.assign(frames_.size(), -1);

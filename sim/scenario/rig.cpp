@@ -142,4 +142,13 @@ void mount_stereo_pairs(RigConfig& rig) {
   rig.stereo.clear();
 }
 
+void mount_sensor(RigConfig& rig) {
+  for (CameraConfig& camera : rig.cameras) {
+    const bool has_images =
+        camera.channel == CameraConfig::Channel::grey || camera.channel == CameraConfig::Channel::color;
+    if (has_images && !camera.imperfections) camera.imperfections = rig.sensor;
+  }
+  rig.sensor.reset();
+}
+
 }  // namespace hedgehop::sim

@@ -34,7 +34,7 @@ struct CameraConfig {
   int samples = 1;               ///< samples in each pixel, averaged for grey and color: 1, 2, 4 or 8
   double forward_m = 0.0, right_m = 0.0, down_m = 0.0;
   double yaw_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
-  ImperfectionsConfig imperfections;
+  std::optional<ImperfectionsConfig> imperfections;  ///< none: the rig's sensor, where it is for the channel
 
   /// Pose of the camera in B: the mounting position, and yaw about down, pitch about right, roll about forward, in that
   /// order, applied to a camera that looks forward. Yaw 90 deg looks right, pitch -90 deg looks down.
@@ -90,7 +90,9 @@ void describe_without_role(Visitor& v, CameraConfig& c) {
   v("yaw", c.yaw_rad, {.unit = "deg", .at_least = -180.0, .at_most = 180.0, .meaning = "rotation to the right, first"});
   v("pitch", c.pitch_rad, {.unit = "deg", .at_least = -90.0, .at_most = 90.0, .meaning = "rotation upwards, second"});
   v("roll", c.roll_rad, {.unit = "deg", .at_least = -180.0, .at_most = 180.0, .meaning = "rotation clockwise, last"});
-  v("imperfections", c.imperfections, {.meaning = "noise, blur, rolling shutter and faults, all off by default"});
+  v("imperfections", c.imperfections,
+    {.meaning = "noise, blur, rolling shutter and faults; none unless given here or, for grey and color, by the rig's "
+                "sensor"});
 }
 
 template <class Visitor>
@@ -118,6 +120,7 @@ void describe(Visitor& v, StereoConfig& c) {
 struct RigConfig {
   std::vector<CameraConfig> cameras;
   std::vector<StereoConfig> stereo;
+  std::optional<ImperfectionsConfig> sensor;  ///< of every grey or color camera that states no imperfections
 
   /// The camera of a role, or null.
   const CameraConfig* find(std::string_view role) const;
@@ -127,9 +130,14 @@ template <class Visitor>
 void describe(Visitor& v, RigConfig& c) {
   v("cameras", c.cameras, {.meaning = "cameras, each of its own role"});
   v("stereo", c.stereo, {.meaning = "pairs, each two more cameras; a resolved scenario lists them as such"});
+  v("sensor", c.sensor,
+    {.meaning = "imperfections of every grey or color camera that states none; a resolved scenario lists them there"});
 }
 
 /// Replaces every pair by its two cameras, left before right, after the other cameras.
 void mount_stereo_pairs(RigConfig& rig);
+
+/// Gives the rig's sensor to every grey or color camera that states no imperfections; call it with the pairs mounted.
+void mount_sensor(RigConfig& rig);
 
 }  // namespace hedgehop::sim
