@@ -138,6 +138,8 @@ void mount_stereo_pairs(RigConfig& rig) {
       camera.right_m += side * half_B.y();
       camera.down_m += side * half_B.z();
     }
+    rig.cameras.back().row_error_px = pair.row_error_px;
+    rig.cameras.back().side_error_m = pair.baseline_error * pair.baseline_m;
   }
   rig.stereo.clear();
 }
