@@ -1,11 +1,17 @@
 #include "dynamics/avionics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "sim/fields/bounds.h"
 
 namespace hedgehop::dynamics {
+namespace {
+
+constexpr double kSurveyedHeadingSigmaRad = 0.017453292519943295;  // 1 deg: chosen, as good as a usual compass
+
+}  // namespace
 
 Avionics::Avionics(const AvionicsConfig& config, const VehicleConfig& vehicle, double physics_dt_s,
                    const StreamSeed& stream_seed)
@@ -16,7 +22,7 @@ Avionics::Avionics(const AvionicsConfig& config, const VehicleConfig& vehicle, d
              stream_seed("gps"),
              stream_seed("height_sensor"),
              stream_seed("magnetometer"),
-             stream_seed("alignment"),
+             stream_seed("survey"),
              config.barometer.enabled ? stream_seed("barometer") : 0,
              config.range_finder.ranger.enabled ? stream_seed("range_finder") : 0},
       imu_(config.imu, physics_dt_s, seeds_.imu),
@@ -45,18 +51,29 @@ void Avionics::reset(const SensedTruth& truth) {
   imu_reading_.reset();
   reset_options();
 
-  // Alignment before take-off: attitude and position known with errors, inertial biases mostly taken away.
-  sensors::NormalStream noise(seeds_.alignment);
-  const control::NavigationConfig& c = config_.navigation;
-  RigidBodyState known = truth.body;
-  const Eigen::Vector3d tilt = c.attitude_sigma_rad * noise.draw3();
-  known.q_WB = truth.body.q_WB * Eigen::Quaterniond(Eigen::AngleAxisd(tilt.norm(), tilt.stableNormalized()));
-  known.p_WB += c.position_sigma_m * noise.draw3();
-  sensors::ImuReading bias = imu_.bias();
-  bias.w_WB_B_meas *= 1.0 - c.alignment_residual;
-  bias.specific_force_B_meas *= 1.0 - c.alignment_residual;
-  navigation_.reset(known, bias);
+  sensors::NormalStream survey(seeds_.survey);
+  const Eigen::Vector3d p_WB_est = truth.body.p_WB + config_.navigation.position_sigma_m * survey.draw3();
+  const double heading_rad = to_roll_pitch_heading(truth.body.q_WB)[2];
+  const Eigen::Quaterniond q_on_ground(Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()));
+  const control::Alignment on_ground = align(heading_rad, heading_rad + kSurveyedHeadingSigmaRad * survey.draw());
+  navigation_.reset(on_ground.rotated(q_on_ground.conjugate() * truth.body.q_WB), p_WB_est);
   autopilot_.reset(navigation_.estimate());
+}
+
+/// Stands still on level ground before take-off: the sensors read on, from their streams, up to the flight.
+control::Alignment Avionics::align(double heading_rad, double surveyed_heading_rad) {
+  control::GroundAlignment alignment(config_.imu, config_.magnetometer);
+  imu_.observe(Eigen::Vector3d::Zero(), -kGravityMps2 * Eigen::Vector3d::UnitZ());
+  const auto readings = [this](int64_t period) {
+    return std::llround(control::kAlignmentS / (static_cast<double>(period) * physics_dt_s_));
+  };
+  const int64_t imu_count = std::max<int64_t>(1, readings(imu_.period())), headings = readings(magnetometer_.period());
+  for (int64_t i = 0; i < imu_count; ++i) alignment.add(imu_.read());
+  for (int64_t i = 0; i < headings; ++i) {
+    const std::optional<double> read_rad = magnetometer_.read(heading_rad);
+    if (read_rad) alignment.add_heading(*read_rad);
+  }
+  return alignment.result(surveyed_heading_rad, kSurveyedHeadingSigmaRad);
 }
 
 void Avionics::sense(int64_t t_ns, const SensedTruth& truth, const VelocitySensor& flow_velocity) {

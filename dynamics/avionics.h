@@ -70,7 +70,8 @@ class Avionics {
   Avionics(const AvionicsConfig& config, const VehicleConfig& vehicle, double physics_dt_s,
            const StreamSeed& stream_seed);
 
-  /// Starts a flight; afterwards it behaves as one newly built.
+  /// Starts a flight in a trimmed hover, after an alignment on the ground (control::GroundAlignment); afterwards it
+  /// behaves as one newly built. The position is surveyed, and so is the heading where no magnetometer reads.
   void reset(const SensedTruth& truth);
   /// To be called on every physics tick, from the first: reads the sensors that are due and runs the filter.
   /// @param t_ns  since the flight began, a whole number of physics steps.
@@ -91,10 +92,11 @@ class Avionics {
 
  private:
   void reset_options();
+  control::Alignment align(double heading_rad, double surveyed_heading_rad);
   void sense_range(int64_t tick, const SensedTruth& truth);
 
   struct Seeds {
-    uint64_t imu, gps, height_sensor, magnetometer, alignment, barometer, range_finder;
+    uint64_t imu, gps, height_sensor, magnetometer, survey, barometer, range_finder;
   };
   AvionicsConfig config_;
   double physics_dt_s_;

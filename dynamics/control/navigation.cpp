@@ -37,16 +37,16 @@ double square(double x) { return x * x; }
 Navigation::Navigation(const NavigationConfig& config, const Sensors& sensors)
     : config_(fields::require_bounds(config, "navigation")), sensors_(sensors), dt_s_(1.0 / sensors.imu.rate_hz) {
   history_.resize(static_cast<size_t>(std::llround(sensors.gps.latency_s / dt_s_)) + 1);
-  reset({}, {});
+  reset({}, Eigen::Vector3d::Zero());
 }
 
-void Navigation::reset(const RigidBodyState& known, const sensors::ImuReading& bias) {
-  q_WB_ = q_WB_gyro_ = known.q_WB;
-  v_WB_W_ = known.q_WB * known.v_WB_B;
-  p_WB_ = known.p_WB;
-  w_WB_B_ = known.w_WB_B;
-  gyro_bias_ = bias.w_WB_B_meas;
-  accelerometer_bias_ = bias.specific_force_B_meas;
+void Navigation::reset(const Alignment& alignment, const Eigen::Vector3d& p_WB_est) {
+  q_WB_ = q_WB_gyro_ = alignment.q_WB_est;
+  v_WB_W_.setZero();
+  p_WB_ = p_WB_est;
+  w_WB_B_.setZero();
+  gyro_bias_ = alignment.gyro_bias_est;
+  accelerometer_bias_.setZero();
   gps_wander_m_.setZero();
   compass_offset_rad_ = 0.0;
   barometer_wander_pa_ = 0.0;
@@ -58,20 +58,20 @@ void Navigation::reset(const RigidBodyState& known, const sensors::ImuReading& b
   std::fill(history_.begin(), history_.end(), Past{p_WB_, v_WB_W_});
   next_ = 0;
 
-  const sensors::ImuConfig& imu = sensors_.imu;
-  const double gyro = config_.alignment_residual * std::hypot(imu.gyro_offset_radps, sensors::gyro_wander(imu).sigma);
-  const double accelerometer =
-      config_.alignment_residual * std::hypot(imu.accelerometer_offset_mps2, sensors::accelerometer_wander(imu).sigma);
-  Column sigma;
-  sigma.segment<3>(kTheta).setConstant(config_.attitude_sigma_rad);
+  Column sigma = Column::Zero();
   sigma.segment<3>(kV).setConstant(kInitialVelocitySigmaMps);
   sigma.segment<3>(kP).setConstant(config_.position_sigma_m);
-  sigma.segment<3>(kGyro).setConstant(gyro);
-  sigma.segment<3>(kAccelerometer).setConstant(accelerometer);
+  sigma.segment<3>(kGyro).setConstant(alignment.gyro_bias_sigma_radps);
+  sigma.segment<3>(kAccelerometer).setConstant(alignment.accelerometer_bias_sigma_mps2);
   sigma.segment<2>(kWander).setConstant(sensors_.gps.wander_horizontal_m);
-  sigma[kCompass] = sensors_.magnetometer.offset_rad;
+  sigma[kCompass] = alignment.compass_sigma_rad;
   sigma[kBarometer] = sensors_.barometer.wander_pa;
   P_ = sigma.cwiseAbs2().asDiagonal();
+  P_.block<3, 3>(kTheta, kTheta) = alignment.attitude_covariance;
+  P_.block<3, 3>(kTheta, kAccelerometer) = alignment.attitude_by_accelerometer;
+  P_.block<3, 3>(kAccelerometer, kTheta) = alignment.attitude_by_accelerometer.transpose();
+  P_.block<3, 1>(kTheta, kCompass) = alignment.attitude_by_compass;
+  P_.block<1, 3>(kCompass, kTheta) = alignment.attitude_by_compass.transpose();
   publish();
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "dynamics/control/alignment.h"
 #include "dynamics/sensors/barometer.h"
 #include "dynamics/sensors/gps.h"
 #include "dynamics/sensors/height_sensor.h"
@@ -16,23 +17,15 @@ namespace hedgehop::dynamics::control {
 /// The filter's choices; the noise it expects is that of the sensors' configs.
 struct NavigationConfig {
   bool use_gps_velocity = true;
-  double attitude_sigma_rad = 0.008726646259971648;  ///< of the known initial attitude, per axis: 0.5 deg
-  double position_sigma_m = 0.1;                     ///< of the known initial position, per axis
-  double alignment_residual = 0.1;  ///< share of the inertial sensors' biases that calibration before take-off leaves
-  double surface_jump_m = 0.5;      ///< a range error above this indicates another surface below
-  double drift_mps_rt_hz = 0.3;     ///< position drift that the velocity's slow errors cause, m / sqrt(s)
+  double position_sigma_m = 0.1;  ///< of the surveyed initial position, per axis
+  double surface_jump_m = 0.5;    ///< a range error above this indicates another surface below
+  double drift_mps_rt_hz = 0.3;   ///< position drift that the velocity's slow errors cause, m / sqrt(s)
 };
 template <class Visitor>
 void describe(Visitor& v, NavigationConfig& c) {
   v("use_gps_velocity", c.use_gps_velocity, {.meaning = "whether satellite velocities correct the velocity"});
-  v("attitude_sigma", c.attitude_sigma_rad,
-    {.unit = "deg", .above = 0.0, .at_most = 10.0, .meaning = "error of the initial attitude, per axis"});
   v("position_sigma", c.position_sigma_m,
-    {.unit = "m", .above = 0.0, .meaning = "error of the initial position, per axis"});
-  v("alignment_residual", c.alignment_residual,
-    {.above = 0.0,
-     .at_most = 1.0,
-     .meaning = "share of the inertial sensors' biases that calibration before take-off leaves"});
+    {.unit = "m", .above = 0.0, .meaning = "error of the surveyed initial position, per axis"});
   v("surface_jump", c.surface_jump_m,
     {.unit = "m", .above = 0.0, .meaning = "a height residual above this indicates another surface below"});
   v("drift", c.drift_mps_rt_hz,
@@ -74,8 +67,9 @@ class Navigation {
   /// Throws std::invalid_argument on values out of range.
   Navigation(const NavigationConfig& config, const Sensors& sensors);
 
-  /// Starts from a state known to the configured accuracy. @param known  with its errors. @param bias  as calibrated.
-  void reset(const RigidBodyState& known, const sensors::ImuReading& bias);
+  /// Starts in a hover. @param alignment  of the attitude in this hover. @param p_WB_est  known to the configured
+  /// accuracy, m.
+  void reset(const Alignment& alignment, const Eigen::Vector3d& p_WB_est);
 
   void predict(const sensors::ImuReading& imu);
   /// @param v_WB_B_xy_meas  forward and right velocity in B, m/s. @param sigma_mps  of each, > 0.

@@ -23,6 +23,18 @@ double GaussMarkov::added_sigma(double dt_s) const {
   return sigma * std::sqrt(-std::expm1(-2.0 * dt_s / correlation_time_s));
 }
 
+// Integrals of the autocorrelation e^(-|t1 - t2| / tau), x = duration / tau.
+double GaussMarkov::mean_with_end(double duration_s) const {
+  const double x = duration_s / correlation_time_s;
+  return -std::expm1(-x) / x;
+}
+
+double GaussMarkov::mean_with_mean(double duration_s) const {
+  const double x = duration_s / correlation_time_s;
+  constexpr double kSeriesBelow = 1e-3;  // where the difference loses digits, three terms have them all
+  return x < kSeriesBelow ? 1.0 - x / 3.0 + x * x / 12.0 : 2.0 * (1.0 - mean_with_end(duration_s)) / x;
+}
+
 int64_t period_ticks(std::string_view key, double rate_hz, double physics_dt_s) {
   const double ticks = 1.0 / (rate_hz * physics_dt_s);
   constexpr double kRoundOff = 1e-9;

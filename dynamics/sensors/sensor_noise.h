@@ -30,6 +30,14 @@ struct GaussMarkov {
   /// Factor on the old value, and standard deviation of what is added, in a step of dt_s.
   double decay(double dt_s) const;
   double added_sigma(double dt_s) const;
+
+  // Over a time > 0, as shares of sigma squared: covariance of the mean with the value at the end, variance of the
+  // mean, variance of the value at the end less the mean.
+  double mean_with_end(double duration_s) const;
+  double mean_with_mean(double duration_s) const;
+  double end_less_mean(double duration_s) const {
+    return 1.0 - 2.0 * mean_with_end(duration_s) + mean_with_mean(duration_s);
+  }
 };
 
 /// Returns every how many physics ticks a sensor reads.

@@ -10,6 +10,7 @@
 #include "sim/export/euroc.h"
 #include "sim/export/kitti.h"
 #include "sim/export/tum.h"
+#include "sim/loop/mounting.h"
 #include "sim/record/image_file.h"
 #include "sim/record/whole_file.h"
 #include "sim/simulation/simulation.h"
@@ -17,13 +18,23 @@
 namespace hedgehop::sim {
 namespace {
 
-RecordedCamera recorded(const CameraConfig& config, const dynamics::sensors::ImuConfig& imu) {
+RecordedCamera recorded(const CameraConfig& config, const dynamics::sensors::ImuConfig& imu, uint64_t seed) {
   const vision::camera::Camera model = config.model();
   const Eigen::Isometry3d X_IB(Eigen::Translation3d(-imu.p_BI_m));
-  Eigen::Isometry3d X_FC = Eigen::Isometry3d::Identity();
-  X_FC.linear() = R_FB() * config.X_BC().linear();
-  X_FC.translation() = R_FB() * (X_IB * config.X_BC()).translation();
-  return {config.role, model.width_px, model.height_px, config.rate_hz, intrinsics(config, model), X_FC, {}};
+  const auto from_F = [&](const Eigen::Isometry3d& X_BC) {
+    Eigen::Isometry3d X_FC = Eigen::Isometry3d::Identity();
+    X_FC.linear() = R_FB() * X_BC.linear();
+    X_FC.translation() = R_FB() * (X_IB * X_BC).translation();
+    return X_FC;
+  };
+  return {.role = config.role,
+          .width_px = model.width_px,
+          .height_px = model.height_px,
+          .rate_hz = config.rate_hz,
+          .lens = intrinsics(config, model),
+          .X_FC = from_F(config.X_BC()),
+          .X_FC_true = from_F(true_X_BC(config, model, seed)),
+          .t_ns = {}};
 }
 
 std::string roles(const RigConfig& rig) {
@@ -59,7 +70,7 @@ std::vector<RecordedCamera> choose(const Scenario& scenario, const std::vector<s
   if (chosen.empty()) throw InputError("the rig has no camera that delivers images");
   std::vector<RecordedCamera> cameras;
   for (const CameraConfig* const camera : chosen) {
-    cameras.push_back(build_part("rig", [&] { return recorded(*camera, scenario.avionics.imu); }));
+    cameras.push_back(build_part("rig", [&] { return recorded(*camera, scenario.avionics.imu, scenario.seed); }));
   }
   return cameras;
 }

@@ -59,8 +59,8 @@ std::vector<DataFile> kitti_files(const SensorRecord& record) {
   }
   calib += "Tr_imu_to_cam0: " + row_by_row(first.X_FC.inverse().matrix().topRows<3>()) + "\n";
   for (const int64_t t_ns : first.t_ns) {
-    const Eigen::Isometry3d X_EC = state_at(record, t_ns).X_EF * first.X_FC;
-    const Eigen::Isometry3d X_EC_first = state_at(record, first.t_ns.front()).X_EF * first.X_FC;
+    const Eigen::Isometry3d X_EC = state_at(record, t_ns).X_EF * first.X_FC_true;
+    const Eigen::Isometry3d X_EC_first = state_at(record, first.t_ns.front()).X_EF * first.X_FC_true;
     times += fmt::format("{:.9f}\n", 1e-9 * static_cast<double>(t_ns));
     poses += row_by_row((X_EC_first.inverse() * X_EC).matrix().topRows<3>()) + "\n";
   }

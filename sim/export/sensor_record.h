@@ -17,8 +17,9 @@ struct RecordedCamera {
   int width_px = 0, height_px = 0;
   double rate_hz = 0.0;
   Intrinsics lens;
-  Eigen::Isometry3d X_FC = Eigen::Isometry3d::Identity();  ///< from F, whose origin is the IMU
-  std::vector<int64_t> t_ns;                               ///< of its images
+  Eigen::Isometry3d X_FC = Eigen::Isometry3d::Identity();       ///< as calibrated; from F, whose origin is the IMU
+  Eigen::Isometry3d X_FC_true = Eigen::Isometry3d::Identity();  ///< where its images are taken from
+  std::vector<int64_t> t_ns;                                    ///< of its images
 };
 
 struct RecordedReading {

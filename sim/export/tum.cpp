@@ -17,7 +17,7 @@ std::string image_list(const char* title, const std::vector<int64_t>& t_ns, std:
 std::string truth(const SensorRecord& record) {
   std::string text = "# ground truth trajectory\n# of a simulated flight\n# timestamp tx ty tz qx qy qz qw\n";
   for (const RecordedState& state : record.states) {
-    const Eigen::Isometry3d X_EC = state.X_EF * record.cameras.at(0).X_FC;
+    const Eigen::Isometry3d X_EC = state.X_EF * record.cameras.at(0).X_FC_true;
     const Eigen::Vector3d p = X_EC.translation();
     const Eigen::Quaterniond q(X_EC.linear());
     text +=

@@ -45,6 +45,8 @@ Eigen::Isometry3d Aircraft::X_WB() const {
   return X_WB;
 }
 
-BodyMotion Aircraft::motion() const { return {X_WB(), body().q_WB * body().v_WB_B, body().w_WB_B}; }
+BodyMotion Aircraft::motion() const {
+  return {.X_WB = X_WB(), .v_WB_W = body().q_WB * body().v_WB_B, .w_WB_B = body().w_WB_B};
+}
 
 }  // namespace hedgehop::sim

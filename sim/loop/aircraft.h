@@ -30,6 +30,7 @@ class Aircraft {
   void move();
 
   Eigen::Isometry3d X_WB() const;
+  /// Without a clearance.
   BodyMotion motion() const;
   const dynamics::RigidBodyState& body() const { return vehicle_.body(); }
   const dynamics::Vehicle& vehicle() const { return vehicle_; }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <stdexcept>
 
+#include "sim/loop/mounting.h"
 #include "sim/scenario/input_error.h"
 #include "sim/scenario/random_stream.h"
 
@@ -51,6 +52,7 @@ Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& 
     : renderer_(scene, Culling::frustum_and_horizon,
                 drawing.context == DrawingConfig::Context::egl ? ContextKind::egl : ContextKind::osmesa,
                 drawing.shadows ? Shadows::sun : Shadows::none) {
+  for (const scenes::Mover& mover : scene.movers) movers_.push_back(mover.motion);
   for (const CameraConfig& camera : rig.cameras) {
     require_samples(camera, renderer_);
     channels_.push_back(to_render_channel(camera.channel));
@@ -59,10 +61,13 @@ Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& 
     periods_.push_back(ticks.period(camera.rate_hz));
     period_ns_.push_back(ticks.t_ns(periods_.back()));
     mounted_.push_back({camera.role, camera.model(), camera.X_BC(), camera.rate_hz});
-    const bool disparity = camera.imperfections.disparity_noise_px > 0.0;
-    imperfections_.emplace_back(camera.imperfections, 1.0 / camera.rate_hz, stream_seed(seed, "camera." + camera.role),
+    truly_mounted_.push_back(mounted_.back());
+    truly_mounted_.back().X_BC = true_X_BC(camera, mounted_.back().model, seed);
+    const ImperfectionsConfig imperfections = camera.imperfections.value_or(ImperfectionsConfig{});
+    const bool disparity = imperfections.disparity_noise_px > 0.0;
+    imperfections_.emplace_back(imperfections, 1.0 / camera.rate_hz, stream_seed(seed, "camera." + camera.role),
                                 disparity ? mounted_.back().model.pinhole().focal_x_px : 0.0);
-    shutters_.emplace_back(camera.imperfections);
+    shutters_.emplace_back(imperfections);
     frames_.push_back({camera.role, /*t_ns=*/-1, {}});
   }
   exposed_ns_.assign(frames_.size(), -1);
@@ -93,7 +98,7 @@ const avoidance::CameraFrame* Cameras::expose(size_t camera, int64_t t_ns, const
 std::span<const avoidance::CameraFrame> Cameras::snapshot(int64_t t_ns, const Eigen::Isometry3d& X_WB) {
   for (size_t i = 0; i < count(); ++i) {
     const double t_s = 1e-9 * static_cast<double>(t_ns);
-    renderer_.draw({mounted_[i].model, X_WB * mounted_[i].X_BC, channels_[i], t_s, {}, samples_[i]},
+    renderer_.draw({mounted_[i].model, X_WB * truly_mounted_[i].X_BC, channels_[i], t_s, {}, samples_[i]},
                    snapshot_[i].image);
     snapshot_[i].t_ns = t_ns;
   }
@@ -103,7 +108,7 @@ std::span<const avoidance::CameraFrame> Cameras::snapshot(int64_t t_ns, const Ei
 /// A frame of this instant. @param dead  what a dead sensor delivers instead.
 void Cameras::sense(size_t camera, const Instant& now, bool dead, cv::Mat& out) {
   if (std::optional<CornerDetector>& detector = detectors_[camera]) {
-    const avoidance::MountedCamera& mounted = mounted_[camera];
+    const avoidance::MountedCamera& mounted = truly_mounted_[camera];
     out = detector->detect(mounted.model, now.body.X_WB * mounted.X_BC);
     if (dead) out = CornerDetector::nothing();
     return;
@@ -122,17 +127,36 @@ cv::Mat Cameras::image(size_t camera, Channel channel, const Instant& now, const
   return image;
 }
 
+/// A bound of how fast anything moves through the image, by the camera's rotation and by what passes at the least
+/// distance; taken at the optical axis, beyond which a pinhole shows rotations faster.
+double Cameras::image_speed_pxps(size_t camera, const Instant& now) const {
+  const avoidance::MountedCamera& mounted = truly_mounted_[camera];
+  const BodyMotion& body = now.body;
+  double mover_mps = 0.0;
+  for (const scenes::Motion& motion : movers_) {
+    mover_mps = std::max(mover_mps, scenes::v_WM(motion, 1e-9 * static_cast<double>(now.t_ns)).norm());
+  }
+  const Eigen::Vector3d v_WC_W = body.v_WB_W + body.X_WB.linear() * body.w_WB_B.cross(mounted.X_BC.translation());
+  const double passing_mps = v_WC_W.norm() + mover_mps;
+  const double passing_radps = passing_mps > 0.0 ? passing_mps / body.clearance_m : 0.0;  // infinite where unknown
+  return (body.w_WB_B.norm() + passing_radps) / pixel_angle_rad(mounted.model);
+}
+
 void Cameras::draw(size_t camera, Channel channel, const Instant& now, const Instant& next, cv::Mat& out) {
-  const avoidance::MountedCamera& mounted = mounted_[camera];
-  const CameraView::Next seen_next{next.body.X_WB * mounted.X_BC, 1e-9 * static_cast<double>(next.t_ns)};
+  const avoidance::MountedCamera& mounted = truly_mounted_[camera];
   const auto draw_rows = [&](const Eigen::Isometry3d& X_WB, double dt_s, const cv::Range& rows, cv::Mat& image) {
     const bool whole = rows.size() == mounted.model.height_px;
     const double t_s = std::max(0.0, 1e-9 * static_cast<double>(now.t_ns) + dt_s);
+    // The next image is exposed as long before its instant.
+    const CameraView::Next seen_next{next.body.X_WB_after(dt_s) * mounted.X_BC,
+                                     std::max(0.0, 1e-9 * static_cast<double>(next.t_ns) + dt_s)};
     renderer_.draw({whole ? mounted.model : cut(mounted.model, rows), X_WB * mounted.X_BC, channel, t_s, seen_next,
                     samples_[camera]},
                    image);
   };
-  shutters_[camera].expose(now.body, mounted.model.height_px, std::ref(draw_rows), out);
+  const bool blurs = channel == Channel::grey || channel == Channel::color;  // truth is that of the middle
+  shutters_[camera].expose(now.body, blurs ? image_speed_pxps(camera, now) : 0.0, mounted.model.height_px,
+                           std::ref(draw_rows), out);
 }
 
 }  // namespace hedgehop::sim

@@ -18,7 +18,7 @@
 namespace hedgehop::sim {
 
 /// The rig in flight: which camera exposes when, and what each saw last. All cameras that expose on one tick are drawn
-/// from the same vehicle state.
+/// from the same vehicle state, and from where they truly sit, which the calibration may miss.
 class Cameras {
  public:
   /// @param seed  of the flight; each camera has its own stream.
@@ -47,21 +47,26 @@ class Cameras {
   /// imperfections. @param next  what Channel::flow leads to.
   cv::Mat image(size_t camera, Channel channel, const Instant& now, const Instant& next);
 
+  /// As the calibration has it, for those on board.
   const avoidance::MountedCamera& mounted(size_t camera) const { return mounted_[camera]; }
   std::span<const avoidance::MountedCamera> mounted() const { return mounted_; }
+  /// As it truly is, for those who judge.
+  const avoidance::MountedCamera& truly_mounted(size_t camera) const { return truly_mounted_[camera]; }
   int64_t period_ticks(size_t camera) const { return periods_[camera]; }
 
  private:
   int64_t image_number(size_t camera, int64_t t_ns) const { return t_ns / period_ns_[camera]; }
   void sense(size_t camera, const Instant& now, bool dead, cv::Mat& out);
   void draw(size_t camera, Channel channel, const Instant& now, const Instant& next, cv::Mat& out);
+  double image_speed_pxps(size_t camera, const Instant& now) const;
 
   Renderer renderer_;
   std::vector<Channel> channels_;  ///< to draw; grey where a corner detector is mounted
   std::vector<std::optional<CornerDetector>> detectors_;
   std::vector<int> samples_;
   std::vector<int64_t> periods_;  ///< ticks
-  std::vector<avoidance::MountedCamera> mounted_;
+  std::vector<avoidance::MountedCamera> mounted_, truly_mounted_;
+  std::vector<scenes::Motion> movers_;
   std::vector<int64_t> period_ns_;
   std::vector<Imperfections> imperfections_;
   std::vector<Shutter> shutters_;

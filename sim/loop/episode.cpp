@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -47,7 +48,7 @@ void Episode::act() {
   measure_proximity();
   look();
   sense();
-  onlooker_.hand_over_sensors(tick_);
+  onlooker_.hand_over_sensors(tick_, motion());
   if (pilot_.decides(tick_)) decide();
   if (tick_ % control_period_ == 0) steer();
   onlooker_.show(tick_, pilot_.module(), scenario_.duration_s, goal_distance_m());
@@ -65,7 +66,8 @@ cv::Mat Episode::image(std::string_view role, Channel channel, double t_s) {
       }
       move();
     }
-    return {ticks_.t_ns(tick_), aircraft_.motion()};
+    measure_proximity();
+    return {ticks_.t_ns(tick_), motion()};
   };
   const Cameras::Instant now = fly_on(ticks_.ticks(t_s));
   const bool leads_on = channel == Channel::flow;
@@ -109,13 +111,20 @@ void Episode::measure_proximity() {
   log_.add(ticks_.t_s(tick_), aircraft_.body().p_WB, proximity_);
 }
 
+BodyMotion Episode::motion() const {
+  BodyMotion motion = aircraft_.motion();
+  motion.clearance_m =
+      std::clamp(std::min(proximity_.obstacle_clearance_m, proximity_.ground_clearance_m), 0.0, kSearchRadiusM);
+  return motion;
+}
+
 /// Exposes the cameras that are due and needed, all from this tick's state.
 void Episode::look() {
   const bool measures = velocimeter_ && cameras_.due(velocimeter_->camera(), tick_);
   std::optional<StageTimer::Lap> lap;
   if (measures || pilot_.looks(tick_)) lap.emplace(render_);
-  pilot_.look(tick_, aircraft_.motion());
-  ground_ = measures ? cameras_.expose(velocimeter_->camera(), ticks_.t_ns(tick_), aircraft_.motion()) : nullptr;
+  pilot_.look(tick_, motion());
+  ground_ = measures ? cameras_.expose(velocimeter_->camera(), ticks_.t_ns(tick_), motion()) : nullptr;
 }
 
 /// Reads all sensors that are due, the velocimeter among them.
@@ -146,7 +155,7 @@ void Episode::observe_map() {
   const double t_s = ticks_.t_s(tick_);
   avoidance::Map map = pilot_.module().map();
   if (const std::optional<size_t> camera = pilot_.first_camera(); camera && map_observer_) {
-    map_observer_->on_map({t_s, map, cameras_.mounted(*camera), aircraft_.X_WB(), p_WB_start_, *scene_, collision_,
+    map_observer_->on_map({t_s, map, cameras_.truly_mounted(*camera), aircraft_.X_WB(), p_WB_start_, *scene_, collision_,
                            pilot_.sees_through_walls()});
   }
   map_log_.add(t_s, std::move(map));

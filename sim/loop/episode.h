@@ -50,6 +50,7 @@ class Episode {
 
   // What happens on a tick, in this order.
   void measure_proximity();
+  BodyMotion motion() const;
   void look();
   void sense();
   void decide();

@@ -33,10 +33,11 @@ void Imperfections::apply(int64_t frame, cv::Mat& image) {
   if (image.type() == CV_32FC1 && config_.disparity_noise_px > 0.0) return apply_to_depth(frame, image);
   const bool noisy = config_.full_well > 0.0 || config_.read_noise > 0.0;
   const bool exposed = config_.exposure_stops != 0.0 || config_.auto_exposure_s > 0.0;
-  if (image.depth() != CV_8U || (!noisy && !exposed && config_.vignetting <= 0.0)) return;
+  const bool uneven = config_.vignetting > 0.0 || config_.fixed_pattern > 0.0;
+  if (image.depth() != CV_8U || (!noisy && !exposed && !uneven)) return;
 
   image.convertTo(levels_, CV_32F);
-  if (config_.vignetting > 0.0) cv::multiply(levels_, brightness(levels_), levels_);
+  if (uneven) cv::multiply(levels_, response(levels_), levels_);
   if (config_.auto_exposure_s > 0.0) expose_automatically(levels_);
   if (gain_ != 1.0) levels_ *= gain_;
   if (noisy) {
@@ -71,9 +72,10 @@ void Imperfections::apply_to_depth(int64_t frame, cv::Mat& depth_m) {
   }
 }
 
-const cv::Mat& Imperfections::brightness(const cv::Mat& levels) {
+/// Share of the light that each pixel turns into its level: what the lens lets through, times the pixel's gain.
+const cv::Mat& Imperfections::response(const cv::Mat& levels) {
   const cv::Size size = levels.size();
-  if (brightness_.size() == size && brightness_.type() == levels.type()) return brightness_;
+  if (response_.size() == size && response_.type() == levels.type()) return response_;
   cv::Mat share(size, CV_32F);
   const double center_u = 0.5 * (size.width - 1), center_v = 0.5 * (size.height - 1);
   const double corner2 = std::max(1.0, center_u * center_u + center_v * center_v);
@@ -83,8 +85,14 @@ const cv::Mat& Imperfections::brightness(const cv::Mat& levels) {
       share.at<float>(v, u) = static_cast<float>(1.0 - config_.vignetting * (du * du + dv * dv) / corner2);
     }
   }
-  cv::merge(std::vector<cv::Mat>(static_cast<size_t>(levels.channels()), share), brightness_);
-  return brightness_;
+  cv::merge(std::vector<cv::Mat>(static_cast<size_t>(levels.channels()), share), response_);
+  if (config_.fixed_pattern > 0.0) {
+    cv::Mat gain(size, levels.type());
+    cv::RNG random(stream_seed(seed_, "fixed_pattern"));
+    random.fill(gain, cv::RNG::NORMAL, 1.0, config_.fixed_pattern);
+    cv::multiply(response_, gain, response_);
+  }
+  return response_;
 }
 
 /// A first-order lag of the gain's logarithm towards what would make the mean mid-grey.

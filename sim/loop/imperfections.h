@@ -19,14 +19,15 @@ class Imperfections {
   enum class FrameFault { none, dropped, frozen, black };
   FrameFault frame_fault(int64_t frame) const;
 
-  /// Vignetting, exposure, photon and read noise, in this order, as light, lens and sensor have it; grey levels are
-  /// taken as proportional to light. Of depth: noise of its disparity; a disparity that falls to 0 is infinitely far.
+  /// Vignetting and pixel gains, exposure, photon and read noise, in this order, as light, lens and sensor have it;
+  /// grey levels are taken as proportional to light. Of depth: noise of its disparity; a disparity that falls to 0 is
+  /// infinitely far.
   /// @param image  CV_8U, or CV_32FC1 of depth, z in C, m, NaN unknown; others are left as they are.
   void apply(int64_t frame, cv::Mat& image);
 
  private:
   void apply_to_depth(int64_t frame, cv::Mat& depth_m);
-  const cv::Mat& brightness(const cv::Mat& levels);
+  const cv::Mat& response(const cv::Mat& levels);
   void expose_automatically(const cv::Mat& levels);
 
   ImperfectionsConfig config_;
@@ -34,7 +35,7 @@ class Imperfections {
   uint64_t seed_;
   double focal_px_;
   double gain_;
-  cv::Mat brightness_;              ///< CV_32F, as many channels: share that the lens lets through
+  cv::Mat response_;                ///< CV_32F, as many channels as the image
   cv::Mat levels_, noise_, sigma_;  ///< CV_32F
 };
 

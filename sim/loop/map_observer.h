@@ -12,7 +12,7 @@ namespace hedgehop::sim {
 struct MapInstant {
   double t_s = 0.0;
   const avoidance::Map& map;
-  const avoidance::MountedCamera& camera;  ///< the first that the module needs
+  const avoidance::MountedCamera& camera;  ///< the first that the module needs, as it is truly mounted
   Eigen::Isometry3d X_WB_true;
   Eigen::Vector3d p_WB_start_true;  ///< where the flight began, m
   const scenes::Scene& scene;

@@ -10,19 +10,19 @@ Onlooker::Onlooker(FlightWatcher* watcher, const Ticks& ticks, Cameras& cameras,
   if (watcher_ && watcher_->image_rate_hz() > 0.0) image_period_ = ticks_.period(watcher_->image_rate_hz());
 }
 
-void Onlooker::hand_over_sensors(int64_t tick) {
+void Onlooker::hand_over_sensors(int64_t tick, const BodyMotion& body) {
   if (!watcher_ || !watcher_->wants_sensors()) return;
   std::vector<avoidance::CameraFrame> frames;
   for (size_t camera = 0; camera < cameras_.count(); ++camera) {
     if (!cameras_.due(camera, tick)) continue;
-    if (const auto* const frame = cameras_.expose(camera, ticks_.t_ns(tick), aircraft_.motion())) {
+    if (const auto* const frame = cameras_.expose(camera, ticks_.t_ns(tick), body)) {
       frames.push_back(*frame);
     }
   }
   const dynamics::Avionics& avionics = aircraft_.avionics();
   if (frames.empty() && !avionics.imu()) return;
   const auto depth = [&](std::string_view role) {
-    const Cameras::Instant now{ticks_.t_ns(tick), aircraft_.motion()};
+    const Cameras::Instant now{ticks_.t_ns(tick), body};
     return cameras_.image(cameras_.index(role), Channel::depth, now, now);
   };
   watcher_->on_sensors({ticks_.t_ns(tick), aircraft_.body(), avionics.imu(), avionics.imu_bias(), frames, depth});

@@ -17,8 +17,8 @@ class Onlooker {
   /// @param watcher  may be null: then nothing is handed over.
   Onlooker(FlightWatcher* watcher, const Ticks& ticks, Cameras& cameras, const Aircraft& aircraft);
 
-  /// The readings of all sensors, if it wants them.
-  void hand_over_sensors(int64_t tick);
+  /// The readings of all sensors, if it wants them. @param body  the aircraft's motion on this tick.
+  void hand_over_sensors(int64_t tick, const BodyMotion& body);
   /// Images and progress, where they are due.
   /// @param goal_distance_m  horizontal. @param duration_s  of the longest flight.
   void show(int64_t tick, const avoidance::Module& module, double duration_s, std::optional<double> goal_distance_m);

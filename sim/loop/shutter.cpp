@@ -1,9 +1,15 @@
 #include "sim/loop/shutter.h"
 
 #include <algorithm>
+#include <cmath>
 #include <variant>
 
 namespace hedgehop::sim {
+namespace {
+
+constexpr double kMomentSpacingPx = 0.5;  // half a cycle of the finest detail that pixels can show is 1 px
+
+}  // namespace
 
 Eigen::Isometry3d BodyMotion::X_WB_after(double dt_s) const {
   Eigen::Isometry3d X = X_WB;
@@ -15,37 +21,40 @@ Eigen::Isometry3d BodyMotion::X_WB_after(double dt_s) const {
   return X;
 }
 
-void Shutter::expose(const BodyMotion& body, int rows, const DrawRows& draw, cv::Mat& out) {
+void Shutter::expose(const BodyMotion& body, double image_speed_pxps, int rows, const DrawRows& draw, cv::Mat& out) {
   if (config_.readout_s <= 0.0 && config_.shutter_s <= 0.0) {
     draw(body.X_WB, 0.0, {0, rows}, out);
     return;
+  }
+  int moments = 1;
+  if (config_.shutter_s > 0.0) {
+    const double most = config_.shutter_samples;
+    moments =
+        static_cast<int>(std::clamp(config_.shutter_s * image_speed_pxps / kMomentSpacingPx, 0.0, most - 1.0)) + 1;
   }
   const int strips = config_.readout_s > 0.0 ? std::min(config_.readout_strips, rows) : 1;
   for (int i = 0; i < strips; ++i) {
     const cv::Range strip(i * rows / strips, (i + 1) * rows / strips);
     const double middle = strips > 1 ? 0.5 * (strip.start + strip.end - 1) / (rows - 1) : 1.0;  // 0 top row, 1 last
-    expose_strip(body, -config_.readout_s * (1.0 - middle), strip, draw);
+    expose_strip(body, -config_.readout_s * (1.0 - middle), moments, strip, draw);
     out.create(rows, strip_.cols, strip_.type());
     strip_.copyTo(out.rowRange(strip));
   }
 }
 
-void Shutter::expose_strip(const BodyMotion& body, double end_s, const cv::Range& rows, const DrawRows& draw) {
-  if (config_.shutter_s <= 0.0) {
-    draw(body.X_WB_after(end_s), end_s, rows, strip_);
-    return;
-  }
-  for (int k = 0; k < config_.shutter_samples; ++k) {
-    const double dt_s = end_s - config_.shutter_s * (k + 0.5) / config_.shutter_samples;
+void Shutter::expose_strip(const BodyMotion& body, double end_s, int moments, const cv::Range& rows,
+                           const DrawRows& draw) {
+  for (int k = 0; k < moments; ++k) {
+    const double dt_s = end_s - config_.shutter_s * (k + 0.5) / moments;
     draw(body.X_WB_after(dt_s), dt_s, rows, k == 0 ? strip_ : moment_);
-    if (strip_.depth() != CV_8U) return;
+    if (moments == 1) return;
     if (k == 0) {
       strip_.convertTo(sum_, CV_32F);
     } else {
       cv::add(sum_, moment_, sum_, cv::noArray(), CV_32F);
     }
   }
-  sum_.convertTo(strip_, CV_8U, 1.0 / config_.shutter_samples);
+  sum_.convertTo(strip_, CV_8U, 1.0 / moments);
 }
 
 vision::camera::Camera cut(const vision::camera::Camera& camera, const cv::Range& rows) {

@@ -9,11 +9,12 @@
 
 namespace hedgehop::sim {
 
-/// Where B is at an instant, and how it moves.
+/// Where B is at an instant, how it moves, and how near anything is.
 struct BodyMotion {
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
   Eigen::Vector3d v_WB_W = Eigen::Vector3d::Zero();  ///< m/s
   Eigen::Vector3d w_WB_B = Eigen::Vector3d::Zero();  ///< rad/s
+  double clearance_m = 0.0;                          ///< nothing is nearer to the hull; 0: unknown
 
   /// Pose a moment later (or earlier), velocities held. @param dt_s  small against what changes them.
   Eigen::Isometry3d X_WB_after(double dt_s) const;
@@ -24,17 +25,18 @@ struct BodyMotion {
 using DrawRows = std::function<void(const Eigen::Isometry3d& X_WB, double dt_s, const cv::Range& rows, cv::Mat& out)>;
 
 /// Exposes one camera's images: the rows one after the other for a rolling shutter, each the mean of several moments
-/// for motion blur, as the config says. Exposure ends at the image's instant.
+/// for motion blur, as the config says. Exposure ends at the image's instant. The moments divide it evenly, each in the
+/// middle of its part; there are as many as the image moves by half pixels, at least 1 and at most `shutter_samples`.
 class Shutter {
  public:
   explicit Shutter(const ImperfectionsConfig& config) : config_(config) {}
 
-  /// @param rows  of the image. @param out  the image, of the type that `draw` gives; images that are not of 8
-  /// bits are not blurred.
-  void expose(const BodyMotion& body, int rows, const DrawRows& draw, cv::Mat& out);
+  /// @param image_speed_pxps  no point of the image moves faster, >= 0. @param rows  of the image. @param out  the
+  /// image, of the type that `draw` gives: of 8 bits where the image moves.
+  void expose(const BodyMotion& body, double image_speed_pxps, int rows, const DrawRows& draw, cv::Mat& out);
 
  private:
-  void expose_strip(const BodyMotion& body, double end_s, const cv::Range& rows, const DrawRows& draw);
+  void expose_strip(const BodyMotion& body, double end_s, int moments, const cv::Range& rows, const DrawRows& draw);
 
   ImperfectionsConfig config_;
   cv::Mat strip_, moment_, sum_;

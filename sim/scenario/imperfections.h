@@ -13,9 +13,10 @@ struct ImperfectionsConfig {
   double auto_exposure_s = 0.0;     ///< time constant that draws the mean to mid-grey; 0: off
   double full_well = 0.0;           ///< photo-electrons at white; 0: no photon noise
   double read_noise = 0.0;          ///< standard deviation, grey levels
+  double fixed_pattern = 0.0;       ///< standard deviation of the pixels' gains, constant over a flight
   double disparity_noise_px = 0.0;  ///< standard deviation, of focal length times kBaselineM over depth
   double shutter_s = 0.0;           ///< how long the image is exposed
-  int shutter_samples = 8;          ///< moments that a blurred image is the mean of
+  int shutter_samples = 8;          ///< most moments that a blurred image is the mean of
   double readout_s = 0.0;           ///< from the first row's exposure to the last's; 0: global shutter
   int readout_strips = 16;          ///< of rows that share a moment
   double drop = 0.0;                ///< probability that an image is lost
@@ -39,6 +40,10 @@ void describe(Visitor& v, ImperfectionsConfig& c) {
     {.at_least = 0.0,
      .at_most = 255.0,
      .meaning = "standard deviation of the noise of reading, in grey levels of 255"});
+  v("fixed_pattern", c.fixed_pattern,
+    {.at_least = 0.0,
+     .at_most = 1.0,
+     .meaning = "standard deviation of the pixels' gains (photo-response nonuniformity), constant over a flight"});
   v("disparity_noise", c.disparity_noise_px,
     {.unit = "px",
      .at_least = 0.0,
@@ -47,7 +52,11 @@ void describe(Visitor& v, ImperfectionsConfig& c) {
   v("shutter", c.shutter_s,
     {.unit = "s", .at_least = 0.0, .at_most = 1.0, .meaning = "how long an image is exposed, ending at its instant"});
   v("shutter_samples", c.shutter_samples,
-    {.at_least = 2, .at_most = 256, .meaning = "moments that an image with motion blur is the mean of"});
+    {.at_least = 1,
+     .at_most = 256,
+     .meaning =
+         "the most moments that an image with motion blur is the mean of; fewer where it moves by less than half "
+         "a pixel between them"});
   v("readout", c.readout_s,
     {.unit = "s",
      .at_least = 0.0,

@@ -138,8 +138,19 @@ void mount_stereo_pairs(RigConfig& rig) {
       camera.right_m += side * half_B.y();
       camera.down_m += side * half_B.z();
     }
+    rig.cameras.back().row_error_px = pair.row_error_px;
+    rig.cameras.back().side_error_m = pair.baseline_error * pair.baseline_m;
   }
   rig.stereo.clear();
+}
+
+void mount_sensor(RigConfig& rig) {
+  for (CameraConfig& camera : rig.cameras) {
+    const bool has_images =
+        camera.channel == CameraConfig::Channel::grey || camera.channel == CameraConfig::Channel::color;
+    if (has_images && !camera.imperfections) camera.imperfections = rig.sensor;
+  }
+  rig.sensor.reset();
 }
 
 }  // namespace hedgehop::sim

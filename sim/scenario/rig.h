@@ -34,10 +34,12 @@ struct CameraConfig {
   int samples = 1;               ///< samples in each pixel, averaged for grey and color: 1, 2, 4 or 8
   double forward_m = 0.0, right_m = 0.0, down_m = 0.0;
   double yaw_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
-  ImperfectionsConfig imperfections;
+  double row_error_px = 0.0, side_error_m = 0.0;     ///< of the calibration; the signs are drawn by the seed
+  std::optional<ImperfectionsConfig> imperfections;  ///< none: the rig's sensor, where it is for the channel
 
-  /// Pose of the camera in B: the mounting position, and yaw about down, pitch about right, roll about forward, in that
-  /// order, applied to a camera that looks forward. Yaw 90 deg looks right, pitch -90 deg looks down.
+  /// Pose of the camera in B as its calibration has it: the mounting position, and yaw about down, pitch about right,
+  /// roll about forward, in that order, applied to a camera that looks forward. Yaw 90 deg looks right, pitch -90 deg
+  /// looks down.
   Eigen::Isometry3d X_BC() const;
   /// Throws std::invalid_argument that begins with the key at fault, for values out of bounds, keys that do not go
   /// together or a calibration file that cannot be used.
@@ -90,20 +92,35 @@ void describe_without_role(Visitor& v, CameraConfig& c) {
   v("yaw", c.yaw_rad, {.unit = "deg", .at_least = -180.0, .at_most = 180.0, .meaning = "rotation to the right, first"});
   v("pitch", c.pitch_rad, {.unit = "deg", .at_least = -90.0, .at_most = 90.0, .meaning = "rotation upwards, second"});
   v("roll", c.roll_rad, {.unit = "deg", .at_least = -180.0, .at_most = 180.0, .meaning = "rotation clockwise, last"});
-  v("imperfections", c.imperfections, {.meaning = "noise, blur, rolling shutter and faults, all off by default"});
+  v("imperfections", c.imperfections,
+    {.meaning = "noise, blur, rolling shutter and faults; none unless given here or, for grey and color, by the rig's "
+                "sensor"});
 }
 
 template <class Visitor>
 void describe(Visitor& v, CameraConfig& c) {
   v("role", c.role, {.required = true, .meaning = "name by which modules and sensors refer to the camera"});
+  v("row_error", c.row_error_px,
+    {.unit = "px",
+     .at_least = 0.0,
+     .at_most = 100.0,
+     .meaning = "error of the calibration: rows by which its image is truly higher or lower, by the seed"});
+  v("side_error", c.side_error_m,
+    {.unit = "m",
+     .at_least = 0.0,
+     .meaning =
+         "error of the calibration: how far along its rows it truly sits, to one side or the other by the seed"});
   describe_without_role(v, c);
 }
 
-/// Two equal cameras, exactly parallel, side by side along their rows.
+/// Two equal cameras, parallel and side by side along their rows as they are calibrated. The errors of the calibration
+/// are those of the right camera.
 struct StereoConfig {
   std::string role;
   double baseline_m = 0.3;
-  CameraConfig camera;  ///< its mounting position is the middle of the pair
+  double row_error_px = 0.0;
+  double baseline_error = 0.0;  ///< share of the baseline
+  CameraConfig camera;          ///< its mounting position is the middle of the pair
 };
 
 template <class Visitor>
@@ -111,6 +128,15 @@ void describe(Visitor& v, StereoConfig& c) {
   v("role", c.role, {.meaning = "the cameras are <role>_left and <role>_right; left and right when empty"});
   v("baseline", c.baseline_m,
     {.unit = "m", .above = 0.0, .meaning = "distance between the two; each half of it aside"});
+  v("row_error", c.row_error_px,
+    {.unit = "px",
+     .at_least = 0.0,
+     .at_most = 100.0,
+     .meaning = "error of the calibration: rows by which the right image is truly higher or lower, by the seed"});
+  v("baseline_error", c.baseline_error,
+    {.at_least = 0.0,
+     .at_most = 1.0,
+     .meaning = "error of the calibration: share by which the baseline is truly longer or shorter, by the seed"});
   describe_without_role(v, c.camera);
 }
 
@@ -118,6 +144,7 @@ void describe(Visitor& v, StereoConfig& c) {
 struct RigConfig {
   std::vector<CameraConfig> cameras;
   std::vector<StereoConfig> stereo;
+  std::optional<ImperfectionsConfig> sensor;  ///< of every grey or color camera that states no imperfections
 
   /// The camera of a role, or null.
   const CameraConfig* find(std::string_view role) const;
@@ -127,9 +154,14 @@ template <class Visitor>
 void describe(Visitor& v, RigConfig& c) {
   v("cameras", c.cameras, {.meaning = "cameras, each of its own role"});
   v("stereo", c.stereo, {.meaning = "pairs, each two more cameras; a resolved scenario lists them as such"});
+  v("sensor", c.sensor,
+    {.meaning = "imperfections of every grey or color camera that states none; a resolved scenario lists them there"});
 }
 
 /// Replaces every pair by its two cameras, left before right, after the other cameras.
 void mount_stereo_pairs(RigConfig& rig);
+
+/// Gives the rig's sensor to every grey or color camera that states no imperfections; call it with the pairs mounted.
+void mount_sensor(RigConfig& rig);
 
 }  // namespace hedgehop::sim

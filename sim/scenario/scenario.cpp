@@ -54,6 +54,7 @@ LoadedScenario load_flight(const std::filesystem::path& file, std::span<const st
   faults.raise();
   if (seed) scenario.seed = *seed;
   mount_stereo_pairs(scenario.rig);
+  mount_sensor(scenario.rig);
   find_imports(scenario.scene, root);
   for (CheckConfig& check : scenario.checks) {
     if (auto* path = std::get_if<PathToleranceCheck>(&check)) {

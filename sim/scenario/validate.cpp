@@ -140,7 +140,7 @@ class Validator {
 
   /// None may be silently without effect.
   void imperfections(const std::string& path, const CameraConfig& camera) {
-    const ImperfectionsConfig& c = camera.imperfections;
+    const ImperfectionsConfig c = camera.imperfections.value_or(ImperfectionsConfig{});
     const auto refuse = [&](std::string_view key, bool is_on) {
       if (is_on)
         add(fmt::format("{}.{}", path, key),
@@ -153,6 +153,7 @@ class Validator {
       refuse("auto_exposure", c.auto_exposure_s != 0.0);
       refuse("full_well", c.full_well != 0.0);
       refuse("read_noise", c.read_noise != 0.0);
+      refuse("fixed_pattern", c.fixed_pattern != 0.0);
       refuse("shutter", c.shutter_s != 0.0);
       if (c.disparity_noise_px != 0.0 && !camera.is_undistorted_pinhole()) {
         add(path + ".disparity_noise", "needs an undistorted pinhole");

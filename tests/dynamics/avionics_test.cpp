@@ -66,7 +66,7 @@ TEST(Avionics, EachSourceOfNoiseHasAStreamOfItsOwn) {
     names.emplace_back(n);
     return seed_of(1, n);
   });
-  EXPECT_THAT(names, testing::UnorderedElementsAre("imu", "gps", "height_sensor", "magnetometer", "alignment"));
+  EXPECT_THAT(names, testing::UnorderedElementsAre("imu", "gps", "height_sensor", "magnetometer", "survey"));
 
   // Another seed for one stream reaches the estimate through that sensor alone.
   const auto estimated = [](AvionicsConfig c, std::string_view other) {
@@ -91,8 +91,8 @@ TEST(Avionics, EachSourceOfNoiseHasAStreamOfItsOwn) {
     names.emplace_back(n);
     return seed_of(1, n);
   });
-  EXPECT_THAT(names, testing::UnorderedElementsAre("imu", "gps", "height_sensor", "magnetometer", "alignment",
-                                                   "barometer", "range_finder"));
+  EXPECT_THAT(names, testing::UnorderedElementsAre("imu", "gps", "height_sensor", "magnetometer", "survey", "barometer",
+                                                   "range_finder"));
   EXPECT_FALSE(same(estimated(with_options, "barometer"), estimated(with_options, "none")));
   EXPECT_TRUE(same(estimated(with_options, "range_finder"), estimated(with_options, "none")));
 }

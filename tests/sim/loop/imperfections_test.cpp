@@ -56,6 +56,27 @@ TEST(Imperfections, ReadNoiseAddsToPhotonNoiseInVariance) {
   EXPECT_NEAR(variance_of(image), expected, 4.0 * expected * std::sqrt(2.0 / 160000.0));
 }
 
+// Rounding adds 1/12 to the variance of the pattern, and the same pattern again of another image.
+TEST(Imperfections, TheFixedPatternStaysAndScalesWithTheLight) {
+  ImperfectionsConfig config;
+  config.fixed_pattern = 0.05;
+  Imperfections camera(config, kPeriodS, 9), other(config, kPeriodS, 10);
+  cv::Mat bright = flat(200.0), again = flat(200.0), dim = flat(50.0), elsewhere = flat(200.0);
+  camera.apply(0, bright);
+  camera.apply(8, again);
+  camera.apply(3, dim);
+  other.apply(0, elsewhere);
+  EXPECT_EQ(cv::norm(bright, again, cv::NORM_INF), 0.0);
+  for (const auto& [image, level] : {std::pair(bright, 200.0), std::pair(dim, 50.0)}) {
+    const double expected = std::pow(0.05 * level, 2) + 1.0 / 12.0;
+    EXPECT_NEAR(variance_of(image), expected, 4.0 * expected * std::sqrt(2.0 / 160000.0)) << level;
+    EXPECT_NEAR(mean_of(image), level, 4.0 * std::sqrt(expected / 160000.0)) << level;
+  }
+  cv::Mat difference;
+  cv::subtract(bright, elsewhere, difference, cv::noArray(), CV_32F);
+  EXPECT_NEAR(variance_of(difference), 2.0 * variance_of(bright), 0.02 * variance_of(bright));  // unrelated
+}
+
 TEST(Imperfections, ExposureMultipliesLightAndSaturates) {
   ImperfectionsConfig config;
   config.exposure_stops = 1.0;

@@ -2,13 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numbers>
+#include <vector>
 
 namespace hedgehop::sim {
 namespace {
 
 constexpr int kRows = 64, kCols = 8;
 constexpr double kGreyPerM = 10.0;
+constexpr double kFast = std::numeric_limits<double>::infinity();  // px/s: as many moments as are allowed
 
 /// An image whose every pixel tells how far north the body was.
 void draw_north(const Eigen::Isometry3d& X_WB, double, const cv::Range& rows, cv::Mat& out) {
@@ -28,7 +31,7 @@ TEST(Shutter, WithoutImperfectionsThereIsOneMomentAndOneDrawing) {
   cv::Mat image;
   int drawings = 0;
   shutter.expose(
-      flying_north(12.0, 5.0), kRows,
+      flying_north(12.0, 5.0), kFast, kRows,
       [&](const Eigen::Isometry3d& X_WB, double dt_s, const cv::Range& rows, cv::Mat& out) {
         ++drawings;
         EXPECT_EQ(dt_s, 0.0);
@@ -47,8 +50,41 @@ TEST(Shutter, ABlurredImageIsTheMeanOverItsExposure) {
   config.shutter_samples = 64;
   Shutter shutter(config);
   cv::Mat image;
-  shutter.expose(flying_north(12.0, 5.0), kRows, draw_north, image);
+  shutter.expose(flying_north(12.0, 5.0), kFast, kRows, draw_north, image);
   EXPECT_NEAR(cv::mean(image)[0], kGreyPerM * (12.0 - 5.0 * 0.2), 1.0);  // levels are rounded twice
+}
+
+/// When an image that moves so fast is drawn, s after its instant.
+std::vector<double> moments_s(double image_speed_pxps, int most) {
+  ImperfectionsConfig config;
+  config.shutter_s = 0.01;
+  config.shutter_samples = most;
+  std::vector<double> moments;
+  cv::Mat image;
+  Shutter(config).expose(
+      {}, image_speed_pxps, kRows,
+      [&](const Eigen::Isometry3d& X_WB, double dt_s, const cv::Range& rows, cv::Mat& out) {
+        moments.push_back(dt_s);
+        draw_north(X_WB, dt_s, rows, out);
+      },
+      image);
+  return moments;
+}
+
+TEST(Shutter, MomentsLieNoFartherApartThanTheImageMovesByHalfAPixelUntilThereAreTooMany) {
+  EXPECT_EQ(moments_s(0.0, 8), std::vector<double>{-0.005});
+  EXPECT_EQ(moments_s(49.0, 8), std::vector<double>{-0.005});
+  for (const double speed_pxps : {51.0, 149.0, 152.0, 333.0}) {
+    const std::vector<double> moments = moments_s(speed_pxps, 8);
+    const double part_s = 0.01 / static_cast<double>(moments.size());
+    EXPECT_LE(speed_pxps * part_s, 0.5) << speed_pxps;
+    EXPECT_GT(speed_pxps * 0.01 / static_cast<double>(moments.size() - 1), 0.5) << speed_pxps;  // and no more than that
+    for (size_t k = 0; k < moments.size(); ++k)
+      EXPECT_NEAR(moments[k], -part_s * (static_cast<double>(k) + 0.5), 1e-15);
+  }
+  EXPECT_EQ(moments_s(5000.0, 8).size(), 8u);
+  EXPECT_EQ(moments_s(kFast, 8).size(), 8u);
+  EXPECT_EQ(moments_s(kFast, 1), std::vector<double>{-0.005});
 }
 
 TEST(Shutter, RowsOfARollingShutterAreExposedOneAfterTheOtherTheLastAtTheInstant) {
@@ -57,7 +93,7 @@ TEST(Shutter, RowsOfARollingShutterAreExposedOneAfterTheOtherTheLastAtTheInstant
   config.readout_strips = kRows;
   Shutter shutter(config);
   cv::Mat image;
-  shutter.expose(flying_north(20.0, 20.0), kRows, draw_north, image);
+  shutter.expose(flying_north(20.0, 20.0), kFast, kRows, draw_north, image);
   for (int row = 0; row < kRows; ++row) {
     const double t_s = -0.5 * (1.0 - static_cast<double>(row) / (kRows - 1));
     EXPECT_NEAR(image.at<uint8_t>(row, 3), kGreyPerM * (20.0 + 20.0 * t_s), 0.5 + 1e-9) << row;
@@ -72,7 +108,7 @@ TEST(Shutter, StripsThatDoNotDivideTheImageStillCoverIt) {
   cv::Mat image;
   int rows_drawn = 0;
   shutter.expose(
-      flying_north(10.0, 0.0), kRows,
+      flying_north(10.0, 0.0), 0.0, kRows,
       [&](const Eigen::Isometry3d& X_WB, double dt_s, const cv::Range& rows, cv::Mat& out) {
         EXPECT_EQ(rows.start, rows_drawn);
         rows_drawn = rows.end;

@@ -154,5 +154,64 @@ TEST(RigFile, AResolvedScenarioListsTheCamerasOfAPair) {
   EXPECT_EQ(to_yaml(again), to_yaml(scenario));
 }
 
+TEST(RigFile, TheSensorIsThatOfEveryImageThatStatesNone) {
+  Folder folder;
+  Folder::write("sensors/dusk.yaml", "full_well: 1000\nread_noise: 3\n");
+  Folder::write("rig.yaml",
+                "sensor: {use: sensors/dusk.yaml}\n"
+                "cameras:\n"
+                "  - {role: grey}\n"
+                "  - {role: color, channel: color}\n"
+                "  - {role: depth, channel: depth}\n"
+                "  - {role: corners, channel: corners}\n"
+                "  - {role: own, imperfections: {read_noise: 7}}\n"
+                "  - {role: clean, imperfections: {}}\n"
+                "stereo: [{role: pair, baseline: 0.3}]\n");
+  RigConfig rig = load_struct<RigConfig>("rig.yaml");
+  mount_stereo_pairs(rig);
+  mount_sensor(rig);
+  EXPECT_FALSE(rig.sensor.has_value());
+  for (const std::string role : {"grey", "color", "pair_left", "pair_right"}) {
+    const auto& imperfections = rig.find(role)->imperfections;
+    ASSERT_TRUE(imperfections.has_value()) << role;
+    EXPECT_EQ(imperfections->full_well, 1000.0) << role;
+    EXPECT_EQ(imperfections->read_noise, 3.0) << role;
+  }
+  for (const std::string role : {"depth", "corners"}) EXPECT_FALSE(rig.find(role)->imperfections.has_value()) << role;
+  EXPECT_EQ(rig.find("own")->imperfections->read_noise, 7.0);
+  EXPECT_EQ(rig.find("own")->imperfections->full_well, 0.0);
+  EXPECT_EQ(rig.find("clean")->imperfections->read_noise, 0.0);
+}
+
+/// Imperfections of the first camera of a scenario as it is flown.
+ImperfectionsConfig flown_sensor(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return load_scenario(file, overrides).rig.cameras.at(0).imperfections.value();
+}
+
+TEST(RigFile, EveryPaperAndTheLeaderboardFlyBySunAndCanFlyInDullLight) {
+  const std::filesystem::path worlds = kConfigs / "leaderboard/worlds";
+  for (const std::string name : {"andert2007_tree_320.yaml", "garratt2009_city_22.yaml", "perez2018_route_light.yaml",
+                                 "shah2009_highrise_forward.yaml", "zingg2010_bend.yaml"}) {
+    EXPECT_EQ(flown_sensor(kConfigs / name, {}).full_well, 8000.0) << name;
+    const ImperfectionsConfig dull = flown_sensor(kConfigs / name, {"rig.sensor.use=sensors/dull.yaml"});
+    EXPECT_EQ(dull.full_well, 3000.0) << name;
+    EXPECT_EQ(dull.vignetting, 0.2) << name;
+    EXPECT_EQ(flown_sensor(kConfigs / name, {"rig.sensor.use=sensors/ideal.yaml"}).shutter_s, 0.0) << name;
+  }
+  const std::vector<std::string> garratt = {
+      "vehicle.use=../../vehicles/electric_helicopter_8kg.yaml", "rig.use=../../rigs/garratt2009_200.yaml",
+      "avoidance.use=../modules/flow_balance.yaml", "rig.sensor.use=../../sensors/dull.yaml"};
+  EXPECT_EQ(flown_sensor(worlds / "city.yaml", garratt).full_well, 3000.0);
+}
+
+TEST(RigFile, AResolvedScenarioListsTheSensorWithTheCameras) {
+  Folder folder;
+  const Scenario scenario = load_scenario(kConfigs / "perez2018_route_light.yaml");
+  Folder::write("resolved.yaml", to_yaml(scenario));
+  const Scenario again = load_scenario("resolved.yaml");
+  EXPECT_EQ(again.rig.cameras.at(0).imperfections.value().full_well, 8000.0);
+  EXPECT_EQ(to_yaml(again), to_yaml(scenario));
+}
+
 }  // namespace
 }  // namespace hedgehop::sim

@@ -96,7 +96,8 @@ TEST_F(CrossRules, NoImperfectionIsSilentlyWithoutEffect) {
   EXPECT_THAT(
       faults({"rig.cameras.0.imperfections.disparity_noise=1"}),
       testing::Contains(HasSubstr("'rig.cameras.0.imperfections.disparity_noise': is for channel: depth alone")));
-  for (const std::string key : {"vignetting", "exposure", "auto_exposure", "full_well", "read_noise", "shutter"}) {
+  for (const std::string key :
+       {"vignetting", "exposure", "auto_exposure", "full_well", "read_noise", "fixed_pattern", "shutter"}) {
     EXPECT_THAT(faults({"rig.cameras.0.channel=depth", "rig.cameras.0.imperfections." + key + "=0.5"}),
                 testing::Contains(HasSubstr("'rig.cameras.0.imperfections." + key + "': is not for depth images")));
   }

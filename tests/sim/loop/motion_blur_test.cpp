@@ -1,0 +1,56 @@
+// How many moments a blurred image needs: few of them against very many.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "scenes/generators.h"
+#include "sim/loop/cameras.h"
+
+namespace hedgehop::sim {
+namespace {
+
+struct Blur {
+  std::string name;
+  scenes::Scene scene;
+  Eigen::Vector3d p_WB, v_WB_W;
+  double clearance_m = 0.0;
+};
+
+/// The image of one camera that looks ahead, grey, without noise.
+cv::Mat exposed(const Blur& blur, const Eigen::Vector3d& w_WB_B, int most_moments, double clearance_m) {
+  RigConfig rig;
+  rig.cameras = {{.role = "front", .width_px = 200, .height_px = 200}};
+  rig.cameras[0].imperfections = ImperfectionsConfig{.shutter_s = 0.004, .shutter_samples = most_moments};
+  Cameras cameras(rig, Ticks(500), blur.scene, {}, 1);
+  BodyMotion body{.v_WB_W = blur.v_WB_W, .w_WB_B = w_WB_B, .clearance_m = clearance_m};
+  body.X_WB.translation() = blur.p_WB;
+  return cameras.expose(0, 1'000'000'000, body)->image.clone();
+}
+
+// A grey level of read noise and photon noise hide half a level.
+TEST(MotionBlur, DiffersFromThatOf64MomentsByLessThanNoiseHides) {
+  const std::vector<Blur> flights = {
+      {"tree", scenes::make_scene(scenes::worlds::TreeConfig{}, 1), {-12.0, 0.0, -5.0}, {3.0, 0.5, 0.0}, 5.0},
+      {"city",
+       scenes::make_scene(scenes::worlds::UrbanConfig{.extent_m = 200.0}, 1),
+       {0.0, -30.0, -8.0},
+       {2.0, 0, 0},
+       4.0},
+      {"corridor", scenes::make_scene(scenes::worlds::CorridorConfig{}, 1), {2.0, 0.0, -1.5}, {0.6, 0, 0}, 0.8}};
+  for (const Blur& blur : flights) {
+    for (const double w_radps : {0.0, 0.15, 0.5, 1.5}) {
+      const Eigen::Vector3d w_WB_B(0.0, 0.4 * w_radps, w_radps);
+      const cv::Mat few = exposed(blur, w_WB_B, 8, blur.clearance_m);
+      const cv::Mat many = exposed(blur, w_WB_B, 64, 0.0);  // unknown distances: as many as allowed
+      const double rms = cv::norm(few, many, cv::NORM_L2) / std::sqrt(static_cast<double>(few.total()));
+      RecordProperty(blur.name + "_" + std::to_string(w_radps), std::to_string(rms));
+      EXPECT_LT(rms, 0.5) << blur.name << ", " << w_radps << " rad/s";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
