@@ -20,7 +20,13 @@ Eigen::Vector3d blowing_W(double from_rad) { return {-std::cos(from_rad), -std::
 
 Wind::Wind(const WindConfig& config, uint64_t seed) : config_(fields::require_bounds(config)), generator_(seed) {
   gust_along_W_ = blowing_W(config.gust.from_rad);
-  const Eigen::Vector3d blows_W = blowing_W(config.from_rad);
+  double from_rad = config.from_rad;
+  if (config.spread_rad > 0.0) {
+    // Evenly from [-1, 1), of 53 random bits: the same on every standard library.
+    const double share = std::ldexp(static_cast<double>(generator_() >> 11), -52) - 1.0;
+    from_rad += share * config.spread_rad;
+  }
+  const Eigen::Vector3d blows_W = blowing_W(from_rad);
   steady_W_ = config.speed_mps * blows_W;
   // Without a mean wind the axes are W's.
   const Eigen::Vector3d along_W = config.speed_mps > 0.0 ? blows_W : Eigen::Vector3d::UnitX();

@@ -14,6 +14,7 @@ namespace hedgehop::dynamics::air {
 struct WindConfig {
   double speed_mps = 0.0;           ///< with shear, at 20 ft
   double from_rad = 0.0;            ///< heading the wind comes from, from north to east
+  double spread_rad = 0.0;          ///< the seed draws that heading within this of `from_rad`
   double roughness_m = 0.0;         ///< height below which the air is still; 0 for a wind without shear
   double turbulence_w20_mps = 0.0;  ///< wind at 20 ft that sets the turbulence; 0 for smooth air
   GustConfig gust;
@@ -27,6 +28,11 @@ void describe(Visitor& v, WindConfig& c) {
      .at_least = -360.0,
      .at_most = 360.0,
      .meaning = "heading the steady wind comes from, from north to east"});
+  v("spread", c.spread_rad,
+    {.unit = "deg",
+     .at_least = 0.0,
+     .at_most = 180.0,
+     .meaning = "the steady wind's heading is drawn by the seed, within this of 'from'; 180: from anywhere"});
   v("roughness", c.roughness_m,
     {.unit = "m",
      .at_least = 0.0,

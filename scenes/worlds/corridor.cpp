@@ -4,10 +4,9 @@
 #include <cmath>
 
 #include "scenes/mesh/ground.h"
-#include "scenes/require.h"
+#include "scenes/random.h"
 #include "scenes/textures/room_textures.h"
 #include "scenes/textures/stone_textures.h"
-#include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {
@@ -15,30 +14,12 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr uint64_t kImageStream = 0, kOffsetStream = 1;  // of the scene's seed
+constexpr uint64_t kImageStream = 0, kOffsetStream = 1;  // of the scene's seed; the plan's is 2
 
 constexpr double kThicknessM = 0.2;  // of walls and ceiling
 constexpr double kPillarLengthM = 0.6;
 constexpr int kWalls = 3;  // images
 constexpr uint32_t kFloor = kWalls, kCeiling = kWalls + 1;
-
-void validate(const CorridorConfig& c) {
-  fields::require_bounds(c);
-  require(c.door_height_m <= c.height_m, "door_height", c.door_height_m, "at most the height");
-  require(!c.sections.empty(), "sections", 0.0, "at least one");
-  double width_m = c.width_m;
-  for (const CorridorSection& s : c.sections) {
-    const double end_m = s.width_m > 0.0 ? s.width_m : width_m;
-    require(end_m >= 0.5, "sections.width", end_m, "at least 0.5 m, or 0");
-    const double middle_width_m = 0.5 * (width_m + end_m);
-    require(s.doorway_m == 0.0 || (s.doorway_m >= 0.3 && s.doorway_m < middle_width_m), "sections.doorway", s.doorway_m,
-            "0, or 0.3 m to the corridor's width");
-    require(std::abs(s.obstacle_m) < middle_width_m, "sections.obstacle", s.obstacle_m,
-            "less than the corridor's width");
-    width_m = end_m;
-  }
-  require_texture_size(c.texture_size_px);
-}
 
 Vector2d to_the_right(const Vector2d& along_NE) { return {-along_NE.y(), along_NE.x()}; }
 
@@ -124,33 +105,9 @@ std::vector<cv::Mat> paint_corridor(const CorridorConfig& c, uint64_t seed) {
 
 }  // namespace
 
-CorridorPlan plan_corridor(const CorridorConfig& config) {
-  validate(config);
-  CorridorPlan plan;
-  const auto add_edges = [&](const Vector2d& middle, const Vector2d& before, const Vector2d& after, double width_m) {
-    // Across the bend; as long as it takes for both sections to be `width_m` wide there.
-    const Vector2d across = (to_the_right(before) + to_the_right(after)).normalized();
-    const Vector2d half = 0.5 * width_m / across.dot(to_the_right(after)) * across;
-    plan.middles_NE.push_back(middle);
-    plan.lefts_NE.push_back(middle - half);
-    plan.rights_NE.push_back(middle + half);
-  };
-  Vector2d middle = Vector2d::Zero(), along = Vector2d::UnitX();
-  double heading_rad = 0.0, width_m = config.width_m;
-  for (const CorridorSection& section : config.sections) {
-    heading_rad += section.bend_rad;
-    const Vector2d next(std::cos(heading_rad), std::sin(heading_rad));
-    add_edges(middle, plan.middles_NE.empty() ? next : along, next, width_m);
-    along = next;
-    middle += section.length_m * along;
-    if (section.width_m > 0.0) width_m = section.width_m;
-  }
-  add_edges(middle, along, along, width_m);
-  return plan;
-}
-
-Scene make_corridor(const CorridorConfig& config, uint64_t seed) {
-  const CorridorPlan plan = plan_corridor(config);
+Scene make_corridor(const CorridorConfig& written, uint64_t seed) {
+  const CorridorConfig config = draw_corridor(written, seed);
+  const CorridorPlan plan = plan_corridor(config, seed);
   Scene scene;
   scene.name = "corridor";
   scene.lights.ambient = 0.70f;

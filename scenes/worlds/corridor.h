@@ -38,6 +38,11 @@ void describe(Visitor& v, CorridorSection& c) {
 
 /// A corridor that begins at W's origin, closed by a wall, and heads north; each section carries on from the one
 /// before. Walls, doorways and pillars reach from floor to ceiling, but for the doors' lintels.
+///
+/// With `vary` the seed draws lengths, bends, doorways, pillars, and how much the corridor narrows or widens, each
+/// within that share of its own; the corridor's first width stays. All sections but the last are then turned and scaled
+/// as one, so that the last begins where it is written and heads as written, and is longer by up to the share: a goal
+/// in it stays in the middle of the corridor. Bends of 0 stay 0, but for the last section's.
 struct CorridorConfig {
   static constexpr std::string_view kName = "corridor";
   static constexpr std::string_view kMeaning = "a corridor of straight sections, with bends, doorways and pillars";
@@ -47,6 +52,7 @@ struct CorridorConfig {
   double door_height_m = 2.1;
   bool ceiling = true;
   std::vector<CorridorSection> sections = {{30.0}};
+  double vary = 0.0;
   double texture = 1.0, floor_texture = 1.0;
   int64_t texture_size_px = 512;
   Additions added;
@@ -60,6 +66,10 @@ void describe(Visitor& v, CorridorConfig& c) {
     {.unit = "m", .at_least = 0.5, .at_most = 100.0, .meaning = "of doorways, at most the height"});
   v("ceiling", c.ceiling, {.meaning = "false: open to the sky"});
   v("sections", c.sections, {.meaning = "from the origin on"});
+  v("vary", c.vary,
+    {.at_least = 0.0,
+     .at_most = 0.3,
+     .meaning = "share by which the seed varies lengths, bends, narrowings, doorways and pillars; 0: as written"});
   v("texture", c.texture, {.at_least = 0.0, .at_most = 1.0, .meaning = "contrast of the walls: 1 strong, 0 blank"});
   v("floor_texture", c.floor_texture,
     {.at_least = 0.0, .at_most = 1.0, .meaning = "contrast of floor and ceiling: 1 strong, 0 blank"});
@@ -76,10 +86,14 @@ struct CorridorPlan {
   std::vector<Eigen::Vector2d> middles_NE, lefts_NE, rights_NE;
 };
 
-/// @throws std::invalid_argument naming the field, its value and what is valid.
-CorridorPlan plan_corridor(const CorridorConfig& config);
+/// Returns the corridor that the seed makes of `config`; its `vary` is 0, so that it stays as it is.
+/// @throws std::invalid_argument naming the field, its value and what is valid for every seed.
+CorridorConfig draw_corridor(const CorridorConfig& config, uint64_t seed);
 
-/// Returns the corridor of `config`, a function of its arguments alone. Throws as plan_corridor() does.
+/// Returns the plan of the corridor that make_corridor() builds. Throws as draw_corridor() does.
+CorridorPlan plan_corridor(const CorridorConfig& config, uint64_t seed);
+
+/// Returns the corridor of `config`, a function of its arguments alone. Throws as draw_corridor() does.
 Scene make_corridor(const CorridorConfig& config, uint64_t seed);
 
 }  // namespace hedgehop::scenes::worlds

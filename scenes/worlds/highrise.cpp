@@ -1,8 +1,10 @@
 #include "scenes/worlds/highrise.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "scenes/mesh/ground.h"
+#include "scenes/random.h"
 #include "scenes/require.h"
 #include "scenes/textures/facade_textures.h"
 #include "scenes/textures/stone_textures.h"
@@ -29,10 +31,70 @@ struct Tower {
   }
 };
 
-std::vector<Tower> towers(const HighriseConfig& config) {
+constexpr uint64_t kTowerStream = 5;  // of the scene's seed; the images are streams 0 to 4
+
+// At scale 1, m.
+constexpr double kHighestM = 40.0, kLeastGapM = 4.0, kFarthestMoveM = 12.0;
+
+// The smallest gap between two of the footprints, along north or east.
+double least_gap_m(const std::vector<Tower>& towers) {
+  double least_m = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < towers.size(); ++i) {
+    for (size_t k = 0; k < i; ++k) {
+      const Tower &a = towers[i], &b = towers[k];
+      const double north_m = std::abs(a.north_m - b.north_m) - 0.5 * (a.side_north_m + b.side_north_m);
+      const double east_m = std::abs(a.east_m - b.east_m) - 0.5 * (a.side_east_m + b.side_east_m);
+      least_m = std::min(least_m, std::max(north_m, east_m));
+    }
+  }
+  return least_m;
+}
+
+// A tower near a plain one, inside `extent_W`: what sees all of the plain skyline sees all of this one.
+Tower draw_tower(const Tower& plain, const Eigen::AlignedBox3d& extent_W, double vary, Random& random) {
+  const auto resized = [&](double length_m) { return length_m * uniform(random, 1.0 - vary, 1.0 + vary); };
+  const auto moved = [&](double middle_m, double side_m, int axis) {
+    const double reach_m = vary * kFarthestMoveM;
+    const double low_m = std::max(middle_m - reach_m, extent_W.min()[axis] + 0.5 * side_m);
+    const double high_m = std::min(middle_m + reach_m, extent_W.max()[axis] - 0.5 * side_m);
+    return uniform(random, low_m, high_m);
+  };
+  // Draws stand in statements of their own: the order of evaluation of arguments is unspecified.
+  Tower tower = plain;
+  tower.side_north_m = resized(plain.side_north_m);
+  tower.side_east_m = resized(plain.side_east_m);
+  tower.height_m = resized(plain.height_m);
+  tower.spire_m = resized(plain.spire_m);
+  const double lower = std::min(1.0, kHighestM / (tower.height_m + tower.spire_m));
+  tower.height_m *= lower;
+  tower.spire_m *= lower;
+  tower.north_m = moved(plain.north_m, tower.side_north_m, 0);
+  tower.east_m = moved(plain.east_m, tower.side_east_m, 1);
+  return tower;
+}
+
+// Draws skylines until the towers of one are far enough apart.
+std::vector<Tower> draw_skyline(const std::vector<Tower>& plain, double vary, uint64_t seed) {
+  constexpr int kTries = 1000;  // of which a seventh and more succeed
+  Eigen::AlignedBox3d extent_W;
+  for (const Tower& tower : plain) extent_W.extend(tower.box_W());
+  Random random(derived_seed(seed, kTowerStream));
+  for (int attempt = 0; attempt < kTries; ++attempt) {
+    std::vector<Tower> drawn;
+    for (const Tower& tower : plain) drawn.push_back(draw_tower(tower, extent_W, vary, random));
+    if (least_gap_m(drawn) >= kLeastGapM) return drawn;
+  }
+  return plain;
+}
+
+std::vector<Tower> towers(const HighriseConfig& config, uint64_t seed) {
   std::vector<Tower> towers = {
       {6, -18, 12, 10, 34, 0}, {-8, -4, 9, 9, 22, 6}, {12, 2, 8, 10, 30, 10}, {-4, 18, 11, 9, 26, 7}};
-  if (config.layout == HighriseConfig::Layout::cube) towers = {{0, 0, 18, 18, 18, 0}};
+  if (config.layout == HighriseConfig::Layout::cube) {
+    towers = {{0, 0, 18, 18, 18, 0}};
+  } else if (config.vary > 0.0) {
+    towers = draw_skyline(towers, config.vary, seed);
+  }
   for (Tower& t : towers) {
     for (double* length : {&t.north_m, &t.east_m, &t.side_north_m, &t.side_east_m, &t.height_m, &t.spire_m})
       *length *= config.scale;
@@ -95,9 +157,9 @@ std::vector<cv::Mat> paint_highrise(const HighriseConfig& config, uint64_t seed)
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> highrise_corners(const HighriseConfig& config) {
+std::vector<Eigen::Vector3d> highrise_corners(const HighriseConfig& config, uint64_t seed) {
   std::vector<Vector3d> corners;
-  for (const Tower& tower : towers(config)) {
+  for (const Tower& tower : towers(config, seed)) {
     for (const Vector3d& corner : box_corners(tower.box_W())) corners.push_back(corner);
     if (tower.spire_m > 0.0) corners.push_back(tower.top_W());
   }
@@ -115,7 +177,7 @@ Scene make_highrise(const HighriseConfig& config, uint64_t seed) {
   mesh::MeshBuilder mesh("opaque");
   mesh::add_ground(half_m, {kGrass, textures::kGrassTileM}, mesh);
   uint32_t wall = kFirstWall;
-  for (const Tower& tower : towers(config)) {
+  for (const Tower& tower : towers(config, seed)) {
     const std::string name = "tower " + std::to_string(wall - kFirstWall + 1);
     const Eigen::AlignedBox3d box_W = tower.box_W();
     mesh.begin_chunk(true);
@@ -134,7 +196,7 @@ Scene make_highrise(const HighriseConfig& config, uint64_t seed) {
     scene.shortest_edge_m = std::min(scene.shortest_edge_m, tower.shortest_edge_m());
     ++wall;
   }
-  scene.corners_W = highrise_corners(config);
+  scene.corners_W = highrise_corners(config, seed);
   scene.meshes.push_back(mesh.finish());
   return scene;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scenes/mesh/ground.h"
+#include "scenes/random.h"
 #include "scenes/require.h"
 #include "scenes/textures/stone_textures.h"
 #include "scenes/textures/street_textures.h"
@@ -12,17 +13,32 @@
 namespace hedgehop::scenes::worlds {
 namespace {
 
-constexpr uint64_t kGrassStream = 0, kWallStream = 1;  // of the scene's seed
+constexpr uint64_t kGrassStream = 0, kWallStream = 1, kPlanStream = 2;  // of the scene's seed
 
+// Refuses what any seed could make impossible.
 void validate(const WallConfig& c) {
   fields::require_bounds(c);
   require_texture_size(c.texture_size_px);
   if (!c.opening) return;
   const WallOpening& o = *c.opening;
-  require(o.bottom_m + o.height_m <= c.height_m, "opening.bottom", o.bottom_m,
+  const double largest = 1.0 + c.vary;
+  require(largest * (o.bottom_m + o.height_m) <= c.height_m, "opening.bottom", o.bottom_m,
           "at most the wall's height less the opening's");
-  require(std::abs(o.middle_m) + 0.5 * o.width_m <= 0.5 * c.width_m, "opening.middle", o.middle_m,
+  require(largest * (std::abs(o.middle_m) + 0.5 * o.width_m) <= 0.5 * c.width_m, "opening.middle", o.middle_m,
           "such that the opening lies inside the wall");
+}
+
+WallConfig draw_wall(const WallConfig& config, uint64_t seed) {
+  WallConfig drawn = config;
+  if (config.vary == 0.0) return drawn;
+  Random random(derived_seed(seed, kPlanStream));
+  const auto vary = [&](double& length_m) { length_m *= uniform(random, 1.0 - config.vary, 1.0 + config.vary); };
+  vary(drawn.north_m);
+  if (drawn.opening) {
+    WallOpening& o = *drawn.opening;
+    for (double* length_m : {&o.middle_m, &o.bottom_m, &o.width_m, &o.height_m}) vary(*length_m);
+  }
+  return drawn;
 }
 
 cv::Mat paint(WallConfig::Surface surface, int size_px, uint64_t seed) {
@@ -39,8 +55,9 @@ cv::Mat paint(WallConfig::Surface surface, int size_px, uint64_t seed) {
 
 }  // namespace
 
-Scene make_wall(const WallConfig& config, uint64_t seed) {
-  validate(config);
+Scene make_wall(const WallConfig& written, uint64_t seed) {
+  validate(written);
+  const WallConfig config = draw_wall(written, seed);
   const int size_px = static_cast<int>(config.texture_size_px);
   Scene scene;
   scene.name = "wall";

@@ -24,7 +24,8 @@ void describe(Visitor& v, WallOpening& c) {
   v("height", c.height_m, {.unit = "m", .above = 0.0, .meaning = "of the opening"});
 }
 
-/// A free-standing wall on a meadow, from west to east; its south side stands at `north`.
+/// A free-standing wall on a meadow, from west to east; its south side stands at `north`. With `vary` the seed draws
+/// that distance, and the place and the size of the opening, each within that share of its own.
 struct WallConfig {
   static constexpr std::string_view kName = "wall";
   static constexpr std::string_view kMeaning = "a wall across the path, with an optional opening";
@@ -36,6 +37,7 @@ struct WallConfig {
   double thickness_m = 0.4;
   Surface surface = Surface::brick;
   std::optional<WallOpening> opening;
+  double vary = 0.0;
   int64_t texture_size_px = 512;
   Additions added;
 };
@@ -50,6 +52,10 @@ void describe(Visitor& v, WallConfig& c) {
     {.choices = {"brick", "clouded", "blank"},
      .meaning = "bricks; soft light and dark without a corner; one color all over"});
   v("opening", c.opening, {.meaning = "a hole in the wall"});
+  v("vary", c.vary,
+    {.at_least = 0.0,
+     .at_most = 0.3,
+     .meaning = "share by which the seed varies the wall's distance and its opening; 0: as written"});
   v("texture_size", c.texture_size_px,
     {.unit = "px",
      .at_least = 64.0,

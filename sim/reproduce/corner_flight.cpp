@@ -123,14 +123,16 @@ Eigen::Isometry3d looking_at(const Eigen::Vector3d& p_WC, const Eigen::Vector3d&
 }
 
 CornerFlight cube_lateral_flight() {
-  return lateral(scenes::worlds::highrise_corners({.layout = scenes::worlds::HighriseConfig::Layout::cube}),
+  return lateral(scenes::worlds::highrise_corners({.layout = scenes::worlds::HighriseConfig::Layout::cube}, 1),
                  {0, 0, -9});
 }
 
-CornerFlight highrise_lateral_flight() { return lateral(scenes::worlds::highrise_corners({.scale = 0.5}), {0, 0, -7}); }
+CornerFlight highrise_lateral_flight() {
+  return lateral(scenes::worlds::highrise_corners({.scale = 0.5}, 1), {0, 0, -7});
+}
 
 CornerFlight highrise_forward_flight() {
-  CornerFlight flight = lateral(scenes::worlds::highrise_corners({}), {0, 0, 0});
+  CornerFlight flight = lateral(scenes::worlds::highrise_corners({}, 1), {0, 0, 0});
   flight.duration_s = 125.0;
   flight.X_WC = [](double t_s) {
     const Eigen::Vector3d p_WC(-120.0 + 1.4 * kFeetM * t_s, 0.0, -kAltitudeM);

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <variant>
 
+#include "sim/scenario/random_stream.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -63,7 +65,8 @@ CorridorPlace corridor_place(const scenes::worlds::CorridorPlan& plan, const Vec
 std::vector<MetricValue> corridor_metrics(const Scenario& scenario, const Flight& flight) {
   const auto* corridor = std::get_if<scenes::worlds::CorridorConfig>(&scenario.scene);
   if (!corridor || flight.trajectory.empty()) return {};
-  const scenes::worlds::CorridorPlan plan = scenes::worlds::plan_corridor(*corridor);
+  const scenes::worlds::CorridorPlan plan =
+      scenes::worlds::plan_corridor(*corridor, stream_seed(scenario.seed, kSceneStream));
   std::vector<double> offs_m;
   double late_m = std::numeric_limits<double>::quiet_NaN();
   constexpr double kSettledM = 15.0;

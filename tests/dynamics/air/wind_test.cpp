@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -261,6 +262,19 @@ TEST(Wind, ShearFollowsTheLogarithmOfTheHeight) {
 TEST(Wind, SteadyWindComesFromWhereItSays) {
   Wind wind({.speed_mps = 5.0, .from_rad = std::numbers::pi / 2.0}, 1);  // from the east
   EXPECT_LT((wind.sample(10.0, {1, 2, 3}, 0.002) - Eigen::Vector3d{0.0, -5.0, 0.0}).norm(), 1e-12);
+}
+
+TEST(Wind, ComesFromAnywhereInItsSpreadBySeed) {
+  double least = 9.0, most = -9.0;
+  for (uint64_t seed = 1; seed <= 500; ++seed) {
+    const Eigen::Vector3d air_W = Wind({.speed_mps = 5.0, .from_rad = 0.5, .spread_rad = 0.7}, seed).steady_W(10.0);
+    EXPECT_NEAR(air_W.norm(), 5.0, 1e-12);
+    least = std::min(least, std::atan2(-air_W.y(), -air_W.x()));
+    most = std::max(most, std::atan2(-air_W.y(), -air_W.x()));
+  }
+  constexpr double kGap = 0.02;  // the chance that 500 draws all miss this much of either end is below 1e-3
+  EXPECT_NEAR(least, -0.2 + 0.5 * kGap, 0.5 * kGap);
+  EXPECT_NEAR(most, 1.2 - 0.5 * kGap, 0.5 * kGap);
 }
 
 TEST(Wind, TurbulenceStandsUponTheSteadyWindAndTurnsWithIt) {

@@ -164,7 +164,7 @@ TEST(Corridor, LetsNobodyOutAtItsBends) {
   CorridorConfig config{.texture_size_px = kSmallPx};
   config.sections = {{6.0}, {6.0, 0.785}, {6.0, -0.785}, {6.0, -0.35, 1.8}, {6.0, 0.52}};
   const Scene scene = make_corridor(config, 2);
-  const CorridorPlan plan = plan_corridor(config);
+  const CorridorPlan plan = plan_corridor(config, 2);
   for (const std::vector<Vector2d>& wall : {plan.lefts_NE, plan.rights_NE}) {
     for (size_t k = 0; k < wall.size(); ++k) {
       const Vector2d out = (wall[k] - plan.middles_NE[k]).normalized();
@@ -217,7 +217,7 @@ TEST(Highrise, HasEightCornersOrThirtyFiveAndDrawsThem) {
   for (const auto& [layout, count] :
        {std::pair{HighriseConfig::Layout::cube, 8u}, {HighriseConfig::Layout::skyline, 35u}}) {
     const HighriseConfig config{.layout = layout, .texture_size_px = kSmallPx};
-    const std::vector<Vector3d> corners = highrise_corners(config);
+    const std::vector<Vector3d> corners = highrise_corners(config, 1);
     EXPECT_EQ(corners.size(), count);
     const Scene scene = make_highrise(config, 1);
     EXPECT_EQ(scene.corners_W, corners);

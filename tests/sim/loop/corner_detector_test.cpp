@@ -32,7 +32,7 @@ const vision::camera::Camera kCamera = vision::camera::PinholeCamera::from_fov(6
 
 TEST(CornerDetector, ScattersByItsNoiseAroundTheProjections) {
   const std::vector<Vector3d> corners =
-      scenes::worlds::highrise_corners({.layout = scenes::worlds::HighriseConfig::Layout::cube});
+      scenes::worlds::highrise_corners({.layout = scenes::worlds::HighriseConfig::Layout::cube}, 1);
   const Eigen::Isometry3d X_WC = looking_south();
   constexpr double kNoisePx = 0.8;
   CornerDetector detector(corners, kNoisePx, 11);

@@ -26,7 +26,7 @@ CollisionWorld cube_world() {
 // A corner of a box is seen exactly when one of its three faces is turned to the camera.
 TEST(CornersInSight, OfABoxAreThoseOfTheFacesTurnedToTheCamera) {
   const CollisionWorld world = cube_world();
-  const std::vector<Vector3d> corners = scenes::worlds::highrise_corners(kCube);
+  const std::vector<Vector3d> corners = scenes::worlds::highrise_corners(kCube, 1);
   const vision::camera::Camera camera = vision::camera::PinholeCamera::from_fov(640, 640, std::numbers::pi / 2.0);
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> side(-60.0, 60.0), height(1.0, 60.0);
@@ -55,7 +55,7 @@ TEST(CornersInSight, OfABoxAreThoseOfTheFacesTurnedToTheCamera) {
 }
 
 TEST(CornersInSight, AreAllInTheImageThroughWalls) {
-  const std::vector<Vector3d> corners = scenes::worlds::highrise_corners(kCube);
+  const std::vector<Vector3d> corners = scenes::worlds::highrise_corners(kCube, 1);
   const vision::camera::Camera camera = vision::camera::PinholeCamera::from_fov(640, 640, std::numbers::pi / 3.0);
   const auto seen = corners_in_sight(corners, camera, looking_at({-50, 3, -40}, {0, 0, -9}), nullptr, 0.0);
   EXPECT_EQ(std::ranges::count(seen, true), 8);

@@ -23,7 +23,7 @@ double metric(const std::vector<MetricValue>& metrics, const std::string& name) 
 }
 
 TEST(CorridorPlace, MeasuresToBothWallsOfAStraightCorridor) {
-  const CorridorPlace place = corridor_place(scenes::worlds::plan_corridor(straight_corridor()), {7.0, -1.5});
+  const CorridorPlace place = corridor_place(scenes::worlds::plan_corridor(straight_corridor(), 1), {7.0, -1.5});
   EXPECT_NEAR(place.left_m, 0.5, 1e-12);
   EXPECT_NEAR(place.right_m, 3.5, 1e-12);
   EXPECT_NEAR(place.along_m, 7.0, 1e-12);
@@ -33,7 +33,7 @@ TEST(CorridorPlace, FollowsABendAndATaper) {
   scenes::worlds::CorridorConfig corridor = straight_corridor();
   const double bend_rad = std::numbers::pi / 6.0;
   corridor.sections = {{10.0}, {.length_m = 10.0, .bend_rad = bend_rad}, {.length_m = 10.0, .width_m = 2.0}};
-  const scenes::worlds::CorridorPlan plan = scenes::worlds::plan_corridor(corridor);
+  const scenes::worlds::CorridorPlan plan = scenes::worlds::plan_corridor(corridor, 1);
   const Eigen::Vector2d along(std::cos(bend_rad), std::sin(bend_rad)), right(-along.y(), along.x());
   const CorridorPlace bent = corridor_place(plan, Eigen::Vector2d(10, 0) + 6.0 * along + 0.7 * right);
   EXPECT_NEAR(bent.left_m, 2.7, 1e-12);
