@@ -10,9 +10,9 @@
 #include "sim/export/euroc.h"
 #include "sim/export/kitti.h"
 #include "sim/export/tum.h"
-#include "sim/loop/mounting.h"
 #include "sim/record/image_file.h"
 #include "sim/record/whole_file.h"
+#include "sim/scenario/mounting.h"
 #include "sim/simulation/simulation.h"
 
 namespace hedgehop::sim {

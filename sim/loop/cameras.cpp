@@ -6,8 +6,8 @@
 #include <functional>
 #include <stdexcept>
 
-#include "sim/loop/mounting.h"
 #include "sim/scenario/input_error.h"
+#include "sim/scenario/mounting.h"
 #include "sim/scenario/random_stream.h"
 
 namespace hedgehop::sim {

@@ -12,8 +12,8 @@
 
 #include "scenes/generators.h"
 #include "sim/loop/imperfections.h"
-#include "sim/loop/mounting.h"
 #include "sim/render/renderer.h"
+#include "sim/scenario/mounting.h"
 #include "sim/scenario/scenario.h"
 #include "vision/stereo/disparity.h"
 #include "vision/stereo/stereo_matcher.h"

@@ -1,4 +1,4 @@
-#include "sim/loop/mounting.h"
+#include "sim/scenario/mounting.h"
 
 #include <cmath>
 
