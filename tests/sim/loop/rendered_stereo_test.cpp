@@ -13,6 +13,7 @@
 #include "scenes/generators.h"
 #include "sim/loop/imperfections.h"
 #include "sim/render/renderer.h"
+#include "tests/vision/real_data.h"
 #include "vision/stereo/disparity.h"
 #include "vision/stereo/stereo_matcher.h"
 
@@ -53,8 +54,7 @@ Shares score(const std::vector<StereoPair>& pairs, Method method) {
 }
 
 StereoPair real_pair(const std::string& name, const std::string& truth, double scale, int disparities_px) {
-  const std::filesystem::path folder =
-      std::filesystem::path(HEDGEHOP_SOURCE_DIR) / "../shared/data/vision/stereo" / name;
+  const std::filesystem::path folder = vision::kRealData / "stereo" / name;
   StereoPair pair{.disparities_px = disparities_px};
   pair.left = cv::imread((folder / "left.png").string(), cv::IMREAD_GRAYSCALE);
   pair.right = cv::imread((folder / "right.png").string(), cv::IMREAD_GRAYSCALE);
@@ -160,7 +160,7 @@ std::vector<Shares> scores(const Pairs& worlds, Method method, const std::string
 // The images have no sensor noise, so that pairs are easier. The noise is that of a small
 // camera in dull light: four grey levels at mid-grey.
 TEST(RenderedStereo, IsAsHardToMatchAsRealPairsWithinAThird) {
-  if (!std::filesystem::exists(HEDGEHOP_SOURCE_DIR "/../shared/data/vision/stereo")) GTEST_SKIP() << "no real pairs";
+  HEDGEHOP_NEEDS_REAL_DATA(vision::kRealData / "stereo");
   const Pairs real = real_worlds(), clean = rendered_worlds({});
   const Pairs noisy = rendered_worlds({.full_well = 3000.0, .read_noise = 2.0});
   constexpr double kThird = 1.0 / 3.0;
