@@ -43,12 +43,12 @@ void validate(const CorridorConfig& c) {
   double width_m = c.width_m;
   for (const CorridorSection& s : c.sections) {
     const double end_m = s.width_m > 0.0 ? least(s.width_m) : width_m;
-    require(end_m >= 0.5, "sections.width", end_m, "at least 0.5 m, or 0");
+    require(end_m >= 0.5, "sections.width", end_m, "at least 0.5 m, varied too, or 0");
     const double middle_width_m = 0.5 * (width_m + end_m);
     require(s.doorway_m == 0.0 || (smallest * s.doorway_m >= 0.3 && largest * s.doorway_m < middle_width_m),
-            "sections.doorway", s.doorway_m, "0, or 0.3 m to the corridor's width");
+            "sections.doorway", s.doorway_m, "0, or 0.3 m to the corridor's width, varied too");
     require(largest * std::abs(s.obstacle_m) < middle_width_m, "sections.obstacle", s.obstacle_m,
-            "less than the corridor's width");
+            "less than the corridor's width, varied too");
     width_m = end_m;
   }
   const Approach written = approach(c.sections);

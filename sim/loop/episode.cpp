@@ -155,8 +155,8 @@ void Episode::observe_map() {
   const double t_s = ticks_.t_s(tick_);
   avoidance::Map map = pilot_.module().map();
   if (const std::optional<size_t> camera = pilot_.first_camera(); camera && map_observer_) {
-    map_observer_->on_map({t_s, map, cameras_.truly_mounted(*camera), aircraft_.X_WB(), p_WB_start_, *scene_, collision_,
-                           pilot_.sees_through_walls()});
+    map_observer_->on_map({t_s, map, cameras_.truly_mounted(*camera), aircraft_.X_WB(), p_WB_start_, *scene_,
+                           collision_, pilot_.sees_through_walls()});
   }
   map_log_.add(t_s, std::move(map));
 }

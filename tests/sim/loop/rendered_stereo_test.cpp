@@ -15,6 +15,7 @@
 #include "sim/render/renderer.h"
 #include "sim/scenario/mounting.h"
 #include "sim/scenario/scenario.h"
+#include "tests/vision/real_data.h"
 #include "vision/stereo/disparity.h"
 #include "vision/stereo/stereo_matcher.h"
 
@@ -55,8 +56,7 @@ Shares score(const std::vector<StereoPair>& pairs, Method method) {
 }
 
 StereoPair real_pair(const std::string& name, const std::string& truth, double scale, int disparities_px) {
-  const std::filesystem::path folder =
-      std::filesystem::path(HEDGEHOP_SOURCE_DIR) / "../shared/data/vision/stereo" / name;
+  const std::filesystem::path folder = vision::kRealData / "stereo" / name;
   StereoPair pair{.disparities_px = disparities_px};
   pair.left = cv::imread((folder / "left.png").string(), cv::IMREAD_GRAYSCALE);
   pair.right = cv::imread((folder / "right.png").string(), cv::IMREAD_GRAYSCALE);
@@ -184,7 +184,7 @@ std::vector<Shares> scores(const Pairs& worlds, Method method, const std::string
 
 // As the headlines fly: images by day, and a pair that misses its calibration.
 TEST(RenderedStereo, IsAsHardToMatchAsRealPairsWithinAThird) {
-  if (!std::filesystem::exists(HEDGEHOP_SOURCE_DIR "/../shared/data/vision/stereo")) GTEST_SKIP() << "no real pairs";
+  HEDGEHOP_NEEDS_REAL_DATA(vision::kRealData / "stereo");
   const Pairs real = real_worlds(), clean = rendered_worlds({});
   const Pairs day = rendered_worlds(flown_rig("day")), dull = rendered_worlds(flown_rig("dull"));
   constexpr double kThird = 1.0 / 3.0;

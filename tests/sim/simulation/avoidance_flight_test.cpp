@@ -56,7 +56,8 @@ avoidance: {module: stereo_corridor, speed: 5, target_distance: 30, stereo: {met
                  /*clearance_m=*/1.5, "tree", "5");
 }
 
-// Without noise: in pairs this small it makes false matches, by which the module wanders, clear of the tree but for long.
+// Without noise, which in pairs this small makes false matches: the module then wanders, clear of the tree, past its
+// time.
 TEST(AvoidanceFlight, SectionGridPassesATree) {
   expect_avoided("section_grid", R"(
 duration: 40

@@ -12,12 +12,12 @@
 #include <sstream>
 
 #include "tests/vision/camera/random_lenses.h"
+#include "tests/vision/real_data.h"
 
-/// Real calibrations stand beside the source tree where there are any.
 namespace hedgehop::vision::camera {
 namespace {
 
-const std::filesystem::path kCalibrations = std::filesystem::path(HEDGEHOP_SOURCE_DIR) / "../shared/data/vision/ocam";
+const std::filesystem::path kCalibrations = kRealData / "ocam";
 constexpr double kRoundTripPx = 0.05;
 
 std::string text_of(const std::filesystem::path& file) {
@@ -41,7 +41,7 @@ class RealCalibration : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
     const std::filesystem::path file = kCalibrations / GetParam() / "calib_results.txt";
-    if (!std::filesystem::exists(file)) GTEST_SKIP() << "no calibration " << file.string();
+    HEDGEHOP_NEEDS_REAL_DATA(file);
     calibration_ = parse_ocam_calibration(text_of(file));
   }
   OcamCalibration calibration_;
@@ -90,7 +90,7 @@ std::vector<std::vector<double>> read_table(const std::filesystem::path& file) {
 // Corners of a chessboard as found in real images, and where the board was: the published mean errors come out.
 TEST(OcamLens, ReprojectsAChessboardAsWellAsPublished) {
   const std::filesystem::path folder = kCalibrations / "board";
-  if (!std::filesystem::exists(folder / "corners.csv")) GTEST_SKIP() << "no chessboard " << folder.string();
+  HEDGEHOP_NEEDS_REAL_DATA(folder / "corners.csv");
   const Camera camera(parse_ocam_calibration(text_of(folder / "calib_results.txt")));
   const std::map<int, double> published_px = {{1, 0.2680}, {2, 0.2265}, {6, 0.2056}, {11, 0.1899}, {13, 0.1825}};
   std::map<int, std::pair<double, int>> errors;

@@ -9,14 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "tests/vision/real_data.h"
 #include "vision/flow/draw_flow.h"
 #include "vision/flow/image_interpolation_flow.h"
 
-/// Real image pairs with measured flow (Middlebury, Baker et al. 2011), beside the source tree where there are any.
+/// Real image pairs with measured flow (Middlebury, Baker et al. 2011).
 namespace hedgehop::vision::flow {
 namespace {
-
-const std::filesystem::path kImages = std::filesystem::path(HEDGEHOP_SOURCE_DIR) / "../shared/data/vision/flow";
 
 cv::Mat read_flow(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -39,8 +38,8 @@ struct Case {
 class FlowOnRealImages : public testing::TestWithParam<Case> {};
 
 TEST_P(FlowOnRealImages, IsNearTheTrueMeanFlowOfEachPatch) {
-  const std::filesystem::path folder = kImages / GetParam().name;
-  if (!std::filesystem::exists(folder / "gt.flo")) GTEST_SKIP() << "no image pair " << GetParam().name;
+  const std::filesystem::path folder = kRealData / "flow" / GetParam().name;
+  HEDGEHOP_NEEDS_REAL_DATA(folder / "gt.flo");
   const cv::Mat older = cv::imread((folder / "frame1.png").string(), cv::IMREAD_GRAYSCALE);
   const cv::Mat newer = cv::imread((folder / "frame2.png").string(), cv::IMREAD_GRAYSCALE);
   const cv::Mat truth = read_flow(folder / "gt.flo");
