@@ -121,8 +121,9 @@ CheckResult evaluate(const PathToleranceCheck& check, const Evidence& e) {
   double value_m = kNaN;
   if (check.measure == Measure::band) {
     // At its goal a flight may be early; one that stopped elsewhere has not flown the rest, wherever that leads.
+    constexpr double kRoundedS = 1e-3;  // as the reference's times are
     const double early_s = reference.points.back().t_s - flown.back().t_s;
-    if (early_s > reference.step_s && e.flight.result.outcome != Outcome::reached) {
+    if (early_s > kRoundedS && e.flight.result.outcome != Outcome::reached) {
       return {name, false, flown.back().t_s, reference.points.back().t_s, "s"};
     }
     value_m = largest_deviation_m(flown, reference.points);

@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "scenes/worlds/highrise.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -45,6 +47,14 @@ TEST(MapScore, ToleranceIsAMeterButNoMoreThanAQuarterOfTheShortestEdge) {
   EXPECT_EQ(MapScore::tolerance_m(std::numeric_limits<double>::infinity()), 1.0);
   EXPECT_EQ(MapScore::tolerance_m(10.0), 1.0);
   EXPECT_EQ(MapScore::tolerance_m(2.0), 0.5);
+}
+
+// The plain skyline's shortest edge is the 8 m of its third tower; its spires' edges are longer.
+TEST(MapScore, KnowsTheShortestEdgeOfTheHighrises) {
+  using scenes::worlds::HighriseConfig;
+  EXPECT_NEAR(scenes::worlds::make_highrise({.scale = 0.5}, 1).shortest_edge_m, 4.0, 1e-12);
+  EXPECT_NEAR(scenes::worlds::make_highrise({.layout = HighriseConfig::Layout::cube}, 1).shortest_edge_m, 18.0, 1e-12);
+  EXPECT_NEAR(MapScore::tolerance_m(scenes::worlds::make_highrise({.scale = 0.1}, 1).shortest_edge_m), 0.2, 1e-12);
 }
 
 // Four points about one corner are one landmark and three false ones, and the corner beside it is not found by them.
