@@ -85,6 +85,8 @@ std::vector<MetricValue> corridor_metrics(const Scenario& scenario, const Flight
     metrics.push_back({"centering_error_mean", mean(deviations), ""});
     metrics.push_back({"centering_error_median", deviations[deviations.size() / 2], ""});
     metrics.push_back({"centering_error_max", deviations.back(), ""});
+    const double decisions = static_cast<double>(flight.decisions.size());
+    metrics.push_back({"centering_known_share", static_cast<double>(deviations.size()) / decisions, ""});
   }
   return metrics;
 }

@@ -24,7 +24,8 @@ CorridorPlace corridor_place(const scenes::worlds::CorridorPlan& plan, const Eig
 /// - off_middle_mean_m, off_middle_max_m, and off_middle_after_15m_m, the largest from 15 m of corridor past the start
 ///   on: the vehicle's distance from the middle;
 /// - for a module with a signal `centering_error`, centering_error_mean, _median, _max: half its difference from the
-///   truth, so as a share of the corridor's width, over all decisions that know it.
+///   truth, so as a share of the corridor's width, over all decisions that know it, and centering_known_share, of
+///   all decisions: a module that says nothing errs in nothing.
 /// Source: [Zingg2010] sec. V-B and fig. 9.
 std::vector<MetricValue> corridor_metrics(const Scenario& scenario, const Flight& flight);
 

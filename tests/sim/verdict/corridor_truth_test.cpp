@@ -76,6 +76,7 @@ TEST(CorridorMetrics, DeviationsAreSharesOfTheCorridorsWidth) {
   EXPECT_NEAR(metric(metrics, "centering_error_mean"), (0.01 + 0.03 + 0.15) / 3.0, 1e-12);
   EXPECT_NEAR(metric(metrics, "centering_error_median"), 0.03, 1e-12);
   EXPECT_NEAR(metric(metrics, "centering_error_max"), 0.15, 1e-12);
+  EXPECT_DOUBLE_EQ(metric(metrics, "centering_known_share"), 0.75);
 }
 
 TEST(CorridorMetrics, OffTheMiddleIsTheVehiclesOwn) {
