@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 /// Relative to the folder unless nothing but the root, or little more, is above both.
 std::string name_of(const fs::path& file, const fs::path& folder) {
   constexpr auto kFarthest = 3;  // folders up: a world of configs/leaderboard/worlds names a rig of configs/rigs
-  const fs::path whole = fs::absolute(file).lexically_normal(), from = fs::absolute(folder / "").lexically_normal();
+  const fs::path whole = fs::absolute(file).lexically_normal(), from = fs::absolute(folder / ".").lexically_normal();
   const fs::path relative = whole.lexically_relative(from);
   const auto ups = std::ranges::count(relative, fs::path(".."));
   const auto depth = std::ranges::count_if(from, [](const fs::path& part) { return !part.empty() && part != "/"; });
