@@ -30,25 +30,35 @@ Json group_json(const GroupSummary& group) {
               {"fault", group.fault},
               {"failed", group.failed},
               {"missing", group.missing},
+              {"no_checks", group.unchecked},
               {"least_clearance_m", number(group.least_clearance_m)},
               {"median_clearance_m", number(group.median_clearance_m)},
               {"median_time_s", number(group.median_time_s)}};
 }
 
 Json flight_json(const FlightRecord& record) {
-  return Json{
-      {"id", record.order.id},     {"group", record.order.group},   {"scenario", record.order.scenario.string()},
-      {"seed", record.order.seed}, {"set", record.order.overrides}, {"status", std::string(to_string(record.status))},
-      {"passed", passed(record)},  {"cause", record.cause},         {"command", rerun_command(record.order)},
-      {"result", record.result}};
+  return Json{{"id", record.order.id},
+              {"group", record.order.group},
+              {"scenario", record.order.scenario.string()},
+              {"seed", record.order.seed},
+              {"set", record.order.overrides},
+              {"status", std::string(to_string(record.status))},
+              {"passed", unchecked(record) ? Json(nullptr) : Json(passed(record))},
+              {"cause", record.cause},
+              {"command", rerun_command(record.order)},
+              {"result", record.result}};
 }
 
 std::string group_row(const GroupSummary& g) {
   const Interval interval = wilson_interval(g.success, kConfidence);
-  return fmt::format("| {} | {} | {} | {:.2f} to {:.2f} | {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.0f} |\n",
-                     g.group, g.flights, g.success.successes, interval.low, interval.high, g.reached, g.collided,
-                     g.timeout, g.fault + g.failed, g.missing, g.least_clearance_m, g.median_clearance_m,
-                     g.median_time_s);
+  std::string success = fmt::format("{} | {:.2f} to {:.2f}", g.success.successes, interval.low, interval.high);
+  if (g.unchecked > 0) {
+    success = g.success.trials == 0 ? fmt::format("{} | -", kNoChecks)
+                                    : fmt::format("{}; {} of {}", success, kNoChecks, g.unchecked);
+  }
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.0f} |\n", g.group, g.flights,
+                     success, g.reached, g.collided, g.timeout, g.fault + g.failed, g.missing, g.least_clearance_m,
+                     g.median_clearance_m, g.median_time_s);
 }
 
 }  // namespace
@@ -75,13 +85,13 @@ std::string batch_json(const std::vector<FlightRecord>& records, const std::vect
 
 std::string summary_text(const std::vector<FlightRecord>& records, const std::vector<GroupVerdict>& verdicts) {
   std::string text =
-      several_builds_words(records) +
+      several_builds_words(records) + truth_words(records) +
       "| scenario | flights | passed | 95 % interval | reached | collided | timeout | fault | missing | least "
       "clearance, m | median least clearance, m | median time, s "
       "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const GroupSummary& group : summarize(records)) text += group_row(group);
   for (const FlightRecord& record : records) {
-    if (record.status == FlightRecord::Status::missing || passed(record)) continue;
+    if (record.status == FlightRecord::Status::missing || passed(record) || unchecked(record)) continue;
     text +=
         fmt::format("FAIL  {}: {}\n      {}\n", record.order.id, failure_words(record), rerun_command(record.order));
   }
@@ -94,6 +104,7 @@ std::string summary_text(const std::vector<FlightRecord>& records, const std::ve
 
 std::string failure_words(const FlightRecord& record) {
   if (passed(record)) return "";
+  if (unchecked(record)) return std::string(kNoChecks);
   if (record.status != FlightRecord::Status::flown) return record.cause;
   std::string words = record.result.at("outcome").get<std::string>();
   if (const std::string cause = record.result.value("cause", ""); !cause.empty()) words += " (" + cause + ")";

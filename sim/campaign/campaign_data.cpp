@@ -23,8 +23,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kConfidence = 0.95;
 constexpr size_t kMostStripBytes = 2'500'000;  // of a page that is to stay below 10 MB; in base64 a third more
-const std::set<std::string> kWordColumns = {"id",      "group", "scenario",        "status",
-                                            "outcome", "cause", "trajectory_hash", "command"};
+const std::set<std::string> kWordColumns = {"id",    "group",           "scenario", "status", "outcome",
+                                            "cause", "trajectory_hash", "command",  "build",  "truth_used"};
 
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -70,6 +70,7 @@ Json group_row(const GroupSummary& group) {
           {"timeout", group.timeout},
           {"broken", group.fault + group.failed},
           {"missing", group.missing},
+          {"no_checks", group.unchecked},
           {"least_clearance_m", finite(group.least_clearance_m)},
           {"median_clearance_m", finite(group.median_clearance_m)},
           {"median_time_s", finite(group.median_time_s)}};
@@ -132,7 +133,7 @@ std::vector<FlightNotes> read_notes(const std::filesystem::path& folder, const s
   std::vector<FlightNotes> notes(records.size());
   for (size_t i = 0; i < records.size(); ++i) {
     const std::filesystem::path flight = folder / records[i].order.id;
-    notes[i].why = passed(records[i]) ? "" : outcome_words(records[i]);
+    notes[i].why = passed(records[i]) ? "" : unchecked(records[i]) ? std::string(kNoChecks) : outcome_words(records[i]);
     if (!records[i].cause.empty()) notes[i].why += ": " + records[i].cause;
     notes[i].has_report = std::filesystem::exists(flight / "report.html");
     notes[i].has_replay = std::filesystem::exists(flight / "replay.html");

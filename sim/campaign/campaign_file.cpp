@@ -9,6 +9,7 @@
 
 #include "sim/campaign/judging_seeds.h"
 #include "sim/record/whole_file.h"
+#include "sim/scenario/flight_parts.h"
 #include "sim/scenario/include.h"
 #include "sim/scenario/reader.h"
 
@@ -71,7 +72,9 @@ class Gatherer {
     overrides.insert(overrides.end(), overrides_.begin(), overrides_.end());
     Order order{.group = name, .scenario = file.lexically_normal(), .overrides = overrides};
     try {
-      const Scenario scenario = load_scenario(file, overrides);
+      const LoadedScenario loaded = load_flight(file, overrides);
+      const Scenario& scenario = loaded.scenario;
+      order.inputs = loaded.inputs;
       if (name.empty()) {
         order.group = scenario.name;
         for (const std::string& text : overrides) order.group += " " + text;

@@ -7,6 +7,7 @@
 #include "sim/campaign/campaign_data.h"
 #include "sim/campaign/flight_maps.h"
 #include "sim/campaign/leaderboard.h"
+#include "sim/flight/build.h"
 #include "sim/record/report_page.h"
 #include "sim/record/whole_file.h"
 
@@ -44,6 +45,10 @@ void write_campaign_report(const std::filesystem::path& folder, const std::optio
 
   Json data{{"name", name_of(folder)}, {"folder", folder.string()}, {"is_sweep", flights.is_sweep}};
   data["scenarios"] = scenarios;
+  data["version"] = std::string(version());
+  data["build"] = std::string(build_identity());
+  data["builds"] = builds_of(flights.records);
+  data["truth_used"] = truth_words(flights.records);
   data["swept"] = swept_columns(flights);
   data["leaderboard"] = leaderboard_data(folder, flights);
   data["groups"] = groups_data(flights.records);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/scenario/input_error.h"
@@ -28,11 +29,18 @@ FlightRecord::Status status_of(const std::string& word) {
   return FlightRecord::Status::missing;
 }
 
+/// A column that tables of earlier versions lack.
+std::vector<std::string> words_of(const CsvTable& table, const std::string& name) {
+  const bool has = std::ranges::find(table.names(), name) != table.names().end();
+  return has ? table.words(name) : std::vector<std::string>(table.rows());
+}
+
 std::vector<FlightRecord> records_of(const CsvTable& table) {
   const auto ids = table.words("id"), groups = table.words("group"), scenarios = table.words("scenario");
   const auto seeds = table.words("seed"), statuses = table.words("status"), outcomes = table.words("outcome");
   const auto causes = table.words("cause"), passes = table.words("passed");
   const auto clearances = table.numbers("min_obstacle_clearance_m"), times = table.numbers("flight_time_s");
+  const auto builds = words_of(table, "build"), truths = words_of(table, "truth_used");
   std::vector<FlightRecord> records(table.rows());
   for (size_t i = 0; i < records.size(); ++i) {
     FlightRecord& record = records[i];
@@ -41,10 +49,13 @@ std::vector<FlightRecord> records_of(const CsvTable& table) {
     record.status = status_of(statuses[i]);
     record.cause = causes[i];
     if (record.status != FlightRecord::Status::flown) continue;
-    record.result = Json{{"outcome", outcomes[i]},
-                         {"checks", Json::array({Json{{"passed", passes[i] == "1"}}})},
-                         {"min_obstacle_clearance_m", number(clearances[i])},
-                         {"flight_time_s", times[i]}};
+    record.result =
+        Json{{"outcome", outcomes[i]},
+             {"build", builds[i]},
+             {"truth_used", truths[i].empty() ? Json::array() : Json::array({truths[i]})},
+             {"checks", passes[i].empty() ? Json::array() : Json::array({Json{{"passed", passes[i] == "1"}}})},
+             {"min_obstacle_clearance_m", number(clearances[i])},
+             {"flight_time_s", times[i]}};
   }
   return records;
 }

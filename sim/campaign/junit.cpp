@@ -1,8 +1,12 @@
 #include "sim/campaign/junit.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <iterator>
+#include <utility>
+
+#include "sim/flight/build.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -67,9 +71,13 @@ class Suite {
   }
   std::string text() const {
     return fmt::format(
-        "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{}\">\n{}  "
+        "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{}\">\n{}{}  "
         "</testsuite>\n",
-        escaped(name_), tests_, failures_, errors_, skipped_, time_s_, cases_);
+        escaped(name_), tests_, failures_, errors_, skipped_, time_s_, properties_text(), cases_);
+  }
+  /// A fact about the whole suite; none when the value is empty.
+  void set(std::string name, std::string value) {
+    if (!value.empty()) properties_.emplace_back(std::move(name), std::move(value));
   }
   int tests() const { return tests_; }
   int failures() const { return failures_; }
@@ -77,8 +85,17 @@ class Suite {
   int skipped() const { return skipped_; }
 
  private:
+  std::string properties_text() const {
+    std::string text;
+    for (const auto& [name, value] : properties_) {
+      text += fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", escaped(name), escaped(value));
+    }
+    return text.empty() ? "" : "    <properties>\n" + text + "    </properties>\n";
+  }
+
   std::string name_;
   double time_s_;
+  std::vector<std::pair<std::string, std::string>> properties_;
   int tests_ = 0, failures_ = 0, errors_ = 0, skipped_ = 0;
   std::string cases_;
 };
@@ -97,7 +114,12 @@ Suite flight_suite(const FlightRecord& record, bool binding) {
   } else if (record.result.at("outcome") == "fault") {
     flight.wrong = "error";
     flight.message = record.result.value("cause", "");
+  } else if (unchecked(record)) {
+    flight.wrong = "skipped";
+    flight.message = kNoChecks;
   }
+  suite.set("build", build_of(record));
+  suite.set("truth_used", fmt::format("{}", fmt::join(truth_used(record), "; ")));
   suite.add(flight);
   if (!flown) return suite;
   for (const auto& check : record.result.at("checks")) {
@@ -121,6 +143,7 @@ std::string junit_text(const std::vector<FlightRecord>& records, const std::vect
   for (const FlightRecord& record : records) suites.push_back(flight_suite(record, verdicts.empty()));
   if (!verdicts.empty()) {
     Suite& over_seeds = suites.emplace_back("over the seeds", 0.0);
+    over_seeds.set("build", std::string(build_identity()));
     for (const GroupVerdict& verdict : verdicts) {
       over_seeds.add({.name = verdict.check + " " + verdict.group,
                       .facts = verdict.words,

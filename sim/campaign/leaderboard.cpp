@@ -8,6 +8,7 @@
 #include <set>
 
 #include "sim/campaign/verdict.h"
+#include "sim/flight/build.h"
 #include "sim/record/whole_file.h"
 #include "sim/scenario/input_error.h"
 
@@ -52,6 +53,7 @@ Json cell_data(const Json& cell, const FlightList& flights) {
   Json data{{"world", cell.at("world")}, {"module", cell.at("module")}, {"reason", cell.at("reason")}};
   if (records.empty()) return data;
   const GroupSummary group = summarize(records).front();
+  if (group.unchecked > 0) data["no_checks"] = group.unchecked;
   if (group.success.trials == 0) return data;
   const Interval interval = wilson_interval(group.success, kConfidence);
   data["flights"] = group.success.trials;
@@ -67,6 +69,12 @@ Json cell_data(const Json& cell, const FlightList& flights) {
   data["mean_speed_mps"] = finite(median_of(flights.table, "mean_speed_mps", rows));
   data["decision_ms"] = finite(median_of(flights.table, "time.decision_ms.median", rows));
   return data;
+}
+
+/// The build, in the first line those of the flights where there are several, and the truth that was used.
+std::string origin_words(const std::vector<FlightRecord>& records) {
+  return fmt::format("{}Build {}, Hedgehop {}\n{}", several_builds_words(records), build_identity(), version(),
+                     truth_words(records));
 }
 
 /// NaN when no module but the control has flown there.
@@ -106,7 +114,8 @@ std::string matrix_text(const Json& data) {
             fmt::format(" {} of {} ({:.2f} to {:.2f}) |", cell.at("passed").get<int64_t>(),
                         cell.at("flights").get<int64_t>(), cell.at("low").get<double>(), cell.at("high").get<double>());
       } else {
-        text += cell.at("reason") == "" ? " missing |" : " not flown |";
+        const bool no_checks = cell.contains("no_checks");
+        text += no_checks ? " no checks |" : cell.at("reason") == "" ? " missing |" : " not flown |";
       }
     }
   }
@@ -198,7 +207,10 @@ Json leaderboard_data(const std::filesystem::path& folder, const FlightList& fli
   if (!std::filesystem::exists(folder / kFile)) return nullptr;
   try {
     const Json board = Json::parse(read_file_whole(folder / kFile));
-    Json data{{"worlds", board.at("worlds")}, {"modules", board.at("modules")}, {"cells", Json::array()}};
+    Json data{{"origin", origin_words(flights.records)},
+              {"worlds", board.at("worlds")},
+              {"modules", board.at("modules")},
+              {"cells", Json::array()}};
     for (const Json& cell : board.at("cells")) data["cells"].push_back(cell_data(cell, flights));
     for (Json& world : data["worlds"]) {
       world["difficulty"] = finite(difficulty(world.at("name"), data["modules"], data["cells"]));
@@ -217,7 +229,8 @@ Json leaderboard_data(const std::filesystem::path& folder, const FlightList& fli
 }
 
 std::string leaderboard_text(const Json& data) {
-  return matrix_text(data) + "\n" + rows_text(data) + "\n" + reasons_text(data);
+  return data.at("origin").get<std::string>() + "\n" + matrix_text(data) + "\n" + rows_text(data) + "\n" +
+         reasons_text(data);
 }
 
 }  // namespace hedgehop::sim

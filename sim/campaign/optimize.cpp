@@ -39,7 +39,7 @@ double mean_cost(const OptimizeDesign& design, const std::vector<FlightRecord>& 
           fmt::format("'design.minimize': no column '{}'{}", design.minimize, suggestion(design.minimize, names)));
     }
     double cost = design.failure_cost;
-    if (passed(records[i])) {
+    if (passed(records[i]) || unchecked(records[i])) {
       const Cell& cell = table.rows[i][column];
       if (const auto* number = std::get_if<double>(&cell)) cost = *number;
       if (const auto* whole = std::get_if<int64_t>(&cell)) cost = static_cast<double>(*whole);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,10 @@ struct Order {
   std::string group;               ///< name of the flights that differ by the seed alone
   std::filesystem::path scenario;  ///< file, as the user named it
   uint64_t seed = 0;
-  std::vector<std::string> overrides;  ///< "a.b=value", in order
-  std::string scenario_yaml;           ///< the resolved scenario: what distinguishes this order's flight from any other
-  std::string fault;                   ///< why it cannot be flown at all, one line; else empty
+  std::vector<std::string> overrides;         ///< "a.b=value", in order
+  std::string scenario_yaml;                  ///< the resolved scenario
+  std::map<std::string, std::string> inputs;  ///< files that the flight depends on, with their SHA-256
+  std::string fault;                          ///< why it cannot be flown at all, one line; else empty
 };
 
 /// The flight's scenario in full, as a worker writes it: with the seed, without film. Throws InputError.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 
@@ -25,10 +26,14 @@ std::string_view to_string(FlightRecord::Status status) {
 
 bool passed(const FlightRecord& record) {
   if (record.status != FlightRecord::Status::flown || record.result.at("outcome") == "fault") return false;
-  for (const auto& check : record.result.at("checks")) {
-    if (!check.at("passed").get<bool>()) return false;
-  }
-  return true;
+  const auto& checks = record.result.at("checks");
+  return !checks.empty() &&
+         std::ranges::all_of(checks, [](const auto& c) { return c.at("passed").template get<bool>(); });
+}
+
+bool unchecked(const FlightRecord& record) {
+  return record.status == FlightRecord::Status::flown && record.result.at("outcome") != "fault" &&
+         record.result.at("checks").empty();
 }
 
 std::string outcome_words(const FlightRecord& record) {
@@ -45,11 +50,27 @@ std::vector<std::string> truth_used(const FlightRecord& record) {
   return record.result.value("truth_used", std::vector<std::string>{});
 }
 
-std::string several_builds_words(const std::vector<FlightRecord>& records) {
+std::string truth_words(const std::vector<FlightRecord>& records) {
+  std::set<std::string> all;
+  size_t flights = 0;
+  for (const FlightRecord& record : records) {
+    const std::vector<std::string> truth = truth_used(record);
+    flights += truth.empty() ? 0 : 1;
+    all.insert(truth.begin(), truth.end());
+  }
+  return flights == 0 ? "" : fmt::format("Truth used by {} flights: {}\n", flights, fmt::join(all, "; "));
+}
+
+std::set<std::string> builds_of(const std::vector<FlightRecord>& records) {
   std::set<std::string> builds;
   for (const FlightRecord& record : records) {
     if (record.status == FlightRecord::Status::flown) builds.insert(build_of(record));
   }
+  return builds;
+}
+
+std::string several_builds_words(const std::vector<FlightRecord>& records) {
+  const std::set<std::string> builds = builds_of(records);
   if (builds.size() < 2) return "";
   return fmt::format("Flights of {} builds: {}\n", builds.size(), fmt::join(builds, ", "));
 }
@@ -66,6 +87,7 @@ std::optional<nlohmann::ordered_json> result_left_by(const Order& order, const s
     }
     if (!other_builds && result.value("build", "") != build_identity()) return {};
     if (result.value("seed", uint64_t{0}) != order.seed) return {};
+    if (result.value("inputs", decltype(order.inputs){}) != order.inputs) return {};
     return result;
   } catch (const nlohmann::json::exception&) {
   } catch (const std::runtime_error&) {

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,12 @@ struct FlightRecord {
 };
 std::string_view to_string(FlightRecord::Status status);
 
-/// Whether it was flown, without a fault, and all its checks hold.
+/// Whether it was flown, without a fault, has checks, and all hold.
 bool passed(const FlightRecord& record);
+
+/// Whether it was flown, without a fault, and nothing was asked of it: it neither passed nor failed.
+bool unchecked(const FlightRecord& record);
+inline constexpr std::string_view kNoChecks = "no checks";
 
 /// "reached", "collided", "timeout", "fault" of a flight that was flown; "failed" or "missing" of any other.
 std::string outcome_words(const FlightRecord& record);
@@ -35,11 +40,17 @@ std::string build_of(const FlightRecord& record);
 /// What its module got of the truth, as its result lists it; empty for real sensors alone.
 std::vector<std::string> truth_used(const FlightRecord& record);
 
+/// Returns a line that says how many flights used the truth, and which, else "".
+std::string truth_words(const std::vector<FlightRecord>& records);
+
+/// The builds that flew them.
+std::set<std::string> builds_of(const std::vector<FlightRecord>& records);
+
 /// Returns a line that names the builds when flights of several stand beside each other, else "".
 std::string several_builds_words(const std::vector<FlightRecord>& records);
 
-/// The result that a flight of this very order left in its folder: same resolved scenario, same build, whole. None
-/// for anything else, so that it is flown (again).
+/// The result that a flight of this very order left in its folder: same resolved scenario, seed, input files and build,
+/// and whole. None for anything else, so that it is flown (again).
 /// @param folder  of the flight. @param other_builds  whether a result of another build will do.
 std::optional<nlohmann::ordered_json> result_left_by(const Order& order, const std::filesystem::path& folder,
                                                      bool other_builds);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "sim/campaign/judging_seeds.h"
+#include "sim/scenario/flight_parts.h"
 #include "sim/scenario/include.h"
 #include "sim/scenario/numbers.h"
 #include "sim/scenario/reader.h"
@@ -155,7 +156,9 @@ std::vector<Order> point_orders(const SweepConfig& sweep, size_t point, const st
     order.overrides.push_back(sweep.parameters[i].path + "=" + values[i]);
     order.group += " " + order.overrides.back();
   }
-  const Scenario scenario = load_scenario(order.scenario, order.overrides);
+  const LoadedScenario loaded = load_flight(order.scenario, order.overrides);
+  const Scenario& scenario = loaded.scenario;
+  order.inputs = loaded.inputs;
   std::vector<Order> orders;
   for (const uint64_t seed : sweep.seeds ? parse_seeds(*sweep.seeds) : std::vector<uint64_t>{scenario.seed}) {
     order.seed = seed;

@@ -129,7 +129,8 @@ Table flight_table(const std::vector<FlightRecord>& records, const std::vector<E
   }
   add(table, records, {"status", "", {}}, [](const FlightRecord& r) { return std::string(to_string(r.status)); });
   add(table, records, {"outcome", "", {}}, [](const FlightRecord& r) { return outcome_words(r); });
-  add(table, records, {"passed", "", {}}, [](const FlightRecord& r) { return static_cast<int64_t>(passed(r)); });
+  add(table, records, {"passed", "", {}},
+      [](const FlightRecord& r) { return unchecked(r) ? Cell() : Cell(static_cast<int64_t>(passed(r))); });
   add(table, records, {"cause", "", {}}, [](const FlightRecord& r) {
     return r.status == FlightRecord::Status::flown ? field(r.result, "cause") : Cell(r.cause);
   });
@@ -139,6 +140,8 @@ Table flight_table(const std::vector<FlightRecord>& records, const std::vector<E
   }
   add_named(table, records, [](const Json& result) { return metric_cells(result, /*of_wall_time=*/false); });
   add_named(table, records, check_cells);
+  add(table, records, {"truth_used", "", {}},
+      [](const FlightRecord& r) { return fmt::format("{}", fmt::join(truth_used(r), "; ")); });
   add(table, records, {"build", "", {}}, [](const FlightRecord& r) { return build_of(r); });
   add(table, records, {"command", "", {}}, [](const FlightRecord& r) { return rerun_command(r.order); });
   for (const auto& [name, unit] : kTimes) {

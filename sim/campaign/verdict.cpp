@@ -21,7 +21,7 @@ Count earlier_count(const std::string& batch_json, const std::string& group) {
     const auto batch = nlohmann::ordered_json::parse(read_file_whole(batch_json));
     Count count;
     for (const auto& flight : batch.at("flights")) {
-      if (flight.at("group") != group || flight.at("status") == "missing") continue;
+      if (flight.at("group") != group || flight.at("status") == "missing" || flight.at("passed").is_null()) continue;
       ++count.trials;
       count.successes += flight.at("passed").get<bool>() ? 1 : 0;
     }
@@ -100,7 +100,8 @@ std::vector<GroupSummary> summarize(const std::vector<FlightRecord>& records) {
     group->fault += outcome == "fault" ? 1 : 0;
     group->failed += outcome == "failed" ? 1 : 0;
     group->missing += outcome == "missing" ? 1 : 0;
-    group->success.trials += outcome == "missing" ? 0 : 1;
+    group->unchecked += unchecked(record) ? 1 : 0;
+    group->success.trials += outcome == "missing" || unchecked(record) ? 0 : 1;
     group->success.successes += passed(record) ? 1 : 0;
     if (record.status != FlightRecord::Status::flown) continue;
     clearances[index].push_back(number_or_infinity(record.result.at("min_obstacle_clearance_m")));

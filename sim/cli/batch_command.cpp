@@ -86,7 +86,7 @@ std::string write_matrix(const std::filesystem::path& out, const std::optional<L
 
 bool all_hold(const std::vector<FlightRecord>& records, const std::vector<GroupVerdict>& verdicts) {
   if (!verdicts.empty()) return std::ranges::all_of(verdicts, &GroupVerdict::passed);
-  return std::ranges::all_of(records, passed);
+  return std::ranges::all_of(records, [](const FlightRecord& r) { return passed(r) || unchecked(r); });
 }
 
 }  // namespace
@@ -113,8 +113,11 @@ int batch(const BatchOptions& options) {
   const Reuse reuse = options.resume ? Reuse::all : options.failed_only ? Reuse::passed : Reuse::none;
   const std::vector<FlightRecord> records =
       fly_orders(batch.orders, fly, reuse, interruption, [&progress](const FlightRecord& record, bool reused) {
-        const bool ok = passed(record);
-        progress.add(record.order.id, ok ? outcome_words(record) : failure_words(record), ok, reused);
+        const bool ok = passed(record) || unchecked(record);
+        const std::string words = unchecked(record) ? fmt::format("{}, {}", outcome_words(record), kNoChecks)
+                                  : ok              ? outcome_words(record)
+                                                    : failure_words(record);
+        progress.add(record.order.id, words, ok, reused);
       });
   progress.close();
 

@@ -104,6 +104,7 @@ int run(const RunOptions& options) {
                      scenario.seed,
                      std::string(version()),
                      std::string(build_identity()),
+                     loaded.inputs,
                      options.scenario.file.string(),
                      command_line(options, scenario),
                      to_yaml(scenario)};

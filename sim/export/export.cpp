@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "sim/export/conventions.h"
 #include "sim/export/euroc.h"
 #include "sim/export/kitti.h"
 #include "sim/export/tum.h"
+#include "sim/flight/build.h"
 #include "sim/record/image_file.h"
 #include "sim/record/whole_file.h"
 #include "sim/scenario/mounting.h"
@@ -199,6 +201,13 @@ Flight export_flight(const Scenario& scenario, const ExportRequest& request,
     std::filesystem::create_directories((request.out / file.name).parent_path());
     write_file_whole(request.out / file.name, file.text);
   }
+  const nlohmann::ordered_json origin{{"scenario", scenario.name},
+                                      {"seed", scenario.seed},
+                                      {"version", std::string(version())},
+                                      {"build", std::string(build_identity())},
+                                      {"truth_used", flight.result.truth_used},
+                                      {"trajectory_hash", flight.result.trajectory_hash}};
+  write_file_whole(request.out / "origin.json", origin.dump(2) + "\n");
   return flight;
 }
 

@@ -54,6 +54,7 @@ Json result_data(const RunInfo& info, const FlightResult& result) {
   json["seed"] = info.seed;
   json["version"] = info.version;
   json["build"] = info.build;
+  json["inputs"] = info.inputs;
   json["scenario_file"] = info.scenario_file;
   json["command_line"] = info.command_line;
   json["outcome"] = std::string(to_string(result.outcome));

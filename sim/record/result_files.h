@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -11,13 +12,14 @@ namespace hedgehop::sim {
 
 /// What a run's record holds besides the flight itself.
 struct RunInfo {
-  std::string scenario;       ///< the scenario's name
-  uint64_t seed = 0;          ///< of the run
-  std::string version;        ///< of Hedgehop
-  std::string build;          ///< identity of the build
-  std::string scenario_file;  ///< as it was named
-  std::string command_line;   ///< that runs this again
-  std::string scenario_yaml;  ///< the resolved scenario
+  std::string scenario;                       ///< the scenario's name
+  uint64_t seed = 0;                          ///< of the run
+  std::string version;                        ///< of Hedgehop
+  std::string build;                          ///< identity of the build
+  std::map<std::string, std::string> inputs;  ///< files that the flight depends on, with their SHA-256
+  std::string scenario_file;                  ///< as it was named
+  std::string command_line;                   ///< that runs this again
+  std::string scenario_yaml;                  ///< the resolved scenario
 };
 
 /// Writes scenario.yaml, result.json, trajectory.csv, decisions.csv and, of a module that makes a map, map.json into

@@ -12,6 +12,7 @@
 #include "dynamics/avionics.h"
 #include "dynamics/vehicle.h"
 #include "scenes/scene.h"
+#include "sim/scenario/inputs.h"
 #include "sim/scenario/scenario.h"
 
 /// The parts of a flight that follow from the scenario's parameters alone. A part is built once: the reader builds it
@@ -30,10 +31,12 @@ struct FlightParts {
   std::unique_ptr<avoidance::Module> module;  ///< null for a module of a shared library, which the flight loads
 };
 
-/// A scenario and its parts. Who changes a parameter of a part afterwards, or the seed, builds the parts again.
+/// A scenario, its parts, and the files it depends on. Who changes a parameter of a part afterwards, or the seed,
+/// builds the parts again.
 struct LoadedScenario {
   Scenario scenario;
   FlightParts parts;
+  Inputs inputs;
 };
 
 /// Reads a scenario, as strictly as load_scenario(), and keeps the parts that were built to check it.

@@ -38,7 +38,7 @@ void set_places(Node& node, const Place& place) {
 /// Reads files and the files that they use, and knows which are being read.
 class Includer {
  public:
-  explicit Includer(Faults& faults) : faults_(faults) {}
+  Includer(Faults& faults, std::set<fs::path>& read) : faults_(faults), read_(read) {}
 
   /// @param from  place of the `use` that names it, or null for the scenario itself.
   Node load(const fs::path& file, const Place* from) {
@@ -64,6 +64,7 @@ class Includer {
       faults_.add(place, from ? fmt::format("{}: '{}'", why, name) : why);
       return {};
     }
+    read_.insert(file.lexically_normal());
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     const size_t faults_before = faults_.count();
     Node root = parse_yaml(text, name, faults_);
@@ -105,6 +106,7 @@ class Includer {
   static constexpr int kMostFiles = 1000;
 
   Faults& faults_;
+  std::set<fs::path>& read_;
   std::vector<fs::path> identities_;  ///< files being read, outermost first
   std::vector<std::string> names_;
   int files_ = 0;
@@ -211,10 +213,18 @@ void override_with(Node& base, const Node& over) {
   }
 }
 
-Node load_tree(const fs::path& file, Faults& faults) { return Includer(faults).load(file, nullptr); }
+Node load_tree(const fs::path& file, Faults& faults, std::set<fs::path>& read) {
+  return Includer(faults, read).load(file, nullptr);
+}
 
-void apply_overrides(Node& root, std::span<const std::string> overrides, const fs::path& file, Faults& faults) {
-  Includer includer(faults);
+Node load_tree(const fs::path& file, Faults& faults) {
+  std::set<fs::path> read;
+  return load_tree(file, faults, read);
+}
+
+void apply_overrides(Node& root, std::span<const std::string> overrides, const fs::path& file, Faults& faults,
+                     std::set<fs::path>& read) {
+  Includer includer(faults, read);
   for (const std::string& text : overrides) apply_override(root, text, file.parent_path(), includer, faults);
 }
 

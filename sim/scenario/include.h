@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +18,8 @@ inline constexpr std::string_view kSelectors[] = {"type", "module", "check"};
 /// Reads a file whose root is a map, and the files that it uses: with `use: other.yaml` a map overrides
 /// the other file's root, map by map; lists and scalars replace. Paths are relative to the file that names them.
 Node load_tree(const std::filesystem::path& file, Faults& faults);
+/// @param read  gains every file that was read.
+Node load_tree(const std::filesystem::path& file, Faults& faults, std::set<std::filesystem::path>& read);
 
 /// Overrides `base` with `over`: maps key by key (see kSelectors), all else by replacement.
 void override_with(Node& base, const Node& over);
@@ -24,7 +27,8 @@ void override_with(Node& base, const Node& over);
 /// Applies `a.b.0.c=value` in order; the value is YAML. `a.b.use=file` replaces `a.b` by the file's map, its path
 /// relative to the folder of `file`. Missing maps of the path are created (the reader reports those that may not
 /// exist).
+/// @param read  gains every file that was read.
 void apply_overrides(Node& root, std::span<const std::string> overrides, const std::filesystem::path& file,
-                     Faults& faults);
+                     Faults& faults, std::set<std::filesystem::path>& read);
 
 }  // namespace hedgehop::sim

@@ -45,9 +45,10 @@ void find_imports(scenes::SceneConfig& scene, const Node& root) {
 LoadedScenario load_flight(const std::filesystem::path& file, std::span<const std::string> overrides,
                            std::optional<uint64_t> seed) {
   Faults faults;
-  Node root = load_tree(file, faults);
+  std::set<std::filesystem::path> read;
+  Node root = load_tree(file, faults, read);
   if (root.kind != Node::Kind::map) faults.raise();
-  apply_overrides(root, overrides, file, faults);
+  apply_overrides(root, overrides, file, faults, read);
 
   Scenario scenario;
   read_struct(root, "", "", scenario, faults);
@@ -63,7 +64,8 @@ LoadedScenario load_flight(const std::filesystem::path& file, std::span<const st
   }
   std::optional<FlightParts> parts = validate(scenario, root, faults);
   faults.raise();
-  return {std::move(scenario), *std::move(parts)};
+  Inputs inputs = inputs_of(scenario, read, file.parent_path());
+  return {std::move(scenario), *std::move(parts), std::move(inputs)};
 }
 
 Scenario load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {

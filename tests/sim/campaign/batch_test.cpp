@@ -90,6 +90,50 @@ TEST(Batch, ScenarioThatChangedIsFlownAgain) {
   EXPECT_EQ(folder.read("flown.txt").size(), 8u);
 }
 
+/// One byte of a file that a flight depends on makes it another flight, whichever builds may stand.
+TEST(Batch, FileOfTheSceneThatChangedIsFlownAgain) {
+  const CampaignFolder folder;
+  folder.write("t.obj", "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n");
+  folder.write("t.mtl", "newmtl m\nmap_Kd t.ppm\n");
+  folder.write("t.ppm", "P3 1 1 255\n9 8 7\n");
+  folder.write("meshy.yaml", "use: tiny.yaml\nname: meshy\nscene: {imports: [{file: t.obj, collide: none}]}\n");
+  const std::string again =
+      "batch meshy.yaml --out out --resume --program " + folder.worker("echo x >> flown.txt; fly \"$@\"");
+  ASSERT_EQ(folder.hedgehop(again).status, 0);
+  ASSERT_EQ(folder.hedgehop(again).status, 0);
+  EXPECT_EQ(folder.read("flown.txt"), "x\n");
+  const Json inputs = folder.json("out/meshy/seed1/result.json").at("inputs");
+  for (const std::string name : {"meshy.yaml", "tiny.yaml", "t.obj", "t.mtl", "t.ppm"}) {
+    EXPECT_EQ(inputs.at(name).get<std::string>(), folder.shell("sha256sum " + name).out.substr(0, 64)) << name;
+  }
+  folder.write("t.ppm", "P3 1 1 255\n9 8 6\n");
+  ASSERT_EQ(folder.hedgehop(again + " --reuse-other-builds").status, 0);
+  EXPECT_EQ(folder.read("flown.txt"), "x\nx\n");
+}
+
+TEST(Batch, FlightOfWhichNothingIsAskedDoesNotPass) {
+  const CampaignFolder folder;
+  std::string scenario = folder.read("tiny.yaml");
+  scenario.replace(scenario.find("checks:"), std::string::npos, "checks: []\n");
+  folder.write("free.yaml", scenario);
+  const CommandEnd end = folder.hedgehop("batch free.yaml --out out --junit j.xml");
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_THAT(end.out, HasSubstr("| tiny | 1 | no checks | - |"));
+  EXPECT_TRUE(flight(folder.json("out/batch.json"), 1).at("passed").is_null());
+  EXPECT_THAT(junit_cases(folder, "j.xml"), HasSubstr("tiny/seed1/flight skipped no checks"));
+  for (const std::string text : {end.out + end.err, folder.read("j.xml")}) EXPECT_THAT(text, Not(HasSubstr("pass ")));
+}
+
+TEST(Batch, EveryFileNamesTheBuild) {
+  const CampaignFolder folder;
+  ASSERT_EQ(folder.hedgehop("batch tiny.yaml --out out --junit j.xml").status, 0);
+  ASSERT_EQ(folder.hedgehop("report out").status, 0);
+  const std::string build = folder.json("out/tiny/seed1/result.json").at("build");
+  EXPECT_THAT(folder.read("j.xml"), HasSubstr("<property name=\"build\" value=\"" + build + "\"/>"));
+  EXPECT_THAT(folder.read("out/report.html"), HasSubstr("\"build\":\"" + build + "\""));
+  EXPECT_THAT(folder.read("out/batch.csv"), AllOf(HasSubstr(",truth_used,"), HasSubstr("," + build + ",")));
+}
+
 /// A result of another build is reused only with the option for it, and then every table names both builds.
 TEST(Batch, ResultOfAnotherBuildIsFlownAgainUnlessAskedFor) {
   const CampaignFolder folder;

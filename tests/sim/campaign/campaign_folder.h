@@ -82,7 +82,7 @@ inline std::string junit_cases(const CampaignFolder& folder, const std::string& 
       "read_junit.py",
       "import sys, xml.etree.ElementTree as tree\n"
       "for suite in tree.parse(sys.argv[1]).getroot():\n"
-      "    for case in suite:\n"
+      "    for case in suite.findall('testcase'):\n"
       "        wrong = [w for w in case if w.tag != 'system-out']\n"
       "        print(suite.get('name') + '/' + case.get('name'), *[w.tag + ' ' + w.get('message') for w in wrong])\n"
       "        print('  ' + case.find('system-out').text.replace('\\n', ' '))\n");

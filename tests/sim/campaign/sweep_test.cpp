@@ -105,6 +105,9 @@ TEST_F(Sweep, BadPathsAreRefusedBeforeAnyFlightWithTheNearestKey) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
   folder.write("bad.yaml", "scenario: tiny.yaml\nparameters:\n  - {path: seed, values: [1]}\n");
   EXPECT_THAT(folder.hedgehop("sweep bad.yaml --out out").err, HasSubstr("bad.yaml:3:5: 'seed': varied by 'seeds'"));
+  folder.write("bad.yaml",
+               "scenario: tiny.yaml\nseeds: 1:3\ntuned_on: 1:2\nparameters:\n  - {path: control_rate, values: [50]}\n");
+  EXPECT_THAT(folder.hedgehop("sweep bad.yaml --out out").err, HasSubstr("bad.yaml:2:8: seeds '1:3' are not all of"));
 }
 
 /// The speed that brings the vehicle nearest to the goal within a second is the highest allowed.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -55,7 +56,8 @@ T load_struct(const std::filesystem::path& file, const std::vector<std::string>&
   Faults faults;
   Node root = load_tree(file, faults);
   if (root.kind != Node::Kind::map) faults.raise();
-  apply_overrides(root, overrides, file, faults);
+  std::set<std::filesystem::path> read;
+  apply_overrides(root, overrides, file, faults, read);
   T value;
   read_struct(root, "", "", value, faults);
   faults.raise();

@@ -36,7 +36,7 @@ function boardCell(cell, on) {
   const element = make('td', 'cell');
   if (cell.passed === undefined) {
     element.classList.add('empty');
-    element.append(make('span', 'soft', cell.reason ? 'not flown' : 'missing'));
+    element.append(make('span', 'soft', cell.no_checks ? 'no checks' : cell.reason ? 'not flown' : 'missing'));
     element.title = cell.reason;
     return element;
   }

@@ -20,17 +20,20 @@ function addRow(table, cells, tag = 'td') {
 }
 
 function fillHead(host, data, table) {
+  if (data.builds.length > 1) host.append(make('p', 'bad-text', `Flights of ${data.builds.length} builds: ${data.builds.join(', ')}`));
   host.append(make('h1', '', data.name));
   const swept = data.swept.length ? `, over ${data.swept.join(', ')}` : '';
-  host.append(make('p', 'soft', `${data.is_sweep ? 'sweep' : 'batch'} of ${data.scenarios.join(', ')}${swept}; ${table.count} flights`));
+  host.append(make('p', 'soft', `${data.is_sweep ? 'sweep' : 'batch'} of ${data.scenarios.join(', ')}${swept}; ${table.count} flights; Hedgehop ${data.version}, build ${data.builds.length === 1 ? data.builds[0] : data.build}`));
+  if (data.truth_used) host.append(make('p', 'bad-text', data.truth_used));
   const tiles = host.appendChild(make('div', 'tiles')), all = data.groups[0];
   const tile = (name, value, more) => {
     const element = tiles.appendChild(make('div', 'tile'));
     element.append(make('div', 'name', name), make('div', 'value', value), make('div', 'more', more));
   };
   const percent = (share) => fixed(100 * share, 1) + ' %';
-  tile('all checks hold', all.ended ? percent(all.passed / all.ended) : '–',
-    `${all.passed} of ${all.ended}; 95 % within ${percent(all.low)} to ${percent(all.high)}`);
+  const unchecked = all.no_checks ? `; no checks: ${all.no_checks}` : '';
+  tile('all checks hold', all.ended ? percent(all.passed / all.ended) : all.no_checks ? 'no checks' : '–',
+    `${all.passed} of ${all.ended}; 95 % within ${percent(all.low)} to ${percent(all.high)}${unchecked}`);
   tile('collided', String(all.collided), `of ${all.ended} flights that ended`);
   tile('reached, out of time', `${all.reached}, ${all.timeout}`, all.broken || all.missing ? `${all.broken} broken, ${all.missing} not flown` : 'none broken, none missing');
   tile('least clearance', meters(all.least_clearance_m), `to obstacles; median of flights ${meters(all.median_clearance_m)}`);
@@ -44,8 +47,8 @@ function fillGroups(host, groups) {
     ['median of it, m', 'number'], ['median time, s', 'number']], 'th');
   const body = element.appendChild(make('tbody'));
   for (const g of groups) {
-    const row = addRow(body, [[g.group, ''], [String(g.flights), 'number'], [String(g.passed), 'number'], ['', ''],
-      [`${fixed(g.low, 2)} to ${fixed(g.high, 2)}`, 'number'],
+    const row = addRow(body, [[g.group, ''], [String(g.flights), 'number'], [g.no_checks && !g.ended ? 'no checks' : String(g.passed), 'number'], ['', ''],
+      [g.ended ? `${fixed(g.low, 2)} to ${fixed(g.high, 2)}` : '–', 'number'],
       ...[g.reached, g.collided, g.timeout, g.broken, g.missing].map((n) => [String(n), 'number']),
       [fixed(g.least_clearance_m, 2), 'number'], [fixed(g.median_clearance_m, 2), 'number'], [fixed(g.median_time_s, 1), 'number']]);
     const rate = row.children[3].appendChild(make('span', 'rate')), span = rate.appendChild(make('i'));
@@ -97,7 +100,7 @@ function fillChosen(host, data, table, row) {
     return;
   }
   const id = table.value('id', row), verdict = table.verdict(row);
-  host.append(make('h3', '', id), make('p', verdict === 'passed' ? 'pass' : 'bad-text', table.why[row] || 'passed'));
+  host.append(make('h3', '', id), make('p', verdict === 'passed' ? 'pass' : verdict === 'unchecked' ? 'soft' : 'bad-text', table.why[row] || 'passed'));
   const facts = data.swept.map((name) => `${name} = ${typeof table.value(name, row) === 'number' ? short(table.value(name, row)) : table.value(name, row)}`);
   host.append(make('p', 'soft', [...facts, `clearance ${meters(table.value('min_obstacle_clearance_m', row))}`,
     `${fixed(table.value('flight_time_s', row), 1)} s`].join(', ')));

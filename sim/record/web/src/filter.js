@@ -9,15 +9,16 @@ class FlightTable {
     this.why = data.why;
   }
   value(name, row) { return this.columns.get(name)?.values[row] ?? null; }
-  /** 'passed', 'collided', 'failed' (another check) or 'missing'. */
+  /** 'passed', 'collided', 'failed' (another check), 'unchecked' (nothing was asked) or 'missing'. */
   verdict(row) {
     if (this.value('status', row) === 'missing') return 'missing';
     if (this.value('passed', row) === 1) return 'passed';
-    return this.value('outcome', row) === 'collided' ? 'collided' : 'failed';
+    if (this.value('outcome', row) === 'collided') return 'collided';
+    return this.why[row] === 'no checks' ? 'unchecked' : 'failed';
   }
 }
-const verdictColors = {passed: 'c0', collided: 'bad', failed: 'c3', missing: 'soft'};
-const verdictWords = {passed: 'all checks hold', collided: 'collided', failed: 'failed otherwise', missing: 'not flown'};
+const verdictColors = {passed: 'c0', collided: 'bad', failed: 'c3', unchecked: 'c2', missing: 'soft'};
+const verdictWords = {passed: 'all checks hold', collided: 'collided', failed: 'failed otherwise', unchecked: 'no checks', missing: 'not flown'};
 
 /** The column that a word names: whole, or its part after the last dot. */
 function findColumn(table, word) {

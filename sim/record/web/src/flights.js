@@ -71,6 +71,7 @@ class FlightsView {
   }
   cell(row, column) {
     const value = column.values[row];
+    if (column.name === 'passed' && value === null) return make('td', 'soft', this.table.why[row] === 'no checks' ? 'no checks' : '–');
     if (column.name === 'passed') return make('td', value ? 'pass' : 'fail', value ? '✓' : '✕');
     if (!column.is_text) return make('td', 'number', Number.isInteger(value) ? String(value).replace('-', '−') : short(value));
     const cell = make('td', '', column.name === 'id' && this.data.report[row] ? '' : value);

@@ -86,7 +86,7 @@ class PathsView {
     if (goals.size <= 20) for (const goal of goals.values()) if (goal) map.drawGoal(c, {n: goal[0], e: goal[1], radius: goal[2]});
     c.lineWidth = rows.length > 200 ? 1 : 1.5;
     // The rarer ends last, so that they lie on top.
-    for (const verdict of ['passed', 'failed', 'collided']) {
+    for (const verdict of ['passed', 'unchecked', 'failed', 'collided']) {
       c.globalAlpha = Math.min(1, Math.max(0.25, 30 / rows.length));
       c.strokeStyle = themeColor(verdictColors[verdict]);
       const alike = rows.filter((row) => this.table.verdict(row) === verdict);
@@ -115,7 +115,7 @@ class PathsView {
 
   drawKey(key) {
     const present = new Set(this.rows.filter((row) => this.shown.has(row)).map((row) => this.table.verdict(row)));
-    for (const verdict of ['passed', 'failed', 'collided']) {
+    for (const verdict of ['passed', 'unchecked', 'failed', 'collided']) {
       if (!present.has(verdict)) continue;
       const item = key.appendChild(make('span'));
       item.appendChild(make('i')).style.cssText = `background: ${themeColor(verdictColors[verdict])}; height: 3px; vertical-align: 3px`;

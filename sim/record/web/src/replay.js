@@ -162,7 +162,8 @@ function setCamera(kind) {
 
 function fillControls() {
   const what = element('what');
-  what.append(make('h1', '', result.scenario), make('p', 'soft', `seed ${result.seed}, ${result.outcome} after ${fixed(result.flight_time_s, 1)} s`));
+  what.append(make('h1', '', result.scenario), make('p', 'soft', `seed ${result.seed}, ${result.outcome} after ${fixed(result.flight_time_s, 1)} s; Hedgehop ${result.version}, build ${result.build}`));
+  if (result.truth_used?.length) what.append(make('p', 'fail', `The module used the truth: ${result.truth_used.join('; ')}`));
   what.appendChild(make('p')).id = 'facts';
   what.append(make('p', 'soft', `${world.has_ground ? `lines on the ground ${short(floor.step_m)} m apart; ` : ''}bodies as the simulator collides them${solids.ceilings ? ', ceilings as edges' : ''}`));
   if (has_report) {

@@ -16,7 +16,7 @@ function fillVerdict(host, {result, description, plan, has_replay}) {
   const what = host.appendChild(make('div', 'what'));
   what.append(make('h1', '', result.scenario));
   if (description) what.append(make('p', '', description));
-  what.append(make('p', 'soft', `seed ${result.seed}, Hedgehop ${result.version}`));
+  what.append(make('p', 'soft', `seed ${result.seed}, Hedgehop ${result.version}, build ${result.build}`));
 
   if (has_replay) {
     const link = what.appendChild(make('p')).appendChild(make('a', '', 'Replay in three dimensions'));
@@ -26,11 +26,11 @@ function fillVerdict(host, {result, description, plan, has_replay}) {
   const failed = result.checks.filter((c) => !c.passed).length, all = result.checks.length;
   const {words, good} = judge(result.outcome, plan.goal);
   const bad = all ? failed > 0 : !good;  // the checks decide where there are any, as the exit status does
-  const badge = host.appendChild(make('div', 'badge ' + (bad ? 'bad' : 'good')));
-  badge.append(make('span', 'mark', bad ? '✕' : '✓'));
+  const badge = host.appendChild(make('div', 'badge ' + (bad ? 'bad' : all ? 'good' : '')));
+  badge.append(make('span', 'mark', bad ? '✕' : all ? '✓' : '–'));
   const lines = badge.appendChild(make('div'));
   lines.append(make('strong', '', words));
-  lines.append(make('span', '', !all ? 'no checks in the scenario' : failed ? `${failed} of ${all} checks fail` : `all ${all} checks hold`));
+  lines.append(make('span', '', !all ? 'no checks' : failed ? `${failed} of ${all} checks fail` : `all ${all} checks hold`));
   if (result.cause) what.append(make('p', 'fail', result.cause));
   if (result.truth_used?.length) what.append(make('p', 'fail', `The module used the truth: ${result.truth_used.join('; ')}`));
   fillTiles(host.appendChild(make('div', 'tiles')), result);

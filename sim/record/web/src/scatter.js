@@ -45,7 +45,7 @@ class Scatter {
   }
   drawKey() {
     this.key.replaceChildren();
-    for (const verdict of ['passed', 'failed', 'collided']) {
+    for (const verdict of ['passed', 'unchecked', 'failed', 'collided']) {
       const count = this.drawn.filter((row) => this.table.verdict(row) === verdict).length;
       if (!count) continue;
       const item = this.key.appendChild(make('span'));

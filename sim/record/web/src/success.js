@@ -29,7 +29,7 @@ function successCells(table, rows, xBins, yBins) {
   const cells = new Map();
   for (const row of rows) {
     const x = xBins.of(row), y = yBins.of(row), verdict = table.verdict(row);
-    if (x < 0 || y < 0 || verdict === 'missing') continue;
+    if (x < 0 || y < 0 || verdict === 'missing' || verdict === 'unchecked') continue;
     const key = x + ',' + y;
     if (!cells.has(key)) cells.set(key, {x, y, passed: 0, ended: 0, rows: []});
     const cell = cells.get(key);

@@ -1,0 +1,71 @@
+#include "sim/scenario/inputs.h"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <memory>
+#include <variant>
+
+#include "scenes/mesh/mesh_files.h"
+
+namespace hedgehop::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Relative to the folder unless nothing but the root, or little more, is above both.
+std::string name_of(const fs::path& file, const fs::path& folder) {
+  constexpr auto kFarthest = 3;  // folders up: a world of configs/leaderboard/worlds names a rig of configs/rigs
+  const fs::path whole = fs::absolute(file).lexically_normal(), from = fs::absolute(folder / ".").lexically_normal();
+  const fs::path relative = whole.lexically_relative(from);
+  const auto ups = std::ranges::count(relative, fs::path(".."));
+  const auto depth = std::ranges::count_if(from, [](const fs::path& part) { return !part.empty() && part != "/"; });
+  return relative.empty() || ups > kFarthest || ups >= depth ? whole.string() : relative.string();
+}
+
+std::set<fs::path> named_files(const Scenario& scenario) {
+  std::set<fs::path> files;
+  const auto& imports = std::visit(
+      [](const auto& chosen) -> const auto& { return chosen.added.imports; }, scenario.scene);
+  for (const scenes::mesh::ImportConfig& import : imports) files.merge(scenes::mesh::mesh_files(import.file));
+  for (const CameraConfig& camera : scenario.rig.cameras) files.insert(camera.calibration);
+  for (const CheckConfig& check : scenario.checks) {
+    if (const auto* path = std::get_if<PathToleranceCheck>(&check)) files.insert(path->reference);
+  }
+  if (const auto* plugin = std::get_if<PluginConfig>(&scenario.avoidance)) files.insert(plugin->plugin);
+  files.erase(fs::path());
+  return files;
+}
+
+}  // namespace
+
+Inputs inputs_of(const Scenario& scenario, const std::set<fs::path>& read, const fs::path& folder) {
+  Inputs inputs;
+  for (const auto& files : {read, named_files(scenario)}) {
+    for (const fs::path& file : files) inputs[name_of(file, folder)] = sha256(file);
+  }
+  return inputs;
+}
+
+std::string sha256(const fs::path& file) {
+  std::error_code error;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || fs::is_directory(file, error)) return "missing";
+  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
+  EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr);
+  std::array<char, 65536> buffer{};
+  while (stream.read(buffer.data(), buffer.size()) || stream.gcount() > 0) {
+    EVP_DigestUpdate(context.get(), buffer.data(), static_cast<size_t>(stream.gcount()));
+  }
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned length = 0;
+  EVP_DigestFinal_ex(context.get(), digest.data(), &length);
+  std::string text;
+  for (unsigned i = 0; i < length; ++i) text += fmt::format("{:02x}", digest[i]);
+  return text;
+}
+
+}  // namespace hedgehop::sim

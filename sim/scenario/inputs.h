@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+
+#include "sim/scenario/scenario.h"
+
+namespace hedgehop::sim {
+
+/// The files that a flight depends on, with the SHA-256 of each as `sha256sum` prints it, or "missing". A name is
+/// relative to the scenario's folder where the file lies below or near it, else absolute.
+using Inputs = std::map<std::string, std::string>;
+
+/// @param read    the scenario's file and all that it uses.
+/// @param folder  of the scenario's file.
+/// @return those, and the meshes with their materials and images, camera calibrations, reference paths and the plugin.
+Inputs inputs_of(const Scenario& scenario, const std::set<std::filesystem::path>& read,
+                 const std::filesystem::path& folder);
+
+/// 64 hexadecimal digits, or "missing" where there is no such file.
+std::string sha256(const std::filesystem::path& file);
+
+}  // namespace hedgehop::sim
