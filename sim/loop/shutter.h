@@ -26,7 +26,8 @@ using DrawRows = std::function<void(const Eigen::Isometry3d& X_WB, double dt_s, 
 
 /// Exposes one camera's images: the rows one after the other for a rolling shutter, each the mean of several moments
 /// for motion blur, as the config says. Exposure ends at the image's instant. The moments divide it evenly, each in the
-/// middle of its part; there are as many as the image moves by half pixels, at least 1 and at most `shutter_samples`.
+/// middle of its part; there are as many as the image moves by quarters of a pixel, at least 1 and at most
+/// `shutter_samples`.
 class Shutter {
  public:
   explicit Shutter(const ImperfectionsConfig& config) : config_(config) {}
