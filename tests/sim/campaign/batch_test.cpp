@@ -121,7 +121,7 @@ TEST(Batch, FlightOfWhichNothingIsAskedDoesNotPass) {
   EXPECT_THAT(end.out, HasSubstr("| tiny | 1 | no checks | - |"));
   EXPECT_TRUE(flight(folder.json("out/batch.json"), 1).at("passed").is_null());
   EXPECT_THAT(junit_cases(folder, "j.xml"), HasSubstr("tiny/seed1/flight skipped no checks"));
-  for (const std::string text : {end.out + end.err, folder.read("j.xml")}) EXPECT_THAT(text, Not(HasSubstr("pass ")));
+  for (const std::string& text : {end.out + end.err, folder.read("j.xml")}) EXPECT_THAT(text, Not(HasSubstr("pass ")));
 }
 
 TEST(Batch, EveryFileNamesTheBuild) {
