@@ -181,7 +181,7 @@ TEST(Start, IsDrawnEvenlyFromTheDisc) {
 TEST(Fuzz, MutatedScenariosLoadOrThrowInputError) {
   Folder folder;
   const std::string original = text_of(kConfigs / "garratt2009_city_0.yaml");
-  for (const char* used : {"rigs/garratt2009_400.yaml", "vehicles/electric_helicopter_8kg.yaml"}) {
+  for (const char* used : {"rigs/garratt2009_400.yaml", "sensors/day.yaml", "vehicles/electric_helicopter_8kg.yaml"}) {
     Folder::write(used, text_of(kConfigs / used));
   }
   static constexpr std::string_view kBits[] = {"[",
