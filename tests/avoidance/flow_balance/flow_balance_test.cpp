@@ -136,7 +136,7 @@ TEST(FlowBalance, FlowOfATurnMisleadsThePrintedLawOnly) {
     const auto still = command_in_flight(config, walls, 0.0, v, goal).v_WB_W;
     return (command_in_flight(config, walls, 0.0, v, goal, w).v_WB_W - still).norm();
   };
-  EXPECT_LT(change(small_images()), 0.2);
+  EXPECT_LT(change(small_images()), 0.25);  // an eighth of the speed
   EXPECT_GT(change(as_printed()), 3.0 * change(small_images()));
 }
 

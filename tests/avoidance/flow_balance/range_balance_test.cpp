@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "avoidance/flow_balance/balance_law.h"
+#include "avoidance/flow_balance/side_cameras.h"
 #include "tests/avoidance/flow_balance/wall_flow.h"
 
 namespace hedgehop::avoidance::flow_balance {

@@ -114,7 +114,7 @@ TEST(Batch, FileOfTheSceneThatChangedIsFlownAgain) {
 TEST(Batch, FlightOfWhichNothingIsAskedDoesNotPass) {
   const CampaignFolder folder;
   std::string scenario = folder.read("tiny.yaml");
-  scenario.replace(scenario.find("checks:"), std::string::npos, "checks: []\n");
+  scenario.replace(scenario.find("checks:"), std::string::npos, "may_collide: true\nchecks: []\n");
   folder.write("free.yaml", scenario);
   const CommandEnd end = folder.hedgehop("batch free.yaml --out out --junit j.xml");
   EXPECT_EQ(end.status, 0) << end.err;
