@@ -38,9 +38,16 @@ void CourseKeeper::set_obstacles(const LandmarkMap& map) {
   std::vector<Eigen::Vector2d> filled;
   for (size_t i = 0; i < points.size(); ++i) {
     const auto near = [&](const Eigen::Vector2d& p) { return (p - points[i]).norm() <= kLinkM; };
-    if (std::ranges::count_if(points, near) < 2) continue;  // a corner alone bounds nothing
+    const Eigen::Vector2d away = (points[i] - seen_from[i]).normalized();
     filled.push_back(points[i]);
-    filled.push_back(points[i] + config_.behind_m * (points[i] - seen_from[i]).normalized());
+    filled.push_back(points[i] + config_.behind_m * away);
+    if (std::ranges::count_if(points, near) >= 2) continue;
+    // A corner alone begins a face, to which side is not known: half a face to either.
+    const Eigen::Vector2d aside = 0.5 * kLinkM * Eigen::Vector2d(-away.y(), away.x());
+    for (const Eigen::Vector2d& end : {Eigen::Vector2d(points[i] - aside), Eigen::Vector2d(points[i] + aside)}) {
+      filled.push_back(end);
+      filled.push_back(end + config_.behind_m * away);
+    }
   }
   hulls_ = plan_hulls(filled, std::max(kLinkM, config_.behind_m));
 }

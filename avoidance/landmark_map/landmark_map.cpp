@@ -92,19 +92,18 @@ class LandmarkMapModule final : public Module {
             {"filter_ms_total", sight_ ? sight_->filter_ms() : 0.0, "ms", /*is_wall_time=*/true}};
   }
 
-  /// The landmarks that are known to a tenth of their distance, and all that may bound an obstacle: nothing that the
+  /// The landmarks that are known to a meter, and all that may bound an obstacle: nothing that the
   /// module acts on is kept from who judges its map. Places where one thing hides another move over the world as the
   /// camera does: they fit no point, and stay vague.
   std::vector<MapPoint> known_points() const {
-    constexpr double kKnownShare = 0.1;
+    constexpr double kKnownSigmaM = 1.0;
     std::vector<MapPoint> points;
     if (!sight_) return points;
     for (const vision::landmarks::MappedLandmark& mapped : map().landmarks()) {
       if (!map().confirmed(mapped)) continue;
       const Eigen::Vector3d p_W = vision::landmarks::position_W(mapped.landmark);
-      const double distance_m = (p_W - sight_->pose().X_WC_est.translation()).norm();
       const Eigen::Matrix3d P_W = vision::landmarks::covariance_W(mapped.landmark);
-      const bool known = greatest_variance(P_W) <= kKnownShare * kKnownShare * distance_m * distance_m;
+      const bool known = greatest_variance(P_W) <= kKnownSigmaM * kKnownSigmaM;
       if (known || bounds_obstacle(map(), mapped)) points.push_back({p_W, P_W});
     }
     return points;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "vision/stereo/depth_pyramid.h"
@@ -29,7 +30,8 @@ class PassedObstacles {
 
   /// Whether a straight path from the camera along `direction_W` (any length above 0) keeps `radius_m` from all that
   /// is remembered. An obstacle that is closer already may come closer by a tenth.
-  bool free(const Eigen::Vector3d& direction_W) const;
+  /// @param reach_m  length of the path, >= 0.
+  bool free(const Eigen::Vector3d& direction_W, double reach_m = std::numeric_limits<double>::infinity()) const;
 
   /// Remembered and out of view, in W, m.
   std::vector<Eigen::Vector3d> points_W() const;

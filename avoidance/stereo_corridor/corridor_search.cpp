@@ -18,6 +18,8 @@ const char* name_of(FoundBy step) {
   switch (step) {
     case FoundBy::goal:
       return "cruise";
+    case FoundBy::approach:
+      return "approach";
     case FoundBy::keep:
       return "keep";
     case FoundBy::track:
@@ -44,6 +46,17 @@ std::optional<Target> CorridorSearch::join(const Eigen::Vector3d& flight_C, cons
 std::optional<Target> CorridorSearch::along(const Eigen::Vector3d& direction_C, FoundBy step) {
   const std::optional<cv::Point> pixel = pixel_of(direction_C);
   return pixel ? at(*pixel, step) : std::nullopt;
+}
+
+std::optional<Target> CorridorSearch::below_or_above(const Eigen::Vector3d& p_C) {
+  if (!(p_C.z() > 0.0)) return std::nullopt;
+  const double last_row = pyramid_.image().height - 1;
+  const double v = geometry_.center_v_px + geometry_.focal_px * p_C.y() / p_C.z();
+  const double edge_C = (std::clamp(v, 0.0, last_row) - geometry_.center_v_px) / geometry_.focal_px;
+  const std::optional<cv::Point> pixel = pixel_of({p_C.x(), edge_C * p_C.z(), p_C.z()});
+  if (!pixel) return std::nullopt;
+  const auto free = corridor(*pixel, std::min(size_.target_m, p_C.z()), &tests_);
+  return free ? std::optional(Target{*pixel, std::min(free->z_m, p_C.z()), FoundBy::approach}) : std::nullopt;
 }
 
 std::optional<Target> CorridorSearch::near(const std::optional<cv::Point>& followed) {
@@ -77,16 +90,17 @@ std::optional<cv::Point> CorridorSearch::pixel_of(const Eigen::Vector3d& directi
 }
 
 /// The corridor round a pixel's ray, if it is free. [Andert2007] sec. 4.2.
-std::optional<vision::stereo::Corridor> CorridorSearch::corridor(const cv::Point& pixel, int* tests) const {
+std::optional<vision::stereo::Corridor> CorridorSearch::corridor(const cv::Point& pixel, double target_m,
+                                                                 int* tests) const {
   if (allowed_ && !allowed_(geometry_.ray(pixel))) return std::nullopt;
   const vision::stereo::Corridor found =
-      vision::stereo::examine_corridor(pyramid_, geometry_, pixel, size_.radius_m, size_.target_m);
+      vision::stereo::examine_corridor(pyramid_, geometry_, pixel, size_.radius_m, target_m);
   if (tests) *tests += found.tests;
   return found.state == vision::stereo::Corridor::State::free ? std::optional(found) : std::nullopt;
 }
 
 std::optional<Target> CorridorSearch::at(const cv::Point& pixel, FoundBy step) {
-  const auto free = corridor(pixel, &tests_);
+  const auto free = corridor(pixel, size_.target_m, &tests_);
   return free ? std::optional(Target{pixel, free->z_m, step}) : std::nullopt;
 }
 

@@ -13,8 +13,9 @@
 
 namespace hedgehop::avoidance::stereo_corridor {
 
-/// The step of [Andert2007] sec. 4.3.4 that found a target, or `goal`, which is ours.
-enum class FoundBy { goal, keep, track, near, search };
+/// The step of [Andert2007] sec. 4.3.4 that found a target. Ours: `goal`, and `approach` to one above or below the
+/// view.
+enum class FoundBy { goal, approach, keep, track, near, search };
 /// Its name in decisions and images.
 const char* name_of(FoundBy step);
 
@@ -59,6 +60,9 @@ class CorridorSearch {
 
   /// Step 1 for any direction: the target at its pixel, if that lies in the image and its corridor is free.
   std::optional<Target> along(const Eigen::Vector3d& direction_C, FoundBy step);
+  /// Towards a place that lies above or below the view, but not aside: the target at the edge of the image that is
+  /// nearest to it, whose corridor need be free only as far as the place. Ours. @param p_C  the place, m.
+  std::optional<Target> below_or_above(const Eigen::Vector3d& p_C);
   /// Steps 2 and 3: the followed target, else the best one near it.
   std::optional<Target> near(const std::optional<cv::Point>& followed);
   /// Step 4: the best target of the whole image. @param reference_C  direction from which a change costs.
@@ -69,12 +73,12 @@ class CorridorSearch {
   /// The pixel that shows a direction, if it lies in the image.
   std::optional<cv::Point> pixel_of(const Eigen::Vector3d& direction_C) const;
   /// Whether the corridor round a pixel's ray is free.
-  bool is_free(const cv::Point& pixel) const { return corridor(pixel).has_value(); }
+  bool is_free(const cv::Point& pixel) const { return corridor(pixel, size_.target_m).has_value(); }
   /// Pixels and blocks examined so far.
   int tests() const { return tests_; }
 
  private:
-  std::optional<vision::stereo::Corridor> corridor(const cv::Point& pixel, int* tests = nullptr) const;
+  std::optional<vision::stereo::Corridor> corridor(const cv::Point& pixel, double target_m, int* tests = nullptr) const;
   std::optional<Target> at(const cv::Point& pixel, FoundBy step);
   std::optional<Target> cheapest(const std::vector<cv::Point>& candidates, const Eigen::Vector3d& reference_C,
                                  FoundBy step);

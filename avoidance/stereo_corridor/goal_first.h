@@ -9,8 +9,8 @@
 namespace hedgehop::avoidance::stereo_corridor {
 
 /// The law of CorridorSearch::join() with the goal before everything: its direction is tried before the direction of
-/// flight, so that the vehicle returns to its course. While the goal lies outside the image, the free corridor nearest
-/// to its direction is flown, so that it comes into view.
+/// flight, so that the vehicle returns to its course. A goal above or below the view is approached at the image's edge;
+/// while it lies aside, the free corridor nearest to its direction is flown, so that it comes into view.
 /// @param p_CG_C  the goal. @param v_WB_C  velocity, m/s. @param followed  where the last target is now, if known.
 std::optional<Target> choose_goal_first(CorridorSearch& search, const Eigen::Vector3d& p_CG_C,
                                         const Eigen::Vector3d& v_WB_C, const std::optional<cv::Point>& followed);

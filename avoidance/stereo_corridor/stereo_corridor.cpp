@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "avoidance/heading.h"
 #include "avoidance/stereo/passed_obstacles.h"
 #include "avoidance/stereo_corridor/goal_first.h"
 #include "avoidance/stereo_corridor/target_overlay.h"
@@ -71,19 +72,29 @@ class StereoCorridor final : public Module {
     passed_->update(observation.t_ns, pyramid_, source_->geometry(), X_WC);
 
     const Eigen::Vector3d p_CG_C = X_WC.inverse() * observation.goal.p_WG;
-    const bool turns_back = config_.additions.goal_first && turn_back_.update(p_CG_C);
+    const bool arrives = arrives_at(observation.goal.p_WG - navigation.p_WB_est);
+    const bool turns_back = config_.additions.goal_first && !arrives && turn_back_.update(p_CG_C);
     const int tests = aim(navigation, p_CG_C, turns_back);
     count(observation.t_ns, tests);
 
     Decision decision;
     decision.command = steer(observation);
-    decision.status = turns_back ? "turn_back" : target_ ? name_of(target_->found_by) : kLookRound;
+    if (arrives) decision.command = PositionCommand{observation.goal.p_WG, heading_rad(navigation.q_WB_est)};
+    decision.status = arrives ? "arrive" : turns_back ? "turn_back" : target_ ? name_of(target_->found_by) : kLookRound;
     const double valid = cv::countNonZero(disparity16 >= 0) / static_cast<double>(disparity16.total());
     decision.signals = {target_ ? target_->pixel.x : kUnknown, target_ ? target_->pixel.y : kUnknown,
                         target_ && std::isfinite(target_->z_m) ? target_->z_m : kUnknown, static_cast<double>(tests),
                         valid};
     last_ = decision;
     return decision;
+  }
+
+  /// Whether the goal is so near that its height is taken up on the spot: it lies below or above all images, and only
+  /// what has left them can be in the way.
+  bool arrives_at(const Eigen::Vector3d& p_BG_W) const {
+    constexpr double kNearM = 6.0, kOtherHeightM = 1.0;
+    return config_.additions.goal_first && p_BG_W.head<2>().norm() < kNearM && std::abs(p_BG_W.z()) > kOtherHeightM &&
+           passed_->free(p_BG_W, p_BG_W.norm());
   }
 
   /// Improves the depth image: [Andert2007] sec. 3.3. Ours: sky is looked for everywhere and in a smoothed image, for

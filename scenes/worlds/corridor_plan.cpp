@@ -40,8 +40,10 @@ void validate(const CorridorConfig& c) {
   require(!c.sections.empty(), "sections", 0.0, "at least one");
   const auto least = [&](double width_m) { return width_m - c.vary * std::abs(width_m - c.width_m); };
   const double smallest = 1.0 - c.vary, largest = 1.0 + c.vary;
+  const double shortest = smallest * smallest / largest;  // after keep_last_section()
   double width_m = c.width_m;
   for (const CorridorSection& s : c.sections) {
+    require(shortest * s.length_m >= 1.0, "sections.length", s.length_m, "at least 1 m, varied too");
     const double end_m = s.width_m > 0.0 ? least(s.width_m) : width_m;
     require(end_m >= 0.5, "sections.width", end_m, "at least 0.5 m, varied too, or 0");
     const double middle_width_m = 0.5 * (width_m + end_m);

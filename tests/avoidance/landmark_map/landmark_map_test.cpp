@@ -126,15 +126,28 @@ TEST(LandmarkMapModule, PassesTowersByItsClearanceAndComesBackToItsCourse) {
 }
 
 TEST(LandmarkMapModule, FliesStraightPastWhatIsNoObstacle) {
-  const std::vector<Eigen::Vector3d> alone = {{50.0, 0.0, -20.0}};
   const std::vector<Eigen::Vector3d> low = {{50.0, -3.0, 0.0}, {50.0, 3.0, -2.0}, {55.0, 0.0, -1.0}};
   const std::vector<Eigen::Vector3d> far_aside = corners_of({Tower(50.0, 40.0, 5.0, 25.0)});
-  for (const auto& corners_W : {std::vector<Eigen::Vector3d>{}, alone, low, far_aside}) {
+  for (const auto& corners_W : {std::vector<Eigen::Vector3d>{}, low, far_aside}) {
     CornerFlight flight(corners_W);
     for (int i = 0; i < 500; ++i) {
       ASSERT_EQ(flight.step().status, "cruise") << corners_W.size() << ' ' << flight.p_WB().x();
       ASSERT_LT(std::abs(flight.p_WB().y()), 1e-6) << corners_W.size();
     }
+  }
+}
+
+TEST(LandmarkMapModule, PassesACornerAloneAsIfAFaceBeganThere) {
+  constexpr double kHalfFaceM = 7.0, kOfTheMapM = 1.0;
+  for (const double aside_m : {-3.0, 0.0, 3.0}) {
+    CornerFlight flight({{50.0, aside_m, -20.0}});
+    double least_m = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 1200 && !flight.arrived(); ++i) {
+      flight.step();
+      least_m = std::min(least_m, (flight.p_WB().head<2>() - Eigen::Vector2d(50.0, aside_m)).norm());
+    }
+    EXPECT_TRUE(flight.arrived()) << aside_m;
+    EXPECT_GT(least_m, kHalfFaceM + LandmarkMapModuleConfig{}.clearance_m - kOfTheMapM) << aside_m;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -49,6 +50,25 @@ TEST(PassedObstacles, WhatHasLeftTheImageClosesThePathsThatPassItWithinTheRadius
     const bool passes_within = std::cos(off_rad) > 0.0 && std::abs(p.norm() * std::sin(off_rad)) < 1.5;
     if (std::abs(std::abs(p.norm() * std::sin(off_rad)) - 1.5) < 0.02) continue;  // the block's height: 0.02 m
     EXPECT_EQ(passed.free(towards(heading_rad)), !passes_within) << heading_rad;
+  }
+}
+
+TEST(PassedObstacles, APathThatEndsBeforeAnObstacleIsFree) {
+  PassedObstacles passed({.radius_m = 1.5, .near_m = 12.0, .keep_s = 8.0});
+  passed.update(0, block_at({152, 56, 8, 8}, 6.0), kGeometry, looking(0.0));
+  passed.update(kSecondNs / 10, kSky, kGeometry, looking(-0.3));
+  ASSERT_EQ(passed.points_W().size(), 1u);
+  const Eigen::Vector3d p = passed.points_W().front();
+  for (double off_rad = -0.4; off_rad < 0.4; off_rad += 0.05) {
+    const Eigen::Vector3d ahead = towards(std::atan2(p.y(), p.x()) + off_rad);
+    for (double reach_m = 0.1; reach_m < 10.0; reach_m += 0.1) {
+      double nearest_m = p.norm();
+      for (double along_m = 0.0; along_m <= reach_m; along_m += 0.01) {
+        nearest_m = std::min(nearest_m, (along_m * ahead - p).norm());
+      }
+      if (std::abs(nearest_m - 1.5) < 0.02) continue;
+      EXPECT_EQ(passed.free(ahead, reach_m), nearest_m > 1.5) << reach_m;
+    }
   }
 }
 

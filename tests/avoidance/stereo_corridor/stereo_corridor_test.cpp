@@ -24,13 +24,13 @@ class Pilot {
   }
 
   Decision see(std::vector<vision::TexturedPlane> walls, const Eigen::Vector2d& v_WB_W = {3.0, 0.0},
-               double north_m = 0.0, const Eigen::Vector2d& goal_W = {200.0, 0.0}) {
+               double north_m = 0.0, const Eigen::Vector2d& goal_W = {200.0, 0.0}, double goal_altitude_m = 6.0) {
     walls.push_back(wall(kBackdropM, 0.0, M_PI));
     const NavigationState navigation = level_flight({north_m, 0.0, -6.0}, 0.0, v_WB_W);
     t_ns_ += 100'000'000;
     const vision::WaveTexture texture(7, 0.4, 6.0, 24);
     const std::vector<CameraFrame> frames = avoidance::see(setup_, navigation, t_ns_, walls, texture);
-    return module_->update({t_ns_, frames, navigation, {{goal_W.x(), goal_W.y(), -6.0}, 0.0}});
+    return module_->update({t_ns_, frames, navigation, {{goal_W.x(), goal_W.y(), -goal_altitude_m}, 0.0}});
   }
   double metric(const std::string& name) const {
     for (const Metric& metric : module_->metrics()) {
@@ -127,6 +127,17 @@ TEST(StereoCorridor, ThePrintedLawPassesAnObstacleAndHoversWhereEverythingIsNear
   config.law = Law::printed;
   EXPECT_EQ(Pilot(config).see({wall(14.0, -2.0, M_PI, 4.0)}).status, "search");
   EXPECT_EQ(Pilot(config).see({wall(9.0, 0.0, M_PI)}).status, "look_round");
+}
+
+TEST(StereoCorridor, AGoalBelowTheViewIsApproachedAtItsEdgeAndTakenUpOnTheSpot) {
+  // The view ends 45 degrees down.
+  const Decision above = Pilot().see({}, {3.0, 0.0}, 0.0, {12.0, 0.0}, -9.0);
+  EXPECT_EQ(above.status, "approach");
+  EXPECT_DOUBLE_EQ(above.signals[1], kSizePx - 1.0);
+  EXPECT_LT(velocity(above).altitude_m, 6.0);
+  const Decision over_it = Pilot().see({}, {1.0, 0.0}, 0.0, {4.0, 0.0}, -9.0);
+  EXPECT_EQ(over_it.status, "arrive");
+  EXPECT_DOUBLE_EQ(std::get<PositionCommand>(over_it.command).p_WB.z(), 9.0);
 }
 
 /// The course of one addition at a time: what each alone does of the tests above.

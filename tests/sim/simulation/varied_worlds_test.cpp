@@ -57,6 +57,7 @@ TEST(VariedWorlds, CorridorsHaveTheirGoalInTheMiddleAndTheirStartFree) {
         const CorridorPlace place = corridor_place(plan, start);
         EXPECT_GT(std::min({place.left_m, place.right_m, place.along_m}), hull_radius_m) << name << ", seed " << seed;
       }
+      EXPECT_NO_THROW(scenes::worlds::draw_corridor(scenes::worlds::draw_corridor(corridor, seed), seed)) << name;
       lengths_m.insert((plan.middles_NE.back() - plan.middles_NE.front()).norm());
     }
     EXPECT_GT(lengths_m.size(), kSeeds / 2) << name;
