@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "sim/cli/commands.h"
+#include "sim/cli/number_options.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -13,8 +14,10 @@ size_t cores() { return std::max(1u, std::thread::hardware_concurrency()); }
 template <class Options>
 void add_flying(CLI::App& command, Options& options) {
   command.add_option("-j,--jobs", options.jobs, "flights at a time; all cores when not given")
+      ->transform(whole_number())
       ->check(CLI::Range(1, 4096));
   command.add_option("--limit", options.limit_s, "longest wall time of a flight; it is killed then, and fails")
+      ->transform(number())
       ->check(CLI::PositiveNumber)
       ->type_name("S");
   command.add_flag("--reuse-other-builds", options.reuse_other_builds,
@@ -43,6 +46,7 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
   command
       ->add_option("--min-success", options->least_success,
                    "over the seeds, the lower end of the success rate's interval must not be below this")
+      ->transform(number())
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("RATE");
   command
@@ -52,8 +56,11 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
   command
       ->add_option("--margin", options->margin,
                    "with --no-worse-than: a loss of the success rate that must be ruled out, 0 to 1")
+      ->transform(number())
       ->check(CLI::Range(0.0, 1.0));
-  command->add_option("--confidence", options->confidence, "of both; default 0.95")->check(CLI::Range(0.5, 0.99999));
+  command->add_option("--confidence", options->confidence, "of both; default 0.95")
+      ->transform(number())
+      ->check(CLI::Range(0.5, 0.99999));
   command->add_flag("--json", options->json, "print batch.json instead of a table for people");
   command->add_option("--program", options->program)->group("");  // hidden: for tests
   command->callback([&chosen, options] { chosen = [options] { return batch(*options); }; });
@@ -73,7 +80,9 @@ void declare_sweep(CLI::App& app, std::function<int()>& chosen) {
       ->type_name("DIR");
   command->add_flag("--missing", options->missing, "only print how many flights have no result yet");
   command->add_option("--on", options->on, "local (default) or slurm")->check(CLI::IsMember({"local", "slurm"}));
-  command->add_option("--tasks", options->tasks, "shards of a Slurm job array; default 8")->check(CLI::Range(1, 1000));
+  command->add_option("--tasks", options->tasks, "shards of a Slurm job array; default 8")
+      ->transform(whole_number())
+      ->check(CLI::Range(1, 1000));
   command->add_option("--slurm-option", options->slurm_options, "for every sbatch, such as --partition=night");
   command->add_flag("--dry-run", options->dry_run, "with --on slurm: only print the batch scripts");
   command->add_option("--program", options->program)->group("");  // hidden: for tests

@@ -7,6 +7,7 @@
 
 #include "sim/cli/campaign_options.h"
 #include "sim/cli/commands.h"
+#include "sim/cli/number_options.h"
 #include "sim/flight/build.h"
 #include "sim/scenario/input_error.h"
 
@@ -19,7 +20,8 @@ constexpr int kInternalError = 3;
 
 /// What may override a scenario.
 void add_layers(CLI::App& command, cli::ScenarioOptions& scenario) {
-  command.add_option("--seed", scenario.seed, "seed of every random stream; overrides the scenario's");
+  command.add_option("--seed", scenario.seed, "seed of every random stream; overrides the scenario's")
+      ->transform(cli::whole_number());
   command.add_option("--set", scenario.overrides, "override a value of the scenario, e.g. --set avoidance.speed=1.5")
       ->type_name("KEY.PATH=VALUE")
       ->take_all();
@@ -67,6 +69,7 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
   add_layers(*render_command, render.scenario);
   auto* const camera = render_command->add_option("--camera", render.camera, "role of the camera")->type_name("NAME");
   render_command->add_option("--time", render.time_s, "time of the image, s; the flight is flown up to it")
+      ->transform(cli::number())
       ->check(CLI::NonNegativeNumber)
       ->type_name("S");
   render_command
@@ -125,6 +128,7 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
       ->add_option("--film-strips", report.film_strips,
                    "of a batch or sweep: re-simulate so many of the worst flights, up to their closest approach, for "
                    "images of what they saw")
+      ->transform(cli::whole_number())
       ->check(CLI::Range(0, 50))
       ->type_name("N");
   report_command->callback([&] { chosen = [&report] { return cli::report(report); }; });
@@ -154,6 +158,7 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
       "linearize", "print a vehicle's linear model about level flight: A, B and modes with frequency and damping");
   linearize_command->add_option("VEHICLE", vehicles.linearize.vehicle, "vehicle file (YAML)")->required();
   linearize_command->add_option("--speed", vehicles.linearize.speed_mps, "speed through the air (m/s); default 0")
+      ->transform(cli::number())
       ->type_name("V");
   add_formats(*linearize_command, vehicles.linearize.json, vehicles.linearize.csv);
   linearize_command->callback([&] { chosen = [&vehicles] { return cli::linearize(vehicles.linearize); }; });

@@ -1,35 +1,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <ostream>
 #include <sstream>
 #include <string>
 
+#include "tests/sim/cli/ask.h"
+
 namespace hedgehop::sim::cli {
 namespace {
 
 using testing::HasSubstr;
 
-constexpr int kBadInput = 2;
 const std::string kConfigs = HEDGEHOP_SOURCE_DIR "/configs/";
-
-/// What the program said, on both streams, and its exit status.
-struct Answer {
-  int status = -1;
-  std::string text;
-};
-Answer ask(const std::string& arguments) {
-  Answer answer;
-  FILE* const pipe = popen((HEDGEHOP_PROGRAM " " + arguments + " 2>&1").c_str(), "r");
-  if (!pipe) return answer;
-  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) answer.text.push_back(static_cast<char>(c));
-  answer.status = WEXITSTATUS(pclose(pipe));
-  return answer;
-}
 
 /// A vehicle's file with one text of it changed, in a file of its own: tests run side by side.
 std::string changed(const std::string& name, const std::string& vehicle, const std::string& from,

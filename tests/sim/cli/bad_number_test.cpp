@@ -1,0 +1,39 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/sim/cli/ask.h"
+
+namespace hedgehop::sim::cli {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kScenario = HEDGEHOP_SOURCE_DIR "/configs/andert2007_tree_160.yaml";
+
+TEST(NumberOptions, RefuseWhatWrapsOrIsNotFinite) {
+  const std::string out = " --out " + testing::TempDir() + "/bad_number";
+  for (const std::string option : {"--seed -1", "--seed 18446744073709551616", "--seed 1.5", "--seed 0x10"}) {
+    const Answer answer = ask("run " + kScenario + out + " " + option);
+    EXPECT_EQ(answer.status, kBadInput) << option;
+    EXPECT_THAT(answer.text, HasSubstr("--seed")) << option;
+  }
+  for (const std::string option :
+       {"--limit nan", "--limit inf", "--min-success nan", "--margin nan", "--jobs 1e2", "--confidence nan"}) {
+    const Answer answer = ask("batch " + kScenario + out + " " + option);
+    EXPECT_EQ(answer.status, kBadInput) << option;
+    EXPECT_THAT(answer.text, HasSubstr(option.substr(0, option.find(' ')))) << option;
+  }
+  EXPECT_EQ(ask("render " + kScenario + " --camera left -o /dev/null --time nan").status, kBadInput);
+}
+
+TEST(NumberOptions, ReadDecimally) {
+  const Answer answer =
+      ask("run " + kScenario + " --seed 010 --set duration=0.02 --set 'checks=[]' --no-video --json --out " +
+          testing::TempDir() + "/decimal_number");
+  EXPECT_THAT(answer.text, HasSubstr("\"seed\": 10,"));
+}
+
+}  // namespace
+}  // namespace hedgehop::sim::cli
