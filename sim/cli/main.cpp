@@ -1,7 +1,12 @@
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <functional>
 
@@ -194,9 +199,8 @@ int run_command_line(int argc, char** argv) {
   return chosen();
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// Runs the command line and says what went wrong, if anything.
+int run_and_report(int argc, char** argv) {
   try {
     return run_command_line(argc, argv);
   } catch (const hedgehop::sim::InputError& error) {
@@ -206,4 +210,26 @@ int main(int argc, char** argv) {
     std::fputs(fmt::format("hedgehop: {}\n", error.what()).c_str(), stderr);  // never throws, as fmt::print may
     return kInternalError;
   }
+}
+
+/// A file opened while one of the standard streams is closed would get its number, and its text.
+void open_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", O_RDWR);  // takes the lowest number that is free
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  open_standard_streams();
+  std::signal(SIGPIPE, SIG_IGN);  // a reader that has seen enough ends no flight
+  constexpr size_t kBufferBytes = 1 << 20;
+  std::setvbuf(stdout, nullptr, _IOFBF, kBufferBytes);  // so that a result is written whole, or known not to be
+  const int status = run_and_report(argc, argv);
+  if (std::fflush(stdout) != 0 && errno != EPIPE) {
+    std::fputs(fmt::format("hedgehop: cannot write to standard output: {}\n", std::strerror(errno)).c_str(), stderr);
+    return kInternalError;
+  }
+  return status;
 }

@@ -1,0 +1,54 @@
+// What becomes of the program when the streams it was given are full, closed, or no longer read.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "tests/sim/cli/ask.h"
+
+namespace hedgehop::sim::cli {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int kInternalError = 3;
+
+std::string short_run(const std::string& folder) {
+  return "run " HEDGEHOP_SOURCE_DIR
+         "/configs/andert2007_tree_160.yaml --set duration=0.1 --set 'checks=[]' --no-report "
+         "--no-video --out " +
+         folder;
+}
+
+std::string fresh_folder(const std::string& name) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / ("streams_" + name);
+  std::filesystem::remove_all(folder);
+  return folder.string();
+}
+
+TEST(Streams, ResultThatCannotBeWrittenIsAnError) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  for (const std::string& command :
+       {std::string("list modules"), std::string("schema"), short_run(fresh_folder("full")) + " --json"}) {
+    const Answer answer = ask(command + " 2>&1 >/dev/full #");
+    EXPECT_EQ(answer.status, kInternalError) << command;
+    EXPECT_THAT(answer.text, HasSubstr("No space left on device")) << command;
+  }
+}
+
+TEST(Streams, ReaderThatClosesItsPipeEndsNoFlight) {
+  const std::string folder = fresh_folder("pipe");
+  // The status goes past the pipe, through the second descriptor.
+  const Answer answer = ask(short_run(folder) + " --json | true; test -s " + folder + "/result.json && echo written");
+  EXPECT_THAT(answer.text, HasSubstr("written"));
+}
+
+TEST(Streams, ClosedOnesAreNoReasonToFail) {
+  const std::string folder = fresh_folder("closed");
+  EXPECT_EQ(ask(short_run(folder) + " <&- >&- 2>&- #").status, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder + "/result.json"));
+}
+
+}  // namespace
+}  // namespace hedgehop::sim::cli
