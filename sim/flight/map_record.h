@@ -10,8 +10,7 @@ namespace hedgehop::sim {
 struct RecordedPoint {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();           ///< m
   Eigen::Matrix3d covariance_W = Eigen::Matrix3d::Zero();  ///< m^2
-  std::optional<bool>
-      is_true;  ///< is matched with a true corner (MapScore); none where the scene's corners are unknown
+  std::optional<bool> is_true;  ///< is matched with a true corner (MapScore); none where corners are unknown
 };
 
 struct RecordedCorner {

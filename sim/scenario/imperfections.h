@@ -54,9 +54,7 @@ void describe(Visitor& v, ImperfectionsConfig& c) {
   v("shutter_samples", c.shutter_samples,
     {.at_least = 1,
      .at_most = 256,
-     .meaning = "the most moments that an image with motion blur is the mean of; fewer where a quarter of a pixel lies "
-                "between "
-                "them"});
+     .meaning = "most moments that an image with motion blur is the mean of; they lie a quarter of a pixel apart"});
   v("readout", c.readout_s,
     {.unit = "s",
      .at_least = 0.0,

@@ -107,4 +107,25 @@ inline std::vector<Sample> fly(const Loop& loop, double duration_s,
   return samples;
 }
 
+/// When what the start was off by no longer shows.
+inline constexpr double kSettledS = 2.0;
+
+/// A square of velocities, a new side every 3 s: the aircraft tilts and accelerates all the time.
+inline control::Setpoint square(double t_s) {
+  constexpr double kSigns[4][2] = {{1, 1}, {1, -1}, {-1, -1}, {-1, 1}};
+  const double(&s)[2] = kSigns[static_cast<int>(t_s / 3.0) % 4];
+  return control::VelocitySetpoint{{1.5 * s[0], 1.5 * s[1]}, 10.0, 0.0};
+}
+
+/// Flights that differ by the seed alone: 1, 2, ...
+inline std::vector<std::vector<Sample>> flights(Loop loop, int count, double duration_s,
+                                                const std::function<control::Setpoint(double)>& setpoint) {
+  std::vector<std::vector<Sample>> all;
+  for (int i = 0; i < count; ++i) {
+    loop.seed = static_cast<uint64_t>(i) + 1;
+    all.push_back(fly(loop, duration_s, setpoint));
+  }
+  return all;
+}
+
 }  // namespace hedgehop::dynamics
