@@ -15,8 +15,10 @@ std::unique_ptr<GlContext> make_context(ContextKind kind) {
       return std::make_unique<OsmesaContext>();
     case ContextKind::egl:
       return std::make_unique<EglContext>();
+    case ContextKind::tiles:
+      break;
   }
-  throw std::logic_error("unknown kind of context");
+  throw std::logic_error("a context without OpenGL");
 }
 
 }  // namespace hedgehop::sim

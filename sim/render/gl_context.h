@@ -2,15 +2,10 @@
 
 #include <memory>
 
+#include "sim/render/context_kind.h"
 #include "sim/render/gl_functions.h"
 
 namespace hedgehop::sim {
-
-/// Which library creates an OpenGL context without a display.
-enum class ContextKind {
-  osmesa,  ///< Mesa's software rasterizer behind OSMesa
-  egl,     ///< EGL without a surface: a GPU where there is one, else the same rasterizer
-};
 
 /// An OpenGL 3.3 core context that needs no display. Destroying it frees every object made in it.
 class GlContext {
@@ -28,7 +23,7 @@ class GlContext {
   GlFunctions gl_;  ///< for load_gl() in the constructor
 };
 
-/// Throws std::runtime_error with the cause when there is no such context or an entry point is missing. Mesa's
+/// @param kind  osmesa or egl. Throws std::runtime_error with the cause when there is no such context or an entry point is missing. Mesa's
 /// rasterizer threads are switched off unless the environment has LP_NUM_THREADS.
 std::unique_ptr<GlContext> make_context(ContextKind kind);
 

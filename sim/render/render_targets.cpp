@@ -11,21 +11,20 @@ namespace {
 
 struct Format {
   GLenum storage, read_format, read_type;
-  int mat_type;
 };
 
 Format format_of(Raster raster) {
   switch (raster) {
     case Raster::grey:
-      return {GL_R8, GL_RED, GL_UNSIGNED_BYTE, CV_8UC1};
+      return {GL_R8, GL_RED, GL_UNSIGNED_BYTE};
     case Raster::color:
-      return {GL_RGBA8, GL_RGB, GL_UNSIGNED_BYTE, CV_8UC3};
+      return {GL_RGBA8, GL_RGB, GL_UNSIGNED_BYTE};
     case Raster::depth:
-      return {GL_R32F, GL_RED, GL_FLOAT, CV_32FC1};
+      return {GL_R32F, GL_RED, GL_FLOAT};
     case Raster::planes:
-      return {GL_RGBA32F, GL_RGBA, GL_FLOAT, CV_32FC4};
+      return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
     case Raster::labels:
-      return {GL_R32I, GL_RED_INTEGER, GL_INT, CV_32SC1};
+      return {GL_R32I, GL_RED_INTEGER, GL_INT};
   }
   throw std::invalid_argument("unknown raster");
 }
@@ -58,8 +57,6 @@ GLuint make_framebuffer(const GlFunctions& gl, GLuint color, GLuint depth, const
 }
 
 }  // namespace
-
-int type_of(Raster raster) { return format_of(raster).mat_type; }
 
 void require_samples(const GlFunctions& gl, int samples) {
   if (samples != 1 && samples != 2 && samples != 4 && samples != 8) {
@@ -111,7 +108,7 @@ void RenderTargets::read(const GlFunctions& gl, cv::Mat& out) {
   const Target& target = targets_[bound_];
   const auto& [width_px, height_px, raster, samples] = target.shape;
   const Format format = format_of(raster);
-  out.create(height_px, width_px, format.mat_type);
+  out.create(height_px, width_px, type_of(targets_[bound_].shape.raster));
   if (out.step % out.elemSize() != 0) {
     throw std::invalid_argument("the rows of an image to draw into must be a whole number of pixels apart");
   }

@@ -4,20 +4,9 @@
 #include <vector>
 
 #include "sim/render/gl_functions.h"
+#include "sim/render/raster.h"
 
 namespace hedgehop::sim {
-
-/// What OpenGL puts into a pixel of a pinhole's image.
-enum class Raster {
-  grey,    ///< CV_8UC1
-  color,   ///< CV_8UC3, RGB
-  depth,   ///< CV_32FC1, z in C, m
-  planes,  ///< CV_32FC4, see plane_program()
-  labels,  ///< CV_32SC1
-};
-
-/// OpenCV's type of an image of this raster.
-int type_of(Raster raster);
 
 /// Throws std::invalid_argument unless the context draws exactly so many samples a pixel.
 /// @param samples  1, 2, 4 or 8.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim/render/lens_faces.h"
-#include "sim/render/scene_painter.h"
+#include "sim/render/painter.h"
 #include "sim/render/true_flow.h"
 
 namespace hedgehop::sim {
@@ -42,24 +42,24 @@ size_t chunk_count(const scenes::Scene& scene) {
 class Renderer::Impl {
  public:
   Impl(const scenes::Scene& scene, Culling culling, ContextKind context, Shadows shadows)
-      : painter_(scene, culling, context, shadows), first_mover_label_(static_cast<int>(1 + chunk_count(scene))) {
+      : painter_(make_painter(scene, culling, context, shadows)), first_mover_label_(static_cast<int>(1 + chunk_count(scene))) {
     for (const scenes::Mover& mover : scene.movers) motions_.push_back(mover.motion);
   }
 
   void draw(const CameraView& view, cv::Mat& out) {
     check(view);
-    painter_.start_count();
+    painter_->start_count();
     if (view.channel == Channel::flow) {
       draw_flow(view, out);
     } else {
       draw(view, view.channel, out);
     }
-    drawn_ = {painter_.count().stretches, painter_.count().triangles};
+    drawn_ = {painter_->count().stretches, painter_->count().triangles};
   }
 
-  void require_samples(int samples) { painter_.require_samples(samples); }
+  void require_samples(int samples) { painter_->require_samples(samples); }
   const Drawn& drawn() const { return drawn_; }
-  std::string info() { return painter_.info(); }
+  std::string info() { return painter_->info(); }
 
  private:
   /// A lens that was planned for, and what its images are made in.
@@ -82,10 +82,10 @@ class Renderer::Impl {
   }
 
   void draw(const CameraView& view, Channel channel, cv::Mat& out) {
-    const ScenePainter::Eye eye{view.X_WC, view.t_s};
+    const Painter::Eye eye{view.X_WC, view.t_s};
     if (view.camera.is_undistorted_pinhole()) {
       const bool levels = channel == Channel::grey || channel == Channel::color;
-      painter_.paint(view.camera.pinhole(), eye, raster_of(channel), levels ? view.samples : 1, out);
+      painter_->paint(view.camera.pinhole(), eye, raster_of(channel), levels ? view.samples : 1, out);
       return;
     }
     Lens& lens = lens_of(view.camera);
@@ -105,13 +105,13 @@ class Renderer::Impl {
     }
   }
 
-  void paint_sheet(const LensFaces& faces, const ScenePainter::Eye& eye, Raster raster, int samples, cv::Mat& sheet) {
+  void paint_sheet(const LensFaces& faces, const Painter::Eye& eye, Raster raster, int samples, cv::Mat& sheet) {
     sheet.create(faces.sheet, type_of(raster));
     for (const LensFaces::Face& face : faces.faces) {
-      ScenePainter::Eye face_eye = eye;
+      Painter::Eye face_eye = eye;
       face_eye.X_WC.linear() = eye.X_WC.linear() * face.R_CCf;
       cv::Mat part = sheet(cv::Rect(0, face.first_row, face.camera.width_px, face.camera.height_px));
-      painter_.paint(face.camera, face_eye, raster, samples, part);
+      painter_->paint(face.camera, face_eye, raster, samples, part);
     }
   }
 
@@ -140,7 +140,7 @@ class Renderer::Impl {
     return lens;
   }
 
-  ScenePainter painter_;
+  std::unique_ptr<Painter> painter_;
   int first_mover_label_;
   std::vector<scenes::Motion> motions_;  ///< of the movers
   std::deque<Lens> lenses_;

@@ -6,8 +6,7 @@
 #include <string>
 
 #include "scenes/scene.h"
-#include "sim/render/gl_context.h"
-#include "sim/render/sun_map.h"
+#include "sim/render/context_kind.h"
 #include "sim/render/visible_chunks.h"
 #include "vision/camera/camera.h"
 

@@ -1,9 +1,11 @@
-#include "sim/render/scene_painter.h"
+#include "sim/render/gl_painter.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
+
+#include "sim/render/scene_buffers.h"
 
 namespace hedgehop::sim {
 
@@ -29,40 +31,43 @@ std::vector<scenes::Motion> motions_of(const scenes::Scene& scene) {
   return motions;
 }
 
-size_t most_stretches(const SceneBuffers& buffers) {
-  size_t most = buffers.chunks.size() + buffers.tiles.size();
-  for (const auto& chunks : buffers.mover_chunks) most = std::max(most, chunks.size());
+size_t most_stretches(const SceneGeometry& geometry) {
+  size_t most = geometry.chunks.size() + geometry.tiles.size();
+  for (const auto& chunks : geometry.mover_chunks) most = std::max(most, chunks.size());
   return most;
 }
 
 }  // namespace
 
-ScenePainter::ScenePainter(const scenes::Scene& scene, Culling culling, ContextKind context, Shadows shadows)
+GlPainter::GlPainter(const scenes::Scene& scene, Culling culling, ContextKind context, Shadows shadows)
     : context_(make_context(context)),
       culling_(culling),
       sky_(scene.sky),
       motions_(motions_of(scene)),
-      buffers_(upload(gl_, scene)),
-      visible_(buffers_.chunks, buffers_.tiles),
+      geometry_(make_geometry(scene)),
+      visible_(geometry_.chunks, geometry_.tiles),
       greys_(grey_program(gl_, shadows)),
       colors_(color_program(gl_, shadows)),
       depths_(depth_program(gl_)),
       planes_(plane_program(gl_)),
       labels_(label_program(gl_)),
       skies_(sky_program(gl_)),
-      counts_(most_stretches(buffers_)),
+      counts_(most_stretches(geometry_)),
       offsets_(counts_.size()),
       stretch_labels_(counts_.size()) {
+  upload(gl_, geometry_, scene.textures);
+  geometry_.vertices = {};
+  geometry_.indices = {};
   gl_.Enable(GL_CULL_FACE);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.FrontFace(GL_CW);  // counter-clockwise in the image, whose rows run down, is clockwise in OpenGL's window
   gl_.DepthFunc(GL_GEQUAL);
   gl_.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  if (shadows == Shadows::sun) light_by(draw_sun_map(gl_, buffers_, scene.lights.to_sun_W), scene.lights.ambient);
+  if (shadows == Shadows::sun) light_by(draw_sun_map(gl_, geometry_.chunks, scene.lights.to_sun_W), scene.lights.ambient);
   check_gl(gl_, "setting the context up");
 }
 
-void ScenePainter::paint(const vision::camera::PinholeCamera& camera, const Eye& eye, Raster raster, int samples,
+void GlPainter::paint(const vision::camera::PinholeCamera& camera, const Eye& eye, Raster raster, int samples,
                          cv::Mat& out) {
   context_->make_current();
   targets_.bind(gl_, {camera.width_px, camera.height_px, raster, samples});
@@ -93,21 +98,21 @@ void ScenePainter::paint(const vision::camera::PinholeCamera& camera, const Eye&
   check_gl(gl_, "drawing");
 }
 
-void ScenePainter::require_samples(int samples) {
+void GlPainter::require_samples(int samples) {
   context_->make_current();
   sim::require_samples(gl_, samples);
 }
 
-std::string ScenePainter::info() {
+std::string GlPainter::info() {
   context_->make_current();
   const auto word = [&](GLenum name) { return reinterpret_cast<const char*>(gl_.GetString(name)); };
   return fmt::format("{}; {}; OpenGL {}", word(GL_VENDOR), word(GL_RENDERER), word(GL_VERSION));
 }
 
-void ScenePainter::light_by(const SunMap& map, float ambient) {
+void GlPainter::light_by(const Eigen::Matrix4f& sun_from_W, float ambient) {
   for (const Program& program : {greys_, colors_}) {
     gl_.UseProgram(program.id);
-    gl_.UniformMatrix4fv(program.sun_from_W, 1, GL_FALSE, map.from_W.data());
+    gl_.UniformMatrix4fv(program.sun_from_W, 1, GL_FALSE, sun_from_W.data());
     gl_.Uniform1f(program.ambient, ambient);
     gl_.Uniform1i(program.sun, 1);
   }
@@ -115,7 +120,7 @@ void ScenePainter::light_by(const SunMap& map, float ambient) {
 
 /// A mover does not rotate, so that it is drawn as if it stood still and the eye were where it is seen from M. What
 /// stands still does so at W's origin.
-void ScenePainter::set_eye(const Program& program, const Eigen::Isometry3d& X_WC, const Eigen::Vector3d& p_WM) {
+void GlPainter::set_eye(const Program& program, const Eigen::Isometry3d& X_WC, const Eigen::Vector3d& p_WM) {
   const Eigen::Vector3d p_MC_W = X_WC.translation() - p_WM, eye_M = on_float_grid(p_MC_W);
   const Eigen::Vector3f eye_low_C = (X_WC.linear().transpose() * (p_MC_W - eye_M)).cast<float>();
   gl_.Uniform3fv(program.eye_W, 1, eye_M.cast<float>().eval().data());
@@ -123,7 +128,7 @@ void ScenePainter::set_eye(const Program& program, const Eigen::Isometry3d& X_WC
   if (program.p_WM >= 0) gl_.Uniform3fv(program.p_WM, 1, p_WM.cast<float>().eval().data());
 }
 
-void ScenePainter::draw_scene(const vision::camera::PinholeCamera& camera, const Eye& eye, const Program& program,
+void GlPainter::draw_scene(const vision::camera::PinholeCamera& camera, const Eye& eye, const Program& program,
                               bool labeled) {
   const Eigen::Matrix3f R_CW = eye.X_WC.linear().transpose().cast<float>();
   gl_.UseProgram(program.id);
@@ -142,11 +147,11 @@ void ScenePainter::draw_scene(const vision::camera::PinholeCamera& camera, const
   draw_movers(eye, program, labeled);
 }
 
-void ScenePainter::draw_movers(const Eye& eye, const Program& program, bool labeled) {
+void GlPainter::draw_movers(const Eye& eye, const Program& program, bool labeled) {
   for (size_t mover = 0; mover < motions_.size(); ++mover) {
     const Eigen::Vector3d p_WM = scenes::p_WM(motions_[mover], eye.t_s);
     stretches_ = 0;
-    for (const scenes::Chunk& chunk : buffers_.mover_chunks[mover]) {
+    for (const scenes::Chunk& chunk : geometry_.mover_chunks[mover]) {
       // A float of W may lie off by a rounding: the box gives way by more than that.
       constexpr float kRoundingM = 0.01f;
       const Eigen::Vector3f p = p_WM.cast<float>(), give = Eigen::Vector3f::Constant(kRoundingM);
@@ -154,7 +159,7 @@ void ScenePainter::draw_movers(const Eye& eye, const Program& program, bool labe
       if (chunk.index_count == 0 || !visible_.shows(box_W)) continue;
       counts_[stretches_] = static_cast<GLsizei>(chunk.index_count);
       offsets_[stretches_] = reinterpret_cast<const void*>(chunk.first_index * sizeof(uint32_t));
-      stretch_labels_[stretches_] = static_cast<int>(1 + buffers_.chunks.size() + mover);
+      stretch_labels_[stretches_] = static_cast<int>(1 + geometry_.chunks.size() + mover);
       ++stretches_;
     }
     if (stretches_ == 0) continue;
@@ -163,7 +168,7 @@ void ScenePainter::draw_movers(const Eye& eye, const Program& program, bool labe
   }
 }
 
-void ScenePainter::draw_stretches(const Program& program, bool labeled) {
+void GlPainter::draw_stretches(const Program& program, bool labeled) {
   for (size_t i = 0; i < stretches_; ++i) {
     count_.triangles += static_cast<size_t>(counts_[i]) / 3;
     if (!labeled) continue;
@@ -177,12 +182,12 @@ void ScenePainter::draw_stretches(const Program& program, bool labeled) {
 }
 
 /// Chunks lie in the order of first_index; a stretch is a chunk or a part of one.
-int ScenePainter::label_of(const scenes::Chunk& stretch) const {
-  const auto after = std::ranges::upper_bound(buffers_.chunks, stretch.first_index, {}, &scenes::Chunk::first_index);
-  return static_cast<int>(after - buffers_.chunks.begin());
+int GlPainter::label_of(const scenes::Chunk& stretch) const {
+  const auto after = std::ranges::upper_bound(geometry_.chunks, stretch.first_index, {}, &scenes::Chunk::first_index);
+  return static_cast<int>(after - geometry_.chunks.begin());
 }
 
-void ScenePainter::draw_sky(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, bool grey) {
+void GlPainter::draw_sky(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, bool grey) {
   const Eigen::Matrix3f R_WC = X_WC.linear().cast<float>();
   gl_.UseProgram(skies_.id);
   gl_.UniformMatrix3fv(skies_.rotation, 1, GL_FALSE, R_WC.data());

@@ -8,8 +8,9 @@
 
 #include "scenes/scene.h"
 #include "sim/render/gl_context.h"
+#include "sim/render/painter.h"
 #include "sim/render/render_targets.h"
-#include "sim/render/scene_buffers.h"
+#include "sim/render/scene_geometry.h"
 #include "sim/render/shaders.h"
 #include "sim/render/sun_map.h"
 #include "sim/render/visible_chunks.h"
@@ -17,38 +18,20 @@
 
 namespace hedgehop::sim {
 
-/// Draws undistorted pinhole images of a scene with OpenGL; Renderer composes all others from them.
-class ScenePainter {
+/// Draws with OpenGL.
+class GlPainter : public Painter {
  public:
   /// Throws as Renderer does.
-  ScenePainter(const scenes::Scene& scene, Culling culling, ContextKind context, Shadows shadows);
+  GlPainter(const scenes::Scene& scene, Culling culling, ContextKind context, Shadows shadows);
 
-  /// Where an image is taken from, and when.
-  struct Eye {
-    Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
-    double t_s = 0.0;
-  };
-
-  /// Draws one image. @param samples  a pixel, see RenderTargets::Shape. @param out  created when its size or type
-  /// does not fit, otherwise written in place.
-  void paint(const vision::camera::PinholeCamera& camera, const Eye& eye, Raster raster, int samples, cv::Mat& out);
-
-  /// Throws std::invalid_argument unless the context draws exactly so many samples a pixel.
-  void require_samples(int samples);
-
-  /// Stretches of the index buffer and triangles of the images since the last call of start_count().
-  struct Count {
-    size_t stretches = 0, triangles = 0;
-  };
-  void start_count() { count_ = {}; }
-  const Count& count() const { return count_; }
-
-  /// OpenGL vendor, renderer and version, one line.
-  std::string info();
+  void paint(const vision::camera::PinholeCamera& camera, const Eye& eye, Raster raster, int samples,
+             cv::Mat& out) override;
+  void require_samples(int samples) override;
+  std::string info() override;
 
  private:
   void draw_scene(const vision::camera::PinholeCamera& camera, const Eye& eye, const Program& program, bool labeled);
-  void light_by(const SunMap& map, float ambient);
+  void light_by(const Eigen::Matrix4f& sun_from_W, float ambient);
   void draw_movers(const Eye& eye, const Program& program, bool labeled);
   void draw_sky(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, bool grey);
   void set_eye(const Program& program, const Eigen::Isometry3d& X_WC, const Eigen::Vector3d& p_WM);
@@ -60,7 +43,7 @@ class ScenePainter {
   Culling culling_;
   scenes::Sky sky_;
   std::vector<scenes::Motion> motions_;  ///< of the movers
-  SceneBuffers buffers_;
+  SceneGeometry geometry_;               ///< its chunks; the rest lies in the context
   VisibleChunks visible_;
   Program greys_, colors_, depths_, planes_, labels_, skies_;
   RenderTargets targets_;
@@ -68,7 +51,6 @@ class ScenePainter {
   std::vector<const void*> offsets_;
   std::vector<int> stretch_labels_;
   size_t stretches_ = 0;
-  Count count_;
 };
 
 }  // namespace hedgehop::sim

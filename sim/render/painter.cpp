@@ -1,0 +1,14 @@
+#include "sim/render/painter.h"
+
+#include "sim/render/gl_painter.h"
+#include "sim/render/tiles/tile_painter.h"
+
+namespace hedgehop::sim {
+
+std::unique_ptr<Painter> make_painter(const scenes::Scene& scene, Culling culling, ContextKind context,
+                                      Shadows shadows) {
+  if (context == ContextKind::tiles) return std::make_unique<tiles::TilePainter>(scene, culling, shadows);
+  return std::make_unique<GlPainter>(scene, culling, context, shadows);
+}
+
+}  // namespace hedgehop::sim

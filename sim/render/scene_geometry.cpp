@@ -1,0 +1,113 @@
+#include "sim/render/scene_geometry.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "sim/render/visible_chunks.h"
+
+namespace hedgehop::sim {
+
+namespace {
+
+void require(bool holds, const std::string& fault) {
+  if (!holds) throw std::invalid_argument(fault);
+}
+
+void check(const scenes::Mesh& mesh, size_t texture_count) {
+  require(mesh.material == "opaque",
+          fmt::format("material '{}' cannot be drawn; known materials: opaque", mesh.material));
+  const auto is_known = [&](uint32_t index) { return index < mesh.vertices.size(); };
+  require(std::ranges::all_of(mesh.indices, is_known) && std::ranges::all_of(mesh.far_indices, is_known),
+          fmt::format("a mesh of {} vertices has an index beyond them", mesh.vertices.size()));
+  for (const scenes::Vertex& vertex : mesh.vertices) {
+    require(vertex.p_W.allFinite() && vertex.n_W.allFinite() && vertex.uv.allFinite(), "a vertex is not finite");
+    require(vertex.texture < texture_count,
+            fmt::format("a vertex wants texture {} of {}", vertex.texture, texture_count));
+  }
+  size_t covered = 0;
+  for (const scenes::Chunk& chunk : mesh.chunks) {
+    require(chunk.first_index == covered && chunk.index_count % 3 == 0,
+            "chunks must cover a mesh's triangles in order, without gaps");
+    require(!chunk.box_W.isEmpty(), "a chunk's box is empty");
+    const scenes::FarDetail& far = chunk.far;
+    require(size_t{far.first_index} + far.index_count <= mesh.far_indices.size() && far.index_count % 3 == 0,
+            "a far detail is no stretch of a mesh's far indices");
+    require(far.index_count == 0 || far.lost_m > 0.0f, "a far detail loses nothing");
+    covered += chunk.index_count;
+  }
+  require(covered == mesh.indices.size(), "chunks must cover all of a mesh's indices");
+}
+
+void check(const scenes::Scene& scene) {
+  for (const cv::Mat& texture : scene.textures) {
+    const int size = scene.textures.front().cols;
+    require(texture.type() == CV_8UC3 && texture.cols == size && texture.rows == size && size > 0 &&
+                (size & (size - 1)) == 0,
+            "textures must be CV_8UC3, square, and all of one power-of-two size");
+  }
+  for (const scenes::Mesh& mesh : scene.meshes) check(mesh, scene.textures.size());
+  for (const scenes::Mover& mover : scene.movers) check(mover.mesh, scene.textures.size());
+}
+
+float brightness(const scenes::Lights& lights, const Eigen::Vector3f& n_W) {
+  return lights.ambient + lights.sun * std::max(0.0f, n_W.dot(lights.to_sun_W));
+}
+
+/// Ground is drawn through streets, most of it hidden: its chunks are cut as finely as they come.
+void cut_into_tiles(const scenes::Chunk& chunk, const std::vector<DrawnVertex>& vertices,
+                    const std::vector<uint32_t>& indices, std::vector<scenes::Chunk>& tiles) {
+  constexpr uint32_t kTwoTriangles = 6;
+  const uint32_t end = chunk.first_index + chunk.index_count;
+  for (uint32_t first = chunk.first_index; first < end; first += kTwoTriangles) {
+    scenes::Chunk& tile = tiles.emplace_back();
+    tile.first_index = first;
+    tile.index_count = std::min(kTwoTriangles, end - first);
+    for (uint32_t i = 0; i < tile.index_count; ++i) {
+      const std::array<float, 3>& p_W = vertices[indices[first + i]].p_W;
+      tile.box_W.extend(Eigen::Vector3f(p_W[0], p_W[1], p_W[2]));
+    }
+  }
+}
+
+/// Appends a mesh and returns its chunks, counted on in the shared index buffer.
+std::vector<scenes::Chunk> append(const scenes::Mesh& mesh, const scenes::Lights& lights, SceneGeometry& geometry) {
+  const auto first_vertex = static_cast<uint32_t>(geometry.vertices.size());
+  for (const scenes::Vertex& v : mesh.vertices) {
+    geometry.vertices.push_back({{v.p_W.x(), v.p_W.y(), v.p_W.z()},
+                                 {v.uv.x(), v.uv.y()},
+                                 brightness(lights, v.n_W),
+                                 static_cast<float>(v.texture)});
+  }
+  const auto append_stretch = [&](const std::vector<uint32_t>& indices, uint32_t& first, uint32_t count) {
+    const auto moved_to = static_cast<uint32_t>(geometry.indices.size());
+    for (uint32_t i = first; i < first + count; ++i) geometry.indices.push_back(first_vertex + indices[i]);
+    first = moved_to;
+  };
+  std::vector<scenes::Chunk> chunks = mesh.chunks;
+  for (scenes::Chunk& chunk : chunks) {
+    append_stretch(mesh.indices, chunk.first_index, chunk.index_count);
+    append_stretch(mesh.far_indices, chunk.far.first_index, chunk.far.index_count);
+  }
+  return chunks;
+}
+
+}  // namespace
+
+SceneGeometry make_geometry(const scenes::Scene& scene) {
+  check(scene);
+  SceneGeometry geometry;
+  for (const scenes::Mesh& mesh : scene.meshes) {
+    for (const scenes::Chunk& chunk : append(mesh, scene.lights, geometry)) {
+      geometry.chunks.push_back(chunk);
+      if (lies_flat(chunk)) cut_into_tiles(chunk, geometry.vertices, geometry.indices, geometry.tiles);
+    }
+  }
+  for (const scenes::Mover& mover : scene.movers) {
+    geometry.mover_chunks.push_back(append(mover.mesh, scene.lights, geometry));
+  }
+  return geometry;
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+
+namespace hedgehop::sim::tiles {
+
+/// A convex planar polygon of three or four corners, the last one twice for three; counter-clockwise seen from outside.
+/// Plain data, as all that kernels read. In W, or in M of a mover.
+struct FacetShape {
+  float x_m[4], y_m[4], z_m[4];  ///< of the corners
+};
+
+/// What a facet looks like. Texture coordinates and brightness are affine over its plane: a value at the first corner
+/// and a gradient along the plane.
+struct FacetCover {
+  double u, v, brightness;            ///< at the first corner; u, v in repeats, brightness a share of the albedo
+  double u_per_m[3], v_per_m[3], brightness_per_m[3];
+  uint32_t texture;
+  int32_t label;
+  bool evenly_lit;  ///< brightness has no gradient
+};
+
+}  // namespace hedgehop::sim::tiles

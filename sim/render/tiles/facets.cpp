@@ -1,0 +1,155 @@
+#include "sim/render/tiles/facets.h"
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "sim/render/visible_chunks.h"
+
+namespace hedgehop::sim::tiles {
+
+namespace {
+
+using Triangle = std::array<const DrawnVertex*, 3>;
+
+Eigen::Vector3d place(const DrawnVertex& vertex) {
+  return Eigen::Map<const Eigen::Vector3f>(vertex.p_W.data()).cast<double>();
+}
+
+bool equal(const DrawnVertex& a, const DrawnVertex& b) {
+  return a.p_W == b.p_W && a.uv == b.uv && a.brightness == b.brightness && a.layer == b.layer;
+}
+
+/// The plane of a triangle, and values that are affine on it.
+class Plane {
+ public:
+  explicit Plane(const Triangle& triangle)
+      : origin_(place(*triangle[0])), a_(place(*triangle[1]) - origin_), b_(place(*triangle[2]) - origin_) {
+    normal_ = a_.cross(b_);
+  }
+
+  bool has_area() const { return normal_.squaredNorm() > 0.0; }
+  const Eigen::Vector3d& normal() const { return normal_; }
+
+  /// @param values  at the triangle's corners.
+  Eigen::Vector3d gradient(const std::array<double, 3>& values) const {
+    const Eigen::Vector3d across_b = b_.cross(normal_), across_a = normal_.cross(a_);
+    return ((values[1] - values[0]) * across_b + (values[2] - values[0]) * across_a) / normal_.squaredNorm();
+  }
+
+  double distance_m(const Eigen::Vector3d& p) const { return std::abs(normal_.dot(p - origin_)) / normal_.norm(); }
+  double size_m() const { return std::max(a_.norm(), b_.norm()); }
+
+ private:
+  Eigen::Vector3d origin_, a_, b_, normal_;
+};
+
+std::array<double, 3> values(const Triangle& triangle, double (*value)(const DrawnVertex&)) {
+  return {value(*triangle[0]), value(*triangle[1]), value(*triangle[2])};
+}
+double u(const DrawnVertex& vertex) { return static_cast<double>(vertex.uv[0]); }
+double v(const DrawnVertex& vertex) { return static_cast<double>(vertex.uv[1]); }
+double brightness(const DrawnVertex& vertex) { return static_cast<double>(vertex.brightness); }
+
+using Corners = std::array<const DrawnVertex*, 4>;
+
+/// Whether the fourth corner continues the first three's plane, image and light, and all of them are convex.
+bool is_facet(const Corners& corners) {
+  const Triangle half{corners[0], corners[1], corners[2]};
+  const Plane plane(half);
+  const DrawnVertex& last = *corners[3];
+  constexpr double kFlat = 2e-6, kSameValue = 1e-4;
+  if (!plane.has_area() || plane.distance_m(place(last)) > kFlat * plane.size_m()) return false;
+  for (double (*value)(const DrawnVertex&) : {u, v, brightness}) {
+    const double found = value(*corners[0]) + plane.gradient(values(half, value)).dot(place(last) - place(*corners[0]));
+    if (std::abs(found - value(last)) > kSameValue) return false;
+  }
+  for (size_t i = 0; i < 4; ++i) {
+    const Eigen::Vector3d before = place(*corners[(i + 1) % 4]) - place(*corners[i]);
+    const Eigen::Vector3d after = place(*corners[(i + 2) % 4]) - place(*corners[(i + 1) % 4]);
+    if (!(before.cross(after).dot(plane.normal()) > 0.0)) return false;
+  }
+  return true;
+}
+
+/// Corners of two triangles that share an edge and are one facet.
+std::optional<Corners> merged(const Triangle& a, const Triangle& b) {
+  if (a[0]->layer != b[0]->layer) return std::nullopt;
+  for (size_t i = 0; i < 3; ++i) {
+    const DrawnVertex &from = *a[i], &to = *a[(i + 1) % 3];
+    for (size_t k = 0; k < 3; ++k) {
+      if (!equal(*b[k], to) || !equal(*b[(k + 1) % 3], from)) continue;
+      const Corners corners{&from, b[(k + 2) % 3], &to, a[(i + 2) % 3]};
+      if (is_facet(corners)) return corners;
+    }
+  }
+  return std::nullopt;
+}
+
+void add(const Corners& corners, int32_t label, Facets& facets) {
+  const Triangle half{corners[0], corners[1], corners[2]};
+  const Plane plane(half);
+  if (!plane.has_area()) return;
+  FacetShape& shape = facets.shapes.emplace_back();
+  for (size_t i = 0; i < 4; ++i) {
+    shape.x_m[i] = corners[i]->p_W[0];
+    shape.y_m[i] = corners[i]->p_W[1];
+    shape.z_m[i] = corners[i]->p_W[2];
+  }
+  FacetCover& cover = facets.covers.emplace_back();
+  const auto set = [&](double (*value)(const DrawnVertex&), double& first, double (&per_m)[3]) {
+    first = value(*corners[0]);
+    const Eigen::Vector3d gradient = plane.gradient(values(half, value));
+    for (int i = 0; i < 3; ++i) per_m[i] = gradient[i];
+  };
+  set(u, cover.u, cover.u_per_m);
+  set(v, cover.v, cover.v_per_m);
+  set(brightness, cover.brightness, cover.brightness_per_m);
+  cover.texture = static_cast<uint32_t>(corners[0]->layer);
+  cover.label = label;
+  cover.evenly_lit = brightness(*corners[0]) == brightness(*corners[1]) &&
+                     brightness(*corners[0]) == brightness(*corners[2]);
+}
+
+void add_stretch(const SceneGeometry& geometry, uint32_t first_index, uint32_t index_count, bool in_pairs, int32_t label,
+                 Facets& facets) {
+  const auto triangle = [&](uint32_t index) -> Triangle {
+    const auto corner = [&](uint32_t i) { return &geometry.vertices[geometry.indices[index + i]]; };
+    return {corner(0), corner(1), corner(2)};
+  };
+  const uint32_t end = first_index + index_count;
+  for (uint32_t index = first_index; index < end; index += 3) {
+    const Triangle a = triangle(index);
+    facets.of_triangle[index / 3] = static_cast<uint32_t>(facets.shapes.size());
+    const bool may_pair = index + 3 < end && (!in_pairs || (index - first_index) % 6 == 0);
+    if (const auto both = may_pair ? merged(a, triangle(index + 3)) : std::nullopt) {
+      add(*both, label, facets);
+      index += 3;
+      facets.of_triangle[index / 3] = static_cast<uint32_t>(facets.shapes.size());
+    } else {
+      add({a[0], a[1], a[2], a[2]}, label, facets);
+    }
+  }
+}
+
+}  // namespace
+
+Facets make_facets(const SceneGeometry& geometry) {
+  Facets facets;
+  facets.of_triangle.assign(geometry.indices.size() / 3 + 1, 0);
+  const auto add_chunk = [&](const scenes::Chunk& chunk, int32_t label) {
+    add_stretch(geometry, chunk.first_index, chunk.index_count, lies_flat(chunk), label, facets);
+    add_stretch(geometry, chunk.far.first_index, chunk.far.index_count, false, label, facets);
+  };
+  int32_t label = 0;
+  for (const scenes::Chunk& chunk : geometry.chunks) add_chunk(chunk, ++label);
+  for (const std::vector<scenes::Chunk>& mover : geometry.mover_chunks) {
+    ++label;
+    for (const scenes::Chunk& chunk : mover) add_chunk(chunk, label);
+  }
+  facets.of_triangle.back() = static_cast<uint32_t>(facets.shapes.size());
+  return facets;
+}
+
+}  // namespace hedgehop::sim::tiles

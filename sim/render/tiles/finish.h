@@ -1,0 +1,200 @@
+#pragma once
+
+#include "sim/render/tiles/kernels.h"
+#include "sim/render/tiles/measure.h"
+#include "sim/render/tiles/shade.h"
+
+namespace hedgehop::sim::tiles {
+namespace {
+
+/// The layers of a tile, at one sample of each pixel.
+struct TileLayers {
+  const Layer* layers;
+  uint16_t count;
+};
+
+inline TileLayers layers_at(const Frame& frame, int column, int row, int sample) {
+  const size_t a_grid = static_cast<size_t>(frame.across) * static_cast<size_t>(frame.down);
+  Tile& tile = frame.tiles[static_cast<size_t>(sample) * a_grid +
+                           static_cast<size_t>(row) * static_cast<size_t>(frame.across) + static_cast<size_t>(column)];
+  return {layers(frame, tile), tile.count};
+}
+
+template <int kPlanes>
+inline void shade_surface(const SceneView& scene, const Frame& frame, uint32_t index, int u, int v, uint64_t pixels,
+                          TileBytes (&out)[kPlanes]) {
+  const Surface& surface = frame.surfaces[index];
+  Paint& paint = frame.paints[index];
+  if (!paint.ready) paint = paint_of(scene, frame, surface);
+  shade(scene, patch_of(scene, frame, surface, paint, u, v, pixels), pixels, out);
+}
+
+/// @param inside  the tile's pixels that lie within the image.
+template <int kPlanes>
+inline void shade_tile(const SceneView& scene, const Frame& frame, int column, int row, uint64_t inside,
+                       TileBytes (&out)[kPlanes]) {
+  const int u = kTilePx * column, v = kTilePx * row;
+  const TileLayers tile = layers_at(frame, column, row, 0);
+  uint64_t sky = inside;
+  for (uint16_t i = 0; i < tile.count; ++i) {
+    shade_surface(scene, frame, tile.layers[i].surface, u, v, tile.layers[i].pixels, out);
+    sky &= ~tile.layers[i].pixels;
+  }
+  if (sky != 0) shade_sky(scene, frame.lens, u, v, sky, out);
+}
+
+/// A surface, or the sky, and the pixels that show it at each of four samples.
+struct Share {
+  uint64_t pixels[4];
+  uint32_t surface;
+};
+inline constexpr uint32_t kSky = 0xffffffffu;
+inline constexpr int kMostShares = 4 * 64 + 1;
+
+inline int shares_of(const Frame& frame, int column, int row, uint64_t inside, Share (&shares)[kMostShares]) {
+  int count = 1;
+  shares[0] = {{inside, inside, inside, inside}, kSky};
+  for (int sample = 0; sample < 4; ++sample) {
+    const TileLayers tile = layers_at(frame, column, row, sample);
+    for (uint16_t i = 0; i < tile.count; ++i) {
+      const Layer& layer = tile.layers[i];
+      int at = 1;
+      while (at < count && shares[at].surface != layer.surface) ++at;
+      if (at == count) shares[count++] = {{0, 0, 0, 0}, layer.surface};
+      shares[at].pixels[sample] = layer.pixels;
+      shares[0].pixels[sample] &= ~layer.pixels;
+    }
+  }
+  return count;
+}
+
+using Sums = uint16_t __attribute__((vector_size(16)));
+
+/// Shades each surface once, in the middle of the pixels, and mixes by the samples that show it.
+template <int kPlanes>
+inline void mix_tile(const SceneView& scene, const Frame& frame, int column, int row, uint64_t inside,
+                     TileBytes (&out)[kPlanes]) {
+  Share shares[kMostShares];
+  const int count = shares_of(frame, column, row, inside, shares);
+  Sums sums[kPlanes][kTilePx] = {};
+  for (int k = 0; k < count; ++k) {
+    const Share& share = shares[k];
+    const uint64_t pixels = share.pixels[0] | share.pixels[1] | share.pixels[2] | share.pixels[3];
+    if (pixels == 0) continue;
+    const int u = kTilePx * column, v = kTilePx * row;
+    if (share.surface == kSky) {
+      shade_sky(scene, frame.lens, u, v, pixels, out);
+    } else {
+      shade_surface(scene, frame, share.surface, u, v, pixels, out);
+    }
+    for (int y = 0; y < kTilePx; ++y) {
+      if (row_of(pixels, y) == 0) continue;
+      uint64_t times = 0;
+      for (const uint64_t sample : share.pixels) times += kSpread.bytes[row_of(sample, y)] & 0x0101010101010101u;
+      for (int i = 0; i < kPlanes; ++i) {
+        for (int x = 0; x < kTilePx; ++x) {
+          sums[i][y][x] = static_cast<uint16_t>(sums[i][y][x] + (times >> 8 * x & 7) * (out[i].rows[y] >> 8 * x & 255));
+        }
+      }
+    }
+  }
+  for (int i = 0; i < kPlanes; ++i) {
+    for (int y = 0; y < kTilePx; ++y) {
+      out[i].rows[y] = 0;
+      for (int x = 0; x < kTilePx; ++x) out[i].rows[y] |= static_cast<uint64_t>((sums[i][y][x] + 2) >> 2) << 8 * x;
+    }
+  }
+}
+
+/// The upper left pixel of a tile in an image, and how much of the tile lies within it.
+struct Window {
+  uint8_t* first;
+  int columns, rows;
+};
+
+inline Window window_of(const Frame& frame, const Image& image, int column, int row, size_t pixel_bytes) {
+  const int u = kTilePx * column, v = kTilePx * row;
+  const auto left = [](int size, int from) { return size - from < kTilePx ? size - from : kTilePx; };
+  return {image.data + static_cast<size_t>(v) * image.step + static_cast<size_t>(u) * pixel_bytes,
+          left(frame.lens.width_px, u), left(frame.lens.height_px, v)};
+}
+
+inline void write(const TileBytes (&planes)[1], const Window& to, size_t step) {
+  for (int y = 0; y < to.rows; ++y) {
+    uint8_t* const row = to.first + static_cast<size_t>(y) * step;
+    if (to.columns == kTilePx) {
+      std::memcpy(row, &planes[0].rows[y], kTilePx);
+    } else {
+      for (int x = 0; x < to.columns; ++x) row[x] = static_cast<uint8_t>(planes[0].rows[y] >> 8 * x);
+    }
+  }
+}
+
+inline void write(const TileBytes (&planes)[3], const Window& to, size_t step) {
+  for (int y = 0; y < to.rows; ++y) {
+    uint8_t* pixel = to.first + static_cast<size_t>(y) * step;
+    uint64_t r = planes[0].rows[y], g = planes[1].rows[y], b = planes[2].rows[y];
+    for (int x = 0; x < to.columns; ++x, pixel += 3, r >>= 8, g >>= 8, b >>= 8) {
+      pixel[0] = static_cast<uint8_t>(r);
+      pixel[1] = static_cast<uint8_t>(g);
+      pixel[2] = static_cast<uint8_t>(b);
+    }
+  }
+}
+
+template <int kPlanes>
+inline void shade_image(const SceneView& scene, const Frame& frame, const Image& image) {
+  for (int row = 0; row < frame.down; ++row) {
+    for (int column = 0; column < frame.across; ++column) {
+      const Window window = window_of(frame, image, column, row, kPlanes);
+      const uint64_t inside =
+          ~beyond(frame.lens.width_px - kTilePx * column, frame.lens.height_px - kTilePx * row);
+      TileBytes out[kPlanes];
+      if (frame.samples == 1) {
+        shade_tile(scene, frame, column, row, inside, out);
+      } else {
+        mix_tile(scene, frame, column, row, inside, out);
+      }
+      write(out, window, image.step);
+    }
+  }
+}
+
+/// Values of another kind than levels: what is not covered keeps `nothing`.
+template <class Value, class Measure>
+inline void measure_image(const Frame& frame, const Image& image, const Value& nothing, const Measure& measure) {
+  for (int row = 0; row < frame.down; ++row) {
+    for (int column = 0; column < frame.across; ++column) {
+      Value values[kTilePx * kTilePx];
+      for (Value& value : values) value = nothing;
+      const TileLayers tile = layers_at(frame, column, row, 0);
+      for (uint16_t i = 0; i < tile.count; ++i) {
+        measure(frame.surfaces[tile.layers[i].surface], kTilePx * column, kTilePx * row, tile.layers[i].pixels, values);
+      }
+      const Window window = window_of(frame, image, column, row, sizeof(Value));
+      for (int y = 0; y < window.rows; ++y) {
+        std::memcpy(window.first + static_cast<size_t>(y) * image.step, values + kTilePx * y,
+                    sizeof(Value) * static_cast<size_t>(window.columns));
+      }
+    }
+  }
+}
+
+/// Makes an image of all that was drawn.
+inline void finish(const SceneView& scene, Frame& frame, Raster raster, const Image& image) {
+  switch (raster) {
+    case Raster::grey:
+      return shade_image<1>(scene, frame, image);
+    case Raster::color:
+      return shade_image<3>(scene, frame, image);
+    case Raster::depth:
+      return measure_image(frame, image, __builtin_inff(), DepthMeasure{});
+    case Raster::planes:
+      return measure_image(frame, image, PlaneValue{}, PlaneMeasure{});
+    case Raster::labels:
+      return measure_image(frame, image, int32_t{0}, LabelMeasure{scene.covers});
+  }
+}
+
+}  // namespace
+}  // namespace hedgehop::sim::tiles

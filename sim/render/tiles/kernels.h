@@ -1,0 +1,34 @@
+#pragma once
+
+#include "sim/render/raster.h"
+#include "sim/render/tiles/frame.h"
+#include "sim/render/tiles/scene_view.h"
+
+namespace hedgehop::sim::tiles {
+
+/// Memory of an image, row 0 on top.
+struct Image {
+  uint8_t* data;
+  size_t step;  ///< bytes from row to row
+};
+
+/// The two loops over facets and over pixels, compiled for one kind of processor. All give the same bits.
+struct Kernels {
+  const char* lanes;  ///< what they are made for
+
+  /// Draws facets into a frame that has room for as many surfaces. @param eye  into Frame::eyes.
+  void (*draw)(Frame& frame, const FacetShape* shapes, uint32_t first, uint32_t count, uint32_t eye, double near_m);
+
+  /// Makes the image. Several samples a pixel for grey and color only.
+  void (*finish)(const SceneView& scene, Frame& frame, Raster raster, const Image& image);
+};
+
+extern const Kernels kPlainKernels;
+#ifdef __x86_64__
+extern const Kernels kAvx2Kernels;
+#endif
+
+/// The fastest that this processor can run.
+const Kernels& best_kernels();
+
+}  // namespace hedgehop::sim::tiles

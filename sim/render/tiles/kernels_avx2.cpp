@@ -1,0 +1,14 @@
+// Compiled for AVX2, and nothing else is: what the linker could take from here for other files would not run anywhere.
+#ifdef __AVX2__
+
+#include "sim/render/tiles/cover.h"
+#include "sim/render/tiles/finish.h"
+#include "sim/render/tiles/kernels.h"
+
+namespace hedgehop::sim::tiles {
+
+const Kernels kAvx2Kernels{kLanes, draw, finish};
+
+}  // namespace hedgehop::sim::tiles
+
+#endif

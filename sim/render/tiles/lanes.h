@@ -1,0 +1,157 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#ifdef __AVX2__
+#include <immintrin.h>
+#endif
+
+// Eight pixels of a row, or four corners, side by side, for the compiler's vector types: the same text makes the
+// kernels of every processor. Each operation here is exact or rounded once, so that all of them give the same bits.
+// Names are each kernel's own: code of one processor must not be linked into another's.
+namespace hedgehop::sim::tiles {
+namespace {
+
+using F8 = float __attribute__((vector_size(32)));
+using I8 = int32_t __attribute__((vector_size(32)));
+using D4 = double __attribute__((vector_size(32)));
+using L4 = int64_t __attribute__((vector_size(32)));
+
+inline F8 all(float value) { return F8{} + value; }
+inline I8 all(int32_t value) { return I8{} + value; }
+inline D4 all(double value) { return D4{} + value; }
+inline L4 all(int64_t value) { return L4{} + value; }
+
+inline constexpr F8 kColumns = {0, 1, 2, 3, 4, 5, 6, 7};
+
+template <class V, class M>
+inline V pick(M where, V yes, V no) {
+  return reinterpret_cast<V>((where & reinterpret_cast<M>(yes)) | (~where & reinterpret_cast<M>(no)));
+}
+inline F8 least(F8 a, F8 b) { return pick(a < b, a, b); }
+inline F8 most(F8 a, F8 b) { return pick(a > b, a, b); }
+inline D4 least(D4 a, D4 b) { return pick(a < b, a, b); }
+inline D4 most(D4 a, D4 b) { return pick(a > b, a, b); }
+inline I8 least(I8 a, I8 b) { return pick(a < b, a, b); }
+inline I8 most(I8 a, I8 b) { return pick(a > b, a, b); }
+inline F8 magnitude(F8 a) { return reinterpret_cast<F8>(reinterpret_cast<I8>(a) & 0x7fffffff); }
+inline D4 magnitude(D4 a) { return reinterpret_cast<D4>(reinterpret_cast<L4>(a) & 0x7fffffffffffffff); }
+
+inline F8 floats(I8 a) { return __builtin_convertvector(a, F8); }
+
+/// To the nearest integer, ties to even. @param a  within +-2^51.
+inline L4 integers(D4 a) {
+  const D4 shift = all(6755399441055744.0);  // 1.5 * 2^52: the last bit of the sum counts ones
+  return reinterpret_cast<L4>(a + shift) - reinterpret_cast<L4>(shift);
+}
+
+#ifdef __AVX2__
+
+inline constexpr const char* kLanes = "AVX2";
+
+/// To the nearest integer, ties to even. @param a  within +-2^31.
+inline I8 integers(F8 a) { return reinterpret_cast<I8>(_mm256_cvtps_epi32(a)); }
+inline F8 roots(F8 a) { return _mm256_sqrt_ps(a); }
+/// The signs of lanes, lane 0 in the lowest bit.
+inline uint32_t signs(I8 a) {
+  return static_cast<uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(reinterpret_cast<__m256i>(a))));
+}
+inline uint32_t signs(L4 a) {
+  return static_cast<uint32_t>(_mm256_movemask_pd(_mm256_castsi256_pd(reinterpret_cast<__m256i>(a))));
+}
+/// Four bytes from each 16-bit place.
+inline I8 gather(const uint16_t* from, I8 places) {
+  return reinterpret_cast<I8>(
+      _mm256_i32gather_epi32(reinterpret_cast<const int*>(from), reinterpret_cast<__m256i>(places), 2));
+}
+inline F8 gather(const float* from, I8 places) {
+  return _mm256_i32gather_ps(from, reinterpret_cast<__m256i>(places), 4);
+}
+/// table[i] of each lane. @param i  0..15.
+inline I8 look_up(const int32_t table[16], I8 i) {
+  const __m256i at = reinterpret_cast<__m256i>(i);
+  const auto low = _mm256_permutevar8x32_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(table)), at);
+  const auto high = _mm256_permutevar8x32_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(table + 8)), at);
+  return pick(i > 7, reinterpret_cast<I8>(high), reinterpret_cast<I8>(low));
+}
+/// The mean of four texels, each 128 less than it is, in one lane's bytes: (left, upper), (left, lower), (right,
+/// upper), (right, lower). @param right, down  0..255, of 255. @return in 1 / 65025.
+inline I8 mix(I8 texels, I8 right, I8 down) {
+  const I8 a_side = (255 - down) | down << 8;
+  const auto columns = _mm256_maddubs_epi16(reinterpret_cast<__m256i>(a_side | a_side << 16),
+                                            reinterpret_cast<__m256i>(texels));
+  return reinterpret_cast<I8>(_mm256_madd_epi16(columns, reinterpret_cast<__m256i>((255 - right) | right << 16)));
+}
+/// Eight lanes of 0..255 as bytes, lane 0 in the lowest.
+inline uint64_t bytes(I8 a) {
+  const auto words = _mm256_packus_epi32(reinterpret_cast<__m256i>(a), reinterpret_cast<__m256i>(a));
+  const auto both = _mm256_permute4x64_epi64(words, 0x08);
+  return static_cast<uint64_t>(_mm_cvtsi128_si64(_mm_packus_epi16(_mm256_castsi256_si128(both), _mm_setzero_si128())));
+}
+
+#else
+
+inline constexpr const char* kLanes = "plain";
+
+inline I8 integers(F8 a) {
+  // Rounds at the last bit of 1.5 * 2^23, or is an integer already.
+  I8 result;
+  for (int i = 0; i < 8; ++i) result[i] = static_cast<int32_t>(__builtin_nearbyintf(a[i]));
+  return result;
+}
+inline F8 roots(F8 a) {
+  F8 result;
+  for (int i = 0; i < 8; ++i) result[i] = __builtin_sqrtf(a[i]);
+  return result;
+}
+inline uint32_t signs(I8 a) {
+  uint32_t result = 0;
+  for (int i = 0; i < 8; ++i) result |= static_cast<uint32_t>(a[i] < 0) << i;
+  return result;
+}
+inline uint32_t signs(L4 a) {
+  uint32_t result = 0;
+  for (int i = 0; i < 4; ++i) result |= static_cast<uint32_t>(a[i] < 0) << i;
+  return result;
+}
+inline I8 gather(const uint16_t* from, I8 places) {
+  I8 result;
+  for (int i = 0; i < 8; ++i) {
+    int32_t four = 0;
+    std::memcpy(&four, from + places[i], sizeof(four));
+    result[i] = four;
+  }
+  return result;
+}
+inline F8 gather(const float* from, I8 places) {
+  F8 result;
+  for (int i = 0; i < 8; ++i) result[i] = from[places[i]];
+  return result;
+}
+inline I8 look_up(const int32_t table[16], I8 i) {
+  I8 result;
+  for (int k = 0; k < 8; ++k) result[k] = table[i[k]];
+  return result;
+}
+inline I8 mix(I8 texels, I8 right, I8 down) {
+  I8 result;
+  for (int i = 0; i < 8; ++i) {
+    int8_t t[4];
+    const int32_t four = texels[i];
+    std::memcpy(t, &four, sizeof(t));
+    result[i] = (t[0] * (255 - down[i]) + t[1] * down[i]) * (255 - right[i]) +
+                (t[2] * (255 - down[i]) + t[3] * down[i]) * right[i];
+  }
+  return result;
+}
+inline uint64_t bytes(I8 a) {
+  uint64_t result = 0;
+  for (int i = 0; i < 8; ++i) result |= static_cast<uint64_t>(a[i] & 0xff) << 8 * i;
+  return result;
+}
+
+#endif
+
+}  // namespace
+}  // namespace hedgehop::sim::tiles

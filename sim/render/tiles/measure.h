@@ -1,0 +1,57 @@
+#pragma once
+
+#include "sim/render/tiles/frame.h"
+#include "sim/render/tiles/lanes.h"
+#include "sim/render/tiles/paint.h"
+#include "sim/render/tiles/scene_view.h"
+
+// What is measured of a surface in a tile, for each of the pixels that show it.
+namespace hedgehop::sim::tiles {
+namespace {
+
+template <class Put>
+inline void each_pixel(uint64_t pixels, const Put& put) {
+  for (; pixels != 0; pixels &= pixels - 1) put(__builtin_ctzll(pixels));
+}
+
+/// z in C, m.
+struct DepthMeasure {
+  void operator()(const Surface& surface, int u, int v, uint64_t pixels, float (&values)[64]) const {
+    const Slope w = slope(surface.w, u, v);
+    for (int row = 0; row < kTilePx; ++row) {
+      const auto shown = static_cast<int32_t>(pixels >> kTilePx * row & 0xff);
+      if (shown == 0) continue;
+      F8 kept;
+      std::memcpy(&kept, values + kTilePx * row, sizeof(kept));
+      const I8 here = (all(shown) & I8{1, 2, 4, 8, 16, 32, 64, 128}) != 0;
+      kept = pick(here, 1.0f / w.row(row, kColumns), kept);
+      std::memcpy(values + kTilePx * row, &kept, sizeof(kept));
+    }
+  }
+};
+
+/// 1 / z in C, 1/m, and how it changes to the next pixel on the right and below.
+struct PlaneValue {
+  float per_z, right, down, none;
+};
+struct PlaneMeasure {
+  void operator()(const Surface& surface, int u, int v, uint64_t pixels, PlaneValue (&values)[64]) const {
+    const Slope w = slope(surface.w, u, v);
+    each_pixel(pixels, [&](int i) {
+      const float per_z = (w.at_first + static_cast<float>(i / kTilePx) * w.down) + static_cast<float>(i % kTilePx) * w.right;
+      values[i] = {per_z, w.right, w.down, 0.0f};
+    });
+  }
+};
+
+struct LabelMeasure {
+  const FacetCover* covers;
+
+  void operator()(const Surface& surface, int, int, uint64_t pixels, int32_t (&values)[64]) const {
+    const int32_t label = covers[surface.facet].label;
+    each_pixel(pixels, [&](int i) { values[i] = label; });
+  }
+};
+
+}  // namespace
+}  // namespace hedgehop::sim::tiles

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "sim/render/tiles/facet.h"
+
+namespace hedgehop::sim::tiles {
+
+inline constexpr int kMostLevels = 16;
+
+/// Textures at all their sizes, of one channel: plain data, for kernels. A 16-bit place holds a texel and, in its upper
+/// byte, the one below, each 128 less than it is; a row has one place more than texels, which holds the first ones
+/// again. Thirty-two bits from a place on are four neighbors, then.
+struct TexelPlane {
+  const uint16_t* places;  ///< texture by texture, each from its largest size to one texel
+};
+
+/// How the places of a texture lie.
+struct TextureLayout {
+  int size_px, size_log2, last_level;
+  size_t places;                    ///< of a texture
+  int32_t first[kMostLevels];       ///< place of each level
+};
+
+/// Where the sun shines: the depth of what stands still, seen from the sun, 1 nearest to it and 0 farthest, in a border
+/// of one farthest texel.
+struct SunDepths {
+  const float* depths;  ///< null without shadows
+  int texels;           ///< a side, the border aside
+  double from_W[3][4];  ///< from p_W, m: column and row of a texel, from the middle of the first, and depth
+  float ambient;        ///< share of the albedo that the sun has no part in
+};
+
+/// RGB or, in the first, grey; levels 0..255.
+struct SkyColors {
+  float horizon[3], zenith[3];
+};
+
+/// A scene as kernels read it.
+struct SceneView {
+  const FacetShape* shapes;
+  const FacetCover* covers;
+  TextureLayout layout;
+  TexelPlane planes[3];  ///< grey in the first, or R, G, B
+  SkyColors sky;
+  SunDepths sun;
+  double p_WC[3];     ///< eye of the image, m
+  double R_WC[9];     ///< row by row
+};
+
+}  // namespace hedgehop::sim::tiles

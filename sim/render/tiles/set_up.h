@@ -1,0 +1,143 @@
+#pragma once
+
+#include "sim/render/tiles/facet.h"
+#include "sim/render/tiles/frame.h"
+#include "sim/render/tiles/lanes.h"
+
+namespace hedgehop::sim::tiles {
+namespace {
+
+/// Which pixels lie within a facet's edges. An edge is an affine function of the pixel, at least 0 inside, in integers,
+/// so that facets on both sides of an edge, whose functions differ in sign alone, share no pixel and leave none out.
+struct Edges {
+  L4 at_first;        ///< at pixel (0, 0)
+  L4 right, down;     ///< a change of it, an eighth of a pixel on: below 2^24
+};
+
+/// Pixels that a facet may cover, both ends included.
+struct Extent {
+  int left, right, top, bottom;
+};
+
+struct SetUp {
+  Edges edges;
+  Extent extent;
+  Surface surface;
+  float nearest, farthest;  ///< 1 / z of the corners, 1/m; nearest is infinite with a corner behind the near plane
+};
+
+inline D4 load(const float a[4]) { return D4{a[0], a[1], a[2], a[3]}; }
+inline D4 next(D4 a) { return __builtin_shufflevector(a, a, 1, 2, 3, 0); }
+
+struct Corners {
+  D4 x, y, z;  ///< in C, m
+};
+
+inline Corners see(const FacetShape& shape, const Eye& eye) {
+  const D4 x = load(shape.x_m) - eye.p_m[0], y = load(shape.y_m) - eye.p_m[1], z = load(shape.z_m) - eye.p_m[2];
+  const double* r = eye.R_CW;
+  return {r[0] * x + r[1] * y + r[2] * z, r[3] * x + r[4] * y + r[5] * z, r[6] * x + r[7] * y + r[8] * z};
+}
+
+/// Rounds edges to integers, the larger slope to between 2^23 and 2^24, and lets each pixel on an edge belong to one
+/// side of it.
+inline Edges quantized(D4 a, D4 b, D4 c) {
+  const D4 larger = most(magnitude(a), magnitude(b));
+  // 2^(23 - exponent), from the exponent's bits; an eighth of a pixel is a power of two as well.
+  const L4 exponent = reinterpret_cast<L4>(larger) >> 52;
+  const D4 scale = reinterpret_cast<D4>((2046 + 23 - exponent) << 52);
+  const L4 none = larger == 0.0;  // two corners in one, or an edge at infinity
+  const D4 limit = all(1125899906842624.0);  // 2^50, far outside of any image
+  const D4 finite = most(least(c * scale * 8.0, limit), -limit);
+  const D4 constant = pick(none, pick(c < 0.0, -limit, limit), finite);
+  const L4 right = integers(pick(none, D4{}, a * scale)), down = integers(pick(none, D4{}, b * scale));
+  const L4 inclusive = (right > 0) | ((right == 0) & (down > 0));
+  return {integers(constant) + ~inclusive, right, down};
+}
+
+/// Pixels between corners that all lie before the near plane.
+inline Extent extent_of(const Corners& p, const Lens& lens, double spare_px) {
+  const D4 u = lens.center_u_px + lens.focal_x_px * (p.x / p.z), v = lens.center_v_px + lens.focal_y_px * (p.y / p.z);
+  double left = u[0], right = u[0], top = v[0], bottom = v[0];
+  for (int i = 1; i < 4; ++i) {
+    left = u[i] < left ? u[i] : left;
+    right = u[i] > right ? u[i] : right;
+    top = v[i] < top ? v[i] : top;
+    bottom = v[i] > bottom ? v[i] : bottom;
+  }
+  const double last_u = lens.width_px - 1, last_v = lens.height_px - 1;
+  const auto within = [](double a, double last) { return a < 0.0 ? -1.0 : a > last ? last + 1.0 : a; };
+  const auto up = [](double a) { return static_cast<int>(a) + (a > static_cast<int>(a)); };  // ceil
+  const auto low = [](double a) { return static_cast<int>(a) - (a < static_cast<int>(a)); };  // floor
+  left = within(left - spare_px, last_u), right = within(right + spare_px, last_u);
+  top = within(top - spare_px, last_v), bottom = within(bottom + spare_px, last_v);
+  const auto first = [](int a) { return a < 0 ? 0 : a; };
+  const auto last = [](int a, double end) { return a > end ? static_cast<int>(end) : a; };
+  return {first(up(left)), last(low(right), last_u), first(up(top)), last(low(bottom), last_v)};
+}
+
+/// Where a facet that reaches behind the near plane may be seen: between the corners before it and where its edges
+/// meet it.
+inline Extent extent_at_near_plane(const Corners& p, const Lens& lens, double near_m, double spare_px) {
+  Extent whole{lens.width_px, -1, lens.height_px, -1};
+  for (int i = 0; i < 4; ++i) {
+    const int k = (i + 1) % 4;
+    Corners ends{all(p.x[i]), all(p.y[i]), all(p.z[i])};
+    if (p.z[i] < near_m && p.z[k] < near_m) continue;
+    const double share = (near_m - p.z[i]) / (p.z[k] - p.z[i]);
+    if ((p.z[i] < near_m) != (p.z[k] < near_m)) {
+      const int behind = p.z[i] < near_m ? 0 : 1;
+      const double x = p.x[i] + share * (p.x[k] - p.x[i]), y = p.y[i] + share * (p.y[k] - p.y[i]);
+      ends = {behind == 0 ? D4{x, x, p.x[k], p.x[k]} : D4{p.x[i], p.x[i], x, x},
+              behind == 0 ? D4{y, y, p.y[k], p.y[k]} : D4{p.y[i], p.y[i], y, y},
+              behind == 0 ? D4{near_m, near_m, p.z[k], p.z[k]} : D4{p.z[i], p.z[i], near_m, near_m}};
+    }
+    const Extent part = extent_of(ends, lens, spare_px);
+    whole.left = part.left < whole.left ? part.left : whole.left;
+    whole.right = part.right > whole.right ? part.right : whole.right;
+    whole.top = part.top < whole.top ? part.top : whole.top;
+    whole.bottom = part.bottom > whole.bottom ? part.bottom : whole.bottom;
+  }
+  return whole;
+}
+
+/// Sets a facet up for an image. @param spare_px  how far samples lie from the middle of a pixel.
+/// @return whether it faces the eye and may cover a pixel.
+inline bool set_up(const FacetShape& shape, const Eye& eye, const Lens& lens, double near_m, double spare_px,
+                   SetUp& out) {
+  const Corners p = see(shape, eye);
+  const Corners n{next(p.x), next(p.y), next(p.z)};
+  // next x this: positive inside for what is counter-clockwise from outside. Both sides of an edge multiply alike.
+  const D4 ex = n.y * p.z - n.z * p.y, ey = n.z * p.x - n.x * p.z, ez = n.x * p.y - n.y * p.x;
+  const double volume = ex[0] * p.x[2] + ey[0] * p.y[2] + ez[0] * p.z[2];
+  if (!(volume > 0.0)) return false;
+
+  double nearest_m = p.z[0], farthest_m = p.z[0];
+  for (int i = 1; i < 4; ++i) {
+    nearest_m = p.z[i] < nearest_m ? p.z[i] : nearest_m;
+    farthest_m = p.z[i] > farthest_m ? p.z[i] : farthest_m;
+  }
+  if (farthest_m < near_m) return false;
+  const bool cut = nearest_m < near_m;
+  out.extent = cut ? extent_at_near_plane(p, lens, near_m, spare_px) : extent_of(p, lens, spare_px);
+  if (out.extent.left > out.extent.right || out.extent.top > out.extent.bottom) return false;
+
+  const D4 a = ex * lens.per_focal_x, b = ey * lens.per_focal_y;
+  out.edges = quantized(a, b, ez - a * lens.center_u_px - b * lens.center_v_px);
+
+  // The plane's normal, from the same products.
+  const double nx = ex[0] + ex[1] + (p.y[0] * p.z[2] - p.z[0] * p.y[2]);
+  const double ny = ey[0] + ey[1] + (p.z[0] * p.x[2] - p.x[0] * p.z[2]);
+  const double nz = ez[0] + ez[1] + (p.x[0] * p.y[2] - p.y[0] * p.x[2]);
+  const double per_volume = 1.0 / volume;
+  Affine& w = out.surface.w;
+  w.right = nx * per_volume * lens.per_focal_x;
+  w.down = ny * per_volume * lens.per_focal_y;
+  w.at_origin = nz * per_volume - w.right * lens.center_u_px - w.down * lens.center_v_px;
+  out.farthest = static_cast<float>(1.0 / farthest_m);
+  out.nearest = cut ? __builtin_inff() : static_cast<float>(1.0 / nearest_m);
+  return true;
+}
+
+}  // namespace
+}  // namespace hedgehop::sim::tiles

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "sim/render/tiles/lanes.h"
+#include "sim/render/tiles/scene_view.h"
+
+namespace hedgehop::sim::tiles {
+namespace {
+
+/// Places in a texture at which pixels look it up, in 1/256 texel of its largest size, from the corner of the first.
+struct Places {
+  I8 u, v;
+};
+
+/// Four texels round a place and how they are weighed.
+struct Taps {
+  I8 place, right, down;
+};
+
+/// Of one level for all lanes.
+inline Taps taps(const TextureLayout& layout, const Places& at, int level) {
+  constexpr int kHalf = 128;
+  const I8 u = (at.u >> level) - kHalf, v = (at.v >> level) - kHalf;
+  const int last = (layout.size_px >> level) - 1;
+  const I8 x = (u >> 8) & last, y = (v >> 8) & last;
+  return {layout.first[level] + (y << (layout.size_log2 - level)) + y + x, u & 255, v & 255};
+}
+
+/// Of each lane's level.
+inline Taps taps(const TextureLayout& layout, const Places& at, I8 level) {
+  constexpr int kHalf = 128;
+  const I8 u = (at.u >> level) - kHalf, v = (at.v >> level) - kHalf;
+  const I8 last = (all(layout.size_px) >> level) - 1;
+  const I8 x = (u >> 8) & last, y = (v >> 8) & last;
+  return {look_up(layout.first, level) + (y << (layout.size_log2 - level)) + y + x, u & 255, v & 255};
+}
+
+/// The texels' mean, 128 * 65025 less than it is, in 1/65025 of a level.
+inline I8 fetch(const uint16_t* texture, const Taps& taps) {
+  return mix(gather(texture, taps.place), taps.right, taps.down);
+}
+
+/// Which two sizes of a texture pixels are looked up in, and the smaller one's share.
+struct Levels {
+  I8 larger;
+  F8 share;
+};
+
+/// The logarithm is linear from one power of two of the square to the next, as Mesa's rasteriser has it.
+/// @param texels_squared  of the largest size, that a pixel spans along the axis where it spans most.
+inline Levels levels(F8 texels_squared, int last) {
+  constexpr int kBits = 24;  // of a fraction: half the exponent is the level
+  const I8 twice = reinterpret_cast<I8>(texels_squared) - (127 << (kBits - 1));
+  const I8 level = twice >> kBits;
+  const I8 between = (level >= 0) & (level < last);
+  const I8 fraction = twice & ((1 << kBits) - 1) & between;
+  return {most(least(level, all(last)), I8{}), floats(fraction) * (1.0f / (1 << kBits))};
+}
+
+}  // namespace
+}  // namespace hedgehop::sim::tiles

@@ -1,0 +1,133 @@
+#include "sim/render/tiles/tile_painter.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "sim/render/frustum.h"
+#include "sim/render/tiles/occlusion.h"
+#include "sim/render/tiles/sun_depths.h"
+
+namespace hedgehop::sim::tiles {
+
+namespace {
+
+Lens lens_of(const vision::camera::PinholeCamera& camera) {
+  return {camera.focal_x_px,      camera.focal_y_px,  1.0 / camera.focal_x_px, 1.0 / camera.focal_y_px,
+          camera.center_u_px,     camera.center_v_px, camera.width_px,         camera.height_px};
+}
+
+/// @param p_MC_W  from the facets' frame, whose axes are those of W.
+Eye eye_at(const Eigen::Vector3d& p_MC_W, const Eigen::Matrix3d& R_WC) {
+  Eye eye{};
+  for (int i = 0; i < 3; ++i) {
+    eye.p_m[i] = p_MC_W[i];
+    for (int k = 0; k < 3; ++k) eye.R_CW[3 * i + k] = R_WC(k, i);
+  }
+  return eye;
+}
+
+const Kernels& fast_kernels() {
+  if (&best_kernels() == &kPlainKernels) {
+    throw std::runtime_error("tiles needs a processor with AVX2; --gl osmesa does not");
+  }
+  return best_kernels();
+}
+
+constexpr uint32_t kWorldEye = 0;
+
+}  // namespace
+
+TilePainter::TilePainter(const scenes::Scene& scene, Culling culling, Shadows shadows)
+    : TilePainter(scene, culling, shadows, fast_kernels()) {}
+
+TilePainter::TilePainter(const scenes::Scene& scene, Culling culling, Shadows shadows, const Kernels& kernels)
+    : kernels_(kernels),
+      culling_(culling),
+      geometry_(make_geometry(scene)),
+      visible_(geometry_.chunks, geometry_.tiles),
+      facets_(make_facets(geometry_)),
+      texels_(scene.textures),
+      sky_(scene.sky) {
+  for (const scenes::Mover& mover : scene.movers) motions_.push_back(mover.motion);
+  view_.shapes = facets_.shapes.data();
+  view_.covers = facets_.covers.data();
+  view_.layout = texels_.layout();
+  if (shadows == Shadows::sun) view_.sun = draw_sun_depths(geometry_, scene.lights, sun_depths_);
+  geometry_.vertices = {};
+  geometry_.indices = {};
+}
+
+void TilePainter::set_planes(bool color) {
+  using enum TexelPlanes::Of;
+  if (color) {
+    for (int i = 0; i < 3; ++i) {
+      view_.planes[i] = texels_.plane(static_cast<TexelPlanes::Of>(i));
+      view_.sky.horizon[i] = 255.0f * sky_.horizon[i];
+      view_.sky.zenith[i] = 255.0f * sky_.zenith[i];
+    }
+    return;
+  }
+  view_.planes[0] = texels_.plane(grey);
+  view_.sky.horizon[0] = 255.0f * sky_.horizon.mean();
+  view_.sky.zenith[0] = 255.0f * sky_.zenith.mean();
+}
+
+void TilePainter::paint(const vision::camera::PinholeCamera& camera, const Painter::Eye& eye, Raster raster,
+                        int samples, cv::Mat& out) {
+  require_samples(samples);
+  out.create(camera.height_px, camera.width_px, type_of(raster));
+  const tiles::Eye world = eye_at(eye.X_WC.translation(), eye.X_WC.linear());
+  for (int i = 0; i < 3; ++i) {
+    view_.p_WC[i] = world.p_m[i];
+    for (int k = 0; k < 3; ++k) view_.R_WC[3 * i + k] = world.R_CW[3 * k + i];
+  }
+  memory_.begin(lens_of(camera), samples);
+  memory_.add_eye(world);
+  draw_scene(camera, eye);
+  draw_movers(eye);
+  if (raster == Raster::grey || raster == Raster::color) {
+    memory_.make_paints();
+    set_planes(raster == Raster::color);
+  }
+  kernels_.finish(view_, memory_.frame(), raster, {out.data, out.step[0]});
+}
+
+void TilePainter::draw(const scenes::Chunk& stretch, uint32_t eye) {
+  const Facets::Range range = facets_.range(stretch.first_index, stretch.index_count);
+  memory_.make_room(range.count);
+  kernels_.draw(memory_.frame(), facets_.shapes.data(), range.first, range.count, eye, kNearPlaneM);
+  ++count_.stretches;
+  count_.triangles += stretch.index_count / 3;
+}
+
+void TilePainter::draw_scene(const vision::camera::PinholeCamera& camera, const Painter::Eye& eye) {
+  for (const scenes::Chunk& chunk : visible_.find(camera, eye.X_WC, culling_)) {
+    const bool may_hide = culling_ != Culling::none && !lies_flat(chunk);  // a flat stretch has more than its box
+    if (may_hide && hides(memory_.frame(), memory_.frame().eyes[kWorldEye], chunk.box_W, kNearPlaneM)) continue;
+    draw(chunk, kWorldEye);
+  }
+}
+
+/// A mover does not turn: it is drawn as if it stood still and the eye were where it is seen from M.
+void TilePainter::draw_movers(const Painter::Eye& eye) {
+  for (size_t mover = 0; mover < motions_.size(); ++mover) {
+    const Eigen::Vector3d p_MC_W = eye.X_WC.translation() - scenes::p_WM(motions_[mover], eye.t_s);
+    memory_.add_eye(eye_at(p_MC_W, eye.X_WC.linear()));
+    const auto index = static_cast<uint32_t>(1 + mover);
+    for (const scenes::Chunk& chunk : geometry_.mover_chunks[mover]) {
+      if (chunk.index_count == 0 || hides(memory_.frame(), memory_.frame().eyes[index], chunk.box_W, kNearPlaneM)) {
+        continue;
+      }
+      draw(chunk, index);
+    }
+  }
+}
+
+void TilePainter::require_samples(int samples) {
+  if (samples != 1 && samples != 4) throw std::invalid_argument(fmt::format("{}; tiles draws 1 or 4", samples));
+}
+
+std::string TilePainter::info() { return fmt::format("Hedgehop; tiles; {}", kernels_.lanes); }
+
+}  // namespace hedgehop::sim::tiles

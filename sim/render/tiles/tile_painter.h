@@ -1,0 +1,48 @@
+#pragma once
+
+#include "sim/render/painter.h"
+#include "sim/render/scene_geometry.h"
+#include "sim/render/tiles/facets.h"
+#include "sim/render/tiles/frame_memory.h"
+#include "sim/render/tiles/kernels.h"
+#include "sim/render/tiles/texel_planes.h"
+
+namespace hedgehop::sim::tiles {
+
+/// Draws on the processor alone. Facets go into tiles of 8 x 8 pixels from near to far; what hides what is settled by
+/// their planes, without a depth for each pixel; each pixel is shaded once, at the end. The same bits on every
+/// processor.
+class TilePainter : public Painter {
+ public:
+  /// Throws std::invalid_argument for a scene that contradicts itself, std::runtime_error with the cause when the
+  /// processor cannot run it at speed.
+  TilePainter(const scenes::Scene& scene, Culling culling, Shadows shadows);
+
+  /// With kernels of the caller's choice, on any processor.
+  TilePainter(const scenes::Scene& scene, Culling culling, Shadows shadows, const Kernels& kernels);
+
+  void paint(const vision::camera::PinholeCamera& camera, const Eye& eye, Raster raster, int samples,
+             cv::Mat& out) override;
+  void require_samples(int samples) override;
+  std::string info() override;
+
+ private:
+  void draw_scene(const vision::camera::PinholeCamera& camera, const Painter::Eye& eye);
+  void draw_movers(const Painter::Eye& eye);
+  void draw(const scenes::Chunk& stretch, uint32_t eye);
+  void set_planes(bool color);
+
+  const Kernels& kernels_;
+  Culling culling_;
+  SceneGeometry geometry_;  ///< its chunks
+  std::vector<scenes::Motion> motions_;  ///< of the movers
+  VisibleChunks visible_;
+  Facets facets_;
+  TexelPlanes texels_;
+  scenes::Sky sky_;
+  std::vector<float> sun_depths_;
+  SceneView view_{};
+  FrameMemory memory_;
+};
+
+}  // namespace hedgehop::sim::tiles
