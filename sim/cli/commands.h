@@ -16,7 +16,7 @@ struct ScenarioOptions {
   std::filesystem::path file;
   std::vector<std::string> overrides;  ///< "a.b=value"
   std::optional<uint64_t> seed;
-  std::string gl;  ///< "osmesa" or "egl"; empty: the scenario's
+  std::string gl;  ///< "osmesa", "egl" or "tiles"; empty: the scenario's
 };
 
 struct RunOptions {

@@ -3,10 +3,9 @@
 namespace hedgehop::sim::cli {
 
 LoadedScenario load(const ScenarioOptions& options) {
-  LoadedScenario loaded = load_flight(options.file, options.overrides, options.seed);
-  using Context = DrawingConfig::Context;
-  if (!options.gl.empty()) loaded.scenario.drawing.context = options.gl == "egl" ? Context::egl : Context::osmesa;
-  return loaded;
+  std::vector<std::string> overrides = options.overrides;
+  if (!options.gl.empty()) overrides.push_back("drawing.gl=" + options.gl);
+  return load_flight(options.file, overrides, options.seed);
 }
 
 }  // namespace hedgehop::sim::cli

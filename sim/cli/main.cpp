@@ -32,8 +32,9 @@ void add_layers(CLI::App& command, cli::ScenarioOptions& scenario) {
       ->take_all();
   command
       .add_option("--gl", scenario.gl,
-                  "OpenGL context: osmesa, or egl (a GPU where there is one); overrides the scenario's")
-      ->check(CLI::IsMember({"osmesa", "egl"}));
+                  "who draws: osmesa, egl (a GPU where there is one) or tiles (fastest on a processor); overrides the "
+                  "scenario's")
+      ->check(CLI::IsMember({"osmesa", "egl", "tiles"}));
 }
 
 void add_scenario(CLI::App& command, cli::ScenarioOptions& scenario) {

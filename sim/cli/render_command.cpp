@@ -33,12 +33,31 @@ Channel channel_of(const std::string& what) {
   return what == "color" ? Channel::color : Channel::depth;
 }
 
+/// Who would draw, and who else can: one line each.
+void print_contexts(const std::string& asked) {
+  const std::array<std::pair<DrawingConfig::Context, ContextKind>, 3> kinds = {
+      {{DrawingConfig::Context::osmesa, ContextKind::osmesa},
+       {DrawingConfig::Context::egl, ContextKind::egl},
+       {DrawingConfig::Context::tiles, ContextKind::tiles}}};
+  const std::array<const char*, 3> names = {"osmesa", "egl", "tiles"};
+  for (size_t i = 0; i < kinds.size(); ++i) {
+    const bool chosen = asked.empty() ? kinds[i].first == DrawingConfig::usual_context() : asked == names[i];
+    if (!asked.empty() && !chosen) continue;
+    const char* const mark = asked.empty() && chosen ? "  (used unless a scenario or --gl says otherwise)" : "";
+    try {
+      fmt::print("{}: {}{}\n", names[i], Renderer(scenes::Scene{}, Culling::none, kinds[i].second).info(), mark);
+    } catch (const std::runtime_error& fault) {
+      if (chosen) throw;
+      fmt::print("{}: no: {}\n", names[i], fault.what());
+    }
+  }
+}
+
 }  // namespace
 
 int render(const RenderOptions& options) {
   if (options.info) {
-    const ContextKind context = options.scenario.gl == "egl" ? ContextKind::egl : ContextKind::osmesa;
-    fmt::print("{}\n", Renderer(scenes::Scene{}, Culling::none, context).info());
+    print_contexts(options.scenario.gl);
     return 0;
   }
   if (options.out.extension() != ".png") {

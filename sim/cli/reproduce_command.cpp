@@ -98,6 +98,9 @@ std::vector<FlightRecord> fly(const std::vector<Paper>& papers, const ReproduceO
 
 /// The packages that images and what is seen in them depend on.
 std::string packages() {
+  if (DrawingConfig::usual_context() == DrawingConfig::Context::tiles) {
+    return fmt::format("images by Hedgehop's tiles, OpenCV {}", cv::getVersionString());
+  }
   const std::string renderer = Renderer(scenes::Scene{}, Culling::none, ContextKind::osmesa).info();
   const size_t mesa = renderer.find("Mesa ");
   const std::string name =

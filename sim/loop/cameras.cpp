@@ -36,6 +36,18 @@ void require_samples(const CameraConfig& camera, Renderer& renderer) {
   }
 }
 
+ContextKind context_kind(DrawingConfig::Context context) {
+  switch (context) {
+    case DrawingConfig::Context::osmesa:
+      return ContextKind::osmesa;
+    case DrawingConfig::Context::egl:
+      return ContextKind::egl;
+    case DrawingConfig::Context::tiles:
+      return ContextKind::tiles;
+  }
+  throw std::logic_error("unknown context");
+}
+
 std::optional<CornerDetector> detector_of(const CameraConfig& camera, const scenes::Scene& scene, uint64_t seed) {
   if (camera.channel != CameraConfig::Channel::corners) return std::nullopt;
   if (scene.corners_W.empty()) {
@@ -50,7 +62,7 @@ std::optional<CornerDetector> detector_of(const CameraConfig& camera, const scen
 Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, const DrawingConfig& drawing,
                  uint64_t seed)
     : renderer_(scene, Culling::frustum_and_horizon,
-                drawing.context == DrawingConfig::Context::egl ? ContextKind::egl : ContextKind::osmesa,
+                context_kind(drawing.context),
                 drawing.shadows ? Shadows::sun : Shadows::none) {
   for (const scenes::Mover& mover : scene.movers) movers_.push_back(mover.motion);
   for (const CameraConfig& camera : rig.cameras) {

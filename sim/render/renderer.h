@@ -42,7 +42,8 @@ struct CameraView {
 /// Draws a scene off screen, without a display (OpenGL 3.3 core). The scene is copied to the context once. Several
 /// renderers may live in one process; each is used by one thread at a time. Row 0 of a texture lies at v = 0. Equal
 /// views give equal pixels, however many are drawn. A camera that is no undistorted pinhole is drawn as pinhole images
-/// first (LensFaces), which are planned at its first image. Further images of a camera and channel allocate nothing.
+/// first (LensFaces), which are planned at its first image. Further images of a camera and channel allocate nothing,
+/// except that tiles may for a view that shows more than any before.
 class Renderer {
  public:
   /// Throws std::invalid_argument when the scene contradicts itself (an index out of range, textures of several sizes),

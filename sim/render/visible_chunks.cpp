@@ -25,6 +25,11 @@ std::array<Eigen::Vector3d, 4> corner_rays(const vision::camera::PinholeCamera& 
   return {ray(-1.5, -1.5), ray(right_px, -1.5), ray(-1.5, bottom_px), ray(right_px, bottom_px)};
 }
 
+double plan_distance_m(const Eigen::AlignedBox3f& box_W, const Eigen::Vector2d& eye_NE_m) {
+  return Eigen::AlignedBox2d(box_W.min().head<2>().cast<double>(), box_W.max().head<2>().cast<double>())
+      .exteriorDistance(eye_NE_m);
+}
+
 /// Finds the chunks that an image is too coarse for.
 class FarDetails {
  public:
@@ -73,36 +78,36 @@ bool VisibleChunks::shows(const Eigen::AlignedBox3f& box_W) const {
   return frustum_->may_see(box_W) && (culling_ == Culling::frustum || !horizon_.hides(box_W));
 }
 
-void VisibleChunks::add_tiles(const scenes::Chunk& flat) {
+template <class Hides, class See>
+void VisibleChunks::visit_tiles(const scenes::Chunk& flat, const Hides& hides, const See& see) const {
   const auto before = [](const scenes::Chunk& tile, uint32_t index) { return tile.first_index < index; };
   auto tile = std::lower_bound(tiles_.begin(), tiles_.end(), flat.first_index, before);
-  uint32_t end = std::numeric_limits<uint32_t>::max();  // of the stretch that the last tile belongs to
+  scenes::Chunk stretch;
   for (; tile != tiles_.end() && tile->first_index < flat.first_index + flat.index_count; ++tile) {
-    if (!shows(tile->box_W)) continue;
-    if (tile->first_index == end) {
-      visible_.back().index_count += tile->index_count;
-    } else {
-      visible_.push_back(*tile);
+    if (culling_ != Culling::none && (!frustum_->may_see(tile->box_W) || hides(tile->box_W))) continue;
+    if (stretch.index_count > 0 && tile->first_index == stretch.first_index + stretch.index_count) {
+      stretch.index_count += tile->index_count;
+      stretch.box_W.extend(tile->box_W);
+      continue;
     }
-    end = tile->first_index + tile->index_count;
+    if (stretch.index_count > 0) see(stretch);
+    stretch = *tile;
   }
+  if (stretch.index_count > 0) see(stretch);
 }
 
-std::span<const scenes::Chunk> VisibleChunks::find(const vision::camera::PinholeCamera& camera,
-                                                   const Eigen::Isometry3d& X_WC, Culling culling) {
+/// @param hides  of a box, past what was seen before.
+template <class Hides, class See>
+void VisibleChunks::visit(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC,
+                          const Hides& hides, const See& see) {
   const Frustum& frustum = frustum_.emplace(camera, X_WC, kNearPlaneM);
-  culling_ = culling;
   const FarDetails far_details(camera, X_WC);
-  const bool use_horizon = culling == Culling::frustum_and_horizon;
-  horizon_.reset(X_WC.translation());
-  horizon_.look(corner_rays(camera, X_WC));
   queue_.clear();
   flat_.clear();
-  visible_.clear();
   const auto push = [&](uint32_t node) {
     const Eigen::AlignedBox3f& box_W = tree_.nodes()[node].box_W;
-    if (culling != Culling::none && !frustum.may_see(box_W)) return;
-    queue_.push_back({horizon_.nearest_m(box_W), node});
+    if (culling_ != Culling::none && !frustum.may_see(box_W)) return;
+    queue_.push_back({plan_distance_m(box_W, X_WC.translation().head<2>()), node});
     std::push_heap(queue_.begin(), queue_.end(), Farther{});
   };
 
@@ -112,19 +117,44 @@ std::span<const scenes::Chunk> VisibleChunks::find(const vision::camera::Pinhole
     const ChunkTree::Node& node = tree_.nodes()[queue_.front().index];
     std::pop_heap(queue_.begin(), queue_.end(), Farther{});
     queue_.pop_back();
-    if (use_horizon && horizon_.hides(node.box_W)) continue;
+    if (culling_ == Culling::frustum_and_horizon && hides(node.box_W)) continue;
     if (node.first_child != 0) {
       push(node.first_child);
       push(node.first_child + 1);
     } else if (lies_flat(chunks_[node.chunk])) {
       flat_.push_back(node.chunk);
-    } else {
-      if (chunks_[node.chunk].index_count > 0) visible_.push_back(far_details.detail_for_view(chunks_[node.chunk]));
-      if (use_horizon && chunks_[node.chunk].fills_box_to_ground) horizon_.raise(node.box_W);
+    } else if (chunks_[node.chunk].index_count > 0) {
+      see(far_details.detail_for_view(chunks_[node.chunk]));
     }
   }
-  for (const uint32_t chunk : flat_) add_tiles(chunks_[chunk]);
+  const auto hidden = [&](const Eigen::AlignedBox3f& box_W) {
+    return culling_ == Culling::frustum_and_horizon && hides(box_W);
+  };
+  for (const uint32_t chunk : flat_) visit_tiles(chunks_[chunk], hidden, see);
+}
+
+std::span<const scenes::Chunk> VisibleChunks::find(const vision::camera::PinholeCamera& camera,
+                                                   const Eigen::Isometry3d& X_WC, Culling culling) {
+  culling_ = culling;
+  horizon_.reset(X_WC.translation());
+  horizon_.look(corner_rays(camera, X_WC));
+  visible_.clear();
+  visit(
+      camera, X_WC, [&](const Eigen::AlignedBox3f& box_W) { return horizon_.hides(box_W); },
+      [&](const scenes::Chunk& stretch) {
+        visible_.push_back(stretch);
+        if (culling_ == Culling::frustum_and_horizon && stretch.fills_box_to_ground) horizon_.raise(stretch.box_W);
+      });
   return visible_;
+}
+
+void VisibleChunks::find(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, Culling culling,
+                         Beholder& beholder) {
+  culling_ = culling;
+  visit(
+      camera, X_WC, [&](const Eigen::AlignedBox3f& box_W) { return beholder.hides(box_W); },
+      [&](const scenes::Chunk& stretch) { beholder.see(stretch); });
+  culling_ = std::min(culling, Culling::frustum);  // of what shows() knows
 }
 
 }  // namespace hedgehop::sim

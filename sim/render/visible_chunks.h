@@ -26,6 +26,16 @@ inline constexpr double kLostPx = 1.0;
 /// Finds what a view can see of a scene's chunks. Reuses its memory from view to view.
 class VisibleChunks {
  public:
+  /// Who is told of a view's chunks while they are found, and knows what they hide.
+  class Beholder {
+   public:
+    virtual ~Beholder() = default;
+    /// @param stretch  as find() returns them.
+    virtual void see(const scenes::Chunk& stretch) = 0;
+    /// True only when nothing in a box can be seen past what was seen so far.
+    virtual bool hides(const Eigen::AlignedBox3f& box_W) const = 0;
+  };
+
   /// @param tiles  what flat chunks are made of, in the order of first_index.
   VisibleChunks(std::vector<scenes::Chunk> chunks, std::vector<scenes::Chunk> tiles);
 
@@ -35,6 +45,10 @@ class VisibleChunks {
   /// cameras of a rectified stereo pair see the same.
   std::span<const scenes::Chunk> find(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC,
                                       Culling culling);
+
+  /// The same one by one, for a beholder instead of the horizon. Upright ones alone are seen before hides() is asked.
+  void find(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, Culling culling,
+            Beholder& beholder);
 
   /// Whether the view that was found last can see a box that is none of the chunks.
   bool shows(const Eigen::AlignedBox3f& box_W) const;
@@ -46,7 +60,11 @@ class VisibleChunks {
   };
   struct Farther;
 
-  void add_tiles(const scenes::Chunk& flat);
+  template <class Hides, class See>
+  void visit(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, const Hides& hides,
+             const See& see);
+  template <class Hides, class See>
+  void visit_tiles(const scenes::Chunk& flat, const Hides& hides, const See& see) const;
 
   std::vector<scenes::Chunk> chunks_, tiles_;
   ChunkTree tree_;

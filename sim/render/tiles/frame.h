@@ -34,7 +34,8 @@ struct Surface {
   uint32_t eye;    ///< into Frame::eyes
 };
 
-/// What a surface looks like, set up when it is shaded first: each over z, which makes it affine in the pixel.
+/// What a surface looks like, set up when it is shaded first: each over z, which makes it affine in the pixel. The
+/// texture is moved by whole repeats to where floats are fine, as often as it has to be.
 struct Paint {
   bool ready;
   Affine u, v;  ///< 1/256 texel

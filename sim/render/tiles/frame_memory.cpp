@@ -4,6 +4,14 @@
 
 namespace hedgehop::sim::tiles {
 
+FrameMemory::FrameMemory(size_t facets) {
+  constexpr size_t kOrdinary = 1 << 14;
+  surfaces_.resize(std::min(facets, kOrdinary));
+  paints_.reserve(surfaces_.size());
+  pool_.resize(kOrdinary);
+  frame_.memory = this;
+}
+
 Frame& FrameMemory::begin(const Lens& lens, int samples) {
   Frame& frame = frame_;
   frame.lens = lens;
@@ -26,7 +34,6 @@ Frame& FrameMemory::begin(const Lens& lens, int samples) {
   eyes_.clear();
   frame.surface_count = 0;
   pool_used_ = 0;
-  frame.memory = this;
   return frame;
 }
 

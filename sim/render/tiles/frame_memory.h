@@ -9,10 +9,17 @@ namespace hedgehop::sim::tiles {
 /// Memory of frames, kept from image to image.
 class FrameMemory {
  public:
+  /// Has room for what ordinary views show; a fuller one than any before takes more.
+  /// @param facets  of the scene.
+  explicit FrameMemory(size_t facets);
+  FrameMemory(const FrameMemory&) = delete;
+  FrameMemory& operator=(const FrameMemory&) = delete;
+
   /// Begins an image without facets and eyes. @param samples  1 or 4.
   Frame& begin(const Lens& lens, int samples);
 
   Frame& frame() { return frame_; }
+  const Frame& frame() const { return frame_; }
 
   /// Adds an eye to draw from.
   void add_eye(const Eye& eye);

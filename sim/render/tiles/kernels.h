@@ -28,7 +28,8 @@ extern const Kernels kPlainKernels;
 extern const Kernels kAvx2Kernels;
 #endif
 
-/// The fastest that this processor can run.
-const Kernels& best_kernels();
+/// The fastest that this processor can run at speed, or those that the environment variable HEDGEHOP_TILES names:
+/// "plain" runs anywhere, slowly. Throws std::runtime_error, with the remedy, when there are none.
+const Kernels& chosen_kernels();
 
 }  // namespace hedgehop::sim::tiles

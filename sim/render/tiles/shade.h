@@ -32,83 +32,118 @@ struct Patch {
   int level;  ///< the larger of all its pixels' two, or -1
 };
 
-/// The larger of the two sizes of the texture that all of the tile shows, if its corners agree on it.
-inline int common_level(const Patch& patch, int last) {
+/// Sees that floats tell a 64th of a texel: false where the tile's corners lie too far off, or beside the surface.
+/// @param level  the larger of the two sizes of the texture that all corners show, or -1.
+inline bool look_at_corners(const Patch& patch, int last, int& level) {
   const F8 columns = {0, 7, 0, 7, 0, 7, 0, 7}, rows = {0, 0, 7, 7, 0, 0, 7, 7};
   const auto at_corners = [&](const Slope& f) { return f.at_first + columns * f.right + rows * f.down; };
-  const F8 w = at_corners(patch.w);
-  constexpr float kNowhereNear = 1e-9f, kFarOff = 1e9f;
-  if (signs(w > kNowhereNear) != 0xff) return -1;
-  const F8 z = 1.0f / w, u = at_corners(patch.u) * z, v = at_corners(patch.v) * z;
-  if (signs(most(magnitude(u), magnitude(v)) < kFarOff) != 0xff) return -1;
-  const Levels found = levels(squared_span(patch.w, patch.u, patch.v, u, v, z), last);
-  const int level = found.larger[0];
-  return signs(found.larger == level) == 0xff ? level : -1;
+  constexpr float kFar = 1 << 22;
+  const F8 w = at_corners(patch.w), z = 1.0f / w, u = at_corners(patch.u) * z, v = at_corners(patch.v) * z;
+  const I8 fine = (w > 0.0f) & (most(magnitude(u), magnitude(v)) < kFar);
+  level = -1;
+  if (signs(fine) != 0xff) return false;
+  const I8 larger = levels(squared_span(patch.w, patch.u, patch.v, u, v, z), last).larger;
+  if (signs(larger == larger[0]) == 0xff) level = larger[0];
+  return true;
+}
+
+/// Moves a texture so that it is about 0 at a pixel.
+inline void move_to(double u, double v, double a_repeat, const Affine& w, Paint& paint) {
+  const double z = 1.0 / w.at(u, v);
+  const auto move = [&](Affine& f) { f = less(f, a_repeat * __builtin_floor(f.at(u, v) * z / a_repeat), w); };
+  move(paint.u);
+  move(paint.v);
 }
 
 /// @param u, v  the tile's first pixel. @param pixels  of it that show the surface, not 0.
-inline Patch patch_of(const SceneView& scene, const Frame& frame, const Surface& surface, const Paint& paint, int u,
-                      int v, uint64_t pixels) {
-  const int any = __builtin_ctzll(pixels);
-  const double some_u = u + any % kTilePx, some_v = v + any / kTilePx, z = 1.0 / surface.w.at(some_u, some_v);
-  const double a_repeat = 256.0 * scene.layout.size_px;
-  const auto repeats = [&](const Affine& f) { return a_repeat * __builtin_floor(f.at(some_u, some_v) * z / a_repeat); };
+inline Patch patch_of(const SceneView& scene, const Frame& frame, const Surface& surface, Paint& paint, int u, int v,
+                      uint64_t pixels) {
   Patch patch;
-  patch.w = slope(surface.w, u, v);
-  patch.u = slope(less(paint.u, repeats(paint.u), surface.w), u, v);
-  patch.v = slope(less(paint.v, repeats(paint.v), surface.w), u, v);
-  patch.brightness = slope(paint.brightness, u, v);
   patch.cover = scene.covers + surface.facet;
+  patch.w = slope(surface.w, u, v);
+  if (!patch.cover->evenly_lit) patch.brightness = slope(paint.brightness, u, v);
   if (scene.sun.depths != nullptr) patch.sun = sun_slopes(scene, frame.lens, surface.w, u, v);
-  patch.level = common_level(patch, scene.layout.last_level);
+  const auto set = [&] {
+    patch.u = slope(paint.u, u, v);
+    patch.v = slope(paint.v, u, v);
+    return look_at_corners(patch, scene.layout.last_level, patch.level);
+  };
+  if (set()) return patch;
+  const int any = __builtin_ctzll(pixels);
+  move_to(u + any % kTilePx, v + any / kTilePx, 256.0 * scene.layout.size_px, surface.w, paint);
+  set();
   return patch;
 }
 
-/// Levels, 0..255, of a row's pixels in each of the planes.
-template <int kPlanes>
-inline void shade_row(const SceneView& scene, const Patch& patch, int row, I8 (&out)[kPlanes]) {
-  const TextureLayout& layout = scene.layout;
-  const F8 z = 1.0f / patch.w.row(row, kColumns);
-  F8 u = patch.u.row(row, kColumns) * z, v = patch.v.row(row, kColumns) * z;
-  F8 light = all(static_cast<float>(patch.cover->brightness));
-  if (!patch.cover->evenly_lit) light = patch.brightness.row(row, kColumns) * z;
-  if (scene.sun.depths != nullptr) light = lit(scene.sun, patch.sun, row, z, light);
+/// How a row's pixels look up the texture, and how bright they are.
+struct RowTaps {
+  Taps near, far;  ///< in the larger and in the smaller size
+  F8 share;        ///< of the smaller
+  F8 light;
+  bool mixed;      ///< whether any share is above 0
+};
 
-  const bool common = patch.level >= 0;
-  if (!common) {  // pixels beside the surface may lie anywhere
-    const F8 far_off = all(1e9f);
-    u = most(least(u, far_off), -far_off), v = most(least(v, far_off), -far_off);
-  }
-  const Places at{integers(u), integers(v)};
-  const Levels sizes = levels(squared_span(patch.w, patch.u, patch.v, u, v, z), layout.last_level);
-  const bool mixed = signs(sizes.share > 0.0f) != 0;
-  const Taps near = common ? taps(layout, at, patch.level) : taps(layout, at, sizes.larger);
-  Taps far{};
-  if (mixed) {
-    far = common ? taps(layout, at, patch.level + 1) : taps(layout, at, least(sizes.larger + 1, all(layout.last_level)));
-  }
-  const size_t texture = patch.cover->texture * layout.places;
-  constexpr float kUnit = 1.0f / 65025.0f;
-  for (int i = 0; i < kPlanes; ++i) {
-    const uint16_t* const places = scene.planes[i].places + texture;
-    F8 level = floats(fetch(places, near));
-    if (mixed) level += (floats(fetch(places, far)) - level) * sizes.share;
-    out[i] = integers((level * kUnit + 128.0f) * light);
+/// @tparam kCommon  whether the tile has one level. Two rows share their levels, as in Mesa's rasteriser.
+template <bool kCommon>
+inline void look_where(const SceneView& scene, const Patch& patch, uint64_t pixels, RowTaps (&rows)[kTilePx]) {
+  const TextureLayout& layout = scene.layout;
+  const F8 far_off = all(1e9f), evenly = all(static_cast<float>(patch.cover->brightness));
+  Levels sizes{};
+  bool mixed = false;
+  int leveled = -1;  // the pair of rows that the sizes are of
+  for (int row = 0; row < kTilePx; ++row) {
+    if (row_of(pixels, row) == 0) continue;
+    const F8 z = 1.0f / patch.w.row(row, kColumns);
+    F8 u = patch.u.row(row, kColumns) * z, v = patch.v.row(row, kColumns) * z;
+    if (!kCommon) {  // pixels beside the surface may lie anywhere
+      u = most(least(u, far_off), -far_off), v = most(least(v, far_off), -far_off);
+    }
+    if (leveled != row / 2) {
+      leveled = row / 2;
+      sizes = levels(squared_span(patch.w, patch.u, patch.v, u, v, z), layout.last_level);
+      mixed = signs(sizes.share > 0.0f) != 0;
+    }
+    const Places at{integers(u), integers(v)};
+    RowTaps& taps_of_row = rows[row];
+    taps_of_row.share = sizes.share;
+    taps_of_row.mixed = mixed;
+    taps_of_row.near = kCommon ? taps(layout, at, patch.level) : taps(layout, at, sizes.larger);
+    if (mixed) {
+      taps_of_row.far =
+          kCommon ? taps(layout, at, patch.level + 1) : taps(layout, at, least(sizes.larger + 1, all(layout.last_level)));
+    }
+    taps_of_row.light = evenly;
+    if (!patch.cover->evenly_lit) taps_of_row.light = patch.brightness.row(row, kColumns) * z;
+    if (scene.sun.depths != nullptr) taps_of_row.light = lit(scene.sun, patch.sun, row, z, taps_of_row.light);
   }
 }
 
-/// Shades the pixels of a tile that show a surface; leaves the others.
+/// Levels of a row's pixels, 0..255.
+inline uint64_t look_up(const uint16_t* texture, const RowTaps& taps_of_row) {
+  constexpr float kUnit = 1.0f / 65025.0f;
+  F8 level = floats(fetch(texture, taps_of_row.near));
+  if (taps_of_row.mixed) level += (floats(fetch(texture, taps_of_row.far)) - level) * taps_of_row.share;
+  return bytes(integers((level * kUnit + 128.0f) * taps_of_row.light));
+}
+
+/// Shades the pixels of a tile that show a surface; leaves the others. All places are found before any is looked up:
+/// memory is waited for once.
 template <int kPlanes>
 inline void shade(const SceneView& scene, const Patch& patch, uint64_t pixels, TileBytes (&out)[kPlanes]) {
-  for (int row = 0; row < kTilePx; ++row) {
-    const uint32_t shown = row_of(pixels, row);
-    if (shown == 0) continue;
-    I8 levels[kPlanes];
-    shade_row(scene, patch, row, levels);
-    const uint64_t here = kSpread.bytes[shown];
-    for (int i = 0; i < kPlanes; ++i) {
+  RowTaps rows[kTilePx];
+  if (patch.level >= 0) {
+    look_where<true>(scene, patch, pixels, rows);
+  } else {
+    look_where<false>(scene, patch, pixels, rows);
+  }
+  const size_t texture = patch.cover->texture * scene.layout.places;
+  for (int i = 0; i < kPlanes; ++i) {
+    for (int row = 0; row < kTilePx; ++row) {
+      const uint32_t shown = row_of(pixels, row);
+      if (shown == 0) continue;
+      const uint64_t here = kSpread.bytes[shown];
       uint64_t& kept = out[i].rows[row];
-      kept = (kept & ~here) | (bytes(levels[i]) & here);
+      kept = (kept & ~here) | (look_up(scene.planes[i].places + texture, rows[row]) & here);
     }
   }
 }

@@ -51,7 +51,7 @@ TexelPlanes::TexelPlanes(const std::vector<cv::Mat>& textures) : textures_(textu
 }
 
 TexelPlane TexelPlanes::plane(Of of) {
-  std::vector<uint16_t>& places = planes_[static_cast<size_t>(of)];
+  HugeVector<uint16_t>& places = planes_[static_cast<size_t>(of)];
   if (places.empty()) {
     places.reserve(textures_.size() * layout_.places);
     for (const cv::Mat& texture : textures_) add_texture(texture, of, places);
@@ -59,7 +59,7 @@ TexelPlane TexelPlanes::plane(Of of) {
   return {places.data()};
 }
 
-void TexelPlanes::add_texture(const cv::Mat& texture, Of of, std::vector<uint16_t>& places) const {
+void TexelPlanes::add_texture(const cv::Mat& texture, Of of, HugeVector<uint16_t>& places) const {
   SumsOfLevel sums = sums_of(texture, of);
   std::vector<uint8_t> levels;
   auto size = static_cast<size_t>(layout_.size_px);

@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "sim/render/tiles/huge_pages.h"
 #include "sim/render/tiles/scene_view.h"
 
 namespace hedgehop::sim::tiles {
@@ -22,11 +23,11 @@ class TexelPlanes {
   TexelPlane plane(Of of);
 
  private:
-  void add_texture(const cv::Mat& texture, Of of, std::vector<uint16_t>& places) const;
+  void add_texture(const cv::Mat& texture, Of of, HugeVector<uint16_t>& places) const;
 
   std::vector<cv::Mat> textures_;
   TextureLayout layout_{};
-  std::array<std::vector<uint16_t>, 4> planes_;
+  std::array<HugeVector<uint16_t>, 4> planes_;
 };
 
 }  // namespace hedgehop::sim::tiles

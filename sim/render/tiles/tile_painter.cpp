@@ -27,28 +27,19 @@ Eye eye_at(const Eigen::Vector3d& p_MC_W, const Eigen::Matrix3d& R_WC) {
   return eye;
 }
 
-const Kernels& fast_kernels() {
-  if (&best_kernels() == &kPlainKernels) {
-    throw std::runtime_error("tiles needs a processor with AVX2; --gl osmesa does not");
-  }
-  return best_kernels();
-}
-
 constexpr uint32_t kWorldEye = 0;
 
 }  // namespace
 
 TilePainter::TilePainter(const scenes::Scene& scene, Culling culling, Shadows shadows)
-    : TilePainter(scene, culling, shadows, fast_kernels()) {}
-
-TilePainter::TilePainter(const scenes::Scene& scene, Culling culling, Shadows shadows, const Kernels& kernels)
-    : kernels_(kernels),
+    : kernels_(chosen_kernels()),
       culling_(culling),
       geometry_(make_geometry(scene)),
       visible_(geometry_.chunks, geometry_.tiles),
       facets_(make_facets(geometry_)),
       texels_(scene.textures),
-      sky_(scene.sky) {
+      sky_(scene.sky),
+      memory_(facets_.shapes.size()) {
   for (const scenes::Mover& mover : scene.movers) motions_.push_back(mover.motion);
   view_.shapes = facets_.shapes.data();
   view_.covers = facets_.covers.data();
@@ -84,7 +75,7 @@ void TilePainter::paint(const vision::camera::PinholeCamera& camera, const Paint
   }
   memory_.begin(lens_of(camera), samples);
   memory_.add_eye(world);
-  draw_scene(camera, eye);
+  visible_.find(camera, eye.X_WC, culling_, *this);
   draw_movers(eye);
   if (raster == Raster::grey || raster == Raster::color) {
     memory_.make_paints();
@@ -101,12 +92,10 @@ void TilePainter::draw(const scenes::Chunk& stretch, uint32_t eye) {
   count_.triangles += stretch.index_count / 3;
 }
 
-void TilePainter::draw_scene(const vision::camera::PinholeCamera& camera, const Painter::Eye& eye) {
-  for (const scenes::Chunk& chunk : visible_.find(camera, eye.X_WC, culling_)) {
-    const bool may_hide = culling_ != Culling::none && !lies_flat(chunk);  // a flat stretch has more than its box
-    if (may_hide && hides(memory_.frame(), memory_.frame().eyes[kWorldEye], chunk.box_W, kNearPlaneM)) continue;
-    draw(chunk, kWorldEye);
-  }
+void TilePainter::see(const scenes::Chunk& stretch) { draw(stretch, kWorldEye); }
+
+bool TilePainter::hides(const Eigen::AlignedBox3f& box_W) const {
+  return tiles::hides(memory_.frame(), memory_.frame().eyes[kWorldEye], box_W, kNearPlaneM);
 }
 
 /// A mover does not turn: it is drawn as if it stood still and the eye were where it is seen from M.
@@ -116,7 +105,7 @@ void TilePainter::draw_movers(const Painter::Eye& eye) {
     memory_.add_eye(eye_at(p_MC_W, eye.X_WC.linear()));
     const auto index = static_cast<uint32_t>(1 + mover);
     for (const scenes::Chunk& chunk : geometry_.mover_chunks[mover]) {
-      if (chunk.index_count == 0 || hides(memory_.frame(), memory_.frame().eyes[index], chunk.box_W, kNearPlaneM)) {
+      if (chunk.index_count == 0 || tiles::hides(memory_.frame(), memory_.frame().eyes[index], chunk.box_W, kNearPlaneM)) {
         continue;
       }
       draw(chunk, index);
@@ -125,7 +114,8 @@ void TilePainter::draw_movers(const Painter::Eye& eye) {
 }
 
 void TilePainter::require_samples(int samples) {
-  if (samples != 1 && samples != 4) throw std::invalid_argument(fmt::format("{}; tiles draws 1 or 4", samples));
+  if (samples == 1 || samples == 4) return;
+  throw std::invalid_argument(fmt::format("{} samples a pixel cannot be drawn; tiles draws 1 or 4", samples));
 }
 
 std::string TilePainter::info() { return fmt::format("Hedgehop; tiles; {}", kernels_.lanes); }

@@ -12,14 +12,10 @@ namespace hedgehop::sim::tiles {
 /// Draws on the processor alone. Facets go into tiles of 8 x 8 pixels from near to far; what hides what is settled by
 /// their planes, without a depth for each pixel; each pixel is shaded once, at the end. The same bits on every
 /// processor.
-class TilePainter : public Painter {
+class TilePainter : public Painter, private VisibleChunks::Beholder {
  public:
-  /// Throws std::invalid_argument for a scene that contradicts itself, std::runtime_error with the cause when the
-  /// processor cannot run it at speed.
+  /// Throws std::invalid_argument for a scene that contradicts itself, std::runtime_error as chosen_kernels() does.
   TilePainter(const scenes::Scene& scene, Culling culling, Shadows shadows);
-
-  /// With kernels of the caller's choice, on any processor.
-  TilePainter(const scenes::Scene& scene, Culling culling, Shadows shadows, const Kernels& kernels);
 
   void paint(const vision::camera::PinholeCamera& camera, const Eye& eye, Raster raster, int samples,
              cv::Mat& out) override;
@@ -27,7 +23,8 @@ class TilePainter : public Painter {
   std::string info() override;
 
  private:
-  void draw_scene(const vision::camera::PinholeCamera& camera, const Painter::Eye& eye);
+  void see(const scenes::Chunk& stretch) override;
+  bool hides(const Eigen::AlignedBox3f& box_W) const override;
   void draw_movers(const Painter::Eye& eye);
   void draw(const scenes::Chunk& stretch, uint32_t eye);
   void set_planes(bool color);

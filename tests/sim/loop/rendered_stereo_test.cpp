@@ -13,6 +13,7 @@
 #include "scenes/generators.h"
 #include "sim/loop/imperfections.h"
 #include "sim/render/renderer.h"
+#include "tests/sim/render/drawing.h"
 #include "sim/scenario/mounting.h"
 #include "sim/scenario/scenario.h"
 #include "tests/vision/real_data.h"
@@ -119,7 +120,7 @@ Eigen::Isometry3d true_X_CCr(const Rig& rig, uint64_t seed) {
 
 std::vector<StereoPair> rendered_pairs(const scenes::Scene& scene, const std::vector<Eigen::Isometry3d>& poses,
                                        const Rig& rig) {
-  Renderer renderer(scene);
+  Renderer renderer = drawing(scene);
   constexpr double kPeriodS = 0.1;
   Imperfections left_sensor(rig.sensor, kPeriodS, 1), right_sensor(rig.sensor, kPeriodS, 2);
   std::vector<StereoPair> pairs;

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "tests/sim/render/drawing.h"
 #include "tests/sim/render/small_world.h"
 
 namespace {
@@ -28,8 +29,8 @@ namespace {
 
 TEST(Renderer, AllocatesNothingForAImageOfACameraSeenBefore) {
   const SmallWorld city = small_city(8, 91);
-  Renderer plain(city.scene);
-  Renderer shaded(city.scene, Culling::frustum_and_horizon, ContextKind::osmesa, Shadows::sun);
+  Renderer plain = drawing(city.scene);
+  Renderer shaded = drawing(city.scene, Culling::frustum_and_horizon, Shadows::sun);
   vision::camera::PinholeLens bent{90, 90, 60, 45};
   bent.k1 = -0.1;
   const std::array<vision::camera::Camera, 3> cameras = {

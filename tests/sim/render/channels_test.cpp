@@ -4,6 +4,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "tests/sim/render/drawing.h"
 #include "tests/sim/render/small_world.h"
 
 namespace hedgehop::sim {
@@ -17,7 +18,7 @@ bool same_pixels(const cv::Mat& a, const cv::Mat& b) {
 
 TEST(Channels, GreyIsTheMeanOfTheColors) {
   const SmallWorld city = small_city(6, 31);
-  Renderer renderer(city.scene);
+  Renderer renderer = drawing(city.scene);
   std::mt19937_64 random(32);
   cv::Mat grey, color, mean;
   double worst = 0.0;
@@ -33,7 +34,7 @@ TEST(Channels, GreyIsTheMeanOfTheColors) {
 
 TEST(Channels, HaveTheTypesPromised) {
   SmallWorld world;
-  Renderer renderer(world.scene);
+  Renderer renderer = drawing(world.scene);
   cv::Mat grey, color, depth;
   renderer.draw({kCamera, Eigen::Isometry3d::Identity(), Channel::grey}, grey);
   renderer.draw({kCamera, Eigen::Isometry3d::Identity(), Channel::color}, color);
@@ -48,7 +49,7 @@ TEST(Channels, AFaceTowardsTheSunIsBrighterByItsCosine) {
   SmallWorld world(std::vector{plain_image(8, {200, 100, 50})});
   world.scene.lights = {.ambient = 0.4f, .sun = 0.5f, .to_sun_W = Eigen::Vector3f(-0.6f, 0.0f, -0.8f)};
   world.add_box({Eigen::Vector3f(-5, -5, -10), Eigen::Vector3f(5, 5, 0)});
-  Renderer renderer(world.scene);
+  Renderer renderer = drawing(world.scene);
   cv::Mat color;
   const auto seen_from = [&](const Eigen::Vector3d& p_WC) {
     renderer.draw({kCamera, look_at(p_WC, {0, 0, -5}), Channel::color}, color);
@@ -63,7 +64,7 @@ TEST(Channels, AFaceTowardsTheSunIsBrighterByItsCosine) {
 TEST(Channels, SkyGoesFromHorizonToZenith) {
   SmallWorld world;
   world.scene.sky = {.horizon = {0.8f, 0.6f, 0.4f}, .zenith = {0.2f, 0.4f, 1.0f}};
-  Renderer renderer(world.scene);
+  Renderer renderer = drawing(world.scene);
   const vision::camera::PinholeCamera camera{101, 101, 40.0, 40.0, 50.0, 50.0};
   cv::Mat color;
   renderer.draw({camera, look_at({0, 0, -5}, {0, 0, -6}), Channel::color}, color);
@@ -76,7 +77,8 @@ TEST(Channels, SkyGoesFromHorizonToZenith) {
 
 TEST(Renderer, DrawsEqualPixelsAgainAndFromASecondRenderer) {
   const SmallWorld city = small_city(5, 41);
-  Renderer first(city.scene), second(city.scene);
+  Renderer first = drawing(city.scene);
+  Renderer second = drawing(city.scene);
   std::mt19937_64 random(42);
   cv::Mat once, twice, elsewhere, other_size;
   for (int trial = 0; trial < 9; ++trial) {
@@ -93,7 +95,7 @@ TEST(Renderer, DrawsEqualPixelsAgainAndFromASecondRenderer) {
 
 TEST(Renderer, WritesIntoTheImageItIsGiven) {
   const SmallWorld city = small_city(3, 51);
-  Renderer renderer(city.scene);
+  Renderer renderer = drawing(city.scene);
   const CameraView view{kCamera, look_at({-60, 3, -8}, {0, 0, -8}), Channel::color};
   cv::Mat image;
   renderer.draw(view, image);
@@ -123,7 +125,7 @@ TEST(Renderer, RefusesWhatCannotBeDrawn) {
   no_such_texture.add_quad({1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 3);
   EXPECT_THROW(Renderer{no_such_texture.scene}, std::invalid_argument);
 
-  Renderer renderer(SmallWorld().scene);
+  Renderer renderer = drawing(SmallWorld().scene);
   cv::Mat image;
   EXPECT_THROW(renderer.draw({}, image), std::invalid_argument);
   Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();

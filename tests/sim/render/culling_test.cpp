@@ -6,6 +6,7 @@
 
 #include "scenes/generators.h"
 #include "sim/render/horizon.h"
+#include "tests/sim/render/drawing.h"
 #include "tests/sim/render/small_world.h"
 
 namespace hedgehop::sim {
@@ -46,7 +47,9 @@ int wrong_pixels(const scenes::Scene& scene, const CameraView& view, const cv::M
 
 /// Draws random views with all, some and no culling: equal pixels, ever fewer triangles.
 void expect_equal_pixels(const scenes::Scene& scene, double half_m, double height_m, int trials, uint64_t seed) {
-  Renderer everything(scene, Culling::none), frustum(scene, Culling::frustum), horizon(scene);
+  Renderer everything = drawing(scene, Culling::none);
+  Renderer frustum = drawing(scene, Culling::frustum);
+  Renderer horizon = drawing(scene);
   std::mt19937_64 random(seed);
   cv::Mat all, culled;
   for (int trial = 0; trial < trials; ++trial) {
@@ -85,7 +88,8 @@ TEST(Culling, LeavesEveryPixelOfAGeneratedRoom) {
 
 TEST(Culling, LeavesGreyAndColorOfASmallCity) {
   const SmallWorld city = small_city(12, 69);
-  Renderer everything(city.scene, Culling::none), horizon(city.scene);
+  Renderer everything = drawing(city.scene, Culling::none);
+  Renderer horizon = drawing(city.scene);
   std::mt19937_64 random(70);
   cv::Mat all, culled;
   for (int trial = 0; trial < 100; ++trial) {
@@ -99,7 +103,8 @@ TEST(Culling, LeavesGreyAndColorOfASmallCity) {
 
 TEST(Culling, DrawsLittleOfALargeCityFromItsStreets) {
   const SmallWorld city = small_city(40, 64);
-  Renderer horizon(city.scene), frustum(city.scene, Culling::frustum);
+  Renderer horizon = drawing(city.scene);
+  Renderer frustum = drawing(city.scene, Culling::frustum);
   std::mt19937_64 random(65);
   cv::Mat grey;
   size_t visible = 0, in_frustum = 0;

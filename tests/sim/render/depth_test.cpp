@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "tests/sim/render/drawing.h"
 #include "tests/sim/render/ray_caster.h"
 #include "tests/sim/render/small_world.h"
 
@@ -26,7 +27,7 @@ TEST(Depth, EqualsRaysMetByBoxesAndGround) {
     world.add_box(box_W);
     cast.boxes_W.push_back(box_W.cast<double>());
   }
-  Renderer renderer(world.scene);
+  Renderer renderer = drawing(world.scene);
   const vision::camera::PinholeCamera camera{200, 150, 130.0, 170.0, 90.0, 80.0};
   cv::Mat depth;
   size_t compared = 0, surfaces = 0;
@@ -62,7 +63,7 @@ TEST(Depth, HoldsFarFromTheOriginAndVeryNear) {
     SmallWorld world;
     const float wall_m = 2500.0f;
     world.add_quad({wall_m, -4000, -2000}, {0, 5000, 0}, {0, 0, 4000});
-    Renderer renderer(world.scene);
+    Renderer renderer = drawing(world.scene);
     const Eigen::Vector3d at(static_cast<double>(wall_m) - range_m, eye_W.y(), eye_W.z());
     cv::Mat depth;
     renderer.draw({vision::camera::PinholeCamera::from_fov(60, 40, 1.5), look_at(at, at + Eigen::Vector3d::UnitX()),

@@ -6,6 +6,7 @@
 
 #include "scenes/generators.h"
 #include "scenes/mesh/mesh_builder.h"
+#include "tests/sim/render/drawing.h"
 #include "tests/sim/render/small_world.h"
 
 namespace hedgehop::sim {
@@ -34,7 +35,7 @@ scenes::Scene post_on_box(double post_m) {
 
 TEST(FarDetail, LeavesOutWhatIsNarrowerThanAPixel) {
   const double post_m = 0.2, focal_px = 100.0, pixel_wide_at_m = focal_px * post_m;
-  Renderer renderer(post_on_box(post_m));
+  Renderer renderer = drawing(post_on_box(post_m));
   const vision::camera::PinholeCamera camera{101, 101, focal_px, focal_px, 50.0, 50.0};
   cv::Mat depth;
   for (const double beyond_m : {-19.0, -5.0, -0.1, 0.1, 5.0, 100.0}) {
@@ -70,7 +71,8 @@ struct Change {
 };
 
 Change mean_change(const Forest& forest, double height_m, std::mt19937_64& random) {
-  Renderer by_size(forest.scene), full(forest.whole);
+  Renderer by_size = drawing(forest.scene);
+  Renderer full = drawing(forest.whole);
   cv::Mat grey, full_grey, difference;
   constexpr int kViews = 12;
   Change mean;
@@ -101,7 +103,8 @@ TEST(FarDetail, ChangesFewPixelsOfAForest) {
 
 TEST(FarDetail, TakesOnlyWhatIsFarAndThin) {
   const Forest forest;
-  Renderer by_size(forest.scene), full(forest.whole);
+  Renderer by_size = drawing(forest.scene);
+  Renderer full = drawing(forest.whole);
   std::mt19937_64 random(302);
   cv::Mat depth, full_depth;
   int changed = 0;
@@ -150,7 +153,8 @@ int seen_through(const cv::Mat& left_m, const cv::Mat& right_m, double focal_px,
 
 TEST(FarDetail, IsTheSameForBothCamerasOfAStereoPair) {
   const Forest forest;
-  Renderer by_size(forest.scene), full(forest.whole);
+  Renderer by_size = drawing(forest.scene);
+  Renderer full = drawing(forest.whole);
   std::mt19937_64 random(303);
   constexpr double kBaselineM = 0.5;
   cv::Mat left_m, right_m;

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "sim/scenario/rig.h"
+#include "tests/sim/render/drawing.h"
 #include "tests/sim/render/ray_caster.h"
 #include "tests/sim/render/small_world.h"
 #include "tests/vision/camera/random_lenses.h"
@@ -77,7 +78,7 @@ double spot_rms_px(Renderer& renderer, const Camera& camera, double focal_px, in
 }
 
 TEST(LensImage, SpotsOfADistortedPinholeLandOnTheirPixels) {
-  Renderer renderer(spot().scene);
+  Renderer renderer = drawing(spot().scene);
   std::mt19937_64 random(201);
   for (int trial = 0; trial < 3; ++trial) {
     const Camera camera = vision::random_distorted_pinhole(random);
@@ -88,7 +89,7 @@ TEST(LensImage, SpotsOfADistortedPinholeLandOnTheirPixels) {
 }
 
 TEST(LensImage, SpotsOfAFisheyeLandOnTheirPixelsAllOverTheImage) {
-  Renderer renderer(spot().scene);
+  Renderer renderer = drawing(spot().scene);
   std::mt19937_64 random(202);
   const std::vector<std::pair<std::string, Camera>> cameras = {
       {"195_deg", fisheye(400, 400, 195)}, {"190_deg_wide", fisheye(752, 480, 190)}, {"ocam", ocam()}};
@@ -103,7 +104,7 @@ TEST(LensImage, SpotsOfAFisheyeLandOnTheirPixelsAllOverTheImage) {
 TEST(LensImage, TheSkyHasNoSeams) {
   SmallWorld world;
   world.scene.sky = {.horizon = {1.0f, 0.1f, 0.5f}, .zenith = {0.0f, 0.9f, 0.6f}};
-  Renderer renderer(world.scene);
+  Renderer renderer = drawing(world.scene);
   const Camera camera = fisheye(300, 260, 195);
   std::mt19937_64 random(203);
   cv::Mat color;
@@ -128,7 +129,7 @@ TEST(LensImage, TheSkyHasNoSeams) {
 
 TEST(LensImage, ShowsNothingOutsideItsImageCircle) {
   SmallWorld world;
-  Renderer renderer(world.scene);
+  Renderer renderer = drawing(world.scene);
   vision::camera::FisheyeLens lens{60, 60, 99.5, 99.5};
   lens.limit_rad = 1.5;  // 90 px
   const Camera camera(200, 200, lens);
@@ -150,7 +151,7 @@ TEST(LensImage, ShowsNothingOutsideItsImageCircle) {
 // The same rays, bent and not: OpenCV takes the distortion out of an image again.
 TEST(LensImage, ADistortedImageIsTheStraightOneBent) {
   const SmallWorld city = small_city(6, 204);
-  Renderer renderer(city.scene);
+  Renderer renderer = drawing(city.scene);
   const vision::camera::PinholeCamera straight = vision::camera::PinholeCamera::from_fov(320, 240, 1.1);
   vision::camera::PinholeLens lens{straight.focal_x_px, straight.focal_y_px, straight.center_u_px,
                                    straight.center_v_px};
@@ -193,7 +194,7 @@ TEST(LensImage, DepthEqualsRaysMetByBoxesAndGround) {
     cast.boxes_W.push_back(box_W.cast<double>());
   }
   world.add_ground(300.0f, 4);
-  Renderer renderer(world.scene);
+  Renderer renderer = drawing(world.scene);
   cv::Mat depth, labels;
   size_t compared = 0, surfaces = 0;
   double worst = 0.0;
@@ -251,7 +252,7 @@ double coarseness(Renderer& renderer, const Camera& camera, const Camera& fine, 
 TEST(LensImage, IsHardlyCoarserThanAPinholes) {
   SmallWorld city = small_city(6, 206);
   for (cv::Mat& texture : city.scene.textures) texture = noise_image(256, 207);
-  Renderer renderer(city.scene);
+  Renderer renderer = drawing(city.scene);
   std::mt19937_64 random(208);
   double of_pinhole = 0.0, of_fisheye = 0.0;
   for (int trial = 0; trial < 10; ++trial) {
@@ -267,7 +268,7 @@ TEST(LensImage, IsHardlyCoarserThanAPinholes) {
 }
 
 TEST(LensImage, AStereoPairSeesAPointOnOneRowAtItsDisparity) {
-  Renderer renderer(spot().scene);
+  Renderer renderer = drawing(spot().scene);
   std::mt19937_64 random(209);
   cv::Mat left, right;
   double worst_row_px = 0.0;

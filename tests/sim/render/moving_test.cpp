@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "tests/sim/render/drawing.h"
 #include "tests/sim/render/moving_world.h"
 
 namespace hedgehop::sim {
@@ -11,7 +12,7 @@ constexpr double kRelative = 1e-4, kEdgePx = 0.02;
 
 TEST(Moving, DepthAndLabelsShowMoversWhereTheyAreThen) {
   const MovingWorld world(301);
-  Renderer renderer(world.scene());
+  Renderer renderer = drawing(world.scene());
   std::mt19937_64 random(302);
   cv::Mat depth, labels;
   int compared = 0, movers = 0;
@@ -45,7 +46,8 @@ TEST(Moving, DepthAndLabelsShowMoversWhereTheyAreThen) {
 
 TEST(Moving, CullingLeavesEveryPixel) {
   const MovingWorld world(303);
-  Renderer everything(world.scene(), Culling::none), culled(world.scene());
+  Renderer everything = drawing(world.scene(), Culling::none);
+  Renderer culled = drawing(world.scene());
   std::mt19937_64 random(304);
   cv::Mat all, some;
   for (int trial = 0; trial < 60; ++trial) {

@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
+#include "tests/sim/render/drawing.h"
 #include "tests/sim/render/small_world.h"
 
 namespace hedgehop::sim {
@@ -41,7 +42,7 @@ TEST(Multisampling, PutsASlantedEdgeWhereItIs) {
   for (int trial = 0; trial < 10; ++trial) {
     const double slope = uniform(random, -0.7, 0.7);
     const SmallWorld world = half_plane(slope);
-    Renderer renderer(world.scene);
+    Renderer renderer = drawing(world.scene);
     cv::Mat one, four;
     renderer.draw(view_of(kCamera, Channel::grey, 1), one);
     renderer.draw(view_of(kCamera, Channel::grey, 4), four);
@@ -64,7 +65,7 @@ TEST(Multisampling, PutsASlantedEdgeWhereItIs) {
 
 TEST(Multisampling, BringsEveryLensNearerToAImageOfManyMorePixels) {
   const SmallWorld city = small_city(4, 62);
-  Renderer renderer(city.scene);
+  Renderer renderer = drawing(city.scene);
   const auto fisheye = [](int times) {
     const double k = times;
     return vision::camera::Camera(60 * times, 60 * times,
@@ -91,7 +92,7 @@ TEST(Multisampling, BringsEveryLensNearerToAImageOfManyMorePixels) {
 
 TEST(Multisampling, LeavesDepthLabelsAndFlowAlone) {
   const SmallWorld city = small_city(4, 63);
-  Renderer renderer(city.scene);
+  Renderer renderer = drawing(city.scene);
   for (const Channel channel : {Channel::depth, Channel::labels, Channel::flow}) {
     cv::Mat one, four;
     renderer.draw(view_of(kCamera, channel, 1), one);
@@ -103,7 +104,7 @@ TEST(Multisampling, LeavesDepthLabelsAndFlowAlone) {
 
 TEST(Multisampling, IsRefusedWhereTheContextHasOtherNumbersOfSamples) {
   const SmallWorld world;
-  Renderer renderer(world.scene);
+  Renderer renderer = drawing(world.scene);
   const auto fault = [&](int samples) -> std::string {
     try {
       renderer.require_samples(samples);

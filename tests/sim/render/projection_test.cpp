@@ -4,6 +4,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "tests/sim/render/drawing.h"
 #include "tests/sim/render/small_world.h"
 
 namespace hedgehop::sim {
@@ -68,7 +69,7 @@ TEST(Projection, KnownPointsLandOnTheirPixels) {
     world.scene.lights = {.ambient = 1.0f, .sun = 0.0f};
     const Eigen::Vector3d top_left_W = center_W - 0.5 * (right_W + down_W);
     world.add_quad(top_left_W.cast<float>(), right_W.cast<float>(), down_W.cast<float>());
-    Renderer(world.scene).draw(view, grey);
+    drawing(world.scene).draw(view, grey);
 
     const double error_px = (centroid(grey) - expected_pixel(view, center_W)).norm();
     EXPECT_LT(error_px, kSubPixel) << "trial " << trial << ", z " << z_m;
@@ -81,7 +82,7 @@ TEST(Projection, StereoSeesAPointOnOneRowAtItsDisparity) {
   SmallWorld world(std::vector{dome_image(64)});
   world.scene.sky = {Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
   world.add_quad({12.0f, 0.3f, -6.0f}, {0, 1.2f, 0}, {0, 0, 1.2f});
-  Renderer renderer(world.scene);
+  Renderer renderer = drawing(world.scene);
   const auto camera = vision::camera::PinholeCamera::from_fov(320, 240, 1.0);
   const Eigen::Isometry3d X_WC = look_at({0, 0, -5}, {1, 0, -5});
   const double baseline_m = 0.5;
@@ -103,7 +104,7 @@ TEST(Projection, ImagesAreNeitherMirroredNorUpsideDown) {
   SmallWorld world(std::vector{quadrants});
   world.scene.lights = {.ambient = 1.0f, .sun = 0.0f};
   world.add_box({Eigen::Vector3f(10, -2, -7), Eigen::Vector3f(14, 2, -3)});
-  Renderer renderer(world.scene);
+  Renderer renderer = drawing(world.scene);
   const auto camera = vision::camera::PinholeCamera::from_fov(100, 100, 0.5);
   cv::Mat image;
   for (const Eigen::Vector3d& side : {Eigen::Vector3d(-1, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0),
@@ -120,7 +121,7 @@ TEST(Projection, ImagesAreNeitherMirroredNorUpsideDown) {
 TEST(Projection, SurfacesAreSeenFromTheirFrontOnly) {
   SmallWorld world;
   world.add_box({Eigen::Vector3f(-5, -5, -10), Eigen::Vector3f(5, 5, 0)});
-  Renderer renderer(world.scene);
+  Renderer renderer = drawing(world.scene);
   cv::Mat inside, outside;
   const auto camera = vision::camera::PinholeCamera::from_fov(64, 48, 1.2);
   renderer.draw({camera, look_at({0, 0, -5}, {1, 0.2, -5}), Channel::depth}, inside);

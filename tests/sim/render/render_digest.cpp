@@ -1,5 +1,6 @@
 // Prints one number for all pixels of some views of a small city and of every example world, in every channel, with
-// and without shadows and multisampling: for comparing processes. One argument: osmesa or egl.
+// and without shadows and multisampling: for comparing processes. One argument: osmesa, egl
+// or tiles.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -93,8 +94,10 @@ void print_digests(ContextKind context) {
 int main(int argc, char** argv) {
   using hedgehop::sim::ContextKind;
   try {
-    hedgehop::sim::print_digests(argc > 1 && std::string_view(argv[1]) == "egl" ? ContextKind::egl
-                                                                                : ContextKind::osmesa);
+    const std::string_view name = argc > 1 ? argv[1] : "osmesa";
+    hedgehop::sim::print_digests(name == "egl"     ? ContextKind::egl
+                                 : name == "tiles" ? ContextKind::tiles
+                                                   : ContextKind::osmesa);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tests/sim/render/drawing.h"
 #include "tests/sim/render/small_world.h"
 
 namespace hedgehop::sim {
@@ -46,7 +47,7 @@ TEST(Shadows, OfABoxEndOnTheGroundWhereItsRaysDo) {
                                     Eigen::Vector3d(half.x(), half.y(), 0.0).cast<float>());
     const Eigen::Vector3f to_sun_W = random_sun(random);
     const SmallWorld world = box_on_ground(box_W, to_sun_W);
-    Renderer renderer(world.scene, Culling::frustum_and_horizon, ContextKind::osmesa, Shadows::sun);
+    Renderer renderer = drawing(world.scene, Culling::frustum_and_horizon, Shadows::sun);
     cv::Mat grey, depth;
     renderer.draw({kCamera, X_WC, Channel::grey}, grey);
     renderer.draw({kCamera, X_WC, Channel::depth}, depth);
@@ -102,8 +103,8 @@ TEST(Shadows, DarkenNoFaceThatTheSunSees) {
     const auto half = static_cast<float>(kHalfM);
     world.add_box({Eigen::Vector3f(-half, -half, -2 * half), Eigen::Vector3f(half, half, 0)});
     world.add_quad({300, 300, -20}, {1, 0, 0}, {0, 0, 1});  // widens the map: coarse texels, where faces rise steeply
-    Renderer plain(world.scene);
-    Renderer shaded(world.scene, Culling::frustum_and_horizon, ContextKind::osmesa, Shadows::sun);
+    Renderer plain = drawing(world.scene);
+    Renderer shaded = drawing(world.scene, Culling::frustum_and_horizon, Shadows::sun);
     for (int view = 0; view < 4; ++view) {
       const double turn = uniform(random, -3.14, 3.14);
       const Eigen::Isometry3d X_WC = look_at({14 * std::cos(turn), 14 * std::sin(turn), -12}, {0, 0, -4});
@@ -132,7 +133,7 @@ TEST(Shadows, FallOnMoversThatCastNone) {
   scenes::WaypointMotion way;
   way.points = {{.north_m = -9.4}, {.north_m = -30.0}};
   world.scene.movers.push_back({"slab", slab.scene.meshes.front(), {}, way});
-  Renderer renderer(world.scene, Culling::frustum_and_horizon, ContextKind::osmesa, Shadows::sun);
+  Renderer renderer = drawing(world.scene, Culling::frustum_and_horizon, Shadows::sun);
   const auto level_at = [&](double north_m, double t_s) {
     cv::Mat grey;
     renderer.draw({kCamera, look_at({north_m, 0, -30}, {north_m, 0, 0}), Channel::grey, t_s}, grey);

@@ -34,6 +34,12 @@ TEST(Contexts, EglDrawsTheSamePixelsAsOsmesaWithTheSameRasterizer) {
   EXPECT_EQ(digest_with(software, "egl"), digest_with(software, "osmesa"));
 }
 
+TEST(Contexts, TilesDrawTheSamePixelsWithAndWithoutVectors) {
+  const std::string plain = digest_with("HEDGEHOP_TILES=plain", "tiles");
+  EXPECT_EQ(std::ranges::count(plain, '\n'), 20) << plain;
+  EXPECT_EQ(digest_with("env -u HEDGEHOP_TILES", "tiles"), plain);
+}
+
 TEST(Contexts, EglWithoutADriverIsRefusedWithTheRemedy) {
   const std::string command = "__EGL_VENDOR_LIBRARY_DIRS=/nowhere " HEDGEHOP_RENDER_DIGEST " egl 2>&1";
   std::FILE* const pipe = popen(command.c_str(), "r");

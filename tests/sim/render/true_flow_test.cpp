@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "tests/sim/render/drawing.h"
 #include "tests/sim/render/moving_world.h"
 #include "tests/vision/camera/random_lenses.h"
 
@@ -43,7 +44,7 @@ double worst_error_px(const MovingWorld& world, const CameraView& view, const cv
 
 TEST(TrueFlow, EqualsPointsProjectedAtBothTimes) {
   const MovingWorld world(401);
-  Renderer renderer(world.scene());
+  Renderer renderer = drawing(world.scene());
   std::mt19937_64 random(402);
   cv::Mat flow;
   int compared = 0, on_movers = 0;
@@ -75,7 +76,7 @@ TEST(TrueFlow, EqualsPointsProjectedAtBothTimes) {
 
 TEST(TrueFlow, OfTheSkyIsThatOfTurningAlone) {
   SmallWorld empty;
-  Renderer renderer(empty.scene);
+  Renderer renderer = drawing(empty.scene);
   CameraView view{vision::camera::PinholeCamera{101, 81, 90.0, 90.0, 50.0, 40.0}, Eigen::Isometry3d::Identity(),
                   Channel::flow};
   view.next.X_WC = Eigen::Translation3d(5.0, -3.0, 2.0) * Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY());
@@ -91,7 +92,7 @@ TEST(TrueFlow, OfTheSkyIsThatOfTurningAlone) {
 
 TEST(TrueFlow, IsUnknownWhereALensShowsNothing) {
   SmallWorld empty;
-  Renderer renderer(empty.scene);
+  Renderer renderer = drawing(empty.scene);
   vision::camera::FisheyeLens lens{40, 40, 49.5, 49.5};
   lens.limit_rad = 1.0;
   CameraView view{vision::camera::Camera(100, 100, lens), Eigen::Isometry3d::Identity(), Channel::flow};

@@ -1,0 +1,161 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scenes/mesh/polyhedron.h"
+#include "sim/render/tiles/facets.h"
+#include "tests/sim/render/small_world.h"
+
+// What tiles promises beyond what every context does: nearly Mesa's pixels, no holes, few facets.
+namespace hedgehop::sim {
+namespace {
+
+struct Difference {
+  double mean = 0.0, far_off = 0.0;  ///< levels; share of pixels
+};
+
+/// Mean difference of two images, and the share of their values that differ by more than `level`.
+Difference difference(const cv::Mat& a, const cv::Mat& b, double level) {
+  cv::Mat levels;
+  cv::absdiff(a, b, levels);
+  const cv::Mat values = levels.reshape(1);
+  return {cv::mean(values)[0], cv::countNonZero(values > level) / static_cast<double>(values.total())};
+}
+
+class BesideMesa : public testing::Test {
+ protected:
+  const SmallWorld city_ = small_city(6, 91);
+  Renderer mesa_ = Renderer(city_.scene, Culling::frustum_and_horizon, ContextKind::osmesa);
+  Renderer tiles_ = Renderer(city_.scene, Culling::frustum_and_horizon, ContextKind::tiles);
+
+  /// The mean over random views.
+  Difference compare(Channel channel, int samples, double level) {
+    std::mt19937_64 random(92);
+    Difference sum;
+    constexpr int kViews = 20;
+    cv::Mat expected, drawn;
+    for (int i = 0; i < kViews; ++i) {
+      CameraView view{vision::camera::PinholeCamera::from_fov(320, 240, 1.3), random_pose(random, 80.0, 40.0, 0.5)};
+      view.channel = channel;
+      view.samples = samples;
+      mesa_.draw(view, expected);
+      tiles_.draw(view, drawn);
+      const Difference here = difference(expected, drawn, level);
+      sum.mean += here.mean / kViews;
+      sum.far_off += here.far_off / kViews;
+    }
+    return sum;
+  }
+};
+
+constexpr double kFarOffLevels = 8.0;
+
+TEST_F(BesideMesa, GreyDiffersByAThirdOfALevel) {
+  const Difference found = compare(Channel::grey, 1, kFarOffLevels);
+  EXPECT_LE(found.mean, 0.3);
+  EXPECT_LE(found.far_off, 5e-4);
+}
+
+TEST_F(BesideMesa, ColorDiffersByAThirdOfALevel) {
+  const Difference found = compare(Channel::color, 1, kFarOffLevels);
+  EXPECT_LE(found.mean, 0.3);
+  EXPECT_LE(found.far_off, 5e-4);
+}
+
+TEST_F(BesideMesa, FourSamplesDifferByAThirdOfALevel) {
+  const Difference found = compare(Channel::grey, 4, kFarOffLevels);
+  EXPECT_LE(found.mean, 0.3);
+  EXPECT_LE(found.far_off, 5e-4);
+}
+
+TEST_F(BesideMesa, DepthsAndLabelsDifferAtEdgesOnly) {
+  std::mt19937_64 random(93);
+  size_t pixels = 0, depths = 0, labels = 0;
+  cv::Mat expected, drawn;
+  for (int i = 0; i < 20; ++i) {
+    CameraView view{vision::camera::PinholeCamera::from_fov(320, 240, 1.3), random_pose(random, 80.0, 40.0, 0.5)};
+    view.channel = Channel::depth;
+    mesa_.draw(view, expected);
+    tiles_.draw(view, drawn);
+    for (size_t k = 0; k < expected.total(); ++k, ++pixels) {
+      const float a = reinterpret_cast<float*>(expected.data)[k], b = reinterpret_cast<float*>(drawn.data)[k];
+      depths += a == b || std::abs(a - b) <= 1e-3f * a ? 0 : 1;
+    }
+    view.channel = Channel::labels;
+    mesa_.draw(view, expected);
+    tiles_.draw(view, drawn);
+    labels += static_cast<size_t>(cv::countNonZero(expected != drawn));
+  }
+  EXPECT_LE(static_cast<double>(depths), 2e-4 * static_cast<double>(pixels));
+  EXPECT_LE(static_cast<double>(labels), 2e-4 * static_cast<double>(pixels));
+}
+
+/// A ball round the origin, seen from within.
+scenes::Scene hollow_ball(double radius_m) {
+  SmallWorld world;
+  const scenes::mesh::Polyhedron ball = scenes::mesh::ball(3);
+  scenes::Mesh& mesh = world.scene.meshes.front();
+  mesh = {};
+  mesh.material = "opaque";
+  scenes::Chunk chunk;
+  for (const Eigen::Vector3d& corner : ball.corners) {
+    mesh.vertices.emplace_back().p_W = (radius_m * corner).cast<float>();
+    chunk.box_W.extend(mesh.vertices.back().p_W);
+  }
+  for (const auto& [a, b, c] : ball.faces) {
+    for (const uint32_t index : {a, c, b}) mesh.indices.push_back(index);
+  }
+  chunk.index_count = static_cast<uint32_t>(mesh.indices.size());
+  mesh.chunks = {chunk};
+  return world.scene;
+}
+
+// Edges and corners of 1,280 triangles under the pixels of 10,000 random views.
+TEST(Tiles, LeaveNoHolesAlongSharedEdges) {
+  Renderer renderer(hollow_ball(10.0), Culling::none, ContextKind::tiles);
+  std::mt19937_64 random(94);
+  cv::Mat labels;
+  for (int i = 0; i < 10'000; ++i) {
+    const auto uniform_place = [&] { return uniform(random, -5.0, 5.0); };
+    CameraView view{vision::camera::PinholeCamera::from_fov(64, 48, uniform(random, 0.2, 2.5))};
+    view.X_WC.translation() = Eigen::Vector3d(uniform_place(), uniform_place(), uniform_place());
+    view.X_WC.linear() = Eigen::Quaterniond(uniform_place(), uniform_place(), uniform_place(), uniform_place())
+                             .normalized()
+                             .toRotationMatrix();
+    view.channel = Channel::labels;
+    renderer.draw(view, labels);
+    ASSERT_EQ(cv::countNonZero(labels != 1), 0) << "view " << i;
+  }
+}
+
+// Looking straight along an edge's plane, pixels' middles lie on the edge itself.
+TEST(Tiles, GiveAPixelOnAnEdgeToOneSide) {
+  SmallWorld world;
+  for (const float east_m : {-2.0f, -1.0f, 0.0f, 1.0f}) world.add_quad({5, east_m, -2}, {0, 1, 0}, {0, 0, 4});
+  Renderer renderer(world.scene, Culling::none, ContextKind::tiles);
+  cv::Mat labels;
+  // Focal length 5 px at 5 m: a pixel a meter, its middle on the edges.
+  renderer.draw({vision::camera::PinholeCamera{5, 5, 5.0, 5.0, 2.0, 2.0}, look_at({0, 0, 0}, {1, 0, 0}), Channel::labels},
+                labels);
+  for (int row = 0; row < 4; ++row) {
+    for (int col = 1; col < 4; ++col) EXPECT_NE(labels.at<int>(row, col), 0) << row << " " << col;
+  }
+}
+
+TEST(Tiles, DrawOneOrFourSamples) {
+  Renderer renderer(SmallWorld().scene, Culling::none, ContextKind::tiles);
+  for (const int samples : {1, 4}) EXPECT_NO_THROW(renderer.require_samples(samples));
+  for (const int samples : {0, 2, 3, 8}) EXPECT_THROW(renderer.require_samples(samples), std::invalid_argument);
+}
+
+TEST(TilesFacets, HaveFourCornersWhereTwoTrianglesAreOneRectangle) {
+  SmallWorld world;
+  world.add_box(Eigen::AlignedBox3f(Eigen::Vector3f(1, 2, -3), Eigen::Vector3f(4, 7, 0)));
+  const SceneGeometry geometry = make_geometry(world.scene);
+  const tiles::Facets facets = tiles::make_facets(geometry);
+  EXPECT_EQ(2 * facets.shapes.size(), geometry.indices.size() / 3);
+  EXPECT_EQ(facets.range(0, static_cast<uint32_t>(geometry.indices.size())).count, facets.shapes.size());
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
