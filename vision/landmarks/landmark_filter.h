@@ -80,6 +80,7 @@ class LandmarkMap {
 
   std::vector<int64_t> update_as_ours(std::span<const Eigen::Vector2d> bearings, const CameraPose& pose, double dt_s);
   Predictions predict(const CameraPose& pose) const;
+  bool lasts(const MappedLandmark& mapped) const;
   void drop_missed(const CameraPose& pose, const std::vector<bool>& seen);
 
   LandmarkMapConfig config_;

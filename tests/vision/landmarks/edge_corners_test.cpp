@@ -188,7 +188,7 @@ TEST(EdgeCorners, OfLittleContrastAreFoundUnderBlurAndNoise) {
   }
   EXPECT_GE(found_of_true, 0.95 * 4 * kRounds);
   EXPECT_LE(found_elsewhere, 0.02 * 4 * kRounds);
-  constexpr double kPerAxisPx = 0.5;  // what configs/shah2009_*.yaml assume
+  constexpr double kPerAxisPx = 0.5;  // half of what configs/shah2009_*.yaml assume
   EXPECT_LT(std::sqrt(squares_px2 / found_of_true), kPerAxisPx * std::sqrt(2.0));
 }
 
