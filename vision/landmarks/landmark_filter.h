@@ -57,7 +57,8 @@ void describe(Visitor& v, LandmarkMapConfig& c) {
 
 /// A database of landmarks that images correct, add to and delete from. Source: [Shah2009] ch. 4, sec. "3D Modeling
 /// Algorithm"; as printed by `Law::printed`. Differs, by `Law::ours`: the camera's common error is estimated before
-/// landmarks are matched, confirmed landmarks are matched first, and only landmarks in view can be missed.
+/// landmarks are matched, confirmed landmarks are matched first, only landmarks in view can be missed, and well-known
+/// ones stay when something hides them.
 class LandmarkMap {
  public:
   /// @param camera  of the images: scale of the bearings, edges of the view.
