@@ -31,7 +31,7 @@ class LandmarkMapModule final : public Module {
     const MountedCamera& camera = *std::ranges::find(setup.cameras, kRole, &MountedCamera::role);
     sight_.emplace(config_.sight, config_.law, camera);
     flow_.reset();
-    if (stops_before_walls() && config_.sight.source != CornerSource::corners) {
+    if (stops_before_walls() && config_.time_to_contact_s > 0.0 && config_.sight.source != CornerSource::corners) {
       flow_.emplace(camera, CameraFlow::Options{{}, /*derotate=*/true, vision::flow::Missing::skip});
     }
     wall_stop_ = WallStop(config_.time_to_contact_s);
@@ -128,7 +128,7 @@ class LandmarkMapModule final : public Module {
 
   LandmarkMapModuleConfig config_;
   std::optional<LandmarkSight> sight_;
-  std::optional<CameraFlow> flow_;  ///< where there are images, and walls to stop before
+  std::optional<CameraFlow> flow_;  ///< where there are images, and walls to stop before by it
   WallStop wall_stop_{0.0};
   std::optional<CourseKeeper> keeper_;
   double radius_m_ = 0.0;  ///< of the vehicle

@@ -30,6 +30,7 @@ class GrowingEdge {
   }
   /// Whether a piece lies along the line and not too far from the edge.
   bool takes(const ImageEdge& piece) const {
+    if (along_.dot(piece.to_px - piece.from_px) <= 0.0) return false;  // the brighter side is the other
     const Vector2d a = piece.from_px - middle_, b = piece.to_px - middle_;
     if (std::max(std::abs(cross(along_, a)), std::abs(cross(along_, b))) > kAsidePx) return false;
     const double at_a = along_.dot(a), at_b = along_.dot(b);
@@ -42,6 +43,7 @@ class GrowingEdge {
     middle_ = first_ / mass_;
     const Eigen::Matrix2d spread = second_ / mass_ - middle_ * middle_.transpose();
     along_ = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvectors().col(1);
+    if (along_.dot(ends_[1] - ends_[0]) < 0.0) along_ = -along_;
     first_px_ = last_px_ = 0.0;
     for (const Vector2d& end : ends_) {
       const double at = along_.dot(end - middle_);
@@ -62,20 +64,30 @@ double beyond_px(const ImageEdge& edge, const Vector2d& at) {
   return std::max(along.dot(edge.from_px - at), along.dot(at - edge.to_px));
 }
 
+/// How surely two edges end together.
+enum class Meeting {
+  near,  ///< both end there
+  far,   ///< one ends there, the other earlier, in a direction that is known well
+};
+
 /// Where two edges end together.
-std::optional<Vector2d> meeting(const ImageEdge& a, const ImageEdge& b, double least_angle_rad) {
+std::optional<Vector2d> meeting(const ImageEdge& a, const ImageEdge& b, double least_angle_rad, Meeting wanted) {
   const Vector2d u = (a.to_px - a.from_px).normalized(), v = (b.to_px - b.from_px).normalized();
   const double sine = cross(u, v);
   if (std::abs(sine) < std::sin(least_angle_rad)) return std::nullopt;
   const Vector2d at = a.from_px + cross(b.from_px - a.from_px, v) / sine * u;
-  const double least = std::min(beyond_px(a, at), beyond_px(b, at)),
-               most = std::max(beyond_px(a, at), beyond_px(b, at));
+  const double beyond_a = beyond_px(a, at), beyond_b = beyond_px(b, at);
+  const double least = std::min(beyond_a, beyond_b), most = std::max(beyond_a, beyond_b);
   constexpr double kOvershootPx = 4.0;  // an edge is blurred, and so seems to run on over its end
   // While the lines lie within twice kAsidePx of one another, a piece may have been joined to the wrong one: of two
   // edges at a small angle one runs on over their meeting, the other begins late.
   const double alike_px = 2.0 * kAsidePx / std::abs(sine);
-  if (least < -std::max(kOvershootPx, alike_px) || most > std::max(kBeyondPx, alike_px)) return std::nullopt;
-  return at;
+  if (least < -std::max(kOvershootPx, alike_px)) return std::nullopt;
+  const bool is_near = most <= std::max(kBeyondPx, alike_px);
+  if (wanted == Meeting::near) return is_near ? std::optional(at) : std::nullopt;
+  // Before its corner a long edge may vanish where the ground is as bright.
+  const double far_px = std::min(kFarBeyondPx, kFarShare * (beyond_a > beyond_b ? a : b).length_px());
+  return !is_near && least <= kOvershootPx && most <= far_px ? std::optional(at) : std::nullopt;
 }
 
 /// What edges are searched in: the grey of an image, and how much redder than green it is.
@@ -121,14 +133,20 @@ std::vector<Vector2d> corners_of(std::span<const ImageEdge> edges, double least_
     Vector2d mean() const { return sum / count; }
   };
   std::vector<Group> groups;
-  for (size_t i = 0; i < edges.size(); ++i) {
-    for (size_t j = i + 1; j < edges.size(); ++j) {
-      const auto at = meeting(edges[i], edges[j], least_angle_rad);
-      if (!at) continue;
-      auto group = std::ranges::find_if(groups, [&](const Group& g) { return (g.mean() - *at).norm() <= kSamePx; });
-      if (group == groups.end()) group = groups.insert(groups.end(), Group{});
-      group->sum += *at;
-      ++group->count;
+  // What is sure comes first: what is less so adds corners, but moves none.
+  for (const Meeting wanted : {Meeting::near, Meeting::far}) {
+    const size_t sure = groups.size();
+    for (size_t i = 0; i < edges.size(); ++i) {
+      for (size_t j = i + 1; j < edges.size(); ++j) {
+        const auto at = meeting(edges[i], edges[j], least_angle_rad, wanted);
+        if (!at) continue;
+        const auto is_same = [&](const Group& g) { return (g.mean() - *at).norm() <= kSamePx; };
+        auto group = std::ranges::find_if(groups, is_same);
+        if (wanted == Meeting::far && group < groups.begin() + static_cast<std::ptrdiff_t>(sure)) continue;
+        if (group == groups.end()) group = groups.insert(groups.end(), Group{});
+        group->sum += *at;
+        ++group->count;
+      }
     }
   }
   std::vector<Vector2d> corners;
@@ -137,14 +155,11 @@ std::vector<Vector2d> corners_of(std::span<const ImageEdge> edges, double least_
 }
 
 std::vector<Vector2d> edge_corners(const cv::Mat& image, double least_angle_rad) {
-  std::vector<ImageEdge> pieces;
-  const auto detector = cv::createLineSegmentDetector(cv::LSD_REFINE_STD);
+  std::vector<ImageEdge> edges;
   for (const cv::Mat& plane : planes_of(image)) {
-    std::vector<cv::Vec4f> found;
-    detector->detect(plane, found);
-    for (const cv::Vec4f& f : found) pieces.push_back({{f[0], f[1]}, {f[2], f[3]}});
+    const std::vector<ImageEdge> found = joined_edges(line_segments(plane));
+    edges.insert(edges.end(), found.begin(), found.end());
   }
-  std::vector<ImageEdge> edges = joined_edges(pieces);
   std::erase_if(edges, [&](const ImageEdge& edge) { return edge.length_px() < kShortestEdgePx; });
   return corners_of(edges, least_angle_rad);
 }

@@ -28,8 +28,9 @@ struct Landmark {
 struct MappedLandmark {
   int64_t id = 0;  ///< counted from 0 in the order in which the landmarks began
   Landmark landmark;
-  int matches = 0;  ///< images in which it was seen, the first included
-  int misses = 0;   ///< consecutive images that should have shown it and did not
+  int matches = 0;      ///< images in which it was seen, the first included
+  int misses = 0;       ///< consecutive images that should have shown it and did not
+  int passed_over = 0;  ///< such images between its first match and its last
 };
 
 /// The camera's estimated pose and its 1-sigma uncertainty.

@@ -1,10 +1,12 @@
 #include "vision/landmarks/landmark_filter.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "sim/fields/bounds.h"
 #include "vision/landmarks/camera_error.h"
@@ -51,6 +53,10 @@ std::vector<std::optional<size_t>> match_confirmed_first(std::span<const std::op
   const auto of_left = match_landmarks(then, bearings_left, gate);
   for (size_t j = 0; j < left.size(); ++j) landmark_of[left[j]] = of_left[j];
   return landmark_of;
+}
+
+double greatest_variance(const Eigen::Matrix3d& P) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(P, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }
 
 }  // namespace
@@ -109,6 +115,13 @@ std::vector<int64_t> LandmarkMap::update_as_ours(std::span<const Eigen::Vector2d
   return ids;
 }
 
+/// What was seen in most images between its first and its last, and is known well, is there: now something hides it.
+bool LandmarkMap::lasts(const MappedLandmark& mapped) const {
+  constexpr double kKnownSigmaM = 1.0;
+  return confirmed(mapped) && mapped.matches >= mapped.passed_over &&
+         greatest_variance(covariance_W(mapped.landmark)) <= kKnownSigmaM * kKnownSigmaM;
+}
+
 LandmarkMap::Predictions LandmarkMap::predict(const CameraPose& pose) const {
   Predictions predictions;
   for (const MappedLandmark& mapped : landmarks_) {
@@ -133,9 +146,10 @@ void LandmarkMap::drop_missed(const CameraPose& pose, const std::vector<bool>& s
   for (size_t k = 0; k < landmarks_.size(); ++k) {
     MappedLandmark& mapped = landmarks_[k];
     const bool missed = !seen[k] && in_view(mapped.landmark);
-    mapped.misses = seen[k] ? 0 : mapped.misses + missed;
+    if (seen[k]) mapped.passed_over += std::exchange(mapped.misses, 0);
+    mapped.misses += missed;
     const int most = confirmed(mapped) ? config_.misses : config_.unconfirmed_misses;
-    if (mapped.misses < most) kept.push_back(mapped);
+    if (mapped.misses < most || lasts(mapped)) kept.push_back(mapped);
   }
   landmarks_ = std::move(kept);
 }

@@ -57,7 +57,8 @@ void describe(Visitor& v, LandmarkMapConfig& c) {
 
 /// A database of landmarks that images correct, add to and delete from. Source: [Shah2009] ch. 4, sec. "3D Modeling
 /// Algorithm"; as printed by `Law::printed`. Differs, by `Law::ours`: the camera's common error is estimated before
-/// landmarks are matched, confirmed landmarks are matched first, and only landmarks in view can be missed.
+/// landmarks are matched, confirmed landmarks are matched first, only landmarks in view can be missed, and well-known
+/// ones stay when something hides them.
 class LandmarkMap {
  public:
   /// @param camera  of the images: scale of the bearings, edges of the view.
@@ -80,6 +81,7 @@ class LandmarkMap {
 
   std::vector<int64_t> update_as_ours(std::span<const Eigen::Vector2d> bearings, const CameraPose& pose, double dt_s);
   Predictions predict(const CameraPose& pose) const;
+  bool lasts(const MappedLandmark& mapped) const;
   void drop_missed(const CameraPose& pose, const std::vector<bool>& seen);
 
   LandmarkMapConfig config_;

@@ -151,6 +151,47 @@ TEST(EdgeCorners, AreNotWhereAnEdgePassesThroughAnothersEnd) {
   EXPECT_TRUE(corners_of(edges, kLeastAngleRad).empty());
 }
 
+// The ground is as bright as the wall along the last 12 px of the wall's foot, whose direction its other 88 px give.
+TEST(EdgeCorners, AreFoundWhereALongEdgeVanishesBeforeItsCorner) {
+  const std::vector<ImageEdge> edges = {{{0, 0}, {88, 0}}, {{100, 0}, {100, -80}}};
+  const auto corners = corners_of(edges, kLeastAngleRad);
+  ASSERT_EQ(corners.size(), 1U);
+  EXPECT_LT((corners[0] - Vector2d(100, 0)).norm(), 1e-9);
+  const std::vector<ImageEdge> shorter = {{{40, 0}, {88, 0}}, {{100, 0}, {100, -80}}};
+  EXPECT_TRUE(corners_of(shorter, kLeastAngleRad).empty());
+}
+
+// The noise of sensors/day.yaml at middle grey, a lens's blur of 0.7 px, and a contrast of 12 grey levels, six times
+// the noise.
+TEST(EdgeCorners, OfLittleContrastAreFoundUnderBlurAndNoise) {
+  constexpr double kBlurPx = 0.7, kNoise = 2.0, kContrast = 12.0;
+  constexpr int kRounds = 40;
+  std::mt19937_64 random(9);
+  cv::RNG noise_random(9);
+  int found_of_true = 0, found_elsewhere = 0;
+  double squares_px2 = 0.0;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::vector<Vector2d> corners = random_quadrilateral(random);
+    cv::Mat image(kSizePx, kSizePx, CV_8UC1, cv::Scalar(100)), noise(kSizePx, kSizePx, CV_16SC1);
+    draw(image, corners, 100 + kContrast);
+    cv::GaussianBlur(image, image, {}, kBlurPx);
+    noise_random.fill(noise, cv::RNG::NORMAL, 0.0, kNoise);
+    cv::add(image, noise, image, {}, CV_8U);
+    const std::vector<Vector2d> found = edge_corners(image, kLeastAngleRad);
+    for (const Vector2d& corner : corners) {
+      const double off_px = distance_px(found, corner);
+      if (off_px >= 3.0) continue;
+      ++found_of_true;
+      squares_px2 += off_px * off_px;
+    }
+    for (const Vector2d& place : found) found_elsewhere += distance_px(corners, place) >= 3.0;
+  }
+  EXPECT_GE(found_of_true, 0.95 * 4 * kRounds);
+  EXPECT_LE(found_elsewhere, 0.02 * 4 * kRounds);
+  constexpr double kPerAxisPx = 0.5;  // half of what configs/shah2009_*.yaml assume
+  EXPECT_LT(std::sqrt(squares_px2 / found_of_true), kPerAxisPx * std::sqrt(2.0));
+}
+
 TEST(EdgeCorners, AreNotWhereEdgesEndFarApart) {
   const std::vector<ImageEdge> edges = {{{0, 0}, {100, 0}}, {{130, 30}, {130, 90}}};
   EXPECT_TRUE(corners_of(edges, kLeastAngleRad).empty());
@@ -168,7 +209,6 @@ TEST(JoinedEdges, APieceWiseLineIsOneEdge) {
       const double end_px = std::min(length_px, at_px + uniform(random, 15, 40));
       pieces.push_back({from + at_px * along + uniform(random, -0.1, 0.1) * aside,
                         from + end_px * along + uniform(random, -0.1, 0.1) * aside});
-      if (random() % 2) std::swap(pieces.back().from_px, pieces.back().to_px);
       at_px = end_px + uniform(random, 1, 0.8 * kGapPx);
     }
     const double whole_px = length_px;
@@ -179,6 +219,12 @@ TEST(JoinedEdges, APieceWiseLineIsOneEdge) {
     EXPECT_LT(std::min((edges[0].from_px - from).norm(), (edges[0].to_px - from).norm()), kWobblePx);
     EXPECT_LT(edges[0].length_px(), whole_px + kWobblePx);
   }
+}
+
+// Dark to light, then light to dark: a roof's edge, and a streak of grass that goes on in its direction.
+TEST(JoinedEdges, PiecesOfOppositeSenseStayTwo) {
+  const std::vector<ImageEdge> pieces = {{{0, 0}, {50, 0}}, {{100, 0}, {55, 0}}};
+  EXPECT_EQ(joined_edges(pieces).size(), 2U);
 }
 
 TEST(JoinedEdges, ParallelLinesStayTwo) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <numbers>
 #include <random>
 #include <stdexcept>
@@ -64,6 +65,30 @@ TEST_F(LandmarkMapOfAStandingCamera, KeepsALandmarkThatIsOutOfView) {
   pose_.X_WC_est = looking_at({-40, 0, -40}, {-80, 0, 0});
   for (int i = 0; i < 3 * config_.misses; ++i) see({});
   EXPECT_EQ(map_.landmarks().size(), 1U);
+}
+
+/// What is left of a landmark that a camera flying past sees in `seen` of its first images, and then no more while
+/// it stays in view.
+size_t landmarks_after_hiding(const std::function<bool(int)>& seen) {
+  const camera::PinholeCamera camera = camera::PinholeCamera::from_fov(640, 480, std::numbers::pi / 6.0);
+  const Eigen::Vector3d p_W(0, 0, 0);
+  constexpr int kSeen = 100, kHidden = 100;
+  LandmarkMap map({.misses = 30, .confirm = 10, .unconfirmed_misses = 6}, camera);
+  for (int i = 0; i < kSeen + kHidden; ++i) {
+    const CameraPose pose{looking_at({-40, 0.2 * i, -40}, p_W), 0.05, 1e-4};
+    const std::vector<Vector2d> corners = {*camera.project(pose.X_WC_est.inverse() * p_W)};
+    map.update(i < kSeen && seen(i) ? corners : std::vector<Vector2d>{}, pose, kImageS);
+  }
+  return map.landmarks().size();
+}
+
+TEST(LandmarkMap, KeepsAWellKnownLandmarkThatAnotherBuildingHides) {
+  EXPECT_EQ(landmarks_after_hiding([](int) { return true; }), 1U);
+  EXPECT_EQ(landmarks_after_hiding([](int i) { return i % 3 != 2; }), 1U);
+}
+
+TEST(LandmarkMap, ForgetsALandmarkThatMostImagesInViewDidNotShow) {
+  EXPECT_EQ(landmarks_after_hiding([](int i) { return i % 3 == 0; }), 0U);
 }
 
 // A landmark's vagueness lowers its Z values, so that the least of them is often that of the landmark just begun.
