@@ -81,6 +81,9 @@ struct Frame {
 inline Layer* layers(const Frame& frame, Tile& tile) {
   return tile.capacity == kOwnLayers ? tile.own : frame.pool + tile.first;
 }
+inline const Layer* layers(const Frame& frame, const Tile& tile) {
+  return tile.capacity == kOwnLayers ? tile.own : frame.pool + tile.first;
+}
 
 /// Bits of the pixels of a tile that lie beyond an image of which `columns` and `rows` are left from its first pixel on.
 inline uint64_t beyond(int columns, int rows) {

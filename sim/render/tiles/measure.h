@@ -9,24 +9,25 @@
 namespace hedgehop::sim::tiles {
 namespace {
 
-template <class Put>
-inline void each_pixel(uint64_t pixels, const Put& put) {
-  for (; pixels != 0; pixels &= pixels - 1) put(__builtin_ctzll(pixels));
+/// Puts a row's values where its pixels are shown. @param of_row  gives them.
+template <class V, class Value, class OfRow>
+inline void put_rows(uint64_t pixels, Value (&values)[64], const OfRow& of_row) {
+  for (int row = 0; row < kTilePx; ++row) {
+    const auto shown = static_cast<int32_t>(pixels >> kTilePx * row & 0xff);
+    if (shown == 0) continue;
+    V kept;
+    std::memcpy(&kept, values + kTilePx * row, sizeof(kept));
+    const I8 here = (all(shown) & I8{1, 2, 4, 8, 16, 32, 64, 128}) != 0;
+    kept = pick(here, of_row(row), kept);
+    std::memcpy(values + kTilePx * row, &kept, sizeof(kept));
+  }
 }
 
 /// z in C, m.
 struct DepthMeasure {
   void operator()(const Surface& surface, int u, int v, uint64_t pixels, float (&values)[64]) const {
     const Slope w = slope(surface.w, u, v);
-    for (int row = 0; row < kTilePx; ++row) {
-      const auto shown = static_cast<int32_t>(pixels >> kTilePx * row & 0xff);
-      if (shown == 0) continue;
-      F8 kept;
-      std::memcpy(&kept, values + kTilePx * row, sizeof(kept));
-      const I8 here = (all(shown) & I8{1, 2, 4, 8, 16, 32, 64, 128}) != 0;
-      kept = pick(here, 1.0f / w.row(row, kColumns), kept);
-      std::memcpy(values + kTilePx * row, &kept, sizeof(kept));
-    }
+    put_rows<F8>(pixels, values, [&](int row) { return 1.0f / w.row(row, kColumns); });
   }
 };
 
@@ -37,10 +38,11 @@ struct PlaneValue {
 struct PlaneMeasure {
   void operator()(const Surface& surface, int u, int v, uint64_t pixels, PlaneValue (&values)[64]) const {
     const Slope w = slope(surface.w, u, v);
-    each_pixel(pixels, [&](int i) {
-      const float per_z = (w.at_first + static_cast<float>(i / kTilePx) * w.down) + static_cast<float>(i % kTilePx) * w.right;
+    for (; pixels != 0; pixels &= pixels - 1) {
+      const int i = __builtin_ctzll(pixels), row = i / kTilePx, column = i % kTilePx;
+      const float per_z = (w.at_first + static_cast<float>(row) * w.down) + static_cast<float>(column) * w.right;
       values[i] = {per_z, w.right, w.down, 0.0f};
-    });
+    }
   }
 };
 
@@ -48,8 +50,8 @@ struct LabelMeasure {
   const FacetCover* covers;
 
   void operator()(const Surface& surface, int, int, uint64_t pixels, int32_t (&values)[64]) const {
-    const int32_t label = covers[surface.facet].label;
-    each_pixel(pixels, [&](int i) { values[i] = label; });
+    const I8 label = all(covers[surface.facet].label);
+    put_rows<I8>(pixels, values, [&](int) { return label; });
   }
 };
 

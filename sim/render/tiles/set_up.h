@@ -55,25 +55,37 @@ inline Edges quantized(D4 a, D4 b, D4 c) {
   return {integers(constant) + ~inclusive, right, down};
 }
 
+/// The least and the greatest of four.
+struct Range {
+  double least, most;
+};
+inline Range range(D4 a) {
+  const D4 other = __builtin_shufflevector(a, a, 2, 3, 0, 1);
+  const D4 low = least(a, other), high = most(a, other);
+  return {low[0] < low[1] ? low[0] : low[1], high[0] > high[1] ? high[0] : high[1]};
+}
+
 /// Pixels between corners that all lie before the near plane.
 inline Extent extent_of(const Corners& p, const Lens& lens, double spare_px) {
-  const D4 u = lens.center_u_px + lens.focal_x_px * (p.x / p.z), v = lens.center_v_px + lens.focal_y_px * (p.y / p.z);
-  double left = u[0], right = u[0], top = v[0], bottom = v[0];
-  for (int i = 1; i < 4; ++i) {
-    left = u[i] < left ? u[i] : left;
-    right = u[i] > right ? u[i] : right;
-    top = v[i] < top ? v[i] : top;
-    bottom = v[i] > bottom ? v[i] : bottom;
-  }
+  const D4 per_z = 1.0 / p.z;
+  const Range u = range(lens.center_u_px + lens.focal_x_px * (p.x * per_z));
+  const Range v = range(lens.center_v_px + lens.focal_y_px * (p.y * per_z));
+  // Rounded so that a pixel's middle on the bound counts, whatever the last bits of the bound are.
+  const double spare = spare_px + 1e-6;
+  const auto first = [&](double a, double end) {
+    a -= spare;
+    if (!(a > 0.0)) return 0;
+    if (a > end) return static_cast<int>(end) + 1;
+    const int floor = static_cast<int>(a);
+    return floor + (a > floor);
+  };
+  const auto last = [&](double a, double end) {
+    a += spare;
+    if (!(a >= 0.0)) return -1;
+    return a > end ? static_cast<int>(end) : static_cast<int>(a);
+  };
   const double last_u = lens.width_px - 1, last_v = lens.height_px - 1;
-  const auto within = [](double a, double last) { return a < 0.0 ? -1.0 : a > last ? last + 1.0 : a; };
-  const auto up = [](double a) { return static_cast<int>(a) + (a > static_cast<int>(a)); };  // ceil
-  const auto low = [](double a) { return static_cast<int>(a) - (a < static_cast<int>(a)); };  // floor
-  left = within(left - spare_px, last_u), right = within(right + spare_px, last_u);
-  top = within(top - spare_px, last_v), bottom = within(bottom + spare_px, last_v);
-  const auto first = [](int a) { return a < 0 ? 0 : a; };
-  const auto last = [](int a, double end) { return a > end ? static_cast<int>(end) : a; };
-  return {first(up(left)), last(low(right), last_u), first(up(top)), last(low(bottom), last_v)};
+  return {first(u.least, last_u), last(u.most, last_u), first(v.least, last_v), last(v.most, last_v)};
 }
 
 /// Where a facet that reaches behind the near plane may be seen: between the corners before it and where its edges
@@ -112,13 +124,9 @@ inline bool set_up(const FacetShape& shape, const Eye& eye, const Lens& lens, do
   const double volume = ex[0] * p.x[2] + ey[0] * p.y[2] + ez[0] * p.z[2];
   if (!(volume > 0.0)) return false;
 
-  double nearest_m = p.z[0], farthest_m = p.z[0];
-  for (int i = 1; i < 4; ++i) {
-    nearest_m = p.z[i] < nearest_m ? p.z[i] : nearest_m;
-    farthest_m = p.z[i] > farthest_m ? p.z[i] : farthest_m;
-  }
-  if (farthest_m < near_m) return false;
-  const bool cut = nearest_m < near_m;
+  const Range z = range(p.z);
+  if (z.most < near_m) return false;
+  const bool cut = z.least < near_m;
   out.extent = cut ? extent_at_near_plane(p, lens, near_m, spare_px) : extent_of(p, lens, spare_px);
   if (out.extent.left > out.extent.right || out.extent.top > out.extent.bottom) return false;
 
@@ -134,8 +142,8 @@ inline bool set_up(const FacetShape& shape, const Eye& eye, const Lens& lens, do
   w.right = nx * per_volume * lens.per_focal_x;
   w.down = ny * per_volume * lens.per_focal_y;
   w.at_origin = nz * per_volume - w.right * lens.center_u_px - w.down * lens.center_v_px;
-  out.farthest = static_cast<float>(1.0 / farthest_m);
-  out.nearest = cut ? __builtin_inff() : static_cast<float>(1.0 / nearest_m);
+  out.farthest = static_cast<float>(1.0 / z.most);
+  out.nearest = cut ? __builtin_inff() : static_cast<float>(1.0 / z.least);
   return true;
 }
 
