@@ -13,7 +13,7 @@
 namespace hedgehop::vision::flow {
 namespace {
 
-// Adds the products of pairs of numbers to their sums, four pairs at a time, or twice as many.
+// Adds the products of pairs of numbers to their sums, which wrap: four pairs at a time, or twice as many.
 HEDGEHOP_TARGET_DEFAULT void add_products(const int16_t* a, const int16_t* b, int pairs, int32_t* sum) {
   for (int i = 0; i < pairs; i += 4) {
     cv::v_store(sum + i, cv::v_load(sum + i) + cv::v_dotprod(cv::v_load(a + 2 * i), cv::v_load(b + 2 * i)));
@@ -30,7 +30,9 @@ HEDGEHOP_TARGET_DEFAULT void add_products(const int16_t* a, const int16_t* b, in
     const __m256i products = _mm256_madd_epi16(eight(a + 2 * i), eight(b + 2 * i));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(sum + i), _mm256_add_epi32(eight(sum + i), products));
   }
-  for (; i < pairs; ++i) sum[i] += a[2 * i] * b[2 * i] + a[2 * i + 1] * b[2 * i + 1];
+  for (; i < pairs; i += 4) {
+    cv::v_store(sum + i, cv::v_load(sum + i) + cv::v_dotprod(cv::v_load(a + 2 * i), cv::v_load(b + 2 * i)));
+  }
 }
 #endif
 
