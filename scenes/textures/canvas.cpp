@@ -28,30 +28,42 @@ std::vector<LatticeStep> lattice_steps(int size_px, int cells, double phase) {
   return steps;
 }
 
-// Value noise on one lattice: spread across, one row per lattice row; to be spread down.
-struct Octave {
-  cv::Mat1f rows;
-  std::vector<LatticeStep> down;
-
-  Octave(int size_px, int cells_u, int cells_v, float strength, Random& random) : rows(cells_v, size_px) {
-    cv::Mat1f lattice(cells_v, cells_u);
-    for (float& node : lattice) node = static_cast<float>(uniform(random, -1.0, 1.0)) * strength;
+// Value noise on one lattice, row by row from the top: of the lattice's rows, spread across, only two are in use.
+class Octave {
+ public:
+  Octave(int size_px, int cells_u, int cells_v, float strength, Random& random) : lattice_(cells_v, cells_u) {
+    for (float& node : lattice_) node = static_cast<float>(uniform(random, -1.0, 1.0)) * strength;
     // The phases keep the octaves' nodes apart.
-    const auto across = lattice_steps(size_px, cells_u, uniform(random, 0.0, 1.0));
-    for (int r = 0; r < cells_v; ++r) {
-      const float* node = lattice[r];
-      float* out = rows[r];
-      for (const LatticeStep& s : across) *out++ = node[s.before] + s.way * (node[s.after] - node[s.before]);
-    }
-    down = lattice_steps(size_px, cells_v, uniform(random, 0.0, 1.0));
+    across_ = lattice_steps(size_px, cells_u, uniform(random, 0.0, 1.0));
+    down_ = lattice_steps(size_px, cells_v, uniform(random, 0.0, 1.0));
+    above_.resize(across_.size());
+    below_.resize(across_.size());
   }
 
-  void add_row(int r, float* sum) const {
-    const LatticeStep& s = down[static_cast<size_t>(r)];
-    const float *above = rows[s.before], *below = rows[s.after];
-    const float way = s.way;
-    for (int c = 0; c < rows.cols; ++c) sum[c] += above[c] + way * (below[c] - above[c]);
+  void add_row(int r, float* sum) {
+    const LatticeStep& s = down_[static_cast<size_t>(r)];
+    if (s.before != row_) {
+      if (s.before == next_) std::swap(above_, below_);
+      if (s.before != next_) spread(s.before, above_);
+      spread(s.after, below_);
+      row_ = s.before;
+      next_ = s.after;
+    }
+    const float *above = above_.data(), *below = below_.data(), way = s.way;
+    for (size_t c = 0; c < across_.size(); ++c) sum[c] += above[c] + way * (below[c] - above[c]);
   }
+
+ private:
+  void spread(int row, std::vector<float>& line) const {
+    const float* node = lattice_[row];
+    float* out = line.data();
+    for (const LatticeStep& s : across_) *out++ = node[s.before] + s.way * (node[s.after] - node[s.before]);
+  }
+
+  cv::Mat1f lattice_;
+  std::vector<LatticeStep> across_, down_;
+  std::vector<float> above_, below_;
+  int row_ = -1, next_ = -1;  ///< that the two lines hold
 };
 
 // Adds numbers, and their squares, to what was summed before: one after another, so that the result is always the same.
@@ -89,7 +101,7 @@ cv::Mat1f fractal_noise(int size_px, const NoiseShape& shape, Random& random) {
   double mean = 0.0, square = 0.0;
   for (int r = 0; r < size_px; ++r) {
     float* row = sum[r];
-    for (const Octave& octave : octaves) octave.add_row(r, row);
+    for (Octave& octave : octaves) octave.add_row(r, row);
     std::tie(mean, square) = with_moments(row, size_px, mean, square);
   }
   mean /= static_cast<double>(sum.total());
