@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace hedgehop::scenes::textures {
@@ -26,28 +28,51 @@ std::vector<LatticeStep> lattice_steps(int size_px, int cells, double phase) {
   return steps;
 }
 
-void add_value_noise(cv::Mat1f& sum, int cells_u, int cells_v, float strength, Random& random) {
-  cv::Mat1f lattice(cells_v, cells_u);
-  for (float& node : lattice) node = static_cast<float>(uniform(random, -1.0, 1.0)) * strength;
+// Value noise on one lattice, row by row from the top: of the lattice's rows, spread across, only two are in use.
+class Octave {
+ public:
+  Octave(int size_px, int cells_u, int cells_v, float strength, Random& random) : lattice_(cells_v, cells_u) {
+    for (float& node : lattice_) node = static_cast<float>(uniform(random, -1.0, 1.0)) * strength;
+    // The phases keep the octaves' nodes apart.
+    across_ = lattice_steps(size_px, cells_u, uniform(random, 0.0, 1.0));
+    down_ = lattice_steps(size_px, cells_v, uniform(random, 0.0, 1.0));
+    above_.resize(across_.size());
+    below_.resize(across_.size());
+  }
 
-  // Across first, one row per lattice row; then down. The phases keep the octaves' nodes apart.
-  const auto across = lattice_steps(sum.cols, cells_u, uniform(random, 0.0, 1.0));
-  cv::Mat1f rows(cells_v, sum.cols);
-  for (int r = 0; r < cells_v; ++r) {
-    const float* node = lattice[r];
-    float* out = rows[r];
-    for (int c = 0; c < sum.cols; ++c) {
-      const LatticeStep& s = across[static_cast<size_t>(c)];
-      out[c] = node[s.before] + s.way * (node[s.after] - node[s.before]);
+  void add_row(int r, float* sum) {
+    const LatticeStep& s = down_[static_cast<size_t>(r)];
+    if (s.before != row_) {
+      if (s.before == next_) std::swap(above_, below_);
+      if (s.before != next_) spread(s.before, above_);
+      spread(s.after, below_);
+      row_ = s.before;
+      next_ = s.after;
     }
+    const float *above = above_.data(), *below = below_.data(), way = s.way;
+    for (size_t c = 0; c < across_.size(); ++c) sum[c] += above[c] + way * (below[c] - above[c]);
   }
-  const auto down = lattice_steps(sum.rows, cells_v, uniform(random, 0.0, 1.0));
-  for (int r = 0; r < sum.rows; ++r) {
-    const LatticeStep& s = down[static_cast<size_t>(r)];
-    const float *above = rows[s.before], *below = rows[s.after];
-    float* out = sum[r];
-    for (int c = 0; c < sum.cols; ++c) out[c] += above[c] + s.way * (below[c] - above[c]);
+
+ private:
+  void spread(int row, std::vector<float>& line) const {
+    const float* node = lattice_[row];
+    float* out = line.data();
+    for (const LatticeStep& s : across_) *out++ = node[s.before] + s.way * (node[s.after] - node[s.before]);
   }
+
+  cv::Mat1f lattice_;
+  std::vector<LatticeStep> across_, down_;
+  std::vector<float> above_, below_;
+  int row_ = -1, next_ = -1;  ///< that the two lines hold
+};
+
+// Adds numbers, and their squares, to what was summed before: one after another, so that the result is always the same.
+std::pair<double, double> with_moments(const float* numbers, int count, double sum, double squares) {
+  for (int i = 0; i < count; ++i) {
+    sum += numbers[i];
+    squares += static_cast<double>(numbers[i]) * numbers[i];
+  }
+  return {sum, squares};
 }
 
 // Share of the pixel [i, i + 1) that [low, high) covers.
@@ -60,40 +85,49 @@ int wrapped(int i, int size) { return ((i % size) + size) % size; }
 }  // namespace
 
 cv::Mat1f fractal_noise(int size_px, const NoiseShape& shape, Random& random) {
-  cv::Mat1f sum(size_px, size_px, 0.0f);
+  std::vector<Octave> octaves;
   int cells_u = shape.cells_u, cells_v = shape.cells_v;
   float strength = 1.0f;
   for (int octave = 0; octave < shape.octaves; ++octave) {
     if (cells_u > size_px || cells_v > size_px) break;
-    add_value_noise(sum, cells_u, cells_v, strength, random);
+    octaves.emplace_back(size_px, cells_u, cells_v, strength, random);
     cells_u *= 2;
     cells_v *= 2;
     strength *= static_cast<float>(shape.gain);
   }
 
+  // Row by row, so that a row stays in the processor's cache until all octaves are in it.
+  cv::Mat1f sum(size_px, size_px, 0.0f);
   double mean = 0.0, square = 0.0;
-  for (float x : sum) {
-    mean += x;
-    square += static_cast<double>(x) * x;
+  for (int r = 0; r < size_px; ++r) {
+    float* row = sum[r];
+    for (Octave& octave : octaves) octave.add_row(r, row);
+    std::tie(mean, square) = with_moments(row, size_px, mean, square);
   }
   mean /= static_cast<double>(sum.total());
   const double deviation = std::sqrt(square / static_cast<double>(sum.total()) - mean * mean);
-  for (float& x : sum) x = static_cast<float>((x - mean) / deviation);
+  for (int r = 0; r < size_px; ++r) {
+    float* row = sum[r];
+    for (int c = 0; c < size_px; ++c) row[c] = static_cast<float>((row[c] - mean) / deviation);
+  }
   return sum;
 }
 
 Canvas::Canvas(int size_px, double tile_m, const Color& background)
     : tile_m_(tile_m), pixels_(size_px, size_px, background) {}
 
-void Canvas::blend(const Area& area, const Color& color, const Weight& opacity_at) {
+template <class OpacityAt>
+void Canvas::blend(const Area& area, const Color& color, const OpacityAt& opacity_at) {
   const double px_per_m = size_px() / tile_m_;
   const double left = area.left * px_per_m, right = left + area.width * px_per_m;
   const double top = area.top * px_per_m, bottom = top + area.height * px_per_m;
   for (int r = static_cast<int>(std::floor(top)); r < bottom; ++r) {
     Color* row = pixels_[wrapped(r, size_px())];
     const double rows = coverage(r, top, bottom);
-    for (int c = static_cast<int>(std::floor(left)); c < right; ++c) {
-      Color& pixel = row[wrapped(c, size_px())];
+    const int first = static_cast<int>(std::floor(left));
+    int at = wrapped(first, size_px());
+    for (int c = first; c < right; ++c, at = at + 1 == size_px() ? 0 : at + 1) {
+      Color& pixel = row[at];
       const auto edge = static_cast<float>(rows * coverage(c, left, right));
       const float weight = edge * opacity_at((c + 0.5) / px_per_m, (r + 0.5) / px_per_m);
       pixel += (color - pixel) * weight;
@@ -118,7 +152,12 @@ void Canvas::disc(double center_x, double center_y, double radius, const Color& 
   const double margin = 1.0 / px_per_m;
   const Area box{center_x - radius - margin, center_y - radius - margin, 2.0 * (radius + margin),
                  2.0 * (radius + margin)};
+  // What lies clearly inside or outside needs no root.
+  const double whole = std::max(0.0, radius - margin), none = radius + margin;
   blend(box, color, [&](double x, double y) {
+    const double distance2 = (x - center_x) * (x - center_x) + (y - center_y) * (y - center_y);
+    if (distance2 < whole * whole) return static_cast<float>(opacity);
+    if (distance2 > none * none) return 0.0f;
     const double inside_px = (radius - std::hypot(x - center_x, y - center_y)) * px_per_m + 0.5;
     return static_cast<float>(opacity * std::clamp(inside_px, 0.0, 1.0));
   });
@@ -143,34 +182,36 @@ void Canvas::crack(double x, double y, double length, double width, const Color&
 }
 
 void Canvas::shade(const cv::Mat1f& noise, double strength) {
-  auto n = noise.begin();
-  for (Color& pixel : pixels_) pixel *= std::clamp(1.0f + static_cast<float>(strength) * *n++, 0.3f, 1.7f);
-}
-
-void Canvas::stain(const cv::Mat1f& noise, double threshold, double softness, const Color& color, double opacity) {
-  auto n = noise.begin();
-  for (Color& pixel : pixels_) {
-    const double way = std::clamp((*n++ - threshold) / softness, 0.0, 1.0);
-    pixel += (color - pixel) * static_cast<float>(opacity * way);
+  const auto by = static_cast<float>(strength);
+  for (int r = 0; r < size_px(); ++r) {
+    const float* n = noise[r];
+    Color* row = pixels_[r];
+    for (int c = 0; c < size_px(); ++c) row[c] *= std::clamp(1.0f + by * n[c], 0.3f, 1.7f);
   }
 }
 
-void Canvas::paint(const std::function<Color(double x, double y)>& color_at) {
-  const double m_per_px = tile_m_ / size_px();
+void Canvas::stain(const cv::Mat1f& noise, double threshold, double softness, const Color& color, double opacity) {
   for (int r = 0; r < size_px(); ++r) {
+    const float* n = noise[r];
     Color* row = pixels_[r];
-    for (int c = 0; c < size_px(); ++c) row[c] = color_at((c + 0.5) * m_per_px, (r + 0.5) * m_per_px);
+    for (int c = 0; c < size_px(); ++c) {
+      const double way = std::clamp((n[c] - threshold) / softness, 0.0, 1.0);
+      row[c] += (color - row[c]) * static_cast<float>(opacity * way);
+    }
   }
 }
 
 cv::Mat Canvas::finished() const {
   cv::Mat3b image(pixels_.size());
-  auto out = image.begin();
-  for (const Color& pixel : pixels_) {
-    for (int k = 0; k < 3; ++k) {
-      (*out)[k] = static_cast<uint8_t>(std::lround(255.0f * std::clamp(pixel[k], 0.0f, 1.0f)));
+  for (int r = 0; r < size_px(); ++r) {
+    const float* from = pixels_[r]->val;
+    uint8_t* to = image[r]->val;
+    for (int i = 0; i < 3 * size_px(); ++i) {
+      // Rounded as by std::lround: what lies above a whole number is exact.
+      const float level = 255.0f * std::clamp(from[i], 0.0f, 1.0f);
+      const int whole = static_cast<int>(level);
+      to[i] = static_cast<uint8_t>(whole + (level - static_cast<float>(whole) >= 0.5f ? 1 : 0));
     }
-    ++out;
   }
   return image;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <opencv2/core.hpp>
 
 #include "scenes/random.h"
@@ -53,15 +52,22 @@ class Canvas {
   /// Blends in `color` where the noise exceeds `threshold`: opacity grows to `opacity` over `softness`.
   void stain(const cv::Mat1f& noise, double threshold, double softness, const Color& color, double opacity);
 
-  /// Gives each pixel a color from its place in meters.
-  void paint(const std::function<Color(double x, double y)>& color_at);
+  /// Gives each pixel a color from its place in meters. @param color_at  of (double x, double y).
+  template <class ColorAt>
+  void paint(const ColorAt& color_at) {
+    const double m_per_px = tile_m_ / size_px();
+    for (int r = 0; r < size_px(); ++r) {
+      Color* row = pixels_[r];
+      for (int c = 0; c < size_px(); ++c) row[c] = color_at((c + 0.5) * m_per_px, (r + 0.5) * m_per_px);
+    }
+  }
 
   /// Returns the image, CV_8UC3 RGB.
   cv::Mat finished() const;
 
  private:
-  using Weight = std::function<float(double x, double y)>;
-  void blend(const Area& area, const Color& color, const Weight& opacity_at);
+  template <class OpacityAt>
+  void blend(const Area& area, const Color& color, const OpacityAt& opacity_at);
 
   double tile_m_;
   cv::Mat3f pixels_;

@@ -21,7 +21,9 @@ ImageDerotator::ImageDerotator(const Camera& camera, const cv::Mat& wanted)
 cv::Mat ImageDerotator::derotate(const cv::Mat& image, const Eigen::Matrix3d& R_C1C2) const {
   cv::Mat result = cv::Mat::zeros(image.size(), CV_8UC1);
   if (box_.empty()) return result;
-  cv::Mat places(box_.size(), CV_32FC2, cv::Scalar::all(-1.0));
+  // So far outside that no pixel of the image has a share: OpenCV then needs no arithmetic.
+  constexpr double kOutside = -100.0;
+  cv::Mat places(box_.size(), CV_32FC2, cv::Scalar::all(kOutside));
   const Eigen::Matrix3d R_C2C1 = R_C1C2.transpose();
   for (const Ray& ray : rays_) {
     const auto pixel = camera_.project(R_C2C1 * ray.ray_C);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vision/flow/wide_integers.h"
+
 namespace hedgehop::vision::flow {
 namespace {
 
@@ -20,6 +22,10 @@ double noise_energy(const ImageInterpolationConfig& config, int reduction, int b
   double noise = config.noise_grey * std::exp2(bits - 8) * kSmoothingGain;
   for (int i = 1; i < reduction; i *= 2) noise *= kHalvingGain;
   return 2.0 * noise * noise;
+}
+
+HEDGEHOP_WIDE void subtract(const int16_t* from, const int16_t* what, int count, int16_t* difference) {
+  for (int i = 0; i < count; ++i) difference[i] = static_cast<int16_t>(from[i] - what[i]);
 }
 
 std::vector<double> centers(const std::vector<PatchRange>& ranges) {
@@ -114,13 +120,12 @@ FlowLevel::FlowLevel(const ImageInterpolationConfig& config, const PatchGrid& gr
       older_(width_px / reduction, height_px / reduction,
              static_cast<int>(std::ceil(config.max_flow_px / reduction)) + 1),
       newer_(older_),
-      line_(padded(older_.width())),
-      copies_x_(static_cast<size_t>(line_ * older_.height()), int16_t{0}),
-      copies_y_(copies_x_),
-      difference_(static_cast<size_t>(line_), int16_t{0}),
+      copy_x_(static_cast<size_t>(padded(older_.width())), int16_t{0}),
+      copy_y_(copy_x_),
+      difference_(copy_x_),
       spread_(centers(grid_.cols), centers(grid_.rows), older_.width()),
       means_(grid_),
-      sums_(grid_.rows, grid_.cols, line_, older_.height(), 3),
+      sums_(grid_.rows, grid_.cols, padded(older_.width()), older_.height(), 3),
       patches_(grid_.rows.size() * grid_.cols.size()),
       spare_(config.rows, config.cols),
       level_u_(patches_.size()),
@@ -129,25 +134,28 @@ FlowLevel::FlowLevel(const ImageInterpolationConfig& config, const PatchGrid& gr
   pixels_ = static_cast<double>(row.end - row.begin) * (col.end - col.begin);
 }
 
-void FlowLevel::difference_copies() {
-  for (int y = std::max(sums_.first_row(), 1); y < std::min(sums_.end_row(), older_.height() - 1); ++y) {
-    const int16_t *above = older_.row(y - 1), *row = older_.row(y), *below = older_.row(y + 1);
-    int16_t* to_x = copies_x_.data() + static_cast<ptrdiff_t>(y) * line_;
-    int16_t* to_y = copies_y_.data() + static_cast<ptrdiff_t>(y) * line_;
-    for (int x = 1; x < older_.width() - 1; ++x) to_x[x] = static_cast<int16_t>(row[x + 1] - row[x - 1]);
-    for (int x = 1; x < older_.width() - 1; ++x) to_y[x] = static_cast<int16_t>(below[x] - above[x]);
+void FlowLevel::difference_copies(int y) {
+  if (y == 0 || y == older_.height() - 1) {
+    for (auto* copy : {&copy_x_, &copy_y_}) std::fill(copy->begin(), copy->end(), int16_t{0});
+    return;
+  }
+  const auto [begin, end] = sums_.columns();
+  const int16_t* row = older_.row(y) + begin;
+  subtract(row + 1, row - 1, end - begin, copy_x_.data() + begin);
+  subtract(older_.row(y + 1) + begin, older_.row(y - 1) + begin, end - begin, copy_y_.data() + begin);
+  for (auto* copy : {&copy_x_, &copy_y_}) {
+    copy->front() = 0;
+    std::fill(copy->begin() + older_.width() - 1, copy->end(), int16_t{0});
   }
 }
 
 void FlowLevel::begin() {
-  difference_copies();
   sums_.begin();
   for (int y = sums_.first_row(); y < sums_.end_row(); ++y) {
-    const int16_t* x_row = copies_x_.data() + static_cast<ptrdiff_t>(y) * line_;
-    const int16_t* y_row = copies_y_.data() + static_cast<ptrdiff_t>(y) * line_;
-    sums_.add(0, x_row, x_row);
-    sums_.add(1, x_row, y_row);
-    sums_.add(2, y_row, y_row);
+    difference_copies(y);
+    sums_.add(0, copy_x_.data(), copy_x_.data());
+    sums_.add(1, copy_x_.data(), copy_y_.data());
+    sums_.add(2, copy_y_.data(), copy_y_.data());
     sums_.next_row();
   }
   for (int row = 0; row < config_.rows; ++row) {
@@ -173,9 +181,10 @@ void FlowLevel::iterate(NodeFlow& flow) {
   sums_.begin();
   for (int y = sums_.first_row(); y < sums_.end_row(); ++y) {
     spread_.go_to(y);
-    recentered_difference(older_, newer_, y, spread_.u_q16(), spread_.v_q16(), difference_.data());
-    sums_.add(0, copies_x_.data() + static_cast<ptrdiff_t>(y) * line_, difference_.data());
-    sums_.add(1, copies_y_.data() + static_cast<ptrdiff_t>(y) * line_, difference_.data());
+    recentered_difference(older_, newer_, y, spread_.u_q16(), spread_.v_q16(), difference_.data(), sums_.columns());
+    difference_copies(y);
+    sums_.add(0, copy_x_.data(), difference_.data());
+    sums_.add(1, copy_y_.data(), difference_.data());
     sums_.add(2, difference_.data(), difference_.data());
     sums_.next_row();
   }

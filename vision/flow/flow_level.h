@@ -76,7 +76,8 @@ class FlowLevel {
     double least_eigenvalue = 0.0;
     Eigen::Vector2d step_px = Eigen::Vector2d::Zero();  ///< full px
   };
-  void difference_copies();
+  /// Fills the differences of the copies at a row.
+  void difference_copies(int y);
   void solve(Patch& patch) const;
   bool is_valid(const Patch& patch, const Eigen::Vector2d& flow_px) const;
 
@@ -86,9 +87,9 @@ class FlowLevel {
   double noise_energy_;  ///< expected square of a difference of two pixels that differ by noise only
   PatchGrid grid_;
   ReducedImage older_, newer_;
-  int line_;                                  ///< padded width
-  std::vector<int16_t> copies_x_, copies_y_;  ///< older(x + 1) - older(x - 1), and along y; 0 at the rim
-  std::vector<int16_t> difference_;           ///< one row
+  // One row each, padded: made again where it is needed, as the whole images' would not stay in a processor's cache.
+  std::vector<int16_t> copy_x_, copy_y_;  ///< older(x + 1) - older(x - 1), and along y; 0 at the rim
+  std::vector<int16_t> difference_;
   SpreadFlow spread_;
   PatchMeans means_;
   PatchSums sums_;

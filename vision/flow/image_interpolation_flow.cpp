@@ -25,6 +25,7 @@ void check_effort(const ImageInterpolationConfig& c) {
   if (!(c.max_flow_px > 0.0 && c.noise_grey > 0.0 && c.max_sigma_px > 0.0 && c.max_misfit_px > 0.0)) {
     throw std::invalid_argument("flow: max_flow, noise, max_sigma and max_misfit must be above 0");
   }
+  if (c.max_flow_px > 250.0) throw std::invalid_argument("flow: max_flow must be 250 px or less");  // 1/128 px, 16 bits
 }
 
 void check(const ImageInterpolationConfig& c) {

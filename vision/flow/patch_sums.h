@@ -22,11 +22,13 @@ class PatchSums {
   /// First row that must be given and one past the last.
   int first_row() const { return boundaries_.front(); }
   int end_row() const { return boundaries_.back(); }
+  /// Columns that count, widened to multiples of 8.
+  PatchRange columns() const { return {2 * first_pair_, 2 * end_pair_}; }
 
   /// Starts again at first_row().
   void begin();
   /// Adds products of the current row. A patch's columns of a channel must sum up within 31 bits:
-  /// 2 * |a| * |b| * patch height < 2^31.
+  /// 2 * |a| * |b| * patch height < 2^31. Reads columns() alone.
   void add(int channel, const int16_t* a, const int16_t* b);
   /// Moves to the next row; after the row before end_row() the sums stand.
   void next_row();
@@ -43,12 +45,13 @@ class PatchSums {
 
   std::vector<PatchRange> rows_, cols_;  ///< rows: indices of boundaries; columns: pairs of pixels
   int pairs_, channels_;
-  std::vector<int> boundaries_;  ///< image rows where a patch begins or ends, rising
-  int row_ = 0;                  ///< the current image row
+  int first_pair_ = 0, end_pair_ = 0;  ///< that a patch may hold
+  std::vector<int> boundaries_;        ///< image rows where a patch begins or ends, rising
+  int row_ = 0;                        ///< the current image row
   size_t next_boundary_ = 0;
   std::vector<int32_t> columns_;   ///< channels x pairs: running sums, wrapping
   std::vector<int32_t> kept_;      ///< boundaries x channels x pairs
-  std::vector<int64_t> sideways_;  ///< pairs + 1
+  std::vector<int64_t> sideways_;  ///< pairs + 1, from first_pair_ on
   std::vector<int64_t> sums_;      ///< channels x rows x cols
 };
 

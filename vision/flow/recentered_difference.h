@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "vision/flow/patch_grid.h"
 #include "vision/flow/reduced_image.h"
 
 namespace hedgehop::vision::flow {
@@ -24,10 +25,11 @@ class SpreadFlow {
 
  private:
   void spread_sideways(std::span<const double> flow, std::vector<int32_t>& lines) const;
+  void spread_between(double from, double difference, int begin, int end, int32_t* line) const;
   void start_band(int y);
 
   std::vector<double> node_v_;
-  std::vector<int> left_node_;       ///< per column: node to the left
+  std::vector<int> first_column_;    ///< per node but the last: first column between it and the next; then the width
   std::vector<double> right_share_;  ///< per column: weight of the node after it
   int width_, rows_, cols_;
   std::vector<int32_t> lines_u_, lines_v_;  ///< grid rows x padded width
@@ -36,9 +38,12 @@ class SpreadFlow {
 };
 
 /// Difference of the older image and the newer one moved back by the flow, over one row: 0 where the newer image
-/// ends. Bilinear, in steps of 1/128 px. Flow must stay within the images' rim.
+/// ends. Bilinear, in steps of 1/128 px. Flow must stay within the images' rim and below 255 px.
 /// @param out  padded width; beyond the image's width it holds no meaning.
+/// @param columns  to compute, both ends multiples of 8; all without it.
 void recentered_difference(const ReducedImage& older, const ReducedImage& newer, int y, const int32_t* u_q16,
                            const int32_t* v_q16, int16_t* out);
+void recentered_difference(const ReducedImage& older, const ReducedImage& newer, int y, const int32_t* u_q16,
+                           const int32_t* v_q16, int16_t* out, const PatchRange& columns);
 
 }  // namespace hedgehop::vision::flow

@@ -4,15 +4,43 @@
 #include <opencv2/core/hal/intrin.hpp>
 #include <stdexcept>
 
+#include "vision/flow/wide_integers.h"
+
 namespace hedgehop::vision::flow {
 namespace {
 
 constexpr int kLeftRoom = 8, kRightRoom = 16;
+constexpr size_t kPastEnd = 16;  // numbers that are read together, from the last of the rim on
 
 // Repeats the first and last number of a row into the room beside it.
 void repeat_ends(int16_t* line, int width) {
   line[-1] = line[0];
   std::fill(line + width, line + width + kRightRoom, line[width - 1]);
+}
+
+// The weighted sums below one another. Rows of the image itself are 8 bits deep, of reduced images 16.
+HEDGEHOP_WIDE void weigh_three(const uint8_t* a, const uint8_t* b, const uint8_t* c, int width, int16_t* line) {
+  for (int x = 0; x < width; ++x) line[x] = static_cast<int16_t>(a[x] + 2 * b[x] + c[x]);
+}
+HEDGEHOP_WIDE void weigh_three(const int16_t* a, const int16_t* b, const int16_t* c, int width, int16_t* line) {
+  for (int x = 0; x < width; ++x) line[x] = static_cast<int16_t>(a[x] + 2 * b[x] + c[x]);
+}
+HEDGEHOP_WIDE void weigh_four(const uint8_t* a, const uint8_t* b, const uint8_t* c, const uint8_t* d, int width,
+                              int16_t* line) {
+  for (int x = 0; x < width; ++x) line[x] = static_cast<int16_t>(a[x] + 3 * (b[x] + c[x]) + d[x]);
+}
+HEDGEHOP_WIDE void weigh_four(const int16_t* a, const int16_t* b, const int16_t* c, const int16_t* d, int width,
+                              int16_t* line) {
+  for (int x = 0; x < width; ++x) line[x] = static_cast<int16_t>(a[x] + 3 * (b[x] + c[x]) + d[x]);
+}
+
+HEDGEHOP_WIDE void smooth_line(const int16_t* line, int width, int shift, int16_t* to) {
+  const int half = shift > 0 ? 1 << (shift - 1) : 0;
+  for (int x = 0; x < width; ++x) {
+    // The sum needs all 16 bits, without a sign.
+    const auto sum = static_cast<uint16_t>(line[x - 1] + 2 * line[x] + line[x + 1] + half);
+    to[x] = static_cast<int16_t>(static_cast<uint16_t>(sum >> shift));
+  }
 }
 
 }  // namespace
@@ -23,7 +51,7 @@ ReducedImage::ReducedImage(int width, int height, int rim_px)
       rim_rows_(rim_px + 1),
       rim_cols_(padded(rim_px + 1)),
       stride_(padded(width) + 2 * padded(rim_px + 1)),
-      data_(static_cast<size_t>(stride_) * static_cast<size_t>(height + 2 * (rim_px + 1)), int16_t{0}) {}
+      data_(static_cast<size_t>(stride_) * static_cast<size_t>(height + 2 * (rim_px + 1)) + kPastEnd, int16_t{0}) {}
 
 ImageReducer::ImageReducer(int max_width, int bits)
     : bits_(bits), line_(static_cast<size_t>(kLeftRoom + padded(max_width) + kRightRoom), int16_t{0}) {
@@ -46,19 +74,13 @@ void ImageReducer::halve(const ReducedImage& in, ReducedImage& out) {
 template <class Row>
 void ImageReducer::smooth_rows(Row row, int width, int height, int shift, ReducedImage& out) {
   int16_t* line = line_.data() + kLeftRoom;
-  const int half = shift > 0 ? 1 << (shift - 1) : 0;
   for (int y = 0; y < height; ++y) {
     const auto* a = row(std::max(y - 1, 0));
     const auto* b = row(y);
     const auto* c = row(std::min(y + 1, height - 1));
-    for (int x = 0; x < width; ++x) line[x] = static_cast<int16_t>(a[x] + 2 * b[x] + c[x]);
+    weigh_three(a, b, c, width, line);
     repeat_ends(line, width);
-    // The sum needs all 16 bits, without a sign.
-    int16_t* to = out.row(y);
-    for (int x = 0; x < width; ++x) {
-      const auto sum = static_cast<uint16_t>(line[x - 1] + 2 * line[x] + line[x + 1] + half);
-      to[x] = static_cast<int16_t>(static_cast<uint16_t>(sum >> shift));
-    }
+    smooth_line(line, width, shift, out.row(y));
   }
 }
 
@@ -72,7 +94,7 @@ void ImageReducer::halve_rows(Row row, int width, int height, int shift, Reduced
     const auto* b = row(2 * y);
     const auto* c = row(std::min(2 * y + 1, height - 1));
     const auto* d = row(std::min(2 * y + 2, height - 1));
-    for (int x = 0; x < width; ++x) line[x] = static_cast<int16_t>(a[x] + 3 * (b[x] + c[x]) + d[x]);
+    weigh_four(a, b, c, d, width, line);
     repeat_ends(line, width);
     // Four results at a time: neighbors 2i - 1 and 2i with weights 1 and 3, then 2i + 1 and 2i + 2 with 3 and 1.
     int16_t* to = out.row(y);

@@ -17,6 +17,8 @@ class ReducedImage {
 
   int width() const { return width_; }
   int height() const { return height_; }
+  /// How far outside the image reading is allowed, px.
+  int rim() const { return rim_rows_ - 1; }
   /// Numbers from one row to the next, a multiple of 8.
   int stride() const { return stride_; }
   int16_t* row(int y) { return data_.data() + offset(y); }

@@ -1,10 +1,11 @@
 #include "vision/stereo/disparity.h"
 
-#include <array>
+#include <algorithm>
 #include <cstdlib>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace hedgehop::vision::stereo {
@@ -30,20 +31,40 @@ class Segments {
     }
     return segment;
   }
-  /// @return the root of what the two have become.
-  int join(int a, int b) {
-    a = root(a);
-    b = root(b);
-    if (a == b) return a;
-    parents_[static_cast<size_t>(b)] = a;
-    sizes_[static_cast<size_t>(a)] += sizes_[static_cast<size_t>(b)];
-    return a;
-  }
+  void join(int a, int b) { parents_[static_cast<size_t>(root(b))] = root(a); }
   int& size(int root) { return sizes_[static_cast<size_t>(root)]; }
 
  private:
   std::vector<int> parents_, sizes_;
 };
+
+constexpr int kNone = -1;
+
+/// Neighbors in one row that belong together.
+struct Run {
+  int row, begin, length, segment;
+};
+
+/// Joins the runs of a row with those that they touch in the row above, straight or across a corner.
+void join_rows(const cv::Mat& disparity16, int row, int difference16, const std::vector<int>& here,
+               const std::vector<int>& above, Segments& segments) {
+  const auto* const d = disparity16.ptr<int16_t>(row);
+  const auto* const upper = disparity16.ptr<int16_t>(row - 1);
+  const int width = disparity16.cols;
+  int last_here = kNone, last_above = kNone;  // joined last: most neighbors are those again
+  for (int u = 0; u < width; ++u) {
+    const int mine = here[static_cast<size_t>(u)];
+    if (mine == kNone) continue;
+    for (int n = std::max(0, u - 1); n <= std::min(width - 1, u + 1); ++n) {
+      const int theirs = above[static_cast<size_t>(n)];
+      if (theirs == kNone || (mine == last_here && theirs == last_above)) continue;
+      if (std::abs(d[u] - upper[n]) >= difference16) continue;
+      segments.join(mine, theirs);
+      last_here = mine;
+      last_above = theirs;
+    }
+  }
+}
 
 }  // namespace
 
@@ -62,35 +83,31 @@ void to_depth(const cv::Mat& disparity16, const StereoGeometry& geometry, cv::Ma
 
 int remove_specks(cv::Mat& disparity16, int difference16, int smallest_px) {
   need_disparity(disparity16);
-  constexpr int kNone = -1;
+  // Neighbors in a row make a run; runs that touch those of the row above make a segment.
   Segments segments;
-  std::vector<int> labels(disparity16.total(), kNone);
+  std::vector<Run> runs;
   const int width = disparity16.cols;
-  // Those of the eight neighbors that come earlier, line by line.
-  constexpr std::array<std::array<int, 2>, 4> kEarlier = {{{-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+  std::vector<int> above(static_cast<size_t>(width)), here(above);  // run of each pixel, kNone where unknown
   for (int v = 0; v < disparity16.rows; ++v) {
+    const auto* const d = disparity16.ptr<int16_t>(v);
     for (int u = 0; u < width; ++u) {
-      const int d = disparity16.at<int16_t>(v, u);
-      if (d < 0) continue;
-      int segment = kNone;
-      for (const auto& [du, dv] : kEarlier) {
-        const int nu = u + du, nv = v + dv;
-        if (nu < 0 || nu >= width || nv < 0) continue;
-        const int neighbor = disparity16.at<int16_t>(nv, nu);
-        if (neighbor < 0 || std::abs(d - neighbor) >= difference16) continue;
-        const int theirs = labels[static_cast<size_t>(nv * width + nu)];
-        segment = segment == kNone ? segments.root(theirs) : segments.join(segment, theirs);
-      }
-      if (segment == kNone) segment = segments.add();
-      ++segments.size(segment);
-      labels[static_cast<size_t>(v * width + u)] = segment;
+      const auto i = static_cast<size_t>(u);
+      here[i] = kNone;
+      if (d[u] < 0) continue;
+      const bool goes_on = u > 0 && d[u - 1] >= 0 && std::abs(d[u] - d[u - 1]) < difference16;
+      if (!goes_on) runs.push_back({v, u, 0, segments.add()});
+      ++runs.back().length;
+      here[i] = runs.back().segment;
     }
+    if (v > 0) join_rows(disparity16, v, difference16, here, above, segments);
+    std::swap(above, here);
   }
+  for (const Run& run : runs) segments.size(segments.root(run.segment)) += run.length;
   int removed = 0;
-  for (size_t i = 0; i < labels.size(); ++i) {
-    if (labels[i] == kNone || segments.size(segments.root(labels[i])) >= smallest_px) continue;
-    disparity16.at<int16_t>(static_cast<int>(i) / width, static_cast<int>(i) % width) = kNoDisparity;
-    ++removed;
+  for (const Run& run : runs) {
+    if (segments.size(segments.root(run.segment)) >= smallest_px) continue;
+    std::fill_n(disparity16.ptr<int16_t>(run.row) + run.begin, run.length, kNoDisparity);
+    removed += run.length;
   }
   return removed;
 }

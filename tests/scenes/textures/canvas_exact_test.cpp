@@ -1,0 +1,108 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "scenes/textures/canvas.h"
+
+/// Number by number against the same arithmetic written pixel by pixel: textures, and so flights, must not change.
+namespace hedgehop::scenes::textures {
+namespace {
+
+float eased(double at, int& node) {
+  node = static_cast<int>(at);
+  const double t = at - node;
+  return static_cast<float>(t * t * (3.0 - 2.0 * t));
+}
+
+/// One octave after another over the whole image.
+cv::Mat1f plain_noise(int size_px, const NoiseShape& shape, Random& random) {
+  cv::Mat1f sum(size_px, size_px, 0.0f);
+  float strength = 1.0f;
+  for (int octave = 0; octave < shape.octaves; ++octave) {
+    const int cells_u = shape.cells_u << octave, cells_v = shape.cells_v << octave;
+    if (cells_u > size_px || cells_v > size_px) break;
+    cv::Mat1f lattice(cells_v, cells_u);
+    for (float& node : lattice) node = static_cast<float>(uniform(random, -1.0, 1.0)) * strength;
+    const double phase_u = uniform(random, 0.0, 1.0), phase_v = uniform(random, 0.0, 1.0);
+    for (int r = 0; r < size_px; ++r) {
+      int row = 0, col = 0;
+      const float way_v = eased(static_cast<double>(r) * cells_v / size_px + phase_v, row);
+      for (int c = 0; c < size_px; ++c) {
+        const float way_u = eased(static_cast<double>(c) * cells_u / size_px + phase_u, col);
+        const auto across = [&](int at) {
+          const float *node = lattice[at % cells_v], from = node[col % cells_u];
+          return from + way_u * (node[(col + 1) % cells_u] - from);
+        };
+        sum(r, c) += across(row) + way_v * (across(row + 1) - across(row));
+      }
+    }
+    strength *= static_cast<float>(shape.gain);
+  }
+  double mean = 0.0, square = 0.0;
+  for (const float x : sum) {
+    mean += x;
+    square += static_cast<double>(x) * x;
+  }
+  mean /= static_cast<double>(sum.total());
+  const double deviation = std::sqrt(square / static_cast<double>(sum.total()) - mean * mean);
+  for (float& x : sum) x = static_cast<float>((x - mean) / deviation);
+  return sum;
+}
+
+TEST(CanvasExact, NoiseIsThatOfOneOctaveAfterAnother) {
+  for (const NoiseShape& shape : {NoiseShape{}, NoiseShape{3, 5, 9, 0.8}, NoiseShape{64, 16, 5, 1.0}}) {
+    for (const int size_px : {64, 200}) {
+      Random a(7), b(7);
+      const cv::Mat1f noise = fractal_noise(size_px, shape, a), plain = plain_noise(size_px, shape, b);
+      EXPECT_EQ(cv::norm(noise, plain, cv::NORM_INF), 0.0);
+      EXPECT_EQ(a(), b());
+    }
+  }
+}
+
+uint8_t rounded(float level) { return static_cast<uint8_t>(std::lround(255.0f * std::clamp(level, 0.0f, 1.0f))); }
+
+TEST(CanvasExact, LevelsAreRoundedHalfAwayFromZero) {
+  // Every level that lies half-way, what lies next to it on both sides, and what lies outside.
+  std::vector<float> levels = {-0.5f, -0.0f, 0.0f, 1.0f, 1.5f};
+  for (int k = 0; k < 255; ++k) {
+    const float half = (static_cast<float>(k) + 0.5f) / 255.0f;
+    for (const float level : {half, std::nextafter(half, 0.0f), std::nextafter(half, 1.0f)}) levels.push_back(level);
+  }
+  for (const float level : levels) {
+    const cv::Mat image = Canvas(4, 1.0, {level, 0.5f * level, 0.0f}).finished();
+    EXPECT_EQ(image.at<cv::Vec3b>(3, 2), cv::Vec3b(rounded(level), rounded(0.5f * level), 0)) << level;
+  }
+}
+
+TEST(CanvasExact, ShadeStainAndDiscAreThoseOfEveryPixelByItself) {
+  constexpr int kSizePx = 96;
+  constexpr double kTileM = 3.0, kPxPerM = kSizePx / kTileM;
+  const Color ground{0.4f, 0.5f, 0.6f}, rust{0.7f, 0.2f, 0.1f}, oil{0.05f, 0.1f, 0.02f};
+  Random random(3);
+  const cv::Mat1f noise = fractal_noise(kSizePx, {}, random);
+  for (int trial = 0; trial < 40; ++trial) {
+    const double x = uniform(random, 1.0, 2.0), y = uniform(random, 1.0, 2.0), radius = uniform(random, 0.005, 0.9);
+    Canvas canvas(kSizePx, kTileM, ground);
+    canvas.shade(noise, 0.4);
+    canvas.stain(noise, 0.2, 1.3, rust, 0.7);
+    canvas.disc(x, y, radius, oil, 0.8);
+    const cv::Mat image = canvas.finished();
+    for (int r = 0; r < kSizePx; ++r) {
+      for (int c = 0; c < kSizePx; ++c) {
+        Color pixel = ground * std::clamp(1.0f + 0.4f * noise(r, c), 0.3f, 1.7f);
+        const double way = std::clamp((noise(r, c) - 0.2) / 1.3, 0.0, 1.0);
+        pixel += (rust - pixel) * static_cast<float>(0.7 * way);
+        const double away_m = std::hypot((c + 0.5) / kPxPerM - x, (r + 0.5) / kPxPerM - y);
+        const double inside = std::clamp((radius - away_m) * kPxPerM + 0.5, 0.0, 1.0);
+        pixel += (oil - pixel) * static_cast<float>(0.8 * inside);
+        ASSERT_EQ(image.at<cv::Vec3b>(r, c), cv::Vec3b(rounded(pixel[0]), rounded(pixel[1]), rounded(pixel[2])));
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hedgehop::scenes::textures
