@@ -2,6 +2,7 @@
 
 #include "sim/render/tiles/frame.h"
 #include "sim/render/tiles/lanes.h"
+#include "sim/render/tiles/scene_view.h"
 #include "sim/render/tiles/set_up.h"
 
 namespace hedgehop::sim::tiles {
@@ -102,8 +103,8 @@ inline bool cover(Frame& frame, Tile* tiles, const SetUp& facet, const SamplePla
   const float middle = 3.5f * (w_right + w_down);
   bool shows = false;
   for (int row = top; row <= bottom; ++row) {
-    L4 at_first = edges.at_first + edges.right * (64 * int64_t{left} + sample.right) +
-                  edges.down * (64 * int64_t{row} + sample.down);
+    L4 at_first = edges.at_first + times(edges.right, 64 * left + sample.right) +
+                  times(edges.down, 64 * row + sample.down);
     Tile* tile = tiles + static_cast<size_t>(row) * static_cast<size_t>(frame.across) + left;
     for (int column = left; column <= right; ++column, ++tile, at_first += 64 * edges.right) {
       if (signs(at_first + most_inside) != 0) continue;
@@ -129,23 +130,46 @@ inline bool cover(Frame& frame, Tile* tiles, const SetUp& facet, const SamplePla
   return shows;
 }
 
-/// Draws facets, counted on from one of the scene's.
-inline void draw(Frame& frame, const FacetShape* shapes, uint32_t first, uint32_t count, uint32_t eye, double near_m) {
+/// Which of eight facets face the eye, or nearly so: set_up() decides.
+inline uint32_t facing(const FacetPlanes& planes, uint32_t first, const Eye& eye) {
+  const auto load = [first](const float* from) {
+    F8 numbers;
+    std::memcpy(&numbers, from + first, sizeof(numbers));
+    return numbers;
+  };
+  const auto part = [](double a) { return static_cast<float>(a); };
+  constexpr float kSpareM = 0.02f;  // more than floats lose within 100 km
+  const F8 above_m = load(planes.n_x) * part(eye.p_m[0]) + load(planes.n_y) * part(eye.p_m[1]) +
+                     load(planes.n_z) * part(eye.p_m[2]) - load(planes.offset_m);
+  return signs(above_m > -kSpareM);
+}
+
+inline void draw(Frame& frame, const FacetShape& shape, uint32_t facet, uint32_t eye, double near_m) {
   const SamplePlace* samples = frame.samples == 1 ? kOneSample : kFourSamples;
   const double spare_px = frame.samples == 1 ? 0.0 : 0.375;
   const size_t a_grid = static_cast<size_t>(frame.across) * static_cast<size_t>(frame.down);
-  for (uint32_t facet = first; facet < first + count; ++facet) {
-    SetUp set;
-    if (!set_up(shapes[facet], frame.eyes[eye], frame.lens, near_m, spare_px, set)) continue;
-    set.surface.facet = facet;
-    set.surface.eye = eye;
-    frame.surfaces[frame.surface_count] = set.surface;
-    bool shows = false;
-    for (int i = 0; i < frame.samples; ++i) {
-      shows |= cover(frame, frame.tiles + static_cast<size_t>(i) * a_grid, set, samples[i],
-                     static_cast<float>(1.0 / near_m), static_cast<uint32_t>(frame.surface_count));
+  SetUp set;
+  if (!set_up(shape, frame.eyes[eye], frame.lens, near_m, spare_px, set)) return;
+  set.surface.facet = facet;
+  set.surface.eye = eye;
+  frame.surfaces[frame.surface_count] = set.surface;
+  bool shows = false;
+  for (int i = 0; i < frame.samples; ++i) {
+    shows |= cover(frame, frame.tiles + static_cast<size_t>(i) * a_grid, set, samples[i],
+                   static_cast<float>(1.0 / near_m), static_cast<uint32_t>(frame.surface_count));
+  }
+  frame.surface_count += shows ? 1 : 0;
+}
+
+/// Draws facets, counted on from one of the scene's.
+inline void draw(Frame& frame, const SceneView& scene, uint32_t first, uint32_t count, uint32_t eye, double near_m) {
+  for (const uint32_t end = first + count; first < end; first += 8) {
+    uint32_t faces = facing(scene.planes_of_facets, first, frame.eyes[eye]);
+    if (end - first < 8) faces &= (1u << (end - first)) - 1;
+    for (; faces != 0; faces &= faces - 1) {
+      const uint32_t facet = first + static_cast<uint32_t>(__builtin_ctz(faces));
+      draw(frame, scene.shapes[facet], facet, eye, near_m);
     }
-    frame.surface_count += shows ? 1 : 0;
   }
 }
 

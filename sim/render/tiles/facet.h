@@ -10,14 +10,20 @@ struct FacetShape {
   float x_m[4], y_m[4], z_m[4];  ///< of the corners
 };
 
+/// The planes of facets, number by number: n . p = offset, n the outward unit normal.
+struct FacetPlanes {
+  const float *n_x, *n_y, *n_z, *offset_m;  ///< with room to read seven more
+};
+
 /// What a facet looks like. Texture coordinates and brightness are affine over its plane: a value at the first corner
-/// and a gradient along the plane.
-struct FacetCover {
-  double u, v, brightness;            ///< at the first corner; u, v in repeats, brightness a share of the albedo
-  double u_per_m[3], v_per_m[3], brightness_per_m[3];
+/// and a gradient along the plane. Fills a line of the cache.
+struct alignas(64) FacetCover {
+  float u, v, brightness;  ///< at the first corner; u, v in repeats, brightness a share of the albedo
+  float u_per_m[3], v_per_m[3], brightness_per_m[3];
   uint32_t texture;
   int32_t label;
   bool evenly_lit;  ///< brightness has no gradient
 };
+static_assert(sizeof(FacetCover) == 64);
 
 }  // namespace hedgehop::sim::tiles

@@ -97,11 +97,16 @@ void add(const Corners& corners, int32_t label, Facets& facets) {
     shape.y_m[i] = corners[i]->p_W[1];
     shape.z_m[i] = corners[i]->p_W[2];
   }
+  const Eigen::Vector3d n = plane.normal().normalized();
+  facets.n_x.push_back(static_cast<float>(n.x()));
+  facets.n_y.push_back(static_cast<float>(n.y()));
+  facets.n_z.push_back(static_cast<float>(n.z()));
+  facets.offset_m.push_back(static_cast<float>(n.dot(place(*corners[0]))));
   FacetCover& cover = facets.covers.emplace_back();
-  const auto set = [&](double (*value)(const DrawnVertex&), double& first, double (&per_m)[3]) {
-    first = value(*corners[0]);
+  const auto set = [&](double (*value)(const DrawnVertex&), float& first, float (&per_m)[3]) {
+    first = static_cast<float>(value(*corners[0]));
     const Eigen::Vector3d gradient = plane.gradient(values(half, value));
-    for (int i = 0; i < 3; ++i) per_m[i] = gradient[i];
+    for (int i = 0; i < 3; ++i) per_m[i] = static_cast<float>(gradient[i]);
   };
   set(u, cover.u, cover.u_per_m);
   set(v, cover.v, cover.v_per_m);
@@ -149,6 +154,10 @@ Facets make_facets(const SceneGeometry& geometry) {
     for (const scenes::Chunk& chunk : mover) add_chunk(chunk, label);
   }
   facets.of_triangle.back() = static_cast<uint32_t>(facets.shapes.size());
+  constexpr size_t kMoreToRead = 7;
+  for (auto* numbers : {&facets.n_x, &facets.n_y, &facets.n_z, &facets.offset_m}) {
+    numbers->resize(numbers->size() + kMoreToRead);
+  }
   return facets;
 }
 

@@ -26,7 +26,7 @@ inline void shade_surface(const SceneView& scene, const Frame& frame, uint32_t i
   const Surface& surface = frame.surfaces[index];
   Paint& paint = frame.paints[index];
   if (!paint.ready) paint = paint_of(scene, frame, surface);
-  shade(scene, patch_of(scene, frame, surface, paint, u, v, pixels), pixels, out);
+  shade(scene, frame, surface, paint, u, v, pixels, out);
 }
 
 /// @param inside  the tile's pixels that lie within the image.

@@ -17,7 +17,7 @@ struct Kernels {
   const char* lanes;  ///< what they are made for
 
   /// Draws facets into a frame that has room for as many surfaces. @param eye  into Frame::eyes.
-  void (*draw)(Frame& frame, const FacetShape* shapes, uint32_t first, uint32_t count, uint32_t eye, double near_m);
+  void (*draw)(Frame& frame, const SceneView& scene, uint32_t first, uint32_t count, uint32_t eye, double near_m);
 
   /// Makes the image. Several samples a pixel for grey and color only.
   void (*finish)(const SceneView& scene, Frame& frame, Raster raster, const Image& image);

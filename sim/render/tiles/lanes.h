@@ -59,6 +59,10 @@ inline I8 most(I8 a, I8 b) {
 /// To the nearest integer, ties to even. @param a  within +-2^31.
 inline I8 integers(F8 a) { return reinterpret_cast<I8>(_mm256_cvtps_epi32(a)); }
 inline F8 roots(F8 a) { return _mm256_sqrt_ps(a); }
+/// @param a  within +-2^31.
+inline L4 times(L4 a, int32_t b) {
+  return reinterpret_cast<L4>(_mm256_mul_epi32(reinterpret_cast<__m256i>(a), _mm256_set1_epi64x(b)));
+}
 /// The signs of lanes, lane 0 in the lowest bit.
 inline uint32_t signs(I8 a) {
   return static_cast<uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(reinterpret_cast<__m256i>(a))));
@@ -130,6 +134,7 @@ inline F8 roots(F8 a) {
   for (int i = 0; i < 8; ++i) result[i] = __builtin_sqrtf(a[i]);
   return result;
 }
+inline L4 times(L4 a, int32_t b) { return a * int64_t{b}; }
 inline uint32_t signs(I8 a) {
   uint32_t result = 0;
   for (int i = 0; i < 8; ++i) result |= static_cast<uint32_t>(a[i] < 0) << i;

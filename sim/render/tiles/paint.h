@@ -24,14 +24,15 @@ inline Paint paint_of(const SceneView& scene, const Frame& frame, const Surface&
   const FacetCover& cover = scene.covers[surface.facet];
   const Eye& eye = frame.eyes[surface.eye];
   const double to_eye[3] = {eye.p_m[0] - shape.x_m[0], eye.p_m[1] - shape.y_m[0], eye.p_m[2] - shape.z_m[0]};
-  const auto make = [&](double value, const double per_m[3], double unit) {
+  const auto make = [&](double value, const float per_m[3], double unit) {
     const double scaled[3] = {unit * per_m[0], unit * per_m[1], unit * per_m[2]};
     const double at_eye = unit * value + (scaled[0] * to_eye[0] + scaled[1] * to_eye[1] + scaled[2] * to_eye[2]);
     return over_z(at_eye, scaled, eye, surface.w, frame.lens);
   };
   const double a_repeat = 256.0 * scene.layout.size_px;
-  return {true, make(cover.u, cover.u_per_m, a_repeat), make(cover.v, cover.v_per_m, a_repeat),
-          make(cover.brightness, cover.brightness_per_m, 1.0)};
+  Paint paint{true, make(cover.u, cover.u_per_m, a_repeat), make(cover.v, cover.v_per_m, a_repeat), {}};
+  if (!cover.evenly_lit) paint.brightness = make(cover.brightness, cover.brightness_per_m, 1.0);
+  return paint;
 }
 
 /// The same function in a tile: at its first pixel, and a pixel on.
@@ -39,6 +40,8 @@ struct Slope {
   float at_first, right, down;
 
   F8 row(int row, F8 columns) const { return (at_first + static_cast<float>(row) * down) + columns * right; }
+  /// The same at pixels anywhere in the tile.
+  F8 at(F8 columns, F8 rows) const { return (at_first + rows * down) + columns * right; }
 };
 
 inline Slope slope(const Affine& f, double u, double v) {

@@ -40,6 +40,7 @@ struct SkyColors {
 /// A scene as kernels read it.
 struct SceneView {
   const FacetShape* shapes;
+  FacetPlanes planes_of_facets;
   const FacetCover* covers;
   TextureLayout layout;
   TexelPlane planes[3];  ///< grey in the first, or R, G, B

@@ -66,8 +66,7 @@ inline Range range(D4 a) {
 }
 
 /// Pixels between corners that all lie before the near plane.
-inline Extent extent_of(const Corners& p, const Lens& lens, double spare_px) {
-  const D4 per_z = 1.0 / p.z;
+inline Extent extent_of(const Corners& p, D4 per_z, const Lens& lens, double spare_px) {
   const Range u = range(lens.center_u_px + lens.focal_x_px * (p.x * per_z));
   const Range v = range(lens.center_v_px + lens.focal_y_px * (p.y * per_z));
   // Rounded so that a pixel's middle on the bound counts, whatever the last bits of the bound are.
@@ -104,7 +103,7 @@ inline Extent extent_at_near_plane(const Corners& p, const Lens& lens, double ne
               behind == 0 ? D4{y, y, p.y[k], p.y[k]} : D4{p.y[i], p.y[i], y, y},
               behind == 0 ? D4{near_m, near_m, p.z[k], p.z[k]} : D4{p.z[i], p.z[i], near_m, near_m}};
     }
-    const Extent part = extent_of(ends, lens, spare_px);
+    const Extent part = extent_of(ends, 1.0 / ends.z, lens, spare_px);
     whole.left = part.left < whole.left ? part.left : whole.left;
     whole.right = part.right > whole.right ? part.right : whole.right;
     whole.top = part.top < whole.top ? part.top : whole.top;
@@ -127,7 +126,8 @@ inline bool set_up(const FacetShape& shape, const Eye& eye, const Lens& lens, do
   const Range z = range(p.z);
   if (z.most < near_m) return false;
   const bool cut = z.least < near_m;
-  out.extent = cut ? extent_at_near_plane(p, lens, near_m, spare_px) : extent_of(p, lens, spare_px);
+  const D4 per_z = 1.0 / p.z;
+  out.extent = cut ? extent_at_near_plane(p, lens, near_m, spare_px) : extent_of(p, per_z, lens, spare_px);
   if (out.extent.left > out.extent.right || out.extent.top > out.extent.bottom) return false;
 
   const D4 a = ex * lens.per_focal_x, b = ey * lens.per_focal_y;
@@ -142,8 +142,9 @@ inline bool set_up(const FacetShape& shape, const Eye& eye, const Lens& lens, do
   w.right = nx * per_volume * lens.per_focal_x;
   w.down = ny * per_volume * lens.per_focal_y;
   w.at_origin = nz * per_volume - w.right * lens.center_u_px - w.down * lens.center_v_px;
-  out.farthest = static_cast<float>(1.0 / z.most);
-  out.nearest = cut ? __builtin_inff() : static_cast<float>(1.0 / z.least);
+  const Range w_range = range(per_z);
+  out.farthest = static_cast<float>(cut ? 1.0 / z.most : w_range.least);
+  out.nearest = cut ? __builtin_inff() : static_cast<float>(w_range.most);
   return true;
 }
 

@@ -32,14 +32,15 @@ struct Patch {
   int level;  ///< the larger of all its pixels' two, or -1
 };
 
+inline constexpr float kFineTo = 1 << 22;  ///< 1/256 texel
+
 /// Sees that floats tell a 64th of a texel: false where the tile's corners lie too far off, or beside the surface.
 /// @param level  the larger of the two sizes of the texture that all corners show, or -1.
 inline bool look_at_corners(const Patch& patch, int last, int& level) {
   const F8 columns = {0, 7, 0, 7, 0, 7, 0, 7}, rows = {0, 0, 7, 7, 0, 0, 7, 7};
   const auto at_corners = [&](const Slope& f) { return f.at_first + columns * f.right + rows * f.down; };
-  constexpr float kFar = 1 << 22;
   const F8 w = at_corners(patch.w), z = 1.0f / w, u = at_corners(patch.u) * z, v = at_corners(patch.v) * z;
-  const I8 fine = (w > 0.0f) & (most(magnitude(u), magnitude(v)) < kFar);
+  const I8 fine = (w > 0.0f) & (most(magnitude(u), magnitude(v)) < kFineTo);
   level = -1;
   if (signs(fine) != 0xff) return false;
   const I8 larger = levels(squared_span(patch.w, patch.u, patch.v, u, v, z), last).larger;
@@ -55,23 +56,16 @@ inline void move_to(double u, double v, double a_repeat, const Affine& w, Paint&
   move(paint.v);
 }
 
-/// @param u, v  the tile's first pixel. @param pixels  of it that show the surface, not 0.
-inline Patch patch_of(const SceneView& scene, const Frame& frame, const Surface& surface, Paint& paint, int u, int v,
-                      uint64_t pixels) {
+inline Patch patch_of(const SceneView& scene, const Frame& frame, const Surface& surface, const Paint& paint, int u,
+                      int v) {
   Patch patch;
   patch.cover = scene.covers + surface.facet;
   patch.w = slope(surface.w, u, v);
+  patch.u = slope(paint.u, u, v);
+  patch.v = slope(paint.v, u, v);
   if (!patch.cover->evenly_lit) patch.brightness = slope(paint.brightness, u, v);
   if (scene.sun.depths != nullptr) patch.sun = sun_slopes(scene, frame.lens, surface.w, u, v);
-  const auto set = [&] {
-    patch.u = slope(paint.u, u, v);
-    patch.v = slope(paint.v, u, v);
-    return look_at_corners(patch, scene.layout.last_level, patch.level);
-  };
-  if (set()) return patch;
-  const int any = __builtin_ctzll(pixels);
-  move_to(u + any % kTilePx, v + any / kTilePx, 256.0 * scene.layout.size_px, surface.w, paint);
-  set();
+  patch.level = -1;
   return patch;
 }
 
@@ -114,7 +108,7 @@ inline void look_where(const SceneView& scene, const Patch& patch, uint64_t pixe
     }
     taps_of_row.light = evenly;
     if (!patch.cover->evenly_lit) taps_of_row.light = patch.brightness.row(row, kColumns) * z;
-    if (scene.sun.depths != nullptr) taps_of_row.light = lit(scene.sun, patch.sun, row, z, taps_of_row.light);
+    if (scene.sun.depths != nullptr) taps_of_row.light = lit(scene.sun, patch.sun, kColumns, all(static_cast<float>(row)), z, taps_of_row.light);
   }
 }
 
@@ -126,10 +120,10 @@ inline uint64_t look_up(const uint16_t* texture, const RowTaps& taps_of_row) {
   return bytes(integers((level * kUnit + 128.0f) * taps_of_row.light));
 }
 
-/// Shades the pixels of a tile that show a surface; leaves the others. All places are found before any is looked up:
-/// memory is waited for once.
+/// Shades pixels row by row, the others are left. All places are found before any is looked up: memory is waited for
+/// once.
 template <int kPlanes>
-inline void shade(const SceneView& scene, const Patch& patch, uint64_t pixels, TileBytes (&out)[kPlanes]) {
+inline void shade_rows(const SceneView& scene, const Patch& patch, uint64_t pixels, TileBytes (&out)[kPlanes]) {
   RowTaps rows[kTilePx];
   if (patch.level >= 0) {
     look_where<true>(scene, patch, pixels, rows);
@@ -146,6 +140,82 @@ inline void shade(const SceneView& scene, const Patch& patch, uint64_t pixels, T
       kept = (kept & ~here) | (look_up(scene.planes[i].places + texture, rows[row]) & here);
     }
   }
+}
+
+/// Columns and rows of up to eight pixels of a tile; the lanes that are left show the first once more.
+struct Few {
+  int count;
+  uint8_t index[8];
+  F8 columns, rows;
+
+  explicit Few(uint64_t pixels) : count(0) {
+    const int any = __builtin_ctzll(pixels);
+    for (int i = 0; i < 8; ++i) {
+      index[i] = static_cast<uint8_t>(pixels != 0 ? __builtin_ctzll(pixels) : any);
+      count += pixels != 0 ? 1 : 0;
+      pixels &= pixels - 1;
+    }
+    const I8 places = {index[0], index[1], index[2], index[3], index[4], index[5], index[6], index[7]};
+    columns = floats(places & 7);
+    rows = floats(places >> 3);
+  }
+};
+
+/// Finds where few pixels look the texture up. @return false where floats do not tell a 64th of a texel.
+inline bool look_where(const SceneView& scene, const Patch& patch, const Few& few, RowTaps& out) {
+  const TextureLayout& layout = scene.layout;
+  const F8 z = 1.0f / patch.w.at(few.columns, few.rows);
+  const F8 u = patch.u.at(few.columns, few.rows) * z, v = patch.v.at(few.columns, few.rows) * z;
+  if (signs(most(magnitude(u), magnitude(v)) < kFineTo) != 0xff) return false;
+  const Places at{integers(u), integers(v)};
+  const Levels sizes = levels(squared_span(patch.w, patch.u, patch.v, u, v, z), layout.last_level);
+  out.share = sizes.share;
+  out.mixed = signs(sizes.share > 0.0f) != 0;
+  out.near = taps(layout, at, sizes.larger);
+  if (out.mixed) out.far = taps(layout, at, least(sizes.larger + 1, all(layout.last_level)));
+  out.light = all(static_cast<float>(patch.cover->brightness));
+  if (!patch.cover->evenly_lit) out.light = patch.brightness.at(few.columns, few.rows) * z;
+  if (scene.sun.depths != nullptr) out.light = lit(scene.sun, patch.sun, few.columns, few.rows, z, out.light);
+  return true;
+}
+
+template <int kPlanes>
+inline void shade_few(const SceneView& scene, const FacetCover& cover, const RowTaps& taps_of_few, const Few& few,
+                      TileBytes (&out)[kPlanes]) {
+  const size_t texture = cover.texture * scene.layout.places;
+  for (int i = 0; i < kPlanes; ++i) {
+    uint64_t levels = look_up(scene.planes[i].places + texture, taps_of_few);
+    uint8_t* const bytes = reinterpret_cast<uint8_t*>(out[i].rows);
+    for (int k = 0; k < few.count; ++k, levels >>= 8) bytes[few.index[k]] = static_cast<uint8_t>(levels);
+  }
+}
+
+/// Shades the pixels of a tile that show a surface; leaves the others.
+/// @param u, v  the tile's first pixel. @param pixels  not 0.
+template <int kPlanes>
+inline void shade(const SceneView& scene, const Frame& frame, const Surface& surface, Paint& paint, int u, int v,
+                  uint64_t pixels, TileBytes (&out)[kPlanes]) {
+  constexpr int kFew = 8;
+  const int any = __builtin_ctzll(pixels);
+  const auto move = [&] {
+    move_to(u + any % kTilePx, v + any / kTilePx, 256.0 * scene.layout.size_px, surface.w, paint);
+    return patch_of(scene, frame, surface, paint, u, v);
+  };
+  Patch patch = patch_of(scene, frame, surface, paint, u, v);
+  if (__builtin_popcountll(pixels) <= kFew) {
+    const Few few(pixels);
+    RowTaps taps_of_few{};
+    if (!look_where(scene, patch, few, taps_of_few)) {
+      patch = move();
+      if (!look_where(scene, patch, few, taps_of_few)) return shade_rows(scene, patch, pixels, out);
+    }
+    return shade_few(scene, *patch.cover, taps_of_few, few, out);
+  }
+  if (!look_at_corners(patch, scene.layout.last_level, patch.level)) {
+    patch = move();
+    look_at_corners(patch, scene.layout.last_level, patch.level);
+  }
+  shade_rows(scene, patch, pixels, out);
 }
 
 /// Shades the pixels of a tile that show the sky.

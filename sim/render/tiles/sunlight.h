@@ -25,13 +25,13 @@ inline SunSlopes sun_slopes(const SceneView& scene, const Lens& lens, const Affi
   return {make(scene.sun.from_W[0]), make(scene.sun.from_W[1]), make(scene.sun.from_W[2])};
 }
 
-/// Brightness of a row's pixels, the sun's part of it as much as reaches them: four comparisons, mixed.
-inline F8 lit(const SunDepths& sun, const SunSlopes& at, int row, F8 z, F8 brightness) {
+/// Brightness of pixels of a tile, the sun's part of it as much as reaches them: four comparisons, mixed.
+inline F8 lit(const SunDepths& sun, const SunSlopes& at, F8 columns, F8 rows, F8 z, F8 brightness) {
   const float last = static_cast<float>(sun.texels);
   const auto within = [&](F8 place) { return most(least(place, all(last)), all(-1.0f)); };
-  const F8 column = within(at.column.row(row, kColumns) * z), line = within(at.row.row(row, kColumns) * z);
+  const F8 column = within(at.column.at(columns, rows) * z), line = within(at.row.at(columns, rows) * z);
   constexpr float kRounding = 1e-5f;
-  const F8 depth = most(at.depth.row(row, kColumns) * z + kRounding, F8{});
+  const F8 depth = most(at.depth.at(columns, rows) * z + kRounding, F8{});
   const auto whole = [](F8 a) {
     const I8 nearest = integers(a);
     return nearest + (floats(nearest) > a);  // -1 where it was rounded up

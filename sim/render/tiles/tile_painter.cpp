@@ -42,6 +42,7 @@ TilePainter::TilePainter(const scenes::Scene& scene, Culling culling, Shadows sh
       memory_(facets_.shapes.size()) {
   for (const scenes::Mover& mover : scene.movers) motions_.push_back(mover.motion);
   view_.shapes = facets_.shapes.data();
+  view_.planes_of_facets = facets_.planes();
   view_.covers = facets_.covers.data();
   view_.layout = texels_.layout();
   if (shadows == Shadows::sun) view_.sun = draw_sun_depths(geometry_, scene.lights, sun_depths_);
@@ -87,7 +88,7 @@ void TilePainter::paint(const vision::camera::PinholeCamera& camera, const Paint
 void TilePainter::draw(const scenes::Chunk& stretch, uint32_t eye) {
   const Facets::Range range = facets_.range(stretch.first_index, stretch.index_count);
   memory_.make_room(range.count);
-  kernels_.draw(memory_.frame(), facets_.shapes.data(), range.first, range.count, eye, kNearPlaneM);
+  kernels_.draw(memory_.frame(), view_, range.first, range.count, eye, kNearPlaneM);
   ++count_.stretches;
   count_.triangles += stretch.index_count / 3;
 }
