@@ -61,8 +61,7 @@ std::optional<CornerDetector> detector_of(const CameraConfig& camera, const scen
 
 Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, const DrawingConfig& drawing,
                  uint64_t seed)
-    : renderer_(scene, Culling::frustum_and_horizon,
-                context_kind(drawing.context),
+    : renderer_(scene, Culling::frustum_and_horizon, context_kind(drawing.context),
                 drawing.shadows ? Shadows::sun : Shadows::none) {
   for (const scenes::Mover& mover : scene.movers) movers_.push_back(mover.motion);
   for (const CameraConfig& camera : rig.cameras) {

@@ -23,8 +23,8 @@ class GlContext {
   GlFunctions gl_;  ///< for load_gl() in the constructor
 };
 
-/// @param kind  osmesa or egl. Throws std::runtime_error with the cause when there is no such context or an entry point is missing. Mesa's
-/// rasterizer threads are switched off unless the environment has LP_NUM_THREADS.
+/// @param kind  osmesa or egl. Throws std::runtime_error with the cause when there is no such context or an entry point
+/// is missing. Mesa's rasterizer threads are switched off unless the environment has LP_NUM_THREADS.
 std::unique_ptr<GlContext> make_context(ContextKind kind);
 
 }  // namespace hedgehop::sim

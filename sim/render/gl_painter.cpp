@@ -63,12 +63,13 @@ GlPainter::GlPainter(const scenes::Scene& scene, Culling culling, ContextKind co
   gl_.FrontFace(GL_CW);  // counter-clockwise in the image, whose rows run down, is clockwise in OpenGL's window
   gl_.DepthFunc(GL_GEQUAL);
   gl_.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  if (shadows == Shadows::sun) light_by(draw_sun_map(gl_, geometry_.chunks, scene.lights.to_sun_W), scene.lights.ambient);
+  if (shadows == Shadows::sun)
+    light_by(draw_sun_map(gl_, geometry_.chunks, scene.lights.to_sun_W), scene.lights.ambient);
   check_gl(gl_, "setting the context up");
 }
 
 void GlPainter::paint(const vision::camera::PinholeCamera& camera, const Eye& eye, Raster raster, int samples,
-                         cv::Mat& out) {
+                      cv::Mat& out) {
   context_->make_current();
   targets_.bind(gl_, {camera.width_px, camera.height_px, raster, samples});
   const float farthest = 0.0f;
@@ -129,7 +130,7 @@ void GlPainter::set_eye(const Program& program, const Eigen::Isometry3d& X_WC, c
 }
 
 void GlPainter::draw_scene(const vision::camera::PinholeCamera& camera, const Eye& eye, const Program& program,
-                              bool labeled) {
+                           bool labeled) {
   const Eigen::Matrix3f R_CW = eye.X_WC.linear().transpose().cast<float>();
   gl_.UseProgram(program.id);
   set_eye(program, eye.X_WC, Eigen::Vector3d::Zero());

@@ -42,7 +42,8 @@ size_t chunk_count(const scenes::Scene& scene) {
 class Renderer::Impl {
  public:
   Impl(const scenes::Scene& scene, Culling culling, ContextKind context, Shadows shadows)
-      : painter_(make_painter(scene, culling, context, shadows)), first_mover_label_(static_cast<int>(1 + chunk_count(scene))) {
+      : painter_(make_painter(scene, culling, context, shadows)),
+        first_mover_label_(static_cast<int>(1 + chunk_count(scene))) {
     for (const scenes::Mover& mover : scene.movers) motions_.push_back(mover.motion);
   }
 

@@ -27,7 +27,8 @@ void upload_meshes(const GlFunctions& gl, const SceneGeometry& geometry) {
                 GL_STATIC_DRAW);
   const auto attribute = [&](GLuint index, GLint floats, size_t offset) {
     gl.EnableVertexAttribArray(index);
-    gl.VertexAttribPointer(index, floats, GL_FLOAT, GL_FALSE, sizeof(DrawnVertex), reinterpret_cast<const void*>(offset));
+    gl.VertexAttribPointer(index, floats, GL_FLOAT, GL_FALSE, sizeof(DrawnVertex),
+                           reinterpret_cast<const void*>(offset));
   };
   attribute(kPositionAttribute, 3, offsetof(DrawnVertex, p_W));
   attribute(kSurfaceAttribute, 4, offsetof(DrawnVertex, uv));

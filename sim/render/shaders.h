@@ -1,7 +1,7 @@
 #pragma once
 
-#include "sim/render/gl_functions.h"
 #include "sim/render/context_kind.h"
+#include "sim/render/gl_functions.h"
 
 namespace hedgehop::sim {
 

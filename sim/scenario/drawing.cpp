@@ -18,7 +18,8 @@ DrawingConfig::Context context_from_environment() {
   if (name.empty() || name == "osmesa") return osmesa;
   if (name == "egl") return egl;
   if (name == "tiles") return tiles;
-  throw InputError(fmt::format("environment variable HEDGEHOP_GL: '{}' draws nothing; valid: osmesa, egl, tiles", name));
+  throw InputError(
+      fmt::format("environment variable HEDGEHOP_GL: '{}' draws nothing; valid: osmesa, egl, tiles", name));
 }
 
 }  // namespace

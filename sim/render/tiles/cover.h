@@ -103,8 +103,8 @@ inline bool cover(Frame& frame, Tile* tiles, const SetUp& facet, const SamplePla
   const float middle = 3.5f * (w_right + w_down);
   bool shows = false;
   for (int row = top; row <= bottom; ++row) {
-    L4 at_first = edges.at_first + times(edges.right, 64 * left + sample.right) +
-                  times(edges.down, 64 * row + sample.down);
+    L4 at_first =
+        edges.at_first + times(edges.right, 64 * left + sample.right) + times(edges.down, 64 * row + sample.down);
     Tile* tile = tiles + static_cast<size_t>(row) * static_cast<size_t>(frame.across) + left;
     for (int column = left; column <= right; ++column, ++tile, at_first += 64 * edges.right) {
       if (signs(at_first + most_inside) != 0) continue;

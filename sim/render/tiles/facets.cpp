@@ -103,7 +103,7 @@ void add(const Corners& corners, int32_t label, Facets& facets) {
   facets.n_z.push_back(static_cast<float>(n.z()));
   facets.offset_m.push_back(static_cast<float>(n.dot(place(*corners[0]))));
   FacetCover& cover = facets.covers.emplace_back();
-  const auto set = [&](double (*value)(const DrawnVertex&), float& first, float (&per_m)[3]) {
+  const auto set = [&](double (*value)(const DrawnVertex&), float& first, float(&per_m)[3]) {
     first = static_cast<float>(value(*corners[0]));
     const Eigen::Vector3d gradient = plane.gradient(values(half, value));
     for (int i = 0; i < 3; ++i) per_m[i] = static_cast<float>(gradient[i]);
@@ -113,12 +113,12 @@ void add(const Corners& corners, int32_t label, Facets& facets) {
   set(brightness, cover.brightness, cover.brightness_per_m);
   cover.texture = static_cast<uint32_t>(corners[0]->layer);
   cover.label = label;
-  cover.evenly_lit = brightness(*corners[0]) == brightness(*corners[1]) &&
-                     brightness(*corners[0]) == brightness(*corners[2]);
+  cover.evenly_lit =
+      brightness(*corners[0]) == brightness(*corners[1]) && brightness(*corners[0]) == brightness(*corners[2]);
 }
 
-void add_stretch(const SceneGeometry& geometry, uint32_t first_index, uint32_t index_count, bool in_pairs, int32_t label,
-                 Facets& facets) {
+void add_stretch(const SceneGeometry& geometry, uint32_t first_index, uint32_t index_count, bool in_pairs,
+                 int32_t label, Facets& facets) {
   const auto triangle = [&](uint32_t index) -> Triangle {
     const auto corner = [&](uint32_t i) { return &geometry.vertices[geometry.indices[index + i]]; };
     return {corner(0), corner(1), corner(2)};

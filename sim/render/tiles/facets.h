@@ -11,9 +11,9 @@ namespace hedgehop::sim::tiles {
 /// one facet of four corners.
 struct Facets {
   std::vector<FacetShape> shapes;
-  std::vector<FacetCover> covers;     ///< likewise
+  std::vector<FacetCover> covers;              ///< likewise
   std::vector<float> n_x, n_y, n_z, offset_m;  ///< likewise, and seven more
-  std::vector<uint32_t> of_triangle;  ///< number of facets before each triangle, and of all of them
+  std::vector<uint32_t> of_triangle;           ///< number of facets before each triangle, and of all of them
 
   FacetPlanes planes() const { return {n_x.data(), n_y.data(), n_z.data(), offset_m.data()}; }
 

@@ -147,8 +147,7 @@ inline void shade_image(const SceneView& scene, const Frame& frame, const Image&
   for (int row = 0; row < frame.down; ++row) {
     for (int column = 0; column < frame.across; ++column) {
       const Window window = window_of(frame, image, column, row, kPlanes);
-      const uint64_t inside =
-          ~beyond(frame.lens.width_px - kTilePx * column, frame.lens.height_px - kTilePx * row);
+      const uint64_t inside = ~beyond(frame.lens.width_px - kTilePx * column, frame.lens.height_px - kTilePx * row);
       TileBytes out[kPlanes];
       if (frame.samples == 1) {
         shade_tile(scene, frame, column, row, inside, out);

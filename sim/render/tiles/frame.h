@@ -72,7 +72,7 @@ struct Frame {
   Tile* tiles;  ///< grid by grid, row by row
   Eye* eyes;
   Surface* surfaces;  ///< with room for those of the facets that are drawn next
-  Paint* paints;  ///< of the surfaces
+  Paint* paints;      ///< of the surfaces
   size_t surface_count;
   Layer* pool;
   FrameMemory* memory;  ///< that all of it lies in
@@ -85,7 +85,8 @@ inline const Layer* layers(const Frame& frame, const Tile& tile) {
   return tile.capacity == kOwnLayers ? tile.own : frame.pool + tile.first;
 }
 
-/// Bits of the pixels of a tile that lie beyond an image of which `columns` and `rows` are left from its first pixel on.
+/// Bits of the pixels of a tile that lie beyond an image of which `columns` and `rows` are left from its first pixel
+/// on.
 inline uint64_t beyond(int columns, int rows) {
   const uint64_t row = columns >= kTilePx ? 0u : 0xffu & (0xffu << columns);
   uint64_t pixels = row * 0x0101010101010101u;

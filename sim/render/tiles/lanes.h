@@ -87,7 +87,8 @@ inline I8 gather(const uint16_t* from, I8 places) {
     return _mm_unpacklo_epi64(left, right);
   };
   const auto at = reinterpret_cast<__m256i>(places);
-  return reinterpret_cast<I8>(_mm256_set_m128i(half(_mm256_extracti128_si256(at, 1)), half(_mm256_castsi256_si128(at))));
+  return reinterpret_cast<I8>(
+      _mm256_set_m128i(half(_mm256_extracti128_si256(at, 1)), half(_mm256_castsi256_si128(at))));
 }
 inline F8 gather(const float* from, I8 places) {
   return _mm256_i32gather_ps(from, reinterpret_cast<__m256i>(places), 4);
@@ -103,9 +104,38 @@ inline I8 look_up(const int32_t table[16], I8 i) {
 /// upper), (right, lower). @param right, down  0..255, of 255. @return in 1 / 65025.
 inline I8 mix(I8 texels, I8 right, I8 down) {
   const I8 a_side = (255 - down) | down << 8;
-  const auto columns = _mm256_maddubs_epi16(reinterpret_cast<__m256i>(a_side | a_side << 16),
-                                            reinterpret_cast<__m256i>(texels));
+  const auto columns =
+      _mm256_maddubs_epi16(reinterpret_cast<__m256i>(a_side | a_side << 16), reinterpret_cast<__m256i>(texels));
   return reinterpret_cast<I8>(_mm256_madd_epi16(columns, reinterpret_cast<__m256i>((255 - right) | right << 16)));
+}
+/// The same of three channels: texels of four bytes, each 128 less than it is, the last byte of no meaning, followed by
+/// their right neighbor.
+/// @param upper, lower  of the left texels. @param sums  of each channel.
+inline void mix(const uint32_t* texels, I8 upper, I8 lower, I8 right, I8 down, I8 (&sums)[3]) {
+  const I8 a_side = (255 - down) | down << 8;
+  const auto rows = reinterpret_cast<__m256i>(a_side | a_side << 16);
+  const auto columns = reinterpret_cast<__m256i>((255 - right) | right << 16);
+  const auto two = [texels](int32_t above, int32_t below) {  // from each row
+    const auto* const from = reinterpret_cast<const __m128i*>(texels + above);
+    const __m128d left = _mm_castsi128_pd(_mm_loadl_epi64(from));
+    return _mm_castpd_si128(_mm_loadh_pd(left, reinterpret_cast<const double*>(texels + below)));
+  };
+  // Upper and lower, left and right of a channel side by side.
+  const __m256i order =
+      _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 8, 4, 12, 1, 9, 5, 13, 2, 10, 6, 14, 3, 11, 7, 15));
+  __m256i mixed[4];  // channels of lanes k and k + 4
+  for (int k = 0; k < 4; ++k) {
+    const __m256i lanes = _mm256_setr_epi32(k, k, k, k, k + 4, k + 4, k + 4, k + 4);
+    const __m256i four =
+        _mm256_shuffle_epi8(_mm256_set_m128i(two(upper[k + 4], lower[k + 4]), two(upper[k], lower[k])), order);
+    mixed[k] = _mm256_madd_epi16(_mm256_maddubs_epi16(_mm256_permutevar8x32_epi32(rows, lanes), four),
+                                 _mm256_permutevar8x32_epi32(columns, lanes));
+  }
+  const __m256i a = _mm256_unpacklo_epi32(mixed[0], mixed[1]), b = _mm256_unpacklo_epi32(mixed[2], mixed[3]);
+  const __m256i c = _mm256_unpackhi_epi32(mixed[0], mixed[1]), d = _mm256_unpackhi_epi32(mixed[2], mixed[3]);
+  sums[0] = reinterpret_cast<I8>(_mm256_unpacklo_epi64(a, b));
+  sums[1] = reinterpret_cast<I8>(_mm256_unpackhi_epi64(a, b));
+  sums[2] = reinterpret_cast<I8>(_mm256_unpacklo_epi64(c, d));
 }
 /// Eight lanes as bytes, lane 0 in the lowest; the nearest of 0..255.
 inline uint64_t bytes(I8 a) {
@@ -174,6 +204,15 @@ inline I8 mix(I8 texels, I8 right, I8 down) {
                 (t[2] * (255 - down[i]) + t[3] * down[i]) * right[i];
   }
   return result;
+}
+inline void mix(const uint32_t* texels, I8 upper, I8 lower, I8 right, I8 down, I8 (&sums)[3]) {
+  for (int i = 0; i < 8; ++i) {
+    for (int channel = 0; channel < 3; ++channel) {
+      const auto level = [&](int32_t at) { return static_cast<int8_t>(texels[at] >> 8 * channel); };
+      sums[channel][i] = (level(upper[i]) * (255 - down[i]) + level(lower[i]) * down[i]) * (255 - right[i]) +
+                         (level(upper[i] + 1) * (255 - down[i]) + level(lower[i] + 1) * down[i]) * right[i];
+    }
+  }
 }
 inline uint64_t bytes(I8 a) {
   uint64_t result = 0;

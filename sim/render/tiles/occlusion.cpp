@@ -60,12 +60,14 @@ bool hides(const Frame& frame, const Eye& eye, const Eigen::AlignedBox3f& box, d
   const auto nearest = static_cast<float>((1.0 + kSpareShare) / nearest_m);
   for (int grid = 0; grid < frame.samples; ++grid) {
     for (int row = upper; row <= lower; ++row) {
-      const Tile* const tiles = frame.tiles + (static_cast<size_t>(grid) * static_cast<size_t>(frame.down) +
-                                               static_cast<size_t>(row)) * static_cast<size_t>(frame.across);
+      const Tile* const tiles =
+          frame.tiles + (static_cast<size_t>(grid) * static_cast<size_t>(frame.down) + static_cast<size_t>(row)) *
+                            static_cast<size_t>(frame.across);
       for (int column = first; column <= last; ++column) {
         const Tile& tile = tiles[column];
         if (tile.farthest > nearest) continue;
-        const uint64_t asked = within(left - kSparePx, right + kSparePx, top - kSparePx, bottom + kSparePx, column, row);
+        const uint64_t asked =
+            within(left - kSparePx, right + kSparePx, top - kSparePx, bottom + kSparePx, column, row);
         if (!hides(frame, tile, asked, nearest)) return false;
       }
     }

@@ -9,18 +9,19 @@ namespace hedgehop::sim::tiles {
 
 inline constexpr int kMostLevels = 16;
 
-/// Textures at all their sizes, of one channel: plain data, for kernels. A 16-bit place holds a texel and, in its upper
-/// byte, the one below, each 128 less than it is; a row has one place more than texels, which holds the first ones
-/// again. Thirty-two bits from a place on are four neighbors, then.
-struct TexelPlane {
-  const uint16_t* places;  ///< texture by texture, each from its largest size to one texel
+/// Textures at all their sizes, texture by texture, each from its largest size to one texel: plain data, for kernels.
+/// Levels are 128 less than they are. A row has one place more than texels, which holds the first once again.
+struct Texels {
+  /// A texel and, in the upper byte, the one below: thirty-two bits from a place on are four neighbors.
+  const uint16_t* greys;
+  const uint32_t* colors;  ///< R, G, B from the lowest byte on
 };
 
 /// How the places of a texture lie.
 struct TextureLayout {
   int size_px, size_log2, last_level;
-  size_t places;                    ///< of a texture
-  int32_t first[kMostLevels];       ///< place of each level
+  size_t places;               ///< of a texture
+  int32_t first[kMostLevels];  ///< place of each level
 };
 
 /// Where the sun shines: the depth of what stands still, seen from the sun, 1 nearest to it and 0 farthest, in a border
@@ -43,11 +44,11 @@ struct SceneView {
   FacetPlanes planes_of_facets;
   const FacetCover* covers;
   TextureLayout layout;
-  TexelPlane planes[3];  ///< grey in the first, or R, G, B
+  Texels texels;  ///< greys or colors, whatever is drawn
   SkyColors sky;
   SunDepths sun;
-  double p_WC[3];     ///< eye of the image, m
-  double R_WC[9];     ///< row by row
+  double p_WC[3];  ///< eye of the image, m
+  double R_WC[9];  ///< row by row
 };
 
 }  // namespace hedgehop::sim::tiles

@@ -10,8 +10,8 @@ namespace {
 /// Which pixels lie within a facet's edges. An edge is an affine function of the pixel, at least 0 inside, in integers,
 /// so that facets on both sides of an edge, whose functions differ in sign alone, share no pixel and leave none out.
 struct Edges {
-  L4 at_first;        ///< at pixel (0, 0)
-  L4 right, down;     ///< a change of it, an eighth of a pixel on: below 2^24
+  L4 at_first;     ///< at pixel (0, 0)
+  L4 right, down;  ///< a change of it, an eighth of a pixel on: below 2^24
 };
 
 /// Pixels that a facet may cover, both ends included.
@@ -46,7 +46,7 @@ inline Edges quantized(D4 a, D4 b, D4 c) {
   // 2^(23 - exponent), from the exponent's bits; an eighth of a pixel is a power of two as well.
   const L4 exponent = reinterpret_cast<L4>(larger) >> 52;
   const D4 scale = reinterpret_cast<D4>((2046 + 23 - exponent) << 52);
-  const L4 none = larger == 0.0;  // two corners in one, or an edge at infinity
+  const L4 none = larger == 0.0;             // two corners in one, or an edge at infinity
   const D4 limit = all(1125899906842624.0);  // 2^50, far outside of any image
   const D4 finite = most(least(c * scale * 8.0, limit), -limit);
   const D4 constant = pick(none, pick(c < 0.0, -limit, limit), finite);

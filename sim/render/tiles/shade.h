@@ -74,11 +74,11 @@ struct RowTaps {
   Taps near, far;  ///< in the larger and in the smaller size
   F8 share;        ///< of the smaller
   F8 light;
-  bool mixed;      ///< whether any share is above 0
+  bool mixed;  ///< whether any share is above 0
 };
 
 /// @tparam kCommon  whether the tile has one level. Two rows share their levels, as in Mesa's rasteriser.
-template <bool kCommon>
+template <int kPlanes, bool kCommon>
 inline void look_where(const SceneView& scene, const Patch& patch, uint64_t pixels, RowTaps (&rows)[kTilePx]) {
   const TextureLayout& layout = scene.layout;
   const F8 far_off = all(1e9f), evenly = all(static_cast<float>(patch.cover->brightness));
@@ -101,23 +101,32 @@ inline void look_where(const SceneView& scene, const Patch& patch, uint64_t pixe
     RowTaps& taps_of_row = rows[row];
     taps_of_row.share = sizes.share;
     taps_of_row.mixed = mixed;
-    taps_of_row.near = kCommon ? taps(layout, at, patch.level) : taps(layout, at, sizes.larger);
+    taps_of_row.near = kCommon ? taps<kPlanes>(layout, at, patch.level) : taps<kPlanes>(layout, at, sizes.larger);
     if (mixed) {
-      taps_of_row.far =
-          kCommon ? taps(layout, at, patch.level + 1) : taps(layout, at, least(sizes.larger + 1, all(layout.last_level)));
+      const I8 smaller = least(sizes.larger + 1, all(layout.last_level));
+      taps_of_row.far = kCommon ? taps<kPlanes>(layout, at, patch.level + 1) : taps<kPlanes>(layout, at, smaller);
     }
     taps_of_row.light = evenly;
     if (!patch.cover->evenly_lit) taps_of_row.light = patch.brightness.row(row, kColumns) * z;
-    if (scene.sun.depths != nullptr) taps_of_row.light = lit(scene.sun, patch.sun, kColumns, all(static_cast<float>(row)), z, taps_of_row.light);
+    if (scene.sun.depths != nullptr)
+      taps_of_row.light = lit(scene.sun, patch.sun, kColumns, all(static_cast<float>(row)), z, taps_of_row.light);
   }
 }
 
-/// Levels of a row's pixels, 0..255.
-inline uint64_t look_up(const uint16_t* texture, const RowTaps& taps_of_row) {
+/// Levels of eight pixels, 0..255.
+template <int kPlanes>
+inline void look_up(const SceneView& scene, const FacetCover& cover, const RowTaps& where,
+                    uint64_t (&levels)[kPlanes]) {
   constexpr float kUnit = 1.0f / 65025.0f;
-  F8 level = floats(fetch(texture, taps_of_row.near));
-  if (taps_of_row.mixed) level += (floats(fetch(texture, taps_of_row.far)) - level) * taps_of_row.share;
-  return bytes(integers((level * kUnit + 128.0f) * taps_of_row.light));
+  const size_t texture = cover.texture * scene.layout.places;
+  I8 near[kPlanes], far[kPlanes];
+  fetch(scene.texels, texture, where.near, near);
+  if (where.mixed) fetch(scene.texels, texture, where.far, far);
+  for (int i = 0; i < kPlanes; ++i) {
+    F8 level = floats(near[i]);
+    if (where.mixed) level += (floats(far[i]) - level) * where.share;
+    levels[i] = bytes(integers((level * kUnit + 128.0f) * where.light));
+  }
 }
 
 /// Shades pixels row by row, the others are left. All places are found before any is looked up: memory is waited for
@@ -126,19 +135,17 @@ template <int kPlanes>
 inline void shade_rows(const SceneView& scene, const Patch& patch, uint64_t pixels, TileBytes (&out)[kPlanes]) {
   RowTaps rows[kTilePx];
   if (patch.level >= 0) {
-    look_where<true>(scene, patch, pixels, rows);
+    look_where<kPlanes, true>(scene, patch, pixels, rows);
   } else {
-    look_where<false>(scene, patch, pixels, rows);
+    look_where<kPlanes, false>(scene, patch, pixels, rows);
   }
-  const size_t texture = patch.cover->texture * scene.layout.places;
-  for (int i = 0; i < kPlanes; ++i) {
-    for (int row = 0; row < kTilePx; ++row) {
-      const uint32_t shown = row_of(pixels, row);
-      if (shown == 0) continue;
-      const uint64_t here = kSpread.bytes[shown];
-      uint64_t& kept = out[i].rows[row];
-      kept = (kept & ~here) | (look_up(scene.planes[i].places + texture, rows[row]) & here);
-    }
+  for (int row = 0; row < kTilePx; ++row) {
+    const uint32_t shown = row_of(pixels, row);
+    if (shown == 0) continue;
+    const uint64_t here = kSpread.bytes[shown];
+    uint64_t levels[kPlanes];
+    look_up(scene, *patch.cover, rows[row], levels);
+    for (int i = 0; i < kPlanes; ++i) out[i].rows[row] = (out[i].rows[row] & ~here) | (levels[i] & here);
   }
 }
 
@@ -162,6 +169,7 @@ struct Few {
 };
 
 /// Finds where few pixels look the texture up. @return false where floats do not tell a 64th of a texel.
+template <int kPlanes>
 inline bool look_where(const SceneView& scene, const Patch& patch, const Few& few, RowTaps& out) {
   const TextureLayout& layout = scene.layout;
   const F8 z = 1.0f / patch.w.at(few.columns, few.rows);
@@ -171,8 +179,8 @@ inline bool look_where(const SceneView& scene, const Patch& patch, const Few& fe
   const Levels sizes = levels(squared_span(patch.w, patch.u, patch.v, u, v, z), layout.last_level);
   out.share = sizes.share;
   out.mixed = signs(sizes.share > 0.0f) != 0;
-  out.near = taps(layout, at, sizes.larger);
-  if (out.mixed) out.far = taps(layout, at, least(sizes.larger + 1, all(layout.last_level)));
+  out.near = taps<kPlanes>(layout, at, sizes.larger);
+  if (out.mixed) out.far = taps<kPlanes>(layout, at, least(sizes.larger + 1, all(layout.last_level)));
   out.light = all(static_cast<float>(patch.cover->brightness));
   if (!patch.cover->evenly_lit) out.light = patch.brightness.at(few.columns, few.rows) * z;
   if (scene.sun.depths != nullptr) out.light = lit(scene.sun, patch.sun, few.columns, few.rows, z, out.light);
@@ -182,11 +190,11 @@ inline bool look_where(const SceneView& scene, const Patch& patch, const Few& fe
 template <int kPlanes>
 inline void shade_few(const SceneView& scene, const FacetCover& cover, const RowTaps& taps_of_few, const Few& few,
                       TileBytes (&out)[kPlanes]) {
-  const size_t texture = cover.texture * scene.layout.places;
+  uint64_t levels[kPlanes];
+  look_up(scene, cover, taps_of_few, levels);
   for (int i = 0; i < kPlanes; ++i) {
-    uint64_t levels = look_up(scene.planes[i].places + texture, taps_of_few);
     uint8_t* const bytes = reinterpret_cast<uint8_t*>(out[i].rows);
-    for (int k = 0; k < few.count; ++k, levels >>= 8) bytes[few.index[k]] = static_cast<uint8_t>(levels);
+    for (int k = 0; k < few.count; ++k, levels[i] >>= 8) bytes[few.index[k]] = static_cast<uint8_t>(levels[i]);
   }
 }
 
@@ -205,9 +213,9 @@ inline void shade(const SceneView& scene, const Frame& frame, const Surface& sur
   if (__builtin_popcountll(pixels) <= kFew) {
     const Few few(pixels);
     RowTaps taps_of_few{};
-    if (!look_where(scene, patch, few, taps_of_few)) {
+    if (!look_where<kPlanes>(scene, patch, few, taps_of_few)) {
       patch = move();
-      if (!look_where(scene, patch, few, taps_of_few)) return shade_rows(scene, patch, pixels, out);
+      if (!look_where<kPlanes>(scene, patch, few, taps_of_few)) return shade_rows(scene, patch, pixels, out);
     }
     return shade_few(scene, *patch.cover, taps_of_few, few, out);
   }

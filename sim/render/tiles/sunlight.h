@@ -40,9 +40,7 @@ inline F8 lit(const SunDepths& sun, const SunSlopes& at, F8 columns, F8 rows, F8
   const F8 right = column - floats(x), down = line - floats(y);
   const int stride = sun.texels + 2;
   const I8 place = (y + 1) * stride + (x + 1);
-  const auto open = [&](I8 where) {
-    return pick(depth >= gather(sun.depths, where), all(1.0f), F8{});
-  };
+  const auto open = [&](I8 where) { return pick(depth >= gather(sun.depths, where), all(1.0f), F8{}); };
   const F8 left_share = open(place) + (open(place + stride) - open(place)) * down;
   const F8 right_share = open(place + 1) + (open(place + (stride + 1)) - open(place + 1)) * down;
   const F8 share = left_share + (right_share - left_share) * right;

@@ -7,17 +7,15 @@ namespace hedgehop::sim::tiles {
 namespace {
 
 /// Sums of an image's pixels over the squares that a level's texels cover: exact, and so the same everywhere.
-using SumsOfLevel = std::vector<uint64_t>;
+using SumsOfLevel = std::vector<uint32_t>;
 
-SumsOfLevel sums_of(const cv::Mat& texture, TexelPlanes::Of of) {
+/// @param of_pixel  the value of a pixel that is summed.
+template <class OfPixel>
+SumsOfLevel sums_of(const cv::Mat& texture, const OfPixel& of_pixel) {
   SumsOfLevel sums;
   sums.reserve(texture.total());
   for (int row = 0; row < texture.rows; ++row) {
-    for (int col = 0; col < texture.cols; ++col) {
-      const auto& rgb = texture.at<cv::Vec3b>(row, col);
-      const bool grey = of == TexelPlanes::Of::grey;
-      sums.push_back(grey ? uint64_t{rgb[0]} + rgb[1] + rgb[2] : uint64_t{rgb[static_cast<int>(of)]});
-    }
+    for (int col = 0; col < texture.cols; ++col) sums.push_back(of_pixel(texture.at<cv::Vec3b>(row, col)));
   }
   return sums;
 }
@@ -27,11 +25,29 @@ SumsOfLevel halved(const SumsOfLevel& sums, size_t size) {
   smaller.reserve(sums.size() / 4);
   for (size_t row = 0; row < size; row += 2) {
     for (size_t col = 0; col < size; col += 2) {
-      const uint64_t* const upper = &sums[row * size + col];
+      const uint32_t* const upper = &sums[row * size + col];
       smaller.push_back(upper[0] + upper[1] + upper[size] + upper[size + 1]);
     }
   }
   return smaller;
+}
+
+/// Makes every level of a texture, 128 less than it is, row by row, and hands it on: with its size and values.
+/// @param channels  that a pixel's value is the sum of, 1 or 3.
+template <class HandOn>
+void each_level(SumsOfLevel sums, const TextureLayout& layout, uint64_t channels, const HandOn& hand_on) {
+  std::vector<uint8_t> levels;
+  auto size = static_cast<size_t>(layout.size_px);
+  for (int level = 0; level <= layout.last_level; ++level, size /= 2) {
+    if (level > 0) sums = halved(sums, 2 * size);
+    const uint64_t half = channels << 2 * level;  // sum / (channels 4^level), rounded
+    levels.clear();
+    for (const uint64_t sum : sums) {
+      const uint64_t scaled = (2 * sum + half) >> (2 * level + 1);
+      levels.push_back(static_cast<uint8_t>((channels == 3 ? scaled / 3 : scaled) ^ 0x80));
+    }
+    hand_on(level, size, levels);
+  }
 }
 
 }  // namespace
@@ -41,44 +57,45 @@ TexelPlanes::TexelPlanes(const std::vector<cv::Mat>& textures) : textures_(textu
   layout_.size_px = textures_.front().cols;
   layout_.size_log2 = std::countr_zero(static_cast<uint32_t>(layout_.size_px));
   layout_.last_level = layout_.size_log2;
-  size_t places = 0;
   for (int level = 0; level <= layout_.last_level; ++level) {
     const auto size = static_cast<size_t>(layout_.size_px >> level);
-    layout_.first[level] = static_cast<int32_t>(places);
-    places += size * (size + 1);
+    layout_.first[level] = static_cast<int32_t>(layout_.places);
+    layout_.places += size * (size + 1);
   }
-  layout_.places = places;
 }
 
-TexelPlane TexelPlanes::plane(Of of) {
-  HugeVector<uint16_t>& places = planes_[static_cast<size_t>(of)];
-  if (places.empty()) {
-    places.reserve(textures_.size() * layout_.places);
-    for (const cv::Mat& texture : textures_) add_texture(texture, of, places);
-  }
-  return {places.data()};
-}
-
-void TexelPlanes::add_texture(const cv::Mat& texture, Of of, HugeVector<uint16_t>& places) const {
-  SumsOfLevel sums = sums_of(texture, of);
-  std::vector<uint8_t> levels;
-  auto size = static_cast<size_t>(layout_.size_px);
-  for (int level = 0; level <= layout_.last_level; ++level, size /= 2) {
-    if (level > 0) sums = halved(sums, 2 * size);
-    // sum / (channels 4^level), rounded.
-    const uint64_t channels = of == Of::grey ? 3 : 1, half = channels << 2 * level;
-    levels.clear();
-    for (const uint64_t sum : sums) {
-      const uint64_t scaled = (2 * sum + half) >> (2 * level + 1);
-      levels.push_back(static_cast<uint8_t>((channels == 3 ? scaled / 3 : scaled) ^ 0x80));  // as a signed byte: less 128
-    }
+const uint16_t* TexelPlanes::greys() {
+  if (!greys_.empty()) return greys_.data();
+  greys_.reserve(textures_.size() * layout_.places);
+  const auto grey = [](const cv::Vec3b& rgb) { return uint32_t{rgb[0]} + rgb[1] + rgb[2]; };
+  const auto add = [&](int, size_t size, const std::vector<uint8_t>& levels) {
     for (size_t row = 0; row < size; ++row) {
       const uint8_t* const here = &levels[row * size];
       const uint8_t* const below = &levels[(row + 1) % size * size];
-      for (size_t col = 0; col < size; ++col) places.push_back(static_cast<uint16_t>(here[col] | below[col] << 8));
-      places.push_back(static_cast<uint16_t>(here[0] | below[0] << 8));
+      for (size_t col = 0; col < size; ++col) greys_.push_back(static_cast<uint16_t>(here[col] | below[col] << 8));
+      greys_.push_back(static_cast<uint16_t>(here[0] | below[0] << 8));
+    }
+  };
+  for (const cv::Mat& texture : textures_) each_level(sums_of(texture, grey), layout_, 3, add);
+  return greys_.data();
+}
+
+const uint32_t* TexelPlanes::colors() {
+  if (!colors_.empty()) return colors_.data();
+  colors_.resize(textures_.size() * layout_.places);
+  for (size_t texture = 0; texture < textures_.size(); ++texture) {
+    for (int channel = 0; channel < 3; ++channel) {
+      const auto value = [channel](const cv::Vec3b& rgb) { return uint32_t{rgb[channel]}; };
+      const auto add = [&](int level, size_t size, const std::vector<uint8_t>& levels) {
+        uint32_t* place = &colors_[texture * layout_.places + static_cast<size_t>(layout_.first[level])];
+        for (size_t row = 0; row < size; ++row) {
+          for (size_t col = 0; col <= size; ++col) *place++ |= uint32_t{levels[row * size + col % size]} << 8 * channel;
+        }
+      };
+      each_level(sums_of(textures_[texture], value), layout_, 1, add);
     }
   }
+  return colors_.data();
 }
 
 }  // namespace hedgehop::sim::tiles

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <vector>
@@ -11,7 +10,7 @@
 namespace hedgehop::sim::tiles {
 
 /// A scene's textures at every size down to one texel, as kernels read them. A texel is the mean of the full image's
-/// pixels that it covers, rounded once. Each plane is made when it is asked for first.
+/// pixels that it covers, rounded once. Greys and colors are made when they are asked for first.
 class TexelPlanes {
  public:
   /// @param textures  CV_8UC3 RGB, square, all of one power-of-two size; none make one black texel.
@@ -19,15 +18,14 @@ class TexelPlanes {
 
   const TextureLayout& layout() const { return layout_; }
 
-  enum class Of { red, green, blue, grey };  ///< grey: the mean of the channels
-  TexelPlane plane(Of of);
+  const uint16_t* greys();  ///< the mean of the channels
+  const uint32_t* colors();
 
  private:
-  void add_texture(const cv::Mat& texture, Of of, HugeVector<uint16_t>& places) const;
-
   std::vector<cv::Mat> textures_;
   TextureLayout layout_{};
-  std::array<HugeVector<uint16_t>, 4> planes_;
+  HugeVector<uint16_t> greys_;
+  HugeVector<uint32_t> colors_;
 };
 
 }  // namespace hedgehop::sim::tiles

@@ -13,30 +13,42 @@ struct Places {
 
 /// Four texels round a place and how they are weighed.
 struct Taps {
-  I8 place, right, down;
+  I8 place;
+  I8 below;  ///< place of the lower two; for colors only
+  I8 right, down;
 };
 
-/// Of one level for all lanes.
-inline Taps taps(const TextureLayout& layout, const Places& at, int level) {
-  constexpr int kHalf = 128;
-  const I8 u = (at.u >> level) - kHalf, v = (at.v >> level) - kHalf;
-  const int last = (layout.size_px >> level) - 1;
-  const I8 x = (u >> 8) & last, y = (v >> 8) & last;
-  return {layout.first[level] + (y << (layout.size_log2 - level)) + y + x, u & 255, v & 255};
-}
-
-/// Of each lane's level.
-inline Taps taps(const TextureLayout& layout, const Places& at, I8 level) {
+/// @param first  place of the level. @param level  of all lanes, or of each.
+template <int kPlanes, class Level, class First>
+inline Taps taps(const TextureLayout& layout, const Places& at, const Level& level, const First& first) {
   constexpr int kHalf = 128;
   const I8 u = (at.u >> level) - kHalf, v = (at.v >> level) - kHalf;
   const I8 last = (all(layout.size_px) >> level) - 1;
   const I8 x = (u >> 8) & last, y = (v >> 8) & last;
-  return {look_up(layout.first, level) + (y << (layout.size_log2 - level)) + y + x, u & 255, v & 255};
+  const auto place = [&](I8 row) { return first + (row << (layout.size_log2 - level)) + row + x; };
+  Taps taps{place(y), {}, u & 255, v & 255};
+  if (kPlanes > 1) taps.below = place((y + 1) & last);
+  return taps;
 }
 
-/// The texels' mean, 128 * 65025 less than it is, in 1/65025 of a level.
-inline I8 fetch(const uint16_t* texture, const Taps& taps) {
-  return mix(gather(texture, taps.place), taps.right, taps.down);
+/// Of one level for all lanes.
+template <int kPlanes>
+inline Taps taps(const TextureLayout& layout, const Places& at, int level) {
+  return taps<kPlanes>(layout, at, level, layout.first[level]);
+}
+
+/// Of each lane's level.
+template <int kPlanes>
+inline Taps taps(const TextureLayout& layout, const Places& at, I8 level) {
+  return taps<kPlanes>(layout, at, level, look_up(layout.first, level));
+}
+
+/// Means of texels, 128 * 65025 less than they are, in 1/65025 of a level.
+inline void fetch(const Texels& texels, size_t texture, const Taps& taps, I8 (&means)[1]) {
+  means[0] = mix(gather(texels.greys + texture, taps.place), taps.right, taps.down);
+}
+inline void fetch(const Texels& texels, size_t texture, const Taps& taps, I8 (&means)[3]) {
+  mix(texels.colors + texture, taps.place, taps.below, taps.right, taps.down, means);
 }
 
 /// Which two sizes of a texture pixels are looked up in, and the smaller one's share.

@@ -13,8 +13,8 @@ namespace hedgehop::sim::tiles {
 namespace {
 
 Lens lens_of(const vision::camera::PinholeCamera& camera) {
-  return {camera.focal_x_px,      camera.focal_y_px,  1.0 / camera.focal_x_px, 1.0 / camera.focal_y_px,
-          camera.center_u_px,     camera.center_v_px, camera.width_px,         camera.height_px};
+  return {camera.focal_x_px,  camera.focal_y_px,  1.0 / camera.focal_x_px, 1.0 / camera.focal_y_px,
+          camera.center_u_px, camera.center_v_px, camera.width_px,         camera.height_px};
 }
 
 /// @param p_MC_W  from the facets' frame, whose axes are those of W.
@@ -50,19 +50,16 @@ TilePainter::TilePainter(const scenes::Scene& scene, Culling culling, Shadows sh
   geometry_.indices = {};
 }
 
-void TilePainter::set_planes(bool color) {
-  using enum TexelPlanes::Of;
+void TilePainter::color_scene(bool color) {
   if (color) {
-    for (int i = 0; i < 3; ++i) {
-      view_.planes[i] = texels_.plane(static_cast<TexelPlanes::Of>(i));
-      view_.sky.horizon[i] = 255.0f * sky_.horizon[i];
-      view_.sky.zenith[i] = 255.0f * sky_.zenith[i];
-    }
-    return;
+    view_.texels.colors = texels_.colors();
+  } else {
+    view_.texels.greys = texels_.greys();
   }
-  view_.planes[0] = texels_.plane(grey);
-  view_.sky.horizon[0] = 255.0f * sky_.horizon.mean();
-  view_.sky.zenith[0] = 255.0f * sky_.zenith.mean();
+  for (int i = 0; i < 3; ++i) {
+    view_.sky.horizon[i] = 255.0f * (color ? sky_.horizon[i] : sky_.horizon.mean());
+    view_.sky.zenith[i] = 255.0f * (color ? sky_.zenith[i] : sky_.zenith.mean());
+  }
 }
 
 void TilePainter::paint(const vision::camera::PinholeCamera& camera, const Painter::Eye& eye, Raster raster,
@@ -80,7 +77,7 @@ void TilePainter::paint(const vision::camera::PinholeCamera& camera, const Paint
   draw_movers(eye);
   if (raster == Raster::grey || raster == Raster::color) {
     memory_.make_paints();
-    set_planes(raster == Raster::color);
+    color_scene(raster == Raster::color);
   }
   kernels_.finish(view_, memory_.frame(), raster, {out.data, out.step[0]});
 }
@@ -106,7 +103,8 @@ void TilePainter::draw_movers(const Painter::Eye& eye) {
     memory_.add_eye(eye_at(p_MC_W, eye.X_WC.linear()));
     const auto index = static_cast<uint32_t>(1 + mover);
     for (const scenes::Chunk& chunk : geometry_.mover_chunks[mover]) {
-      if (chunk.index_count == 0 || tiles::hides(memory_.frame(), memory_.frame().eyes[index], chunk.box_W, kNearPlaneM)) {
+      if (chunk.index_count == 0 ||
+          tiles::hides(memory_.frame(), memory_.frame().eyes[index], chunk.box_W, kNearPlaneM)) {
         continue;
       }
       draw(chunk, index);

@@ -27,11 +27,11 @@ class TilePainter : public Painter, private VisibleChunks::Beholder {
   bool hides(const Eigen::AlignedBox3f& box_W) const override;
   void draw_movers(const Painter::Eye& eye);
   void draw(const scenes::Chunk& stretch, uint32_t eye);
-  void set_planes(bool color);
+  void color_scene(bool color);
 
   const Kernels& kernels_;
   Culling culling_;
-  SceneGeometry geometry_;  ///< its chunks
+  SceneGeometry geometry_;               ///< its chunks
   std::vector<scenes::Motion> motions_;  ///< of the movers
   VisibleChunks visible_;
   Facets facets_;

@@ -135,8 +135,9 @@ TEST(Tiles, GiveAPixelOnAnEdgeToOneSide) {
   Renderer renderer(world.scene, Culling::none, ContextKind::tiles);
   cv::Mat labels;
   // Focal length 5 px at 5 m: a pixel a meter, its middle on the edges.
-  renderer.draw({vision::camera::PinholeCamera{5, 5, 5.0, 5.0, 2.0, 2.0}, look_at({0, 0, 0}, {1, 0, 0}), Channel::labels},
-                labels);
+  renderer.draw(
+      {vision::camera::PinholeCamera{5, 5, 5.0, 5.0, 2.0, 2.0}, look_at({0, 0, 0}, {1, 0, 0}), Channel::labels},
+      labels);
   for (int row = 0; row < 4; ++row) {
     for (int col = 1; col < 4; ++col) EXPECT_NE(labels.at<int>(row, col), 0) << row << " " << col;
   }
