@@ -95,10 +95,6 @@ Eigen::AlignedBox2d Horizon::plan(const Eigen::AlignedBox3f& box_W) const {
           box_W.max().head<2>().cast<double>() - eye_W_.head<2>()};
 }
 
-double Horizon::nearest_m(const Eigen::AlignedBox3f& box_W) const {
-  return plan(box_W).exteriorDistance(Eigen::Vector2d::Zero());
-}
-
 Horizon::Span Horizon::span(const Eigen::Vector2d& middle, const std::array<Eigen::Vector2d, 4>& directions) {
   const double middle_angle = square_angle(middle);
   double first = 0.0, last = 0.0;

@@ -24,9 +24,6 @@ class Horizon {
   /// True when no point of the box can be seen past the boxes added so far, at the azimuths covered.
   bool hides(const Eigen::AlignedBox3f& box_W) const;
 
-  /// Plan distance from the eye to the box's nearest point, m.
-  double nearest_m(const Eigen::AlignedBox3f& box_W) const;
-
  private:
   /// A stretch of azimuths, in bins from north; first >= -kBins.
   struct Span {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "sim/render/tiles/paint.h"
 #include "sim/render/tiles/sunlight.h"
 
@@ -80,36 +82,45 @@ struct RowTaps {
 /// @tparam kCommon  whether the tile has one level. Two rows share their levels, as in Mesa's rasteriser.
 template <int kPlanes, bool kCommon>
 inline void look_where(const SceneView& scene, const Patch& patch, uint64_t pixels, RowTaps (&rows)[kTilePx]) {
+  using N = std::conditional_t<kCommon, int, I8>;
+  // Copies, which no row that is written can change.
   const TextureLayout& layout = scene.layout;
+  const int last = layout.last_level;
+  const Slope slope_w = patch.w, slope_u = patch.u, slope_v = patch.v;
   const F8 far_off = all(1e9f), evenly = all(static_cast<float>(patch.cover->brightness));
+  const bool evenly_lit = patch.cover->evenly_lit, shadows = scene.sun.depths != nullptr;
+  LevelPlaces<N> near, far;
+  if constexpr (kCommon) {
+    near = level_places(layout, patch.level);
+    far = level_places(layout, patch.level < last ? patch.level + 1 : last);
+  }
   Levels sizes{};
   bool mixed = false;
   int leveled = -1;  // the pair of rows that the sizes are of
   for (int row = 0; row < kTilePx; ++row) {
     if (row_of(pixels, row) == 0) continue;
-    const F8 z = 1.0f / patch.w.row(row, kColumns);
-    F8 u = patch.u.row(row, kColumns) * z, v = patch.v.row(row, kColumns) * z;
+    const F8 z = 1.0f / slope_w.row(row, kColumns);
+    F8 u = slope_u.row(row, kColumns) * z, v = slope_v.row(row, kColumns) * z;
     if (!kCommon) {  // pixels beside the surface may lie anywhere
       u = most(least(u, far_off), -far_off), v = most(least(v, far_off), -far_off);
     }
     if (leveled != row / 2) {
       leveled = row / 2;
-      sizes = levels(squared_span(patch.w, patch.u, patch.v, u, v, z), layout.last_level);
+      sizes = levels(squared_span(slope_w, slope_u, slope_v, u, v, z), last);
       mixed = signs(sizes.share > 0.0f) != 0;
+      if constexpr (!kCommon) {
+        near = level_places(layout, sizes.larger);
+        if (mixed) far = level_places(layout, least(sizes.larger + 1, all(last)));
+      }
     }
     const Places at{integers(u), integers(v)};
-    RowTaps& taps_of_row = rows[row];
-    taps_of_row.share = sizes.share;
-    taps_of_row.mixed = mixed;
-    taps_of_row.near = kCommon ? taps<kPlanes>(layout, at, patch.level) : taps<kPlanes>(layout, at, sizes.larger);
-    if (mixed) {
-      const I8 smaller = least(sizes.larger + 1, all(layout.last_level));
-      taps_of_row.far = kCommon ? taps<kPlanes>(layout, at, patch.level + 1) : taps<kPlanes>(layout, at, smaller);
-    }
-    taps_of_row.light = evenly;
-    if (!patch.cover->evenly_lit) taps_of_row.light = patch.brightness.row(row, kColumns) * z;
-    if (scene.sun.depths != nullptr)
-      taps_of_row.light = lit(scene.sun, patch.sun, kColumns, all(static_cast<float>(row)), z, taps_of_row.light);
+    RowTaps& out = rows[row];
+    out.share = sizes.share;
+    out.mixed = mixed;
+    out.near = taps<kPlanes>(near, at);
+    if (mixed) out.far = taps<kPlanes>(far, at);
+    out.light = evenly_lit ? evenly : patch.brightness.row(row, kColumns) * z;
+    if (shadows) out.light = lit(scene.sun, patch.sun, kColumns, all(static_cast<float>(row)), z, out.light);
   }
 }
 
@@ -179,8 +190,10 @@ inline bool look_where(const SceneView& scene, const Patch& patch, const Few& fe
   const Levels sizes = levels(squared_span(patch.w, patch.u, patch.v, u, v, z), layout.last_level);
   out.share = sizes.share;
   out.mixed = signs(sizes.share > 0.0f) != 0;
-  out.near = taps<kPlanes>(layout, at, sizes.larger);
-  if (out.mixed) out.far = taps<kPlanes>(layout, at, least(sizes.larger + 1, all(layout.last_level)));
+  out.near = taps<kPlanes>(level_places(layout, sizes.larger), at);
+  if (out.mixed) {
+    out.far = taps<kPlanes>(level_places(layout, least(sizes.larger + 1, all(layout.last_level))), at);
+  }
   out.light = all(static_cast<float>(patch.cover->brightness));
   if (!patch.cover->evenly_lit) out.light = patch.brightness.at(few.columns, few.rows) * z;
   if (scene.sun.depths != nullptr) out.light = lit(scene.sun, patch.sun, few.columns, few.rows, z, out.light);

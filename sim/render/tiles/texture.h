@@ -18,29 +18,28 @@ struct Taps {
   I8 right, down;
 };
 
-/// @param first  place of the level. @param level  of all lanes, or of each.
-template <int kPlanes, class Level, class First>
-inline Taps taps(const TextureLayout& layout, const Places& at, const Level& level, const First& first) {
+/// Where a level lies in its texture. @tparam N  a number for all lanes, or one for each.
+template <class N>
+struct LevelPlaces {
+  N level, last;      ///< of its columns and rows
+  N size_log2, first;
+};
+inline LevelPlaces<int> level_places(const TextureLayout& layout, int level) {
+  return {level, (layout.size_px >> level) - 1, layout.size_log2 - level, layout.first[level]};
+}
+inline LevelPlaces<I8> level_places(const TextureLayout& layout, I8 level) {
+  return {level, (all(layout.size_px) >> level) - 1, layout.size_log2 - level, look_up(layout.first, level)};
+}
+
+template <int kPlanes, class N>
+inline Taps taps(const LevelPlaces<N>& in, const Places& at) {
   constexpr int kHalf = 128;
-  const I8 u = (at.u >> level) - kHalf, v = (at.v >> level) - kHalf;
-  const I8 last = (all(layout.size_px) >> level) - 1;
-  const I8 x = (u >> 8) & last, y = (v >> 8) & last;
-  const auto place = [&](I8 row) { return first + (row << (layout.size_log2 - level)) + row + x; };
+  const I8 u = (at.u >> in.level) - kHalf, v = (at.v >> in.level) - kHalf;
+  const I8 x = (u >> 8) & in.last, y = (v >> 8) & in.last;
+  const auto place = [&](I8 row) { return in.first + (row << in.size_log2) + row + x; };
   Taps taps{place(y), {}, u & 255, v & 255};
-  if (kPlanes > 1) taps.below = place((y + 1) & last);
+  if (kPlanes > 1) taps.below = place((y + 1) & in.last);
   return taps;
-}
-
-/// Of one level for all lanes.
-template <int kPlanes>
-inline Taps taps(const TextureLayout& layout, const Places& at, int level) {
-  return taps<kPlanes>(layout, at, level, layout.first[level]);
-}
-
-/// Of each lane's level.
-template <int kPlanes>
-inline Taps taps(const TextureLayout& layout, const Places& at, I8 level) {
-  return taps<kPlanes>(layout, at, level, look_up(layout.first, level));
 }
 
 /// Means of texels, 128 * 65025 less than they are, in 1/65025 of a level.
