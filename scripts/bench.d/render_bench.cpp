@@ -1,238 +1,249 @@
-#include <benchmark/benchmark.h>
+#include <time.h>
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <iostream>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
-#include <utility>
+#include <string>
+#include <string_view>
 #include <vector>
 
-#include "scenes/generators.h"
+#include "scripts/bench.d/drawn_scenes.h"
 #include "sim/render/renderer.h"
 
-// Cities and a room beside their floor: one textured quad that fills the image, as finely textured as trilinear
-// filtering is dear (between two mipmap levels), drawn in the same run. Lenses of every kind beside the same floor, a
-// pinhole's, by the pixel (counter Mpx a second).
+// What drawing costs, contexts side by side: CPU time of one thread, medians over rounds in which they take turns. Each
+// row beside its floor, a full-screen trilinear quad by OSMesa in the row's size and channel, without its lens, one
+// sample a pixel. Prints one JSON object a row as soon as it is measured; scripts/bench makes the table of them.
+//
+// usage: render_bench [--quick]
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-const vision::camera::PinholeCamera kCamera =
-    vision::camera::PinholeCamera::from_fov(400, 400, kPi / 2);  // [Garratt2009] sec. 3.2
-constexpr double kFlightHeightM = 10.0;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // null in JSON
+constexpr int kRounds = 9, kQuickRounds = 3;
 
-/// Camera looking along a heading, level.
-Eigen::Isometry3d level(double north_m, double east_m, double height_m, double heading_rad) {
-  Eigen::Isometry3d X_WC(Eigen::Translation3d(north_m, east_m, -height_m));
-  X_WC.linear() << -std::sin(heading_rad), 0, std::cos(heading_rad),  //
-      std::cos(heading_rad), 0, std::sin(heading_rad),                //
-      0, 1, 0;
-  return X_WC;
-}
+/// What is asked of the ratio of the contexts' times, or of tiles' figure.
+struct Goal {
+  std::string of;     ///< "ratio", "tiles", or nothing is asked
+  std::string bound;  ///< "at_least", "at_most"
+  double value = kNone;
+};
 
-/// Straight down, north on top.
-Eigen::Isometry3d down(double north_m, double east_m, double height_m) {
-  Eigen::Isometry3d X_WC(Eigen::Translation3d(north_m, east_m, -height_m));
-  X_WC.linear() << 0, -1, 0, 1, 0, 0, 0, 0, 1;
-  return X_WC;
-}
+Goal ratio_at_least(double value) { return {"ratio", "at_least", value}; }
+Goal tiles_at_least(double value) { return {"tiles", "at_least", value}; }
+Goal tiles_at_most(double value) { return {"tiles", "at_most", value}; }
 
-/// Eight headings at each of six crossings near the middle, the same for every size of city.
-std::vector<Eigen::Isometry3d> street_views(double height_m) {
-  std::vector<Eigen::Isometry3d> poses;
-  for (const double north_m : {-60.0, 0.0, 60.0}) {
-    for (const double east_m : {-30.0, 30.0}) {
-      for (int k = 0; k < 8; ++k) poses.push_back(level(north_m, east_m, height_m, k * kPi / 4 + 0.1));
-    }
+struct Row {
+  std::string what, unit;
+  double floor = kNone, osmesa = kNone, tiles = kNone;
+  double ratio = kNone;  ///< of the contexts' times, OSMesa / tiles
+  Goal goal;
+};
+
+void print(const Row& row) {
+  nlohmann::ordered_json json = {{"what", row.what},     {"unit", row.unit},   {"floor", row.floor},
+                                 {"osmesa", row.osmesa}, {"tiles", row.tiles}, {"ratio", row.ratio},
+                                 {"goal", nullptr},      {"met", nullptr}};
+  if (!row.goal.of.empty()) {
+    const double figure = row.goal.of == "ratio" ? row.ratio : row.tiles;
+    json["goal"] = {{"of", row.goal.of}, {row.goal.bound, row.goal.value}};
+    json["met"] = row.goal.bound == "at_least" ? figure >= row.goal.value : figure <= row.goal.value;
   }
-  return poses;
+  std::cout << json.dump() << std::endl;
 }
 
-/// Left, right, front, rear and down, all along a flight.
-std::vector<Eigen::Isometry3d> five_cameras_in_flight() {
-  std::vector<Eigen::Isometry3d> poses;
-  for (double north_m = -130.0; north_m <= 110.0; north_m += 20.0) {
-    for (int k = 0; k < 4; ++k) poses.push_back(level(north_m, 80.0, kFlightHeightM, k * kPi / 2));
-    poses.push_back(down(north_m, 80.0, kFlightHeightM));
-  }
-  return poses;
+double cpu_s() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-std::vector<Eigen::Isometry3d> room_views() {
-  std::vector<Eigen::Isometry3d> poses;
-  for (int k = 0; k < 8; ++k) poses.push_back(level(-1.0, 0.5, 1.5, k * kPi / 4));
-  return poses;
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  return values[values.size() / 2];
 }
 
-const scenes::Scene& city(double extent_m) {
-  const auto make = [](double extent) {
-    scenes::worlds::UrbanConfig config;
-    config.extent_m = extent;
-    return scenes::make_scene(config, 1);
-  };
-  static const scenes::Scene small = make(300.0), large = make(3000.0);  // some 100 and 10,000 buildings
-  return extent_m > 300.0 ? large : small;
-}
-
-const scenes::Scene& forest(int64_t trees) {
-  const auto make = [](int64_t count) {
-    return scenes::make_scene(scenes::worlds::ForestConfig{.trees = count, .keep_clear = {{0.0, 0.0, 2.0}}}, 1);
-  };
-  static const scenes::Scene small = make(100), large = make(10000);
-  return trees > 100 ? large : small;
-}
-
-/// Eight headings at each of five places near the middle, the same for every size of forest.
-std::vector<Eigen::Isometry3d> forest_views(double height_m) {
-  std::vector<Eigen::Isometry3d> poses;
-  for (const auto& [north_m, east_m] : {std::pair{0.0, 0.0}, {8.0, 8.0}, {8.0, -8.0}, {-8.0, 8.0}, {-8.0, -8.0}}) {
-    for (int k = 0; k < 8; ++k) poses.push_back(level(north_m, east_m, height_m, k * kPi / 4 + 0.1));
-  }
-  return poses;
-}
-
-/// A plane 10 m below the eye with a number of texels to each pixel.
-scenes::Scene quad(double texels_per_pixel) {
-  scenes::Scene scene;
-  scene.textures = {city(300.0).textures.front()};
-  const double texels_per_m = texels_per_pixel * kCamera.focal_x_px / kFlightHeightM;
-  const float half_m = 50.0f, repeats = static_cast<float>(texels_per_m * 50.0 / scene.textures.front().cols);
-  scenes::Mesh& mesh = scene.meshes.emplace_back();
-  mesh.material = "opaque";
-  for (const auto& [north, east] : {std::pair{-1.f, -1.f}, {-1.f, 1.f}, {1.f, 1.f}, {1.f, -1.f}}) {
-    scenes::Vertex& corner = mesh.vertices.emplace_back();
-    corner.p_W = {half_m * north, half_m * east, 0.f};
-    corner.uv = {repeats * north, repeats * east};
-  }
-  mesh.indices = {0, 1, 2, 0, 2, 3};
-  mesh.chunks = {{Eigen::AlignedBox3f(mesh.vertices[0].p_W, mesh.vertices[2].p_W), 0, 6, false}};
-  return scene;
-}
-
-/// What a scenario may ask for besides.
-struct Extras {
-  Shadows shadows = Shadows::none;
+/// Images of a case, the same for each context.
+struct Case {
+  std::string what;
+  Poses poses;
+  Goal goal = {};
+  vision::camera::Camera camera = right_angle_pinhole(400, 400);
+  Channel channel = Channel::grey;
   int samples = 1;
 };
 
-/// Time of one image, the mean over the poses.
-void draw(benchmark::State& state, const scenes::Scene& scene, const std::vector<Eigen::Isometry3d>& poses,
-          const vision::camera::Camera& camera = kCamera, const Extras& extras = {}) {
-  const auto channel = static_cast<Channel>(state.range(0));
-  Renderer renderer(scene, Culling::frustum_and_horizon, ContextKind::osmesa, extras.shadows);
+CameraView view_from(const Eigen::Isometry3d& X_WC, const Case& images) {
+  CameraView view{.camera = images.camera, .X_WC = X_WC, .channel = images.channel, .samples = images.samples};
+  view.next.X_WC = Eigen::Translation3d(0.2, 0.0, 0.0) * X_WC;
+  return view;
+}
+
+/// A renderer and what it draws.
+struct Subject {
+  Renderer& renderer;
+  Case images;
+};
+
+/// CPU time of one image of each subject, s, its mean over the poses.
+std::vector<double> times_s(const std::vector<Subject>& subjects, int rounds) {
+  std::vector<std::vector<double>> times(subjects.size());
   cv::Mat image;
-  const auto draw_from = [&](const Eigen::Isometry3d& X_WC) {
-    renderer.draw({.camera = camera, .X_WC = X_WC, .channel = channel, .samples = extras.samples}, image);
-  };
-  for (const Eigen::Isometry3d& X_WC : poses) draw_from(X_WC);  // plans the lens
-  double stretches = 0.0, triangles = 0.0;
-  const auto images = static_cast<int64_t>(poses.size());
-  while (state.KeepRunningBatch(images)) {
-    for (const Eigen::Isometry3d& X_WC : poses) {
-      draw_from(X_WC);
-      benchmark::DoNotOptimize(image.data);
-      stretches += static_cast<double>(renderer.drawn().stretches);
-      triangles += static_cast<double>(renderer.drawn().triangles);
+  for (int round = -1; round < rounds; ++round) {  // the first one plans lenses
+    for (size_t i = 0; i < subjects.size(); ++i) {
+      const Case& images = subjects[i].images;
+      const double start_s = cpu_s();
+      for (const Eigen::Isometry3d& X_WC : images.poses) subjects[i].renderer.draw(view_from(X_WC, images), image);
+      if (round >= 0) times[i].push_back((cpu_s() - start_s) / static_cast<double>(images.poses.size()));
     }
   }
-  state.counters["stretches"] = benchmark::Counter(stretches, benchmark::Counter::kAvgIterations);
-  const double pixels =
-      static_cast<double>(camera.width_px) * camera.height_px * static_cast<double>(state.iterations());
-  state.counters["Mpx"] = benchmark::Counter(1e-6 * pixels, benchmark::Counter::kIsRate);
-  state.counters["triangles"] = benchmark::Counter(triangles, benchmark::Counter::kAvgIterations);
+  std::vector<double> medians_s;
+  std::ranges::transform(times, std::back_inserter(medians_s), median);
+  return medians_s;
 }
 
-void City(benchmark::State& state) { draw(state, city(300.0), street_views(kFlightHeightM)); }
-void CityFloor(benchmark::State& state) { draw(state, quad(1.6), {down(0, 0, kFlightHeightM)}); }
-void CityShadows(benchmark::State& state) {
-  draw(state, city(300.0), street_views(kFlightHeightM), kCamera, {.shadows = Shadows::sun});
-}
-void CityShadowsFloor(benchmark::State& state) { City(state); }
-void CityFourSamples(benchmark::State& state) {
-  draw(state, city(300.0), street_views(kFlightHeightM), kCamera, {.samples = 4});
-}
-void CityFourSamplesFloor(benchmark::State& state) { City(state); }
-// The small city is the large one's floor: what cannot be seen should cost nothing.
-void LargeCity(benchmark::State& state) { draw(state, city(3000.0), street_views(kFlightHeightM)); }
-void LargeCityFloor(benchmark::State& state) { City(state); }
-void LargeCityAboveRoofs(benchmark::State& state) { draw(state, city(3000.0), street_views(60.0)); }
-void LargeCityAboveRoofsFloor(benchmark::State& state) { draw(state, city(300.0), street_views(60.0)); }
-void FiveCamerasInFlight(benchmark::State& state) { draw(state, city(300.0), five_cameras_in_flight()); }
-void FiveCamerasInFlightFloor(benchmark::State& state) { CityFloor(state); }
-void Room(benchmark::State& state) { draw(state, scenes::make_scene(scenes::worlds::RoomConfig{}, 1), room_views()); }
-void RoomFloor(benchmark::State& state) { CityFloor(state); }
-void Forest(benchmark::State& state) { draw(state, forest(100), forest_views(5.0)); }
-void ForestFloor(benchmark::State& state) { CityFloor(state); }
-// The small forest is the large one's floor.
-void ForestLarge(benchmark::State& state) { draw(state, forest(10000), forest_views(5.0)); }
-void ForestLargeFloor(benchmark::State& state) { Forest(state); }
-void ForestLargeBelowCrowns(benchmark::State& state) { draw(state, forest(10000), forest_views(1.8)); }
-void ForestLargeBelowCrownsFloor(benchmark::State& state) { draw(state, forest(100), forest_views(1.8)); }
-void ForestLargeAboveCrowns(benchmark::State& state) { draw(state, forest(10000), forest_views(25.0)); }
-void ForestLargeAboveCrownsFloor(benchmark::State& state) { draw(state, forest(100), forest_views(25.0)); }
-// Nothing to filter between levels: the cheapest textured image there is.
-void MagnifiedQuad(benchmark::State& state) { draw(state, quad(0.8), {down(0, 0, kFlightHeightM)}); }
-void MagnifiedQuadFloor(benchmark::State& state) { CityFloor(state); }
-
-/// 752 x 480 px and 190 degrees across.
-vision::camera::Camera wide_fisheye() {
-  const double focal_px = vision::camera::fisheye_focal_px({}, 752, 190.0 * kPi / 180.0);
-  return {752, 480, vision::camera::FisheyeLens{focal_px, focal_px, 375.5, 239.5}};
-}
-/// The pinhole of the other figures with a common lens before it.
-vision::camera::Camera distorted_pinhole() {
-  vision::camera::PinholeLens lens{kCamera.focal_x_px, kCamera.focal_y_px, kCamera.center_u_px, kCamera.center_v_px};
-  lens.k1 = -0.12;
-  lens.k2 = 0.02;
-  return {kCamera.width_px, kCamera.height_px, lens};
-}
-/// A pinhole of the fisheye's size that sees the quad's texels as kCamera does.
-vision::camera::Camera wide_pinhole() {
-  return vision::camera::PinholeCamera{752, 480, kCamera.focal_x_px, kCamera.focal_y_px, 375.5, 239.5};
+Renderer make(const scenes::Scene& scene, ContextKind context, Shadows shadows = Shadows::none) {
+  return Renderer(scene, Culling::frustum_and_horizon, context, shadows);
 }
 
-void CityFisheye(benchmark::State& state) { draw(state, city(300.0), street_views(kFlightHeightM), wide_fisheye()); }
-void CityFisheyeFloor(benchmark::State& state) { draw(state, quad(1.6), {down(0, 0, kFlightHeightM)}, wide_pinhole()); }
-void CityDistorted(benchmark::State& state) {
-  draw(state, city(300.0), street_views(kFlightHeightM), distorted_pinhole());
-}
-void CityDistortedFloor(benchmark::State& state) { CityFloor(state); }
+class Bench {
+ public:
+  explicit Bench(int rounds) : rounds_(rounds) {}
 
-void grey(benchmark::internal::Benchmark* b) {
-  b->ArgName("grey")->Arg(0)->Unit(benchmark::kMillisecond)->MinTime(0.1);
+  /// Times of an image in each case.
+  void compare(const scenes::Scene& scene, const std::vector<Case>& cases) {
+    Renderer osmesa = make(scene, ContextKind::osmesa), tiles = make(scene, ContextKind::tiles);
+    for (const Case& images : cases) {
+      const auto s = times_s({{quad_, floor_of(images)}, {osmesa, images}, {tiles, images}}, rounds_);
+      if (images.goal.of == "tiles") {
+        print({images.what, "1/s", 1.0 / s[0], 1.0 / s[1], 1.0 / s[2], s[1] / s[2], images.goal});
+      } else {
+        print({images.what, "ms", 1e3 * s[0], 1e3 * s[1], 1e3 * s[2], s[1] / s[2], images.goal});
+      }
+    }
+  }
+
+  void shadows_over_without(const scenes::Scene& scene, const Case& images) {
+    Renderer plain = make(scene, ContextKind::tiles), shaded = make(scene, ContextKind::tiles, Shadows::sun);
+    const auto s = times_s({{plain, images}, {shaded, images}}, rounds_);
+    print({.what = images.what, .unit = "x", .tiles = s[1] / s[0], .goal = images.goal});
+  }
+
+  /// From nothing to a renderer, and on to its first image.
+  void start(const scenes::Scene& scene, const Case& images) {
+    std::vector<double> made_ms[2], drawn_ms[2];
+    for (int round = 0; round < rounds_; ++round) {
+      for (const ContextKind context : {ContextKind::osmesa, ContextKind::tiles}) {
+        const double start_s = cpu_s();
+        Renderer renderer = make(scene, context);
+        const double made_s = cpu_s();
+        cv::Mat image;
+        renderer.draw(view_from(images.poses.front(), images), image);
+        made_ms[context == ContextKind::tiles].push_back(1e3 * (made_s - start_s));
+        drawn_ms[context == ContextKind::tiles].push_back(1e3 * (cpu_s() - start_s));
+      }
+    }
+    const auto row = [&](const std::string& what, const auto& ms, const Goal& goal) {
+      const double osmesa_ms = median(ms[0]), tiles_ms = median(ms[1]);
+      print({what, "ms", kNone, osmesa_ms, tiles_ms, osmesa_ms / tiles_ms, goal});
+    };
+    row(images.what + ", renderer made", made_ms, {});
+    row(images.what + ", renderer made and first image", drawn_ms, images.goal);
+  }
+
+ private:
+  /// As many images of the quad.
+  static Case floor_of(const Case& images) {
+    return {.what = "quad",
+            .poses = Poses(images.poses.size(), quad_view()),
+            .goal = {},
+            .camera = floor_camera(images.camera.width_px, images.camera.height_px),
+            .channel = images.channel};
+  }
+
+  int rounds_;
+  Renderer quad_ = make(full_screen_quad(), ContextKind::osmesa);
+};
+
+/// How far tiles' images are from OSMesa's.
+void differences(const scenes::Scene& scene, const Poses& poses) {
+  constexpr double kFarOffLevels = 8.0;
+  constexpr float kFarOffDepth = 1e-3f;
+  Renderer osmesa = make(scene, ContextKind::osmesa), tiles = make(scene, ContextKind::tiles);
+  double levels = 0.0, off_levels = 0.0, off_depths = 0.0, pixels = 0.0;
+  cv::Mat expected, drawn, difference;
+  const auto draw_both = [&](const Eigen::Isometry3d& X_WC, Channel channel) {
+    const CameraView view{.camera = right_angle_pinhole(400, 400), .X_WC = X_WC, .channel = channel};
+    osmesa.draw(view, expected);
+    tiles.draw(view, drawn);
+  };
+  for (const Eigen::Isometry3d& X_WC : poses) {
+    draw_both(X_WC, Channel::grey);
+    cv::absdiff(expected, drawn, difference);
+    pixels += static_cast<double>(difference.total());
+    levels += cv::sum(difference)[0];
+    off_levels += cv::countNonZero(difference > kFarOffLevels);
+    draw_both(X_WC, Channel::depth);
+    for (int i = 0; i < static_cast<int>(expected.total()); ++i) {
+      const float a = expected.ptr<float>()[i], b = drawn.ptr<float>()[i];
+      off_depths += a == b || std::abs(a - b) <= kFarOffDepth * a ? 0.0 : 1.0;  // a == b: both infinite
+    }
+  }
+  const std::string what = "city, street: difference from OSMesa, ";
+  print({.what = what + "mean", .unit = "levels", .tiles = levels / pixels, .goal = tiles_at_most(0.3)});
+  print({.what = what + "over 8 levels", .unit = "share", .tiles = off_levels / pixels, .goal = tiles_at_most(0.0005)});
+  print(
+      {.what = what + "depth over 1e-3", .unit = "share", .tiles = off_depths / pixels, .goal = tiles_at_most(0.0002)});
 }
-void all_channels(benchmark::internal::Benchmark* b) {
-  b->ArgName("grey0_color1_depth2")->DenseRange(0, 2)->Unit(benchmark::kMillisecond)->MinTime(0.1);
+
+void run(int rounds) {
+  const vision::camera::Camera tiny = right_angle_pinhole(64, 48);
+  const Poses streets = street_views(kFlightHeightM);
+  const std::vector<Case> in_city = {
+      {"city, street", streets, ratio_at_least(4.5)},
+      {"city, five cameras in flight", five_cameras_in_flight(), ratio_at_least(4.5)},
+      {.what = "city, street: color", .poses = streets, .goal = ratio_at_least(4.0), .channel = Channel::color},
+      {.what = "city, street: depth", .poses = streets, .goal = ratio_at_least(4.5), .channel = Channel::depth},
+      {.what = "city, street: labels", .poses = streets, .goal = ratio_at_least(6.0), .channel = Channel::labels},
+      {.what = "city, street: flow", .poses = streets, .goal = ratio_at_least(4.0), .channel = Channel::flow},
+      {.what = "city, street: 4 samples", .poses = streets, .goal = ratio_at_least(6.0), .samples = 4},
+      {"city, street: distorted pinhole", streets, ratio_at_least(2.5), distorted_pinhole()},
+      {"city, street: fisheye, 190 degrees, 752 x 480", streets, ratio_at_least(2.5), wide_fisheye()},
+      {"city, street: 64 x 48", streets, tiles_at_least(20'000.0), tiny},
+  };
+  const std::vector<Case> in_room = {{"room", room_views(), ratio_at_least(4.5)}};
+  const std::vector<Case> in_large_city = {
+      {"3 km city, street", streets, ratio_at_least(4.5)},
+      {"3 km city, from 60 m", street_views(60.0), ratio_at_least(3.5)},
+      {"3 km city, street: 64 x 48", streets, tiles_at_least(5'000.0), tiny},
+  };
+  const std::vector<Case> in_forest = {{"forest of 100, from 5 m", forest_views(5.0)}};
+  const std::vector<Case> in_large_forest = {
+      {"forest of 10,000, from 5 m", forest_views(5.0), ratio_at_least(4.0)},
+      {"forest of 10,000, from 1.8 m", forest_views(1.8), ratio_at_least(4.0)},
+      {"forest of 10,000, from 25 m", forest_views(25.0), ratio_at_least(4.0)},
+  };
+
+  const scenes::Scene small_city = city(300.0);
+  Bench bench(rounds);
+  bench.start(small_city, {"city: start", streets, tiles_at_most(200.0)});
+  bench.compare(small_city, in_city);
+  bench.shadows_over_without(small_city, {"city, street: shadows over without", streets, tiles_at_most(1.4)});
+  differences(small_city, streets);
+  bench.compare(room(), in_room);
+  bench.compare(city(3000.0), in_large_city);
+  bench.compare(forest(100), in_forest);
+  bench.compare(forest(10'000), in_large_forest);
 }
-BENCHMARK(City)->Apply(all_channels);
-BENCHMARK(CityFloor)->Apply(all_channels);
-BENCHMARK(CityShadows)->Apply(grey);
-BENCHMARK(CityShadowsFloor)->Apply(grey);
-BENCHMARK(CityFourSamples)->Apply(grey);
-BENCHMARK(CityFourSamplesFloor)->Apply(grey);
-BENCHMARK(CityDistorted)->Apply(all_channels);
-BENCHMARK(CityDistortedFloor)->Apply(all_channels);
-BENCHMARK(CityFisheye)->Apply(all_channels);
-BENCHMARK(CityFisheyeFloor)->Apply(all_channels);
-BENCHMARK(LargeCity)->Apply(grey);
-BENCHMARK(LargeCityFloor)->Apply(grey);
-BENCHMARK(LargeCityAboveRoofs)->Apply(grey);
-BENCHMARK(LargeCityAboveRoofsFloor)->Apply(grey);
-BENCHMARK(FiveCamerasInFlight)->Apply(grey);
-BENCHMARK(FiveCamerasInFlightFloor)->Apply(grey);
-BENCHMARK(Room)->Apply(grey);
-BENCHMARK(RoomFloor)->Apply(grey);
-BENCHMARK(Forest)->Apply(grey);
-BENCHMARK(ForestFloor)->Apply(grey);
-BENCHMARK(ForestLarge)->Apply(grey);
-BENCHMARK(ForestLargeFloor)->Apply(grey);
-BENCHMARK(ForestLargeBelowCrowns)->Apply(grey);
-BENCHMARK(ForestLargeBelowCrownsFloor)->Apply(grey);
-BENCHMARK(ForestLargeAboveCrowns)->Apply(grey);
-BENCHMARK(ForestLargeAboveCrownsFloor)->Apply(grey);
-BENCHMARK(MagnifiedQuad)->Apply(grey);
-BENCHMARK(MagnifiedQuadFloor)->Apply(grey);
 
 }  // namespace
 }  // namespace hedgehop::sim
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  using namespace hedgehop::sim;
+  cv::setNumThreads(1);
+  run(argc > 1 && std::string_view(argv[1]) == "--quick" ? kQuickRounds : kRounds);
+}
