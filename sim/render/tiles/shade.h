@@ -119,7 +119,8 @@ inline void look_where(const SceneView& scene, const Patch& patch, uint64_t pixe
     out.mixed = mixed;
     out.near = taps<kPlanes>(near, at);
     if (mixed) out.far = taps<kPlanes>(far, at);
-    out.light = evenly_lit ? evenly : patch.brightness.row(row, kColumns) * z;
+    out.light = evenly;
+    if (!evenly_lit) out.light = patch.brightness.row(row, kColumns) * z;
     if (shadows) out.light = lit(scene.sun, patch.sun, kColumns, all(static_cast<float>(row)), z, out.light);
   }
 }

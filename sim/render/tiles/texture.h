@@ -21,7 +21,7 @@ struct Taps {
 /// Where a level lies in its texture. @tparam N  a number for all lanes, or one for each.
 template <class N>
 struct LevelPlaces {
-  N level, last;      ///< of its columns and rows
+  N level, last;  ///< of its columns and rows
   N size_log2, first;
 };
 inline LevelPlaces<int> level_places(const TextureLayout& layout, int level) {
@@ -37,7 +37,10 @@ inline Taps taps(const LevelPlaces<N>& in, const Places& at) {
   const I8 u = (at.u >> in.level) - kHalf, v = (at.v >> in.level) - kHalf;
   const I8 x = (u >> 8) & in.last, y = (v >> 8) & in.last;
   const auto place = [&](I8 row) { return in.first + (row << in.size_log2) + row + x; };
-  Taps taps{place(y), {}, u & 255, v & 255};
+  Taps taps;
+  taps.place = place(y);
+  taps.right = u & 255;
+  taps.down = v & 255;
   if (kPlanes > 1) taps.below = place((y + 1) & in.last);
   return taps;
 }
