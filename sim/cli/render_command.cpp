@@ -35,20 +35,23 @@ Channel channel_of(const std::string& what) {
 
 /// Who would draw, and who else can: one line each.
 void print_contexts(const std::string& asked) {
-  const std::array<std::pair<DrawingConfig::Context, ContextKind>, 3> kinds = {
-      {{DrawingConfig::Context::osmesa, ContextKind::osmesa},
-       {DrawingConfig::Context::egl, ContextKind::egl},
-       {DrawingConfig::Context::tiles, ContextKind::tiles}}};
-  const std::array<const char*, 3> names = {"osmesa", "egl", "tiles"};
-  for (size_t i = 0; i < kinds.size(); ++i) {
-    const bool chosen = asked.empty() ? kinds[i].first == DrawingConfig::usual_context() : asked == names[i];
+  struct Kind {
+    const char* name;
+    DrawingConfig::Context context;
+    ContextKind drawn_by;
+  };
+  using Context = DrawingConfig::Context;
+  for (const Kind& kind :
+       {Kind{"osmesa", Context::osmesa, ContextKind::osmesa}, Kind{"egl", Context::egl, ContextKind::egl},
+        Kind{"tiles", Context::tiles, ContextKind::tiles}}) {
+    const bool chosen = asked.empty() ? kind.context == DrawingConfig::usual_context() : asked == kind.name;
     if (!asked.empty() && !chosen) continue;
     const char* const mark = asked.empty() && chosen ? "  (used unless a scenario or --gl says otherwise)" : "";
     try {
-      fmt::print("{}: {}{}\n", names[i], Renderer(scenes::Scene{}, Culling::none, kinds[i].second).info(), mark);
+      fmt::print("{}: {}{}\n", kind.name, Renderer(scenes::Scene{}, Culling::none, kind.drawn_by).info(), mark);
     } catch (const std::runtime_error& fault) {
       if (chosen) throw;
-      fmt::print("{}: no: {}\n", names[i], fault.what());
+      fmt::print("{}: no: {}\n", kind.name, fault.what());
     }
   }
 }

@@ -69,8 +69,8 @@ inline Range range(D4 a) {
 inline Extent extent_of(const Corners& p, D4 per_z, const Lens& lens, double spare_px) {
   const Range u = range(lens.center_u_px + lens.focal_x_px * (p.x * per_z));
   const Range v = range(lens.center_v_px + lens.focal_y_px * (p.y * per_z));
-  // Rounded so that a pixel's middle on the bound counts, whatever the last bits of the bound are.
-  const double spare = spare_px + 1e-6;
+  // Rounded edges lie up to 1e-4 px beside the corners: what they decide must not be left out here.
+  const double spare = spare_px + 1e-3;
   const auto first = [&](double a, double end) {
     a -= spare;
     if (!(a > 0.0)) return 0;

@@ -103,10 +103,9 @@ void TilePainter::draw_movers(const Painter::Eye& eye) {
     memory_.add_eye(eye_at(p_MC_W, eye.X_WC.linear()));
     const auto index = static_cast<uint32_t>(1 + mover);
     for (const scenes::Chunk& chunk : geometry_.mover_chunks[mover]) {
-      if (chunk.index_count == 0 ||
-          tiles::hides(memory_.frame(), memory_.frame().eyes[index], chunk.box_W, kNearPlaneM)) {
-        continue;
-      }
+      const tiles::Eye& seen_from = memory_.frame().eyes[index];
+      const bool may_hide = culling_ != Culling::none;
+      if (may_hide && tiles::hides(memory_.frame(), seen_from, chunk.box_W, kNearPlaneM)) continue;
       draw(chunk, index);
     }
   }

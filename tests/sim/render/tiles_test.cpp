@@ -128,6 +128,25 @@ TEST(Tiles, LeaveNoHolesAlongSharedEdges) {
   }
 }
 
+// Two walls meet upright within a rounding of the last column of a tile, far from the image's first column: what the
+// rounded edge gives to the wall of the next tile must be drawn there.
+TEST(Tiles, LeaveNoHolesWhereAnUprightEdgeIsRoundedAcrossTiles) {
+  constexpr double kFocalPx = 200.0, kAwayM = 5.0, kCenterPx = 2000.0;
+  std::mt19937_64 random(95);
+  cv::Mat labels;
+  for (int i = 0; i < 300; ++i) {
+    const double u = 4000.0 - 1.0 - 8.0 * static_cast<double>(i % 40) + uniform(random, -2e-4, 2e-4);
+    SmallWorld world;
+    world.add_quad({5, -60, -1}, {0, static_cast<float>(60 + kAwayM * (u - kCenterPx) / kFocalPx), 0}, {0, 0, 2});
+    const scenes::Vertex corner = world.scene.meshes.front().vertices.back();  // the shared edge, to the last bit
+    world.add_quad(corner.p_W, {0, 30, 0}, {0, 0, 2});
+    Renderer renderer(world.scene, Culling::none, ContextKind::tiles);
+    const vision::camera::PinholeCamera camera{4000, 8, kFocalPx, kFocalPx, kCenterPx, 3.5};
+    renderer.draw({camera, look_at({0, 0, 0}, {1, 0, 0}), Channel::labels}, labels);
+    ASSERT_EQ(cv::countNonZero(labels), static_cast<int>(labels.total())) << i;
+  }
+}
+
 // Looking straight along an edge's plane, pixels' middles lie on the edge itself.
 TEST(Tiles, GiveAPixelOnAnEdgeToOneSide) {
   SmallWorld world;
