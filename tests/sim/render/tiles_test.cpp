@@ -131,17 +131,20 @@ TEST(Tiles, LeaveNoHolesAlongSharedEdges) {
 // Two walls meet upright within a rounding of the last column of a tile, far from the image's first column: what the
 // rounded edge gives to the wall of the next tile must be drawn there.
 TEST(Tiles, LeaveNoHolesWhereAnUprightEdgeIsRoundedAcrossTiles) {
-  constexpr double kFocalPx = 200.0, kAwayM = 5.0, kCenterPx = 2000.0;
+  constexpr double kCenterPx = 2000.0;
   std::mt19937_64 random(95);
   cv::Mat labels;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 4000; ++i) {
+    const double focal_px = uniform(random, 150.0, 250.0), away_m = uniform(random, 3.0, 10.0);
     const double u = 4000.0 - 1.0 - 8.0 * static_cast<double>(i % 40) + uniform(random, -2e-4, 2e-4);
     SmallWorld world;
-    world.add_quad({5, -60, -1}, {0, static_cast<float>(60 + kAwayM * (u - kCenterPx) / kFocalPx), 0}, {0, 0, 2});
+    const auto north_m = static_cast<float>(away_m), top_m = static_cast<float>(-0.2 * away_m);
+    const auto width_m = static_cast<float>(20.0 * away_m + away_m * (u - kCenterPx) / focal_px);
+    world.add_quad({north_m, -20 * north_m, top_m}, {0, width_m, 0}, {0, 0, -2 * top_m});
     const scenes::Vertex corner = world.scene.meshes.front().vertices.back();  // the shared edge, to the last bit
-    world.add_quad(corner.p_W, {0, 30, 0}, {0, 0, 2});
+    world.add_quad(corner.p_W, {0, 10 * north_m, 0}, {0, 0, -2 * top_m});
     Renderer renderer(world.scene, Culling::none, ContextKind::tiles);
-    const vision::camera::PinholeCamera camera{4000, 8, kFocalPx, kFocalPx, kCenterPx, 3.5};
+    const vision::camera::PinholeCamera camera{4000, 8, focal_px, focal_px, kCenterPx, 3.5};
     renderer.draw({camera, look_at({0, 0, 0}, {1, 0, 0}), Channel::labels}, labels);
     ASSERT_EQ(cv::countNonZero(labels), static_cast<int>(labels.total())) << i;
   }
