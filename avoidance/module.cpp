@@ -66,6 +66,14 @@ void check_frame(const CameraFrame& frame, int64_t now_ns, const Setup& setup, c
 
 }  // namespace
 
+void confine(Command& command, double speed_limit_mps) {
+  if (!std::visit(IsFinite{}, command)) throw std::invalid_argument("a command must be finite");
+  if (auto* velocity = std::get_if<VelocityCommand>(&command)) {
+    const double speed_mps = velocity->v_WB_W.norm();
+    if (speed_mps > speed_limit_mps) velocity->v_WB_W *= speed_limit_mps / speed_mps;
+  }
+}
+
 void Module::reset(const Setup& setup) {
   setup_.reset();
   last_t_ns_.reset();
@@ -97,14 +105,14 @@ Decision Module::update(const Observation& observation) {
 
   Decision decision = do_update(observation);
 
-  if (!std::visit(IsFinite{}, decision.command)) throw std::logic_error("a module's command must be finite");
   if (decision.signals.size() != signal_count_) {
     throw std::logic_error("a module gave " + std::to_string(decision.signals.size()) + " signals and announced " +
                            std::to_string(signal_count_));
   }
-  if (auto* velocity = std::get_if<VelocityCommand>(&decision.command)) {
-    const double speed_mps = velocity->v_WB_W.norm();
-    if (speed_mps > setup_->limits.speed_mps) velocity->v_WB_W *= setup_->limits.speed_mps / speed_mps;
+  try {
+    confine(decision.command, setup_->limits.speed_mps);
+  } catch (const std::invalid_argument&) {
+    throw std::logic_error("a module's command must be finite");
   }
   return decision;
 }

@@ -73,6 +73,10 @@ struct HoverCommand {
 };
 using Command = std::variant<VelocityCommand, PositionCommand, AttitudeCommand, HoverCommand>;
 
+/// Scales a speed above the limit down to it. Throws std::invalid_argument when the command is not finite.
+/// @param speed_limit_mps  > 0.
+void confine(Command& command, double speed_limit_mps);
+
 /// A camera a module cannot fly without.
 struct CameraNeed {
   std::string role;

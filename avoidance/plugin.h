@@ -103,7 +103,7 @@ void add_rows(PluginRows& rows) {
 /// What library and program must agree on: this interface (raise its number with every change of this file or of
 /// module.h), the compiler's way of laying out objects, and the packages whose types cross the border.
 #define HEDGEHOP_PLUGIN_INTERFACE \
-  "modules 3, C++ ABI " HEDGEHOP_WORDS(__GXX_ABI_VERSION) ", Eigen " HEDGEHOP_WORDS(EIGEN_WORLD_VERSION) "."      \
+  "modules 4, C++ ABI " HEDGEHOP_WORDS(__GXX_ABI_VERSION) ", Eigen " HEDGEHOP_WORDS(EIGEN_WORLD_VERSION) "."      \
   HEDGEHOP_WORDS(EIGEN_MAJOR_VERSION) ", OpenCV " HEDGEHOP_WORDS(CV_VERSION_MAJOR) "." HEDGEHOP_WORDS(CV_VERSION_MINOR)
 
 /// Offers modules. @param ...  rows: hedgehop::avoidance::ModuleRow<Config, make>.

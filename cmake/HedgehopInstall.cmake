@@ -1,16 +1,21 @@
-# cmake --install: the program, its scenarios, and what modules outside this tree are built against.
+# cmake --install: the program, its scenarios, and what modules and loops outside this tree are built against.
 include_guard()
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-hedgehop_offer(sim/fields vision avoidance)
+hedgehop_offer(sim/fields vision avoidance
+               scenes dynamics sim/scenario sim/render sim/collision sim/plugin sim/flight sim/verdict sim/loop sim/simulation)
+add_library(hedgehop_sim INTERFACE)
+target_link_libraries(hedgehop_sim INTERFACE hedgehop_sim_simulation)
+set_target_properties(hedgehop_sim PROPERTIES EXPORT_NAME sim)
+install(TARGETS hedgehop_sim EXPORT hedgehop)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/hedgehop)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/hedgehopConfig.cmake.in ${PROJECT_BINARY_DIR}/hedgehopConfig.cmake
                               INSTALL_DESTINATION ${package})
 # Modules are distinguished by the interface they were built against (avoidance/plugin.h); no version promises it.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/hedgehopConfigVersion.cmake COMPATIBILITY ExactVersion)
 install(FILES ${PROJECT_BINARY_DIR}/hedgehopConfig.cmake ${PROJECT_BINARY_DIR}/hedgehopConfigVersion.cmake
-              ${CMAKE_CURRENT_LIST_DIR}/HedgehopOpenCV.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/HedgehopOpenCV.cmake ${CMAKE_CURRENT_LIST_DIR}/HedgehopPackages.cmake
         DESTINATION ${package})
 install(EXPORT hedgehop NAMESPACE hedgehop:: FILE hedgehopTargets.cmake DESTINATION ${package})
 install(TARGETS hedgehop)

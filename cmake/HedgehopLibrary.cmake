@@ -45,7 +45,7 @@ function(hedgehop_library folder)
   target_link_libraries(${target} ${scope} ${arg_PACKAGES})
 endfunction()
 
-# What modules outside this tree are built against: installed.
+# What modules and loops outside this tree are built against: installed.
 function(hedgehop_offer)
   foreach(folder IN LISTS ARGN)
     string(REPLACE "/" "_" name ${folder})

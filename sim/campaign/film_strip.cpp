@@ -88,10 +88,9 @@ void write_film_strip(const std::filesystem::path& flight) {
   const double end_s = (collided ? result.at("flight_time_s") : closest.at("t_s")).get<double>();
 
   LoadedScenario loaded = load_flight(flight / "scenario.yaml");
-  Scenario& scenario = loaded.scenario;
-  if (!collided) scenario.duration_s = end_s;
-  StripWatcher watcher(scenario.film.rate_hz);
-  const FlightResult again = fly(scenario, std::move(loaded.parts), &watcher).result;
+  if (!collided) loaded.scenario.duration_s = end_s;
+  StripWatcher watcher(loaded.scenario.film.rate_hz);
+  const FlightResult again = Simulation(std::move(loaded), &watcher).run().result;
   const double clearance_m = again.closest_obstacle.distance_m;
   if (!closest.is_null() && std::abs(clearance_m - closest.at("distance_m").get<double>()) > kSameFlightM) {
     throw std::runtime_error(fmt::format("flown again, it came within {:.6f} m of an obstacle instead of {:.6f} m",

@@ -56,6 +56,13 @@ void print_contexts(const std::string& asked) {
   }
 }
 
+cv::Mat image_at(Simulation& simulation, const RenderOptions& options, Channel channel) {
+  simulation.camera(options.camera);  // told before flying
+  simulation.fly_to(options.time_s);
+  if (channel == Channel::flow) return simulation.flow_to_next_image(options.camera);
+  return simulation.image(options.camera, channel);
+}
+
 }  // namespace
 
 int render(const RenderOptions& options) {
@@ -67,8 +74,8 @@ int render(const RenderOptions& options) {
     throw InputError(fmt::format("-o {}: the image is a PNG; its name must end in .png", options.out.string()));
   }
   const Channel channel = channel_of(options.what);
-  LoadedScenario loaded = load(options.scenario);
-  cv::Mat image = image_at(loaded.scenario, std::move(loaded.parts), options.camera, channel, options.time_s);
+  Simulation simulation(load(options.scenario));
+  cv::Mat image = image_at(simulation, options, channel);
   if (options.what == "depth_mm") {
     image = to_millimeters(image);
   } else if (channel == Channel::depth) {

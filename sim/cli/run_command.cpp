@@ -91,20 +91,21 @@ void print_verdict(const Scenario& scenario, const FlightResult& result, const s
 int run(const RunOptions& options) {
   if (options.worker_of != 0) die_with(static_cast<pid_t>(options.worker_of));
   LoadedScenario loaded = load(options.scenario);
-  Scenario& scenario = loaded.scenario;
-  if (options.no_video) scenario.film.enabled = false;
+  if (options.no_video) loaded.scenario.film.enabled = false;
+  const Scenario scenario = loaded.scenario;
+  const Inputs inputs = loaded.inputs;
   const std::filesystem::path out =
       options.out.empty() ? std::filesystem::path{"out"} / fmt::format("{}-seed{}", scenario.name, scenario.seed)
                           : options.out;
   RunWatcher watcher(scenario, out / "video.webm", options.worker_of != 0);
-  const Flight flight = fly(scenario, std::move(loaded.parts), &watcher);
+  const Flight flight = Simulation(std::move(loaded), &watcher).run();
   watcher.close();
 
   const RunInfo info{scenario.name,
                      scenario.seed,
                      std::string(version()),
                      std::string(build_identity()),
-                     loaded.inputs,
+                     inputs,
                      options.scenario.file.string(),
                      command_line(options, scenario),
                      to_yaml(scenario)};

@@ -196,7 +196,7 @@ Flight export_flight(const Scenario& scenario, const ExportRequest& request,
   record.imu_config = scenario.avionics.imu;
   check(request, record);
   Recorder recorder(request, record, progress);
-  Flight flight = fly(scenario, &recorder);
+  Flight flight = Simulation(scenario, {}, &recorder).run();
   for (const DataFile& file : texts(request.format, record)) {
     std::filesystem::create_directories((request.out / file.name).parent_path());
     write_file_whole(request.out / file.name, file.text);

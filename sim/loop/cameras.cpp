@@ -36,18 +36,6 @@ void require_samples(const CameraConfig& camera, Renderer& renderer) {
   }
 }
 
-ContextKind context_kind(DrawingConfig::Context context) {
-  switch (context) {
-    case DrawingConfig::Context::osmesa:
-      return ContextKind::osmesa;
-    case DrawingConfig::Context::egl:
-      return ContextKind::egl;
-    case DrawingConfig::Context::tiles:
-      return ContextKind::tiles;
-  }
-  throw std::logic_error("unknown context");
-}
-
 std::optional<CornerDetector> detector_of(const CameraConfig& camera, const scenes::Scene& scene, uint64_t seed) {
   if (camera.channel != CameraConfig::Channel::corners) return std::nullopt;
   if (scene.corners_W.empty()) {
@@ -59,10 +47,9 @@ std::optional<CornerDetector> detector_of(const CameraConfig& camera, const scen
 
 }  // namespace
 
-Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, const DrawingConfig& drawing,
+Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, Renderer& renderer,
                  uint64_t seed)
-    : renderer_(scene, Culling::frustum_and_horizon, context_kind(drawing.context),
-                drawing.shadows ? Shadows::sun : Shadows::none) {
+    : renderer_(renderer) {
   for (const scenes::Mover& mover : scene.movers) movers_.push_back(mover.motion);
   for (const CameraConfig& camera : rig.cameras) {
     require_samples(camera, renderer_);

@@ -12,7 +12,6 @@
 #include "sim/loop/shutter.h"
 #include "sim/loop/ticks.h"
 #include "sim/render/renderer.h"
-#include "sim/scenario/drawing.h"
 #include "sim/scenario/rig.h"
 
 namespace hedgehop::sim {
@@ -21,10 +20,9 @@ namespace hedgehop::sim {
 /// from the same vehicle state, and from where they truly sit, which the calibration may miss.
 class Cameras {
  public:
-  /// @param seed  of the flight; each camera has its own stream.
+  /// @param renderer  of the scene; outlives the cameras. @param seed  of the flight; each camera has its own stream.
   /// Throws InputError for a camera that the context cannot draw, or a corner detector where no corners are known.
-  Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, const DrawingConfig& drawing,
-          uint64_t seed);
+  Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, Renderer& renderer, uint64_t seed);
 
   size_t count() const { return frames_.size(); }
   /// Index of a role. Throws std::out_of_range for a role the rig does not have.
@@ -60,7 +58,7 @@ class Cameras {
   void draw(size_t camera, Channel channel, const Instant& now, const Instant& next, cv::Mat& out);
   double image_speed_pxps(size_t camera, const Instant& now) const;
 
-  Renderer renderer_;
+  Renderer& renderer_;
   std::vector<Channel> channels_;  ///< to draw; grey where a corner detector is mounted
   std::vector<std::optional<CornerDetector>> detectors_;
   std::vector<int> samples_;

@@ -17,97 +17,91 @@ constexpr double kSearchRadiusM = 50.0;
 
 }  // namespace
 
-Episode::Episode(const Scenario& scenario, FlightParts parts, FlightWatcher* watcher, MapObserver* map_observer)
+Episode::Episode(const Scenario& scenario, Stage& stage, FlightParts parts, FlightWatcher* watcher,
+                 MapObserver* map_observer)
     : scenario_(scenario),
       ticks_(scenario.physics_rate_hz),
-      scene_(std::make_shared<const scenes::Scene>(
-          build_part("scene", [&] { return build_scene(scenario.scene, scenario.seed); }))),
-      hull_(dynamics::hull(scenario.vehicle)),
+      stage_(stage),
       aircraft_(scenario, ticks_, std::move(parts.aircraft)),
-      collision_(*scene_, hull_),
-      cameras_(scenario.rig, ticks_, *scene_, scenario.drawing, scenario.seed),
+      cameras_(scenario.rig, ticks_, *stage.scene, stage.renderer, scenario.seed),
       pilot_(scenario, ticks_, cameras_, std::move(parts.module)),
       onlooker_(watcher, ticks_, cameras_, aircraft_),
       map_observer_(map_observer),
       control_period_(ticks_.period(static_cast<double>(scenario.control_rate_hz))),
-      log_(*scene_, aircraft_.vehicle()) {
+      log_(*stage.scene, aircraft_.vehicle()) {
   if (scenario.velocimeter.enabled) {
     velocimeter_.emplace(cameras_.index(scenario.velocimeter.camera), cameras_);
   }
-}
-
-void Episode::begin() {
-  aircraft_.reset(collision_);
+  aircraft_.reset(stage_.collision);
   const double heading_rad = pilot_.route().goal().heading_rad;
-  pilot_.reset(dynamics::radius_m(hull_), dynamics::control::PositionSetpoint{aircraft_.body().p_WB, heading_rad});
+  pilot_.reset(dynamics::radius_m(stage_.hull),
+               dynamics::control::PositionSetpoint{aircraft_.body().p_WB, heading_rad});
   log_.set_signals(pilot_.module().signals());
   p_WB_start_ = aircraft_.body().p_WB;
+  arrive();
 }
 
-void Episode::act() {
+void Episode::tick(const avoidance::Command* command) {
+  if (over()) throw std::logic_error("the flight is over");
+  if (command || decides()) obeys_ = command != nullptr;
+  act(command);
+  if (over()) return;
+  move();
+  ++tick_;
+  arrive();
+}
+
+void Episode::arrive() {
   measure_proximity();
   look();
   sense();
   onlooker_.hand_over_sensors(tick_, motion());
-  if (pilot_.decides(tick_)) decide();
+  observation_.reset();
+  if (pilot_.decides(tick_)) observation_ = pilot_.observe(tick_, to_navigation_state(aircraft_.avionics()));
+  if (const std::optional<Ending> reason = ending()) {
+    act(nullptr);
+    end(*reason);
+  }
+}
+
+void Episode::act(const avoidance::Command* command) {
+  if (command) {
+    obey(*command);
+  } else if (decides() && !obeys_) {
+    decide();
+  }
   if (tick_ % control_period_ == 0) steer();
   onlooker_.show(tick_, pilot_.module(), scenario_.duration_s, goal_distance_m());
 }
 
-cv::Mat Episode::image(std::string_view role, Channel channel, double t_s) {
-  const size_t camera = cameras_.index(role);
-  begin();
-  const auto fly_on = [&](int64_t last) -> Cameras::Instant {
-    for (; tick_ < last; ++tick_) {
-      act();
-      if (ended()) {
-        throw InputError(fmt::format("--time {}: the flight ends at {:.3f} s ({}{}{})", t_s, ticks_.t_s(tick_),
-                                     to_string(*outcome_), cause_.empty() ? "" : ": ", cause_));
-      }
-      move();
-    }
-    measure_proximity();
-    return {ticks_.t_ns(tick_), motion()};
-  };
-  const Cameras::Instant now = fly_on(ticks_.ticks(t_s));
-  const bool leads_on = channel == Channel::flow;
-  return cameras_.image(camera, channel, now, leads_on ? fly_on(tick_ + cameras_.period_ticks(camera)) : now);
-}
-
-Flight Episode::fly() {
-  const StageTimer::Clock::time_point start = StageTimer::Clock::now();
-  begin();
-  for (;; ++tick_) {
-    act();
-    if (ended()) break;
-    move();
-  }
-  const double wall_s = std::chrono::duration<double>(StageTimer::Clock::now() - start).count();
-
-  Flight flight = log_.take(ticks_.t_s(tick_));
+Flight Episode::flight() const {
+  Flight flight = log_.flight(ticks_.t_s(tick_));
   FlightResult& result = flight.result;
-  result.outcome = *outcome_;
-  result.cause = cause_;
+  result.outcome = end_ ? end_->outcome : Outcome::timeout;
+  result.cause = end_ ? end_->cause : "";
   result.truth_used = pilot_.truth_used();
   result.goal_distance_m = goal_distance_m();
   result.decision_ms = decision_.summary();
   result.render_ms = render_.summary();
   result.velocimeter_ms = velocimetry_.summary();
   result.physics_ms = physics_.summary();
-  result.wall_s = wall_s;
-  result.realtime_factor = result.flight_time_s / wall_s;
   for (const avoidance::Metric& metric : pilot_.module().metrics()) {
     result.metrics.push_back({std::string(kModulePrefix) + metric.name, metric.value, metric.unit,
                               metric.is_wall_time ? FigureKind::wall_time : FigureKind::module});
   }
   flight.command_latency_s = pilot_.command_latency_s();
-  flight.map = map_log_.take();
-  flight.scene = scene_;
+  flight.map = map_log_.record();
+  flight.scene = stage_.scene;
   return flight;
 }
 
+avoidance::Observation Episode::observation() const {
+  if (observation_) return *observation_;
+  return {ticks_.t_ns(tick_), {}, to_navigation_state(aircraft_.avionics()), pilot_.route().goal()};
+}
+
 void Episode::measure_proximity() {
-  proximity_ = collision_.query(aircraft_.X_WB(), kSearchRadiusM, ticks_.t_s(tick_));
+  proximity_ = stage_.collision.query(aircraft_.X_WB(), kSearchRadiusM, ticks_.t_s(tick_));
   log_.add(ticks_.t_s(tick_), aircraft_.body().p_WB, proximity_);
 }
 
@@ -136,18 +130,23 @@ void Episode::sense() {
       return velocimeter_->measure(*ground_, navigation);
     };
   }
-  aircraft_.sense(tick_, collision_, flow_velocity);
+  aircraft_.sense(tick_, stage_.collision, flow_velocity);
 }
 
 void Episode::decide() {
   try {
     const StageTimer::Lap lap = decision_.lap();
-    log_.add(ticks_.t_s(tick_), pilot_.decide(tick_, to_navigation_state(aircraft_.avionics())));
+    log_.add(ticks_.t_s(tick_), pilot_.decide(tick_, *observation_));
   } catch (const std::exception& error) {
-    end(Outcome::fault, fmt::format("the module failed at {:.3f} s: {}", ticks_.t_s(tick_), error.what()));
+    end({Outcome::fault, fmt::format("the module failed at {:.3f} s: {}", ticks_.t_s(tick_), error.what())});
     return;
   }
   observe_map();
+}
+
+void Episode::obey(const avoidance::Command& command) {
+  const std::vector<double> no_signals(pilot_.module().signals().size(), std::nan(""));
+  log_.add(ticks_.t_s(tick_), {pilot_.obey(tick_, command), "commanded", no_signals});
 }
 
 /// Records the module's map, and shows it to who observes it, beside the truth.
@@ -155,8 +154,8 @@ void Episode::observe_map() {
   const double t_s = ticks_.t_s(tick_);
   avoidance::Map map = pilot_.module().map();
   if (const std::optional<size_t> camera = pilot_.first_camera(); camera && map_observer_) {
-    map_observer_->on_map({t_s, map, cameras_.truly_mounted(*camera), aircraft_.X_WB(), p_WB_start_, *scene_,
-                           collision_, pilot_.sees_through_walls()});
+    map_observer_->on_map({t_s, map, cameras_.truly_mounted(*camera), aircraft_.X_WB(), p_WB_start_, *stage_.scene,
+                           stage_.collision, pilot_.sees_through_walls()});
   }
   map_log_.add(t_s, std::move(map));
 }
@@ -168,21 +167,25 @@ void Episode::steer() {
   log_.add(ticks_.t_s(tick_), aircraft_, setpoint, proximity_);
 }
 
-bool Episode::ended() {
+/// How the flight ends on this tick; none where it goes on.
+std::optional<Episode::Ending> Episode::ending() const {
   const dynamics::RigidBodyState& body = aircraft_.body();
   if (!body.p_WB.allFinite() || !body.v_WB_B.allFinite() || !body.q_WB.coeffs().allFinite()) {
-    end(Outcome::fault, fmt::format("the vehicle's state stopped being finite at {:.3f} s", ticks_.t_s(tick_)));
-  } else if (proximity_.collided) {
-    const bool ground = proximity_.ground_clearance_m <= 0.0;
-    const std::string what =
-        ground || !proximity_.nearest_solid ? "the ground" : scenes::solid_at(*scene_, *proximity_.nearest_solid).name;
-    end(Outcome::collided, fmt::format("hit {} at {:.3f} s", what, ticks_.t_s(tick_)));
-  } else if (scenario_.goal && pilot_.route().on_last() && scenario_.goal->holds(aircraft_.body().p_WB)) {
-    end(Outcome::reached);
-  } else if (tick_ >= ticks_.ticks(scenario_.duration_s)) {
-    end(Outcome::timeout);
+    return Ending{Outcome::fault,
+                  fmt::format("the vehicle's state stopped being finite at {:.3f} s", ticks_.t_s(tick_))};
   }
-  return outcome_.has_value();
+  if (proximity_.collided) {
+    const bool ground = proximity_.ground_clearance_m <= 0.0;
+    const std::string what = ground || !proximity_.nearest_solid
+                                 ? "the ground"
+                                 : scenes::solid_at(*stage_.scene, *proximity_.nearest_solid).name;
+    return Ending{Outcome::collided, fmt::format("hit {} at {:.3f} s", what, ticks_.t_s(tick_))};
+  }
+  if (scenario_.goal && pilot_.route().on_last() && scenario_.goal->holds(body.p_WB)) {
+    return Ending{Outcome::reached, {}};
+  }
+  if (tick_ >= ticks_.ticks(scenario_.duration_s)) return Ending{Outcome::timeout, {}};
+  return std::nullopt;
 }
 
 void Episode::move() {
@@ -190,10 +193,9 @@ void Episode::move() {
   aircraft_.move();
 }
 
-void Episode::end(Outcome outcome, std::string cause) {
-  if (outcome_) return;  // the first cause stands
-  outcome_ = outcome;
-  cause_ = std::move(cause);
+/// The first cause stands.
+void Episode::end(Ending reason) {
+  if (!end_) end_ = std::move(reason);
 }
 
 std::optional<double> Episode::goal_distance_m() const {

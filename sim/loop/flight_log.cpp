@@ -88,16 +88,17 @@ void FlightLog::add(double t_s, const avoidance::Decision& decision) {
       {t_s, decision.status, command.v_WB_W, command.altitude_m, command.heading_rad, decision.signals});
 }
 
-Flight FlightLog::take(double flight_time_s) {
-  FlightResult& result = flight_.result;
-  for (size_t i = 1; i < flight_.trajectory.size(); ++i) {
-    result.path_length_m += (flight_.trajectory[i].p_WB_true - flight_.trajectory[i - 1].p_WB_true).norm();
+Flight FlightLog::flight(double flight_time_s) const {
+  Flight flight = flight_;
+  FlightResult& result = flight.result;
+  for (size_t i = 1; i < flight.trajectory.size(); ++i) {
+    result.path_length_m += (flight.trajectory[i].p_WB_true - flight.trajectory[i - 1].p_WB_true).norm();
   }
   result.flight_time_s = flight_time_s;
   result.mean_speed_mps = flight_time_s > 0.0 ? result.path_length_m / flight_time_s : 0.0;
-  result.decisions = static_cast<int64_t>(flight_.decisions.size());
+  result.decisions = static_cast<int64_t>(flight.decisions.size());
   result.trajectory_hash = hash_.hex();
-  return std::move(flight_);
+  return flight;
 }
 
 }  // namespace hedgehop::sim

@@ -31,7 +31,7 @@ class FlightLog {
   void add(double t_s, const avoidance::Decision& decision);
 
   /// The flight so far, with its figures; outcome, timing, metrics and checks are the caller's to fill.
-  Flight take(double flight_time_s);
+  Flight flight(double flight_time_s) const;
 
  private:
   const scenes::Scene& scene_;

@@ -13,8 +13,8 @@ void MapLog::add(double t_s, avoidance::Map map) {
   last_ = std::move(map);
 }
 
-MapRecord MapLog::take() {
-  MapRecord record{.course_NE = std::move(last_.course_NE), .paths = std::move(paths_)};
+MapRecord MapLog::record() const {
+  MapRecord record{.course_NE = last_.course_NE, .paths = paths_};
   for (const avoidance::MapPoint& point : last_.points) {
     record.points.push_back({point.p_W, point.covariance_W, std::nullopt});
   }

@@ -14,9 +14,8 @@ class MapLog {
   /// @param t_s  rising.
   void add(double t_s, avoidance::Map map);
 
-  /// The record so far, empty for a module that makes no map; the log is empty afterwards. What is true of it, a judge
-  /// adds (MapScore::complete()).
-  MapRecord take();
+  /// The record so far, empty for a module that makes no map. What is true of it, a judge adds (MapScore::complete()).
+  MapRecord record() const;
 
  private:
   avoidance::Map last_;

@@ -59,11 +59,21 @@ bool ModulePilot::decides(int64_t tick) const {
   return module_cameras_.empty() ? tick % decision_period_ == 0 : !seen_.empty();
 }
 
-avoidance::Decision ModulePilot::decide(int64_t tick, const avoidance::NavigationState& navigation) {
+avoidance::Observation ModulePilot::observe(int64_t tick, const avoidance::NavigationState& navigation) {
   route_.update(navigation.p_WB_est);
-  avoidance::Decision decision = module_->update({ticks_.t_ns(tick), seen_, navigation, route_.goal()});
+  return {ticks_.t_ns(tick), seen_, navigation, route_.goal()};
+}
+
+avoidance::Decision ModulePilot::decide(int64_t tick, const avoidance::Observation& observation) {
+  avoidance::Decision decision = module_->update(observation);
   pending_.push_back({tick + latency_, decision.command});
   return decision;
+}
+
+avoidance::Command ModulePilot::obey(int64_t tick, avoidance::Command command) {
+  avoidance::confine(command, scenario_.avionics.autopilot.speed_limit_mps);
+  pending_.push_back({tick + latency_, command});
+  return command;
 }
 
 const dynamics::control::Setpoint& ModulePilot::setpoint(int64_t tick) {

@@ -34,9 +34,14 @@ class ModulePilot {
   void look(int64_t tick, const BodyMotion& body);
   /// Whether it decides on this tick, look() having been called.
   bool decides(int64_t tick) const;
-  /// Returns the module's decision on its last frames; the command takes effect after the latency. Throws what
-  /// the module throws. @param navigation  the aircraft's own estimate, of this tick.
-  avoidance::Decision decide(int64_t tick, const avoidance::NavigationState& navigation);
+  /// What it would decide on now: its last frames, the aircraft's own estimate of this tick, the next place to fly to.
+  /// The frames are good until the next look().
+  avoidance::Observation observe(int64_t tick, const avoidance::NavigationState& navigation);
+  /// Returns the module's decision; the command takes effect after the latency. Throws what the module throws.
+  avoidance::Decision decide(int64_t tick, const avoidance::Observation& observation);
+  /// Takes a command in place of the module's. Throws std::invalid_argument when it is not finite; a speed above the
+  /// limit is scaled down to it. @return  as it will take effect.
+  avoidance::Command obey(int64_t tick, avoidance::Command command);
 
   /// What the autopilot holds on this tick: the last command whose latency is over. @param tick  rising.
   const dynamics::control::Setpoint& setpoint(int64_t tick);

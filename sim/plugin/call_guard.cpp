@@ -18,9 +18,9 @@ namespace {
 constexpr std::array kCrashes = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 constexpr int kTimeOver = SIGALRM;
 
-// Signal handlers reach nothing but globals.
-sigjmp_buf return_point;
-volatile sig_atomic_t is_inside = 0;
+// Signal handlers reach nothing but globals. A crash and the end of the time are told to the thread they are of.
+thread_local sigjmp_buf return_point;
+thread_local volatile sig_atomic_t is_inside = 0;
 
 void leave(int signal) {
   if (is_inside == 0 && signal == kTimeOver) return;  // the call ended as its time did
@@ -35,7 +35,7 @@ void leave(int signal) {
 
 /// The stack may be what has run out.
 void use_other_stack() {
-  static std::vector<char> stack(64 * 1024);
+  thread_local std::vector<char> stack(64 * 1024);
   stack_t other{};
   other.ss_sp = stack.data();
   other.ss_size = stack.size();
@@ -52,22 +52,32 @@ timer_t make_timer() {
   return timer;
 }
 
-void set(timer_t timer, double seconds) {
-  itimerspec time{};
-  const double whole = std::floor(seconds);
-  time.it_value.tv_sec = static_cast<time_t>(whole);
-  time.it_value.tv_nsec = static_cast<long>((seconds - whole) * 1e9);
-  ::timer_settime(timer, 0, &time, nullptr);
-}
+/// A thread's own.
+class Timer {
+ public:
+  Timer() : timer_(make_timer()) {}
+  ~Timer() { ::timer_delete(timer_); }
+  Timer(const Timer&) = delete;
+  Timer& operator=(const Timer&) = delete;
+  void set(double seconds) const {
+    itimerspec time{};
+    const double whole = std::floor(seconds);
+    time.it_value.tv_sec = static_cast<time_t>(whole);
+    time.it_value.tv_nsec = static_cast<long>((seconds - whole) * 1e9);
+    ::timer_settime(timer_, 0, &time, nullptr);
+  }
 
-timer_t prepare() {
+ private:
+  timer_t timer_;
+};
+
+void catch_signals() {
   use_other_stack();
   struct sigaction action {};
   action.sa_handler = leave;
   action.sa_flags = SA_ONSTACK | SA_NODEFER;
   for (const int signal : kCrashes) ::sigaction(signal, &action, nullptr);
   ::sigaction(kTimeOver, &action, nullptr);
-  return make_timer();
 }
 
 std::string words(int signal, double limit_s) {
@@ -78,23 +88,26 @@ std::string words(int signal, double limit_s) {
 }  // namespace
 
 void call_guarded(double limit_s, const std::function<void()>& call) {
-  static const timer_t timer = prepare();
+  thread_local const Timer timer = [] {
+    catch_signals();
+    return Timer();
+  }();
   const int signal = sigsetjmp(return_point, 0);
   if (signal != 0) {
-    set(timer, 0.0);
+    timer.set(0.0);
     throw CallBroken(words(signal, limit_s));
   }
   is_inside = 1;
-  set(timer, limit_s);
+  timer.set(limit_s);
   try {
     call();
   } catch (...) {
     is_inside = 0;
-    set(timer, 0.0);
+    timer.set(0.0);
     throw;
   }
   is_inside = 0;
-  set(timer, 0.0);
+  timer.set(0.0);
 }
 
 }  // namespace hedgehop::sim

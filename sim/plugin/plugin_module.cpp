@@ -7,6 +7,7 @@
 
 #include "avoidance/plugin.h"
 #include "sim/plugin/call_guard.h"
+#include "sim/plugin/python_module.h"
 #include "sim/scenario/input_error.h"
 #include "sim/scenario/reader.h"
 
@@ -185,6 +186,8 @@ std::unique_ptr<avoidance::Module> make(const PluginConfig& config) {
   }
   return std::make_unique<GuardedModule>(std::move(module), config);
 }
+
+std::unique_ptr<avoidance::Module> make(const PythonConfig& config) { return make_python_module(config); }
 
 template <class Config>
 std::unique_ptr<avoidance::Module> make(const Config& config) {

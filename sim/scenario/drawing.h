@@ -15,7 +15,7 @@ struct DrawingConfig {
 };
 template <class Visitor>
 void describe(Visitor& v, DrawingConfig& c) {
-  v("gl", c.context,
+  v("context", c.context,
     {.choices = {"osmesa", "egl", "tiles"},
      .meaning = "who draws: Mesa's rasterizer behind OSMesa; EGL, which takes a GPU where there is one; or tiles, "
                 "Hedgehop's own, several times faster on a processor with AVX2"});

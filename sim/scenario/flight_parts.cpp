@@ -18,7 +18,7 @@ dynamics::Avionics build_avionics(const Scenario& scenario, const dynamics::Vehi
 std::unique_ptr<avoidance::Module> build_module(const AvoidanceConfig& config) {
   return std::visit(
       [](const auto& chosen) -> std::unique_ptr<avoidance::Module> {
-        if constexpr (std::is_same_v<std::decay_t<decltype(chosen)>, PluginConfig>) {
+        if constexpr (kIsForeign<std::decay_t<decltype(chosen)>>) {
           return nullptr;
         } else {
           return avoidance::make_module(chosen);

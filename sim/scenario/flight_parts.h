@@ -43,6 +43,9 @@ struct LoadedScenario {
 /// @param seed  replaces the file's. Throws InputError with every fault found.
 LoadedScenario load_flight(const std::filesystem::path& file, std::span<const std::string> overrides = {},
                            std::optional<uint64_t> seed = {});
+/// As above, of a text instead of a file; its paths are relative to the working folder.
+LoadedScenario load_flight_text(const std::string& yaml, std::span<const std::string> overrides = {},
+                                std::optional<uint64_t> seed = {});
 
 /// Builds the parts of a scenario that no file was read for. Throw InputError beginning with the part's key, or with
 /// 'scenario' for a value out of its bounds.

@@ -65,7 +65,11 @@ class Includer {
       return {};
     }
     read_.insert(file.lexically_normal());
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    return parse({std::istreambuf_iterator<char>(stream), {}}, name, file.parent_path(), identity);
+  }
+
+  /// @param identity  of the file that the text comes from.
+  Node parse(const std::string& text, const std::string& name, const fs::path& folder, const fs::path& identity) {
     const size_t faults_before = faults_.count();
     Node root = parse_yaml(text, name, faults_);
     if (root.kind != Node::Kind::map && faults_.count() == faults_before) {
@@ -73,7 +77,7 @@ class Includer {
     }
     identities_.push_back(identity);
     names_.push_back(name);
-    expand(root, file.parent_path());
+    expand(root, folder);
     identities_.pop_back();
     names_.pop_back();
     return root;
@@ -215,6 +219,10 @@ void override_with(Node& base, const Node& over) {
 
 Node load_tree(const fs::path& file, Faults& faults, std::set<fs::path>& read) {
   return Includer(faults, read).load(file, nullptr);
+}
+
+Node parse_tree(const std::string& text, const std::string& name, Faults& faults, std::set<fs::path>& read) {
+  return Includer(faults, read).parse(text, name, {}, {});
 }
 
 Node load_tree(const fs::path& file, Faults& faults) {

@@ -21,6 +21,10 @@ Node load_tree(const std::filesystem::path& file, Faults& faults);
 /// @param read  gains every file that was read.
 Node load_tree(const std::filesystem::path& file, Faults& faults, std::set<std::filesystem::path>& read);
 
+/// As load_tree(), of a text; its paths are relative to the working folder. @param name  for places, no path.
+Node parse_tree(const std::string& text, const std::string& name, Faults& faults,
+                std::set<std::filesystem::path>& read);
+
 /// Overrides `base` with `over`: maps key by key (see kSelectors), all else by replacement.
 void override_with(Node& base, const Node& over);
 

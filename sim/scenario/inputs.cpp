@@ -36,6 +36,7 @@ std::set<fs::path> named_files(const Scenario& scenario) {
     if (const auto* path = std::get_if<PathToleranceCheck>(&check)) files.insert(path->reference);
   }
   if (const auto* plugin = std::get_if<PluginConfig>(&scenario.avoidance)) files.insert(plugin->plugin);
+  if (const auto* script = std::get_if<PythonConfig>(&scenario.avoidance)) files.insert(script->python);
   files.erase(fs::path());
   return files;
 }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <type_traits>
 #include <variant>
 
 #include "avoidance/registry.h"
@@ -34,14 +35,35 @@ void describe(Visitor& v, PluginConfig& c) {
   v("parameters", c.parameters, {.meaning = "the module's own, read as strictly"});
 }
 
-template <class Variant, class More>
+/// A module written in Python. Its class checks its own parameters, when a flight begins.
+struct PythonConfig {
+  static constexpr std::string_view kName = "python";
+  static constexpr std::string_view kMeaning = "a module written in Python (docs/python.md)";
+  static constexpr std::string_view kChosenBy = "python";
+
+  std::filesystem::path python;
+  std::string class_name;
+  Node parameters;
+};
+template <class Visitor>
+void describe(Visitor& v, PythonConfig& c) {
+  v("python", c.python, {.required = true, .meaning = "source file, relative to this file"});
+  v("class", c.class_name, {.required = true, .meaning = "the module's class in it"});
+  v("parameters", c.parameters, {.meaning = "keyword arguments of the class"});
+}
+
+template <class Variant, class... More>
 struct Widened;
-template <class... Choices, class More>
-struct Widened<std::variant<Choices...>, More> {
-  using type = std::variant<Choices..., More>;
+template <class... Choices, class... More>
+struct Widened<std::variant<Choices...>, More...> {
+  using type = std::variant<Choices..., More...>;
 };
 
+/// Whether a module's code lies outside this tree and is loaded when a flight begins.
+template <class Config>
+inline constexpr bool kIsForeign = std::is_same_v<Config, PluginConfig> || std::is_same_v<Config, PythonConfig>;
+
 /// Who decides where to fly: a module of this tree, or one from outside.
-using AvoidanceConfig = Widened<avoidance::ModuleConfig, PluginConfig>::type;
+using AvoidanceConfig = Widened<avoidance::ModuleConfig, PluginConfig, PythonConfig>::type;
 
 }  // namespace hedgehop::sim

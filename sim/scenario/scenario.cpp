@@ -40,13 +40,9 @@ void find_imports(scenes::SceneConfig& scene, const Node& root) {
   }
 }
 
-}  // namespace
-
-LoadedScenario load_flight(const std::filesystem::path& file, std::span<const std::string> overrides,
-                           std::optional<uint64_t> seed) {
-  Faults faults;
-  std::set<std::filesystem::path> read;
-  Node root = load_tree(file, faults, read);
+/// @param file  that `root` comes from. @param read  files read so far.
+LoadedScenario load_flight(Node root, const std::filesystem::path& file, std::span<const std::string> overrides,
+                           std::optional<uint64_t> seed, Faults& faults, std::set<std::filesystem::path>& read) {
   if (root.kind != Node::Kind::map) faults.raise();
   apply_overrides(root, overrides, file, faults, read);
 
@@ -66,6 +62,25 @@ LoadedScenario load_flight(const std::filesystem::path& file, std::span<const st
   faults.raise();
   Inputs inputs = inputs_of(scenario, read, file.parent_path());
   return {std::move(scenario), *std::move(parts), std::move(inputs)};
+}
+
+}  // namespace
+
+LoadedScenario load_flight(const std::filesystem::path& file, std::span<const std::string> overrides,
+                           std::optional<uint64_t> seed) {
+  Faults faults;
+  std::set<std::filesystem::path> read;
+  Node root = load_tree(file, faults, read);
+  return load_flight(std::move(root), file, overrides, seed, faults, read);
+}
+
+LoadedScenario load_flight_text(const std::string& yaml, std::span<const std::string> overrides,
+                                std::optional<uint64_t> seed) {
+  constexpr const char* kName = "scenario text";
+  Faults faults;
+  std::set<std::filesystem::path> read;
+  Node root = parse_tree(yaml, kName, faults, read);
+  return load_flight(std::move(root), kName, overrides, seed, faults, read);
 }
 
 Scenario load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {

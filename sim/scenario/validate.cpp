@@ -99,7 +99,7 @@ class Validator {
 
   /// The parts; none when one could not be built.
   std::optional<FlightParts> take() {
-    const bool has_module = module_ || std::holds_alternative<PluginConfig>(scenario_.avoidance);
+    const bool has_module = module_ || std::visit([]<class C>(const C&) { return kIsForeign<C>; }, scenario_.avoidance);
     if (!vehicle_ || !wind_ || !avionics_ || !has_module) return {};
     return FlightParts{{*std::move(vehicle_), *std::move(wind_), *std::move(avionics_)}, std::move(module_)};
   }

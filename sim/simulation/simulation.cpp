@@ -1,9 +1,12 @@
 #include "sim/simulation/simulation.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <chrono>
 #include <opencv2/core/utility.hpp>
-#include <string>
+#include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "sim/loop/episode.h"
@@ -11,31 +14,168 @@
 #include "sim/verdict/assessment.h"
 
 namespace hedgehop::sim {
+namespace {
 
-Flight fly(const Scenario& scenario, FlightParts parts, FlightWatcher* watcher) {
-  cv::setNumThreads(1);  // flights are the unit of parallelism
-  MapJudge judge;
-  Episode episode(scenario, std::move(parts), watcher, &judge);
-  Flight flight = episode.fly();
-  judge.conclude(flight);
-  assess(scenario, *flight.scene, episode.hull(), flight);
-  return flight;
-}
+/// Adds the wall time of its life, for reports only.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum_s) : sum_s_(sum_s), start_(std::chrono::steady_clock::now()) {}
+  ~Stopwatch() { sum_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
 
-Flight fly(const Scenario& scenario, FlightWatcher* watcher) { return fly(scenario, build_parts(scenario), watcher); }
+ private:
+  double& sum_s_;
+  std::chrono::steady_clock::time_point start_;
+};
 
-cv::Mat image_at(const Scenario& scenario, FlightParts parts, std::string_view role, Channel channel, double t_s) {
-  cv::setNumThreads(1);
-  if (!scenario.rig.find(role)) {
-    std::string roles;
-    for (const CameraConfig& camera : scenario.rig.cameras) roles += (roles.empty() ? "" : ", ") + camera.role;
-    throw InputError(fmt::format("the rig has no camera '{}'; its cameras: {}", role, roles));
+}  // namespace
+
+class Simulation::Impl {
+ public:
+  Impl(Scenario scenario, FlightParts parts, ModuleMaker module, FlightWatcher* watcher)
+      : scenario_(std::move(scenario)), make_module_(std::move(module)), watcher_(watcher) {
+    cv::setNumThreads(1);  // flights are the unit of parallelism
+    stage_.emplace(scenario_);
+    begin(std::move(parts));
   }
-  return Episode(scenario, std::move(parts)).image(role, channel, t_s);
+
+  void reset(uint64_t seed) {
+    episode_.reset();
+    if (seed != scenario_.seed) {
+      scenario_.seed = seed;
+      stage_.reset();
+      stage_.emplace(scenario_);
+    }
+    begin(build_parts(scenario_));
+  }
+
+  bool tick(const avoidance::Command* command) {
+    const Stopwatch stopwatch(flying_s_);
+    episode_->tick(command);
+    return !episode_->over();
+  }
+
+  bool step(const avoidance::Command* command) {
+    const Stopwatch stopwatch(flying_s_);
+    episode_->tick(command);
+    while (!episode_->over() && !episode_->decides()) episode_->tick();
+    return !episode_->over();
+  }
+
+  void fly_to(double t_s) {
+    const Stopwatch stopwatch(flying_s_);
+    const double half_tick_s = 0.5 / static_cast<double>(scenario_.physics_rate_hz);
+    while (!episode_->over() && episode_->t_s() + half_tick_s < t_s) episode_->tick();
+    if (episode_->t_s() + half_tick_s >= t_s) return;
+    const FlightResult ended = episode_->flight().result;
+    throw InputError(fmt::format("the flight ends at {:.3f} s ({}{}{}), before {:.3f} s", episode_->t_s(),
+                                 to_string(ended.outcome), ended.cause.empty() ? "" : ": ", ended.cause, t_s));
+  }
+
+  size_t camera(std::string_view role) {
+    if (scenario_.rig.find(role)) return episode_->cameras().index(role);
+    std::vector<std::string> roles;
+    for (const CameraConfig& camera : scenario_.rig.cameras) roles.push_back(camera.role);
+    throw InputError(fmt::format("the rig has no camera '{}'; its cameras: {}", role, fmt::join(roles, ", ")));
+  }
+
+  /// As if the flight ended now, where it goes on.
+  Flight judged() const {
+    Flight flight = episode_->flight();
+    flight.result.wall_s = flying_s_;
+    flight.result.realtime_factor = flight.result.flight_time_s / flying_s_;
+    judge_->conclude(flight);
+    assess(scenario_, *flight.scene, stage_->hull, flight);
+    return flight;
+  }
+
+  Episode& episode() { return *episode_; }
+  const Scenario& scenario() const { return scenario_; }
+
+ private:
+  void begin(FlightParts parts) {
+    if (make_module_) parts.module = make_module_();
+    flying_s_ = 0.0;
+    judge_.emplace();
+    const Stopwatch stopwatch(flying_s_);
+    episode_.emplace(scenario_, *stage_, std::move(parts), watcher_, &*judge_);
+  }
+
+  Scenario scenario_;
+  ModuleMaker make_module_;
+  FlightWatcher* watcher_;
+  std::optional<Stage> stage_;
+  std::optional<MapJudge> judge_;
+  std::optional<Episode> episode_;  ///< refers to all of the above
+  double flying_s_ = 0.0;           ///< wall time
+};
+
+Simulation::Simulation(LoadedScenario loaded, FlightWatcher* watcher)
+    : impl_(std::make_unique<Impl>(std::move(loaded.scenario), std::move(loaded.parts), ModuleMaker{}, watcher)) {}
+
+Simulation::Simulation(Scenario scenario, ModuleMaker module, FlightWatcher* watcher) {
+  FlightParts parts = build_parts(scenario);
+  impl_ = std::make_unique<Impl>(std::move(scenario), std::move(parts), std::move(module), watcher);
 }
 
-cv::Mat image_at(const Scenario& scenario, std::string_view role, Channel channel, double t_s) {
-  return image_at(scenario, build_parts(scenario), role, channel, t_s);
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+Simulation::~Simulation() = default;
+
+void Simulation::reset() { impl_->reset(scenario().seed); }
+void Simulation::reset(uint64_t seed) { impl_->reset(seed); }
+
+bool Simulation::step() { return impl_->step(nullptr); }
+bool Simulation::step(const avoidance::Command& command) { return impl_->step(&command); }
+bool Simulation::tick() { return impl_->tick(nullptr); }
+bool Simulation::tick(const avoidance::Command& command) { return impl_->tick(&command); }
+void Simulation::fly_to(double t_s) { impl_->fly_to(t_s); }
+
+Flight Simulation::run() {
+  while (!over()) impl_->step(nullptr);
+  return result();
+}
+
+bool Simulation::over() const { return impl_->episode().over(); }
+bool Simulation::decides() const { return impl_->episode().decides(); }
+double Simulation::t_s() const { return impl_->episode().t_s(); }
+const Scenario& Simulation::scenario() const { return impl_->scenario(); }
+
+avoidance::Observation Simulation::seen() const { return impl_->episode().observation(); }
+
+TrueMotion Simulation::truth() const {
+  const Aircraft& aircraft = impl_->episode().aircraft();
+  const dynamics::RigidBodyState& body = aircraft.body();
+  return {body.p_WB, body.q_WB, body.q_WB * body.v_WB_B, body.w_WB_B, aircraft.wind_W()};
+}
+
+const Proximity& Simulation::proximity() const { return impl_->episode().proximity(); }
+
+const avoidance::MountedCamera& Simulation::camera(std::string_view role) const {
+  return impl_->episode().cameras().mounted(impl_->camera(role));
+}
+
+cv::Mat Simulation::image(std::string_view role, Channel channel) {
+  if (channel == Channel::flow) throw std::invalid_argument("flow leads to another image: see flow_to_next_image()");
+  const size_t camera = impl_->camera(role);
+  const Cameras::Instant now = impl_->episode().instant();
+  return impl_->episode().cameras().image(camera, channel, now, now);
+}
+
+cv::Mat Simulation::flow_to_next_image(std::string_view role) {
+  const size_t camera = impl_->camera(role);
+  Cameras& cameras = impl_->episode().cameras();
+  const Cameras::Instant now = impl_->episode().instant();
+  fly_to(t_s() + 1.0 / cameras.mounted(camera).rate_hz);
+  return cameras.image(camera, Channel::flow, now, impl_->episode().instant());
+}
+
+std::vector<CheckResult> Simulation::checks_so_far() const { return impl_->judged().result.checks; }
+
+Flight Simulation::result() const {
+  if (!over()) throw std::logic_error("the flight is not over");
+  return impl_->judged();
 }
 
 }  // namespace hedgehop::sim

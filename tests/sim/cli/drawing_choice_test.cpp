@@ -35,11 +35,11 @@ class DrawingChoice : public testing::Test {
 };
 
 TEST_F(DrawingChoice, FirstThatSpeaksCounts) {
-  EXPECT_THAT(flown(""), HasSubstr("gl: osmesa"));
+  EXPECT_THAT(flown(""), HasSubstr("context: osmesa"));
   setenv("HEDGEHOP_GL", "tiles", 1);
-  EXPECT_THAT(flown(""), HasSubstr("gl: tiles"));
-  EXPECT_THAT(flown("--set drawing.gl=osmesa"), HasSubstr("gl: osmesa"));
-  EXPECT_THAT(flown("--set drawing.gl=osmesa --gl tiles"), HasSubstr("gl: tiles"));
+  EXPECT_THAT(flown(""), HasSubstr("context: tiles"));
+  EXPECT_THAT(flown("--set drawing.context=osmesa"), HasSubstr("context: osmesa"));
+  EXPECT_THAT(flown("--set drawing.context=osmesa --gl tiles"), HasSubstr("context: tiles"));
 }
 
 TEST_F(DrawingChoice, UnknownWordIsRefusedInOneLine) {

@@ -76,7 +76,7 @@ double metric(const Flight& flight, const std::string& name) {
 }
 
 TEST(ProjectedCorners, GiveAMapOfAllTheCubeAndTheResultListsThem) {
-  const Flight flight = fly(from_corners("shah2009_cube_lateral.yaml"));
+  const Flight flight = Simulation(from_corners("shah2009_cube_lateral.yaml")).run();
   EXPECT_EQ(metric(flight, "module.landmarks"), 8.0);  // those that walls hide, too
   EXPECT_THAT(flight.result.truth_used, ElementsAre("camera 'front': projected corners"));
   EXPECT_EQ(flight.decisions.back().signals.at(0), 8.0) << flight.signals.at(0).name;
@@ -84,14 +84,15 @@ TEST(ProjectedCorners, GiveAMapOfAllTheCubeAndTheResultListsThem) {
 
 TEST(ProjectedCorners, OfADeadDetectorAreNone) {
   const Flight flight =
-      fly(from_corners("shah2009_cube_lateral.yaml", {"duration=1", "rig.cameras.0.imperfections.black=1"}));
+      Simulation(from_corners("shah2009_cube_lateral.yaml", {"duration=1", "rig.cameras.0.imperfections.black=1"}))
+          .run();
   EXPECT_NE(flight.result.outcome, Outcome::fault) << flight.result.cause;
   EXPECT_EQ(flight.decisions.back().signals.at(0), 0.0);
 }
 
 TEST(ProjectedCorners, OfASceneWithoutKnownCornersAreRefused) {
   try {
-    fly(from_corners("shah2009_wall_textured.yaml"));
+    Simulation(from_corners("shah2009_wall_textured.yaml")).run();
     FAIL();
   } catch (const InputError& fault) {
     EXPECT_THAT(fault.what(), HasSubstr("camera 'front': channel: corners: scene 'wall' has no known corners"));
@@ -101,7 +102,7 @@ TEST(ProjectedCorners, OfASceneWithoutKnownCornersAreRefused) {
 TEST(TruthUsed, IsEmptyForAFlightByImages) {
   const std::vector<std::string> overrides = {"duration=0.1", "film.enabled=false"};
   const Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/shah2009_cube_lateral.yaml", overrides);
-  EXPECT_TRUE(fly(scenario).result.truth_used.empty());
+  EXPECT_TRUE(Simulation(scenario).run().result.truth_used.empty());
 }
 
 }  // namespace

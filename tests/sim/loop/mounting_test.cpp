@@ -68,14 +68,14 @@ TEST(Mounting, ImagesAreDrawnFromWhereTheCameraIsAndModulesAreToldTheCalibration
   rig.cameras[1].row_error_px = 3.0;
   const scenes::Scene scene = scenes::make_scene(scenes::worlds::TreeConfig{}, 1);
   constexpr uint64_t kSeed = 5;
-  Cameras cameras(rig, Ticks(500), scene, {}, kSeed);
+  Renderer renderer(scene);
+  Cameras cameras(rig, Ticks(500), scene, renderer, kSeed);
   const size_t right = cameras.index("right");
   EXPECT_EQ(cameras.mounted(right).X_BC.matrix(), rig.cameras[1].X_BC().matrix());
 
   BodyMotion body;
   body.X_WB.translation() = Eigen::Vector3d(-20.0, 0.0, -6.0);
   const cv::Mat delivered = cameras.expose(right, 0, body)->image.clone();
-  Renderer renderer(scene);
   const auto drawn = [&](const Eigen::Isometry3d& X_BC) {
     cv::Mat image;
     renderer.draw({cameras.mounted(right).model, body.X_WB * X_BC, Channel::grey}, image);

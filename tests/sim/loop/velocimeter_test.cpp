@@ -17,7 +17,8 @@ TEST(Velocimeter, IsRightFromTheStartWhileTheFilterStillLearnsItsAttitude) {
   for (const char* seed : {"seed=1", "seed=2", "seed=3"}) {
     const std::vector<std::string> overrides = {"duration=2", "film.enabled=false", "checks=[]", seed};
     const Flight flight =
-        fly(load_scenario(std::string(HEDGEHOP_SOURCE_DIR) + "/configs/zingg2010_corridor_2m5.yaml", overrides));
+        Simulation(load_scenario(std::string(HEDGEHOP_SOURCE_DIR) + "/configs/zingg2010_corridor_2m5.yaml", overrides))
+            .run();
     double worst_mps = 0.0;
     for (const TrajectoryRow& row : flight.trajectory) {
       worst_mps = std::max(worst_mps, (row.v_WB_W_est - row.v_WB_W_true).head<2>().norm());

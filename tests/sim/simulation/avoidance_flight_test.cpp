@@ -27,13 +27,13 @@ Scenario short_flight(const std::string& name, std::string text, std::vector<std
 /// Expects the module to reach its goal with `clearance_m` to spare, and the control at its speed to hit `obstacle`.
 void expect_avoided(const std::string& module, const std::string& text, double clearance_m, const std::string& obstacle,
                     const std::string& control_speed_mps) {
-  const Flight flight = fly(short_flight(module, text));
+  const Flight flight = Simulation(short_flight(module, text)).run();
   EXPECT_EQ(flight.result.outcome, Outcome::reached) << flight.result.cause;
   EXPECT_GE(flight.result.closest_obstacle.distance_m, clearance_m);
   EXPECT_TRUE(flight.result.closest_obstacle.what.starts_with(obstacle)) << flight.result.closest_obstacle.what;
 
   const std::string straight_on = "avoidance={module: go_to_goal, speed: " + control_speed_mps + "}";
-  const Flight control = fly(short_flight(module + "_control", text, {straight_on}));
+  const Flight control = Simulation(short_flight(module + "_control", text, {straight_on})).run();
   EXPECT_EQ(control.result.outcome, Outcome::collided);
   EXPECT_TRUE(control.result.closest_obstacle.what.starts_with(obstacle)) << control.result.closest_obstacle.what;
 }
@@ -143,13 +143,15 @@ rig: {use: ~/rigs/garratt2009_200.yaml}
 start: {north: -1, east: 0, altitude: 1}
 avoidance: {module: zig_zag, forward_speed: 1, sideways_speed: 1, flow: {rows: 1, cols: 8, patch: 32, margin: 14, levels: 2}, range_threshold: 1.0, tail: 0.25, braking: 1.7, reaction: 0.22}
 )";
-  const Flight flight = fly(short_flight("zig_zag", room));
+  const Flight flight = Simulation(short_flight("zig_zag", room)).run();
   EXPECT_EQ(flight.result.outcome, Outcome::timeout) << flight.result.cause;
   EXPECT_GE(flight.result.closest_obstacle.distance_m, 0.15);
   EXPECT_GT(flight.result.path_length_m, 6.0);  // it does not wait before the wall either
 
-  const Flight control = fly(short_flight(
-      "zig_zag_control", room, {"avoidance={module: go_to_goal, speed: 1}", "goal={north: 10, east: 0, altitude: 1}"}));
+  const Flight control =
+      Simulation(short_flight("zig_zag_control", room,
+                              {"avoidance={module: go_to_goal, speed: 1}", "goal={north: 10, east: 0, altitude: 1}"}))
+          .run();
   EXPECT_EQ(control.result.outcome, Outcome::collided);
   EXPECT_EQ(control.result.closest_obstacle.what, "north wall");
 }

@@ -38,7 +38,7 @@ TEST(Simulation, RefusesAValueOutOfBoundsThatNoFileBrought) {
   Scenario scenario = short_city();
   scenario.film.rate_hz = 0.0;
   try {
-    fly(scenario);
+    Simulation(scenario).run();
     FAIL() << "flies";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "'scenario': film.rate: 0; must be >= 0.01 Hz");
@@ -46,16 +46,16 @@ TEST(Simulation, RefusesAValueOutOfBoundsThatNoFileBrought) {
 }
 
 TEST(Simulation, SameScenarioGivesTheSameFlightBitForBit) {
-  const Flight first = fly(short_city()), second = fly(short_city());
+  const Flight first = Simulation(short_city()).run(), second = Simulation(short_city()).run();
   EXPECT_EQ(first.result.trajectory_hash, second.result.trajectory_hash);
   ASSERT_EQ(first.decisions.size(), second.decisions.size());
-  EXPECT_EQ(fly(short_city({"seed=2"})).result.trajectory_hash == first.result.trajectory_hash, false);
+  EXPECT_EQ(Simulation(short_city({"seed=2"})).run().result.trajectory_hash == first.result.trajectory_hash, false);
 }
 
 TEST(Simulation, LookingOnDoesNotChangeTheFlight) {
   ScribblingWatcher watcher;
-  const Flight watched = fly(short_city(), &watcher);
-  EXPECT_EQ(watched.result.trajectory_hash, fly(short_city()).result.trajectory_hash);
+  const Flight watched = Simulation(short_city(), {}, &watcher).run();
+  EXPECT_EQ(watched.result.trajectory_hash, Simulation(short_city()).run().result.trajectory_hash);
   EXPECT_EQ(watcher.images, 41);  // 10 a second over 4 s, both ends included
   EXPECT_EQ(watcher.seconds, 5);
 }
@@ -64,22 +64,24 @@ TEST(Simulation, ResolvedScenarioFliesTheSameFlight) {
   const Scenario scenario = short_city();
   const auto file = std::filesystem::path(testing::TempDir()) / "resolved.yaml";
   std::ofstream(file) << to_yaml(scenario);
-  EXPECT_EQ(fly(load_scenario(file)).result.trajectory_hash, fly(scenario).result.trajectory_hash);
+  EXPECT_EQ(Simulation(load_scenario(file)).run().result.trajectory_hash,
+            Simulation(scenario).run().result.trajectory_hash);
 }
 
 TEST(Simulation, PartsBuiltByTheReaderGiveTheSameFlight) {
   const std::vector<std::string> overrides = {"duration=2", "film.enabled=false", "checks=[]"};
   const std::string file = std::string(HEDGEHOP_SOURCE_DIR) + "/configs/garratt2009_city_0_light.yaml";
   LoadedScenario loaded = load_flight(file, overrides, /*seed=*/7);
-  const Flight flight = fly(loaded.scenario, std::move(loaded.parts));
-  EXPECT_EQ(loaded.scenario.seed, 7U);
-  EXPECT_EQ(flight.result.trajectory_hash, fly(loaded.scenario).result.trajectory_hash);
-  EXPECT_NE(flight.result.trajectory_hash, fly(load_scenario(file, overrides)).result.trajectory_hash);
+  const Scenario scenario = loaded.scenario;
+  const Flight flight = Simulation(std::move(loaded)).run();
+  EXPECT_EQ(scenario.seed, 7U);
+  EXPECT_EQ(flight.result.trajectory_hash, Simulation(scenario).run().result.trajectory_hash);
+  EXPECT_NE(flight.result.trajectory_hash, Simulation(load_scenario(file, overrides)).run().result.trajectory_hash);
 }
 
 TEST(Simulation, CommandsTakeEffectAfterTheirLatency) {
   for (const double latency_s : {0.0, 0.04, 0.5}) {
-    const Flight flight = fly(short_city({"duration=1", fmt::format("command_latency={}", latency_s)}));
+    const Flight flight = Simulation(short_city({"duration=1", fmt::format("command_latency={}", latency_s)})).run();
     const DecisionRow& first = flight.decisions.front();
     EXPECT_EQ(flight.command_latency_s, latency_s);
     for (const TrajectoryRow& row : flight.trajectory) {
@@ -95,15 +97,15 @@ TEST(Simulation, AGoalIsReachedAtItsHeightNotFromUnderIt) {
   scenario.goal = GoalConfig{.north_m = scenario.start.north_m,
                              .east_m = scenario.start.east_m,
                              .altitude_m = scenario.start.altitude_m + 8.0};
-  const Flight flight = fly(scenario);
+  const Flight flight = Simulation(scenario).run();
   EXPECT_EQ(flight.result.outcome, Outcome::reached);
   EXPECT_NEAR(-flight.trajectory.back().p_WB_true.z(), scenario.goal->altitude_m - 3.0, 0.1);
   scenario.duration_s = 0.5;
-  EXPECT_EQ(fly(scenario).result.outcome, Outcome::timeout);
+  EXPECT_EQ(Simulation(scenario).run().result.outcome, Outcome::timeout);
 }
 
 TEST(Simulation, TablesHaveTheScenariosRates) {
-  const Flight flight = fly(short_city({"duration=2"}));
+  const Flight flight = Simulation(short_city({"duration=2"})).run();
   EXPECT_EQ(flight.trajectory.size(), 201u);  // 100 Hz over 2 s, both ends included
   EXPECT_EQ(flight.decisions.size(), 51u);    // 25 Hz
   EXPECT_EQ(flight.result.outcome, Outcome::timeout);
@@ -111,8 +113,8 @@ TEST(Simulation, TablesHaveTheScenariosRates) {
 }
 
 TEST(Simulation, StartSpreadMovesTheStartBySeedWithinItsDisc) {
-  const Flight a = fly(short_city({"duration=0.1", "start.spread=3", "seed=1"}));
-  const Flight b = fly(short_city({"duration=0.1", "start.spread=3", "seed=2"}));
+  const Flight a = Simulation(short_city({"duration=0.1", "start.spread=3", "seed=1"})).run();
+  const Flight b = Simulation(short_city({"duration=0.1", "start.spread=3", "seed=2"})).run();
   const Eigen::Vector3d nominal = short_city().start.p_WB();
   const Eigen::Vector3d p_a = a.trajectory.front().p_WB_true, p_b = b.trajectory.front().p_WB_true;
   EXPECT_LE((p_a - nominal).norm(), 3.0);
@@ -127,7 +129,7 @@ TEST(Simulation, FlyingIntoAWallEndsWithACollisionThatNamesIt) {
                     std::vector<std::string>{"avoidance={module: go_to_goal}", "goal={north: 30, east: 0, altitude: 1}",
                                              "start={north: 0, east: 0, altitude: 1}", "film.enabled=false",
                                              "checks=[]", "duration=30"});
-  const Flight flight = fly(scenario);
+  const Flight flight = Simulation(scenario).run();
   EXPECT_EQ(flight.result.outcome, Outcome::collided);
   EXPECT_NE(flight.result.cause.find("wall"), std::string::npos) << flight.result.cause;
   EXPECT_LE(flight.result.closest_obstacle.distance_m, 0.0);
@@ -135,42 +137,42 @@ TEST(Simulation, FlyingIntoAWallEndsWithACollisionThatNamesIt) {
 
 TEST(Simulation, ASceneThatCannotBeIsBadInputWithItsReason) {
   try {
-    fly(short_city({"scene.min_height=90"}));
+    Simulation(short_city({"scene.min_height=90"})).run();
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "'scene': max_height: 40; valid: at least min_height");
   }
 }
 
-TEST(ImageAt, AnUnknownCameraIsRefusedWithTheRigsRoles) {
+TEST(SimulationImage, AnUnknownCameraIsRefusedWithTheRigsRoles) {
   try {
-    image_at(short_city(), "top", Channel::grey, 0.0);
+    Simulation(short_city()).image("top", Channel::grey);
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "the rig has no camera 'top'; its cameras: left, right, front, rear, down");
   }
 }
 
-TEST(ImageAt, ACameraThatTheContextCannotDrawIsRefusedByItsRole) {
+TEST(SimulationImage, ACameraThatTheContextCannotDrawIsRefusedByItsRole) {
   try {
-    image_at(short_city({"rig.cameras.1.samples=8"}), "front", Channel::grey, 0.0);
+    Simulation(short_city({"rig.cameras.1.samples=8"})).image("front", Channel::grey);
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "camera 'right': samples: 8 samples a pixel cannot be drawn; this OpenGL has at most 4");
   }
 }
 
-TEST(ImageAt, ShadowsDarkenPixelsAndBrightenNone) {
-  const cv::Mat lit = image_at(short_city(), "down", Channel::grey, 0.0);
-  const cv::Mat shaded = image_at(short_city({"drawing.shadows=true"}), "down", Channel::grey, 0.0);
+TEST(SimulationImage, ShadowsDarkenPixelsAndBrightenNone) {
+  const cv::Mat lit = Simulation(short_city()).image("down", Channel::grey);
+  const cv::Mat shaded = Simulation(short_city({"drawing.shadows=true"})).image("down", Channel::grey);
   EXPECT_EQ(cv::countNonZero(shaded > lit), 0);
   EXPECT_GT(cv::countNonZero(shaded < lit), 0);
 }
 
-TEST(ImageAt, GreyIsTheMeanOfColor) {
+TEST(SimulationImage, GreyIsTheMeanOfColor) {
   const Scenario clean = short_city({"rig.sensor.use=sensors/ideal.yaml"});
-  const cv::Mat color = image_at(clean, "front", Channel::color, 0.0);
-  const cv::Mat grey = image_at(clean, "front", Channel::grey, 0.0);
+  const cv::Mat color = Simulation(clean).image("front", Channel::color);
+  const cv::Mat grey = Simulation(clean).image("front", Channel::grey);
   double largest = 0.0;
   for (int v = 0; v < grey.rows; ++v) {
     for (int u = 0; u < grey.cols; ++u) {

@@ -15,9 +15,9 @@ TEST(ExampleWorlds, AreSeenAndFlownInForASecondUnharmed) {
     const std::vector<std::string> overrides = {"duration=1", "scene.texture_size=64"};
     const Scenario scenario = load_scenario(entry.path(), overrides);
     cv::Scalar mean, deviation;
-    cv::meanStdDev(image_at(scenario, "front", Channel::grey, 0.0), mean, deviation);
+    cv::meanStdDev(Simulation(scenario).image("front", Channel::grey), mean, deviation);
     EXPECT_GT(deviation[0], 10.0) << entry.path();
-    const Flight flight = fly(scenario);
+    const Flight flight = Simulation(scenario).run();
     EXPECT_EQ(flight.result.outcome, Outcome::timeout) << entry.path() << ": " << flight.result.cause;
   }
   EXPECT_EQ(worlds, 7);
@@ -25,7 +25,7 @@ TEST(ExampleWorlds, AreSeenAndFlownInForASecondUnharmed) {
 
 TEST(ExampleWorlds, TheTreeOnTheWayIsHit) {
   const std::vector<std::string> overrides = {"scene.texture_size=64", "avoidance.speed=5"};
-  const Flight flight = fly(load_scenario(HEDGEHOP_SOURCE_DIR "/configs/worlds/tree.yaml", overrides));
+  const Flight flight = Simulation(load_scenario(HEDGEHOP_SOURCE_DIR "/configs/worlds/tree.yaml", overrides)).run();
   EXPECT_EQ(flight.result.outcome, Outcome::collided);
   EXPECT_EQ(flight.result.closest_obstacle.what, "tree");
   EXPECT_NEAR(flight.result.closest_obstacle.p_WB_true.x(), -5.0, 1.5);  // the crown's south side, less the rotor
@@ -33,7 +33,7 @@ TEST(ExampleWorlds, TheTreeOnTheWayIsHit) {
 
 TEST(ExampleWorlds, TellHowCrampedTheyAreAtTheHeightOfTheStart) {
   const std::vector<std::string> overrides = {"duration=0.1", "scene.texture_size=64"};
-  const Flight flight = fly(load_scenario(HEDGEHOP_SOURCE_DIR "/configs/worlds/forest.yaml", overrides));
+  const Flight flight = Simulation(load_scenario(HEDGEHOP_SOURCE_DIR "/configs/worlds/forest.yaml", overrides)).run();
   EXPECT_NEAR(flight.result.scene.density_pm2, 1.0 / 32.0, 1e-9);  // a tree to every 2 x (4 m)^2
   EXPECT_GT(flight.result.scene.median_gap_m, flight.result.scene.smallest_gap_m);
 }

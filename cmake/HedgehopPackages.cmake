@@ -1,0 +1,23 @@
+include_guard()
+# The other packages without a usable CMake package, for who builds Hedgehop or a loop of one's own upon it.
+
+# hedgehop_package(<target> <a header> LIBRARIES ... [PATH <suffix of the header's folder>])
+function(hedgehop_package target header)
+  cmake_parse_arguments(arg "" "PATH" "LIBRARIES" ${ARGN})
+  string(TOUPPER ${target} upper)
+  find_path(${upper}_INCLUDE_DIR ${header} PATH_SUFFIXES ${arg_PATH} REQUIRED)
+  add_library(${target} INTERFACE IMPORTED GLOBAL)
+  target_include_directories(${target} SYSTEM INTERFACE ${${upper}_INCLUDE_DIR})
+  foreach(library IN LISTS arg_LIBRARIES)
+    find_library(${upper}_${library} ${library} REQUIRED)
+    target_link_libraries(${target} INTERFACE ${${upper}_${library}})
+  endforeach()
+endfunction()
+hedgehop_package(hedgehop_osmesa GL/osmesa.h LIBRARIES OSMesa)
+hedgehop_package(hedgehop_egl EGL/egl.h LIBRARIES EGL)
+hedgehop_package(hedgehop_assimp assimp/Importer.hpp LIBRARIES assimp)
+# Clearances are wanted to a millimeter a kilometer from the origin: the double-precision build, which Debian ships beside
+# the other. Every user must see the same btScalar.
+hedgehop_package(hedgehop_bullet btBulletCollisionCommon.h PATH bullet
+                 LIBRARIES BulletCollision-float64 LinearMath-float64)
+target_compile_definitions(hedgehop_bullet INTERFACE BT_USE_DOUBLE_PRECISION)

@@ -1,0 +1,26 @@
+"""Hedgehop from Python: step a flight, write an avoidance module, fly batches and sweeps, load what they leave.
+
+Frames and units are the simulator's: W north, east, down; B forward, right, down; C right, down, forward; SI units and
+radians; every name of a figure ends with its unit.
+"""
+
+from ._native import (AttitudeCommand, CameraNeed, Decision, Goal, HoverCommand, InputError, MountedCamera,
+                      NavigationState, Observation, PositionCommand, Proximity, Setup, TrueMotion, VelocityCommand,
+                      build, version)
+from .campaigns import batch, sweep
+from .environment import Env
+from .results import Flight, load, to_frame
+from .simulation import Simulation
+from .vector import VectorEnv
+
+__version__ = version
+__all__ = ["AttitudeCommand", "CameraNeed", "Decision", "Env", "Flight", "Goal", "HoverCommand", "InputError",
+           "MountedCamera", "NavigationState", "Observation", "PositionCommand", "Proximity", "Setup", "Simulation",
+           "TrueMotion", "VectorEnv", "VelocityCommand", "batch", "build", "load", "sweep", "to_frame", "version"]
+
+try:
+    import gymnasium as _gymnasium
+except ImportError:
+    pass
+else:
+    _gymnasium.register("hedgehop/Avoid-v0", entry_point=Env)

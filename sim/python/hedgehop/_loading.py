@@ -1,0 +1,26 @@
+"""Modules from source files, for scenarios that name one."""
+
+import importlib.util
+import json
+import pathlib
+import sys
+
+
+def load_module(file, class_name, parameters):
+    """An object of a file's class. parameters  keyword arguments, as JSON."""
+    path = pathlib.Path(file)
+    name = f"hedgehop_module_{path.stem}"
+    spec = importlib.util.spec_from_file_location(name, path)
+    if spec is None:
+        raise ValueError("is no Python source: its name must end in .py")
+    source = importlib.util.module_from_spec(spec)
+    sys.modules[name] = source
+    sys.path.insert(0, str(path.parent))
+    try:
+        spec.loader.exec_module(source)
+    finally:
+        sys.path.remove(str(path.parent))
+    if not hasattr(source, class_name):
+        classes = sorted(key for key, value in vars(source).items() if isinstance(value, type) and hasattr(value, "update"))
+        raise ValueError(f"has no class '{class_name}'; its modules: {', '.join(classes) or 'none'}")
+    return getattr(source, class_name)(**json.loads(parameters))

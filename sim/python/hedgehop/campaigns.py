@@ -1,0 +1,70 @@
+"""Batches and sweeps, each flight in a process of its own."""
+
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+
+from ._native import InputError
+from .results import load
+from .simulation import overrides
+
+
+def program():
+    """Path of the `hedgehop` program: of the same build folder or installation, else the one of PATH."""
+    package = pathlib.Path(__file__).resolve().parent
+    for candidate in (package / "../../sim/cli/hedgehop", package / "../../../../bin/hedgehop"):
+        if candidate.exists():
+            return str(candidate.resolve())
+    found = shutil.which("hedgehop")
+    if not found:
+        raise FileNotFoundError("the program hedgehop is neither beside this package nor in PATH")
+    return found
+
+
+def _fly(command):
+    """Runs the program, its progress on standard error. Returns whether all checks hold. Ctrl-C ends it in order: what
+    is flown stays, and `resume` goes on from there."""
+    with subprocess.Popen([program(), *command], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                          start_new_session=True) as running:
+        try:
+            _, errors = running.communicate()
+        except KeyboardInterrupt:
+            running.send_signal(signal.SIGINT)
+            running.wait()
+            raise
+    if running.returncode == 2:
+        raise InputError(errors.strip())
+    if running.returncode not in (0, 1):
+        raise RuntimeError(errors.strip() or f"hedgehop ended with status {running.returncode}")
+    return running.returncode == 0
+
+
+def batch(files, out, *, seeds=None, set=None, jobs=None, resume=False):
+    """Flies scenarios or campaigns. Returns a record array, a record a flight.
+
+    files  one, or a list. seeds  such as "1:10" or [1, 2, 3]; set  values by key path; jobs  flights at a time, all
+    cores when not given; resume  keeps what lies in `out` of the very same scenario and build.
+    """
+    files = [files] if isinstance(files, (str, os.PathLike)) else files
+    command = ["batch", *(os.fspath(file) for file in files), "--out", os.fspath(out)]
+    if seeds is not None:
+        command += ["--seeds", seeds if isinstance(seeds, str) else ",".join(str(seed) for seed in seeds)]
+    for text in overrides(set):
+        command += ["--set", text]
+    if jobs is not None:
+        command += ["--jobs", str(jobs)]
+    if resume:
+        command.append("--resume")
+    _fly(command)
+    return load(out)
+
+
+def sweep(file, out, *, jobs=None):
+    """Flies a sweep, from where it stopped. Returns a record array, a record a flight."""
+    command = ["sweep", os.fspath(file), "--out", os.fspath(out)]
+    if jobs is not None:
+        command += ["--jobs", str(jobs)]
+    _fly(command)
+    return load(out)

@@ -1,0 +1,142 @@
+"""A reinforcement-learning environment by Gymnasium's protocol."""
+
+import math
+
+import numpy as np
+
+from ._native import VelocityCommand
+from .simulation import Simulation
+from .spaces import Box, Dict
+
+try:
+    from gymnasium import Env as _Base
+except ImportError:
+    _Base = object
+
+CLIMB_MPS = 1.0
+TURN_RADPS = 1.0
+STATE = 10
+
+#: What a step earns. progress: a meter nearer the goal, truly; near: each decision, by the share of `near_m` that the
+#: clearance lacks; the others: when the flight ends so.
+REWARDS = {"progress": 1.0, "near": -0.1, "near_m": 2.0, "reached": 100.0, "collided": -100.0, "fault": -100.0}
+
+
+def yaw_rad(q):
+    """Heading of an attitude (w, x, y, z)."""
+    w, x, y, z = q
+    return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+
+
+def _image_space(image):
+    if image.dtype == np.uint8:
+        return Box(0, 255, image.shape, np.uint8)
+    return Box(-np.inf, np.inf, image.shape, image.dtype.type)
+
+
+class Env(_Base):
+    """Flies a scenario by actions; deterministic in its seeds.
+
+    Action       forward, right, climb, turn, each in [-1, 1]: shares of the speed limit twice, of 1 m/s, of 1 rad/s.
+    Observation  an image for each camera by its role, and "state": the goal forward, right and down of the vehicle (m),
+                 velocity in B (m/s), roll and pitch (rad), yaw rate (rad/s), height above ground (m), as estimated on
+                 board; nothing of it is true.
+    info         "clearance_m" and "p_WB_true_m", for who judges; at the end "result", what result.json holds.
+
+    scenario  file. cameras  roles; all of the rig when not given. set  values by key path. rewards  replaces values of
+    REWARDS. A seed of reset() begins a sequence of flights of which each has a seed of its own.
+    """
+
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 25}
+
+    def __init__(self, scenario, *, cameras=None, set=None, rewards=None, render_mode=None):
+        if render_mode not in (None, "rgb_array"):
+            raise ValueError(f"render_mode '{render_mode}'; allowed: None, rgb_array")
+        unknown = sorted({*(rewards or {})} - {*REWARDS})
+        if unknown:
+            raise ValueError(f"rewards: no '{unknown[0]}'; there are: {', '.join(REWARDS)}")
+        self.render_mode = render_mode
+        self.rewards = {**REWARDS, **(rewards or {})}
+        if cameras is None:
+            cameras = list(Simulation(scenario, set=set).cameras)
+        self._simulation = Simulation(scenario, set=set, cameras=cameras)
+        known = self._simulation.cameras
+        self.cameras = {role: known[role] for role in cameras}
+        self._step_s = 1.0 / min((camera.rate_hz for camera in self.cameras.values()), default=25.0)
+        first = self._simulation.observation.images
+        spaces = {role: _image_space(image) for role, image in first.items()}
+        self.observation_space = Dict({**spaces, "state": Box(-np.inf, np.inf, (STATE,), np.float32)})
+        self.action_space = Box(-1.0, 1.0, (4,), np.float32)
+        self._images = {role: np.zeros_like(image) for role, image in first.items()}
+        self._seeds = np.random.default_rng()
+        self._result = None
+
+    def reset(self, *, seed=None, options=None):
+        if seed is not None:
+            self._seeds = np.random.default_rng(seed)
+            if _Base is not object:
+                super().reset(seed=seed)
+        seen = self._simulation.reset(int(self._seeds.integers(2**32)))
+        self._result = None
+        self._distance_m = self._goal_distance_m(seen)
+        return self._observe(seen), self._info()
+
+    def step(self, action):
+        action = np.asarray(action, float)
+        if action.shape != (4,) or not np.all(np.isfinite(action)):
+            raise ValueError(f"an action is four finite numbers, got {action!r}")
+        seen = self._simulation.step(self._command(np.clip(action, -1.0, 1.0)))
+        distance_m = self._goal_distance_m(seen)
+        reward = self.rewards["progress"] * (self._distance_m - distance_m)
+        self._distance_m = distance_m
+        lacking = 1.0 - self._simulation.proximity.obstacle_clearance_m / self.rewards["near_m"]
+        reward += self.rewards["near"] * min(max(lacking, 0.0), 1.0)
+        outcome = None
+        if self._simulation.over:
+            self._result = self._simulation.result()
+            outcome = self._result["outcome"]
+            reward += self.rewards.get(outcome, 0.0)
+        truncated = outcome == "timeout"
+        return self._observe(seen), float(reward), outcome is not None and not truncated, truncated, self._info()
+
+    def render(self):
+        if self.render_mode is None:
+            return None
+        return self._simulation.image(next(iter(self.cameras)), "color").copy()
+
+    def close(self):
+        self._simulation = None
+
+    def _command(self, action):
+        navigation = self._simulation.observation.navigation
+        forward, right, climb, turn = action
+        speed_mps, _ = self._simulation.limits
+        heading_rad = yaw_rad(navigation.q_WB_est)
+        cos, sin = math.cos(heading_rad), math.sin(heading_rad)
+        v_WB_W = speed_mps * np.array([cos * forward - sin * right, sin * forward + cos * right])
+        return VelocityCommand(v_WB_W, -navigation.p_WB_est_m[2] + CLIMB_MPS * climb * self._step_s,
+                               heading_rad + TURN_RADPS * turn * self._step_s)
+
+    def _goal_distance_m(self, seen):
+        return float(np.linalg.norm(seen.goal.p_WG_m - self._simulation.truth.p_WB_m))
+
+    def _observe(self, seen):
+        for role, image in seen.images.items():  # a lost image leaves the one before
+            self._images[role] = image.copy()
+        navigation = seen.navigation
+        w, x, y, z = navigation.q_WB_est
+        heading_rad = yaw_rad(navigation.q_WB_est)
+        north, east, down = seen.goal.p_WG_m - navigation.p_WB_est_m
+        cos, sin = math.cos(heading_rad), math.sin(heading_rad)
+        roll_rad = math.atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
+        pitch_rad = math.asin(min(max(2.0 * (w * y - z * x), -1.0), 1.0))
+        state = [cos * north + sin * east, -sin * north + cos * east, down, *navigation.v_WB_B_est_mps, roll_rad,
+                 pitch_rad, navigation.w_WB_B_est_radps[2], navigation.height_above_ground_m]
+        return {**self._images, "state": np.array(state, np.float32)}
+
+    def _info(self):
+        info = {"clearance_m": self._simulation.proximity.obstacle_clearance_m,
+                "p_WB_true_m": self._simulation.truth.p_WB_m.copy()}
+        if self._result is not None:
+            info["result"] = self._result
+        return info

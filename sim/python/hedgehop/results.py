@@ -1,0 +1,55 @@
+"""What flights leave, as numpy record arrays."""
+
+import csv
+import dataclasses
+import io
+import json
+import pathlib
+
+import numpy as np
+
+
+def _column(texts):
+    """Numbers where all fields are numbers or empty (NaN), else texts."""
+    try:
+        return np.array([float(text) if text else np.nan for text in texts])
+    except ValueError:
+        return np.array(texts)
+
+
+def read_table(text):
+    """Table of a CSV text as a record array, a field per column."""
+    rows = list(csv.reader(io.StringIO(text)))
+    names, rows = rows[0], rows[1:]
+    columns = [_column([row[i] for row in rows]) for i in range(len(names))]
+    if not rows:
+        return np.recarray(0, dtype=[(name, float) for name in names])
+    return np.rec.fromarrays(columns, names=names)
+
+
+@dataclasses.dataclass
+class Flight:
+    """result is what result.json holds; trajectory and decisions are record arrays with the CSV files' columns."""
+
+    result: dict
+    trajectory: np.recarray
+    decisions: np.recarray
+
+
+def load(folder):
+    """What lies in a folder: a Flight of `hedgehop run`, or the record array of a batch or sweep, a record a flight."""
+    folder = pathlib.Path(folder)
+    for table in ("sweep.csv", "batch.csv"):
+        if (folder / table).exists():
+            return read_table((folder / table).read_text())
+    if not (folder / "result.json").exists():
+        raise FileNotFoundError(f"{folder}: holds neither result.json nor batch.csv nor sweep.csv")
+    return Flight(json.loads((folder / "result.json").read_text()), read_table((folder / "trajectory.csv").read_text()),
+                  read_table((folder / "decisions.csv").read_text()))
+
+
+def to_frame(records):
+    """A pandas DataFrame of a record array."""
+    import pandas
+
+    return pandas.DataFrame.from_records(records)

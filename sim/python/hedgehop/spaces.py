@@ -1,0 +1,48 @@
+"""Action and observation spaces: gymnasium's own where it is installed, else their protocol in a few lines."""
+
+import numpy as np
+
+try:
+    from gymnasium.spaces import Box, Dict
+except ImportError:
+
+    class Box:
+        """Arrays of a shape and type between bounds."""
+
+        def __init__(self, low, high, shape, dtype):
+            self.shape, self.dtype = tuple(shape), np.dtype(dtype)
+            self.low, self.high = (np.full(self.shape, bound, self.dtype) for bound in (low, high))
+            self._random = np.random.default_rng()
+
+        def seed(self, seed=None):
+            self._random = np.random.default_rng(seed)
+
+        def sample(self):
+            if self.dtype.kind == "u":
+                return self._random.integers(self.low, self.high, self.shape, self.dtype, endpoint=True)
+            low, high = np.maximum(self.low, -1e3), np.minimum(self.high, 1e3)
+            return self._random.uniform(low, high).astype(self.dtype)
+
+        def contains(self, value):
+            value = np.asarray(value)
+            return (value.shape == self.shape and np.can_cast(value.dtype, self.dtype, "same_kind")
+                    and bool(np.all((value >= self.low) & (value <= self.high))))
+
+    class Dict:
+        """A dict of spaces."""
+
+        def __init__(self, spaces):
+            self.spaces = dict(spaces)
+
+        def seed(self, seed=None):
+            for i, space in enumerate(self.spaces.values()):
+                space.seed(None if seed is None else seed + i)
+
+        def sample(self):
+            return {key: space.sample() for key, space in self.spaces.items()}
+
+        def contains(self, value):
+            return set(value) == set(self.spaces) and all(s.contains(value[k]) for k, s in self.spaces.items())
+
+        def __getitem__(self, key):
+            return self.spaces[key]

@@ -1,0 +1,138 @@
+"""Many environments at once, each in a process of its own."""
+
+import multiprocessing
+import traceback
+from multiprocessing import shared_memory
+
+import numpy as np
+
+from .environment import STATE, Env
+
+
+class _Shared:
+    """Named arrays in one block of shared memory."""
+
+    def __init__(self, layout, name=None):
+        ends = np.cumsum([int(np.prod(shape)) * np.dtype(dtype).itemsize + 7 & ~7 for _, shape, dtype in layout])
+        self._memory = shared_memory.SharedMemory(name, create=name is None, size=int(ends[-1]))
+        self.name = self._memory.name
+        self.arrays = {key: np.ndarray(shape, dtype, self._memory.buf, int(start))
+                       for (key, shape, dtype), start in zip(layout, [0, *ends[:-1]])}
+
+    def close(self, unlink=False):
+        self.arrays = {}
+        self._memory.close()
+        if unlink:
+            self._memory.unlink()
+
+
+def _work(pipe, scenario, options, index, layout, name):
+    """A worker: flies its environment and begins again, with the next seed, when a flight has ended."""
+    env = Env(scenario, **options)
+    shared = _Shared(layout, name)
+    row = {key: array[index] for key, array in shared.arrays.items()}
+
+    try:
+        while True:
+            order, seed = pipe.recv()
+            if order == "close":
+                break
+            try:
+                if order == "reset":
+                    observation, info = env.reset(seed=seed)
+                else:
+                    observation, reward, terminated, truncated, info = env.step(row["action"])
+                    row["outcome"][...] = reward, terminated, truncated
+                    if terminated or truncated:
+                        ended = info
+                        observation, info = env.reset()
+                        info["final_info"] = ended
+                for key, value in observation.items():
+                    row[key][...] = value
+                pipe.send((info, None))
+            except Exception:  # told to who waits, with its place
+                pipe.send((None, traceback.format_exc()))
+    finally:
+        row = None
+        shared.close()
+
+
+class VectorEnv:
+    """`count` environments that step together. Deterministic in (seed, count): environment i flies the i-th sequence of
+    flights that the seed gives.
+
+    Observations, rewards, terminated and truncated have one row per environment; where a flight ended, the observation
+    is already the next one's first, and infos[i]["final_info"] is of the flight that ended. Arrays are copies.
+    """
+
+    def __init__(self, scenario, count, **options):
+        if count < 1:
+            raise ValueError(f"count: {count}; must be >= 1")
+        probe = Env(scenario, **options)
+        self.num_envs = count
+        self.single_action_space, self.single_observation_space = probe.action_space, probe.observation_space
+        images = {role: space for role, space in probe.observation_space.spaces.items() if role != "state"}
+        probe.close()
+        self._keys = [*images, "state"]
+        layout = [(role, (count, *space.shape), space.dtype.str) for role, space in images.items()]
+        layout += [("state", (count, STATE), "<f4"), ("action", (count, 4), "<f8"), ("outcome", (count, 3), "<f8")]
+        self._shared = _Shared(layout)
+        context = multiprocessing.get_context("spawn")
+        self._pipes, self._workers = [], []
+        for i in range(count):
+            ours, theirs = context.Pipe()
+            worker = context.Process(target=_work, daemon=True,
+                                     args=(theirs, scenario, options, i, layout, self._shared.name))
+            worker.start()
+            theirs.close()
+            self._pipes.append(ours)
+            self._workers.append(worker)
+
+    def reset(self, *, seed=None):
+        seeds = np.random.SeedSequence(seed).generate_state(self.num_envs)
+        infos = self._order([("reset", int(s)) for s in seeds])
+        return self._observations(), infos
+
+    def step(self, actions):
+        actions = np.asarray(actions, float)
+        if actions.shape != (self.num_envs, 4):
+            raise ValueError(f"actions: {actions.shape}; must be ({self.num_envs}, 4)")
+        self._shared.arrays["action"][...] = actions
+        infos = self._order([("step", None)] * self.num_envs)
+        reward, terminated, truncated = self._shared.arrays["outcome"].T.copy()
+        return self._observations(), reward, terminated.astype(bool), truncated.astype(bool), infos
+
+    def close(self):
+        """Ends the workers."""
+        if self._shared is None:
+            return
+        for pipe, worker in zip(self._pipes, self._workers):
+            if worker.is_alive():
+                pipe.send(("close", None))
+        for worker in self._workers:
+            worker.join()
+        self._shared.close(unlink=True)
+        self._shared = None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def _observations(self):
+        return {key: self._shared.arrays[key].copy() for key in self._keys}
+
+    def _order(self, orders):
+        for pipe, order in zip(self._pipes, orders):
+            pipe.send(order)
+        infos = []
+        for i, pipe in enumerate(self._pipes):
+            try:
+                info, fault = pipe.recv()
+            except EOFError:
+                raise RuntimeError(f"environment {i}: its process ended") from None
+            if fault:
+                raise RuntimeError(f"environment {i}: {fault}")
+            infos.append(info)
+        return infos

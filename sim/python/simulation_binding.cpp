@@ -1,0 +1,210 @@
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <array>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "sim/flight/build.h"
+#include "sim/python/arrays.h"
+#include "sim/python/bindings.h"
+#include "sim/record/flight_columns.h"
+#include "sim/record/result_files.h"
+#include "sim/simulation/simulation.h"
+
+namespace hedgehop::python {
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace {
+
+sim::Channel to_channel(const std::string& name) {
+  constexpr std::array<std::string_view, 4> kNames = {"grey", "color", "depth", "labels"};
+  for (size_t i = 0; i < kNames.size(); ++i) {
+    if (kNames[i] == name) return static_cast<sim::Channel>(i);
+  }
+  throw std::invalid_argument("channel '" + name + "'; allowed: grey, color, depth, labels");
+}
+static_assert(static_cast<int>(sim::Channel::labels) == 3);
+
+/// A simulation and the thread that it belongs to; others wait for no lock while it flies.
+class PySimulation {
+ public:
+  PySimulation(sim::LoadedScenario loaded, std::string file, std::vector<std::string> overrides,
+               sim::ModuleMaker module)
+      : file_(std::move(file)),
+        overrides_(std::move(overrides)),
+        inputs_(loaded.inputs),
+        is_steered_(module != nullptr) {
+    loaded.scenario.film.enabled = false;
+    const py::gil_scoped_release unlocked;
+    if (module) {
+      simulation_.emplace(std::move(loaded.scenario), std::move(module));
+    } else {
+      simulation_.emplace(std::move(loaded));
+    }
+  }
+
+  sim::Simulation& get() {
+    if (std::this_thread::get_id() != thread_) {
+      throw std::runtime_error("a Simulation is used by the thread that made it alone; make one in each thread");
+    }
+    return *simulation_;
+  }
+
+  Observation reset(std::optional<uint64_t> seed) {
+    unlocked([&](sim::Simulation& s) { seed ? s.reset(*seed) : s.reset(); });
+    return seen();
+  }
+  Observation seen() { return to_python(get().seen()); }
+
+  Observation step(const py::object& command) {
+    fly(
+        command, [](sim::Simulation& s) { s.step(); }, [](sim::Simulation& s, const auto& c) { s.step(c); });
+    return seen();
+  }
+  Observation tick(const py::object& command) {
+    fly(
+        command, [](sim::Simulation& s) { s.tick(); }, [](sim::Simulation& s, const auto& c) { s.tick(c); });
+    return seen();
+  }
+  std::string run_json() {
+    while (!get().over()) step(py::none());
+    return result_json();
+  }
+
+  std::string result_json() {
+    const sim::Flight& flight = judged();
+    return sim::result_json(info(), flight.result);
+  }
+  void save(const std::filesystem::path& folder) { sim::write_result_files(folder, info(), judged()); }
+  std::string trajectory_csv() { return sim::trajectory_csv(judged()); }
+  std::string decisions_csv() { return sim::decisions_csv(judged()); }
+
+  py::list checks_so_far() {
+    py::list checks;
+    for (const sim::CheckResult& c : get().checks_so_far()) {
+      checks.append(py::dict("name"_a = c.name, "passed"_a = c.passed, "value"_a = c.value, "limit"_a = c.limit,
+                             "unit"_a = c.unit));
+    }
+    return checks;
+  }
+
+ private:
+  template <class Call>
+  void unlocked(const Call& call) {
+    sim::Simulation& simulation = get();
+    judged_.reset();
+    {
+      const py::gil_scoped_release release;
+      call(simulation);
+    }
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+  template <class Plain, class Commanded>
+  void fly(const py::object& command, const Plain& plain, const Commanded& commanded) {
+    if (get().over()) throw std::runtime_error("the flight is over; reset() begins another");
+    if (command.is_none()) {
+      unlocked(plain);
+    } else {
+      is_steered_ = true;
+      const avoidance::Command given = to_decision(command).command;
+      unlocked([&](sim::Simulation& s) { commanded(s, given); });
+    }
+  }
+
+  const sim::Flight& judged() {
+    if (!get().over()) throw std::runtime_error("the flight is not over; run() flies it to its end");
+    if (!judged_) judged_ = get().result();
+    return *judged_;
+  }
+  sim::RunInfo info() {
+    const sim::Scenario& scenario = get().scenario();
+    std::string line = fmt::format("hedgehop run {} --seed {}", file_, scenario.seed);
+    for (const std::string& text : overrides_) line += fmt::format(" --set '{}'", text);
+    if (is_steered_) line += " # but steered from Python";
+    return {scenario.name, scenario.seed, std::string(sim::version()), std::string(sim::build_identity()), inputs_,
+            file_,         line,          sim::to_yaml(scenario)};
+  }
+
+  std::string file_;
+  std::vector<std::string> overrides_;
+  sim::Inputs inputs_;
+  bool is_steered_;  ///< by a module or commands that no file names
+  std::optional<sim::Simulation> simulation_;
+  std::optional<sim::Flight> judged_;
+  std::thread::id thread_ = std::this_thread::get_id();
+};
+
+/// @param module  a class, a new object for each flight, or an object, or None. @param cameras  whose images are seen
+/// where no module is meant to fly; None for the module's own.
+std::unique_ptr<PySimulation> make(const std::optional<std::string>& file, const std::optional<std::string>& text,
+                                   std::optional<uint64_t> seed, std::vector<std::string> overrides,
+                                   const py::object& module, const std::optional<std::vector<std::string>>& cameras) {
+  if (file.has_value() == text.has_value()) throw std::invalid_argument("give a scenario's file, or its text");
+  if (!module.is_none() && cameras) throw std::invalid_argument("a module names its own cameras: give one of the two");
+  sim::LoadedScenario loaded =
+      file ? sim::load_flight(*file, overrides, seed) : sim::load_flight_text(*text, overrides, seed);
+  sim::ModuleMaker maker;
+  if (cameras) maker = sim::hovering(loaded.scenario.rig, *cameras);
+  if (!module.is_none()) {
+    maker = [module] {
+      const py::gil_scoped_acquire lock;
+      return adopt(PyType_Check(module.ptr()) ? module() : module);
+    };
+  }
+  return std::make_unique<PySimulation>(std::move(loaded), file.value_or("scenario text"), std::move(overrides),
+                                        std::move(maker));
+}
+
+}  // namespace
+
+void bind_simulation(py::module_& native) {
+  py::class_<PySimulation>(native, "Simulation")
+      .def(py::init(&make), "file"_a, "text"_a, "seed"_a, "overrides"_a, "module"_a, "cameras"_a)
+      .def("reset", &PySimulation::reset, "seed"_a)
+      .def("step", &PySimulation::step, "command"_a)
+      .def("tick", &PySimulation::tick, "command"_a)
+      .def("run_json", &PySimulation::run_json)
+      .def("result_json", &PySimulation::result_json)
+      .def("save", &PySimulation::save, "folder"_a)
+      .def("trajectory_csv", &PySimulation::trajectory_csv)
+      .def("decisions_csv", &PySimulation::decisions_csv)
+      .def("checks_so_far", &PySimulation::checks_so_far)
+      .def("seen", &PySimulation::seen)
+      .def("truth", [](PySimulation& s) { return s.get().truth(); })
+      .def("proximity", [](PySimulation& s) { return s.get().proximity(); })
+      .def(
+          "camera", [](PySimulation& s, const std::string& role) { return s.get().camera(role); }, "role"_a)
+      .def("roles",
+           [](PySimulation& s) {
+             std::vector<std::string> roles;
+             for (const auto& camera : s.get().scenario().rig.cameras) roles.push_back(camera.role);
+             return roles;
+           })
+      .def(
+          "image",
+          [](PySimulation& s, const std::string& role, const std::string& channel) {
+            return view_of(s.get().image(role, to_channel(channel)));
+          },
+          "role"_a, "channel"_a)
+      .def(
+          "flow_to_next_image",
+          [](PySimulation& s, const std::string& role) { return view_of(s.get().flow_to_next_image(role)); }, "role"_a)
+      .def("over", [](PySimulation& s) { return s.get().over(); })
+      .def("decides", [](PySimulation& s) { return s.get().decides(); })
+      .def("t_s", [](PySimulation& s) { return s.get().t_s(); })
+      .def("seed", [](PySimulation& s) { return s.get().scenario().seed; })
+      .def("limits",
+           [](PySimulation& s) {
+             const auto& limits = s.get().scenario().avionics.autopilot;
+             return py::make_tuple(limits.speed_limit_mps, limits.acceleration_limit_mps2);
+           })
+      .def("scenario_yaml", [](PySimulation& s) { return sim::to_yaml(s.get().scenario()); });
+}
+
+}  // namespace hedgehop::python

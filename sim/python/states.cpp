@@ -1,0 +1,195 @@
+#include <pybind11/stl.h>
+
+#include <array>
+#include <cmath>
+
+#include "sim/python/arrays.h"
+#include "sim/python/bindings.h"
+#include "sim/simulation/simulation.h"
+
+namespace hedgehop::python {
+namespace py = pybind11;
+using namespace py::literals;
+using namespace avoidance;
+
+namespace {
+
+void bind_commands(py::module_& native) {
+  py::class_<VelocityCommand>(native, "VelocityCommand",
+                              "Fly at a horizontal velocity (north, east), hold a height and a heading.")
+      .def(py::init([](const Eigen::Vector2d& v, double altitude_m, double heading_rad) {
+             return VelocityCommand{v, altitude_m, heading_rad};
+           }),
+           "v_WB_W_mps"_a, "altitude_m"_a, "heading_rad"_a)
+      .def_readwrite("v_WB_W_mps", &VelocityCommand::v_WB_W)
+      .def_readwrite("altitude_m", &VelocityCommand::altitude_m)
+      .def_readwrite("heading_rad", &VelocityCommand::heading_rad);
+  py::class_<PositionCommand>(native, "PositionCommand", "Fly to a point of W (north, east, down) and stay there.")
+      .def(py::init([](const Eigen::Vector3d& p, double heading_rad) {
+             return PositionCommand{p, heading_rad};
+           }),
+           "p_WB_m"_a, "heading_rad"_a)
+      .def_readwrite("p_WB_m", &PositionCommand::p_WB)
+      .def_readwrite("heading_rad", &PositionCommand::heading_rad);
+  py::class_<AttitudeCommand>(native, "AttitudeCommand", "Hold an attitude and a height.")
+      .def(py::init([](double roll_rad, double pitch_rad, double heading_rad, double altitude_m) {
+             return AttitudeCommand{roll_rad, pitch_rad, heading_rad, altitude_m};
+           }),
+           "roll_rad"_a, "pitch_rad"_a, "heading_rad"_a, "altitude_m"_a)
+      .def_readwrite("roll_rad", &AttitudeCommand::roll_rad)
+      .def_readwrite("pitch_rad", &AttitudeCommand::pitch_rad)
+      .def_readwrite("heading_rad", &AttitudeCommand::heading_rad)
+      .def_readwrite("altitude_m", &AttitudeCommand::altitude_m);
+  py::class_<HoverCommand>(native, "HoverCommand", "Stop and stay; turn at a rate.")
+      .def(py::init([](double yaw_rate_radps) { return HoverCommand{yaw_rate_radps}; }), "yaw_rate_radps"_a = 0.0)
+      .def_readwrite("yaw_rate_radps", &HoverCommand::yaw_rate_radps);
+  py::class_<Decision>(native, "Decision", "A command, one word of status, and the signals that the module announced.")
+      .def(py::init([](const Command& command, std::string status, std::vector<double> signals) {
+             return Decision{command, std::move(status), std::move(signals)};
+           }),
+           "command"_a, "status"_a = "cruise", "signals"_a = std::vector<double>{})
+      .def_readwrite("command", &Decision::command)
+      .def_readwrite("status", &Decision::status)
+      .def_readwrite("signals", &Decision::signals);
+}
+
+void bind_observation(py::module_& native) {
+  py::class_<NavigationState>(native, "NavigationState",
+                              "The aircraft's own estimate of its motion, from its noisy sensors.")
+      .def(py::init<>())
+      .def_readwrite("p_WB_est_m", &NavigationState::p_WB_est)
+      .def_property(
+          "q_WB_est", [](const NavigationState& n) { return wxyz(n.q_WB_est); },
+          [](NavigationState& n, const Eigen::Vector4d& q) {
+            n.q_WB_est = {q[0], q[1], q[2], q[3]};
+          },
+          "(w, x, y, z)")
+      .def_readwrite("v_WB_B_est_mps", &NavigationState::v_WB_B_est)
+      .def_readwrite("w_WB_B_est_radps", &NavigationState::w_WB_B_est)
+      .def_property(
+          "q_WB_gyro", [](const NavigationState& n) { return wxyz(n.q_WB_gyro); },
+          [](NavigationState& n, const Eigen::Vector4d& q) {
+            n.q_WB_gyro = {q[0], q[1], q[2], q[3]};
+          },
+          "attitude by the gyros alone, (w, x, y, z)")
+      .def_readwrite("height_above_ground_m", &NavigationState::height_above_ground_m)
+      .def_readwrite("range_m", &NavigationState::range_m);
+  py::class_<Goal>(native, "Goal", "Where to fly next.")
+      .def(py::init([](const Eigen::Vector3d& p, double heading_rad) {
+             return Goal{p, heading_rad};
+           }),
+           "p_WG_m"_a = Eigen::Vector3d(Eigen::Vector3d::Zero()), "heading_rad"_a = 0.0)
+      .def_readwrite("p_WG_m", &Goal::p_WG)
+      .def_readwrite("heading_rad", &Goal::heading_rad);
+  py::class_<Observation>(native, "Observation", "What a module gets: images, navigation, the place to fly to.")
+      .def(py::init([](int64_t t_ns, py::dict images, const NavigationState& navigation, const Goal& goal) {
+             return Observation{t_ns, std::move(images), navigation, goal};
+           }),
+           "t_ns"_a, "images"_a, "navigation"_a, "goal"_a)
+      .def_readonly("t_ns", &Observation::t_ns)
+      .def_property_readonly("t_s", [](const Observation& o) { return 1e-9 * static_cast<double>(o.t_ns); })
+      .def_readonly("images", &Observation::images, "role: array, good until the simulation moves on")
+      .def_readonly("navigation", &Observation::navigation)
+      .def_readonly("goal", &Observation::goal);
+}
+
+/// Unit directions of all pixels in C, rows x cols x 3; NaN where the lens shows nothing.
+py::array_t<double> rays(const MountedCamera& camera) {
+  const int rows = camera.model.height_px, cols = camera.model.width_px;
+  py::array_t<double> directions({rows, cols, 3});
+  auto d = directions.mutable_unchecked<3>();
+  for (int v = 0; v < rows; ++v) {
+    for (int u = 0; u < cols; ++u) {
+      const Eigen::Vector3d ray = camera.model.ray({u, v}).value_or(Eigen::Vector3d::Constant(std::nan("")));
+      for (int i = 0; i < 3; ++i) d(v, u, i) = ray[i];
+    }
+  }
+  return directions;
+}
+
+void bind_setup(py::module_& native) {
+  py::class_<CameraNeed> need(native, "CameraNeed", "A camera that a module cannot fly without.");
+  py::enum_<CameraNeed::Channel>(need, "Channel")
+      .value("grey", CameraNeed::Channel::grey)
+      .value("color", CameraNeed::Channel::color)
+      .value("depth", CameraNeed::Channel::depth)
+      .value("corners", CameraNeed::Channel::corners);
+  need.def(py::init([](std::string role, const std::string& channel, bool pinhole) {
+             const std::array<std::string, 4> names = {"grey", "color", "depth", "corners"};
+             const auto* const name = std::find(names.begin(), names.end(), channel);
+             if (name == names.end()) {
+               throw std::invalid_argument("channel '" + channel + "'; allowed: grey, color, depth, corners");
+             }
+             return CameraNeed{std::move(role), static_cast<CameraNeed::Channel>(name - names.begin()), pinhole};
+           }),
+           "role"_a, "channel"_a = "grey", "pinhole"_a = false)
+      .def_readonly("role", &CameraNeed::role)
+      .def_readonly("channel", &CameraNeed::channel)
+      .def_readonly("pinhole", &CameraNeed::pinhole);
+  py::class_<MountedCamera>(native, "MountedCamera", "A camera as the calibration has it. C: right, down, forward.")
+      .def_readonly("role", &MountedCamera::role)
+      .def_readonly("rate_hz", &MountedCamera::rate_hz)
+      .def_property_readonly("width_px", [](const MountedCamera& c) { return c.model.width_px; })
+      .def_property_readonly("height_px", [](const MountedCamera& c) { return c.model.height_px; })
+      .def_property_readonly("lens", [](const MountedCamera& c) { return c.model.lens_name(); })
+      .def_property_readonly(
+          "pinhole",
+          [](const MountedCamera& c) {
+            const vision::camera::PinholeCamera p = c.model.pinhole();
+            return py::dict("focal_x_px"_a = p.focal_x_px, "focal_y_px"_a = p.focal_y_px,
+                            "center_u_px"_a = p.center_u_px, "center_v_px"_a = p.center_v_px);
+          },
+          "focal lengths and principal point; ValueError for another lens")
+      .def_property_readonly(
+          "X_BC", [](const MountedCamera& c) { return Eigen::Matrix4d(c.X_BC.matrix()); }, "pose in B, 4 x 4")
+      .def("rays", &rays, "unit directions of all pixels in C, rows x columns x 3; NaN where the lens shows nothing");
+  py::class_<VehicleLimits>(native, "VehicleLimits")
+      .def_readonly("speed_mps", &VehicleLimits::speed_mps)
+      .def_readonly("acceleration_mps2", &VehicleLimits::acceleration_mps2)
+      .def_readonly("radius_m", &VehicleLimits::radius_m);
+  py::class_<Setup>(native, "Setup", "What a module is told before a flight.")
+      .def_readonly("cameras", &Setup::cameras)
+      .def_readonly("limits", &Setup::limits)
+      .def_readonly("seed", &Setup::seed);
+}
+
+void bind_truth(py::module_& native) {
+  py::class_<sim::TrueMotion>(native, "TrueMotion", "How the vehicle truly moves: for who judges, not for who decides.")
+      .def_readonly("p_WB_m", &sim::TrueMotion::p_WB)
+      .def_property_readonly(
+          "q_WB", [](const sim::TrueMotion& t) { return wxyz(t.q_WB); }, "(w, x, y, z)")
+      .def_readonly("v_WB_W_mps", &sim::TrueMotion::v_WB_W)
+      .def_readonly("w_WB_B_radps", &sim::TrueMotion::w_WB_B)
+      .def_readonly("wind_W_mps", &sim::TrueMotion::wind_W);
+  py::class_<sim::Proximity>(native, "Proximity", "True clearances of the hull.")
+      .def_readonly("obstacle_clearance_m", &sim::Proximity::obstacle_clearance_m)
+      .def_readonly("ground_clearance_m", &sim::Proximity::ground_clearance_m)
+      .def_readonly("collided", &sim::Proximity::collided);
+}
+
+}  // namespace
+
+Observation to_python(const avoidance::Observation& observation) {
+  Observation seen{observation.t_ns, {}, observation.navigation, observation.goal};
+  for (const CameraFrame& frame : observation.frames) seen.images[py::str(frame.role)] = view_of(frame.image);
+  return seen;
+}
+
+Decision to_decision(const py::handle& answer) {
+  if (py::isinstance<Decision>(answer)) return answer.cast<Decision>();
+  try {
+    return {answer.cast<Command>(), "cruise", {}};
+  } catch (const py::cast_error&) {
+    throw std::invalid_argument("expected a command or a Decision, got " +
+                                std::string(py::str(py::type::of(answer).attr("__name__"))));
+  }
+}
+
+void bind_states(py::module_& native) {
+  bind_commands(native);
+  bind_observation(native);
+  bind_setup(native);
+  bind_truth(native);
+}
+
+}  // namespace hedgehop::python

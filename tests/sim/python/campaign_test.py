@@ -1,0 +1,52 @@
+"""Batches and sweeps from Python hold what the program's files hold."""
+
+import csv
+import pathlib
+import tempfile
+import unittest
+
+import numpy as np
+
+import hedgehop
+from flights import CITY, SHORT
+from hedgehop.results import read_table
+
+
+class Campaigns(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(self.scratch.cleanup)
+        self.out = pathlib.Path(self.scratch.name) / "out"
+
+    def test_a_batch_is_a_record_array_of_its_table(self):
+        table = hedgehop.batch(CITY, self.out, seeds="1:3", set={**SHORT, "duration": 0.4}, jobs=2)
+        rows = list(csv.DictReader((self.out / "batch.csv").read_text().splitlines()))
+        self.assertEqual(len(table), 3)
+        self.assertEqual(list(table.seed), [1, 2, 3])
+        np.testing.assert_array_equal(table.flight_time_s, [float(row["flight_time_s"]) for row in rows])
+        self.assertEqual(list(hedgehop.load(self.out).trajectory_hash), list(table.trajectory_hash))
+
+    def test_a_sweep_is_one_too(self):
+        sweep = pathlib.Path(self.scratch.name) / "sweep.yaml"
+        sweep.write_text(f"description: short\nscenario: {CITY}\nset: [duration=0.4]\nseeds: 1:2\ntuned_on: 1:2000\n"
+                         "design: {type: grid}\nparameters: [{path: avoidance.speed, values: [1.0, 2.0]}]\n")
+        table = hedgehop.sweep(sweep, self.out, jobs=2)
+        self.assertEqual(len(table), 4)
+        self.assertEqual(sorted(table["avoidance.speed"]), [1, 1, 2, 2])
+
+    def test_bad_input_is_the_programs_text(self):
+        with self.assertRaisesRegex(hedgehop.InputError, "duraton"):
+            hedgehop.batch(CITY, self.out, set={"duraton": 1})
+        with self.assertRaisesRegex(FileNotFoundError, "neither result.json"):
+            hedgehop.load(self.scratch.name)
+
+    def test_a_table_keeps_texts_numbers_and_gaps(self):
+        table = read_table('a,b,c\n1,"x, y",\n2,z,3e-1\n')
+        self.assertEqual(table.a.tolist(), [1, 2])
+        self.assertEqual(table.b.tolist(), ["x, y", "z"])
+        self.assertTrue(np.isnan(table.c[0]) and table.c[1] == 0.3)
+        self.assertEqual(len(read_table("a,b\n")), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,116 @@
+"""The environment keeps Gymnasium's protocol and its seeds, alone and in processes."""
+
+import unittest
+
+import numpy as np
+
+import hedgehop
+from flights import CITY
+
+SETTINGS = {"duration": 0.6, "film.enabled": False}
+
+
+def actions(count):
+    return np.random.default_rng(3).uniform(-1, 1, (count, 4))
+
+
+def fly(env, seed, count):
+    """Everything that an environment says in some steps, over the ends of flights."""
+    said = [env.reset(seed=seed)[0]["state"]]
+    for action in actions(count):
+        observation, reward, terminated, truncated, info = env.step(action)
+        said += [observation["state"], observation["front"].copy(), np.array([reward, terminated, truncated])]
+        if terminated or truncated:
+            said.append(env.reset()[0]["state"])
+    return said
+
+
+class Alone(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.env = hedgehop.Env(CITY, cameras=["front"], set=SETTINGS, render_mode="rgb_array")
+
+    def test_protocol(self):
+        env = self.env
+        observation, info = env.reset(seed=1)
+        self.assertTrue(env.observation_space.contains(observation))
+        self.assertIn("clearance_m", info)
+        for _ in range(3):
+            observation, reward, terminated, truncated, info = env.step(env.action_space.sample())
+            self.assertTrue(env.observation_space.contains(observation))
+            self.assertEqual([type(v) for v in (reward, terminated, truncated)], [float, bool, bool])
+        self.assertEqual(env.render().shape, (200, 200, 3))
+
+    def test_time_over_is_truncation_and_a_crash_is_termination(self):
+        self.env.reset(seed=1)
+        steps = 0
+        while True:
+            steps += 1
+            _, _, terminated, truncated, info = self.env.step(np.zeros(4))
+            if terminated or truncated:
+                break
+        self.assertEqual((terminated, truncated, steps), (False, True, 15))  # 25 Hz
+        self.assertEqual(info["result"]["outcome"], "timeout")
+        low = hedgehop.Env(CITY, cameras=["front"], set={**SETTINGS, "duration": 20, "start.altitude": 0.6})
+        low.reset(seed=1)
+        rewards = []
+        while True:
+            _, reward, terminated, truncated, info = low.step([0, 0, -1, 0])
+            rewards.append(reward)
+            if terminated or truncated:
+                break
+        self.assertEqual((terminated, info["result"]["outcome"]), (True, "collided"))
+        self.assertLess(rewards[-1], -99)
+
+    def test_progress_earns_the_meters_flown_towards_the_goal(self):
+        env = hedgehop.Env(CITY, cameras=["front"], set={**SETTINGS, "duration": 4}, rewards={"near": 0.0})
+        _, first = env.reset(seed=2)
+        goal = env._simulation.observation.goal.p_WG_m
+        earned = 0.0
+        for _ in range(60):
+            _, reward, _, _, info = env.step([0.5, 0, 0, 0])
+            earned += reward
+        nearer_m = np.linalg.norm(goal - first["p_WB_true_m"]) - np.linalg.norm(goal - info["p_WB_true_m"])
+        self.assertGreater(nearer_m, 0.5)
+        self.assertAlmostEqual(earned, nearer_m, places=9)
+
+    def test_equal_seeds_give_equal_flights_and_others_do_not(self):
+        first, again, other = (fly(self.env, seed, 20) for seed in (4, 4, 5))
+        for a, b in zip(first, again):
+            np.testing.assert_array_equal(a, b)
+        self.assertFalse(all(np.array_equal(a, b) for a, b in zip(first, other)))
+
+    def test_bad_calls(self):
+        for bad in ([0, 0, 0], [np.nan, 0, 0, 0], "fly", None):
+            with self.assertRaises((TypeError, ValueError)):
+                self.env.step(bad)
+        with self.assertRaisesRegex(ValueError, "no 'clerance'; there are: progress"):
+            hedgehop.Env(CITY, rewards={"clerance": 1})
+
+
+class Several(unittest.TestCase):
+    def fly(self, seed):
+        with hedgehop.VectorEnv(str(CITY), 2, cameras=["front"], set=SETTINGS) as envs:
+            observation, _ = envs.reset(seed=seed)
+            said = [observation["state"]]
+            for action in actions(20):
+                observation, reward, terminated, truncated, infos = envs.step(np.stack([action, -action]))
+                said += [observation["state"], observation["front"], reward, terminated, truncated]
+                self.assertEqual(["final_info" in info for info in infos], list(terminated | truncated))
+        return said
+
+    def test_two_processes_are_deterministic_in_the_seed_and_differ_from_one_another(self):
+        first, again = self.fly(6), self.fly(6)
+        for a, b in zip(first, again):
+            np.testing.assert_array_equal(a, b)
+        self.assertFalse(np.array_equal(first[0][0], first[0][1]))
+
+    def test_a_fault_in_a_process_is_told(self):
+        with self.assertRaisesRegex(ValueError, "actions: .3,"):
+            with hedgehop.VectorEnv(str(CITY), 2, cameras=["front"], set=SETTINGS) as envs:
+                envs.reset(seed=1)
+                envs.step(np.zeros((3, 4)))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,32 @@
+"""Short flights that the tests share."""
+
+import json
+import os
+import pathlib
+import subprocess
+
+SOURCE = pathlib.Path(os.environ["HEDGEHOP_SOURCE"])
+PROGRAM = os.environ["HEDGEHOP_PROGRAM"]
+CITY = SOURCE / "configs/garratt2009_city_0_light.yaml"
+TREE = SOURCE / "configs/andert2007_tree_160.yaml"
+SHORT = {"duration": 2, "film.enabled": False}
+STRAIGHT = {**SHORT, "duration": 4, "avoidance": {"module": "go_to_goal", "speed": 3.0}}
+
+
+def set_options(values):
+    return [word for key, value in values.items() for word in ("--set", f"{key}={json.dumps(value)}")]
+
+
+def run_program(scenario, values, out, seed=1):
+    """Flies with the program; returns its status, result.json or None, and what it said on standard error."""
+    done = subprocess.run([PROGRAM, "run", str(scenario), "--seed", str(seed), *set_options(values), "--no-video",
+                           "--no-report", "--out", str(out)], capture_output=True, text=True)
+    file = pathlib.Path(out) / "result.json"
+    return done.returncode, json.loads(file.read_text()) if file.exists() else None, done.stderr
+
+
+def steady(result):
+    """A result without what may differ from run to run."""
+    kept = {key: value for key, value in result.items()
+            if not key.endswith("_ms") and key not in ("wall_s", "realtime_factor", "command_line")}
+    return kept

@@ -1,0 +1,164 @@
+"""Modules in Python fly as those in C++ do, by the library, the program, and in batches."""
+
+import math
+import pathlib
+import tempfile
+import textwrap
+import unittest
+
+import numpy as np
+
+import hedgehop
+import hedgehop.testing
+from flights import CITY, SHORT, STRAIGHT, TREE, run_program, steady
+
+GO_TO_GOAL = textwrap.dedent("""
+    import math
+
+    import hedgehop
+
+
+    class GoToGoal:
+        def __init__(self, speed=2.0, slow_radius=4.0):
+            self.speed, self.slow_radius = speed, slow_radius
+
+        def update(self, observation):
+            north, east, _ = observation.goal.p_WG_m - observation.navigation.p_WB_est_m
+            distance = math.sqrt(north * north + east * east)
+            speed = self.speed * (distance / self.slow_radius if distance < self.slow_radius else 1.0) / distance
+            return hedgehop.VelocityCommand([north * speed, east * speed], -observation.goal.p_WG_m[2],
+                                            observation.goal.heading_rad)
+
+
+    class Fails:
+        needs = ["front"]
+
+        def update(self, observation):
+            if observation.t_ns > 500_000_000:
+                raise ValueError("no\\nway")
+            return hedgehop.HoverCommand()
+
+
+    class Looks:
+        needs = [hedgehop.CameraNeed("front")]
+        signals = {"mean_grey": ""}
+
+        def reset(self, setup):
+            self.setup, self.images = setup, 0
+
+        def update(self, observation):
+            self.images += 1
+            image = observation.images.get("front")
+            mean = math.nan if image is None else float(image.mean())
+            return hedgehop.Decision(hedgehop.HoverCommand(), "look", [mean])
+
+        def metrics(self):
+            return {"images": self.images}
+
+        def annotate(self):
+            import numpy
+            return numpy.full((48, 64, 3), 200, numpy.uint8)
+    """)
+
+
+class FromFile(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.scratch.name)
+        cls.file = cls.folder / "mine.py"
+        cls.file.write_text(GO_TO_GOAL)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def python(self, class_name, values=SHORT, **parameters):
+        return {**values, "avoidance": {"python": str(self.file), "class": class_name, "parameters": parameters}}
+
+    def test_a_copy_of_go_to_goal_flies_its_hash_everywhere(self):
+        expected = hedgehop.Simulation(CITY, set=STRAIGHT).run()["trajectory_hash"]
+        values = self.python("GoToGoal", STRAIGHT, speed=3)
+        status, result, said = run_program(CITY, values, self.folder / "out")
+        self.assertEqual((result or {}).get("trajectory_hash"), expected, said)
+        self.assertEqual(hedgehop.Simulation(CITY, set=values).run()["trajectory_hash"], expected)
+        names = {}
+        exec(GO_TO_GOAL, names)
+        self.assertEqual(hedgehop.Simulation(CITY, set=STRAIGHT, module=names["GoToGoal"](speed=3.0)).run()["trajectory_hash"], expected)
+        self.assertIn("mine.py", " ".join(result["inputs"]))
+
+    def test_signals_metrics_and_images_arrive(self):
+        sim = hedgehop.Simulation(CITY, set=self.python("Looks"))
+        result = sim.run()
+        self.assertEqual(result["metrics"]["module.images"], result["decisions"])
+        self.assertTrue(np.all((sim.decisions.mean_grey > 1) & (sim.decisions.mean_grey < 254)))
+        _, by_program, _ = run_program(CITY, self.python("Looks"), self.folder / "looks")
+        self.assertEqual(steady(result), steady(by_program))
+
+    def test_what_a_module_raises_ends_its_flight_with_the_places(self):
+        _, result, _ = run_program(CITY, self.python("Fails"), self.folder / "fails")
+        self.assertEqual(result["outcome"], "fault")
+        for text in ("0.520 s", "ValueError: no way", f"{self.file}:24 in update"):
+            self.assertIn(text, result["cause"])
+        self.assertNotIn("\n", result["cause"])
+
+    def test_what_cannot_be_loaded_is_bad_input(self):
+        broken = self.folder / "broken.py"
+        broken.write_text("import nothing_of_that_name\n")
+        for values, text in (({**SHORT, "avoidance": {"python": "none.py", "class": "A"}}, "no such file"),
+                             (self.python("GoToGaol"), "has no class 'GoToGaol'; its modules: Fails, GoToGoal, Looks"),
+                             (self.python("GoToGoal", sped=1), "unexpected keyword argument 'sped'"),
+                             ({**SHORT, "avoidance": {"python": str(broken), "class": "A"}}, "nothing_of_that_name"),
+                             ({**SHORT, "avoidance": {"python": str(self.file)}}, "class")):
+            with self.subTest(text):
+                status, result, said = run_program(CITY, values, self.folder / "bad")
+                self.assertEqual((status, result), (2, None))
+                self.assertIn(text, said)
+                with self.assertRaisesRegex(hedgehop.InputError, text.replace("'", ".")):
+                    hedgehop.Simulation(CITY, set=values)
+
+    def test_a_batch_flies_it_in_workers(self):
+        values = self.python("GoToGoal", STRAIGHT, speed=3)
+        table = hedgehop.batch(CITY, self.folder / "batch", seeds=[1, 2], set=values, jobs=2)
+        alone = [hedgehop.Simulation(CITY, set=STRAIGHT, seed=seed).run()["trajectory_hash"] for seed in (1, 2)]
+        self.assertEqual(list(table.trajectory_hash), alone)
+
+
+class Dodge:
+    """Keeps off what is near, by the depth that a flow of two images gives nobody: by grey levels alone it hovers."""
+
+    needs = ["left", "right"]
+
+    def update(self, observation):
+        return hedgehop.HoverCommand(0.1 * len(observation.images))
+
+
+class Forgetful:
+    count = 0
+
+    def update(self, observation):
+        Forgetful.count += 1
+        return hedgehop.HoverCommand(0.01 * Forgetful.count)
+
+
+class Contract(unittest.TestCase):
+    def test_a_good_module_passes(self):
+        hedgehop.testing.check_module(Dodge, TREE)
+
+    def test_one_that_remembers_across_flights_fails(self):
+        with self.assertRaisesRegex(AssertionError, "equal input gives other decisions"):
+            hedgehop.testing.check_module(Forgetful, TREE)
+
+    def test_one_that_dies_of_a_lost_image_fails(self):
+        class Fragile:
+            needs = ["left"]
+
+            def update(self, observation):
+                return hedgehop.HoverCommand(float(observation.images["left"].mean()) * 1e-3)
+
+        with self.assertRaises(KeyError):
+            hedgehop.testing.check_module(Fragile, TREE)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,179 @@
+"""A flight stepped from Python is the program's; nothing that is passed makes it crash."""
+
+import gc
+import math
+import random
+import tempfile
+import threading
+import unittest
+
+import numpy as np
+
+import hedgehop
+from flights import CITY, SHORT, STRAIGHT, run_program, steady
+
+
+def city(**more):
+    return hedgehop.Simulation(CITY, set=SHORT, **more)
+
+
+class WholeFlight(unittest.TestCase):
+    def test_run_gives_the_programs_result(self):
+        with tempfile.TemporaryDirectory() as out:
+            _, result, _ = run_program(CITY, SHORT, out, seed=5)
+        self.assertEqual(steady(city(seed=5).run()), steady(result))
+
+    def test_steps_and_ticks_give_the_same_flight(self):
+        whole = city().run()["trajectory_hash"]
+        by_step, by_tick = city(), city()
+        while not by_step.over:
+            by_step.step()
+        while not by_tick.over:
+            by_tick.tick()
+        self.assertEqual([by_step.result()["trajectory_hash"], by_tick.result()["trajectory_hash"]], [whole, whole])
+
+    def test_reset_begins_again(self):
+        sim = city()
+        first = sim.run()["trajectory_hash"]
+        sim.reset()
+        self.assertEqual((sim.t_s, sim.over), (0.0, False))
+        self.assertEqual(sim.run()["trajectory_hash"], first)
+        sim.reset(seed=9)
+        self.assertEqual(sim.run()["trajectory_hash"], city(seed=9).run()["trajectory_hash"])
+
+    def test_commands_fly_what_the_module_of_the_same_law_flies(self):
+        whole = hedgehop.Simulation(CITY, set=STRAIGHT).run()
+        sim = hedgehop.Simulation(CITY, set=STRAIGHT)
+        obs = sim.reset()
+        while not sim.over:
+            north, east, _ = obs.goal.p_WG_m - obs.navigation.p_WB_est_m
+            distance_m = math.sqrt(north * north + east * east)
+            speed_mps = 3.0 * (distance_m / 4.0 if distance_m < 4.0 else 1.0) / distance_m
+            obs = sim.step(hedgehop.VelocityCommand([north * speed_mps, east * speed_mps], -obs.goal.p_WG_m[2],
+                                                    obs.goal.heading_rad))
+        self.assertEqual(sim.result()["trajectory_hash"], whole["trajectory_hash"])
+
+    def test_a_text_is_a_scenario(self):
+        sim = city()
+        again = hedgehop.Simulation(text=sim.scenario_yaml)
+        self.assertEqual(again.run()["trajectory_hash"], sim.run()["trajectory_hash"])
+
+    def test_tables_hold_the_flight(self):
+        sim = city()
+        result = sim.run()
+        self.assertEqual(len(sim.trajectory), 201)
+        self.assertEqual(len(sim.decisions), result["decisions"])
+        moved = np.diff(np.stack([sim.trajectory[n] for n in ("north_m", "east_m", "down_m")]), axis=1)
+        self.assertAlmostEqual(np.linalg.norm(moved, axis=0).sum(), result["path_length_m"], places=9)
+        with tempfile.TemporaryDirectory() as out:
+            sim.save(out)
+            loaded = hedgehop.load(out)
+        self.assertEqual(loaded.result["trajectory_hash"], result["trajectory_hash"])
+        for name in sim.trajectory.dtype.names:
+            np.testing.assert_array_equal(loaded.trajectory[name], sim.trajectory[name])
+
+
+class Images(unittest.TestCase):
+    def test_views_share_the_simulators_memory_and_outlive_it(self):
+        sim = city(cameras=["front"])
+        view = sim.reset().images["front"]
+        before, address = view.copy(), view.ctypes.data
+        self.assertEqual((view.shape, view.dtype), ((200, 200), np.uint8))
+        for _ in range(5):
+            obs = sim.step(hedgehop.VelocityCommand([3, 0], 10, 0))
+        self.assertEqual(obs.images["front"].ctypes.data, address)
+        self.assertTrue(np.any(view != before))  # drawn over
+        with self.assertRaises(ValueError):
+            view[0, 0] = 1
+        del sim, obs
+        gc.collect()
+        self.assertGreater(view.astype(float).std(), 0)  # its memory is still there
+
+    def test_any_camera_at_any_time_without_a_trace(self):
+        asked = city()
+        while not asked.over:
+            self.assertEqual(asked.image("rear", "color").shape, (200, 200, 3))
+            depth = asked.image("front", "depth")
+            self.assertEqual(depth.dtype, np.float32)
+            self.assertGreater(np.nanmin(depth), 0)
+            asked.step()
+        self.assertEqual(asked.result()["trajectory_hash"], city().run()["trajectory_hash"])
+
+    def test_rays_are_those_of_a_pinhole(self):
+        camera = city().cameras["front"]
+        p, rays = camera.pinhole, camera.rays()
+        np.testing.assert_allclose(np.linalg.norm(rays, axis=2), 1, atol=1e-12)
+        v, u = 30, 170
+        expected = np.array([(u - p["center_u_px"]) / p["focal_x_px"], (v - p["center_v_px"]) / p["focal_y_px"], 1])
+        np.testing.assert_allclose(rays[v, u], expected / np.linalg.norm(expected), atol=1e-12)
+
+
+class BadCalls(unittest.TestCase):
+    def test_errors_have_the_programs_text(self):
+        with tempfile.TemporaryDirectory() as out:
+            status, result, said = run_program(CITY, {**SHORT, "duraton": 3}, out)
+        self.assertEqual((status, result), (2, None))
+        with self.assertRaises(hedgehop.InputError) as error:
+            hedgehop.Simulation(CITY, set={**SHORT, "duraton": 3})
+        self.assertIn(str(error.exception), said)
+        with self.assertRaisesRegex(hedgehop.InputError, "there is no such file"):
+            hedgehop.Simulation("nowhere.yaml")
+        with self.assertRaisesRegex(hedgehop.InputError, "no finite number"):
+            hedgehop.Simulation(CITY, set={"duration": math.nan})
+        with self.assertRaisesRegex(hedgehop.InputError, "its cameras: left, right, front, rear, down"):
+            city().image("top")
+        with self.assertRaisesRegex(ValueError, "allowed: grey, color, depth, labels"):
+            city().image("front", "infrared")
+
+    def test_commands_that_cannot_be_leave_no_trace(self):
+        sim = hedgehop.Simulation(CITY, set=STRAIGHT)
+        sim.step()
+        for bad in (hedgehop.VelocityCommand([math.nan, 0], 1, 0), "north", 3, [1, 2], object()):
+            with self.assertRaises(ValueError):
+                sim.step(bad)
+        for bad in ([1, 2, 3], "ab", np.zeros((2, 2)), None):
+            with self.assertRaises((TypeError, ValueError)):
+                hedgehop.VelocityCommand(bad, 1, 0)
+        self.assertEqual(sim.run()["trajectory_hash"], hedgehop.Simulation(CITY, set=STRAIGHT).run()["trajectory_hash"])
+
+    def test_a_call_at_the_wrong_time(self):
+        sim = hedgehop.Simulation(CITY, set={**SHORT, "duration": 0.1})
+        with self.assertRaisesRegex(RuntimeError, "not over"):
+            sim.result()
+        sim.run()
+        with self.assertRaisesRegex(RuntimeError, "the flight is over"):
+            sim.step()
+
+    def test_another_thread_is_refused(self):
+        sim, errors = city(), []
+
+        def use():
+            try:
+                sim.step()
+            except RuntimeError as error:
+                errors.append(str(error))
+
+        thread = threading.Thread(target=use)
+        thread.start()
+        thread.join()
+        self.assertRegex(errors[0], "the thread that made it")
+
+    def test_random_calls_raise_and_never_crash(self):
+        choose = random.Random(1)
+        values = [None, 0, -1, 2**70, 1e308, math.nan, math.inf, "", "front", "x" * 10000, b"\0", [], {}, (1, 2), np.zeros(3),
+                  np.zeros((0, 0)), object(), hedgehop.HoverCommand(0.1), hedgehop.Goal(), True]
+        sim = hedgehop.Simulation(CITY, set={**SHORT, "duration": 0.4})
+        names = [n for n in dir(sim) if not n.startswith("_") and callable(getattr(type(sim), n, None)) and n not in ("run", "save")]
+        for _ in range(400):
+            arguments = [choose.choice(values) for _ in range(choose.randrange(3))]
+            try:
+                getattr(sim, choose.choice(names))(*arguments)
+            except (TypeError, ValueError, RuntimeError, OverflowError):
+                pass
+        sim.reset(1)
+        self.assertEqual(sim.run()["trajectory_hash"],
+                         hedgehop.Simulation(CITY, set={**SHORT, "duration": 0.4}).run()["trajectory_hash"])
+
+
+if __name__ == "__main__":
+    unittest.main()
