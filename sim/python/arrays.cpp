@@ -36,7 +36,7 @@ py::array view_of(const cv::Mat& image) {
     strides.push_back(static_cast<py::ssize_t>(mat.elemSize1()));
   }
   py::array array(type_of(mat), shape, strides, mat.data, owner);
-  array.attr("setflags")(py::arg("write") = false);
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
 }
 

@@ -72,8 +72,12 @@ class PySimulation {
         command, [](sim::Simulation& s) { s.tick(); }, [](sim::Simulation& s, const auto& c) { s.tick(c); });
     return seen();
   }
+  /// To the end; Ctrl-C is heard between two decisions.
+  void run_through() {
+    while (!get().over()) unlocked([](sim::Simulation& s) { s.step(); });
+  }
   std::string run_json() {
-    while (!get().over()) step(py::none());
+    run_through();
     return result_json();
   }
 
@@ -169,6 +173,7 @@ void bind_simulation(py::module_& native) {
       .def("reset", &PySimulation::reset, "seed"_a)
       .def("step", &PySimulation::step, "command"_a)
       .def("tick", &PySimulation::tick, "command"_a)
+      .def("run_through", &PySimulation::run_through)
       .def("run_json", &PySimulation::run_json)
       .def("result_json", &PySimulation::result_json)
       .def("save", &PySimulation::save, "folder"_a)

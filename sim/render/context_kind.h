@@ -12,4 +12,8 @@ enum class ContextKind {
 /// Whether what stands between a surface and the sun darkens it.
 enum class Shadows { none, sun };
 
+/// How much of a scene is left out before it is drawn. Images do not depend on it, only their cost does (except a
+/// pixel in a crack of a mesh, which may show something else behind).
+enum class Culling { none, frustum, frustum_and_horizon };
+
 }  // namespace hedgehop::sim

@@ -7,7 +7,6 @@
 
 #include "scenes/scene.h"
 #include "sim/render/context_kind.h"
-#include "sim/render/visible_chunks.h"
 #include "vision/camera/camera.h"
 
 namespace hedgehop::sim {

@@ -7,6 +7,7 @@
 
 #include "scenes/scene.h"
 #include "sim/render/chunk_tree.h"
+#include "sim/render/context_kind.h"
 #include "sim/render/frustum.h"
 #include "sim/render/horizon.h"
 #include "vision/camera/pinhole_camera.h"
@@ -15,10 +16,6 @@ namespace hedgehop::sim {
 
 /// No higher than a sheet: ground, a ceiling.
 inline bool lies_flat(const scenes::Chunk& chunk) { return chunk.box_W.sizes().z() <= 0.01f; }
-
-/// How much of a scene is left out before it is drawn. Images do not depend on it, only their cost does (except a
-/// pixel in a crack of a mesh, which may show something else behind).
-enum class Culling { none, frustum, frustum_and_horizon };
 
 /// A chunk is drawn as its far detail where nothing that is lost is wider in the image, px.
 inline constexpr double kLostPx = 1.0;

@@ -63,7 +63,8 @@ class Commands(unittest.TestCase):
         cls.scratch = tempfile.TemporaryDirectory()
         folder = cls.folder = pathlib.Path(cls.scratch.name)
         shutil.copytree(SOURCE / "configs", folder / "configs")
-        shutil.copytree(SOURCE / "docs" / "keep_left", folder / "docs" / "keep_left")
+        for example in ("keep_left", "loops"):
+            shutil.copytree(SOURCE / "docs" / example, folder / "docs" / example)
         for file in (folder / "configs").rglob("*.yaml"):
             file.write_text(shortened_file(file.read_text()))
         (folder / "build").mkdir()
@@ -107,7 +108,21 @@ class Commands(unittest.TestCase):
         else:
             self.shell(shortened_command(line))
 
+    def run_python(self, page):
+        """A page's blocks of Python, one program; a block that begins with the name of a file is that file."""
+        program = []
+        for block in re.findall(r"^```python\n(.*?)^```", (SOURCE / page).read_text(), re.S | re.M):
+            named = re.match(r"# (\w+\.py)\n", block)
+            if named:
+                (self.folder / named[1]).write_text(block)
+            else:
+                program.append(block)
+        if program:
+            (self.folder / "page.py").write_text("".join(program))
+            self.shell(f"PYTHONPATH={BUILD}/python /usr/bin/python3 page.py", (0,))
+
     def run_page(self, page):
+        self.run_python(page)
         lines = list(dict.fromkeys(commands((SOURCE / page).read_text())))
         for line in lines:
             with self.subTest(page=page, line=line):
