@@ -56,16 +56,16 @@ nlohmann::json to_json(const Node& node) {
   throw std::logic_error("unknown kind of node");
 }
 
-/// The interpreter's library lies in the Python package: in the build folder, or where both are installed.
+/// The interpreter's library lies in the Python package: in a wheel, in the build folder, or where both are installed.
 std::optional<fs::path> interpreter_library() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
-  std::vector<fs::path> packages = {program / "../../python/hedgehop"};
+  std::vector<fs::path> packages = {program / "..", program / "../../python/hedgehop"};
   for (const fs::directory_entry& folder : fs::directory_iterator(program / "../lib", error)) {
     if (folder.path().filename().string().starts_with("python3"))
       packages.push_back(folder.path() / "dist-packages/hedgehop");
   }
-  std::ranges::sort(packages.begin() + 1, packages.end());
+  std::ranges::sort(packages.begin() + 2, packages.end());
   for (const fs::path& package : packages) {
     const fs::path library = (package / "libhedgehop_python.so").lexically_normal();
     if (fs::exists(library, error)) return library;

@@ -1,12 +1,10 @@
+#include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
-#include <limits>
-#include <set>
-#include <stdexcept>
 #include <utility>
 
+#include "avoidance/contract.h"
 #include "avoidance/registry.h"
 #include "tests/avoidance/flow_balance/flow_rig.h"
 
@@ -66,23 +64,19 @@ class Contract : public testing::TestWithParam<Row> {
   static constexpr int kSizePx = 160, kSteps = 4;
 
   // A flight past two walls; made once, for drawing takes most of a test's time.
-  struct Step {
-    NavigationState navigation;
-    std::vector<CameraFrame> frames;
-  };
-  static const std::vector<Step>& flight() {
-    static const std::vector<Step> all_round = make_flight(four_cameras(kSizePx, 25.0));
-    static const std::vector<Step> ahead = make_flight(stereo_pair(kSizePx, 25.0));
-    static const std::vector<Step> below = make_flight(fisheye_below(2 * kSizePx, 25.0));
+  static const std::vector<contract::Step>& flight() {
+    static const std::vector<contract::Step> all_round = make_flight(four_cameras(kSizePx, 25.0));
+    static const std::vector<contract::Step> ahead = make_flight(stereo_pair(kSizePx, 25.0));
+    static const std::vector<contract::Step> below = make_flight(fisheye_below(2 * kSizePx, 25.0));
     if (GetParam().fisheye) return below;
     return GetParam().stereo ? ahead : all_round;
   }
-  static std::vector<Step> make_flight(const avoidance::Setup& rig) {
+  static std::vector<contract::Step> make_flight(const avoidance::Setup& rig) {
     const vision::WaveTexture texture(5, 0.3, 4.0, 12);
     const std::vector<vision::TexturedPlane> walls = {wall(9, 0, M_PI), wall(0, 5, -0.5 * M_PI)};
-    std::vector<Step> made;
+    std::vector<contract::Step> made;
     for (int i = 0; i < kSteps; ++i) {
-      Step step;
+      contract::Step step;
       step.navigation = level_flight({0.04 * i, 0.02 * i, -6.0}, 0.3, {1.0, 0.5});
       step.navigation.w_WB_B_est = {0.01, -0.02, 0.05};
       step.frames = see(rig, step.navigation, int64_t{40'000'000} * i, walls, texture);
@@ -90,82 +84,37 @@ class Contract : public testing::TestWithParam<Row> {
     }
     return made;
   }
-  static avoidance::Setup setup(double speed_limit_mps = 10.0) {
-    if (GetParam().fisheye) return fisheye_below(2 * kSizePx, 25.0, speed_limit_mps);
-    return GetParam().stereo ? stereo_pair(kSizePx, 25.0, speed_limit_mps)
-                             : four_cameras(kSizePx, 25.0, speed_limit_mps);
+  static avoidance::Setup setup() {
+    constexpr double kSpeedLimitMps = 10.0;
+    if (GetParam().fisheye) return fisheye_below(2 * kSizePx, 25.0, kSpeedLimitMps);
+    return GetParam().stereo ? stereo_pair(kSizePx, 25.0, kSpeedLimitMps) : four_cameras(kSizePx, 25.0, kSpeedLimitMps);
   }
-  static Observation observation(const Step& step, int i) {
-    return {int64_t{40'000'000} * i, step.frames, step.navigation, {{40, 10, -8}, 0.3}};
-  }
-  static std::vector<Decision> fly(Module& module, double speed_limit_mps = 10.0, bool annotate = false) {
-    module.reset(setup(speed_limit_mps));
-    std::vector<Decision> decisions;
-    for (int i = 0; i < kSteps; ++i) {
-      decisions.push_back(module.update(observation(flight()[static_cast<size_t>(i)], i)));
-      if (annotate) module.annotate();
-    }
-    return decisions;
-  }
-
-  // All numbers of a decision, bit by bit, so that NaN equals NaN.
-  static std::vector<uint64_t> bits(const Decision& decision) {
-    std::vector<double> numbers = decision.signals;
-    if (const auto* velocity = std::get_if<VelocityCommand>(&decision.command)) {
-      numbers.insert(numbers.end(),
-                     {velocity->v_WB_W.x(), velocity->v_WB_W.y(), velocity->altitude_m, velocity->heading_rad});
-    }
-    if (const auto* position = std::get_if<PositionCommand>(&decision.command)) {
-      numbers.insert(numbers.end(),
-                     {position->p_WB.x(), position->p_WB.y(), position->p_WB.z(), position->heading_rad});
-    }
-    std::vector<uint64_t> result = {decision.command.index()};
-    for (const double number : numbers) result.push_back(std::bit_cast<uint64_t>(number));
-    return result;
-  }
-  static void expect_same(const std::vector<Decision>& a, const std::vector<Decision>& b) {
-    ASSERT_EQ(a.size(), b.size());
-    for (size_t i = 0; i < a.size(); ++i) {
-      EXPECT_EQ(bits(a[i]), bits(b[i])) << i;
-      EXPECT_EQ(a[i].status, b[i].status) << i;
-    }
+  static contract::Subject subject() {
+    return {.make = [config = GetParam().config] { return make_module(config); },
+            .setup = setup(),
+            .steps = flight(),
+            .goal = {{40, 10, -8}, 0.3}};
   }
 };
 
-TEST_P(Contract, SameInputGivesTheSameBits) {
-  const auto a = make_module(GetParam().config), b = make_module(GetParam().config);
-  expect_same(fly(*a), fly(*b));
-}
-
-TEST_P(Contract, ResetEqualsANewModule) {
-  const auto used = make_module(GetParam().config), fresh = make_module(GetParam().config);
-  fly(*used);
-  expect_same(fly(*used), fly(*fresh));
-}
-
+TEST_P(Contract, SameInputGivesTheSameBits) { contract::expect_same_input_gives_the_same_bits(subject()); }
+TEST_P(Contract, ResetEqualsANewModule) { contract::expect_reset_equals_a_new_module(subject()); }
 TEST_P(Contract, DrawingChangesNothingAndGivesRgb) {
-  const auto drawn = make_module(GetParam().config), plain = make_module(GetParam().config);
-  expect_same(fly(*drawn, 10.0, true), fly(*plain));
-  const cv::Mat image = drawn->annotate();
-  if (!image.empty()) {
-    EXPECT_EQ(image.type(), CV_8UC3);
-  }
-  const auto unused = make_module(GetParam().config);
-  EXPECT_NO_THROW(unused->annotate());
+  contract::expect_drawing_changes_nothing_and_gives_rgb(subject());
 }
-
-TEST_P(Contract, SpeedLimitsHold) {
-  const auto module = make_module(GetParam().config);
-  for (const Decision& decision : fly(*module, 0.7)) {
-    if (const auto* velocity = std::get_if<VelocityCommand>(&decision.command)) {
-      EXPECT_LE(velocity->v_WB_W.norm(), 0.7 + 1e-12);
-    }
-  }
+TEST_P(Contract, SpeedLimitsHold) { contract::expect_speed_limits_hold(subject()); }
+TEST_P(Contract, MissingFramesAreSurvived) { contract::expect_missing_frames_are_survived(subject()); }
+TEST_P(Contract, NavigationThatIsNotFiniteIsRejected) {
+  contract::expect_navigation_that_is_not_finite_is_rejected(subject());
 }
+TEST_P(Contract, SignalsAndMetricsAreNamedOnceAndSteady) {
+  contract::expect_signals_and_metrics_are_named_once_and_steady(subject());
+}
+TEST_P(Contract, AllNeededCamerasMustBeThere) { contract::expect_all_needed_cameras_must_be_there(subject()); }
 
 TEST_P(Contract, HoldsTheGoalsHeadingAndHeightOrFliesWhereItLooks) {
-  const auto module = make_module(GetParam().config);
-  for (const Decision& decision : fly(*module)) {
+  const contract::Subject under_test = subject();
+  for (const Decision& decision : under_test.fly(*under_test.make())) {
     if (const auto* velocity = std::get_if<VelocityCommand>(&decision.command)) {
       if (GetParam().fisheye) {
         const double way_rad = std::atan2(velocity->v_WB_W.y(), velocity->v_WB_W.x());
@@ -183,72 +132,31 @@ TEST_P(Contract, HoldsTheGoalsHeadingAndHeightOrFliesWhereItLooks) {
 }
 
 TEST_P(Contract, BlankImagesAreSurvivedAndLeaveTheWayFree) {
-  const auto module = make_module(GetParam().config);
-  module->reset(setup());
-  for (int i = 0; i < kSteps; ++i) {
-    Step step = flight()[static_cast<size_t>(i)];
-    for (CameraFrame& frame : step.frames) frame.image = cv::Mat(frame.image.size(), CV_8UC1, cv::Scalar(i % 2 * 255));
-    const Decision decision = module->update(observation(step, i));
-    EXPECT_EQ(decision.status, GetParam().blank);
+  const contract::Subject under_test = subject();
+  const auto module = under_test.make();
+  module->reset(under_test.setup);
+  for (size_t i = 0; i < under_test.steps.size(); ++i) {
+    contract::Step step = under_test.steps[i];
+    const cv::Scalar level(i % 2 == 0 ? 0.0 : 255.0);
+    for (CameraFrame& frame : step.frames) frame.image = cv::Mat(frame.image.size(), CV_8UC1, level);
+    EXPECT_EQ(module->update(under_test.observation(step, i)).status, GetParam().blank);
   }
 }
 
-TEST_P(Contract, MissingFramesAreSurvived) {
-  const auto module = make_module(GetParam().config);
-  module->reset(setup());
-  for (int i = 0; i < kSteps; ++i) {
-    Step step = flight()[static_cast<size_t>(i)];
-    if (i == 1) step.frames.clear();
-    if (i == 2) step.frames.pop_back();
-    EXPECT_NO_THROW(module->update(observation(step, i)));
-  }
-}
+// A contract that no module could break would say nothing.
+class Forgetful : public Module {
+  Needs do_needs() const override { return {}; }
+  void do_reset(const Setup&) override {}
+  Decision do_update(const Observation&) override { return {HoverCommand{0.1 * ++count_}, "hover", {}}; }
+  int count_ = 0;
+};
 
-TEST_P(Contract, NavigationThatIsNotFiniteIsRejected) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  const auto refuse = [&](auto change) {
-    const auto module = make_module(GetParam().config);
-    module->reset(setup());
-    Observation bad = observation(flight()[0], 0);
-    change(bad);
-    EXPECT_THROW(module->update(bad), std::logic_error);
-  };
-  refuse([](Observation& o) { o.navigation.p_WB_est.x() = kNan; });
-  refuse([](Observation& o) { o.navigation.q_WB_est.w() = kNan; });
-  refuse([](Observation& o) { o.navigation.v_WB_B_est.y() = INFINITY; });
-  refuse([](Observation& o) { o.navigation.w_WB_B_est.z() = kNan; });
-  refuse([](Observation& o) { o.navigation.q_WB_gyro.x() = kNan; });
-  refuse([](Observation& o) { o.navigation.height_above_ground_m = kNan; });
-  refuse([](Observation& o) { o.navigation.range_m = INFINITY; });
-  refuse([](Observation& o) { o.goal.p_WG.z() = kNan; });
-  refuse([](Observation& o) { o.goal.heading_rad = kNan; });
-}
-
-TEST_P(Contract, SignalsAndMetricsAreNamedOnceAndSteady) {
-  const auto module = make_module(GetParam().config);
-  const auto before = module->signals();
-  const auto decisions = fly(*module);
-  std::set<std::string> names;
-  for (const Signal& signal : before) {
-    EXPECT_TRUE(names.insert(signal.name).second) << signal.name;
-    EXPECT_EQ(signal.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_"), std::string::npos) << signal.name;
-  }
-  EXPECT_EQ(module->signals().size(), before.size());
-  for (const Decision& decision : decisions) {
-    EXPECT_EQ(decision.signals.size(), before.size());
-    EXPECT_FALSE(decision.status.empty());
-    EXPECT_EQ(decision.status.find_first_of(" ,\"\n"), std::string::npos);
-  }
-  for (const Metric& metric : module->metrics()) EXPECT_FALSE(std::isinf(metric.value)) << metric.name;
-}
-
-TEST_P(Contract, AllNeededCamerasMustBeThere) {
-  const auto module = make_module(GetParam().config);
-  for (const CameraNeed& need : module->needs().cameras) {
-    avoidance::Setup blind = setup();
-    std::erase_if(blind.cameras, [&](const MountedCamera& camera) { return camera.role == need.role; });
-    EXPECT_THROW(module->reset(blind), std::invalid_argument) << need.role;
-  }
+TEST(ContractBroken, AModuleThatRemembersItsLastFlightFails) {
+  static const contract::Subject forgetful{.make = [] { return std::make_unique<Forgetful>(); },
+                                           .setup = {.limits = {.speed_mps = 1.0}},
+                                           .steps = std::vector<contract::Step>(1)};
+  contract::expect_same_input_gives_the_same_bits(forgetful);
+  EXPECT_NONFATAL_FAILURE(contract::expect_reset_equals_a_new_module(forgetful), "bits");
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, Contract, testing::ValuesIn(rows()),

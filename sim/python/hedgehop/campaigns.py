@@ -5,6 +5,7 @@ import pathlib
 import shutil
 import signal
 import subprocess
+import sys
 
 from ._native import InputError
 from .results import load
@@ -12,15 +13,20 @@ from .simulation import overrides
 
 
 def program():
-    """Path of the `hedgehop` program: of the same build folder or installation, else the one of PATH."""
+    """Path of the `hedgehop` program: of this wheel, build folder or installation, else the one of PATH."""
     package = pathlib.Path(__file__).resolve().parent
-    for candidate in (package / "../../sim/cli/hedgehop", package / "../../../../bin/hedgehop"):
+    for candidate in (package / "bin/hedgehop", package / "../../sim/cli/hedgehop", package / "../../../../bin/hedgehop"):
         if candidate.exists():
             return str(candidate.resolve())
     found = shutil.which("hedgehop")
     if not found:
         raise FileNotFoundError("the program hedgehop is neither beside this package nor in PATH")
     return found
+
+
+def main():
+    """The program, of a wheel that has no folder for programs."""
+    os.execv(program(), ["hedgehop", *sys.argv[1:]])
 
 
 def _fly(command):

@@ -6,7 +6,7 @@ try:
     from gymnasium.spaces import Box, Dict
 except ImportError:
 
-    class Box:
+    class Box:  # type: ignore[no-redef]
         """Arrays of a shape and type between bounds."""
 
         def __init__(self, low, high, shape, dtype):
@@ -28,7 +28,7 @@ except ImportError:
             return (value.shape == self.shape and np.can_cast(value.dtype, self.dtype, "same_kind")
                     and bool(np.all((value >= self.low) & (value <= self.high))))
 
-    class Dict:
+    class Dict:  # type: ignore[no-redef]
         """A dict of spaces."""
 
         def __init__(self, spaces):

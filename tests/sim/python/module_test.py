@@ -1,6 +1,6 @@
 """Modules in Python fly as those in C++ do, by the library, the program, and in batches."""
 
-import math
+import importlib.util
 import pathlib
 import tempfile
 import textwrap
@@ -10,7 +10,7 @@ import numpy as np
 
 import hedgehop
 import hedgehop.testing
-from flights import CITY, SHORT, STRAIGHT, TREE, run_program, steady
+from flights import CITY, SHORT, SOURCE, STRAIGHT, TREE, run_program, steady
 
 GO_TO_GOAL = textwrap.dedent("""
     import math
@@ -124,8 +124,23 @@ class FromFile(unittest.TestCase):
         self.assertEqual(list(table.trajectory_hash), alone)
 
 
+@unittest.skipIf(importlib.util.find_spec("cv2") is None, "python3-opencv is not installed")
+class OpticFlow(unittest.TestCase):
+    def fly(self, **parameters):
+        from flow_balance_room import FlowBalance
+
+        room = SOURCE / "configs/garratt2009_room_0_light.yaml"
+        return hedgehop.Simulation(room, seed=1101, set={"duration": 24}, module=FlowBalance(**parameters)).run()
+
+    def test_it_keeps_off_the_walls_of_the_room_which_the_blind_control_flies_into(self):
+        seen, blind = self.fly(), self.fly(gain=0.0)
+        self.assertEqual((seen["outcome"], blind["outcome"]), ("timeout", "collided"))
+        self.assertGreater(seen["min_clearance_m"], 0.3)
+        self.assertGreater(seen["path_length_m"], 10)
+
+
 class Dodge:
-    """Keeps off what is near, by the depth that a flow of two images gives nobody: by grey levels alone it hovers."""
+    """Turns by the number of its images."""
 
     needs = ["left", "right"]
 
