@@ -1,5 +1,7 @@
 #include "scenes/mesh/mesh_files.h"
 
+#include "scenes/mesh/mesh_guard.h"
+
 #include <assimp/scene.h>
 
 #include <assimp/DefaultIOSystem.h>
@@ -29,6 +31,11 @@ class NotingFiles : public Assimp::DefaultIOSystem {
 }  // namespace
 
 std::set<std::filesystem::path> mesh_files(const std::filesystem::path& mesh) {
+  try {
+    require_importable(mesh);
+  } catch (const std::invalid_argument& fault) {
+    throw std::invalid_argument("'" + mesh.string() + "': " + fault.what());
+  }
   std::set<std::filesystem::path> files;
   Assimp::Importer importer;
   importer.SetIOHandler(new NotingFiles(files));  // the importer deletes it

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "scenes/mesh/mesh_builder.h"
+#include "scenes/mesh/mesh_guard.h"
 #include "scenes/textures/stone_textures.h"
 #include "sim/fields/bounds.h"
 
@@ -20,14 +21,18 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr unsigned kMostTriangles = 500000;
+constexpr double kFarthestM = 100e3;  // as every position of a scenario
 
 [[noreturn]] void refuse(const ImportConfig& c, const std::string& why) {
   throw std::invalid_argument("imports.file: '" + c.file + "': " + why);
 }
 
 void require_file(const ImportConfig& c) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(c.file, error)) refuse(c, "there is no such file");
+  try {
+    require_importable(c.file);
+  } catch (const std::invalid_argument& fault) {
+    refuse(c, fault.what());
+  }
 }
 
 // From the model's frame to W: its front to the heading, its up to W's up.
@@ -117,6 +122,7 @@ void add_import(const ImportConfig& c, Scene& scene) {
     if (triangles > kMostTriangles) refuse(c, "it has more than " + std::to_string(kMostTriangles) + " triangles");
     for (const Vector3d& corner : body.corners) {
       if (!corner.allFinite()) refuse(c, "it has corners that are not finite");
+      if (corner.cwiseAbs().maxCoeff() > kFarthestM) refuse(c, "it has corners farther away than 100 km");
     }
     int& image = images[mesh->mMaterialIndex];
     if (image < 0) {

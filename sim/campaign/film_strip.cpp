@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "sim/record/film_watcher.h"
+#include "sim/record/run_record.h"
 #include "sim/record/whole_file.h"
 #include "sim/simulation/simulation.h"
 
@@ -82,7 +83,7 @@ std::string jpeg(const cv::Mat& rgb) {
 
 /// Throws std::runtime_error with the reason why there is no strip.
 void write_film_strip(const std::filesystem::path& flight) {
-  const auto result = nlohmann::ordered_json::parse(read_file_whole(flight / "result.json"));
+  const nlohmann::ordered_json result = read_result(flight / "result.json");
   const nlohmann::ordered_json& closest = result.at("closest_obstacle");
   const bool collided = result.at("outcome") == "collided";
   const double end_s = (collided ? result.at("flight_time_s") : closest.at("t_s")).get<double>();

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "sim/flight/build.h"
+#include "sim/record/run_record.h"
 #include "sim/record/whole_file.h"
 
 namespace hedgehop::sim {
@@ -81,10 +82,7 @@ std::optional<nlohmann::ordered_json> result_left_by(const Order& order, const s
   if (!std::filesystem::exists(folder / "result.json", ignored)) return {};
   try {
     if (read_file_whole(folder / "scenario.yaml") != order.scenario_yaml) return {};
-    nlohmann::ordered_json result = nlohmann::ordered_json::parse(read_file_whole(folder / "result.json"));
-    for (const char* key : {"outcome", "checks", "metrics", "trajectory_hash"}) {
-      if (!result.contains(key)) return {};
-    }
+    nlohmann::ordered_json result = read_result(folder / "result.json");
     if (!other_builds && result.value("build", "") != build_identity()) return {};
     if (result.value("seed", uint64_t{0}) != order.seed) return {};
     if (result.value("inputs", decltype(order.inputs){}) != order.inputs) return {};

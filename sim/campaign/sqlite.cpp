@@ -2,7 +2,10 @@
 #include <fmt/ranges.h>
 #include <sqlite3.h>
 
+#include <algorithm>
+#include <cctype>
 #include <memory>
+#include <set>
 #include <stdexcept>
 
 #include "sim/campaign/table.h"
@@ -28,6 +31,17 @@ std::string quoted_name(const std::string& name) {
   return quoted + "\"";
 }
 
+/// SQLite takes names that differ only in case for one: the later gets a number.
+std::string unlike(const std::string& name, std::set<std::string>& taken) {
+  const auto lower = [](std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+  };
+  std::string own = name;
+  for (int number = 2; !taken.insert(lower(own)).second; ++number) own = fmt::format("{}_{}", name, number);
+  return own;
+}
+
 int bind(sqlite3_stmt* statement, int place, const Cell& value) {
   if (const auto* integer = std::get_if<int64_t>(&value)) return sqlite3_bind_int64(statement, place, *integer);
   if (const auto* number = std::get_if<double>(&value)) return sqlite3_bind_double(statement, place, *number);
@@ -47,7 +61,8 @@ void fill(const std::filesystem::path& file, const Table& table) {
              SQLITE_OK,
          opened);
   std::vector<std::string> names;
-  for (const TableColumn& column : table.columns) names.push_back(quoted_name(column.name));
+  std::set<std::string> taken;
+  for (const TableColumn& column : table.columns) names.push_back(quoted_name(unlike(column.name, taken)));
   const std::string create = fmt::format("CREATE TABLE flights ({})", fmt::join(names, ", "));
   expect(sqlite3_exec(opened, create.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK, opened);
 

@@ -101,6 +101,7 @@ std::filesystem::path own_program() {
 int batch(const BatchOptions& options) {
   const std::filesystem::path out = folder_of(options);
   const BatchOrders batch = orders_of(options, out);
+  require_writable(out);
   for (const std::string& fault : batch.faults) fmt::print(stderr, "{}\n", fault);
 
   Interruption interruption;

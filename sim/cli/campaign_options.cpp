@@ -1,5 +1,7 @@
 #include "sim/cli/campaign_options.h"
 
+#include <algorithm>
+#include <cctype>
 #include <memory>
 #include <thread>
 
@@ -83,7 +85,11 @@ void declare_sweep(CLI::App& app, std::function<int()>& chosen) {
   command->add_option("--tasks", options->tasks, "shards of a Slurm job array; default 8")
       ->transform(whole_number())
       ->check(CLI::Range(1, 1000));
-  command->add_option("--slurm-option", options->slurm_options, "for every sbatch, such as --partition=night");
+  command->add_option("--slurm-option", options->slurm_options, "for every sbatch, such as --partition=night")
+      ->check([](const std::string& option) {
+        const bool one_line = std::ranges::none_of(option, [](unsigned char c) { return std::iscntrl(c) != 0; });
+        return option.starts_with('-') && one_line ? "" : "expected one line that begins with '-'";
+      });
   command->add_flag("--dry-run", options->dry_run, "with --on slurm: only print the batch scripts");
   command->add_option("--program", options->program)->group("");  // hidden: for tests
   command->callback([&chosen, options] { chosen = [options] { return sweep(*options); }; });

@@ -111,6 +111,7 @@ std::string packages() {
 void write_pages(const ReproduceOptions& options, const fs::path& out, const RowsOfPapers& papers,
                  const nlohmann::ordered_json& pages) {
   const PageFacts facts = page_facts(papers, packages(), options.quick);
+  require_writable(out);
   fs::create_directories(out);
   const std::string text = results_page(papers, facts);
   write_file_whole(out / "reproduction.md", text);

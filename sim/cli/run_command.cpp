@@ -17,6 +17,7 @@
 #include "sim/record/film_watcher.h"
 #include "sim/record/report.h"
 #include "sim/record/result_files.h"
+#include "sim/record/whole_file.h"
 #include "sim/simulation/simulation.h"
 
 namespace hedgehop::sim::cli {
@@ -97,6 +98,7 @@ int run(const RunOptions& options) {
   const std::filesystem::path out =
       options.out.empty() ? std::filesystem::path{"out"} / fmt::format("{}-seed{}", scenario.name, scenario.seed)
                           : options.out;
+  require_writable(out);
   RunWatcher watcher(scenario, out / "video.webm", options.worker_of != 0);
   const Flight flight = Simulation(std::move(loaded), &watcher).run();
   watcher.close();

@@ -26,6 +26,10 @@ struct RunRecord {
 /// The record of a flight that is in memory.
 RunRecord run_record(const Scenario& scenario, const RunInfo& info, const Flight& flight);
 
+/// Reads a result.json. Throws std::runtime_error when there is none, InputError when it is not what a flight leaves (a
+/// key is missing, or of another type).
+nlohmann::ordered_json read_result(const std::filesystem::path& file);
+
 /// The record of a run, from its folder: scenario.yaml, result.json, trajectory.csv, decisions.csv and map.json. The
 /// scene is regenerated from the scenario and its seed. Throws std::runtime_error naming the file and the cause when
 /// one is missing or malformed.

@@ -1,5 +1,7 @@
 #include "sim/record/whole_file.h"
 
+#include "sim/scenario/input_error.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -62,6 +64,18 @@ std::string read_file_whole(const std::filesystem::path& file) {
   ::close(descriptor);
   if (error != 0) fail("read", file, error);
   return text;
+}
+
+void require_writable(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::path there = std::filesystem::absolute(folder);
+  while (!std::filesystem::exists(there, error) && there.has_relative_path()) there = there.parent_path();
+  if (!std::filesystem::is_directory(there, error)) error = std::make_error_code(std::errc::not_a_directory);
+  if (!error && ::access(there.c_str(), W_OK | X_OK) != 0) error = std::error_code(errno, std::generic_category());
+  if (error) {
+    throw InputError(
+        fmt::format("{}: no results can be written there: {}: {}", folder.string(), there.string(), error.message()));
+  }
 }
 
 }  // namespace hedgehop::sim

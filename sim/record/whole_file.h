@@ -13,4 +13,8 @@ void write_file_whole(const std::filesystem::path& file, std::string_view text);
 /// Returns all bytes of `file`. Throws std::runtime_error naming the file and the cause.
 std::string read_file_whole(const std::filesystem::path& file);
 
+/// Looks, before anything is flown for it, whether a folder for results is there or can be made. Throws InputError
+/// naming it and the cause.
+void require_writable(const std::filesystem::path& folder);
+
 }  // namespace hedgehop::sim

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <iterator>
+#include <stdexcept>
 
+#include "sim/scenario/input_file.h"
 #include "sim/scenario/parse.h"
 
 namespace hedgehop::sim {
@@ -58,14 +58,15 @@ class Includer {
       return {};
     }
 
-    std::ifstream stream(file, std::ios::binary);
-    if (fs::is_directory(file, error) || !stream) {
-      const char* why = !fs::exists(file, error) ? "there is no such file" : "the file cannot be read";
-      faults_.add(place, from ? fmt::format("{}: '{}'", why, name) : why);
+    std::string text;
+    try {
+      text = read_input_file(file);
+    } catch (const std::invalid_argument& why) {
+      faults_.add(place, from ? fmt::format("{}: '{}'", why.what(), name) : why.what());
       return {};
     }
     read_.insert(file.lexically_normal());
-    return parse({std::istreambuf_iterator<char>(stream), {}}, name, file.parent_path(), identity);
+    return parse(text, name, file.parent_path(), identity);
   }
 
   /// @param identity  of the file that the text comes from.

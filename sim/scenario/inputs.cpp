@@ -54,7 +54,7 @@ Inputs inputs_of(const Scenario& scenario, const std::set<fs::path>& read, const
 std::string sha256(const fs::path& file) {
   std::error_code error;
   std::ifstream stream(file, std::ios::binary);
-  if (!stream || fs::is_directory(file, error)) return "missing";
+  if (!stream || !fs::is_regular_file(file, error)) return "missing";
   const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
   EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr);
   std::array<char, 65536> buffer{};

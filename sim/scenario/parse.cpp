@@ -12,6 +12,13 @@ namespace hedgehop::sim {
 namespace {
 
 constexpr size_t kMostNodes = 200'000;  // a scenario has hundreds; aliases of aliases could make billions
+constexpr size_t kMostKeys = 2'000;     // of one map
+
+/// The document is larger than any that is meant; the rest is not read.
+struct TooLarge {
+  Place place;
+  std::string what;
+};
 
 size_t count_nodes(const Node& node) {
   size_t count = 1;
@@ -100,7 +107,7 @@ class Builder : public YAML::EventHandler {
   }
 
   void add(Node node, YAML::anchor_t anchor) {
-    ++nodes_;
+    if (++nodes_ > kMostNodes) throw TooLarge{node.place, fmt::format("more than {} values in one file", kMostNodes)};
     if (anchor != 0) anchors_[anchor] = node;
     if (open_.empty()) {
       root_ = std::move(node);
@@ -119,6 +126,9 @@ class Builder : public YAML::EventHandler {
 
   void take_key(Open& open, const Node& key) {
     const std::string in = path_words(path());
+    if (open.node.entries.size() >= kMostKeys) {
+      throw TooLarge{key.place, fmt::format("more than {} keys in {}", kMostKeys, in)};
+    }
     open.has_key = true;
     open.drop = true;
     open.key = key.text;
@@ -176,6 +186,9 @@ Node parse_yaml(const std::string& text, const std::string& file, Faults& faults
       faults.add(next.place, "a second document; one file holds one");
     }
     return root;
+  } catch (const TooLarge& large) {
+    faults.add(large.place, large.what);
+    return {};
   } catch (const YAML::Exception& error) {
     faults.add({file, error.mark.line + 1, error.mark.column + 1}, error.msg);
   } catch (const std::exception& error) {

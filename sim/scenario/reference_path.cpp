@@ -1,10 +1,12 @@
 #include "sim/scenario/reference_path.h"
 
+#include "sim/scenario/input_file.h"
+
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 #include "sim/scenario/numbers.h"
@@ -63,9 +65,21 @@ std::string reference_text(const ReferencePath& reference) {
   return text;
 }
 
+namespace {
+
+std::string reference_bytes(const std::filesystem::path& file) {
+  try {
+    return read_input_file(file);
+  } catch (const std::invalid_argument& why) {
+    throw std::invalid_argument(
+        fmt::format("cannot read {}: {}; `hedgehop bless` writes it", file.string(), why.what()));
+  }
+}
+
+}  // namespace
+
 ReferencePath read_reference_path(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw std::invalid_argument(fmt::format("cannot read {}; `hedgehop bless` writes it", file.string()));
+  std::istringstream stream(reference_bytes(file));
   ReferencePath reference;
   bool header = false;
   std::string line;

@@ -1,11 +1,12 @@
 #include "sim/scenario/rig.h"
 
+#include "sim/scenario/input_file.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <stdexcept>
 
@@ -72,13 +73,8 @@ vision::camera::Camera ocam(const CameraConfig& c) {
   require(
       !c.focal_x_px && !c.focal_y_px && !c.center_u_px && !c.center_v_px && !c.view_limit_rad && c.distortion.empty(),
       "calibration: defines the lens; no other key of the lens may stand beside it");
-  std::ifstream stream(c.calibration, std::ios::binary);
-  std::error_code error;
-  require(stream && !std::filesystem::is_directory(c.calibration, error),
-          fmt::format("calibration: '{}' cannot be read", c.calibration.string()));
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
   try {
-    const vision::camera::Camera camera(vision::camera::parse_ocam_calibration(text));
+    const vision::camera::Camera camera(vision::camera::parse_ocam_calibration(read_input_file(c.calibration)));
     require(camera.width_px == c.width_px && camera.height_px == c.height_px,
             fmt::format("width and height must be {} and {}", camera.width_px, camera.height_px));
     return camera;

@@ -36,10 +36,14 @@ std::string Node::words() const {
     case Kind::scalar:
       break;
   }
-  return fmt::format("{}'{}'", quoted ? "the text " : "", text);
+  constexpr size_t kMostLetters = 80;
+  const bool is_long = text.size() > kMostLetters;
+  return fmt::format("{}'{}'", quoted ? "the text " : "", is_long ? text.substr(0, kMostLetters) + "..." : text);
 }
 
-void Faults::add(const Place& place, std::string message) { faults_.push_back({place, std::move(message)}); }
+void Faults::add(const Place& place, std::string message) {
+  if (++count_ <= kMost) faults_.push_back({place, std::move(message)});
+}
 
 void Faults::raise() const {
   if (faults_.empty()) return;
@@ -61,6 +65,7 @@ void Faults::raise() const {
       if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(std::move(line));
     }
   }
+  if (count_ > kMost) lines.push_back(fmt::format("and {} more", count_ - kMost));
   throw InputError(std::move(lines));
 }
 

@@ -44,12 +44,12 @@ struct Entry {
   Node value;
 };
 
-/// Faults found so far.
+/// Faults found so far; beyond the first fifty they are only counted.
 class Faults {
  public:
   void add(const Place& place, std::string message);
-  bool empty() const { return faults_.empty(); }
-  size_t count() const { return faults_.size(); }
+  bool empty() const { return count_ == 0; }
+  size_t count() const { return count_; }
   /// Throws InputError with all faults, file by file in the order of their first fault, each file from top to bottom;
   /// does nothing without faults.
   void raise() const;
@@ -59,7 +59,9 @@ class Faults {
     Place place;
     std::string message;
   };
+  static constexpr size_t kMost = 50;
   std::vector<Fault> faults_;
+  size_t count_ = 0;
 };
 
 /// "a.b" and "c" make "a.b.c"; an empty parent is the root.

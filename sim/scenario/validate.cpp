@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <memory>
@@ -33,6 +34,28 @@ class Validator {
  public:
   Validator(const Scenario& scenario, const Node& root, Faults& faults)
       : scenario_(scenario), root_(root), faults_(faults) {}
+
+  /// It names a folder of results, too.
+  void name() {
+    constexpr size_t kMostLetters = 200;
+    const std::string& name = scenario_.name;
+    const bool has_bad = std::ranges::any_of(name, [](unsigned char c) { return c < 0x20 || c == 0x7f || c == '/'; });
+    if (has_bad || name.empty() || name.starts_with('.') || name.size() > kMostLetters) {
+      add("name", fmt::format("must be 1 to {} letters without '/' and control characters, and not begin with '.'",
+                              kMostLetters));
+    }
+  }
+
+  void start() {
+    const auto* room = std::get_if<scenes::worlds::RoomConfig>(&scenario_.scene);
+    if (!room) return;
+    const StartConfig& start = scenario_.start;
+    if (std::abs(start.north_m) > 0.5 * room->length_m || std::abs(start.east_m) > 0.5 * room->width_m ||
+        (room->ceiling && start.altitude_m > room->height_m)) {
+      add("start", fmt::format("is outside the room, which is {} m long (north), {} m wide and {} m high",
+                               room->length_m, room->width_m, room->height_m));
+    }
+  }
 
   void rates() {
     constexpr int64_t kNsPerS = 1'000'000'000;
@@ -225,6 +248,8 @@ class Validator {
 
 std::optional<FlightParts> validate(const Scenario& scenario, const Node& root, Faults& faults) {
   Validator validator(scenario, root, faults);
+  validator.name();
+  validator.start();
   validator.rates();
   validator.rig();
   validator.module();

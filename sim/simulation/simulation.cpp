@@ -100,6 +100,10 @@ class Simulation::Impl {
     judge_.emplace();
     const Stopwatch stopwatch(flying_s_);
     episode_.emplace(scenario_, *stage_, std::move(parts), watcher_, &*judge_);
+    if (episode_->proximity().collided) {
+      throw InputError(
+          fmt::format("'start': no flight can begin there: the vehicle {}", episode_->flight().result.cause));
+    }
   }
 
   Scenario scenario_;

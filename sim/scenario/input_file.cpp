@@ -1,0 +1,21 @@
+#include "sim/scenario/input_file.h"
+
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace hedgehop::sim {
+
+std::string read_input_file(const std::filesystem::path& file) {
+  constexpr uintmax_t kMostBytes = 64'000'000;
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) throw std::invalid_argument("there is no such file");
+  if (std::filesystem::is_directory(file, error)) throw std::invalid_argument("is a folder, not a file");
+  if (!std::filesystem::is_regular_file(file, error)) throw std::invalid_argument("is a device or a pipe, not a file");
+  if (std::filesystem::file_size(file, error) > kMostBytes) throw std::invalid_argument("is larger than 64 MB");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw std::invalid_argument("the file cannot be read");
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,129 @@
+// Files that are no scenario, no mesh and no result, however they are made: one clear line, soon.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "tests/sim/campaign/campaign_folder.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+constexpr int kBadInput = 2;
+
+class BadFile : public testing::Test {
+ protected:
+  /// Processor time is limited: what goes on without end is killed, and is no status 2.
+  CommandEnd run(const std::string& arguments) const {
+    return folder.shell("ulimit -t 20; " HEDGEHOP_PROGRAM " run " + arguments + " --no-video --out out");
+  }
+  void refused(const std::string& arguments, const std::string& why) const {
+    const CommandEnd end = run(arguments);
+    EXPECT_EQ(end.status, kBadInput) << end.err.substr(0, 300);
+    EXPECT_THAT(end.err, HasSubstr(why));
+    EXPECT_LT(end.err.size(), 20'000U);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+  }
+  CampaignFolder folder;
+};
+
+TEST_F(BadFile, PipesDevicesFoldersAndHugeFilesAreNoScenarios) {
+  folder.shell("mkfifo pipe; truncate -s 70M huge.yaml");
+  refused("pipe", "pipe: is a device or a pipe, not a file");
+  refused("/dev/zero", "/dev/zero: is a device or a pipe, not a file");
+  refused(".", "is a folder, not a file");
+  refused("huge.yaml", "huge.yaml: is larger than 64 MB");
+  folder.write("uses.yaml", "use: pipe\n");
+  refused("uses.yaml", "uses.yaml:1:6: is a device or a pipe, not a file: 'pipe'");
+}
+
+TEST_F(BadFile, DocumentsBeyondAllMeasureAreRefusedNotRead) {
+  std::string keys = "use: tiny.yaml\n", list = "use: tiny.yaml\nroute: [";
+  for (int i = 0; i < 100'000; ++i) keys += "key" + std::to_string(i) + ": 1\n";
+  for (int i = 0; i < 300'000; ++i) list += "{north: 1, east: 1, altitude: 5},";
+  folder.write("keys.yaml", keys);
+  folder.write("list.yaml", list + "]\n");
+  folder.write("word.yaml", std::string(1'000'000, 'a'));
+  refused("keys.yaml", "more than 2000 keys in the scenario");
+  refused("list.yaml", "more than 200000 values in one file");
+  refused("word.yaml", "expected a map of keys, got 'aaaa");
+}
+
+TEST_F(BadFile, AThousandFaultsAreCountedNotListed) {
+  std::string keys = "use: tiny.yaml\n";
+  for (int i = 0; i < 1000; ++i) keys += "key" + std::to_string(i) + ": 1\n";
+  folder.write("keys.yaml", keys);
+  refused("keys.yaml", "and 950 more");
+}
+
+TEST_F(BadFile, MeshesThatChokeTheImporterAreRefused) {
+  std::ofstream polygon(folder.path() / "polygon.obj"), deep(folder.path() / "deep.gltf"),
+      far(folder.path() / "far.obj");
+  polygon << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
+  for (int i = 0; i < 20'000; ++i) polygon << ' ' << i % 3 + 1;
+  deep << R"({"asset": {"version": "2.0"}, "x": )" << std::string(200'000, '[') << std::string(200'000, ']') << "}";
+  far << "v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n";
+  polygon.close();
+  deep.close();
+  far.close();
+  const auto with = [](const std::string& file) { return "tiny.yaml --set 'scene.imports=[{file: " + file + "}]'"; };
+  refused(with("polygon.obj"), "it has a face of more than 1000 corners");
+  refused(with("deep.gltf"), "its JSON is nested deeper than 200");
+  refused(with("far.obj"), "it has corners farther away than 100 km");
+}
+
+TEST_F(BadFile, ANameIsNoWayOutOfTheFolder) {
+  for (const char* name : {"../../x", "a/b", ".hidden", "\"a\\nb\""}) {
+    refused("tiny.yaml --set 'name=" + std::string(name) + "'", "'name': must be 1 to 200 letters");
+  }
+}
+
+TEST_F(BadFile, AStartInAWallOrOutsideTheRoomIsRefused) {
+  refused("tiny.yaml --set start.north=8", "'start': no flight can begin there: the vehicle hit");
+  refused("tiny.yaml --set start.north=50", "'start': is outside the room, which is 16 m long");
+  refused("tiny.yaml --set start.altitude=0", "'start': no flight can begin there: the vehicle hit the ground");
+}
+
+TEST_F(BadFile, WhereNothingCanBeWrittenIsToldBeforeTheFlight) {
+  folder.write("file", "");
+  const CommandEnd end = folder.hedgehop("run tiny.yaml --no-video --out file/below");
+  EXPECT_EQ(end.status, kBadInput);
+  EXPECT_THAT(end.err, AllOf(HasSubstr("file/below: no results can be written there"), HasSubstr("Not a directory")));
+}
+
+TEST_F(BadFile, AResultOfAnotherShapeIsNamedAndFlownAgain) {
+  ASSERT_EQ(folder.hedgehop("batch tiny.yaml --seeds 3 --out out").status, 0);
+  const std::string whole = folder.read("out/tiny/seed3/result.json");
+  const std::string hash = folder.json("out/tiny/seed3/result.json")["trajectory_hash"];
+  for (const char* bad : {"[]", "null", "3", "{", R"({"checks": null})", R"({"outcome": 3})"}) {
+    folder.write("out/tiny/seed3/result.json", bad);
+    const CommandEnd report = folder.hedgehop("report out/tiny/seed3");
+    EXPECT_EQ(report.status, kBadInput) << bad << report.err;
+    EXPECT_THAT(report.err, HasSubstr("result.json"));
+    ASSERT_EQ(folder.hedgehop("batch tiny.yaml --seeds 3 --out out --resume").status, 0) << bad;
+    EXPECT_EQ(folder.json("out/tiny/seed3/result.json")["trajectory_hash"], hash) << bad;
+  }
+  nlohmann::ordered_json unchecked = nlohmann::ordered_json::parse(whole);
+  unchecked["checks"] = nullptr;
+  folder.write("out/tiny/seed3/result.json", unchecked.dump());
+  ASSERT_EQ(folder.hedgehop("batch tiny.yaml --seeds 3 --out out --resume").status, 0);
+  EXPECT_THAT(folder.json("out/tiny/seed3/result.json")["checks"], SizeIs(1));
+}
+
+TEST_F(BadFile, ASlurmOptionIsOneLine) {
+  folder.write("sweep.yaml",
+               "scenario: tiny.yaml\nseeds: 1\ntuned_on: 1:2000\ndesign: {type: grid}\n"
+               "parameters: [{path: start.east, values: [0, 0.1]}]\n");
+  const std::string sweep = "sweep sweep.yaml --on slurm --dry-run --out out --slurm-option=";
+  EXPECT_EQ(folder.hedgehop(sweep + "--mem=1G").status, 0);
+  EXPECT_EQ(folder.hedgehop(sweep + "\"$(printf -- '--mem=1\\nrm x')\"").status, kBadInput);
+  EXPECT_EQ(folder.hedgehop(sweep + "mem").status, kBadInput);
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
