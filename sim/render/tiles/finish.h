@@ -159,6 +159,14 @@ inline void shade_image(const SceneView& scene, const Frame& frame, const Image&
   }
 }
 
+template <class Value>
+inline void write_values(const Value (&values)[kTilePx * kTilePx], const Window& to, size_t step) {
+  for (int y = 0; y < to.rows; ++y) {
+    std::memcpy(to.first + static_cast<size_t>(y) * step, values + kTilePx * y,
+                sizeof(Value) * static_cast<size_t>(to.columns));
+  }
+}
+
 /// Values of another kind than levels: what is not covered keeps `nothing`.
 template <class Value, class Measure>
 inline void measure_image(const Frame& frame, const Image& image, const Value& nothing, const Measure& measure) {
@@ -170,11 +178,7 @@ inline void measure_image(const Frame& frame, const Image& image, const Value& n
       for (uint16_t i = 0; i < tile.count; ++i) {
         measure(frame.surfaces[tile.layers[i].surface], kTilePx * column, kTilePx * row, tile.layers[i].pixels, values);
       }
-      const Window window = window_of(frame, image, column, row, sizeof(Value));
-      for (int y = 0; y < window.rows; ++y) {
-        std::memcpy(window.first + static_cast<size_t>(y) * image.step, values + kTilePx * y,
-                    sizeof(Value) * static_cast<size_t>(window.columns));
-      }
+      write_values(values, window_of(frame, image, column, row, sizeof(Value)), image.step);
     }
   }
 }

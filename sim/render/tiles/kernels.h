@@ -12,7 +12,13 @@ struct Image {
   size_t step;  ///< bytes from row to row
 };
 
-/// The two loops over facets and over pixels, compiled for one kind of processor. All give the same bits.
+/// From where the next image is taken. Cn: C then.
+struct NextView {
+  double R_CnC[9];        ///< row by row
+  const double* p_CnC_m;  ///< three for each of Frame::eyes, as what stands still with it sees it
+};
+
+/// The loops over facets and over pixels, compiled for one kind of processor. All give the same bits.
 struct Kernels {
   const char* lanes;  ///< what they are made for
 
@@ -21,6 +27,9 @@ struct Kernels {
 
   /// Makes the image. Several samples a pixel for grey and color only.
   void (*finish)(const SceneView& scene, Frame& frame, Raster raster, const Image& image);
+
+  /// Makes an image of the flow until the next one, CV_32FC2, as Channel::flow.
+  void (*flow)(const Frame& frame, const NextView& next, const Image& image);
 };
 
 extern const Kernels kPlainKernels;

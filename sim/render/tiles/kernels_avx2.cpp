@@ -3,11 +3,12 @@
 
 #include "sim/render/tiles/cover.h"
 #include "sim/render/tiles/finish.h"
+#include "sim/render/tiles/flow.h"
 #include "sim/render/tiles/kernels.h"
 
 namespace hedgehop::sim::tiles {
 
-const Kernels kAvx2Kernels{kLanes, draw, finish};
+const Kernels kAvx2Kernels{kLanes, draw, finish, flow};
 
 }  // namespace hedgehop::sim::tiles
 

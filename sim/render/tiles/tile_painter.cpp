@@ -66,6 +66,35 @@ void TilePainter::paint(const vision::camera::PinholeCamera& camera, const Paint
                         int samples, cv::Mat& out) {
   require_samples(samples);
   out.create(camera.height_px, camera.width_px, type_of(raster));
+  draw_scene(camera, eye, samples);
+  if (raster == Raster::grey || raster == Raster::color) {
+    memory_.make_paints();
+    color_scene(raster == Raster::color);
+  }
+  kernels_.finish(view_, memory_.frame(), raster, {out.data, out.step[0]});
+}
+
+bool TilePainter::paint_flow(const vision::camera::PinholeCamera& camera, const Painter::Eye& eye,
+                             const Painter::Next& next, cv::Mat& out) {
+  out.create(camera.height_px, camera.width_px, CV_32FC2);
+  draw_scene(camera, eye, 1);
+  const Eigen::Matrix3d R_CnW = next.X_WC.linear().transpose(), R_CnC = R_CnW * eye.X_WC.linear();
+  NextView view{};
+  for (int i = 0; i < 9; ++i) view.R_CnC[i] = R_CnC(i / 3, i % 3);
+  p_CnC_m_.clear();
+  const Eigen::Vector3d flown_W_m = next.X_WC.translation() - eye.X_WC.translation();
+  const auto add = [&](const Eigen::Vector3d& moved_W_m) {
+    const Eigen::Vector3d p_CnC_m = R_CnW * (moved_W_m - flown_W_m);
+    p_CnC_m_.insert(p_CnC_m_.end(), p_CnC_m.begin(), p_CnC_m.end());
+  };
+  add(Eigen::Vector3d::Zero());
+  for (const Eigen::Vector3d& moved_W_m : next.moved_W_m) add(moved_W_m);
+  view.p_CnC_m = p_CnC_m_.data();
+  kernels_.flow(memory_.frame(), view, {out.data, out.step[0]});
+  return true;
+}
+
+void TilePainter::draw_scene(const vision::camera::PinholeCamera& camera, const Painter::Eye& eye, int samples) {
   const tiles::Eye world = eye_at(eye.X_WC.translation(), eye.X_WC.linear());
   for (int i = 0; i < 3; ++i) {
     view_.p_WC[i] = world.p_m[i];
@@ -75,11 +104,6 @@ void TilePainter::paint(const vision::camera::PinholeCamera& camera, const Paint
   memory_.add_eye(world);
   visible_.find(camera, eye.X_WC, culling_, *this);
   draw_movers(eye);
-  if (raster == Raster::grey || raster == Raster::color) {
-    memory_.make_paints();
-    color_scene(raster == Raster::color);
-  }
-  kernels_.finish(view_, memory_.frame(), raster, {out.data, out.step[0]});
 }
 
 void TilePainter::draw(const scenes::Chunk& stretch, uint32_t eye) {
