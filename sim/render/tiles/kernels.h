@@ -12,6 +12,11 @@ struct Image {
   size_t step;  ///< bytes from row to row
 };
 
+/// A box along the axes of the frame of the facets.
+struct Box {
+  float low_m[3], high_m[3];
+};
+
 /// From where the next image is taken. Cn: C then.
 struct NextView {
   double R_CnC[9];        ///< row by row
@@ -24,6 +29,9 @@ struct Kernels {
 
   /// Draws facets into a frame that has room for as many surfaces. @param eye  into Frame::eyes.
   void (*draw)(Frame& frame, const SceneView& scene, uint32_t first, uint32_t count, uint32_t eye, double near_m);
+
+  /// True only when nothing in a box can be seen past what was drawn so far.
+  bool (*hides)(const Frame& frame, const Eye& eye, const Box& box, double near_m);
 
   /// Makes the image. Several samples a pixel for grey and color only.
   void (*finish)(const SceneView& scene, Frame& frame, Raster raster, const Image& image);

@@ -5,10 +5,11 @@
 #include "sim/render/tiles/finish.h"
 #include "sim/render/tiles/flow.h"
 #include "sim/render/tiles/kernels.h"
+#include "sim/render/tiles/occlusion.h"
 
 namespace hedgehop::sim::tiles {
 
-const Kernels kAvx2Kernels{kLanes, draw, finish, flow};
+const Kernels kAvx2Kernels{kLanes, draw, hides, finish, flow};
 
 }  // namespace hedgehop::sim::tiles
 

@@ -40,6 +40,17 @@ inline L4 integers(D4 a) {
   return reinterpret_cast<L4>(a + shift) - reinterpret_cast<L4>(shift);
 }
 
+/// A byte of ones for each bit.
+struct Spread {
+  uint64_t bytes[256] = {};
+  constexpr Spread() {
+    for (int bits = 0; bits < 256; ++bits) {
+      for (int i = 0; i < 8; ++i) bytes[bits] |= (bits >> i & 1) != 0 ? uint64_t{0xff} << 8 * i : 0;
+    }
+  }
+};
+inline constexpr Spread kSpread;
+
 #ifdef __AVX2__
 
 inline constexpr const char* kLanes = "AVX2";
@@ -223,6 +234,19 @@ inline uint64_t bytes(I8 a) {
 }
 
 #endif
+
+/// The least and the greatest of eight.
+struct FloatRange {
+  float least, most;
+};
+inline FloatRange range(F8 a) {
+  const auto folded = [](F8 b, auto pick) {
+    b = pick(b, __builtin_shufflevector(b, b, 4, 5, 6, 7, 0, 1, 2, 3));
+    b = pick(b, __builtin_shufflevector(b, b, 2, 3, 0, 1, 6, 7, 4, 5));
+    return pick(b, __builtin_shufflevector(b, b, 1, 0, 3, 2, 5, 4, 7, 6))[0];
+  };
+  return {folded(a, [](F8 b, F8 c) { return least(b, c); }), folded(a, [](F8 b, F8 c) { return most(b, c); })};
+}
 
 }  // namespace
 }  // namespace hedgehop::sim::tiles

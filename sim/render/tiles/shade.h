@@ -13,17 +13,6 @@ struct TileBytes {
   uint64_t rows[kTilePx];
 };
 
-/// A byte of ones for each bit.
-struct Spread {
-  uint64_t bytes[256] = {};
-  constexpr Spread() {
-    for (int bits = 0; bits < 256; ++bits) {
-      for (int i = 0; i < 8; ++i) bytes[bits] |= (bits >> i & 1) != 0 ? uint64_t{0xff} << 8 * i : 0;
-    }
-  }
-};
-inline constexpr Spread kSpread;
-
 inline uint32_t row_of(uint64_t pixels, int row) { return static_cast<uint32_t>(pixels >> kTilePx * row) & 0xff; }
 
 /// A surface in a tile, ready to be looked up.

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "sim/render/frustum.h"
-#include "sim/render/tiles/occlusion.h"
 #include "sim/render/tiles/sun_depths.h"
 
 namespace hedgehop::sim::tiles {
@@ -28,6 +27,10 @@ Eye eye_at(const Eigen::Vector3d& p_MC_W, const Eigen::Matrix3d& R_WC) {
 }
 
 constexpr uint32_t kWorldEye = 0;
+
+Box box_of(const Eigen::AlignedBox3f& box) {
+  return {{box.min()[0], box.min()[1], box.min()[2]}, {box.max()[0], box.max()[1], box.max()[2]}};
+}
 
 }  // namespace
 
@@ -117,7 +120,7 @@ void TilePainter::draw(const scenes::Chunk& stretch, uint32_t eye) {
 void TilePainter::see(const scenes::Chunk& stretch) { draw(stretch, kWorldEye); }
 
 bool TilePainter::hides(const Eigen::AlignedBox3f& box_W) const {
-  return tiles::hides(memory_.frame(), memory_.frame().eyes[kWorldEye], box_W, kNearPlaneM);
+  return kernels_.hides(memory_.frame(), memory_.frame().eyes[kWorldEye], box_of(box_W), kNearPlaneM);
 }
 
 /// A mover does not turn: it is drawn as if it stood still and the eye were where it is seen from M.
@@ -129,7 +132,7 @@ void TilePainter::draw_movers(const Painter::Eye& eye) {
     for (const scenes::Chunk& chunk : geometry_.mover_chunks[mover]) {
       const tiles::Eye& seen_from = memory_.frame().eyes[index];
       const bool may_hide = culling_ != Culling::none;
-      if (may_hide && tiles::hides(memory_.frame(), seen_from, chunk.box_W, kNearPlaneM)) continue;
+      if (may_hide && kernels_.hides(memory_.frame(), seen_from, box_of(chunk.box_W), kNearPlaneM)) continue;
       draw(chunk, index);
     }
   }
