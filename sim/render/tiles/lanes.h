@@ -18,6 +18,8 @@ using I8 = int32_t __attribute__((vector_size(32)));
 using D4 = double __attribute__((vector_size(32)));
 using L4 = int64_t __attribute__((vector_size(32)));
 
+using F4 = float __attribute__((vector_size(16)));
+
 inline F8 all(float value) { return F8{} + value; }
 inline I8 all(int32_t value) { return I8{} + value; }
 inline D4 all(double value) { return D4{} + value; }
@@ -246,6 +248,23 @@ inline FloatRange range(F8 a) {
     return pick(b, __builtin_shufflevector(b, b, 1, 0, 3, 2, 5, 4, 7, 6))[0];
   };
   return {folded(a, [](F8 b, F8 c) { return least(b, c); }), folded(a, [](F8 b, F8 c) { return most(b, c); })};
+}
+
+/// Four numbers of each of eight rows as four columns. @param four  the member of a row that they are.
+template <class Row>
+inline void columns_of(const Row (&rows)[8], F4 Row::*four, F8 (&columns)[4]) {
+  F8 pairs[4];  // rows i and i + 4
+  for (int i = 0; i < 4; ++i) {
+    pairs[i] = __builtin_shufflevector(rows[i].*four, rows[i + 4].*four, 0, 1, 2, 3, 4, 5, 6, 7);
+  }
+  const F8 a = __builtin_shufflevector(pairs[0], pairs[1], 0, 8, 1, 9, 4, 12, 5, 13);
+  const F8 b = __builtin_shufflevector(pairs[2], pairs[3], 0, 8, 1, 9, 4, 12, 5, 13);
+  const F8 c = __builtin_shufflevector(pairs[0], pairs[1], 2, 10, 3, 11, 6, 14, 7, 15);
+  const F8 d = __builtin_shufflevector(pairs[2], pairs[3], 2, 10, 3, 11, 6, 14, 7, 15);
+  columns[0] = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+  columns[1] = __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+  columns[2] = __builtin_shufflevector(c, d, 0, 1, 8, 9, 4, 5, 12, 13);
+  columns[3] = __builtin_shufflevector(c, d, 2, 3, 10, 11, 6, 7, 14, 15);
 }
 
 }  // namespace

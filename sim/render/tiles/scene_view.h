@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "sim/render/tiles/facet.h"
+#include "sim/render/tiles/frame.h"
 
 namespace hedgehop::sim::tiles {
 
@@ -47,8 +48,7 @@ struct SceneView {
   Texels texels;  ///< greys or colors, whatever is drawn
   SkyColors sky;
   SunDepths sun;
-  double p_WC[3];  ///< eye of the image, m
-  double R_WC[9];  ///< row by row
+  Eye world;  ///< of the image
 };
 
 }  // namespace hedgehop::sim::tiles

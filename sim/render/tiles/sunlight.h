@@ -5,33 +5,25 @@
 namespace hedgehop::sim::tiles {
 namespace {
 
-/// Column, row and depth of a tile's pixels in the sun's map, over z.
-struct SunSlopes {
-  Slope column, row, depth;
-};
-
+/// Column, row and depth of a tile's pixels in the sun's map, over z. The fourth is of no meaning.
 /// @param w  1 / z of the surface. @param u, v  the tile's first pixel.
-inline SunSlopes sun_slopes(const SceneView& scene, const Lens& lens, const Affine& w, int u, int v) {
-  const auto make = [&](const double f[4]) {
-    const double* r = scene.R_WC;
-    const double at_eye = f[0] * scene.p_WC[0] + f[1] * scene.p_WC[1] + f[2] * scene.p_WC[2] + f[3];
-    const double x = (f[0] * r[0] + f[1] * r[3] + f[2] * r[6]) * lens.per_focal_x;
-    const double y = (f[0] * r[1] + f[1] * r[4] + f[2] * r[7]) * lens.per_focal_y;
-    const double z = f[0] * r[2] + f[1] * r[5] + f[2] * r[8];
-    return slope({at_eye * w.right + x, at_eye * w.down + y,
-                  at_eye * w.at_origin + (z - x * lens.center_u_px - y * lens.center_v_px)},
-                 u, v);
-  };
-  return {make(scene.sun.from_W[0]), make(scene.sun.from_W[1]), make(scene.sun.from_W[2])};
+inline Slopes sun_slopes(const SceneView& scene, const Lens& lens, const Affine& w, int u, int v) {
+  const auto& f = scene.sun.from_W;
+  const auto along = [&](int axis) { return D4{f[0][axis], f[1][axis], f[2][axis], 0.0}; };
+  const D4 per_m[3] = {along(0), along(1), along(2)};
+  const double* const p = scene.world.p_m;
+  const D4 at_eye = per_m[0] * p[0] + per_m[1] * p[1] + per_m[2] * p[2] + along(3);
+  return slopes(over_z(at_eye, per_m, scene.world.R_CW, w, lens), u, v);
 }
 
 /// Brightness of pixels of a tile, the sun's part of it as much as reaches them: four comparisons, mixed.
-inline F8 lit(const SunDepths& sun, const SunSlopes& at, F8 columns, F8 rows, F8 z, F8 brightness) {
+/// @param at  column, row and depth in the sun's map.
+inline F8 lit(const SunDepths& sun, const F8 (&at)[3], F8 brightness) {
   const float last = static_cast<float>(sun.texels);
   const auto within = [&](F8 place) { return most(least(place, all(last)), all(-1.0f)); };
-  const F8 column = within(at.column.at(columns, rows) * z), line = within(at.row.at(columns, rows) * z);
+  const F8 column = within(at[0]), line = within(at[1]);
   constexpr float kRounding = 1e-5f;
-  const F8 depth = most(at.depth.at(columns, rows) * z + kRounding, F8{});
+  const F8 depth = most(at[2] + kRounding, F8{});
   const auto whole = [](F8 a) {
     const I8 nearest = integers(a);
     return nearest + (floats(nearest) > a);  // -1 where it was rounded up

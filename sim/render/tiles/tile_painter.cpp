@@ -98,13 +98,9 @@ bool TilePainter::paint_flow(const vision::camera::PinholeCamera& camera, const 
 }
 
 void TilePainter::draw_scene(const vision::camera::PinholeCamera& camera, const Painter::Eye& eye, int samples) {
-  const tiles::Eye world = eye_at(eye.X_WC.translation(), eye.X_WC.linear());
-  for (int i = 0; i < 3; ++i) {
-    view_.p_WC[i] = world.p_m[i];
-    for (int k = 0; k < 3; ++k) view_.R_WC[3 * i + k] = world.R_CW[3 * k + i];
-  }
+  view_.world = eye_at(eye.X_WC.translation(), eye.X_WC.linear());
   memory_.begin(lens_of(camera), samples);
-  memory_.add_eye(world);
+  memory_.add_eye(view_.world);
   visible_.find(camera, eye.X_WC, culling_, *this);
   draw_movers(eye);
 }
