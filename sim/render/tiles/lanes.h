@@ -103,8 +103,15 @@ inline I8 gather(const uint16_t* from, I8 places) {
   return reinterpret_cast<I8>(
       _mm256_set_m128i(half(_mm256_extracti128_si256(at, 1)), half(_mm256_castsi256_si128(at))));
 }
-inline F8 gather(const float* from, I8 places) {
-  return _mm256_i32gather_ps(from, reinterpret_cast<__m256i>(places), 4);
+/// The numbers at each place and right of it.
+inline void gather(const float* from, I8 places, F8& here, F8& right) {
+  const auto two = [&](int i, int k) {
+    const __m128 first = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from + places[i])));
+    return _mm_loadh_pi(first, reinterpret_cast<const __m64*>(from + places[k]));
+  };
+  const __m256 a = _mm256_set_m128(two(4, 5), two(0, 1)), b = _mm256_set_m128(two(6, 7), two(2, 3));
+  here = _mm256_shuffle_ps(a, b, _MM_SHUFFLE(2, 0, 2, 0));
+  right = _mm256_shuffle_ps(a, b, _MM_SHUFFLE(3, 1, 3, 1));
 }
 /// table[i] of each lane. @param i  0..15.
 inline I8 look_up(const int32_t table[16], I8 i) {
@@ -197,10 +204,11 @@ inline I8 gather(const uint16_t* from, I8 places) {
   }
   return result;
 }
-inline F8 gather(const float* from, I8 places) {
-  F8 result;
-  for (int i = 0; i < 8; ++i) result[i] = from[places[i]];
-  return result;
+inline void gather(const float* from, I8 places, F8& here, F8& right) {
+  for (int i = 0; i < 8; ++i) {
+    here[i] = from[places[i]];
+    right[i] = from[places[i] + 1];
+  }
 }
 inline I8 look_up(const int32_t table[16], I8 i) {
   I8 result;

@@ -5,6 +5,7 @@
 
 #include "sim/render/tiles/facet.h"
 #include "sim/render/tiles/frame.h"
+#include "sim/render/tiles/sun_blocks.h"
 
 namespace hedgehop::sim::tiles {
 
@@ -32,6 +33,7 @@ struct SunDepths {
   int texels;           ///< a side, the border aside
   double from_W[3][4];  ///< from p_W, m: column and row of a texel, from the middle of the first, and depth
   float ambient;        ///< share of the albedo that the sun has no part in
+  SunBlocks blocks;     ///< of the depths with their border
 };
 
 /// RGB or, in the first, grey; levels 0..255.

@@ -20,8 +20,9 @@ inline uint32_t row_of(uint64_t pixels, int row) { return static_cast<uint32_t>(
 struct Patch {
   const FacetCover* cover;
   Slopes look;  ///< as in Paint
-  Slopes sun;   ///< sun_slopes(), with shadows
+  Slopes sun;   ///< sun_slopes() where the sun may shine
   int level;    ///< the larger of all its pixels' two, or -1
+  Sunlit sunlit;
 
   Slope u() const { return look[0]; }
   Slope v() const { return look[1]; }
@@ -45,13 +46,23 @@ inline bool look_at_corners(const Patch& patch, int last, int& level) {
   return true;
 }
 
+/// Whether the sun has no part in a facet's light.
+inline bool is_averted(const FacetCover& cover, const SunDepths& sun) {
+  return cover.evenly_lit && cover.brightness() == sun.ambient;
+}
+
 inline Patch patch_of(const SceneView& scene, const Frame& frame, uint32_t index, int u, int v) {
   const Surface& surface = frame.surfaces[index];
   Patch patch;
   patch.cover = scene.covers + surface.facet;
   patch.look = slopes(frame.paints[index], u, v);
-  if (scene.sun.depths != nullptr) patch.sun = sun_slopes(scene, frame.lens, surface.w, u, v);
   patch.level = -1;
+  patch.sunlit = Sunlit::none;
+  patch.sun = Slopes{};
+  if (scene.sun.depths != nullptr && !is_averted(*patch.cover, scene.sun)) {
+    patch.sunlit = Sunlit::partly;
+    patch.sun = sun_slopes(scene, frame.lens, surface.w, u, v);
+  }
   return patch;
 }
 
@@ -112,8 +123,12 @@ inline void look_where(const SceneView& scene, const Patch& patch, uint64_t pixe
     out.light = evenly;
     if (!evenly_lit) out.light = patch.brightness().row(row, kColumns) * z;
     if (!shadows) continue;
-    const auto in_map = [&](int i) { return patch.sun[i].row(row, kColumns) * z; };
-    out.light = lit(scene.sun, {in_map(0), in_map(1), in_map(2)}, out.light);
+    if (patch.sunlit == Sunlit::partly) {
+      const auto in_map = [&](int i) { return patch.sun[i].row(row, kColumns) * z; };
+      out.light = lit(scene.sun, {in_map(0), in_map(1), in_map(2)}, out.light);
+    } else {
+      out.light = evenly_lit_by(scene.sun, patch.sunlit, out.light);
+    }
   }
 }
 
@@ -161,6 +176,7 @@ inline void shade(const SceneView& scene, const Frame& frame, uint32_t surface, 
     patch = moved_patch_of(scene, frame, surface, u, v, __builtin_ctzll(pixels));
     look_at_corners(patch, scene.layout.last_level, patch.level);
   }
+  if (patch.sunlit == Sunlit::partly) patch.sunlit = sunlit(scene.sun, patch.w(), patch.sun);
   shade_rows(scene, patch, pixels, out);
 }
 

@@ -48,7 +48,10 @@ TilePainter::TilePainter(const scenes::Scene& scene, Culling culling, Shadows sh
   view_.planes_of_facets = facets_.planes();
   view_.covers = facets_.covers.data();
   view_.layout = texels_.layout();
-  if (shadows == Shadows::sun) view_.sun = draw_sun_depths(geometry_, scene.lights, sun_depths_);
+  if (shadows == Shadows::sun) {
+    view_.sun = draw_sun_depths(geometry_, scene.lights, sun_depths_);
+    view_.sun.blocks = make_sun_blocks(view_.sun.depths, view_.sun.texels + 2, sun_blocks_);
+  }
   geometry_.vertices = {};
   geometry_.indices = {};
 }

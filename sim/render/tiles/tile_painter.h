@@ -41,7 +41,8 @@ class TilePainter : public Painter, private VisibleChunks::Beholder {
   Facets facets_;
   TexelPlanes texels_;
   scenes::Sky sky_;
-  std::vector<float> sun_depths_;
+  HugeVector<float> sun_depths_;
+  std::vector<SunBlock> sun_blocks_[SunBlocks::kLevels];
   SceneView view_{};
   FrameMemory memory_;
   std::vector<double> p_CnC_m_;  ///< of NextView
