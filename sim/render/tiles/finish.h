@@ -186,21 +186,32 @@ inline void shade_image(const SceneView& scene, const Frame& frame, const Image&
 template <class Value>
 inline void write_values(const Value (&values)[kTilePx * kTilePx], const Window& to, size_t step) {
   for (int y = 0; y < to.rows; ++y) {
-    std::memcpy(to.first + static_cast<size_t>(y) * step, values + kTilePx * y,
-                sizeof(Value) * static_cast<size_t>(to.columns));
+    uint8_t* const row = to.first + static_cast<size_t>(y) * step;
+    if (to.columns == kTilePx) {
+      std::memcpy(row, values + kTilePx * y, sizeof(Value) * kTilePx);
+    } else {
+      std::memcpy(row, values + kTilePx * y, sizeof(Value) * static_cast<size_t>(to.columns));
+    }
   }
 }
 
-/// Values of another kind than levels: what is not covered keeps `nothing`.
+/// Values of another kind than levels: `nothing` where no layer is.
 template <class Value, class Measure>
 inline void measure_image(const Frame& frame, const Image& image, const Value& nothing, const Measure& measure) {
+  Value values[kTilePx * kTilePx] = {};
   for (int row = 0; row < frame.down; ++row) {
     for (int column = 0; column < frame.across; ++column) {
-      Value values[kTilePx * kTilePx];
-      for (Value& value : values) value = nothing;
       const TileLayers tile = layers_at(frame, column, row, 0);
+      uint64_t empty = ~uint64_t{0};
       for (uint16_t i = 0; i < tile.count; ++i) {
-        measure(frame.surfaces[tile.layers[i].surface], kTilePx * column, kTilePx * row, tile.layers[i].pixels, values);
+        const Layer& layer = tile.layers[i];
+        measure(frame.surfaces[layer.surface], kTilePx * column, kTilePx * row, layer.pixels, values);
+        empty &= ~layer.pixels;
+      }
+      if (~empty == 0) {
+        for (Value& value : values) value = nothing;
+      } else {
+        for (; empty != 0; empty &= empty - 1) values[__builtin_ctzll(empty)] = nothing;
       }
       write_values(values, window_of(frame, image, column, row, sizeof(Value)), image.step);
     }
