@@ -8,7 +8,7 @@ import json
 import subprocess
 
 HEADS = ("drawing", "unit", "floor", "OSMesa", "tiles", "OSMesa / tiles", "goal")
-FORMATS = {"ms": "{:.3f}", "1/s": "{:,.0f}", "x": "{:.2f}", "levels": "{:.3f}", "share": "{:.6f}"}
+FORMATS = {"ms": "{:.3f}", "1/s": "{:,.0f}", "x": "{:.2f}", "levels": "{:.3f}", "share": "{:.6f}", "MiB": "{:.0f}"}
 LINE = "{:54} {:>6} {:>9} {:>9} {:>9} {:>14}  {}"
 
 

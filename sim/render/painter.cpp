@@ -5,6 +5,8 @@
 
 namespace hedgehop::sim {
 
+bool Painter::paint_flow(const vision::camera::PinholeCamera&, const Eye&, const Next&, cv::Mat&) { return false; }
+
 std::unique_ptr<Painter> make_painter(const scenes::Scene& scene, Culling culling, ContextKind context,
                                       Shadows shadows) {
   if (context == ContextKind::tiles) return std::make_unique<tiles::TilePainter>(scene, culling, shadows);

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <span>
 #include <string>
 
 #include "scenes/scene.h"
@@ -30,6 +31,15 @@ class Painter {
   /// or type does not fit, otherwise written in place.
   virtual void paint(const vision::camera::PinholeCamera& camera, const Eye& eye, Raster raster, int samples,
                      cv::Mat& out) = 0;
+
+  /// Where the next image is taken from, and how far each mover moves until then.
+  struct Next {
+    Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
+    std::span<const Eigen::Vector3d> moved_W_m;
+  };
+
+  /// Draws true flow, as Channel::flow. @return false, and nothing is drawn, where it has to be computed from depths.
+  virtual bool paint_flow(const vision::camera::PinholeCamera& camera, const Eye& eye, const Next& next, cv::Mat& out);
 
   /// Throws std::invalid_argument, with the possible numbers, unless exactly so many samples a pixel can be drawn.
   virtual void require_samples(int samples) = 0;

@@ -117,16 +117,20 @@ class Renderer::Impl {
   }
 
   void draw_flow(const CameraView& view, cv::Mat& out) {
-    draw(view, Channel::depth, flow_depth_);
-    draw(view, Channel::labels, flow_labels_);
-    Lens& lens = lens_of(view.camera);
-    if (lens.rays.empty()) lens.rays = all_rays(view.camera);
     moved_W_m_.clear();
     for (const scenes::Motion& motion : motions_) {
       moved_W_m_.push_back(scenes::p_WM(motion, view.next.t_s) - scenes::p_WM(motion, view.t_s));
     }
-    true_flow(view.camera, lens.rays,
-              {flow_depth_, flow_labels_, view.X_WC, view.next.X_WC, first_mover_label_, moved_W_m_}, out);
+    const bool pinhole = view.camera.is_undistorted_pinhole();
+    const Painter::Next next{view.next.X_WC, moved_W_m_};
+    if (pinhole && painter_->paint_flow(view.camera.pinhole(), {view.X_WC, view.t_s}, next, out)) return;
+    draw(view, Channel::depth, flow_depth_);
+    if (!motions_.empty()) draw(view, Channel::labels, flow_labels_);
+    const FlowInput input{flow_depth_, flow_labels_, view.X_WC, view.next.X_WC, first_mover_label_, moved_W_m_};
+    if (pinhole) return true_flow(view.camera.pinhole(), input, out);
+    Lens& lens = lens_of(view.camera);
+    if (lens.rays.empty()) lens.rays = all_rays(view.camera);
+    true_flow(view.camera, lens.rays, input, out);
   }
 
   std::deque<Lens>::iterator find_lens(const vision::camera::Camera& camera) {

@@ -7,6 +7,15 @@
 
 namespace hedgehop::sim {
 
+namespace {
+
+/// The mover that a pixel shows, below 0 for none.
+int mover_at(const FlowInput& input, int row, int col) {
+  return input.moved_W_m.empty() ? -1 : input.labels.at<int>(row, col) - input.first_mover_label;
+}
+
+}  // namespace
+
 std::vector<Eigen::Vector3d> all_rays(const vision::camera::Camera& camera) {
   const Eigen::Vector3d nothing = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   std::vector<Eigen::Vector3d> rays;
@@ -36,12 +45,45 @@ void true_flow(const vision::camera::Camera& camera, const std::vector<Eigen::Ve
       Eigen::Vector3d p_Cn = X_CnC.linear() * *ray;
       if (std::isfinite(depth_m)) {
         p_Cn = X_CnC * Eigen::Vector3d(*ray * (z ? depth_m / ray->z() : depth_m));
-        const int mover = input.labels.at<int>(row, col) - input.first_mover_label;
-        if (mover >= 0) p_Cn += R_CnW * input.moved_W_m[static_cast<size_t>(mover)];
+        if (const int mover = mover_at(input, row, col); mover >= 0)
+          p_Cn += R_CnW * input.moved_W_m[static_cast<size_t>(mover)];
       }
       if (const auto pixel = camera.project(p_Cn)) {
         flow = {static_cast<float>(pixel->x() - col), static_cast<float>(pixel->y() - row)};
       }
+    }
+  }
+}
+
+void true_flow(const vision::camera::PinholeCamera& camera, const FlowInput& input, cv::Mat& out) {
+  out.create(camera.height_px, camera.width_px, CV_32FC2);
+  const Eigen::Isometry3d X_CnC = input.X_WC_next.inverse() * input.X_WC;  // Cn: C at the next image
+  const Eigen::Vector3d right = X_CnC.linear().col(0) / camera.focal_x_px, t = X_CnC.translation();
+  // Of a point at z = 1 seen in the first column, over z; sky is at 1 / z = 0.
+  const auto flow_at = [&](const Eigen::Vector3d& first, int col, double per_z, const Eigen::Vector3d& moved) {
+    const double x = first.x() + right.x() * col + moved.x() * per_z;
+    const double y = first.y() + right.y() * col + moved.y() * per_z;
+    const double z = first.z() + right.z() * col + moved.z() * per_z;
+    const double per_z_next = 1.0 / z;
+    const double u = camera.focal_x_px * x * per_z_next + camera.center_u_px;
+    const double v = camera.focal_y_px * y * per_z_next + camera.center_v_px;
+    constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+    return z > 0.0 ? Eigen::Vector2d(u, v) : Eigen::Vector2d(kNothing, kNothing);
+  };
+  const Eigen::Matrix3d R_CnW = input.X_WC_next.linear().transpose();
+  for (int row = 0; row < out.rows; ++row) {
+    const float* const depth = input.depth.ptr<float>(row);
+    cv::Vec2f* const flow = out.ptr<cv::Vec2f>(row);
+    const Eigen::Vector3d first = X_CnC.linear() * camera.ray({0.0, row});
+    const auto put = [&](int col, const Eigen::Vector3d& moved) {
+      const Eigen::Vector2d seen = flow_at(first, col, 1.0 / static_cast<double>(depth[col]), moved);
+      flow[col] = {static_cast<float>(seen.x() - col), static_cast<float>(seen.y() - row)};
+    };
+    for (int col = 0; col < out.cols; ++col) put(col, t);
+    if (input.moved_W_m.empty()) continue;
+    for (int col = 0; col < out.cols; ++col) {
+      const int mover = mover_at(input, row, col);
+      if (mover >= 0) put(col, t + R_CnW * input.moved_W_m[static_cast<size_t>(mover)]);
     }
   }
 }

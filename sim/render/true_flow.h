@@ -15,7 +15,7 @@ std::vector<Eigen::Vector3d> all_rays(const vision::camera::Camera& camera);
 /// What an image shows, and the pose and time of the next one.
 struct FlowInput {
   const cv::Mat& depth;   ///< as Channel::depth, of `camera`
-  const cv::Mat& labels;  ///< as Channel::labels
+  const cv::Mat& labels;  ///< as Channel::labels; not read without movers
   Eigen::Isometry3d X_WC, X_WC_next;
   int first_mover_label = 0;                   ///< labels from here on are movers
   std::span<const Eigen::Vector3d> moved_W_m;  ///< displacement of each mover until then
@@ -25,5 +25,7 @@ struct FlowInput {
 /// @param out  CV_32FC2, right and down, px; NaN where the lens shows nothing, now or then. Sky is infinitely far away.
 void true_flow(const vision::camera::Camera& camera, const std::vector<Eigen::Vector3d>& rays, const FlowInput& input,
                cv::Mat& out);
+/// The same of an undistorted pinhole, several times faster.
+void true_flow(const vision::camera::PinholeCamera& camera, const FlowInput& input, cv::Mat& out);
 
 }  // namespace hedgehop::sim

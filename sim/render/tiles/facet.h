@@ -15,14 +15,15 @@ struct FacetPlanes {
   const float *n_x, *n_y, *n_z, *offset_m;  ///< with room to read seven more
 };
 
-/// What a facet looks like. Texture coordinates and brightness are affine over its plane: a value at the first corner
-/// and a gradient along the plane. Fills a line of the cache.
+/// What a facet looks like. Texture coordinates u and v, in repeats, and brightness, a share of the albedo, are affine
+/// over its plane. Fills a line of the cache.
 struct alignas(64) FacetCover {
-  float u, v, brightness;  ///< at the first corner; u, v in repeats, brightness a share of the albedo
-  float u_per_m[3], v_per_m[3], brightness_per_m[3];
   uint32_t texture;
   int32_t label;
-  bool evenly_lit;  ///< brightness has no gradient
+  bool evenly_lit;   ///< brightness has no gradient
+  float values[13];  ///< u, v, brightness at the first corner; their gradients along x, y and z, 1/m; and a spare one
+
+  float brightness() const { return values[2]; }
 };
 static_assert(sizeof(FacetCover) == 64);
 

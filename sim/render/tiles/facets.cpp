@@ -103,14 +103,13 @@ void add(const Corners& corners, int32_t label, Facets& facets) {
   facets.n_z.push_back(static_cast<float>(n.z()));
   facets.offset_m.push_back(static_cast<float>(n.dot(place(*corners[0]))));
   FacetCover& cover = facets.covers.emplace_back();
-  const auto set = [&](double (*value)(const DrawnVertex&), float& first, float(&per_m)[3]) {
-    first = static_cast<float>(value(*corners[0]));
+  float* number = cover.values;
+  for (double (*value)(const DrawnVertex&) : {u, v, brightness}) {
     const Eigen::Vector3d gradient = plane.gradient(values(half, value));
-    for (int i = 0; i < 3; ++i) per_m[i] = static_cast<float>(gradient[i]);
-  };
-  set(u, cover.u, cover.u_per_m);
-  set(v, cover.v, cover.v_per_m);
-  set(brightness, cover.brightness, cover.brightness_per_m);
+    number[0] = static_cast<float>(value(*corners[0]));
+    for (int i = 0; i < 3; ++i) number[3 + 3 * i] = static_cast<float>(gradient[i]);
+    ++number;
+  }
   cover.texture = static_cast<uint32_t>(corners[0]->layer);
   cover.label = label;
   cover.evenly_lit =

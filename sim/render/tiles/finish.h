@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/render/tiles/few.h"
 #include "sim/render/tiles/kernels.h"
 #include "sim/render/tiles/measure.h"
 #include "sim/render/tiles/shade.h"
@@ -20,15 +21,6 @@ inline TileLayers layers_at(const Frame& frame, int column, int row, int sample)
   return {layers(frame, tile), tile.count};
 }
 
-template <int kPlanes>
-inline void shade_surface(const SceneView& scene, const Frame& frame, uint32_t index, int u, int v, uint64_t pixels,
-                          TileBytes (&out)[kPlanes]) {
-  const Surface& surface = frame.surfaces[index];
-  Paint& paint = frame.paints[index];
-  if (!paint.ready) paint = paint_of(scene, frame, surface);
-  shade(scene, frame, surface, paint, u, v, pixels, out);
-}
-
 /// @param inside  the tile's pixels that lie within the image.
 template <int kPlanes>
 inline void shade_tile(const SceneView& scene, const Frame& frame, int column, int row, uint64_t inside,
@@ -36,10 +28,19 @@ inline void shade_tile(const SceneView& scene, const Frame& frame, int column, i
   const int u = kTilePx * column, v = kTilePx * row;
   const TileLayers tile = layers_at(frame, column, row, 0);
   uint64_t sky = inside;
+  Handful few;
   for (uint16_t i = 0; i < tile.count; ++i) {
-    shade_surface(scene, frame, tile.layers[i].surface, u, v, tile.layers[i].pixels, out);
-    sky &= ~tile.layers[i].pixels;
+    const Layer& layer = tile.layers[i];
+    sky &= ~layer.pixels;
+    const int count = __builtin_popcountll(layer.pixels);
+    if (count > kFew) {
+      shade(scene, frame, layer.surface, u, v, layer.pixels, out);
+      continue;
+    }
+    if (few.count + count > kFew) shade_few(scene, frame, u, v, few, out);
+    few.add(scene, patch_of(scene, frame, layer.surface, u, v), layer.surface, layer.pixels);
   }
+  if (few.count > 0) shade_few(scene, frame, u, v, few, out);
   if (sky != 0) shade_sky(scene, frame.lens, u, v, sky, out);
 }
 
@@ -69,6 +70,15 @@ inline int shares_of(const Frame& frame, int column, int row, uint64_t inside, S
 }
 
 using Sums = uint16_t __attribute__((vector_size(16)));
+
+template <int kPlanes>
+inline void shade_surface(const SceneView& scene, const Frame& frame, uint32_t surface, int u, int v, uint64_t pixels,
+                          TileBytes (&out)[kPlanes]) {
+  if (__builtin_popcountll(pixels) > kFew) return shade(scene, frame, surface, u, v, pixels, out);
+  Handful few;
+  few.add(scene, patch_of(scene, frame, surface, u, v), surface, pixels);
+  shade_few(scene, frame, u, v, few, out);
+}
 
 /// Shades each surface once, in the middle of the pixels, and mixes by the samples that show it.
 template <int kPlanes>
@@ -142,8 +152,22 @@ inline void write(const TileBytes (&planes)[3], const Window& to, size_t step) {
   }
 }
 
+/// What surfaces look like lies all over memory: it is fetched some surfaces ahead.
+inline void make_paints(const SceneView& scene, const Frame& frame) {
+  constexpr size_t kAhead = 12;
+  for (size_t i = 0; i < frame.surface_count; ++i) {
+    if (i + kAhead < frame.surface_count) {
+      const uint32_t facet = frame.surfaces[i + kAhead].facet;
+      __builtin_prefetch(scene.covers + facet);
+      __builtin_prefetch(scene.shapes + facet);
+    }
+    frame.paints[i] = paint_of(scene, frame, frame.surfaces[i]);
+  }
+}
+
 template <int kPlanes>
 inline void shade_image(const SceneView& scene, const Frame& frame, const Image& image) {
+  make_paints(scene, frame);
   for (int row = 0; row < frame.down; ++row) {
     for (int column = 0; column < frame.across; ++column) {
       const Window window = window_of(frame, image, column, row, kPlanes);
@@ -159,22 +183,37 @@ inline void shade_image(const SceneView& scene, const Frame& frame, const Image&
   }
 }
 
-/// Values of another kind than levels: what is not covered keeps `nothing`.
+template <class Value>
+inline void write_values(const Value (&values)[kTilePx * kTilePx], const Window& to, size_t step) {
+  for (int y = 0; y < to.rows; ++y) {
+    uint8_t* const row = to.first + static_cast<size_t>(y) * step;
+    if (to.columns == kTilePx) {
+      std::memcpy(row, values + kTilePx * y, sizeof(Value) * kTilePx);
+    } else {
+      std::memcpy(row, values + kTilePx * y, sizeof(Value) * static_cast<size_t>(to.columns));
+    }
+  }
+}
+
+/// Values of another kind than levels: `nothing` where no layer is.
 template <class Value, class Measure>
 inline void measure_image(const Frame& frame, const Image& image, const Value& nothing, const Measure& measure) {
+  Value values[kTilePx * kTilePx] = {};
   for (int row = 0; row < frame.down; ++row) {
     for (int column = 0; column < frame.across; ++column) {
-      Value values[kTilePx * kTilePx];
-      for (Value& value : values) value = nothing;
       const TileLayers tile = layers_at(frame, column, row, 0);
+      uint64_t empty = ~uint64_t{0};
       for (uint16_t i = 0; i < tile.count; ++i) {
-        measure(frame.surfaces[tile.layers[i].surface], kTilePx * column, kTilePx * row, tile.layers[i].pixels, values);
+        const Layer& layer = tile.layers[i];
+        measure(frame.surfaces[layer.surface], kTilePx * column, kTilePx * row, layer.pixels, values);
+        empty &= ~layer.pixels;
       }
-      const Window window = window_of(frame, image, column, row, sizeof(Value));
-      for (int y = 0; y < window.rows; ++y) {
-        std::memcpy(window.first + static_cast<size_t>(y) * image.step, values + kTilePx * y,
-                    sizeof(Value) * static_cast<size_t>(window.columns));
+      if (~empty == 0) {
+        for (Value& value : values) value = nothing;
+      } else {
+        for (; empty != 0; empty &= empty - 1) values[__builtin_ctzll(empty)] = nothing;
       }
+      write_values(values, window_of(frame, image, column, row, sizeof(Value)), image.step);
     }
   }
 }

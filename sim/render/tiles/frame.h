@@ -34,12 +34,10 @@ struct Surface {
   uint32_t eye;    ///< into Frame::eyes
 };
 
-/// What a surface looks like, set up when it is shaded first: each over z, which makes it affine in the pixel. The
-/// texture is moved by whole repeats to where floats are fine, as often as it has to be.
-struct Paint {
-  bool ready;
-  Affine u, v;  ///< 1/256 texel
-  Affine brightness;
+/// What a surface looks like, each over z, which makes it affine in the pixel: u and v in 1/256 texel, brightness, and
+/// 1. The texture is moved by whole repeats to where floats are fine, as often as it has to be.
+struct alignas(32) Paint {
+  double right[4], down[4], at_origin[4];
 };
 
 /// The pixels of a tile that show one surface. Layers of a tile share no pixel.

@@ -7,7 +7,7 @@ namespace hedgehop::sim::tiles {
 FrameMemory::FrameMemory(size_t facets) {
   constexpr size_t kOrdinary = 1 << 14;
   surfaces_.resize(std::min(facets, kOrdinary));
-  paints_.reserve(surfaces_.size());
+  paints_.resize(surfaces_.size());
   pool_.resize(kOrdinary);
   frame_.memory = this;
 }
@@ -49,7 +49,7 @@ void FrameMemory::make_room(size_t facets) {
 }
 
 void FrameMemory::make_paints() {
-  paints_.assign(frame_.surface_count, Paint{});
+  if (paints_.size() < frame_.surface_count) paints_.resize(surfaces_.size());
   frame_.paints = paints_.data();
 }
 

@@ -18,6 +18,8 @@ using I8 = int32_t __attribute__((vector_size(32)));
 using D4 = double __attribute__((vector_size(32)));
 using L4 = int64_t __attribute__((vector_size(32)));
 
+using F4 = float __attribute__((vector_size(16)));
+
 inline F8 all(float value) { return F8{} + value; }
 inline I8 all(int32_t value) { return I8{} + value; }
 inline D4 all(double value) { return D4{} + value; }
@@ -39,6 +41,17 @@ inline L4 integers(D4 a) {
   const D4 shift = all(6755399441055744.0);  // 1.5 * 2^52: the last bit of the sum counts ones
   return reinterpret_cast<L4>(a + shift) - reinterpret_cast<L4>(shift);
 }
+
+/// A byte of ones for each bit.
+struct Spread {
+  uint64_t bytes[256] = {};
+  constexpr Spread() {
+    for (int bits = 0; bits < 256; ++bits) {
+      for (int i = 0; i < 8; ++i) bytes[bits] |= (bits >> i & 1) != 0 ? uint64_t{0xff} << 8 * i : 0;
+    }
+  }
+};
+inline constexpr Spread kSpread;
 
 #ifdef __AVX2__
 
@@ -90,8 +103,15 @@ inline I8 gather(const uint16_t* from, I8 places) {
   return reinterpret_cast<I8>(
       _mm256_set_m128i(half(_mm256_extracti128_si256(at, 1)), half(_mm256_castsi256_si128(at))));
 }
-inline F8 gather(const float* from, I8 places) {
-  return _mm256_i32gather_ps(from, reinterpret_cast<__m256i>(places), 4);
+/// The numbers at each place and right of it.
+inline void gather(const float* from, I8 places, F8& here, F8& right) {
+  const auto two = [&](int i, int k) {
+    const __m128 first = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from + places[i])));
+    return _mm_loadh_pi(first, reinterpret_cast<const __m64*>(from + places[k]));
+  };
+  const __m256 a = _mm256_set_m128(two(4, 5), two(0, 1)), b = _mm256_set_m128(two(6, 7), two(2, 3));
+  here = _mm256_shuffle_ps(a, b, _MM_SHUFFLE(2, 0, 2, 0));
+  right = _mm256_shuffle_ps(a, b, _MM_SHUFFLE(3, 1, 3, 1));
 }
 /// table[i] of each lane. @param i  0..15.
 inline I8 look_up(const int32_t table[16], I8 i) {
@@ -184,10 +204,11 @@ inline I8 gather(const uint16_t* from, I8 places) {
   }
   return result;
 }
-inline F8 gather(const float* from, I8 places) {
-  F8 result;
-  for (int i = 0; i < 8; ++i) result[i] = from[places[i]];
-  return result;
+inline void gather(const float* from, I8 places, F8& here, F8& right) {
+  for (int i = 0; i < 8; ++i) {
+    here[i] = from[places[i]];
+    right[i] = from[places[i] + 1];
+  }
 }
 inline I8 look_up(const int32_t table[16], I8 i) {
   I8 result;
@@ -223,6 +244,36 @@ inline uint64_t bytes(I8 a) {
 }
 
 #endif
+
+/// The least and the greatest of eight.
+struct FloatRange {
+  float least, most;
+};
+inline FloatRange range(F8 a) {
+  const auto folded = [](F8 b, auto pick) {
+    b = pick(b, __builtin_shufflevector(b, b, 4, 5, 6, 7, 0, 1, 2, 3));
+    b = pick(b, __builtin_shufflevector(b, b, 2, 3, 0, 1, 6, 7, 4, 5));
+    return pick(b, __builtin_shufflevector(b, b, 1, 0, 3, 2, 5, 4, 7, 6))[0];
+  };
+  return {folded(a, [](F8 b, F8 c) { return least(b, c); }), folded(a, [](F8 b, F8 c) { return most(b, c); })};
+}
+
+/// Four numbers of each of eight rows as four columns. @param four  the member of a row that they are.
+template <class Row>
+inline void columns_of(const Row (&rows)[8], F4 Row::*four, F8 (&columns)[4]) {
+  F8 pairs[4];  // rows i and i + 4
+  for (int i = 0; i < 4; ++i) {
+    pairs[i] = __builtin_shufflevector(rows[i].*four, rows[i + 4].*four, 0, 1, 2, 3, 4, 5, 6, 7);
+  }
+  const F8 a = __builtin_shufflevector(pairs[0], pairs[1], 0, 8, 1, 9, 4, 12, 5, 13);
+  const F8 b = __builtin_shufflevector(pairs[2], pairs[3], 0, 8, 1, 9, 4, 12, 5, 13);
+  const F8 c = __builtin_shufflevector(pairs[0], pairs[1], 2, 10, 3, 11, 6, 14, 7, 15);
+  const F8 d = __builtin_shufflevector(pairs[2], pairs[3], 2, 10, 3, 11, 6, 14, 7, 15);
+  columns[0] = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+  columns[1] = __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+  columns[2] = __builtin_shufflevector(c, d, 0, 1, 8, 9, 4, 5, 12, 13);
+  columns[3] = __builtin_shufflevector(c, d, 2, 3, 10, 11, 6, 7, 14, 15);
+}
 
 }  // namespace
 }  // namespace hedgehop::sim::tiles

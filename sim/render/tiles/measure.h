@@ -15,6 +15,11 @@ inline void put_rows(uint64_t pixels, Value (&values)[64], const OfRow& of_row) 
   for (int row = 0; row < kTilePx; ++row) {
     const auto shown = static_cast<int32_t>(pixels >> kTilePx * row & 0xff);
     if (shown == 0) continue;
+    if (shown == 0xff) {
+      const V all_of_row = of_row(row);
+      std::memcpy(values + kTilePx * row, &all_of_row, sizeof(all_of_row));
+      continue;
+    }
     V kept;
     std::memcpy(&kept, values + kTilePx * row, sizeof(kept));
     const I8 here = (all(shown) & I8{1, 2, 4, 8, 16, 32, 64, 128}) != 0;

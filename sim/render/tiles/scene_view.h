@@ -4,6 +4,8 @@
 #include <cstdint>
 
 #include "sim/render/tiles/facet.h"
+#include "sim/render/tiles/frame.h"
+#include "sim/render/tiles/sun_blocks.h"
 
 namespace hedgehop::sim::tiles {
 
@@ -31,6 +33,7 @@ struct SunDepths {
   int texels;           ///< a side, the border aside
   double from_W[3][4];  ///< from p_W, m: column and row of a texel, from the middle of the first, and depth
   float ambient;        ///< share of the albedo that the sun has no part in
+  SunBlocks blocks;     ///< of the depths with their border
 };
 
 /// RGB or, in the first, grey; levels 0..255.
@@ -47,8 +50,7 @@ struct SceneView {
   Texels texels;  ///< greys or colors, whatever is drawn
   SkyColors sky;
   SunDepths sun;
-  double p_WC[3];  ///< eye of the image, m
-  double R_WC[9];  ///< row by row
+  Eye world;  ///< of the image
 };
 
 }  // namespace hedgehop::sim::tiles

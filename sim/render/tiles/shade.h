@@ -4,6 +4,7 @@
 
 #include "sim/render/tiles/paint.h"
 #include "sim/render/tiles/sunlight.h"
+#include "sim/render/tiles/texture.h"
 
 namespace hedgehop::sim::tiles {
 namespace {
@@ -13,25 +14,20 @@ struct TileBytes {
   uint64_t rows[kTilePx];
 };
 
-/// A byte of ones for each bit.
-struct Spread {
-  uint64_t bytes[256] = {};
-  constexpr Spread() {
-    for (int bits = 0; bits < 256; ++bits) {
-      for (int i = 0; i < 8; ++i) bytes[bits] |= (bits >> i & 1) != 0 ? uint64_t{0xff} << 8 * i : 0;
-    }
-  }
-};
-inline constexpr Spread kSpread;
-
 inline uint32_t row_of(uint64_t pixels, int row) { return static_cast<uint32_t>(pixels >> kTilePx * row) & 0xff; }
 
 /// A surface in a tile, ready to be looked up.
 struct Patch {
-  Slope w, u, v, brightness;
   const FacetCover* cover;
-  SunSlopes sun;
-  int level;  ///< the larger of all its pixels' two, or -1
+  Slopes look;  ///< as in Paint
+  Slopes sun;   ///< sun_slopes() where the sun may shine
+  int level;    ///< the larger of all its pixels' two, or -1
+  Sunlit sunlit;
+
+  Slope u() const { return look[0]; }
+  Slope v() const { return look[1]; }
+  Slope brightness() const { return look[2]; }
+  Slope w() const { return look[3]; }
 };
 
 inline constexpr float kFineTo = 1 << 22;  ///< 1/256 texel
@@ -41,34 +37,39 @@ inline constexpr float kFineTo = 1 << 22;  ///< 1/256 texel
 inline bool look_at_corners(const Patch& patch, int last, int& level) {
   const F8 columns = {0, 7, 0, 7, 0, 7, 0, 7}, rows = {0, 0, 7, 7, 0, 0, 7, 7};
   const auto at_corners = [&](const Slope& f) { return f.at_first + columns * f.right + rows * f.down; };
-  const F8 w = at_corners(patch.w), z = 1.0f / w, u = at_corners(patch.u) * z, v = at_corners(patch.v) * z;
+  const F8 w = at_corners(patch.w()), z = 1.0f / w, u = at_corners(patch.u()) * z, v = at_corners(patch.v()) * z;
   const I8 fine = (w > 0.0f) & (most(magnitude(u), magnitude(v)) < kFineTo);
   level = -1;
   if (signs(fine) != 0xff) return false;
-  const I8 larger = levels(squared_span(patch.w, patch.u, patch.v, u, v, z), last).larger;
+  const I8 larger = levels(squared_span(patch.w(), patch.u(), patch.v(), u, v, z), last).larger;
   if (signs(larger == larger[0]) == 0xff) level = larger[0];
   return true;
 }
 
-/// Moves a texture so that it is about 0 at a pixel.
-inline void move_to(double u, double v, double a_repeat, const Affine& w, Paint& paint) {
-  const double z = 1.0 / w.at(u, v);
-  const auto move = [&](Affine& f) { f = less(f, a_repeat * __builtin_floor(f.at(u, v) * z / a_repeat), w); };
-  move(paint.u);
-  move(paint.v);
+/// Whether the sun has no part in a facet's light.
+inline bool is_averted(const FacetCover& cover, const SunDepths& sun) {
+  return cover.evenly_lit && cover.brightness() == sun.ambient;
 }
 
-inline Patch patch_of(const SceneView& scene, const Frame& frame, const Surface& surface, const Paint& paint, int u,
-                      int v) {
+inline Patch patch_of(const SceneView& scene, const Frame& frame, uint32_t index, int u, int v) {
+  const Surface& surface = frame.surfaces[index];
   Patch patch;
   patch.cover = scene.covers + surface.facet;
-  patch.w = slope(surface.w, u, v);
-  patch.u = slope(paint.u, u, v);
-  patch.v = slope(paint.v, u, v);
-  if (!patch.cover->evenly_lit) patch.brightness = slope(paint.brightness, u, v);
-  if (scene.sun.depths != nullptr) patch.sun = sun_slopes(scene, frame.lens, surface.w, u, v);
+  patch.look = slopes(frame.paints[index], u, v);
   patch.level = -1;
+  patch.sunlit = Sunlit::none;
+  patch.sun = Slopes{};
+  if (scene.sun.depths != nullptr && !is_averted(*patch.cover, scene.sun)) {
+    patch.sunlit = Sunlit::partly;
+    patch.sun = sun_slopes(scene, frame.lens, surface.w, u, v);
+  }
   return patch;
+}
+
+/// The same with the texture moved to be about 0 at one of the tile's pixels.
+inline Patch moved_patch_of(const SceneView& scene, const Frame& frame, uint32_t index, int u, int v, int pixel) {
+  move_to(u + pixel % kTilePx, v + pixel / kTilePx, 256.0 * scene.layout.size_px, frame.paints[index]);
+  return patch_of(scene, frame, index, u, v);
 }
 
 /// How a row's pixels look up the texture, and how bright they are.
@@ -86,8 +87,8 @@ inline void look_where(const SceneView& scene, const Patch& patch, uint64_t pixe
   // Copies, which no row that is written can change.
   const TextureLayout& layout = scene.layout;
   const int last = layout.last_level;
-  const Slope slope_w = patch.w, slope_u = patch.u, slope_v = patch.v;
-  const F8 far_off = all(1e9f), evenly = all(static_cast<float>(patch.cover->brightness));
+  const Slope slope_w = patch.w(), slope_u = patch.u(), slope_v = patch.v();
+  const F8 far_off = all(1e9f), evenly = all(patch.cover->brightness());
   const bool evenly_lit = patch.cover->evenly_lit, shadows = scene.sun.depths != nullptr;
   LevelPlaces<N> near, far;
   if constexpr (kCommon) {
@@ -120,17 +121,21 @@ inline void look_where(const SceneView& scene, const Patch& patch, uint64_t pixe
     out.near = taps<kPlanes>(near, at);
     if (mixed) out.far = taps<kPlanes>(far, at);
     out.light = evenly;
-    if (!evenly_lit) out.light = patch.brightness.row(row, kColumns) * z;
-    if (shadows) out.light = lit(scene.sun, patch.sun, kColumns, all(static_cast<float>(row)), z, out.light);
+    if (!evenly_lit) out.light = patch.brightness().row(row, kColumns) * z;
+    if (!shadows) continue;
+    if (patch.sunlit == Sunlit::partly) {
+      const auto in_map = [&](int i) { return patch.sun[i].row(row, kColumns) * z; };
+      out.light = lit(scene.sun, {in_map(0), in_map(1), in_map(2)}, out.light);
+    } else {
+      out.light = evenly_lit_by(scene.sun, patch.sunlit, out.light);
+    }
   }
 }
 
-/// Levels of eight pixels, 0..255.
+/// Levels of eight pixels, 0..255. @param texture  place of its first texel.
 template <int kPlanes>
-inline void look_up(const SceneView& scene, const FacetCover& cover, const RowTaps& where,
-                    uint64_t (&levels)[kPlanes]) {
+inline void look_up(const SceneView& scene, size_t texture, const RowTaps& where, uint64_t (&levels)[kPlanes]) {
   constexpr float kUnit = 1.0f / 65025.0f;
-  const size_t texture = cover.texture * scene.layout.places;
   I8 near[kPlanes], far[kPlanes];
   fetch(scene.texels, texture, where.near, near);
   if (where.mixed) fetch(scene.texels, texture, where.far, far);
@@ -156,87 +161,22 @@ inline void shade_rows(const SceneView& scene, const Patch& patch, uint64_t pixe
     if (shown == 0) continue;
     const uint64_t here = kSpread.bytes[shown];
     uint64_t levels[kPlanes];
-    look_up(scene, *patch.cover, rows[row], levels);
+    look_up(scene, patch.cover->texture * scene.layout.places, rows[row], levels);
     for (int i = 0; i < kPlanes; ++i) out[i].rows[row] = (out[i].rows[row] & ~here) | (levels[i] & here);
-  }
-}
-
-/// Columns and rows of up to eight pixels of a tile; the lanes that are left show the first once more.
-struct Few {
-  int count;
-  uint8_t index[8];
-  F8 columns, rows;
-
-  explicit Few(uint64_t pixels) : count(0) {
-    const int any = __builtin_ctzll(pixels);
-    for (int i = 0; i < 8; ++i) {
-      index[i] = static_cast<uint8_t>(pixels != 0 ? __builtin_ctzll(pixels) : any);
-      count += pixels != 0 ? 1 : 0;
-      pixels &= pixels - 1;
-    }
-    const I8 places = {index[0], index[1], index[2], index[3], index[4], index[5], index[6], index[7]};
-    columns = floats(places & 7);
-    rows = floats(places >> 3);
-  }
-};
-
-/// Finds where few pixels look the texture up. @return false where floats do not tell a 64th of a texel.
-template <int kPlanes>
-inline bool look_where(const SceneView& scene, const Patch& patch, const Few& few, RowTaps& out) {
-  const TextureLayout& layout = scene.layout;
-  const F8 z = 1.0f / patch.w.at(few.columns, few.rows);
-  const F8 u = patch.u.at(few.columns, few.rows) * z, v = patch.v.at(few.columns, few.rows) * z;
-  if (signs(most(magnitude(u), magnitude(v)) < kFineTo) != 0xff) return false;
-  const Places at{integers(u), integers(v)};
-  const Levels sizes = levels(squared_span(patch.w, patch.u, patch.v, u, v, z), layout.last_level);
-  out.share = sizes.share;
-  out.mixed = signs(sizes.share > 0.0f) != 0;
-  out.near = taps<kPlanes>(level_places(layout, sizes.larger), at);
-  if (out.mixed) {
-    out.far = taps<kPlanes>(level_places(layout, least(sizes.larger + 1, all(layout.last_level))), at);
-  }
-  out.light = all(static_cast<float>(patch.cover->brightness));
-  if (!patch.cover->evenly_lit) out.light = patch.brightness.at(few.columns, few.rows) * z;
-  if (scene.sun.depths != nullptr) out.light = lit(scene.sun, patch.sun, few.columns, few.rows, z, out.light);
-  return true;
-}
-
-template <int kPlanes>
-inline void shade_few(const SceneView& scene, const FacetCover& cover, const RowTaps& taps_of_few, const Few& few,
-                      TileBytes (&out)[kPlanes]) {
-  uint64_t levels[kPlanes];
-  look_up(scene, cover, taps_of_few, levels);
-  for (int i = 0; i < kPlanes; ++i) {
-    uint8_t* const bytes = reinterpret_cast<uint8_t*>(out[i].rows);
-    for (int k = 0; k < few.count; ++k, levels[i] >>= 8) bytes[few.index[k]] = static_cast<uint8_t>(levels[i]);
   }
 }
 
 /// Shades the pixels of a tile that show a surface; leaves the others.
 /// @param u, v  the tile's first pixel. @param pixels  not 0.
 template <int kPlanes>
-inline void shade(const SceneView& scene, const Frame& frame, const Surface& surface, Paint& paint, int u, int v,
-                  uint64_t pixels, TileBytes (&out)[kPlanes]) {
-  constexpr int kFew = 8;
-  const int any = __builtin_ctzll(pixels);
-  const auto move = [&] {
-    move_to(u + any % kTilePx, v + any / kTilePx, 256.0 * scene.layout.size_px, surface.w, paint);
-    return patch_of(scene, frame, surface, paint, u, v);
-  };
-  Patch patch = patch_of(scene, frame, surface, paint, u, v);
-  if (__builtin_popcountll(pixels) <= kFew) {
-    const Few few(pixels);
-    RowTaps taps_of_few{};
-    if (!look_where<kPlanes>(scene, patch, few, taps_of_few)) {
-      patch = move();
-      if (!look_where<kPlanes>(scene, patch, few, taps_of_few)) return shade_rows(scene, patch, pixels, out);
-    }
-    return shade_few(scene, *patch.cover, taps_of_few, few, out);
-  }
+inline void shade(const SceneView& scene, const Frame& frame, uint32_t surface, int u, int v, uint64_t pixels,
+                  TileBytes (&out)[kPlanes]) {
+  Patch patch = patch_of(scene, frame, surface, u, v);
   if (!look_at_corners(patch, scene.layout.last_level, patch.level)) {
-    patch = move();
+    patch = moved_patch_of(scene, frame, surface, u, v, __builtin_ctzll(pixels));
     look_at_corners(patch, scene.layout.last_level, patch.level);
   }
+  if (patch.sunlit == Sunlit::partly) patch.sunlit = sunlit(scene.sun, patch.w(), patch.sun);
   shade_rows(scene, patch, pixels, out);
 }
 
@@ -244,14 +184,14 @@ inline void shade(const SceneView& scene, const Frame& frame, const Surface& sur
 template <int kPlanes>
 inline void shade_sky(const SceneView& scene, const Lens& lens, int u, int v, uint64_t pixels,
                       TileBytes (&out)[kPlanes]) {
-  const double* r = scene.R_WC;
+  const double* r = scene.world.R_CW;
   const auto focal = [](double a) { return static_cast<float>(a); };
   const F8 x = (static_cast<float>(u - lens.center_u_px) + kColumns) * focal(lens.per_focal_x);
   for (int row = 0; row < kTilePx; ++row) {
     const uint32_t shown = row_of(pixels, row);
     if (shown == 0) continue;
     const float y = static_cast<float>(v + row - lens.center_v_px) * focal(lens.per_focal_y);
-    const F8 down = static_cast<float>(r[6]) * x + (static_cast<float>(r[7]) * y + static_cast<float>(r[8]));
+    const F8 down = static_cast<float>(r[2]) * x + (static_cast<float>(r[5]) * y + static_cast<float>(r[8]));
     const F8 up = most(-down, F8{}) / roots(x * x + (y * y + 1.0f));
     const uint64_t here = kSpread.bytes[shown];
     for (int i = 0; i < kPlanes; ++i) {

@@ -54,12 +54,12 @@ class SunTriangle {
 
 }  // namespace
 
-SunDepths draw_sun_depths(const SceneGeometry& geometry, const scenes::Lights& lights, std::vector<float>& depths) {
+SunDepths draw_sun_depths(const SceneGeometry& geometry, const scenes::Lights& lights, HugeVector<float>& depths) {
   const SunPlan plan = plan_sun_map(geometry.chunks, lights.to_sun_W);
   const auto stride = static_cast<size_t>(plan.texels) + 2;
   depths.assign(stride * stride, 0.0f);
 
-  SunDepths sun{depths.data(), plan.texels, {}, lights.ambient};
+  SunDepths sun{depths.data(), plan.texels, {}, lights.ambient, {}};
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 4; ++k) {
       sun.from_W[i][k] = plan.from_W.matrix()(i, k) * (i < 2 ? plan.texels : 1) - (i < 2 && k == 3 ? 0.5 : 0.0);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include "sim/render/tiles/huge_pages.h"
 
 #include "sim/render/scene_geometry.h"
 #include "sim/render/tiles/scene_view.h"
@@ -8,6 +8,6 @@
 namespace hedgehop::sim::tiles {
 
 /// Draws what plan_sun_map() plans. @param depths  what the result points into.
-SunDepths draw_sun_depths(const SceneGeometry& geometry, const scenes::Lights& lights, std::vector<float>& depths);
+SunDepths draw_sun_depths(const SceneGeometry& geometry, const scenes::Lights& lights, HugeVector<float>& depths);
 
 }  // namespace hedgehop::sim::tiles

@@ -5,33 +5,84 @@
 namespace hedgehop::sim::tiles {
 namespace {
 
-/// Column, row and depth of a tile's pixels in the sun's map, over z.
-struct SunSlopes {
-  Slope column, row, depth;
+/// Column, row and depth of a tile's pixels in the sun's map, over z. The fourth is of no meaning.
+/// @param w  1 / z of the surface. @param u, v  the tile's first pixel.
+inline Slopes sun_slopes(const SceneView& scene, const Lens& lens, const Affine& w, int u, int v) {
+  const auto& f = scene.sun.from_W;
+  const auto along = [&](int axis) { return D4{f[0][axis], f[1][axis], f[2][axis], 0.0}; };
+  const D4 per_m[3] = {along(0), along(1), along(2)};
+  const double* const p = scene.world.p_m;
+  const D4 at_eye = per_m[0] * p[0] + per_m[1] * p[1] + per_m[2] * p[2] + along(3);
+  return slopes(over_z(at_eye, per_m, scene.world.R_CW, w, lens), u, v);
+}
+
+constexpr float kSunRounding = 1e-5f;  ///< of a depth in the map, to the sun's side
+
+/// How much of the sun reaches a surface in a tile.
+enum class Sunlit { none, all, partly };
+
+/// Texels in a line of the map, with its border, both ends included.
+struct SunTexels {
+  int first, last;
+
+  /// Those that are compared for places in the map.
+  SunTexels(const FloatRange& places, int texels) {
+    constexpr float kSpare = 0.05f;  // more than floats lose
+    const auto place = [&](float a) {
+      const auto end = static_cast<float>(texels);
+      return static_cast<int>((a < -1.0f ? -1.0f : a > end ? end : a) + 1.0f);
+    };
+    first = place(places.least - kSpare);
+    last = place(places.most + kSpare) + 1;
+    if (last > texels + 1) last = texels + 1;
+  }
+  int blocks(int log2) const { return (last >> log2) - (first >> log2) + 1; }
 };
 
-/// @param w  1 / z of the surface. @param u, v  the tile's first pixel.
-inline SunSlopes sun_slopes(const SceneView& scene, const Lens& lens, const Affine& w, int u, int v) {
-  const auto make = [&](const double f[4]) {
-    const double* r = scene.R_WC;
-    const double at_eye = f[0] * scene.p_WC[0] + f[1] * scene.p_WC[1] + f[2] * scene.p_WC[2] + f[3];
-    const double x = (f[0] * r[0] + f[1] * r[3] + f[2] * r[6]) * lens.per_focal_x;
-    const double y = (f[0] * r[1] + f[1] * r[4] + f[2] * r[7]) * lens.per_focal_y;
-    const double z = f[0] * r[2] + f[1] * r[5] + f[2] * r[8];
-    return slope({at_eye * w.right + x, at_eye * w.down + y,
-                  at_eye * w.at_origin + (z - x * lens.center_u_px - y * lens.center_v_px)},
-                 u, v);
-  };
-  return {make(scene.sun.from_W[0]), make(scene.sun.from_W[1]), make(scene.sun.from_W[2])};
+/// What few blocks of the map tell. A place is compared with texels less than one away along both axes.
+/// @param w, at  of the surface, as sun_slopes().
+inline Sunlit sunlit(const SunDepths& sun, const Slope& w, const Slopes& at) {
+  const F8 columns = {0, 7, 0, 7, 0, 7, 0, 7}, rows = {0, 0, 7, 7, 0, 0, 7, 7};  // corners of the tile
+  const F8 per_z = w.at(columns, rows);
+  if (signs(per_z > 0.0f) != 0xff) return Sunlit::partly;
+  const F8 z = 1.0f / per_z;
+  const F8 x = at[0].at(columns, rows) * z, y = at[1].at(columns, rows) * z;
+  const F8 depth = at[2].at(columns, rows) * z + kSunRounding;
+  const SunTexels across(range(x), sun.texels), down(range(y), sun.texels);
+  constexpr int kMostBlocks = 3;  // along a side
+  int level = 0, log2 = SunBlocks::kFirstLog2;
+  for (; across.blocks(log2) > kMostBlocks || down.blocks(log2) > kMostBlocks; ++level, ++log2) {
+    if (level + 1 == SunBlocks::kLevels) return Sunlit::partly;
+  }
+  constexpr float kSpareDepth = 4e-6f;  // more than floats lose
+  const float end = static_cast<float>(sun.texels);
+  const I8 outside = (least(x, y) < -1.0f) | (most(x, y) > end);
+  float lowest = 1.0f;
+  I8 dark{};
+  for (int row = down.first >> log2; row <= down.last >> log2; ++row) {
+    const SunBlock* const blocks = sun.blocks.levels[level] + row * sun.blocks.across[level];
+    for (int column = across.first >> log2; column <= across.last >> log2; ++column) {
+      const SunBlock& block = blocks[column];
+      lowest = block.least < lowest ? block.least : lowest;
+      if (block.right == 0.0f && block.down == 0.0f && block.most <= 0.0f) continue;  // nothing stands there
+      const float beside =
+          (block.right < 0.0f ? -block.right : block.right) + (block.down < 0.0f ? -block.down : block.down);
+      const float spare = kSpareDepth + beside * (1.0f + 1e-6f * static_cast<float>(sun.texels));
+      dark |= outside | (depth < block.most + block.right * x + block.down * y + spare);
+    }
+  }
+  if (signs(dark) == 0) return Sunlit::all;
+  const bool behind = lowest > 0.0f && range(depth).most + kSpareDepth < lowest;
+  return behind ? Sunlit::none : Sunlit::partly;
 }
 
 /// Brightness of pixels of a tile, the sun's part of it as much as reaches them: four comparisons, mixed.
-inline F8 lit(const SunDepths& sun, const SunSlopes& at, F8 columns, F8 rows, F8 z, F8 brightness) {
+/// @param at  column, row and depth in the sun's map.
+inline F8 lit(const SunDepths& sun, const F8 (&at)[3], F8 brightness) {
   const float last = static_cast<float>(sun.texels);
   const auto within = [&](F8 place) { return most(least(place, all(last)), all(-1.0f)); };
-  const F8 column = within(at.column.at(columns, rows) * z), line = within(at.row.at(columns, rows) * z);
-  constexpr float kRounding = 1e-5f;
-  const F8 depth = most(at.depth.at(columns, rows) * z + kRounding, F8{});
+  const F8 column = within(at[0]), line = within(at[1]);
+  const F8 depth = most(at[2] + kSunRounding, F8{});
   const auto whole = [](F8 a) {
     const I8 nearest = integers(a);
     return nearest + (floats(nearest) > a);  // -1 where it was rounded up
@@ -40,11 +91,21 @@ inline F8 lit(const SunDepths& sun, const SunSlopes& at, F8 columns, F8 rows, F8
   const F8 right = column - floats(x), down = line - floats(y);
   const int stride = sun.texels + 2;
   const I8 place = (y + 1) * stride + (x + 1);
-  const auto open = [&](I8 where) { return pick(depth >= gather(sun.depths, where), all(1.0f), F8{}); };
-  const F8 left_share = open(place) + (open(place + stride) - open(place)) * down;
-  const F8 right_share = open(place + 1) + (open(place + (stride + 1)) - open(place + 1)) * down;
+  F8 above[2], below[2];  // left and right
+  gather(sun.depths, place, above[0], above[1]);
+  gather(sun.depths, place + stride, below[0], below[1]);
+  const auto share_of = [&](int side) {
+    const auto open = [&](F8 stored) { return pick(depth >= stored, all(1.0f), F8{}); };
+    return open(above[side]) + (open(below[side]) - open(above[side])) * down;
+  };
+  const F8 left_share = share_of(0), right_share = share_of(1);
   const F8 share = left_share + (right_share - left_share) * right;
   return sun.ambient + share * (brightness - sun.ambient);
+}
+
+/// The same where all or none of the sun reaches a tile.
+inline F8 evenly_lit_by(const SunDepths& sun, Sunlit sunlit, F8 brightness) {
+  return sunlit == Sunlit::all ? sun.ambient + (brightness - sun.ambient) : all(sun.ambient);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "sim/render/frustum.h"
-#include "sim/render/tiles/occlusion.h"
 #include "sim/render/tiles/sun_depths.h"
 
 namespace hedgehop::sim::tiles {
@@ -29,6 +28,10 @@ Eye eye_at(const Eigen::Vector3d& p_MC_W, const Eigen::Matrix3d& R_WC) {
 
 constexpr uint32_t kWorldEye = 0;
 
+Box box_of(const Eigen::AlignedBox3f& box) {
+  return {{box.min()[0], box.min()[1], box.min()[2]}, {box.max()[0], box.max()[1], box.max()[2]}};
+}
+
 }  // namespace
 
 TilePainter::TilePainter(const scenes::Scene& scene, Culling culling, Shadows shadows)
@@ -45,7 +48,10 @@ TilePainter::TilePainter(const scenes::Scene& scene, Culling culling, Shadows sh
   view_.planes_of_facets = facets_.planes();
   view_.covers = facets_.covers.data();
   view_.layout = texels_.layout();
-  if (shadows == Shadows::sun) view_.sun = draw_sun_depths(geometry_, scene.lights, sun_depths_);
+  if (shadows == Shadows::sun) {
+    view_.sun = draw_sun_depths(geometry_, scene.lights, sun_depths_);
+    view_.sun.blocks = make_sun_blocks(view_.sun.depths, view_.sun.texels + 2, sun_blocks_);
+  }
   geometry_.vertices = {};
   geometry_.indices = {};
 }
@@ -66,20 +72,40 @@ void TilePainter::paint(const vision::camera::PinholeCamera& camera, const Paint
                         int samples, cv::Mat& out) {
   require_samples(samples);
   out.create(camera.height_px, camera.width_px, type_of(raster));
-  const tiles::Eye world = eye_at(eye.X_WC.translation(), eye.X_WC.linear());
-  for (int i = 0; i < 3; ++i) {
-    view_.p_WC[i] = world.p_m[i];
-    for (int k = 0; k < 3; ++k) view_.R_WC[3 * i + k] = world.R_CW[3 * k + i];
-  }
-  memory_.begin(lens_of(camera), samples);
-  memory_.add_eye(world);
-  visible_.find(camera, eye.X_WC, culling_, *this);
-  draw_movers(eye);
+  draw_scene(camera, eye, samples);
   if (raster == Raster::grey || raster == Raster::color) {
     memory_.make_paints();
     color_scene(raster == Raster::color);
   }
   kernels_.finish(view_, memory_.frame(), raster, {out.data, out.step[0]});
+}
+
+bool TilePainter::paint_flow(const vision::camera::PinholeCamera& camera, const Painter::Eye& eye,
+                             const Painter::Next& next, cv::Mat& out) {
+  out.create(camera.height_px, camera.width_px, CV_32FC2);
+  draw_scene(camera, eye, 1);
+  const Eigen::Matrix3d R_CnW = next.X_WC.linear().transpose(), R_CnC = R_CnW * eye.X_WC.linear();
+  NextView view{};
+  for (int i = 0; i < 9; ++i) view.R_CnC[i] = R_CnC(i / 3, i % 3);
+  p_CnC_m_.clear();
+  const Eigen::Vector3d flown_W_m = next.X_WC.translation() - eye.X_WC.translation();
+  const auto add = [&](const Eigen::Vector3d& moved_W_m) {
+    const Eigen::Vector3d p_CnC_m = R_CnW * (moved_W_m - flown_W_m);
+    p_CnC_m_.insert(p_CnC_m_.end(), p_CnC_m.begin(), p_CnC_m.end());
+  };
+  add(Eigen::Vector3d::Zero());
+  for (const Eigen::Vector3d& moved_W_m : next.moved_W_m) add(moved_W_m);
+  view.p_CnC_m = p_CnC_m_.data();
+  kernels_.flow(memory_.frame(), view, {out.data, out.step[0]});
+  return true;
+}
+
+void TilePainter::draw_scene(const vision::camera::PinholeCamera& camera, const Painter::Eye& eye, int samples) {
+  view_.world = eye_at(eye.X_WC.translation(), eye.X_WC.linear());
+  memory_.begin(lens_of(camera), samples);
+  memory_.add_eye(view_.world);
+  visible_.find(camera, eye.X_WC, culling_, *this);
+  draw_movers(eye);
 }
 
 void TilePainter::draw(const scenes::Chunk& stretch, uint32_t eye) {
@@ -93,7 +119,7 @@ void TilePainter::draw(const scenes::Chunk& stretch, uint32_t eye) {
 void TilePainter::see(const scenes::Chunk& stretch) { draw(stretch, kWorldEye); }
 
 bool TilePainter::hides(const Eigen::AlignedBox3f& box_W) const {
-  return tiles::hides(memory_.frame(), memory_.frame().eyes[kWorldEye], box_W, kNearPlaneM);
+  return kernels_.hides(memory_.frame(), memory_.frame().eyes[kWorldEye], box_of(box_W), kNearPlaneM);
 }
 
 /// A mover does not turn: it is drawn as if it stood still and the eye were where it is seen from M.
@@ -105,7 +131,7 @@ void TilePainter::draw_movers(const Painter::Eye& eye) {
     for (const scenes::Chunk& chunk : geometry_.mover_chunks[mover]) {
       const tiles::Eye& seen_from = memory_.frame().eyes[index];
       const bool may_hide = culling_ != Culling::none;
-      if (may_hide && tiles::hides(memory_.frame(), seen_from, chunk.box_W, kNearPlaneM)) continue;
+      if (may_hide && kernels_.hides(memory_.frame(), seen_from, box_of(chunk.box_W), kNearPlaneM)) continue;
       draw(chunk, index);
     }
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "sim/render/painter.h"
 #include "sim/render/scene_geometry.h"
 #include "sim/render/tiles/facets.h"
@@ -19,12 +21,14 @@ class TilePainter : public Painter, private VisibleChunks::Beholder {
 
   void paint(const vision::camera::PinholeCamera& camera, const Eye& eye, Raster raster, int samples,
              cv::Mat& out) override;
+  bool paint_flow(const vision::camera::PinholeCamera& camera, const Eye& eye, const Next& next, cv::Mat& out) override;
   void require_samples(int samples) override;
   std::string info() override;
 
  private:
   void see(const scenes::Chunk& stretch) override;
   bool hides(const Eigen::AlignedBox3f& box_W) const override;
+  void draw_scene(const vision::camera::PinholeCamera& camera, const Painter::Eye& eye, int samples);
   void draw_movers(const Painter::Eye& eye);
   void draw(const scenes::Chunk& stretch, uint32_t eye);
   void color_scene(bool color);
@@ -37,9 +41,11 @@ class TilePainter : public Painter, private VisibleChunks::Beholder {
   Facets facets_;
   TexelPlanes texels_;
   scenes::Sky sky_;
-  std::vector<float> sun_depths_;
+  HugeVector<float> sun_depths_;
+  std::vector<SunBlock> sun_blocks_[SunBlocks::kLevels];
   SceneView view_{};
   FrameMemory memory_;
+  std::vector<double> p_CnC_m_;  ///< of NextView
 };
 
 }  // namespace hedgehop::sim::tiles
