@@ -1,8 +1,10 @@
 #include <dlfcn.h>
 #include <pybind11/embed.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
+#include <string>
 
 #include "avoidance/module.h"
 #include "sim/plugin/python_module.h"
@@ -20,13 +22,33 @@ std::filesystem::path package() {
   return std::filesystem::absolute(info.dli_fname).parent_path();
 }
 
+/// Whose packages are used: those of the virtual environment that is active, else of the Python that this was built
+/// with, whatever else is found first in PATH.
+std::filesystem::path interpreter() {
+  if (const char* const environment = std::getenv("VIRTUAL_ENV")) {
+    const std::filesystem::path python = std::filesystem::path(environment) / "bin/python3";
+    if (std::filesystem::exists(python)) return python;
+  }
+  return HEDGEHOP_PYTHON;
+}
+
 /// Starts the interpreter, once; it ends with the program. Signals stay the program's.
 void start() {
   if (Py_IsInitialized()) return;
-  py::initialize_interpreter(/*init_signal_handlers=*/false);
+  PyConfig config;
+  PyConfig_InitPythonConfig(&config);
+  config.install_signal_handlers = 0;
+  PyConfig_SetBytesString(&config, &config.program_name, interpreter().c_str());
+  py::initialize_interpreter(&config);
   py::module_::import("sys").attr("path").attr("insert")(0, package().parent_path().string());
   py::module_::import("hedgehop._native");
   PyEval_SaveThread();  // from here on whoever calls takes the lock
+}
+
+/// What was raised, and what that came from.
+std::string words(py::handle raised) {
+  const py::object cause = raised.attr("__cause__");
+  return py::str(raised).cast<std::string>() + (cause.is_none() ? "" : ": " + words(cause));
 }
 
 }  // namespace
@@ -42,6 +64,6 @@ extern "C" __attribute__((visibility("default"))) hedgehop::avoidance::Module* h
     return reinterpret_cast<hedgehop::avoidance::Module*>(address.cast<uintptr_t>());
   } catch (const py::error_already_set& error) {
     const py::gil_scoped_acquire lock;
-    throw std::runtime_error(py::str(error.value()).cast<std::string>());
+    throw std::runtime_error(words(error.value()));
   }
 }

@@ -71,7 +71,7 @@ void require_writable(const std::filesystem::path& folder) {
   std::filesystem::path there = std::filesystem::absolute(folder);
   while (!std::filesystem::exists(there, error) && there.has_relative_path()) there = there.parent_path();
   if (!std::filesystem::is_directory(there, error)) error = std::make_error_code(std::errc::not_a_directory);
-  if (!error && ::access(there.c_str(), W_OK | X_OK) != 0) error = std::error_code(errno, std::generic_category());
+  if (!error && ::access(there.c_str(), W_OK) != 0) error = std::error_code(errno, std::generic_category());
   if (error) {
     throw InputError(
         fmt::format("{}: no results can be written there: {}: {}", folder.string(), there.string(), error.message()));

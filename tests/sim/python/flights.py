@@ -17,10 +17,11 @@ def set_options(values):
     return [word for key, value in values.items() for word in ("--set", f"{key}={json.dumps(value)}")]
 
 
-def run_program(scenario, values, out, seed=1):
+def run_program(scenario, values, out, seed=1, environment=()):
     """Flies with the program; returns its status, result.json or None, and what it said on standard error."""
     done = subprocess.run([PROGRAM, "run", str(scenario), "--seed", str(seed), *set_options(values), "--no-video",
-                           "--no-report", "--out", str(out)], capture_output=True, text=True)
+                           "--no-report", "--out", str(out)], capture_output=True, text=True,
+                          env={**os.environ, **dict(environment)})
     file = pathlib.Path(out) / "result.json"
     return done.returncode, json.loads(file.read_text()) if file.exists() else None, done.stderr
 

@@ -1,6 +1,7 @@
 """Modules in Python fly as those in C++ do, by the library, the program, and in batches."""
 
 import importlib.util
+import os
 import pathlib
 import tempfile
 import textwrap
@@ -116,6 +117,18 @@ class FromFile(unittest.TestCase):
                 self.assertIn(text, said)
                 with self.assertRaisesRegex(hedgehop.InputError, text.replace("'", ".")):
                     hedgehop.Simulation(CITY, set=values)
+
+    def test_another_python_first_in_path_is_not_taken(self):
+        other = self.folder / "bin/python3"
+        other.parent.mkdir()
+        other.write_text("#!/bin/sh\nexit 1\n")
+        other.chmod(0o755)
+        (self.folder / "lib/python3.11").mkdir(parents=True)
+        (self.folder / "lib/python3.11/os.py").write_text("raise ImportError('not this one')\n")
+        path = {"PATH": f"{other.parent}:{os.environ['PATH']}"}
+        _, result, said = run_program(CITY, self.python("GoToGoal"), self.folder / "path", environment=path)
+        self.assertIsNotNone(result, said)
+        self.assertEqual(result["outcome"], "timeout")
 
     def test_a_batch_flies_it_in_workers(self):
         values = self.python("GoToGoal", STRAIGHT, speed=3)

@@ -21,7 +21,7 @@ std::vector<std::string> faults_of_file(const std::string& text) {
 TEST(Parse, MissingFolderAndEmptyFiles) {
   Folder folder;
   EXPECT_THAT(faults_of([] { load_struct<Sample>("no.yaml"); }), ElementsAre("no.yaml: there is no such file"));
-  EXPECT_THAT(faults_of([] { load_struct<Sample>("."); }), ElementsAre(".: the file cannot be read"));
+  EXPECT_THAT(faults_of([] { load_struct<Sample>("."); }), ElementsAre(".: is a folder, not a file"));
   EXPECT_THAT(faults_of_file(""), ElementsAre("a.yaml:1:1: the file is empty"));
   EXPECT_THAT(faults_of_file("# only words\n"), ElementsAre("a.yaml:1:1: the file is empty"));
   EXPECT_THAT(faults_of_file("- 1\n"), ElementsAre("a.yaml:1:1: expected a map of keys, got a list"));
