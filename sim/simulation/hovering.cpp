@@ -18,21 +18,6 @@ class Hovering : public avoidance::Module {
   avoidance::Needs needs_;
 };
 
-avoidance::CameraNeed::Channel delivered(CameraConfig::Channel channel) {
-  using Need = avoidance::CameraNeed::Channel;
-  switch (channel) {
-    case CameraConfig::Channel::grey:
-      return Need::grey;
-    case CameraConfig::Channel::color:
-      return Need::color;
-    case CameraConfig::Channel::depth:
-      return Need::depth;
-    case CameraConfig::Channel::corners:
-      return Need::corners;
-  }
-  throw std::logic_error("unknown channel");
-}
-
 }  // namespace
 
 ModuleMaker hovering(const RigConfig& rig, const std::vector<std::string>& roles) {
@@ -40,7 +25,7 @@ ModuleMaker hovering(const RigConfig& rig, const std::vector<std::string>& roles
   for (const std::string& role : roles) {
     const CameraConfig* const camera = rig.find(role);
     if (!camera) throw InputError(fmt::format("the rig has no camera '{}'", role));
-    needs.cameras.push_back({role, delivered(camera->channel)});
+    needs.cameras.push_back({role, camera->channel});
   }
   return [needs] { return std::make_unique<Hovering>(needs); };
 }

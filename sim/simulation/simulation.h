@@ -31,8 +31,8 @@ struct TrueMotion {
 };
 
 /// A scenario in flight: flown to its end in one call, or stepped by who holds the clock. Equal scenarios and commands
-/// give equal flights, bit for bit, however they are stepped. Several may live in one process; each is used by one
-/// thread at a time, on Linux's OSMesa the same throughout.
+/// give equal flights, bit for bit, however they are stepped. Several may live in one process; each is used by the
+/// thread that made it.
 class Simulation {
  public:
   /// Begins: cameras have exposed and sensors have read at time 0, nobody has decided.
@@ -53,13 +53,14 @@ class Simulation {
   /// Lets the module decide now, if a decision is due, and flies on to the next one or to the end.
   /// @return whether the flight goes on. Throws std::logic_error when it is over.
   bool step();
-  /// Gives the command in place of the module's: takes effect after the scenario's latency, as the module's would. A
+  /// Gives the command in place of the module's: it takes effect after the scenario's latency, as the module's would. A
   /// speed above the vehicle's limit is scaled down to it. Throws std::invalid_argument when it is not finite.
   bool step(const avoidance::Command& command);
-  /// As step(), but one physics step.
+  /// As step(), but one physics step. A command may be given on any, whether a decision is due or not.
   bool tick();
   bool tick(const avoidance::Command& command);
-  /// Lets the module fly on up to an instant. Throws InputError when the flight ends before.
+  /// Lets the module fly on up to an instant, s from the start; where that is past, nothing happens. Throws InputError
+  /// when the flight ends before.
   void fly_to(double t_s);
   /// Lets the module fly to the end. @return result().
   Flight run();
@@ -68,7 +69,7 @@ class Simulation {
   bool over() const;
   /// Whether a decision is due now.
   bool decides() const;
-  double t_s() const;
+  double t_s() const;  ///< from the start
   const Scenario& scenario() const;
 
   /// What the module gets now: frames of its cameras where a decision is due, its own navigation, where to fly. The

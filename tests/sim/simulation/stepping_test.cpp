@@ -150,7 +150,7 @@ TEST(Stepping, AFlightStepsToACollisionWithoutADecisionInIt) {
   const Flight flight = simulation.result();
   EXPECT_EQ(flight.result.outcome, Outcome::collided);
   EXPECT_TRUE(simulation.proximity().collided);
-  EXPECT_LT(flight.decisions.back().t_s, flight.result.flight_time_s + 1e-9);
+  EXPECT_LT(flight.decisions.back().t_s, flight.result.flight_time_s);  // a module would decide in the last moment, too
 }
 
 TEST(Stepping, SimulationsOnSeveralThreadsFlyAsAlone) {
