@@ -43,14 +43,26 @@ std::string_view json_of_glb(std::string_view file) {
   return file.substr(kHeader, bytes);
 }
 
+/// Words after the `f` of a line; a backslash at a line's end goes on in the next.
 int most_face_corners(std::string_view obj) {
-  int most = 0;
-  for (size_t begin = 0; begin < obj.size();) {
-    const size_t end = std::min(obj.find('\n', begin), obj.size());
-    const std::string_view line = obj.substr(begin, end - begin);
-    begin = end + 1;
-    if (!line.starts_with("f ")) continue;
-    most = std::max(most, static_cast<int>(std::ranges::count(line, ' ')));
+  int most = 0, words = 0;
+  bool is_face = false, in_word = false;
+  for (size_t i = 0; i < obj.size(); ++i) {
+    const char c = obj[i];
+    if (c == '\n') {
+      words = 0;
+      is_face = in_word = false;
+    } else if (c == '\\') {
+      i = std::min(obj.find('\n', i), obj.size());
+      in_word = false;
+    } else if (c == ' ' || c == '\t' || c == '\r') {
+      in_word = false;
+    } else if (!in_word) {
+      in_word = true;
+      if (words == 0) is_face = c == 'f';
+      if (is_face) most = std::max(most, words);
+      ++words;
+    }
   }
   return most;
 }

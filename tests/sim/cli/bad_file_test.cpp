@@ -62,6 +62,10 @@ TEST_F(BadFile, AThousandFaultsAreCountedNotListed) {
 }
 
 TEST_F(BadFile, MeshesThatChokeTheImporterAreRefused) {
+  std::ofstream folded(folder.path() / "folded.obj");
+  folded << "v 0 0 0\nv 1 0 0\nv 0 1 0\n  f";
+  for (int i = 0; i < 20'000; ++i) folded << (i % 100 == 99 ? "\\\n" : "\t") << i % 3 + 1;
+  folded.close();
   std::ofstream polygon(folder.path() / "polygon.obj"), deep(folder.path() / "deep.gltf"),
       far(folder.path() / "far.obj");
   polygon << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
@@ -73,6 +77,7 @@ TEST_F(BadFile, MeshesThatChokeTheImporterAreRefused) {
   far.close();
   const auto with = [](const std::string& file) { return "tiny.yaml --set 'scene.imports=[{file: " + file + "}]'"; };
   refused(with("polygon.obj"), "it has a face of more than 1000 corners");
+  refused(with("folded.obj"), "it has a face of more than 1000 corners");
   refused(with("deep.gltf"), "its JSON is nested deeper than 200");
   refused(with("far.obj"), "it has corners farther away than 100 km");
 }
