@@ -111,7 +111,6 @@ std::string packages() {
 void write_pages(const ReproduceOptions& options, const fs::path& out, const RowsOfPapers& papers,
                  const nlohmann::ordered_json& pages) {
   const PageFacts facts = page_facts(papers, packages(), options.quick);
-  require_writable(out);
   fs::create_directories(out);
   const std::string text = results_page(papers, facts);
   write_file_whole(out / "reproduction.md", text);
@@ -130,6 +129,7 @@ int reproduce(const ReproduceOptions& options) {
   if (options.quick && !options.write.empty()) throw InputError("--write: a quick look is no page of results");
   const std::vector<Paper> papers = read_papers(options.papers);
   const fs::path out = options.out.empty() ? fs::path("out") / "reproduce" : options.out;
+  require_writable(out);
   Interruption interruption;
   const std::vector<FlightRecord> records = fly(papers, options, out, interruption);
   if (interruption.signal() != 0 && !options.write.empty()) return kSignalled + interruption.signal();

@@ -45,7 +45,9 @@ std::string results_page(const RowsOfPapers& papers, const PageFacts& facts) {
   if (const std::string several = several_builds_line(facts); !several.empty()) text += "**" + several + "**\n\n";
   text += fmt::format("# Results\n\nBuild `{}`, Hedgehop {}, {}. Written by\n\n", facts.build, facts.version,
                       facts.packages);
-  text += "```sh\nhedgehop reproduce --write docs/results.md\n```\n\n";
+  text += "```sh\nhedgehop reproduce";
+  for (const auto& [paper, rows] : papers) text += " " + paper.key;
+  text += " --write docs/results.md\n```\n\n";
   if (facts.quick) text += "**A quick look: few seeds were flown.**\n\n";
   text += kHowToRead;
   for (const auto& [paper, rows] : papers) text += "\n" + rows_text(paper, rows);

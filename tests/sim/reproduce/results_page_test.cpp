@@ -67,6 +67,15 @@ TEST(ResultsPage, NamesItsBuildAndThatOfEachRow) {
   EXPECT_THAT(page_of({own}), StartsWith("# Results\n\nBuild `" + own + "`"));
 }
 
+TEST(ResultsPage, ItsCommandNamesThePapersThatItHolds) {
+  RowsOfPapers papers = rows_of({"b"});
+  papers.push_back(papers[0]);
+  papers[0].first.key = "one2001";
+  papers[1].first.key = "two2002";
+  EXPECT_THAT(results_page(papers, page_facts(papers, "Mesa 1", false)),
+              HasSubstr("\nhedgehop reproduce one2001 two2002 --write docs/results.md\n"));
+}
+
 TEST(ResultsPage, OfSeveralBuildsSaysSoInItsFirstLineAndIsRefused) {
   const std::string own(build_identity());
   const std::string page = page_of({own, "0123456789abcdef"});
