@@ -15,6 +15,7 @@ except ImportError:
 
 CLIMB_MPS = 1.0
 TURN_RADPS = 1.0
+AHEAD_M, AHEAD_RAD = 3.0, 1.5
 STATE = 10
 
 #: What a step earns. progress: a meter nearer the goal, truly; near: each decision, by the share of `near_m` that the
@@ -79,6 +80,8 @@ class Env(_Base):
         seen = self._simulation.reset(int(self._seeds.integers(2**32)))
         self._result = None
         self._distance_m = self._goal_distance_m(seen)
+        self._altitude_m = -seen.navigation.p_WB_est_m[2]
+        self._heading_rad = yaw_rad(seen.navigation.q_WB_est)
         return self._observe(seen), self._info()
 
     def step(self, action):
@@ -108,14 +111,18 @@ class Env(_Base):
         self._simulation = None
 
     def _command(self, action):
+        """The height and heading to hold move at the action's rates, but never far ahead of the vehicle."""
         navigation = self._simulation.observation.navigation
         forward, right, climb, turn = action
         speed_mps, _ = self._simulation.limits
-        heading_rad = yaw_rad(navigation.q_WB_est)
+        heading_rad, altitude_m = yaw_rad(navigation.q_WB_est), -navigation.p_WB_est_m[2]
         cos, sin = math.cos(heading_rad), math.sin(heading_rad)
         v_WB_W = speed_mps * np.array([cos * forward - sin * right, sin * forward + cos * right])
-        return VelocityCommand(v_WB_W, -navigation.p_WB_est_m[2] + CLIMB_MPS * climb * self._step_s,
-                               heading_rad + TURN_RADPS * turn * self._step_s)
+        higher_m = self._altitude_m + CLIMB_MPS * climb * self._step_s - altitude_m
+        self._altitude_m = altitude_m + min(max(higher_m, -AHEAD_M), AHEAD_M)
+        further_rad = math.remainder(self._heading_rad + TURN_RADPS * turn * self._step_s - heading_rad, 2.0 * math.pi)
+        self._heading_rad = heading_rad + min(max(further_rad, -AHEAD_RAD), AHEAD_RAD)
+        return VelocityCommand(v_WB_W, self._altitude_m, self._heading_rad)
 
     def _goal_distance_m(self, seen):
         return float(np.linalg.norm(seen.goal.p_WG_m - self._simulation.truth.p_WB_m))

@@ -44,7 +44,7 @@ class Simulation:
                                           cameras)
 
     def reset(self, seed: Optional[int] = None) -> _native.Observation:
-        """Begins again; without a seed the same flight, in a fortieth of the time. Returns the first Observation."""
+        """Begins again; without a seed the same flight, in about a fortieth of the time. Returns the first Observation."""
         return self._native.reset(seed)
 
     def step(self, command=None) -> _native.Observation:

@@ -126,13 +126,13 @@ class VectorEnv:
     def _order(self, orders):
         for pipe, order in zip(self._pipes, orders):
             pipe.send(order)
-        infos = []
-        for i, pipe in enumerate(self._pipes):
+        answers = []
+        for pipe in self._pipes:  # all of them, so that none waits for the next order's
             try:
-                info, fault = pipe.recv()
+                answers.append(pipe.recv())
             except EOFError:
-                raise RuntimeError(f"environment {i}: its process ended") from None
+                answers.append((None, "its process ended"))
+        for i, (_, fault) in enumerate(answers):
             if fault:
                 raise RuntimeError(f"environment {i}: {fault}")
-            infos.append(info)
-        return infos
+        return [info for info, _ in answers]

@@ -74,6 +74,16 @@ class Alone(unittest.TestCase):
         self.assertGreater(nearer_m, 0.5)
         self.assertAlmostEqual(earned, nearer_m, places=9)
 
+    def test_an_action_is_a_share_of_its_rate(self):
+        env = hedgehop.Env(CITY, cameras=["front"], set={**SETTINGS, "duration": 8})
+        for action, name, rate in (([0, 0, 1, 0], "down_m", -1.0), ([0, 0, -0.5, 0], "down_m", 0.5), ([0, 0, 0, 0.5], "yaw_rad", 0.5)):
+            env.reset(seed=2)
+            while not env.step(action)[3]:
+                pass
+            trajectory = env._simulation.trajectory
+            moved = np.unwrap(trajectory[name]) if name == "yaw_rad" else trajectory[name]
+            self.assertAlmostEqual((moved[-1] - moved[300]) / 5.0, rate, delta=0.2 * abs(rate), msg=action)
+
     def test_equal_seeds_give_equal_flights_and_others_do_not(self):
         first, again, other = (fly(self.env, seed, 20) for seed in (4, 4, 5))
         for a, b in zip(first, again):
@@ -105,11 +115,15 @@ class Several(unittest.TestCase):
             np.testing.assert_array_equal(a, b)
         self.assertFalse(np.array_equal(first[0][0], first[0][1]))
 
-    def test_a_fault_in_a_process_is_told(self):
-        with self.assertRaisesRegex(ValueError, "actions: .3,"):
-            with hedgehop.VectorEnv(str(CITY), 2, cameras=["front"], set=SETTINGS) as envs:
-                envs.reset(seed=1)
+    def test_a_fault_in_a_process_is_told_and_the_others_go_on(self):
+        with hedgehop.VectorEnv(str(CITY), 2, cameras=["front"], set=SETTINGS) as envs:
+            first, _ = envs.reset(seed=1)
+            with self.assertRaisesRegex(ValueError, "actions: .3,"):
                 envs.step(np.zeros((3, 4)))
+            with self.assertRaisesRegex(RuntimeError, "environment 0: (.|\n)*four finite numbers"):
+                envs.step([[np.nan, 0, 0, 0], [0, 0, 0, 0]])
+            again, _ = envs.reset(seed=1)
+            np.testing.assert_array_equal(first["state"], again["state"])
 
 
 if __name__ == "__main__":
