@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "scenes/mesh/polyhedron.h"
 #include "sim/render/tiles/facets.h"
+#include "sim/render/tiles/sun_blocks.h"
 #include "tests/sim/render/small_world.h"
 
 // What tiles promises beyond what every context does: nearly Mesa's pixels, no holes, few facets.
@@ -178,6 +180,47 @@ TEST(TilesFacets, HaveFourCornersWhereTwoTrianglesAreOneRectangle) {
   const tiles::Facets facets = tiles::make_facets(geometry);
   EXPECT_EQ(2 * facets.shapes.size(), geometry.indices.size() / 3);
   EXPECT_EQ(facets.range(0, static_cast<uint32_t>(geometry.indices.size())).count, facets.shapes.size());
+}
+
+/// A map of random steps and slopes, of a size that no block divides.
+std::vector<float> random_depths(int stride, std::mt19937_64& random) {
+  std::uniform_real_distribution<float> even(0.0f, 1.0f);
+  std::vector<float> depths(static_cast<size_t>(stride) * static_cast<size_t>(stride), 0.0f);
+  for (int patch = 0; patch < 20; ++patch) {
+    const int left = static_cast<int>(even(random) * static_cast<float>(stride)),
+              top = static_cast<int>(even(random) * static_cast<float>(stride));
+    const float here = even(random), right = 0.01f * (even(random) - 0.5f), down = 0.01f * (even(random) - 0.5f);
+    for (int y = top; y < std::min(top + 40, stride); ++y) {
+      for (int x = left; x < std::min(left + 40, stride); ++x) {
+        depths[static_cast<size_t>(y * stride + x)] =
+            here + right * static_cast<float>(x) + down * static_cast<float>(y);
+      }
+    }
+  }
+  return depths;
+}
+
+TEST(Tiles, BlocksOfTheSunsMapBoundEveryDepthInThem) {
+  constexpr float kRounding = 4e-6f;  // what is spared where they are read
+  std::mt19937_64 random(3);
+  for (const int stride : {10, 67, 130}) {
+    const std::vector<float> depths = random_depths(stride, random);
+    std::vector<tiles::SunBlock> memory[tiles::SunBlocks::kLevels];
+    const tiles::SunBlocks blocks = tiles::make_sun_blocks(depths.data(), stride, memory);
+    for (int level = 0; level < tiles::SunBlocks::kLevels; ++level) {
+      const int log2 = tiles::SunBlocks::kFirstLog2 + level;
+      for (int y = 0; y < stride; ++y) {
+        for (int x = 0; x < stride; ++x) {
+          const float depth = depths[static_cast<size_t>(y * stride + x)];
+          const tiles::SunBlock& block = blocks.levels[level][(y >> log2) * blocks.across[level] + (x >> log2)];
+          ASSERT_LE(block.least, depth);
+          ASSERT_GE(block.most + block.right * static_cast<float>(x - 1) + block.down * static_cast<float>(y - 1),
+                    depth - kRounding)
+              << level << ", " << x << ", " << y;
+        }
+      }
+    }
+  }
 }
 
 }  // namespace
