@@ -7,10 +7,14 @@
 #include "avoidance/contract.h"
 #include "avoidance/registry.h"
 #include "tests/avoidance/flow_balance/flow_rig.h"
+#include "tests/avoidance/policy/onnx_file.h"
+#include "tests/sim/record/temporary_folder.h"
 
 /// What every module of the registry promises, whatever it is for.
 namespace hedgehop::avoidance {
 namespace {
+
+constexpr int kSizePx = 160;
 
 struct Row {
   std::string name;
@@ -18,6 +22,7 @@ struct Row {
   bool stereo = false;           ///< looks forward with a pair of cameras
   bool holds_heading = true;     ///< and height; else it flies where it looks
   bool fisheye = false;          ///< looks down with one camera
+  bool learned = false;          ///< flies what a network says
   std::string blank = "cruise";  ///< status where nothing can be seen
   friend std::ostream& operator<<(std::ostream& out, const Row& row) { return out << row.name; }
 };
@@ -31,16 +36,39 @@ std::vector<Row> default_rows(std::index_sequence<Index...>) {
   return rows;
 }
 
+/// A network that looks at nothing but the brightness of one image.
+policy::OnnxPolicyConfig small_policy() {
+  static const sim::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "small.onnx";
+  onnx_file::write_linear_policy(file, kSizePx, kSizePx, std::vector<float>(44, 0.01f), {0.5f, 0.1f, -0.1f, 0.2f});
+  return {.file = file, .images = {{.camera = "front"}}};
+}
+
+bool reads_networks(const ModuleConfig& config) {
+  try {
+    return make_module(config) != nullptr;
+  } catch (const std::invalid_argument& fault) {
+    if (std::string_view(fault.what()).find("libopencv-dnn-dev") == std::string_view::npos) throw;
+    return false;
+  }
+}
+
 // Every row of the registry with its defaults, and the ways of a row that differ much.
 std::vector<Row> rows() {
   auto all = default_rows(std::make_index_sequence<std::variant_size_v<ModuleConfig>>{});
   for (Row& row : all) {
     row.stereo = row.name == "section_grid" || row.name == "stereo_corridor";
     row.fisheye = row.name == "corridor_centering";
-    row.holds_heading = !row.stereo && !row.fisheye && row.name != "landmark_map";
+    row.learned = row.name == policy::OnnxPolicyConfig::kName;
+    row.holds_heading = !row.stereo && !row.fisheye && !row.learned && row.name != "landmark_map";
+    if (row.learned) {
+      row.config = small_policy();
+      row.blank = "policy";
+    }
     // Between walls that cannot be seen the way is not free.
     if (row.fisheye) row.blank = "blind";
   }
+  std::erase_if(all, [](const Row& row) { return row.learned && !reads_networks(row.config); });
   flow_balance::FlowBalanceConfig balance;
   balance.law = Law::printed;
   balance.spiral_angle_rad = 0.1;
@@ -61,7 +89,7 @@ std::vector<Row> rows() {
 
 class Contract : public testing::TestWithParam<Row> {
  protected:
-  static constexpr int kSizePx = 160, kSteps = 4;
+  static constexpr int kSteps = 4;
 
   // A flight past two walls; made once, for drawing takes most of a test's time.
   static const std::vector<contract::Step>& flight() {
@@ -116,6 +144,7 @@ TEST_P(Contract, HoldsTheGoalsHeadingAndHeightOrFliesWhereItLooks) {
   const contract::Subject under_test = subject();
   for (const Decision& decision : under_test.fly(*under_test.make())) {
     if (const auto* velocity = std::get_if<VelocityCommand>(&decision.command)) {
+      if (GetParam().learned) continue;
       if (GetParam().fisheye) {
         const double way_rad = std::atan2(velocity->v_WB_W.y(), velocity->v_WB_W.x());
         EXPECT_LT(std::abs(std::remainder(velocity->heading_rad - way_rad, 2.0 * M_PI)), 0.5 * M_PI);

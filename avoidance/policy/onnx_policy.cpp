@@ -1,0 +1,146 @@
+#include "avoidance/policy/onnx_policy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "avoidance/policy/action_pilot.h"
+#include "sim/fields/bounds.h"
+#ifdef HEDGEHOP_DNN
+#include <opencv2/dnn.hpp>
+#endif
+
+namespace hedgehop::avoidance::policy {
+
+std::string PolicyImage::input() const {
+  switch (channel) {
+    case CameraNeed::Channel::color:
+      return camera + "_color";
+    case CameraNeed::Channel::depth:
+      return camera + "_depth";
+    default:
+      return camera + "_grey";
+  }
+}
+
+#ifdef HEDGEHOP_DNN
+namespace {
+
+[[noreturn]] void refuse(const OnnxPolicyConfig& config, const std::string& why) {
+  throw std::invalid_argument("file '" + config.file.string() + "': " + why.substr(0, why.find('\n')));
+}
+
+cv::dnn::Net read_network(const OnnxPolicyConfig& config) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(config.file, error)) refuse(config, "no such file");
+  try {
+    return cv::dnn::readNetFromONNX(config.file.string());
+  } catch (const cv::Exception& e) {
+    refuse(config, "OpenCV reads no network of ONNX from it: " + e.err);
+  }
+}
+
+class OnnxPolicy final : public Module {
+ public:
+  explicit OnnxPolicy(const OnnxPolicyConfig& config) : config_(config) {
+    fields::require_bounds(config);
+    if (config.images.empty() && !config.state) throw std::invalid_argument("needs 'images' or 'state'");
+    network_ = read_network(config);
+    network_.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
+    network_.setPreferableTarget(cv::dnn::DNN_TARGET_CPU);
+  }
+
+ private:
+  Needs do_needs() const override {
+    Needs needs;
+    for (const PolicyImage& image : config_.images) needs.cameras.push_back({image.camera, image.channel});
+    return needs;
+  }
+
+  std::vector<Signal> do_signals() const override {
+    return {{"action_forward", ""}, {"action_right", ""}, {"action_climb", ""}, {"action_turn", ""}};
+  }
+
+  void do_reset(const Setup& setup) override {
+    speed_limit_mps_ = setup.limits.speed_mps;
+    first_step_s_ = config_.images.empty() ? 0.04 : 0.0;
+    pilot_.reset();
+    last_t_ns_.reset();
+    blobs_.clear();
+    for (const PolicyImage& image : config_.images) {
+      const auto camera = std::ranges::find(setup.cameras, image.camera, &MountedCamera::role);
+      const int channels = image.channel == CameraNeed::Channel::color ? 3 : 1;
+      blobs_.push_back(cv::Mat({1, channels, camera->model.height_px, camera->model.width_px}, CV_32F, 0.0f));
+      first_step_s_ = std::max(first_step_s_, 1.0 / camera->rate_hz);
+    }
+    ask(State::Zero());  // what does not fit is told before the flight
+  }
+
+  Decision do_update(const Observation& observation) override {
+    for (const CameraFrame& frame : observation.frames) take(frame);  // a lost image leaves the one before
+    const NavigationState& navigation = observation.navigation;
+    if (!pilot_) pilot_.emplace(navigation);
+    const double step_s = last_t_ns_ ? 1e-9 * static_cast<double>(observation.t_ns - *last_t_ns_) : first_step_s_;
+    last_t_ns_ = observation.t_ns;
+    const Action action = ask(state_of(navigation, observation.goal));
+    return {pilot_->fly(action, navigation, speed_limit_mps_, step_s),
+            "policy",
+            {action[0], action[1], action[2], action[3]}};
+  }
+
+  void take(const CameraFrame& frame) {
+    for (size_t i = 0; i < config_.images.size(); ++i) {
+      const PolicyImage& image = config_.images[i];
+      if (image.camera != frame.role) continue;
+      cv::Mat values = frame.image;
+      if (image.channel == CameraNeed::Channel::depth) {
+        values = frame.image.clone();
+        cv::patchNaNs(values, image.mean);
+      }
+      cv::dnn::blobFromImage(values, blobs_[i], image.scale, {}, cv::Scalar::all(image.mean));
+    }
+  }
+
+  /// Throws std::invalid_argument where inputs and outputs are not those of the config.
+  Action ask(const State& state) {
+    cv::Mat answer;
+    try {
+      for (size_t i = 0; i < blobs_.size(); ++i) network_.setInput(blobs_[i], config_.images[i].input());
+      if (config_.state) {
+        network_.setInput(cv::Mat(1, static_cast<int>(state.size()), CV_32F, const_cast<float*>(state.data())).clone(),
+                          "state");
+      }
+      answer = network_.forward("action");
+    } catch (const cv::Exception& e) {
+      refuse(config_, "the network does not take these images and state: " + e.err);
+    }
+    if (answer.total() != 4 || answer.type() != CV_32F) {
+      refuse(config_, "the output 'action' has " + std::to_string(answer.total()) + " numbers; must have 4");
+    }
+    Action action;
+    for (int i = 0; i < 4; ++i) action[i] = static_cast<double>(answer.ptr<float>()[i]);
+    if (!action.allFinite()) throw std::runtime_error("the network's action is not finite");
+    return action;
+  }
+
+  OnnxPolicyConfig config_;
+  cv::dnn::Net network_;
+  std::vector<cv::Mat> blobs_;  ///< of config_.images
+  double speed_limit_mps_ = 0.0, first_step_s_ = 0.0;
+  std::optional<ActionPilot> pilot_;
+  std::optional<int64_t> last_t_ns_;
+};
+
+}  // namespace
+
+std::unique_ptr<Module> make_onnx_policy(const OnnxPolicyConfig& config) {
+  return std::make_unique<OnnxPolicy>(config);
+}
+#else
+std::unique_ptr<Module> make_onnx_policy(const OnnxPolicyConfig&) {
+  throw std::invalid_argument("this build reads no networks: install libopencv-dnn-dev and build again");
+}
+#endif
+
+}  // namespace hedgehop::avoidance::policy
