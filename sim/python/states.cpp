@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "avoidance/policy/action_pilot.h"
 #include "sim/python/arrays.h"
 #include "sim/python/bindings.h"
 #include "sim/simulation/simulation.h"
@@ -153,6 +154,16 @@ void bind_setup(py::module_& native) {
       .def_readonly("seed", &Setup::seed);
 }
 
+void bind_policies(py::module_& native) {
+  using policy::ActionPilot;
+  native.def("state_of", &policy::state_of, "navigation"_a, "goal"_a,
+             "What a policy is told besides images: ten numbers, as Env's \"state\".");
+  py::class_<ActionPilot>(native, "ActionPilot",
+                          "Turns actions into commands, as Env does; begins at a height and heading.")
+      .def(py::init<const NavigationState&>(), "navigation"_a)
+      .def("fly", &ActionPilot::fly, "action"_a, "navigation"_a, "speed_limit_mps"_a, "step_s"_a);
+}
+
 void bind_truth(py::module_& native) {
   py::class_<sim::TrueMotion>(native, "TrueMotion", "How the vehicle truly moves: for who judges, not for who decides.")
       .def_readonly("p_WB_m", &sim::TrueMotion::p_WB)
@@ -189,6 +200,7 @@ void bind_states(py::module_& native) {
   bind_commands(native);
   bind_observation(native);
   bind_setup(native);
+  bind_policies(native);
   bind_truth(native);
 }
 

@@ -4,9 +4,9 @@ Frames and units are the simulator's: W north, east, down; B forward, right, dow
 radians; every name of a figure ends with its unit.
 """
 
-from ._native import (AttitudeCommand, CameraNeed, Decision, Goal, HoverCommand, InputError, MountedCamera,
+from ._native import (ActionPilot, AttitudeCommand, CameraNeed, Decision, Goal, HoverCommand, InputError, MountedCamera,
                       NavigationState, Observation, PositionCommand, Proximity, Setup, TrueMotion, VelocityCommand,
-                      build, version)
+                      build, state_of, version)
 from .campaigns import batch, sweep
 from .environment import Env
 from .results import Flight, load, to_frame
@@ -14,9 +14,9 @@ from .simulation import Simulation
 from .vector import VectorEnv
 
 __version__ = version
-__all__ = ["AttitudeCommand", "CameraNeed", "Decision", "Env", "Flight", "Goal", "HoverCommand", "InputError",
+__all__ = ["ActionPilot", "AttitudeCommand", "CameraNeed", "Decision", "Env", "Flight", "Goal", "HoverCommand", "InputError",
            "MountedCamera", "NavigationState", "Observation", "PositionCommand", "Proximity", "Setup", "Simulation",
-           "TrueMotion", "VectorEnv", "VelocityCommand", "batch", "build", "load", "sweep", "to_frame", "version"]
+           "TrueMotion", "VectorEnv", "VelocityCommand", "batch", "build", "load", "state_of", "sweep", "to_frame", "version"]
 
 try:
     import gymnasium as _gymnasium

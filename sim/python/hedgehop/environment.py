@@ -1,10 +1,8 @@
 """A reinforcement-learning environment by Gymnasium's protocol."""
 
-import math
-
 import numpy as np
 
-from ._native import VelocityCommand
+from ._native import ActionPilot, state_of
 from .simulation import Simulation
 from .spaces import Box, Dict
 
@@ -13,20 +11,11 @@ try:
 except ImportError:
     _Base = object
 
-CLIMB_MPS = 1.0
-TURN_RADPS = 1.0
-AHEAD_M, AHEAD_RAD = 3.0, 1.5
 STATE = 10
 
 #: What a step earns. progress: a meter nearer the goal, truly; near: each decision, by the share of `near_m` that the
 #: clearance lacks; the others: when the flight ends so.
 REWARDS = {"progress": 1.0, "near": -0.1, "near_m": 2.0, "reached": 100.0, "collided": -100.0, "fault": -100.0}
-
-
-def yaw_rad(q):
-    """Heading of an attitude (w, x, y, z)."""
-    w, x, y, z = q
-    return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 
 def _image_space(image):
@@ -80,15 +69,15 @@ class Env(_Base):
         seen = self._simulation.reset(int(self._seeds.integers(2**32)))
         self._result = None
         self._distance_m = self._goal_distance_m(seen)
-        self._altitude_m = -seen.navigation.p_WB_est_m[2]
-        self._heading_rad = yaw_rad(seen.navigation.q_WB_est)
+        self._pilot = ActionPilot(seen.navigation)
         return self._observe(seen), self._info()
 
     def step(self, action):
         action = np.asarray(action, float)
         if action.shape != (4,) or not np.all(np.isfinite(action)):
             raise ValueError(f"an action is four finite numbers, got {action!r}")
-        seen = self._simulation.step(self._command(np.clip(action, -1.0, 1.0)))
+        command = self._pilot.fly(action, self._simulation.observation.navigation, self._simulation.limits[0], self._step_s)
+        seen = self._simulation.step(command)
         distance_m = self._goal_distance_m(seen)
         reward = self.rewards["progress"] * (self._distance_m - distance_m)
         self._distance_m = distance_m
@@ -110,36 +99,13 @@ class Env(_Base):
     def close(self):
         self._simulation = None
 
-    def _command(self, action):
-        """The height and heading to hold move at the action's rates, but never far ahead of the vehicle."""
-        navigation = self._simulation.observation.navigation
-        forward, right, climb, turn = action
-        speed_mps, _ = self._simulation.limits
-        heading_rad, altitude_m = yaw_rad(navigation.q_WB_est), -navigation.p_WB_est_m[2]
-        cos, sin = math.cos(heading_rad), math.sin(heading_rad)
-        v_WB_W = speed_mps * np.array([cos * forward - sin * right, sin * forward + cos * right])
-        higher_m = self._altitude_m + CLIMB_MPS * climb * self._step_s - altitude_m
-        self._altitude_m = altitude_m + min(max(higher_m, -AHEAD_M), AHEAD_M)
-        further_rad = math.remainder(self._heading_rad + TURN_RADPS * turn * self._step_s - heading_rad, 2.0 * math.pi)
-        self._heading_rad = heading_rad + min(max(further_rad, -AHEAD_RAD), AHEAD_RAD)
-        return VelocityCommand(v_WB_W, self._altitude_m, self._heading_rad)
-
     def _goal_distance_m(self, seen):
         return float(np.linalg.norm(seen.goal.p_WG_m - self._simulation.truth.p_WB_m))
 
     def _observe(self, seen):
         for role, image in seen.images.items():  # a lost image leaves the one before
             self._images[role] = image.copy()
-        navigation = seen.navigation
-        w, x, y, z = navigation.q_WB_est
-        heading_rad = yaw_rad(navigation.q_WB_est)
-        north, east, down = seen.goal.p_WG_m - navigation.p_WB_est_m
-        cos, sin = math.cos(heading_rad), math.sin(heading_rad)
-        roll_rad = math.atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
-        pitch_rad = math.asin(min(max(2.0 * (w * y - z * x), -1.0), 1.0))
-        state = [cos * north + sin * east, -sin * north + cos * east, down, *navigation.v_WB_B_est_mps, roll_rad,
-                 pitch_rad, navigation.w_WB_B_est_radps[2], navigation.height_above_ground_m]
-        return {**self._images, "state": np.array(state, np.float32)}
+        return {**self._images, "state": state_of(seen.navigation, seen.goal)}
 
     def _info(self):
         info = {"clearance_m": self._simulation.proximity.obstacle_clearance_m,
