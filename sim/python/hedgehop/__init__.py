@@ -14,9 +14,10 @@ from .simulation import Simulation
 from .vector import VectorEnv
 
 __version__ = version
-__all__ = ["ActionPilot", "AttitudeCommand", "CameraNeed", "Decision", "Env", "Flight", "Goal", "HoverCommand", "InputError",
-           "MountedCamera", "NavigationState", "Observation", "PositionCommand", "Proximity", "Setup", "Simulation",
-           "TrueMotion", "VectorEnv", "VelocityCommand", "batch", "build", "load", "state_of", "sweep", "to_frame", "version"]
+__all__ = ["ActionPilot", "AttitudeCommand", "CameraNeed", "Decision", "Env", "Flight", "Goal", "HoverCommand",
+           "InputError", "MountedCamera", "NavigationState", "Observation", "PositionCommand", "Proximity", "Setup",
+           "Simulation", "TrueMotion", "VectorEnv", "VelocityCommand", "batch", "build", "load", "state_of", "sweep",
+           "to_frame", "version"]
 
 try:
     import gymnasium as _gymnasium

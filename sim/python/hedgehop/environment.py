@@ -76,7 +76,8 @@ class Env(_Base):
         action = np.asarray(action, float)
         if action.shape != (4,) or not np.all(np.isfinite(action)):
             raise ValueError(f"an action is four finite numbers, got {action!r}")
-        command = self._pilot.fly(action, self._simulation.observation.navigation, self._simulation.limits[0], self._step_s)
+        speed_limit_mps, _ = self._simulation.limits
+        command = self._pilot.fly(action, self._simulation.observation.navigation, speed_limit_mps, self._step_s)
         seen = self._simulation.step(command)
         distance_m = self._goal_distance_m(seen)
         reward = self.rewards["progress"] * (self._distance_m - distance_m)

@@ -76,7 +76,8 @@ class Alone(unittest.TestCase):
 
     def test_an_action_is_a_share_of_its_rate(self):
         env = hedgehop.Env(CITY, cameras=["front"], set={**SETTINGS, "duration": 8})
-        for action, name, rate in (([0, 0, 1, 0], "down_m", -1.0), ([0, 0, -0.5, 0], "down_m", 0.5), ([0, 0, 0, 0.5], "yaw_rad", 0.5)):
+        for action, name, rate in (([0, 0, 1, 0], "down_m", -1.0), ([0, 0, -0.5, 0], "down_m", 0.5),
+                                   ([0, 0, 0, 0.5], "yaw_rad", 0.5)):
             env.reset(seed=2)
             while not env.step(action)[3]:
                 pass

@@ -1,7 +1,7 @@
 """A policy gradient gets past the tree: it is rewarded by the judge's metrics, and sees what a module sees.
 
-Parameter-exploring policy gradients [Sehnke2010]: a linear policy whose parameters are drawn once a flight, in symmetric
-pairs.
+Parameter-exploring policy gradients [Sehnke2010]: a linear policy whose parameters are drawn once a flight, in
+symmetric pairs.
 """
 
 import unittest
@@ -15,7 +15,8 @@ TREE = SOURCE / "configs/leaderboard/worlds/tree.yaml"
 SETTINGS = {"vehicle.use": "../../vehicles/hummingbird.yaml", "drawing.context": "tiles", "duration": 20,
             "start.north": -15, "goal.north": 15, "film.enabled": False, "avoidance": {"module": "go_to_goal"},
             "rig.cameras": [{"role": "front", "width": 64, "height": 48, "fov": 90, "rate": 5, "channel": "grey"},
-                            {"role": "down", "width": 64, "height": 48, "fov": 60, "rate": 25, "channel": "grey", "pitch": -90}]}
+                            {"role": "down", "width": 64, "height": 48, "fov": 60, "rate": 25, "channel": "grey",
+                             "pitch": -90}]}
 PAIRS, ROUNDS = 6, 20
 
 

@@ -27,7 +27,8 @@ RIG = {"rig.cameras": [{"role": "front", "width": 32, "height": 24, "fov": 90, "
                        {"role": "down", "width": 120, "height": 120, "fov": 50, "rate": 50, "channel": "grey",
                         "down": 0.2, "pitch": -90}]}
 SETTINGS = {**SHORT, **RIG, "rig.sensor": {}, "drawing.context": "tiles", "avoidance": {"module": "go_to_goal"}}
-IMAGES = [{"camera": "front", "channel": "grey", "mean": 127.5}, {"camera": "side", "channel": "color", "mean": 50, "scale": 0.01}]
+IMAGES = [{"camera": "front", "channel": "grey", "mean": 127.5},
+          {"camera": "side", "channel": "color", "mean": 50, "scale": 0.01}]
 
 
 def network():
@@ -36,8 +37,10 @@ def network():
     class Both(nn.Module):
         def __init__(self):
             super().__init__()
-            self.front = nn.Sequential(nn.Conv2d(1, 4, 3, 2), nn.ReLU(), nn.MaxPool2d(2), nn.Flatten(), nn.Linear(140, 8))
-            self.side = nn.Sequential(nn.Conv2d(3, 4, 5, 3), nn.BatchNorm2d(4), nn.Sigmoid(), nn.AvgPool2d(2), nn.Flatten())
+            self.front = nn.Sequential(nn.Conv2d(1, 4, 3, 2), nn.ReLU(), nn.MaxPool2d(2), nn.Flatten(),
+                                       nn.Linear(140, 8))
+            self.side = nn.Sequential(nn.Conv2d(3, 4, 5, 3), nn.BatchNorm2d(4), nn.Sigmoid(), nn.AvgPool2d(2),
+                                      nn.Flatten())
             self.decide = nn.Sequential(nn.Linear(8 + 16 + 10, 16), nn.ReLU(), nn.Linear(16, 4), nn.Tanh())
 
         def forward(self, front_grey, side_color, state):
