@@ -1,6 +1,7 @@
 """Batches and sweeps from Python hold what the program's files hold."""
 
 import csv
+import io
 import pathlib
 import tempfile
 import unittest
@@ -46,6 +47,16 @@ class Campaigns(unittest.TestCase):
         self.assertEqual(table.b.tolist(), ["x, y", "z"])
         self.assertTrue(np.isnan(table.c[0]) and table.c[1] == 0.3)
         self.assertEqual(len(read_table("a,b\n")), 0)
+
+    def test_a_frame_of_pandas_has_the_records_columns(self):
+        try:
+            import pandas
+        except ImportError:
+            self.skipTest("needs python3-pandas")
+        table = read_table('seed,outcome,min_m\n1,reached,0.5\n2,collided,\n')
+        frame = hedgehop.to_frame(table)
+        expected = pandas.read_csv(io.StringIO('seed,outcome,min_m\n1,reached,0.5\n2,collided,\n'))
+        pandas.testing.assert_frame_equal(frame, expected, check_dtype=False)
 
 
 if __name__ == "__main__":

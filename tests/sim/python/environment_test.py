@@ -1,6 +1,7 @@
 """The environment keeps Gymnasium's protocol and its seeds, alone and in processes."""
 
 import unittest
+import warnings
 
 import numpy as np
 
@@ -97,6 +98,19 @@ class Alone(unittest.TestCase):
                 self.env.step(bad)
         with self.assertRaisesRegex(ValueError, "no 'clerance'; there are: progress"):
             hedgehop.Env(CITY, rewards={"clerance": 1})
+
+    def test_passes_the_check_of_gymnasium(self):
+        try:
+            from gymnasium.utils.env_checker import check_env
+        except ImportError:
+            self.skipTest("needs gymnasium")
+        import gymnasium
+
+        env = gymnasium.make("hedgehop/Avoid-v0", scenario=str(CITY), cameras=["front"], set=SETTINGS)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            warnings.filterwarnings("ignore", "(.|\n)*(infinity|render)")  # true of the state; asked for by who wants it
+            check_env(env.unwrapped)
 
 
 class Several(unittest.TestCase):
