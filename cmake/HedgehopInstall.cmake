@@ -8,7 +8,7 @@ hedgehop_offer(sim/fields vision avoidance
 add_library(hedgehop_sim INTERFACE)
 target_link_libraries(hedgehop_sim INTERFACE hedgehop_sim_simulation)
 set_target_properties(hedgehop_sim PROPERTIES EXPORT_NAME sim)
-install(TARGETS hedgehop_sim EXPORT hedgehop)
+install(TARGETS hedgehop_sim EXPORT hedgehop COMPONENT development)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/hedgehop)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/hedgehopConfig.cmake.in ${PROJECT_BINARY_DIR}/hedgehopConfig.cmake
                               INSTALL_DESTINATION ${package})
@@ -16,7 +16,7 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/hedgehopConfig.cmake.in 
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/hedgehopConfigVersion.cmake COMPATIBILITY ExactVersion)
 install(FILES ${PROJECT_BINARY_DIR}/hedgehopConfig.cmake ${PROJECT_BINARY_DIR}/hedgehopConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/HedgehopOpenCV.cmake ${CMAKE_CURRENT_LIST_DIR}/HedgehopPackages.cmake
-        DESTINATION ${package})
-install(EXPORT hedgehop NAMESPACE hedgehop:: FILE hedgehopTargets.cmake DESTINATION ${package})
-install(TARGETS hedgehop)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs DESTINATION ${CMAKE_INSTALL_DATADIR}/hedgehop)
+        DESTINATION ${package} COMPONENT development)
+install(EXPORT hedgehop NAMESPACE hedgehop:: FILE hedgehopTargets.cmake DESTINATION ${package} COMPONENT development)
+install(TARGETS hedgehop COMPONENT program)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs DESTINATION ${CMAKE_INSTALL_DATADIR}/hedgehop COMPONENT program)

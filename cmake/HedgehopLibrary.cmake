@@ -50,7 +50,8 @@ function(hedgehop_offer)
   foreach(folder IN LISTS ARGN)
     string(REPLACE "/" "_" name ${folder})
     set_target_properties(hedgehop_${name} PROPERTIES EXPORT_NAME ${name})
-    install(TARGETS hedgehop_${name} EXPORT hedgehop FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hedgehop)
+    install(TARGETS hedgehop_${name} EXPORT hedgehop COMPONENT development
+            FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hedgehop COMPONENT development)
   endforeach()
 endfunction()
 

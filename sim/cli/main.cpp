@@ -12,6 +12,7 @@
 
 #include "sim/cli/campaign_options.h"
 #include "sim/cli/commands.h"
+#include "sim/cli/manual.h"
 #include "sim/cli/number_options.h"
 #include "sim/flight/build.h"
 #include "sim/scenario/input_error.h"
@@ -173,6 +174,20 @@ void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, 
   schema_command->callback([&] { chosen = [] { return cli::schema(); }; });
 }
 
+void declare_manual(CLI::App& app, std::function<int()>& chosen, std::string& format) {
+  CLI::App* const command =
+      app.add_subcommand("manual", "print the manual page, or the completion of a shell's command line");
+  command->add_option("FORMAT", format, "man, bash, zsh or fish")
+      ->required()
+      ->check(CLI::IsMember({"man", "bash", "zsh", "fish"}));
+  command->callback([&] {
+    chosen = [&] {
+      fmt::print("{}", cli::manual(app, format));
+      return 0;
+    };
+  });
+}
+
 int run_command_line(int argc, char** argv) {
   CLI::App app{
       "Hedgehop flies rotorcraft through scenes they must see to survive: closed-loop simulation of\n"
@@ -192,6 +207,8 @@ int run_command_line(int argc, char** argv) {
   cli::ExportOptions data;
   cli::ReportOptions report;
   declare(app, chosen, run, render, calibration, vehicles, topic, data, report);
+  std::string format;
+  declare_manual(app, chosen, format);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
