@@ -8,6 +8,7 @@
 #include "avoidance/policy/action_pilot.h"
 #include "sim/fields/bounds.h"
 #ifdef HEDGEHOP_DNN
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/dnn.hpp>
 #endif
 
@@ -28,16 +29,36 @@ std::string PolicyImage::input() const {
 namespace {
 
 [[noreturn]] void refuse(const OnnxPolicyConfig& config, const std::string& why) {
-  throw std::invalid_argument("file '" + config.file.string() + "': " + why.substr(0, why.find('\n')));
+  throw std::invalid_argument("file '" + config.file.string() + "': " + why);
 }
+
+/// What OpenCV says, in a few words of one line: its sources' places left out.
+std::string words(const cv::Exception& fault) {
+  std::string text = fault.err.substr(0, fault.err.find('\n'));
+  text = text.substr(0, text.find(" parse error"));
+  return text.starts_with("> ") ? text.substr(2) : text;
+}
+
+/// OpenCV prints what it throws, too.
+class Quiet {
+ public:
+  Quiet() : before_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}
+  ~Quiet() { cv::utils::logging::setLogLevel(before_); }
+  Quiet(const Quiet&) = delete;
+  Quiet& operator=(const Quiet&) = delete;
+
+ private:
+  cv::utils::logging::LogLevel before_;
+};
 
 cv::dnn::Net read_network(const OnnxPolicyConfig& config) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(config.file, error)) refuse(config, "no such file");
+  const Quiet quiet;
   try {
     return cv::dnn::readNetFromONNX(config.file.string());
   } catch (const cv::Exception& e) {
-    refuse(config, "OpenCV reads no network of ONNX from it: " + e.err);
+    refuse(config, "OpenCV reads no network of ONNX from it: " + words(e));
   }
 }
 
@@ -105,6 +126,7 @@ class OnnxPolicy final : public Module {
   /// Throws std::invalid_argument where inputs and outputs are not those of the config.
   Action ask(const State& state) {
     cv::Mat answer;
+    const Quiet quiet;
     try {
       for (size_t i = 0; i < blobs_.size(); ++i) network_.setInput(blobs_[i], config_.images[i].input());
       if (config_.state) {
@@ -113,7 +135,7 @@ class OnnxPolicy final : public Module {
       }
       answer = network_.forward("action");
     } catch (const cv::Exception& e) {
-      refuse(config_, "the network does not take these images and state: " + e.err);
+      refuse(config_, "the network does not take these images and state: " + words(e));
     }
     if (answer.total() != 4 || answer.type() != CV_32F) {
       refuse(config_, "the output 'action' has " + std::to_string(answer.total()) + " numbers; must have 4");
