@@ -113,8 +113,8 @@ std::string failure_words(const FlightRecord& record) {
     const auto figure = [&](const char* key) {
       return check.at(key).is_number() ? fmt::format("{:.4g}", check.at(key).get<double>()) : std::string("unknown");
     };
-    words += fmt::format("; {} {}, limit {} {}", check.at("name").get<std::string>(), figure("value"), figure("limit"),
-                         check.at("unit").get<std::string>());
+    words += fmt::format("; {} {}, must be {} {} {}", check.at("name").get<std::string>(), figure("value"),
+                         check.value("must", "<="), figure("limit"), check.at("unit").get<std::string>());
   }
   return words;
 }

@@ -124,8 +124,8 @@ Suite flight_suite(const FlightRecord& record, bool binding) {
   if (!flown) return suite;
   for (const auto& check : record.result.at("checks")) {
     const std::string unit = check.at("unit").get<std::string>();
-    const std::string measured = fmt::format("value {} {}, limit {} {}", number_words(check.at("value")), unit,
-                                             number_words(check.at("limit")), unit);
+    const std::string measured = fmt::format("{} {}, must be {} {} {}", number_words(check.at("value")), unit,
+                                             check.value("must", "<="), number_words(check.at("limit")), unit);
     Case one{.name = check.at("name").get<std::string>(), .facts = measured + "\n" + again};
     if (!check.at("passed").get<bool>()) {
       one.wrong = binding ? "failure" : "skipped";

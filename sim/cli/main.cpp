@@ -1,234 +1,16 @@
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
-#include <exception>
-#include <functional>
 
-#include "sim/cli/campaign_options.h"
-#include "sim/cli/commands.h"
-#include "sim/cli/manual.h"
-#include "sim/cli/number_options.h"
-#include "sim/flight/build.h"
-#include "sim/scenario/input_error.h"
+#include "sim/cli/command_line.h"
 
 namespace {
 
-namespace cli = hedgehop::sim::cli;
-
-constexpr int kBadInput = 2;
 constexpr int kInternalError = 3;
-
-/// What may override a scenario.
-void add_layers(CLI::App& command, cli::ScenarioOptions& scenario) {
-  command.add_option("--seed", scenario.seed, "seed of every random stream; overrides the scenario's")
-      ->transform(cli::whole_number());
-  command.add_option("--set", scenario.overrides, "override a value of the scenario, e.g. --set avoidance.speed=1.5")
-      ->type_name("KEY.PATH=VALUE")
-      ->take_all();
-  command
-      .add_option("--gl", scenario.gl,
-                  "who draws: osmesa, egl (a GPU where there is one) or tiles (fastest on a processor); overrides the "
-                  "scenario's")
-      ->check(CLI::IsMember({"osmesa", "egl", "tiles"}));
-}
-
-void add_scenario(CLI::App& command, cli::ScenarioOptions& scenario) {
-  command.add_option("SCENARIO", scenario.file, "scenario file (YAML)")->required();
-  add_layers(command, scenario);
-}
-
-void add_formats(CLI::App& command, bool& json, bool& csv) {
-  CLI::Option* const as_json = command.add_flag("--json", json, "print JSON instead of a table for people");
-  command.add_flag("--csv", csv, "print comma-separated values")->excludes(as_json);
-}
-
-/// Options of the commands about vehicles.
-struct VehicleOptions {
-  cli::TrimOptions trim;
-  std::string speeds = "0";
-  cli::LinearizeOptions linearize;
-};
-
-/// Declares the commands; the one that is chosen ends up in `chosen`.
-void declare(CLI::App& app, std::function<int()>& chosen, cli::RunOptions& run, cli::RenderOptions& render,
-             cli::CalibrationOptions& calibration, VehicleOptions& vehicles, std::string& topic,
-             cli::ExportOptions& data, cli::ReportOptions& report) {
-  CLI::App* const run_command = app.add_subcommand("run",
-                                                   "fly a scenario; write a folder with verdict, tables, film "
-                                                   "and report");
-  add_scenario(*run_command, run.scenario);
-  run_command->add_option("--out", run.out, "folder of the results; out/<name>-seed<seed> when not given")
-      ->type_name("DIR");
-  run_command->add_flag("--no-video", run.no_video, "write no video");
-  run_command->add_flag("--no-report", run.no_report, "write no report.html; `hedgehop report DIR` does so later");
-  run_command->add_option("--worker-of", run.worker_of)->group("");  // hidden: for batch and sweep
-  run_command->add_flag("--json", run.json, "print result.json instead of lines for people");
-  run_command->callback([&] { chosen = [&run] { return cli::run(run); }; });
-
-  CLI::App* const render_command = app.add_subcommand("render", "write the image of one camera as PNG");
-  auto* const file = render_command->add_option("SCENARIO", render.scenario.file, "scenario file (YAML)");
-  add_layers(*render_command, render.scenario);
-  auto* const camera = render_command->add_option("--camera", render.camera, "role of the camera")->type_name("NAME");
-  render_command->add_option("--time", render.time_s, "time of the image, s; the flight is flown up to it")
-      ->transform(cli::number())
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("S");
-  render_command
-      ->add_option("--what", render.what,
-                   "color, grey; depth (red 0.5 m, green 10 m, blue 200 m, sky white), depth_mm (16-bit PNG, "
-                   "millimeters, 0 beyond 65 m); flow to the camera's next image (right red, left cyan, white at "
-                   "rest, full at 16 px); labels (a color for each object, sky black)")
-      ->check(CLI::IsMember({"color", "grey", "depth", "depth_mm", "flow", "labels"}));
-  auto* const out = render_command->add_option("-o", render.out, "file to write")->type_name("FILE.png");
-  auto* const info = render_command->add_flag("--info", render.info, "print the OpenGL renderer, and stop");
-  render_command->callback([&, file, camera, out, info] {
-    if (!*info && (!*file || !*camera || !*out)) {
-      throw CLI::RequiredError("render: SCENARIO, --camera and -o (or --info)");
-    }
-    chosen = [&render] { return cli::render(render); };
-  });
-
-  CLI::App* const calibration_command =
-      app.add_subcommand("calibration", "write the intrinsics and poses of the rig's cameras for other programs");
-  add_scenario(*calibration_command, calibration.scenario);
-  calibration_command->add_option("--format", calibration.format, "opencv (FileStorage YAML, the default) or kalibr")
-      ->check(CLI::IsMember({"opencv", "kalibr"}));
-  calibration_command->add_option("-o", calibration.out, "file to write; standard output when not given")
-      ->type_name("FILE.yaml");
-  calibration_command->callback([&] { chosen = [&calibration] { return cli::calibration(calibration); }; });
-
-  cli::declare_campaigns(app, chosen);
-
-  CLI::App* const export_command =
-      app.add_subcommand("export", "re-simulate a run and write images, IMU, truth and calibration for other programs");
-  export_command->add_option("RUN", data.folder, "folder of a run, as `hedgehop run` leaves it")->required();
-  export_command
-      ->add_option("--format", data.format,
-                   "euroc: mav0 with all cameras; tum: RGB-D of one pinhole, its depth true; kitti: odometry, pinholes "
-                   "of one rate")
-      ->required()
-      ->check(CLI::IsMember({"euroc", "tum", "kitti"}));
-  export_command
-      ->add_option("--camera", data.cameras,
-                   "role of a camera to export; may be repeated, the first is cam0; all that take images "
-                   "when not given")
-      ->type_name("NAME");
-  export_command->add_option("--out", data.out, "folder to write, not there or empty; RUN/<format> when not given")
-      ->type_name("DIR");
-  export_command->callback([&] { chosen = [&data] { return cli::export_run(data); }; });
-
-  CLI::App* const report_command = app.add_subcommand("report", "write report.html of a run, a batch or a sweep again");
-  report_command->add_option("DIR", report.folder, "its folder")->required()->check(CLI::ExistingDirectory);
-  report_command
-      ->add_option("--against", report.against, "of a batch or sweep: list what changed since this earlier one")
-      ->check(CLI::ExistingDirectory)
-      ->type_name("DIR");
-  report_command->add_flag("--replay", report.replay,
-                           "of a run: also write replay.html, the flight in three dimensions");
-  report_command
-      ->add_option("--film-strips", report.film_strips,
-                   "of a batch or sweep: re-simulate so many of the worst flights, up to their closest approach, for "
-                   "images of what they saw")
-      ->transform(cli::whole_number())
-      ->check(CLI::Range(0, 50))
-      ->type_name("N");
-  report_command->callback([&] { chosen = [&report] { return cli::report(report); }; });
-
-  CLI::App* const list_command = app.add_subcommand("list", "list what a scenario may name, and every key it takes");
-  list_command->add_option("TOPIC", topic, "modules, vehicles, scenes, cameras or checks")
-      ->required()
-      ->check(CLI::IsMember({"modules", "vehicles", "scenes", "cameras", "checks"}));
-  list_command->callback([&] { chosen = [&topic] { return cli::list(topic); }; });
-
-  CLI::App* const trim_command =
-      app.add_subcommand("trim", "print, and plot, a vehicle's trim of level flight against speed");
-  trim_command->add_option("VEHICLE", vehicles.trim.vehicle, "vehicle file (YAML)")->required();
-  trim_command->add_option("--speed", vehicles.speeds, "speed through the air, or a range of them (m/s); default 0")
-      ->type_name("FROM:TO:STEP");
-  add_formats(*trim_command, vehicles.trim.json, vehicles.trim.csv);
-  trim_command->add_option("--plot", vehicles.trim.plot, "also write a page with plots of the trim over speed")
-      ->type_name("FILE.html");
-  trim_command->callback([&] {
-    chosen = [&vehicles] {
-      vehicles.trim.speeds_mps = cli::speed_range(vehicles.speeds);
-      return cli::trim(vehicles.trim);
-    };
-  });
-
-  CLI::App* const linearize_command = app.add_subcommand(
-      "linearize", "print a vehicle's linear model about level flight: A, B and modes with frequency and damping");
-  linearize_command->add_option("VEHICLE", vehicles.linearize.vehicle, "vehicle file (YAML)")->required();
-  linearize_command->add_option("--speed", vehicles.linearize.speed_mps, "speed through the air (m/s); default 0")
-      ->transform(cli::number())
-      ->type_name("V");
-  add_formats(*linearize_command, vehicles.linearize.json, vehicles.linearize.csv);
-  linearize_command->callback([&] { chosen = [&vehicles] { return cli::linearize(vehicles.linearize); }; });
-
-  CLI::App* const schema_command = app.add_subcommand("schema", "print the JSON Schema of scenario files, for editors");
-  schema_command->callback([&] { chosen = [] { return cli::schema(); }; });
-}
-
-void declare_manual(CLI::App& app, std::function<int()>& chosen, std::string& format) {
-  CLI::App* const command =
-      app.add_subcommand("manual", "print the manual page, or the completion of a shell's command line");
-  command->add_option("FORMAT", format, "man, bash, zsh or fish")
-      ->required()
-      ->check(CLI::IsMember({"man", "bash", "zsh", "fish"}));
-  command->callback([&] {
-    chosen = [&] {
-      fmt::print("{}", cli::manual(app, format));
-      return 0;
-    };
-  });
-}
-
-int run_command_line(int argc, char** argv) {
-  CLI::App app{
-      "Hedgehop flies rotorcraft through scenes they must see to survive: closed-loop simulation of\n"
-      "vision-based obstacle avoidance, without display, GPU or network.",
-      "hedgehop"};
-  app.set_version_flag("--version",
-                       fmt::format("{} (build {})", hedgehop::sim::version(), hedgehop::sim::build_identity()));
-  app.require_subcommand(1);
-  app.footer("Exit status: 0 all checks hold; 1 a check fails; 2 the input is bad; 3 an internal error.");
-
-  std::function<int()> chosen;
-  cli::RunOptions run;
-  cli::RenderOptions render;
-  cli::CalibrationOptions calibration;
-  VehicleOptions vehicles;
-  std::string topic;
-  cli::ExportOptions data;
-  cli::ReportOptions report;
-  declare(app, chosen, run, render, calibration, vehicles, topic, data, report);
-  std::string format;
-  declare_manual(app, chosen, format);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadInput;
-  }
-  return chosen();
-}
-
-/// Runs the command line and says what went wrong, if anything.
-int run_and_report(int argc, char** argv) {
-  try {
-    return run_command_line(argc, argv);
-  } catch (const hedgehop::sim::InputError& error) {
-    for (const std::string& fault : error.faults()) std::fputs((fault + "\n").c_str(), stderr);
-    return kBadInput;
-  } catch (const std::exception& error) {
-    std::fputs(fmt::format("hedgehop: {}\n", error.what()).c_str(), stderr);  // never throws, as fmt::print may
-    return kInternalError;
-  }
-}
 
 /// A file opened while one of the standard streams is closed would get its number, and its text.
 void open_standard_streams() {
@@ -244,9 +26,9 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // a reader that has seen enough ends no flight
   constexpr size_t kBufferBytes = 1 << 20;
   std::setvbuf(stdout, nullptr, _IOFBF, kBufferBytes);  // so that a result is written whole, or known not to be
-  const int status = run_and_report(argc, argv);
+  const int status = hedgehop::sim::cli::run_command_line(argc, argv);
   if (std::fflush(stdout) != 0 && errno != EPIPE) {
-    std::fputs(fmt::format("hedgehop: cannot write to standard output: {}\n", std::strerror(errno)).c_str(), stderr);
+    std::fprintf(stderr, "hedgehop: cannot write to standard output: %s\n", std::strerror(errno));
     return kInternalError;
   }
   return status;

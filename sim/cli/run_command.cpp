@@ -64,8 +64,11 @@ std::string command_line(const RunOptions& options, const Scenario& scenario) {
 }
 
 void print_check(const CheckResult& check) {
-  const std::string limit = std::isnan(check.limit) ? "" : fmt::format("   limit {:.4g} {}", check.limit, check.unit);
-  fmt::print("  {}  {:<16} {:.4g} {}{}\n", check.passed ? "pass" : "FAIL", check.name, check.value, check.unit, limit);
+  const std::string unit = check.unit.empty() ? "" : " " + check.unit;
+  const std::string value = std::isnan(check.value) ? "not known" : fmt::format("{:.4g}{}", check.value, unit);
+  const std::string limit =
+      std::isnan(check.limit) ? "" : fmt::format(", must be {} {:.4g}{}", check.must, check.limit, unit);
+  fmt::print("  {}  {:<16} {}{}\n", check.passed ? "pass" : "FAIL", check.name, value, limit);
 }
 
 void print_verdict(const Scenario& scenario, const FlightResult& result, const std::filesystem::path& out,

@@ -70,6 +70,7 @@ struct CheckResult {
   double value = 0.0;  ///< NaN when it could not be measured
   double limit = 0.0;  ///< NaN when the check has no number
   std::string unit;
+  std::string_view must = "<=";  ///< how the value must stand to the limit: "<=", ">=" or ">"
 };
 
 /// Where a figure of a flight comes from.

@@ -39,7 +39,8 @@ Json checks(const std::vector<CheckResult>& results) {
                         {"passed", check.passed},
                         {"value", number(check.value)},
                         {"limit", number(check.limit)},
-                        {"unit", check.unit}});
+                        {"unit", check.unit},
+                        {"must", check.must}});
   }
   return list;
 }

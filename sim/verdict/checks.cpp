@@ -50,7 +50,7 @@ CheckResult evaluate(const ReachedGoalCheck& check, const Evidence& e) {
 CheckResult evaluate(const NoCollisionCheck&, const Evidence& e) {
   const FlightResult& result = e.flight.result;
   const double nearest_m = std::min(result.closest_obstacle.distance_m, result.closest_ground.distance_m);
-  return {std::string{NoCollisionCheck::kName}, result.outcome != Outcome::collided, nearest_m, 0.0, "m"};
+  return {std::string{NoCollisionCheck::kName}, result.outcome != Outcome::collided, nearest_m, 0.0, "m", ">"};
 }
 
 CheckResult evaluate(const MinClearanceCheck& check, const Evidence& e) {
@@ -58,7 +58,7 @@ CheckResult evaluate(const MinClearanceCheck& check, const Evidence& e) {
   double value_m = kInfinity;
   if (check.to != To::ground) value_m = std::min(value_m, e.flight.result.closest_obstacle.distance_m);
   if (check.to != To::obstacles) value_m = std::min(value_m, e.flight.result.closest_ground.distance_m);
-  return {std::string{MinClearanceCheck::kName}, value_m >= check.at_least_m, value_m, check.at_least_m, "m"};
+  return {std::string{MinClearanceCheck::kName}, value_m >= check.at_least_m, value_m, check.at_least_m, "m", ">="};
 }
 
 CheckResult evaluate(const AltitudeBandCheck& check, const Evidence& e) {
@@ -66,8 +66,12 @@ CheckResult evaluate(const AltitudeBandCheck& check, const Evidence& e) {
   const double lowest_m = -e.largest([](const TrajectoryRow& row) { return row.p_WB_true.z(); });
   // Reports the side with the least room.
   const bool low_side = lowest_m - check.min_m < check.max_m - highest_m;
-  return {std::string{AltitudeBandCheck::kName}, lowest_m >= check.min_m && highest_m <= check.max_m,
-          low_side ? lowest_m : highest_m, low_side ? check.min_m : check.max_m, "m"};
+  return {std::string{AltitudeBandCheck::kName},
+          lowest_m >= check.min_m && highest_m <= check.max_m,
+          low_side ? lowest_m : highest_m,
+          low_side ? check.min_m : check.max_m,
+          "m",
+          low_side ? ">=" : "<="};
 }
 
 CheckResult evaluate(const InsideBoxCheck& check, const Evidence& e) {
@@ -97,10 +101,14 @@ CheckResult evaluate(const MetricCheck& check, const Evidence& e) {
     if (metric.name != check.name) continue;
     const bool low = check.at_least && !(metric.value >= *check.at_least);
     const bool high = check.at_most && !(metric.value <= *check.at_most);
-    const double limit = low || !check.at_most ? check.at_least.value_or(kNaN) : *check.at_most;
-    return {check.name, !low && !high && std::isfinite(metric.value), metric.value, limit, metric.unit};
+    const bool by_least = low || !check.at_most;
+    const double limit = by_least ? check.at_least.value_or(kNaN) : *check.at_most;
+    return {check.name,   !low && !high && std::isfinite(metric.value),
+            metric.value, limit,
+            metric.unit,  by_least ? ">=" : "<="};
   }
-  return {check.name, false, kNaN, check.at_least.value_or(check.at_most.value_or(kNaN)), ""};
+  return {
+      check.name, false, kNaN, check.at_least.value_or(check.at_most.value_or(kNaN)), "", check.at_least ? ">=" : "<="};
 }
 
 CheckResult evaluate(const FloorVisitedCheck& check, const Evidence& e) {
@@ -108,7 +116,7 @@ CheckResult evaluate(const FloorVisitedCheck& check, const Evidence& e) {
   path.reserve(e.flight.trajectory.size());
   for (const TrajectoryRow& row : e.flight.trajectory) path.emplace_back(row.p_WB_true.head<2>());
   const double share = visited_share(e.scene.bounds_NE_m, check.cell_m, path, e.rotor_radius_m);
-  return {std::string{FloorVisitedCheck::kName}, share >= check.at_least, share, check.at_least, ""};
+  return {std::string{FloorVisitedCheck::kName}, share >= check.at_least, share, check.at_least, "", ">="};
 }
 
 CheckResult evaluate(const PathToleranceCheck& check, const Evidence& e) {
@@ -124,7 +132,7 @@ CheckResult evaluate(const PathToleranceCheck& check, const Evidence& e) {
     constexpr double kRoundedS = 1e-3;  // as the reference's times are
     const double early_s = reference.points.back().t_s - flown.back().t_s;
     if (early_s > kRoundedS && e.flight.result.outcome != Outcome::reached) {
-      return {name, false, flown.back().t_s, reference.points.back().t_s, "s"};
+      return {name, false, flown.back().t_s, reference.points.back().t_s, "s", ">="};
     }
     value_m = largest_deviation_m(flown, reference.points);
   } else {
@@ -145,7 +153,7 @@ CheckResult evaluate(const NoTruthUsedCheck&, const Evidence& e) {
 
 CheckResult evaluate(const RealtimeFactorCheck& check, const Evidence& e) {
   const double factor = e.flight.result.realtime_factor;
-  return {std::string{RealtimeFactorCheck::kName}, factor >= check.at_least, factor, check.at_least, ""};
+  return {std::string{RealtimeFactorCheck::kName}, factor >= check.at_least, factor, check.at_least, "", ">="};
 }
 
 }  // namespace

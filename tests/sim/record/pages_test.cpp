@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
@@ -69,11 +70,36 @@ TEST(ReportInBrowser, ShowsTheMapBesideTheTruthWhereAFlightHasOne) {
   EXPECT_THAT(page.value[2].get<std::string>(), ::testing::HasSubstr("1 false"));
 }
 
-TEST(ReportInBrowser, HasNoMapWhereAFlightHasNone) {
+TEST(ReportInBrowser, OpensWithWhatHappenedWhereAFlightCollidedAndLeavesOutDeadPlots) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  Flight flight = fake_flight(10.0, 1);
+  for (TrajectoryRow& row : flight.trajectory) row.wind_W.setZero();
+  flight.result.outcome = Outcome::collided;
+  flight.result.closest_obstacle = {.distance_m = 0.0, .what = "tower", .t_s = 10.0};
+  flight.result.checks = {{"no_collision", false, 0.0, 0.0, "m", ">"}};
+  write_result_files(run.path(), {.scenario = "collided", .scenario_yaml = run.yaml()}, flight);
+  write_report(run.path(), read_run(run.path()));
+  const TrajectoryRow& end = flight.trajectory.back();
+  const PageVisit page = visit(run.path() / "report.html", R"js(
+    const text = (e) => e.textContent;
+    const flat = [...document.querySelectorAll('.chart.flat')].map((e) => e.querySelector('h3').textContent);
+    return [text(document.querySelector('#story li')), text(document.querySelector('#checks')), flat,
+            document.querySelectorAll('.chart.flat .uplot').length];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value[0], fmt::format("Hit tower at 10.0 s, flying {:.1f} m/s at {:.1f} m altitude.",
+                                       end.v_WB_W_true.head<2>().norm(), -end.p_WB_true.z()));
+  EXPECT_THAT(page.value[1].get<std::string>(), ::testing::HasSubstr("> 0 m"));
+  EXPECT_THAT(page.value[2], ElementsAre("Wind"));
+  EXPECT_EQ(page.value[3], 0);
+}
+
+TEST(ReportInBrowser, HasNoMapAndNoStoryWhereAFlightHasNone) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;
   write_report(run.path(), read_run(run.path()));
-  const PageVisit page = visit(run.path() / "report.html", "return document.getElementById('landmarks') === null;");
+  const PageVisit page = visit(run.path() / "report.html",
+                               "return !document.getElementById('landmarks') && !document.getElementById('story');");
   EXPECT_THAT(page.errors, IsEmpty());
   EXPECT_TRUE(page.value.get<bool>());
 }

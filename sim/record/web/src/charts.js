@@ -47,6 +47,13 @@ function drawLimits(u, panel) {
   }
 }
 
+/** "north 0, east 0, down 0 m/s throughout" of a panel of which nothing ever changes; else nothing. */
+function flatWords({series, unit, limits}) {
+  const isFlat = ({values}) => values.length > 1 && values[0] !== null && values.every((v) => v === values[0]);
+  if (limits.length || !series.length || !series.every(isFlat)) return '';
+  return series.map(({label, values}) => `${label} ${short(values[0])}`).join(', ') + ` ${unit} throughout`;
+}
+
 class Charts {
   /**
    * @param host  element to fill with a heading and a grid of plots for each section.
@@ -61,6 +68,12 @@ class Charts {
       if (!sections.has(panel.section)) sections.set(panel.section, this.addSection(host, panel.section, sectionNotes));
       const card = sections.get(panel.section).appendChild(make('section', 'chart card'));
       card.append(make('h3', '', panel.title), make('div', 'note', panel.note));
+      const flat = axis === timeAxis && flatWords(panel);
+      if (flat) {
+        card.classList.add('flat');
+        card.append(make('p', '', flat));
+        continue;
+      }
       this.plots.push({panel, host: card.appendChild(make('div', 'plot')), u: null});
     }
     this.build();

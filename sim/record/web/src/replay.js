@@ -206,8 +206,12 @@ function draw(now_ms) {
 }
 
 fillControls();
-if (path.t_s.length) setTime(0);
-setCamera('orbit');
+// Opens at the instant that the address names (#t=12.5), at a collision's last seconds, or at the start.
+const asked_s = Number(new URLSearchParams(location.hash.slice(1)).get('t'));
+const collided = result.outcome === 'collided';
+if (path.t_s.length) setTime(asked_s > 0 ? Math.min(asked_s, end_s) : collided ? Math.max(0, end_s - 2) : 0);
+setCamera(collided ? 'chase' : 'orbit');
+element('camera').value = collided ? 'chase' : 'orbit';
 requestAnimationFrame(draw);
 
 // What tests read: places in V of the vehicle and of a point of its own, the controls' state, and how many solids' faces

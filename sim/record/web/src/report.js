@@ -33,7 +33,6 @@ function fillVerdict(host, {result, description, plan, has_replay}) {
   lines.append(make('span', '', !all ? 'no checks' : failed ? `${failed} of ${all} checks fail` : `all ${all} checks hold`));
   if (result.cause) what.append(make('p', 'fail', result.cause));
   if (result.truth_used?.length) what.append(make('p', 'fail', `The module used the truth: ${result.truth_used.join('; ')}`));
-  fillTiles(host.appendChild(make('div', 'tiles')), result);
 }
 
 function fillTiles(host, result) {
@@ -60,6 +59,8 @@ function addRow(table, cells, tag = 'td') {
   for (const [text, className] of cells) row.append(make(tag, className, text));
 }
 
+const RELATIONS = {'<=': '≤', '>=': '≥', '>': '>'};
+
 function fillChecks(host, checks) {
   if (!checks.length) {
     host.append(make('p', 'soft', 'The scenario has none.'));
@@ -67,11 +68,11 @@ function fillChecks(host, checks) {
   }
   host.classList.add('scroll');
   const table = host.appendChild(make('table'));
-  addRow(table, [['', ''], ['check', ''], ['value', 'number'], ['limit', 'number']], 'th');
-  for (const {name, passed, value, limit, unit} of checks) {
+  addRow(table, [['', ''], ['check', ''], ['value', 'number'], ['must be', 'number']], 'th');
+  for (const {name, passed, value, limit, unit, must} of checks) {
     const measure = (v) => v === null ? '–' : short(v) + (unit ? ' ' + unit : '');
     addRow(table, [[passed ? '✓ holds' : '✕ fails', passed ? 'pass' : 'fail'], [name.replaceAll('_', ' '), ''],
-      [measure(value), 'number'], [measure(limit), 'number']]);
+      [measure(value), 'number'], [limit === null ? '–' : `${RELATIONS[must] ?? must} ${measure(limit)}`, 'number']]);
   }
 }
 
@@ -81,7 +82,7 @@ function fillDetails(host, {result, module, scene, vehicle, scenario_yaml}) {
 
   const facts = host.appendChild(make('div', 'facts'));
   const add = (title, rows) => {
-    const table = facts.appendChild(make('table'));
+    const table = facts.appendChild(make('div', 'scroll')).appendChild(make('table'));
     addRow(table, [[title, ''], ['', 'number']], 'th');
     rows.forEach(([name, value]) => addRow(table, [[name, ''], [value, 'number']]));
   };
@@ -132,9 +133,11 @@ function main() {
   const data = JSON.parse(document.getElementById('data').textContent);
   dropUnflownGoal(data);
   fillVerdict(document.getElementById('verdict'), data);
+  fillTiles(document.getElementById('tiles'), data.result);
   fillChecks(document.getElementById('checks'), data.result.checks);
   fillDetails(document.getElementById('details'), data);
   const film = openFilm();
+  fillStory(document.getElementById('story'), data, film);
   if (!data.map) document.getElementById('landmarks-card').remove();
 
   // One instant is shown by plan and plots: the pointer's, else the video's.
