@@ -35,10 +35,10 @@ class StripWatcher : public FlightWatcher {
   explicit StripWatcher(double rate_hz) : rate_hz_(rate_hz) {}
 
   double image_rate_hz() const override { return rate_hz_; }
-  void on_images(int64_t t_ns, std::span<const avoidance::CameraFrame> frames, const cv::Mat& annotated) override {
-    const cv::Mat source = annotated.empty() ? contact_sheet(frames) : annotated;
+  void on_images(const ShownInstant& shown) override {
+    const cv::Mat source = shown.annotated.empty() ? contact_sheet(shown.frames) : shown.annotated;
     if (source.empty()) return;
-    Image image{.t_s = 1e-9 * static_cast<double>(t_ns), .rgb = {}};
+    Image image{.t_s = 1e-9 * static_cast<double>(shown.t_ns), .rgb = {}};
     const int height_px = std::max(1, static_cast<int>(std::lround(double{kWidthPx} * source.rows / source.cols)));
     cv::resize(source, image.rgb, {kWidthPx, height_px}, 0, 0, cv::INTER_AREA);
     images_.push_back(std::move(image));

@@ -30,9 +30,7 @@ class RunWatcher : public FlightWatcher {
       : film_(scenario.film, film_file), progress_(scenario.name), quiet_(quiet) {}
 
   double image_rate_hz() const override { return film_.image_rate_hz(); }
-  void on_images(int64_t t_ns, std::span<const avoidance::CameraFrame> frames, const cv::Mat& annotated) override {
-    film_.on_images(t_ns, frames, annotated);
-  }
+  void on_images(const ShownInstant& shown) override { film_.on_images(shown); }
   void on_progress(double t_s, double duration_s, double goal_distance_m) override {
     if (!quiet_) progress_.show(t_s, duration_s, goal_distance_m);
   }

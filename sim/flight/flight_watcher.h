@@ -25,6 +25,15 @@ struct SensorTick {
   std::function<cv::Mat(std::string_view role)> depth;
 };
 
+/// A flight at one instant, for people.
+struct ShownInstant {
+  int64_t t_ns = 0;
+  cv::Mat annotated;                               ///< the module's image (CV_8UC3, RGB); empty where it draws none
+  std::span<const avoidance::CameraFrame> frames;  ///< of all cameras, where it draws none
+  std::string_view status;                         ///< of the last decision; empty before the first
+  double obstacle_clearance_m = 0.0;               ///< true, of the hull; infinity where nothing is within range
+};
+
 /// Looks on while a flight is flown, for films, exports and progress; what it does cannot reach the flight.
 class FlightWatcher {
  public:
@@ -32,9 +41,7 @@ class FlightWatcher {
 
   /// Images a second it wants, 0 for none.
   virtual double image_rate_hz() const { return 0.0; }
-  /// The module's annotated image (CV_8UC3, RGB), or, where it draws none, all cameras at one instant.
-  virtual void on_images(int64_t /*t_ns*/, std::span<const avoidance::CameraFrame> /*frames*/,
-                         const cv::Mat& /*annotated*/) {}
+  virtual void on_images(const ShownInstant& /*shown*/) {}
   /// Whether it wants on_sensors(). Then every camera of the rig exposes at its rate, whoever else needs it.
   virtual bool wants_sensors() const { return false; }
   /// On every tick on which the IMU or a camera measured something.

@@ -71,7 +71,8 @@ void Episode::act(const avoidance::Command* command) {
     decide();
   }
   if (tick_ % control_period_ == 0) steer();
-  onlooker_.show(tick_, pilot_.module(), scenario_.duration_s, goal_distance_m());
+  onlooker_.show(tick_, pilot_.module(), log_.status(), proximity_.obstacle_clearance_m, scenario_.duration_s,
+                 goal_distance_m());
 }
 
 Flight Episode::flight() const {

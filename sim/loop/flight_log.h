@@ -30,6 +30,11 @@ class FlightLog {
   /// Every decision.
   void add(double t_s, const avoidance::Decision& decision);
 
+  /// Of the last decision; empty before the first.
+  std::string_view status() const {
+    return flight_.decisions.empty() ? std::string_view() : std::string_view(flight_.decisions.back().status);
+  }
+
   /// The flight so far, with its figures; outcome, timing, metrics and checks are the caller's to fill.
   Flight flight(double flight_time_s) const;
 

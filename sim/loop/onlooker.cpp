@@ -28,17 +28,17 @@ void Onlooker::hand_over_sensors(int64_t tick, const BodyMotion& body) {
   watcher_->on_sensors({ticks_.t_ns(tick), aircraft_.body(), avionics.imu(), avionics.imu_bias(), frames, depth});
 }
 
-void Onlooker::show(int64_t tick, const avoidance::Module& module, double duration_s,
-                    std::optional<double> goal_distance_m) {
+void Onlooker::show(int64_t tick, const avoidance::Module& module, std::string_view status, double obstacle_clearance_m,
+                    double duration_s, std::optional<double> goal_distance_m) {
   if (!watcher_) return;
   if (image_period_ > 0 && tick % image_period_ == 0) {
-    const cv::Mat annotated = module.annotate();
-    const int64_t t_ns = ticks_.t_ns(tick);
-    if (!annotated.empty()) {
-      watcher_->on_images(t_ns, {}, annotated);
-    } else {
-      watcher_->on_images(t_ns, cameras_.snapshot(t_ns, aircraft_.X_WB()), annotated);
-    }
+    ShownInstant shown{.t_ns = ticks_.t_ns(tick),
+                       .annotated = module.annotate(),
+                       .frames = {},
+                       .status = status,
+                       .obstacle_clearance_m = obstacle_clearance_m};
+    if (shown.annotated.empty()) shown.frames = cameras_.snapshot(shown.t_ns, aircraft_.X_WB());
+    watcher_->on_images(shown);
   }
   if (tick % ticks_.ticks(1.0) == 0) {
     watcher_->on_progress(ticks_.t_s(tick), duration_s, goal_distance_m.value_or(std::nan("")));

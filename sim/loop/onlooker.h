@@ -20,8 +20,9 @@ class Onlooker {
   /// The readings of all sensors, if it wants them. @param body  the aircraft's motion on this tick.
   void hand_over_sensors(int64_t tick, const BodyMotion& body);
   /// Images and progress, where they are due.
-  /// @param goal_distance_m  horizontal. @param duration_s  of the longest flight.
-  void show(int64_t tick, const avoidance::Module& module, double duration_s, std::optional<double> goal_distance_m);
+  /// @param status  of the last decision. @param goal_distance_m  horizontal. @param duration_s  of the longest flight.
+  void show(int64_t tick, const avoidance::Module& module, std::string_view status, double obstacle_clearance_m,
+            double duration_s, std::optional<double> goal_distance_m);
 
  private:
   FlightWatcher* watcher_;

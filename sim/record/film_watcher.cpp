@@ -1,6 +1,9 @@
 #include "sim/record/film_watcher.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <opencv2/imgproc.hpp>
 #include <utility>
@@ -9,6 +12,7 @@ namespace hedgehop::sim {
 namespace {
 
 constexpr float kDarkAtM = 50.0f;
+constexpr int kCaptionPx = 22;
 
 cv::Mat to_rgb(const cv::Mat& image) {
   cv::Mat rgb;
@@ -25,6 +29,12 @@ cv::Mat to_rgb(const cv::Mat& image) {
       return rgb;
     }
   }
+}
+
+std::string caption_of(const ShownInstant& shown) {
+  std::string text = fmt::format("{:.1f} s   {}", 1e-9 * static_cast<double>(shown.t_ns), shown.status);
+  if (std::isfinite(shown.obstacle_clearance_m)) text += fmt::format("   {:.1f} m clear", shown.obstacle_clearance_m);
+  return text;
 }
 
 }  // namespace
@@ -53,13 +63,18 @@ cv::Mat contact_sheet(std::span<const avoidance::CameraFrame> frames) {
 FilmWatcher::FilmWatcher(const FilmConfig& config, std::filesystem::path file_webm)
     : config_(config), file_(std::move(file_webm)) {}
 
-void FilmWatcher::on_images(int64_t /*t_ns*/, std::span<const avoidance::CameraFrame> frames,
-                            const cv::Mat& annotated) {
-  const cv::Mat source = annotated.empty() ? contact_sheet(frames) : annotated;
+void FilmWatcher::on_images(const ShownInstant& shown) {
+  const cv::Mat source = shown.annotated.empty() ? contact_sheet(shown.frames) : shown.annotated;
   if (source.empty() || !fault_.empty()) return;
   try {
     const double scale = static_cast<double>(config_.width_px) / source.cols;
-    cv::resize(source, image_, {config_.width_px, static_cast<int>(source.rows * scale)}, 0, 0, cv::INTER_AREA);
+    const int height_px = static_cast<int>(source.rows * scale);
+    image_.create(height_px + kCaptionPx, config_.width_px, CV_8UC3);
+    cv::Mat picture = image_.rowRange(0, height_px), caption = image_.rowRange(height_px, image_.rows);
+    cv::resize(source, picture, picture.size(), 0, 0, cv::INTER_AREA);
+    caption.setTo(cv::Scalar::all(24));
+    cv::putText(caption, caption_of(shown), {8, kCaptionPx - 7}, cv::FONT_HERSHEY_SIMPLEX, 0.5, {235, 235, 235}, 1,
+                cv::LINE_AA);
     if (!film_) {
       std::filesystem::create_directories(file_.parent_path());
       film_.emplace(file_, config_.rate_hz, image_.size());

@@ -10,14 +10,15 @@
 
 namespace hedgehop::sim {
 
-/// Films a flight: the module's annotated images, or, where it draws none, all cameras side by side.
-/// What goes wrong with the film is kept for fault() and never stops the flight.
+/// Films a flight: the module's annotated images, or, where it draws none, all cameras side by side; below them the
+/// time, the module's status and the true clearance. What goes wrong with the film is kept for fault() and never stops
+/// the flight.
 class FilmWatcher : public FlightWatcher {
  public:
   FilmWatcher(const FilmConfig& config, std::filesystem::path file_webm);
 
   double image_rate_hz() const override { return config_.enabled ? config_.rate_hz : 0.0; }
-  void on_images(int64_t t_ns, std::span<const avoidance::CameraFrame> frames, const cv::Mat& annotated) override;
+  void on_images(const ShownInstant& shown) override;
   void close();
 
   /// Why there is no film, or a shorter one; empty when nothing went wrong.

@@ -7,6 +7,7 @@
 #include <functional>
 #include <opencv2/imgproc.hpp>
 
+#include "sim/record/film_watcher.h"
 #include "tests/sim/record/film_reader.h"
 #include "tests/sim/record/temporary_folder.h"
 
@@ -116,6 +117,32 @@ TEST(Film, FullDiskIsAnErrorAndLeavesNoFilm) {
   };
   EXPECT_THAT(error_of(action), AllOf(HasSubstr("video.webm"), HasSubstr("No space left on device")));
   EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+TEST(FilmWatcher, WritesTimeStatusAndClearanceBelowThePictureOnly) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "video.webm";
+  FilmConfig config;
+  config.width_px = 320;
+  config.rate_hz = 5.0;
+  FilmWatcher watcher(config, file);
+  const cv::Mat picture(120, 160, CV_8UC3, cv::Scalar(90, 120, 150));
+  for (const auto& [status, clearance_m] : {std::pair{"cruise", 12.0}, {"cruise", 12.0}, {"avoid", 3.0}}) {
+    watcher.on_images(
+        {.t_ns = 0, .annotated = picture, .frames = {}, .status = status, .obstacle_clearance_m = clearance_m});
+  }
+  watcher.close();
+  ASSERT_EQ(watcher.fault(), "");
+  const ReadFilm film = read_film(file);
+  ASSERT_EQ(film.images.size(), 3U);
+  const auto differ = [&](size_t a, size_t b, cv::Range rows) {
+    return cv::norm(film.images[a].rgb.rowRange(rows), film.images[b].rgb.rowRange(rows), cv::NORM_INF);
+  };
+  const cv::Range image_rows(0, 236), caption_rows(240, film.images[0].rgb.rows);
+  constexpr double kCoding = 25.0;  // what the encoder makes of it
+  EXPECT_LT(differ(0, 2, image_rows), kCoding);
+  EXPECT_LT(differ(0, 1, caption_rows), kCoding);
+  EXPECT_GT(differ(0, 2, caption_rows), 100.0);
 }
 
 }  // namespace

@@ -25,10 +25,10 @@ Scenario short_city(std::vector<std::string> overrides = {}) {
 class ScribblingWatcher : public FlightWatcher {
  public:
   double image_rate_hz() const override { return 10.0; }
-  void on_images(int64_t, std::span<const avoidance::CameraFrame> frames, const cv::Mat& annotated) override {
+  void on_images(const ShownInstant& shown) override {
     ++images;
-    for (const avoidance::CameraFrame& frame : frames) cv::Mat(frame.image).setTo(255);
-    if (!annotated.empty()) cv::Mat(annotated).setTo(255);
+    for (const avoidance::CameraFrame& frame : shown.frames) cv::Mat(frame.image).setTo(255);
+    if (!shown.annotated.empty()) cv::Mat(shown.annotated).setTo(255);
   }
   void on_progress(double, double, double) override { ++seconds; }
   int images = 0, seconds = 0;
