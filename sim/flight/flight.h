@@ -92,6 +92,13 @@ struct StageTime {
   double median_ms = 0.0, p95_ms = 0.0;
 };
 
+/// What a flight's bits depend on besides the build: two flights of one build are equal where these are.
+struct Libraries {
+  std::string images;     ///< who computed on them: "OpenCV 4.6.0"
+  std::string functions;  ///< sin, exp and the like: "SLEEF 3.5.1"
+  std::string drawn_by;   ///< one line: vendor, renderer, version
+};
+
 struct FlightResult {
   Outcome outcome = Outcome::fault;
   std::string cause;  ///< one line for collided and fault, else empty
@@ -107,6 +114,7 @@ struct FlightResult {
   double realtime_factor = 0.0, wall_s = 0.0;
   std::vector<CheckResult> checks;
   std::string trajectory_hash;  ///< of the true state at every control tick, bit for bit
+  Libraries libraries;
   std::vector<MetricValue> metrics;
   scenes::SceneFigures scene;  ///< of what stands at the height of the start, within a meter
 };

@@ -79,6 +79,9 @@ Json result_data(const RunInfo& info, const FlightResult& result) {
   json["wall_s"] = number(result.wall_s);
   json["checks"] = checks(result.checks);
   json["trajectory_hash"] = result.trajectory_hash;
+  json["libraries"] = Json{{"images", result.libraries.images},
+                           {"functions", result.libraries.functions},
+                           {"drawn_by", result.libraries.drawn_by}};
   json["scene"] = Json{{"obstacles", result.scene.solids},
                        {"least_gap_m", number(result.scene.smallest_gap_m)},
                        {"median_gap_m", number(result.scene.median_gap_m)},
