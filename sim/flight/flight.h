@@ -105,6 +105,7 @@ struct FlightResult {
   /// What is true of all that the module got: "camera 'front': projected corners", "sensor 'gps': exact"; empty where
   /// all of it was measured.
   std::vector<std::string> truth_used;
+  std::vector<std::string> failures;  ///< that the scenario set: "20 s to 22 s: camera.front black"
   double flight_time_s = 0.0, path_length_m = 0.0, mean_speed_mps = 0.0;
   ClosestApproach closest_obstacle, closest_ground;
   std::optional<double> goal_distance_m;  ///< at the end, horizontal; none without a goal

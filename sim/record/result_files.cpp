@@ -60,6 +60,7 @@ Json result_data(const RunInfo& info, const FlightResult& result) {
   json["outcome"] = std::string(to_string(result.outcome));
   json["cause"] = result.cause;
   json["truth_used"] = result.truth_used;
+  json["failures"] = result.failures;
   json["flight_time_s"] = number(result.flight_time_s);
   json["path_length_m"] = number(result.path_length_m);
   json["min_clearance_m"] = number(closest.distance_m);

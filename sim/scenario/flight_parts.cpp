@@ -12,7 +12,8 @@ dynamics::air::Wind build_wind(const Scenario& scenario) { return {scenario.wind
 
 dynamics::Avionics build_avionics(const Scenario& scenario, const dynamics::VehicleConfig& carrier) {
   return {scenario.avionics, carrier, 1.0 / static_cast<double>(scenario.physics_rate_hz),
-          [seed = scenario.seed](std::string_view name) { return stream_seed(seed, name); }};
+          [seed = scenario.seed](std::string_view name) { return stream_seed(seed, name); },
+          sensor_failures(scenario.failures, scenario.seed)};
 }
 
 std::unique_ptr<avoidance::Module> build_module(const AvoidanceConfig& config) {
@@ -25,6 +26,20 @@ std::unique_ptr<avoidance::Module> build_module(const AvoidanceConfig& config) {
         }
       },
       config);
+}
+
+avoidance::Setup module_setup(const Scenario& scenario, double vehicle_radius_m) {
+  const dynamics::control::AutopilotConfig& limits = scenario.avionics.autopilot;
+  avoidance::Setup setup{.limits = {limits.speed_limit_mps, limits.acceleration_limit_mps2, vehicle_radius_m},
+                         .seed = stream_seed(scenario.seed, "module")};
+  for (const CameraConfig& camera : scenario.rig.cameras) {
+    setup.cameras.push_back({camera.role, camera.model(), camera.X_BC(), camera.rate_hz});
+  }
+  return setup;
+}
+
+avoidance::Setup module_setup(const Scenario& scenario) {
+  return module_setup(scenario, dynamics::radius_m(dynamics::hull(scenario.vehicle)));
 }
 
 scenes::Scene build_scene(const scenes::SceneConfig& config, uint64_t run_seed) {

@@ -59,6 +59,11 @@ dynamics::Avionics build_avionics(const Scenario& scenario, const dynamics::Vehi
 /// Null for a module of a shared library: reading a scenario loads no foreign code.
 std::unique_ptr<avoidance::Module> build_module(const AvoidanceConfig& config);
 
+/// What a module is told before its flight. @param vehicle_radius_m  of the vertical cylinder that holds the vehicle.
+avoidance::Setup module_setup(const Scenario& scenario, double vehicle_radius_m);
+/// As above, of the scenario's own vehicle.
+avoidance::Setup module_setup(const Scenario& scenario);
+
 /// The scene of a flight, by the run's own seed. Throws std::invalid_argument on a scene that cannot be.
 scenes::Scene build_scene(const scenes::SceneConfig& config, uint64_t run_seed);
 
