@@ -1,10 +1,14 @@
 #include "sim/scenario/flight_parts.h"
 
+#include <fmt/format.h>
+
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "sim/fields/bounds.h"
 #include "sim/scenario/random_stream.h"
+#include "sim/scenario/tree.h"
 
 namespace hedgehop::sim {
 
@@ -40,6 +44,25 @@ avoidance::Setup module_setup(const Scenario& scenario, double vehicle_radius_m)
 
 avoidance::Setup module_setup(const Scenario& scenario) {
   return module_setup(scenario, dynamics::radius_m(dynamics::hull(scenario.vehicle)));
+}
+
+InputError placed(const Node* root, const InputError& faults) {
+  if (!root) return faults;
+  std::vector<std::string> lines;
+  for (const std::string& fault : faults.faults()) {
+    std::string path = "rig";
+    if (fault.starts_with('\''))
+      path = fault.substr(1, fault.find('\'', 1) - 1);
+    else if (!fault.starts_with("camera '"))
+      path.clear();
+    // The key, where a generator's message names one.
+    const size_t key = path.size() + 4, end = fault.find(": ", key);
+    if (fault.starts_with('\'') && end != std::string::npos && fault.find(' ', key) > end) {
+      path = join_path(path, fault.substr(key, end - key));
+    }
+    lines.push_back(fmt::format("{}: {}", place_of(*root, path).text(), fault));
+  }
+  return InputError(std::move(lines));
 }
 
 scenes::Scene build_scene(const scenes::SceneConfig& config, uint64_t run_seed) {

@@ -19,6 +19,8 @@
 /// to check its parameters, and the flight uses what the reader built.
 namespace hedgehop::sim {
 
+struct Node;
+
 /// The vehicle, its air and its avionics.
 struct AircraftParts {
   dynamics::Vehicle vehicle;
@@ -37,7 +39,12 @@ struct LoadedScenario {
   Scenario scenario;
   FlightParts parts;
   Inputs inputs;
+  std::shared_ptr<const Node> root;  ///< what it was read from
 };
+
+/// Returns faults that begin with a path ("'scene': trees: ...", "camera 'front': ...") with its place before them.
+/// @param root  null for a scenario that no file was read for: the faults as they are.
+InputError placed(const Node* root, const InputError& faults);
 
 /// Reads a scenario, as strictly as load_scenario(), and keeps the parts that were built to check it.
 /// @param seed  replaces the file's. Throws InputError with every fault found.

@@ -117,8 +117,13 @@ class Simulation::Impl {
   double flying_s_ = 0.0;           ///< wall time
 };
 
-Simulation::Simulation(LoadedScenario loaded, FlightWatcher* watcher)
-    : impl_(std::make_unique<Impl>(std::move(loaded.scenario), std::move(loaded.parts), ModuleMaker{}, watcher)) {}
+Simulation::Simulation(LoadedScenario loaded, FlightWatcher* watcher) {
+  try {
+    impl_ = std::make_unique<Impl>(std::move(loaded.scenario), std::move(loaded.parts), ModuleMaker{}, watcher);
+  } catch (const InputError& faults) {
+    throw placed(loaded.root.get(), faults);
+  }
+}
 
 Simulation::Simulation(Scenario scenario, ModuleMaker module, FlightWatcher* watcher) {
   FlightParts parts = build_parts(scenario);

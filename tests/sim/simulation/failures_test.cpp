@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +24,8 @@ Scenario hovering(const std::string& failures, const std::string& duration = "30
   return scenario_of(
       "worlds/wall.yaml",
       {"duration=" + duration, "vehicle={use: ../vehicles/hummingbird.yaml}", "velocimeter.enabled=false",
-       "goal={north: 0.01, east: 0, altitude: 5, radius: 1e-6, height_tolerance: 1e-6}", "rig.cameras=[]", "avoidance.slow_radius=2",
+       "goal={north: 0.01, east: 0, altitude: 5, radius: 1e-6, height_tolerance: 1e-6}", "rig.cameras=[]",
+       "avoidance.slow_radius=2",
        "avionics.gps={wander_horizontal: 0, wander_vertical: 0, noise: 0.01, velocity_noise: 0.01}",
        "failures=" + failures});
 }
@@ -118,9 +120,26 @@ TEST(FailuresInFlight, LinkLatencyDelaysACommandByItsValue) {
     Scenario scenario = hovering(failures, "8");
     scenario.goal->north_m = 30.0;
     const Flight flight = Simulation(scenario).run();
-    return std::ranges::find_if(flight.trajectory, [](const TrajectoryRow& row) { return row.v_WB_W_true.x() > 0.5; })->t_s;
+    return std::ranges::find_if(flight.trajectory, [](const TrajectoryRow& row) { return row.v_WB_W_true.x() > 0.5; })
+        ->t_s;
   };
   EXPECT_NEAR(first_motion_s("[{at: 0, what: link, mode: bias, value: 2}]") - first_motion_s("[]"), 2.0, 0.03);
+}
+
+TEST(FaultsOfAssembledScenarios, AreListedWithFileAndLine) {
+  const auto fault_with = [](const std::string& file, const std::vector<std::string>& overrides) -> std::string {
+    try {
+      Simulation(load_flight(std::string(HEDGEHOP_SOURCE_DIR) + "/configs/" + file, overrides));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "flies";
+  };
+  EXPECT_THAT(fault_with("andert2007_forest.yaml", {"scene.keep_clear.0.radius=1000"}),
+              testing::MatchesRegex(".*/andert2007_forest.yaml:[0-9]+:[0-9]+: 'scene': trees: 100; valid: .*"));
+  EXPECT_THAT(
+      fault_with("garratt2009_city_0_light.yaml", {"start.altitude=0"}),
+      testing::MatchesRegex(".*/garratt2009_city_0.yaml:[0-9]+:[0-9]+: 'start': no flight can begin there: .*"));
 }
 
 }  // namespace
