@@ -1,5 +1,7 @@
 #include "avoidance/registry.h"
 
+#include "avoidance/sight.h"
+
 namespace hedgehop::avoidance {
 namespace {
 
@@ -28,6 +30,8 @@ struct Make {
 
 }  // namespace
 
-std::unique_ptr<Module> make_module(const ModuleConfig& config) { return std::visit(Make{}, config); }
+std::unique_ptr<Module> make_module(const ModuleConfig& config) {
+  return stopping_when_blind(std::visit(Make{}, config));
+}
 
 }  // namespace hedgehop::avoidance

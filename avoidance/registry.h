@@ -21,7 +21,8 @@ using ModuleConfig = std::variant<GoToGoalConfig, flow_balance::FlowBalanceConfi
                                   corridor_centering::CorridorCenteringConfig, landmark_map::LandmarkMapModuleConfig,
                                   policy::OnnxPolicyConfig>;
 
-/// Returns the module that the config belongs to; reset() comes next. Throws std::invalid_argument on a bad config.
+/// Returns the module that the config belongs to, made to stop when it is blind (sight.h); reset() comes next. Throws
+/// std::invalid_argument on a bad config.
 std::unique_ptr<Module> make_module(const ModuleConfig& config);
 
 }  // namespace hedgehop::avoidance

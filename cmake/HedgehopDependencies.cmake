@@ -8,6 +8,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 
 include(HedgehopOpenCV)
+include(HedgehopSleef)
 include(HedgehopPackages)
 
 if(HEDGEHOP_TESTS)

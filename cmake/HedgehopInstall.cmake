@@ -9,13 +9,16 @@ add_library(hedgehop_sim INTERFACE)
 target_link_libraries(hedgehop_sim INTERFACE hedgehop_sim_simulation)
 set_target_properties(hedgehop_sim PROPERTIES EXPORT_NAME sim)
 install(TARGETS hedgehop_sim EXPORT hedgehop COMPONENT development)
+set_target_properties(hedgehop_sim_libm PROPERTIES EXPORT_NAME sim_libm)
+install(TARGETS hedgehop_sim_libm EXPORT hedgehop COMPONENT development)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/hedgehop)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/hedgehopConfig.cmake.in ${PROJECT_BINARY_DIR}/hedgehopConfig.cmake
                               INSTALL_DESTINATION ${package})
 # Modules are distinguished by the interface they were built against (avoidance/plugin.h); no version promises it.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/hedgehopConfigVersion.cmake COMPATIBILITY ExactVersion)
 install(FILES ${PROJECT_BINARY_DIR}/hedgehopConfig.cmake ${PROJECT_BINARY_DIR}/hedgehopConfigVersion.cmake
-              ${CMAKE_CURRENT_LIST_DIR}/HedgehopOpenCV.cmake ${CMAKE_CURRENT_LIST_DIR}/HedgehopPackages.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/HedgehopOpenCV.cmake ${CMAKE_CURRENT_LIST_DIR}/HedgehopSleef.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/HedgehopPackages.cmake
         DESTINATION ${package} COMPONENT development)
 install(EXPORT hedgehop NAMESPACE hedgehop:: FILE hedgehopTargets.cmake DESTINATION ${package} COMPONENT development)
 install(TARGETS hedgehop COMPONENT program)

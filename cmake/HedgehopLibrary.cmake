@@ -23,6 +23,9 @@ function(hedgehop_library folder)
   if(arg_SRCS)
     set(scope PUBLIC)
     add_library(${target} STATIC ${arg_SRCS})
+    if(TARGET hedgehop_sim_libm)  # absent in the small projects of tests/style
+      target_link_libraries(${target} PUBLIC hedgehop_sim_libm)
+    endif()
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
     target_compile_options(${target} PRIVATE ${HEDGEHOP_LIBRARY_OPTIONS})
     if(COMMAND hedgehop_use_precompiled)  # absent in the small projects of tests/style

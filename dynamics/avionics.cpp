@@ -9,12 +9,14 @@
 namespace hedgehop::dynamics {
 namespace {
 
+using sensors::Instrument;
+
 constexpr double kSurveyedHeadingSigmaRad = 0.017453292519943295;  // 1 deg: chosen, as good as a usual compass
 
 }  // namespace
 
 Avionics::Avionics(const AvionicsConfig& config, const VehicleConfig& vehicle, double physics_dt_s,
-                   const StreamSeed& stream_seed)
+                   const StreamSeed& stream_seed, const std::vector<sensors::SensorFailure>& failures)
     : config_(fields::require_bounds(config)),
       physics_dt_s_(physics_dt_s),
       beam_direction_B_(sensors::beam_direction_B(config.range_finder)),
@@ -29,6 +31,8 @@ Avionics::Avionics(const AvionicsConfig& config, const VehicleConfig& vehicle, d
       gps_(config.gps, physics_dt_s, seeds_.gps),
       height_sensor_("height_sensor", config.height_sensor.ranger, physics_dt_s, seeds_.height_sensor),
       magnetometer_(config.magnetometer, physics_dt_s, seeds_.magnetometer),
+      failing_(failures),
+      failures_(failures),
       navigation_(config.navigation,
                   {config.imu, config.gps, config.height_sensor, config.magnetometer, config.barometer}),
       autopilot_(config.autopilot, vehicle) {
@@ -49,6 +53,7 @@ void Avionics::reset(const SensedTruth& truth) {
   height_sensor_ = sensors::Ranger("height_sensor", config_.height_sensor.ranger, physics_dt_s_, seeds_.height_sensor);
   magnetometer_ = sensors::Magnetometer(config_.magnetometer, physics_dt_s_, seeds_.magnetometer);
   imu_reading_.reset();
+  failures_ = sensors::SensorFailures(failing_);
   reset_options();
 
   sensors::NormalStream survey(seeds_.survey);
@@ -84,35 +89,57 @@ void Avionics::sense(int64_t t_ns, const SensedTruth& truth, const VelocitySenso
   const auto due = [tick](int64_t period) { return tick % period == 0; };
 
   imu_reading_.reset();
-  if (due(imu_.period())) navigation_.predict(imu_reading_.emplace(imu_.read()));
+  if (due(imu_.period())) navigation_.predict(imu_reading_.emplace(read_imu(t_ns)));
   if (height_sensor_.observes(tick)) {
     height_sensor_.observe(
         sensors::nearest_echo_m(config_.height_sensor, truth.height_above_surface_m, truth.height_beside));
   }
   if (height_sensor_.due(tick)) {
-    if (const std::optional<double> height_m = height_sensor_.read()) navigation_.correct_height(*height_m);
+    const std::optional<double> height_m = failures_.deliver(Instrument::height_sensor, t_ns, height_sensor_.read());
+    if (height_m) navigation_.correct_height(*height_m);
   }
   if (barometer_) {
     barometer_->observe(-body.p_WB.z());
-    const std::optional<double> pressure_pa = due(barometer_->period()) ? barometer_->read() : std::nullopt;
-    if (pressure_pa) navigation_.correct_pressure(*pressure_pa);
+    if (due(barometer_->period())) {
+      const std::optional<double> pressure_pa = failures_.deliver(Instrument::barometer, t_ns, barometer_->read());
+      if (pressure_pa) navigation_.correct_pressure(*pressure_pa);
+    }
   }
   if (due(magnetometer_.period())) {
-    const std::optional<double> heading_rad = magnetometer_.read(to_roll_pitch_heading(body.q_WB)[2]);
+    const std::optional<double> heading_rad =
+        failures_.deliver(Instrument::magnetometer, t_ns, magnetometer_.read(to_roll_pitch_heading(body.q_WB)[2]));
     if (heading_rad) navigation_.correct_heading(*heading_rad);
   }
   if (due(gps_.period())) {
-    if (const std::optional<sensors::GpsFix> fix = gps_.read()) navigation_.correct_gps(*fix);
+    if (const std::optional<sensors::GpsFix> fix = read_gps(t_ns)) navigation_.correct_gps(*fix);
   }
-  if (range_finder_) sense_range(tick, truth);
+  if (range_finder_) sense_range(t_ns, tick, truth);
   if (!flow_velocity) return;
   if (const std::optional<VelocityReading> reading = flow_velocity(navigation_.estimate())) {
-    navigation_.correct_velocity(reading->v_WB_B_xy_meas, reading->sigma_mps);
+    const Eigen::Vector3d read(reading->v_WB_B_xy_meas.x(), reading->v_WB_B_xy_meas.y(), 0.0);
+    const auto delivered = failures_.deliver(Instrument::velocimeter, t_ns, read);
+    if (delivered) navigation_.correct_velocity(delivered->head<2>(), reading->sigma_mps);
   }
 }
 
+/// The flight computer cannot do without: an IMU that is off reads 0.
+sensors::ImuReading Avionics::read_imu(int64_t t_ns) {
+  const sensors::ImuReading read = imu_.read();
+  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  return {failures_.deliver(Instrument::gyros, t_ns, read.w_WB_B_meas).value_or(zero),
+          failures_.deliver(Instrument::accelerometers, t_ns, read.specific_force_B_meas).value_or(zero)};
+}
+
+std::optional<sensors::GpsFix> Avionics::read_gps(int64_t t_ns) {
+  const std::optional<sensors::GpsFix> read = gps_.read();
+  const auto p = failures_.deliver(Instrument::gps, t_ns, read ? std::optional(read->p_WB_W_meas) : std::nullopt);
+  const auto v =
+      failures_.deliver(Instrument::gps_velocity, t_ns, read ? std::optional(read->v_WB_W_meas) : std::nullopt);
+  return p && v ? std::optional(sensors::GpsFix{*p, *v}) : std::nullopt;
+}
+
 /// Casts the beam only on the ticks on which a reading begins.
-void Avionics::sense_range(int64_t tick, const SensedTruth& truth) {
+void Avionics::sense_range(int64_t t_ns, int64_t tick, const SensedTruth& truth) {
   if (range_finder_->observes(tick)) {
     const RigidBodyState& body = truth.body;
     const Eigen::Vector3d from_W = body.p_WB + body.q_WB * config_.range_finder.p_BI_m;
@@ -120,7 +147,7 @@ void Avionics::sense_range(int64_t tick, const SensedTruth& truth) {
     range_finder_->observe(truth.beam_distance ? truth.beam_distance(from_W, body.q_WB * beam_direction_B_, reach_m)
                                                : std::numeric_limits<double>::infinity());
   }
-  if (range_finder_->due(tick)) range_m_ = range_finder_->read();
+  if (range_finder_->due(tick)) range_m_ = failures_.deliver(Instrument::range_finder, t_ns, range_finder_->read());
 }
 
 }  // namespace hedgehop::dynamics

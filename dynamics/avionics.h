@@ -16,6 +16,7 @@
 #include "dynamics/sensors/imu.h"
 #include "dynamics/sensors/magnetometer.h"
 #include "dynamics/sensors/range_finder.h"
+#include "dynamics/sensors/sensor_failures.h"
 #include "dynamics/vehicle.h"
 
 /// Onboard sensors, navigation filter and autopilot of one aircraft.
@@ -67,8 +68,9 @@ struct SensedTruth {
 class Avionics {
  public:
   /// Throws std::invalid_argument "<key>: ..." on values out of range. @param physics_dt_s  between calls of sense().
+  /// @param failures  of the flight's sensors, as they read.
   Avionics(const AvionicsConfig& config, const VehicleConfig& vehicle, double physics_dt_s,
-           const StreamSeed& stream_seed);
+           const StreamSeed& stream_seed, const std::vector<sensors::SensorFailure>& failures = {});
 
   /// Starts a flight in a trimmed hover, after an alignment on the ground (control::GroundAlignment); afterwards it
   /// behaves as one newly built. The position is surveyed, and so is the heading where no magnetometer reads.
@@ -93,7 +95,9 @@ class Avionics {
  private:
   void reset_options();
   control::Alignment align(double heading_rad, double surveyed_heading_rad);
-  void sense_range(int64_t tick, const SensedTruth& truth);
+  void sense_range(int64_t t_ns, int64_t tick, const SensedTruth& truth);
+  sensors::ImuReading read_imu(int64_t t_ns);
+  std::optional<sensors::GpsFix> read_gps(int64_t t_ns);
 
   struct Seeds {
     uint64_t imu, gps, height_sensor, magnetometer, survey, barometer, range_finder;
@@ -110,6 +114,8 @@ class Avionics {
   std::optional<sensors::Barometer> barometer_;
   std::optional<sensors::Ranger> range_finder_;
   std::optional<double> range_m_;
+  std::vector<sensors::SensorFailure> failing_;
+  sensors::SensorFailures failures_;
   control::Navigation navigation_;
   control::Autopilot autopilot_;
 };

@@ -27,6 +27,10 @@ void Vehicle::step(const Controls& command, const Eigen::Vector3d& wind_W, doubl
   std::visit([&](auto& flight) { flight.step_controls(command, wind_W, dt_s); }, flight_);
 }
 
+void Vehicle::set_faults(std::span<const ActuatorFault> faults) {
+  std::visit([&](auto& flight) { flight.set_faults(faults); }, flight_);
+}
+
 const RigidBodyState& Vehicle::body() const {
   return std::visit([](const auto& flight) -> const RigidBodyState& { return flight.body(); }, flight_);
 }

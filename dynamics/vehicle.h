@@ -2,10 +2,12 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <span>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "dynamics/actuator_fault.h"
 #include "dynamics/controls.h"
 #include "dynamics/helicopter/helicopter_flight.h"
 #include "dynamics/hull.h"
@@ -36,6 +38,8 @@ class Vehicle {
   /// @param dt_s  > 0, at most 0.002 for vehicles of the default sizes (a helicopter's fastest motion decays at 40
   /// 1/s).
   void step(const Controls& command, const Eigen::Vector3d& wind_W, double dt_s);
+  /// What ails its actuators from now on; reset() leaves it.
+  void set_faults(std::span<const ActuatorFault> faults);
 
   const RigidBodyState& body() const;
   /// What an ideal accelerometer at B reads, in B, m/s2: (0, 0, -g) level at rest.

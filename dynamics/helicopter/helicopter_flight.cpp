@@ -87,7 +87,12 @@ void HelicopterFlight::reset(const Eigen::Vector3d& p_WB, double heading_rad, co
 }
 
 void HelicopterFlight::step(const BladeAngles& command, const Eigen::Vector3d& wind_W, double dt_s) {
-  const std::array<double, 4> targets = to_array(command);
+  std::array<double, 4> targets = to_array(command);
+  for (const ActuatorFault& fault : faults_) {
+    ServoState& servo = state_.servos[fault.actuator];
+    if (fault.kind == ActuatorFault::Kind::stuck) servo.rate_radps = 0.0;
+    targets[fault.actuator] = followed(fault, targets[fault.actuator], servo.position_rad);
+  }
   const auto rate = [&](double, const FlightVector& x) {
     const HelicopterFlightState state = to_flight(x);
     FlightVector dx;

@@ -3,8 +3,11 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <span>
 #include <string_view>
+#include <vector>
 
+#include "dynamics/actuator_fault.h"
 #include "dynamics/helicopter/blade_angles.h"
 #include "dynamics/helicopter/helicopter.h"
 
@@ -28,6 +31,7 @@ class HelicopterFlight {
   // As in Vehicle.
   void reset(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector3d& wind_W);
   void step(const BladeAngles& command, const Eigen::Vector3d& wind_W, double dt_s);
+  void set_faults(std::span<const ActuatorFault> faults) { faults_.assign(faults.begin(), faults.end()); }
   const RigidBodyState& body() const { return state_.airframe.body; }
   const Eigen::Vector3d& specific_force_B() const { return specific_force_B_; }
   void step_controls(const Controls& command, const Eigen::Vector3d& wind_W, double dt_s) {
@@ -50,6 +54,7 @@ class HelicopterFlight {
   HelicopterModel model_;
   std::array<ServoConfig, 4> servos_;
   HelicopterFlightState state_;
+  std::vector<ActuatorFault> faults_;
   Eigen::Vector3d specific_force_B_ = Eigen::Vector3d::Zero();
   bool within_validity_ = true;
   std::optional<GovernedEngineConfig> engine_;  ///< none: the speed is constant

@@ -160,7 +160,12 @@ void MulticopterFlight::set_state(const MulticopterFlightState& state, const Eig
 }
 
 void MulticopterFlight::step_controls(const Controls& command, const Eigen::Vector3d& wind_W, double dt_s) {
-  step(allocate(model_, command), wind_W, dt_s);
+  PerRotor commanded_radps = allocate(model_, command);
+  for (const ActuatorFault& fault : faults_) {
+    const auto i = static_cast<Eigen::Index>(fault.actuator);
+    commanded_radps[i] = followed(fault, commanded_radps[i], state_.speeds_radps[i]);
+  }
+  step(commanded_radps, wind_W, dt_s);
 }
 
 void MulticopterFlight::step(const PerRotor& commanded_radps, const Eigen::Vector3d& wind_W, double dt_s) {

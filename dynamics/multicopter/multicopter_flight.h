@@ -3,8 +3,11 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <span>
 #include <string_view>
+#include <vector>
 
+#include "dynamics/actuator_fault.h"
 #include "dynamics/controls.h"
 #include "dynamics/multicopter/multicopter.h"
 
@@ -62,6 +65,7 @@ class MulticopterFlight {
   // As in Vehicle.
   void reset(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector3d& wind_W);
   void step_controls(const Controls& command, const Eigen::Vector3d& wind_W, double dt_s);
+  void set_faults(std::span<const ActuatorFault> faults) { faults_.assign(faults.begin(), faults.end()); }
   const RigidBodyState& body() const { return state_.body; }
   const Eigen::Vector3d& specific_force_B() const { return specific_force_B_; }
   Controls controls() const { return wrench(model_, state_.speeds_radps); }
@@ -77,6 +81,7 @@ class MulticopterFlight {
  private:
   MulticopterModel model_;
   MulticopterFlightState state_;
+  std::vector<ActuatorFault> faults_;
   Eigen::Vector3d specific_force_B_ = Eigen::Vector3d::Zero();
 };
 

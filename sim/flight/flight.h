@@ -93,12 +93,20 @@ struct StageTime {
   double median_ms = 0.0, p95_ms = 0.0;
 };
 
+/// What a flight's bits depend on besides the build: two flights of one build are equal where these are.
+struct Libraries {
+  std::string images;     ///< who computed on them: "OpenCV 4.6.0"
+  std::string functions;  ///< sin, exp and the like: "SLEEF 3.5.1"
+  std::string drawn_by;   ///< one line: vendor, renderer, version
+};
+
 struct FlightResult {
   Outcome outcome = Outcome::fault;
   std::string cause;  ///< one line for collided and fault, else empty
   /// What is true of all that the module got: "camera 'front': projected corners", "sensor 'gps': exact"; empty where
   /// all of it was measured.
   std::vector<std::string> truth_used;
+  std::vector<std::string> failures;  ///< that the scenario set: "20 s to 22 s: camera.front black"
   double flight_time_s = 0.0, path_length_m = 0.0, mean_speed_mps = 0.0;
   ClosestApproach closest_obstacle, closest_ground;
   std::optional<double> goal_distance_m;  ///< at the end, horizontal; none without a goal
@@ -108,6 +116,7 @@ struct FlightResult {
   double realtime_factor = 0.0, wall_s = 0.0;
   std::vector<CheckResult> checks;
   std::string trajectory_hash;  ///< of the true state at every control tick, bit for bit
+  Libraries libraries;
   std::vector<MetricValue> metrics;
   scenes::SceneFigures scene;  ///< of what stands at the height of the start, within a meter
 };

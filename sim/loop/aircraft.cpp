@@ -20,7 +20,11 @@ void Aircraft::reset(const CollisionWorld& world) {
   avionics_.reset(truth(world, 0));
 }
 
-void Aircraft::move() {
+void Aircraft::move(int64_t tick) {
+  if (!scenario_.failures.empty()) {
+    actuator_faults(scenario_.failures, ticks_.t_ns(tick), faults_);
+    vehicle_.set_faults(faults_);
+  }
   wind_W_ = wind_.sample(-body().p_WB.z(), body().q_WB * body().v_WB_B, ticks_.dt_s());
   vehicle_.step(actuators_, wind_W_, ticks_.dt_s());
 }

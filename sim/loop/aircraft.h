@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <vector>
 
 #include "sim/collision/proximity.h"
 #include "sim/loop/shutter.h"
@@ -26,8 +27,8 @@ class Aircraft {
   void steer(const dynamics::control::Setpoint& setpoint, double dt_s) {
     actuators_ = avionics_.control(setpoint, dt_s);
   }
-  /// Moves on by one tick.
-  void move();
+  /// Moves on by one tick. @param tick  that it leaves.
+  void move(int64_t tick);
 
   Eigen::Isometry3d X_WB() const;
   /// Without a clearance.
@@ -52,6 +53,7 @@ class Aircraft {
     const CollisionWorld* world = nullptr;
     double t_s = 0.0;
   } surroundings_;
+  std::vector<dynamics::ActuatorFault> faults_;  ///< of this tick
   dynamics::Controls actuators_ = dynamics::Controls::Zero();
 };
 

@@ -48,8 +48,8 @@ std::optional<CornerDetector> detector_of(const CameraConfig& camera, const scen
 }  // namespace
 
 Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, Renderer& renderer,
-                 uint64_t seed)
-    : renderer_(renderer) {
+                 uint64_t seed, std::span<const FailureConfig> failures)
+    : renderer_(renderer), failures_(failures.begin(), failures.end()) {
   for (const scenes::Mover& mover : scene.movers) movers_.push_back(mover.motion);
   for (const CameraConfig& camera : rig.cameras) {
     require_samples(camera, renderer_);
@@ -83,14 +83,24 @@ const avoidance::CameraFrame* Cameras::expose(size_t camera, int64_t t_ns, const
   avoidance::CameraFrame& frame = frames_[camera];
   if (exposed_ns_[camera] != t_ns) {
     exposed_ns_[camera] = t_ns;
-    const int64_t number = image_number(camera, t_ns);
-    const Imperfections::FrameFault fault = imperfections_[camera].frame_fault(number);
+    const Imperfections::FrameFault fault = frame_fault(camera, t_ns);
     if (fault == Imperfections::FrameFault::dropped) return nullptr;
     const bool frozen = fault == Imperfections::FrameFault::frozen && frame.t_ns >= 0;
     if (!frozen) sense(camera, {t_ns, body}, fault == Imperfections::FrameFault::black, frame.image);
     frame.t_ns = t_ns;
   }
   return frame.t_ns == t_ns ? &frame : nullptr;
+}
+
+Imperfections::FrameFault Cameras::frame_fault(size_t camera, int64_t t_ns) const {
+  using FrameFault = Imperfections::FrameFault;
+  if (!failures_.empty()) {
+    if (const FailureConfig* failure = failure_of(failures_, "camera." + mounted_[camera].role, t_ns)) {
+      if (failure->mode == FailureConfig::Mode::off) return FrameFault::dropped;
+      return failure->mode == FailureConfig::Mode::stuck ? FrameFault::frozen : FrameFault::black;
+    }
+  }
+  return imperfections_[camera].frame_fault(image_number(camera, t_ns));
 }
 
 std::span<const avoidance::CameraFrame> Cameras::snapshot(int64_t t_ns, const Eigen::Isometry3d& X_WB) {

@@ -12,6 +12,7 @@
 #include "sim/loop/shutter.h"
 #include "sim/loop/ticks.h"
 #include "sim/render/renderer.h"
+#include "sim/scenario/failures.h"
 #include "sim/scenario/rig.h"
 
 namespace hedgehop::sim {
@@ -22,7 +23,9 @@ class Cameras {
  public:
   /// @param renderer  of the scene; outlives the cameras. @param seed  of the flight; each camera has its own stream.
   /// Throws InputError for a camera that the context cannot draw, or a corner detector where no corners are known.
-  Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, Renderer& renderer, uint64_t seed);
+  /// @param failures  of the scenario; those of cameras are taken.
+  Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, Renderer& renderer, uint64_t seed,
+          std::span<const FailureConfig> failures = {});
 
   size_t count() const { return frames_.size(); }
   /// Index of a role. Throws std::out_of_range for a role the rig does not have.
@@ -53,6 +56,7 @@ class Cameras {
   int64_t period_ticks(size_t camera) const { return periods_[camera]; }
 
  private:
+  Imperfections::FrameFault frame_fault(size_t camera, int64_t t_ns) const;
   int64_t image_number(size_t camera, int64_t t_ns) const { return t_ns / period_ns_[camera]; }
   void sense(size_t camera, const Instant& now, bool dead, cv::Mat& out);
   void draw(size_t camera, Channel channel, const Instant& now, const Instant& next, cv::Mat& out);
@@ -68,6 +72,7 @@ class Cameras {
   std::vector<int64_t> period_ns_;
   std::vector<Imperfections> imperfections_;
   std::vector<Shutter> shutters_;
+  std::vector<FailureConfig> failures_;
   std::vector<int64_t> exposed_ns_;  ///< when each camera last exposed an image, lost ones included
   std::vector<avoidance::CameraFrame> frames_, snapshot_;
 };

@@ -23,7 +23,7 @@ Episode::Episode(const Scenario& scenario, Stage& stage, FlightParts parts, Flig
       ticks_(scenario.physics_rate_hz),
       stage_(stage),
       aircraft_(scenario, ticks_, std::move(parts.aircraft)),
-      cameras_(scenario.rig, ticks_, *stage.scene, stage.renderer, scenario.seed),
+      cameras_(scenario.rig, ticks_, *stage.scene, stage.renderer, scenario.seed, scenario.failures),
       pilot_(scenario, ticks_, cameras_, std::move(parts.module)),
       onlooker_(watcher, ticks_, cameras_, aircraft_),
       map_observer_(map_observer),
@@ -81,6 +81,7 @@ Flight Episode::flight() const {
   result.outcome = end_ ? end_->outcome : Outcome::timeout;
   result.cause = end_ ? end_->cause : "";
   result.truth_used = pilot_.truth_used();
+  for (const FailureConfig& failure : scenario_.failures) result.failures.push_back(to_text(failure));
   result.goal_distance_m = goal_distance_m();
   result.decision_ms = decision_.summary();
   result.render_ms = render_.summary();
@@ -191,7 +192,7 @@ std::optional<Episode::Ending> Episode::ending() const {
 
 void Episode::move() {
   const StageTimer::Lap lap = physics_.lap();
-  aircraft_.move();
+  aircraft_.move(tick_);
 }
 
 /// The first cause stands.

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "avoidance/sight.h"
 #include "sim/loop/setpoints.h"
 #include "sim/loop/truth_used.h"
 #include "sim/plugin/plugin_module.h"
+#include "sim/scenario/flight_parts.h"
 #include "sim/scenario/input_error.h"
-#include "sim/scenario/random_stream.h"
 
 namespace hedgehop::sim {
 
@@ -29,16 +30,17 @@ ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& 
   for (size_t i = 0; i < cameras_.count(); ++i) {
     decision_period_ = i == 0 ? cameras_.period_ticks(i) : std::min(decision_period_, cameras_.period_ticks(i));
   }
+  for (const size_t camera : module_cameras_) {
+    const int64_t blind_ns = avoidance::blind_after_ns(cameras_.mounted(camera).rate_hz);
+    blind_after_ = std::max(blind_after_, ticks_.ticks(1e-9 * static_cast<double>(blind_ns)));
+  }
   latency_ =
       scenario.command_latency_s ? ticks_.ticks(*scenario.command_latency_s) : std::max(slowest, decision_period_);
 }
 
 void ModulePilot::reset(double vehicle_radius_m, const dynamics::control::Setpoint& hold) {
   setpoint_ = hold;
-  const dynamics::control::AutopilotConfig& limits = scenario_.avionics.autopilot;
-  module_->reset({{cameras_.mounted().begin(), cameras_.mounted().end()},
-                  {limits.speed_limit_mps, limits.acceleration_limit_mps2, vehicle_radius_m},
-                  stream_seed(scenario_.seed, "module")});
+  module_->reset(module_setup(scenario_, vehicle_radius_m));
 }
 
 bool ModulePilot::looks(int64_t tick) const {
@@ -47,16 +49,20 @@ bool ModulePilot::looks(int64_t tick) const {
 
 void ModulePilot::look(int64_t tick, const BodyMotion& body) {
   seen_.clear();
+  looked_ = false;
   for (const size_t camera : module_cameras_) {
     if (!cameras_.due(camera, tick)) continue;
+    looked_ = true;
     if (const avoidance::CameraFrame* const frame = cameras_.expose(camera, ticks_.t_ns(tick), body)) {
       seen_.push_back(*frame);
+      last_seen_ = tick;
     }
   }
 }
 
 bool ModulePilot::decides(int64_t tick) const {
-  return module_cameras_.empty() ? tick % decision_period_ == 0 : !seen_.empty();
+  if (module_cameras_.empty()) return tick % decision_period_ == 0;
+  return !seen_.empty() || (looked_ && tick - last_seen_ > blind_after_);
 }
 
 avoidance::Observation ModulePilot::observe(int64_t tick, const avoidance::NavigationState& navigation) {
@@ -66,14 +72,24 @@ avoidance::Observation ModulePilot::observe(int64_t tick, const avoidance::Navig
 
 avoidance::Decision ModulePilot::decide(int64_t tick, const avoidance::Observation& observation) {
   avoidance::Decision decision = module_->update(observation);
-  pending_.push_back({tick + latency_, decision.command});
+  send(tick, decision.command);
   return decision;
 }
 
 avoidance::Command ModulePilot::obey(int64_t tick, avoidance::Command command) {
   avoidance::confine(command, scenario_.avionics.autopilot.speed_limit_mps);
-  pending_.push_back({tick + latency_, command});
+  send(tick, command);
   return command;
+}
+
+/// Over the link, which keeps the order.
+void ModulePilot::send(int64_t tick, const avoidance::Command& command) {
+  int64_t latency = latency_;
+  if (const FailureConfig* failure = failure_of(scenario_.failures, "link", ticks_.t_ns(tick))) {
+    if (failure->mode == FailureConfig::Mode::off) return;
+    latency += ticks_.ticks(failure->value.value_or(0.0));
+  }
+  pending_.push_back({tick + latency, command});
 }
 
 const dynamics::control::Setpoint& ModulePilot::setpoint(int64_t tick) {

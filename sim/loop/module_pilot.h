@@ -32,7 +32,8 @@ class ModulePilot {
   bool looks(int64_t tick) const;
   /// Exposes those that do.
   void look(int64_t tick, const BodyMotion& body);
-  /// Whether it decides on this tick, look() having been called.
+  /// Whether it decides on this tick, look() having been called: with a frame, and without one where there has been
+  /// none for so long that it counts as blind (avoidance/sight.h).
   bool decides(int64_t tick) const;
   /// What it would decide on now: its last frames, the aircraft's own estimate of this tick, the next place to fly to.
   /// The frames are good until the next look().
@@ -57,6 +58,8 @@ class ModulePilot {
   double command_latency_s() const { return ticks_.t_s(latency_); }  ///< from a decision to its command's effect
 
  private:
+  void send(int64_t tick, const avoidance::Command& command);
+
   /// A command before its latency is over.
   struct PendingCommand {
     int64_t tick = 0;
@@ -69,7 +72,8 @@ class ModulePilot {
   std::unique_ptr<avoidance::Module> module_;
   std::vector<size_t> module_cameras_;
   std::vector<std::string> truth_used_;
-  int64_t decision_period_ = 0, latency_ = 0;
+  int64_t decision_period_ = 0, latency_ = 0, blind_after_ = 0, last_seen_ = 0;  ///< ticks
+  bool looked_ = false;  ///< whether one of its cameras was due on this tick
   Route route_;
   std::vector<avoidance::CameraFrame> seen_;  ///< the module's frames of this tick
   std::deque<PendingCommand> pending_;

@@ -61,6 +61,7 @@ Json result_data(const RunInfo& info, const FlightResult& result) {
   json["outcome"] = std::string(to_string(result.outcome));
   json["cause"] = result.cause;
   json["truth_used"] = result.truth_used;
+  json["failures"] = result.failures;
   json["flight_time_s"] = number(result.flight_time_s);
   json["path_length_m"] = number(result.path_length_m);
   json["min_clearance_m"] = number(closest.distance_m);
@@ -80,6 +81,9 @@ Json result_data(const RunInfo& info, const FlightResult& result) {
   json["wall_s"] = number(result.wall_s);
   json["checks"] = checks(result.checks);
   json["trajectory_hash"] = result.trajectory_hash;
+  json["libraries"] = Json{{"images", result.libraries.images},
+                           {"functions", result.libraries.functions},
+                           {"drawn_by", result.libraries.drawn_by}};
   json["scene"] = Json{{"obstacles", result.scene.solids},
                        {"least_gap_m", number(result.scene.smallest_gap_m)},
                        {"median_gap_m", number(result.scene.median_gap_m)},

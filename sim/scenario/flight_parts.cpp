@@ -1,10 +1,14 @@
 #include "sim/scenario/flight_parts.h"
 
+#include <fmt/format.h>
+
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "sim/fields/bounds.h"
 #include "sim/scenario/random_stream.h"
+#include "sim/scenario/tree.h"
 
 namespace hedgehop::sim {
 
@@ -12,7 +16,8 @@ dynamics::air::Wind build_wind(const Scenario& scenario) { return {scenario.wind
 
 dynamics::Avionics build_avionics(const Scenario& scenario, const dynamics::VehicleConfig& carrier) {
   return {scenario.avionics, carrier, 1.0 / static_cast<double>(scenario.physics_rate_hz),
-          [seed = scenario.seed](std::string_view name) { return stream_seed(seed, name); }};
+          [seed = scenario.seed](std::string_view name) { return stream_seed(seed, name); },
+          sensor_failures(scenario.failures, scenario.seed)};
 }
 
 std::unique_ptr<avoidance::Module> build_module(const AvoidanceConfig& config) {
@@ -25,6 +30,39 @@ std::unique_ptr<avoidance::Module> build_module(const AvoidanceConfig& config) {
         }
       },
       config);
+}
+
+avoidance::Setup module_setup(const Scenario& scenario, double vehicle_radius_m) {
+  const dynamics::control::AutopilotConfig& limits = scenario.avionics.autopilot;
+  avoidance::Setup setup{.limits = {limits.speed_limit_mps, limits.acceleration_limit_mps2, vehicle_radius_m},
+                         .seed = stream_seed(scenario.seed, "module")};
+  for (const CameraConfig& camera : scenario.rig.cameras) {
+    setup.cameras.push_back({camera.role, camera.model(), camera.X_BC(), camera.rate_hz});
+  }
+  return setup;
+}
+
+avoidance::Setup module_setup(const Scenario& scenario) {
+  return module_setup(scenario, dynamics::radius_m(dynamics::hull(scenario.vehicle)));
+}
+
+InputError placed(const Node* root, const InputError& faults) {
+  if (!root) return faults;
+  std::vector<std::string> lines;
+  for (const std::string& fault : faults.faults()) {
+    std::string path = "rig";
+    if (fault.starts_with('\''))
+      path = fault.substr(1, fault.find('\'', 1) - 1);
+    else if (!fault.starts_with("camera '"))
+      path.clear();
+    // The key, where a generator's message names one.
+    const size_t key = path.size() + 4, end = fault.find(": ", key);
+    if (fault.starts_with('\'') && end != std::string::npos && fault.find(' ', key) > end) {
+      path = join_path(path, fault.substr(key, end - key));
+    }
+    lines.push_back(fmt::format("{}: {}", place_of(*root, path).text(), fault));
+  }
+  return InputError(std::move(lines));
 }
 
 scenes::Scene build_scene(const scenes::SceneConfig& config, uint64_t run_seed) {

@@ -19,6 +19,8 @@
 /// to check its parameters, and the flight uses what the reader built.
 namespace hedgehop::sim {
 
+struct Node;
+
 /// The vehicle, its air and its avionics.
 struct AircraftParts {
   dynamics::Vehicle vehicle;
@@ -37,7 +39,12 @@ struct LoadedScenario {
   Scenario scenario;
   FlightParts parts;
   Inputs inputs;
+  std::shared_ptr<const Node> root;  ///< what it was read from
 };
+
+/// Returns faults that begin with a path ("'scene': trees: ...", "camera 'front': ...") with its place before them.
+/// @param root  null for a scenario that no file was read for: the faults as they are.
+InputError placed(const Node* root, const InputError& faults);
 
 /// Reads a scenario, as strictly as load_scenario(), and keeps the parts that were built to check it.
 /// @param seed  replaces the file's. Throws InputError with every fault found.
@@ -58,6 +65,11 @@ dynamics::air::Wind build_wind(const Scenario& scenario);
 dynamics::Avionics build_avionics(const Scenario& scenario, const dynamics::VehicleConfig& carrier);
 /// Null for a module of a shared library: reading a scenario loads no foreign code.
 std::unique_ptr<avoidance::Module> build_module(const AvoidanceConfig& config);
+
+/// What a module is told before its flight. @param vehicle_radius_m  of the vertical cylinder that holds the vehicle.
+avoidance::Setup module_setup(const Scenario& scenario, double vehicle_radius_m);
+/// As above, of the scenario's own vehicle.
+avoidance::Setup module_setup(const Scenario& scenario);
 
 /// The scene of a flight, by the run's own seed. Throws std::invalid_argument on a scene that cannot be.
 scenes::Scene build_scene(const scenes::SceneConfig& config, uint64_t run_seed);

@@ -61,7 +61,7 @@ LoadedScenario load_flight(Node root, const std::filesystem::path& file, std::sp
   std::optional<FlightParts> parts = validate(scenario, root, faults);
   faults.raise();
   Inputs inputs = inputs_of(scenario, read, file.parent_path());
-  return {std::move(scenario), *std::move(parts), std::move(inputs)};
+  return {std::move(scenario), *std::move(parts), std::move(inputs), std::make_shared<const Node>(std::move(root))};
 }
 
 }  // namespace

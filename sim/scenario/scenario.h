@@ -17,6 +17,7 @@
 #include "sim/fields/field.h"
 #include "sim/scenario/checks.h"
 #include "sim/scenario/drawing.h"
+#include "sim/scenario/failures.h"
 #include "sim/scenario/input_error.h"
 #include "sim/scenario/plugin_config.h"
 #include "sim/scenario/rig.h"
@@ -120,6 +121,7 @@ struct Scenario {
   DrawingConfig drawing;
   VelocimeterConfig velocimeter;
   AvoidanceConfig avoidance;
+  std::vector<FailureConfig> failures;
   std::vector<CheckConfig> checks;
   bool may_collide = false;  ///< else `no_collision` is checked, listed or not
   FilmConfig film;
@@ -150,6 +152,7 @@ void describe(Visitor& v, Scenario& c) {
   v("drawing", c.drawing, {.meaning = "how their images are made"});
   v("velocimeter", c.velocimeter, {.meaning = "horizontal velocity from the optic flow of one camera"});
   v("avoidance", c.avoidance, {.required = true, .selector = "module", .meaning = "who decides where to fly"});
+  v("failures", c.failures, {.meaning = "what fails in flight: sensors, cameras, motors or servos, the link"});
   v("checks", c.checks, {.selector = "check", .meaning = "what must hold of the flight, beside no_collision"});
   v("may_collide", c.may_collide,
     {.meaning = "whether a collision is no failure, so that no_collision is not checked"});

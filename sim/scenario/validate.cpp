@@ -100,6 +100,19 @@ class Validator {
     });
   }
 
+  /// With the cameras that it would fly with: those of a pair may not go together.
+  void module_with_cameras() {
+    if (!module_ || !faults_.empty()) return;
+    build("avoidance", [&] { module_->reset(module_setup(scenario_)); });
+  }
+
+  void failures() {
+    for (const FailureFault& fault :
+         faults_of(scenario_.failures, scenario_.duration_s, scenario_.rig, scenario_.vehicle)) {
+      add(fmt::format("failures.{}.{}", fault.failure, fault.key), fault.message);
+    }
+  }
+
   void parts() {
     if (!scenario_.route.empty() && !scenario_.goal) add("route", "needs a 'goal' where it ends");
     build("scene", [&] {
@@ -254,7 +267,9 @@ std::optional<FlightParts> validate(const Scenario& scenario, const Node& root, 
   validator.rig();
   validator.module();
   validator.parts();
+  validator.failures();
   validator.checks();
+  validator.module_with_cameras();
   return validator.take();
 }
 

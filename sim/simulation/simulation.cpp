@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sim/libm/libm.h"
 #include "sim/loop/episode.h"
 #include "sim/simulation/map_judge.h"
 #include "sim/verdict/assessment.h"
@@ -85,6 +86,7 @@ class Simulation::Impl {
     Flight flight = episode_->flight();
     flight.result.wall_s = flying_s_;
     flight.result.realtime_factor = flight.result.flight_time_s / flying_s_;
+    flight.result.libraries = {"OpenCV " + cv::getVersionString(), libm_version(), stage_->renderer.info()};
     judge_->conclude(flight);
     assess(scenario_, *flight.scene, stage_->hull, flight);
     return flight;
@@ -115,8 +117,13 @@ class Simulation::Impl {
   double flying_s_ = 0.0;           ///< wall time
 };
 
-Simulation::Simulation(LoadedScenario loaded, FlightWatcher* watcher)
-    : impl_(std::make_unique<Impl>(std::move(loaded.scenario), std::move(loaded.parts), ModuleMaker{}, watcher)) {}
+Simulation::Simulation(LoadedScenario loaded, FlightWatcher* watcher) {
+  try {
+    impl_ = std::make_unique<Impl>(std::move(loaded.scenario), std::move(loaded.parts), ModuleMaker{}, watcher);
+  } catch (const InputError& faults) {
+    throw placed(loaded.root.get(), faults);
+  }
+}
 
 Simulation::Simulation(Scenario scenario, ModuleMaker module, FlightWatcher* watcher) {
   FlightParts parts = build_parts(scenario);

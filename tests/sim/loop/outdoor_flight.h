@@ -29,7 +29,7 @@ class OutdoorFlight {
         const bool out = tick_ / ticks_.ticks(10.0) % 2 == 0;
         aircraft_.steer(dynamics::control::VelocitySetpoint{{out ? 3.0 : -3.0, 1.0}, 12.0, 0.5}, control_dt_s);
       }
-      aircraft_.move();
+      aircraft_.move(tick_);
     }
   }
   const Aircraft& aircraft() const { return aircraft_; }

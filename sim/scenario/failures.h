@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dynamics/actuator_fault.h"
+#include "dynamics/sensors/sensor_failures.h"
+#include "dynamics/vehicle.h"
+#include "sim/fields/field.h"
+#include "sim/scenario/rig.h"
+
+/// What fails in flight, when and how.
+namespace hedgehop::sim {
+
+struct FailureConfig {
+  enum class Mode { off, stuck, bias, noise, black, factor };
+  enum class Axis { x, y, z };
+
+  double at_s = 0.0;
+  std::optional<double> until_s;  ///< none: to the flight's end
+  std::string what;               ///< a sensor, camera.<role>, motor.<number>, servo.<name> or link
+  Mode mode = Mode::off;
+  std::optional<double> value;  ///< of bias, noise and factor
+  Axis axis = Axis::x;
+
+  int64_t from_ns() const;
+  int64_t until_ns() const;
+  bool holds(int64_t t_ns) const { return t_ns >= from_ns() && t_ns < until_ns(); }
+};
+template <class Visitor>
+void describe(Visitor& v, FailureConfig& c) {
+  v("at", c.at_s, {.unit = "s", .at_least = 0.0, .at_most = 86400.0, .required = true, .meaning = "when it begins"});
+  v("until", c.until_s,
+    {.unit = "s", .above = 0.0, .at_most = 86400.0, .meaning = "when it is over; else it lasts to the flight's end"});
+  v("what", c.what,
+    {.required = true,
+     .meaning = "gyros, accelerometers, gps, gps_velocity, height_sensor, magnetometer, barometer, range_finder, "
+                "velocimeter, camera.ROLE, motor.NUMBER (from 0), servo.collective, servo.lateral, servo.longitudinal, "
+                "servo.tail, or link (from the module to the autopilot)"});
+  v("mode", c.mode,
+    {.choices = {"off", "stuck", "bias", "noise", "black", "factor"},
+     .required = true,
+     .meaning = "nothing; the last reading, image or position again; value added; white noise of value; images of 0; "
+                "value times the command"});
+  v("value", c.value,
+    {.at_least = -1e6,
+     .at_most = 1e6,
+     .meaning = "of bias and noise: rad/s of gyros, m/s^2, m/s, m, Pa, deg of magnetometer and servos, s of link; of "
+                "factor: the share of its command that a motor or servo follows"});
+  v("axis", c.axis,
+    {.choices = {"x", "y", "z"},
+     .meaning = "of a bias: forward, right, down of gyros, accelerometers and velocimeter; north, east, down of gps"});
+}
+
+/// The names that a scenario's failures may have.
+std::vector<std::string> failing_names(const RigConfig& rig, const dynamics::VehicleConfig& vehicle);
+
+/// A key of a failure, and what is wrong with it.
+struct FailureFault {
+  size_t failure = 0;
+  std::string key;
+  std::string message;
+};
+/// What does not fit: names, modes, values, times, two at once of one thing.
+std::vector<FailureFault> faults_of(std::span<const FailureConfig> failures, double duration_s, const RigConfig& rig,
+                                    const dynamics::VehicleConfig& vehicle);
+
+/// "20 s to 22 s: camera.front black".
+std::string to_text(const FailureConfig& failure);
+
+/// Those of sensors, as the avionics have them. @param run_seed  of the flight; each has its own stream.
+std::vector<dynamics::sensors::SensorFailure> sensor_failures(std::span<const FailureConfig> failures,
+                                                              uint64_t run_seed);
+
+/// What ails the vehicle's actuators at a time.
+void actuator_faults(std::span<const FailureConfig> failures, int64_t t_ns, std::vector<dynamics::ActuatorFault>& out);
+
+/// The failure of a thing at a time, or null.
+const FailureConfig* failure_of(std::span<const FailureConfig> failures, std::string_view what, int64_t t_ns);
+
+}  // namespace hedgehop::sim

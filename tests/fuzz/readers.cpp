@@ -1,0 +1,119 @@
+#include "tests/fuzz/readers.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <typeinfo>
+
+#include "scenes/mesh/mesh_import.h"
+#include "sim/campaign/campaign_file.h"
+#include "sim/campaign/sweep_file.h"
+#include "sim/record/column_table.h"
+#include "sim/record/run_record.h"
+#include "sim/reproduce/paper.h"
+#include "sim/scenario/include.h"
+#include "sim/scenario/input_error.h"
+#include "sim/scenario/plugin_config.h"
+#include "sim/scenario/reader.h"
+#include "sim/scenario/reference_path.h"
+#include "sim/scenario/rig.h"
+#include "sim/scenario/scenario.h"
+
+namespace hedgehop::fuzz {
+namespace {
+
+void read_scenario(const std::filesystem::path& file) {
+  const sim::Scenario scenario = sim::load_scenario(file);
+  // What was read can be written, and reads back.
+  sim::Faults faults;
+  std::set<std::filesystem::path> files;
+  sim::parse_tree(sim::to_yaml(scenario), "resolved", faults, files);
+  faults.raise();
+}
+
+void read_campaign(const std::filesystem::path& file) { sim::read_batch({file}, {}, {}); }
+
+void read_mesh(const std::filesystem::path& file) {
+  scenes::Scene scene;
+  scenes::mesh::add_imports({{.file = file.string()}}, scene);
+}
+
+void read_calibration(const std::filesystem::path& file) {
+  sim::CameraConfig camera;
+  camera.model_kind = sim::CameraConfig::Model::ocam;
+  camera.calibration = file;
+  camera.model();
+}
+
+/// As a module's parameters are read when its library has been loaded: a map of any keys, then a struct of its own.
+void read_parameters(const std::filesystem::path& file) {
+  sim::Faults faults;
+  const sim::Node root = sim::load_tree(file, faults);
+  avoidance::flow_balance::FlowBalanceConfig config;
+  if (root.kind == sim::Node::Kind::map) sim::read_struct(root, "", "avoidance.parameters", config, faults);
+  faults.raise();
+}
+
+constexpr std::array kReaders = {
+    Reader{"scenario", "yaml", read_scenario},
+    Reader{"sweep", "yaml", [](const std::filesystem::path& file) { sim::read_sweep(file); }},
+    Reader{"campaign", "yaml", read_campaign},
+    Reader{"paper", "yaml", [](const std::filesystem::path& file) { sim::read_paper(file); }},
+    Reader{"parameters", "yaml", read_parameters},
+    Reader{"mesh_obj", "obj", read_mesh},
+    Reader{"mesh_gltf", "gltf", read_mesh},
+    Reader{"calibration", "txt", read_calibration},
+    Reader{"result", "json", [](const std::filesystem::path& file) { sim::read_result(file); }},
+    Reader{"columns", "csv", [](const std::filesystem::path& file) { sim::read_columns(file); }},
+    Reader{"reference", "csv", [](const std::filesystem::path& file) { sim::read_reference_path(file); }},
+};
+
+/// A folder for one process.
+class Folder {
+ public:
+  Folder() : path_(std::filesystem::temp_directory_path() / ("hedgehop_fuzz_" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(path_ / "in");
+    for (const auto& entry : std::filesystem::directory_iterator(HEDGEHOP_SOURCE_DIR "/configs")) {
+      std::filesystem::create_symlink(entry.path(), path_ / entry.path().filename());
+    }
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  std::filesystem::path file(std::string_view extension) const {
+    return path_ / "in" / ("input." + std::string(extension));
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace
+
+std::span<const Reader> readers() { return kReaders; }
+
+const Reader* find(std::string_view name) {
+  const auto* const found = std::ranges::find(kReaders, name, &Reader::name);
+  return found == kReaders.end() ? nullptr : found;
+}
+
+void feed(const Reader& reader, std::string_view bytes) {
+  static const Folder folder;
+  const std::filesystem::path file = folder.file(reader.extension);
+  std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  try {
+    reader.read(file);
+  } catch (const std::invalid_argument& fault) {
+    if (typeid(fault) != typeid(std::invalid_argument)) throw;
+  } catch (const std::runtime_error& fault) {
+    // Not those of the standard library (std::range_error, a filesystem's) or of a package: they name no place.
+    if (typeid(fault) != typeid(std::runtime_error) && typeid(fault) != typeid(sim::InputError)) throw;
+  }
+}
+
+}  // namespace hedgehop::fuzz

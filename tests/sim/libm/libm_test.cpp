@@ -1,0 +1,152 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace hedgehop::sim {
+namespace {
+
+// The oracle is the C library's long double, 11 bits longer, which these functions do not replace.
+struct Function {
+  template <class F>
+  Function(const char* its_name, F f) : name(its_name), value(f), exact(f), single(f) {}
+  const char* name;
+  double (*value)(double);
+  long double (*exact)(long double);
+  float (*single)(float);
+};
+const std::vector<Function> kFunctions = {
+    {"sin", [](auto x) { return std::sin(x); }},     {"cos", [](auto x) { return std::cos(x); }},
+    {"tan", [](auto x) { return std::tan(x); }},     {"asin", [](auto x) { return std::asin(x); }},
+    {"acos", [](auto x) { return std::acos(x); }},   {"atan", [](auto x) { return std::atan(x); }},
+    {"exp", [](auto x) { return std::exp(x); }},     {"exp2", [](auto x) { return std::exp2(x); }},
+    {"expm1", [](auto x) { return std::expm1(x); }}, {"log", [](auto x) { return std::log(x); }},
+    {"log2", [](auto x) { return std::log2(x); }},   {"log10", [](auto x) { return std::log10(x); }},
+    {"log1p", [](auto x) { return std::log1p(x); }}, {"cbrt", [](auto x) { return std::cbrt(x); }},
+    {"tanh", [](auto x) { return std::tanh(x); }}};
+struct Function2 {
+  template <class F>
+  Function2(const char* its_name, F f) : name(its_name), value(f), exact(f), single(f) {}
+  const char* name;
+  double (*value)(double, double);
+  long double (*exact)(long double, long double);
+  float (*single)(float, float);
+};
+const std::vector<Function2> kFunctions2 = {{"atan2", [](auto y, auto x) { return std::atan2(y, x); }},
+                                            {"hypot", [](auto x, auto y) { return std::hypot(x, y); }},
+                                            {"pow", [](auto x, auto y) { return std::pow(x, y); }}};
+
+/// Distance in units of the last place of `exact`, rounded to T; 0 for equal infinities, zeros of one sign, and NaN
+/// twice.
+template <class T>
+double ulps(T value, long double exact) {
+  const T rounded = static_cast<T>(exact);
+  if (std::isnan(rounded) || std::isnan(value)) return std::isnan(rounded) && std::isnan(value) ? 0.0 : HUGE_VAL;
+  if (std::isinf(rounded) || std::isinf(value)) return rounded == value ? 0.0 : HUGE_VAL;
+  if (rounded == T{0} && value == T{0}) return std::signbit(rounded) == std::signbit(value) ? 0.0 : HUGE_VAL;
+  const T magnitude = std::abs(rounded);
+  const T unit = std::nextafter(magnitude, std::numeric_limits<T>::infinity()) - magnitude;
+  return static_cast<double>(std::abs(static_cast<long double>(value) - exact) / static_cast<long double>(unit));
+}
+
+template <class T>
+std::vector<T> arguments(int count) {
+  using Bits = std::conditional_t<sizeof(T) == 8, uint64_t, uint32_t>;
+  using Limits = std::numeric_limits<T>;
+  std::vector<T> list;
+  for (const T x : {T(0), T(0.5), T(1), T(2), T(3), T(1e5), T(1e22), T(1e-20), Limits::min(), Limits::denorm_min(),
+                    Limits::max(), Limits::infinity()}) {
+    list.push_back(x);
+    list.push_back(-x);
+  }
+  list.push_back(Limits::quiet_NaN());
+  std::mt19937_64 random(1);
+  for (int i = 0; i < count; ++i) {
+    list.push_back(std::bit_cast<T>(static_cast<Bits>(random())));                          // any bits
+    list.push_back(static_cast<T>(std::ldexp(static_cast<double>(random()), -58) - 32.0));  // -32 to 32
+    list.push_back(static_cast<T>(std::ldexp(static_cast<double>(random()), -63) - 1.0));   // -1 to 1
+  }
+  return list;
+}
+
+constexpr double kBoundUlp = 1.0 + 1e-3;     // SLEEF's own, and what the oracle is rounded by
+constexpr double kSubnormalUlp = 1.0 + 0.5;  // where a step on the way falls below the least normal number
+
+template <class T>
+double bound(long double exact) {
+  return std::abs(exact) < 4 * std::numeric_limits<T>::min() ? kSubnormalUlp : kBoundUlp;
+}
+
+TEST(Libm, FunctionsLieWithinOneUlpOfLongDoubleForEveryArgument) {
+  for (const Function& f : kFunctions) {
+    for (const double x : arguments<double>(30000)) {
+      const long double exact = f.exact(x);
+      ASSERT_LE(ulps(f.value(x), exact), bound<double>(exact)) << f.name << " of " << x;
+    }
+    for (const float x : arguments<float>(30000)) {
+      const long double exact = f.exact(x);
+      ASSERT_LE(ulps(f.single(x), exact), bound<float>(exact)) << f.name << " of the float " << x;
+    }
+  }
+}
+
+TEST(Libm, FunctionsOfTwoArgumentsLieWithinOneUlpOfLongDouble) {
+  std::mt19937_64 random(2);
+  for (const Function2& f : kFunctions2) {
+    const std::vector<double> doubles = arguments<double>(30000);
+    const std::vector<float> floats = arguments<float>(30000);
+    for (std::size_t i = 0; i < doubles.size(); ++i) {
+      for (const std::size_t j : {i % 25, random() % doubles.size()}) {
+        const long double exact = f.exact(doubles[i], doubles[j]), exact_single = f.exact(floats[i], floats[j]);
+        ASSERT_LE(ulps(f.value(doubles[i], doubles[j]), exact), bound<double>(exact))
+            << f.name << " of " << doubles[i] << " and " << doubles[j];
+        ASSERT_LE(ulps(f.single(floats[i], floats[j]), exact_single), bound<float>(exact_single))
+            << f.name << " of the floats " << floats[i] << " and " << floats[j];
+      }
+    }
+  }
+}
+
+TEST(Libm, SineAndCosineTogetherAreThoseAlone) {
+  for (const double x : arguments<double>(10000)) {
+    if (!std::isfinite(x)) continue;
+    double sine = 0.0, cosine = 0.0;
+    sincos(x, &sine, &cosine);
+    volatile double alone = x;  // or the compiler asks for both at once
+    EXPECT_EQ(std::bit_cast<uint64_t>(sine), std::bit_cast<uint64_t>(std::sin(alone))) << x;
+    EXPECT_EQ(std::bit_cast<uint64_t>(cosine), std::bit_cast<uint64_t>(std::cos(alone))) << x;
+  }
+}
+
+/// FNV-1a over the bits of all results.
+uint64_t digest() {
+  uint64_t hash = 0xcbf29ce484222325;
+  const auto add = [&hash](auto result) {
+    if (std::isnan(result)) result = std::numeric_limits<decltype(result)>::quiet_NaN();  // one NaN of many
+    for (const char byte : std::bit_cast<std::array<char, sizeof result>>(result)) {
+      hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+    }
+  };
+  for (const Function& f : kFunctions) {
+    for (const double x : arguments<double>(10000)) add(f.value(x));
+    for (const float x : arguments<float>(10000)) add(f.single(x));
+  }
+  const std::vector<double> x = arguments<double>(10000);
+  for (const Function2& f : kFunctions2) {
+    for (std::size_t i = 1; i < x.size(); ++i) add(f.value(x[i - 1], x[i]));
+  }
+  return hash;
+}
+
+// Kept, so that every machine is held to the same bits; another version of SLEEF may change them.
+TEST(Libm, ResultsAreTheBitsThatAreKept) { EXPECT_EQ(digest(), 4645879192970830491U); }
+
+}  // namespace
+}  // namespace hedgehop::sim
