@@ -8,6 +8,7 @@
 #include "avoidance/flow_balance/zig_zag.h"
 #include "avoidance/go_to_goal.h"
 #include "avoidance/landmark_map/landmark_map.h"
+#include "avoidance/local_map/local_map.h"
 #include "avoidance/module.h"
 #include "avoidance/section_grid/section_grid.h"
 #include "avoidance/stereo_corridor/stereo_corridor.h"
@@ -17,7 +18,8 @@ namespace hedgehop::avoidance {
 /// Every module of this tree: one config struct per row, with `kName` as its name in a scenario.
 using ModuleConfig = std::variant<GoToGoalConfig, flow_balance::FlowBalanceConfig, flow_balance::ZigZagConfig,
                                   section_grid::SectionGridConfig, stereo_corridor::StereoCorridorConfig,
-                                  corridor_centering::CorridorCenteringConfig, landmark_map::LandmarkMapModuleConfig>;
+                                  corridor_centering::CorridorCenteringConfig, landmark_map::LandmarkMapModuleConfig,
+                                  local_map::LocalMapConfig>;
 
 /// Returns the module that the config belongs to; reset() comes next. Throws std::invalid_argument on a bad config.
 std::unique_ptr<Module> make_module(const ModuleConfig& config);
