@@ -13,8 +13,4 @@ void ClosedCells::update(double t_s) {
   std::erase_if(places_, [&](const Place& place) { return t_s - place.t_s > keep_s_; });
 }
 
-bool ClosedCells::contains(const Eigen::Vector2d& p_W) const {
-  return std::ranges::any_of(places_, [&](const Place& place) { return (place.p_W - p_W).norm() < place.radius_m; });
-}
-
 }  // namespace hedgehop::avoidance::local_map

@@ -18,15 +18,14 @@ class ClosedCells {
   void close(const Eigen::Vector2d& p_W, double radius_m, double t_s);
   /// Forgets what is older than the memory.
   void update(double t_s);
-  bool contains(const Eigen::Vector2d& p_W) const;
-  size_t count() const { return places_.size(); }
-
- private:
-  static constexpr size_t kMost = 256;  ///< the oldest are dropped beyond
   struct Place {
     Eigen::Vector2d p_W;
     double radius_m, t_s;
   };
+  const std::vector<Place>& places() const { return places_; }
+
+ private:
+  static constexpr size_t kMost = 256;  ///< the oldest are dropped beyond
   double keep_s_;
   std::vector<Place> places_;
 };

@@ -5,7 +5,8 @@
 
 namespace hedgehop::avoidance::local_map {
 
-void LevelSlice::build(const vision::mapping::OccupancyMap& map, const Band& band) {
+void LevelSlice::build(const vision::mapping::OccupancyMap& map, const Band& band,
+                       const ClosedCells& closed) {
   side_ = map.size().x();
   cell_m_ = map.config().voxel_m;
   corner_W_ = cell_m_ * map.first().head<2>().cast<double>();
@@ -23,11 +24,26 @@ void LevelSlice::build(const vision::mapping::OccupancyMap& map, const Band& ban
       }
     }
   }
+  close(closed);
   marked_.resize(cells_.size());
   std::ranges::transform(cells_, marked_.begin(), [](State s) { return static_cast<uint8_t>(s == State::occupied); });
   occupied_.build(marked_, side_, side_);
   std::ranges::transform(cells_, marked_.begin(), [](State s) { return static_cast<uint8_t>(s != State::free); });
   not_free_.build(marked_, side_, side_);
+}
+
+void LevelSlice::close(const ClosedCells& closed) {
+  for (const ClosedCells::Place& place : closed.places()) {
+    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(place.radius_m);
+    const Eigen::Vector2i low = cell(place.p_W - reach).cwiseMax(0);
+    const Eigen::Vector2i high = cell(place.p_W + reach).cwiseMin(side_ - 1);
+    for (int row = low.x(); row <= high.x(); ++row) {
+      for (int col = low.y(); col <= high.y(); ++col) {
+        State& state = cells_[static_cast<size_t>(row * side_ + col)];
+        if (state == State::unknown && (center(row, col) - place.p_W).norm() < place.radius_m) state = State::occupied;
+      }
+    }
+  }
 }
 
 }  // namespace hedgehop::avoidance::local_map

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "avoidance/local_map/closed_cells.h"
 #include "vision/mapping/distance_field.h"
 #include "vision/mapping/occupancy_map.h"
 
@@ -15,12 +16,12 @@ struct Band {
 };
 
 /// What is known of the plane of flight: a column of the map is occupied where any of its voxels within the band is,
-/// free where all are, and unknown otherwise; with distances to both.
+/// free where all are, and unknown otherwise; with distances to both. Unknown columns in closed places are occupied.
 class LevelSlice {
  public:
   using State = vision::mapping::OccupancyMap::State;
 
-  void build(const vision::mapping::OccupancyMap& map, const Band& band);
+  void build(const vision::mapping::OccupancyMap& map, const Band& band, const ClosedCells& closed);
 
   int side() const { return side_; }
   double cell_m() const { return cell_m_; }
@@ -42,6 +43,8 @@ class LevelSlice {
     const Eigen::Vector2i c = cell(p_W);
     return contains(c.x(), c.y()) ? cell_m_ * (field.at(c.x(), c.y()) - 0.5) : 0.0;
   }
+
+  void close(const ClosedCells& closed);
 
   int side_ = 0;
   double cell_m_ = 1.0;

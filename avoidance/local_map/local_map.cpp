@@ -21,7 +21,7 @@ using stereo::DisparitySource;
 using vision::mapping::DepthBlock;
 
 constexpr double kFadeSteps = 5.0;  // steps that free space is from unknown, at most
-constexpr double kHeightM = 0.35;   // above and below the vehicle's own height: altitude is held to this
+constexpr double kHeightM = 0.3;    // above and below the vehicle's own height: altitude is held to this
 constexpr double kAheadM = 4.0;     // along the route, to which the nose points
 constexpr double kStandsMps = 0.3;
 
@@ -50,7 +50,7 @@ class LocalMap final : public Module {
     last_.reset();
     last_cmd_W_.setZero();
     stares_since_s_.reset();
-    faded_s_ = 0.0;
+    age_s_ = seen_s_ = 0.0;
     stops_ = stuck_ = decisions_ = 0;
   }
 
@@ -98,14 +98,22 @@ class LocalMap final : public Module {
     Eigen::Vector3d center_W = navigation.p_WB_est;
     center_W.z() = height_W_;
     map_.move(center_W);
-    while (t_s - faded_s_ > config_.memory_s / kFadeSteps) {
-      map_.fade();
-      faded_s_ += config_.memory_s / kFadeSteps;
-    }
+    fade(navigation, t_s);
     map_.integrate(blocks_, source_->geometry(), X_WC);
     map_.clear_cylinder(navigation.p_WB_est, clearance_.hull_m, half_band_m());
-    slice_.build(map_, band());
     closed_.update(t_s);
+    slice_.build(map_, band(), closed_);
+  }
+
+  /// What is out of view is forgotten as fast as the position drifts: in flight, and a tenth as fast hovering.
+  void fade(const NavigationState& navigation, double t_s) {
+    constexpr double kFullMps = 1.0, kHoveringShare = 0.1;
+    const double share = std::clamp(navigation.v_WB_B_est.norm() / kFullMps, kHoveringShare, 1.0);
+    age_s_ += share * (t_s - seen_s_);
+    seen_s_ = t_s;
+    if (age_s_ < config_.memory_s / kFadeSteps) return;
+    age_s_ = 0.0;
+    map_.fade();
   }
 
   /// By how much a moment of a path breaks what must be kept: distance from obstacles, and, if asked, from the unknown.
@@ -120,12 +128,8 @@ class LocalMap final : public Module {
     const NavigationState& navigation = observation.navigation;
     const Eigen::Vector2d p_W = navigation.p_WB_est.head<2>(), goal_W = observation.goal.p_WG.head<2>();
     const Moment now{t_s, p_W, (navigation.q_WB_est * navigation.v_WB_B_est).head<2>()};
-    route_.build(
-        slice_, clearance_.hull_m + clearance_.margin_m, goal_W,
-        [&](int row, int col) {
-          return slice_.at(row, col) == LevelSlice::State::unknown && closed_.contains(slice_.center(row, col));
-        },
-        [&](const Eigen::Vector2d& edge_W) { return (goal_W - edge_W).norm(); });
+    route_.build(slice_, clearance_.hull_m + clearance_.margin_m, goal_W,
+                 [&](const Eigen::Vector2d& edge_W) { return (goal_W - edge_W).norm(); });
     const auto to_goal_m = [&](const Eigen::Vector2d& at_W) { return route_.to_goal_m(at_W); };
     plan_ = planner_->choose(now, last_cmd_W_, [&](const Moment& m) { return fault(m, true); }, to_goal_m);
     const StopPlanner::Plan hoped =
@@ -136,8 +140,8 @@ class LocalMap final : public Module {
     constexpr double kArrivedM = 0.5, kHeldBack = 0.6;
     const bool arrived = p_BG_W.norm() < kArrivedM;
     const bool held = !arrived && route_m && plan_.worth_m < kHeldBack * hoped.worth_m;
-    look_W_.reset();
-    if (held) look_W_ = unknown_in_the_way(hoped.path);
+    if (!held) look_W_.reset();
+    if (held && !(look_W_ && is_unknown(*look_W_))) look_W_ = unknown_in_the_way(hoped.path);
     stare(now, heading_rad(navigation.q_WB_est), plan_, t_s);
 
     Decision decision;
@@ -151,9 +155,14 @@ class LocalMap final : public Module {
     stops_ += !plan_.safe;
     decision.signals = {route_m.value_or(std::nan("")), (plan_.path.back().p_W - p_W).norm(),
                         blocks_.share(DepthBlock::Kind::unknown), blocks_.share(DepthBlock::Kind::sky),
-                        static_cast<double>(closed_.count())};
+                        static_cast<double>(closed_.places().size())};
     last_cmd_W_ = plan_.v_cmd_W;
     return decision;
+  }
+
+  bool is_unknown(const Eigen::Vector2d& p_W) const {
+    const Eigen::Vector2i cell = slice_.cell(p_W);
+    return slice_.contains(cell.x(), cell.y()) && slice_.at(cell.x(), cell.y()) == LevelSlice::State::unknown;
   }
 
   /// The unknown cell nearest to where a path that ignores the unknown first comes too near to one.
@@ -189,7 +198,9 @@ class LocalMap final : public Module {
     }
     if (!stares_since_s_) stares_since_s_ = t_s;
     if (t_s - *stares_since_s_ < config_.stare_s) return;
-    closed_.close(*look_W_, kRadiusM, t_s);
+    // Not what touches the vehicle, which would then not dare to move away.
+    const double away_m = (*look_W_ - now.p_W).norm() - clearance_.hull_m - clearance_.margin_m - slice_.cell_m();
+    closed_.close(*look_W_, std::clamp(away_m, 0.5 * slice_.cell_m(), kRadiusM), t_s);
     stares_since_s_.reset();
   }
 
@@ -233,7 +244,7 @@ class LocalMap final : public Module {
   Eigen::Vector2d last_cmd_W_ = Eigen::Vector2d::Zero();
   std::optional<Eigen::Vector2d> look_W_;  ///< what is unknown and in the way
   std::optional<double> stares_since_s_;
-  double faded_s_ = 0.0;
+  double age_s_ = 0.0, seen_s_ = 0.0;  ///< of the map since it faded last, and when the last image came
   std::optional<Decision> last_;
   int64_t stops_ = 0, stuck_ = 0, decisions_ = 0;
 };

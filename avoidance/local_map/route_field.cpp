@@ -21,7 +21,6 @@ constexpr Step kSteps[8] = {{-1, 0, 1.0}, {1, 0, 1.0}, {0, -1, 1.0}, {0, 1, 1.0}
 }  // namespace
 
 void RouteField::build(const LevelSlice& slice, double need_m, const Eigen::Vector2d& goal_W,
-                       const std::function<bool(int, int)>& closed,
                        const std::function<double(const Eigen::Vector2d&)>& beyond_m) {
   slice_ = &slice;
   const int n = slice.side();
@@ -30,7 +29,7 @@ void RouteField::build(const LevelSlice& slice, double need_m, const Eigen::Vect
   for (int row = 0; row < n; ++row) {
     for (int col = 0; col < n; ++col) {
       const double away_m = slice.to_occupied_m(row, col);
-      if (away_m < need_m || closed(row, col)) continue;
+      if (away_m < need_m) continue;
       double price = slice.at(row, col) == LevelSlice::State::free ? 1.0 : kUnknownPrice;
       price *= 1.0 + (kClosePrice - 1) * std::max(0.0, 1.0 - (away_m - need_m) / kSideM);
       price_[static_cast<size_t>(row * n + col)] = static_cast<uint8_t>(std::lround(kStraight * price));

@@ -16,10 +16,9 @@ namespace hedgehop::avoidance::local_map {
 class RouteField {
  public:
   /// @param need_m  hull and clearance: how far a route stays from what is occupied.
-  /// @param closed  whether a cell, by row and column, may not be passed though it is not occupied.
   /// @param beyond_m  distance to the goal from a point at the slice's edge, m; used where the goal lies outside.
   void build(const LevelSlice& slice, double need_m, const Eigen::Vector2d& goal_W,
-             const std::function<bool(int, int)>& closed, const std::function<double(const Eigen::Vector2d&)>& beyond_m);
+             const std::function<double(const Eigen::Vector2d&)>& beyond_m);
 
   /// Distance to the goal along the best route, m, unknown space counted kUnknownPrice times; nothing where there is
   /// none.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kPx = DepthBlocks::kBlockPx;
 
-/// The largest disparity but for a share of the block's matched pixels: single wrong ones come nearer, too.
+/// The largest disparity but for a few pixels: single ones are wrong, and a pole of one pixel leaves a column of eight.
 void read_disparity(const cv::Mat& disparity16, int row, int col, DepthBlock& block) {
   constexpr int kLeastMatched = kPx * kPx / 2;  // half of a block stands for it
   constexpr int kLeastNear = 6;                 // what a pole of one pixel leaves
@@ -27,7 +27,7 @@ void read_disparity(const cv::Mat& disparity16, int row, int col, DepthBlock& bl
   block.kind = count >= kLeastMatched ? DepthBlock::Kind::matched : DepthBlock::Kind::unknown;
   block.near16 = -1;
   if (count < kLeastNear) return;
-  const auto rank = matched.begin() + std::max(2, count / 8);
+  const auto rank = matched.begin() + std::max(2, count / 16);
   std::nth_element(matched.begin(), rank, matched.begin() + count, std::greater<>());
   block.near16 = *rank;
 }
@@ -67,80 +67,101 @@ double DepthBlocks::share(DepthBlock::Kind kind) const {
 
 namespace {
 
-constexpr double kSupportM = 25.0;           ///< least depth of the ground below the horizon
-constexpr double kNearHorizonRad = 0.05;     ///< of the edge between ground and sky: attitude errs by half a degree
-constexpr double kSupportRad = 0.16;         ///< below the horizon, within which the ground must have been matched
-constexpr int kSmooth = 6;                   ///< grey levels within a block and from one to the next
-constexpr int kLikeOthers = 25;              ///< grey levels between columns: skies brighten towards the sun
+constexpr double kSupportM = 25.0;        ///< least depth of the ground below the horizon
+constexpr double kSupportRad = 0.16;      ///< below the horizon, within which the ground must have been matched
+constexpr double kAttitudeRad = 0.03;     ///< by which the predicted horizon may err
+constexpr int kSmooth = 6;                ///< grey levels within a block of sky and from one to the next
+constexpr int kLikeOthers = 15;           ///< grey levels between a row's blocks of sky: skies brighten towards the sun
 
-/// Sine of a block's elevation above the horizon.
-double elevation(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, int row, int col) {
-  const cv::Point middle(col * kPx + kPx / 2, row * kPx + kPx / 2);
-  return -down_C.dot(geometry.ray(middle).normalized());
-}
+/// A column of blocks, climbed from the ground below the horizon.
+class Column {
+ public:
+  Column(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, const DepthBlocks& blocks, int col)
+      : geometry_(geometry), down_C_(down_C), blocks_(blocks), col_(col) {}
 
-/// Rows of a column that look like sky, from the lowest up: [first, last], first >= last.
-struct Run {
-  int lowest, highest, above_horizon;
+  /// Rows [top, bottom] that look like sky and what lies between it and the ground; the blocks of [top, horizon] are
+  /// above the horizon for certain.
+  struct Run {
+    int top, horizon, bottom;
+  };
+
+  std::optional<Run> climb() const {
+    const double far16 = geometry_.disparity16(kSupportM), near_rad = kAttitudeRad + 0.5 * kPx / geometry_.focal_px;
+    int row = blocks_.rows() - 1;
+    while (row >= 0 && elevation(row) < -kSupportRad) --row;
+    // The topmost block of ground that was matched far away, nothing near above it.
+    int support = -1;
+    for (; row >= 0 && elevation(row) < near_rad; --row) {
+      const DepthBlock& block = blocks_.at(row, col_);
+      if (block.near16 > far16) {
+        support = -1;
+      } else if (block.kind == DepthBlock::Kind::matched) {
+        support = row;
+      }
+    }
+    if (support < 0 || row < 0) return std::nullopt;
+    // Above the horizon all is smooth.
+    Run run{row + 1, row, support - 1};
+    for (; row >= 0; --row) {
+      const DepthBlock& block = blocks_.at(row, col_);
+      const bool steps = row < run.horizon && std::abs(block.grey - blocks_.at(row + 1, col_).grey) > kSmooth;
+      if (block.near16 >= 0 || block.range > kSmooth || steps) break;
+      run.top = row;
+    }
+    if (run.top > run.horizon) return std::nullopt;
+    return run;
+  }
+
+ private:
+  /// Sine of a block's elevation above the horizon.
+  double elevation(int row) const {
+    const cv::Point middle(col_ * kPx + kPx / 2, row * kPx + kPx / 2);
+    return -down_C_.dot(geometry_.ray(middle).normalized());
+  }
+
+  const stereo::StereoGeometry& geometry_;
+  const Eigen::Vector3d& down_C_;
+  const DepthBlocks& blocks_;
+  int col_;
 };
 
-/// Climbs a column from its ground to the horizon and on through what is smooth.
-std::optional<Run> climb(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C,
-                         const DepthBlocks& blocks, int col) {
-  // The topmost matched block of the ground below the horizon.
-  const double far16 = geometry.disparity16(kSupportM);
-  int row = blocks.rows() - 1;
-  while (row >= 0 && elevation(geometry, down_C, row, col) < -kSupportRad) --row;
-  int support = -1;
-  for (; row >= 0 && elevation(geometry, down_C, row, col) < kNearHorizonRad; --row) {
-    const DepthBlock& block = blocks.at(row, col);
-    if (block.near16 < 0) continue;
-    if (block.near16 > far16) return std::nullopt;
-    if (block.kind == DepthBlock::Kind::matched) support = row;
-  }
-  if (support <= 0) return std::nullopt;
-  // From there: one edge at most, near the horizon.
-  Run run{support - 1, support, -1};
-  int edges = 0;
-  for (row = support - 1; row >= 0; --row) {
-    const DepthBlock& block = blocks.at(row, col);
-    const double rises = elevation(geometry, down_C, row, col);
-    if (block.near16 >= 0) {
-      if (rises > kNearHorizonRad || block.near16 > far16) break;
-      continue;
+/// The median grey of the blocks that look like sky in each row; -1 where there are none.
+std::vector<int> usual_greys(const DepthBlocks& blocks, const std::vector<std::optional<Column::Run>>& runs) {
+  std::vector<int> usual(static_cast<size_t>(blocks.rows()), -1), greys;
+  for (int row = 0; row < blocks.rows(); ++row) {
+    greys.clear();
+    for (int col = 0; col < blocks.cols(); ++col) {
+      const auto& run = runs[static_cast<size_t>(col)];
+      if (run && row >= run->top && row <= run->horizon) greys.push_back(blocks.at(row, col).grey);
     }
-    const bool edge = row < support - 1 && std::abs(block.grey - blocks.at(row + 1, col).grey) > kSmooth;
-    if (edge || block.range > kSmooth) {
-      if (std::abs(rises) > kNearHorizonRad) break;
-      ++edges;  // one edge crosses two blocks or three
-    }
-    if (edges > 3) break;
-    run.highest = row;
-    if (run.above_horizon < 0 && rises > kNearHorizonRad) run.above_horizon = block.grey;
+    if (greys.empty()) continue;
+    const auto middle = greys.begin() + static_cast<std::ptrdiff_t>(greys.size() / 2);
+    std::nth_element(greys.begin(), middle, greys.end());
+    usual[static_cast<size_t>(row)] = *middle;
   }
-  if (run.highest > run.lowest || run.above_horizon < 0) return std::nullopt;
-  return run;
+  return usual;
 }
 
 }  // namespace
 
 int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, DepthBlocks& blocks) {
-  std::vector<std::optional<Run>> runs;
-  std::vector<int> greys;
-  for (int col = 0; col < blocks.cols(); ++col) {
-    runs.push_back(climb(geometry, down_C, blocks, col));
-    if (runs.back()) greys.push_back(runs.back()->above_horizon);
-  }
-  if (greys.empty()) return 0;
-  std::ranges::nth_element(greys, greys.begin() + static_cast<std::ptrdiff_t>(greys.size() / 2));
-  const int usual = greys[greys.size() / 2];
+  std::vector<std::optional<Column::Run>> runs;
+  for (int col = 0; col < blocks.cols(); ++col) runs.push_back(Column(geometry, down_C, blocks, col).climb());
+  const std::vector<int> usual = usual_greys(blocks, runs);
   int found = 0;
   for (int col = 0; col < blocks.cols(); ++col) {
-    const std::optional<Run>& run = runs[static_cast<size_t>(col)];
-    if (!run || std::abs(run->above_horizon - usual) > kLikeOthers) continue;
-    for (int row = run->highest; row <= run->lowest; ++row) {
+    const auto& run = runs[static_cast<size_t>(col)];
+    if (!run) continue;
+    for (int row = run->horizon; row >= run->top; --row) {
       DepthBlock& block = blocks.at(row, col);
-      if (block.kind == DepthBlock::Kind::matched) continue;
+      if (std::abs(block.grey - usual[static_cast<size_t>(row)]) > kLikeOthers) break;
+      block.kind = DepthBlock::Kind::sky;
+      ++found;
+    }
+    if (blocks.at(run->horizon, col).kind != DepthBlock::Kind::sky) continue;
+    for (int row = run->horizon + 1; row <= run->bottom; ++row) {
+      DepthBlock& block = blocks.at(row, col);
+      if (block.kind != DepthBlock::Kind::unknown) continue;
       block.kind = DepthBlock::Kind::sky;
       ++found;
     }

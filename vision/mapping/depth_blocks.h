@@ -46,10 +46,11 @@ class DepthBlocks {
 };
 
 /// Recognizes sky: it cannot be matched, and without it nothing flies in the open. A block is sky only on evidence:
-/// - below the horizon, which attitude predicts, its column ends in ground matched at `kSupportM` or farther;
-/// - between that and the block no surface was matched and at most one edge is seen, near the predicted horizon;
-/// - from block to block its grey changes as slowly as a sky's, and like that of the other columns' sky.
-/// A plain wall stands on ground that is nearer, a plain box in the air has an edge below it: both stay unknown.
+/// - below the horizon, which attitude predicts, its column ends in ground matched at 25 m or farther;
+/// - between that and the block no surface was matched, and nothing at all where the horizon is surely below;
+/// - above the horizon its column is smooth, and as bright as the other columns' sky in its row.
+/// With it goes what lies between that ground and the horizon. A plain wall stands on ground that is nearer, a plain box
+/// in the air has edges or another brightness: both stay unknown.
 /// Differs from [Andert2007] eq. (6) to (8), where all that is bright and without texture is infinitely far.
 /// @param down_C  the vertical in C, of length 1. @return blocks found.
 int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, DepthBlocks& blocks);

@@ -79,23 +79,31 @@ void OccupancyMap::move(const Eigen::Vector3d& center_W) {
 
 void OccupancyMap::integrate(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry,
                              const Eigen::Isometry3d& X_WC) {
-  // z in C up to which each block was seen through.
+  find_clear(blocks, geometry);
+  add_hits(blocks, geometry, X_WC);
+  add_misses(blocks, geometry, X_WC);
+  for (const size_t slot : hits_) hit_[slot] = 0;
+}
+
+/// z in C up to which each block was seen through: not past what its neighbors see nearer, whose edge may lie in it.
+void OccupancyMap::find_clear(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry) {
   const double beyond16 = kSigmas * config_.noise_px * stereo::kDisparityUnits;
   clear_m_.assign(static_cast<size_t>(blocks.rows() * blocks.cols()), 0.0F);
   for (int row = 0; row < blocks.rows(); ++row) {
     for (int col = 0; col < blocks.cols(); ++col) {
       const DepthBlock& block = blocks.at(row, col);
-      double z_m = 0.0;
-      if (block.kind == DepthBlock::Kind::sky) z_m = config_.far_m;
-      if (block.kind == DepthBlock::Kind::matched) {
-        z_m = stereo::kDisparityUnits * geometry.baseline_m * geometry.focal_px / (block.near16 + beyond16);
+      if (block.kind == DepthBlock::Kind::unknown) continue;
+      int near16 = -1;
+      for (int v = std::max(0, row - 1); v <= std::min(blocks.rows() - 1, row + 1); ++v) {
+        for (int u = std::max(0, col - 1); u <= std::min(blocks.cols() - 1, col + 1); ++u) {
+          near16 = std::max<int>(near16, blocks.at(v, u).near16);
+        }
       }
+      double z_m = near16 < 0 ? config_.far_m : geometry.disparity16(1.0) / (near16 + beyond16);
+      if (block.kind == DepthBlock::Kind::sky) z_m = std::min(z_m, config_.far_m);
       clear_m_[static_cast<size_t>(row * blocks.cols() + col)] = static_cast<float>(z_m);
     }
   }
-  add_hits(blocks, geometry, X_WC);
-  add_misses(blocks, geometry, X_WC);
-  for (const size_t slot : hits_) hit_[slot] = 0;
 }
 
 /// Endpoints of rays; each voxel counts once an image, however many blocks end in it.

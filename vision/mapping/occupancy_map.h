@@ -56,15 +56,16 @@ class OccupancyMap {
  private:
   size_t slot(const Index& voxel) const;
   bool contains(const Index& voxel) const;
+  void find_clear(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry);
   void add_hits(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry, const Eigen::Isometry3d& X_WC);
   void add_misses(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry, const Eigen::Isometry3d& X_WC);
 
   OccupancyMapConfig config_;
   Index first_ = Index::Zero();
-  std::vector<int8_t> log_odds_;       ///< in kStep; 0 is unknown
-  std::vector<uint8_t> hit_;           ///< in this image
-  std::vector<size_t> hits_;           ///< slots of hit_
-  std::vector<float> clear_m_, blocks_near_m_;  ///< of each block
+  std::vector<int8_t> log_odds_;  ///< in kStep; 0 is unknown
+  std::vector<uint8_t> hit_;      ///< in this image
+  std::vector<size_t> hits_;      ///< slots of hit_
+  std::vector<float> clear_m_;    ///< of each block
 };
 
 }  // namespace hedgehop::vision::mapping
