@@ -128,7 +128,8 @@ class LocalMap final : public Module {
     const NavigationState& navigation = observation.navigation;
     const Eigen::Vector2d p_W = navigation.p_WB_est.head<2>(), goal_W = observation.goal.p_WG.head<2>();
     const Moment now{t_s, p_W, (navigation.q_WB_est * navigation.v_WB_B_est).head<2>()};
-    route_.build(slice_, clearance_.hull_m + clearance_.margin_m, goal_W,
+    // Half a cell more than what a plan must keep: a route cuts the corners of cells.
+    route_.build(slice_, clearance_.hull_m + clearance_.margin_m + 0.5 * slice_.cell_m(), goal_W,
                  [&](const Eigen::Vector2d& edge_W) { return (goal_W - edge_W).norm(); });
     const auto to_goal_m = [&](const Eigen::Vector2d& at_W) { return route_.to_goal_m(at_W); };
     plan_ = planner_->choose(now, last_cmd_W_, [&](const Moment& m) { return fault(m, true); }, to_goal_m);

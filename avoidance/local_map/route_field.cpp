@@ -105,18 +105,23 @@ void RouteField::spread() {
 }
 
 std::optional<double> RouteField::to_goal_m(const Eigen::Vector2d& p_W) const {
-  constexpr int kReach = 2;
+  // From a place that routes keep out of, the way back to where they pass is dear, lest it be a gap that is too narrow.
+  constexpr int kBeside = 1, kReach = 4;
+  constexpr double kDear = 10.0;
   const Eigen::Vector2i here = slice_->cell(p_W);
   double best = std::numeric_limits<double>::infinity();
-  for (int row = here.x() - kReach; row <= here.x() + kReach; ++row) {
-    for (int col = here.y() - kReach; col <= here.y() + kReach; ++col) {
-      if (!slice_->contains(row, col) || cost(row, col) >= kNever) continue;
-      const double away = (slice_->center(row, col) - p_W).norm() / slice_->cell_m();
-      best = std::min(best, cost(row, col) + away * price_[static_cast<size_t>(row * slice_->side() + col)]);
+  for (const int reach : {kBeside, kReach}) {
+    for (int row = here.x() - reach; row <= here.x() + reach; ++row) {
+      for (int col = here.y() - reach; col <= here.y() + reach; ++col) {
+        if (!slice_->contains(row, col) || cost(row, col) >= kNever) continue;
+        const double away = (slice_->center(row, col) - p_W).norm() / slice_->cell_m();
+        const double price = reach == kBeside ? price_[static_cast<size_t>(row * slice_->side() + col)] : kDear * kStraight;
+        best = std::min(best, cost(row, col) + away * price);
+      }
     }
+    if (std::isfinite(best)) return best * slice_->cell_m() / kStraight;
   }
-  if (!std::isfinite(best)) return std::nullopt;
-  return best * slice_->cell_m() / kStraight;
+  return std::nullopt;
 }
 
 std::vector<Eigen::Vector2d> RouteField::route_W(const Eigen::Vector2d& p_W, double length_m) const {
