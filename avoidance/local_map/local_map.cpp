@@ -81,8 +81,8 @@ class LocalMap final : public Module {
     const double focal_px = source_->geometry().focal_px;
     const double wide_m = 2.0 * focal_px * side_m / source_->image().width;
     const double tall_m = 2.0 * focal_px * high_m / source_->image().height;
-    const double ahead_m = std::max(0.0, source_->X_BC().translation().x()) + std::max(wide_m, tall_m);
-    map_.clear_cylinder(navigation.p_WB_est, std::hypot(side_m, ahead_m), half_band_m());
+    blind_m_ = std::max(0.0, source_->X_BC().translation().x()) + std::max(wide_m, tall_m);
+    map_.clear_cylinder(navigation.p_WB_est, std::hypot(side_m, blind_m_), half_band_m());
   }
 
   void see(const NavigationState& navigation, double t_s) {
@@ -143,6 +143,7 @@ class LocalMap final : public Module {
     const bool held = !arrived && route_m && plan_.worth_m < kHeldBack * hoped.worth_m;
     if (!held) look_W_.reset();
     if (held && !(look_W_ && is_unknown(*look_W_))) look_W_ = unknown_in_the_way(hoped.path);
+    if (look_W_ && now.v_W.norm() < kStandsMps) back_off(now);
     stare(now, heading_rad(navigation.q_WB_est), plan_, t_s);
 
     Decision decision;
@@ -159,6 +160,14 @@ class LocalMap final : public Module {
                         static_cast<double>(closed_.places().size())};
     last_cmd_W_ = plan_.v_cmd_W;
     return decision;
+  }
+
+  /// Moves away from what it cannot see because it is too near, below or beside the image: where it came from is free.
+  void back_off(const Moment& now) {
+    const Eigen::Vector2d look_W = *look_W_;
+    const auto too_near_m = [&](const Eigen::Vector2d& p_W) { return std::max(0.0, blind_m_ - (p_W - look_W).norm()); };
+    if (too_near_m(now.p_W) == 0.0) return;
+    plan_ = planner_->choose(now, last_cmd_W_, [&](const Moment& m) { return fault(m, true); }, too_near_m);
   }
 
   bool is_unknown(const Eigen::Vector2d& p_W) const {
@@ -241,6 +250,7 @@ class LocalMap final : public Module {
   ClosedCells closed_;
   Clearance clearance_;
   double hull_height_m_ = 0.4;
+  double blind_m_ = 0.0;   ///< from B, within which the images do not show all that the vehicle will fly through
   double height_W_ = 0.0;  ///< z that is flown at
   Eigen::Vector2d last_cmd_W_ = Eigen::Vector2d::Zero();
   std::optional<Eigen::Vector2d> look_W_;  ///< what is unknown and in the way
