@@ -40,6 +40,12 @@ class LocalMap final : public Module {
   void do_reset(const Setup& setup) override {
     source_.emplace(config_.depth, DisparitySource::Grey::unused, config_.stereo, setup);
     const VehicleLimits& limits = setup.limits;
+    constexpr double kHalfHeightM = 0.2;  // of a vehicle whose outline nobody gave
+    hull_ = {-kHalfHeightM, kHalfHeightM};
+    for (const Eigen::AlignedBox3d& part_B : limits.outline_B) {
+      hull_.top_m = std::min(hull_.top_m, part_B.min().z());
+      hull_.bottom_m = std::max(hull_.bottom_m, part_B.max().z());
+    }
     clearance_ = {limits.radius_m, config_.margin_m, config_.margin_time_s};
     const double acceleration = limits.acceleration_mps2;
     planner_.emplace(Response{.delay_s = config_.delay_s,
@@ -69,20 +75,29 @@ class LocalMap final : public Module {
     return decision;
   }
 
-  Band band() const { return {height_W_ - 0.5 * hull_height_m_ - kHeightM, height_W_ + 0.5 * hull_height_m_ + kHeightM}; }
-  double half_band_m() const { return 0.5 * hull_height_m_ + kHeightM; }
+  /// @param z_W  of B.
+  Band band(double z_W) const { return {z_W + hull_.top_m - kHeightM, z_W + hull_.bottom_m + kHeightM}; }
+
+  /// Marks space around the vehicle as free, as high as its band.
+  void clear(const Eigen::Vector3d& p_WB, double radius_m) {
+    const Band tall = band(p_WB.z());
+    const Eigen::Vector3d middle_W(p_WB.x(), p_WB.y(), 0.5 * (tall.top_m + tall.bottom_m));
+    map_.clear_cylinder(middle_W, radius_m, 0.5 * (tall.bottom_m - tall.top_m));
+  }
 
   /// Where the flight begins, the vehicle was put or took off: free up to where the camera sees all that it will fly
   /// through, its width and its height.
   void begin(const NavigationState& navigation) {
     height_W_ = navigation.p_WB_est.z();
     map_.reset(navigation.p_WB_est);
-    const double side_m = clearance_.hull_m + config_.voxel_m, high_m = half_band_m() + config_.voxel_m;
+    const double side_m = clearance_.hull_m + config_.voxel_m;
+    const Band tall = band(0.0);
+    const double high_m = std::max(-tall.top_m, tall.bottom_m) + config_.voxel_m;
     const double focal_px = source_->geometry().focal_px;
     const double wide_m = 2.0 * focal_px * side_m / source_->image().width;
     const double tall_m = 2.0 * focal_px * high_m / source_->image().height;
     blind_m_ = std::max(0.0, source_->X_BC().translation().x()) + std::max(wide_m, tall_m);
-    map_.clear_cylinder(navigation.p_WB_est, std::hypot(side_m, blind_m_), half_band_m());
+    clear(navigation.p_WB_est, std::hypot(side_m, blind_m_));
   }
 
   void see(const NavigationState& navigation, double t_s) {
@@ -100,9 +115,9 @@ class LocalMap final : public Module {
     map_.move(center_W);
     fade(navigation, t_s);
     map_.integrate(blocks_, source_->geometry(), X_WC);
-    map_.clear_cylinder(navigation.p_WB_est, clearance_.hull_m, half_band_m());
+    clear(navigation.p_WB_est, clearance_.hull_m);
     closed_.update(t_s);
-    slice_.build(map_, band(), closed_);
+    slice_.build(map_, band(height_W_), closed_);
   }
 
   /// What is out of view is forgotten as fast as the position drifts: in flight, and a tenth as fast hovering.
@@ -249,7 +264,7 @@ class LocalMap final : public Module {
   StopPlanner::Plan plan_;
   ClosedCells closed_;
   Clearance clearance_;
-  double hull_height_m_ = 0.4;
+  Band hull_;              ///< heights of the hull's top and bottom, from B
   double blind_m_ = 0.0;   ///< from B, within which the images do not show all that the vehicle will fly through
   double height_W_ = 0.0;  ///< z that is flown at
   Eigen::Vector2d last_cmd_W_ = Eigen::Vector2d::Zero();

@@ -1,6 +1,7 @@
 #include "avoidance/local_map/route_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -105,21 +106,43 @@ void RouteField::spread() {
 }
 
 std::optional<double> RouteField::to_goal_m(const Eigen::Vector2d& p_W) const {
-  // From a place that routes keep out of, the way back to where they pass is dear, lest it be a gap that is too narrow.
-  constexpr int kBeside = 1, kReach = 4;
-  constexpr double kDear = 10.0;
   const Eigen::Vector2i here = slice_->cell(p_W);
   double best = std::numeric_limits<double>::infinity();
-  for (const int reach : {kBeside, kReach}) {
-    for (int row = here.x() - reach; row <= here.x() + reach; ++row) {
-      for (int col = here.y() - reach; col <= here.y() + reach; ++col) {
-        if (!slice_->contains(row, col) || cost(row, col) >= kNever) continue;
-        const double away = (slice_->center(row, col) - p_W).norm() / slice_->cell_m();
-        const double price = reach == kBeside ? price_[static_cast<size_t>(row * slice_->side() + col)] : kDear * kStraight;
-        best = std::min(best, cost(row, col) + away * price);
-      }
+  for (int row = here.x() - 1; row <= here.x() + 1; ++row) {
+    for (int col = here.y() - 1; col <= here.y() + 1; ++col) {
+      if (!slice_->contains(row, col) || cost(row, col) >= kNever) continue;
+      const double away = (slice_->center(row, col) - p_W).norm() / slice_->cell_m();
+      best = std::min(best, cost(row, col) + away * price_[static_cast<size_t>(row * slice_->side() + col)]);
     }
-    if (std::isfinite(best)) return best * slice_->cell_m() / kStraight;
+  }
+  if (!std::isfinite(best)) return back_to_route_m(here);
+  return best * slice_->cell_m() / kStraight;
+}
+
+/// From a cell that routes keep out of: the way back to where they pass, through what is not occupied. It is dear, lest it
+/// be through a gap that is too narrow.
+std::optional<double> RouteField::back_to_route_m(const Eigen::Vector2i& from) const {
+  constexpr int kReach = 4, kSide = 2 * kReach + 1;
+  constexpr double kDear = 10.0;
+  std::array<int, kSide * kSide> steps{};  // from the start, plus one; 0 not visited
+  std::vector<Eigen::Vector2i> open = {from};
+  steps[kReach * kSide + kReach] = 1;
+  for (size_t i = 0; i < open.size(); ++i) {
+    const Eigen::Vector2i at = open[i], off = at - from + Eigen::Vector2i::Constant(kReach);
+    if (!slice_->contains(at.x(), at.y())) continue;
+    const int so_far = steps[static_cast<size_t>(off.x() * kSide + off.y())];
+    if (cost(at.x(), at.y()) < kNever) {
+      return (cost(at.x(), at.y()) + kDear * kStraight * so_far) * slice_->cell_m() / kStraight;
+    }
+    if (i > 0 && slice_->at(at.x(), at.y()) == LevelSlice::State::occupied) continue;
+    for (const Step& step : kSteps) {
+      const Eigen::Vector2i next = off + Eigen::Vector2i(step.row, step.col);
+      if (next.minCoeff() < 0 || next.maxCoeff() >= kSide) continue;
+      int& then = steps[static_cast<size_t>(next.x() * kSide + next.y())];
+      if (then != 0) continue;
+      then = so_far + 1;
+      open.push_back(at + Eigen::Vector2i(step.row, step.col));
+    }
   }
   return std::nullopt;
 }

@@ -33,11 +33,15 @@ ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& 
       scenario.command_latency_s ? ticks_.ticks(*scenario.command_latency_s) : std::max(slowest, decision_period_);
 }
 
-void ModulePilot::reset(double vehicle_radius_m, const dynamics::control::Setpoint& hold) {
+void ModulePilot::reset(const std::vector<dynamics::HullPart>& hull, const dynamics::control::Setpoint& hold) {
   setpoint_ = hold;
   const dynamics::control::AutopilotConfig& limits = scenario_.avionics.autopilot;
+  std::vector<Eigen::AlignedBox3d> outline_B;
+  for (const dynamics::HullPart& part : hull) {
+    outline_B.emplace_back(part.center_B_m - part.half_extents_m, part.center_B_m + part.half_extents_m);
+  }
   module_->reset({{cameras_.mounted().begin(), cameras_.mounted().end()},
-                  {limits.speed_limit_mps, limits.acceleration_limit_mps2, vehicle_radius_m},
+                  {limits.speed_limit_mps, limits.acceleration_limit_mps2, dynamics::radius_m(hull), outline_B},
                   stream_seed(scenario_.seed, "module")});
 }
 
