@@ -10,8 +10,8 @@
 
 namespace hedgehop::avoidance::local_map {
 
-/// How far every cell of the slice is from the goal, through what is free or may be: [BrockKhatib1999] sec. 3, the
-/// global part of a dynamic window. Unknown cells may be passed on paper, at a price; only StopPlanner decides what
+/// How far every cell of the slice is from the goal, through what is free or may be: [BrockKhatib1999] sec. on the
+/// global dynamic window. Unknown cells may be passed on paper, at a price; only StopPlanner decides what
 /// may be flown. Because what is seen replaces what was assumed, and stays, each visit rules something out.
 class RouteField {
  public:

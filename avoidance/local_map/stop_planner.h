@@ -32,10 +32,11 @@ struct Moment {
 
 /// Chooses the velocity to command: the one whose stop lies nearest to the goal, among those after which the vehicle,
 /// should it brake then, stays to its full stop in space seen to be free.
-/// - Velocities are searched as in [Fox1997] sec. 4, and those that could not stop in time are not admitted, eq. (3).
-/// - A full stop within known free space is planned at every moment: [Tordesillas2019] sec. III, [Lopez2017] sec. III.
-/// Differs: [Fox1997] admits arcs free of obstacles, unknown counted as free; [Tordesillas2019] plans jerk-limited
-/// polynomials and keeps the last safe one, we brake along the velocity that was just planned to be safe.
+/// - Velocities are searched, and those that could not stop in time not admitted: [Fox1997] sec. on the dynamic window.
+/// - A full stop within known free space is planned at every moment, the rule that [Tordesillas2019] sec. I and
+///   [Lopez2017] sec. I start from.
+/// Differs: the former admits arcs free of obstacles, unknown counted as free; the latter flies faster, into the unknown
+/// as long as a safe trajectory branches off. Ours never plans beyond what it has seen.
 class StopPlanner {
  public:
   struct Plan {

@@ -25,7 +25,7 @@ struct DepthBlock {
 /// A disparity image in squares, each with its nearest surface: a few thousand rays instead of a quarter of a million,
 /// and none that passes by something nearer. Inverse depth has one uncertainty for all pixels and all distances,
 /// [Matthies2014] sec. III; it becomes a length only where free space ends.
-/// Differs: [Matthies2014] plans in the image; we carry what was seen into a map, since the vehicle turns away from it.
+/// Differs: the paper plans in the image; we carry what was seen into a map, since the vehicle turns away from it.
 class DepthBlocks {
  public:
   static constexpr int kBlockPx = 8;

@@ -7,7 +7,7 @@
 namespace hedgehop::vision::mapping {
 
 /// Distance of each cell of a grid to the nearest marked one, center to center, in cells; kFar where none is marked.
-/// A distance field makes the test of a disk one look-up: [Oleynikova2017] sec. III. Differs: theirs is built as voxels
+/// A distance field makes the test of a disk one look-up: [Oleynikova2017] sec. V. Differs: theirs is built as voxels
 /// change, in three dimensions; ours from scratch in the plane of flight, which takes a fraction of a millisecond.
 class DistanceField {
  public:

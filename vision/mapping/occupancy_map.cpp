@@ -7,8 +7,8 @@
 namespace hedgehop::vision::mapping {
 namespace {
 
-// Log-odds in steps of 0.4: a hit adds 1.2 and a miss takes 0.8; [Hornung2013] table 2 has 0.85 and 0.4, we trust a voxel seen
-// through more, for its whole block was.
+// Log-odds in steps of 0.4: a hit adds 1.2, a miss takes 0.8: what was seen through soon counts as free again, for the
+// whole block around its ray was.
 constexpr int kHit = 3, kMiss = -2;
 constexpr int kLeast = -9, kMost = 12;  // clamps: what was seen free turns after two hits, and is occupied after five
 constexpr int kFreeBelow = -4, kOccupiedFrom = 5;

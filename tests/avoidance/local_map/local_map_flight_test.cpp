@@ -14,7 +14,7 @@ int point_flights() {
   return asked ? std::atoi(asked) : 10;
 }
 
-// A stop is always possible in known free space: [Tordesillas2019] sec. III.
+// A stop is always possible in known free space: [Tordesillas2019] sec. I.
 TEST(LocalMapFlight, NoPointCollidesInRandomWorldsWithPerfectDepth) {
   const int flights = point_flights();
   int reached = 0;
