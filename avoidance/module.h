@@ -98,6 +98,9 @@ struct MountedCamera {
 struct VehicleLimits {
   double speed_mps = 0.0, acceleration_mps2 = 0.0;
   double radius_m = 0.0;  ///< of the smallest vertical cylinder round B that holds the vehicle
+  /// Boxes in B that together hold the hull, m: a helicopter's rotor, fuselage and boom; empty where only the radius is
+  /// known.
+  std::vector<Eigen::AlignedBox3d> outline_B;
 };
 struct Setup {
   std::vector<MountedCamera> cameras;

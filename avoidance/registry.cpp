@@ -25,6 +25,7 @@ struct Make {
   std::unique_ptr<Module> operator()(const landmark_map::LandmarkMapModuleConfig& c) const {
     return landmark_map::make_landmark_map(c);
   }
+  std::unique_ptr<Module> operator()(const local_map::LocalMapConfig& c) const { return local_map::make_local_map(c); }
   std::unique_ptr<Module> operator()(const policy::OnnxPolicyConfig& c) const { return policy::make_onnx_policy(c); }
 };
 

@@ -8,6 +8,7 @@
 #include "avoidance/flow_balance/zig_zag.h"
 #include "avoidance/go_to_goal.h"
 #include "avoidance/landmark_map/landmark_map.h"
+#include "avoidance/local_map/local_map.h"
 #include "avoidance/module.h"
 #include "avoidance/policy/onnx_policy.h"
 #include "avoidance/section_grid/section_grid.h"
@@ -19,7 +20,7 @@ namespace hedgehop::avoidance {
 using ModuleConfig = std::variant<GoToGoalConfig, flow_balance::FlowBalanceConfig, flow_balance::ZigZagConfig,
                                   section_grid::SectionGridConfig, stereo_corridor::StereoCorridorConfig,
                                   corridor_centering::CorridorCenteringConfig, landmark_map::LandmarkMapModuleConfig,
-                                  policy::OnnxPolicyConfig>;
+                                  local_map::LocalMapConfig, policy::OnnxPolicyConfig>;
 
 /// Returns the module that the config belongs to, made to stop when it is blind (sight.h); reset() comes next. Throws
 /// std::invalid_argument on a bad config.

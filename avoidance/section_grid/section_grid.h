@@ -6,6 +6,7 @@
 #include "avoidance/law.h"
 #include "avoidance/module.h"
 #include "avoidance/stereo/disparity_source.h"
+#include "vision/sections/section_search.h"
 #include "vision/stereo/stereo_matcher.h"
 
 namespace hedgehop::avoidance::section_grid {
@@ -33,6 +34,7 @@ struct SectionGridConfig {
   double threshold_time_s = 0.0;
   double keep_share = 0.01;
   double passed_radius_m = 0.0;
+  vision::sections::Unknown unknown = vision::sections::Unknown::free;
   Answer answer = Answer::waypoint;
 };
 
@@ -71,6 +73,9 @@ void describe(Visitor& v, SectionGridConfig& c) {
     {.unit = "m",
      .at_least = 0.0,
      .meaning = "ours: of the cylinder that must be free of what has left the image; 0 remembers nothing"});
+  v("unknown", c.unknown,
+    {.choices = {"free", "threat"},
+     .meaning = "ours: what a pixel without depth counts as; threat stops before plain walls, and before the sky"});
   v("answer", c.answer,
     {.choices = {"waypoint", "heading", "sideways", "climb", "combined"},
      .meaning = "ours: a position in the section's direction; the same on the level; aside without turning; straight "

@@ -65,6 +65,7 @@ class StereoCorridor final : public Module {
     cv::Mat& disparity16 = source_->disparity16();
     if (disparity16.empty()) return {HoverCommand{}, "wait", std::vector<double>(5, kUnknown)};
     improve(disparity16);
+    if (config_.law == Law::ours && config_.unknown == Unknown::blocked) block_unknown(disparity16);
     pyramid_.build(disparity16, CorridorSearch::kCoarsestLevel);
     const NavigationState& navigation = observation.navigation;
     const Eigen::Isometry3d X_WC = Eigen::Translation3d(navigation.p_WB_est) * navigation.q_WB_est * source_->X_BC();
@@ -107,6 +108,19 @@ class StereoCorridor final : public Module {
     const cv::Mat& grey = config_.additions.sky ? smooth_ : source_->grey();
     const auto among = config_.additions.sky ? vision::stereo::SkyAmong::all : vision::stereo::SkyAmong::unknown;
     vision::stereo::mark_sky(grey, config_.sky_texture, config_.sky_brightness, among, disparity16);
+  }
+
+  /// Squares without any match become as near as blocks a corridor.
+  void block_unknown(cv::Mat& disparity16) const {
+    constexpr int kSquarePx = 8;
+    const auto blocking16 = static_cast<int16_t>(std::ceil(source_->geometry().disparity16(config_.corridor.target_m)));
+    const cv::Rect image({}, disparity16.size());
+    for (int v = 0; v < image.height; v += kSquarePx) {
+      for (int u = 0; u < image.width; u += kSquarePx) {
+        cv::Mat square = disparity16(cv::Rect(u, v, kSquarePx, kSquarePx) & image);
+        if (cv::countNonZero(square >= 0) == 0) square.setTo(blocking16);
+      }
+    }
   }
 
   CorridorSearch search() const {

@@ -18,6 +18,9 @@ struct Additions {
   bool sky = true;         ///< vision::stereo::SkyAmong::all, in a smoothed image
 };
 
+/// What a region without any match counts as.
+enum class Unknown { free, blocked };
+
 /// Flies through corridors that a depth image shows to be free.
 /// Source: [Andert2007] sec. 3 and 4: corridor_search.h. Law `ours` adds the goal, memory and slowing down.
 struct StereoCorridorConfig {
@@ -26,6 +29,7 @@ struct StereoCorridorConfig {
 
   Law law = Law::ours;
   Additions additions;
+  Unknown unknown = Unknown::free;
   stereo::DisparitySource::From depth = stereo::DisparitySource::From::stereo;
   vision::stereo::StereoMatcherConfig stereo;
   int speck_px = 60;
@@ -48,6 +52,9 @@ void describe(Visitor& v, StereoCorridorConfig& c) {
                 "missed"});
   v("memory", c.additions.memory, {.meaning = "ours: remember obstacles that have left the image"});
   v("sky", c.additions.sky, {.meaning = "ours: look for sky among matched pixels too, in a smoothed image"});
+  v("unknown", c.unknown,
+    {.choices = {"free", "blocked"},
+     .meaning = "ours: what a square of 8 px without any match and not sky counts as; blocked stops before plain walls"});
   v("depth", c.depth,
     {.choices = {"stereo", "camera"},
      .meaning = "by matching cameras 'left' and 'right', or from a camera 'depth' with the lens and pose of 'left'"});

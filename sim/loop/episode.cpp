@@ -34,8 +34,7 @@ Episode::Episode(const Scenario& scenario, Stage& stage, FlightParts parts, Flig
   }
   aircraft_.reset(stage_.collision);
   const double heading_rad = pilot_.route().goal().heading_rad;
-  pilot_.reset(dynamics::radius_m(stage_.hull),
-               dynamics::control::PositionSetpoint{aircraft_.body().p_WB, heading_rad});
+  pilot_.reset(stage_.hull, dynamics::control::PositionSetpoint{aircraft_.body().p_WB, heading_rad});
   log_.set_signals(pilot_.module().signals());
   p_WB_start_ = aircraft_.body().p_WB;
   arrive();

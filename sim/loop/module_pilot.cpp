@@ -38,9 +38,9 @@ ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& 
       scenario.command_latency_s ? ticks_.ticks(*scenario.command_latency_s) : std::max(slowest, decision_period_);
 }
 
-void ModulePilot::reset(double vehicle_radius_m, const dynamics::control::Setpoint& hold) {
+void ModulePilot::reset(const std::vector<dynamics::HullPart>& hull, const dynamics::control::Setpoint& hold) {
   setpoint_ = hold;
-  module_->reset(module_setup(scenario_, vehicle_radius_m));
+  module_->reset(module_setup(scenario_, hull));
 }
 
 bool ModulePilot::looks(int64_t tick) const {

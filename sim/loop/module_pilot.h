@@ -9,6 +9,7 @@
 
 #include "avoidance/module.h"
 #include "dynamics/control/setpoint.h"
+#include "dynamics/hull.h"
 #include "sim/loop/cameras.h"
 #include "sim/loop/route.h"
 #include "sim/loop/ticks.h"
@@ -26,7 +27,7 @@ class ModulePilot {
 
   /// Starts a flight. @param vehicle_radius_m  of the vertical cylinder that holds the vehicle. @param hold  in effect
   /// until the first command is.
-  void reset(double vehicle_radius_m, const dynamics::control::Setpoint& hold);
+  void reset(const std::vector<dynamics::HullPart>& hull, const dynamics::control::Setpoint& hold);
 
   /// Whether one of its cameras exposes on this tick.
   bool looks(int64_t tick) const;

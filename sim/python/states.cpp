@@ -147,7 +147,17 @@ void bind_setup(py::module_& native) {
   py::class_<VehicleLimits>(native, "VehicleLimits")
       .def_readonly("speed_mps", &VehicleLimits::speed_mps)
       .def_readonly("acceleration_mps2", &VehicleLimits::acceleration_mps2)
-      .def_readonly("radius_m", &VehicleLimits::radius_m);
+      .def_readonly("radius_m", &VehicleLimits::radius_m)
+      .def_property_readonly(
+          "outline_B_m",
+          [](const VehicleLimits& l) {
+            py::list boxes;
+            for (const Eigen::AlignedBox3d& box : l.outline_B) {
+              boxes.append(py::make_tuple(Eigen::Vector3d(box.min()), Eigen::Vector3d(box.max())));
+            }
+            return boxes;
+          },
+          "boxes that hold the hull, as pairs of corners in B");
   py::class_<Setup>(native, "Setup", "What a module is told before a flight.")
       .def_readonly("cameras", &Setup::cameras)
       .def_readonly("limits", &Setup::limits)

@@ -32,10 +32,13 @@ std::unique_ptr<avoidance::Module> build_module(const AvoidanceConfig& config) {
       config);
 }
 
-avoidance::Setup module_setup(const Scenario& scenario, double vehicle_radius_m) {
+avoidance::Setup module_setup(const Scenario& scenario, const std::vector<dynamics::HullPart>& hull) {
   const dynamics::control::AutopilotConfig& limits = scenario.avionics.autopilot;
-  avoidance::Setup setup{.limits = {limits.speed_limit_mps, limits.acceleration_limit_mps2, vehicle_radius_m},
+  avoidance::Setup setup{.limits = {limits.speed_limit_mps, limits.acceleration_limit_mps2, dynamics::radius_m(hull)},
                          .seed = stream_seed(scenario.seed, "module")};
+  for (const dynamics::HullPart& part : hull) {
+    setup.limits.outline_B.emplace_back(part.center_B_m - part.half_extents_m, part.center_B_m + part.half_extents_m);
+  }
   for (const CameraConfig& camera : scenario.rig.cameras) {
     setup.cameras.push_back({camera.role, camera.model(), camera.X_BC(), camera.rate_hz});
   }
@@ -43,7 +46,7 @@ avoidance::Setup module_setup(const Scenario& scenario, double vehicle_radius_m)
 }
 
 avoidance::Setup module_setup(const Scenario& scenario) {
-  return module_setup(scenario, dynamics::radius_m(dynamics::hull(scenario.vehicle)));
+  return module_setup(scenario, dynamics::hull(scenario.vehicle));
 }
 
 InputError placed(const Node* root, const InputError& faults) {

@@ -6,10 +6,12 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "avoidance/module.h"
 #include "dynamics/air/wind.h"
 #include "dynamics/avionics.h"
+#include "dynamics/hull.h"
 #include "dynamics/vehicle.h"
 #include "scenes/scene.h"
 #include "sim/scenario/inputs.h"
@@ -66,8 +68,8 @@ dynamics::Avionics build_avionics(const Scenario& scenario, const dynamics::Vehi
 /// Null for a module of a shared library: reading a scenario loads no foreign code.
 std::unique_ptr<avoidance::Module> build_module(const AvoidanceConfig& config);
 
-/// What a module is told before its flight. @param vehicle_radius_m  of the vertical cylinder that holds the vehicle.
-avoidance::Setup module_setup(const Scenario& scenario, double vehicle_radius_m);
+/// What a module is told before its flight. @param hull  of the vehicle.
+avoidance::Setup module_setup(const Scenario& scenario, const std::vector<dynamics::HullPart>& hull);
 /// As above, of the scenario's own vehicle.
 avoidance::Setup module_setup(const Scenario& scenario);
 

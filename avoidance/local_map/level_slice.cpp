@@ -1,0 +1,49 @@
+#include "avoidance/local_map/level_slice.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hedgehop::avoidance::local_map {
+
+void LevelSlice::build(const vision::mapping::OccupancyMap& map, const Band& band,
+                       const ClosedCells& closed) {
+  side_ = map.size().x();
+  cell_m_ = map.config().voxel_m;
+  corner_W_ = cell_m_ * map.first().head<2>().cast<double>();
+  cells_.assign(static_cast<size_t>(side_ * side_), State::free);
+  const auto layer_of = [&](double z_m) { return static_cast<int>(std::floor(z_m / cell_m_)) - map.first().z(); };
+  const int top = std::max(0, layer_of(band.top_m)), bottom = std::min(map.size().z() - 1, layer_of(band.bottom_m));
+  for (int layer = top; layer <= bottom; ++layer) {
+    for (int i = 0; i < side_; ++i) {
+      map.read_row(layer, i, row_);
+      State* const here = cells_.data() + static_cast<size_t>(i * side_);
+      for (int j = 0; j < side_; ++j) {
+        const State seen = row_[static_cast<size_t>(j)];
+        // occupied outweighs unknown, unknown outweighs free
+        if (seen == State::occupied || (seen == State::unknown && here[j] == State::free)) here[j] = seen;
+      }
+    }
+  }
+  close(closed);
+  marked_.resize(cells_.size());
+  std::ranges::transform(cells_, marked_.begin(), [](State s) { return static_cast<uint8_t>(s == State::occupied); });
+  occupied_.build(marked_, side_, side_);
+  std::ranges::transform(cells_, marked_.begin(), [](State s) { return static_cast<uint8_t>(s != State::free); });
+  not_free_.build(marked_, side_, side_);
+}
+
+void LevelSlice::close(const ClosedCells& closed) {
+  for (const ClosedCells::Place& place : closed.places()) {
+    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(place.radius_m);
+    const Eigen::Vector2i low = cell(place.p_W - reach).cwiseMax(0);
+    const Eigen::Vector2i high = cell(place.p_W + reach).cwiseMin(side_ - 1);
+    for (int row = low.x(); row <= high.x(); ++row) {
+      for (int col = low.y(); col <= high.y(); ++col) {
+        State& state = cells_[static_cast<size_t>(row * side_ + col)];
+        if (state == State::unknown && (center(row, col) - place.p_W).norm() < place.radius_m) state = State::occupied;
+      }
+    }
+  }
+}
+
+}  // namespace hedgehop::avoidance::local_map

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "avoidance/local_map/closed_cells.h"
+#include "vision/mapping/distance_field.h"
+#include "vision/mapping/occupancy_map.h"
+
+namespace hedgehop::avoidance::local_map {
+
+/// The heights, in W's z, that the vehicle takes up: [top, bottom], m.
+struct Band {
+  double top_m = 0.0, bottom_m = 0.0;
+};
+
+/// What is known of the plane of flight: a column of the map is occupied where any of its voxels within the band is,
+/// free where all are, and unknown otherwise; with distances to both. Unknown columns in closed places are occupied.
+class LevelSlice {
+ public:
+  using State = vision::mapping::OccupancyMap::State;
+
+  void build(const vision::mapping::OccupancyMap& map, const Band& band, const ClosedCells& closed);
+
+  int side() const { return side_; }
+  double cell_m() const { return cell_m_; }
+  State at(int row, int col) const { return cells_[static_cast<size_t>(row * side_ + col)]; }
+  bool contains(int row, int col) const { return row >= 0 && col >= 0 && row < side_ && col < side_; }
+  Eigen::Vector2i cell(const Eigen::Vector2d& p_W) const {
+    return ((p_W - corner_W_) / cell_m_).array().floor().cast<int>();
+  }
+  Eigen::Vector2d center(int row, int col) const { return corner_W_ + cell_m_ * Eigen::Vector2d(row + 0.5, col + 0.5); }
+
+  /// Distance to the nearest occupied, or not free, cell's edge, m: a lower bound for points of the cell.
+  double to_occupied_m(const Eigen::Vector2d& p_W) const { return look_up(occupied_, p_W); }
+  double to_unknown_m(const Eigen::Vector2d& p_W) const { return look_up(not_free_, p_W); }
+  double to_occupied_m(int row, int col) const { return cell_m_ * (occupied_.at(row, col) - 0.5); }
+  double to_unknown_m(int row, int col) const { return cell_m_ * (not_free_.at(row, col) - 0.5); }
+
+ private:
+  double look_up(const vision::mapping::DistanceField& field, const Eigen::Vector2d& p_W) const {
+    const Eigen::Vector2i c = cell(p_W);
+    return contains(c.x(), c.y()) ? cell_m_ * (field.at(c.x(), c.y()) - 0.5) : 0.0;
+  }
+
+  void close(const ClosedCells& closed);
+
+  int side_ = 0;
+  double cell_m_ = 1.0;
+  Eigen::Vector2d corner_W_ = Eigen::Vector2d::Zero();
+  std::vector<State> cells_, row_;
+  std::vector<uint8_t> marked_;
+  vision::mapping::DistanceField occupied_, not_free_;
+};
+
+}  // namespace hedgehop::avoidance::local_map

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "avoidance/local_map/level_slice.h"
+#include "avoidance/local_map/stop_planner.h"
+
+namespace hedgehop::avoidance::local_map {
+
+/// What a film shows of a decision.
+struct ShownPlan {
+  const LevelSlice& slice;
+  const std::vector<Moment>& path;             ///< to the planned stop
+  const std::vector<Eigen::Vector2d> route_W;  ///< hoped for
+  std::optional<Eigen::Vector2d> look_W;       ///< what is unknown and in the way
+  double hull_m;
+  std::string status;
+};
+
+/// Draws the slice from above, north up: free light, unknown grey, occupied dark; the route thin, the planned stop green, and
+/// what it waits for red. @return CV_8UC3, RGB.
+cv::Mat draw(const ShownPlan& shown);
+
+}  // namespace hedgehop::avoidance::local_map

@@ -1,0 +1,169 @@
+#include "avoidance/local_map/route_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace hedgehop::avoidance::local_map {
+namespace {
+
+constexpr int kStraight = 10;    // cost of a step to a neighbor, in tenths of a cell
+constexpr double kSideM = 0.8;   // how far beyond what it needs a route prefers to stay from obstacles
+constexpr int kClosePrice = 3;   // times the price where it cannot
+
+struct Step {
+  int row, col;
+  double length;
+};
+constexpr Step kSteps[8] = {{-1, 0, 1.0}, {1, 0, 1.0}, {0, -1, 1.0}, {0, 1, 1.0},
+                            {-1, -1, 1.41421356}, {-1, 1, 1.41421356}, {1, -1, 1.41421356}, {1, 1, 1.41421356}};
+
+}  // namespace
+
+void RouteField::build(const LevelSlice& slice, double need_m, const Eigen::Vector2d& goal_W,
+                       const std::function<double(const Eigen::Vector2d&)>& beyond_m) {
+  slice_ = &slice;
+  const int n = slice.side();
+  price_.assign(static_cast<size_t>(n * n), 0);
+  cost_.assign(static_cast<size_t>(n * n), kNever);
+  for (int row = 0; row < n; ++row) {
+    for (int col = 0; col < n; ++col) {
+      const double away_m = slice.to_occupied_m(row, col);
+      if (away_m < need_m) continue;
+      double price = slice.at(row, col) == LevelSlice::State::free ? 1.0 : kUnknownPrice;
+      price *= 1.0 + (kClosePrice - 1) * std::max(0.0, 1.0 - (away_m - need_m) / kSideM);
+      price_[static_cast<size_t>(row * n + col)] = static_cast<uint8_t>(std::lround(kStraight * price));
+    }
+  }
+  seed(goal_W, beyond_m);
+  spread();
+}
+
+void RouteField::push(int cell, int cost) {
+  if (cost >= cost_[static_cast<size_t>(cell)]) return;
+  cost_[static_cast<size_t>(cell)] = cost;
+  const auto bucket = static_cast<size_t>(cost);
+  if (bucket >= buckets_.size()) buckets_.resize(bucket + 1);
+  buckets_[bucket].push_back(cell);
+  ++waiting_;
+}
+
+/// The goal's cell or the nearest to it that may be entered; of a goal outside, all cells at the edge.
+void RouteField::seed(const Eigen::Vector2d& goal_W, const std::function<double(const Eigen::Vector2d&)>& beyond_m) {
+  for (auto& bucket : buckets_) bucket.clear();
+  waiting_ = 0;
+  const int n = slice_->side();
+  const Eigen::Vector2i goal = slice_->cell(goal_W);
+  const double tenths_per_m = kStraight / slice_->cell_m();
+  if (slice_->contains(goal.x(), goal.y())) {
+    int best = -1;
+    double best_m = std::numeric_limits<double>::infinity();
+    for (int cell = 0; cell < n * n; ++cell) {
+      if (price_[static_cast<size_t>(cell)] == 0) continue;
+      const double away_m = (slice_->center(cell / n, cell % n) - goal_W).norm();
+      if (away_m >= best_m) continue;
+      best = cell;
+      best_m = away_m;
+    }
+    if (best >= 0) push(best, 0);
+    return;
+  }
+  double least_m = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<int, double>> edge;
+  for (int i = 0; i < n; ++i) {
+    for (const int cell : {i, (n - 1) * n + i, i * n, i * n + n - 1}) {
+      if (price_[static_cast<size_t>(cell)] == 0) continue;
+      edge.emplace_back(cell, beyond_m(slice_->center(cell / n, cell % n)));
+      least_m = std::min(least_m, edge.back().second);
+    }
+  }
+  // Distances count from the nearest edge on, so that few buckets do; to_goal_m() differs by a constant.
+  for (const auto& [cell, away_m] : edge) {
+    if (std::isfinite(away_m)) push(cell, static_cast<int>(std::lround(tenths_per_m * (away_m - least_m))));
+  }
+}
+
+/// Dijkstra's search with one bucket for each cost.
+void RouteField::spread() {
+  const int n = slice_->side();
+  for (size_t bucket = 0; waiting_ > 0 && bucket < buckets_.size(); ++bucket) {
+    for (size_t i = 0; i < buckets_[bucket].size(); ++i) {
+      const int cell = buckets_[bucket][i];
+      --waiting_;
+      if (cost_[static_cast<size_t>(cell)] != static_cast<int>(bucket)) continue;
+      const int row = cell / n, col = cell % n;
+      for (const Step& step : kSteps) {
+        if (!slice_->contains(row + step.row, col + step.col)) continue;
+        const int next = (row + step.row) * n + col + step.col;
+        const int price = price_[static_cast<size_t>(next)];
+        if (price == 0) continue;
+        const double mean = 0.5 * (price + price_[static_cast<size_t>(cell)]);
+        push(next, static_cast<int>(bucket) + std::max(1, static_cast<int>(std::lround(mean * step.length))));
+      }
+    }
+  }
+}
+
+std::optional<double> RouteField::to_goal_m(const Eigen::Vector2d& p_W) const {
+  const Eigen::Vector2i here = slice_->cell(p_W);
+  double best = std::numeric_limits<double>::infinity();
+  for (int row = here.x() - 1; row <= here.x() + 1; ++row) {
+    for (int col = here.y() - 1; col <= here.y() + 1; ++col) {
+      if (!slice_->contains(row, col) || cost(row, col) >= kNever) continue;
+      const double away = (slice_->center(row, col) - p_W).norm() / slice_->cell_m();
+      best = std::min(best, cost(row, col) + away * price_[static_cast<size_t>(row * slice_->side() + col)]);
+    }
+  }
+  if (!std::isfinite(best)) return back_to_route_m(here);
+  return best * slice_->cell_m() / kStraight;
+}
+
+/// From a cell that routes keep out of: the way back to where they pass, through what is not occupied. It is dear, lest it
+/// be through a gap that is too narrow.
+std::optional<double> RouteField::back_to_route_m(const Eigen::Vector2i& from) const {
+  constexpr int kReach = 4, kSide = 2 * kReach + 1;
+  constexpr double kDear = 10.0;
+  std::array<int, kSide * kSide> steps{};  // from the start, plus one; 0 not visited
+  std::vector<Eigen::Vector2i> open = {from};
+  steps[kReach * kSide + kReach] = 1;
+  for (size_t i = 0; i < open.size(); ++i) {
+    const Eigen::Vector2i at = open[i], off = at - from + Eigen::Vector2i::Constant(kReach);
+    if (!slice_->contains(at.x(), at.y())) continue;
+    const int so_far = steps[static_cast<size_t>(off.x() * kSide + off.y())];
+    if (cost(at.x(), at.y()) < kNever) {
+      return (cost(at.x(), at.y()) + kDear * kStraight * so_far) * slice_->cell_m() / kStraight;
+    }
+    if (i > 0 && slice_->at(at.x(), at.y()) == LevelSlice::State::occupied) continue;
+    for (const Step& step : kSteps) {
+      const Eigen::Vector2i next = off + Eigen::Vector2i(step.row, step.col);
+      if (next.minCoeff() < 0 || next.maxCoeff() >= kSide) continue;
+      int& then = steps[static_cast<size_t>(next.x() * kSide + next.y())];
+      if (then != 0) continue;
+      then = so_far + 1;
+      open.push_back(at + Eigen::Vector2i(step.row, step.col));
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<Eigen::Vector2d> RouteField::route_W(const Eigen::Vector2d& p_W, double length_m) const {
+  std::vector<Eigen::Vector2d> route = {p_W};
+  Eigen::Vector2i cell = slice_->cell(p_W);
+  if (!slice_->contains(cell.x(), cell.y())) return route;
+  for (double flown_m = 0.0; flown_m < length_m;) {
+    Eigen::Vector2i best = cell;
+    for (const Step& step : kSteps) {
+      const Eigen::Vector2i next = cell + Eigen::Vector2i(step.row, step.col);
+      if (!slice_->contains(next.x(), next.y())) continue;
+      if (cost(next.x(), next.y()) < cost(best.x(), best.y())) best = next;
+    }
+    if (best == cell) break;
+    flown_m += slice_->cell_m() * (best - cell).cast<double>().norm();
+    cell = best;
+    route.push_back(slice_->center(cell.x(), cell.y()));
+  }
+  return route;
+}
+
+}  // namespace hedgehop::avoidance::local_map

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "avoidance/local_map/level_slice.h"
+
+namespace hedgehop::avoidance::local_map {
+
+/// How far every cell of the slice is from the goal, through what is free or may be: [BrockKhatib1999] sec. on the
+/// global dynamic window. Unknown cells may be passed on paper, at a price; only StopPlanner decides what
+/// may be flown. Because what is seen replaces what was assumed, and stays, each visit rules something out.
+class RouteField {
+ public:
+  /// @param need_m  hull and clearance: how far a route stays from what is occupied.
+  /// @param beyond_m  distance to the goal from a point at the slice's edge, m; used where the goal lies outside.
+  void build(const LevelSlice& slice, double need_m, const Eigen::Vector2d& goal_W,
+             const std::function<double(const Eigen::Vector2d&)>& beyond_m);
+
+  /// Distance to the goal along the best route, m, unknown space counted kUnknownPrice times; nothing where there is
+  /// none.
+  std::optional<double> to_goal_m(const Eigen::Vector2d& p_W) const;
+  /// Points of the best route from here, a cell apart.
+  std::vector<Eigen::Vector2d> route_W(const Eigen::Vector2d& p_W, double length_m) const;
+
+  static constexpr double kUnknownPrice = 1.5;
+
+ private:
+  static constexpr int kNever = 1 << 29;
+  int cost(int row, int col) const { return cost_[static_cast<size_t>(row * slice_->side() + col)]; }
+  std::optional<double> back_to_route_m(const Eigen::Vector2i& from) const;
+  void seed(const Eigen::Vector2d& goal_W, const std::function<double(const Eigen::Vector2d&)>& beyond_m);
+  void push(int cell, int cost);
+  void spread();
+
+  const LevelSlice* slice_ = nullptr;
+  std::vector<int> cost_;
+  std::vector<uint8_t> price_;  ///< of a step, in tenths of a cell; 0 may not be entered
+  std::vector<std::vector<int>> buckets_;
+  int waiting_ = 0;
+};
+
+}  // namespace hedgehop::avoidance::local_map

@@ -1,0 +1,70 @@
+#include "avoidance/local_map/stop_planner.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace hedgehop::avoidance::local_map {
+namespace {
+
+constexpr double kStepS = 0.1;
+constexpr double kHoldS = 0.4;  // how long a command is held in a plan: longer than from image to image
+constexpr double kStandsMps = 0.05;
+constexpr int kDirections = 36;
+constexpr std::array<double, 6> kShares = {1.0, 0.75, 0.5, 0.35, 0.2, 0.1};
+constexpr double kSlackM = 0.02;  // by which a path that begins too near may come nearer still
+
+}  // namespace
+
+std::vector<Moment> StopPlanner::predict(const Moment& now, const Eigen::Vector2d& last_cmd_W,
+                                         const Eigen::Vector2d& v_cmd_W, double hold_s) const {
+  std::vector<Moment> path = {now};
+  const double brakes_s = response_.delay_s + hold_s;
+  constexpr double kLongestS = 20.0;
+  while (path.back().t_s - now.t_s < kLongestS) {
+    const Moment& last = path.back();
+    const double t_s = last.t_s - now.t_s + 0.5 * kStepS;
+    const bool brakes = t_s >= brakes_s;
+    const Eigen::Vector2d wanted_W = t_s < response_.delay_s ? last_cmd_W : brakes ? Eigen::Vector2d::Zero() : v_cmd_W;
+    if (brakes && last.v_W.norm() < kStandsMps) break;
+    Eigen::Vector2d a_W = (wanted_W - last.v_W) / response_.lag_s;
+    const double most = brakes ? response_.braking_mps2 : response_.acceleration_mps2;
+    if (a_W.norm() > most) a_W *= most / a_W.norm();
+    const Eigen::Vector2d v_W = last.v_W + kStepS * a_W;
+    path.push_back({last.t_s + kStepS, last.p_W + 0.5 * kStepS * (last.v_W + v_W), v_W});
+  }
+  return path;
+}
+
+StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& last_cmd_W, const Fault& fault,
+                                      const ToGoal& to_goal_m) const {
+  const double fault_now_m = fault(now);
+  const std::optional<double> here_m = to_goal_m(now.p_W);
+  Plan best;
+  double best_cost = std::numeric_limits<double>::infinity();
+  const auto consider = [&](const Eigen::Vector2d& v_cmd_W) {
+    const std::vector<Moment> path = predict(now, last_cmd_W, v_cmd_W, kHoldS);
+    // A vehicle that is too near already may leave by any path that comes no nearer.
+    for (const Moment& moment : path) {
+      if (fault(moment) > (fault_now_m > 0.0 ? fault_now_m + kSlackM : 0.0)) return;
+    }
+    const std::optional<double> there_m = to_goal_m(path.back().p_W);
+    constexpr double kNowhereM = 1e4, kFaultPrice = 10.0;
+    const double cost = there_m.value_or(kNowhereM) + kFaultPrice * fault(path.back());
+    if (cost >= best_cost) return;
+    best_cost = cost;
+    best = {v_cmd_W, true, here_m.value_or(kNowhereM) - there_m.value_or(kNowhereM), path};
+  };
+  consider(Eigen::Vector2d::Zero());
+  for (int i = 0; i < kDirections; ++i) {
+    const double azimuth_rad = 2.0 * std::numbers::pi * i / kDirections;
+    const Eigen::Vector2d direction_W(std::cos(azimuth_rad), std::sin(azimuth_rad));
+    for (const double share : kShares) consider(share * speed_mps_ * direction_W);
+  }
+  if (!best.safe) best.path = predict(now, last_cmd_W, Eigen::Vector2d::Zero(), 0.0);
+  return best;
+}
+
+}  // namespace hedgehop::avoidance::local_map

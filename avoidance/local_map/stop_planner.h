@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "avoidance/local_map/level_slice.h"
+
+namespace hedgehop::avoidance::local_map {
+
+/// How a vehicle follows a commanded velocity: after a delay, as a first-order lag whose acceleration is limited.
+struct Response {
+  double delay_s = 0.2;          ///< from an image to the first effect of its command, >= 0
+  double lag_s = 0.5;            ///< > 0
+  double acceleration_mps2 = 2;  ///< > 0
+  double braking_mps2 = 1.5;     ///< > 0
+};
+
+/// What must be kept free.
+struct Clearance {
+  double hull_m = 0.5;       ///< radius of the vehicle, >= 0
+  double margin_m = 0.25;    ///< beside it from obstacles, >= 0
+  double margin_s = 0.1;     ///< and per speed, >= 0
+};
+
+/// Position and time of a planned stop.
+struct Moment {
+  double t_s;
+  Eigen::Vector2d p_W, v_W;
+};
+
+/// Chooses the velocity to command: the one whose stop lies nearest to the goal, among those after which the vehicle,
+/// should it brake then, stays to its full stop in space seen to be free.
+/// - Velocities are searched, and those that could not stop in time not admitted: [Fox1997] sec. on the dynamic window.
+/// - A full stop within known free space is planned at every moment, the rule that [Tordesillas2019] sec. I and
+///   [Lopez2017] sec. I start from.
+/// Differs: the former admits arcs free of obstacles, unknown counted as free; the latter flies faster, into the unknown
+/// as long as a safe trajectory branches off. Ours never plans beyond what it has seen.
+class StopPlanner {
+ public:
+  struct Plan {
+    Eigen::Vector2d v_cmd_W = Eigen::Vector2d::Zero();  ///< m/s
+    bool safe = false;                                  ///< a stop within what is allowed exists
+    double worth_m = 0.0;                               ///< how much nearer to the goal it stops than the vehicle is
+    std::vector<Moment> path;                           ///< up to the stop
+  };
+  /// How much is wrong at a moment of a path: 0 where it keeps its distance, else by how many m it does not.
+  using Fault = std::function<double(const Moment&)>;
+  /// Distance to the goal along the route, m; nothing where there is none.
+  using ToGoal = std::function<std::optional<double>(const Eigen::Vector2d&)>;
+
+  StopPlanner(const Response& response, double speed_mps) : response_(response), speed_mps_(speed_mps) {}
+
+  /// @param now  position and velocity when the image was taken. @param last_cmd_W  what is being obeyed still.
+  Plan choose(const Moment& now, const Eigen::Vector2d& last_cmd_W, const Fault& fault, const ToGoal& to_goal_m) const;
+
+  /// The path that a command leads to when it is held for `hold_s` and the vehicle then brakes.
+  std::vector<Moment> predict(const Moment& now, const Eigen::Vector2d& last_cmd_W, const Eigen::Vector2d& v_cmd_W,
+                              double hold_s) const;
+
+ private:
+  Response response_;
+  double speed_mps_;
+};
+
+}  // namespace hedgehop::avoidance::local_map

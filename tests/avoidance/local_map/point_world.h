@@ -1,0 +1,164 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "avoidance/local_map/local_map.h"
+#include "tests/avoidance/flow_balance/flow_rig.h"
+
+namespace hedgehop::avoidance::local_map {
+
+/// Upright cylinders and walls on level ground, seen by a depth camera without error, and a vehicle that follows velocities
+/// with a delay and limited acceleration. An oracle of its own: it shares no code with the map or the planner.
+class PointWorld {
+ public:
+  struct Pillar {
+    Eigen::Vector2d p_W;
+    double radius_m;
+    Eigen::Vector2d v_W = Eigen::Vector2d::Zero();
+  };
+  struct Wall {
+    Eigen::Vector2d from_W, to_W;
+    double thickness_m = 0.4;
+  };
+  struct Flown {
+    bool reached = false;
+    double clearance_m = std::numeric_limits<double>::infinity();  ///< of the hull
+    double length_m = 0.0, time_s = 0.0, fastest_mps = 0.0;
+    Eigen::Vector2d end_W = Eigen::Vector2d::Zero();
+    std::string status;
+    std::vector<std::string> statuses;
+  };
+
+  static constexpr int kWidthPx = 160, kHeightPx = 72;
+  static constexpr double kStepS = 0.1;
+
+  std::vector<Pillar> pillars;
+  std::vector<Wall> walls;
+  Eigen::Vector2d start_W{0.0, 0.0}, goal_W{30.0, 0.0};
+  double height_m = 3.0, radius_m = 0.0, duration_s = 90.0, reached_m = 1.5;
+  double speed_mps = 8.0, acceleration_mps2 = 3.0;
+  std::function<void(const Eigen::Vector2d&, double, const Decision&, const Module&)> watch;
+
+  Flown fly(LocalMapConfig config) const {
+    config.depth = stereo::DisparitySource::From::camera;
+    const auto module = make_local_map(config);
+    MountedCamera camera = level_camera("depth", 0.0, kWidthPx, 1.0 / kStepS);
+    const vision::camera::PinholeCamera lens = vision::camera::PinholeCamera::from_fov(kWidthPx, kHeightPx, 1.48);
+    camera.model = lens;
+    module->reset({{camera}, {speed_mps, acceleration_mps2, radius_m}, 1});
+    Flown flown;
+    Eigen::Vector2d p_W = start_W, v_W = Eigen::Vector2d::Zero();
+    double heading_rad = std::atan2(goal_W.y() - start_W.y(), goal_W.x() - start_W.x());
+    VelocityCommand obeyed{v_W, height_m, heading_rad};
+    for (int64_t step = 0; static_cast<double>(step) * kStepS < duration_s; ++step) {
+      flown.time_s = static_cast<double>(step) * kStepS;
+      const int64_t t_ns = step * 100'000'000;
+      const std::vector<CameraFrame> frames = {{"depth", t_ns, depth(lens, p_W, heading_rad, flown.time_s)}};
+      const NavigationState navigation = level_flight({p_W.x(), p_W.y(), -height_m}, heading_rad, v_W);
+      const Decision decision =
+          module->update({t_ns, frames, navigation, {{goal_W.x(), goal_W.y(), -height_m}, 0.0}});
+      flown.statuses.push_back(decision.status);
+      if (watch) watch(p_W, flown.time_s, decision, *module);
+      // A decision is obeyed an image later.
+      for (int part = 0; part < 5; ++part) {
+        move(obeyed, kStepS / 5, p_W, v_W, heading_rad);
+        flown.clearance_m = std::min(flown.clearance_m, distance_m(p_W, flown.time_s) - radius_m);
+      }
+      flown.length_m += kStepS * v_W.norm();
+      flown.fastest_mps = std::max(flown.fastest_mps, v_W.norm());
+      if (const auto* command = std::get_if<VelocityCommand>(&decision.command)) obeyed = *command;
+      flown.reached = (goal_W - p_W).norm() < reached_m;
+      if (flown.reached || flown.clearance_m <= 0.0) break;
+    }
+    flown.end_W = p_W;
+    flown.status = flown.statuses.back();
+    return flown;
+  }
+
+  /// From a point to the nearest surface.
+  double distance_m(const Eigen::Vector2d& p_W, double t_s) const {
+    double least_m = std::numeric_limits<double>::infinity();
+    for (const Pillar& pillar : pillars) {
+      least_m = std::min(least_m, (pillar.p_W + t_s * pillar.v_W - p_W).norm() - pillar.radius_m);
+    }
+    for (const Wall& wall : walls) {
+      const Eigen::Vector2d along_W = wall.to_W - wall.from_W;
+      const double share = std::clamp((p_W - wall.from_W).dot(along_W) / along_W.squaredNorm(), 0.0, 1.0);
+      least_m = std::min(least_m, (wall.from_W + share * along_W - p_W).norm() - 0.5 * wall.thickness_m);
+    }
+    return least_m;
+  }
+
+ private:
+  void move(const VelocityCommand& command, double dt_s, Eigen::Vector2d& p_W, Eigen::Vector2d& v_W,
+            double& heading_rad) const {
+    constexpr double kLagS = 0.4, kTurnRadps = 0.785;
+    Eigen::Vector2d a_W = (command.v_WB_W - v_W) / kLagS;
+    if (a_W.norm() > acceleration_mps2) a_W *= acceleration_mps2 / a_W.norm();
+    v_W += dt_s * a_W;
+    p_W += dt_s * v_W;
+    const double turn_rad = std::remainder(command.heading_rad - heading_rad, 2.0 * M_PI);
+    heading_rad += std::clamp(turn_rad, -dt_s * kTurnRadps, dt_s * kTurnRadps);
+  }
+
+  /// Sphere-traced in the plane: everything stands upright and is as high as the sky.
+  cv::Mat depth(const vision::camera::PinholeCamera& lens, const Eigen::Vector2d& p_W, double heading_rad,
+                double t_s) const {
+    constexpr double kFarM = 80.0, kNearM = 1e-3;
+    const Eigen::Vector2d ahead_W(std::cos(heading_rad), std::sin(heading_rad)), right_W(-ahead_W.y(), ahead_W.x());
+    cv::Mat depth_m(kHeightPx, kWidthPx, CV_32FC1);
+    for (int u = 0; u < kWidthPx; ++u) {
+      const double side = (u - lens.center_u_px) / lens.focal_x_px;
+      const Eigen::Vector2d ray_W = (ahead_W + side * right_W).normalized();
+      double s_m = 0.0;
+      while (s_m < kFarM) {
+        const double away_m = distance_m(p_W + s_m * ray_W, t_s);
+        if (away_m < kNearM) break;
+        s_m += away_m;
+      }
+      const double z_m = s_m < kFarM ? s_m / std::hypot(1.0, side) : std::numeric_limits<double>::infinity();
+      for (int v = 0; v < kHeightPx; ++v) {
+        const double down = (v - lens.center_v_px) / lens.focal_y_px;
+        const double ground_m = down > 0.0 ? height_m / down : std::numeric_limits<double>::infinity();
+        depth_m.at<float>(v, u) = static_cast<float>(std::min(z_m, ground_m));
+      }
+    }
+    return depth_m;
+  }
+};
+
+/// A world of pillars and walls between start and goal, both kept clear.
+inline PointWorld random_world(uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+  };
+  PointWorld world;
+  world.goal_W = {uniform(12.0, 28.0), uniform(-6.0, 6.0)};
+  world.acceleration_mps2 = uniform(1.5, 4.0);
+  const int pillars = 4 + static_cast<int>(uniform(0.0, 18.0)), walls = static_cast<int>(uniform(0.0, 4.0));
+  const auto clear = [&](double keep_m) {
+    return world.distance_m(world.start_W, 0.0) > keep_m && world.distance_m(world.goal_W, 0.0) > 1.0;
+  };
+  constexpr double kStartClearM = 2.5;
+  for (int i = 0; i < pillars; ++i) {
+    world.pillars.push_back({{uniform(-4.0, 34.0), uniform(-14.0, 14.0)}, uniform(0.1, 1.5)});
+    if (!clear(kStartClearM)) world.pillars.pop_back();
+  }
+  for (int i = 0; i < walls; ++i) {
+    const Eigen::Vector2d from_W(uniform(2.0, 26.0), uniform(-12.0, 12.0));
+    const double azimuth_rad = uniform(0.0, 2.0 * M_PI);
+    world.walls.push_back({from_W, from_W + uniform(3.0, 14.0) * Eigen::Vector2d(std::cos(azimuth_rad), std::sin(azimuth_rad))});
+    if (!clear(kStartClearM)) world.walls.pop_back();
+  }
+  return world;
+}
+
+}  // namespace hedgehop::avoidance::local_map

@@ -1,0 +1,156 @@
+#include "avoidance/local_map/route_field.h"
+
+#include <gtest/gtest.h>
+
+#include <queue>
+#include <random>
+
+namespace hedgehop::avoidance::local_map {
+namespace {
+
+constexpr double kCellM = 0.5;
+
+/// A map of one layer whose free space is given, cell by cell.
+struct Grid {
+  int side = 24;
+  std::vector<uint8_t> blocked;
+  LevelSlice slice;
+
+  static Grid random(uint64_t seed) {
+    std::mt19937_64 generator(seed);
+    Grid grid;
+    grid.blocked.assign(static_cast<size_t>(grid.side * grid.side), 0);
+    for (int wall = 0; wall < 6; ++wall) {
+      const int row = static_cast<int>(generator() % 24), col = static_cast<int>(generator() % 24);
+      const bool along = generator() % 2 == 0;
+      for (int i = 0; i < 9; ++i) {
+        const int r = std::min(23, along ? row + i : row), c = std::min(23, along ? col : col + i);
+        grid.blocked[static_cast<size_t>(r * 24 + c)] = 1;
+      }
+    }
+    vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = grid.side, .layers = 1});
+    map.reset(Eigen::Vector3d::Zero());
+    ClosedCells closed;
+    for (int r = 0; r < grid.side; ++r) {
+      for (int c = 0; c < grid.side; ++c) {
+        const Eigen::Vector3d center_W = map.center(map.first() + vision::mapping::OccupancyMap::Index(r, c, 0));
+        if (grid.is_blocked(r, c)) {
+          closed.close(center_W.head<2>(), 0.1, 0.0);  // unknown and closed: an obstacle
+        } else {
+          map.clear_cylinder(center_W, 0.1, 0.1);
+        }
+      }
+    }
+    grid.slice.build(map, {-0.1, 0.1}, closed);
+    return grid;
+  }
+  bool is_blocked(int row, int col) const { return blocked[static_cast<size_t>(row * side + col)]; }
+
+  /// Whether a disk passes cell by cell: Manhattan flood, distances to every blocked cell by brute force.
+  bool may_enter(int row, int col, double need_m) const {
+    for (int r = 0; r < side; ++r) {
+      for (int c = 0; c < side; ++c) {
+        if (is_blocked(r, c) && kCellM * (std::hypot(r - row, c - col) - 0.5) < need_m) return false;
+      }
+    }
+    return true;
+  }
+  std::vector<uint8_t> reachable(int goal_row, int goal_col, double need_m) const {
+    std::vector<uint8_t> seen(blocked.size(), 0);
+    std::queue<std::pair<int, int>> open;
+    if (may_enter(goal_row, goal_col, need_m)) open.emplace(goal_row, goal_col);
+    while (!open.empty()) {
+      const auto [row, col] = open.front();
+      open.pop();
+      if (row < 0 || col < 0 || row >= side || col >= side || seen[static_cast<size_t>(row * side + col)]) continue;
+      if (!may_enter(row, col, need_m)) continue;
+      seen[static_cast<size_t>(row * side + col)] = 1;
+      for (int dr = -1; dr <= 1; ++dr) {
+        for (int dc = -1; dc <= 1; ++dc) open.emplace(row + dr, col + dc);
+      }
+    }
+    return seen;
+  }
+};
+
+double beyond(const Eigen::Vector2d&) { return 0.0; }
+
+TEST(RouteField, FindsARouteExactlyWhereFloodingFindsOne) {
+  constexpr double kNeedM = 0.7;
+  int reached = 0, cut_off = 0;
+  for (uint64_t seed = 1; seed <= 40; ++seed) {
+    const Grid grid = Grid::random(seed);
+    const int goal_row = static_cast<int>(seed * 7 % 24), goal_col = static_cast<int>(seed * 5 % 24);
+    if (!grid.may_enter(goal_row, goal_col, kNeedM)) continue;
+    RouteField field;
+    field.build(grid.slice, kNeedM, grid.slice.center(goal_row, goal_col), beyond);
+    const std::vector<uint8_t> expected = grid.reachable(goal_row, goal_col, kNeedM);
+    for (int row = 0; row < grid.side; ++row) {
+      for (int col = 0; col < grid.side; ++col) {
+        if (!grid.may_enter(row, col, kNeedM)) continue;
+        const bool expect = expected[static_cast<size_t>(row * grid.side + col)];
+        const auto route_W = field.route_W(grid.slice.center(row, col), 1e3);
+        const bool arrives = (route_W.back() - grid.slice.center(goal_row, goal_col)).norm() < 1e-9;
+        ASSERT_EQ(arrives, expect) << seed << " " << row << " " << col;
+        ++(expect ? reached : cut_off);
+      }
+    }
+  }
+  EXPECT_GT(reached, 2000);
+  EXPECT_GT(cut_off, 20);
+}
+
+TEST(RouteField, RoutesKeepTheirDistanceFromObstacles) {
+  constexpr double kNeedM = 0.7;
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    const Grid grid = Grid::random(seed);
+    if (!grid.may_enter(2, 2, kNeedM)) continue;
+    RouteField field;
+    field.build(grid.slice, kNeedM, grid.slice.center(2, 2), beyond);
+    for (int row = 0; row < grid.side; row += 3) {
+      for (int col = 0; col < grid.side; col += 3) {
+        if (!grid.may_enter(row, col, kNeedM)) continue;
+        for (const Eigen::Vector2d& p_W : field.route_W(grid.slice.center(row, col), 1e3)) {
+          const Eigen::Vector2i cell = grid.slice.cell(p_W);
+          EXPECT_TRUE(grid.may_enter(cell.x(), cell.y(), kNeedM)) << seed;
+        }
+      }
+    }
+  }
+}
+
+TEST(RouteField, DistancesInTheOpenAreThoseOfAnEightConnectedGrid) {
+  Grid grid;
+  grid.blocked.assign(static_cast<size_t>(grid.side * grid.side), 0);
+  vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = grid.side, .layers = 1});
+  map.reset(Eigen::Vector3d::Zero());
+  map.clear_cylinder(Eigen::Vector3d::Zero(), 100.0, 1.0);
+  grid.slice.build(map, {-0.1, 0.1}, ClosedCells());
+  RouteField field;
+  field.build(grid.slice, 0.5, grid.slice.center(3, 4), beyond);
+  constexpr double kRounding = 0.02;  // diagonal steps count 1.4 cells
+  for (int row = 0; row < grid.side; ++row) {
+    for (int col = 0; col < grid.side; ++col) {
+      const int a = std::abs(row - 3), b = std::abs(col - 4);
+      const double octile_m = kCellM * (std::max(a, b) + (std::sqrt(2.0) - 1.0) * std::min(a, b));
+      EXPECT_NEAR(field.to_goal_m(grid.slice.center(row, col)).value(), octile_m, kRounding * octile_m + 1e-9);
+    }
+  }
+}
+
+TEST(RouteField, AGoalOutsideIsSoughtAcrossTheNearestEdge) {
+  Grid grid;
+  vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = grid.side, .layers = 1});
+  map.reset(Eigen::Vector3d::Zero());
+  map.clear_cylinder(Eigen::Vector3d::Zero(), 100.0, 1.0);
+  grid.slice.build(map, {-0.1, 0.1}, ClosedCells());
+  const Eigen::Vector2d goal_W(40.0, 0.0);
+  RouteField field;
+  field.build(grid.slice, 0.5, goal_W, [&](const Eigen::Vector2d& p_W) { return (goal_W - p_W).norm(); });
+  const Eigen::Vector2d end_W = field.route_W({-4.0, 0.2}, 100.0).back();
+  EXPECT_GT(end_W.x(), 5.0);
+  EXPECT_NEAR(end_W.y(), 0.2, 1.0);
+}
+
+}  // namespace
+}  // namespace hedgehop::avoidance::local_map

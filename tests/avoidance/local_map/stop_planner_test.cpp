@@ -1,0 +1,72 @@
+#include "avoidance/local_map/stop_planner.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace hedgehop::avoidance::local_map {
+namespace {
+
+constexpr Response kResponse{.delay_s = 0.2, .lag_s = 0.4, .acceleration_mps2 = 3.0, .braking_mps2 = 2.0};
+constexpr double kSpeedMps = 8.0;
+
+/// Free up to a line north; the goal lies beyond it.
+StopPlanner::Fault wall_at(double north_m) {
+  return [=](const Moment& m) { return std::max(0.0, m.p_W.x() - north_m); };
+}
+std::optional<double> north(const Eigen::Vector2d& p_W) { return 100.0 - p_W.x(); }
+
+TEST(StopPlanner, EveryStopItPlansStaysBeforeTheEndOfWhatIsFree) {
+  const StopPlanner planner(kResponse, kSpeedMps);
+  for (const double free_m : {2.0, 5.0, 10.0, 20.0, 40.0}) {
+    Moment now{0.0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+    Eigen::Vector2d cmd_W = Eigen::Vector2d::Zero();
+    double fastest = 0.0;
+    for (int i = 0; i < 300; ++i) {
+      const StopPlanner::Plan plan = planner.choose(now, cmd_W, wall_at(free_m), north);
+      ASSERT_TRUE(plan.safe) << free_m << " " << i;
+      ASSERT_LE(plan.path.back().p_W.x(), free_m);
+      // What is obeyed meanwhile is what was planned: an image of 0.1 s.
+      now = planner.predict(now, cmd_W, plan.v_cmd_W, 0.1)[1];
+      cmd_W = plan.v_cmd_W;
+      fastest = std::max(fastest, now.v_W.norm());
+      ASSERT_LE(now.p_W.x(), free_m);
+    }
+    EXPECT_GT(now.p_W.x(), free_m - 0.5);
+    EXPECT_LE(fastest, kSpeedMps + 1e-9);
+  }
+}
+
+TEST(StopPlanner, SpeedFollowsHowFarIsFree) {
+  const StopPlanner planner(kResponse, kSpeedMps);
+  for (const double speed_mps : {1.0, 3.0, 6.0}) {
+    // Closed form: the delay and a lag at speed, then constant braking.
+    const double stop_m = speed_mps * (kResponse.delay_s + kResponse.lag_s) + 0.5 * speed_mps * speed_mps / kResponse.braking_mps2;
+    const Moment now{0.0, Eigen::Vector2d::Zero(), {speed_mps, 0.0}};
+    constexpr double kSlackM = 1.0;
+    // A command against the motion stops sooner than planned braking does, yet not in a third of the way.
+    EXPECT_TRUE(planner.choose(now, now.v_W, wall_at(stop_m + kSlackM), north).safe);
+    EXPECT_FALSE(planner.choose(now, now.v_W, wall_at(0.35 * stop_m), north).safe);
+  }
+}
+
+TEST(StopPlanner, AVehicleThatIsTooNearMovesAway) {
+  const StopPlanner planner(kResponse, kSpeedMps);
+  const Moment now{0.0, {1.0, 0.0}, Eigen::Vector2d::Zero()};
+  const StopPlanner::Plan plan = planner.choose(now, Eigen::Vector2d::Zero(), wall_at(0.5), north);
+  EXPECT_TRUE(plan.safe);
+  EXPECT_LT(plan.v_cmd_W.x(), 0.0);
+}
+
+TEST(StopPlanner, PredictionsBrakeAtTheGivenRate) {
+  const StopPlanner planner(kResponse, kSpeedMps);
+  const Moment now{0.0, Eigen::Vector2d::Zero(), {6.0, 0.0}};
+  const std::vector<Moment> path = planner.predict(now, now.v_W, Eigen::Vector2d::Zero(), 0.0);
+  const double lag_mps = kResponse.braking_mps2 * kResponse.lag_s;  // below, braking fades
+  const double ramp_m = (36.0 - lag_mps * lag_mps) / (2.0 * kResponse.braking_mps2), tail_m = lag_mps * kResponse.lag_s;
+  constexpr double kStepsM = 0.7;  // a tenth of a second at speed
+  EXPECT_NEAR(path.back().p_W.x(), 6.0 * kResponse.delay_s + ramp_m + tail_m, kStepsM);
+}
+
+}  // namespace
+}  // namespace hedgehop::avoidance::local_map

@@ -1,0 +1,117 @@
+#include "vision/mapping/depth_blocks.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/vision/mapping/mapped_world.h"
+
+namespace hedgehop::vision::mapping {
+namespace {
+
+constexpr int kGroundGrey = 90, kSkyGrey = 170, kBoxGrey = 120;
+
+/// What a matcher makes of textured ground, blank boxes and a blank sky: no disparity on what is blank, and none from where
+/// ground is farther than 60 m.
+struct View {
+  MappedWorld world;
+  cv::Mat disparity16, grey;
+  std::vector<uint8_t> is_sky;  ///< of each pixel, by ray
+};
+
+View look(const MappedWorld& world, double height_m, const std::vector<Eigen::AlignedBox3d>& blank_W) {
+  View view{world, cv::Mat(world.height_px, world.width_px, CV_16SC1), cv::Mat(world.height_px, world.width_px, CV_8UC1), {}};
+  MappedWorld with = world;
+  with.boxes_W.insert(with.boxes_W.end(), blank_W.begin(), blank_W.end());
+  const Eigen::Isometry3d X_WC = MappedWorld::looking({0.0, 0.0, -height_m}, 0.0);
+  constexpr double kMatchedM = 60.0;
+  for (int v = 0; v < world.height_px; ++v) {
+    for (int u = 0; u < world.width_px; ++u) {
+      const Eigen::Vector3d ray_W = X_WC.linear() * world.geometry.ray({u, v});
+      const double bare_m = world.cast(X_WC.translation(), ray_W), z_m = with.cast(X_WC.translation(), ray_W);
+      const bool blank = z_m < bare_m, sky = std::isinf(z_m);
+      view.grey.at<uint8_t>(v, u) = static_cast<uint8_t>(sky ? kSkyGrey : blank ? kBoxGrey : kGroundGrey);
+      view.disparity16.at<int16_t>(v, u) =
+          sky || blank || z_m > kMatchedM ? stereo::kNoDisparity
+                                          : static_cast<int16_t>(std::lround(world.geometry.disparity16(z_m)));
+      view.is_sky.push_back(sky);
+    }
+  }
+  return view;
+}
+
+struct Found {
+  int sky = 0, of_sky = 0, wrong = 0;
+};
+
+Found find(const View& view) {
+  DepthBlocks blocks;
+  blocks.build(view.disparity16, view.grey);
+  find_sky(view.world.geometry, MappedWorld::looking(Eigen::Vector3d::Zero(), 0.0).linear().row(2).transpose(), blocks);
+  Found found;
+  for (int row = 0; row < blocks.rows(); ++row) {
+    for (int col = 0; col < blocks.cols(); ++col) {
+      const int v = row * DepthBlocks::kBlockPx + 4, u = col * DepthBlocks::kBlockPx + 4;
+      const bool sky = view.is_sky[static_cast<size_t>(v * view.world.width_px + u)];
+      const bool said = blocks.at(row, col).kind == DepthBlock::Kind::sky;
+      found.of_sky += sky;
+      found.sky += said && sky;
+      // Of what is not sky only the far ground below the horizon may be taken for it.
+      found.wrong += said && !sky && v < view.world.height_px / 2 - 8;
+    }
+  }
+  return found;
+}
+
+TEST(FindSky, FindsItAboveFarGround) {
+  const Found found = find(look({}, 4.0, {}));
+  EXPECT_GT(found.of_sky, 300);
+  EXPECT_GT(found.sky, 0.9 * found.of_sky);
+}
+
+TEST(FindSky, APlainWallIsNotSky) {
+  for (const double ahead_m : {3.0, 6.0, 10.0, 15.0}) {
+    for (const double high_m : {6.0, 30.0}) {
+      const Eigen::AlignedBox3d wall(Eigen::Vector3d(ahead_m, -3.0, -high_m), Eigen::Vector3d(ahead_m + 1.0, 3.0, 0.0));
+      EXPECT_EQ(find(look({}, 4.0, {wall})).wrong, 0) << ahead_m << " " << high_m;
+    }
+  }
+}
+
+TEST(FindSky, APlainWallAcrossTheWholeViewIsNotSky) {
+  const Eigen::AlignedBox3d wall(Eigen::Vector3d(8.0, -90.0, -90.0), Eigen::Vector3d(9.0, 90.0, 0.0));
+  EXPECT_EQ(find(look({}, 4.0, {wall})).wrong, 0);
+}
+
+TEST(FindSky, APlainBoxInTheAirIsNotSky) {
+  for (const double above_m : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
+    const Eigen::Vector3d middle_W(6.0, 0.5, -4.0 - above_m);
+    const Eigen::AlignedBox3d box(middle_W - Eigen::Vector3d(0.5, 0.8, 0.8), middle_W + Eigen::Vector3d(0.5, 0.8, 0.8));
+    EXPECT_EQ(find(look({}, 4.0, {box})).wrong, 0) << above_m;
+  }
+}
+
+TEST(FindSky, ThereIsNoneWhereGroundIsMatchedOnlyNearby) {
+  View view = look({}, 4.0, {});
+  view.disparity16.setTo(stereo::kNoDisparity, view.disparity16 < view.world.geometry.disparity16(15.0));  // as in fog
+  EXPECT_EQ(find(view).sky, 0);
+}
+
+TEST(DepthBlocks, ABlockIsAsNearAsAPoleInIt) {
+  cv::Mat disparity16(8, 8, CV_16SC1, cv::Scalar(16));
+  disparity16.colRange(3, 5).setTo(200);
+  DepthBlocks blocks;
+  blocks.build(disparity16, {});
+  EXPECT_EQ(blocks.at(0, 0).kind, DepthBlock::Kind::matched);
+  EXPECT_EQ(blocks.at(0, 0).near16, 200);
+}
+
+TEST(DepthBlocks, ABlockWithFewMatchesIsUnknown) {
+  cv::Mat disparity16(8, 8, CV_16SC1, cv::Scalar(stereo::kNoDisparity));
+  disparity16.rowRange(0, 3).setTo(40);
+  DepthBlocks blocks;
+  blocks.build(disparity16, {});
+  EXPECT_EQ(blocks.at(0, 0).kind, DepthBlock::Kind::unknown);
+  EXPECT_EQ(blocks.at(0, 0).near16, 40);
+}
+
+}  // namespace
+}  // namespace hedgehop::vision::mapping

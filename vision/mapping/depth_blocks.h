@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "vision/stereo/disparity.h"
+
+namespace hedgehop::vision::mapping {
+
+/// What a square of pixels of the left image shows.
+struct DepthBlock {
+  enum class Kind : uint8_t {
+    unknown,  ///< too few pixels were matched: neither far nor free
+    matched,
+    sky,  ///< not matched, but recognized by find_sky()
+  };
+  Kind kind = Kind::unknown;
+  int16_t near16 = -1;  ///< disparity x 16 of its nearest surface; -1 where nothing was matched
+  uint8_t grey = 0;     ///< mean
+  uint8_t range = 0;    ///< greatest less least grey of its four quarters
+};
+
+/// A disparity image in squares, each with its nearest surface: a few thousand rays instead of a quarter of a million,
+/// and none that passes by something nearer. Inverse depth has one uncertainty for all pixels and all distances,
+/// [Matthies2014] sec. III; it becomes a length only where free space ends.
+/// Differs: the paper plans in the image; we carry what was seen into a map, since the vehicle turns away from it.
+class DepthBlocks {
+ public:
+  static constexpr int kBlockPx = 8;
+
+  /// @param grey  CV_8UC1 of equal size, or empty: then there are no greys, and no sky is found.
+  void build(const cv::Mat& disparity16, const cv::Mat& grey);
+
+  int rows() const { return rows_; }
+  int cols() const { return cols_; }
+  const DepthBlock& at(int row, int col) const { return blocks_[static_cast<size_t>(row * cols_ + col)]; }
+  DepthBlock& at(int row, int col) { return blocks_[static_cast<size_t>(row * cols_ + col)]; }
+  /// Share of blocks of a kind, in [0, 1].
+  double share(DepthBlock::Kind kind) const;
+
+ private:
+  int rows_ = 0, cols_ = 0;
+  std::vector<DepthBlock> blocks_;
+};
+
+/// Recognizes sky: it cannot be matched, and without it nothing flies in the open. A block is sky only on evidence:
+/// - below the horizon, which attitude predicts, its column ends in ground matched at 25 m or farther;
+/// - between that and the block no surface was matched, and nothing at all where the horizon is surely below;
+/// - above the horizon its column is smooth, and as bright as the other columns' sky in its row.
+/// With it goes what lies between that ground and the horizon. A plain wall stands on ground that is nearer, a plain box
+/// in the air has edges or another brightness: both stay unknown.
+/// Differs from [Andert2007] eq. (6) to (8), where all that is bright and without texture is infinitely far.
+/// @param down_C  the vertical in C, of length 1. @return blocks found.
+int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, DepthBlocks& blocks);
+
+}  // namespace hedgehop::vision::mapping

@@ -1,0 +1,202 @@
+#include "vision/mapping/occupancy_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace hedgehop::vision::mapping {
+namespace {
+
+// Log-odds in steps of 0.4: a hit adds 1.2, a miss takes 0.8: what was seen through soon counts as free again, for the
+// whole block around its ray was.
+constexpr int kHit = 3, kMiss = -2;
+constexpr int kLeast = -9, kMost = 12;  // clamps: what was seen free turns after two hits, and is occupied after five
+constexpr int kFreeBelow = -4, kOccupiedFrom = 5;
+constexpr double kSigmas = 2.0;
+constexpr double kVagueM = 1.0;  // 1-sigma of a depth from which a hit is not placed: where it lies, nobody knows
+
+int modulo(int a, int n) {
+  const int m = a % n;
+  return m < 0 ? m + n : m;
+}
+
+}  // namespace
+
+OccupancyMap::OccupancyMap(const OccupancyMapConfig& config) : config_(config) {
+  if (!(config.voxel_m > 0.0 && config.across > 0 && config.layers > 0 && config.noise_px > 0.0 && config.far_m > 0.0)) {
+    throw std::invalid_argument("an occupancy map needs voxels, noise and range above 0");
+  }
+  const size_t count = static_cast<size_t>(config.across) * static_cast<size_t>(config.across) *
+                       static_cast<size_t>(config.layers);
+  log_odds_.assign(count, 0);
+  hit_.assign(count, 0);
+}
+
+OccupancyMap::Index OccupancyMap::index(const Eigen::Vector3d& p_W) const {
+  return (p_W / config_.voxel_m).array().floor().cast<int>();
+}
+
+Eigen::Vector3d OccupancyMap::center(const Index& voxel) const {
+  return config_.voxel_m * (voxel.cast<double>() + Eigen::Vector3d::Constant(0.5));
+}
+
+bool OccupancyMap::contains(const Index& voxel) const {
+  return ((voxel - first_).array() >= 0).all() && ((voxel - first_).array() < size().array()).all();
+}
+
+size_t OccupancyMap::slot(const Index& voxel) const {
+  const int n = config_.across;
+  return (static_cast<size_t>(modulo(voxel.z(), config_.layers)) * static_cast<size_t>(n) +
+          static_cast<size_t>(modulo(voxel.x(), n))) * static_cast<size_t>(n) +
+         static_cast<size_t>(modulo(voxel.y(), n));
+}
+
+void OccupancyMap::reset(const Eigen::Vector3d& center_W) {
+  first_ = index(center_W) - size() / 2;
+  std::ranges::fill(log_odds_, int8_t{0});
+}
+
+void OccupancyMap::move(const Eigen::Vector3d& center_W) {
+  const Index before = first_, wanted = index(center_W) - size() / 2;
+  if (wanted == before) return;
+  first_ = wanted;
+  const Index n = size();
+  const auto stays = [&](int axis, int i) { return i >= before[axis] && i < before[axis] + n[axis]; };
+  for (int z = first_.z(); z < first_.z() + n.z(); ++z) {
+    for (int x = first_.x(); x < first_.x() + n.x(); ++x) {
+      const size_t row = slot({x, 0, z});
+      if (!stays(2, z) || !stays(0, x)) {
+        std::fill_n(log_odds_.begin() + static_cast<std::ptrdiff_t>(row), n.y(), int8_t{0});
+        continue;
+      }
+      const int steps = first_.y() - before.y();
+      const int begin = steps > 0 ? std::max(first_.y(), before.y() + n.y()) : first_.y();
+      const int end = steps > 0 ? first_.y() + n.y() : std::min(first_.y() + n.y(), before.y());
+      for (int y = begin; y < end; ++y) log_odds_[slot({x, y, z})] = 0;
+    }
+  }
+}
+
+void OccupancyMap::integrate(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry,
+                             const Eigen::Isometry3d& X_WC) {
+  find_clear(blocks, geometry);
+  add_hits(blocks, geometry, X_WC);
+  add_misses(blocks, geometry, X_WC);
+  for (const size_t slot : hits_) hit_[slot] = 0;
+}
+
+/// z in C up to which each block was seen through: not past what its neighbors see nearer, whose edge may lie in it.
+void OccupancyMap::find_clear(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry) {
+  const double beyond16 = kSigmas * config_.noise_px * stereo::kDisparityUnits;
+  clear_m_.assign(static_cast<size_t>(blocks.rows() * blocks.cols()), 0.0F);
+  for (int row = 0; row < blocks.rows(); ++row) {
+    for (int col = 0; col < blocks.cols(); ++col) {
+      const DepthBlock& block = blocks.at(row, col);
+      if (block.kind == DepthBlock::Kind::unknown) continue;
+      int near16 = -1;
+      for (int v = std::max(0, row - 1); v <= std::min(blocks.rows() - 1, row + 1); ++v) {
+        for (int u = std::max(0, col - 1); u <= std::min(blocks.cols() - 1, col + 1); ++u) {
+          near16 = std::max<int>(near16, blocks.at(v, u).near16);
+        }
+      }
+      double z_m = near16 < 0 ? config_.far_m : geometry.disparity16(1.0) / (near16 + beyond16);
+      if (block.kind == DepthBlock::Kind::sky) z_m = std::min(z_m, config_.far_m);
+      clear_m_[static_cast<size_t>(row * blocks.cols() + col)] = static_cast<float>(z_m);
+    }
+  }
+}
+
+/// Endpoints of rays; each voxel counts once an image, however many blocks end in it.
+void OccupancyMap::add_hits(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry,
+                            const Eigen::Isometry3d& X_WC) {
+  hits_.clear();
+  const double vague16 =
+      std::sqrt(geometry.baseline_m * geometry.focal_px * config_.noise_px / kVagueM);  // z^2 sigma / (f b) = kVagueM
+  const double least16 = geometry.disparity16(vague16);
+  for (int row = 0; row < blocks.rows(); ++row) {
+    for (int col = 0; col < blocks.cols(); ++col) {
+      const DepthBlock& block = blocks.at(row, col);
+      if (block.near16 < least16 || block.near16 <= 0) continue;
+      const cv::Point middle(col * DepthBlocks::kBlockPx + DepthBlocks::kBlockPx / 2,
+                             row * DepthBlocks::kBlockPx + DepthBlocks::kBlockPx / 2);
+      const Index voxel = index(X_WC * Eigen::Vector3d(geometry.z_m(block.near16) * geometry.ray(middle)));
+      if (!contains(voxel)) continue;
+      const size_t at = slot(voxel);
+      if (hit_[at]) continue;
+      hit_[at] = 1;
+      hits_.push_back(at);
+      log_odds_[at] = static_cast<int8_t>(std::min(kMost, log_odds_[at] + kHit));
+    }
+  }
+}
+
+/// Voxels that lie wholly before the end of their block's ray.
+void OccupancyMap::add_misses(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry,
+                              const Eigen::Isometry3d& X_WC) {
+  const Eigen::Isometry3d X_CW = X_WC.inverse();
+  const Eigen::Vector3f step_C = (config_.voxel_m * X_CW.linear().col(1)).cast<float>();
+  const auto half_m = static_cast<float>(0.5 * config_.voxel_m);
+  const auto f = static_cast<float>(geometry.focal_px / DepthBlocks::kBlockPx);
+  const auto u0 = static_cast<float>(geometry.center_u_px / DepthBlocks::kBlockPx);
+  const auto v0 = static_cast<float>(geometry.center_v_px / DepthBlocks::kBlockPx);
+  const auto cols = static_cast<float>(blocks.cols()), rows = static_cast<float>(blocks.rows());
+  const auto far_m = static_cast<float>(config_.voxel_m * config_.across);
+  const Index n = size();
+  const int turn = n.y() - modulo(first_.y(), n.y());  // of a row, that lie before the ring's end
+  for (int z = first_.z(); z < first_.z() + n.z(); ++z) {
+    for (int x = first_.x(); x < first_.x() + n.x(); ++x) {
+      const Eigen::Vector3f p_C = (X_CW * center({x, first_.y(), z})).cast<float>();
+      size_t at = slot({x, first_.y(), z});
+      for (int i = 0; i < n.y(); ++i, ++at) {
+        if (i == turn) at -= static_cast<size_t>(n.y());
+        const auto steps = static_cast<float>(i);
+        const float z_m = p_C.z() + steps * step_C.z();
+        if (!(z_m > half_m) || z_m > far_m) continue;
+        const float u = u0 + f * (p_C.x() + steps * step_C.x()) / z_m;
+        const float v = v0 + f * (p_C.y() + steps * step_C.y()) / z_m;
+        if (!(u >= 0.0F && v >= 0.0F && u < cols && v < rows)) continue;
+        const float clear_m = clear_m_[static_cast<size_t>(static_cast<int>(v) * blocks.cols() + static_cast<int>(u))];
+        if (z_m + half_m > clear_m || hit_[at]) continue;
+        log_odds_[at] = static_cast<int8_t>(std::max(kLeast, log_odds_[at] + kMiss));
+      }
+    }
+  }
+}
+
+void OccupancyMap::fade() {
+  for (int8_t& l : log_odds_) l = static_cast<int8_t>(l - (l > 0) + (l < 0));
+}
+
+void OccupancyMap::clear_cylinder(const Eigen::Vector3d& center_W, double radius_m, double half_height_m) {
+  const Eigen::Vector3d reach_m(radius_m, radius_m, half_height_m);
+  const Index low = index(center_W - reach_m).cwiseMax(first_);
+  const Index high = index(center_W + reach_m).cwiseMin(first_ + size() - Index::Ones());
+  for (int z = low.z(); z <= high.z(); ++z) {
+    for (int x = low.x(); x <= high.x(); ++x) {
+      for (int y = low.y(); y <= high.y(); ++y) {
+        if ((center({x, y, z}) - center_W).head<2>().norm() > radius_m) continue;
+        log_odds_[slot({x, y, z})] = kLeast;
+      }
+    }
+  }
+}
+
+OccupancyMap::State OccupancyMap::state(const Index& voxel) const {
+  if (!contains(voxel)) return State::unknown;
+  const int l = log_odds_[slot(voxel)];
+  return l <= kFreeBelow ? State::free : l >= kOccupiedFrom ? State::occupied : State::unknown;
+}
+
+void OccupancyMap::read_row(int layer, int north, std::vector<State>& row) const {
+  const Index n = size();
+  row.resize(static_cast<size_t>(n.y()));
+  const int turn = n.y() - modulo(first_.y(), n.y());
+  size_t at = slot({first_.x() + north, first_.y(), first_.z() + layer});
+  for (int i = 0; i < n.y(); ++i, ++at) {
+    if (i == turn) at -= static_cast<size_t>(n.y());
+    const int l = log_odds_[at];
+    row[static_cast<size_t>(i)] = l <= kFreeBelow ? State::free : l >= kOccupiedFrom ? State::occupied : State::unknown;
+  }
+}
+
+}  // namespace hedgehop::vision::mapping
