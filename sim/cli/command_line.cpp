@@ -12,6 +12,7 @@
 #include "sim/cli/manual.h"
 #include "sim/cli/number_options.h"
 #include "sim/flight/build.h"
+#include "sim/scenario/document.h"
 #include "sim/scenario/input_error.h"
 
 namespace hedgehop::sim::cli {
@@ -137,9 +138,9 @@ void declare(CLI::App& app, std::function<int()>& chosen, RunOptions& run, Rende
   report_command->callback([&] { chosen = [&report] { return report(report); }; });
 
   CLI::App* const list_command = app.add_subcommand("list", "list what a scenario may name, and every key it takes");
-  list_command->add_option("TOPIC", topic, "modules, vehicles, scenes, cameras or checks")
+  list_command->add_option("TOPIC", topic, "modules, vehicles, scenes, cameras, checks; or scenario: every other key")
       ->required()
-      ->check(CLI::IsMember({"modules", "vehicles", "scenes", "cameras", "checks"}));
+      ->check(CLI::IsMember(document_topics()));
   list_command->callback([&] { chosen = [&topic] { return list(topic); }; });
 
   CLI::App* const trim_command =

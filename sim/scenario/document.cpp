@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/scenario/scenario.h"
 #include "sim/scenario/tree.h"
@@ -43,8 +44,9 @@ std::string type_words(const Outline& node) {
 
 std::string bounds_words(const fields::Field& field) {
   std::vector<std::string> bounds;
+  const std::optional<double> limit = fields::unit_limit(field.unit);  // of every field of the unit: says nothing
   const auto put = [&](std::string_view relation, const std::optional<double>& bound) {
-    if (bound) bounds.push_back(fmt::format("{} {}", relation, *bound));
+    if (bound && (!limit || std::abs(*bound) != *limit)) bounds.push_back(fmt::format("{} {}", relation, *bound));
   };
   put(">", field.above);
   put(">=", field.at_least);
