@@ -66,7 +66,7 @@ void declare(CLI::App& app, std::function<int()>& chosen, RunOptions& run, Rende
   run_command->add_flag("--no-report", run.no_report, "write no report.html; `hedgehop report DIR` does so later");
   run_command->add_option("--worker-of", run.worker_of)->group("");  // hidden: for batch and sweep
   run_command->add_flag("--json", run.json, "print result.json instead of lines for people");
-  run_command->callback([&] { chosen = [&run] { return run(run); }; });
+  run_command->callback([&] { chosen = [&run] { return cli::run(run); }; });
 
   CLI::App* const render_command = app.add_subcommand("render", "write the image of one camera as PNG");
   auto* const file = render_command->add_option("SCENARIO", render.scenario.file, "scenario file (YAML)");
@@ -88,7 +88,7 @@ void declare(CLI::App& app, std::function<int()>& chosen, RunOptions& run, Rende
     if (!*info && (!*file || !*camera || !*out)) {
       throw CLI::RequiredError("render: SCENARIO, --camera and -o (or --info)");
     }
-    chosen = [&render] { return render(render); };
+    chosen = [&render] { return cli::render(render); };
   });
 
   CLI::App* const calibration_command =
@@ -98,7 +98,7 @@ void declare(CLI::App& app, std::function<int()>& chosen, RunOptions& run, Rende
       ->check(CLI::IsMember({"opencv", "kalibr"}));
   calibration_command->add_option("-o", calibration.out, "file to write; standard output when not given")
       ->type_name("FILE.yaml");
-  calibration_command->callback([&] { chosen = [&calibration] { return calibration(calibration); }; });
+  calibration_command->callback([&] { chosen = [&calibration] { return cli::calibration(calibration); }; });
 
   declare_campaigns(app, chosen);
 
@@ -118,7 +118,7 @@ void declare(CLI::App& app, std::function<int()>& chosen, RunOptions& run, Rende
       ->type_name("NAME");
   export_command->add_option("--out", data.out, "folder to write, not there or empty; RUN/<format> when not given")
       ->type_name("DIR");
-  export_command->callback([&] { chosen = [&data] { return export_run(data); }; });
+  export_command->callback([&] { chosen = [&data] { return cli::export_run(data); }; });
 
   CLI::App* const report_command = app.add_subcommand("report", "write report.html of a run, a batch or a sweep again");
   report_command->add_option("DIR", report.folder, "its folder")->required()->check(CLI::ExistingDirectory);
@@ -135,13 +135,13 @@ void declare(CLI::App& app, std::function<int()>& chosen, RunOptions& run, Rende
       ->transform(whole_number())
       ->check(CLI::Range(0, 50))
       ->type_name("N");
-  report_command->callback([&] { chosen = [&report] { return report(report); }; });
+  report_command->callback([&] { chosen = [&report] { return cli::report(report); }; });
 
   CLI::App* const list_command = app.add_subcommand("list", "list what a scenario may name, and every key it takes");
   list_command->add_option("TOPIC", topic, "modules, vehicles, scenes, cameras, checks; or scenario: every other key")
       ->required()
       ->check(CLI::IsMember(document_topics()));
-  list_command->callback([&] { chosen = [&topic] { return list(topic); }; });
+  list_command->callback([&] { chosen = [&topic] { return cli::list(topic); }; });
 
   CLI::App* const trim_command =
       app.add_subcommand("trim", "print, and plot, a vehicle's trim of level flight against speed");
@@ -154,7 +154,7 @@ void declare(CLI::App& app, std::function<int()>& chosen, RunOptions& run, Rende
   trim_command->callback([&] {
     chosen = [&vehicles] {
       vehicles.trim.speeds_mps = speed_range(vehicles.speeds);
-      return trim(vehicles.trim);
+      return cli::trim(vehicles.trim);
     };
   });
 
@@ -165,10 +165,10 @@ void declare(CLI::App& app, std::function<int()>& chosen, RunOptions& run, Rende
       ->transform(number())
       ->type_name("V");
   add_formats(*linearize_command, vehicles.linearize.json, vehicles.linearize.csv);
-  linearize_command->callback([&] { chosen = [&vehicles] { return linearize(vehicles.linearize); }; });
+  linearize_command->callback([&] { chosen = [&vehicles] { return cli::linearize(vehicles.linearize); }; });
 
   CLI::App* const schema_command = app.add_subcommand("schema", "print the JSON Schema of scenario files, for editors");
-  schema_command->callback([&] { chosen = [] { return schema(); }; });
+  schema_command->callback([&] { chosen = [] { return cli::schema(); }; });
 }
 
 void declare_manual(CLI::App& app, std::function<int()>& chosen, std::string& format) {
