@@ -39,6 +39,8 @@ def commands(text):
 def shortened_file(text):
     text = re.sub(r"^(duration): .*$", rf"\1: {SHORT_S}", text, flags=re.M)
     text = re.sub(r"before: [0-9.]+", f"before: {SHORT_S}", text)
+    text = re.sub(r"\bduration=[0-9.]+", f"duration={SHORT_S}", text)
+    text = re.sub(r"\bat: [0-9.]+, until: [0-9.]+", f"at: {SHORT_S / 4}, until: {SHORT_S / 2}", text)
     text = re.sub(r"points: [0-9]+", "points: 2", text)
     return re.sub(r"(seeds|quick|beside): ([0-9]+)(:[0-9]+)?(,[0-9:]+)*", r"\1: \2", text)
 

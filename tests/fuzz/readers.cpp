@@ -45,6 +45,7 @@ void read_mesh(const std::filesystem::path& file) {
 void read_calibration(const std::filesystem::path& file) {
   sim::CameraConfig camera;
   camera.model_kind = sim::CameraConfig::Model::ocam;
+  camera.width_px = camera.height_px = 100;  // of the corpus
   camera.calibration = file;
   camera.model();
 }
