@@ -67,12 +67,12 @@ double DepthBlocks::share(DepthBlock::Kind kind) const {
 
 namespace {
 
-constexpr double kSupportM = 25.0;        ///< least depth of the ground below the horizon, in this column or near it
-constexpr int kSupportCols = 6;           ///< how near
-constexpr double kOwnM = 15.0;            ///< least depth of it in the column itself
-constexpr double kAttitudeRad = 0.03;     ///< by which the predicted horizon may err
-constexpr int kSmooth = 6;                ///< grey levels within a block of sky and from one to the next
-constexpr int kLikeOthers = 15;           ///< grey levels between a row's blocks of sky: skies brighten towards the sun
+constexpr double kSupportM = 25.0;     ///< least depth of the ground below the horizon, in this column or near it
+constexpr int kSupportCols = 6;        ///< how near
+constexpr double kOwnM = 15.0;         ///< least depth of it in the column itself
+constexpr double kAttitudeRad = 0.03;  ///< by which the predicted horizon may err
+constexpr int kSmooth = 6;             ///< grey levels within a block of sky and from one to the next
+constexpr int kLikeOthers = 15;        ///< grey levels between a row's blocks of sky: skies brighten towards the sun
 
 /// A column of blocks, climbed from the ground below the horizon.
 class Column {

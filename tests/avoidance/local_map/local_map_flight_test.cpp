@@ -56,7 +56,8 @@ TEST(LocalMapFlight, ComesOutOfADeadEnd) {
 TEST(LocalMapFlight, SaysThatItIsStuckWhereNoWayExists) {
   PointWorld world;
   world.goal_W = {20.0, 0.0};
-  world.walls = {{{5.0, -5.0}, {5.0, 5.0}}, {{-5.0, -5.0}, {-5.0, 5.0}}, {{-5.0, -5.0}, {5.0, -5.0}}, {{-5.0, 5.0}, {5.0, 5.0}}};
+  world.walls = {
+      {{5.0, -5.0}, {5.0, 5.0}}, {{-5.0, -5.0}, {-5.0, 5.0}}, {{-5.0, -5.0}, {5.0, -5.0}}, {{-5.0, 5.0}, {5.0, 5.0}}};
   world.duration_s = 60.0;
   const PointWorld::Flown flown = world.fly({});
   EXPECT_FALSE(flown.reached);
