@@ -5,8 +5,7 @@
 
 namespace hedgehop::avoidance::local_map {
 
-void LevelSlice::build(const vision::mapping::OccupancyMap& map, const Band& band,
-                       const ClosedCells& closed) {
+void LevelSlice::build(const vision::mapping::OccupancyMap& map, const Band& band, const ClosedCells& closed) {
   side_ = map.size().x();
   cell_m_ = map.config().voxel_m;
   corner_W_ = cell_m_ * map.first().head<2>().cast<double>();

@@ -28,8 +28,7 @@ constexpr double kStandsMps = 0.3;
 class LocalMap final : public Module {
  public:
   explicit LocalMap(const LocalMapConfig& config)
-      : config_(config),
-        map_({.voxel_m = fields::require_bounds(config).voxel_m, .noise_px = config.noise_px}) {}
+      : config_(config), map_({.voxel_m = fields::require_bounds(config).voxel_m, .noise_px = config.noise_px}) {}
 
  private:
   Needs do_needs() const override { return DisparitySource::needs(config_.depth, DisparitySource::Grey::unused); }
@@ -147,9 +146,10 @@ class LocalMap final : public Module {
     route_.build(slice_, clearance_.hull_m + clearance_.margin_m + 0.5 * slice_.cell_m(), goal_W,
                  [&](const Eigen::Vector2d& edge_W) { return (goal_W - edge_W).norm(); });
     const auto to_goal_m = [&](const Eigen::Vector2d& at_W) { return route_.to_goal_m(at_W); };
-    plan_ = planner_->choose(now, last_cmd_W_, [&](const Moment& m) { return fault(m, true); }, to_goal_m);
-    const StopPlanner::Plan hoped =
-        planner_->choose(now, last_cmd_W_, [&](const Moment& m) { return fault(m, false); }, to_goal_m);
+    plan_ = planner_->choose(
+        now, last_cmd_W_, [&](const Moment& m) { return fault(m, true); }, to_goal_m);
+    const StopPlanner::Plan hoped = planner_->choose(
+        now, last_cmd_W_, [&](const Moment& m) { return fault(m, false); }, to_goal_m);
 
     const std::optional<double> route_m = to_goal_m(p_W);
     const Eigen::Vector2d p_BG_W = goal_W - p_W;
@@ -182,7 +182,8 @@ class LocalMap final : public Module {
     const Eigen::Vector2d look_W = *look_W_;
     const auto too_near_m = [&](const Eigen::Vector2d& p_W) { return std::max(0.0, blind_m_ - (p_W - look_W).norm()); };
     if (too_near_m(now.p_W) == 0.0) return;
-    plan_ = planner_->choose(now, last_cmd_W_, [&](const Moment& m) { return fault(m, true); }, too_near_m);
+    plan_ = planner_->choose(
+        now, last_cmd_W_, [&](const Moment& m) { return fault(m, true); }, too_near_m);
   }
 
   bool is_unknown(const Eigen::Vector2d& p_W) const {
@@ -192,8 +193,8 @@ class LocalMap final : public Module {
 
   /// The unknown cell nearest to where a path that ignores the unknown first comes too near to one.
   std::optional<Eigen::Vector2d> unknown_in_the_way(const std::vector<Moment>& path) const {
-    const auto first = std::ranges::find_if(
-        path, [&](const Moment& m) { return slice_.to_unknown_m(m.p_W) < clearance_.hull_m; });
+    const auto first =
+        std::ranges::find_if(path, [&](const Moment& m) { return slice_.to_unknown_m(m.p_W) < clearance_.hull_m; });
     if (first == path.end()) return std::nullopt;
     std::optional<Eigen::Vector2d> nearest;
     const Eigen::Vector2i here = slice_.cell(first->p_W);
@@ -214,8 +215,8 @@ class LocalMap final : public Module {
     constexpr double kAimedRad = 0.35, kRadiusM = 1.0;
     const bool stands = now.v_W.norm() < kStandsMps && plan.v_cmd_W.norm() < kStandsMps;
     const auto aimed = [&] {
-      const Eigen::Vector2d p_BU_W = *look_W_ - now.p_W;
-      return std::abs(std::remainder(std::atan2(p_BU_W.y(), p_BU_W.x()) - heading, 2.0 * M_PI)) < kAimedRad;
+      const Eigen::Vector2d off_W = *look_W_ - now.p_W;
+      return std::abs(std::remainder(std::atan2(off_W.y(), off_W.x()) - heading, 2.0 * M_PI)) < kAimedRad;
     };
     if (!look_W_ || !stands || !aimed()) {
       stares_since_s_.reset();
@@ -250,8 +251,8 @@ class LocalMap final : public Module {
 
   cv::Mat do_annotate() const override {
     if (!last_) return {};
-    return draw({slice_, plan_.path, route_.route_W(plan_.path.front().p_W, 30.0), look_W_, clearance_.hull_m,
-                 last_->status});
+    return draw(
+        {slice_, plan_.path, route_.route_W(plan_.path.front().p_W, 30.0), look_W_, clearance_.hull_m, last_->status});
   }
 
   LocalMapConfig config_;

@@ -21,8 +21,8 @@ struct ShownPlan {
   std::string status;
 };
 
-/// Draws the slice from above, north up: free light, unknown grey, occupied dark; the route thin, the planned stop green, and
-/// what it waits for red. @return CV_8UC3, RGB.
+/// Draws the slice from above, north up: free light, unknown grey, occupied dark; the route thin, the planned stop
+/// green, and what it waits for red. @return CV_8UC3, RGB.
 cv::Mat draw(const ShownPlan& shown);
 
 }  // namespace hedgehop::avoidance::local_map

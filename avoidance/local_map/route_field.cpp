@@ -8,15 +8,15 @@
 namespace hedgehop::avoidance::local_map {
 namespace {
 
-constexpr int kStraight = 10;    // cost of a step to a neighbor, in tenths of a cell
-constexpr double kSideM = 0.8;   // how far beyond what it needs a route prefers to stay from obstacles
-constexpr int kClosePrice = 3;   // times the price where it cannot
+constexpr int kStraight = 10;   // cost of a step to a neighbor, in tenths of a cell
+constexpr double kSideM = 0.8;  // how far beyond what it needs a route prefers to stay from obstacles
+constexpr int kClosePrice = 3;  // times the price where it cannot
 
 struct Step {
   int row, col;
   double length;
 };
-constexpr Step kSteps[8] = {{-1, 0, 1.0}, {1, 0, 1.0}, {0, -1, 1.0}, {0, 1, 1.0},
+constexpr Step kSteps[8] = {{-1, 0, 1.0},         {1, 0, 1.0},         {0, -1, 1.0},        {0, 1, 1.0},
                             {-1, -1, 1.41421356}, {-1, 1, 1.41421356}, {1, -1, 1.41421356}, {1, 1, 1.41421356}};
 
 }  // namespace
@@ -119,8 +119,8 @@ std::optional<double> RouteField::to_goal_m(const Eigen::Vector2d& p_W) const {
   return best * slice_->cell_m() / kStraight;
 }
 
-/// From a cell that routes keep out of: the way back to where they pass, through what is not occupied. It is dear, lest it
-/// be through a gap that is too narrow.
+/// From a cell that routes keep out of: the way back to where they pass, through what is not occupied. It is dear, lest
+/// it be through a gap that is too narrow.
 std::optional<double> RouteField::back_to_route_m(const Eigen::Vector2i& from) const {
   constexpr int kReach = 4, kSide = 2 * kReach + 1;
   constexpr double kDear = 10.0;

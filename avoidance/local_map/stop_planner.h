@@ -19,9 +19,9 @@ struct Response {
 
 /// What must be kept free.
 struct Clearance {
-  double hull_m = 0.5;       ///< radius of the vehicle, >= 0
-  double margin_m = 0.25;    ///< beside it from obstacles, >= 0
-  double margin_s = 0.1;     ///< and per speed, >= 0
+  double hull_m = 0.5;     ///< radius of the vehicle, >= 0
+  double margin_m = 0.25;  ///< beside it from obstacles, >= 0
+  double margin_s = 0.1;   ///< and per speed, >= 0
 };
 
 /// Position and time of a planned stop.
@@ -35,8 +35,8 @@ struct Moment {
 /// - Velocities are searched, and those that could not stop in time not admitted: [Fox1997] sec. on the dynamic window.
 /// - A full stop within known free space is planned at every moment, the rule that [Tordesillas2019] sec. I and
 ///   [Lopez2017] sec. I start from.
-/// Differs: the former admits arcs free of obstacles, unknown counted as free; the latter flies faster, into the unknown
-/// as long as a safe trajectory branches off. Ours never plans beyond what it has seen.
+/// Differs: the former admits arcs free of obstacles, unknown counted as free; the latter flies faster, into the
+/// unknown as long as a safe trajectory branches off. Ours never plans beyond what it has seen.
 class StopPlanner {
  public:
   struct Plan {

@@ -54,7 +54,8 @@ void describe(Visitor& v, StereoCorridorConfig& c) {
   v("sky", c.additions.sky, {.meaning = "ours: look for sky among matched pixels too, in a smoothed image"});
   v("unknown", c.unknown,
     {.choices = {"free", "blocked"},
-     .meaning = "ours: what a square of 8 px without any match and not sky counts as; blocked stops before plain walls"});
+     .meaning =
+         "ours: what a square of 8 px without any match and not sky counts as; blocked stops before plain walls"});
   v("depth", c.depth,
     {.choices = {"stereo", "camera"},
      .meaning = "by matching cameras 'left' and 'right', or from a camera 'depth' with the lens and pose of 'left'"});

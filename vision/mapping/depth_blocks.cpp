@@ -67,11 +67,12 @@ double DepthBlocks::share(DepthBlock::Kind kind) const {
 
 namespace {
 
-constexpr double kSupportM = 25.0;        ///< least depth of the ground below the horizon
-constexpr double kSupportRad = 0.16;      ///< below the horizon, within which the ground must have been matched
-constexpr double kAttitudeRad = 0.03;     ///< by which the predicted horizon may err
-constexpr int kSmooth = 6;                ///< grey levels within a block of sky and from one to the next
-constexpr int kLikeOthers = 15;           ///< grey levels between a row's blocks of sky: skies brighten towards the sun
+constexpr double kSupportM = 25.0;     ///< least depth of the ground below the horizon, in this column or near it
+constexpr int kSupportCols = 6;        ///< how near
+constexpr double kOwnM = 15.0;         ///< least depth of it in the column itself
+constexpr double kAttitudeRad = 0.03;  ///< by which the predicted horizon may err
+constexpr int kSmooth = 6;             ///< grey levels within a block of sky and from one to the next
+constexpr int kLikeOthers = 15;        ///< grey levels between a row's blocks of sky: skies brighten towards the sun
 
 /// A column of blocks, climbed from the ground below the horizon.
 class Column {
@@ -83,25 +84,29 @@ class Column {
   /// above the horizon for certain.
   struct Run {
     int top, horizon, bottom;
+    bool is_far;  ///< the ground is kSupportM away
   };
 
   std::optional<Run> climb() const {
-    const double far16 = geometry_.disparity16(kSupportM), near_rad = kAttitudeRad + 0.5 * kPx / geometry_.focal_px;
+    const double near_rad = kAttitudeRad + 0.5 * kPx / geometry_.focal_px;
     int row = blocks_.rows() - 1;
-    while (row >= 0 && elevation(row) < -kSupportRad) --row;
-    // The topmost block of ground that was matched far away, nothing near above it.
+    // The topmost block that was matched on the ground.
     int support = -1;
     for (; row >= 0 && elevation(row) < near_rad; --row) {
-      const DepthBlock& block = blocks_.at(row, col_);
-      if (block.near16 > far16) {
-        support = -1;
-      } else if (block.kind == DepthBlock::Kind::matched) {
-        support = row;
-      }
+      if (blocks_.at(row, col_).near16 >= 0) support = row;
     }
     if (support < 0 || row < 0) return std::nullopt;
-    // Above the horizon all is smooth.
-    Run run{row + 1, row, support - 1};
+    const int ground16 = blocks_.at(support, col_).near16;
+    if (ground16 > geometry_.disparity16(kOwnM)) return std::nullopt;
+    // Above the horizon what was matched far away, with its edge; from there on all is smooth.
+    const double far16 = geometry_.disparity16(kSupportM);
+    for (bool edge = true; row >= 0; --row) {
+      const DepthBlock& block = blocks_.at(row, col_);
+      const bool far = block.near16 >= 0 && block.near16 <= far16;
+      if (!far && (!edge || block.near16 >= 0 || block.range <= kSmooth)) break;
+      edge = far;  // one block of it
+    }
+    Run run{row + 1, row, support - 1, ground16 <= far16};
     for (; row >= 0; --row) {
       const DepthBlock& block = blocks_.at(row, col_);
       const bool steps = row < run.horizon && std::abs(block.grey - blocks_.at(row + 1, col_).grey) > kSmooth;
@@ -147,19 +152,23 @@ std::vector<int> usual_greys(const DepthBlocks& blocks, const std::vector<std::o
 int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, DepthBlocks& blocks) {
   std::vector<std::optional<Column::Run>> runs;
   for (int col = 0; col < blocks.cols(); ++col) runs.push_back(Column(geometry, down_C, blocks, col).climb());
+  const auto is_far_near = [&](int col) {
+    const auto first = runs.begin() + std::max(0, col - kSupportCols);
+    const auto last = runs.begin() + std::min(blocks.cols(), col + kSupportCols + 1);
+    return std::any_of(first, last, [](const auto& run) { return run && run->is_far; });
+  };
   const std::vector<int> usual = usual_greys(blocks, runs);
   int found = 0;
   for (int col = 0; col < blocks.cols(); ++col) {
     const auto& run = runs[static_cast<size_t>(col)];
-    if (!run) continue;
-    for (int row = run->horizon; row >= run->top; --row) {
-      DepthBlock& block = blocks.at(row, col);
-      if (std::abs(block.grey - usual[static_cast<size_t>(row)]) > kLikeOthers) break;
-      block.kind = DepthBlock::Kind::sky;
-      ++found;
-    }
-    if (blocks.at(run->horizon, col).kind != DepthBlock::Kind::sky) continue;
-    for (int row = run->horizon + 1; row <= run->bottom; ++row) {
+    if (!run || !is_far_near(col)) continue;
+    const auto is_unlike = [&](int row) {
+      return std::abs(blocks.at(row, col).grey - usual[static_cast<size_t>(row)]) > kLikeOthers;
+    };
+    bool like_sky = true;
+    for (int row = run->top; row <= run->horizon && like_sky; ++row) like_sky = !is_unlike(row);
+    if (!like_sky) continue;
+    for (int row = run->top; row <= run->bottom; ++row) {
       DepthBlock& block = blocks.at(row, col);
       if (block.kind != DepthBlock::Kind::unknown) continue;
       block.kind = DepthBlock::Kind::sky;

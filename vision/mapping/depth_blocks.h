@@ -46,12 +46,13 @@ class DepthBlocks {
 };
 
 /// Recognizes sky: it cannot be matched, and without it nothing flies in the open. A block is sky only on evidence:
-/// - below the horizon, which attitude predicts, its column ends in ground matched at 25 m or farther;
-/// - between that and the block no surface was matched, and nothing at all where the horizon is surely below;
+/// - below the horizon, which attitude predicts, its column ends in ground matched at 15 m or farther, and one of the
+///   columns beside it in ground at 25 m;
+/// - from there up nothing was matched that is nearer;
 /// - above the horizon its column is smooth, and as bright as the other columns' sky in its row.
-/// With it goes what lies between that ground and the horizon. A plain wall stands on ground that is nearer, a plain box
-/// in the air has edges or another brightness: both stay unknown.
-/// Differs from [Andert2007] eq. (6) to (8), where all that is bright and without texture is infinitely far.
+/// With it goes what lies between that ground and the horizon. A plain wall stands on ground that is nearer, a plain
+/// box in the air has edges or another brightness: both stay unknown. Differs from [Andert2007] eq. (6) to (8), where
+/// all that is bright and without texture is infinitely far.
 /// @param down_C  the vertical in C, of length 1. @return blocks found.
 int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, DepthBlocks& blocks);
 

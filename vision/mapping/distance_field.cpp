@@ -13,7 +13,8 @@ void DistanceField::build(const std::vector<uint8_t>& marked, int rows, int cols
   for (int col = 0; col < cols; ++col) distance_[index(0, col)] = marked[index(0, col)] ? 0.0F : kFar;
   for (int row = 1; row < rows; ++row) {
     for (int col = 0; col < cols; ++col) {
-      distance_[index(row, col)] = marked[index(row, col)] ? 0.0F : std::min(kFar, distance_[index(row - 1, col)] + 1.0F);
+      distance_[index(row, col)] =
+          marked[index(row, col)] ? 0.0F : std::min(kFar, distance_[index(row - 1, col)] + 1.0F);
     }
   }
   for (int row = rows - 2; row >= 0; --row) {

@@ -23,11 +23,12 @@ int modulo(int a, int n) {
 }  // namespace
 
 OccupancyMap::OccupancyMap(const OccupancyMapConfig& config) : config_(config) {
-  if (!(config.voxel_m > 0.0 && config.across > 0 && config.layers > 0 && config.noise_px > 0.0 && config.far_m > 0.0)) {
+  if (!(config.voxel_m > 0.0 && config.across > 0 && config.layers > 0 && config.noise_px > 0.0 &&
+        config.far_m > 0.0)) {
     throw std::invalid_argument("an occupancy map needs voxels, noise and range above 0");
   }
-  const size_t count = static_cast<size_t>(config.across) * static_cast<size_t>(config.across) *
-                       static_cast<size_t>(config.layers);
+  const size_t count =
+      static_cast<size_t>(config.across) * static_cast<size_t>(config.across) * static_cast<size_t>(config.layers);
   log_odds_.assign(count, 0);
   hit_.assign(count, 0);
 }
@@ -47,7 +48,8 @@ bool OccupancyMap::contains(const Index& voxel) const {
 size_t OccupancyMap::slot(const Index& voxel) const {
   const int n = config_.across;
   return (static_cast<size_t>(modulo(voxel.z(), config_.layers)) * static_cast<size_t>(n) +
-          static_cast<size_t>(modulo(voxel.x(), n))) * static_cast<size_t>(n) +
+          static_cast<size_t>(modulo(voxel.x(), n))) *
+             static_cast<size_t>(n) +
          static_cast<size_t>(modulo(voxel.y(), n));
 }
 

@@ -11,15 +11,16 @@
 namespace hedgehop::vision::mapping {
 
 struct OccupancyMapConfig {
-  double voxel_m = 0.3;  ///< edge, > 0
-  int across = 160;      ///< voxels north and east, > 0
-  int layers = 12;       ///< voxels down, > 0
+  double voxel_m = 0.3;   ///< edge, > 0
+  int across = 160;       ///< voxels north and east, > 0
+  int layers = 12;        ///< voxels down, > 0
   double noise_px = 0.5;  ///< 1-sigma of a disparity, > 0
   double far_m = 22.0;    ///< up to which sky clears, > 0
 };
 
 /// What is known of the space around the vehicle: log-odds in voxels that move along with it.
-/// - Log-odds are added image by image and clamped, so that the map follows what changes: [Hornung2013] eq. (2) and (4).
+/// - Log-odds are added image by image and clamped, so that the map follows what changes: [Hornung2013] eq. (2) and
+/// (4).
 /// - The voxels lie in a ring buffer: moving on clears what comes in, and copies nothing: [Usenko2017] sec. IV.
 /// Differs from both: rays are not walked; each voxel within the view looks up the block it is seen in, which costs the
 /// same for every range and leaves no gaps between rays. It is free only where that block was seen through, up to the

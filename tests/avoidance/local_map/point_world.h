@@ -14,8 +14,9 @@
 
 namespace hedgehop::avoidance::local_map {
 
-/// Upright cylinders and walls on level ground, seen by a depth camera without error, and a vehicle that follows velocities
-/// with a delay and limited acceleration. An oracle of its own: it shares no code with the map or the planner.
+/// Upright cylinders and walls on level ground, seen by a depth camera without error, and a vehicle that follows
+/// velocities with a delay and limited acceleration. An oracle of its own: it shares no code with the map or the
+/// planner.
 class PointWorld {
  public:
   struct Pillar {
@@ -62,8 +63,7 @@ class PointWorld {
       const int64_t t_ns = step * 100'000'000;
       const std::vector<CameraFrame> frames = {{"depth", t_ns, depth(lens, p_W, heading_rad, flown.time_s)}};
       const NavigationState navigation = level_flight({p_W.x(), p_W.y(), -height_m}, heading_rad, v_W);
-      const Decision decision =
-          module->update({t_ns, frames, navigation, {{goal_W.x(), goal_W.y(), -height_m}, 0.0}});
+      const Decision decision = module->update({t_ns, frames, navigation, {{goal_W.x(), goal_W.y(), -height_m}, 0.0}});
       flown.statuses.push_back(decision.status);
       if (watch) watch(p_W, flown.time_s, decision, *module);
       // A decision is obeyed an image later.
@@ -155,7 +155,8 @@ inline PointWorld random_world(uint64_t seed) {
   for (int i = 0; i < walls; ++i) {
     const Eigen::Vector2d from_W(uniform(2.0, 26.0), uniform(-12.0, 12.0));
     const double azimuth_rad = uniform(0.0, 2.0 * M_PI);
-    world.walls.push_back({from_W, from_W + uniform(3.0, 14.0) * Eigen::Vector2d(std::cos(azimuth_rad), std::sin(azimuth_rad))});
+    world.walls.push_back(
+        {from_W, from_W + uniform(3.0, 14.0) * Eigen::Vector2d(std::cos(azimuth_rad), std::sin(azimuth_rad))});
     if (!clear(kStartClearM)) world.walls.pop_back();
   }
   return world;

@@ -41,7 +41,8 @@ TEST(StopPlanner, SpeedFollowsHowFarIsFree) {
   const StopPlanner planner(kResponse, kSpeedMps);
   for (const double speed_mps : {1.0, 3.0, 6.0}) {
     // Closed form: the delay and a lag at speed, then constant braking.
-    const double stop_m = speed_mps * (kResponse.delay_s + kResponse.lag_s) + 0.5 * speed_mps * speed_mps / kResponse.braking_mps2;
+    const double stop_m =
+        speed_mps * (kResponse.delay_s + kResponse.lag_s) + 0.5 * speed_mps * speed_mps / kResponse.braking_mps2;
     const Moment now{0.0, Eigen::Vector2d::Zero(), {speed_mps, 0.0}};
     constexpr double kSlackM = 1.0;
     // A command against the motion stops sooner than planned braking does, yet not in a third of the way.

@@ -9,8 +9,8 @@ namespace {
 
 constexpr int kGroundGrey = 90, kSkyGrey = 170, kBoxGrey = 120;
 
-/// What a matcher makes of textured ground, blank boxes and a blank sky: no disparity on what is blank, and none from where
-/// ground is farther than 60 m.
+/// What a matcher makes of textured ground, blank boxes and a blank sky: no disparity on what is blank, and none from
+/// where ground is farther than 60 m.
 struct View {
   MappedWorld world;
   cv::Mat disparity16, grey;
@@ -18,7 +18,8 @@ struct View {
 };
 
 View look(const MappedWorld& world, double height_m, const std::vector<Eigen::AlignedBox3d>& blank_W) {
-  View view{world, cv::Mat(world.height_px, world.width_px, CV_16SC1), cv::Mat(world.height_px, world.width_px, CV_8UC1), {}};
+  View view{
+      world, cv::Mat(world.height_px, world.width_px, CV_16SC1), cv::Mat(world.height_px, world.width_px, CV_8UC1), {}};
   MappedWorld with = world;
   with.boxes_W.insert(with.boxes_W.end(), blank_W.begin(), blank_W.end());
   const Eigen::Isometry3d X_WC = MappedWorld::looking({0.0, 0.0, -height_m}, 0.0);
@@ -29,9 +30,9 @@ View look(const MappedWorld& world, double height_m, const std::vector<Eigen::Al
       const double bare_m = world.cast(X_WC.translation(), ray_W), z_m = with.cast(X_WC.translation(), ray_W);
       const bool blank = z_m < bare_m, sky = std::isinf(z_m);
       view.grey.at<uint8_t>(v, u) = static_cast<uint8_t>(sky ? kSkyGrey : blank ? kBoxGrey : kGroundGrey);
-      view.disparity16.at<int16_t>(v, u) =
-          sky || blank || z_m > kMatchedM ? stereo::kNoDisparity
-                                          : static_cast<int16_t>(std::lround(world.geometry.disparity16(z_m)));
+      view.disparity16.at<int16_t>(v, u) = sky || blank || z_m > kMatchedM
+                                               ? stereo::kNoDisparity
+                                               : static_cast<int16_t>(std::lround(world.geometry.disparity16(z_m)));
       view.is_sky.push_back(sky);
     }
   }

@@ -69,7 +69,8 @@ TEST(OccupancyMap, CallsNoSolidVoxelFreeWithoutNoise) {
 }
 
 TEST(OccupancyMap, CallsFewSolidVoxelsFreeWithTheNoiseOfAMatcher) {
-  constexpr double kRate = 0.001;  // a block of 64 pixels errs with all of them only far away, where two sigma are meters
+  constexpr double kRate =
+      0.001;  // a block of 64 pixels errs with all of them only far away, where two sigma are meters
   int solid = 0, wrong = 0;
   for (uint64_t seed = 1; seed <= 6; ++seed) {
     MappedWorld world = MappedWorld::random(seed);
@@ -99,7 +100,8 @@ TEST(OccupancyMap, WithoutAnyMatchNothingIsFreeAndNothingOccupied) {
   DepthBlocks blocks;
   blocks.build(cv::Mat(180, 320, CV_16SC1, cv::Scalar(stereo::kNoDisparity)), {});
   const MappedWorld world;
-  for (int i = 0; i < 20; ++i) map.integrate(blocks, world.geometry, MappedWorld::looking(Eigen::Vector3d::Zero(), 0.0));
+  for (int i = 0; i < 20; ++i)
+    map.integrate(blocks, world.geometry, MappedWorld::looking(Eigen::Vector3d::Zero(), 0.0));
   for (int x = -50; x < 50; ++x) {
     for (int z = -5; z < 5; ++z) EXPECT_EQ(map.state({x, 0, z}), State::unknown);
   }
