@@ -84,7 +84,8 @@ class Column {
   /// above the horizon for certain.
   struct Run {
     int top, horizon, bottom;
-    bool is_far;  ///< the ground is kSupportM away
+    int ground16;  ///< nearest disparity of the topmost ground
+    bool is_far;   ///< it is kSupportM away
   };
 
   std::optional<Run> climb() const {
@@ -106,7 +107,7 @@ class Column {
       if (!far && (!edge || block.near16 >= 0 || block.range <= kSmooth)) break;
       edge = far;  // one block of it
     }
-    Run run{row + 1, row, support - 1, ground16 <= far16};
+    Run run{row + 1, row, support - 1, ground16, ground16 <= far16};
     for (; row >= 0; --row) {
       const DepthBlock& block = blocks_.at(row, col_);
       const bool steps = row < run.horizon && std::abs(block.grey - blocks_.at(row + 1, col_).grey) > kSmooth;
@@ -172,6 +173,7 @@ int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down
       DepthBlock& block = blocks.at(row, col);
       if (block.kind != DepthBlock::Kind::unknown) continue;
       block.kind = DepthBlock::Kind::sky;
+      block.ground16 = static_cast<int16_t>(run->ground16);
       ++found;
     }
   }

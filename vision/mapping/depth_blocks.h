@@ -18,6 +18,7 @@ struct DepthBlock {
   };
   Kind kind = Kind::unknown;
   int16_t near16 = -1;  ///< disparity x 16 of its nearest surface; -1 where nothing was matched
+  int16_t ground16 = -1;  ///< of sky: of the ground at the foot of its column, which what is not sky stands on
   uint8_t grey = 0;     ///< mean
   uint8_t range = 0;    ///< greatest less least grey of its four quarters
 };
@@ -51,7 +52,8 @@ class DepthBlocks {
 /// - from there up nothing was matched that is nearer;
 /// - above the horizon its column is smooth, and as bright as the other columns' sky in its row.
 /// With it goes what lies between that ground and the horizon. A plain wall stands on ground that is nearer, a plain
-/// box in the air has edges or another brightness: both stay unknown. Differs from [Andert2007] eq. (6) to (8), where
+/// box in the air has edges or another brightness: both stay unknown. And a wall would stand at the end of
+/// that ground: `ground16` says how far sky is free at least. Differs from [Andert2007] eq. (6) to (8), where
 /// all that is bright and without texture is infinitely far.
 /// @param down_C  the vertical in C, of length 1. @return blocks found.
 int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, DepthBlocks& blocks);

@@ -77,6 +77,25 @@ TEST(FindSky, APlainWallIsNotSky) {
   }
 }
 
+// Where a tall plain wall fills the view, nothing tells it from sky but the ground that it stands on.
+TEST(FindSky, WhatPassesForSkyIsNoFartherThanTheGroundItStandsOn) {
+  constexpr double kWallM = 40.0, kRoundingM = 2.0;
+  const Eigen::AlignedBox3d wall(Eigen::Vector3d(kWallM, -90.0, -90.0), Eigen::Vector3d(kWallM + 1.0, 90.0, 0.0));
+  const View view = look({}, 4.0, {wall});
+  DepthBlocks blocks;
+  blocks.build(view.disparity16, view.grey);
+  find_sky(view.world.geometry, MappedWorld::looking(Eigen::Vector3d::Zero(), 0.0).linear().row(2).transpose(), blocks);
+  int passed = 0;
+  for (int row = 0; row < blocks.rows(); ++row) {
+    for (int col = 0; col < blocks.cols(); ++col) {
+      if (blocks.at(row, col).kind != DepthBlock::Kind::sky) continue;
+      ++passed;
+      EXPECT_LT(view.world.geometry.z_m(blocks.at(row, col).ground16), kWallM + kRoundingM);
+    }
+  }
+  EXPECT_GT(passed, 0);  // or the claim would say nothing
+}
+
 TEST(FindSky, APlainWallAcrossTheWholeViewIsNotSky) {
   const Eigen::AlignedBox3d wall(Eigen::Vector3d(8.0, -90.0, -90.0), Eigen::Vector3d(9.0, 90.0, 0.0));
   EXPECT_EQ(find(look({}, 4.0, {wall})).wrong, 0);
