@@ -70,8 +70,8 @@ void FilmWatcher::on_images(const ShownInstant& shown) {
     const double scale = static_cast<double>(config_.width_px) / source.cols;
     const int height_px = static_cast<int>(source.rows * scale);
     image_.create(height_px + kCaptionPx, config_.width_px, CV_8UC3);
-    cv::Mat picture = image_.rowRange(0, height_px), caption = image_.rowRange(height_px, image_.rows);
-    cv::resize(source, picture, picture.size(), 0, 0, cv::INTER_AREA);
+    cv::Mat scaled = image_.rowRange(0, height_px), caption = image_.rowRange(height_px, image_.rows);
+    cv::resize(source, scaled, scaled.size(), 0, 0, cv::INTER_AREA);
     caption.setTo(cv::Scalar::all(24));
     cv::putText(caption, caption_of(shown), {8, kCaptionPx - 7}, cv::FONT_HERSHEY_SIMPLEX, 0.5, {235, 235, 235}, 1,
                 cv::LINE_AA);

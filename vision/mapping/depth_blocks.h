@@ -17,10 +17,10 @@ struct DepthBlock {
     sky,  ///< not matched, but recognized by find_sky()
   };
   Kind kind = Kind::unknown;
-  int16_t near16 = -1;  ///< disparity x 16 of its nearest surface; -1 where nothing was matched
+  int16_t near16 = -1;    ///< disparity x 16 of its nearest surface; -1 where nothing was matched
   int16_t ground16 = -1;  ///< of sky: of the ground at the foot of its column, which what is not sky stands on
-  uint8_t grey = 0;     ///< mean
-  uint8_t range = 0;    ///< greatest less least grey of its four quarters
+  uint8_t grey = 0;       ///< mean
+  uint8_t range = 0;      ///< greatest less least grey of its four quarters
 };
 
 /// A disparity image in squares, each with its nearest surface: a few thousand rays instead of a quarter of a million,

@@ -126,10 +126,10 @@ TEST(FilmWatcher, WritesTimeStatusAndClearanceBelowThePictureOnly) {
   config.width_px = 320;
   config.rate_hz = 5.0;
   FilmWatcher watcher(config, file);
-  const cv::Mat picture(120, 160, CV_8UC3, cv::Scalar(90, 120, 150));
+  const cv::Mat grey(120, 160, CV_8UC3, cv::Scalar(90, 120, 150));
   for (const auto& [status, clearance_m] : {std::pair{"cruise", 12.0}, {"cruise", 12.0}, {"avoid", 3.0}}) {
     watcher.on_images(
-        {.t_ns = 0, .annotated = picture, .frames = {}, .status = status, .obstacle_clearance_m = clearance_m});
+        {.t_ns = 0, .annotated = grey, .frames = {}, .status = status, .obstacle_clearance_m = clearance_m});
   }
   watcher.close();
   ASSERT_EQ(watcher.fault(), "");
