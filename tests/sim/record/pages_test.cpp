@@ -76,7 +76,7 @@ TEST(ReportInBrowser, OpensWithWhatHappenedWhereAFlightCollidedAndLeavesOutDeadP
   Flight flight = fake_flight(10.0, 1);
   for (TrajectoryRow& row : flight.trajectory) row.wind_W.setZero();
   flight.result.outcome = Outcome::collided;
-  flight.result.closest_obstacle = {.distance_m = 0.0, .what = "tower", .t_s = 10.0};
+  flight.result.closest_obstacle = {.distance_m = 0.0, .t_s = 10.0, .what = "tower"};
   flight.result.checks = {{"no_collision", false, 0.0, 0.0, "m", ">"}};
   write_result_files(run.path(), {.scenario = "collided", .scenario_yaml = run.yaml()}, flight);
   write_report(run.path(), read_run(run.path()));
