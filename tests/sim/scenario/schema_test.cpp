@@ -110,10 +110,10 @@ TEST(Selectors, AreTheOnesThatLayingOverKnows) {
 TEST(Document, ListsEveryChoiceWithItsKeys) {
   EXPECT_EQ(describe_choices<sample::Shape>(),
             "round: a disc\n"
-            "    radius  radius  (number m, > 0 and <= 100000, default 1)\n"
+            "    radius  radius  (number m, > 0, default 1)\n"
             "\n"
             "square: a square\n"
-            "    side  side  (number m, > 0 and <= 100000, required)\n");
+            "    side  side  (number m, > 0, required)\n");
   for (const std::string& topic : document_topics()) EXPECT_FALSE(document(topic).empty()) << topic;
   EXPECT_NE(document("modules").find("flow_balance: "), std::string::npos);
   EXPECT_EQ(
