@@ -10,6 +10,7 @@ namespace hedgehop::avoidance::policy {
 
 /// The goal forward, right and down of the vehicle in H (heading.h), m; velocity in B, m/s; roll, pitch, rad; yaw rate,
 /// rad/s; height above ground, m. All as estimated on board.
+/// @param navigation  its attitude of length 1, not pointing straight up or down.
 using State = Eigen::Matrix<float, 10, 1>;
 State state_of(const NavigationState& navigation, const Goal& goal);
 

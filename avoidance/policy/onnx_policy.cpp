@@ -123,7 +123,7 @@ class OnnxPolicy final : public Module {
     }
   }
 
-  /// Throws std::invalid_argument where inputs and outputs are not those of the config.
+  /// Throws std::invalid_argument where inputs and outputs are not those of the config, or an action is not finite.
   Action ask(const State& state) {
     cv::Mat answer;
     const Quiet quiet;
@@ -142,7 +142,7 @@ class OnnxPolicy final : public Module {
     }
     Action action;
     for (int i = 0; i < 4; ++i) action[i] = static_cast<double>(answer.ptr<float>()[i]);
-    if (!action.allFinite()) throw std::runtime_error("the network's action is not finite");
+    if (!action.allFinite()) refuse(config_, "the network's action is not finite");
     return action;
   }
 

@@ -129,7 +129,7 @@ TEST_F(OnnxPolicy, AnActionThatIsNotFiniteEndsTheFlight) {
   write();
   const auto module = make_onnx_policy(config());
   EXPECT_THAT([&] { module->reset(four_cameras(kSizePx, 25.0)); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("not finite")));
+              ThrowsMessage<std::invalid_argument>(HasSubstr("not finite")));
 }
 
 }  // namespace
