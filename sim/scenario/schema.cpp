@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "sim/scenario/schema_sharing.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -12,10 +14,6 @@ using Json = nlohmann::ordered_json;
 using Kind = Outline::Kind;
 
 Json schema_of(const Outline& node, bool partial);
-
-bool is_scalar(const Outline& node) {
-  return node.kind != Kind::list && node.kind != Kind::group && node.kind != Kind::variant;
-}
 
 std::string description(const fields::Field& field) {
   if (field.unit.empty()) return std::string(field.meaning);
@@ -100,17 +98,28 @@ Json unnamed_choice(const Outline& node, bool partial) {
   return schema;
 }
 
+/// One rule a choice, so that what is told of a wrong key is told of the choice it stands in.
 Json variant_schema(const Outline& node, bool partial) {
   const std::string selector(node.field.selector);
-  Json choices = Json::array();
+  const Json selected = {{"type", "object"}, {"required", {selector}}};
+  Json rules = Json::array(), names = Json::array(), unselected = Json::array();
   for (const Outline& choice : node.all) {
     Json schema = group_schema(choice.parts, choice.chosen_by_key ? "" : selector, choice.key, partial);
     schema["title"] = choice.key;
     schema["description"] = choice.meaning;
-    choices.push_back(std::move(schema));
+    if (choice.chosen_by_key) {
+      unselected.push_back(std::move(schema));
+      continue;
+    }
+    names.push_back(choice.key);
+    Json chosen = selected;
+    chosen["properties"] = {{selector, {{"const", choice.key}}}};
+    rules.push_back({{"if", std::move(chosen)}, {"then", std::move(schema)}});
   }
-  choices.push_back(unnamed_choice(node, partial));
-  return {{"oneOf", std::move(choices)}};
+  unselected.push_back(unnamed_choice(node, partial));
+  const Json named = {{"properties", {{selector, {{"enum", std::move(names)}}}}}};
+  rules.push_back({{"if", selected}, {"then", named}, {"else", {{"anyOf", std::move(unselected)}}}});
+  return {{"type", "object"}, {"allOf", std::move(rules)}};
 }
 
 Json scalar_schema(const Outline& node) {
@@ -147,8 +156,8 @@ Json schema_of(const Outline& node, bool partial) {
   if (node.key.empty()) return schema;
 
   if (const std::string text = description(node.field); !text.empty()) schema["description"] = text;
-  const bool list_of_maps = node.kind == Kind::list && !is_scalar(node.item.at(0));
-  if ((is_scalar(node) || node.kind == Kind::list) && !list_of_maps && !node.field.required) {
+  const bool list_of_maps = node.kind == Kind::list && !node.item.at(0).is_scalar();
+  if ((node.is_scalar() || node.kind == Kind::list) && !list_of_maps && !node.field.required) {
     schema["default"] = value_of(node);
   }
   return schema;
@@ -159,6 +168,7 @@ Json schema_of(const Outline& node, bool partial) {
 std::string schema_text(const std::vector<Outline>& fields, const std::string& title) {
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
   schema.update(group_schema(fields, "", "", false));
+  share_definitions(schema);
   return schema.dump(2) + "\n";
 }
 

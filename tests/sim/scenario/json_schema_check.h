@@ -33,7 +33,9 @@ inline Json json_of(const YAML::Node& node) {
 
 /// Checks a value against the keywords of JSON Schema that our schema uses; an unknown keyword is a fault.
 /// @return "" when the value is valid, else the first fault.
-inline std::string schema_fault(const Json& schema, const Json& value, const std::string& path = "$") {
+/// @param root  holds the `$defs` that the schema refers to.
+inline std::string schema_fault(const Json& root, const Json& schema, const Json& value,
+                                const std::string& path = "$") {
   const auto is_type = [&](const std::string& type) {
     if (type == "integer") return value.is_number() && std::floor(value.get<double>()) == value.get<double>();
     if (type == "number") return value.is_number();
@@ -41,7 +43,7 @@ inline std::string schema_fault(const Json& schema, const Json& value, const std
   };
   const auto count_valid = [&](const Json& schemas) {
     int count = 0;
-    for (const Json& each : schemas) count += schema_fault(each, value, path).empty();
+    for (const Json& each : schemas) count += schema_fault(root, each, value, path).empty();
     return count;
   };
   if (schema.is_boolean()) return schema.get<bool>() ? "" : path + ": not allowed";
@@ -74,24 +76,33 @@ inline std::string schema_fault(const Json& schema, const Json& value, const std
     } else if (keyword == "anyOf") {
       holds = count_valid(rule) > 0;
     } else if (keyword == "if") {
-      const Json& branch = schema[schema_fault(rule, value, path).empty() ? "then" : "else"];
-      if (std::string inner = schema_fault(branch, value, path); !inner.empty()) return inner;
+      const char* const taken = schema_fault(root, rule, value, path).empty() ? "then" : "else";
+      const Json branch = schema.value(taken, Json(true));
+      if (std::string inner = schema_fault(root, branch, value, path); !inner.empty()) return inner;
+    } else if (keyword == "allOf") {
+      for (const Json& each : rule) {
+        if (std::string inner = schema_fault(root, each, value, path); !inner.empty()) return inner;
+      }
+    } else if (keyword == "$ref") {
+      const Json& defined = root.at(Json::json_pointer(rule.get<std::string>().substr(1)));
+      if (std::string inner = schema_fault(root, defined, value, path); !inner.empty()) return inner;
     } else if (keyword == "items") {
       for (const Json& item : value) {
-        if (std::string inner = schema_fault(rule, item, path + "[]"); !inner.empty()) return inner;
+        if (std::string inner = schema_fault(root, rule, item, path + "[]"); !inner.empty()) return inner;
       }
     } else if (keyword == "properties") {
       for (const auto& [key, inner_schema] : rule.items()) {
         if (!value.contains(key)) continue;
-        if (std::string inner = schema_fault(inner_schema, value[key], path + "." + key); !inner.empty()) return inner;
+        if (std::string inner = schema_fault(root, inner_schema, value[key], path + "." + key); !inner.empty())
+          return inner;
       }
     } else if (keyword == "additionalProperties") {
       for (const auto& [key, ignored] : value.items()) {
         if (!schema["properties"].contains(key)) return path + ": unknown " + key;
       }
     } else {
-      holds = keyword == "then" || keyword == "else" || keyword == "$schema" || keyword == "title" ||
-              keyword == "description" || keyword == "default";
+      holds = keyword == "then" || keyword == "else" || keyword == "$schema" || keyword == "$defs" ||
+              keyword == "title" || keyword == "description" || keyword == "default";
     }
     if (!holds) return fault;
   }

@@ -17,7 +17,7 @@ namespace hedgehop::sim {
 namespace {
 
 std::string fault_of(const Json& schema, const std::string& yaml) {
-  return schema_fault(schema, json_of(YAML::Load(yaml)));
+  return schema_fault(schema, schema, json_of(YAML::Load(yaml)));
 }
 
 class Schema : public testing::Test {
@@ -28,7 +28,7 @@ class Schema : public testing::Test {
 
 TEST_F(Schema, AcceptsEveryShippedScenarioAsWrittenAndResolved) {
   for (const auto& file : shipped_scenarios()) {
-    EXPECT_EQ(schema_fault(scenario_, json_of(YAML::LoadFile(file))), "") << file;
+    EXPECT_EQ(schema_fault(scenario_, scenario_, json_of(YAML::LoadFile(file))), "") << file;
     EXPECT_EQ(fault_of(scenario_, to_yaml(load_scenario(file))), "") << file;
   }
 }
@@ -84,7 +84,17 @@ TEST_F(Schema, SaysUnitBoundsAndDefaultOfAKey) {
   EXPECT_EQ(tilt["description"], "tilt [deg]");
   EXPECT_EQ(tilt["minimum"], -60);
   EXPECT_NEAR(tilt["default"].get<double>(), 20.053522829578810, 1e-12);
-  EXPECT_EQ(sample_["else"]["properties"]["shape"]["oneOf"][0]["properties"]["type"]["const"], "round");
+}
+
+TEST_F(Schema, FaultOfAChoiceNamesItsKey) {
+  EXPECT_EQ(fault_of(sample_, "{mass: 1, shape: {type: round, radios: 3}}"), "$.shape: unknown radios");
+  EXPECT_EQ(fault_of(sample_, "{mass: 1, shape: {type: rond}}"),
+            "$.shape.type: enum [\"round\",\"square\"], got \"rond\"");
+}
+
+TEST_F(Schema, HoldsNothingTwice) {
+  EXPECT_LT(json_schema().size(), 300'000u);
+  EXPECT_FALSE(scenario_.at("$defs").empty());
 }
 
 /// Each selector must be known to the rule by which a laid-over choice replaces a map, and no field may bear its name,
