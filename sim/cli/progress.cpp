@@ -1,6 +1,7 @@
 #include "sim/cli/progress.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,13 +18,20 @@ void write(const std::string& text) {
   std::fflush(stderr);
 }
 
+/// Letters that a line of the terminal holds without a break; as many as one likes where it does not say.
+size_t columns() {
+  winsize size{};
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 2) return std::string::npos;
+  return size.ws_col - 1u;
+}
+
 }  // namespace
 
 StatusLine::StatusLine() : terminal_(isatty(STDERR_FILENO) == 1) {}
 
 void StatusLine::show(const std::string& line) const {
   if (terminal_) {
-    write("\r\033[K" + line);
+    write("\r\033[K" + line.substr(0, columns()));
   } else {
     write(line + "\n");
   }
@@ -38,14 +46,17 @@ void StatusLine::close() const {
   if (terminal_) write("\r\033[K");
 }
 
-FlightProgress::FlightProgress(std::string name) : name_(std::move(name)) {}
+FlightProgress::FlightProgress(std::string name) : name_(std::move(name)), start_(Clock::now()) {}
 
 void FlightProgress::show(double t_s, double duration_s, double goal_distance_m) {
   const int tenths = static_cast<int>(10.0 * t_s / duration_s);
   if (!line_.terminal() && tenths <= tenths_shown_) return;
   tenths_shown_ = tenths;
-  const std::string goal = std::isnan(goal_distance_m) ? "" : fmt::format(", {:.0f} m to the goal", goal_distance_m);
-  line_.show(fmt::format("{}: {:.0f} s flown of at most {:.0f} s{}", name_, t_s, duration_s, goal));
+  const double elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
+  const std::string left =
+      t_s > 0.0 ? fmt::format(", at most {} left", duration_words(elapsed_s / t_s * (duration_s - t_s))) : "";
+  const std::string goal = std::isnan(goal_distance_m) ? "" : fmt::format(", {:.0f} m to go", goal_distance_m);
+  line_.show(fmt::format("{}: {:.0f} of {:.0f} s{}{}", name_, t_s, duration_s, left, goal));
 }
 
 CampaignProgress::CampaignProgress(size_t flights) : start_(Clock::now()), flights_(flights) {}

@@ -10,7 +10,7 @@ class StatusLine {
  public:
   StatusLine();
   bool terminal() const { return terminal_; }
-  /// Redraws the line, or, where there is no terminal, adds it.
+  /// Redraws the line, as much of it as the terminal is wide, or, where there is no terminal, adds it.
   void show(const std::string& line) const;
   /// Adds a line that stays.
   void keep(const std::string& line) const;
@@ -21,9 +21,11 @@ class StatusLine {
   bool terminal_;
 };
 
-/// Progress of one flight: redrawn on a terminal, else a plain line every tenth of the flight's duration.
+/// Progress of one flight, with the time left: redrawn on a terminal, else a plain line every tenth of its duration.
 class FlightProgress {
  public:
+  using Clock = std::chrono::steady_clock;
+
   explicit FlightProgress(std::string name);
   /// @param goal_distance_m  NaN without a goal.
   void show(double t_s, double duration_s, double goal_distance_m);
@@ -32,6 +34,7 @@ class FlightProgress {
  private:
   std::string name_;
   StatusLine line_;
+  Clock::time_point start_;
   int tenths_shown_ = 0;
 };
 

@@ -71,8 +71,10 @@ void print_check(const CheckResult& check) {
 
 void print_verdict(const Scenario& scenario, const FlightResult& result, const std::filesystem::path& out,
                    bool has_report) {
-  fmt::print("{}, seed {}: {}{} after {:.1f} s of flight\n", scenario.name, scenario.seed, to_string(result.outcome),
-             result.cause.empty() ? "" : " (" + result.cause + ")", result.flight_time_s);
+  const bool as_asked = result.outcome == Outcome::timeout && !scenario.goal;
+  fmt::print("{}, seed {}: {}{} after {:.1f} s of flight{}\n", scenario.name, scenario.seed, to_string(result.outcome),
+             result.cause.empty() ? "" : " (" + result.cause + ")", result.flight_time_s,
+             as_asked ? ", its full time" : "");
   fmt::print("  path {:.1f} m, mean speed {:.2f} m/s", result.path_length_m, result.mean_speed_mps);
   if (result.goal_distance_m) fmt::print(", {:.1f} m from the goal", *result.goal_distance_m);
   fmt::print("\n");

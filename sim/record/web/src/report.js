@@ -6,7 +6,7 @@ function judge(outcome, goal) {
   switch (outcome) {
     case 'reached': return {words: 'Reached the goal', good: true};
     case 'collided': return {words: 'Collided', good: false};
-    case 'timeout': return goal ? {words: 'Out of time before the goal', good: false} : {words: 'Flew its full time', good: true};
+    case 'timeout': return goal ? {words: 'Timeout: the goal was not reached in time', good: false} : {words: 'Timeout: flew its full time, as asked', good: true};
     case 'fault': return {words: 'Ended by a fault', good: false};
     default: return {words: outcome, good: false};
   }

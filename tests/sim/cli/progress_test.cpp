@@ -1,0 +1,52 @@
+// What the program shows on a terminal, a pseudo-terminal of a given width here.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <filesystem>
+#include <regex>
+#include <string>
+
+namespace hedgehop::sim::cli {
+namespace {
+
+/// What a command writes to a terminal of so many columns.
+std::string on_terminal(const std::string& command, unsigned short columns) {
+  winsize size{.ws_row = 24, .ws_col = columns, .ws_xpixel = 0, .ws_ypixel = 0};
+  int terminal = -1;
+  const pid_t child = ::forkpty(&terminal, nullptr, nullptr, &size);
+  if (child == 0) {
+    ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    ::_exit(127);
+  }
+  std::string text;
+  std::array<char, 4096> part{};
+  for (ssize_t n = 0; (n = ::read(terminal, part.data(), part.size())) > 0;)
+    text.append(part.data(), static_cast<size_t>(n));
+  ::close(terminal);
+  ::waitpid(child, nullptr, 0);
+  return text;
+}
+
+TEST(Progress, LineOfAFlightFitsANarrowTerminalAndNamesTheTimeLeft) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "progress";
+  const std::string command = HEDGEHOP_PROGRAM
+                              " run " HEDGEHOP_SOURCE_DIR
+                              "/configs/andert2007_tree_160.yaml --set name=a_name_that_is_longer_than_the_line "
+                              "--set duration=0.5 --set 'checks=[]' --no-report --no-video --json --out " +
+                              folder.string() + " >/dev/null";
+  EXPECT_THAT(on_terminal(command, 200), testing::ContainsRegex(": [0-9]+ of [0-9]+ s, at most [0-9]+ s left"));
+  const std::string narrow = on_terminal(command, 50);
+  const std::regex redrawn("\r\033\\[K([^\r\n]*)");
+  size_t lines = 0;
+  for (std::sregex_iterator match(narrow.begin(), narrow.end(), redrawn), end; match != end; ++match, ++lines) {
+    EXPECT_LT((*match)[1].length(), 50) << (*match)[1];
+  }
+  EXPECT_GT(lines, 1u);
+}
+
+}  // namespace
+}  // namespace hedgehop::sim::cli
