@@ -32,7 +32,7 @@ void film_worst(const std::filesystem::path& folder, size_t count) {
 }  // namespace
 
 int list(const std::string& topic) {
-  fmt::print("{}", document(topic));
+  fmt::print("{}{}", document(topic), topic == "vehicles" ? vehicle_files_text() : "");
   return 0;
 }
 

@@ -2,8 +2,10 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Core>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <stdexcept>
@@ -14,6 +16,7 @@
 #include "dynamics/steady_flight.h"
 #include "dynamics/vehicle.h"
 #include "sim/cli/commands.h"
+#include "sim/cli/shipped_files.h"
 #include "sim/record/report_page.h"
 #include "sim/record/trim_data.h"
 #include "sim/record/whole_file.h"
@@ -24,6 +27,20 @@ namespace hedgehop::sim::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// What the comment at the head of a file begins with: its first sentence.
+std::string first_sentence(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string text, line;
+  while (std::getline(in, line) && line.starts_with("#")) text += line.substr(1);
+  for (size_t at = text.find(". "); at != std::string::npos; at = text.find(". ", at + 1)) {
+    if (at + 2 < text.size() && std::isupper(static_cast<unsigned char>(text[at + 2]))) {
+      text.resize(at + 1);
+      break;
+    }
+  }
+  return text.starts_with(" ") ? text.substr(1) : text;
+}
 
 /// Runs `compute` on a vehicle; a vehicle that cannot fly is bad input, reported with the file's name.
 template <class Compute>
@@ -124,6 +141,18 @@ void print_modes(const std::vector<dynamics::Mode>& modes, bool csv) {
 }
 
 }  // namespace
+
+std::string vehicle_files_text() {
+  std::string text = "\nvehicle files, for `vehicle: {use: ...}`:\n";
+  for (const std::filesystem::path& file : shipped_files("vehicles")) {
+    const dynamics::VehicleConfig vehicle = load_vehicle(file);
+    const double mass_kg = std::visit([](const auto& config) { return config.mass.mass_kg; }, vehicle);
+    const std::string_view kind = std::visit([](const auto& config) { return config.kName; }, vehicle);
+    text += fmt::format("{}: {}, {:.3g} kg, {:.2f} m across\n    {}\n", file.string(), kind, mass_kg,
+                        2.0 * dynamics::radius_m(dynamics::hull(vehicle)), first_sentence(file));
+  }
+  return text;
+}
 
 int trim(const TrimOptions& options) {
   std::vector<double> missing_mps;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/scenario/numbers.h"
 #include "sim/scenario/scenario.h"
 #include "sim/scenario/tree.h"
 #include "sim/scenario/writer.h"
@@ -55,14 +56,19 @@ std::string bounds_words(const fields::Field& field) {
   return fmt::format("{}", fmt::join(bounds, " and "));
 }
 
+/// A scalar as people write it: an angle's decimal is otherwise exact to the last bit of its radians.
+std::string readable(const Outline& node) {
+  return node.kind == Kind::number ? fmt::format("{:.12g}", parse_number(node.value, false).member) : node.value;
+}
+
 std::string default_words(const Outline& node) {
   if (node.field.required) return "required";
   if (has_parts(node) && node.present) return "";
   if (!node.present) return "default none";
   if (node.kind == Kind::text) return node.value.empty() ? "default empty" : "default " + node.value;
-  if (node.kind != Kind::list) return "default " + node.value;
+  if (node.kind != Kind::list) return "default " + readable(node);
   std::vector<std::string> items;
-  for (const Outline& part : node.parts) items.push_back(has_parts(part) ? "..." : part.value);
+  for (const Outline& part : node.parts) items.push_back(has_parts(part) ? "..." : readable(part));
   return fmt::format("default [{}]", fmt::join(items, ", "));
 }
 

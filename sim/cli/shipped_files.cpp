@@ -1,0 +1,28 @@
+#include "sim/cli/shipped_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/cli/commands.h"
+#include "sim/scenario/input_error.h"
+
+namespace hedgehop::sim::cli {
+
+std::vector<std::filesystem::path> shipped_files(const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  fs::path place = fs::path("configs") / folder;
+  if (!fs::is_directory(place, error)) {
+    place = own_program().parent_path().parent_path() / "share" / "hedgehop" / place;
+  }
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(place, error)) {
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  }
+  if (files.empty()) throw InputError(fmt::format("{}: no files (*.yaml) in this folder", place.string()));
+  std::ranges::sort(files);
+  return files;
+}
+
+}  // namespace hedgehop::sim::cli
