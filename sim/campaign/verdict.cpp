@@ -115,6 +115,26 @@ std::vector<GroupSummary> summarize(const std::vector<FlightRecord>& records) {
   return groups;
 }
 
+void require_decidable(const std::vector<CampaignCheck>& checks, const std::vector<GroupSummary>& groups) {
+  const auto shows = [](int64_t flights, const SuccessRateCheck& check) {
+    return wilson_interval({flights, flights}, check.confidence).low >= check.at_least;
+  };
+  std::vector<std::string> faults;
+  for (const CampaignCheck& any : checks) {
+    const auto* check = std::get_if<SuccessRateCheck>(&any);
+    if (!check) continue;
+    int64_t needed = 1;
+    while (!shows(needed, *check)) ++needed;
+    for (const GroupSummary& group : groups) {
+      if (group.flights >= needed) continue;
+      faults.push_back(
+          fmt::format("{}: {} of {} flights that pass cannot show a rate of {:g} with {:g} % confidence; it takes {}",
+                      group.group, group.flights, group.flights, check->at_least, 100.0 * check->confidence, needed));
+    }
+  }
+  if (!faults.empty()) throw InputError(faults);
+}
+
 std::vector<GroupVerdict> judge(const std::vector<CampaignCheck>& checks, const std::vector<GroupSummary>& groups) {
   std::vector<GroupVerdict> verdicts;
   for (const CampaignCheck& check : checks) {

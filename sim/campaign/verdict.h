@@ -33,6 +33,10 @@ struct GroupVerdict {
   std::string words;  ///< the whole sentence, with counts and interval
 };
 
+/// Refuses a rate that a group's flights cannot show even if all of them pass, before they are flown.
+/// Throws InputError naming the number of flights that could.
+void require_decidable(const std::vector<CampaignCheck>& checks, const std::vector<GroupSummary>& groups);
+
 /// Results of all checks for all groups. A group that the earlier batch lacks fails no_worse.
 /// Throws InputError naming the file when an earlier batch cannot be read.
 std::vector<GroupVerdict> judge(const std::vector<CampaignCheck>& checks, const std::vector<GroupSummary>& groups);

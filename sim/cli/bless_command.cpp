@@ -35,31 +35,51 @@ std::filesystem::path reference_file(const std::filesystem::path& run_folder, co
   return std::filesystem::path(scenario_file).replace_extension("reference.csv");
 }
 
+/// Why a flight is no good example; empty when it is one. A path_tolerance is what blessing is about to change.
+std::string failure_of(const nlohmann::ordered_json& result) {
+  const std::string outcome = result.value("outcome", "");
+  if (outcome == "collided" || outcome == "fault") return outcome;
+  for (const auto& check : result.value("checks", nlohmann::ordered_json::array())) {
+    const std::string name = check.value("name", "");
+    if (name != PathToleranceCheck::kName && !check.value("passed", false)) return name;
+  }
+  return "";
+}
+
 }  // namespace
 
-int bless(const std::filesystem::path& run_folder, const std::string& reason) {
-  if (reason.empty() || reason.find('\n') != std::string::npos) {
+int bless(const BlessOptions& options) {
+  if (options.reason.empty() || options.reason.find('\n') != std::string::npos) {
     throw InputError("--reason: give in one line why this path is the reference");
   }
+  const std::string folder = options.folder.string();
   nlohmann::ordered_json result;
   std::vector<TimedPoint> flown;
   try {
-    result = nlohmann::ordered_json::parse(read_file_whole(run_folder / "result.json"));
-    flown = flown_path(run_folder);
+    result = nlohmann::ordered_json::parse(read_file_whole(options.folder / "result.json"));
+    flown = flown_path(options.folder);
   } catch (const std::exception& error) {
-    throw InputError(fmt::format("{}: no whole run: {}", run_folder.string(), error.what()));
+    throw InputError(fmt::format("{}: no whole run: {}", folder, error.what()));
   }
-  if (flown.empty()) throw InputError(fmt::format("{}: the flight has no path", run_folder.string()));
+  if (flown.empty()) throw InputError(fmt::format("{}: the flight has no path", folder));
+  const std::string failure = failure_of(result);
+  if (!failure.empty() && !options.force) {
+    throw InputError(fmt::format("{}: the flight failed ({}); --force blesses it all the same", folder, failure));
+  }
   const double duration_s = flown.back().t_s - flown.front().t_s;
-  ReferencePath reference{.reason = reason,
+  ReferencePath reference{.reason = options.reason,
                           .version = result.value("version", ""),
                           .seed = result.value("seed", uint64_t{0}),
                           .step_s = kStepS * std::max(1.0, std::ceil(duration_s / (kStepS * kMostPoints)))};
   reference.points = thinned(flown, reference.step_s);
-  const std::filesystem::path file = reference_file(run_folder, result.value("scenario_file", ""));
-  write_file_whole(file, reference_text(reference));
-  fmt::print("written: {} ({} points)\nchecked by: - {{check: path_tolerance, reference: {}, at_most: 0.5}}\n",
-             file.string(), reference.points.size(), file.filename().string());
+  const std::filesystem::path file = reference_file(options.folder, result.value("scenario_file", ""));
+  if (std::filesystem::exists(file) && !options.force && !options.dry_run) {
+    throw InputError(fmt::format("{}: is there already; --force replaces it", file.string()));
+  }
+  if (!options.dry_run) write_file_whole(file, reference_text(reference));
+  fmt::print("{}: {} ({} points)\nchecked by: - {{check: path_tolerance, reference: {}, at_most: 0.5}}\n",
+             options.dry_run ? "would write" : "written", file.string(), reference.points.size(),
+             file.filename().string());
   return 0;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -86,6 +87,34 @@ void describe(Visitor& v, MaxTiltCheck& c) {
   v("at_most", c.at_most_rad,
     {.unit = "deg", .above = 0.0, .at_most = 180.0, .required = true, .meaning = "largest angle to the vertical"});
 }
+
+/// The judge's own figures, docs/metrics.md; those that a flight lacks fail their checks.
+inline constexpr auto kJudgesMetrics = std::to_array<std::string_view>({"success",
+                                                                        "collision",
+                                                                        "mission_progress",
+                                                                        "goal_velocity",
+                                                                        "shortest_path",
+                                                                        "path_excess",
+                                                                        "off_course_at_end_m",
+                                                                        "time_to_collision_at_reaction_s",
+                                                                        "jerk_rms",
+                                                                        "actuator_effort",
+                                                                        "off_middle_mean_m",
+                                                                        "off_middle_max_m",
+                                                                        "off_middle_after_15m_m",
+                                                                        "centering_error_mean",
+                                                                        "centering_error_median",
+                                                                        "centering_error_max",
+                                                                        "centering_known_share",
+                                                                        "map_tolerance_m",
+                                                                        "corners_seen",
+                                                                        "corners_found",
+                                                                        "map_precision",
+                                                                        "map_complete_s",
+                                                                        "map_error_percent",
+                                                                        "converged_s",
+                                                                        "false_landmarks",
+                                                                        "false_on_ground"});
 
 struct MetricCheck {
   static constexpr std::string_view kName = "metric";

@@ -162,7 +162,10 @@ class Validator {
     ordered(path + ".east_max", "east_min", check.east_min_m, check.east_max_m);
   }
   void check(const std::string& path, const MetricCheck& check) {
-    if (check.name.empty()) add(path + ".name", "must not be empty");
+    if (!check.name.starts_with("module.") && std::ranges::find(kJudgesMetrics, check.name) == kJudgesMetrics.end()) {
+      add(path + ".name", fmt::format("is no figure of the judge{}; a module's own begins with 'module.'",
+                                      suggestion(check.name, {kJudgesMetrics.begin(), kJudgesMetrics.end()})));
+    }
     if (!check.at_least && !check.at_most) add(path, "needs 'at_least' or 'at_most'");
     if (check.at_least && check.at_most && *check.at_least > *check.at_most) {
       add(path + ".at_most", "must not be less than 'at_least'");

@@ -264,6 +264,17 @@ TEST(Batch, StatisticalChecksDecideInPlaceOfSingleFlights) {
   EXPECT_EQ(folder.hedgehop(common + " --out d --no-worse-than a").status, 1);  // 0 of 6 after 5 of 6: p = 0.008
 }
 
+TEST(Batch, RefusesARateThatItsFlightsCannotShow) {
+  const CampaignFolder folder;
+  // All of n passing: the Wilson interval begins at n / (n + z^2), z = 1.96, which is 0.7 from n = 8.96 on.
+  const CommandEnd end = folder.hedgehop("batch tiny.yaml --seeds 1:8 --out out --min-success 0.7");
+  EXPECT_EQ(end.status, 2);
+  EXPECT_THAT(end.err,
+              HasSubstr("8 of 8 flights that pass cannot show a rate of 0.7 with 95 % confidence; it takes 9"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/batch.json"));
+  EXPECT_EQ(folder.hedgehop("batch tiny.yaml --seeds 1:9 --out out --min-success 0.7").status, 0);
+}
+
 TEST(Batch, CampaignFileNamesScenariosSeedsAndValues) {
   const CampaignFolder folder;
   folder.write("campaign.yaml",

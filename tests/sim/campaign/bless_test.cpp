@@ -24,6 +24,33 @@ TEST(Bless, ReferenceHoldsItsOwnFlightAndRefusesAnother) {
   }
 }
 
+TEST(Bless, ReplacesAReferenceOnlyByForceAndSaysFirstWhatItWouldWrite) {
+  const CampaignFolder folder;
+  ASSERT_EQ(folder.hedgehop("run tiny.yaml --seed 3 --no-report --no-video --out first").status, 0);
+  const CommandEnd dry = folder.hedgehop("bless first --reason one --dry-run");
+  EXPECT_EQ(dry.status, 0);
+  EXPECT_THAT(dry.out, HasSubstr("would write: "));
+  EXPECT_THAT(dry.out, HasSubstr("tiny.reference.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "tiny.reference.csv"));
+  ASSERT_EQ(folder.hedgehop("bless first --reason one").status, 0);
+  const CommandEnd again = folder.hedgehop("bless first --reason two");
+  EXPECT_EQ(again.status, 2);
+  EXPECT_THAT(again.err, HasSubstr("tiny.reference.csv: is there already; --force replaces it"));
+  EXPECT_THAT(folder.read("tiny.reference.csv"), HasSubstr("# reason: one\n"));
+  EXPECT_EQ(folder.hedgehop("bless first --reason two --force").status, 0);
+  EXPECT_THAT(folder.read("tiny.reference.csv"), HasSubstr("# reason: two\n"));
+}
+
+TEST(Bless, RefusesAFlightThatFailed) {
+  const CampaignFolder folder;
+  folder.write("late.yaml", "use: tiny.yaml\nname: late\nchecks: [{check: max_speed, at_most: 0.01}]\n");
+  ASSERT_EQ(folder.hedgehop("run late.yaml --no-report --no-video --out late").status, 1);
+  const CommandEnd end = folder.hedgehop("bless late --reason 'near enough'");
+  EXPECT_EQ(end.status, 2);
+  EXPECT_THAT(end.err, HasSubstr("the flight failed (max_speed)"));
+  EXPECT_EQ(folder.hedgehop("bless late --reason 'near enough' --force").status, 0);
+}
+
 TEST(Bless, MissingReferenceIsRefusedBeforeTheFlight) {
   const CampaignFolder folder;
   folder.write("held.yaml", "use: tiny.yaml\nchecks:\n  - {check: path_tolerance, reference: none.csv, at_most: 1}\n");

@@ -115,7 +115,10 @@ TEST_F(CrossRules, ChecksMakeSense) {
               ElementsAre("--set checks: 'checks.0.max': must be greater than 'min' (3 m), got 2"));
   EXPECT_THAT(faults({"checks=[{check: no_collision}]", "may_collide=true"}),
               ElementsAre("--set checks: 'checks.0': contradicts 'may_collide: true'"));
-  EXPECT_THAT(faults({"checks=[{check: metric, name: a}]"}),
+  EXPECT_THAT(faults({"checks=[{check: metric, name: jerk_rmss, at_most: 1}]"}),
+              ElementsAre(HasSubstr(
+                  "'checks.0.name': is no figure of the judge; did you mean 'jerk_rms'? allowed: success, ")));
+  EXPECT_THAT(faults({"checks=[{check: metric, name: module.a}]"}),
               ElementsAre("--set checks: 'checks.0': needs 'at_least' or 'at_most'"));
   EXPECT_THAT(
       faults({"checks=[{check: reached_goal, within: 4, before: 500}]"}),

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -45,6 +46,15 @@ scenes::Scene empty_scene() {
   scenes::Scene scene;
   scene.bounds_NE_m = {Eigen::Vector2d(-10.0, -10.0), Eigen::Vector2d(60.0, 10.0)};
   return scene;
+}
+
+TEST(FieldMetrics, AreAmongThoseThatChecksMayName) {
+  const Flight flight = flight_north([](double t_s) { return 5.0 * t_s; }, Outcome::reached);
+  const auto metrics = field_metrics(with_goal(), flight, empty_scene(), 0.8);
+  EXPECT_EQ(metrics.size(), 9u);
+  for (const MetricValue& metric : metrics) {
+    EXPECT_NE(std::ranges::find(kJudgesMetrics, metric.name), kJudgesMetrics.end()) << metric.name;
+  }
 }
 
 TEST(FieldMetrics, HalfTheWayIsHalfTheMission) {
