@@ -1,5 +1,7 @@
 #include "avoidance/camera_flow.h"
 
+#include "sim/fields/quantities.h"
+
 namespace hedgehop::avoidance {
 
 Eigen::Vector3d velocity_in_camera(const Eigen::Isometry3d& X_BC, const NavigationState& navigation) {
@@ -19,7 +21,7 @@ bool CameraFlow::update(const CameraFrame& frame, const Eigen::Vector3d& w_WB_B)
   field_ = flow_.update(frame.image);
   frame.image.copyTo(image_);
   const bool first = !last_t_ns_;
-  const double dt_s = first ? 0.0 : 1e-9 * static_cast<double>(frame.t_ns - *last_t_ns_);
+  const double dt_s = first ? 0.0 : seconds(frame.t_ns - *last_t_ns_);
   const Eigen::Vector3d w_mean_B = 0.5 * (w_WB_B + last_w_WB_B_);
   last_t_ns_ = frame.t_ns;
   last_w_WB_B_ = w_WB_B;
@@ -36,7 +38,7 @@ bool CameraFlow::update(const CameraFrame& frame, const Eigen::Vector3d& w_WB_B)
 
 std::optional<CameraFlow::Measure> CameraFlow::measure(int64_t now_ns) const {
   constexpr double kFreshPeriods = 3.0;  // an older measure is of another place
-  if (!measure_ || 1e-9 * static_cast<double>(now_ns - *last_t_ns_) > kFreshPeriods / camera_.rate_hz) {
+  if (!measure_ || seconds(now_ns - *last_t_ns_) > kFreshPeriods / camera_.rate_hz) {
     return std::nullopt;
   }
   return measure_;

@@ -4,6 +4,8 @@ include_guard()
 add_library(hedgehop_warnings INTERFACE)
 target_compile_options(hedgehop_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
                        -Wold-style-cast -Woverloaded-virtual -Wno-missing-field-initializers
+                       # sources that are compiled together look like headers to it
+                       $<$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>:-Wno-subobject-linkage>
                        # false alarms of GCC 12 at -O3 in std::string and Eigen
                        -Wno-restrict -Wno-maybe-uninitialized -Wno-stringop-overflow -Wno-array-bounds)
 if(HEDGEHOP_WERROR)
@@ -29,8 +31,8 @@ function(hedgehop_library folder)
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
     target_compile_options(${target} PRIVATE ${HEDGEHOP_LIBRARY_OPTIONS})
     if(COMMAND hedgehop_use_precompiled)  # absent in the small projects of tests/style
-    hedgehop_use_precompiled(${target} hedgehop_library_headers)
-  endif()
+      hedgehop_use_precompiled(${target} hedgehop_library_headers)
+    endif()
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:hedgehop_warnings>)
   else()
     set(scope INTERFACE)
@@ -81,6 +83,7 @@ function(hedgehop_test name)
     set(arg_LABEL unit)
   endif()
   add_executable(${name} ${arg_SRCS})
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)  # tests' small helpers share names
   hedgehop_use_precompiled(${name} hedgehop_test_headers)
   target_compile_definitions(${name} PRIVATE HEDGEHOP_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PRIVATE hedgehop_warnings ${arg_PACKAGES} GTest::gmock GTest::gtest GTest::gtest_main)

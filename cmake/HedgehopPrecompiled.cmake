@@ -28,4 +28,5 @@ target_compile_options(hedgehop_library_headers PRIVATE ${HEDGEHOP_LIBRARY_OPTIO
 if(HEDGEHOP_TESTS)
   hedgehop_precompile(hedgehop_test_headers ${precompiled} <gmock/gmock.h> <gtest/gtest.h>)
   target_link_libraries(hedgehop_test_headers PRIVATE GTest::gmock GTest::gtest)
+  set_target_properties(hedgehop_test_headers PROPERTIES UNITY_BUILD OFF)  # as of the tests
 endif()

@@ -5,11 +5,12 @@
 #include <numbers>
 #include <vector>
 
+#include "sim/fields/quantities.h"
+
 namespace hedgehop::scenes {
 namespace {
 
 constexpr double kTouchingM = 1e-6;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A rectangle of the plan, or a disc: a point with a radius.
 struct Outline {

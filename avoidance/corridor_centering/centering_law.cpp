@@ -3,13 +3,9 @@
 #include <cmath>
 
 #include "avoidance/heading.h"
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::avoidance::corridor_centering {
-namespace {
-
-double seconds(int64_t ns) { return 1e-9 * static_cast<double>(ns); }
-
-}  // namespace
 
 double printed_control(const CenteringGains& gains, double error, double last_error) {
   return (gains.kp + gains.kd) * error - gains.kp * last_error;

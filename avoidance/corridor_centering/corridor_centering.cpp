@@ -11,6 +11,7 @@
 #include "avoidance/corridor_centering/pursuit.h"
 #include "avoidance/corridor_centering/wall_observer.h"
 #include "sim/fields/bounds.h"
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::avoidance::corridor_centering {
 namespace {
@@ -67,7 +68,7 @@ class CorridorCentering final : public Module {
 
   Decision do_update(const Observation& observation) override {
     const bool is_new = observe(observation);
-    const double dt_s = t_ns_ < 0 ? 0.0 : 1e-9 * static_cast<double>(observation.t_ns - t_ns_);
+    const double dt_s = t_ns_ < 0 ? 0.0 : seconds(observation.t_ns - t_ns_);
     t_ns_ = observation.t_ns;
     const WallObservation* seen = seen_ ? &*seen_ : nullptr;
     Decision decision;

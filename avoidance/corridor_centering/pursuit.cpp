@@ -5,16 +5,14 @@
 
 #include "avoidance/corridor_centering/centering_law.h"
 #include "avoidance/heading.h"
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::avoidance::corridor_centering {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr vision::corridor::GapConfig kGap;  // see there
 constexpr double kSmoothingS = 0.25;         // time constant of the gap: noise of single images cancels
 constexpr double kHeadingS = 0.7;            // of the nose towards the course: turning slowly keeps the flow clean
-
-double seconds(int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "avoidance/heading.h"
+#include "sim/fields/quantities.h"
 #include "vision/corridor/wall_direction.h"
 
 namespace hedgehop::avoidance::corridor_centering {
@@ -107,7 +108,7 @@ std::optional<WallObservation> WallObserver::update(const CameraFrame& frame, co
   }
   const cv::Mat older = std::exchange(image_, frame.image.clone());
   std::optional<WallObservation> seen;
-  if (t_ns_ >= 0) seen = compare(older, navigation, 1e-9 * static_cast<double>(frame.t_ns - t_ns_));
+  if (t_ns_ >= 0) seen = compare(older, navigation, seconds(frame.t_ns - t_ns_));
   t_ns_ = frame.t_ns;
   navigation_ = navigation;
   return seen;

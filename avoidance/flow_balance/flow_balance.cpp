@@ -11,6 +11,7 @@
 #include "avoidance/go_to_goal.h"
 #include "avoidance/heading.h"
 #include "sim/fields/bounds.h"
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::avoidance::flow_balance {
 namespace {
@@ -88,7 +89,7 @@ class FlowBalance final : public Module {
 
   /// With the nearest places all round and with detours.
   Eigen::Vector2d our_command(const Eigen::Vector2d& p_BG_W, int64_t t_ns) {
-    const double aside_rad = detour_->update(p_BG_W.norm(), 1e-9 * static_cast<double>(t_ns));
+    const double aside_rad = detour_->update(p_BG_W.norm(), seconds(t_ns));
     const Eigen::Vector2d aim_W = rotated(p_BG_W, config_.spiral_angle_rad + aside_rad);
     v_tgt_W_ = velocity_to_goal(aim_W, config_.speed_mps, config_.slow_radius_m);
     // The direction is chosen as at full speed, so that walls do not outweigh a goal that is near.
@@ -100,7 +101,7 @@ class FlowBalance final : public Module {
 
   Eigen::Vector2d filtered(const Eigen::Vector2d& v_W, int64_t t_ns) const {
     if (!v_cmd_W_) return v_W;
-    return low_pass(*v_cmd_W_, v_W, 1e-9 * static_cast<double>(t_ns - last_t_ns_), config_.command_time_constant_s);
+    return low_pass(*v_cmd_W_, v_W, seconds(t_ns - last_t_ns_), config_.command_time_constant_s);
   }
 
   std::vector<Metric> do_metrics() const override {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "avoidance/heading.h"
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::avoidance::flow_balance {
 
@@ -18,7 +19,7 @@ void RangeRing::keep_nearer(const Place& place) {
 }
 
 void RangeRing::carry(const Eigen::Vector2d& v_WB_W, int64_t t_ns) {
-  const Eigen::Vector2d moved_W = 1e-9 * static_cast<double>(t_ns - now_ns_) * v_WB_W;
+  const Eigen::Vector2d moved_W = seconds(t_ns - now_ns_) * v_WB_W;
   now_ns_ = t_ns;
   const auto before = places_;
   places_.fill(std::nullopt);

@@ -3,6 +3,8 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "sim/fields/quantities.h"
+
 namespace hedgehop::avoidance::landmark_map {
 namespace {
 
@@ -47,7 +49,7 @@ CameraNeed LandmarkSight::need(const LandmarkSightConfig& config) {
 
 bool LandmarkSight::update(const CameraFrame& frame, const NavigationState& navigation) {
   if (last_t_ns_ && frame.t_ns <= *last_t_ns_) return false;
-  const double dt_s = last_t_ns_ ? 1e-9 * static_cast<double>(frame.t_ns - *last_t_ns_) : 0.0;
+  const double dt_s = last_t_ns_ ? seconds(frame.t_ns - *last_t_ns_) : 0.0;
   last_t_ns_ = frame.t_ns;
   if (config_.source == CornerSource::corners) {
     corners_px_ = listed_corners(frame.image);

@@ -11,6 +11,7 @@
 #include "avoidance/local_map/route_field.h"
 #include "avoidance/local_map/stop_planner.h"
 #include "sim/fields/bounds.h"
+#include "sim/fields/quantities.h"
 #include "vision/mapping/depth_blocks.h"
 #include "vision/mapping/occupancy_map.h"
 
@@ -65,7 +66,7 @@ class LocalMap final : public Module {
       return {HoverCommand{}, "wait", std::vector<double>(5, std::nan(""))};
     }
     const NavigationState& navigation = observation.navigation;
-    const double t_s = 1e-9 * static_cast<double>(observation.t_ns);
+    const double t_s = seconds(observation.t_ns);
     if (!last_) begin(navigation);
     see(navigation, t_s);
     const Decision decision = decide(observation, t_s);

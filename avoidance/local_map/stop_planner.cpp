@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kStepS = 0.1;
 constexpr double kHoldS = 0.4;  // how long a command is held in a plan: longer than from image to image
-constexpr double kStandsMps = 0.05;
+constexpr double kStoppedMps = 0.05;
 constexpr int kDirections = 36;
 constexpr std::array<double, 6> kShares = {1.0, 0.75, 0.5, 0.35, 0.2, 0.1};
 constexpr double kSlackM = 0.02;  // by which a path that begins too near may come nearer still
@@ -28,7 +28,7 @@ std::vector<Moment> StopPlanner::predict(const Moment& now, const Eigen::Vector2
     const double t_s = last.t_s - now.t_s + 0.5 * kStepS;
     const bool brakes = t_s >= brakes_s;
     const Eigen::Vector2d wanted_W = t_s < response_.delay_s ? last_cmd_W : brakes ? Eigen::Vector2d::Zero() : v_cmd_W;
-    if (brakes && last.v_W.norm() < kStandsMps) break;
+    if (brakes && last.v_W.norm() < kStoppedMps) break;
     Eigen::Vector2d a_W = (wanted_W - last.v_W) / response_.lag_s;
     const double most = brakes ? response_.braking_mps2 : response_.acceleration_mps2;
     if (a_W.norm() > most) a_W *= most / a_W.norm();

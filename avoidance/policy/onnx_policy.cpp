@@ -7,6 +7,7 @@
 
 #include "avoidance/policy/action_pilot.h"
 #include "sim/fields/bounds.h"
+#include "sim/fields/quantities.h"
 #ifdef HEDGEHOP_DNN
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/dnn.hpp>
@@ -102,7 +103,7 @@ class OnnxPolicy final : public Module {
     for (const CameraFrame& frame : observation.frames) take(frame);  // a lost image leaves the one before
     const NavigationState& navigation = observation.navigation;
     if (!pilot_) pilot_.emplace(navigation);
-    const double step_s = last_t_ns_ ? 1e-9 * static_cast<double>(observation.t_ns - *last_t_ns_) : first_step_s_;
+    const double step_s = last_t_ns_ ? seconds(observation.t_ns - *last_t_ns_) : first_step_s_;
     last_t_ns_ = observation.t_ns;
     const Action action = ask(state_of(navigation, observation.goal));
     return {pilot_->fly(action, navigation, speed_limit_mps_, step_s),

@@ -13,6 +13,7 @@
 #include "avoidance/stereo/depth_overlay.h"
 #include "avoidance/stereo/passed_obstacles.h"
 #include "sim/fields/bounds.h"
+#include "sim/fields/quantities.h"
 #include "vision/stereo/depth_pyramid.h"
 
 namespace hedgehop::avoidance::section_grid {
@@ -75,7 +76,7 @@ class SectionGridModule final : public Module {
     const SectionView view{*search_, choice_, *passed_, threshold_m, navigation};
     decision.command = is_ours() ? pilot_.update(view, observation.goal) : law_.update(view, observation.goal);
     if (state() == State::hover_and_yaw && t_ns_ >= 0) {
-      hover_s_ += 1e-9 * static_cast<double>(observation.t_ns - t_ns_);
+      hover_s_ += seconds(observation.t_ns - t_ns_);
     }
     t_ns_ = observation.t_ns;
     decision.status = name_of(state());

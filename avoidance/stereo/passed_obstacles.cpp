@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/fields/quantities.h"
+
 namespace hedgehop::avoidance::stereo {
 
 void PassedObstacles::update(int64_t t_ns, const vision::stereo::DepthPyramid& pyramid,
@@ -13,7 +15,7 @@ void PassedObstacles::update(int64_t t_ns, const vision::stereo::DepthPyramid& p
   hidden_.insert(hidden_.end(), visible_.begin(), visible_.end());
   std::erase_if(hidden_, [&](const Point& point) {
     const Eigen::Vector3d p_CP = X_CW * point.p_WP;
-    return 1e-9 * static_cast<double>(t_ns - point.t_ns) > config_.keep_s || p_CP.norm() > config_.near_m ||
+    return seconds(t_ns - point.t_ns) > config_.keep_s || p_CP.norm() > config_.near_m ||
            in_view(p_CP, pyramid, geometry);
   });
 

@@ -13,6 +13,7 @@
 #include "avoidance/stereo_corridor/target_tracker.h"
 #include "avoidance/stereo_corridor/turn_back.h"
 #include "sim/fields/bounds.h"
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::avoidance::stereo_corridor {
 namespace {
@@ -153,7 +154,7 @@ class StereoCorridor final : public Module {
 
   void count(int64_t t_ns, int tests) {
     if (first_t_ns_ < 0) first_t_ns_ = t_ns;
-    if (!target_ && last_t_ns_ >= 0) hover_s_ += 1e-9 * static_cast<double>(t_ns - last_t_ns_);
+    if (!target_ && last_t_ns_ >= 0) hover_s_ += seconds(t_ns - last_t_ns_);
     last_t_ns_ = t_ns;
     ++images_;
     tracked_ += target_ && target_->found_by == FoundBy::track;
@@ -188,7 +189,7 @@ class StereoCorridor final : public Module {
   }
 
   std::vector<Metric> do_metrics() const override {
-    const double flown_s = 1e-9 * static_cast<double>(last_t_ns_ - first_t_ns_);
+    const double flown_s = seconds(last_t_ns_ - first_t_ns_);
     return {{"corridor_tests", images_ > 0 ? all_tests_ / images_ : 0.0, ""},
             {"decision_hz", flown_s > 0.0 ? (images_ - 1) / flown_s : 0.0, "Hz"},
             {"targets_tracked", static_cast<double>(tracked_), ""},

@@ -2,12 +2,12 @@
 
 #include <cmath>
 
+#include "sim/fields/quantities.h"
+
 namespace hedgehop::dynamics::control {
 namespace {
 
 constexpr double kLeastTiltSigmaRad = 1e-5;  // no sensor is so good; keeps the covariance of perfect ones regular
-
-double square(double x) { return x * x; }
 
 }  // namespace
 

@@ -12,10 +12,10 @@
 namespace hedgehop::dynamics::control {
 namespace {
 
-using M = HoverModel;
 constexpr double kUsualDtS = 0.01;
 constexpr int kIntegrals = 4;
-constexpr int kIntegrated[kIntegrals] = {M::kForward, M::kRight, M::kBelow, M::kHeading};
+constexpr int kIntegrated[kIntegrals] = {HoverModel::kForward, HoverModel::kRight, HoverModel::kBelow,
+                                         HoverModel::kHeading};
 
 /// Deviations that count alike in a design (weights are their inverse squares).
 struct Acceptable {
@@ -33,12 +33,12 @@ double weight(double acceptable) { return 1.0 / (acceptable * acceptable); }
 
 DesignMatrix state_weights(const Acceptable& a, Eigen::Index size) {
   DesignVector q = DesignVector::Zero(size);
-  q[M::kForward] = q[M::kRight] = weight(a.velocity_mps);
-  q[M::kDown] = weight(a.climb_mps);
-  q[M::kRollAngle] = q[M::kPitchAngle] = weight(a.tilt_rad);
-  q[M::kHeading] = weight(a.heading_rad);
-  q.segment<3>(M::kP).setConstant(weight(a.rate_radps));
-  q[M::kBelow] = weight(a.below_m);
+  q[HoverModel::kForward] = q[HoverModel::kRight] = weight(a.velocity_mps);
+  q[HoverModel::kDown] = weight(a.climb_mps);
+  q[HoverModel::kRollAngle] = q[HoverModel::kPitchAngle] = weight(a.tilt_rad);
+  q[HoverModel::kHeading] = weight(a.heading_rad);
+  q.segment<3>(HoverModel::kP).setConstant(weight(a.rate_radps));
+  q[HoverModel::kBelow] = weight(a.below_m);
   return q.asDiagonal();
 }
 
@@ -84,14 +84,14 @@ void Autopilot::design(double dt_s) {
 /// Steady flight of the model at a velocity: its attitude, hidden states and controls.
 void Autopilot::solve_cruise() {
   const DesignMatrix& A = model_.motion.A;
-  const Eigen::Index n = A.rows(), hidden = n - M::kHidden;
+  const Eigen::Index n = A.rows(), hidden = n - HoverModel::kHidden;
   // Unknown: roll and pitch, the hidden states, the controls. The distance below the set altitude drops out.
   Eigen::MatrixXd unknown(n, 2 + hidden + kControlAxes);
-  unknown << A.middleCols(M::kRollAngle, 2), A.rightCols(hidden), model_.motion.B;
+  unknown << A.middleCols(HoverModel::kRollAngle, 2), A.rightCols(hidden), model_.motion.B;
   const Eigen::MatrixXd found = unknown.completeOrthogonalDecomposition().solve(-A.leftCols(2));
   cruise_state_ = DesignMatrix::Zero(n, 2);
   cruise_state_.topRows(2).setIdentity();
-  cruise_state_.middleRows(M::kRollAngle, 2) = found.topRows(2);
+  cruise_state_.middleRows(HoverModel::kRollAngle, 2) = found.topRows(2);
   cruise_state_.bottomRows(hidden) = found.middleRows(2, hidden);
   cruise_controls_ = found.bottomRows(kControlAxes);
 }
@@ -99,29 +99,31 @@ void Autopilot::solve_cruise() {
 Autopilot::Slopes Autopilot::slopes(const DesignMatrix& K) const {
   const Eigen::Index n = model_.motion.A.rows();
   Slopes s;
-  s.tilt_per_mps << K(kPitch, M::kForward) / K(kPitch, M::kPitchAngle), K(kRoll, M::kRight) / K(kRoll, M::kRollAngle);
+  s.tilt_per_mps << K(kPitch, HoverModel::kForward) / K(kPitch, HoverModel::kPitchAngle),
+      K(kRoll, HoverModel::kRight) / K(kRoll, HoverModel::kRollAngle);
   s.tilt_per_m.setZero();
   if (K.cols() > n) {
-    s.tilt_per_m << K(kPitch, n) / K(kPitch, M::kPitchAngle), K(kRoll, n + 1) / K(kRoll, M::kRollAngle);
+    s.tilt_per_m << K(kPitch, n) / K(kPitch, HoverModel::kPitchAngle),
+        K(kRoll, n + 1) / K(kRoll, HoverModel::kRollAngle);
   }
-  s.climb_per_m = K(kHeave, M::kBelow) / K(kHeave, M::kDown);
-  s.turn_per_rad = K(kYaw, M::kHeading) / K(kYaw, M::kR);
+  s.climb_per_m = K(kHeave, HoverModel::kBelow) / K(kHeave, HoverModel::kDown);
+  s.turn_per_rad = K(kYaw, HoverModel::kHeading) / K(kYaw, HoverModel::kR);
   return s;
 }
 
 void Autopilot::reset(const NavigationEstimate& now) {
   const Eigen::Index n = model_.motion.A.rows();
   reference_ = DesignVector::Zero(n);
-  reference_[M::kHeading] = to_roll_pitch_heading(now.q_WB_est)[2];
-  reference_[M::kBelow] = now.p_WB_est.z();
-  hidden_ = DesignVector::Zero(n - M::kHidden);
+  reference_[HoverModel::kHeading] = to_roll_pitch_heading(now.q_WB_est)[2];
+  reference_[HoverModel::kBelow] = now.p_WB_est.z();
+  hidden_ = DesignVector::Zero(n - HoverModel::kHidden);
   integrals_.setZero();
   anchor_.reset();
 }
 
 Eigen::Vector3d Autopilot::reference_v_WB_W() const {
   Eigen::Vector3d v;
-  v << rotate(reference_[M::kHeading], reference_.head<2>()), reference_[M::kDown];
+  v << rotate(reference_[HoverModel::kHeading], reference_.head<2>()), reference_[HoverModel::kDown];
   return v;
 }
 
@@ -148,7 +150,9 @@ Autopilot::Target Autopilot::target(const AttitudeSetpoint& s, const NavigationE
 
 Autopilot::Target Autopilot::target(const HoverSetpoint& s, const NavigationEstimate& now) {
   constexpr double kStoppedMps = 0.2;
-  if (!anchor_) anchor_ = HoverAnchor{-reference_[M::kBelow], reference_[M::kHeading], false, Eigen::Vector2d::Zero()};
+  if (!anchor_)
+    anchor_ =
+        HoverAnchor{-reference_[HoverModel::kBelow], reference_[HoverModel::kHeading], false, Eigen::Vector2d::Zero()};
   if (!anchor_->stopped && (now.q_WB_est * now.v_WB_B_est).head<2>().norm() < kStoppedMps) {
     anchor_->stopped = true;
     anchor_->p_WB = now.p_WB_est.head<2>();
@@ -207,10 +211,10 @@ Controls Autopilot::plan(const Target& target) const {
   Controls cruise = Controls::Zero();
   if (target.attitude) {
     e.head<2>().setZero();
-    e[M::kRollAngle] -= target.roll_rad;
-    e[M::kPitchAngle] -= target.pitch_rad;
+    e[HoverModel::kRollAngle] -= target.roll_rad;
+    e[HoverModel::kPitchAngle] -= target.pitch_rad;
   } else {
-    const Eigen::Vector2d v_H = rotate(-reference_[M::kHeading], target.v_WB_W);
+    const Eigen::Vector2d v_H = rotate(-reference_[HoverModel::kHeading], target.v_WB_W);
     const Eigen::Vector2d error = e.head<2>() - v_H;
     e -= cruise_state_ * v_H;
     cruise = cruise_controls_ * v_H;
@@ -218,25 +222,27 @@ Controls Autopilot::plan(const Target& target) const {
     e.head<2>() = clamp_norm(tilt, c.acceleration_limit_mps2 / kGravityMps2).cwiseQuotient(plan_slopes_.tilt_per_mps);
   }
   const double below_m = c.climb_rate_limit_mps / plan_slopes_.climb_per_m;
-  e[M::kBelow] = std::clamp(reference_[M::kBelow] + target.altitude_m, -below_m, below_m);
+  e[HoverModel::kBelow] = std::clamp(reference_[HoverModel::kBelow] + target.altitude_m, -below_m, below_m);
   const double off_rad = c.yaw_rate_limit_radps / plan_slopes_.turn_per_rad;
-  e[M::kHeading] = std::clamp(sensors::wrap_angle(reference_[M::kHeading] - target.heading_rad), -off_rad, off_rad);
+  e[HoverModel::kHeading] =
+      std::clamp(sensors::wrap_angle(reference_[HoverModel::kHeading] - target.heading_rad), -off_rad, off_rad);
   return cruise - K_plan_ * e;
 }
 
 /// Returns what holds the vehicle to the reference flight, and moves the integrals on.
 Controls Autopilot::hold(const DesignVector& state, const Controls& planned_controls, bool attitude) {
   const Eigen::Index n = state.size();
-  const double heading = state[M::kHeading];
+  const double heading = state[HoverModel::kHeading];
   DesignVector e(n + kIntegrals);
   e << state - reference_, integrals_;
-  e.head<2>() = state.head<2>() - rotate(reference_[M::kHeading] - heading, reference_.head<2>());
-  e[M::kHeading] = sensors::wrap_angle(heading - reference_[M::kHeading]);
-  Eigen::Vector4d errors{e[M::kForward], e[M::kRight], e[M::kBelow], e[M::kHeading]};
+  e.head<2>() = state.head<2>() - rotate(reference_[HoverModel::kHeading] - heading, reference_.head<2>());
+  e[HoverModel::kHeading] = sensors::wrap_angle(heading - reference_[HoverModel::kHeading]);
+  Eigen::Vector4d errors{e[HoverModel::kForward], e[HoverModel::kRight], e[HoverModel::kBelow],
+                         e[HoverModel::kHeading]};
   if (attitude) e.segment<2>(n).setZero();
 
   // Velocity errors and their integrals may not ask for more tilt than the reference flight leaves.
-  const Eigen::Vector2d planned{reference_[M::kPitchAngle], reference_[M::kRollAngle]};
+  const Eigen::Vector2d planned{reference_[HoverModel::kPitchAngle], reference_[HoverModel::kRollAngle]};
   const Eigen::Vector2d from_error = -hold_slopes_.tilt_per_mps.cwiseProduct(Eigen::Vector2d(e.head<2>()));
   const Eigen::Vector2d from_integral = -hold_slopes_.tilt_per_m.cwiseProduct(Eigen::Vector2d(e.segment<2>(n)));
   const Eigen::Vector2d wanted = planned + from_error + from_integral;
@@ -262,12 +268,12 @@ Controls Autopilot::hold(const DesignVector& state, const Controls& planned_cont
 /// The reference flight obeys the linear model; as it turns, its velocity over ground stays.
 void Autopilot::advance_reference(const Controls& u) {
   DesignVector x = reference_;
-  x[M::kHeading] = 0.0;
-  x[M::kBelow] = 0.0;
+  x[HoverModel::kHeading] = 0.0;
+  x[HoverModel::kBelow] = 0.0;
   DesignVector next = step_.A * x + step_.B * u;
-  next.head<2>() = rotate(-next[M::kHeading], next.head<2>());
-  next[M::kBelow] += reference_[M::kBelow];
-  next[M::kHeading] = sensors::wrap_angle(next[M::kHeading] + reference_[M::kHeading]);
+  next.head<2>() = rotate(-next[HoverModel::kHeading], next.head<2>());
+  next[HoverModel::kBelow] += reference_[HoverModel::kBelow];
+  next[HoverModel::kHeading] = sensors::wrap_angle(next[HoverModel::kHeading] + reference_[HoverModel::kHeading]);
   reference_ = next;
 }
 

@@ -5,6 +5,7 @@
 
 #include "dynamics/air/atmosphere.h"
 #include "sim/fields/bounds.h"
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::dynamics::control {
 namespace {
@@ -29,8 +30,6 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& a) {
 Eigen::Quaterniond rotation(const Eigen::Vector3d& v) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(v.norm(), v.stableNormalized()));
 }
-
-double square(double x) { return x * x; }
 
 }  // namespace
 

@@ -11,7 +11,7 @@ namespace hedgehop::scenes::textures {
 namespace {
 
 const Color kWood{0.52f, 0.34f, 0.19f};
-const Color kDark{0.08f, 0.07f, 0.06f};
+const Color kRoomDark{0.08f, 0.07f, 0.06f};
 const Color kCream{0.86f, 0.82f, 0.72f};
 
 Color vivid(Random& random) {
@@ -59,8 +59,8 @@ void paint_paper(Canvas& canvas, WallPaper paper, Random& random) {
       canvas.stain(fractal_noise(size_px, {5, 5, 8, 0.75}, random), 0.0, 2.0, {0.52f, 0.54f, 0.56f}, 0.9);
       canvas.stain(fractal_noise(size_px, {4, 4, 7, 0.7}, random), 0.9, 0.3, {0.50f, 0.36f, 0.28f}, 0.8);
       for (int k = 0; k < 12; ++k) {
-        canvas.crack(uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 0.4, 1.6), 0.014, kDark,
-                     0.6, random);
+        canvas.crack(uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 0.4, 1.6), 0.014,
+                     kRoomDark, 0.6, random);
       }
       break;
   }
@@ -70,14 +70,14 @@ void paint_paper(Canvas& canvas, WallPaper paper, Random& random) {
 // Skirting board and wear, all along the wall.
 void paint_skirting(Canvas& canvas) {
   const double tile = canvas.tile_m();
-  canvas.fade({0.0, tile - 0.5, tile, 0.38}, kDark, 0.0, 0.35);
+  canvas.fade({0.0, tile - 0.5, tile, 0.38}, kRoomDark, 0.0, 0.35);
   canvas.fill({0.0, tile - 0.14, tile, 0.14}, {0.36f, 0.25f, 0.16f});
   canvas.fill({0.0, tile - 0.14, tile, 0.02}, {0.70f, 0.58f, 0.42f});
 }
 
 // A framed image: horizon, discs and strokes.
 void paint_framed_image(Canvas& canvas, const Area& frame, Random& random) {
-  canvas.fade({frame.left + 0.03, frame.top + frame.height, frame.width, 0.10}, kDark, 0.5, 0.0);
+  canvas.fade({frame.left + 0.03, frame.top + frame.height, frame.width, 0.10}, kRoomDark, 0.5, 0.0);
   canvas.fill(frame, varied(kWood, 0.4, random));
   const Area inside{frame.left + 0.06, frame.top + 0.06, frame.width - 0.12, frame.height - 0.12};
   canvas.fill(inside, vivid(random));
@@ -98,7 +98,7 @@ void paint_board_with_notes(Canvas& canvas, const Area& board, Random& random) {
                     uniform(random, 0.15, 0.28)};
     canvas.fill(note, varied({0.88f, 0.87f, 0.80f}, 0.15, random));
     for (double y = 0.04; y < note.height - 0.03; y += 0.035) {
-      canvas.fill({note.left + 0.02, note.top + y, note.width * uniform(random, 0.4, 0.85), 0.012}, kDark, 0.7);
+      canvas.fill({note.left + 0.02, note.top + y, note.width * uniform(random, 0.4, 0.85), 0.012}, kRoomDark, 0.7);
     }
   }
 }
@@ -133,8 +133,8 @@ std::vector<cv::Mat> paint_room_walls(WallPaper paper, int size_px, int variants
       }
     }
     for (int scuff = 0; scuff < 14; ++scuff) {
-      canvas.crack(uniform(random, 0.4, 3.6), uniform(random, 2.6, 3.5), uniform(random, 0.1, 0.35), 0.015, kDark, 0.4,
-                   random);
+      canvas.crack(uniform(random, 0.4, 3.6), uniform(random, 2.6, 3.5), uniform(random, 0.1, 0.35), 0.015, kRoomDark,
+                   0.4, random);
     }
     canvas.shade(grain, 0.06);
     images.push_back(canvas.finished());
@@ -151,14 +151,14 @@ cv::Mat paint_parquet(int size_px, uint64_t seed) {
     for (int end = 0; end < 3; ++end) {
       const double y = uniform(random, 0.0, kRoomTileM);
       canvas.fill({x, y, 0.125, uniform(random, 0.3, 1.2)}, varied(kWood, 0.35, random), 0.8);
-      canvas.fill({x, y, 0.125, 0.01}, kDark, 0.8);
+      canvas.fill({x, y, 0.125, 0.01}, kRoomDark, 0.8);
     }
-    canvas.fill({x, 0.0, 0.008, kRoomTileM}, kDark, 0.7);
+    canvas.fill({x, 0.0, 0.008, kRoomTileM}, kRoomDark, 0.7);
   }
   canvas.shade(fractal_noise(size_px, {64, 4, 4, 0.85}, random), 0.12);
   canvas.shade(fractal_noise(size_px, {3, 3, 8, 0.75}, random), 0.09);
   for (int k = 0; k < 25; ++k) {
-    canvas.disc(uniform(random, 0.0, 4.0), uniform(random, 0.0, 4.0), uniform(random, 0.008, 0.025), kDark, 0.7);
+    canvas.disc(uniform(random, 0.0, 4.0), uniform(random, 0.0, 4.0), uniform(random, 0.008, 0.025), kRoomDark, 0.7);
   }
   return canvas.finished();
 }
@@ -206,7 +206,7 @@ cv::Mat paint_shelves(int size_px, uint64_t seed) {
       x += width;
     }
     canvas.fill({0.0, shelf - 0.03, kRoomTileM, 0.03}, kWood);
-    canvas.fade({0.0, shelf, kRoomTileM, 0.12}, kDark, 0.6, 0.0);
+    canvas.fade({0.0, shelf, kRoomTileM, 0.12}, kRoomDark, 0.6, 0.0);
   }
   for (double x = 0.0; x < kRoomTileM; x += 1.0) canvas.fill({x, 0.0, 0.035, kRoomTileM}, kWood);
   canvas.shade(fractal_noise(size_px, {4, 4, 8, 0.8}, random), 0.07);
@@ -221,7 +221,7 @@ cv::Mat paint_drawers(int size_px, uint64_t seed) {
     for (int column = 0; column < 5; ++column) {
       const Area front{0.8 * column + 0.02, 0.4 * row + 0.02, 0.76, 0.36};
       canvas.fill(front, varied({0.60f, 0.42f, 0.26f}, 0.30, random), 0.7);
-      canvas.outline(front, 0.02, kDark, 0.7);
+      canvas.outline(front, 0.02, kRoomDark, 0.7);
       canvas.disc(front.left + 0.38, front.top + 0.18, 0.035, {0.82f, 0.76f, 0.58f});
       if (chance(random, 0.4)) {
         canvas.fill({front.left + 0.1, front.top + 0.1, 0.16, 0.08}, {0.90f, 0.88f, 0.80f});

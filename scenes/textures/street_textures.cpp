@@ -10,7 +10,7 @@ namespace {
 const Color kPaint{0.86f, 0.86f, 0.82f};
 const Color kSlab{0.64f, 0.62f, 0.58f};
 const Color kKerb{0.74f, 0.73f, 0.70f};
-const Color kDark{0.10f, 0.10f, 0.10f};
+const Color kStreetDark{0.10f, 0.10f, 0.10f};
 const Color kGrass{0.33f, 0.42f, 0.20f};
 const Color kLeaf{0.18f, 0.30f, 0.10f};
 
@@ -23,7 +23,7 @@ void paint_asphalt(Canvas& canvas, Random& random) {
   paint_worn_asphalt(canvas, {}, random);
   for (int k = 0; k < 25; ++k) {
     canvas.disc(uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 0.03, 0.22),
-                chance(random, 0.6) ? kDark : Color{0.48f, 0.47f, 0.45f}, uniform(random, 0.2, 0.6));
+                chance(random, 0.6) ? kStreetDark : Color{0.48f, 0.47f, 0.45f}, uniform(random, 0.2, 0.6));
   }
 }
 
@@ -32,11 +32,11 @@ void paint_slabs(Canvas& canvas, const Area& area, double slab, Random& random) 
     for (double x = 0.0; x < area.width - 1e-9; x += slab) {
       const Area one{area.left + x, area.top + y, std::min(slab, area.width - x), std::min(slab, area.height - y)};
       canvas.fill(one, varied(kSlab, 0.16, random));
-      canvas.fill({one.left, one.top, one.width, 0.03}, kDark, 0.45);
-      canvas.fill({one.left, one.top, 0.03, one.height}, kDark, 0.45);
+      canvas.fill({one.left, one.top, one.width, 0.03}, kStreetDark, 0.45);
+      canvas.fill({one.left, one.top, 0.03, one.height}, kStreetDark, 0.45);
       if (chance(random, 0.35)) {
         canvas.disc(one.left + uniform(random, 0.0, one.width), one.top + uniform(random, 0.0, one.height),
-                    uniform(random, 0.02, 0.07), kDark, 0.55);
+                    uniform(random, 0.02, 0.07), kStreetDark, 0.55);
       }
     }
   }
@@ -79,7 +79,7 @@ cv::Mat paint_street(int size_px, uint64_t seed) {
   paint_asphalt(canvas, random);
 
   // Wheel tracks, then paint worn through by the asphalt's grain.
-  for (double x : {2.2, 3.2, 4.5, 5.5}) canvas.fill({x, 0.0, 0.4, tile}, kDark, 0.18);
+  for (double x : {2.2, 3.2, 4.5, 5.5}) canvas.fill({x, 0.0, 0.4, tile}, kStreetDark, 0.18);
   for (double y : {0.5, 4.5}) canvas.fill({0.5 * tile - 0.07, y, 0.14, 2.2}, kPaint, 0.85);
   for (double x : {kPavementM + 0.30, tile - kPavementM - 0.42}) canvas.fill({x, 0.0, 0.12, tile}, kPaint, 0.7);
   paint_manhole(canvas, uniform(random, 2.3, 3.4), uniform(random, 1.0, 7.0));
@@ -89,7 +89,7 @@ cv::Mat paint_street(int size_px, uint64_t seed) {
     paint_slabs(canvas, {left, 0.0, kPavementM, tile}, 0.5, random);
     const double kerb = left == 0.0 ? kPavementM - kKerbM : left;
     canvas.fill({kerb, 0.0, kKerbM, tile}, kKerb);
-    for (double y = 0.0; y < tile; y += 1.0) canvas.fill({kerb, y, kKerbM, 0.04}, kDark, 0.6);
+    for (double y = 0.0; y < tile; y += 1.0) canvas.fill({kerb, y, kKerbM, 0.04}, kStreetDark, 0.6);
   }
   finish_ground(canvas, random);
   return canvas.finished();
@@ -182,7 +182,7 @@ cv::Mat paint_roof(RoofCover cover, int size_px, uint64_t seed) {
   const double tile = kRoofTileM;
   Canvas canvas(size_px, tile, cover == RoofCover::felt ? Color{0.40f, 0.40f, 0.41f} : Color{0.64f, 0.60f, 0.54f});
   if (cover == RoofCover::felt) {
-    for (double y = 0.0; y < tile; y += 1.0) canvas.fill({0.0, y, tile, 0.05}, kDark, 0.5);
+    for (double y = 0.0; y < tile; y += 1.0) canvas.fill({0.0, y, tile, 0.05}, kStreetDark, 0.5);
   } else {
     for (int k = 0; k < 3000; ++k) {
       canvas.disc(uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 0.03, 0.07),
@@ -194,7 +194,7 @@ cv::Mat paint_roof(RoofCover cover, int size_px, uint64_t seed) {
   for (int k = 0; k < 8; ++k) {
     const Area vent{uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 0.4, 1.3),
                     uniform(random, 0.4, 1.3)};
-    canvas.fill({vent.left + 0.15, vent.top + 0.15, vent.width, vent.height}, kDark, 0.6);
+    canvas.fill({vent.left + 0.15, vent.top + 0.15, vent.width, vent.height}, kStreetDark, 0.6);
     canvas.fill(vent, varied({0.72f, 0.72f, 0.72f}, 0.2, random));
     canvas.outline(vent, 0.08, {0.40f, 0.41f, 0.42f});
   }

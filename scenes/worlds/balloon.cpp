@@ -10,7 +10,7 @@
 namespace hedgehop::scenes::worlds {
 namespace {
 
-constexpr uint64_t kImageStream = 0, kMoverStream = 1;  // of the scene's seed
+constexpr uint64_t kBalloonImageStream = 0, kMoverStream = 1;  // of the scene's seed
 
 constexpr double kMarkerRadiusM = 0.12, kMarkerHeightM = 0.45, kMarkerEastM = 1.0;
 
@@ -22,7 +22,7 @@ Scene make_balloon(const BalloonConfig& config, uint64_t seed) {
   const int size_px = static_cast<int>(config.texture_size_px);
   Scene scene;
   scene.name = "balloon";
-  scene.textures = {textures::paint_grass(size_px, derived_seed(seed, kImageStream)),
+  scene.textures = {textures::paint_grass(size_px, derived_seed(seed, kBalloonImageStream)),
                     textures::paint_blank(size_px, {0.90f, 0.42f, 0.10f})};
   constexpr double kHalfM = 30.0;
   scene.bounds_NE_m = {Eigen::Vector2d(-kHalfM, -kHalfM), Eigen::Vector2d(kHalfM, kHalfM)};

@@ -14,14 +14,12 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr uint64_t kImageStream = 0, kOffsetStream = 1;  // of the scene's seed; the plan's is 2
+constexpr uint64_t kCorridorImageStream = 0, kOffsetStream = 1;  // of the scene's seed; the plan's is 2
 
 constexpr double kThicknessM = 0.2;  // of walls and ceiling
 constexpr double kPillarLengthM = 0.6;
 constexpr int kWalls = 3;  // images
 constexpr uint32_t kFloor = kWalls, kCeiling = kWalls + 1;
-
-Vector2d to_the_right(const Vector2d& along_NE) { return {-along_NE.y(), along_NE.x()}; }
 
 bool turns_right(const Vector2d& before, const Vector2d& after) { return to_the_right(before).dot(after) > 0.0; }
 
@@ -112,7 +110,7 @@ Scene make_corridor(const CorridorConfig& written, uint64_t seed) {
   scene.name = "corridor";
   scene.lights.ambient = 0.70f;
   scene.lights.sun = 0.30f;
-  scene.textures = paint_corridor(config, derived_seed(seed, kImageStream));
+  scene.textures = paint_corridor(config, derived_seed(seed, kCorridorImageStream));
   for (size_t k = 0; k < plan.lefts_NE.size(); ++k) {
     scene.bounds_NE_m.extend(plan.lefts_NE[k]);
     scene.bounds_NE_m.extend(plan.rights_NE[k]);

@@ -86,6 +86,9 @@ struct CorridorPlan {
   std::vector<Eigen::Vector2d> middles_NE, lefts_NE, rights_NE;
 };
 
+/// Returns `along_NE` turned a quarter to the right.
+inline Eigen::Vector2d to_the_right(const Eigen::Vector2d& along_NE) { return {-along_NE.y(), along_NE.x()}; }
+
 /// Returns the corridor that the seed makes of `config`; its `vary` is 0, so that it stays as it is.
 /// @throws std::invalid_argument naming the field, its value and what is valid for every seed.
 CorridorConfig draw_corridor(const CorridorConfig& config, uint64_t seed);

@@ -12,9 +12,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr uint64_t kPlanStream = 2;  // of the scene's seed; corridor.cpp has the others
+constexpr uint64_t kCorridorPlanStream = 2;  // of the scene's seed; corridor.cpp has the others
 
-Vector2d to_the_right(const Vector2d& along_NE) { return {-along_NE.y(), along_NE.x()}; }
 Vector2d direction_NE(double heading_rad) { return {std::cos(heading_rad), std::sin(heading_rad)}; }
 
 // Where the last section begins, and the heading of the one before it.
@@ -77,7 +76,7 @@ CorridorConfig draw_corridor(const CorridorConfig& config, uint64_t seed) {
   drawn.vary = 0.0;
   if (config.vary == 0.0) return drawn;
 
-  Random random(derived_seed(seed, kPlanStream));
+  Random random(derived_seed(seed, kCorridorPlanStream));
   const auto factor = [&] { return uniform(random, 1.0 - config.vary, 1.0 + config.vary); };
   for (CorridorSection& section : drawn.sections) {
     section.length_m *= factor();

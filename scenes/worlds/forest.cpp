@@ -16,9 +16,9 @@ namespace hedgehop::scenes::worlds {
 namespace {
 
 // Streams of the scene's seed.
-constexpr uint64_t kPlaceStream = 0;
-constexpr uint64_t kImageStream = 1;
-constexpr uint64_t kLumpStream = 2;
+constexpr uint64_t kForestPlaceStream = 0;
+constexpr uint64_t kForestImageStream = 1;
+constexpr uint64_t kForestLumpStream = 2;
 constexpr uint64_t kTreeStream = 3;
 
 constexpr int kLumps = 12;  // of each kind
@@ -142,7 +142,7 @@ double ForestConfig::extent_m() const { return spacing_m * std::sqrt(2.0 * stati
 
 Scene make_forest(const ForestConfig& config, uint64_t seed) {
   validate(config);
-  Random place_random(derived_seed(seed, kPlaceStream)), lump_random(derived_seed(seed, kLumpStream));
+  Random place_random(derived_seed(seed, kForestPlaceStream)), lump_random(derived_seed(seed, kForestLumpStream));
   std::vector<Place> places = place_trees(config, place_random);
   std::ranges::stable_sort(places, {}, plot);
   std::vector<mesh::Polyhedron> lumps, coarse_lumps;
@@ -153,7 +153,7 @@ Scene make_forest(const ForestConfig& config, uint64_t seed) {
 
   Scene scene;
   scene.name = "forest";
-  scene.textures = paint_forest(static_cast<int>(config.texture_size_px), derived_seed(seed, kImageStream));
+  scene.textures = paint_forest(static_cast<int>(config.texture_size_px), derived_seed(seed, kForestImageStream));
   const double half_m = 0.5 * config.extent_m();
   scene.bounds_NE_m = {Eigen::Vector2d(-half_m, -half_m), Eigen::Vector2d(half_m, half_m)};
   mesh::MeshBuilder mesh("opaque");

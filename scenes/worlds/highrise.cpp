@@ -138,7 +138,7 @@ mesh::Polyhedron hull_of(const Tower& tower) {
   return hull;
 }
 
-constexpr uint32_t kGrass = 0, kRoof = 1, kFirstWall = 2;
+constexpr uint32_t kTowerGrass = 0, kTowerRoof = 1, kFirstTowerWall = 2;
 
 std::vector<cv::Mat> paint_highrise(const HighriseConfig& config, uint64_t seed) {
   const int size_px = static_cast<int>(config.texture_size_px);
@@ -175,10 +175,10 @@ Scene make_highrise(const HighriseConfig& config, uint64_t seed) {
   const double half_m = 60.0 * config.scale;
   scene.bounds_NE_m = {Eigen::Vector2d(-half_m, -half_m), Eigen::Vector2d(half_m, half_m)};
   mesh::MeshBuilder mesh("opaque");
-  mesh::add_ground(half_m, {kGrass, textures::kGrassTileM}, mesh);
-  uint32_t wall = kFirstWall;
+  mesh::add_ground(half_m, {kTowerGrass, textures::kGrassTileM}, mesh);
+  uint32_t wall = kFirstTowerWall;
   for (const Tower& tower : towers(config, seed)) {
-    const std::string name = "tower " + std::to_string(wall - kFirstWall + 1);
+    const std::string name = "tower " + std::to_string(wall - kFirstTowerWall + 1);
     const Eigen::AlignedBox3d box_W = tower.box_W();
     mesh.begin_chunk(true);
     for (const mesh::Panel& panel : mesh::side_panels(box_W)) {
@@ -187,10 +187,10 @@ Scene make_highrise(const HighriseConfig& config, uint64_t seed) {
     }
     if (tower.spire_m > 0.0) {
       mesh.begin_chunk(false);
-      mesh::add_polyhedron(spire_of(tower), mesh::Shading::flat, {kRoof, textures::kRockTileM}, mesh);
+      mesh::add_polyhedron(spire_of(tower), mesh::Shading::flat, {kTowerRoof, textures::kRockTileM}, mesh);
       scene.solids.push_back(mesh::solid_of(name, hull_of(tower)));
     } else {
-      mesh.add_tiled(mesh::top_panel(box_W), textures::kRockTileM, Eigen::Vector2d::Zero(), kRoof);
+      mesh.add_tiled(mesh::top_panel(box_W), textures::kRockTileM, Eigen::Vector2d::Zero(), kTowerRoof);
       scene.solids.push_back(mesh::solid_of(name, box_W));
     }
     scene.shortest_edge_m = std::min(scene.shortest_edge_m, tower.shortest_edge_m());

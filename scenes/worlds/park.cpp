@@ -22,9 +22,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 // Streams of the scene's seed.
-constexpr uint64_t kPlaceStream = 0;
-constexpr uint64_t kImageStream = 1;
-constexpr uint64_t kLumpStream = 2;
+constexpr uint64_t kParkPlaceStream = 0;
+constexpr uint64_t kParkImageStream = 1;
+constexpr uint64_t kParkLumpStream = 2;
 
 constexpr double kRoadHalfM = 3.5, kParkedM = 4.9;  // vehicles stand on the verge
 
@@ -73,8 +73,8 @@ class Planner {
   std::vector<Disc> taken_;
 };
 
-constexpr uint32_t kGrass = 0, kAsphalt = 1, kBark = 2, kRock = 3, kFirstLeaves = 4, kFirstPaint = 7;
-constexpr int kLeaves = 3, kPaints = 3;
+constexpr uint32_t kParkGrass = 0, kAsphalt = 1, kParkBark = 2, kRock = 3, kFirstParkLeaves = 4, kFirstPaint = 7;
+constexpr int kParkLeaves = 3, kPaints = 3;
 
 std::vector<cv::Mat> paint_park(int size_px, uint64_t seed) {
   std::vector<cv::Mat> images = {textures::paint_grass(size_px, derived_seed(seed, 0)),
@@ -113,7 +113,7 @@ class Gardener {
                                 .trunk_sides = 10};
     mesh_.begin_chunk(false);
     const std::vector<Solid> solids = mesh::add_tree("tree " + std::to_string(number), shape, lumps_, leaves(),
-                                                     {kBark, textures::kBarkTileM}, random(), mesh_);
+                                                     {kParkBark, textures::kBarkTileM}, random(), mesh_);
     scene_.solids.insert(scene_.solids.end(), solids.begin(), solids.end());
   }
 
@@ -150,7 +150,8 @@ class Gardener {
 
   mesh::Cover leaves() {
     const Vector2d offset(uniform(random(), 0.0, 1.0), uniform(random(), 0.0, 1.0));
-    return {kFirstLeaves + static_cast<uint32_t>(uniform_index(random(), kLeaves)), textures::kLeafTileM, offset};
+    return {kFirstParkLeaves + static_cast<uint32_t>(uniform_index(random(), kParkLeaves)), textures::kLeafTileM,
+            offset};
   }
 
   // Half sunk into the ground, `slender` times as high above it as wide from its middle.
@@ -185,7 +186,7 @@ Scene make_park(const ParkConfig& config, uint64_t seed) {
   validate(config);
   Scene scene;
   scene.name = "park";
-  scene.textures = paint_park(static_cast<int>(config.texture_size_px), derived_seed(seed, kImageStream));
+  scene.textures = paint_park(static_cast<int>(config.texture_size_px), derived_seed(seed, kParkImageStream));
   const double half_m = 0.5 * config.extent_m;
   scene.bounds_NE_m = {Vector2d(-half_m, -half_m), Vector2d(half_m, half_m)};
   mesh::MeshBuilder mesh("opaque");
@@ -193,13 +194,13 @@ Scene make_park(const ParkConfig& config, uint64_t seed) {
       {-half_m, -0.5 * half_m, 0.0, 0.5 * half_m, half_m}, {-half_m, -kRoadHalfM, 0.0, kRoadHalfM, half_m},
       [](const Vector2d& middle_NE) {
         return std::abs(middle_NE.y()) < kRoadHalfM ? mesh::Cover{kAsphalt, textures::kAsphaltTileM}
-                                                    : mesh::Cover{kGrass, textures::kGrassTileM};
+                                                    : mesh::Cover{kParkGrass, textures::kGrassTileM};
       },
       mesh);
 
   // The large first: they are the hardest to place.
-  Planner planner(config, derived_seed(seed, kPlaceStream));
-  Gardener gardener(derived_seed(seed, kLumpStream), planner, scene, mesh);
+  Planner planner(config, derived_seed(seed, kParkPlaceStream));
+  Gardener gardener(derived_seed(seed, kParkLumpStream), planner, scene, mesh);
   for (int64_t k = 1; k <= config.vehicles; ++k) gardener.park_vehicle(k);
   for (int64_t k = 1; k <= config.trees; ++k) gardener.plant_tree(k);
   for (int64_t k = 1; k <= config.bushes; ++k) gardener.plant_bush(k);

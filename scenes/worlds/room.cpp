@@ -19,7 +19,7 @@ namespace {
 
 // Streams of the scene's seed.
 constexpr uint64_t kFurnitureStream = 0;
-constexpr uint64_t kImageStream = 1;
+constexpr uint64_t kRoomImageStream = 1;
 constexpr uint64_t kSurfaceStream = 2;
 
 constexpr int kWallVariants = 3;
@@ -190,7 +190,7 @@ Scene make_room(const RoomConfig& config, uint64_t seed) {
   validate(config);
   Random furniture_random(derived_seed(seed, kFurnitureStream));
   const std::vector<Eigen::AlignedBox3d> furniture = place_furniture(config, furniture_random);
-  RoomImages room = paint_room(config, derived_seed(seed, kImageStream));
+  RoomImages room = paint_room(config, derived_seed(seed, kRoomImageStream));
   Random random(derived_seed(seed, kSurfaceStream));
 
   Scene scene;

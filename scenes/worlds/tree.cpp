@@ -13,9 +13,9 @@ namespace {
 
 // Streams of the scene's seed.
 constexpr uint64_t kShapeStream = 0;
-constexpr uint64_t kImageStream = 1;
+constexpr uint64_t kTreeImageStream = 1;
 
-constexpr int kLumps = 6, kLumpCorners = 42, kLobes = 30;
+constexpr int kTreeLumps = 6, kLumpCorners = 42, kLobes = 30;
 
 void validate(const TreeConfig& c) {
   fields::require_bounds(c);
@@ -29,7 +29,7 @@ void validate(const TreeConfig& c) {
 Scene make_tree(const TreeConfig& config, uint64_t seed) {
   validate(config);
   const int size_px = static_cast<int>(config.texture_size_px);
-  const uint64_t image_seed = derived_seed(seed, kImageStream);
+  const uint64_t image_seed = derived_seed(seed, kTreeImageStream);
   Scene scene;
   scene.name = "tree";
   scene.textures = {textures::paint_grass(size_px, derived_seed(image_seed, 0)),
@@ -41,7 +41,7 @@ Scene make_tree(const TreeConfig& config, uint64_t seed) {
 
   Random random(derived_seed(seed, kShapeStream));
   std::vector<mesh::Polyhedron> lumps;
-  for (int k = 0; k < kLumps; ++k) lumps.push_back(mesh::convex_lump(kLumpCorners, 0.18, random));
+  for (int k = 0; k < kTreeLumps; ++k) lumps.push_back(mesh::convex_lump(kLumpCorners, 0.18, random));
   mesh::MeshBuilder mesh("opaque");
   mesh::add_ground(around_m, {0, textures::kGrassTileM}, mesh);
   mesh.begin_chunk(false);

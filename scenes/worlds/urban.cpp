@@ -12,18 +12,18 @@ namespace hedgehop::scenes::worlds {
 namespace {
 
 // Streams of the scene's seed.
-constexpr uint64_t kPlanStream = 0;
-constexpr uint64_t kImageStream = 1;
+constexpr uint64_t kUrbanPlanStream = 0;
+constexpr uint64_t kUrbanImageStream = 1;
 constexpr uint64_t kGroundStream = 2;
 constexpr uint64_t kBuildingStream = 3;
 
 }  // namespace
 
 Scene make_urban(const UrbanConfig& config, uint64_t seed) {
-  const UrbanPlan plan = plan_urban(config, derived_seed(seed, kPlanStream));
+  const UrbanPlan plan = plan_urban(config, derived_seed(seed, kUrbanPlanStream));
   require_texture_size(config.texture_size_px);
   textures::CityTextures city =
-      textures::paint_city(static_cast<int>(config.texture_size_px), derived_seed(seed, kImageStream));
+      textures::paint_city(static_cast<int>(config.texture_size_px), derived_seed(seed, kUrbanImageStream));
 
   Scene scene;
   scene.name = "urban";

@@ -13,7 +13,7 @@
 namespace hedgehop::scenes::worlds {
 namespace {
 
-constexpr uint64_t kGrassStream = 0, kWallStream = 1, kPlanStream = 2;  // of the scene's seed
+constexpr uint64_t kWallGrassStream = 0, kWallStream = 1, kWallPlanStream = 2;  // of the scene's seed
 
 // Refuses what any seed could make impossible.
 void validate(const WallConfig& c) {
@@ -31,7 +31,7 @@ void validate(const WallConfig& c) {
 WallConfig draw_wall(const WallConfig& config, uint64_t seed) {
   WallConfig drawn = config;
   if (config.vary == 0.0) return drawn;
-  Random random(derived_seed(seed, kPlanStream));
+  Random random(derived_seed(seed, kWallPlanStream));
   const auto vary = [&](double& length_m) { length_m *= uniform(random, 1.0 - config.vary, 1.0 + config.vary); };
   vary(drawn.north_m);
   if (drawn.opening) {
@@ -63,7 +63,7 @@ Scene make_wall(const WallConfig& written, uint64_t seed) {
   scene.name = "wall";
   // A low sun from the south, that the side one flies towards stands in the light.
   scene.lights.to_sun_W = Eigen::Vector3f(-0.7f, -0.3f, -0.65f).normalized();
-  scene.textures = {textures::paint_grass(size_px, derived_seed(seed, kGrassStream)),
+  scene.textures = {textures::paint_grass(size_px, derived_seed(seed, kWallGrassStream)),
                     paint(config.surface, size_px, derived_seed(seed, kWallStream))};
   const double half_m = std::max(config.width_m, std::abs(config.north_m) + 20.0);
   scene.bounds_NE_m = {Eigen::Vector2d(-half_m, -half_m), Eigen::Vector2d(half_m, half_m)};

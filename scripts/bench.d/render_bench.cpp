@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "scripts/bench.d/drawn_scenes.h"
+#include "sim/fields/quantities.h"
 #include "sim/loop/shutter.h"
 #include "sim/render/renderer.h"
 
@@ -63,7 +64,7 @@ void print(const Row& row) {
 double cpu_s() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  return static_cast<double>(time.tv_sec) + seconds(time.tv_nsec);
 }
 
 double median(std::vector<double> values) {

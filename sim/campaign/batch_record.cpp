@@ -5,19 +5,17 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "sim/campaign/statistics.h"
 #include "sim/flight/build.h"
+#include "sim/record/json_number.h"
 
 namespace hedgehop::sim {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kConfidence = 0.95;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json group_json(const GroupSummary& group) {
-  const Interval interval = wilson_interval(group.success, kConfidence);
+  const Interval interval = wilson_interval(group.success, kTableConfidence);
   return Json{{"group", group.group},
               {"flights", group.flights},
               {"passed", group.success.successes},
@@ -31,9 +29,9 @@ Json group_json(const GroupSummary& group) {
               {"failed", group.failed},
               {"missing", group.missing},
               {"no_checks", group.unchecked},
-              {"least_clearance_m", number(group.least_clearance_m)},
-              {"median_clearance_m", number(group.median_clearance_m)},
-              {"median_time_s", number(group.median_time_s)}};
+              {"least_clearance_m", json_number(group.least_clearance_m)},
+              {"median_clearance_m", json_number(group.median_clearance_m)},
+              {"median_time_s", json_number(group.median_time_s)}};
 }
 
 Json flight_json(const FlightRecord& record) {
@@ -49,8 +47,8 @@ Json flight_json(const FlightRecord& record) {
               {"result", record.result}};
 }
 
-std::string group_row(const GroupSummary& g) {
-  const Interval interval = wilson_interval(g.success, kConfidence);
+std::string group_line(const GroupSummary& g) {
+  const Interval interval = wilson_interval(g.success, kTableConfidence);
   std::string success = fmt::format("{} | {:.2f} to {:.2f}", g.success.successes, interval.low, interval.high);
   if (g.unchecked > 0) {
     success = g.success.trials == 0 ? fmt::format("{} | -", kNoChecks)
@@ -75,8 +73,8 @@ std::string batch_json(const std::vector<FlightRecord>& records, const std::vect
     json["verdicts"].push_back(Json{{"group", verdict.group},
                                     {"check", verdict.check},
                                     {"passed", verdict.passed},
-                                    {"value", number(verdict.value)},
-                                    {"limit", number(verdict.limit)},
+                                    {"value", json_number(verdict.value)},
+                                    {"limit", json_number(verdict.limit)},
                                     {"words", verdict.words}});
   }
   for (const FlightRecord& record : records) json["flights"].push_back(flight_json(record));
@@ -89,7 +87,7 @@ std::string summary_text(const std::vector<FlightRecord>& records, const std::ve
       "| scenario | flights | passed | 95 % interval | reached | collided | timeout | fault | missing | least "
       "clearance, m | median least clearance, m | median time, s "
       "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-  for (const GroupSummary& group : summarize(records)) text += group_row(group);
+  for (const GroupSummary& group : summarize(records)) text += group_line(group);
   for (const FlightRecord& record : records) {
     if (record.status == FlightRecord::Status::missing || passed(record) || unchecked(record)) continue;
     text +=

@@ -13,6 +13,7 @@
 #include "sim/campaign/batch_record.h"
 #include "sim/campaign/statistics.h"
 #include "sim/campaign/verdict.h"
+#include "sim/record/json_number.h"
 #include "sim/record/report_page.h"
 #include "sim/record/whole_file.h"
 
@@ -21,12 +22,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kConfidence = 0.95;
 constexpr size_t kMostStripBytes = 2'500'000;  // of a page that is to stay below 10 MB; in base64 a third more
 const std::set<std::string> kWordColumns = {"id",    "group",           "scenario", "status", "outcome",
                                             "cause", "trajectory_hash", "command",  "build",  "truth_used"};
-
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 /// A number to six figures.
 Json six(double value) {
@@ -58,7 +56,7 @@ std::string unit_of(const std::string& name, const std::vector<FlightNotes>& not
 }
 
 Json group_row(const GroupSummary& group) {
-  const Interval interval = wilson_interval(group.success, kConfidence);
+  const Interval interval = wilson_interval(group.success, kTableConfidence);
   return {{"group", group.group},
           {"flights", group.flights},
           {"passed", group.success.successes},
@@ -71,9 +69,9 @@ Json group_row(const GroupSummary& group) {
           {"broken", group.fault + group.failed},
           {"missing", group.missing},
           {"no_checks", group.unchecked},
-          {"least_clearance_m", finite(group.least_clearance_m)},
-          {"median_clearance_m", finite(group.median_clearance_m)},
-          {"median_time_s", finite(group.median_time_s)}};
+          {"least_clearance_m", json_number(group.least_clearance_m)},
+          {"median_clearance_m", json_number(group.median_clearance_m)},
+          {"median_time_s", json_number(group.median_time_s)}};
 }
 
 GroupSummary all_of(std::vector<FlightRecord> records) {
@@ -114,14 +112,14 @@ std::vector<std::optional<size_t>> partners(const std::vector<FlightRecord>& now
 }
 
 Json rate(const Count& count) {
-  const Interval interval = wilson_interval(count, kConfidence);
+  const Interval interval = wilson_interval(count, kTableConfidence);
   return {{"passed", count.successes}, {"ended", count.trials}, {"low", interval.low}, {"high", interval.high}};
 }
 
 Json change_row(const GroupSummary& now, const GroupSummary& before) {
   Json row{{"group", now.group}, {"now", rate(now.success)}, {"before", rate(before.success)}, {"change", nullptr}};
   if (now.success.trials > 0 && before.success.trials > 0) {
-    const Interval change = newcombe_difference(now.success, before.success, kConfidence);
+    const Interval change = newcombe_difference(now.success, before.success, kTableConfidence);
     row["change"] = {now.success.rate() - before.success.rate(), change.low, change.high};
   }
   return row;

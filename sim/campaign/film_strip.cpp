@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "sim/fields/quantities.h"
 #include "sim/record/film_watcher.h"
 #include "sim/record/run_record.h"
 #include "sim/record/whole_file.h"
@@ -38,7 +39,7 @@ class StripWatcher : public FlightWatcher {
   void on_images(const ShownInstant& shown) override {
     const cv::Mat source = shown.annotated.empty() ? contact_sheet(shown.frames) : shown.annotated;
     if (source.empty()) return;
-    Image image{.t_s = 1e-9 * static_cast<double>(shown.t_ns), .rgb = {}};
+    Image image{.t_s = seconds(shown.t_ns), .rgb = {}};
     const int height_px = std::max(1, static_cast<int>(std::lround(double{kWidthPx} * source.rows / source.cols)));
     cv::resize(source, image.rgb, {kWidthPx, height_px}, 0, 0, cv::INTER_AREA);
     images_.push_back(std::move(image));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/record/json_number.h"
 #include "sim/scenario/input_error.h"
 #include "sim/scenario/numbers.h"
 
@@ -12,8 +13,6 @@ namespace hedgehop::sim {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 std::filesystem::path table_of(const std::filesystem::path& folder) {
   for (const char* name : {"sweep.csv", "batch.csv"}) {
@@ -54,7 +53,7 @@ std::vector<FlightRecord> records_of(const CsvTable& table) {
              {"build", builds[i]},
              {"truth_used", truths[i].empty() ? Json::array() : Json::array({truths[i]})},
              {"checks", passes[i].empty() ? Json::array() : Json::array({Json{{"passed", passes[i] == "1"}}})},
-             {"min_obstacle_clearance_m", number(clearances[i])},
+             {"min_obstacle_clearance_m", json_number(clearances[i])},
              {"flight_time_s", times[i]}};
   }
   return records;

@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "sim/campaign/statistics.h"
 #include "sim/campaign/verdict.h"
 #include "sim/flight/build.h"
+#include "sim/record/json_number.h"
 #include "sim/record/whole_file.h"
 #include "sim/scenario/input_error.h"
 
@@ -17,10 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kConfidence = 0.95;
 constexpr const char* kFile = "leaderboard.json";
-
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 template <class Named>
 std::set<std::string> names_of(const std::vector<Named>& all, std::vector<std::string>& faults) {
@@ -55,7 +54,7 @@ Json cell_data(const Json& cell, const FlightList& flights) {
   const GroupSummary group = summarize(records).front();
   if (group.unchecked > 0) data["no_checks"] = group.unchecked;
   if (group.success.trials == 0) return data;
-  const Interval interval = wilson_interval(group.success, kConfidence);
+  const Interval interval = wilson_interval(group.success, kTableConfidence);
   data["flights"] = group.success.trials;
   data["passed"] = group.success.successes;
   data["low"] = interval.low;
@@ -63,11 +62,11 @@ Json cell_data(const Json& cell, const FlightList& flights) {
   data["collided"] = group.collided;
   data["timeout"] = group.timeout;
   data["broken"] = group.fault + group.failed;
-  data["least_clearance_m"] = finite(group.least_clearance_m);
-  data["median_clearance_m"] = finite(group.median_clearance_m);
-  data["path_excess"] = finite(median_of(flights.table, "metric.path_excess", rows));
-  data["mean_speed_mps"] = finite(median_of(flights.table, "mean_speed_mps", rows));
-  data["decision_ms"] = finite(median_of(flights.table, "time.decision_ms.median", rows));
+  data["least_clearance_m"] = json_number(group.least_clearance_m);
+  data["median_clearance_m"] = json_number(group.median_clearance_m);
+  data["path_excess"] = json_number(median_of(flights.table, "metric.path_excess", rows));
+  data["mean_speed_mps"] = json_number(median_of(flights.table, "mean_speed_mps", rows));
+  data["decision_ms"] = json_number(median_of(flights.table, "time.decision_ms.median", rows));
   return data;
 }
 
@@ -213,7 +212,7 @@ Json leaderboard_data(const std::filesystem::path& folder, const FlightList& fli
               {"cells", Json::array()}};
     for (const Json& cell : board.at("cells")) data["cells"].push_back(cell_data(cell, flights));
     for (Json& world : data["worlds"]) {
-      world["difficulty"] = finite(difficulty(world.at("name"), data["modules"], data["cells"]));
+      world["difficulty"] = json_number(difficulty(world.at("name"), data["modules"], data["cells"]));
     }
     // Worlds of equal difficulty stay in the campaign's order; what nobody has flown in comes last.
     const auto key = [](const Json& world) {

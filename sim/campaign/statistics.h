@@ -19,6 +19,9 @@ struct Interval {
 /// The z with a share `probability` of the standard normal distribution below it. @param probability  in (0, 1).
 double normal_quantile(double probability);
 
+/// Of the intervals in tables and on pages.
+inline constexpr double kTableConfidence = 0.95;
+
 /// Two-sided score interval of a proportion; [0, 1] without trials. @param confidence  in (0, 1).
 /// Source: [Wilson1927] p. 212. Its properties: [Newcombe1998a] table 1, method 3.
 Interval wilson_interval(Count count, double confidence);

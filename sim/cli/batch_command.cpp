@@ -12,15 +12,13 @@
 #include "sim/campaign/leaderboard.h"
 #include "sim/campaign/table.h"
 #include "sim/cli/commands.h"
+#include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
 #include "sim/flight/build.h"
 #include "sim/record/whole_file.h"
 
 namespace hedgehop::sim::cli {
 namespace {
-
-constexpr int kFails = 1, kBadInput = 2;
-constexpr int kSignalled = 128;  // what a shell reports of a process that a signal ended, less the signal's number
 
 std::filesystem::path folder_of(const BatchOptions& options) {
   if (!options.out.empty()) return options.out;
@@ -47,7 +45,9 @@ BatchOrders orders_of(const BatchOptions& options, const std::filesystem::path& 
     throw InputError(batch.faults.empty() ? std::vector<std::string>{"batch: nothing to fly"} : batch.faults);
   }
   // An earlier batch that cannot be read is better known before the flights than after.
-  judge(batch.checks, summarize(gather(batch.orders, {}, /*other_builds=*/false)));
+  const std::vector<GroupSummary> planned = summarize(gather(batch.orders, {}, /*other_builds=*/false));
+  judge(batch.checks, planned);
+  require_decidable(batch.checks, planned);
   return batch;
 }
 

@@ -111,15 +111,13 @@ void declare_reproduce(CLI::App& app, std::function<int()>& chosen) {
 }
 
 void declare_bless(CLI::App& app, std::function<int()>& chosen) {
-  struct Options {
-    std::filesystem::path folder;
-    std::string reason;
-  };
   CLI::App* const command = app.add_subcommand("bless", "make a run's path the reference of its scenario");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BlessOptions>();
   command->add_option("RUN", options->folder, "folder of the run")->required()->check(CLI::ExistingDirectory);
   command->add_option("--reason", options->reason, "why this path is the reference, one line")->required();
-  command->callback([&chosen, options] { chosen = [options] { return bless(options->folder, options->reason); }; });
+  command->add_flag("--force", options->force, "also bless a flight that failed, and replace another reference");
+  command->add_flag("--dry-run", options->dry_run, "say what would be written, and write nothing");
+  command->callback([&chosen, options] { chosen = [options] { return bless(*options); }; });
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "sim/cli/campaign_options.h"
 #include "sim/cli/commands.h"
+#include "sim/cli/exit_status.h"
 #include "sim/cli/manual.h"
 #include "sim/cli/number_options.h"
 #include "sim/flight/build.h"
@@ -17,9 +18,6 @@
 
 namespace hedgehop::sim::cli {
 namespace {
-
-constexpr int kBadInput = 2;
-constexpr int kInternalError = 3;
 
 /// What may override a scenario.
 void add_layers(CLI::App& command, ScenarioOptions& scenario) {

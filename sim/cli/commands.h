@@ -47,6 +47,9 @@ struct CalibrationOptions {
 /// Writes the rig's cameras for other programs.
 int calibration(const CalibrationOptions& options);
 
+/// For people: the vehicle files with mass, width and what they say of themselves.
+std::string vehicle_files_text();
+
 /// @param topic  "modules", "vehicles", "scenes", "cameras" or "checks".
 int list(const std::string& topic);
 
@@ -124,9 +127,14 @@ struct ReproduceOptions {
 /// Flies papers' experiments, or what is left of them, and writes each paper's figures beside ours.
 int reproduce(const ReproduceOptions& options);
 
+struct BlessOptions {
+  std::filesystem::path folder;  ///< of the run
+  std::string reason;            ///< why this path is the reference, one line
+  bool force = false;            ///< also a flight that failed, and over another reference
+  bool dry_run = false;          ///< only say what would be written
+};
 /// Writes the path of a run as the reference of its scenario's `path_tolerance`, beside the scenario.
-/// @param reason  why this path is the reference, one line.
-int bless(const std::filesystem::path& run_folder, const std::string& reason);
+int bless(const BlessOptions& options);
 
 /// The executable that runs now, absolute. Throws std::runtime_error.
 std::filesystem::path own_program();

@@ -8,10 +8,9 @@
 #include <initializer_list>
 
 #include "sim/cli/command_line.h"
+#include "sim/cli/exit_status.h"
 
 namespace {
-
-constexpr int kInternalError = 3;
 
 /// A file opened while one of the standard streams is closed would get its number, and its text.
 void open_standard_streams() {
@@ -30,7 +29,7 @@ int main(int argc, char** argv) {
   const int status = hedgehop::sim::cli::run_command_line(argc, argv);
   if (std::fflush(stdout) != 0 && errno != EPIPE) {
     std::fprintf(stderr, "hedgehop: cannot write to standard output: %s\n", std::strerror(errno));
-    return kInternalError;
+    return hedgehop::sim::cli::kInternalError;
   }
   return status;
 }

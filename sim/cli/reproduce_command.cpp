@@ -8,7 +8,9 @@
 
 #include "sim/campaign/fly_orders.h"
 #include "sim/cli/commands.h"
+#include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
+#include "sim/cli/shipped_files.h"
 #include "sim/record/whole_file.h"
 #include "sim/render/renderer.h"
 #include "sim/reproduce/reproduction_page.h"
@@ -19,33 +21,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFails = 1;
-constexpr int kSignalled = 128;  // what a shell reports of a process that a signal ended, less the signal's number
-
-/// Where papers' files are: in the working folder's configs, else beside the installed program.
-fs::path papers_folder() {
-  const fs::path own = fs::path("configs") / "papers";
-  std::error_code error;
-  if (fs::is_directory(own, error)) return own;
-  return own_program().parent_path().parent_path() / "share" / "hedgehop" / own;
-}
-
-std::vector<fs::path> all_papers() {
-  std::vector<fs::path> files;
-  const fs::path folder = papers_folder();
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
-  }
-  if (files.empty()) throw InputError(fmt::format("{}: no papers' files (*.yaml) in this folder", folder.string()));
-  std::ranges::sort(files);
-  return files;
-}
-
 /// The file of a paper's key, or the file itself.
 fs::path paper_file(const std::string& name) {
   if (name.ends_with(".yaml")) return name;
-  const std::vector<fs::path> files = all_papers();
+  const std::vector<fs::path> files = shipped_files("papers");
   for (const fs::path& file : files) {
     if (file.stem() == name) return file;
   }
@@ -57,7 +36,7 @@ fs::path paper_file(const std::string& name) {
 std::vector<Paper> read_papers(const std::vector<std::string>& names) {
   std::vector<fs::path> files;
   for (const std::string& name : names) files.push_back(paper_file(name));
-  if (names.empty()) files = all_papers();
+  if (names.empty()) files = shipped_files("papers");
   std::vector<Paper> papers;
   std::vector<std::string> faults;
   for (const fs::path& file : files) {

@@ -12,15 +12,13 @@
 #include "sim/campaign/slurm.h"
 #include "sim/campaign/sweep.h"
 #include "sim/cli/commands.h"
+#include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
 #include "sim/flight/build.h"
 #include "sim/record/whole_file.h"
 
 namespace hedgehop::sim::cli {
 namespace {
-
-constexpr int kFails = 1;
-constexpr int kSignalled = 128;  // what a shell reports of a process that a signal ended, less the signal's number
 
 struct SweepRun {
   const SweepOptions& options;

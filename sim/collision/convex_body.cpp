@@ -8,17 +8,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/fields/quantities.h"
+
 namespace hedgehop::sim {
 namespace {
 
 using Eigen::Vector3d;
 using Shape = ConvexBody::Shape;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-btVector3 to_bullet(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-btTransform to_bullet(const Eigen::Isometry3d& X) {
+btTransform to_bullet_transform(const Eigen::Isometry3d& X) {
   const Eigen::Matrix3d R = X.linear();
   const btMatrix3x3 basis(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2));
   return btTransform(basis, to_bullet(X.translation()));
@@ -245,7 +243,7 @@ double ConvexBody::ray_length(const Eigen::Vector3d& p_S, const Eigen::Vector3d&
 }
 
 PlacedBody::PlacedBody(const ConvexBody& body_, const Eigen::Isometry3d& X)
-    : body(&body_), X_WS(X), X_SW(X.inverse()), bullet_X_WS(to_bullet(X)) {}
+    : body(&body_), X_WS(X), X_SW(X.inverse()), bullet_X_WS(to_bullet_transform(X)) {}
 
 double PlacedBody::reach(const Eigen::Vector3d& direction_W) const {
   return direction_W.dot(X_WS * body->farthest(X_SW.linear() * direction_W));

@@ -12,6 +12,8 @@
 
 namespace hedgehop::sim {
 
+inline btVector3 to_bullet(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
 /// A solid body in its own frame S: a box, an upright cylinder (axis z, half extents (r, r, half height)), a sphere
 /// (half extents (r, r, r)), or a polyhedron: closed and convex, or a single triangle.
 struct ConvexBody {

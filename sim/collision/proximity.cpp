@@ -10,6 +10,7 @@
 
 #include "sim/collision/separation.h"
 #include "sim/collision/solid_bodies.h"
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -17,10 +18,7 @@ namespace {
 using dynamics::HullPart;
 using scenes::Solid;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRoundingM = 1e-9;  // by which closed-form bounds may be off, far from the origin too
-
-btVector3 to_bullet(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+constexpr double kClosedFormErrorM = 1e-9;  // by which closed-form bounds may be off, far from the origin too
 
 // Hands each solid whose box in the tree meets a volume to `visit`.
 template <class Visit>
@@ -58,7 +56,7 @@ class CollisionWorld::World {
 
     // The solid that was nearest last time is close now: its distance narrows the search, not the result.
     if (last_nearest_) consider(*last_nearest_, placed_[*last_nearest_], nearest);
-    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(std::max(nearest.clearance_m, 0.0) + kRoundingM);
+    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(std::max(nearest.clearance_m, 0.0) + kClosedFormErrorM);
     visit_still(hull_box_W_.min() - reach, hull_box_W_.max() + reach, [&](size_t index) {
       if (index != last_nearest_) consider(index, placed_[index], nearest);
     });
@@ -174,7 +172,7 @@ class CollisionWorld::World {
   void consider(size_t index, const PlacedBody& body, Nearest& nearest) const {
     for (const PlacedBody& part : placed_parts_) {
       const Eigen::Vector3d center_W = part.X_WS.translation();
-      const double part_radius_m = part.body->bounding_radius_m + kRoundingM;
+      const double part_radius_m = part.body->bounding_radius_m + kClosedFormErrorM;
       const double balls_m = (body.X_WS.translation() - center_W).norm() - body.body->bounding_radius_m - part_radius_m;
       if (balls_m > std::max(nearest.clearance_m, 0.0)) continue;
       const double center_distance_m = (body.nearest(center_W) - center_W).norm();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "sim/fields/quantities.h"
 #include "sim/scenario/input_error.h"
 
 namespace hedgehop::sim {
@@ -61,12 +62,12 @@ std::vector<DataFile> kitti_files(const SensorRecord& record) {
   for (const int64_t t_ns : first.t_ns) {
     const Eigen::Isometry3d X_EC = state_at(record, t_ns).X_EF * first.X_FC_true;
     const Eigen::Isometry3d X_EC_first = state_at(record, first.t_ns.front()).X_EF * first.X_FC_true;
-    times += fmt::format("{:.9f}\n", 1e-9 * static_cast<double>(t_ns));
+    times += fmt::format("{:.9f}\n", seconds(t_ns));
     poses += row_by_row((X_EC_first.inverse() * X_EC).matrix().topRows<3>()) + "\n";
   }
   for (const RecordedReading& r : record.imu) {
-    imu += fmt::format("{:.9f} {} {} {} {} {} {}\n", 1e-9 * static_cast<double>(r.t_ns), r.w_F.x(), r.w_F.y(),
-                       r.w_F.z(), r.f_F.x(), r.f_F.y(), r.f_F.z());
+    imu += fmt::format("{:.9f} {} {} {} {} {} {}\n", seconds(r.t_ns), r.w_F.x(), r.w_F.y(), r.w_F.z(), r.f_F.x(),
+                       r.f_F.y(), r.f_F.z());
   }
   return {{kSequence / "calib.txt", calib},
           {kSequence / "times.txt", times},

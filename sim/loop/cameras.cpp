@@ -6,6 +6,7 @@
 #include <functional>
 #include <stdexcept>
 
+#include "sim/fields/quantities.h"
 #include "sim/scenario/input_error.h"
 #include "sim/scenario/mounting.h"
 #include "sim/scenario/random_stream.h"
@@ -105,7 +106,7 @@ Imperfections::FrameFault Cameras::frame_fault(size_t camera, int64_t t_ns) cons
 
 std::span<const avoidance::CameraFrame> Cameras::snapshot(int64_t t_ns, const Eigen::Isometry3d& X_WB) {
   for (size_t i = 0; i < count(); ++i) {
-    const double t_s = 1e-9 * static_cast<double>(t_ns);
+    const double t_s = seconds(t_ns);
     renderer_.draw({mounted_[i].model, X_WB * truly_mounted_[i].X_BC, channels_[i], t_s, {}, samples_[i]},
                    snapshot_[i].image);
     snapshot_[i].t_ns = t_ns;
@@ -142,7 +143,7 @@ double Cameras::image_speed_pxps(size_t camera, const Instant& now) const {
   const BodyMotion& body = now.body;
   double mover_mps = 0.0;
   for (const scenes::Motion& motion : movers_) {
-    mover_mps = std::max(mover_mps, scenes::v_WM(motion, 1e-9 * static_cast<double>(now.t_ns)).norm());
+    mover_mps = std::max(mover_mps, scenes::v_WM(motion, seconds(now.t_ns)).norm());
   }
   const Eigen::Vector3d v_WC_W = body.v_WB_W + body.X_WB.linear() * body.w_WB_B.cross(mounted.X_BC.translation());
   const double passing_mps = v_WC_W.norm() + mover_mps;
@@ -154,10 +155,10 @@ void Cameras::draw(size_t camera, Channel channel, const Instant& now, const Ins
   const avoidance::MountedCamera& mounted = truly_mounted_[camera];
   const auto draw_rows = [&](const Eigen::Isometry3d& X_WB, double dt_s, const cv::Range& rows, cv::Mat& image) {
     const bool whole = rows.size() == mounted.model.height_px;
-    const double t_s = std::max(0.0, 1e-9 * static_cast<double>(now.t_ns) + dt_s);
+    const double t_s = std::max(0.0, seconds(now.t_ns) + dt_s);
     // The next image is exposed as long before its instant.
     const CameraView::Next seen_next{next.body.X_WB_after(dt_s) * mounted.X_BC,
-                                     std::max(0.0, 1e-9 * static_cast<double>(next.t_ns) + dt_s)};
+                                     std::max(0.0, seconds(next.t_ns) + dt_s)};
     renderer_.draw({whole ? mounted.model : cut(mounted.model, rows), X_WB * mounted.X_BC, channel, t_s, seen_next,
                     samples_[camera]},
                    image);

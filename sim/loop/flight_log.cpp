@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <variant>
 
+#include "sim/fields/quantities.h"
+
 namespace hedgehop::sim {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The columns that commands and setpoints of a velocity, a point or an attitude share.
 struct CommandColumns {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "avoidance/sight.h"
+#include "sim/fields/quantities.h"
 #include "sim/loop/setpoints.h"
 #include "sim/loop/truth_used.h"
 #include "sim/plugin/plugin_module.h"
@@ -32,7 +33,7 @@ ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& 
   }
   for (const size_t camera : module_cameras_) {
     const int64_t blind_ns = avoidance::blind_after_ns(cameras_.mounted(camera).rate_hz);
-    blind_after_ = std::max(blind_after_, ticks_.ticks(1e-9 * static_cast<double>(blind_ns)));
+    blind_after_ = std::max(blind_after_, ticks_.ticks(seconds(blind_ns)));
   }
   latency_ =
       scenario.command_latency_s ? ticks_.ticks(*scenario.command_latency_s) : std::max(slowest, decision_period_);

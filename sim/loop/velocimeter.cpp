@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/fields/quantities.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -30,7 +32,7 @@ std::optional<dynamics::VelocityReading> Velocimeter::measure(const avoidance::C
   last_ = Exposure{frame.t_ns, navigation.q_WB_est, navigation.q_WB_gyro, navigation.height_above_ground_m};
   if (!last) return {};
 
-  const double dt_s = 1e-9 * static_cast<double>(frame.t_ns - last->t_ns);
+  const double dt_s = seconds(frame.t_ns - last->t_ns);
   // By the gyros alone: a filter's correction, taken for a rotation, would feed the next velocity and so itself.
   const Eigen::AngleAxisd rotation(last->q_WB_gyro.conjugate() * navigation.q_WB_gyro);
   const vision::flow::FlowMotion motion{last->q_WB_est, rotation.axis() * (rotation.angle() / dt_s),

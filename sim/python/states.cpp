@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "avoidance/policy/action_pilot.h"
+#include "sim/fields/quantities.h"
 #include "sim/python/arrays.h"
 #include "sim/python/bindings.h"
 #include "sim/simulation/simulation.h"
@@ -88,7 +89,7 @@ void bind_observation(py::module_& native) {
            }),
            "t_ns"_a, "images"_a, "navigation"_a, "goal"_a)
       .def_readonly("t_ns", &Observation::t_ns)
-      .def_property_readonly("t_s", [](const Observation& o) { return 1e-9 * static_cast<double>(o.t_ns); })
+      .def_property_readonly("t_s", [](const Observation& o) { return seconds(o.t_ns); })
       .def_readonly("images", &Observation::images, "role: array, good until the simulation moves on")
       .def_readonly("navigation", &Observation::navigation)
       .def_readonly("goal", &Observation::goal);

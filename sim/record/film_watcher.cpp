@@ -8,6 +8,8 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "sim/fields/quantities.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -32,7 +34,7 @@ cv::Mat to_rgb(const cv::Mat& image) {
 }
 
 std::string caption_of(const ShownInstant& shown) {
-  std::string text = fmt::format("{:.1f} s   {}", 1e-9 * static_cast<double>(shown.t_ns), shown.status);
+  std::string text = fmt::format("{:.1f} s   {}", seconds(shown.t_ns), shown.status);
   if (std::isfinite(shown.obstacle_clearance_m)) text += fmt::format("   {:.1f} m clear", shown.obstacle_clearance_m);
   return text;
 }

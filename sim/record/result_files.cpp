@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "sim/record/flight_columns.h"
+#include "sim/record/json_number.h"
 #include "sim/record/map_data.h"
 #include "sim/record/whole_file.h"
 
@@ -20,25 +21,28 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// nlohmann writes null for what is not finite already; this makes it explicit, also for pages made in memory.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json point(const ClosestApproach& approach) {
   if (!std::isfinite(approach.distance_m)) return nullptr;
   const Eigen::Vector3d& p = approach.p_WB_true;
-  return Json{{"what", approach.what},       {"distance_m", number(approach.distance_m)},
-              {"t_s", number(approach.t_s)}, {"north_m", number(p.x())},
-              {"east_m", number(p.y())},     {"altitude_m", number(-p.z())}};
+  return Json{{"what", approach.what},
+              {"distance_m", json_number(approach.distance_m)},
+              {"t_s", json_number(approach.t_s)},
+              {"north_m", json_number(p.x())},
+              {"east_m", json_number(p.y())},
+              {"altitude_m", json_number(-p.z())}};
 }
 
-Json stage(const StageTime& time) { return Json{{"median", number(time.median_ms)}, {"p95", number(time.p95_ms)}}; }
+Json stage(const StageTime& time) {
+  return Json{{"median", json_number(time.median_ms)}, {"p95", json_number(time.p95_ms)}};
+}
 
 Json checks(const std::vector<CheckResult>& results) {
   Json list = Json::array();
   for (const CheckResult& check : results) {
     list.push_back(Json{{"name", check.name},
                         {"passed", check.passed},
-                        {"value", number(check.value)},
-                        {"limit", number(check.limit)},
+                        {"value", json_number(check.value)},
+                        {"limit", json_number(check.limit)},
                         {"unit", check.unit},
                         {"must", check.must}});
   }
@@ -62,38 +66,38 @@ Json result_data(const RunInfo& info, const FlightResult& result) {
   json["cause"] = result.cause;
   json["truth_used"] = result.truth_used;
   json["failures"] = result.failures;
-  json["flight_time_s"] = number(result.flight_time_s);
-  json["path_length_m"] = number(result.path_length_m);
-  json["min_clearance_m"] = number(closest.distance_m);
-  json["min_clearance_time_s"] = std::isfinite(closest.distance_m) ? number(closest.t_s) : Json(nullptr);
-  json["min_obstacle_clearance_m"] = number(result.closest_obstacle.distance_m);
-  json["min_ground_clearance_m"] = number(result.closest_ground.distance_m);
+  json["flight_time_s"] = json_number(result.flight_time_s);
+  json["path_length_m"] = json_number(result.path_length_m);
+  json["min_clearance_m"] = json_number(closest.distance_m);
+  json["min_clearance_time_s"] = std::isfinite(closest.distance_m) ? json_number(closest.t_s) : Json(nullptr);
+  json["min_obstacle_clearance_m"] = json_number(result.closest_obstacle.distance_m);
+  json["min_ground_clearance_m"] = json_number(result.closest_ground.distance_m);
   json["closest_obstacle"] = point(result.closest_obstacle);
   json["closest_ground"] = point(result.closest_ground);
-  json["mean_speed_mps"] = number(result.mean_speed_mps);
-  json["goal_distance_m"] = number(result.goal_distance_m.value_or(NAN));
+  json["mean_speed_mps"] = json_number(result.mean_speed_mps);
+  json["goal_distance_m"] = json_number(result.goal_distance_m.value_or(NAN));
   json["decisions"] = result.decisions;
   json["decision_ms"] = stage(result.decision_ms);
   json["render_ms"] = stage(result.render_ms);
   json["velocimeter_ms"] = stage(result.velocimeter_ms);
   json["physics_ms"] = stage(result.physics_ms);
-  json["realtime_factor"] = number(result.realtime_factor);
-  json["wall_s"] = number(result.wall_s);
+  json["realtime_factor"] = json_number(result.realtime_factor);
+  json["wall_s"] = json_number(result.wall_s);
   json["checks"] = checks(result.checks);
   json["trajectory_hash"] = result.trajectory_hash;
   json["libraries"] = Json{{"images", result.libraries.images},
                            {"functions", result.libraries.functions},
                            {"drawn_by", result.libraries.drawn_by}};
   json["scene"] = Json{{"obstacles", result.scene.solids},
-                       {"least_gap_m", number(result.scene.smallest_gap_m)},
-                       {"median_gap_m", number(result.scene.median_gap_m)},
-                       {"covered_share", number(result.scene.covered_share)},
-                       {"density_per_m2", number(result.scene.density_pm2)}};
+                       {"least_gap_m", json_number(result.scene.smallest_gap_m)},
+                       {"median_gap_m", json_number(result.scene.median_gap_m)},
+                       {"covered_share", json_number(result.scene.covered_share)},
+                       {"density_per_m2", json_number(result.scene.density_pm2)}};
   json["metrics"] = Json::object();
   json["metric_units"] = Json::object();
   json["metric_kinds"] = Json::object();
   for (const MetricValue& metric : result.metrics) {
-    json["metrics"][metric.name] = number(metric.value);
+    json["metrics"][metric.name] = json_number(metric.value);
     json["metric_units"][metric.name] = metric.unit;
     json["metric_kinds"][metric.name] = std::string(to_string(metric.kind));
   }

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
+
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::sim {
 
@@ -11,7 +12,6 @@ namespace {
 
 constexpr int kBins = 2048;  // of at most 0.22 deg; the four cardinal directions are edges of bins
 constexpr int kBinMask = kBins - 1;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // The rasterizer's 1/256 pixel and the float geometry are far below these.
 constexpr double kInsetM = 0.02;    // a hiding box counts as this much smaller in plan
 constexpr double kSlackRad = 1e-3;  // and this much lower

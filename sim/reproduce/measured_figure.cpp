@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "sim/campaign/statistics.h"
 #include "sim/campaign/table.h"
 #include "sim/scenario/numbers.h"
 
@@ -13,8 +14,6 @@ namespace hedgehop::sim {
 namespace {
 
 using Statistic = FlightFigure::Statistic;
-
-constexpr double kConfidence = 0.95;
 
 std::string text_of(const Cell& cell) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
@@ -107,7 +106,7 @@ MeasuredFigure measure(const FlightFigure& figure, const PaperOutcome& outcome, 
   measured.value = statistic_of(figure.statistic, values);
   if (counts(figure.statistic) && !values.empty()) {
     const auto successes = static_cast<int64_t>(std::accumulate(values.begin(), values.end(), 0.0));
-    measured.interval = wilson_interval({successes, static_cast<int64_t>(values.size())}, kConfidence);
+    measured.interval = wilson_interval({successes, static_cast<int64_t>(values.size())}, kTableConfidence);
   }
   return measured;
 }

@@ -31,6 +31,9 @@ struct Outline {
   std::string_view meaning = {};  ///< of a variant's choice: its kMeaning
   bool open = false;              ///< a group that may hold any keys
   bool chosen_by_key = false;     ///< a variant whose choice needs no selector, or such a choice
+
+  /// Whether it has a value of its own and no parts.
+  bool is_scalar() const { return kind != Kind::list && kind != Kind::group && kind != Kind::variant; }
 };
 
 /// A map as written, as a group of texts.

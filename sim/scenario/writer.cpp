@@ -8,10 +8,6 @@
 namespace hedgehop::sim {
 namespace {
 
-bool is_scalar(const Outline& node) {
-  return node.kind != Outline::Kind::list && node.kind != Outline::Kind::group && node.kind != Outline::Kind::variant;
-}
-
 std::string scalar(const Outline& node) {
   return node.kind == Outline::Kind::text ? yaml_quoted(node.value) : node.value;
 }
@@ -22,9 +18,9 @@ void write_fields(const std::vector<Outline>& fields, int indent, std::string& o
 void write_value(const Outline& node, int indent, std::string& out) {
   if (!node.present) {
     out += " ~\n";
-  } else if (is_scalar(node)) {
+  } else if (node.is_scalar()) {
     out += fmt::format(" {}\n", scalar(node));
-  } else if (node.kind == Outline::Kind::list && std::all_of(node.parts.begin(), node.parts.end(), is_scalar)) {
+  } else if (node.kind == Outline::Kind::list && std::ranges::all_of(node.parts, &Outline::is_scalar)) {
     std::vector<std::string> items;
     for (const Outline& item : node.parts) items.push_back(scalar(item));
     out += fmt::format(" [{}]\n", fmt::join(items, ", "));

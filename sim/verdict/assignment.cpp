@@ -1,14 +1,14 @@
 #include "sim/verdict/assignment.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::sim {
 namespace {
 
 using Eigen::Index;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Index kNone = -1;
 
 /// Grows an assignment by one row at a time: the cheapest path that alternates between columns not yet and already

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <variant>
 
+#include "sim/fields/quantities.h"
 #include "sim/scenario/reference_path.h"
 #include "sim/verdict/path_distance.h"
 
@@ -13,7 +14,6 @@ namespace hedgehop::sim {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// All that a check can use.
 struct Evidence {

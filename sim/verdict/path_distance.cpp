@@ -1,12 +1,11 @@
 #include "sim/verdict/path_distance.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::sim {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Eigen::Vector3d position_at(const std::vector<TimedPoint>& path, double t_s) {
   const auto after = std::ranges::upper_bound(path, t_s, {}, &TimedPoint::t_s);

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace hedgehop {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+inline double square(double x) { return x * x; }
+
+/// Returns a time or duration of the loop, ns, in s.
+inline double seconds(int64_t t_ns) { return 1e-9 * static_cast<double>(t_ns); }
+
+}  // namespace hedgehop
