@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "sim/campaign/worker_pool.h"
+#include "sim/record/result_files.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -43,15 +44,6 @@ void conclude(FlightRecord& record, const WorkerEnd& end, const FlyOptions& opti
   if (has_verdict) record.cause += "; left no result of this scenario";
 }
 
-/// A worker that dies must not leave the result of an earlier flight behind. The folder's other files say nothing
-/// without it.
-void forget_result(const std::filesystem::path& folder) {
-  std::error_code ignored;
-  std::filesystem::remove(folder / "result.json", ignored);
-  std::filesystem::remove(folder / "report.html", ignored);
-  std::filesystem::remove(folder / "strip.jpg", ignored);
-}
-
 }  // namespace
 
 std::vector<FlightRecord> fly_orders(const std::vector<Order>& orders, const FlyOptions& options, Reuse reuse,
@@ -80,7 +72,7 @@ std::vector<FlightRecord> fly_orders(const std::vector<Order>& orders, const Fly
   const WorkerPool pool{.workers = options.workers, .limit_s = options.limit_s};
   const auto command = [&](size_t job) {
     const Order& order = records[to_fly[job]].order;
-    forget_result(options.out / order.id);
+    forget_flight(options.out / order.id);  // a worker that dies must not leave an earlier verdict behind
     return worker_command(order, options);
   };
   pool.run(to_fly.size(), command, interruption, [&](size_t job, const WorkerEnd& end) {

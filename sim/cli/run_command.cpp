@@ -102,9 +102,12 @@ int run(const RunOptions& options) {
       options.out.empty() ? std::filesystem::path{"out"} / fmt::format("{}-seed{}", scenario.name, scenario.seed)
                           : options.out;
   require_writable(out);
-  RunWatcher watcher(scenario, out / "video.webm", options.worker_of != 0);
+  const std::filesystem::path film = out / "video.webm";
+  RunWatcher watcher(scenario, film, options.worker_of != 0);
   const Flight flight = Simulation(std::move(loaded), &watcher).run();
   watcher.close();
+  std::error_code ignored;
+  if (!scenario.film.enabled) std::filesystem::remove(film, ignored);  // an earlier flight's
 
   const RunInfo info{scenario.name,
                      scenario.seed,

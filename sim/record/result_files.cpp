@@ -112,10 +112,18 @@ std::string trajectory_csv(const Flight& flight) { return trajectory_columns(fli
 
 std::string decisions_csv(const Flight& flight) { return decision_columns(flight).csv(); }
 
+void forget_flight(const std::filesystem::path& run_folder) {
+  std::error_code ignored;
+  for (const char* name : {"result.json", "report.html", "replay.html", "map.json", "strip.jpg"}) {
+    std::filesystem::remove(run_folder / name, ignored);
+  }
+}
+
 void write_result_files(const std::filesystem::path& run_folder, const RunInfo& info, const Flight& flight) {
   std::error_code error;
   std::filesystem::create_directories(run_folder, error);
   if (error) throw std::runtime_error(fmt::format("cannot create {}: {}", run_folder.string(), error.message()));
+  forget_flight(run_folder);
   write_file_whole(run_folder / "scenario.yaml", info.scenario_yaml);
   write_file_whole(run_folder / "trajectory.csv", trajectory_csv(flight));
   write_file_whole(run_folder / "decisions.csv", decisions_csv(flight));

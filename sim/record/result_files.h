@@ -22,9 +22,14 @@ struct RunInfo {
   std::string scenario_yaml;                  ///< the resolved scenario
 };
 
+/// Removes the verdict of an earlier flight and what is made of it: of two flights in one folder, the other files would
+/// tell of one and these of the other.
+void forget_flight(const std::filesystem::path& run_folder);
+
 /// Writes scenario.yaml, result.json, trajectory.csv, decisions.csv and, of a module that makes a map, map.json into
-/// `run_folder`, which is created when missing. Each file is written aside and then renamed, so a file that is there is
-/// whole. Throws std::runtime_error naming the file and the cause (full disk, missing permission).
+/// `run_folder`, which is created when missing; forgets an earlier flight there. Each file is written aside and then
+/// renamed, so a file that is there is whole. Throws std::runtime_error naming the file and the cause (full disk,
+/// missing permission).
 void write_result_files(const std::filesystem::path& run_folder, const RunInfo& info, const Flight& flight);
 
 /// What result.json holds: keys in a fixed order, null for what is not finite.

@@ -192,6 +192,19 @@ TEST(ResultFiles, AreWholeAndLeaveNothingAside) {
   EXPECT_EQ(read_file_whole(folder.path() / "a" / "b" / "scenario.yaml"), kInfo.scenario_yaml);
 }
 
+TEST(ResultFiles, LeaveNothingOfAnEarlierFlightBesideThem) {
+  const TemporaryFolder folder;
+  for (const char* name : {"result.json", "report.html", "replay.html", "map.json", "notes.txt"}) {
+    write_file_whole(folder.path() / name, "earlier");
+  }
+  write_result_files(folder.path(), kInfo, fake_flight(1.0, 2));
+  EXPECT_NE(read_file_whole(folder.path() / "result.json"), "earlier");
+  for (const char* name : {"report.html", "replay.html", "map.json"}) {
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / name)) << name;
+  }
+  EXPECT_EQ(read_file_whole(folder.path() / "notes.txt"), "earlier");  // is a person's
+}
+
 std::string error_of(const std::function<void()>& action) {
   try {
     action();
