@@ -53,12 +53,14 @@ std::string page(std::string_view title, std::string_view body, std::string data
 
 std::string film_element(const PageFilm& film) {
   if (!film.bytes.empty()) {
-    return "<video id=\"film\" controls muted playsinline></video>\n"
+    return "<video id=\"film\" aria-label=\"what the cameras saw\" controls muted playsinline></video>\n"
            "<script type=\"text/plain\" id=\"film-bytes\">" +
            base64(film.bytes) + "</script>";
   }
   if (film.link.empty()) return "";
-  return fmt::format("<video id=\"film\" controls muted playsinline src=\"{}\"></video>", html_escaped(film.link));
+  return fmt::format(
+      "<video id=\"film\" aria-label=\"what the cameras saw\" controls muted playsinline src=\"{}\"></video>",
+      html_escaped(film.link));
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ class Axes {
 
   set(xAxis, yAxis) {
     Object.assign(this, {xAxis, yAxis});
+    describeDrawing(this.canvas, `Plot of ${yAxis.label} over ${xAxis.label}`);
     this.draw();
   }
   x(value) { return this.frame.x + (value - this.xAxis.low) / (this.xAxis.high - this.xAxis.low) * this.frame.width; }

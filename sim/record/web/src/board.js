@@ -48,7 +48,7 @@ function boardCell(cell, on) {
   words.push(`${fixed(cell.mean_speed_mps, 1)} m/s`, `${fixed(cell.decision_ms, 1)} ms`);
   element.append(make('div', 'soft', words.join(', ')));
   element.title = 'show these flights alone';
-  element.addEventListener('click', () => on.filter(`${cell.world}_${cell.module}/`));
+  onChoose(element, () => on.filter(`${cell.world}_${cell.module}/`));
   return element;
 }
 

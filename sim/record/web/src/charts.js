@@ -74,7 +74,9 @@ class Charts {
         card.append(make('p', '', flat));
         continue;
       }
-      this.plots.push({panel, host: card.appendChild(make('div', 'plot')), u: null});
+      const plot = card.appendChild(make('div', 'plot'));
+      describeDrawing(plot, `Plot of ${panel.series.map(({label}) => label).join(', ')} over ${axis.label}`);
+      this.plots.push({panel, host: plot, u: null});
     }
     this.build();
     const fit = () => this.plots.forEach(({u, host: {clientWidth}}) => {

@@ -77,6 +77,23 @@ function readPath(steps) {
   return {n, e};
 }
 
+/** Lets an element that is no button be chosen by pointer and by keyboard. */
+function onChoose(element, action) {
+  element.tabIndex = 0;
+  element.addEventListener('click', action);
+  element.addEventListener('keydown', (event) => {
+    if (event.target !== element || (event.key !== 'Enter' && event.key !== ' ')) return;
+    event.preventDefault();
+    action(event);
+  });
+}
+
+/** What a drawing shows, for who cannot see it. */
+function describeDrawing(element, text) {
+  element.setAttribute('role', 'img');
+  element.setAttribute('aria-label', text);
+}
+
 /** A button that copies a text. */
 function copyButton(text) {
   const button = make('button', 'copy', 'copy');

@@ -49,7 +49,7 @@ class FlightsView {
         th.append(make('b', '', this.falling ? ' ▼' : ' ▲'));
         th.ariaSort = this.falling ? 'descending' : 'ascending';
       }
-      th.addEventListener('click', () => this.sortBy(column.name));
+      onChoose(th, () => this.sortBy(column.name));
     }
     head.append(make('th', '', 'again'));
     const body = element.appendChild(make('tbody'));
@@ -66,7 +66,7 @@ class FlightsView {
     line.dataset.row = row;
     for (const column of columns) line.append(this.cell(row, column));
     line.appendChild(make('td')).append(copyButton(this.table.value('command', row)));
-    line.addEventListener('click', () => this.on.choose(row));
+    onChoose(line, () => this.on.choose(row));
     return line;
   }
   cell(row, column) {

@@ -20,10 +20,9 @@ class MapView {
     this.canvas = host.appendChild(document.createElement('canvas'));
     this.tip = host.appendChild(make('div', 'tip'));
     this.tip.hidden = true;
-    this.addTools();
     this.key = host.appendChild(make('div', 'plan-key'));
     this.whole = this.wholeView();
-    this.addPointer();
+    new MapControls(this);
     this.setView(this.firstView());
     new ResizeObserver(() => requestAnimationFrame(() => this.draw())).observe(host);
   }
@@ -48,19 +47,6 @@ class MapView {
     const {reach, whole} = this, [norths, easts] = this.goalEnds();
     const near = MapView.viewOf(reach.n.concat(norths), reach.e.concat(easts), 0.25);
     return Math.max(near.height / whole.height, near.width / whole.width) < 0.5 ? near : {...whole};
-  }
-
-  addTools() {
-    const tools = this.host.appendChild(make('div', 'plan-tools'));
-    const button = (text, title, action) => {
-      const b = tools.appendChild(make('button', '', text));
-      b.title = title;
-      b.addEventListener('click', action);
-    };
-    button('+', 'Closer', () => this.zoom(1.6));
-    button('−', 'Further', () => this.zoom(1 / 1.6));
-    button('path', 'Show what flew', () => this.showReach());
-    button('all', 'Show the whole scene', () => this.show({...this.whole}));
   }
 
   setView(view) {
@@ -267,30 +253,6 @@ class MapView {
     if (levels.has('beside')) entry('solid', 'obstacle at flight height');
     if (levels.has('below')) entry('low', 'below the flight');
     this.key.append(make('span', '', 'north up, true to scale'));
-  }
-
-  addPointer() {
-    let drag = null;
-    this.canvas.addEventListener('pointerdown', (event) => {
-      drag = {x: event.offsetX, y: event.offsetY, view: {...this.view}, moved: false};
-    });
-    this.canvas.addEventListener('pointermove', (event) => {
-      if (drag && this.canvas.classList.contains('moves') && event.buttons) {
-        const dx = event.offsetX - drag.x, dy = event.offsetY - drag.y;
-        drag.moved ||= Math.hypot(dx, dy) > 4;
-        this.show({...drag.view, n: drag.view.n + dy / this.scale, e: drag.view.e - dx / this.scale});
-      } else {
-        this.on.hover(event.offsetX, event.offsetY);
-      }
-    });
-    this.canvas.addEventListener('pointerup', () => {
-      if (drag && !drag.moved) this.on.click();
-      drag = null;
-    });
-    this.canvas.addEventListener('pointerleave', () => {
-      this.tip.hidden = true;
-      this.on.leave();
-    });
   }
 
   showTip(x, y, lines) {
