@@ -98,6 +98,12 @@ class Validator {
         needs_camera("avoidance", need.role, need.channel, need.pinhole);
       }
     });
+    if (const std::optional<TakeoverConfig>& takeover = scenario_.takeover) {
+      if (takeover->at_s >= scenario_.duration_s) {
+        add("takeover.at", fmt::format("is not before the flight's end ({} s)", scenario_.duration_s));
+      }
+      build("takeover.avoidance", [&] { build_module(takeover->avoidance); });
+    }
   }
 
   /// With the cameras that it would fly with: those of a pair may not go together.
