@@ -23,7 +23,7 @@ function fillHead(host, data, table) {
   if (data.builds.length > 1) host.append(make('p', 'bad-text', `Flights of ${data.builds.length} builds: ${data.builds.join(', ')}`));
   host.append(make('h1', '', data.name));
   const swept = data.swept.length ? `, over ${data.swept.join(', ')}` : '';
-  host.append(make('p', 'soft', `${data.is_sweep ? 'sweep' : 'batch'} of ${data.scenarios.join(', ')}${swept}; ${table.count} flights; Hedgehop ${data.version}, build ${data.builds.length === 1 ? data.builds[0] : data.build}`));
+  host.append(make('p', 'soft', `${data.search ? 'search' : data.is_sweep ? 'sweep' : 'batch'} of ${data.scenarios.join(', ')}${swept}; ${table.count} flights; Hedgehop ${data.version}, build ${data.builds.length === 1 ? data.builds[0] : data.build}`));
   if (data.truth_used) host.append(make('p', 'bad-text', data.truth_used));
   const tiles = host.appendChild(make('div', 'tiles')), all = data.groups[0];
   const tile = (name, value, more) => {
@@ -154,6 +154,7 @@ function main() {
   const paths = new PathsView(host('paths'), host('scene'), data.paths, table, on);
   const success = new SuccessMap(host('success'), data, table, on), scatter = new Scatter(host('scatter'), data, table, on);
   const against = new AgainstView(host('against-card'), data, table, on);
+  const search = new SearchView(host('search-card'), data, table, on);
   fillColumns(host('columns').querySelector('div'), table, flights);
   fillChosen(host('selected'), data, table, null);
 
@@ -170,7 +171,7 @@ function main() {
   update();
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
     paths.map?.draw();
-    for (const view of [success, scatter, against]) view.axes?.draw();
+    for (const view of [success, scatter, against, search]) view.axes?.draw();
     scatter.drawKey();
   });
 }
