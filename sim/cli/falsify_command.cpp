@@ -14,6 +14,7 @@ namespace hedgehop::sim::cli {
 namespace {
 
 constexpr int kFound = 1, kNotConfirmed = 3;
+constexpr size_t kConfirmingFlights = 2;  // of each failure: as it was found, and as it is kept
 constexpr int kSignalled = 128;  // what a shell reports of a process that a signal ended, less the signal's number
 
 /// A folder holds one search: flights of another would be taken for this one's.
@@ -52,7 +53,7 @@ class FalsifyRun {
     write_file_whole(out_ / "falsify.json", falsify_json(search_, result, {}));
     std::vector<Counterexample> found;
     while (!result.stopped && found.size() < result.failures.size()) {
-      progress_.emplace(kMostCounterexampleFlights);
+      progress_.emplace(static_cast<size_t>(search_.config.design.shrinking) + kConfirmingFlights);
       auto next = keep_counterexample(search_, file_, result, found.size() + 1, out_,
                                       {.plain = [&](const Order& order) { return fly_one(order, false); },
                                        .with_report = [&](const Order& order) { return fly_one(order, true); }});

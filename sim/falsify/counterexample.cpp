@@ -77,11 +77,12 @@ std::optional<Counterexample> keep_counterexample(const FalsifySearch& search, c
   if (!repeated) return {};
   found.repeats = same_failure(record, *repeated, check);
 
-  found.shrunk = shrink(search, trial, record, out / "shrink" / name, kMostShrinkingFlights, [&](const Order& order) {
-    Order inside = order;
-    inside.id = "shrink/" + order.id;
-    return fly.plain(inside);
-  });
+  found.shrunk = shrink(search, trial, record, out / "shrink" / name,
+                        static_cast<size_t>(search.config.design.shrinking), [&](const Order& order) {
+                          Order inside = order;
+                          inside.id = "shrink/" + order.id;
+                          return fly.plain(inside);
+                        });
   if (found.shrunk.stopped) return {};
   found.weakest = weakest_check(found.shrunk.record, {check});
 

@@ -10,9 +10,6 @@
 
 namespace hedgehop::sim {
 
-/// Flights that one failure takes at most: to shrink it, and to fly it again before and after.
-inline constexpr size_t kMostShrinkingFlights = 60, kMostCounterexampleFlights = kMostShrinkingFlights + 2;
-
 /// A failure of a search, flown again, shrunk and kept.
 struct Counterexample {
   size_t trial = 0;      ///< of the search

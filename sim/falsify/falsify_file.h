@@ -59,6 +59,7 @@ struct FalsifyDesign {
   int64_t budget = 0;
   uint64_t seed = 1;
   int64_t failures = 1;
+  int64_t shrinking = 60;
 };
 template <class Visitor>
 void describe(Visitor& v, FalsifyDesign& c) {
@@ -71,6 +72,8 @@ void describe(Visitor& v, FalsifyDesign& c) {
   v("seed", c.seed, {.meaning = "of the search; equal ones search alike"});
   v("failures", c.failures,
     {.at_least = 1, .at_most = 100, .meaning = "distinct failures to find; the search stops with the last of them"});
+  v("shrinking", c.shrinking,
+    {.at_least = 0, .at_most = 10'000, .meaning = "most further flights to shrink a failure"});
 }
 
 /// A search for flights that fail: one scenario, unknowns with bounds, a budget.

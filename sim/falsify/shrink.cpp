@@ -107,7 +107,8 @@ class Shrinker {
     for (int decimals = 0; decimals <= 3; ++decimals) {
       Candidate rounded = best_;
       for (std::string& value : rounded.values) {
-        value = fmt::format("{:.{}f}", parse_number(value, false).member, decimals);
+        const double power = std::pow(10.0, decimals);
+        value = fmt::format("{}", std::round(parse_number(value, false).member * power) / power + 0.0);  // no -0
       }
       if (still_fails(rounded)) return;
     }

@@ -24,9 +24,9 @@ TEST_F(Branch, FliesOnWithOtherSettingsFromTheMomentOn) {
   const CommandEnd end = folder.hedgehop("branch run --at 1.5 --set avoidance.speed=0.3 --out out");
   ASSERT_LT(end.status, 2) << end.err;
   EXPECT_THAT(end.out, HasSubstr("equal up to 1.5 s, bit for bit"));
-  EXPECT_NE(hash("at-1.5-avoidance.speed_0.3"), hash("unbroken"));
+  EXPECT_NE(hash("at-1.5-avoidance.speed=0.3"), hash("unbroken"));
   const CsvTable base(folder.path() / "out/flights/unbroken/trajectory.csv");
-  const CsvTable branch(folder.path() / "out/flights/at-1.5-avoidance.speed_0.3/trajectory.csv");
+  const CsvTable branch(folder.path() / "out/flights/at-1.5-avoidance.speed=0.3/trajectory.csv");
   const auto a = base.numbers("north_m"), b = branch.numbers("north_m");
   EXPECT_EQ(a.at(150), b.at(150));
   EXPECT_GT(a.back(), b.back());

@@ -54,7 +54,7 @@ TEST_F(Falsify, FindsConfirmsShrinksAndKeepsFailures) {
     EXPECT_EQ(folder.hedgehop("run " + file + " --out kept").status, 1);
     const auto kept = folder.json("kept/result.json");
     EXPECT_EQ(kept["trajectory_hash"], one["trajectory_hash"]);
-    EXPECT_THAT(folder.read(file), HasSubstr("trajectory_hash: " + one["trajectory_hash"].get<std::string>()));
+    EXPECT_THAT(folder.read(file), HasSubstr("trajectory_hash: \"" + one["trajectory_hash"].get<std::string>() + "\""));
     EXPECT_THAT(folder.read(file), HasSubstr("  speed: 0\n"));  // wind is not needed
   }
 }

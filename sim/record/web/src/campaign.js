@@ -32,7 +32,8 @@ function fillHead(host, data, table) {
   };
   const percent = (share) => fixed(100 * share, 1) + ' %';
   const unchecked = all.no_checks ? `; no checks: ${all.no_checks}` : '';
-  tile('all checks hold', all.ended ? percent(all.passed / all.ended) : all.no_checks ? 'no checks' : '–',
+  if (data.search) tile('all checks hold', `${all.passed} of ${all.ended}`, 'flights of a search, which looks for failures: no rate follows');
+  else tile('all checks hold', all.ended ? percent(all.passed / all.ended) : all.no_checks ? 'no checks' : '–',
     `${all.passed} of ${all.ended}; 95 % within ${percent(all.low)} to ${percent(all.high)}${unchecked}`);
   tile('collided', String(all.collided), `of ${all.ended} flights that ended`);
   tile('reached, out of time', `${all.reached}, ${all.timeout}`, all.broken || all.missing ? `${all.broken} broken, ${all.missing} not flown` : 'none broken, none missing');
@@ -134,7 +135,8 @@ function main() {
   const host = (id) => document.getElementById(id);
   fillHead(host('head'), data, table);
   fillGroups(host('groups'), data.groups);
-  if (data.is_sweep) host('groups-card').querySelector('h2').textContent = 'Success by point';
+  if (data.search) host('groups-card').remove();
+  else if (data.is_sweep) host('groups-card').querySelector('h2').textContent = 'Success by point';
 
   const on = {
     choose: (row) => {
