@@ -11,6 +11,7 @@
 #include "sim/campaign/fly_orders.h"
 #include "sim/campaign/table.h"
 #include "sim/cli/commands.h"
+#include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
 #include "sim/falsify/shrink.h"
 #include "sim/flight/build.h"
@@ -25,8 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFails = 1;
-constexpr int kSignalled = 128;  // what a shell reports of a process that a signal ended, less the signal's number
 constexpr const char* kUnbroken = "unbroken";
 
 /// What may change during a flight is what has no effect before: the rest must be as it was.

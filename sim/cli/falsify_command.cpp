@@ -6,6 +6,7 @@
 #include "sim/campaign/batch_record.h"
 #include "sim/campaign/campaign_report.h"
 #include "sim/cli/commands.h"
+#include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
 #include "sim/falsify/counterexample.h"
 #include "sim/record/whole_file.h"
@@ -13,9 +14,7 @@
 namespace hedgehop::sim::cli {
 namespace {
 
-constexpr int kFound = 1, kNotConfirmed = 3;
 constexpr size_t kConfirmingFlights = 2;  // of each failure: as it was found, and as it is kept
-constexpr int kSignalled = 128;  // what a shell reports of a process that a signal ended, less the signal's number
 
 /// A folder holds one search: flights of another would be taken for this one's.
 void require_same_search(const FalsifySearch& search, const std::filesystem::path& out) {
@@ -105,8 +104,8 @@ class FalsifyRun {
     }
     if (!found.empty()) fmt::print("confirmed: {} of {}, flown again alone\n", confirmed, found.size());
     fmt::print("written: {}\n", (out_ / "report.html").string());
-    if (confirmed < found.size()) return kNotConfirmed;
-    return found.empty() ? 0 : kFound;
+    if (confirmed < found.size()) return kInternalError;
+    return found.empty() ? 0 : kFails;
   }
 
   const FalsifySearch& search_;

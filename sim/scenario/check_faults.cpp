@@ -14,7 +14,7 @@ namespace hedgehop::sim {
 namespace {
 
 /// As results have it.
-std::string name_of(const CheckConfig& config) {
+std::string check_name(const CheckConfig& config) {
   return std::visit(
       []<class Check>(const Check& check) -> std::string {
         if constexpr (std::same_as<Check, FormulaCheck> || std::same_as<Check, MetricCheck>) {
@@ -74,7 +74,7 @@ class Inspector {
   }
   void check(const std::string& path, const FormulaCheck& check) {
     if (check.name.empty()) add(path + ".name", "must not be empty");
-    if (check.name == NoCollisionCheck::kName || std::ranges::count(scenario_.checks, check.name, name_of) > 1) {
+    if (check.name == NoCollisionCheck::kName || std::ranges::count(scenario_.checks, check.name, check_name) > 1) {
       add(path + ".name", fmt::format("'{}' is another check's name", check.name));
     }
     unless_valid(path + ".formula", [&] {
@@ -111,7 +111,7 @@ class Inspector {
 
 std::vector<std::string> check_names(const Scenario& scenario) {
   std::vector<std::string> names;
-  for (const CheckConfig& check : scenario.checks) names.push_back(name_of(check));
+  for (const CheckConfig& check : scenario.checks) names.push_back(check_name(check));
   const bool implied = std::ranges::find(names, NoCollisionCheck::kName) == names.end() && !scenario.may_collide;
   if (implied) names.emplace_back(NoCollisionCheck::kName);
   return names;

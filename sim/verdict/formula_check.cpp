@@ -8,10 +8,11 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr double kFarthestM = 50.0;  // farther solids count as absent; finite, so that sums of signals are
 
-double wrapped_deg(double angle_rad) { return kDegPerRad * std::remainder(angle_rad, 2.0 * std::numbers::pi); }
+double degrees(double angle_rad) { return 180.0 / std::numbers::pi * angle_rad; }
+
+double wrapped_deg(double angle_rad) { return degrees(std::remainder(angle_rad, 2.0 * std::numbers::pi)); }
 
 double tilt_rad(const Eigen::Vector3d& rpy) {
   return std::acos(std::clamp(std::cos(rpy.x()) * std::cos(rpy.y()), -1.0, 1.0));
@@ -24,10 +25,10 @@ void add_motion(const TrajectoryRow& row, const Scenario& scenario, SampledSigna
   add("altitude", -row.p_WB_true.z());
   add("speed", row.v_WB_W_true.norm());
   add("climb", -row.v_WB_W_true.z());
-  add("roll", kDegPerRad * row.rpy_true.x());
-  add("pitch", kDegPerRad * row.rpy_true.y());
+  add("roll", degrees(row.rpy_true.x()));
+  add("pitch", degrees(row.rpy_true.y()));
   add("heading", wrapped_deg(row.rpy_true.z()));
-  add("tilt", kDegPerRad * tilt_rad(row.rpy_true));
+  add("tilt", degrees(tilt_rad(row.rpy_true)));
   add("wind", row.wind_W.norm());
   const Eigen::Vector2d v_NE = row.v_WB_W_true.head<2>();
   add("tracking_error", row.v_WB_W_cmd ? (*row.v_WB_W_cmd - v_NE).norm() : 0.0);

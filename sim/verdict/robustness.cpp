@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <limits>
 #include <optional>
+
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::sim {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double evaluate(const Expression& e, const SampledSignals& signals, size_t sample) {
   const auto part = [&](size_t i) { return evaluate(e.of[i], signals, sample); };
