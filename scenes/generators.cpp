@@ -1,5 +1,6 @@
 #include "scenes/generators.h"
 
+#include "scenes/boxes.h"
 #include "scenes/mesh/mesh_import.h"
 #include "scenes/movers.h"
 #include "scenes/random.h"
@@ -7,7 +8,7 @@
 namespace hedgehop::scenes {
 namespace {
 
-constexpr uint64_t kMoverStream = 1000;  // of the scene's seed; the generators count theirs from 0
+constexpr uint64_t kMoverStream = 1000, kBoxStream = 1001;  // of the scene's seed; the generators count from 0
 
 Scene generate(const worlds::UrbanConfig& config, uint64_t seed) { return worlds::make_urban(config, seed); }
 Scene generate(const worlds::RoomConfig& config, uint64_t seed) { return worlds::make_room(config, seed); }
@@ -24,6 +25,7 @@ Scene generate(const worlds::ParkConfig& config, uint64_t seed) { return worlds:
 Scene make_scene(const SceneConfig& config, uint64_t seed) {
   const auto make = [seed](const auto& chosen) {
     Scene scene = generate(chosen, seed);
+    add_boxes(chosen.added.boxes, derived_seed(seed, kBoxStream), scene);
     add_movers(chosen.added.movers, derived_seed(seed, kMoverStream), scene);
     mesh::add_imports(chosen.added.imports, scene);
     return scene;

@@ -113,6 +113,9 @@ std::string failure_words(const FlightRecord& record) {
     };
     words += fmt::format("; {} {}, must be {} {} {}", check.at("name").get<std::string>(), figure("value"),
                          check.value("must", "<="), figure("limit"), check.at("unit").get<std::string>());
+    if (check.contains("t_s") && check["t_s"].is_number()) {
+      words += fmt::format(" (at {:.2f} s)", check["t_s"].get<double>());
+    }
   }
   return words;
 }

@@ -35,6 +35,19 @@ std::vector<std::optional<FlownPath>> read_paths(const std::filesystem::path& fo
   return paths;
 }
 
+/// What a search for failures left, with the paths of those it keeps; null for any other campaign.
+Json search_data(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder / "falsify.csv")) return nullptr;
+  Json search = Json::parse(read_file_whole(folder / "falsify.json"));
+  std::vector<std::optional<FlownPath>> paths;
+  for (const Json& one : search.at("counterexamples")) {
+    paths.push_back(
+        read_path(folder / one.at("folder").get<std::string>(), one.at("seed").get<uint64_t>(), kMostPointsOfOne));
+  }
+  search["paths"] = paths_data(flight_maps(paths), paths);
+  return search;
+}
+
 }  // namespace
 
 void write_campaign_report(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& against) {
@@ -62,6 +75,7 @@ void write_campaign_report(const std::filesystem::path& folder, const std::optio
   data["strips"] = strips_data(folder, flights.records);
   const auto paths = read_paths(folder, flights.records);
   data["paths"] = paths_data(flight_maps(paths), paths);
+  data["search"] = search_data(folder);
   data["against"] = nullptr;
   if (against) {
     data["against"] = against_data(flights, read_flights(*against));

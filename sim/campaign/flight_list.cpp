@@ -14,11 +14,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kTables[] = {"falsify.csv", "sweep.csv", "batch.csv"};
+
 std::filesystem::path table_of(const std::filesystem::path& folder) {
-  for (const char* name : {"sweep.csv", "batch.csv"}) {
+  for (const char* name : kTables) {
     if (std::filesystem::exists(folder / name)) return folder / name;
   }
-  throw InputError(fmt::format("{}: neither a batch's folder (batch.csv) nor a sweep's (sweep.csv)", folder.string()));
+  throw InputError(fmt::format("{}: no folder of a batch (batch.csv), a sweep (sweep.csv) or a search (falsify.csv)",
+                               folder.string()));
 }
 
 FlightRecord::Status status_of(const std::string& word) {
@@ -62,12 +65,12 @@ std::vector<FlightRecord> records_of(const CsvTable& table) {
 }  // namespace
 
 bool is_campaign(const std::filesystem::path& folder) {
-  return std::filesystem::exists(folder / "sweep.csv") || std::filesystem::exists(folder / "batch.csv");
+  return std::ranges::any_of(kTables, [&](const char* name) { return std::filesystem::exists(folder / name); });
 }
 
 FlightList read_flights(const std::filesystem::path& folder) {
   const std::filesystem::path file = table_of(folder);
-  FlightList list{.is_sweep = file.filename() == "sweep.csv", .table = CsvTable(file), .records = {}};
+  FlightList list{.is_sweep = file.filename() != "batch.csv", .table = CsvTable(file), .records = {}};
   list.records = records_of(list.table);
   return list;
 }

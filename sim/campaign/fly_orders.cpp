@@ -15,7 +15,8 @@ std::vector<std::string> worker_command(const Order& order, const FlyOptions& op
   std::vector<std::string> command{options.program.string()};
   for (std::string& argument : run_arguments(order)) command.push_back(std::move(argument));
   const std::string folder = (options.out / order.id).string(), campaign = std::to_string(::getpid());
-  command.insert(command.end(), {"--out", folder, "--no-video", "--no-report", "--worker-of", campaign});
+  command.insert(command.end(), {"--out", folder, "--worker-of", campaign});
+  if (!options.reports) command.insert(command.end(), {"--no-video", "--no-report"});
   return command;
 }
 

@@ -17,6 +17,7 @@ struct FlyOptions {
   bool other_builds = false;      ///< results of other builds stand, too
   size_t workers = 1;             ///< >= 1
   double limit_s = 0.0;           ///< longest wall time of a flight, 0 for none
+  bool reports = false;           ///< flights leave films and reports
 };
 
 /// Called when a flight ends, or at once for one that is not flown. @param reused  its former result is reused.

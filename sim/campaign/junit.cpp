@@ -124,7 +124,10 @@ Suite flight_suite(const FlightRecord& record, bool binding) {
   if (!flown) return suite;
   for (const auto& check : record.result.at("checks")) {
     const std::string unit = check.at("unit").get<std::string>();
-    const std::string measured = fmt::format("{} {}, must be {} {} {}", number_words(check.at("value")), unit,
+    const std::string moment = check.contains("t_s") && check["t_s"].is_number()
+                                   ? fmt::format(" at {:.2f} s", check["t_s"].get<double>())
+                                   : "";
+    const std::string measured = fmt::format("{} {}{}, must be {} {} {}", number_words(check.at("value")), unit, moment,
                                              check.value("must", "<="), number_words(check.at("limit")), unit);
     Case one{.name = check.at("name").get<std::string>(), .facts = measured + "\n" + again};
     if (!check.at("passed").get<bool>()) {

@@ -36,6 +36,12 @@ void SweepOrders::add(const SweepConfig& sweep, size_t point, const std::vector<
   }
 }
 
+void SweepOrders::append(const SweepOrders& more) {
+  orders.insert(orders.end(), more.orders.begin(), more.orders.end());
+  values.insert(values.end(), more.values.begin(), more.values.end());
+  points.insert(points.end(), more.points.begin(), more.points.end());
+}
+
 SweepOrders sweep_orders(const SweepConfig& sweep) {
   SweepOrders all;
   std::vector<std::string> faults;
@@ -61,9 +67,11 @@ SweepOrders part_of(const SweepOrders& all, Shard shard) {
   return part;
 }
 
-Table sweep_table(const SweepConfig& sweep, const SweepOrders& orders, const std::vector<FlightRecord>& records) {
-  std::vector<ExtraColumn> extra{{.name = "point", .cells = {}}};
-  for (const size_t point : orders.points) extra[0].cells.emplace_back(static_cast<int64_t>(point));
+Table sweep_table(const SweepConfig& sweep, const SweepOrders& orders, const std::vector<FlightRecord>& records,
+                  const std::vector<ExtraColumn>& before) {
+  std::vector<ExtraColumn> extra = before;
+  ExtraColumn& number = extra.emplace_back(ExtraColumn{.name = "point", .cells = {}});
+  for (const size_t point : orders.points) number.cells.emplace_back(static_cast<int64_t>(point));
   for (size_t i = 0; i < sweep.parameters.size(); ++i) {
     ExtraColumn& column = extra.emplace_back(ExtraColumn{.name = sweep.parameters[i].path, .cells = {}});
     for (const auto& values : orders.values) column.cells.push_back(value_cell(values.at(i)));

@@ -24,6 +24,7 @@ struct SweepOrders {
   std::vector<size_t> points;                    ///< number of the point, one an order
 
   void add(const SweepConfig& sweep, size_t point, const std::vector<std::string>& point_values);
+  void append(const SweepOrders& more);
 };
 
 /// Throws InputError with the faults of every point that the scenario refuses. Not for OptimizeDesign.
@@ -33,6 +34,8 @@ SweepOrders sweep_orders(const SweepConfig& sweep);
 SweepOrders part_of(const SweepOrders& all, Shard shard);
 
 /// The flights' table with the point's number and the parameters' values as columns of their own.
-Table sweep_table(const SweepConfig& sweep, const SweepOrders& orders, const std::vector<FlightRecord>& records);
+/// @param before  further columns that stand before them.
+Table sweep_table(const SweepConfig& sweep, const SweepOrders& orders, const std::vector<FlightRecord>& records,
+                  const std::vector<ExtraColumn>& before = {});
 
 }  // namespace hedgehop::sim

@@ -52,25 +52,6 @@ std::vector<std::vector<std::string>> grid(const std::vector<SweepParameter>& pa
   return points;
 }
 
-/// Tries each parameter's extreme or listed values alone, so that all bad paths are reported at once.
-void try_parameters(const SweepConfig& sweep, std::vector<std::string>& faults) {
-  for (const SweepParameter& p : sweep.parameters) {
-    std::vector<std::string> values = p.values;
-    if (values.empty()) values = {parameter_value(p, 0.0), parameter_value(p, 1.0)};
-    for (const std::string& value : values) {
-      std::vector<std::string> overrides = sweep.set;
-      overrides.push_back(p.path + "=" + value);
-      try {
-        load_scenario(sweep.scenario, overrides);
-      } catch (const InputError& error) {
-        for (const std::string& fault : error.faults()) {
-          if (std::ranges::find(faults, fault) == faults.end()) faults.push_back(fault);
-        }
-      }
-    }
-  }
-}
-
 }  // namespace
 
 SweepConfig read_sweep(const std::filesystem::path& file) {
@@ -103,10 +84,28 @@ SweepConfig read_sweep(const std::filesystem::path& file) {
   }
   faults.raise();
   sweep.scenario = (file.parent_path() / sweep.scenario).lexically_normal().string();
-  std::vector<std::string> refused;
-  try_parameters(sweep, refused);
-  if (!refused.empty()) throw InputError(refused);
+  if (const std::vector<std::string> refused = refused_parameters(sweep); !refused.empty()) throw InputError(refused);
   return sweep;
+}
+
+std::vector<std::string> refused_parameters(const SweepConfig& sweep) {
+  std::vector<std::string> faults;
+  for (const SweepParameter& p : sweep.parameters) {
+    std::vector<std::string> values = p.values;
+    if (values.empty()) values = {parameter_value(p, 0.0), parameter_value(p, 1.0)};
+    for (const std::string& value : values) {
+      std::vector<std::string> overrides = sweep.set;
+      overrides.push_back(p.path + "=" + value);
+      try {
+        load_scenario(sweep.scenario, overrides);
+      } catch (const InputError& error) {
+        for (const std::string& fault : error.faults()) {
+          if (std::ranges::find(faults, fault) == faults.end()) faults.push_back(fault);
+        }
+      }
+    }
+  }
+  return faults;
 }
 
 std::string parameter_value(const SweepParameter& p, double coordinate) {

@@ -123,6 +123,9 @@ void describe(Visitor& v, SweepConfig& c) {
 /// (unknown paths with the nearest key, wrong types, values out of bounds).
 SweepConfig read_sweep(const std::filesystem::path& file);
 
+/// What the scenario refuses of each parameter's extreme or listed values, tried alone: one line each.
+std::vector<std::string> refused_parameters(const SweepConfig& sweep);
+
 /// The value of a parameter at a coordinate in [0, 1], as YAML.
 std::string parameter_value(const SweepParameter& parameter, double coordinate);
 

@@ -95,6 +95,44 @@ void declare_sweep(CLI::App& app, std::function<int()>& chosen) {
   command->callback([&chosen, options] { chosen = [options] { return sweep(*options); }; });
 }
 
+void declare_falsify(CLI::App& app, std::function<int()>& chosen) {
+  CLI::App* const command = app.add_subcommand(
+      "falsify",
+      "search for flights that fail, and keep each as the least scenario that still does; resumes where it "
+      "stopped. Exit status: 0 none was found; 1 some were; 3 one did not repeat");
+  const auto options = std::make_shared<FalsifyOptions>();
+  options->jobs = cores();
+  command->add_option("FILE", options->file, "search file (YAML, see docs/falsify.md)")->required();
+  command
+      ->add_option("--set", options->overrides, "override a value of the search file, e.g. --set design.method=random")
+      ->type_name("KEY.PATH=VALUE")
+      ->take_all();
+  add_flying(*command, *options);
+  command->add_option("--out", options->out, "folder of the results")->type_name("DIR");
+  command->add_option("--program", options->program)->group("");  // hidden: for tests
+  command->callback([&chosen, options] { chosen = [options] { return falsify(*options); }; });
+}
+
+void declare_branch(CLI::App& app, std::function<int()>& chosen) {
+  CLI::App* const command =
+      app.add_subcommand("branch", "fly on from a moment with other settings, beside the flight that keeps them");
+  const auto options = std::make_shared<BranchOptions>();
+  command->add_option("RUN", options->source, "folder of a run, or a scenario")->required();
+  command->add_option("--at", options->at_s, "when the settings change, from the flight's start")
+      ->transform(number())
+      ->check(CLI::NonNegativeNumber)
+      ->required()
+      ->type_name("S");
+  command
+      ->add_option("--set", options->overrides,
+                   "a setting from then on: of avoidance, failures that begin later, duration, checks")
+      ->type_name("KEY.PATH=VALUE")
+      ->take_all();
+  command->add_option("--out", options->out, "folder of the flights; branches of one run stand beside each other in it")
+      ->type_name("DIR");
+  command->callback([&chosen, options] { chosen = [options] { return branch(*options); }; });
+}
+
 void declare_reproduce(CLI::App& app, std::function<int()>& chosen) {
   CLI::App* const command = app.add_subcommand(
       "reproduce", "fly papers' experiments and print their figures beside ours; resumes where it stopped");
@@ -125,6 +163,8 @@ void declare_bless(CLI::App& app, std::function<int()>& chosen) {
 void declare_campaigns(CLI::App& app, std::function<int()>& chosen) {
   declare_batch(app, chosen);
   declare_sweep(app, chosen);
+  declare_falsify(app, chosen);
+  declare_branch(app, chosen);
   declare_reproduce(app, chosen);
   declare_bless(app, chosen);
 }

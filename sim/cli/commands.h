@@ -114,6 +114,28 @@ struct SweepOptions {
 /// Flies a sweep, or what is left of it: results of the very same scenario and build are reused.
 int sweep(const SweepOptions& options);
 
+struct FalsifyOptions {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;  ///< "a.b=value", of the search file
+  size_t jobs = 1;                     ///< flights at a time, >= 1
+  double limit_s = 0.0;                ///< longest wall time of a flight, 0 for none
+  bool reuse_other_builds = false;     ///< results of other builds stand, too
+  std::filesystem::path out;           ///< empty: out/<the file's name>
+  std::filesystem::path program;       ///< of the workers, absolute; empty: this one
+};
+/// Searches for flights that fail, or goes on with a search; flies each failure again, shrinks it and keeps it as a
+/// scenario. @return 0 when none was found, 1 when some were, 3 when one did not repeat.
+int falsify(const FalsifyOptions& options);
+
+struct BranchOptions {
+  std::filesystem::path source;        ///< folder of a run, or a scenario
+  double at_s = 0.0;                   ///< when the settings change
+  std::vector<std::string> overrides;  ///< "a.b=value", from then on
+  std::filesystem::path out;           ///< empty: out/<the source's name>-branches
+};
+/// Flies a scenario with its settings, and once more with others from a moment on; writes both beside each other.
+int branch(const BranchOptions& options);
+
 struct ReproduceOptions {
   std::vector<std::string> papers;  ///< keys or files; empty: all there are
   bool quick = false;               ///< few seeds

@@ -66,7 +66,8 @@ void print_check(const CheckResult& check) {
   const std::string value = std::isnan(check.value) ? "not known" : fmt::format("{:.4g}{}", check.value, unit);
   const std::string limit =
       std::isnan(check.limit) ? "" : fmt::format(", must be {} {:.4g}{}", check.must, check.limit, unit);
-  fmt::print("  {}  {:<16} {}{}\n", check.passed ? "pass" : "FAIL", check.name, value, limit);
+  const std::string moment = check.t_s ? fmt::format("; at {:.2f} s", *check.t_s) : "";
+  fmt::print("  {}  {:<16} {}{}{}\n", check.passed ? "pass" : "FAIL", check.name, value, limit, moment);
 }
 
 void print_verdict(const Scenario& scenario, const FlightResult& result, const std::filesystem::path& out,

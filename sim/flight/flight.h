@@ -71,6 +71,7 @@ struct CheckResult {
   double limit = 0.0;  ///< NaN when the check has no number
   std::string unit;
   std::string_view must = "<=";  ///< how the value must stand to the limit: "<=", ">=" or ">"
+  std::optional<double> t_s;     ///< when the value was taken; none where it is of the whole flight
 };
 
 /// Where a figure of a flight comes from.

@@ -6,19 +6,34 @@
 #include "avoidance/sight.h"
 #include "sim/fields/quantities.h"
 #include "sim/loop/setpoints.h"
+#include "sim/loop/takeover.h"
 #include "sim/loop/truth_used.h"
 #include "sim/plugin/plugin_module.h"
 #include "sim/scenario/flight_parts.h"
 #include "sim/scenario/input_error.h"
 
 namespace hedgehop::sim {
+namespace {
+
+/// The module that decides, and the one that takes over from it where the scenario has one.
+std::unique_ptr<avoidance::Module> crew(const Scenario& scenario, const Ticks& ticks,
+                                        std::unique_ptr<avoidance::Module> module) {
+  if (!module) module = make_module(scenario.avoidance);
+  if (!scenario.takeover) return module;
+  return build_part("takeover.avoidance", [&] {
+    return make_takeover(std::move(module), make_module(scenario.takeover->avoidance),
+                         ticks.t_ns(ticks.ticks(scenario.takeover->at_s)));
+  });
+}
+
+}  // namespace
 
 ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& cameras,
                          std::unique_ptr<avoidance::Module> module)
     : scenario_(scenario),
       ticks_(ticks),
       cameras_(cameras),
-      module_(module ? std::move(module) : make_module(scenario.avoidance)),
+      module_(crew(scenario, ticks, std::move(module))),
       truth_used_(sim::truth_used(module_->needs(), scenario.avionics)),
       route_(scenario) {
   int64_t slowest = 0;

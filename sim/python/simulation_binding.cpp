@@ -93,7 +93,7 @@ class PySimulation {
     py::list checks;
     for (const sim::CheckResult& c : get().checks_so_far()) {
       checks.append(py::dict("name"_a = c.name, "passed"_a = c.passed, "value"_a = c.value, "limit"_a = c.limit,
-                             "unit"_a = c.unit, "must"_a = std::string(c.must)));
+                             "unit"_a = c.unit, "must"_a = std::string(c.must), "t_s"_a = c.t_s));
     }
     return checks;
   }

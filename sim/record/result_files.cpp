@@ -44,7 +44,8 @@ Json checks(const std::vector<CheckResult>& results) {
                         {"value", json_number(check.value)},
                         {"limit", json_number(check.limit)},
                         {"unit", check.unit},
-                        {"must", check.must}});
+                        {"must", check.must},
+                        {"t_s", number(check.t_s.value_or(NAN))}});
   }
   return list;
 }

@@ -163,6 +163,19 @@ void describe(Visitor& v, PathToleranceCheck& c) {
                 "warping"});
 }
 
+struct FormulaCheck {
+  static constexpr std::string_view kName = "formula";
+  static constexpr std::string_view kMeaning =
+      "a formula of temporal logic holds from the flight's start (docs/falsify.md); its value is the robustness";
+  std::string name;
+  std::string formula;
+};
+template <class Visitor>
+void describe(Visitor& v, FormulaCheck& c) {
+  v("name", c.name, {.required = true, .meaning = "of the check in results, unlike those of other checks"});
+  v("formula", c.formula, {.required = true, .meaning = "such as 'always[2,end] (clearance >= 0.5)'; times in s"});
+}
+
 struct NoTruthUsedCheck {
   static constexpr std::string_view kName = "no_truth_used";
   static constexpr std::string_view kMeaning = "the avoidance module gets nothing true: truth_used is empty";
@@ -183,6 +196,6 @@ void describe(Visitor& v, RealtimeFactorCheck& c) {
 
 using CheckConfig = std::variant<ReachedGoalCheck, NoCollisionCheck, MinClearanceCheck, AltitudeBandCheck,
                                  InsideBoxCheck, MaxSpeedCheck, MaxTiltCheck, MetricCheck, FloorVisitedCheck,
-                                 PathToleranceCheck, NoTruthUsedCheck, RealtimeFactorCheck>;
+                                 PathToleranceCheck, FormulaCheck, NoTruthUsedCheck, RealtimeFactorCheck>;
 
 }  // namespace hedgehop::sim

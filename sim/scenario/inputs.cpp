@@ -35,8 +35,12 @@ std::set<fs::path> named_files(const Scenario& scenario) {
   for (const CheckConfig& check : scenario.checks) {
     if (const auto* path = std::get_if<PathToleranceCheck>(&check)) files.insert(path->reference);
   }
-  if (const auto* plugin = std::get_if<PluginConfig>(&scenario.avoidance)) files.insert(plugin->plugin);
-  if (const auto* script = std::get_if<PythonConfig>(&scenario.avoidance)) files.insert(script->python);
+  const auto add_module = [&files](const AvoidanceConfig& config) {
+    if (const auto* plugin = std::get_if<PluginConfig>(&config)) files.insert(plugin->plugin);
+    if (const auto* script = std::get_if<PythonConfig>(&config)) files.insert(script->python);
+  };
+  add_module(scenario.avoidance);
+  if (scenario.takeover) add_module(scenario.takeover->avoidance);
   files.erase(fs::path());
   return files;
 }

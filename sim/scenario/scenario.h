@@ -88,6 +88,34 @@ void describe(Visitor& v, VelocimeterConfig& c) {
   v("camera", c.camera, {.meaning = "role of the camera, which looks down"});
 }
 
+/// Another module, or the same with other parameters, that takes over during the flight. It watches from the start: it
+/// gets every observation, and is not obeyed before.
+struct TakeoverConfig {
+  double at_s = 0.0;
+  AvoidanceConfig avoidance;
+};
+template <class Visitor>
+void describe(Visitor& v, TakeoverConfig& c) {
+  v("at", c.at_s,
+    {.unit = "s", .at_least = 0.0, .at_most = 86400.0, .required = true, .meaning = "its first decision"});
+  v("avoidance", c.avoidance,
+    {.required = true, .selector = "module", .meaning = "what takes over; it needs the same cameras"});
+}
+
+/// Where a scenario comes from that `hedgehop falsify` wrote.
+struct OriginConfig {
+  std::string search, check, trajectory_hash, version;
+  double robustness = 0.0;
+};
+template <class Visitor>
+void describe(Visitor& v, OriginConfig& c) {
+  v("search", c.search, {.required = true, .meaning = "file of the search that found it"});
+  v("check", c.check, {.required = true, .meaning = "check that failed"});
+  v("robustness", c.robustness, {.required = true, .meaning = "of that check, < 0"});
+  v("trajectory_hash", c.trajectory_hash, {.required = true, .meaning = "of the flight that failed"});
+  v("version", c.version, {.required = true, .meaning = "of Hedgehop, which found it"});
+}
+
 struct FilmConfig {
   bool enabled = true;
   double rate_hz = 10.0;
@@ -121,10 +149,12 @@ struct Scenario {
   DrawingConfig drawing;
   VelocimeterConfig velocimeter;
   AvoidanceConfig avoidance;
+  std::optional<TakeoverConfig> takeover;
   std::vector<FailureConfig> failures;
   std::vector<CheckConfig> checks;
   bool may_collide = false;  ///< else `no_collision` is checked, listed or not
   FilmConfig film;
+  std::optional<OriginConfig> origin;
 };
 template <class Visitor>
 void describe(Visitor& v, Scenario& c) {
@@ -152,11 +182,13 @@ void describe(Visitor& v, Scenario& c) {
   v("drawing", c.drawing, {.meaning = "how their images are made"});
   v("velocimeter", c.velocimeter, {.meaning = "horizontal velocity from the optic flow of one camera"});
   v("avoidance", c.avoidance, {.required = true, .selector = "module", .meaning = "who decides where to fly"});
+  v("takeover", c.takeover, {.meaning = "who decides from a moment on; `hedgehop branch` writes it"});
   v("failures", c.failures, {.meaning = "what fails in flight: sensors, cameras, motors or servos, the link"});
   v("checks", c.checks, {.selector = "check", .meaning = "what must hold of the flight, beside no_collision"});
   v("may_collide", c.may_collide,
     {.meaning = "whether a collision is no failure, so that no_collision is not checked"});
   v("film", c.film, {.meaning = "film of the flight"});
+  v("origin", c.origin, {.meaning = "where a counterexample comes from; changes nothing of the flight"});
 }
 
 /// Runs `make`, which builds a part of a flight from its config, and returns what it returns. A std::invalid_argument

@@ -9,7 +9,7 @@
 #include <utility>
 #include <variant>
 
-#include "sim/scenario/reference_path.h"
+#include "sim/scenario/check_faults.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -98,6 +98,12 @@ class Validator {
         needs_camera("avoidance", need.role, need.channel, need.pinhole);
       }
     });
+    if (const std::optional<TakeoverConfig>& takeover = scenario_.takeover) {
+      if (takeover->at_s >= scenario_.duration_s) {
+        add("takeover.at", fmt::format("is not before the flight's end ({} s)", scenario_.duration_s));
+      }
+      build("takeover.avoidance", [&] { build_module(takeover->avoidance); });
+    }
   }
 
   /// With the cameras that it would fly with: those of a pair may not go together.
@@ -127,10 +133,7 @@ class Validator {
   }
 
   void checks() {
-    for (size_t i = 0; i < scenario_.checks.size(); ++i) {
-      const std::string path = fmt::format("checks.{}", i);
-      std::visit([&](const auto& check) { this->check(path, check); }, scenario_.checks[i]);
-    }
+    for (const CheckFault& fault : check_faults(scenario_)) add(fault.path, fault.message);
   }
 
   /// The parts; none when one could not be built.
@@ -141,42 +144,6 @@ class Validator {
   }
 
  private:
-  void check(const std::string& path, const ReachedGoalCheck& check) {
-    if (!scenario_.goal) add(path, "the scenario has no goal to reach");
-    if (check.within_m && scenario_.goal && *check.within_m < scenario_.goal->radius_m) {
-      add(path + ".within",
-          fmt::format("is less than the goal's radius ({} m), where the flight ends", scenario_.goal->radius_m));
-    }
-    if (check.before_s && *check.before_s > scenario_.duration_s) {
-      add(path + ".before", fmt::format("is after the flight's end ({} s)", scenario_.duration_s));
-    }
-  }
-  void check(const std::string& path, const NoCollisionCheck&) {
-    if (scenario_.may_collide) add(path, "contradicts 'may_collide: true'");
-  }
-  void check(const std::string& path, const AltitudeBandCheck& check) {
-    ordered(path + ".max", "min", check.min_m, check.max_m);
-  }
-  void check(const std::string& path, const InsideBoxCheck& check) {
-    ordered(path + ".north_max", "north_min", check.north_min_m, check.north_max_m);
-    ordered(path + ".east_max", "east_min", check.east_min_m, check.east_max_m);
-  }
-  void check(const std::string& path, const MetricCheck& check) {
-    if (!check.name.starts_with("module.") && std::ranges::find(kJudgesMetrics, check.name) == kJudgesMetrics.end()) {
-      add(path + ".name", fmt::format("is no figure of the judge{}; a module's own begins with 'module.'",
-                                      suggestion(check.name, {kJudgesMetrics.begin(), kJudgesMetrics.end()})));
-    }
-    if (!check.at_least && !check.at_most) add(path, "needs 'at_least' or 'at_most'");
-    if (check.at_least && check.at_most && *check.at_least > *check.at_most) {
-      add(path + ".at_most", "must not be less than 'at_least'");
-    }
-  }
-  void check(const std::string& path, const PathToleranceCheck& check) {
-    build(path + ".reference", [&] { read_reference_path(check.reference); });
-  }
-  template <class Check>
-  void check(const std::string&, const Check&) {}
-
   /// None may be silently without effect.
   void imperfections(const std::string& path, const CameraConfig& camera) {
     const ImperfectionsConfig c = camera.imperfections.value_or(ImperfectionsConfig{});
@@ -200,10 +167,6 @@ class Validator {
     } else if (c.disparity_noise_px != 0.0) {
       add(path + ".disparity_noise", "is for channel: depth alone");
     }
-  }
-
-  void ordered(const std::string& path, std::string_view lower, double min, double max) {
-    if (!(min < max)) add(path, fmt::format("must be greater than '{}' ({} m), got {}", lower, min, max));
   }
 
   void divides_physics(const std::string& path, double rate_hz) {

@@ -8,6 +8,7 @@
 
 #include "sim/fields/quantities.h"
 #include "sim/scenario/reference_path.h"
+#include "sim/verdict/formula_check.h"
 #include "sim/verdict/path_distance.h"
 
 namespace hedgehop::sim {
@@ -31,6 +32,14 @@ struct Evidence {
   }
 };
 
+const ClosestApproach& closer(const ClosestApproach& a, const ClosestApproach& b) {
+  return b.distance_m < a.distance_m ? b : a;
+}
+
+std::optional<double> moment(const ClosestApproach& approach) {
+  return std::isfinite(approach.distance_m) ? std::optional(approach.t_s) : std::nullopt;
+}
+
 CheckResult evaluate(const ReachedGoalCheck& check, const Evidence& e) {
   const FlightResult& result = e.flight.result;
   const std::string name{ReachedGoalCheck::kName};
@@ -49,16 +58,29 @@ CheckResult evaluate(const ReachedGoalCheck& check, const Evidence& e) {
 
 CheckResult evaluate(const NoCollisionCheck&, const Evidence& e) {
   const FlightResult& result = e.flight.result;
-  const double nearest_m = std::min(result.closest_obstacle.distance_m, result.closest_ground.distance_m);
-  return {std::string{NoCollisionCheck::kName}, result.outcome != Outcome::collided, nearest_m, 0.0, "m", ">"};
+  const ClosestApproach& nearest = closer(result.closest_obstacle, result.closest_ground);
+  return {std::string{NoCollisionCheck::kName},
+          result.outcome != Outcome::collided,
+          nearest.distance_m,
+          0.0,
+          "m",
+          ">",
+          moment(nearest)};
 }
 
 CheckResult evaluate(const MinClearanceCheck& check, const Evidence& e) {
   using To = MinClearanceCheck::To;
-  double value_m = kInfinity;
-  if (check.to != To::ground) value_m = std::min(value_m, e.flight.result.closest_obstacle.distance_m);
-  if (check.to != To::obstacles) value_m = std::min(value_m, e.flight.result.closest_ground.distance_m);
-  return {std::string{MinClearanceCheck::kName}, value_m >= check.at_least_m, value_m, check.at_least_m, "m", ">="};
+  const ClosestApproach &obstacle = e.flight.result.closest_obstacle, &ground = e.flight.result.closest_ground;
+  const ClosestApproach& nearest = check.to == To::obstacles ? obstacle
+                                   : check.to == To::ground  ? ground
+                                                             : closer(obstacle, ground);
+  return {std::string{MinClearanceCheck::kName},
+          nearest.distance_m >= check.at_least_m,
+          nearest.distance_m,
+          check.at_least_m,
+          "m",
+          ">=",
+          moment(nearest)};
 }
 
 CheckResult evaluate(const AltitudeBandCheck& check, const Evidence& e) {
@@ -144,6 +166,10 @@ CheckResult evaluate(const PathToleranceCheck& check, const Evidence& e) {
     if (ends_apart_m > check.at_most_m) value_m = std::max(value_m, ends_apart_m);
   }
   return {name, value_m <= check.at_most_m, value_m, check.at_most_m, "m"};
+}
+
+CheckResult evaluate(const FormulaCheck& check, const Evidence& e) {
+  return evaluate_formula(check, e.scenario, e.flight);
 }
 
 CheckResult evaluate(const NoTruthUsedCheck&, const Evidence& e) {

@@ -23,7 +23,7 @@ function fillHead(host, data, table) {
   if (data.builds.length > 1) host.append(make('p', 'bad-text', `Flights of ${data.builds.length} builds: ${data.builds.join(', ')}`));
   host.append(make('h1', '', data.name));
   const swept = data.swept.length ? `, over ${data.swept.join(', ')}` : '';
-  host.append(make('p', 'soft', `${data.is_sweep ? 'sweep' : 'batch'} of ${data.scenarios.join(', ')}${swept}; ${table.count} flights; Hedgehop ${data.version}, build ${data.builds.length === 1 ? data.builds[0] : data.build}`));
+  host.append(make('p', 'soft', `${data.search ? 'search' : data.is_sweep ? 'sweep' : 'batch'} of ${data.scenarios.join(', ')}${swept}; ${table.count} flights; Hedgehop ${data.version}, build ${data.builds.length === 1 ? data.builds[0] : data.build}`));
   if (data.truth_used) host.append(make('p', 'bad-text', data.truth_used));
   const tiles = host.appendChild(make('div', 'tiles')), all = data.groups[0];
   const tile = (name, value, more) => {
@@ -32,7 +32,8 @@ function fillHead(host, data, table) {
   };
   const percent = (share) => fixed(100 * share, 1) + ' %';
   const unchecked = all.no_checks ? `; no checks: ${all.no_checks}` : '';
-  tile('all checks hold', all.ended ? percent(all.passed / all.ended) : all.no_checks ? 'no checks' : '–',
+  if (data.search) tile('all checks hold', `${all.passed} of ${all.ended}`, 'flights of a search, which looks for failures: no rate follows');
+  else tile('all checks hold', all.ended ? percent(all.passed / all.ended) : all.no_checks ? 'no checks' : '–',
     `${all.passed} of ${all.ended}; 95 % within ${percent(all.low)} to ${percent(all.high)}${unchecked}`);
   tile('collided', String(all.collided), `of ${all.ended} flights that ended`);
   tile('reached, out of time', `${all.reached}, ${all.timeout}`, all.broken || all.missing ? `${all.broken} broken, ${all.missing} not flown` : 'none broken, none missing');
@@ -134,7 +135,8 @@ function main() {
   const host = (id) => document.getElementById(id);
   fillHead(host('head'), data, table);
   fillGroups(host('groups'), data.groups);
-  if (data.is_sweep) host('groups-card').querySelector('h2').textContent = 'Success by point';
+  if (data.search) host('groups-card').remove();
+  else if (data.is_sweep) host('groups-card').querySelector('h2').textContent = 'Success by point';
 
   const on = {
     choose: (row) => {
@@ -154,6 +156,7 @@ function main() {
   const paths = new PathsView(host('paths'), host('scene'), data.paths, table, on);
   const success = new SuccessMap(host('success'), data, table, on), scatter = new Scatter(host('scatter'), data, table, on);
   const against = new AgainstView(host('against-card'), data, table, on);
+  const search = new SearchView(host('search-card'), data, table, on);
   fillColumns(host('columns').querySelector('div'), table, flights);
   fillChosen(host('selected'), data, table, null);
 
@@ -170,7 +173,7 @@ function main() {
   update();
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
     paths.map?.draw();
-    for (const view of [success, scatter, against]) view.axes?.draw();
+    for (const view of [success, scatter, against, search]) view.axes?.draw();
     scatter.drawKey();
   });
 }

@@ -68,11 +68,12 @@ function fillChecks(host, checks) {
   }
   host.classList.add('scroll');
   const table = host.appendChild(make('table'));
-  addRow(table, [['', ''], ['check', ''], ['value', 'number'], ['must be', 'number']], 'th');
-  for (const {name, passed, value, limit, unit, must} of checks) {
+  addRow(table, [['', ''], ['check', ''], ['value', 'number'], ['must be', 'number'], ['at', 'number']], 'th');
+  for (const {name, passed, value, limit, unit, must, t_s} of checks) {
     const measure = (v) => v === null ? '–' : short(v) + (unit ? ' ' + unit : '');
     addRow(table, [[passed ? '✓ holds' : '✕ fails', passed ? 'pass' : 'fail'], [name.replaceAll('_', ' '), ''],
-      [measure(value), 'number'], [limit === null ? '–' : `${RELATIONS[must] ?? must} ${measure(limit)}`, 'number']]);
+      [measure(value), 'number'], [limit === null ? '–' : `${RELATIONS[must] ?? must} ${measure(limit)}`, 'number'],
+      [t_s === null || t_s === undefined ? '' : `${t_s.toFixed(2)} s`, 'number']]);
   }
 }
 

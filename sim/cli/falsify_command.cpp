@@ -1,0 +1,130 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "sim/campaign/batch_record.h"
+#include "sim/campaign/campaign_report.h"
+#include "sim/cli/commands.h"
+#include "sim/cli/exit_status.h"
+#include "sim/cli/progress.h"
+#include "sim/falsify/counterexample.h"
+#include "sim/record/whole_file.h"
+
+namespace hedgehop::sim::cli {
+namespace {
+
+constexpr size_t kConfirmingFlights = 2;  // of each failure: as it was found, and as it is kept
+
+/// A folder holds one search: flights of another would be taken for this one's.
+void require_same_search(const FalsifySearch& search, const std::filesystem::path& out) {
+  const std::filesystem::path file = out / "falsify.json";
+  if (!std::filesystem::exists(file)) return;
+  const auto left = nlohmann::json::parse(read_file_whole(file), nullptr, /*allow_exceptions=*/false);
+  if (left.is_object() && left.value("search", "") == search.identity) return;
+  throw InputError(
+      fmt::format("{}: holds a search of another file, or of this one before it was changed; choose "
+                  "another --out",
+                  out.string()));
+}
+
+class FalsifyRun {
+ public:
+  FalsifyRun(const FalsifyOptions& options, const FalsifySearch& search, std::filesystem::path out)
+      : search_(search),
+        out_(std::move(out)),
+        progress_(std::in_place, static_cast<size_t>(search.config.design.budget)) {
+    fly_ = {.program = options.program.empty() ? own_program() : options.program,
+            .out = out_,
+            .other_builds = options.reuse_other_builds,
+            .workers = options.jobs,
+            .limit_s = options.limit_s};
+    file_ = options.file.string();
+  }
+
+  int run() {
+    std::filesystem::create_directories(out_);
+    write_file_whole(out_ / "falsify.json", falsify_json(search_, {}, {}));  // whose flights these are
+    const FalsifyResult result = falsify(search_, [&](const std::vector<Order>& orders) { return fly(orders, false); });
+    const Table table = falsify_table(search_, result);
+    write_file_whole(out_ / "falsify.csv", csv_text(table));
+    write_sqlite(out_ / "falsify.sqlite", table);
+    write_file_whole(out_ / "falsify.json", falsify_json(search_, result, {}));
+    std::vector<Counterexample> found;
+    while (!result.stopped && found.size() < result.failures.size()) {
+      progress_.emplace(static_cast<size_t>(search_.config.design.shrinking) + kConfirmingFlights);
+      auto next = keep_counterexample(search_, file_, result, found.size() + 1, out_,
+                                      {.plain = [&](const Order& order) { return fly_one(order, false); },
+                                       .with_report = [&](const Order& order) { return fly_one(order, true); }});
+      if (!next) break;
+      found.push_back(std::move(*next));
+      write_file_whole(out_ / "falsify.json", falsify_json(search_, result, found));
+    }
+    progress_->close();
+    if (interruption_.signal() != 0) return kSignalled + interruption_.signal();
+    write_campaign_report(out_, {});
+    return conclude(result, found);
+  }
+
+ private:
+  std::optional<std::vector<FlightRecord>> fly(const std::vector<Order>& orders, bool reports) {
+    FlyOptions options = fly_;
+    options.reports = reports;
+    auto records = fly_orders(orders, options, Reuse::all, interruption_, [&](const FlightRecord& record, bool reused) {
+      const bool ok = record.status == FlightRecord::Status::flown;
+      progress_->add(record.order.id, ok ? outcome_words(record) : failure_words(record), ok, reused);
+    });
+    if (interruption_.signal() != 0) return std::nullopt;
+    return records;
+  }
+  std::optional<FlightRecord> fly_one(const Order& order, bool reports) {
+    auto records = fly({order}, reports);
+    return records ? std::optional(std::move(records->front())) : std::nullopt;
+  }
+
+  /// Prints what was found and returns the exit status.
+  int conclude(const FalsifyResult& result, const std::vector<Counterexample>& found) const {
+    const auto failing = std::ranges::count_if(result.trials, &FalsifyTrial::fails);
+    fmt::print("{}{}", several_builds_words(result.records), truth_words(result.records));
+    if (found.empty())
+      fmt::print("no failure in {} flights: none was found, which is no proof of safety\n", result.records.size());
+    if (!found.empty()) {
+      fmt::print("{} flights, {} of {} points fail, the first after {} flights; {} distinct failures\n",
+                 result.records.size(), failing, result.trials.size(), result.trials[result.failures[0]].record + 1,
+                 found.size());
+    }
+    size_t confirmed = 0;
+    for (const Counterexample& one : found) {
+      const bool same = one.repeats && one.confirmed;
+      confirmed += same ? 1 : 0;
+      fmt::print(
+          "FAIL  {}: robustness {:.4g}, {} of {} boxes, movers and failures left, {:g} s{}\n      hedgehop run {}\n",
+          one.file.stem().string(), one.weakest.robustness, one.shrunk.items, one.shrunk.items_before,
+          one.shrunk.scenario.duration_s, same ? "" : "; NOT CONFIRMED: it did not repeat", one.file.string());
+    }
+    if (!found.empty()) fmt::print("confirmed: {} of {}, flown again alone\n", confirmed, found.size());
+    fmt::print("written: {}\n", (out_ / "report.html").string());
+    if (confirmed < found.size()) return kInternalError;
+    return found.empty() ? 0 : kFails;
+  }
+
+  const FalsifySearch& search_;
+  const std::filesystem::path out_;
+  std::string file_;
+  FlyOptions fly_;
+  Interruption interruption_;
+  std::optional<CampaignProgress> progress_;
+};
+
+}  // namespace
+
+int falsify(const FalsifyOptions& options) {
+  const FalsifySearch search = read_falsify(options.file, options.overrides);
+  const std::filesystem::path out =
+      options.out.empty() ? std::filesystem::path("out") / options.file.stem() : options.out;
+  require_same_search(search, out);
+  require_writable(out);
+  return FalsifyRun(options, search, out).run();
+}
+
+}  // namespace hedgehop::sim::cli

@@ -1,0 +1,117 @@
+#include "sim/falsify/box_constraints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <variant>
+
+#include "dynamics/hull.h"
+#include "sim/scenario/numbers.h"
+#include "sim/verdict/shortest_path.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using Eigen::Vector2d;
+using scenes::BoxConfig;
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+
+Vector2d along(const BoxConfig& box) { return {std::cos(box.heading_rad), std::sin(box.heading_rad)}; }
+Vector2d across(const BoxConfig& box) { return {-std::sin(box.heading_rad), std::cos(box.heading_rad)}; }
+Vector2d middle(const BoxConfig& box) { return {box.north_m, box.east_m}; }
+
+/// Half the extent of a box along a direction of length 1.
+double half_extent_m(const BoxConfig& box, const Vector2d& direction) {
+  return 0.5 *
+         (box.length_m * std::abs(along(box).dot(direction)) + box.width_m * std::abs(across(box).dot(direction)));
+}
+
+double outside_m(const FalsifyBoxes& range, const BoxConfig& box) {
+  double sum_m = 0.0;
+  for (const Vector2d& corner : box.corners_NE_m()) {
+    sum_m += std::max({0.0, range.north_m[0] - corner.x(), corner.x() - range.north_m[1]});
+    sum_m += std::max({0.0, range.east_m[0] - corner.y(), corner.y() - range.east_m[1]});
+  }
+  return sum_m;
+}
+
+/// Whether the vehicle gets past the boxes from the start to each place of the route and to the goal.
+bool way_exists(const Scenario& scenario, const std::vector<BoxConfig>& boxes) {
+  constexpr double kClearM = 0.5, kCellM = 0.5, kMarginM = 20.0;
+  if (!scenario.goal) return true;
+  const double radius_m = dynamics::radius_m(dynamics::hull(scenario.vehicle)) + kClearM;
+  const auto is_free = [&](const Vector2d& p_NE_m) {
+    return std::ranges::all_of(boxes, [&](const BoxConfig& box) { return plan_distance_m(box, p_NE_m) > radius_m; });
+  };
+  std::vector<Vector2d> places{scenario.start.p_WB().head<2>()};
+  for (const GoalConfig& place : scenario.route) places.emplace_back(place.p_WG().head<2>());
+  places.emplace_back(scenario.goal->p_WG().head<2>());
+  Eigen::AlignedBox2d bounds;
+  for (const Vector2d& place : places) bounds.extend(place);
+  for (const BoxConfig& box : boxes) {
+    for (const Vector2d& corner : box.corners_NE_m()) bounds.extend(corner);
+  }
+  bounds = {bounds.min().array() - kMarginM, bounds.max().array() + kMarginM};
+  for (size_t i = 1; i < places.size(); ++i) {
+    if (!shortest_path_m(places[i - 1], places[i], bounds, kCellM, is_free)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+double overlap_m(const BoxConfig& a, const BoxConfig& b) {
+  double least_m = std::numeric_limits<double>::infinity();
+  for (const Vector2d& axis : {along(a), across(a), along(b), across(b)}) {
+    const double apart_m = std::abs(axis.dot(middle(a) - middle(b)));
+    least_m = std::min(least_m, half_extent_m(a, axis) + half_extent_m(b, axis) - apart_m);
+  }
+  return least_m;
+}
+
+double plan_distance_m(const BoxConfig& box, const Vector2d& p_NE_m) {
+  const Vector2d p = p_NE_m - middle(box);
+  const double beyond_m = std::max(0.0, std::abs(p.dot(along(box))) - 0.5 * box.length_m);
+  const double beside_m = std::max(0.0, std::abs(p.dot(across(box))) - 0.5 * box.width_m);
+  return std::hypot(beyond_m, beside_m);
+}
+
+std::vector<BoxConfig> boxes_at(const FalsifySearch& search, const std::vector<std::string>& values) {
+  std::vector<BoxConfig> boxes = std::visit([](const auto& scene) { return scene.added.boxes; }, search.scenario.scene);
+  for (size_t i = 0; i < values.size(); ++i) {
+    const double value = parse_number(values[i], false).member;
+    for (size_t k = 0; k < boxes.size(); ++k) {
+      const auto set = [&](const char* key, double& member, double factor = 1.0) {
+        if (search.sweep.parameters[i].path == box_path(k, key)) member = factor * value;
+      };
+      set("north", boxes[k].north_m);
+      set("east", boxes[k].east_m);
+      set("length", boxes[k].length_m);
+      set("width", boxes[k].width_m);
+      set("height", boxes[k].height_m);
+      set("heading", boxes[k].heading_rad, kRadPerDeg);
+    }
+  }
+  return boxes;
+}
+
+double violation(const FalsifySearch& search, const std::vector<BoxConfig>& boxes) {
+  double sum = 0.0;
+  const auto asks = [&](FalsifyConstraint constraint) {
+    return std::ranges::find(search.config.constraints, constraint) != search.config.constraints.end();
+  };
+  if (asks(FalsifyConstraint::boxes_inside)) {
+    for (const BoxConfig& box : boxes) sum += outside_m(*search.config.boxes, box);
+  }
+  if (asks(FalsifyConstraint::boxes_apart)) {
+    for (size_t i = 0; i < boxes.size(); ++i) {
+      for (size_t k = 0; k < i; ++k) sum += std::max(0.0, overlap_m(boxes[i], boxes[k]));
+    }
+  }
+  if (sum == 0.0 && asks(FalsifyConstraint::way_exists) && !way_exists(search.scenario, boxes)) sum = 1.0;
+  return sum;
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace hedgehop::sim {
+
+/// The strategy's parameters of a number of unknowns, with their defaults.
+/// Source: [Hansen2016] sec. A (default parameters), with positive weights alone.
+struct CmaEsParameters {
+  explicit CmaEsParameters(Eigen::Index dimensions);
+
+  size_t population = 0;    ///< lambda: points of a generation
+  Eigen::VectorXd weights;  ///< of the best mu of them; they sum to 1
+  double mu_eff = 0.0;      ///< variance effective selection mass
+  double c_sigma = 0.0, d_sigma = 0.0, c_c = 0.0, c_1 = 0.0, c_mu = 0.0;
+  double chi_n = 0.0;  ///< expected length of a standard normal vector
+};
+
+/// A point and what it costs.
+struct CostedPoint {
+  Eigen::VectorXd x;
+  double cost = 0.0;
+};
+
+/// Covariance matrix adaptation evolution strategy, which minimizes a function without derivatives. Equal seeds and
+/// costs give equal points.
+/// Source: [Hansen2016] sec. A.
+class CmaEs {
+ public:
+  /// @param start  mean of the first generation. @param step  its standard deviation along every axis, > 0.
+  CmaEs(Eigen::VectorXd start, double step, uint64_t seed);
+
+  size_t population() const { return parameters_.population; }
+  /// A random point of the present distribution.
+  Eigen::VectorXd draw();
+  /// Adapts mean, step and covariance to a generation of population() points, however they were found.
+  void adapt(std::vector<CostedPoint> generation);
+
+ private:
+  void decompose();
+
+  const CmaEsParameters parameters_;
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+  Eigen::VectorXd mean_;
+  double sigma_;
+  Eigen::MatrixXd C_;              ///< covariance of the points, over sigma squared
+  Eigen::MatrixXd B_;              ///< its eigenvectors
+  Eigen::VectorXd D_;              ///< roots of its eigenvalues
+  Eigen::VectorXd p_sigma_, p_c_;  ///< evolution paths
+  int generations_ = 0;
+};
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,125 @@
+#include "sim/falsify/counterexample.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "sim/flight/build.h"
+#include "sim/record/whole_file.h"
+#include "sim/scenario/flight_parts.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string hash_of(const FlightRecord& record) {
+  return record.status == FlightRecord::Status::flown ? record.result.at("trajectory_hash").get<std::string>() : "";
+}
+
+bool same_failure(const FlightRecord& a, const FlightRecord& b, const std::string& check) {
+  const WeakestCheck of_a = weakest_check(a, {check}), of_b = weakest_check(b, {check});
+  return hash_of(a) == hash_of(b) && of_a.name == of_b.name && of_a.robustness == of_b.robustness;
+}
+
+/// The scenario of the shrunk flight, ready to be kept as a test.
+std::filesystem::path write_scenario(const Counterexample& found, const std::string& name,
+                                     const std::string& search_file, const std::string& check,
+                                     const std::filesystem::path& out) {
+  Scenario scenario = found.shrunk.scenario;
+  scenario.name = name;
+  scenario.seed = found.shrunk.record.order.seed;
+  scenario.origin = OriginConfig{.search = search_file,
+                                 .check = check,
+                                 .trajectory_hash = hash_of(found.shrunk.record),
+                                 .version = std::string(version()),
+                                 .robustness = found.weakest.robustness};
+  std::filesystem::create_directories(out / "counterexamples");
+  const std::filesystem::path file = out / "counterexamples" / (name + ".yaml");
+  write_file_whole(file, to_yaml(scenario));
+  return file;
+}
+
+Json counterexample_json(const FalsifyResult& result, const Counterexample& found) {
+  const FalsifyTrial& trial = result.trials[found.trial];
+  return Json{{"name", found.file.stem().string()},
+              {"flight", result.records[trial.record].order.id},
+              {"seed", found.shrunk.record.order.seed},
+              {"check", trial.weakest.name},
+              {"robustness", trial.weakest.robustness},
+              {"repeats", found.repeats},
+              {"file", (std::filesystem::path("counterexamples") / found.file.filename()).string()},
+              {"folder", found.folder},
+              {"shrunk_robustness", found.weakest.robustness},
+              {"trajectory_hash", hash_of(found.shrunk.record)},
+              {"confirmed", found.confirmed},
+              {"items", found.shrunk.items},
+              {"items_before", found.shrunk.items_before},
+              {"duration_s", found.shrunk.scenario.duration_s},
+              {"shrinking_flights", found.shrunk.trials}};
+}
+
+}  // namespace
+
+std::optional<Counterexample> keep_counterexample(const FalsifySearch& search, const std::string& search_file,
+                                                  const FalsifyResult& result, size_t number,
+                                                  const std::filesystem::path& out, const CounterexampleFlights& fly) {
+  Counterexample found{.trial = result.failures[number - 1]};
+  const FalsifyTrial& trial = result.trials[found.trial];
+  const FlightRecord& record = result.records[trial.record];
+  const std::string& check = trial.weakest.name;
+  const std::string name = fmt::format("{}-{}-{}", std::filesystem::path(search_file).stem().string(), number, check);
+
+  Order again = record.order;
+  again.id = "again/" + name;
+  const std::optional<FlightRecord> repeated = fly.plain(again);
+  if (!repeated) return {};
+  found.repeats = same_failure(record, *repeated, check);
+
+  found.shrunk = shrink(search, trial, record, out / "shrink" / name,
+                        static_cast<size_t>(search.config.design.shrinking), [&](const Order& order) {
+                          Order inside = order;
+                          inside.id = "shrink/" + order.id;
+                          return fly.plain(inside);
+                        });
+  if (found.shrunk.stopped) return {};
+  found.weakest = weakest_check(found.shrunk.record, {check});
+
+  found.file = write_scenario(found, name, search_file, check, out);
+  found.folder = "counterexamples/" + name;
+  Order kept = file_order(found.file, found.folder);
+  kept.scenario_yaml = to_yaml(load_scenario(found.file));  // with its film
+  const std::optional<FlightRecord> confirmed = fly.with_report(kept);
+  if (!confirmed) return {};
+  found.confirmed = same_failure(found.shrunk.record, *confirmed, check);
+  return found;
+}
+
+std::string falsify_json(const FalsifySearch& search, const FalsifyResult& result,
+                         const std::vector<Counterexample>& counterexamples) {
+  constexpr const char* kMethods[] = {"cma_es", "direct", "random"};
+  Json json{{"version", std::string(version())},
+            {"build", std::string(build_identity())},
+            {"search", search.identity},
+            {"method", kMethods[static_cast<size_t>(search.config.design.method)]},
+            {"seed", search.config.design.seed},
+            {"budget", search.config.design.budget},
+            {"unknowns", search.sweep.parameters.size()},
+            {"flights", result.records.size()},
+            {"infeasible_points", result.infeasible},
+            {"flights_to_first", nullptr},
+            {"failing_flights", 0},
+            {"failures", result.failures.size()},
+            {"counterexamples", Json::array()}};
+  if (!result.failures.empty()) json["flights_to_first"] = 1 + result.trials[result.failures[0]].record;
+  for (const FalsifyTrial& trial : result.trials) {
+    if (trial.fails()) json["failing_flights"] = json["failing_flights"].get<size_t>() + 1;
+  }
+  for (const Counterexample& found : counterexamples) {
+    json["counterexamples"].push_back(counterexample_json(result, found));
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace hedgehop::sim

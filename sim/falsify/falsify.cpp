@@ -1,0 +1,267 @@
+#include "sim/falsify/falsify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <nlopt.hpp>
+#include <optional>
+#include <random>
+#include <utility>
+
+#include "sim/falsify/box_constraints.h"
+#include "sim/falsify/cma_es.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using Coordinates = std::vector<double>;
+
+constexpr double kInfeasibleCost = 50.0;  // above any margin of interest, in m
+constexpr int kRedraws = 20;              // of a point of a generation that cannot be flown
+constexpr double kApart = 0.1;            // of the ranges: failures nearer to each other count as one
+
+/// The end of a search that is not done: interrupted, out of flights, or no failure is wanted any more.
+struct SearchEnds {};
+
+class Search {
+ public:
+  Search(const FalsifySearch& search, const FlyPoint& fly)
+      : search_(search), design_(search.config.design), fly_(fly), random_(design_.seed) {}
+
+  FalsifyResult run() {
+    try {
+      switch (design_.method) {
+        case FalsifyDesign::Method::cma_es:
+          evolve();
+          break;
+        case FalsifyDesign::Method::direct:
+          divide();
+          break;
+        case FalsifyDesign::Method::random:
+          while (true) fly_generation(random_points(population()), 0);
+      }
+    } catch (const SearchEnds&) {
+    }
+    return std::move(result_);
+  }
+
+ private:
+  size_t dimensions() const { return search_.sweep.parameters.size(); }
+  size_t population() const { return CmaEsParameters(static_cast<Eigen::Index>(dimensions())).population; }
+  size_t seeds() const { return search_.sweep.seeds ? parse_seeds(*search_.sweep.seeds).size() : 1; }
+  size_t points_left() const { return (static_cast<size_t>(design_.budget) - result_.records.size()) / seeds(); }
+
+  std::vector<std::string> values_at(const Coordinates& coordinates) const {
+    std::vector<std::string> values;
+    for (size_t i = 0; i < coordinates.size(); ++i) {
+      values.push_back(parameter_value(search_.sweep.parameters[i], coordinates[i]));
+    }
+    return values;
+  }
+  double violation_at(const Coordinates& coordinates) const {
+    return search_.config.constraints.empty() ? 0.0 : violation(search_, boxes_at(search_, values_at(coordinates)));
+  }
+
+  Coordinates random_point() {
+    Coordinates point(dimensions());
+    constexpr int kMostDraws = 20'000;
+    for (int draw = 0; draw < kMostDraws; ++draw) {
+      for (double& coordinate : point) coordinate = std::ldexp(static_cast<double>(random_() >> 11), -53);
+      if (violation_at(point) == 0.0) return point;
+      ++result_.infeasible;
+    }
+    throw InputError(fmt::format("of {} random points none keeps the constraints", kMostDraws));
+  }
+  std::vector<Coordinates> random_points(size_t count) {
+    std::vector<Coordinates> points;
+    for (size_t i = 0; i < count; ++i) points.push_back(random_point());
+    return points;
+  }
+
+  /// Flies points that keep the constraints, as many as the budget allows. Throws SearchEnds when the search is over.
+  void fly_generation(std::vector<Coordinates> points, size_t generation) {
+    points.resize(std::min(points.size(), points_left()));
+    if (points.empty()) throw SearchEnds{};
+    SweepOrders orders;
+    for (const Coordinates& point : points)
+      add_point(result_.trials.size() + orders.orders.size() / seeds(), point, orders);
+    const auto records = fly_(orders.orders);
+    if (!records) {
+      result_.stopped = true;
+      throw SearchEnds{};
+    }
+    for (size_t i = 0; i < points.size(); ++i) {
+      judge({.coordinates = points[i], .values = orders.values[i * seeds()], .generation = generation}, *records,
+            i * seeds());
+    }
+    result_.orders.append(orders);
+    result_.records.insert(result_.records.end(), records->begin(), records->end());
+    if (has_enough() || points_left() == 0) throw SearchEnds{};
+  }
+  bool has_enough() const { return result_.failures.size() >= static_cast<size_t>(design_.failures); }
+
+  /// A point that the scenario refuses is an order that is not flown.
+  void add_point(size_t number, const Coordinates& point, SweepOrders& orders) {
+    const std::vector<std::string> values = values_at(point);
+    try {
+      orders.add(search_.sweep, number, values);
+    } catch (const InputError& error) {
+      for (size_t i = 0; i < seeds(); ++i) {
+        Order order{.id = fmt::format("flights/{:06}-{}", number, i), .scenario = search_.sweep.scenario};
+        order.fault = error.faults().front();
+        orders.orders.push_back(std::move(order));
+        orders.values.push_back(values);
+        orders.points.push_back(number);
+      }
+    }
+  }
+
+  /// Adds a point, whose flights are the records from number `first` on.
+  void judge(FalsifyTrial trial, const std::vector<FlightRecord>& records, size_t first) {
+    for (size_t k = first; k < first + seeds(); ++k) {
+      const WeakestCheck weakest = weakest_check(records[k], search_.config.robustness);
+      if (k > first && weakest.robustness >= trial.weakest.robustness) continue;
+      trial.weakest = weakest;
+      trial.record = result_.records.size() + k;
+    }
+    if (trial.fails() && !has_enough() && is_new(trial)) result_.failures.push_back(result_.trials.size());
+    result_.trials.push_back(std::move(trial));
+  }
+
+  bool is_new(const FalsifyTrial& trial) const {
+    return std::ranges::none_of(result_.failures, [&](size_t failure) {
+      const FalsifyTrial& known = result_.trials[failure];
+      return known.weakest.name == trial.weakest.name && distance(known.coordinates, trial.coordinates) < kApart;
+    });
+  }
+  static double distance(const Coordinates& a, const Coordinates& b) {
+    double sum = 0.0;
+    for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return std::sqrt(sum / static_cast<double>(a.size()));
+  }
+
+  /// Random points first; then one descent after the other, each from the best of them that none began at.
+  void evolve() {
+    constexpr size_t kMostDraws = 20;
+    const size_t draws = std::min(kMostDraws, std::max<size_t>(1, points_left() / 5));
+    for (size_t flown = 0; flown < draws; flown = result_.trials.size()) {
+      fly_generation(random_points(std::min(population(), draws - flown)), 0);
+    }
+    std::vector<FalsifyTrial> starts = result_.trials;
+    std::ranges::stable_sort(starts, {}, [](const FalsifyTrial& trial) { return trial.weakest.robustness; });
+    for (const FalsifyTrial& start : starts) descend(start.coordinates);
+    while (true) {
+      const Coordinates start = random_point();
+      fly_generation({start}, 0);
+      descend(start);
+    }
+  }
+
+  /// One evolution, until it finds a failure or no more improvement.
+  void descend(const Coordinates& start) {
+    constexpr double kStep = 0.15;  // of the ranges
+    constexpr int kPatience = 6;    // generations
+    constexpr double kImprovement = 1e-3;
+    CmaEs evolution(Eigen::VectorXd::Map(start.data(), static_cast<Eigen::Index>(start.size())), kStep, random_());
+    double best = kInfeasibleCost;
+    for (int idle = 0; idle < kPatience; ++idle) {
+      std::vector<CostedPoint> generation;
+      std::vector<Coordinates> feasible;
+      std::vector<size_t> places;
+      for (size_t i = 0; i < evolution.population(); ++i) {
+        Coordinates point = drawn(evolution);
+        const double broken = violation_at(point);
+        generation.push_back(
+            {Eigen::VectorXd::Map(point.data(), static_cast<Eigen::Index>(point.size())), kInfeasibleCost + broken});
+        if (broken > 0.0) continue;
+        places.push_back(i);
+        feasible.push_back(std::move(point));
+      }
+      const size_t first = result_.trials.size(), failures = result_.failures.size();
+      if (!feasible.empty()) fly_generation(feasible, ++generations_);
+      double least = kInfeasibleCost;
+      for (size_t i = 0; i < places.size(); ++i) {
+        least = std::min(least, generation[places[i]].cost = result_.trials[first + i].weakest.robustness);
+      }
+      if (result_.failures.size() > failures) return;  // another is to be found elsewhere
+      if (least < best - kImprovement) idle = -1;
+      best = std::min(best, least);
+      evolution.adapt(std::move(generation));
+    }
+  }
+
+  /// A point of the evolution inside the ranges and, if one is found soon, one that keeps the constraints.
+  Coordinates drawn(CmaEs& evolution) {
+    Coordinates point(dimensions());
+    for (int draw = 0; draw < kRedraws; ++draw) {
+      const Eigen::VectorXd x = evolution.draw();
+      point.assign(x.begin(), x.end());
+      const bool inside = std::ranges::all_of(point, [](double c) { return c >= 0.0 && c <= 1.0; });
+      if (inside && violation_at(point) == 0.0) return point;
+      ++result_.infeasible;
+    }
+    for (double& coordinate : point) coordinate = std::clamp(coordinate, 0.0, 1.0);
+    return point;
+  }
+
+  /// DIRECT, which takes one point after the other.
+  void divide() {
+    nlopt::opt optimizer(nlopt::GN_DIRECT_L, static_cast<unsigned>(dimensions()));
+    optimizer.set_lower_bounds(0.0);
+    optimizer.set_upper_bounds(1.0);
+    constexpr int kPointsAFlight = 20;  // most that constraints may take of a budget
+    optimizer.set_maxeval(kPointsAFlight * static_cast<int>(design_.budget));
+    optimizer.set_min_objective(objective, this);
+    Coordinates x(dimensions(), 0.5);
+    double cost = 0.0;
+    try {
+      optimizer.optimize(x, cost);
+    } catch (const nlopt::roundoff_limited&) {
+    } catch (const nlopt::forced_stop&) {
+      if (fault_) std::rethrow_exception(fault_);
+    }
+  }
+  static double objective(const Coordinates& point, Coordinates&, void* data) {
+    auto& search = *static_cast<Search*>(data);
+    try {
+      const double broken = search.violation_at(point);
+      if (broken > 0.0) {
+        ++search.result_.infeasible;
+        return kInfeasibleCost + broken;
+      }
+      search.fly_generation({point}, search.result_.trials.size());
+      return search.result_.trials.back().weakest.robustness;
+    } catch (...) {  // nlopt passes on only exceptions of its own
+      search.fault_ = std::current_exception();
+      throw nlopt::forced_stop();
+    }
+  }
+
+  const FalsifySearch& search_;
+  const FalsifyDesign& design_;
+  const FlyPoint& fly_;
+  std::mt19937_64 random_;
+  size_t generations_ = 0;
+  FalsifyResult result_;
+  std::exception_ptr fault_;
+};
+
+}  // namespace
+
+FalsifyResult falsify(const FalsifySearch& search, const FlyPoint& fly) { return Search(search, fly).run(); }
+
+Table falsify_table(const FalsifySearch& search, const FalsifyResult& result) {
+  std::vector<ExtraColumn> before{
+      {.name = "generation", .cells = {}}, {.name = "weakest", .cells = {}}, {.name = "robustness", .cells = {}}};
+  for (size_t i = 0; i < result.records.size(); ++i) {
+    const WeakestCheck weakest = weakest_check(result.records[i], search.config.robustness);
+    before[0].cells.emplace_back(static_cast<int64_t>(result.trials[result.orders.points[i]].generation));
+    before[1].cells.emplace_back(weakest.name);
+    before[2].cells.emplace_back(weakest.robustness);
+  }
+  return sweep_table(search.sweep, result.orders, result.records, before);
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,199 @@
+#include "sim/falsify/shrink.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "sim/falsify/ddmin.h"
+#include "sim/record/whole_file.h"
+#include "sim/scenario/flight_parts.h"
+#include "sim/scenario/numbers.h"
+
+namespace hedgehop::sim {
+namespace {
+
+/// What can be left out, by the paths of its keys: "scene.boxes.0.".
+std::vector<std::string> items_of(const Scenario& scenario) {
+  std::vector<std::string> items;
+  const auto add = [&items](const char* list, size_t count) {
+    for (size_t k = 0; k < count; ++k) items.push_back(fmt::format("{}.{}.", list, k));
+  };
+  const scenes::Additions& added = std::visit(
+      [](const auto& scene) -> const auto& { return scene.added; }, scenario.scene);
+  add("scene.boxes", added.boxes.size());
+  add("scene.movers", added.movers.size());
+  add("failures", scenario.failures.size());
+  return items;
+}
+
+/// Leaves out of a list what is not kept. @param item  number of the list's first item; counted on.
+template <class T>
+void keep(std::vector<T>& list, const Subset& kept, size_t& item) {
+  std::vector<T> rest;
+  for (T& entry : list) {
+    if (std::ranges::binary_search(kept, item++)) rest.push_back(std::move(entry));
+  }
+  list = std::move(rest);
+}
+
+/// A variant of the failing flight.
+struct Candidate {
+  std::vector<std::string> values;  ///< of the search's parameters
+  Subset kept;                      ///< numbers of items
+  double duration_s = 0.0;
+};
+
+class Shrinker {
+ public:
+  Shrinker(const FalsifySearch& search, const FalsifyTrial& failure, const FlightRecord& record,
+           const std::filesystem::path& folder, size_t most_trials, const FlyOne& fly)
+      : search_(search),
+        check_(failure.weakest.name),
+        seed_(record.order.seed),
+        folder_(folder),
+        most_trials_(most_trials),
+        fly_(fly) {
+    best_ = {.values = failure.values, .kept = {}, .duration_s = search.scenario.duration_s};
+    shrunk_.record = record;
+    items_ = items_of(search.scenario);
+    for (size_t k = 0; k < items_.size(); ++k) best_.kept.push_back(k);
+    shrunk_.scenario = scenario_of(best_);
+    shrunk_.items_before = items_.size();
+  }
+
+  Shrunk run() {
+    leave_out();
+    for (size_t i = 0; i < best_.values.size(); ++i) neutralize(i);
+    cut();
+    round();
+    shrunk_.items = best_.kept.size();
+    return std::move(shrunk_);
+  }
+
+ private:
+  void leave_out() {
+    const Candidate all = best_;
+    ddmin(items_.size(), [&](const Subset& kept) {
+      Candidate fewer = all;
+      fewer.kept = kept;
+      return kept.size() == items_.size() || still_fails(fewer);
+    });
+  }
+
+  /// Towards the neutral value; what is left of an interval that holds a boundary is halved.
+  void neutralize(size_t parameter) {
+    const std::optional<double> neutral = search_.neutral[parameter];
+    if (!neutral || is_left_out(search_.sweep.parameters[parameter].path)) return;
+    double fails = parse_number(best_.values[parameter], false).member, holds = *neutral;
+    if (fails == holds || try_value(parameter, holds)) return;
+    constexpr int kHalvings = 6;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (fails + holds);
+      (try_value(parameter, middle) ? fails : holds) = middle;
+    }
+  }
+
+  void cut() {
+    constexpr double kAfterS = 1.0;
+    Candidate shorter = best_;
+    shorter.duration_s = std::ceil(decided_s(shrunk_.record, check_) + kAfterS);
+    if (shorter.duration_s < best_.duration_s) still_fails(shorter);
+  }
+
+  void round() {
+    for (int decimals = 0; decimals <= 3; ++decimals) {
+      Candidate rounded = best_;
+      for (std::string& value : rounded.values) {
+        const double power = std::pow(10.0, decimals);
+        value = fmt::format("{}", std::round(parse_number(value, false).member * power) / power + 0.0);  // no -0
+      }
+      if (still_fails(rounded)) return;
+    }
+  }
+
+  bool try_value(size_t parameter, double value) {
+    Candidate candidate = best_;
+    const bool whole = search_.sweep.parameters[parameter].whole;
+    candidate.values[parameter] = whole ? fmt::format("{:.0f}", std::round(value)) : fmt::format("{}", value);
+    return candidate.values[parameter] != best_.values[parameter] && still_fails(candidate);
+  }
+
+  bool is_left_out(const std::string& path) const {
+    for (size_t k = 0; k < items_.size(); ++k) {
+      if (path.starts_with(items_[k])) return !std::ranges::binary_search(best_.kept, k);
+    }
+    return false;
+  }
+
+  Scenario scenario_of(const Candidate& candidate) const {
+    std::vector<std::string> overrides = search_.sweep.set;
+    for (size_t i = 0; i < candidate.values.size(); ++i) {
+      overrides.push_back(search_.sweep.parameters[i].path + "=" + candidate.values[i]);
+    }
+    Scenario scenario = load_flight(search_.sweep.scenario, overrides, seed_).scenario;
+    scenario.duration_s = candidate.duration_s;
+    size_t item = 0;
+    std::visit(
+        [&](auto& scene) {
+          keep(scene.added.boxes, candidate.kept, item);
+          keep(scene.added.movers, candidate.kept, item);
+        },
+        scenario.scene);
+    keep(scenario.failures, candidate.kept, item);
+    return scenario;
+  }
+
+  /// Flies a candidate; one in which the check still fails becomes the best. One that the scenario refuses does not.
+  bool still_fails(const Candidate& candidate) {
+    if (shrunk_.stopped || shrunk_.trials >= most_trials_) return false;
+    try {
+      const Scenario scenario = scenario_of(candidate);
+      const std::string name = fmt::format("{:03}", shrunk_.trials);
+      std::filesystem::create_directories(folder_);
+      write_file_whole(folder_ / (name + ".yaml"), resolved_yaml(scenario, seed_));
+      const Order order = file_order(folder_ / (name + ".yaml"), (folder_.filename() / name).string());
+      ++shrunk_.trials;
+      const std::optional<FlightRecord> record = fly_(order);
+      shrunk_.stopped = !record;
+      if (!record) return false;
+      const WeakestCheck now = weakest_check(*record, {check_});
+      if (now.name != check_ || now.robustness >= 0.0) return false;
+      best_ = candidate;
+      shrunk_.scenario = scenario;
+      shrunk_.record = *record;
+      return true;
+    } catch (const InputError&) {
+      return false;
+    }
+  }
+
+  const FalsifySearch& search_;
+  const std::string check_;
+  const uint64_t seed_;
+  const std::filesystem::path folder_;
+  const size_t most_trials_;
+  const FlyOne& fly_;
+  std::vector<std::string> items_;
+  Candidate best_;
+  Shrunk shrunk_;
+};
+
+}  // namespace
+
+Shrunk shrink(const FalsifySearch& search, const FalsifyTrial& failure, const FlightRecord& record,
+              const std::filesystem::path& folder, size_t most_trials, const FlyOne& fly) {
+  return Shrinker(search, failure, record, folder, most_trials, fly).run();
+}
+
+Order file_order(const std::filesystem::path& file, const std::string& id) {
+  const LoadedScenario loaded = load_flight(file);
+  Order order{.id = id, .group = file.stem().string(), .scenario = file, .seed = loaded.scenario.seed};
+  order.scenario_yaml = resolved_yaml(loaded.scenario, order.seed);
+  order.inputs = loaded.inputs;
+  return order;
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,75 @@
+#include "sim/loop/takeover.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace hedgehop::sim {
+namespace {
+
+bool same_cameras(const avoidance::Needs& a, const avoidance::Needs& b) {
+  return std::ranges::equal(a.cameras, b.cameras, [](const avoidance::CameraNeed& x, const avoidance::CameraNeed& y) {
+    return x.role == y.role && x.channel == y.channel && x.pinhole == y.pinhole;
+  });
+}
+
+class Takeover : public avoidance::Module {
+ public:
+  Takeover(std::unique_ptr<Module> before, std::unique_ptr<Module> after, int64_t at_ns)
+      : before_(std::move(before)), after_(std::move(after)), at_ns_(at_ns), signals_(before_->signals()) {
+    if (!same_cameras(before_->needs(), after_->needs())) {
+      throw std::invalid_argument("needs other cameras than the module that it takes over from");
+    }
+    for (const avoidance::Signal& signal : after_->signals()) {
+      auto known = std::ranges::find(signals_, signal.name, &avoidance::Signal::name);
+      if (known == signals_.end()) known = signals_.insert(known, signal);
+      places_of_after_.push_back(static_cast<size_t>(known - signals_.begin()));
+    }
+  }
+
+ private:
+  avoidance::Needs do_needs() const override { return before_->needs(); }
+  std::vector<avoidance::Signal> do_signals() const override { return signals_; }
+  void do_reset(const avoidance::Setup& setup) override {
+    has_taken_over_ = false;
+    before_->reset(setup);
+    after_->reset(setup);
+  }
+
+  avoidance::Decision do_update(const avoidance::Observation& observation) override {
+    has_taken_over_ = observation.t_ns >= at_ns_;
+    avoidance::Decision of_after = after_->update(observation);
+    std::vector<double> signals(signals_.size(), std::numeric_limits<double>::quiet_NaN());
+    if (!has_taken_over_) {
+      avoidance::Decision decision = before_->update(observation);
+      std::ranges::copy(decision.signals, signals.begin());
+      decision.signals = std::move(signals);
+      return decision;
+    }
+    for (size_t i = 0; i < places_of_after_.size(); ++i) signals[places_of_after_[i]] = of_after.signals[i];
+    of_after.signals = std::move(signals);
+    return of_after;
+  }
+
+  std::vector<avoidance::Metric> do_metrics() const override { return in_charge().metrics(); }
+  avoidance::Map do_map() const override { return in_charge().map(); }
+  cv::Mat do_annotate() const override { return in_charge().annotate(); }
+
+  const Module& in_charge() const { return has_taken_over_ ? *after_ : *before_; }
+
+  std::unique_ptr<Module> before_, after_;
+  int64_t at_ns_;
+  bool has_taken_over_ = false;
+  std::vector<avoidance::Signal> signals_;  ///< of before_, then those that only after_ has
+  std::vector<size_t> places_of_after_;
+};
+
+}  // namespace
+
+std::unique_ptr<avoidance::Module> make_takeover(std::unique_ptr<avoidance::Module> before,
+                                                 std::unique_ptr<avoidance::Module> after, int64_t at_ns) {
+  return std::make_unique<Takeover>(std::move(before), std::move(after), at_ns);
+}
+
+}  // namespace hedgehop::sim

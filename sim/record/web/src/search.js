@@ -1,0 +1,88 @@
+'use strict';
+// What a search for failures did: robustness over its flights, and each failure it keeps over its scene.
+
+class SearchView {
+  constructor(host, {search}, table, on) {
+    if (!search) {
+      host.remove();
+      return;
+    }
+    Object.assign(this, {table, on, robustness: table.columns.get('robustness').values});
+    const kept = search.counterexamples, confirmed = kept.filter((c) => c.repeats && c.confirmed).length;
+    host.append(make('h2', '', 'Search for failures'));
+    host.append(make('p', 'soft', `${search.method}, seed ${search.seed}: ${search.flights} of ${search.budget} flights, ${search.unknowns} unknowns, ` +
+      `${search.infeasible_points} points not flown for a broken constraint. ` +
+      (search.failures ? `${search.failing_flights} points fail, the first after ${search.flights_to_first} flights; ${search.failures} distinct failures, ` +
+        `${confirmed} of ${kept.length} confirmed.` : 'No failure was found, which is no proof of safety.')));
+    this.axes = new Axes(host.appendChild(make('div')), 240, {
+      draw: (c) => this.draw(c), hover: (x, y) => this.lines(x, y),
+      pick: (x, y) => { const row = this.at(x, y); if (row !== null) on.choose(row); }});
+    this.axes.set(numberAxis('flight', [1, this.robustness.length]), numberAxis('robustness of the weakest check', [...this.robustness, 0]));
+    host.append(make('div', 'plan-key', 'line: the least so far; below 0 a check fails'));
+    const list = host.appendChild(make('div', 'pair halves'));
+    kept.forEach((one, i) => this.fillFailure(list.appendChild(make('div')), one, search.paths, i));
+  }
+
+  draw(c) {
+    const {axes, robustness} = this;
+    c.strokeStyle = themeColor('ink');
+    c.setLineDash([4, 3]);
+    c.beginPath();
+    c.moveTo(axes.x(0), axes.y(0));
+    c.lineTo(axes.x(robustness.length + 1), axes.y(0));
+    c.stroke();
+    c.setLineDash([]);
+    c.beginPath();
+    let least = Infinity;
+    robustness.forEach((value, row) => {
+      if (value !== null) least = Math.min(least, value);
+      if (isFinite(least)) c.lineTo(axes.x(row + 1), axes.y(least));
+    });
+    c.stroke();
+    robustness.forEach((value, row) => {
+      if (value === null) return;
+      c.fillStyle = themeColor(value < 0 ? 'bad' : 'c0');
+      c.beginPath();
+      c.arc(axes.x(row + 1), axes.y(value), 3, 0, 2 * Math.PI);
+      c.fill();
+    });
+  }
+  at(x, y) {
+    const row = Math.round(this.axes.xAxis.low + (x - this.axes.frame.x) / this.axes.frame.width * (this.axes.xAxis.high - this.axes.xAxis.low)) - 1;
+    const value = this.robustness[row];
+    return value === undefined || value === null || Math.abs(this.axes.y(value) - y) > 20 ? null : row;
+  }
+  lines(x, y) {
+    const row = this.at(x, y);
+    return row === null ? null : [this.table.value('id', row), `${this.table.value('weakest', row)}: robustness ${short(this.robustness[row])}`];
+  }
+
+  /** A failure in its least form: its path over the scene, and where its files are. */
+  fillFailure(host, one, paths, i) {
+    host.append(make('h3', '', one.name));
+    host.append(make('p', '', `${one.check}: robustness ${short(one.shrunk_robustness)}, as found ${short(one.robustness)}; ${one.items} of ${one.items_before} boxes, ` +
+      `movers and failures left; ${short(one.duration_s)} s; ${one.shrinking_flights} flights to shrink it`));
+    const verdict = one.repeats && one.confirmed;
+    host.append(make('p', verdict ? 'pass' : 'fail', verdict ? 'confirmed: flown again alone it is the same flight' : 'NOT CONFIRMED: flown again it is another flight'));
+    const links = host.appendChild(make('p'));
+    for (const [file, words] of [[one.file, 'scenario'], [`${one.folder}/report.html`, 'report and film']]) {
+      const link = links.appendChild(make('a', '', words));
+      link.href = file;
+      links.append(' ');
+    }
+    const {n, e} = readPath(paths.path[i]), goal = paths.goal[i];
+    const plan = paths.maps[paths.map[i]] ?? {bounds: [], footprints: [], movers: []};
+    let map = null;
+    map = new MapView(host.appendChild(make('div')), {...plan, goal: goal ? {n: goal[0], e: goal[1], radius: goal[2]} : null}, {n, e}, {
+      draw: (c) => {
+        if (!map) return;
+        c.strokeStyle = themeColor('c0');
+        c.lineWidth = 2;
+        c.beginPath();
+        n.forEach((north, k) => c.lineTo(map.x(e[k]), map.y(north)));
+        c.stroke();
+        map.cross(c, map.x(e.at(-1)), map.y(n.at(-1)), 5, themeColor('bad'));
+      },
+      key: () => {}, leave: () => {}, click: () => {}, hover: (x, y) => map.showTip(x, y, map.placeLines(x, y))});
+  }
+}

@@ -1,0 +1,122 @@
+#include "sim/scenario/check_faults.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <concepts>
+#include <variant>
+
+#include "sim/scenario/formula.h"
+#include "sim/scenario/reference_path.h"
+#include "sim/scenario/tree.h"
+
+namespace hedgehop::sim {
+namespace {
+
+/// As results have it.
+std::string check_name(const CheckConfig& config) {
+  return std::visit(
+      []<class Check>(const Check& check) -> std::string {
+        if constexpr (std::same_as<Check, FormulaCheck> || std::same_as<Check, MetricCheck>) {
+          return check.name;
+        } else {
+          return std::string(Check::kName);
+        }
+      },
+      config);
+}
+
+class Inspector {
+ public:
+  explicit Inspector(const Scenario& scenario) : scenario_(scenario) {}
+
+  std::vector<CheckFault> faults() {
+    for (size_t i = 0; i < scenario_.checks.size(); ++i) {
+      const std::string path = fmt::format("checks.{}", i);
+      std::visit([&](const auto& check) { this->check(path, check); }, scenario_.checks[i]);
+    }
+    return std::move(faults_);
+  }
+
+ private:
+  void check(const std::string& path, const ReachedGoalCheck& check) {
+    if (!scenario_.goal) add(path, "the scenario has no goal to reach");
+    if (check.within_m && scenario_.goal && *check.within_m < scenario_.goal->radius_m) {
+      add(path + ".within",
+          fmt::format("is less than the goal's radius ({} m), where the flight ends", scenario_.goal->radius_m));
+    }
+    if (check.before_s && *check.before_s > scenario_.duration_s) {
+      add(path + ".before", fmt::format("is after the flight's end ({} s)", scenario_.duration_s));
+    }
+  }
+  void check(const std::string& path, const NoCollisionCheck&) {
+    if (scenario_.may_collide) add(path, "contradicts 'may_collide: true'");
+  }
+  void check(const std::string& path, const AltitudeBandCheck& check) {
+    ordered(path + ".max", "min", check.min_m, check.max_m);
+  }
+  void check(const std::string& path, const InsideBoxCheck& check) {
+    ordered(path + ".north_max", "north_min", check.north_min_m, check.north_max_m);
+    ordered(path + ".east_max", "east_min", check.east_min_m, check.east_max_m);
+  }
+  void check(const std::string& path, const MetricCheck& check) {
+    if (!check.name.starts_with("module.") && std::ranges::find(kJudgesMetrics, check.name) == kJudgesMetrics.end()) {
+      add(path + ".name", fmt::format("is no figure of the judge{}; a module's own begins with 'module.'",
+                                      suggestion(check.name, {kJudgesMetrics.begin(), kJudgesMetrics.end()})));
+    }
+    if (!check.at_least && !check.at_most) add(path, "needs 'at_least' or 'at_most'");
+    if (check.at_least && check.at_most && *check.at_least > *check.at_most) {
+      add(path + ".at_most", "must not be less than 'at_least'");
+    }
+  }
+  void check(const std::string& path, const PathToleranceCheck& check) {
+    unless_valid(path + ".reference", [&] { read_reference_path(check.reference); });
+  }
+  void check(const std::string& path, const FormulaCheck& check) {
+    if (check.name.empty()) add(path + ".name", "must not be empty");
+    if (check.name == NoCollisionCheck::kName || std::ranges::count(scenario_.checks, check.name, check_name) > 1) {
+      add(path + ".name", fmt::format("'{}' is another check's name", check.name));
+    }
+    unless_valid(path + ".formula", [&] {
+      const double ahead_s = horizon_s(parse_formula(check.formula));
+      if (ahead_s > scenario_.duration_s) {
+        add(path + ".formula",
+            fmt::format("looks {:g} s ahead, which is longer than the flight ({:g} s)", ahead_s, scenario_.duration_s));
+      }
+    });
+  }
+  template <class Check>
+  void check(const std::string&, const Check&) {}
+
+  void ordered(const std::string& path, std::string_view lower, double min, double max) {
+    if (!(min < max)) add(path, fmt::format("must be greater than '{}' ({} m), got {}", lower, min, max));
+  }
+
+  template <class Use>
+  void unless_valid(const std::string& path, Use&& use) {
+    try {
+      use();
+    } catch (const std::invalid_argument& error) {
+      add(path, error.what());
+    }
+  }
+
+  void add(std::string path, std::string message) { faults_.push_back({std::move(path), std::move(message)}); }
+
+  const Scenario& scenario_;
+  std::vector<CheckFault> faults_;
+};
+
+}  // namespace
+
+std::vector<std::string> check_names(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const CheckConfig& check : scenario.checks) names.push_back(check_name(check));
+  const bool implied = std::ranges::find(names, NoCollisionCheck::kName) == names.end() && !scenario.may_collide;
+  if (implied) names.emplace_back(NoCollisionCheck::kName);
+  return names;
+}
+
+std::vector<CheckFault> check_faults(const Scenario& scenario) { return Inspector(scenario).faults(); }
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,255 @@
+#include "sim/scenario/formula.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+#include "sim/scenario/formula_tokens.h"
+#include "sim/scenario/tree.h"
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr int kDeepest = 100;  // nested parts, such as parentheses
+
+/// What parentheses may hold: which of both shows only at their end.
+using Value = std::variant<Expression, Formula>;
+
+/// Recursive descent, a function for each level of binding.
+class Parser {
+ public:
+  explicit Parser(std::string_view text) : tokens_(text) {}
+
+  Formula whole() {
+    Formula formula = formula_of(implication());
+    if (tokens_.next().kind != Token::Kind::end) tokens_.refuse("expected the formula's end");
+    return formula;
+  }
+
+ private:
+  Value implication() {
+    const Depth depth(*this);
+    Value left = disjunction();
+    if (!tokens_.take("->")) return left;
+    return joined(Formula::Kind::implication, std::move(left), implication());
+  }
+
+  Value disjunction() {
+    Value left = conjunction();
+    while (tokens_.take("or")) left = joined(Formula::Kind::disjunction, std::move(left), conjunction());
+    return left;
+  }
+
+  Value conjunction() {
+    Value left = until();
+    while (tokens_.take("and")) left = joined(Formula::Kind::conjunction, std::move(left), until());
+    return left;
+  }
+
+  Value until() {
+    Value left = unary();
+    while (tokens_.take("until")) {
+      const TimeInterval interval = interval_here();
+      Formula formula = joined(Formula::Kind::until, std::move(left), unary());
+      formula.interval = interval;
+      left = std::move(formula);
+    }
+    return left;
+  }
+
+  Value unary() {
+    const Depth depth(*this);
+    Formula formula;
+    if (tokens_.take("not")) {
+      formula.kind = Formula::Kind::negation;
+    } else if (tokens_.take("always")) {
+      formula.kind = Formula::Kind::always;
+      formula.interval = interval_here();
+    } else if (tokens_.take("eventually")) {
+      formula.kind = Formula::Kind::eventually;
+      formula.interval = interval_here();
+    } else {
+      return comparison();
+    }
+    formula.of.push_back(formula_of(unary()));
+    return formula;
+  }
+
+  Value comparison() {
+    if (tokens_.take("status")) return status();
+    Value left = sum();
+    for (const char* sign : {">=", ">", "<=", "<"}) {
+      if (!tokens_.take(sign)) continue;
+      Expression low = expression_of(std::move(left)), high = expression_of(sum());
+      if (sign[0] == '>') std::swap(low, high);
+      Formula formula;
+      formula.margin = {.kind = Expression::Kind::subtract, .of = {std::move(high), std::move(low)}};
+      return formula;
+    }
+    return left;
+  }
+
+  Formula status() {
+    const bool equal = tokens_.take("==");
+    if (!equal && !tokens_.take("!=")) tokens_.refuse("'status' takes == or !=");
+    if (tokens_.next().kind != Token::Kind::word) tokens_.refuse("expected a word of the module's status");
+    Formula has{.kind = Formula::Kind::has_status, .status = std::string(tokens_.take().text)};
+    if (equal) return has;
+    return {.kind = Formula::Kind::negation, .of = {std::move(has)}};
+  }
+
+  Value sum() {
+    Value left = product();
+    while (true) {
+      if (tokens_.take("+")) {
+        left = computed(Expression::Kind::add, std::move(left), product());
+      } else if (tokens_.take("-")) {
+        left = computed(Expression::Kind::subtract, std::move(left), product());
+      } else {
+        return left;
+      }
+    }
+  }
+
+  Value product() {
+    Value left = factor();
+    while (true) {
+      if (tokens_.take("*")) {
+        left = computed(Expression::Kind::multiply, std::move(left), factor());
+      } else if (tokens_.take("/")) {
+        left = computed(Expression::Kind::divide, std::move(left), factor());
+      } else {
+        return left;
+      }
+    }
+  }
+
+  Value factor() {
+    const Depth depth(*this);
+    if (tokens_.take("-")) return Expression{.kind = Expression::Kind::negate, .of = {expression_of(factor())}};
+    if (tokens_.take("(")) {
+      Value inner = implication();
+      tokens_.expect(")");
+      return inner;
+    }
+    for (const auto& [name, kind, count] : {std::tuple{"abs", Expression::Kind::abs, 1},
+                                            {"min", Expression::Kind::min, 2},
+                                            {"max", Expression::Kind::max, 2}}) {
+      if (!tokens_.take(name)) continue;
+      Expression call{.kind = kind};
+      tokens_.expect("(");
+      for (int i = 0; i < count; ++i) {
+        if (i > 0) tokens_.expect(",");
+        call.of.push_back(expression_of(sum()));
+      }
+      tokens_.expect(")");
+      return call;
+    }
+    return leaf();
+  }
+
+  Expression leaf() {
+    const Token& token = tokens_.next();
+    if (token.kind == Token::Kind::number) return {.number = tokens_.take().number};
+    if (token.kind != Token::Kind::word) tokens_.refuse("expected a number or a signal");
+    std::vector<std::string_view> names{"status"};
+    for (const FormulaSignal& signal : formula_signals()) names.push_back(signal.name);
+    if (std::ranges::find(names, token.text) == names.end()) {
+      tokens_.refuse(fmt::format("no signal '{}'{}", token.text, suggestion(token.text, names)));
+    }
+    return {.kind = Expression::Kind::signal, .signal = std::string(tokens_.take().text)};
+  }
+
+  TimeInterval interval_here() {
+    TimeInterval interval;
+    if (!tokens_.take("[")) return interval;
+    interval.from_s = seconds();
+    tokens_.expect(",");
+    if (!tokens_.take("end")) {
+      interval.to_s = seconds();
+      if (*interval.to_s < interval.from_s) {
+        tokens_.refuse(fmt::format("an interval from {} s ends before, at {} s", interval.from_s, *interval.to_s));
+      }
+    }
+    tokens_.expect("]");
+    return interval;
+  }
+
+  double seconds() {
+    if (tokens_.next().kind != Token::Kind::number) tokens_.refuse("expected a time of at least 0 s");
+    return tokens_.take().number;
+  }
+
+  Formula joined(Formula::Kind kind, Value left, Value right) {
+    Formula formula{.kind = kind};
+    formula.of.push_back(formula_of(std::move(left)));
+    formula.of.push_back(formula_of(std::move(right)));
+    return formula;
+  }
+
+  Expression computed(Expression::Kind kind, Value left, Value right) {
+    Expression expression{.kind = kind};
+    expression.of.push_back(expression_of(std::move(left)));
+    expression.of.push_back(expression_of(std::move(right)));
+    return expression;
+  }
+
+  Formula formula_of(Value value) {
+    if (auto* formula = std::get_if<Formula>(&value)) return std::move(*formula);
+    tokens_.refuse("expected a comparison, such as clearance >= 0.5");
+  }
+  Expression expression_of(Value value) {
+    if (auto* expression = std::get_if<Expression>(&value)) return std::move(*expression);
+    tokens_.refuse("expected a number, not something that holds or does not");
+  }
+
+  /// Counts the levels, for a text may not exhaust the stack.
+  struct Depth {
+    explicit Depth(Parser& parser) : of(parser) {
+      if (++of.depth_ > kDeepest) of.tokens_.refuse("nested too deep");
+    }
+    ~Depth() { --of.depth_; }
+    Depth(const Depth&) = delete;
+    Depth& operator=(const Depth&) = delete;
+    Parser& of;
+  };
+
+  Tokens tokens_;
+  int depth_ = 0;
+};
+
+}  // namespace
+
+const std::vector<FormulaSignal>& formula_signals() {
+  static const std::vector<FormulaSignal> signals{
+      {"clearance", "m", "of the hull to anything; 50 where nothing is nearer"},
+      {"obstacle_clearance", "m", "to obstacles; 50 where none is nearer"},
+      {"ground_clearance", "m", "to the ground; 50 where it is not nearer"},
+      {"north", "m", "position"},
+      {"east", "m", "position"},
+      {"altitude", "m", "above the scene's origin"},
+      {"speed", "m/s", "over ground, in space"},
+      {"climb", "m/s", "upwards"},
+      {"roll", "deg", "right side down"},
+      {"pitch", "deg", "nose up"},
+      {"heading", "deg", "-180 to 180, from north to east"},
+      {"tilt", "deg", "of the body's down axis to the vertical"},
+      {"goal_distance", "m", "horizontal; 0 without a goal"},
+      {"wind", "m/s", "speed of the air"},
+      {"tracking_error", "m/s", "horizontal velocity to the commanded one; 0 where none is commanded"},
+      {"estimation_error", "m", "of the estimated position to the true one"},
+  };
+  return signals;
+}
+
+Formula parse_formula(std::string_view text) { return Parser(text).whole(); }
+
+double horizon_s(const Formula& formula) {
+  double horizon = 0.0;
+  for (const Formula& part : formula.of) horizon = std::max(horizon, horizon_s(part));
+  return horizon + formula.interval.to_s.value_or(formula.interval.from_s);
+}
+
+}  // namespace hedgehop::sim

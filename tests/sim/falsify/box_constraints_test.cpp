@@ -1,0 +1,87 @@
+#include "sim/falsify/box_constraints.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace hedgehop::sim {
+namespace {
+
+using scenes::BoxConfig;
+
+BoxConfig random_box(std::mt19937& random) {
+  const auto draw = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
+  BoxConfig box{.north_m = draw(-10, 10), .east_m = draw(-10, 10), .length_m = draw(1, 12), .width_m = draw(1, 12)};
+  box.heading_rad = draw(0.0, std::numbers::pi);
+  return box;
+}
+
+/// Another way to see it: a point of one that lies in the other, on a fine grid.
+bool share_a_point(const BoxConfig& a, const BoxConfig& b) {
+  constexpr int kSteps = 120;
+  const auto corners = a.corners_NE_m();
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int k = 0; k <= kSteps; ++k) {
+      const Eigen::Vector2d p =
+          corners[0] + (corners[1] - corners[0]) * i / kSteps + (corners[3] - corners[0]) * k / kSteps;
+      if (plan_distance_m(b, p) == 0.0) return true;
+    }
+  }
+  return false;
+}
+
+TEST(BoxConstraints, OverlapAgreesWithPointsInBoth) {
+  std::mt19937 random(1);
+  constexpr double kGridM = 0.2;  // boxes that share less may share no point of the grid
+  int both = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const BoxConfig a = random_box(random), b = random_box(random);
+    const double overlap = overlap_m(a, b);
+    if (std::abs(overlap) < kGridM) continue;
+    EXPECT_EQ(overlap > 0.0, share_a_point(a, b));
+    both += overlap > 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(both, 30);
+}
+
+TEST(BoxConstraints, DistanceOfATurnedBoxIsThatOfItsDiagonal) {
+  const BoxConfig box{.length_m = 2.0, .width_m = 2.0, .heading_rad = 0.25 * std::numbers::pi};
+  EXPECT_NEAR(plan_distance_m(box, {5.0, 0.0}), 5.0 - std::sqrt(2.0), 1e-12);        // to its corner
+  EXPECT_NEAR(plan_distance_m(box, {3.0, 3.0}), 3.0 * std::sqrt(2.0) - 1.0, 1e-12);  // to its side
+}
+
+/// A field 60 m wide with a goal to the east, and two boxes in a band across the way.
+FalsifySearch search() {
+  FalsifySearch search;
+  search.scenario.start = {.north_m = 0.0, .east_m = 0.0};
+  search.scenario.goal = GoalConfig{.north_m = 0.0, .east_m = 40.0};
+  search.config.boxes = FalsifyBoxes{.count = 2, .north_m = {-30.0, 30.0}, .east_m = {10.0, 30.0}};
+  search.config.constraints = {FalsifyConstraint::boxes_inside, FalsifyConstraint::boxes_apart,
+                               FalsifyConstraint::way_exists};
+  return search;
+}
+
+TEST(BoxConstraints, ViolationGrowsWithWhatLiesOutsideOrInAnother) {
+  const BoxConfig inside{.north_m = 0.0, .east_m = 20.0, .length_m = 10.0, .width_m = 4.0};
+  BoxConfig out = inside;
+  out.north_m = 27.0;  // 2 m beyond, at two corners
+  EXPECT_EQ(violation(search(), {inside}), 0.0);
+  EXPECT_NEAR(violation(search(), {inside, out}), 4.0, 1e-9);
+  BoxConfig near = inside;
+  near.east_m = 23.0;  // of 4 m width: 1 m in each other
+  EXPECT_NEAR(violation(search(), {inside, near}), 1.0, 1e-9);
+}
+
+/// A box round the goal leaves no way to it.
+TEST(BoxConstraints, WayMustLeadToTheGoal) {
+  FalsifySearch at_goal = search();
+  at_goal.scenario.goal->east_m = 20.0;
+  EXPECT_EQ(violation(at_goal, {{.north_m = 0.0, .east_m = 20.0, .length_m = 8.0, .width_m = 8.0}}), 1.0);
+  at_goal.config.constraints = {FalsifyConstraint::boxes_inside};
+  EXPECT_EQ(violation(at_goal, {{.north_m = 0.0, .east_m = 20.0, .length_m = 8.0, .width_m = 8.0}}), 0.0);
+}
+
+}  // namespace
+}  // namespace hedgehop::sim

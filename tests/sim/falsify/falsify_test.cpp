@@ -1,0 +1,128 @@
+#include <gmock/gmock.h>
+
+#include "sim/record/csv_table.h"
+#include "tests/sim/campaign/campaign_folder.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using ::testing::Each;
+using ::testing::HasSubstr;
+using ::testing::Lt;
+
+/// A vehicle that flies straight north, without a camera, and boxes that may stand in its way.
+class Falsify : public ::testing::Test {
+ protected:
+  Falsify() {
+    folder.write(
+        "straight.yaml",
+        "name: straight\nduration: 12\nscene: {type: park, extent: 60, trees: 0, bushes: 0, rocks: 0, vehicles: "
+        "0, texture_size: 64}\n"
+        "vehicle: {use: " HEDGEHOP_SOURCE_DIR
+        "/configs/vehicles/s900.yaml}\nvelocimeter: {enabled: false}\n"
+        "start: {north: 0, east: 0, altitude: 5}\ngoal: {north: 20, east: 0, altitude: 5, radius: 1}\n"
+        "avoidance: {module: go_to_goal, speed: 3}\nfilm: {enabled: false}\n"
+        "checks: [{check: formula, name: keeps_clear, formula: 'always (obstacle_clearance >= 0.5)'}]\n");
+    folder.write("search.yaml", search(""));
+  }
+  static std::string search(const std::string& design) {
+    return "scenario: straight.yaml\nseeds: 1101:1101\nrobustness: [keeps_clear]\n"
+           "design: {budget: 60, failures: 2" +
+           design +
+           "}\n"
+           "boxes: {count: 2, north: [4, 16], east: [-14, 14], length: [1, 3], width: [1, 3], heading: [0, 90]}\n"
+           "constraints: [boxes_inside, boxes_apart, way_exists]\n"
+           "parameters: [{path: wind.speed, from: 0, to: 4, neutral: 0}]\n";
+  }
+  CampaignFolder folder;
+};
+
+TEST_F(Falsify, FindsConfirmsShrinksAndKeepsFailures) {
+  const CommandEnd end = folder.hedgehop("falsify search.yaml --out out -j 2");
+  ASSERT_EQ(end.status, 1) << end.out << end.err;
+  const auto json = folder.json("out/falsify.json");
+  ASSERT_EQ(json["counterexamples"].size(), 2u);
+  EXPECT_THAT(end.out, HasSubstr("confirmed: 2 of 2, flown again alone"));
+  for (const auto& one : json["counterexamples"]) {
+    EXPECT_TRUE(one["repeats"].get<bool>());
+    EXPECT_TRUE(one["confirmed"].get<bool>());
+    EXPECT_EQ(one["items"], 1);  // one box in the way is enough
+    EXPECT_EQ(one["items_before"], 2);
+    EXPECT_LE(one["shrinking_flights"].get<int>(), 60);
+    // As a test of its own it fails, with the robustness and the path that its origin states.
+    const std::string file = "out/" + one["file"].get<std::string>();
+    EXPECT_EQ(folder.hedgehop("run " + file + " --out kept").status, 1);
+    const auto kept = folder.json("kept/result.json");
+    EXPECT_EQ(kept["trajectory_hash"], one["trajectory_hash"]);
+    EXPECT_THAT(folder.read(file), HasSubstr("trajectory_hash: \"" + one["trajectory_hash"].get<std::string>() + "\""));
+    EXPECT_THAT(folder.read(file), HasSubstr("  speed: 0\n"));  // wind is not needed
+  }
+}
+
+TEST_F(Falsify, TableIsTheSameForAnyNumberOfWorkersAndAfterAKill) {
+  ASSERT_EQ(folder.hedgehop("falsify search.yaml --out one -j 1").status, 1);
+  ASSERT_EQ(folder.hedgehop("falsify search.yaml --out four -j 4").status, 1);
+  const std::string whole = lasting_columns(folder.read("one/falsify.csv"));
+  EXPECT_EQ(lasting_columns(folder.read("four/falsify.csv")), whole);
+  const std::string worker = folder.worker(
+      "n=1; while ! mkdir flown$n 2>/dev/null; do n=$((n + 1)); done\n"
+      "[ $n = 3 -o $n = 9 ] && kill -KILL $PPID; fly \"$@\"");
+  const std::string command = "falsify search.yaml --out torn -j 2 --program " + worker;
+  for (int i = 0; i < 2; ++i) EXPECT_NE(folder.hedgehop(command).status, 1);
+  EXPECT_EQ(folder.hedgehop(command).status, 1);
+  EXPECT_EQ(lasting_columns(folder.read("torn/falsify.csv")), whole);
+}
+
+TEST_F(Falsify, NoFailureIsNoProofAndExitsWithZero) {
+  const CommandEnd end = folder.hedgehop(
+      "falsify search.yaml --out out --set 'boxes.east=[8,14]' --set parameters=[] --set design.budget=6");
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_THAT(end.out, HasSubstr("no failure in 6 flights: none was found, which is no proof of safety"));
+  const CsvTable table(folder.path() / "out/falsify.csv");
+  EXPECT_EQ(table.rows(), 6u);
+  EXPECT_THAT(table.numbers("robustness"), Each(::testing::Ge(0.0)));
+}
+
+TEST_F(Falsify, EveryMethodKeepsItsBudgetAndFindsTheSameAgain) {
+  for (const std::string method : {"random", "direct"}) {
+    const std::string set = " --set design.method=" + method +
+                            " --set 'constraints=[]' --set 'boxes={count: 1, north: [10, 10], east: [-14, 14]}'";
+    EXPECT_EQ(folder.hedgehop("falsify search.yaml --out " + method + set).status, 1) << method;
+    const CsvTable table(folder.path() / (method + "/falsify.csv"));
+    EXPECT_LE(table.rows(), 60u);
+    EXPECT_EQ(folder.hedgehop("falsify search.yaml --out again-" + method + set).status, 1);
+    EXPECT_EQ(lasting_columns(folder.read("again-" + method + "/falsify.csv")),
+              lasting_columns(folder.read(method + "/falsify.csv")));
+  }
+}
+
+TEST_F(Falsify, BadInputIsRefusedInOneLineBeforeAnyFlight) {
+  const auto fault = [&](const std::string& set) {
+    const CommandEnd end = folder.hedgehop("falsify search.yaml --out none --set '" + set + "'");
+    EXPECT_EQ(end.status, 2) << set;
+    EXPECT_EQ(std::ranges::count(end.err, '\n'), 1) << end.err;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "none"));
+    return end.err;
+  };
+  EXPECT_THAT(fault("design.budget=0"), HasSubstr("'design.budget' must be >= 1, got 0"));
+  EXPECT_THAT(fault("seeds=1:100"), HasSubstr("60 flights are less than the 100 of one point"));
+  EXPECT_THAT(fault("robustness=[keep_clear]"), HasSubstr("has no check 'keep_clear'; did you mean 'keeps_clear'?"));
+  EXPECT_THAT(fault("boxes.east=[14,-14]"), HasSubstr("'boxes.east': its lower end must stand first"));
+  EXPECT_THAT(fault("parameters=[{path: wind.speed, from: 3, to: 1}]"), HasSubstr("'from' must be less than 'to'"));
+  EXPECT_THAT(fault("parameters=[{path: wind.sped, from: 0, to: 1}]"), HasSubstr("did you mean 'speed'?"));
+  EXPECT_THAT(fault("design.method=direct"), HasSubstr("'direct' is for up to 5 unknowns, here are 11"));
+  EXPECT_THAT(fault("set=[\"checks.0.formula=always (clearence > 1)\"]"), HasSubstr("did you mean 'clearance'?"));
+  EXPECT_THAT(fault("set=[\"checks.0.formula=always[0,20] (clearance > 1)\"]"),
+              HasSubstr("looks 20 s ahead, which is longer than the flight (12 s)"));
+}
+
+TEST_F(Falsify, FolderOfAnotherSearchIsRefused) {
+  ASSERT_EQ(folder.hedgehop("falsify search.yaml --out out --set design.budget=3 --set boxes.east=[8,14]").status, 0);
+  folder.write("search.yaml", search(", seed: 2"));
+  const CommandEnd end = folder.hedgehop("falsify search.yaml --out out");
+  EXPECT_EQ(end.status, 2);
+  EXPECT_THAT(end.err, HasSubstr("out: holds a search of another file"));
+}
+
+}  // namespace
+}  // namespace hedgehop::sim

@@ -1,0 +1,54 @@
+#include "sim/falsify/weakest_check.h"
+
+#include <gtest/gtest.h>
+
+namespace hedgehop::sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json check(const char* name, bool passed, Json value, double limit, const char* unit, const char* must) {
+  return {{"name", name}, {"passed", passed}, {"value", value}, {"limit", limit},
+          {"unit", unit}, {"must", must},     {"t_s", 3.5}};
+}
+
+FlightRecord flown(const Json& checks) {
+  FlightRecord record{.status = FlightRecord::Status::flown};
+  record.result = {{"outcome", "timeout"}, {"flight_time_s", 9.0}, {"checks", checks}};
+  return record;
+}
+
+TEST(WeakestCheck, MarginsAreScaledSoThatChecksCompare) {
+  EXPECT_DOUBLE_EQ(check_robustness(check("min_clearance", true, 2.5, 1.0, "m", ">=")), 1.5);
+  EXPECT_DOUBLE_EQ(check_robustness(check("max_speed", false, 7.0, 5.0, "m/s", "<=")), -2.0);
+  EXPECT_DOUBLE_EQ(check_robustness(check("reached_goal", false, 45.0, 40.0, "s", "<=")), -0.5);
+  EXPECT_NEAR(check_robustness(check("max_tilt", true, 20.0, 31.4591559, "deg", "<=")), 2.0, 1e-6);
+}
+
+/// The verdict decides the sign, whatever the number says: at its limit, without one, or where another key failed.
+TEST(WeakestCheck, FailsExactlyWhereTheCheckFails) {
+  EXPECT_LT(check_robustness(check("no_collision", false, 0.0, 0.0, "m", ">")), 0.0);
+  EXPECT_LT(check_robustness(check("reached_goal", false, 1.0, 2.0, "m", "<=")), 0.0);
+  EXPECT_LT(check_robustness(check("metric", false, nullptr, 2.0, "", "<=")), 0.0);
+  EXPECT_GE(check_robustness(check("no_collision", true, nullptr, 0.0, "m", ">")), 10.0);
+}
+
+TEST(WeakestCheck, IsTheLeastOfThoseThatCount) {
+  const FlightRecord record = flown({check("a", true, 3.0, 1.0, "m", ">="), check("b", true, 1.5, 1.0, "m", ">="),
+                                     check("c", false, 0.0, 1.0, "m", ">=")});
+  EXPECT_EQ(weakest_check(record, {}).name, "c");
+  EXPECT_EQ(weakest_check(record, {"a", "b"}).name, "b");
+  EXPECT_DOUBLE_EQ(weakest_check(record, {"a", "b"}).robustness, 0.5);
+  EXPECT_EQ(decided_s(record, "b"), 3.5);
+}
+
+TEST(WeakestCheck, CrashFailsAndRefusalDoesNot) {
+  FlightRecord record{.status = FlightRecord::Status::failed, .cause = "killed by SIGSEGV (Segmentation fault)"};
+  EXPECT_EQ(weakest_check(record, {}).name, "flight");
+  EXPECT_LT(weakest_check(record, {}).robustness, 0.0);
+  record.cause = "exit status 2: 'start': no flight can begin there";
+  EXPECT_GT(weakest_check(record, {}).robustness, 10.0);
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
