@@ -17,6 +17,9 @@ struct FlyOptions {
   bool other_builds = false;      ///< results of other builds stand, too
   size_t workers = 1;             ///< >= 1
   double limit_s = 0.0;           ///< longest wall time of a flight, 0 for none
+  /// Whether an order's flight still matters; looked at before it starts and whenever another has ended. One that no
+  /// longer does is neither reused nor flown, and killed where it flies. None: all do.
+  std::function<bool(const Order& order)> wanted = {};
 };
 
 /// Called when a flight ends, or at once for one that is not flown. @param reused  its former result is reused.

@@ -60,7 +60,21 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
                    "with --no-worse-than: a loss of the success rate that must be ruled out, 0 to 1")
       ->transform(number())
       ->check(CLI::Range(0.0, 1.0));
-  command->add_option("--confidence", options->confidence, "of both; default 0.95")
+  auto* const until = command
+                          ->add_option("--until", options->until,
+                                       "fly seed by seed until the flights show or refute this, whatever was looked at "
+                                       "before: 'collision < 0.01', 'success > 0.95', 'rate(min_clearance_m < 0.5) < "
+                                       "0.05'; exit status 4 where the last seed leaves it undecided")
+                          ->type_name("CLAIM");
+  auto* const width = command
+                          ->add_option("--until-width", options->until_width,
+                                       "fly seed by seed until the interval of the rate of --of is this narrow")
+                          ->transform(number())
+                          ->excludes(until);
+  auto* const of =
+      command->add_option("--of", options->of, "event of --until-width: collision, success, timeout")->needs(width);
+  width->needs(of);
+  command->add_option("--confidence", options->confidence, "of all of them; default 0.95")
       ->transform(number())
       ->check(CLI::Range(0.5, 0.99999));
   command->add_flag("--json", options->json, "print batch.json instead of a table for people");
