@@ -70,9 +70,13 @@ Interval BatchOutcome::success_interval(Count success) const {
 std::string BatchOutcome::interval_method() const { return sequential.empty() ? "wilson" : "anytime"; }
 
 std::string batch_json(const BatchOutcome& outcome, const std::string& version) {
-  Json json{{"version", version},          {"build", std::string(build_identity())},
-            {"groups", Json::array()},     {"verdicts", Json::array()},
-            {"sequential", Json::array()}, {"flights", Json::array()}};
+  Json json{{"version", version},
+            {"build", std::string(build_identity())},
+            {"conduct", to_json(outcome.conduct)},
+            {"groups", Json::array()},
+            {"verdicts", Json::array()},
+            {"sequential", Json::array()},
+            {"flights", Json::array()}};
   for (const GroupSummary& group : summarize(outcome.records)) json["groups"].push_back(group_json(group, outcome));
   for (const GroupVerdict& verdict : outcome.verdicts) {
     json["verdicts"].push_back(Json{{"group", verdict.group},

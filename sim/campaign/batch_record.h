@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/campaign/conduct.h"
 #include "sim/campaign/sequential_count.h"
 #include "sim/campaign/verdict.h"
 
@@ -13,6 +14,7 @@ struct BatchOutcome {
   std::vector<FlightRecord> records;  ///< under a stopping rule, none past its group's stop
   std::vector<GroupVerdict> verdicts;
   std::vector<SequentialResult> sequential;  ///< one a group under a stopping rule; else empty
+  Conduct conduct;
 
   /// Interval (95 %) of a success rate: Wilson's for a number of flights planned in advance; under a stopping rule one
   /// that holds at any time.
@@ -20,8 +22,9 @@ struct BatchOutcome {
   std::string interval_method() const;  ///< "wilson" or "anytime"
 };
 
-/// Text of batch.json: version, build, totals, groups with the success rate's interval (95 %), verdicts over the seeds,
-/// what a stopping rule found, and every flight with its order, status, cause, re-run command and result.
+/// Text of batch.json: version, build, how it was to be flown, groups with the success rate's interval (95 %), verdicts
+/// over the seeds, what a stopping rule found, and every flight with its order, status, cause, re-run command and
+/// result.
 std::string batch_json(const BatchOutcome& outcome, const std::string& version);
 
 /// The groups as a table in Markdown, below a line that names the builds where there are several, for people and for

@@ -102,13 +102,13 @@ nlohmann::ordered_json RateTally::figures() const {
 
 std::string RateTally::words() const {
   const Interval interval = anytime_interval(events_, confidence_);
-  std::string limit;
-  if (claim_.kind != RateClaim::Kind::width) {
-    limit = fmt::format(" {} {:.4g} and", claim_.kind == RateClaim::Kind::below ? "below" : "above", value());
-  }
-  return fmt::format("{} in {} of {} flights; with {:g} % confidence, its rate lies{} within {:.4g} to {:.4g}",
-                     to_string(claim_.event), events_.successes, events_.trials, 100.0 * confidence_, limit,
-                     interval.low, interval.high);
+  const std::string within = fmt::format("{:.4g} to {:.4g}", interval.low, interval.high);
+  const std::string counts =
+      fmt::format("{} in {} of {} flights; with {:g} % confidence, its rate lies", to_string(claim_.event),
+                  events_.successes, events_.trials, 100.0 * confidence_);
+  if (claim_.kind == RateClaim::Kind::width) return fmt::format("{} within {}", counts, within);
+  const std::string_view side = claim_.kind == RateClaim::Kind::below ? "below" : "above";
+  return fmt::format("{} {} {:.4g} (two-sided: {})", counts, side, value(), within);
 }
 
 }  // namespace hedgehop::sim

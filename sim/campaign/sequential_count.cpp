@@ -9,10 +9,6 @@
 namespace hedgehop::sim {
 namespace {
 
-const std::string& text_of(const StoppingRule& rule) {
-  return std::visit([](const auto& claim) -> const std::string& { return claim.text; }, rule.claim);
-}
-
 std::variant<RateTally, PairTally> tally_of(const StoppingRule& rule) {
   if (const auto* rate = std::get_if<RateClaim>(&rule.claim)) return RateTally(*rate, rule.confidence);
   return PairTally(std::get<PairClaim>(rule.claim), rule.confidence);
@@ -101,7 +97,7 @@ bool SequentialCount::counted(const Order& order) const {
 }
 
 SequentialResult SequentialCount::result_of(const Group& group) const {
-  SequentialResult result{.group = group.name, .claim = text_of(rule_), .standing = group.standing};
+  SequentialResult result{.group = group.name, .claim = rule_.text(), .standing = group.standing};
   result.confidence = rule_.confidence;
   result.planned = static_cast<int64_t>(group.observed.size());
   result.counted = static_cast<int64_t>(group.next);

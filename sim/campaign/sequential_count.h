@@ -5,8 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "sim/campaign/pair_claim.h"
-#include "sim/campaign/rate_claim.h"
+#include "sim/campaign/stopping_rule.h"
 #include "sim/campaign/verdict.h"
 
 namespace hedgehop::sim {
@@ -26,12 +25,6 @@ struct SequentialResult {
 nlohmann::ordered_json to_json(const SequentialResult& result);
 /// The result as a verdict over the seeds: it holds where the claim is shown.
 GroupVerdict verdict_of(const SequentialResult& result);
-
-/// A claim and how it is decided.
-struct StoppingRule {
-  std::variant<RateClaim, PairClaim> claim;
-  double confidence = 0.95;
-};
 
 /// Counts flights in the order of their orders, not of their ends: a flight counts once all before it have ended, and
 /// the rule is looked at after each. What flights past the stop did changes nothing, so that the answer is the same for

@@ -150,7 +150,7 @@ TEST(BatchUntil, BadRulesAreToldInOneLineBeforeFlying) {
         Row{"--until 'rate(min_clearence_m < 1) < 0.1'", "did you mean 'min_clearance_m'?"},
         Row{"--until-width 0 --of success", "--until-width 0: a width lies between 0 and 1, both left out"},
         Row{"--until-width 0.1 --of sucess", "did you mean 'success'?"},
-        Row{"--until 'collision < 0.1' --min-success 0.5", "planned in advance"}}) {
+        Row{"--until 'collision < 0.1' --min-success 0.1", "planned in advance"}}) {
     const CommandEnd end = folder.hedgehop("batch tiny.yaml --out out " + row.options);
     EXPECT_EQ(end.status, 2) << row.options;
     EXPECT_THAT(end.err, HasSubstr(row.message)) << row.options;

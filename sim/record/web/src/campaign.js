@@ -134,6 +134,7 @@ function main() {
   const host = (id) => document.getElementById(id);
   fillHead(host('head'), data, table);
   fillGroups(host('groups'), data.groups);
+  fillClaims(host('claims-card'), data.claims);
   if (data.is_sweep) host('groups-card').querySelector('h2').textContent = 'Success by point';
 
   const on = {
