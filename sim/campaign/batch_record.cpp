@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "sim/campaign/anytime_valid.h"
 #include "sim/campaign/statistics.h"
 #include "sim/flight/build.h"
 #include "sim/record/json_number.h"
@@ -14,14 +15,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json group_json(const GroupSummary& group) {
-  const Interval interval = wilson_interval(group.success, kTableConfidence);
+Json group_json(const GroupSummary& group, const BatchOutcome& outcome) {
+  const Interval interval = outcome.success_interval(group.success);
   return Json{{"group", group.group},
               {"flights", group.flights},
               {"passed", group.success.successes},
               {"ended", group.success.trials},
               {"success_rate", group.success.trials > 0 ? Json(group.success.rate()) : Json(nullptr)},
               {"success_rate_95", {interval.low, interval.high}},
+              {"success_rate_method", outcome.interval_method()},
               {"reached", group.reached},
               {"collided", group.collided},
               {"timeout", group.timeout},
@@ -47,8 +49,8 @@ Json flight_json(const FlightRecord& record) {
               {"result", record.result}};
 }
 
-std::string group_line(const GroupSummary& g) {
-  const Interval interval = wilson_interval(g.success, kTableConfidence);
+std::string group_line(const GroupSummary& g, const BatchOutcome& outcome) {
+  const Interval interval = outcome.success_interval(g.success);
   std::string success = fmt::format("{} | {:.2f} to {:.2f}", g.success.successes, interval.low, interval.high);
   if (g.unchecked > 0) {
     success = g.success.trials == 0 ? fmt::format("{} | -", kNoChecks)
@@ -61,15 +63,22 @@ std::string group_line(const GroupSummary& g) {
 
 }  // namespace
 
-std::string batch_json(const std::vector<FlightRecord>& records, const std::vector<GroupVerdict>& verdicts,
-                       const std::string& version) {
+Interval BatchOutcome::success_interval(Count success) const {
+  return sequential.empty() ? wilson_interval(success, kTableConfidence) : anytime_interval(success, kTableConfidence);
+}
+
+std::string BatchOutcome::interval_method() const { return sequential.empty() ? "wilson" : "anytime"; }
+
+std::string batch_json(const BatchOutcome& outcome, const std::string& version) {
   Json json{{"version", version},
             {"build", std::string(build_identity())},
+            {"conduct", to_json(outcome.conduct)},
             {"groups", Json::array()},
             {"verdicts", Json::array()},
+            {"sequential", Json::array()},
             {"flights", Json::array()}};
-  for (const GroupSummary& group : summarize(records)) json["groups"].push_back(group_json(group));
-  for (const GroupVerdict& verdict : verdicts) {
+  for (const GroupSummary& group : summarize(outcome.records)) json["groups"].push_back(group_json(group, outcome));
+  for (const GroupVerdict& verdict : outcome.verdicts) {
     json["verdicts"].push_back(Json{{"group", verdict.group},
                                     {"check", verdict.check},
                                     {"passed", verdict.passed},
@@ -77,25 +86,33 @@ std::string batch_json(const std::vector<FlightRecord>& records, const std::vect
                                     {"limit", json_number(verdict.limit)},
                                     {"words", verdict.words}});
   }
-  for (const FlightRecord& record : records) json["flights"].push_back(flight_json(record));
+  for (const SequentialResult& result : outcome.sequential) json["sequential"].push_back(to_json(result));
+  for (const FlightRecord& record : outcome.records) json["flights"].push_back(flight_json(record));
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string summary_text(const std::vector<FlightRecord>& records, const std::vector<GroupVerdict>& verdicts) {
-  std::string text =
-      several_builds_words(records) + truth_words(records) +
-      "| scenario | flights | passed | 95 % interval | reached | collided | timeout | fault | missing | least "
-      "clearance, m | median least clearance, m | median time, s "
-      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-  for (const GroupSummary& group : summarize(records)) text += group_line(group);
+std::string summary_text(const BatchOutcome& outcome) {
+  const std::vector<FlightRecord>& records = outcome.records;
+  std::string text = several_builds_words(records) + truth_words(records) +
+                     fmt::format(
+                         "| scenario | flights | passed | 95 % interval{} | reached | collided | timeout | fault | "
+                         "missing | least clearance, m | median least clearance, m | median time, s "
+                         "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+                         outcome.sequential.empty() ? "" : " at any time");
+  for (const GroupSummary& group : summarize(records)) text += group_line(group, outcome);
   for (const FlightRecord& record : records) {
     if (record.status == FlightRecord::Status::missing || passed(record) || unchecked(record)) continue;
     text +=
         fmt::format("FAIL  {}: {}\n      {}\n", record.order.id, failure_words(record), rerun_command(record.order));
   }
-  for (const GroupVerdict& verdict : verdicts) {
+  for (const GroupVerdict& verdict : outcome.verdicts) {
     text +=
         fmt::format("{}  {} {}: {}\n", verdict.passed ? "pass" : "FAIL", verdict.check, verdict.group, verdict.words);
+  }
+  for (const SequentialResult& result : outcome.sequential) {
+    const bool open = result.standing == Standing::undecided;
+    const std::string_view word = result.standing == Standing::shown ? "pass" : open ? "open" : "FAIL";
+    text += fmt::format("{}  {} {}: {}\n", word, result.claim, result.group, result.words);
   }
   return text;
 }

@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 
+#include "sim/campaign/anytime_valid.h"
 #include "sim/campaign/batch_record.h"
 #include "sim/campaign/statistics.h"
 #include "sim/campaign/verdict.h"
@@ -55,8 +56,9 @@ std::string unit_of(const std::string& name, const std::vector<FlightNotes>& not
   return name.ends_with("_s") ? "s" : "";
 }
 
-Json group_row(const GroupSummary& group) {
-  const Interval interval = wilson_interval(group.success, kTableConfidence);
+Json group_row(const GroupSummary& group, bool anytime) {
+  const Interval interval =
+      anytime ? anytime_interval(group.success, kTableConfidence) : wilson_interval(group.success, kTableConfidence);
   return {{"group", group.group},
           {"flights", group.flights},
           {"passed", group.success.successes},
@@ -190,11 +192,11 @@ std::vector<std::string> swept_columns(const FlightList& flights) {
   return point < status ? std::vector<std::string>(point + 1, status) : std::vector<std::string>();
 }
 
-Json groups_data(const std::vector<FlightRecord>& records) {
+Json groups_data(const std::vector<FlightRecord>& records, bool anytime) {
   const std::vector<GroupSummary> groups = summarize(records);
-  Json rows = Json::array({group_row(all_of(records))});
+  Json rows = Json::array({group_row(all_of(records), anytime)});
   if (groups.size() > 1) {
-    for (const GroupSummary& group : groups) rows.push_back(group_row(group));
+    for (const GroupSummary& group : groups) rows.push_back(group_row(group, anytime));
   }
   return rows;
 }

@@ -29,8 +29,9 @@ nlohmann::ordered_json strips_data(const std::filesystem::path& folder, const st
 /// Names of the columns that a sweep varied: those between the number of the point and the status.
 std::vector<std::string> swept_columns(const FlightList& flights);
 
-/// Flights that differ by the seed alone, one row a group with its Wilson interval (95 %), and before them one of all.
-nlohmann::ordered_json groups_data(const std::vector<FlightRecord>& records);
+/// Flights that differ by the seed alone, one row a group with its interval (95 %), and before them one of all.
+/// @param anytime  intervals that hold at any time, for flights under a stopping rule; else Wilson's.
+nlohmann::ordered_json groups_data(const std::vector<FlightRecord>& records, bool anytime);
 
 /// What an earlier campaign's flights did: `flights` (one a row of `now`, null where there was none), `groups` of the
 /// same name with both rates and the interval (95 %) of the rate's change, and the ids of flights that exist no longer.

@@ -94,6 +94,13 @@ class Gatherer {
     return order.group;
   }
 
+  void add_plan(Registration plan) {
+    for (const RegisteredFlights& flights : plan.config.flights) {
+      add_scenario(flights.scenario, seeds_.empty() ? parse_seeds(flights.seeds) : seeds_, {}, "");
+    }
+    batch_.plan = std::move(plan);
+  }
+
   BatchOrders take() { return std::move(batch_); }
 
  private:
@@ -120,6 +127,8 @@ class Gatherer {
                      flights.set, "");
       }
       if (campaign.leaderboard) add_leaderboard(file.parent_path(), *campaign.leaderboard);
+      if (campaign.plan) batch_.plan = read_registration((file.parent_path() / *campaign.plan).lexically_normal());
+      if (campaign.tuned_on) batch_.tuned_on += (batch_.tuned_on.empty() ? "" : ", ") + *campaign.tuned_on;
       for (CampaignCheck& check : campaign.checks) {
         if (auto* no_worse = std::get_if<NoWorseCheck>(&check)) {
           no_worse->than = (file.parent_path() / no_worse->than).lexically_normal().string();
@@ -188,6 +197,13 @@ BatchOrders read_batch(const std::vector<fs::path>& inputs, const std::vector<ui
                        const std::vector<std::string>& overrides) {
   Gatherer gatherer(seeds, overrides);
   for (const fs::path& input : inputs) gatherer.add_input(input);
+  return gatherer.take();
+}
+
+BatchOrders read_plan(const fs::path& plan, const std::vector<uint64_t>& seeds,
+                      const std::vector<std::string>& overrides) {
+  Gatherer gatherer(seeds, overrides);
+  gatherer.add_plan(read_registration(plan));
   return gatherer.take();
 }
 

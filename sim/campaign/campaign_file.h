@@ -8,6 +8,7 @@
 
 #include "sim/campaign/leaderboard.h"
 #include "sim/campaign/order.h"
+#include "sim/campaign/registration.h"
 
 namespace hedgehop::sim {
 
@@ -71,6 +72,7 @@ struct CampaignConfig {
   std::vector<CampaignFlights> flights;
   std::optional<LeaderboardConfig> leaderboard;
   std::vector<CampaignCheck> checks;
+  std::optional<std::string> plan;
 };
 template <class Visitor>
 void describe(Visitor& v, CampaignConfig& c) {
@@ -80,6 +82,7 @@ void describe(Visitor& v, CampaignConfig& c) {
   v("flights", c.flights, {.meaning = "scenarios, each with its seeds"});
   v("leaderboard", c.leaderboard, {.meaning = "every module in every world"});
   v("checks", c.checks, {.selector = "check", .meaning = "what must hold over the seeds of each scenario"});
+  v("plan", c.plan, {.meaning = "plan's file, registered before the flights, relative to this file"});
 }
 
 /// What a batch is to fly.
@@ -87,7 +90,9 @@ struct BatchOrders {
   std::vector<Order> orders;
   std::vector<CampaignCheck> checks;
   std::optional<Leaderboard> leaderboard;
-  std::vector<std::string> faults;  ///< one line each; the order of a bad file has the first of its own
+  std::optional<Registration> plan;  ///< the last that a file names
+  std::string tuned_on;              ///< what the files say of it; "" where none does
+  std::vector<std::string> faults;   ///< one line each; the order of a bad file has the first of its own
 };
 
 /// Orders of scenario files, campaign files and folders (all `*.yaml` right in them, by name), in this order.
@@ -95,6 +100,10 @@ struct BatchOrders {
 /// @param overrides  "a.b=value", applied to every scenario after a campaign's own.
 BatchOrders read_batch(const std::vector<std::filesystem::path>& inputs, const std::vector<uint64_t>& seeds,
                        const std::vector<std::string>& overrides);
+
+/// The orders of a plan, and the plan. @param seeds, overrides  as of read_batch().
+BatchOrders read_plan(const std::filesystem::path& plan, const std::vector<uint64_t>& seeds,
+                      const std::vector<std::string>& overrides);
 
 /// The orders of an earlier batch, from its batch.json. Scenario files are read again. Throws InputError naming the
 /// file when it is no such record.

@@ -7,6 +7,7 @@
 #include "sim/campaign/campaign_data.h"
 #include "sim/campaign/flight_maps.h"
 #include "sim/campaign/leaderboard.h"
+#include "sim/campaign/page_claims.h"
 #include "sim/flight/build.h"
 #include "sim/record/report_page.h"
 #include "sim/record/whole_file.h"
@@ -64,7 +65,8 @@ void write_campaign_report(const std::filesystem::path& folder, const std::optio
   data["truth_used"] = truth_words(flights.records);
   data["swept"] = swept_columns(flights);
   data["leaderboard"] = leaderboard_data(folder, flights);
-  data["groups"] = groups_data(flights.records);
+  data["claims"] = claims_data(folder, flights.records);
+  data["groups"] = groups_data(flights.records, data["claims"]["method"] == "anytime");
   data["columns"] = columns_data(flights.table, notes);
   for (const char* key : {"why", "report", "replay"}) data[key] = Json::array();
   for (const FlightNotes& note : notes) {

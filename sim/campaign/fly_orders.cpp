@@ -53,6 +53,7 @@ std::vector<FlightRecord> fly_orders(const std::vector<Order>& orders, const Fly
   std::vector<size_t> to_fly;
   for (const Order& order : orders) {
     FlightRecord& record = records.emplace_back(FlightRecord{.order = order});
+    if (options.wanted && !options.wanted(order)) continue;
     if (!order.fault.empty()) {
       record.status = Status::failed;
       record.cause = order.fault;
@@ -70,7 +71,8 @@ std::vector<FlightRecord> fly_orders(const std::vector<Order>& orders, const Fly
     to_fly.push_back(records.size() - 1);
   }
 
-  const WorkerPool pool{.workers = options.workers, .limit_s = options.limit_s};
+  WorkerPool pool{.workers = options.workers, .limit_s = options.limit_s};
+  if (options.wanted) pool.wanted = [&](size_t job) { return options.wanted(records[to_fly[job]].order); };
   const auto command = [&](size_t job) {
     const Order& order = records[to_fly[job]].order;
     forget_flight(options.out / order.id);  // a worker that dies must not leave an earlier verdict behind

@@ -18,6 +18,9 @@ struct FlyOptions {
   size_t workers = 1;             ///< >= 1
   double limit_s = 0.0;           ///< longest wall time of a flight, 0 for none
   bool reports = false;           ///< flights leave films and reports
+  /// Whether an order's flight still matters; looked at before it starts and whenever another has ended. One that no
+  /// longer does is neither reused nor flown, and killed where it flies. None: all do.
+  std::function<bool(const Order& order)> wanted = {};
 };
 
 /// Called when a flight ends, or at once for one that is not flown. @param reused  its former result is reused.

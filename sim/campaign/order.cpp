@@ -70,4 +70,17 @@ std::vector<uint64_t> parse_seeds(const std::string& text) {
   return seeds;
 }
 
+std::string seed_words(std::vector<uint64_t> seeds) {
+  std::ranges::sort(seeds);
+  std::string words;
+  for (size_t i = 0; i < seeds.size();) {
+    const uint64_t first = seeds[i];
+    uint64_t last = first;
+    while (i < seeds.size() && (seeds[i] == last || seeds[i] == last + 1)) last = seeds[i++];
+    words += words.empty() ? "" : ",";
+    words += first == last ? std::to_string(first) : fmt::format("{}:{}", first, last);
+  }
+  return words;
+}
+
 }  // namespace hedgehop::sim

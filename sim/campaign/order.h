@@ -39,4 +39,7 @@ std::string shell_quoted(const std::string& word);
 /// falls, for a doubled seed or more than a million of them.
 std::vector<uint64_t> parse_seeds(const std::string& text);
 
+/// Seeds as parse_seeds() reads them, in rising order, each once; "" of none.
+std::string seed_words(std::vector<uint64_t> seeds);
+
 }  // namespace hedgehop::sim

@@ -54,6 +54,7 @@ bool WorkerPool::run(size_t jobs, const std::function<std::vector<std::string>(s
     }
     while (next < jobs && running.size() < workers) {
       const size_t job = next++;
+      if (wanted && !wanted(job)) continue;
       try {
         running.push_back({job, Worker(command(job), interruption.mask_before())});
       } catch (const std::system_error& error) {
@@ -71,6 +72,9 @@ bool WorkerPool::run(size_t jobs, const std::function<std::vector<std::string>(s
       }
       ended(r->job, r->worker.join());
       r = running.erase(r);
+    }
+    for (Running& r : running) {
+      if (wanted && !wanted(r.job)) r.worker.kill(WorkerEnd::Kind::stopped);
     }
   }
   return !interruption.came();

@@ -13,6 +13,9 @@ namespace hedgehop::sim {
 struct WorkerPool {
   size_t workers = 1;    ///< processes at a time, >= 1
   double limit_s = 0.0;  ///< longest wall time of one process, then it is killed; 0 for no limit
+  /// Whether a job still matters, looked at before it starts and whenever another has ended: one that no longer does is
+  /// not started, or is killed and reported as stopped. None: all do.
+  std::function<bool(size_t job)> wanted = {};
 
   /// Runs a process for each job and calls `ended` as each ends. When the interruption comes, all are killed, reported
   /// as stopped, and no other is started. @param command  of a job: absolute path and arguments.

@@ -3,18 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <stdexcept>
 
-#include "sim/campaign/batch_record.h"
-#include "sim/campaign/fly_orders.h"
-#include "sim/campaign/junit.h"
-#include "sim/campaign/leaderboard.h"
-#include "sim/campaign/table.h"
 #include "sim/cli/commands.h"
-#include "sim/cli/exit_status.h"
-#include "sim/cli/progress.h"
-#include "sim/flight/build.h"
+#include "sim/cli/fly_batch.h"
 #include "sim/record/whole_file.h"
 
 namespace hedgehop::sim::cli {
@@ -22,19 +14,20 @@ namespace {
 
 std::filesystem::path folder_of(const BatchOptions& options) {
   if (!options.out.empty()) return options.out;
-  const bool one = options.inputs.size() == 1;
-  return std::filesystem::path("out") / (one ? std::filesystem::absolute(options.inputs[0]).stem() : "batch");
+  std::filesystem::path name = "batch";
+  if (options.inputs.size() == 1) name = std::filesystem::absolute(options.inputs[0]).stem();
+  if (!options.plan.empty()) name = options.plan.stem();
+  return "out" / name;
 }
 
 BatchOrders orders_of(const BatchOptions& options, const std::filesystem::path& out) {
-  if (options.inputs.empty() && !options.failed_only) {
-    throw InputError("batch: name scenarios, campaigns or folders (or --failed-only with --out)");
+  if (options.inputs.empty() && options.plan.empty() && !options.failed_only) {
+    throw InputError("batch: name scenarios, campaigns or folders (or --plan, or --failed-only with --out)");
   }
-  BatchOrders batch =
-      options.inputs.empty()
-          ? reread_batch(out / "batch.json")
-          : read_batch(options.inputs, options.seeds.empty() ? std::vector<uint64_t>{} : parse_seeds(options.seeds),
-                       options.overrides);
+  const std::vector<uint64_t> seeds = options.seeds.empty() ? std::vector<uint64_t>{} : parse_seeds(options.seeds);
+  BatchOrders batch = !options.plan.empty()    ? read_plan(options.plan, seeds, options.overrides)
+                      : options.inputs.empty() ? reread_batch(out / "batch.json")
+                                               : read_batch(options.inputs, seeds, options.overrides);
   if (options.least_success) batch.checks.push_back(SuccessRateCheck{*options.least_success, options.confidence});
   if (!options.no_worse_than.empty()) {
     const std::filesystem::path than = options.no_worse_than;
@@ -51,42 +44,20 @@ BatchOrders orders_of(const BatchOptions& options, const std::filesystem::path& 
   return batch;
 }
 
-/// Writes every file that can be written. @return why the first of the others could not be, else empty.
-std::string write_files(const std::filesystem::path& out, const std::filesystem::path& junit,
-                        const std::vector<FlightRecord>& records, const std::vector<GroupVerdict>& verdicts) {
-  std::string fault;
-  const auto attempt = [&fault](const std::filesystem::path& file, const std::string& text) {
-    try {
-      if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
-      write_file_whole(file, text);
-    } catch (const std::exception& error) {
-      if (fault.empty()) fault = error.what();
-    }
-  };
-  attempt(out / "batch.json", batch_json(records, verdicts, std::string(version())));
-  attempt(out / "batch.csv", csv_text(flight_table(records)));
-  if (!junit.empty()) attempt(junit, junit_text(records, verdicts));
-  return fault;
-}
-
-/// Writes the leaderboard's matrix. @param again  the flights are an earlier batch's, and so is its leaderboard.
-/// @return its text; empty without a leaderboard.
-std::string write_matrix(const std::filesystem::path& out, const std::optional<Leaderboard>& board, bool again) {
-  if (board) {
-    write_leaderboard(out, *board);
-  } else if (!again) {
-    forget_leaderboard(out);
+std::optional<StoppingRule> rule_of(const BatchOptions& options, const BatchOrders& batch) {
+  const bool asked = !options.until.empty() || options.until_width;
+  const bool planned = batch.plan && batch.plan->config.rule;
+  if (!asked && !planned) return {};
+  if (!batch.checks.empty() || batch.leaderboard) {
+    throw InputError(
+        "--until: success_rate, no_worse and leaderboards are for a number of flights planned in advance; stopping "
+        "early would falsify them");
   }
-  const nlohmann::ordered_json data = leaderboard_data(out, read_flights(out));
-  if (data.is_null()) return "";
-  const std::string text = leaderboard_text(data);
-  write_file_whole(out / "leaderboard.md", text);
-  return "\n" + text;
-}
-
-bool all_hold(const std::vector<FlightRecord>& records, const std::vector<GroupVerdict>& verdicts) {
-  if (!verdicts.empty()) return std::ranges::all_of(verdicts, &GroupVerdict::passed);
-  return std::ranges::all_of(records, [](const FlightRecord& r) { return passed(r) || unchecked(r); });
+  if (!asked) {
+    return StoppingRule{parse_rate_claim(batch.plan->config.rule->until), batch.plan->config.rule->confidence};
+  }
+  if (!options.until.empty()) return StoppingRule{parse_rate_claim(options.until), options.confidence};
+  return StoppingRule{width_claim(*options.until_width, options.of), options.confidence};
 }
 
 }  // namespace
@@ -100,41 +71,17 @@ std::filesystem::path own_program() {
 
 int batch(const BatchOptions& options) {
   const std::filesystem::path out = folder_of(options);
-  const BatchOrders batch = orders_of(options, out);
-  require_writable(out);
-  for (const std::string& fault : batch.faults) fmt::print(stderr, "{}\n", fault);
-
-  Interruption interruption;
-  CampaignProgress progress(batch.orders.size());
-  const FlyOptions fly{.program = options.program.empty() ? own_program() : options.program,
-                       .out = out,
-                       .other_builds = options.reuse_other_builds,
-                       .workers = options.jobs,
-                       .limit_s = options.limit_s};
-  const Reuse reuse = options.resume ? Reuse::all : options.failed_only ? Reuse::passed : Reuse::none;
-  const std::vector<FlightRecord> records =
-      fly_orders(batch.orders, fly, reuse, interruption, [&progress](const FlightRecord& record, bool reused) {
-        const bool ok = passed(record) || unchecked(record);
-        const std::string words = unchecked(record) ? fmt::format("{}, {}", outcome_words(record), kNoChecks)
-                                  : ok              ? outcome_words(record)
-                                                    : failure_words(record);
-        progress.add(record.order.id, words, ok, reused);
-      });
-  progress.close();
-
-  const std::vector<GroupVerdict> verdicts = judge(batch.checks, summarize(records));
-  const std::string unwritten = write_files(out, options.junit, records, verdicts);
-  const std::string matrix = unwritten.empty() ? write_matrix(out, batch.leaderboard, options.inputs.empty()) : "";
-  if (options.json) {
-    fmt::print("{}", batch_json(records, verdicts, std::string(version())));
-  } else {
-    fmt::print("{}{}", summary_text(records, verdicts), matrix);
-  }
-  if (!unwritten.empty()) throw std::runtime_error(unwritten);
-  if (!options.json) fmt::print("written: {}\n", (out / "batch.json").string());
-  if (interruption.signal() != 0) return kSignalled + interruption.signal();
-  if (!batch.faults.empty()) return kBadInput;
-  return all_hold(records, verdicts) ? 0 : kFails;
+  BatchRun run{.batch = orders_of(options, out), .junit = options.junit, .json = options.json};
+  run.rule = rule_of(options, run.batch);
+  run.conduct = conduct_of(run.batch, run.rule, options.limit_s);
+  run.again = options.inputs.empty() && options.plan.empty();
+  run.reuse = options.resume ? Reuse::all : options.failed_only ? Reuse::passed : Reuse::none;
+  run.fly = {.program = options.program.empty() ? own_program() : options.program,
+             .out = out,
+             .other_builds = options.reuse_other_builds,
+             .workers = options.jobs,
+             .limit_s = options.limit_s};
+  return fly_batch(std::move(run));
 }
 
 }  // namespace hedgehop::sim::cli

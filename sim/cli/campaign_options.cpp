@@ -30,7 +30,8 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
   CLI::App* const command = app.add_subcommand("batch", "fly many scenarios, each flight in a process of its own");
   const auto options = std::make_shared<BatchOptions>();
   options->jobs = cores();
-  command->add_option("FILES", options->inputs, "scenarios, campaigns (files with the key `flights`), or folders");
+  auto* const files =
+      command->add_option("FILES", options->inputs, "scenarios, campaigns (files with the key `flights`), or folders");
   command->add_option("--seeds", options->seeds, "seeds to fly of each scenario, such as 1:10 or 1:3,7");
   command->add_option("--set", options->overrides, "override a value of every scenario")
       ->type_name("KEY.PATH=VALUE")
@@ -38,6 +39,9 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
   add_flying(*command, *options);
   command->add_option("--out", options->out, "folder of the results")->type_name("DIR");
   command->add_option("--junit", options->junit, "write a JUnit file for CI")->type_name("FILE");
+  command->add_option("--plan", options->plan, "fly a registered plan, and nothing else; what deviates is listed")
+      ->excludes(files)
+      ->type_name("FILE");
   auto* const failed_only =
       command->add_flag("--failed-only", options->failed_only,
                         "keep the flights of --out that passed; without FILES, those of its batch.json");
@@ -60,12 +64,59 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
                    "with --no-worse-than: a loss of the success rate that must be ruled out, 0 to 1")
       ->transform(number())
       ->check(CLI::Range(0.0, 1.0));
-  command->add_option("--confidence", options->confidence, "of both; default 0.95")
+  auto* const until = command
+                          ->add_option("--until", options->until,
+                                       "fly seed by seed until the flights show or refute this, whatever was looked at "
+                                       "before: 'collision < 0.01', 'success > 0.95', 'rate(min_clearance_m < 0.5) < "
+                                       "0.05'; exit status 4 where the last seed leaves it undecided")
+                          ->type_name("CLAIM");
+  auto* const width = command
+                          ->add_option("--until-width", options->until_width,
+                                       "fly seed by seed until the interval of the rate of --of is this narrow")
+                          ->transform(number())
+                          ->excludes(until);
+  auto* const of =
+      command->add_option("--of", options->of, "event of --until-width: collision, success, timeout")->needs(width);
+  width->needs(of);
+  command->add_option("--confidence", options->confidence, "of all of them; default 0.95")
       ->transform(number())
       ->check(CLI::Range(0.5, 0.99999));
   command->add_flag("--json", options->json, "print batch.json instead of a table for people");
   command->add_option("--program", options->program)->group("");  // hidden: for tests
   command->callback([&chosen, options] { chosen = [options] { return batch(*options); }; });
+}
+
+void declare_compare(CLI::App& app, std::function<int()>& chosen) {
+  CLI::App* const command = app.add_subcommand(
+      "compare", "fly two scenarios on the same seeds until a claim about the second is shown or refuted");
+  const auto options = std::make_shared<CompareOptions>();
+  options->jobs = cores();
+  command->add_option("BASE", options->base, "scenario to compare with")->required();
+  command->add_option("CANDIDATE", options->candidate, "scenario that the claim is about")->required();
+  command
+      ->add_option("--until", options->until,
+                   "the claim: 'collision: better', 'collision: no worse by 0.02', 'min_clearance_m: better'; exit "
+                   "status 4 where the last seed leaves it undecided")
+      ->required()
+      ->type_name("CLAIM");
+  command->add_option("--range", options->range_m, "of a claim about clearances: the clearance that is enough")
+      ->transform(number())
+      ->type_name("M");
+  command->add_option("--seeds", options->seeds, "seeds of the pairs, such as 1:100")->required();
+  command->add_option("--set", options->overrides, "override a value of both scenarios")
+      ->type_name("KEY.PATH=VALUE")
+      ->take_all();
+  command->add_option("--confidence", options->confidence, "of the claim; default 0.95")
+      ->transform(number())
+      ->check(CLI::Range(0.5, 0.99999));
+  add_flying(*command, *options);
+  command->add_option("--out", options->out, "folder of the results; out/compare when not given")->type_name("DIR");
+  command->add_option("--junit", options->junit, "write a JUnit file for CI")->type_name("FILE");
+  command->add_flag("--resume", options->resume,
+                    "keep every flight of --out that left a result of the very same scenario and build");
+  command->add_flag("--json", options->json, "print batch.json instead of a table for people");
+  command->add_option("--program", options->program)->group("");  // hidden: for tests
+  command->callback([&chosen, options] { chosen = [options] { return compare(*options); }; });
 }
 
 void declare_sweep(CLI::App& app, std::function<int()>& chosen) {
@@ -162,6 +213,7 @@ void declare_bless(CLI::App& app, std::function<int()>& chosen) {
 
 void declare_campaigns(CLI::App& app, std::function<int()>& chosen) {
   declare_batch(app, chosen);
+  declare_compare(app, chosen);
   declare_sweep(app, chosen);
   declare_falsify(app, chosen);
   declare_branch(app, chosen);

@@ -190,7 +190,7 @@ int parse_and_run(int argc, char** argv) {
       "hedgehop"};
   app.set_version_flag("--version", fmt::format("{} (build {})", version(), build_identity()));
   app.require_subcommand(1);
-  app.footer("Exit status: 0 all checks hold; 1 a check fails; 2 the input is bad; 3 an internal error.");
+  app.footer("Exit status: 0 all checks hold; 1 a check fails; 2 the input is bad; 3 an internal error; 4 undecided.");
 
   std::function<int()> chosen;
   RunOptions run;

@@ -7,8 +7,8 @@
 #include <vector>
 
 /// The command line's commands. Results go to standard output, progress and warnings to standard error. Each returns
-/// the process's exit status: 0 all checks hold, 1 a check fails. What goes wrong is thrown; main() turns InputError
-/// into status 2 and everything else into 3.
+/// the process's exit status: 0 all checks hold, 1 a check fails, 4 undecided. What goes wrong is thrown; main() turns
+/// InputError into status 2 and everything else into 3.
 namespace hedgehop::sim::cli {
 
 /// A scenario file and what overrides it.
@@ -88,11 +88,35 @@ struct BatchOptions {
   std::optional<double> least_success, margin;  ///< statistical checks, as in a campaign's file
   std::filesystem::path no_worse_than;
   double confidence = 0.95;
-  std::filesystem::path program;  ///< of the workers, absolute; empty: this one
+  std::string until;                  ///< stopping rule, such as "collision < 0.01"; empty: none
+  std::optional<double> until_width;  ///< stopping rule: the width of the interval of the rate of `of`
+  std::string of;                     ///< event
+  std::filesystem::path plan;         ///< registered plan to fly in place of inputs; empty: none
+  std::filesystem::path program;      ///< of the workers, absolute; empty: this one
 };
 /// Flies many scenarios, each flight in a process of its own. Interrupted, it writes what there is and returns 128 and
-/// the signal's number. A bad file fails alone: the rest is flown, then the status is 2.
+/// the signal's number. A bad file fails alone: the rest is flown, then the status is 2. A stopping rule that the last
+/// seed leaves undecided: 4.
 int batch(const BatchOptions& options);
+
+struct CompareOptions {
+  std::filesystem::path base, candidate;  ///< scenarios
+  std::string seeds;                      ///< such as 1:100
+  std::vector<std::string> overrides;     ///< "a.b=value", override both
+  std::string until;                      ///< claim, such as "collision: better"
+  std::optional<double> range_m;          ///< clearance that is enough
+  double confidence = 0.95;
+  size_t jobs = 1;                  ///< flights at a time, >= 1
+  double limit_s = 0.0;             ///< longest wall time of a flight, 0 for none
+  bool reuse_other_builds = false;  ///< results of other builds stand, too
+  std::filesystem::path out;        ///< empty: out/compare
+  std::filesystem::path junit;      ///< empty: none is written
+  bool resume = false, json = false;
+  std::filesystem::path program;  ///< of the workers, absolute; empty: this one
+};
+/// Flies two scenarios on the same seeds, pair by pair, until the claim about the candidate is decided. Returns as
+/// batch() does under a stopping rule.
+int compare(const CompareOptions& options);
 
 struct SweepOptions {
   std::filesystem::path file;

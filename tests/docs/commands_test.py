@@ -19,8 +19,9 @@ import unittest
 
 SOURCE, BUILD, PROGRAM = (pathlib.Path(argument) for argument in sys.argv[1:4])
 SHORT_S = 0.2
-# A flight is cut short, so its checks may fail; anything worse means that the text is wrong.
-ALLOWED = (0, 1)
+# A flight is cut short, so its checks may fail, and one seed leaves a claim undecided; anything worse means that the text
+# is wrong.
+ALLOWED = (0, 1, 4)
 PAGES = ["README.md", "CONTRIBUTING.md", *sorted(f"docs/{path.name}" for path in (SOURCE / "docs").glob("*.md"))]
 LOOKED_UP = re.compile(r"(scripts/|\./scripts/|build/\w+/tests/|ctest |gdb |cmake --preset|bash \.ci/|[A-Z]+=\S+ scripts/)")
 START = r"(?:hedgehop |build/|ctest |gdb |cmake |bash \.ci/|(?:[A-Z]+=\S+ )?(?:\./)?scripts/\w)"

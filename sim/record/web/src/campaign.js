@@ -135,8 +135,13 @@ function main() {
   const host = (id) => document.getElementById(id);
   fillHead(host('head'), data, table);
   fillGroups(host('groups'), data.groups);
-  if (data.search) host('groups-card').remove();
-  else if (data.is_sweep) host('groups-card').querySelector('h2').textContent = 'Success by point';
+  if (data.search) {
+    host('groups-card').remove();
+    host('claims-card').remove();
+  } else {
+    fillClaims(host('claims-card'), data.claims);
+    if (data.is_sweep) host('groups-card').querySelector('h2').textContent = 'Success by point';
+  }
 
   const on = {
     choose: (row) => {

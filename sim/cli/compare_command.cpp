@@ -1,0 +1,35 @@
+#include "sim/cli/commands.h"
+#include "sim/cli/fly_batch.h"
+#include "sim/record/whole_file.h"
+
+namespace hedgehop::sim::cli {
+namespace {
+
+BatchOrders orders_of(const CompareOptions& options) {
+  const std::vector<uint64_t> seeds = parse_seeds(options.seeds);
+  BatchOrders batch = read_batch({options.base, options.candidate}, seeds, options.overrides);
+  if (!batch.faults.empty()) throw InputError(batch.faults);
+  if (batch.orders.size() != 2 * seeds.size()) {
+    throw InputError("compare: BASE and CANDIDATE are to be two scenarios, neither campaigns nor folders");
+  }
+  return batch;
+}
+
+}  // namespace
+
+int compare(const CompareOptions& options) {
+  BatchRun run{.rule = StoppingRule{parse_pair_claim(options.until, options.range_m), options.confidence},
+               .junit = options.junit,
+               .json = options.json};
+  run.batch = orders_of(options);
+  run.conduct = conduct_of(run.batch, run.rule, options.limit_s);
+  run.reuse = options.resume ? Reuse::all : Reuse::none;
+  run.fly = {.program = options.program.empty() ? own_program() : options.program,
+             .out = options.out.empty() ? std::filesystem::path("out") / "compare" : options.out,
+             .other_builds = options.reuse_other_builds,
+             .workers = options.jobs,
+             .limit_s = options.limit_s};
+  return fly_batch(std::move(run));
+}
+
+}  // namespace hedgehop::sim::cli

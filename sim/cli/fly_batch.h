@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "sim/campaign/campaign_file.h"
+#include "sim/campaign/conduct.h"
+#include "sim/campaign/fly_orders.h"
+#include "sim/campaign/sequential_count.h"
+
+namespace hedgehop::sim::cli {
+
+/// A batch that is ready to be flown.
+struct BatchRun {
+  BatchOrders batch;
+  std::optional<StoppingRule> rule;
+  Conduct conduct;
+  FlyOptions fly;  ///< its folder is the batch's
+  Reuse reuse = Reuse::none;
+  bool again = false;  ///< an earlier batch's flights: so is its leaderboard
+  std::filesystem::path junit;
+  bool json = false;
+};
+
+/// Flies it, writes batch.json, batch.csv and the JUnit file, prints what was found.
+/// @return the exit status: 0 holds, 1 fails, 2 a file is bad, 4 undecided, 128 and the signal's number when
+/// interrupted.
+int fly_batch(BatchRun run);
+
+}  // namespace hedgehop::sim::cli
