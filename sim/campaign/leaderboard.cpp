@@ -123,7 +123,7 @@ std::string matrix_text(const Json& data) {
 
 std::string rows_text(const Json& data) {
   std::string text =
-      "| world | module | flights | passed | collided | out of time | broken | least clearance, m | median of it, m | "
+      "| world | module | flights | passed | collided | timeout | fault | least clearance, m | median of it, m | "
       "path excess | speed, m/s | decision, ms |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const Json& world : data.at("worlds")) {
     for (const Json& module : data.at("modules")) {

@@ -10,6 +10,7 @@
 #include "sim/campaign/junit.h"
 #include "sim/campaign/leaderboard.h"
 #include "sim/campaign/table.h"
+#include "sim/cli/campaign_page.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
 #include "sim/flight/build.h"
@@ -129,7 +130,10 @@ int fly_batch(BatchRun run) {
     fmt::print("{}{}", summary_text(outcome), matrix);
   }
   if (!unwritten.empty()) throw std::runtime_error(unwritten);
-  if (!run.json) fmt::print("written: {}\n", (run.fly.out / "batch.json").string());
+  if (!run.json) {
+    fmt::print("written: {}\n", (run.fly.out / "batch.json").string());
+    write_campaign_page(run.fly.out);
+  }
   if (interruption.signal() != 0) return kSignalled + interruption.signal();
   if (!run.batch.faults.empty()) return kBadInput;
   return exit_status(outcome);

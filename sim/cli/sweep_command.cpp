@@ -11,6 +11,7 @@
 #include "sim/campaign/optimize.h"
 #include "sim/campaign/slurm.h"
 #include "sim/campaign/sweep.h"
+#include "sim/cli/campaign_page.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
@@ -51,6 +52,7 @@ int conclude(const SweepRun& run, const SweepOrders& orders, const std::vector<F
              count(passed), count(has(FlightRecord::Status::flown)) - count(passed) - without, no_checks,
              count(has(FlightRecord::Status::failed)), count(has(FlightRecord::Status::missing)),
              (run.out / (run.name + ".csv")).string());
+  if (run.options.shard.empty()) write_campaign_page(run.out);
   for (const FlightRecord& record : records) {
     if (record.status != FlightRecord::Status::failed) continue;
     fmt::print("FAIL  {}: {}\n      {}\n", record.order.id, record.cause, rerun_command(record.order));
@@ -105,6 +107,7 @@ int fly_optimizer(const SweepRun& run, const OptimizeDesign& design) {
   write_file_whole(run.out / "optimum.json", json.dump(2) + "\n");
   fmt::print("{} points flown; smallest mean of {}: {:g}, with{}\nwritten: {}\n", best.records.size() / seeds,
              design.minimize, best.cost, words, (run.out / "optimum.json").string());
+  write_campaign_page(run.out);
   return best.cost < design.failure_cost ? 0 : kFails;
 }
 

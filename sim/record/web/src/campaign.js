@@ -19,7 +19,26 @@ function addRow(table, cells, tag = 'td') {
   return row;
 }
 
+/** What came of all flights together: {words, more, look}. */
+function campaignVerdict(data) {
+  const all = data.groups[0], claims = data.claims.conduct?.sequential ?? [];
+  const reasons = [[all.collided, 'collided'], [all.timeout, 'timeout'], [all.broken, 'fault or no result'], [all.missing, 'missing']];
+  const more = reasons.filter(([count]) => count > 0).map(([count, word]) => `${count} ${word}`).join(', ');
+  if (claims.length) {
+    const worst = ['refuted', 'undecided', 'shown'].find((verdict) => claims.some((claim) => claim.verdict === verdict));
+    return {words: `${worst[0].toUpperCase()}${worst.slice(1)}`, more: claims.map(({rule}) => rule).join('; '), look: {shown: 'good', refuted: 'bad'}[worst] ?? ''};
+  }
+  if (all.no_checks === all.flights) return {words: 'No checks', more: 'nothing was asked of these flights', look: ''};
+  const failed = all.flights - all.passed - all.no_checks;
+  return failed ? {words: `${failed} of ${all.flights} did not pass`, more, look: 'bad'} : {words: `All ${all.passed} passed`, more, look: 'good'};
+}
+
 function fillHead(host, data, table) {
+  if (!data.search) {
+    const {words, more, look} = campaignVerdict(data), badge = host.appendChild(make('div', 'badge ' + look));
+    badge.append(make('span', 'mark', {good: '✓', bad: '✕'}[look] ?? '–'));
+    badge.appendChild(make('div')).append(make('strong', '', words), make('span', '', more));
+  }
   if (data.builds.length > 1) host.append(make('p', 'bad-text', `Flights of ${data.builds.length} builds: ${data.builds.join(', ')}`));
   host.append(make('h1', '', data.name));
   const swept = data.swept.length ? `, over ${data.swept.join(', ')}` : '';
@@ -36,7 +55,7 @@ function fillHead(host, data, table) {
   else tile('all checks hold', all.ended ? percent(all.passed / all.ended) : all.no_checks ? 'no checks' : '–',
     `${all.passed} of ${all.ended}; 95 % within ${percent(all.low)} to ${percent(all.high)}${unchecked}`);
   tile('collided', String(all.collided), `of ${all.ended} flights that ended`);
-  tile('reached, out of time', `${all.reached}, ${all.timeout}`, all.broken || all.missing ? `${all.broken} broken, ${all.missing} not flown` : 'none broken, none missing');
+  tile('reached, timeout', `${all.reached}, ${all.timeout}`, `${all.broken} with a fault or no result, ${all.missing} missing`);
   tile('least clearance', meters(all.least_clearance_m), `to obstacles; median of flights ${meters(all.median_clearance_m)}`);
   tile('median flight time', fixed(all.median_time_s, 1) + ' s', 'of all flights that were flown');
 }
@@ -44,7 +63,7 @@ function fillHead(host, data, table) {
 function fillGroups(host, groups) {
   const element = host.appendChild(make('table')), head = element.appendChild(make('thead'));
   addRow(head, [['scenario', ''], ['flights', 'number'], ['passed', 'number'], ['rate with 95 % interval', ''], ['', 'number'], ['reached', 'number'],
-    ['collided', 'number'], ['timeout', 'number'], ['broken', 'number'], ['missing', 'number'], ['least clearance, m', 'number'],
+    ['collided', 'number'], ['timeout', 'number'], ['fault', 'number'], ['missing', 'number'], ['least clearance, m', 'number'],
     ['median of it, m', 'number'], ['median time, s', 'number']], 'th');
   const body = element.appendChild(make('tbody'));
   for (const g of groups) {
@@ -66,13 +85,16 @@ function worstFlights(table, rows) {
   const first = (some, name, falling) => !column(name) ? []
     : sortedRows(some.filter((row) => column(name).values[row] !== null), column(name), falling).slice(0, worstOfAKind);
   const clear = flown.filter((row) => table.verdict(row) !== 'collided');
+  const failing = (outcome) => flown.filter((row) => table.value('outcome', row) === outcome && table.value('passed', row) === 0);
   return [
     {title: 'Collided, earliest first', rows: first(flown.filter((row) => table.verdict(row) === 'collided'), 'flight_time_s', false),
       words: (row) => `after ${fixed(table.value('flight_time_s', row), 1)} s`},
     {title: 'Least clearance without a collision', rows: first(clear, 'min_obstacle_clearance_m', false),
       words: (row) => meters(table.value('min_obstacle_clearance_m', row))},
-    {title: 'Slowest', rows: first(clear, 'flight_time_s', true), words: (row) => fixed(table.value('flight_time_s', row), 1) + ' s'},
-    {title: 'Broken: no result, or a fault', rows: rows.filter((row) => table.value('status', row) === 'failed' || table.value('outcome', row) === 'fault').slice(0, worstOfAKind),
+    {title: 'Timeout, farthest from the goal', rows: first(failing('timeout'), 'goal_distance_m', true), words: (row) => meters(table.value('goal_distance_m', row))},
+    {title: 'Reached, and a check failed', rows: failing('reached').slice(0, worstOfAKind), words: (row) => table.why[row]},
+    {title: 'Slowest of those that passed', rows: first(clear.filter((row) => table.verdict(row) === 'passed'), 'flight_time_s', true), words: (row) => fixed(table.value('flight_time_s', row), 1) + ' s'},
+    {title: 'Fault, or no result', rows: rows.filter((row) => table.value('status', row) === 'failed' || table.value('outcome', row) === 'fault').slice(0, worstOfAKind),
       words: () => ''},
   ];
 }

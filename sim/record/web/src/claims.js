@@ -10,7 +10,7 @@ function addFact(host, name, words, className = '') {
 
 function countWords(counts) {
   const parts = [`${counts.planned} planned`, `${counts.counted} counted`, `${counts.passed} passed`,
-    `${counts.failed_a_check} failed a check`, `${counts.broken} broken (these count as failures)`, `${counts.missing} missing`];
+    `${counts.failed_a_check} failed a check`, `${counts.broken} with a fault or no result (these count as failures)`, `${counts.missing} missing`];
   if (counts.no_checks) parts.push(`${counts.no_checks} without checks`);
   const left = counts.discarded ? `${counts.discarded} past the stop do not count, whatever they did; no other flight was left out.`
     : 'No flight that ended was left out.';
