@@ -45,7 +45,7 @@ Json checks(const std::vector<CheckResult>& results) {
                         {"limit", json_number(check.limit)},
                         {"unit", check.unit},
                         {"must", check.must},
-                        {"t_s", number(check.t_s.value_or(NAN))}});
+                        {"t_s", json_number(check.t_s.value_or(NAN))}});
   }
   return list;
 }

@@ -101,7 +101,8 @@ class Includer {
       return;
     }
     Node base = load(folder / used.value.text, &used.value.place);
-    if (base.kind != Node::Kind::map) return;
+    node.incomplete = base.kind != Node::Kind::map;
+    if (node.incomplete) return;
     base.place = node.place;
     override_with(base, node);
     node = std::move(base);

@@ -136,6 +136,7 @@ bool expect_map(const Node& node, const std::string& path, Faults& faults) {
 }
 
 void StructReader::missing(std::string_view key, const fields::Field& field) const {
+  if (map_.incomplete) return;  // the file that is not there may have it
   const std::string unit = field.unit.empty() ? "" : fmt::format(" ({})", field.unit);
   const std::string meaning = field.meaning.empty() ? "" : fmt::format(": {}{}", field.meaning, unit);
   faults_.add(map_.place, fmt::format("missing key '{}' in {}{}", key, path_words(path_), meaning));

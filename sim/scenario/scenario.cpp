@@ -1,5 +1,7 @@
 #include "sim/scenario/scenario.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <random>
 #include <utility>
@@ -40,10 +42,32 @@ void find_imports(scenes::SceneConfig& scene, const Node& root) {
   }
 }
 
+/// Says of a file of another kind what it is, in place of all keys that it lacks and has.
+void require_scenario(const Node& root, Faults& faults) {
+  struct Kind {
+    std::string_view key, words;  ///< a key that all of the kind have and no scenario
+  };
+  static constexpr Kind kKinds[] = {{"question", "a plan, for `hedgehop batch --plan`"},
+                                    {"rows", "a paper, for `hedgehop reproduce`"},
+                                    {"flights", "a campaign, for `hedgehop batch`"},
+                                    {"parameters", "a sweep or a search, for `hedgehop sweep` or `hedgehop falsify`"},
+                                    {"mass", "a vehicle; a scenario names it: vehicle: {use: FILE}"},
+                                    {"cameras", "a rig; a scenario names it: rig: {use: FILE}"},
+                                    {"stereo", "a rig; a scenario names it: rig: {use: FILE}"},
+                                    {"module", "a module's parameters; a scenario names them: avoidance: {use: FILE}"}};
+  if (root.incomplete || root.find("scene") || root.find("vehicle") || root.find("avoidance")) return;
+  for (const auto& [key, words] : kKinds) {
+    if (!root.find(key)) continue;
+    faults.add(root.place, fmt::format("is no scenario but {}", words));
+    faults.raise();
+  }
+}
+
 /// @param file  that `root` comes from. @param read  files read so far.
 LoadedScenario load_flight(Node root, const std::filesystem::path& file, std::span<const std::string> overrides,
                            std::optional<uint64_t> seed, Faults& faults, std::set<std::filesystem::path>& read) {
   if (root.kind != Node::Kind::map) faults.raise();
+  require_scenario(root, faults);
   apply_overrides(root, overrides, file, faults, read);
 
   Scenario scenario;

@@ -29,6 +29,7 @@ struct Node {
   bool quoted = false;         ///< a scalar in quotes is text, whatever it looks like
   std::vector<Node> items;     ///< of a list
   std::vector<Entry> entries;  ///< of a map, in the order of the file
+  bool incomplete = false;     ///< a map that lacks what a file would have given that could not be read
 
   /// Value of a key of this map, or null.
   const Node* find(std::string_view key) const;

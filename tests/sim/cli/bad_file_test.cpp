@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <map>
 #include <string>
 
 #include "tests/sim/campaign/campaign_folder.h"
@@ -40,6 +42,22 @@ TEST_F(BadFile, PipesDevicesFoldersAndHugeFilesAreNoScenarios) {
   refused("huge.yaml", "huge.yaml: is larger than 64 MB");
   folder.write("uses.yaml", "use: pipe\n");
   refused("uses.yaml", "uses.yaml:1:6: is a device or a pipe, not a file: 'pipe'");
+}
+
+TEST_F(BadFile, FilesOfAnotherKindAreNamedAsWhatTheyAre) {
+  const std::string configs = HEDGEHOP_SOURCE_DIR "/configs/";
+  for (const auto& [file, kind] :
+       std::map<std::string, std::string>{{"vehicles/s900.yaml", "a vehicle"},
+                                          {"rigs/local_map.yaml", "a rig"},
+                                          {"papers/zingg2010.yaml", "a paper"},
+                                          {"campaigns/failures.yaml", "a campaign"},
+                                          {"sweeps/garratt2009_room_gains.yaml", "a sweep"},
+                                          {"falsify/gps_offset.yaml", "a sweep or a search"}}) {
+    const CommandEnd end = run(configs + file);
+    EXPECT_EQ(end.status, kBadInput);
+    EXPECT_THAT(end.err, HasSubstr("is no scenario but " + kind)) << end.err;
+    EXPECT_EQ(std::ranges::count(end.err, '\n'), 1) << end.err;
+  }
 }
 
 TEST_F(BadFile, DocumentsBeyondAllMeasureAreRefusedNotRead) {

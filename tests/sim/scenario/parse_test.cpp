@@ -96,6 +96,9 @@ TEST(Use, RefusesCirclesAndWhatIsNoFile) {
               ElementsAre("b.yaml:1:14: 'use' runs in a circle: a.yaml -> b.yaml -> a.yaml"));
   EXPECT_THAT(faults_of_file("use: a.yaml\n"), ElementsAre("a.yaml:1:6: 'use' runs in a circle: a.yaml -> a.yaml"));
   EXPECT_THAT(faults_of_file("rotor: {use: c.yaml}\n"), ElementsAre("a.yaml:1:14: there is no such file: 'c.yaml'"));
+  EXPECT_THAT(faults_of_file("shape: {use: c.yaml, type: square}\n"),
+              ElementsAre("a.yaml:1:14: there is no such file: 'c.yaml'"))
+      << "and not that a key is missing";
   EXPECT_THAT(faults_of_file("rotor: {use: [c]}\n"),
               ElementsAre("a.yaml:1:14: 'use' expects the path of a file, got a list"));
 }
