@@ -7,9 +7,9 @@
 #include <thread>
 
 #include "sim/campaign/batch_record.h"
-#include "sim/campaign/campaign_report.h"
 #include "sim/campaign/fly_orders.h"
 #include "sim/campaign/table.h"
+#include "sim/cli/campaign_page.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
@@ -129,12 +129,14 @@ void require_equal_before(const FlightRecord& unbroken, const FlightRecord& bran
   fmt::print("equal up to {:g} s, bit for bit: {} and {}\n", at_s, unbroken.order.id, branch.order.id);
 }
 
-int conclude(const std::vector<FlightRecord>& records, const fs::path& out) {
-  write_file_whole(out / "batch.json", batch_json(records, {}, std::string(version())));
-  write_file_whole(out / "batch.csv", csv_text(flight_table(records)));
-  write_campaign_report(out, {});
-  fmt::print("{}written: {}\n", summary_text(records, {}), (out / "report.html").string());
-  return std::ranges::all_of(records, [](const FlightRecord& r) { return passed(r) || unchecked(r); }) ? 0 : kFails;
+int conclude(const BatchOutcome& branches, const fs::path& out) {
+  write_file_whole(out / "batch.json", batch_json(branches, std::string(version())));
+  write_file_whole(out / "batch.csv", csv_text(flight_table(branches.records)));
+  fmt::print("{}", summary_text(branches));
+  write_campaign_page(out);
+  return std::ranges::all_of(branches.records, [](const FlightRecord& r) { return passed(r) || unchecked(r); })
+             ? 0
+             : kFails;
 }
 
 }  // namespace
@@ -166,7 +168,8 @@ int branch(const BranchOptions& options) {
   if (interruption.signal() != 0) return kSignalled + interruption.signal();
   const auto flown = std::ranges::find(records, "flights/" + name, [](const FlightRecord& r) { return r.order.id; });
   require_equal_before(records.front(), *flown, out, options.at_s);
-  return conclude(records, out);
+  const Conduct conduct{.planned = std::ssize(records), .seeds = std::to_string(base.seed)};
+  return conclude({.records = records, .conduct = conduct}, out);
 }
 
 }  // namespace hedgehop::sim::cli
