@@ -28,16 +28,16 @@ Interval anytime_mean_interval(const std::vector<double>& values, double confide
     return all;
   };
   // Evidence for a mean above m falls in m, that for one below rises: each end by bisection.
-  constexpr int kHalvings = 40;  // a thousand million millionth
+  constexpr int kMeanHalvings = 40;  // a thousand million millionth
   Interval interval{0.0, 1.0};
   double low = 0.0, high = 1.0;
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < kMeanHalvings; ++i) {
     const double middle = 0.5 * (low + high);
     (bets(middle).ln_above() >= decided ? low : high) = middle;
   }
   interval.low = low;
   high = 1.0;
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < kMeanHalvings; ++i) {
     const double middle = 0.5 * (low + high);
     (bets(middle).ln_below() >= decided ? high : low) = middle;
   }

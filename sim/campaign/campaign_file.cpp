@@ -101,6 +101,19 @@ class Gatherer {
     batch_.plan = std::move(plan);
   }
 
+  /// What an earlier batch.json says beside its flights. @param conduct  empty of an earlier version.
+  void recall(const fs::path& batch_json, const nlohmann::ordered_json& conduct) {
+    if (conduct.empty()) return;
+    if (!conduct.at("rule").is_null()) {
+      throw InputError(fmt::format("{}: flown until '{}' was decided; repeat that command with --resume",
+                                   batch_json.string(), conduct.at("rule").get<std::string>()));
+    }
+    if (const auto& tuned_on = conduct.at("tuned_on"); tuned_on.is_string())
+      batch_.tuned_on = tuned_on.get<std::string>();
+    if (const auto& plan = conduct.at("plan"); plan.is_object())
+      batch_.plan = read_registration(plan.at("file").get<std::string>());
+  }
+
   BatchOrders take() { return std::move(batch_); }
 
  private:
@@ -213,6 +226,7 @@ BatchOrders reread_batch(const fs::path& batch_json) {
   Gatherer gatherer(no_seeds, no_overrides);
   try {
     const auto batch = nlohmann::ordered_json::parse(read_file_whole(batch_json));
+    gatherer.recall(batch_json, batch.value("conduct", nlohmann::ordered_json::object()));
     for (const auto& flight : batch.at("flights")) {
       gatherer.add_scenario(flight.at("scenario").get<std::string>(), {flight.at("seed").get<uint64_t>()},
                             flight.at("set").get<std::vector<std::string>>(), flight.at("group").get<std::string>());

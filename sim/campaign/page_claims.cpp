@@ -21,7 +21,8 @@ GroupSummary total(std::vector<FlightRecord> records) {
 /// A limit of the rate of what did not happen in n flights.
 Json limit_without_event(int64_t n) {
   const auto flights = static_cast<double>(n);
-  return {{"flights", n}, {"three_over_n", 3.0 / flights}, {"limit", -std::expm1(std::log1p(-kTableConfidence) / flights)}};
+  return {
+      {"flights", n}, {"three_over_n", 3.0 / flights}, {"limit", -std::expm1(std::log1p(-kTableConfidence) / flights)}};
 }
 
 }  // namespace
@@ -31,7 +32,8 @@ Json claims_data(const std::filesystem::path& folder, const std::vector<FlightRe
   const Json conduct = conduct_data(folder);
   const bool sequential = !conduct.is_null() && !conduct.at("sequential").empty();
   const auto interval = [&](Count count) -> Json {
-    const Interval i = sequential ? anytime_interval(count, kTableConfidence) : wilson_interval(count, kTableConfidence);
+    const Interval i =
+        sequential ? anytime_interval(count, kTableConfidence) : wilson_interval(count, kTableConfidence);
     return {i.low, i.high};
   };
   const int64_t planned = conduct.is_null() ? all.flights : conduct.at("planned").get<int64_t>();

@@ -78,6 +78,21 @@ TEST(PlanInBrowser, StatesWhatTheRateRestsOn) {
   EXPECT_THAT(facts(), HasSubstr("as registeredThe plan was changed after the flights."));
 }
 
+/// A repetition of what failed is still the plan's; one that would undo a stop is refused.
+TEST(Plan, StaysWithTheFlightsThatAreFlownAgain) {
+  const PlanFolder folder;
+  std::string text = folder.read("plan.yaml");
+  text.erase(text.find("rule:"), text.find("tuned_on") - text.find("rule:"));
+  folder.write("all.yaml", text);
+  ASSERT_EQ(folder.hedgehop("batch --plan all.yaml --seeds 101:102 --out out").status, 0);
+  ASSERT_EQ(folder.hedgehop("batch --failed-only --out out").status, 0);
+  EXPECT_EQ(folder.plan().at("file"), "all.yaml");
+  EXPECT_THAT(folder.plan().at("deviations"), ElementsAre("tiny.yaml: seeds 101:102, registered 101:110"));
+  ASSERT_EQ(folder.hedgehop("batch --plan plan.yaml --out stopped").status, 0);
+  EXPECT_THAT(folder.hedgehop("batch --failed-only --out stopped").err,
+              HasSubstr("flown until 'collision < 0.5' was decided; repeat that command with --resume"));
+}
+
 TEST(Plan, ListsEveryDeviation) {
   const PlanFolder folder;
   std::string text = folder.read("plan.yaml");
