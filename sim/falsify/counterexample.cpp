@@ -47,6 +47,7 @@ Json counterexample_json(const FalsifyResult& result, const Counterexample& foun
               {"flight", result.records[trial.record].order.id},
               {"seed", found.shrunk.record.order.seed},
               {"check", trial.weakest.name},
+              {"outcome", outcome_words(found.shrunk.record)},
               {"robustness", trial.weakest.robustness},
               {"repeats", found.repeats},
               {"file", (std::filesystem::path("counterexamples") / found.file.filename()).string()},

@@ -37,7 +37,7 @@ std::vector<ModuleFlight> module_flights() {
           {"corridor_centering", "zingg2010_corridor_4m.yaml", {}},
           {"landmark_map", "shah2009_avoid.yaml", {}},
           {"local_map", "leaderboard/worlds/tree.yaml", leaderboard("local_map", "local_map")},
-          {"onnx_policy", "leaderboard/worlds/tree.yaml", leaderboard("garratt2009_200", "cloned_policy")}};
+          {"onnx_policy", "leaderboard/worlds/tree.yaml", leaderboard("perez2018_640", "cloned_policy")}};
 }
 
 Scenario scenario_of(const ModuleFlight& flight) {

@@ -81,7 +81,7 @@ class SearchView {
         c.beginPath();
         n.forEach((north, k) => c.lineTo(map.x(e[k]), map.y(north)));
         c.stroke();
-        map.cross(c, map.x(e.at(-1)), map.y(n.at(-1)), 5, themeColor('bad'));
+        if (one.outcome === 'collided') map.cross(c, map.x(e.at(-1)), map.y(n.at(-1)), 5, themeColor('bad'));
       },
       key: () => {}, leave: () => {}, click: () => {}, hover: (x, y) => map.showTip(x, y, map.placeLines(x, y))});
   }
