@@ -43,7 +43,7 @@ def shortened_file(text):
     text = re.sub(r"\bduration=[0-9.]+", f"duration={SHORT_S}", text)
     text = re.sub(r"\bat: [0-9.]+, until: [0-9.]+", f"at: {SHORT_S / 4}, until: {SHORT_S / 2}", text)
     text = re.sub(r"points: [0-9]+", "points: 2", text)
-    text = re.sub(r"budget: [0-9]+", "budget: 2", text)
+    text = re.sub(r"budget: [0-9]+", "budget: 2, shrinking: 2", text)
     return re.sub(r"(seeds|quick|beside): ([0-9]+)(:[0-9]+)?(,[0-9:]+)*", r"\1: \2", text)
 
 
@@ -52,6 +52,7 @@ def shortened_command(line):
     if line.startswith("hedgehop"):
         line = re.sub(r"duration=[0-9.]+", f"duration={SHORT_S}", line)
         line = re.sub(r"--seeds [0-9:,]+", "--seeds 1", line)
+        line = re.sub(r"takeover\.at=[0-9.]+", f"takeover.at={SHORT_S / 2}", line)
     if line.startswith("hedgehop falsify"):
         line = re.sub(r"budget=[0-9]+", "budget=2", line)
     if line.startswith("hedgehop branch"):
