@@ -47,15 +47,15 @@ TEST(ReportInBrowser, IsUsableByKeysAndNamesItsDrawings) {
   const RunFolder run;
   write_report(run.path(), read_run(run.path()));
   const PageVisit page = visit(run.path() / "report.html", R"js(
-    const canvas = document.querySelector('#plan canvas'), pictures = [];
+    const canvas = document.querySelector('#plan canvas'), drawn = [];
     canvas.focus();
     for (const key of ['0', '+', 'ArrowUp', '0']) {
       canvas.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true, cancelable: true}));
-      pictures.push(canvas.toDataURL());
+      drawn.push(canvas.toDataURL());
     }
     const nameless = [...document.querySelectorAll('canvas, video, .plot')].filter((e) => !e.ariaLabel && !e.closest('.plot[aria-label]'));
-    return [document.activeElement === canvas, pictures[1] !== pictures[0], pictures[2] !== pictures[1],
-            pictures[3] === pictures[0], nameless.length];)js");
+    return [document.activeElement === canvas, drawn[1] !== drawn[0], drawn[2] !== drawn[1],
+            drawn[3] === drawn[0], nameless.length];)js");
   EXPECT_THAT(page.errors, IsEmpty());
   EXPECT_THAT(page.value, ElementsAre(true, true, true, true, 0));
 }
