@@ -31,7 +31,7 @@ std::filesystem::path write_scenario(const Counterexample& found, const std::str
   scenario.name = name;
   scenario.seed = found.shrunk.record.order.seed;
   scenario.origin = OriginConfig{.search = search_file,
-                                 .check = check,
+                                 .failed = check,
                                  .trajectory_hash = hash_of(found.shrunk.record),
                                  .version = std::string(version()),
                                  .robustness = found.weakest.robustness};

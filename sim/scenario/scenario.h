@@ -104,13 +104,13 @@ void describe(Visitor& v, TakeoverConfig& c) {
 
 /// Where a scenario comes from that `hedgehop falsify` wrote.
 struct OriginConfig {
-  std::string search, check, trajectory_hash, version;
+  std::string search, failed, trajectory_hash, version;
   double robustness = 0.0;
 };
 template <class Visitor>
 void describe(Visitor& v, OriginConfig& c) {
   v("search", c.search, {.required = true, .meaning = "file of the search that found it"});
-  v("check", c.check, {.required = true, .meaning = "check that failed"});
+  v("failed", c.failed, {.required = true, .meaning = "check that failed"});
   v("robustness", c.robustness, {.required = true, .meaning = "of that check, < 0"});
   v("trajectory_hash", c.trajectory_hash, {.required = true, .meaning = "of the flight that failed"});
   v("version", c.version, {.required = true, .meaning = "of Hedgehop, which found it"});

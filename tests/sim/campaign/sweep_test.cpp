@@ -77,7 +77,7 @@ TEST_F(Sweep, JunitHasACaseForEachFlightAndCheck) {
   const std::string cases = junit_cases(folder, "ci/j.xml");
   EXPECT_EQ(std::ranges::count(cases, '\n'), 2 * (12 + 11)) << cases;  // a line more each for its facts
   EXPECT_THAT(cases, HasSubstr("flights/000001-seed2/flight error exit status 3: broken\n"));
-  EXPECT_THAT(cases, ContainsRegex("flights/000005-seed1/no_collision\n  0.7[0-9]* m, must be > 0 m"));
+  EXPECT_THAT(cases, ContainsRegex("flights/000005-seed1/no_collision\n  0.7[0-9]* m at [0-9.]+ s, must be > 0 m"));
   EXPECT_THAT(cases,
               HasSubstr("again: hedgehop run tiny.yaml --seed 1 --set avoidance.speed=2 --set control_rate=100"));
   const std::string script = folder.hedgehop("sweep sweep.yaml --out out --junit ci/j.xml --on slurm --dry-run").out;

@@ -36,7 +36,7 @@ TEST(Progress, LineOfAFlightFitsANarrowTerminalAndNamesTheTimeLeft) {
   const std::string command = HEDGEHOP_PROGRAM
                               " run " HEDGEHOP_SOURCE_DIR
                               "/configs/andert2007_tree_160.yaml --set name=a_name_that_is_longer_than_the_line "
-                              "--set duration=0.5 --set 'checks=[]' --no-report --no-video --json --out " +
+                              "--set duration=3 --set 'checks=[]' --no-report --no-video --json --out " +
                               folder.string() + " >/dev/null";
   EXPECT_THAT(on_terminal(command, 200), testing::ContainsRegex(": [0-9]+ of [0-9]+ s, at most [0-9]+ s left"));
   const std::string narrow = on_terminal(command, 50);

@@ -128,8 +128,8 @@ TEST_F(CrossRules, ChecksMakeSense) {
 
 /// Keys of all lengths below an outline; not those in lists, which an override sets as a whole where no file does.
 void collect_lengths(const Outline& node, const std::string& path, std::vector<std::string>& keys) {
-  if (node.kind == Outline::Kind::list) return;
-  if (node.kind == Outline::Kind::number && node.field.unit == "m" && node.present) keys.push_back(path);
+  if (node.kind == Outline::Kind::list || !node.present) return;
+  if (node.kind == Outline::Kind::number && node.field.unit == "m") keys.push_back(path);
   size_t index = 0;
   for (const Outline& part : node.parts) {
     collect_lengths(part, join_path(path, part.key.empty() ? std::to_string(index++) : part.key), keys);
