@@ -16,17 +16,17 @@ constexpr double kSurveyedHeadingSigmaRad = 0.017453292519943295;  // 1 deg: cho
 }  // namespace
 
 Avionics::Avionics(const AvionicsConfig& config, const VehicleConfig& vehicle, double physics_dt_s,
-                   const StreamSeed& stream_seed, const std::vector<sensors::SensorFailure>& failures)
+                   const StreamSeeds& stream_seeds, const std::vector<sensors::SensorFailure>& failures)
     : config_(fields::require_bounds(config)),
       physics_dt_s_(physics_dt_s),
       beam_direction_B_(sensors::beam_direction_B(config.range_finder)),
-      seeds_{stream_seed("imu"),
-             stream_seed("gps"),
-             stream_seed("height_sensor"),
-             stream_seed("magnetometer"),
-             stream_seed("survey"),
-             config.barometer.enabled ? stream_seed("barometer") : 0,
-             config.range_finder.ranger.enabled ? stream_seed("range_finder") : 0},
+      seeds_{stream_seeds("imu"),
+             stream_seeds("gps"),
+             stream_seeds("height_sensor"),
+             stream_seeds("magnetometer"),
+             stream_seeds("survey"),
+             config.barometer.enabled ? stream_seeds("barometer") : SeedBlend(0),
+             config.range_finder.ranger.enabled ? stream_seeds("range_finder") : SeedBlend(0)},
       imu_(config.imu, physics_dt_s, seeds_.imu),
       gps_(config.gps, physics_dt_s, seeds_.gps),
       height_sensor_("height_sensor", config.height_sensor.ranger, physics_dt_s, seeds_.height_sensor),
@@ -56,7 +56,7 @@ void Avionics::reset(const SensedTruth& truth) {
   failures_ = sensors::SensorFailures(failing_);
   reset_options();
 
-  sensors::NormalStream survey(seeds_.survey);
+  NormalStream survey(seeds_.survey);
   const Eigen::Vector3d p_WB_est = truth.body.p_WB + config_.navigation.position_sigma_m * survey.draw3();
   const double heading_rad = to_roll_pitch_heading(truth.body.q_WB)[2];
   const Eigen::Quaterniond q_on_ground(Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()));

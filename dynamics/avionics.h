@@ -44,8 +44,8 @@ void describe(Visitor& v, AvionicsConfig& c) {
   v("autopilot", c.autopilot, {.meaning = "limits of the flight control"});
 }
 
-/// Gives each named random stream its seed.
-using StreamSeed = std::function<uint64_t(std::string_view stream_name)>;
+/// Gives each named random stream its seeds.
+using StreamSeeds = std::function<SeedBlend(std::string_view stream_name)>;
 
 /// The velocity over ground, as a camera that looks down measures it.
 struct VelocityReading {
@@ -70,7 +70,7 @@ class Avionics {
   /// Throws std::invalid_argument "<key>: ..." on values out of range. @param physics_dt_s  between calls of sense().
   /// @param failures  of the flight's sensors, as they read.
   Avionics(const AvionicsConfig& config, const VehicleConfig& vehicle, double physics_dt_s,
-           const StreamSeed& stream_seed, const std::vector<sensors::SensorFailure>& failures = {});
+           const StreamSeeds& stream_seeds, const std::vector<sensors::SensorFailure>& failures = {});
 
   /// Starts a flight in a trimmed hover, after an alignment on the ground (control::GroundAlignment); afterwards it
   /// behaves as one newly built. The position is surveyed, and so is the heading where no magnetometer reads.
@@ -100,7 +100,7 @@ class Avionics {
   std::optional<sensors::GpsFix> read_gps(int64_t t_ns);
 
   struct Seeds {
-    uint64_t imu, gps, height_sensor, magnetometer, survey, barometer, range_finder;
+    SeedBlend imu, gps, height_sensor, magnetometer, survey, barometer, range_finder;
   };
   AvionicsConfig config_;
   double physics_dt_s_;

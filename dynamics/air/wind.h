@@ -1,11 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
-#include <random>
 
 #include "dynamics/air/dryden.h"
 #include "dynamics/air/gust.h"
+#include "dynamics/normal_stream.h"
 
 namespace hedgehop::dynamics::air {
 
@@ -46,11 +45,11 @@ void describe(Visitor& v, WindConfig& c) {
   v("gust", c.gust, {.meaning = "one gust of 1-cosine shape"});
 }
 
-/// The air one vehicle meets. Equal seeds and equal arguments give equal sequences, bit for bit.
+/// The air one vehicle meets. Equal seeds, or blends of them, and equal arguments give equal sequences, bit for bit.
 class Wind {
  public:
   /// Throws std::invalid_argument "<key>: ..." on values out of bounds.
-  Wind(const WindConfig& config, uint64_t seed);
+  Wind(const WindConfig& config, const SeedBlend& seeds);
 
   /// The steady wind in W, m/s. @param height_m  above ground; below the roughness the air is still, above 1000 ft
   /// the wind is uniform. Source: [MIL8785C] sec. 3.7.3.
@@ -63,7 +62,6 @@ class Wind {
   Eigen::Vector3d sample(double height_m, const Eigen::Vector3d& v_WB_W, double dt_s);
 
  private:
-  double normal() { return normal_(generator_); }
   void draw_stationary();
   Eigen::Vector3d turbulence_W(double height_m, double path_m);
   void move(Eigen::Vector2d& z, const SecondOrderStep& step);
@@ -72,8 +70,7 @@ class Wind {
   Eigen::Vector3d steady_W_;  ///< without shear, or at 20 ft
   Eigen::Vector3d gust_along_W_;
   Eigen::Matrix3d R_WT_;  ///< T: axes of the turbulence, x along the steady wind, z down
-  std::mt19937_64 generator_;
-  std::normal_distribution<double> normal_;
+  NormalStream noise_;
   double u_ = 0.0;  ///< filter states, scaled to unit stationary variance
   Eigen::Vector2d v_ = Eigen::Vector2d::Zero(), w_ = Eigen::Vector2d::Zero();
   double t_s_ = 0.0, gust_path_m_ = 0.0;  ///< since the flight began, since the gust was met

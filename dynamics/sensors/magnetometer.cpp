@@ -7,10 +7,10 @@
 
 namespace hedgehop::dynamics::sensors {
 
-Magnetometer::Magnetometer(const MagnetometerConfig& config, double physics_dt_s, uint64_t seed)
+Magnetometer::Magnetometer(const MagnetometerConfig& config, double physics_dt_s, const SeedBlend& seeds)
     : config_(fields::require_bounds(config, "magnetometer")),
       period_(period_ticks("magnetometer.rate", config.rate_hz, physics_dt_s)),
-      noise_(seed) {
+      noise_(seeds) {
   offset_rad_ = config.offset_rad * noise_.draw();
 }
 

@@ -6,17 +6,6 @@
 
 namespace hedgehop::dynamics::sensors {
 
-Eigen::Vector3d NormalStream::draw3() {
-  Eigen::Vector3d v;
-  for (int i = 0; i < 3; ++i) v[i] = draw();
-  return v;
-}
-
-bool NormalStream::chance(double p) {
-  constexpr double kTwoToMinus53 = 0x1p-53;
-  return static_cast<double>(generator_() >> 11) * kTwoToMinus53 < p;
-}
-
 double GaussMarkov::decay(double dt_s) const { return std::exp(-dt_s / correlation_time_s); }
 
 double GaussMarkov::added_sigma(double dt_s) const {

@@ -1,26 +1,12 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
-#include <random>
 #include <string_view>
 
-/// What the sensors share: a stream of random numbers, an error that wanders, a sampling clock.
+#include "dynamics/normal_stream.h"
+
+/// What the sensors share: an error that wanders, a sampling clock.
 namespace hedgehop::dynamics::sensors {
-
-/// Standard normal numbers from one seeded generator; equal seeds give equal sequences.
-class NormalStream {
- public:
-  explicit NormalStream(uint64_t seed) : generator_(seed) {}
-  double draw() { return normal_(generator_); }
-  Eigen::Vector3d draw3();
-  /// True with probability `p`, 0..1.
-  bool chance(double p);
-
- private:
-  std::mt19937_64 generator_;
-  std::normal_distribution<double> normal_;
-};
 
 /// First-order Gauss-Markov process, sampled exactly: e^(-dt/tau) correlation from step to step.
 struct GaussMarkov {

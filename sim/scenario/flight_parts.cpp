@@ -12,11 +12,13 @@
 
 namespace hedgehop::sim {
 
-dynamics::air::Wind build_wind(const Scenario& scenario) { return {scenario.wind, stream_seed(scenario.seed, "wind")}; }
+dynamics::air::Wind build_wind(const Scenario& scenario) {
+  return {scenario.wind, blended_stream(scenario.chance, scenario.seed, "wind")};
+}
 
 dynamics::Avionics build_avionics(const Scenario& scenario, const dynamics::VehicleConfig& carrier) {
   return {scenario.avionics, carrier, 1.0 / static_cast<double>(scenario.physics_rate_hz),
-          [seed = scenario.seed](std::string_view name) { return stream_seed(seed, name); },
+          [&](std::string_view name) { return blended_stream(scenario.chance, scenario.seed, name); },
           sensor_failures(scenario.failures, scenario.seed)};
 }
 

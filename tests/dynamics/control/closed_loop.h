@@ -60,7 +60,7 @@ inline std::vector<Sample> fly(const Loop& loop, double duration_s,
   Avionics avionics(loop.avionics, loop.designed_for.value_or(loop.vehicle), dt, seed);
   control::Autopilot autopilot(loop.avionics.autopilot, loop.designed_for.value_or(loop.vehicle));
   air::Wind weather(loop.weather.value_or(air::WindConfig{}), seed("wind"));
-  sensors::NormalStream flow(seed("flow"));
+  NormalStream flow(seed("flow"));
 
   const auto wind_W = [&](double t_s) {
     const RigidBodyState& b = vehicle.body();
