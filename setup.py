@@ -18,6 +18,8 @@ class CMakeBuild(build_ext):
         shutil.copytree(BUILD / "python/hedgehop", package, dirs_exist_ok=True, ignore=shutil.ignore_patterns("__pycache__"))
         (package / "bin").mkdir(exist_ok=True)
         shutil.copy2(BUILD / "sim/cli/hedgehop", package / "bin/hedgehop")
+        for library in (BUILD / "lib").glob("*.so"):  # what the program loads from beside it
+            shutil.copy2(library, package / "bin")
 
 
 setup(packages=[], ext_modules=[Extension("hedgehop._native", [])], cmdclass={"build_ext": CMakeBuild})

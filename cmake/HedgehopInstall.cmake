@@ -21,5 +21,11 @@ install(FILES ${PROJECT_BINARY_DIR}/hedgehopConfig.cmake ${PROJECT_BINARY_DIR}/h
               ${CMAKE_CURRENT_LIST_DIR}/HedgehopPackages.cmake
         DESTINATION ${package} COMPONENT development)
 install(EXPORT hedgehop NAMESPACE hedgehop:: FILE hedgehopTargets.cmake DESTINATION ${package} COMPONENT development)
+set(loaded ${CMAKE_INSTALL_LIBDIR}/hedgehop)
+file(RELATIVE_PATH from_program /${CMAKE_INSTALL_BINDIR} /${loaded})
+set_target_properties(hedgehop PROPERTIES INSTALL_RPATH $ORIGIN/${from_program})
 install(TARGETS hedgehop COMPONENT program)
+if(TARGET hedgehop_film)
+  install(TARGETS hedgehop_film LIBRARY DESTINATION ${loaded} COMPONENT program)
+endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs DESTINATION ${CMAKE_INSTALL_DATADIR}/hedgehop COMPONENT program)

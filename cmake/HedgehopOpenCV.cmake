@@ -11,7 +11,8 @@ function(hedgehop_opencv module)
     target_include_directories(opencv_${module} SYSTEM INTERFACE ${OPENCV_INCLUDE_DIR})
   endif()
 endfunction()
-foreach(module core imgproc imgcodecs calib3d video)
+foreach(module core imgproc calib3d video)
   hedgehop_opencv(${module} REQUIRED)
 endforeach()
 hedgehop_opencv(dnn)  # for onnx_policy
+hedgehop_opencv(imgcodecs)  # for the tests, and for loops of one's own

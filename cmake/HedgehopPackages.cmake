@@ -16,6 +16,9 @@ endfunction()
 hedgehop_package(hedgehop_osmesa GL/osmesa.h LIBRARIES OSMesa)
 hedgehop_package(hedgehop_egl EGL/egl.h LIBRARIES EGL)
 hedgehop_package(hedgehop_assimp assimp/Importer.hpp LIBRARIES assimp)
+# Images in files: OpenCV's imgcodecs would bring 76 more libraries.
+hedgehop_package(hedgehop_png png.h LIBRARIES png)
+hedgehop_package(hedgehop_turbojpeg turbojpeg.h LIBRARIES turbojpeg)
 # Clearances are wanted to a millimeter a kilometer from the origin: the double-precision build, which Debian ships beside
 # the other. Every user must see the same btScalar.
 hedgehop_package(hedgehop_bullet btBulletCollisionCommon.h PATH bullet

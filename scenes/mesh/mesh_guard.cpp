@@ -69,10 +69,15 @@ int most_face_corners(std::string_view obj) {
 
 }  // namespace
 
+bool may_be_read(const std::filesystem::path& file) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) <= kMostBytes;
+}
+
 void require_importable(const std::filesystem::path& mesh) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(mesh, error)) throw std::invalid_argument("there is no such file");
-  if (std::filesystem::file_size(mesh, error) > kMostBytes) throw std::invalid_argument("it is larger than 64 MB");
+  if (!may_be_read(mesh)) throw std::invalid_argument("it is larger than 64 MB");
   std::ifstream stream(mesh, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   std::string kind = mesh.extension().string();

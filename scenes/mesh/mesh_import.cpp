@@ -5,13 +5,15 @@
 
 #include <assimp/Importer.hpp>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
+#include <fstream>
+#include <iterator>
 #include <opencv2/imgproc.hpp>
 #include <span>
 #include <stdexcept>
 
 #include "scenes/mesh/mesh_builder.h"
 #include "scenes/mesh/mesh_guard.h"
+#include "scenes/mesh/texture_image.h"
 #include "scenes/textures/stone_textures.h"
 #include "sim/fields/bounds.h"
 
@@ -47,6 +49,13 @@ Eigen::Affine3d model_to_world(const ImportConfig& c) {
          Eigen::AngleAxisd(c.heading_rad, Vector3d::UnitZ()) * Eigen::Affine3d(c.scale * to_level);
 }
 
+// Empty for what is no file, or larger than a mesh may be.
+std::vector<uint8_t> bytes_of(const std::filesystem::path& file) {
+  if (!may_be_read(file)) return {};
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
 // The image of a material, or its color; CV_8UC3 RGB.
 cv::Mat material_image(const ImportConfig& c, const aiScene& model, const aiMaterial& material, int size_px) {
   aiString path;
@@ -59,14 +68,12 @@ cv::Mat material_image(const ImportConfig& c, const aiScene& model, const aiMate
   }
   cv::Mat image;
   if (const aiTexture* inside = model.GetEmbeddedTexture(path.C_Str()); inside && inside->mHeight == 0) {
-    const auto* bytes = reinterpret_cast<const uint8_t*>(inside->pcData);
-    image = cv::imdecode(std::vector<uint8_t>(bytes, bytes + inside->mWidth), cv::IMREAD_COLOR);
+    image = decode_texture({reinterpret_cast<const uint8_t*>(inside->pcData), inside->mWidth});
   } else {
-    image = cv::imread((std::filesystem::path(c.file).parent_path() / path.C_Str()).string(), cv::IMREAD_COLOR);
+    image = decode_texture(bytes_of(std::filesystem::path(c.file).parent_path() / path.C_Str()));
   }
-  if (image.empty()) refuse(c, std::string("its image '") + path.C_Str() + "' cannot be read");
+  if (image.empty()) refuse(c, std::string("its image '") + path.C_Str() + "' cannot be read as PNG or JPEG");
   cv::resize(image, image, {size_px, size_px}, 0.0, 0.0, cv::INTER_AREA);
-  cv::cvtColor(image, image, cv::COLOR_BGR2RGB);
   return image;
 }
 

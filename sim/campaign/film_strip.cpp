@@ -6,12 +6,12 @@
 #include <cmath>
 #include <deque>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "sim/fields/quantities.h"
 #include "sim/record/film_watcher.h"
+#include "sim/record/image_file.h"
 #include "sim/record/run_record.h"
 #include "sim/record/whole_file.h"
 #include "sim/simulation/simulation.h"
@@ -74,14 +74,6 @@ cv::Mat strip(const std::deque<Image>& images, double end_s) {
   return sheet;
 }
 
-std::string jpeg(const cv::Mat& rgb) {
-  cv::Mat bgr;
-  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  std::vector<uint8_t> bytes;
-  cv::imencode(".jpg", bgr, bytes, {cv::IMWRITE_JPEG_QUALITY, kQuality});
-  return {bytes.begin(), bytes.end()};
-}
-
 /// Throws std::runtime_error with the reason why there is no strip.
 void write_film_strip(const std::filesystem::path& flight) {
   const nlohmann::ordered_json result = read_result(flight / "result.json");
@@ -99,7 +91,7 @@ void write_film_strip(const std::filesystem::path& flight) {
                                          clearance_m, closest.at("distance_m").get<double>()));
   }
   if (watcher.images().empty()) throw std::runtime_error("no camera has drawn an image");
-  write_file_whole(flight / "strip.jpg", jpeg(strip(watcher.images(), end_s)));
+  write_file_whole(flight / "strip.jpg", jpeg_of(strip(watcher.images(), end_s), kQuality));
 }
 
 }  // namespace

@@ -1,23 +1,68 @@
 #include "sim/record/image_file.h"
 
-#include <fmt/format.h>
+#include <png.h>
+#include <turbojpeg.h>
 
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
+#include <memory>
 #include <stdexcept>
 
+#include "sim/record/whole_file.h"
+
 namespace hedgehop::sim {
+namespace {
+
+[[noreturn]] void on_fault(png_structp, png_const_charp why) { throw std::runtime_error(why); }
+
+void append(png_structp png, png_bytep bytes, size_t count) {
+  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(bytes), count);
+}
+
+struct PngWriter {
+  PngWriter() { info = png_create_info_struct(png); }
+  PngWriter(const PngWriter&) = delete;
+  PngWriter& operator=(const PngWriter&) = delete;
+  ~PngWriter() { png_destroy_write_struct(&png, &info); }
+
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, on_fault, nullptr);
+  png_infop info = nullptr;
+};
+
+std::string png_of(const cv::Mat& image) {
+  std::string bytes;
+  const PngWriter writer;
+  png_structp png = writer.png;
+  png_set_write_fn(png, &bytes, append, nullptr);
+  png_set_IHDR(png, writer.info, static_cast<png_uint_32>(image.cols), static_cast<png_uint_32>(image.rows),
+               image.depth() == CV_16U ? 16 : 8, image.channels() == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY,
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_compression_level(png, 1);  // an export writes thousands of images; level 6 takes four times as long
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+  png_write_info(png, writer.info);
+  if (image.depth() == CV_16U) png_set_swap(png);  // a PNG is big endian
+  for (int row = 0; row < image.rows; ++row) png_write_row(png, image.ptr(row));
+  png_write_end(png, nullptr);
+  return bytes;
+}
+
+}  // namespace
 
 void write_png(const std::filesystem::path& file, const cv::Mat& image) {
-  cv::Mat stored = image;
-  if (image.channels() == 3) cv::cvtColor(image, stored, cv::COLOR_RGB2BGR);
-  bool written = false;
-  try {
-    written = cv::imwrite(file.string(), stored);
-  } catch (const cv::Exception& error) {
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.err));
+  if (image.type() != CV_8UC1 && image.type() != CV_16UC1 && image.type() != CV_8UC3) {
+    throw std::invalid_argument(file.string() + ": a PNG takes 8 or 16 bit grey, or 8 bit RGB");
   }
-  if (!written) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+  write_file_whole(file, png_of(image));
+}
+
+std::string jpeg_of(const cv::Mat& rgb, int quality) {
+  CV_Assert(rgb.type() == CV_8UC3);
+  const std::unique_ptr<void, int (*)(tjhandle)> encoder(tjInitCompress(), tjDestroy);
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;  // NOLINT(google-runtime-int): turbojpeg's type
+  const int fault = tjCompress2(encoder.get(), rgb.data, rgb.cols, static_cast<int>(rgb.step), rgb.rows, TJPF_RGB,
+                                &bytes, &size, TJSAMP_420, quality, 0);
+  const std::unique_ptr<unsigned char, void (*)(unsigned char*)> freed(bytes, tjFree);
+  if (fault != 0) throw std::runtime_error(tjGetErrorStr2(encoder.get()));
+  return {bytes, bytes + size};
 }
 
 }  // namespace hedgehop::sim

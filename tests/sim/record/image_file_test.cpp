@@ -1,0 +1,49 @@
+#include "sim/record/image_file.h"
+
+#include <gmock/gmock.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/sim/record/temporary_folder.h"
+
+namespace hedgehop::sim {
+namespace {
+
+TEST(ImageFile, PngIsReadBackAsItWas) {
+  const TemporaryFolder folder;
+  for (const int type : {CV_8UC1, CV_8UC3, CV_16UC1}) {
+    cv::Mat image(41, 67, type);
+    cv::RNG random(3);
+    random.fill(image, cv::RNG::UNIFORM, 0, type == CV_16UC1 ? 65536 : 256);
+    const std::filesystem::path file = folder.path() / "image.png";
+    write_png(file, image(cv::Rect(3, 2, 60, 35)));  // rows that do not follow each other
+    cv::Mat back = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
+    ASSERT_EQ(back.type(), type);
+    if (type == CV_8UC3) cv::cvtColor(back, back, cv::COLOR_BGR2RGB);
+    EXPECT_EQ(cv::norm(back, image(cv::Rect(3, 2, 60, 35)), cv::NORM_INF), 0.0);
+  }
+}
+
+TEST(ImageFile, FaultIsToldWithTheFile) {
+  const cv::Mat image(4, 4, CV_8UC1, cv::Scalar(0));
+  EXPECT_THAT([&] { write_png("/no/such/folder/a.png", image); },
+              testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("/no/such/folder/a.png")));
+  EXPECT_THROW(write_png("a.png", cv::Mat(4, 4, CV_32FC1)), std::invalid_argument);
+}
+
+/// Smooth colors come back within what quality 90 promises; red is not blue.
+TEST(ImageFile, JpegIsReadBack) {
+  cv::Mat image(64, 96, CV_8UC3);
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) image.at<cv::Vec3b>(y, x) = cv::Vec3b(200, uint8_t(2 * x), uint8_t(3 * y));
+  }
+  const std::string bytes = jpeg_of(image, 90);
+  cv::Mat back = cv::imdecode(std::vector<uint8_t>(bytes.begin(), bytes.end()), cv::IMREAD_COLOR);
+  cv::cvtColor(back, back, cv::COLOR_BGR2RGB);
+  EXPECT_LT(cv::norm(back, image, cv::NORM_INF), 12.0);
+  EXPECT_LT(cv::norm(back, image, cv::NORM_L1) / static_cast<double>(3 * image.total()), 2.0);
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
