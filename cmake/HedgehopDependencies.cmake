@@ -10,6 +10,7 @@ find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 include(HedgehopOpenCV)
 include(HedgehopSleef)
 include(HedgehopPackages)
+include(HedgehopFeatures)
 
 if(HEDGEHOP_TESTS)
   find_package(GTest REQUIRED)

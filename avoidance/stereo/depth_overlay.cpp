@@ -1,9 +1,36 @@
 #include "avoidance/stereo/depth_overlay.h"
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 namespace hedgehop::avoidance::stereo {
+namespace {
+
+/// The colors in use, from 0 m at the bottom, near the lower right corner.
+void draw_bar(cv::Mat& image, double far_m) {
+  constexpr int kLeastWidthPx = 64, kLeastHeightPx = 48;  // below, it would hide what is seen
+  if (image.cols < kLeastWidthPx || image.rows < kLeastHeightPx) return;
+  const int width = std::max(4, image.cols / 80), height = image.rows / 2, edge = 2 * width;
+  cv::Mat levels(height, width, CV_8UC1), colors;
+  for (int row = 0; row < height; ++row) levels.row(row) = cv::Scalar::all(255.0 * row / std::max(1, height - 1));
+  cv::applyColorMap(levels, colors, cv::COLORMAP_TURBO);
+  cv::cvtColor(colors, colors, cv::COLOR_BGR2RGB);
+  const cv::Rect place(image.cols - edge - width, image.rows - edge - height, width, height);
+  colors.copyTo(image(place));
+  cv::rectangle(image, place, cv::Scalar::all(255));
+  const double scale = std::max(0.3, image.cols / 1600.0);
+  const auto label = [&](const std::string& text, int y) {
+    const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, scale, 1, nullptr);
+    const cv::Point where(place.x - size.width - width / 2, y + size.height / 2);
+    cv::putText(image, text, where, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar::all(0), 3, cv::LINE_AA);
+    cv::putText(image, text, where, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar::all(255), 1, cv::LINE_AA);
+  };
+  label(std::to_string(std::lround(far_m)) + " m", place.y);
+  label("0 m", place.y + height);
+}
+
+}  // namespace
 
 cv::Mat depth_overlay(const cv::Mat& depth_m, double far_m) {
   constexpr double kUnknown = -1.0;
@@ -18,6 +45,7 @@ cv::Mat depth_overlay(const cv::Mat& depth_m, double far_m) {
   cv::cvtColor(colors, colors, cv::COLOR_BGR2RGB);
   cv::patchNaNs(depth, kUnknown);
   colors.setTo(cv::Scalar::all(0), depth == kUnknown);
+  draw_bar(colors, far_m);
   return colors;
 }
 

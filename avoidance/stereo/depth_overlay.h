@@ -5,7 +5,8 @@
 
 namespace hedgehop::avoidance::stereo {
 
-/// Depth in colors, red near to blue at `far_m` (> 0) and beyond, black where unknown.
+/// Depth in colors, red near to blue at `far_m` (> 0) and beyond, black where unknown; with a bar of
+/// the colors.
 /// @param depth_m  CV_32FC1, m; NaN unknown. @return CV_8UC3, RGB.
 cv::Mat depth_overlay(const cv::Mat& depth_m, double far_m);
 

@@ -13,6 +13,7 @@
 
 #include "scenes/mesh/mesh_builder.h"
 #include "scenes/mesh/mesh_guard.h"
+#include "scenes/mesh/sides.h"
 #include "scenes/mesh/texture_image.h"
 #include "scenes/textures/stone_textures.h"
 #include "sim/fields/bounds.h"
@@ -92,7 +93,21 @@ Polyhedron faces_W(const aiMesh& mesh, const Eigen::Affine3d& to_W) {
   return result;
 }
 
-// Adds one mesh of the file to the chunk begun last.
+// Above 0 where normals point to the side that the faces are seen from.
+float facing(const std::vector<Vertex>& vertices, const std::vector<std::array<uint32_t, 3>>& faces) {
+  float sum = 0.0f;
+  for (const auto& [a, b, c] : faces) {
+    const Eigen::Vector3f across = (vertices[b].p_W - vertices[a].p_W).cross(vertices[c].p_W - vertices[a].p_W);
+    sum += across.dot(vertices[a].n_W + vertices[b].n_W + vertices[c].n_W);
+  }
+  return sum;
+}
+
+void turn_over(std::vector<std::array<uint32_t, 3>>& faces) {
+  for (auto& face : faces) std::swap(face[0], face[1]);
+}
+
+// Adds one mesh of the file to the chunk begun last, as it is seen from outside; an open surface, from both sides.
 void draw(const aiMesh& mesh, const Polyhedron& body, const Eigen::Affine3d& to_W, uint32_t texture,
           MeshBuilder& builder) {
   std::vector<Vertex> vertices(body.corners.size());
@@ -103,7 +118,19 @@ void draw(const aiMesh& mesh, const Polyhedron& body, const Eigen::Affine3d& to_
     if (mesh.HasTextureCoords(0)) vertices[k].uv = {mesh.mTextureCoords[0][k].x, mesh.mTextureCoords[0][k].y};
     vertices[k].texture = texture;
   }
-  builder.add(vertices, body.faces);
+  const Sides sides = sides_of(body);
+  std::vector<std::array<uint32_t, 3>> faces = body.faces;
+  if (sides == Sides::inward) turn_over(faces);
+  const bool normals_agree = facing(vertices, faces) >= 0.0f;
+  const auto turn_normals = [&] {
+    for (Vertex& vertex : vertices) vertex.n_W = -vertex.n_W;
+  };
+  if (!normals_agree) turn_normals();
+  builder.add(vertices, faces);
+  if (sides != Sides::open) return;
+  turn_over(faces);
+  turn_normals();
+  builder.add(vertices, faces);
 }
 
 void add_import(const ImportConfig& c, Scene& scene) {

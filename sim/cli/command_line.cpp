@@ -10,6 +10,7 @@
 #include "sim/cli/campaign_options.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
+#include "sim/cli/features.h"
 #include "sim/cli/manual.h"
 #include "sim/cli/number_options.h"
 #include "sim/flight/build.h"
@@ -188,7 +189,10 @@ int parse_and_run(int argc, char** argv) {
       "Hedgehop flies rotorcraft through scenes they must see to survive: closed-loop simulation of\n"
       "vision-based obstacle avoidance, without display, GPU or network.",
       "hedgehop"};
-  app.set_version_flag("--version", fmt::format("{} (build {})", version(), build_identity()));
+  const auto* const features = app.add_flag("--features", "with --version: what this build has, and what it lacks");
+  app.set_version_flag("--version", [features] {
+    return fmt::format("{} (build {}){}", version(), build_identity(), features->count() > 0 ? kFeatureRows : "");
+  });
   app.require_subcommand(1);
   app.footer("Exit status: 0 all checks hold; 1 a check fails; 2 the input is bad; 3 an internal error; 4 undecided.");
 

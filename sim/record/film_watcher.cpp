@@ -56,7 +56,9 @@ cv::Mat contact_sheet(std::span<const avoidance::CameraFrame> frames) {
     const avoidance::CameraFrame& frame = frames[static_cast<size_t>(i)];
     const cv::Point corner((i % columns) * tile.width, (i / columns) * tile.height);
     to_rgb(frame.image).copyTo(sheet(cv::Rect(corner, frame.image.size())));
-    cv::putText(sheet, frame.role, corner + cv::Point(8, 20), cv::FONT_HERSHEY_SIMPLEX, 0.55, {255, 210, 64}, 1,
+    std::string label = frame.role;
+    if (frame.image.type() == CV_32FC1) label += fmt::format(", white 0 m, black {:.0f} m", kDarkAtM);
+    cv::putText(sheet, label, corner + cv::Point(8, 20), cv::FONT_HERSHEY_SIMPLEX, 0.55, {255, 210, 64}, 1,
                 cv::LINE_AA);
   }
   return sheet;

@@ -59,6 +59,30 @@ Json bodies(const std::vector<scenes::Solid>& solids) {
   return json;
 }
 
+/// The highest point above the middle of a body, in W.
+Eigen::Vector3d top_W(const scenes::Solid& solid) {
+  Eigen::AlignedBox3d box;
+  const auto add = [&](const Eigen::Vector3d& p_S) { box.extend(solid.X_WS * p_S); };
+  for (const Eigen::Vector3d& corner : solid.polyhedron.corners) add(corner);
+  if (solid.polyhedron.corners.empty()) {
+    for (const double side : {-1.0, 1.0}) {
+      for (int axis = 0; axis < 3; ++axis) add(side * solid.half_extents_m[axis] * Eigen::Vector3d::Unit(axis));
+    }
+  }
+  return {box.center().x(), box.center().y(), box.min().z()};
+}
+
+Json labels(const std::vector<scenes::Solid>& solids) {
+  Json json = Json::array();
+  for (const scenes::Solid& solid : solids) {
+    if (solid.name.empty()) continue;
+    Json label = Json::array({solid.name});
+    append(label, top_W(solid));
+    json.push_back(label);
+  }
+  return json;
+}
+
 }  // namespace
 
 Json replay_scene(const scenes::Scene& scene, double end_s) {
@@ -66,6 +90,7 @@ Json replay_scene(const scenes::Scene& scene, double end_s) {
   json["has_ground"] = scene.has_ground;
   json["bounds"] = plan_data({.bounds_NE_m = scene.bounds_NE_m}, 0.0, 0.0).at("bounds");
   json["step_s"] = kMoverStepS;
+  json["labels"] = labels(scene.solids);
   json["movers"] = Json::array();
   for (const scenes::Mover& mover : scene.movers) {
     Json path = Json::array();
@@ -81,6 +106,16 @@ Json replay_hull(const std::vector<dynamics::HullPart>& hull) {
     const bool is_box = part.shape == dynamics::HullPart::Shape::box;
     json[is_box ? "boxes" : "cylinders"].push_back(
         body(Eigen::Isometry3d(Eigen::Translation3d(part.center_B_m)), part.half_extents_m));
+  }
+  return json;
+}
+
+Json replay_statuses(const ColumnTable& decisions) {
+  Json json = Json::array();
+  const auto& t_s = decisions.numbers("t_s");
+  const auto& status = decisions.words("status");
+  for (size_t row = 0; row < decisions.rows(); ++row) {
+    if (row == 0 || status[row] != status[row - 1]) json.push_back({milli(t_s[row]), status[row]});
   }
   return json;
 }

@@ -68,6 +68,8 @@ void write_replay(const std::filesystem::path& run_folder, const RunRecord& run)
   data["scene"] = replay_scene(*run.scene, run.result.at("flight_time_s").get<double>());
   data["hull"] = replay_hull(dynamics::hull(run.scenario.vehicle));
   data["path"] = replay_path(run.trajectory);
+  data["statuses"] = replay_statuses(run.decisions);
+  data["has_film"] = std::filesystem::exists(run_folder / "video.webm");
   data["goal"] = nullptr;
   if (const auto& goal = run.scenario.goal) {
     data["goal"] = {milli(goal->north_m), milli(goal->east_m), milli(-goal->altitude_m), milli(goal->radius_m)};

@@ -65,11 +65,11 @@ TEST_F(MeshImport, OfAQuadStandsWhereHeadingAndPlacePutIt) {
                                 .scale = 2.0});
   // Heading east: the model's front (-z) is east, its right (x) is south.
   const Mesh& mesh = scene.meshes.at(0);
-  ASSERT_EQ(mesh.indices.size(), 6u);
+  ASSERT_EQ(mesh.indices.size(), 12u);  // both sides of two triangles
   Eigen::AlignedBox3f box;
   for (const Vertex& vertex : mesh.vertices) {
     box.extend(vertex.p_W);
-    EXPECT_LT((vertex.n_W - Eigen::Vector3f(0, -1, 0)).norm(), 1e-5f);  // z of the model is west
+    EXPECT_NEAR(std::abs(vertex.n_W.y()), 1.0f, 1e-5f);  // z of the model is west
     const bool is_top = vertex.p_W.z() < -4.0f, is_right = vertex.p_W.x() < 10.0f;
     EXPECT_NEAR(vertex.uv.x(), is_right ? 1.0 : 0.0, 1e-6);
     EXPECT_NEAR(vertex.uv.y(), is_top ? 0.0 : 1.0, 1e-6);  // row 0 on top
@@ -80,6 +80,37 @@ TEST_F(MeshImport, OfAQuadStandsWhereHeadingAndPlacePutIt) {
   ASSERT_EQ(scene.solids.size(), 1u);
   EXPECT_EQ(scene.solids[0].shape, Solid::Shape::surface);
   EXPECT_EQ(scene.solids[0].polyhedron.faces.size(), 2u);
+}
+
+// Whether each triangle's normals point to the side it is seen from, and how many are seen from a point.
+std::pair<bool, int> seen_from(const Mesh& mesh, const Eigen::Vector3f& eye_W) {
+  bool agree = true;
+  int seen = 0;
+  for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const std::array corners{mesh.vertices[mesh.indices[i]], mesh.vertices[mesh.indices[i + 1]],
+                             mesh.vertices[mesh.indices[i + 2]]};
+    const Eigen::Vector3f across = (corners[1].p_W - corners[0].p_W).cross(corners[2].p_W - corners[0].p_W);
+    for (const Vertex& corner : corners) agree = agree && across.dot(corner.n_W) > 0.0f;
+    seen += across.dot(eye_W - corners[0].p_W) > 0.0f ? 1 : 0;
+  }
+  return {agree, seen};
+}
+
+TEST_F(MeshImport, IsSeenFromOutsideHoweverItIsWound) {
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
+  const std::string outward = "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  const std::string inward = "f 1 2 3 4\nf 8 7 6 5\nf 5 6 2 1\nf 6 7 3 2\nf 7 8 4 3\nf 8 5 1 4\n";
+  for (const std::string& faces : {outward, inward}) {
+    const Scene scene = imported({.file = write("cube.obj", corners + faces)});
+    const Mesh& mesh = scene.meshes.at(0);
+    EXPECT_EQ(mesh.indices.size(), 36u);
+    EXPECT_EQ(seen_from(mesh, {9.0f, 0.5f, -0.5f}), std::pair(true, 2)) << faces;
+    EXPECT_EQ(seen_from(mesh, {-0.5f, 0.5f, -0.5f}), std::pair(true, 0)) << faces;  // from within
+  }
+  // Without a lid it is open: both sides of ten triangles.
+  const Scene open = imported({.file = write("open.obj", corners + outward.substr(0, outward.rfind("f ")))});
+  EXPECT_EQ(open.meshes.at(0).indices.size(), 60u);
+  EXPECT_TRUE(seen_from(open.meshes.at(0), {9.0f, 0.5f, -0.5f}).first);
 }
 
 TEST_F(MeshImport, WithZUpAndWithoutCollisionIsScenery) {

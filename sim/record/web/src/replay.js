@@ -2,7 +2,9 @@
 import * as THREE from 'three';
 import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
 
+import {eventMark, moverTag, nameTags} from './replay_labels.js';
 import {goalMark, ground, moverMesh, pathLine, solidsMesh, vehicle} from './replay_scene.js';
+import {eventsOf, Track} from './replay_track.js';
 
 /**
  * Frame V, three.js's world: x east, y up, z south. The one place where W (north, east, down) becomes V: all that stands
@@ -11,9 +13,10 @@ import {goalMark, ground, moverMesh, pathLine, solidsMesh, vehicle} from './repl
 const R_VW = new THREE.Matrix4().set(0, 1, 0, 0, 0, 0, -1, 0, -1, 0, 0, 0, 0, 0, 0, 1);
 function inV(north, east, down) { return new THREE.Vector3(north, east, down).applyMatrix4(R_VW); }
 
-const {result, scene: world, hull, path, goal, has_report} = JSON.parse(document.getElementById('data').textContent);
+const {result, scene: world, hull, path, goal, has_report, statuses, has_film} = JSON.parse(document.getElementById('data').textContent);
 const element = (id) => document.getElementById(id);
 const end_s = path.t_s.at(-1) ?? 0;
+const events = eventsOf(result, end_s), event = events[0], collided = result.outcome === 'collided';
 const state = {t_s: 0, playing: false, speed: 1, camera: 'orbit'};
 
 // --- The scene
@@ -37,7 +40,8 @@ const bounds = world.bounds.length ? world.bounds
 const floor = ground(bounds);
 floor.group.visible = world.has_ground;
 const solids = solidsMesh(world, path), craft = vehicle(hull), movers = world.movers.map(moverMesh);
-inW.add(floor.group, solids.group, pathLine(path), craft.group, ...movers);
+movers.forEach((mover, i) => mover.add(moverTag(world.movers[i])));
+inW.add(floor.group, solids.group, pathLine(path), craft.group, ...movers, nameTags(world.labels, path));
 if (goal) inW.add(goalMark(goal));
 craft.group.rotation.order = 'ZYX';  // yaw, then pitch, then roll, each about the new axis
 
@@ -60,6 +64,24 @@ function turnBetween(values, {row, next, share}) {
   return values[row] + share * Math.atan2(Math.sin(turn), Math.cos(turn));
 }
 
+if (result.closest_obstacle || collided) {
+  const at = place(event.t_s);
+  const where = [path.north_m, path.east_m, path.down_m].map((values) => between(values, at));
+  inW.add(eventMark({text: event.text, place: where, collided}, craft.reach));
+}
+
+/** The film follows the time line; while both play it is put right only when they part. */
+const film = element('film');
+if (has_film) {
+  film.src = 'video.webm';
+  film.addEventListener('loadeddata', () => { film.hidden = false; });
+}
+function showFilm(t_s) {
+  const apart_s = Math.abs(film.currentTime - t_s), most_s = state.playing ? 0.3 : 0.02;
+  if (film.hidden || film.seeking || apart_s <= most_s) return;
+  film.currentTime = Math.min(t_s, film.duration);
+}
+
 function pose(t_s) {
   const at = place(t_s);
   craft.group.position.set(between(path.north_m, at), between(path.east_m, at), between(path.down_m, at));
@@ -74,6 +96,8 @@ function pose(t_s) {
   element('facts').textContent = `clearance ${clearance === null ? 'none within range' : meters(clearance)}, ` +
     `speed ${fixed(between(path.speed_mps, at), 1)} m/s, altitude ${fixed(-between(path.down_m, at), 1)} m`;
   element('time').value = t_s;
+  track.draw(t_s);
+  showFilm(t_s);
 }
 
 // --- Cameras
@@ -82,7 +106,7 @@ const camera = new THREE.PerspectiveCamera(55, 1, 0.2, 3000);
 const orbit = new OrbitControls(camera, renderer.domElement);
 orbit.maxPolarAngle = 0.499 * Math.PI;
 const craftInV = () => inV(...craft.group.position.toArray());
-const behind_m = Math.max(6, 8 * craft.reach), orbit_m = 2 * behind_m;
+const behind_m = Math.max(3, 5 * craft.reach), orbit_m = 2 * behind_m;
 
 /** Puts the orbit camera south of the vehicle and above it, or right above. */
 function aim(kind) {
@@ -153,6 +177,10 @@ function setPlaying(playing) {
   if (playing && state.t_s >= end_s) setTime(0);
   state.playing = playing;
   element('play').textContent = playing ? 'pause' : 'play';
+  if (film.hidden) return;
+  film.playbackRate = state.speed;
+  if (playing) film.play();
+  else film.pause();
 }
 function setCamera(kind) {
   state.camera = kind;
@@ -173,7 +201,7 @@ function fillControls() {
   const speed = element('speed');
   for (const factor of [0.1, 0.25, 0.5, 1, 2, 5, 10]) speed.appendChild(make('option', '', '× ' + factor)).value = factor;
   speed.value = 1;
-  speed.addEventListener('change', () => { state.speed = Number(speed.value); });
+  speed.addEventListener('change', () => { state.speed = film.playbackRate = Number(speed.value); });
   element('time').max = end_s;
   element('time').addEventListener('input', () => setTime(Number(element('time').value)));
   element('play').addEventListener('click', () => setPlaying(!state.playing));
@@ -205,11 +233,12 @@ function draw(now_ms) {
   requestAnimationFrame(draw);
 }
 
+const track = new Track(element('track'), {statuses, events, end_s}, setTime);
 fillControls();
-// Opens at the instant that the address names (#t=12.5), at a collision's last seconds, or at the start.
+// Opens at the instant that the address names (#t=12.5), at a collision's last seconds, or at the closest approach.
 const asked_s = Number(new URLSearchParams(location.hash.slice(1)).get('t'));
-const collided = result.outcome === 'collided';
-if (path.t_s.length) setTime(asked_s > 0 ? Math.min(asked_s, end_s) : collided ? Math.max(0, end_s - 2) : 0);
+if (path.t_s.length) setTime(asked_s > 0 ? Math.min(asked_s, end_s) : collided ? Math.max(0, end_s - 2) : event.t_s);
+addEventListener('resize', () => track.draw(state.t_s));
 setCamera(collided ? 'chase' : 'orbit');
 element('camera').value = collided ? 'chase' : 'orbit';
 requestAnimationFrame(draw);

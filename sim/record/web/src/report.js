@@ -116,6 +116,16 @@ function openFilm() {
   return film;
 }
 
+/** Until the film is played it shows the moment of the closest approach. */
+function setPoster(film, t) {
+  const still = filmStill(film, t);
+  still.addEventListener('drawn', () => {
+    try {
+      film.poster = still.toDataURL('image/jpeg');
+    } catch { /* a film beside the page may not be read by it */ }
+  });
+}
+
 /** Notes beside the plots' section heads. */
 function sectionNotes(module) {
   const notes = {'Command and motion': 'drag to zoom, double click to see all, click to seek the video there'};
@@ -138,6 +148,7 @@ function main() {
   fillChecks(document.getElementById('checks'), data.result.checks);
   fillDetails(document.getElementById('details'), data);
   const film = openFilm();
+  if (film) setPoster(film, data.result.closest_obstacle?.t_s ?? 0);
   fillStory(document.getElementById('story'), data, film);
   if (!data.map) document.getElementById('landmarks-card').remove();
 

@@ -3,8 +3,8 @@
 
 const BEFORE_S = 2;
 
-/** The image of the film at an instant, drawn into a canvas as soon as the browser has it. */
-function filmStill(film, t_s, label) {
+/** The image of the film at an instant, drawn into a canvas as soon as the browser has it; it then says `drawn`. */
+function filmStill(film, t_s, label = '') {
   const canvas = make('canvas', 'still');
   canvas.setAttribute('role', 'img');
   canvas.setAttribute('aria-label', label);
@@ -15,6 +15,7 @@ function filmStill(film, t_s, label) {
   video.addEventListener('seeked', () => {
     [canvas.width, canvas.height] = [video.videoWidth, video.videoHeight];
     canvas.getContext('2d').drawImage(video, 0, 0);
+    canvas.dispatchEvent(new Event('drawn'));
   });
   video.src = film.src;
   return canvas;
