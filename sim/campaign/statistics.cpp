@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "dynamics/normal_stream.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -13,17 +15,6 @@ double log_choose(int64_t n, int64_t k) {
 }
 
 }  // namespace
-
-double normal_quantile(double probability) {
-  // Bisection on the distribution: it always ends, within a rounding of the root.
-  double low = -40.0, high = 40.0;
-  for (int i = 0; i < 80; ++i) {
-    const double middle = 0.5 * (low + high);
-    const double below = 0.5 * std::erfc(-middle / std::numbers::sqrt2);
-    (below < probability ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
 
 double student_quantile(double probability, int freedom) {
   // With t = sqrt(nu) tan(angle), the density becomes a power of the cosine: Simpson's rule on a finite range.
@@ -47,7 +38,7 @@ double student_quantile(double probability, int freedom) {
 Interval wilson_interval(Count count, double confidence) {
   if (count.trials == 0) return {0.0, 1.0};
   const double n = static_cast<double>(count.trials), p = count.rate();
-  const double z = normal_quantile(0.5 + 0.5 * confidence);
+  const double z = dynamics::normal_quantile(0.5 + 0.5 * confidence);
   const double middle = (p + z * z / (2.0 * n)) / (1.0 + z * z / n);
   const double half = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)) / (1.0 + z * z / n);
   // At the ends the formula is exact but for rounding.

@@ -189,9 +189,10 @@ int parse_and_run(int argc, char** argv) {
       "Hedgehop flies rotorcraft through scenes they must see to survive: closed-loop simulation of\n"
       "vision-based obstacle avoidance, without display, GPU or network.",
       "hedgehop"};
-  const auto* const features = app.add_flag("--features", "with --version: what this build has, and what it lacks");
-  app.set_version_flag("--version", [features] {
-    return fmt::format("{} (build {}){}", version(), build_identity(), features->count() > 0 ? kFeatureRows : "");
+  bool features = false;
+  app.add_flag("--features", features, "with --version: what this build has, and what it lacks");
+  app.set_version_flag("--version", [&features] {
+    return fmt::format("{} (build {}){}", version(), build_identity(), features ? kFeatureRows : "");
   });
   app.require_subcommand(1);
   app.footer("Exit status: 0 all checks hold; 1 a check fails; 2 the input is bad; 3 an internal error; 4 undecided.");
