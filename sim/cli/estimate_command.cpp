@@ -38,6 +38,7 @@ int estimate(const EstimateOptions& options) {
                                .limit_s = options.limit_s};
   EstimateRecords flown;
   const StatusLine status;
+  std::optional<std::pair<size_t, size_t>> told;  // run and level
   const FlyMargins fly = [&](const std::vector<SubsetSample>& samples) -> std::optional<std::vector<double>> {
     std::vector<Order> orders;
     for (const SubsetSample& sample : samples) orders.push_back(order_of(scenario, sample));
@@ -48,7 +49,11 @@ int estimate(const EstimateOptions& options) {
       margins.push_back(margin_of(event, records[i]));
       flown[flight_id(samples[i])] = records[i];
     }
-    status.show(fmt::format("run {}, level {}: {} flights", samples[0].run, samples[0].level, flown.size()));
+    const auto level = std::pair(samples[0].run, samples[0].level);
+    if (status.terminal() || level != told) {
+      status.show(fmt::format("run {}, level {}: {} flights", level.first, level.second, flown.size()));
+    }
+    told = level;
     return margins;
   };
   const SubsetOptions subset{.samples = options.samples, .seed = options.seed};

@@ -6,8 +6,8 @@
 
 namespace hedgehop::sim {
 
-/// What FFmpeg does for a film: VP8 in WebM. It lives in a library of its own, libhedgehop_film.so, which the first film
-/// loads: FFmpeg brings 180 libraries, and most flights are not filmed.
+/// What FFmpeg does for a film: VP8 in WebM. It lives in a library of its own, libhedgehop_film.so, which the first
+/// film loads: FFmpeg brings 180 libraries, and most flights are not filmed.
 class FilmEncoder {
  public:
   virtual ~FilmEncoder() = default;
@@ -18,8 +18,8 @@ class FilmEncoder {
   virtual void finish() = 0;
 };
 
-/// The function of that library. @param size_px  even. @param[out] made  the encoder. Throws std::runtime_error when the
-/// encoder is missing or the file cannot be written.
+/// The function of that library. @param size_px  even. @param[out] made  the encoder. Throws std::runtime_error when
+/// the encoder is missing or the file cannot be written.
 using MakeFilmEncoder = void(const std::filesystem::path& file, double rate_hz, cv::Size size_px,
                              std::unique_ptr<FilmEncoder>& made);
 constexpr const char* kFilmLibrary = "libhedgehop_film.so";

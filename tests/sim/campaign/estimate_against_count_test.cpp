@@ -14,7 +14,7 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kLimitM = 1.05;
+constexpr double kLimitM = 0.85;
 
 double margin_of(const Scenario& alley, const Chance& chance) {
   Scenario scenario = alley;

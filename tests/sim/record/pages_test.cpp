@@ -188,7 +188,9 @@ TEST(ReplayInBrowser, PlaysPausesAndChangesCameraAndSpeed) {
       element.value = value;
       element.dispatchEvent(new Event('change'));
     };
-    const play = document.getElementById('play'), seen = [replay.state.t_s];
+    const play = document.getElementById('play'), time = document.getElementById('time'), seen = [1];
+    time.value = seen[0];
+    time.dispatchEvent(new Event('input'));
     set('speed', '0.1');
     play.click();
     const word = play.textContent;
