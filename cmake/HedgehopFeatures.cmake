@@ -1,8 +1,8 @@
-# What Hedgehop can be built without. A source `<name>.cpp` then gives way to `<name>_absent.cpp`, which says what is missing
-# when it is asked for; `hedgehop --features` and the configure step list them.
+# What Hedgehop can be built without. A source then gives way to `<name>_absent.cpp`, which says what is missing when it is
+# asked for; `hedgehop --version --features` and the configure step list them.
 include_guard()
 
-# hedgehop_feature(<found> <name> <Debian packages> [<variable> <source without .cpp>]): sets the variable to the source.
+# hedgehop_feature(<found> <name> <Debian packages> [<variable> <source> <source in its place>]): sets the variable to one.
 function(hedgehop_feature found name packages)
   if(found)
     set(row "yes  ${name}")
@@ -13,9 +13,9 @@ function(hedgehop_feature found name packages)
   set_property(GLOBAL APPEND PROPERTY HEDGEHOP_FEATURES "${row}")
   if(ARGC GREATER 3)
     if(found)
-      set(${ARGV3} ${ARGV4}.cpp PARENT_SCOPE)
+      set(${ARGV3} ${ARGV4} PARENT_SCOPE)
     else()
-      set(${ARGV3} ${ARGV4}_absent.cpp PARENT_SCOPE)
+      set(${ARGV3} ${ARGV5} PARENT_SCOPE)
     endif()
   endif()
 endfunction()
