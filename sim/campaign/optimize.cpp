@@ -3,28 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <exception>
 #include <limits>
-#include <nlopt.hpp>
 
+#include "sim/campaign/minimize.h"
 #include "sim/scenario/tree.h"
 
 namespace hedgehop::sim {
 namespace {
-
-nlopt::algorithm algorithm(OptimizeDesign::Method method) {
-  switch (method) {
-    case OptimizeDesign::Method::subplex:
-      return nlopt::LN_SBPLX;
-    case OptimizeDesign::Method::nelder_mead:
-      return nlopt::LN_NELDERMEAD;
-    case OptimizeDesign::Method::bobyqa:
-      return nlopt::LN_BOBYQA;
-    case OptimizeDesign::Method::direct:
-      return nlopt::GN_DIRECT_L;
-  }
-  return nlopt::LN_SBPLX;
-}
 
 /// Mean of a column over a point's flights; a flight that does not pass or lacks a number there counts its cost.
 double mean_cost(const OptimizeDesign& design, const std::vector<FlightRecord>& records) {
@@ -56,7 +41,6 @@ struct Search {
   const FlyPoint& fly;
   Optimum best{.values = {}, .cost = std::numeric_limits<double>::infinity(), .orders = {}, .records = {}};
   size_t points = 0;
-  std::exception_ptr fault = {};  ///< nlopt passes on only exceptions of its own
 
   double cost(const std::vector<double>& coordinates) {
     std::vector<std::string> values;
@@ -68,7 +52,7 @@ struct Search {
     const std::optional<std::vector<FlightRecord>> records = fly(point.orders);
     if (!records) {
       best.stopped = true;
-      throw nlopt::forced_stop();
+      throw StopMinimizing();
     }
     best.orders.add(sweep, points++, values);
     best.records.insert(best.records.end(), records->begin(), records->end());
@@ -79,43 +63,19 @@ struct Search {
     }
     return cost;
   }
-
-  static double objective(const std::vector<double>& coordinates, std::vector<double>&, void* data) {
-    auto& search = *static_cast<Search*>(data);
-    try {
-      return search.cost(coordinates);
-    } catch (const nlopt::forced_stop&) {
-      throw;
-    } catch (...) {
-      search.fault = std::current_exception();
-      throw nlopt::forced_stop();
-    }
-  }
 };
 
 }  // namespace
 
 Optimum optimize(const SweepConfig& sweep, const FlyPoint& fly) {
   const auto& design = std::get<OptimizeDesign>(sweep.design);
-  const size_t dimensions = sweep.parameters.size();
   Search search{.sweep = sweep, .design = design, .fly = fly};
-  nlopt::opt optimizer(algorithm(design.method), static_cast<unsigned>(dimensions));
-  optimizer.set_lower_bounds(0.0);
-  optimizer.set_upper_bounds(1.0);
-  optimizer.set_maxeval(static_cast<int>(design.evaluations));
   constexpr double kTolerance = 1e-4;  // of a range: finer differences of a gain are of no interest
-  optimizer.set_xtol_abs(kTolerance);
-  constexpr double kFirstStep = 0.25;  // of a range
-  optimizer.set_initial_step(kFirstStep);
-  optimizer.set_min_objective(Search::objective, &search);
-  std::vector<double> x(dimensions, 0.5);
-  double cost = 0.0;
-  try {
-    optimizer.optimize(x, cost);
-  } catch (const nlopt::roundoff_limited&) {  // as good as it gets
-  } catch (const nlopt::forced_stop&) {
-    if (search.fault) std::rethrow_exception(search.fault);
-  }
+  minimize({.method = design.method,
+            .dimensions = sweep.parameters.size(),
+            .most_points = static_cast<int>(design.evaluations),
+            .tolerance = kTolerance},
+           [&](const std::vector<double>& coordinates) { return search.cost(coordinates); });
   return std::move(search.best);
 }
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <nlopt.hpp>
 #include <optional>
 #include <random>
 #include <utility>
 
+#include "sim/campaign/minimize.h"
 #include "sim/falsify/box_constraints.h"
 #include "sim/falsify/cma_es.h"
 
@@ -208,35 +208,20 @@ class Search {
 
   /// DIRECT, which takes one point after the other.
   void divide() {
-    nlopt::opt optimizer(nlopt::GN_DIRECT_L, static_cast<unsigned>(dimensions()));
-    optimizer.set_lower_bounds(0.0);
-    optimizer.set_upper_bounds(1.0);
     constexpr int kPointsAFlight = 20;  // most that constraints may take of a budget
-    optimizer.set_maxeval(kPointsAFlight * static_cast<int>(design_.budget));
-    optimizer.set_min_objective(objective, this);
-    Coordinates x(dimensions(), 0.5);
-    double cost = 0.0;
-    try {
-      optimizer.optimize(x, cost);
-    } catch (const nlopt::roundoff_limited&) {
-    } catch (const nlopt::forced_stop&) {
-      if (fault_) std::rethrow_exception(fault_);
-    }
+    minimize({.method = OptimizeDesign::Method::direct,
+              .dimensions = dimensions(),
+              .most_points = kPointsAFlight * static_cast<int>(design_.budget)},
+             [&](const Coordinates& point) { return cost(point); });
   }
-  static double objective(const Coordinates& point, Coordinates&, void* data) {
-    auto& search = *static_cast<Search*>(data);
-    try {
-      const double broken = search.violation_at(point);
-      if (broken > 0.0) {
-        ++search.result_.infeasible;
-        return kInfeasibleCost + broken;
-      }
-      search.fly_generation({point}, search.result_.trials.size());
-      return search.result_.trials.back().weakest.robustness;
-    } catch (...) {  // nlopt passes on only exceptions of its own
-      search.fault_ = std::current_exception();
-      throw nlopt::forced_stop();
+  double cost(const Coordinates& point) {
+    const double broken = violation_at(point);
+    if (broken > 0.0) {
+      ++result_.infeasible;
+      return kInfeasibleCost + broken;
     }
+    fly_generation({point}, result_.trials.size());
+    return result_.trials.back().weakest.robustness;
   }
 
   const FalsifySearch& search_;
@@ -245,7 +230,6 @@ class Search {
   std::mt19937_64 random_;
   size_t generations_ = 0;
   FalsifyResult result_;
-  std::exception_ptr fault_;
 };
 
 }  // namespace

@@ -32,11 +32,20 @@ class Stopwatch {
 
 }  // namespace
 
+/// Flights are the unit of parallelism. Once: OpenCV ends its threads when told, which two flights may not do at a
+/// time.
+void keep_opencv_to_one_thread() {
+  [[maybe_unused]] static const bool told = [] {
+    cv::setNumThreads(1);
+    return true;
+  }();
+}
+
 class Simulation::Impl {
  public:
   Impl(Scenario scenario, FlightParts parts, ModuleMaker module, FlightWatcher* watcher)
       : scenario_(std::move(scenario)), make_module_(std::move(module)), watcher_(watcher) {
-    cv::setNumThreads(1);  // flights are the unit of parallelism
+    keep_opencv_to_one_thread();
     stage_.emplace(scenario_);
     begin(std::move(parts));
   }

@@ -164,6 +164,21 @@ TEST(Stepping, SimulationsOnSeveralThreadsFlyAsAlone) {
   for (const std::string& hash : hashes) EXPECT_EQ(hash, alone);
 }
 
+/// Many begin and end while others fly.
+TEST(Stepping, SimulationsBeginAndEndOnSeveralThreadsAtATime) {
+  const Scenario alley = load_scenario(config("estimate/alley.yaml"), std::vector<std::string>{"duration=0.1"});
+  const std::string alone = Simulation(alley).run().result.trajectory_hash;
+  std::vector<int> equal(4, 0);
+  std::vector<std::thread> threads;
+  for (int& count : equal) {
+    threads.emplace_back([&] {
+      for (int i = 0; i < 50; ++i) count += Simulation(alley).run().result.trajectory_hash == alone ? 1 : 0;
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(equal, std::vector<int>(4, 50));
+}
+
 TEST(Stepping, HoveringSeesTheCamerasItIsAskedFor) {
   const Scenario scenario = city();
   Simulation simulation(scenario, hovering(scenario.rig, {"front", "down"}));

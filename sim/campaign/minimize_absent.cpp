@@ -1,9 +1,9 @@
-#include "sim/campaign/optimize.h"
+#include "sim/campaign/minimize.h"
 #include "sim/scenario/input_error.h"
 
 namespace hedgehop::sim {
 
-Optimum optimize(const SweepConfig&, const FlyPoint&) {
+void minimize(const MinimizeOptions&, const std::function<double(const std::vector<double>&)>&) {
   throw InputError("this build of Hedgehop has no optimizer (hedgehop --version --features)");
 }
 
