@@ -71,15 +71,22 @@ if (result.closest_obstacle || collided) {
 }
 
 /** The film follows the time line; while both play it is put right only when they part. */
-const film = element('film');
-if (has_film) {
-  film.src = 'video.webm';
-  film.addEventListener('loadeddata', () => { film.hidden = false; });
+const film = make('video'), screen = element('film');
+film.muted = true;
+function showFilm() {
+  [screen.hidden, screen.width, screen.height] = [false, film.videoWidth, film.videoHeight];
+  screen.getContext('2d').drawImage(film, 0, 0);
 }
-function showFilm(t_s) {
+function windFilm(t_s) {
+  if (film.readyState === 0) return;
   const apart_s = Math.abs(film.currentTime - t_s), most_s = state.playing ? 0.3 : 0.02;
-  if (film.hidden || film.seeking || apart_s <= most_s) return;
-  film.currentTime = Math.min(t_s, film.duration);
+  if (!film.seeking && apart_s > most_s) film.currentTime = Math.min(t_s, film.duration);
+  else if (state.playing) showFilm();
+}
+if (has_film) {
+  film.addEventListener('loadeddata', () => windFilm(state.t_s));
+  film.addEventListener('seeked', showFilm);
+  film.src = 'video.webm';
 }
 
 function pose(t_s) {
@@ -97,7 +104,7 @@ function pose(t_s) {
     `speed ${fixed(between(path.speed_mps, at), 1)} m/s, altitude ${fixed(-between(path.down_m, at), 1)} m`;
   element('time').value = t_s;
   track.draw(t_s);
-  showFilm(t_s);
+  windFilm(t_s);
 }
 
 // --- Cameras
@@ -177,7 +184,7 @@ function setPlaying(playing) {
   if (playing && state.t_s >= end_s) setTime(0);
   state.playing = playing;
   element('play').textContent = playing ? 'pause' : 'play';
-  if (film.hidden) return;
+  if (film.readyState === 0) return;
   film.playbackRate = state.speed;
   if (playing) film.play();
   else film.pause();

@@ -1,7 +1,7 @@
 // Names in the scene, and a mark where the flight ended or came nearest.
 import * as THREE from 'three';
 
-const MOST_LABELS = 8, FARTHEST_M = 30;
+const MOST_LABELS = 8, FARTHEST_M = 30, ABOVE_FLIGHT_M = 2;
 
 /** A line of text that faces the camera, of one size on the screen. */
 function label(text) {
@@ -31,12 +31,12 @@ export function nearestNames(labels, {north_m, east_m}) {
     .filter(([name]) => !seen.has(name) && seen.add(name)).slice(0, MOST_LABELS);
 }
 
-/** Labels of a scene, as children of a group in W. */
+/** Labels of a scene, as children of a group in W: above what is low, of what is high where the flight passes it. */
 export function nameTags(labels, path) {
-  const group = new THREE.Group();
-  for (const [name, ...place] of nearestNames(labels, path)) {
+  const group = new THREE.Group(), highest = Math.min(...path.down_m) - ABOVE_FLIGHT_M;
+  for (const [name, north, east, top] of nearestNames(labels, path)) {
     const tag = group.add(label(name)).children.at(-1);
-    tag.position.set(...place);
+    tag.position.set(north, east, Math.max(top, highest));
   }
   return group;
 }
