@@ -77,8 +77,9 @@ class NetpbmReader {
   /// The next number of the text, after white space and comments; -1 where there is none, or one of more than 9 digits.
   int64_t number() {
     while (!rest_.empty() && (std::isspace(rest_.front()) != 0 || rest_.front() == '#')) {
-      const size_t comment = static_cast<size_t>(std::ranges::find(rest_, '\n') - rest_.begin());
-      rest_ = rest_.subspan(rest_.front() == '#' ? comment : 1);
+      const bool is_comment = rest_.front() == '#';
+      const auto next = is_comment ? std::ranges::find(rest_, '\n') : rest_.begin() + 1;
+      rest_ = rest_.subspan(static_cast<size_t>(next - rest_.begin()));
     }
     int64_t value = -1;
     for (int digit = 0; !rest_.empty() && std::isdigit(rest_.front()) != 0; ++digit) {
