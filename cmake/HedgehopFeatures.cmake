@@ -2,7 +2,8 @@
 # asked for; `hedgehop --version --features` and the configure step list them.
 include_guard()
 
-# hedgehop_feature(<found> <name> <Debian packages> [<variable> <source> <source in its place>]): sets the variable to one.
+# hedgehop_feature(<found> <name> <Debian packages> [<variable> <sources> <sources in their place>]): sets the variable to
+# one of them.
 function(hedgehop_feature found name packages)
   if(found)
     set(row "yes  ${name}")

@@ -7,6 +7,12 @@
 namespace hedgehop::avoidance::stereo {
 namespace {
 
+/// White letters with a black edge.
+void write(cv::Mat& image, const std::string& text, cv::Point where, double scale) {
+  cv::putText(image, text, where, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar::all(0), 3, cv::LINE_AA);
+  cv::putText(image, text, where, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar::all(255), 1, cv::LINE_AA);
+}
+
 /// The colors in use, from 0 m at the bottom, near the lower right corner.
 void draw_bar(cv::Mat& image, double far_m) {
   constexpr int kLeastWidthPx = 64, kLeastHeightPx = 48;  // below, it would hide what is seen
@@ -22,9 +28,7 @@ void draw_bar(cv::Mat& image, double far_m) {
   const double scale = std::max(0.3, image.cols / 1600.0);
   const auto label = [&](const std::string& text, int y) {
     const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, scale, 1, nullptr);
-    const cv::Point where(place.x - size.width - width / 2, y + size.height / 2);
-    cv::putText(image, text, where, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar::all(0), 3, cv::LINE_AA);
-    cv::putText(image, text, where, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar::all(255), 1, cv::LINE_AA);
+    write(image, text, {place.x - size.width - width / 2, y + size.height / 2}, scale);
   };
   label(std::to_string(std::lround(far_m)) + " m", place.y);
   label("0 m", place.y + height);
@@ -51,9 +55,7 @@ cv::Mat depth_overlay(const cv::Mat& depth_m, double far_m) {
 
 void caption(cv::Mat& image, const std::string& text) {
   const double scale = std::max(0.4, image.cols / 1200.0);
-  const cv::Point where(6, static_cast<int>(24 * scale) + 4);
-  cv::putText(image, text, where, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar::all(0), 3, cv::LINE_AA);
-  cv::putText(image, text, where, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar::all(255), 1, cv::LINE_AA);
+  write(image, text, {6, static_cast<int>(24 * scale) + 4}, scale);
 }
 
 }  // namespace hedgehop::avoidance::stereo

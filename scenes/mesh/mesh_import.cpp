@@ -73,7 +73,7 @@ cv::Mat material_image(const ImportConfig& c, const aiScene& model, const aiMate
   } else {
     image = decode_texture(bytes_of(std::filesystem::path(c.file).parent_path() / path.C_Str()));
   }
-  if (image.empty()) refuse(c, std::string("its image '") + path.C_Str() + "' cannot be read as PNG or JPEG");
+  if (image.empty()) refuse(c, std::string("its image '") + path.C_Str() + "' cannot be read as PNG, JPEG or PPM");
   cv::resize(image, image, {size_px, size_px}, 0.0, 0.0, cv::INTER_AREA);
   return image;
 }

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <memory>
 #include <opencv2/imgproc.hpp>
+#include <string_view>
 
 namespace hedgehop::scenes::mesh {
 namespace {
@@ -41,6 +43,56 @@ cv::Mat decode_jpeg(std::span<const uint8_t> bytes) {
   return fault == 0 || tjGetErrorCode(decoder.get()) == TJERR_WARNING ? rgb : cv::Mat();
 }
 
+/// Netpbm's grey and color images (P2, P3, P5, P6), of one byte a number, which need no library.
+class NetpbmReader {
+ public:
+  explicit NetpbmReader(std::span<const uint8_t> bytes) : rest_(bytes.subspan(2)), kind_(bytes[1]) {}
+
+  cv::Mat read() {
+    const int64_t width = number(), height = number(), most = number();
+    if (width <= 0 || height <= 0 || width > kMostPixels || height > kMostPixels / width || most <= 0 || most > 255) {
+      return {};
+    }
+    const bool is_text = kind_ < '5', is_grey = kind_ == '2' || kind_ == '5';
+    if (!is_text && !rest_.empty()) rest_ = rest_.subspan(1);  // the one white space before the bytes
+    cv::Mat image(static_cast<int>(height), static_cast<int>(width), is_grey ? CV_8UC1 : CV_8UC3);
+    for (uint8_t& value : std::span(image.data, image.total() * image.elemSize())) {
+      const int64_t read = is_text ? number() : byte();
+      if (read < 0 || read > most) return {};
+      value = static_cast<uint8_t>(read * 255 / most);
+    }
+    cv::Mat rgb = image;
+    if (is_grey) cv::cvtColor(image, rgb, cv::COLOR_GRAY2RGB);
+    return rgb;
+  }
+
+ private:
+  /// -1 at the end.
+  int64_t byte() {
+    if (rest_.empty()) return -1;
+    const uint8_t first = rest_.front();
+    rest_ = rest_.subspan(1);
+    return first;
+  }
+  /// The next number of the text, after white space and comments; -1 where there is none, or one of more than 9 digits.
+  int64_t number() {
+    while (!rest_.empty() && (std::isspace(rest_.front()) != 0 || rest_.front() == '#')) {
+      const bool is_comment = rest_.front() == '#';
+      const auto next = is_comment ? std::ranges::find(rest_, '\n') : rest_.begin() + 1;
+      rest_ = rest_.subspan(static_cast<size_t>(next - rest_.begin()));
+    }
+    int64_t value = -1;
+    for (int digit = 0; !rest_.empty() && std::isdigit(rest_.front()) != 0; ++digit) {
+      if (digit == 9) return -1;
+      value = 10 * std::max<int64_t>(value, 0) + (byte() - '0');
+    }
+    return value;
+  }
+
+  std::span<const uint8_t> rest_;
+  uint8_t kind_;
+};
+
 }  // namespace
 
 cv::Mat decode_texture(std::span<const uint8_t> bytes) {
@@ -51,6 +103,10 @@ cv::Mat decode_texture(std::span<const uint8_t> bytes) {
   };
   if (starts(kPng)) return decode_png(bytes);
   if (starts(kJpeg)) return decode_jpeg(bytes);
+  constexpr std::string_view kNetpbm = "2356";
+  if (bytes.size() > 2 && bytes[0] == 'P' && kNetpbm.find(static_cast<char>(bytes[1])) != std::string_view::npos) {
+    return NetpbmReader(bytes).read();
+  }
   return {};
 }
 

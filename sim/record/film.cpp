@@ -17,7 +17,9 @@ namespace {
 MakeFilmEncoder* film_library() {
   void* const library = dlopen(kFilmLibrary, RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) throw std::runtime_error(fmt::format("there is no encoder: {}", dlerror()));
-  return reinterpret_cast<MakeFilmEncoder*>(dlsym(library, kMakeFilmEncoder));
+  auto* const make = reinterpret_cast<MakeFilmEncoder*>(dlsym(library, kMakeFilmEncoder));
+  if (make == nullptr) throw std::runtime_error(fmt::format("the encoder is of another Hedgehop: {}", dlerror()));
+  return make;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Who draws: one word of the command line, of the scenario or of the environment.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -21,7 +22,7 @@ class DrawingChoice : public testing::Test {
 
   /// The scenario that a short run with these options wrote down.
   std::string flown(const std::string& options) {
-    const auto folder = std::filesystem::path(testing::TempDir()) / "drawing_choice";
+    const auto folder = std::filesystem::path(testing::TempDir()) / ("drawing_choice_" + std::to_string(::getpid()));
     std::filesystem::remove_all(folder);
     const Answer answer = ask("run " HEDGEHOP_SOURCE_DIR
                               "/configs/andert2007_tree_160.yaml --set duration=0.1 --set 'checks=[]' --no-report "

@@ -1,6 +1,7 @@
 #include "sim/verdict/checks.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
@@ -156,10 +157,11 @@ TEST(Checks, NoTruthUsedCountsWhatTheResultLists) {
   EXPECT_EQ(result.value, 2.0);
 }
 
-/// The straight flight as a reference in a file, and flights that end before or after it.
+/// The straight flight as a reference in a file of its own, and flights that end before or after it.
 class PathTolerance : public ::testing::TestWithParam<PathToleranceCheck::Measure> {
  protected:
-  PathTolerance() : file_(std::string(testing::TempDir()) + "/straight_reference.csv") {
+  PathTolerance()
+      : file_(std::string(testing::TempDir()) + "/straight_reference_" + std::to_string(::getpid()) + ".csv") {
     ReferencePath reference{.reason = "straight", .version = "0", .seed = 1, .step_s = 0.1, .points = {}};
     for (const TrajectoryRow& row : flown_.flight.trajectory) reference.points.push_back({row.t_s, row.p_WB_true});
     std::ofstream(file_) << reference_text(reference);
