@@ -115,6 +115,8 @@ void declare(CLI::App& app, std::function<int()>& chosen, RunOptions& run, Rende
                    "role of a camera to export; may be repeated, the first is cam0; all that take images "
                    "when not given")
       ->type_name("NAME");
+  export_command->add_flag("--truth", data.truth,
+                           "also write depth, labels, what moves and optical flow of each image, as they truly are");
   export_command->add_option("--out", data.out, "folder to write, not there or empty; RUN/<format> when not given")
       ->type_name("DIR");
   export_command->callback([&] { chosen = [&data] { return cli::export_run(data); }; });

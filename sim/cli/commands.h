@@ -208,6 +208,7 @@ struct ExportOptions {
   std::string format;                ///< "euroc", "tum" or "kitti"
   std::filesystem::path out;         ///< empty: <folder>/<format>
   std::vector<std::string> cameras;  ///< roles; empty: all that take images
+  bool truth = false;                ///< also what each pixel truly shows
 };
 /// Re-simulates a run and writes its sensors' readings for other programs.
 int export_run(const ExportOptions& options);

@@ -35,7 +35,7 @@ std::string hash_of_run(const std::filesystem::path& folder) {
 int export_run(const ExportOptions& options) {
   const std::string hash = hash_of_run(options.folder);
   const Scenario scenario = load_scenario(options.folder / "scenario.yaml");
-  const ExportRequest request{format_of(options.format), options.cameras,
+  const ExportRequest request{format_of(options.format), options.cameras, options.truth,
                               options.out.empty() ? options.folder / options.format : options.out};
   FlightProgress progress(scenario.name);
   const Flight flight = export_flight(scenario, request, [&](double t_s, double duration_s, double goal_distance_m) {

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <opencv2/core.hpp>
 #include <utility>
 
@@ -13,18 +12,6 @@
 
 namespace hedgehop::sim::cli {
 namespace {
-
-/// Depth in meters as 16-bit millimeters; 0 where it is farther than that holds, or sky.
-cv::Mat to_millimeters(const cv::Mat& depth_m) {
-  cv::Mat depth_mm(depth_m.size(), CV_16UC1, cv::Scalar(0));
-  for (int v = 0; v < depth_m.rows; ++v) {
-    for (int u = 0; u < depth_m.cols; ++u) {
-      const float mm = 1000.0f * depth_m.at<float>(v, u);
-      if (mm < 65535.0f) depth_mm.at<uint16_t>(v, u) = static_cast<uint16_t>(std::lround(mm));
-    }
-  }
-  return depth_mm;
-}
 
 Channel channel_of(const std::string& what) {
   if (what == "grey") return Channel::grey;
@@ -77,7 +64,7 @@ int render(const RenderOptions& options) {
   Simulation simulation(load(options.scenario));
   cv::Mat image = image_at(simulation, options, channel);
   if (options.what == "depth_mm") {
-    image = to_millimeters(image);
+    image = depth_mm(image);
   } else if (channel == Channel::depth) {
     image = colored_depth(image);
   } else if (channel == Channel::flow) {

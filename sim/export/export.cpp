@@ -10,6 +10,7 @@
 #include "sim/export/conventions.h"
 #include "sim/export/euroc.h"
 #include "sim/export/kitti.h"
+#include "sim/export/true_images.h"
 #include "sim/export/tum.h"
 #include "sim/flight/build.h"
 #include "sim/record/image_file.h"
@@ -161,7 +162,9 @@ class Recorder : public FlightWatcher {
     for (size_t i = 0; i < frames.size(); ++i) {
       if (!frames[i]) continue;
       any = true;
-      write(image_file(i, tick.t_ns), frames[i]->image);
+      const std::filesystem::path file = image_file(i, tick.t_ns);
+      write(file, frames[i]->image);
+      if (request_.truth) true_images_.write(i, record_.cameras[i].role, tick, file.stem().string());
       if (request_.format == DataFormat::tum) {
         write(tum_depth(tick.t_ns), tum_depth_overlay(tick.depth(record_.cameras[i].role)));
       }
@@ -185,6 +188,7 @@ class Recorder : public FlightWatcher {
   const ExportRequest& request_;
   SensorRecord& record_;
   const Progress& progress_;
+  TrueImages true_images_{request_.out};
 };
 
 }  // namespace

@@ -17,6 +17,7 @@ struct ExportRequest {
   DataFormat format = DataFormat::euroc;
   std::vector<std::string>
       cameras;                ///< roles, in the order of cam0, cam1 ...; empty: all of the rig but those of depth
+  bool truth = false;         ///< write TrueImages, too
   std::filesystem::path out;  ///< folder that does not exist or is empty
 };
 

@@ -52,6 +52,7 @@ Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& 
                  uint64_t seed, std::span<const FailureConfig> failures)
     : renderer_(renderer), failures_(failures.begin(), failures.end()) {
   for (const scenes::Mover& mover : scene.movers) movers_.push_back(mover.motion);
+  for (const scenes::Mesh& mesh : scene.meshes) first_mover_label_ += static_cast<int>(mesh.chunks.size());
   for (const CameraConfig& camera : rig.cameras) {
     require_samples(camera, renderer_);
     channels_.push_back(to_render_channel(camera.channel));
@@ -134,6 +135,10 @@ cv::Mat Cameras::image(size_t camera, Channel channel, const Instant& now, const
     imperfections_[camera].apply(image_number(camera, now.t_ns), image);
   }
   return image;
+}
+
+cv::Mat Cameras::moving(size_t camera, const Instant& now) {
+  return image(camera, Channel::labels, now, now) >= first_mover_label_;
 }
 
 /// A bound of how fast anything moves through the image, by the camera's rotation and by what passes at the least

@@ -48,6 +48,9 @@ class Cameras {
   /// imperfections. @param next  what Channel::flow leads to.
   cv::Mat image(size_t camera, Channel channel, const Instant& now, const Instant& next);
 
+  /// CV_8UC1: 255 where a mover is seen, else 0.
+  cv::Mat moving(size_t camera, const Instant& now);
+
   /// As the calibration has it, for those on board.
   const avoidance::MountedCamera& mounted(size_t camera) const { return mounted_[camera]; }
   std::span<const avoidance::MountedCamera> mounted() const { return mounted_; }
@@ -69,6 +72,7 @@ class Cameras {
   std::vector<int64_t> periods_;  ///< ticks
   std::vector<avoidance::MountedCamera> mounted_, truly_mounted_;
   std::vector<scenes::Motion> movers_;
+  int first_mover_label_ = 1;
   std::vector<int64_t> period_ns_;
   std::vector<Imperfections> imperfections_;
   std::vector<Shutter> shutters_;

@@ -1,31 +1,43 @@
 #include "sim/loop/onlooker.h"
 
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 namespace hedgehop::sim {
 
 Onlooker::Onlooker(FlightWatcher* watcher, const Ticks& ticks, Cameras& cameras, const Aircraft& aircraft)
     : watcher_(watcher), ticks_(ticks), cameras_(cameras), aircraft_(aircraft) {
+  exposed_.resize(cameras_.count());
   if (watcher_ && watcher_->image_rate_hz() > 0.0) image_period_ = ticks_.period(watcher_->image_rate_hz());
 }
 
 void Onlooker::hand_over_sensors(int64_t tick, const BodyMotion& body) {
   if (!watcher_ || !watcher_->wants_sensors()) return;
+  const Cameras::Instant now{ticks_.t_ns(tick), body};
   std::vector<avoidance::CameraFrame> frames;
+  std::vector<size_t> exposing;
   for (size_t camera = 0; camera < cameras_.count(); ++camera) {
     if (!cameras_.due(camera, tick)) continue;
     if (const auto* const frame = cameras_.expose(camera, ticks_.t_ns(tick), body)) {
       frames.push_back(*frame);
+      exposing.push_back(camera);
     }
   }
   const dynamics::Avionics& avionics = aircraft_.avionics();
   if (frames.empty() && !avionics.imu()) return;
-  const auto depth = [&](std::string_view role) {
-    const Cameras::Instant now{ticks_.t_ns(tick), body};
-    return cameras_.image(cameras_.index(role), Channel::depth, now, now);
+  const auto seen_as = [&](Channel channel) {
+    return [&, channel](std::string_view role) { return cameras_.image(cameras_.index(role), channel, now, now); };
   };
-  watcher_->on_sensors({ticks_.t_ns(tick), aircraft_.body(), avionics.imu(), avionics.imu_bias(), frames, depth});
+  const auto moving = [&](std::string_view role) { return cameras_.moving(cameras_.index(role), now); };
+  const auto flow_to_here = [&](std::string_view role) {
+    const size_t camera = cameras_.index(role);
+    if (!exposed_[camera]) throw std::logic_error("no flow leads to the first image");
+    return cameras_.image(camera, Channel::flow, *exposed_[camera], now);
+  };
+  watcher_->on_sensors({now.t_ns, aircraft_.body(), avionics.imu(), avionics.imu_bias(), frames,
+                        seen_as(Channel::depth), seen_as(Channel::labels), moving, flow_to_here});
+  for (const size_t camera : exposing) exposed_[camera] = now;
 }
 
 void Onlooker::show(int64_t tick, const avoidance::Module& module, std::string_view status, double obstacle_clearance_m,

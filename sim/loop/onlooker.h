@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "avoidance/module.h"
 #include "sim/flight/flight_watcher.h"
@@ -30,6 +31,7 @@ class Onlooker {
   Cameras& cameras_;
   const Aircraft& aircraft_;
   int64_t image_period_ = 0;
+  std::vector<std::optional<Cameras::Instant>> exposed_;  ///< when each camera took its last image
 };
 
 }  // namespace hedgehop::sim

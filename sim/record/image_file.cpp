@@ -3,6 +3,7 @@
 #include <png.h>
 #include <turbojpeg.h>
 
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 
@@ -47,10 +48,22 @@ std::string png_of(const cv::Mat& image) {
 }  // namespace
 
 void write_png(const std::filesystem::path& file, const cv::Mat& image) {
-  if (image.type() != CV_8UC1 && image.type() != CV_16UC1 && image.type() != CV_8UC3) {
-    throw std::invalid_argument(file.string() + ": a PNG takes 8 or 16 bit grey, or 8 bit RGB");
+  if (image.type() != CV_8UC1 && image.type() != CV_16UC1 && image.type() != CV_8UC3 &&
+      image.type() != CV_16UC3) {
+    throw std::invalid_argument(file.string() + ": a PNG takes 8 or 16 bit grey or RGB");
   }
   write_file_whole(file, png_of(image));
+}
+
+cv::Mat depth_mm(const cv::Mat& depth_m) {
+  cv::Mat depth(depth_m.size(), CV_16UC1, cv::Scalar(0));
+  for (int v = 0; v < depth_m.rows; ++v) {
+    for (int u = 0; u < depth_m.cols; ++u) {
+      const float mm = 1000.0f * depth_m.at<float>(v, u);
+      if (mm < 65535.0f) depth.at<uint16_t>(v, u) = static_cast<uint16_t>(std::lround(mm));
+    }
+  }
+  return depth;
 }
 
 std::string jpeg_of(const cv::Mat& rgb, int quality) {

@@ -1,0 +1,55 @@
+#include "sim/export/true_images.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "sim/record/image_file.h"
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr double kMost = std::numeric_limits<uint16_t>::max();
+
+cv::Mat small_labels(const cv::Mat& labels) {
+  double most = 0.0;
+  cv::minMaxLoc(labels, nullptr, &most);
+  if (most > kMost) throw std::runtime_error(fmt::format("a scene of {:.0f} labels, more than 16 bit can tell", most));
+  cv::Mat small;
+  labels.convertTo(small, CV_16UC1);
+  return small;
+}
+
+cv::Mat kitti_flow(const cv::Mat& flow_px) {
+  constexpr float kUnitsPerPixel = 64.0f, kZero = 32768.0f;
+  cv::Mat coded(flow_px.size(), CV_16UC3, cv::Scalar::all(0));
+  for (int v = 0; v < flow_px.rows; ++v) {
+    for (int u = 0; u < flow_px.cols; ++u) {
+      const auto& flow = flow_px.at<cv::Vec2f>(v, u);
+      const float right = std::round(kUnitsPerPixel * flow[0] + kZero), down = std::round(kUnitsPerPixel * flow[1] + kZero);
+      const bool fits = right >= 0.0f && right <= 65535.0f && down >= 0.0f && down <= 65535.0f;  // false for NaN
+      if (fits) coded.at<cv::Vec3w>(v, u) = {static_cast<uint16_t>(right), static_cast<uint16_t>(down), 1};
+    }
+  }
+  return coded;
+}
+
+}  // namespace
+
+void TrueImages::write(size_t camera, const std::string& role, const SensorTick& tick, const std::string& stem) {
+  const std::filesystem::path folder = out_ / "truth" / fmt::format("cam{}", camera);
+  const auto write = [&](const char* what, const std::string& name, const cv::Mat& image) {
+    std::filesystem::create_directories(folder / what);
+    write_png(folder / what / (name + ".png"), image);
+  };
+  write("depth", stem, depth_mm(tick.depth(role)));
+  write("labels", stem, small_labels(tick.labels(role)));
+  write("moving", stem, tick.moving(role));
+  std::string& last = last_stem_[camera];
+  if (!last.empty()) write("flow", last, kitti_flow(tick.flow_to_here(role)));
+  last = stem;
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,81 @@
+"""The truth beside an exported data set, against its own poses: depth carried from image to image gives the flow.
+
+    truth_test.py PROGRAM SOURCE_FOLDER
+"""
+
+import pathlib
+import sys
+import tempfile
+import unittest
+
+import cv2
+import numpy as np
+
+from read_back_test import SCENARIO, Euroc, hedgehop, pose
+
+MOVER = ("movers: [{name: ball, shape: balloon, radius: 1, height: 3, "
+         "motion: {type: orbit, north: 0, east: 0, radius: 2, speed: 1}}], ")
+
+
+class Truth(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        folder = pathlib.Path(cls.temporary.name)
+        text = SCENARIO.replace("duration: 5", "duration: 0.6").replace("texture_size: 256, ", "texture_size: 64, " + MOVER)
+        (folder / "exported.yaml").write_text(text)
+        flown = hedgehop("run", folder / "exported.yaml", "--out", folder / "run", "--no-video", "--no-report")
+        assert flown.returncode in (0, 1), flown.stdout + flown.stderr
+        done = hedgehop("export", folder / "run", "--format", "euroc", "--camera", "down", "--truth")
+        assert done.returncode == 0, done.stderr
+        cls.data = Euroc(folder / "run/euroc")
+        cls.root = folder / "run/euroc/truth/cam0"
+        cls.times = sorted(cls.data.images("cam0"))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def read(self, what, t_ns):
+        return cv2.imread(str(self.root / what / f"{t_ns}.png"), cv2.IMREAD_UNCHANGED)
+
+    def test_every_image_has_its_truth(self):
+        for what in ("depth", "labels", "moving", "flow"):
+            names = sorted(int(file.stem) for file in (self.root / what).iterdir())
+            self.assertEqual(names, self.times[:-1] if what == "flow" else self.times)
+        self.assertEqual(self.read("depth", self.times[0]).dtype, np.uint16)
+        self.assertEqual(self.read("moving", self.times[0]).dtype, np.uint8)
+
+    def test_what_moves_is_the_ball_below(self):
+        moving = self.read("moving", self.times[5]) == 255
+        labels = self.read("labels", self.times[5])
+        self.assertGreater(moving.sum(), 100)
+        self.assertEqual(len(np.unique(labels[moving])), 1)
+        self.assertFalse(np.isin(labels[~moving], labels[moving]).any())
+        # Its top is about 2 m below the camera, the ground about 6.
+        depth = self.read("depth", self.times[5])
+        self.assertLess(np.median(depth[moving]), 3500)
+        self.assertGreater(np.median(depth[~moving]), 4500)
+
+    def test_flow_is_what_depth_and_poses_give(self):
+        K, X_FC = self.data.camera("cam0")
+        off = []
+        for now, then in list(zip(self.times, self.times[1:]))[3:]:
+            X_EC = [pose(R, p) @ X_FC for p, R, *_ in (self.data.state(now), self.data.state(then))]
+            z = self.read("depth", now) / 1000.0
+            flow = self.read("flow", now)[:, :, ::-1].astype(float)  # OpenCV's order is blue, green, red
+            known = (flow[:, :, 2] == 1) & (z > 0) & (self.read("moving", now) == 0)
+            rows, cols = np.nonzero(known)
+            rays = np.linalg.inv(K) @ np.array([cols, rows, np.ones_like(rows)])
+            points = np.vstack([rays * z[rows, cols], np.ones(len(rows))])
+            u, v, w = K @ (np.linalg.inv(X_EC[1]) @ X_EC[0] @ points)[:3]
+            wanted = np.array([u / w - cols, v / w - rows])
+            measured = (flow[rows, cols, :2].T - 32768) / 64
+            off.append(np.abs(wanted - measured).max(axis=0))
+        off = np.concatenate(off)
+        self.assertLess(np.median(off), 0.02)  # half a unit of flow is 0.008 px
+        self.assertLess(np.quantile(off, 0.99), 0.05)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
