@@ -8,6 +8,7 @@ set(precompiled
     <Eigen/Dense> <fmt/format.h> <nlohmann/json.hpp> <opencv2/core.hpp> <opencv2/imgproc.hpp>)
 
 # One set of flags each: code of libraries is position independent, since modules from elsewhere are linked against it.
+# GCC takes the level of optimization from what was precompiled, whatever the command says: cold code needs its own.
 function(hedgehop_precompile name)
   file(WRITE ${PROJECT_BINARY_DIR}/generated/${name}.cpp "")
   add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/generated/${name}.cpp)
@@ -25,8 +26,12 @@ endfunction()
 hedgehop_precompile(hedgehop_library_headers ${precompiled})
 set_target_properties(hedgehop_library_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
 target_compile_options(hedgehop_library_headers PRIVATE ${HEDGEHOP_LIBRARY_OPTIONS})
+hedgehop_precompile(hedgehop_cold_headers ${precompiled})
+set_target_properties(hedgehop_cold_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
+target_compile_options(hedgehop_cold_headers PRIVATE ${HEDGEHOP_LIBRARY_OPTIONS} ${HEDGEHOP_COLD_OPTIONS})
 if(HEDGEHOP_TESTS)
   hedgehop_precompile(hedgehop_test_headers ${precompiled} <gmock/gmock.h> <gtest/gtest.h>)
   target_link_libraries(hedgehop_test_headers PRIVATE GTest::gmock GTest::gtest)
+  target_compile_options(hedgehop_test_headers PRIVATE ${HEDGEHOP_COLD_OPTIONS})
   set_target_properties(hedgehop_test_headers PROPERTIES UNITY_BUILD OFF)  # as of the tests
 endif()
