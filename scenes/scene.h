@@ -68,6 +68,8 @@ struct Lights {
 struct Sky {
   Eigen::Vector3f horizon = {0.80f, 0.86f, 0.92f};
   Eigen::Vector3f zenith = {0.45f, 0.62f, 0.85f};
+  /// Meteorological optical range [WMO8] ch. 9, m, > 0: contrast with the horizon's color has fallen to 5 % there.
+  double visibility_m = std::numeric_limits<double>::infinity();
 };
 
 /// What the world is. A value: equal inputs to a generator give equal scenes, bit for bit.

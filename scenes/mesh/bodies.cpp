@@ -1,5 +1,6 @@
 #include "scenes/mesh/bodies.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -10,22 +11,32 @@ namespace {
 
 using Eigen::Vector3d;
 
-// One of six sides that an image is thrown from: the viewer's right and down, as on the panels of a box.
+// A side that an image is thrown from, and the viewer's right and down there, as on the panels of a box.
 struct Side {
-  Vector3d right, down;
+  Vector3d out, right, down;
 };
 
-int side_index(const Vector3d& n) {
-  Eigen::Index axis = 0;
-  n.cwiseAbs().maxCoeff(&axis);
-  return 2 * static_cast<int>(axis) + (n[axis] < 0.0 ? 1 : 0);
+// The six along the axes, and those between two and three of them: no face is stretched by more than an eighth.
+std::vector<Side> make_sides() {
+  std::vector<Side> sides;
+  for (int i = 0; i < 27; ++i) {
+    if (i == 13) continue;  // nowhere
+    const Vector3d out = Vector3d(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1).normalized();
+    const bool upright = out.head<2>().isZero();
+    const Vector3d right = upright ? Vector3d(0.0, -out.z(), 0.0) : Vector3d(out.y(), -out.x(), 0.0).normalized();
+    sides.push_back({out, right, right.cross(out)});
+  }
+  return sides;
 }
 
-const Side& side(int index) {
-  static const Side sides[] = {{-Vector3d::UnitY(), Vector3d::UnitZ()},  {Vector3d::UnitY(), Vector3d::UnitZ()},
-                               {Vector3d::UnitX(), Vector3d::UnitZ()},   {-Vector3d::UnitX(), Vector3d::UnitZ()},
-                               {-Vector3d::UnitY(), -Vector3d::UnitX()}, {Vector3d::UnitY(), -Vector3d::UnitX()}};
-  return sides[index];
+const std::vector<Side>& sides() {
+  static const std::vector<Side> all = make_sides();
+  return all;
+}
+
+size_t side_index(const Vector3d& n) {
+  const auto nearest = std::ranges::max_element(sides(), {}, [&](const Side& side) { return side.out.dot(n); });
+  return static_cast<size_t>(nearest - sides().begin());
 }
 
 std::vector<Vector3d> smooth_normals(const Polyhedron& body) {
@@ -44,11 +55,12 @@ void add_polyhedron(const Polyhedron& body, Shading shading, const Cover& cover,
   const std::vector<Vector3d> normals = smooth_normals(body);
   std::vector<Vertex> vertices;
   std::vector<std::array<uint32_t, 3>> faces;
-  std::map<std::pair<uint32_t, int>, uint32_t> known;  // a corner as each side's image has it
+  std::map<std::pair<uint32_t, size_t>, uint32_t> known;  // a corner as each side's image has it
   for (const std::array<uint32_t, 3>& face : body.faces) {
     const Vector3d a = body.corners[face[0]];
     const Vector3d across = (body.corners[face[1]] - a).cross(body.corners[face[2]] - a);
-    const int from = side_index(across);
+    const size_t from = side_index(across);
+    const Side& side = sides()[from];
     if (shading == Shading::flat) known.clear();
     std::array<uint32_t, 3>& added = faces.emplace_back();
     for (size_t k = 0; k < 3; ++k) {
@@ -56,8 +68,7 @@ void add_polyhedron(const Polyhedron& body, Shading shading, const Cover& cover,
       added[k] = at->second;
       if (!is_new) continue;
       const Vector3d p_W = body.corners[face[k]];
-      const Eigen::Vector2d uv =
-          cover.offset + Eigen::Vector2d(side(from).right.dot(p_W), side(from).down.dot(p_W)) / cover.tile_m;
+      const Eigen::Vector2d uv = cover.offset + Eigen::Vector2d(side.right.dot(p_W), side.down.dot(p_W)) / cover.tile_m;
       const Vector3d n = shading == Shading::flat ? across.normalized() : normals[face[k]];
       vertices.push_back({p_W.cast<float>(), n.cast<float>(), uv.cast<float>(), cover.texture});
     }

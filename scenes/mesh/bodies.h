@@ -17,8 +17,8 @@ struct Cover {
 /// Whether a body's faces are lit as they are, or with smoothed normals.
 enum class Shading { flat, smooth };
 
-/// Adds a polyhedron to the chunk begun last. Each face takes the image from the side that it looks to most: north,
-/// east, south, west, up or down.
+/// Adds a polyhedron to the chunk begun last. Each face takes the image from the side that it looks to most, of 26:
+/// those along the axes of W and those between two or three of them.
 /// @param body  in W, m.
 void add_polyhedron(const Polyhedron& body, Shading shading, const Cover& cover, MeshBuilder& mesh);
 

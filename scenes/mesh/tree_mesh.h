@@ -24,7 +24,8 @@ struct TreeShape {
 
 /// Adds a tree to the chunk begun last. No point is farther from the trunk's axis than
 /// the crown's radius, nor higher than the height.
-/// @param lumps  convex lumps within radius 1 that the crown is made of, at least one.
+/// @param lumps  convex lumps within radius 1 that the crown is made of, at least one; of a crown without lobes, within
+/// 1 of its axis and within 1 above and below.
 /// @return the trunk (a cylinder) and the crown's lumps (hulls that are drawn as they are), each called `name`.
 std::vector<Solid> add_tree(const std::string& name, const TreeShape& shape, std::span<const Polyhedron> lumps,
                             const Cover& leaves, const Cover& bark, Random& random, MeshBuilder& mesh);

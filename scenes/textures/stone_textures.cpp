@@ -33,8 +33,8 @@ cv::Mat paint_brick_wall(int size_px, uint64_t seed) {
   Random random(seed);
   Canvas canvas(size_px, kWallTileM, {0.55f, 0.28f, 0.21f});
   paint_masonry(canvas, {16, 48, 0.012, 0.30}, {0.58f, 0.29f, 0.21f}, {0.72f, 0.69f, 0.64f}, random);
-  canvas.shade(fractal_noise(size_px, {3, 3, 8, 0.75}, random), 0.12);
-  canvas.stain(fractal_noise(size_px, {24, 3, 4, 0.7}, random), 0.8, 1.5, {0.16f, 0.14f, 0.12f}, 0.4);
+  // Nothing as large as the image: it would tell where the image repeats.
+  canvas.shade(fractal_noise(size_px, {32, 32, 5, 0.8}, random), 0.10);
   return canvas.finished();
 }
 

@@ -33,6 +33,15 @@ constexpr int kTrunkSides = 6, kFewTrunkSides = 3;
 // Larger forests have far details: of the trees in sight, most are so far away that their trunks are hair-thin.
 constexpr int64_t kWideForest = 1000;
 
+// A lump whose lower half is pressed flat, and which is then stretched to its height again: crowns are widest below
+// their middle.
+mesh::Polyhedron crown(int corners, double roughness, Random& random) {
+  constexpr double kPressed = 0.45, kMiddle = 0.5 * (kPressed - 1.0), kHalf = 0.5 * (kPressed + 1.0);
+  std::vector<Eigen::Vector3d> points = mesh::convex_lump(corners, roughness, random).corners;
+  for (Eigen::Vector3d& p : points) p.z() = ((p.z() > 0.0 ? kPressed : 1.0) * p.z() - kMiddle) / kHalf;
+  return mesh::convex_hull(points);
+}
+
 void require_ordered(const char* field, double low, double high) {
   require(low <= high, field, low, "at most its max_...");
 }
@@ -147,8 +156,8 @@ Scene make_forest(const ForestConfig& config, uint64_t seed) {
   std::ranges::stable_sort(places, {}, plot);
   std::vector<mesh::Polyhedron> lumps, coarse_lumps;
   for (int k = 0; k < kLumps; ++k) {
-    lumps.push_back(mesh::convex_lump(kCorners, 0.22, lump_random));
-    coarse_lumps.push_back(mesh::convex_lump(kFewCorners, 0.1, lump_random));
+    lumps.push_back(crown(kCorners, 0.22, lump_random));
+    coarse_lumps.push_back(crown(kFewCorners, 0.1, lump_random));
   }
 
   Scene scene;

@@ -28,7 +28,8 @@ cv::Mat kitti_flow(const cv::Mat& flow_px) {
   for (int v = 0; v < flow_px.rows; ++v) {
     for (int u = 0; u < flow_px.cols; ++u) {
       const auto& flow = flow_px.at<cv::Vec2f>(v, u);
-      const float right = std::round(kUnitsPerPixel * flow[0] + kZero), down = std::round(kUnitsPerPixel * flow[1] + kZero);
+      const float right = std::round(kUnitsPerPixel * flow[0] + kZero),
+                  down = std::round(kUnitsPerPixel * flow[1] + kZero);
       const bool fits = right >= 0.0f && right <= 65535.0f && down >= 0.0f && down <= 65535.0f;  // false for NaN
       if (fits) coded.at<cv::Vec3w>(v, u) = {static_cast<uint16_t>(right), static_cast<uint16_t>(down), 1};
     }

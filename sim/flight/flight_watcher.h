@@ -25,7 +25,8 @@ struct SensorTick {
   std::function<cv::Mat(std::string_view role)> depth;
   /// As Channel::labels; and 255 where something that moves is seen, else 0.
   std::function<cv::Mat(std::string_view role)> labels, moving;
-  /// As Channel::flow, of the camera's last image that was not lost, to this tick. Throws std::logic_error at the first.
+  /// As Channel::flow, of the camera's last image that was not lost, to this tick. Throws std::logic_error at the
+  /// first.
   std::function<cv::Mat(std::string_view role)> flow_to_here;
 };
 

@@ -48,8 +48,7 @@ std::string png_of(const cv::Mat& image) {
 }  // namespace
 
 void write_png(const std::filesystem::path& file, const cv::Mat& image) {
-  if (image.type() != CV_8UC1 && image.type() != CV_16UC1 && image.type() != CV_8UC3 &&
-      image.type() != CV_16UC3) {
+  if (image.type() != CV_8UC1 && image.type() != CV_16UC1 && image.type() != CV_8UC3 && image.type() != CV_16UC3) {
     throw std::invalid_argument(file.string() + ": a PNG takes 8 or 16 bit grey or RGB");
   }
   write_file_whole(file, png_of(image));

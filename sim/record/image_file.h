@@ -6,8 +6,8 @@
 
 namespace hedgehop::sim {
 
-/// Writes a PNG. @param image  CV_8UC1, CV_16UC1, or CV_8UC3 or CV_16UC3 in RGB. Throws std::runtime_error naming the file and the
-/// cause; a file that is there is whole.
+/// Writes a PNG. @param image  CV_8UC1, CV_16UC1, or CV_8UC3 or CV_16UC3 in RGB. Throws std::runtime_error naming the
+/// file and the cause; a file that is there is whole.
 void write_png(const std::filesystem::path& file, const cv::Mat& image);
 
 /// Depth in m as CV_16UC1 of mm; 0 where it is farther than that holds, sky, or unknown. @param depth_m  CV_32FC1.

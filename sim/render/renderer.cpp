@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "sim/render/haze.h"
 #include "sim/render/lens_faces.h"
 #include "sim/render/painter.h"
 #include "sim/render/true_flow.h"
@@ -43,7 +44,8 @@ class Renderer::Impl {
  public:
   Impl(const scenes::Scene& scene, Culling culling, ContextKind context, Shadows shadows)
       : painter_(make_painter(scene, culling, context, shadows)),
-        first_mover_label_(static_cast<int>(1 + chunk_count(scene))) {
+        first_mover_label_(static_cast<int>(1 + chunk_count(scene))),
+        sky_(scene.sky) {
     for (const scenes::Mover& mover : scene.movers) motions_.push_back(mover.motion);
   }
 
@@ -54,6 +56,7 @@ class Renderer::Impl {
       draw_flow(view, out);
     } else {
       draw(view, view.channel, out);
+      if (std::isfinite(sky_.visibility_m)) veil(view, out);
     }
     drawn_ = {painter_->count().stretches, painter_->count().triangles};
   }
@@ -106,6 +109,12 @@ class Renderer::Impl {
     }
   }
 
+  void veil(const CameraView& view, cv::Mat& image) {
+    if (view.channel != Channel::grey && view.channel != Channel::color) return;
+    draw(view, Channel::depth, haze_depth_);
+    sim::veil(sky_, view.camera, haze_depth_, image);
+  }
+
   void paint_sheet(const LensFaces& faces, const Painter::Eye& eye, Raster raster, int samples, cv::Mat& sheet) {
     sheet.create(faces.sheet, type_of(raster));
     for (const LensFaces::Face& face : faces.faces) {
@@ -149,7 +158,8 @@ class Renderer::Impl {
   int first_mover_label_;
   std::vector<scenes::Motion> motions_;  ///< of the movers
   std::deque<Lens> lenses_;
-  cv::Mat flow_depth_, flow_labels_;
+  scenes::Sky sky_;
+  cv::Mat haze_depth_, flow_depth_, flow_labels_;
   std::vector<Eigen::Vector3d> moved_W_m_;
   Drawn drawn_;
 };

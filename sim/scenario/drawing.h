@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 namespace hedgehop::sim {
 
 /// How the cameras' images are made.
@@ -12,6 +14,7 @@ struct DrawingConfig {
 
   Context context = usual_context();
   bool shadows = false;
+  std::optional<double> visibility_m;
 };
 template <class Visitor>
 void describe(Visitor& v, DrawingConfig& c) {
@@ -22,6 +25,12 @@ void describe(Visitor& v, DrawingConfig& c) {
   v("shadows", c.shadows,
     {.meaning =
          "whether what stands still shades all from the sun; flat sheets (ground, a ceiling) and movers cast none"});
+  v("visibility", c.visibility_m,
+    {.unit = "m",
+     .at_least = 1.0,
+     .meaning =
+         "in fog or haze: the distance at which contrast has fallen to 5 % (meteorological optical range); the air "
+         "is clear when not given"});
 }
 
 }  // namespace hedgehop::sim

@@ -1,6 +1,8 @@
 // What holds of every generated mesh: geometry, images' placement, and agreement with the solids.
 #include <gtest/gtest.h>
 
+#include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <ostream>
@@ -9,6 +11,7 @@
 #include <vector>
 
 #include "scenes/generators.h"
+#include "scenes/mesh/bodies.h"
 #include "tests/scenes/scene_equality.h"
 
 namespace hedgehop::scenes::mesh {
@@ -216,6 +219,30 @@ TEST_P(EveryMesh, WhatIsSeenIsWhatCanBeHit) {
     ASSERT_TRUE(front);
     ++compared;
   }
+}
+
+// The singular values of the map from a face to its image, in repeats a tile: 1 where nothing is stretched.
+TEST(AddPolyhedron, StretchesNoFacesImageByMoreThanAnEighth) {
+  constexpr double kTileM = 2.0;
+  MeshBuilder builder("opaque");
+  builder.begin_chunk(false);
+  add_polyhedron(ball(4), Shading::smooth, {0, kTileM}, builder);
+  const Mesh mesh = builder.finish();
+  float least = 1.0f, most = 1.0f;
+  for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const Vertex &a = mesh.vertices[mesh.indices[i]], &b = mesh.vertices[mesh.indices[i + 1]],
+                 &c = mesh.vertices[mesh.indices[i + 2]];
+    Eigen::Matrix<float, 3, 2> edges_m;
+    edges_m << b.p_W - a.p_W, c.p_W - a.p_W;
+    Eigen::Matrix2f edges_in_image;
+    edges_in_image << b.uv - a.uv, c.uv - a.uv;
+    const Eigen::Vector2f scales =
+        (edges_m * edges_in_image.inverse()).jacobiSvd().singularValues() / static_cast<float>(kTileM);
+    least = std::min(least, scales.minCoeff());
+    most = std::max(most, scales.maxCoeff());
+  }
+  EXPECT_GT(least, 0.99f);
+  EXPECT_LT(most, 1.13f);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EveryMesh, testing::ValuesIn(cases()),

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
@@ -70,6 +71,46 @@ TEST(Tree, CrownIsTenMetersAcrossAndTheTreeTwelveHigh) {
     EXPECT_GE(-box.min().z(), 11.0);
     EXPECT_NEAR(box.max().z(), 0.0, 1e-9);
   }
+}
+
+// How far along a line out of a convex body its surface lies.
+double way_out(const Solid& body, const Vector3d& from_W, const Vector3d& along_W) {
+  double way_m = std::numeric_limits<double>::infinity();
+  for (const auto& [a, b, c] : body.polyhedron.faces) {
+    const Vector3d p = body.X_WS * body.polyhedron.corners[a], q = body.X_WS * body.polyhedron.corners[b],
+                   r = body.X_WS * body.polyhedron.corners[c], n = (q - p).cross(r - p);
+    if (n.dot(along_W) > 0.0) way_m = std::min(way_m, n.dot(p - from_W) / n.dot(along_W));
+  }
+  return way_m;
+}
+
+TEST(Tree, HasNoLobeThatFloatsBesideItsCrown) {
+  for (uint64_t seed = 0; seed < 30; ++seed) {
+    const Scene scene = make_tree({.texture_size_px = kSmallPx}, seed);
+    const Solid& core = scene.solids.at(1);
+    for (size_t k = 2; k < scene.solids.size(); ++k) {
+      const Solid& lobe = scene.solids[k];
+      const Vector3d between_W = lobe.X_WS.translation() - core.X_WS.translation(), out = between_W.normalized();
+      EXPECT_GT(way_out(core, core.X_WS.translation(), out) + way_out(lobe, lobe.X_WS.translation(), -out),
+                between_W.norm())
+          << "lobe " << k << " of seed " << seed;
+    }
+  }
+}
+
+TEST(Forest, CrownsAreWidestBelowTheirMiddle) {
+  const Scene scene = make_forest({.trees = 200, .texture_size_px = kSmallPx}, 3);
+  double sum = 0.0;
+  int crowns = 0;
+  for (const Solid& solid : scene.solids) {
+    if (solid.shape != Solid::Shape::hull) continue;
+    const auto widest =
+        std::ranges::max_element(solid.polyhedron.corners, {}, [](const Vector3d& p) { return p.head<2>().norm(); });
+    sum += 0.5 - 0.5 * widest->z() / solid.half_extents_m.z();  // 0 at the bottom, 1 on top
+    ++crowns;
+  }
+  EXPECT_EQ(crowns, 200);
+  EXPECT_LT(sum / crowns, 0.4);
 }
 
 TEST(Forest, KeepsItsSpacingAndItsClearings) {

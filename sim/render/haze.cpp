@@ -1,0 +1,53 @@
+#include "sim/render/haze.h"
+
+#include <array>
+#include <cmath>
+
+namespace hedgehop::sim {
+namespace {
+
+/// How much farther a pixel's point is than its depth: 1 where depth is the distance along the ray.
+class RayLengths {
+ public:
+  explicit RayLengths(const vision::camera::Camera& camera) : pinhole_(camera.is_undistorted_pinhole()) {
+    if (pinhole_) camera_ = camera.pinhole();
+  }
+
+  double at(int u, int v) const {
+    if (!pinhole_) return 1.0;
+    const double x = (u - camera_.center_u_px) / camera_.focal_x_px, y = (v - camera_.center_v_px) / camera_.focal_y_px;
+    return std::sqrt(1.0 + x * x + y * y);
+  }
+
+ private:
+  bool pinhole_;
+  vision::camera::PinholeCamera camera_;
+};
+
+}  // namespace
+
+double transmittance(double distance_m, double visibility_m) {
+  return std::exp(-std::log(20.0) * distance_m / visibility_m);
+}
+
+void veil(const scenes::Sky& sky, const vision::camera::Camera& camera, const cv::Mat1f& depth, cv::Mat& image) {
+  const int channels = image.channels();
+  std::array<double, 3> air{};
+  for (int k = 0; k < channels; ++k)
+    air[static_cast<size_t>(k)] = 255.0 * (channels == 1 ? sky.horizon.mean() : sky.horizon[k]);
+  const RayLengths lengths(camera);
+  for (int v = 0; v < image.rows; ++v) {
+    uint8_t* level = image.ptr<uint8_t>(v);
+    for (int u = 0; u < image.cols; ++u, level += channels) {
+      const double z_m = depth(v, u);
+      if (!std::isfinite(z_m)) continue;  // the sky, or nothing that the lens shows
+      const double seen = transmittance(z_m * lengths.at(u, v), sky.visibility_m);
+      for (int k = 0; k < channels; ++k) {
+        const double veiled = air[static_cast<size_t>(k)] + seen * (level[k] - air[static_cast<size_t>(k)]);
+        level[k] = static_cast<uint8_t>(std::lround(veiled));
+      }
+    }
+  }
+}
+
+}  // namespace hedgehop::sim
