@@ -24,13 +24,13 @@ bool forbids_contact(const PaperRow& row) {
   return counts(row.statistic) && row.is == "collided" && row.column == "outcome" && row.at_most.has_value();
 }
 
-bool judged(const RowOutcome& result) {
-  const PaperRow& row = result.row;
-  const double value = result.ours.value;
+/// Whether a figure of ours, or of a variant, is as required.
+bool judged(const PaperRow& row, const MeasuredFigure& figure) {
+  const double value = figure.value;
   if (!(value >= row.at_least.value_or(-INFINITY) && value <= row.at_most.value_or(INFINITY))) return false;
   if (!row.calculation.empty()) return true;
-  if (forbids_contact(row) && result.ours.unfinished > 0) return false;
-  return result.ours.all_flown() && (result.ours.complete() || excuses_missing(row));
+  if (forbids_contact(row) && figure.unfinished > 0) return false;
+  return figure.all_flown() && (figure.complete() || excuses_missing(row));
 }
 
 std::string command_of(const PaperRow& row, const Paper& paper) {
@@ -58,7 +58,7 @@ std::optional<MeasuredFigure> variant_figure(const PaperRow& row, const std::str
 }
 
 RowOutcome row_outcome(const PaperRow& row, const PaperOutcome& outcome) {
-  RowOutcome result{.row = row, .ours = {}, .variants = {}, .holds = {}, .command = command_of(row, outcome.paper)};
+  RowOutcome result{.row = row, .ours = {}, .variants = {}, .holds = {}, .printed_holds = {}, .command = command_of(row, outcome.paper)};
   if (row.calculation.empty()) {
     result.ours = measure(row, outcome, row.missing);
     for (const char* variant : {"printed", "ideal", "dull"}) {
@@ -72,7 +72,9 @@ RowOutcome row_outcome(const PaperRow& row, const PaperOutcome& outcome) {
   for (const auto& [variant, figure] : result.variants)
     result.builds.insert(figure.builds.begin(), figure.builds.end());
   const bool left_out = row.calculation.empty() && result.ours.asked == 0;
-  if ((row.at_least || row.at_most) && !left_out) result.holds = judged(result);
+  if ((row.at_least || row.at_most) && !left_out) result.holds = judged(row, result.ours);
+  const auto printed = result.variants.find("printed");
+  if (result.holds && printed != result.variants.end()) result.printed_holds = judged(row, printed->second);
   return result;
 }
 

@@ -22,6 +22,7 @@ struct RowOutcome {
   /// not flown, faulted, lacks the figure (unless the row says what that means) or, of a row that allows no contact,
   /// did not finish; and where nothing was measured. Variants do not decide it.
   std::optional<bool> holds;
+  std::optional<bool> printed_holds;  ///< whether the law as printed would do; decides nothing
   std::string command;           ///< re-simulates ours
   std::set<std::string> builds;  ///< that ours and the variants come from
 

@@ -138,6 +138,7 @@ Json paper_data(const PaperOutcome& outcome, const std::vector<RowOutcome>& rows
                                 {"paper", row.row.paper},
                                 {"required", row.required_words()},
                                 {"printed", row.variant_words("printed")},
+                                {"printed_holds", row.printed_holds ? Json(*row.printed_holds) : Json(nullptr)},
                                 {"ideal", row.variant_words("ideal")},
                                 {"day", row.ours_words()},
                                 {"dull", row.variant_words("dull")},

@@ -9,8 +9,8 @@ namespace hedgehop::sim {
 namespace {
 
 constexpr const char* kHowToRead =
-    R"(Each row is a claim: the paper's figure, what is asked of ours, the law as the paper prints it
-("as printed") and ours on the same seeds. Ours flies the sensors `day`; `ideal` and `dull` stand beside it and decide
+    R"(Each row is a claim: the paper's figure, what Hedgehop's developers ask of ours ("asked": no paper's demand), the law as
+the paper prints it ("as printed") and ours on the same seeds. Ours flies the sensors `day`; `ideal` and `dull` stand beside it and decide
 nothing. A row holds only when every flight that was asked for was flown without a fault and has the figure, unless
 the row says what a missing one means; a row that allows no contact needs its flights to finish, too. Judging seeds are none
 that parameters were chosen on (`tuned_on` in `configs/papers/`). Intervals are Wilson's at 95 % [Wilson1927] p. 212, of shares and

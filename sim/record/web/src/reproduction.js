@@ -54,7 +54,8 @@ function addRows(host, rows) {
     '95 % interval', 'holds', 'build'].map((text) => [text, '']), 'th');
   for (const r of rows) {
     const row = line([[r.what + (r.unit ? `, ${r.unit}` : ''), ''], [r.paper || '–', ''],
-      ...[r.required, r.printed, r.ideal, r.day, r.dull, r.flights, r.interval].map((text) => [text, '']),
+      [r.required, ''], [r.printed, r.printed_holds === false ? 'fail' : ''],
+      ...[r.ideal, r.day, r.dull, r.flights, r.interval].map((text) => [text, '']),
       r.holds === null ? ['–', ''] : r.holds ? ['holds', 'pass'] : ['does not hold', 'fail'], [r.build.join(', '), '']], 'td');
     row.lastChild.append(' ', copyButton(r.command));
   }
@@ -79,6 +80,8 @@ function main() {
   head.append(make('p', 'soft', `Hedgehop ${version}, build ${build}, ${packages}: `
     + `${judged.filter(({holds}) => holds).length} of ${judged.length} figures that are required hold.`
     + (quick ? ' Quick run: few seeds were flown.' : '')));
+  head.append(make('p', 'soft', '"Asked" is what Hedgehop\'s developers ask of ours, no paper\'s demand. '
+    + '"As printed" is red where the paper\'s own law would not do.'));
   for (const paper of papers) {
     const section = document.getElementById('papers').appendChild(make('section', 'paper'));
     const title = section.appendChild(make('div', 'charts-head'));
