@@ -68,7 +68,7 @@ template <class Visitor>
 void describe(Visitor& v, PaperRow& c) {
   v("what", c.what, {.required = true, .meaning = "what the figure measures"});
   v("paper", c.paper, {.meaning = "the paper's figure, as printed"});
-  v("unit", c.unit, {.meaning = "of ours"});
+  v("unit", c.unit, {.meaning = "of ours and of its bounds; '%' of a column that holds a share"});
   v("at_least", c.at_least, {.meaning = "least that ours must be"});
   v("at_most", c.at_most, {.meaning = "most that ours may be"});
   describe_figure(v, c);

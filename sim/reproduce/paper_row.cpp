@@ -45,6 +45,12 @@ std::string command_of(const PaperRow& row, const Paper& paper) {
   return command;
 }
 
+/// In the row's unit: columns hold shares where it is percent.
+MeasuredFigure in_unit(const PaperRow& row, MeasuredFigure figure) {
+  if (row.unit == "%") figure.value *= 100.0;
+  return figure;
+}
+
 /// The row's figure over a variant of its flights; nothing where one of them has no such variant.
 std::optional<MeasuredFigure> variant_figure(const PaperRow& row, const std::string& variant,
                                              const PaperOutcome& outcome) {
@@ -54,13 +60,18 @@ std::optional<MeasuredFigure> variant_figure(const PaperRow& row, const std::str
     name += "/" + variant;
     if (std::ranges::find(groups, name, &FlightGroup::name) == groups.end()) return {};
   }
-  return measure(figure, outcome, row.missing);
+  return in_unit(row, measure(figure, outcome, row.missing));
 }
 
 RowOutcome row_outcome(const PaperRow& row, const PaperOutcome& outcome) {
-  RowOutcome result{.row = row, .ours = {}, .variants = {}, .holds = {}, .printed_holds = {}, .command = command_of(row, outcome.paper)};
+  RowOutcome result{.row = row,
+                    .ours = {},
+                    .variants = {},
+                    .holds = {},
+                    .printed_holds = {},
+                    .command = command_of(row, outcome.paper)};
   if (row.calculation.empty()) {
-    result.ours = measure(row, outcome, row.missing);
+    result.ours = in_unit(row, measure(row, outcome, row.missing));
     for (const char* variant : {"printed", "ideal", "dull"}) {
       if (auto figure = variant_figure(row, variant, outcome)) result.variants[variant] = *std::move(figure);
     }
@@ -83,9 +94,13 @@ RowOutcome row_outcome(const PaperRow& row, const PaperOutcome& outcome) {
 bool RowOutcome::measured() const { return !std::isnan(ours.value) || (row.calculation.empty() && ours.asked == 0); }
 
 std::string RowOutcome::required_words() const {
-  if (row.at_least && row.at_most) return fmt::format("{:g} to {:g}", *row.at_least, *row.at_most);
-  if (row.at_least) return fmt::format("at least {:g}", *row.at_least);
-  return row.at_most ? fmt::format("at most {:g}", *row.at_most) : "-";
+  const bool of_flights = row.statistic == FlightFigure::Statistic::share && row.calculation.empty();
+  const double scale = of_flights ? 100.0 : 1.0;
+  const char* const unit = of_flights ? " %" : "";
+  if (row.at_least && row.at_most)
+    return fmt::format("{:g} to {:g}{}", scale * *row.at_least, scale * *row.at_most, unit);
+  if (row.at_least) return fmt::format("at least {:g}{}", scale * *row.at_least, unit);
+  return row.at_most ? fmt::format("at most {:g}{}", scale * *row.at_most, unit) : "-";
 }
 
 std::string RowOutcome::ours_words() const {
@@ -113,7 +128,8 @@ std::string RowOutcome::flights_words() const {
 }
 
 std::string RowOutcome::interval_words() const {
-  return ours.interval ? fmt::format("{:.2f} to {:.2f}", ours.interval->low, ours.interval->high) : "-";
+  return ours.interval ? fmt::format("{:.0f} to {:.0f} %", 100.0 * ours.interval->low, 100.0 * ours.interval->high)
+                       : "-";
 }
 
 std::string RowOutcome::holds_words() const { return holds ? (*holds ? "yes" : "no") : "-"; }

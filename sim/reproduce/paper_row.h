@@ -23,8 +23,8 @@ struct RowOutcome {
   /// did not finish; and where nothing was measured. Variants do not decide it.
   std::optional<bool> holds;
   std::optional<bool> printed_holds;  ///< whether the law as printed would do; decides nothing
-  std::string command;           ///< re-simulates ours
-  std::set<std::string> builds;  ///< that ours and the variants come from
+  std::string command;                ///< re-simulates ours
+  std::set<std::string> builds;       ///< that ours and the variants come from
 
   /// Whether there is a figure, or none was asked for in a quick look.
   bool measured() const;

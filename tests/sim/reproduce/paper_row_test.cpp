@@ -134,7 +134,28 @@ TEST_F(PaperRows, HoldOnlyWithinWhatIsAsked) {
   EXPECT_EQ(failed.command, "hedgehop batch a.yaml --seeds 1:2");
   EXPECT_THAT(
       rows_text(paper, {failed}),
-      HasSubstr("| hit | - | at most 0 | - | - | 1 of 2 | - | 2, 2, 0, 2 | 0.09 to 0.91 | **no** | b1 | `hedgehop"));
+      HasSubstr("| hit | - | at most 0 | - | - | 1 of 2 | - | 2, 2, 0, 2 | 9 to 91 % | **no** | b1 | `hedgehop"));
+}
+
+TEST_F(PaperRows, HaveOneUnitAndPercentIsAHundredTimesAShare) {
+  worst.unit = "%";
+  worst.at_most = 8.0;
+  const RowOutcome share = row(worst, {with_metric(flown("a", 1, "reached", 1.0), 0.0781)});
+  EXPECT_EQ(share.holds, true);
+  EXPECT_EQ(share.ours_words(), "7.81");
+  EXPECT_EQ(row(worst, {with_metric(flown("a", 1, "reached", 1.0), 0.0801)}).holds, false);
+  hits.statistic = Statistic::share;
+  hits.at_most = 0.25;
+  EXPECT_EQ(row(hits, {flown("a", 1, "reached", 1.0)}).required_words(), "at most 25 %");
+}
+
+TEST_F(PaperRows, ThePrintedLawIsJudgedBesideOurs) {
+  paper.flights[0].printed = {"x=1"};
+  const RowOutcome result = row(hits, {flown("a", 1, "reached", 1.0), flown("a/printed", 1, "collided", 0.0)});
+  EXPECT_EQ(result.holds, true);
+  EXPECT_EQ(result.printed_holds, false);
+  paper.flights[0].printed.clear();
+  EXPECT_EQ(row(hits, {flown("a", 1, "reached", 1.0)}).printed_holds, std::nullopt);
 }
 
 TEST_F(PaperRows, NineFlightsWithoutTheFigureAndOneWithItDoNotHold) {
