@@ -112,6 +112,27 @@ TEST(ReportInBrowser, OpensWithWhatHappenedWhereAFlightCollidedAndLeavesOutDeadP
   EXPECT_EQ(page.value[3], 0);
 }
 
+TEST(ReportInBrowser, ShadesWhatFailedWhileItDid) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  Flight flight = fake_flight(10.0, 1);
+  flight.result.failures = {"2 s to 4 s: camera.front black", "8 s to the end: gps bias 3",
+                            "60 s to the end: link off"};
+  write_result_files(run.path(), {.scenario = "failing", .scenario_yaml = run.yaml()}, flight);
+  write_report(run.path(), read_run(run.path()));
+  const PageVisit page = visit(run.path() / "report.html", R"js(
+    const canvas = document.querySelector('.plot canvas'), {data} = canvas.getContext('2d').getImageData(0, 40, canvas.width, 1);
+    const reddish = [...Array(canvas.width).keys()].map((x) => data[4 * x + 3] > 0 && data[4 * x] > data[4 * x + 1] + 8 && data[4 * x] > data[4 * x + 2] + 8);
+    const spans = reddish.filter((red, x) => red && !reddish[x - 1]).length;
+    return [document.getElementById('verdict').textContent.includes('Set to fail: 2 s to 4 s: camera.front black; 8 s'),
+            failuresOf({failures: ['2.5 s to 4 s: a off', '8 s to the end: b off', '60 s to the end: c off']}, 10), spans];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value.at(0), true);
+  EXPECT_EQ(page.value.at(1), nlohmann::json::parse(R"([{"from_s": 2.5, "to_s": 4, "text": "a off"},
+                                                        {"from_s": 8, "to_s": 10, "text": "b off"}])"));
+  EXPECT_GE(page.value.at(2).get<int>(), 2);
+}
+
 TEST(ReportInBrowser, HasNoMapAndNoStoryWhereAFlightHasNone) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;

@@ -47,6 +47,24 @@ function drawLimits(u, panel) {
   }
 }
 
+/** What fails in flight, behind the curves. */
+function drawFailures(u, failures) {
+  const {top, height} = u.bbox, c = u.ctx;
+  c.save();
+  c.fillStyle = themeColor('bad');
+  c.font = `${11 * devicePixelRatio}px system-ui, "DejaVu Sans", sans-serif`;
+  c.textBaseline = 'top';
+  for (const {from_s, to_s, text} of failures) {
+    const [from, to] = [from_s, to_s].map((t) => Math.min(Math.max(u.valToPos(t, 'x', true), u.bbox.left), u.bbox.left + u.bbox.width));
+    if (to <= from) continue;
+    c.globalAlpha = 0.12;
+    c.fillRect(from, top, to - from, height);
+    c.globalAlpha = 1;
+    c.fillText(text, from + 3 * devicePixelRatio, top + 2 * devicePixelRatio);
+  }
+  c.restore();
+}
+
 /** "north 0, east 0, down 0 m/s throughout" of a panel of which nothing ever changes; else nothing. */
 function flatWords({series, unit, limits}) {
   const isFlat = ({values}) => values.length > 1 && values[0] !== null && values.every((v) => v === values[0]);
@@ -59,10 +77,11 @@ class Charts {
    * @param host  element to fill with a heading and a grid of plots for each section.
    * @param panels  of the report's data.
    * @param on  {hover(t), pick(t)}.
+   * @param failures  of failuresOf(), shaded.
    * @param axis  like timeAxis.
    */
-  constructor(host, panels, sectionNotes, on, axis = timeAxis) {
-    Object.assign(this, {on, axis, plots: [], following: false});
+  constructor(host, panels, sectionNotes, on, failures = [], axis = timeAxis) {
+    Object.assign(this, {on, failures, axis, plots: [], following: false});
     const sections = new Map();
     for (const panel of panels) {
       if (!sections.has(panel.section)) sections.set(panel.section, this.addSection(host, panel.section, sectionNotes));
@@ -128,6 +147,7 @@ class Charts {
           paths: role === 'cmd' ? uPlot.paths.stepped({align: 1}) : undefined,
           value: (u, v) => v === null || v === undefined ? '–' : short(v)}))],
       hooks: {
+        drawAxes: [(u) => drawFailures(u, this.failures)],
         draw: [(u) => drawLimits(u, panel)],
         setScale: [(u, key) => key === 'x' && this.zoomAll(u)],
         setCursor: [(u) => !this.following && u.cursor.left >= 0 && this.on.hover(u.posToVal(u.cursor.left, 'x'))],

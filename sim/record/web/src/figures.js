@@ -109,3 +109,11 @@ function addCommand(host, text) {
   const command = host.appendChild(make('div', 'command'));
   command.append(make('code', '', text), copyButton(text));
 }
+
+/** What the scenario let fail: {from_s, to_s, text} of result.failures, such as "20 s to 22 s: camera.front black". */
+function failuresOf(result, end_s) {
+  return (result.failures ?? []).map((words) => {
+    const [, from, to, text] = words.match(/^(\S+) s to (?:(\S+) s|the end): (.*)$/);
+    return {from_s: +from, to_s: Math.min(to === undefined ? end_s : +to, end_s), text};
+  }).filter(({from_s}) => from_s < end_s);
+}

@@ -8,10 +8,11 @@ export function eventsOf(result, end_s) {
   }
   const ends = {collided: `hit ${closest?.what || 'an obstacle'}`, reached: 'goal reached', timeout: 'time is up', fault: 'fault'};
   events.push({t_s: end_s, text: ends[result.outcome] ?? result.outcome, bad: ['collided', 'fault'].includes(result.outcome)});
+  for (const {from_s, to_s, text} of failuresOf(result, end_s)) events.push({t_s: from_s, to_s, text, bad: true});
   return events;
 }
 
-/** Draws the track and jumps to where it is clicked. @param statuses  [since s, word]. */
+/** Draws the track and jumps to where it is clicked. @param statuses  [since s, word]. An event with a to_s lasts. */
 export class Track {
   constructor(canvas, {statuses, events, end_s}, jump) {
     Object.assign(this, {canvas, statuses, events, end_s, t_s: 0});
@@ -40,9 +41,10 @@ export class Track {
       c.fillStyle = themeColor('ink');
       if (to - from > c.measureText(word).width + 6) c.fillText(word, from + 3, height - 2.5);
     });
-    for (const {t_s: at, text, bad} of this.events) {
+    for (const {t_s: at, to_s = at, text, bad} of this.events) {
       c.fillStyle = themeColor(bad ? 'bad' : 'ink');
       c.fillRect(x(at) - 1, height - band - 4, 2, band + 4);
+      c.fillRect(x(at), height - band - 4, x(to_s) - x(at), 3);
       const wide = c.measureText(text).width;
       c.fillText(text, Math.min(width - wide, Math.max(0, x(at) - wide / 2)), height - band - 6);
     }

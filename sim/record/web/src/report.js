@@ -32,6 +32,7 @@ function fillVerdict(host, {result, description, plan, has_replay}) {
   lines.append(make('strong', '', words));
   lines.append(make('span', '', !all ? 'no checks' : failed ? `${failed} of ${all} checks fail` : `all ${all} checks hold`));
   if (result.cause) what.append(make('p', 'fail', result.cause));
+  if (result.failures?.length) what.append(make('p', 'fail', `Set to fail: ${result.failures.join('; ')}`));
   if (result.truth_used?.length) what.append(make('p', 'fail', `The module used the truth: ${result.truth_used.join('; ')}`));
 }
 
@@ -174,7 +175,8 @@ function main() {
   };
   const plan = new PlanView(document.getElementById('plan'), data, on);
   const landmarks = data.map ? new LandmarksView(document.getElementById('landmarks'), data) : null;
-  const charts = new Charts(document.getElementById('charts'), data.panels, sectionNotes(data.module), on);
+  const charts = new Charts(document.getElementById('charts'), data.panels, sectionNotes(data.module), on,
+    failuresOf(data.result, data.result.flight_time_s));
   if (film) {
     const follow = () => { ask(); if (!film.paused) requestAnimationFrame(follow); };
     film.addEventListener('play', follow);

@@ -9,7 +9,7 @@ function main() {
   head.append(make('h1', '', title), ...notes.map((note) => make('p', 'soft', note)));
   const hints = {[panels[0].section]: 'drag to zoom, double click to see all'};
   const on = {hover: (speed) => charts.setTime(speed), pick: () => {}};
-  const charts = new Charts(document.getElementById('charts'), panels, hints, on, speedAxis);
+  const charts = new Charts(document.getElementById('charts'), panels, hints, on, [], speedAxis);
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => charts.build());
 }
 main();
