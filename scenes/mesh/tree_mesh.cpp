@@ -45,8 +45,8 @@ std::vector<Solid> add_tree(const std::string& name, const TreeShape& shape, std
       const double size = uniform(random, 0.22, 0.46), z = 1.0 - (2.0 * k + 1.0) / around;
       const double across = std::sqrt(1.0 - z * z), turn = first + golden_angle * k;
       const Vector3d out(across * std::cos(turn), across * std::sin(turn), z);
-      // Small ones must not float beside the core, whose least radius is that of the roughest lumps.
-      const double way = std::min((1.0 - size) * uniform(random, 0.9, 1.0), 0.7 * kCore + 0.5 * size);
+      // Small ones must not float beside the core, which is nowhere much thinner than this.
+      const double way = std::min((1.0 - size) * uniform(random, 0.9, 1.0), 0.85 * kCore + 0.5 * size);
       add_lump(crown_center_W + crown_radii.cwiseProduct(way * out), size * crown_radii);
     }
   }

@@ -7,8 +7,8 @@
 
 namespace hedgehop::sim {
 
-/// Share of what lies at a distance that still reaches the eye, exp(-d ln 20 / visibility) [Koschmieder1924]: 1 at 0 m,
-/// 5 % at the visibility; 0 at infinity.
+/// Share of what lies at a distance that still reaches the eye, exp(-d ln 20 / visibility) by Koschmieder's law, [WMO8]
+/// ch. 9: 1 at 0 m, 5 % at the visibility; 0 at infinity.
 double transmittance(double distance_m, double visibility_m);
 
 /// Turns each pixel towards the horizon's color, by its distance along the ray, as evenly thick air does. The sky is
