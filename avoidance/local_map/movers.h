@@ -24,6 +24,9 @@ struct Mover {
 /// Finds and follows what moves: surfaces that appear in space seen to be free. Lumps of them are followed by a filter
 /// of constant velocity each, and count as movers once they went on appearing and their velocity stands out of its
 /// error.
+/// - A mover forbids what leads into the disc where it will be: velocity obstacles, [FioriniShiller1998] sec. 3.
+/// Differs: paths end in a stop, are compared with the discs for a few seconds only, and the least threat is chosen where
+/// none is free of it.
 class Movers {
  public:
   struct Config {
