@@ -53,6 +53,7 @@ function drawFailures(u, failures) {
   c.save();
   c.fillStyle = themeColor('bad');
   c.font = `${11 * devicePixelRatio}px system-ui, "DejaVu Sans", sans-serif`;
+  c.textAlign = 'left';
   c.textBaseline = 'top';
   for (const {from_s, to_s, text} of failures) {
     const [from, to] = [from_s, to_s].map((t) => Math.min(Math.max(u.valToPos(t, 'x', true), u.bbox.left), u.bbox.left + u.bbox.width));
