@@ -8,6 +8,7 @@
 #include "avoidance/local_map/closed_cells.h"
 #include "avoidance/local_map/level_slice.h"
 #include "avoidance/local_map/local_map_overlay.h"
+#include "avoidance/local_map/movers.h"
 #include "avoidance/local_map/route_field.h"
 #include "avoidance/local_map/stop_planner.h"
 #include "sim/fields/bounds.h"
@@ -34,7 +35,8 @@ class LocalMap final : public Module {
  private:
   Needs do_needs() const override { return DisparitySource::needs(config_.depth, DisparitySource::Grey::unused); }
   std::vector<Signal> do_signals() const override {
-    return {{"route_m", "m"}, {"stop_m", "m"}, {"unknown_share", ""}, {"sky_share", ""}, {"closed_places", ""}};
+    return {{"route_m", "m"},  {"stop_m", "m"},       {"unknown_share", ""},
+            {"sky_share", ""}, {"closed_places", ""}, {"movers", ""}};
   }
 
   void do_reset(const Setup& setup) override {
@@ -52,6 +54,10 @@ class LocalMap final : public Module {
                               .acceleration_mps2 = acceleration,
                               .braking_mps2 = config_.braking_share * acceleration},
                      std::min(config_.speed_mps, limits.speed_mps));
+    const vision::stereo::StereoGeometry& geometry = source_->geometry();
+    tracker_.emplace(Movers::Config{.sigma_per_m2 = config_.noise_px / (geometry.focal_px * geometry.baseline_m),
+                                    .spacing_m = config_.voxel_m});
+    movers_.clear();
     closed_.reset();
     last_.reset();
     last_cmd_W_.setZero();
@@ -63,7 +69,7 @@ class LocalMap final : public Module {
   Decision do_update(const Observation& observation) override {
     if (!source_->update(observation.frames)) {
       if (last_) return *last_;
-      return {HoverCommand{}, "wait", std::vector<double>(5, std::nan(""))};
+      return {HoverCommand{}, "wait", std::vector<double>(6, std::nan(""))};
     }
     const NavigationState& navigation = observation.navigation;
     const double t_s = seconds(observation.t_ns);
@@ -117,7 +123,19 @@ class LocalMap final : public Module {
     map_.integrate(blocks_, source_->geometry(), X_WC);
     clear(navigation.p_WB_est, clearance_.hull_m);
     closed_.update(t_s);
+    follow_movers(t_s, navigation.p_WB_est.head<2>());
     slice_.build(map_, band(height_W_), closed_);
+  }
+
+  void follow_movers(double t_s, const Eigen::Vector2d& eye_W) {
+    const Band tall = band(height_W_);
+    surface_.clear();
+    for (const vision::mapping::OccupancyMap::Hit& hit : map_.hits()) {
+      if (hit.p_W.z() > tall.top_m && hit.p_W.z() < tall.bottom_m)
+        surface_.push_back({hit.p_W.head<2>(), hit.was_free});
+    }
+    tracker_->update(t_s, eye_W, surface_);
+    movers_ = tracker_->movers();
   }
 
   /// What is out of view is forgotten as fast as the position drifts: in flight, and a tenth as fast hovering.
@@ -147,10 +165,11 @@ class LocalMap final : public Module {
     route_.build(slice_, clearance_.hull_m + clearance_.margin_m + 0.5 * slice_.cell_m(), goal_W,
                  [&](const Eigen::Vector2d& edge_W) { return (goal_W - edge_W).norm(); });
     const auto to_goal_m = [&](const Eigen::Vector2d& at_W) { return route_.to_goal_m(at_W); };
+    const auto threat = [&](const std::vector<Moment>& path) { return threat_m(path, movers_, clearance_, t_s); };
     plan_ = planner_->choose(
-        now, last_cmd_W_, [&](const Moment& m) { return fault(m, true); }, to_goal_m);
+        now, last_cmd_W_, [&](const Moment& m) { return fault(m, true); }, threat, to_goal_m);
     const StopPlanner::Plan hoped = planner_->choose(
-        now, last_cmd_W_, [&](const Moment& m) { return fault(m, false); }, to_goal_m);
+        now, last_cmd_W_, [&](const Moment& m) { return fault(m, false); }, threat, to_goal_m);
 
     const std::optional<double> route_m = to_goal_m(p_W);
     const Eigen::Vector2d p_BG_W = goal_W - p_W;
@@ -171,9 +190,12 @@ class LocalMap final : public Module {
     decision.status = arrived ? "arrive" : !plan_.safe ? "brake" : !route_m ? "stuck" : look_W_ ? "look" : "cruise";
     stuck_ += !route_m;
     stops_ += !plan_.safe;
-    decision.signals = {route_m.value_or(std::nan("")), (plan_.path.back().p_W - p_W).norm(),
-                        blocks_.share(DepthBlock::Kind::unknown), blocks_.share(DepthBlock::Kind::sky),
-                        static_cast<double>(closed_.places().size())};
+    decision.signals = {route_m.value_or(std::nan("")),
+                        (plan_.path.back().p_W - p_W).norm(),
+                        blocks_.share(DepthBlock::Kind::unknown),
+                        blocks_.share(DepthBlock::Kind::sky),
+                        static_cast<double>(closed_.places().size()),
+                        static_cast<double>(movers_.size())};
     last_cmd_W_ = plan_.v_cmd_W;
     return decision;
   }
@@ -183,8 +205,9 @@ class LocalMap final : public Module {
     const Eigen::Vector2d look_W = *look_W_;
     const auto too_near_m = [&](const Eigen::Vector2d& p_W) { return std::max(0.0, blind_m_ - (p_W - look_W).norm()); };
     if (too_near_m(now.p_W) == 0.0) return;
+    const auto threat = [&](const std::vector<Moment>& path) { return threat_m(path, movers_, clearance_, now.t_s); };
     plan_ = planner_->choose(
-        now, last_cmd_W_, [&](const Moment& m) { return fault(m, true); }, too_near_m);
+        now, last_cmd_W_, [&](const Moment& m) { return fault(m, true); }, threat, too_near_m);
   }
 
   bool is_unknown(const Eigen::Vector2d& p_W) const {
@@ -265,6 +288,9 @@ class LocalMap final : public Module {
   std::optional<StopPlanner> planner_;
   StopPlanner::Plan plan_;
   ClosedCells closed_;
+  std::optional<Movers> tracker_;
+  std::vector<SurfacePoint> surface_;  ///< of the last image, at the heights that are flown through
+  std::vector<Mover> movers_;
   Clearance clearance_;
   Band hull_;              ///< heights of the hull's top and bottom, from B
   double blind_m_ = 0.0;   ///< from B, within which the images do not show all that the vehicle will fly through

@@ -39,7 +39,7 @@ std::vector<Moment> StopPlanner::predict(const Moment& now, const Eigen::Vector2
 }
 
 StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& last_cmd_W, const Fault& fault,
-                                      const ToGoal& to_goal_m) const {
+                                      const Threat& threat_m, const ToGoal& to_goal_m) const {
   const double fault_now_m = fault(now);
   const std::optional<double> here_m = to_goal_m(now.p_W);
   Plan best;
@@ -51,8 +51,8 @@ StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& 
       if (fault(moment) > (fault_now_m > 0.0 ? fault_now_m + kSlackM : 0.0)) return;
     }
     const std::optional<double> there_m = to_goal_m(path.back().p_W);
-    constexpr double kNowhereM = 1e4, kFaultPrice = 10.0;
-    const double cost = there_m.value_or(kNowhereM) + kFaultPrice * fault(path.back());
+    constexpr double kNowhereM = 1e4, kFaultPrice = 10.0, kThreatPrice = 30.0;
+    const double cost = there_m.value_or(kNowhereM) + kFaultPrice * fault(path.back()) + kThreatPrice * threat_m(path);
     if (cost >= best_cost) return;
     best_cost = cost;
     best = {v_cmd_W, true, here_m.value_or(kNowhereM) - there_m.value_or(kNowhereM), path};

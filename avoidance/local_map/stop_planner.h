@@ -47,13 +47,17 @@ class StopPlanner {
   };
   /// How much is wrong at a moment of a path: 0 where it keeps its distance, else by how many m it does not.
   using Fault = std::function<double(const Moment&)>;
+  /// By how much a path comes too near to what moves, at worst, m.
+  using Threat = std::function<double(const std::vector<Moment>&)>;
   /// Distance to the goal along the route, m; nothing where there is none.
   using ToGoal = std::function<std::optional<double>(const Eigen::Vector2d&)>;
 
   StopPlanner(const Response& response, double speed_mps) : response_(response), speed_mps_(speed_mps) {}
 
   /// @param now  position and velocity when the image was taken. @param last_cmd_W  what is being obeyed still.
-  Plan choose(const Moment& now, const Eigen::Vector2d& last_cmd_W, const Fault& fault, const ToGoal& to_goal_m) const;
+  /// What moves is got away from as far as it can be: no stop is safe from it.
+  Plan choose(const Moment& now, const Eigen::Vector2d& last_cmd_W, const Fault& fault, const Threat& threat_m,
+              const ToGoal& to_goal_m) const;
 
   /// The path that a command leads to when it is held for `hold_s` and the vehicle then brakes.
   std::vector<Moment> predict(const Moment& now, const Eigen::Vector2d& last_cmd_W, const Eigen::Vector2d& v_cmd_W,

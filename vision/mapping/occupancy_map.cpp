@@ -84,7 +84,7 @@ void OccupancyMap::integrate(const DepthBlocks& blocks, const stereo::StereoGeom
   find_clear(blocks, geometry);
   add_hits(blocks, geometry, X_WC);
   add_misses(blocks, geometry, X_WC);
-  for (const size_t slot : hits_) hit_[slot] = 0;
+  for (const size_t slot : hit_slots_) hit_[slot] = 0;
 }
 
 /// z in C up to which each block was seen through: not past what its neighbors see nearer, whose edge may lie in it.
@@ -112,21 +112,24 @@ void OccupancyMap::find_clear(const DepthBlocks& blocks, const stereo::StereoGeo
 void OccupancyMap::add_hits(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry,
                             const Eigen::Isometry3d& X_WC) {
   hits_.clear();
-  const double vague16 =
-      std::sqrt(geometry.baseline_m * geometry.focal_px * config_.noise_px / kVagueM);  // z^2 sigma / (f b) = kVagueM
-  const double least16 = geometry.disparity16(vague16);
+  hit_slots_.clear();
+  // z^2 sigma / (f b) = kVagueM
+  const double vague_z_m = std::sqrt(kVagueM * geometry.focal_px * geometry.baseline_m / config_.noise_px);
+  const double least16 = geometry.disparity16(vague_z_m);
   for (int row = 0; row < blocks.rows(); ++row) {
     for (int col = 0; col < blocks.cols(); ++col) {
       const DepthBlock& block = blocks.at(row, col);
       if (block.near16 < least16 || block.near16 <= 0) continue;
       const cv::Point middle(col * DepthBlocks::kBlockPx + DepthBlocks::kBlockPx / 2,
                              row * DepthBlocks::kBlockPx + DepthBlocks::kBlockPx / 2);
-      const Index voxel = index(X_WC * Eigen::Vector3d(geometry.z_m(block.near16) * geometry.ray(middle)));
+      const Eigen::Vector3d p_W = X_WC * Eigen::Vector3d(geometry.z_m(block.near16) * geometry.ray(middle));
+      const Index voxel = index(p_W);
       if (!contains(voxel)) continue;
       const size_t at = slot(voxel);
       if (hit_[at]) continue;
       hit_[at] = 1;
-      hits_.push_back(at);
+      hit_slots_.push_back(at);
+      hits_.push_back({p_W, log_odds_[at] <= kFreeBelow});
       log_odds_[at] = static_cast<int8_t>(std::min(kMost, log_odds_[at] + kHit));
     }
   }

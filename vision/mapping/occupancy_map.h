@@ -39,6 +39,12 @@ class OccupancyMap {
   void move(const Eigen::Vector3d& center_W);
   /// Adds an image. @param X_WC  the left camera's pose when it was exposed, as estimated.
   void integrate(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry, const Eigen::Isometry3d& X_WC);
+  /// A voxel that the last image has a surface in.
+  struct Hit {
+    Eigen::Vector3d p_W;  ///< the point, m
+    bool was_free;        ///< before: what stands still does not come where free space was seen
+  };
+  const std::vector<Hit>& hits() const { return hits_; }
   /// All voxels take one step towards unknown.
   void fade();
   /// The voxels with centers in an upright cylinder become free: no obstacle is where the vehicle is.
@@ -65,8 +71,9 @@ class OccupancyMap {
   Index first_ = Index::Zero();
   std::vector<int8_t> log_odds_;  ///< in kStep; 0 is unknown
   std::vector<uint8_t> hit_;      ///< in this image
-  std::vector<size_t> hits_;      ///< slots of hit_
-  std::vector<float> clear_m_;    ///< of each block
+  std::vector<size_t> hit_slots_;
+  std::vector<Hit> hits_;       ///< of hit_slots_
+  std::vector<float> clear_m_;  ///< of each block
 };
 
 }  // namespace hedgehop::vision::mapping

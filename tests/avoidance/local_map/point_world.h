@@ -37,8 +37,9 @@ class PointWorld {
     std::vector<std::string> statuses;
   };
 
-  static constexpr int kWidthPx = 160, kHeightPx = 72;
   static constexpr double kStepS = 0.1;
+
+  int width_px = 160, height_px = 72;  ///< of the depth camera
 
   std::vector<Pillar> pillars;
   std::vector<Wall> walls;
@@ -50,8 +51,8 @@ class PointWorld {
   Flown fly(LocalMapConfig config) const {
     config.depth = stereo::DisparitySource::From::camera;
     const auto module = make_local_map(config);
-    MountedCamera camera = level_camera("depth", 0.0, kWidthPx, 1.0 / kStepS);
-    const vision::camera::PinholeCamera lens = vision::camera::PinholeCamera::from_fov(kWidthPx, kHeightPx, 1.48);
+    MountedCamera camera = level_camera("depth", 0.0, width_px, 1.0 / kStepS);
+    const vision::camera::PinholeCamera lens = vision::camera::PinholeCamera::from_fov(width_px, height_px, 1.48);
     camera.model = lens;
     module->reset({{camera}, {speed_mps, acceleration_mps2, radius_m}, 1});
     Flown flown;
@@ -113,8 +114,8 @@ class PointWorld {
                 double t_s) const {
     constexpr double kFarM = 80.0, kNearM = 1e-3;
     const Eigen::Vector2d ahead_W(std::cos(heading_rad), std::sin(heading_rad)), right_W(-ahead_W.y(), ahead_W.x());
-    cv::Mat depth_m(kHeightPx, kWidthPx, CV_32FC1);
-    for (int u = 0; u < kWidthPx; ++u) {
+    cv::Mat depth_m(height_px, width_px, CV_32FC1);
+    for (int u = 0; u < width_px; ++u) {
       const double side = (u - lens.center_u_px) / lens.focal_x_px;
       const Eigen::Vector2d ray_W = (ahead_W + side * right_W).normalized();
       double s_m = 0.0;
@@ -124,7 +125,7 @@ class PointWorld {
         s_m += away_m;
       }
       const double z_m = s_m < kFarM ? s_m / std::hypot(1.0, side) : std::numeric_limits<double>::infinity();
-      for (int v = 0; v < kHeightPx; ++v) {
+      for (int v = 0; v < height_px; ++v) {
         const double down = (v - lens.center_v_px) / lens.focal_y_px;
         const double ground_m = down > 0.0 ? height_m / down : std::numeric_limits<double>::infinity();
         depth_m.at<float>(v, u) = static_cast<float>(std::min(z_m, ground_m));

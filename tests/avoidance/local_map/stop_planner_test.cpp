@@ -16,6 +16,8 @@ StopPlanner::Fault wall_at(double north_m) {
 }
 std::optional<double> north(const Eigen::Vector2d& p_W) { return 100.0 - p_W.x(); }
 
+double nobody(const std::vector<Moment>&) { return 0.0; }
+
 TEST(StopPlanner, EveryStopItPlansStaysBeforeTheEndOfWhatIsFree) {
   const StopPlanner planner(kResponse, kSpeedMps);
   for (const double free_m : {2.0, 5.0, 10.0, 20.0, 40.0}) {
@@ -23,7 +25,7 @@ TEST(StopPlanner, EveryStopItPlansStaysBeforeTheEndOfWhatIsFree) {
     Eigen::Vector2d cmd_W = Eigen::Vector2d::Zero();
     double fastest = 0.0;
     for (int i = 0; i < 300; ++i) {
-      const StopPlanner::Plan plan = planner.choose(now, cmd_W, wall_at(free_m), north);
+      const StopPlanner::Plan plan = planner.choose(now, cmd_W, wall_at(free_m), nobody, north);
       ASSERT_TRUE(plan.safe) << free_m << " " << i;
       ASSERT_LE(plan.path.back().p_W.x(), free_m);
       // What is obeyed meanwhile is what was planned: an image of 0.1 s.
@@ -46,15 +48,15 @@ TEST(StopPlanner, SpeedFollowsHowFarIsFree) {
     const Moment now{0.0, Eigen::Vector2d::Zero(), {speed_mps, 0.0}};
     constexpr double kSlackM = 1.0;
     // A command against the motion stops sooner than planned braking does, yet not in a third of the way.
-    EXPECT_TRUE(planner.choose(now, now.v_W, wall_at(stop_m + kSlackM), north).safe);
-    EXPECT_FALSE(planner.choose(now, now.v_W, wall_at(0.35 * stop_m), north).safe);
+    EXPECT_TRUE(planner.choose(now, now.v_W, wall_at(stop_m + kSlackM), nobody, north).safe);
+    EXPECT_FALSE(planner.choose(now, now.v_W, wall_at(0.35 * stop_m), nobody, north).safe);
   }
 }
 
 TEST(StopPlanner, AVehicleThatIsTooNearMovesAway) {
   const StopPlanner planner(kResponse, kSpeedMps);
   const Moment now{0.0, {1.0, 0.0}, Eigen::Vector2d::Zero()};
-  const StopPlanner::Plan plan = planner.choose(now, Eigen::Vector2d::Zero(), wall_at(0.5), north);
+  const StopPlanner::Plan plan = planner.choose(now, Eigen::Vector2d::Zero(), wall_at(0.5), nobody, north);
   EXPECT_TRUE(plan.safe);
   EXPECT_LT(plan.v_cmd_W.x(), 0.0);
 }
