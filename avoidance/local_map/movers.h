@@ -25,8 +25,8 @@ struct Mover {
 /// of constant velocity each, and count as movers once they went on appearing and their velocity stands out of its
 /// error.
 /// - A mover forbids what leads into the disc where it will be: velocity obstacles, [FioriniShiller1998] sec. 3.
-/// Differs: paths end in a stop, are compared with the discs for a few seconds only, and the least threat is chosen where
-/// none is free of it.
+/// Differs: paths end in a stop, are compared with the discs for a few seconds only, and the least threat is chosen
+/// where none is free of it.
 class Movers {
  public:
   struct Config {

@@ -13,7 +13,8 @@ constexpr int kHit = 3, kMiss = -2;
 constexpr int kLeast = -9, kMost = 12;  // clamps: what was seen free turns after two hits, and is occupied after five
 constexpr int kFreeBelow = -4, kOccupiedFrom = 5;
 constexpr double kSigmas = 2.0;
-constexpr double kVagueM = 1.0;  // 1-sigma of a depth from which a hit is not placed: where it lies, nobody knows
+// 1-sigma of a depth up to which a surface is placed in the map, less than a voxel, and up to which it is told of.
+constexpr double kPlacedM = 0.25, kToldM = 1.0;
 
 int modulo(int a, int n) {
   const int m = a % n;
@@ -113,13 +114,15 @@ void OccupancyMap::add_hits(const DepthBlocks& blocks, const stereo::StereoGeome
                             const Eigen::Isometry3d& X_WC) {
   hits_.clear();
   hit_slots_.clear();
-  // z^2 sigma / (f b) = kVagueM
-  const double vague_z_m = std::sqrt(kVagueM * geometry.focal_px * geometry.baseline_m / config_.noise_px);
-  const double least16 = geometry.disparity16(vague_z_m);
+  // z^2 sigma_px / (f b) = sigma_m
+  const auto farthest_m = [&](double sigma_m) {
+    return std::sqrt(sigma_m * geometry.focal_px * geometry.baseline_m / config_.noise_px);
+  };
+  const double placed16 = geometry.disparity16(farthest_m(kPlacedM)), told16 = geometry.disparity16(farthest_m(kToldM));
   for (int row = 0; row < blocks.rows(); ++row) {
     for (int col = 0; col < blocks.cols(); ++col) {
       const DepthBlock& block = blocks.at(row, col);
-      if (block.near16 < least16 || block.near16 <= 0) continue;
+      if (block.near16 < told16 || block.near16 <= 0) continue;
       const cv::Point middle(col * DepthBlocks::kBlockPx + DepthBlocks::kBlockPx / 2,
                              row * DepthBlocks::kBlockPx + DepthBlocks::kBlockPx / 2);
       const Eigen::Vector3d p_W = X_WC * Eigen::Vector3d(geometry.z_m(block.near16) * geometry.ray(middle));
@@ -127,9 +130,10 @@ void OccupancyMap::add_hits(const DepthBlocks& blocks, const stereo::StereoGeome
       if (!contains(voxel)) continue;
       const size_t at = slot(voxel);
       if (hit_[at]) continue;
+      hits_.push_back({p_W, log_odds_[at] <= kFreeBelow});
+      if (block.near16 < placed16) continue;
       hit_[at] = 1;
       hit_slots_.push_back(at);
-      hits_.push_back({p_W, log_odds_[at] <= kFreeBelow});
       log_odds_[at] = static_cast<int8_t>(std::min(kMost, log_odds_[at] + kHit));
     }
   }

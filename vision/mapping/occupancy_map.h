@@ -39,7 +39,7 @@ class OccupancyMap {
   void move(const Eigen::Vector3d& center_W);
   /// Adds an image. @param X_WC  the left camera's pose when it was exposed, as estimated.
   void integrate(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry, const Eigen::Isometry3d& X_WC);
-  /// A voxel that the last image has a surface in.
+  /// A surface of the last image, whether it is near enough to be placed in the map or not.
   struct Hit {
     Eigen::Vector3d p_W;  ///< the point, m
     bool was_free;        ///< before: what stands still does not come where free space was seen
