@@ -1,5 +1,6 @@
 #include "avoidance/local_map/movers.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -88,7 +89,6 @@ void Movers::correct(Track& track, const Lump& lump, const Eigen::Vector2d& eye_
   const bool appears = lump.appeared >= kAppeared && lump.appeared >= kAppearedShare * lump.points;
   track.evidence = std::clamp(track.evidence + (appears ? 1 : -1), 0, kMostEvidence);
   track.unseen = 0;
-  ++track.images;
   // Whether it stands: the Mahalanobis distance of no motion.
   const Eigen::Vector2d v_W = track.state.tail<2>();
   const double sigmas = std::sqrt(v_W.dot(track.covariance.bottomRightCorner<2, 2>().inverse() * v_W));

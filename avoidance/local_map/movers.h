@@ -35,8 +35,6 @@ class Movers {
   };
   explicit Movers(const Config& config) : config_(config) {}
 
-  void reset() { tracks_.clear(); }
-
   /// Takes an image's points. @param eye_W  where it was taken from. @param t_s  rises from call to call.
   void update(double t_s, const Eigen::Vector2d& eye_W, std::span<const SurfacePoint> points);
 
@@ -53,7 +51,7 @@ class Movers {
     Eigen::Vector4d state;  ///< p_W, v_W
     Eigen::Matrix4d covariance;
     double radius_m;
-    int images = 1, evidence = 1, unseen = 0;
+    int evidence = 1, unseen = 0;  ///< images
     bool is_mover = false;
   };
 
@@ -69,7 +67,7 @@ class Movers {
 };
 
 /// By how much a path comes nearer to movers than it should, at worst, m: 0 where it never does. The vehicle stands
-/// where the path ends, and the movers go on, up to `kForeseenS` after the path's begin.
+/// where the path ends, and the movers go on, up to 4 s after the path's begin.
 /// @param clearance  as of what stands still. @param t_s  when the movers are where they say.
 double threat_m(std::span<const Moment> path, std::span<const Mover> movers, const Clearance& clearance, double t_s);
 
