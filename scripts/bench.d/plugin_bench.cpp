@@ -1,7 +1,7 @@
 #include <benchmark/benchmark.h>
 
-#include "avoidance/go_to_goal.h"
 #include "sim/plugin/plugin_module.h"
+#include "sim/scenario/avoidance_choice.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -21,12 +21,12 @@ void decide(benchmark::State& state, const AvoidanceConfig& config) {
 void PluginDecision(benchmark::State& state) {
   PluginConfig config{.plugin = HEDGEHOP_BENCH_PLUGIN, .module = "go_to_goal"};
   config.parameters.kind = Node::Kind::map;
-  decide(state, config);
+  decide(state, AvoidanceConfig::Choice{config});
 }
 BENCHMARK(PluginDecision)->Unit(benchmark::kMicrosecond);
 
 // The same of this tree.
-void PluginDecisionFloor(benchmark::State& state) { decide(state, avoidance::GoToGoalConfig{}); }
+void PluginDecisionFloor(benchmark::State& state) { decide(state, AvoidanceConfig()); }
 BENCHMARK(PluginDecisionFloor)->Unit(benchmark::kMicrosecond);
 
 }  // namespace

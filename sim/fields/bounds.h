@@ -89,6 +89,8 @@ class BoundsVisitor {
       }
     } else if constexpr (VariantField<T>) {
       std::visit([&](const auto& chosen) { judge_struct(path, chosen); }, value);
+    } else if constexpr (SealedField<T>) {
+      value.require_bounds(path);
     } else if constexpr (StructField<T>) {
       judge_struct(path, value);
     }

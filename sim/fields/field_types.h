@@ -50,14 +50,21 @@ template <class T>
 concept OpenField = requires {
   T::kIsOpen;
 };
+/// A variant whose alternatives its own source file alone knows, so that nothing else is compiled again with them: its
+/// type has a kIsSealed, and reads, outlines and judges itself.
+template <class T>
+concept SealedField = requires {
+  T::kIsSealed;
+};
 /// An alternative of a variant that is chosen by one of its keys instead of the variant's selector.
 template <class T>
 concept ChosenByKey = requires {
   T::kChosenBy;
 };
 template <class T>
-concept StructField = std::is_class_v<T> && !OpenField<T> && !VectorField<T> && !OptionalField<T> && !VariantField<T> &&
-                      !EigenField<T> && !std::same_as<T, std::string> && !std::same_as<T, std::filesystem::path>;
+concept StructField =
+    std::is_class_v<T> && !OpenField<T> && !SealedField<T> && !VectorField<T> && !OptionalField<T> &&
+    !VariantField<T> && !EigenField<T> && !std::same_as<T, std::string> && !std::same_as<T, std::filesystem::path>;
 
 /// Calls `f.operator()<A>()` for each alternative of a variant, in order.
 template <class Variant, class F>

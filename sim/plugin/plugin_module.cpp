@@ -177,7 +177,7 @@ std::unique_ptr<avoidance::Module> load_module(const PluginConfig& config) {
   return module;
 }
 
-std::unique_ptr<avoidance::Module> make(const PluginConfig& config) {
+std::unique_ptr<avoidance::Module> make_plugin_module(const PluginConfig& config) {
   std::unique_ptr<avoidance::Module> module;
   try {
     call_guarded(config.limit_s, [&] { module = load_module(config); });
@@ -187,17 +187,12 @@ std::unique_ptr<avoidance::Module> make(const PluginConfig& config) {
   return std::make_unique<GuardedModule>(std::move(module), config);
 }
 
-std::unique_ptr<avoidance::Module> make(const PythonConfig& config) { return make_python_module(config); }
-
-template <class Config>
-std::unique_ptr<avoidance::Module> make(const Config& config) {
-  return avoidance::make_module(config);
-}
-
 }  // namespace
 
 std::unique_ptr<avoidance::Module> make_module(const AvoidanceConfig& config) {
-  return std::visit([](const auto& chosen) { return make(chosen); }, config);
+  if (const PluginConfig* plugin = config.plugin()) return make_plugin_module(*plugin);
+  if (const PythonConfig* script = config.python()) return make_python_module(*script);
+  return config.make();
 }
 
 }  // namespace hedgehop::sim

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "avoidance/module.h"
-#include "sim/scenario/plugin_config.h"
+#include "sim/scenario/avoidance_config.h"
 
 namespace hedgehop::sim {
 

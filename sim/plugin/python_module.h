@@ -5,7 +5,7 @@
 #include <string>
 
 #include "avoidance/module.h"
-#include "sim/scenario/plugin_config.h"
+#include "sim/scenario/foreign_config.h"
 
 namespace hedgehop::sim {
 

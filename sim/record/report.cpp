@@ -25,7 +25,7 @@ std::string chosen(const Choice& choice) {
 ReportScenario describe_scenario(const RunRecord& run) {
   const Scenario& scenario = run.scenario;
   ReportScenario result{.description = scenario.description,
-                        .module = chosen(scenario.avoidance),
+                        .module = std::string(scenario.avoidance.name()),
                         .scene = chosen(scenario.scene),
                         .vehicle = chosen(scenario.vehicle),
                         .yaml = run.scenario_yaml,

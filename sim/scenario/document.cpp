@@ -113,7 +113,7 @@ const std::vector<std::string>& document_topics() {
 }
 
 std::string document(const std::string& topic) {
-  if (topic == "modules") return describe_choices<AvoidanceConfig>();
+  if (topic == "modules") return document_choices(outline(AvoidanceConfig(), {}).all);
   if (topic == "vehicles") return describe_choices<dynamics::VehicleConfig>();
   if (topic == "scenes") return describe_choices<scenes::SceneConfig>();
   if (topic == "cameras") return document_fields(outline_fields(RigConfig{}), 0);

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <type_traits>
 #include <utility>
-#include <variant>
 
 #include "sim/fields/bounds.h"
 #include "sim/scenario/random_stream.h"
@@ -20,18 +18,6 @@ dynamics::Avionics build_avionics(const Scenario& scenario, const dynamics::Vehi
   return {scenario.avionics, carrier, 1.0 / static_cast<double>(scenario.physics_rate_hz),
           [&](std::string_view name) { return blended_stream(scenario.chance, scenario.seed, name); },
           sensor_failures(scenario.failures, scenario.seed)};
-}
-
-std::unique_ptr<avoidance::Module> build_module(const AvoidanceConfig& config) {
-  return std::visit(
-      [](const auto& chosen) -> std::unique_ptr<avoidance::Module> {
-        if constexpr (kIsForeign<std::decay_t<decltype(chosen)>>) {
-          return nullptr;
-        } else {
-          return avoidance::make_module(chosen);
-        }
-      },
-      config);
 }
 
 avoidance::Setup module_setup(const Scenario& scenario, const std::vector<dynamics::HullPart>& hull) {
@@ -82,7 +68,7 @@ AircraftParts build_aircraft(const Scenario& scenario) {
 
 FlightParts build_parts(const Scenario& scenario) {
   build_part("scenario", [&] { return &fields::require_bounds(scenario); });
-  return {build_aircraft(scenario), build_part("avoidance", [&] { return build_module(scenario.avoidance); })};
+  return {build_aircraft(scenario), build_part("avoidance", [&] { return scenario.avoidance.make(); })};
 }
 
 }  // namespace hedgehop::sim

@@ -65,8 +65,6 @@ AircraftParts build_aircraft(const Scenario& scenario);
 dynamics::air::Wind build_wind(const Scenario& scenario);
 /// @param carrier  the vehicle that the autopilot is designed for.
 dynamics::Avionics build_avionics(const Scenario& scenario, const dynamics::VehicleConfig& carrier);
-/// Null for a module of a shared library: reading a scenario loads no foreign code.
-std::unique_ptr<avoidance::Module> build_module(const AvoidanceConfig& config);
 
 /// What a module is told before its flight. @param hull  of the vehicle.
 avoidance::Setup module_setup(const Scenario& scenario, const std::vector<dynamics::HullPart>& hull);

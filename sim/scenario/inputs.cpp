@@ -36,8 +36,8 @@ std::set<fs::path> named_files(const Scenario& scenario) {
     if (const auto* path = std::get_if<PathToleranceCheck>(&check)) files.insert(path->reference);
   }
   const auto add_module = [&files](const AvoidanceConfig& config) {
-    if (const auto* plugin = std::get_if<PluginConfig>(&config)) files.insert(plugin->plugin);
-    if (const auto* script = std::get_if<PythonConfig>(&config)) files.insert(script->python);
+    if (const PluginConfig* plugin = config.plugin()) files.insert(plugin->plugin);
+    if (const PythonConfig* script = config.python()) files.insert(script->python);
   };
   add_module(scenario.avoidance);
   if (scenario.takeover) add_module(scenario.takeover->avoidance);

@@ -90,6 +90,7 @@ Outline outline(const T& value, const fields::Field& field) {
     node.present = value.has_value();
     return node;
   }
+  if constexpr (fields::SealedField<T>) return value.outlined(field);
   if constexpr (fields::OpenField<T>) {
     node = outline_as_written(value);
     node.open = node.present = true;

@@ -158,6 +158,8 @@ void read_value(const Node& node, const std::string& path, const fields::Field& 
     if (expect_map(node, path, faults)) value = node;
   } else if constexpr (fields::VariantField<T>) {
     read_variant(node, path, field, value, faults);
+  } else if constexpr (fields::SealedField<T>) {
+    value.read(node, path, field, faults);
   } else {
     read_struct(node, path, "", value, faults);
   }

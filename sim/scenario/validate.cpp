@@ -96,7 +96,7 @@ class Validator {
 
   void module() {
     build("avoidance", [&] {
-      module_ = build_module(scenario_.avoidance);
+      module_ = scenario_.avoidance.make();
       if (!module_) return;
       for (const avoidance::CameraNeed& need : module_->needs().cameras) {
         needs_camera("avoidance", need.role, need.channel, need.pinhole);
@@ -106,7 +106,7 @@ class Validator {
       if (takeover->at_s >= scenario_.duration_s) {
         add("takeover.at", fmt::format("is not before the flight's end ({} s)", scenario_.duration_s));
       }
-      build("takeover.avoidance", [&] { build_module(takeover->avoidance); });
+      build("takeover.avoidance", [&] { takeover->avoidance.make(); });
     }
   }
 
@@ -142,7 +142,7 @@ class Validator {
 
   /// The parts; none when one could not be built.
   std::optional<FlightParts> take() {
-    const bool has_module = module_ || std::visit([]<class C>(const C&) { return kIsForeign<C>; }, scenario_.avoidance);
+    const bool has_module = module_ || scenario_.avoidance.is_foreign();
     if (!vehicle_ || !wind_ || !avionics_ || !has_module) return {};
     return FlightParts{{*std::move(vehicle_), *std::move(wind_), *std::move(avionics_)}, std::move(module_)};
   }

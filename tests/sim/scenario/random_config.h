@@ -5,6 +5,7 @@
 
 #include "sim/fields/field.h"
 #include "sim/fields/field_types.h"
+#include "sim/scenario/avoidance_choice.h"
 
 namespace hedgehop::sim {
 
@@ -40,6 +41,10 @@ class Randomizer {
       for (auto& item : value) (*this)("", item, field);
     } else if constexpr (fields::OpenField<T>) {
       value = map(2);
+    } else if constexpr (fields::SealedField<T>) {
+      auto choice = value.choice();
+      (*this)("", choice.module, field);
+      value = choice;
     } else if constexpr (fields::VariantField<T>) {
       size_t chosen = random_() % std::variant_size_v<T>;
       fields::for_each_alternative<T>([&]<class A>() {

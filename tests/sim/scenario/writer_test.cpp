@@ -36,6 +36,9 @@ class Bits {
       for (auto& item : value) (*this)("", item, field);
     } else if constexpr (fields::OpenField<T>) {
       add(value);
+    } else if constexpr (fields::SealedField<T>) {
+      auto choice = value.choice();
+      (*this)("", choice.module, field);
     } else if constexpr (fields::VariantField<T>) {
       bits.push_back(value.index());
       std::visit([&](auto& chosen) { describe(*this, chosen); }, value);

@@ -2,8 +2,8 @@
 
 #include <set>
 
-#include "avoidance/registry.h"
 #include "sim/loop/takeover.h"
+#include "sim/scenario/avoidance_choice.h"
 #include "sim/scenario/writer.h"
 #include "sim/simulation/simulation.h"
 
@@ -78,7 +78,8 @@ TEST(Takeover, EveryModuleOfTheTreeIsTried) {
 TEST(Takeover, OtherSettingsChangeTheFlightFromTheMomentOnly) {
   const Scenario scenario = scenario_of(module_flights().front());
   Scenario branched = scenario;
-  branched.takeover = TakeoverConfig{.at_s = kAtS, .avoidance = avoidance::GoToGoalConfig{.speed_mps = 0.5}};
+  branched.takeover =
+      TakeoverConfig{.at_s = kAtS, .avoidance = AvoidanceConfig::Choice{avoidance::GoToGoalConfig{.speed_mps = 0.5}}};
   const Flight unbroken = fly(scenario), branch = fly(branched);
   size_t equal = 0;
   while (equal < branch.trajectory.size() &&
@@ -92,7 +93,7 @@ TEST(Takeover, OtherSettingsChangeTheFlightFromTheMomentOnly) {
 
 TEST(Takeover, OtherCamerasAndALateMomentAreRefused) {
   Scenario scenario = scenario_of(module_flights()[1]);
-  scenario.takeover = TakeoverConfig{.at_s = kAtS, .avoidance = avoidance::GoToGoalConfig{}};
+  scenario.takeover = TakeoverConfig{.at_s = kAtS, .avoidance = AvoidanceConfig()};
   EXPECT_THAT([&] { fly(scenario); },
               ::testing::ThrowsMessage<InputError>(HasSubstr("'takeover.avoidance': needs other cameras")));
   EXPECT_THAT(

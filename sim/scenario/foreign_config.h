@@ -2,10 +2,9 @@
 
 #include <filesystem>
 #include <string>
-#include <type_traits>
-#include <variant>
+#include <string_view>
 
-#include "avoidance/registry.h"
+#include "sim/fields/field.h"
 #include "sim/scenario/tree.h"
 
 namespace hedgehop::sim {
@@ -51,19 +50,5 @@ void describe(Visitor& v, PythonConfig& c) {
   v("class", c.class_name, {.required = true, .meaning = "the module's class in it"});
   v("parameters", c.parameters, {.meaning = "keyword arguments of the class"});
 }
-
-template <class Variant, class... More>
-struct Widened;
-template <class... Choices, class... More>
-struct Widened<std::variant<Choices...>, More...> {
-  using type = std::variant<Choices..., More...>;
-};
-
-/// Whether a module's code lies outside this tree and is loaded when a flight begins.
-template <class Config>
-inline constexpr bool kIsForeign = std::is_same_v<Config, PluginConfig> || std::is_same_v<Config, PythonConfig>;
-
-/// Who decides where to fly: a module of this tree, or one from outside.
-using AvoidanceConfig = Widened<avoidance::ModuleConfig, PluginConfig, PythonConfig>::type;
 
 }  // namespace hedgehop::sim

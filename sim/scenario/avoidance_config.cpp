@@ -1,0 +1,49 @@
+#include "sim/scenario/avoidance_config.h"
+
+#include <utility>
+
+#include "sim/fields/bounds.h"
+#include "sim/scenario/avoidance_choice.h"
+#include "sim/scenario/outline.h"
+#include "sim/scenario/reader.h"
+
+namespace hedgehop::sim {
+
+AvoidanceConfig::AvoidanceConfig() : AvoidanceConfig(Choice{}) {}
+
+AvoidanceConfig::AvoidanceConfig(Choice choice) : choice_(std::make_shared<const Choice>(std::move(choice))) {}
+
+std::string_view AvoidanceConfig::name() const {
+  return std::visit([]<class Config>(const Config&) { return Config::kName; }, choice_->module);
+}
+
+const PluginConfig* AvoidanceConfig::plugin() const { return std::get_if<PluginConfig>(&choice_->module); }
+
+const PythonConfig* AvoidanceConfig::python() const { return std::get_if<PythonConfig>(&choice_->module); }
+
+std::unique_ptr<avoidance::Module> AvoidanceConfig::make() const {
+  return std::visit(
+      []<class Config>(const Config& config) -> std::unique_ptr<avoidance::Module> {
+        if constexpr (std::is_constructible_v<avoidance::ModuleConfig, Config>) {
+          return avoidance::make_module(config);
+        } else {
+          return nullptr;
+        }
+      },
+      choice_->module);
+}
+
+void AvoidanceConfig::read(const Node& node, const std::string& path, const fields::Field& field, Faults& faults) {
+  Choice choice = *choice_;
+  read_value(node, path, field, choice.module, faults);
+  *this = std::move(choice);
+}
+
+Outline AvoidanceConfig::outlined(const fields::Field& field) const { return outline(choice_->module, field); }
+
+void AvoidanceConfig::require_bounds(const std::string& path) const {
+  const fields::BoundsVisitor judge("");
+  judge(path, choice_->module, {});
+}
+
+}  // namespace hedgehop::sim
