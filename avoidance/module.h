@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "avoidance/channel.h"
 #include "vision/camera/camera.h"
 
 /// The one interface between an avoidance module and the aircraft that carries it. A module sees images and the
@@ -80,8 +81,8 @@ void confine(Command& command, double speed_limit_mps);
 /// A camera a module cannot fly without.
 struct CameraNeed {
   std::string role;
-  /// What its frames hold; `corners`: those of a corner detector in its place, instead of images.
-  enum class Channel { grey, color, depth, corners } channel = Channel::grey;
+  using Channel = avoidance::Channel;
+  Channel channel = Channel::grey;
   bool pinhole = false;  ///< the module's mathematics holds for an undistorted pinhole only
 };
 struct Needs {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "avoidance/module.h"
 #include "sim/fields/bounds.h"
 #include "sim/scenario/avoidance_choice.h"
 #include "sim/scenario/outline.h"

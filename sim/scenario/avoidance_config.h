@@ -4,9 +4,12 @@
 #include <string>
 #include <string_view>
 
-#include "avoidance/module.h"
 #include "sim/fields/field.h"
 #include "sim/scenario/foreign_config.h"
+
+namespace hedgehop::avoidance {
+class Module;
+}
 
 namespace hedgehop::sim {
 

@@ -4,11 +4,18 @@
 
 #include <utility>
 
+#include "avoidance/module.h"
 #include "sim/fields/bounds.h"
 #include "sim/scenario/random_stream.h"
 #include "sim/scenario/tree.h"
 
 namespace hedgehop::sim {
+
+FlightParts::FlightParts(AircraftParts flies, std::unique_ptr<avoidance::Module> decides)
+    : aircraft(std::move(flies)), module(std::move(decides)) {}
+FlightParts::FlightParts(FlightParts&&) noexcept = default;
+FlightParts& FlightParts::operator=(FlightParts&&) noexcept = default;
+FlightParts::~FlightParts() = default;
 
 dynamics::air::Wind build_wind(const Scenario& scenario) {
   return {scenario.wind, blended_stream(scenario.chance, scenario.seed, "wind")};

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "avoidance/module.h"
 #include "dynamics/air/wind.h"
 #include "dynamics/avionics.h"
 #include "dynamics/hull.h"
@@ -19,6 +18,11 @@
 
 /// The parts of a flight that follow from the scenario's parameters alone. A part is built once: the reader builds it
 /// to check its parameters, and the flight uses what the reader built.
+namespace hedgehop::avoidance {
+class Module;
+struct Setup;
+}  // namespace hedgehop::avoidance
+
 namespace hedgehop::sim {
 
 struct Node;
@@ -31,6 +35,11 @@ struct AircraftParts {
 };
 
 struct FlightParts {
+  FlightParts(AircraftParts flies, std::unique_ptr<avoidance::Module> decides);
+  FlightParts(FlightParts&&) noexcept;
+  FlightParts& operator=(FlightParts&&) noexcept;
+  ~FlightParts();
+
   AircraftParts aircraft;
   std::unique_ptr<avoidance::Module> module;  ///< null for a module of a shared library, which the flight loads
 };

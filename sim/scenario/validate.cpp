@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "avoidance/module.h"
 #include "sim/scenario/check_faults.h"
 
 namespace hedgehop::sim {
