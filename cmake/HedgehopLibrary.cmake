@@ -82,10 +82,10 @@ function(hedgehop_check_layers folder deps)
   message(FATAL_ERROR "${folder} has no row in HEDGEHOP_LAYERS")
 endfunction()
 
-# hedgehop_test(<name> SRCS ... DEPS <folders> [LABEL unit|physics|vision|render|loop]): one GoogleTest program.
-# Every test gets the label.
+# hedgehop_test(<name> SRCS ... DEPS <folders> [LABEL unit|physics|vision|render|loop] [LONG <tests>]): one GoogleTest
+# program. Every test gets the label, but those of LONG, which take about a second or more, the label `long`.
 function(hedgehop_test name)
-  cmake_parse_arguments(arg "" "LABEL" "SRCS;DEPS;PACKAGES" ${ARGN})
+  cmake_parse_arguments(arg "" "LABEL" "SRCS;DEPS;PACKAGES;LONG" ${ARGN})
   if(NOT arg_LABEL)
     set(arg_LABEL unit)
   endif()
@@ -99,5 +99,10 @@ function(hedgehop_test name)
     string(REPLACE "/" "_" dep ${dep})
     target_link_libraries(${name} PRIVATE hedgehop_${dep})
   endforeach()
-  gtest_discover_tests(${name} PROPERTIES LABELS ${arg_LABEL} DISCOVERY_TIMEOUT 60)
+  if(arg_LONG)
+    list(JOIN arg_LONG ":" long)
+    gtest_discover_tests(${name} TEST_FILTER ${long} PROPERTIES LABELS long DISCOVERY_TIMEOUT 60)
+    set(others TEST_FILTER -${long})
+  endif()
+  gtest_discover_tests(${name} ${others} PROPERTIES LABELS ${arg_LABEL} DISCOVERY_TIMEOUT 60)
 endfunction()

@@ -9,13 +9,13 @@
 #include <string>
 #include <typeinfo>
 
+#include "avoidance/flow_balance/flow_balance.h"
 #include "scenes/mesh/mesh_import.h"
 #include "sim/campaign/campaign_file.h"
 #include "sim/campaign/sweep_file.h"
 #include "sim/record/column_table.h"
 #include "sim/record/run_record.h"
 #include "sim/reproduce/paper.h"
-#include "sim/scenario/foreign_config.h"
 #include "sim/scenario/include.h"
 #include "sim/scenario/input_error.h"
 #include "sim/scenario/reader.h"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "avoidance/registry.h"
 #include "sim/campaign/campaign_file.h"
 #include "sim/campaign/table.h"
 #include "sim/fields/field_types.h"
