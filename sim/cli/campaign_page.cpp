@@ -9,6 +9,13 @@
 
 namespace hedgehop::sim::cli {
 
+void print_failed(const std::vector<FlightRecord>& records) {
+  for (const FlightRecord& record : records) {
+    if (record.status != FlightRecord::Status::failed) continue;
+    fmt::print("FAIL  {}: {}\n      {}\n", record.order.id, record.cause, rerun_command(record.order));
+  }
+}
+
 void write_campaign_page(const std::filesystem::path& folder) {
   const std::string page = (folder / "report.html").string();
   try {

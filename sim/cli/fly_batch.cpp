@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <stdexcept>
 
 #include "sim/campaign/batch_record.h"
 #include "sim/campaign/junit.h"
 #include "sim/campaign/leaderboard.h"
 #include "sim/campaign/table.h"
 #include "sim/cli/campaign_page.h"
+#include "sim/cli/every_write.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
 #include "sim/flight/build.h"
@@ -47,22 +47,19 @@ std::vector<ExtraColumn> counted_column(const BatchOutcome& outcome, const std::
   return {column};
 }
 
-/// Writes every file that can be written. @return why the first of the others could not be, else empty.
-std::string write_files(const std::filesystem::path& out, const std::filesystem::path& junit,
-                        const BatchOutcome& outcome, const std::vector<ExtraColumn>& columns) {
-  std::string fault;
-  const auto attempt = [&fault](const std::filesystem::path& file, const std::string& text) {
-    try {
+EveryWrite write_files(const std::filesystem::path& out, const std::filesystem::path& junit,
+                       const BatchOutcome& outcome, const std::vector<ExtraColumn>& columns) {
+  EveryWrite files;
+  const auto attempt = [&files](const std::filesystem::path& file, const std::string& text) {
+    files.attempt([&] {
       if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
       write_file_whole(file, text);
-    } catch (const std::exception& error) {
-      if (fault.empty()) fault = error.what();
-    }
+    });
   };
   attempt(out / "batch.json", batch_json(outcome, std::string(version())));
   attempt(out / "batch.csv", csv_text(flight_table(outcome.records, columns)));
   if (!junit.empty()) attempt(junit, junit_text(outcome.records, all_verdicts(outcome)));
-  return fault;
+  return files;
 }
 
 /// Writes the leaderboard's matrix. @param again  the flights are an earlier batch's, and so is its leaderboard.
@@ -122,14 +119,15 @@ int fly_batch(BatchRun run) {
   BatchOutcome outcome = conclude(std::move(records), count, run.fly.limit_s);
   outcome.conduct = run.conduct;
   outcome.verdicts = judge(run.batch.checks, summarize(outcome.records));
-  const std::string unwritten = write_files(run.fly.out, run.junit, outcome, counted_column(outcome, count));
-  const std::string matrix = unwritten.empty() ? write_matrix(run.fly.out, run.batch.leaderboard, run.again) : "";
+  EveryWrite files = write_files(run.fly.out, run.junit, outcome, counted_column(outcome, count));
+  std::string matrix;
+  if (files.well()) files.attempt([&] { matrix = write_matrix(run.fly.out, run.batch.leaderboard, run.again); });
   if (run.json) {
     fmt::print("{}", batch_json(outcome, std::string(version())));
   } else {
     fmt::print("{}{}", summary_text(outcome), matrix);
   }
-  if (!unwritten.empty()) throw std::runtime_error(unwritten);
+  files.raise();
   if (!run.json) {
     fmt::print("written: {}\n", (run.fly.out / "batch.json").string());
     write_campaign_page(run.fly.out);

@@ -24,6 +24,7 @@ void open_standard_streams() {
 int main(int argc, char** argv) {
   open_standard_streams();
   std::signal(SIGPIPE, SIG_IGN);  // a reader that has seen enough ends no flight
+  std::signal(SIGXFSZ, SIG_IGN);  // a file past its limit (ulimit -f) is an error of writing
   constexpr size_t kBufferBytes = 1 << 20;
   std::setvbuf(stdout, nullptr, _IOFBF, kBufferBytes);  // so that a result is written whole, or known not to be
   const int status = hedgehop::sim::cli::run_command_line(argc, argv);

@@ -6,8 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 
+#include "sim/campaign/batch_record.h"
 #include "sim/campaign/fly_orders.h"
+#include "sim/cli/campaign_page.h"
 #include "sim/cli/commands.h"
+#include "sim/cli/every_write.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
 #include "sim/cli/shipped_files.h"
@@ -20,6 +23,7 @@ namespace hedgehop::sim::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using Status = FlightRecord::Status;
 
 /// The file of a paper's key, or the file itself.
 fs::path paper_file(const std::string& name) {
@@ -69,7 +73,7 @@ std::vector<FlightRecord> fly(const std::vector<Paper>& papers, const ReproduceO
   auto records =
       fly_orders(orders, fly, Reuse::all, interruption, [&progress](const FlightRecord& record, bool reused) {
         const bool flown = record.status == FlightRecord::Status::flown;
-        progress.add(record.order.id, outcome_words(record), flown, reused);
+        progress.add(record.order.id, flown ? outcome_words(record) : failure_words(record), flown, reused);
       });
   progress.close();
   return records;
@@ -90,14 +94,18 @@ std::string packages() {
 void write_pages(const ReproduceOptions& options, const fs::path& out, const RowsOfPapers& papers,
                  const nlohmann::ordered_json& pages) {
   const PageFacts facts = page_facts(papers, packages(), options.quick);
-  fs::create_directories(out);
   const std::string text = results_page(papers, facts);
-  write_file_whole(out / "reproduction.md", text);
-  write_file_whole(out / "reproduction.csv", rows_csv(papers));
-  write_file_whole(out / "reproduction.html", reproduction_page(pages, facts));
-  if (!options.write.empty()) write_file_whole(options.write, text);
+  EveryWrite files;
+  files.attempt([&] {
+    fs::create_directories(out);
+    write_file_whole(out / "reproduction.md", text);
+  });
+  files.attempt([&] { write_file_whole(out / "reproduction.csv", rows_csv(papers)); });
+  files.attempt([&] { write_file_whole(out / "reproduction.html", reproduction_page(pages, facts)); });
+  if (!options.write.empty()) files.attempt([&] { write_file_whole(options.write, text); });
   if (const std::string several = several_builds_line(facts); !several.empty()) fmt::print("{}\n", several);
   for (const auto& [paper, rows] : papers) fmt::print("{}\n", rows_text(paper, rows));
+  files.raise();
   fmt::print("written: {}\n", (out / "reproduction.html").string());
   if (!options.write.empty()) fmt::print("written: {}\n", options.write.string());
 }
@@ -124,9 +132,12 @@ int reproduce(const ReproduceOptions& options) {
     pages.push_back(paper_data(outcome, rows));
     rows_of_papers.emplace_back(paper, rows);
   }
+  print_failed(records);
   write_pages(options, out, rows_of_papers, pages);
   if (interruption.signal() != 0) return kSignalled + interruption.signal();
-  return std::ranges::all_of(rows_of_papers, [](const auto& paper) { return all_hold(paper.second); }) ? 0 : kFails;
+  const bool all_flown = std::ranges::all_of(records, [](const auto& r) { return r.status == Status::flown; });
+  const bool rows_hold = std::ranges::all_of(rows_of_papers, [](const auto& paper) { return all_hold(paper.second); });
+  return all_flown && rows_hold ? 0 : kFails;
 }
 
 }  // namespace hedgehop::sim::cli

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "sim/campaign/batch_record.h"
 #include "sim/campaign/junit.h"
@@ -13,6 +12,7 @@
 #include "sim/campaign/sweep.h"
 #include "sim/cli/campaign_page.h"
 #include "sim/cli/commands.h"
+#include "sim/cli/every_write.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
 #include "sim/flight/build.h"
@@ -28,19 +28,25 @@ struct SweepRun {
   std::string name = "sweep";  ///< of the tables, without their ending
 };
 
-void write_tables(const SweepRun& run, const SweepOrders& orders, const std::vector<FlightRecord>& records) {
-  std::filesystem::create_directories(run.out);
+EveryWrite write_tables(const SweepRun& run, const SweepOrders& orders, const std::vector<FlightRecord>& records) {
+  EveryWrite files;
   const Table table = sweep_table(run.sweep, orders, records);
-  write_file_whole(run.out / (run.name + ".csv"), csv_text(table));
-  write_sqlite(run.out / (run.name + ".sqlite"), table);
-  if (run.options.junit.empty()) return;
-  if (run.options.junit.has_parent_path()) std::filesystem::create_directories(run.options.junit.parent_path());
-  write_file_whole(run.options.junit, junit_text(records, {}));
+  files.attempt([&] {
+    std::filesystem::create_directories(run.out);
+    write_file_whole(run.out / (run.name + ".csv"), csv_text(table));
+  });
+  files.attempt([&] { write_sqlite(run.out / (run.name + ".sqlite"), table); });
+  if (run.options.junit.empty()) return files;
+  files.attempt([&] {
+    if (run.options.junit.has_parent_path()) std::filesystem::create_directories(run.options.junit.parent_path());
+    write_file_whole(run.options.junit, junit_text(records, {}));
+  });
+  return files;
 }
 
 /// Prints the counts and returns the exit status.
 int conclude(const SweepRun& run, const SweepOrders& orders, const std::vector<FlightRecord>& records) {
-  write_tables(run, orders, records);
+  const EveryWrite files = write_tables(run, orders, records);
   const auto count = [&](auto holds) { return std::ranges::count_if(records, holds); };
   const auto has = [](FlightRecord::Status status) {
     return [status](const FlightRecord& record) { return record.status == status; };
@@ -48,15 +54,13 @@ int conclude(const SweepRun& run, const SweepOrders& orders, const std::vector<F
   const auto without = count(unchecked);
   const std::string no_checks = without > 0 ? fmt::format(", {} with {}", without, kNoChecks) : "";
   fmt::print("{}{}", several_builds_words(records), truth_words(records));
-  fmt::print("{} flights: {} passed, {} failed a check{}, {} failed to fly, {} missing\nwritten: {}\n", records.size(),
+  fmt::print("{} flights: {} passed, {} failed a check{}, {} failed to fly, {} missing\n", records.size(),
              count(passed), count(has(FlightRecord::Status::flown)) - count(passed) - without, no_checks,
-             count(has(FlightRecord::Status::failed)), count(has(FlightRecord::Status::missing)),
-             (run.out / (run.name + ".csv")).string());
-  if (run.options.shard.empty()) write_campaign_page(run.out);
-  for (const FlightRecord& record : records) {
-    if (record.status != FlightRecord::Status::failed) continue;
-    fmt::print("FAIL  {}: {}\n      {}\n", record.order.id, record.cause, rerun_command(record.order));
-  }
+             count(has(FlightRecord::Status::failed)), count(has(FlightRecord::Status::missing)));
+  if (files.well()) fmt::print("written: {}\n", (run.out / (run.name + ".csv")).string());
+  if (files.well() && run.options.shard.empty()) write_campaign_page(run.out);
+  print_failed(records);
+  files.raise();
   return std::ranges::all_of(records, [](const FlightRecord& r) { return passed(r) || unchecked(r); }) ? 0 : kFails;
 }
 
@@ -96,7 +100,7 @@ int fly_optimizer(const SweepRun& run, const OptimizeDesign& design) {
   };
   const Optimum best = optimize(run.sweep, fly);
   progress.close();
-  write_tables(run, best.orders, best.records);
+  const EveryWrite files = write_tables(run, best.orders, best.records);
   if (best.stopped) return kSignalled + interruption.signal();
   nlohmann::ordered_json json{{"minimize", design.minimize}, {"cost", best.cost}, {"values", {}}};
   std::string words;
@@ -104,9 +108,11 @@ int fly_optimizer(const SweepRun& run, const OptimizeDesign& design) {
     json["values"][run.sweep.parameters[i].path] = best.values[i];
     words += fmt::format(" --set {}={}", run.sweep.parameters[i].path, best.values[i]);
   }
+  fmt::print("{} points flown; smallest mean of {}: {:g}, with{}\n", best.records.size() / seeds, design.minimize,
+             best.cost, words);
+  files.raise();
   write_file_whole(run.out / "optimum.json", json.dump(2) + "\n");
-  fmt::print("{} points flown; smallest mean of {}: {:g}, with{}\nwritten: {}\n", best.records.size() / seeds,
-             design.minimize, best.cost, words, (run.out / "optimum.json").string());
+  fmt::print("written: {}\n", (run.out / "optimum.json").string());
   write_campaign_page(run.out);
   return best.cost < design.failure_cost ? 0 : kFails;
 }

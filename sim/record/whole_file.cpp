@@ -18,27 +18,36 @@ namespace {
   throw std::runtime_error(fmt::format("cannot {} {}: {}", action, file.string(), std::strerror(error)));
 }
 
+/// What a call returns that no signal has interrupted.
+template <class Call>
+auto uninterrupted(Call call) {
+  auto result = call();
+  while (result < 0 && errno == EINTR) result = call();
+  return result;
+}
+
 /// Writes all of `text`; returns 0 or errno.
 int write_all(int descriptor, std::string_view text) {
   while (!text.empty()) {
-    const ssize_t written = ::write(descriptor, text.data(), text.size());
-    if (written < 0) {
-      if (errno == EINTR) continue;
-      return errno;
-    }
+    const ssize_t written = uninterrupted([&] { return ::write(descriptor, text.data(), text.size()); });
+    if (written < 0) return errno;
     text.remove_prefix(static_cast<size_t>(written));
   }
   return 0;
 }
 
+/// Returns 0 or errno. An interrupted close(2) has closed the file on Linux: it must not be repeated.
+int close_file(int descriptor) { return ::close(descriptor) == 0 || errno == EINTR ? 0 : errno; }
+
 }  // namespace
 
 void write_file_whole(const std::filesystem::path& file, std::string_view text) {
   const std::filesystem::path part = file.string() + ".part";
-  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int descriptor =
+      uninterrupted([&] { return ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666); });
   if (descriptor < 0) fail("write", file, errno);
   int error = write_all(descriptor, text);
-  if (::close(descriptor) != 0 && error == 0) error = errno;
+  if (const int closing = close_file(descriptor); error == 0) error = closing;
   if (error == 0 && ::rename(part.c_str(), file.c_str()) != 0) error = errno;
   if (error != 0) {
     ::unlink(part.c_str());
@@ -47,7 +56,7 @@ void write_file_whole(const std::filesystem::path& file, std::string_view text) 
 }
 
 std::string read_file_whole(const std::filesystem::path& file) {
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = uninterrupted([&] { return ::open(file.c_str(), O_RDONLY | O_CLOEXEC); });
   if (descriptor < 0) fail("read", file, errno);
   struct stat info = {};
   std::string text;
@@ -56,10 +65,10 @@ std::string read_file_whole(const std::filesystem::path& file) {
   if (error == 0) text.resize(static_cast<size_t>(info.st_size));
   size_t filled = 0;
   while (error == 0 && filled < text.size()) {
-    const ssize_t got = ::read(descriptor, text.data() + filled, text.size() - filled);
+    const ssize_t got = uninterrupted([&] { return ::read(descriptor, text.data() + filled, text.size() - filled); });
     if (got > 0) filled += static_cast<size_t>(got);
     if (got == 0) text.resize(filled);
-    if (got < 0 && errno != EINTR) error = errno;
+    if (got < 0) error = errno;
   }
   ::close(descriptor);
   if (error != 0) fail("read", file, error);

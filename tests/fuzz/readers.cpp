@@ -5,14 +5,19 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <typeinfo>
+#include <vector>
 
 #include "avoidance/flow_balance/flow_balance.h"
 #include "scenes/mesh/mesh_import.h"
+#include "scenes/mesh/texture_image.h"
 #include "sim/campaign/campaign_file.h"
+#include "sim/campaign/registration.h"
 #include "sim/campaign/sweep_file.h"
+#include "sim/falsify/falsify_file.h"
 #include "sim/record/column_table.h"
 #include "sim/record/run_record.h"
 #include "sim/reproduce/paper.h"
@@ -37,9 +42,21 @@ void read_scenario(const std::filesystem::path& file) {
 
 void read_campaign(const std::filesystem::path& file) { sim::read_batch({file}, {}, {}); }
 
+/// What `batch --failed-only` reads of an earlier batch.
+void read_earlier_batch(const std::filesystem::path& file) { sim::reread_batch(file); }
+
 void read_mesh(const std::filesystem::path& file) {
   scenes::Scene scene;
   scenes::mesh::add_imports({{.file = file.string()}}, scene);
+}
+
+/// As the image of a mesh's material is read.
+void read_texture(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(stream), {}};
+  const cv::Mat image = scenes::mesh::decode_texture(bytes);
+  if (image.empty()) throw std::invalid_argument("no image");
+  if (image.type() != CV_8UC3) throw std::logic_error("not three bytes a pixel");
 }
 
 void read_calibration(const std::filesystem::path& file) {
@@ -63,10 +80,15 @@ constexpr std::array kReaders = {
     Reader{"scenario", "yaml", read_scenario},
     Reader{"sweep", "yaml", [](const std::filesystem::path& file) { sim::read_sweep(file); }},
     Reader{"campaign", "yaml", read_campaign},
+    Reader{"plan", "yaml", [](const std::filesystem::path& file) { sim::read_registration(file); }},
+    Reader{"earlier_batch", "json", read_earlier_batch},
+    Reader{"falsify", "yaml", [](const std::filesystem::path& file) { sim::read_falsify(file); }},
+    Reader{"vehicle", "yaml", [](const std::filesystem::path& file) { sim::load_vehicle(file); }},
     Reader{"paper", "yaml", [](const std::filesystem::path& file) { sim::read_paper(file); }},
     Reader{"parameters", "yaml", read_parameters},
     Reader{"mesh_obj", "obj", read_mesh},
     Reader{"mesh_gltf", "gltf", read_mesh},
+    Reader{"texture", "image", read_texture},
     Reader{"calibration", "txt", read_calibration},
     Reader{"result", "json", [](const std::filesystem::path& file) { sim::read_result(file); }},
     Reader{"columns", "csv", [](const std::filesystem::path& file) { sim::read_columns(file); }},

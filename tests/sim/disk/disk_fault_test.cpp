@@ -1,0 +1,154 @@
+// Campaigns on a disk that is full, breaks, or interrupts: one line and a documented exit status, nothing half written
+// that looks whole, nothing lost that was computed, and the same tables once the disk is well again.
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <random>
+
+#include "tests/sim/disk/small_campaign.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using ::testing::AnyOf;
+using ::testing::ContainsRegex;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+constexpr int kFails = 1, kBadInput = 2, kInternalError = 3;
+
+/// Lines of standard error that are no progress.
+std::vector<std::string> complaints(const std::string& err) {
+  std::istringstream lines(err);
+  std::vector<std::string> found;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("hedgehop: ") || line.starts_with("warning: ")) found.push_back(line);
+  }
+  return found;
+}
+
+class Disk : public ::testing::TestWithParam<std::string_view> {
+ protected:
+  CommandEnd fly(std::string_view fault, uint64_t at, int workers = 1) const {
+    return folder.shell(folder.on_failing_disk("out", fault, at) + HEDGEHOP_PROGRAM " " +
+                        folder.arguments(GetParam(), "out", workers));
+  }
+  /// The calls to try: all, where asked for (scripts/soak), else some.
+  std::vector<uint64_t> calls_to_try() const {
+    const auto count = static_cast<uint64_t>(count_asked("HEDGEHOP_DISK_FAULTS", 1));
+    std::vector<uint64_t> all(folder.calls());
+    std::iota(all.begin(), all.end(), 1);
+    std::vector<uint64_t> some;
+    std::ranges::sample(all, std::back_inserter(some), static_cast<std::ptrdiff_t>(count), std::mt19937_64(1));
+    return some;
+  }
+  /// A flight whose result.json is there is whole, and stays; the same command then leaves what the undisturbed one
+  /// did.
+  void expect_recovery(const std::map<std::string, std::string>& whole, const std::string& when) {
+    for (const auto& [name, text] : folder.lasting_files("out")) {
+      if (!name.ends_with("/result.json")) continue;
+      EXPECT_EQ(text, whole.at(name)) << when << ": " << name;
+    }
+    const CommandEnd end = folder.hedgehop(folder.arguments(GetParam(), "out", 2));
+    EXPECT_EQ(end.status, 0) << when << ": " << end.err;
+    EXPECT_THAT(differences(whole, folder.lasting_files("out")), IsEmpty()) << when;
+    std::filesystem::remove_all(folder.path() / "out");
+  }
+
+  SmallCampaign folder;
+};
+
+TEST_P(Disk, ThatFailsAtAnyCallIsReportedAndNothingIsLost) {
+  const auto whole = folder.fly_undisturbed(GetParam());
+  for (const std::string_view fault : {"full", "broken", "hiccup"}) {
+    const std::string words = fault == "full" ? "No space left on device" : "Input/output error";
+    for (const uint64_t at : calls_to_try()) {
+      const std::string when = fmt::format("{} from call {}", fault, at);
+      const CommandEnd end = fly(fault, at);
+      EXPECT_THAT(end.status, AnyOf(kFails, kInternalError)) << when << end.out << end.err;
+      EXPECT_THAT(end.out + end.err, HasSubstr(words)) << when;
+      EXPECT_THAT(complaints(end.err), SizeIs(end.status == kInternalError ? 1 : 0)) << when << ": " << end.err;
+      expect_recovery(whole, when);
+    }
+  }
+}
+
+TEST_P(Disk, ThatInterruptsAndWritesInPartsIsNoFault) {
+  const auto whole = folder.fly_undisturbed(GetParam());
+  const CommandEnd end = fly("interrupted", 0, 2);
+  EXPECT_EQ(end.status, 0) << end.out << end.err;
+  EXPECT_THAT(complaints(end.err), IsEmpty());
+  EXPECT_THAT(differences(whole, folder.lasting_files("out")), IsEmpty());
+}
+
+/// No file may grow past a limit: the error of writing, not its signal, must reach the user.
+TEST_P(Disk, ThatLimitsFilesEndsNoCampaignByASignal) {
+  const auto whole = folder.fly_undisturbed(GetParam());
+  const CommandEnd end = folder.shell("ulimit -f 4; " HEDGEHOP_PROGRAM " " + folder.arguments(GetParam(), "out", 1));
+  EXPECT_THAT(end.status, AnyOf(kFails, kInternalError)) << end.out << end.err;
+  EXPECT_THAT(end.out + end.err, HasSubstr("File too large"));
+  expect_recovery(whole, "limited");
+}
+
+/// What a user meets first: the folder cannot be written, which is known before anything is flown.
+TEST_P(Disk, ThatMayOnlyBeReadIsBadInputBeforeAnyFlight) {
+  const std::string line = "unshare -rm sh -c 'mkdir -p out && mount -t tmpfs -o ro none out && " HEDGEHOP_PROGRAM " " +
+                           folder.arguments(GetParam(), "out", 1) + "'";
+  if (folder.shell("unshare -rm sh -c 'mkdir -p out && mount -t tmpfs -o ro none out'").status != 0) {
+    GTEST_SKIP() << "no mounts here";
+  }
+  const CommandEnd end = folder.shell(line);
+  EXPECT_EQ(end.status, kBadInput);
+  EXPECT_THAT(end.err, ContainsRegex("^out: no results can be written there: .*Read-only file system\n$"));
+}
+
+/// A disk that really is full, at several sizes.
+TEST_P(Disk, ThatIsSmallIsReportedAndNothingIsLost) {
+  if (folder.shell("unshare -rm sh -c 'mkdir -p out && mount -t tmpfs -o size=64k none out'").status != 0) {
+    GTEST_SKIP() << "no mounts here";
+  }
+  const auto whole = folder.fly_undisturbed(GetParam());
+  for (const int kilobytes : {4, 80}) {
+    const CommandEnd end = folder.shell(
+        fmt::format("unshare -rm sh -c 'mkdir -p out && mount -t tmpfs -o size={}k none out && {{ {} {}; status=$?; cp "
+                    "-r out kept; exit $status; }}'",
+                    kilobytes, HEDGEHOP_PROGRAM, folder.arguments(GetParam(), "out", 1)));
+    EXPECT_THAT(end.status, AnyOf(kFails, kInternalError)) << kilobytes << end.out << end.err;
+    EXPECT_THAT(end.out + end.err, HasSubstr("No space left on device")) << kilobytes;
+    std::filesystem::remove_all(folder.path() / "out");
+    std::filesystem::rename(folder.path() / "kept", folder.path() / "out");
+    expect_recovery(whole, fmt::format("{} kB", kilobytes));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Campaign, Disk, ::testing::ValuesIn(SmallCampaign::kCommands),
+                         [](const auto& row) { return std::string(row.param); });
+
+/// One flight with film and page: the film is worth a warning, the rest an error; each call to a file once.
+TEST(DiskOfARun, ThatFailsAtAnyCallIsReported) {
+  const SmallCampaign folder;
+  const std::string run = HEDGEHOP_PROGRAM " run tiny.yaml --out out";
+  ASSERT_EQ(folder.shell(folder.on_failing_disk("out", "none", 0) + run).status, 0);
+  const uint64_t calls = folder.calls(),
+                 step = std::max<uint64_t>(1, calls / static_cast<uint64_t>(count_asked("HEDGEHOP_DISK_FAULTS", 5)));
+  for (uint64_t at = 1; at <= calls; at += step) {
+    std::filesystem::remove_all(folder.path() / "out");
+    const CommandEnd end = folder.shell(folder.on_failing_disk("out", "hiccup", at) + run);
+    const std::string when = fmt::format("call {} of {}: {}", at, calls, end.err);
+    EXPECT_THAT(end.status, AnyOf(0, kInternalError)) << when;
+    EXPECT_THAT(complaints(end.err), SizeIs(1)) << when;
+    EXPECT_THAT(end.err, HasSubstr("Input/output error")) << when;
+    EXPECT_EQ(end.err.find("warning: incomplete video") != std::string::npos, end.status == 0) << when;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+      EXPECT_THAT(entry.path().string(), Not(EndsWith(".part"))) << when;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hedgehop::sim

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tests/sim/campaign/campaign_folder.h"
+
+namespace hedgehop::sim {
+
+/// A batch, a sweep and a reproduction of four flights of a tenth of a second, and a disk that fails under them.
+class SmallCampaign : public CampaignFolder {
+ public:
+  SmallCampaign() {
+    write("gains.yaml", "scenario: tiny.yaml\nseeds: 1:2\nparameters: [{path: avoidance.speed, values: [1, 2]}]\n");
+    write("paper.yaml",
+          "title: small\nsource: nobody\ntuned_on: none\n"
+          "flights: [{scenario: tiny.yaml, seeds: 1:3}, {name: fast, scenario: tiny.yaml, seeds: 1, set: "
+          "[avoidance.speed=2]}]\n"
+          "rows: [{what: length, unit: m, flights: [tiny, fast], column: path_length_m, statistic: greatest}]\n");
+  }
+
+  static constexpr std::string_view kCommands[] = {"batch", "sweep", "reproduce"};
+
+  /// Arguments of one of kCommands: the same again goes on where the last one was interrupted.
+  static std::string arguments(std::string_view command, std::string_view out, int workers) {
+    const std::string options = fmt::format(" -j {} --out {}", workers, out);
+    if (command == "batch") return "batch tiny.yaml --seeds 1:4 --resume" + options;
+    return std::string(command) + (command == "sweep" ? " gains.yaml" : " paper.yaml") + options;
+  }
+
+  /// Flies a command undisturbed into the folder `out`, and returns what it leaves; the folder is gone then.
+  std::map<std::string, std::string> fly_undisturbed(std::string_view command) const {
+    const CommandEnd end =
+        shell(on_failing_disk("out", "none", 0) + HEDGEHOP_PROGRAM " " + arguments(command, "out", 2));
+    if (end.status != 0) throw std::runtime_error(end.err);
+    auto files = lasting_files("out");
+    std::filesystem::remove_all(path() / "out");
+    return files;
+  }
+
+  /// What is set before a command so that the `at`-th call below the folder `out` is met by a fault (failing_disk.cpp).
+  std::string on_failing_disk(std::string_view out, std::string_view fault, uint64_t at) const {
+    write("counter", std::string(2 * sizeof(uint64_t), '\0'));
+    // AddressSanitizer would insist on being the first library.
+    return fmt::format(
+        "ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD={} FAILING_DISK_FOLDER={} FAILING_DISK_COUNTER={} "
+        "FAILING_DISK_FAULT={} FAILING_DISK_AT={} ",
+        FAILING_DISK, (path() / out).string(), (path() / "counter").string(), fault, at);
+  }
+  /// Calls that the last command made below its folder.
+  uint64_t calls() const {
+    uint64_t count = 0;
+    std::memcpy(&count, read("counter").data(), sizeof count);
+    return count;
+  }
+
+  /// Every file below a folder, by its path in it: its text without what differs from run to run. Of a page and a
+  /// database, only that they are there.
+  std::map<std::string, std::string> lasting_files(std::string_view out) const {
+    std::map<std::string, std::string> files;
+    const std::filesystem::path folder = path() / out;
+    if (!std::filesystem::exists(folder)) return files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+      if (!entry.is_regular_file()) continue;
+      const std::string ending = entry.path().extension(), text = read_file_whole(entry.path());
+      std::string& lasting = files[entry.path().lexically_relative(folder)];
+      if (ending == ".json") lasting = lasting_part(nlohmann::ordered_json::parse(text)).dump(1);
+      if (ending == ".csv") lasting = text.find(",time.") == std::string::npos ? text : lasting_columns(text);
+      if (ending == ".yaml" || ending == ".md") lasting = text;
+    }
+    return files;
+  }
+
+ private:
+  static nlohmann::ordered_json lasting_part(nlohmann::ordered_json json) {
+    for (const char* time : {"decision_ms", "render_ms", "velocimeter_ms", "physics_ms", "realtime_factor", "wall_s"}) {
+      if (json.is_object()) json.erase(time);
+    }
+    for (auto& value : json) {
+      if (value.is_structured()) value = lasting_part(std::move(value));
+    }
+    return json;
+  }
+};
+
+/// Names of files whose text differs, or that only one side has.
+inline std::vector<std::string> differences(const std::map<std::string, std::string>& a,
+                                            const std::map<std::string, std::string>& b) {
+  std::vector<std::string> names;
+  for (const auto& [name, text] : a) {
+    if (const auto found = b.find(name); found == b.end() || found->second != text) names.push_back(name);
+  }
+  for (const auto& [name, text] : b) {
+    if (!a.contains(name)) names.push_back(name);
+  }
+  return names;
+}
+
+/// How often something is tried: as an environment variable says (scripts/soak), else `usual`.
+inline int count_asked(const char* variable, int usual) {
+  const char* const text = std::getenv(variable);
+  return text ? std::atoi(text) : usual;
+}
+
+}  // namespace hedgehop::sim
