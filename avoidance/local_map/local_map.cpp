@@ -149,12 +149,12 @@ class LocalMap final : public Module {
     map_.fade();
   }
 
-  /// By how much a moment of a path breaks what must be kept: distance from obstacles, and, if asked, from the unknown.
-  double fault(const Moment& moment, bool unknown_too) const {
+  /// By how much a moment of a path lacks distance from obstacles and, if asked, from the unknown.
+  Fault fault(const Moment& moment, bool unknown_too) const {
     const double margin_m = clearance_.margin_m + clearance_.margin_s * moment.v_W.norm();
-    double fault_m = std::max(0.0, clearance_.hull_m + margin_m - slice_.to_occupied_m(moment.p_W));
-    if (unknown_too) fault_m = std::max(fault_m, clearance_.hull_m - slice_.to_unknown_m(moment.p_W));
-    return fault_m;
+    Fault fault{.occupied_m = std::max(0.0, clearance_.hull_m + margin_m - slice_.to_occupied_m(moment.p_W))};
+    if (unknown_too) fault.unknown_m = std::max(0.0, clearance_.hull_m - slice_.to_unknown_m(moment.p_W));
+    return fault;
   }
 
   Decision decide(const Observation& observation, double t_s) {

@@ -38,21 +38,27 @@ std::vector<Moment> StopPlanner::predict(const Moment& now, const Eigen::Vector2
   return path;
 }
 
-StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& last_cmd_W, const Fault& fault,
+StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& last_cmd_W, const FaultAt& fault,
                                       const Threat& threat_m, const ToGoal& to_goal_m) const {
-  const double fault_now_m = fault(now);
+  // A vehicle that is too near already may leave by any path that comes no nearer to the same: what is occupied excuses
+  // nothing where it is unknown, and the other way round.
+  const Fault fault_now = fault(now);
+  const auto most_m = [](double now_m) { return now_m > 0.0 ? now_m + kSlackM : 0.0; };
+  const Fault most{most_m(fault_now.occupied_m), most_m(fault_now.unknown_m)};
   const std::optional<double> here_m = to_goal_m(now.p_W);
   Plan best;
   double best_cost = std::numeric_limits<double>::infinity();
   const auto consider = [&](const Eigen::Vector2d& v_cmd_W) {
     const std::vector<Moment> path = predict(now, last_cmd_W, v_cmd_W, kHoldS);
-    // A vehicle that is too near already may leave by any path that comes no nearer.
+    Fault end;
     for (const Moment& moment : path) {
-      if (fault(moment) > (fault_now_m > 0.0 ? fault_now_m + kSlackM : 0.0)) return;
+      end = fault(moment);
+      if (end.occupied_m > most.occupied_m || end.unknown_m > most.unknown_m) return;
     }
     const std::optional<double> there_m = to_goal_m(path.back().p_W);
     constexpr double kNowhereM = 1e4, kFaultPrice = 10.0, kThreatPrice = 30.0;
-    const double cost = there_m.value_or(kNowhereM) + kFaultPrice * fault(path.back()) + kThreatPrice * threat_m(path);
+    const double cost = there_m.value_or(kNowhereM) + kFaultPrice * std::max(end.occupied_m, end.unknown_m) +
+                        kThreatPrice * threat_m(path);
     if (cost >= best_cost) return;
     best_cost = cost;
     best = {v_cmd_W, true, here_m.value_or(kNowhereM) - there_m.value_or(kNowhereM), path};

@@ -60,28 +60,6 @@ TEST(Threat, IsWhatAStandingVehicleIsRunOverBy) {
   EXPECT_EQ(threat_m(stands, std::array{leaves}, clearance, 5.0), 0.0);
 }
 
-/// Two or three pillars that cross the route, timed to meet the vehicle.
-PointWorld traffic(uint64_t seed) {
-  std::mt19937_64 random(seed);
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-  };
-  PointWorld world;
-  world.width_px = 640;
-  world.height_px = 288;
-  world.radius_m = 0.65;
-  world.goal_W = {30.0, 0.0};
-  const int count = 2 + static_cast<int>(uniform(0.0, 2.0));
-  for (int k = 0; k < count; ++k) {
-    const double speed_mps = uniform(0.5, 3.0), azimuth = (uniform(0.0, 1.0) < 0.5 ? 1.0 : -1.0) * uniform(1.0, 2.1);
-    const Eigen::Vector2d v_W = speed_mps * Eigen::Vector2d(std::cos(azimuth), std::sin(azimuth));
-    const Eigen::Vector2d meets_W(uniform(8.0, 26.0), 0.0);
-    const double at_s = uniform(0.15, 0.8) * meets_W.x();
-    world.pillars.push_back({meets_W - at_s * v_W, uniform(0.3, 1.2), v_W});
-  }
-  return world;
-}
-
 void fly_traffic(uint64_t first, uint64_t last, double most_collided) {
   double collided = 0.0;
   for (uint64_t seed = first; seed <= last; ++seed) collided += traffic(seed).fly({}).clearance_m <= 0.0;

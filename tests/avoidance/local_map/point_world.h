@@ -35,6 +35,12 @@ class PointWorld {
     Eigen::Vector2d end_W = Eigen::Vector2d::Zero();
     std::string status;
     std::vector<std::string> statuses;
+    struct At {
+      double t_s;
+      Eigen::Vector2d p_W, v_W;
+      double heading_rad;
+    };
+    std::vector<At> track;  ///< one an image
   };
 
   static constexpr double kStepS = 0.1;
@@ -66,6 +72,7 @@ class PointWorld {
       const NavigationState navigation = level_flight({p_W.x(), p_W.y(), -height_m}, heading_rad, v_W);
       const Decision decision = module->update({t_ns, frames, navigation, {{goal_W.x(), goal_W.y(), -height_m}, 0.0}});
       flown.statuses.push_back(decision.status);
+      flown.track.push_back({flown.time_s, p_W, v_W, heading_rad});
       if (watch) watch(p_W, flown.time_s, decision, *module);
       // A decision is obeyed an image later.
       for (int part = 0; part < 5; ++part) {
@@ -159,6 +166,28 @@ inline PointWorld random_world(uint64_t seed) {
     world.walls.push_back(
         {from_W, from_W + uniform(3.0, 14.0) * Eigen::Vector2d(std::cos(azimuth_rad), std::sin(azimuth_rad))});
     if (!clear(kStartClearM)) world.walls.pop_back();
+  }
+  return world;
+}
+
+/// Two or three pillars that cross the route, timed to meet the vehicle.
+inline PointWorld traffic(uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+  };
+  PointWorld world;
+  world.width_px = 640;
+  world.height_px = 288;
+  world.radius_m = 0.65;
+  world.goal_W = {30.0, 0.0};
+  const int count = 2 + static_cast<int>(uniform(0.0, 2.0));
+  for (int k = 0; k < count; ++k) {
+    const double speed_mps = uniform(0.5, 3.0), azimuth = (uniform(0.0, 1.0) < 0.5 ? 1.0 : -1.0) * uniform(1.0, 2.1);
+    const Eigen::Vector2d v_W = speed_mps * Eigen::Vector2d(std::cos(azimuth), std::sin(azimuth));
+    const Eigen::Vector2d meets_W(uniform(8.0, 26.0), 0.0);
+    const double at_s = uniform(0.15, 0.8) * meets_W.x();
+    world.pillars.push_back({meets_W - at_s * v_W, uniform(0.3, 1.2), v_W});
   }
   return world;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 namespace hedgehop::avoidance::local_map {
 namespace {
@@ -11,8 +12,8 @@ constexpr Response kResponse{.delay_s = 0.2, .lag_s = 0.4, .acceleration_mps2 = 
 constexpr double kSpeedMps = 8.0;
 
 /// Free up to a line north; the goal lies beyond it.
-StopPlanner::Fault wall_at(double north_m) {
-  return [=](const Moment& m) { return std::max(0.0, m.p_W.x() - north_m); };
+StopPlanner::FaultAt wall_at(double north_m) {
+  return [=](const Moment& m) { return Fault{.occupied_m = std::max(0.0, m.p_W.x() - north_m)}; };
 }
 std::optional<double> north(const Eigen::Vector2d& p_W) { return 100.0 - p_W.x(); }
 
@@ -59,6 +60,35 @@ TEST(StopPlanner, AVehicleThatIsTooNearMovesAway) {
   const StopPlanner::Plan plan = planner.choose(now, Eigen::Vector2d::Zero(), wall_at(0.5), nobody, north);
   EXPECT_TRUE(plan.safe);
   EXPECT_LT(plan.v_cmd_W.x(), 0.0);
+}
+
+/// Half-planes: an obstacle and the unknown, whose edges lie `near_m` and `far_m` from the origin in two directions.
+TEST(StopPlanner, NearnessToTheOneNeverExcusesNearnessToTheOther) {
+  const StopPlanner planner(kResponse, kSpeedMps);
+  std::mt19937_64 random(1);
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+  };
+  for (int i = 0; i < 300; ++i) {
+    const bool occupied_first = i % 2 == 0;
+    const double near_m = uniform(-1.0, -0.1), far_m = uniform(0.0, 1.5);  // too near by up to 1 m already; not yet
+    const double azimuth = uniform(0.0, 2.0 * M_PI), other = azimuth + uniform(1.0, 2.0 * M_PI - 1.0);
+    const auto beyond_m = [](const Eigen::Vector2d& p_W, double turn, double edge_m) {
+      return std::max(0.0, p_W.dot(Eigen::Vector2d(std::cos(turn), std::sin(turn))) - edge_m);
+    };
+    const auto fault = [&](const Moment& m) {
+      const double first_m = beyond_m(m.p_W, azimuth, near_m), second_m = beyond_m(m.p_W, other, far_m);
+      return occupied_first ? Fault{first_m, second_m} : Fault{second_m, first_m};
+    };
+    const double toward = uniform(0.0, 2.0 * M_PI);
+    const auto to_goal_m = [&](const Eigen::Vector2d& p_W) -> std::optional<double> {
+      return 100.0 - p_W.dot(Eigen::Vector2d(std::cos(toward), std::sin(toward)));
+    };
+    const Moment now{0.0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+    const StopPlanner::Plan plan = planner.choose(now, Eigen::Vector2d::Zero(), fault, nobody, to_goal_m);
+    ASSERT_TRUE(plan.safe) << i;
+    for (const Moment& m : plan.path) ASSERT_EQ(beyond_m(m.p_W, other, far_m), 0.0) << i;
+  }
 }
 
 TEST(StopPlanner, PredictionsBrakeAtTheGivenRate) {
