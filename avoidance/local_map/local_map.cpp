@@ -11,6 +11,7 @@
 #include "avoidance/local_map/movers.h"
 #include "avoidance/local_map/route_field.h"
 #include "avoidance/local_map/stop_planner.h"
+#include "avoidance/local_map/velocity_obstacles.h"
 #include "sim/fields/bounds.h"
 #include "sim/fields/quantities.h"
 #include "vision/mapping/depth_blocks.h"
@@ -123,18 +124,22 @@ class LocalMap final : public Module {
     map_.integrate(blocks_, source_->geometry(), X_WC);
     clear(navigation.p_WB_est, clearance_.hull_m);
     closed_.update(t_s);
-    follow_movers(t_s, navigation.p_WB_est.head<2>());
+    follow_movers(t_s, X_WC);
     slice_.build(map_, band(height_W_), closed_);
   }
 
-  void follow_movers(double t_s, const Eigen::Vector2d& eye_W) {
+  void follow_movers(double t_s, const Eigen::Isometry3d& X_WC) {
     const Band tall = band(height_W_);
     surface_.clear();
     for (const vision::mapping::OccupancyMap::Hit& hit : map_.hits()) {
       if (hit.p_W.z() > tall.top_m && hit.p_W.z() < tall.bottom_m)
         surface_.push_back({hit.p_W.head<2>(), hit.was_free});
     }
-    tracker_->update(t_s, eye_W, surface_);
+    const auto along_W = [&](int u_px) -> Eigen::Vector2d {
+      const cv::Point pixel(u_px, static_cast<int>(source_->geometry().center_v_px));
+      return (X_WC.linear() * source_->geometry().ray(pixel)).head<2>().normalized();
+    };
+    tracker_->update(t_s, {X_WC.translation().head<2>(), along_W(0), along_W(source_->image().width - 1)}, surface_);
     movers_ = tracker_->movers();
   }
 

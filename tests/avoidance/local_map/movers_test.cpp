@@ -6,10 +6,13 @@
 #include <cmath>
 #include <random>
 
+#include "avoidance/local_map/velocity_obstacles.h"
 #include "tests/avoidance/local_map/point_world.h"
 
 namespace hedgehop::avoidance::local_map {
 namespace {
+
+const View kAllAhead{{0.0, 0.0}, {0.0, -1.0}, {0.0, 1.0}};  ///< from the origin, northward
 
 /// What a viewer in the origin sees of a disc, in space that it has seen but for the disc.
 std::vector<SurfacePoint> face_of(const Eigen::Vector2d& middle_W, double radius_m, const Eigen::Vector2d& before_W) {
@@ -28,7 +31,7 @@ TEST(Movers, KnowsTheVelocityOfWhatCrosses) {
     Movers movers({});
     Eigen::Vector2d p_W(12.0, -2.0);
     for (int image = 0; image < 20; ++image) {
-      movers.update(0.1 * image, Eigen::Vector2d::Zero(), face_of(p_W, 0.8, p_W - 0.1 * v_W));
+      movers.update(0.1 * image, kAllAhead, face_of(p_W, 0.8, p_W - 0.1 * v_W));
       p_W += 0.1 * v_W;
     }
     const std::vector<Mover> found = movers.movers();
@@ -44,7 +47,7 @@ TEST(Movers, FindsNothingWhereAllStands) {
     std::vector<SurfacePoint> points = face_of({10.0, 3.0}, 0.5, {10.0, 3.0});
     for (double y = -6.0; y < -6.0 + 0.2 * image; y += 0.2)
       points.push_back({{14.0, y}, false});  // a wall comes into view
-    movers.update(0.1 * image, Eigen::Vector2d::Zero(), points);
+    movers.update(0.1 * image, kAllAhead, points);
     EXPECT_TRUE(movers.movers().empty());
   }
 }
