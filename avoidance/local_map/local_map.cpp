@@ -121,11 +121,22 @@ class LocalMap final : public Module {
     center_W.z() = height_W_;
     map_.move(center_W);
     fade(navigation, t_s);
-    map_.integrate(blocks_, source_->geometry(), X_WC);
+    map_.integrate(blocks_, source_->geometry(), X_WC, where_movers_are(t_s));
     clear(navigation.p_WB_est, clearance_.hull_m);
     closed_.update(t_s);
     follow_movers(t_s, X_WC);
     slice_.build(map_, band(height_W_), closed_);
+  }
+
+  /// The movers' discs, a voxel wider, where they should be by now.
+  const std::vector<vision::mapping::OccupancyMap::Disc>& where_movers_are(double t_s) {
+    discs_.clear();
+    for (const Mover& mover : movers_) {
+      const double wide_m = mover.radius_m + mover.p_sigma_m + config_.voxel_m;
+      discs_.push_back({mover.p_W + (t_s - movers_at_s_) * mover.v_W, wide_m});
+    }
+    movers_at_s_ = t_s;
+    return discs_;
   }
 
   void follow_movers(double t_s, const Eigen::Isometry3d& X_WC) {
@@ -296,6 +307,8 @@ class LocalMap final : public Module {
   std::optional<Movers> tracker_;
   std::vector<SurfacePoint> surface_;  ///< of the last image, at the heights that are flown through
   std::vector<Mover> movers_;
+  double movers_at_s_ = 0.0;
+  std::vector<vision::mapping::OccupancyMap::Disc> discs_;
   Clearance clearance_;
   Band hull_;              ///< heights of the hull's top and bottom, from B
   double blind_m_ = 0.0;   ///< from B, within which the images do not show all that the vehicle will fly through
