@@ -18,7 +18,7 @@ constexpr double kAppearedShare = 0.1;
 constexpr int kEvidence = 3, kMostEvidence = 6;
 constexpr double kSlowestMps = 0.25, kSigmas = 3.0, kMovesSigmas = 2.0;
 constexpr double kShrinks = 0.1;  // of a radius, an image, towards a smaller one that is seen
-constexpr int kForgottenAfter = 40;  // images
+constexpr double kVaguestM = 1.5;  // 1-sigma of a position, beyond which a track would take up whatever comes by
 
 }  // namespace
 
@@ -141,7 +141,9 @@ void Movers::update(double t_s, const View& view, std::span<const SurfacePoint> 
     correct(track, *nearest, view);
     lumps.erase(nearest);
   }
-  std::erase_if(tracks_, [](const Track& track) { return track.unseen > kForgottenAfter; });
+  std::erase_if(tracks_, [](const Track& track) {
+    return track.unseen > 0 && track.covariance.diagonal().head<2>().maxCoeff() > kVaguestM * kVaguestM;
+  });
   for (const Lump& lump : lumps) {
     if (lump.appeared < kAppeared) continue;
     Track track{.state = Eigen::Vector4d::Zero(), .covariance = Eigen::Matrix4d::Zero(), .radius_m = lump.radius_m};
