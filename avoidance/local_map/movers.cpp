@@ -17,7 +17,7 @@ constexpr int kAppeared = 2;               // points of a lump where free space 
 constexpr double kAppearedShare = 0.1;
 constexpr int kEvidence = 3, kMostEvidence = 6;
 constexpr double kSlowestMps = 0.25, kSigmas = 3.0, kMovesSigmas = 2.0;
-constexpr double kShrinks = 0.1;  // of a radius, an image, towards a smaller one that is seen
+constexpr double kShrinks = 0.1;   // of a radius, an image, towards a smaller one that is seen
 constexpr double kVaguestM = 1.5;  // 1-sigma of a position, beyond which a track would take up whatever comes by
 
 }  // namespace
