@@ -17,8 +17,8 @@ constexpr int kAppeared = 2;               // points of a lump where free space 
 constexpr double kAppearedShare = 0.1;
 constexpr int kEvidence = 3, kMostEvidence = 6;
 constexpr double kSlowestMps = 0.25, kSigmas = 3.0, kMovesSigmas = 2.0;
-constexpr double kShrinks = 0.1;   // of a radius, an image, towards a smaller one that is seen
-constexpr double kVaguestM = 1.5;  // 1-sigma of a position, beyond which a track would take up whatever comes by
+constexpr double kShrinks = 0.1;  // of a radius, an image, towards a smaller one that is seen
+constexpr double kLostM = 1.5;    // 1-sigma of a position, beyond which a track would take up whatever comes by
 
 }  // namespace
 
@@ -142,7 +142,7 @@ void Movers::update(double t_s, const View& view, std::span<const SurfacePoint> 
     lumps.erase(nearest);
   }
   std::erase_if(tracks_, [](const Track& track) {
-    return track.unseen > 0 && track.covariance.diagonal().head<2>().maxCoeff() > kVaguestM * kVaguestM;
+    return track.unseen > 0 && track.covariance.diagonal().head<2>().maxCoeff() > kLostM * kLostM;
   });
   for (const Lump& lump : lumps) {
     if (lump.appeared < kAppeared) continue;

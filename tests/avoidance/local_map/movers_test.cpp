@@ -41,6 +41,29 @@ TEST(Movers, KnowsTheVelocityOfWhatCrosses) {
   }
 }
 
+// It leaves the view across its right edge, 40 degrees off: less and less of it is seen.
+TEST(Movers, WhatTheViewCutsIsFollowedAsTheWholeThatItWas) {
+  constexpr double kEdgeRad = 0.7, kRadiusM = 0.8;
+  const View view{{0.0, 0.0}, {std::cos(kEdgeRad), -std::sin(kEdgeRad)}, {std::cos(kEdgeRad), std::sin(kEdgeRad)}};
+  Movers movers({});
+  const Eigen::Vector2d v_W(0.0, 1.5);
+  Eigen::Vector2d p_W(10.0, 4.5);
+  int cut = 0;
+  for (int image = 0; image < 30; ++image, p_W += 0.1 * v_W) {
+    std::vector<SurfacePoint> seen = face_of(p_W, kRadiusM, p_W - 0.1 * v_W);
+    const size_t all = seen.size();
+    std::erase_if(seen, [&](const SurfacePoint& point) { return view.inside_right_m(point.p_W) < 0.0; });
+    movers.update(0.1 * image, view, seen);
+    if (seen.size() == all || seen.size() < 3) continue;
+    ++cut;
+    const std::vector<Mover> found = movers.movers();
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_LT((found[0].p_W - p_W).norm(), 0.4);
+    EXPECT_LT((found[0].v_W - v_W).norm(), 0.4);
+  }
+  EXPECT_GT(cut, 4);
+}
+
 TEST(Movers, FindsNothingWhereAllStands) {
   Movers movers({});
   for (int image = 0; image < 30; ++image) {

@@ -91,6 +91,46 @@ TEST(StopPlanner, NearnessToTheOneNeverExcusesNearnessToTheOther) {
   }
 }
 
+// At 6 m/s, 4 m before a wall that ends 1 m to the right: braking ends in it, turning aside leads round it.
+TEST(StopPlanner, WhereNoStopIsPossibleTheLeastBadPathIsTaken) {
+  const StopPlanner planner(kResponse, kSpeedMps);
+  const auto fault = [](const Moment& m) {
+    const double into_m = std::min(m.p_W.x() - 4.0, 1.0 - m.p_W.y());
+    return Fault{.occupied_m = m.p_W.x() < 5.0 ? std::max(0.0, into_m) : 0.0};
+  };
+  const auto worst_m = [&](const std::vector<Moment>& path) {
+    double worst = 0.0;
+    for (const Moment& m : path) worst = std::max(worst, fault(m).occupied_m);
+    return worst;
+  };
+  const Moment now{0.0, Eigen::Vector2d::Zero(), {6.0, 0.0}};
+  const StopPlanner::Plan plan = planner.choose(now, now.v_W, fault, nobody, north);
+  EXPECT_FALSE(plan.safe);
+  EXPECT_LT(worst_m(plan.path), 0.8 * worst_m(planner.predict(now, now.v_W, Eigen::Vector2d::Zero(), 0.0)));
+}
+
+// Whoever brakes for what crosses stops in its path; whoever goes on is past in time.
+TEST(StopPlanner, PassesBeforeWhatMovesInsteadOfStoppingInItsPath) {
+  const StopPlanner planner(kResponse, kSpeedMps);
+  const Moment now{0.0, Eigen::Vector2d::Zero(), {6.0, 0.0}};
+  const auto crosses = [](const std::vector<Moment>& path) {  // a band at 8 to 11 m, from 2.5 s on
+    double worst_m = 0.0;
+    for (const Moment& m : path) {
+      if (m.t_s > 2.5) worst_m = std::max(worst_m, 1.5 - std::abs(m.p_W.x() - 9.5));
+    }
+    return std::max(worst_m, 1.5 - std::abs(path.back().p_W.x() - 9.5));
+  };
+  const auto anywhere = [](const Moment&) { return Fault{}; };
+  const auto aside = [](const Eigen::Vector2d& p_W) -> std::optional<double> { return std::abs(p_W.y()) * 100.0; };
+  const StopPlanner::Plan plan = planner.choose(now, now.v_W, anywhere, crosses, aside);
+  EXPECT_GT(crosses(planner.predict(now, now.v_W, Eigen::Vector2d::Zero(), 0.4)), 0.0);
+  double least_m = 1e9;
+  for (const double hold_s : {0.4, 1.2, 2.4}) {
+    least_m = std::min(least_m, crosses(planner.predict(now, now.v_W, plan.v_cmd_W, hold_s)));
+  }
+  EXPECT_EQ(least_m, 0.0);
+}
+
 TEST(StopPlanner, PredictionsBrakeAtTheGivenRate) {
   const StopPlanner planner(kResponse, kSpeedMps);
   const Moment now{0.0, Eigen::Vector2d::Zero(), {6.0, 0.0}};

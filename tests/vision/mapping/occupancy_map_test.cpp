@@ -120,6 +120,33 @@ TEST(OccupancyMap, MovingKeepsWhatStaysAndForgetsWhatLeaves) {
   EXPECT_EQ(map.state(map.index(far_W)), State::unknown);
 }
 
+// A box that crosses the view at 1 m/s, in space seen free before.
+TEST(OccupancyMap, WhatMovesLeavesNoWakeBehindWhereItIsKnownToMove) {
+  const auto behind_the_box = [](bool known) {
+    OccupancyMap map(small());
+    std::mt19937_64 generator(1);
+    DepthBlocks blocks;
+    const Eigen::Vector3d eye_W(0.0, 0.0, -1.5);
+    const Eigen::Isometry3d X_WC = MappedWorld::looking(eye_W, 0.0);
+    map.reset(eye_W);
+    double east_m = 0.0;
+    for (int image = 0; image < 30; ++image) {
+      MappedWorld world;
+      std::vector<OccupancyMap::Disc> moving;
+      if (image >= 10) {
+        east_m = 0.1 * (image - 20);
+        world.boxes_W = {{Eigen::Vector3d(5.0, east_m - 0.5, -4.0), Eigen::Vector3d(6.0, east_m + 0.5, 0.0)}};
+        if (known) moving = {{{5.5, east_m}, 1.0}};
+      }
+      blocks.build(world.disparity16(X_WC, generator), {});
+      map.integrate(blocks, world.geometry, X_WC, moving);
+    }
+    return map.state(map.index({4.95, east_m - 0.95, -1.5}));  // left 0.45 s ago
+  };
+  EXPECT_NE(behind_the_box(false), State::free);
+  EXPECT_EQ(behind_the_box(true), State::free);
+}
+
 TEST(OccupancyMap, RowsAreTheStatesOfTheirVoxels) {
   const MappedWorld world = MappedWorld::random(3);
   const OccupancyMap map = mapped(world, 3);
