@@ -27,8 +27,8 @@ void LevelSlice::build(const vision::mapping::OccupancyMap& map, const Band& ban
   marked_.resize(cells_.size());
   std::ranges::transform(cells_, marked_.begin(), [](State s) { return static_cast<uint8_t>(s == State::occupied); });
   occupied_.build(marked_, side_, side_);
-  std::ranges::transform(cells_, marked_.begin(), [](State s) { return static_cast<uint8_t>(s != State::free); });
-  not_free_.build(marked_, side_, side_);
+  std::ranges::transform(cells_, marked_.begin(), [](State s) { return static_cast<uint8_t>(s == State::unknown); });
+  unknown_.build(marked_, side_, side_);
 }
 
 void LevelSlice::close(const ClosedCells& closed) {

@@ -32,11 +32,10 @@ class LevelSlice {
   }
   Eigen::Vector2d center(int row, int col) const { return corner_W_ + cell_m_ * Eigen::Vector2d(row + 0.5, col + 0.5); }
 
-  /// Distance to the nearest occupied, or not free, cell's edge, m: a lower bound for points of the cell.
+  /// Distance to the nearest occupied, or unknown, cell's edge, m: a lower bound for points of the cell.
   double to_occupied_m(const Eigen::Vector2d& p_W) const { return look_up(occupied_, p_W); }
-  double to_unknown_m(const Eigen::Vector2d& p_W) const { return look_up(not_free_, p_W); }
+  double to_unknown_m(const Eigen::Vector2d& p_W) const { return look_up(unknown_, p_W); }
   double to_occupied_m(int row, int col) const { return cell_m_ * (occupied_.at(row, col) - 0.5); }
-  double to_unknown_m(int row, int col) const { return cell_m_ * (not_free_.at(row, col) - 0.5); }
 
  private:
   double look_up(const vision::mapping::DistanceField& field, const Eigen::Vector2d& p_W) const {
@@ -51,7 +50,7 @@ class LevelSlice {
   Eigen::Vector2d corner_W_ = Eigen::Vector2d::Zero();
   std::vector<State> cells_, row_;
   std::vector<uint8_t> marked_;
-  vision::mapping::DistanceField occupied_, not_free_;
+  vision::mapping::DistanceField occupied_, unknown_;
 };
 
 }  // namespace hedgehop::avoidance::local_map

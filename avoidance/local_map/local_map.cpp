@@ -6,11 +6,13 @@
 
 #include "avoidance/heading.h"
 #include "avoidance/local_map/closed_cells.h"
+#include "avoidance/local_map/footprint.h"
 #include "avoidance/local_map/level_slice.h"
 #include "avoidance/local_map/local_map_overlay.h"
 #include "avoidance/local_map/movers.h"
 #include "avoidance/local_map/route_field.h"
 #include "avoidance/local_map/stop_planner.h"
+#include "avoidance/local_map/velocity_obstacles.h"
 #include "sim/fields/bounds.h"
 #include "sim/fields/quantities.h"
 #include "vision/mapping/depth_blocks.h"
@@ -25,7 +27,7 @@ using vision::mapping::DepthBlock;
 constexpr double kFadeSteps = 5.0;  // steps that free space is from unknown, at most
 constexpr double kHeightM = 0.3;    // above and below the vehicle's own height: altitude is held to this
 constexpr double kAheadM = 4.0;     // along the route, to which the nose points
-constexpr double kStandsMps = 0.3;
+constexpr double kStandsMps = 0.3, kHoversMps = 0.05;
 
 class LocalMap final : public Module {
  public:
@@ -49,6 +51,8 @@ class LocalMap final : public Module {
       hull_.bottom_m = std::max(hull_.bottom_m, part_B.max().z());
     }
     clearance_ = {limits.radius_m, config_.margin_m, config_.margin_time_s};
+    outline_ = Outline(limits);
+    footprint_ = Footprint(outline_, clearance_, config_.voxel_m);
     const double acceleration = limits.acceleration_mps2;
     planner_.emplace(Response{.delay_s = config_.delay_s,
                               .acceleration_mps2 = acceleration,
@@ -84,10 +88,10 @@ class LocalMap final : public Module {
   /// @param z_W  of B.
   Band band(double z_W) const { return {z_W + hull_.top_m - kHeightM, z_W + hull_.bottom_m + kHeightM}; }
 
-  /// Marks space around the vehicle as free, as high as its band.
-  void clear(const Eigen::Vector3d& p_WB, double radius_m) {
-    const Band tall = band(p_WB.z());
-    const Eigen::Vector3d middle_W(p_WB.x(), p_WB.y(), 0.5 * (tall.top_m + tall.bottom_m));
+  /// Marks space around a point as free, as high as the vehicle's band.
+  void clear(const Eigen::Vector3d& p_W, double radius_m) {
+    const Band tall = band(p_W.z());
+    const Eigen::Vector3d middle_W(p_W.x(), p_W.y(), 0.5 * (tall.top_m + tall.bottom_m));
     map_.clear_cylinder(middle_W, radius_m, 0.5 * (tall.bottom_m - tall.top_m));
   }
 
@@ -95,6 +99,7 @@ class LocalMap final : public Module {
   /// through, its width and its height.
   void begin(const NavigationState& navigation) {
     height_W_ = navigation.p_WB_est.z();
+    last_nose_rad_ = heading_rad(navigation.q_WB_est);
     map_.reset(navigation.p_WB_est);
     const double side_m = clearance_.hull_m + config_.voxel_m;
     const Band tall = band(0.0);
@@ -120,21 +125,39 @@ class LocalMap final : public Module {
     center_W.z() = height_W_;
     map_.move(center_W);
     fade(navigation, t_s);
-    map_.integrate(blocks_, source_->geometry(), X_WC);
-    clear(navigation.p_WB_est, clearance_.hull_m);
+    map_.integrate(blocks_, source_->geometry(), X_WC, where_movers_are(t_s));
+    const double heading = heading_rad(navigation.q_WB_est);
+    for (const Outline::Disc& disc : sweep(outline_, heading, heading, config_.voxel_m)) {
+      clear(navigation.p_WB_est + Eigen::Vector3d(disc.p_H.x(), disc.p_H.y(), 0.0), disc.radius_m);
+    }
     closed_.update(t_s);
-    follow_movers(t_s, navigation.p_WB_est.head<2>());
+    follow_movers(t_s, X_WC);
     slice_.build(map_, band(height_W_), closed_);
   }
 
-  void follow_movers(double t_s, const Eigen::Vector2d& eye_W) {
+  /// The movers' discs, a voxel wider, where they should be by now.
+  const std::vector<vision::mapping::OccupancyMap::Disc>& where_movers_are(double t_s) {
+    discs_.clear();
+    for (const Mover& mover : movers_) {
+      const double wide_m = mover.radius_m + mover.p_sigma_m + config_.voxel_m;
+      discs_.push_back({mover.p_W + (t_s - movers_at_s_) * mover.v_W, wide_m});
+    }
+    movers_at_s_ = t_s;
+    return discs_;
+  }
+
+  void follow_movers(double t_s, const Eigen::Isometry3d& X_WC) {
     const Band tall = band(height_W_);
     surface_.clear();
     for (const vision::mapping::OccupancyMap::Hit& hit : map_.hits()) {
       if (hit.p_W.z() > tall.top_m && hit.p_W.z() < tall.bottom_m)
         surface_.push_back({hit.p_W.head<2>(), hit.was_free});
     }
-    tracker_->update(t_s, eye_W, surface_);
+    const auto along_W = [&](int u_px) -> Eigen::Vector2d {
+      const cv::Point pixel(u_px, static_cast<int>(source_->geometry().center_v_px));
+      return (X_WC.linear() * source_->geometry().ray(pixel)).head<2>().normalized();
+    };
+    tracker_->update(t_s, {X_WC.translation().head<2>(), along_W(0), along_W(source_->image().width - 1)}, surface_);
     movers_ = tracker_->movers();
   }
 
@@ -149,13 +172,7 @@ class LocalMap final : public Module {
     map_.fade();
   }
 
-  /// By how much a moment of a path breaks what must be kept: distance from obstacles, and, if asked, from the unknown.
-  double fault(const Moment& moment, bool unknown_too) const {
-    const double margin_m = clearance_.margin_m + clearance_.margin_s * moment.v_W.norm();
-    double fault_m = std::max(0.0, clearance_.hull_m + margin_m - slice_.to_occupied_m(moment.p_W));
-    if (unknown_too) fault_m = std::max(fault_m, clearance_.hull_m - slice_.to_unknown_m(moment.p_W));
-    return fault_m;
-  }
+  Fault fault(const Moment& moment, bool unknown_too) const { return footprint_.fault(slice_, moment, unknown_too); }
 
   Decision decide(const Observation& observation, double t_s) {
     const NavigationState& navigation = observation.navigation;
@@ -166,6 +183,8 @@ class LocalMap final : public Module {
                  [&](const Eigen::Vector2d& edge_W) { return (goal_W - edge_W).norm(); });
     const auto to_goal_m = [&](const Eigen::Vector2d& at_W) { return route_.to_goal_m(at_W); };
     const auto threat = [&](const std::vector<Moment>& path) { return threat_m(path, movers_, clearance_, t_s); };
+    const double heading = heading_rad(navigation.q_WB_est);
+    footprint_.turn(heading, last_nose_rad_);
     plan_ = planner_->choose(
         now, last_cmd_W_, [&](const Moment& m) { return fault(m, true); }, threat, to_goal_m);
     const StopPlanner::Plan hoped = planner_->choose(
@@ -179,13 +198,16 @@ class LocalMap final : public Module {
     if (!held) look_W_.reset();
     if (held && !(look_W_ && is_unknown(*look_W_))) look_W_ = unknown_in_the_way(hoped.path);
     if (look_W_ && now.v_W.norm() < kStandsMps) back_off(now);
-    stare(now, heading_rad(navigation.q_WB_est), plan_, t_s);
+    stare(now, heading, plan_, t_s);
+    const double nose = nose_rad(observation, arrived, route_m.has_value());
+    last_nose_rad_ = footprint_.turn_as_far_as_free_rad(slice_, plan_.path, heading, nose);
+    if (last_nose_rad_ != nose && plan_.v_cmd_W.norm() < kHoversMps) make_room(now, heading, nose);
 
     Decision decision;
     VelocityCommand command;
     command.v_WB_W = plan_.v_cmd_W;
     command.altitude_m = -height_W_;
-    command.heading_rad = nose_rad(observation, arrived, route_m.has_value());
+    command.heading_rad = last_nose_rad_;
     decision.command = command;
     decision.status = arrived ? "arrive" : !plan_.safe ? "brake" : !route_m ? "stuck" : look_W_ ? "look" : "cruise";
     stuck_ += !route_m;
@@ -204,10 +226,26 @@ class LocalMap final : public Module {
   void back_off(const Moment& now) {
     const Eigen::Vector2d look_W = *look_W_;
     const auto too_near_m = [&](const Eigen::Vector2d& p_W) { return std::max(0.0, blind_m_ - (p_W - look_W).norm()); };
-    if (too_near_m(now.p_W) == 0.0) return;
+    escape(now, too_near_m);
+  }
+
+  /// Moves to where it may turn.
+  void make_room(const Moment& now, double from_rad, double to_rad) {
+    Footprint turned = footprint_;
+    turned.turn(from_rad, to_rad);
+    escape(now, [&](const Eigen::Vector2d& p_W) {
+      const Fault fault = turned.fault(slice_, {now.t_s, p_W, Eigen::Vector2d::Zero()}, true);
+      return std::max(fault.occupied_m, fault.unknown_m);
+    });
+  }
+
+  /// Plans to where something is less, instead of to the goal.
+  template <class Lacks>
+  void escape(const Moment& now, const Lacks& lacks_m) {
+    if (lacks_m(now.p_W) == 0.0) return;
     const auto threat = [&](const std::vector<Moment>& path) { return threat_m(path, movers_, clearance_, now.t_s); };
     plan_ = planner_->choose(
-        now, last_cmd_W_, [&](const Moment& m) { return fault(m, true); }, threat, too_near_m);
+        now, last_cmd_W_, [&](const Moment& m) { return fault(m, true); }, threat, lacks_m);
   }
 
   bool is_unknown(const Eigen::Vector2d& p_W) const {
@@ -217,8 +255,7 @@ class LocalMap final : public Module {
 
   /// The unknown cell nearest to where a path that ignores the unknown first comes too near to one.
   std::optional<Eigen::Vector2d> unknown_in_the_way(const std::vector<Moment>& path) const {
-    const auto first =
-        std::ranges::find_if(path, [&](const Moment& m) { return slice_.to_unknown_m(m.p_W) < clearance_.hull_m; });
+    const auto first = std::ranges::find_if(path, [&](const Moment& m) { return fault(m, true).unknown_m > 0.0; });
     if (first == path.end()) return std::nullopt;
     std::optional<Eigen::Vector2d> nearest;
     const Eigen::Vector2i here = slice_.cell(first->p_W);
@@ -291,10 +328,15 @@ class LocalMap final : public Module {
   std::optional<Movers> tracker_;
   std::vector<SurfacePoint> surface_;  ///< of the last image, at the heights that are flown through
   std::vector<Mover> movers_;
+  double movers_at_s_ = 0.0;
+  std::vector<vision::mapping::OccupancyMap::Disc> discs_;
   Clearance clearance_;
-  Band hull_;              ///< heights of the hull's top and bottom, from B
-  double blind_m_ = 0.0;   ///< from B, within which the images do not show all that the vehicle will fly through
-  double height_W_ = 0.0;  ///< z that is flown at
+  Outline outline_;
+  Footprint footprint_;
+  double last_nose_rad_ = 0.0;  ///< commanded
+  Band hull_;                   ///< heights of the hull's top and bottom, from B
+  double blind_m_ = 0.0;        ///< from B, within which the images do not show all that the vehicle will fly through
+  double height_W_ = 0.0;       ///< z that is flown at
   Eigen::Vector2d last_cmd_W_ = Eigen::Vector2d::Zero();
   std::optional<Eigen::Vector2d> look_W_;  ///< what is unknown and in the way
   std::optional<double> stares_since_s_;

@@ -1,8 +1,9 @@
 #include "avoidance/local_map/movers.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -15,13 +16,14 @@ constexpr double kFirstSpeedMps = 2.0;     // 1-sigma of a velocity before anyth
 constexpr int kAppeared = 2;               // points of a lump where free space was, at least
 constexpr double kAppearedShare = 0.1;
 constexpr int kEvidence = 3, kMostEvidence = 6;
-constexpr double kSlowestMps = 0.25, kSigmas = 3.0;
-constexpr int kForgottenAfter = 40;  // images
-constexpr double kForeseenS = 4.0;
+constexpr double kSlowestMps = 0.25, kSigmas = 3.0, kMovesSigmas = 2.0;
+constexpr double kStandsMps = 0.12, kStandsSigmas = 1.0;  // below, what moved is taken to stand
+constexpr double kShrinks = 0.1;  // of a radius, an image, towards a smaller one that is seen
+constexpr double kLostM = 1.5;    // 1-sigma of a position, beyond which a track would take up whatever comes by
 
 }  // namespace
 
-std::vector<Movers::Lump> Movers::lumps_of(std::span<const SurfacePoint> points) const {
+std::vector<Movers::Lump> Movers::lumps_of(const View& view, std::span<const SurfacePoint> points) const {
   // Cells of twice the spacing; those that touch belong together.
   const double cell_m = 2.0 * config_.spacing_m;
   std::map<std::pair<int, int>, std::vector<size_t>> cells;
@@ -46,17 +48,34 @@ std::vector<Movers::Lump> Movers::lumps_of(std::span<const SurfacePoint> points)
         for (int dy = -1; dy <= 1; ++dy) open.emplace_back(x + dx, y + dy);
       }
     }
-    Eigen::AlignedBox2d bounds;
-    Lump lump{Eigen::Vector2d::Zero(), 0.0, static_cast<int>(members.size()), 0};
+    Lump lump;
+    lump.points = static_cast<int>(members.size());
+    Eigen::Vector2d middle_W = Eigen::Vector2d::Zero();
+    for (const size_t i : members) middle_W += points[i].p_W / lump.points;
+    lump.sight_W = (middle_W - view.eye_W).normalized();
+    const Eigen::Vector2d right_W(-lump.sight_W.y(), lump.sight_W.x());
+    double near_m = std::numeric_limits<double>::infinity(), left_m = near_m, right_m = -near_m;
     for (const size_t i : members) {
-      bounds.extend(points[i].p_W);
+      const Eigen::Vector2d off_W = points[i].p_W - view.eye_W;
+      near_m = std::min(near_m, off_W.dot(lump.sight_W));
+      left_m = std::min(left_m, off_W.dot(right_W));
+      right_m = std::max(right_m, off_W.dot(right_W));
       lump.appeared += points[i].was_free;
+      lump.cut_left |= view.inside_left_m(points[i].p_W) < cell_m;
+      lump.cut_right |= view.inside_right_m(points[i].p_W) < cell_m;
     }
-    lump.p_W = bounds.center();
-    lump.radius_m = 0.5 * bounds.diagonal().norm();
+    lump.radius_m = 0.5 * (right_m - left_m + config_.spacing_m);
+    lump.near_W = view.eye_W + near_m * lump.sight_W + 0.5 * (left_m + right_m) * right_W;
     if (lump.radius_m <= kWidestM) lumps.push_back(lump);
   }
   return lumps;
+}
+
+/// The middle of the disc that shows a lump: as deep as wide, and beyond the edge of the view where that cuts it.
+Eigen::Vector2d Movers::Lump::middle_W(double disc_m) const {
+  const Eigen::Vector2d right_W(-sight_W.y(), sight_W.x());
+  const double hidden_m = std::max(0.0, disc_m - radius_m);
+  return near_W + disc_m * sight_W + hidden_m * ((cut_right ? 1.0 : 0.0) - (cut_left ? 1.0 : 0.0)) * right_W;
 }
 
 Eigen::Matrix2d Movers::covariance_m2(const Eigen::Vector2d& p_W, const Eigen::Vector2d& eye_W) const {
@@ -80,46 +99,58 @@ void Movers::predict(double dt_s) {
   }
 }
 
-void Movers::correct(Track& track, const Lump& lump, const Eigen::Vector2d& eye_W) const {
-  const Eigen::Matrix2d innovation = track.covariance.topLeftCorner<2, 2>() + covariance_m2(lump.p_W, eye_W);
+void Movers::correct(Track& track, const Lump& lump, const View& view) const {
+  const bool whole = !lump.cut_left && !lump.cut_right;
+  if (lump.radius_m > track.radius_m) {
+    track.radius_m = lump.radius_m;
+  } else if (whole) {
+    track.radius_m += kShrinks * (lump.radius_m - track.radius_m);
+  }
+  const Eigen::Vector2d p_W = lump.middle_W(track.radius_m);
+  const Eigen::Matrix2d innovation = track.covariance.topLeftCorner<2, 2>() + covariance_m2(p_W, view.eye_W);
   const Eigen::Matrix<double, 4, 2> gain = track.covariance.leftCols<2>() * innovation.inverse();
-  track.state += gain * (lump.p_W - track.state.head<2>());
+  track.state += gain * (p_W - track.state.head<2>());
   track.covariance -= (gain * track.covariance.topRows<2>()).eval();
-  track.radius_m = std::max(lump.radius_m, 0.9 * track.radius_m);
   const bool appears = lump.appeared >= kAppeared && lump.appeared >= kAppearedShare * lump.points;
   track.evidence = std::clamp(track.evidence + (appears ? 1 : -1), 0, kMostEvidence);
   track.unseen = 0;
   // Whether it stands: the Mahalanobis distance of no motion.
   const Eigen::Vector2d v_W = track.state.tail<2>();
   const double sigmas = std::sqrt(v_W.dot(track.covariance.bottomRightCorner<2, 2>().inverse() * v_W));
-  const bool moves = v_W.norm() > kSlowestMps && sigmas > kSigmas;
+  const bool moves = v_W.norm() > kSlowestMps && sigmas > kMovesSigmas;
+  const bool stands = v_W.norm() < kStandsMps || sigmas < kStandsSigmas;
   if (moves && track.evidence >= kEvidence) track.is_mover = true;
-  if (!moves || track.evidence == 0) track.is_mover = false;
+  if (stands || track.evidence == 0) track.is_mover = false;
 }
 
-void Movers::update(double t_s, const Eigen::Vector2d& eye_W, std::span<const SurfacePoint> points) {
+void Movers::update(double t_s, const View& view, std::span<const SurfacePoint> points) {
   predict(t_s - t_s_);
   t_s_ = t_s;
-  std::vector<Lump> lumps = lumps_of(points);
+  std::vector<Lump> lumps = lumps_of(view, points);
   for (Track& track : tracks_) {
     // The nearest lump, as far as the track may have come.
-    const auto away_m = [&](const Lump& lump) { return (lump.p_W - track.state.head<2>()).norm(); };
+    const auto off_of = [&](const Lump& lump) -> Eigen::Vector2d {
+      return lump.middle_W(std::max(track.radius_m, lump.radius_m)) - track.state.head<2>();
+    };
+    const auto away_m = [&](const Lump& lump) { return off_of(lump).norm(); };
     const auto nearest = std::ranges::min_element(lumps, {}, away_m);
     ++track.unseen;
     if (nearest == lumps.end()) continue;
-    const Eigen::Matrix2d spread = track.covariance.topLeftCorner<2, 2>() + covariance_m2(nearest->p_W, eye_W);
-    const Eigen::Vector2d off_W = nearest->p_W - track.state.head<2>();
+    const Eigen::Matrix2d spread = track.covariance.topLeftCorner<2, 2>() + covariance_m2(nearest->near_W, view.eye_W);
+    const Eigen::Vector2d off_W = off_of(*nearest);
     const double sigmas = std::sqrt(off_W.dot(spread.inverse() * off_W));
     if (sigmas > kSigmas && off_W.norm() > 0.5 * track.radius_m) continue;
-    correct(track, *nearest, eye_W);
+    correct(track, *nearest, view);
     lumps.erase(nearest);
   }
-  std::erase_if(tracks_, [](const Track& track) { return track.unseen > kForgottenAfter; });
+  std::erase_if(tracks_, [](const Track& track) {
+    return track.unseen > 0 && track.covariance.diagonal().head<2>().maxCoeff() > kLostM * kLostM;
+  });
   for (const Lump& lump : lumps) {
     if (lump.appeared < kAppeared) continue;
     Track track{.state = Eigen::Vector4d::Zero(), .covariance = Eigen::Matrix4d::Zero(), .radius_m = lump.radius_m};
-    track.state.head<2>() = lump.p_W;
-    track.covariance.topLeftCorner<2, 2>() = covariance_m2(lump.p_W, eye_W);
+    track.state.head<2>() = lump.middle_W(lump.radius_m);
+    track.covariance.topLeftCorner<2, 2>() = covariance_m2(lump.near_W, view.eye_W);
     track.covariance.bottomRightCorner<2, 2>() = kFirstSpeedMps * kFirstSpeedMps * Eigen::Matrix2d::Identity();
     tracks_.push_back(track);
   }
@@ -134,25 +165,6 @@ std::vector<Mover> Movers::movers() const {
                       std::sqrt(variances.head<2>().maxCoeff()), std::sqrt(variances.tail<2>().maxCoeff())});
   }
   return movers;
-}
-
-double threat_m(std::span<const Moment> path, std::span<const Mover> movers, const Clearance& clearance, double t_s) {
-  double worst_m = 0.0;
-  const auto meet = [&](const Moment& moment) {
-    const double margin_m = clearance.margin_m + clearance.margin_s * moment.v_W.norm();
-    for (const Mover& mover : movers) {
-      const double dt_s = moment.t_s - t_s;
-      const double sigma_m = std::min(mover.p_sigma_m + mover.v_sigma_mps * std::max(0.0, dt_s), 1.0);
-      const double away_m = (moment.p_W - mover.p_W - dt_s * mover.v_W).norm() - mover.radius_m;
-      worst_m = std::max(worst_m, clearance.hull_m + margin_m + sigma_m - away_m);
-    }
-  };
-  if (movers.empty()) return 0.0;
-  for (const Moment& moment : path) meet(moment);
-  constexpr double kStepS = 0.1;
-  Moment stands{path.back().t_s, path.back().p_W, Eigen::Vector2d::Zero()};
-  while ((stands.t_s += kStepS) < path.front().t_s + kForeseenS) meet(stands);
-  return worst_m;
 }
 
 }  // namespace hedgehop::avoidance::local_map

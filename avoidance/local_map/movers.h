@@ -4,14 +4,24 @@
 #include <span>
 #include <vector>
 
-#include "avoidance/local_map/stop_planner.h"
-
 namespace hedgehop::avoidance::local_map {
 
 /// A point of an obstacle's surface, in the plane of flight.
 struct SurfacePoint {
   Eigen::Vector2d p_W;
   bool was_free;  ///< lies where free space was seen before
+};
+
+/// What an image shows of the plane of flight: a sector.
+struct View {
+  Eigen::Vector2d eye_W, left_W, right_W;  ///< its corner; along its edges, of length 1
+
+  /// From an edge to a point, m: positive inside.
+  double inside_left_m(const Eigen::Vector2d& p_W) const { return cross(left_W, p_W - eye_W); }
+  double inside_right_m(const Eigen::Vector2d& p_W) const { return cross(p_W - eye_W, right_W); }
+
+ private:
+  static double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 };
 
 /// What moves, as a disc.
@@ -24,9 +34,6 @@ struct Mover {
 /// Finds and follows what moves: surfaces that appear in space seen to be free. Lumps of them are followed by a filter
 /// of constant velocity each, and count as movers once they went on appearing and their velocity stands out of its
 /// error.
-/// - A mover forbids what leads into the disc where it will be: velocity obstacles, [FioriniShiller1998] sec. 3.
-/// Differs: paths end in a stop, are compared with the discs for a few seconds only, and the least threat is chosen
-/// where none is free of it.
 class Movers {
  public:
   struct Config {
@@ -35,17 +42,20 @@ class Movers {
   };
   explicit Movers(const Config& config) : config_(config) {}
 
-  /// Takes an image's points. @param eye_W  where it was taken from. @param t_s  rises from call to call.
-  void update(double t_s, const Eigen::Vector2d& eye_W, std::span<const SurfacePoint> points);
+  /// Takes an image's points. @param t_s  rises from call to call.
+  void update(double t_s, const View& view, std::span<const SurfacePoint> points);
 
   /// At the time of the last image.
   std::vector<Mover> movers() const;
 
  private:
   struct Lump {
-    Eigen::Vector2d p_W;
-    double radius_m;
-    int points, appeared;
+    Eigen::Vector2d near_W, sight_W;  ///< the middle of the face that is seen; from the eye to it, of length 1
+    double radius_m = 0.0;            ///< half as much as it is wide, across
+    int points = 0, appeared = 0;
+    bool cut_left = false, cut_right = false;  ///< by the view's edge
+
+    Eigen::Vector2d middle_W(double disc_m) const;
   };
   struct Track {
     Eigen::Vector4d state;  ///< p_W, v_W
@@ -55,9 +65,9 @@ class Movers {
     bool is_mover = false;
   };
 
-  std::vector<Lump> lumps_of(std::span<const SurfacePoint> points) const;
+  std::vector<Lump> lumps_of(const View& view, std::span<const SurfacePoint> points) const;
   void predict(double dt_s);
-  void correct(Track& track, const Lump& lump, const Eigen::Vector2d& eye_W) const;
+  void correct(Track& track, const Lump& lump, const View& view) const;
   /// Of a lump's middle: exact across the line of sight, vague along it.
   Eigen::Matrix2d covariance_m2(const Eigen::Vector2d& p_W, const Eigen::Vector2d& eye_W) const;
 
@@ -65,10 +75,5 @@ class Movers {
   std::vector<Track> tracks_;
   double t_s_ = 0.0;
 };
-
-/// By how much a path comes nearer to movers than it should, at worst, m: 0 where it never does. The vehicle stands
-/// where the path ends, and the movers go on, up to 4 s after the path's begin.
-/// @param clearance  as of what stands still. @param t_s  when the movers are where they say.
-double threat_m(std::span<const Moment> path, std::span<const Mover> movers, const Clearance& clearance, double t_s);
 
 }  // namespace hedgehop::avoidance::local_map

@@ -115,32 +115,33 @@ std::optional<double> RouteField::to_goal_m(const Eigen::Vector2d& p_W) const {
       best = std::min(best, cost(row, col) + away * price_[static_cast<size_t>(row * slice_->side() + col)]);
     }
   }
-  if (!std::isfinite(best)) return back_to_route_m(here);
+  if (!std::isfinite(best)) return back_to_route_m(p_W);
   return best * slice_->cell_m() / kStraight;
 }
 
 /// From a cell that routes keep out of: the way back to where they pass, through what is not occupied. It is dear, lest
 /// it be through a gap that is too narrow.
-std::optional<double> RouteField::back_to_route_m(const Eigen::Vector2i& from) const {
-  constexpr int kReach = 4, kSide = 2 * kReach + 1;
+std::optional<double> RouteField::back_to_route_m(const Eigen::Vector2d& p_W) const {
+  constexpr int kReach = 8, kSide = 2 * kReach + 1;
   constexpr double kDear = 10.0;
-  std::array<int, kSide * kSide> steps{};  // from the start, plus one; 0 not visited
+  const Eigen::Vector2i from = slice_->cell(p_W);
+  std::array<bool, kSide * kSide> visited{};
   std::vector<Eigen::Vector2i> open = {from};
-  steps[kReach * kSide + kReach] = 1;
+  visited[kReach * kSide + kReach] = true;
   for (size_t i = 0; i < open.size(); ++i) {
     const Eigen::Vector2i at = open[i], off = at - from + Eigen::Vector2i::Constant(kReach);
     if (!slice_->contains(at.x(), at.y())) continue;
-    const int so_far = steps[static_cast<size_t>(off.x() * kSide + off.y())];
     if (cost(at.x(), at.y()) < kNever) {
-      return (cost(at.x(), at.y()) + kDear * kStraight * so_far) * slice_->cell_m() / kStraight;
+      const double away_m = (slice_->center(at.x(), at.y()) - p_W).norm();
+      return cost(at.x(), at.y()) * slice_->cell_m() / kStraight + kDear * away_m;
     }
     if (i > 0 && slice_->at(at.x(), at.y()) == LevelSlice::State::occupied) continue;
     for (const Step& step : kSteps) {
       const Eigen::Vector2i next = off + Eigen::Vector2i(step.row, step.col);
       if (next.minCoeff() < 0 || next.maxCoeff() >= kSide) continue;
-      int& then = steps[static_cast<size_t>(next.x() * kSide + next.y())];
-      if (then != 0) continue;
-      then = so_far + 1;
+      bool& seen = visited[static_cast<size_t>(next.x() * kSide + next.y())];
+      if (seen) continue;
+      seen = true;
       open.push_back(at + Eigen::Vector2i(step.row, step.col));
     }
   }

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace hedgehop::avoidance::local_map {
 namespace {
 
 constexpr double kStepS = 0.1;
 constexpr double kHoldS = 0.4;  // how long a command is held in a plan: longer than from image to image
+constexpr std::array<double, 2> kLongHoldsS = {1.2, 2.4};  // to pass before what moves, or to flee from it
 constexpr double kStoppedMps = 0.05;
 constexpr int kDirections = 36;
 constexpr std::array<double, 6> kShares = {1.0, 0.75, 0.5, 0.35, 0.2, 0.1};
@@ -38,24 +40,53 @@ std::vector<Moment> StopPlanner::predict(const Moment& now, const Eigen::Vector2
   return path;
 }
 
-StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& last_cmd_W, const Fault& fault,
+StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& last_cmd_W, const FaultAt& fault,
                                       const Threat& threat_m, const ToGoal& to_goal_m) const {
-  const double fault_now_m = fault(now);
-  const std::optional<double> here_m = to_goal_m(now.p_W);
-  Plan best;
-  double best_cost = std::numeric_limits<double>::infinity();
-  const auto consider = [&](const Eigen::Vector2d& v_cmd_W) {
-    const std::vector<Moment> path = predict(now, last_cmd_W, v_cmd_W, kHoldS);
-    // A vehicle that is too near already may leave by any path that comes no nearer.
+  constexpr double kNever = std::numeric_limits<double>::infinity(), kNowhereM = 1e4;
+  // A vehicle that is too near already may leave by any path that comes no nearer to the same: what is occupied excuses
+  // nothing where it is unknown, and the other way round.
+  const Fault fault_now = fault(now);
+  const auto most_m = [](double now_m) { return now_m > 0.0 ? now_m + kSlackM : 0.0; };
+  const Fault most{most_m(fault_now.occupied_m), most_m(fault_now.unknown_m)};
+  const auto excess_m = [&](const std::vector<Moment>& path, double enough_m) {
+    double worst_m = 0.0;
     for (const Moment& moment : path) {
-      if (fault(moment) > (fault_now_m > 0.0 ? fault_now_m + kSlackM : 0.0)) return;
+      const Fault there = fault(moment);
+      worst_m = std::max({worst_m, there.occupied_m - most.occupied_m, there.unknown_m - most.unknown_m});
+      if (worst_m > enough_m) break;
     }
-    const std::optional<double> there_m = to_goal_m(path.back().p_W);
-    constexpr double kNowhereM = 1e4, kFaultPrice = 10.0, kThreatPrice = 30.0;
-    const double cost = there_m.value_or(kNowhereM) + kFaultPrice * fault(path.back()) + kThreatPrice * threat_m(path);
+    return worst_m;
+  };
+  // A velocity is as threatened as the safest of the paths that begin with it.
+  const auto threatened_m = [&](const Eigen::Vector2d& v_cmd_W, const std::vector<Moment>& path) {
+    double least_m = threat_m(path);
+    for (const double hold_s : kLongHoldsS) {
+      if (least_m == 0.0) break;
+      const std::vector<Moment> longer = predict(now, last_cmd_W, v_cmd_W, hold_s);
+      if (excess_m(longer, 0.0) == 0.0) least_m = std::min(least_m, threat_m(longer));
+    }
+    return least_m;
+  };
+  const double here_m = to_goal_m(now.p_W).value_or(kNowhereM);
+  Plan best;
+  double best_cost = kNever, least_bad_m = kNever;
+  const auto consider = [&](const Eigen::Vector2d& v_cmd_W) {
+    std::vector<Moment> path = predict(now, last_cmd_W, v_cmd_W, kHoldS);
+    const double bad_m = excess_m(path, best.safe ? 0.0 : least_bad_m);
+    if (bad_m > 0.0) {  // to be flown only where nothing else is left
+      if (best.safe || bad_m >= least_bad_m) return;
+      least_bad_m = bad_m;
+      best = {v_cmd_W, false, 0.0, std::move(path)};
+      return;
+    }
+    const Fault end = fault(path.back());
+    const double there_m = to_goal_m(path.back().p_W).value_or(kNowhereM);
+    constexpr double kFaultPrice = 10.0, kThreatPrice = 30.0;
+    double cost = there_m + kFaultPrice * std::max(end.occupied_m, end.unknown_m);
+    if (cost < best_cost) cost += kThreatPrice * threatened_m(v_cmd_W, path);
     if (cost >= best_cost) return;
     best_cost = cost;
-    best = {v_cmd_W, true, here_m.value_or(kNowhereM) - there_m.value_or(kNowhereM), path};
+    best = {v_cmd_W, true, here_m - there_m, std::move(path)};
   };
   consider(Eigen::Vector2d::Zero());
   for (int i = 0; i < kDirections; ++i) {
@@ -63,7 +94,6 @@ StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& 
     const Eigen::Vector2d direction_W(std::cos(azimuth_rad), std::sin(azimuth_rad));
     for (const double share : kShares) consider(share * speed_mps_ * direction_W);
   }
-  if (!best.safe) best.path = predict(now, last_cmd_W, Eigen::Vector2d::Zero(), 0.0);
   return best;
 }
 

@@ -30,6 +30,12 @@ struct Moment {
   Eigen::Vector2d p_W, v_W;
 };
 
+/// By how much a moment of a path lacks distance from what is occupied and from what is unknown, m; 0 where it does
+/// not.
+struct Fault {
+  double occupied_m = 0.0, unknown_m = 0.0;
+};
+
 /// Chooses the velocity to command: the one whose stop lies nearest to the goal, among those after which the vehicle,
 /// should it brake then, stays to its full stop in space seen to be free.
 /// - Velocities are searched, and those that could not stop in time not admitted: [Fox1997] sec. on the dynamic window.
@@ -45,8 +51,8 @@ class StopPlanner {
     double worth_m = 0.0;                               ///< how much nearer to the goal it stops than the vehicle is
     std::vector<Moment> path;                           ///< up to the stop
   };
-  /// How much is wrong at a moment of a path: 0 where it keeps its distance, else by how many m it does not.
-  using Fault = std::function<double(const Moment&)>;
+  /// What is wrong at a moment of a path.
+  using FaultAt = std::function<Fault(const Moment&)>;
   /// By how much a path comes too near to what moves, at worst, m.
   using Threat = std::function<double(const std::vector<Moment>&)>;
   /// Distance to the goal along the route, m; nothing where there is none.
@@ -56,7 +62,7 @@ class StopPlanner {
 
   /// @param now  position and velocity when the image was taken. @param last_cmd_W  what is being obeyed still.
   /// What moves is got away from as far as it can be: no stop is safe from it.
-  Plan choose(const Moment& now, const Eigen::Vector2d& last_cmd_W, const Fault& fault, const Threat& threat_m,
+  Plan choose(const Moment& now, const Eigen::Vector2d& last_cmd_W, const FaultAt& fault, const Threat& threat_m,
               const ToGoal& to_goal_m) const;
 
   /// The path that a command leads to when it is held for `hold_s` and the vehicle then brakes.

@@ -81,9 +81,9 @@ void OccupancyMap::move(const Eigen::Vector3d& center_W) {
 }
 
 void OccupancyMap::integrate(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry,
-                             const Eigen::Isometry3d& X_WC) {
+                             const Eigen::Isometry3d& X_WC, std::span<const Disc> moving) {
   find_clear(blocks, geometry);
-  add_hits(blocks, geometry, X_WC);
+  add_hits(blocks, geometry, X_WC, moving);
   add_misses(blocks, geometry, X_WC);
   for (const size_t slot : hit_slots_) hit_[slot] = 0;
 }
@@ -111,7 +111,7 @@ void OccupancyMap::find_clear(const DepthBlocks& blocks, const stereo::StereoGeo
 
 /// Endpoints of rays; each voxel counts once an image, however many blocks end in it.
 void OccupancyMap::add_hits(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry,
-                            const Eigen::Isometry3d& X_WC) {
+                            const Eigen::Isometry3d& X_WC, std::span<const Disc> moving) {
   hits_.clear();
   hit_slots_.clear();
   // z^2 sigma_px / (f b) = sigma_m
@@ -132,6 +132,8 @@ void OccupancyMap::add_hits(const DepthBlocks& blocks, const stereo::StereoGeome
       if (hit_[at]) continue;
       hits_.push_back({p_W, log_odds_[at] <= kFreeBelow});
       if (block.near16 < placed16) continue;
+      const auto holds = [&](const Disc& disc) { return (p_W.head<2>() - disc.p_W).norm() < disc.radius_m; };
+      if (std::ranges::any_of(moving, holds)) continue;
       hit_[at] = 1;
       hit_slots_.push_back(at);
       log_odds_[at] = static_cast<int8_t>(std::min(kMost, log_odds_[at] + kHit));

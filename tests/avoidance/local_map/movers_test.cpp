@@ -6,10 +6,13 @@
 #include <cmath>
 #include <random>
 
+#include "avoidance/local_map/velocity_obstacles.h"
 #include "tests/avoidance/local_map/point_world.h"
 
 namespace hedgehop::avoidance::local_map {
 namespace {
+
+const View kAllAhead{{0.0, 0.0}, {0.0, -1.0}, {0.0, 1.0}};  ///< from the origin, northward
 
 /// What a viewer in the origin sees of a disc, in space that it has seen but for the disc.
 std::vector<SurfacePoint> face_of(const Eigen::Vector2d& middle_W, double radius_m, const Eigen::Vector2d& before_W) {
@@ -28,7 +31,7 @@ TEST(Movers, KnowsTheVelocityOfWhatCrosses) {
     Movers movers({});
     Eigen::Vector2d p_W(12.0, -2.0);
     for (int image = 0; image < 20; ++image) {
-      movers.update(0.1 * image, Eigen::Vector2d::Zero(), face_of(p_W, 0.8, p_W - 0.1 * v_W));
+      movers.update(0.1 * image, kAllAhead, face_of(p_W, 0.8, p_W - 0.1 * v_W));
       p_W += 0.1 * v_W;
     }
     const std::vector<Mover> found = movers.movers();
@@ -38,13 +41,36 @@ TEST(Movers, KnowsTheVelocityOfWhatCrosses) {
   }
 }
 
+// It leaves the view across its right edge, 40 degrees off: less and less of it is seen.
+TEST(Movers, WhatTheViewCutsIsFollowedAsTheWholeThatItWas) {
+  constexpr double kEdgeRad = 0.7, kRadiusM = 0.8;
+  const View view{{0.0, 0.0}, {std::cos(kEdgeRad), -std::sin(kEdgeRad)}, {std::cos(kEdgeRad), std::sin(kEdgeRad)}};
+  Movers movers({});
+  const Eigen::Vector2d v_W(0.0, 1.5);
+  Eigen::Vector2d p_W(10.0, 4.5);
+  int cut = 0;
+  for (int image = 0; image < 30; ++image, p_W += 0.1 * v_W) {
+    std::vector<SurfacePoint> seen = face_of(p_W, kRadiusM, p_W - 0.1 * v_W);
+    const size_t all = seen.size();
+    std::erase_if(seen, [&](const SurfacePoint& point) { return view.inside_right_m(point.p_W) < 0.0; });
+    movers.update(0.1 * image, view, seen);
+    if (seen.size() == all || seen.size() < 3) continue;
+    ++cut;
+    const std::vector<Mover> found = movers.movers();
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_LT((found[0].p_W - p_W).norm(), 0.4);
+    EXPECT_LT((found[0].v_W - v_W).norm(), 0.4);
+  }
+  EXPECT_GT(cut, 4);
+}
+
 TEST(Movers, FindsNothingWhereAllStands) {
   Movers movers({});
   for (int image = 0; image < 30; ++image) {
     std::vector<SurfacePoint> points = face_of({10.0, 3.0}, 0.5, {10.0, 3.0});
     for (double y = -6.0; y < -6.0 + 0.2 * image; y += 0.2)
       points.push_back({{14.0, y}, false});  // a wall comes into view
-    movers.update(0.1 * image, Eigen::Vector2d::Zero(), points);
+    movers.update(0.1 * image, kAllAhead, points);
     EXPECT_TRUE(movers.movers().empty());
   }
 }
@@ -58,28 +84,6 @@ TEST(Threat, IsWhatAStandingVehicleIsRunOverBy) {
   EXPECT_EQ(threat_m(stands, std::array{passes}, clearance, 5.0), 0.0);
   const Mover leaves{.p_W = {2.0, 0.0}, .v_W = {2.0, 0.0}, .radius_m = 1.0};
   EXPECT_EQ(threat_m(stands, std::array{leaves}, clearance, 5.0), 0.0);
-}
-
-/// Two or three pillars that cross the route, timed to meet the vehicle.
-PointWorld traffic(uint64_t seed) {
-  std::mt19937_64 random(seed);
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-  };
-  PointWorld world;
-  world.width_px = 640;
-  world.height_px = 288;
-  world.radius_m = 0.65;
-  world.goal_W = {30.0, 0.0};
-  const int count = 2 + static_cast<int>(uniform(0.0, 2.0));
-  for (int k = 0; k < count; ++k) {
-    const double speed_mps = uniform(0.5, 3.0), azimuth = (uniform(0.0, 1.0) < 0.5 ? 1.0 : -1.0) * uniform(1.0, 2.1);
-    const Eigen::Vector2d v_W = speed_mps * Eigen::Vector2d(std::cos(azimuth), std::sin(azimuth));
-    const Eigen::Vector2d meets_W(uniform(8.0, 26.0), 0.0);
-    const double at_s = uniform(0.15, 0.8) * meets_W.x();
-    world.pillars.push_back({meets_W - at_s * v_W, uniform(0.3, 1.2), v_W});
-  }
-  return world;
 }
 
 void fly_traffic(uint64_t first, uint64_t last, double most_collided) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -35,6 +36,12 @@ class PointWorld {
     Eigen::Vector2d end_W = Eigen::Vector2d::Zero();
     std::string status;
     std::vector<std::string> statuses;
+    struct At {
+      double t_s;
+      Eigen::Vector2d p_W, v_W;
+      double heading_rad;
+    };
+    std::vector<At> track;  ///< one an image
   };
 
   static constexpr double kStepS = 0.1;
@@ -46,6 +53,8 @@ class PointWorld {
   Eigen::Vector2d start_W{0.0, 0.0}, goal_W{30.0, 0.0};
   double height_m = 3.0, radius_m = 0.0, duration_s = 90.0, reached_m = 1.5;
   double speed_mps = 8.0, acceleration_mps2 = 3.0;
+  std::vector<Eigen::AlignedBox3d> outline_B;  ///< of the vehicle; empty: a disc of radius_m
+  std::optional<double> heading_rad;           ///< at the start; towards the goal where it is not given
   std::function<void(const Eigen::Vector2d&, double, const Decision&, const Module&)> watch;
 
   Flown fly(LocalMapConfig config) const {
@@ -54,23 +63,24 @@ class PointWorld {
     MountedCamera camera = level_camera("depth", 0.0, width_px, 1.0 / kStepS);
     const vision::camera::PinholeCamera lens = vision::camera::PinholeCamera::from_fov(width_px, height_px, 1.48);
     camera.model = lens;
-    module->reset({{camera}, {speed_mps, acceleration_mps2, radius_m}, 1});
+    module->reset({{camera}, {speed_mps, acceleration_mps2, radius_m, outline_B}, 1});
     Flown flown;
     Eigen::Vector2d p_W = start_W, v_W = Eigen::Vector2d::Zero();
-    double heading_rad = std::atan2(goal_W.y() - start_W.y(), goal_W.x() - start_W.x());
-    VelocityCommand obeyed{v_W, height_m, heading_rad};
+    double nose_rad = heading_rad.value_or(std::atan2(goal_W.y() - start_W.y(), goal_W.x() - start_W.x()));
+    VelocityCommand obeyed{v_W, height_m, nose_rad};
     for (int64_t step = 0; static_cast<double>(step) * kStepS < duration_s; ++step) {
       flown.time_s = static_cast<double>(step) * kStepS;
       const int64_t t_ns = step * 100'000'000;
-      const std::vector<CameraFrame> frames = {{"depth", t_ns, depth(lens, p_W, heading_rad, flown.time_s)}};
-      const NavigationState navigation = level_flight({p_W.x(), p_W.y(), -height_m}, heading_rad, v_W);
+      const std::vector<CameraFrame> frames = {{"depth", t_ns, depth(lens, p_W, nose_rad, flown.time_s)}};
+      const NavigationState navigation = level_flight({p_W.x(), p_W.y(), -height_m}, nose_rad, v_W);
       const Decision decision = module->update({t_ns, frames, navigation, {{goal_W.x(), goal_W.y(), -height_m}, 0.0}});
       flown.statuses.push_back(decision.status);
+      flown.track.push_back({flown.time_s, p_W, v_W, nose_rad});
       if (watch) watch(p_W, flown.time_s, decision, *module);
       // A decision is obeyed an image later.
       for (int part = 0; part < 5; ++part) {
-        move(obeyed, kStepS / 5, p_W, v_W, heading_rad);
-        flown.clearance_m = std::min(flown.clearance_m, distance_m(p_W, flown.time_s) - radius_m);
+        move(obeyed, kStepS / 5, p_W, v_W, nose_rad);
+        flown.clearance_m = std::min(flown.clearance_m, hull_clearance_m(p_W, nose_rad, flown.time_s));
       }
       flown.length_m += kStepS * v_W.norm();
       flown.fastest_mps = std::max(flown.fastest_mps, v_W.norm());
@@ -98,22 +108,41 @@ class PointWorld {
   }
 
  private:
+  /// Of a disc, or of points along the edges of the outline's boxes.
+  double hull_clearance_m(const Eigen::Vector2d& p_W, double nose_rad, double t_s) const {
+    if (outline_B.empty()) return distance_m(p_W, t_s) - radius_m;
+    double least_m = std::numeric_limits<double>::infinity();
+    for (const Eigen::AlignedBox3d& box : outline_B) {
+      constexpr int kPoints = 12;
+      for (int i = 0; i <= kPoints; ++i) {
+        for (const double side : {0.0, 1.0}) {
+          const double share = static_cast<double>(i) / kPoints;
+          for (const Eigen::Vector2d& at : {Eigen::Vector2d(share, side), Eigen::Vector2d(side, share)}) {
+            const Eigen::Vector2d p_B = box.min().head<2>() + at.cwiseProduct(box.sizes().head<2>());
+            least_m = std::min(least_m, distance_m(p_W + Eigen::Rotation2Dd(nose_rad) * p_B, t_s));
+          }
+        }
+      }
+    }
+    return least_m;
+  }
+
   void move(const VelocityCommand& command, double dt_s, Eigen::Vector2d& p_W, Eigen::Vector2d& v_W,
-            double& heading_rad) const {
+            double& nose_rad) const {
     constexpr double kLagS = 0.4, kTurnRadps = 0.785;
     Eigen::Vector2d a_W = (command.v_WB_W - v_W) / kLagS;
     if (a_W.norm() > acceleration_mps2) a_W *= acceleration_mps2 / a_W.norm();
     v_W += dt_s * a_W;
     p_W += dt_s * v_W;
-    const double turn_rad = std::remainder(command.heading_rad - heading_rad, 2.0 * M_PI);
-    heading_rad += std::clamp(turn_rad, -dt_s * kTurnRadps, dt_s * kTurnRadps);
+    const double turn_rad = std::remainder(command.heading_rad - nose_rad, 2.0 * M_PI);
+    nose_rad += std::clamp(turn_rad, -dt_s * kTurnRadps, dt_s * kTurnRadps);
   }
 
   /// Sphere-traced in the plane: everything stands upright and is as high as the sky.
-  cv::Mat depth(const vision::camera::PinholeCamera& lens, const Eigen::Vector2d& p_W, double heading_rad,
+  cv::Mat depth(const vision::camera::PinholeCamera& lens, const Eigen::Vector2d& p_W, double nose_rad,
                 double t_s) const {
     constexpr double kFarM = 80.0, kNearM = 1e-3;
-    const Eigen::Vector2d ahead_W(std::cos(heading_rad), std::sin(heading_rad)), right_W(-ahead_W.y(), ahead_W.x());
+    const Eigen::Vector2d ahead_W(std::cos(nose_rad), std::sin(nose_rad)), right_W(-ahead_W.y(), ahead_W.x());
     cv::Mat depth_m(height_px, width_px, CV_32FC1);
     for (int u = 0; u < width_px; ++u) {
       const double side = (u - lens.center_u_px) / lens.focal_x_px;
@@ -159,6 +188,28 @@ inline PointWorld random_world(uint64_t seed) {
     world.walls.push_back(
         {from_W, from_W + uniform(3.0, 14.0) * Eigen::Vector2d(std::cos(azimuth_rad), std::sin(azimuth_rad))});
     if (!clear(kStartClearM)) world.walls.pop_back();
+  }
+  return world;
+}
+
+/// Two or three pillars that cross the route, timed to meet the vehicle.
+inline PointWorld traffic(uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+  };
+  PointWorld world;
+  world.width_px = 640;
+  world.height_px = 288;
+  world.radius_m = 0.65;
+  world.goal_W = {30.0, 0.0};
+  const int count = 2 + static_cast<int>(uniform(0.0, 2.0));
+  for (int k = 0; k < count; ++k) {
+    const double speed_mps = uniform(0.5, 3.0), azimuth = (uniform(0.0, 1.0) < 0.5 ? 1.0 : -1.0) * uniform(1.0, 2.1);
+    const Eigen::Vector2d v_W = speed_mps * Eigen::Vector2d(std::cos(azimuth), std::sin(azimuth));
+    const Eigen::Vector2d meets_W(uniform(8.0, 26.0), 0.0);
+    const double at_s = uniform(0.15, 0.8) * meets_W.x();
+    world.pillars.push_back({meets_W - at_s * v_W, uniform(0.3, 1.2), v_W});
   }
   return world;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 namespace hedgehop::avoidance::local_map {
 namespace {
@@ -11,8 +12,8 @@ constexpr Response kResponse{.delay_s = 0.2, .lag_s = 0.4, .acceleration_mps2 = 
 constexpr double kSpeedMps = 8.0;
 
 /// Free up to a line north; the goal lies beyond it.
-StopPlanner::Fault wall_at(double north_m) {
-  return [=](const Moment& m) { return std::max(0.0, m.p_W.x() - north_m); };
+StopPlanner::FaultAt wall_at(double north_m) {
+  return [=](const Moment& m) { return Fault{.occupied_m = std::max(0.0, m.p_W.x() - north_m)}; };
 }
 std::optional<double> north(const Eigen::Vector2d& p_W) { return 100.0 - p_W.x(); }
 
@@ -59,6 +60,75 @@ TEST(StopPlanner, AVehicleThatIsTooNearMovesAway) {
   const StopPlanner::Plan plan = planner.choose(now, Eigen::Vector2d::Zero(), wall_at(0.5), nobody, north);
   EXPECT_TRUE(plan.safe);
   EXPECT_LT(plan.v_cmd_W.x(), 0.0);
+}
+
+/// Half-planes: an obstacle and the unknown, whose edges lie `near_m` and `far_m` from the origin in two directions.
+TEST(StopPlanner, NearnessToTheOneNeverExcusesNearnessToTheOther) {
+  const StopPlanner planner(kResponse, kSpeedMps);
+  std::mt19937_64 random(1);
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+  };
+  for (int i = 0; i < 300; ++i) {
+    const bool occupied_first = i % 2 == 0;
+    const double near_m = uniform(-1.0, -0.1), far_m = uniform(0.0, 1.5);  // too near by up to 1 m already; not yet
+    const double azimuth = uniform(0.0, 2.0 * M_PI), other = azimuth + uniform(1.0, 2.0 * M_PI - 1.0);
+    const auto beyond_m = [](const Eigen::Vector2d& p_W, double turn, double edge_m) {
+      return std::max(0.0, p_W.dot(Eigen::Vector2d(std::cos(turn), std::sin(turn))) - edge_m);
+    };
+    const auto fault = [&](const Moment& m) {
+      const double first_m = beyond_m(m.p_W, azimuth, near_m), second_m = beyond_m(m.p_W, other, far_m);
+      return occupied_first ? Fault{first_m, second_m} : Fault{second_m, first_m};
+    };
+    const double toward = uniform(0.0, 2.0 * M_PI);
+    const auto to_goal_m = [&](const Eigen::Vector2d& p_W) -> std::optional<double> {
+      return 100.0 - p_W.dot(Eigen::Vector2d(std::cos(toward), std::sin(toward)));
+    };
+    const Moment now{0.0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+    const StopPlanner::Plan plan = planner.choose(now, Eigen::Vector2d::Zero(), fault, nobody, to_goal_m);
+    ASSERT_TRUE(plan.safe) << i;
+    for (const Moment& m : plan.path) ASSERT_EQ(beyond_m(m.p_W, other, far_m), 0.0) << i;
+  }
+}
+
+// At 6 m/s, 4 m before a wall that ends 1 m to the right: braking ends in it, turning aside leads round it.
+TEST(StopPlanner, WhereNoStopIsPossibleTheLeastBadPathIsTaken) {
+  const StopPlanner planner(kResponse, kSpeedMps);
+  const auto fault = [](const Moment& m) {
+    const double into_m = std::min(m.p_W.x() - 4.0, 1.0 - m.p_W.y());
+    return Fault{.occupied_m = m.p_W.x() < 5.0 ? std::max(0.0, into_m) : 0.0};
+  };
+  const auto worst_m = [&](const std::vector<Moment>& path) {
+    double worst = 0.0;
+    for (const Moment& m : path) worst = std::max(worst, fault(m).occupied_m);
+    return worst;
+  };
+  const Moment now{0.0, Eigen::Vector2d::Zero(), {6.0, 0.0}};
+  const StopPlanner::Plan plan = planner.choose(now, now.v_W, fault, nobody, north);
+  EXPECT_FALSE(plan.safe);
+  EXPECT_LT(worst_m(plan.path), 0.8 * worst_m(planner.predict(now, now.v_W, Eigen::Vector2d::Zero(), 0.0)));
+}
+
+// Whoever brakes for what crosses stops in its path; whoever goes on is past in time.
+TEST(StopPlanner, PassesBeforeWhatMovesInsteadOfStoppingInItsPath) {
+  const StopPlanner planner(kResponse, kSpeedMps);
+  const Moment now{0.0, Eigen::Vector2d::Zero(), {6.0, 0.0}};
+  const auto crosses = [](const std::vector<Moment>& path) {  // a band at 8 to 11 m, from 2.5 s on
+    double worst_m = 0.0;
+    for (const Moment& m : path) {
+      if (m.t_s > 2.5) worst_m = std::max(worst_m, 1.5 - std::abs(m.p_W.x() - 9.5));
+    }
+    return std::max(worst_m, 1.5 - std::abs(path.back().p_W.x() - 9.5));
+  };
+  const auto anywhere = [](const Moment&) { return Fault{}; };
+  const auto aside = [](const Eigen::Vector2d& p_W) -> std::optional<double> { return std::abs(p_W.y()) * 100.0; };
+  const StopPlanner::Plan plan = planner.choose(now, now.v_W, anywhere, crosses, aside);
+  EXPECT_GT(crosses(planner.predict(now, now.v_W, Eigen::Vector2d::Zero(), 0.4)), 0.0);
+  double least_m = 1e9;
+  for (const double hold_s : {0.4, 1.2, 2.4}) {
+    least_m = std::min(least_m, crosses(planner.predict(now, now.v_W, plan.v_cmd_W, hold_s)));
+  }
+  EXPECT_EQ(least_m, 0.0);
 }
 
 TEST(StopPlanner, PredictionsBrakeAtTheGivenRate) {

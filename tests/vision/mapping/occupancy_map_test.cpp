@@ -120,6 +120,39 @@ TEST(OccupancyMap, MovingKeepsWhatStaysAndForgetsWhatLeaves) {
   EXPECT_EQ(map.state(map.index(far_W)), State::unknown);
 }
 
+// A box that crosses the view at 1 m/s, in space seen free before.
+TEST(OccupancyMap, WhatMovesLeavesNoWakeBehindWhereItIsKnownToMove) {
+  const auto not_free_behind = [](bool known) {
+    OccupancyMap map(small());
+    std::mt19937_64 generator(1);
+    DepthBlocks blocks;
+    const Eigen::Vector3d eye_W(0.0, 0.0, -1.5);
+    const Eigen::Isometry3d X_WC = MappedWorld::looking(eye_W, 0.0);
+    map.reset(eye_W);
+    double east_m = 0.0;
+    for (int image = 0; image < 30; ++image) {
+      MappedWorld world;
+      std::vector<OccupancyMap::Disc> moving;
+      if (image >= 10) {
+        east_m = 0.1 * (image - 20);
+        world.boxes_W = {{Eigen::Vector3d(3.0, east_m - 0.5, -4.0), Eigen::Vector3d(4.0, east_m + 0.5, 0.0)}};
+        if (known) moving = {{{3.5, east_m}, 1.0}};
+      }
+      blocks.build(world.disparity16(X_WC, generator), {});
+      map.integrate(blocks, world.geometry, X_WC, moving);
+    }
+    int count = 0;
+    for (double x = 2.55; x < 4.0; x += 0.3) {
+      for (double y = east_m - 1.4; y < east_m - 0.8; y += 0.3) {
+        count += map.state(map.index({x, y, -1.5})) != State::free;
+      }
+    }
+    return count;
+  };
+  EXPECT_GT(not_free_behind(false), 0);
+  EXPECT_EQ(not_free_behind(true), 0);
+}
+
 TEST(OccupancyMap, RowsAreTheStatesOfTheirVoxels) {
   const MappedWorld world = MappedWorld::random(3);
   const OccupancyMap map = mapped(world, 3);
