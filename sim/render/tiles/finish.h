@@ -168,11 +168,11 @@ inline void make_paints(const SceneView& scene, const Frame& frame) {
 template <int kPlanes>
 inline void shade_image(const SceneView& scene, const Frame& frame, const Image& image) {
   make_paints(scene, frame);
+  TileBytes out[kPlanes] = {};  // a mix multiplies by 0 what no surface has written
   for (int row = 0; row < frame.down; ++row) {
     for (int column = 0; column < frame.across; ++column) {
       const Window window = window_of(frame, image, column, row, kPlanes);
       const uint64_t inside = ~beyond(frame.lens.width_px - kTilePx * column, frame.lens.height_px - kTilePx * row);
-      TileBytes out[kPlanes];
       if (frame.samples == 1) {
         shade_tile(scene, frame, column, row, inside, out);
       } else {
