@@ -1,14 +1,24 @@
 #include "vision/camera/image_derotator.h"
 
+#include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 namespace hedgehop::vision::camera {
 
+constexpr int kNodePx = 4;
+
 ImageDerotator::ImageDerotator(const Camera& camera, const cv::Mat& wanted)
     : camera_(camera), box_(cv::boundingRect(wanted)) {
   if (wanted.size() != cv::Size(camera.width_px, camera.height_px)) {
     throw std::invalid_argument("what is wanted differs from the camera's size");
+  }
+  nodes_ = {(box_.width + kNodePx - 1) / kNodePx + 1, (box_.height + kNodePx - 1) / kNodePx + 1};
+  for (int row = 0; row < nodes_.height; ++row) {
+    for (int col = 0; col < nodes_.width; ++col) {
+      node_rays_.push_back(camera.ray({box_.x + col * kNodePx, box_.y + row * kNodePx}));
+    }
   }
   for (int row = box_.y; row < box_.br().y; ++row) {
     for (int col = box_.x; col < box_.br().x; ++col) {
@@ -18,21 +28,45 @@ ImageDerotator::ImageDerotator(const Camera& camera, const cv::Mat& wanted)
   }
 }
 
-cv::Mat ImageDerotator::derotate(const cv::Mat& image, const Eigen::Matrix3d& R_C1C2) const {
-  cv::Mat result = cv::Mat::zeros(image.size(), CV_8UC1);
-  if (box_.empty()) return result;
+cv::Mat ImageDerotator::places(const Eigen::Matrix3d& R_C1C2) const {
   // So far outside that no pixel of the image has a share: OpenCV then needs no arithmetic.
   constexpr double kOutside = -100.0;
   cv::Mat places(box_.size(), CV_32FC2, cv::Scalar::all(kOutside));
   const Eigen::Matrix3d R_C2C1 = R_C1C2.transpose();
-  for (const Ray& ray : rays_) {
-    const auto pixel = camera_.project(R_C2C1 * ray.ray_C);
-    if (!pixel) continue;
-    places.at<cv::Vec2f>(ray.row - box_.y, ray.col - box_.x) = {static_cast<float>(pixel->x()),
-                                                                static_cast<float>(pixel->y())};
+  const Eigen::Vector2d unknown = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  std::vector<Eigen::Vector2d> nodes;
+  for (const auto& ray_C : node_rays_) {
+    const auto pixel = ray_C ? camera_.project(R_C2C1 * *ray_C) : std::nullopt;
+    nodes.push_back(pixel.value_or(unknown));
   }
+  const auto columns = static_cast<size_t>(nodes_.width);
+  std::vector<Eigen::Vector2d> line(columns);  // nodes of one row of pixels
+  int line_row = -1;
+  for (const Ray& ray : rays_) {
+    const int row = ray.row - box_.y, col = ray.col - box_.x;
+    if (row != line_row) {
+      line_row = row;
+      const Eigen::Vector2d* above = nodes.data() + static_cast<size_t>(row / kNodePx) * columns;
+      const double below = (row % kNodePx) / double{kNodePx};
+      for (size_t i = 0; i < columns; ++i) line[i] = above[i] + below * (above[i + columns] - above[i]);
+    }
+    const auto left = static_cast<size_t>(col / kNodePx);
+    Eigen::Vector2d place = line[left] + (col % kNodePx) / double{kNodePx} * (line[left + 1] - line[left]);
+    if (std::isnan(place.x())) {  // beside what the lens shows
+      const auto pixel = camera_.project(R_C2C1 * ray.ray_C);
+      if (!pixel) continue;
+      place = *pixel;
+    }
+    places.at<cv::Vec2f>(row, col) = {static_cast<float>(place.x()), static_cast<float>(place.y())};
+  }
+  return places;
+}
+
+cv::Mat ImageDerotator::derotate(const cv::Mat& image, const Eigen::Matrix3d& R_C1C2) const {
+  cv::Mat result = cv::Mat::zeros(image.size(), CV_8UC1);
+  if (box_.empty()) return result;
   cv::Mat shown = result(box_);
-  cv::remap(image, shown, places, cv::noArray(), cv::INTER_CUBIC, cv::BORDER_CONSTANT, cv::Scalar::all(0));
+  cv::remap(image, shown, places(R_C1C2), cv::noArray(), cv::INTER_CUBIC, cv::BORDER_CONSTANT, cv::Scalar::all(0));
   return result;
 }
 

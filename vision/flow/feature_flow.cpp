@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "sim/fields/bounds.h"
+#include "vision/flow/corner_tracker.h"
 
 namespace hedgehop::vision::flow {
 namespace {
@@ -35,22 +36,16 @@ std::vector<cv::Point2f> corners(const cv::Mat& image, const cv::Mat& region, co
 std::vector<std::optional<cv::Point2f>> follow(const std::vector<cv::Mat>& from, const std::vector<cv::Mat>& to,
                                                const std::vector<cv::Point2f>& corners,
                                                const FeatureFlowConfig& config) {
-  const cv::Size window(config.window_px, config.window_px);
-  const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 30, 0.005);
-  std::vector<cv::Point2f> ahead, back;
-  std::vector<uint8_t> seen, seen_again;
-  cv::calcOpticalFlowPyrLK(from, to, corners, ahead, seen, cv::noArray(), window, config.levels - 1, until);
-  const bool both_ways = config.round_trip_px > 0.0;
-  if (both_ways) {
-    back = corners;
-    cv::calcOpticalFlowPyrLK(to, from, ahead, back, seen_again, cv::noArray(), window, config.levels - 1, until,
-                             cv::OPTFLOW_USE_INITIAL_FLOW);
-  }
+  CornerTracker tracker(config.window_px, config.levels);
   std::vector<std::optional<cv::Point2f>> found(corners.size());
   for (size_t i = 0; i < corners.size(); ++i) {
-    if (!seen[i]) continue;
-    if (both_ways && !(seen_again[i] && cv::norm(back[i] - corners[i]) <= config.round_trip_px)) continue;
-    found[i] = ahead[i];
+    const auto ahead = tracker.follow(from, to, corners[i]);
+    if (!ahead) continue;
+    if (config.round_trip_px > 0.0) {
+      const auto back = tracker.follow(to, from, *ahead, corners[i]);
+      if (!back || !(cv::norm(*back - corners[i]) <= config.round_trip_px)) continue;
+    }
+    found[i] = ahead;
   }
   return found;
 }

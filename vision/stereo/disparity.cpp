@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
-#include <utility>
 #include <vector>
+
+#include "vision/flow/wide_integers.h"
 
 namespace hedgehop::vision::stereo {
 namespace {
@@ -15,55 +15,78 @@ void need_disparity(const cv::Mat& disparity16) {
   if (disparity16.type() != CV_16SC1) throw std::invalid_argument("a disparity image must be CV_16SC1");
 }
 
-/// Union-find over segments that grow line by line.
+/// Neighbors in one row that belong together. Runs that touch make a segment: a tree whose root knows its size.
+struct Run {
+  int row, begin, end;  ///< columns, `end` not among them
+  int parent, size;
+};
+
 class Segments {
  public:
-  int add() {
-    parents_.push_back(static_cast<int>(parents_.size()));
-    sizes_.push_back(0);
-    return parents_.back();
-  }
-  int root(int segment) {
-    auto parent = [&](int i) -> int& { return parents_[static_cast<size_t>(i)]; };
-    while (parent(segment) != segment) {
-      parent(segment) = parent(parent(segment));
-      segment = parent(segment);
+  /// Adds the runs of the next row, and joins them with those of the row above that they touch.
+  void add_row(const cv::Mat& disparity16, int row, int difference16) {
+    const auto above = static_cast<int>(row_begin_), here = static_cast<int>(runs_.size());
+    row_begin_ = runs_.size();
+    const auto* const d = disparity16.ptr<int16_t>(row);
+    for (int u = 0; u < disparity16.cols; ++u) {
+      if (d[u] < 0) continue;
+      const int begin = u;
+      while (u + 1 < disparity16.cols && d[u + 1] >= 0 && std::abs(d[u + 1] - d[u]) < difference16) ++u;
+      runs_.push_back({row, begin, u + 1, static_cast<int>(runs_.size()), u + 1 - begin});
     }
-    return segment;
+    int first = above;
+    for (int i = here; i < static_cast<int>(runs_.size()); ++i) {
+      while (first < here && run(first).end < run(i).begin) ++first;
+      for (int other = first; other < here && run(other).begin <= run(i).end; ++other) {
+        if (touch(run(i), run(other), disparity16, difference16)) join(i, other);
+      }
+    }
   }
-  void join(int a, int b) { parents_[static_cast<size_t>(root(b))] = root(a); }
-  int& size(int root) { return sizes_[static_cast<size_t>(root)]; }
+
+  const std::vector<Run>& runs() const { return runs_; }
+  int size_of(const Run& of) { return run(root(of.parent)).size; }
 
  private:
-  std::vector<int> parents_, sizes_;
-};
+  Run& run(int i) { return runs_[static_cast<size_t>(i)]; }
 
-constexpr int kNone = -1;
-
-/// Neighbors in one row that belong together.
-struct Run {
-  int row, begin, length, segment;
-};
-
-/// Joins the runs of a row with those that they touch in the row above, straight or across a corner.
-void join_rows(const cv::Mat& disparity16, int row, int difference16, const std::vector<int>& here,
-               const std::vector<int>& above, Segments& segments) {
-  const auto* const d = disparity16.ptr<int16_t>(row);
-  const auto* const upper = disparity16.ptr<int16_t>(row - 1);
-  const int width = disparity16.cols;
-  int last_here = kNone, last_above = kNone;  // joined last: most neighbors are those again
-  for (int u = 0; u < width; ++u) {
-    const int mine = here[static_cast<size_t>(u)];
-    if (mine == kNone) continue;
-    for (int n = std::max(0, u - 1); n <= std::min(width - 1, u + 1); ++n) {
-      const int theirs = above[static_cast<size_t>(n)];
-      if (theirs == kNone || (mine == last_here && theirs == last_above)) continue;
-      if (std::abs(d[u] - upper[n]) >= difference16) continue;
-      segments.join(mine, theirs);
-      last_here = mine;
-      last_above = theirs;
+  /// Whether any of their pixels do, straight or across a corner. Most do at the first place where they can.
+  static bool touch(const Run& lower, const Run& upper, const cv::Mat& disparity16, int difference16) {
+    const auto* const d = disparity16.ptr<int16_t>(lower.row);
+    const auto* const above = disparity16.ptr<int16_t>(upper.row);
+    for (int u = std::max(lower.begin, upper.begin - 1); u < std::min(lower.end, upper.end + 1); ++u) {
+      for (int n = std::max(u - 1, upper.begin); n < std::min(u + 2, upper.end); ++n) {
+        if (std::abs(d[u] - above[n]) < difference16) return true;
+      }
     }
+    return false;
   }
+
+  int root(int i) {
+    while (run(i).parent != i) i = run(i).parent = run(run(i).parent).parent;
+    return i;
+  }
+  void join(int a, int b) {
+    const int into = root(a), from = root(b);
+    if (into == from) return;
+    run(from).parent = into;
+    run(into).size += run(from).size;
+  }
+
+  std::vector<Run> runs_;
+  size_t row_begin_ = 0;  ///< in `runs_`, of the row added last
+};
+
+/// @return pixels found to be sky, of `count` that each have another before it.
+HEDGEHOP_WIDE int mark_sky_in_row(const uint8_t* grey, int count, int texture, int brightness, bool among_all,
+                                  int16_t* disparity16) {
+  int found = 0;
+  for (int u = 0; u < count; ++u) {
+    const auto difference = static_cast<int16_t>(std::abs(int{grey[u]} - int{grey[u - 1]}));
+    const bool sky = (among_all | (disparity16[u] < 0)) & (difference < texture) & (grey[u] > brightness);
+    disparity16[u] = sky ? int16_t{0} : disparity16[u];
+    found += sky;
+  }
+  return found;
 }
 
 }  // namespace
@@ -76,38 +99,21 @@ void to_depth(const cv::Mat& disparity16, const StereoGeometry& geometry, cv::Ma
     const auto* const from = disparity16.ptr<int16_t>(v);
     auto* const to = depth_m.ptr<float>(v);
     for (int u = 0; u < disparity16.cols; ++u) {
-      to[u] = from[u] < 0 ? std::numeric_limits<float>::quiet_NaN() : scale / static_cast<float>(from[u]);
+      const float depth = scale / static_cast<float>(from[u]);  // whatever the sign: so the loop does without branches
+      to[u] = from[u] < 0 ? std::numeric_limits<float>::quiet_NaN() : depth;
     }
   }
 }
 
 int remove_specks(cv::Mat& disparity16, int difference16, int smallest_px) {
   need_disparity(disparity16);
-  // Neighbors in a row make a run; runs that touch those of the row above make a segment.
   Segments segments;
-  std::vector<Run> runs;
-  const int width = disparity16.cols;
-  std::vector<int> above(static_cast<size_t>(width)), here(above);  // run of each pixel, kNone where unknown
-  for (int v = 0; v < disparity16.rows; ++v) {
-    const auto* const d = disparity16.ptr<int16_t>(v);
-    for (int u = 0; u < width; ++u) {
-      const auto i = static_cast<size_t>(u);
-      here[i] = kNone;
-      if (d[u] < 0) continue;
-      const bool goes_on = u > 0 && d[u - 1] >= 0 && std::abs(d[u] - d[u - 1]) < difference16;
-      if (!goes_on) runs.push_back({v, u, 0, segments.add()});
-      ++runs.back().length;
-      here[i] = runs.back().segment;
-    }
-    if (v > 0) join_rows(disparity16, v, difference16, here, above, segments);
-    std::swap(above, here);
-  }
-  for (const Run& run : runs) segments.size(segments.root(run.segment)) += run.length;
+  for (int v = 0; v < disparity16.rows; ++v) segments.add_row(disparity16, v, difference16);
   int removed = 0;
-  for (const Run& run : runs) {
-    if (segments.size(segments.root(run.segment)) >= smallest_px) continue;
-    std::fill_n(disparity16.ptr<int16_t>(run.row) + run.begin, run.length, kNoDisparity);
-    removed += run.length;
+  for (const Run& run : segments.runs()) {
+    if (segments.size_of(run) >= smallest_px) continue;
+    std::fill(disparity16.ptr<int16_t>(run.row) + run.begin, disparity16.ptr<int16_t>(run.row) + run.end, kNoDisparity);
+    removed += run.end - run.begin;
   }
   return removed;
 }
@@ -119,15 +125,8 @@ int mark_sky(const cv::Mat& grey, int texture, int brightness, SkyAmong among, c
   }
   int found = 0;
   for (int v = 0; v < grey.rows; ++v) {
-    const auto* const g = grey.ptr<uint8_t>(v);
-    auto* const d = disparity16.ptr<int16_t>(v);
-    for (int u = 1; u < grey.cols; ++u) {
-      const bool tested = among == SkyAmong::all || d[u] < 0;
-      const bool sky = tested && std::abs(int{g[u]} - int{g[u - 1]}) < texture && g[u] > brightness;
-      if (!sky) continue;
-      d[u] = 0;
-      ++found;
-    }
+    found += mark_sky_in_row(grey.ptr<uint8_t>(v) + 1, grey.cols - 1, texture, brightness, among == SkyAmong::all,
+                             disparity16.ptr<int16_t>(v) + 1);
   }
   return found;
 }

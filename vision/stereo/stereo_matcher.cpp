@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <opencv2/calib3d.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "sim/fields/bounds.h"
 #include "vision/stereo/disparity.h"
+#include "vision/stereo/semi_global_matcher.h"
 
 namespace hedgehop::vision::stereo {
 namespace {
@@ -23,6 +25,7 @@ void check(const StereoMatcherConfig& c) {
        "block: the block matcher takes squares of 5 px or more, got " + std::to_string(c.block_px));
 }
 
+/// OpenCV's matcher; none where ours does the same in less time.
 cv::Ptr<cv::StereoMatcher> make(const StereoMatcherConfig& c) {
   if (c.method == StereoMatcherConfig::Method::block) {
     const cv::Ptr<cv::StereoBM> matcher = cv::StereoBM::create(c.disparities_px, c.block_px);
@@ -31,33 +34,52 @@ cv::Ptr<cv::StereoMatcher> make(const StereoMatcherConfig& c) {
     matcher->setDisp12MaxDiff(c.left_right_px);
     return matcher;
   }
-  // OpenCV's own rule of thumb for the penalties of a step of one and of more.
-  const int area = c.block_px * c.block_px;
-  return cv::StereoSGBM::create(0, c.disparities_px, c.block_px, 8 * area, 32 * area, c.left_right_px,
-                                /*preFilterCap=*/31, c.uniqueness_percent, 0, 0, cv::StereoSGBM::MODE_SGBM);
+  if (c.block_px <= SemiGlobalMatcher::kLargestBlockPx) return {};
+  return opencv_semi_global(c);
 }
 
-/// Drops what would lie left of the right image's edge.
-void drop_outside(cv::Mat& disparity16, int columns) {
+/// Leaves out the margin, what is unknown and what would lie left of the right image's edge.
+void copy_known(const cv::Mat& wide16, int margin_px, cv::Mat& disparity16) {
+  disparity16.create(wide16.rows, wide16.cols - margin_px, CV_16SC1);
   for (int v = 0; v < disparity16.rows; ++v) {
-    auto* const d = disparity16.ptr<int16_t>(v);
-    for (int u = 0; u < columns; ++u) {
-      if (d[u] > kDisparityUnits * u) d[u] = kNoDisparity;
+    const auto* const from = wide16.ptr<int16_t>(v) + margin_px;
+    auto* const to = disparity16.ptr<int16_t>(v);
+    for (int u = 0; u < disparity16.cols; ++u) to[u] = std::max(from[u], kNoDisparity);
+    for (int u = 0; u < std::min(margin_px, disparity16.cols); ++u) {
+      if (to[u] > kDisparityUnits * u) to[u] = kNoDisparity;
     }
   }
 }
 
 }  // namespace
 
+cv::Ptr<cv::StereoMatcher> opencv_semi_global(const StereoMatcherConfig& config) {
+  // OpenCV's own rule of thumb for the penalties of a step of one and of more.
+  const int area = config.block_px * config.block_px;
+  return cv::StereoSGBM::create(0, config.disparities_px, config.block_px, 8 * area, 32 * area, config.left_right_px,
+                                /*preFilterCap=*/31, config.uniqueness_percent, 0, 0, cv::StereoSGBM::MODE_SGBM);
+}
+
 struct StereoMatcher::Engine {
-  cv::Ptr<cv::StereoMatcher> matcher;
-  int margin_px;
-  cv::Mat left, right, disparity16;  ///< with a margin on the left
+  StereoMatcherConfig config;
+  cv::Ptr<cv::StereoMatcher> opencv;
+  std::optional<SemiGlobalMatcher> ours;  ///< for images of one size
+  cv::Mat left, right, disparity16;       ///< with a margin on the left
+
+  void compute() {
+    if (opencv) return opencv->compute(left, right, disparity16);
+    if (!ours || ours->size() != left.size()) {
+      ours.emplace(SemiGlobalConfig{config.disparities_px, config.block_px, config.uniqueness_percent,
+                                    std::max(config.left_right_px, 1)},
+                   left.size());
+    }
+    ours->compute(left, right, disparity16);
+  }
 };
 
 StereoMatcher::StereoMatcher(const StereoMatcherConfig& config) {
   check(config);
-  engine_ = std::make_unique<Engine>(Engine{make(config), config.disparities_px, {}, {}, {}});
+  engine_ = std::make_unique<Engine>(Engine{config, make(config), {}, {}, {}, {}});
 }
 StereoMatcher::StereoMatcher(StereoMatcher&&) noexcept = default;
 StereoMatcher& StereoMatcher::operator=(StereoMatcher&&) noexcept = default;
@@ -69,13 +91,12 @@ void StereoMatcher::match(const cv::Mat& left, const cv::Mat& right, cv::Mat& di
   }
   // OpenCV leaves out as many columns on the left as it searches disparities. Before a margin it answers for them, too.
   Engine& e = *engine_;
+  const int margin_px = e.config.disparities_px;
   for (const auto& [image, wide] : {std::pair(&left, &e.left), std::pair(&right, &e.right)}) {
-    cv::copyMakeBorder(*image, *wide, 0, 0, e.margin_px, 0, cv::BORDER_REPLICATE);
+    cv::copyMakeBorder(*image, *wide, 0, 0, margin_px, 0, cv::BORDER_REPLICATE);
   }
-  e.matcher->compute(e.left, e.right, e.disparity16);
-  e.disparity16.colRange(e.margin_px, e.disparity16.cols).copyTo(disparity16);
-  disparity16.setTo(kNoDisparity, disparity16 < 0);
-  drop_outside(disparity16, std::min(e.margin_px, disparity16.cols));
+  e.compute();
+  copy_known(e.disparity16, margin_px, disparity16);
 }
 
 }  // namespace hedgehop::vision::stereo

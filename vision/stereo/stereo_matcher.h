@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 
 namespace hedgehop::vision::stereo {
@@ -25,6 +26,9 @@ void describe(Visitor& v, StereoMatcherConfig& c) {
     {.unit = "px", .at_least = 16, .at_most = 512, .meaning = "disparities searched from 0 on; a multiple of 16"});
   v("block", c.block_px, {.unit = "px", .at_least = 1, .at_most = 51, .meaning = "side of the compared squares; odd"});
 }
+
+/// OpenCV's matcher that `semi_global` is. SemiGlobalMatcher finds the same in less time, for squares that it takes.
+cv::Ptr<cv::StereoMatcher> opencv_semi_global(const StereoMatcherConfig& config);
 
 /// Disparity of rectified grey pairs. Keeps its memory from pair to pair; equal pairs give equal disparities.
 class StereoMatcher {

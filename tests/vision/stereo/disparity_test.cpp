@@ -90,6 +90,29 @@ TEST(Disparity, SkyAmongAllTakesWhatWasMatchedToo) {
   EXPECT_EQ(cv::norm(d, cv::Mat(1, 6, CV_16SC1, const_cast<int16_t*>(after)), cv::NORM_INF), 0.0);
 }
 
+TEST(Disparity, SkyIsFoundPixelByPixel) {
+  std::mt19937_64 random(5);
+  for (int trial = 0; trial < 40; ++trial) {
+    const cv::Size size(1 + trial * 3, 7);
+    const cv::Mat before = random_disparity(random, size, trial);
+    cv::Mat grey(size, CV_8UC1), after = before.clone(), expected = before.clone();
+    cv::RNG(static_cast<uint64_t>(trial) + 1).fill(grey, cv::RNG::UNIFORM, 200, 256);
+    const SkyAmong among = trial % 2 == 0 ? SkyAmong::all : SkyAmong::unknown;
+    int count = 0;
+    for (int v = 0; v < size.height; ++v) {
+      for (int u = 1; u < size.width; ++u) {
+        const int step = std::abs(grey.at<uint8_t>(v, u) - grey.at<uint8_t>(v, u - 1));
+        const bool tested = among == SkyAmong::all || before.at<int16_t>(v, u) < 0;
+        if (!tested || step >= 20 || grey.at<uint8_t>(v, u) <= 220) continue;
+        expected.at<int16_t>(v, u) = 0;
+        ++count;
+      }
+    }
+    EXPECT_EQ(mark_sky(grey, 20, 220, among, after), count) << trial;
+    EXPECT_EQ(cv::norm(after, expected, cv::NORM_INF), 0.0) << trial;
+  }
+}
+
 TEST(Disparity, ToDepthKeepsUnknownAndInfinity) {
   const int16_t values[] = {-1, 0, 16};
   cv::Mat depth_m;

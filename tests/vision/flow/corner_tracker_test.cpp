@@ -1,0 +1,79 @@
+#include "vision/flow/corner_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+#include <string>
+#include <vector>
+
+namespace hedgehop::vision::flow {
+namespace {
+
+cv::Mat smooth_image(uint64_t seed, cv::Size size, double sigma_px) {
+  cv::Mat image(size, CV_8UC1);
+  cv::RNG(seed).fill(image, cv::RNG::UNIFORM, 0, 256);
+  cv::GaussianBlur(image, image, {}, sigma_px);
+  return 4 * (image - 96);
+}
+
+struct Images {
+  std::vector<cv::Mat> from, to;
+  std::vector<cv::Point2f> corners;
+
+  Images(cv::Size size, double sigma_px, int window_px, int levels) {
+    const cv::Mat older = smooth_image(3, size, sigma_px);
+    cv::Mat newer;
+    const cv::Mat motion = (cv::Mat_<double>(2, 3) << 1.01, 0.02, -5.3, -0.02, 1.01, 2.1);
+    cv::warpAffine(older, newer, motion, size, cv::INTER_CUBIC, cv::BORDER_REFLECT);
+    cv::buildOpticalFlowPyramid(older, from, {window_px, window_px}, levels - 1);
+    cv::buildOpticalFlowPyramid(newer, to, {window_px, window_px}, levels - 1);
+    cv::goodFeaturesToTrack(older, corners, 400, 0.01, 4.0);
+    // Some that have nothing about them, lie at the rim, or beyond it.
+    for (const float x : {0.0F, 0.4F, 20.0F, static_cast<float>(size.width) - 1.0F, static_cast<float>(size.width)}) {
+      corners.emplace_back(x, 7.3F);
+      corners.emplace_back(x, static_cast<float>(size.height) - 0.6F);
+    }
+  }
+};
+
+// Sums of floats come out otherwise: where a search stops an iteration earlier, by its last step, 0.005 px.
+TEST(CornerTracker, FollowsCornersAsOpenCvDoes) {
+  constexpr double kLastStepPx = 0.006, kFewPx = 1e-3;
+  const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 30, 0.005);
+  for (const int window_px : {5, 9, 15, 17, 33}) {
+    for (const double sigma_px : {1.5, 3.0}) {
+      constexpr int kLevels = 3;
+      const Images images({321, 240}, sigma_px, window_px, kLevels);
+      const cv::Size window(window_px, window_px);
+      std::vector<cv::Point2f> ahead, back = images.corners;
+      std::vector<uint8_t> seen, seen_again;
+      cv::calcOpticalFlowPyrLK(images.from, images.to, images.corners, ahead, seen, cv::noArray(), window, kLevels - 1,
+                               until);
+      cv::calcOpticalFlowPyrLK(images.to, images.from, ahead, back, seen_again, cv::noArray(), window, kLevels - 1,
+                               until, cv::OPTFLOW_USE_INITIAL_FLOW);
+      CornerTracker tracker(window_px, kLevels);
+      size_t far = 0, otherwise_seen = 0, followed = 0;
+      for (size_t i = 0; i < images.corners.size(); ++i) {
+        const auto found = tracker.follow(images.from, images.to, images.corners[i]);
+        otherwise_seen += found.has_value() != (seen[i] != 0);
+        if (!found || !seen[i]) continue;
+        ++followed;
+        const double off_px = cv::norm(*found - ahead[i]);
+        EXPECT_LT(off_px, kLastStepPx) << window_px << " " << images.corners[i];
+        far += off_px > kFewPx;
+        const auto returned = tracker.follow(images.to, images.from, *found, images.corners[i]);
+        otherwise_seen += returned.has_value() != (seen_again[i] != 0);
+        if (returned && seen_again[i]) {
+          EXPECT_LT(cv::norm(*returned - back[i]), 2.0 * kLastStepPx);
+        }
+      }
+      EXPECT_GT(followed, images.corners.size() * 9 / 10);
+      EXPECT_LE(far, images.corners.size() / 50);
+      EXPECT_EQ(otherwise_seen, 0U);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hedgehop::vision::flow
