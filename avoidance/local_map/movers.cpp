@@ -17,7 +17,7 @@ constexpr int kAppeared = 2;               // points of a lump where free space 
 constexpr double kAppearedShare = 0.1;
 constexpr int kEvidence = 3, kMostEvidence = 6;
 constexpr double kSlowestMps = 0.25, kSigmas = 3.0, kMovesSigmas = 2.0;
-constexpr double kStandsMps = 0.12, kStandsSigmas = 1.0;  // below, what moved is taken to stand
+constexpr double kStillMps = 0.12, kStillSigmas = 1.0;  // below, what moved is taken to stand
 constexpr double kShrinks = 0.1;  // of a radius, an image, towards a smaller one that is seen
 constexpr double kLostM = 1.5;    // 1-sigma of a position, beyond which a track would take up whatever comes by
 
@@ -118,7 +118,7 @@ void Movers::correct(Track& track, const Lump& lump, const View& view) const {
   const Eigen::Vector2d v_W = track.state.tail<2>();
   const double sigmas = std::sqrt(v_W.dot(track.covariance.bottomRightCorner<2, 2>().inverse() * v_W));
   const bool moves = v_W.norm() > kSlowestMps && sigmas > kMovesSigmas;
-  const bool stands = v_W.norm() < kStandsMps || sigmas < kStandsSigmas;
+  const bool stands = v_W.norm() < kStillMps || sigmas < kStillSigmas;
   if (moves && track.evidence >= kEvidence) track.is_mover = true;
   if (stands || track.evidence == 0) track.is_mover = false;
 }
