@@ -18,8 +18,8 @@ constexpr double kAppearedShare = 0.1;
 constexpr int kEvidence = 3, kMostEvidence = 6;
 constexpr double kSlowestMps = 0.25, kSigmas = 3.0, kMovesSigmas = 2.0;
 constexpr double kStillMps = 0.12, kStillSigmas = 1.0;  // below, what moved is taken to stand
-constexpr double kShrinks = 0.1;  // of a radius, an image, towards a smaller one that is seen
-constexpr double kLostM = 1.5;    // 1-sigma of a position, beyond which a track would take up whatever comes by
+constexpr double kShrinks = 0.1;                        // of a radius, an image, towards a smaller one that is seen
+constexpr double kLostM = 1.5;  // 1-sigma of a position, beyond which a track would take up whatever comes by
 
 }  // namespace
 
