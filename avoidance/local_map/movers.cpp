@@ -112,7 +112,9 @@ void Movers::correct(Track& track, const Lump& lump, const View& view) const {
   track.state += gain * (p_W - track.state.head<2>());
   track.covariance -= (gain * track.covariance.topRows<2>()).eval();
   const bool appears = lump.appeared >= kAppeared && lump.appeared >= kAppearedShare * lump.points;
-  track.evidence = std::clamp(track.evidence + (appears ? 1 : -1), 0, kMostEvidence);
+  // What the view cuts may show no more than the side that it leaves.
+  const int proof = appears ? 1 : whole ? -1 : 0;
+  track.evidence = std::clamp(track.evidence + proof, 0, kMostEvidence);
   track.unseen = 0;
   // Whether it stands: the Mahalanobis distance of no motion.
   const Eigen::Vector2d v_W = track.state.tail<2>();
