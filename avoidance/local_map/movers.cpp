@@ -17,7 +17,7 @@ constexpr int kAppeared = 2;               // points of a lump where free space 
 constexpr double kAppearedShare = 0.1;
 constexpr int kEvidence = 3, kMostEvidence = 6;
 constexpr double kSlowestMps = 0.25, kSigmas = 3.0, kMovesSigmas = 2.0;
-constexpr double kRestsMps = 0.12, kRestsSigmas = 1.0;  // below, what moved is taken to stand
+constexpr double kStillMps = 0.12, kStillSigmas = 1.0;  // below, what moved is taken to stand
 constexpr double kShrinks = 0.1;                        // of a radius, an image, towards a smaller one that is seen
 constexpr double kLostM = 1.5;  // 1-sigma of a position, beyond which a track would take up whatever comes by
 
@@ -112,13 +112,15 @@ void Movers::correct(Track& track, const Lump& lump, const View& view) const {
   track.state += gain * (p_W - track.state.head<2>());
   track.covariance -= (gain * track.covariance.topRows<2>()).eval();
   const bool appears = lump.appeared >= kAppeared && lump.appeared >= kAppearedShare * lump.points;
-  track.evidence = std::clamp(track.evidence + (appears ? 1 : -1), 0, kMostEvidence);
+  // What the view cuts may show no more than the side that it leaves.
+  const int proof = appears ? 1 : whole ? -1 : 0;
+  track.evidence = std::clamp(track.evidence + proof, 0, kMostEvidence);
   track.unseen = 0;
   // Whether it stands: the Mahalanobis distance of no motion.
   const Eigen::Vector2d v_W = track.state.tail<2>();
   const double sigmas = std::sqrt(v_W.dot(track.covariance.bottomRightCorner<2, 2>().inverse() * v_W));
   const bool moves = v_W.norm() > kSlowestMps && sigmas > kMovesSigmas;
-  const bool stands = v_W.norm() < kRestsMps || sigmas < kRestsSigmas;
+  const bool stands = v_W.norm() < kStillMps || sigmas < kStillSigmas;
   if (moves && track.evidence >= kEvidence) track.is_mover = true;
   if (stands || track.evidence == 0) track.is_mover = false;
 }
