@@ -1,0 +1,125 @@
+#include "avoidance/local_map/surroundings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "avoidance/heading.h"
+
+namespace hedgehop::avoidance::local_map {
+namespace {
+
+using stereo::DisparitySource;
+using vision::mapping::OccupancyMap;
+
+constexpr double kFadeSteps = 5.0;  // steps that free space is from unknown, at most
+constexpr double kLevelM = 0.3;     // above and below the vehicle's own height: altitude is held to this
+
+Band hull_of(const VehicleLimits& limits) {
+  constexpr double kHalfHeightM = 0.2;  // of a vehicle whose outline nobody gave
+  Band hull{-kHalfHeightM, kHalfHeightM};
+  for (const Eigen::AlignedBox3d& part_B : limits.outline_B) {
+    hull.top_m = std::min(hull.top_m, part_B.min().z());
+    hull.bottom_m = std::max(hull.bottom_m, part_B.max().z());
+  }
+  return hull;
+}
+
+Movers::Config tracking(const LocalMapConfig& config, const vision::stereo::StereoGeometry& geometry) {
+  return {.sigma_per_m2 = config.noise_px / (geometry.focal_px * geometry.baseline_m), .spacing_m = config.voxel_m};
+}
+
+}  // namespace
+
+Surroundings::Surroundings(const LocalMapConfig& config, const Setup& setup, const Outline& outline)
+    : config_(config),
+      outline_(outline),
+      radius_m_(setup.limits.radius_m),
+      hull_(hull_of(setup.limits)),
+      source_(config.depth, DisparitySource::Grey::unused, config.stereo, setup),
+      map_({.voxel_m = config.voxel_m, .noise_px = config.noise_px}),
+      tracker_(tracking(config, source_.geometry())) {}
+
+/// @param z_W  of B.
+Band Surroundings::band(double z_W) const { return {z_W + hull_.top_m - kLevelM, z_W + hull_.bottom_m + kLevelM}; }
+
+/// Marks space around a point as free, as high as the vehicle's band.
+void Surroundings::clear(const Eigen::Vector3d& p_W, double radius_m) {
+  const Band tall = band(p_W.z());
+  const Eigen::Vector3d middle_W(p_W.x(), p_W.y(), 0.5 * (tall.top_m + tall.bottom_m));
+  map_.clear_cylinder(middle_W, radius_m, 0.5 * (tall.bottom_m - tall.top_m));
+}
+
+void Surroundings::begin(const NavigationState& navigation) {
+  height_W_ = navigation.p_WB_est.z();
+  map_.reset(navigation.p_WB_est);
+  const double side_m = radius_m_ + config_.voxel_m;
+  const Band tall = band(0.0);
+  const double high_m = std::max(-tall.top_m, tall.bottom_m) + config_.voxel_m;
+  const double focal_px = source_.geometry().focal_px;
+  const double wide_m = 2.0 * focal_px * side_m / source_.image().width;
+  const double tall_m = 2.0 * focal_px * high_m / source_.image().height;
+  blind_m_ = std::max(0.0, source_.X_BC().translation().x()) + std::max(wide_m, tall_m);
+  clear(navigation.p_WB_est, std::hypot(side_m, blind_m_));
+}
+
+void Surroundings::see(const NavigationState& navigation, double t_s) {
+  constexpr int kSameSegment16 = 32, kSpeckPx = 100;
+  const Eigen::Isometry3d X_WC = Eigen::Translation3d(navigation.p_WB_est) * navigation.q_WB_est * source_.X_BC();
+  if (config_.depth == DisparitySource::From::stereo) {
+    vision::stereo::remove_specks(source_.disparity16(), kSameSegment16, kSpeckPx);
+  }
+  blocks_.build(source_.disparity16(), source_.grey());
+  if (config_.sky && !source_.grey().empty()) {
+    vision::mapping::find_sky(source_.geometry(), X_WC.linear().row(2).transpose(), blocks_);
+  }
+  Eigen::Vector3d center_W = navigation.p_WB_est;
+  center_W.z() = height_W_;
+  map_.move(center_W);
+  fade(navigation, t_s);
+  map_.integrate(blocks_, source_.geometry(), X_WC, where_movers_are(t_s));
+  const double heading = heading_rad(navigation.q_WB_est);
+  for (const Outline::Disc& disc : sweep(outline_, heading, heading, config_.voxel_m)) {
+    clear(navigation.p_WB_est + Eigen::Vector3d(disc.p_H.x(), disc.p_H.y(), 0.0), disc.radius_m);
+  }
+  closed_.update(t_s);
+  follow_movers(t_s, X_WC);
+  slice_.build(map_, band(height_W_), closed_);
+}
+
+/// The movers' discs, a voxel wider, where they should be by now.
+const std::vector<OccupancyMap::Disc>& Surroundings::where_movers_are(double t_s) {
+  discs_.clear();
+  for (const Mover& mover : movers_) {
+    const double wide_m = mover.radius_m + mover.p_sigma_m + config_.voxel_m;
+    discs_.push_back({mover.p_W + (t_s - movers_at_s_) * mover.v_W, wide_m});
+  }
+  movers_at_s_ = t_s;
+  return discs_;
+}
+
+void Surroundings::follow_movers(double t_s, const Eigen::Isometry3d& X_WC) {
+  const Band tall = band(height_W_);
+  surface_.clear();
+  for (const OccupancyMap::Hit& hit : map_.hits()) {
+    if (hit.p_W.z() > tall.top_m && hit.p_W.z() < tall.bottom_m) surface_.push_back({hit.p_W.head<2>(), hit.was_free});
+  }
+  const auto along_W = [&](int u_px) -> Eigen::Vector2d {
+    const cv::Point pixel(u_px, static_cast<int>(source_.geometry().center_v_px));
+    return (X_WC.linear() * source_.geometry().ray(pixel)).head<2>().normalized();
+  };
+  tracker_.update(t_s, {X_WC.translation().head<2>(), along_W(0), along_W(source_.image().width - 1)}, surface_);
+  movers_ = tracker_.movers();
+}
+
+/// What is out of view is forgotten as fast as the position drifts: in flight, and a tenth as fast hovering.
+void Surroundings::fade(const NavigationState& navigation, double t_s) {
+  constexpr double kFullMps = 1.0, kHoveringShare = 0.1;
+  const double share = std::clamp(navigation.v_WB_B_est.norm() / kFullMps, kHoveringShare, 1.0);
+  age_s_ += share * (t_s - seen_s_);
+  seen_s_ = t_s;
+  if (age_s_ < config_.memory_s / kFadeSteps) return;
+  age_s_ = 0.0;
+  map_.fade();
+}
+
+}  // namespace hedgehop::avoidance::local_map

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <span>
+#include <vector>
+
+#include "avoidance/local_map/closed_cells.h"
+#include "avoidance/local_map/level_slice.h"
+#include "avoidance/local_map/local_map.h"
+#include "avoidance/local_map/movers.h"
+#include "avoidance/local_map/outline.h"
+#include "avoidance/module.h"
+#include "avoidance/stereo/disparity_source.h"
+#include "vision/mapping/depth_blocks.h"
+#include "vision/mapping/occupancy_map.h"
+
+namespace hedgehop::avoidance::local_map {
+
+/// What is known around the vehicle in a flight: a map of all images, what moves through it, and the slice of both that
+/// the vehicle flies in.
+class Surroundings {
+ public:
+  /// @param config, outline  outlive it.
+  Surroundings(const LocalMapConfig& config, const Setup& setup, const Outline& outline);
+
+  /// @return whether the frames hold a new image.
+  bool take(std::span<const CameraFrame> frames) { return source_.update(frames); }
+  /// Where the flight begins, the vehicle was put or took off: free up to where the camera sees all that it will fly
+  /// through, its width and its height.
+  void begin(const NavigationState& navigation);
+  /// Puts the image that was taken into the map.
+  void see(const NavigationState& navigation, double t_s);
+  /// Takes what lies around a place for an obstacle.
+  void close(const Eigen::Vector2d& p_W, double radius_m, double t_s) { closed_.close(p_W, radius_m, t_s); }
+
+  const LevelSlice& slice() const { return slice_; }
+  const std::vector<Mover>& movers() const { return movers_; }
+  const vision::mapping::DepthBlocks& blocks() const { return blocks_; }
+  size_t closed_places() const { return closed_.places().size(); }
+  double height_W() const { return height_W_; }  ///< z that is flown at
+  double blind_m() const { return blind_m_; }    ///< from B, within which images do not show all that is flown through
+
+ private:
+  Band band(double z_W) const;
+  void clear(const Eigen::Vector3d& p_W, double radius_m);
+  void fade(const NavigationState& navigation, double t_s);
+  const std::vector<vision::mapping::OccupancyMap::Disc>& where_movers_are(double t_s);
+  void follow_movers(double t_s, const Eigen::Isometry3d& X_WC);
+
+  const LocalMapConfig& config_;
+  const Outline& outline_;
+  double radius_m_;  ///< of the hull
+  Band hull_;        ///< heights of the hull's top and bottom, from B
+  stereo::DisparitySource source_;
+  vision::mapping::DepthBlocks blocks_;
+  vision::mapping::OccupancyMap map_;
+  LevelSlice slice_;
+  ClosedCells closed_;
+  Movers tracker_;
+  std::vector<SurfacePoint> surface_;  ///< of the last image, at the heights that are flown through
+  std::vector<Mover> movers_;
+  double movers_at_s_ = 0.0;
+  std::vector<vision::mapping::OccupancyMap::Disc> discs_;
+  double blind_m_ = 0.0, height_W_ = 0.0;
+  double age_s_ = 0.0, seen_s_ = 0.0;  ///< of the map since it faded last, and when the last image came
+};
+
+}  // namespace hedgehop::avoidance::local_map
