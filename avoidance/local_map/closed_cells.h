@@ -13,7 +13,6 @@ class ClosedCells {
  public:
   explicit ClosedCells(double keep_s = 90.0) : keep_s_(keep_s) {}
 
-  void reset() { places_.clear(); }
   /// Closes a disk. @param t_s  now, rising.
   void close(const Eigen::Vector2d& p_W, double radius_m, double t_s);
   /// Forgets what is older than the memory.
