@@ -101,7 +101,10 @@ int fly_optimizer(const SweepRun& run, const OptimizeDesign& design) {
   const Optimum best = optimize(run.sweep, fly);
   progress.close();
   const EveryWrite files = write_tables(run, best.orders, best.records);
-  if (best.stopped) return kSignalled + interruption.signal();
+  if (best.stopped) {
+    files.raise();
+    return kSignalled + interruption.signal();
+  }
   nlohmann::ordered_json json{{"minimize", design.minimize}, {"cost", best.cost}, {"values", {}}};
   std::string words;
   for (size_t i = 0; i < best.values.size(); ++i) {
