@@ -221,7 +221,9 @@ void declare_reproduce(CLI::App& app, std::function<int()>& chosen) {
   command->add_flag("--quick", options->quick, "fly few seeds: minutes instead of hours");
   add_flying(*command, *options);
   command->add_option("--out", options->out, "folder of the results; out/reproduce when not given")->type_name("DIR");
-  command->add_option("--write", options->write, "write the tables as a page, too, such as docs/results.md")
+  command
+      ->add_option("--write", options->write,
+                   "write the tables as a page, too, such as docs/results.md; its other papers stay if of this build")
       ->type_name("FILE");
   command->add_option("--program", options->program)->group("");  // hidden: for tests
   command->callback([&chosen, options] { chosen = [options] { return reproduce(*options); }; });

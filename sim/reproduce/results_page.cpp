@@ -3,10 +3,18 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <map>
+#include <sstream>
+#include <string_view>
+
 #include "sim/flight/build.h"
 
 namespace hedgehop::sim {
 namespace {
+
+constexpr std::string_view kCommand = "```sh\nhedgehop reproduce";
+constexpr std::string_view kOption = " --write docs/results.md\n```\n\n";
+constexpr std::string_view kHeading = "\n## ";
 
 constexpr const char* kHowToRead =
     R"(Each row is a claim: the paper's figure, what Hedgehop's developers ask of ours ("asked": no paper's demand), the law as
@@ -20,6 +28,30 @@ Figures of vehicles, cameras, images and exports are in [verification.md](verifi
 [performance.md](performance.md), what fails in [known-failures.md](known-failures.md), what is not modeled in
 [limits.md](limits.md).
 )";
+
+/// Of each paper, by its key: its part of a page.
+using Sections = std::map<std::string, std::string>;
+
+/// The parts of a page without its origin; none where its command and its parts are not as many.
+Sections sections_of(std::string_view page) {
+  const size_t option = page.find(kOption);
+  if (!page.starts_with(kCommand) || option == std::string_view::npos) return {};
+  std::istringstream keys{std::string(page.substr(kCommand.size(), option - kCommand.size()))};
+  Sections sections;
+  size_t begin = page.find(kHeading);
+  for (std::string key; keys >> key && begin != std::string_view::npos;) {
+    const size_t end = page.find(kHeading, begin + 1);
+    sections[key] = page.substr(begin, end - begin);
+    begin = end;
+  }
+  return begin == std::string_view::npos && !keys ? sections : Sections{};
+}
+
+std::string origin_text(const PageFacts& facts) {
+  const std::string several = several_builds_line(facts);
+  return fmt::format("{}# Results\n\nBuild `{}`, Hedgehop {}, {}. Written by\n\n",
+                     several.empty() ? "" : "**" + several + "**\n\n", facts.build, facts.version, facts.packages);
+}
 
 }  // namespace
 
@@ -40,17 +72,15 @@ std::string several_builds_line(const PageFacts& facts) {
   return fmt::format("Rows of {} builds: {}", facts.builds.size(), fmt::join(facts.builds, ", "));
 }
 
-std::string results_page(const RowsOfPapers& papers, const PageFacts& facts) {
-  std::string text;
-  if (const std::string several = several_builds_line(facts); !several.empty()) text += "**" + several + "**\n\n";
-  text += fmt::format("# Results\n\nBuild `{}`, Hedgehop {}, {}. Written by\n\n", facts.build, facts.version,
-                      facts.packages);
-  text += "```sh\nhedgehop reproduce";
-  for (const auto& [paper, rows] : papers) text += " " + paper.key;
-  text += " --write docs/results.md\n```\n\n";
-  if (facts.quick) text += "**A quick look: few seeds were flown.**\n\n";
-  text += kHowToRead;
-  for (const auto& [paper, rows] : papers) text += "\n" + rows_text(paper, rows);
+std::string results_page(const RowsOfPapers& papers, const PageFacts& facts, const std::string& earlier) {
+  const std::string origin = origin_text(facts);
+  Sections sections =
+      earlier.starts_with(origin) && !facts.quick ? sections_of(earlier.substr(origin.size())) : Sections{};
+  for (const auto& [paper, rows] : papers) sections[paper.key] = "\n" + rows_text(paper, rows);
+  std::string text = origin + std::string(kCommand);
+  for (const auto& [key, section] : sections) text += " " + key;
+  text += std::string(kOption) + (facts.quick ? "**A quick look: few seeds were flown.**\n\n" : "") + kHowToRead;
+  for (const auto& [key, section] : sections) text += section;
   return text;
 }
 

@@ -76,6 +76,44 @@ TEST(ResultsPage, ItsCommandNamesThePapersThatItHolds) {
               HasSubstr("\nhedgehop reproduce one2001 two2002 --write docs/results.md\n"));
 }
 
+/// Rows of one paper each, of this build.
+RowsOfPapers one_row_of(const std::vector<std::string>& keys) {
+  RowsOfPapers papers;
+  for (const std::string& key : keys) {
+    papers.push_back(rows_of({std::string(build_identity())})[0]);
+    papers.back().first.key = papers.back().first.title = key;
+  }
+  return papers;
+}
+
+std::string page_of_papers(const RowsOfPapers& papers, const std::string& earlier = "",
+                           const char* packages = "Mesa 1") {
+  return results_page(papers, page_facts(papers, packages, false), earlier);
+}
+
+TEST(ResultsPage, WrittenAPaperAtATimeInAnyOrderIsThePageOfAll) {
+  const RowsOfPapers all = one_row_of({"a2001", "b2002", "c2003"});
+  std::string page = page_of_papers({all[1]});
+  page = page_of_papers({all[2]}, page);
+  page = page_of_papers({all[0]}, page);
+  EXPECT_EQ(page, page_of_papers(all));
+  RowsOfPapers again = {all[1]};
+  again[0].second[0].row.what = "another claim";
+  page = page_of_papers(again, page);
+  EXPECT_EQ(page, page_of_papers({all[0], again[0], all[2]}));
+}
+
+TEST(ResultsPage, KeepsNoPaperOfAnotherBuildOrOfOtherPackagesOrOfAPageThatIsNone) {
+  const RowsOfPapers all = one_row_of({"a2001", "b2002"});
+  const std::string alone = page_of_papers({all[0]});
+  EXPECT_EQ(page_of_papers({all[0]}, page_of_papers({all[1]}, "", "Mesa 2")), alone);
+  std::string other = page_of_papers({all[1]});
+  other.replace(other.find(build_identity()), 4, "0000");
+  EXPECT_EQ(page_of_papers({all[0]}, other), alone);
+  EXPECT_EQ(page_of_papers({all[0]}, "# Notes\n\n## b2002\n"), alone);
+  EXPECT_EQ(page_of_papers({all[0]}, page_of_papers({all[1]}) + "\n## Mine\n"), alone);
+}
+
 TEST(ResultsPage, OfSeveralBuildsSaysSoInItsFirstLineAndIsRefused) {
   const std::string own(build_identity());
   const std::string page = page_of({own, "0123456789abcdef"});
