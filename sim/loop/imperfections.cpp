@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/loop/normal_image.h"
 #include "sim/scenario/random_stream.h"
 
 namespace hedgehop::sim {
@@ -47,8 +48,7 @@ void Imperfections::apply(int64_t frame, cv::Mat& image) {
     levels_.convertTo(sigma_, CV_32F, per_level, config_.read_noise * config_.read_noise);
     cv::sqrt(sigma_, sigma_);
     noise_.create(levels_.size(), levels_.type());
-    cv::RNG random(stream_seed(seed_ + static_cast<uint64_t>(frame), "noise"));
-    random.fill(noise_, cv::RNG::NORMAL, 0.0, 1.0);
+    fill_normal(stream_seed(seed_ + static_cast<uint64_t>(frame), "noise"), noise_);
     cv::multiply(noise_, sigma_, noise_);
     levels_ += noise_;
   }
@@ -59,9 +59,8 @@ void Imperfections::apply_to_depth(int64_t frame, cv::Mat& depth_m) {
   const double disparity_m_px = focal_px_ * ImperfectionsConfig::kBaselineM;  // disparity times depth
   cv::divide(disparity_m_px, depth_m, levels_);                               // 0 for the sky, NaN stays NaN
   noise_.create(levels_.size(), levels_.type());
-  cv::RNG random(stream_seed(seed_ + static_cast<uint64_t>(frame), "disparity"));
-  random.fill(noise_, cv::RNG::NORMAL, 0.0, config_.disparity_noise_px);
-  levels_ += noise_;
+  fill_normal(stream_seed(seed_ + static_cast<uint64_t>(frame), "disparity"), noise_);
+  cv::scaleAdd(noise_, config_.disparity_noise_px, levels_, levels_);
   for (int v = 0; v < depth_m.rows; ++v) {
     for (int u = 0; u < depth_m.cols; ++u) {
       const float disparity_px = levels_.at<float>(v, u);
@@ -88,8 +87,8 @@ const cv::Mat& Imperfections::response(const cv::Mat& levels) {
   cv::merge(std::vector<cv::Mat>(static_cast<size_t>(levels.channels()), share), response_);
   if (config_.fixed_pattern > 0.0) {
     cv::Mat gain(size, levels.type());
-    cv::RNG random(stream_seed(seed_, "fixed_pattern"));
-    random.fill(gain, cv::RNG::NORMAL, 1.0, config_.fixed_pattern);
+    fill_normal(stream_seed(seed_, "fixed_pattern"), gain);
+    gain.convertTo(gain, CV_32F, config_.fixed_pattern, 1.0);
     cv::multiply(response_, gain, response_);
   }
   return response_;

@@ -54,7 +54,8 @@ void describe(Visitor& v, ImperfectionsConfig& c) {
   v("shutter_samples", c.shutter_samples,
     {.at_least = 1,
      .at_most = 256,
-     .meaning = "most moments that an image with motion blur is the mean of; they lie a quarter of a pixel apart"});
+     .meaning = "most moments that an image with motion blur is the mean of; they lie at most 0.4 pixels apart where "
+                "these are enough"});
   v("readout", c.readout_s,
     {.unit = "s",
      .at_least = 0.0,

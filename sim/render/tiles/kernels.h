@@ -42,11 +42,12 @@ struct Kernels {
 
 extern const Kernels kPlainKernels;
 #ifdef __x86_64__
-extern const Kernels kAvx2Kernels;
+extern const Kernels kAvx2Kernels, kAvx512Kernels;
 #endif
 
 /// The fastest that this processor can run at speed, or those that the environment variable HEDGEHOP_TILES names:
-/// "plain" runs anywhere, slowly. Throws std::runtime_error, with the remedy, when there are none.
+/// "avx512", "avx2", or "plain", which runs anywhere, slowly. Throws std::runtime_error, with the remedy, when there
+/// are none.
 const Kernels& chosen_kernels();
 
 }  // namespace hedgehop::sim::tiles

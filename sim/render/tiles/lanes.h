@@ -55,7 +55,11 @@ inline constexpr Spread kSpread;
 
 #ifdef __AVX2__
 
+#ifdef __AVX512VL__
+inline constexpr const char* kLanes = "AVX-512";
+#else
 inline constexpr const char* kLanes = "AVX2";
+#endif
 
 // The second where they are not ordered.
 inline F8 least(F8 a, F8 b) { return _mm256_min_ps(a, b); }
@@ -116,9 +120,15 @@ inline void gather(const float* from, I8 places, F8& here, F8& right) {
 /// table[i] of each lane. @param i  0..15.
 inline I8 look_up(const int32_t table[16], I8 i) {
   const __m256i at = reinterpret_cast<__m256i>(i);
+#ifdef __AVX512VL__
+  return reinterpret_cast<I8>(
+      _mm256_permutex2var_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(table)), at,
+                                _mm256_loadu_si256(reinterpret_cast<const __m256i*>(table + 8))));
+#else
   const auto low = _mm256_permutevar8x32_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(table)), at);
   const auto high = _mm256_permutevar8x32_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(table + 8)), at);
   return pick(i > 7, reinterpret_cast<I8>(high), reinterpret_cast<I8>(low));
+#endif
 }
 /// The mean of four texels, each 128 less than it is, in one lane's bytes: (left, upper), (left, lower), (right,
 /// upper), (right, lower). @param right, down  0..255, of 255. @return in 1 / 65025.

@@ -38,6 +38,17 @@ TEST(Contexts, TilesDrawTheSamePixelsWithAndWithoutVectors) {
   const std::string plain = digest_with("HEDGEHOP_TILES=plain", "tiles");
   EXPECT_EQ(std::ranges::count(plain, '\n'), 20) << plain;
   EXPECT_EQ(digest_with("env -u HEDGEHOP_TILES", "tiles"), plain);
+  EXPECT_EQ(digest_with("HEDGEHOP_TILES=avx2", "tiles"), plain);
+}
+
+TEST(Contexts, TilesRefuseKernelsThatThisProcessorHasNot) {
+  const std::string command = "HEDGEHOP_TILES=mmx " HEDGEHOP_RENDER_DIGEST " tiles 2>&1";
+  std::FILE* const pipe = popen(command.c_str(), "r");
+  std::array<char, 512> line{};
+  ASSERT_TRUE(pipe != nullptr && std::fgets(line.data(), line.size(), pipe) != nullptr);
+  EXPECT_NE(pclose(pipe), 0);
+  EXPECT_THAT(line.data(), testing::HasSubstr("HEDGEHOP_TILES=mmx"));
+  EXPECT_THAT(line.data(), testing::HasSubstr("plain"));
 }
 
 // Kept, so that every machine and compiler is held to the same bits: five channels, a pinhole and a fisheye, one sample
