@@ -18,6 +18,12 @@ double draw(uint64_t seed, int64_t frame, std::string_view what) {
   return std::ldexp(static_cast<double>(bits >> 11), -53);
 }
 
+/// Rounded twice on every processor, where OpenCV's convertTo() rounds once on those with FMA.
+void multiply_and_add(const cv::Mat& in, double factor, double term, cv::Mat& out) {
+  in.convertTo(out, CV_32F, factor);
+  cv::add(out, cv::Scalar::all(term), out);
+}
+
 }  // namespace
 
 Imperfections::Imperfections(const ImperfectionsConfig& config, double period_s, uint64_t seed, double focal_px)
@@ -45,7 +51,7 @@ void Imperfections::apply(int64_t frame, cv::Mat& image) {
     // Photons come one by one: the variance of their count is its mean.
     cv::min(levels_, kWhite, levels_);
     const double per_level = config_.full_well > 0.0 ? kWhite / config_.full_well : 0.0;
-    levels_.convertTo(sigma_, CV_32F, per_level, config_.read_noise * config_.read_noise);
+    multiply_and_add(levels_, per_level, config_.read_noise * config_.read_noise, sigma_);
     cv::sqrt(sigma_, sigma_);
     noise_.create(levels_.size(), levels_.type());
     fill_normal(stream_seed(seed_ + static_cast<uint64_t>(frame), "noise"), noise_);
@@ -60,7 +66,8 @@ void Imperfections::apply_to_depth(int64_t frame, cv::Mat& depth_m) {
   cv::divide(disparity_m_px, depth_m, levels_);                               // 0 for the sky, NaN stays NaN
   noise_.create(levels_.size(), levels_.type());
   fill_normal(stream_seed(seed_ + static_cast<uint64_t>(frame), "disparity"), noise_);
-  cv::scaleAdd(noise_, config_.disparity_noise_px, levels_, levels_);
+  noise_ *= config_.disparity_noise_px;
+  levels_ += noise_;
   for (int v = 0; v < depth_m.rows; ++v) {
     for (int u = 0; u < depth_m.cols; ++u) {
       const float disparity_px = levels_.at<float>(v, u);
@@ -88,7 +95,7 @@ const cv::Mat& Imperfections::response(const cv::Mat& levels) {
   if (config_.fixed_pattern > 0.0) {
     cv::Mat gain(size, levels.type());
     fill_normal(stream_seed(seed_, "fixed_pattern"), gain);
-    gain.convertTo(gain, CV_32F, config_.fixed_pattern, 1.0);
+    multiply_and_add(gain, config_.fixed_pattern, 1.0, gain);
     cv::multiply(response_, gain, response_);
   }
   return response_;

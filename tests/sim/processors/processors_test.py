@@ -26,7 +26,7 @@ PROCESSORS = {
     "tiles": {
         "this": {},
         "no FMA": {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-FMA,-FMA4"},
-        "no AVX-512": {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX512F", "OPENCV_CPU_DISABLE": "AVX512-SKX"},
+        "no AVX-512": {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX512F", "OPENCV_CPU_DISABLE": "AVX512-SKX", "HEDGEHOP_TILES": "avx2"},
         "no AVX2": {"GLIBC_TUNABLES": NO_AVX2, "OPENCV_CPU_DISABLE": "AVX512-SKX,AVX2", "HEDGEHOP_TILES": "plain"},
         "SSE3 only": {"GLIBC_TUNABLES": NO_AVX2 + ",-SSE4_1,-SSE4_2,-SSSE3", "HEDGEHOP_TILES": "plain",
                       "OPENCV_CPU_DISABLE": "AVX512-SKX,AVX2,AVX,FP16,SSE4.2,SSE4.1"},
