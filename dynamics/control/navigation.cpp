@@ -114,16 +114,18 @@ void Navigation::propagate_errors(const Eigen::Matrix3d& R_WB, const Eigen::Vect
   const sensors::GaussMarkov barometer = sensors::barometer_wander(sensors_.barometer);
   gps_wander_m_ *= gps.decay(dt_s_);
   barometer_wander_pa_ *= barometer.decay(dt_s_);
-  Square F = Square::Identity();
-  F.block<3, 3>(kTheta, kTheta) -= dt_s_ * skew(w);
-  F.block<3, 3>(kTheta, kGyro) = -dt_s_ * Eigen::Matrix3d::Identity();
-  F.block<3, 3>(kV, kTheta) = -dt_s_ * R_WB * skew(f);
-  F.block<3, 3>(kV, kAccelerometer) = -dt_s_ * R_WB;
-  F.block<3, 3>(kP, kV) = dt_s_ * Eigen::Matrix3d::Identity();
-  F.block<2, 2>(kWander, kWander) *= gps.decay(dt_s_);
-  F(kBarometer, kBarometer) = barometer.decay(dt_s_);
-  const Square FP = F * P_;
-  P_.noalias() = FP * F.transpose();
+  // F P F' with the few blocks of F that are not those of the identity; P is symmetric.
+  const Eigen::Matrix3d theta_to_theta = -dt_s_ * skew(w), theta_to_v = -dt_s_ * R_WB * skew(f);
+  const double gps_decay = gps.decay(dt_s_), barometer_decay = barometer.decay(dt_s_);
+  for (int side = 0; side < 2; ++side) {
+    auto theta = P_.middleRows<3>(kTheta), v = P_.middleRows<3>(kV);
+    P_.middleRows<3>(kP) += dt_s_ * v;
+    v += theta_to_v.lazyProduct(theta) - dt_s_ * R_WB.lazyProduct(P_.middleRows<3>(kAccelerometer));
+    theta += (theta_to_theta.lazyProduct(theta)).eval() - dt_s_ * P_.middleRows<3>(kGyro);
+    P_.middleRows<2>(kWander) *= gps_decay;
+    P_.row(kBarometer) *= barometer_decay;
+    P_.transposeInPlace();
+  }
   P_.diagonal().segment<3>(kTheta).array() += square(imu.gyro_noise_density) * dt_s_;
   P_.diagonal().segment<3>(kV).array() += square(imu.accelerometer_noise_density) * dt_s_;
   P_.diagonal().segment<2>(kP).array() += square(config_.drift_mps_rt_hz) * dt_s_;

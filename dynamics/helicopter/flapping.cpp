@@ -27,7 +27,7 @@ double heave_flapping(const FlappingModel& model, double advance_ratio) {
 
 Eigen::Vector4d derivative(const FlappingModel& m, const FlapState& flap, const FlapInput& in) {
   const double a = flap.back_rad, b = flap.right_rad, c = flap.bar_back_rad, d = flap.bar_right_rad;
-  const double mu = std::hypot(in.forward_ratio, in.right_ratio);
+  const double mu = Eigen::Vector2d(in.forward_ratio, in.right_ratio).norm();
   const double D_mu = speed_flapping(m, in.collective_rad, in.inflow_ratio);
   const double D_z = heave_flapping(m, mu);
   const double blown_back = D_mu * in.forward_ratio + D_z * in.down_ratio;

@@ -9,30 +9,35 @@ namespace {
 
 constexpr double kFreeAdvanceRatio = 0.1;  ///< forward flight that carries the wake away
 constexpr double kLimitGrowth = 10.0;      ///< m/s more of w_r for each m/s of V beyond that
-constexpr double kTolerance = 1e-13;       ///< of v_i, relative to the bracket
+constexpr double kTolerance = 1e-7;        ///< a step so small, relative to the bracket, leaves its square of error
 constexpr int kMostIterations = 60;        ///< bisection alone would be done by then
 
 /// Thrusts of both theories at one v_i, for a rotor whose blades push up (w_r + 2/3 Omega R theta > 0).
 struct Balance {
-  double residual, slope, thrust, upflow_limit;
+  double residual, newton_step, thrust;
+  bool within_momentum_theory;
 };
 Balance balance(const RotorDisc& disc, double blade_mps, double upflow, double inplane, double v_i) {
   Balance b;
   const double blade_thrust = disc.lift_nspm * (blade_mps - v_i);
   b.thrust = std::min(blade_thrust, disc.max_thrust_n);
 
-  // Where momentum theory leaves its range, its upflow stays at the border.
+  // Where momentum theory leaves its range, its upflow stays at the border: so much of the hover inflow, or the free.
   const double flow_per_thrust = 2.0 * disc.density_kgpm3 * disc.area_m2;
-  const double v_h = std::sqrt(std::max(0.0, b.thrust) / flow_per_thrust);
-  b.upflow_limit =
-      disc.descent_limit * v_h + kLimitGrowth * std::max(0.0, inplane - kFreeAdvanceRatio * disc.tip_speed_mps);
-  const double w = std::min(upflow, b.upflow_limit);
+  const double hover_inflow2 = std::max(0.0, b.thrust) / flow_per_thrust;
+  const double free = kLimitGrowth * std::max(0.0, inplane - kFreeAdvanceRatio * disc.tip_speed_mps);
+  const double beyond_free = upflow - free;
+  b.within_momentum_theory =
+      beyond_free <= 0.0 || beyond_free * beyond_free <= disc.descent_limit * disc.descent_limit * hover_inflow2;
+  const double w = b.within_momentum_theory ? upflow : disc.descent_limit * std::sqrt(hover_inflow2) + free;
 
-  const double resultant = std::sqrt(inplane * inplane + (w - v_i) * (w - v_i));
+  const double resultant2 = inplane * inplane + (w - v_i) * (w - v_i), resultant = std::sqrt(resultant2);
   const double momentum = flow_per_thrust * disc.efficiency;
   b.residual = momentum * v_i * resultant - b.thrust;
-  const double resultant_slope = resultant > 0.0 ? (v_i - w) / resultant : 0.0;
-  b.slope = momentum * (resultant + v_i * resultant_slope) + (blade_thrust < disc.max_thrust_n ? disc.lift_nspm : 0.0);
+  // Over the resultant, which is 0 only without flow along the disc: then the momentum's slope is, too.
+  const double blade_slope = blade_thrust < disc.max_thrust_n ? disc.lift_nspm : 0.0;
+  const double slope = momentum * (resultant2 + v_i * (v_i - w)) + blade_slope * resultant;
+  b.newton_step = resultant > 0.0 ? b.residual * resultant / slope : b.residual / blade_slope;
   return b;
 }
 
@@ -78,13 +83,13 @@ Inflow solve_inflow(const RotorDisc& disc, double collective_rad, double upflow_
   Balance b = balance(disc, blade_mps, upflow, inplane_mps, v_i);
   for (int i = 0; i < kMostIterations; ++i) {
     (b.residual > 0.0 ? high : low) = v_i;
-    const double step = b.residual / b.slope;
-    if (std::abs(step) <= kTolerance * blade_mps) break;
-    v_i -= step;
-    if (!(v_i > low && v_i < high)) v_i = 0.5 * (low + high);
+    const bool last = std::abs(b.newton_step) <= kTolerance * blade_mps;
+    v_i -= b.newton_step;
+    if (!last && !(v_i > low && v_i < high)) v_i = 0.5 * (low + high);
     b = balance(disc, blade_mps, upflow, inplane_mps, v_i);
+    if (last) break;
   }
-  return {sign * b.thrust, sign * v_i, upflow <= b.upflow_limit};
+  return {sign * b.thrust, sign * v_i, b.within_momentum_theory};
 }
 
 double shaft_power_w(const RotorDisc& disc, const Inflow& inflow, double upflow_mps, double inplane_mps) {

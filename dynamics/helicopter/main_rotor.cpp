@@ -85,7 +85,7 @@ MainRotorLoads main_rotor_loads(const MainRotor& rotor, const FlapState& flap, c
   const double v_h = v_air_B.y() + w_WB_B.x() * h;
   const double w_h = v_air_B.z();
   const double upflow = w_h + a * u_h - b * v_h;
-  const double inplane = std::hypot(u_h, v_h);
+  const double inplane = Eigen::Vector2d(u_h, v_h).norm();
 
   MainRotorLoads loads;
   loads.inflow = solve_inflow(rotor.disc, blades.collective_rad, upflow, inplane);

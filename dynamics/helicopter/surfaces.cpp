@@ -26,7 +26,7 @@ Loads fin_loads(const SurfacesConfig& surfaces, double density_kgpm3, double tai
   const double v_vf = v_air_B.y() - tail_arm_m * w_WB_B.z() + tail_height_m * w_WB_B.x();
   const double w_tr = v_air_B.z() + tail_arm_m * w_WB_B.y();
   const double Y = normal_force_n(0.5 * density_kgpm3, surfaces.fin_area_m2, surfaces.fin_lift_slope_prad,
-                                  std::hypot(v_air_B.x(), w_tr), v_vf);
+                                  Eigen::Vector2d(v_air_B.x(), w_tr).norm(), v_vf);
   return {{0.0, Y, 0.0}, {Y * tail_height_m, 0.0, -Y * tail_arm_m}};
 }
 

@@ -28,7 +28,7 @@ TailRotorLoads tail_rotor_loads(const TailRotor& rotor, double collective_rad, c
   const double v_tr = v_air_B.y() - rotor.arm_m * w_WB_B.z() + rotor.height_m * w_WB_B.x();
   const double w_tr = v_air_B.z() + rotor.arm_m * w_WB_B.y();
   const double upflow = rotor.clockwise * v_tr;
-  const double inplane = std::hypot(v_air_B.x(), w_tr);
+  const double inplane = Eigen::Vector2d(v_air_B.x(), w_tr).norm();
 
   TailRotorLoads loads;
   loads.inflow = solve_inflow(rotor.disc, collective_rad, upflow, inplane);
