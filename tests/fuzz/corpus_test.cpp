@@ -12,6 +12,10 @@
 #include "tests/fuzz/readers.h"
 
 namespace hedgehop::fuzz {
+
+/// GoogleTest's, which would print the bytes of a reader, addresses among them.
+static void PrintTo(const Reader& reader, std::ostream* out) { *out << reader.name; }
+
 namespace {
 
 std::vector<std::string> corpus(const Reader& reader) {
