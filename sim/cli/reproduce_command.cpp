@@ -103,8 +103,10 @@ void write_pages(const ReproduceOptions& options, const fs::path& out, const Row
   files.attempt([&] { write_file_whole(out / "reproduction.csv", rows_csv(papers)); });
   files.attempt([&] { write_file_whole(out / "reproduction.html", reproduction_page(pages, facts)); });
   if (!options.write.empty()) {
-    const std::string earlier = fs::exists(options.write) ? read_file_whole(options.write) : "";
-    files.attempt([&] { write_file_whole(options.write, results_page(papers, facts, earlier)); });
+    files.attempt([&] {
+      const std::string earlier = fs::exists(options.write) ? read_file_whole(options.write) : "";
+      write_file_whole(options.write, results_page(papers, facts, earlier));
+    });
   }
   if (const std::string several = several_builds_line(facts); !several.empty()) fmt::print("{}\n", several);
   for (const auto& [paper, rows] : papers) fmt::print("{}\n", rows_text(paper, rows));

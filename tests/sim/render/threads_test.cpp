@@ -20,6 +20,16 @@ std::string digest_with(const std::string& environment, const std::string& conte
   return digests;
 }
 
+/// The line with which it fails to draw.
+std::string refusal_with(const std::string& environment, const std::string& context) {
+  const std::string command = environment + " " HEDGEHOP_RENDER_DIGEST " " + context + " 2>&1";
+  std::FILE* const pipe = popen(command.c_str(), "r");
+  std::array<char, 512> line{};
+  EXPECT_TRUE(pipe != nullptr && std::fgets(line.data(), line.size(), pipe) != nullptr);
+  EXPECT_NE(pclose(pipe), 0);
+  return line.data();
+}
+
 TEST(Threads, RasterizerThreadsChangeNoPixel) {
   const std::string alone = digest_with("LP_NUM_THREADS=0");
   EXPECT_EQ(std::ranges::count(alone, '\n'), 20) << alone;  // ten scenes, with shadows and without
@@ -42,13 +52,8 @@ TEST(Contexts, TilesDrawTheSamePixelsWithAndWithoutVectors) {
 }
 
 TEST(Contexts, TilesRefuseKernelsThatThisProcessorHasNot) {
-  const std::string command = "HEDGEHOP_TILES=mmx " HEDGEHOP_RENDER_DIGEST " tiles 2>&1";
-  std::FILE* const pipe = popen(command.c_str(), "r");
-  std::array<char, 512> line{};
-  ASSERT_TRUE(pipe != nullptr && std::fgets(line.data(), line.size(), pipe) != nullptr);
-  EXPECT_NE(pclose(pipe), 0);
-  EXPECT_THAT(line.data(), testing::HasSubstr("HEDGEHOP_TILES=mmx"));
-  EXPECT_THAT(line.data(), testing::HasSubstr("plain"));
+  EXPECT_THAT(refusal_with("HEDGEHOP_TILES=mmx", "tiles"),
+              testing::AllOf(testing::HasSubstr("HEDGEHOP_TILES=mmx"), testing::HasSubstr("plain")));
 }
 
 // Kept, so that every machine and compiler is held to the same bits: five channels, a pinhole and a fisheye, one sample
@@ -65,13 +70,9 @@ TEST(Contexts, TilesLeaveTheChoiceOfMathLibrarysInstructionsNoInfluence) {
 }
 
 TEST(Contexts, EglWithoutADriverIsRefusedWithTheRemedy) {
-  const std::string command = "__EGL_VENDOR_LIBRARY_DIRS=/nowhere " HEDGEHOP_RENDER_DIGEST " egl 2>&1";
-  std::FILE* const pipe = popen(command.c_str(), "r");
-  std::array<char, 512> line{};
-  ASSERT_TRUE(pipe != nullptr && std::fgets(line.data(), line.size(), pipe) != nullptr);
-  EXPECT_NE(pclose(pipe), 0);
-  EXPECT_THAT(line.data(), testing::HasSubstr("no OpenGL 3.3 core context from EGL"));
-  EXPECT_THAT(line.data(), testing::HasSubstr("libegl-mesa0"));
+  EXPECT_THAT(
+      refusal_with("__EGL_VENDOR_LIBRARY_DIRS=/nowhere", "egl"),
+      testing::AllOf(testing::HasSubstr("no OpenGL 3.3 core context from EGL"), testing::HasSubstr("libegl-mesa0")));
 }
 
 }  // namespace
