@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "avoidance/heading.h"
+#include "avoidance/local_map/dead_reckoning.h"
 #include "avoidance/local_map/footprint.h"
 #include "avoidance/local_map/local_map_overlay.h"
 #include "avoidance/local_map/route_field.h"
@@ -22,6 +23,9 @@ using vision::mapping::DepthBlock;
 
 constexpr double kAheadM = 4.0;  // along the route, to which the nose points
 constexpr double kStandsMps = 0.3, kHoversMps = 0.05;
+// What is near flies past too fast to be measured, so that speed follows height, as bees' does: [Srinivasan1996] sec.
+// on flight speed.
+constexpr double kGroundRadps = 2.0, kLeastHeightM = 0.5;
 
 class LocalMap final : public Module {
  public:
@@ -39,32 +43,36 @@ class LocalMap final : public Module {
     clearance_ = {limits.radius_m, config_.margin_m, config_.margin_time_s};
     outline_ = Outline(limits);
     around_.emplace(config_, setup, outline_);
+    dead_reckoning_ = {};
     footprint_ = Footprint(outline_, clearance_, config_.voxel_m);
     const double acceleration = limits.acceleration_mps2;
-    planner_.emplace(Response{.delay_s = config_.delay_s,
-                              .acceleration_mps2 = acceleration,
-                              .braking_mps2 = config_.braking_share * acceleration},
-                     std::min(config_.speed_mps, limits.speed_mps));
+    response_ = {.delay_s = config_.delay_s,
+                 .acceleration_mps2 = acceleration,
+                 .braking_mps2 = config_.braking_share * acceleration};
+    most_mps_ = std::min(config_.speed_mps, limits.speed_mps);
     last_.reset();
     last_cmd_W_.setZero();
     look_W_.reset();
     stares_since_s_.reset();
+    waits_since_s_.reset();
     stops_ = stuck_ = decisions_ = 0;
   }
 
   Decision do_update(const Observation& observation) override {
+    const double t_s = seconds(observation.t_ns);
+    Observation reckoned = observation;
+    reckoned.navigation = dead_reckoning_.update(observation.navigation, t_s);
+    reckoned.goal.p_WG += reckoned.navigation.p_WB_est - observation.navigation.p_WB_est;
     if (!around_->take(observation.frames)) {
       if (last_) return *last_;
       return {HoverCommand{}, "wait", std::vector<double>(6, std::nan(""))};
     }
-    const NavigationState& navigation = observation.navigation;
-    const double t_s = seconds(observation.t_ns);
     if (!last_) {
-      around_->begin(navigation);
-      last_nose_rad_ = heading_rad(navigation.q_WB_est);
+      around_->begin(reckoned.navigation);
+      last_nose_rad_ = heading_rad(reckoned.navigation.q_WB_est);
     }
-    around_->see(navigation, t_s);
-    const Decision decision = decide(observation, t_s);
+    around_->see(reckoned.navigation, t_s);
+    const Decision decision = decide(reckoned, t_s);
     last_ = decision;
     ++decisions_;
     return decision;
@@ -80,16 +88,17 @@ class LocalMap final : public Module {
     const NavigationState& navigation = observation.navigation;
     const Eigen::Vector2d p_W = navigation.p_WB_est.head<2>(), goal_W = observation.goal.p_WG.head<2>();
     const Moment now{t_s, p_W, (navigation.q_WB_est * navigation.v_WB_B_est).head<2>()};
-    // Half a cell more than what a plan must keep: a route cuts the corners of cells.
-    route_.build(slice(), clearance_.hull_m + clearance_.margin_m + 0.5 * slice().cell_m(), goal_W,
+    const double height_m = std::max(navigation.height_above_ground_m, kLeastHeightM);
+    planner_ = StopPlanner(response_, std::min(most_mps_, kGroundRadps * height_m));
+    route_.build(slice(), clearance_.hull_m + clearance_.margin_m, goal_W,
                  [&](const Eigen::Vector2d& edge_W) { return (goal_W - edge_W).norm(); });
     const auto to_goal_m = [&](const Eigen::Vector2d& at_W) { return route_.to_goal_m(at_W); };
     const auto threat = threat_at(t_s);
     const double heading = heading_rad(navigation.q_WB_est);
     footprint_.turn(heading, last_nose_rad_);
-    plan_ = planner_->choose(
+    plan_ = planner_.choose(
         now, last_cmd_W_, [&](const Moment& m) { return fault(m, true); }, threat, to_goal_m);
-    const StopPlanner::Plan hoped = planner_->choose(
+    const StopPlanner::Plan hoped = planner_.choose(
         now, last_cmd_W_, [&](const Moment& m) { return fault(m, false); }, threat, to_goal_m);
 
     const std::optional<double> route_m = to_goal_m(p_W);
@@ -101,7 +110,8 @@ class LocalMap final : public Module {
     if (held && !(look_W_ && is_unknown(*look_W_))) look_W_ = unknown_in_the_way(hoped.path);
     if (look_W_ && now.v_W.norm() < kStandsMps) back_off(now);
     stare(now, heading, plan_, t_s);
-    const double nose = nose_rad(observation, arrived, route_m.has_value());
+    const bool goes_on = route_m && !(waits(now, t_s) && !look_W_ && !arrived);
+    const double nose = with_mover_in_view(now, nose_rad(observation, arrived, goes_on));
     last_nose_rad_ = footprint_.turn_as_far_as_free_rad(slice(), plan_.path, heading, nose);
     if (last_nose_rad_ != nose && plan_.v_cmd_W.norm() < kHoversMps) make_room(now, heading, nose);
 
@@ -111,8 +121,8 @@ class LocalMap final : public Module {
     command.altitude_m = -around_->height_W();
     command.heading_rad = last_nose_rad_;
     decision.command = command;
-    decision.status = arrived ? "arrive" : !plan_.safe ? "brake" : !route_m ? "stuck" : look_W_ ? "look" : "cruise";
-    stuck_ += !route_m;
+    decision.status = arrived ? "arrive" : !plan_.safe ? "brake" : !goes_on ? "stuck" : look_W_ ? "look" : "cruise";
+    stuck_ += !goes_on;
     stops_ += !plan_.safe;
     decision.signals = {route_m.value_or(std::nan("")),
                         (plan_.path.back().p_W - p_W).norm(),
@@ -143,11 +153,11 @@ class LocalMap final : public Module {
     });
   }
 
-  /// Plans to where something is less, instead of to the goal.
+  /// Plans to where something is less, instead of to the goal; stays where there is none of it.
   template <class Lacks>
   void escape(const Moment& now, const Lacks& lacks_m) {
-    if (lacks_m(now.p_W) == 0.0) return;
-    plan_ = planner_->choose(
+    if (lacks_m(now.p_W) == 0.0 && lacks_m(plan_.path.back().p_W) == 0.0) return;
+    plan_ = planner_.choose(
         now, last_cmd_W_, [&](const Moment& m) { return fault(m, true); }, threat_at(now.t_s), lacks_m);
   }
 
@@ -194,7 +204,16 @@ class LocalMap final : public Module {
     stares_since_s_.reset();
   }
 
-  double nose_rad(const Observation& observation, bool arrived, bool has_route) const {
+  /// Whether it has stood for longer than it stares.
+  bool waits(const Moment& now, double t_s) {
+    if (now.v_W.norm() > kStandsMps || plan_.v_cmd_W.norm() > kHoversMps)
+      waits_since_s_.reset();
+    else if (!waits_since_s_)
+      waits_since_s_ = t_s;
+    return waits_since_s_ && t_s - *waits_since_s_ > config_.stare_s;
+  }
+
+  double nose_rad(const Observation& observation, bool arrived, bool goes_on) const {
     const NavigationState& navigation = observation.navigation;
     const double heading = heading_rad(navigation.q_WB_est);
     const Eigen::Vector2d p_W = navigation.p_WB_est.head<2>();
@@ -203,9 +222,19 @@ class LocalMap final : public Module {
       return off_W.norm() > 0.1 ? std::atan2(off_W.y(), off_W.x()) : heading;
     };
     if (arrived) return observation.goal.heading_rad;
-    if (!has_route) return heading + 0.5;  // looks round: what blocks may have been wrong, or gone
+    if (!goes_on) return heading + 0.5;  // looks round: what blocks may have been wrong, or gone
     if (look_W_) return towards(*look_W_);
     return towards(route_.route_W(p_W, kAheadM).back());
+  }
+
+  /// Turned no farther than what comes near stays in view.
+  double with_mover_in_view(const Moment& now, double nose_rad) const {
+    constexpr double kShareOfView = 0.6;
+    const Mover* const mover = nearest_to_come(now, around_->movers(), clearance_.hull_m);
+    if (!mover) return nose_rad;
+    const Eigen::Vector2d off_W = mover->p_W - now.p_W;
+    const double bearing_rad = std::atan2(off_W.y(), off_W.x()), most_rad = kShareOfView * around_->half_view_rad();
+    return bearing_rad + std::clamp(std::remainder(nose_rad - bearing_rad, 2.0 * M_PI), -most_rad, most_rad);
   }
 
   std::vector<Metric> do_metrics() const override {
@@ -221,16 +250,19 @@ class LocalMap final : public Module {
 
   LocalMapConfig config_;
   RouteField route_;
-  std::optional<StopPlanner> planner_;
+  Response response_;
+  double most_mps_ = 0.0;  ///< the vehicle's and the config's limit
+  StopPlanner planner_{Response{}, 0.0};
   StopPlanner::Plan plan_;
   Clearance clearance_;
   Outline outline_;
   Footprint footprint_;
+  DeadReckoning dead_reckoning_;  ///< all positions here are by it
   std::optional<Surroundings> around_;
   double last_nose_rad_ = 0.0;  ///< commanded
   Eigen::Vector2d last_cmd_W_ = Eigen::Vector2d::Zero();
   std::optional<Eigen::Vector2d> look_W_;  ///< what is unknown and in the way
-  std::optional<double> stares_since_s_;
+  std::optional<double> stares_since_s_, waits_since_s_;
   std::optional<Decision> last_;
   int64_t stops_ = 0, stuck_ = 0, decisions_ = 0;
 };

@@ -12,7 +12,7 @@ namespace hedgehop::avoidance::local_map {
 /// Flies only through space that it has seen to be free: stereo depth (vision/mapping/depth_blocks.h), a map that moves
 /// along (vision/mapping/occupancy_map.h), routes to the goal through it (route_field.h), and of those only what ends
 /// in a full stop within known free space (stop_planner.h). Assumed without being seen: the hull's own volume is free;
-/// so is, once, where the flight begins, a cylinder as wide as the camera needs to see the vehicle's width ahead.
+/// so is, once, where the flight begins, a strip ahead, up to where the camera sees the vehicle's whole width.
 /// Beside and behind is unknown until it is looked at.
 struct LocalMapConfig {
   static constexpr std::string_view kName = "local_map";
@@ -26,8 +26,8 @@ struct LocalMapConfig {
   double voxel_m = 0.3;
   double memory_s = 30.0;
   double speed_mps = 8.0;
-  double margin_m = 0.25;
-  double margin_time_s = 0.1;
+  double margin_m = 0.15;
+  double margin_time_s = 0.25;
   double braking_share = 0.7;
   double delay_s = 0.25;
   double stare_s = 2.0;

@@ -84,6 +84,14 @@ void RouteField::seed(const Eigen::Vector2d& goal_W, const std::function<double(
   }
 }
 
+/// Whether a diagonal step touches a cell that may not be entered: a route passes only where a plan may follow.
+bool RouteField::cuts_corner(int row, int col, int rows, int cols) const {
+  if (rows == 0 || cols == 0) return false;
+  const int n = slice_->side();
+  return price_[static_cast<size_t>((row + rows) * n + col)] == 0 ||
+         price_[static_cast<size_t>(row * n + col + cols)] == 0;
+}
+
 /// Dijkstra's search with one bucket for each cost.
 void RouteField::spread() {
   const int n = slice_->side();
@@ -97,7 +105,7 @@ void RouteField::spread() {
         if (!slice_->contains(row + step.row, col + step.col)) continue;
         const int next = (row + step.row) * n + col + step.col;
         const int price = price_[static_cast<size_t>(next)];
-        if (price == 0) continue;
+        if (price == 0 || cuts_corner(row, col, step.row, step.col)) continue;
         const double mean = 0.5 * (price + price_[static_cast<size_t>(cell)]);
         push(next, static_cast<int>(bucket) + std::max(1, static_cast<int>(std::lround(mean * step.length))));
       }
@@ -156,7 +164,7 @@ std::vector<Eigen::Vector2d> RouteField::route_W(const Eigen::Vector2d& p_W, dou
     Eigen::Vector2i best = cell;
     for (const Step& step : kSteps) {
       const Eigen::Vector2i next = cell + Eigen::Vector2i(step.row, step.col);
-      if (!slice_->contains(next.x(), next.y())) continue;
+      if (!slice_->contains(next.x(), next.y()) || cuts_corner(cell.x(), cell.y(), step.row, step.col)) continue;
       if (cost(next.x(), next.y()) < cost(best.x(), best.y())) best = next;
     }
     if (best == cell) break;

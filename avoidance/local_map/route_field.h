@@ -31,6 +31,7 @@ class RouteField {
  private:
   static constexpr int kNever = 1 << 29;
   int cost(int row, int col) const { return cost_[static_cast<size_t>(row * slice_->side() + col)]; }
+  bool cuts_corner(int row, int col, int rows, int cols) const;
   std::optional<double> back_to_route_m(const Eigen::Vector2d& p_W) const;
   void seed(const Eigen::Vector2d& goal_W, const std::function<double(const Eigen::Vector2d&)>& beyond_m);
   void push(int cell, int cost);

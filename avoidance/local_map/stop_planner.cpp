@@ -16,7 +16,8 @@ constexpr std::array<double, 2> kLongHoldsS = {1.2, 2.4};  // to pass before wha
 constexpr double kStoppedMps = 0.05;
 constexpr int kDirections = 36;
 constexpr std::array<double, 6> kShares = {1.0, 0.75, 0.5, 0.35, 0.2, 0.1};
-constexpr double kSlackM = 0.02;  // by which a path that begins too near may come nearer still
+constexpr double kImpactPriceS = 0.5;  // what speed counts for, as a distance, where a path goes and may not
+constexpr double kSlackM = 0.02;       // by which a path that begins too near may come nearer still
 
 }  // namespace
 
@@ -48,11 +49,13 @@ StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& 
   const Fault fault_now = fault(now);
   const auto most_m = [](double now_m) { return now_m > 0.0 ? now_m + kSlackM : 0.0; };
   const Fault most{most_m(fault_now.occupied_m), most_m(fault_now.unknown_m)};
+  // How far a path goes where it may not, and how fast it is there: 0 where it never does.
   const auto excess_m = [&](const std::vector<Moment>& path, double enough_m) {
     double worst_m = 0.0;
     for (const Moment& moment : path) {
       const Fault there = fault(moment);
-      worst_m = std::max({worst_m, there.occupied_m - most.occupied_m, there.unknown_m - most.unknown_m});
+      const double past_m = std::max(there.occupied_m - most.occupied_m, there.unknown_m - most.unknown_m);
+      if (past_m > 0.0) worst_m = std::max(worst_m, past_m + kImpactPriceS * moment.v_W.norm());
       if (worst_m > enough_m) break;
     }
     return worst_m;
@@ -72,9 +75,11 @@ StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& 
   double best_cost = kNever, least_bad_m = kNever;
   const auto consider = [&](const Eigen::Vector2d& v_cmd_W) {
     std::vector<Moment> path = predict(now, last_cmd_W, v_cmd_W, kHoldS);
-    const double bad_m = excess_m(path, best.safe ? 0.0 : least_bad_m);
+    double bad_m = excess_m(path, best.safe ? 0.0 : least_bad_m);
     if (bad_m > 0.0) {  // to be flown only where nothing else is left
       if (best.safe || bad_m >= least_bad_m) return;
+      bad_m += threat_m(path);
+      if (bad_m >= least_bad_m) return;
       least_bad_m = bad_m;
       best = {v_cmd_W, false, 0.0, std::move(path)};
       return;

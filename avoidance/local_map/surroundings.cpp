@@ -59,7 +59,11 @@ void Surroundings::begin(const NavigationState& navigation) {
   const double wide_m = 2.0 * focal_px * side_m / source_.image().width;
   const double tall_m = 2.0 * focal_px * high_m / source_.image().height;
   blind_m_ = std::max(0.0, source_.X_BC().translation().x()) + std::max(wide_m, tall_m);
-  clear(navigation.p_WB_est, std::hypot(side_m, blind_m_));
+  const double heading = heading_rad(navigation.q_WB_est);
+  const Eigen::Vector3d ahead_W(std::cos(heading), std::sin(heading), 0.0);
+  for (double away_m = 0.0; away_m < blind_m_ + config_.voxel_m; away_m += config_.voxel_m) {
+    clear(navigation.p_WB_est + away_m * ahead_W, side_m + config_.voxel_m);
+  }
 }
 
 void Surroundings::see(const NavigationState& navigation, double t_s) {
@@ -79,7 +83,9 @@ void Surroundings::see(const NavigationState& navigation, double t_s) {
   map_.integrate(blocks_, source_.geometry(), X_WC, where_movers_are(t_s));
   const double heading = heading_rad(navigation.q_WB_est);
   for (const Outline::Disc& disc : sweep(outline_, heading, heading, config_.voxel_m)) {
-    clear(navigation.p_WB_est + Eigen::Vector3d(disc.p_H.x(), disc.p_H.y(), 0.0), disc.radius_m);
+    // A point's own voxel, at least.
+    const double radius_m = std::max(disc.radius_m, config_.voxel_m);
+    clear(navigation.p_WB_est + Eigen::Vector3d(disc.p_H.x(), disc.p_H.y(), 0.0), radius_m);
   }
   closed_.update(t_s);
   follow_movers(t_s, X_WC);

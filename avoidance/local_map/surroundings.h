@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -40,6 +41,8 @@ class Surroundings {
   size_t closed_places() const { return closed_.places().size(); }
   double height_W() const { return height_W_; }  ///< z that is flown at
   double blind_m() const { return blind_m_; }    ///< from B, within which images do not show all that is flown through
+  /// From the middle of the images to their sides.
+  double half_view_rad() const { return std::atan(0.5 * source_.image().width / source_.geometry().focal_px); }
 
  private:
   Band band(double z_W) const;

@@ -6,6 +6,8 @@ namespace hedgehop::avoidance::local_map {
 namespace {
 
 constexpr double kForeseenS = 4.0;
+constexpr double kNearM = 4.0;     // between hulls: who comes nearer is kept in view
+constexpr double kVagueMps = 0.7;  // 1-sigma of a velocity that may as well be none: the mover's place stays free, too
 constexpr double kVaguestM = 1.0;  // of a position to come, that is kept free besides
 
 }  // namespace
@@ -17,8 +19,10 @@ double threat_m(std::span<const Moment> path, std::span<const Mover> movers, con
     for (const Mover& mover : movers) {
       const double dt_s = moment.t_s - t_s;
       const double sigma_m = std::min(mover.p_sigma_m + mover.v_sigma_mps * std::max(0.0, dt_s), kVaguestM);
-      const double away_m = (moment.p_W - mover.p_W - dt_s * mover.v_W).norm() - mover.radius_m;
-      worst_m = std::max(worst_m, clearance.hull_m + margin_m + sigma_m - away_m);
+      const Eigen::Vector2d off_W = moment.p_W - mover.p_W;
+      double away_m = (off_W - dt_s * mover.v_W).norm();
+      if (mover.v_sigma_mps > kVagueMps) away_m = std::min(away_m, off_W.norm());
+      worst_m = std::max(worst_m, clearance.hull_m + margin_m + sigma_m + mover.radius_m - away_m);
     }
   };
   if (movers.empty()) return 0.0;
@@ -27,6 +31,21 @@ double threat_m(std::span<const Moment> path, std::span<const Mover> movers, con
   Moment stands{path.back().t_s, path.back().p_W, Eigen::Vector2d::Zero()};
   while ((stands.t_s += kStepS) < path.front().t_s + kForeseenS) meet(stands);
   return worst_m;
+}
+
+const Mover* nearest_to_come(const Moment& now, std::span<const Mover> movers, double hull_m) {
+  const Mover* nearest = nullptr;
+  double least_m = kNearM;
+  for (const Mover& mover : movers) {
+    const Eigen::Vector2d off_W = mover.p_W - now.p_W, v_W = mover.v_W - now.v_W;
+    constexpr double kStandsM2ps2 = 1e-6;
+    const double closest_s = std::clamp(-off_W.dot(v_W) / std::max(v_W.squaredNorm(), kStandsM2ps2), 0.0, kForeseenS);
+    const double away_m = (off_W + closest_s * v_W).norm() - mover.radius_m - hull_m;
+    if (away_m >= least_m) continue;
+    least_m = away_m;
+    nearest = &mover;
+  }
+  return nearest;
 }
 
 }  // namespace hedgehop::avoidance::local_map

@@ -70,6 +70,7 @@ namespace {
 constexpr double kSupportM = 25.0;     ///< least depth of the ground below the horizon, in this column or near it
 constexpr int kSupportCols = 6;        ///< how near
 constexpr double kOwnM = 15.0;         ///< least depth of it in the column itself
+constexpr int kGap = 2;                ///< blocks of the ground, one above the other, that need not be matched
 constexpr double kAttitudeRad = 0.03;  ///< by which the predicted horizon may err
 constexpr int kSmooth = 6;             ///< grey levels within a block of sky and from one to the next
 constexpr int kLikeOthers = 15;        ///< grey levels between a row's blocks of sky: skies brighten towards the sun
@@ -91,10 +92,13 @@ class Column {
   std::optional<Run> climb() const {
     const double near_rad = kAttitudeRad + 0.5 * kPx / geometry_.focal_px;
     int row = blocks_.rows() - 1;
-    // The topmost block that was matched on the ground.
+    // The topmost block of the ground, which is matched without a gap: what is matched beyond one may be noise on a
+    // wall.
     int support = -1;
     for (; row >= 0 && elevation(row) < near_rad; --row) {
-      if (blocks_.at(row, col_).near16 >= 0) support = row;
+      if (blocks_.at(row, col_).kind != DepthBlock::Kind::matched) continue;
+      if (support >= 0 && support - row > kGap + 1) return std::nullopt;
+      support = row;
     }
     if (support < 0 || row < 0) return std::nullopt;
     const int ground16 = blocks_.at(support, col_).near16;

@@ -47,8 +47,9 @@ class DepthBlocks {
 };
 
 /// Recognizes sky: it cannot be matched, and without it nothing flies in the open. A block is sky only on evidence:
-/// - below the horizon, which attitude predicts, its column ends in ground matched at 15 m or farther, and one of the
-///   columns beside it in ground at 25 m;
+/// - below the horizon, which attitude predicts, its column ends in ground matched at 15 m or farther, without a gap
+/// from
+///   the image's lower edge, and one of the columns beside it in ground at 25 m;
 /// - from there up nothing was matched that is nearer;
 /// - above the horizon its column is smooth, and as bright as the other columns' sky in its row.
 /// With it goes what lies between that ground and the horizon. A plain wall stands on ground that is nearer, a plain

@@ -34,9 +34,19 @@ TEST(LocalMapFlight, AVehicleOfTheHexacoptersSizeDoesNotEither) {
   }
 }
 
+TEST(LocalMapFlight, FliesSlowlyNearTheGround) {
+  PointWorld world;
+  world.goal_W = {30.0, 0.0};
+  world.height_m = 1.5;
+  const PointWorld::Flown flown = world.fly({});
+  EXPECT_TRUE(flown.reached);
+  EXPECT_LT(flown.fastest_mps, 2.0 * world.height_m + 0.01);
+}
+
 TEST(LocalMapFlight, InTheOpenItFliesEightMetersASecond) {
   PointWorld world;
   world.goal_W = {70.0, 0.0};
+  world.height_m = 6.0;  // near the ground it flies slower
   LocalMapConfig config;
   config.noise_px = 0.1;  // depth here is perfect, and the camera too coarse to see far with half a pixel
   const PointWorld::Flown flown = world.fly(config);

@@ -65,9 +65,7 @@ struct Grid {
       if (row < 0 || col < 0 || row >= side || col >= side || seen[static_cast<size_t>(row * side + col)]) continue;
       if (!may_enter(row, col, need_m)) continue;
       seen[static_cast<size_t>(row * side + col)] = 1;
-      for (int dr = -1; dr <= 1; ++dr) {
-        for (int dc = -1; dc <= 1; ++dc) open.emplace(row + dr, col + dc);
-      }
+      for (const auto& [dr, dc] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) open.emplace(row + dr, col + dc);
     }
     return seen;
   }
@@ -110,9 +108,12 @@ TEST(RouteField, RoutesKeepTheirDistanceFromObstacles) {
     for (int row = 0; row < grid.side; row += 3) {
       for (int col = 0; col < grid.side; col += 3) {
         if (!grid.may_enter(row, col, kNeedM)) continue;
-        for (const Eigen::Vector2d& p_W : field.route_W(grid.slice.center(row, col), 1e3)) {
-          const Eigen::Vector2i cell = grid.slice.cell(p_W);
-          EXPECT_TRUE(grid.may_enter(cell.x(), cell.y(), kNeedM)) << seed;
+        const std::vector<Eigen::Vector2d> route_W = field.route_W(grid.slice.center(row, col), 1e3);
+        for (size_t i = 0; i + 1 < route_W.size(); ++i) {
+          for (const double way : {0.0, 0.3, 0.49, 0.51, 0.7, 1.0}) {  // between the cells' middles, too
+            const Eigen::Vector2i cell = grid.slice.cell(route_W[i] + way * (route_W[i + 1] - route_W[i]));
+            EXPECT_TRUE(grid.may_enter(cell.x(), cell.y(), kNeedM)) << seed;
+          }
         }
       }
     }

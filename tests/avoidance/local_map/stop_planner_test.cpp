@@ -109,6 +109,27 @@ TEST(StopPlanner, WhereNoStopIsPossibleTheLeastBadPathIsTaken) {
   EXPECT_LT(worst_m(plan.path), 0.8 * worst_m(planner.predict(now, now.v_W, Eigen::Vector2d::Zero(), 0.0)));
 }
 
+// At 4 m/s before a wall that cannot be avoided any more, thin beside the course: whoever brakes ends 0.4 m in it,
+// slowly; whoever turns aside goes through 0.6 m of it, never 0.3 m from its faces, at full speed.
+TEST(StopPlanner, WhereNoStopIsPossibleItHitsSlowlyRatherThanLittle) {
+  const StopPlanner planner(kResponse, kSpeedMps);
+  constexpr double kWallM = 3.1;
+  const auto fault = [](const Moment& m) {
+    const double behind_m = std::abs(m.p_W.y()) < 0.3 ? 100.0 : kWallM + 0.6;
+    return Fault{.occupied_m = std::max(0.0, std::min(m.p_W.x() - kWallM, behind_m - m.p_W.x()))};
+  };
+  const auto at_mps = [&](const StopPlanner::Plan& plan) {
+    for (const Moment& m : plan.path) {
+      if (fault(m).occupied_m > 0.0) return m.v_W.norm();
+    }
+    return 0.0;
+  };
+  const Moment now{0.0, Eigen::Vector2d::Zero(), {4.0, 0.0}};
+  const StopPlanner::Plan plan = planner.choose(now, now.v_W, fault, nobody, north);
+  EXPECT_FALSE(plan.safe);
+  EXPECT_LT(at_mps(plan), 2.5);
+}
+
 // Whoever brakes for what crosses stops in its path; whoever goes on is past in time.
 TEST(StopPlanner, PassesBeforeWhatMovesInsteadOfStoppingInItsPath) {
   const StopPlanner planner(kResponse, kSpeedMps);

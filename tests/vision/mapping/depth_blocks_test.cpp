@@ -101,6 +101,19 @@ TEST(FindSky, APlainWallAcrossTheWholeViewIsNotSky) {
   EXPECT_EQ(find(look({}, 4.0, {wall})).wrong, 0);
 }
 
+// A matcher finds something on any wall now and then. Ground that begins on a wall is none.
+TEST(FindSky, WhatIsMatchedOnAPlainWallIsNoGround) {
+  constexpr double kNoiseM = 40.0;
+  for (const double wall_m : {4.0, 6.0, 8.0}) {
+    const Eigen::AlignedBox3d wall(Eigen::Vector3d(wall_m, -90.0, -90.0), Eigen::Vector3d(wall_m + 1.0, 90.0, 0.0));
+    View view = look({}, 4.0, {wall});
+    const int horizon_px = view.world.height_px / 2;
+    const auto noise16 = static_cast<double>(std::lround(view.world.geometry.disparity16(kNoiseM)));
+    view.disparity16.rowRange(horizon_px + 8, horizon_px + 24).setTo(noise16);
+    EXPECT_EQ(find(view).sky + find(view).wrong, 0) << wall_m;
+  }
+}
+
 TEST(FindSky, APlainBoxInTheAirIsNotSky) {
   for (const double above_m : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
     const Eigen::Vector3d middle_W(6.0, 0.5, -4.0 - above_m);

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+
+#include "avoidance/module.h"
+
+namespace hedgehop::avoidance::local_map {
+
+/// The vehicle's horizontal position by velocity alone, integrated. It drifts slowly, where satellite positions wander
+/// by half a meter in a second. A map must know where the vehicle is in what it saw a moment ago, not where on Earth.
+class DeadReckoning {
+ public:
+  /// @param t_s  rises from call to call; the first one begins at the estimated position.
+  /// @return the state, but north and east as integrated.
+  NavigationState update(const NavigationState& navigation, double t_s) {
+    const Eigen::Vector2d v_W = (navigation.q_WB_est * navigation.v_WB_B_est).head<2>();
+    p_W_ =
+        last_ ? p_W_ + 0.5 * (t_s - last_->t_s) * (last_->v_W + v_W) : Eigen::Vector2d(navigation.p_WB_est.head<2>());
+    last_ = Last{t_s, v_W};
+    NavigationState reckoned = navigation;
+    reckoned.p_WB_est.head<2>() = p_W_;
+    return reckoned;
+  }
+
+ private:
+  struct Last {
+    double t_s;
+    Eigen::Vector2d v_W;
+  };
+  Eigen::Vector2d p_W_ = Eigen::Vector2d::Zero();
+  std::optional<Last> last_;
+};
+
+}  // namespace hedgehop::avoidance::local_map

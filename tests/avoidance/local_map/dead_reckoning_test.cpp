@@ -1,0 +1,31 @@
+#include "avoidance/local_map/dead_reckoning.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace hedgehop::avoidance::local_map {
+namespace {
+
+// Round a circle, nose ahead, while the estimated position wanders by a meter: closed form, and no word of the
+// wandering.
+TEST(DeadReckoning, FollowsTheVelocityWhereThePositionWanders) {
+  constexpr double kRadiusM = 10.0, kTurnRadps = 0.4, kStepS = 0.08;
+  DeadReckoning reckoning;
+  Eigen::Vector2d begin_W = Eigen::Vector2d::Zero();
+  for (int i = 0; i <= 400; ++i) {
+    const double t_s = i * kStepS, turned = kTurnRadps * t_s;
+    const Eigen::Vector2d p_W = kRadiusM * Eigen::Vector2d(std::sin(turned), 1.0 - std::cos(turned));
+    NavigationState navigation;
+    navigation.q_WB_est = Eigen::AngleAxisd(turned, Eigen::Vector3d::UnitZ());
+    navigation.v_WB_B_est = {kRadiusM * kTurnRadps, 0.0, 0.0};
+    navigation.p_WB_est << p_W + Eigen::Vector2d(std::sin(0.7 * t_s), std::cos(0.9 * t_s)), -6.0 + 0.1 * i;
+    if (i == 0) begin_W = navigation.p_WB_est.head<2>() - p_W;
+    const NavigationState reckoned = reckoning.update(navigation, t_s);
+    ASSERT_LT((reckoned.p_WB_est.head<2>() - begin_W - p_W).norm(), 0.01) << t_s;
+    ASSERT_EQ(reckoned.p_WB_est.z(), navigation.p_WB_est.z());  // height is measured
+  }
+}
+
+}  // namespace
+}  // namespace hedgehop::avoidance::local_map
