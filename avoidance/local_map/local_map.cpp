@@ -23,6 +23,7 @@ using vision::mapping::DepthBlock;
 
 constexpr double kAheadM = 4.0;  // along the route, to which the nose points
 constexpr double kStandsMps = 0.3, kHoversMps = 0.05;
+constexpr double kLittleM = 0.5;
 // What is near flies past too fast to be measured, so that speed follows height, as bees' does: [Srinivasan1996] sec.
 // on flight speed.
 constexpr double kGroundRadps = 2.0, kLeastHeightM = 0.5;
@@ -53,6 +54,7 @@ class LocalMap final : public Module {
     last_.reset();
     last_cmd_W_.setZero();
     look_W_.reset();
+    backs_off_ = false;
     stares_since_s_.reset();
     waits_since_s_.reset();
     stops_ = stuck_ = decisions_ = 0;
@@ -80,8 +82,13 @@ class LocalMap final : public Module {
 
   const LevelSlice& slice() const { return around_->slice(); }
   Fault fault(const Moment& moment, bool unknown_too) const { return footprint_.fault(slice(), moment, unknown_too); }
-  auto threat_at(double t_s) const {
-    return [this, t_s](const std::vector<Moment>& path) { return threat_m(path, around_->movers(), clearance_, t_s); };
+
+  /// Plans to where something is least, at known places or, if asked, at unknown ones, too.
+  StopPlanner::Plan plan_to(const Moment& now, const StopPlanner::ToGoal& least_m, bool unknown_too = true) const {
+    return planner_.choose(
+        now, last_cmd_W_, [&](const Moment& m) { return fault(m, unknown_too); },
+        [&](const std::vector<Moment>& path) { return threat_m(path, around_->movers(), clearance_, now.t_s); },
+        least_m);
   }
 
   Decision decide(const Observation& observation, double t_s) {
@@ -93,13 +100,10 @@ class LocalMap final : public Module {
     route_.build(slice(), clearance_.hull_m + clearance_.margin_m, goal_W,
                  [&](const Eigen::Vector2d& edge_W) { return (goal_W - edge_W).norm(); });
     const auto to_goal_m = [&](const Eigen::Vector2d& at_W) { return route_.to_goal_m(at_W); };
-    const auto threat = threat_at(t_s);
     const double heading = heading_rad(navigation.q_WB_est);
     footprint_.turn(heading, last_nose_rad_);
-    plan_ = planner_.choose(
-        now, last_cmd_W_, [&](const Moment& m) { return fault(m, true); }, threat, to_goal_m);
-    const StopPlanner::Plan hoped = planner_.choose(
-        now, last_cmd_W_, [&](const Moment& m) { return fault(m, false); }, threat, to_goal_m);
+    plan_ = plan_to(now, to_goal_m);
+    const StopPlanner::Plan hoped = plan_to(now, to_goal_m, /*unknown_too=*/false);
 
     const std::optional<double> route_m = to_goal_m(p_W);
     const Eigen::Vector2d p_BG_W = goal_W - p_W;
@@ -108,7 +112,11 @@ class LocalMap final : public Module {
     const bool held = !arrived && route_m && plan_.worth_m < kHeldBack * hoped.worth_m;
     if (!held) look_W_.reset();
     if (held && !(look_W_ && is_unknown(*look_W_))) look_W_ = unknown_in_the_way(hoped.path);
-    if (look_W_ && now.v_W.norm() < kStandsMps) back_off(now);
+    // Who speeds up tilts the camera, and sees something else: not for little, where there is something to look at.
+    if (look_W_ && plan_.safe && plan_.worth_m < kLittleM)
+      plan_ = plan_to(now, [](const Eigen::Vector2d&) { return 0.0; });
+    backs_off_ = look_W_ && (backs_off_ || now.v_W.norm() < kStandsMps);
+    if (backs_off_) back_off(now);
     stare(now, heading, plan_, t_s);
     const bool goes_on = route_m && !(waits(now, t_s) && !look_W_ && !arrived);
     const double nose = with_mover_in_view(now, nose_rad(observation, arrived, goes_on));
@@ -156,9 +164,7 @@ class LocalMap final : public Module {
   /// Plans to where something is less, instead of to the goal; stays where there is none of it.
   template <class Lacks>
   void escape(const Moment& now, const Lacks& lacks_m) {
-    if (lacks_m(now.p_W) == 0.0 && lacks_m(plan_.path.back().p_W) == 0.0) return;
-    plan_ = planner_.choose(
-        now, last_cmd_W_, [&](const Moment& m) { return fault(m, true); }, threat_at(now.t_s), lacks_m);
+    if (lacks_m(now.p_W) > 0.0 || lacks_m(plan_.path.back().p_W) > 0.0) plan_ = plan_to(now, lacks_m);
   }
 
   bool is_unknown(const Eigen::Vector2d& p_W) const {
@@ -262,6 +268,7 @@ class LocalMap final : public Module {
   double last_nose_rad_ = 0.0;  ///< commanded
   Eigen::Vector2d last_cmd_W_ = Eigen::Vector2d::Zero();
   std::optional<Eigen::Vector2d> look_W_;  ///< what is unknown and in the way
+  bool backs_off_ = false;                 ///< has stood before it, and keeps away until it is seen or closed
   std::optional<double> stares_since_s_, waits_since_s_;
   std::optional<Decision> last_;
   int64_t stops_ = 0, stuck_ = 0, decisions_ = 0;
