@@ -92,15 +92,15 @@ class Column {
   std::optional<Run> climb() const {
     const double near_rad = kAttitudeRad + 0.5 * kPx / geometry_.focal_px;
     int row = blocks_.rows() - 1;
-    // The topmost block of the ground, which is matched without a gap: what is matched beyond one may be noise on a
-    // wall.
-    int support = -1;
+    // The topmost block of the ground, which is matched from the image's lower edge on: what is matched beyond a gap
+    // may be noise on a wall.
+    int support = blocks_.rows();
     for (; row >= 0 && elevation(row) < near_rad; --row) {
       if (blocks_.at(row, col_).kind != DepthBlock::Kind::matched) continue;
-      if (support >= 0 && support - row > kGap + 1) return std::nullopt;
+      if (support - row > kGap + 1) return std::nullopt;
       support = row;
     }
-    if (support < 0 || row < 0) return std::nullopt;
+    if (support == blocks_.rows() || row < 0) return std::nullopt;
     const int ground16 = blocks_.at(support, col_).near16;
     if (ground16 > geometry_.disparity16(kOwnM)) return std::nullopt;
     // Above the horizon what was matched far away, with its edge; from there on all is smooth.

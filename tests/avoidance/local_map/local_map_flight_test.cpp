@@ -34,6 +34,16 @@ TEST(LocalMapFlight, AVehicleOfTheHexacoptersSizeDoesNotEither) {
   }
 }
 
+TEST(LocalMapFlight, BlindItStaysInWhatIsAssumedFree) {
+  PointWorld world;
+  world.goal_W = {30.0, 0.0};
+  world.radius_m = 0.65;
+  world.blind = true;
+  const PointWorld::Flown flown = world.fly({});
+  constexpr double kStripM = 4.0;  // the camera of this test sees the vehicle's height from 3 m on
+  for (const auto& moment : flown.track) ASSERT_LT((moment.p_W - world.start_W).norm(), kStripM) << moment.t_s;
+}
+
 TEST(LocalMapFlight, FliesSlowlyNearTheGround) {
   PointWorld world;
   world.goal_W = {30.0, 0.0};
