@@ -7,10 +7,11 @@
 namespace hedgehop::avoidance::local_map {
 
 /// The vehicle's horizontal position by velocity alone, integrated. It drifts slowly, where satellite positions wander
-/// by half a meter in a second. A map must know where the vehicle is in what it saw a moment ago, not where on Earth.
+/// by up to half a meter in a second. A map must know where the vehicle is in what it saw a moment ago, not where on
+/// Earth.
 class DeadReckoning {
  public:
-  /// @param t_s  rises from call to call; the first one begins at the estimated position.
+  /// @param t_s  s, rises from call to call; the first one begins at the estimated position.
   /// @return the state, but north and east as integrated.
   NavigationState update(const NavigationState& navigation, double t_s) {
     const Eigen::Vector2d v_W = (navigation.q_WB_est * navigation.v_WB_B_est).head<2>();

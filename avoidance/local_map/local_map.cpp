@@ -23,7 +23,7 @@ using vision::mapping::DepthBlock;
 
 constexpr double kAheadM = 4.0;  // along the route, to which the nose points
 constexpr double kStandsMps = 0.3, kHoversMps = 0.05;
-constexpr double kLittleM = 0.5;
+constexpr double kLittleM = 0.5;  // of progress, that is not worth to tilt the camera for
 // What is near flies past too fast to be measured, so that speed follows height, as bees' does: [Srinivasan1996] sec.
 // on flight speed.
 constexpr double kGroundRadps = 2.0, kLeastHeightM = 0.5;
@@ -83,7 +83,7 @@ class LocalMap final : public Module {
   const LevelSlice& slice() const { return around_->slice(); }
   Fault fault(const Moment& moment, bool unknown_too) const { return footprint_.fault(slice(), moment, unknown_too); }
 
-  /// Plans to where something is least, at known places or, if asked, at unknown ones, too.
+  /// Plans to where something is least, clear of obstacles and, unless told otherwise, of the unknown.
   StopPlanner::Plan plan_to(const Moment& now, const StopPlanner::ToGoal& least_m, bool unknown_too = true) const {
     return planner_.choose(
         now, last_cmd_W_, [&](const Moment& m) { return fault(m, unknown_too); },
@@ -113,8 +113,9 @@ class LocalMap final : public Module {
     if (!held) look_W_.reset();
     if (held && !(look_W_ && is_unknown(*look_W_))) look_W_ = unknown_in_the_way(hoped.path);
     // Who speeds up tilts the camera, and sees something else: not for little, where there is something to look at.
-    if (look_W_ && plan_.safe && plan_.worth_m < kLittleM)
+    if (look_W_ && plan_.safe && plan_.worth_m < kLittleM) {
       plan_ = plan_to(now, [](const Eigen::Vector2d&) { return 0.0; });
+    }
     backs_off_ = look_W_ && (backs_off_ || now.v_W.norm() < kStandsMps);
     if (backs_off_) back_off(now);
     stare(now, heading, plan_, t_s);
@@ -212,10 +213,11 @@ class LocalMap final : public Module {
 
   /// Whether it has stood for longer than it stares.
   bool waits(const Moment& now, double t_s) {
-    if (now.v_W.norm() > kStandsMps || plan_.v_cmd_W.norm() > kHoversMps)
+    if (now.v_W.norm() > kStandsMps || plan_.v_cmd_W.norm() > kHoversMps) {
       waits_since_s_.reset();
-    else if (!waits_since_s_)
+    } else if (!waits_since_s_) {
       waits_since_s_ = t_s;
+    }
     return waits_since_s_ && t_s - *waits_since_s_ > config_.stare_s;
   }
 
