@@ -41,25 +41,30 @@ double median_of(const CsvTable& table, const std::string& column, const std::ve
   return median(some);
 }
 
-Json cell_data(const Json& cell, const FlightList& flights) {
+/// What the flights of some groups show; only how many had no checks, or nothing, where that is all there is.
+Json figures(const FlightList& flights, const std::set<std::string>& groups) {
   std::vector<FlightRecord> records;
   std::vector<size_t> rows;
   for (size_t i = 0; i < flights.records.size(); ++i) {
-    if (cell.at("group") != flights.records[i].order.group) continue;
+    if (!groups.contains(flights.records[i].order.group)) continue;
     records.push_back(flights.records[i]);
+    records.back().order.group.clear();  // one group of them all
     rows.push_back(i);
   }
-  Json data{{"world", cell.at("world")}, {"module", cell.at("module")}, {"reason", cell.at("reason")}};
+  Json data = Json::object();
   if (records.empty()) return data;
   const GroupSummary group = summarize(records).front();
   if (group.unchecked > 0) data["no_checks"] = group.unchecked;
   if (group.success.trials == 0) return data;
-  const Interval interval = wilson_interval(group.success, kTableConfidence);
+  const Interval passed = wilson_interval(group.success, kTableConfidence);
+  const Interval collided = wilson_interval({group.collided, group.success.trials}, kTableConfidence);
   data["flights"] = group.success.trials;
   data["passed"] = group.success.successes;
-  data["low"] = interval.low;
-  data["high"] = interval.high;
+  data["low"] = passed.low;
+  data["high"] = passed.high;
   data["collided"] = group.collided;
+  data["collided_low"] = collided.low;
+  data["collided_high"] = collided.high;
   data["timeout"] = group.timeout;
   data["broken"] = group.fault + group.failed;
   data["least_clearance_m"] = json_number(group.least_clearance_m);
@@ -67,6 +72,26 @@ Json cell_data(const Json& cell, const FlightList& flights) {
   data["path_excess"] = json_number(median_of(flights.table, "metric.path_excess", rows));
   data["mean_speed_mps"] = json_number(median_of(flights.table, "mean_speed_mps", rows));
   data["decision_ms"] = json_number(median_of(flights.table, "time.decision_ms.median", rows));
+  return data;
+}
+
+Json cell_data(const Json& cell, const FlightList& flights) {
+  Json data{{"world", cell.at("world")}, {"module", cell.at("module")}, {"reason", cell.at("reason")}};
+  data.update(figures(flights, {cell.at("group").get<std::string>()}));
+  return data;
+}
+
+/// A module's flights in all worlds together.
+Json total_data(const Json& module, const Json& cells, const FlightList& flights) {
+  std::set<std::string> groups;
+  int64_t worlds = 0;
+  for (const Json& cell : cells) {
+    if (cell.at("module") != module.at("name")) continue;
+    groups.insert(cell.at("group").get<std::string>());
+    worlds += cell.at("reason") == "" ? 1 : 0;
+  }
+  Json data{{"module", module.at("name")}, {"worlds", worlds}};
+  data.update(figures(flights, groups));
   return data;
 }
 
@@ -119,6 +144,22 @@ std::string matrix_text(const Json& data) {
     }
   }
   return text + "\n";
+}
+
+/// Collisions against speed, all worlds of a module together.
+std::string totals_text(const Json& data) {
+  std::string text =
+      "| all its worlds | worlds | flights | passed | collided | 95 % interval of collisions | speed, m/s |\n"
+      "|---|---|---|---|---|---|---|\n";
+  for (const Json& total : data.at("totals")) {
+    if (!total.contains("passed")) continue;
+    text += fmt::format("| {} | {} | {} | {} | {} | {:.3f} to {:.3f} | {} |\n", total.at("module").get<std::string>(),
+                        total.at("worlds").get<int64_t>(), total.at("flights").get<int64_t>(),
+                        total.at("passed").get<int64_t>(), total.at("collided").get<int64_t>(),
+                        total.at("collided_low").get<double>(), total.at("collided_high").get<double>(),
+                        words(total.at("mean_speed_mps")));
+  }
+  return text;
 }
 
 std::string rows_text(const Json& data) {
@@ -209,8 +250,12 @@ Json leaderboard_data(const std::filesystem::path& folder, const FlightList& fli
     Json data{{"origin", origin_words(flights.records)},
               {"worlds", board.at("worlds")},
               {"modules", board.at("modules")},
-              {"cells", Json::array()}};
+              {"cells", Json::array()},
+              {"totals", Json::array()}};
     for (const Json& cell : board.at("cells")) data["cells"].push_back(cell_data(cell, flights));
+    for (const Json& module : board.at("modules")) {
+      data["totals"].push_back(total_data(module, board.at("cells"), flights));
+    }
     for (Json& world : data["worlds"]) {
       world["difficulty"] = json_number(difficulty(world.at("name"), data["modules"], data["cells"]));
     }
@@ -228,8 +273,8 @@ Json leaderboard_data(const std::filesystem::path& folder, const FlightList& fli
 }
 
 std::string leaderboard_text(const Json& data) {
-  return data.at("origin").get<std::string>() + "\n" + matrix_text(data) + "\n" + rows_text(data) + "\n" +
-         reasons_text(data);
+  return data.at("origin").get<std::string>() + "\n" + matrix_text(data) + "\n" + totals_text(data) + "\n" +
+         rows_text(data) + "\n" + reasons_text(data);
 }
 
 }  // namespace hedgehop::sim

@@ -58,6 +58,10 @@ TEST(Leaderboard, OrdersWorldsByWhatTheModulesFailAtWithoutTheControl) {
   EXPECT_NEAR(cell(data, "near", "fast").at("low").get<double>(), 2.0 / (2.0 + 1.959964 * 1.959964), 1e-6);
   EXPECT_THAT(end.out, HasSubstr("| near | 0.50 | 0 of 2 (0.00 to 0.66) | 2 of 2 (0.34 to 1.00) | 0 of 2"));
   EXPECT_THAT(end.out, HasSubstr("Not flown: slow in far: too far.\n"));
+  EXPECT_THAT(end.out, HasSubstr("| fast | 2 | 4 | 2 | 0 | 0.000 to 0.490 |"));
+  EXPECT_THAT(end.out, HasSubstr("| slow | 1 | 2 | 0 | 0 | 0.000 to 0.658 |"));
+  // 0 of 4 by hand: the interval ends at z^2 / (4 + z^2).
+  EXPECT_NEAR(data.at("totals").at(1).at("collided_high").get<double>(), 3.841459 / (4.0 + 3.841459), 1e-6);
   EXPECT_THAT(folder.json("out/batch.json").at("flights"), testing::SizeIs(10));
 }
 
@@ -69,13 +73,27 @@ TEST(LeaderboardInBrowser, ShowsEveryCellAndLeadsToItsFlights) {
   const PageVisit page = visit(folder.path() / "out/report.html", R"js(
     const rows = [...document.querySelectorAll('.board tbody tr')].map((tr) => [...tr.children].map((td) => td.textContent));
     document.querySelectorAll('.board tbody tr')[0].children[3].click();
-    return {rows, why: document.querySelector('#board-card > p:last-child').textContent, shown: [...document.querySelectorAll('#flights tbody td:first-child')].map((e) => e.textContent)};)js");
+    const plots = [...document.querySelectorAll('#collisions-card figcaption')].map((e) => e.textContent);
+    const canvas = document.querySelector('#collisions-card figure canvas'), box = canvas.getBoundingClientRect();
+    const tips = new Set();
+    for (let x = 0; x < box.width; x += 5) {
+      for (let y = 0; y < box.height; y += 5) {
+        canvas.dispatchEvent(new PointerEvent('pointermove', {clientX: box.left + x, clientY: box.top + y}));
+        const tip = canvas.nextSibling;
+        if (!tip.hidden) tips.add(tip.textContent);
+      }
+    }
+    const key = [...document.querySelectorAll('#collisions-card .plan-key span')].map((e) => e.textContent);
+    return {plots, key, tips: [...tips].join(), rows, why: document.querySelector('#board-card > p:last-child').textContent, shown: [...document.querySelectorAll('#flights tbody td:first-child')].map((e) => e.textContent)};)js");
   EXPECT_THAT(page.errors, testing::IsEmpty());
   ASSERT_EQ(page.value.at("rows").size(), 2u);
   EXPECT_EQ(page.value.at("rows")[0][0], "near");
   EXPECT_THAT(page.value.at("rows")[0][3].get<std::string>(), HasSubstr("2 of 2 0.34 to 1.00"));
   EXPECT_EQ(page.value.at("rows")[1][4], "not flown");
   EXPECT_EQ(page.value.at("why"), "Not flown in far: slow: too far.");
+  EXPECT_EQ(page.value.at("plots"), Json::array({"all worlds", "near", "far"}));
+  EXPECT_EQ(page.value.at("key"), Json::array({"still (control)", "fast", "slow, flies in 1 of 2 worlds"}));
+  EXPECT_THAT(page.value.at("tips").get<std::string>(), HasSubstr("0 of 4 collided, 95 % interval 0.000 to 0.490"));
   EXPECT_EQ(page.value.at("shown"), Json::array({"near_fast/seed1", "near_fast/seed2"}));
 }
 

@@ -178,6 +178,7 @@ function main() {
     },
   };
   fillBoard(host('board-card'), data.leaderboard, on);
+  const collisions = fillCollisions(host('collisions-card'), data.leaderboard);
   fillStrips(host('strips-card'), data, table, on);
   const flights = new FlightsView(host('flights'), data, table, [...shownAtFirst.slice(0, 2), ...data.swept, ...shownAtFirst.slice(2)], on);
   const paths = new PathsView(host('paths'), host('scene'), data.paths, table, on);
@@ -200,7 +201,7 @@ function main() {
   update();
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
     paths.map?.draw();
-    for (const view of [success, scatter, against, search]) view.axes?.draw();
+    for (const view of [success, scatter, against, search, ...collisions]) view.axes?.draw();
     scatter.drawKey();
   });
 }
