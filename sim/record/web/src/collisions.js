@@ -3,14 +3,16 @@
 
 const markColors = 6, markRadius = 4.5;
 
-/** Where a module's point is drawn on an axis from 0 to 1: half of the way up is half of the flights. */
+/** An axis from 0 to 1, with room for marks at its ends. */
 function shareAxis() {
   return {label: 'share of flights that collide', low: -0.04, high: 1.04, ticks: [0, 0.25, 0.5, 0.75, 1].map((value) => ({value, text: String(value)}))};
 }
 
+function markColor(index, control) { return themeColor(control ? 'soft' : 'c' + index % markColors); }
+
 /** A dot, a square for the seventh module and on, a cross for a control. */
 function drawMark(c, index, control, x, y) {
-  c.strokeStyle = c.fillStyle = control ? themeColor('soft') : themeColor('c' + index % markColors);
+  c.strokeStyle = c.fillStyle = markColor(index, control);
   c.lineWidth = 2;
   c.beginPath();
   if (control) {
@@ -41,7 +43,7 @@ class CollisionPlot {
     const {axes} = this;
     for (const p of this.points) {
       const x = axes.x(p.mean_speed_mps);
-      c.strokeStyle = p.control ? themeColor('soft') : themeColor('c' + p.index % markColors);
+      c.strokeStyle = markColor(p.index, p.control);
       c.lineWidth = 1.5;
       c.globalAlpha = 0.6;
       c.beginPath();
