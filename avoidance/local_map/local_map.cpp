@@ -110,8 +110,9 @@ class LocalMap final : public Module {
     constexpr double kArrivedM = 0.5, kHeldBack = 0.6;
     const bool arrived = p_BG_W.norm() < kArrivedM;
     const bool held = !arrived && route_m && plan_.worth_m < kHeldBack * hoped.worth_m;
-    if (!held) look_W_.reset();
-    if (held && !(look_W_ && is_unknown(*look_W_))) look_W_ = unknown_in_the_way(hoped.path);
+    const bool keeps_looking = look_W_ && is_unknown(*look_W_);
+    if (!held && !(keeps_looking && backs_off_)) look_W_.reset();
+    if (held && !keeps_looking) look_W_ = unknown_in_the_way(hoped.path);
     // Who speeds up tilts the camera, and sees something else: not for little, where there is something to look at.
     if (look_W_ && plan_.safe && plan_.worth_m < kLittleM) {
       plan_ = plan_to(now, [](const Eigen::Vector2d&) { return 0.0; });

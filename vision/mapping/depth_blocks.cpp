@@ -85,8 +85,8 @@ class Column {
   /// above the horizon for certain.
   struct Run {
     int top, horizon, bottom;
-    int ground16;  ///< nearest disparity of the topmost ground
-    bool is_far;   ///< it is kSupportM away
+    int foot16;   ///< nearest disparity of the topmost ground, and of what stands on it
+    bool is_far;  ///< both are kSupportM away
   };
 
   std::optional<Run> climb() const {
@@ -103,15 +103,17 @@ class Column {
     if (support == blocks_.rows() || row < 0) return std::nullopt;
     const int ground16 = blocks_.at(support, col_).near16;
     if (ground16 > geometry_.disparity16(kOwnM)) return std::nullopt;
-    // Above the horizon what was matched far away, with its edge; from there on all is smooth.
-    const double far16 = geometry_.disparity16(kSupportM);
+    // Above the horizon what was matched as far as the ground must be, with its edge; from there on all is smooth.
+    const double far16 = geometry_.disparity16(kSupportM), own16 = geometry_.disparity16(kOwnM);
+    int foot16 = ground16;
     for (bool edge = true; row >= 0; --row) {
       const DepthBlock& block = blocks_.at(row, col_);
-      const bool far = block.near16 >= 0 && block.near16 <= far16;
-      if (!far && (!edge || block.near16 >= 0 || block.range <= kSmooth)) break;
-      edge = far;  // one block of it
+      const bool stands = block.near16 >= 0 && block.near16 <= own16;
+      if (!stands && (!edge || block.near16 >= 0 || block.range <= kSmooth)) break;
+      if (stands) foot16 = std::max<int>(foot16, block.near16);
+      edge = stands;  // one block of it
     }
-    Run run{row + 1, row, support - 1, ground16, ground16 <= far16};
+    Run run{row + 1, row, support - 1, foot16, foot16 <= far16};
     for (; row >= 0; --row) {
       const DepthBlock& block = blocks_.at(row, col_);
       const bool steps = row < run.horizon && std::abs(block.grey - blocks_.at(row + 1, col_).grey) > kSmooth;
@@ -135,7 +137,7 @@ class Column {
   int col_;
 };
 
-/// The median grey of the blocks that look like sky in each row; -1 where there are none.
+/// The median grey of each row's blocks in the runs given; -1 where there are none.
 std::vector<int> usual_greys(const DepthBlocks& blocks, const std::vector<std::optional<Column::Run>>& runs) {
   std::vector<int> usual(static_cast<size_t>(blocks.rows()), -1), greys;
   for (int row = 0; row < blocks.rows(); ++row) {
@@ -162,13 +164,18 @@ int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down
     const auto last = runs.begin() + std::min(blocks.cols(), col + kSupportCols + 1);
     return std::any_of(first, last, [](const auto& run) { return run && run->is_far; });
   };
-  const std::vector<int> usual = usual_greys(blocks, runs);
+  std::vector<std::optional<Column::Run>> far = runs;
+  for (int col = 0; col < blocks.cols(); ++col) {
+    if (!is_far_near(col)) far[static_cast<size_t>(col)].reset();
+  }
+  const std::vector<int> usual = usual_greys(blocks, far);
   int found = 0;
   for (int col = 0; col < blocks.cols(); ++col) {
     const auto& run = runs[static_cast<size_t>(col)];
-    if (!run || !is_far_near(col)) continue;
+    if (!run) continue;
     const auto is_unlike = [&](int row) {
-      return std::abs(blocks.at(row, col).grey - usual[static_cast<size_t>(row)]) > kLikeOthers;
+      const int grey = usual[static_cast<size_t>(row)];
+      return grey < 0 || std::abs(blocks.at(row, col).grey - grey) > kLikeOthers;
     };
     bool like_sky = true;
     for (int row = run->top; row <= run->horizon && like_sky; ++row) like_sky = !is_unlike(row);
@@ -177,7 +184,7 @@ int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down
       DepthBlock& block = blocks.at(row, col);
       if (block.kind != DepthBlock::Kind::unknown) continue;
       block.kind = DepthBlock::Kind::sky;
-      block.ground16 = static_cast<int16_t>(run->ground16);
+      block.foot16 = static_cast<int16_t>(run->foot16);
       ++found;
     }
   }

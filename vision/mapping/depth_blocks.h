@@ -17,10 +17,10 @@ struct DepthBlock {
     sky,  ///< not matched, but recognized by find_sky()
   };
   Kind kind = Kind::unknown;
-  int16_t near16 = -1;    ///< disparity x 16 of its nearest surface; -1 where nothing was matched
-  int16_t ground16 = -1;  ///< of sky: of the ground at the foot of its column, which what is not sky stands on
-  uint8_t grey = 0;       ///< mean
-  uint8_t range = 0;      ///< greatest less least grey of its four quarters
+  int16_t near16 = -1;  ///< disparity x 16 of its nearest surface; -1 where nothing was matched
+  int16_t foot16 = -1;  ///< of sky: of the ground at the foot of its column, or of what stands on it and is nearer
+  uint8_t grey = 0;     ///< mean
+  uint8_t range = 0;    ///< greatest less least grey of its four quarters
 };
 
 /// A disparity image in squares, each with its nearest surface: a few thousand rays instead of a quarter of a million,
@@ -48,13 +48,14 @@ class DepthBlocks {
 
 /// Recognizes sky: it cannot be matched, and without it nothing flies in the open. A block is sky only on evidence:
 /// - below the horizon, which attitude predicts, its column ends in ground matched at 15 m or farther, without a gap
-/// from
-///   the image's lower edge, and one of the columns beside it in ground at 25 m;
-/// - from there up nothing was matched that is nearer;
-/// - above the horizon its column is smooth, and as bright as the other columns' sky in its row.
+///   from the image's lower edge;
+/// - from there up nothing was matched that is nearer than 15 m;
+/// - above what was matched its column is smooth, and as bright as the sky of columns near to ground at 25 m is in
+///   its row: where there are none, there is no sky.
 /// With it goes what lies between that ground and the horizon. A plain wall stands on ground that is nearer, a plain
 /// box in the air has edges or another brightness: both stay unknown. And a wall would stand at the end of
-/// that ground: `ground16` says how far sky is free at least. Differs from [Andert2007] eq. (6) to (8), where
+/// that ground: `foot16` says how far sky is free at least. A plain ceiling over far ground, with no sky beside it,
+/// passes for sky. Differs from [Andert2007] eq. (6) to (8), where
 /// all that is bright and without texture is infinitely far.
 /// @param down_C  the vertical in C, of length 1. @return blocks found.
 int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, DepthBlocks& blocks);

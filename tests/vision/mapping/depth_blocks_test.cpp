@@ -90,10 +90,49 @@ TEST(FindSky, WhatPassesForSkyIsNoFartherThanTheGroundItStandsOn) {
     for (int col = 0; col < blocks.cols(); ++col) {
       if (blocks.at(row, col).kind != DepthBlock::Kind::sky) continue;
       ++passed;
-      EXPECT_LT(view.world.geometry.z_m(blocks.at(row, col).ground16), kWallM + kRoundingM);
+      EXPECT_LT(view.world.geometry.z_m(blocks.at(row, col).foot16), kWallM + kRoundingM);
     }
   }
   EXPECT_GT(passed, 0);  // or the claim would say nothing
+}
+
+/// A textured wall across the left half of the view, over which the sky stands: ground is far only on the right.
+MappedWorld walled(double ahead_m) {
+  MappedWorld world;
+  world.boxes_W.emplace_back(Eigen::Vector3d(ahead_m, -90.0, -7.0), Eigen::Vector3d(ahead_m + 1.0, 0.0, 0.0));
+  return world;
+}
+
+TEST(FindSky, FindsItAboveAWallAndNoFartherThanTheWall) {
+  constexpr double kWallM = 19.0;
+  const View view = look(walled(kWallM), 4.0, {});
+  const Found found = find(view);
+  EXPECT_GT(found.sky, 0.9 * found.of_sky);
+  EXPECT_EQ(found.wrong, 0);
+  DepthBlocks blocks;
+  blocks.build(view.disparity16, view.grey);
+  find_sky(view.world.geometry, MappedWorld::looking(Eigen::Vector3d::Zero(), 0.0).linear().row(2).transpose(), blocks);
+  for (int row = 0; row < blocks.rows() / 4; ++row) {
+    for (int col = 0; col < blocks.cols() / 2 - 1; ++col) {
+      EXPECT_LT(view.world.geometry.z_m(blocks.at(row, col).foot16), kWallM + 0.5) << row << " " << col;
+    }
+  }
+}
+
+// A plain slab that hangs before a wall reaches the image's upper edge, as sky does, which stands beside it.
+TEST(FindSky, APlainSlabBeforeAWallIsNotSky) {
+  for (const double ahead_m : {3.0, 6.0, 10.0}) {
+    const Eigen::AlignedBox3d slab(Eigen::Vector3d(ahead_m, -90.0, -60.0), Eigen::Vector3d(ahead_m + 1.0, -0.5, -4.5));
+    EXPECT_EQ(find(look(walled(19.0), 4.0, {slab})).wrong, 0) << ahead_m;
+  }
+}
+
+// Nothing but its brightness tells a ceiling over a far wall from sky, so that there must be sky to compare it with.
+TEST(FindSky, ThereIsNoneOverWallsAllRound) {
+  MappedWorld world;
+  world.boxes_W.emplace_back(Eigen::Vector3d(19.0, -90.0, -7.0), Eigen::Vector3d(20.0, 90.0, 0.0));
+  const Found found = find(look(world, 4.0, {}));
+  EXPECT_EQ(found.sky + found.wrong, 0);
 }
 
 TEST(FindSky, APlainWallAcrossTheWholeViewIsNotSky) {
