@@ -67,9 +67,9 @@ double DepthBlocks::share(DepthBlock::Kind kind) const {
 
 namespace {
 
-constexpr double kSupportM = 25.0;     ///< least depth of the ground below the horizon, in this column or near it
+constexpr double kSupportM = 25.0;     ///< least distance to the ground's end, in this column or near it, level
 constexpr int kSupportCols = 6;        ///< how near
-constexpr double kOwnM = 15.0;         ///< least depth of it in the column itself
+constexpr double kOwnM = 15.0;         ///< least distance in the column itself
 constexpr int kGap = 2;                ///< blocks of the ground, one above the other, that need not be matched
 constexpr double kAttitudeRad = 0.03;  ///< by which the predicted horizon may err
 constexpr int kSmooth = 6;             ///< grey levels within a block of sky and from one to the next
@@ -85,8 +85,7 @@ class Column {
   /// above the horizon for certain.
   struct Run {
     int top, horizon, bottom;
-    int foot16;   ///< nearest disparity of the topmost ground, and of what stands on it
-    bool is_far;  ///< both are kSupportM away
+    double foot_m;  ///< level distance of the topmost ground, and of what stands on it
   };
 
   std::optional<Run> climb() const {
@@ -101,19 +100,17 @@ class Column {
       support = row;
     }
     if (support == blocks_.rows() || row < 0) return std::nullopt;
-    const int ground16 = blocks_.at(support, col_).near16;
-    if (ground16 > geometry_.disparity16(kOwnM)) return std::nullopt;
+    double foot_m = level_m(support);
+    if (foot_m < kOwnM) return std::nullopt;
     // Above the horizon what was matched as far as the ground must be, with its edge; from there on all is smooth.
-    const double far16 = geometry_.disparity16(kSupportM), own16 = geometry_.disparity16(kOwnM);
-    int foot16 = ground16;
     for (bool edge = true; row >= 0; --row) {
       const DepthBlock& block = blocks_.at(row, col_);
-      const bool stands = block.near16 >= 0 && block.near16 <= own16;
+      const bool stands = block.near16 >= 0 && level_m(row) >= kOwnM;
       if (!stands && (!edge || block.near16 >= 0 || block.range <= kSmooth)) break;
-      if (stands) foot16 = std::max<int>(foot16, block.near16);
+      if (stands) foot_m = std::min(foot_m, level_m(row));
       edge = stands;  // one block of it
     }
-    Run run{row + 1, row, support - 1, foot16, foot16 <= far16};
+    Run run{row + 1, row, support - 1, foot_m};
     for (; row >= 0; --row) {
       const DepthBlock& block = blocks_.at(row, col_);
       const bool steps = row < run.horizon && std::abs(block.grey - blocks_.at(row + 1, col_).grey) > kSmooth;
@@ -124,12 +121,18 @@ class Column {
     return run;
   }
 
- private:
-  /// Sine of a block's elevation above the horizon.
-  double elevation(int row) const {
-    const cv::Point middle(col_ * kPx + kPx / 2, row * kPx + kPx / 2);
-    return -down_C_.dot(geometry_.ray(middle).normalized());
+  /// Disparity x 16 of what stands upright at a level distance, where a block shows it.
+  int upright16(int row, double distance_m) const {
+    return static_cast<int>(std::ceil(geometry_.disparity16(distance_m / level(row))));
   }
+
+ private:
+  Eigen::Vector3d ray(int row) const { return geometry_.ray({col_ * kPx + kPx / 2, row * kPx + kPx / 2}); }
+  /// Sine of a block's elevation above the horizon.
+  double elevation(int row) const { return -down_C_.dot(ray(row).normalized()); }
+  /// Level distance of what a block shows, per z in C.
+  double level(int row) const { return ray(row).cross(down_C_).norm(); }
+  double level_m(int row) const { return level(row) * geometry_.z_m(blocks_.at(row, col_).near16); }
 
   const stereo::StereoGeometry& geometry_;
   const Eigen::Vector3d& down_C_;
@@ -157,12 +160,16 @@ std::vector<int> usual_greys(const DepthBlocks& blocks, const std::vector<std::o
 }  // namespace
 
 int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, DepthBlocks& blocks) {
+  std::vector<Column> columns;
   std::vector<std::optional<Column::Run>> runs;
-  for (int col = 0; col < blocks.cols(); ++col) runs.push_back(Column(geometry, down_C, blocks, col).climb());
+  for (int col = 0; col < blocks.cols(); ++col) {
+    columns.emplace_back(geometry, down_C, blocks, col);
+    runs.push_back(columns.back().climb());
+  }
   const auto is_far_near = [&](int col) {
     const auto first = runs.begin() + std::max(0, col - kSupportCols);
     const auto last = runs.begin() + std::min(blocks.cols(), col + kSupportCols + 1);
-    return std::any_of(first, last, [](const auto& run) { return run && run->is_far; });
+    return std::any_of(first, last, [](const auto& run) { return run && run->foot_m >= kSupportM; });
   };
   std::vector<std::optional<Column::Run>> far = runs;
   for (int col = 0; col < blocks.cols(); ++col) {
@@ -184,7 +191,7 @@ int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down
       DepthBlock& block = blocks.at(row, col);
       if (block.kind != DepthBlock::Kind::unknown) continue;
       block.kind = DepthBlock::Kind::sky;
-      block.foot16 = static_cast<int16_t>(run->foot16);
+      block.foot16 = static_cast<int16_t>(columns[static_cast<size_t>(col)].upright16(row, run->foot_m));
       ++found;
     }
   }

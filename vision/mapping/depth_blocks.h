@@ -18,7 +18,7 @@ struct DepthBlock {
   };
   Kind kind = Kind::unknown;
   int16_t near16 = -1;  ///< disparity x 16 of its nearest surface; -1 where nothing was matched
-  int16_t foot16 = -1;  ///< of sky: of the ground at the foot of its column, or of what stands on it and is nearer
+  int16_t foot16 = -1;    ///< of sky: of what would stand upright where the ground of its column ends
   uint8_t grey = 0;     ///< mean
   uint8_t range = 0;    ///< greatest less least grey of its four quarters
 };
@@ -47,8 +47,8 @@ class DepthBlocks {
 };
 
 /// Recognizes sky: it cannot be matched, and without it nothing flies in the open. A block is sky only on evidence:
-/// - below the horizon, which attitude predicts, its column ends in ground matched at 15 m or farther, without a gap
-///   from the image's lower edge;
+/// - below the horizon, which attitude predicts, its column ends in ground matched at 15 m or farther, level, without
+///   a gap from the image's lower edge;
 /// - from there up nothing was matched that is nearer than 15 m;
 /// - above what was matched its column is smooth, and as bright as the sky of columns near to ground at 25 m is in
 ///   its row: where there are none, there is no sky.

@@ -15,14 +15,26 @@ struct View {
   MappedWorld world;
   cv::Mat disparity16, grey;
   std::vector<uint8_t> is_sky;  ///< of each pixel, by ray
+  Eigen::Isometry3d X_WC;
+
+  DepthBlocks blocks() const {
+    DepthBlocks blocks;
+    blocks.build(disparity16, grey);
+    find_sky(world.geometry, X_WC.linear().row(2).transpose(), blocks);
+    return blocks;
+  }
 };
 
-View look(const MappedWorld& world, double height_m, const std::vector<Eigen::AlignedBox3d>& blank_W) {
-  View view{
-      world, cv::Mat(world.height_px, world.width_px, CV_16SC1), cv::Mat(world.height_px, world.width_px, CV_8UC1), {}};
+View look(const MappedWorld& world, double height_m, const std::vector<Eigen::AlignedBox3d>& blank_W,
+          double pitch_rad = 0.0) {
+  const Eigen::Isometry3d X_WC = MappedWorld::looking({0.0, 0.0, -height_m}, 0.0, pitch_rad);
+  View view{world,
+            cv::Mat(world.height_px, world.width_px, CV_16SC1),
+            cv::Mat(world.height_px, world.width_px, CV_8UC1),
+            {},
+            X_WC};
   MappedWorld with = world;
   with.boxes_W.insert(with.boxes_W.end(), blank_W.begin(), blank_W.end());
-  const Eigen::Isometry3d X_WC = MappedWorld::looking({0.0, 0.0, -height_m}, 0.0);
   constexpr double kMatchedM = 60.0;
   for (int v = 0; v < world.height_px; ++v) {
     for (int u = 0; u < world.width_px; ++u) {
@@ -44,9 +56,7 @@ struct Found {
 };
 
 Found find(const View& view) {
-  DepthBlocks blocks;
-  blocks.build(view.disparity16, view.grey);
-  find_sky(view.world.geometry, MappedWorld::looking(Eigen::Vector3d::Zero(), 0.0).linear().row(2).transpose(), blocks);
+  const DepthBlocks blocks = view.blocks();
   Found found;
   for (int row = 0; row < blocks.rows(); ++row) {
     for (int col = 0; col < blocks.cols(); ++col) {
@@ -77,23 +87,30 @@ TEST(FindSky, APlainWallIsNotSky) {
   }
 }
 
-// Where a tall plain wall fills the view, nothing tells it from sky but the ground that it stands on.
+// Where a tall plain wall fills the view, nothing tells it from sky but the ground that it stands on. Who flies high,
+// nose down, sees the wall's foot far below the axis, where z in C is larger than it is above.
 TEST(FindSky, WhatPassesForSkyIsNoFartherThanTheGroundItStandsOn) {
-  constexpr double kWallM = 40.0, kRoundingM = 2.0;
-  const Eigen::AlignedBox3d wall(Eigen::Vector3d(kWallM, -90.0, -90.0), Eigen::Vector3d(kWallM + 1.0, 90.0, 0.0));
-  const View view = look({}, 4.0, {wall});
-  DepthBlocks blocks;
-  blocks.build(view.disparity16, view.grey);
-  find_sky(view.world.geometry, MappedWorld::looking(Eigen::Vector3d::Zero(), 0.0).linear().row(2).transpose(), blocks);
-  int passed = 0;
-  for (int row = 0; row < blocks.rows(); ++row) {
-    for (int col = 0; col < blocks.cols(); ++col) {
-      if (blocks.at(row, col).kind != DepthBlock::Kind::sky) continue;
-      ++passed;
-      EXPECT_LT(view.world.geometry.z_m(blocks.at(row, col).foot16), kWallM + kRoundingM);
+  struct Flight {
+    double wall_m, height_m, pitch_rad;
+  };
+  for (const auto& [wall_m, height_m, pitch_rad] : {Flight{40.0, 4.0, 0.0}, {26.0, 15.0, -0.2}, {26.0, 15.0, -0.35}}) {
+    const Eigen::AlignedBox3d wall(Eigen::Vector3d(wall_m, -90.0, -90.0), Eigen::Vector3d(wall_m + 1.0, 90.0, 0.0));
+    const View view = look({}, height_m, {wall}, pitch_rad);
+    const DepthBlocks blocks = view.blocks();
+    int passed = 0;
+    for (int row = 0; row < blocks.rows(); ++row) {
+      for (int col = 0; col < blocks.cols(); ++col) {
+        if (blocks.at(row, col).kind != DepthBlock::Kind::sky) continue;
+        ++passed;
+        const cv::Point middle(col * DepthBlocks::kBlockPx + 4, row * DepthBlocks::kBlockPx + 4);
+        const Eigen::Vector3d off_W = view.X_WC.linear() * view.world.geometry.ray(middle) *
+                                      view.world.geometry.z_m(blocks.at(row, col).foot16);
+        constexpr double kRounding = 1.06;
+        EXPECT_LT(off_W.x(), kRounding * wall_m) << row << " " << col;
+      }
     }
+    EXPECT_GT(passed, 0) << pitch_rad;  // or the claim would say nothing
   }
-  EXPECT_GT(passed, 0);  // or the claim would say nothing
 }
 
 /// A textured wall across the left half of the view, over which the sky stands: ground is far only on the right.
@@ -109,9 +126,7 @@ TEST(FindSky, FindsItAboveAWallAndNoFartherThanTheWall) {
   const Found found = find(view);
   EXPECT_GT(found.sky, 0.9 * found.of_sky);
   EXPECT_EQ(found.wrong, 0);
-  DepthBlocks blocks;
-  blocks.build(view.disparity16, view.grey);
-  find_sky(view.world.geometry, MappedWorld::looking(Eigen::Vector3d::Zero(), 0.0).linear().row(2).transpose(), blocks);
+  const DepthBlocks blocks = view.blocks();
   for (int row = 0; row < blocks.rows() / 4; ++row) {
     for (int col = 0; col < blocks.cols() / 2 - 1; ++col) {
       EXPECT_LT(view.world.geometry.z_m(blocks.at(row, col).foot16), kWallM + 0.5) << row << " " << col;
@@ -130,7 +145,7 @@ TEST(FindSky, APlainSlabBeforeAWallIsNotSky) {
 // Nothing but its brightness tells a ceiling over a far wall from sky, so that there must be sky to compare it with.
 TEST(FindSky, ThereIsNoneOverWallsAllRound) {
   MappedWorld world;
-  world.boxes_W.emplace_back(Eigen::Vector3d(19.0, -90.0, -7.0), Eigen::Vector3d(20.0, 90.0, 0.0));
+  world.boxes_W.emplace_back(Eigen::Vector3d(17.0, -90.0, -7.0), Eigen::Vector3d(18.0, 90.0, 0.0));
   const Found found = find(look(world, 4.0, {}));
   EXPECT_EQ(found.sky + found.wrong, 0);
 }

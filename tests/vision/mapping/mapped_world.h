@@ -48,9 +48,10 @@ struct MappedWorld {
     return nearest;
   }
 
-  /// C looks north from a height, turned by a heading.
-  static Eigen::Isometry3d looking(const Eigen::Vector3d& p_W, double heading_rad) {
-    Eigen::Isometry3d X_WC(Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()));
+  /// C looks north from a height, turned by a heading, and up by a pitch.
+  static Eigen::Isometry3d looking(const Eigen::Vector3d& p_W, double heading_rad, double pitch_rad = 0.0) {
+    Eigen::Isometry3d X_WC(Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()) *
+                           Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()));
     Eigen::Matrix3d R_BC;
     R_BC << 0, 0, 1, 1, 0, 0, 0, 1, 0;
     X_WC.linear() = X_WC.linear() * R_BC;
