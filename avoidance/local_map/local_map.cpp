@@ -236,14 +236,19 @@ class LocalMap final : public Module {
     return towards(route_.route_W(p_W, kAheadM).back());
   }
 
-  /// Turned no farther than what comes near stays in view.
+  /// Turned no farther than what comes near stays in view, nor, when fast, so far that nothing is seen of what enters
+  /// the course from the other side.
   double with_mover_in_view(const Moment& now, double nose_rad) const {
-    constexpr double kShareOfView = 0.6;
+    constexpr double kShareOfView = 0.6, kAsideRad = 0.3, kFastMps = 3.0;
     const Mover* const mover = nearest_to_come(now, around_->movers(), clearance_.hull_m);
     if (!mover) return nose_rad;
     const Eigen::Vector2d off_W = mover->p_W - now.p_W;
     const double bearing_rad = std::atan2(off_W.y(), off_W.x()), most_rad = kShareOfView * around_->half_view_rad();
-    return bearing_rad + std::clamp(std::remainder(nose_rad - bearing_rad, 2.0 * M_PI), -most_rad, most_rad);
+    const double turned_rad =
+        bearing_rad + std::clamp(std::remainder(nose_rad - bearing_rad, 2.0 * M_PI), -most_rad, most_rad);
+    if (now.v_W.norm() < kFastMps) return turned_rad;
+    const double course_rad = std::atan2(now.v_W.y(), now.v_W.x());
+    return course_rad + std::clamp(std::remainder(turned_rad - course_rad, 2.0 * M_PI), -kAsideRad, kAsideRad);
   }
 
   std::vector<Metric> do_metrics() const override {
@@ -253,8 +258,8 @@ class LocalMap final : public Module {
 
   cv::Mat do_annotate() const override {
     if (!last_) return {};
-    return draw(
-        {slice(), plan_.path, route_.route_W(plan_.path.front().p_W, 30.0), look_W_, clearance_.hull_m, last_->status});
+    return draw({slice(), plan_.path, route_.route_W(plan_.path.front().p_W, 30.0), look_W_, around_->movers(),
+                 clearance_.hull_m, last_->status});
   }
 
   LocalMapConfig config_;

@@ -32,8 +32,13 @@ cv::Mat draw(const ShownPlan& shown) {
   for (size_t i = 1; i < shown.path.size(); ++i) {
     cv::line(image, pixel(shown.path[i - 1].p_W), pixel(shown.path[i].p_W), {20, 160, 60}, 2);
   }
-  const int hull_px = static_cast<int>(kCellPx * shown.hull_m / slice.cell_m());
-  cv::circle(image, pixel(shown.path.front().p_W), hull_px, {20, 160, 60}, 1);
+  const auto px = [&](double m) { return static_cast<int>(kCellPx * m / slice.cell_m()); };
+  cv::circle(image, pixel(shown.path.front().p_W), px(shown.hull_m), {20, 160, 60}, 1);
+  for (const Mover& mover : shown.movers) {
+    const cv::Scalar orange(240, 140, 20);
+    cv::circle(image, pixel(mover.p_W), px(mover.radius_m), orange, 1);
+    cv::line(image, pixel(mover.p_W), pixel(mover.p_W + mover.v_W), orange, 1);
+  }
   if (shown.look_W) cv::circle(image, pixel(*shown.look_W), 4, {230, 60, 40}, 2);
   stereo::caption(image, shown.status);
   return image;

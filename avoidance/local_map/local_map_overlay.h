@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "avoidance/local_map/level_slice.h"
+#include "avoidance/local_map/movers.h"
 #include "avoidance/local_map/stop_planner.h"
 
 namespace hedgehop::avoidance::local_map {
@@ -17,12 +18,13 @@ struct ShownPlan {
   const std::vector<Moment>& path;             ///< to the planned stop
   const std::vector<Eigen::Vector2d> route_W;  ///< hoped for
   std::optional<Eigen::Vector2d> look_W;       ///< what is unknown and in the way
+  const std::vector<Mover>& movers;
   double hull_m;
   std::string status;
 };
 
 /// Draws the slice from above, north up: free light, unknown grey, occupied dark; the route thin, the planned stop
-/// green, and what it waits for red. @return CV_8UC3, RGB.
+/// green, what it waits for red, and what moves orange, with its way of a second. @return CV_8UC3, RGB.
 cv::Mat draw(const ShownPlan& shown);
 
 }  // namespace hedgehop::avoidance::local_map

@@ -19,6 +19,7 @@ constexpr int kEvidence = 3, kMostEvidence = 6;
 constexpr double kSlowestMps = 0.25, kSigmas = 3.0, kMovesSigmas = 2.0;
 constexpr double kStillMps = 0.12, kStillSigmas = 1.0;  // below, what moved is taken to stand
 constexpr double kShrinks = 0.1;                        // of a radius, an image, towards a smaller one that is seen
+constexpr double kHiddenM = 5.0;                        // 1-sigma along the sight, where the near face is not seen
 constexpr double kLostM = 1.5;  // 1-sigma of a position, beyond which a track would take up whatever comes by
 
 }  // namespace
@@ -52,14 +53,18 @@ std::vector<Movers::Lump> Movers::lumps_of(const View& view, std::span<const Sur
     lump.points = static_cast<int>(members.size());
     Eigen::Vector2d middle_W = Eigen::Vector2d::Zero();
     for (const size_t i : members) middle_W += points[i].p_W / lump.points;
+    lump.eye_W = view.eye_W;
     lump.sight_W = (middle_W - view.eye_W).normalized();
     const Eigen::Vector2d right_W(-lump.sight_W.y(), lump.sight_W.x());
     double near_m = std::numeric_limits<double>::infinity(), left_m = near_m, right_m = -near_m;
     for (const size_t i : members) {
       const Eigen::Vector2d off_W = points[i].p_W - view.eye_W;
       near_m = std::min(near_m, off_W.dot(lump.sight_W));
-      left_m = std::min(left_m, off_W.dot(right_W));
-      right_m = std::max(right_m, off_W.dot(right_W));
+      const double across_m = off_W.dot(right_W);
+      if (across_m < left_m) lump.left_end_W = points[i].p_W;
+      if (across_m > right_m) lump.right_end_W = points[i].p_W;
+      left_m = std::min(left_m, across_m);
+      right_m = std::max(right_m, across_m);
       lump.appeared += points[i].was_free;
       lump.cut_left |= view.inside_left_m(points[i].p_W) < cell_m;
       lump.cut_right |= view.inside_right_m(points[i].p_W) < cell_m;
@@ -71,11 +76,13 @@ std::vector<Movers::Lump> Movers::lumps_of(const View& view, std::span<const Sur
   return lumps;
 }
 
-/// The middle of the disc that shows a lump: as deep as wide, and beyond the edge of the view where that cuts it.
+/// The middle of the disc that shows a lump: as deep as wide. Where the view cuts it, its near face may not be in it:
+/// then the line of sight that touches its other side tells.
 Eigen::Vector2d Movers::Lump::middle_W(double disc_m) const {
-  const Eigen::Vector2d right_W(-sight_W.y(), sight_W.x());
-  const double hidden_m = std::max(0.0, disc_m - radius_m);
-  return near_W + disc_m * sight_W + hidden_m * ((cut_right ? 1.0 : 0.0) - (cut_left ? 1.0 : 0.0)) * right_W;
+  if (cut_left == cut_right) return near_W + disc_m * sight_W;
+  const Eigen::Vector2d& side_W = cut_right ? left_end_W : right_end_W;
+  const Eigen::Vector2d along_W = (side_W - eye_W).normalized(), right_W(-along_W.y(), along_W.x());
+  return side_W + (cut_right ? disc_m : -disc_m) * right_W;
 }
 
 Eigen::Matrix2d Movers::covariance_m2(const Eigen::Vector2d& p_W, const Eigen::Vector2d& eye_W) const {
@@ -85,6 +92,10 @@ Eigen::Matrix2d Movers::covariance_m2(const Eigen::Vector2d& p_W, const Eigen::V
   const double along_m = config_.sigma_per_m2 * sight_W.squaredNorm();
   const Eigen::Vector2d u = sight_W.normalized();
   return across_m * across_m * Eigen::Matrix2d::Identity() + along_m * along_m * u * u.transpose();
+}
+
+bool Movers::hides(const Track& track, const Eigen::Vector2d& eye_W) const {
+  return (track.state.head<2>() - eye_W).norm() - track.radius_m < config_.nearest_m;
 }
 
 void Movers::predict(double dt_s) {
@@ -107,7 +118,9 @@ void Movers::correct(Track& track, const Lump& lump, const View& view) const {
     track.radius_m += kShrinks * (lump.radius_m - track.radius_m);
   }
   const Eigen::Vector2d p_W = lump.middle_W(track.radius_m);
-  const Eigen::Matrix2d innovation = track.covariance.topLeftCorner<2, 2>() + covariance_m2(p_W, view.eye_W);
+  Eigen::Matrix2d error_m2 = covariance_m2(p_W, view.eye_W);
+  if (hides(track, view.eye_W)) error_m2 += kHiddenM * kHiddenM * lump.sight_W * lump.sight_W.transpose();
+  const Eigen::Matrix2d innovation = track.covariance.topLeftCorner<2, 2>() + error_m2;
   const Eigen::Matrix<double, 4, 2> gain = track.covariance.leftCols<2>() * innovation.inverse();
   track.state += gain * (p_W - track.state.head<2>());
   track.covariance -= (gain * track.covariance.topRows<2>()).eval();

@@ -39,6 +39,7 @@ class Movers {
   struct Config {
     double sigma_per_m2 = 0.002;  ///< 1-sigma of depth over its square, 1/m
     double spacing_m = 0.3;       ///< of the points: voxels
+    double nearest_m = 0.0;       ///< depth from which on surfaces are measured, >= 0
   };
   explicit Movers(const Config& config) : config_(config) {}
 
@@ -50,8 +51,9 @@ class Movers {
 
  private:
   struct Lump {
-    Eigen::Vector2d near_W, sight_W;  ///< the middle of the face that is seen; from the eye to it, of length 1
-    double radius_m = 0.0;            ///< half as much as it is wide, across
+    Eigen::Vector2d eye_W, near_W, sight_W;   ///< near_W: the middle of the face; sight_W: from the eye, of length 1
+    Eigen::Vector2d left_end_W, right_end_W;  ///< its outermost points
+    double radius_m = 0.0;                    ///< half as much as it is wide, across
     int points = 0, appeared = 0;
     bool cut_left = false, cut_right = false;  ///< by the view's edge
 
@@ -68,6 +70,8 @@ class Movers {
   std::vector<Lump> lumps_of(const View& view, std::span<const SurfacePoint> points) const;
   void predict(double dt_s);
   void correct(Track& track, const Lump& lump, const View& view) const;
+  /// Whether a track's near face is too near to be measured: what is seen of it is farther.
+  bool hides(const Track& track, const Eigen::Vector2d& eye_W) const;
   /// Of a lump's middle: exact across the line of sight, vague along it.
   Eigen::Matrix2d covariance_m2(const Eigen::Vector2d& p_W, const Eigen::Vector2d& eye_W) const;
 

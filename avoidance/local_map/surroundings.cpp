@@ -25,7 +25,10 @@ Band hull_of(const VehicleLimits& limits) {
 }
 
 Movers::Config tracking(const LocalMapConfig& config, const vision::stereo::StereoGeometry& geometry) {
-  return {.sigma_per_m2 = config.noise_px / (geometry.focal_px * geometry.baseline_m), .spacing_m = config.voxel_m};
+  const double most_px = config.depth == DisparitySource::From::stereo ? config.stereo.disparities_px - 1 : 1e6;
+  return {.sigma_per_m2 = config.noise_px / (geometry.focal_px * geometry.baseline_m),
+          .spacing_m = config.voxel_m,
+          .nearest_m = geometry.focal_px * geometry.baseline_m / most_px};
 }
 
 }  // namespace

@@ -9,6 +9,7 @@ constexpr double kForeseenS = 4.0;
 constexpr double kNearM = 4.0;     // between hulls: who comes nearer is kept in view
 constexpr double kVagueMps = 0.7;  // 1-sigma of a velocity that may as well be none: the mover's place stays free, too
 constexpr double kVaguestM = 1.0;  // of a position to come, that is kept free besides
+constexpr double kBesideM = 0.5;   // what is nearer is hardly matched, and a crown is no disc
 
 }  // namespace
 
@@ -22,7 +23,7 @@ double threat_m(std::span<const Moment> path, std::span<const Mover> movers, con
       const Eigen::Vector2d off_W = moment.p_W - mover.p_W;
       double away_m = (off_W - dt_s * mover.v_W).norm();
       if (mover.v_sigma_mps > kVagueMps) away_m = std::min(away_m, off_W.norm());
-      worst_m = std::max(worst_m, clearance.hull_m + margin_m + sigma_m + mover.radius_m - away_m);
+      worst_m = std::max(worst_m, clearance.hull_m + margin_m + kBesideM + sigma_m + mover.radius_m - away_m);
     }
   };
   if (movers.empty()) return 0.0;

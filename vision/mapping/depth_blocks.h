@@ -18,7 +18,7 @@ struct DepthBlock {
   };
   Kind kind = Kind::unknown;
   int16_t near16 = -1;  ///< disparity x 16 of its nearest surface; -1 where nothing was matched
-  int16_t foot16 = -1;    ///< of sky: of what would stand upright where the ground of its column ends
+  int16_t foot16 = -1;  ///< of sky: of what would stand upright where the ground of its column ends
   uint8_t grey = 0;     ///< mean
   uint8_t range = 0;    ///< greatest less least grey of its four quarters
 };

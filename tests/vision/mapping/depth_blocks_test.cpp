@@ -103,8 +103,8 @@ TEST(FindSky, WhatPassesForSkyIsNoFartherThanTheGroundItStandsOn) {
         if (blocks.at(row, col).kind != DepthBlock::Kind::sky) continue;
         ++passed;
         const cv::Point middle(col * DepthBlocks::kBlockPx + 4, row * DepthBlocks::kBlockPx + 4);
-        const Eigen::Vector3d off_W = view.X_WC.linear() * view.world.geometry.ray(middle) *
-                                      view.world.geometry.z_m(blocks.at(row, col).foot16);
+        const Eigen::Vector3d off_W =
+            view.X_WC.linear() * view.world.geometry.ray(middle) * view.world.geometry.z_m(blocks.at(row, col).foot16);
         constexpr double kRounding = 1.06;
         EXPECT_LT(off_W.x(), kRounding * wall_m) << row << " " << col;
       }
