@@ -161,6 +161,13 @@ void Movers::update(double t_s, const View& view, std::span<const SurfacePoint> 
   std::erase_if(tracks_, [](const Track& track) {
     return track.unseen > 0 && track.covariance.diagonal().head<2>().maxCoeff() > kLostM * kLostM;
   });
+  // What is left in view of one that is too near is no other.
+  std::erase_if(lumps, [&](const Lump& lump) {
+    return std::ranges::any_of(tracks_, [&](const Track& track) {
+      const double off_m = (lump.near_W - track.state.head<2>()).norm();
+      return hides(track, view.eye_W) && off_m < track.radius_m + config_.spacing_m;
+    });
+  });
   for (const Lump& lump : lumps) {
     if (lump.appeared < kAppeared) continue;
     Track track{.state = Eigen::Vector4d::Zero(), .covariance = Eigen::Matrix4d::Zero(), .radius_m = lump.radius_m};

@@ -65,6 +65,48 @@ TEST(Movers, WhatTheViewCutsIsFollowedAsTheWholeThatItWas) {
   EXPECT_GT(cut, 4);
 }
 
+// A wide one beside the view: of its face only the far side is left, and where its middle is, that side's tangent
+// tells.
+TEST(Movers, WhatLeavesTheViewNearbyIsNotTakenToBeFarther) {
+  constexpr double kEdgeRad = 0.7, kRadiusM = 2.4;
+  const View view{{0.0, 0.0}, {std::cos(kEdgeRad), -std::sin(kEdgeRad)}, {std::cos(kEdgeRad), std::sin(kEdgeRad)}};
+  Movers movers({});
+  const Eigen::Vector2d v_W(0.0, 1.5);
+  Eigen::Vector2d p_W(4.6, -0.5);
+  int cut = 0;
+  for (int image = 0; image < 40; ++image, p_W += 0.1 * v_W) {
+    std::vector<SurfacePoint> seen = face_of(p_W, kRadiusM, p_W - 0.1 * v_W);
+    std::erase_if(seen, [&](const SurfacePoint& point) {
+      return view.inside_right_m(point.p_W) < 0.0 || view.inside_left_m(point.p_W) < 0.0;
+    });
+    movers.update(0.1 * image, view, seen);
+    if (view.inside_right_m(p_W) > 0.0 || seen.size() < 3) continue;
+    ++cut;
+    const std::vector<Mover> found = movers.movers();
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_LT((found[0].p_W - p_W).norm(), 0.6) << p_W.transpose();
+  }
+  EXPECT_GT(cut, 8);
+}
+
+// A pair measures nothing that is nearer than its largest disparity: then the near face is missing in what is seen.
+TEST(Movers, WhatComesTooNearToBeMeasuredIsNotTakenToGoAway) {
+  constexpr double kRadiusM = 2.4, kNearestM = 1.4;
+  Movers movers({.nearest_m = kNearestM});
+  const Eigen::Vector2d v_W(-1.0, 0.0);
+  Eigen::Vector2d p_W(8.0, 0.0);
+  while (p_W.x() > kRadiusM + 0.4) {
+    std::vector<SurfacePoint> seen = face_of(p_W, kRadiusM, p_W - 0.1 * v_W);
+    std::erase_if(seen, [&](const SurfacePoint& point) { return point.p_W.x() < kNearestM; });
+    movers.update(10.0 - p_W.x(), kAllAhead, seen);
+    p_W += 0.1 * v_W;
+    if (p_W.x() > 6.0) continue;
+    const std::vector<Mover> found = movers.movers();
+    ASSERT_EQ(found.size(), 1u) << p_W.x();
+    EXPECT_LT(found[0].p_W.x() - p_W.x(), 0.5) << p_W.x();
+  }
+}
+
 TEST(Movers, FindsNothingWhereAllStands) {
   Movers movers({});
   for (int image = 0; image < 30; ++image) {
@@ -80,13 +122,13 @@ TEST(Threat, IsWhatAStandingVehicleIsRunOverBy) {
   const std::vector<Moment> stands = {{5.0, {0.0, 0.0}, {0.0, 0.0}}};
   const Clearance clearance{.hull_m = 0.5, .margin_m = 0.25, .margin_s = 0.0};
   const Mover comes{.p_W = {6.0, 0.0}, .v_W = {-2.0, 0.0}, .radius_m = 1.0};
-  EXPECT_NEAR(threat_m(stands, std::array{comes}, clearance, 5.0), 1.75, 0.11);  // its middle passes by the vehicle's
+  EXPECT_NEAR(threat_m(stands, std::array{comes}, clearance, 5.0), 2.25, 0.11);  // its middle passes by the vehicle's
   const Mover passes{.p_W = {6.0, 4.0}, .v_W = {-2.0, 0.0}, .radius_m = 1.0};
   EXPECT_EQ(threat_m(stands, std::array{passes}, clearance, 5.0), 0.0);
   // A velocity that is not known well keeps nothing free that the mover may as well stay in.
   const Mover may_stay{.p_W = {1.0, 0.0}, .v_W = {20.0, 0.0}, .radius_m = 1.0, .v_sigma_mps = 1.5};
-  EXPECT_GT(threat_m(stands, std::array{may_stay}, clearance, 4.0), 0.75);
-  const Mover leaves{.p_W = {2.0, 0.0}, .v_W = {2.0, 0.0}, .radius_m = 1.0};
+  EXPECT_GT(threat_m(stands, std::array{may_stay}, clearance, 4.0), 1.25);
+  const Mover leaves{.p_W = {2.5, 0.0}, .v_W = {2.0, 0.0}, .radius_m = 1.0};
   EXPECT_EQ(threat_m(stands, std::array{leaves}, clearance, 5.0), 0.0);
 }
 
