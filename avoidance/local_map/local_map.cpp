@@ -111,7 +111,7 @@ class LocalMap final : public Module {
     const bool arrived = p_BG_W.norm() < kArrivedM;
     const bool held = !arrived && route_m && plan_.worth_m < kHeldBack * hoped.worth_m;
     const bool keeps_looking = look_W_ && is_unknown(*look_W_);
-    if (!held && !(keeps_looking && backs_off_)) look_W_.reset();
+    if (!held && !(keeps_looking && backs_off_ && aimed(now, heading))) look_W_.reset();
     if (held && !keeps_looking) look_W_ = unknown_in_the_way(hoped.path);
     // Who speeds up tilts the camera, and sees something else: not for little, where there is something to look at.
     if (look_W_ && plan_.safe && plan_.worth_m < kLittleM) {
@@ -192,15 +192,18 @@ class LocalMap final : public Module {
     return nearest;
   }
 
+  /// Whether the nose points at what it looks for.
+  bool aimed(const Moment& now, double heading) const {
+    constexpr double kAimedRad = 0.35;
+    const Eigen::Vector2d off_W = *look_W_ - now.p_W;
+    return std::abs(std::remainder(std::atan2(off_W.y(), off_W.x()) - heading, 2.0 * M_PI)) < kAimedRad;
+  }
+
   /// Closes what stays unknown while the vehicle stands and looks at it.
   void stare(const Moment& now, double heading, const StopPlanner::Plan& plan, double t_s) {
-    constexpr double kAimedRad = 0.35, kRadiusM = 1.0;
+    constexpr double kRadiusM = 1.0;
     const bool stands = now.v_W.norm() < kStandsMps && plan.v_cmd_W.norm() < kStandsMps;
-    const auto aimed = [&] {
-      const Eigen::Vector2d off_W = *look_W_ - now.p_W;
-      return std::abs(std::remainder(std::atan2(off_W.y(), off_W.x()) - heading, 2.0 * M_PI)) < kAimedRad;
-    };
-    if (!look_W_ || !stands || !aimed()) {
+    if (!look_W_ || !stands || !aimed(now, heading)) {
       stares_since_s_.reset();
       return;
     }

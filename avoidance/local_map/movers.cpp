@@ -76,10 +76,10 @@ std::vector<Movers::Lump> Movers::lumps_of(const View& view, std::span<const Sur
   return lumps;
 }
 
-/// The middle of the disc that shows a lump: as deep as wide. Where the view cuts it, its near face may not be in it:
-/// then the line of sight that touches its other side tells.
+/// The middle of the disc that shows a lump: as deep as wide. Where the view cuts what was seen wider, its near face
+/// may be out of view: then the line of sight that touches its other side tells.
 Eigen::Vector2d Movers::Lump::middle_W(double disc_m) const {
-  if (cut_left == cut_right) return near_W + disc_m * sight_W;
+  if (cut_left == cut_right || disc_m <= radius_m) return near_W + disc_m * sight_W;
   const Eigen::Vector2d& side_W = cut_right ? left_end_W : right_end_W;
   const Eigen::Vector2d along_W = (side_W - eye_W).normalized(), right_W(-along_W.y(), along_W.x());
   return side_W + (cut_right ? disc_m : -disc_m) * right_W;
