@@ -121,7 +121,7 @@ class LocalMap final : public Module {
     if (backs_off_) back_off(now);
     stare(now, heading, plan_, t_s);
     const bool goes_on = route_m && !(waits(now, t_s) && !look_W_ && !arrived);
-    const double nose = with_mover_in_view(now, nose_rad(observation, arrived, goes_on));
+    const double nose = with_course_in_view(now, nose_rad(observation, arrived, goes_on));
     last_nose_rad_ = footprint_.turn_as_far_as_free_rad(slice(), plan_.path, heading, nose);
     if (last_nose_rad_ != nose && plan_.v_cmd_W.norm() < kHoversMps) make_room(now, heading, nose);
 
@@ -241,17 +241,16 @@ class LocalMap final : public Module {
 
   /// Turned no farther than what comes near stays in view, nor, when fast, so far that nothing is seen of what enters
   /// the course from the other side.
-  double with_mover_in_view(const Moment& now, double nose_rad) const {
+  double with_course_in_view(const Moment& now, double nose_rad) const {
     constexpr double kShareOfView = 0.6, kAsideRad = 0.3, kFastMps = 3.0;
+    const auto near_to = [&](const Eigen::Vector2d& along_W, double most_rad) {
+      const double along_rad = std::atan2(along_W.y(), along_W.x());
+      nose_rad = along_rad + std::clamp(std::remainder(nose_rad - along_rad, 2.0 * M_PI), -most_rad, most_rad);
+    };
     const Mover* const mover = nearest_to_come(now, around_->movers(), clearance_.hull_m);
-    if (!mover) return nose_rad;
-    const Eigen::Vector2d off_W = mover->p_W - now.p_W;
-    const double bearing_rad = std::atan2(off_W.y(), off_W.x()), most_rad = kShareOfView * around_->half_view_rad();
-    const double turned_rad =
-        bearing_rad + std::clamp(std::remainder(nose_rad - bearing_rad, 2.0 * M_PI), -most_rad, most_rad);
-    if (now.v_W.norm() < kFastMps) return turned_rad;
-    const double course_rad = std::atan2(now.v_W.y(), now.v_W.x());
-    return course_rad + std::clamp(std::remainder(turned_rad - course_rad, 2.0 * M_PI), -kAsideRad, kAsideRad);
+    if (mover) near_to(mover->p_W - now.p_W, kShareOfView * around_->half_view_rad());
+    if ((mover || !look_W_) && now.v_W.norm() > kFastMps) near_to(now.v_W, kAsideRad);
+    return nose_rad;
   }
 
   std::vector<Metric> do_metrics() const override {

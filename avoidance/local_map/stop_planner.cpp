@@ -17,6 +17,8 @@ constexpr double kStoppedMps = 0.05;
 constexpr int kDirections = 36;
 constexpr std::array<double, 6> kShares = {1.0, 0.75, 0.5, 0.35, 0.2, 0.1};
 constexpr double kImpactPriceS = 0.5;  // what speed counts for, as a distance, where a path goes and may not
+constexpr double kFleeShare = 0.3;     // what a mover's threat counts for there: a wall is worse
+constexpr double kTurnPriceS = 0.05;   // what a change of the command counts for, as a distance
 constexpr double kSlackM = 0.02;       // by which a path that begins too near may come nearer still
 
 }  // namespace
@@ -78,7 +80,7 @@ StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& 
     double bad_m = excess_m(path, best.safe ? 0.0 : least_bad_m);
     if (bad_m > 0.0) {  // to be flown only where nothing else is left
       if (best.safe || bad_m >= least_bad_m) return;
-      bad_m += threat_m(path);
+      bad_m += kFleeShare * threat_m(path);
       if (bad_m >= least_bad_m) return;
       least_bad_m = bad_m;
       best = {v_cmd_W, false, 0.0, std::move(path)};
@@ -87,7 +89,8 @@ StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& 
     const Fault end = fault(path.back());
     const double there_m = to_goal_m(path.back().p_W).value_or(kNowhereM);
     constexpr double kFaultPrice = 10.0, kThreatPrice = 30.0;
-    double cost = there_m + kFaultPrice * std::max(end.occupied_m, end.unknown_m);
+    double cost =
+        there_m + kFaultPrice * std::max(end.occupied_m, end.unknown_m) + kTurnPriceS * (v_cmd_W - last_cmd_W).norm();
     if (cost < best_cost) cost += kThreatPrice * threatened_m(v_cmd_W, path);
     if (cost >= best_cost) return;
     best_cost = cost;

@@ -199,8 +199,11 @@ Range range_of(const std::vector<Shares>& real) {
   return range;
 }
 
-void expect_no_easier(const Shares& shares, const Range& real) {
+void expect_as_much_unmatched(const Shares& shares, const Range& real) {
   EXPECT_GT(1.0 - shares.valid, (1.0 - kThird) * real.least.valid);
+}
+
+void expect_as_much_wrong(const Shares& shares, const Range& real) {
   EXPECT_GT(shares.wrong, (1.0 - kThird) * real.least.wrong);
 }
 
@@ -210,7 +213,7 @@ void expect_no_harder(const Shares& shares, const Range& real) {
 }
 
 // As the headlines fly: with the noise of a sensor file, and a pair that misses its calibration. Semi-global matching
-// finds facades easier than any real pair; all else is as hard.
+// leaves less of facades unmatched than of any real pair, and by day errs less; all else is as hard.
 TEST(RenderedStereo, IsAsHardToMatchAsRealPairsWithinAThirdButForFacades) {
   HEDGEHOP_NEEDS_REAL_DATA(vision::kRealData / "stereo");
   const Pairs real_pairs = real_worlds(), clean = rendered_worlds({});
@@ -218,11 +221,15 @@ TEST(RenderedStereo, IsAsHardToMatchAsRealPairsWithinAThirdButForFacades) {
   for (const Method method : {Method::block, Method::semi_global}) {
     const Range real = range_of(scores(real_pairs, method));
     scores(clean, method, "_without_noise");
-    for (const std::vector<Shares>& worlds : {scores(dull_pairs, method, "_dull"), scores(day_pairs, method, "_day")}) {
-      for (size_t world = 0; world < worlds.size(); ++world) {  // facade, forest, tree
-        if (world > 0 || method == Method::block) expect_no_easier(worlds[world], real);
-        expect_no_harder(worlds[world], real);
-      }
+    const std::vector<Shares> dull = scores(dull_pairs, method, "_dull"), day = scores(day_pairs, method, "_day");
+    for (size_t world = 0; world < dull.size(); ++world) {  // facade, forest, tree
+      const bool easy = world == 0 && method == Method::semi_global;
+      if (!easy) expect_as_much_unmatched(dull[world], real);
+      expect_as_much_wrong(dull[world], real);
+      expect_no_harder(dull[world], real);
+      if (!easy) expect_as_much_unmatched(day[world], real);
+      if (!easy) expect_as_much_wrong(day[world], real);
+      expect_no_harder(day[world], real);
     }
   }
 }
