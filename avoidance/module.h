@@ -103,10 +103,15 @@ struct VehicleLimits {
   /// known.
   std::vector<Eigen::AlignedBox3d> outline_B;
 };
+/// Altitudes that a mission may fly at, above W's origin, positive up, m.
+struct AltitudeBand {
+  double min_m = 0.0, max_m = 0.0;
+};
 struct Setup {
   std::vector<MountedCamera> cameras;
   VehicleLimits limits;
   uint64_t seed = 0;
+  std::optional<AltitudeBand> altitude_band;  ///< none: the mission keeps the height of the start or of the goal
 };
 
 /// One column a module adds to decisions.csv.

@@ -4,14 +4,20 @@
 #include <cmath>
 
 namespace hedgehop::avoidance::local_map {
+namespace {
+
+constexpr double kUnsureS = 0.05;  // of flight, by which the map may be off where the unknown begins
+
+}  // namespace
 
 Fault Footprint::fault(const LevelSlice& slice, const Moment& moment, bool unknown_too) const {
   const double margin_m = clearance_.margin_m + clearance_.margin_s * moment.v_W.norm();
+  const double unsure_m = kUnsureS * moment.v_W.norm();
   Fault worst;
   for (const Outline::Disc& disc : swept_) {
     const Eigen::Vector2d p_W = moment.p_W + disc.p_H;
     worst.occupied_m = std::max(worst.occupied_m, disc.radius_m + margin_m - slice.to_occupied_m(p_W));
-    if (unknown_too) worst.unknown_m = std::max(worst.unknown_m, disc.radius_m - slice.to_unknown_m(p_W));
+    if (unknown_too) worst.unknown_m = std::max(worst.unknown_m, disc.radius_m + unsure_m - slice.to_unknown_m(p_W));
   }
   return worst;
 }

@@ -23,7 +23,7 @@ void LevelSlice::build(const vision::mapping::OccupancyMap& map, const Band& ban
       }
     }
   }
-  close(closed);
+  close(closed, band);
   marked_.resize(cells_.size());
   std::ranges::transform(cells_, marked_.begin(), [](State s) { return static_cast<uint8_t>(s == State::occupied); });
   occupied_.build(marked_, side_, side_);
@@ -31,18 +31,14 @@ void LevelSlice::build(const vision::mapping::OccupancyMap& map, const Band& ban
   unknown_.build(marked_, side_, side_);
 }
 
-void LevelSlice::close(const ClosedCells& closed) {
-  for (const ClosedCells::Place& place : closed.places()) {
-    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(place.radius_m);
-    const Eigen::Vector2i low = cell(place.p_W - reach).cwiseMax(0);
-    const Eigen::Vector2i high = cell(place.p_W + reach).cwiseMin(side_ - 1);
-    for (int row = low.x(); row <= high.x(); ++row) {
-      for (int col = low.y(); col <= high.y(); ++col) {
-        State& state = cells_[static_cast<size_t>(row * side_ + col)];
-        if (state == State::unknown && (center(row, col) - place.p_W).norm() < place.radius_m) state = State::occupied;
-      }
-    }
-  }
+void LevelSlice::close(const ClosedCells& closed, const Band& band) {
+  closed.for_each([&](const Eigen::Vector3d& p_W) {
+    if (p_W.z() < band.top_m || p_W.z() > band.bottom_m) return;
+    const Eigen::Vector2i at = cell(p_W.head<2>());
+    if (!contains(at.x(), at.y())) return;
+    State& state = cells_[static_cast<size_t>(at.x() * side_ + at.y())];
+    if (state == State::unknown) state = State::occupied;
+  });
 }
 
 }  // namespace hedgehop::avoidance::local_map

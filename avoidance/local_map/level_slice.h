@@ -16,7 +16,8 @@ struct Band {
 };
 
 /// What is known of the plane of flight: a column of the map is occupied where any of its voxels within the band is,
-/// free where all are, and unknown otherwise; with distances to both. Unknown columns in closed places are occupied.
+/// free where all are, and unknown otherwise; with distances to both. Unknown columns that were closed at a height
+/// within the band are occupied.
 class LevelSlice {
  public:
   using State = vision::mapping::OccupancyMap::State;
@@ -43,7 +44,7 @@ class LevelSlice {
     return contains(c.x(), c.y()) ? cell_m_ * (field.at(c.x(), c.y()) - 0.5) : 0.0;
   }
 
-  void close(const ClosedCells& closed);
+  void close(const ClosedCells& closed, const Band& band);
 
   int side_ = 0;
   double cell_m_ = 1.0;

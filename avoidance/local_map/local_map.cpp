@@ -7,7 +7,10 @@
 #include "avoidance/heading.h"
 #include "avoidance/local_map/dead_reckoning.h"
 #include "avoidance/local_map/footprint.h"
+#include "avoidance/local_map/learned_distances.h"
+#include "avoidance/local_map/levels.h"
 #include "avoidance/local_map/local_map_overlay.h"
+#include "avoidance/local_map/look.h"
 #include "avoidance/local_map/route_field.h"
 #include "avoidance/local_map/stop_planner.h"
 #include "avoidance/local_map/surroundings.h"
@@ -35,14 +38,17 @@ class LocalMap final : public Module {
  private:
   Needs do_needs() const override { return DisparitySource::needs(config_.depth, DisparitySource::Grey::unused); }
   std::vector<Signal> do_signals() const override {
-    return {{"route_m", "m"},  {"stop_m", "m"},       {"unknown_share", ""},
-            {"sky_share", ""}, {"closed_places", ""}, {"movers", ""}};
+    return {{"route_m", "m"},  {"stop_m", "m"},      {"unknown_share", ""},
+            {"sky_share", ""}, {"closed_cells", ""}, {"movers", ""}};
   }
 
   void do_reset(const Setup& setup) override {
     const VehicleLimits& limits = setup.limits;
     clearance_ = {limits.radius_m, config_.margin_m, config_.margin_time_s};
     outline_ = Outline(limits);
+    altitude_band_ = setup.altitude_band;
+    learned_ = {};
+    levels_at_s_ = 0.0;
     around_.emplace(config_, setup, outline_);
     dead_reckoning_ = {};
     footprint_ = Footprint(outline_, clearance_, config_.voxel_m);
@@ -71,10 +77,11 @@ class LocalMap final : public Module {
     }
     if (!last_) {
       around_->begin(reckoned.navigation);
+      levels_ = Levels(altitude_band_, around_->height_W(), clearance_.hull_m + clearance_.margin_m);
       last_nose_rad_ = heading_rad(reckoned.navigation.q_WB_est);
     }
     around_->see(reckoned.navigation, t_s);
-    const Decision decision = decide(reckoned, t_s);
+    const Decision decision = decide(reckoned, observation.goal.p_WG, t_s);
     last_ = decision;
     ++decisions_;
     return decision;
@@ -91,16 +98,21 @@ class LocalMap final : public Module {
         least_m);
   }
 
-  Decision decide(const Observation& observation, double t_s) {
+  /// @param mission_W  the goal as the mission names it.
+  Decision decide(const Observation& observation, const Eigen::Vector3d& mission_W, double t_s) {
     const NavigationState& navigation = observation.navigation;
     const Eigen::Vector2d p_W = navigation.p_WB_est.head<2>(), goal_W = observation.goal.p_WG.head<2>();
     const Moment now{t_s, p_W, (navigation.q_WB_est * navigation.v_WB_B_est).head<2>()};
     const double height_m = std::max(navigation.height_above_ground_m, kLeastHeightM);
-    planner_ = StopPlanner(response_, std::min(most_mps_, kGroundRadps * height_m));
-    route_.build(slice(), clearance_.hull_m + clearance_.margin_m, goal_W,
-                 [&](const Eigen::Vector2d& edge_W) { return (goal_W - edge_W).norm(); });
-    const auto to_goal_m = [&](const Eigen::Vector2d& at_W) { return route_.to_goal_m(at_W); };
     const double heading = heading_rad(navigation.q_WB_est);
+    planner_ =
+        StopPlanner(response_, std::min(most_mps_, kGroundRadps * height_m), {heading, around_->half_view_rad()});
+    route_.build(slice(), clearance_.hull_m + clearance_.margin_m, goal_W,
+                 learned_.beyond_m(goal_W, around_->height_W()));
+    if (!around_->changes_height()) {
+      learned_.learn(route_, slice(), {p_W.x(), p_W.y(), around_->height_W()}, mission_W);
+    }
+    const auto to_goal_m = [&](const Eigen::Vector2d& at_W) { return route_.to_goal_m(at_W); };
     footprint_.turn(heading, last_nose_rad_);
     plan_ = plan_to(now, to_goal_m);
     const StopPlanner::Plan hoped = plan_to(now, to_goal_m, /*unknown_too=*/false);
@@ -110,12 +122,12 @@ class LocalMap final : public Module {
     constexpr double kArrivedM = 0.5, kHeldBack = 0.6;
     const bool arrived = p_BG_W.norm() < kArrivedM;
     const bool held = !arrived && route_m && plan_.worth_m < kHeldBack * hoped.worth_m;
-    const bool keeps_looking = look_W_ && is_unknown(*look_W_);
-    if (!held && !(keeps_looking && backs_off_ && aimed(now, heading))) look_W_.reset();
-    if (held && !keeps_looking) look_W_ = unknown_in_the_way(hoped.path);
+    const bool keeps_looking = look_W_ && is_unknown(slice(), *look_W_);
+    if (!held && !(keeps_looking && backs_off_ && points_at(*look_W_, now.p_W, heading))) look_W_.reset();
+    if (held && !keeps_looking) look_W_ = unknown_in_the_way(slice(), footprint_, hoped.path, clearance_.hull_m);
     // Who speeds up tilts the camera, and sees something else: not for little, where there is something to look at.
     if (look_W_ && plan_.safe && plan_.worth_m < kLittleM) {
-      plan_ = plan_to(now, [](const Eigen::Vector2d&) { return 0.0; });
+      plan_ = plan_to(now, [&](const Eigen::Vector2d& at_W) { return (at_W - p_W).norm(); });
     }
     backs_off_ = look_W_ && (backs_off_ || now.v_W.norm() < kStandsMps);
     if (backs_off_) back_off(now);
@@ -125,23 +137,44 @@ class LocalMap final : public Module {
     last_nose_rad_ = footprint_.turn_as_far_as_free_rad(slice(), plan_.path, heading, nose);
     if (last_nose_rad_ != nose && plan_.v_cmd_W.norm() < kHoversMps) make_room(now, heading, nose);
 
+    change_level(observation.goal.p_WG, p_W, t_s);
     Decision decision;
     VelocityCommand command;
     command.v_WB_W = plan_.v_cmd_W;
     command.altitude_m = -around_->height_W();
     command.heading_rad = last_nose_rad_;
     decision.command = command;
-    decision.status = arrived ? "arrive" : !plan_.safe ? "brake" : !goes_on ? "stuck" : look_W_ ? "look" : "cruise";
+    decision.status = arrived                     ? "arrive"
+                      : !plan_.safe               ? "brake"
+                      : around_->changes_height() ? "level"
+                      : !goes_on                  ? "stuck"
+                      : look_W_                   ? "look"
+                                                  : "cruise";
     stuck_ += !goes_on;
     stops_ += !plan_.safe;
     decision.signals = {route_m.value_or(std::nan("")),
                         (plan_.path.back().p_W - p_W).norm(),
                         around_->blocks().share(DepthBlock::Kind::unknown),
                         around_->blocks().share(DepthBlock::Kind::sky),
-                        static_cast<double>(around_->closed_places()),
+                        static_cast<double>(around_->closed_cells()),
                         static_cast<double>(around_->movers().size())};
     last_cmd_W_ = plan_.v_cmd_W;
     return decision;
+  }
+
+  /// Climbs or sinks where the mission allows it and a better way leads there, if the planned stop keeps clear of what
+  /// lies between, too.
+  void change_level(const Eigen::Vector3d& goal_W, const Eigen::Vector2d& p_W, double t_s) {
+    constexpr double kEveryS = 1.0;
+    if (!levels_.any() || around_->changes_height() || !plan_.safe || t_s < levels_at_s_ + kEveryS) return;
+    levels_at_s_ = t_s;
+    const auto may_pass = [&](const LevelSlice& between) {
+      return std::ranges::all_of(plan_.path, [&](const Moment& moment) {
+        const Fault there = footprint_.fault(between, moment, true);
+        return there.occupied_m <= 0.0 && there.unknown_m <= 0.0;
+      });
+    };
+    if (const auto z_W = levels_.next_W(*around_, learned_, p_W, goal_W, may_pass)) around_->change_height(*z_W);
   }
 
   /// Moves away from what it cannot see because it is too near, below or beside the image: where it came from is free.
@@ -169,41 +202,11 @@ class LocalMap final : public Module {
     if (lacks_m(now.p_W) > 0.0 || lacks_m(plan_.path.back().p_W) > 0.0) plan_ = plan_to(now, lacks_m);
   }
 
-  bool is_unknown(const Eigen::Vector2d& p_W) const {
-    const Eigen::Vector2i cell = slice().cell(p_W);
-    return slice().contains(cell.x(), cell.y()) && slice().at(cell.x(), cell.y()) == LevelSlice::State::unknown;
-  }
-
-  /// The unknown cell nearest to where a path that ignores the unknown first comes too near to one.
-  std::optional<Eigen::Vector2d> unknown_in_the_way(const std::vector<Moment>& path) const {
-    const auto first = std::ranges::find_if(path, [&](const Moment& m) { return fault(m, true).unknown_m > 0.0; });
-    if (first == path.end()) return std::nullopt;
-    std::optional<Eigen::Vector2d> nearest;
-    const Eigen::Vector2i here = slice().cell(first->p_W);
-    const int reach = static_cast<int>(std::ceil(clearance_.hull_m / slice().cell_m())) + 2;
-    for (int row = here.x() - reach; row <= here.x() + reach; ++row) {
-      for (int col = here.y() - reach; col <= here.y() + reach; ++col) {
-        if (!slice().contains(row, col) || slice().at(row, col) != LevelSlice::State::unknown) continue;
-        const Eigen::Vector2d center_W = slice().center(row, col);
-        if (nearest && (center_W - first->p_W).norm() >= (*nearest - first->p_W).norm()) continue;
-        nearest = center_W;
-      }
-    }
-    return nearest;
-  }
-
-  /// Whether the nose points at what it looks for.
-  bool aimed(const Moment& now, double heading) const {
-    constexpr double kAimedRad = 0.35;
-    const Eigen::Vector2d off_W = *look_W_ - now.p_W;
-    return std::abs(std::remainder(std::atan2(off_W.y(), off_W.x()) - heading, 2.0 * M_PI)) < kAimedRad;
-  }
-
   /// Closes what stays unknown while the vehicle stands and looks at it.
   void stare(const Moment& now, double heading, const StopPlanner::Plan& plan, double t_s) {
     constexpr double kRadiusM = 1.0;
     const bool stands = now.v_W.norm() < kStandsMps && plan.v_cmd_W.norm() < kStandsMps;
-    if (!look_W_ || !stands || !aimed(now, heading)) {
+    if (!look_W_ || !stands || !points_at(*look_W_, now.p_W, heading)) {
       stares_since_s_.reset();
       return;
     }
@@ -275,6 +278,10 @@ class LocalMap final : public Module {
   Footprint footprint_;
   DeadReckoning dead_reckoning_;  ///< all positions here are by it
   std::optional<Surroundings> around_;
+  std::optional<AltitudeBand> altitude_band_;
+  Levels levels_;
+  LearnedDistances learned_;
+  double levels_at_s_ = 0.0;    ///< when the levels were compared last
   double last_nose_rad_ = 0.0;  ///< commanded
   Eigen::Vector2d last_cmd_W_ = Eigen::Vector2d::Zero();
   std::optional<Eigen::Vector2d> look_W_;  ///< what is unknown and in the way

@@ -53,6 +53,7 @@ void RouteField::push(int cell, int cost) {
 void RouteField::seed(const Eigen::Vector2d& goal_W, const std::function<double(const Eigen::Vector2d&)>& beyond_m) {
   for (auto& bucket : buckets_) bucket.clear();
   waiting_ = 0;
+  beyond_m_ = 0.0;
   const int n = slice_->side();
   const Eigen::Vector2i goal = slice_->cell(goal_W);
   const double tenths_per_m = kStraight / slice_->cell_m();
@@ -78,7 +79,8 @@ void RouteField::seed(const Eigen::Vector2d& goal_W, const std::function<double(
       least_m = std::min(least_m, edge.back().second);
     }
   }
-  // Distances count from the nearest edge on, so that few buckets do; to_goal_m() differs by a constant.
+  // Distances count from the nearest edge on, so that few buckets do; to_goal_m() adds the rest.
+  beyond_m_ = edge.empty() ? 0.0 : least_m;
   for (const auto& [cell, away_m] : edge) {
     if (std::isfinite(away_m)) push(cell, static_cast<int>(std::lround(tenths_per_m * (away_m - least_m))));
   }
@@ -124,7 +126,7 @@ std::optional<double> RouteField::to_goal_m(const Eigen::Vector2d& p_W) const {
     }
   }
   if (!std::isfinite(best)) return back_to_route_m(p_W);
-  return best * slice_->cell_m() / kStraight;
+  return beyond_m_ + best * slice_->cell_m() / kStraight;
 }
 
 /// From a cell that routes keep out of: the way back to where they pass, through what is not occupied. It is dear, lest
@@ -141,7 +143,7 @@ std::optional<double> RouteField::back_to_route_m(const Eigen::Vector2d& p_W) co
     if (!slice_->contains(at.x(), at.y())) continue;
     if (cost(at.x(), at.y()) < kNever) {
       const double away_m = (slice_->center(at.x(), at.y()) - p_W).norm();
-      return cost(at.x(), at.y()) * slice_->cell_m() / kStraight + kDear * away_m;
+      return beyond_m_ + cost(at.x(), at.y()) * slice_->cell_m() / kStraight + kDear * away_m;
     }
     if (i > 0 && slice_->at(at.x(), at.y()) == LevelSlice::State::occupied) continue;
     for (const Step& step : kSteps) {

@@ -42,6 +42,7 @@ class RouteField {
   std::vector<uint8_t> price_;  ///< of a step, in tenths of a cell; 0 may not be entered
   std::vector<std::vector<int>> buckets_;
   int waiting_ = 0;
+  double beyond_m_ = 0.0;  ///< from the nearest edge to a goal outside
 };
 
 }  // namespace hedgehop::avoidance::local_map

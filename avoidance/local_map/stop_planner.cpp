@@ -16,10 +16,12 @@ constexpr std::array<double, 2> kLongHoldsS = {1.2, 2.4};  // to pass before wha
 constexpr double kStoppedMps = 0.05;
 constexpr int kDirections = 36;
 constexpr std::array<double, 6> kShares = {1.0, 0.75, 0.5, 0.35, 0.2, 0.1};
-constexpr double kImpactPriceS = 0.5;  // what speed counts for, as a distance, where a path goes and may not
-constexpr double kFleeShare = 0.3;     // what a mover's threat counts for there: a wall is worse
-constexpr double kTurnPriceS = 0.05;   // what a change of the command counts for, as a distance
-constexpr double kSlackM = 0.02;       // by which a path that begins too near may come nearer still
+constexpr double kImpactPriceS = 0.5;     // what speed counts for, as a distance, where a path goes and may not
+constexpr double kFleeShare = 0.3;        // what a mover's threat counts for there: a wall is worse
+constexpr double kTurnPriceS2pm = 0.006;  // what a change of the command counts for, as a distance, times the speed
+constexpr double kBlindMps = 2.0;         // not to be exceeded where the camera does not look,
+constexpr double kBlindPriceS = 3.0;      // and what each m/s beyond counts for, as a distance
+constexpr double kSlackM = 0.02;          // by which a path that begins too near may come nearer still
 
 }  // namespace
 
@@ -75,6 +77,11 @@ StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& 
   const double here_m = to_goal_m(now.p_W).value_or(kNowhereM);
   Plan best;
   double best_cost = kNever, least_bad_m = kNever;
+  // Where it does not look it only remembers, and knows less well where that is.
+  const auto blind_mps = [&](const Eigen::Vector2d& v_cmd_W) {
+    const double off_rad = std::remainder(std::atan2(v_cmd_W.y(), v_cmd_W.x()) - view_.heading_rad, 2.0 * M_PI);
+    return std::abs(off_rad) > view_.half_rad ? std::max(0.0, v_cmd_W.norm() - kBlindMps) : 0.0;
+  };
   const auto consider = [&](const Eigen::Vector2d& v_cmd_W) {
     std::vector<Moment> path = predict(now, last_cmd_W, v_cmd_W, kHoldS);
     double bad_m = excess_m(path, best.safe ? 0.0 : least_bad_m);
@@ -89,8 +96,8 @@ StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& 
     const Fault end = fault(path.back());
     const double there_m = to_goal_m(path.back().p_W).value_or(kNowhereM);
     constexpr double kFaultPrice = 10.0, kThreatPrice = 30.0;
-    double cost =
-        there_m + kFaultPrice * std::max(end.occupied_m, end.unknown_m) + kTurnPriceS * (v_cmd_W - last_cmd_W).norm();
+    double cost = there_m + kFaultPrice * std::max(end.occupied_m, end.unknown_m) +
+                  kTurnPriceS2pm * speed_mps_ * (v_cmd_W - last_cmd_W).norm() + kBlindPriceS * blind_mps(v_cmd_W);
     if (cost < best_cost) cost += kThreatPrice * threatened_m(v_cmd_W, path);
     if (cost >= best_cost) return;
     best_cost = cost;

@@ -58,7 +58,14 @@ class StopPlanner {
   /// Distance to the goal along the route, m; nothing where there is none.
   using ToGoal = std::function<std::optional<double>(const Eigen::Vector2d&)>;
 
-  StopPlanner(const Response& response, double speed_mps) : response_(response), speed_mps_(speed_mps) {}
+  /// What the images show: to either side of the nose.
+  struct View {
+    double heading_rad = 0.0, half_rad = 4.0;  ///< all around
+  };
+
+  StopPlanner(const Response& response, double speed_mps) : StopPlanner(response, speed_mps, View{}) {}
+  StopPlanner(const Response& response, double speed_mps, const View& view)
+      : response_(response), speed_mps_(speed_mps), view_(view) {}
 
   /// @param now  position and velocity when the image was taken. @param last_cmd_W  what is being obeyed still.
   /// What moves is got away from as far as it can be: no stop is safe from it.
@@ -72,6 +79,7 @@ class StopPlanner {
  private:
   Response response_;
   double speed_mps_;
+  View view_;
 };
 
 }  // namespace hedgehop::avoidance::local_map

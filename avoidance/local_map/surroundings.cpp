@@ -11,8 +11,9 @@ namespace {
 using stereo::DisparitySource;
 using vision::mapping::OccupancyMap;
 
-constexpr double kFadeSteps = 5.0;  // steps that free space is from unknown, at most
-constexpr double kLevelM = 0.3;     // above and below the vehicle's own height: altitude is held to this
+constexpr int kLayers = 12, kLayersOfLevels = 32;  // of the map, at one height and where the mission leaves the choice
+constexpr double kFadeSteps = 5.0;                 // steps that free space is from unknown, at most
+constexpr double kLevelM = 0.3;                    // above and below the vehicle's own height: altitude is held to this
 
 Band hull_of(const VehicleLimits& limits) {
   constexpr double kHalfHeightM = 0.2;  // of a vehicle whose outline nobody gave
@@ -39,7 +40,10 @@ Surroundings::Surroundings(const LocalMapConfig& config, const Setup& setup, con
       radius_m_(setup.limits.radius_m),
       hull_(hull_of(setup.limits)),
       source_(config.depth, DisparitySource::Grey::unused, config.stereo, setup),
-      map_({.voxel_m = config.voxel_m, .noise_px = config.noise_px}),
+      map_({.voxel_m = config.voxel_m,
+            .layers = setup.altitude_band ? kLayersOfLevels : kLayers,
+            .noise_px = config.noise_px}),
+      closed_(config.voxel_m),
       tracker_(tracking(config, source_.geometry())) {}
 
 /// @param z_W  of B.
@@ -92,7 +96,37 @@ void Surroundings::see(const NavigationState& navigation, double t_s) {
   }
   closed_.update(t_s);
   follow_movers(t_s, X_WC);
-  slice_.build(map_, band(height_W_), closed_);
+  constexpr double kThereM = 0.2;
+  if (from_W_ && std::abs(navigation.p_WB_est.z() - height_W_) < kThereM) from_W_.reset();
+  slice_.build(map_, between(from_W_.value_or(height_W_), height_W_), closed_);
+  remember_occupied(t_s);
+}
+
+/// So that routes lead round a wall that has left the map.
+void Surroundings::remember_occupied(double t_s) {
+  constexpr double kEveryS = 1.0;
+  if (from_W_ || t_s < remembered_s_ + kEveryS) return;
+  remembered_s_ = t_s;
+  for (int row = 0; row < slice_.side(); ++row) {
+    for (int col = 0; col < slice_.side(); ++col) {
+      if (slice_.at(row, col) != LevelSlice::State::occupied) continue;
+      const Eigen::Vector2d p_W = slice_.center(row, col);
+      closed_.remember({p_W.x(), p_W.y(), height_W_}, t_s);
+    }
+  }
+}
+
+Band Surroundings::between(double from_W, double to_W) const {
+  const Band from = band(from_W), to = band(to_W);
+  return {std::min(from.top_m, to.top_m), std::max(from.bottom_m, to.bottom_m)};
+}
+
+bool Surroundings::slice_between(double from_W, double to_W, LevelSlice& slice) const {
+  const Band all = between(from_W, to_W);
+  const double top_m = config_.voxel_m * map_.first().z();
+  if (all.top_m < top_m || all.bottom_m > top_m + config_.voxel_m * map_.size().z()) return false;
+  slice.build(map_, all, closed_);
+  return true;
 }
 
 /// The movers' discs, a voxel wider, where they should be by now.

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,12 +34,22 @@ class Surroundings {
   /// Puts the image that was taken into the map.
   void see(const NavigationState& navigation, double t_s);
   /// Takes what lies around a place for an obstacle.
-  void close(const Eigen::Vector2d& p_W, double radius_m, double t_s) { closed_.close(p_W, radius_m, t_s); }
+  void close(const Eigen::Vector2d& p_W, double radius_m, double t_s) {
+    closed_.close({p_W.x(), p_W.y(), height_W_}, radius_m, t_s);
+  }
+  /// From now on flies at another height; until the vehicle is there, slice() holds all that lies between.
+  void change_height(double z_W) {
+    from_W_ = height_W_;
+    height_W_ = z_W;
+  }
+  bool changes_height() const { return from_W_.has_value(); }
+  /// What is known from one height to another, z in W; nothing where the map does not reach as far.
+  bool slice_between(double from_W, double to_W, LevelSlice& slice) const;
 
   const LevelSlice& slice() const { return slice_; }
   const std::vector<Mover>& movers() const { return movers_; }
   const vision::mapping::DepthBlocks& blocks() const { return blocks_; }
-  size_t closed_places() const { return closed_.places().size(); }
+  size_t closed_cells() const { return closed_.size(); }
   double height_W() const { return height_W_; }  ///< z that is flown at
   double blind_m() const { return blind_m_; }    ///< from B, within which images do not show all that is flown through
   /// From the middle of the images to their sides.
@@ -46,9 +57,11 @@ class Surroundings {
 
  private:
   Band band(double z_W) const;
+  Band between(double from_W, double to_W) const;
   void clear(const Eigen::Vector3d& p_W, double radius_m);
   void fade(const NavigationState& navigation, double t_s);
   const std::vector<vision::mapping::OccupancyMap::Disc>& where_movers_are(double t_s);
+  void remember_occupied(double t_s);
   void follow_movers(double t_s, const Eigen::Isometry3d& X_WC);
 
   const LocalMapConfig& config_;
@@ -60,12 +73,14 @@ class Surroundings {
   vision::mapping::OccupancyMap map_;
   LevelSlice slice_;
   ClosedCells closed_;
+  double remembered_s_ = 0.0;  ///< when what is occupied was put there last
   Movers tracker_;
   std::vector<SurfacePoint> surface_;  ///< of the last image, at the heights that are flown through
   std::vector<Mover> movers_;
   double movers_at_s_ = 0.0;
   std::vector<vision::mapping::OccupancyMap::Disc> discs_;
   double blind_m_ = 0.0, height_W_ = 0.0;
+  std::optional<double> from_W_;       ///< height that it comes from
   double age_s_ = 0.0, seen_s_ = 0.0;  ///< of the map since it faded last, and when the last image came
 };
 

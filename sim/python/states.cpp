@@ -162,6 +162,13 @@ void bind_setup(py::module_& native) {
   py::class_<Setup>(native, "Setup", "What a module is told before a flight.")
       .def_readonly("cameras", &Setup::cameras)
       .def_readonly("limits", &Setup::limits)
+      .def_property_readonly(
+          "altitude_band_m",
+          [](const Setup& s) -> std::optional<std::pair<double, double>> {
+            if (!s.altitude_band) return std::nullopt;
+            return std::pair{s.altitude_band->min_m, s.altitude_band->max_m};
+          },
+          "lowest and highest altitude of the mission; None where it keeps its height")
       .def_readonly("seed", &Setup::seed);
 }
 

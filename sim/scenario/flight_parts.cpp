@@ -34,6 +34,7 @@ avoidance::Setup module_setup(const Scenario& scenario, const std::vector<dynami
   for (const dynamics::HullPart& part : hull) {
     setup.limits.outline_B.emplace_back(part.center_B_m - part.half_extents_m, part.center_B_m + part.half_extents_m);
   }
+  if (const auto& band = scenario.altitude_band) setup.altitude_band = {band->min_m, band->max_m};
   for (const CameraConfig& camera : scenario.rig.cameras) {
     setup.cameras.push_back({camera.role, camera.model(), camera.X_BC(), camera.rate_hz});
   }

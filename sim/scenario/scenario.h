@@ -79,6 +79,16 @@ void describe(Visitor& v, GoalConfig& c) {
     {.unit = "m", .above = 0.0, .meaning = "difference from the altitude that counts as reached"});
 }
 
+/// Altitudes that the mission may fly at, above W's origin, positive up: a module that can climbs and sinks within.
+struct AltitudeBandConfig {
+  double min_m = 0.0, max_m = 0.0;
+};
+template <class Visitor>
+void describe(Visitor& v, AltitudeBandConfig& c) {
+  v("min", c.min_m, {.unit = "m", .at_least = 0.0, .required = true, .meaning = "lowest altitude"});
+  v("max", c.max_m, {.unit = "m", .at_least = 0.0, .required = true, .meaning = "highest altitude"});
+}
+
 /// Which camera's flow measures the horizontal velocity for the navigation filter.
 struct VelocimeterConfig {
   bool enabled = true;
@@ -146,8 +156,9 @@ struct Scenario {
   dynamics::AvionicsConfig avionics;
   dynamics::air::WindConfig wind;
   StartConfig start;
-  std::vector<GoalConfig> route;   ///< waypoints to pass before the goal
-  std::optional<GoalConfig> goal;  ///< without one, the flight holds the start's altitude and heading
+  std::vector<GoalConfig> route;                    ///< waypoints to pass before the goal
+  std::optional<GoalConfig> goal;                   ///< without one, the flight holds the start's altitude and heading
+  std::optional<AltitudeBandConfig> altitude_band;  ///< without one, a module keeps the height it is told
   RigConfig rig;
   DrawingConfig drawing;
   VelocimeterConfig velocimeter;
@@ -183,6 +194,8 @@ void describe(Visitor& v, Scenario& c) {
   v("start", c.start, {.required = true, .meaning = "where the flight begins, in a trimmed hover"});
   v("route", c.route, {.meaning = "places to pass, in order, before the goal: within their radii, at their heights"});
   v("goal", c.goal, {.meaning = "where the flight should end; none for a flight that explores"});
+  v("altitude_band", c.altitude_band,
+    {.meaning = "heights that the module may choose to fly at; what it keeps to, the check of that name tells"});
   v("rig", c.rig, {.meaning = "the cameras on board"});
   v("drawing", c.drawing, {.meaning = "how their images are made"});
   v("velocimeter", c.velocimeter, {.meaning = "horizontal velocity from the optic flow of one camera"});

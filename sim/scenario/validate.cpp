@@ -126,6 +126,15 @@ class Validator {
 
   void parts() {
     if (!scenario_.route.empty() && !scenario_.goal) add("route", "needs a 'goal' where it ends");
+    if (const std::optional<AltitudeBandConfig>& band = scenario_.altitude_band) {
+      const double start_m = scenario_.start.altitude_m;
+      if (!(band->min_m < band->max_m)) {
+        add("altitude_band.max", fmt::format("must be greater than 'min' ({} m), got {}", band->min_m, band->max_m));
+      } else if (start_m < band->min_m || start_m > band->max_m) {
+        add("start.altitude",
+            fmt::format("{} m is outside the altitude_band, {} to {} m", start_m, band->min_m, band->max_m));
+      }
+    }
     build("scene", [&] {
       scenes::Scene alone;
       std::visit([&](const auto& chosen) { scenes::mesh::add_imports(chosen.added.imports, alone); }, scenario_.scene);

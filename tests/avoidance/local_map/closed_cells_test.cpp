@@ -13,8 +13,9 @@ TEST(ClosedCells, OnlyUnknownColumnsAreClosedAndOnlyForATime) {
   vision::mapping::OccupancyMap map({.voxel_m = 0.5, .across = 20, .layers = 4});
   map.reset(Eigen::Vector3d::Zero());
   map.clear_cylinder({2.0, 0.0, 0.0}, 0.6, 1.0);
-  ClosedCells closed(10.0);
-  closed.close({2.0, 0.5}, 1.2, 3.0);
+  ClosedCells closed(0.5);
+  closed.close({2.0, 0.5, 0.1}, 1.2, 3.0);
+  closed.remember({2.1, 3.1, 0.1}, 3.0);
   LevelSlice slice;
   const auto at = [&](double north_m, double east_m) {
     slice.build(map, {-0.4, 0.4}, closed);
@@ -24,8 +25,14 @@ TEST(ClosedCells, OnlyUnknownColumnsAreClosedAndOnlyForATime) {
   EXPECT_EQ(at(2.1, 0.1), State::free);  // what was seen counts
   EXPECT_EQ(at(2.1, 1.3), State::occupied);
   EXPECT_EQ(at(2.1, 2.3), State::unknown);
-  closed.update(14.0);
+  slice.build(map, {-1.0, -0.2}, closed);  // another level
+  EXPECT_EQ(slice.at(slice.cell({2.1, 1.3}).x(), slice.cell({2.1, 1.3}).y()), State::unknown);
+  EXPECT_EQ(at(2.1, 3.1), State::occupied);
+  closed.update(3.0 + ClosedCells::kUnknownS + 1.0);
   EXPECT_EQ(at(2.1, 1.3), State::unknown);
+  EXPECT_EQ(at(2.1, 3.1), State::occupied);  // what was seen is kept for longer
+  closed.update(3.0 + ClosedCells::kOccupiedS + 1.0);
+  EXPECT_EQ(at(2.1, 3.1), State::unknown);
 }
 
 }  // namespace

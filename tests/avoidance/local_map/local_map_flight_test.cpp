@@ -38,10 +38,39 @@ TEST(LocalMapFlight, BlindItStaysInWhatIsAssumedFree) {
   PointWorld world;
   world.goal_W = {30.0, 0.0};
   world.radius_m = 0.65;
-  world.blind = true;
+  world.blind_from_s = 0.0;
   const PointWorld::Flown flown = world.fly({});
   constexpr double kStripM = 4.0;  // the camera of this test sees the vehicle's height from 3 m on
   for (const auto& moment : flown.track) ASSERT_LT((moment.p_W - world.start_W).norm(), kStripM) << moment.t_s;
+}
+
+// It looks here and there, closes what it cannot see, and tries another way: all of that nearby.
+TEST(LocalMapFlight, BlindInFlightItStopsAndStaysThereabouts) {
+  PointWorld world;
+  world.goal_W = {60.0, 10.0};
+  world.radius_m = 0.65;
+  world.duration_s = 30.0;
+  for (const double from_s : {2.0, 3.0, 4.0}) {
+    world.blind_from_s = from_s;
+    const PointWorld::Flown flown = world.fly({});
+    constexpr double kStopsS = 5.0, kThereaboutsM = 4.0;
+    constexpr size_t kImages = 80;
+    const auto image = static_cast<size_t>((from_s + kStopsS) / PointWorld::kStepS);
+    for (size_t i = image; i < image + kImages; ++i) {
+      ASSERT_LT((flown.track[i].p_W - flown.track[image].p_W).norm(), kThereaboutsM)
+          << from_s << ", " << flown.track[i].t_s;
+    }
+  }
+}
+
+TEST(LocalMapFlight, GoesRoundAWallThatIsLongerThanItsMapAndItsMemory) {
+  PointWorld world;
+  world.goal_W = {30.0, 0.0};
+  world.walls = {{{12.0, -45.0}, {12.0, 45.0}}};
+  world.duration_s = 240.0;
+  const PointWorld::Flown flown = world.fly({});
+  EXPECT_TRUE(flown.reached);
+  EXPECT_GT(flown.clearance_m, 0.0);
 }
 
 TEST(LocalMapFlight, FliesSlowlyNearTheGround) {

@@ -53,9 +53,9 @@ class PointWorld {
   Eigen::Vector2d start_W{0.0, 0.0}, goal_W{30.0, 0.0};
   double height_m = 3.0, radius_m = 0.0, duration_s = 90.0, reached_m = 1.5;
   double speed_mps = 8.0, acceleration_mps2 = 3.0;
-  bool blind = false;                          ///< nothing is known of any pixel
-  std::vector<Eigen::AlignedBox3d> outline_B;  ///< of the vehicle; empty: a disc of radius_m
-  std::optional<double> heading_rad;           ///< at the start; towards the goal where it is not given
+  double blind_from_s = std::numeric_limits<double>::infinity();  ///< nothing is known of any pixel
+  std::vector<Eigen::AlignedBox3d> outline_B;                     ///< of the vehicle; empty: a disc of radius_m
+  std::optional<double> heading_rad;  ///< at the start; towards the goal where it is not given
   std::function<void(const Eigen::Vector2d&, double, const Decision&, const Module&)> watch;
 
   Flown fly(LocalMapConfig config) const {
@@ -72,8 +72,8 @@ class PointWorld {
     for (int64_t step = 0; static_cast<double>(step) * kStepS < duration_s; ++step) {
       flown.time_s = static_cast<double>(step) * kStepS;
       const int64_t t_ns = step * 100'000'000;
-      const cv::Mat depth_m =
-          blind ? cv::Mat(height_px, width_px, CV_32FC1, std::nan("")) : depth(lens, p_W, nose_rad, flown.time_s);
+      const cv::Mat depth_m = flown.time_s >= blind_from_s ? cv::Mat(height_px, width_px, CV_32FC1, std::nan(""))
+                                                           : depth(lens, p_W, nose_rad, flown.time_s);
       const std::vector<CameraFrame> frames = {{"depth", t_ns, depth_m}};
       const NavigationState navigation = level_flight({p_W.x(), p_W.y(), -height_m}, nose_rad, v_W);
       const Decision decision = module->update({t_ns, frames, navigation, {{goal_W.x(), goal_W.y(), -height_m}, 0.0}});

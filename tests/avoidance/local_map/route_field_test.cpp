@@ -30,18 +30,18 @@ struct Grid {
     }
     vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = grid.side, .layers = 1});
     map.reset(Eigen::Vector3d::Zero());
-    ClosedCells closed;
+    ClosedCells closed(kCellM);
     for (int r = 0; r < grid.side; ++r) {
       for (int c = 0; c < grid.side; ++c) {
         const Eigen::Vector3d center_W = map.center(map.first() + vision::mapping::OccupancyMap::Index(r, c, 0));
         if (grid.is_blocked(r, c)) {
-          closed.close(center_W.head<2>(), 0.1, 0.0);  // unknown and closed: an obstacle
+          closed.close(center_W, 0.1, 0.0);  // unknown and closed: an obstacle
         } else {
           map.clear_cylinder(center_W, 0.1, 0.1);
         }
       }
     }
-    grid.slice.build(map, {-0.1, 0.1}, closed);
+    grid.slice.build(map, {0.1, 0.4}, closed);
     return grid;
   }
   bool is_blocked(int row, int col) const { return blocked[static_cast<size_t>(row * side + col)]; }
@@ -126,7 +126,7 @@ TEST(RouteField, DistancesInTheOpenAreThoseOfAnEightConnectedGrid) {
   vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = grid.side, .layers = 1});
   map.reset(Eigen::Vector3d::Zero());
   map.clear_cylinder(Eigen::Vector3d::Zero(), 100.0, 1.0);
-  grid.slice.build(map, {-0.1, 0.1}, ClosedCells());
+  grid.slice.build(map, {-0.1, 0.1}, ClosedCells(kCellM));
   RouteField field;
   field.build(grid.slice, 0.5, grid.slice.center(3, 4), beyond);
   constexpr double kRounding = 0.02;  // diagonal steps count 1.4 cells
@@ -144,7 +144,7 @@ TEST(RouteField, AGoalOutsideIsSoughtAcrossTheNearestEdge) {
   vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = grid.side, .layers = 1});
   map.reset(Eigen::Vector3d::Zero());
   map.clear_cylinder(Eigen::Vector3d::Zero(), 100.0, 1.0);
-  grid.slice.build(map, {-0.1, 0.1}, ClosedCells());
+  grid.slice.build(map, {-0.1, 0.1}, ClosedCells(kCellM));
   const Eigen::Vector2d goal_W(40.0, 0.0);
   RouteField field;
   field.build(grid.slice, 0.5, goal_W, [&](const Eigen::Vector2d& p_W) { return (goal_W - p_W).norm(); });

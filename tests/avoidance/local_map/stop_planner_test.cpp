@@ -62,6 +62,17 @@ TEST(StopPlanner, AVehicleThatIsTooNearMovesAway) {
   EXPECT_LT(plan.v_cmd_W.x(), 0.0);
 }
 
+TEST(StopPlanner, FliesSlowlyWhereTheCameraDoesNotLook) {
+  const Moment now{0.0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  const auto south = [](const Eigen::Vector2d& p_W) { return std::optional(100.0 + p_W.x()); };
+  const auto free = [](const Moment&) { return Fault{}; };
+  const auto speed_mps = [&](const StopPlanner& planner) {
+    return planner.choose(now, Eigen::Vector2d::Zero(), free, nobody, south).v_cmd_W.norm();
+  };
+  EXPECT_LE(speed_mps(StopPlanner(kResponse, kSpeedMps, {.heading_rad = 0.0, .half_rad = 0.7})), 2.0);
+  EXPECT_GT(speed_mps(StopPlanner(kResponse, kSpeedMps, {.heading_rad = M_PI, .half_rad = 0.7})), 2.5);
+}
+
 /// Half-planes: an obstacle and the unknown, whose edges lie `near_m` and `far_m` from the origin in two directions.
 TEST(StopPlanner, NearnessToTheOneNeverExcusesNearnessToTheOther) {
   const StopPlanner planner(kResponse, kSpeedMps);

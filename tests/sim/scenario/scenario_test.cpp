@@ -113,6 +113,10 @@ TEST_F(CrossRules, ChecksMakeSense) {
   EXPECT_THAT(faults({"goal=~"}), testing::Contains(HasSubstr("'checks.0': the scenario has no goal to reach")));
   EXPECT_THAT(faults({"checks=[{check: altitude_band, min: 3, max: 2}]"}),
               ElementsAre("--set checks: 'checks.0.max': must be greater than 'min' (3 m), got 2"));
+  EXPECT_THAT(faults({"altitude_band={min: 9, max: 8}"}),
+              ElementsAre(HasSubstr("'altitude_band.max': must be greater than 'min' (9 m), got 8")));
+  EXPECT_THAT(faults({"altitude_band={min: 90, max: 99}"}),
+              ElementsAre(HasSubstr("m is outside the altitude_band, 90 to 99 m")));
   EXPECT_THAT(faults({"checks=[{check: no_collision}]", "may_collide=true"}),
               ElementsAre("--set checks: 'checks.0': contradicts 'may_collide: true'"));
   EXPECT_THAT(faults({"checks=[{check: metric, name: jerk_rmss, at_most: 1}]"}),

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+
+#include "avoidance/local_map/learned_distances.h"
+#include "avoidance/local_map/route_field.h"
+#include "avoidance/local_map/surroundings.h"
+
+namespace hedgehop::avoidance::local_map {
+
+/// Heights to fly at: levels a step apart within the mission's altitude band, one of them that of the flight's start.
+/// The vehicle climbs or sinks towards the level in the map from which the way to the goal, and the climbing, is
+/// shortest. Ours: after the plane's own rule (route_field.h). A search in three dimensions would see over two edges at
+/// once.
+class Levels {
+ public:
+  Levels() = default;
+  /// @param first_W  z of the start. @param need_m  how far a route stays from what is occupied.
+  Levels(const std::optional<AltitudeBand>& band, double first_W, double need_m);
+
+  /// Whether there is more than one.
+  bool any() const { return lowest_ < highest_; }
+
+  /// Whether all that lies between two levels is seen to be free where the vehicle will be.
+  using MayPass = std::function<bool(const LevelSlice&)>;
+  /// The level beside the one that is flown at, z in W, that is to be flown at instead; nothing where this one is as
+  /// good. Only when not on the way to one.
+  std::optional<double> next_W(const Surroundings& around, const LearnedDistances& learned, const Eigen::Vector2d& p_W,
+                               const Eigen::Vector3d& goal_W, const MayPass& may_pass);
+
+ private:
+  double z_W(int level) const { return first_W_ - kStepM * level; }
+  double way_m(const Surroundings& around, const LearnedDistances& learned, int level, const Eigen::Vector2d& p_W,
+               const Eigen::Vector3d& goal_W);
+
+  static constexpr double kStepM = 1.2;
+  double first_W_ = 0.0, need_m_ = 0.0;
+  int lowest_ = 0, highest_ = 0, level_ = 0, last_side_ = 0;
+  LevelSlice slice_;
+  RouteField route_;
+};
+
+}  // namespace hedgehop::avoidance::local_map

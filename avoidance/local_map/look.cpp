@@ -1,0 +1,38 @@
+#include "avoidance/local_map/look.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hedgehop::avoidance::local_map {
+
+bool is_unknown(const LevelSlice& slice, const Eigen::Vector2d& p_W) {
+  const Eigen::Vector2i cell = slice.cell(p_W);
+  return slice.contains(cell.x(), cell.y()) && slice.at(cell.x(), cell.y()) == LevelSlice::State::unknown;
+}
+
+std::optional<Eigen::Vector2d> unknown_in_the_way(const LevelSlice& slice, const Footprint& footprint,
+                                                  const std::vector<Moment>& path, double hull_m) {
+  const auto first =
+      std::ranges::find_if(path, [&](const Moment& m) { return footprint.fault(slice, m, true).unknown_m > 0.0; });
+  if (first == path.end()) return std::nullopt;
+  std::optional<Eigen::Vector2d> nearest;
+  const Eigen::Vector2i here = slice.cell(first->p_W);
+  const int reach = static_cast<int>(std::ceil(hull_m / slice.cell_m())) + 2;
+  for (int row = here.x() - reach; row <= here.x() + reach; ++row) {
+    for (int col = here.y() - reach; col <= here.y() + reach; ++col) {
+      if (!slice.contains(row, col) || slice.at(row, col) != LevelSlice::State::unknown) continue;
+      const Eigen::Vector2d center_W = slice.center(row, col);
+      if (nearest && (center_W - first->p_W).norm() >= (*nearest - first->p_W).norm()) continue;
+      nearest = center_W;
+    }
+  }
+  return nearest;
+}
+
+bool points_at(const Eigen::Vector2d& place_W, const Eigen::Vector2d& p_W, double heading_rad) {
+  constexpr double kAimedRad = 0.35;
+  const Eigen::Vector2d off_W = place_W - p_W;
+  return std::abs(std::remainder(std::atan2(off_W.y(), off_W.x()) - heading_rad, 2.0 * M_PI)) < kAimedRad;
+}
+
+}  // namespace hedgehop::avoidance::local_map
