@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <string>
 
 #include "avoidance/heading.h"
 #include "avoidance/local_map/dead_reckoning.h"
@@ -36,7 +38,14 @@ class LocalMap final : public Module {
   explicit LocalMap(const LocalMapConfig& config) : config_(fields::require_bounds(config)) {}
 
  private:
-  Needs do_needs() const override { return DisparitySource::needs(config_.depth, DisparitySource::Grey::unused); }
+  Needs do_needs() const override {
+    Needs needs = DisparitySource::needs(config_.depth, DisparitySource::Grey::unused);
+    for (const std::string& pair : config_.pairs) {
+      std::ranges::move(DisparitySource::needs(config_.depth, DisparitySource::Grey::unused, pair).cameras,
+                        std::back_inserter(needs.cameras));
+    }
+    return needs;
+  }
   std::vector<Signal> do_signals() const override {
     return {{"route_m", "m"},  {"stop_m", "m"},      {"unknown_share", ""},
             {"sky_share", ""}, {"closed_cells", ""}, {"movers", ""}};
@@ -105,8 +114,8 @@ class LocalMap final : public Module {
     const Moment now{t_s, p_W, (navigation.q_WB_est * navigation.v_WB_B_est).head<2>()};
     const double height_m = std::max(navigation.height_above_ground_m, kLeastHeightM);
     const double heading = heading_rad(navigation.q_WB_est);
-    planner_ =
-        StopPlanner(response_, std::min(most_mps_, kGroundRadps * height_m), {heading, around_->half_view_rad()});
+    planner_ = StopPlanner(response_, std::min(most_mps_, kGroundRadps * height_m),
+                           [this, heading](double azimuth_rad) { return around_->looks_along(azimuth_rad - heading); });
     route_.build(slice(), clearance_.hull_m + clearance_.margin_m, goal_W,
                  learned_.beyond_m(goal_W, around_->height_W()));
     if (!around_->changes_height()) {

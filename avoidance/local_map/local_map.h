@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "avoidance/module.h"
 #include "avoidance/stereo/disparity_source.h"
@@ -19,6 +21,7 @@ struct LocalMapConfig {
   static constexpr std::string_view kMeaning = "flies only through space that it has seen to be free";
 
   stereo::DisparitySource::From depth = stereo::DisparitySource::From::stereo;
+  std::vector<std::string> pairs;  ///< beside the first
   vision::stereo::StereoMatcherConfig stereo{
       .method = vision::stereo::StereoMatcherConfig::Method::block, .disparities_px = 64, .block_px = 11};
   bool sky = true;
@@ -37,7 +40,10 @@ template <class Visitor>
 void describe(Visitor& v, LocalMapConfig& c) {
   v("depth", c.depth,
     {.choices = {"stereo", "camera"}, .meaning = "by matching cameras 'left' and 'right', or from a camera 'depth'"});
-  v("stereo", c.stereo, {.meaning = "how the pair is matched"});
+  v("pairs", c.pairs,
+    {.meaning = "further pairs, or depth cameras, in any direction, by their role in the rig: aft for aft_left and "
+                "aft_right"});
+  v("stereo", c.stereo, {.meaning = "how the pairs are matched"});
   v("sky", c.sky,
     {.meaning = "recognize sky above a horizon of far ground as free; else what is not matched is unknown"});
   v("noise", c.noise_px,

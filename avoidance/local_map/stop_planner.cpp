@@ -79,8 +79,8 @@ StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& 
   double best_cost = kNever, least_bad_m = kNever;
   // Where it does not look it only remembers, and knows less well where that is.
   const auto blind_mps = [&](const Eigen::Vector2d& v_cmd_W) {
-    const double off_rad = std::remainder(std::atan2(v_cmd_W.y(), v_cmd_W.x()) - view_.heading_rad, 2.0 * M_PI);
-    return std::abs(off_rad) > view_.half_rad ? std::max(0.0, v_cmd_W.norm() - kBlindMps) : 0.0;
+    const double past_mps = v_cmd_W.norm() - kBlindMps;
+    return past_mps > 0.0 && !looks_along_(std::atan2(v_cmd_W.y(), v_cmd_W.x())) ? past_mps : 0.0;
   };
   const auto consider = [&](const Eigen::Vector2d& v_cmd_W) {
     std::vector<Moment> path = predict(now, last_cmd_W, v_cmd_W, kHoldS);

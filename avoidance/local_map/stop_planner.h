@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "avoidance/local_map/level_slice.h"
@@ -58,14 +59,12 @@ class StopPlanner {
   /// Distance to the goal along the route, m; nothing where there is none.
   using ToGoal = std::function<std::optional<double>(const Eigen::Vector2d&)>;
 
-  /// What the images show: to either side of the nose.
-  struct View {
-    double heading_rad = 0.0, half_rad = 4.0;  ///< all around
-  };
+  /// Whether images show what lies in a direction. @param azimuth_rad  from north to east.
+  using LooksAlong = std::function<bool(double)>;
 
-  StopPlanner(const Response& response, double speed_mps) : StopPlanner(response, speed_mps, View{}) {}
-  StopPlanner(const Response& response, double speed_mps, const View& view)
-      : response_(response), speed_mps_(speed_mps), view_(view) {}
+  StopPlanner(
+      const Response& response, double speed_mps, LooksAlong looks_along = [](double) { return true; })
+      : response_(response), speed_mps_(speed_mps), looks_along_(std::move(looks_along)) {}
 
   /// @param now  position and velocity when the image was taken. @param last_cmd_W  what is being obeyed still.
   /// What moves is got away from as far as it can be: no stop is safe from it.
@@ -79,7 +78,7 @@ class StopPlanner {
  private:
   Response response_;
   double speed_mps_;
-  View view_;
+  LooksAlong looks_along_;
 };
 
 }  // namespace hedgehop::avoidance::local_map

@@ -25,6 +25,18 @@ Band hull_of(const VehicleLimits& limits) {
   return hull;
 }
 
+/// The first pair, then the others.
+template <class Eye>
+std::vector<Eye> eyes_of(const LocalMapConfig& config, const Setup& setup) {
+  std::vector<Eye> eyes;
+  const auto add = [&](const std::string& pair) {
+    eyes.push_back({{config.depth, DisparitySource::Grey::unused, config.stereo, setup, pair}, {}});
+  };
+  add("");
+  for (const std::string& pair : config.pairs) add(pair);
+  return eyes;
+}
+
 Movers::Config tracking(const LocalMapConfig& config, const vision::stereo::StereoGeometry& geometry) {
   const double most_px = config.depth == DisparitySource::From::stereo ? config.stereo.disparities_px - 1 : 1e6;
   return {.sigma_per_m2 = config.noise_px / (geometry.focal_px * geometry.baseline_m),
@@ -39,12 +51,12 @@ Surroundings::Surroundings(const LocalMapConfig& config, const Setup& setup, con
       outline_(outline),
       radius_m_(setup.limits.radius_m),
       hull_(hull_of(setup.limits)),
-      source_(config.depth, DisparitySource::Grey::unused, config.stereo, setup),
+      eyes_(eyes_of<Eye>(config, setup)),
       map_({.voxel_m = config.voxel_m,
             .layers = setup.altitude_band ? kLayersOfLevels : kLayers,
             .noise_px = config.noise_px}),
       closed_(config.voxel_m),
-      tracker_(tracking(config, source_.geometry())) {}
+      tracker_(tracking(config, eyes_.front().source.geometry())) {}
 
 /// @param z_W  of B.
 Band Surroundings::band(double z_W) const { return {z_W + hull_.top_m - kLevelM, z_W + hull_.bottom_m + kLevelM}; }
@@ -62,10 +74,11 @@ void Surroundings::begin(const NavigationState& navigation) {
   const double side_m = radius_m_ + config_.voxel_m;
   const Band tall = band(0.0);
   const double high_m = std::max(-tall.top_m, tall.bottom_m) + config_.voxel_m;
-  const double focal_px = source_.geometry().focal_px;
-  const double wide_m = 2.0 * focal_px * side_m / source_.image().width;
-  const double tall_m = 2.0 * focal_px * high_m / source_.image().height;
-  blind_m_ = std::max(0.0, source_.X_BC().translation().x()) + std::max(wide_m, tall_m);
+  const DisparitySource& source = eyes_.front().source;
+  const double focal_px = source.geometry().focal_px;
+  const double wide_m = 2.0 * focal_px * side_m / source.image().width;
+  const double tall_m = 2.0 * focal_px * high_m / source.image().height;
+  blind_m_ = std::max(0.0, source.X_BC().translation().x()) + std::max(wide_m, tall_m);
   const double heading = heading_rad(navigation.q_WB_est);
   const Eigen::Vector3d ahead_W(std::cos(heading), std::sin(heading), 0.0);
   for (double away_m = 0.0; away_m < blind_m_ + config_.voxel_m; away_m += config_.voxel_m) {
@@ -73,21 +86,47 @@ void Surroundings::begin(const NavigationState& navigation) {
   }
 }
 
-void Surroundings::see(const NavigationState& navigation, double t_s) {
+bool Surroundings::take(std::span<const CameraFrame> frames) {
+  for (Eye& eye : eyes_) eye.fresh = eye.source.update(frames);
+  return std::ranges::any_of(eyes_, &Eye::fresh);
+}
+
+bool Surroundings::looks_along(double azimuth_rad) const {
+  const Eigen::Vector3d along_B(std::cos(azimuth_rad), std::sin(azimuth_rad), 0.0);
+  return std::ranges::any_of(eyes_, [&](const Eye& eye) {
+    const Eigen::Vector3d along_C = eye.source.X_BC().linear().transpose() * along_B;
+    const double f = eye.source.geometry().focal_px, z = along_C.z();
+    return z > 0.0 && std::abs(f * along_C.x()) <= 0.5 * eye.source.image().width * z &&
+           std::abs(f * along_C.y()) <= 0.5 * eye.source.image().height * z;
+  });
+}
+
+/// Puts an image into the map, what moves apart.
+void Surroundings::integrate(Eye& eye, const NavigationState& navigation, double t_s) {
   constexpr int kSameSegment16 = 32, kSpeckPx = 100;
-  const Eigen::Isometry3d X_WC = Eigen::Translation3d(navigation.p_WB_est) * navigation.q_WB_est * source_.X_BC();
+  constexpr double kUpright = 0.7;  // of a camera's y axis: ground below, sky above
+  stereo::DisparitySource& source = eye.source;
+  const Eigen::Isometry3d X_WC = Eigen::Translation3d(navigation.p_WB_est) * navigation.q_WB_est * source.X_BC();
   if (config_.depth == DisparitySource::From::stereo) {
-    vision::stereo::remove_specks(source_.disparity16(), kSameSegment16, kSpeckPx);
+    vision::stereo::remove_specks(source.disparity16(), kSameSegment16, kSpeckPx);
   }
-  blocks_.build(source_.disparity16(), source_.grey());
-  if (config_.sky && !source_.grey().empty()) {
-    vision::mapping::find_sky(source_.geometry(), X_WC.linear().row(2).transpose(), blocks_);
+  eye.blocks.build(source.disparity16(), source.grey());
+  const Eigen::Vector3d down_C = X_WC.linear().row(2).transpose();
+  if (config_.sky && !source.grey().empty() && down_C.y() > kUpright) {
+    vision::mapping::find_sky(source.geometry(), down_C, eye.blocks);
   }
+  map_.integrate(eye.blocks, source.geometry(), X_WC, where_movers_are(t_s));
+  follow_movers(t_s, eye, X_WC);
+}
+
+void Surroundings::see(const NavigationState& navigation, double t_s) {
   Eigen::Vector3d center_W = navigation.p_WB_est;
   center_W.z() = height_W_;
   map_.move(center_W);
   fade(navigation, t_s);
-  map_.integrate(blocks_, source_.geometry(), X_WC, where_movers_are(t_s));
+  for (Eye& eye : eyes_) {
+    if (eye.fresh) integrate(eye, navigation, t_s);
+  }
   const double heading = heading_rad(navigation.q_WB_est);
   for (const Outline::Disc& disc : sweep(outline_, heading, heading, config_.voxel_m)) {
     // A point's own voxel, at least.
@@ -95,7 +134,6 @@ void Surroundings::see(const NavigationState& navigation, double t_s) {
     clear(navigation.p_WB_est + Eigen::Vector3d(disc.p_H.x(), disc.p_H.y(), 0.0), radius_m);
   }
   closed_.update(t_s);
-  follow_movers(t_s, X_WC);
   constexpr double kThereM = 0.2;
   if (from_W_ && std::abs(navigation.p_WB_est.z() - height_W_) < kThereM) from_W_.reset();
   slice_.build(map_, between(from_W_.value_or(height_W_), height_W_), closed_);
@@ -140,17 +178,17 @@ const std::vector<OccupancyMap::Disc>& Surroundings::where_movers_are(double t_s
   return discs_;
 }
 
-void Surroundings::follow_movers(double t_s, const Eigen::Isometry3d& X_WC) {
+void Surroundings::follow_movers(double t_s, const Eye& eye, const Eigen::Isometry3d& X_WC) {
   const Band tall = band(height_W_);
   surface_.clear();
   for (const OccupancyMap::Hit& hit : map_.hits()) {
     if (hit.p_W.z() > tall.top_m && hit.p_W.z() < tall.bottom_m) surface_.push_back({hit.p_W.head<2>(), hit.was_free});
   }
   const auto along_W = [&](int u_px) -> Eigen::Vector2d {
-    const cv::Point pixel(u_px, static_cast<int>(source_.geometry().center_v_px));
-    return (X_WC.linear() * source_.geometry().ray(pixel)).head<2>().normalized();
+    const cv::Point pixel(u_px, static_cast<int>(eye.source.geometry().center_v_px));
+    return (X_WC.linear() * eye.source.geometry().ray(pixel)).head<2>().normalized();
   };
-  tracker_.update(t_s, {X_WC.translation().head<2>(), along_W(0), along_W(source_.image().width - 1)}, surface_);
+  tracker_.update(t_s, {X_WC.translation().head<2>(), along_W(0), along_W(eye.source.image().width - 1)}, surface_);
   movers_ = tracker_.movers();
 }
 

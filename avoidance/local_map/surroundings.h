@@ -26,12 +26,12 @@ class Surroundings {
   /// @param config, outline  outlive it.
   Surroundings(const LocalMapConfig& config, const Setup& setup, const Outline& outline);
 
-  /// @return whether the frames hold a new image.
-  bool take(std::span<const CameraFrame> frames) { return source_.update(frames); }
+  /// @return whether the frames hold a new image of any pair.
+  bool take(std::span<const CameraFrame> frames);
   /// Where the flight begins, the vehicle was put or took off: free up to where the camera sees all that it will fly
   /// through, its width and its height.
   void begin(const NavigationState& navigation);
-  /// Puts the image that was taken into the map.
+  /// Puts the images that were taken into the map.
   void see(const NavigationState& navigation, double t_s);
   /// Takes what lies around a place for an obstacle.
   void close(const Eigen::Vector2d& p_W, double radius_m, double t_s) {
@@ -48,28 +48,39 @@ class Surroundings {
 
   const LevelSlice& slice() const { return slice_; }
   const std::vector<Mover>& movers() const { return movers_; }
-  const vision::mapping::DepthBlocks& blocks() const { return blocks_; }
+  const vision::mapping::DepthBlocks& blocks() const { return eyes_.front().blocks; }  ///< of the first pair
   size_t closed_cells() const { return closed_.size(); }
   double height_W() const { return height_W_; }  ///< z that is flown at
   double blind_m() const { return blind_m_; }    ///< from B, within which images do not show all that is flown through
-  /// From the middle of the images to their sides.
-  double half_view_rad() const { return std::atan(0.5 * source_.image().width / source_.geometry().focal_px); }
+  /// From the middle of the first pair's images to their sides.
+  double half_view_rad() const {
+    const stereo::DisparitySource& source = eyes_.front().source;
+    return std::atan(0.5 * source.image().width / source.geometry().focal_px);
+  }
+  /// Whether any pair sees what lies in a direction, level. @param azimuth_rad  from the nose to the right.
+  bool looks_along(double azimuth_rad) const;
 
  private:
+  struct Eye {
+    stereo::DisparitySource source;
+    vision::mapping::DepthBlocks blocks;
+    bool fresh = false;  ///< has taken an image that is not in the map yet
+  };
+
   Band band(double z_W) const;
   Band between(double from_W, double to_W) const;
   void clear(const Eigen::Vector3d& p_W, double radius_m);
+  void integrate(Eye& eye, const NavigationState& navigation, double t_s);
   void fade(const NavigationState& navigation, double t_s);
   const std::vector<vision::mapping::OccupancyMap::Disc>& where_movers_are(double t_s);
   void remember_occupied(double t_s);
-  void follow_movers(double t_s, const Eigen::Isometry3d& X_WC);
+  void follow_movers(double t_s, const Eye& eye, const Eigen::Isometry3d& X_WC);
 
   const LocalMapConfig& config_;
   const Outline& outline_;
-  double radius_m_;  ///< of the hull
-  Band hull_;        ///< heights of the hull's top and bottom, from B
-  stereo::DisparitySource source_;
-  vision::mapping::DepthBlocks blocks_;
+  double radius_m_;        ///< of the hull
+  Band hull_;              ///< heights of the hull's top and bottom, from B
+  std::vector<Eye> eyes_;  ///< the first pair, then the others
   vision::mapping::OccupancyMap map_;
   LevelSlice slice_;
   ClosedCells closed_;

@@ -16,7 +16,9 @@ const MountedCamera& camera_of(const Setup& setup, const std::string& role) {
   return *camera;
 }
 
-const CameraFrame* frame_of(std::span<const CameraFrame> frames, const char* role) {
+std::string role_of(const std::string& pair, const char* role) { return pair.empty() ? role : pair + "_" + role; }
+
+const CameraFrame* frame_of(std::span<const CameraFrame> frames, const std::string& role) {
   const auto frame = std::ranges::find(frames, role, &CameraFrame::role);
   return frame == frames.end() ? nullptr : &*frame;
 }
@@ -56,23 +58,30 @@ void require_one_view(const MountedCamera& grey, const MountedCamera& depth) {
 
 }  // namespace
 
-Needs DisparitySource::needs(From from, Grey grey) {
+Needs DisparitySource::needs(From from, Grey grey, const std::string& pair) {
   using Channel = CameraNeed::Channel;
-  if (from == From::stereo) return {{{kLeft, Channel::grey, kPinhole}, {kRight, Channel::grey, kPinhole}}};
-  if (grey == Grey::unused) return {{{kDepth, Channel::depth, kPinhole}}};
-  return {{{kLeft, Channel::grey, kPinhole}, {kDepth, Channel::depth, kPinhole}}};
+  const CameraNeed left{role_of(pair, kLeft), Channel::grey, kPinhole};
+  const CameraNeed depth{role_of(pair, kDepth), Channel::depth, kPinhole};
+  if (from == From::stereo) return {{left, {role_of(pair, kRight), Channel::grey, kPinhole}}};
+  if (grey == Grey::unused) return {{depth}};
+  return {{left, depth}};
 }
 
 DisparitySource::DisparitySource(From from, Grey grey, const vision::stereo::StereoMatcherConfig& config,
-                                 const Setup& setup)
-    : from_(from), grey_use_(grey), matcher_(config) {
-  const MountedCamera& camera = camera_of(setup, from == From::stereo ? kLeft : kDepth);
+                                 const Setup& setup, const std::string& pair)
+    : from_(from),
+      grey_use_(grey),
+      left_(role_of(pair, kLeft)),
+      right_(role_of(pair, kRight)),
+      depth_(role_of(pair, kDepth)),
+      matcher_(config) {
+  const MountedCamera& camera = camera_of(setup, from == From::stereo ? left_ : depth_);
   if (from == From::stereo) {
-    geometry_ = geometry_of_pair(camera, camera_of(setup, kRight));
+    geometry_ = geometry_of_pair(camera, camera_of(setup, right_));
   } else {
     const vision::camera::PinholeCamera lens = camera.model.pinhole();
     geometry_ = {lens.focal_x_px, lens.center_u_px, lens.center_v_px, kBaselineM};
-    if (grey == Grey::needed) require_one_view(camera_of(setup, kLeft), camera);
+    if (grey == Grey::needed) require_one_view(camera_of(setup, left_), camera);
   }
   X_BC_ = camera.X_BC;
   image_ = {camera.model.width_px, camera.model.height_px};
@@ -83,7 +92,7 @@ bool DisparitySource::update(std::span<const CameraFrame> frames) {
 }
 
 bool DisparitySource::match(std::span<const CameraFrame> frames) {
-  const CameraFrame *left = frame_of(frames, kLeft), *right = frame_of(frames, kRight);
+  const CameraFrame *left = frame_of(frames, left_), *right = frame_of(frames, right_);
   if (!left || !right || left->t_ns != right->t_ns || left->t_ns <= t_ns_) return false;
   t_ns_ = left->t_ns;
   left->image.copyTo(grey_);
@@ -92,7 +101,7 @@ bool DisparitySource::match(std::span<const CameraFrame> frames) {
 }
 
 bool DisparitySource::convert(std::span<const CameraFrame> frames) {
-  const CameraFrame *depth = frame_of(frames, kDepth), *left = frame_of(frames, kLeft);
+  const CameraFrame *depth = frame_of(frames, depth_), *left = frame_of(frames, left_);
   if (!depth || depth->t_ns <= t_ns_) return false;
   if (grey_use_ == Grey::needed) {
     if (!left || left->t_ns != depth->t_ns) return false;

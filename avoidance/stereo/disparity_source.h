@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "avoidance/module.h"
 #include "vision/stereo/disparity.h"
@@ -24,12 +25,14 @@ class DisparitySource {
   static constexpr const char* kDepth = "depth";
   static constexpr double kBaselineM = 0.3;  ///< of the pair that a depth camera stands for: [Andert2007] sec. 2
 
-  static Needs needs(From from, Grey grey);
+  /// @param pair  before the roles, as in "aft_left"; empty for the first pair, or depth camera.
+  static Needs needs(From from, Grey grey, const std::string& pair = "");
 
   /// Throws std::invalid_argument when the cameras of the setup do not fit together: a pair needs equal pinholes with
   /// parallel axes, the right one displaced along the left one's x axis alone; `left` beside a depth camera needs its
   /// lens and pose. Also on a bad config of the matcher.
-  DisparitySource(From from, Grey grey, const vision::stereo::StereoMatcherConfig& config, const Setup& setup);
+  DisparitySource(From from, Grey grey, const vision::stereo::StereoMatcherConfig& config, const Setup& setup,
+                  const std::string& pair = "");
 
   /// Reads the frames of an observation. @return whether they hold new images, all exposed at one instant.
   bool update(std::span<const CameraFrame> frames);
@@ -49,6 +52,7 @@ class DisparitySource {
 
   From from_;
   Grey grey_use_;
+  std::string left_, right_, depth_;  ///< roles
   vision::stereo::StereoMatcher matcher_;
   vision::stereo::StereoGeometry geometry_;
   Eigen::Isometry3d X_BC_ = Eigen::Isometry3d::Identity();

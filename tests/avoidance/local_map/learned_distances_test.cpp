@@ -8,7 +8,7 @@ namespace hedgehop::avoidance::local_map {
 namespace {
 
 constexpr double kCellM = 0.5, kNeedM = 0.5;
-const Eigen::Vector3d kGoal_W(40.0, 0.0, 0.0);
+const Eigen::Vector3d goal_W(40.0, 0.0, 0.0);
 
 /// A map of 24 m in the open, or with a wall across it north of the vehicle; field and slice live as long as it.
 struct Known {
@@ -23,7 +23,7 @@ struct Known {
       map.clear_cylinder(Eigen::Vector3d::Zero(), 100.0, 1.0);
     }
     slice.build(map, {-0.1, 0.3}, closed);
-    field.build(slice, kNeedM, kGoal_W.head<2>(), learned.beyond_m(kGoal_W.head<2>(), 0.0));
+    field.build(slice, kNeedM, goal_W.head<2>(), learned.beyond_m(goal_W.head<2>(), 0.0));
   }
   LevelSlice slice;
   RouteField field;
@@ -32,10 +32,10 @@ struct Known {
 TEST(LearnedDistances, InTheOpenTheyAreTheStraightLine) {
   LearnedDistances learned;
   const Known open(false, learned);
-  learned.learn(open.field, open.slice, Eigen::Vector3d::Zero(), kGoal_W);
+  learned.learn(open.field, open.slice, Eigen::Vector3d::Zero(), goal_W);
   for (const Eigen::Vector2d& at_W :
        {Eigen::Vector2d(1.5, 1.5), Eigen::Vector2d(-4.5, 4.5), Eigen::Vector2d(7.5, -7.5)}) {
-    const double straight_m = (kGoal_W.head<2>() - at_W).norm();
+    const double straight_m = (goal_W.head<2>() - at_W).norm();
     constexpr double kOctile = 1.09;  // an eight-connected grid is that much longer at most
     EXPECT_GE(learned.at_least_m(at_W, 0.0), straight_m - kCellM);
     EXPECT_LE(learned.at_least_m(at_W, 0.0), kOctile * straight_m);
@@ -46,25 +46,25 @@ TEST(LearnedDistances, InTheOpenTheyAreTheStraightLine) {
 TEST(LearnedDistances, NeverFallWhenTheMapForgets) {
   LearnedDistances learned;
   const Known walled(true, learned);
-  learned.learn(walled.field, walled.slice, Eigen::Vector3d::Zero(), kGoal_W);
+  learned.learn(walled.field, walled.slice, Eigen::Vector3d::Zero(), goal_W);
   const Eigen::Vector2d at_W(1.5, 1.5);
   const double found_m = learned.at_least_m(at_W, 0.0);
-  EXPECT_GT(found_m, (kGoal_W.head<2>() - at_W).norm() + 8.0);  // round an end of the wall, 10 m aside
+  EXPECT_GT(found_m, (goal_W.head<2>() - at_W).norm() + 8.0);  // round an end of the wall, 10 m aside
   const Known forgotten(false, learned);
-  learned.learn(forgotten.field, forgotten.slice, Eigen::Vector3d::Zero(), kGoal_W);
+  learned.learn(forgotten.field, forgotten.slice, Eigen::Vector3d::Zero(), goal_W);
   EXPECT_EQ(learned.at_least_m(at_W, 0.0), found_m);
 }
 
 TEST(LearnedDistances, CountAtOtherHeightsLessTheClimbAndForNoOtherGoal) {
   LearnedDistances learned;
   const Known walled(true, learned);
-  learned.learn(walled.field, walled.slice, Eigen::Vector3d::Zero(), kGoal_W);
+  learned.learn(walled.field, walled.slice, Eigen::Vector3d::Zero(), goal_W);
   const Eigen::Vector2d at_W(1.5, 1.5);
   const double here_m = learned.at_least_m(at_W, 0.0), above_m = learned.at_least_m(at_W, -2.4);
   EXPECT_LT(above_m, here_m);
   EXPECT_GT(above_m, 0.0);
   const Known open(false, {});
-  learned.learn(open.field, open.slice, Eigen::Vector3d::Zero(), kGoal_W + Eigen::Vector3d(1.0, 0.0, 0.0));
+  learned.learn(open.field, open.slice, Eigen::Vector3d::Zero(), goal_W + Eigen::Vector3d(1.0, 0.0, 0.0));
   EXPECT_LT(learned.at_least_m(at_W, 0.0), here_m);
 }
 

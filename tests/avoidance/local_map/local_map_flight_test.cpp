@@ -73,6 +73,25 @@ TEST(LocalMapFlight, GoesRoundAWallThatIsLongerThanItsMapAndItsMemory) {
   EXPECT_GT(flown.clearance_m, 0.0);
 }
 
+TEST(LocalMapFlight, WithAPairThatLooksAftItFliesBackAtOnceAndClearOfWhatStandsThere) {
+  PointWorld world;
+  world.goal_W = {-20.0, 0.0};
+  world.heading_rad = 0.0;
+  world.radius_m = 0.65;
+  world.pillars = {{{-10.0, 0.3}, 0.8}};
+  world.duration_s = 3.0;
+  const auto flown_m = [&](bool looks_aft) {
+    world.looks_aft = looks_aft;
+    return -world.fly({}).end_W.x();
+  };
+  constexpr double kFartherM = 1.5;
+  EXPECT_GT(flown_m(true), flown_m(false) + kFartherM);
+  world.duration_s = 60.0;
+  const PointWorld::Flown flown = world.fly({});
+  EXPECT_TRUE(flown.reached);
+  EXPECT_GT(flown.clearance_m, 0.0);
+}
+
 TEST(LocalMapFlight, FliesSlowlyNearTheGround) {
   PointWorld world;
   world.goal_W = {30.0, 0.0};

@@ -53,6 +53,7 @@ class PointWorld {
   Eigen::Vector2d start_W{0.0, 0.0}, goal_W{30.0, 0.0};
   double height_m = 3.0, radius_m = 0.0, duration_s = 90.0, reached_m = 1.5;
   double speed_mps = 8.0, acceleration_mps2 = 3.0;
+  bool looks_aft = false;                                         ///< with a second depth camera
   double blind_from_s = std::numeric_limits<double>::infinity();  ///< nothing is known of any pixel
   std::vector<Eigen::AlignedBox3d> outline_B;                     ///< of the vehicle; empty: a disc of radius_m
   std::optional<double> heading_rad;  ///< at the start; towards the goal where it is not given
@@ -60,11 +61,13 @@ class PointWorld {
 
   Flown fly(LocalMapConfig config) const {
     config.depth = stereo::DisparitySource::From::camera;
+    if (looks_aft) config.pairs = {"aft"};
     const auto module = make_local_map(config);
-    MountedCamera camera = level_camera("depth", 0.0, width_px, 1.0 / kStepS);
     const vision::camera::PinholeCamera lens = vision::camera::PinholeCamera::from_fov(width_px, height_px, 1.48);
-    camera.model = lens;
-    module->reset({{camera}, {speed_mps, acceleration_mps2, radius_m, outline_B}, 1});
+    std::vector<MountedCamera> cameras = {level_camera("depth", 0.0, width_px, 1.0 / kStepS)};
+    if (looks_aft) cameras.push_back(level_camera("aft_depth", M_PI, width_px, 1.0 / kStepS));
+    for (MountedCamera& camera : cameras) camera.model = lens;
+    module->reset({cameras, {speed_mps, acceleration_mps2, radius_m, outline_B}, 1});
     Flown flown;
     Eigen::Vector2d p_W = start_W, v_W = Eigen::Vector2d::Zero();
     double nose_rad = heading_rad.value_or(std::atan2(goal_W.y() - start_W.y(), goal_W.x() - start_W.x()));
@@ -74,7 +77,8 @@ class PointWorld {
       const int64_t t_ns = step * 100'000'000;
       const cv::Mat depth_m = flown.time_s >= blind_from_s ? cv::Mat(height_px, width_px, CV_32FC1, std::nan(""))
                                                            : depth(lens, p_W, nose_rad, flown.time_s);
-      const std::vector<CameraFrame> frames = {{"depth", t_ns, depth_m}};
+      std::vector<CameraFrame> frames = {{"depth", t_ns, depth_m}};
+      if (looks_aft) frames.push_back({"aft_depth", t_ns, depth(lens, p_W, nose_rad + M_PI, flown.time_s)});
       const NavigationState navigation = level_flight({p_W.x(), p_W.y(), -height_m}, nose_rad, v_W);
       const Decision decision = module->update({t_ns, frames, navigation, {{goal_W.x(), goal_W.y(), -height_m}, 0.0}});
       flown.statuses.push_back(decision.status);

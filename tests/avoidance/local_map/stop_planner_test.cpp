@@ -69,8 +69,9 @@ TEST(StopPlanner, FliesSlowlyWhereTheCameraDoesNotLook) {
   const auto speed_mps = [&](const StopPlanner& planner) {
     return planner.choose(now, Eigen::Vector2d::Zero(), free, nobody, south).v_cmd_W.norm();
   };
-  EXPECT_LE(speed_mps(StopPlanner(kResponse, kSpeedMps, {.heading_rad = 0.0, .half_rad = 0.7})), 2.0);
-  EXPECT_GT(speed_mps(StopPlanner(kResponse, kSpeedMps, {.heading_rad = M_PI, .half_rad = 0.7})), 2.5);
+  const auto ahead = [](double azimuth_rad) { return std::abs(azimuth_rad) < 0.7; };
+  EXPECT_LE(speed_mps(StopPlanner(kResponse, kSpeedMps, ahead)), 2.0);
+  EXPECT_GT(speed_mps(StopPlanner(kResponse, kSpeedMps)), 2.5);
 }
 
 /// Half-planes: an obstacle and the unknown, whose edges lie `near_m` and `far_m` from the origin in two directions.

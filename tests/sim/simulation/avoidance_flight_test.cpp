@@ -158,11 +158,16 @@ avoidance: {module: zig_zag, forward_speed: 1, sideways_speed: 1, flow: {rows: 1
 
 // A wall of 120 m across the route, and a mission that may climb: over it, and down again.
 TEST(AvoidanceFlight, LocalMapClimbsOverAWallWhereTheMissionAllowsIt) {
-  const Scenario scenario = load_scenario(
-      HEDGEHOP_SOURCE_DIR "/configs/leaderboard/hard/over_wall.yaml",
-      {"seed=1203", "vehicle.use=../../vehicles/s900.yaml", "avionics.autopilot.speed_limit=8",
-       "avionics.autopilot.acceleration_limit=3", "rig.use=../../rigs/local_map.yaml", "velocimeter.enabled=false",
-       "avoidance.use=../modules/local_map.yaml", "drawing.context=tiles", "film.enabled=false"});
+  const std::vector<std::string> who = {"seed=1203",
+                                        "vehicle.use=../../vehicles/s900.yaml",
+                                        "avionics.autopilot.speed_limit=8",
+                                        "avionics.autopilot.acceleration_limit=3",
+                                        "rig.use=../../rigs/local_map.yaml",
+                                        "velocimeter.enabled=false",
+                                        "avoidance.use=../modules/local_map.yaml",
+                                        "drawing.context=tiles",
+                                        "film.enabled=false"};
+  const Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/leaderboard/hard/over_wall.yaml", who);
   const Flight flight = Simulation(scenario).run();
   EXPECT_EQ(flight.result.outcome, Outcome::reached) << flight.result.cause;
   for (const CheckResult& check : flight.result.checks) EXPECT_TRUE(check.passed) << check.name;
