@@ -16,11 +16,11 @@ constexpr int kMostLevels = 20;  // up and down
 
 }  // namespace
 
-Levels::Levels(const std::optional<AltitudeBand>& band, double first_W, double need_m)
-    : first_W_(first_W), need_m_(need_m) {
-  if (!band) return;
-  highest_ = std::clamp(static_cast<int>(std::floor((band->max_m + first_W) / kStepM)), 0, kMostLevels);
-  lowest_ = std::clamp(static_cast<int>(std::ceil((band->min_m + first_W) / kStepM)), -kMostLevels, 0);
+void Levels::begin(double first_W) {
+  first_W_ = first_W;
+  if (!band_) return;
+  highest_ = std::clamp(static_cast<int>(std::floor((band_->max_m + first_W) / kStepM)), 0, kMostLevels);
+  lowest_ = std::clamp(static_cast<int>(std::ceil((band_->min_m + first_W) / kStepM)), -kMostLevels, 0);
 }
 
 /// To the goal along a level, m; climbing to it, and from it to the goal, counts.
@@ -33,9 +33,12 @@ double Levels::way_m(const Surroundings& around, const LearnedDistances& learned
          kOffGoalPrice * std::abs(z_W(level) - goal_W.z());
 }
 
-std::optional<double> Levels::next_W(const Surroundings& around, const LearnedDistances& learned,
+std::optional<double> Levels::next_W(double t_s, const Surroundings& around, const LearnedDistances& learned,
                                      const Eigen::Vector2d& p_W, const Eigen::Vector3d& goal_W,
                                      const MayPass& may_pass) {
+  constexpr double kEveryS = 1.0;
+  if (lowest_ == highest_ || around.changes_height() || t_s < asked_s_ + kEveryS) return std::nullopt;
+  asked_s_ = t_s;
   const double here_m = way_m(around, learned, level_, p_W, goal_W);
   double least_m = kNowhereM;
   int best = 0;  // levels to change by

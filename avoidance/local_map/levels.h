@@ -17,18 +17,17 @@ namespace hedgehop::avoidance::local_map {
 class Levels {
  public:
   Levels() = default;
-  /// @param first_W  z of the start. @param need_m  how far a route stays from what is occupied.
-  Levels(const std::optional<AltitudeBand>& band, double first_W, double need_m);
-
-  /// Whether there is more than one.
-  bool any() const { return lowest_ < highest_; }
+  /// @param band  none: only the start's level. @param need_m  how far a route stays from what is occupied.
+  Levels(const std::optional<AltitudeBand>& band, double need_m) : band_(band), need_m_(need_m) {}
+  /// @param first_W  z of the start.
+  void begin(double first_W);
 
   /// Whether all that lies between two levels is seen to be free where the vehicle will be.
   using MayPass = std::function<bool(const LevelSlice&)>;
   /// The level beside the one that is flown at, z in W, that is to be flown at instead; nothing where this one is as
-  /// good. Only when not on the way to one.
-  std::optional<double> next_W(const Surroundings& around, const LearnedDistances& learned, const Eigen::Vector2d& p_W,
-                               const Eigen::Vector3d& goal_W, const MayPass& may_pass);
+  /// good, on the way to one, and for a second after it was asked. @param t_s  rises from call to call.
+  std::optional<double> next_W(double t_s, const Surroundings& around, const LearnedDistances& learned,
+                               const Eigen::Vector2d& p_W, const Eigen::Vector3d& goal_W, const MayPass& may_pass);
 
  private:
   double z_W(int level) const { return first_W_ - kStepM * level; }
@@ -36,7 +35,8 @@ class Levels {
                const Eigen::Vector3d& goal_W);
 
   static constexpr double kStepM = 1.2;
-  double first_W_ = 0.0, need_m_ = 0.0;
+  std::optional<AltitudeBand> band_;
+  double first_W_ = 0.0, need_m_ = 0.0, asked_s_ = 0.0;
   int lowest_ = 0, highest_ = 0, level_ = 0, last_side_ = 0;
   LevelSlice slice_;
   RouteField route_;

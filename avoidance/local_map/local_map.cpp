@@ -55,9 +55,8 @@ class LocalMap final : public Module {
     const VehicleLimits& limits = setup.limits;
     clearance_ = {limits.radius_m, config_.margin_m, config_.margin_time_s};
     outline_ = Outline(limits);
-    altitude_band_ = setup.altitude_band;
+    levels_ = Levels(setup.altitude_band, clearance_.hull_m + clearance_.margin_m);
     learned_ = {};
-    levels_at_s_ = 0.0;
     around_.emplace(config_, setup, outline_);
     dead_reckoning_ = {};
     footprint_ = Footprint(outline_, clearance_, config_.voxel_m);
@@ -86,7 +85,7 @@ class LocalMap final : public Module {
     }
     if (!last_) {
       around_->begin(reckoned.navigation);
-      levels_ = Levels(altitude_band_, around_->height_W(), clearance_.hull_m + clearance_.margin_m);
+      levels_.begin(around_->height_W());
       last_nose_rad_ = heading_rad(reckoned.navigation.q_WB_est);
     }
     around_->see(reckoned.navigation, t_s);
@@ -174,16 +173,14 @@ class LocalMap final : public Module {
   /// Climbs or sinks where the mission allows it and a better way leads there, if the planned stop keeps clear of what
   /// lies between, too.
   void change_level(const Eigen::Vector3d& goal_W, const Eigen::Vector2d& p_W, double t_s) {
-    constexpr double kEveryS = 1.0;
-    if (!levels_.any() || around_->changes_height() || !plan_.safe || t_s < levels_at_s_ + kEveryS) return;
-    levels_at_s_ = t_s;
     const auto may_pass = [&](const LevelSlice& between) {
-      return std::ranges::all_of(plan_.path, [&](const Moment& moment) {
-        const Fault there = footprint_.fault(between, moment, true);
-        return there.occupied_m <= 0.0 && there.unknown_m <= 0.0;
-      });
+      return plan_.safe && std::ranges::all_of(plan_.path, [&](const Moment& moment) {
+               const Fault there = footprint_.fault(between, moment, true);
+               return there.occupied_m <= 0.0 && there.unknown_m <= 0.0;
+             });
     };
-    if (const auto z_W = levels_.next_W(*around_, learned_, p_W, goal_W, may_pass)) around_->change_height(*z_W);
+    const auto z_W = levels_.next_W(t_s, *around_, learned_, p_W, goal_W, may_pass);
+    if (z_W) around_->change_height(*z_W);
   }
 
   /// Moves away from what it cannot see because it is too near, below or beside the image: where it came from is free.
@@ -287,10 +284,8 @@ class LocalMap final : public Module {
   Footprint footprint_;
   DeadReckoning dead_reckoning_;  ///< all positions here are by it
   std::optional<Surroundings> around_;
-  std::optional<AltitudeBand> altitude_band_;
   Levels levels_;
   LearnedDistances learned_;
-  double levels_at_s_ = 0.0;    ///< when the levels were compared last
   double last_nose_rad_ = 0.0;  ///< commanded
   Eigen::Vector2d last_cmd_W_ = Eigen::Vector2d::Zero();
   std::optional<Eigen::Vector2d> look_W_;  ///< what is unknown and in the way
