@@ -46,6 +46,7 @@ GO_TO_GOAL = textwrap.dedent("""
 
         def reset(self, setup):
             self.setup, self.images = setup, 0
+            self.band = setup.altitude_band_m or (math.inf, math.inf)
 
         def update(self, observation):
             self.images += 1
@@ -54,7 +55,7 @@ GO_TO_GOAL = textwrap.dedent("""
             return hedgehop.Decision(hedgehop.HoverCommand(), "look", [mean])
 
         def metrics(self):
-            return {"images": self.images}
+            return {"images": self.images, "lowest_m": min(self.band[0], 999.0), "highest_m": min(self.band[1], 999.0)}
 
         def annotate(self):
             import numpy
@@ -93,8 +94,12 @@ class FromFile(unittest.TestCase):
         result = sim.run()
         self.assertEqual(result["metrics"]["module.images"], result["decisions"])
         self.assertTrue(np.all((sim.decisions.mean_grey > 1) & (sim.decisions.mean_grey < 254)))
+        self.assertEqual(result["metrics"]["module.lowest_m"], 999.0)
         _, by_program, _ = run_program(CITY, self.python("Looks"), self.folder / "looks")
         self.assertEqual(steady(result), steady(by_program))
+        banded = hedgehop.Simulation(CITY, set={**self.python("Looks"), "altitude_band": {"min": 2, "max": 60}}).run()
+        self.assertEqual(banded["metrics"]["module.lowest_m"], 2.0)
+        self.assertEqual(banded["metrics"]["module.highest_m"], 60.0)
 
     def test_what_a_module_raises_ends_its_flight_with_the_places(self):
         _, result, _ = run_program(CITY, self.python("Fails"), self.folder / "fails")
