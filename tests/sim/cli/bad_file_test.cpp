@@ -79,6 +79,36 @@ TEST_F(BadFile, AThousandFaultsAreCountedNotListed) {
   refused("keys.yaml", "and 950 more");
 }
 
+TEST_F(BadFile, WhatAMeshNamesIsNoPipeAndNoOtherFormat) {
+  folder.shell("mkfifo pipe.mtl; truncate -s 3G huge.mtl; mkfifo buffer; mkfifo pipe.obj");
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  folder.write("piped.obj", "mtllib pipe.mtl\n" + triangle);
+  folder.write("huge.obj", "mtllib huge.mtl\n" + triangle);
+  folder.write("piped.gltf",
+               R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+      "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "buffers": [{"uri": "buffer", "byteLength": 36}],
+      "bufferViews": [{"buffer": 0, "byteLength": 36}],
+      "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}]})");
+  std::string faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\n", fbx = "; FBX 7.4.0 project file\n";
+  for (int i = 0; i < 3'000'000; ++i) faces += "f 1 2 3\n";
+  for (int i = 0; i < 100'000; ++i) fbx += "a: {\n";
+  std::string nodes = "{\"children\": [1]}";
+  for (int i = 2; i < 100'000; ++i) nodes += ", {\"children\": [" + std::to_string(i) + "]}";
+  folder.write("chain.gltf",
+               R"({"asset": {"version": "2.0"}, "nodes": [)" + nodes + R"(, {}], "scenes": [{"nodes": [0]}]})");
+  folder.write("faces.obj", faces);
+  for (const char* name : {"deep.fbx", "deep.obj", "deep.gltf", "deep.glb"}) folder.write(name, fbx);
+  const auto with = [](const std::string& file) { return "tiny.yaml --set 'scene.imports=[{file: " + file + "}]'"; };
+  refused(with("pipe.obj"), "pipe.obj': it is no regular file");
+  refused(with("piped.obj"), "pipe.mtl' is no regular one, or larger than 64 MB");
+  refused(with("huge.obj"), "huge.mtl' is no regular one, or larger than 64 MB");
+  refused(with("piped.gltf"), "buffer' is no regular one, or larger than 64 MB");
+  refused(with("faces.obj"), "it has more than 500000 faces");
+  refused(with("chain.gltf"), "it has more than 2000 nodes");
+  refused(with("deep.fbx"), "its name ends in none of .obj, .gltf and .glb");
+  for (const char* name : {"deep.obj", "deep.gltf", "deep.glb"}) refused(with(name), std::string(name) + "': ");
+}
+
 TEST_F(BadFile, MeshesThatChokeTheImporterAreRefused) {
   std::ofstream folded(folder.path() / "folded.obj");
   folded << "v 0 0 0\nv 1 0 0\nv 0 1 0\n  f";
@@ -95,7 +125,7 @@ TEST_F(BadFile, MeshesThatChokeTheImporterAreRefused) {
   far.close();
   const auto with = [](const std::string& file) { return "tiny.yaml --set 'scene.imports=[{file: " + file + "}]'"; };
   refused(with("polygon.obj"), "it has a face of more than 1000 corners");
-  refused(with("folded.obj"), "it has a face of more than 1000 corners");
+  refused(with("folded.obj"), "folded.obj': ");
   refused(with("deep.gltf"), "its JSON is nested deeper than 200");
   refused(with("far.obj"), "it has corners farther away than 100 km");
 }
