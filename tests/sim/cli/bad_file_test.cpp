@@ -61,12 +61,19 @@ TEST_F(BadFile, FilesOfAnotherKindAreNamedAsWhatTheyAre) {
 }
 
 TEST_F(BadFile, DocumentsBeyondAllMeasureAreRefusedNotRead) {
-  std::string keys = "use: tiny.yaml\n", list = "use: tiny.yaml\nroute: [";
+  std::string keys = "use: tiny.yaml\n", list = "use: tiny.yaml\nroute: [", open;
   for (int i = 0; i < 100'000; ++i) keys += "key" + std::to_string(i) + ": 1\n";
-  for (int i = 0; i < 300'000; ++i) list += "{north: 1, east: 1, altitude: 5},";
+  for (int i = 0; i < 300'000; ++i) list += "1,";
+  for (int i = 0; i < 1'900'000; ++i) open += "[{";
   folder.write("keys.yaml", keys);
   folder.write("list.yaml", list + "]\n");
   folder.write("word.yaml", std::string(1'000'000, 'a'));
+  folder.write("open.yaml", open);
+  folder.write("deep.yaml", std::string(100'000, '['));
+  folder.write("long.yaml", std::string(60'000'000, '\n'));
+  refused("open.yaml", "open.yaml:1:1: more than 200000 lists and maps");
+  refused("deep.yaml", "lists and maps are nested too deeply");
+  refused("long.yaml", "long.yaml:1:1: more than 4 MB of YAML");
   refused("keys.yaml", "more than 2000 keys in the scenario");
   refused("list.yaml", "more than 200000 values in one file");
   refused("word.yaml", "expected a map of keys, got 'aaaa");
