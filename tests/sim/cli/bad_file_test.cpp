@@ -44,6 +44,38 @@ TEST_F(BadFile, PipesDevicesFoldersAndHugeFilesAreNoScenarios) {
   refused("uses.yaml", "uses.yaml:1:6: is a device or a pipe, not a file: 'pipe'");
 }
 
+TEST_F(BadFile, APipeKeepsNoCommandWaiting) {
+  folder.write("sweep.yaml",
+               "scenario: tiny.yaml\nseeds: 1\ntuned_on: 1:2000\ndesign: {type: grid}\n"
+               "parameters: [{path: start.east, values: [0, 0.1]}]\n");
+  ASSERT_EQ(folder.hedgehop("batch tiny.yaml --seeds 3 --out flown").status, 0);
+  ASSERT_EQ(folder.hedgehop("sweep sweep.yaml --out swept").status, 0);
+  folder.shell("mkfifo pipe pipe.yaml");
+  const std::string run = "flown/tiny/seed3/";
+  const auto stopped = [&](const std::string& arguments) {
+    const CommandEnd end = folder.shell("timeout 20 " HEDGEHOP_PROGRAM " " + arguments);
+    EXPECT_EQ(end.status, kBadInput) << arguments << ": " << end.err;
+    EXPECT_THAT(end.err, HasSubstr("pipe")) << arguments;
+    EXPECT_EQ(std::ranges::count(end.err, '\n'), 1) << arguments << ": " << end.err;
+  };
+  stopped("batch --plan pipe");
+  stopped("reproduce ./pipe.yaml");
+  stopped("run tiny.yaml --set 'avoidance={plugin: pipe, module: mine}'");
+  for (const std::string file : {"result.json", "trajectory.csv", "decisions.csv", "scenario.yaml"}) {
+    folder.shell("mv " + run + file + " kept; ln -s $PWD/pipe " + run + file);
+    const CommandEnd end = folder.shell("timeout 20 " HEDGEHOP_PROGRAM " report " + run);
+    EXPECT_EQ(end.status, kBadInput) << file << ": " << end.err;
+    EXPECT_THAT(end.err, HasSubstr(file + ": is a device or a pipe, not a file"));
+    folder.shell("mv kept " + run + file);
+  }
+  folder.shell("ln -sf $PWD/pipe flown/batch.json; ln -sf $PWD/pipe flown/batch.csv; ln -sf $PWD/pipe swept/sweep.csv");
+  for (const std::string command :
+       {"batch --failed-only --out flown", "batch tiny.yaml --no-worse-than flown --out out", "report flown",
+        "report swept"}) {
+    EXPECT_EQ(folder.shell("timeout 20 " HEDGEHOP_PROGRAM " " + command).status, kBadInput) << command;
+  }
+}
+
 TEST_F(BadFile, FilesOfAnotherKindAreNamedAsWhatTheyAre) {
   const std::string configs = HEDGEHOP_SOURCE_DIR "/configs/";
   for (const auto& [file, kind] :
@@ -154,6 +186,25 @@ TEST_F(BadFile, WhereNothingCanBeWrittenIsToldBeforeTheFlight) {
   const CommandEnd end = folder.hedgehop("run tiny.yaml --no-video --out file/below");
   EXPECT_EQ(end.status, kBadInput);
   EXPECT_THAT(end.err, AllOf(HasSubstr("file/below: no results can be written there"), HasSubstr("Not a directory")));
+  ASSERT_EQ(folder.hedgehop("run tiny.yaml --no-video --no-report --out flown").status, 0);
+  for (const std::string& command :
+       {std::string("run tiny.yaml --out /proc/nope"), "batch tiny.yaml --seeds 3 --out " + std::string(300, 'x'),
+        std::string("export flown --format euroc --out file"),
+        std::string("export flown --format tum --out /proc/nope"),
+        std::string("batch tiny.yaml --seeds 3 --out out --junit file/below.xml"),
+        std::string("batch tiny.yaml --seeds 3 --out out --junit flown"),
+        std::string("render tiny.yaml --camera front -o file/below.png")}) {
+    const CommandEnd refusal = folder.hedgehop(command);
+    EXPECT_EQ(refusal.status, kBadInput) << command << ": " << refusal.err;
+    EXPECT_EQ(std::ranges::count(refusal.err, '\n'), 1) << command << ": " << refusal.err;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out")) << command;
+  }
+}
+
+TEST_F(BadFile, ADeviceIsWrittenIntoNotReplaced) {
+  folder.shell("mkfifo pipe; cat pipe >read & true");
+  EXPECT_EQ(folder.hedgehop("trim " HEDGEHOP_SOURCE_DIR "/configs/vehicles/s900.yaml --plot pipe").status, 0);
+  EXPECT_TRUE(std::filesystem::is_fifo(folder.path() / "pipe"));
 }
 
 TEST_F(BadFile, AResultOfAnotherShapeIsNamedAndFlownAgain) {
