@@ -219,6 +219,18 @@ TEST_F(BadFile, AResultOfAnotherShapeIsNamedAndFlownAgain) {
     ASSERT_EQ(folder.hedgehop("batch tiny.yaml --seeds 3 --out out --resume").status, 0) << bad;
     EXPECT_EQ(folder.json("out/tiny/seed3/result.json")["trajectory_hash"], hash) << bad;
   }
+  for (const char* key : {"truth_used", "flight_time_s", "metric_units"}) {
+    nlohmann::ordered_json changed = nlohmann::ordered_json::parse(whole);
+    changed[key] = nullptr;
+    folder.write("out/tiny/seed3/result.json", changed.dump());
+    EXPECT_EQ(folder.hedgehop("bless out/tiny/seed3 --reason x --dry-run").status, kBadInput) << key;
+    ASSERT_EQ(folder.hedgehop("batch tiny.yaml --seeds 3 --out out --resume").status, 0) << key;
+    EXPECT_EQ(folder.json("out/tiny/seed3/result.json")["trajectory_hash"], hash) << key;
+  }
+  const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
+  folder.write("out/tiny/seed3/result.json", whole.substr(0, whole.rfind('}')) + ", \"deep\": " + deep + "}");
+  EXPECT_EQ(folder.hedgehop("report out/tiny/seed3").status, kBadInput);
+  ASSERT_EQ(folder.hedgehop("batch tiny.yaml --seeds 3 --out out --resume").status, 0);
   nlohmann::ordered_json unchecked = nlohmann::ordered_json::parse(whole);
   unchecked["checks"] = nullptr;
   folder.write("out/tiny/seed3/result.json", unchecked.dump());
