@@ -207,6 +207,19 @@ TEST_F(BadFile, ADeviceIsWrittenIntoNotReplaced) {
   EXPECT_TRUE(std::filesystem::is_fifo(folder.path() / "pipe"));
 }
 
+TEST_F(BadFile, AFaultIsOneLine) {
+  for (const std::string& arguments :
+       {std::string("run $'a\nb.yaml'"), std::string("run tiny.yaml --set $'a\nb=1'"),
+        std::string("run tiny.yaml --set 'scene.imports=[{file: \"a\\nb\"}]'"),
+        std::string("run tiny.yaml --seed $'1\n2'"), std::string("batch tiny.yaml --until $'colli\nsion < 0.1'"),
+        std::string("bless tiny"), std::string("reproduce nowhere.yaml"), std::string("run"), std::string("fly")}) {
+    folder.write("command", HEDGEHOP_PROGRAM " " + arguments + "\n");
+    const CommandEnd end = folder.shell("bash command");
+    EXPECT_EQ(end.status, kBadInput) << arguments;
+    EXPECT_EQ(std::ranges::count(end.err, '\n'), 1) << arguments << ": " << end.err;
+  }
+}
+
 TEST_F(BadFile, AResultOfAnotherShapeIsNamedAndFlownAgain) {
   ASSERT_EQ(folder.hedgehop("batch tiny.yaml --seeds 3 --out out").status, 0);
   const std::string whole = folder.read("out/tiny/seed3/result.json");
