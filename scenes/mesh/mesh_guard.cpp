@@ -12,26 +12,39 @@ namespace hedgehop::scenes::mesh {
 namespace {
 
 constexpr uintmax_t kMostBytes = 64'000'000;
-constexpr int kDeepest = 200;           // the importer's JSON reader recurses
-constexpr int kMostFaceCorners = 1000;  // its triangulation takes their square
+constexpr int kDeepest = 200;  // the importer's JSON reader recurses
+constexpr size_t kMostNodes = 2'000;
+constexpr size_t kMostFaces = 500'000;
 
-/// Depth of brackets outside strings; of a binary glTF, those of its text as well as of bytes that look like them.
-int depth(std::string_view json) {
-  int now = 0, most = 0;
-  bool in_text = false;
+/// What the importer recurses over in a glTF.
+struct Depths {
+  int brackets = 0;  ///< nested, outside strings
+  size_t nodes = 0;  ///< each may hold the next
+};
+
+Depths depths(std::string_view json) {
+  Depths found;
+  int now = 0;
+  size_t text = 0;
+  bool in_text = false, in_nodes = false;
+  std::string_view key;
   for (size_t i = 0; i < json.size(); ++i) {
     const char c = json[i];
     if (in_text && c == '\\') {
       ++i;
     } else if (c == '"') {
       in_text = !in_text;
+      if (in_text) text = i + 1;
+      if (!in_text && now == 1) key = json.substr(text, i - text);
     } else if (!in_text && (c == '[' || c == '{')) {
-      most = std::max(most, ++now);
+      found.brackets = std::max(found.brackets, ++now);
+      if (now == 2) in_nodes = key == "nodes" || key.find('\\') != std::string_view::npos;
+      if (now == 3 && in_nodes) ++found.nodes;
     } else if (!in_text && (c == ']' || c == '}')) {
       --now;
     }
   }
-  return most;
+  return found;
 }
 
 /// The text of a binary glTF: its first chunk, after a header of 12 bytes and the chunk's own of 8.
@@ -43,28 +56,15 @@ std::string_view json_of_glb(std::string_view file) {
   return file.substr(kHeader, bytes);
 }
 
-/// Words after the `f` of a line; a backslash at a line's end goes on in the next.
-int most_face_corners(std::string_view obj) {
-  int most = 0, words = 0;
-  bool is_face = false, in_word = false;
-  for (size_t i = 0; i < obj.size(); ++i) {
-    const char c = obj[i];
-    if (c == '\n') {
-      words = 0;
-      is_face = in_word = false;
-    } else if (c == '\\') {
-      i = std::min(obj.find('\n', i), obj.size());
-      in_word = false;
-    } else if (c == ' ' || c == '\t' || c == '\r') {
-      in_word = false;
-    } else if (!in_word) {
-      in_word = true;
-      if (words == 0) is_face = c == 'f';
-      if (is_face) most = std::max(most, words);
-      ++words;
-    }
+/// Lines that begin with an `f`; each costs the importer far more than its bytes.
+size_t faces(std::string_view obj) {
+  size_t count = 0;
+  bool at_start = true;
+  for (const char c : obj) {
+    if (at_start && c == 'f') ++count;
+    at_start = c == '\n' || (at_start && (c == ' ' || c == '\t'));
   }
-  return most;
+  return count;
 }
 
 }  // namespace
@@ -76,17 +76,29 @@ bool may_be_read(const std::filesystem::path& file) {
 
 void require_importable(const std::filesystem::path& mesh) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(mesh, error)) throw std::invalid_argument("there is no such file");
+  if (!std::filesystem::exists(mesh, error)) throw std::invalid_argument("there is no such file");
+  if (!std::filesystem::is_regular_file(mesh, error)) throw std::invalid_argument("it is no regular file");
   if (!may_be_read(mesh)) throw std::invalid_argument("it is larger than 64 MB");
-  std::ifstream stream(mesh, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
   std::string kind = mesh.extension().string();
   std::ranges::transform(kind, kind.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if ((kind == ".gltf" && depth(text) > kDeepest) || (kind == ".glb" && depth(json_of_glb(text)) > kDeepest)) {
-    throw std::invalid_argument("its JSON is nested deeper than " + std::to_string(kDeepest));
+  if (kind != ".obj" && kind != ".gltf" && kind != ".glb") {
+    throw std::invalid_argument("its name ends in none of .obj, .gltf and .glb");
   }
-  if (kind == ".obj" && most_face_corners(text) > kMostFaceCorners) {
-    throw std::invalid_argument("it has a face of more than " + std::to_string(kMostFaceCorners) + " corners");
+  std::ifstream stream(mesh, std::ios::binary);
+  std::string text(std::filesystem::file_size(mesh, error), '\0');
+  stream.read(text.data(), std::ssize(text));
+  text.resize(static_cast<size_t>(stream.gcount()));
+  if (!stream.is_open() || stream.bad()) throw std::invalid_argument("it cannot be read");
+  if (kind != ".obj") {
+    const Depths found = depths(kind == ".glb" ? json_of_glb(text) : text);
+    if (found.brackets > kDeepest) {
+      throw std::invalid_argument("its JSON is nested deeper than " + std::to_string(kDeepest));
+    }
+    if (found.nodes > kMostNodes)
+      throw std::invalid_argument("it has more than " + std::to_string(kMostNodes) + " nodes");
+  }
+  if (kind == ".obj" && faces(text) > kMostFaces) {
+    throw std::invalid_argument("it has more than " + std::to_string(kMostFaces) + " faces");
   }
 }
 

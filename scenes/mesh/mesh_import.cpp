@@ -13,6 +13,7 @@
 
 #include "scenes/mesh/mesh_builder.h"
 #include "scenes/mesh/mesh_guard.h"
+#include "scenes/mesh/mesh_reader.h"
 #include "scenes/mesh/sides.h"
 #include "scenes/mesh/texture_image.h"
 #include "scenes/textures/stone_textures.h"
@@ -23,16 +24,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr unsigned kMostTriangles = 500000;
 constexpr double kFarthestM = 100e3;  // as every position of a scenario
 
 [[noreturn]] void refuse(const ImportConfig& c, const std::string& why) {
   throw std::invalid_argument("imports.file: '" + c.file + "': " + why);
 }
 
-void require_file(const ImportConfig& c) {
+void read_file(const ImportConfig& c, Assimp::Importer& importer) {
   try {
-    require_importable(c.file);
+    read_mesh(c.file, importer);
   } catch (const std::invalid_argument& fault) {
     refuse(c, fault.what());
   }
@@ -134,14 +134,12 @@ void draw(const aiMesh& mesh, const Polyhedron& body, const Eigen::Affine3d& to_
 }
 
 void add_import(const ImportConfig& c, Scene& scene) {
-  require_file(c);
   Assimp::Importer importer;
-  const aiScene* model =
-      importer.ReadFile(c.file, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_GenNormals |
-                                    aiProcess_PreTransformVertices | aiProcess_SortByPType | aiProcess_FlipUVs |
-                                    aiProcess_ValidateDataStructure);
-  if (!model || !model->mRootNode || (model->mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0)
-    refuse(c, importer.GetErrorString());
+  read_file(c, importer);
+  const aiScene* const model =
+      importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_GenNormals |
+                                   aiProcess_PreTransformVertices | aiProcess_SortByPType | aiProcess_FlipUVs);
+  if (!model || !model->mRootNode) refuse(c, importer.GetErrorString());
 
   constexpr int kSizePx = 512;  // where the scene has no images
   const int size_px = scene.textures.empty() ? kSizePx : scene.textures.front().cols;
@@ -153,7 +151,6 @@ void add_import(const ImportConfig& c, Scene& scene) {
     const Polyhedron body = faces_W(*mesh, to_W);
     if (body.faces.empty()) continue;
     triangles += body.faces.size();
-    if (triangles > kMostTriangles) refuse(c, "it has more than " + std::to_string(kMostTriangles) + " triangles");
     for (const Vector3d& corner : body.corners) {
       if (!corner.allFinite()) refuse(c, "it has corners that are not finite");
       if (corner.cwiseAbs().maxCoeff() > kFarthestM) refuse(c, "it has corners farther away than 100 km");

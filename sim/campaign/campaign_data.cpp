@@ -16,6 +16,7 @@
 #include "sim/campaign/verdict.h"
 #include "sim/record/json_number.h"
 #include "sim/record/report_page.h"
+#include "sim/record/run_record.h"
 #include "sim/record/whole_file.h"
 
 namespace hedgehop::sim {
@@ -140,7 +141,7 @@ std::vector<FlightNotes> read_notes(const std::filesystem::path& folder, const s
     if (records[i].status != FlightRecord::Status::flown || !std::filesystem::exists(flight / "result.json")) continue;
     try {
       FlightRecord whole = records[i];
-      whole.result = Json::parse(read_file_whole(flight / "result.json"));
+      whole.result = read_result(flight / "result.json");
       notes[i].why = failure_words(whole);
       for (const auto& check : whole.result.at("checks")) {
         notes[i].units["check." + check.at("name").get<std::string>()] = check.at("unit").get<std::string>();
@@ -149,7 +150,8 @@ std::vector<FlightNotes> read_notes(const std::filesystem::path& folder, const s
       for (const auto& [name, unit] : units.items()) {
         notes[i].units["metric." + name] = unit.get<std::string>();
       }
-    } catch (const nlohmann::json::exception&) {  // a result half written: the table's word stands
+    } catch (const nlohmann::json::exception&) {
+    } catch (const std::runtime_error&) {  // a result half written: the table's word stands
     }
   }
   return notes;

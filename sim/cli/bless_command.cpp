@@ -5,6 +5,7 @@
 
 #include "sim/cli/commands.h"
 #include "sim/record/csv_table.h"
+#include "sim/record/run_record.h"
 #include "sim/record/whole_file.h"
 #include "sim/scenario/reference_path.h"
 #include "sim/scenario/scenario.h"
@@ -56,7 +57,7 @@ int bless(const BlessOptions& options) {
   nlohmann::ordered_json result;
   std::vector<TimedPoint> flown;
   try {
-    result = nlohmann::ordered_json::parse(read_file_whole(options.folder / "result.json"));
+    result = read_result(options.folder / "result.json");
     flown = flown_path(options.folder);
   } catch (const std::exception& error) {
     throw InputError(fmt::format("{}: no whole run: {}", folder, error.what()));

@@ -20,7 +20,7 @@ void add_flying(CLI::App& command, Options& options) {
       ->check(CLI::Range(1, 4096));
   command.add_option("--limit", options.limit_s, "longest wall time of a flight; it is killed then, and fails")
       ->transform(number())
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->type_name("S");
   command.add_flag("--reuse-other-builds", options.reuse_other_builds,
                    "let results that other builds of Hedgehop left stand, too; every row names its build");
@@ -199,7 +199,7 @@ void declare_branch(CLI::App& app, std::function<int()>& chosen) {
   command->add_option("RUN", options->source, "folder of a run, or a scenario")->required();
   command->add_option("--at", options->at_s, "when the settings change, from the flight's start")
       ->transform(number())
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->required()
       ->type_name("S");
   command

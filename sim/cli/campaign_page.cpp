@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "sim/campaign/campaign_report.h"
+#include "sim/cli/notice.h"
 
 namespace hedgehop::sim::cli {
 
@@ -22,7 +23,7 @@ void write_campaign_page(const std::filesystem::path& folder) {
     write_campaign_report(folder, std::nullopt);
     fmt::print("written: {}\n", page);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: not written: {}\n", page, error.what());
+    notice(fmt::format("{}: not written: {}\n", page, error.what()));
   }
 }
 

@@ -3,15 +3,16 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <exception>
 #include <functional>
+#include <sstream>
 
 #include "sim/cli/campaign_options.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/features.h"
 #include "sim/cli/manual.h"
+#include "sim/cli/notice.h"
 #include "sim/cli/number_options.h"
 #include "sim/flight/build.h"
 #include "sim/scenario/document.h"
@@ -73,7 +74,7 @@ void declare(CLI::App& app, std::function<int()>& chosen, RunOptions& run, Rende
   auto* const camera = render_command->add_option("--camera", render.camera, "role of the camera")->type_name("NAME");
   render_command->add_option("--time", render.time_s, "time of the image, s; the flight is flown up to it")
       ->transform(number())
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->type_name("S");
   render_command
       ->add_option("--what", render.what,
@@ -197,6 +198,9 @@ int parse_and_run(int argc, char** argv) {
     return fmt::format("{} (build {}){}", version(), build_identity(), features ? kFeatureRows : "");
   });
   app.require_subcommand(1);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return fmt::format("{} (see --help)\n", one_line(error.what()));
+  });
   app.footer("Exit status: 0 all checks hold; 1 a check fails; 2 the input is bad; 3 an internal error; 4 undecided.");
 
   std::function<int()> chosen;
@@ -213,7 +217,11 @@ int parse_and_run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadInput;
+    std::ostringstream out, err;
+    const int status = app.exit(error, out, err);
+    fmt::print("{}", out.str());
+    notice(err.str());
+    return status == 0 ? 0 : kBadInput;
   }
   return chosen();
 }
@@ -224,10 +232,10 @@ int run_command_line(int argc, char** argv) {
   try {
     return parse_and_run(argc, argv);
   } catch (const InputError& error) {
-    for (const std::string& fault : error.faults()) std::fputs((fault + "\n").c_str(), stderr);
+    for (const std::string& fault : error.faults()) notice(fault + "\n");
     return kBadInput;
   } catch (const std::exception& error) {
-    std::fputs(fmt::format("hedgehop: {}\n", error.what()).c_str(), stderr);  // never throws, as fmt::print may
+    notice(fmt::format("hedgehop: {}\n", one_line(error.what())));
     return kInternalError;
   }
 }

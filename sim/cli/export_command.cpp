@@ -3,9 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/cli/commands.h"
+#include "sim/cli/notice.h"
 #include "sim/cli/progress.h"
 #include "sim/export/export.h"
-#include "sim/record/whole_file.h"
+#include "sim/record/run_record.h"
 #include "sim/scenario/input_error.h"
 
 namespace hedgehop::sim::cli {
@@ -24,9 +25,9 @@ std::string hash_of_run(const std::filesystem::path& folder) {
     }
   }
   try {
-    return nlohmann::json::parse(read_file_whole(folder / "result.json")).at("trajectory_hash");
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: no whole run: {}", (folder / "result.json").string(), error.what()));
+    return read_result(folder / "result.json").at("trajectory_hash");
+  } catch (const std::runtime_error& error) {
+    throw InputError(fmt::format("{}: no whole run: {}", folder.string(), error.what()));
   }
 }
 
@@ -43,10 +44,10 @@ int export_run(const ExportOptions& options) {
   });
   progress.close();
   if (flight.result.trajectory_hash != hash) {
-    fmt::print(stderr,
-               "warning: the re-simulated trajectory differs from the run's ({} instead of {}): another build or "
-               "another kind of processor; the data agree with each other\n",
-               flight.result.trajectory_hash, hash);
+    notice(
+        fmt::format("warning: the re-simulated trajectory differs from the run's ({} instead of {}): another build or "
+                    "another kind of processor; the data agree with each other\n",
+                    flight.result.trajectory_hash, hash));
   }
   fmt::print("written: {} ({:.1f} s of flight)\n", request.out.string(), flight.result.flight_time_s);
   return 0;

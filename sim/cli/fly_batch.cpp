@@ -12,6 +12,7 @@
 #include "sim/cli/campaign_page.h"
 #include "sim/cli/every_write.h"
 #include "sim/cli/exit_status.h"
+#include "sim/cli/notice.h"
 #include "sim/cli/progress.h"
 #include "sim/flight/build.h"
 #include "sim/record/whole_file.h"
@@ -104,7 +105,8 @@ OnRecord show_on(CampaignProgress& progress, std::optional<SequentialCount>& cou
 
 int fly_batch(BatchRun run) {
   require_writable(run.fly.out);
-  for (const std::string& fault : run.batch.faults) fmt::print(stderr, "{}\n", fault);
+  if (!run.junit.empty()) require_writable_file(run.junit);
+  for (const std::string& fault : run.batch.faults) notice(fmt::format("{}\n", fault));
   std::optional<SequentialCount> count;
   if (run.rule) {
     run.batch.orders = seed_by_seed(run.batch.orders);

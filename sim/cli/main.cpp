@@ -19,18 +19,32 @@ void open_standard_streams() {
   }
 }
 
+/// Writes a part of the results. Whoever prints them need not care that a pipe's reader has seen enough, nor that a
+/// disk is full: what cannot be written is dropped. @param error  errno of the first fault, an int.
+ssize_t write_results(void* error, const char* text, size_t bytes) {
+  int& first_fault = *static_cast<int*>(error);
+  for (size_t written = 0; first_fault == 0 && written < bytes;) {
+    const ssize_t count = ::write(STDOUT_FILENO, text + written, bytes - written);
+    if (count >= 0) {
+      written += static_cast<size_t>(count);
+    } else if (errno != EINTR) {
+      first_fault = errno;
+    }
+  }
+  return static_cast<ssize_t>(bytes);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   open_standard_streams();
   std::signal(SIGPIPE, SIG_IGN);  // a reader that has seen enough ends no flight
   std::signal(SIGXFSZ, SIG_IGN);  // a file past its limit (ulimit -f) is an error of writing
-  constexpr size_t kBufferBytes = 1 << 20;
-  std::setvbuf(stdout, nullptr, _IOFBF, kBufferBytes);  // so that a result is written whole, or known not to be
+  int error = 0;
+  if (FILE* const results = ::fopencookie(&error, "w", {nullptr, write_results, nullptr, nullptr})) stdout = results;
   const int status = hedgehop::sim::cli::run_command_line(argc, argv);
-  if (std::fflush(stdout) != 0 && errno != EPIPE) {
-    std::fprintf(stderr, "hedgehop: cannot write to standard output: %s\n", std::strerror(errno));
-    return hedgehop::sim::cli::kInternalError;
-  }
-  return status;
+  std::fflush(stdout);
+  if (error == 0 || error == EPIPE) return status;
+  std::fprintf(stderr, "hedgehop: cannot write to standard output: %s\n", std::strerror(error));
+  return hedgehop::sim::cli::kInternalError;
 }

@@ -7,6 +7,20 @@
 #include "sim/scenario/numbers.h"
 
 namespace hedgehop::sim::cli {
+namespace {
+
+/// CLI11's own print the largest double in full.
+template <class Holds>
+CLI::Validator sign(const char* name, const char* must, Holds holds) {
+  const auto check = [must, holds](std::string& text) -> std::string {
+    const ParsedNumber parsed = parse_number(text, /*degrees=*/false);
+    return parsed.kind == ParsedNumber::Kind::number && holds(parsed.member) ? ""
+                                                                             : "must be " + (must + (", got " + text));
+  };
+  return CLI::Validator(check, name);
+}
+
+}  // namespace
 
 CLI::Validator whole_number() {
   const auto read = [](std::string& text) -> std::string {
@@ -24,6 +38,14 @@ CLI::Validator number() {
     return parsed.kind == ParsedNumber::Kind::number ? "" : "'" + text + "' is no finite number";
   };
   return CLI::Validator(read, "");
+}
+
+CLI::Validator not_negative() {
+  return sign("NONNEGATIVE", "0 or more", [](double value) { return value >= 0.0; });
+}
+
+CLI::Validator positive() {
+  return sign("POSITIVE", "more than 0", [](double value) { return value > 0.0; });
 }
 
 }  // namespace hedgehop::sim::cli

@@ -12,4 +12,8 @@ CLI::Validator whole_number();
 /// Any number that is finite.
 CLI::Validator number();
 
+/// Of a number: 0 and more; more than 0.
+CLI::Validator not_negative();
+CLI::Validator positive();
+
 }  // namespace hedgehop::sim::cli

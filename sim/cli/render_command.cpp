@@ -6,6 +6,7 @@
 #include "sim/cli/commands.h"
 #include "sim/cli/load.h"
 #include "sim/record/image_file.h"
+#include "sim/record/whole_file.h"
 #include "sim/render/image_colors.h"
 #include "sim/render/renderer.h"
 #include "sim/simulation/simulation.h"
@@ -60,6 +61,7 @@ int render(const RenderOptions& options) {
   if (options.out.extension() != ".png") {
     throw InputError(fmt::format("-o {}: the image is a PNG; its name must end in .png", options.out.string()));
   }
+  require_writable_file(options.out);
   const Channel channel = channel_of(options.what);
   Simulation simulation(load(options.scenario));
   cv::Mat image = image_at(simulation, options, channel);
@@ -72,6 +74,7 @@ int render(const RenderOptions& options) {
   } else if (channel == Channel::labels) {
     image = colored_labels(image);
   }
+  if (options.out.has_parent_path()) std::filesystem::create_directories(options.out.parent_path());
   write_png(options.out, image);
   fmt::print("written: {}\n", options.out.string());
   return 0;

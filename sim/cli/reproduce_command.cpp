@@ -104,6 +104,7 @@ void write_pages(const ReproduceOptions& options, const fs::path& out, const Row
   files.attempt([&] { write_file_whole(out / "reproduction.html", reproduction_page(pages, facts)); });
   if (!options.write.empty()) {
     files.attempt([&] {
+      if (options.write.has_parent_path()) fs::create_directories(options.write.parent_path());
       const std::string earlier = fs::exists(options.write) ? read_file_whole(options.write) : "";
       write_file_whole(options.write, results_page(papers, facts, earlier));
     });
@@ -122,6 +123,7 @@ int reproduce(const ReproduceOptions& options) {
   const std::vector<Paper> papers = read_papers(options.papers);
   const fs::path out = options.out.empty() ? fs::path("out") / "reproduce" : options.out;
   require_writable(out);
+  if (!options.write.empty()) require_writable_file(options.write);
   Interruption interruption;
   const std::vector<FlightRecord> records = fly(papers, options, out, interruption);
   if (interruption.signal() != 0 && !options.write.empty()) return kSignalled + interruption.signal();

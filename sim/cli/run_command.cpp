@@ -12,6 +12,7 @@
 #include "sim/campaign/order.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/load.h"
+#include "sim/cli/notice.h"
 #include "sim/cli/progress.h"
 #include "sim/flight/build.h"
 #include "sim/record/film_watcher.h"
@@ -38,7 +39,7 @@ class RunWatcher : public FlightWatcher {
   void close() {
     progress_.close();
     film_.close();
-    if (!film_.fault().empty()) fmt::print(stderr, "warning: incomplete video: {}\n", film_.fault());
+    if (!film_.fault().empty()) notice(fmt::format("warning: incomplete video: {}\n", film_.fault()));
   }
 
  private:

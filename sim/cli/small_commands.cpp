@@ -9,6 +9,7 @@
 #include "sim/campaign/flight_list.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/load.h"
+#include "sim/cli/notice.h"
 #include "sim/record/report.h"
 #include "sim/scenario/calibration.h"
 #include "sim/scenario/document.h"
@@ -24,9 +25,9 @@ void film_worst(const std::filesystem::path& folder, size_t count) {
   const std::vector<size_t> rows = worst_flights(flights, count);
   size_t begun = 0;
   const auto show = [&](const std::string& id) {
-    fmt::print(stderr, "{}/{}: re-simulating {} for its film strip\n", ++begun, rows.size(), id);
+    notice(fmt::format("{}/{}: re-simulating {} for its film strip\n", ++begun, rows.size(), id));
   };
-  for (const std::string& fault : write_film_strips(folder, flights, rows, show)) fmt::print(stderr, "{}\n", fault);
+  for (const std::string& fault : write_film_strips(folder, flights, rows, show)) notice(fmt::format("{}\n", fault));
 }
 
 }  // namespace

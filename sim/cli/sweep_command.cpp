@@ -145,6 +145,7 @@ int sweep(const SweepOptions& options) {
   SweepRun run{.options = options, .sweep = read_sweep(options.file), .out = options.out};
   if (run.out.empty()) run.out = std::filesystem::path("out") / options.file.stem();
   require_writable(run.out);
+  if (!options.junit.empty()) require_writable_file(options.junit);
   if (const auto* design = std::get_if<OptimizeDesign>(&run.sweep.design)) {
     if (options.on != "local" || !options.shard.empty() || options.merge || options.missing) {
       throw InputError("an optimizer looks at each point before the next: no --on, --shard, --merge or --missing");

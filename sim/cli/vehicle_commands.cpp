@@ -16,6 +16,7 @@
 #include "dynamics/steady_flight.h"
 #include "dynamics/vehicle.h"
 #include "sim/cli/commands.h"
+#include "sim/cli/notice.h"
 #include "sim/cli/shipped_files.h"
 #include "sim/record/report_page.h"
 #include "sim/record/trim_data.h"
@@ -168,7 +169,7 @@ int trim(const TrimOptions& options) {
     }
     return found;
   });
-  for (const double speed_mps : missing_mps) fmt::print(stderr, "no steady flight at {} m/s\n", speed_mps);
+  for (const double speed_mps : missing_mps) notice(fmt::format("no steady flight at {} m/s\n", speed_mps));
   if (rows.empty()) throw InputError(options.vehicle.string() + ": no steady flight at any of the speeds");
   if (options.json) {
     Json json = Json::array();
@@ -180,7 +181,7 @@ int trim(const TrimOptions& options) {
   if (!options.plot.empty()) {
     const Json data = trim_data(options.vehicle.stem().string(), rows, missing_mps);
     write_file_whole(options.plot, trim_page(data["title"].get<std::string>(), data.dump()));
-    fmt::print(stderr, "{}\n", options.plot.string());
+    notice(fmt::format("{}\n", options.plot.string()));
   }
   return 0;
 }

@@ -100,6 +100,7 @@ void check(const ExportRequest& request, SensorRecord record) {
   if (std::filesystem::exists(request.out, error) && !std::filesystem::is_empty(request.out, error)) {
     throw InputError(fmt::format("{}: is not an empty folder; name another by --out", request.out.string()));
   }
+  require_writable(request.out);
 }
 
 /// 16-bit, see kTumDepthPerMeter.

@@ -142,6 +142,7 @@ Function* find_function(void* library, const char* name) {
 avoidance::PluginRows load_rows(const PluginConfig& config) {
   std::error_code error;
   if (!std::filesystem::exists(config.plugin, error)) refuse(config, "no such file");
+  if (!std::filesystem::is_regular_file(config.plugin, error)) refuse(config, "is no regular file");
   void* const library = ::dlopen(config.plugin.c_str(), RTLD_NOW | RTLD_LOCAL);  // stays: its code may be in use
   if (!library) refuse(config, fmt::format("cannot be loaded: {}", ::dlerror()));
   auto* const interface = find_function<const char*()>(library, "hedgehop_plugin_interface");

@@ -8,6 +8,7 @@
 
 #include "sim/record/csv_line.h"
 #include "sim/record/csv_table.h"
+#include "sim/scenario/input_error.h"
 
 namespace hedgehop::sim {
 
@@ -26,9 +27,13 @@ void ColumnTable::add(std::string name, std::vector<std::string> words) {
 template <class Values>
 const Values& ColumnTable::column(std::string_view name) const {
   const auto found = std::ranges::find(names_, name);
-  if (found == names_.end()) throw std::runtime_error(fmt::format("no column '{}'", name));
+  const auto refuse = [&](const std::string& why) {
+    if (file_.empty()) throw std::runtime_error(why);
+    throw InputError(file_ + ": " + why);
+  };
+  if (found == names_.end()) refuse(fmt::format("no column '{}'", name));
   const auto* const values = std::get_if<Values>(&columns_[static_cast<size_t>(found - names_.begin())]);
-  if (!values) throw std::runtime_error(fmt::format("column '{}' is of the other kind", name));
+  if (!values) refuse(fmt::format("column '{}' is of the other kind", name));
   return *values;
 }
 
@@ -61,7 +66,7 @@ std::string ColumnTable::csv() const {
 
 ColumnTable read_columns(const std::filesystem::path& file, std::span<const std::string_view> words) {
   const CsvTable csv(file);
-  ColumnTable table;
+  ColumnTable table(file.string());
   for (const std::string& name : csv.names()) {
     if (std::ranges::find(words, name) != words.end()) {
       table.add(name, csv.words(name));

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -12,12 +13,17 @@ namespace hedgehop::sim {
 /// A table in memory: named columns of equal length, each of numbers (NaN where unknown) or of words.
 class ColumnTable {
  public:
+  ColumnTable() = default;
+  /// @param file  that it is read from, for faults.
+  explicit ColumnTable(std::string file) : file_(std::move(file)) {}
+
   void add(std::string name, std::vector<double> numbers);
   void add(std::string name, std::vector<std::string> words);
 
   size_t rows() const { return rows_; }
   const std::vector<std::string>& names() const { return names_; }
-  /// A column of numbers or words. Throws std::runtime_error naming the column when it is missing or of the other kind.
+  /// A column of numbers or words. Throws std::runtime_error naming the column when it is missing or of the other kind;
+  /// of a table from a file, InputError naming that, too.
   const std::vector<double>& numbers(std::string_view name) const;
   const std::vector<std::string>& words(std::string_view name) const;
 
@@ -30,13 +36,14 @@ class ColumnTable {
   template <class Values>
   const Values& column(std::string_view name) const;
 
+  std::string file_;
   std::vector<std::string> names_;
   std::vector<Column> columns_;
   size_t rows_ = 0;
 };
 
 /// Reads a CSV file. @param words  names of its columns of words; all others are numbers.
-/// Throws std::runtime_error naming file, line and column for what cannot be read.
+/// Throws InputError naming file, line and column for what cannot be read.
 ColumnTable read_columns(const std::filesystem::path& file, std::span<const std::string_view> words = {});
 
 }  // namespace hedgehop::sim

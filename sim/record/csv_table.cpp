@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <stdexcept>
 
 #include "sim/record/whole_file.h"
+#include "sim/scenario/input_error.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -55,18 +55,18 @@ CsvTable::CsvTable(const std::filesystem::path& file) : file_(file.string()), te
       continue;
     }
     if (fields.size() != names_.size()) {
-      throw std::runtime_error(
+      throw InputError(
           fmt::format("{}:{}: {} fields where the header has {}", file_, number, fields.size(), names_.size()));
     }
     fields_.insert(fields_.end(), fields.begin(), fields.end());
     first_lines_.push_back(number);
   }
-  if (names_.empty()) throw std::runtime_error(fmt::format("{}: no header line", file_));
+  if (names_.empty()) throw InputError(fmt::format("{}: no header line", file_));
 }
 
 size_t CsvTable::column(std::string_view name) const {
   const auto found = std::ranges::find(names_, name);
-  if (found == names_.end()) throw std::runtime_error(fmt::format("{}: no column '{}'", file_, name));
+  if (found == names_.end()) throw InputError(fmt::format("{}: no column '{}'", file_, name));
   return static_cast<size_t>(found - names_.begin());
 }
 
@@ -78,8 +78,7 @@ std::vector<double> CsvTable::numbers(std::string_view name) const {
     if (text.empty()) continue;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), values[r]);
     if (error != std::errc() || end != text.data() + text.size()) {
-      throw std::runtime_error(
-          fmt::format("{}:{}: '{}' in column '{}' is no number", file_, first_lines_[r], text, name));
+      throw InputError(fmt::format("{}:{}: '{}' in column '{}' is no number", file_, first_lines_[r], text, name));
     }
   }
   return values;

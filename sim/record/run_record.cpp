@@ -14,12 +14,62 @@
 namespace hedgehop::sim {
 namespace {
 
-nlohmann::ordered_json read_json(const std::filesystem::path& file) {
+using Json = nlohmann::ordered_json;
+
+constexpr int kDeepest = 50;  // whoever copies or prints JSON recurses
+
+Json read_json(const std::filesystem::path& file) {
+  const auto bounded = [&](int depth, Json::parse_event_t, const Json&) {
+    if (depth > kDeepest) throw InputError(fmt::format("{}: is nested deeper than {}", file.string(), kDeepest));
+    return true;
+  };
   try {
-    return nlohmann::ordered_json::parse(read_file_whole(file));
+    return Json::parse(read_file_whole(file), bounded);
   } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("{}: {}", file.string(), error.what()));
   }
+}
+
+/// A result with one item in each list and map, as the writer writes it.
+Json whole_result() {
+  FlightResult result;
+  result.truth_used.emplace_back();
+  result.failures.emplace_back();
+  result.closest_obstacle.distance_m = result.closest_ground.distance_m = 0.0;
+  result.checks.emplace_back();
+  result.metrics.emplace_back();
+  RunInfo info;
+  info.inputs[""] = "";
+  return result_data(info, result);
+}
+
+/// Whether keys name things of the flight, not members.
+bool is_map(std::string_view key) {
+  return key == "inputs" || key == "metrics" || key == "metric_units" || key == "metric_kinds";
+}
+
+/// The first part of `value` that has another type than that of `like`; empty when none has. What `like` lacks may be
+/// anything, what `value` lacks is not missed; null stands for a number that is not finite, and for no closest
+/// approach.
+std::string other_type(const Json& value, const Json& like, const std::string& path) {
+  const auto in = [&](const std::string& key) { return path.empty() ? key : path + "." + key; };
+  const bool may_be_null = like.is_number() || like.is_null() || path.starts_with("closest_");
+  if (value.is_null() && may_be_null) return "";
+  if (like.is_null() ? !value.is_number() : like.is_number() ? !value.is_number() : value.type() != like.type()) {
+    return path;
+  }
+  if (value.is_array()) {
+    for (size_t i = 0; i < value.size(); ++i) {
+      if (std::string fault = other_type(value[i], like[0], in(std::to_string(i))); !fault.empty()) return fault;
+    }
+  }
+  if (!value.is_object()) return "";
+  for (const auto& [key, part] : value.items()) {
+    const auto same = is_map(path) ? like.begin() : like.find(key);
+    if (same == like.end()) continue;
+    if (std::string fault = other_type(part, *same, in(key)); !fault.empty()) return fault;
+  }
+  return "";
 }
 
 std::shared_ptr<const scenes::Scene> regenerate_scene(const Scenario& scenario, uint64_t seed) {
@@ -38,21 +88,24 @@ RunRecord run_record(const Scenario& scenario, const RunInfo& info, const Flight
           .map = flight.map.empty() ? nlohmann::ordered_json(nullptr) : map_data(flight.map)};
 }
 
-nlohmann::ordered_json read_result(const std::filesystem::path& file) {
-  nlohmann::ordered_json result = read_json(file);
-  const auto is = [&](const char* key, auto holds) {
-    if (!result.is_object() || !result.contains(key) || !holds(result[key])) {
-      throw InputError(
-          fmt::format("{}: no result of a flight: '{}' is missing or of another type", file.string(), key));
-    }
+Json read_result(const std::filesystem::path& file) {
+  static const Json whole = whole_result();
+  Json result = read_json(file);
+  const auto require = [&](bool holds, std::string_view key) {
+    if (holds) return;
+    throw InputError(fmt::format("{}: no result of a flight: '{}' is missing or of another type", file.string(), key));
   };
-  const auto text = [](const auto& value) { return value.is_string(); };
-  for (const char* key : {"scenario", "version", "build", "outcome", "trajectory_hash"}) is(key, text);
-  is("seed", [](const auto& value) { return value.is_number_unsigned(); });
-  is("metrics", [](const auto& value) { return value.is_object(); });
-  is("checks", [](const auto& value) {
-    return value.is_array() && std::ranges::all_of(value, [](const auto& check) { return check.is_object(); });
-  });
+  for (const char* key : {"scenario", "version", "build", "outcome", "trajectory_hash", "seed", "metrics", "checks",
+                          "flight_time_s", "min_obstacle_clearance_m"}) {
+    require(result.is_object() && result.contains(key), key);
+  }
+  const std::string fault = other_type(result, whole, "");
+  require(fault.empty(), fault);
+  require(result["seed"].is_number_unsigned(), "seed");
+  require(result["flight_time_s"].is_number(), "flight_time_s");
+  for (const Json& check : result["checks"]) {
+    for (const char* key : {"name", "passed", "unit"}) require(check.contains(key), "checks");
+  }
   return result;
 }
 

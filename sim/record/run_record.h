@@ -26,8 +26,8 @@ struct RunRecord {
 /// The record of a flight that is in memory.
 RunRecord run_record(const Scenario& scenario, const RunInfo& info, const Flight& flight);
 
-/// Reads a result.json. Throws std::runtime_error when there is none, InputError when it is not what a flight leaves (a
-/// key is missing, or of another type).
+/// Reads a result.json. Throws std::runtime_error when there is none, InputError when it is not what a flight leaves: a
+/// key is missing that all readers look at, any is of another type than result_data() writes, or it is nested deeply.
 nlohmann::ordered_json read_result(const std::filesystem::path& file);
 
 /// The record of a run, from its folder: scenario.yaml, result.json, trajectory.csv, decisions.csv and map.json. The

@@ -10,12 +10,18 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <system_error>
+#include <vector>
 
 namespace hedgehop::sim {
 namespace {
 
 [[noreturn]] void fail(std::string_view action, const std::filesystem::path& file, int error) {
   throw std::runtime_error(fmt::format("cannot {} {}: {}", action, file.string(), std::strerror(error)));
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file, std::string_view why) {
+  throw InputError(fmt::format("cannot read {}: {}", file.string(), why));
 }
 
 /// What a call returns that no signal has interrupted.
@@ -36,32 +42,43 @@ int write_all(int descriptor, std::string_view text) {
   return 0;
 }
 
+/// What is there and is no regular file, such as a pipe or /dev/stdout: text goes into it, and it stays.
+bool is_special(const std::filesystem::path& file) {
+  struct stat info = {};
+  return ::stat(file.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
+}
+
 /// Returns 0 or errno. An interrupted close(2) has closed the file on Linux: it must not be repeated.
 int close_file(int descriptor) { return ::close(descriptor) == 0 || errno == EINTR ? 0 : errno; }
 
 }  // namespace
 
 void write_file_whole(const std::filesystem::path& file, std::string_view text) {
-  const std::filesystem::path part = file.string() + ".part";
+  const bool special = is_special(file);
+  const std::filesystem::path part = special ? file : std::filesystem::path(file.string() + ".part");
   const int descriptor =
       uninterrupted([&] { return ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666); });
   if (descriptor < 0) fail("write", file, errno);
   int error = write_all(descriptor, text);
   if (const int closing = close_file(descriptor); error == 0) error = closing;
-  if (error == 0 && ::rename(part.c_str(), file.c_str()) != 0) error = errno;
+  if (error == 0 && !special && ::rename(part.c_str(), file.c_str()) != 0) error = errno;
   if (error != 0) {
-    ::unlink(part.c_str());
+    if (!special) ::unlink(part.c_str());
     fail("write", file, error);
   }
 }
 
 std::string read_file_whole(const std::filesystem::path& file) {
-  const int descriptor = uninterrupted([&] { return ::open(file.c_str(), O_RDONLY | O_CLOEXEC); });
+  const int descriptor = uninterrupted([&] { return ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); });
+  if (descriptor < 0 && (errno == ENOENT || errno == ENOTDIR)) refuse(file, std::strerror(errno));
   if (descriptor < 0) fail("read", file, errno);
   struct stat info = {};
   std::string text;
   int error = ::fstat(descriptor, &info) == 0 ? 0 : errno;
-  if (error == 0 && S_ISDIR(info.st_mode)) error = EISDIR;
+  if (error == 0 && !S_ISREG(info.st_mode)) {
+    ::close(descriptor);
+    refuse(file, S_ISDIR(info.st_mode) ? std::strerror(EISDIR) : "is a device or a pipe, not a file");
+  }
   if (error == 0) text.resize(static_cast<size_t>(info.st_size));
   size_t filled = 0;
   while (error == 0 && filled < text.size()) {
@@ -78,13 +95,28 @@ std::string read_file_whole(const std::filesystem::path& file) {
 void require_writable(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::path there = std::filesystem::absolute(folder);
-  while (!std::filesystem::exists(there, error) && there.has_relative_path()) there = there.parent_path();
-  if (!std::filesystem::is_directory(there, error)) error = std::make_error_code(std::errc::not_a_directory);
-  if (!error && ::access(there.c_str(), W_OK) != 0) error = std::error_code(errno, std::generic_category());
+  std::vector<std::filesystem::path> missing;
+  for (; !std::filesystem::exists(there, error) && there.has_relative_path(); there = there.parent_path()) {
+    missing.push_back(there);
+  }
+  if (!missing.empty()) std::filesystem::create_directories(folder, error);  // whether it can be is known afterwards
+  if (!error && missing.empty() && !std::filesystem::is_directory(there, error)) {
+    error = std::make_error_code(std::errc::not_a_directory);
+  }
+  if (!error && missing.empty() && ::access(there.c_str(), W_OK) != 0) error = {errno, std::generic_category()};
+  for (const std::filesystem::path& made : missing) ::rmdir(made.c_str());  // what holds something stays
   if (error) {
     throw InputError(
         fmt::format("{}: no results can be written there: {}: {}", folder.string(), there.string(), error.message()));
   }
+}
+
+void require_writable_file(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error)) {
+    throw InputError(fmt::format("{}: cannot be written: it is a folder", file.string()));
+  }
+  require_writable(file.has_parent_path() ? file.parent_path() : ".");
 }
 
 }  // namespace hedgehop::sim

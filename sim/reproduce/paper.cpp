@@ -160,7 +160,7 @@ Paper read_paper(const std::filesystem::path& file) {
   Faults faults;
   const Node root = load_tree(file, faults);
   Paper paper{.key = file.stem().string(), .folder = file.parent_path()};
-  read_struct(root, "", "", paper, faults);
+  if (root.kind == Node::Kind::map) read_struct(root, "", "", paper, faults);
   faults.raise();
   for (PaperFlights& flights : paper.flights) {
     flights.scenario = (file.parent_path() / flights.scenario).lexically_normal().string();

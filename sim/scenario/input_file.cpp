@@ -1,7 +1,7 @@
 #include "sim/scenario/input_file.h"
 
 #include <fstream>
-#include <iterator>
+#include <ios>
 #include <stdexcept>
 
 namespace hedgehop::sim {
@@ -12,10 +12,14 @@ std::string read_input_file(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file, error)) throw std::invalid_argument("there is no such file");
   if (std::filesystem::is_directory(file, error)) throw std::invalid_argument("is a folder, not a file");
   if (!std::filesystem::is_regular_file(file, error)) throw std::invalid_argument("is a device or a pipe, not a file");
-  if (std::filesystem::file_size(file, error) > kMostBytes) throw std::invalid_argument("is larger than 64 MB");
+  const uintmax_t bytes = std::filesystem::file_size(file, error);
+  if (error || bytes > kMostBytes) throw std::invalid_argument("is larger than 64 MB");
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw std::invalid_argument("the file cannot be read");
-  return {std::istreambuf_iterator<char>(stream), {}};
+  std::string text(bytes, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(bytes));
+  text.resize(static_cast<size_t>(stream.gcount()));
+  if (!stream.is_open() || stream.bad()) throw std::invalid_argument("the file cannot be read");
+  return text;
 }
 
 }  // namespace hedgehop::sim

@@ -57,8 +57,9 @@ Inputs inputs_of(const Scenario& scenario, const std::set<fs::path>& read, const
 
 std::string sha256(const fs::path& file) {
   std::error_code error;
+  if (!fs::is_regular_file(file, error)) return "missing";  // a pipe would wait for its writer
   std::ifstream stream(file, std::ios::binary);
-  if (!stream || !fs::is_regular_file(file, error)) return "missing";
+  if (!stream) return "missing";
   const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
   EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr);
   std::array<char, 65536> buffer{};

@@ -79,7 +79,7 @@ class Simulation::Impl {
     while (!episode_->over() && episode_->t_s() + half_tick_s < t_s) episode_->tick();
     if (episode_->t_s() + half_tick_s >= t_s) return;
     const FlightResult ended = episode_->flight().result;
-    throw InputError(fmt::format("the flight ends at {:.3f} s ({}{}{}), before {:.3f} s", episode_->t_s(),
+    throw InputError(fmt::format("the flight ends at {:.3f} s ({}{}{}), before {:g} s", episode_->t_s(),
                                  to_string(ended.outcome), ended.cause.empty() ? "" : ": ", ended.cause, t_s));
   }
 

@@ -26,6 +26,9 @@ TEST(NumberOptions, RefuseWhatWrapsOrIsNotFinite) {
     EXPECT_THAT(answer.text, HasSubstr(option.substr(0, option.find(' ')))) << option;
   }
   EXPECT_EQ(ask("render " + kScenario + " --camera left -o /dev/null --time nan").status, kBadInput);
+  EXPECT_EQ(ask("render " + kScenario + " --camera left -o x.png --time -1").text,
+            "--time: must be 0 or more, got -1 (see --help)\n");
+  EXPECT_EQ(ask("batch " + kScenario + " --limit 0").text, "--limit: must be more than 0, got 0 (see --help)\n");
 }
 
 TEST(NumberOptions, ReadDecimally) {

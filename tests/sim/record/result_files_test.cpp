@@ -13,7 +13,9 @@
 
 #include "sim/record/csv_line.h"
 #include "sim/record/csv_table.h"
+#include "sim/record/run_record.h"
 #include "sim/record/whole_file.h"
+#include "sim/scenario/input_error.h"
 #include "tests/sim/record/fake_flight.h"
 #include "tests/sim/record/temporary_folder.h"
 
@@ -121,6 +123,40 @@ TEST(DecisionsCsv, KeepsWordsThatHoldCommasAndQuotes) {
   EXPECT_EQ(table.words("status")[1], "cruise");
   EXPECT_EQ(table.numbers("t_s")[1], flight.decisions[1].t_s);
   EXPECT_EQ(table.numbers("loom_rear_per_s")[1], flight.decisions[1].signals[7]);
+}
+
+// Whoever reads a result trusts its types: what somebody changed by hand must not end a campaign.
+TEST(ResultJson, IsReadOnlyWithTheTypesItIsWrittenWith) {
+  using Json = nlohmann::ordered_json;
+  const TemporaryFolder folder;
+  const auto read = [&](const Json& json) {
+    write_file_whole(folder.path() / "result.json", json.dump());
+    return read_result(folder.path() / "result.json");
+  };
+  const Json whole = Json::parse(result_json(kInfo, fake_flight(1.0, 1).result));
+  ASSERT_EQ(read(whole), whole);
+  for (const auto& [key, value] : whole.items()) {
+    for (const Json& other : {Json("word"), Json(-1.5), Json::array({3}), Json{{"a", 3}}, Json(true)}) {
+      if (value.is_null() || other.type() == value.type() || (other.is_number() && value.is_number())) continue;
+      Json changed = whole;
+      changed[key] = other;
+      EXPECT_THROW(read(changed), InputError) << key << ": " << other;
+    }
+    if (value.is_number() || value.is_null() || key.starts_with("closest_")) continue;  // null is not finite
+    Json changed = whole;
+    changed[key] = nullptr;
+    EXPECT_THROW(read(changed), InputError) << key;
+  }
+  Json changed = whole;
+  changed["metrics"]["a"] = "word";
+  EXPECT_THROW(read(changed), InputError);
+  changed = whole;
+  changed["checks"][0]["passed"] = 1;
+  EXPECT_THROW(read(changed), InputError);
+  changed = whole;
+  Json* inner = &changed["unknown"];
+  for (int i = 0; i < 100; ++i) inner = &(*inner)["a"];
+  EXPECT_THROW(read(changed), InputError);
 }
 
 TEST(ResultJson, HasTheKeysOfTheContractInOrder) {
