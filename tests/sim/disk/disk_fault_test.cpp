@@ -72,9 +72,9 @@ TEST_P(Disk, ThatFailsAtAnyCallIsReportedAndNothingIsLost) {
     for (const uint64_t at : calls_to_try()) {
       const std::string when = fmt::format("{} from call {}", fault, at);
       const CommandEnd end = fly(fault, at);
-      EXPECT_THAT(end.status, AnyOf(kFails, kBadInput, kInternalError)) << when << end.out << end.err;
+      EXPECT_THAT(end.status, AnyOf(kFails, kInternalError)) << when << end.out << end.err;
       EXPECT_THAT(end.out + end.err, ContainsRegex(words)) << when;
-      EXPECT_THAT(complaints(end.err), SizeIs(end.status == kFails ? 0 : 1)) << when << ": " << end.err;
+      EXPECT_THAT(complaints(end.err), SizeIs(end.status == kInternalError ? 1 : 0)) << when << ": " << end.err;
       expect_recovery(whole, when);
     }
   }
@@ -142,7 +142,7 @@ TEST(DiskOfARun, ThatFailsAtAnyCallIsReported) {
     std::filesystem::remove_all(folder.path() / "out");
     const CommandEnd end = folder.shell(folder.on_failing_disk("out", "hiccup", at) + run);
     const std::string when = fmt::format("call {} of {}: {}", at, calls, end.err);
-    EXPECT_THAT(end.status, AnyOf(0, kBadInput, kInternalError)) << when;
+    EXPECT_THAT(end.status, AnyOf(0, kInternalError)) << when;
     EXPECT_THAT(complaints(end.err), SizeIs(1)) << when;
     EXPECT_THAT(end.err, HasSubstr("Input/output error")) << when;
     EXPECT_EQ(end.err.find("warning: incomplete video") != std::string::npos, end.status == 0) << when;
