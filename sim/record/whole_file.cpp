@@ -8,10 +8,11 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
+#include <string>
 #include <system_error>
-#include <vector>
 
 namespace hedgehop::sim {
 namespace {
@@ -95,16 +96,16 @@ std::string read_file_whole(const std::filesystem::path& file) {
 void require_writable(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::path there = std::filesystem::absolute(folder);
-  std::vector<std::filesystem::path> missing;
-  for (; !std::filesystem::exists(there, error) && there.has_relative_path(); there = there.parent_path()) {
-    missing.push_back(there);
+  bool is_missing = false;
+  for (; !std::filesystem::exists(there, error) && !error && there.has_relative_path(); there = there.parent_path()) {
+    is_missing = true;
   }
-  if (!missing.empty()) std::filesystem::create_directories(folder, error);  // whether it can be is known afterwards
-  if (!error && missing.empty() && !std::filesystem::is_directory(there, error)) {
-    error = std::make_error_code(std::errc::not_a_directory);
-  }
-  if (!error && missing.empty() && ::access(there.c_str(), W_OK) != 0) error = {errno, std::generic_category()};
-  for (const std::filesystem::path& made : missing) ::rmdir(made.c_str());  // what holds something stays
+  if (!error && !std::filesystem::is_directory(there, error)) error = std::make_error_code(std::errc::not_a_directory);
+  // Whether a folder can be made only making one tells; one of another name, since others may make this one just now.
+  std::string probe = (there / ".hedgehop-XXXXXX").string();
+  if (!error && !is_missing && ::access(there.c_str(), W_OK) != 0) error = {errno, std::generic_category()};
+  if (!error && is_missing && !::mkdtemp(probe.data())) error = {errno, std::generic_category()};
+  if (!error && is_missing) ::rmdir(probe.c_str());
   if (error) {
     throw InputError(
         fmt::format("{}: no results can be written there: {}: {}", folder.string(), there.string(), error.message()));
