@@ -17,7 +17,9 @@ Fault Footprint::fault(const LevelSlice& slice, const Moment& moment, bool unkno
   for (const Outline::Disc& disc : swept_) {
     const Eigen::Vector2d p_W = moment.p_W + disc.p_H;
     worst.occupied_m = std::max(worst.occupied_m, disc.radius_m + margin_m - slice.to_occupied_m(p_W));
-    if (unknown_too) worst.unknown_m = std::max(worst.unknown_m, disc.radius_m + unsure_m - slice.to_unknown_m(p_W));
+    if (!unknown_too) continue;
+    worst.unknown_m = std::max(worst.unknown_m, disc.radius_m - slice.to_unknown_m(p_W));
+    worst.beside_unknown_m = std::max(worst.beside_unknown_m, disc.radius_m + unsure_m - slice.to_unknown_m(p_W));
   }
   return worst;
 }

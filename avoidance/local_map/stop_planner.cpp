@@ -93,11 +93,14 @@ StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& 
       best = {v_cmd_W, false, 0.0, std::move(path)};
       return;
     }
+    double beside_m = 0.0;
+    for (const Moment& moment : path) beside_m = std::max(beside_m, fault(moment).beside_unknown_m);
     const Fault end = fault(path.back());
     const double there_m = to_goal_m(path.back().p_W).value_or(kNowhereM);
-    constexpr double kFaultPrice = 10.0, kThreatPrice = 30.0;
+    constexpr double kFaultPrice = 10.0, kBesidePrice = 10.0, kThreatPrice = 30.0;
     double cost = there_m + kFaultPrice * std::max(end.occupied_m, end.unknown_m) +
                   kTurnPriceS2pm * speed_mps_ * (v_cmd_W - last_cmd_W).norm() + kBlindPriceS * blind_mps(v_cmd_W);
+    cost += kBesidePrice * beside_m;
     if (cost < best_cost) cost += kThreatPrice * threatened_m(v_cmd_W, path);
     if (cost >= best_cost) return;
     best_cost = cost;

@@ -35,6 +35,7 @@ struct Moment {
 /// not.
 struct Fault {
   double occupied_m = 0.0, unknown_m = 0.0;
+  double beside_unknown_m = 0.0;  ///< of what it had better keep from the unknown, and need not
 };
 
 /// Chooses the velocity to command: the one whose stop lies nearest to the goal, among those after which the vehicle,
