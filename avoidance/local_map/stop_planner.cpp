@@ -53,11 +53,15 @@ StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& 
   const Fault fault_now = fault(now);
   const auto most_m = [](double now_m) { return now_m > 0.0 ? now_m + kSlackM : 0.0; };
   const Fault most{most_m(fault_now.occupied_m), most_m(fault_now.unknown_m)};
-  // How far a path goes where it may not, and how fast it is there: 0 where it never does.
+  // How far a path goes where it may not, and how fast it is there: 0 where it never does; and how much nearer to the
+  // unknown than it had better, known of paths without excess.
+  double beside_m = 0.0;
   const auto excess_m = [&](const std::vector<Moment>& path, double enough_m) {
     double worst_m = 0.0;
+    beside_m = 0.0;
     for (const Moment& moment : path) {
       const Fault there = fault(moment);
+      beside_m = std::max(beside_m, there.beside_unknown_m);
       const double past_m = std::max(there.occupied_m - most.occupied_m, there.unknown_m - most.unknown_m);
       if (past_m > 0.0) worst_m = std::max(worst_m, past_m + kImpactPriceS * moment.v_W.norm());
       if (worst_m > enough_m) break;
@@ -93,14 +97,12 @@ StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& 
       best = {v_cmd_W, false, 0.0, std::move(path)};
       return;
     }
-    double beside_m = 0.0;
-    for (const Moment& moment : path) beside_m = std::max(beside_m, fault(moment).beside_unknown_m);
     const Fault end = fault(path.back());
     const double there_m = to_goal_m(path.back().p_W).value_or(kNowhereM);
     constexpr double kFaultPrice = 10.0, kBesidePrice = 10.0, kThreatPrice = 30.0;
     double cost = there_m + kFaultPrice * std::max(end.occupied_m, end.unknown_m) +
-                  kTurnPriceS2pm * speed_mps_ * (v_cmd_W - last_cmd_W).norm() + kBlindPriceS * blind_mps(v_cmd_W);
-    cost += kBesidePrice * beside_m;
+                  kTurnPriceS2pm * speed_mps_ * (v_cmd_W - last_cmd_W).norm() + kBlindPriceS * blind_mps(v_cmd_W) +
+                  kBesidePrice * beside_m;
     if (cost < best_cost) cost += kThreatPrice * threatened_m(v_cmd_W, path);
     if (cost >= best_cost) return;
     best_cost = cost;
