@@ -86,6 +86,7 @@ TEST(LocalMapFlight, WithAPairThatLooksAftItFliesBackAtOnceAndClearOfWhatStandsT
   };
   constexpr double kFartherM = 1.5;
   EXPECT_GT(flown_m(true), flown_m(false) + kFartherM);
+  world.looks_aft = true;
   world.duration_s = 60.0;
   const PointWorld::Flown flown = world.fly({});
   EXPECT_TRUE(flown.reached);
