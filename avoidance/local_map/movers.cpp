@@ -50,9 +50,11 @@ std::vector<Movers::Lump> Movers::lumps_of(const View& view, std::span<const Sur
       }
     }
     Lump lump;
-    lump.points = static_cast<int>(members.size());
     Eigen::Vector2d middle_W = Eigen::Vector2d::Zero();
-    for (const size_t i : members) middle_W += points[i].p_W / lump.points;
+    for (const size_t i : members) {
+      lump.points_W.push_back(points[i].p_W);
+      middle_W += points[i].p_W / static_cast<double>(members.size());
+    }
     lump.eye_W = view.eye_W;
     lump.sight_W = (middle_W - view.eye_W).normalized();
     const Eigen::Vector2d right_W(-lump.sight_W.y(), lump.sight_W.x());
@@ -71,7 +73,7 @@ std::vector<Movers::Lump> Movers::lumps_of(const View& view, std::span<const Sur
     }
     lump.radius_m = 0.5 * (right_m - left_m + config_.spacing_m);
     lump.near_W = view.eye_W + near_m * lump.sight_W + 0.5 * (left_m + right_m) * right_W;
-    if (lump.radius_m <= kWidestM) lumps.push_back(lump);
+    if (lump.radius_m <= kWidestM) lumps.push_back(std::move(lump));
   }
   return lumps;
 }
@@ -105,6 +107,7 @@ void Movers::predict(double dt_s) {
   push << 0.5 * dt_s * dt_s * Eigen::Matrix2d::Identity(), dt_s * Eigen::Matrix2d::Identity();
   for (Track& track : tracks_) {
     track.state = step * track.state;
+    track.face.move(dt_s * track.state.tail<2>());
     track.covariance =
         step * track.covariance * step.transpose() + kAccelerationMps2 * kAccelerationMps2 * push * push.transpose();
   }
@@ -124,11 +127,12 @@ void Movers::correct(Track& track, const Lump& lump, const View& view) const {
   const Eigen::Matrix<double, 4, 2> gain = track.covariance.leftCols<2>() * innovation.inverse();
   track.state += gain * (p_W - track.state.head<2>());
   track.covariance -= (gain * track.covariance.topRows<2>()).eval();
-  const bool appears = lump.appeared >= kAppeared && lump.appeared >= kAppearedShare * lump.points;
+  const bool appears = lump.appeared >= kAppeared && lump.appeared >= kAppearedShare * static_cast<double>(lump.points_W.size());
   // What the view cuts may show no more than the side that it leaves.
   const int proof = appears ? 1 : whole ? -1 : 0;
   track.evidence = std::clamp(track.evidence + proof, 0, kMostEvidence);
   track.unseen = 0;
+  track.face.see(t_s_, lump.points_W);
   // Whether it stands: the Mahalanobis distance of no motion.
   const Eigen::Vector2d v_W = track.state.tail<2>();
   const double sigmas = std::sqrt(v_W.dot(track.covariance.bottomRightCorner<2, 2>().inverse() * v_W));
@@ -174,6 +178,7 @@ void Movers::update(double t_s, const View& view, std::span<const SurfacePoint> 
     track.state.head<2>() = lump.middle_W(lump.radius_m);
     track.covariance.topLeftCorner<2, 2>() = covariance_m2(lump.near_W, view.eye_W);
     track.covariance.bottomRightCorner<2, 2>() = kFirstSpeedMps * kFirstSpeedMps * Eigen::Matrix2d::Identity();
+    track.face.see(t_s, lump.points_W);
     tracks_.push_back(track);
   }
 }
@@ -184,7 +189,8 @@ std::vector<Mover> Movers::movers() const {
     if (!track.is_mover) continue;
     const Eigen::Vector4d variances = track.covariance.diagonal();
     movers.push_back({track.state.head<2>(), track.state.tail<2>(), track.radius_m,
-                      std::sqrt(variances.head<2>().maxCoeff()), std::sqrt(variances.tail<2>().maxCoeff())});
+                      std::sqrt(variances.head<2>().maxCoeff()), std::sqrt(variances.tail<2>().maxCoeff()),
+                      track.face.hull_W()});
   }
   return movers;
 }

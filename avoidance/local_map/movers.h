@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "avoidance/local_map/seen_face.h"
+
 namespace hedgehop::avoidance::local_map {
 
 /// A point of an obstacle's surface, in the plane of flight.
@@ -24,11 +26,12 @@ struct View {
   static double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 };
 
-/// What moves, as a disc.
+/// What moves: a disc, and what was seen of it.
 struct Mover {
   Eigen::Vector2d p_W, v_W;  ///< of its middle, at Movers' last image, m, m/s
   double radius_m = 0.0;
   double p_sigma_m = 0.0, v_sigma_mps = 0.0;  ///< 1-sigma of either component, the larger one
+  std::vector<Eigen::Vector2d> face_W = {};   ///< convex hull of what was seen lately, moved along
 };
 
 /// Finds and follows what moves: surfaces that appear in space seen to be free. Lumps of them are followed by a filter
@@ -54,7 +57,8 @@ class Movers {
     Eigen::Vector2d eye_W, near_W, sight_W;   ///< near_W: the middle of the face; sight_W: from the eye, of length 1
     Eigen::Vector2d left_end_W, right_end_W;  ///< its outermost points
     double radius_m = 0.0;                    ///< half as much as it is wide, across
-    int points = 0, appeared = 0;
+    std::vector<Eigen::Vector2d> points_W;
+    int appeared = 0;  ///< of the points
     bool cut_left = false, cut_right = false;  ///< by the view's edge
 
     Eigen::Vector2d middle_W(double disc_m) const;
@@ -65,6 +69,7 @@ class Movers {
     double radius_m;
     int evidence = 1, unseen = 0;  ///< images
     bool is_mover = false;
+    SeenFace face = {};
   };
 
   std::vector<Lump> lumps_of(const View& view, std::span<const SurfacePoint> points) const;

@@ -20,10 +20,11 @@ double threat_m(std::span<const Moment> path, std::span<const Mover> movers, con
     for (const Mover& mover : movers) {
       const double dt_s = moment.t_s - t_s;
       const double sigma_m = std::min(mover.p_sigma_m + mover.v_sigma_mps * std::max(0.0, dt_s), kVaguestM);
-      const Eigen::Vector2d off_W = moment.p_W - mover.p_W;
-      double away_m = (off_W - dt_s * mover.v_W).norm();
-      if (mover.v_sigma_mps > kVagueMps) away_m = std::min(away_m, off_W.norm());
-      worst_m = std::max(worst_m, clearance.hull_m + margin_m + kBesideM + sigma_m + mover.radius_m - away_m);
+      const Eigen::Vector2d then_W = moment.p_W - dt_s * mover.v_W;
+      double from_m = (then_W - mover.p_W).norm() - mover.radius_m;
+      if (mover.v_sigma_mps > kVagueMps) from_m = std::min(from_m, (moment.p_W - mover.p_W).norm() - mover.radius_m);
+      if (!mover.face_W.empty()) from_m = std::min(from_m, away_m(mover.face_W, then_W));
+      worst_m = std::max(worst_m, clearance.hull_m + margin_m + kBesideM + sigma_m - from_m);
     }
   };
   if (movers.empty()) return 0.0;
