@@ -15,12 +15,13 @@ constexpr double kAccelerationMps2 = 1.0;  // 1-sigma of what a mover's velocity
 constexpr double kFirstSpeedMps = 2.0;     // 1-sigma of a velocity before anything is known of it
 constexpr int kAppeared = 2;               // points of a lump where free space was, at least
 constexpr double kAppearedShare = 0.1;
-constexpr int kEvidence = 3, kMostEvidence = 6;
+constexpr int kEvidence = 3, kMostEvidence = 6, kAppearedEvidence = 2;
 constexpr double kSlowestMps = 0.25, kSigmas = 3.0, kMovesSigmas = 2.0;
 constexpr double kStillMps = 0.12, kStillSigmas = 1.0;  // below, what moved is taken to stand
 constexpr double kShrinks = 0.1;                        // of a radius, an image, towards a smaller one that is seen
 constexpr double kHiddenM = 5.0;                        // 1-sigma along the sight, where the near face is not seen
-constexpr double kLostM = 1.5;  // 1-sigma of a position, beyond which a track would take up whatever comes by
+constexpr double kHidesM = 1.0;  // what is nearer than this beyond the nearest depth may hide some of its face already
+constexpr double kLostM = 1.5;   // 1-sigma of a position, beyond which a track would take up whatever comes by
 
 }  // namespace
 
@@ -57,11 +58,13 @@ std::vector<Movers::Lump> Movers::lumps_of(const View& view, std::span<const Sur
     }
     lump.eye_W = view.eye_W;
     lump.sight_W = (middle_W - view.eye_W).normalized();
+    lump.nearest_m = std::numeric_limits<double>::infinity();
     const Eigen::Vector2d right_W(-lump.sight_W.y(), lump.sight_W.x());
     double near_m = std::numeric_limits<double>::infinity(), left_m = near_m, right_m = -near_m;
     for (const size_t i : members) {
       const Eigen::Vector2d off_W = points[i].p_W - view.eye_W;
       near_m = std::min(near_m, off_W.dot(lump.sight_W));
+      lump.nearest_m = std::min(lump.nearest_m, off_W.norm());
       const double across_m = off_W.dot(right_W);
       if (across_m < left_m) lump.left_end_W = points[i].p_W;
       if (across_m > right_m) lump.right_end_W = points[i].p_W;
@@ -79,12 +82,13 @@ std::vector<Movers::Lump> Movers::lumps_of(const View& view, std::span<const Sur
 }
 
 /// The middle of the disc that shows a lump: as deep as wide. Where the view cuts what was seen wider, its near face
-/// may be out of view: then the line of sight that touches its other side tells.
+/// may be out of view: then the line of sight that touches its other side tells; no farther than what is seen of it.
 Eigen::Vector2d Movers::Lump::middle_W(double disc_m) const {
   if (cut_left == cut_right || disc_m <= radius_m) return near_W + disc_m * sight_W;
   const Eigen::Vector2d& side_W = cut_right ? left_end_W : right_end_W;
   const Eigen::Vector2d along_W = (side_W - eye_W).normalized(), right_W(-along_W.y(), along_W.x());
-  return side_W + (cut_right ? disc_m : -disc_m) * right_W;
+  const Eigen::Vector2d off_W = side_W + (cut_right ? disc_m : -disc_m) * right_W - eye_W;
+  return eye_W + std::min(1.0, (nearest_m + disc_m) / off_W.norm()) * off_W;
 }
 
 Eigen::Matrix2d Movers::covariance_m2(const Eigen::Vector2d& p_W, const Eigen::Vector2d& eye_W) const {
@@ -97,7 +101,7 @@ Eigen::Matrix2d Movers::covariance_m2(const Eigen::Vector2d& p_W, const Eigen::V
 }
 
 bool Movers::hides(const Track& track, const Eigen::Vector2d& eye_W) const {
-  return (track.state.head<2>() - eye_W).norm() - track.radius_m < config_.nearest_m;
+  return (track.state.head<2>() - eye_W).norm() - track.radius_m < config_.nearest_m + kHidesM;
 }
 
 void Movers::predict(double dt_s) {
@@ -115,10 +119,15 @@ void Movers::predict(double dt_s) {
 
 void Movers::correct(Track& track, const Lump& lump, const View& view) const {
   const bool whole = !lump.cut_left && !lump.cut_right;
-  if (lump.radius_m > track.radius_m) {
-    track.radius_m = lump.radius_m;
-  } else if (whole) {
-    track.radius_m += kShrinks * (lump.radius_m - track.radius_m);
+  // The face that was seen stays where it is: more of it is seen, nothing has moved.
+  const double grows_m = lump.radius_m > track.radius_m ? lump.radius_m - track.radius_m
+                         : whole                        ? kShrinks * (lump.radius_m - track.radius_m)
+                                                        : 0.0;
+  track.radius_m += grows_m;
+  track.state.head<2>() += grows_m * lump.sight_W;
+  if (grows_m > 0.0 && lump.cut_left != lump.cut_right) {
+    const Eigen::Vector2d right_W(-lump.sight_W.y(), lump.sight_W.x());
+    track.state.head<2>() += (lump.cut_right ? grows_m : -grows_m) * right_W;
   }
   const Eigen::Vector2d p_W = lump.middle_W(track.radius_m);
   Eigen::Matrix2d error_m2 = covariance_m2(p_W, view.eye_W);
@@ -127,7 +136,8 @@ void Movers::correct(Track& track, const Lump& lump, const View& view) const {
   const Eigen::Matrix<double, 4, 2> gain = track.covariance.leftCols<2>() * innovation.inverse();
   track.state += gain * (p_W - track.state.head<2>());
   track.covariance -= (gain * track.covariance.topRows<2>()).eval();
-  const bool appears = lump.appeared >= kAppeared && lump.appeared >= kAppearedShare * static_cast<double>(lump.points_W.size());
+  const bool appears =
+      lump.appeared >= kAppeared && lump.appeared >= kAppearedShare * static_cast<double>(lump.points_W.size());
   // What the view cuts may show no more than the side that it leaves.
   const int proof = appears ? 1 : whole ? -1 : 0;
   track.evidence = std::clamp(track.evidence + proof, 0, kMostEvidence);
@@ -193,6 +203,18 @@ std::vector<Mover> Movers::movers() const {
                       track.face.hull_W()});
   }
   return movers;
+}
+
+std::vector<Mover> Movers::appeared() const {
+  std::vector<Mover> appeared;
+  for (const Track& track : tracks_) {
+    if (track.is_mover || track.unseen > 0 || track.evidence < kAppearedEvidence) continue;
+    Mover& face = appeared.emplace_back();
+    face.face_W = track.face.hull_W();
+    face.p_W = face.face_W.front();
+    face.v_W.setZero();
+  }
+  return appeared;
 }
 
 }  // namespace hedgehop::avoidance::local_map

@@ -51,14 +51,18 @@ class Movers {
 
   /// At the time of the last image.
   std::vector<Mover> movers() const;
+  /// What appeared where free space was, in this image, and is no mover yet: its face, as if it stood. The map, sure
+  /// that it is free there, takes longer to believe it.
+  std::vector<Mover> appeared() const;
 
  private:
   struct Lump {
     Eigen::Vector2d eye_W, near_W, sight_W;   ///< near_W: the middle of the face; sight_W: from the eye, of length 1
     Eigen::Vector2d left_end_W, right_end_W;  ///< its outermost points
     double radius_m = 0.0;                    ///< half as much as it is wide, across
+    double nearest_m = 0.0;                   ///< from the eye to its nearest point
     std::vector<Eigen::Vector2d> points_W;
-    int appeared = 0;  ///< of the points
+    int appeared = 0;                          ///< of the points
     bool cut_left = false, cut_right = false;  ///< by the view's edge
 
     Eigen::Vector2d middle_W(double disc_m) const;
