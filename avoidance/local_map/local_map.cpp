@@ -102,7 +102,7 @@ class LocalMap final : public Module {
   StopPlanner::Plan plan_to(const Moment& now, const StopPlanner::ToGoal& least_m, bool unknown_too = true) const {
     return planner_.choose(
         now, last_cmd_W_, [&](const Moment& m) { return fault(m, unknown_too); },
-        [&](const std::vector<Moment>& path) { return threat_m(path, around_->threats(), clearance_, now.t_s); },
+        [&](const std::vector<Moment>& path) { return threat_m(path, around_->movers(), clearance_, now.t_s); },
         least_m);
   }
 

@@ -15,7 +15,7 @@ constexpr double kAccelerationMps2 = 1.0;  // 1-sigma of what a mover's velocity
 constexpr double kFirstSpeedMps = 2.0;     // 1-sigma of a velocity before anything is known of it
 constexpr int kAppeared = 2;               // points of a lump where free space was, at least
 constexpr double kAppearedShare = 0.1;
-constexpr int kEvidence = 3, kMostEvidence = 6, kAppearedEvidence = 2;
+constexpr int kEvidence = 3, kMostEvidence = 6;
 constexpr double kSlowestMps = 0.25, kSigmas = 3.0, kMovesSigmas = 2.0;
 constexpr double kStillMps = 0.12, kStillSigmas = 1.0;  // below, what moved is taken to stand
 constexpr double kShrinks = 0.1;                        // of a radius, an image, towards a smaller one that is seen
@@ -203,18 +203,6 @@ std::vector<Mover> Movers::movers() const {
                       track.face.hull_W()});
   }
   return movers;
-}
-
-std::vector<Mover> Movers::appeared() const {
-  std::vector<Mover> appeared;
-  for (const Track& track : tracks_) {
-    if (track.is_mover || track.unseen > 0 || track.evidence < kAppearedEvidence) continue;
-    Mover& face = appeared.emplace_back();
-    face.face_W = track.face.hull_W();
-    face.p_W = face.face_W.front();
-    face.v_W.setZero();
-  }
-  return appeared;
 }
 
 }  // namespace hedgehop::avoidance::local_map

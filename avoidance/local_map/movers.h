@@ -51,9 +51,6 @@ class Movers {
 
   /// At the time of the last image.
   std::vector<Mover> movers() const;
-  /// What appeared where free space was, in this image, and is no mover yet: its face, as if it stood. The map, sure
-  /// that it is free there, takes longer to believe it.
-  std::vector<Mover> appeared() const;
 
  private:
   struct Lump {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "avoidance/heading.h"
 
@@ -191,8 +190,6 @@ void Surroundings::follow_movers(double t_s, const Eye& eye, const Eigen::Isomet
   };
   tracker_.update(t_s, {X_WC.translation().head<2>(), along_W(0), along_W(eye.source.image().width - 1)}, surface_);
   movers_ = tracker_.movers();
-  threats_ = movers_;
-  std::ranges::move(tracker_.appeared(), std::back_inserter(threats_));
 }
 
 /// What is out of view is forgotten as fast as the position drifts: in flight, and a tenth as fast hovering.

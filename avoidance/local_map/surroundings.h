@@ -48,8 +48,6 @@ class Surroundings {
 
   const LevelSlice& slice() const { return slice_; }
   const std::vector<Mover>& movers() const { return movers_; }
-  /// The movers, and what may become one.
-  const std::vector<Mover>& threats() const { return threats_; }
   const vision::mapping::DepthBlocks& blocks() const { return eyes_.front().blocks; }  ///< of the first pair
   size_t closed_cells() const { return closed_.size(); }
   double height_W() const { return height_W_; }  ///< z that is flown at
@@ -89,7 +87,7 @@ class Surroundings {
   double remembered_s_ = 0.0;  ///< when what is occupied was put there last
   Movers tracker_;
   std::vector<SurfacePoint> surface_;  ///< of the last image, at the heights that are flown through
-  std::vector<Mover> movers_, threats_;
+  std::vector<Mover> movers_;
   double movers_at_s_ = 0.0;
   std::vector<vision::mapping::OccupancyMap::Disc> discs_;
   double blind_m_ = 0.0, height_W_ = 0.0;

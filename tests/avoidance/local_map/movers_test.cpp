@@ -107,6 +107,25 @@ TEST(Movers, WhatComesTooNearToBeMeasuredIsNotTakenToGoAway) {
   }
 }
 
+// It comes out from behind something, across the line of sight: more of it is seen, and its middle is farther than the
+// middle of a part. That is no motion.
+TEST(Movers, WhatTurnsOutLargerDoesNotGoAway) {
+  constexpr double kRadiusM = 3.0;
+  Movers movers({});
+  const Eigen::Vector2d v_W(0.0, -1.5);
+  Eigen::Vector2d p_W(12.0, 2.0);
+  for (int image = 0; image < 14; ++image, p_W += 0.08 * v_W) {
+    std::vector<SurfacePoint> seen = face_of(p_W, kRadiusM, p_W - 0.08 * v_W);
+    const double half_m = 0.5 + 0.3 * image;
+    std::erase_if(seen, [&](const SurfacePoint& point) { return std::abs(point.p_W.y() - p_W.y()) > half_m; });
+    movers.update(0.08 * image, kAllAhead, seen);
+  }
+  const std::vector<Mover> found = movers.movers();
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_LT(std::abs(found[0].v_W.x()), 0.5);
+  EXPECT_LT((found[0].p_W - p_W).norm(), 1.0);
+}
+
 TEST(Movers, FindsNothingWhereAllStands) {
   Movers movers({});
   for (int image = 0; image < 30; ++image) {
@@ -122,7 +141,10 @@ TEST(Threat, IsWhatAStandingVehicleIsRunOverBy) {
   const std::vector<Moment> stands = {{5.0, {0.0, 0.0}, {0.0, 0.0}}};
   const Clearance clearance{.hull_m = 0.5, .margin_m = 0.25, .margin_s = 0.0};
   const Mover comes{.p_W = {6.0, 0.0}, .v_W = {-2.0, 0.0}, .radius_m = 1.0};
-  EXPECT_NEAR(threat_m(stands, std::array{comes}, clearance, 5.0), 2.25, 0.11);  // its middle passes by the vehicle's
+  // Its middle passes by the vehicle's, and while it is nearer than 2.25 m it lacks as much: a triangle, up to 4 s.
+  constexpr double kWorstM = 2.25, kSpeedMps = 2.0, kLeftM = 0.25;
+  const double lasts_ms = (kWorstM * kWorstM - 0.5 * kLeftM * kLeftM) / kSpeedMps;
+  EXPECT_NEAR(threat_m(stands, std::array{comes}, clearance, 5.0), kWorstM + lasts_ms, 0.25);
   const Mover passes{.p_W = {6.0, 4.0}, .v_W = {-2.0, 0.0}, .radius_m = 1.0};
   EXPECT_EQ(threat_m(stands, std::array{passes}, clearance, 5.0), 0.0);
   // A velocity that is not known well keeps nothing free that the mover may as well stay in.
@@ -130,6 +152,34 @@ TEST(Threat, IsWhatAStandingVehicleIsRunOverBy) {
   EXPECT_GT(threat_m(stands, std::array{may_stay}, clearance, 4.0), 1.25);
   const Mover leaves{.p_W = {2.5, 0.0}, .v_W = {2.0, 0.0}, .radius_m = 1.0};
   EXPECT_EQ(threat_m(stands, std::array{leaves}, clearance, 5.0), 0.0);
+}
+
+// All paths begin as near; the better one leaves.
+TEST(Threat, IsLessForWhoLeaves) {
+  const Clearance clearance{.hull_m = 0.5, .margin_m = 0.25, .margin_s = 0.0};
+  const Mover comes{.p_W = {2.5, 0.0}, .v_W = {-1.0, 0.0}, .radius_m = 1.5};
+  const auto flies = [](double v_mps) {
+    std::vector<Moment> path;
+    for (double t_s = 0.0; t_s < 3.0; t_s += 0.1) path.push_back({t_s, {-v_mps * t_s, 0.0}, {-v_mps, 0.0}});
+    return path;
+  };
+  double last_m = threat_m(flies(0.0), std::array{comes}, clearance, 0.0);
+  for (const double v_mps : {0.5, 1.0, 1.5, 2.0}) {
+    const double threat = threat_m(flies(v_mps), std::array{comes}, clearance, 0.0);
+    EXPECT_LT(threat, last_m) << v_mps;
+    last_m = threat;
+  }
+}
+
+// What was seen of it reaches farther than its disc.
+TEST(Threat, IsWhatWasSeenToo) {
+  const std::vector<Moment> stands = {{0.0, {0.0, 0.0}, {0.0, 0.0}}};
+  const Clearance clearance{.hull_m = 0.5, .margin_m = 0.25, .margin_s = 0.0};
+  Mover mover{.p_W = {4.0, 0.0}, .v_W = {0.0, 0.0}, .radius_m = 1.0};
+  EXPECT_EQ(threat_m(stands, std::array{mover}, clearance, 0.0), 0.0);
+  mover.face_W = {{1.0, -0.5}, {3.0, 0.0}, {1.0, 0.5}};
+  constexpr double kLacksM = 0.5 + 0.25 + 0.5 - 1.0;  // hull, margin, what is kept beside movers, and what is there
+  EXPECT_NEAR(threat_m(stands, std::array{mover}, clearance, 0.0), kLacksM * (1.0 + 4.0), 0.05);
 }
 
 TEST(NearestToCome, IsTheMoverThatWillPassNearest) {
