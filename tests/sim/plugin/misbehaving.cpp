@@ -48,6 +48,7 @@ class Misbehaving : public Module {
 
  private:
   Needs do_needs() const override { return {{{.role = "front"}}}; }
+  std::vector<Signal> do_signals() const override { return {{"AA", "m"}, {"aa", "m"}}; }  // a column each
   void do_reset(const Setup&) override { decisions_ = 0; }
 
   Decision do_update(const Observation& seen) override {
@@ -56,7 +57,7 @@ class Misbehaving : public Module {
     if (decisions_ >= config_.at && config_.how == MisbehavingConfig::How::not_finite) {
       command.altitude_m = std::numeric_limits<double>::quiet_NaN();
     }
-    return {.command = command, .status = "cruise", .signals = {}};
+    return {.command = command, .status = "cruise", .signals = {1.0, 2.0}};
   }
 
   void misbehave() {
@@ -73,6 +74,8 @@ class Misbehaving : public Module {
     for (const double number : config_.list) sum += number;
     return {{"decisions_seen", static_cast<double>(decisions_), ""},
             {"parameters_sum", sum + static_cast<double>(config_.word.size()), ""},
+            {"AA", 1.0, ""},
+            {"aa", 2.0, ""},              // a database takes both for one
             {"corners_found", 1.0, ""}};  // the name of a figure of the judge
   }
 

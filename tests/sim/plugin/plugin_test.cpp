@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <sqlite3.h>
 
 #include "sim/campaign/table.h"
 #include "tests/sim/campaign/campaign_folder.h"
@@ -88,6 +89,29 @@ TEST_F(Plugin, InABatchTheOthersFlyOn) {
     EXPECT_EQ(flight["result"]["outcome"] == "fault", !ours) << flight["id"];
     EXPECT_EQ(flight["passed"], ours);
   }
+}
+
+TEST_F(Plugin, NamesThatDifferOnlyInCaseAreBothInASweepsTables) {
+  fly_by(HEDGEHOP_MISBEHAVING, "limit: 1, parameters: {}");
+  folder.write("sweep.yaml",
+               "scenario: plug.yaml\nseeds: 1:2\ndesign: {type: grid}\n"
+               "parameters: [{path: avoidance.parameters.speed, values: [0.5, 1]}]\n");
+  const CommandEnd end = folder.hedgehop("sweep sweep.yaml --out out");
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_THAT(folder.read("out/sweep.csv"), AllOf(HasSubstr("metric.module.AA"), HasSubstr("metric.module.aa")));
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open((folder.path() / "out/sweep.sqlite").c_str(), &database), SQLITE_OK);
+  sqlite3_stmt* statement = nullptr;
+  const char* const columns = R"(SELECT "metric.module.AA", "metric.module.aa_2" FROM flights)";
+  ASSERT_EQ(sqlite3_prepare_v2(database, columns, -1, &statement, nullptr), SQLITE_OK) << sqlite3_errmsg(database);
+  int flights = 0;
+  for (; sqlite3_step(statement) == SQLITE_ROW; ++flights) {
+    EXPECT_EQ(sqlite3_column_double(statement, 0), 1.0);
+    EXPECT_EQ(sqlite3_column_double(statement, 1), 2.0);
+  }
+  EXPECT_EQ(flights, 4);
+  sqlite3_finalize(statement);
+  sqlite3_close(database);
 }
 
 TEST_F(Plugin, AnotherInterfaceNoPluginAndNoFileAreTold) {
