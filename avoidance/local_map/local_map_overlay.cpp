@@ -37,6 +37,10 @@ cv::Mat draw(const ShownPlan& shown) {
   for (const Mover& mover : shown.movers) {
     const cv::Scalar orange(240, 140, 20);
     cv::circle(image, pixel(mover.p_W), px(mover.radius_m), orange, 1);
+    for (size_t i = 0; i < mover.face_W.size(); ++i) {
+      const Eigen::Vector2d& next_W = mover.face_W[(i + 1) % mover.face_W.size()];
+      cv::line(image, pixel(mover.face_W[i]), pixel(next_W), orange, 1);
+    }
     cv::line(image, pixel(mover.p_W), pixel(mover.p_W + mover.v_W), orange, 1);
   }
   if (shown.look_W) cv::circle(image, pixel(*shown.look_W), 4, {230, 60, 40}, 2);
