@@ -9,7 +9,6 @@ constexpr double kForeseenS = 4.0;
 constexpr double kNearM = 4.0;     // between hulls: who comes nearer is kept in view
 constexpr double kVagueMps = 0.7;  // 1-sigma of a velocity that may as well be none: the mover's place stays free, too
 constexpr double kVaguestM = 1.0;  // of a position to come, that is kept free besides
-constexpr double kLastsS = 1.0;   // for how long it is near counts as much as how near it comes: who is near must leave
 constexpr double kBesideM = 0.5;  // what is nearer is hardly matched, and a crown is no disc
 
 }  // namespace
@@ -36,7 +35,7 @@ double threat_m(std::span<const Moment> path, std::span<const Mover> movers, con
   for (const Moment& moment : path) meet(moment);
   Moment stands{path.back().t_s, path.back().p_W, Eigen::Vector2d::Zero()};
   while ((stands.t_s += kStepS) < path.front().t_s + kForeseenS) meet(stands);
-  return worst_m + sum_m * kStepS / kLastsS;
+  return 0.5 * (worst_m + sum_m * kStepS / kForeseenS);
 }
 
 const Mover* nearest_to_come(const Moment& now, std::span<const Mover> movers, double hull_m) {

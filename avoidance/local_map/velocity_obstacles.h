@@ -7,8 +7,8 @@
 
 namespace hedgehop::avoidance::local_map {
 
-/// By how much a path comes nearer to movers than it should, m: at worst, and besides for as long as it does, by its
-/// mean over a second each; 0 where it never does. A mover forbids what
+/// By how much a path comes nearer to movers than it should, m: the mean of the worst and of the mean over 4 s, so
+/// that of two that begin as near the one that leaves is better; 0 where it never does. A mover forbids what
 /// leads into the disc where it will be, its velocity being known: velocity obstacles, [FioriniShiller1998] sec. 3.
 /// Differs: paths bend and end in a stop instead of straight lines; discs grow with the error of their velocity, and
 /// stay where they are, too, while that is hardly known;

@@ -143,13 +143,13 @@ TEST(Threat, IsWhatAStandingVehicleIsRunOverBy) {
   const Mover comes{.p_W = {6.0, 0.0}, .v_W = {-2.0, 0.0}, .radius_m = 1.0};
   // Its middle passes by the vehicle's, and while it is nearer than 2.25 m it lacks as much: a triangle, up to 4 s.
   constexpr double kWorstM = 2.25, kSpeedMps = 2.0, kLeftM = 0.25;
-  const double lasts_ms = (kWorstM * kWorstM - 0.5 * kLeftM * kLeftM) / kSpeedMps;
-  EXPECT_NEAR(threat_m(stands, std::array{comes}, clearance, 5.0), kWorstM + lasts_ms, 0.25);
+  const double mean_m = (kWorstM * kWorstM - 0.5 * kLeftM * kLeftM) / kSpeedMps / 4.0;
+  EXPECT_NEAR(threat_m(stands, std::array{comes}, clearance, 5.0), 0.5 * (kWorstM + mean_m), 0.08);
   const Mover passes{.p_W = {6.0, 4.0}, .v_W = {-2.0, 0.0}, .radius_m = 1.0};
   EXPECT_EQ(threat_m(stands, std::array{passes}, clearance, 5.0), 0.0);
   // A velocity that is not known well keeps nothing free that the mover may as well stay in.
   const Mover may_stay{.p_W = {1.0, 0.0}, .v_W = {20.0, 0.0}, .radius_m = 1.0, .v_sigma_mps = 1.5};
-  EXPECT_GT(threat_m(stands, std::array{may_stay}, clearance, 4.0), 1.25);
+  EXPECT_GT(threat_m(stands, std::array{may_stay}, clearance, 4.0), 0.5 * 1.25);
   const Mover leaves{.p_W = {2.5, 0.0}, .v_W = {2.0, 0.0}, .radius_m = 1.0};
   EXPECT_EQ(threat_m(stands, std::array{leaves}, clearance, 5.0), 0.0);
 }
@@ -179,7 +179,7 @@ TEST(Threat, IsWhatWasSeenToo) {
   EXPECT_EQ(threat_m(stands, std::array{mover}, clearance, 0.0), 0.0);
   mover.face_W = {{1.0, -0.5}, {3.0, 0.0}, {1.0, 0.5}};
   constexpr double kLacksM = 0.5 + 0.25 + 0.5 - 1.0;  // hull, margin, what is kept beside movers, and what is there
-  EXPECT_NEAR(threat_m(stands, std::array{mover}, clearance, 0.0), kLacksM * (1.0 + 4.0), 0.05);
+  EXPECT_NEAR(threat_m(stands, std::array{mover}, clearance, 0.0), kLacksM, 0.01);
 }
 
 TEST(NearestToCome, IsTheMoverThatWillPassNearest) {
