@@ -9,7 +9,7 @@ constexpr double kForeseenS = 4.0;
 constexpr double kNearM = 4.0;     // between hulls: who comes nearer is kept in view
 constexpr double kVagueMps = 0.7;  // 1-sigma of a velocity that may as well be none: the mover's place stays free, too
 constexpr double kVaguestM = 1.0;  // of a position to come, that is kept free besides
-constexpr double kBesideM = 0.5;  // what is nearer is hardly matched, and a crown is no disc
+constexpr double kBesideM = 0.5;   // what is nearer is hardly matched, and a crown is no disc
 
 }  // namespace
 

