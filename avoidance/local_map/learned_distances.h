@@ -19,8 +19,8 @@ namespace hedgehop::avoidance::local_map {
 /// of the states that a search expanded, and only of one place in each square.
 class LearnedDistances {
  public:
-  /// Takes what the field says of the free places around the vehicle. @param z_W  the height of its slice. Another goal
-  /// forgets all. @param goal_W  as the mission names it, so that it stays the same from call to call.
+  /// Takes what the field says of the free places around the vehicle. Another goal forgets all.
+  /// @param p_W  of the vehicle; its z is the height of the slice. @param goal_W  as the mission names it, so that it stays the same from call to call.
   void learn(const RouteField& route, const LevelSlice& slice, const Eigen::Vector3d& p_W,
              const Eigen::Vector3d& goal_W);
 
