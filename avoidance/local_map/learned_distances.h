@@ -20,7 +20,8 @@ namespace hedgehop::avoidance::local_map {
 class LearnedDistances {
  public:
   /// Takes what the field says of the free places around the vehicle. Another goal forgets all.
-  /// @param p_W  of the vehicle; its z is the height of the slice. @param goal_W  as the mission names it, so that it stays the same from call to call.
+  /// @param p_W  of the vehicle; its z is the height of the slice. @param goal_W  as the mission names it, so that it
+  /// stays the same from call to call.
   void learn(const RouteField& route, const LevelSlice& slice, const Eigen::Vector3d& p_W,
              const Eigen::Vector3d& goal_W);
 

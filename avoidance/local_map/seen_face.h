@@ -12,7 +12,8 @@ class SeenFace {
  public:
   /// By what its mover has moved, m.
   void move(const Eigen::Vector2d& by_W);
-  /// Adds an image's points, and forgets those that were seen 2 s before or earlier. @param t_s  rises from call to call.
+  /// Adds an image's points, and forgets those that were seen 2 s before or earlier. @param t_s  rises from call to
+  /// call.
   void see(double t_s, std::span<const Eigen::Vector2d> points_W);
   /// The convex hull of all that is remembered, turning from north to east; empty before anything was seen.
   std::vector<Eigen::Vector2d> hull_W() const;
