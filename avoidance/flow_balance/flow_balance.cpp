@@ -29,12 +29,7 @@ class FlowBalance final : public Module {
 
   Needs do_needs() const override { return SideCameras::needs(); }
 
-  std::vector<Signal> do_signals() const override {
-    auto signals = SideCameras::signals();
-    signals.push_back({"target_v_north_mps", "m/s"});
-    signals.push_back({"target_v_east_mps", "m/s"});
-    return signals;
-  }
+  std::vector<Signal> do_signals() const override { return SideCameras::signals(); }
 
   void do_reset(const Setup& setup) override {
     cameras_.emplace(setup, config_.flow, /*derotate=*/!printed());
@@ -62,8 +57,8 @@ class FlowBalance final : public Module {
     Decision decision;
     decision.command = VelocityCommand{*v_cmd_W_, -observation.goal.p_WG.z(), observation.goal.heading_rad};
     decision.status = avoids ? "avoid" : "cruise";
-    decision.signals = cameras_->signal_values(printed() ? std::nullopt : std::optional(ranging_->nearest_per_m()));
-    decision.signals.insert(decision.signals.end(), {v_tgt_W_.x(), v_tgt_W_.y()});
+    decision.signals =
+        cameras_->signal_values(printed() ? std::nullopt : std::optional(ranging_->nearest_per_m()), v_tgt_W_);
     ++decisions_;
     avoiding_ += avoids ? 1 : 0;
     return decision;

@@ -32,6 +32,8 @@ std::vector<Signal> SideCameras::signals() {
     signals.push_back({"valid_share_" + role, ""});
     signals.push_back({"inverse_range_" + role + "_per_m", "1/m"});
   }
+  signals.push_back({"target_v_north_mps", "m/s"});
+  signals.push_back({"target_v_east_mps", "m/s"});
   return signals;
 }
 
@@ -61,7 +63,7 @@ void SideCameras::update(const Observation& observation) {
 }
 
 std::vector<double> SideCameras::signal_values(
-    const std::optional<std::array<double, kSideCount>>& inverse_ranges_per_m) const {
+    const std::optional<std::array<double, kSideCount>>& inverse_ranges_per_m, const Eigen::Vector2d& v_tgt_W) const {
   std::vector<double> values;
   for (size_t i = 0; i < kSideCount; ++i) {
     const auto& measure = measures_[i];
@@ -70,6 +72,7 @@ std::vector<double> SideCameras::signal_values(
     values.push_back(measure ? measure->valid_share : kUnknown);
     values.push_back(measure && inverse_ranges_per_m ? (*inverse_ranges_per_m)[i] : kUnknown);
   }
+  values.insert(values.end(), {v_tgt_W.x(), v_tgt_W.y()});
   return values;
 }
 

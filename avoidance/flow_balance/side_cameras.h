@@ -51,9 +51,10 @@ class SideCameras {
   /// Smallest share of valid patches so far, of any image; 1 before the first.
   double least_valid_share() const { return least_valid_share_; }
 
-  /// Per side: flow, loom, share of valid patches and inverse range; NaN where unknown.
-  /// @param inverse_ranges_per_m  nothing where the module measures none.
-  std::vector<double> signal_values(const std::optional<std::array<double, kSideCount>>& inverse_ranges_per_m) const;
+  /// Per side: flow, loom, share of valid patches and inverse range; NaN where unknown. Then the target velocity.
+  /// @param inverse_ranges_per_m  nothing where the module measures none. @param v_tgt_W  m/s.
+  std::vector<double> signal_values(const std::optional<std::array<double, kSideCount>>& inverse_ranges_per_m,
+                                    const Eigen::Vector2d& v_tgt_W) const;
   /// Returns the four images with their flow and a compass of velocities (CV_8UC3, RGB); empty before the first image.
   /// @param v_tgt_H, v_cmd_H  target and command in H, m/s.  @param speed_mps  just inside the compass's circle, > 0.
   cv::Mat annotate(const Eigen::Vector2d& v_tgt_H, const Eigen::Vector2d& v_cmd_H, double speed_mps) const;

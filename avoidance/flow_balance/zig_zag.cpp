@@ -28,12 +28,7 @@ class ZigZag final : public Module {
 
   Needs do_needs() const override { return SideCameras::needs(); }
 
-  std::vector<Signal> do_signals() const override {
-    auto signals = SideCameras::signals();
-    signals.push_back({"target_v_north_mps", "m/s"});
-    signals.push_back({"target_v_east_mps", "m/s"});
-    return signals;
-  }
+  std::vector<Signal> do_signals() const override { return SideCameras::signals(); }
 
   void do_reset(const Setup& setup) override {
     cameras_.emplace(setup, config_.flow, /*derotate=*/!printed());
@@ -61,8 +56,8 @@ class ZigZag final : public Module {
     Decision decision;
     decision.command = VelocityCommand{v_cmd_W_, -observation.goal.p_WG.z(), observation.goal.heading_rad};
     decision.status = turned ? "turn" : "cruise";
-    decision.signals = cameras_->signal_values(printed() ? std::nullopt : std::optional(ranging_->nearest_per_m()));
-    decision.signals.insert(decision.signals.end(), {v_cmd_W_.x(), v_cmd_W_.y()});
+    decision.signals =
+        cameras_->signal_values(printed() ? std::nullopt : std::optional(ranging_->nearest_per_m()), v_cmd_W_);
     ++decisions_;
     turns_ += turned ? 1 : 0;
     return decision;

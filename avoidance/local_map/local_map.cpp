@@ -27,7 +27,7 @@ using stereo::DisparitySource;
 using vision::mapping::DepthBlock;
 
 constexpr double kAheadM = 4.0;  // along the route, to which the nose points
-constexpr double kStandsMps = 0.3, kHoversMps = 0.05;
+constexpr double kHoversMps = 0.05;
 constexpr double kLittleM = 0.5;  // of progress, that is not worth to tilt the camera for
 // What is near flies past too fast to be measured, so that speed follows height, as bees' does: [Srinivasan1996] sec.
 // on flight speed.
@@ -67,10 +67,8 @@ class LocalMap final : public Module {
     most_mps_ = std::min(config_.speed_mps, limits.speed_mps);
     last_.reset();
     last_cmd_W_.setZero();
-    look_W_.reset();
-    backs_off_ = false;
-    stares_since_s_.reset();
-    waits_since_s_.reset();
+    gaze_ = {};
+    waits_.reset();
     stops_ = stuck_ = decisions_ = 0;
   }
 
@@ -130,17 +128,9 @@ class LocalMap final : public Module {
     constexpr double kArrivedM = 0.5, kHeldBack = 0.6;
     const bool arrived = p_BG_W.norm() < kArrivedM;
     const bool held = !arrived && route_m && plan_.worth_m < kHeldBack * hoped.worth_m;
-    const bool keeps_looking = look_W_ && is_unknown(slice(), *look_W_);
-    if (!held && !(keeps_looking && backs_off_ && points_at(*look_W_, now.p_W, heading))) look_W_.reset();
-    if (held && !keeps_looking) look_W_ = unknown_in_the_way(slice(), footprint_, hoped.path, clearance_.hull_m);
-    // Who speeds up tilts the camera, and sees something else: not for little, where there is something to look at.
-    if (look_W_ && plan_.safe && plan_.worth_m < kLittleM) {
-      plan_ = plan_to(now, [&](const Eigen::Vector2d& at_W) { return (at_W - p_W).norm(); });
-    }
-    backs_off_ = look_W_ && (backs_off_ || now.v_W.norm() < kStandsMps);
-    if (backs_off_) back_off(now);
-    stare(now, heading, plan_, t_s);
-    const bool goes_on = route_m && !(waits(now, t_s) && !look_W_ && !arrived);
+    gaze_.update(held, hoped.path, slice(), footprint_, clearance_.hull_m, now, heading);
+    look(now, heading);
+    const bool goes_on = route_m && !(waits(now) && !gaze_.place_W() && !arrived);
     const double nose = with_course_in_view(now, nose_rad(observation, arrived, goes_on));
     last_nose_rad_ = footprint_.turn_as_far_as_free_rad(slice(), plan_.path, heading, nose);
     if (last_nose_rad_ != nose && plan_.v_cmd_W.norm() < kHoversMps) make_room(now, heading, nose);
@@ -156,7 +146,7 @@ class LocalMap final : public Module {
                       : !plan_.safe               ? "brake"
                       : around_->changes_height() ? "level"
                       : !goes_on                  ? "stuck"
-                      : look_W_                   ? "look"
+                      : gaze_.place_W()           ? "look"
                                                   : "cruise";
     stuck_ += !goes_on;
     stops_ += !plan_.safe;
@@ -183,13 +173,26 @@ class LocalMap final : public Module {
     if (z_W) around_->change_height(*z_W);
   }
 
-  /// Moves away from what it cannot see because it is too near, below or beside the image: where it came from is free.
-  void back_off(const Moment& now) {
-    const Eigen::Vector2d look_W = *look_W_;
-    const auto too_near_m = [&](const Eigen::Vector2d& p_W) {
-      return std::max(0.0, around_->blind_m() - (p_W - look_W).norm());
-    };
-    escape(now, too_near_m);
+  /// Plans so that what is in the way can be seen, and closes what stays unknown while the vehicle stands and looks at
+  /// it.
+  void look(const Moment& now, double heading) {
+    const std::optional<Eigen::Vector2d>& place_W = gaze_.place_W();
+    // Who speeds up tilts the camera, and sees something else: not for little, where there is something to look at.
+    if (place_W && plan_.safe && plan_.worth_m < kLittleM) {
+      plan_ = plan_to(now, [&](const Eigen::Vector2d& at_W) { return (at_W - now.p_W).norm(); });
+    }
+    // Away from what it cannot see because it is too near, below or beside the image: where it came from is free.
+    if (gaze_.backs_off()) {
+      escape(now,
+             [&](const Eigen::Vector2d& p_W) { return std::max(0.0, around_->blind_m() - (p_W - *place_W).norm()); });
+    }
+    const std::optional<double> stares_s = gaze_.stares_s(now, plan_.v_cmd_W, heading);
+    if (!stares_s || *stares_s < config_.stare_s) return;
+    // Not what touches the vehicle, which would then not dare to move away.
+    constexpr double kRadiusM = 1.0;
+    const double away_m = (*place_W - now.p_W).norm() - clearance_.hull_m - clearance_.margin_m - slice().cell_m();
+    around_->close(*place_W, std::clamp(away_m, 0.5 * slice().cell_m(), kRadiusM), now.t_s);
+    gaze_.stare_again();
   }
 
   /// Moves to where it may turn.
@@ -208,30 +211,10 @@ class LocalMap final : public Module {
     if (lacks_m(now.p_W) > 0.0 || lacks_m(plan_.path.back().p_W) > 0.0) plan_ = plan_to(now, lacks_m);
   }
 
-  /// Closes what stays unknown while the vehicle stands and looks at it.
-  void stare(const Moment& now, double heading, const StopPlanner::Plan& plan, double t_s) {
-    constexpr double kRadiusM = 1.0;
-    const bool stands = now.v_W.norm() < kStandsMps && plan.v_cmd_W.norm() < kStandsMps;
-    if (!look_W_ || !stands || !points_at(*look_W_, now.p_W, heading)) {
-      stares_since_s_.reset();
-      return;
-    }
-    if (!stares_since_s_) stares_since_s_ = t_s;
-    if (t_s - *stares_since_s_ < config_.stare_s) return;
-    // Not what touches the vehicle, which would then not dare to move away.
-    const double away_m = (*look_W_ - now.p_W).norm() - clearance_.hull_m - clearance_.margin_m - slice().cell_m();
-    around_->close(*look_W_, std::clamp(away_m, 0.5 * slice().cell_m(), kRadiusM), t_s);
-    stares_since_s_.reset();
-  }
-
   /// Whether it has stood for longer than it stares.
-  bool waits(const Moment& now, double t_s) {
-    if (now.v_W.norm() > kStandsMps || plan_.v_cmd_W.norm() > kHoversMps) {
-      waits_since_s_.reset();
-    } else if (!waits_since_s_) {
-      waits_since_s_ = t_s;
-    }
-    return waits_since_s_ && t_s - *waits_since_s_ > config_.stare_s;
+  bool waits(const Moment& now) {
+    const std::optional<double> for_s = waits_.update(stands(now.v_W) && plan_.v_cmd_W.norm() <= kHoversMps, now.t_s);
+    return for_s && *for_s > config_.stare_s;
   }
 
   double nose_rad(const Observation& observation, bool arrived, bool goes_on) const {
@@ -244,7 +227,7 @@ class LocalMap final : public Module {
     };
     if (arrived) return observation.goal.heading_rad;
     if (!goes_on) return heading + 0.5;  // looks round: what blocks may have been wrong, or gone
-    if (look_W_) return towards(*look_W_);
+    if (gaze_.place_W()) return towards(*gaze_.place_W());
     return towards(route_.route_W(p_W, kAheadM).back());
   }
 
@@ -258,7 +241,7 @@ class LocalMap final : public Module {
     };
     const Mover* const mover = nearest_to_come(now, around_->movers(), clearance_.hull_m);
     if (mover) near_to(mover->p_W - now.p_W, kShareOfView * around_->half_view_rad());
-    if ((mover || !look_W_) && now.v_W.norm() > kFastMps) near_to(now.v_W, kAsideRad);
+    if ((mover || !gaze_.place_W()) && now.v_W.norm() > kFastMps) near_to(now.v_W, kAsideRad);
     return nose_rad;
   }
 
@@ -269,7 +252,7 @@ class LocalMap final : public Module {
 
   cv::Mat do_annotate() const override {
     if (!last_) return {};
-    return draw({slice(), plan_.path, route_.route_W(plan_.path.front().p_W, 30.0), look_W_, around_->movers(),
+    return draw({slice(), plan_.path, route_.route_W(plan_.path.front().p_W, 30.0), gaze_.place_W(), around_->movers(),
                  clearance_.hull_m, last_->status});
   }
 
@@ -288,9 +271,8 @@ class LocalMap final : public Module {
   LearnedDistances learned_;
   double last_nose_rad_ = 0.0;  ///< commanded
   Eigen::Vector2d last_cmd_W_ = Eigen::Vector2d::Zero();
-  std::optional<Eigen::Vector2d> look_W_;  ///< what is unknown and in the way
-  bool backs_off_ = false;                 ///< has stood before it, and keeps away until it is seen or closed
-  std::optional<double> stares_since_s_, waits_since_s_;
+  Gaze gaze_;
+  Lasting waits_;
   std::optional<Decision> last_;
   int64_t stops_ = 0, stuck_ = 0, decisions_ = 0;
 };

@@ -35,4 +35,22 @@ bool points_at(const Eigen::Vector2d& place_W, const Eigen::Vector2d& p_W, doubl
   return std::abs(std::remainder(std::atan2(off_W.y(), off_W.x()) - heading_rad, 2.0 * M_PI)) < kAimedRad;
 }
 
+void Gaze::update(bool held, const std::vector<Moment>& hoped, const LevelSlice& slice, const Footprint& footprint,
+                  double hull_m, const Moment& now, double heading_rad) {
+  const bool unknown_still = place_W_ && is_unknown(slice, *place_W_);
+  if (!held && !(unknown_still && backs_off_ && points_at(*place_W_, now.p_W, heading_rad))) place_W_.reset();
+  if (held && !unknown_still) place_W_ = unknown_in_the_way(slice, footprint, hoped, hull_m);
+  backs_off_ = place_W_ && (backs_off_ || stands(now.v_W));
+}
+
+std::optional<double> Gaze::stares_s(const Moment& now, const Eigen::Vector2d& v_cmd_W, double heading_rad) {
+  return stares_.update(place_W_ && stands(now.v_W) && stands(v_cmd_W) && points_at(*place_W_, now.p_W, heading_rad),
+                        now.t_s);
+}
+
+bool stands(const Eigen::Vector2d& v_W) {
+  constexpr double kStandsMps = 0.3;
+  return v_W.norm() < kStandsMps;
+}
+
 }  // namespace hedgehop::avoidance::local_map

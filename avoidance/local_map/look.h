@@ -21,4 +21,46 @@ std::optional<Eigen::Vector2d> unknown_in_the_way(const LevelSlice& slice, const
 /// Whether the nose points at a place, within 20 degrees. @param heading_rad  of the nose, from north to east.
 bool points_at(const Eigen::Vector2d& place_W, const Eigen::Vector2d& p_W, double heading_rad);
 
+/// For how long something has been so.
+class Lasting {
+ public:
+  /// @return s, 0 from the first time on; nothing where it does not hold.
+  std::optional<double> update(bool holds, double t_s) {
+    if (!holds) {
+      since_s_.reset();
+      return {};
+    }
+    if (!since_s_) since_s_ = t_s;
+    return t_s - *since_s_;
+  }
+  void reset() { since_s_.reset(); }
+
+ private:
+  std::optional<double> since_s_;
+};
+
+/// The unknown place that keeps the vehicle from a better stop, if one does, and to which its nose therefore turns.
+class Gaze {
+ public:
+  const std::optional<Eigen::Vector2d>& place_W() const { return place_W_; }
+  /// Has stood before the place, and keeps away until it is seen or closed.
+  bool backs_off() const { return backs_off_; }
+
+  /// @param held  a plan that ignored the unknown would stop at a better place: at the end of `hoped`.
+  void update(bool held, const std::vector<Moment>& hoped, const LevelSlice& slice, const Footprint& footprint,
+              double hull_m, const Moment& now, double heading_rad);
+
+  /// For how long the vehicle has stood and looked at the place, s. @param v_cmd_W  what is commanded now.
+  std::optional<double> stares_s(const Moment& now, const Eigen::Vector2d& v_cmd_W, double heading_rad);
+  void stare_again() { stares_.reset(); }
+
+ private:
+  std::optional<Eigen::Vector2d> place_W_;
+  bool backs_off_ = false;
+  Lasting stares_;
+};
+
+/// Whether a vehicle stands.
+bool stands(const Eigen::Vector2d& v_W);
+
 }  // namespace hedgehop::avoidance::local_map

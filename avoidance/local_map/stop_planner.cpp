@@ -23,6 +23,99 @@ constexpr double kBlindMps = 2.0;         // not to be exceeded where the camera
 constexpr double kBlindPriceS = 3.0;      // and what each m/s beyond counts for, as a distance
 constexpr double kSlackM = 0.02;          // by which a path that begins too near may come nearer still
 
+constexpr double kFaultPrice = 10.0, kBesidePrice = 10.0, kThreatPrice = 30.0;
+
+/// The best of the velocities that have been considered.
+class Search {
+ public:
+  using Plan = StopPlanner::Plan;
+
+  Search(const StopPlanner& planner, const Moment& now, const Eigen::Vector2d& last_cmd_W,
+         const StopPlanner::FaultAt& fault, const StopPlanner::Threat& threat_m, const StopPlanner::ToGoal& to_goal_m)
+      : planner_(planner),
+        now_(now),
+        last_cmd_W_(last_cmd_W),
+        fault_(fault),
+        threat_m_(threat_m),
+        to_goal_m_(to_goal_m),
+        here_m_(to_goal(now.p_W)) {
+    // A vehicle that is too near already may leave by any path that comes no nearer to the same: what is occupied
+    // excuses nothing where it is unknown, and the other way round.
+    const Fault fault_now = fault(now);
+    const auto most_m = [](double now_m) { return now_m > 0.0 ? now_m + kSlackM : 0.0; };
+    most_ = {most_m(fault_now.occupied_m), most_m(fault_now.unknown_m)};
+  }
+
+  /// @param turn_price_m  what its change of the command costs. @param blind_mps  by which it is too fast where nothing
+  /// is seen.
+  void consider(const Eigen::Vector2d& v_cmd_W, double turn_price_m, double blind_mps) {
+    std::vector<Moment> path = planner_.predict(now_, last_cmd_W_, v_cmd_W, kHoldS);
+    double bad_m = excess_m(path, best_.safe ? 0.0 : least_bad_m_);
+    if (bad_m > 0.0) {  // to be flown only where nothing else is left
+      if (best_.safe || bad_m >= least_bad_m_) return;
+      bad_m += kFleeShare * threat_m_(path);
+      if (bad_m >= least_bad_m_) return;
+      least_bad_m_ = bad_m;
+      best_ = {v_cmd_W, false, 0.0, std::move(path)};
+      return;
+    }
+    const Fault end = fault_(path.back());
+    const double there_m = to_goal(path.back().p_W);
+    double cost = there_m + kFaultPrice * std::max(end.occupied_m, end.unknown_m) + turn_price_m +
+                  kBlindPriceS * blind_mps + kBesidePrice * beside_m_;
+    if (cost < best_cost_) cost += kThreatPrice * threatened_m(v_cmd_W, path);
+    if (cost >= best_cost_) return;
+    best_cost_ = cost;
+    best_ = {v_cmd_W, true, here_m_ - there_m, std::move(path)};
+  }
+
+  Plan best() && { return std::move(best_); }
+
+ private:
+  double to_goal(const Eigen::Vector2d& p_W) const {
+    constexpr double kNoWayM = 1e4;
+    return to_goal_m_(p_W).value_or(kNoWayM);
+  }
+
+  /// How far a path goes where it may not, and how fast it is there: 0 where it never does; in `beside_m_` how much
+  /// nearer to the unknown than it had better, known of paths without excess.
+  double excess_m(const std::vector<Moment>& path, double enough_m) {
+    double worst_m = 0.0;
+    beside_m_ = 0.0;
+    for (const Moment& moment : path) {
+      const Fault there = fault_(moment);
+      beside_m_ = std::max(beside_m_, there.beside_unknown_m);
+      const double past_m = std::max(there.occupied_m - most_.occupied_m, there.unknown_m - most_.unknown_m);
+      if (past_m > 0.0) worst_m = std::max(worst_m, past_m + kImpactPriceS * moment.v_W.norm());
+      if (worst_m > enough_m) break;
+    }
+    return worst_m;
+  }
+
+  /// A velocity is as threatened as the safest of the paths that begin with it.
+  double threatened_m(const Eigen::Vector2d& v_cmd_W, const std::vector<Moment>& path) {
+    double least_m = threat_m_(path);
+    for (const double hold_s : kLongHoldsS) {
+      if (least_m == 0.0) break;
+      const std::vector<Moment> longer = planner_.predict(now_, last_cmd_W_, v_cmd_W, hold_s);
+      if (excess_m(longer, 0.0) == 0.0) least_m = std::min(least_m, threat_m_(longer));
+    }
+    return least_m;
+  }
+
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+  const StopPlanner& planner_;
+  const Moment& now_;
+  const Eigen::Vector2d& last_cmd_W_;
+  const StopPlanner::FaultAt& fault_;
+  const StopPlanner::Threat& threat_m_;
+  const StopPlanner::ToGoal& to_goal_m_;
+  Fault most_;
+  double here_m_, beside_m_ = 0.0;
+  Plan best_;
+  double best_cost_ = kNever, least_bad_m_ = kNever;
+};
+
 }  // namespace
 
 std::vector<Moment> StopPlanner::predict(const Moment& now, const Eigen::Vector2d& last_cmd_W,
@@ -47,66 +140,14 @@ std::vector<Moment> StopPlanner::predict(const Moment& now, const Eigen::Vector2
 
 StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& last_cmd_W, const FaultAt& fault,
                                       const Threat& threat_m, const ToGoal& to_goal_m) const {
-  constexpr double kNever = std::numeric_limits<double>::infinity(), kNowhereM = 1e4;
-  // A vehicle that is too near already may leave by any path that comes no nearer to the same: what is occupied excuses
-  // nothing where it is unknown, and the other way round.
-  const Fault fault_now = fault(now);
-  const auto most_m = [](double now_m) { return now_m > 0.0 ? now_m + kSlackM : 0.0; };
-  const Fault most{most_m(fault_now.occupied_m), most_m(fault_now.unknown_m)};
-  // How far a path goes where it may not, and how fast it is there: 0 where it never does; and how much nearer to the
-  // unknown than it had better, known of paths without excess.
-  double beside_m = 0.0;
-  const auto excess_m = [&](const std::vector<Moment>& path, double enough_m) {
-    double worst_m = 0.0;
-    beside_m = 0.0;
-    for (const Moment& moment : path) {
-      const Fault there = fault(moment);
-      beside_m = std::max(beside_m, there.beside_unknown_m);
-      const double past_m = std::max(there.occupied_m - most.occupied_m, there.unknown_m - most.unknown_m);
-      if (past_m > 0.0) worst_m = std::max(worst_m, past_m + kImpactPriceS * moment.v_W.norm());
-      if (worst_m > enough_m) break;
-    }
-    return worst_m;
-  };
-  // A velocity is as threatened as the safest of the paths that begin with it.
-  const auto threatened_m = [&](const Eigen::Vector2d& v_cmd_W, const std::vector<Moment>& path) {
-    double least_m = threat_m(path);
-    for (const double hold_s : kLongHoldsS) {
-      if (least_m == 0.0) break;
-      const std::vector<Moment> longer = predict(now, last_cmd_W, v_cmd_W, hold_s);
-      if (excess_m(longer, 0.0) == 0.0) least_m = std::min(least_m, threat_m(longer));
-    }
-    return least_m;
-  };
-  const double here_m = to_goal_m(now.p_W).value_or(kNowhereM);
-  Plan best;
-  double best_cost = kNever, least_bad_m = kNever;
+  Search search(*this, now, last_cmd_W, fault, threat_m, to_goal_m);
   // Where it does not look it only remembers, and knows less well where that is.
   const auto blind_mps = [&](const Eigen::Vector2d& v_cmd_W) {
     const double past_mps = v_cmd_W.norm() - kBlindMps;
     return past_mps > 0.0 && !looks_along_(std::atan2(v_cmd_W.y(), v_cmd_W.x())) ? past_mps : 0.0;
   };
   const auto consider = [&](const Eigen::Vector2d& v_cmd_W) {
-    std::vector<Moment> path = predict(now, last_cmd_W, v_cmd_W, kHoldS);
-    double bad_m = excess_m(path, best.safe ? 0.0 : least_bad_m);
-    if (bad_m > 0.0) {  // to be flown only where nothing else is left
-      if (best.safe || bad_m >= least_bad_m) return;
-      bad_m += kFleeShare * threat_m(path);
-      if (bad_m >= least_bad_m) return;
-      least_bad_m = bad_m;
-      best = {v_cmd_W, false, 0.0, std::move(path)};
-      return;
-    }
-    const Fault end = fault(path.back());
-    const double there_m = to_goal_m(path.back().p_W).value_or(kNowhereM);
-    constexpr double kFaultPrice = 10.0, kBesidePrice = 10.0, kThreatPrice = 30.0;
-    double cost = there_m + kFaultPrice * std::max(end.occupied_m, end.unknown_m) +
-                  kTurnPriceS2pm * speed_mps_ * (v_cmd_W - last_cmd_W).norm() + kBlindPriceS * blind_mps(v_cmd_W) +
-                  kBesidePrice * beside_m;
-    if (cost < best_cost) cost += kThreatPrice * threatened_m(v_cmd_W, path);
-    if (cost >= best_cost) return;
-    best_cost = cost;
-    best = {v_cmd_W, true, here_m - there_m, std::move(path)};
+    search.consider(v_cmd_W, kTurnPriceS2pm * speed_mps_ * (v_cmd_W - last_cmd_W).norm(), blind_mps(v_cmd_W));
   };
   consider(Eigen::Vector2d::Zero());
   for (int i = 0; i < kDirections; ++i) {
@@ -114,7 +155,7 @@ StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& 
     const Eigen::Vector2d direction_W(std::cos(azimuth_rad), std::sin(azimuth_rad));
     for (const double share : kShares) consider(share * speed_mps_ * direction_W);
   }
-  return best;
+  return std::move(search).best();
 }
 
 }  // namespace hedgehop::avoidance::local_map

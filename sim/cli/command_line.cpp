@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <functional>
 #include <sstream>
+#include <string_view>
+#include <vector>
 
 #include "sim/cli/campaign_options.h"
 #include "sim/cli/commands.h"
@@ -17,6 +20,7 @@
 #include "sim/flight/build.h"
 #include "sim/scenario/document.h"
 #include "sim/scenario/input_error.h"
+#include "sim/scenario/tree.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -52,125 +56,135 @@ struct VehicleOptions {
   LinearizeOptions linearize;
 };
 
-/// Declares the commands; the one that is chosen ends up in `chosen`.
-void declare(CLI::App& app, std::function<int()>& chosen, RunOptions& run, RenderOptions& render,
-             CalibrationOptions& calibration, VehicleOptions& vehicles, std::string& topic, ExportOptions& data,
-             ReportOptions& report) {
-  CLI::App* const run_command = app.add_subcommand("run",
-                                                   "fly a scenario; write a folder with verdict, tables, film "
-                                                   "and report");
-  add_scenario(*run_command, run.scenario);
-  run_command->add_option("--out", run.out, "folder of the results; out/<name>-seed<seed> when not given")
-      ->type_name("DIR");
-  run_command->add_flag("--no-video", run.no_video, "write no video");
-  run_command->add_flag("--no-report", run.no_report, "write no report.html; `hedgehop report DIR` does so later");
-  run_command->add_option("--worker-of", run.worker_of)->group("");  // hidden: for batch and sweep
-  run_command->add_flag("--json", run.json, "print result.json instead of lines for people");
-  run_command->callback([&] { chosen = [&run] { return cli::run(run); }; });
+// Each declares a command; the one that is chosen ends up in `chosen`.
 
-  CLI::App* const render_command = app.add_subcommand("render", "write the image of one camera as PNG");
-  auto* const file = render_command->add_option("SCENARIO", render.scenario.file, "scenario file (YAML)");
-  add_layers(*render_command, render.scenario);
-  auto* const camera = render_command->add_option("--camera", render.camera, "role of the camera")->type_name("NAME");
-  render_command->add_option("--time", render.time_s, "time of the image, s; the flight is flown up to it")
+void declare_run(CLI::App& app, std::function<int()>& chosen, RunOptions& run) {
+  CLI::App* const command = app.add_subcommand("run",
+                                               "fly a scenario; write a folder with verdict, tables, film "
+                                               "and report");
+  add_scenario(*command, run.scenario);
+  command->add_option("--out", run.out, "folder of the results; out/<name>-seed<seed> when not given")
+      ->type_name("DIR");
+  command->add_flag("--no-video", run.no_video, "write no video");
+  command->add_flag("--no-report", run.no_report, "write no report.html; `hedgehop report DIR` does so later");
+  command->add_option("--worker-of", run.worker_of)->group("");  // hidden: for batch and sweep
+  command->add_flag("--json", run.json, "print result.json instead of lines for people");
+  command->callback([&] { chosen = [&run] { return cli::run(run); }; });
+}
+
+void declare_render(CLI::App& app, std::function<int()>& chosen, RenderOptions& render) {
+  CLI::App* const command = app.add_subcommand("render", "write the image of one camera as PNG");
+  auto* const file = command->add_option("SCENARIO", render.scenario.file, "scenario file (YAML)");
+  add_layers(*command, render.scenario);
+  auto* const camera = command->add_option("--camera", render.camera, "role of the camera")->type_name("NAME");
+  command->add_option("--time", render.time_s, "time of the image, s; the flight is flown up to it")
       ->transform(number())
       ->check(not_negative())
       ->type_name("S");
-  render_command
+  command
       ->add_option("--what", render.what,
                    "color, grey; depth (red 0.5 m, green 10 m, blue 200 m, sky white), depth_mm (16-bit PNG, "
                    "millimeters, 0 beyond 65 m); flow to the camera's next image (right red, left cyan, white at "
                    "rest, full at 16 px); labels (a color for each object, sky black)")
       ->check(CLI::IsMember({"color", "grey", "depth", "depth_mm", "flow", "labels"}));
-  auto* const out = render_command->add_option("-o", render.out, "file to write")->type_name("FILE.png");
-  auto* const info = render_command->add_flag("--info", render.info, "print the OpenGL renderer, and stop");
-  render_command->callback([&, file, camera, out, info] {
+  auto* const out = command->add_option("-o", render.out, "file to write")->type_name("FILE.png");
+  auto* const info = command->add_flag("--info", render.info, "print the OpenGL renderer, and stop");
+  command->callback([&, file, camera, out, info] {
     if (!*info && (!*file || !*camera || !*out)) {
       throw CLI::RequiredError("render: SCENARIO, --camera and -o (or --info)");
     }
     chosen = [&render] { return cli::render(render); };
   });
+}
 
-  CLI::App* const calibration_command =
+void declare_calibration(CLI::App& app, std::function<int()>& chosen, CalibrationOptions& calibration) {
+  CLI::App* const command =
       app.add_subcommand("calibration", "write the intrinsics and poses of the rig's cameras for other programs");
-  add_scenario(*calibration_command, calibration.scenario);
-  calibration_command->add_option("--format", calibration.format, "opencv (FileStorage YAML, the default) or kalibr")
+  add_scenario(*command, calibration.scenario);
+  command->add_option("--format", calibration.format, "opencv (FileStorage YAML, the default) or kalibr")
       ->check(CLI::IsMember({"opencv", "kalibr"}));
-  calibration_command->add_option("-o", calibration.out, "file to write; standard output when not given")
-      ->type_name("FILE.yaml");
-  calibration_command->callback([&] { chosen = [&calibration] { return cli::calibration(calibration); }; });
+  command->add_option("-o", calibration.out, "file to write; standard output when not given")->type_name("FILE.yaml");
+  command->callback([&] { chosen = [&calibration] { return cli::calibration(calibration); }; });
+}
 
-  declare_campaigns(app, chosen);
-
-  CLI::App* const export_command =
+void declare_export(CLI::App& app, std::function<int()>& chosen, ExportOptions& data) {
+  CLI::App* const command =
       app.add_subcommand("export", "re-simulate a run and write images, IMU, truth and calibration for other programs");
-  export_command->add_option("RUN", data.folder, "folder of a run, as `hedgehop run` leaves it")->required();
-  export_command
+  command->add_option("RUN", data.folder, "folder of a run, as `hedgehop run` leaves it")->required();
+  command
       ->add_option("--format", data.format,
                    "euroc: mav0 with all cameras; tum: RGB-D of one pinhole, its depth true; kitti: odometry, pinholes "
                    "of one rate")
       ->required()
       ->check(CLI::IsMember({"euroc", "tum", "kitti"}));
-  export_command
+  command
       ->add_option("--camera", data.cameras,
                    "role of a camera to export; may be repeated, the first is cam0; all that take images "
                    "when not given")
       ->type_name("NAME");
-  export_command->add_flag("--truth", data.truth,
-                           "also write depth, labels, what moves and optical flow of each image, as they truly are");
-  export_command->add_option("--out", data.out, "folder to write, not there or empty; RUN/<format> when not given")
+  command->add_flag("--truth", data.truth,
+                    "also write depth, labels, what moves and optical flow of each image, as they truly are");
+  command->add_option("--out", data.out, "folder to write, not there or empty; RUN/<format> when not given")
       ->type_name("DIR");
-  export_command->callback([&] { chosen = [&data] { return cli::export_run(data); }; });
+  command->callback([&] { chosen = [&data] { return cli::export_run(data); }; });
+}
 
-  CLI::App* const report_command = app.add_subcommand("report", "write report.html of a run, a batch or a sweep again");
-  report_command->add_option("DIR", report.folder, "its folder")->required()->check(CLI::ExistingDirectory);
-  report_command
-      ->add_option("--against", report.against, "of a batch or sweep: list what changed since this earlier one")
+void declare_report(CLI::App& app, std::function<int()>& chosen, ReportOptions& report) {
+  CLI::App* const command = app.add_subcommand("report", "write report.html of a run, a batch or a sweep again");
+  command->add_option("DIR", report.folder, "its folder")->required()->check(CLI::ExistingDirectory);
+  command->add_option("--against", report.against, "of a batch or sweep: list what changed since this earlier one")
       ->check(CLI::ExistingDirectory)
       ->type_name("DIR");
-  report_command->add_flag("--replay", report.replay,
-                           "of a run: also write replay.html, the flight in three dimensions");
-  report_command
+  command->add_flag("--replay", report.replay, "of a run: also write replay.html, the flight in three dimensions");
+  command
       ->add_option("--film-strips", report.film_strips,
                    "of a batch or sweep: re-simulate so many of the worst flights, up to their closest approach, for "
                    "images of what they saw")
       ->transform(whole_number())
       ->check(CLI::Range(0, 50))
       ->type_name("N");
-  report_command->callback([&] { chosen = [&report] { return cli::report(report); }; });
+  command->callback([&] { chosen = [&report] { return cli::report(report); }; });
+}
 
-  CLI::App* const list_command = app.add_subcommand("list", "list what a scenario may name, and every key it takes");
-  list_command->add_option("TOPIC", topic, "modules, vehicles, scenes, cameras, checks; or scenario: every other key")
+void declare_list(CLI::App& app, std::function<int()>& chosen, std::string& topic) {
+  CLI::App* const command = app.add_subcommand("list", "list what a scenario may name, and every key it takes");
+  command->add_option("TOPIC", topic, "modules, vehicles, scenes, cameras, checks; or scenario: every other key")
       ->required()
       ->check(CLI::IsMember(document_topics()));
-  list_command->callback([&] { chosen = [&topic] { return cli::list(topic); }; });
+  command->callback([&] { chosen = [&topic] { return cli::list(topic); }; });
+}
 
-  CLI::App* const trim_command =
+void declare_trim(CLI::App& app, std::function<int()>& chosen, VehicleOptions& vehicles) {
+  CLI::App* const command =
       app.add_subcommand("trim", "print, and plot, a vehicle's trim of level flight against speed");
-  trim_command->add_option("VEHICLE", vehicles.trim.vehicle, "vehicle file (YAML)")->required();
-  trim_command->add_option("--speed", vehicles.speeds, "speed through the air, or a range of them (m/s); default 0")
+  command->add_option("VEHICLE", vehicles.trim.vehicle, "vehicle file (YAML)")->required();
+  command->add_option("--speed", vehicles.speeds, "speed through the air, or a range of them (m/s); default 0")
       ->type_name("FROM:TO:STEP");
-  add_formats(*trim_command, vehicles.trim.json, vehicles.trim.csv);
-  trim_command->add_option("--plot", vehicles.trim.plot, "also write a page with plots of the trim over speed")
+  add_formats(*command, vehicles.trim.json, vehicles.trim.csv);
+  command->add_option("--plot", vehicles.trim.plot, "also write a page with plots of the trim over speed")
       ->type_name("FILE.html");
-  trim_command->callback([&] {
+  command->callback([&] {
     chosen = [&vehicles] {
       vehicles.trim.speeds_mps = speed_range(vehicles.speeds);
       return cli::trim(vehicles.trim);
     };
   });
+}
 
-  CLI::App* const linearize_command = app.add_subcommand(
+void declare_linearize(CLI::App& app, std::function<int()>& chosen, VehicleOptions& vehicles) {
+  CLI::App* const command = app.add_subcommand(
       "linearize", "print a vehicle's linear model about level flight: A, B and modes with frequency and damping");
-  linearize_command->add_option("VEHICLE", vehicles.linearize.vehicle, "vehicle file (YAML)")->required();
-  linearize_command->add_option("--speed", vehicles.linearize.speed_mps, "speed through the air (m/s); default 0")
+  command->add_option("VEHICLE", vehicles.linearize.vehicle, "vehicle file (YAML)")->required();
+  command->add_option("--speed", vehicles.linearize.speed_mps, "speed through the air (m/s); default 0")
       ->transform(number())
       ->type_name("V");
-  add_formats(*linearize_command, vehicles.linearize.json, vehicles.linearize.csv);
-  linearize_command->callback([&] { chosen = [&vehicles] { return cli::linearize(vehicles.linearize); }; });
+  add_formats(*command, vehicles.linearize.json, vehicles.linearize.csv);
+  command->callback([&] { chosen = [&vehicles] { return cli::linearize(vehicles.linearize); }; });
+}
 
-  CLI::App* const schema_command = app.add_subcommand("schema", "print the JSON Schema of scenario files, for editors");
-  schema_command->callback([&] { chosen = [] { return cli::schema(); }; });
+void declare_schema(CLI::App& app, std::function<int()>& chosen) {
+  CLI::App* const command = app.add_subcommand("schema", "print the JSON Schema of scenario files, for editors");
+  command->callback([&] { chosen = [] { return cli::schema(); }; });
 }
 
 void declare_manual(CLI::App& app, std::function<int()>& chosen, std::string& format) {
@@ -185,6 +199,14 @@ void declare_manual(CLI::App& app, std::function<int()>& chosen, std::string& fo
       return 0;
     };
   });
+}
+
+/// What to say of a first word that is no command; nothing where it is one, or an option.
+std::string unknown_command(const CLI::App& app, std::string_view word) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (word.starts_with('-') || std::ranges::find(names, word) != names.end()) return {};
+  return fmt::format("no command '{}'{}", word, suggestion(word, {names.begin(), names.end()}));
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -211,9 +233,22 @@ int parse_and_run(int argc, char** argv) {
   std::string topic;
   ExportOptions data;
   ReportOptions report;
-  declare(app, chosen, run, render, calibration, vehicles, topic, data, report);
   std::string format;
+  declare_run(app, chosen, run);
+  declare_render(app, chosen, render);
+  declare_calibration(app, chosen, calibration);
+  declare_campaigns(app, chosen);
+  declare_export(app, chosen, data);
+  declare_report(app, chosen, report);
+  declare_list(app, chosen, topic);
+  declare_trim(app, chosen, vehicles);
+  declare_linearize(app, chosen, vehicles);
+  declare_schema(app, chosen);
   declare_manual(app, chosen, format);
+  if (const std::string fault = argc > 1 ? unknown_command(app, argv[1]) : ""; !fault.empty()) {
+    notice(one_line(fault) + "\n");
+    return kBadInput;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

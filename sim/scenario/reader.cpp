@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "sim/fields/bounds.h"
 
@@ -19,6 +20,27 @@ bool within_bounds(T member, const Node& node, const std::string& path, const fi
   const std::optional<std::string> bound = fields::broken_bound(static_cast<double>(member), field);
   if (bound) faults.add(node.place, fmt::format("'{}' must be {}, got {}", path, *bound, node.text));
   return !bound;
+}
+
+struct Renamed {
+  std::string_view path, key, now;  // in the map at `path`
+};
+
+// Since 0.1.
+constexpr std::array<Renamed, 7> kRenamed = {{{"drawing", "gl", "context"},
+                                              {"avoidance", "front_end", "source"},
+                                              {"avoidance", "sight", "depth"},
+                                              {"avoidance", "rows", "sections"},
+                                              {"avoidance", "cols", "sections"},
+                                              {"avoidance", "passed", "passed_radius"},
+                                              {"avoidance.map", "young_misses", "unconfirmed_misses"}}};
+
+/// What to write instead of a key that is not among those allowed.
+std::string instead(const std::string& path, std::string_view key, const std::vector<std::string_view>& allowed) {
+  const auto found = std::ranges::find_if(kRenamed, [&](const Renamed& renamed) {
+    return renamed.path == path && renamed.key == key && std::ranges::find(allowed, renamed.now) != allowed.end();
+  });
+  return found == kRenamed.end() ? suggestion(key, allowed) : fmt::format("; since 0.2 it is '{}'", found->now);
 }
 
 void expected(std::string_view what, const Node& node, const std::string& path, Faults& faults) {
@@ -145,8 +167,8 @@ void StructReader::missing(std::string_view key, const fields::Field& field) con
 void StructReader::finish() const {
   for (const Entry& entry : map_.entries) {
     if (std::find(keys_.begin(), keys_.end(), entry.key) != keys_.end()) continue;
-    faults_.add(entry.place,
-                fmt::format("unknown key '{}' in {}{}", entry.key, path_words(path_), suggestion(entry.key, keys_)));
+    faults_.add(entry.place, fmt::format("unknown key '{}' in {}{}", entry.key, path_words(path_),
+                                         instead(path_, entry.key, keys_)));
   }
 }
 

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "tests/sim/cli/ask.h"
@@ -29,6 +30,14 @@ TEST(NumberOptions, RefuseWhatWrapsOrIsNotFinite) {
   EXPECT_EQ(ask("render " + kScenario + " --camera left -o x.png --time -1").text,
             "--time: must be 0 or more, got -1 (see --help)\n");
   EXPECT_EQ(ask("batch " + kScenario + " --limit 0").text, "--limit: must be more than 0, got 0 (see --help)\n");
+}
+
+TEST(Commands, ASlipOfTheirNamesIsToldWithThoseThereAre) {
+  const Answer slip = ask("bacth " + kScenario);
+  EXPECT_EQ(slip.status, kBadInput);
+  EXPECT_THAT(slip.text, testing::StartsWith("no command 'bacth'; did you mean 'batch'? allowed: run, render, "));
+  EXPECT_EQ(std::ranges::count(slip.text, '\n'), 1);
+  EXPECT_THAT(ask(kScenario).text, testing::EndsWith("manual\n"));
 }
 
 TEST(NumberOptions, ReadDecimally) {

@@ -49,6 +49,28 @@ TEST(Scenario, EqualInputGivesEqualText) {
   EXPECT_EQ(to_yaml(load_scenario(file)), to_yaml(load_scenario(file)));
 }
 
+TEST(Renamed, KeysOfAnEarlierVersionAreRefusedWithTheirNewName) {
+  struct Row {
+    std::string scenario, override, now;
+  };
+  for (const Row& row : {Row{"garratt2009_city_0.yaml", "drawing.gl=tiles", "context"},
+                         Row{"shah2009_avoid.yaml", "avoidance.front_end=images", "source"},
+                         Row{"shah2009_avoid.yaml", "avoidance.map.young_misses=3", "unconfirmed_misses"},
+                         Row{"perez2018_route_light.yaml", "avoidance.sight=truth", "depth"},
+                         Row{"perez2018_route_light.yaml", "avoidance.rows=9", "sections"},
+                         Row{"perez2018_route_light.yaml", "avoidance.cols=9", "sections"},
+                         Row{"perez2018_route_light.yaml", "avoidance.passed={radius: 2}", "passed_radius"}}) {
+    EXPECT_THAT(faults_of([&] { load_scenario(kConfigs / row.scenario, std::vector{row.override}); }),
+                ElementsAre(testing::EndsWith("; since 0.2 it is '" + row.now + "'")))
+        << row.override;
+  }
+  // No new name that the module does not have.
+  EXPECT_THAT(faults_of([] {
+                load_scenario(kConfigs / "garratt2009_city_0.yaml", std::vector<std::string>{"avoidance.rows=9"});
+              }),
+              ElementsAre(HasSubstr("unknown key 'rows' in 'avoidance'; allowed: ")));
+}
+
 /// What does not fit together, in a scenario that is otherwise whole.
 class CrossRules : public testing::Test {
  protected:
