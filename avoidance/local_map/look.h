@@ -24,7 +24,7 @@ bool points_at(const Eigen::Vector2d& place_W, const Eigen::Vector2d& p_W, doubl
 /// For how long something has been so.
 class Lasting {
  public:
-  /// @return s, 0 from the first time on; nothing where it does not hold.
+  /// @param t_s  now, rising from call to call. @return s, 0 from the first time on; nothing where it does not hold.
   std::optional<double> update(bool holds, double t_s) {
     if (!holds) {
       since_s_.reset();
@@ -42,15 +42,18 @@ class Lasting {
 /// The unknown place that keeps the vehicle from a better stop, if one does, and to which its nose therefore turns.
 class Gaze {
  public:
+  /// North and east, m.
   const std::optional<Eigen::Vector2d>& place_W() const { return place_W_; }
   /// Has stood before the place, and keeps away until it is seen or closed.
   bool backs_off() const { return backs_off_; }
 
   /// @param held  a plan that ignored the unknown would stop at a better place: at the end of `hoped`.
+  /// @param hull_m  radius of the vehicle. @param heading_rad  of the nose, from north to east.
   void update(bool held, const std::vector<Moment>& hoped, const LevelSlice& slice, const Footprint& footprint,
               double hull_m, const Moment& now, double heading_rad);
 
-  /// For how long the vehicle has stood and looked at the place, s. @param v_cmd_W  what is commanded now.
+  /// For how long the vehicle has stood and looked at the place, s; nothing where it does not. @param v_cmd_W  what is
+  /// commanded now, m/s. @param heading_rad  of the nose, from north to east.
   std::optional<double> stares_s(const Moment& now, const Eigen::Vector2d& v_cmd_W, double heading_rad);
   void stare_again() { stares_.reset(); }
 
@@ -60,7 +63,7 @@ class Gaze {
   Lasting stares_;
 };
 
-/// Whether a vehicle stands.
+/// Whether a velocity, m/s, is as good as none: below 0.3 m/s.
 bool stands(const Eigen::Vector2d& v_W);
 
 }  // namespace hedgehop::avoidance::local_map

@@ -22,8 +22,7 @@ constexpr double kTurnPriceS2pm = 0.006;  // what a change of the command counts
 constexpr double kBlindMps = 2.0;         // not to be exceeded where the camera does not look,
 constexpr double kBlindPriceS = 3.0;      // and what each m/s beyond counts for, as a distance
 constexpr double kSlackM = 0.02;          // by which a path that begins too near may come nearer still
-
-constexpr double kFaultPrice = 10.0, kBesidePrice = 10.0, kThreatPrice = 30.0;
+constexpr double kFaultPrice = 10.0, kBesidePrice = 10.0, kThreatPrice = 30.0;  // of each m that is missing
 
 /// The best of the velocities that have been considered.
 class Search {
