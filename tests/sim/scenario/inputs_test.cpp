@@ -27,16 +27,16 @@ TEST(Sha256, IsThatOfTheStandard) {
 
 TEST(Inputs, HoldEveryFileThatAFlightDependsOn) {
   const Folder folder;
-  const std::filesystem::path deep = "deep/er";
-  Folder::write("base.yaml",
+  const std::filesystem::path deep = "far/deep/er";  // four folders below what the source may lie beside
+  Folder::write("far/base.yaml",
                 "use: " HEDGEHOP_SOURCE_DIR "/configs/garratt2009_room_0_light.yaml\nrig: {use: rig.yaml}\n");
-  Folder::write("rig.yaml", "cameras: []\n");
-  Folder::write("wing.yaml", "module: go_to_goal\n");
-  Folder::write("deep/er/t.obj",
+  Folder::write("far/rig.yaml", "cameras: []\n");
+  Folder::write("far/wing.yaml", "module: go_to_goal\n");
+  Folder::write("far/deep/er/t.obj",
                 "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n");
-  Folder::write("deep/er/t.mtl", "newmtl m\nmap_Kd t.ppm\n");
-  Folder::write("deep/er/t.ppm", "P3 1 1 255\n9 8 7\n");
-  Folder::write("deep/er/s.yaml",
+  Folder::write("far/deep/er/t.mtl", "newmtl m\nmap_Kd t.ppm\n");
+  Folder::write("far/deep/er/t.ppm", "P3 1 1 255\n9 8 7\n");
+  Folder::write("far/deep/er/s.yaml",
                 "use: ../../base.yaml\nname: s\nvelocimeter: {enabled: false}\n"
                 "goal: {north: 5, east: 0, altitude: 1}\nchecks: [{check: no_collision}]\n"
                 "scene: {imports: [{file: t.obj, collide: none}]}\n");
