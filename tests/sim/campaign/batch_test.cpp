@@ -244,7 +244,8 @@ TEST(Batch, SameFlightsWithAnyNumberOfWorkers) {
   for (const std::string jobs : {"1", "2", "3"}) {
     EXPECT_EQ(folder.hedgehop("batch tiny.yaml --seeds 5:8 -j " + jobs + " --out out" + jobs).status, 0);
     std::string all;
-    for (const Json& flight : folder.json("out" + jobs + "/batch.json").at("flights")) {
+    const Json batch = folder.json("out" + jobs + "/batch.json");
+    for (const Json& flight : batch.at("flights")) {
       all += flight.at("result").at("trajectory_hash").get<std::string>() + " ";
     }
     hashes.insert(all);

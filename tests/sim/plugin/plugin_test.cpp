@@ -84,7 +84,8 @@ TEST_F(Plugin, InABatchTheOthersFlyOn) {
   fly_by(HEDGEHOP_MISBEHAVING, "limit: 1, parameters: {how: segfault}");
   const CommandEnd end = folder.hedgehop("batch tiny.yaml plug.yaml --seeds 1:2 --out out");
   EXPECT_EQ(end.status, 1) << end.err;
-  for (const auto& flight : folder.json("out/batch.json")["flights"]) {
+  const auto batch = folder.json("out/batch.json");
+  for (const auto& flight : batch["flights"]) {
     const bool ours = flight["group"] == "tiny";
     EXPECT_EQ(flight["result"]["outcome"] == "fault", !ours) << flight["id"];
     EXPECT_EQ(flight["passed"], ours);
