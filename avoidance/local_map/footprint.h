@@ -17,6 +17,8 @@ class Footprint {
   Footprint(Outline outline, const Clearance& clearance, double step_m)
       : outline_(std::move(outline)), clearance_(clearance), step_m_(step_m) {}
 
+  void keep(const Clearance& clearance) { clearance_ = clearance; }
+
   /// Sets the headings that are passed meanwhile, the short way; where the vehicle is by then nobody knows, so that all
   /// of them count at every moment.
   void turn(double from_rad, double to_rad) { swept_ = sweep(outline_, from_rad, to_rad, step_m_); }

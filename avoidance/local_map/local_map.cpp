@@ -32,6 +32,8 @@ constexpr double kLittleM = 0.5;  // of progress, that is not worth to tilt the 
 // What is near flies past too fast to be measured, so that speed follows height, as bees' does: [Srinivasan1996] sec.
 // on flight speed.
 constexpr double kGroundRadps = 2.0, kLeastHeightM = 0.5;
+// Where the way is too narrow for the margin: slowly, with what is left of it.
+constexpr double kNarrowMarginM = 0.05, kNarrowAheadM = 1.5, kNarrowMps = 1.0;
 
 class LocalMap final : public Module {
  public:
@@ -111,10 +113,15 @@ class LocalMap final : public Module {
     const Moment now{t_s, p_W, (navigation.q_WB_est * navigation.v_WB_B_est).head<2>()};
     const double height_m = std::max(navigation.height_above_ground_m, kLeastHeightM);
     const double heading = heading_rad(navigation.q_WB_est);
-    planner_ = StopPlanner(response_, std::min(most_mps_, kGroundRadps * height_m),
-                           [this, heading](double azimuth_rad) { return around_->looks_along(azimuth_rad - heading); });
-    route_.build(slice(), clearance_.hull_m + clearance_.margin_m, goal_W,
+    route_.build(slice(), clearance_.hull_m + clearance_.margin_m, clearance_.hull_m + kNarrowMarginM, goal_W,
                  learned_.beyond_m(goal_W, around_->height_W()));
+    const double narrow_m = clearance_.hull_m + clearance_.margin_m + clearance_.margin_s * kNarrowMps;
+    const bool narrow = now.v_W.norm() < 1.5 * kNarrowMps && route_.is_narrow(p_W, kNarrowAheadM, narrow_m);
+    planner_ = StopPlanner(response_, std::min({most_mps_, kGroundRadps * height_m, narrow ? kNarrowMps : most_mps_}),
+                           [this, heading](double azimuth_rad) { return around_->looks_along(azimuth_rad - heading); });
+    Clearance clearance = clearance_;
+    if (narrow) clearance.margin_m = std::min(clearance.margin_m, kNarrowMarginM);
+    footprint_.keep(clearance);
     if (!around_->changes_height()) {
       learned_.learn(route_, slice(), {p_W.x(), p_W.y(), around_->height_W()}, mission_W);
     }

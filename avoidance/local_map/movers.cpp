@@ -11,6 +11,7 @@ namespace hedgehop::avoidance::local_map {
 namespace {
 
 constexpr double kWidestM = 5.0;           // radius of a lump that is followed: what is larger is a wall
+constexpr double kDeepSigmas = 4.0;        // of depth, by which a lump may seem deeper than it is
 constexpr double kAccelerationMps2 = 1.0;  // 1-sigma of what a mover's velocity changes by
 constexpr double kFirstSpeedMps = 2.0;     // 1-sigma of a velocity before anything is known of it
 constexpr int kAppeared = 2;               // points of a lump where free space was, at least
@@ -60,10 +61,11 @@ std::vector<Movers::Lump> Movers::lumps_of(const View& view, std::span<const Sur
     lump.sight_W = (middle_W - view.eye_W).normalized();
     lump.nearest_m = std::numeric_limits<double>::infinity();
     const Eigen::Vector2d right_W(-lump.sight_W.y(), lump.sight_W.x());
-    double near_m = std::numeric_limits<double>::infinity(), left_m = near_m, right_m = -near_m;
+    double near_m = std::numeric_limits<double>::infinity(), far_m = 0.0, left_m = near_m, right_m = -near_m;
     for (const size_t i : members) {
       const Eigen::Vector2d off_W = points[i].p_W - view.eye_W;
       near_m = std::min(near_m, off_W.dot(lump.sight_W));
+      far_m = std::max(far_m, off_W.dot(lump.sight_W));
       lump.nearest_m = std::min(lump.nearest_m, off_W.norm());
       const double across_m = off_W.dot(right_W);
       if (across_m < left_m) lump.left_end_W = points[i].p_W;
@@ -76,7 +78,10 @@ std::vector<Movers::Lump> Movers::lumps_of(const View& view, std::span<const Sur
     }
     lump.radius_m = 0.5 * (right_m - left_m + config_.spacing_m);
     lump.near_W = view.eye_W + near_m * lump.sight_W + 0.5 * (left_m + right_m) * right_W;
-    if (lump.radius_m <= kWidestM) lumps.push_back(std::move(lump));
+    // What is deeper than wide, though only its face is seen, is a wall that is looked along.
+    const double unsure_m = kDeepSigmas * config_.sigma_per_m2 * far_m * far_m + config_.spacing_m;
+    const bool wall = far_m - near_m > 2.0 * lump.radius_m + unsure_m;
+    if (lump.radius_m <= kWidestM && !wall) lumps.push_back(std::move(lump));
   }
   return lumps;
 }
