@@ -17,8 +17,8 @@ class Footprint {
   Footprint(Outline outline, const Clearance& clearance, double step_m)
       : outline_(std::move(outline)), clearance_(clearance), step_m_(step_m) {}
 
+  /// Sets what must be kept free from now on.
   void keep(const Clearance& clearance) { clearance_ = clearance; }
-
   /// Sets the headings that are passed meanwhile, the short way; where the vehicle is by then nobody knows, so that all
   /// of them count at every moment.
   void turn(double from_rad, double to_rad) { swept_ = sweep(outline_, from_rad, to_rad, step_m_); }

@@ -28,7 +28,7 @@ double Levels::way_m(const Surroundings& around, const LearnedDistances& learned
                      const Eigen::Vector3d& goal_W) {
   const Eigen::Vector2d to_W = goal_W.head<2>();
   if (!around.slice_between(z_W(level), z_W(level), slice_)) return kNowhereM;
-  route_.build(slice_, need_m_, need_m_, to_W, learned.beyond_m(to_W, z_W(level)));
+  route_.build(slice_, berth_, to_W, learned.beyond_m(to_W, z_W(level)));
   return route_.to_goal_m(p_W).value_or(kNowhereM) + kClimbPrice * kStepM * std::abs(level - level_) +
          kOffGoalPrice * std::abs(z_W(level) - goal_W.z());
 }

@@ -17,8 +17,8 @@ namespace hedgehop::avoidance::local_map {
 class Levels {
  public:
   Levels() = default;
-  /// @param band  none: only the start's level. @param need_m  how far a route stays from what is occupied.
-  Levels(const std::optional<AltitudeBand>& band, double need_m) : band_(band), need_m_(need_m) {}
+  /// @param band  none: only the start's level.
+  Levels(const std::optional<AltitudeBand>& band, const Berth& berth) : band_(band), berth_(berth) {}
   /// @param first_W  z of the start.
   void begin(double first_W);
 
@@ -36,7 +36,8 @@ class Levels {
 
   static constexpr double kStepM = 1.2;
   std::optional<AltitudeBand> band_;
-  double first_W_ = 0.0, need_m_ = 0.0, asked_s_ = 0.0;
+  Berth berth_{0.0, 0.0};
+  double first_W_ = 0.0, asked_s_ = 0.0;
   int lowest_ = 0, highest_ = 0, level_ = 0, last_side_ = 0;
   LevelSlice slice_;
   RouteField route_;

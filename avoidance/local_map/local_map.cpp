@@ -32,8 +32,7 @@ constexpr double kLittleM = 0.5;  // of progress, that is not worth to tilt the 
 // What is near flies past too fast to be measured, so that speed follows height, as bees' does: [Srinivasan1996] sec.
 // on flight speed.
 constexpr double kGroundRadps = 2.0, kLeastHeightM = 0.5;
-// Where the way is too narrow for the margin: slowly, with what is left of it.
-constexpr double kNarrowMarginM = 0.05, kNarrowAheadM = 1.5, kNarrowMps = 1.0;
+constexpr double kLeastMarginM = 0.05;  // beside the hull, where the way is narrow
 
 class LocalMap final : public Module {
  public:
@@ -57,7 +56,9 @@ class LocalMap final : public Module {
     const VehicleLimits& limits = setup.limits;
     clearance_ = {limits.radius_m, config_.margin_m, config_.margin_time_s};
     outline_ = Outline(limits);
-    levels_ = Levels(setup.altitude_band, clearance_.hull_m + clearance_.margin_m);
+    berth_ = {clearance_.hull_m + clearance_.margin_m,
+              clearance_.hull_m + std::min(clearance_.margin_m, kLeastMarginM)};
+    levels_ = Levels(setup.altitude_band, berth_);
     learned_ = {};
     around_.emplace(config_, setup, outline_);
     dead_reckoning_ = {};
@@ -111,17 +112,9 @@ class LocalMap final : public Module {
     const NavigationState& navigation = observation.navigation;
     const Eigen::Vector2d p_W = navigation.p_WB_est.head<2>(), goal_W = observation.goal.p_WG.head<2>();
     const Moment now{t_s, p_W, (navigation.q_WB_est * navigation.v_WB_B_est).head<2>()};
-    const double height_m = std::max(navigation.height_above_ground_m, kLeastHeightM);
     const double heading = heading_rad(navigation.q_WB_est);
-    route_.build(slice(), clearance_.hull_m + clearance_.margin_m, clearance_.hull_m + kNarrowMarginM, goal_W,
-                 learned_.beyond_m(goal_W, around_->height_W()));
-    const double narrow_m = clearance_.hull_m + clearance_.margin_m + clearance_.margin_s * kNarrowMps;
-    const bool narrow = now.v_W.norm() < 1.5 * kNarrowMps && route_.is_narrow(p_W, kNarrowAheadM, narrow_m);
-    planner_ = StopPlanner(response_, std::min({most_mps_, kGroundRadps * height_m, narrow ? kNarrowMps : most_mps_}),
-                           [this, heading](double azimuth_rad) { return around_->looks_along(azimuth_rad - heading); });
-    Clearance clearance = clearance_;
-    if (narrow) clearance.margin_m = std::min(clearance.margin_m, kNarrowMarginM);
-    footprint_.keep(clearance);
+    route_.build(slice(), berth_, goal_W, learned_.beyond_m(goal_W, around_->height_W()));
+    set_pace(now, heading, std::max(navigation.height_above_ground_m, kLeastHeightM));
     if (!around_->changes_height()) {
       learned_.learn(route_, slice(), {p_W.x(), p_W.y(), around_->height_W()}, mission_W);
     }
@@ -165,6 +158,19 @@ class LocalMap final : public Module {
                         static_cast<double>(around_->movers().size())};
     last_cmd_W_ = plan_.v_cmd_W;
     return decision;
+  }
+
+  /// Where even at a walking pace the way is too narrow for the margin, it is flown at that, with what is left of the
+  /// margin.
+  void set_pace(const Moment& now, double heading, double height_m) {
+    constexpr double kWalkMps = 1.0, kHardlyFasterMps = 1.5, kSoonM = 1.5;
+    const double wide_m = clearance_.hull_m + clearance_.margin_m + clearance_.margin_s * kWalkMps;
+    const bool walks = now.v_W.norm() < kHardlyFasterMps && route_.nearest_m(now.p_W, kSoonM) < wide_m;
+    Clearance clearance = clearance_;
+    if (walks) clearance.margin_m = berth_.least_m - clearance.hull_m;
+    footprint_.keep(clearance);
+    planner_ = StopPlanner(response_, std::min({most_mps_, kGroundRadps * height_m, walks ? kWalkMps : most_mps_}),
+                           [this, heading](double azimuth_rad) { return around_->looks_along(azimuth_rad - heading); });
   }
 
   /// Climbs or sinks where the mission allows it and a better way leads there, if the planned stop keeps clear of what
@@ -270,6 +276,7 @@ class LocalMap final : public Module {
   StopPlanner planner_{Response{}, 0.0};
   StopPlanner::Plan plan_;
   Clearance clearance_;
+  Berth berth_{0.0, 0.0};
   Outline outline_;
   Footprint footprint_;
   DeadReckoning dead_reckoning_;  ///< all positions here are by it

@@ -8,10 +8,10 @@
 namespace hedgehop::avoidance::local_map {
 namespace {
 
-constexpr int kStraight = 10;   // cost of a step to a neighbor, in tenths of a cell
-constexpr double kSideM = 0.8;  // how far beyond what it needs a route prefers to stay from obstacles
-constexpr int kClosePrice = 3;  // times the price where it cannot
-constexpr int kNarrowPrice = 5;  // and where it is narrow
+constexpr int kStraight = 10;    // cost of a step to a neighbor, in tenths of a cell
+constexpr double kSideM = 0.8;   // how far beyond what it needs a route prefers to stay from obstacles
+constexpr int kClosePrice = 3;   // times the price where it cannot,
+constexpr int kNarrowPrice = 5;  // and where it comes nearer than it wants
 
 struct Step {
   int row, col;
@@ -22,7 +22,7 @@ constexpr Step kSteps[8] = {{-1, 0, 1.0},         {1, 0, 1.0},         {0, -1, 1
 
 }  // namespace
 
-void RouteField::build(const LevelSlice& slice, double need_m, double least_m, const Eigen::Vector2d& goal_W,
+void RouteField::build(const LevelSlice& slice, const Berth& berth, const Eigen::Vector2d& goal_W,
                        const std::function<double(const Eigen::Vector2d&)>& beyond_m) {
   slice_ = &slice;
   const int n = slice.side();
@@ -31,10 +31,10 @@ void RouteField::build(const LevelSlice& slice, double need_m, double least_m, c
   for (int row = 0; row < n; ++row) {
     for (int col = 0; col < n; ++col) {
       const double away_m = slice.to_occupied_m(row, col);
-      if (away_m < least_m) continue;
+      if (away_m < berth.least_m) continue;
+      const double side = std::max(0.0, 1.0 - (away_m - berth.wanted_m) / kSideM);
       double price = slice.at(row, col) == LevelSlice::State::free ? 1.0 : kUnknownPrice;
-      price *= away_m < need_m ? kNarrowPrice
-                               : 1.0 + (kClosePrice - 1) * std::max(0.0, 1.0 - (away_m - need_m) / kSideM);
+      price *= side > 1.0 ? kNarrowPrice : 1.0 + (kClosePrice - 1) * side;
       price_[static_cast<size_t>(row * n + col)] = static_cast<uint8_t>(std::lround(kStraight * price));
     }
   }
@@ -179,9 +179,10 @@ std::vector<Eigen::Vector2d> RouteField::route_W(const Eigen::Vector2d& p_W, dou
   return route;
 }
 
-bool RouteField::is_narrow(const Eigen::Vector2d& p_W, double length_m, double need_m) const {
-  return std::ranges::any_of(route_W(p_W, length_m),
-                             [&](const Eigen::Vector2d& at_W) { return slice_->to_occupied_m(at_W) < need_m; });
+double RouteField::nearest_m(const Eigen::Vector2d& p_W, double length_m) const {
+  double least_m = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector2d& at_W : route_W(p_W, length_m)) least_m = std::min(least_m, slice_->to_occupied_m(at_W));
+  return least_m;
 }
 
 }  // namespace hedgehop::avoidance::local_map

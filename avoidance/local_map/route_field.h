@@ -10,15 +10,18 @@
 
 namespace hedgehop::avoidance::local_map {
 
+/// How far a route stays from what is occupied: as far as wanted where it can, and nowhere nearer than the least, m.
+struct Berth {
+  double wanted_m, least_m;
+};
+
 /// How far every cell of the slice is from the goal, through what is free or may be: [BrockKhatib1999] sec. on the
 /// global dynamic window. Unknown cells may be passed on paper, at a price; only StopPlanner decides what
 /// may be flown. Because what is seen replaces what was assumed, and stays, each visit rules something out.
 class RouteField {
  public:
-  /// @param need_m  hull and clearance: how far a route stays from what is occupied, where it can.
-  /// @param least_m  how far it stays in any case; where it comes nearer than `need_m` it is narrow.
   /// @param beyond_m  distance to the goal from a point at the slice's edge, m; used where the goal lies outside.
-  void build(const LevelSlice& slice, double need_m, double least_m, const Eigen::Vector2d& goal_W,
+  void build(const LevelSlice& slice, const Berth& berth, const Eigen::Vector2d& goal_W,
              const std::function<double(const Eigen::Vector2d&)>& beyond_m);
 
   /// Distance to the goal along the best route, m, unknown space counted kUnknownPrice times; nothing where there is
@@ -26,8 +29,8 @@ class RouteField {
   std::optional<double> to_goal_m(const Eigen::Vector2d& p_W) const;
   /// Points of the best route from here, a cell apart.
   std::vector<Eigen::Vector2d> route_W(const Eigen::Vector2d& p_W, double length_m) const;
-  /// Whether the best route from here comes nearer than that to what is occupied.
-  bool is_narrow(const Eigen::Vector2d& p_W, double length_m, double need_m) const;
+  /// How near the best route comes to what is occupied within a length from here, m.
+  double nearest_m(const Eigen::Vector2d& p_W, double length_m) const;
 
   static constexpr double kUnknownPrice = 1.5;
 

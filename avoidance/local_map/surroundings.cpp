@@ -107,10 +107,9 @@ void Surroundings::integrate(Eye& eye, const NavigationState& navigation, double
   constexpr double kUpright = 0.7;  // of a camera's y axis: ground below, sky above
   stereo::DisparitySource& source = eye.source;
   const Eigen::Isometry3d X_WC = Eigen::Translation3d(navigation.p_WB_est) * navigation.q_WB_est * source.X_BC();
-  if (config_.depth == DisparitySource::From::stereo) {
-    vision::stereo::remove_specks(source.disparity16(), kSameSegment16, kSpeckPx);
-  }
-  eye.blocks.build(source.disparity16(), source.grey());
+  const bool matches = config_.depth == DisparitySource::From::stereo;
+  if (matches) vision::stereo::remove_specks(source.disparity16(), kSameSegment16, kSpeckPx);
+  eye.blocks.build(source.disparity16(), source.grey(), matches ? config_.stereo.block_px / 2 : 0);
   const Eigen::Vector3d down_C = X_WC.linear().row(2).transpose();
   if (config_.sky && !source.grey().empty() && down_C.y() > kUpright) {
     vision::mapping::find_sky(source.geometry(), down_C, eye.blocks);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 
 namespace hedgehop::vision::mapping {
@@ -12,19 +13,21 @@ namespace {
 constexpr int kPx = DepthBlocks::kBlockPx;
 
 /// The largest disparity but for a few pixels: single ones are wrong, and a pole of one pixel leaves a column of eight.
-void read_disparity(const cv::Mat& disparity16, int row, int col, DepthBlock& block) {
+void read_disparity(const cv::Mat& disparity16, const cv::Mat& smeared, int row, int col, DepthBlock& block) {
   constexpr int kLeastMatched = kPx * kPx / 2;  // half of a block stands for it
   constexpr int kLeastNear = 6;                 // what a pole of one pixel leaves
   std::array<int16_t, kPx * kPx> matched;
-  int count = 0;
+  int count = 0, certain = 0;
   for (int v = row * kPx; v < (row + 1) * kPx; ++v) {
     const auto* const d = disparity16.ptr<int16_t>(v) + col * kPx;
+    const auto* const s = smeared.ptr<uint8_t>(v) + col * kPx;
     for (int u = 0; u < kPx; ++u) {
       matched[static_cast<size_t>(count)] = d[u];
       count += d[u] >= 0;
+      certain += d[u] >= 0 && s[u] == 0;
     }
   }
-  block.kind = count >= kLeastMatched ? DepthBlock::Kind::matched : DepthBlock::Kind::unknown;
+  block.kind = certain >= kLeastMatched ? DepthBlock::Kind::matched : DepthBlock::Kind::unknown;
   block.near16 = -1;
   if (count < kLeastNear) return;
   const auto rank = matched.begin() + std::max(2, count / 16);
@@ -47,13 +50,20 @@ void read_grey(const cv::Mat& grey, int row, int col, DepthBlock& block) {
 
 }  // namespace
 
-void DepthBlocks::build(const cv::Mat& disparity16, const cv::Mat& grey) {
+void DepthBlocks::build(const cv::Mat& disparity16, const cv::Mat& grey, int smear_px) {
+  smeared_ = disparity16 < 0;
+  if (smear_px > 0) {
+    // What holds a whole window without a match, and half a window round it.
+    const auto square = [](int px) { return cv::Mat::ones(px, px, CV_8U); };
+    cv::erode(smeared_, smeared_, square(2 * smear_px + 1));
+    cv::dilate(smeared_, smeared_, square(4 * smear_px + 1));
+  }
   rows_ = disparity16.rows / kPx;
   cols_ = disparity16.cols / kPx;
   blocks_.assign(static_cast<size_t>(rows_ * cols_), {});
   for (int row = 0; row < rows_; ++row) {
     for (int col = 0; col < cols_; ++col) {
-      read_disparity(disparity16, row, col, at(row, col));
+      read_disparity(disparity16, smeared_, row, col, at(row, col));
       if (!grey.empty()) read_grey(grey, row, col, at(row, col));
     }
   }
@@ -68,18 +78,33 @@ double DepthBlocks::share(DepthBlock::Kind kind) const {
 namespace {
 
 constexpr double kSupportM = 25.0;     ///< least distance to the ground's end, in this column or near it, level
-constexpr int kSupportCols = 6;        ///< how near
+constexpr size_t kSupportCols = 6;     ///< how near
 constexpr double kOwnM = 15.0;         ///< least distance in the column itself
 constexpr int kGap = 2;                ///< blocks of the ground, one above the other, that need not be matched
 constexpr double kAttitudeRad = 0.03;  ///< by which the predicted horizon may err
 constexpr int kSmooth = 6;             ///< grey levels within a block of sky and from one to the next
 constexpr int kLikeOthers = 15;        ///< grey levels between a row's blocks of sky: skies brighten towards the sun
 
-/// A column of blocks, climbed from the ground below the horizon.
+cv::Point middle_px(int row, int col) { return {col * kPx + kPx / 2, row * kPx + kPx / 2}; }
+
+/// The block in a row that shows what is upright in the world with another one; may lie beside the image.
+int upright_col(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, cv::Point from_px, int row) {
+  const Eigen::Vector3d across_C = down_C.cross(geometry.ray(from_px));
+  const double y = geometry.ray(middle_px(row, 0)).y();
+  const double x = -(across_C.y() * y + across_C.z()) / across_C.x();
+  return static_cast<int>(std::floor((geometry.center_u_px + geometry.focal_px * x) / kPx));
+}
+
+/// Blocks, one in each row, that show what is upright in the world, climbed from the ground below the horizon.
 class Column {
  public:
+  /// @param col  of its block in the middle row; may lie beside the image, into which a tilted one still leads.
   Column(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, const DepthBlocks& blocks, int col)
-      : geometry_(geometry), down_C_(down_C), blocks_(blocks), col_(col) {}
+      : geometry_(geometry), down_C_(down_C), blocks_(blocks) {
+    for (int row = 0; row < blocks.rows(); ++row) {
+      cols_.push_back(upright_col(geometry, down_C, middle_px(blocks.rows() / 2, col), row));
+    }
+  }
 
   /// Rows [top, bottom] that look like sky and what lies between it and the ground; the blocks of [top, horizon] are
   /// above the horizon for certain.
@@ -88,32 +113,37 @@ class Column {
     double foot_m;  ///< level distance of the topmost ground, and of what stands on it
   };
 
+  bool in_image(int row) const { return cols_[row_index(row)] >= 0 && cols_[row_index(row)] < blocks_.cols(); }
+  const DepthBlock& at(int row) const { return blocks_.at(row, cols_[row_index(row)]); }
+
   std::optional<Run> climb() const {
     const double near_rad = kAttitudeRad + 0.5 * kPx / geometry_.focal_px;
     int row = blocks_.rows() - 1;
-    // The topmost block of the ground, which is matched from the image's lower edge on: what is matched beyond a gap
-    // may be noise on a wall.
-    int support = blocks_.rows();
-    for (; row >= 0 && elevation(row) < near_rad; --row) {
-      if (blocks_.at(row, col_).kind != DepthBlock::Kind::matched) continue;
+    while (row >= 0 && !in_image(row)) --row;
+    // The topmost block of the ground, which is matched from the image's edge on: what is matched beyond a gap may be
+    // noise on a wall.
+    const int lowest = row;
+    int support = lowest + 1;
+    for (; row >= 0 && in_image(row) && elevation(row) < near_rad; --row) {
+      if (at(row).kind != DepthBlock::Kind::matched) continue;
       if (support - row > kGap + 1) return std::nullopt;
       support = row;
     }
-    if (support == blocks_.rows() || row < 0) return std::nullopt;
+    if (support > lowest || row < 0 || !in_image(row)) return std::nullopt;
     double foot_m = level_m(support);
     if (foot_m < kOwnM) return std::nullopt;
     // Above the horizon what was matched as far as the ground must be, with its edge; from there on all is smooth.
-    for (bool edge = true; row >= 0; --row) {
-      const DepthBlock& block = blocks_.at(row, col_);
+    for (bool edge = true; row >= 0 && in_image(row); --row) {
+      const DepthBlock& block = at(row);
       const bool stands = block.near16 >= 0 && level_m(row) >= kOwnM;
       if (!stands && (!edge || block.near16 >= 0 || block.range <= kSmooth)) break;
       if (stands) foot_m = std::min(foot_m, level_m(row));
       edge = stands;  // one block of it
     }
     Run run{row + 1, row, support - 1, foot_m};
-    for (; row >= 0; --row) {
-      const DepthBlock& block = blocks_.at(row, col_);
-      const bool steps = row < run.horizon && std::abs(block.grey - blocks_.at(row + 1, col_).grey) > kSmooth;
+    for (; row >= 0 && in_image(row); --row) {
+      const DepthBlock& block = at(row);
+      const bool steps = row < run.horizon && std::abs(block.grey - at(row + 1).grey) > kSmooth;
       if (block.near16 >= 0 || block.range > kSmooth || steps) break;
       run.top = row;
     }
@@ -127,32 +157,46 @@ class Column {
   }
 
  private:
-  Eigen::Vector3d ray(int row) const { return geometry_.ray({col_ * kPx + kPx / 2, row * kPx + kPx / 2}); }
+  static size_t row_index(int row) { return static_cast<size_t>(row); }
+  Eigen::Vector3d ray(int row) const { return geometry_.ray(middle_px(row, cols_[row_index(row)])); }
   /// Sine of a block's elevation above the horizon.
   double elevation(int row) const { return -down_C_.dot(ray(row).normalized()); }
   /// Level distance of what a block shows, per z in C.
   double level(int row) const { return ray(row).cross(down_C_).norm(); }
-  double level_m(int row) const { return level(row) * geometry_.z_m(blocks_.at(row, col_).near16); }
+  double level_m(int row) const { return level(row) * geometry_.z_m(at(row).near16); }
 
   const stereo::StereoGeometry& geometry_;
   const Eigen::Vector3d& down_C_;
   const DepthBlocks& blocks_;
-  int col_;
+  std::vector<int> cols_;  ///< of each row
 };
 
-/// The median grey of each row's blocks in the runs given; -1 where there are none.
-std::vector<int> usual_greys(const DepthBlocks& blocks, const std::vector<std::optional<Column::Run>>& runs) {
-  std::vector<int> usual(static_cast<size_t>(blocks.rows()), -1), greys;
-  for (int row = 0; row < blocks.rows(); ++row) {
-    greys.clear();
-    for (int col = 0; col < blocks.cols(); ++col) {
-      const auto& run = runs[static_cast<size_t>(col)];
-      if (run && row >= run->top && row <= run->horizon) greys.push_back(blocks.at(row, col).grey);
-    }
-    if (greys.empty()) continue;
-    const auto middle = greys.begin() + static_cast<std::ptrdiff_t>(greys.size() / 2);
-    std::nth_element(greys.begin(), middle, greys.end());
-    usual[static_cast<size_t>(row)] = *middle;
+/// A column that may show sky, and where.
+struct Candidate {
+  Column column;
+  std::optional<Column::Run> run;
+};
+
+/// The median grey of each row's blocks in the runs that have far ground beside them; -1 where there are none.
+std::vector<int> usual_greys(int rows, const std::vector<Candidate>& candidates) {
+  const auto is_far_near = [&](size_t i) {
+    const size_t first = i > kSupportCols ? i - kSupportCols : 0;
+    const size_t last = std::min(candidates.size(), i + kSupportCols + 1);
+    return std::any_of(candidates.begin() + static_cast<std::ptrdiff_t>(first),
+                       candidates.begin() + static_cast<std::ptrdiff_t>(last),
+                       [](const Candidate& c) { return c.run && c.run->foot_m >= kSupportM; });
+  };
+  std::vector<std::vector<int>> greys(static_cast<size_t>(rows));
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    const auto& [column, run] = candidates[i];
+    if (!run || !is_far_near(i)) continue;
+    for (int row = run->top; row <= run->horizon; ++row) greys[static_cast<size_t>(row)].push_back(column.at(row).grey);
+  }
+  std::vector<int> usual;
+  for (std::vector<int>& of_row : greys) {
+    const auto middle = of_row.begin() + static_cast<std::ptrdiff_t>(of_row.size() / 2);
+    std::nth_element(of_row.begin(), middle, of_row.end());
+    usual.push_back(of_row.empty() ? -1 : *middle);
   }
   return usual;
 }
@@ -160,38 +204,34 @@ std::vector<int> usual_greys(const DepthBlocks& blocks, const std::vector<std::o
 }  // namespace
 
 int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, DepthBlocks& blocks) {
-  std::vector<Column> columns;
-  std::vector<std::optional<Column::Run>> runs;
-  for (int col = 0; col < blocks.cols(); ++col) {
-    columns.emplace_back(geometry, down_C, blocks, col);
-    runs.push_back(columns.back().climb());
+  // Tilted by half a right angle, columns enter from as many blocks beside the image as it has rows.
+  const int beside = blocks.rows(), middle = blocks.rows() / 2;
+  std::vector<Candidate> candidates;
+  for (int col = -beside; col < blocks.cols() + beside; ++col) {
+    const Column column(geometry, down_C, blocks, col);
+    candidates.push_back({column, column.climb()});
   }
-  const auto is_far_near = [&](int col) {
-    const auto first = runs.begin() + std::max(0, col - kSupportCols);
-    const auto last = runs.begin() + std::min(blocks.cols(), col + kSupportCols + 1);
-    return std::any_of(first, last, [](const auto& run) { return run && run->foot_m >= kSupportM; });
-  };
-  std::vector<std::optional<Column::Run>> far = runs;
-  for (int col = 0; col < blocks.cols(); ++col) {
-    if (!is_far_near(col)) far[static_cast<size_t>(col)].reset();
-  }
-  const std::vector<int> usual = usual_greys(blocks, far);
-  int found = 0;
-  for (int col = 0; col < blocks.cols(); ++col) {
-    const auto& run = runs[static_cast<size_t>(col)];
+  const std::vector<int> usual = usual_greys(blocks.rows(), candidates);
+  for (auto& [column, run] : candidates) {
     if (!run) continue;
-    const auto is_unlike = [&](int row) {
+    for (int row = run->top; row <= run->horizon; ++row) {
       const int grey = usual[static_cast<size_t>(row)];
-      return grey < 0 || std::abs(blocks.at(row, col).grey - grey) > kLikeOthers;
-    };
-    bool like_sky = true;
-    for (int row = run->top; row <= run->horizon && like_sky; ++row) like_sky = !is_unlike(row);
-    if (!like_sky) continue;
-    for (int row = run->top; row <= run->bottom; ++row) {
+      if (grey >= 0 && std::abs(column.at(row).grey - grey) <= kLikeOthers) continue;
+      run.reset();
+      break;
+    }
+  }
+  int found = 0;
+  for (int row = 0; row < blocks.rows(); ++row) {
+    for (int col = 0; col < blocks.cols(); ++col) {
       DepthBlock& block = blocks.at(row, col);
       if (block.kind != DepthBlock::Kind::unknown) continue;
+      const int of = beside + upright_col(geometry, down_C, middle_px(row, col), middle);
+      if (of < 0 || of >= static_cast<int>(candidates.size())) continue;
+      const auto& [column, run] = candidates[static_cast<size_t>(of)];
+      if (!run || row < run->top || row > run->bottom) continue;
       block.kind = DepthBlock::Kind::sky;
-      block.foot16 = static_cast<int16_t>(columns[static_cast<size_t>(col)].upright16(row, run->foot_m));
+      block.foot16 = static_cast<int16_t>(column.upright16(row, run->foot_m));
       ++found;
     }
   }

@@ -12,7 +12,7 @@ namespace hedgehop::vision::mapping {
 /// What a square of pixels of the left image shows.
 struct DepthBlock {
   enum class Kind : uint8_t {
-    unknown,  ///< too few pixels were matched: neither far nor free
+    unknown,  ///< too few pixels were matched for certain: neither far nor free
     matched,
     sky,  ///< not matched, but recognized by find_sky()
   };
@@ -32,7 +32,9 @@ class DepthBlocks {
   static constexpr int kBlockPx = 8;
 
   /// @param grey  CV_8UC1 of equal size, or empty: then there are no greys, and no sky is found.
-  void build(const cv::Mat& disparity16, const cv::Mat& grey);
+  /// @param smear_px  half the edge of the matcher's window, >= 0. Where one half of the window is plain, the other
+  /// half decides what is matched: so near to what is plain, nothing is seen through for certain.
+  void build(const cv::Mat& disparity16, const cv::Mat& grey, int smear_px);
 
   int rows() const { return rows_; }
   int cols() const { return cols_; }
@@ -44,11 +46,12 @@ class DepthBlocks {
  private:
   int rows_ = 0, cols_ = 0;
   std::vector<DepthBlock> blocks_;
+  cv::Mat smeared_;
 };
 
 /// Recognizes sky: it cannot be matched, and without it nothing flies in the open. A block is sky only on evidence:
 /// - below the horizon, which attitude predicts, its column ends in ground matched at 15 m or farther, level, without
-///   a gap from the image's lower edge;
+///   a gap from the image's edge; a column is upright in the world, however the camera is tilted;
 /// - from there up nothing was matched that is nearer than 15 m;
 /// - above what was matched its column is smooth, and as bright as the sky of columns near to ground at 25 m is in
 ///   its row: where there are none, there is no sky.

@@ -23,7 +23,7 @@ struct Known {
       map.clear_cylinder(Eigen::Vector3d::Zero(), 100.0, 1.0);
     }
     slice.build(map, {-0.1, 0.3}, closed);
-    field.build(slice, kNeedM, goal_W.head<2>(), learned.beyond_m(goal_W.head<2>(), 0.0));
+    field.build(slice, {kNeedM, kNeedM}, goal_W.head<2>(), learned.beyond_m(goal_W.head<2>(), 0.0));
   }
   LevelSlice slice;
   RouteField field;

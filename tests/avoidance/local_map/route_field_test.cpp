@@ -81,7 +81,7 @@ TEST(RouteField, FindsARouteExactlyWhereFloodingFindsOne) {
     const int goal_row = static_cast<int>(seed * 7 % 24), goal_col = static_cast<int>(seed * 5 % 24);
     if (!grid.may_enter(goal_row, goal_col, kNeedM)) continue;
     RouteField field;
-    field.build(grid.slice, kNeedM, grid.slice.center(goal_row, goal_col), beyond);
+    field.build(grid.slice, {kNeedM, kNeedM}, grid.slice.center(goal_row, goal_col), beyond);
     const std::vector<uint8_t> expected = grid.reachable(goal_row, goal_col, kNeedM);
     for (int row = 0; row < grid.side; ++row) {
       for (int col = 0; col < grid.side; ++col) {
@@ -104,7 +104,7 @@ TEST(RouteField, RoutesKeepTheirDistanceFromObstacles) {
     const Grid grid = Grid::random(seed);
     if (!grid.may_enter(2, 2, kNeedM)) continue;
     RouteField field;
-    field.build(grid.slice, kNeedM, grid.slice.center(2, 2), beyond);
+    field.build(grid.slice, {kNeedM, kNeedM}, grid.slice.center(2, 2), beyond);
     for (int row = 0; row < grid.side; row += 3) {
       for (int col = 0; col < grid.side; col += 3) {
         if (!grid.may_enter(row, col, kNeedM)) continue;
@@ -128,7 +128,7 @@ TEST(RouteField, DistancesInTheOpenAreThoseOfAnEightConnectedGrid) {
   map.clear_cylinder(Eigen::Vector3d::Zero(), 100.0, 1.0);
   grid.slice.build(map, {-0.1, 0.1}, ClosedCells(kCellM));
   RouteField field;
-  field.build(grid.slice, 0.5, grid.slice.center(3, 4), beyond);
+  field.build(grid.slice, {0.5, 0.5}, grid.slice.center(3, 4), beyond);
   constexpr double kRounding = 0.02;  // diagonal steps count 1.4 cells
   for (int row = 0; row < grid.side; ++row) {
     for (int col = 0; col < grid.side; ++col) {
@@ -147,7 +147,7 @@ TEST(RouteField, AGoalOutsideIsSoughtAcrossTheNearestEdge) {
   grid.slice.build(map, {-0.1, 0.1}, ClosedCells(kCellM));
   const Eigen::Vector2d goal_W(40.0, 0.0);
   RouteField field;
-  field.build(grid.slice, 0.5, goal_W, [&](const Eigen::Vector2d& p_W) { return (goal_W - p_W).norm(); });
+  field.build(grid.slice, {0.5, 0.5}, goal_W, [&](const Eigen::Vector2d& p_W) { return (goal_W - p_W).norm(); });
   const Eigen::Vector2d end_W = field.route_W({-4.0, 0.2}, 100.0).back();
   EXPECT_GT(end_W.x(), 5.0);
   EXPECT_NEAR(end_W.y(), 0.2, 1.0);

@@ -19,7 +19,7 @@ struct View {
 
   DepthBlocks blocks() const {
     DepthBlocks blocks;
-    blocks.build(disparity16, grey);
+    blocks.build(disparity16, grey, 0);
     find_sky(world.geometry, X_WC.linear().row(2).transpose(), blocks);
     return blocks;
   }
@@ -186,7 +186,7 @@ TEST(DepthBlocks, ABlockIsAsNearAsAPoleInIt) {
   cv::Mat disparity16(8, 8, CV_16SC1, cv::Scalar(16));
   disparity16.colRange(3, 5).setTo(200);
   DepthBlocks blocks;
-  blocks.build(disparity16, {});
+  blocks.build(disparity16, {}, 0);
   EXPECT_EQ(blocks.at(0, 0).kind, DepthBlock::Kind::matched);
   EXPECT_EQ(blocks.at(0, 0).near16, 200);
 }
@@ -195,7 +195,7 @@ TEST(DepthBlocks, ABlockWithFewMatchesIsUnknown) {
   cv::Mat disparity16(8, 8, CV_16SC1, cv::Scalar(stereo::kNoDisparity));
   disparity16.rowRange(0, 3).setTo(40);
   DepthBlocks blocks;
-  blocks.build(disparity16, {});
+  blocks.build(disparity16, {}, 0);
   EXPECT_EQ(blocks.at(0, 0).kind, DepthBlock::Kind::unknown);
   EXPECT_EQ(blocks.at(0, 0).near16, 40);
 }

@@ -20,7 +20,7 @@ OccupancyMap mapped(const MappedWorld& world, uint64_t seed) {
   map.reset(p_WC);
   for (int i = 0; i < 16; ++i) {
     const Eigen::Isometry3d X_WC = MappedWorld::looking(p_WC, 0.5 * std::sin(0.7 * i));
-    blocks.build(world.disparity16(X_WC, generator), {});
+    blocks.build(world.disparity16(X_WC, generator), {}, 0);
     map.move(p_WC);
     map.integrate(blocks, world.geometry, X_WC);
     p_WC.x() += 0.09;
@@ -98,7 +98,7 @@ TEST(OccupancyMap, WithoutAnyMatchNothingIsFreeAndNothingOccupied) {
   OccupancyMap map(small());
   map.reset(Eigen::Vector3d::Zero());
   DepthBlocks blocks;
-  blocks.build(cv::Mat(180, 320, CV_16SC1, cv::Scalar(stereo::kNoDisparity)), {});
+  blocks.build(cv::Mat(180, 320, CV_16SC1, cv::Scalar(stereo::kNoDisparity)), {}, 0);
   const MappedWorld world;
   for (int i = 0; i < 20; ++i)
     map.integrate(blocks, world.geometry, MappedWorld::looking(Eigen::Vector3d::Zero(), 0.0));
@@ -138,7 +138,7 @@ TEST(OccupancyMap, WhatMovesLeavesNoWakeBehindWhereItIsKnownToMove) {
         world.boxes_W = {{Eigen::Vector3d(3.0, east_m - 0.5, -4.0), Eigen::Vector3d(4.0, east_m + 0.5, 0.0)}};
         if (known) moving = {{{3.5, east_m}, 1.0}};
       }
-      blocks.build(world.disparity16(X_WC, generator), {});
+      blocks.build(world.disparity16(X_WC, generator), {}, 0);
       map.integrate(blocks, world.geometry, X_WC, moving);
     }
     int count = 0;
