@@ -27,7 +27,9 @@ void read_disparity(const cv::Mat& disparity16, const cv::Mat& smeared, int row,
       certain += d[u] >= 0 && s[u] == 0;
     }
   }
-  block.kind = certain >= kLeastMatched ? DepthBlock::Kind::matched : DepthBlock::Kind::unknown;
+  block.kind = certain >= kLeastMatched ? DepthBlock::Kind::matched
+               : count >= kLeastMatched ? DepthBlock::Kind::smeared
+                                        : DepthBlock::Kind::unknown;
   block.near16 = -1;
   if (count < kLeastNear) return;
   const auto rank = matched.begin() + std::max(2, count / 16);
@@ -125,7 +127,7 @@ class Column {
     const int lowest = row;
     int support = lowest + 1;
     for (; row >= 0 && in_image(row) && elevation(row) < near_rad; --row) {
-      if (at(row).kind != DepthBlock::Kind::matched) continue;
+      if (at(row).kind == DepthBlock::Kind::unknown) continue;
       if (support - row > kGap + 1) return std::nullopt;
       support = row;
     }
@@ -225,7 +227,7 @@ int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down
   for (int row = 0; row < blocks.rows(); ++row) {
     for (int col = 0; col < blocks.cols(); ++col) {
       DepthBlock& block = blocks.at(row, col);
-      if (block.kind != DepthBlock::Kind::unknown) continue;
+      if (block.kind == DepthBlock::Kind::matched) continue;
       const int of = beside + upright_col(geometry, down_C, middle_px(row, col), middle);
       if (of < 0 || of >= static_cast<int>(candidates.size())) continue;
       const auto& [column, run] = candidates[static_cast<size_t>(of)];

@@ -12,8 +12,9 @@ namespace hedgehop::vision::mapping {
 /// What a square of pixels of the left image shows.
 struct DepthBlock {
   enum class Kind : uint8_t {
-    unknown,  ///< too few pixels were matched for certain: neither far nor free
+    unknown,  ///< too few pixels were matched: neither far nor free
     matched,
+    smeared,  ///< matched, but so near to what is plain that another surface may show
     sky,  ///< not matched, but recognized by find_sky()
   };
   Kind kind = Kind::unknown;

@@ -95,7 +95,7 @@ void OccupancyMap::find_clear(const DepthBlocks& blocks, const stereo::StereoGeo
   for (int row = 0; row < blocks.rows(); ++row) {
     for (int col = 0; col < blocks.cols(); ++col) {
       const DepthBlock& block = blocks.at(row, col);
-      if (block.kind == DepthBlock::Kind::unknown) continue;
+      if (block.kind == DepthBlock::Kind::unknown || block.kind == DepthBlock::Kind::smeared) continue;
       int near16 = block.foot16;
       for (int v = std::max(0, row - 1); v <= std::min(blocks.rows() - 1, row + 1); ++v) {
         for (int u = std::max(0, col - 1); u <= std::min(blocks.cols() - 1, col + 1); ++u) {
