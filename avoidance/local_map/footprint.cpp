@@ -6,14 +6,13 @@
 namespace hedgehop::avoidance::local_map {
 namespace {
 
-// By which the map may be off where the unknown begins, standing and per speed.
-constexpr double kUnsureM = 0.2, kUnsureS = 0.05;
+constexpr double kUnsureS = 0.05;  // of flight, by which the map may be off where the unknown begins
 
 }  // namespace
 
 Fault Footprint::fault(const LevelSlice& slice, const Moment& moment, bool unknown_too) const {
   const double margin_m = clearance_.margin_m + clearance_.margin_s * moment.v_W.norm();
-  const double unsure_m = kUnsureM + kUnsureS * moment.v_W.norm();
+  const double unsure_m = kUnsureS * moment.v_W.norm();
   Fault worst;
   for (const Outline::Disc& disc : swept_) {
     const Eigen::Vector2d p_W = moment.p_W + disc.p_H;
