@@ -23,12 +23,31 @@ void LevelSlice::build(const vision::mapping::OccupancyMap& map, const Band& ban
       }
     }
   }
+  fill_specks();
   close(closed, band);
   marked_.resize(cells_.size());
   std::ranges::transform(cells_, marked_.begin(), [](State s) { return static_cast<uint8_t>(s == State::occupied); });
   occupied_.build(marked_, side_, side_);
   std::ranges::transform(cells_, marked_.begin(), [](State s) { return static_cast<uint8_t>(s == State::unknown); });
   unknown_.build(marked_, side_, side_);
+}
+
+/// A single unknown column amid free ones lies between the squares of images. What is there and thinner casts a shadow:
+/// then a neighbor is unknown, too.
+void LevelSlice::fill_specks() {
+  before_ = cells_;
+  for (int row = 1; row + 1 < side_; ++row) {
+    for (int col = 1; col + 1 < side_; ++col) {
+      State& state = cells_[static_cast<size_t>(row * side_ + col)];
+      if (state != State::unknown) continue;
+      int free = 0;
+      for (int r = row - 1; r <= row + 1; ++r) {
+        for (int c = col - 1; c <= col + 1; ++c) free += before_[static_cast<size_t>(r * side_ + c)] == State::free;
+      }
+      constexpr int kNeighbors = 8;
+      if (free == kNeighbors) state = State::free;
+    }
+  }
 }
 
 void LevelSlice::close(const ClosedCells& closed, const Band& band) {
