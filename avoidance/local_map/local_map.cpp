@@ -71,6 +71,7 @@ class LocalMap final : public Module {
     last_.reset();
     last_cmd_W_.setZero();
     gaze_ = {};
+    progress_.reset();
     waits_.reset();
     stops_ = stuck_ = decisions_ = 0;
   }
@@ -129,7 +130,7 @@ class LocalMap final : public Module {
     const bool arrived = p_BG_W.norm() < kArrivedM;
     const bool held = !arrived && route_m && plan_.worth_m < kHeldBack * hoped.worth_m;
     gaze_.update(held, hoped.path, slice(), footprint_, clearance_.hull_m, now, heading);
-    look(now, heading);
+    look(now, heading, route_m);
     const bool goes_on = route_m && !(waits(now) && !gaze_.place_W() && !arrived);
     const double nose = with_course_in_view(now, nose_rad(observation, arrived, goes_on));
     last_nose_rad_ = footprint_.turn_as_far_as_free_rad(slice(), plan_.path, heading, nose);
@@ -187,8 +188,10 @@ class LocalMap final : public Module {
   }
 
   /// Plans so that what is in the way can be seen, and closes what stays unknown while the vehicle stands and looks at
-  /// it.
-  void look(const Moment& now, double heading) {
+  /// it, or has looked from here and there without coming on.
+  void look(const Moment& now, double heading, std::optional<double> route_m) {
+    constexpr double kStares = 4.0;
+    const bool in_vain = progress_.stalled_s(route_m, now.t_s) > kStares * config_.stare_s;
     const std::optional<Eigen::Vector2d>& place_W = gaze_.place_W();
     // Who speeds up tilts the camera, and sees something else: not for little, where there is something to look at.
     if (place_W && plan_.safe && plan_.worth_m < kLittleM) {
@@ -200,12 +203,13 @@ class LocalMap final : public Module {
              [&](const Eigen::Vector2d& p_W) { return std::max(0.0, around_->blind_m() - (p_W - *place_W).norm()); });
     }
     const std::optional<double> stares_s = gaze_.stares_s(now, plan_.v_cmd_W, heading);
-    if (!stares_s || *stares_s < config_.stare_s) return;
+    if (!place_W || !(in_vain || (stares_s && *stares_s >= config_.stare_s))) return;
     // Not what touches the vehicle, which would then not dare to move away.
     constexpr double kRadiusM = 1.0;
     const double away_m = (*place_W - now.p_W).norm() - clearance_.hull_m - clearance_.margin_m - slice().cell_m();
     around_->close(*place_W, std::clamp(away_m, 0.5 * slice().cell_m(), kRadiusM), now.t_s);
     gaze_.stare_again();
+    progress_.reset();
   }
 
   /// Moves to where it may turn.
@@ -286,6 +290,7 @@ class LocalMap final : public Module {
   double last_nose_rad_ = 0.0;  ///< commanded
   Eigen::Vector2d last_cmd_W_ = Eigen::Vector2d::Zero();
   Gaze gaze_;
+  Progress progress_;
   Lasting waits_;
   std::optional<Decision> last_;
   int64_t stops_ = 0, stuck_ = 0, decisions_ = 0;

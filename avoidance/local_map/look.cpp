@@ -35,6 +35,15 @@ bool points_at(const Eigen::Vector2d& place_W, const Eigen::Vector2d& p_W, doubl
   return std::abs(std::remainder(std::atan2(off_W.y(), off_W.x()) - heading_rad, 2.0 * M_PI)) < kAimedRad;
 }
 
+double Progress::stalled_s(std::optional<double> route_m, double t_s) {
+  constexpr double kShorterM = 1.0, kLongerM = 3.0;  // another way, or what is known of it has changed
+  if (route_m && (!from_m_ || *route_m < *from_m_ - kShorterM || *route_m > *from_m_ + kLongerM)) {
+    from_m_ = route_m;
+    since_s_ = t_s;
+  }
+  return from_m_ ? t_s - since_s_ : 0.0;
+}
+
 void Gaze::update(bool held, const std::vector<Moment>& hoped, const LevelSlice& slice, const Footprint& footprint,
                   double hull_m, const Moment& now, double heading_rad) {
   const bool unknown_still = place_W_ && is_unknown(slice, *place_W_);

@@ -39,6 +39,18 @@ class Lasting {
   std::optional<double> since_s_;
 };
 
+/// For how long the way to the goal has stayed as long as it is.
+class Progress {
+ public:
+  /// @param route_m  to the goal, where there is a way. @param t_s  now, rising from call to call. @return s.
+  double stalled_s(std::optional<double> route_m, double t_s);
+  void reset() { from_m_.reset(); }
+
+ private:
+  std::optional<double> from_m_;
+  double since_s_ = 0.0;
+};
+
 /// The unknown place that keeps the vehicle from a better stop, if one does, and to which its nose therefore turns.
 class Gaze {
  public:
