@@ -23,8 +23,8 @@ void LevelSlice::build(const vision::mapping::OccupancyMap& map, const Band& ban
       }
     }
   }
-  fill_specks();
   close(closed, band);
+  fill_specks(map, top, bottom);
   marked_.resize(cells_.size());
   std::ranges::transform(cells_, marked_.begin(), [](State s) { return static_cast<uint8_t>(s == State::occupied); });
   occupied_.build(marked_, side_, side_);
@@ -32,9 +32,15 @@ void LevelSlice::build(const vision::mapping::OccupancyMap& map, const Band& ban
   unknown_.build(marked_, side_, side_);
 }
 
-/// A single unknown column amid free ones lies between the squares of images. What is there and thinner casts a shadow:
-/// then a neighbor is unknown, too.
-void LevelSlice::fill_specks() {
+/// A single unknown column amid free ones lies between the squares of images, unless something was seen in it. What
+/// could not be matched there casts a shadow: then a neighbor is unknown, too.
+void LevelSlice::fill_specks(const vision::mapping::OccupancyMap& map, int top, int bottom) {
+  const auto suspect = [&](int row, int col) {
+    for (int layer = top; layer <= bottom; ++layer) {
+      if (map.is_suspect(map.first() + vision::mapping::OccupancyMap::Index(row, col, layer))) return true;
+    }
+    return false;
+  };
   before_ = cells_;
   for (int row = 1; row + 1 < side_; ++row) {
     for (int col = 1; col + 1 < side_; ++col) {
@@ -45,7 +51,7 @@ void LevelSlice::fill_specks() {
         for (int c = col - 1; c <= col + 1; ++c) free += before_[static_cast<size_t>(r * side_ + c)] == State::free;
       }
       constexpr int kNeighbors = 8;
-      if (free == kNeighbors) state = State::free;
+      if (free == kNeighbors && !suspect(row, col)) state = State::free;
     }
   }
 }

@@ -16,8 +16,8 @@ struct Band {
 };
 
 /// What is known of the plane of flight: a column of the map is occupied where any of its voxels within the band is,
-/// free where all are or where all its neighbors are, and unknown otherwise; with distances to both. Unknown columns
-/// that were closed at a height within the band are occupied.
+/// free where all are, or where all its neighbors are and nothing was seen in it, and unknown otherwise; with distances
+/// to both. Unknown columns that were closed at a height within the band are occupied.
 class LevelSlice {
  public:
   using State = vision::mapping::OccupancyMap::State;
@@ -44,7 +44,7 @@ class LevelSlice {
     return contains(c.x(), c.y()) ? cell_m_ * (field.at(c.x(), c.y()) - 0.5) : 0.0;
   }
 
-  void fill_specks();
+  void fill_specks(const vision::mapping::OccupancyMap& map, int top, int bottom);
   void close(const ClosedCells& closed, const Band& band);
 
   int side_ = 0;

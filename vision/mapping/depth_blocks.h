@@ -15,7 +15,7 @@ struct DepthBlock {
     unknown,  ///< too few pixels were matched: neither far nor free
     matched,
     smeared,  ///< matched, but so near to what is plain that another surface may show
-    sky,  ///< not matched, but recognized by find_sky()
+    sky,      ///< not matched, but recognized by find_sky()
   };
   Kind kind = Kind::unknown;
   int16_t near16 = -1;  ///< disparity x 16 of its nearest surface; -1 where nothing was matched

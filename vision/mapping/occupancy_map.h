@@ -59,6 +59,8 @@ class OccupancyMap {
   void clear_cylinder(const Eigen::Vector3d& center_W, double radius_m, double half_height_m);
 
   State state(const Index& voxel) const;
+  /// Whether a voxel was hit more than it was seen through.
+  bool is_suspect(const Index& voxel) const { return contains(voxel) && log_odds_[slot(voxel)] > 0; }
   Index index(const Eigen::Vector3d& p_W) const;
   Eigen::Vector3d center(const Index& voxel) const;
   /// The window: [first, first + size) in each direction.

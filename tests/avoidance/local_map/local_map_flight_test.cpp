@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "avoidance/local_map/look.h"
 #include "tests/avoidance/local_map/point_world.h"
 
 namespace hedgehop::avoidance::local_map {
@@ -120,6 +121,42 @@ TEST(LocalMapFlight, ComesOutOfADeadEnd) {
   const PointWorld::Flown flown = world.fly({});
   EXPECT_TRUE(flown.reached);
   EXPECT_GT(flown.clearance_m, 0.0);
+}
+
+// Between walls that leave less than the margin beside the hull, seen without error: slowly, and touching nothing.
+TEST(LocalMapFlight, PassesWhatIsTooNarrowForItsMargin) {
+  constexpr double kHullM = 0.65, kVoxelM = 0.3;
+  for (const double beside_m : {0.35, 0.45, 0.6}) {
+    PointWorld world;
+    world.radius_m = kHullM;
+    world.goal_W = {16.0, 0.0};
+    for (const double side : {-1.0, 1.0}) {
+      const double wall_m = side * (kHullM + beside_m + 0.2);
+      world.walls.push_back({{5.0, wall_m}, {11.0, wall_m}});
+      world.walls.push_back({{5.0, wall_m}, {5.0, side * 40.0}});
+    }
+    const PointWorld::Flown flown = world.fly({});
+    EXPECT_GT(flown.clearance_m, 0.0) << beside_m;
+    // Half a voxel on either side may be lost.
+    if (beside_m > kVoxelM + 0.05) {
+      EXPECT_TRUE(flown.reached) << beside_m;
+    }
+  }
+}
+
+// What stays unknown however it is looked at, from here and there, is closed in the end.
+TEST(Progress, CountsFromWhenTheWayWasShorterLast) {
+  Progress progress;
+  EXPECT_EQ(progress.stalled_s(std::nullopt, 1.0), 0.0);
+  EXPECT_EQ(progress.stalled_s(30.0, 2.0), 0.0);
+  EXPECT_EQ(progress.stalled_s(29.5, 5.0), 3.0);
+  EXPECT_EQ(progress.stalled_s(31.5, 6.0), 4.0);
+  EXPECT_EQ(progress.stalled_s(std::nullopt, 7.0), 5.0);
+  EXPECT_EQ(progress.stalled_s(28.5, 8.0), 0.0);   // shorter
+  EXPECT_EQ(progress.stalled_s(60.0, 10.0), 0.0);  // another way
+  EXPECT_EQ(progress.stalled_s(60.0, 12.0), 2.0);
+  progress.reset();
+  EXPECT_EQ(progress.stalled_s(60.0, 13.0), 0.0);
 }
 
 TEST(LocalMapFlight, SaysThatItIsStuckWhereNoWayExists) {

@@ -137,6 +137,27 @@ TEST(Movers, FindsNothingWhereAllStands) {
   }
 }
 
+// Of the wall of a corridor, matching finds now this part and now that, some of it in space seen free before.
+TEST(Movers, AWallThatIsLookedAlongIsNone) {
+  std::mt19937_64 generator(1);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  int deep = 0;
+  for (int flight = 0; flight < 20; ++flight) {
+    Movers movers({.sigma_per_m2 = 0.0057});
+    for (int image = 0; image < 40; ++image) {
+      const double from_m = 2.0 + 2.0 * share(generator), to_m = from_m + 2.5 + 2.0 * share(generator);
+      std::vector<SurfacePoint> points;
+      for (double ahead_m = from_m; ahead_m < to_m; ahead_m += 0.3) {
+        points.push_back({{ahead_m, 1.2 + 0.2 * share(generator)}, share(generator) < 0.5});
+      }
+      movers.update(0.08 * image, kAllAhead, points);
+      EXPECT_TRUE(movers.movers().empty()) << flight << " " << image;
+      ++deep;
+    }
+  }
+  EXPECT_EQ(deep, 800);
+}
+
 TEST(Threat, IsWhatAStandingVehicleIsRunOverBy) {
   const std::vector<Moment> stands = {{5.0, {0.0, 0.0}, {0.0, 0.0}}};
   const Clearance clearance{.hull_m = 0.5, .margin_m = 0.25, .margin_s = 0.0};

@@ -4,6 +4,7 @@
 
 #include <queue>
 #include <random>
+#include <tuple>
 
 namespace hedgehop::avoidance::local_map {
 namespace {
@@ -28,32 +29,38 @@ struct Grid {
         grid.blocked[static_cast<size_t>(r * 24 + c)] = 1;
       }
     }
-    vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = grid.side, .layers = 1});
+    grid.build();
+    return grid;
+  }
+  void build() {
+    vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = side, .layers = 1});
     map.reset(Eigen::Vector3d::Zero());
     ClosedCells closed(kCellM);
-    for (int r = 0; r < grid.side; ++r) {
-      for (int c = 0; c < grid.side; ++c) {
+    for (int r = 0; r < side; ++r) {
+      for (int c = 0; c < side; ++c) {
         const Eigen::Vector3d center_W = map.center(map.first() + vision::mapping::OccupancyMap::Index(r, c, 0));
-        if (grid.is_blocked(r, c)) {
+        if (is_blocked(r, c)) {
           closed.close(center_W, 0.1, 0.0);  // unknown and closed: an obstacle
         } else {
           map.clear_cylinder(center_W, 0.1, 0.1);
         }
       }
     }
-    grid.slice.build(map, {0.1, 0.4}, closed);
-    return grid;
+    slice.build(map, {0.1, 0.4}, closed);
   }
   bool is_blocked(int row, int col) const { return blocked[static_cast<size_t>(row * side + col)]; }
 
   /// Whether a disk passes cell by cell: Manhattan flood, distances to every blocked cell by brute force.
-  bool may_enter(int row, int col, double need_m) const {
+  bool may_enter(int row, int col, double need_m) const { return away_m(row, col) >= need_m; }
+  /// From a cell's middle to the nearest blocked cell's edge.
+  double away_m(int row, int col) const {
+    double least_m = 1e6;
     for (int r = 0; r < side; ++r) {
       for (int c = 0; c < side; ++c) {
-        if (is_blocked(r, c) && kCellM * (std::hypot(r - row, c - col) - 0.5) < need_m) return false;
+        if (is_blocked(r, c)) least_m = std::min(least_m, kCellM * (std::hypot(r - row, c - col) - 0.5));
       }
     }
-    return true;
+    return least_m;
   }
   std::vector<uint8_t> reachable(int goal_row, int goal_col, double need_m) const {
     std::vector<uint8_t> seen(blocked.size(), 0);
@@ -96,6 +103,43 @@ TEST(RouteField, FindsARouteExactlyWhereFloodingFindsOne) {
   }
   EXPECT_GT(reached, 2000);
   EXPECT_GT(cut_off, 20);
+}
+
+/// An east-west wall of five rows with two gaps, 1 and 6 cells wide.
+Grid two_gaps(int narrow_col, int wide_col) {
+  Grid grid;
+  grid.blocked.assign(static_cast<size_t>(grid.side * grid.side), 0);
+  constexpr int kFirstRow = 10, kLastRow = 14, kWide = 6;
+  for (int row = kFirstRow; row <= kLastRow; ++row) {
+    for (int col = 0; col < grid.side; ++col) {
+      grid.blocked[static_cast<size_t>(row * grid.side + col)] =
+          col != narrow_col && (col < wide_col || col >= wide_col + kWide);
+    }
+  }
+  grid.build();
+  return grid;
+}
+
+// The passage that is wide enough for what is wanted, as long as the detour is worth it; else the narrow one.
+TEST(RouteField, LeadsThroughWhatIsNarrowOnlyWhereTheWayRoundIsLong) {
+  const Berth berth{0.7, 0.2};
+  for (const auto& [narrow_col, wide_col, narrow] : {std::tuple{9, 11, false}, {2, 18, true}}) {
+    const Grid grid = two_gaps(narrow_col, wide_col);
+    const Eigen::Vector2d from_W = grid.slice.center(7, narrow_col);
+    RouteField field;
+    field.build(grid.slice, berth, grid.slice.center(17, narrow_col), beyond);
+    const double nearest_m = field.nearest_m(from_W, 1e3);
+    EXPECT_EQ(nearest_m < berth.wanted_m, narrow) << narrow_col;
+    EXPECT_GE(nearest_m, berth.least_m);
+    double by_hand_m = 1e3;
+    for (const Eigen::Vector2d& at_W : field.route_W(from_W, 1e3)) {
+      const Eigen::Vector2i cell = grid.slice.cell(at_W);
+      by_hand_m = std::min(by_hand_m, grid.away_m(cell.x(), cell.y()));
+    }
+    EXPECT_NEAR(nearest_m, by_hand_m, 1e-6);
+    field.build(grid.slice, {berth.wanted_m, berth.wanted_m}, grid.slice.center(17, narrow_col), beyond);
+    EXPECT_GE(field.nearest_m(from_W, 1e3), berth.wanted_m);
+  }
 }
 
 TEST(RouteField, RoutesKeepTheirDistanceFromObstacles) {

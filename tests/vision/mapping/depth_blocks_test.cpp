@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
+
 #include "tests/vision/mapping/mapped_world.h"
 
 namespace hedgehop::vision::mapping {
@@ -14,7 +17,7 @@ constexpr int kGroundGrey = 90, kSkyGrey = 170, kBoxGrey = 120;
 struct View {
   MappedWorld world;
   cv::Mat disparity16, grey;
-  std::vector<uint8_t> is_sky;  ///< of each pixel, by ray
+  std::vector<uint8_t> is_sky, is_blank;  ///< of each pixel, by ray
   Eigen::Isometry3d X_WC;
 
   DepthBlocks blocks() const {
@@ -26,11 +29,13 @@ struct View {
 };
 
 View look(const MappedWorld& world, double height_m, const std::vector<Eigen::AlignedBox3d>& blank_W,
-          double pitch_rad = 0.0) {
-  const Eigen::Isometry3d X_WC = MappedWorld::looking({0.0, 0.0, -height_m}, 0.0, pitch_rad);
+          double pitch_rad = 0.0, double roll_rad = 0.0) {
+  const Eigen::Isometry3d X_WC = MappedWorld::looking({0.0, 0.0, -height_m}, 0.0, pitch_rad) *
+                                 Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitZ());
   View view{world,
             cv::Mat(world.height_px, world.width_px, CV_16SC1),
             cv::Mat(world.height_px, world.width_px, CV_8UC1),
+            {},
             {},
             X_WC};
   MappedWorld with = world;
@@ -46,6 +51,7 @@ View look(const MappedWorld& world, double height_m, const std::vector<Eigen::Al
                                                ? stereo::kNoDisparity
                                                : static_cast<int16_t>(std::lround(world.geometry.disparity16(z_m)));
       view.is_sky.push_back(sky);
+      view.is_blank.push_back(blank);
     }
   }
   return view;
@@ -66,7 +72,9 @@ Found find(const View& view) {
       found.of_sky += sky;
       found.sky += said && sky;
       // Of what is not sky only the far ground below the horizon may be taken for it.
-      found.wrong += said && !sky && v < view.world.height_px / 2 - 8;
+      constexpr double kHorizon = 0.03;  // sine of an elevation
+      const Eigen::Vector3d ray_W = view.X_WC.linear() * view.world.geometry.ray({u, v}).normalized();
+      found.wrong += said && !sky && -ray_W.z() > kHorizon;
     }
   }
   return found;
@@ -76,6 +84,47 @@ TEST(FindSky, FindsItAboveFarGround) {
   const Found found = find(look({}, 4.0, {}));
   EXPECT_GT(found.of_sky, 300);
   EXPECT_GT(found.sky, 0.9 * found.of_sky);
+}
+
+/// Blocks that pass for sky amid blocks of what is blank.
+int within_blank(const View& view) {
+  const DepthBlocks blocks = view.blocks();
+  const auto is_blank = [&](int row, int col) {
+    return view.is_blank[static_cast<size_t>((row * 8 + 4) * view.world.width_px + col * 8 + 4)];
+  };
+  int found = 0;
+  for (int row = 1; row + 1 < blocks.rows(); ++row) {
+    for (int col = 1; col + 1 < blocks.cols(); ++col) {
+      int blank = 0;
+      for (int r = row - 1; r <= row + 1; ++r) {
+        for (int c = col - 1; c <= col + 1; ++c) blank += is_blank(r, c);
+      }
+      found += blank == 9 && blocks.at(row, col).kind == DepthBlock::Kind::sky;
+    }
+  }
+  return found;
+}
+
+// In a turn the image is tilted: what stands above ground in it is not above it in the world.
+TEST(FindSky, ATiltedCameraFindsItAndTakesNoTowerForIt) {
+  for (const double roll_rad : {-0.4, -0.2, 0.2, 0.4}) {
+    const Found open = find(look({}, 15.0, {}, -0.1, roll_rad));
+    EXPECT_GT(open.of_sky, 200);
+    EXPECT_GT(open.sky, 0.8 * open.of_sky) << roll_rad;
+    EXPECT_EQ(open.wrong, 0) << roll_rad;
+    std::ptrdiff_t tower_px = 0;
+    for (const double aside_m : {-6.0, 0.0, 6.0}) {
+      const Eigen::AlignedBox3d tower(Eigen::Vector3d(12.0, aside_m - 3.0, -60.0),
+                                      Eigen::Vector3d(18.0, aside_m + 3.0, 0.0));
+      const View view = look({}, 15.0, {tower}, -0.1, roll_rad);
+      // As bright as the sky: only what it stands above tells.
+      View like = view;
+      like.grey.setTo(kSkyGrey, like.grey == kBoxGrey);
+      EXPECT_EQ(within_blank(like), 0) << roll_rad << " " << aside_m;
+      tower_px += std::ranges::count(view.is_blank, true);
+    }
+    EXPECT_GT(tower_px, 10'000);
+  }
 }
 
 TEST(FindSky, APlainWallIsNotSky) {
@@ -189,6 +238,28 @@ TEST(DepthBlocks, ABlockIsAsNearAsAPoleInIt) {
   blocks.build(disparity16, {}, 0);
   EXPECT_EQ(blocks.at(0, 0).kind, DepthBlock::Kind::matched);
   EXPECT_EQ(blocks.at(0, 0).near16, 200);
+}
+
+// A window of 11 px matches 5 px of a plain wall with the texture beside it; a speck without a match is no wall.
+TEST(DepthBlocks, BesideWhatIsPlainNothingIsSeenThrough) {
+  constexpr int kWallPx = 40, kSmearPx = 5, kFar16 = 20;
+  cv::Mat disparity16(64, 80, CV_16SC1, cv::Scalar(kFar16));
+  disparity16.colRange(kWallPx + kSmearPx, 80).setTo(stereo::kNoDisparity);
+  disparity16(cv::Rect(10, 30, 3, 3)).setTo(stereo::kNoDisparity);
+  DepthBlocks blocks;
+  blocks.build(disparity16, {}, kSmearPx);
+  for (int row = 0; row < blocks.rows(); ++row) {
+    for (int col = 0; col < blocks.cols(); ++col) {
+      const DepthBlock& block = blocks.at(row, col);
+      if (8 * (col + 1) <= kWallPx) {
+        EXPECT_EQ(block.kind, DepthBlock::Kind::matched) << row << " " << col;
+      } else {
+        EXPECT_NE(block.kind, DepthBlock::Kind::matched) << row << " " << col;
+      }
+    }
+    EXPECT_EQ(blocks.at(row, kWallPx / 8).kind, DepthBlock::Kind::smeared);
+    EXPECT_EQ(blocks.at(row, kWallPx / 8).near16, kFar16);
+  }
 }
 
 TEST(DepthBlocks, ABlockWithFewMatchesIsUnknown) {
