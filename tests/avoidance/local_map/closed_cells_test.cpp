@@ -2,10 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <utility>
-#include <vector>
-
 #include "avoidance/local_map/level_slice.h"
 
 namespace hedgehop::avoidance::local_map {
@@ -37,28 +33,6 @@ TEST(ClosedCells, OnlyUnknownColumnsAreClosedAndOnlyForATime) {
   EXPECT_EQ(at(2.1, 3.1), State::occupied);  // what was seen is kept for longer
   closed.update(3.0 + ClosedCells::kOccupiedS + 1.0);
   EXPECT_EQ(at(2.1, 3.1), State::unknown);
-}
-
-TEST(LevelSlice, OneUnknownColumnAmidFreeOnesIsFreeAndTwoAreNot) {
-  constexpr double kCellM = 0.5;
-  vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = 20, .layers = 1});
-  map.reset(Eigen::Vector3d::Zero());
-  const std::vector<std::pair<int, int>> unknown = {{5, 5}, {10, 10}, {10, 11}, {14, 4}, {15, 5}};
-  for (int row = 0; row < 20; ++row) {
-    for (int col = 0; col < 20; ++col) {
-      if (std::ranges::find(unknown, std::pair{row, col}) != unknown.end()) continue;
-      map.clear_cylinder(map.center(map.first() + vision::mapping::OccupancyMap::Index(row, col, 0)), 0.1, 0.1);
-    }
-  }
-  LevelSlice slice;
-  ClosedCells closed(kCellM);
-  slice.build(map, {0.1, 0.4}, closed);
-  for (const auto& [row, col] : unknown) {
-    EXPECT_EQ(slice.at(row, col), row == 5 ? State::free : State::unknown) << row << " " << col;
-  }
-  closed.remember(map.center(map.first() + vision::mapping::OccupancyMap::Index(5, 5, 0)), 0.0);
-  slice.build(map, {0.1, 0.4}, closed);
-  EXPECT_EQ(slice.at(5, 5), State::occupied);
 }
 
 }  // namespace

@@ -141,7 +141,6 @@ TEST(Movers, FindsNothingWhereAllStands) {
 TEST(Movers, AWallThatIsLookedAlongIsNone) {
   std::mt19937_64 generator(1);
   std::uniform_real_distribution<double> share(0.0, 1.0);
-  int deep = 0;
   for (int flight = 0; flight < 20; ++flight) {
     Movers movers({.sigma_per_m2 = 0.0057});
     for (int image = 0; image < 40; ++image) {
@@ -152,10 +151,8 @@ TEST(Movers, AWallThatIsLookedAlongIsNone) {
       }
       movers.update(0.08 * image, kAllAhead, points);
       EXPECT_TRUE(movers.movers().empty()) << flight << " " << image;
-      ++deep;
     }
   }
-  EXPECT_EQ(deep, 800);
 }
 
 TEST(Threat, IsWhatAStandingVehicleIsRunOverBy) {

@@ -1,0 +1,70 @@
+#include "avoidance/local_map/level_slice.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <utility>
+#include <vector>
+
+namespace hedgehop::avoidance::local_map {
+namespace {
+
+using State = LevelSlice::State;
+
+TEST(LevelSlice, OneUnknownColumnAmidFreeOnesIsFreeAndTwoAreNot) {
+  constexpr double kCellM = 0.5;
+  vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = 20, .layers = 1});
+  map.reset(Eigen::Vector3d::Zero());
+  const std::vector<std::pair<int, int>> unknown = {{5, 5}, {10, 10}, {10, 11}, {14, 4}, {15, 5}};
+  for (int row = 0; row < 20; ++row) {
+    for (int col = 0; col < 20; ++col) {
+      if (std::ranges::find(unknown, std::pair{row, col}) != unknown.end()) continue;
+      map.clear_cylinder(map.center(map.first() + vision::mapping::OccupancyMap::Index(row, col, 0)), 0.1, 0.1);
+    }
+  }
+  LevelSlice slice;
+  ClosedCells closed(kCellM);
+  slice.build(map, {0.1, 0.4}, closed);
+  for (const auto& [row, col] : unknown) {
+    EXPECT_EQ(slice.at(row, col), row == 5 ? State::free : State::unknown) << row << " " << col;
+  }
+  closed.remember(map.center(map.first() + vision::mapping::OccupancyMap::Index(5, 5, 0)), 0.0);
+  slice.build(map, {0.1, 0.4}, closed);
+  EXPECT_EQ(slice.at(5, 5), State::occupied);
+}
+
+// A thin pole that was matched once may be no more than that.
+TEST(LevelSlice, WhereSomethingWasSeenAmidFreeColumnsIsNotFree) {
+  constexpr double kCellM = 0.5, kPoleM = 2.25;
+  vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = 20, .layers = 1});
+  map.reset(Eigen::Vector3d::Zero());
+  const Eigen::Vector3d pole_W(kPoleM, 0.1, 0.1);
+  for (int row = 0; row < 20; ++row) {
+    for (int col = 0; col < 20; ++col) {
+      const vision::mapping::OccupancyMap::Index voxel =
+          map.first() + vision::mapping::OccupancyMap::Index(row, col, 0);
+      if (voxel != map.index(pole_W)) map.clear_cylinder(map.center(voxel), 0.1, 0.1);
+    }
+  }
+  LevelSlice slice;
+  const auto at_pole = [&] {
+    slice.build(map, {0.1, 0.4}, ClosedCells(kCellM));
+    const Eigen::Vector2i cell = slice.cell(pole_W.head<2>());
+    return slice.at(cell.x(), cell.y());
+  };
+  EXPECT_EQ(at_pole(), State::free);
+  const vision::stereo::StereoGeometry geometry{
+      .focal_px = 100.0, .center_u_px = 4.0, .center_v_px = 4.0, .baseline_m = 0.25};
+  vision::mapping::DepthBlocks blocks;
+  blocks.build(cv::Mat(8, 8, CV_16SC1, cv::Scalar(std::round(geometry.disparity16(kPoleM)))), {}, 0);
+  Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
+  X_WC.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  X_WC.translation() = Eigen::Vector3d(0.0, 0.1, 0.1);
+  map.integrate(blocks, geometry, X_WC);
+  EXPECT_EQ(at_pole(), State::unknown);
+}
+
+}  // namespace
+}  // namespace hedgehop::avoidance::local_map
