@@ -36,7 +36,7 @@ class Levels {
 
   static constexpr double kStepM = 1.2;
   std::optional<AltitudeBand> band_;
-  Berth berth_{0.0, 0.0};
+  Berth berth_;
   double first_W_ = 0.0, asked_s_ = 0.0;
   int lowest_ = 0, highest_ = 0, level_ = 0, last_side_ = 0;
   LevelSlice slice_;

@@ -280,7 +280,7 @@ class LocalMap final : public Module {
   StopPlanner planner_{Response{}, 0.0};
   StopPlanner::Plan plan_;
   Clearance clearance_;
-  Berth berth_{0.0, 0.0};
+  Berth berth_;
   Outline outline_;
   Footprint footprint_;
   DeadReckoning dead_reckoning_;  ///< all positions here are by it

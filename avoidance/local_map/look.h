@@ -42,7 +42,8 @@ class Lasting {
 /// For how long the way to the goal has stayed as long as it is.
 class Progress {
  public:
-  /// @param route_m  to the goal, where there is a way. @param t_s  now, rising from call to call. @return s.
+  /// @param route_m  to the goal, where there is a way. @param t_s  now, rising from call to call. @return s; 0 until
+  /// there was a way.
   double stalled_s(std::optional<double> route_m, double t_s);
   void reset() { from_m_.reset(); }
 

@@ -12,7 +12,7 @@ namespace hedgehop::avoidance::local_map {
 
 /// How far a route stays from what is occupied: as far as wanted where it can, and nowhere nearer than the least, m.
 struct Berth {
-  double wanted_m, least_m;
+  double wanted_m = 0.0, least_m = 0.0;
 };
 
 /// How far every cell of the slice is from the goal, through what is free or may be: [BrockKhatib1999] sec. on the

@@ -89,12 +89,13 @@ constexpr int kLikeOthers = 15;        ///< grey levels between a row's blocks o
 
 cv::Point middle_px(int row, int col) { return {col * kPx + kPx / 2, row * kPx + kPx / 2}; }
 
-/// The block in a row that shows what is upright in the world with another one; may lie beside the image.
-int upright_col(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, cv::Point from_px, int row) {
-  const Eigen::Vector3d across_C = down_C.cross(geometry.ray(from_px));
+/// The block of a row that a vertical plane through C meets; may lie beside the image. @param across_C  its normal.
+int upright_col(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& across_C, int row) {
+  constexpr double kFarBeside = 1e6;  // where the row runs along the plane
   const double y = geometry.ray(middle_px(row, 0)).y();
   const double x = -(across_C.y() * y + across_C.z()) / across_C.x();
-  return static_cast<int>(std::floor((geometry.center_u_px + geometry.focal_px * x) / kPx));
+  const double col = (geometry.center_u_px + geometry.focal_px * x) / kPx;
+  return std::abs(col) < kFarBeside ? static_cast<int>(std::floor(col)) : -1;
 }
 
 /// Blocks, one in each row, that show what is upright in the world, climbed from the ground below the horizon.
@@ -103,9 +104,8 @@ class Column {
   /// @param col  of its block in the middle row; may lie beside the image, into which a tilted one still leads.
   Column(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, const DepthBlocks& blocks, int col)
       : geometry_(geometry), down_C_(down_C), blocks_(blocks) {
-    for (int row = 0; row < blocks.rows(); ++row) {
-      cols_.push_back(upright_col(geometry, down_C, middle_px(blocks.rows() / 2, col), row));
-    }
+    const Eigen::Vector3d across_C = down_C.cross(geometry.ray(middle_px(blocks.rows() / 2, col)));
+    for (int row = 0; row < blocks.rows(); ++row) cols_.push_back(upright_col(geometry, across_C, row));
   }
 
   /// Rows [top, bottom] that look like sky and what lies between it and the ground; the blocks of [top, horizon] are
@@ -228,7 +228,7 @@ int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down
     for (int col = 0; col < blocks.cols(); ++col) {
       DepthBlock& block = blocks.at(row, col);
       if (block.kind == DepthBlock::Kind::matched) continue;
-      const int of = beside + upright_col(geometry, down_C, middle_px(row, col), middle);
+      const int of = beside + upright_col(geometry, down_C.cross(geometry.ray(middle_px(row, col))), middle);
       if (of < 0 || of >= static_cast<int>(candidates.size())) continue;
       const auto& [column, run] = candidates[static_cast<size_t>(of)];
       if (!run || row < run->top || row > run->bottom) continue;

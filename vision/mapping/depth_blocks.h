@@ -15,7 +15,7 @@ struct DepthBlock {
     unknown,  ///< too few pixels were matched: neither far nor free
     matched,
     smeared,  ///< matched, but so near to what is plain that another surface may show
-    sky,      ///< not matched, but recognized by find_sky()
+    sky,      ///< not matched, or smeared, and recognized by find_sky()
   };
   Kind kind = Kind::unknown;
   int16_t near16 = -1;  ///< disparity x 16 of its nearest surface; -1 where nothing was matched
@@ -32,6 +32,7 @@ class DepthBlocks {
  public:
   static constexpr int kBlockPx = 8;
 
+  /// @param disparity16  CV_16SC1, disparity x 16, negative where nothing was matched.
   /// @param grey  CV_8UC1 of equal size, or empty: then there are no greys, and no sky is found.
   /// @param smear_px  half the edge of the matcher's window, >= 0. Where one half of the window is plain, the other
   /// half decides what is matched: so near to what is plain, nothing is seen through for certain.
@@ -47,7 +48,7 @@ class DepthBlocks {
  private:
   int rows_ = 0, cols_ = 0;
   std::vector<DepthBlock> blocks_;
-  cv::Mat smeared_;
+  cv::Mat smeared_;  ///< 255 where a pixel is so near to what is plain, else 0
 };
 
 /// Recognizes sky: it cannot be matched, and without it nothing flies in the open. A block is sky only on evidence:

@@ -127,6 +127,13 @@ TEST(FindSky, ATiltedCameraFindsItAndTakesNoTowerForIt) {
   }
 }
 
+// So wide and steep that rows of the image run along vertical planes.
+TEST(FindSky, InAWideSteepViewOnlySkyIsSky) {
+  MappedWorld world;
+  world.geometry.focal_px = 60.0;
+  for (const double pitch_rad : {-0.75, 0.75}) EXPECT_EQ(find(look(world, 4.0, {}, pitch_rad)).wrong, 0) << pitch_rad;
+}
+
 TEST(FindSky, APlainWallIsNotSky) {
   for (const double ahead_m : {3.0, 6.0, 10.0, 15.0}) {
     for (const double high_m : {6.0, 30.0}) {
