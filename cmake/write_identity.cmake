@@ -1,10 +1,11 @@
 # Writes HEADER with the identity of the sources below SOURCE_DIR, only where it differs from what is there.
 cmake_minimum_required(VERSION 3.25)
 set(folders scenes vision dynamics avoidance sim cmake)
-list(TRANSFORM folders REPLACE "(.+)" "${SOURCE_DIR}/\\1/*")
-file(GLOB_RECURSE files LIST_DIRECTORIES false RELATIVE ${SOURCE_DIR} ${folders})
+list(TRANSFORM folders REPLACE "(.+)" "${SOURCE_DIR}/\\1/*" OUTPUT_VARIABLE globs)
+file(GLOB_RECURSE files LIST_DIRECTORIES false RELATIVE ${SOURCE_DIR} ${globs})
 list(FILTER files EXCLUDE REGEX "/node_modules/")
-list(APPEND files CMakeLists.txt CMakePresets.json)
+set(lists CMakeLists.txt CMakePresets.json)
+list(APPEND files ${lists})
 list(SORT files)
 set(text "${COMPILER}\n${FLAGS}\n")
 foreach(file IN LISTS files)
@@ -13,9 +14,23 @@ foreach(file IN LISTS files)
 endforeach()
 string(SHA256 hash "${text}")
 string(SUBSTRING ${hash} 0 16 hash)
+
+# The commit that changed these sources last: of a checkout alone, a tarball has none.
+set(commit "")
+find_program(git git)
+if(git AND EXISTS ${SOURCE_DIR}/.git)
+  execute_process(COMMAND ${git} -C ${SOURCE_DIR} log -1 --format=%h -- ${folders} ${lists}
+                  OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  execute_process(COMMAND ${git} -C ${SOURCE_DIR} status --porcelain -- ${folders} ${lists} OUTPUT_VARIABLE changes ERROR_QUIET)
+  if(commit AND changes)
+    string(APPEND commit " and changes")
+  endif()
+endif()
 file(CONFIGURE OUTPUT ${HEADER} @ONLY CONTENT
 "#pragma once
 
 #define HEDGEHOP_VERSION \"@VERSION@\"
 #define HEDGEHOP_BUILD \"@hash@\"
+#define HEDGEHOP_COMMIT \"@commit@\"
+#define HEDGEHOP_COMPILER \"@COMPILER@\"
 ")

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <LinearMath/btScalar.h>
+
+#include <Eigen/Core>
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -14,6 +17,8 @@
 #include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
 #include "sim/cli/shipped_files.h"
+#include "sim/flight/build.h"
+#include "sim/libm/libm.h"
 #include "sim/record/whole_file.h"
 #include "sim/render/renderer.h"
 #include "sim/reproduce/reproduction_page.h"
@@ -79,16 +84,19 @@ std::vector<FlightRecord> fly(const std::vector<Paper>& papers, const ReproduceO
   return records;
 }
 
-/// The packages that images and what is seen in them depend on.
-std::string packages() {
-  if (DrawingConfig::usual_context() == DrawingConfig::Context::tiles) {
-    return fmt::format("images by Hedgehop's tiles, OpenCV {}", cv::getVersionString());
-  }
+/// What draws.
+std::string painter() {
+  if (DrawingConfig::usual_context() == DrawingConfig::Context::tiles) return "images by Hedgehop's tiles";
   const std::string renderer = Renderer(scenes::Scene{}, Culling::none, ContextKind::osmesa).info();
   const size_t mesa = renderer.find("Mesa ");
-  const std::string name =
-      mesa == std::string::npos ? renderer : renderer.substr(mesa, renderer.find_first_of(" ,)\n", mesa + 5) - mesa);
-  return fmt::format("{}, OpenCV {}", name, cv::getVersionString());
+  return mesa == std::string::npos ? renderer : renderer.substr(mesa, renderer.find_first_of(" ,)\n", mesa + 5) - mesa);
+}
+
+/// The packages that flights depend on.
+std::string packages() {
+  return fmt::format("{}, OpenCV {}, {}, Eigen {}.{}.{}, Bullet {}.{}, {}", painter(), cv::getVersionString(),
+                     libm_version(), EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION,
+                     BT_BULLET_VERSION / 100, BT_BULLET_VERSION % 100, build_compiler());
 }
 
 void write_pages(const ReproduceOptions& options, const fs::path& out, const RowsOfPapers& papers,

@@ -153,8 +153,9 @@ Json paper_data(const PaperOutcome& outcome, const std::vector<RowOutcome>& rows
 }
 
 std::string reproduction_page(const Json& papers, const PageFacts& facts) {
-  const Json data{{"version", facts.version},   {"build", facts.build}, {"builds", facts.builds},
-                  {"packages", facts.packages}, {"quick", facts.quick}, {"papers", papers}};
+  const Json data{{"version", facts.version}, {"build", facts.build + of_commit(facts)},
+                  {"builds", facts.builds},   {"packages", facts.packages},
+                  {"quick", facts.quick},     {"papers", papers}};
   return reproduction_html("Papers reproduced", data.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 

@@ -49,8 +49,9 @@ Sections sections_of(std::string_view page) {
 
 std::string origin_text(const PageFacts& facts) {
   const std::string several = several_builds_line(facts);
-  return fmt::format("{}# Results\n\nBuild `{}`, Hedgehop {}, {}. Written by\n\n",
-                     several.empty() ? "" : "**" + several + "**\n\n", facts.build, facts.version, facts.packages);
+  return fmt::format("{}# Results\n\nBuild `{}`{}, Hedgehop {}, {}. Written by\n\n",
+                     several.empty() ? "" : "**" + several + "**\n\n", facts.build, of_commit(facts), facts.version,
+                     facts.packages);
 }
 
 }  // namespace
@@ -58,6 +59,7 @@ std::string origin_text(const PageFacts& facts) {
 PageFacts page_facts(const RowsOfPapers& papers, const std::string& packages, bool quick) {
   PageFacts facts{.version = std::string(version()),
                   .build = std::string(build_identity()),
+                  .commit = std::string(build_commit()),
                   .packages = packages,
                   .builds = {},
                   .quick = quick};
@@ -65,6 +67,10 @@ PageFacts page_facts(const RowsOfPapers& papers, const std::string& packages, bo
     for (const RowOutcome& row : rows) facts.builds.insert(row.builds.begin(), row.builds.end());
   }
   return facts;
+}
+
+std::string of_commit(const PageFacts& facts) {
+  return facts.commit.empty() ? "" : fmt::format(" of commit {}", facts.commit);
 }
 
 std::string several_builds_line(const PageFacts& facts) {

@@ -10,6 +10,7 @@ namespace hedgehop::sim {
 /// What a page of papers' figures says of its origin.
 struct PageFacts {
   std::string version, build;    ///< of the program that writes it
+  std::string commit;            ///< of its sources; empty where that is not known
   std::string packages;          ///< those that figures depend on, with versions: "Mesa 22.3.6, OpenCV 4.6.0"
   std::set<std::string> builds;  ///< of all rows
   bool quick = false;            ///< few seeds were flown
@@ -17,6 +18,9 @@ struct PageFacts {
 
 /// The facts of rows: `version` and `build` of this program, the builds of all rows.
 PageFacts page_facts(const RowsOfPapers& papers, const std::string& packages, bool quick);
+
+/// " of commit 44e015e", or "" where it is not known.
+std::string of_commit(const PageFacts& facts);
 
 /// "Rows of 2 builds: a, b", or "" where all rows are of one.
 std::string several_builds_line(const PageFacts& facts);

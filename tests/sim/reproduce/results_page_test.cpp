@@ -67,6 +67,15 @@ TEST(ResultsPage, NamesItsBuildAndThatOfEachRow) {
   EXPECT_THAT(page_of({own}), StartsWith("# Results\n\nBuild `" + own + "`"));
 }
 
+TEST(ResultsPage, NamesTheCommitOfItsBuildWhereItIsKnown) {
+  const RowsOfPapers papers = rows_of({"b"});
+  PageFacts facts = page_facts(papers, "Mesa 1", false);
+  facts.commit = "44e015e";
+  EXPECT_THAT(results_page(papers, facts), HasSubstr("` of commit 44e015e, Hedgehop "));
+  facts.commit = "";
+  EXPECT_THAT(results_page(papers, facts), HasSubstr("`, Hedgehop "));
+}
+
 TEST(ResultsPage, ItsCommandNamesThePapersThatItHolds) {
   RowsOfPapers papers = rows_of({"b"});
   papers.push_back(papers[0]);
