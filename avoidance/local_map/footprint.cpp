@@ -13,10 +13,13 @@ constexpr double kUnsureS = 0.05;  // of flight, by which the map may be off whe
 Fault Footprint::fault(const LevelSlice& slice, const Moment& moment, bool unknown_too) const {
   const double margin_m = clearance_.margin_m + clearance_.margin_s * moment.v_W.norm();
   const double unsure_m = kUnsureS * moment.v_W.norm();
+  const bool close_by = clearance_.margin_m <= 0.5 * slice.cell_m();  // no more than what a look-up may err by
   Fault worst;
   for (const Outline::Disc& disc : swept_) {
     const Eigen::Vector2d p_W = moment.p_W + disc.p_H;
-    worst.occupied_m = std::max(worst.occupied_m, disc.radius_m + margin_m - slice.to_occupied_m(p_W));
+    const double keeps_m = disc.radius_m + margin_m;
+    const double away_m = close_by ? slice.exactly_to_occupied_m(p_W, keeps_m) : slice.to_occupied_m(p_W);
+    worst.occupied_m = std::max(worst.occupied_m, keeps_m - away_m);
     if (!unknown_too) continue;
     worst.unknown_m = std::max(worst.unknown_m, disc.radius_m - slice.to_unknown_m(p_W));
     worst.beside_unknown_m = std::max(worst.beside_unknown_m, disc.radius_m + unsure_m - slice.to_unknown_m(p_W));

@@ -56,6 +56,24 @@ void LevelSlice::fill_specks(const vision::mapping::OccupancyMap& map, int top, 
   }
 }
 
+double LevelSlice::exactly_to_occupied_m(const Eigen::Vector2d& p_W, double within_m) const {
+  const Eigen::Vector2i here = cell(p_W);
+  if (!contains(here.x(), here.y())) return 0.0;
+  const double about_m = to_occupied_m(p_W);
+  if (about_m > within_m + cell_m_) return about_m;
+  const Eigen::Vector2i first = cell(p_W - Eigen::Vector2d::Constant(within_m)).cwiseMax(0);
+  const Eigen::Vector2i last = cell(p_W + Eigen::Vector2d::Constant(within_m)).cwiseMin(side_ - 1);
+  double least_m = within_m + cell_m_;
+  for (int row = first.x(); row <= last.x(); ++row) {
+    for (int col = first.y(); col <= last.y(); ++col) {
+      if (at(row, col) != State::occupied) continue;
+      const Eigen::Array2d off_m = (p_W - center(row, col)).array().abs() - 0.5 * cell_m_;
+      least_m = std::min(least_m, off_m.max(0.0).matrix().norm() + std::min(0.0, off_m.maxCoeff()));
+    }
+  }
+  return least_m;
+}
+
 void LevelSlice::close(const ClosedCells& closed, const Band& band) {
   closed.for_each([&](const Eigen::Vector3d& p_W) {
     if (p_W.z() < band.top_m || p_W.z() > band.bottom_m) return;

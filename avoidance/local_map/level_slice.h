@@ -33,10 +33,14 @@ class LevelSlice {
   }
   Eigen::Vector2d center(int row, int col) const { return corner_W_ + cell_m_ * Eigen::Vector2d(row + 0.5, col + 0.5); }
 
-  /// Distance to the nearest occupied, or unknown, cell's edge, m: a lower bound for points of the cell.
+  /// Distance from the middle of a point's cell to the nearest occupied, or unknown, cell's edge, m: of the point
+  /// itself it may be half a cell less.
   double to_occupied_m(const Eigen::Vector2d& p_W) const { return look_up(occupied_, p_W); }
   double to_unknown_m(const Eigen::Vector2d& p_W) const { return look_up(unknown_, p_W); }
   double to_occupied_m(int row, int col) const { return cell_m_ * (occupied_.at(row, col) - 0.5); }
+  /// Distance from the point itself to the nearest occupied cell's edge, m: negative within one, more than `within_m`
+  /// where it is farther, 0 out of the slice.
+  double exactly_to_occupied_m(const Eigen::Vector2d& p_W, double within_m) const;
 
  private:
   double look_up(const vision::mapping::DistanceField& field, const Eigen::Vector2d& p_W) const {

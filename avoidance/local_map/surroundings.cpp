@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "avoidance/heading.h"
 
@@ -128,8 +129,9 @@ void Surroundings::see(const NavigationState& navigation, double t_s) {
   }
   const double heading = heading_rad(navigation.q_WB_est);
   for (const Outline::Disc& disc : sweep(outline_, heading, heading, config_.voxel_m)) {
-    // A point's own voxel, at least.
-    const double radius_m = std::max(disc.radius_m, config_.voxel_m);
+    // Of what is thinner than a voxel those that it touches, but not the wall beside it.
+    const double touched_m = disc.radius_m + 0.5 * std::numbers::sqrt2 * config_.voxel_m;
+    const double radius_m = std::max(disc.radius_m, std::min(touched_m, config_.voxel_m));
     clear(navigation.p_WB_est + Eigen::Vector3d(disc.p_H.x(), disc.p_H.y(), 0.0), radius_m);
   }
   closed_.update(t_s);

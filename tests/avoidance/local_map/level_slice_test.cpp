@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/core.hpp>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -64,6 +66,58 @@ TEST(LevelSlice, WhereSomethingWasSeenAmidFreeColumnsIsNotFree) {
   X_WC.translation() = Eigen::Vector3d(0.0, 0.1, 0.1);
   map.integrate(blocks, geometry, X_WC);
   EXPECT_EQ(at_pole(), State::unknown);
+}
+
+// Against points of the cells' squares, 2 cm apart.
+TEST(LevelSlice, ExactDistanceIsThatOfTheNearestPointOfAnOccupiedCell) {
+  constexpr double kCellM = 0.5, kStepM = 0.02, kWithinM = 1.2;
+  constexpr int kSide = 12;
+  vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = kSide, .layers = 1});
+  map.reset(Eigen::Vector3d::Zero());
+  std::mt19937_64 random(5);
+  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  ClosedCells closed(kCellM);
+  for (int row = 0; row < kSide; ++row) {
+    for (int col = 0; col < kSide; ++col) {
+      const Eigen::Vector3d p_W = map.center(map.first() + vision::mapping::OccupancyMap::Index(row, col, 0));
+      if (uniform() < 0.05) closed.remember(p_W, 0.0);
+    }
+  }
+  LevelSlice slice;
+  slice.build(map, {0.1, 0.4}, closed);
+  const auto nearest_m = [&](const Eigen::Vector2d& p_W) {
+    double least_m = std::numeric_limits<double>::infinity();
+    for (int row = 0; row < kSide; ++row) {
+      for (int col = 0; col < kSide; ++col) {
+        if (slice.at(row, col) != State::occupied) continue;
+        for (double x = -0.5 * kCellM; x <= 0.5 * kCellM + 1e-9; x += kStepM) {
+          for (double y = -0.5 * kCellM; y <= 0.5 * kCellM + 1e-9; y += kStepM) {
+            least_m = std::min(least_m, (slice.center(row, col) + Eigen::Vector2d(x, y) - p_W).norm());
+          }
+        }
+      }
+    }
+    return least_m;
+  };
+  int inside = 0, near = 0, far = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::Vector2d p_W = slice.center(0, 0) + (kSide - 1) * kCellM * Eigen::Vector2d(uniform(), uniform());
+    const Eigen::Vector2i cell = slice.cell(p_W);
+    const double expected_m = nearest_m(p_W), actual_m = slice.exactly_to_occupied_m(p_W, kWithinM);
+    if (slice.at(cell.x(), cell.y()) == State::occupied) {
+      EXPECT_LE(actual_m, 0.0);
+      EXPECT_GE(actual_m, -0.5 * kCellM);
+      ++inside;
+    } else if (expected_m <= kWithinM) {
+      EXPECT_NEAR(actual_m, expected_m, kStepM) << p_W.transpose();
+      ++near;
+    } else {
+      EXPECT_GT(actual_m, kWithinM) << p_W.transpose();
+      ++far;
+    }
+  }
+  EXPECT_GT(std::min({inside, near, far}), 10) << inside << " " << near << " " << far;
+  EXPECT_EQ(slice.exactly_to_occupied_m(slice.center(0, 0) - Eigen::Vector2d::Constant(5.0), kWithinM), 0.0);
 }
 
 }  // namespace
