@@ -1,13 +1,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <LinearMath/btScalar.h>
-
-#include <Eigen/Core>
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <opencv2/core.hpp>
 
 #include "sim/campaign/batch_record.h"
 #include "sim/campaign/fly_orders.h"
@@ -17,12 +13,11 @@
 #include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
 #include "sim/cli/shipped_files.h"
-#include "sim/flight/build.h"
-#include "sim/libm/libm.h"
 #include "sim/record/whole_file.h"
 #include "sim/render/renderer.h"
 #include "sim/reproduce/reproduction_page.h"
 #include "sim/reproduce/results_page.h"
+#include "sim/simulation/package_versions.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -92,16 +87,9 @@ std::string painter() {
   return mesa == std::string::npos ? renderer : renderer.substr(mesa, renderer.find_first_of(" ,)\n", mesa + 5) - mesa);
 }
 
-/// The packages that flights depend on.
-std::string packages() {
-  return fmt::format("{}, OpenCV {}, {}, Eigen {}.{}.{}, Bullet {}.{}, {}", painter(), cv::getVersionString(),
-                     libm_version(), EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION,
-                     BT_BULLET_VERSION / 100, BT_BULLET_VERSION % 100, build_compiler());
-}
-
 void write_pages(const ReproduceOptions& options, const fs::path& out, const RowsOfPapers& papers,
                  const nlohmann::ordered_json& pages) {
-  const PageFacts facts = page_facts(papers, packages(), options.quick);
+  const PageFacts facts = page_facts(papers, painter() + ", " + package_versions(), options.quick);
   const std::string text = results_page(papers, facts);
   EveryWrite files;
   files.attempt([&] {
