@@ -56,8 +56,9 @@ class LocalMap final : public Module {
     const VehicleLimits& limits = setup.limits;
     clearance_ = {limits.radius_m, config_.margin_m, config_.margin_time_s};
     outline_ = Outline(limits);
-    berth_ = {clearance_.hull_m + clearance_.margin_m,
-              clearance_.hull_m + std::min(clearance_.margin_m, kLeastMarginM)};
+    // The edge of an obstacle may reach into a free voxel: who is thinner than that keeps as far from it.
+    const double wide_m = clearance_.hull_m + clearance_.margin_m;
+    berth_ = {wide_m, std::min(wide_m, std::max(clearance_.hull_m + kLeastMarginM, config_.voxel_m))};
     levels_ = Levels(setup.altitude_band, berth_);
     learned_ = {};
     around_.emplace(config_, setup, outline_);
