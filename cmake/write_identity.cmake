@@ -19,7 +19,7 @@ string(SUBSTRING ${hash} 0 16 hash)
 set(commit "")
 find_program(git git)
 if(git AND EXISTS ${SOURCE_DIR}/.git)
-  execute_process(COMMAND ${git} -C ${SOURCE_DIR} log -1 --format=%h -- ${folders} ${lists}
+  execute_process(COMMAND ${git} -C ${SOURCE_DIR} log -1 --abbrev=10 --format=%h -- ${folders} ${lists}
                   OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
   execute_process(COMMAND ${git} -C ${SOURCE_DIR} status --porcelain -- ${folders} ${lists} OUTPUT_VARIABLE changes ERROR_QUIET)
   if(commit AND changes)

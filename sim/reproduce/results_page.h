@@ -27,7 +27,7 @@ std::string several_builds_line(const PageFacts& facts);
 
 /// The page as docs/results.md has it, in Markdown, without a date: the builds where there are several, the origin, how
 /// to read it, and each paper's rows, papers in the order of their keys. The other papers of `earlier`, the page that
-/// this one takes the place of, stay where its build, version and packages are these.
+/// this one takes the place of, stay where its build, commit, version and packages are these.
 std::string results_page(const RowsOfPapers& papers, const PageFacts& facts, const std::string& earlier = "");
 
 }  // namespace hedgehop::sim

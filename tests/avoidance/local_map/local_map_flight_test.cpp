@@ -23,10 +23,10 @@ void fly_points(uint64_t first, uint64_t last) {
 TEST(LocalMapFlight, NoPointCollidesInRandomWorldsWithPerfectDepth) { fly_points(1, 10); }
 
 // Here it grazed pillars and the ends of walls by 2 to 25 mm when a narrow way was flown with 0.05 m of margin: their
-// edges reached into voxels that were free.
+// edges reached into voxels that were free. Of the margin of 0.25 m such an edge takes half a voxel.
 TEST(LocalMapFlight, NoPointGrazesWhereTheWayIsNarrow) {
   for (const uint64_t seed : {890, 1877, 2698, 4441, 5192})
-    EXPECT_GT(random_world(seed).fly({}).clearance_m, 0.0) << seed;
+    EXPECT_GT(random_world(seed).fly({}).clearance_m, 0.1) << seed;
 }
 
 // An hour: run by name.
