@@ -3,7 +3,7 @@
 Commands of `hedgehop` and of the shell run as written, on scenarios cut to a fifth of a second. Commands that build or
 measure are only looked up: the script, the test program and its tests, the preset must exist.
 
-usage: commands_test.py SOURCE BUILD PROGRAM
+usage: commands_test.py SOURCE BUILD PROGRAM [NAME=VALUE, of the environment of Python ...]
 """
 
 import json
@@ -18,6 +18,7 @@ import tempfile
 import unittest
 
 SOURCE, BUILD, PROGRAM = (pathlib.Path(argument) for argument in sys.argv[1:4])
+FOR_PYTHON = dict(argument.split("=", 1) for argument in sys.argv[4:])
 SHORT_S = 0.2
 # A flight is cut short, so its checks may fail, and one seed leaves a claim undecided; anything worse means that the text
 # is wrong.
@@ -92,9 +93,9 @@ class Commands(unittest.TestCase):
     def tearDownClass(cls):
         cls.scratch.cleanup()
 
-    def shell(self, line, allowed=ALLOWED):
-        done = subprocess.run(["bash", "-c", line], cwd=self.folder, env=self.environment, capture_output=True,
-                              text=True, timeout=600)
+    def shell(self, line, allowed=ALLOWED, **more_environment):
+        done = subprocess.run(["bash", "-c", line], cwd=self.folder, env={**self.environment, **more_environment},
+                              capture_output=True, text=True, timeout=600)
         self.assertIn(done.returncode, allowed, f"{line}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
         return done.stdout
 
@@ -122,7 +123,7 @@ class Commands(unittest.TestCase):
         elif counts_sweeps and line.startswith("hedgehop sweep"):
             self.shell(line + " --missing", (0,))
         else:
-            self.shell(shortened_command(line))
+            self.shell(shortened_command(line), (0,) if line.startswith("cmake ") else ALLOWED)
 
     def run_python(self, page):
         """A page's blocks of Python, one program; a block that begins with the name of a file is that file."""
@@ -135,7 +136,7 @@ class Commands(unittest.TestCase):
                 program.append(block)
         if program:
             (self.folder / "page.py").write_text("".join(program))
-            self.shell(f"PYTHONPATH={BUILD}/python /usr/bin/python3 page.py", (0,))
+            self.shell("/usr/bin/python3 page.py", (0,), PYTHONPATH=f"{BUILD}/python", **FOR_PYTHON)
 
     def run_page(self, page):
         self.run_python(page)
