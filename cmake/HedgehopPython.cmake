@@ -10,5 +10,6 @@ if(Python3_FOUND AND pybind11_FOUND)
   set(HEDGEHOP_PYTHON ON)
 else()
   set(HEDGEHOP_PYTHON OFF)
-  message(STATUS "no Python package: it takes python3-dev, pybind11-dev and python3-numpy")
 endif()
+hedgehop_feature(${HEDGEHOP_PYTHON} "modules in Python, and flights from it (where python3-hedgehop is installed)"
+                 "python3-dev, pybind11-dev and python3-numpy")

@@ -104,7 +104,9 @@ Suite flight_suite(const FlightRecord& record, bool binding) {
   const bool flown = record.status == Status::flown;
   Suite suite(record.order.id, flown ? record.result.value("wall_s", 0.0) : 0.0);
   const std::string again = "again: " + rerun_command(record.order);
-  Case flight{.name = "flight", .facts = fmt::format("{}\n{}", outcome_words(record), again)};
+  const std::string cause = flown ? record.result.value("cause", "") : "";
+  const std::string because = cause.empty() ? "" : fmt::format(" ({})", cause);
+  Case flight{.name = "flight", .facts = fmt::format("{}{}\n{}", outcome_words(record), because, again)};
   if (record.status == Status::failed) {
     flight.wrong = "error";
     flight.message = record.cause;
@@ -113,7 +115,7 @@ Suite flight_suite(const FlightRecord& record, bool binding) {
     flight.message = "not flown: the campaign was interrupted";
   } else if (record.result.at("outcome") == "fault") {
     flight.wrong = "error";
-    flight.message = record.result.value("cause", "");
+    flight.message = cause;
   } else if (unchecked(record)) {
     flight.wrong = "skipped";
     flight.message = kNoChecks;
@@ -132,7 +134,7 @@ Suite flight_suite(const FlightRecord& record, bool binding) {
     Case one{.name = check.at("name").get<std::string>(), .facts = measured + "\n" + again};
     if (!check.at("passed").get<bool>()) {
       one.wrong = binding ? "failure" : "skipped";
-      one.message = binding ? measured : measured + "; fails, which counts over the seeds";
+      one.message = measured + because + (binding ? "" : "; fails, which counts over the seeds");
     }
     suite.add(one);
   }

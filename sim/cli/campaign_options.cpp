@@ -7,6 +7,7 @@
 
 #include "sim/cli/commands.h"
 #include "sim/cli/number_options.h"
+#include "sim/cli/override_option.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -33,9 +34,7 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
   auto* const files =
       command->add_option("FILES", options->inputs, "scenarios, campaigns (files with the key `flights`), or folders");
   command->add_option("--seeds", options->seeds, "seeds to fly of each scenario, such as 1:10 or 1:3,7");
-  command->add_option("--set", options->overrides, "override a value of every scenario")
-      ->type_name("KEY.PATH=VALUE")
-      ->take_all();
+  add_overrides(*command, options->overrides, "override a value of every scenario");
   add_flying(*command, *options);
   command->add_option("--out", options->out, "folder of the results")->type_name("DIR");
   command->add_option("--junit", options->junit, "write a JUnit file for CI")->type_name("FILE");
@@ -103,9 +102,7 @@ void declare_compare(CLI::App& app, std::function<int()>& chosen) {
       ->transform(number())
       ->type_name("M");
   command->add_option("--seeds", options->seeds, "seeds of the pairs, such as 1:100")->required();
-  command->add_option("--set", options->overrides, "override a value of both scenarios")
-      ->type_name("KEY.PATH=VALUE")
-      ->take_all();
+  add_overrides(*command, options->overrides, "override a value of both scenarios");
   command->add_option("--confidence", options->confidence, "of the claim; default 0.95")
       ->transform(number())
       ->check(CLI::Range(0.5, 0.99999));
@@ -136,9 +133,7 @@ void declare_estimate(CLI::App& app, std::function<int()>& chosen) {
       ->transform(whole_number())
       ->check(CLI::Range(1, 100));
   command->add_option("--seed", options->seed, "of all runs; default 1")->transform(whole_number());
-  command->add_option("--set", options->overrides, "override a value of the scenario")
-      ->type_name("KEY.PATH=VALUE")
-      ->take_all();
+  add_overrides(*command, options->overrides, "override a value of the scenario");
   add_flying(*command, *options);
   command->add_option("--out", options->out, "folder of the results; flights that are there are not flown again")
       ->type_name("DIR");
@@ -182,10 +177,7 @@ void declare_falsify(CLI::App& app, std::function<int()>& chosen) {
   const auto options = std::make_shared<FalsifyOptions>();
   options->jobs = cores();
   command->add_option("FILE", options->file, "search file (YAML, see docs/falsify.md)")->required();
-  command
-      ->add_option("--set", options->overrides, "override a value of the search file, e.g. --set design.method=random")
-      ->type_name("KEY.PATH=VALUE")
-      ->take_all();
+  add_overrides(*command, options->overrides, "override a value of the search file, e.g. --set design.method=random");
   add_flying(*command, *options);
   command->add_option("--out", options->out, "folder of the results")->type_name("DIR");
   command->add_option("--program", options->program)->group("");  // hidden: for tests
@@ -202,11 +194,8 @@ void declare_branch(CLI::App& app, std::function<int()>& chosen) {
       ->check(not_negative())
       ->required()
       ->type_name("S");
-  command
-      ->add_option("--set", options->overrides,
-                   "a setting from then on: of avoidance, failures that begin later, duration, checks")
-      ->type_name("KEY.PATH=VALUE")
-      ->take_all();
+  add_overrides(*command, options->overrides,
+                "a setting from then on: of avoidance, failures that begin later, duration, checks");
   command->add_option("--out", options->out, "folder of the flights; branches of one run stand beside each other in it")
       ->type_name("DIR");
   command->callback([&chosen, options] { chosen = [options] { return branch(*options); }; });

@@ -17,6 +17,7 @@
 #include "sim/cli/manual.h"
 #include "sim/cli/notice.h"
 #include "sim/cli/number_options.h"
+#include "sim/cli/override_option.h"
 #include "sim/flight/build.h"
 #include "sim/scenario/document.h"
 #include "sim/scenario/input_error.h"
@@ -29,9 +30,7 @@ namespace {
 void add_layers(CLI::App& command, ScenarioOptions& scenario) {
   command.add_option("--seed", scenario.seed, "seed of every random stream; overrides the scenario's")
       ->transform(whole_number());
-  command.add_option("--set", scenario.overrides, "override a value of the scenario, e.g. --set avoidance.speed=1.5")
-      ->type_name("KEY.PATH=VALUE")
-      ->take_all();
+  add_overrides(command, scenario.overrides, "override a value of the scenario, e.g. --set avoidance.speed=1.5");
   command
       .add_option("--gl", scenario.gl,
                   "who draws: osmesa, egl (a GPU where there is one) or tiles (fastest on a processor); overrides the "
@@ -206,7 +205,24 @@ std::string unknown_command(const CLI::App& app, std::string_view word) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
   if (word.starts_with('-') || std::ranges::find(names, word) != names.end()) return {};
-  return fmt::format("no command '{}'{}", word, suggestion(word, {names.begin(), names.end()}));
+  return fmt::format("no command '{}'{} (see --help)", word, suggestion(word, {names.begin(), names.end()}));
+}
+
+/// What to say of the first word that looks like an option and is none of the command's; nothing where there is none.
+std::string unknown_option(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands()) {
+    for (const CLI::Option* option : command->get_options()) {
+      if (option->get_group().empty()) continue;  // hidden
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+  }
+  for (const std::string& word : app.remaining(/*recurse=*/true)) {
+    if (word.starts_with("--")) {
+      return fmt::format("no option '{}'{} (see --help)", word, suggestion(word, {names.begin(), names.end()}));
+    }
+  }
+  return {};
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -223,7 +239,9 @@ int parse_and_run(int argc, char** argv) {
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return fmt::format("{} (see --help)\n", one_line(error.what()));
   });
-  app.footer("Exit status: 0 all checks hold; 1 a check fails; 2 the input is bad; 3 an internal error; 4 undecided.");
+  app.footer(
+      "Exit status: 0 all checks hold; 1 a check fails; 2 the input is bad; 3 an internal error; 4 undecided; 130 "
+      "interrupted.");
 
   std::function<int()> chosen;
   RunOptions run;
@@ -255,7 +273,8 @@ int parse_and_run(int argc, char** argv) {
     std::ostringstream out, err;
     const int status = app.exit(error, out, err);
     fmt::print("{}", out.str());
-    notice(err.str());
+    const std::string unknown = status == 0 ? "" : unknown_option(app);
+    notice(unknown.empty() ? err.str() : one_line(unknown) + "\n");
     return status == 0 ? 0 : kBadInput;
   }
   return chosen();

@@ -120,7 +120,7 @@ int fly_batch(BatchRun run) {
 
   BatchOutcome outcome = conclude(std::move(records), count, run.fly.limit_s);
   outcome.conduct = run.conduct;
-  outcome.verdicts = judge(run.batch.checks, summarize(outcome.records));
+  if (interruption.signal() == 0) outcome.verdicts = judge(run.batch.checks, summarize(outcome.records));
   EveryWrite files = write_files(run.fly.out, run.junit, outcome, counted_column(outcome, count));
   std::string matrix;
   if (files.well()) files.attempt([&] { matrix = write_matrix(run.fly.out, run.batch.leaderboard, run.again); });

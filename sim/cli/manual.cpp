@@ -87,6 +87,25 @@ std::string roff_of(const std::vector<Entry>& all) {
   return text;
 }
 
+constexpr const char* kManEnd = R"(.SH FILES
+Of a package, below /usr:
+.TP
+.I share/hedgehop/configs
+Scenarios, vehicles, camera rigs, campaigns. Copy the folder to where you work, and every command of the documentation
+runs there as written: cp \-r /usr/share/hedgehop/configs .
+.TP
+.I share/doc/hedgehop
+README.md, docs/ and their examples.
+.SH EXAMPLES
+.nf
+hedgehop run configs/quickstart.yaml
+hedgehop batch configs/quickstart.yaml \-\-seeds 1:4 \-\-junit checks.xml
+hedgehop reproduce zingg2010 \-\-quick
+.fi
+.SH SEE ALSO
+hedgehop list scenario, for every key of a scenario; hedgehop schema, for editors
+)";
+
 std::string man(const CLI::App& app) {
   std::string text = fmt::format(".TH HEDGEHOP 1 \"\" \"Hedgehop {}\"\n.SH NAME\nhedgehop \\- {}\n", version(),
                                  "closed\\-loop simulator of vision\\-based obstacle avoidance");
@@ -96,7 +115,7 @@ std::string man(const CLI::App& app) {
     text += fmt::format(".SS hedgehop {}\n{}\n{}", roff(command->get_name()), roff(command->get_description()),
                         roff_of(entries(*command)));
   }
-  return text + ".SH EXIT STATUS\n" + roff(app.get_footer()) + "\n";
+  return text + ".SH EXIT STATUS\n" + roff(app.get_footer()) + "\n" + kManEnd;
 }
 
 // --- bash ---

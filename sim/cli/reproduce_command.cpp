@@ -106,6 +106,7 @@ void write_pages(const ReproduceOptions& options, const fs::path& out, const Row
     });
   }
   if (const std::string several = several_builds_line(facts); !several.empty()) fmt::print("{}\n", several);
+  if (options.quick) fmt::print("{}\n", kQuickLook);
   for (const auto& [paper, rows] : papers) fmt::print("{}\n", rows_text(paper, rows));
   files.raise();
   fmt::print("written: {}\n", (out / "reproduction.html").string());

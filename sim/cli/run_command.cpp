@@ -81,7 +81,7 @@ void print_verdict(const Scenario& scenario, const FlightResult& result, const s
   if (result.goal_distance_m) fmt::print(", {:.1f} m from the goal", *result.goal_distance_m);
   fmt::print("\n");
   if (std::isfinite(result.closest_obstacle.distance_m)) {
-    fmt::print("  nearest {:.2f} m to {} at {:.1f} s\n", result.closest_obstacle.distance_m,
+    fmt::print("  nearest obstacle: {:.2f} m to {} at {:.1f} s\n", result.closest_obstacle.distance_m,
                result.closest_obstacle.what, result.closest_obstacle.t_s);
   }
   fmt::print("  {:.2f} times real time: {:.1f} s; per instant of the cameras: drawing {:.1f} ms, deciding {:.1f} ms\n",

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "sim/cli/commands.h"
 #include "sim/scenario/input_error.h"
+#include "sim/scenario/input_file.h"
 
 namespace hedgehop::sim::cli {
 
@@ -13,8 +13,8 @@ std::vector<std::filesystem::path> shipped_files(const std::string& folder) {
   namespace fs = std::filesystem;
   std::error_code error;
   fs::path place = fs::path("configs") / folder;
-  if (!fs::is_directory(place, error)) {
-    place = own_program().parent_path().parent_path() / "share" / "hedgehop" / place;
+  if (const fs::path installed = installed_configs(); !fs::is_directory(place, error) && !installed.empty()) {
+    place = installed / folder;
   }
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(place, error)) {

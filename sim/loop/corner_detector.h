@@ -24,7 +24,7 @@ class CornerDetector {
   cv::Mat detect(const vision::camera::Camera& camera, const Eigen::Isometry3d& X_WC);
 
   /// Returns what it delivers when nothing is detected: 0 x 1, CV_64FC2.
-  static cv::Mat nothing() { return {0, 1, CV_64FC2}; }
+  static cv::Mat nothing() { return cv::Mat(0, 1, CV_64FC2); }
 
  private:
   std::vector<Eigen::Vector3d> corners_W_;

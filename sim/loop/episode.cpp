@@ -70,7 +70,12 @@ void Episode::act(const avoidance::Command* command) {
     decide();
   }
   if (tick_ % control_period_ == 0) steer();
-  onlooker_.show(tick_, pilot_.module(), log_.status(), proximity_.obstacle_clearance_m, scenario_.duration_s,
+  const auto annotate = [this] {
+    cv::Mat image;
+    ask([&] { image = pilot_.module().annotate(); });
+    return image;
+  };
+  onlooker_.show(tick_, annotate, log_.status(), proximity_.obstacle_clearance_m, scenario_.duration_s,
                  goal_distance_m());
 }
 
@@ -86,9 +91,14 @@ Flight Episode::flight() const {
   result.render_ms = render_.summary();
   result.velocimeter_ms = velocimetry_.summary();
   result.physics_ms = physics_.summary();
-  for (const avoidance::Metric& metric : pilot_.module().metrics()) {
-    result.metrics.push_back({std::string(kModulePrefix) + metric.name, metric.value, metric.unit,
-                              metric.is_wall_time ? FigureKind::wall_time : FigureKind::module});
+  try {
+    for (const avoidance::Metric& metric : pilot_.module().metrics()) {
+      result.metrics.push_back({std::string(kModulePrefix) + metric.name, metric.value, metric.unit,
+                                metric.is_wall_time ? FigureKind::wall_time : FigureKind::module});
+    }
+  } catch (const std::exception& error) {  // the flight stands, but its module cannot be relied on
+    result.outcome = Outcome::fault;
+    result.cause = fmt::format("the module failed after its flight: {}", error.what());
   }
   flight.command_latency_s = pilot_.command_latency_s();
   flight.map = map_log_.record();
@@ -135,14 +145,19 @@ void Episode::sense() {
 }
 
 void Episode::decide() {
-  try {
+  ask([this] {
     const StageTimer::Lap lap = decision_.lap();
     log_.add(ticks_.t_s(tick_), pilot_.decide(tick_, *observation_));
+  });
+  if (!over()) observe_map();
+}
+
+void Episode::ask(const std::function<void()>& call) {
+  try {
+    call();
   } catch (const std::exception& error) {
     end({Outcome::fault, fmt::format("the module failed at {:.3f} s: {}", ticks_.t_s(tick_), error.what())});
-    return;
   }
-  observe_map();
 }
 
 void Episode::obey(const avoidance::Command& command) {
@@ -153,7 +168,9 @@ void Episode::obey(const avoidance::Command& command) {
 /// Records the module's map, and shows it to who observes it, beside the truth.
 void Episode::observe_map() {
   const double t_s = ticks_.t_s(tick_);
-  avoidance::Map map = pilot_.module().map();
+  avoidance::Map map;
+  ask([&] { map = pilot_.module().map(); });
+  if (over()) return;
   if (const std::optional<size_t> camera = pilot_.first_camera(); camera && map_observer_) {
     map_observer_->on_map({t_s, map, cameras_.truly_mounted(*camera), aircraft_.X_WB(), p_WB_start_, *stage_.scene,
                            stage_.collision, pilot_.sees_through_walls()});

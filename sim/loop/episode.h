@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -69,6 +70,8 @@ class Episode {
   void sense();
   void act(const avoidance::Command* command);
   void decide();
+  /// Calls the module; what it throws ends the flight as a fault.
+  void ask(const std::function<void()>& call);
   void obey(const avoidance::Command& command);
   void observe_map();
   void steer();

@@ -36,6 +36,13 @@ ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& 
       module_(crew(scenario, ticks, std::move(module))),
       truth_used_(sim::truth_used(module_->needs(), scenario.avionics)),
       route_(scenario) {
+  std::vector<std::string> faults;
+  for (const avoidance::CameraNeed& need : module_->needs().cameras) {
+    for (const std::string& fault : scenario.rig.lacks(need.role, need.channel, need.pinhole)) {
+      faults.push_back("'avoidance': " + fault);
+    }
+  }
+  if (!faults.empty()) throw InputError(faults);
   int64_t slowest = 0;
   for (const avoidance::CameraNeed& need : module_->needs().cameras) {
     module_cameras_.push_back(cameras_.index(need.role));

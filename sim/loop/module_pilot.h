@@ -21,12 +21,11 @@ namespace hedgehop::sim {
 class ModulePilot {
  public:
   /// @param module  of the scenario; null for one that is to be loaded from its shared library.
-  /// Throws InputError for a module that cannot be loaded or lacks a camera.
+  /// Throws InputError for a module that cannot be loaded or does not get the cameras that it needs.
   ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& cameras,
               std::unique_ptr<avoidance::Module> module);
 
-  /// Starts a flight. @param vehicle_radius_m  of the vertical cylinder that holds the vehicle. @param hold  in effect
-  /// until the first command is.
+  /// Starts a flight. @param hull  of the vehicle. @param hold  in effect until the first command is.
   void reset(const std::vector<dynamics::HullPart>& hull, const dynamics::control::Setpoint& hold);
 
   /// Whether one of its cameras exposes on this tick.

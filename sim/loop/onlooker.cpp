@@ -40,12 +40,12 @@ void Onlooker::hand_over_sensors(int64_t tick, const BodyMotion& body) {
   for (const size_t camera : exposing) exposed_[camera] = now;
 }
 
-void Onlooker::show(int64_t tick, const avoidance::Module& module, std::string_view status, double obstacle_clearance_m,
-                    double duration_s, std::optional<double> goal_distance_m) {
+void Onlooker::show(int64_t tick, const std::function<cv::Mat()>& annotate, std::string_view status,
+                    double obstacle_clearance_m, double duration_s, std::optional<double> goal_distance_m) {
   if (!watcher_) return;
   if (image_period_ > 0 && tick % image_period_ == 0) {
     ShownInstant shown{.t_ns = ticks_.t_ns(tick),
-                       .annotated = module.annotate(),
+                       .annotated = annotate(),
                        .frames = {},
                        .status = status,
                        .obstacle_clearance_m = obstacle_clearance_m};

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <opencv2/core.hpp>
 #include <optional>
+#include <string_view>
 #include <vector>
 
-#include "avoidance/module.h"
 #include "sim/flight/flight_watcher.h"
 #include "sim/loop/aircraft.h"
 #include "sim/loop/cameras.h"
@@ -21,9 +23,10 @@ class Onlooker {
   /// The readings of all sensors, if it wants them. @param body  the aircraft's motion on this tick.
   void hand_over_sensors(int64_t tick, const BodyMotion& body);
   /// Images and progress, where they are due.
-  /// @param status  of the last decision. @param goal_distance_m  horizontal. @param duration_s  of the longest flight.
-  void show(int64_t tick, const avoidance::Module& module, std::string_view status, double obstacle_clearance_m,
-            double duration_s, std::optional<double> goal_distance_m);
+  /// @param annotate  the module's own image, asked for where it is shown. @param status  of the last decision.
+  /// @param goal_distance_m  horizontal. @param duration_s  of the longest flight.
+  void show(int64_t tick, const std::function<cv::Mat()>& annotate, std::string_view status,
+            double obstacle_clearance_m, double duration_s, std::optional<double> goal_distance_m);
 
  private:
   FlightWatcher* watcher_;

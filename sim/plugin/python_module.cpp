@@ -75,7 +75,11 @@ std::optional<fs::path> interpreter_library() {
 
 PythonMaker load_maker(const PythonConfig& config) {
   const std::optional<fs::path> library = interpreter_library();
-  if (!library) refuse(config, "this build has no Python; it takes python3-dev, pybind11-dev and python3-numpy");
+  if (!library) {
+    refuse(config,
+           "Python is not installed beside this program: it is the package python3-hedgehop; a build of one's "
+           "own takes python3-dev, pybind11-dev and python3-numpy");
+  }
   // Python's own extensions look its symbols up globally.
   void* const handle = ::dlopen(library->c_str(), RTLD_NOW | RTLD_GLOBAL);
   if (!handle) refuse(config, fmt::format("{} cannot be loaded: {}", library->string(), ::dlerror()));
@@ -99,7 +103,11 @@ std::unique_ptr<avoidance::Module> make_python_module(const PythonConfig& config
   const std::string parameters =
       config.parameters.kind == Node::Kind::map ? to_json(config.parameters).dump() : std::string("{}");
   try {
-    return known_maker()({fs::absolute(config.python).string(), config.class_name, parameters});
+    auto module = known_maker()({fs::absolute(config.python).string(), config.class_name, parameters});
+    // What it says of itself is looked at before the flight.
+    static_cast<void>(module->needs());
+    static_cast<void>(module->signals());
+    return module;
   } catch (const std::exception& fault) {
     refuse(config, fault.what());
   }

@@ -40,7 +40,9 @@ void start() {
   config.install_signal_handlers = 0;
   PyConfig_SetBytesString(&config, &config.program_name, interpreter().c_str());
   py::initialize_interpreter(&config);
-  py::module_::import("sys").attr("path").attr("insert")(0, package().parent_path().string());
+  const py::module_ sys = py::module_::import("sys");
+  sys.attr("path").attr("insert")(0, package().parent_path().string());
+  sys.attr("stdout") = sys.attr("stderr");  // standard output holds results alone
   py::module_::import("hedgehop._native");
   PyEval_SaveThread();  // from here on whoever calls takes the lock
 }

@@ -43,6 +43,23 @@ auto locked(const Call& call) {
   }
 }
 
+[[noreturn]] void refuse(const py::handle& value, const std::string& name, const std::string& meant) {
+  constexpr size_t kMostLetters = 80;
+  std::string got = py::repr(value);
+  if (got.size() > kMostLetters) got = got.substr(0, kMostLetters) + "...";
+  throw std::runtime_error("'" + name + "' must be " + meant + ", got " + got);
+}
+
+/// The value as C++ has it. Throws std::runtime_error saying what it must be and what it is.
+template <class T>
+T as(const py::handle& value, const std::string& name, const std::string& meant) {
+  try {
+    return value.cast<T>();
+  } catch (const py::cast_error&) {
+    refuse(value, name, meant);
+  }
+}
+
 class PythonModule : public avoidance::Module {
  public:
   explicit PythonModule(py::object instance) : instance_(std::move(instance)) {
@@ -59,15 +76,20 @@ class PythonModule : public avoidance::Module {
   avoidance::Needs do_needs() const override {
     return locked([&] {
       avoidance::Needs needs;
-      for (const py::handle& need : given("needs", py::list())) needs.cameras.push_back(to_need(need));
+      const py::object given_needs = given("needs", py::list());
+      if (py::isinstance<py::str>(given_needs)) refuse(given_needs, "needs", kNeeds);
+      for (const py::handle& need : given_needs) needs.cameras.push_back(to_need(need));
       return needs;
     });
   }
   std::vector<avoidance::Signal> do_signals() const override {
     return locked([&] {
       std::vector<avoidance::Signal> signals;
-      for (const auto& [name, unit] : given("signals", py::dict()).cast<std::map<std::string, std::string>>()) {
-        signals.push_back({name, unit});
+      const py::object announced = given("signals", py::dict());
+      if (!py::isinstance<py::dict>(announced)) refuse(announced, "signals", kSignals);
+      for (const auto& [name, unit] : py::reinterpret_borrow<py::dict>(announced)) {  // in the class's own order
+        if (!py::isinstance<py::str>(name) || !py::isinstance<py::str>(unit)) refuse(announced, "signals", kSignals);
+        signals.push_back({name.cast<std::string>(), unit.cast<std::string>()});
       }
       return signals;
     });
@@ -83,7 +105,9 @@ class PythonModule : public avoidance::Module {
   std::vector<avoidance::Metric> do_metrics() const override {
     return locked([&] {
       std::vector<avoidance::Metric> metrics;
-      for (const auto& [name, value] : given("metrics", py::dict()).cast<std::map<std::string, double>>()) {
+      const auto given_metrics = as<std::map<std::string, double>>(given("metrics", py::dict()), "metrics",
+                                                                   "a dict of names and numbers, or return one");
+      for (const auto& [name, value] : given_metrics) {
         metrics.push_back({name, value, ""});
       }
       return metrics;
@@ -104,8 +128,11 @@ class PythonModule : public avoidance::Module {
   }
   static avoidance::CameraNeed to_need(const py::handle& need) {
     if (py::isinstance<py::str>(need)) return {need.cast<std::string>()};
-    return need.cast<avoidance::CameraNeed>();
+    return as<avoidance::CameraNeed>(need, "needs", kNeeds);
   }
+
+  static constexpr const char* kSignals = "a dict of names and units, both texts";
+  static constexpr const char* kNeeds = "a list of cameras, each its role or a CameraNeed";
 
   py::object instance_;
 };

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <string_view>
 #include <utility>
 
 #include "avoidance/module.h"
@@ -10,6 +13,16 @@
 #include "sim/scenario/tree.h"
 
 namespace hedgehop::sim {
+namespace {
+
+/// Whether a fault begins with its place, as those of a plugin's parameters do: "--set KEY: " or "file:line:column: ".
+bool has_place(std::string_view fault) {
+  const std::string_view place = fault.substr(0, fault.find(": "));
+  return place.starts_with("--set ") || (place.size() > 1 && std::isdigit(static_cast<unsigned char>(place.back())) &&
+                                         std::ranges::count(place, ':') >= 2);
+}
+
+}  // namespace
 
 FlightParts::FlightParts(AircraftParts flies, std::unique_ptr<avoidance::Module> decides)
     : aircraft(std::move(flies)), module(std::move(decides)) {}
@@ -49,6 +62,10 @@ InputError placed(const Node* root, const InputError& faults) {
   if (!root) return faults;
   std::vector<std::string> lines;
   for (const std::string& fault : faults.faults()) {
+    if (has_place(fault)) {
+      lines.push_back(fault);
+      continue;
+    }
     std::string path = "rig";
     if (fault.starts_with('\''))
       path = fault.substr(1, fault.find('\'', 1) - 1);

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <stdexcept>
 
+#include "sim/scenario/foreign_config.h"
 #include "sim/scenario/input_file.h"
 #include "sim/scenario/parse.h"
 
@@ -14,16 +16,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The keys that choose who avoids.
+constexpr std::array<std::string_view, 3> kModuleKeys = {"module", PythonConfig::kChosenBy, PluginConfig::kChosenBy};
+
 bool is_selector(std::string_view key) {
   return std::find(std::begin(kSelectors), std::end(kSelectors), key) != std::end(kSelectors);
 }
 
+/// Whether a key with this value chooses something else than what the map holds.
+bool chooses_another(const Node& map, std::string_view key, const Node& value) {
+  const auto is_module = [&](std::string_view other) { return other != key && map.find(other); };
+  const bool foreign = key == PythonConfig::kChosenBy || key == PluginConfig::kChosenBy;
+  if (foreign && !map.find(key)) return std::ranges::any_of(kModuleKeys, is_module);
+  if (key == "module" && map.find(PythonConfig::kChosenBy)) return true;
+  const Node* old = map.find(key);
+  return is_selector(key) && old && old->kind == Node::Kind::scalar && old->text != value.text;
+}
+
 /// Whether `over` names another choice than `base`.
 bool changes_choice(const Node& base, const Node& over) {
-  return std::any_of(over.entries.begin(), over.entries.end(), [&](const Entry& entry) {
-    const Node* old = base.find(entry.key);
-    return is_selector(entry.key) && old && old->kind == Node::Kind::scalar && old->text != entry.value.text;
-  });
+  return std::ranges::any_of(over.entries,
+                             [&](const Entry& entry) { return chooses_another(base, entry.key, entry.value); });
 }
 
 void set_places(Node& node, const Place& place) {
@@ -33,6 +46,14 @@ void set_places(Node& node, const Place& place) {
     entry.place = place;
     set_places(entry.value, place);
   }
+}
+
+/// What to say of a scenario that is not there, where others are installed.
+std::string where_scenarios_are(const fs::path& file) {
+  std::error_code error;
+  const fs::path installed = installed_configs();
+  if (installed.empty() || fs::exists(file, error)) return {};
+  return fmt::format("; the installed scenarios: cp -r {} .", installed.string());
 }
 
 /// Reads files and the files that they use, and knows which are being read.
@@ -62,7 +83,7 @@ class Includer {
     try {
       text = read_input_file(file);
     } catch (const std::invalid_argument& why) {
-      faults_.add(place, from ? fmt::format("{}: '{}'", why.what(), name) : why.what());
+      faults_.add(place, from ? fmt::format("{}: '{}'", why.what(), name) : why.what() + where_scenarios_are(file));
       return {};
     }
     read_.insert(file.lexically_normal());
@@ -188,9 +209,9 @@ void apply_override(Node& root, const std::string& text, const fs::path& folder,
   std::string path;
   for (size_t i = 0; i < keys.size(); ++i) {
     // Another choice of type takes the other keys of the old one with it.
-    if (i + 1 == keys.size() && is_selector(keys[i])) {
-      const Node* old = node->find(keys[i]);
-      if (old && old->kind == Node::Kind::scalar && old->text != value.text) node->entries.clear();
+    // A library leaves the module's name, which may have been set before it.
+    if (i + 1 == keys.size() && keys[i] != PluginConfig::kChosenBy && chooses_another(*node, keys[i], value)) {
+      node->entries.clear();
     }
     node = step_into(*node, keys[i], path, place, faults);
     if (!node) return;

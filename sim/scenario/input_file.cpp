@@ -6,6 +6,13 @@
 
 namespace hedgehop::sim {
 
+std::filesystem::path installed_configs() {
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const std::filesystem::path configs = program.parent_path().parent_path() / "share" / "hedgehop" / "configs";
+  return std::filesystem::is_directory(configs, error) ? configs : std::filesystem::path();
+}
+
 std::string read_input_file(const std::filesystem::path& file) {
   constexpr uintmax_t kMostBytes = 64'000'000;
   std::error_code error;

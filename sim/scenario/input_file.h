@@ -10,4 +10,7 @@ namespace hedgehop::sim {
 /// not to be read.
 std::string read_input_file(const std::filesystem::path& file);
 
+/// The scenarios that are installed with the program that runs; empty where none are.
+std::filesystem::path installed_configs();
+
 }  // namespace hedgehop::sim

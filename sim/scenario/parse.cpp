@@ -206,7 +206,9 @@ Node parse_yaml(const std::string& text, const std::string& file, Faults& faults
   } catch (const YAML::DeepRecursion& error) {
     faults.add({file, error.mark.line + 1, error.mark.column + 1}, "lists and maps are nested too deeply");
   } catch (const YAML::Exception& error) {
-    faults.add({file, error.mark.line + 1, error.mark.column + 1}, error.msg);
+    // The parser stumbles over the key after the one that lacks its colon.
+    const std::string advice = error.msg == YAML::ErrorMsg::MAP_VALUE ? "; does the line before lack a colon?" : "";
+    faults.add({file, error.mark.line + 1, error.mark.column + 1}, error.msg + advice);
   } catch (const std::exception& error) {
     faults.add({file, 0, 0}, fmt::format("cannot be read as YAML: {}", error.what()));
   }

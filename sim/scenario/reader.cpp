@@ -139,6 +139,12 @@ std::optional<size_t> read_choice(const Node& node, const std::string& path,
   return {};
 }
 
+void refuse_key_as_choice(const Node& name, std::string_view selector, Faults& faults) {
+  faults.add(name.place, fmt::format("'{0}' is no choice of '{1}' but a key beside it: '{0}: FILE'; hedgehop list {1}s "
+                                     "has its keys",
+                                     name.text, selector));
+}
+
 bool expect_list(const Node& node, const std::string& path, size_t size, Faults& faults) {
   if (node.kind != Node::Kind::list) {
     expected(size == 0 ? std::string("a list") : fmt::format("a list of {} numbers", size), node, path, faults);

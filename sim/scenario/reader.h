@@ -75,6 +75,9 @@ void read_struct(const Node& node, const std::string& path, std::string_view sel
   reader.finish();
 }
 
+/// Of a name under `selector` whose alternative is chosen by a key of its own.
+void refuse_key_as_choice(const Node& name, std::string_view selector, Faults& faults);
+
 /// Reads the alternative that one of the map's keys identifies by itself. @return whether there is one.
 template <fields::VariantField T>
 bool read_chosen_by_key(const Node& node, const std::string& path, T& value, Faults& faults) {
@@ -100,9 +103,18 @@ void read_variant(const Node& node, const std::string& path, const fields::Field
     if constexpr (!fields::ChosenByKey<A>) names.push_back(A::kName);
   });
   const Node* selector = node.find(field.selector);
+  bool named_by_key = false;
   if (!selector) {
+    if (node.incomplete) return;  // the file that is not there may have it
     faults.add(node.place,
                "missing key '" + std::string(field.selector) + "' in " + path_words(path) + suggestion("", names));
+    return;
+  }
+  fields::for_each_alternative<T>([&]<class A>() {
+    if constexpr (fields::ChosenByKey<A>) named_by_key = named_by_key || selector->text == A::kName;
+  });
+  if (named_by_key) {
+    refuse_key_as_choice(*selector, field.selector, faults);
     return;
   }
   const std::optional<size_t> chosen = read_choice(*selector, join_path(path, field.selector), names, faults);

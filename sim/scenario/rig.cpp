@@ -3,6 +3,7 @@
 #include "sim/scenario/input_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <bit>
@@ -14,6 +15,20 @@
 
 namespace hedgehop::sim {
 namespace {
+
+std::string_view words(CameraConfig::Channel channel) {
+  switch (channel) {
+    case CameraConfig::Channel::grey:
+      return "grey images";
+    case CameraConfig::Channel::color:
+      return "color images";
+    case CameraConfig::Channel::depth:
+      return "depth images";
+    case CameraConfig::Channel::corners:
+      return "corners";
+  }
+  return "?";
+}
 
 void require(bool holds, const std::string& fault) {
   if (!holds) throw std::invalid_argument(fault);
@@ -122,6 +137,25 @@ const CameraConfig* RigConfig::find(std::string_view role) const {
     if (camera.role == role) return &camera;
   }
   return nullptr;
+}
+
+std::vector<std::string> RigConfig::lacks(std::string_view role, CameraConfig::Channel channel, bool pinhole) const {
+  const CameraConfig* const camera = find(role);
+  if (!camera) {
+    std::vector<std::string_view> roles;
+    for (const CameraConfig& other : cameras) roles.push_back(other.role);
+    return {fmt::format("needs a camera '{}', which the rig does not have; it has: {}", role,
+                        roles.empty() ? "none" : fmt::format("{}", fmt::join(roles, ", ")))};
+  }
+  std::vector<std::string> faults;
+  if (pinhole && !camera->is_undistorted_pinhole()) {
+    faults.push_back(fmt::format("needs camera '{}' to be an undistorted pinhole", role));
+  }
+  if (camera->channel != channel) {
+    faults.push_back(
+        fmt::format("needs camera '{}' to deliver {}; it delivers {}", role, words(channel), words(camera->channel)));
+  }
+  return faults;
 }
 
 void mount_stereo_pairs(RigConfig& rig) {

@@ -148,6 +148,9 @@ struct RigConfig {
 
   /// The camera of a role, or null.
   const CameraConfig* find(std::string_view role) const;
+  /// In words, what is amiss for one who needs a camera with this role and channel, and, with `pinhole`, an undistorted
+  /// pinhole; empty where nothing is.
+  std::vector<std::string> lacks(std::string_view role, CameraConfig::Channel channel, bool pinhole) const;
 };
 
 template <class Visitor>

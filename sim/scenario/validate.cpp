@@ -17,20 +17,6 @@ namespace {
 
 using Channel = CameraConfig::Channel;
 
-std::string_view words(Channel channel) {
-  switch (channel) {
-    case Channel::grey:
-      return "grey images";
-    case Channel::color:
-      return "color images";
-    case Channel::depth:
-      return "depth images";
-    case Channel::corners:
-      return "corners";
-  }
-  return "?";
-}
-
 class Validator {
  public:
   Validator(const Scenario& scenario, const Node& root, Faults& faults)
@@ -92,7 +78,11 @@ class Validator {
       }
     }
     const VelocimeterConfig& velocimeter = scenario_.velocimeter;
-    if (velocimeter.enabled) needs_camera("velocimeter.camera", velocimeter.camera, Channel::grey, /*pinhole=*/true);
+    if (velocimeter.enabled) {
+      for (const std::string& fault : scenario_.rig.lacks(velocimeter.camera, Channel::grey, /*pinhole=*/true)) {
+        add("velocimeter.camera", fault + ". Mount one, name another, or fly with 'velocimeter.enabled: false'");
+      }
+    }
   }
 
   void module() {
@@ -100,7 +90,8 @@ class Validator {
       module_ = scenario_.avoidance.make();
       if (!module_) return;
       for (const avoidance::CameraNeed& need : module_->needs().cameras) {
-        needs_camera("avoidance", need.role, need.channel, need.pinhole);
+        for (const std::string& fault : scenario_.rig.lacks(need.role, need.channel, need.pinhole))
+          add("avoidance", fault);
       }
     });
     if (const std::optional<TakeoverConfig>& takeover = scenario_.takeover) {
@@ -188,23 +179,6 @@ class Validator {
     constexpr double kRoundOff = 1e-9;
     if (steps >= 1.0 && std::abs(steps - std::round(steps)) <= kRoundOff * steps) return;
     add(path, fmt::format("{} Hz does not divide the physics rate of {} Hz", rate_hz, scenario_.physics_rate_hz));
-  }
-
-  void needs_camera(const std::string& path, const std::string& role, Channel channel, bool pinhole) {
-    if (const CameraConfig* camera = scenario_.rig.find(role)) {
-      if (pinhole && !camera->is_undistorted_pinhole()) {
-        add(path, fmt::format("needs camera '{}' to be an undistorted pinhole", role));
-      }
-      if (camera->channel != channel) {
-        add(path, fmt::format("needs camera '{}' to deliver {}; it delivers {}", role, words(channel),
-                              words(camera->channel)));
-      }
-      return;
-    }
-    std::vector<std::string_view> roles;
-    for (const CameraConfig& camera : scenario_.rig.cameras) roles.push_back(camera.role);
-    add(path, fmt::format("needs a camera '{}', which the rig does not have; it has: {}", role,
-                          roles.empty() ? "none" : fmt::format("{}", fmt::join(roles, ", "))));
   }
 
   /// Runs a builder; a part that cannot be built is a fault.

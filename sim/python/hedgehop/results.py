@@ -9,8 +9,15 @@ import pathlib
 import numpy as np
 
 
-def _column(texts):
-    """Numbers where all fields are numbers or empty (NaN), else texts."""
+TEXTS = ("trajectory_hash", "build")  # hexadecimal digits, which may look like a number
+
+
+def _column(name, texts):
+    """Seeds as they are, of 64 bits; numbers where all fields are numbers or empty (NaN); else texts."""
+    if name == "seed":
+        return np.array([int(text) for text in texts], dtype=np.uint64)
+    if name in TEXTS:
+        return np.array(texts)
     try:
         return np.array([float(text) if text else np.nan for text in texts])
     except ValueError:
@@ -21,7 +28,7 @@ def read_table(text):
     """Table of a CSV text as a record array, a field per column."""
     rows = list(csv.reader(io.StringIO(text)))
     names, rows = rows[0], rows[1:]
-    columns = [_column([row[i] for row in rows]) for i in range(len(names))]
+    columns = [_column(name, [row[i] for row in rows]) for i, name in enumerate(names)]
     if not rows:
         return np.recarray(0, dtype=[(name, float) for name in names])
     return np.rec.fromarrays(columns, names=names)

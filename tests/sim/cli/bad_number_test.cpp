@@ -37,7 +37,21 @@ TEST(Commands, ASlipOfTheirNamesIsToldWithThoseThereAre) {
   EXPECT_EQ(slip.status, kBadInput);
   EXPECT_THAT(slip.text, testing::StartsWith("no command 'bacth'; did you mean 'batch'? allowed: run, render, "));
   EXPECT_EQ(std::ranges::count(slip.text, '\n'), 1);
-  EXPECT_THAT(ask(kScenario).text, testing::EndsWith("manual\n"));
+  EXPECT_THAT(ask(kScenario).text, testing::EndsWith("manual (see --help)\n"));
+}
+
+TEST(Options, ASlipOfTheirNamesIsToldWithTheNearest) {
+  const Answer slip = ask("run " + kScenario + " --ot x");
+  EXPECT_EQ(slip.status, kBadInput);
+  EXPECT_THAT(slip.text, testing::StartsWith("no option '--ot'; did you mean '--out'? allowed: --help, "));
+  EXPECT_THAT(slip.text, testing::Not(testing::HasSubstr("--worker-of"))) << "which is hidden";
+  EXPECT_EQ(std::ranges::count(slip.text, '\n'), 1);
+}
+
+TEST(Options, AScenarioMayFollowAValueThatIsSet) {
+  EXPECT_THAT(ask("run --set duration=-1 " + kScenario).text, testing::HasSubstr("'duration' must be > 0"));
+  EXPECT_THAT(ask("batch --set duration=-1 " + kScenario + " --seeds 1").text,
+              testing::HasSubstr("'duration' must be > 0"));
 }
 
 TEST(NumberOptions, ReadDecimally) {

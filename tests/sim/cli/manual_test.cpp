@@ -53,7 +53,7 @@ TEST_F(Manual, HoldsEveryCommandAndOptionThatHelpPrints) {
 
 TEST_F(Manual, HasNoLineThatRoffWouldTakeForARequest) {
   const std::set<std::string> requests = matches("\n" + folder.hedgehop("manual man").out, "\n[.']([^ \n]*)");
-  EXPECT_THAT(requests, testing::IsSubsetOf({"TH", "SH", "SS", "TP", "B", "I"}));
+  EXPECT_THAT(requests, testing::IsSubsetOf({"TH", "SH", "SS", "TP", "B", "I", "nf", "fi"}));
 }
 
 TEST_F(Manual, BashOffersCommandsOptionsTheirValuesAndFiles) {

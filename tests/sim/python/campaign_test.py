@@ -27,6 +27,12 @@ class Campaigns(unittest.TestCase):
         np.testing.assert_array_equal(table.flight_time_s, [float(row["flight_time_s"]) for row in rows])
         self.assertEqual(list(hedgehop.load(self.out).trajectory_hash), list(table.trajectory_hash))
 
+    def test_seeds_keep_their_64_bits_and_hashes_their_letters(self):
+        table = read_table("seed,trajectory_hash,build\n18446744073709551615,1234567890123456,12345678901234e5\n")
+        self.assertEqual(int(table.seed[0]), 2**64 - 1)
+        self.assertEqual((table.trajectory_hash[0], table.build[0]), ("1234567890123456", "12345678901234e5"))
+        self.assertEqual(hedgehop.Simulation(CITY, seed=table.seed[0], set=SHORT).seed, 2**64 - 1)
+
     def test_a_sweep_is_one_too(self):
         sweep = pathlib.Path(self.scratch.name) / "sweep.yaml"
         sweep.write_text(f"description: short\nscenario: {CITY}\nset: [duration=0.4]\nseeds: 1:2\ntuned_on: 1:2000\n"

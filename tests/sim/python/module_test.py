@@ -1,8 +1,10 @@
 """Modules in Python fly as those in C++ do, by the library, the program, and in batches."""
 
 import importlib.util
+import json
 import os
 import pathlib
+import subprocess
 import tempfile
 import textwrap
 import unittest
@@ -11,7 +13,7 @@ import numpy as np
 
 import hedgehop
 import hedgehop.testing
-from flights import CITY, SHORT, SOURCE, STRAIGHT, TREE, run_program, steady
+from flights import CITY, PROGRAM, SHORT, SOURCE, STRAIGHT, TREE, run_program, steady
 
 GO_TO_GOAL = textwrap.dedent("""
     import math
@@ -40,9 +42,37 @@ GO_TO_GOAL = textwrap.dedent("""
             return hedgehop.HoverCommand()
 
 
+    class Prints:
+        def update(self, observation):
+            print("seen", observation.t_ns)
+            return hedgehop.HoverCommand()
+
+
+    class NeedsAText(Prints):
+        needs = "front"
+
+
+    class NeedsWhatIsNotThere(Prints):
+        needs = ["forward", hedgehop.CameraNeed("front", "depth")]
+
+
+    class SignalsInAList(Prints):
+        signals = ["nearest"]
+
+
+    class MetricsInAText(Prints):
+        def metrics(self):
+            return "3 turns"
+
+
+    class AnnotatesANumber(Prints):
+        def annotate(self):
+            return 5
+
+
     class Looks:
         needs = [hedgehop.CameraNeed("front")]
-        signals = {"mean_grey": ""}
+        signals = {"mean_grey": "", "first_comes_last": ""}
 
         def reset(self, setup):
             self.setup, self.images = setup, 0
@@ -52,7 +82,7 @@ GO_TO_GOAL = textwrap.dedent("""
             self.images += 1
             image = observation.images.get("front")
             mean = math.nan if image is None else float(image.mean())
-            return hedgehop.Decision(hedgehop.HoverCommand(), "look", [mean])
+            return hedgehop.Decision(hedgehop.HoverCommand(), "look", [mean, -1.0])
 
         def metrics(self):
             return {"images": self.images, "lowest_m": min(self.band[0], 999.0), "highest_m": min(self.band[1], 999.0)}
@@ -93,6 +123,7 @@ class FromFile(unittest.TestCase):
         sim = hedgehop.Simulation(CITY, set=self.python("Looks"))
         result = sim.run()
         self.assertEqual(result["metrics"]["module.images"], result["decisions"])
+        self.assertTrue(np.all(sim.decisions.first_comes_last == -1))
         self.assertTrue(np.all((sim.decisions.mean_grey > 1) & (sim.decisions.mean_grey < 254)))
         self.assertEqual(result["metrics"]["module.lowest_m"], 999.0)
         _, by_program, _ = run_program(CITY, self.python("Looks"), self.folder / "looks")
@@ -112,7 +143,7 @@ class FromFile(unittest.TestCase):
         broken = self.folder / "broken.py"
         broken.write_text("import nothing_of_that_name\n")
         for values, text in (({**SHORT, "avoidance": {"python": "none.py", "class": "A"}}, "no such file"),
-                             (self.python("GoToGaol"), "has no class 'GoToGaol'; its modules: Fails, GoToGoal, Looks"),
+                             (self.python("GoToGaol"), "has no class 'GoToGaol'; its modules: AnnotatesANumber, Fails, GoToGoal, Looks"),
                              (self.python("GoToGoal", sped=1), "unexpected keyword argument 'sped'"),
                              ({**SHORT, "avoidance": {"python": str(broken), "class": "A"}}, "nothing_of_that_name"),
                              ({**SHORT, "avoidance": {"python": str(self.file)}}, "class")):
@@ -122,6 +153,36 @@ class FromFile(unittest.TestCase):
                 self.assertIn(text, said)
                 with self.assertRaisesRegex(hedgehop.InputError, text.replace("'", ".")):
                     hedgehop.Simulation(CITY, set=values)
+
+    def test_what_a_class_says_of_itself_is_checked_before_the_flight(self):
+        for class_name, text in (("NeedsAText", "'needs' must be a list of cameras, each its role or a CameraNeed, got 'front'"),
+                                 ("NeedsWhatIsNotThere", "needs a camera 'forward', which the rig does not have; it has: left, right"),
+                                 ("NeedsWhatIsNotThere", "needs camera 'front' to deliver depth images; it delivers grey images"),
+                                 ("SignalsInAList", "'signals' must be a dict of names and units, both texts, got ['nearest']")):
+            with self.subTest(class_name):
+                status, result, said = run_program(CITY, self.python(class_name), self.folder / "itself")
+                self.assertEqual((status, result), (2, None), said)
+                self.assertIn(text, said)
+
+    def test_what_it_reports_wrongly_loses_no_flight(self):
+        status, result, said = run_program(CITY, self.python("MetricsInAText"), self.folder / "text")
+        self.assertEqual((status, result["outcome"], result["flight_time_s"]), (1, "fault", 2.0), said)
+        self.assertIn("after its flight: 'metrics' must be a dict of names and numbers, or return one, got '3 turns'", result["cause"])
+        sim = hedgehop.Simulation(CITY, set={**self.python("AnnotatesANumber"), "film.enabled": True})
+        self.assertEqual(sim.run()["outcome"], "timeout")  # no film, no image asked for
+        done = subprocess.run([PROGRAM, "run", CITY, "--no-report", "--out", self.folder / "number", "--set", "film.enabled=true", "--set",
+                               "duration=0.2", "--set", f"avoidance={{python: {self.file}, class: AnnotatesANumber}}"],
+                              capture_output=True, text=True)
+        result = hedgehop.load(self.folder / "number").result
+        self.assertEqual((done.returncode, result["outcome"]), (1, "fault"), done.stderr)
+        self.assertIn("annotate() must return None or an array", result["cause"])
+
+    def test_what_it_prints_is_no_part_of_the_results(self):
+        done = subprocess.run([PROGRAM, "run", CITY, "--no-video", "--no-report", "--json", "--out", self.folder / "prints", "--set",
+                               "duration=0.2", "--set", f"avoidance={{python: {self.file}, class: Prints}}"],
+                              capture_output=True, text=True)
+        self.assertEqual(json.loads(done.stdout)["outcome"], "timeout")
+        self.assertIn("seen 0", done.stderr)
 
     def test_another_python_first_in_path_is_not_taken(self):
         other = self.folder / "bin/python3"

@@ -89,6 +89,25 @@ TEST(Use, AnotherChoiceReplacesTheMap) {
   EXPECT_EQ(std::get<sample::Round>(load_struct<Sample>("a.yaml").shape).radius_m, 1.0);
 }
 
+// A module is chosen by its name, by `python` or by `plugin`, and each takes the place of the others.
+TEST(Use, ModulesFromOutsideReplaceThoseOfTheTree) {
+  const auto over = [](const std::string& base, const std::string& text) {
+    Faults faults;
+    Node node = parse_yaml(base, "base.yaml", faults);
+    override_with(node, parse_yaml(text, "a.yaml", faults));
+    std::vector<std::string> keys;
+    for (const Entry& entry : node.entries) keys.push_back(entry.key + "=" + entry.value.text);
+    return keys;
+  };
+  EXPECT_THAT(over("{module: zig_zag, speed: 2}", "{python: m.py, class: A}"), ElementsAre("python=m.py", "class=A"));
+  EXPECT_THAT(over("{module: keep, speed: 2}", "{plugin: l.so, module: keep}"),
+              ElementsAre("plugin=l.so", "module=keep"));
+  EXPECT_THAT(over("{python: m.py, class: A}", "{module: zig_zag}"), ElementsAre("module=zig_zag"));
+  EXPECT_THAT(over("{python: m.py, class: A}", "{class: B}"), ElementsAre("python=m.py", "class=B"));
+  EXPECT_THAT(over("{module: zig_zag, speed: 2}", "{module: zig_zag, speed: 3}"),
+              ElementsAre("module=zig_zag", "speed=3"));
+}
+
 TEST(Use, RefusesCirclesAndWhatIsNoFile) {
   Folder folder;
   Folder::write("b.yaml", "rotor: {use: a.yaml}\n");
@@ -99,6 +118,8 @@ TEST(Use, RefusesCirclesAndWhatIsNoFile) {
   EXPECT_THAT(faults_of_file("shape: {use: c.yaml, type: square}\n"),
               ElementsAre("a.yaml:1:14: there is no such file: 'c.yaml'"))
       << "and not that a key is missing";
+  EXPECT_THAT(faults_of_file("shape: {use: c.yaml}\n"), ElementsAre("a.yaml:1:14: there is no such file: 'c.yaml'"))
+      << "and not that the choice is missing";
   EXPECT_THAT(faults_of_file("rotor: {use: [c]}\n"),
               ElementsAre("a.yaml:1:14: 'use' expects the path of a file, got a list"));
 }

@@ -105,7 +105,8 @@ TEST_F(CrossRules, TheRigHasTheCamerasThatAreAskedFor) {
   EXPECT_THAT(
       faults({"velocimeter.camera=dwn"}),
       ElementsAre("--set velocimeter.camera: 'velocimeter.camera': needs a camera 'dwn', which the rig does not "
-                  "have; it has: left, right, front, rear, down"));
+                  "have; it has: left, right, front, rear, down. Mount one, name another, or fly with "
+                  "'velocimeter.enabled: false'"));
   EXPECT_THAT(
       faults({"rig.cameras.0.role=port"}),
       testing::Contains(HasSubstr("'avoidance': needs a camera 'left', which the rig does not have; it has: port")));
