@@ -20,8 +20,7 @@ struct PageFacts {
 /// What stands above rows of a quick look, in Markdown.
 inline constexpr std::string_view kQuickLook =
     "**A quick look: of each row a few seeds were flown, which show that all runs, not that a claim holds. The "
-    "commands "
-    "fly all seeds.**\n";
+    "commands fly all seeds.**\n";
 
 /// The facts of rows: `version` and `build` of this program, the builds of all rows.
 PageFacts page_facts(const RowsOfPapers& papers, const std::string& packages, bool quick);

@@ -125,6 +125,17 @@ TEST(Batch, FlightOfWhichNothingIsAskedDoesNotPass) {
   for (const std::string& text : {end.out + end.err, folder.read("j.xml")}) EXPECT_THAT(text, Not(HasSubstr("pass ")));
 }
 
+TEST(Batch, JUnitSaysWhatWasHit) {
+  const CampaignFolder folder;
+  folder.write("wall.yaml", "use: " HEDGEHOP_SOURCE_DIR
+                            "/configs/worlds/wall.yaml\nname: wall\nduration: 15\n"
+                            "may_collide: false\n");
+  EXPECT_EQ(folder.hedgehop("batch wall.yaml --out out --junit j.xml").status, 1);
+  const std::string cases = junit_cases(folder, "j.xml");
+  EXPECT_THAT(cases, ContainsRegex("wall/seed1/flight\n  collided \\(hit wall at [0-9.]+ s\\)"));
+  EXPECT_THAT(cases, ContainsRegex("no_collision failure .*must be > 0 m \\(hit wall at"));
+}
+
 TEST(Batch, EveryFileNamesTheBuild) {
   const CampaignFolder folder;
   ASSERT_EQ(folder.hedgehop("batch tiny.yaml --out out --junit j.xml").status, 0);

@@ -57,6 +57,9 @@ TEST_F(Plugin, ParametersAreReadAsStrictlyAsOurs) {
   EXPECT_EQ(run("speed: -1").status, 2);
   EXPECT_EQ(run("how: somehow").status, 2);
   EXPECT_EQ(run("speed: 1", "--set avoidance.parameters.speed=fast").status, 2);
+  EXPECT_THAT(run("speed: 1", "--set avoidance.parameters.sped=1").err,
+              testing::StartsWith("--set avoidance.parameters.sped: "))
+      << "and not a place in the file";
   const CommandEnd refused = run("how: refuse");
   EXPECT_EQ(refused.status, 2);
   EXPECT_THAT(refused.err, HasSubstr("how: not today"));
