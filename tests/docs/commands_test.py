@@ -125,25 +125,28 @@ class Commands(unittest.TestCase):
         else:
             self.shell(shortened_command(line), (0,) if line.startswith("cmake ") else ALLOWED)
 
-    def run_python(self, page):
-        """A page's blocks of Python, one program; a block that begins with the name of a file is that file."""
-        program = []
+    def blocks_of_python(self, page):
+        """A page's blocks of Python: text by the name of its file, where it begins with one; and one program of all others."""
+        files, program = {}, []
         for block in re.findall(r"^```python\n(.*?)^```", (SOURCE / page).read_text(), re.S | re.M):
             named = re.match(r"# (\w+\.py)\n", block)
             if named:
-                (self.folder / named[1]).write_text(block)
+                files[named[1]] = block
             else:
                 program.append(block)
-        if program:
-            (self.folder / "page.py").write_text("".join(program))
-            self.shell("/usr/bin/python3 page.py", (0,), PYTHONPATH=f"{BUILD}/python", **FOR_PYTHON)
+        return files, "".join(program)
 
     def run_page(self, page):
-        self.run_python(page)
+        files, program = self.blocks_of_python(page)
+        for name, text in files.items():
+            (self.folder / name).write_text(text)
         lines = list(dict.fromkeys(commands((SOURCE / page).read_text())))
         for line in lines:
             with self.subTest(page=page, line=line):
                 self.run_line(line, counts_sweeps=page == "docs/verification.md")
+        if program:  # which may read what the commands left
+            (self.folder / "page.py").write_text(program)
+            self.shell("/usr/bin/python3 page.py", (0,), PYTHONPATH=f"{BUILD}/python", **FOR_PYTHON)
 
     def test_every_page_with_figures_has_commands(self):
         for page in ("README.md", "CONTRIBUTING.md", "docs/results.md", "docs/verification.md", "docs/performance.md",
