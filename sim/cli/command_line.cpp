@@ -215,10 +215,11 @@ std::string unknown_option(const CLI::App& app) {
     for (const CLI::Option* option : command->get_options()) {
       if (option->get_group().empty()) continue;  // hidden
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+      for (const std::string& name : option->get_snames()) names.push_back("-" + name);
     }
   }
   for (const std::string& word : app.remaining(/*recurse=*/true)) {
-    if (word.starts_with("--")) {
+    if (word.starts_with("-") && word.size() > 1) {
       return fmt::format("no option '{}'{} (see --help)", word, suggestion(word, {names.begin(), names.end()}));
     }
   }

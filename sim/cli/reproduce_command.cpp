@@ -11,6 +11,7 @@
 #include "sim/cli/commands.h"
 #include "sim/cli/every_write.h"
 #include "sim/cli/exit_status.h"
+#include "sim/cli/notice.h"
 #include "sim/cli/progress.h"
 #include "sim/cli/shipped_files.h"
 #include "sim/record/whole_file.h"
@@ -123,7 +124,11 @@ int reproduce(const ReproduceOptions& options) {
   if (!options.write.empty()) require_writable_file(options.write);
   Interruption interruption;
   const std::vector<FlightRecord> records = fly(papers, options, out, interruption);
-  if (interruption.signal() != 0 && !options.write.empty()) return kSignalled + interruption.signal();
+  if (interruption.signal() != 0) {
+    const auto flown = std::ranges::count(records, Status::flown, [](const auto& record) { return record.status; });
+    notice(fmt::format("interrupted: {} of {} flights are there; the same command goes on\n", flown, records.size()));
+    return kSignalled + interruption.signal();
+  }
 
   nlohmann::ordered_json pages = nlohmann::ordered_json::array();
   RowsOfPapers rows_of_papers;
@@ -138,7 +143,6 @@ int reproduce(const ReproduceOptions& options) {
   }
   print_failed(records);
   write_pages(options, out, rows_of_papers, pages);
-  if (interruption.signal() != 0) return kSignalled + interruption.signal();
   const bool all_flown = std::ranges::all_of(records, [](const auto& r) { return r.status == Status::flown; });
   const bool rows_hold = std::ranges::all_of(rows_of_papers, [](const auto& paper) { return all_hold(paper.second); });
   return all_flown && rows_hold ? 0 : kFails;

@@ -1,6 +1,9 @@
 #include "sim/loop/module_pilot.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 #include "avoidance/sight.h"
@@ -63,7 +66,11 @@ ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& 
 
 void ModulePilot::reset(const std::vector<dynamics::HullPart>& hull, const dynamics::control::Setpoint& hold) {
   setpoint_ = hold;
-  module_->reset(module_setup(scenario_, hull));
+  try {
+    module_->reset(module_setup(scenario_, hull));
+  } catch (const std::exception& fault) {
+    throw InputError(fmt::format("'avoidance': the module cannot begin: {}", fault.what()));
+  }
 }
 
 bool ModulePilot::looks(int64_t tick) const {

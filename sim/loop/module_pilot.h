@@ -26,6 +26,7 @@ class ModulePilot {
               std::unique_ptr<avoidance::Module> module);
 
   /// Starts a flight. @param hull  of the vehicle. @param hold  in effect until the first command is.
+  /// Throws InputError where the module does not begin.
   void reset(const std::vector<dynamics::HullPart>& hull, const dynamics::control::Setpoint& hold);
 
   /// Whether one of its cameras exposes on this tick.

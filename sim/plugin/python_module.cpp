@@ -94,8 +94,6 @@ PythonMaker load_maker(const PythonConfig& config) {
 void set_python_maker(PythonMaker maker) { known_maker() = std::move(maker); }
 
 std::unique_ptr<avoidance::Module> make_python_module(const PythonConfig& config) {
-  std::error_code error;
-  if (!fs::exists(config.python, error)) refuse(config, "no such file");
   if (config.parameters.kind != Node::Kind::null && config.parameters.kind != Node::Kind::map) {
     refuse(config, "'parameters' must be a map, got " + config.parameters.words());
   }

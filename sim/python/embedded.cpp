@@ -1,6 +1,7 @@
 #include <dlfcn.h>
 #include <pybind11/embed.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
@@ -39,7 +40,11 @@ void start() {
   PyConfig_InitPythonConfig(&config);
   config.install_signal_handlers = 0;
   PyConfig_SetBytesString(&config, &config.program_name, interpreter().c_str());
+  struct sigaction on_interrupt {};
+  ::sigaction(SIGINT, nullptr, &on_interrupt);
   py::initialize_interpreter(&config);
+  py::module_::import("signal");  // which takes Ctrl-C whatever the config says
+  ::sigaction(SIGINT, &on_interrupt, nullptr);
   const py::module_ sys = py::module_::import("sys");
   sys.attr("path").attr("insert")(0, package().parent_path().string());
   sys.attr("stdout") = sys.attr("stderr");  // standard output holds results alone

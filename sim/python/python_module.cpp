@@ -20,8 +20,9 @@ std::string one_line(const py::error_already_set& error) {
   std::string text = py::str(py::str("").attr("join")(lines).attr("strip")());
   if (error.trace()) {
     for (const py::handle& frame : traceback.attr("extract_tb")(error.trace())) {
-      text += " | " + py::str(frame.attr("filename")).cast<std::string>() + ":" +
-              py::str(frame.attr("lineno")).cast<std::string>() + " in " +
+      const auto file = py::str(frame.attr("filename")).cast<std::string>();
+      if (file.starts_with("<frozen ") || file.ends_with("/hedgehop/_loading.py")) continue;  // not the module's own
+      text += " | " + file + ":" + py::str(frame.attr("lineno")).cast<std::string>() + " in " +
               py::str(frame.attr("name")).cast<std::string>();
     }
   }
@@ -36,8 +37,9 @@ auto locked(const Call& call) {
   try {
     return call();
   } catch (const py::error_already_set& error) {
+    const std::string what = one_line(error);
     if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();  // raised again once the call is over
-    throw std::runtime_error(one_line(error));
+    throw std::runtime_error(what);
   } catch (const py::cast_error& error) {
     throw std::runtime_error(error.what());
   }

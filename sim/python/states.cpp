@@ -206,6 +206,7 @@ Observation to_python(const avoidance::Observation& observation) {
 
 Decision to_decision(const py::handle& answer) {
   if (py::isinstance<Decision>(answer)) return answer.cast<Decision>();
+  if (answer.is_none()) throw std::invalid_argument("update() returned None, not a command or a Decision");
   try {
     return {answer.cast<Command>(), "cruise", {}};
   } catch (const py::cast_error&) {

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <utility>
 #include <variant>
 
 #include "avoidance/module.h"
 #include "sim/scenario/check_faults.h"
+#include "sim/scenario/foreign_config.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -86,6 +88,12 @@ class Validator {
   }
 
   void module() {
+    const PythonConfig* const script = scenario_.avoidance.python();
+    std::error_code error;
+    if (script && !std::filesystem::exists(script->python, error)) {
+      add("avoidance.python", fmt::format("there is no such file: '{}'", script->python.string()));
+      return;
+    }
     build("avoidance", [&] {
       module_ = scenario_.avoidance.make();
       if (!module_) return;

@@ -4,6 +4,7 @@ import importlib.util
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import tempfile
 import textwrap
@@ -17,6 +18,7 @@ from flights import CITY, PROGRAM, SHORT, SOURCE, STRAIGHT, TREE, run_program, s
 
 GO_TO_GOAL = textwrap.dedent("""
     import math
+    import time
 
     import hedgehop
 
@@ -45,6 +47,23 @@ GO_TO_GOAL = textwrap.dedent("""
     class Prints:
         def update(self, observation):
             print("seen", observation.t_ns)
+            return hedgehop.HoverCommand()
+
+
+    class ReturnsNothing:
+        def update(self, observation):
+            pass
+
+
+    class TakesNoSetup(Prints):
+        def reset(self):
+            pass
+
+
+    class Sleeps(Prints):
+        def update(self, observation):
+            print("awake", flush=True)
+            time.sleep(0.2)
             return hedgehop.HoverCommand()
 
 
@@ -135,15 +154,15 @@ class FromFile(unittest.TestCase):
     def test_what_a_module_raises_ends_its_flight_with_the_places(self):
         _, result, _ = run_program(CITY, self.python("Fails"), self.folder / "fails")
         self.assertEqual(result["outcome"], "fault")
-        for text in ("0.520 s", "ValueError: no way", f"{self.file}:24 in update"):
+        for text in ("0.520 s", "ValueError: no way", f"{self.file}:25 in update"):
             self.assertIn(text, result["cause"])
         self.assertNotIn("\n", result["cause"])
 
     def test_what_cannot_be_loaded_is_bad_input(self):
         broken = self.folder / "broken.py"
         broken.write_text("import nothing_of_that_name\n")
-        for values, text in (({**SHORT, "avoidance": {"python": "none.py", "class": "A"}}, "no such file"),
-                             (self.python("GoToGaol"), "has no class 'GoToGaol'; its modules: AnnotatesANumber, Fails, GoToGoal, Looks"),
+        for values, text in (({**SHORT, "avoidance": {"python": "none.py", "class": "A"}}, "there is no such file"),
+                             (self.python("GoToGaol"), "has no class 'GoToGaol'; its modules: AnnotatesANumber, Fails, GoToGoal, Looks, "),
                              (self.python("GoToGoal", sped=1), "unexpected keyword argument 'sped'"),
                              ({**SHORT, "avoidance": {"python": str(broken), "class": "A"}}, "nothing_of_that_name"),
                              ({**SHORT, "avoidance": {"python": str(self.file)}}, "class")):
@@ -158,6 +177,7 @@ class FromFile(unittest.TestCase):
         for class_name, text in (("NeedsAText", "'needs' must be a list of cameras, each its role or a CameraNeed, got 'front'"),
                                  ("NeedsWhatIsNotThere", "needs a camera 'forward', which the rig does not have; it has: left, right"),
                                  ("NeedsWhatIsNotThere", "needs camera 'front' to deliver depth images; it delivers grey images"),
+                                 ("TakesNoSetup", "the module cannot begin: TypeError: TakesNoSetup.reset() takes 1 positional argument"),
                                  ("SignalsInAList", "'signals' must be a dict of names and units, both texts, got ['nearest']")):
             with self.subTest(class_name):
                 status, result, said = run_program(CITY, self.python(class_name), self.folder / "itself")
@@ -176,6 +196,21 @@ class FromFile(unittest.TestCase):
         result = hedgehop.load(self.folder / "number").result
         self.assertEqual((done.returncode, result["outcome"]), (1, "fault"), done.stderr)
         self.assertIn("annotate() must return None or an array", result["cause"])
+
+    def test_an_update_that_returns_nothing_is_told_so(self):
+        _, result, _ = run_program(CITY, self.python("ReturnsNothing"), self.folder / "nothing")
+        self.assertEqual(result["cause"], "the module failed at 0.000 s: update() returned None, not a command or a Decision")
+
+    def test_an_interrupt_ends_the_program_and_is_no_fault_of_the_module(self):
+        flying = subprocess.Popen([PROGRAM, "run", CITY, "--no-video", "--no-report", "--out", self.folder / "interrupted", "--set",
+                                   f"avoidance={{python: {self.file}, class: Sleeps}}"], stderr=subprocess.PIPE, text=True,
+                                  preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+        while "awake" not in flying.stderr.readline():
+            pass
+        flying.send_signal(signal.SIGINT)
+        flying.communicate()
+        self.assertEqual(flying.returncode, -signal.SIGINT)
+        self.assertFalse((self.folder / "interrupted/result.json").exists())
 
     def test_what_it_prints_is_no_part_of_the_results(self):
         done = subprocess.run([PROGRAM, "run", CITY, "--no-video", "--no-report", "--json", "--out", self.folder / "prints", "--set",
