@@ -15,7 +15,8 @@ namespace hedgehop::avoidance::landmark_map {
 /// flights, a circle (orbit.h) or straight ahead; it leaves avoiding and stopping to others, ch. 7.
 struct LandmarkMapModuleConfig {
   static constexpr std::string_view kName = "landmark_map";
-  static constexpr std::string_view kMeaning = "maps the corners that one camera sees and flies around them";
+  static constexpr std::string_view kMeaning =
+      "maps the corners that one camera sees and flies around them; what has none it hardly sees";
 
   Law law = Law::ours;
   LandmarkSightConfig sight;
