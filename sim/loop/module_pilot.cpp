@@ -29,6 +29,16 @@ std::unique_ptr<avoidance::Module> crew(const Scenario& scenario, const Ticks& t
   });
 }
 
+void require_cameras(const RigConfig& rig, const avoidance::Needs& needs) {
+  std::vector<std::string> faults;
+  for (const avoidance::CameraNeed& need : needs.cameras) {
+    for (const std::string& fault : rig.lacks(need.role, need.channel, need.pinhole)) {
+      faults.push_back("'avoidance': " + fault);
+    }
+  }
+  if (!faults.empty()) throw InputError(faults);
+}
+
 }  // namespace
 
 ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& cameras,
@@ -39,13 +49,7 @@ ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& 
       module_(crew(scenario, ticks, std::move(module))),
       truth_used_(sim::truth_used(module_->needs(), scenario.avionics)),
       route_(scenario) {
-  std::vector<std::string> faults;
-  for (const avoidance::CameraNeed& need : module_->needs().cameras) {
-    for (const std::string& fault : scenario.rig.lacks(need.role, need.channel, need.pinhole)) {
-      faults.push_back("'avoidance': " + fault);
-    }
-  }
-  if (!faults.empty()) throw InputError(faults);
+  require_cameras(scenario.rig, module_->needs());
   int64_t slowest = 0;
   for (const avoidance::CameraNeed& need : module_->needs().cameras) {
     module_cameras_.push_back(cameras_.index(need.role));

@@ -205,8 +205,7 @@ class FromFile(unittest.TestCase):
         flying = subprocess.Popen([PROGRAM, "run", CITY, "--no-video", "--no-report", "--out", self.folder / "interrupted", "--set",
                                    f"avoidance={{python: {self.file}, class: Sleeps}}"], stderr=subprocess.PIPE, text=True,
                                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
-        while "awake" not in flying.stderr.readline():
-            pass
+        self.assertTrue(any("awake" in line for line in flying.stderr), "it never decided")
         flying.send_signal(signal.SIGINT)
         flying.communicate()
         self.assertEqual(flying.returncode, -signal.SIGINT)
