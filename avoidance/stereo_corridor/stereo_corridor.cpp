@@ -75,7 +75,7 @@ class StereoCorridor final : public Module {
 
     const Eigen::Vector3d p_CG_C = X_WC.inverse() * observation.goal.p_WG;
     const bool arrives = arrives_at(observation.goal.p_WG - navigation.p_WB_est);
-    const bool turns_back = config_.additions.goal_first && !arrives && turn_back_.update(p_CG_C);
+    const bool turns_back = config_.additions.goal_first && !arrives && turn_back_.update(p_CG_C, navigation.p_WB_est);
     const int tests = aim(navigation, p_CG_C, turns_back);
     count(observation.t_ns, tests);
 
@@ -129,7 +129,8 @@ class StereoCorridor final : public Module {
             [this](const Eigen::Vector3d& ray_C) { return passed_->free(R_WC_ * ray_C); }};
   }
 
-  /// Chooses the next target; without one, the side to turn to: the last target's, or that of a goal it has passed.
+  /// Chooses the next target; without one, the side to turn to: the last target's, or that which a goal it has passed
+  /// asks for.
   /// @return corridor tests that this took.
   int aim(const NavigationState& navigation, const Eigen::Vector3d& p_CG_C, bool turns_back) {
     const std::optional<Target> before = target_;
@@ -139,7 +140,7 @@ class StereoCorridor final : public Module {
     CorridorSearch images = search();
     target_.reset();
     if (turns_back) {
-      turn_ = std::copysign(1.0, p_CG_C.x());
+      turn_ = *turn_back_.side();
       return 0;
     }
     if (config_.additions.goal_first) {
@@ -149,6 +150,7 @@ class StereoCorridor final : public Module {
       target_ = images.join(is_moving(v_WB_C) ? v_WB_C : Eigen::Vector3d::UnitZ(), followed);
     }
     if (before && !target_) turn_ = before->pixel.x < source_->geometry().center_u_px ? -1.0 : 1.0;
+    if (const auto side = turn_back_.side()) turn_ = *side;
     return images.tests();
   }
 

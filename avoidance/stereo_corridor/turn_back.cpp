@@ -5,24 +5,32 @@
 
 namespace hedgehop::avoidance::stereo_corridor {
 
-bool TurnBack::update(const Eigen::Vector3d& p_CG_C) {
-  constexpr double kAhead = 0.2;    // tangent of the bearing: most of the image lies round the goal
-  constexpr double kNearerM = 3.0;  // progress that makes the last turn a success
-  constexpr double kWanderM = 0.3;  // drift of a position estimate while a goal is passed
+bool TurnBack::update(const Eigen::Vector3d& p_CG_C, const Eigen::Vector3d& p_WB) {
+  constexpr double kAhead = 0.2;       // tangent of the bearing: most of the image lies round the goal
+  constexpr double kNearerM = 3.0;     // progress that makes the last turn a success
+  constexpr double kWanderM = 0.3;     // drift of a position estimate while a goal is passed
+  constexpr double kElsewhereM = 3.0;  // from where another street may be seen
   const double distance_m = std::hypot(p_CG_C.x(), p_CG_C.z());
   nearest_m_ = std::min(nearest_m_, distance_m);
   if (distance_m < nearest_ever_m_ - kNearerM) {
     nearest_ever_m_ = distance_m;
     may_pass_m_ = kMayPassM;
+    tries_ahead_ = true;
   }
+  if (!turning_ && side_ && (p_WB - p_turned_W_).norm() > kElsewhereM) side_.reset();
   const bool recedes = distance_m > nearest_m_ + kWanderM;
   if (!turning_ && recedes && -p_CG_C.z() > may_pass_m_) {
     turning_ = true;
-    may_pass_m_ *= 2.0;
   } else if (turning_ && std::abs(p_CG_C.x()) < kAhead * p_CG_C.z()) {
     turning_ = false;
+    const double passed_m = std::sqrt(distance_m * distance_m - nearest_m_ * nearest_m_);
+    may_pass_m_ = std::max(2.0 * may_pass_m_, passed_m + kElsewhereM);
     nearest_m_ = distance_m;
+    p_turned_W_ = p_WB;
+    if (tries_ahead_) side_ = -*side_;
+    tries_ahead_ = !tries_ahead_;
   }
+  if (turning_) side_ = std::copysign(1.0, p_CG_C.x());
   return turning_;
 }
 

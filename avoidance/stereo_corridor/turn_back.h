@@ -2,16 +2,25 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <optional>
 
 namespace hedgehop::avoidance::stereo_corridor {
 
 /// Decides when a vehicle that sees ahead only turns on the spot towards a goal that it has passed: as soon as the goal
-/// recedes and lies a meter behind, and until it lies ahead. Every turn doubles that meter, so that a long detour is
-/// still flown, until the goal has been closer than ever. Ours.
+/// recedes and lies a meter behind, and until it lies ahead. Every turn doubles that meter, and makes it at least 3 m
+/// more than where the vehicle then stood, so that a long detour is still flown and the next look is from elsewhere,
+/// until the goal has been closer than ever. Where nothing is free towards the goal, the vehicle turns on: first to the
+/// way ahead that it had not seen yet, the next time to the way that it came, and so on, as one searches a wall for a
+/// door. Ours.
 class TurnBack {
  public:
-  /// @param p_CG_C  the goal, from the camera, m. @return whether to turn towards it on the spot now.
-  bool update(const Eigen::Vector3d& p_CG_C);
+  /// @param p_CG_C  the goal, from the camera, m. @param p_WB  the vehicle as estimated, m.
+  /// @return whether to turn towards the goal on the spot now.
+  bool update(const Eigen::Vector3d& p_CG_C, const Eigen::Vector3d& p_WB);
+
+  /// Returns the side to turn to, 1 to the right and -1 to the left: the goal's while it turns, then, where it stands,
+  /// that of the way to try. None elsewhere.
+  std::optional<double> side() const { return side_; }
 
  private:
   static constexpr double kMayPassM = 1.0;
@@ -19,6 +28,9 @@ class TurnBack {
   double nearest_m_ = std::numeric_limits<double>::infinity();  ///< to the goal, since the last turn
   double nearest_ever_m_ = std::numeric_limits<double>::infinity();
   bool turning_ = false;
+  std::optional<double> side_;
+  bool tries_ahead_ = true;  ///< after the next turn
+  Eigen::Vector3d p_turned_W_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace hedgehop::avoidance::stereo_corridor
