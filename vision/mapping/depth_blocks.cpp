@@ -50,6 +50,23 @@ void read_grey(const cv::Mat& grey, int row, int col, DepthBlock& block) {
   block.range = static_cast<uint8_t>((most - least) / (kHalf * kHalf));
 }
 
+/// By how much each pixel is darker than what is on both sides of it within a few pixels: the black top hat, which is
+/// nothing at an edge and in the noise of a camera little.
+void find_valleys(const cv::Mat& grey, cv::Mat& valleys) {
+  constexpr int kWindowPx = 5;  // wider than a line
+  cv::morphologyEx(grey, valleys, cv::MORPH_BLACKHAT, cv::Mat::ones(kWindowPx, kWindowPx, CV_8U));
+}
+
+bool is_lined(const cv::Mat& valleys, int row, int col) {
+  constexpr int kDarker = 25, kLeast = 4;  // grey levels, above the noise; pixels, half of a line through the block
+  int dark = 0;
+  for (int v = 0; v < kPx; ++v) {
+    const auto* const g = valleys.ptr<uint8_t>(row * kPx + v) + col * kPx;
+    for (int u = 0; u < kPx; ++u) dark += g[u] > kDarker;
+  }
+  return dark >= kLeast;
+}
+
 }  // namespace
 
 void DepthBlocks::build(const cv::Mat& disparity16, const cv::Mat& grey, int smear_px) {
@@ -60,13 +77,16 @@ void DepthBlocks::build(const cv::Mat& disparity16, const cv::Mat& grey, int sme
     cv::erode(smeared_, smeared_, square(2 * smear_px + 1));
     cv::dilate(smeared_, smeared_, square(4 * smear_px + 1));
   }
+  if (!grey.empty()) find_valleys(grey, valleys_);
   rows_ = disparity16.rows / kPx;
   cols_ = disparity16.cols / kPx;
   blocks_.assign(static_cast<size_t>(rows_ * cols_), {});
   for (int row = 0; row < rows_; ++row) {
     for (int col = 0; col < cols_; ++col) {
       read_disparity(disparity16, smeared_, row, col, at(row, col));
-      if (!grey.empty()) read_grey(grey, row, col, at(row, col));
+      if (grey.empty()) continue;
+      read_grey(grey, row, col, at(row, col));
+      at(row, col).lined = is_lined(valleys_, row, col);
     }
   }
 }
@@ -84,6 +104,7 @@ constexpr size_t kSupportCols = 6;     ///< how near
 constexpr double kOwnM = 15.0;         ///< least distance in the column itself
 constexpr int kGap = 2;                ///< blocks of the ground, one above the other, that need not be matched
 constexpr double kAttitudeRad = 0.03;  ///< by which the predicted horizon may err
+constexpr int kLines = 3;              ///< blocks of a column with something thin in them
 constexpr int kSmooth = 6;             ///< grey levels within a block of sky and from one to the next
 constexpr int kLikeOthers = 15;        ///< grey levels between a row's blocks of sky: skies brighten towards the sun
 
@@ -143,11 +164,17 @@ class Column {
       edge = stands;  // one block of it
     }
     Run run{row + 1, row, support - 1, foot_m};
+    int below = -1, lines = 0;  // the grey of the last block of sky
     for (; row >= 0 && in_image(row); --row) {
       const DepthBlock& block = at(row);
-      const bool steps = row < run.horizon && std::abs(block.grey - at(row + 1).grey) > kSmooth;
+      if (block.lined && block.kind == DepthBlock::Kind::unknown && lines++ < kLines) {
+        run.top = row;
+        continue;
+      }
+      const bool steps = below >= 0 && std::abs(block.grey - below) > kSmooth;
       if (block.near16 >= 0 || block.range > kSmooth || steps) break;
       run.top = row;
+      below = block.grey;
     }
     if (run.top > run.horizon) return std::nullopt;
     return run;
@@ -192,7 +219,9 @@ std::vector<int> usual_greys(int rows, const std::vector<Candidate>& candidates)
   for (size_t i = 0; i < candidates.size(); ++i) {
     const auto& [column, run] = candidates[i];
     if (!run || !is_far_near(i)) continue;
-    for (int row = run->top; row <= run->horizon; ++row) greys[static_cast<size_t>(row)].push_back(column.at(row).grey);
+    for (int row = run->top; row <= run->horizon; ++row) {
+      if (!column.at(row).lined) greys[static_cast<size_t>(row)].push_back(column.at(row).grey);
+    }
   }
   std::vector<int> usual;
   for (std::vector<int>& of_row : greys) {
@@ -218,7 +247,7 @@ int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down
     if (!run) continue;
     for (int row = run->top; row <= run->horizon; ++row) {
       const int grey = usual[static_cast<size_t>(row)];
-      if (grey >= 0 && std::abs(column.at(row).grey - grey) <= kLikeOthers) continue;
+      if (column.at(row).lined || (grey >= 0 && std::abs(column.at(row).grey - grey) <= kLikeOthers)) continue;
       run.reset();
       break;
     }
@@ -232,9 +261,9 @@ int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down
       if (of < 0 || of >= static_cast<int>(candidates.size())) continue;
       const auto& [column, run] = candidates[static_cast<size_t>(of)];
       if (!run || row < run->top || row > run->bottom) continue;
-      block.kind = DepthBlock::Kind::sky;
+      block.kind = block.lined ? DepthBlock::Kind::line : DepthBlock::Kind::sky;
       block.foot16 = static_cast<int16_t>(column.upright16(row, run->foot_m));
-      ++found;
+      found += !block.lined;
     }
   }
   return found;

@@ -16,12 +16,14 @@ struct DepthBlock {
     matched,
     smeared,  ///< matched, but so near to what is plain that another surface may show
     sky,      ///< not matched, or smeared, and recognized by find_sky()
+    line,     ///< as sky, but for something thin and dark in it, of unknown distance
   };
   Kind kind = Kind::unknown;
   int16_t near16 = -1;  ///< disparity x 16 of its nearest surface; -1 where nothing was matched
-  int16_t foot16 = -1;  ///< of sky: of what would stand upright where the ground of its column ends
+  int16_t foot16 = -1;  ///< of sky and line: of what would stand upright where the ground of its column ends
   uint8_t grey = 0;     ///< mean
   uint8_t range = 0;    ///< greatest less least grey of its four quarters
+  bool lined = false;   ///< holds something thin that is darker than what is on both sides of it
 };
 
 /// A disparity image in squares, each with its nearest surface: a few thousand rays instead of a quarter of a million,
@@ -48,6 +50,7 @@ class DepthBlocks {
  private:
   int rows_ = 0, cols_ = 0;
   std::vector<DepthBlock> blocks_;
+  cv::Mat valleys_;  ///< CV_8UC1, grey levels by which a pixel is darker than what is on both sides of it
   cv::Mat smeared_;  ///< 255 where a pixel is so near to what is plain, else 0
 };
 
@@ -57,12 +60,14 @@ class DepthBlocks {
 /// - from there up nothing was matched that is nearer than 15 m;
 /// - above what was matched its column is smooth, and as bright as the sky of columns near to ground at 25 m is in
 ///   its row: where there are none, there is no sky.
+/// What is thin and dark before it, a wire or a bare branch, is matched late or never, and stays apart as a line: up to
+/// three blocks of a column.
 /// With it goes what lies between that ground and the horizon. A plain wall stands on ground that is nearer, a plain
 /// box in the air has edges or another brightness: both stay unknown. And a wall would stand at the end of
 /// that ground: `foot16` says how far sky is free at least. A plain ceiling over far ground, with no sky beside it,
 /// passes for sky. Differs from [Andert2007] eq. (6) to (8), where
 /// all that is bright and without texture is infinitely far.
-/// @param down_C  the vertical in C, of length 1. @return blocks found.
+/// @param down_C  the vertical in C, of length 1. @return blocks of sky found.
 int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, DepthBlocks& blocks);
 
 }  // namespace hedgehop::vision::mapping

@@ -13,6 +13,11 @@ constexpr int kHit = 3, kMiss = -2;
 constexpr int kLeast = -9, kMost = 12;  // clamps: what was seen free turns after two hits, and is occupied after five
 constexpr int kFreeBelow = -4, kOccupiedFrom = 5;
 constexpr double kSigmas = 2.0;
+// Something thin before the sky takes from what was free along its ray, from where it would be matched on: three images
+// of it make that unknown, never occupied.
+constexpr int kDoubt = 2;
+constexpr float kSurelyMatchedM = 4.0F;
+constexpr float kInDoubt = -1.0F;  // instead of what a block clears
 // 1-sigma of a depth up to which a surface is placed in the map, less than a voxel, and up to which it is told of.
 constexpr double kPlacedM = 0.25, kToldM = 1.0;
 
@@ -88,14 +93,17 @@ void OccupancyMap::integrate(const DepthBlocks& blocks, const stereo::StereoGeom
   for (const size_t slot : hit_slots_) hit_[slot] = 0;
 }
 
-/// z in C up to which each block was seen through: not past what its neighbors see nearer, whose edge may lie in it.
+/// z in C up to which each block was seen through: not past what its neighbors see nearer, whose edge may lie in it; or
+/// that it puts in doubt what was free.
 void OccupancyMap::find_clear(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry) {
   const double beyond16 = kSigmas * config_.noise_px * stereo::kDisparityUnits;
   clear_m_.assign(static_cast<size_t>(blocks.rows() * blocks.cols()), 0.0F);
   for (int row = 0; row < blocks.rows(); ++row) {
     for (int col = 0; col < blocks.cols(); ++col) {
       const DepthBlock& block = blocks.at(row, col);
-      if (block.kind == DepthBlock::Kind::unknown || block.kind == DepthBlock::Kind::smeared) continue;
+      float& clear_m = clear_m_[static_cast<size_t>(row * blocks.cols() + col)];
+      if (block.kind == DepthBlock::Kind::line) clear_m = kInDoubt;
+      if (block.kind != DepthBlock::Kind::matched && block.kind != DepthBlock::Kind::sky) continue;
       int near16 = block.foot16;
       for (int v = std::max(0, row - 1); v <= std::min(blocks.rows() - 1, row + 1); ++v) {
         for (int u = std::max(0, col - 1); u <= std::min(blocks.cols() - 1, col + 1); ++u) {
@@ -104,7 +112,7 @@ void OccupancyMap::find_clear(const DepthBlocks& blocks, const stereo::StereoGeo
       }
       double z_m = near16 < 0 ? config_.far_m : geometry.disparity16(1.0) / (near16 + beyond16);
       if (block.kind == DepthBlock::Kind::sky) z_m = std::min(z_m, config_.far_m);
-      clear_m_[static_cast<size_t>(row * blocks.cols() + col)] = static_cast<float>(z_m);
+      clear_m = static_cast<float>(z_m);
     }
   }
 }
@@ -167,6 +175,9 @@ void OccupancyMap::add_misses(const DepthBlocks& blocks, const stereo::StereoGeo
         const float v = v0 + f * (p_C.y() + steps * step_C.y()) / z_m;
         if (!(u >= 0.0F && v >= 0.0F && u < cols && v < rows)) continue;
         const float clear_m = clear_m_[static_cast<size_t>(static_cast<int>(v) * blocks.cols() + static_cast<int>(u))];
+        if (clear_m == kInDoubt && z_m > kSurelyMatchedM && log_odds_[at] < 0) {
+          log_odds_[at] = static_cast<int8_t>(std::min(0, log_odds_[at] + kDoubt));
+        }
         if (z_m + half_m > clear_m || hit_[at]) continue;
         log_odds_[at] = static_cast<int8_t>(std::max(kLeast, log_odds_[at] + kMiss));
       }

@@ -238,6 +238,61 @@ TEST(FindSky, ThereIsNoneWhereGroundIsMatchedOnlyNearby) {
   EXPECT_EQ(find(view).sky, 0);
 }
 
+/// Darkens what is sky in a part of an image.
+void draw_before_sky(View& view, const cv::Rect& part, int grey) {
+  for (int v = part.y; v < part.br().y; ++v) {
+    for (int u = part.x; u < part.br().x; ++u) {
+      if (view.is_sky[static_cast<size_t>(v * view.world.width_px + u)])
+        view.grey.at<uint8_t>(v, u) = cv::saturate_cast<uint8_t>(grey);
+    }
+  }
+}
+
+// A pole, and a wire just above the horizon, a pixel wide, where no pixel is matched: no sky, and the sky beside stays.
+TEST(FindSky, WhatIsThinBeforeItIsALine) {
+  const View open = look({}, 4.0, {});
+  const Found before = find(open);
+  const int horizon_px = static_cast<int>(open.world.geometry.center_v_px);
+  for (const cv::Rect& thin : {cv::Rect(161, 0, 1, horizon_px), cv::Rect(0, horizon_px - 12, 320, 1)}) {
+    for (const int grey : {0, kSkyGrey - 40}) {
+      View view = open;
+      view.grey = open.grey.clone();
+      draw_before_sky(view, thin, grey);
+      const DepthBlocks blocks = view.blocks();
+      int crossed = 0, lines = 0;
+      for (int row = 0; row < blocks.rows(); ++row) {
+        for (int col = 0; col < blocks.cols(); ++col) {
+          const cv::Rect block(8 * col, 8 * row, 8, 8);
+          const bool is_crossed = !(block & thin).empty() && (block & thin).area() >= 8 && block.br().y < horizon_px;
+          const bool is_line = blocks.at(row, col).kind == DepthBlock::Kind::line;
+          crossed += is_crossed;
+          lines += is_line;
+          EXPECT_TRUE((block & thin).area() > 0 || !is_line) << row << ' ' << col;
+          if (is_crossed) EXPECT_NE(blocks.at(row, col).kind, DepthBlock::Kind::sky) << row << ' ' << col;
+        }
+      }
+      const bool upright = thin.width == 1;
+      // A column may hold three blocks of a line: of a pole that is the lowest part, at the vehicle's height.
+      EXPECT_GE(lines, upright ? 3 : crossed) << grey;
+      EXPECT_GE(find(view).sky, before.sky - crossed) << grey;
+    }
+  }
+}
+
+TEST(FindSky, TheNoiseOfACameraIsNoLine) {
+  View view = look({}, 4.0, {});
+  const Found before = find(view);
+  cv::Mat noise(view.grey.size(), CV_16SC1), noisy;
+  cv::RNG generator(1);
+  constexpr double kSigma = 4.0;  // grey levels; of a sensor in daylight less
+  generator.fill(noise, cv::RNG::NORMAL, 0.0, kSigma);
+  view.grey.convertTo(noisy, CV_16SC1);
+  noisy += noise;
+  noisy.convertTo(view.grey, CV_8UC1);
+  EXPECT_EQ(view.blocks().share(DepthBlock::Kind::line), 0.0);
+  EXPECT_GT(find(view).sky, 0.9 * before.sky);
+}
+
 TEST(DepthBlocks, ABlockIsAsNearAsAPoleInIt) {
   cv::Mat disparity16(8, 8, CV_16SC1, cv::Scalar(16));
   disparity16.colRange(3, 5).setTo(200);

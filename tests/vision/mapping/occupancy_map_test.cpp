@@ -107,6 +107,35 @@ TEST(OccupancyMap, WithoutAnyMatchNothingIsFreeAndNothingOccupied) {
   }
 }
 
+// Of what was free before: from 4 m on unknown after three images of a line, nowhere occupied, and beside it as before.
+TEST(OccupancyMap, ALineBeforeTheSkyPutsInDoubtWhatWasFreeAlongItsRay) {
+  const MappedWorld world;
+  OccupancyMap map(small());
+  const Eigen::Vector3d p_WC(0.15, 0.15, -1.35);
+  map.reset(p_WC);
+  const Eigen::Isometry3d X_WC = MappedWorld::looking(p_WC, 0.0);
+  DepthBlocks blocks;
+  blocks.build(cv::Mat(world.height_px, world.width_px, CV_16SC1, cv::Scalar(0)), {}, 0);
+  const auto look = [&](DepthBlock::Kind ahead) {
+    const int row = static_cast<int>(world.geometry.center_v_px) / 8,
+              col = static_cast<int>(world.geometry.center_u_px) / 8;
+    blocks.at(row, col).kind = ahead;
+    map.integrate(blocks, world.geometry, X_WC);
+  };
+  const auto at = [&](double north_m, double east_m) { return map.state(map.index({north_m, east_m, p_WC.z()})); };
+  for (int i = 0; i < 5; ++i) look(DepthBlock::Kind::sky);
+  for (double north_m = 2.0; north_m < 12.0; north_m += 0.3) ASSERT_EQ(at(north_m, 0.15), State::free) << north_m;
+  for (int i = 0; i < 3; ++i) look(DepthBlock::Kind::line);
+  for (int i = 0; i < 20; ++i) {
+    for (double north_m = 2.0; north_m < 12.0; north_m += 0.3) {
+      const bool in_doubt = north_m > 4.45;  // whole voxels
+      if (in_doubt || north_m < 4.0) EXPECT_EQ(at(north_m, 0.15), in_doubt ? State::unknown : State::free) << north_m;
+      if (north_m > 3.0) EXPECT_EQ(at(north_m, -1.65), State::free) << north_m;
+    }
+    look(DepthBlock::Kind::line);
+  }
+}
+
 TEST(OccupancyMap, MovingKeepsWhatStaysAndForgetsWhatLeaves) {
   OccupancyMap map(small());
   map.reset(Eigen::Vector3d::Zero());
