@@ -15,7 +15,6 @@ bool TurnBack::update(const Eigen::Vector3d& p_CG_C, const Eigen::Vector3d& p_WB
   if (distance_m < nearest_ever_m_ - kNearerM) {
     nearest_ever_m_ = distance_m;
     may_pass_m_ = kMayPassM;
-    tries_ahead_ = true;
   }
   if (!turning_ && side_ && (p_WB - p_turned_W_).norm() > kElsewhereM) side_.reset();
   const bool recedes = distance_m > nearest_m_ + kWanderM;
