@@ -52,7 +52,7 @@ class Search {
     double bad_m = excess_m(path, best_.safe ? 0.0 : least_bad_m_);
     if (bad_m > 0.0) {  // to be flown only where nothing else is left
       if (best_.safe || bad_m >= least_bad_m_) return;
-      bad_m += kFleeShare * threat_m_(path) + turn_price_m;
+      bad_m += kFleeShare * threat_m_(path);
       if (bad_m >= least_bad_m_) return;
       least_bad_m_ = bad_m;
       best_ = {v_cmd_W, false, 0.0, std::move(path)};

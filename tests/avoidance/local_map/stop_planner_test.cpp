@@ -54,21 +54,6 @@ TEST(StopPlanner, SpeedFollowsHowFarIsFree) {
   }
 }
 
-// Too late to stop before a narrow obstacle, and a little nearer to its other side: no turning from one to the other.
-TEST(StopPlanner, WhereTwoWaysAreAboutAsBadItStaysWithTheOneItFlies) {
-  const StopPlanner planner(kResponse, kSpeedMps);
-  const Moment now{0.0, Eigen::Vector2d::Zero(), {kSpeedMps, 0.0}};
-  for (const double side : {-1.0, 1.0}) {
-    const auto narrow = [side](const Moment& m) {
-      const bool there = m.p_W.x() > 2.0 && m.p_W.x() < 4.0;
-      return Fault{.occupied_m = there ? std::max(0.0, 2.0 - std::abs(m.p_W.y() - 0.3 * side)) : 0.0};
-    };
-    const StopPlanner::Plan plan = planner.choose(now, {6.0, 3.0 * side}, narrow, nobody, north);
-    EXPECT_FALSE(plan.safe);
-    EXPECT_GT(side * plan.v_cmd_W.y(), 0.0) << plan.v_cmd_W.transpose();
-  }
-}
-
 TEST(StopPlanner, AVehicleThatIsTooNearMovesAway) {
   const StopPlanner planner(kResponse, kSpeedMps);
   const Moment now{0.0, {1.0, 0.0}, Eigen::Vector2d::Zero()};
