@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "avoidance/heading.h"
+#include "vision/mapping/find_sky.h"
 
 namespace hedgehop::avoidance::local_map {
 namespace {

@@ -139,18 +139,16 @@ class StereoCorridor final : public Module {
     const Eigen::Vector3d v_WB_C = source_->X_BC().linear().transpose() * navigation.v_WB_B_est;
     CorridorSearch images = search();
     target_.reset();
-    if (turns_back) {
-      turn_ = *turn_back_.side();
-      return 0;
-    }
+    const std::optional<double> side = turn_back_.side();
+    if (side) turn_ = *side;
+    if (turns_back) return 0;
     if (config_.additions.goal_first) {
       target_ = choose_goal_first(images, p_CG_C, v_WB_C, followed);
     } else {
       // A vehicle that stands has no direction of flight; the paper begins with "the way straight on".
       target_ = images.join(is_moving(v_WB_C) ? v_WB_C : Eigen::Vector3d::UnitZ(), followed);
     }
-    if (before && !target_) turn_ = before->pixel.x < source_->geometry().center_u_px ? -1.0 : 1.0;
-    if (const auto side = turn_back_.side()) turn_ = *side;
+    if (!side && before && !target_) turn_ = before->pixel.x < source_->geometry().center_u_px ? -1.0 : 1.0;
     return images.tests();
   }
 

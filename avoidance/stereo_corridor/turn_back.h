@@ -28,9 +28,9 @@ class TurnBack {
   double nearest_m_ = std::numeric_limits<double>::infinity();  ///< to the goal, since the last turn
   double nearest_ever_m_ = std::numeric_limits<double>::infinity();
   bool turning_ = false;
-  std::optional<double> side_;
-  bool tries_ahead_ = true;  ///< after the next turn
-  Eigen::Vector3d p_turned_W_ = Eigen::Vector3d::Zero();
+  std::optional<double> side_;                            ///< 1 or -1
+  bool tries_ahead_ = true;                               ///< after the next turn
+  Eigen::Vector3d p_turned_W_ = Eigen::Vector3d::Zero();  ///< where the last turn ended, m
 };
 
 }  // namespace hedgehop::avoidance::stereo_corridor

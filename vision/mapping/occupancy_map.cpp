@@ -149,7 +149,7 @@ void OccupancyMap::add_hits(const DepthBlocks& blocks, const stereo::StereoGeome
   }
 }
 
-/// Voxels that lie wholly before the end of their block's ray.
+/// Voxels that lie wholly before the end of their block's ray, and those that a line puts in doubt.
 void OccupancyMap::add_misses(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry,
                               const Eigen::Isometry3d& X_WC) {
   const Eigen::Isometry3d X_CW = X_WC.inverse();
@@ -175,11 +175,12 @@ void OccupancyMap::add_misses(const DepthBlocks& blocks, const stereo::StereoGeo
         const float v = v0 + f * (p_C.y() + steps * step_C.y()) / z_m;
         if (!(u >= 0.0F && v >= 0.0F && u < cols && v < rows)) continue;
         const float clear_m = clear_m_[static_cast<size_t>(static_cast<int>(v) * blocks.cols() + static_cast<int>(u))];
-        if (clear_m == kInDoubt && z_m > kSurelyMatchedM && log_odds_[at] < 0) {
-          log_odds_[at] = static_cast<int8_t>(std::min(0, log_odds_[at] + kDoubt));
+        int8_t& odds = log_odds_[at];
+        if (z_m + half_m <= clear_m && !hit_[at]) {
+          odds = static_cast<int8_t>(std::max(kLeast, odds + kMiss));
+        } else if (clear_m == kInDoubt && z_m > kSurelyMatchedM && odds < 0) {
+          odds = static_cast<int8_t>(std::min(0, odds + kDoubt));
         }
-        if (z_m + half_m > clear_m || hit_[at]) continue;
-        log_odds_[at] = static_cast<int8_t>(std::max(kLeast, log_odds_[at] + kMiss));
       }
     }
   }

@@ -8,6 +8,7 @@
 
 #include "vision/mapping/depth_blocks.h"
 #include "vision/stereo/disparity.h"
+#include "vision/stereo/disparity.h"
 
 namespace hedgehop::vision::mapping {
 
