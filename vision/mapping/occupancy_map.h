@@ -8,7 +8,6 @@
 
 #include "vision/mapping/depth_blocks.h"
 #include "vision/stereo/disparity.h"
-#include "vision/stereo/disparity.h"
 
 namespace hedgehop::vision::mapping {
 
