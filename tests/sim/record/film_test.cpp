@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "sim/record/film_watcher.h"
+#include "tests/sim/record/error_of.h"
 #include "tests/sim/record/film_reader.h"
 #include "tests/sim/record/temporary_folder.h"
 
@@ -84,15 +85,6 @@ TEST(Film, RefusesImagesOfAnotherKind) {
   EXPECT_THROW(film.add(cv::Mat(64, 64, CV_8UC1)), std::invalid_argument);
   EXPECT_THROW(Film(folder.path() / "other.webm", 0.0, {64, 64}), std::invalid_argument);
   EXPECT_THROW(Film(folder.path() / "other.webm", NAN, {64, 64}), std::invalid_argument);
-}
-
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
 }
 
 TEST(Film, FileThatCannotBeMadeIsNamedWithTheCause) {

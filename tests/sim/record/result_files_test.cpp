@@ -11,11 +11,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "sim/record/csv_line.h"
 #include "sim/record/csv_table.h"
 #include "sim/record/run_record.h"
 #include "sim/record/whole_file.h"
 #include "sim/scenario/input_error.h"
+#include "tests/sim/record/error_of.h"
 #include "tests/sim/record/fake_flight.h"
 #include "tests/sim/record/temporary_folder.h"
 
@@ -241,15 +241,6 @@ TEST(ResultFiles, LeaveNothingOfAnEarlierFlightBesideThem) {
   EXPECT_EQ(read_file_whole(folder.path() / "notes.txt"), "earlier");  // is a person's
 }
 
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
-
 TEST(ResultFiles, FullDiskNamesFileAndCause) {
   const TemporaryFolder folder;
   std::filesystem::create_symlink("/dev/full", folder.path() / "trajectory.csv.part");
@@ -263,50 +254,6 @@ TEST(ResultFiles, FolderThatCannotBeMadeNamesItAndTheCause) {
   write_file_whole(folder.path() / "file", "");
   EXPECT_THAT(error_of([&] { write_result_files(folder.path() / "file" / "run", kInfo, {}); }),
               AllOf(HasSubstr("file/run"), HasSubstr("Not a directory")));
-}
-
-TEST(CsvTable, NamesFileLineAndColumnOfABadNumber) {
-  const TemporaryFolder folder;
-  write_file_whole(folder.path() / "t.csv", "t_s,a_m\n0,1\n1,two\n");
-  const CsvTable table(folder.path() / "t.csv");
-  EXPECT_THAT(error_of([&] { table.numbers("a_m"); }),
-              AllOf(HasSubstr("t.csv:3:"), HasSubstr("'two'"), HasSubstr("'a_m'")));
-  EXPECT_THAT(error_of([&] { table.numbers("b_m"); }), HasSubstr("no column 'b_m'"));
-}
-
-TEST(CsvTable, RefusesARowOfAnotherWidth) {
-  const TemporaryFolder folder;
-  write_file_whole(folder.path() / "t.csv", "t_s,a_m\n0,1\n1\n");
-  EXPECT_THAT(error_of([&] { CsvTable(folder.path() / "t.csv"); }),
-              HasSubstr("t.csv:3: 1 fields where the header has 2"));
-}
-
-TEST(CsvTable, ReadsBackTextWithLineBreaksQuotesAndCommas) {
-  const std::vector<std::string> texts = {"two\nlines", "\"quoted\", and\r\na comma", "plain", "\n", ","};
-  fmt::memory_buffer out;
-  CsvLine(out).add("cause").add("t_s");
-  for (const std::string& text : texts) CsvLine(out).add(text).add(1.5);
-  const TemporaryFolder folder;
-  write_file_whole(folder.path() / "t.csv", {out.data(), out.size()});
-  const CsvTable table(folder.path() / "t.csv");
-  EXPECT_EQ(table.words("cause"), texts);
-  EXPECT_EQ(table.numbers("t_s"), std::vector<double>(texts.size(), 1.5));
-}
-
-TEST(CsvTable, CountsTheLinesInsideQuotes) {
-  const TemporaryFolder folder;
-  write_file_whole(folder.path() / "t.csv", "cause,a_m\n\"two\nlines\",1\nx,two\n");
-  const CsvTable table(folder.path() / "t.csv");
-  EXPECT_THAT(error_of([&] { table.numbers("a_m"); }), HasSubstr("t.csv:4:"));
-}
-
-TEST(CsvTable, ReadsWindowsLineEndsAndAMissingLastOne) {
-  const TemporaryFolder folder;
-  write_file_whole(folder.path() / "t.csv", "t_s,a_m\r\n0,\r\n1,2.5");
-  const CsvTable table(folder.path() / "t.csv");
-  ASSERT_EQ(table.rows(), 2u);
-  EXPECT_TRUE(std::isnan(table.numbers("a_m")[0]));
-  EXPECT_EQ(table.numbers("a_m")[1], 2.5);
 }
 
 }  // namespace

@@ -1,0 +1,46 @@
+"""Reads a folder in EuRoC's layout with NumPy alone."""
+
+import csv
+
+import numpy as np
+
+
+def rotation(w, x, y, z):
+    """Of a unit quaternion, by its definition: v -> q v q*."""
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+
+
+def pose(R, p):
+    X = np.eye(4)
+    X[:3, :3], X[:3, 3] = R, p
+    return X
+
+
+def yaml_numbers(text, key):
+    """The bracketed list that follows a key."""
+    begin = text.index("[", text.index(key)) + 1
+    return np.array([float(n) for n in text[begin:text.index("]", begin)].split(",")])
+
+
+class Euroc:
+    def __init__(self, folder):
+        self.root = folder / "mav0"
+        self.truth = np.loadtxt(self.root / "state_groundtruth_estimate0/data.csv", delimiter=",")
+        self.imu = np.loadtxt(self.root / "imu0/data.csv", delimiter=",")
+
+    def camera(self, name):
+        text = (self.root / name / "sensor.yaml").read_text()
+        fu, fv, cu, cv = yaml_numbers(text, "intrinsics")
+        return np.array([[fu, 0, cu], [0, fv, cv], [0, 0, 1]]), yaml_numbers(text, "data").reshape(4, 4)
+
+    def images(self, name):
+        with open(self.root / name / "data.csv") as file:
+            rows = list(csv.reader(file))
+        return {int(t): self.root / name / "data" / image for t, image in rows[1:]}
+
+    def state(self, t_ns):
+        row = self.truth[np.searchsorted(self.truth[:, 0], t_ns)]
+        assert row[0] == t_ns
+        return row[1:4], rotation(*row[4:8]), row[8:11], row[11:14], row[14:17]

@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/sim/render/drawing.h"
+#include "tests/sim/render/small_world.h"
+#include "tests/sim/render/whole_fisheye.h"
+#include "tests/vision/camera/random_lenses.h"
+
+/// Whether points are drawn where a lens says that they are seen.
+namespace hedgehop::sim {
+namespace {
+
+using vision::camera::Camera;
+
+constexpr double kPinholeRmsPx = 0.05, kFisheyeRmsPx = 0.1;
+
+Camera ocam() { return Camera(vision::camera::parse_ocam_calibration(vision::kSmallCalibration)); }
+
+/// One white spot on the plane x = 0 that fades to black, one meter wide, seen from the south; all else is black.
+SmallWorld spot() {
+  cv::Mat dome(64, 64, CV_8UC3);
+  for (int row = 0; row < 64; ++row) {
+    for (int col = 0; col < 64; ++col) {
+      const double r = std::hypot(col - 31.5, row - 31.5) / 31.0;
+      const double level = r < 1.0 ? 127.5 * (1.0 + std::cos(std::numbers::pi * r)) : 0.0;
+      dome.at<cv::Vec3b>(row, col) = cv::Vec3b::all(cv::saturate_cast<uint8_t>(level));
+    }
+  }
+  SmallWorld world(std::vector{dome});
+  world.scene.sky = {Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
+  world.scene.lights = {.ambient = 1.0f, .sun = 0.0f};
+  world.add_quad({0, -0.5f, -0.5f}, {0, 1, 0}, {0, 0, 1});
+  return world;
+}
+
+/// Pose from which the spot, faced squarely from `distance_m`, shows at the pixel of a ray in C.
+Eigen::Isometry3d facing(const Eigen::Vector3d& ray_C, double distance_m, double roll_rad) {
+  Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
+  X_WC.translation().x() = -distance_m;
+  const Eigen::Vector3d north = Eigen::Vector3d::UnitX();
+  X_WC.linear() = (Eigen::AngleAxisd(roll_rad, north) * Eigen::Quaterniond::FromTwoVectors(ray_C, north)).matrix();
+  return X_WC;
+}
+
+Eigen::Vector2d centroid(const cv::Mat& grey) {
+  const cv::Moments moments = cv::moments(grey);
+  return {moments.m10 / moments.m00, moments.m01 / moments.m00};
+}
+
+/// Root mean square of the distances between where spots are drawn and where their middles project, all over an image.
+double spot_rms_px(Renderer& renderer, const Camera& camera, double focal_px, int spots, std::mt19937_64& random) {
+  constexpr double kSpotPx = 14.0;
+  double sum_squares = 0.0;
+  int drawn = 0;
+  cv::Mat grey;
+  while (drawn < spots) {
+    const Eigen::Vector2d pixel(uniform(random, 12, camera.width_px - 12), uniform(random, 12, camera.height_px - 12));
+    const auto ray_C = camera.ray(pixel);
+    if (!ray_C) continue;
+    const Eigen::Isometry3d X_WC = facing(*ray_C, focal_px / kSpotPx, uniform(random, 0, 6.28));
+    renderer.draw({camera, X_WC, Channel::grey}, grey);
+    const auto expected = camera.project(X_WC.inverse() * Eigen::Vector3d::Zero());
+    sum_squares += (centroid(grey) - *expected).squaredNorm();
+    ++drawn;
+  }
+  return std::sqrt(sum_squares / spots);
+}
+
+TEST(LensImage, SpotsOfADistortedPinholeLandOnTheirPixels) {
+  Renderer renderer = drawing(spot().scene);
+  std::mt19937_64 random(201);
+  for (int trial = 0; trial < 3; ++trial) {
+    const Camera camera = vision::random_distorted_pinhole(random);
+    const double rms_px = spot_rms_px(renderer, camera, 375.0, 80, random);
+    RecordProperty("rms_px_" + std::to_string(trial), std::to_string(rms_px));
+    EXPECT_LT(rms_px, kPinholeRmsPx) << "trial " << trial;
+  }
+}
+
+TEST(LensImage, SpotsOfAFisheyeLandOnTheirPixelsAllOverTheImage) {
+  Renderer renderer = drawing(spot().scene);
+  std::mt19937_64 random(202);
+  const std::vector<std::pair<std::string, Camera>> cameras = {
+      {"195_deg", fisheye(400, 400, 195)}, {"190_deg_wide", fisheye(752, 480, 190)}, {"ocam", ocam()}};
+  for (const auto& [name, camera] : cameras) {
+    const double rms_px = spot_rms_px(renderer, camera, 0.55 * camera.width_px / 2.0, 100, random);
+    RecordProperty("rms_px_" + name, std::to_string(rms_px));
+    EXPECT_LT(rms_px, kFisheyeRmsPx) << name;
+  }
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
