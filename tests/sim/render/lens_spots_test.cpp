@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/scenario/rig.h"
 #include "tests/sim/render/drawing.h"
 #include "tests/sim/render/small_world.h"
 #include "tests/sim/render/whole_fisheye.h"
@@ -94,6 +95,39 @@ TEST(LensImage, SpotsOfAFisheyeLandOnTheirPixelsAllOverTheImage) {
     RecordProperty("rms_px_" + name, std::to_string(rms_px));
     EXPECT_LT(rms_px, kFisheyeRmsPx) << name;
   }
+}
+
+TEST(LensImage, AStereoPairSeesAPointOnOneRowAtItsDisparity) {
+  Renderer renderer = drawing(spot().scene);
+  std::mt19937_64 random(209);
+  cv::Mat left, right;
+  double worst_row_px = 0.0;
+  for (int trial = 0; trial < 40; ++trial) {
+    RigConfig rig;
+    StereoConfig& pair = rig.stereo.emplace_back();
+    pair.baseline_m = uniform(random, 0.05, 0.6);
+    pair.camera.width_px = 320;
+    pair.camera.height_px = 240;
+    pair.camera.yaw_rad = uniform(random, -3, 3);
+    pair.camera.pitch_rad = uniform(random, -1.5, 1.5);
+    pair.camera.roll_rad = uniform(random, -3, 3);
+    mount_stereo_pairs(rig);
+    const vision::camera::PinholeCamera camera = rig.cameras[0].model().pinhole();
+    // The spot stands parallel to the images' plane, somewhere in the left one.
+    const double z_m = uniform(random, 6.0, 14.0);
+    const Eigen::Vector3d p_C = z_m * camera.ray({uniform(random, 80, 290), uniform(random, 30, 210)});
+    Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
+    X_WC.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+    X_WC.translation() = -(X_WC.linear() * p_C);
+    const Eigen::Isometry3d X_WCr = X_WC * rig.cameras[0].X_BC().inverse() * rig.cameras[1].X_BC();
+    renderer.draw({camera, X_WC, Channel::grey}, left);
+    renderer.draw({camera, X_WCr, Channel::grey}, right);
+    const Eigen::Vector2d shift_px = centroid(left) - centroid(right);
+    worst_row_px = std::max(worst_row_px, std::abs(shift_px.y()));
+    EXPECT_NEAR(shift_px.x(), camera.focal_x_px * pair.baseline_m / z_m, kPinholeRmsPx) << "trial " << trial;
+  }
+  RecordProperty("worst_row_px", std::to_string(worst_row_px));
+  EXPECT_LT(worst_row_px, 0.02);
 }
 
 }  // namespace
