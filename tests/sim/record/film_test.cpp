@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <opencv2/imgproc.hpp>
 
 #include "sim/record/film_watcher.h"
