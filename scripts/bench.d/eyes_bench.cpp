@@ -4,10 +4,12 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "avoidance/corridor_centering/corridor_centering.h"
 #include "avoidance/flow_balance/flow_balance.h"
+#include "avoidance/local_map/local_map.h"
 #include "avoidance/section_grid/section_grid.h"
 #include "avoidance/stereo_corridor/stereo_corridor.h"
 #include "scenes/generators.h"
@@ -176,6 +178,18 @@ void SectionGrid640Floor(benchmark::State& state) {
   matching_alone(state, stereo_flight(640, 360), section_config().stereo);
 }
 BENCHMARK(SectionGrid640Floor)->Unit(benchmark::kMillisecond);
+
+// Of the rig in configs/rigs/local_map.yaml. It integrates velocities, so that these lead from place to place.
+void LocalMap640(benchmark::State& state) {
+  Flight flight = stereo_flight(640, 360);
+  flight.navigation[0].v_WB_B_est *= -1.0;
+  decide(state, *local_map::make_local_map({}), std::move(flight));
+}
+BENCHMARK(LocalMap640)->Unit(benchmark::kMillisecond);
+void LocalMap640Floor(benchmark::State& state) {
+  matching_alone(state, stereo_flight(640, 360), local_map::LocalMapConfig{}.stereo);
+}
+BENCHMARK(LocalMap640Floor)->Unit(benchmark::kMillisecond);
 
 void make(benchmark::State& state, const auto& config) {
   for (auto _ : state) benchmark::DoNotOptimize(scenes::make_scene(config, 1).textures.data());
