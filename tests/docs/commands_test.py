@@ -67,6 +67,8 @@ def shortened_command(line):
         # An event that is certain: the first level decides.
         line = re.sub(r"--event \S+", "--event 'rate(min_clearance_m < 1000)' --set " + f"duration={SHORT_S}", line)
         line = re.sub(r"--samples \d+ --runs \d+", "--samples 50 --runs 1", line)
+    if line.startswith("hedgehop batch configs/campaigns/") and "--resume" not in line:
+        line = re.sub(r"\s*(#.*)?$", " --resume", line, count=1)  # what another page has flown is reused
     if line.startswith("hedgehop render"):
         line = re.sub(r"--time [0-9.]+", f"--time {SHORT_S / 2}", line)
     if "--on slurm" in line and "--dry-run" not in line:
