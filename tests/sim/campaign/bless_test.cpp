@@ -73,7 +73,8 @@ TEST(ShippedCampaigns, AreAcceptedWhole) {
   const CampaignFolder folder;
   const std::string nothing = folder.worker("exit 3");
   for (const auto& entry : std::filesystem::directory_iterator(HEDGEHOP_SOURCE_DIR "/configs/campaigns")) {
-    const CommandEnd end = folder.hedgehop("batch '" + entry.path().string() + "' --seeds 1 --out out --program " + nothing);
+    const CommandEnd end =
+        folder.hedgehop("batch '" + entry.path().string() + "' --seeds 1 --out out --program " + nothing);
     EXPECT_EQ(end.status, 1) << end.err;  // 2 would mean a bad file
   }
 }
