@@ -33,14 +33,12 @@ class KeepLeft : public Module {
 
   Decision do_update(const Observation& seen) override {
     if (!start_) start_ = seen.goal.heading_rad;
-    double left = 0.5, right = 0.5;
-    if (!seen.frames.empty()) {  // a camera may lose an image
-      image_ = seen.frames[0].image.clone();
-      const int half = image_.cols / 2;
-      left = cv::mean(image_.colRange(0, half))[0] / 255.0;
-      right = cv::mean(image_.colRange(half, image_.cols))[0] / 255.0;
-      ++images_;
-    }
+    if (seen.frames.empty()) return {HoverCommand{}, "blind", {std::nan("")}};  // a camera may lose an image
+    image_ = seen.frames[0].image.clone();
+    const int half = image_.cols / 2;
+    const double left = cv::mean(image_.colRange(0, half))[0] / 255.0;
+    const double right = cv::mean(image_.colRange(half, image_.cols))[0] / 255.0;
+    ++images_;
     const double ahead = config_.speed_mps, aside = config_.gain_mps * (right - left);  // to the right
     const double c = std::cos(*start_), s = std::sin(*start_);
     const VelocityCommand command{.v_WB_W = {ahead * c - aside * s, ahead * s + aside * c},
