@@ -67,6 +67,7 @@ def exceptions(root):
 
 def found_in(sentence):
     """Yields (pattern, offset, words around it) of one sentence."""
+    sentence = sentence.replace("\n", " ")
     question = sentence.rstrip("\"')*").endswith("?")
     for name, pattern in COMPILED.items():
         if question and name in ("what", "where", "who"):
