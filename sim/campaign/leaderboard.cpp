@@ -149,7 +149,7 @@ std::string matrix_text(const Json& data) {
 /// Collisions against speed, all worlds of a module together.
 std::string totals_text(const Json& data) {
   std::string text =
-      "| all its worlds | worlds | flights | passed | collided | 95 % interval of collisions | speed, m/s |\n"
+      "| module, all worlds | worlds | flights | passed | collided | 95 % interval of collisions | speed, m/s |\n"
       "|---|---|---|---|---|---|---|\n";
   for (const Json& total : data.at("totals")) {
     if (!total.contains("passed")) continue;
@@ -164,7 +164,8 @@ std::string totals_text(const Json& data) {
 
 std::string rows_text(const Json& data) {
   std::string text =
-      "| world | module | flights | passed | collided | timeout | fault | least clearance, m | median of it, m | "
+      "| world | module | flights | passed | collided | timeout | fault | minimum clearance, m | median minimum "
+      "clearance, m | "
       "path excess | speed, m/s | decision, ms |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const Json& world : data.at("worlds")) {
     for (const Json& module : data.at("modules")) {

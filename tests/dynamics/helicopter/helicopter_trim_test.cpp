@@ -89,8 +89,8 @@ TEST(HelicopterTrim, HT4_PowerHasABucket) {
     const double power = trimmed({V, 0, 0}).loads.main_rotor.power_w;
     if (power < least) least = power, at = V;
   }
-  expect_recorded("speed of least power, m/s", at, 8.5, 1.0);
-  expect_recorded_relative("least power, W", least, 926.9, 0.005);
+  expect_recorded("speed of minimum power, m/s", at, 8.5, 1.0);
+  expect_recorded_relative("minimum power, W", least, 926.9, 0.005);
   EXPECT_GT(trimmed({0, 0, 0}).blades.collective_rad, trimmed({at, 0, 0}).blades.collective_rad);
   EXPECT_GT(trimmed({20, 0, 0}).blades.collective_rad, trimmed({at, 0, 0}).blades.collective_rad);
 }

@@ -181,7 +181,7 @@ TEST(InducedVelocity, MT7_SolverAgreesWithBisection) {
     worst = std::max(worst, std::abs(solve_inflow(kXCell, theta, descent, 0.0).induced_mps -
                                      bisected_inflow(kXCell, theta, descent, 0.0)));
   }
-  expect_recorded_below("farthest from bisection, m/s", worst, 1e-6);
+  expect_recorded_below("maximum difference from bisection, m/s", worst, 1e-6);
 }
 
 TEST(InducedVelocity, MT7_FiniteForAnyAirspeedUpTo40) {

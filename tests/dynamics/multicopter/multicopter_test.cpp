@@ -34,7 +34,7 @@ TEST(Multicopter, MC1_HoverSpeedsOfThePublishedVehicles) {
   const PerRotor big = hover_speeds(s900());
   const double thrust_n = 6.54e-5 * big[0] * big[0];
   expect_recorded_relative("S900 thrust of a motor, N", thrust_n, 7.6048, 5e-4);
-  expect_recorded_relative("S900 share of the most", thrust_n / 24.525, 0.310, 2e-3);
+  expect_recorded_relative("S900 share of maximum thrust", thrust_n / 24.525, 0.310, 2e-3);
   expect_recorded_relative("S900, rad/s", big.mean(), 341.0, 5e-4);
 }
 
