@@ -45,7 +45,7 @@ void describe(Visitor& v, AvionicsConfig& c) {
 }
 
 /// Gives each named random stream its seeds.
-using StreamSeeds = std::function<SeedBlend(std::string_view stream_name)>;
+using StreamSeeds = std::function<uint64_t(std::string_view stream_name)>;
 
 /// The velocity over ground, as a camera that looks down measures it.
 struct VelocityReading {
@@ -100,7 +100,7 @@ class Avionics {
   std::optional<sensors::GpsFix> read_gps(int64_t t_ns);
 
   struct Seeds {
-    SeedBlend imu, gps, height_sensor, magnetometer, survey, barometer, range_finder;
+    uint64_t imu, gps, height_sensor, magnetometer, survey, barometer, range_finder;
   };
   AvionicsConfig config_;
   double physics_dt_s_;

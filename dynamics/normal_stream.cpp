@@ -1,13 +1,12 @@
 #include "dynamics/normal_stream.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace hedgehop::dynamics {
 namespace {
 
-constexpr double kTwoToMinus53 = 0x1p-53, kTwoToMinus54 = 0x1p-54;
+constexpr double kTwoToMinus53 = 0x1p-53;
 
 using Coefficients = std::array<double, 8>;
 
@@ -23,32 +22,13 @@ double ratio(const Coefficients& above, const Coefficients& below, double x) {
 
 }  // namespace
 
-NormalStream::NormalStream(const SeedBlend& seeds) {
-  for (const BlendedSeed& term : seeds.terms()) terms_.push_back({term.weight, std::mt19937_64(term.seed), {}});
-}
-
-double NormalStream::draw() {
-  if (terms_.size() == 1) return terms_[0].normal(terms_[0].generator);
-  double sum = 0.0;
-  for (Term& term : terms_) sum += term.weight * term.normal(term.generator);
-  return sum;
-}
-
 Eigen::Vector3d NormalStream::draw3() {
   Eigen::Vector3d v;
   for (int i = 0; i < 3; ++i) v[i] = draw();
   return v;
 }
 
-double NormalStream::even() {
-  const auto share = [](Term& term) { return static_cast<double>(term.generator() >> 11) * kTwoToMinus53; };
-  if (terms_.size() == 1) return share(terms_[0]);
-  double z = 0.0;
-  for (Term& term : terms_) {
-    z += term.weight * normal_quantile(std::clamp(share(term), kTwoToMinus54, 1.0 - kTwoToMinus54));
-  }
-  return normal_distribution(z);
-}
+double NormalStream::even() { return static_cast<double>(generator_() >> 11) * kTwoToMinus53; }
 
 double normal_quantile(double probability) {
   constexpr Coefficients kA{3.3871328727963666080e0, 1.3314166789178437745e2, 1.9715909503065514427e3,
@@ -89,15 +69,6 @@ double normal_quantile(double probability) {
   const double r = std::sqrt(-std::log(q < 0.0 ? probability : 1.0 - probability));
   const double z = r <= 5.0 ? ratio(kC, kD, r - 1.6) : ratio(kE, kF, r - 5.0);
   return q < 0.0 ? -z : z;
-}
-
-double normal_distribution(double z) {
-  double low = kTwoToMinus54, high = 1.0 - kTwoToMinus54;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (normal_quantile(middle) < z ? low : high) = middle;
-  }
-  return low;
 }
 
 }  // namespace hedgehop::dynamics

@@ -18,7 +18,7 @@ Eigen::Vector3d blowing_W(double from_rad) { return {-std::cos(from_rad), -std::
 
 }  // namespace
 
-Wind::Wind(const WindConfig& config, const SeedBlend& seeds) : config_(fields::require_bounds(config)), noise_(seeds) {
+Wind::Wind(const WindConfig& config, uint64_t seed) : config_(fields::require_bounds(config)), noise_(seed) {
   gust_along_W_ = blowing_W(config.gust.from_rad);
   double from_rad = config.from_rad;
   if (config.spread_rad > 0.0) {

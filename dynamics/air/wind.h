@@ -45,11 +45,11 @@ void describe(Visitor& v, WindConfig& c) {
   v("gust", c.gust, {.meaning = "one gust of 1-cosine shape"});
 }
 
-/// The air one vehicle meets. Equal seeds, or blends of them, and equal arguments give equal sequences, bit for bit.
+/// The air one vehicle meets. Equal seeds and equal arguments give equal sequences, bit for bit.
 class Wind {
  public:
   /// Throws std::invalid_argument "<key>: ..." on values out of bounds.
-  Wind(const WindConfig& config, const SeedBlend& seeds);
+  Wind(const WindConfig& config, uint64_t seed);
 
   /// The steady wind in W, m/s. @param height_m  above ground; below the roughness the air is still, above 1000 ft
   /// the wind is uniform. Source: [MIL8785C] sec. 3.7.3.

@@ -7,11 +7,11 @@
 
 namespace hedgehop::dynamics::sensors {
 
-Barometer::Barometer(const BarometerConfig& config, double physics_dt_s, const SeedBlend& seeds)
+Barometer::Barometer(const BarometerConfig& config, double physics_dt_s, uint64_t seed)
     : config_(fields::require_bounds(config, "barometer")),
       period_(period_ticks("barometer.rate", config.rate_hz, physics_dt_s)),
       sample_dt_s_(static_cast<double>(period_) * physics_dt_s),
-      noise_(seeds),
+      noise_(seed),
       memory_(config.lag_s > 0.0 ? std::exp(-physics_dt_s / config.lag_s) : 0.0) {
   wander_pa_ = config.wander_pa * noise_.draw();
 }

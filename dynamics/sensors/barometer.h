@@ -35,7 +35,7 @@ void describe(Visitor& v, BarometerConfig& c) {
 class Barometer {
  public:
   /// Throws std::invalid_argument on values out of range. @param physics_dt_s  between calls of observe(), > 0.
-  Barometer(const BarometerConfig& config, double physics_dt_s, const SeedBlend& seeds);
+  Barometer(const BarometerConfig& config, double physics_dt_s, uint64_t seed);
 
   int64_t period() const { return period_; }  ///< physics ticks between readings
 

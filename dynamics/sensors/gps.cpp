@@ -7,10 +7,10 @@
 
 namespace hedgehop::dynamics::sensors {
 
-Gps::Gps(const GpsConfig& config, double physics_dt_s, const SeedBlend& seeds)
+Gps::Gps(const GpsConfig& config, double physics_dt_s, uint64_t seed)
     : config_(fields::require_bounds(config, "gps")),
       period_(period_ticks("gps.rate", config.rate_hz, physics_dt_s)),
-      noise_(seeds) {
+      noise_(seed) {
   sample_dt_s_ = static_cast<double>(period_) * physics_dt_s;
   past_.resize(static_cast<size_t>(std::llround(config.latency_s / physics_dt_s)) + 1);
   wander_sigma_m_ << config.wander_horizontal_m, config.wander_horizontal_m, config.wander_vertical_m;

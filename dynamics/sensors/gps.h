@@ -48,7 +48,7 @@ struct GpsFix {
 class Gps {
  public:
   /// Throws std::invalid_argument on values out of range. @param physics_dt_s  between calls of observe(), > 0.
-  Gps(const GpsConfig& config, double physics_dt_s, const SeedBlend& seeds);
+  Gps(const GpsConfig& config, double physics_dt_s, uint64_t seed);
 
   int64_t period() const { return period_; }
 

@@ -28,11 +28,11 @@ GaussMarkov accelerometer_wander(const ImuConfig& c) {
   return {c.accelerometer_bias_walk * std::sqrt(0.5 * c.accelerometer_bias_time_s), c.accelerometer_bias_time_s};
 }
 
-Imu::Imu(const ImuConfig& config, double physics_dt_s, const SeedBlend& seeds)
+Imu::Imu(const ImuConfig& config, double physics_dt_s, uint64_t seed)
     : config_(fields::require_bounds(config, "imu")),
       dt_s_(physics_dt_s),
       period_(period_ticks("imu.rate", config.rate_hz, physics_dt_s)),
-      noise_(seeds),
+      noise_(seed),
       gyro_wander_model_(gyro_wander(config)),
       accelerometer_wander_model_(accelerometer_wander(config)),
       filter_(std::tan(std::numbers::pi * config.cutoff_hz * physics_dt_s)) {

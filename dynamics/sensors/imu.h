@@ -67,7 +67,7 @@ struct ImuReading {
 class Imu {
  public:
   /// Throws std::invalid_argument on values out of range. @param physics_dt_s  between calls of observe(), > 0.
-  Imu(const ImuConfig& config, double physics_dt_s, const SeedBlend& seeds);
+  Imu(const ImuConfig& config, double physics_dt_s, uint64_t seed);
 
   int64_t period() const { return period_; }  ///< physics ticks between readings
 

@@ -7,10 +7,10 @@
 
 namespace hedgehop::dynamics::sensors {
 
-Magnetometer::Magnetometer(const MagnetometerConfig& config, double physics_dt_s, const SeedBlend& seeds)
+Magnetometer::Magnetometer(const MagnetometerConfig& config, double physics_dt_s, uint64_t seed)
     : config_(fields::require_bounds(config, "magnetometer")),
       period_(period_ticks("magnetometer.rate", config.rate_hz, physics_dt_s)),
-      noise_(seeds) {
+      noise_(seed) {
   offset_rad_ = config.offset_rad * noise_.draw();
 }
 

@@ -32,7 +32,7 @@ void describe(Visitor& v, MagnetometerConfig& c) {
 class Magnetometer {
  public:
   /// Throws std::invalid_argument on values out of range. @param physics_dt_s  > 0.
-  Magnetometer(const MagnetometerConfig& config, double physics_dt_s, const SeedBlend& seeds);
+  Magnetometer(const MagnetometerConfig& config, double physics_dt_s, uint64_t seed);
 
   int64_t period() const { return period_; }  ///< physics ticks between readings
   double offset_rad() const { return offset_rad_; }

@@ -9,10 +9,10 @@
 
 namespace hedgehop::dynamics::sensors {
 
-Ranger::Ranger(const std::string& key, const RangerConfig& config, double physics_dt_s, const SeedBlend& seeds)
+Ranger::Ranger(const std::string& key, const RangerConfig& config, double physics_dt_s, uint64_t seed)
     : config_(fields::require_bounds(config, key)),
       period_(period_ticks(key + ".rate", config.rate_hz, physics_dt_s)),
-      noise_(seeds) {
+      noise_(seed) {
   if (!(config.max_m > config.min_m)) throw std::invalid_argument(key + ".max: must be greater than 'min'");
   latency_ = std::llround(config.latency_s / physics_dt_s);
   observed_m_.assign(static_cast<size_t>(latency_ / period_) + 1, std::numeric_limits<double>::infinity());

@@ -42,7 +42,7 @@ class Ranger {
  public:
   /// Throws std::invalid_argument "<key>...." on values out of range. @param key  of the config, for the message.
   /// @param physics_dt_s  the duration of a tick, > 0.
-  Ranger(const std::string& key, const RangerConfig& config, double physics_dt_s, const SeedBlend& seeds);
+  Ranger(const std::string& key, const RangerConfig& config, double physics_dt_s, uint64_t seed);
 
   /// Whether it measures on this physics tick, counted from 0: then, and only then, observe() is called.
   bool observes(int64_t tick) const { return (tick + latency_) % period_ == 0; }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "dynamics/normal_stream.h"
 
@@ -15,25 +14,6 @@ double log_choose(int64_t n, int64_t k) {
 }
 
 }  // namespace
-
-double student_quantile(double probability, int freedom) {
-  // With t = sqrt(nu) tan(angle), the density becomes a power of the cosine: Simpson's rule on a finite range.
-  const double nu = freedom;
-  const double scale = std::exp(std::lgamma(0.5 * nu + 0.5) - std::lgamma(0.5 * nu)) / std::sqrt(std::numbers::pi);
-  const auto below = [&](double angle) {
-    constexpr int kSteps = 2000;
-    const double step = angle / kSteps;
-    double sum = 1.0 + std::pow(std::cos(angle), nu - 1.0);
-    for (int i = 1; i < kSteps; ++i) sum += (i % 2 == 1 ? 4.0 : 2.0) * std::pow(std::cos(i * step), nu - 1.0);
-    return 0.5 + scale * sum * step / 3.0;
-  };
-  double low = -0.5 * std::numbers::pi, high = 0.5 * std::numbers::pi;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (below(middle) < probability ? low : high) = middle;
-  }
-  return std::sqrt(nu) * std::tan(0.5 * (low + high));
-}
 
 Interval wilson_interval(Count count, double confidence) {
   if (count.trials == 0) return {0.0, 1.0};

@@ -16,10 +16,6 @@ struct Interval {
   double low = 0.0, high = 0.0;
 };
 
-/// The t with a share `probability` of Student's distribution below it. @param probability  in (0, 1).
-/// @param freedom  degrees of freedom, >= 1.
-double student_quantile(double probability, int freedom);
-
 /// Of the intervals in tables and on pages.
 inline constexpr double kTableConfidence = 0.95;
 

@@ -116,32 +116,6 @@ void declare_compare(CLI::App& app, std::function<int()>& chosen) {
   command->callback([&chosen, options] { chosen = [options] { return compare(*options); }; });
 }
 
-void declare_estimate(CLI::App& app, std::function<int()>& chosen) {
-  CLI::App* const command =
-      app.add_subcommand("estimate", "estimate the probability of a rare event, and find the flights nearest to it");
-  const auto options = std::make_shared<EstimateOptions>();
-  options->jobs = cores();
-  command->add_option("SCENARIO", options->scenario, "scenario file (YAML)")->required();
-  command->add_option("--event", options->event, "collision, or rate(COLUMN < NUMBER) of a figure of every flight")
-      ->required()
-      ->type_name("EVENT");
-  command->add_option("--method", options->method, "subset: subset simulation over wind, sensors, start and seeds")
-      ->check(CLI::IsMember({"subset"}));
-  command->add_option("--samples", options->samples, "flights of a level, a multiple of 50; default 500")
-      ->transform(whole_number());
-  command->add_option("--runs", options->runs, "independent runs, for the interval; default 5")
-      ->transform(whole_number())
-      ->check(CLI::Range(1, 100));
-  command->add_option("--seed", options->seed, "of all runs; default 1")->transform(whole_number());
-  add_overrides(*command, options->overrides, "override a value of the scenario");
-  add_flying(*command, *options);
-  command->add_option("--out", options->out, "folder of the results; flights that are there are not flown again")
-      ->type_name("DIR");
-  command->add_flag("--json", options->json, "print estimate.json instead of a table for people");
-  command->add_option("--program", options->program)->group("");  // hidden: for tests
-  command->callback([&chosen, options] { chosen = [options] { return estimate(*options); }; });
-}
-
 void declare_sweep(CLI::App& app, std::function<int()>& chosen) {
   CLI::App* const command = app.add_subcommand("sweep", "vary parameters of a scenario; resumes where it stopped");
   const auto options = std::make_shared<SweepOptions>();
@@ -233,7 +207,6 @@ void declare_bless(CLI::App& app, std::function<int()>& chosen) {
 void declare_campaigns(CLI::App& app, std::function<int()>& chosen) {
   declare_batch(app, chosen);
   declare_compare(app, chosen);
-  declare_estimate(app, chosen);
   declare_sweep(app, chosen);
   declare_falsify(app, chosen);
   declare_branch(app, chosen);

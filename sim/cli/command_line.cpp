@@ -205,6 +205,7 @@ std::string unknown_command(const CLI::App& app, std::string_view word) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
   if (word.starts_with('-') || std::ranges::find(names, word) != names.end()) return {};
+  if (word == "estimate") return "the command 'estimate' was removed; to bound a rate, use `hedgehop batch --until`";
   return fmt::format("no command '{}'{} (see --help)", word, suggestion(word, {names.begin(), names.end()}));
 }
 

@@ -118,24 +118,6 @@ struct CompareOptions {
 /// batch() does under a stopping rule.
 int compare(const CompareOptions& options);
 
-struct EstimateOptions {
-  std::filesystem::path scenario;
-  std::string event;                   ///< "collision" or "rate(COLUMN < NUMBER)"
-  std::string method = "subset";       ///< the one there is
-  size_t samples = 500, runs = 5;      ///< flights of a level, independent runs
-  uint64_t seed = 1;                   ///< of all runs
-  std::vector<std::string> overrides;  ///< "a.b=value"
-  size_t jobs = 1;                     ///< flights at a time, >= 1
-  double limit_s = 0.0;                ///< longest wall time of a flight, 0 for none
-  bool reuse_other_builds = false;     ///< results of other builds stand, too
-  std::filesystem::path out;           ///< empty: out/<name of the scenario's file>
-  bool json = false;
-  std::filesystem::path program;  ///< of the workers, absolute; empty: this one
-};
-/// Estimates the probability of a rare event and lists the flights nearest to it. Flights that --out has are not flown
-/// again. Without an estimate the status is 4.
-int estimate(const EstimateOptions& options);
-
 struct SweepOptions {
   std::filesystem::path file;
   size_t jobs = 1;                                ///< flights at a time, >= 1

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "sim/scenario/random_stream.h"
+
 namespace hedgehop::sim {
 
 Aircraft::Aircraft(const Scenario& scenario, const Ticks& ticks, AircraftParts parts)
@@ -12,7 +14,7 @@ Aircraft::Aircraft(const Scenario& scenario, const Ticks& ticks, AircraftParts p
       avionics_(std::move(parts.avionics)) {}
 
 void Aircraft::reset(const CollisionWorld& world) {
-  const Eigen::Vector3d p_WB = scenario_.start.draw_p_WB(blended_stream(scenario_.chance, scenario_.seed, "start"));
+  const Eigen::Vector3d p_WB = scenario_.start.draw_p_WB(stream_seed(scenario_.seed, "start"));
   wind_W_ = wind_.sample(-p_WB.z(), Eigen::Vector3d::Zero(), ticks_.dt_s());
   build_part("vehicle", [&] { vehicle_.reset(p_WB, scenario_.start.heading_rad, wind_W_); });
   avionics_.reset(truth(world, 0));

@@ -30,13 +30,11 @@ FlightParts::FlightParts(FlightParts&&) noexcept = default;
 FlightParts& FlightParts::operator=(FlightParts&&) noexcept = default;
 FlightParts::~FlightParts() = default;
 
-dynamics::air::Wind build_wind(const Scenario& scenario) {
-  return {scenario.wind, blended_stream(scenario.chance, scenario.seed, "wind")};
-}
+dynamics::air::Wind build_wind(const Scenario& scenario) { return {scenario.wind, stream_seed(scenario.seed, "wind")}; }
 
 dynamics::Avionics build_avionics(const Scenario& scenario, const dynamics::VehicleConfig& carrier) {
   return {scenario.avionics, carrier, 1.0 / static_cast<double>(scenario.physics_rate_hz),
-          [&](std::string_view name) { return blended_stream(scenario.chance, scenario.seed, name); },
+          [&](std::string_view name) { return stream_seed(scenario.seed, name); },
           sensor_failures(scenario.failures, scenario.seed)};
 }
 

@@ -35,12 +35,24 @@ constexpr std::array<Renamed, 7> kRenamed = {{{"drawing", "gl", "context"},
                                               {"avoidance", "passed", "passed_radius"},
                                               {"avoidance.map", "young_misses", "unconfirmed_misses"}}};
 
+struct Removed {
+  std::string_view path, key, neighbor, advice;  // `neighbor`: a key that is still in the map at `path`
+};
+
+constexpr std::array<Removed, 1> kRemoved = {
+    {{"", "chance", "physics_rate",
+      "it was removed with `hedgehop estimate`; to bound a rate, use `hedgehop batch --until`"}}};
+
 /// What to write instead of a key that is not among those allowed.
 std::string instead(const std::string& path, std::string_view key, const std::vector<std::string_view>& allowed) {
   const auto found = std::ranges::find_if(kRenamed, [&](const Renamed& renamed) {
     return renamed.path == path && renamed.key == key && std::ranges::find(allowed, renamed.now) != allowed.end();
   });
-  return found == kRenamed.end() ? suggestion(key, allowed) : fmt::format("; since 0.2 it is '{}'", found->now);
+  if (found != kRenamed.end()) return fmt::format("; since 0.2 it is '{}'", found->now);
+  const auto removed = std::ranges::find_if(kRemoved, [&](const Removed& row) {
+    return row.path == path && row.key == key && std::ranges::find(allowed, row.neighbor) != allowed.end();
+  });
+  return removed == kRemoved.end() ? suggestion(key, allowed) : fmt::format("; {}", removed->advice);
 }
 
 void expected(std::string_view what, const Node& node, const std::string& path, Faults& faults) {

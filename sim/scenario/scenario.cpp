@@ -16,12 +16,9 @@
 
 namespace hedgehop::sim {
 
-namespace {
-
-/// Evenly from the disc of radius 1.
-Eigen::Vector2d draw_in_disc(uint64_t seed) {
+Eigen::Vector3d StartConfig::draw_p_WB(uint64_t seed) const {
   std::mt19937_64 generator(seed);
-  const auto draw = [&] {  // evenly from [-1, 1), of 53 random bits
+  const auto draw = [&] {  // uniform in [-1, 1), of 53 random bits
     return std::ldexp(static_cast<double>(generator() >> 11), -52) - 1.0;
   };
   Eigen::Vector2d in_disc;
@@ -29,29 +26,6 @@ Eigen::Vector2d draw_in_disc(uint64_t seed) {
     in_disc.x() = draw();
     in_disc.y() = draw();
   } while (in_disc.squaredNorm() > 1.0);
-  return in_disc;
-}
-
-/// The points' squared radii and angles are even and independent: blended by way of the normal distribution.
-Eigen::Vector2d blend_in_disc(const std::vector<dynamics::BlendedSeed>& terms) {
-  constexpr double kLeast = 0x1p-54, kTwoPi = 6.283185307179586;
-  const auto normal = [&](double share) { return dynamics::normal_quantile(std::clamp(share, kLeast, 1.0 - kLeast)); };
-  double area = 0.0, turn = 0.0;
-  for (const dynamics::BlendedSeed& term : terms) {
-    const Eigen::Vector2d p = draw_in_disc(term.seed);
-    area += term.weight * normal(p.squaredNorm());
-    turn += term.weight * normal(std::atan2(p.y(), p.x()) / kTwoPi + 0.5);
-  }
-  const double radius = std::sqrt(dynamics::normal_distribution(area));
-  const double angle = kTwoPi * (dynamics::normal_distribution(turn) - 0.5);
-  return radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-}
-
-}  // namespace
-
-Eigen::Vector3d StartConfig::draw_p_WB(const dynamics::SeedBlend& seeds) const {
-  const std::vector<dynamics::BlendedSeed>& terms = seeds.terms();
-  const Eigen::Vector2d in_disc = terms.size() == 1 ? draw_in_disc(terms[0].seed) : blend_in_disc(terms);
   return p_WB() + spread_m * Eigen::Vector3d(in_disc.x(), in_disc.y(), 0.0);
 }
 

@@ -16,7 +16,6 @@
 #include "scenes/generators.h"
 #include "sim/fields/field.h"
 #include "sim/scenario/avoidance_config.h"
-#include "sim/scenario/chance.h"
 #include "sim/scenario/checks.h"
 #include "sim/scenario/drawing.h"
 #include "sim/scenario/failures.h"
@@ -34,10 +33,9 @@ struct StartConfig {
 
   /// The position without the spread, in W, m.
   Eigen::Vector3d p_WB() const { return {north_m, east_m, -altitude_m}; }
-  /// A position drawn evenly from the horizontal disc of radius `spread_m` around p_WB(), in W, m.
-  /// @param seeds  of the stream that belongs to the start alone; equal ones give equal positions, and a blend a
-  /// position that is as evenly drawn.
-  Eigen::Vector3d draw_p_WB(const dynamics::SeedBlend& seeds) const;
+  /// Returns a position drawn uniformly from the horizontal disc of radius `spread_m` around p_WB(), in W, m.
+  /// @param seed  seed of the stream "start"; equal seeds give equal positions.
+  Eigen::Vector3d draw_p_WB(uint64_t seed) const;
 };
 template <class Visitor>
 void describe(Visitor& v, StartConfig& c) {
@@ -146,7 +144,6 @@ struct Scenario {
   std::string name;
   std::string description;
   uint64_t seed = 1;
-  std::vector<ChanceTerm> chance;  ///< squares of the weights sum to 1; empty: the seed's own
   double duration_s = 60.0;
   int64_t physics_rate_hz = 500;
   int64_t control_rate_hz = 100;
@@ -175,8 +172,6 @@ void describe(Visitor& v, Scenario& c) {
   v("name", c.name, {.required = true, .meaning = "name in results and reports"});
   v("description", c.description, {.meaning = "what the flight is for"});
   v("seed", c.seed, {.meaning = "seeds every random stream of the flight"});
-  v("chance", c.chance,
-    {.meaning = "seeds that wind, sensors and start are blended from; squares of the weights sum to 1"});
   v("duration", c.duration_s, {.unit = "s", .above = 0.0, .at_most = 86400.0, .meaning = "longest flight time"});
   v("physics_rate", c.physics_rate_hz,
     {.unit = "Hz", .at_least = 50, .at_most = 10000, .meaning = "physics steps a second; divides 1e9"});

@@ -35,10 +35,6 @@ class Validator {
     }
   }
 
-  void chance() {
-    if (std::string fault = blend_fault(scenario_.chance); !fault.empty()) add("chance", std::move(fault));
-  }
-
   void start() {
     const auto* room = std::get_if<scenes::worlds::RoomConfig>(&scenario_.scene);
     if (!room) return;
@@ -224,7 +220,6 @@ class Validator {
 std::optional<FlightParts> validate(const Scenario& scenario, const Node& root, Faults& faults) {
   Validator validator(scenario, root, faults);
   validator.name();
-  validator.chance();
   validator.start();
   validator.rates();
   validator.rig();

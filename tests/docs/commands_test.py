@@ -63,10 +63,6 @@ def shortened_command(line):
         line = re.sub(r"--at [0-9.]+", f"--at {SHORT_S / 2}", line)
     if line.startswith("hedgehop reproduce") and "--quick" not in line:
         line = re.sub(r" --write \S+", "", line) + " --quick"  # what getting-started.md has flown is reused
-    if line.startswith("hedgehop estimate"):
-        # An event that is certain: the first level decides.
-        line = re.sub(r"--event \S+", "--event 'rate(min_clearance_m < 1000)' --set " + f"duration={SHORT_S}", line)
-        line = re.sub(r"--samples \d+ --runs \d+", "--samples 50 --runs 1", line)
     if line.startswith("hedgehop batch configs/campaigns/") and "--resume" not in line:
         line = re.sub(r"\s*(#.*)?$", " --resume", line, count=1)  # what another page has flown is reused
     if line.startswith("hedgehop render"):

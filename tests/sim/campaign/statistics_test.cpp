@@ -12,13 +12,6 @@ namespace {
 
 constexpr double kPrinted4 = 0.00005;  // tables with four decimals
 
-TEST(StudentQuantile, MatchesTabulatedValues) {
-  EXPECT_NEAR(student_quantile(0.975, 1), 12.7062047, 1e-6);
-  EXPECT_NEAR(student_quantile(0.975, 3), 3.1824463, 1e-6);
-  EXPECT_NEAR(student_quantile(0.975, 4), 2.7764451, 1e-6);
-  EXPECT_NEAR(student_quantile(0.05, 30), -1.6972609, 1e-6);
-}
-
 /// [Newcombe1998a] table 1, method 3.
 TEST(WilsonInterval, MatchesPublishedTable) {
   struct Row {

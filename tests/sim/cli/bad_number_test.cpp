@@ -40,6 +40,12 @@ TEST(Commands, ASlipOfTheirNamesIsToldWithThoseThereAre) {
   EXPECT_THAT(ask(kScenario).text, testing::EndsWith("manual (see --help)\n"));
 }
 
+TEST(Commands, TheRemovedCommandEstimateNamesItsReplacement) {
+  const Answer answer = ask("estimate " + kScenario + " --event collision");
+  EXPECT_EQ(answer.status, kBadInput);
+  EXPECT_EQ(answer.text, "the command 'estimate' was removed; to bound a rate, use `hedgehop batch --until`\n");
+}
+
 TEST(Options, ASlipOfTheirNamesIsToldWithTheNearest) {
   const Answer slip = ask("run " + kScenario + " --ot x");
   EXPECT_EQ(slip.status, kBadInput);

@@ -63,6 +63,14 @@ TEST(Renamed, KeysOfAnEarlierVersionAreRefusedWithTheirNewName) {
               ElementsAre(HasSubstr("unknown key 'rows' in 'avoidance'; allowed: ")));
 }
 
+TEST(Removed, KeyChanceNamesItsReplacement) {
+  EXPECT_THAT(faults_of([] {
+                load_scenario(kConfigs / "garratt2009_city_0.yaml", std::vector<std::string>{"chance=[{seed: 1}]"});
+              }),
+              ElementsAre(HasSubstr("unknown key 'chance' in the scenario; it was removed with `hedgehop estimate`; to "
+                                    "bound a rate, use `hedgehop batch --until`")));
+}
+
 /// What does not fit together, in a scenario that is otherwise whole.
 class CrossRules : public testing::Test {
  protected:
