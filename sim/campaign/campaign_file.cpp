@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/campaign/judging_seeds.h"
+#include "sim/config/include.h"
+#include "sim/config/reader.h"
 #include "sim/record/whole_file.h"
 #include "sim/scenario/flight_parts.h"
-#include "sim/scenario/include.h"
-#include "sim/scenario/reader.h"
 
 namespace hedgehop::sim {
 namespace {

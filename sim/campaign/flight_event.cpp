@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "sim/campaign/table.h"
-#include "sim/scenario/input_error.h"
-#include "sim/scenario/numbers.h"
-#include "sim/scenario/tree.h"
+#include "sim/config/input_error.h"
+#include "sim/config/numbers.h"
+#include "sim/config/tree.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/config/input_error.h"
+#include "sim/config/numbers.h"
 #include "sim/record/json_number.h"
-#include "sim/scenario/input_error.h"
-#include "sim/scenario/numbers.h"
 
 namespace hedgehop::sim {
 namespace {

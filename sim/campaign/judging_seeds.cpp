@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim/campaign/order.h"
-#include "sim/scenario/input_error.h"
+#include "sim/config/input_error.h"
 
 namespace hedgehop::sim {
 namespace {

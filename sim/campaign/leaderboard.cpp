@@ -9,10 +9,10 @@
 
 #include "sim/campaign/statistics.h"
 #include "sim/campaign/verdict.h"
+#include "sim/config/input_error.h"
 #include "sim/flight/build.h"
 #include "sim/record/json_number.h"
 #include "sim/record/whole_file.h"
-#include "sim/scenario/input_error.h"
 
 namespace hedgehop::sim {
 namespace {

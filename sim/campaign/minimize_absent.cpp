@@ -1,5 +1,5 @@
 #include "sim/campaign/minimize.h"
-#include "sim/scenario/input_error.h"
+#include "sim/config/input_error.h"
 
 namespace hedgehop::sim {
 

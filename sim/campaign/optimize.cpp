@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "sim/campaign/minimize.h"
-#include "sim/scenario/tree.h"
+#include "sim/config/tree.h"
 
 namespace hedgehop::sim {
 namespace {

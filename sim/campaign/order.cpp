@@ -6,8 +6,8 @@
 #include <optional>
 #include <set>
 
-#include "sim/scenario/input_error.h"
-#include "sim/scenario/numbers.h"
+#include "sim/config/input_error.h"
+#include "sim/config/numbers.h"
 
 namespace hedgehop::sim {
 namespace {

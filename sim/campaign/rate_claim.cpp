@@ -7,7 +7,7 @@
 #include <regex>
 
 #include "sim/campaign/anytime_valid.h"
-#include "sim/scenario/input_error.h"
+#include "sim/config/input_error.h"
 
 namespace hedgehop::sim {
 

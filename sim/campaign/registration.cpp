@@ -7,10 +7,10 @@
 #include <set>
 
 #include "sim/campaign/judging_seeds.h"
+#include "sim/config/include.h"
+#include "sim/config/reader.h"
 #include "sim/flight/build.h"
-#include "sim/scenario/include.h"
 #include "sim/scenario/inputs.h"
-#include "sim/scenario/reader.h"
 
 namespace hedgehop::sim {
 namespace {

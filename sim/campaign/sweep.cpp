@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "sim/scenario/numbers.h"
+#include "sim/config/numbers.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -7,10 +7,10 @@
 #include <set>
 
 #include "sim/campaign/judging_seeds.h"
+#include "sim/config/include.h"
+#include "sim/config/numbers.h"
+#include "sim/config/reader.h"
 #include "sim/scenario/flight_parts.h"
-#include "sim/scenario/include.h"
-#include "sim/scenario/numbers.h"
-#include "sim/scenario/reader.h"
 
 namespace hedgehop::sim {
 namespace {

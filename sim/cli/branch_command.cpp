@@ -13,13 +13,13 @@
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
+#include "sim/config/outline.h"
+#include "sim/config/writer.h"
 #include "sim/falsify/shrink.h"
 #include "sim/flight/build.h"
 #include "sim/record/run_record.h"
 #include "sim/record/whole_file.h"
 #include "sim/scenario/flight_parts.h"
-#include "sim/scenario/outline.h"
-#include "sim/scenario/writer.h"
 
 namespace hedgehop::sim::cli {
 namespace {

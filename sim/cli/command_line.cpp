@@ -18,10 +18,10 @@
 #include "sim/cli/notice.h"
 #include "sim/cli/number_options.h"
 #include "sim/cli/override_option.h"
+#include "sim/config/input_error.h"
+#include "sim/config/tree.h"
 #include "sim/flight/build.h"
-#include "sim/scenario/document.h"
-#include "sim/scenario/input_error.h"
-#include "sim/scenario/tree.h"
+#include "sim/scenario/list_topics.h"
 
 namespace hedgehop::sim::cli {
 namespace {

@@ -5,9 +5,9 @@
 #include "sim/cli/commands.h"
 #include "sim/cli/notice.h"
 #include "sim/cli/progress.h"
+#include "sim/config/input_error.h"
 #include "sim/export/export.h"
 #include "sim/record/run_record.h"
-#include "sim/scenario/input_error.h"
 
 namespace hedgehop::sim::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "sim/scenario/numbers.h"
+#include "sim/config/numbers.h"
 
 namespace hedgehop::sim::cli {
 namespace {

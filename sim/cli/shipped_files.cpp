@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "sim/scenario/input_error.h"
-#include "sim/scenario/input_file.h"
+#include "sim/config/input_error.h"
+#include "sim/config/input_file.h"
 
 namespace hedgehop::sim::cli {
 

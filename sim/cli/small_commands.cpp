@@ -10,10 +10,10 @@
 #include "sim/cli/commands.h"
 #include "sim/cli/load.h"
 #include "sim/cli/notice.h"
+#include "sim/config/input_error.h"
 #include "sim/record/report.h"
 #include "sim/scenario/calibration.h"
-#include "sim/scenario/document.h"
-#include "sim/scenario/input_error.h"
+#include "sim/scenario/list_topics.h"
 #include "sim/scenario/scenario.h"
 
 namespace hedgehop::sim::cli {

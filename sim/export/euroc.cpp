@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "sim/config/input_error.h"
 #include "sim/record/csv_line.h"
-#include "sim/scenario/input_error.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "sim/config/input_error.h"
 #include "sim/fields/quantities.h"
-#include "sim/scenario/input_error.h"
 
 namespace hedgehop::sim {
 namespace {

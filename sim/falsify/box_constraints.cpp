@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "dynamics/hull.h"
-#include "sim/scenario/numbers.h"
+#include "sim/config/numbers.h"
 #include "sim/verdict/shortest_path.h"
 
 namespace hedgehop::sim {

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <set>
 
+#include "sim/config/include.h"
+#include "sim/config/reader.h"
 #include "sim/scenario/check_faults.h"
 #include "sim/scenario/flight_parts.h"
-#include "sim/scenario/include.h"
 #include "sim/scenario/inputs.h"
-#include "sim/scenario/reader.h"
 
 namespace hedgehop::sim {
 namespace {

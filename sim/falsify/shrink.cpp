@@ -7,10 +7,10 @@
 #include <utility>
 #include <variant>
 
+#include "sim/config/numbers.h"
 #include "sim/falsify/ddmin.h"
 #include "sim/record/whole_file.h"
 #include "sim/scenario/flight_parts.h"
-#include "sim/scenario/numbers.h"
 
 namespace hedgehop::sim {
 namespace {

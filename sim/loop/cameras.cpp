@@ -6,8 +6,8 @@
 #include <functional>
 #include <stdexcept>
 
+#include "sim/config/input_error.h"
 #include "sim/fields/quantities.h"
-#include "sim/scenario/input_error.h"
 #include "sim/scenario/mounting.h"
 #include "sim/scenario/random_stream.h"
 

@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "avoidance/sight.h"
+#include "sim/config/input_error.h"
 #include "sim/fields/quantities.h"
 #include "sim/loop/setpoints.h"
 #include "sim/loop/takeover.h"
 #include "sim/loop/truth_used.h"
 #include "sim/plugin/plugin_module.h"
 #include "sim/scenario/flight_parts.h"
-#include "sim/scenario/input_error.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -6,10 +6,10 @@
 #include <algorithm>
 
 #include "avoidance/plugin.h"
+#include "sim/config/input_error.h"
+#include "sim/config/reader.h"
 #include "sim/plugin/call_guard.h"
 #include "sim/plugin/python_module.h"
-#include "sim/scenario/input_error.h"
-#include "sim/scenario/reader.h"
 
 namespace hedgehop::sim {
 namespace {

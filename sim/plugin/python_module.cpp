@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "sim/scenario/input_error.h"
-#include "sim/scenario/numbers.h"
+#include "sim/config/input_error.h"
+#include "sim/config/numbers.h"
 
 namespace hedgehop::sim {
 namespace {

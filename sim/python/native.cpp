@@ -2,9 +2,9 @@
 
 #include <csignal>
 
+#include "sim/config/input_error.h"
 #include "sim/flight/build.h"
 #include "sim/python/bindings.h"
-#include "sim/scenario/input_error.h"
 
 PYBIND11_MODULE(_native, native) {
   namespace py = pybind11;

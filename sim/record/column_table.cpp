@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sim/config/input_error.h"
 #include "sim/record/csv_line.h"
 #include "sim/record/csv_table.h"
-#include "sim/scenario/input_error.h"
 
 namespace hedgehop::sim {
 

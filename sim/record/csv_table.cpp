@@ -6,8 +6,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "sim/config/input_error.h"
 #include "sim/record/whole_file.h"
-#include "sim/scenario/input_error.h"
 
 namespace hedgehop::sim {
 namespace {

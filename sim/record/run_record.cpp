@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "sim/config/input_error.h"
 #include "sim/record/flight_columns.h"
 #include "sim/record/map_data.h"
 #include "sim/record/whole_file.h"
 #include "sim/scenario/flight_parts.h"
-#include "sim/scenario/input_error.h"
 
 namespace hedgehop::sim {
 namespace {

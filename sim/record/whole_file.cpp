@@ -1,6 +1,6 @@
 #include "sim/record/whole_file.h"
 
-#include "sim/scenario/input_error.h"
+#include "sim/config/input_error.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

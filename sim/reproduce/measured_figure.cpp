@@ -8,7 +8,7 @@
 
 #include "sim/campaign/statistics.h"
 #include "sim/campaign/table.h"
-#include "sim/scenario/numbers.h"
+#include "sim/config/numbers.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "sim/campaign/judging_seeds.h"
 #include "sim/campaign/order.h"
+#include "sim/config/include.h"
+#include "sim/config/numbers.h"
+#include "sim/config/reader.h"
 #include "sim/reproduce/calculations.h"
-#include "sim/scenario/include.h"
-#include "sim/scenario/numbers.h"
-#include "sim/scenario/reader.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "sim/campaign/order.h"
+#include "sim/config/numbers.h"
 #include "sim/flight/build.h"
 #include "sim/record/csv_line.h"
-#include "sim/scenario/numbers.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -3,10 +3,10 @@
 #include <utility>
 
 #include "avoidance/module.h"
+#include "sim/config/outline.h"
+#include "sim/config/reader.h"
 #include "sim/fields/bounds.h"
 #include "sim/scenario/avoidance_choice.h"
-#include "sim/scenario/outline.h"
-#include "sim/scenario/reader.h"
 
 namespace hedgehop::sim {
 

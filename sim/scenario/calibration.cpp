@@ -6,7 +6,7 @@
 #include <cctype>
 #include <stdexcept>
 
-#include "sim/scenario/numbers.h"
+#include "sim/config/numbers.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -6,9 +6,9 @@
 #include <concepts>
 #include <variant>
 
+#include "sim/config/tree.h"
 #include "sim/scenario/formula.h"
 #include "sim/scenario/reference_path.h"
-#include "sim/scenario/tree.h"
 
 namespace hedgehop::sim {
 namespace {

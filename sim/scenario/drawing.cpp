@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "sim/scenario/input_error.h"
+#include "sim/config/input_error.h"
 
 namespace hedgehop::sim {
 

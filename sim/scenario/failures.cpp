@@ -10,8 +10,8 @@
 #include <utility>
 #include <variant>
 
+#include "sim/config/tree.h"
 #include "sim/scenario/random_stream.h"
-#include "sim/scenario/tree.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "avoidance/module.h"
+#include "sim/config/tree.h"
 #include "sim/fields/bounds.h"
 #include "sim/scenario/random_stream.h"
-#include "sim/scenario/tree.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "sim/config/tree.h"
 #include "sim/fields/field.h"
-#include "sim/scenario/tree.h"
 
 namespace hedgehop::sim {
 
@@ -14,8 +14,7 @@ namespace hedgehop::sim {
 struct PluginConfig {
   static constexpr std::string_view kName = "plugin";
   static constexpr std::string_view kMeaning = "a module from a shared library (docs/writing-a-module.md)";
-  static constexpr std::string_view kChosenBy =
-      "plugin";  ///< the key that distinguishes it from the modules of this tree
+  static constexpr std::string_view kChosenBy = kPluginKey;
 
   std::filesystem::path plugin;
   std::string module;
@@ -38,7 +37,7 @@ void describe(Visitor& v, PluginConfig& c) {
 struct PythonConfig {
   static constexpr std::string_view kName = "python";
   static constexpr std::string_view kMeaning = "a module written in Python (docs/python.md)";
-  static constexpr std::string_view kChosenBy = "python";
+  static constexpr std::string_view kChosenBy = kPythonKey;
 
   std::filesystem::path python;
   std::string class_name;

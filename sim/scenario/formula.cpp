@@ -6,8 +6,8 @@
 #include <utility>
 #include <variant>
 
+#include "sim/config/tree.h"
 #include "sim/scenario/formula_tokens.h"
-#include "sim/scenario/tree.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -1,6 +1,6 @@
 #include "sim/scenario/reference_path.h"
 
-#include "sim/scenario/input_file.h"
+#include "sim/config/input_file.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "sim/scenario/numbers.h"
+#include "sim/config/numbers.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -1,6 +1,6 @@
 #include "sim/scenario/rig.h"
 
-#include "sim/scenario/input_file.h"
+#include "sim/config/input_file.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

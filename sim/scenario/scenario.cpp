@@ -7,12 +7,12 @@
 #include <random>
 #include <utility>
 
+#include "sim/config/include.h"
+#include "sim/config/reader.h"
+#include "sim/config/schema.h"
+#include "sim/config/writer.h"
 #include "sim/scenario/flight_parts.h"
-#include "sim/scenario/include.h"
-#include "sim/scenario/reader.h"
-#include "sim/scenario/schema.h"
 #include "sim/scenario/validate.h"
-#include "sim/scenario/writer.h"
 
 namespace hedgehop::sim {
 

@@ -14,12 +14,12 @@
 #include "dynamics/avionics.h"
 #include "dynamics/vehicle.h"
 #include "scenes/generators.h"
+#include "sim/config/input_error.h"
 #include "sim/fields/field.h"
 #include "sim/scenario/avoidance_config.h"
 #include "sim/scenario/checks.h"
 #include "sim/scenario/drawing.h"
 #include "sim/scenario/failures.h"
-#include "sim/scenario/input_error.h"
 #include "sim/scenario/rig.h"
 
 namespace hedgehop::sim {

@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "sim/config/tree.h"
 #include "sim/scenario/flight_parts.h"
-#include "sim/scenario/tree.h"
 
 namespace hedgehop::sim {
 

@@ -83,7 +83,7 @@ class Layers(Tree):
         self.assert_refused("layers", {"CMakeLists.txt": table}, "is not above it")
 
     def test_yaml_outside_the_scenario_room(self):
-        self.assert_refused("layers", {"sim/loop/x.h": "#include <yaml-cpp/yaml.h>\n"}, "belongs into sim/scenario")
+        self.assert_refused("layers", {"sim/loop/x.h": "#include <yaml-cpp/yaml.h>\n"}, "belongs into sim/config")
 
     def test_tests_may_include_everything(self):
         self.assertEqual(self.faults("layers", {"tests/x_test.cpp": '#include "avoidance/steer.h"\n'}), [])

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/cli/commands.h"
-#include "sim/scenario/input_error.h"
+#include "sim/config/input_error.h"
 
 namespace hedgehop::sim::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scenes/worlds/highrise.h"
-#include "sim/scenario/input_error.h"
+#include "sim/config/input_error.h"
 #include "sim/simulation/simulation.h"
 
 namespace hedgehop::sim {

@@ -11,10 +11,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "sim/config/input_error.h"
 #include "sim/record/csv_table.h"
 #include "sim/record/run_record.h"
 #include "sim/record/whole_file.h"
-#include "sim/scenario/input_error.h"
 #include "tests/sim/record/error_of.h"
 #include "tests/sim/record/fake_flight.h"
 #include "tests/sim/record/temporary_folder.h"

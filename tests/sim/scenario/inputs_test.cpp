@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "sim/scenario/flight_parts.h"
-#include "tests/sim/scenario/scenario_files.h"
+#include "tests/sim/config/input_files.h"
 
 namespace hedgehop::sim {
 namespace {

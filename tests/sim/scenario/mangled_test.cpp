@@ -3,8 +3,8 @@
 #include <functional>
 #include <random>
 
-#include "scenario_files.h"
 #include "sim/scenario/scenario.h"
+#include "tests/sim/config/input_files.h"
 
 /// Scenarios that are damaged load or are refused; nothing else may happen.
 namespace hedgehop::sim {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenario_files.h"
+#include "sim/config/writer.h"
 #include "sim/scenario/rig.h"
 #include "sim/scenario/scenario.h"
-#include "sim/scenario/writer.h"
+#include "tests/sim/config/input_files.h"
 #include "tests/vision/camera/random_lenses.h"
 
 namespace hedgehop::sim {

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scenario_files.h"
-#include "sim/scenario/outline.h"
+#include "sim/config/outline.h"
+#include "tests/sim/config/input_files.h"
 
 namespace hedgehop::sim {
 namespace {

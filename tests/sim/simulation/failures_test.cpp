@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "avoidance/go_to_goal.h"
-#include "sim/scenario/input_error.h"
+#include "sim/config/input_error.h"
 #include "sim/simulation/simulation.h"
 
 /// What fails in flight, told by what the truth does then.

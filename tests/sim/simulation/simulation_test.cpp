@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/scenario/input_error.h"
+#include "sim/config/input_error.h"
 
 namespace hedgehop::sim {
 namespace {

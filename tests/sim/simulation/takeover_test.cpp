@@ -2,9 +2,9 @@
 
 #include <set>
 
+#include "sim/config/writer.h"
 #include "sim/loop/takeover.h"
 #include "sim/scenario/avoidance_choice.h"
-#include "sim/scenario/writer.h"
 #include "sim/simulation/simulation.h"
 
 namespace hedgehop::sim {

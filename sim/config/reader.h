@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "sim/config/numbers.h"
+#include "sim/config/tree.h"
 #include "sim/fields/field.h"
 #include "sim/fields/field_types.h"
-#include "sim/scenario/numbers.h"
-#include "sim/scenario/tree.h"
 
 /// From a tree to config structs, by their describe(). Strict: what does not fit goes to Faults and leaves the member.
 namespace hedgehop::sim {

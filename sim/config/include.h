@@ -6,14 +6,10 @@
 #include <string>
 #include <string_view>
 
-#include "sim/scenario/tree.h"
+#include "sim/config/tree.h"
 
 /// Files that use other files, and overrides of their values.
 namespace hedgehop::sim {
-
-/// Keys that name the choice of a variant (Field::selector): overriding one of these by another value replaces the
-/// whole map, for the keys beside it belong to the other choice.
-inline constexpr std::string_view kSelectors[] = {"type", "module", "check"};
 
 /// Reads a file whose root is a map, and the files that it uses: with `use: other.yaml` a map overrides
 /// the other file's root, map by map; lists and scalars replace. Paths are relative to the file that names them.

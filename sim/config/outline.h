@@ -4,11 +4,11 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/config/numbers.h"
+#include "sim/config/tree.h"
 #include "sim/fields/bounds.h"
 #include "sim/fields/field.h"
 #include "sim/fields/field_types.h"
-#include "sim/scenario/numbers.h"
-#include "sim/scenario/tree.h"
 
 /// A config struct as a tree of described values: what the writer, the schema and the documentation are made from.
 namespace hedgehop::sim {

@@ -1,4 +1,4 @@
-#include "sim/scenario/schema_sharing.h"
+#include "sim/config/schema_sharing.h"
 
 #include <fmt/format.h>
 

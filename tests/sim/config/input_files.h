@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/scenario/include.h"
-#include "sim/scenario/input_error.h"
-#include "sim/scenario/reader.h"
+#include "sim/config/include.h"
+#include "sim/config/input_error.h"
+#include "sim/config/reader.h"
 
 namespace hedgehop::sim {
 

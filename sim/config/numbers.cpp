@@ -1,4 +1,4 @@
-#include "sim/scenario/numbers.h"
+#include "sim/config/numbers.h"
 
 #include <fmt/format.h>
 

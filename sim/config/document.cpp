@@ -1,14 +1,13 @@
-#include "sim/scenario/document.h"
+#include "sim/config/document.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "sim/scenario/numbers.h"
-#include "sim/scenario/scenario.h"
-#include "sim/scenario/tree.h"
-#include "sim/scenario/writer.h"
+#include "sim/config/numbers.h"
+#include "sim/config/tree.h"
+#include "sim/config/writer.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -105,22 +104,6 @@ std::string document_choices(const std::vector<Outline>& choices) {
     text += document_fields(choice.parts, 4);
   }
   return text;
-}
-
-const std::vector<std::string>& document_topics() {
-  static const std::vector<std::string> topics = {"modules", "vehicles", "scenes", "cameras", "checks", "scenario"};
-  return topics;
-}
-
-std::string document(const std::string& topic) {
-  if (topic == "modules") return document_choices(outline(AvoidanceConfig(), {}).all);
-  if (topic == "vehicles") return describe_choices<dynamics::VehicleConfig>();
-  if (topic == "scenes") return describe_choices<scenes::SceneConfig>();
-  if (topic == "cameras") return document_fields(outline_fields(RigConfig{}), 0);
-  if (topic == "checks") return describe_choices<CheckConfig>();
-  if (topic == "scenario") return document_fields(outline_fields(Scenario{}), 0);
-  const std::vector<std::string>& topics = document_topics();
-  throw InputError(fmt::format("unknown topic '{}'{}", topic, suggestion(topic, {topics.begin(), topics.end()})));
 }
 
 }  // namespace hedgehop::sim

@@ -1,4 +1,4 @@
-#include "sim/scenario/include.h"
+#include "sim/config/include.h"
 
 #include <fmt/format.h>
 
@@ -7,17 +7,16 @@
 #include <charconv>
 #include <stdexcept>
 
-#include "sim/scenario/foreign_config.h"
-#include "sim/scenario/input_file.h"
-#include "sim/scenario/parse.h"
+#include "sim/config/input_file.h"
+#include "sim/config/parse.h"
 
 namespace hedgehop::sim {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The keys that choose who avoids.
-constexpr std::array<std::string_view, 3> kModuleKeys = {"module", PythonConfig::kChosenBy, PluginConfig::kChosenBy};
+/// Keys that choose the avoidance module.
+constexpr std::array<std::string_view, 3> kModuleKeys = {kModuleSelector, kPythonKey, kPluginKey};
 
 bool is_selector(std::string_view key) {
   return std::find(std::begin(kSelectors), std::end(kSelectors), key) != std::end(kSelectors);
@@ -26,9 +25,9 @@ bool is_selector(std::string_view key) {
 /// Whether a key with this value chooses something else than what the map holds.
 bool chooses_another(const Node& map, std::string_view key, const Node& value) {
   const auto is_module = [&](std::string_view other) { return other != key && map.find(other); };
-  const bool foreign = key == PythonConfig::kChosenBy || key == PluginConfig::kChosenBy;
+  const bool foreign = key == kPythonKey || key == kPluginKey;
   if (foreign && !map.find(key)) return std::ranges::any_of(kModuleKeys, is_module);
-  if (key == "module" && map.find(PythonConfig::kChosenBy)) return true;
+  if (key == kModuleSelector && map.find(kPythonKey)) return true;
   const Node* old = map.find(key);
   return is_selector(key) && old && old->kind == Node::Kind::scalar && old->text != value.text;
 }
@@ -210,7 +209,7 @@ void apply_override(Node& root, const std::string& text, const fs::path& folder,
   for (size_t i = 0; i < keys.size(); ++i) {
     // Another choice of type takes the other keys of the old one with it.
     // A library leaves the module's name, which may have been set before it.
-    if (i + 1 == keys.size() && keys[i] != PluginConfig::kChosenBy && chooses_another(*node, keys[i], value)) {
+    if (i + 1 == keys.size() && keys[i] != kPluginKey && chooses_another(*node, keys[i], value)) {
       node->entries.clear();
     }
     node = step_into(*node, keys[i], path, place, faults);

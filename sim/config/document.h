@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/scenario/outline.h"
+#include "sim/config/outline.h"
 
 namespace hedgehop::sim {
 
@@ -18,10 +18,5 @@ template <fields::VariantField Variant>
 std::string describe_choices() {
   return document_choices(outline_alternatives<Variant>());
 }
-
-/// Topics of `hedgehop list`: "modules", "vehicles", "scenes", "cameras", "checks", "scenario".
-const std::vector<std::string>& document_topics();
-/// Text of a topic. Throws InputError, naming the topics, for any other.
-std::string document(const std::string& topic);
 
 }  // namespace hedgehop::sim

@@ -1,4 +1,4 @@
-#include "sim/scenario/writer.h"
+#include "sim/config/writer.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 
 #include "random_config.h"
 #include "sample_config.h"
-#include "scenario_files.h"
-#include "sim/scenario/parse.h"
+#include "sim/config/parse.h"
 #include "sim/scenario/scenario.h"
+#include "tests/sim/config/input_files.h"
 
 namespace hedgehop::sim {
 namespace {

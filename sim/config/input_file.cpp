@@ -1,4 +1,4 @@
-#include "sim/scenario/input_file.h"
+#include "sim/config/input_file.h"
 
 #include <fstream>
 #include <ios>

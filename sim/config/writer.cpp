@@ -1,4 +1,4 @@
-#include "sim/scenario/writer.h"
+#include "sim/config/writer.h"
 
 #include <fmt/format.h>
 

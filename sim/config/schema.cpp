@@ -1,11 +1,11 @@
-#include "sim/scenario/schema.h"
+#include "sim/config/schema.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "sim/scenario/schema_sharing.h"
+#include "sim/config/schema_sharing.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/scenario/outline.h"
+#include "sim/config/outline.h"
 
 namespace hedgehop::sim {
 

@@ -1,10 +1,10 @@
-#include "sim/scenario/reader.h"
+#include "sim/config/reader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sample_config.h"
-#include "scenario_files.h"
+#include "tests/sim/config/input_files.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/scenario/reader.h"
+#include "sim/config/reader.h"
 
 #include <fmt/format.h>
 

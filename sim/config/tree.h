@@ -16,6 +16,13 @@ struct Place {
   std::string text() const;
 };
 
+inline constexpr std::string_view kModuleSelector = "module";
+/// Keys whose value names the choice of a variant (Field::selector). Overriding such a key by another value replaces
+/// the whole map, because its other keys belong to the previous choice.
+inline constexpr std::string_view kSelectors[] = {"type", kModuleSelector, "check"};
+/// Keys that choose an alternative by themselves (fields::ChosenByKey) instead of `module`.
+inline constexpr std::string_view kPluginKey = "plugin", kPythonKey = "python";
+
 struct Entry;
 
 /// A scalar, a list or a map.

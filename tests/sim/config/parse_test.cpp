@@ -1,11 +1,11 @@
-#include "sim/scenario/parse.h"
+#include "sim/config/parse.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sample_config.h"
-#include "scenario_files.h"
+#include "tests/sim/config/input_files.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "sim/scenario/outline.h"
+#include "sim/config/outline.h"
 
 namespace hedgehop::sim {
 

@@ -1,4 +1,4 @@
-#include "sim/scenario/parse.h"
+#include "sim/config/parse.h"
 
 #include <fmt/format.h>
 #include <yaml-cpp/depthguard.h>

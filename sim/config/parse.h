@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "sim/scenario/tree.h"
+#include "sim/config/tree.h"
 
 namespace hedgehop::sim {
 

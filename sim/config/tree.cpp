@@ -1,11 +1,11 @@
-#include "sim/scenario/tree.h"
+#include "sim/config/tree.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 
-#include "sim/scenario/input_error.h"
+#include "sim/config/input_error.h"
 
 namespace hedgehop::sim {
 

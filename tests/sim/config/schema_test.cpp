@@ -1,4 +1,4 @@
-#include "sim/scenario/schema.h"
+#include "sim/config/schema.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,12 @@
 #include "json_schema_check.h"
 #include "random_config.h"
 #include "sample_config.h"
-#include "scenario_files.h"
-#include "sim/scenario/document.h"
-#include "sim/scenario/parse.h"
+#include "sim/config/document.h"
+#include "sim/config/parse.h"
+#include "sim/config/writer.h"
+#include "sim/scenario/list_topics.h"
 #include "sim/scenario/scenario.h"
-#include "sim/scenario/writer.h"
+#include "tests/sim/config/input_files.h"
 
 namespace hedgehop::sim {
 namespace {
