@@ -188,13 +188,13 @@ void declare_schema(CLI::App& app, std::function<int()>& chosen) {
 
 void declare_manual(CLI::App& app, std::function<int()>& chosen, std::string& format) {
   CLI::App* const command =
-      app.add_subcommand("manual", "print the manual page, or the completion of a shell's command line");
-  command->add_option("FORMAT", format, "man, bash, zsh or fish")
+      app.add_subcommand("manual", "print the man page, the reference page (docs/commands.md) or shell completions");
+  command->add_option("FORMAT", format, "man, markdown, bash, zsh or fish")
       ->required()
-      ->check(CLI::IsMember({"man", "bash", "zsh", "fish"}));
+      ->check(CLI::IsMember({"man", "markdown", "bash", "zsh", "fish"}));
   command->callback([&] {
     chosen = [&] {
-      fmt::print("{}", manual(app, format));
+      fmt::print("{}", format == "man" || format == "markdown" ? manual(app, format) : completions(app, format));
       return 0;
     };
   });

@@ -5,22 +5,69 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <stdexcept>
-#include <vector>
 
 #include "sim/flight/build.h"
 
 namespace hedgehop::sim::cli {
 namespace {
 
-/// An option or positional as the shells need it.
-struct Entry {
-  std::string name;                  ///< "--seed", "-j"; of a positional its placeholder
-  std::vector<std::string> names;    ///< all of them, short ones first; none of a positional
-  std::string value;                 ///< placeholder of what follows; empty of a flag
-  std::vector<std::string> choices;  ///< where only these may follow
-  std::string meaning;
-  bool is_folder = false;
+struct Example {
+  const char* command;
+  const char* line;
+  const char* purpose;  ///< empty if the line is clear without it
+};
+
+/// Lines that run from a folder with configs/, in this order. tests/docs/commands_test.py runs each.
+constexpr Example kExamples[] = {
+    {"run", "hedgehop run configs/quickstart.yaml --out out/quickstart", ""},
+    {"run", "hedgehop run configs/local_map_city.yaml --renderer tiles", ""},
+    {"run", "hedgehop run configs/garratt2009_city_0.yaml --seed 7 --set avoidance.flow_gain=3 --no-video --json", ""},
+    {"render", "hedgehop render configs/garratt2009_city_0.yaml --camera front --time 12 -o front.png", ""},
+    {"render", "hedgehop render configs/garratt2009_city_0.yaml --camera front --what flow -o flow.png", ""},
+    {"render", "hedgehop render --info", "the renderers of this machine"},
+    {"calibration", "hedgehop calibration configs/garratt2009_city_0.yaml --format kalibr -o chain.yaml", ""},
+    {"batch", "hedgehop batch configs/campaigns/garratt2009_room.yaml -j 2", "a campaign file"},
+    {"batch", "hedgehop batch configs/quickstart.yaml --seeds 1:4 --out out/ci --junit checks.xml", "checks in CI"},
+    {"batch", "hedgehop batch configs/garratt2009_room_0_light.yaml --seeds 1:20 --min-success 0.7", "a success rate"},
+    {"batch", "hedgehop batch configs/garratt2009_room_0_light.yaml --seeds 1101:1600 --until \"collision < 0.05\"",
+     "a sequential test"},
+    {"batch", "hedgehop batch configs/campaigns/leaderboard.yaml --resume", "every module in every world"},
+    {"compare",
+     "hedgehop compare configs/garratt2009_city_0_control.yaml configs/garratt2009_city_0_light.yaml --seeds 1101:1200 "
+     "--until \"collision: better\"",
+     ""},
+    {"sweep", "hedgehop sweep configs/sweeps/garratt2009_room_gains.yaml", ""},
+    {"sweep", "hedgehop sweep configs/sweeps/garratt2009_room_gains.yaml --on slurm --dry-run", "the batch scripts"},
+    {"falsify", "hedgehop falsify configs/falsify/gps_offset.yaml", ""},
+    {"branch", "hedgehop branch out/quickstart --at 10 --set avoidance.flow_gain=3 --out out/branches", ""},
+    {"reproduce", "hedgehop reproduce zingg2010 --quick", ""},
+    {"bless", "hedgehop bless out/quickstart --reason \"inspected in report.html\"", ""},
+    {"export", "hedgehop export out/quickstart --format euroc --truth", ""},
+    {"report", "hedgehop report out/quickstart --replay", "report.html, and replay.html in 3-D"},
+    {"report", "hedgehop report out/garratt2009_room --against out/before", "with the changes since out/before"},
+    {"report", "hedgehop report out/garratt2009_room --film-strips 10", "with images of the worst flights"},
+    {"list", "hedgehop list modules", ""},
+    {"list", "hedgehop list scenario", ""},
+    {"trim", "hedgehop trim configs/vehicles/xcell_60.yaml --speed -4:20:4 --plot trim.html", ""},
+    {"linearize", "hedgehop linearize configs/vehicles/s900.yaml --speed 5", ""},
+    {"schema", "hedgehop schema > scenario.schema.json", ""},
+    {"manual", "hedgehop manual man | man -l -", ""},
+};
+
+struct ExitStatus {
+  int status;
+  const char* meaning;
+};
+
+constexpr ExitStatus kExitStatuses[] = {
+    {0, "all checks hold"},
+    {1, "a check fails, a claim is refuted, or a flight cannot be flown to its end"},
+    {2, "the input is bad: one line per fault on standard error; no file is written"},
+    {3, "internal error, or results that cannot be written"},
+    {4, "undecided: after the last seed, the claim of --until is neither shown nor refuted; add seeds and --resume"},
+    {130, "interrupted (Ctrl-C)"},
 };
 
 std::vector<std::string> choices_in(const std::string& type) {
@@ -35,54 +82,39 @@ std::vector<std::string> choices_in(const std::string& type) {
   return choices;
 }
 
-std::vector<Entry> entries(const CLI::App& command) {
-  std::vector<Entry> all;
-  for (const CLI::Option* option : command.get_options()) {
-    if (option->get_group().empty()) continue;
-    Entry entry;
-    for (const std::string& name : option->get_snames()) entry.names.push_back("-" + name);
-    for (const std::string& name : option->get_lnames()) entry.names.push_back("--" + name);
-    entry.name = entry.names.empty() ? option->get_name() : entry.names.back();
-    const std::string type = option->get_type_name();
-    if (option->get_items_expected_max() > 0) entry.value = type.substr(0, type.find_first_of(": "));
-    entry.choices = choices_in(type);
-    entry.is_folder = entry.value == "DIR" || type.find("DIR") != std::string::npos;
-    entry.meaning = option->get_description();
-    all.push_back(entry);
+std::vector<const Example*> examples_of(std::string_view command) {
+  std::vector<const Example*> found;
+  for (const Example& example : kExamples) {
+    if (command == example.command) found.push_back(&example);
   }
-  return all;
+  return found;
 }
 
-std::vector<const CLI::App*> commands(const CLI::App& app) { return app.get_subcommands(nullptr); }
-
-std::string replaced(std::string text, std::string_view what, std::string_view by) {
-  for (size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size()) {
-    text.replace(at, what.size(), by);
-  }
-  return text;
+/// "--format euroc|tum|kitti", "-j, --jobs UINT" or "SCENARIO", with each part passed through `name` or `value`.
+template <class Name, class Value>
+std::string usage_of(const ManualEntry& entry, Name name, Value value) {
+  if (entry.names.empty()) return value(entry.name);
+  std::string usage;
+  for (const std::string& each : entry.names) usage += (usage.empty() ? "" : ", ") + name(each);
+  if (!entry.choices.empty()) return usage + " " + name(fmt::format("{}", fmt::join(entry.choices, "|")));
+  return entry.value.empty() ? usage : usage + " " + value(entry.value);
 }
 
 // --- man ---
 
-/// Text in roff: its escapes, and no line that begins with a request.
+/// Text with the escapes of roff; no line begins with a request.
 std::string roff(const std::string& text) {
   std::string escaped = replaced(replaced(replaced(text, "\\", "\\e"), "-", "\\-"), "\n", " ");
   if (escaped.starts_with('.') || escaped.starts_with('\'')) escaped.insert(0, "\\&");
   return escaped;
 }
 
-std::string roff_of(const std::vector<Entry>& all) {
+std::string roff_of(const std::vector<ManualEntry>& all) {
+  const auto bold = [](const std::string& text) { return "\\fB" + roff(text) + "\\fR"; };
+  const auto italic = [](const std::string& text) { return "\\fI" + roff(text) + "\\fR"; };
   std::string text;
-  for (const Entry& entry : all) {
-    std::string head;
-    for (const std::string& name : entry.names) head += (head.empty() ? "\\fB" : ", \\fB") + roff(name) + "\\fR";
-    if (entry.names.empty()) head = "\\fI" + roff(entry.name) + "\\fR";
-    if (!entry.names.empty() && !entry.choices.empty()) {
-      head += " " + roff(fmt::format("{}", fmt::join(entry.choices, "|")));
-    } else if (!entry.names.empty() && !entry.value.empty()) {
-      head += " \\fI" + roff(entry.value) + "\\fR";
-    }
-    text += ".TP\n" + head + "\n" + roff(entry.meaning) + "\n";
+  for (const ManualEntry& entry : all) {
+    text += ".TP\n" + usage_of(entry, bold, italic) + "\n" + roff(entry.meaning) + "\n";
   }
   return text;
 }
@@ -91,17 +123,11 @@ constexpr const char* kManEnd = R"(.SH FILES
 Of a package, below /usr:
 .TP
 .I share/hedgehop/configs
-Scenarios, vehicles, camera rigs, campaigns. Copy the folder to where you work, and every command of the documentation
-runs there as written: cp \-r /usr/share/hedgehop/configs .
+Scenarios, vehicles, camera rigs, campaigns. Copy this folder to your working folder to run the commands of the
+documentation: cp \-r /usr/share/hedgehop/configs .
 .TP
 .I share/doc/hedgehop
-README.md, docs/ and their examples.
-.SH EXAMPLES
-.nf
-hedgehop run configs/quickstart.yaml
-hedgehop batch configs/quickstart.yaml \-\-seeds 1:4 \-\-junit checks.xml
-hedgehop reproduce zingg2010 \-\-quick
-.fi
+README.md, docs/ and the examples.
 .SH SEE ALSO
 hedgehop list scenario, for every key of a scenario; hedgehop schema, for editors
 )";
@@ -111,140 +137,96 @@ std::string man(const CLI::App& app) {
                                  "closed\\-loop simulator of vision\\-based obstacle avoidance");
   text += ".SH SYNOPSIS\n.B hedgehop\n.I COMMAND\n[\\fIOPTION\\fR]...\n.SH DESCRIPTION\n" +
           roff(app.get_description()) + "\n.SH COMMANDS\n";
-  for (const CLI::App* command : commands(app)) {
+  std::string examples = ".SH EXAMPLES\n.nf\n";
+  for (const CLI::App* command : app.get_subcommands(nullptr)) {
     text += fmt::format(".SS hedgehop {}\n{}\n{}", roff(command->get_name()), roff(command->get_description()),
-                        roff_of(entries(*command)));
+                        roff_of(manual_entries(*command)));
+    for (const Example* example : examples_of(command->get_name())) examples += roff(example->line) + "\n";
   }
-  return text + ".SH EXIT STATUS\n" + roff(app.get_footer()) + "\n" + kManEnd;
+  text += ".SH EXIT STATUS\n";
+  for (const ExitStatus& row : kExitStatuses) text += fmt::format(".TP\n.B {}\n{}\n", row.status, roff(row.meaning));
+  return text + examples + ".fi\n" + kManEnd;
 }
 
-// --- bash ---
+// --- Markdown ---
 
-std::string bash(const CLI::App& app) {
-  std::vector<std::string> names;
-  std::string values, options;
-  for (const CLI::App* command : commands(app)) {
-    const std::string name = command->get_name();
-    names.push_back(name);
-    std::vector<std::string> dashed, bare;
-    for (const Entry& entry : entries(*command)) {
-      dashed.insert(dashed.end(), entry.names.begin(), entry.names.end());
-      if (entry.names.empty()) bare.insert(bare.end(), entry.choices.begin(), entry.choices.end());
-      if (entry.names.empty() || entry.value.empty()) continue;
-      const std::string words = entry.choices.empty() ? fmt::format("-{}", entry.is_folder ? "d" : "f")
-                                                      : fmt::format("-W '{}'", fmt::join(entry.choices, " "));
-      for (const std::string& each : entry.names) {
-        values += fmt::format("    '{} {}') COMPREPLY=($(compgen {} -- \"$current\")); return ;;\n", name, each, words);
-      }
-    }
-    options += fmt::format("    {}) options='{}' words='{}' ;;\n", name, fmt::join(dashed, " "), fmt::join(bare, " "));
-  }
-  return fmt::format(
-      R"(# bash completion of hedgehop; made by `hedgehop manual bash`
-_hedgehop() {{
-  local current=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} command= options= words= word
-  for word in "${{COMP_WORDS[@]:1:COMP_CWORD-1}}"; do
-    if [[ $word != -* ]]; then command=$word; break; fi
-  done
-  case "$command $before" in
-{}  esac
-  case $command in
-    '') options='--help --version' words='{}' ;;
-{}  esac
-  if [[ $current == -* ]]; then
-    COMPREPLY=($(compgen -W "$options" -- "$current"))
-  elif [[ -n $words ]]; then
-    COMPREPLY=($(compgen -W "$words" -- "$current"))
-  elif [[ -n $command ]]; then
-    COMPREPLY=($(compgen -f -- "$current"))
-  fi
-}}
-complete -o filenames -F _hedgehop hedgehop
-)",
-      values, fmt::join(names, " "), options);
-}
-
-// --- zsh ---
-
-std::string zsh(const CLI::App& app) {
-  const auto quoted = [](std::string text) {
-    for (const auto& [what, by] : {std::pair{"'", "'\\''"}, {"[", "\\["}, {"]", "\\]"}, {":", "\\:"}, {"\n", " "}}) {
-      text = replaced(text, what, by);
-    }
-    return text;
-  };
-  std::string names, cases;
-  for (const CLI::App* command : commands(app)) {
-    names += fmt::format("    '{}:{}'\n", command->get_name(), quoted(command->get_description()));
-    std::string specs;
-    for (const Entry& entry : entries(*command)) {
-      const std::string action = !entry.choices.empty() ? fmt::format("({})", fmt::join(entry.choices, " "))
-                                 : entry.is_folder      ? "_files -/"
-                                                        : "_files";
-      if (entry.names.empty()) {
-        specs += fmt::format(" \\\n        '*:{}:{}'", quoted(entry.name), action);
-        continue;
-      }
-      const std::string follows = entry.value.empty() ? "" : fmt::format(":{}:{}", quoted(entry.value), action);
-      for (const std::string& each : entry.names) {
-        specs += fmt::format(" \\\n        '{}[{}]{}'", each, quoted(entry.meaning), follows);
-      }
-    }
-    cases += fmt::format("      {})\n        _arguments{}\n        ;;\n", command->get_name(), specs);
-  }
-  return fmt::format(R"(#compdef hedgehop
-# zsh completion of hedgehop; made by `hedgehop manual zsh`
-_hedgehop() {{
-  local state
-  local -a commands
-  commands=(
-{}  )
-  _arguments '--help[print help]' '--version[print the version]' '1:command:->command' '*::argument:->argument'
-  case $state in
-    command) _describe command commands ;;
-    argument)
-      case $words[1] in
-{}      esac
-      ;;
-  esac
-}}
-_hedgehop "$@"
-)",
-                     names, cases);
-}
-
-// --- fish ---
-
-std::string fish(const CLI::App& app) {
-  const auto quoted = [](const std::string& text) {
-    return "'" + replaced(replaced(replaced(text, "\\", "\\\\"), "'", "\\'"), "\n", " ") + "'";
-  };
-  std::string text = "# fish completion of hedgehop; made by `hedgehop manual fish`\n";
-  for (const CLI::App* command : commands(app)) {
-    const std::string& name = command->get_name();
-    text += fmt::format("complete -c hedgehop -f -n __fish_use_subcommand -a {} -d {}\n", name,
-                        quoted(command->get_description()));
-    for (const Entry& entry : entries(*command)) {
-      text += fmt::format("complete -c hedgehop -n '__fish_seen_subcommand_from {}'", name);
-      for (const std::string& each : entry.names) {
-        text += each.starts_with("--") ? " -l " + each.substr(2) : " -s " + each.substr(1);
-      }
-      if (!entry.choices.empty()) text += fmt::format(" -x -a '{}'", fmt::join(entry.choices, " "));
-      if (entry.choices.empty() && !entry.value.empty()) text += entry.names.empty() ? " -F" : " -r -F";
-      text += " -d " + quoted(entry.meaning) + "\n";
-    }
+/// Text for a table cell.
+std::string cell(std::string text) {
+  for (const auto& [pattern, replacement] : {std::pair{"|", "\\|"}, {"<", "\\<"}, {"\n", " "}}) {
+    text = replaced(text, pattern, replacement);
   }
   return text;
 }
 
+std::string table_of(const std::vector<ManualEntry>& all) {
+  const auto plain = [](const std::string& text) { return text; };
+  std::string text;
+  for (const ManualEntry& entry : all) {
+    if (entry.name == "--help") continue;
+    if (text.empty()) text = "\n| option | meaning |\n|---|---|\n";
+    text += fmt::format("| `{}` | {}{} |\n", replaced(usage_of(entry, plain, plain), "|", "\\|"),
+                        entry.is_required ? "required; " : "", cell(entry.meaning));
+  }
+  return text;
+}
+
+std::string markdown(const CLI::App& app) {
+  std::string text =
+      "# Commands\n\nGenerated by `hedgehop manual markdown` from the options' definitions: do not edit. The examples "
+      "run in a folder with\n`configs/`; `hedgehop COMMAND --help` prints the same options.\n\n| command | purpose "
+      "|\n|---|---|\n";
+  std::string sections;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) {
+    const std::string& name = command->get_name();
+    std::string purpose = cell(command->get_description());
+    text += fmt::format("| [{0}](#{0}) | {1} |\n", name, purpose);
+    purpose.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(purpose.front())));
+    sections += fmt::format("\n## {}\n\n{}.\n{}", name, purpose, table_of(manual_entries(*command)));
+    if (const auto examples = examples_of(name); !examples.empty()) {
+      sections += "\n```sh\n";
+      for (const Example* example : examples) {
+        sections += fmt::format("{}{}{}\n", example->line, *example->purpose ? "    # " : "", example->purpose);
+      }
+      sections += "```\n";
+    }
+  }
+  text += "\n## Exit status\n\n| status | meaning |\n|---|---|\n";
+  for (const ExitStatus& row : kExitStatuses) text += fmt::format("| {} | {} |\n", row.status, cell(row.meaning));
+  return text + sections;
+}
+
 }  // namespace
+
+std::vector<ManualEntry> manual_entries(const CLI::App& command) {
+  std::vector<ManualEntry> all;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_group().empty()) continue;  // hidden
+    ManualEntry entry;
+    for (const std::string& name : option->get_snames()) entry.names.push_back("-" + name);
+    for (const std::string& name : option->get_lnames()) entry.names.push_back("--" + name);
+    entry.name = entry.names.empty() ? option->get_name() : entry.names.back();
+    const std::string type = option->get_type_name();
+    if (option->get_items_expected_max() > 0) entry.value = type.substr(0, type.find_first_of(": "));
+    entry.choices = choices_in(type);
+    entry.is_folder = entry.value == "DIR" || type.find("DIR") != std::string::npos;
+    entry.is_required = option->get_required();
+    entry.meaning = option->get_description();
+    all.push_back(entry);
+  }
+  return all;
+}
+
+std::string replaced(std::string text, std::string_view pattern, std::string_view replacement) {
+  for (size_t at = 0; (at = text.find(pattern, at)) != std::string::npos; at += replacement.size()) {
+    text.replace(at, pattern.size(), replacement);
+  }
+  return text;
+}
 
 std::string manual(const CLI::App& app, std::string_view format) {
   if (format == "man") return man(app);
-  if (format == "bash") return bash(app);
-  if (format == "zsh") return zsh(app);
-  if (format == "fish") return fish(app);
-  throw std::invalid_argument("no manual of this format");
+  if (format == "markdown") return markdown(app);
+  throw std::invalid_argument("unknown format of the manual");
 }
 
 }  // namespace hedgehop::sim::cli
