@@ -1,5 +1,5 @@
-// A loop of one's own: who holds the clock gives the commands. Flies a scenario at half a meter a second towards its
-// goal, and stops short of whatever the true clearance says is near.
+// A custom loop that steps the simulation and gives the commands. It flies toward the scenario's goal at 0.5 m/s and stops
+// if the true clearance to obstacles is 1 m or less.
 //   own_loop SCENARIO.yaml [KEY.PATH=VALUE]...
 #include <cstdio>
 #include <exception>

@@ -1,4 +1,4 @@
-// A module under test without YAML: a room, a helicopter and one camera made in code, and a module that has no config.
+// A module under test without YAML: room, helicopter and camera are defined in code, and the module has no config.
 #include <cstdio>
 #include <exception>
 #include <memory>

@@ -1,4 +1,4 @@
-// A photographer: images of any camera at any time, beside the module that flies.
+// Renders images of any camera at any time while the scenario's module flies.
 //   photographer SCENARIO.yaml CAMERA PERIOD_S [KEY.PATH=VALUE]...
 #include <cstdio>
 #include <cstdlib>

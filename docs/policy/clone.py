@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Trains a network to fly as section_grid does, on section_grid's own flights, and writes it for onnx_policy:
+"""Trains a network on the flights of section_grid and writes it for onnx_policy:
 
     PYTHONPATH=build/release/python python3 docs/policy/clone.py configs/leaderboard/modules/cloned_policy.onnx
 
-It sees one image where section_grid sees a pair, and is told what Env tells ("state"); what it learns to answer is how
-section_grid flew in the half second after. Needs PyTorch (python3-torch). Same seeds, same files, on one machine.
+The network receives one image, whereas section_grid receives a stereo pair, and the state of Env ("state"). Its target is the
+motion of section_grid in the next half second. Needs PyTorch (python3-torch). On one machine, equal seeds give equal files.
 """
 
 import argparse
@@ -25,13 +25,13 @@ AIRCRAFT = {"vehicle.use": "../../vehicles/s900.yaml", "avionics.autopilot.speed
             "avionics.autopilot.acceleration_limit": 2, "rig.use": "../../rigs/perez2018_640.yaml",
             "rig.cameras": [{"role": "down", "width": 120, "height": 120, "fov": 50, "rate": 50, "channel": "grey",
                              "down": 0.2, "pitch": -90}],
-            "avoidance.use": "../modules/section_grid.yaml", "film.enabled": False}
+            "avoidance.use": "../modules/section_grid.yaml", "drawing.renderer": "tiles", "film.enabled": False}
 POOL = 8
 LOOK_AHEAD_S = 0.5
 
 
 def fly(world, seed):
-    """One flight of section_grid: pooled images, states, and the actions that would have flown so."""
+    """Flies section_grid once. Returns the outcome, pooled images, states, and the actions that reproduce the motion."""
     simulation = hedgehop.Simulation(WORLDS / f"{world}.yaml", seed=seed, set=AIRCRAFT)
     times, images, states = [], [], []
     seen = simulation.observation
@@ -62,7 +62,7 @@ def fly(world, seed):
 
 
 class Policy(nn.Module):
-    """Pools the image, sees by three convolutions, decides by two layers."""
+    """Three convolutions over the pooled image, then two layers with the state."""
 
     def __init__(self, rows, columns):
         super().__init__()
@@ -73,7 +73,7 @@ class Policy(nn.Module):
             features = self.see(torch.zeros(1, 1, rows, columns)).shape[1]
         self.look = nn.Sequential(nn.Linear(features, 64), nn.ReLU())
         self.decide = nn.Sequential(nn.Linear(64 + 10, 64), nn.ReLU(), nn.Linear(64, 4), nn.Tanh())
-        # Its own motion is withheld: told how fast it flies, it learns to go on so, and never starts again.
+        # The velocity is masked: with it, the network learns to keep its speed, and never moves again after a stop.
         scale = torch.tensor([0.05, 0.05, 0.2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1])
         self.register_buffer("scale", scale)
 
@@ -82,7 +82,7 @@ class Policy(nn.Module):
 
 
 class Whole(nn.Module):
-    """As onnx_policy gives: an image of the camera's size, values in [-0.5, 0.5]."""
+    """The network with the input of onnx_policy: an image of the camera's size, values in [-0.5, 0.5]."""
 
     def __init__(self, policy):
         super().__init__()
@@ -118,9 +118,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("onnx", help="file to write")
     parser.add_argument("--epochs", type=int, default=20)
-    parser.add_argument("--flights", help="file of the flights: read where it is, else written")
+    parser.add_argument("--flights", help="file of the flights: read if it exists, else written")
     arguments = parser.parse_args()
-    os.environ.setdefault("HEDGEHOP_GL", "tiles")
     torch.set_num_threads(1)
     if arguments.flights and os.path.exists(arguments.flights):
         data = [np.load(arguments.flights)[name] for name in ("images", "states", "actions")]
