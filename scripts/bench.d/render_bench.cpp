@@ -122,8 +122,8 @@ std::vector<double> times_s(const std::vector<Subject>& subjects, int rounds) {
   return medians_s;
 }
 
-Renderer make(const scenes::Scene& scene, ContextKind context, Shadows shadows = Shadows::none) {
-  return Renderer(scene, Culling::frustum_and_horizon, context, shadows);
+Renderer make(const scenes::Scene& scene, RendererKind kind, Shadows shadows = Shadows::none) {
+  return Renderer(scene, Culling::frustum_and_horizon, kind, shadows);
 }
 
 class Bench {
@@ -132,7 +132,7 @@ class Bench {
 
   /// Times of an image in each case.
   void compare(const scenes::Scene& scene, const std::vector<Case>& cases) {
-    Renderer osmesa = make(scene, ContextKind::osmesa), tiles = make(scene, ContextKind::tiles);
+    Renderer osmesa = make(scene, RendererKind::osmesa), tiles = make(scene, RendererKind::tiles);
     for (const Case& images : cases) {
       const auto s = times_s({{quad_, floor_of(images)}, {osmesa, images}, {tiles, images}}, rounds_);
       if (images.goal.of == "tiles") {
@@ -144,7 +144,7 @@ class Bench {
   }
 
   void shadows_over_without(const scenes::Scene& scene, const Case& images) {
-    Renderer plain = make(scene, ContextKind::tiles), shaded = make(scene, ContextKind::tiles, Shadows::sun);
+    Renderer plain = make(scene, RendererKind::tiles), shaded = make(scene, RendererKind::tiles, Shadows::sun);
     const auto s = times_s({{plain, images}, {shaded, images}}, rounds_);
     print({.what = images.what, .unit = "x", .tiles = s[1] / s[0], .goal = images.goal});
   }
@@ -153,14 +153,14 @@ class Bench {
   void start(const scenes::Scene& scene, const Case& images) {
     std::vector<double> made_ms[2], drawn_ms[2];
     for (int round = 0; round < rounds_; ++round) {
-      for (const ContextKind context : {ContextKind::osmesa, ContextKind::tiles}) {
+      for (const RendererKind kind : {RendererKind::osmesa, RendererKind::tiles}) {
         const double start_s = cpu_s();
-        Renderer renderer = make(scene, context);
+        Renderer renderer = make(scene, kind);
         const double made_s = cpu_s();
         cv::Mat image;
         renderer.draw(view_from(images.poses.front(), images), image);
-        made_ms[context == ContextKind::tiles].push_back(1e3 * (made_s - start_s));
-        drawn_ms[context == ContextKind::tiles].push_back(1e3 * (cpu_s() - start_s));
+        made_ms[kind == RendererKind::tiles].push_back(1e3 * (made_s - start_s));
+        drawn_ms[kind == RendererKind::tiles].push_back(1e3 * (cpu_s() - start_s));
       }
     }
     const auto row = [&](const std::string& what, const auto& ms, const Goal& goal) {
@@ -182,14 +182,14 @@ class Bench {
   }
 
   int rounds_;
-  Renderer quad_ = make(full_screen_quad(), ContextKind::osmesa);
+  Renderer quad_ = make(full_screen_quad(), RendererKind::osmesa);
 };
 
 /// How far tiles' images are from OSMesa's.
 void differences(const scenes::Scene& scene, const Poses& poses) {
   constexpr double kFarOffLevels = 8.0;
   constexpr float kFarOffDepth = 1e-3f;
-  Renderer osmesa = make(scene, ContextKind::osmesa), tiles = make(scene, ContextKind::tiles);
+  Renderer osmesa = make(scene, RendererKind::osmesa), tiles = make(scene, RendererKind::tiles);
   double levels = 0.0, off_levels = 0.0, off_depths = 0.0, pixels = 0.0;
   cv::Mat expected, drawn, difference;
   const auto draw_both = [&](const Eigen::Isometry3d& X_WC, Channel channel) {
@@ -223,10 +223,10 @@ double resident_mib() {
 }
 
 /// What a renderer adds to a process that has made its scene, MiB.
-double renderer_mib(ContextKind context) {
+double renderer_mib(RendererKind kind) {
   const scenes::Scene scene = city(300.0);
   const double before_mib = resident_mib();
-  Renderer renderer = make(scene, context);
+  Renderer renderer = make(scene, kind);
   cv::Mat image;
   renderer.draw(view_from(street_views(kFlightHeightM).front(), {}), image);
   return resident_mib() - before_mib;
@@ -234,8 +234,8 @@ double renderer_mib(ContextKind context) {
 
 /// The same in processes of their own.
 void memory() {
-  const auto mib = [](const char* context) {
-    const std::string command = std::filesystem::read_symlink("/proc/self/exe").string() + " --memory " + context;
+  const auto mib = [](const char* renderer) {
+    const std::string command = std::filesystem::read_symlink("/proc/self/exe").string() + " --memory " + renderer;
     std::FILE* const pipe = popen(command.c_str(), "r");
     double value = kNone;
     return pipe != nullptr && std::fscanf(pipe, "%lf", &value) == 1 && pclose(pipe) == 0 ? value : kNone;
@@ -293,7 +293,7 @@ int main(int argc, char** argv) {
   using namespace hedgehop::sim;
   cv::setNumThreads(1);
   if (argc > 2 && std::string_view(argv[1]) == "--memory") {
-    std::cout << renderer_mib(std::string_view(argv[2]) == "tiles" ? ContextKind::tiles : ContextKind::osmesa);
+    std::cout << renderer_mib(std::string_view(argv[2]) == "tiles" ? RendererKind::tiles : RendererKind::osmesa);
     return 0;
   }
   run(argc > 1 && std::string_view(argv[1]) == "--quick" ? kQuickRounds : kRounds);

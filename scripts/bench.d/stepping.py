@@ -16,7 +16,7 @@ import hedgehop
 ROUNDS = 7
 #: One camera of 64 x 48 px at 25 Hz, control at 50 Hz, as small environments for learning have it.
 SMALL = {"rig": {"cameras": [{"role": "front", "width": 64, "height": 48, "rate": 25}]}, "control_rate": 50,
-         "velocimeter.enabled": False, "film.enabled": False, "checks": [], "drawing.context": "tiles", "duration": 40}
+         "velocimeter.enabled": False, "film.enabled": False, "checks": [], "drawing.renderer": "tiles", "duration": 40}
 
 
 def cpu_s(call):

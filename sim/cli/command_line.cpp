@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
 #include <functional>
 #include <sstream>
@@ -21,6 +22,7 @@
 #include "sim/config/input_error.h"
 #include "sim/config/tree.h"
 #include "sim/flight/build.h"
+#include "sim/scenario/drawing.h"
 #include "sim/scenario/list_topics.h"
 
 namespace hedgehop::sim::cli {
@@ -31,11 +33,22 @@ void add_layers(CLI::App& command, ScenarioOptions& scenario) {
   command.add_option("--seed", scenario.seed, "seed of every random stream; overrides the scenario's")
       ->transform(whole_number());
   add_overrides(command, scenario.overrides, "override a value of the scenario, e.g. --set avoidance.speed=1.5");
+  const std::vector<std::string> names(kRendererNames.begin(), kRendererNames.end());
+  CLI::Option* const renderer =
+      command
+          .add_option("--renderer", scenario.renderer,
+                      "renderer of the camera images: osmesa, egl (the GPU, if the machine has one) or tiles (fastest "
+                      "without a GPU); overrides the scenario's")
+          ->check(CLI::IsMember(names));
   command
-      .add_option("--gl", scenario.gl,
-                  "who draws: osmesa, egl (a GPU where there is one) or tiles (fastest on a processor); overrides the "
-                  "scenario's")
-      ->check(CLI::IsMember({"osmesa", "egl", "tiles"}));
+      .add_option_function<std::string>("--gl",
+                                        [&scenario](const std::string& name) {
+                                          scenario.renderer = name;
+                                          notice("--gl is deprecated: use --renderer\n");
+                                        })
+      ->check(CLI::IsMember(names))
+      ->excludes(renderer)
+      ->group("");  // hidden
 }
 
 void add_scenario(CLI::App& command, ScenarioOptions& scenario) {
@@ -87,7 +100,8 @@ void declare_render(CLI::App& app, std::function<int()>& chosen, RenderOptions& 
                    "rest, full at 16 px); labels (a color for each object, sky black)")
       ->check(CLI::IsMember({"color", "grey", "depth", "depth_mm", "flow", "labels"}));
   auto* const out = command->add_option("-o", render.out, "file to write")->type_name("FILE.png");
-  auto* const info = command->add_flag("--info", render.info, "print the OpenGL renderer, and stop");
+  auto* const info =
+      command->add_flag("--info", render.info, "print the renderers that this machine can use, and stop");
   command->callback([&, file, camera, out, info] {
     if (!*info && (!*file || !*camera || !*out)) {
       throw CLI::RequiredError("render: SCENARIO, --camera and -o (or --info)");
@@ -285,6 +299,10 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
+  if (std::getenv("HEDGEHOP_GL") != nullptr) {
+    notice("HEDGEHOP_GL has no effect any more: use --renderer, or drawing.renderer in the scenario\n");
+    ::unsetenv("HEDGEHOP_GL");  // the workers of a campaign need not repeat it
+  }
   try {
     return parse_and_run(argc, argv);
   } catch (const InputError& error) {

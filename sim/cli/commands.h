@@ -16,7 +16,7 @@ struct ScenarioOptions {
   std::filesystem::path file;
   std::vector<std::string> overrides;  ///< "a.b=value"
   std::optional<uint64_t> seed;
-  std::string gl;  ///< "osmesa", "egl" or "tiles"; empty: the scenario's
+  std::string renderer;  ///< a name of kRendererNames; empty: the scenario's
 };
 
 struct RunOptions {
@@ -35,7 +35,7 @@ struct RenderOptions {
   double time_s = 0.0;
   std::string what = "color";  ///< "color", "grey", "depth", "depth_mm", "flow" or "labels"
   std::filesystem::path out;
-  bool info = false;  ///< only print which renderer draws
+  bool info = false;  ///< only print the renderers
 };
 int render(const RenderOptions& options);
 

@@ -4,7 +4,7 @@ namespace hedgehop::sim::cli {
 
 LoadedScenario load(const ScenarioOptions& options) {
   std::vector<std::string> overrides = options.overrides;
-  if (!options.gl.empty()) overrides.push_back("drawing.context=" + options.gl);
+  if (!options.renderer.empty()) overrides.push_back("drawing.renderer=" + options.renderer);
   return load_flight(options.file, overrides, options.seed);
 }
 

@@ -21,25 +21,19 @@ Channel channel_of(const std::string& what) {
   return what == "color" ? Channel::color : Channel::depth;
 }
 
-/// Who would draw, and who else can: one line each.
-void print_contexts(const std::string& asked) {
-  struct Kind {
-    const char* name;
-    DrawingConfig::Context context;
-    ContextKind drawn_by;
-  };
-  using Context = DrawingConfig::Context;
-  for (const Kind& kind :
-       {Kind{"osmesa", Context::osmesa, ContextKind::osmesa}, Kind{"egl", Context::egl, ContextKind::egl},
-        Kind{"tiles", Context::tiles, ContextKind::tiles}}) {
-    const bool chosen = asked.empty() ? kind.context == DrawingConfig::usual_context() : asked == kind.name;
-    if (!asked.empty() && !chosen) continue;
-    const char* const mark = asked.empty() && chosen ? "  (used unless a scenario or --gl says otherwise)" : "";
+/// Prints one line for each renderer: its version, or why this machine cannot use it.
+/// @param only  name of the one renderer to print; empty: all.
+void print_renderers(const std::string& only) {
+  for (size_t i = 0; i < kRendererNames.size(); ++i) {
+    const auto kind = static_cast<RendererKind>(i);
+    if (!only.empty() && only != kRendererNames[i]) continue;
+    const bool is_default = kind == DrawingConfig().renderer;
     try {
-      fmt::print("{}: {}{}\n", kind.name, Renderer(scenes::Scene{}, Culling::none, kind.drawn_by).info(), mark);
+      fmt::print("{}: {}{}\n", kRendererNames[i], Renderer(scenes::Scene{}, Culling::none, kind).info(),
+                 only.empty() && is_default ? "  (the default)" : "");
     } catch (const std::runtime_error& fault) {
-      if (chosen) throw;
-      fmt::print("{}: no: {}\n", kind.name, fault.what());
+      if (!only.empty() || is_default) throw;
+      fmt::print("{}: not available: {}\n", kRendererNames[i], fault.what());
     }
   }
 }
@@ -55,7 +49,7 @@ cv::Mat image_at(Simulation& simulation, const RenderOptions& options, Channel c
 
 int render(const RenderOptions& options) {
   if (options.info) {
-    print_contexts(options.scenario.gl);
+    print_renderers(options.scenario.renderer);
     return 0;
   }
   if (options.out.extension() != ".png") {

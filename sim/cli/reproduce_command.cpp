@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "sim/campaign/batch_record.h"
 #include "sim/campaign/fly_orders.h"
@@ -15,7 +16,6 @@
 #include "sim/cli/progress.h"
 #include "sim/cli/shipped_files.h"
 #include "sim/record/whole_file.h"
-#include "sim/render/renderer.h"
 #include "sim/reproduce/reproduction_page.h"
 #include "sim/reproduce/results_page.h"
 #include "sim/simulation/package_versions.h"
@@ -80,17 +80,27 @@ std::vector<FlightRecord> fly(const std::vector<Paper>& papers, const ReproduceO
   return records;
 }
 
-/// What draws.
-std::string painter() {
-  if (DrawingConfig::usual_context() == DrawingConfig::Context::tiles) return "images by Hedgehop's tiles";
-  const std::string renderer = Renderer(scenes::Scene{}, Culling::none, ContextKind::osmesa).info();
-  const size_t mesa = renderer.find("Mesa ");
-  return mesa == std::string::npos ? renderer : renderer.substr(mesa, renderer.find_first_of(" ,)\n", mesa + 5) - mesa);
+/// Returns the renderer of a flight in short: "renderer tiles", "renderer Mesa 22.3.6".
+std::string short_renderer(const std::string& info) {
+  if (info.find("; tiles;") != std::string::npos) return "renderer tiles";
+  const size_t mesa = info.find("Mesa ");
+  return "renderer " +
+         (mesa == std::string::npos ? info : info.substr(mesa, info.find_first_of(" ,)\n", mesa + 5) - mesa));
+}
+
+/// Returns the renderers of all flights that were flown, then the packages with their versions.
+std::string packages_of(const std::vector<FlightRecord>& records) {
+  static const nlohmann::json::json_pointer kRenderer("/libraries/renderer");
+  std::set<std::string> renderers;
+  for (const FlightRecord& record : records) {
+    if (record.status == Status::flown) renderers.insert(short_renderer(record.result.value(kRenderer, "unknown")));
+  }
+  return fmt::format("{}{}{}", fmt::join(renderers, ", "), renderers.empty() ? "" : ", ", package_versions());
 }
 
 void write_pages(const ReproduceOptions& options, const fs::path& out, const RowsOfPapers& papers,
-                 const nlohmann::ordered_json& pages) {
-  const PageFacts facts = page_facts(papers, painter() + ", " + package_versions(), options.quick);
+                 const nlohmann::ordered_json& pages, const std::string& packages) {
+  const PageFacts facts = page_facts(papers, packages, options.quick);
   const std::string text = results_page(papers, facts);
   EveryWrite files;
   files.attempt([&] {
@@ -142,7 +152,7 @@ int reproduce(const ReproduceOptions& options) {
     rows_of_papers.emplace_back(paper, rows);
   }
   print_failed(records);
-  write_pages(options, out, rows_of_papers, pages);
+  write_pages(options, out, rows_of_papers, pages, packages_of(records));
   const bool all_flown = std::ranges::all_of(records, [](const auto& r) { return r.status == Status::flown; });
   const bool rows_hold = std::ranges::all_of(rows_of_papers, [](const auto& paper) { return all_hold(paper.second); });
   return all_flown && rows_hold ? 0 : kFails;

@@ -58,7 +58,7 @@ std::string command_line(const RunOptions& options, const Scenario& scenario) {
   std::string text =
       fmt::format("hedgehop run {} --seed {}", shell_quoted(options.scenario.file.string()), scenario.seed);
   for (const std::string& override_text : options.scenario.overrides) text += " --set " + shell_quoted(override_text);
-  if (!options.scenario.gl.empty()) text += " --gl " + options.scenario.gl;
+  if (!options.scenario.renderer.empty()) text += " --renderer " + options.scenario.renderer;
   return text;
 }
 

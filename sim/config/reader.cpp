@@ -26,8 +26,9 @@ struct Renamed {
   std::string_view path, key, now;  // in the map at `path`
 };
 
-// Since 0.1.
-constexpr std::array<Renamed, 7> kRenamed = {{{"drawing", "gl", "context"},
+// Since 0.1, and drawing.context since 0.2.
+constexpr std::array<Renamed, 8> kRenamed = {{{"drawing", "gl", "renderer"},
+                                              {"drawing", "context", "renderer"},
                                               {"avoidance", "front_end", "source"},
                                               {"avoidance", "sight", "depth"},
                                               {"avoidance", "rows", "sections"},
@@ -48,7 +49,7 @@ std::string instead(const std::string& path, std::string_view key, const std::ve
   const auto found = std::ranges::find_if(kRenamed, [&](const Renamed& renamed) {
     return renamed.path == path && renamed.key == key && std::ranges::find(allowed, renamed.now) != allowed.end();
   });
-  if (found != kRenamed.end()) return fmt::format("; since 0.2 it is '{}'", found->now);
+  if (found != kRenamed.end()) return fmt::format("; its name is now '{}'", found->now);
   const auto removed = std::ranges::find_if(kRemoved, [&](const Removed& row) {
     return row.path == path && row.key == key && std::ranges::find(allowed, row.neighbor) != allowed.end();
   });

@@ -98,7 +98,7 @@ struct StageTime {
 struct Libraries {
   std::string images;     ///< who computed on them: "OpenCV 4.6.0"
   std::string functions;  ///< sin, exp and the like: "SLEEF 3.5.1"
-  std::string drawn_by;   ///< one line: vendor, renderer, version
+  std::string renderer;   ///< one line: "tiles", or vendor, renderer and version of OpenGL
 };
 
 struct FlightResult {

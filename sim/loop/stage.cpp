@@ -1,25 +1,12 @@
 #include "sim/loop/stage.h"
 
 #include <optional>
-#include <stdexcept>
 
 #include "sim/render/haze.h"
 #include "sim/scenario/flight_parts.h"
 
 namespace hedgehop::sim {
 namespace {
-
-ContextKind context_kind(DrawingConfig::Context context) {
-  switch (context) {
-    case DrawingConfig::Context::osmesa:
-      return ContextKind::osmesa;
-    case DrawingConfig::Context::egl:
-      return ContextKind::egl;
-    case DrawingConfig::Context::tiles:
-      return ContextKind::tiles;
-  }
-  throw std::logic_error("unknown context");
-}
 
 /// The scene as it is seen through air of the scenario's visibility; the sky through a kilometer of it.
 scenes::Scene stage_scene(const Scenario& scenario) {
@@ -39,7 +26,7 @@ Stage::Stage(const Scenario& scenario)
     : scene(std::make_shared<const scenes::Scene>(stage_scene(scenario))),
       hull(dynamics::hull(scenario.vehicle)),
       collision(*scene, hull),
-      renderer(*scene, Culling::frustum_and_horizon, context_kind(scenario.drawing.context),
+      renderer(*scene, Culling::frustum_and_horizon, scenario.drawing.renderer,
                scenario.drawing.shadows ? Shadows::sun : Shadows::none) {}
 
 }  // namespace hedgehop::sim

@@ -88,7 +88,7 @@ Json result_data(const RunInfo& info, const FlightResult& result) {
   json["trajectory_hash"] = result.trajectory_hash;
   json["libraries"] = Json{{"images", result.libraries.images},
                            {"functions", result.libraries.functions},
-                           {"drawn_by", result.libraries.drawn_by}};
+                           {"renderer", result.libraries.renderer}};
   json["scene"] = Json{{"obstacles", result.scene.solids},
                        {"least_gap_m", json_number(result.scene.smallest_gap_m)},
                        {"median_gap_m", json_number(result.scene.median_gap_m)},

@@ -69,10 +69,10 @@ EglContext::EglContext() {
     if (context_ != EGL_NO_CONTEXT) break;
   }
   if (context_ == EGL_NO_CONTEXT) {
-    throw std::runtime_error(
-        fmt::format("no OpenGL 3.3 core context from EGL on any of {} displays without a screen (last EGL error "
-                    "{:#06x}); are libegl1 and a driver such as libegl-mesa0 installed? --gl osmesa needs neither",
-                    candidates.size(), eglGetError()));
+    throw std::runtime_error(fmt::format(
+        "no OpenGL 3.3 core context from EGL on any of {} displays without a screen (last EGL error "
+        "{:#06x}); are libegl1 and a driver such as libegl-mesa0 installed? --renderer osmesa needs neither",
+        candidates.size(), eglGetError()));
   }
   make_current();
   gl_ = load_gl(eglGetProcAddress, "EGL");

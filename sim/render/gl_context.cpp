@@ -8,14 +8,14 @@
 
 namespace hedgehop::sim {
 
-std::unique_ptr<GlContext> make_context(ContextKind kind) {
+std::unique_ptr<GlContext> make_context(RendererKind kind) {
   setenv("LP_NUM_THREADS", "0", /*overwrite=*/0);
   switch (kind) {
-    case ContextKind::osmesa:
+    case RendererKind::osmesa:
       return std::make_unique<OsmesaContext>();
-    case ContextKind::egl:
+    case RendererKind::egl:
       return std::make_unique<EglContext>();
-    case ContextKind::tiles:
+    case RendererKind::tiles:
       break;
   }
   throw std::logic_error("a context without OpenGL");

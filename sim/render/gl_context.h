@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "sim/render/context_kind.h"
 #include "sim/render/gl_functions.h"
+#include "sim/scenario/drawing.h"
 
 namespace hedgehop::sim {
 
@@ -25,6 +25,6 @@ class GlContext {
 
 /// @param kind  osmesa or egl. Throws std::runtime_error with the cause when there is no such context or an entry point
 /// is missing. Mesa's rasterizer threads are switched off unless the environment has LP_NUM_THREADS.
-std::unique_ptr<GlContext> make_context(ContextKind kind);
+std::unique_ptr<GlContext> make_context(RendererKind kind);
 
 }  // namespace hedgehop::sim

@@ -39,8 +39,8 @@ size_t most_stretches(const SceneGeometry& geometry) {
 
 }  // namespace
 
-GlPainter::GlPainter(const scenes::Scene& scene, Culling culling, ContextKind context, Shadows shadows)
-    : context_(make_context(context)),
+GlPainter::GlPainter(const scenes::Scene& scene, Culling culling, RendererKind kind, Shadows shadows)
+    : context_(make_context(kind)),
       culling_(culling),
       sky_(scene.sky),
       motions_(motions_of(scene)),

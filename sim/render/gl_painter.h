@@ -22,7 +22,7 @@ namespace hedgehop::sim {
 class GlPainter : public Painter {
  public:
   /// Throws as Renderer does.
-  GlPainter(const scenes::Scene& scene, Culling culling, ContextKind context, Shadows shadows);
+  GlPainter(const scenes::Scene& scene, Culling culling, RendererKind kind, Shadows shadows);
 
   void paint(const vision::camera::PinholeCamera& camera, const Eye& eye, Raster raster, int samples,
              cv::Mat& out) override;

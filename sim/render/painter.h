@@ -7,9 +7,10 @@
 #include <string>
 
 #include "scenes/scene.h"
-#include "sim/render/context_kind.h"
+#include "sim/render/drawing_options.h"
 #include "sim/render/raster.h"
 #include "sim/render/visible_chunks.h"
+#include "sim/scenario/drawing.h"
 #include "vision/camera/pinhole_camera.h"
 
 namespace hedgehop::sim {
@@ -60,7 +61,6 @@ class Painter {
 };
 
 /// Throws as Renderer does.
-std::unique_ptr<Painter> make_painter(const scenes::Scene& scene, Culling culling, ContextKind context,
-                                      Shadows shadows);
+std::unique_ptr<Painter> make_painter(const scenes::Scene& scene, Culling culling, RendererKind kind, Shadows shadows);
 
 }  // namespace hedgehop::sim

@@ -42,8 +42,8 @@ size_t chunk_count(const scenes::Scene& scene) {
 
 class Renderer::Impl {
  public:
-  Impl(const scenes::Scene& scene, Culling culling, ContextKind context, Shadows shadows)
-      : painter_(make_painter(scene, culling, context, shadows)),
+  Impl(const scenes::Scene& scene, Culling culling, RendererKind kind, Shadows shadows)
+      : painter_(make_painter(scene, culling, kind, shadows)),
         first_mover_label_(static_cast<int>(1 + chunk_count(scene))),
         sky_(scene.sky) {
     for (const scenes::Mover& mover : scene.movers) motions_.push_back(mover.motion);
@@ -164,8 +164,8 @@ class Renderer::Impl {
   Drawn drawn_;
 };
 
-Renderer::Renderer(const scenes::Scene& scene, Culling culling, ContextKind context, Shadows shadows)
-    : impl_(std::make_unique<Impl>(scene, culling, context, shadows)) {}
+Renderer::Renderer(const scenes::Scene& scene, Culling culling, RendererKind kind, Shadows shadows)
+    : impl_(std::make_unique<Impl>(scene, culling, kind, shadows)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;

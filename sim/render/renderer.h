@@ -6,7 +6,8 @@
 #include <string>
 
 #include "scenes/scene.h"
-#include "sim/render/context_kind.h"
+#include "sim/render/drawing_options.h"
+#include "sim/scenario/drawing.h"
 #include "vision/camera/camera.h"
 
 namespace hedgehop::sim {
@@ -49,7 +50,7 @@ class Renderer {
   /// std::runtime_error with the cause when there is no OpenGL context or a shader does not compile.
   /// @param shadows  cast by what stands still and is not flat, on everything including movers.
   explicit Renderer(const scenes::Scene& scene, Culling culling = Culling::frustum_and_horizon,
-                    ContextKind context = ContextKind::osmesa, Shadows shadows = Shadows::none);
+                    RendererKind kind = RendererKind::osmesa, Shadows shadows = Shadows::none);
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
   ~Renderer();

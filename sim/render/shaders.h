@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/render/context_kind.h"
+#include "sim/render/drawing_options.h"
 #include "sim/render/gl_functions.h"
 
 namespace hedgehop::sim {

@@ -7,7 +7,7 @@
 
 #include "scenes/scene.h"
 #include "sim/render/chunk_tree.h"
-#include "sim/render/context_kind.h"
+#include "sim/render/drawing_options.h"
 #include "sim/render/frustum.h"
 #include "sim/render/horizon.h"
 #include "vision/camera/pinhole_camera.h"

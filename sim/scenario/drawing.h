@@ -1,36 +1,39 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <string_view>
 
 namespace hedgehop::sim {
 
-/// How the cameras' images are made.
+/// A renderer: the implementation that makes the images.
+enum class RendererKind {
+  osmesa,  ///< OpenGL by Mesa's software rasterizer behind OSMesa
+  egl,     ///< OpenGL by EGL without a surface: a GPU if the machine has one, else Mesa's software rasterizer
+  tiles,   ///< Hedgehop's own rasterizer for processors with AVX2
+};
+
+inline constexpr std::array<std::string_view, 3> kRendererNames = {"osmesa", "egl", "tiles"};  ///< by RendererKind
+
+/// How the camera images are rendered.
 struct DrawingConfig {
-  enum class Context { osmesa, egl, tiles };
-
-  /// What the environment variable HEDGEHOP_GL names, for scenarios that name none: osmesa where it is not set. Read
-  /// once. Throws InputError when it names none.
-  static Context usual_context();
-
-  Context context = usual_context();
+  RendererKind renderer = RendererKind::osmesa;
   bool shadows = false;
   std::optional<double> visibility_m;
 };
 template <class Visitor>
 void describe(Visitor& v, DrawingConfig& c) {
-  v("context", c.context,
-    {.choices = {"osmesa", "egl", "tiles"},
-     .meaning = "who draws: Mesa's rasterizer behind OSMesa; EGL, which takes a GPU where there is one; or tiles, "
-                "Hedgehop's own, several times faster on a processor with AVX2"});
+  v("renderer", c.renderer,
+    {.choices = {kRendererNames.begin(), kRendererNames.end()},
+     .meaning = "renderer of the camera images: osmesa (Mesa's software rasterizer), egl (the GPU, if the machine has "
+                "one) or tiles (Hedgehop's own, several times faster on a processor with AVX2)"});
   v("shadows", c.shadows,
-    {.meaning =
-         "whether what stands still shades all from the sun; flat sheets (ground, a ceiling) and movers cast none"});
+    {.meaning = "whether static solids cast shadows; flat sheets (ground, a ceiling) and moving objects cast none"});
   v("visibility", c.visibility_m,
     {.unit = "m",
      .at_least = 1.0,
-     .meaning =
-         "in fog or haze: the distance at which contrast has fallen to 5 % (meteorological optical range); the air "
-         "is clear when not given"});
+     .meaning = "meteorological optical range in fog or haze: distance at which the contrast has fallen to 5 %; clear "
+                "air if not given"});
 }
 
 }  // namespace hedgehop::sim

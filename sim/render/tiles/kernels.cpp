@@ -38,7 +38,8 @@ const Kernels& chosen_kernels() {
   }
   if (asked.empty()) {
     throw std::runtime_error(
-        "tiles draws with AVX2, which this processor lacks; --gl osmesa needs none, HEDGEHOP_TILES=plain draws slowly");
+        "tiles draws with AVX2, which this processor lacks; --renderer osmesa needs none, HEDGEHOP_TILES=plain draws "
+        "slowly");
   }
   throw std::runtime_error(fmt::format(
       "HEDGEHOP_TILES={}: this processor has no such kernels; avx512, avx2 or plain, and the fastest when not given",

@@ -59,7 +59,7 @@ TEST_F(Manual, HasNoLineThatRoffWouldTakeForARequest) {
 TEST_F(Manual, BashOffersCommandsOptionsTheirValuesAndFiles) {
   EXPECT_EQ(completed("hedgehop ren"), "render\n");
   EXPECT_EQ(completed("hedgehop run --no-"), "--no-video --no-report\n");
-  EXPECT_EQ(completed("hedgehop run --gl t"), "tiles\n");
+  EXPECT_EQ(completed("hedgehop run --renderer t"), "tiles\n");
   EXPECT_EQ(completed("hedgehop list m"), "modules\n");
   EXPECT_THAT(completed("hedgehop run tin"), HasSubstr("tiny.yaml"));
   EXPECT_EQ(completed("hedgehop --v"), "--version\n");

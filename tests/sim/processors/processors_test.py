@@ -50,7 +50,7 @@ if "avx512f" not in pathlib.Path("/proc/cpuinfo").read_text():
 
 def versions(libraries):
     """What flights.csv is bound to: tiles are Hedgehop's own, Mesa's pixels are Mesa's."""
-    mesa = re.findall(r"LLVM [\d.]+|Mesa [\d.]+$", libraries["drawn_by"])
+    mesa = re.findall(r"LLVM [\d.]+|Mesa [\d.]+$", libraries["renderer"])
     return ", ".join([libraries["images"], libraries["functions"], *(mesa or ["tiles"])])
 
 
@@ -59,7 +59,7 @@ def fly(row, processor):
     environment = {name: value for name, value in os.environ.items() if name not in ("GLIBC_TUNABLES", "OPENCV_CPU_DISABLE")}
     with tempfile.TemporaryDirectory() as out:
         settings = [word for value in row["set"].split() for word in ("--set", value)]
-        done = subprocess.run([PROGRAM, "run", SOURCE / row["scenario"], "--gl", row["drawn_by"], "--seed", "1101", *settings,
+        done = subprocess.run([PROGRAM, "run", SOURCE / row["scenario"], "--renderer", row["renderer"], "--seed", "1101", *settings,
                                "--no-video", "--no-report", "--json", "--out", out],
                               capture_output=True, text=True, env={**environment, **processor})
         if done.returncode not in (0, 1):
@@ -76,10 +76,10 @@ def rows():
 class Flights(unittest.TestCase):
     def test_every_processor_flies_what_is_kept(self):
         for row in rows():
-            if row["drawn_by"] != sys.argv[2]:
+            if row["renderer"] != sys.argv[2]:
                 continue
             flown = {}
-            for name, processor in PROCESSORS[row["drawn_by"]].items():
+            for name, processor in PROCESSORS[row["renderer"]].items():
                 flown[name], libraries = fly(row, processor)
             with self.subTest(row["scenario"]):
                 self.assertEqual(flown, dict.fromkeys(flown, flown["this"]))

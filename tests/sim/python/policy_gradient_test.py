@@ -12,7 +12,7 @@ import hedgehop
 from flights import SOURCE
 
 TREE = SOURCE / "configs/leaderboard/worlds/tree.yaml"
-SETTINGS = {"vehicle.use": "../../vehicles/hummingbird.yaml", "drawing.context": "tiles", "duration": 20,
+SETTINGS = {"vehicle.use": "../../vehicles/hummingbird.yaml", "drawing.renderer": "tiles", "duration": 20,
             "start.north": -15, "goal.north": 15, "film.enabled": False, "avoidance": {"module": "go_to_goal"},
             "rig.cameras": [{"role": "front", "width": 64, "height": 48, "fov": 90, "rate": 5, "channel": "grey"},
                             {"role": "down", "width": 64, "height": 48, "fov": 60, "rate": 25, "channel": "grey",

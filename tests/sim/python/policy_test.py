@@ -26,7 +26,7 @@ RIG = {"rig.cameras": [{"role": "front", "width": 32, "height": 24, "fov": 90, "
                         "yaw": 90},
                        {"role": "down", "width": 120, "height": 120, "fov": 50, "rate": 50, "channel": "grey",
                         "down": 0.2, "pitch": -90}]}
-SETTINGS = {**SHORT, **RIG, "rig.sensor": {}, "drawing.context": "tiles", "avoidance": {"module": "go_to_goal"}}
+SETTINGS = {**SHORT, **RIG, "rig.sensor": {}, "drawing.renderer": "tiles", "avoidance": {"module": "go_to_goal"}}
 IMAGES = [{"camera": "front", "channel": "grey", "mean": 127.5},
           {"camera": "side", "channel": "color", "mean": 50, "scale": 0.01}]
 

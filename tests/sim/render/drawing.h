@@ -8,9 +8,9 @@
 namespace hedgehop::sim {
 
 /// Who draws in this run of the tests: all of them are run once for OSMesa and once for tiles.
-inline ContextKind tested_context() {
+inline RendererKind tested_context() {
   const char* const name = std::getenv("HEDGEHOP_TEST_GL");
-  return name != nullptr && std::string_view(name) == "tiles" ? ContextKind::tiles : ContextKind::osmesa;
+  return name != nullptr && std::string_view(name) == "tiles" ? RendererKind::tiles : RendererKind::osmesa;
 }
 
 inline Renderer drawing(const scenes::Scene& scene, Culling culling = Culling::frustum_and_horizon,

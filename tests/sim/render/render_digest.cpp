@@ -32,9 +32,9 @@ class Digest {
   uint64_t value_ = 0xcbf29ce484222325u;  // FNV-1a
 };
 
-void draw_small_city(ContextKind context, Shadows shadows, Digest& digest) {
+void draw_small_city(RendererKind kind, Shadows shadows, Digest& digest) {
   const SmallWorld city = small_city(5, 81);
-  Renderer renderer(city.scene, Culling::frustum_and_horizon, context, shadows);
+  Renderer renderer(city.scene, Culling::frustum_and_horizon, kind, shadows);
   const std::vector<vision::camera::Camera> cameras = {
       vision::camera::PinholeCamera::from_fov(200, 150, 1.2),
       vision::camera::Camera(120, 90, vision::camera::FisheyeLens{35, 35, 60, 45})};
@@ -49,10 +49,10 @@ void draw_small_city(ContextKind context, Shadows shadows, Digest& digest) {
   }
 }
 
-void draw_world(const std::filesystem::path& file, ContextKind context, Shadows shadows, Digest& digest) {
+void draw_world(const std::filesystem::path& file, RendererKind kind, Shadows shadows, Digest& digest) {
   const std::vector<std::string> overrides = {"scene.texture_size=64"};
   const Scenario scenario = load_scenario(file, overrides);
-  Renderer renderer(scenes::make_scene(scenario.scene, scenario.seed), Culling::frustum_and_horizon, context, shadows);
+  Renderer renderer(scenes::make_scene(scenario.scene, scenario.seed), Culling::frustum_and_horizon, kind, shadows);
   const vision::camera::Camera camera = vision::camera::PinholeCamera::from_fov(120, 90, 1.4);
   cv::Mat image;
   for (size_t i = 0; i < kChannels; ++i) {
@@ -66,7 +66,7 @@ void draw_world(const std::filesystem::path& file, ContextKind context, Shadows 
   }
 }
 
-void print_digests(ContextKind context) {
+void print_digests(RendererKind kind) {
   std::vector<std::filesystem::path> worlds;
   for (const auto& entry : std::filesystem::directory_iterator(HEDGEHOP_SOURCE_DIR "/configs/worlds")) {
     worlds.push_back(entry.path());
@@ -78,11 +78,11 @@ void print_digests(ContextKind context) {
   for (const Shadows shadows : {Shadows::none, Shadows::sun}) {
     const std::string suffix = shadows == Shadows::sun ? " with shadows" : "";
     Digest city;
-    draw_small_city(context, shadows, city);
+    draw_small_city(kind, shadows, city);
     city.print("small city" + suffix);
     for (const std::filesystem::path& file : worlds) {
       Digest world;
-      draw_world(file, context, shadows, world);
+      draw_world(file, kind, shadows, world);
       world.print(file.stem().string() + suffix);
     }
   }
@@ -92,12 +92,12 @@ void print_digests(ContextKind context) {
 }  // namespace hedgehop::sim
 
 int main(int argc, char** argv) {
-  using hedgehop::sim::ContextKind;
+  using hedgehop::sim::RendererKind;
   try {
     const std::string_view name = argc > 1 ? argv[1] : "osmesa";
-    hedgehop::sim::print_digests(name == "egl"     ? ContextKind::egl
-                                 : name == "tiles" ? ContextKind::tiles
-                                                   : ContextKind::osmesa);
+    hedgehop::sim::print_digests(name == "egl"     ? RendererKind::egl
+                                 : name == "tiles" ? RendererKind::tiles
+                                                   : RendererKind::osmesa);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

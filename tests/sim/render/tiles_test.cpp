@@ -27,8 +27,8 @@ Difference difference(const cv::Mat& a, const cv::Mat& b, double level) {
 class BesideMesa : public testing::Test {
  protected:
   const SmallWorld city_ = small_city(6, 91);
-  Renderer mesa_ = Renderer(city_.scene, Culling::frustum_and_horizon, ContextKind::osmesa);
-  Renderer tiles_ = Renderer(city_.scene, Culling::frustum_and_horizon, ContextKind::tiles);
+  Renderer mesa_ = Renderer(city_.scene, Culling::frustum_and_horizon, RendererKind::osmesa);
+  Renderer tiles_ = Renderer(city_.scene, Culling::frustum_and_horizon, RendererKind::tiles);
 
   /// The mean over random views.
   Difference compare(Channel channel, int samples, double level) {
@@ -114,7 +114,7 @@ scenes::Scene hollow_ball(double radius_m) {
 
 // Edges and corners of 1,280 triangles under the pixels of 10,000 random views.
 TEST(Tiles, LeaveNoHolesAlongSharedEdges) {
-  Renderer renderer(hollow_ball(10.0), Culling::none, ContextKind::tiles);
+  Renderer renderer(hollow_ball(10.0), Culling::none, RendererKind::tiles);
   std::mt19937_64 random(94);
   cv::Mat labels;
   for (int i = 0; i < 10'000; ++i) {
@@ -145,7 +145,7 @@ TEST(Tiles, LeaveNoHolesWhereAnUprightEdgeIsRoundedAcrossTiles) {
     world.add_quad({north_m, -20 * north_m, top_m}, {0, width_m, 0}, {0, 0, -2 * top_m});
     const scenes::Vertex corner = world.scene.meshes.front().vertices.back();  // the shared edge, to the last bit
     world.add_quad(corner.p_W, {0, 10 * north_m, 0}, {0, 0, -2 * top_m});
-    Renderer renderer(world.scene, Culling::none, ContextKind::tiles);
+    Renderer renderer(world.scene, Culling::none, RendererKind::tiles);
     const vision::camera::PinholeCamera camera{4000, 8, focal_px, focal_px, kCenterPx, 3.5};
     renderer.draw({camera, look_at({0, 0, 0}, {1, 0, 0}), Channel::labels}, labels);
     ASSERT_EQ(cv::countNonZero(labels), static_cast<int>(labels.total())) << i;
@@ -156,7 +156,7 @@ TEST(Tiles, LeaveNoHolesWhereAnUprightEdgeIsRoundedAcrossTiles) {
 TEST(Tiles, GiveAPixelOnAnEdgeToOneSide) {
   SmallWorld world;
   for (const float east_m : {-2.0f, -1.0f, 0.0f, 1.0f}) world.add_quad({5, east_m, -2}, {0, 1, 0}, {0, 0, 4});
-  Renderer renderer(world.scene, Culling::none, ContextKind::tiles);
+  Renderer renderer(world.scene, Culling::none, RendererKind::tiles);
   cv::Mat labels;
   // Focal length 5 px at 5 m: a pixel a meter, its middle on the edges.
   renderer.draw(
@@ -168,7 +168,7 @@ TEST(Tiles, GiveAPixelOnAnEdgeToOneSide) {
 }
 
 TEST(Tiles, DrawOneOrFourSamples) {
-  Renderer renderer(SmallWorld().scene, Culling::none, ContextKind::tiles);
+  Renderer renderer(SmallWorld().scene, Culling::none, RendererKind::tiles);
   for (const int samples : {1, 4}) EXPECT_NO_THROW(renderer.require_samples(samples));
   for (const int samples : {0, 2, 3, 8}) EXPECT_THROW(renderer.require_samples(samples), std::invalid_argument);
 }

@@ -45,7 +45,8 @@ TEST(Renamed, KeysOfAnEarlierVersionAreRefusedWithTheirNewName) {
   struct Row {
     std::string scenario, override, now;
   };
-  for (const Row& row : {Row{"garratt2009_city_0.yaml", "drawing.gl=tiles", "context"},
+  for (const Row& row : {Row{"garratt2009_city_0.yaml", "drawing.gl=tiles", "renderer"},
+                         Row{"garratt2009_city_0.yaml", "drawing.context=tiles", "renderer"},
                          Row{"shah2009_avoid.yaml", "avoidance.front_end=images", "source"},
                          Row{"shah2009_avoid.yaml", "avoidance.map.young_misses=3", "unconfirmed_misses"},
                          Row{"perez2018_route_light.yaml", "avoidance.sight=truth", "depth"},
@@ -53,7 +54,7 @@ TEST(Renamed, KeysOfAnEarlierVersionAreRefusedWithTheirNewName) {
                          Row{"perez2018_route_light.yaml", "avoidance.cols=9", "sections"},
                          Row{"perez2018_route_light.yaml", "avoidance.passed={radius: 2}", "passed_radius"}}) {
     EXPECT_THAT(faults_of([&] { load_scenario(kConfigs / row.scenario, std::vector{row.override}); }),
-                ElementsAre(testing::EndsWith("; since 0.2 it is '" + row.now + "'")))
+                ElementsAre(testing::EndsWith("; its name is now '" + row.now + "'")))
         << row.override;
   }
   // No new name that the module does not have.

@@ -165,7 +165,7 @@ TEST(AvoidanceFlight, LocalMapClimbsOverAWallWhereTheMissionAllowsIt) {
                                         "rig.use=../../rigs/local_map.yaml",
                                         "velocimeter.enabled=false",
                                         "avoidance.use=../modules/local_map.yaml",
-                                        "drawing.context=tiles",
+                                        "drawing.renderer=tiles",
                                         "film.enabled=false"};
   const Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/leaderboard/hard/over_wall.yaml", who);
   const Flight flight = Simulation(scenario).run();

@@ -15,7 +15,7 @@ namespace hedgehop::sim {
 namespace {
 
 Scenario scenario_of(const std::string& file, std::vector<std::string> overrides) {
-  overrides.insert(overrides.begin(), {"film.enabled=false", "checks=[]", "drawing.context=tiles"});
+  overrides.insert(overrides.begin(), {"film.enabled=false", "checks=[]", "drawing.renderer=tiles"});
   return load_scenario(std::string(HEDGEHOP_SOURCE_DIR) + "/configs/" + file, overrides);
 }
 

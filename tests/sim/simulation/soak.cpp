@@ -1,6 +1,6 @@
 // Flies scenarios again and again in one process, for scripts/soak:
-//   hedgehop_soak MINUTES CONTEXT SCENARIO...
-// CONTEXT draws, as of `--gl`. Each flight must have the hash of its first round, memory and open files those of the
+//   hedgehop_soak MINUTES RENDERER SCENARIO...
+// RENDERER: as of `--renderer`. Each flight must have the hash of its first round, memory and open files those of the
 // third round. Prints a line a round; exit status 1 where something differs.
 #include <fmt/format.h>
 #include <malloc.h>
@@ -34,9 +34,9 @@ long open_files() {
   return std::distance(begin(files), end(files));
 }
 
-std::string fly(const std::string& file, const std::string& context) {
+std::string fly(const std::string& file, const std::string& renderer) {
   const std::vector<std::string> overrides = {"duration=0.3", "checks=[]", "failures=[]", "film.enabled=false",
-                                              "drawing.context=" + context};
+                                              "drawing.renderer=" + renderer};
   return Simulation(load_flight(file, overrides, 1101)).run().result.trajectory_hash;
 }
 
@@ -45,7 +45,7 @@ std::string fly(const std::string& file, const std::string& context) {
 int main(int argc, char** argv) {
   const auto begun = std::chrono::steady_clock::now();
   const double minutes = argc > 1 ? std::atof(argv[1]) : 0.0;
-  const std::string context = argc > 2 ? argv[2] : "tiles";
+  const std::string renderer = argc > 2 ? argv[2] : "tiles";
   const auto is_over = [&] { return std::chrono::steady_clock::now() - begun > minutes * std::chrono::minutes(1); };
   constexpr int kSettled = 3;  // rounds until all caches are filled
   constexpr double kFlat = 0.01;
@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
   int faults = 0;
   for (int round = 1; round <= kSettled || !is_over(); ++round) {
     for (int i = 3; i < argc; ++i) {
-      const std::string hash = fly(argv[i], context), &expected = first.try_emplace(argv[i], hash).first->second;
+      const std::string hash = fly(argv[i], renderer), &expected = first.try_emplace(argv[i], hash).first->second;
       ++flights;
       if (hash == expected) continue;
       ++faults;
