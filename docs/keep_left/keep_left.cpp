@@ -1,5 +1,5 @@
-// A module built outside Hedgehop's tree. It flies ahead and moves toward the brighter half of the front camera's image.
-// An example of the interface, not of obstacle avoidance; see docs/writing-a-module.md.
+// A module built outside Hedgehop's tree. It flies ahead and moves toward the brighter half of the front camera's
+// image. An example of the interface, not of obstacle avoidance; see docs/writing-a-module.md.
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -11,7 +11,8 @@ using namespace hedgehop::avoidance;
 
 struct KeepLeftConfig {
   static constexpr std::string_view kName = "keep_left";
-  static constexpr std::string_view kMeaning = "flight ahead, with a lateral speed toward the brighter half of the image";
+  static constexpr std::string_view kMeaning =
+      "flight ahead, with a lateral speed toward the brighter half of the image";
 
   double speed_mps = 1.0;
   double gain_mps = 2.0;
@@ -19,7 +20,10 @@ struct KeepLeftConfig {
 template <class Visitor>
 void describe(Visitor& v, KeepLeftConfig& c) {
   v("speed", c.speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "speed ahead"});
-  v("gain", c.gain_mps, {.unit = "m/s", .at_least = 0.0, .meaning = "lateral speed per unit of brightness difference; 1 is white against black"});
+  v("gain", c.gain_mps,
+    {.unit = "m/s",
+     .at_least = 0.0,
+     .meaning = "lateral speed per unit of brightness difference; 1 is white against black"});
 }
 
 class KeepLeft : public Module {

@@ -1,5 +1,5 @@
-// A custom loop that steps the simulation and gives the commands. It flies toward the scenario's goal at 0.5 m/s and stops
-// if the true clearance to obstacles is 1 m or less.
+// A custom loop that steps the simulation and gives the commands. It flies toward the scenario's goal at 0.5 m/s and
+// stops if the true clearance to obstacles is 1 m or less.
 //   own_loop SCENARIO.yaml [KEY.PATH=VALUE]...
 #include <cstdio>
 #include <exception>

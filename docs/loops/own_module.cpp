@@ -10,7 +10,7 @@ using namespace hedgehop;
 
 namespace {
 
-/// Turns on the spot, faster where the image is darker.
+/// Turns on the spot, faster for a darker image.
 class Moth : public avoidance::Module {
   avoidance::Needs do_needs() const override { return {{{"front"}}}; }
   void do_reset(const avoidance::Setup&) override {}
