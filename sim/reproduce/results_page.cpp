@@ -17,16 +17,15 @@ constexpr std::string_view kOption = " --write docs/results.md\n```\n\n";
 constexpr std::string_view kHeading = "\n## ";
 
 constexpr const char* kHowToRead =
-    R"(Each row is a claim: the paper's figure, what Hedgehop's developers ask of ours ("asked": no paper's demand), the law as
-the paper prints it ("as printed") and ours on the same seeds. Ours flies the sensors `day`; `ideal` and `dull` stand beside it and decide
-nothing. A row holds only when every flight that was asked for was flown without a fault and has the figure, unless
-the row says what a missing one means; a row that allows no contact needs its flights to finish, too. Judging seeds are none
-that parameters were chosen on (`tuned_on` in `configs/papers/`). Intervals are Wilson's at 95 % [Wilson1927] p. 212, of shares and
-counts alone.
+    R"(Each row is a claim: the paper's figure, the requirement of Hedgehop's developers (no paper states it), the published law, and the
+modified law on the same seeds. The modified law flies with the sensors `day`; `ideal` and `dull` are for comparison only. A row holds
+if every required flight was flown without a fault and has the figure, unless the row gives another meaning to a missing figure. A row
+that allows no contact also requires its flights to finish. No parameter was chosen on the judging seeds (`tuned_on` in
+`configs/papers/`). Intervals are Wilson's at 95 % [Wilson1927] p. 212, of shares and counts only.
 
-Figures of vehicles, cameras, images and exports are in [verification.md](verification.md), those of speed in
-[performance.md](performance.md), what fails in [known-failures.md](known-failures.md), what is not modeled in
-[limits.md](limits.md).
+Other pages have the figures of vehicles, cameras, images and exports ([verification.md](verification.md)), speed
+([performance.md](performance.md)), failures ([known-failures.md](known-failures.md)) and effects that are not modeled
+([limits.md](limits.md)).
 )";
 
 /// Of each paper, by its key: its part of a page.

@@ -50,7 +50,7 @@ function addRows(host, rows) {
     for (const [text, className] of cells) row.append(make(tag, className, text));
     return row;
   };
-  line(['claim', 'paper', 'asked', 'as printed', 'ours: ideal', 'ours: day', 'ours: dull', 'flights: asked, flown, faulted, with figure',
+  line(['claim', 'paper', 'required', 'published', 'modified: ideal', 'modified: day', 'modified: dull', 'flights: required, flown, faulted, with figure',
     '95 % interval', 'holds', 'build'].map((text) => [text, '']), 'th');
   for (const r of rows) {
     const row = line([[r.what + (r.unit ? `, ${r.unit}` : ''), ''], [r.paper || '–', ''],
@@ -66,7 +66,7 @@ function addChart(host, chart) {
   card.append(make('h3', '', chart.title), make('div', 'note', chart.note));
   const drawn = card.appendChild(make('div'));
   const empty = chart.paths ? !chart.paths.path.length : !chart.lines.some(({x}) => x.length);
-  if (empty) drawn.append(make('p', 'missing', 'Nothing was flown for this chart.'));
+  if (empty) drawn.append(make('p', 'missing', 'No flight was flown for this chart.'));
   else if (chart.paths) new PathChart(drawn, chart.paths);
   else new LineChart(drawn, chart);
 }
@@ -80,15 +80,15 @@ function main() {
   head.append(make('p', 'soft', `Hedgehop ${version}, build ${build}, ${packages}: `
     + `${judged.filter(({holds}) => holds).length} of ${judged.length} figures that are required hold.`
     + (quick ? ' Quick run: few seeds were flown.' : '')));
-  head.append(make('p', 'soft', '"Asked" is what Hedgehop\'s developers ask of ours, no paper\'s demand. '
-    + '"As printed" is red where the paper\'s own law would not do.'));
+  head.append(make('p', 'soft', 'Hedgehop\'s developers set the requirements; no paper states them. '
+    + '"Published" is red if the paper\'s own law does not meet the requirement.'));
   for (const paper of papers) {
     const section = document.getElementById('papers').appendChild(make('section', 'paper'));
     const title = section.appendChild(make('div', 'charts-head'));
     title.append(make('h2', '', paper.title), make('span', 'soft', paper.source));
-    if (paper.moved_on) section.append(make('p', 'soft', `Seeds moved on: ${paper.moved_on}`));
+    if (paper.moved_on) section.append(make('p', 'soft', `Change of judging seeds: ${paper.moved_on}`));
     if (paper.rows.length) addRows(section.appendChild(make('div', 'card')), paper.rows);
-    for (const deviation of paper.deviations) section.append(make('p', 'soft', `"As printed" departs from the paper: ${deviation}`));
+    for (const deviation of paper.deviations) section.append(make('p', 'soft', `Deviation of the published law from the paper: ${deviation}`));
     const charts = section.appendChild(make('div', 'charts'));
     charts.style.marginTop = '16px';
     for (const chart of paper.charts) addChart(charts, chart);
