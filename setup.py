@@ -18,7 +18,7 @@ class CMakeBuild(build_ext):
         shutil.copytree(BUILD / "python/hedgehop", package, dirs_exist_ok=True, ignore=shutil.ignore_patterns("__pycache__"))
         (package / "bin").mkdir(exist_ok=True)
         shutil.copy2(BUILD / "sim/cli/hedgehop", package / "bin/hedgehop")
-        for library in (BUILD / "lib").glob("*.so"):  # what the program loads from beside it
+        for library in (BUILD / "lib").glob("*.so"):  # libraries that the program loads from its own folder
             shutil.copy2(library, package / "bin")
 
 

@@ -1,5 +1,5 @@
-# The build's identity, for every result it leaves: a hash of all that is compiled in, with what compiled it. Made at
-# build time, equal for equal sources inside and outside a git checkout.
+# The identity of the build, stored in every result: a hash of all compiled sources, the compiler and its flags. It is made
+# at build time and is equal for equal sources inside and outside a git checkout.
 include_guard()
 
 set(identity ${PROJECT_BINARY_DIR}/generated/sim/flight/build_identity.h)

@@ -1,4 +1,4 @@
-# cmake --install: the program, its scenarios, and what modules and loops outside this tree are built against.
+# cmake --install: the program, its scenarios, and the package for building modules and loops outside this tree.
 include_guard()
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -14,7 +14,8 @@ install(TARGETS hedgehop_sim_libm EXPORT hedgehop COMPONENT development)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/hedgehop)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/hedgehopConfig.cmake.in ${PROJECT_BINARY_DIR}/hedgehopConfig.cmake
                               INSTALL_DESTINATION ${package})
-# Modules are distinguished by the interface they were built against (avoidance/plugin.h); no version promises it.
+# A module is checked against the interface that it was built with (avoidance/plugin.h). The version number alone guarantees
+# no compatibility.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/hedgehopConfigVersion.cmake COMPATIBILITY ExactVersion)
 install(FILES ${PROJECT_BINARY_DIR}/hedgehopConfig.cmake ${PROJECT_BINARY_DIR}/hedgehopConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/HedgehopOpenCV.cmake ${CMAKE_CURRENT_LIST_DIR}/HedgehopSleef.cmake

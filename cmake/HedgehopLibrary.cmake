@@ -1,10 +1,10 @@
-# One way to declare a library and a test; the layer table of the top CMakeLists.txt is enforced here.
+# Declares libraries and tests, and enforces the layer table of the top CMakeLists.txt.
 include_guard()
 
 add_library(hedgehop_warnings INTERFACE)
 target_compile_options(hedgehop_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
                        -Wold-style-cast -Woverloaded-virtual -Wno-missing-field-initializers
-                       # sources that are compiled together look like headers to it
+                       # a unity build includes sources like headers
                        $<$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>:-Wno-subobject-linkage>
                        # false alarms of GCC 12 at -O3 in std::string and Eigen
                        -Wno-restrict -Wno-maybe-uninitialized -Wno-stringop-overflow -Wno-array-bounds)
@@ -12,12 +12,12 @@ if(HEDGEHOP_WERROR)
   target_compile_options(hedgehop_warnings INTERFACE -Werror)
 endif()
 
-# Libraries are position independent, since modules from elsewhere are linked against them; inline as without.
+# Libraries are position-independent because external modules link against them. This option keeps inlining as without it.
 set(HEDGEHOP_LIBRARY_OPTIONS -fno-semantic-interposition)
-# Code that no instant of a flight runs compiles in half the time so.
+# Halves the compile time of code that does not run inside the simulation loop.
 set(HEDGEHOP_COLD_OPTIONS $<$<CONFIG:Release>:-Og>)
 
-# hedgehop_library(<folder> [COLD] HDRS ... [SRCS ...] DEPS <folders> [PACKAGES <targets>]); headers alone without SRCS
+# hedgehop_library(<folder> [COLD] HDRS ... [SRCS ...] DEPS <folders> [PACKAGES <targets>]); without SRCS a header-only library
 function(hedgehop_library folder)
   cmake_parse_arguments(arg "COLD" "" "HDRS;SRCS;DEPS;PACKAGES" ${ARGN})
   string(REPLACE "/" "_" name ${folder})
@@ -57,7 +57,7 @@ function(hedgehop_library folder)
   target_link_libraries(${target} ${scope} ${arg_PACKAGES})
 endfunction()
 
-# What modules and loops outside this tree are built against: installed.
+# Installs the libraries and headers that modules and loops outside this tree are built against.
 function(hedgehop_offer)
   foreach(folder IN LISTS ARGN)
     string(REPLACE "/" "_" name ${folder})
@@ -83,14 +83,14 @@ function(hedgehop_check_layers folder deps)
 endfunction()
 
 # hedgehop_test(<name> SRCS ... DEPS <folders> [LABEL unit|physics|vision|render|loop] [LONG <tests>]): one GoogleTest
-# program. Every test gets the label, but those of LONG, which take about a second or more, the label `long`.
+# program. Tests in LONG, which take about one second or more, get the label `long`; all others get LABEL.
 function(hedgehop_test name)
   cmake_parse_arguments(arg "" "LABEL" "SRCS;DEPS;PACKAGES;LONG" ${ARGN})
   if(NOT arg_LABEL)
     set(arg_LABEL unit)
   endif()
   add_executable(${name} ${arg_SRCS})
-  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)  # tests' small helpers share names
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)  # small test helpers share names
   hedgehop_use_precompiled(${name} hedgehop_test_headers)
   target_compile_options(${name} PRIVATE ${HEDGEHOP_COLD_OPTIONS})
   target_compile_definitions(${name} PRIVATE HEDGEHOP_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

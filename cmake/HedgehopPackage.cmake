@@ -13,7 +13,7 @@ foreach(row IN ITEMS "man:hedgehop.1" "bash:hedgehop" "zsh:_hedgehop" "fish:hedg
   list(APPEND manuals ${manual}/${format}/${name})
 endforeach()
 add_custom_target(hedgehop_manual ALL DEPENDS ${manuals})
-# What is installed, without tests and benchmarks: for scripts/package.
+# Everything that is installed, without tests and benchmarks, for scripts/package.
 add_custom_target(hedgehop_package DEPENDS hedgehop_manual)
 if(HEDGEHOP_PYTHON)
   add_dependencies(hedgehop_package hedgehop_native hedgehop_python)

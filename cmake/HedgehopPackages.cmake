@@ -1,8 +1,8 @@
 include_guard()
-# The other packages without a usable CMake package, for who builds Hedgehop or a loop of one's own upon it.
+# Packages that have no usable CMake package. External loops that link Hedgehop use this file, too.
 
-# hedgehop_package(<target> <a header> LIBRARIES ... [PATH <suffix of the header's folder>] [OPTIONAL]): what is optional and
-# not there has no target.
+# hedgehop_package(<target> <a header> LIBRARIES ... [PATH <suffix of the header's folder>] [OPTIONAL]): an optional package
+# that is not found gets no target.
 function(hedgehop_package target header)
   cmake_parse_arguments(arg "OPTIONAL" "PATH" "LIBRARIES" ${ARGN})
   string(TOUPPER ${target} upper)
@@ -29,11 +29,11 @@ endfunction()
 hedgehop_package(hedgehop_osmesa GL/osmesa.h LIBRARIES OSMesa)
 hedgehop_package(hedgehop_egl EGL/egl.h LIBRARIES EGL OPTIONAL)
 hedgehop_package(hedgehop_assimp assimp/Importer.hpp LIBRARIES assimp OPTIONAL)
-# Images in files: OpenCV's imgcodecs would bring 76 more libraries.
+# Images in files: OpenCV's imgcodecs would load 76 more libraries.
 hedgehop_package(hedgehop_png png.h LIBRARIES png)
 hedgehop_package(hedgehop_turbojpeg turbojpeg.h LIBRARIES turbojpeg)
-# Clearances are wanted to a millimeter a kilometer from the origin: the double-precision build, which Debian ships beside
-# the other. Every user must see the same btScalar.
+# Clearances must be accurate to 1 mm at a distance of 1 km from the origin, so Hedgehop uses Bullet's double-precision build,
+# which Debian ships in addition to the single-precision one. All users of the header must see the same btScalar.
 hedgehop_package(hedgehop_bullet btBulletCollisionCommon.h PATH bullet
                  LIBRARIES BulletCollision-float64 LinearMath-float64)
 target_compile_definitions(hedgehop_bullet INTERFACE BT_USE_DOUBLE_PRECISION)

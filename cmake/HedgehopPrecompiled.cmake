@@ -1,5 +1,5 @@
-# The packages' headers that most sources read, parsed once: seven tenths of a build without it is reading them. Every
-# source still includes what it uses; all_verify_interface_header_sets compiles each header without this.
+# Precompiles the package headers that many sources include. Parsing them takes 70 % of a build without precompiled headers.
+# Every source still includes each header that it uses; all_verify_interface_header_sets compiles each header without these.
 include_guard()
 
 set(precompiled
@@ -7,8 +7,8 @@ set(precompiled
     <span> <sstream> <stdexcept> <string> <string_view> <utility> <variant> <vector>
     <Eigen/Dense> <fmt/format.h> <nlohmann/json.hpp> <opencv2/core.hpp> <opencv2/imgproc.hpp>)
 
-# One set of flags each: code of libraries is position independent, since modules from elsewhere are linked against it.
-# GCC takes the level of optimization from what was precompiled, whatever the command says: cold code needs its own.
+# One precompiled header per set of flags: library code is position-independent, and GCC takes the optimization level from
+# the precompiled header instead of the command line.
 function(hedgehop_precompile name)
   file(WRITE ${PROJECT_BINARY_DIR}/generated/${name}.cpp "")
   add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/generated/${name}.cpp)
@@ -17,7 +17,7 @@ function(hedgehop_precompile name)
   target_precompile_headers(${name} PRIVATE ${ARGN})
 endfunction()
 
-# What a package defines for its own headers must hold for all who read the precompiled ones.
+# Definitions that a package requires for its headers must hold for every target that uses the precompiled headers.
 function(hedgehop_use_precompiled target headers)
   target_precompile_headers(${target} REUSE_FROM ${headers})
   target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
@@ -33,5 +33,5 @@ if(HEDGEHOP_TESTS)
   hedgehop_precompile(hedgehop_test_headers ${precompiled} <gmock/gmock.h> <gtest/gtest.h>)
   target_link_libraries(hedgehop_test_headers PRIVATE GTest::gmock GTest::gtest)
   target_compile_options(hedgehop_test_headers PRIVATE ${HEDGEHOP_COLD_OPTIONS})
-  set_target_properties(hedgehop_test_headers PROPERTIES UNITY_BUILD OFF)  # as of the tests
+  set_target_properties(hedgehop_test_headers PROPERTIES UNITY_BUILD OFF)  # same as the tests
 endif()

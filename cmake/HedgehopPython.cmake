@@ -1,5 +1,5 @@
-# Python, for the package `hedgehop` (sim/python) and its tests: Debian's own where there is one, for its packages of numpy
-# and pybind11 belong to that.
+# Python for the package `hedgehop` (sim/python) and its tests. Debian's Python is preferred because Debian's numpy and
+# pybind11 belong to it.
 include_guard()
 if(NOT Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
   set(Python3_EXECUTABLE /usr/bin/python3)
@@ -11,5 +11,5 @@ if(Python3_FOUND AND pybind11_FOUND)
 else()
   set(HEDGEHOP_PYTHON OFF)
 endif()
-hedgehop_feature(${HEDGEHOP_PYTHON} "modules in Python, and flights from it (where python3-hedgehop is installed)"
+hedgehop_feature(${HEDGEHOP_PYTHON} "Python modules and the Python package (needs python3-hedgehop at run time)"
                  "python3-dev, pybind11-dev and python3-numpy")

@@ -1,4 +1,4 @@
-# Writes HEADER with the identity of the sources below SOURCE_DIR, only where it differs from what is there.
+# Writes the identity of the sources below SOURCE_DIR into HEADER if the identity has changed.
 cmake_minimum_required(VERSION 3.25)
 set(folders scenes vision dynamics avoidance sim cmake)
 list(TRANSFORM folders REPLACE "(.+)" "${SOURCE_DIR}/\\1/*" OUTPUT_VARIABLE globs)
@@ -15,7 +15,7 @@ endforeach()
 string(SHA256 hash "${text}")
 string(SUBSTRING ${hash} 0 16 hash)
 
-# The commit that changed these sources last: of a checkout alone, a tarball has none.
+# The last commit that changed these sources; empty outside a git checkout.
 set(commit "")
 find_program(git git)
 if(git AND EXISTS ${SOURCE_DIR}/.git)

@@ -1,8 +1,8 @@
-"""Flights per hour of a batch with two workers over one, and a batch's own processor time, each beside its floor.
+"""Speedup of a batch with two workers, and the CPU time of the batch itself, each next to its floor.
 
-The floor of the first is what two copies of a loop that touches no memory gain over one copy: cores that share one core's
-units, or are lent to others, gain less than twice, and no batch can do better. All four kinds of runs take turns, so that
-what else the machine does affects them alike; it prints medians, and the share of the machine that others took.
+The floor of the speedup is that of two copies of a loop without memory traffic. If two cores share execution units or are
+used by other processes, their speedup is below 2, and a batch cannot exceed it. The four kinds of runs are interleaved, so
+that other load affects all of them equally. The program prints medians and the share of the machine that other processes used.
 """
 
 import os
@@ -24,32 +24,32 @@ int main(int, char** words) {
 """
 
 
-def cpu_s(who):
+def cpu_s(processes):
     times = os.times()
-    return times.children_user + times.children_system if who == "children" else times.user + times.system
+    return times.children_user + times.children_system if processes == "children" else times.user + times.system
 
 
 def machine_s():
-    """Processor time of all processes together, and idle time, s."""
+    """CPU time of all processes, s."""
     ticks = [int(word) for word in pathlib.Path("/proc/stat").read_text().split("\n")[0].split()[1:9]]
     hertz = os.sysconf("SC_CLK_TCK")
     return (sum(ticks) - ticks[3] - ticks[4]) / hertz
 
 
 def own_and_flights_s(command):
-    """Runs a batch; returns its own processor time and its workers', s, as the kernel counted them."""
+    """Runs a batch. Returns the CPU times of the batch process and of its workers, s, as counted by the kernel."""
     batch = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    os.waitid(os.P_PID, batch.pid, os.WEXITED | os.WNOWAIT)  # leaves its counts readable
+    os.waitid(os.P_PID, batch.pid, os.WEXITED | os.WNOWAIT)  # keeps the counters readable
     fields = pathlib.Path(f"/proc/{batch.pid}/stat").read_text().rsplit(")", 1)[1].split()
     status = batch.wait()
-    if status > 1:  # 1: a check fails, as it does where a flight is cut short
+    if status > 1:  # 1: a check fails, as expected if the flight is cut short
         raise SystemExit(f"{' '.join(map(str, command))}: exit status {status}")
     hertz = os.sysconf("SC_CLK_TCK")
     return (int(fields[11]) + int(fields[12])) / hertz, (int(fields[13]) + int(fields[14])) / hertz
 
 
 class Shares:
-    """Wall times of turns, and how much of the machine others had meanwhile."""
+    """Wall times of the runs, and the share of the machine that other processes used."""
 
     def __init__(self):
         self.times, self.others = {}, []
@@ -100,8 +100,8 @@ def run(root, hedgehop):
         shares.take("loop 2", lambda: both(loop))
     gain, floor = shares.median("batch 1") / shares.median("batch 2"), 2.0 * shares.median("loop 1") / shares.median("loop 2")
     own = statistics.median(own / flights for own, flights in counts)
-    print(f"\n{FLIGHTS} flights of 10 s, medians of {ROUNDS} turns; others took {statistics.median(shares.others):.0%} of the "
-          f"machine, {max(shares.others):.0%} at most")
+    print(f"\n{FLIGHTS} flights of 10 s, medians of {ROUNDS} rounds; other processes used {statistics.median(shares.others):.0%} of the "
+          f"machine, at most {max(shares.others):.0%}")
     print(f"{'figure':52} {'here':>10} {'floor':>10} {'ratio':>7}")
-    print(f"{'flights per hour, 2 workers over 1':52} {gain:10.2f} {floor:10.2f} {gain / floor:7.2f}")
-    print(f"{'own processor time over the flights':52} {own:10.2%} {0:10.0%} {'-':>7}", flush=True)
+    print(f"{'speedup, 2 workers':52} {gain:10.2f} {floor:10.2f} {gain / floor:7.2f}")
+    print(f"{'CPU time of the batch itself / flights':52} {own:10.2%} {0:10.0%} {'-':>7}", flush=True)

@@ -41,7 +41,7 @@ void fly(benchmark::State& state, const scenes::Scene& scene) {
 void Proximity(benchmark::State& state) { fly(state, blocks(static_cast<int>(state.range(0)))); }
 BENCHMARK(Proximity)->Arg(10)->Arg(100);
 
-// The hull and a single building: what is left when there is nothing to search.
+// The hull and a single building: the cost without a search among obstacles.
 void ProximityFloor(benchmark::State& state) { fly(state, blocks(1)); }
 BENCHMARK(ProximityFloor);
 

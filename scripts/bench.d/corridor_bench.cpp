@@ -58,7 +58,7 @@ void Decision320(benchmark::State& state) {
 }
 BENCHMARK(Decision320)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
-/// Its matching alone: what is above this is all the rest.
+/// The stereo matching alone, as the floor of the whole decision.
 void Decision320Floor(benchmark::State& state) {
   cv::setNumThreads(1);
   const Setup setup = rig();

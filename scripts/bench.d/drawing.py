@@ -1,19 +1,19 @@
-"""What drawing costs, as render_bench measures it: one table, contexts side by side, each row beside its floor.
+"""Rendering times measured by render_bench: one table with all renderers, each row next to its floor.
 
-Times are those of one thread's CPU, ms an image; a ratio is that of the contexts' times. A goal is asked of the ratio, or
-of what tiles has in the row's unit.
+Times are CPU times of one thread, ms per image. The ratio is that of the renderers' times. A goal applies to the ratio, or to
+the value of the tiles renderer in the row's unit.
 """
 
 import json
 import subprocess
 
-HEADS = ("drawing", "unit", "floor", "OSMesa", "tiles", "OSMesa / tiles", "goal")
+HEADS = ("scene", "unit", "floor", "OSMesa", "tiles", "OSMesa / tiles", "goal")
 FORMATS = {"ms": "{:.3f}", "1/s": "{:,.0f}", "x": "{:.2f}", "levels": "{:.3f}", "share": "{:.6f}", "MiB": "{:.0f}"}
 LINE = "{:54} {:>6} {:>9} {:>9} {:>9} {:>14}  {}"
 
 
 def rows(program, quick):
-    """The program's rows, each as soon as it is measured."""
+    """The rows of the program, each as soon as it is measured."""
     with subprocess.Popen([program] + ["--quick"] * quick, stdout=subprocess.PIPE, text=True) as running:
         for line in running.stdout:
             yield json.loads(line)
@@ -35,4 +35,4 @@ def print_table(program, quick):
     for row in rows(program, quick):
         figures = [FORMATS[row["unit"]].format(row[key]) if row[key] is not None else "-" for key in ("floor", "osmesa", "tiles")]
         ratio = f"{row['ratio']:.2f}" if row["ratio"] is not None else "-"
-        print(LINE.format(row["what"], row["unit"], *figures, ratio, goal_text(row)).rstrip(), flush=True)
+        print(LINE.format(row["scene"], row["unit"], *figures, ratio, goal_text(row)).rstrip(), flush=True)

@@ -7,7 +7,7 @@
 #include "scenes/scene.h"
 #include "vision/camera/camera.h"
 
-// What render_bench draws: scenes, where they are seen from, and the cameras.
+// Scenes, camera poses and cameras of render_bench.
 namespace hedgehop::sim {
 
 using Poses = std::vector<Eigen::Isometry3d>;  ///< X_WC

@@ -20,7 +20,7 @@
 #include "vision/flow/image_interpolation_flow.h"
 #include "vision/stereo/stereo_matcher.h"
 
-// What the modules' eyes cost: a decision of each on images of its rig, and how long a scene takes to make.
+// Decision time of each module with images of its rig, and construction time of scenes.
 namespace hedgehop::avoidance {
 namespace {
 

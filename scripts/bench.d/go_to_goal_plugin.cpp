@@ -1,4 +1,4 @@
-// The control, as a module from outside: beside the one of the tree it measures what a plugin costs.
+// The control module as a plugin. Compared with the built-in control, it measures the overhead of a plugin.
 #include "avoidance/go_to_goal.h"
 #include "avoidance/plugin.h"
 

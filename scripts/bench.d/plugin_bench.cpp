@@ -17,7 +17,7 @@ void decide(benchmark::State& state, const AvoidanceConfig& config) {
   }
 }
 
-// One decision of a module that costs nothing, from a library.
+// One decision of a trivial module from a shared library.
 void PluginDecision(benchmark::State& state) {
   PluginConfig config{.plugin = HEDGEHOP_BENCH_PLUGIN, .module = "go_to_goal"};
   config.parameters.kind = Node::Kind::map;
@@ -25,7 +25,7 @@ void PluginDecision(benchmark::State& state) {
 }
 BENCHMARK(PluginDecision)->Unit(benchmark::kMicrosecond);
 
-// The same of this tree.
+// The same module, built in.
 void PluginDecisionFloor(benchmark::State& state) { decide(state, AvoidanceConfig()); }
 BENCHMARK(PluginDecisionFloor)->Unit(benchmark::kMicrosecond);
 

@@ -19,9 +19,9 @@
 #include "sim/loop/shutter.h"
 #include "sim/render/renderer.h"
 
-// What drawing costs, contexts side by side: CPU time of one thread, medians over rounds in which they take turns. Each
-// row beside its floor, a full-screen trilinear quad by OSMesa in the row's size and channel, without its lens, one
-// sample a pixel. Prints one JSON object a row as soon as it is measured; scripts/bench makes the table of them.
+// Rendering time of all renderers: CPU time of one thread, medians over interleaved rounds. The floor of a row is
+// OSMesa's full-screen trilinear quad with the row's size and channel, no lens distortion and one sample per pixel.
+// Prints one JSON object per row as soon as it is measured; scripts/bench formats the table.
 //
 // usage: render_bench [--quick]
 //        render_bench --memory osmesa|tiles    resident memory of the city with a renderer and its first image, MiB
@@ -31,9 +31,9 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // null in JSON
 constexpr int kRounds = 9, kQuickRounds = 3;
 
-/// What is asked of the ratio of the contexts' times, or of tiles' figure.
+/// Required bound of the ratio of the renderers' times, or of the tiles renderer's figure.
 struct Goal {
-  std::string of;     ///< "ratio", "tiles", or nothing is asked
+  std::string of;     ///< "ratio", "tiles", or empty without a bound
   std::string bound;  ///< "at_least", "at_most"
   double value = kNone;
 };
@@ -43,14 +43,14 @@ Goal tiles_at_least(double value) { return {"tiles", "at_least", value}; }
 Goal tiles_at_most(double value) { return {"tiles", "at_most", value}; }
 
 struct Row {
-  std::string what, unit;
+  std::string scene, unit;
   double floor = kNone, osmesa = kNone, tiles = kNone;
   double ratio = kNone;  ///< of the contexts' times, OSMesa / tiles
   Goal goal;
 };
 
 void print(const Row& row) {
-  nlohmann::ordered_json json = {{"what", row.what},     {"unit", row.unit},   {"floor", row.floor},
+  nlohmann::ordered_json json = {{"scene", row.scene},   {"unit", row.unit},   {"floor", row.floor},
                                  {"osmesa", row.osmesa}, {"tiles", row.tiles}, {"ratio", row.ratio},
                                  {"goal", nullptr},      {"met", nullptr}};
   if (!row.goal.of.empty()) {
@@ -72,9 +72,9 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// Images of a case, the same for each context.
+/// Images of a case, equal for each renderer.
 struct Case {
-  std::string what;
+  std::string name;
   Poses poses;
   Goal goal = {};
   vision::camera::Camera camera = right_angle_pinhole(400, 400);
@@ -89,7 +89,7 @@ CameraView view_from(const Eigen::Isometry3d& X_WC, const Case& images) {
   return view;
 }
 
-/// A renderer and what it draws.
+/// A renderer and the images that it draws.
 struct Subject {
   Renderer& renderer;
   Case images;
@@ -101,7 +101,7 @@ void draw(Renderer& renderer, const Eigen::Isometry3d& X_WC, const Case& images,
   const auto draw_rows = [&](const Eigen::Isometry3d& X_WB, double, const cv::Range& rows, cv::Mat& part) {
     renderer.draw({.camera = cut(images.camera, rows), .X_WC = X_WB}, part);
   };
-  static Shutter shutter({.readout_s = 0.02});  // its memory is that of a flight
+  static Shutter shutter({.readout_s = 0.02});  // static: a flight keeps its buffers, too
   shutter.expose(body, 0.0, images.camera.height_px, draw_rows, out);
 }
 
@@ -109,7 +109,7 @@ void draw(Renderer& renderer, const Eigen::Isometry3d& X_WC, const Case& images,
 std::vector<double> times_s(const std::vector<Subject>& subjects, int rounds) {
   std::vector<std::vector<double>> times(subjects.size());
   cv::Mat image;
-  for (int round = -1; round < rounds; ++round) {  // the first one plans lenses
+  for (int round = -1; round < rounds; ++round) {  // the first round plans the lens faces
     for (size_t i = 0; i < subjects.size(); ++i) {
       const Case& images = subjects[i].images;
       const double start_s = cpu_s();
@@ -136,9 +136,9 @@ class Bench {
     for (const Case& images : cases) {
       const auto s = times_s({{quad_, floor_of(images)}, {osmesa, images}, {tiles, images}}, rounds_);
       if (images.goal.of == "tiles") {
-        print({images.what, "1/s", 1.0 / s[0], 1.0 / s[1], 1.0 / s[2], s[1] / s[2], images.goal});
+        print({images.name, "1/s", 1.0 / s[0], 1.0 / s[1], 1.0 / s[2], s[1] / s[2], images.goal});
       } else {
-        print({images.what, "ms", 1e3 * s[0], 1e3 * s[1], 1e3 * s[2], s[1] / s[2], images.goal});
+        print({images.name, "ms", 1e3 * s[0], 1e3 * s[1], 1e3 * s[2], s[1] / s[2], images.goal});
       }
     }
   }
@@ -146,10 +146,10 @@ class Bench {
   void shadows_over_without(const scenes::Scene& scene, const Case& images) {
     Renderer plain = make(scene, RendererKind::tiles), shaded = make(scene, RendererKind::tiles, Shadows::sun);
     const auto s = times_s({{plain, images}, {shaded, images}}, rounds_);
-    print({.what = images.what, .unit = "x", .tiles = s[1] / s[0], .goal = images.goal});
+    print({.scene = images.name, .unit = "x", .tiles = s[1] / s[0], .goal = images.goal});
   }
 
-  /// From nothing to a renderer, and on to its first image.
+  /// Times from the start to a constructed renderer, and to its first image.
   void start(const scenes::Scene& scene, const Case& images) {
     std::vector<double> made_ms[2], drawn_ms[2];
     for (int round = 0; round < rounds_; ++round) {
@@ -163,18 +163,18 @@ class Bench {
         drawn_ms[kind == RendererKind::tiles].push_back(1e3 * (cpu_s() - start_s));
       }
     }
-    const auto row = [&](const std::string& what, const auto& ms, const Goal& goal) {
+    const auto row = [&](const std::string& name, const auto& ms, const Goal& goal) {
       const double osmesa_ms = median(ms[0]), tiles_ms = median(ms[1]);
-      print({what, "ms", kNone, osmesa_ms, tiles_ms, osmesa_ms / tiles_ms, goal});
+      print({name, "ms", kNone, osmesa_ms, tiles_ms, osmesa_ms / tiles_ms, goal});
     };
-    row(images.what + ", renderer made", made_ms, {});
-    row(images.what + ", renderer made and first image", drawn_ms, images.goal);
+    row(images.name + ", renderer made", made_ms, {});
+    row(images.name + ", renderer made and first image", drawn_ms, images.goal);
   }
 
  private:
-  /// As many images of the quad.
+  /// The quad with the same number of images.
   static Case floor_of(const Case& images) {
-    return {.what = "quad",
+    return {.name = "quad",
             .poses = Poses(images.poses.size(), quad_view()),
             .goal = {},
             .camera = floor_camera(images.camera.width_px, images.camera.height_px),
@@ -185,7 +185,7 @@ class Bench {
   Renderer quad_ = make(full_screen_quad(), RendererKind::osmesa);
 };
 
-/// How far tiles' images are from OSMesa's.
+/// Differences between the images of the tiles renderer and OSMesa.
 void differences(const scenes::Scene& scene, const Poses& poses) {
   constexpr double kFarOffLevels = 8.0;
   constexpr float kFarOffDepth = 1e-3f;
@@ -209,20 +209,26 @@ void differences(const scenes::Scene& scene, const Poses& poses) {
       off_depths += a == b || std::abs(a - b) <= kFarOffDepth * a ? 0.0 : 1.0;  // a == b: both infinite
     }
   }
-  const std::string what = "city, street: difference from OSMesa, ";
-  print({.what = what + "mean", .unit = "levels", .tiles = levels / pixels, .goal = tiles_at_most(0.3)});
-  print({.what = what + "over 8 levels", .unit = "share", .tiles = off_levels / pixels, .goal = tiles_at_most(0.0005)});
-  print({.what = what + "depth over 1e-3", .unit = "share", .tiles = off_depths / pixels, .goal = tiles_at_most(2e-4)});
+  const std::string prefix = "city, street: difference from OSMesa, ";
+  print({.scene = prefix + "mean", .unit = "levels", .tiles = levels / pixels, .goal = tiles_at_most(0.3)});
+  print({.scene = prefix + "over 8 levels",
+         .unit = "share",
+         .tiles = off_levels / pixels,
+         .goal = tiles_at_most(0.0005)});
+  print({.scene = prefix + "depth over 1e-3",
+         .unit = "share",
+         .tiles = off_depths / pixels,
+         .goal = tiles_at_most(2e-4)});
 }
 
-/// Memory of this process that is resident, MiB.
+/// Resident memory of this process, MiB.
 double resident_mib() {
   double all_pages = kNone, pages = kNone;
   std::ifstream("/proc/self/statm") >> all_pages >> pages;
   return pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1048576.0;
 }
 
-/// What a renderer adds to a process that has made its scene, MiB.
+/// Resident memory added by a renderer to a process that has built its scene, MiB.
 double renderer_mib(RendererKind kind) {
   const scenes::Scene scene = city(300.0);
   const double before_mib = resident_mib();
@@ -232,7 +238,7 @@ double renderer_mib(RendererKind kind) {
   return resident_mib() - before_mib;
 }
 
-/// The same in processes of their own.
+/// The same for each renderer in a separate process.
 void memory() {
   const auto mib = [](const char* renderer) {
     const std::string command = std::filesystem::read_symlink("/proc/self/exe").string() + " --memory " + renderer;
@@ -250,14 +256,14 @@ void run(int rounds) {
   const std::vector<Case> in_city = {
       {"city, street", streets, ratio_at_least(4.5)},
       {"city, five cameras in flight", five_cameras_in_flight(), ratio_at_least(4.5)},
-      {.what = "city, street: color", .poses = streets, .goal = ratio_at_least(4.0), .channel = Channel::color},
-      {.what = "city, street: depth", .poses = streets, .goal = ratio_at_least(4.5), .channel = Channel::depth},
-      {.what = "city, street: labels", .poses = streets, .goal = ratio_at_least(6.0), .channel = Channel::labels},
-      {.what = "city, street: flow", .poses = streets, .goal = ratio_at_least(4.0), .channel = Channel::flow},
-      {.what = "city, street: 4 samples", .poses = streets, .goal = ratio_at_least(6.0), .samples = 4},
+      {.name = "city, street: color", .poses = streets, .goal = ratio_at_least(4.0), .channel = Channel::color},
+      {.name = "city, street: depth", .poses = streets, .goal = ratio_at_least(4.5), .channel = Channel::depth},
+      {.name = "city, street: labels", .poses = streets, .goal = ratio_at_least(6.0), .channel = Channel::labels},
+      {.name = "city, street: flow", .poses = streets, .goal = ratio_at_least(4.0), .channel = Channel::flow},
+      {.name = "city, street: 4 samples", .poses = streets, .goal = ratio_at_least(6.0), .samples = 4},
       {"city, street: distorted pinhole", streets, ratio_at_least(2.5), distorted_pinhole()},
       {"city, street: fisheye, 190 degrees, 752 x 480", streets, ratio_at_least(2.5), wide_fisheye()},
-      {.what = "city, street: rolling shutter", .poses = streets, .goal = ratio_at_least(3.0), .rolling = true},
+      {.name = "city, street: rolling shutter", .poses = streets, .goal = ratio_at_least(3.0), .rolling = true},
       {"city, street: 64 x 48", streets, tiles_at_least(20'000.0), tiny},
   };
   const std::vector<Case> in_room = {{"room", room_views(), ratio_at_least(4.5)}};

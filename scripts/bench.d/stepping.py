@@ -1,5 +1,5 @@
-"""What a flight that Python steps costs, each figure beside its goal. Processor time, medians; the flights that are compared
-take turns. Run by scripts/bench with Debian's Python and the package of the build folder.
+"""Cost of a flight that Python steps, each figure next to its goal. CPU times, medians; compared flights are interleaved.
+scripts/bench runs this program with Debian's Python and the package of the build folder.
 
 usage: stepping.py SOURCE
 """
@@ -14,7 +14,7 @@ import numpy as np
 import hedgehop
 
 ROUNDS = 7
-#: One camera of 64 x 48 px at 25 Hz, control at 50 Hz, as small environments for learning have it.
+#: One camera of 64 x 48 px at 25 Hz and control at 50 Hz, typical of small learning environments.
 SMALL = {"rig": {"cameras": [{"role": "front", "width": 64, "height": 48, "rate": 25}]}, "control_rate": 50,
          "velocimeter.enabled": False, "film.enabled": False, "checks": [], "drawing.renderer": "tiles", "duration": 40}
 
@@ -26,7 +26,7 @@ def cpu_s(call):
 
 
 def step_through(sim):
-    """Flies with a command from Python in every decision; returns their number."""
+    """Flies with a command from Python in every decision; returns the number of decisions."""
     hover, decisions = hedgehop.HoverCommand(), 0
     while not sim.over:
         sim.step(hover)
@@ -35,8 +35,8 @@ def step_through(sim):
 
 
 def more_than_native_us(world):
-    """What a decision from Python costs more than one in C++: measured without cameras, where little else is done, and
-    the making of an Observation with an image beside it."""
+    """Additional cost of a decision in Python over one in C++, us: a flight without cameras, plus the construction of an
+    Observation with an image."""
     blind = hedgehop.Simulation(world, set={**SMALL, "rig": {"cameras": []}}, cameras=[])
     native, stepped, decisions = [], [], 0
 
@@ -60,7 +60,7 @@ def more_than_native_us(world):
 
 
 def speed(world):
-    """Times real time of a flight that Python steps, on one core."""
+    """Real-time factor of a flight that Python steps, on one core."""
     sim = hedgehop.Simulation(world, set=SMALL, cameras=["front"])
     times = []
     for _ in range(ROUNDS):
@@ -79,7 +79,7 @@ def start_over_reset(world):
 
 
 def side_by_side(world):
-    """Steps a second of two environments in processes of their own, wall time."""
+    """Steps per second of two environments in separate processes, wall time."""
     with hedgehop.VectorEnv(str(world), 2, cameras=["front"], set=SMALL) as envs:
         envs.reset(seed=1)
         action, begin = np.zeros((2, 4)), time.monotonic()
@@ -91,11 +91,11 @@ def side_by_side(world):
 def main(source):
     world = pathlib.Path(source) / "configs/worlds/tree.yaml"
     print(f"\n{'stepped from Python':60} {'measured':>10} {'goal':>8}")
-    for what, value, goal in (("a decision from Python over one in C++, us", more_than_native_us(world), "<= 20"),
+    for figure, value, goal in (("a decision from Python over one in C++, us", more_than_native_us(world), "<= 20"),
                               ("one camera 64 x 48 at 25 Hz, times real time, one core", speed(world), ">= 100"),
-                              ("the same as an Env, two processes, steps a second", side_by_side(world), ""),
+                              ("the same as an Env, two processes, steps per second", side_by_side(world), ""),
                               ("start over reset", start_over_reset(world), ">= 40")):
-        print(f"{what:60} {value:10.4g} {goal:>8}", flush=True)
+        print(f"{figure:60} {value:10.4g} {goal:>8}", flush=True)
 
 
 if __name__ == "__main__":

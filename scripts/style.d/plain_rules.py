@@ -90,7 +90,7 @@ def pattern_faults(root):
     for path in paths:
         phrases = [phrase for pattern, phrase in allowed if fnmatch.fnmatch(str(path), pattern)]
         for line, passage in prose.passages(path, read(root, path)):
-            passage = re.sub(r"`[^`\n]*`", "X", passage)
+            passage = re.sub(r"`[^`\n]*`|\{[^{}\n]*\}", "X", passage)  # code, and placeholders of a format string
             for offset, sentence in prose.sentences(passage):
                 flat = " ".join(sentence.split()).lower()
                 for name, place, around in found_in(sentence):

@@ -1,4 +1,4 @@
-"""What the rules of scripts/style share: the files of the tree, and a fault in one of them."""
+"""The files of the tree, and a fault in one of them, for the rules of scripts/style."""
 
 import os
 import pathlib

@@ -57,17 +57,17 @@ def shortened_command(line):
         line = re.sub(r"duration=[0-9.]+", f"duration={SHORT_S}", line)
         line = re.sub(r"--seeds [0-9:,]+", "--seeds 1", line)
         line = re.sub(r"takeover\.at=[0-9.]+", f"takeover.at={SHORT_S / 2}", line)
-        line = re.sub(r"--min-success [0-9.]+", "--min-success 0.1", line)  # more could not be shown by one seed
+        line = re.sub(r"--min-success [0-9.]+", "--min-success 0.1", line)  # one seed cannot show a higher rate
     if line.startswith("hedgehop bless") and "--force" not in line:
-        line += " --force"  # a flight so short does not reach its goal
+        line += " --force"  # a shortened flight does not reach its goal
     if line.startswith("hedgehop falsify"):
         line = re.sub(r"budget=[0-9]+", "budget=2", line)
     if line.startswith("hedgehop branch"):
         line = re.sub(r"--at [0-9.]+", f"--at {SHORT_S / 2}", line)
     if line.startswith("hedgehop reproduce") and "--quick" not in line:
-        line = re.sub(r" --write \S+", "", line) + " --quick"  # what getting-started.md has flown is reused
+        line = re.sub(r" --write \S+", "", line) + " --quick"  # reuses the flights of getting-started.md
     if line.startswith("hedgehop batch configs/campaigns/") and "--resume" not in line:
-        line = re.sub(r"\s*(#.*)?$", " --resume", line, count=1)  # what another page has flown is reused
+        line = re.sub(r"\s*(#.*)?$", " --resume", line, count=1)  # reuses the flights of other pages
     if line.startswith("hedgehop render"):
         line = re.sub(r"--time [0-9.]+", f"--time {SHORT_S / 2}", line)
     if "--on slurm" in line and "--dry-run" not in line:
@@ -101,7 +101,7 @@ class Commands(unittest.TestCase):
         return done.stdout
 
     def look_up(self, line):
-        """What a command names exists: scripts, presets, test programs, and tests of its filter."""
+        """Checks that the scripts, presets, test programs and test filters of a command exist."""
         words = [word for word in shlex.split(line) if not re.match(r"[A-Z]+=", word)]
         for script in (word for word in words if re.match(r"(\./)?(scripts|\.ci)/", word)):
             self.assertTrue(os.access(SOURCE / script, os.R_OK), script)
@@ -118,7 +118,7 @@ class Commands(unittest.TestCase):
             self.assertNotIn("Total Tests: 0", self.shell(f"ctest --test-dir {BUILD} -N -R {shlex.quote(pattern)}"), line)
 
     def run_line(self, line, counts_sweeps=False):
-        """@param counts_sweeps  whether a sweep only counts what it would fly."""
+        """@param counts_sweeps  whether a sweep only counts its missing flights."""
         if LOOKED_UP.match(line):
             self.look_up(line)
         elif counts_sweeps and line.startswith("hedgehop sweep"):
@@ -127,7 +127,7 @@ class Commands(unittest.TestCase):
             self.shell(shortened_command(line), (0,) if line.startswith("cmake ") else ALLOWED)
 
     def blocks_of_python(self, page):
-        """A page's blocks of Python: text by the name of its file, where it begins with one; and one program of all others."""
+        """The Python blocks of a page: {file name: text} of blocks that begin with a file name, and one program of all others."""
         files, program = {}, []
         for block in re.findall(r"^```python\n(.*?)^```", (SOURCE / page).read_text(), re.S | re.M):
             named = re.match(r"# (\w+\.py)\n", block)
@@ -147,7 +147,7 @@ class Commands(unittest.TestCase):
         for line in lines:
             with self.subTest(page=page, line=line):
                 self.run_line(line, counts_sweeps=page == "docs/verification.md")
-        if program:  # which may read what the commands left
+        if program:  # may read the results of the commands
             (self.folder / "page.py").write_text(program)
             self.shell("/usr/bin/python3 page.py", (0,), PYTHONPATH=f"{BUILD}/python", **FOR_PYTHON)
 
@@ -157,7 +157,7 @@ class Commands(unittest.TestCase):
             self.assertGreater(len(list(commands((SOURCE / page).read_text()))), 0, page)
 
     def test_every_row_of_results_and_measurements_has_a_command(self):
-        """A row's own, one of the row above (an empty cell or `the same`), or one of a block before its table."""
+        """A row has its own command, that of the row above (an empty cell or `the same`), or that of a block before the table."""
         text = "\n".join((SOURCE / "docs" / page).read_text() for page in ("results.md", "verification.md", "performance.md"))
         for heads, rows in re.findall(r"^\|(.*)\|\n\|[-|]+\|\n((?:\|.*\|\n?)+)", text, re.M):
             if heads.split("|")[-1].strip() != "command":

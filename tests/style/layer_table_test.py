@@ -20,7 +20,7 @@ hedgehop_library(vision HDRS a.h SRCS a.cpp)
 
 
 def configure(library):
-    """Configures a small project with one more library; returns CMake's status and what it said."""
+    """Configures a small project with one more library. Returns CMake's exit status and output."""
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
         (root / "a.h").write_text("#pragma once\n")
