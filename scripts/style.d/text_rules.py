@@ -153,3 +153,20 @@ def check_words(root):
             better = next(good for bad, good in WORDS.items() if re.fullmatch(bad, found.group(), re.I))
             faults.append(Fault(path, line_of(text, found.start()), f'"{found.group()}": write {better}'))
     return faults
+
+
+GENERATED_PAGE = "docs/results.md"
+GENERATED_TABLE = re.compile(r"^<!-- figures: \w+ -->$.*?^<!-- end -->$", re.M | re.S)
+BUILD_HASH = re.compile(r"(?<![0-9A-Za-z])(?=[0-9]*[a-f])[0-9a-f]{16}(?![0-9A-Za-z])")
+
+
+def check_hashes(root):
+    """Pages name releases: build hashes occur in generated tables only."""
+    faults = []
+    for path in files(root, {".md"}):
+        if str(path) == GENERATED_PAGE:
+            continue
+        text = GENERATED_TABLE.sub(lambda table: "\n" * table.group().count("\n"), read(root, path))
+        faults += [Fault(path, line_of(text, found.start()), f"build hash {found.group()}: name a release or 'an earlier build'")
+                   for found in BUILD_HASH.finditer(text)]
+    return faults

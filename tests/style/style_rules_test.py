@@ -181,6 +181,24 @@ class Paths(Tree):
         self.assertEqual(self.faults("paths", {"docs/a.md": text}), [])
 
 
+class Hashes(Tree):
+    def test_a_build_hash_in_a_page(self):
+        self.assert_refused("hashes", {"docs/a.md": "# A\n\nFlown by build `0123456789abcdef`.\n"},
+                            "docs/a.md:3:", "build hash 0123456789abcdef", "an earlier build")
+
+    def test_a_build_hash_after_a_generated_table(self):
+        text = "<!-- figures: local_map -->\nbuild `0123456789abcdef`\n<!-- end -->\nbuild `fedcba9876543210`\n"
+        self.assert_refused("hashes", {"docs/a.md": text}, "docs/a.md:4:", "fedcba9876543210")
+
+    def test_generated_tables_may_have_them(self):
+        table = "<!-- figures: local_map -->\nbuild `0123456789abcdef`\n<!-- end -->\n"
+        self.assertEqual(self.faults("hashes", {"docs/a.md": table, "docs/results.md": "| 0123456789abcdef |\n"}), [])
+
+    def test_other_numbers_are_no_build_hashes(self):
+        text = "0123456789012345, SHA-256 " + "0123456789abcdef" * 4 + ", commit 1be1724, face1234\n"
+        self.assertEqual(self.faults("hashes", {"docs/a.md": text}), [])
+
+
 class Words(Tree):
     def test_each_word_in_text_and_in_names(self):
         for text in ("the picture of a camera", "draws it anew", "int nearness_m;", "two are astray", "it hangs on z", "Of no use.",
