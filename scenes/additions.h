@@ -9,14 +9,14 @@
 namespace hedgehop::scenes {
 
 /// What any scene can have besides what its generator makes.
-struct Additions {
+struct SceneAdditions {
   std::vector<BoxConfig> boxes;
   std::vector<MoverConfig> movers;
   std::vector<mesh::ImportConfig> imports;
 };
 
 template <class Visitor>
-void describe(Visitor& v, Additions& c) {
+void describe(Visitor& v, SceneAdditions& c) {
   v("boxes", c.boxes, {.meaning = "boxes that stand on the ground, turned about the vertical"});
   v("movers", c.movers, {.meaning = "obstacles that move"});
   v("imports", c.imports, {.meaning = "meshes from files, as scenery and obstacles"});

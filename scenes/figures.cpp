@@ -13,7 +13,7 @@ namespace {
 constexpr double kTouchingM = 1e-6;
 
 // A rectangle of the plan, or a disc: a point with a radius.
-struct Outline {
+struct PlanOutline {
   Eigen::AlignedBox2d core_NE;
   double radius_m = 0.0;
 
@@ -21,7 +21,7 @@ struct Outline {
   double north_m() const { return core_NE.max().x() + radius_m; }
 };
 
-Outline outline(const Solid& solid, const Eigen::AlignedBox3d& box_W) {
+PlanOutline outline(const Solid& solid, const Eigen::AlignedBox3d& box_W) {
   const bool is_upright = std::abs(solid.X_WS.linear()(2, 2)) > 1.0 - 1e-12;
   if (solid.shape == Solid::Shape::sphere || (solid.shape == Solid::Shape::cylinder && is_upright)) {
     const Eigen::Vector2d center_NE = solid.X_WS.translation().head<2>();
@@ -30,16 +30,16 @@ Outline outline(const Solid& solid, const Eigen::AlignedBox3d& box_W) {
   return {{Eigen::Vector2d(box_W.min().head<2>()), Eigen::Vector2d(box_W.max().head<2>())}};
 }
 
-double gap_m(const Outline& a, const Outline& b) {
+double gap_m(const PlanOutline& a, const PlanOutline& b) {
   return a.core_NE.exteriorDistance(b.core_NE) - a.radius_m - b.radius_m;
 }
 
 // The gap of each outline. Sweeps from south to north: a later outline can only come nearer while its south edge is
 // within the gap, an earlier one while its own is within the gap and the longest outline.
-std::vector<double> gaps_m(std::vector<Outline> outlines) {
-  std::ranges::sort(outlines, {}, &Outline::south_m);
+std::vector<double> gaps_m(std::vector<PlanOutline> outlines) {
+  std::ranges::sort(outlines, {}, &PlanOutline::south_m);
   double longest_m = 0.0;
-  for (const Outline& each : outlines) longest_m = std::max(longest_m, each.north_m() - each.south_m());
+  for (const PlanOutline& each : outlines) longest_m = std::max(longest_m, each.north_m() - each.south_m());
   std::vector<double> gaps;
   for (size_t i = 0; i < outlines.size(); ++i) {
     double least_m = kInfinity;
@@ -57,14 +57,14 @@ std::vector<double> gaps_m(std::vector<Outline> outlines) {
 
 }  // namespace
 
-SceneFigures scene_figures(const Scene& scene, const AltitudeBand& band) {
-  std::vector<Outline> outlines;
+SceneFigures scene_figures(const Scene& scene, const AltitudeRange& band) {
+  std::vector<PlanOutline> outlines;
   double covered_m2 = 0.0;
   size_t standing = 0;
   for (const Solid& solid : scene.solids) {
     const Eigen::AlignedBox3d box_W = bounds_W(solid);
     if (-box_W.min().z() < band.lowest_m || -box_W.max().z() > band.highest_m) continue;
-    const Outline& added = outlines.emplace_back(outline(solid, box_W));
+    const PlanOutline& added = outlines.emplace_back(outline(solid, box_W));
     const Eigen::AlignedBox2d inside_NE = added.core_NE.intersection(scene.bounds_NE_m);
     if (box_W.max().z() < -kTouchingM || inside_NE.isEmpty()) continue;
     const double disc_m2 = std::numbers::pi * added.radius_m * added.radius_m;

@@ -19,13 +19,13 @@ struct SceneFigures {
 };
 
 /// Heights above W's origin, m.
-struct AltitudeBand {
+struct AltitudeRange {
   double lowest_m = -std::numeric_limits<double>::infinity();
   double highest_m = std::numeric_limits<double>::infinity();
 };
 
 /// @param band  only solids that reach into it count.
 /// Cost: a sweep along north, near linear in the number of solids for a city.
-SceneFigures scene_figures(const Scene& scene, const AltitudeBand& band = {});
+SceneFigures scene_figures(const Scene& scene, const AltitudeRange& band = {});
 
 }  // namespace hedgehop::scenes

@@ -10,7 +10,7 @@
 #include "scenes/worlds/highrise.h"
 #include "scenes/worlds/park.h"
 #include "scenes/worlds/room.h"
-#include "scenes/worlds/tree.h"
+#include "scenes/worlds/tree_world.h"
 #include "scenes/worlds/urban.h"
 #include "scenes/worlds/wall.h"
 

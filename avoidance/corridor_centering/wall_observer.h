@@ -20,12 +20,13 @@ inline constexpr int kLeastVectors = 12;
 /// What two images of a fisheye show of a corridor.
 struct WallObservation {
   std::vector<vision::corridor::WallPoint> points;
-  double direction_rad = 0.0;                          ///< of the walls, to the right of the heading; 0 as printed
-  vision::corridor::SideDistance left, right;          ///< medians of the sides, across that direction
-  double error = 0.0;                                  ///< e_n, NaN when a side is unknown
-  int corners_left = 0, corners_right = 0;             ///< tracked at the sides, whatever their flow
-  Eigen::Vector2d v_H = Eigen::Vector2d::Zero();       ///< mean horizontal velocity between the images, m/s
-  std::optional<vision::corridor::Approach> approach;  ///< of what lies ahead; nothing when it has too little texture
+  double direction_rad = 0.0;                     ///< of the walls, to the right of the heading; 0 as printed
+  vision::corridor::SideDistance left, right;     ///< medians of the sides, across that direction
+  double error = 0.0;                             ///< e_n, NaN when a side is unknown
+  int corners_left = 0, corners_right = 0;        ///< tracked at the sides, whatever their flow
+  Eigen::Vector2d v_H = Eigen::Vector2d::Zero();  ///< mean horizontal velocity between the images, m/s
+  std::optional<vision::corridor::ApproachRate>
+      approach;  ///< of what lies ahead; nothing when it has too little texture
 };
 
 /// Measures a corridor's walls by the flow of a fisheye that looks down.

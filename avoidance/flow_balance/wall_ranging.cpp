@@ -19,12 +19,12 @@ constexpr double kLeastRangeM = 1e-3;
 /// Of the angle between a wall's direction and the axis of the camera that looks at it: 45 deg, for four cameras.
 constexpr double kSideCosine = 0.5 * std::numbers::sqrt2;
 
-vision::flow::WallObservation observe(const vision::flow::FlowVector& vector, const CameraFlow& camera,
-                                      const Eigen::Vector3d& v_WC_C, double dt_s) {
+vision::flow::WallFlowSample observe(const vision::flow::FlowVector& vector, const CameraFlow& camera,
+                                     const Eigen::Vector3d& v_WC_C, double dt_s) {
   const vision::camera::PinholeCamera& lens = camera.pinhole();
   const Eigen::Isometry3d& X_BC = camera.camera().X_BC;
-  const Eigen::Vector2d place = lens.ray(vector.center_px).head<2>();
-  vision::flow::WallObservation observation;
+  const Eigen::Vector2d place = lens.ray_at_unit_depth(vector.center_px).head<2>();
+  vision::flow::WallFlowSample observation;
   observation.ray_H = X_BC.linear().col(2).head<2>() + place.x() * X_BC.linear().col(0).head<2>();
   observation.p_BC_H = X_BC.translation().head<2>();
   observation.unit_flow = vision::flow::unit_flow(place, v_WC_C);
@@ -38,14 +38,14 @@ vision::flow::WallObservation observe(const vision::flow::FlowVector& vector, co
 std::vector<vision::flow::WallEstimate> fit_walls(std::span<const CameraFlow> cameras,
                                                   const NavigationState& navigation, int64_t now_ns) {
   using std::numbers::pi;
-  std::vector<std::pair<double, vision::flow::WallObservation>> by_bearing;
+  std::vector<std::pair<double, vision::flow::WallFlowSample>> by_bearing;
   for (const CameraFlow& camera : cameras) {
     const auto measure = camera.measure(now_ns);
     if (!measure) continue;
     const Eigen::Vector3d v_WC_C = velocity_in_camera(camera.camera().X_BC, navigation);
     for (const vision::flow::FlowVector& vector : camera.field().vectors) {
       if (!vector.valid) continue;
-      const vision::flow::WallObservation observation = observe(vector, camera, v_WC_C, measure->dt_s);
+      const vision::flow::WallFlowSample observation = observe(vector, camera, v_WC_C, measure->dt_s);
       // Counted from between a rear and a left camera, so that no image is cut in two.
       const double bearing_rad =
           std::fmod(std::atan2(observation.ray_H.y(), observation.ray_H.x()) + 2.75 * pi, 2.0 * pi);
@@ -53,7 +53,7 @@ std::vector<vision::flow::WallEstimate> fit_walls(std::span<const CameraFlow> ca
     }
   }
   std::ranges::stable_sort(by_bearing, {}, [](const auto& item) { return item.first; });
-  std::vector<vision::flow::WallObservation> observations;
+  std::vector<vision::flow::WallFlowSample> observations;
   for (const auto& [bearing_rad, observation] : by_bearing) observations.push_back(observation);
   return vision::flow::walls_from_flow(observations, kRelativeError);
 }

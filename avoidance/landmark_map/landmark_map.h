@@ -11,8 +11,8 @@
 namespace hedgehop::avoidance::landmark_map {
 
 /// Maps the corners that one camera sees, flies around what they belong to, and stops before walls without corners.
-/// Source: [Shah2009] ch. 4. `law: printed` is the thesis alone: its filter (vision/landmarks/printed_filter.h) and its
-/// flights, a circle (orbit.h) or straight ahead; it leaves avoiding and stopping to others, ch. 7.
+/// Source: [Shah2009] ch. 4. `law: printed` is the thesis alone: its filter (vision/landmarks/published_filter.h) and
+/// its flights, a circle (orbit.h) or straight ahead; it leaves avoiding and stopping to others, ch. 7.
 struct LandmarkMapModuleConfig {
   static constexpr std::string_view kName = "landmark_map";
   static constexpr std::string_view kMeaning =

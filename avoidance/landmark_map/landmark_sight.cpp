@@ -12,7 +12,8 @@ namespace {
 constexpr double kGate = 2.25;
 
 vision::landmarks::LandmarkMapConfig with_law(vision::landmarks::LandmarkMapConfig map, Law law) {
-  map.law = law;
+  map.algorithm =
+      law == Law::printed ? vision::landmarks::MapAlgorithm::published : vision::landmarks::MapAlgorithm::modified;
   map.gate = kGate;
   return map;
 }

@@ -7,13 +7,12 @@
 #include <optional>
 #include <vector>
 
+#include "avoidance/law.h"
 #include "avoidance/module.h"
 #include "vision/landmarks/edge_corners.h"
 #include "vision/landmarks/landmark_filter.h"
 
 namespace hedgehop::avoidance::landmark_map {
-
-using vision::landmarks::Law;
 
 /// What camera 'front' delivers: images in which corners are searched, or a corner detector's output.
 enum class CornerSource { grey, color, corners };

@@ -170,7 +170,7 @@ bool Surroundings::slice_between(double from_W, double to_W, LevelSlice& slice) 
 }
 
 /// The movers' discs, a voxel wider, where they should be by now.
-const std::vector<OccupancyMap::Disc>& Surroundings::where_movers_are(double t_s) {
+const std::vector<OccupancyMap::MovingDisc>& Surroundings::where_movers_are(double t_s) {
   discs_.clear();
   for (const Mover& mover : movers_) {
     const double wide_m = mover.radius_m + mover.p_sigma_m + config_.voxel_m;
@@ -188,7 +188,7 @@ void Surroundings::follow_movers(double t_s, const Eye& eye, const Eigen::Isomet
   }
   const auto along_W = [&](int u_px) -> Eigen::Vector2d {
     const cv::Point pixel(u_px, static_cast<int>(eye.source.geometry().center_v_px));
-    return (X_WC.linear() * eye.source.geometry().ray(pixel)).head<2>().normalized();
+    return (X_WC.linear() * eye.source.geometry().ray_at_unit_depth(pixel)).head<2>().normalized();
   };
   tracker_.update(t_s, {X_WC.translation().head<2>(), along_W(0), along_W(eye.source.image().width - 1)}, surface_);
   movers_ = tracker_.movers();

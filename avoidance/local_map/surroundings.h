@@ -72,7 +72,7 @@ class Surroundings {
   void clear(const Eigen::Vector3d& p_W, double radius_m);
   void integrate(Eye& eye, const NavigationState& navigation, double t_s);
   void fade(const NavigationState& navigation, double t_s);
-  const std::vector<vision::mapping::OccupancyMap::Disc>& where_movers_are(double t_s);
+  const std::vector<vision::mapping::OccupancyMap::MovingDisc>& where_movers_are(double t_s);
   void remember_occupied(double t_s);
   void follow_movers(double t_s, const Eye& eye, const Eigen::Isometry3d& X_WC);
 
@@ -89,7 +89,7 @@ class Surroundings {
   std::vector<SurfacePoint> surface_;  ///< of the last image, at the heights that are flown through
   std::vector<Mover> movers_;
   double movers_at_s_ = 0.0;
-  std::vector<vision::mapping::OccupancyMap::Disc> discs_;
+  std::vector<vision::mapping::OccupancyMap::MovingDisc> discs_;
   double blind_m_ = 0.0, height_W_ = 0.0;
   std::optional<double> from_W_;       ///< height that it comes from
   double age_s_ = 0.0, seen_s_ = 0.0;  ///< of the map since it faded last, and when the last image came

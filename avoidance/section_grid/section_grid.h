@@ -34,7 +34,7 @@ struct SectionGridConfig {
   double threshold_time_s = 0.0;
   double keep_share = 0.01;
   double passed_radius_m = 0.0;
-  vision::sections::Unknown unknown = vision::sections::Unknown::free;
+  vision::sections::UnknownDepth unknown = vision::sections::UnknownDepth::free;
   Answer answer = Answer::waypoint;
 };
 

@@ -24,7 +24,7 @@ const char* name_of(State state) {
 
 Eigen::Vector3d section_ray_C(const SectionCamera& camera, const vision::sections::SectionSearch& search, int section) {
   const cv::Rect& s = search.sections()[static_cast<size_t>(section)];
-  return camera.geometry.ray({s.x + s.width / 2, s.y + s.height / 2}).normalized();
+  return camera.geometry.ray_at_unit_depth({s.x + s.width / 2, s.y + s.height / 2}).normalized();
 }
 
 Command TurnThenMove::go_to(const Eigen::Vector3d& p_W, const NavigationState& navigation) {

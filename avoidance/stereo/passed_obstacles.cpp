@@ -29,7 +29,7 @@ void PassedObstacles::update(int64_t t_ns, const vision::stereo::DepthPyramid& p
       const int d = pyramid.disparity16(level, row, col);
       if (d < near16) continue;
       const cv::Point center(col * size + size / 2, row * size + size / 2);
-      visible_.push_back({X_WC * (geometry.z_m(d) * geometry.ray(center)), t_ns});
+      visible_.push_back({X_WC * (geometry.z_m(d) * geometry.ray_at_unit_depth(center)), t_ns});
     }
   }
 }

@@ -62,7 +62,7 @@ std::optional<Target> CorridorSearch::below_or_above(const Eigen::Vector3d& p_C)
 std::optional<Target> CorridorSearch::near(const std::optional<cv::Point>& followed) {
   if (!followed) return std::nullopt;
   if (const auto tracked = at(*followed, FoundBy::track)) return tracked;
-  const Eigen::Vector3d old_C = geometry_.ray(*followed);
+  const Eigen::Vector3d old_C = geometry_.ray_at_unit_depth(*followed);
   for (const auto& candidates :
        {vision::stereo::fine_targets(*followed, kLattice), vision::stereo::coarse_targets(*followed, kLattice)}) {
     if (const auto best = cheapest(candidates, old_C, FoundBy::near)) return best;
@@ -92,7 +92,7 @@ std::optional<cv::Point> CorridorSearch::pixel_of(const Eigen::Vector3d& directi
 /// The corridor round a pixel's ray, if it is free. [Andert2007] sec. 4.2.
 std::optional<vision::stereo::Corridor> CorridorSearch::corridor(const cv::Point& pixel, double target_m,
                                                                  int* tests) const {
-  if (allowed_ && !allowed_(geometry_.ray(pixel))) return std::nullopt;
+  if (allowed_ && !allowed_(geometry_.ray_at_unit_depth(pixel))) return std::nullopt;
   const vision::stereo::Corridor found =
       vision::stereo::examine_corridor(pyramid_, geometry_, pixel, size_.radius_m, target_m);
   if (tests) *tests += found.tests;
@@ -112,7 +112,7 @@ std::optional<Target> CorridorSearch::cheapest(const std::vector<cv::Point>& can
   double least = std::numeric_limits<double>::infinity();
   for (const cv::Point& pixel : candidates) {
     if (!cv::Rect({}, pyramid_.image()).contains(pixel)) continue;
-    const Eigen::Vector3d ray_C = geometry_.ray(pixel);
+    const Eigen::Vector3d ray_C = geometry_.ray_at_unit_depth(pixel);
     if (vision::stereo::target_cost(kCost, ray_C, reference_C) >= least) continue;
     const auto target = at(pixel, step);
     if (!target) continue;

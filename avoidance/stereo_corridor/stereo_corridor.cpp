@@ -172,7 +172,7 @@ class StereoCorridor final : public Module {
     const NavigationState& navigation = observation.navigation;
     if (!target_) return HoverCommand{turn_ * config_.yaw_rate_radps};
     const double z_m = std::min(target_->z_m, CorridorSearch::kLookAheadM);
-    const Eigen::Vector3d p_BP_B = source_->X_BC() * (z_m * source_->geometry().ray(target_->pixel));
+    const Eigen::Vector3d p_BP_B = source_->X_BC() * (z_m * source_->geometry().ray_at_unit_depth(target_->pixel));
     const Eigen::Vector3d p_BP_W = navigation.q_WB_est * p_BP_B;
     const Eigen::Vector2d level_W = p_BP_W.head<2>();
     VelocityCommand command;

@@ -12,13 +12,13 @@ namespace {
 using Eigen::Vector3d;
 
 // A side that an image is thrown from, and the viewer's right and down there, as on the panels of a box.
-struct Side {
+struct ProjectionSide {
   Vector3d out, right, down;
 };
 
 // The six along the axes, and those between two and three of them: no face is stretched by more than an eighth.
-std::vector<Side> make_sides() {
-  std::vector<Side> sides;
+std::vector<ProjectionSide> make_sides() {
+  std::vector<ProjectionSide> sides;
   for (int i = 0; i < 27; ++i) {
     if (i == 13) continue;  // nowhere
     const Vector3d out = Vector3d(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1).normalized();
@@ -29,13 +29,14 @@ std::vector<Side> make_sides() {
   return sides;
 }
 
-const std::vector<Side>& sides() {
-  static const std::vector<Side> all = make_sides();
+const std::vector<ProjectionSide>& sides() {
+  static const std::vector<ProjectionSide> all = make_sides();
   return all;
 }
 
 size_t side_index(const Vector3d& n) {
-  const auto nearest = std::ranges::max_element(sides(), {}, [&](const Side& side) { return side.out.dot(n); });
+  const auto nearest =
+      std::ranges::max_element(sides(), {}, [&](const ProjectionSide& side) { return side.out.dot(n); });
   return static_cast<size_t>(nearest - sides().begin());
 }
 
@@ -60,7 +61,7 @@ void add_polyhedron(const Polyhedron& body, Shading shading, const Cover& cover,
     const Vector3d a = body.corners[face[0]];
     const Vector3d across = (body.corners[face[1]] - a).cross(body.corners[face[2]] - a);
     const size_t from = side_index(across);
-    const Side& side = sides()[from];
+    const ProjectionSide& side = sides()[from];
     if (shading == Shading::flat) known.clear();
     std::array<uint32_t, 3>& added = faces.emplace_back();
     for (size_t k = 0; k < 3; ++k) {
@@ -113,13 +114,13 @@ void add_post(const Post& post, int sides, const Cover& cover, MeshBuilder& mesh
 }
 
 void add_box(const Eigen::AlignedBox3d& box_K, const Eigen::Isometry3d& X_WK, const Cover& cover, MeshBuilder& mesh) {
-  const auto add = [&](const Panel& panel) {
-    const Panel placed{X_WK * panel.top_left_W, X_WK.linear() * panel.right_m, X_WK.linear() * panel.down_m};
+  const auto add = [&](const TexturedPanel& panel) {
+    const TexturedPanel placed{X_WK * panel.top_left_W, X_WK.linear() * panel.right_m, X_WK.linear() * panel.down_m};
     const Eigen::Vector2d from_origin_m(placed.right_m.normalized().dot(placed.top_left_W),
                                         placed.down_m.normalized().dot(placed.top_left_W));
     mesh.add_tiled(placed, cover.tile_m, cover.offset + from_origin_m / cover.tile_m, cover.texture);
   };
-  for (const Panel& panel : side_panels(box_K)) add(panel);
+  for (const TexturedPanel& panel : side_panels(box_K)) add(panel);
   add(top_panel(box_K));
   constexpr double kOnGroundM = 1e-6;
   const Eigen::Vector3d foot_K(box_K.center().x(), box_K.center().y(), box_K.max().z());

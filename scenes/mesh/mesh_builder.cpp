@@ -6,24 +6,24 @@
 
 namespace hedgehop::scenes::mesh {
 
-std::array<Panel, 4> side_panels(const Eigen::AlignedBox3d& box_W) {
+std::array<TexturedPanel, 4> side_panels(const Eigen::AlignedBox3d& box_W) {
   const Eigen::Vector3d low = box_W.min();
   const Eigen::Vector3d size = box_W.sizes();
   const Eigen::Vector3d down(0.0, 0.0, size.z());
   const double top = low.z();
   const Eigen::Vector3d high(box_W.max().x(), box_W.max().y(), top);
-  return {Panel{high, {0.0, -size.y(), 0.0}, down},                       // north: right is west
-          Panel{{low.x(), high.y(), top}, {size.x(), 0.0, 0.0}, down},    // east: right is north
-          Panel{low, {0.0, size.y(), 0.0}, down},                         // south: right is east
-          Panel{{high.x(), low.y(), top}, {-size.x(), 0.0, 0.0}, down}};  // west: right is south
+  return {TexturedPanel{high, {0.0, -size.y(), 0.0}, down},                       // north: right is west
+          TexturedPanel{{low.x(), high.y(), top}, {size.x(), 0.0, 0.0}, down},    // east: right is north
+          TexturedPanel{low, {0.0, size.y(), 0.0}, down},                         // south: right is east
+          TexturedPanel{{high.x(), low.y(), top}, {-size.x(), 0.0, 0.0}, down}};  // west: right is south
 }
 
-Panel top_panel(const Eigen::AlignedBox3d& box_W) {
+TexturedPanel top_panel(const Eigen::AlignedBox3d& box_W) {
   const Eigen::Vector3d size = box_W.sizes();
   return {{box_W.max().x(), box_W.min().y(), box_W.min().z()}, {0.0, size.y(), 0.0}, {-size.x(), 0.0, 0.0}};
 }
 
-Panel bottom_panel(const Eigen::AlignedBox3d& box_W) {
+TexturedPanel bottom_panel(const Eigen::AlignedBox3d& box_W) {
   const Eigen::Vector3d size = box_W.sizes();
   return {box_W.max(), {0.0, -size.y(), 0.0}, {-size.x(), 0.0, 0.0}};
 }
@@ -49,7 +49,7 @@ void MeshBuilder::begin_chunk(bool fills_box_to_ground) {
   mesh_.chunks.push_back(chunk);
 }
 
-void MeshBuilder::add(const Panel& panel, const ImageArea& area, uint32_t texture) {
+void MeshBuilder::add(const TexturedPanel& panel, const ImageArea& area, uint32_t texture) {
   const Eigen::Vector3f normal = -panel.right_m.cross(panel.down_m).normalized().cast<float>();
   const auto first = static_cast<uint32_t>(mesh_.vertices.size());
   const auto corner = [&](bool right, bool down) {
@@ -70,7 +70,8 @@ void MeshBuilder::add(const Panel& panel, const ImageArea& area, uint32_t textur
   mesh_.chunks.back().index_count += 6;
 }
 
-void MeshBuilder::add_tiled(const Panel& panel, double tile_m, const Eigen::Vector2d& offset, uint32_t texture) {
+void MeshBuilder::add_tiled(const TexturedPanel& panel, double tile_m, const Eigen::Vector2d& offset,
+                            uint32_t texture) {
   const double across = panel.right_m.norm() / tile_m;
   const double along = panel.down_m.norm() / tile_m;
   add(panel, {offset.x(), offset.y(), offset.x() + across, offset.y() + along}, texture);

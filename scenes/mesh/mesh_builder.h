@@ -13,7 +13,7 @@ namespace hedgehop::scenes::mesh {
 
 /// A rectangle in space that carries an image upright: seen from outside, `right_m` runs to the viewer's right and
 /// `down_m` down the image. Its outward normal is -(right x down).
-struct Panel {
+struct TexturedPanel {
   Eigen::Vector3d top_left_W = Eigen::Vector3d::Zero();
   Eigen::Vector3d right_m = Eigen::Vector3d::UnitY();
   Eigen::Vector3d down_m = Eigen::Vector3d::UnitZ();
@@ -25,9 +25,9 @@ struct ImageArea {
 };
 
 /// The faces of a box by their outward normals in W: the horizontal ones in the order north, east, south, west.
-std::array<Panel, 4> side_panels(const Eigen::AlignedBox3d& box_W);
-Panel top_panel(const Eigen::AlignedBox3d& box_W);     ///< image up = north
-Panel bottom_panel(const Eigen::AlignedBox3d& box_W);  ///< image up = north
+std::array<TexturedPanel, 4> side_panels(const Eigen::AlignedBox3d& box_W);
+TexturedPanel top_panel(const Eigen::AlignedBox3d& box_W);     ///< image up = north
+TexturedPanel bottom_panel(const Eigen::AlignedBox3d& box_W);  ///< image up = north
 
 /// Returns the box as a solid.
 Solid solid_of(const std::string& name, const Eigen::AlignedBox3d& box_W);
@@ -40,10 +40,10 @@ class MeshBuilder {
   explicit MeshBuilder(std::string material) { mesh_.material = std::move(material); }
 
   void begin_chunk(bool fills_box_to_ground);
-  void add(const Panel& panel, const ImageArea& area, uint32_t texture);
+  void add(const TexturedPanel& panel, const ImageArea& area, uint32_t texture);
 
   /// Adds the panel with an image of `tile_m` meters a side, its corner moved by `offset` repeats.
-  void add_tiled(const Panel& panel, double tile_m, const Eigen::Vector2d& offset, uint32_t texture);
+  void add_tiled(const TexturedPanel& panel, double tile_m, const Eigen::Vector2d& offset, uint32_t texture);
 
   /// Adds triangles; `faces` index into `vertices`.
   void add(std::span<const Vertex> vertices, std::span<const std::array<uint32_t, 3>> faces);

@@ -11,19 +11,19 @@
 namespace hedgehop::scenes::mesh {
 namespace {
 
-constexpr uintmax_t kMostBytes = 64'000'000;
-constexpr int kDeepest = 200;  // the importer's JSON reader recurses
-constexpr size_t kMostNodes = 2'000;
-constexpr size_t kMostFaces = 500'000;
+constexpr uintmax_t kMaxBytes = 64'000'000;
+constexpr int kMaxNesting = 200;  // the importer's JSON reader recurses
+constexpr size_t kMaxNodes = 2'000;
+constexpr size_t kMaxFaces = 500'000;
 
 /// What the importer recurses over in a glTF.
-struct Depths {
+struct JsonNesting {
   int brackets = 0;  ///< nested, outside strings
   size_t nodes = 0;  ///< each may hold the next
 };
 
-Depths depths(std::string_view json) {
-  Depths found;
+JsonNesting json_nesting(std::string_view json) {
+  JsonNesting found;
   int now = 0;
   size_t text = 0;
   bool in_text = false, in_nodes = false;
@@ -71,7 +71,7 @@ size_t faces(std::string_view obj) {
 
 bool may_be_read(const std::filesystem::path& file) {
   std::error_code error;
-  return std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) <= kMostBytes;
+  return std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) <= kMaxBytes;
 }
 
 void require_importable(const std::filesystem::path& mesh) {
@@ -90,15 +90,15 @@ void require_importable(const std::filesystem::path& mesh) {
   text.resize(static_cast<size_t>(stream.gcount()));
   if (!stream.is_open() || stream.bad()) throw std::invalid_argument("it cannot be read");
   if (kind != ".obj") {
-    const Depths found = depths(kind == ".glb" ? json_of_glb(text) : text);
-    if (found.brackets > kDeepest) {
-      throw std::invalid_argument("its JSON is nested deeper than " + std::to_string(kDeepest));
+    const JsonNesting found = json_nesting(kind == ".glb" ? json_of_glb(text) : text);
+    if (found.brackets > kMaxNesting) {
+      throw std::invalid_argument("its JSON is nested deeper than " + std::to_string(kMaxNesting));
     }
-    if (found.nodes > kMostNodes)
-      throw std::invalid_argument("it has more than " + std::to_string(kMostNodes) + " nodes");
+    if (found.nodes > kMaxNodes)
+      throw std::invalid_argument("it has more than " + std::to_string(kMaxNodes) + " nodes");
   }
-  if (kind == ".obj" && faces(text) > kMostFaces) {
-    throw std::invalid_argument("it has more than " + std::to_string(kMostFaces) + " faces");
+  if (kind == ".obj" && faces(text) > kMaxFaces) {
+    throw std::invalid_argument("it has more than " + std::to_string(kMaxFaces) + " faces");
   }
 }
 

@@ -24,7 +24,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFarthestM = 100e3;  // as every position of a scenario
+constexpr double kMaxCoordinateM = 100e3;  // as every position of a scenario
 
 [[noreturn]] void refuse(const ImportConfig& c, const std::string& why) {
   throw std::invalid_argument("imports.file: '" + c.file + "': " + why);
@@ -118,16 +118,16 @@ void draw(const aiMesh& mesh, const Polyhedron& body, const Eigen::Affine3d& to_
     if (mesh.HasTextureCoords(0)) vertices[k].uv = {mesh.mTextureCoords[0][k].x, mesh.mTextureCoords[0][k].y};
     vertices[k].texture = texture;
   }
-  const Sides sides = sides_of(body);
+  const Facing sides = facing_of(body);
   std::vector<std::array<uint32_t, 3>> faces = body.faces;
-  if (sides == Sides::inward) turn_over(faces);
+  if (sides == Facing::inward) turn_over(faces);
   const bool normals_agree = facing(vertices, faces) >= 0.0f;
   const auto turn_normals = [&] {
     for (Vertex& vertex : vertices) vertex.n_W = -vertex.n_W;
   };
   if (!normals_agree) turn_normals();
   builder.add(vertices, faces);
-  if (sides != Sides::open) return;
+  if (sides != Facing::open) return;
   turn_over(faces);
   turn_normals();
   builder.add(vertices, faces);
@@ -153,7 +153,7 @@ void add_import(const ImportConfig& c, Scene& scene) {
     triangles += body.faces.size();
     for (const Vector3d& corner : body.corners) {
       if (!corner.allFinite()) refuse(c, "it has corners that are not finite");
-      if (corner.cwiseAbs().maxCoeff() > kFarthestM) refuse(c, "it has corners farther away than 100 km");
+      if (corner.cwiseAbs().maxCoeff() > kMaxCoordinateM) refuse(c, "it has corners farther away than 100 km");
     }
     int& image = images[mesh->mMaterialIndex];
     if (image < 0) {

@@ -16,7 +16,7 @@
 namespace hedgehop::scenes::mesh {
 namespace {
 
-constexpr unsigned kMostFaceCorners = 1000;
+constexpr unsigned kMaxFaceCorners = 1000;
 
 /// Opens what may be read: materials and buffers are named in the files before them, and may be pipes or devices.
 class GuardedFiles : public Assimp::DefaultIOSystem {
@@ -54,8 +54,8 @@ void forget_other_formats(Assimp::Importer& importer) {
 size_t triangles_of(const aiMesh& mesh) {
   size_t triangles = 0;
   for (const aiFace& face : std::span(mesh.mFaces, mesh.mNumFaces)) {
-    if (face.mNumIndices > kMostFaceCorners) {
-      throw std::invalid_argument("it has a face of more than " + std::to_string(kMostFaceCorners) + " corners");
+    if (face.mNumIndices > kMaxFaceCorners) {
+      throw std::invalid_argument("it has a face of more than " + std::to_string(kMaxFaceCorners) + " corners");
     }
     triangles += face.mNumIndices > 2 ? face.mNumIndices - 2 : 0;
   }
@@ -73,8 +73,8 @@ void require_bounded(const aiScene& model) {
     open.pop_back();
     for (const unsigned mesh : std::span(node.mMeshes, node.mNumMeshes)) all += triangles.at(mesh);
     open.insert(open.end(), node.mChildren, node.mChildren + node.mNumChildren);
-    if (all > kMostTriangles) {
-      throw std::invalid_argument("it has more than " + std::to_string(kMostTriangles) + " triangles");
+    if (all > kMaxTriangles) {
+      throw std::invalid_argument("it has more than " + std::to_string(kMaxTriangles) + " triangles");
     }
   }
 }

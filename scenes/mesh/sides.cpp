@@ -38,14 +38,14 @@ bool is_closed(const Polyhedron& body) {
 
 }  // namespace
 
-Sides sides_of(const Polyhedron& body) {
-  if (body.faces.empty() || !is_closed(body)) return Sides::open;
+Facing facing_of(const Polyhedron& body) {
+  if (body.faces.empty() || !is_closed(body)) return Facing::open;
   double six_volumes_m3 = 0.0;
   const Eigen::Vector3d origin = body.corners.front();
   for (const auto& [a, b, c] : body.faces) {
     six_volumes_m3 += (body.corners[a] - origin).dot((body.corners[b] - origin).cross(body.corners[c] - origin));
   }
-  return six_volumes_m3 < 0.0 ? Sides::inward : Sides::outward;
+  return six_volumes_m3 < 0.0 ? Facing::inward : Facing::outward;
 }
 
 }  // namespace hedgehop::scenes::mesh

@@ -6,9 +6,9 @@ namespace hedgehop::scenes::mesh {
 
 /// Where the triangles of a mesh face: those of a closed body outward, as they should, or inward, as careless programs
 /// write them; those of an open surface one way, though it may be seen from both.
-enum class Sides { outward, inward, open };
+enum class Facing { outward, inward, open };
 
 /// Closed is a body each of whose edges is run along once in each direction; corners of equal place are one corner.
-Sides sides_of(const Polyhedron& body);
+Facing facing_of(const Polyhedron& body);
 
 }  // namespace hedgehop::scenes::mesh

@@ -13,14 +13,14 @@
 namespace hedgehop::scenes::mesh {
 namespace {
 
-constexpr int64_t kMostPixels = 64'000'000;
+constexpr int64_t kMaxPixels = 64'000'000;
 
 cv::Mat decode_png(std::span<const uint8_t> bytes) {
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
   const std::unique_ptr<png_image, void (*)(png_image*)> freed(&header, png_image_free);
   if (!png_image_begin_read_from_memory(&header, bytes.data(), bytes.size())) return {};
-  if (int64_t{header.width} * header.height > kMostPixels) return {};
+  if (int64_t{header.width} * header.height > kMaxPixels) return {};
   header.format = PNG_FORMAT_RGBA;  // without alpha, libpng would blend it with a background
   cv::Mat rgba(static_cast<int>(header.height), static_cast<int>(header.width), CV_8UC4);
   if (!png_image_finish_read(&header, nullptr, rgba.data, static_cast<int>(rgba.step), nullptr)) return {};
@@ -34,7 +34,7 @@ cv::Mat decode_jpeg(std::span<const uint8_t> bytes) {
   const auto size = static_cast<unsigned long>(bytes.size());  // NOLINT(google-runtime-int): turbojpeg's type
   int width = 0, height = 0, subsampling = 0, color_space = 0;
   if (tjDecompressHeader3(decoder.get(), bytes.data(), size, &width, &height, &subsampling, &color_space) != 0 ||
-      int64_t{width} * height > kMostPixels) {
+      int64_t{width} * height > kMaxPixels) {
     return {};
   }
   cv::Mat rgb(height, width, CV_8UC3);
@@ -50,7 +50,7 @@ class NetpbmReader {
 
   cv::Mat read() {
     const int64_t width = number(), height = number(), most = number();
-    if (width <= 0 || height <= 0 || width > kMostPixels || height > kMostPixels / width || most <= 0 || most > 255) {
+    if (width <= 0 || height <= 0 || width > kMaxPixels || height > kMaxPixels / width || most <= 0 || most > 255) {
       return {};
     }
     const bool is_text = kind_ < '5', is_grey = kind_ == '2' || kind_ == '5';

@@ -21,7 +21,7 @@ struct BalloonConfig {
   int64_t markers = 5;
   double marker_spacing_m = 3.05;  ///< 10 ft
   int64_t texture_size_px = 512;
-  Additions added;
+  SceneAdditions added;
 };
 
 template <class Visitor>

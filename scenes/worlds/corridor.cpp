@@ -34,9 +34,9 @@ Eigen::Isometry3d floor_frame(const Vector2d& origin_NE, const Vector2d& along_N
 }
 
 // Adds boxes to a mesh and to the solids, each a chunk with an image of its own.
-class Mason {
+class WallBuilder {
  public:
-  Mason(uint64_t seed, Scene& scene, mesh::MeshBuilder& mesh) : random_(seed), scene_(scene), mesh_(mesh) {}
+  WallBuilder(uint64_t seed, Scene& scene, mesh::MeshBuilder& mesh) : random_(seed), scene_(scene), mesh_(mesh) {}
 
   void build(const std::string& name, const Eigen::AlignedBox3d& box_K, const Eigen::Isometry3d& X_WK) {
     const Vector2d offset(uniform(random_, 0.0, 1.0), 0.0);
@@ -66,22 +66,22 @@ class Mason {
 };
 
 // What stands in a section, seen from its middle: x along it, y to the right.
-void furnish(const CorridorConfig& c, const CorridorSection& section, const Eigen::Isometry3d& X_WK, double width_m,
-             Mason& mason) {
+void add_fixtures(const CorridorConfig& c, const CorridorSection& section, const Eigen::Isometry3d& X_WK,
+                  double width_m, WallBuilder& builder) {
   const double half_m = 0.5 * width_m, thin_m = 0.5 * kThicknessM, outer_m = half_m + thin_m;
   if (section.doorway_m > 0.0) {
     const double jamb_m = 0.5 * section.doorway_m;
-    mason.build("doorway", {Vector3d(-thin_m, -outer_m, -c.height_m), Vector3d(thin_m, -jamb_m, 0.0)}, X_WK);
-    mason.build("doorway", {Vector3d(-thin_m, jamb_m, -c.height_m), Vector3d(thin_m, outer_m, 0.0)}, X_WK);
+    builder.build("doorway", {Vector3d(-thin_m, -outer_m, -c.height_m), Vector3d(thin_m, -jamb_m, 0.0)}, X_WK);
+    builder.build("doorway", {Vector3d(-thin_m, jamb_m, -c.height_m), Vector3d(thin_m, outer_m, 0.0)}, X_WK);
     if (c.door_height_m < c.height_m) {
-      mason.build("lintel", {Vector3d(-thin_m, -jamb_m, -c.height_m), Vector3d(thin_m, jamb_m, -c.door_height_m)},
-                  X_WK);
+      builder.build("lintel", {Vector3d(-thin_m, -jamb_m, -c.height_m), Vector3d(thin_m, jamb_m, -c.door_height_m)},
+                    X_WK);
     }
   }
   if (section.obstacle_m != 0.0) {
     const double inner_m = half_m - std::abs(section.obstacle_m), side = section.obstacle_m > 0.0 ? 1.0 : -1.0;
     const double one_m = side * inner_m, other_m = side * outer_m, long_m = 0.5 * kPillarLengthM;
-    mason.build(
+    builder.build(
         "pillar",
         {Vector3d(-long_m, std::min(one_m, other_m), -c.height_m), Vector3d(long_m, std::max(one_m, other_m), 0.0)},
         X_WK);
@@ -119,17 +119,17 @@ Scene make_corridor(const CorridorConfig& written, uint64_t seed) {
   mesh::MeshBuilder mesh("opaque");
   const double reach_m = scene.bounds_NE_m.min().cwiseAbs().cwiseMax(scene.bounds_NE_m.max().cwiseAbs()).maxCoeff();
   mesh::add_ground(reach_m, {kFloor, textures::kRoomTileM}, mesh);
-  Mason mason(derived_seed(seed, kOffsetStream), scene, mesh);
+  WallBuilder builder(derived_seed(seed, kOffsetStream), scene, mesh);
   for (size_t k = 0; k < config.sections.size(); ++k) {
     const Vector2d from = plan.middles_NE[k], to = plan.middles_NE[k + 1], along = (to - from).normalized();
     const double width_m = 0.5 * ((plan.rights_NE[k] - plan.lefts_NE[k]).dot(to_the_right(along)) +
                                   (plan.rights_NE[k + 1] - plan.lefts_NE[k + 1]).dot(to_the_right(along)));
-    furnish(config, config.sections[k], floor_frame(0.5 * (from + to), along), width_m, mason);
+    add_fixtures(config, config.sections[k], floor_frame(0.5 * (from + to), along), width_m, builder);
   }
-  mason.build_wall("left wall", plan.lefts_NE, config.height_m);
-  mason.build_wall("right wall", {plan.rights_NE.rbegin(), plan.rights_NE.rend()}, config.height_m);
-  mason.build_wall("end wall", {plan.rights_NE.front(), plan.lefts_NE.front()}, config.height_m);
-  mason.build_wall("end wall", {plan.lefts_NE.back(), plan.rights_NE.back()}, config.height_m);
+  builder.build_wall("left wall", plan.lefts_NE, config.height_m);
+  builder.build_wall("right wall", {plan.rights_NE.rbegin(), plan.rights_NE.rend()}, config.height_m);
+  builder.build_wall("end wall", {plan.rights_NE.front(), plan.lefts_NE.front()}, config.height_m);
+  builder.build_wall("end wall", {plan.lefts_NE.back(), plan.rights_NE.back()}, config.height_m);
 
   if (config.ceiling) {
     const Vector2d low = scene.bounds_NE_m.min().array() - kThicknessM,

@@ -55,7 +55,7 @@ struct CorridorConfig {
   double vary = 0.0;
   double texture = 1.0, floor_texture = 1.0;
   int64_t texture_size_px = 512;
-  Additions added;
+  SceneAdditions added;
 };
 
 template <class Visitor>

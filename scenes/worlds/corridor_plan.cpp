@@ -17,13 +17,13 @@ constexpr uint64_t kCorridorPlanStream = 2;  // of the scene's seed; corridor.cp
 Vector2d direction_NE(double heading_rad) { return {std::cos(heading_rad), std::sin(heading_rad)}; }
 
 // Where the last section begins, and the heading of the one before it.
-struct Approach {
+struct LastSectionStart {
   Vector2d end_NE = Vector2d::Zero();
   double heading_rad = 0.0, length_m = 0.0;
 };
 
-Approach approach(const std::vector<CorridorSection>& sections) {
-  Approach all;
+LastSectionStart last_section_start(const std::vector<CorridorSection>& sections) {
+  LastSectionStart all;
   for (size_t k = 0; k + 1 < sections.size(); ++k) {
     all.heading_rad += sections[k].bend_rad;
     all.end_NE += sections[k].length_m * direction_NE(all.heading_rad);
@@ -52,7 +52,7 @@ void validate(const CorridorConfig& c) {
             "less than the corridor's width, varied too");
     width_m = end_m;
   }
-  const Approach written = approach(c.sections);
+  const LastSectionStart written = last_section_start(c.sections);
   require(c.vary == 0.0 || written.end_NE.norm() >= 0.5 * written.length_m, "vary", c.vary,
           "0 where the corridor turns back");
   require_texture_size(c.texture_size_px);
@@ -60,7 +60,7 @@ void validate(const CorridorConfig& c) {
 
 // Turns and scales all sections but the last, so that the last one begins and heads as it is written.
 void keep_last_section(const std::vector<CorridorSection>& written, std::vector<CorridorSection>& drawn) {
-  const Approach from = approach(drawn), to = approach(written);
+  const LastSectionStart from = last_section_start(drawn), to = last_section_start(written);
   const double turn_rad = std::atan2(to.end_NE.y(), to.end_NE.x()) - std::atan2(from.end_NE.y(), from.end_NE.x());
   const double scale = to.end_NE.norm() / from.end_NE.norm();
   for (size_t k = 0; k + 1 < drawn.size(); ++k) drawn[k].length_m *= scale;

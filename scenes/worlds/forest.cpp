@@ -57,15 +57,15 @@ void validate(const ForestConfig& c) {
   require_texture_size(c.texture_size_px);
 }
 
-struct Place {
+struct TreeSite {
   Eigen::Vector2d p_NE;
   double crown_radius_m;
 };
 
 // The places so far by the cells of a grid, each too small for two.
-class PlaceGrid {
+class SiteGrid {
  public:
-  PlaceGrid(double extent_m, double spacing_m)
+  SiteGrid(double extent_m, double spacing_m)
       : half_m_(0.5 * extent_m),
         spacing_m_(spacing_m),
         cell_m_(spacing_m / std::sqrt(2.0)),
@@ -73,7 +73,7 @@ class PlaceGrid {
         cells_(static_cast<size_t>(side_) * static_cast<size_t>(side_), -1) {}
 
   /// Takes a place unless another is nearer than the spacing.
-  bool take(const Eigen::Vector2d& p_NE, std::vector<Place>& places, double crown_radius_m) {
+  bool take(const Eigen::Vector2d& p_NE, std::vector<TreeSite>& places, double crown_radius_m) {
     const Eigen::Array2i at = ((p_NE.array() + half_m_) / cell_m_).cast<int>().min(side_ - 1);
     const Eigen::Array2i low = (at - 2).max(0), high = (at + 2).min(side_ - 1);
     for (int i = low.x(); i <= high.x(); ++i) {
@@ -98,11 +98,11 @@ class PlaceGrid {
 };
 
 // Darts at random until there are as many trees as wanted.
-std::vector<Place> place_trees(const ForestConfig& c, Random& random) {
+std::vector<TreeSite> place_trees(const ForestConfig& c, Random& random) {
   constexpr int64_t kDartsPerTree = 300;
   const double half_m = 0.5 * c.extent_m();
-  PlaceGrid grid(c.extent_m(), c.spacing_m);
-  std::vector<Place> places;
+  SiteGrid grid(c.extent_m(), c.spacing_m);
+  std::vector<TreeSite> places;
   const auto wanted = static_cast<size_t>(c.trees);
   for (int64_t dart = 0; places.size() < wanted && dart < kDartsPerTree * c.trees; ++dart) {
     const Eigen::Vector2d p_NE(uniform(random, -half_m, half_m), uniform(random, -half_m, half_m));
@@ -124,10 +124,10 @@ std::vector<Place> place_trees(const ForestConfig& c, Random& random) {
 // Far trees are culled by plots of this side; the near ones each by itself.
 constexpr double kPlotM = 16.0;
 
-bool is_detailed(const Place& place) { return place.p_NE.norm() < kDetailedM; }
+bool is_detailed(const TreeSite& place) { return place.p_NE.norm() < kDetailedM; }
 
 // Which plot a tree stands on, row by row; -1 of a tree by itself.
-int64_t plot(const Place& place) {
+int64_t plot(const TreeSite& place) {
   constexpr int64_t kPerRow = 1 << 20;
   const Eigen::Array2d at = (place.p_NE.array() / kPlotM).floor() + 0.5 * kPerRow;
   return is_detailed(place) ? -1 : static_cast<int64_t>(at.x()) * kPerRow + static_cast<int64_t>(at.y());
@@ -152,7 +152,7 @@ double ForestConfig::extent_m() const { return spacing_m * std::sqrt(2.0 * stati
 Scene make_forest(const ForestConfig& config, uint64_t seed) {
   validate(config);
   Random place_random(derived_seed(seed, kForestPlaceStream)), lump_random(derived_seed(seed, kForestLumpStream));
-  std::vector<Place> places = place_trees(config, place_random);
+  std::vector<TreeSite> places = place_trees(config, place_random);
   std::ranges::stable_sort(places, {}, plot);
   std::vector<mesh::Polyhedron> lumps, coarse_lumps;
   for (int k = 0; k < kLumps; ++k) {

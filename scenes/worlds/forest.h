@@ -23,7 +23,7 @@ struct ForestConfig {
   double min_trunk_diameter_m = 0.25, max_trunk_diameter_m = 0.5;
   std::vector<Clearing> keep_clear;
   int64_t texture_size_px = 512;
-  Additions added;
+  SceneAdditions added;
 
   double extent_m() const;  ///< side of the square
 };

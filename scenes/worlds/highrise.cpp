@@ -34,7 +34,7 @@ struct Tower {
 constexpr uint64_t kTowerStream = 5;  // of the scene's seed; the images are streams 0 to 4
 
 // At scale 1, m.
-constexpr double kHighestM = 40.0, kLeastGapM = 4.0, kFarthestMoveM = 12.0;
+constexpr double kMaxHeightM = 40.0, kMinGapM = 4.0, kMaxMoveM = 12.0;
 
 // The smallest gap between two of the footprints, along north or east.
 double least_gap_m(const std::vector<Tower>& towers) {
@@ -54,7 +54,7 @@ double least_gap_m(const std::vector<Tower>& towers) {
 Tower draw_tower(const Tower& plain, const Eigen::AlignedBox3d& extent_W, double vary, Random& random) {
   const auto resized = [&](double length_m) { return length_m * uniform(random, 1.0 - vary, 1.0 + vary); };
   const auto moved = [&](double middle_m, double side_m, int axis) {
-    const double reach_m = vary * kFarthestMoveM;
+    const double reach_m = vary * kMaxMoveM;
     const double low_m = std::max(middle_m - reach_m, extent_W.min()[axis] + 0.5 * side_m);
     const double high_m = std::min(middle_m + reach_m, extent_W.max()[axis] - 0.5 * side_m);
     return uniform(random, low_m, high_m);
@@ -65,7 +65,7 @@ Tower draw_tower(const Tower& plain, const Eigen::AlignedBox3d& extent_W, double
   tower.side_east_m = resized(plain.side_east_m);
   tower.height_m = resized(plain.height_m);
   tower.spire_m = resized(plain.spire_m);
-  const double lower = std::min(1.0, kHighestM / (tower.height_m + tower.spire_m));
+  const double lower = std::min(1.0, kMaxHeightM / (tower.height_m + tower.spire_m));
   tower.height_m *= lower;
   tower.spire_m *= lower;
   tower.north_m = moved(plain.north_m, tower.side_north_m, 0);
@@ -82,7 +82,7 @@ std::vector<Tower> draw_skyline(const std::vector<Tower>& plain, double vary, ui
   for (int attempt = 0; attempt < kTries; ++attempt) {
     std::vector<Tower> drawn;
     for (const Tower& tower : plain) drawn.push_back(draw_tower(tower, extent_W, vary, random));
-    if (least_gap_m(drawn) >= kLeastGapM) return drawn;
+    if (least_gap_m(drawn) >= kMinGapM) return drawn;
   }
   return plain;
 }
@@ -181,7 +181,7 @@ Scene make_highrise(const HighriseConfig& config, uint64_t seed) {
     const std::string name = "tower " + std::to_string(wall - kFirstTowerWall + 1);
     const Eigen::AlignedBox3d box_W = tower.box_W();
     mesh.begin_chunk(true);
-    for (const mesh::Panel& panel : mesh::side_panels(box_W)) {
+    for (const mesh::TexturedPanel& panel : mesh::side_panels(box_W)) {
       mesh.add_tiled(panel, textures::FacadeStyle::kTileM, {0.0, -tower.height_m / textures::FacadeStyle::kTileM},
                      wall);
     }

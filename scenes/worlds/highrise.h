@@ -23,7 +23,7 @@ struct HighriseConfig {
   double scale = 1.0;
   double vary = 0.0;  ///< the cube is what it is
   int64_t texture_size_px = 512;
-  Additions added;
+  SceneAdditions added;
 };
 
 template <class Visitor>

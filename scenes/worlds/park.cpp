@@ -33,25 +33,25 @@ void validate(const ParkConfig& c) {
   require_texture_size(c.texture_size_px);
 }
 
-struct Disc {
+struct ParkDisc {
   Vector2d p_NE;
   double radius_m;
 };
 
 // Finds free places in the plan.
-class Planner {
+class PlacementPlanner {
  public:
-  Planner(const ParkConfig& config, uint64_t seed) : config_(config), random_(seed) {}
+  PlacementPlanner(const ParkConfig& config, uint64_t seed) : config_(config), random_(seed) {}
 
   /// A place beside the road for a disc of this radius, or, with `parked`, along the road.
-  Disc take(const char* field, double radius_m, bool parked) {
+  ParkDisc take(const char* field, double radius_m, bool parked) {
     constexpr int kTries = 3000;
     const double half_m = 0.5 * config_.extent_m - radius_m;
     for (int k = 0; k < kTries; ++k) {
-      Disc disc{{uniform(random_, -half_m, half_m), uniform(random_, -half_m, half_m)}, radius_m};
+      ParkDisc disc{{uniform(random_, -half_m, half_m), uniform(random_, -half_m, half_m)}, radius_m};
       if (parked) disc.p_NE.y() = chance(random_, 0.5) ? kParkedM : -kParkedM;
       if (!parked && std::abs(disc.p_NE.y()) - radius_m < kRoadHalfM) continue;
-      const bool is_free = std::ranges::none_of(taken_, [&](const Disc& other) {
+      const bool is_free = std::ranges::none_of(taken_, [&](const ParkDisc& other) {
         return (other.p_NE - disc.p_NE).norm() - other.radius_m - radius_m < config_.gap_m;
       });
       const bool is_clear = std::ranges::none_of(config_.keep_clear, [&](const Clearing& clearing) {
@@ -70,7 +70,7 @@ class Planner {
  private:
   const ParkConfig& config_;
   Random random_;
-  std::vector<Disc> taken_;
+  std::vector<ParkDisc> taken_;
 };
 
 constexpr uint32_t kParkGrass = 0, kAsphalt = 1, kParkBark = 2, kRock = 3, kFirstParkLeaves = 4, kFirstPaint = 7;
@@ -93,9 +93,9 @@ std::vector<cv::Mat> paint_park(int size_px, uint64_t seed) {
 }
 
 // Builds what the park holds, each thing a chunk of its own.
-class Gardener {
+class ParkBuilder {
  public:
-  Gardener(uint64_t seed, Planner& planner, Scene& scene, mesh::MeshBuilder& mesh)
+  ParkBuilder(uint64_t seed, PlacementPlanner& planner, Scene& scene, mesh::MeshBuilder& mesh)
       : planner_(planner), scene_(scene), mesh_(mesh) {
     Random random(seed);
     for (int k = 0; k < 6; ++k) lumps_.push_back(mesh::convex_lump(36, 0.2, random));
@@ -103,7 +103,7 @@ class Gardener {
 
   void plant_tree(int64_t number) {
     const double radius_m = uniform(random(), 1.5, 3.0);
-    const Disc disc = planner_.take("trees", radius_m, false);
+    const ParkDisc disc = planner_.take("trees", radius_m, false);
     const mesh::TreeShape shape{.foot_W = {disc.p_NE.x(), disc.p_NE.y(), 0.0},
                                 .height_m = uniform(random(), 5.0, 9.0),
                                 .clear_height_m = uniform(random(), 1.6, 2.4),
@@ -132,7 +132,7 @@ class Gardener {
   void park_vehicle(int64_t number) {
     const bool is_van = chance(random(), 0.33);
     const double length_m = is_van ? 5.0 : 4.4, width_m = is_van ? 1.95 : 1.75, top_m = is_van ? 2.3 : 1.45;
-    const Disc disc = planner_.take("vehicles", 0.5 * std::hypot(length_m, width_m), true);
+    const ParkDisc disc = planner_.take("vehicles", 0.5 * std::hypot(length_m, width_m), true);
     const double turn_rad = uniform(random(), -0.08, 0.08) + (chance(random(), 0.5) ? std::numbers::pi : 0.0);
     const Eigen::Isometry3d X_WK =
         Eigen::Translation3d(disc.p_NE.x(), disc.p_NE.y(), 0.0) * Eigen::AngleAxisd(turn_rad, Vector3d::UnitZ());
@@ -155,7 +155,7 @@ class Gardener {
   }
 
   // Half sunk into the ground, `slender` times as high above it as wide from its middle.
-  void add_lump(const std::string& name, const Disc& disc, double slender, const mesh::Cover& cover) {
+  void add_lump(const std::string& name, const ParkDisc& disc, double slender, const mesh::Cover& cover) {
     const mesh::Polyhedron& lump =
         lumps_[static_cast<size_t>(uniform_index(random(), static_cast<int>(lumps_.size())))];
     const double height_m = slender * disc.radius_m;
@@ -174,7 +174,7 @@ class Gardener {
     scene_.solids.push_back(mesh::solid_of(name, box_K, X_WK));
   }
 
-  Planner& planner_;
+  PlacementPlanner& planner_;
   Scene& scene_;
   mesh::MeshBuilder& mesh_;
   std::vector<mesh::Polyhedron> lumps_;
@@ -199,12 +199,12 @@ Scene make_park(const ParkConfig& config, uint64_t seed) {
       mesh);
 
   // The large first: they are the hardest to place.
-  Planner planner(config, derived_seed(seed, kParkPlaceStream));
-  Gardener gardener(derived_seed(seed, kParkLumpStream), planner, scene, mesh);
-  for (int64_t k = 1; k <= config.vehicles; ++k) gardener.park_vehicle(k);
-  for (int64_t k = 1; k <= config.trees; ++k) gardener.plant_tree(k);
-  for (int64_t k = 1; k <= config.bushes; ++k) gardener.plant_bush(k);
-  for (int64_t k = 1; k <= config.rocks; ++k) gardener.place_rock(k);
+  PlacementPlanner planner(config, derived_seed(seed, kParkPlaceStream));
+  ParkBuilder builder(derived_seed(seed, kParkLumpStream), planner, scene, mesh);
+  for (int64_t k = 1; k <= config.vehicles; ++k) builder.park_vehicle(k);
+  for (int64_t k = 1; k <= config.trees; ++k) builder.plant_tree(k);
+  for (int64_t k = 1; k <= config.bushes; ++k) builder.plant_bush(k);
+  for (int64_t k = 1; k <= config.rocks; ++k) builder.place_rock(k);
   scene.meshes.push_back(mesh.finish());
   return scene;
 }

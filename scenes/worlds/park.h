@@ -23,7 +23,7 @@ struct ParkConfig {
   double gap_m = 2.5;
   std::vector<Clearing> keep_clear = {{0.0, 0.0, 4.0}};
   int64_t texture_size_px = 512;
-  Additions added;
+  SceneAdditions added;
 };
 
 template <class Visitor>

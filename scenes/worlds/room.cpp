@@ -138,7 +138,7 @@ RoomImages paint_room(const RoomConfig& c, uint64_t seed) {
 }
 
 // Papers a face of a wall: one image after the other, each drawn from the wall's variants; their foot on the floor.
-void paper_wall(const mesh::Panel& wall, uint32_t first_image, Random& random, mesh::MeshBuilder& mesh) {
+void paper_wall(const mesh::TexturedPanel& wall, uint32_t first_image, Random& random, mesh::MeshBuilder& mesh) {
   const double width = wall.right_m.norm(), height = wall.down_m.norm();
   const int count = std::max(1, static_cast<int>(std::lround(width / textures::kRoomTileM)));
   const double share =
@@ -154,7 +154,7 @@ void paper_wall(const mesh::Panel& wall, uint32_t first_image, Random& random, m
 void add_box(const Eigen::AlignedBox3d& box_W, uint32_t image, Random& random, mesh::MeshBuilder& mesh) {
   mesh.begin_chunk(true);
   const Eigen::Vector2d shift(0.05 * uniform_index(random, 20), 0.1 * uniform_index(random, 10));
-  for (const mesh::Panel& panel : mesh::side_panels(box_W)) {
+  for (const mesh::TexturedPanel& panel : mesh::side_panels(box_W)) {
     const double foot = panel.down_m.norm() / textures::kRoomTileM;
     mesh.add_tiled(panel, textures::kRoomTileM, {shift.x(), shift.y() - foot}, image);
   }
@@ -165,7 +165,7 @@ void add_ceiling(const Eigen::AlignedBox3d& box_W, uint32_t image, mesh::MeshBui
   mesh.begin_chunk(false);
   mesh.add_tiled(mesh::bottom_panel(box_W), textures::kRoomTileM, Eigen::Vector2d::Zero(), image);
   mesh.add_tiled(mesh::top_panel(box_W), textures::kRoomTileM, Eigen::Vector2d::Zero(), image);
-  for (const mesh::Panel& side : mesh::side_panels(box_W))
+  for (const mesh::TexturedPanel& side : mesh::side_panels(box_W))
     mesh.add_tiled(side, textures::kRoomTileM, Eigen::Vector2d::Zero(), image);
 }
 
@@ -211,7 +211,8 @@ Scene make_room(const RoomConfig& config, uint64_t seed) {
   const std::vector<Eigen::AlignedBox3d> walls = wall_boxes(config);
   for (size_t k = 0; k < walls.size(); ++k) {
     mesh.begin_chunk(false);
-    for (const mesh::Panel& face : mesh::side_panels(walls[k])) paper_wall(face, room.first_wall[k], random, mesh);
+    for (const mesh::TexturedPanel& face : mesh::side_panels(walls[k]))
+      paper_wall(face, room.first_wall[k], random, mesh);
     mesh.add_tiled(mesh::top_panel(walls[k]), textures::kRoomTileM, Eigen::Vector2d::Zero(), room.first_wall[k]);
     scene.solids.push_back(mesh::solid_of(kNames[k], walls[k]));
   }

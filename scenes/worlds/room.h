@@ -26,7 +26,7 @@ struct RoomConfig {
   double furniture_gap_m = 2.4;
   std::vector<Clearing> keep_clear = {{0.0, 0.0, 2.0}};
   int64_t texture_size_px = 512;
-  Additions added;
+  SceneAdditions added;
 };
 
 template <class Visitor>

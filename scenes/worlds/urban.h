@@ -31,7 +31,7 @@ struct UrbanConfig {
   double setback_share = 0.3;  ///< of buildings that carry a narrower tower
   std::vector<Clearing> keep_clear = {{-130.0, 80.0, 6.0}, {110.0, -110.0, 6.0}};
   int64_t texture_size_px = 512;
-  Additions added;
+  SceneAdditions added;
 };
 
 template <class Visitor>

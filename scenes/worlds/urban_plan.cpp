@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kGrainM = 1.0 / 64.0;
 constexpr int kPlacementTries = 64;
-constexpr double kSmallestLotM = 3.0;
-constexpr double kMostCellsPerSide = 1000.0;
+constexpr double kMinLotM = 3.0;
+constexpr double kMaxCellsPerSide = 1000.0;
 
 double snapped_up(double x_m) { return std::ceil(x_m / kGrainM) * kGrainM; }
 double snapped_down(double x_m) { return std::floor(x_m / kGrainM) * kGrainM; }
@@ -22,8 +22,8 @@ double snapped_down(double x_m) { return std::floor(x_m / kGrainM) * kGrainM; }
 void validate(const UrbanConfig& c) {
   fields::require_bounds(c);
   const double lot_m = c.pitch_m - c.street_min_width_m;
-  require(lot_m >= kSmallestLotM, "pitch", c.pitch_m, "at least street_min_width + 3 m");
-  require(c.extent_m >= c.pitch_m && c.extent_m <= kMostCellsPerSide * c.pitch_m, "extent", c.extent_m,
+  require(lot_m >= kMinLotM, "pitch", c.pitch_m, "at least street_min_width + 3 m");
+  require(c.extent_m >= c.pitch_m && c.extent_m <= kMaxCellsPerSide * c.pitch_m, "extent", c.extent_m,
           "from pitch to 1000 pitch");
   require(c.min_footprint <= c.max_footprint, "min_footprint", c.min_footprint, "at most max_footprint");
   require(c.min_footprint * lot_m >= 1.0, "min_footprint", c.min_footprint, "at least 1 m of the lot's side");
@@ -71,7 +71,7 @@ Eigen::AlignedBox2d inset(const Eigen::AlignedBox2d& below_NE, const Eigen::Vect
 // Stacks the boxes of one building: a base, a tower on some, a roof housing on half of those with room for one.
 void stack_boxes(const UrbanConfig& c, const Eigen::AlignedBox2d& footprint_NE, Random& random, Building& building) {
   constexpr double kHousingHeightM = 2.5;
-  constexpr double kSmallestTowerM = 5.0;
+  constexpr double kMinTowerM = 5.0;
   const double rise = std::pow(uniform(random, 0.0, 1.0), 1.4);  // low buildings are commoner
   const double height = snapped_down(c.min_height_m + (c.max_height_m - c.min_height_m) * rise);
   const bool wants_tower = chance(random, c.setback_share);
@@ -83,7 +83,7 @@ void stack_boxes(const UrbanConfig& c, const Eigen::AlignedBox2d& footprint_NE, 
   const bool housing = wants_housing && height - kHousingHeightM >= c.min_height_m;
   const double roof = std::max(housing ? height - kHousingHeightM : height, snapped_up(c.min_height_m));
   Eigen::AlignedBox2d top_NE = footprint_NE;
-  if (wants_tower && roof - tower_start >= kSmallestTowerM && tower_size.minCoeff() >= kSmallestTowerM) {
+  if (wants_tower && roof - tower_start >= kMinTowerM && tower_size.minCoeff() >= kMinTowerM) {
     building.boxes_W.push_back(box_on(footprint_NE, 0.0, tower_start));
     top_NE = inset(footprint_NE, tower_size, random);
     building.boxes_W.push_back(box_on(top_NE, tower_start, roof));

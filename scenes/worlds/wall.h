@@ -39,7 +39,7 @@ struct WallConfig {
   std::optional<WallOpening> opening;
   double vary = 0.0;
   int64_t texture_size_px = 512;
-  Additions added;
+  SceneAdditions added;
 };
 
 template <class Visitor>

@@ -21,7 +21,7 @@ std::vector<std::string> items_of(const Scenario& scenario) {
   const auto add = [&items](const char* list, size_t count) {
     for (size_t k = 0; k < count; ++k) items.push_back(fmt::format("{}.{}.", list, k));
   };
-  const scenes::Additions& added = std::visit(
+  const scenes::SceneAdditions& added = std::visit(
       [](const auto& scene) -> const auto& { return scene.added; }, scenario.scene);
   add("scene.boxes", added.boxes.size());
   add("scene.movers", added.movers.size());

@@ -102,7 +102,7 @@ py::array_t<double> rays(const MountedCamera& camera) {
   auto d = directions.mutable_unchecked<3>();
   for (int v = 0; v < rows; ++v) {
     for (int u = 0; u < cols; ++u) {
-      const Eigen::Vector3d ray = camera.model.ray({u, v}).value_or(Eigen::Vector3d::Constant(std::nan("")));
+      const Eigen::Vector3d ray = camera.model.unit_ray({u, v}).value_or(Eigen::Vector3d::Constant(std::nan("")));
       for (int i = 0; i < 3; ++i) d(v, u, i) = ray[i];
     }
   }

@@ -41,7 +41,7 @@ std::vector<FaceRay> look(const vision::camera::Camera& camera) {
   double widest = 1.0;  // cosine of the angle off the axis
   for (int row = 0; row < camera.height_px; ++row) {
     for (int col = 0; col < camera.width_px; ++col) {
-      const auto ray = camera.ray(Eigen::Vector2d(col, row));
+      const auto ray = camera.unit_ray(Eigen::Vector2d(col, row));
       rays.push_back(ray.value_or(Eigen::Vector3d::Constant(kNothing)));
       if (ray) widest = std::min(widest, ray->z());
     }

@@ -22,7 +22,7 @@ std::vector<Eigen::Vector3d> all_rays(const vision::camera::Camera& camera) {
   rays.reserve(static_cast<size_t>(camera.width_px) * static_cast<size_t>(camera.height_px));
   for (int row = 0; row < camera.height_px; ++row) {
     for (int col = 0; col < camera.width_px; ++col) {
-      rays.push_back(camera.ray(Eigen::Vector2d(col, row)).value_or(nothing));
+      rays.push_back(camera.unit_ray(Eigen::Vector2d(col, row)).value_or(nothing));
     }
   }
   return rays;
@@ -74,7 +74,7 @@ void true_flow(const vision::camera::PinholeCamera& camera, const FlowInput& inp
   for (int row = 0; row < out.rows; ++row) {
     const float* const depth = input.depth.ptr<float>(row);
     cv::Vec2f* const flow = out.ptr<cv::Vec2f>(row);
-    const Eigen::Vector3d first = X_CnC.linear() * camera.ray({0.0, row});
+    const Eigen::Vector3d first = X_CnC.linear() * camera.ray_at_unit_depth({0.0, row});
     const auto put = [&](int col, const Eigen::Vector3d& moved) {
       const Eigen::Vector2d seen = flow_at(first, col, 1.0 / static_cast<double>(depth[col]), moved);
       flow[col] = {static_cast<float>(seen.x() - col), static_cast<float>(seen.y() - row)};

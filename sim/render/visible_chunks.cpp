@@ -19,7 +19,7 @@ std::vector<Eigen::AlignedBox3f> boxes(const std::vector<scenes::Chunk>& chunks)
 /// In W, a pixel outside the image's outermost.
 std::array<Eigen::Vector3d, 4> corner_rays(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC) {
   const auto ray = [&](double u_px, double v_px) -> Eigen::Vector3d {
-    return X_WC.linear() * camera.ray({u_px, v_px});
+    return X_WC.linear() * camera.ray_at_unit_depth({u_px, v_px});
   };
   const double right_px = camera.width_px + 0.5, bottom_px = camera.height_px + 0.5;
   return {ray(-1.5, -1.5), ray(right_px, -1.5), ray(-1.5, bottom_px), ray(right_px, bottom_px)};

@@ -41,7 +41,7 @@ Columns section_costs() {
   for (int round = 0; round < kRounds; ++round) {
     for (Candidate& candidate : candidates) {
       const auto start = std::chrono::steady_clock::now();
-      candidate.search.choose(depth_m, kThresholdM, kMostShare, vision::sections::Unknown::free);
+      candidate.search.choose(depth_m, kThresholdM, kMostShare, vision::sections::UnknownDepth::free);
       const std::chrono::duration<double, std::milli> cost = std::chrono::steady_clock::now() - start;
       candidate.costs_ms.push_back(cost.count());
     }

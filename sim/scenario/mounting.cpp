@@ -8,7 +8,7 @@ namespace hedgehop::sim {
 
 double pixel_angle_rad(const vision::camera::Camera& camera) {
   const Eigen::Vector3d axis_C = Eigen::Vector3d::UnitZ();
-  const Eigen::Vector3d below_C = *camera.ray(*camera.project(axis_C) + Eigen::Vector2d(0.0, 1.0));
+  const Eigen::Vector3d below_C = *camera.unit_ray(*camera.project(axis_C) + Eigen::Vector2d(0.0, 1.0));
   return std::atan2(axis_C.cross(below_C).norm(), axis_C.dot(below_C));
 }
 

@@ -86,7 +86,7 @@ std::vector<Row> rows() {
   zig_zag.law = Law::printed;
   all.push_back({"zig_zag_printed", zig_zag});
   landmark_map::LandmarkMapModuleConfig thesis;
-  thesis.law = landmark_map::Law::printed;
+  thesis.law = Law::printed;
   all.push_back({.name = "landmark_map_printed", .config = thesis, .holds_heading = false});
   return all;
 }

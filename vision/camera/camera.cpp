@@ -61,8 +61,8 @@ std::optional<Eigen::Vector2d> Camera::project(const Eigen::Vector3d& p_C) const
   return std::visit([&](const auto& its_lens) { return its_lens.project(p_C); }, lens);
 }
 
-std::optional<Eigen::Vector3d> Camera::ray(const Eigen::Vector2d& pixel) const {
-  return std::visit([&](const auto& its_lens) { return its_lens.ray(pixel); }, lens);
+std::optional<Eigen::Vector3d> Camera::unit_ray(const Eigen::Vector2d& pixel) const {
+  return std::visit([&](const auto& its_lens) { return its_lens.unit_ray(pixel); }, lens);
 }
 
 bool Camera::is_undistorted_pinhole() const {

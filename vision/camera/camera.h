@@ -33,7 +33,7 @@ struct Camera {
   /// Pixel (u, v) of a point in C, m; nothing beyond the lens's limit. Not clipped to the image.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_C) const;
   /// Ray through a pixel, in C, of length 1; nothing where the lens shows nothing. The inverse of project().
-  std::optional<Eigen::Vector3d> ray(const Eigen::Vector2d& pixel) const;
+  std::optional<Eigen::Vector3d> unit_ray(const Eigen::Vector2d& pixel) const;
 
   /// Whether the lens is an undistorted pinhole, which shows straight lines as straight lines.
   bool is_undistorted_pinhole() const;

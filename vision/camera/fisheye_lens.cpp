@@ -33,7 +33,7 @@ std::optional<Eigen::Vector2d> FisheyeLens::project(const Eigen::Vector3d& p_C) 
   return Eigen::Vector2d{center_u_px + focal_x_px * scale * p_C.x(), center_v_px + focal_y_px * scale * p_C.y()};
 }
 
-std::optional<Eigen::Vector3d> FisheyeLens::ray(const Eigen::Vector2d& pixel) const {
+std::optional<Eigen::Vector3d> FisheyeLens::unit_ray(const Eigen::Vector2d& pixel) const {
   const Eigen::Vector2d seen((pixel.x() - center_u_px) / focal_x_px, (pixel.y() - center_v_px) / focal_y_px);
   const double seen_radius = seen.norm();
   if (!(seen_radius < radius(limit_rad))) return std::nullopt;

@@ -17,13 +17,13 @@ ImageDerotator::ImageDerotator(const Camera& camera, const cv::Mat& wanted)
   nodes_ = {(box_.width + kNodePx - 1) / kNodePx + 1, (box_.height + kNodePx - 1) / kNodePx + 1};
   for (int row = 0; row < nodes_.height; ++row) {
     for (int col = 0; col < nodes_.width; ++col) {
-      node_rays_.push_back(camera.ray({box_.x + col * kNodePx, box_.y + row * kNodePx}));
+      node_rays_.push_back(camera.unit_ray({box_.x + col * kNodePx, box_.y + row * kNodePx}));
     }
   }
   for (int row = box_.y; row < box_.br().y; ++row) {
     for (int col = box_.x; col < box_.br().x; ++col) {
       if (!wanted.at<uint8_t>(row, col)) continue;
-      if (const auto ray_C = camera.ray({col, row})) rays_.push_back({row, col, *ray_C});
+      if (const auto ray_C = camera.unit_ray({col, row})) rays_.push_back({row, col, *ray_C});
     }
   }
 }

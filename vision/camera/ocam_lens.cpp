@@ -49,7 +49,7 @@ std::vector<double> next_polynomial(std::istream& lines, const std::string& what
 }
 
 /// f and its slope.
-std::pair<double, double> evaluate(const std::array<double, OcamLens::kMostCoefficients>& coefficients, double x) {
+std::pair<double, double> evaluate(const std::array<double, OcamLens::kMaxCoefficients>& coefficients, double x) {
   double value = 0.0, slope = 0.0;
   for (auto coefficient = coefficients.rbegin(); coefficient != coefficients.rend(); ++coefficient) {
     slope = slope * x + value;
@@ -70,8 +70,8 @@ OcamCalibration parse_ocam_calibration(const std::string& text) {
   const std::vector<double> center = next_row(lines, "center", 2);
   const std::vector<double> affine = next_row(lines, "affine parameters", 3);
   const std::vector<double> size = next_row(lines, "image size", 2);
-  constexpr double kMostPixels = 32768.0;
-  const auto is_size = [](double x) { return x >= 1.0 && x <= kMostPixels && x == std::floor(x); };
+  constexpr double kMaxPixels = 32768.0;
+  const auto is_size = [](double x) { return x >= 1.0 && x <= kMaxPixels && x == std::floor(x); };
   require(is_size(size[0]) && is_size(size[1]), "image size: must be whole numbers of pixels");
   calibration.center_row_px = center[0];
   calibration.center_col_px = center[1];
@@ -99,7 +99,7 @@ std::optional<Eigen::Vector2d> OcamLens::project(const Eigen::Vector3d& p_C) con
   return Eigen::Vector2d{center_col_px + e * x + y, center_row_px + c * x + d * y};
 }
 
-std::optional<Eigen::Vector3d> OcamLens::ray(const Eigen::Vector2d& pixel) const {
+std::optional<Eigen::Vector3d> OcamLens::unit_ray(const Eigen::Vector2d& pixel) const {
   const Eigen::Vector2d xy =
       affine(*this).inverse() * Eigen::Vector2d(pixel.y() - center_row_px, pixel.x() - center_col_px);
   const double radius_px = xy.norm();
@@ -108,8 +108,8 @@ std::optional<Eigen::Vector3d> OcamLens::ray(const Eigen::Vector2d& pixel) const
 }
 
 OcamLens ocam_lens(const OcamCalibration& calibration) {
-  require(!calibration.direct.empty() && calibration.direct.size() <= OcamLens::kMostCoefficients,
-          "the direct polynomial must have 1 to " + std::to_string(OcamLens::kMostCoefficients) + " coefficients");
+  require(!calibration.direct.empty() && calibration.direct.size() <= OcamLens::kMaxCoefficients,
+          "the direct polynomial must have 1 to " + std::to_string(OcamLens::kMaxCoefficients) + " coefficients");
   require(calibration.direct[0] < 0.0, "the direct polynomial must begin below 0");
   OcamLens lens;
   std::ranges::copy(calibration.direct, lens.direct.begin());

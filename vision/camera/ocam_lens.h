@@ -26,9 +26,9 @@ OcamCalibration parse_ocam_calibration(const std::string& text);
 /// The omnidirectional lens of an OcamCalibration, which may see behind itself. It turns to frame C: x_C is its y, y_C
 /// its x, z_C its -z.
 struct OcamLens {
-  static constexpr size_t kMostCoefficients = 12;
+  static constexpr size_t kMaxCoefficients = 12;
 
-  std::array<double, kMostCoefficients> direct{};  ///< f, px, from power 0 up
+  std::array<double, kMaxCoefficients> direct{};  ///< f, px, from power 0 up
   double center_row_px = 0.0, center_col_px = 0.0;
   double c = 1.0, d = 0.0, e = 0.0;
   double limit_px = 0.0;  ///< hypot(x, y) from where on nothing is seen; the angle off the axis grows up to there
@@ -38,10 +38,10 @@ struct OcamLens {
   /// Angle off the axis of the ray through a point so far from the center, rad.
   double angle_rad(double radius_px) const;
 
-  /// As Camera::project(). Solves the direct polynomial, so that it is the inverse of ray() to rounding.
+  /// As Camera::project(). Solves the direct polynomial, so that it is the inverse of unit_ray() to rounding.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_C) const;
-  /// As Camera::ray().
-  std::optional<Eigen::Vector3d> ray(const Eigen::Vector2d& pixel) const;
+  /// As Camera::unit_ray().
+  std::optional<Eigen::Vector3d> unit_ray(const Eigen::Vector2d& pixel) const;
 };
 
 /// Sees as far as the image's farthest corner, or to where the angle off the axis stops growing. Throws

@@ -26,7 +26,7 @@ std::optional<Eigen::Vector2d> PinholeCamera::project(const Eigen::Vector3d& p_C
   return Eigen::Vector2d{center_u_px + focal_x_px * p_C.x() / p_C.z(), center_v_px + focal_y_px * p_C.y() / p_C.z()};
 }
 
-Eigen::Vector3d PinholeCamera::ray(const Eigen::Vector2d& pixel) const {
+Eigen::Vector3d PinholeCamera::ray_at_unit_depth(const Eigen::Vector2d& pixel) const {
   return {(pixel.x() - center_u_px) / focal_x_px, (pixel.y() - center_v_px) / focal_y_px, 1.0};
 }
 

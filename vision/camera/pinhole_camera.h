@@ -19,7 +19,7 @@ struct PinholeCamera {
   /// Pixel (u, v) of a point in C, m; nothing when the point is not in front of the camera. Not clipped to the image.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_C) const;
   /// Ray through a pixel, in C, scaled to z = 1.
-  Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const;
+  Eigen::Vector3d ray_at_unit_depth(const Eigen::Vector2d& pixel) const;
 };
 
 }  // namespace hedgehop::vision::camera

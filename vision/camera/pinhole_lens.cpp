@@ -45,11 +45,11 @@ bool sees(const PinholeLens& lens, const Eigen::Vector2d& p, const Eigen::Matrix
 
 /// The point that the lens moves to `seen`; nothing when it moves none there.
 std::optional<Eigen::Vector2d> straighten(const PinholeLens& lens, const Eigen::Vector2d& seen) {
-  constexpr int kMostSteps = 60;
+  constexpr int kMaxSteps = 60;
   constexpr double kAccuracy = 1e-14;
   Eigen::Vector2d p = seen;
   Distorted at = distort(lens, p);
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const double error = (at.point - seen).norm();
     if (error <= kAccuracy * (1.0 + seen.norm())) break;
     // Newton's step, halved until it does not lead away.
@@ -81,7 +81,7 @@ std::optional<Eigen::Vector2d> PinholeLens::project(const Eigen::Vector3d& p_C) 
   return Eigen::Vector2d{center_u_px + focal_x_px * p.x(), center_v_px + focal_y_px * p.y()};
 }
 
-std::optional<Eigen::Vector3d> PinholeLens::ray(const Eigen::Vector2d& pixel) const {
+std::optional<Eigen::Vector3d> PinholeLens::unit_ray(const Eigen::Vector2d& pixel) const {
   const Eigen::Vector2d seen((pixel.x() - center_u_px) / focal_x_px, (pixel.y() - center_v_px) / focal_y_px);
   const std::optional<Eigen::Vector2d> p = is_undistorted() ? seen : straighten(*this, seen);
   if (!p) return std::nullopt;

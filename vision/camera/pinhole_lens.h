@@ -20,8 +20,8 @@ struct PinholeLens {
 
   /// As Camera::project().
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_C) const;
-  /// As Camera::ray().
-  std::optional<Eigen::Vector3d> ray(const Eigen::Vector2d& pixel) const;
+  /// As Camera::unit_ray().
+  std::optional<Eigen::Vector3d> unit_ray(const Eigen::Vector2d& pixel) const;
 };
 
 }  // namespace hedgehop::vision::camera

@@ -48,7 +48,7 @@ ApproachMeter::ApproachMeter(const ApproachConfig& config, const camera::Camera&
   for (int v = box_.y; v < box_.br().y; v += kStepPx) {
     for (int u = box_.x; u < box_.br().x; u += kStepPx) {
       if (!mask.at<uint8_t>(v, u)) continue;
-      if (const auto ray_C = camera.ray({u, v})) samples_.push_back({{u, v}, *ray_C});
+      if (const auto ray_C = camera.unit_ray({u, v})) samples_.push_back({{u, v}, *ray_C});
     }
   }
   if (samples_.empty()) return;
@@ -89,10 +89,10 @@ std::optional<ApproachMeter::Fit> ApproachMeter::fit(const cv::Mat& older, const
   return Fit{-jr / jj, std::sqrt(kAlike * (left + kGreys * kGreys) / jj)};
 }
 
-std::optional<Approach> ApproachMeter::measure(const cv::Mat& older, const cv::Mat& newer,
-                                               const CameraMotion& motion) const {
+std::optional<ApproachRate> ApproachMeter::measure(const cv::Mat& older, const cv::Mat& newer,
+                                                   const CameraMotion& motion) const {
   if (samples_.empty() || motion.traveled_H.norm() == 0.0) return std::nullopt;
-  Approach approach;
+  ApproachRate approach;
   for (const double sigma_px : {5.0, 2.0}) {
     const cv::Mat from = smooth(older, box_, sigma_px), to = smooth(newer, box_, sigma_px);
     for (int i = 0; i < kSweeps; ++i) {

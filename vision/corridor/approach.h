@@ -25,7 +25,7 @@ void describe(Visitor& v, ApproachConfig& c) {
 
 /// How fast a wall ahead, perpendicular to the direction of travel, expands in the image. Measured from all its pixels:
 /// a coarse texture seen from close range has few corners, but grey gradients everywhere.
-struct Approach {
+struct ApproachRate {
   double rate_per_s = 0.0;   ///< speed over distance at the older image, half the flow's divergence
   double sigma_per_s = 0.0;  ///< standard deviation, from the residuals of the fit
 };
@@ -40,7 +40,7 @@ class ApproachMeter {
 
   /// @param older, newer  CV_8UC1. @param motion  as of wall_point(), distance traveled not 0.
   /// @return nothing where the image has too little texture.
-  std::optional<Approach> measure(const cv::Mat& older, const cv::Mat& newer, const CameraMotion& motion) const;
+  std::optional<ApproachRate> measure(const cv::Mat& older, const cv::Mat& newer, const CameraMotion& motion) const;
 
  private:
   struct Sample {

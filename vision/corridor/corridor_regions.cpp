@@ -32,7 +32,7 @@ std::array<cv::Mat, kRegions> region_masks(const camera::Camera& camera, const E
   cv::Mat shown = cv::Mat::zeros(camera.height_px, camera.width_px, CV_8UC1);
   for (int v = 0; v < camera.height_px; ++v) {
     for (int u = 0; u < camera.width_px; ++u) {
-      const auto ray_C = camera.ray({u, v});
+      const auto ray_C = camera.unit_ray({u, v});
       if (!ray_C) continue;
       shown.at<uint8_t>(v, u) = 255;
       const auto region = region_of(X_BC.linear() * *ray_C, regions);

@@ -8,9 +8,9 @@
 namespace hedgehop::vision::flow {
 namespace {
 
-constexpr int kMostIterations = 30;
-constexpr double kLeastStepPx = 0.005;
-constexpr float kLeastEigenvalue = 1e-4F;       // of the mean product of gradients
+constexpr int kMaxIterations = 30;
+constexpr double kMinStepPx = 0.005;
+constexpr float kMinEigenvalue = 1e-4F;         // of the mean product of gradients
 constexpr int kWeightBits = 14, kGreyBits = 5;  // of shares between pixels, and of grey values behind the point
 constexpr int kTogether = 8;
 constexpr int16_t kWithin[2 * kTogether] = {-1, -1, -1, -1, -1, -1, -1, -1};  // ones in all bits, then zeros
@@ -136,7 +136,7 @@ CornerTracker::Normal CornerTracker::cut_out(const cv::Mat& image, const cv::Mat
   const float apart = normal.xx - normal.yy, pixels = static_cast<float>(window_ * window_);
   const float least_eigenvalue =
       (normal.xx + normal.yy - std::sqrt(apart * apart + 4.0F * normal.xy * normal.xy)) / (2.0F * pixels);
-  normal.solvable = least_eigenvalue >= kLeastEigenvalue && normal.determinant >= FLT_EPSILON;
+  normal.solvable = least_eigenvalue >= kMinEigenvalue && normal.determinant >= FLT_EPSILON;
   return normal;
 }
 
@@ -162,7 +162,7 @@ cv::Point2f CornerTracker::mismatch(const cv::Mat& image, const cv::Point& at, c
 /// Moves to where the difference is least. @return whether it stayed inside.
 bool CornerTracker::search(const cv::Mat& image, const Normal& normal, cv::Point2f& place) {
   cv::Point2f last_step;
-  for (int i = 0; i < kMostIterations; ++i) {
+  for (int i = 0; i < kMaxIterations; ++i) {
     const cv::Point at(cvFloor(place.x), cvFloor(place.y));
     if (!inside(at, window_, image)) return false;
     const cv::Point2f sum = mismatch(image, at, place - cv::Point2f(at));
@@ -170,7 +170,7 @@ bool CornerTracker::search(const cv::Mat& image, const Normal& normal, cv::Point
     const cv::Point2f step((normal.xy * sum.y - normal.yy * sum.x) * over,
                            (normal.xy * sum.x - normal.xx * sum.y) * over);
     place += step;
-    if (step.ddot(step) <= kLeastStepPx * kLeastStepPx) break;
+    if (step.ddot(step) <= kMinStepPx * kMinStepPx) break;
     constexpr double kSwing = 0.01;  // from here to there and back: the middle
     if (i > 0 && std::abs(step.x + last_step.x) < kSwing && std::abs(step.y + last_step.y) < kSwing) {
       place -= step * 0.5F;

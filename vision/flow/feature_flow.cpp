@@ -78,7 +78,7 @@ std::vector<std::vector<RayPair>> feature_flow(const cv::Mat& older, const cv::M
   for (size_t i = 0; i < all.size(); ++i) {
     if (!found[i]) continue;
     const Eigen::Vector2d before_px(all[i].x, all[i].y), after_px(found[i]->x, found[i]->y);
-    const auto before_C = camera.ray(before_px), after_C = camera.ray(after_px);
+    const auto before_C = camera.unit_ray(before_px), after_C = camera.unit_ray(after_px);
     if (before_C && after_C) pairs[region_of[i]].push_back({before_px, after_px, *before_C, *after_C});
   }
   return pairs;

@@ -14,9 +14,9 @@ constexpr double kHalvingGain = 20.0 / 64.0, kSmoothingGain = 6.0 / 16.0;
 // Smoothed noise is alike over this many pixels: the inverse of the smoothing's summed squares.
 constexpr double kNoiseArea = 1.0 / (kSmoothingGain * kSmoothingGain);
 // Texture must exceed noise by this much (mean squares) along the direction where it is weakest.
-constexpr double kLeastContrast = 3.0;
+constexpr double kMinContrast = 3.0;
 // Copies shifted by one pixel do not measure larger steps; in reduced pixels.
-constexpr double kLargestStep = 2.0, kLargestLastStep = 1.0;
+constexpr double kMaxStep = 2.0, kMaxLastStep = 1.0;
 
 double noise_energy(const ImageInterpolationConfig& config, int reduction, int bits) {
   double noise = config.noise_grey * std::exp2(bits - 8) * kSmoothingGain;
@@ -160,7 +160,7 @@ void FlowLevel::begin() {
   }
   for (int row = 0; row < config_.rows; ++row) {
     for (int col = 0; col < config_.cols; ++col) {
-      Patch& patch = patches_[static_cast<size_t>(row * config_.cols + col)];
+      PatchFit& patch = patches_[static_cast<size_t>(row * config_.cols + col)];
       patch.a_xx = static_cast<double>(sums_.sum(0, row, col));
       patch.a_xy = static_cast<double>(sums_.sum(1, row, col));
       patch.a_yy = static_cast<double>(sums_.sum(2, row, col));
@@ -194,7 +194,7 @@ void FlowLevel::iterate(NodeFlow& flow) {
   for (int row = 0; row < config_.rows; ++row) {
     for (int col = 0; col < config_.cols; ++col) {
       const auto i = static_cast<size_t>(row * config_.cols + col);
-      Patch& patch = patches_[i];
+      PatchFit& patch = patches_[i];
       patch.b_x = static_cast<double>(sums_.sum(0, row, col));
       patch.b_y = static_cast<double>(sums_.sum(1, row, col));
       patch.dd = static_cast<double>(sums_.sum(2, row, col));
@@ -208,21 +208,21 @@ void FlowLevel::iterate(NodeFlow& flow) {
   }
 }
 
-void FlowLevel::solve(Patch& patch) const {
+void FlowLevel::solve(PatchFit& patch) const {
   // The copies differ by two pixels, hence the 2; noise on the diagonal keeps a poor patch from leaping.
   const double noise = pixels_ * noise_energy_;
   const double a_xx = patch.a_xx + noise, a_yy = patch.a_yy + noise;
   const double determinant = a_xx * a_yy - patch.a_xy * patch.a_xy;
   const Eigen::Vector2d step{2.0 * (a_yy * patch.b_x - patch.a_xy * patch.b_y) / determinant,
                              2.0 * (a_xx * patch.b_y - patch.a_xy * patch.b_x) / determinant};
-  patch.step_px = step * (reduction_ * std::min(1.0, kLargestStep / std::max(step.norm(), kLargestStep)));
+  patch.step_px = step * (reduction_ * std::min(1.0, kMaxStep / std::max(step.norm(), kMaxStep)));
 }
 
-bool FlowLevel::is_valid(const Patch& patch, const Eigen::Vector2d& flow_px) const {
+bool FlowLevel::is_valid(const PatchFit& patch, const Eigen::Vector2d& flow_px) const {
   const double noise = pixels_ * noise_energy_;
-  if (!(patch.least_eigenvalue > kLeastContrast * noise)) return false;
+  if (!(patch.least_eigenvalue > kMinContrast * noise)) return false;
   if (flow_px.norm() >= config_.max_flow_px) return false;
-  if (patch.step_px.norm() > kLargestLastStep * reduction_) return false;
+  if (patch.step_px.norm() > kMaxLastStep * reduction_) return false;
   // What the fit leaves over, as a share of the noise's energy: never less than noise.
   const Eigen::Vector2d step = patch.step_px / reduction_;
   const double rest = std::max(patch.dd - 0.5 * (step.x() * patch.b_x + step.y() * patch.b_y), 0.0);

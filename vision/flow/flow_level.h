@@ -71,15 +71,15 @@ class FlowLevel {
 
  private:
   /// Least squares of one patch: normal matrix, right side, squared difference; in numbers of the reduced images.
-  struct Patch {
+  struct PatchFit {
     double a_xx = 0.0, a_xy = 0.0, a_yy = 0.0, b_x = 0.0, b_y = 0.0, dd = 0.0;
     double least_eigenvalue = 0.0;
     Eigen::Vector2d step_px = Eigen::Vector2d::Zero();  ///< full px
   };
   /// Fills the differences of the copies at a row.
   void difference_copies(int y);
-  void solve(Patch& patch) const;
-  bool is_valid(const Patch& patch, const Eigen::Vector2d& flow_px) const;
+  void solve(PatchFit& patch) const;
+  bool is_valid(const PatchFit& patch, const Eigen::Vector2d& flow_px) const;
 
   ImageInterpolationConfig config_;
   int reduction_;
@@ -93,7 +93,7 @@ class FlowLevel {
   SpreadFlow spread_;
   PatchMeans means_;
   PatchSums sums_;
-  std::vector<Patch> patches_;
+  std::vector<PatchFit> patches_;
   NodeFlow spare_;
   std::vector<double> level_u_, level_v_;  ///< node flow in reduced px
 };

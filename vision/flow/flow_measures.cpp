@@ -21,7 +21,7 @@ Eigen::Vector2d rotation_flow_px(const camera::PinholeCamera& camera, const Eige
   if (angle_rad == 0.0) return Eigen::Vector2d::Zero();
   // A direction at rest in W turns backwards in C.
   const Eigen::AngleAxisd backwards(-angle_rad, w_WC_C.normalized());
-  const auto moved = camera.project(backwards * camera.ray(pixel));
+  const auto moved = camera.project(backwards * camera.ray_at_unit_depth(pixel));
   return moved ? Eigen::Vector2d(*moved - pixel)
                : Eigen::Vector2d(image_jacobian(camera, pixel, 1.0).rightCols<3>() * w_WC_C * dt_s);
 }

@@ -19,7 +19,7 @@ Eigen::Vector2d flow_per_s(const FlowVector& vector, const camera::PinholeCamera
 double inverse_depth_per_m(const FlowVector& vector, const camera::PinholeCamera& camera, const Eigen::Vector3d& v_WC_C,
                            double dt_s, double floor_mps) {
   if (!vector.valid) return 0.0;
-  const Eigen::Vector2d place = camera.ray(vector.center_px).head<2>();
+  const Eigen::Vector2d place = camera.ray_at_unit_depth(vector.center_px).head<2>();
   const Eigen::Vector2d b = unit_flow(place, v_WC_C);
   const Eigen::Vector2d flow = flow_per_s(vector, camera, dt_s);
   const double along = b.dot(flow), across = b.x() * flow.y() - b.y() * flow.x();
@@ -31,7 +31,7 @@ std::vector<double> inverse_ranges_per_m(const FlowField& field, const camera::P
   std::vector<double> near;
   near.reserve(field.vectors.size());
   for (const FlowVector& vector : field.vectors) {
-    const double stretch = std::hypot(1.0, camera.ray(vector.center_px).x());
+    const double stretch = std::hypot(1.0, camera.ray_at_unit_depth(vector.center_px).x());
     const double inverse_range_per_m = inverse_depth_per_m(vector, camera, v_WC_C, dt_s, floor_mps) / stretch;
     near.push_back(vector.valid ? inverse_range_per_m : std::numeric_limits<double>::quiet_NaN());
   }
@@ -43,7 +43,7 @@ std::vector<double> parallax_weights(const FlowField& field, const camera::Pinho
   std::vector<double> weights;
   weights.reserve(field.vectors.size());
   for (const FlowVector& vector : field.vectors) {
-    const double parallax = unit_flow(camera.ray(vector.center_px).head<2>(), v_WC_C).squaredNorm();
+    const double parallax = unit_flow(camera.ray_at_unit_depth(vector.center_px).head<2>(), v_WC_C).squaredNorm();
     weights.push_back(parallax / (parallax + floor_mps * floor_mps));
   }
   return weights;
@@ -53,7 +53,7 @@ std::vector<double> bearings_rad(const FlowField& field, const camera::PinholeCa
   std::vector<double> bearings;
   bearings.reserve(field.vectors.size());
   for (const FlowVector& vector : field.vectors) {
-    bearings.push_back(std::atan(camera.ray(vector.center_px).x()));
+    bearings.push_back(std::atan(camera.ray_at_unit_depth(vector.center_px).x()));
   }
   return bearings;
 }

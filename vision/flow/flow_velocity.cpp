@@ -38,7 +38,7 @@ std::vector<Equation> equations(const FlowField& field, const camera::PinholeCam
   if (!(camera_height_m > 0.0)) return all;
   for (const FlowVector& vector : field.vectors) {
     if (!vector.valid) continue;
-    const Eigen::Vector3d ray_C = camera.ray(vector.center_px);
+    const Eigen::Vector3d ray_C = camera.ray_at_unit_depth(vector.center_px);
     const double down = ray_C.dot(down_C);
     if (down < least_cosine * ray_C.norm()) continue;
     const double depth_m = camera_height_m / down;
@@ -71,13 +71,13 @@ Eigen::Vector3d median_velocity(const std::vector<Equation>& all, const FlowMoti
 double reweigh(std::vector<Equation>& all, const Eigen::Vector3d& v_B) {
   constexpr double kBiweight = 4.685;         // 95 % efficiency for Gaussian errors
   constexpr double kRayleighMedian = 1.1774;  // median length of a Gaussian pair, in standard deviations
-  constexpr double kLeastScaleMps = 1e-6;
+  constexpr double kMinScaleMps = 1e-6;
   std::vector<double> lengths;
   for (Equation& e : all) {
     e.residual_mps = (e.rows * v_B - e.flow_mps).norm();
     lengths.push_back(e.residual_mps);
   }
-  const double sigma = std::max(median(lengths) / kRayleighMedian, kLeastScaleMps);
+  const double sigma = std::max(median(lengths) / kRayleighMedian, kMinScaleMps);
   for (Equation& e : all) {
     const double t = e.residual_mps / (kBiweight * sigma);
     e.weight = t < 1.0 ? (1.0 - t * t) * (1.0 - t * t) : 0.0;

@@ -51,7 +51,7 @@ HEDGEHOP_WIDE void subtract_interpolated(const int16_t* older, const int16_t* co
 }
 
 // Some columns of one row on their way to the difference.
-struct Strip {
+struct ColumnStrip {
   int count = 0;
   int16_t u[kStrip + kCopied], v[kStrip + kCopied];  ///< 1/128 px
   int16_t corners[4][kStrip + kCopied];  ///< the newer image about each column's place: top, bottom; left, right
@@ -192,7 +192,7 @@ void SpreadFlow::start_band(int y) {
 void recentered_difference(const ReducedImage& older, const ReducedImage& newer, int y, const int32_t* u_q16,
                            const int32_t* v_q16, int16_t* out, const PatchRange& columns) {
   const int16_t* old_row = older.row(y);
-  Strip strip;
+  ColumnStrip strip;
   for (int x = columns.begin; x < columns.end; x += kStrip) {
     strip.count = std::min(kStrip, columns.end - x);
     strip.round(u_q16 + x, v_q16 + x);

@@ -15,13 +15,13 @@ struct Sums {
   Eigen::Vector2d c = Eigen::Vector2d::Zero();
   double squares = 0.0;
 
-  void add(const WallObservation& observation) {
+  void add(const WallFlowSample& sample) {
     for (int k = 0; k < 2; ++k) {
       const Eigen::Vector2d slope =
-          (observation.unit_flow[k] * observation.ray_H + observation.flow[k] * observation.p_BC_H) / observation.noise;
-      const double flow = observation.flow[k] / observation.noise;
+          (sample.unit_flow[k] * sample.ray_H + sample.flow[k] * sample.p_BC_H) / sample.noise;
+      const double flow = sample.flow[k] / sample.noise;
       A += slope * slope.transpose();
-      const Eigen::Vector2d shift = observation.unit_flow[k] * observation.ray_H / observation.noise;
+      const Eigen::Vector2d shift = sample.unit_flow[k] * sample.ray_H / sample.noise;
       information += shift * shift.transpose();
       c += flow * slope;
       squares += flow * flow;
@@ -51,14 +51,14 @@ Fit fit(const Sums& sums, size_t patches) {
 
 }  // namespace
 
-std::vector<WallEstimate> walls_from_flow(std::span<const WallObservation> observations, double relative_error) {
-  constexpr size_t kFewest = 3;       // patches of a wall
+std::vector<WallEstimate> walls_from_flow(std::span<const WallFlowSample> samples, double relative_error) {
+  constexpr size_t kMinPatches = 3;   // patches of a wall
   constexpr double kOneMore = 12.0;   // squares that a further wall must explain: its two numbers, six times over
   constexpr double kNoWall = 1000.0;  // squares of a patch that belongs to none: far worse than any that fits
   std::vector<Sums> upto(1);
-  for (const WallObservation& observation : observations) {
+  for (const WallFlowSample& sample : samples) {
     upto.push_back(upto.back());
-    upto.back().add(observation);
+    upto.back().add(sample);
   }
   std::vector<double> least(upto.size(), std::numeric_limits<double>::infinity());
   std::vector<size_t> begin(upto.size(), 0);
@@ -66,7 +66,7 @@ std::vector<WallEstimate> walls_from_flow(std::span<const WallObservation> obser
   for (size_t end = 1; end < upto.size(); ++end) {
     least[end] = least[end - 1] + kNoWall;
     begin[end] = end - 1;
-    for (size_t first = 0; first + kFewest <= end; ++first) {
+    for (size_t first = 0; first + kMinPatches <= end; ++first) {
       const double squares = least[first] + fit(upto[end].minus(upto[first]), end - first).squares + kOneMore;
       if (squares >= least[end]) continue;
       least[end] = squares;
@@ -75,7 +75,7 @@ std::vector<WallEstimate> walls_from_flow(std::span<const WallObservation> obser
   }
   std::vector<WallEstimate> walls;
   for (size_t end = upto.size() - 1; end > 0; end = begin[end]) {
-    if (end - begin[end] < kFewest) continue;
+    if (end - begin[end] < kMinPatches) continue;
     const Fit found = fit(upto[end].minus(upto[begin[end]]), end - begin[end]);
     if (found.wall.relative_error <= relative_error) walls.insert(walls.begin(), found.wall);
   }

@@ -8,7 +8,7 @@ namespace hedgehop::vision::flow {
 
 /// What one patch of one of several cameras measures of the walls around a vehicle. Frame H: level, x along the
 /// heading, origin at B.
-struct WallObservation {
+struct WallFlowSample {
   Eigen::Vector2d ray_H = Eigen::Vector2d::Zero();      ///< of its center, at z = 1 m of its camera; the level part
   Eigen::Vector2d p_BC_H = Eigen::Vector2d::Zero();     ///< of its camera, m
   Eigen::Vector2d unit_flow = Eigen::Vector2d::Zero();  ///< of a point at z = 1 m, see unit_flow(), focal lengths per s
@@ -28,7 +28,7 @@ struct WallEstimate {
 /// large parallax so determine the range also for those around the focus of expansion.
 /// The borders between walls minimize the squared residual over the noise plus a penalty for each wall, so that noise
 /// creates none (dynamic programming). Ours.
-/// @param observations  in the order of their bearings. @param relative_error  greatest one of a returned wall; > 0.
-std::vector<WallEstimate> walls_from_flow(std::span<const WallObservation> observations, double relative_error);
+/// @param samples  in the order of their bearings. @param relative_error  greatest one of a returned wall; > 0.
+std::vector<WallEstimate> walls_from_flow(std::span<const WallFlowSample> samples, double relative_error);
 
 }  // namespace hedgehop::vision::flow

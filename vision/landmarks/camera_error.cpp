@@ -72,7 +72,7 @@ CameraError refined(std::span<const PredictedBearing> landmarks, const SortedBea
 CameraError common_error(std::span<const std::optional<PredictedBearing>> predicted,
                          std::span<const Vector2d> bearings_meas, const Matrix6& prior, double bearing_sigma) {
   constexpr size_t kGuessing = 6, kJudging = 16, kRefining = 60;
-  constexpr double kSupportSigmas = 10.0, kLargestSigmas = 4.0, kLeastVariance = 1e-12;
+  constexpr double kSupportSigmas = 10.0, kMaxSigmas = 4.0, kMinVariance = 1e-12;
   std::vector<PredictedBearing> landmarks;
   for (const auto& seen : predicted) {
     if (seen) landmarks.push_back(*seen);
@@ -91,7 +91,7 @@ CameraError common_error(std::span<const std::optional<PredictedBearing>> predic
     const Eigen::Matrix2d S = seen.d_bearing_pose * prior * seen.d_bearing_pose.transpose() +
                               bearing_sigma * bearing_sigma * Eigen::Matrix2d::Identity();
     const Eigen::Matrix<double, 6, 2> gain = prior * seen.d_bearing_pose.transpose() * S.inverse();
-    bearings.near(seen.bearing, kLargestSigmas * std::sqrt(S.trace()), [&](const Vector2d& b) {
+    bearings.near(seen.bearing, kMaxSigmas * std::sqrt(S.trace()), [&](const Vector2d& b) {
       const CameraError guess = gain * (b - seen.bearing);
       const double found = support(judges, bearings, guess, within);
       if (found > most) {
@@ -100,7 +100,7 @@ CameraError common_error(std::span<const std::optional<PredictedBearing>> predic
       }
     });
   }
-  const Matrix6 information = (prior + kLeastVariance * Matrix6::Identity()).inverse();
+  const Matrix6 information = (prior + kMinVariance * Matrix6::Identity()).inverse();
   for (int round = 0; round < 4; ++round) {
     best = refined(landmarks, bearings, best, information, bearing_sigma, within);
   }

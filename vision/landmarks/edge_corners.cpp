@@ -127,12 +127,12 @@ std::vector<ImageEdge> joined_edges(std::span<const ImageEdge> pieces) {
 
 std::vector<Vector2d> corners_of(std::span<const ImageEdge> edges, double least_angle_rad) {
   constexpr double kSamePx = 5.0;
-  struct Group {
+  struct CornerGroup {
     Vector2d sum = Vector2d::Zero();
     int count = 0;
     Vector2d mean() const { return sum / count; }
   };
-  std::vector<Group> groups;
+  std::vector<CornerGroup> groups;
   // What is sure comes first: what is less so adds corners, but moves none.
   for (const Meeting wanted : {Meeting::near, Meeting::far}) {
     const size_t sure = groups.size();
@@ -140,17 +140,17 @@ std::vector<Vector2d> corners_of(std::span<const ImageEdge> edges, double least_
       for (size_t j = i + 1; j < edges.size(); ++j) {
         const auto at = meeting(edges[i], edges[j], least_angle_rad, wanted);
         if (!at) continue;
-        const auto is_same = [&](const Group& g) { return (g.mean() - *at).norm() <= kSamePx; };
+        const auto is_same = [&](const CornerGroup& g) { return (g.mean() - *at).norm() <= kSamePx; };
         auto group = std::ranges::find_if(groups, is_same);
         if (wanted == Meeting::far && group < groups.begin() + static_cast<std::ptrdiff_t>(sure)) continue;
-        if (group == groups.end()) group = groups.insert(groups.end(), Group{});
+        if (group == groups.end()) group = groups.insert(groups.end(), CornerGroup{});
         group->sum += *at;
         ++group->count;
       }
     }
   }
   std::vector<Vector2d> corners;
-  for (const Group& group : groups) corners.push_back(group.mean());
+  for (const CornerGroup& group : groups) corners.push_back(group.mean());
   return corners;
 }
 
@@ -160,7 +160,7 @@ std::vector<Vector2d> edge_corners(const cv::Mat& image, double least_angle_rad)
     const std::vector<ImageEdge> found = joined_edges(line_segments(plane));
     edges.insert(edges.end(), found.begin(), found.end());
   }
-  std::erase_if(edges, [&](const ImageEdge& edge) { return edge.length_px() < kShortestEdgePx; });
+  std::erase_if(edges, [&](const ImageEdge& edge) { return edge.length_px() < kMinEdgePx; });
   return corners_of(edges, least_angle_rad);
 }
 

@@ -12,12 +12,12 @@
 namespace hedgehop::vision::landmarks {
 
 // What counts as an edge, and as edges that end together. Chosen for rendered images of towers, 320 to 640 px wide.
-inline constexpr double kShortestEdgePx = 20.0;  ///< shorter ones are seldom edges of a building
-inline constexpr double kGapPx = 20.0;           ///< an edge breaks for as long where the ground is as bright
-inline constexpr double kAsidePx = 1.5;          ///< of a piece from its line: the detector's error
-inline constexpr double kBeyondPx = 8.0;         ///< an edge ends so far before its corner
-inline constexpr double kFarBeyondPx = 25.0;     ///< and so far where the other edge reaches it,
-inline constexpr double kFarShare = 0.2;         ///< but no farther than this share of its length
+inline constexpr double kMinEdgePx = 20.0;    ///< shorter ones are seldom edges of a building
+inline constexpr double kGapPx = 20.0;        ///< an edge breaks for as long where the ground is as bright
+inline constexpr double kAsidePx = 1.5;       ///< of a piece from its line: the detector's error
+inline constexpr double kBeyondPx = 8.0;      ///< an edge ends so far before its corner
+inline constexpr double kFarBeyondPx = 25.0;  ///< and so far where the other edge reaches it,
+inline constexpr double kFarShare = 0.2;      ///< but no farther than this share of its length
 
 /// Joins pieces of straight edges of one sense, from -> to, into whole ones, the longest first: what stands before a
 /// textured ground has edges that break wherever the ground is as bright.

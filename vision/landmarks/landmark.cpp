@@ -63,8 +63,8 @@ std::optional<PredictedBearing> predict_bearing(const Landmark& landmark, const 
                                                 double bearing_sigma) {
   const Eigen::Matrix3d R_CW = pose.X_WC_est.linear().transpose();
   const Eigen::Vector3d p_C = R_CW * (position_W(landmark) - pose.X_WC_est.translation());
-  constexpr double kNearestM = 1e-3;
-  if (!(p_C.z() > kNearestM)) return std::nullopt;
+  constexpr double kMinDepthM = 1e-3;
+  if (!(p_C.z() > kMinDepthM)) return std::nullopt;
   PredictedBearing seen;
   seen.bearing = p_C.head<2>() / p_C.z();
   const Matrix23 d_bearing_p = d_bearing_p_C(seen.bearing, p_C.z());
@@ -96,8 +96,8 @@ Landmark updated(const Landmark& landmark, const PredictedBearing& seen, const E
   const Eigen::Matrix3d left = Eigen::Matrix3d::Identity() - K * seen.d_bearing_x;
   better.P = left * landmark.P * left.transpose() + K * seen.noise * K.transpose();  // eq. (4.17)
   if (better.coordinates == LandmarkCoordinates::inverse_depth) {
-    constexpr double kLeastInverseDepthPerM = 1e-4;  // 10 km: nothing lies behind infinity
-    better.x.z() = std::max(better.x.z(), kLeastInverseDepthPerM);
+    constexpr double kMinInverseDepthPerM = 1e-4;  // 10 km: nothing lies behind infinity
+    better.x.z() = std::max(better.x.z(), kMinInverseDepthPerM);
   }
   return better;
 }

@@ -11,7 +11,7 @@
 #include "sim/fields/bounds.h"
 #include "vision/landmarks/camera_error.h"
 #include "vision/landmarks/landmark_matching.h"
-#include "vision/landmarks/printed_filter.h"
+#include "vision/landmarks/published_filter.h"
 
 namespace hedgehop::vision::landmarks {
 namespace {
@@ -69,14 +69,14 @@ LandmarkMap::LandmarkMap(const LandmarkMapConfig& config, const camera::PinholeC
 std::vector<int64_t> LandmarkMap::update(std::span<const Eigen::Vector2d> corners_px, const CameraPose& pose,
                                          double dt_s) {
   std::vector<Eigen::Vector2d> bearings;
-  for (const Eigen::Vector2d& corner : corners_px) bearings.push_back(camera_.ray(corner).head<2>());
-  if (config_.law == Law::ours) return update_as_ours(bearings, pose, dt_s);
-  return update_as_printed({bearing_sigma_, config_.drift_m_rt_s, config_.gate, config_.misses}, bearings, pose, dt_s,
-                           landmarks_, next_id_);
+  for (const Eigen::Vector2d& corner : corners_px) bearings.push_back(camera_.ray_at_unit_depth(corner).head<2>());
+  if (config_.algorithm == MapAlgorithm::modified) return update_as_modified(bearings, pose, dt_s);
+  return update_as_published({bearing_sigma_, config_.drift_m_rt_s, config_.gate, config_.misses}, bearings, pose, dt_s,
+                             landmarks_, next_id_);
 }
 
-std::vector<int64_t> LandmarkMap::update_as_ours(std::span<const Eigen::Vector2d> bearings, const CameraPose& pose,
-                                                 double dt_s) {
+std::vector<int64_t> LandmarkMap::update_as_modified(std::span<const Eigen::Vector2d> bearings, const CameraPose& pose,
+                                                     double dt_s) {
   for (MappedLandmark& mapped : landmarks_) mapped.landmark = predicted(mapped.landmark, config_.drift_m_rt_s, dt_s);
   const Predictions at_estimate = predict(pose);
   const CameraPose better_pose =

@@ -11,15 +11,15 @@
 namespace hedgehop::vision::landmarks {
 
 /// Whose algorithm keeps the map.
-enum class Law {
-  printed,  ///< [Shah2009] ch. 4 alone: update_as_printed()
-  ours,     ///< with the camera's common error, starts at any depth, and confirmation
+enum class MapAlgorithm {
+  published,  ///< [Shah2009] ch. 4 alone: update_as_published()
+  modified,   ///< with the camera's common error, starts at any depth, and confirmation
 };
 
 /// How a map of landmarks is kept. The uncertainties are what the filter assumes, not what the sensors do. Members
 /// without a key are the caller's choice, not the user's.
 struct LandmarkMapConfig {
-  Law law = Law::ours;
+  MapAlgorithm algorithm = MapAlgorithm::modified;
   LandmarkStart start;  ///< ours; the printed law begins on the ground
   double gate = 4.0;    ///< > 0: largest Z value of a match; n standard deviations have n^2 / 4
   /// N of [Shah2009] ch. 4, >= 1: a landmark is deleted after so many consecutive misses. Not printed; 3 s of 10 Hz.
@@ -56,9 +56,9 @@ void describe(Visitor& v, LandmarkMapConfig& c) {
 }
 
 /// A database of landmarks that images correct, add to and delete from. Source: [Shah2009] ch. 4, sec. "3D Modeling
-/// Algorithm"; as printed by `Law::printed`. Differs, by `Law::ours`: the camera's common error is estimated before
-/// landmarks are matched, confirmed landmarks are matched first, only landmarks in view can be missed, and well-known
-/// ones stay when something hides them.
+/// Algorithm"; as printed by `MapAlgorithm::published`. Differs, by `MapAlgorithm::modified`: the camera's common error
+/// is estimated before landmarks are matched, confirmed landmarks are matched first, only landmarks in view can be
+/// missed, and well-known ones stay when something hides them.
 class LandmarkMap {
  public:
   /// @param camera  of the images: scale of the bearings, edges of the view.
@@ -73,13 +73,14 @@ class LandmarkMap {
   const std::vector<MappedLandmark>& landmarks() const { return landmarks_; }
   /// Whether a landmark is part of the map: under the printed law every one.
   bool confirmed(const MappedLandmark& landmark) const {
-    return config_.law == Law::printed || landmark.matches >= config_.confirm;
+    return config_.algorithm == MapAlgorithm::published || landmark.matches >= config_.confirm;
   }
 
  private:
   using Predictions = std::vector<std::optional<PredictedBearing>>;
 
-  std::vector<int64_t> update_as_ours(std::span<const Eigen::Vector2d> bearings, const CameraPose& pose, double dt_s);
+  std::vector<int64_t> update_as_modified(std::span<const Eigen::Vector2d> bearings, const CameraPose& pose,
+                                          double dt_s);
   Predictions predict(const CameraPose& pose) const;
   bool lasts(const MappedLandmark& mapped) const;
   void drop_missed(const CameraPose& pose, const std::vector<bool>& seen);

@@ -8,7 +8,7 @@
 namespace hedgehop::vision::landmarks {
 namespace {
 
-struct Pair {
+struct MatchPair {
   double z = 0.0;
   size_t bearing = 0, landmark = 0;
   auto order() const { return std::tie(z, bearing, landmark); }
@@ -32,7 +32,7 @@ std::vector<std::optional<size_t>> match_landmarks(std::span<const std::optional
   std::iota(by_x.begin(), by_x.end(), size_t{0});
   std::ranges::sort(by_x, {}, [&](size_t i) { return std::pair(bearings_meas[i].x(), i); });
 
-  std::vector<Pair> pairs;
+  std::vector<MatchPair> pairs;
   for (size_t k = 0; k < predicted.size(); ++k) {
     if (!predicted[k]) continue;
     const Eigen::Vector2d at = predicted[k]->bearing;
@@ -45,11 +45,11 @@ std::vector<std::optional<size_t>> match_landmarks(std::span<const std::optional
       if (z < gate) pairs.push_back({z, *i, k});
     }
   }
-  std::ranges::sort(pairs, {}, &Pair::order);
+  std::ranges::sort(pairs, {}, &MatchPair::order);
 
   std::vector<std::optional<size_t>> landmark_of(bearings_meas.size());
   std::vector<bool> taken(predicted.size(), false);
-  for (const Pair& pair : pairs) {
+  for (const MatchPair& pair : pairs) {
     if (landmark_of[pair.bearing] || taken[pair.landmark]) continue;
     landmark_of[pair.bearing] = pair.landmark;
     taken[pair.landmark] = true;

@@ -11,12 +11,12 @@ namespace {
 using Eigen::Vector2d;
 
 // A line's maxima are steeper than the texture that most of the image is made of, and steeper than noise by night.
-constexpr double kOfTexture = 1.5, kLeastStrength = 16.0;
+constexpr double kOfTexture = 1.5, kMinStrength = 16.0;
 constexpr double kSeed = 1.3;  // so much steeper again is one maximum at least of what hangs together
 
 /// A pixel's part in the search: no maximum of the gradient; one on no line yet; on none that is long enough; on a
 /// line. cv::Canny() writes the first two.
-enum State : uchar { kNone = 0, kFresh = 255, kTried = 2, kTaken = 1 };
+enum PixelState : uchar { kNone = 0, kFresh = 255, kTried = 2, kTaken = 1 };
 
 struct Gradient {
   cv::Mat dx, dy;  ///< CV_16SC1: a step between dark and light has eight times its height at most
@@ -87,18 +87,18 @@ class LineFollower {
     hit(origin_, seed, finer(seed, across));
     for (const int step : {+1, -1, +1}) extend(step);
 
-    constexpr int kLeastHits = 9;
-    constexpr double kLeastShare = 0.6;
-    const bool is_line = hits() >= kLeastHits && hits() >= kLeastShare * (last_ - first_ + 1);
+    constexpr int kMinHits = 9;
+    constexpr double kMinShare = 0.6;
+    const bool is_line = hits() >= kMinHits && hits() >= kMinShare * (last_ - first_ + 1);
     for (const int pixel : pixels_) state_[pixel] = is_line ? kTaken : kTried;
     return is_line ? std::optional(edge()) : std::nullopt;
   }
 
   void extend(int step) {
-    constexpr int kMostGap = 3;
+    constexpr int kMaxGap = 3;
     int& end = step > 0 ? last_ : first_;
     int gap = 0;
-    for (int along = end + step; along >= 1 && along < along_end_ && gap <= kMostGap; along += step) {
+    for (int along = end + step; along >= 1 && along < along_end_ && gap <= kMaxGap; along += step) {
       const double expected = across_at(along);
       const int nearest = static_cast<int>(std::floor(expected + 0.5));
       const int aside = expected > nearest ? 1 : -1;
@@ -175,7 +175,7 @@ class LineFollower {
 
 std::vector<ImageEdge> line_segments(const cv::Mat& plane) {
   const Gradient gradient = gradient_of(plane);
-  const double low = std::max(kLeastStrength, kOfTexture * texture_strength(gradient));
+  const double low = std::max(kMinStrength, kOfTexture * texture_strength(gradient));
   cv::Mat state;
   cv::Canny(gradient.dx, gradient.dy, state, low, kSeed * low, /*L2gradient=*/true);
   return LineFollower(gradient, state).lines();

@@ -12,8 +12,8 @@ constexpr int kPx = DepthBlocks::kBlockPx;
 
 /// The largest disparity but for a few pixels: single ones are wrong, and a pole of one pixel leaves a column of eight.
 void read_disparity(const cv::Mat& disparity16, const cv::Mat& smeared, int row, int col, DepthBlock& block) {
-  constexpr int kLeastMatched = kPx * kPx / 2;  // half of a block stands for it
-  constexpr int kLeastNear = 6;                 // what a pole of one pixel leaves
+  constexpr int kMinMatched = kPx * kPx / 2;  // half of a block stands for it
+  constexpr int kMinNear = 6;                 // what a pole of one pixel leaves
   std::array<int16_t, kPx * kPx> matched;
   int count = 0, certain = 0;
   for (int v = row * kPx; v < (row + 1) * kPx; ++v) {
@@ -25,11 +25,11 @@ void read_disparity(const cv::Mat& disparity16, const cv::Mat& smeared, int row,
       certain += d[u] >= 0 && s[u] == 0;
     }
   }
-  block.kind = certain >= kLeastMatched ? DepthBlock::Kind::matched
-               : count >= kLeastMatched ? DepthBlock::Kind::smeared
-                                        : DepthBlock::Kind::unknown;
+  block.kind = certain >= kMinMatched ? DepthBlock::Kind::matched
+               : count >= kMinMatched ? DepthBlock::Kind::smeared
+                                      : DepthBlock::Kind::unknown;
   block.near16 = -1;
-  if (count < kLeastNear) return;
+  if (count < kMinNear) return;
   const auto rank = matched.begin() + std::max(2, count / 16);
   std::nth_element(matched.begin(), rank, matched.begin() + count, std::greater<>());
   block.near16 = *rank;
@@ -57,13 +57,14 @@ void find_valleys(const cv::Mat& grey, cv::Mat& valleys) {
 
 /// Whether a block holds enough of a valley to be one of a line.
 bool is_lined(const cv::Mat& valleys, int row, int col) {
-  constexpr int kDarker = 25, kLeast = 4;  // grey levels, above the noise; pixels, half of a line through the block
+  constexpr int kDarker = 25,
+                kMinDarkPixels = 4;  // grey levels, above the noise; pixels, half of a line through the block
   int dark = 0;
   for (int v = 0; v < kPx; ++v) {
     const auto* const g = valleys.ptr<uint8_t>(row * kPx + v) + col * kPx;
     for (int u = 0; u < kPx; ++u) dark += g[u] > kDarker;
   }
-  return dark >= kLeast;
+  return dark >= kMinDarkPixels;
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ cv::Point middle_px(int row, int col) { return {col * kBlockPx + kBlockPx / 2, r
 /// The block of a row that a vertical plane through C meets; may lie beside the image. @param across_C  its normal.
 int upright_col(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& across_C, int row) {
   constexpr double kFarBeside = 1e6;  // where the row runs along the plane
-  const double y = geometry.ray(middle_px(row, 0)).y();
+  const double y = geometry.ray_at_unit_depth(middle_px(row, 0)).y();
   const double x = -(across_C.y() * y + across_C.z()) / across_C.x();
   const double col = (geometry.center_u_px + geometry.focal_px * x) / kBlockPx;
   return std::abs(col) < kFarBeside ? static_cast<int>(std::floor(col)) : -1;
@@ -38,13 +38,13 @@ class Column {
   /// @param col  of its block in the middle row; may lie beside the image, into which a tilted one still leads.
   Column(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, const DepthBlocks& blocks, int col)
       : geometry_(geometry), down_C_(down_C), blocks_(blocks) {
-    const Eigen::Vector3d across_C = down_C.cross(geometry.ray(middle_px(blocks.rows() / 2, col)));
+    const Eigen::Vector3d across_C = down_C.cross(geometry.ray_at_unit_depth(middle_px(blocks.rows() / 2, col)));
     for (int row = 0; row < blocks.rows(); ++row) cols_.push_back(upright_col(geometry, across_C, row));
   }
 
   /// Rows [top, bottom] that look like sky and what lies between it and the ground; the blocks of [top, horizon] are
   /// above the horizon for certain.
-  struct Run {
+  struct SkyRun {
     int top, horizon, bottom;
     double foot_m;  ///< level distance of the topmost ground, and of what stands on it
   };
@@ -52,7 +52,7 @@ class Column {
   bool in_image(int row) const { return cols_[row_index(row)] >= 0 && cols_[row_index(row)] < blocks_.cols(); }
   const DepthBlock& at(int row) const { return blocks_.at(row, cols_[row_index(row)]); }
 
-  std::optional<Run> climb() const {
+  std::optional<SkyRun> climb() const {
     const double near_rad = kAttitudeRad + 0.5 * kBlockPx / geometry_.focal_px;
     int row = blocks_.rows() - 1;
     while (row >= 0 && !in_image(row)) --row;
@@ -76,7 +76,7 @@ class Column {
       if (stands) foot_m = std::min(foot_m, level_m(row));
       edge = stands;  // one block of it
     }
-    Run run{row + 1, row, support - 1, foot_m};
+    SkyRun run{row + 1, row, support - 1, foot_m};
     int below = -1, lines = 0;  // the grey of the last block of sky
     for (; row >= 0 && in_image(row); --row) {
       const DepthBlock& block = at(row);
@@ -100,7 +100,7 @@ class Column {
 
  private:
   static size_t row_index(int row) { return static_cast<size_t>(row); }
-  Eigen::Vector3d ray(int row) const { return geometry_.ray(middle_px(row, cols_[row_index(row)])); }
+  Eigen::Vector3d ray(int row) const { return geometry_.ray_at_unit_depth(middle_px(row, cols_[row_index(row)])); }
   /// Sine of a block's elevation above the horizon.
   double elevation(int row) const { return -down_C_.dot(ray(row).normalized()); }
   /// Level distance of what a block shows, per z in C.
@@ -114,19 +114,19 @@ class Column {
 };
 
 /// A column that may show sky, and where.
-struct Candidate {
+struct SkyCandidate {
   Column column;
-  std::optional<Column::Run> run;
+  std::optional<Column::SkyRun> run;
 };
 
 /// The median grey of each row's blocks in the runs that have far ground beside them; -1 where there are none.
-std::vector<int> usual_greys(int rows, const std::vector<Candidate>& candidates) {
+std::vector<int> usual_greys(int rows, const std::vector<SkyCandidate>& candidates) {
   const auto is_far_near = [&](size_t i) {
     const size_t first = i > kSupportCols ? i - kSupportCols : 0;
     const size_t last = std::min(candidates.size(), i + kSupportCols + 1);
     return std::any_of(candidates.begin() + static_cast<std::ptrdiff_t>(first),
                        candidates.begin() + static_cast<std::ptrdiff_t>(last),
-                       [](const Candidate& c) { return c.run && c.run->foot_m >= kSupportM; });
+                       [](const SkyCandidate& c) { return c.run && c.run->foot_m >= kSupportM; });
   };
   std::vector<std::vector<int>> greys(static_cast<size_t>(rows));
   for (size_t i = 0; i < candidates.size(); ++i) {
@@ -150,7 +150,7 @@ std::vector<int> usual_greys(int rows, const std::vector<Candidate>& candidates)
 int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, DepthBlocks& blocks) {
   // Tilted by half a right angle, columns enter from as many blocks beside the image as it has rows.
   const int beside = blocks.rows(), middle = blocks.rows() / 2;
-  std::vector<Candidate> candidates;
+  std::vector<SkyCandidate> candidates;
   for (int col = -beside; col < blocks.cols() + beside; ++col) {
     const Column column(geometry, down_C, blocks, col);
     candidates.push_back({column, column.climb()});
@@ -170,7 +170,8 @@ int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down
     for (int col = 0; col < blocks.cols(); ++col) {
       DepthBlock& block = blocks.at(row, col);
       if (block.kind == DepthBlock::Kind::matched) continue;
-      const int of = beside + upright_col(geometry, down_C.cross(geometry.ray(middle_px(row, col))), middle);
+      const int of =
+          beside + upright_col(geometry, down_C.cross(geometry.ray_at_unit_depth(middle_px(row, col))), middle);
       if (of < 0 || of >= static_cast<int>(candidates.size())) continue;
       const auto& [column, run] = candidates[static_cast<size_t>(of)];
       if (!run || row < run->top || row > run->bottom) continue;

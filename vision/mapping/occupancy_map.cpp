@@ -10,7 +10,8 @@ namespace {
 // Log-odds in steps of 0.4: a hit adds 1.2, a miss takes 0.8: what was seen through soon counts as free again, for the
 // whole block around its ray was.
 constexpr int kHit = 3, kMiss = -2;
-constexpr int kLeast = -9, kMost = 12;  // clamps: what was seen free turns after two hits, and is occupied after five
+constexpr int kMinLogOdds = -9,
+              kMaxLogOdds = 12;  // clamps: what was seen free turns after two hits, and is occupied after five
 constexpr int kFreeBelow = -4, kOccupiedFrom = 5;
 constexpr double kSigmas = 2.0;
 // Something thin before the sky takes from what was free along its ray, from where it would be matched on: three images
@@ -19,7 +20,7 @@ constexpr int kDoubt = 2;
 constexpr float kSurelyMatchedM = 4.0F;
 constexpr float kInDoubt = -1.0F;  // instead of what a block clears
 // 1-sigma of a depth up to which a surface is placed in the map, less than a voxel, and up to which it is told of.
-constexpr double kPlacedM = 0.25, kToldM = 1.0;
+constexpr double kPlacedM = 0.25, kReportedM = 1.0;
 
 int modulo(int a, int n) {
   const int m = a % n;
@@ -86,7 +87,7 @@ void OccupancyMap::move(const Eigen::Vector3d& center_W) {
 }
 
 void OccupancyMap::integrate(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry,
-                             const Eigen::Isometry3d& X_WC, std::span<const Disc> moving) {
+                             const Eigen::Isometry3d& X_WC, std::span<const MovingDisc> moving) {
   find_clear(blocks, geometry);
   add_hits(blocks, geometry, X_WC, moving);
   add_misses(blocks, geometry, X_WC);
@@ -119,32 +120,34 @@ void OccupancyMap::find_clear(const DepthBlocks& blocks, const stereo::StereoGeo
 
 /// Endpoints of rays; each voxel counts once an image, however many blocks end in it.
 void OccupancyMap::add_hits(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry,
-                            const Eigen::Isometry3d& X_WC, std::span<const Disc> moving) {
+                            const Eigen::Isometry3d& X_WC, std::span<const MovingDisc> moving) {
   hits_.clear();
   hit_slots_.clear();
   // z^2 sigma_px / (f b) = sigma_m
   const auto farthest_m = [&](double sigma_m) {
     return std::sqrt(sigma_m * geometry.focal_px * geometry.baseline_m / config_.noise_px);
   };
-  const double placed16 = geometry.disparity16(farthest_m(kPlacedM)), told16 = geometry.disparity16(farthest_m(kToldM));
+  const double placed16 = geometry.disparity16(farthest_m(kPlacedM)),
+               reported16 = geometry.disparity16(farthest_m(kReportedM));
   for (int row = 0; row < blocks.rows(); ++row) {
     for (int col = 0; col < blocks.cols(); ++col) {
       const DepthBlock& block = blocks.at(row, col);
-      if (block.near16 < told16 || block.near16 <= 0) continue;
+      if (block.near16 < reported16 || block.near16 <= 0) continue;
       const cv::Point middle(col * DepthBlocks::kBlockPx + DepthBlocks::kBlockPx / 2,
                              row * DepthBlocks::kBlockPx + DepthBlocks::kBlockPx / 2);
-      const Eigen::Vector3d p_W = X_WC * Eigen::Vector3d(geometry.z_m(block.near16) * geometry.ray(middle));
+      const Eigen::Vector3d p_W =
+          X_WC * Eigen::Vector3d(geometry.z_m(block.near16) * geometry.ray_at_unit_depth(middle));
       const Index voxel = index(p_W);
       if (!contains(voxel)) continue;
       const size_t at = slot(voxel);
       if (hit_[at]) continue;
       hits_.push_back({p_W, log_odds_[at] <= kFreeBelow});
       if (block.near16 < placed16) continue;
-      const auto holds = [&](const Disc& disc) { return (p_W.head<2>() - disc.p_W).norm() < disc.radius_m; };
+      const auto holds = [&](const MovingDisc& disc) { return (p_W.head<2>() - disc.p_W).norm() < disc.radius_m; };
       if (std::ranges::any_of(moving, holds)) continue;
       hit_[at] = 1;
       hit_slots_.push_back(at);
-      log_odds_[at] = static_cast<int8_t>(std::min(kMost, log_odds_[at] + kHit));
+      log_odds_[at] = static_cast<int8_t>(std::min(kMaxLogOdds, log_odds_[at] + kHit));
     }
   }
 }
@@ -177,7 +180,7 @@ void OccupancyMap::add_misses(const DepthBlocks& blocks, const stereo::StereoGeo
         const float clear_m = clear_m_[static_cast<size_t>(static_cast<int>(v) * blocks.cols() + static_cast<int>(u))];
         int8_t& odds = log_odds_[at];
         if (z_m + half_m <= clear_m && !hit_[at]) {
-          odds = static_cast<int8_t>(std::max(kLeast, odds + kMiss));
+          odds = static_cast<int8_t>(std::max(kMinLogOdds, odds + kMiss));
         } else if (clear_m == kInDoubt && z_m > kSurelyMatchedM && odds < 0) {
           odds = static_cast<int8_t>(std::min(0, odds + kDoubt));
         }
@@ -198,7 +201,7 @@ void OccupancyMap::clear_cylinder(const Eigen::Vector3d& center_W, double radius
     for (int x = low.x(); x <= high.x(); ++x) {
       for (int y = low.y(); y <= high.y(); ++y) {
         if ((center({x, y, z}) - center_W).head<2>().norm() > radius_m) continue;
-        log_odds_[slot({x, y, z})] = kLeast;
+        log_odds_[slot({x, y, z})] = kMinLogOdds;
       }
     }
   }

@@ -39,14 +39,14 @@ class OccupancyMap {
   /// Moves the window to a new center; what enters it is unknown.
   void move(const Eigen::Vector3d& center_W);
   /// An upright cylinder.
-  struct Disc {
+  struct MovingDisc {
     Eigen::Vector2d p_W;
     double radius_m;
   };
   /// Adds an image. @param X_WC  the left camera's pose when it was exposed, as estimated. @param moving  what moves:
   /// surfaces in it are not placed in the map, where they would stay behind as a wake.
   void integrate(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry, const Eigen::Isometry3d& X_WC,
-                 std::span<const Disc> moving = {});
+                 std::span<const MovingDisc> moving = {});
   /// A surface of the last image, whether it is near enough to be placed in the map or not.
   struct Hit {
     Eigen::Vector3d p_W;  ///< the point, m
@@ -75,7 +75,7 @@ class OccupancyMap {
   bool contains(const Index& voxel) const;
   void find_clear(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry);
   void add_hits(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry, const Eigen::Isometry3d& X_WC,
-                std::span<const Disc> moving);
+                std::span<const MovingDisc> moving);
   void add_misses(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry, const Eigen::Isometry3d& X_WC);
 
   OccupancyMapConfig config_;

@@ -62,13 +62,13 @@ double SectionSearch::share(int section) const {
   return static_cast<double>(threats_[i]) / sections_[i].area();
 }
 
-SectionChoice SectionSearch::choose(const cv::Mat& depth_m, double threshold_m, double most_share, Unknown unknown,
+SectionChoice SectionSearch::choose(const cv::Mat& depth_m, double threshold_m, double most_share, UnknownDepth unknown,
                                     const std::function<bool(int)>& open) {
   if (depth_m.size() != image_ || depth_m.type() != CV_32FC1) {
     throw std::invalid_argument("a depth image does not have the size or type that its sections were made for");
   }
   // Comparisons are false for NaN.
-  if (unknown == Unknown::free) {
+  if (unknown == UnknownDepth::free) {
     cv::compare(depth_m, threshold_m, mask_, cv::CMP_LT);
   } else {
     cv::compare(depth_m, threshold_m, mask_, cv::CMP_GE);

@@ -21,7 +21,7 @@ struct SectionGrid {
 std::vector<cv::Rect> sections(const SectionGrid& grid, cv::Size image);
 
 /// What a pixel without depth counts as.
-enum class Unknown { free, threat };
+enum class UnknownDepth { free, threat };
 
 /// One choice among sections.
 struct SectionChoice {
@@ -44,7 +44,7 @@ class SectionSearch {
   /// @param open         whether a section may be chosen, called as seldom as possible; empty: all may. Where no
   ///                     open section has few enough threats, all count as open.
   /// @return equal shares go to the section whose center lies nearest the image's center, then to the lower number.
-  SectionChoice choose(const cv::Mat& depth_m, double threshold_m, double most_share, Unknown unknown,
+  SectionChoice choose(const cv::Mat& depth_m, double threshold_m, double most_share, UnknownDepth unknown,
                        const std::function<bool(int)>& open = {});
 
   const std::vector<cv::Rect>& sections() const { return sections_; }

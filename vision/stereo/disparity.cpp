@@ -16,7 +16,7 @@ void need_disparity(const cv::Mat& disparity16) {
 }
 
 /// Neighbors in one row that belong together. Runs that touch make a segment: a tree whose root knows its size.
-struct Run {
+struct PixelRun {
   int row, begin, end;  ///< columns, `end` not among them
   int parent, size;
 };
@@ -43,14 +43,14 @@ class Segments {
     }
   }
 
-  const std::vector<Run>& runs() const { return runs_; }
-  int size_of(const Run& of) { return run(root(of.parent)).size; }
+  const std::vector<PixelRun>& runs() const { return runs_; }
+  int size_of(const PixelRun& of) { return run(root(of.parent)).size; }
 
  private:
-  Run& run(int i) { return runs_[static_cast<size_t>(i)]; }
+  PixelRun& run(int i) { return runs_[static_cast<size_t>(i)]; }
 
   /// Whether any of their pixels do, straight or across a corner. Most do at the first place where they can.
-  static bool touch(const Run& lower, const Run& upper, const cv::Mat& disparity16, int difference16) {
+  static bool touch(const PixelRun& lower, const PixelRun& upper, const cv::Mat& disparity16, int difference16) {
     const auto* const d = disparity16.ptr<int16_t>(lower.row);
     const auto* const above = disparity16.ptr<int16_t>(upper.row);
     for (int u = std::max(lower.begin, upper.begin - 1); u < std::min(lower.end, upper.end + 1); ++u) {
@@ -72,7 +72,7 @@ class Segments {
     run(into).size += run(from).size;
   }
 
-  std::vector<Run> runs_;
+  std::vector<PixelRun> runs_;
   size_t row_begin_ = 0;  ///< in `runs_`, of the row added last
 };
 
@@ -110,7 +110,7 @@ int remove_specks(cv::Mat& disparity16, int difference16, int smallest_px) {
   Segments segments;
   for (int v = 0; v < disparity16.rows; ++v) segments.add_row(disparity16, v, difference16);
   int removed = 0;
-  for (const Run& run : segments.runs()) {
+  for (const PixelRun& run : segments.runs()) {
     if (segments.size_of(run) >= smallest_px) continue;
     std::fill(disparity16.ptr<int16_t>(run.row) + run.begin, disparity16.ptr<int16_t>(run.row) + run.end, kNoDisparity);
     removed += run.end - run.begin;

@@ -21,7 +21,7 @@ struct StereoGeometry {
   /// The disparity, x 16 and not rounded, of a distance z > 0 in C, m.
   double disparity16(double z_m) const { return kDisparityUnits * baseline_m * focal_px / z_m; }
   /// Direction of a pixel in C, scaled to z = 1. [Andert2007] eq. (9).
-  Eigen::Vector3d ray(const cv::Point& pixel) const {
+  Eigen::Vector3d ray_at_unit_depth(const cv::Point& pixel) const {
     return {(pixel.x - center_u_px) / focal_px, (pixel.y - center_v_px) / focal_px, 1.0};
   }
 };

@@ -10,10 +10,10 @@ namespace {
 /// With z = 16 b f / d, [Andert2007] eq. (9) to (11) come to
 ///   dx^2 / (f^2 + (x_path - x_0)^2) + dy^2 / (f^2 + (y_path - y_0)^2)  <=  (r d / (16 b f))^2 ,
 /// so the offset from the path on the left determines which disparities d put a point inside the corridor.
-class Search {
+class CorridorDescent {
  public:
-  Search(const DepthPyramid& pyramid, const StereoGeometry& geometry, const cv::Point& path, double radius_m,
-         double target_m)
+  CorridorDescent(const DepthPyramid& pyramid, const StereoGeometry& geometry, const cv::Point& path, double radius_m,
+                  double target_m)
       : pyramid_(pyramid), path_(path) {
     const double f2 = geometry.focal_px * geometry.focal_px;
     const double x = path.x - geometry.center_u_px, y = path.y - geometry.center_v_px;
@@ -75,7 +75,7 @@ class Search {
 
 Corridor examine_corridor(const DepthPyramid& pyramid, const StereoGeometry& geometry, const cv::Point& path,
                           double radius_m, double target_m) {
-  return Search(pyramid, geometry, path, radius_m, target_m).run(geometry);
+  return CorridorDescent(pyramid, geometry, path, radius_m, target_m).run(geometry);
 }
 
 }  // namespace hedgehop::vision::stereo

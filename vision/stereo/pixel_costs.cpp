@@ -7,7 +7,7 @@
 namespace hedgehop::vision::stereo {
 namespace {
 
-constexpr int kSteepest = 31;        // slopes beyond are taken to be this; their lines hold slope + 31
+constexpr int kMaxSlope = 31;        // slopes beyond are taken to be this; their lines hold slope + 31
 constexpr int kBrightnessShift = 2;  // by which differences in brightness count less than those in slope
 
 uint8_t over(uint8_t a, uint8_t b) { return static_cast<uint8_t>(std::max(a, b) - b); }
@@ -16,7 +16,7 @@ HEDGEHOP_WIDE void slopes(const uint8_t* above, const uint8_t* here, const uint8
   for (int x = 1; x < width - 1; ++x) {
     const auto slope = static_cast<int16_t>((here[x + 1] - here[x - 1]) * 2 + above[x + 1] - above[x - 1] +
                                             below[x + 1] - below[x - 1]);
-    to[x] = static_cast<uint8_t>(std::clamp<int16_t>(slope, -kSteepest, kSteepest) + kSteepest);
+    to[x] = static_cast<uint8_t>(std::clamp<int16_t>(slope, -kMaxSlope, kMaxSlope) + kMaxSlope);
   }
 }
 
@@ -45,13 +45,13 @@ struct Pointers {
   Pointers operator+(int columns) const { return {at + columns, least + columns, most + columns}; }
 };
 
-struct Pair {
+struct LinePair {
   Pointers left, right;
 };
 
 template <int kTogether>
-[[gnu::always_inline]] inline void compare(const Pair& slopes, const Pair& brightnesses, int count, int disparities,
-                                           uint8_t* __restrict costs) {
+[[gnu::always_inline]] inline void compare(const LinePair& slopes, const LinePair& brightnesses, int count,
+                                           int disparities, uint8_t* __restrict costs) {
   for (int x = 0; x < count; ++x) {
     const Pixel slope{slopes.left.at[x], slopes.left.least[x], slopes.left.most[x]};
     const Pixel brightness{brightnesses.left.at[x], brightnesses.left.least[x], brightnesses.left.most[x]};
@@ -65,11 +65,11 @@ template <int kTogether>
     }
   }
 }
-HEDGEHOP_WIDE void compare_by_16(const Pair& slopes, const Pair& brightnesses, int count, int disparities,
+HEDGEHOP_WIDE void compare_by_16(const LinePair& slopes, const LinePair& brightnesses, int count, int disparities,
                                  uint8_t* costs) {
   compare<16>(slopes, brightnesses, count, disparities, costs);
 }
-HEDGEHOP_WIDE void compare_by_32(const Pair& slopes, const Pair& brightnesses, int count, int disparities,
+HEDGEHOP_WIDE void compare_by_32(const LinePair& slopes, const LinePair& brightnesses, int count, int disparities,
                                  uint8_t* costs) {
   compare<32>(slopes, brightnesses, count, disparities, costs);
 }
@@ -77,9 +77,11 @@ HEDGEHOP_WIDE void compare_by_32(const Pair& slopes, const Pair& brightnesses, i
 }  // namespace
 
 PixelCosts::PixelCosts(int width_px, int disparities_px)
-    : disparities_(disparities_px), left_{Line(width_px), Line(width_px)}, right_{Line(width_px), Line(width_px)} {}
+    : disparities_(disparities_px),
+      left_{PixelLine(width_px), PixelLine(width_px)},
+      right_{PixelLine(width_px), PixelLine(width_px)} {}
 
-void PixelCosts::Line::spread() {
+void PixelCosts::PixelLine::spread() {
   const auto width = static_cast<int>(at.size());
   spread_line(at.data(), width, least.data(), most.data());
   // Beyond the ends there is nothing to be between.
@@ -92,15 +94,15 @@ void PixelCosts::Line::spread() {
   end(at.size() - 1, at.size() - 2);
 }
 
-void PixelCosts::read(const cv::Mat& image, int y, Lines& lines) {
+void PixelCosts::read(const cv::Mat& image, int y, PixelLines& lines) {
   auto& [slope, brightness] = lines;
   const auto* const here = image.ptr<uint8_t>(y);
   slopes(image.ptr<uint8_t>(std::max(y - 1, 0)), here, image.ptr<uint8_t>(std::min(y + 1, image.rows - 1)), image.cols,
          slope.at.data());
   std::copy_n(here, image.cols, brightness.at.begin());
   // As OpenCV's semi-global matcher has it: the outermost pixels have no slope, and a brightness that is as dark.
-  for (Line& line : lines) {
-    line.at.front() = line.at.back() = kSteepest;
+  for (PixelLine& line : lines) {
+    line.at.front() = line.at.back() = kMaxSlope;
     line.spread();
   }
 }
@@ -108,11 +110,11 @@ void PixelCosts::read(const cv::Mat& image, int y, Lines& lines) {
 void PixelCosts::row(const cv::Mat& left, const cv::Mat& right, int y, uint8_t* costs) {
   read(left, y, left_);
   read(right, y, right_);
-  const auto from = [](const Line& line, int column) {
+  const auto from = [](const PixelLine& line, int column) {
     return Pointers{line.at.data(), line.least.data(), line.most.data()} + column;
   };
   // At the largest disparity, the first column right of the margin lies in the second column of the right image.
-  const auto pair = [&](size_t i) { return Pair{from(left_[i], disparities_), from(right_[i], 1)}; };
+  const auto pair = [&](size_t i) { return LinePair{from(left_[i], disparities_), from(right_[i], 1)}; };
   const auto compare = disparities_ % 32 == 0 ? compare_by_32 : compare_by_16;
   compare(pair(0), pair(1), left.cols - disparities_, disparities_, costs);
 }

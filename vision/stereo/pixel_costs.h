@@ -11,7 +11,7 @@ namespace hedgehop::vision::stereo {
 /// aside. Source: [Hirschmuller2008] sec. 2.1, after Birchfield and Tomasi.
 class PixelCosts {
  public:
-  static constexpr int kHighest = 125;  ///< of a cost
+  static constexpr int kMaxCost = 125;  ///< of a cost
 
   /// @param disparities_px  searched, from 0 on: a multiple of 16. The images have a margin of as many columns on the
   /// left, whose pixels are matched with but not for.
@@ -23,16 +23,16 @@ class PixelCosts {
 
  private:
   /// Of a row: brightness or slope of the pixels, and the least and most within half a pixel of each.
-  struct Line {
-    explicit Line(int width_px) : at(static_cast<size_t>(width_px)), least(at), most(at) {}
+  struct PixelLine {
+    explicit PixelLine(int width_px) : at(static_cast<size_t>(width_px)), least(at), most(at) {}
     void spread();
     std::vector<uint8_t> at, least, most;
   };
-  using Lines = std::array<Line, 2>;  ///< slope, brightness
-  static void read(const cv::Mat& image, int y, Lines& lines);
+  using PixelLines = std::array<PixelLine, 2>;  ///< slope, brightness
+  static void read(const cv::Mat& image, int y, PixelLines& lines);
 
   int disparities_;
-  Lines left_, right_;
+  PixelLines left_, right_;
 };
 
 }  // namespace hedgehop::vision::stereo

@@ -14,10 +14,10 @@ namespace {
 
 // Penalties for a disparity that changes from one pixel to the next, per pixel of a square: by one, and by more.
 constexpr int kStepCost = 8, kLeapCost = 32;
-constexpr int kLargestArea = SemiGlobalMatcher::kLargestBlockPx * SemiGlobalMatcher::kLargestBlockPx;
-static_assert((PixelCosts::kHighest + 2 * kLeapCost) * kLargestArea <= INT16_MAX);
-static_assert(PathCosts::kFar + kStepCost * kLargestArea <= INT16_MAX);
-static_assert(PathCosts::kFar >= (PixelCosts::kHighest + kLeapCost) * kLargestArea);
+constexpr int kMaxArea = SemiGlobalMatcher::kMaxBlockPx * SemiGlobalMatcher::kMaxBlockPx;
+static_assert((PixelCosts::kMaxCost + 2 * kLeapCost) * kMaxArea <= INT16_MAX);
+static_assert(PathCosts::kFar + kStepCost * kMaxArea <= INT16_MAX);
+static_assert(PathCosts::kFar >= (PixelCosts::kMaxCost + kLeapCost) * kMaxArea);
 constexpr int kUnitsPerPixel = static_cast<int>(kDisparityUnits);
 constexpr int16_t kUnmatched = -kUnitsPerPixel;
 

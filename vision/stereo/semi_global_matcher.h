@@ -10,7 +10,7 @@ namespace hedgehop::vision::stereo {
 
 struct SemiGlobalConfig {
   int disparities_px = 64;      ///< searched: 0 to this, less one; a multiple of 16
-  int block_px = 5;             ///< side of the squares whose pixels' costs are summed; odd, at most kLargestBlockPx
+  int block_px = 5;             ///< side of the squares whose pixels' costs are summed; odd, at most kMaxBlockPx
   int uniqueness_percent = 10;  ///< 0 to 99: by which the best match must beat the second
   int left_right_px = 1;        ///< >= 1: by which matching from either side may differ
   bool narrow = false;          ///< work as on a processor without AVX2: slower, with the same result
@@ -21,7 +21,7 @@ struct SemiGlobalConfig {
 /// Source: [Hirschmuller2008] eq. (13), (14) and sec. 2.3.
 class SemiGlobalMatcher {
  public:
-  static constexpr int kLargestBlockPx = 13;  ///< larger sums would need more than 16 bits
+  static constexpr int kMaxBlockPx = 13;  ///< larger sums would need more than 16 bits
 
   /// @param size  of the images with their margin: as many columns on the left as disparities, and one more at least.
   SemiGlobalMatcher(const SemiGlobalConfig& config, cv::Size size);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "vision/stereo/lanes.h"
+#include "vision/stereo/cost_lanes.h"
 
 namespace hedgehop::vision::stereo {
 namespace {

@@ -34,7 +34,7 @@ cv::Ptr<cv::StereoMatcher> make(const StereoMatcherConfig& c) {
     matcher->setDisp12MaxDiff(c.left_right_px);
     return matcher;
   }
-  if (c.block_px <= SemiGlobalMatcher::kLargestBlockPx) return {};
+  if (c.block_px <= SemiGlobalMatcher::kMaxBlockPx) return {};
   return opencv_semi_global(c);
 }
 

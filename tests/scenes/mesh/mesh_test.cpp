@@ -197,7 +197,7 @@ double cast_at_solids(const Scene& scene, const Eigen::Vector3d& from_W, const E
 TEST_P(EveryMesh, WhatIsSeenIsWhatCanBeHit) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> share(-1.0, 1.0);
-  constexpr double kFarthestM = 1000.0;  // the ground's image ends somewhere, its plane does not
+  constexpr double kMaxCoordinateM = 1000.0;  // the ground's image ends somewhere, its plane does not
   int compared = 0;
   while (compared < 400) {
     const Eigen::Vector2d half = 0.5 * scene_.bounds_NE_m.sizes();
@@ -208,7 +208,7 @@ TEST_P(EveryMesh, WhatIsSeenIsWhatCanBeHit) {
     if (in_solid) continue;
     const double truth = cast_at_solids(scene_, from_W, ray_W);
     if (std::isnan(truth)) continue;
-    if (truth > kFarthestM && truth < std::numeric_limits<double>::infinity()) continue;
+    if (truth > kMaxCoordinateM && truth < std::numeric_limits<double>::infinity()) continue;
     bool front = true;
     const double seen = cast_at_mesh(mesh(), from_W, ray_W, front);
     if (std::isinf(truth)) {

@@ -124,7 +124,7 @@ TEST(Images, FacadeVariantsContinueEachOtherAndDiffer) {
 
 TEST(Images, OfFacadesDoNotRepeatFromBayToBay) {
   // Moved by whole bays and floors a facade looks alike, yet never the same: flow must not lock on to the next window.
-  constexpr double kMostAlike = 0.85;
+  constexpr double kMaxAlike = 0.85;
   for (const FacadeStyle& style : facade_styles()) {
     const cv::Mat1f image = grey(paint_facades(style, kSize, 1, 26)[0]);
     for (int bay = 1; bay < style.bays; ++bay) {
@@ -132,7 +132,7 @@ TEST(Images, OfFacadesDoNotRepeatFromBayToBay) {
       cv::Mat1f moved(image.size());
       image.colRange(0, kSize - shift).copyTo(moved.colRange(shift, kSize));
       image.colRange(kSize - shift, kSize).copyTo(moved.colRange(0, shift));
-      EXPECT_LT(correlation(image, moved), kMostAlike);
+      EXPECT_LT(correlation(image, moved), kMaxAlike);
     }
   }
 }

@@ -16,7 +16,7 @@ const vision::camera::PinholeCamera kCamera = vision::camera::PinholeCamera::fro
 
 /// z in C where a pixel's ray meets the first solid, met analytically (slabs); infinite where it meets none.
 double first_solid_m(const scenes::Scene& scene, const CameraView& view, int col, int row) {
-  const Eigen::Vector3d ray_W = view.X_WC.linear() * view.camera.pinhole().ray({col, row});
+  const Eigen::Vector3d ray_W = view.X_WC.linear() * view.camera.pinhole().ray_at_unit_depth({col, row});
   double first_m = std::numeric_limits<double>::infinity();
   for (const scenes::Solid& solid : scene.solids) {
     const Eigen::Array3d eye_S = (solid.X_WS.inverse() * view.X_WC.translation()).array();

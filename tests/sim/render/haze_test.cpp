@@ -39,7 +39,7 @@ void expect_veiled(const vision::camera::Camera& camera, Channel channel) {
       double seen = 1.0;
       if (std::isfinite(z_m)) {
         const double along =
-            camera.is_undistorted_pinhole() ? 1.0 / camera.ray({u + 0.0, v + 0.0})->normalized().z() : 1.0;
+            camera.is_undistorted_pinhole() ? 1.0 / camera.unit_ray({u + 0.0, v + 0.0})->normalized().z() : 1.0;
         seen = std::pow(0.05, z_m * along / 120.0);
       }
       for (int k = 0; k < channels; ++k) {

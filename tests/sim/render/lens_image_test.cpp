@@ -30,7 +30,7 @@ TEST(LensImage, TheSkyHasNoSeams) {
     renderer.draw(view, color);
     for (int row = 0; row < color.rows; ++row) {
       for (int col = 0; col < color.cols; ++col) {
-        const Eigen::Vector3d ray_W = view.X_WC.linear() * camera.ray(Eigen::Vector2d(col, row)).value();
+        const Eigen::Vector3d ray_W = view.X_WC.linear() * camera.unit_ray(Eigen::Vector2d(col, row)).value();
         const double up = std::max(0.0, -ray_W.z());
         for (int c = 0; c < 3; ++c) {
           const double horizon = 255.0 * static_cast<double>(world.scene.sky.horizon[c]);
@@ -81,7 +81,7 @@ TEST(LensImage, ADistortedImageIsTheStraightOneBent) {
   int compared = 0, different = 0;
   for (int row = 0; row < 240; ++row) {
     for (int col = 0; col < 320; ++col) {
-      const auto ray = camera.ray(Eigen::Vector2d(col, row));
+      const auto ray = camera.unit_ray(Eigen::Vector2d(col, row));
       const auto there = straight.project(*ray);
       const int u = static_cast<int>(std::lround(there->x())), v = static_cast<int>(std::lround(there->y()));
       if (u < 0 || v < 0 || u >= 320 || v >= 240) continue;

@@ -63,7 +63,7 @@ double spot_rms_px(Renderer& renderer, const Camera& camera, double focal_px, in
   cv::Mat grey;
   while (drawn < spots) {
     const Eigen::Vector2d pixel(uniform(random, 12, camera.width_px - 12), uniform(random, 12, camera.height_px - 12));
-    const auto ray_C = camera.ray(pixel);
+    const auto ray_C = camera.unit_ray(pixel);
     if (!ray_C) continue;
     const Eigen::Isometry3d X_WC = facing(*ray_C, focal_px / kSpotPx, uniform(random, 0, 6.28));
     renderer.draw({camera, X_WC, Channel::grey}, grey);
@@ -115,7 +115,7 @@ TEST(LensImage, AStereoPairSeesAPointOnOneRowAtItsDisparity) {
     const vision::camera::PinholeCamera camera = rig.cameras[0].model().pinhole();
     // The spot stands parallel to the images' plane, somewhere in the left one.
     const double z_m = uniform(random, 6.0, 14.0);
-    const Eigen::Vector3d p_C = z_m * camera.ray({uniform(random, 80, 290), uniform(random, 30, 210)});
+    const Eigen::Vector3d p_C = z_m * camera.ray_at_unit_depth({uniform(random, 80, 290), uniform(random, 30, 210)});
     Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
     X_WC.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;
     X_WC.translation() = -(X_WC.linear() * p_C);

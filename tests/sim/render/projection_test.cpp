@@ -59,7 +59,7 @@ TEST(Projection, KnownPointsLandOnTheirPixels) {
     const double z_m = std::exp(uniform(random, std::log(0.5), std::log(200.0)));
     const Eigen::Vector2d pixel(uniform(random, 30, view.camera.width_px - 30),
                                 uniform(random, 30, view.camera.height_px - 30));
-    const Eigen::Vector3d center_W = view.X_WC * Eigen::Vector3d(z_m * view.camera.pinhole().ray(pixel));
+    const Eigen::Vector3d center_W = view.X_WC * Eigen::Vector3d(z_m * view.camera.pinhole().ray_at_unit_depth(pixel));
     const double width_m = 40.0 * z_m / view.camera.pinhole().focal_x_px,
                  height_m = 40.0 * z_m / view.camera.pinhole().focal_y_px;
     const Eigen::Vector3d right_W = width_m * view.X_WC.linear().col(0), down_W = height_m * view.X_WC.linear().col(1);

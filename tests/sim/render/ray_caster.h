@@ -57,7 +57,7 @@ struct RayCaster {
 /// where the lens shows nothing.
 inline std::optional<Hit> clear_hit(const RayCaster& cast, const CameraView& view, int col, int row, double edge_px) {
   const auto at = [&](double du, double dv) -> std::optional<Hit> {
-    const auto ray_C = view.camera.ray({col + du, row + dv});
+    const auto ray_C = view.camera.unit_ray({col + du, row + dv});
     if (!ray_C) return std::nullopt;
     Hit hit = cast(view.X_WC.translation(), view.X_WC.linear() * *ray_C);
     hit.z_m = hit.distance_m * ray_C->z();

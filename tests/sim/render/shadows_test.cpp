@@ -57,7 +57,8 @@ TEST(Shadows, OfABoxEndOnTheGroundWhereItsRaysDo) {
     for (int v = 0; v < grey.rows; ++v) {
       for (int u = 0; u < grey.cols; ++u) {
         if (depth.at<float>(v, u) < 29.999f) continue;  // the box itself
-        const Eigen::Vector3d p_W = X_WC * (30.0 * kCamera.ray({u, v}) / kCamera.ray({u, v}).z());
+        const Eigen::Vector3d p_W =
+            X_WC * (30.0 * kCamera.ray_at_unit_depth({u, v}) / kCamera.ray_at_unit_depth({u, v}).z());
         const auto hit = [&](double margin_m) {
           return way_in_box(p_W, to_sun_W.cast<double>(), box_W, margin_m) > 0.0;
         };
@@ -114,7 +115,7 @@ TEST(Shadows, DarkenNoFaceThatTheSunSees) {
       shaded.draw({kCamera, X_WC, Channel::depth}, depth);
       for (int v = 0; v < depth.rows; ++v) {
         for (int u = 0; u < depth.cols; ++u) {
-          const Eigen::Vector3d ray_C = kCamera.ray({u, v});
+          const Eigen::Vector3d ray_C = kCamera.ray_at_unit_depth({u, v});
           const Eigen::Vector3d p_W = X_WC * (depth.at<float>(v, u) / ray_C.z() * ray_C);
           if (!p_W.allFinite() || p_W.norm() > 20.0 || edge_texels(p_W, to_sun_W.cast<double>()) < 2.0) continue;
           EXPECT_NEAR(with.at<uint8_t>(v, u), without.at<uint8_t>(v, u), 1) << u << " " << v;

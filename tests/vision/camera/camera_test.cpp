@@ -31,7 +31,7 @@ RoundTrips round_trips(const Camera& camera) {
   for (int row = 0; row < camera.height_px; ++row) {
     for (int col = 0; col < camera.width_px; ++col) {
       const Eigen::Vector2d pixel(col, row);
-      const std::optional<Eigen::Vector3d> ray = camera.ray(pixel);
+      const std::optional<Eigen::Vector3d> ray = camera.unit_ray(pixel);
       if (!ray) continue;
       ++found.shown;
       found.worst_length = std::max(found.worst_length, std::abs(ray->norm() - 1.0));
@@ -144,8 +144,8 @@ TEST(Camera, FisheyeShowsNothingBeyondItsLimit) {
   FisheyeLens lens{100, 100, 159.5, 119.5};
   lens.limit_rad = 1.2;
   const Camera camera(320, 240, lens);
-  EXPECT_TRUE(camera.ray({159.5 + 119.9, 119.5}).has_value());
-  EXPECT_FALSE(camera.ray({159.5 + 120.1, 119.5}).has_value());
+  EXPECT_TRUE(camera.unit_ray({159.5 + 119.9, 119.5}).has_value());
+  EXPECT_FALSE(camera.unit_ray({159.5 + 120.1, 119.5}).has_value());
   EXPECT_TRUE(camera.project({std::tan(1.199), 0, 1}).has_value());
   EXPECT_FALSE(camera.project({std::tan(1.201), 0, 1}).has_value());
 }
@@ -163,7 +163,8 @@ TEST(Camera, IsThePinholeItIsMadeOf) {
     }
   }
   EXPECT_EQ(Camera(camera.pinhole()), camera);
-  EXPECT_NEAR((camera.ray({10, 20})->hnormalized() - pinhole.ray({10, 20}).hnormalized()).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((camera.unit_ray({10, 20})->hnormalized() - pinhole.ray_at_unit_depth({10, 20}).hnormalized()).norm(),
+              0.0, 1e-15);
 }
 
 std::string refusal(const std::function<void()>& f) {

@@ -27,7 +27,7 @@ TEST(ImageDerotator, PlacesAreThoseOfTheRotatedRays) {
       for (int row = 0; row < places.rows; ++row) {
         for (int col = 0; col < places.cols; ++col) {
           const auto found = places.at<cv::Vec2f>(row, col);
-          const auto ray_C1 = camera.ray({derotator.box().x + col, derotator.box().y + row});
+          const auto ray_C1 = camera.unit_ray({derotator.box().x + col, derotator.box().y + row});
           const auto expected = ray_C1 ? camera.project(R_C1C2.transpose() * *ray_C1) : std::nullopt;
           ASSERT_EQ(found[0] > -50.0F, expected.has_value()) << row << " " << col;
           if (expected) {

@@ -53,7 +53,7 @@ TEST_P(RealCalibration, RoundTripOverTheImageIsBelowATwentiethPixel) {
   double worst_px = 0.0, worst_by_inverse_px = 0.0;
   for (int row = 0; row < camera.height_px; row += 3) {
     for (int col = 0; col < camera.width_px; col += 3) {
-      const std::optional<Eigen::Vector3d> ray = camera.ray(Eigen::Vector2d(col, row));
+      const std::optional<Eigen::Vector3d> ray = camera.unit_ray(Eigen::Vector2d(col, row));
       if (!ray) continue;
       ++shown;
       worst_px = std::max(worst_px, (camera.project(*ray).value() - Eigen::Vector2d(col, row)).norm());
@@ -114,21 +114,21 @@ TEST(OcamLens, TurnsRowsAndColumnsIntoRightAndDown) {
   EXPECT_EQ(camera.width_px, 752);
   EXPECT_EQ(camera.height_px, 480);
   const Eigen::Vector2d center(374.5, 241.25);
-  EXPECT_NEAR((camera.ray(center).value() - Eigen::Vector3d::UnitZ()).norm(), 0.0, 1e-12);
-  EXPECT_GT(camera.ray({600, 241}).value().x(), 0.5);
-  EXPECT_GT(camera.ray({374, 400}).value().y(), 0.3);
+  EXPECT_NEAR((camera.unit_ray(center).value() - Eigen::Vector3d::UnitZ()).norm(), 0.0, 1e-12);
+  EXPECT_GT(camera.unit_ray({600, 241}).value().x(), 0.5);
+  EXPECT_GT(camera.unit_ray({374, 400}).value().y(), 0.3);
   // Its definition, written out for one pixel.
   const double row = 100.0, col = 650.0;
   const double det = 0.9985 + 0.0004 * 0.0003, dr = row - 241.25, dc = col - 374.5;
   const double x = (dr - 0.0004 * dc) / det, y = (0.0003 * dr + 0.9985 * dc) / det, rho = std::hypot(x, y);
   const double f = -220.0 + 1.6e-3 * rho * rho - 2.1e-6 * std::pow(rho, 3) + 8.0e-9 * std::pow(rho, 4);
   const Eigen::Vector3d expected = Eigen::Vector3d(y, x, -f).normalized();
-  EXPECT_NEAR((camera.ray({col, row}).value() - expected).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((camera.unit_ray({col, row}).value() - expected).norm(), 0.0, 1e-12);
 }
 
 TEST(OcamLens, SeesBeyondARightAngle) {
   const Camera camera(parse_ocam_calibration(kSmallCalibration));
-  const Eigen::Vector3d left = camera.ray({0, 241.25}).value();
+  const Eigen::Vector3d left = camera.unit_ray({0, 241.25}).value();
   EXPECT_GT(std::acos(left.z()) * 180.0 / std::numbers::pi, 95.0);
   EXPECT_NEAR(camera.project(9.0 * left).value().x(), 0.0, 1e-9);
 }

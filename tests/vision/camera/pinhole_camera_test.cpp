@@ -22,8 +22,8 @@ TEST(PinholeCamera, NinetyDegreesAcross400PixelsIsAFocalLengthOf200) {
 
 TEST(PinholeCamera, ImageEdgesLieAtHalfTheFieldOfView) {
   const auto camera = PinholeCamera::from_fov(641, 480, 1.1);
-  const auto left = camera.ray({-0.5, camera.center_v_px});
-  const auto right = camera.ray({640.5, camera.center_v_px});
+  const auto left = camera.ray_at_unit_depth({-0.5, camera.center_v_px});
+  const auto right = camera.ray_at_unit_depth({640.5, camera.center_v_px});
   EXPECT_NEAR(std::atan(right.x()), 0.55, 1e-12);
   EXPECT_NEAR(std::atan(left.x()), -0.55, 1e-12);
 }
@@ -34,7 +34,7 @@ TEST(PinholeCamera, ProjectionUndoesRay) {
   const auto camera = PinholeCamera::from_fov(400, 300, 1.2);
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector2d p{pixel(random), pixel(random)};
-    const auto q = camera.project(depth(random) * camera.ray(p));
+    const auto q = camera.project(depth(random) * camera.ray_at_unit_depth(p));
     ASSERT_TRUE(q);
     EXPECT_LT((*q - p).norm(), 1e-10);
   }

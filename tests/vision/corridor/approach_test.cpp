@@ -38,14 +38,14 @@ struct Pair {
     older = draw(p_WC1, motion.R_HC1);
     newer = draw(p_WC1 + motion.traveled_H, motion.R_HC2);
   }
-  std::optional<Approach> measure() const {
+  std::optional<ApproachRate> measure() const {
     return ApproachMeter({}, camera, looking_down(), {}, kRimPx).measure(older, newer, motion);
   }
 };
 
 WaveTexture waves(double shortest_m, double longest_m) { return {11, shortest_m, longest_m, 40}; }
 
-TEST(Approach, IsSpeedOverDistanceToAWallAcrossEvenOfCoarseTexture) {
+TEST(ApproachRate, IsSpeedOverDistanceToAWallAcrossEvenOfCoarseTexture) {
   for (const auto& [shortest_m, longest_m] : {std::pair{0.05, 0.3}, {0.4, 1.2}}) {
     for (const double range_m : {0.4, 0.9}) {
       for (const double v_mps : {0.3, 0.8}) {
@@ -58,7 +58,7 @@ TEST(Approach, IsSpeedOverDistanceToAWallAcrossEvenOfCoarseTexture) {
   }
 }
 
-TEST(Approach, HoldsForAWayAsideAndARollingVehicle) {
+TEST(ApproachRate, HoldsForAWayAsideAndARollingVehicle) {
   const double range_m = 0.8;
   const Eigen::Vector3d v_H(0.6, 0.15, 0.0);
   // Along a way aslant, the wall straight ahead lies at the range over the cosine.
@@ -67,7 +67,7 @@ TEST(Approach, HoldsForAWayAsideAndARollingVehicle) {
   EXPECT_NEAR(found->rate_per_s, v_H.x() / range_m, 0.15 * v_H.x() / range_m);
 }
 
-TEST(Approach, AnOpenCorridorLooksFarEvenWhereNarrow) {
+TEST(ApproachRate, AnOpenCorridorLooksFarEvenWhereNarrow) {
   for (const double half_width_m : {0.875, 1.25, 2.0}) {
     const auto found = Pair(30.0, {0.8, 0, 0}, waves(0.1, 0.6), half_width_m).measure();
     ASSERT_TRUE(found);
@@ -79,14 +79,14 @@ TEST(Approach, AnOpenCorridorLooksFarEvenWhereNarrow) {
   }
 }
 
-TEST(Approach, IsUnknownBeforeABlankWall) {
+TEST(ApproachRate, IsUnknownBeforeABlankWall) {
   const cv::Mat grey(480, 752, CV_8UC1, cv::Scalar(128));
   Pair pair(1.0, {0.8, 0, 0}, waves(0.1, 0.6));
   pair.older = pair.newer = grey;
   EXPECT_FALSE(pair.measure());
 }
 
-TEST(Approach, RefusesAConfigThatCannotBe) {
+TEST(ApproachRate, RefusesAConfigThatCannotBe) {
   for (const ApproachConfig& config : {ApproachConfig{.half_width_rad = 0.0}, ApproachConfig{.sigma_per_s = 0.0}}) {
     EXPECT_THROW(ApproachMeter(config, whole_fisheye(), looking_down(), {}, kRimPx), std::invalid_argument);
   }

@@ -85,7 +85,7 @@ TEST(CorridorRegions, KeepClearOfTheLensRim) {
         if (!mask.at<uint8_t>(v, u)) continue;
         ++inside;
         for (const auto& [du, dv] : {std::pair{-kRimPx, 0}, {kRimPx, 0}, {0, -kRimPx}, {0, kRimPx}}) {
-          EXPECT_TRUE(camera.ray({u + du, v + dv})) << u << ' ' << v;
+          EXPECT_TRUE(camera.unit_ray({u + du, v + dv})) << u << ' ' << v;
         }
       }
     }
@@ -143,13 +143,13 @@ TEST(WallPoint, RejectionReasonsNameWhatIsWrong) {
   // impossible.
   flow::RayPair backwards = good;
   backwards.after_px = 2.0 * good.before_px - good.after_px;
-  backwards.after_C = flight.camera.ray(backwards.after_px).value();
+  backwards.after_C = flight.camera.unit_ray(backwards.after_px).value();
   EXPECT_EQ(rejection(backwards), RejectionReason::outlier);
   // One that moves towards the center is caught by the printed filter alone.
   flow::RayPair inwards = good;
   const Eigen::Vector2d radius = good.before_px - flight.camera.project(Vector3d::UnitZ()).value();
   inwards.after_px = good.before_px - 4.0 * radius.normalized();
-  inwards.after_C = flight.camera.ray(inwards.after_px).value();
+  inwards.after_C = flight.camera.unit_ray(inwards.after_px).value();
   limits = {};
   limits.stray_rad = pi;
   EXPECT_EQ(rejection(inwards), RejectionReason::off_tangent);

@@ -63,7 +63,7 @@ inline cv::Mat draw_planes_through(const camera::Camera& camera, const Eigen::Is
                                    const std::vector<TexturedPlane>& planes, const WaveTexture& texture,
                                    int oversample = 1) {
   const auto seen = [&](const Eigen::Vector2d& pixel) {
-    const auto ray_C = camera.ray(pixel);
+    const auto ray_C = camera.unit_ray(pixel);
     if (!ray_C) return 0.0;
     const Eigen::Vector3d ray_W = X_WC.linear() * *ray_C;
     double nearest = std::numeric_limits<double>::infinity(), grey = 0.0;

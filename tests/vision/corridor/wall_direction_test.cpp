@@ -12,7 +12,7 @@ namespace hedgehop::vision::corridor {
 namespace {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
-constexpr double kMostRad = 50.0 * kDeg;
+constexpr double kMaxRad = 50.0 * kDeg;
 constexpr double kFinestRad = 0.3 * kDeg;  // the last step of the search, and half as much again
 
 // What a vehicle whose nose stands `turned_rad` to the left of two parallel walls would know of them.
@@ -37,7 +37,7 @@ TEST(WallDirection, IsThatOfTheWallsWhereverTheNosePoints) {
   for (uint64_t seed = 1; seed <= 40; ++seed) {
     const double turned_rad = uniform(random, -45.0 * kDeg, 45.0 * kDeg);
     const auto points = two_walls(turned_rad, uniform(random, 0.4, 3.0), uniform(random, 0.4, 3.0), seed);
-    EXPECT_NEAR(wall_direction_rad(points, kMostRad, 12), turned_rad, kFinestRad) << seed;
+    EXPECT_NEAR(wall_direction_rad(points, kMaxRad, 12), turned_rad, kFinestRad) << seed;
   }
 }
 
@@ -45,7 +45,7 @@ TEST(WallDirection, NoisyFlowAndATenthOfWrongPointsTurnItLittle) {
   for (uint64_t seed = 1; seed <= 20; ++seed) {
     auto points = two_walls(12.0 * kDeg, 1.1, 1.4, seed, 0.05);
     for (size_t i = 0; i < points.size(); i += 10) points[i].p_CP_H *= 0.3;
-    EXPECT_NEAR(wall_direction_rad(points, kMostRad, 12), 12.0 * kDeg, 2.0 * kDeg) << seed;
+    EXPECT_NEAR(wall_direction_rad(points, kMaxRad, 12), 12.0 * kDeg, 2.0 * kDeg) << seed;
   }
 }
 
@@ -54,12 +54,12 @@ TEST(WallDirection, IsTheHeadingWhereOneSideIsUnknown) {
   for (WallPoint& point : points) {
     if (point.region == kLeft) point.rejection = RejectionReason::too_slow;
   }
-  EXPECT_EQ(wall_direction_rad(points, kMostRad, 12), 0.0);
+  EXPECT_EQ(wall_direction_rad(points, kMaxRad, 12), 0.0);
 }
 
 TEST(WallDirection, AcrossItANoseTurnedAsideShiftsNoMedian) {
   const auto points = two_walls(25.0 * kDeg, 0.8, 1.7, 5);
-  const auto along = rotate_points(points, wall_direction_rad(points, kMostRad, 12));
+  const auto along = rotate_points(points, wall_direction_rad(points, kMaxRad, 12));
   EXPECT_NEAR(side_distance(along, kLeft, 1).distance_m, 0.8, 0.02);
   EXPECT_NEAR(side_distance(along, kRight, 1).distance_m, 1.7, 0.02);
   // Across the heading the left wall seems twice as near.

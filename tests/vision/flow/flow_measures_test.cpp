@@ -31,7 +31,8 @@ TEST(ImageJacobian, EqualsFiniteDifferencesOfProjectedPoints) {
   for (int trial = 0; trial < 200; ++trial) {
     const Eigen::Vector2d at{pixel(random), pixel(random)};
     const double z = depth(random);
-    const Eigen::Vector3d v = random_vector(random, 3.0), w = random_vector(random, 1.0), p_CP = z * camera.ray(at);
+    const Eigen::Vector3d v = random_vector(random, 3.0), w = random_vector(random, 1.0),
+                          p_CP = z * camera.ray_at_unit_depth(at);
     Eigen::Matrix<double, 6, 1> twist;
     twist << v, w;
     constexpr double kStepS = 1e-6;
@@ -52,7 +53,7 @@ TEST(RotationFlow, MovesPixelsAsTurningTheCameraDoes) {
     const Eigen::Vector3d w = random_vector(random, 2.0);
     Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
     X.rotate(Eigen::AngleAxisd(w.norm() * kPeriodS, w.normalized()));
-    const Eigen::Vector2d expected = *kCamera.project(X.inverse() * (7.0 * kCamera.ray(at))) - at;
+    const Eigen::Vector2d expected = *kCamera.project(X.inverse() * (7.0 * kCamera.ray_at_unit_depth(at))) - at;
     EXPECT_LT((rotation_flow_px(kCamera, at, w, kPeriodS) - expected).norm(), 1e-9);
   }
 }
@@ -109,7 +110,7 @@ TEST(MeanFlowAndLoom, EqualTheJacobiansMeanForSlantedWallsAndAnyMotion) {
     Eigen::Matrix<double, 6, 1> twist;
     twist << v, w;
     for (const FlowVector& vector : grid.vectors) {
-      const double z = normal.dot(on_wall) / normal.dot(kCamera.ray(vector.center_px));
+      const double z = normal.dot(on_wall) / normal.dot(kCamera.ray_at_unit_depth(vector.center_px));
       const double rate = (image_jacobian(kCamera, vector.center_px, z) * twist).x();
       const double side = vector.center_px.x() > 199.5 ? 1.0 : -1.0;
       Q += rate / 200.0 / 108.0;

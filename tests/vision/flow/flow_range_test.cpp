@@ -30,7 +30,7 @@ TEST(FlowRange, EveryPatchTellsItsOwnDepthOnASlantedWallForAnyMotion) {
     const FlowField field =
         plane_flow(camera(), grid_field(16, 16, 32, 400), on_plane, normal, v_WC_C, {0, 0, 0}, kStepS);
     for (const FlowVector& vector : field.vectors) {
-      const Eigen::Vector3d ray = camera().ray(vector.center_px);
+      const Eigen::Vector3d ray = camera().ray_at_unit_depth(vector.center_px);
       const double depth_m = normal.dot(on_plane) / normal.dot(ray);
       const Eigen::Vector2d b(-v_WC_C.x() + ray.x() * v_WC_C.z(), -v_WC_C.y() + ray.y() * v_WC_C.z());
       if (b.norm() < 0.1 || depth_m < 0.5) continue;  // around the focus of expansion nothing is measured
@@ -74,7 +74,7 @@ TEST(FlowRange, BearingsAreTheAzimuthsOfThePatchesRays) {
   const FlowField field = grid_field(4, 6, 32, 400);
   const std::vector<double> bearings = bearings_rad(field, camera());
   for (size_t i = 0; i < bearings.size(); ++i) {
-    const Eigen::Vector3d ray = camera().ray(field.vectors[i].center_px);
+    const Eigen::Vector3d ray = camera().ray_at_unit_depth(field.vectors[i].center_px);
     EXPECT_NEAR(bearings[i], std::atan2(ray.x(), ray.z()), 1e-12);
   }
 }
@@ -102,7 +102,7 @@ TEST(FlowRange, TheNearestTenthCountsInFullHoweverFarTheRestIs) {
   for (int row = 0; row < 16; ++row) {
     for (int col = 0; col < 2; ++col) {
       field.at(row, col) = near.at(row, col);
-      const double range_m = 3.0 * std::hypot(1.0, camera().ray(field.at(row, col).center_px).x());
+      const double range_m = 3.0 * std::hypot(1.0, camera().ray_at_unit_depth(field.at(row, col).center_px).x());
       least_range_m = std::min(least_range_m, range_m);
       largest_range_m = std::max(largest_range_m, range_m);
     }

@@ -35,7 +35,7 @@ inline flow::FlowField plane_flow(const camera::PinholeCamera& camera, flow::Flo
   if (w_WC_C.norm() > 0.0) motion.rotate(Eigen::AngleAxisd(w_WC_C.norm() * dt_s, w_WC_C.normalized()));
   for (flow::FlowVector& vector : field.vectors) {
     if (!vector.valid) continue;
-    const Eigen::Vector3d ray = camera.ray(vector.center_px);
+    const Eigen::Vector3d ray = camera.ray_at_unit_depth(vector.center_px);
     const Eigen::Vector3d p = ray * (normal_C.dot(on_plane_C) / normal_C.dot(ray));
     vector.flow_px = camera.project(motion.inverse() * p).value() - vector.center_px;
   }

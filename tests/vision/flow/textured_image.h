@@ -78,7 +78,7 @@ struct TexturedPlane {
 inline cv::Mat draw_planes(const camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC,
                            const std::vector<TexturedPlane>& planes, const WaveTexture& texture, double sky = 200.0) {
   return draw_image(camera.width_px, camera.height_px, [&](double u, double v) {
-    const Eigen::Vector3d ray_W = X_WC.linear() * camera.ray({u, v});
+    const Eigen::Vector3d ray_W = X_WC.linear() * camera.ray_at_unit_depth({u, v});
     double nearest = std::numeric_limits<double>::infinity(), s = 0.0, t = 0.0;
     for (const TexturedPlane& plane : planes) {
       const Eigen::Vector3d normal_W = plane.s_W.cross(plane.t_W);

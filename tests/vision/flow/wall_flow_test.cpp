@@ -40,11 +40,11 @@ Room random_room(std::mt19937_64& random) {
 }
 
 /// What four cameras, half a meter from B, see in their middle rows while B moves, with `noise` added.
-std::vector<WallObservation> look(const Room& room, const Eigen::Vector2d& v_H, double noise, std::mt19937_64& random) {
+std::vector<WallFlowSample> look(const Room& room, const Eigen::Vector2d& v_H, double noise, std::mt19937_64& random) {
   constexpr int kPatches = 8;
   constexpr double kOffM = 0.4, kReach = 0.75;
   std::normal_distribution<double> error(0.0, 1.0);
-  std::vector<WallObservation> observations;
+  std::vector<WallFlowSample> observations;
   for (int camera = 0; camera < 4; ++camera) {
     const Eigen::Vector2d axis_H =
         Eigen::Rotation2Dd((camera - 1.5) * M_PI / 2.0 - M_PI / 4.0) * Eigen::Vector2d::UnitX();
@@ -52,7 +52,7 @@ std::vector<WallObservation> look(const Room& room, const Eigen::Vector2d& v_H, 
     const Eigen::Vector3d v_WC_C(v_H.dot(right_H), 0.0, v_H.dot(axis_H));
     for (int patch = 0; patch < kPatches; ++patch) {
       const Eigen::Vector2d place(kReach * (2.0 * patch / (kPatches - 1.0) - 1.0), 0.0);
-      WallObservation observation;
+      WallFlowSample observation;
       observation.ray_H = axis_H + place.x() * right_H;
       observation.p_BC_H = kOffM * axis_H;
       observation.unit_flow = unit_flow(place, v_WC_C);
@@ -87,7 +87,7 @@ TEST(WallFlow, FindsTheWallsOfARoomFromAMovingVehicle) {
     for (size_t k = 0; k < 4; ++k) {
       // A wall that shows in fewer than three neighboring patches cannot be detected.
       int run = 0, longest = 0;
-      for (const WallObservation& observation : observations) {
+      for (const WallFlowSample& observation : observations) {
         const Eigen::Vector2d met_H =
             observation.p_BC_H + room.along(observation.p_BC_H, observation.ray_H) * observation.ray_H;
         run = std::abs(room.n[k].dot(met_H) - room.d_m[k]) < 1e-9 ? run + 1 : 0;

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr int kSizePx = 320;
-constexpr double kLeastAngleRad = 0.2;
+constexpr double kMinAngleRad = 0.2;
 
 /// A polygon drawn with soft edges: at eight times the size, then averaged.
 void draw(cv::Mat& image, const std::vector<Vector2d>& corners_px, const cv::Scalar& color) {
@@ -66,7 +66,7 @@ TEST(EdgeCorners, OfAQuadrilateralAreItsCorners) {
     const std::vector<Vector2d> corners = random_quadrilateral(random);
     cv::Mat image(kSizePx, kSizePx, CV_8UC1, cv::Scalar(60));
     draw(image, corners, 160);
-    const std::vector<Vector2d> found = edge_corners(image, kLeastAngleRad);
+    const std::vector<Vector2d> found = edge_corners(image, kMinAngleRad);
     EXPECT_EQ(found.size(), 4U) << "round " << round;
     constexpr double kLineFitPx = 1.0;
     for (const Vector2d& corner : corners) EXPECT_LT(distance_px(found, corner), kLineFitPx) << "round " << round;
@@ -82,7 +82,7 @@ TEST(EdgeCorners, StandOutFromPatchesOfGrass) {
     const std::vector<Vector2d> corners = random_quadrilateral(random);
     cv::Mat image = patches(static_cast<uint64_t>(round + 1), 3.0, 12.0);
     draw(image, corners, 145);
-    const std::vector<Vector2d> found = edge_corners(image, kLeastAngleRad);
+    const std::vector<Vector2d> found = edge_corners(image, kMinAngleRad);
     for (const Vector2d& corner : corners) found_of_true += distance_px(found, corner) < 3.0;
     for (const Vector2d& place : found) found_elsewhere += distance_px(corners, place) >= 3.0;
 
@@ -103,8 +103,8 @@ TEST(EdgeCorners, RedAndGreenOfOneGreyAreToldApartInColor) {
   draw(image, corners, red);
   cv::Mat grey;
   cv::cvtColor(image, grey, cv::COLOR_RGB2GRAY);
-  EXPECT_TRUE(edge_corners(grey, kLeastAngleRad).empty());
-  EXPECT_EQ(edge_corners(image, kLeastAngleRad).size(), 4U);
+  EXPECT_TRUE(edge_corners(grey, kMinAngleRad).empty());
+  EXPECT_EQ(edge_corners(image, kMinAngleRad).size(), 4U);
 }
 
 TEST(EdgeCorners, LieWhereTwoLinesCross) {
@@ -117,7 +117,7 @@ TEST(EdgeCorners, LieWhereTwoLinesCross) {
       return ImageEdge{at + uniform(random, -2, 5) * along, at + uniform(random, 40, 90) * along};
     };
     const std::vector<ImageEdge> edges = {edge(first), edge(second)};
-    const auto corners = corners_of(edges, kLeastAngleRad);
+    const auto corners = corners_of(edges, kMinAngleRad);
     ASSERT_EQ(corners.size(), 1U);
     EXPECT_LT((corners[0] - at).norm(), 1e-9);
   }
@@ -148,17 +148,17 @@ TEST(EdgeCorners, AreFoundWhereALineBendsALittle) {
 
 TEST(EdgeCorners, AreNotWhereAnEdgePassesThroughAnothersEnd) {
   const std::vector<ImageEdge> edges = {{{0, 0}, {100, 0}}, {{50, 1}, {50, 80}}};
-  EXPECT_TRUE(corners_of(edges, kLeastAngleRad).empty());
+  EXPECT_TRUE(corners_of(edges, kMinAngleRad).empty());
 }
 
 // The ground is as bright as the wall along the last 12 px of the wall's foot, whose direction its other 88 px give.
 TEST(EdgeCorners, AreFoundWhereALongEdgeVanishesBeforeItsCorner) {
   const std::vector<ImageEdge> edges = {{{0, 0}, {88, 0}}, {{100, 0}, {100, -80}}};
-  const auto corners = corners_of(edges, kLeastAngleRad);
+  const auto corners = corners_of(edges, kMinAngleRad);
   ASSERT_EQ(corners.size(), 1U);
   EXPECT_LT((corners[0] - Vector2d(100, 0)).norm(), 1e-9);
   const std::vector<ImageEdge> shorter = {{{40, 0}, {88, 0}}, {{100, 0}, {100, -80}}};
-  EXPECT_TRUE(corners_of(shorter, kLeastAngleRad).empty());
+  EXPECT_TRUE(corners_of(shorter, kMinAngleRad).empty());
 }
 
 // The noise of sensors/day.yaml at middle grey, a lens's blur of 0.7 px, and a contrast of 12 grey levels, six times
@@ -177,7 +177,7 @@ TEST(EdgeCorners, OfLittleContrastAreFoundUnderBlurAndNoise) {
     cv::GaussianBlur(image, image, {}, kBlurPx);
     noise_random.fill(noise, cv::RNG::NORMAL, 0.0, kNoise);
     cv::add(image, noise, image, {}, CV_8U);
-    const std::vector<Vector2d> found = edge_corners(image, kLeastAngleRad);
+    const std::vector<Vector2d> found = edge_corners(image, kMinAngleRad);
     for (const Vector2d& corner : corners) {
       const double off_px = distance_px(found, corner);
       if (off_px >= 3.0) continue;
@@ -194,7 +194,7 @@ TEST(EdgeCorners, OfLittleContrastAreFoundUnderBlurAndNoise) {
 
 TEST(EdgeCorners, AreNotWhereEdgesEndFarApart) {
   const std::vector<ImageEdge> edges = {{{0, 0}, {100, 0}}, {{130, 30}, {130, 90}}};
-  EXPECT_TRUE(corners_of(edges, kLeastAngleRad).empty());
+  EXPECT_TRUE(corners_of(edges, kMinAngleRad).empty());
 }
 
 TEST(JoinedEdges, APieceWiseLineIsOneEdge) {

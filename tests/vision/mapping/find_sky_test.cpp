@@ -43,7 +43,7 @@ View look(const MappedWorld& world, double height_m, const std::vector<Eigen::Al
   constexpr double kMatchedM = 60.0;
   for (int v = 0; v < world.height_px; ++v) {
     for (int u = 0; u < world.width_px; ++u) {
-      const Eigen::Vector3d ray_W = X_WC.linear() * world.geometry.ray({u, v});
+      const Eigen::Vector3d ray_W = X_WC.linear() * world.geometry.ray_at_unit_depth({u, v});
       const double bare_m = world.cast(X_WC.translation(), ray_W), z_m = with.cast(X_WC.translation(), ray_W);
       const bool blank = z_m < bare_m, sky = std::isinf(z_m);
       view.grey.at<uint8_t>(v, u) = static_cast<uint8_t>(sky ? kSkyGrey : blank ? kBoxGrey : kGroundGrey);
@@ -73,7 +73,7 @@ Found find(const View& view) {
       found.sky += said && sky;
       // Of what is not sky only the far ground below the horizon may be taken for it.
       constexpr double kHorizon = 0.03;  // sine of an elevation
-      const Eigen::Vector3d ray_W = view.X_WC.linear() * view.world.geometry.ray({u, v}).normalized();
+      const Eigen::Vector3d ray_W = view.X_WC.linear() * view.world.geometry.ray_at_unit_depth({u, v}).normalized();
       found.wrong += said && !sky && -ray_W.z() > kHorizon;
     }
   }
@@ -159,8 +159,8 @@ TEST(FindSky, WhatPassesForSkyIsNoFartherThanTheGroundItStandsOn) {
         if (blocks.at(row, col).kind != DepthBlock::Kind::sky) continue;
         ++passed;
         const cv::Point middle(col * DepthBlocks::kBlockPx + 4, row * DepthBlocks::kBlockPx + 4);
-        const Eigen::Vector3d off_W =
-            view.X_WC.linear() * view.world.geometry.ray(middle) * view.world.geometry.z_m(blocks.at(row, col).foot16);
+        const Eigen::Vector3d off_W = view.X_WC.linear() * view.world.geometry.ray_at_unit_depth(middle) *
+                                      view.world.geometry.z_m(blocks.at(row, col).foot16);
         constexpr double kRounding = 1.06;
         EXPECT_LT(off_W.x(), kRounding * wall_m) << row << " " << col;
       }

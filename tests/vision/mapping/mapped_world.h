@@ -64,7 +64,7 @@ struct MappedWorld {
     cv::Mat disparity(height_px, width_px, CV_16SC1);
     for (int v = 0; v < height_px; ++v) {
       for (int u = 0; u < width_px; ++u) {
-        const double z_m = cast(X_WC.translation(), X_WC.linear() * geometry.ray({u, v}));
+        const double z_m = cast(X_WC.translation(), X_WC.linear() * geometry.ray_at_unit_depth({u, v}));
         const double exact = std::isfinite(z_m) ? geometry.disparity16(z_m) : 0.0;
         disparity.at<int16_t>(v, u) =
             static_cast<int16_t>(std::max(0.0, std::round(exact + stereo::kDisparityUnits * error(generator))));

@@ -162,7 +162,7 @@ TEST(OccupancyMap, WhatMovesLeavesNoWakeBehindWhereItIsKnownToMove) {
     double east_m = 0.0;
     for (int image = 0; image < 30; ++image) {
       MappedWorld world;
-      std::vector<OccupancyMap::Disc> moving;
+      std::vector<OccupancyMap::MovingDisc> moving;
       if (image >= 10) {
         east_m = 0.1 * (image - 20);
         world.boxes_W = {{Eigen::Vector3d(3.0, east_m - 0.5, -4.0), Eigen::Vector3d(4.0, east_m + 0.5, 0.0)}};

@@ -72,10 +72,10 @@ TEST(SectionSearch, CountsAsAnyoneWouldPixelByPixel) {
     const SectionGrid grid{3 + trial % 5, 4 + trial % 7, 0.2 + 0.03 * trial, 0.5};
     SectionSearch search(grid, size);
     const cv::Mat depth = random_depth(random, size, 0.2);
-    for (const Unknown unknown : {Unknown::free, Unknown::threat}) {
+    for (const UnknownDepth unknown : {UnknownDepth::free, UnknownDepth::threat}) {
       search.choose(depth, kThresholdM, 0.15, unknown);
       for (size_t i = 0; i < search.sections().size(); ++i) {
-        EXPECT_EQ(search.threats()[i], count_threats(depth, search.sections()[i], unknown == Unknown::threat));
+        EXPECT_EQ(search.threats()[i], count_threats(depth, search.sections()[i], unknown == UnknownDepth::threat));
       }
     }
   }
@@ -87,7 +87,7 @@ TEST(SectionSearch, TheEmptiestSectionWins) {
     const cv::Size size(320, 180);
     SectionSearch search({9, 9}, size);
     const cv::Mat depth = random_depth(random, size, 0.1);
-    const SectionChoice choice = search.choose(depth, kThresholdM, 1.0, Unknown::free);
+    const SectionChoice choice = search.choose(depth, kThresholdM, 1.0, UnknownDepth::free);
     ASSERT_GE(choice.section, 0);
     for (const cv::Rect& section : search.sections()) {
       EXPECT_LE(choice.share * section.area(), count_threats(depth, section, false) + 1e-6);
@@ -98,10 +98,10 @@ TEST(SectionSearch, TheEmptiestSectionWins) {
 TEST(SectionSearch, EqualSharesGoToTheCenter) {
   SectionSearch search({}, kZed);
   cv::Mat depth(kZed, CV_32F, cv::Scalar(20.0));
-  EXPECT_EQ(search.choose(depth, kThresholdM, 0.15, Unknown::free).section, 144);
+  EXPECT_EQ(search.choose(depth, kThresholdM, 0.15, UnknownDepth::free).section, 144);
   // A wall that fills all but the right fifth: of the sections in the last column, the one in the middle row.
   depth(cv::Rect(0, 0, 640, 720)).setTo(5.0);
-  EXPECT_EQ(search.choose(depth, kThresholdM, 0.15, Unknown::free).section, 8 * 17 + 16);
+  EXPECT_EQ(search.choose(depth, kThresholdM, 0.15, UnknownDepth::free).section, 8 * 17 + 16);
 }
 
 TEST(SectionSearch, AnOpeningTooNarrowForFifteenPercentIsNone) {
@@ -113,10 +113,10 @@ TEST(SectionSearch, AnOpeningTooNarrowForFifteenPercentIsNone) {
     return depth;
   };
   const int just_enough = static_cast<int>(std::ceil(0.85 * height));
-  const SectionChoice found = search.choose(wall_with(just_enough), kThresholdM, 0.15, Unknown::free);
+  const SectionChoice found = search.choose(wall_with(just_enough), kThresholdM, 0.15, UnknownDepth::free);
   EXPECT_EQ(found.section, 8);  // the top row's middle
   EXPECT_NEAR(found.share, double((height - just_enough) * width) / area, 1e-12);
-  const SectionChoice missed = search.choose(wall_with(just_enough - 1), kThresholdM, 0.15, Unknown::free);
+  const SectionChoice missed = search.choose(wall_with(just_enough - 1), kThresholdM, 0.15, UnknownDepth::free);
   EXPECT_EQ(missed.section, -1);
   EXPECT_EQ(missed.best, 8);
   EXPECT_GT(missed.share, 0.15);
@@ -127,10 +127,10 @@ TEST(SectionSearch, WidenedThreatsAreTheSquaresAboutThem) {
   SectionSearch search({.rows = 1, .cols = 1, .width_share = 1.0, .height_share = 1.0, .grow_px = 3}, size);
   cv::Mat depth(size, CV_32F, cv::Scalar(20.0));
   depth.at<float>(30, 50) = 5.0f;
-  search.choose(depth, kThresholdM, 0.15, Unknown::free);
+  search.choose(depth, kThresholdM, 0.15, UnknownDepth::free);
   EXPECT_EQ(search.threats()[0], 7 * 7);
   depth.at<float>(0, 0) = 5.0f;  // cut off by the image's corner
-  search.choose(depth, kThresholdM, 0.15, Unknown::free);
+  search.choose(depth, kThresholdM, 0.15, UnknownDepth::free);
   EXPECT_EQ(search.threats()[0], 7 * 7 + 4 * 4);
 }
 
@@ -149,8 +149,8 @@ TEST(SectionSearch, AnOpeningAlongTheTopIsMissedByThreeByThreeAndFoundBySeventee
   cv::Mat depth(kZed, CV_32F, cv::Scalar(5.0));
   depth(cv::Rect(350, 40, 640, 260)).setTo(20.0);  // below a lintel of 40 px, straddling the rows of thirds
   SectionSearch coarse({3, 3, 1.0 / 3.0, 1.0 / 3.0}, kZed), fine({}, kZed);
-  EXPECT_EQ(coarse.choose(depth, kThresholdM, 0.15, Unknown::free).section, -1);
-  const SectionChoice found = fine.choose(depth, kThresholdM, 0.15, Unknown::free);
+  EXPECT_EQ(coarse.choose(depth, kThresholdM, 0.15, UnknownDepth::free).section, -1);
+  const SectionChoice found = fine.choose(depth, kThresholdM, 0.15, UnknownDepth::free);
   ASSERT_GE(found.section, 0);
   EXPECT_LT(found.section, 3 * 17);
 }
@@ -168,7 +168,7 @@ TEST(SectionSearch, OfTheOpenSectionsTheEmptiestIsChosenAndWithoutAnyNoneIsShut)
     std::vector<bool> open;
     const double open_share = trial % 4 == 0 ? 0.0 : uniform(random);
     for (size_t i = 0; i < search.sections().size(); ++i) open.push_back(uniform(random) < open_share);
-    const SectionChoice all = search.choose(depth, kThresholdM, 0.15, Unknown::free);
+    const SectionChoice all = search.choose(depth, kThresholdM, 0.15, UnknownDepth::free);
     std::vector<std::tuple<int, double, int>> ranked;
     for (int i = 0; i < static_cast<int>(open.size()); ++i) {
       const cv::Rect& s = search.sections()[static_cast<size_t>(i)];
@@ -180,7 +180,7 @@ TEST(SectionSearch, OfTheOpenSectionsTheEmptiestIsChosenAndWithoutAnyNoneIsShut)
       const auto i = static_cast<size_t>(std::get<2>(r));
       return open[i] && std::get<0>(r) <= 0.15 * search.sections()[i].area();
     });
-    const SectionChoice found = search.choose(depth, kThresholdM, 0.15, Unknown::free,
+    const SectionChoice found = search.choose(depth, kThresholdM, 0.15, UnknownDepth::free,
                                               [&](int i) { return bool(open[static_cast<size_t>(i)]); });
     if (first == ranked.end()) {
       ++disregarded;
@@ -197,8 +197,8 @@ TEST(SectionSearch, OfTheOpenSectionsTheEmptiestIsChosenAndWithoutAnyNoneIsShut)
 TEST(SectionSearch, AllUnknownIsFreeOrBlockedAsAsked) {
   SectionSearch search({}, kZed);
   const cv::Mat depth(kZed, CV_32F, cv::Scalar::all(kNaN));
-  EXPECT_EQ(search.choose(depth, kThresholdM, 0.15, Unknown::free).section, 144);
-  const SectionChoice blocked = search.choose(depth, kThresholdM, 0.15, Unknown::threat);
+  EXPECT_EQ(search.choose(depth, kThresholdM, 0.15, UnknownDepth::free).section, 144);
+  const SectionChoice blocked = search.choose(depth, kThresholdM, 0.15, UnknownDepth::threat);
   EXPECT_EQ(blocked.section, -1);
   EXPECT_EQ(blocked.share, 1.0);
 }
@@ -206,7 +206,7 @@ TEST(SectionSearch, AllUnknownIsFreeOrBlockedAsAsked) {
 TEST(SectionSearch, SkyIsFree) {
   SectionSearch search({}, kZed);
   const cv::Mat depth(kZed, CV_32F, cv::Scalar::all(std::numeric_limits<double>::infinity()));
-  EXPECT_EQ(search.choose(depth, kThresholdM, 0.15, Unknown::threat).section, 144);
+  EXPECT_EQ(search.choose(depth, kThresholdM, 0.15, UnknownDepth::threat).section, 144);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "vision/landmarks/printed_filter.h"
+#include "vision/landmarks/published_filter.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using Eigen::Vector2d, Eigen::Vector3d;
 using sim::looking_at;
 
 constexpr double kSigma = 1e-3, kImageS = 0.1;
-constexpr PrintedFilter kFilter{.bearing_sigma = kSigma, .drift_m_rt_s = 0.0, .gate = 4.0, .misses = 5};
+constexpr PublishedFilter kFilter{.bearing_sigma = kSigma, .drift_m_rt_s = 0.0, .gate = 4.0, .misses = 5};
 
 Vector2d bearing_of(const Vector3d& p_W, const Eigen::Isometry3d& X_WC) {
   const Vector3d p_C = X_WC.inverse() * p_W;
@@ -26,13 +26,13 @@ struct Database {
   std::vector<MappedLandmark> points;
   int64_t next_id = 0;
   std::vector<int64_t> see(const std::vector<Vector2d>& bearings, const CameraPose& pose) {
-    return update_as_printed(kFilter, bearings, pose, kImageS, points, next_id);
+    return update_as_published(kFilter, bearings, pose, kImageS, points, next_id);
   }
 };
 
 CameraPose pose_at(double east_m) { return {looking_at({-40, east_m, -40}, {0, 0, 0}), 0.0, 0.0}; }
 
-TEST(PrintedFilter, BeginsAPointOnTheGround) {
+TEST(PublishedFilter, BeginsAPointOnTheGround) {
   Database database;
   database.see({{0.05, -0.02}}, pose_at(0));
   ASSERT_EQ(database.points.size(), 1U);
@@ -40,7 +40,7 @@ TEST(PrintedFilter, BeginsAPointOnTheGround) {
 }
 
 // The general filter of one landmark, in Joseph's form, is another way to the same numbers.
-TEST(PrintedFilter, CorrectsAsTheGeneralFilterOfOneLandmark) {
+TEST(PublishedFilter, CorrectsAsTheGeneralFilterOfOneLandmark) {
   const Vector3d p_W(3, -2, -1);
   Database database;
   database.see({bearing_of(p_W, pose_at(0).X_WC_est)}, pose_at(0));
@@ -54,7 +54,7 @@ TEST(PrintedFilter, CorrectsAsTheGeneralFilterOfOneLandmark) {
   EXPECT_EQ(database.points[0].matches, 2);
 }
 
-TEST(PrintedFilter, FindsAPointAboveTheGroundFromExactPoses) {
+TEST(PublishedFilter, FindsAPointAboveTheGroundFromExactPoses) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> noise(0.0, 0.5 * kSigma);
   const Vector3d p_W(2, 1, -8);
@@ -68,7 +68,7 @@ TEST(PrintedFilter, FindsAPointAboveTheGroundFromExactPoses) {
   EXPECT_LT((database.points[0].landmark.x - p_W).norm(), 0.3);
 }
 
-TEST(PrintedFilter, GivesACornerSeenAgainItsNumber) {
+TEST(PublishedFilter, GivesACornerSeenAgainItsNumber) {
   Database database;
   const auto first = database.see({{-0.1, 0.0}, {0.1, 0.05}}, pose_at(0));
   const auto again = database.see({{0.1, 0.05}, {-0.1, 0.0}}, pose_at(0));
@@ -76,7 +76,7 @@ TEST(PrintedFilter, GivesACornerSeenAgainItsNumber) {
 }
 
 // The thesis counts images without a correspondence, also those that cannot show the point.
-TEST(PrintedFilter, DeletesAPointAfterSoManyImagesWithoutItWhereverTheCameraLooks) {
+TEST(PublishedFilter, DeletesAPointAfterSoManyImagesWithoutItWhereverTheCameraLooks) {
   Database database;
   database.see({{0.0, 0.0}}, pose_at(0));
   const CameraPose away{looking_at({-40, 0, -40}, {-80, 0, 0}), 0.0, 0.0};

@@ -1,4 +1,4 @@
-#include "vision/landmarks/printed_filter.h"
+#include "vision/landmarks/published_filter.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -20,11 +20,11 @@ struct Projected {
 
 /// Nothing for a point that is not in front of the camera.
 std::optional<Projected> project(const Vector3d& X_v, const CameraPose& camera, double bearing_sigma) {
-  constexpr double kNearestM = 1e-3;
+  constexpr double kMinDepthM = 1e-3;
   const Matrix3d L_bv = camera.X_WC_est.linear().transpose();
   const Vector3d X = X_v - camera.X_WC_est.translation();  // eq. (4.8)
   const Vector3d X_c = L_bv * X;                           // eq. (4.9); our optical axis is z
-  if (!(X_c.z() > kNearestM)) return std::nullopt;
+  if (!(X_c.z() > kMinDepthM)) return std::nullopt;
   Projected seen;
   seen.x_k = X_c.head<2>() / X_c.z();         // eq. (4.11), f = 1
   seen.H << Matrix2d::Identity(), -seen.x_k;  // eq. (4.19)
@@ -56,7 +56,7 @@ void correct(const Projected& seen, const Vector2d& Z, Landmark& point) {
 }
 
 /// Each measurement's point: of all pairs below the gate those of least Z value first, one to one.
-std::vector<std::optional<size_t>> correspond(const PrintedFilter& filter, std::span<const Vector2d> measured,
+std::vector<std::optional<size_t>> correspond(const PublishedFilter& filter, std::span<const Vector2d> measured,
                                               const std::vector<std::optional<Projected>>& projected,
                                               const std::vector<MappedLandmark>& database) {
   std::vector<std::tuple<double, size_t, size_t>> pairs;
@@ -80,9 +80,9 @@ std::vector<std::optional<size_t>> correspond(const PrintedFilter& filter, std::
 
 }  // namespace
 
-std::vector<int64_t> update_as_printed(const PrintedFilter& filter, std::span<const Vector2d> bearings_meas,
-                                       const CameraPose& pose, double dt_s, std::vector<MappedLandmark>& database,
-                                       int64_t& next_id) {
+std::vector<int64_t> update_as_published(const PublishedFilter& filter, std::span<const Vector2d> bearings_meas,
+                                         const CameraPose& pose, double dt_s, std::vector<MappedLandmark>& database,
+                                         int64_t& next_id) {
   std::vector<std::optional<Projected>> projected;
   for (MappedLandmark& point : database) {
     const double Q_m2 = filter.drift_m_rt_s * filter.drift_m_rt_s * dt_s;

@@ -10,7 +10,7 @@
 namespace hedgehop::vision::landmarks {
 
 /// What the thesis's filter needs and does not print.
-struct PrintedFilter {
+struct PublishedFilter {
   double bearing_sigma = 0.0;  ///< of a measured bearing, per axis, at focal length 1, > 0
   double drift_m_rt_s = 0.0;   ///< process noise Q: growth of a point's standard deviation, m / sqrt(s), >= 0
   double gate = 0.0;           ///< largest Z value of a match, > 0
@@ -27,8 +27,8 @@ struct PrintedFilter {
 /// rotation L_bv, which eq. (4.19) and (4.20) leave out; the gain's sign is that of the projection's Jacobian, as eq.
 /// (4.16) with eq. (4.18) would push a point away from its measurement. R, Q, N, the first covariance and the gate are
 /// not printed: R is a corner's noise and the pose's, as seen at the point.
-std::vector<int64_t> update_as_printed(const PrintedFilter& filter, std::span<const Eigen::Vector2d> bearings_meas,
-                                       const CameraPose& pose, double dt_s, std::vector<MappedLandmark>& database,
-                                       int64_t& next_id);
+std::vector<int64_t> update_as_published(const PublishedFilter& filter, std::span<const Eigen::Vector2d> bearings_meas,
+                                         const CameraPose& pose, double dt_s, std::vector<MappedLandmark>& database,
+                                         int64_t& next_id);
 
 }  // namespace hedgehop::vision::landmarks

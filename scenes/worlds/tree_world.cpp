@@ -1,4 +1,4 @@
-#include "scenes/worlds/tree.h"
+#include "scenes/worlds/tree_world.h"
 
 #include <algorithm>
 

@@ -21,7 +21,7 @@ struct TreeConfig {
   double trunk_diameter_m = 0.7;
   textures::Leaves leaves = textures::Leaves::broad;
   int64_t texture_size_px = 512;
-  Additions added;
+  SceneAdditions added;
 };
 
 template <class Visitor>
