@@ -2,10 +2,10 @@
 
 namespace hedgehop::avoidance {
 
-/// Which law a method flies by, in the same words for every method.
+/// The law of an avoidance method. The choices have the same names in every method.
 enum class Law {
-  printed,  ///< as the paper prints it, with the paper's thresholds
-  ours,     ///< with our additions
+  published,  ///< the paper's law with the paper's thresholds
+  modified,   ///< the paper's law with Hedgehop's additions
 };
 
 }  // namespace hedgehop::avoidance

@@ -7,7 +7,7 @@
 
 namespace hedgehop::avoidance::corridor_centering {
 
-double printed_control(const CenteringGains& gains, double error, double last_error) {
+double published_control(const CenteringGains& gains, double error, double last_error) {
   return (gains.kp + gains.kd) * error - gains.kp * last_error;
 }
 
@@ -33,7 +33,7 @@ Command CenteringLaw::update(const Observation& observation, double dt_s) {
   constexpr double kRoundOffS = 1e-6;
   const bool due = sampled_ns_ < 0 || seconds(now_ns - sampled_ns_) >= config_.sample_s - kRoundOffS;
   if (fresh && due && !std::isnan(error_)) {
-    control_ = printed_control(config_.gains, error_, sampled_error_.value_or(error_));
+    control_ = published_control(config_.gains, error_, sampled_error_.value_or(error_));
     sampled_error_ = error_;
     sampled_ns_ = now_ns;
   }

@@ -27,7 +27,7 @@ void describe(Visitor& v, CenteringGains& c) {
 /// Returns C(z) = ((kp + kD) z - kp) / z of the centering error: roll to the right, rad, and as well turn rate to the
 /// right, rad/s. Its steady gain is kD and kp multiplies the difference, the reverse of what the letters suggest.
 /// @param error, last_error  e_n now and one sample ago, -1..1. Source: [Zingg2010] eq. (12).
-double printed_control(const CenteringGains& gains, double error, double last_error);
+double published_control(const CenteringGains& gains, double error, double last_error);
 
 /// The controller in flight: roll and turn rate by eq. (12), sampled, at constant pitch.
 /// Source: [Zingg2010] sec. V-C. Differs: the paper keeps the thrust constant, we hold the height with the height

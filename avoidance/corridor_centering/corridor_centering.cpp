@@ -21,14 +21,14 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 class CorridorCentering final : public Module {
  public:
   explicit CorridorCentering(const CorridorCenteringConfig& config)
-      : config_(config), printed_(printed_config()), pursuit_(pursuit_config(0.0)) {
+      : config_(config), published_(published_config()), pursuit_(pursuit_config(0.0)) {
     fields::require_bounds(config);
   }
 
  private:
-  bool is_ours() const { return config_.law == Law::ours; }
+  bool is_modified() const { return config_.law == Law::modified; }
 
-  CenteringLaw::Config printed_config() const {
+  CenteringLaw::Config published_config() const {
     return {config_.gains, config_.sample_s, config_.pitch_rad, config_.probe_s};
   }
   Pursuit::Config pursuit_config(double radius_m) const {
@@ -56,7 +56,7 @@ class CorridorCentering final : public Module {
     const auto camera = std::ranges::find(setup.cameras, WallObserver::kRole, &MountedCamera::role);
     observer_.emplace(config_.law, config_.attitude_lag_s, *camera);
     radius_m_ = setup.limits.radius_m;
-    printed_ = CenteringLaw(printed_config());
+    published_ = CenteringLaw(published_config());
     pursuit_ = Pursuit(pursuit_config(radius_m_));
     seen_.reset();
     t_ns_ = -1;
@@ -73,8 +73,8 @@ class CorridorCentering final : public Module {
     const WallObservation* seen = seen_ ? &*seen_ : nullptr;
     Decision decision;
     decision.command =
-        is_ours() ? pursuit_.update(observation, seen, is_new, dt_s) : printed_.update(observation, dt_s);
-    status_ = is_ours() ? pursuit_.status() : printed_.status();
+        is_modified() ? pursuit_.update(observation, seen, is_new, dt_s) : published_.update(observation, dt_s);
+    status_ = is_modified() ? pursuit_.status() : published_.status();
     if (std::holds_alternative<HoverCommand>(decision.command)) hover_s_ += dt_s;
     decision.status = status_;
     decision.signals = signals(is_new);
@@ -107,10 +107,10 @@ class CorridorCentering final : public Module {
     seen_ = std::move(seen);
     vectors_.push_back(seen_->left.count + seen_->right.count);
     unknown_ += std::isnan(seen_->error);
-    if (is_ours()) {
+    if (is_modified()) {
       pursuit_.observe(*seen_, observation.t_ns);
     } else {
-      printed_.observe(seen_->error, observation.t_ns);
+      published_.observe(seen_->error, observation.t_ns);
     }
     return true;
   }
@@ -139,7 +139,7 @@ class CorridorCentering final : public Module {
 
   CorridorCenteringConfig config_;
   std::optional<WallObserver> observer_;
-  CenteringLaw printed_;
+  CenteringLaw published_;
   Pursuit pursuit_;
   double radius_m_ = 0.0;                ///< of the vehicle
   std::optional<WallObservation> seen_;  ///< in the last image

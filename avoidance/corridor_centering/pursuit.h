@@ -9,8 +9,8 @@
 #include "avoidance/module.h"
 #include "vision/corridor/corridor_flow.h"
 
-/// Law `ours`: fly towards the middle of the gap ahead, and mind what lies ahead. Frame H: B turned level, x along the
-/// heading, y to the right.
+/// Law `modified`: fly towards the middle of the gap ahead, and mind what lies ahead. Frame H: B turned level, x along
+/// the heading, y to the right.
 namespace hedgehop::avoidance::corridor_centering {
 
 /// Greatest angle from the heading to the course, rad: beyond, the corridor leaves the regions in which walls are

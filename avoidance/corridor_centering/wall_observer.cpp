@@ -27,7 +27,7 @@ constexpr CorridorRegions kWallRegions;  // [Zingg2010] sec. IV-D
 
 vision::flow::FeatureFlowConfig features_of(Law law) {
   vision::flow::FeatureFlowConfig features;
-  if (law == Law::printed) features.round_trip_px = 0.0;
+  if (law == Law::published) features.round_trip_px = 0.0;
   return features;
 }
 
@@ -36,7 +36,7 @@ vision::flow::FeatureFlowConfig features_of(Law law) {
 /// alone.
 vision::corridor::FlowLimits limits_of(Law law) {
   vision::corridor::FlowLimits limits;
-  if (law == Law::printed) limits.stray_rad = std::numbers::pi;
+  if (law == Law::published) limits.stray_rad = std::numbers::pi;
   return limits;
 }
 
@@ -86,7 +86,7 @@ vision::corridor::CameraMotion WallObserver::motion(const NavigationState& now, 
 vision::corridor::SideDistance WallObserver::side(const std::vector<WallPoint>& points,
                                                   vision::corridor::Region side) const {
   vision::corridor::SideDistance found = vision::corridor::side_distance(points, side, kLeastVectors);
-  if (law_ == Law::printed) return found;
+  if (law_ == Law::published) return found;
   const auto slow = std::ranges::count_if(points, [side](const WallPoint& point) {
     return point.region == side && point.rejection == vision::corridor::RejectionReason::too_slow;
   });
@@ -117,7 +117,7 @@ std::optional<WallObservation> WallObserver::update(const CameraFrame& frame, co
 WallObservation WallObserver::compare(const cv::Mat& older, const NavigationState& navigation, double dt_s) const {
   vision::corridor::CameraMotion moved = motion(navigation, dt_s);
   cv::Mat newer = image_;
-  if (law_ == Law::ours) {
+  if (law_ == Law::modified) {
     newer = derotator_.derotate(image_, moved.R_HC1.transpose() * moved.R_HC2);
     moved.R_HC2 = moved.R_HC1;
   }
@@ -131,7 +131,7 @@ WallObservation WallObserver::compare(const cv::Mat& older, const NavigationStat
   }
   seen.corners_left = static_cast<int>(pairs[kLeft].size());
   seen.corners_right = static_cast<int>(pairs[kRight].size());
-  if (law_ == Law::ours) {
+  if (law_ == Law::modified) {
     seen.direction_rad = vision::corridor::wall_direction_rad(seen.points, kMostTurnedRad, kLeastVectors);
   }
   const std::vector<WallPoint> along = vision::corridor::rotate_points(seen.points, seen.direction_rad);
@@ -139,7 +139,7 @@ WallObservation WallObserver::compare(const cv::Mat& older, const NavigationStat
   seen.right = side(along, kRight);
   seen.error = vision::corridor::centering_error(seen.left.distance_m, seen.right.distance_m);
   seen.v_H = moved.traveled_H.head<2>() / moved.dt_s;
-  if (law_ == Law::ours) seen.approach = approach_.measure(older, newer, moved);
+  if (law_ == Law::modified) seen.approach = approach_.measure(older, newer, moved);
   return seen;
 }
 

@@ -30,9 +30,9 @@ struct WallObservation {
 };
 
 /// Measures a corridor's walls by the flow of a fisheye that looks down.
-/// Source: [Zingg2010] sec. IV. With Law::ours also: the newer image is derotated before corners are tracked, distances
-/// are measured across the walls and not the heading, tracking is checked backwards, flow that fits no fixed point is
-/// rejected, a side with too many slow vectors is unknown, and the approach to what lies ahead is measured.
+/// Source: [Zingg2010] sec. IV. With Law::modified also: the newer image is derotated before corners are tracked,
+/// distances are measured across the walls and not the heading, tracking is checked backwards, flow that fits no fixed
+/// point is rejected, a side with too many slow vectors is unknown, and the approach to what lies ahead is measured.
 class WallObserver {
  public:
   static constexpr const char* kRole = "fisheye";

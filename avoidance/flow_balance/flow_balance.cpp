@@ -25,14 +25,14 @@ class FlowBalance final : public Module {
   explicit FlowBalance(const FlowBalanceConfig& config) : config_(config) { fields::require_bounds(config); }
 
  private:
-  bool printed() const { return config_.law == Law::printed; }
+  bool is_published() const { return config_.law == Law::published; }
 
   Needs do_needs() const override { return SideCameras::needs(); }
 
   std::vector<Signal> do_signals() const override { return SideCameras::signals(); }
 
   void do_reset(const Setup& setup) override {
-    cameras_.emplace(setup, config_.flow, /*derotate=*/!printed());
+    cameras_.emplace(setup, config_.flow, /*derotate=*/!is_published());
     ranging_.emplace(kCityPatches);
     ring_ = {};
     detour_.emplace(config_.patience_s);
@@ -45,20 +45,20 @@ class FlowBalance final : public Module {
   Decision do_update(const Observation& observation) override {
     heading_rad_ = heading_rad(observation.navigation.q_WB_est);
     cameras_->update(observation);
-    if (!printed()) look_around(observation);
+    if (!is_published()) look_around(observation);
     const Eigen::Vector2d p_BG_W = (observation.goal.p_WG - observation.navigation.p_WB_est).head<2>();
-    const Eigen::Vector2d v_W =
-        printed() ? printed_command(p_BG_W, velocity_H(observation.navigation)) : our_command(p_BG_W, observation.t_ns);
+    const Eigen::Vector2d v_W = is_published() ? published_command(p_BG_W, velocity_H(observation.navigation))
+                                               : our_command(p_BG_W, observation.t_ns);
     constexpr double kAvoidCosine = 0.966;  // 15 deg off the target
     const bool avoids = v_W.dot(v_tgt_W_) < kAvoidCosine * v_W.norm() * v_tgt_W_.norm();
-    v_cmd_W_ = printed() ? v_W : filtered(v_W, observation.t_ns);
+    v_cmd_W_ = is_published() ? v_W : filtered(v_W, observation.t_ns);
     last_t_ns_ = observation.t_ns;
 
     Decision decision;
     decision.command = VelocityCommand{*v_cmd_W_, -observation.goal.p_WG.z(), observation.goal.heading_rad};
     decision.status = avoids ? "avoid" : "cruise";
     decision.signals =
-        cameras_->signal_values(printed() ? std::nullopt : std::optional(ranging_->nearest_per_m()), v_tgt_W_);
+        cameras_->signal_values(is_published() ? std::nullopt : std::optional(ranging_->nearest_per_m()), v_tgt_W_);
     ++decisions_;
     avoiding_ += avoids ? 1 : 0;
     return decision;
@@ -75,7 +75,7 @@ class FlowBalance final : public Module {
   }
 
   /// [Garratt2009] eq. (4). @return in W, m/s, as the next two.
-  Eigen::Vector2d printed_command(const Eigen::Vector2d& p_BG_W, const Eigen::Vector2d& v_H) {
+  Eigen::Vector2d published_command(const Eigen::Vector2d& p_BG_W, const Eigen::Vector2d& v_H) {
     v_tgt_W_ = velocity_to_goal(rotated(p_BG_W, config_.spiral_angle_rad), config_.speed_mps, /*slow_radius_m=*/0.0);
     const Eigen::Vector2d push_H =
         push_from_walls(cameras_->flows(), v_H, {config_.loom_gain_m2ps, config_.flow_gain_m2ps});

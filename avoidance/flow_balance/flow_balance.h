@@ -16,7 +16,7 @@ struct FlowBalanceConfig {
   static constexpr std::string_view kMeaning =
       "seeks a goal while four cameras' optic flow and loom push the vehicle away from walls";
 
-  Law law = Law::ours;
+  Law law = Law::modified;
   vision::flow::ImageInterpolationConfig flow;
   double speed_mps = 2.0;
   double loom_gain_m2ps = 4.0;  ///< k0
@@ -30,26 +30,27 @@ struct FlowBalanceConfig {
 template <class Visitor>
 void describe(Visitor& v, FlowBalanceConfig& c) {
   v("law", c.law,
-    {.choices = {"printed", "ours"},
-     .meaning = "printed: [Garratt2009] eq. (4) by each camera's mean flow and loom; ours: derotated flow, and ranges "
-                "of each camera's nearest patches in place of both"});
+    {.choices = {"published", "modified"},
+     .meaning =
+         "published: [Garratt2009] eq. (4) by each camera's mean flow and loom; modified: derotated flow, and ranges "
+         "of each camera's nearest patches in place of both"});
   v("flow", c.flow, {.meaning = "the grid of patches on each camera and the flow algorithm"});
   v("speed", c.speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "speed flown"});
-  v("loom_gain", c.loom_gain_m2ps, {.unit = "m^2/s", .at_least = 0.0, .meaning = "k0; law ours uses k0 + k1"});
-  v("flow_gain", c.flow_gain_m2ps, {.unit = "m^2/s", .at_least = 0.0, .meaning = "k1; law ours uses k0 + k1"});
+  v("loom_gain", c.loom_gain_m2ps, {.unit = "m^2/s", .at_least = 0.0, .meaning = "k0; law modified uses k0 + k1"});
+  v("flow_gain", c.flow_gain_m2ps, {.unit = "m^2/s", .at_least = 0.0, .meaning = "k1; law modified uses k0 + k1"});
   v("spiral_angle", c.spiral_angle_rad,
     {.unit = "deg",
      .at_least = -60.0,
      .at_most = 60.0,
      .meaning = "aim this far right of the goal, to leave limit cycles"});
   v("slow_radius", c.slow_radius_m,
-    {.unit = "m", .at_least = 0.0, .meaning = "law ours: distance to the goal within which the speed falls"});
+    {.unit = "m", .at_least = 0.0, .meaning = "law modified: distance to the goal within which the speed falls"});
   v("patience", c.patience_s,
     {.unit = "s",
      .at_least = 0.0,
-     .meaning = "law ours: after so long without progress to the goal, aim 70 deg aside for 12 s; 0 never does"});
+     .meaning = "law modified: after so long without progress to the goal, aim 70 deg aside for 12 s; 0 never does"});
   v("command_time_constant", c.command_time_constant_s,
-    {.unit = "s", .at_least = 0.0, .meaning = "law ours: low-pass filter of the commanded velocity; 0 for none"});
+    {.unit = "s", .at_least = 0.0, .meaning = "law modified: low-pass filter of the commanded velocity; 0 for none"});
 }
 
 /// Throws std::invalid_argument on values out of range.

@@ -24,18 +24,18 @@ class ZigZag final : public Module {
   explicit ZigZag(const ZigZagConfig& config) : config_(config) { fields::require_bounds(config); }
 
  private:
-  bool printed() const { return config_.law == Law::printed; }
+  bool is_published() const { return config_.law == Law::published; }
 
   Needs do_needs() const override { return SideCameras::needs(); }
 
   std::vector<Signal> do_signals() const override { return SideCameras::signals(); }
 
   void do_reset(const Setup& setup) override {
-    cameras_.emplace(setup, config_.flow, /*derotate=*/!printed());
+    cameras_.emplace(setup, config_.flow, /*derotate=*/!is_published());
     const Diagonal diagonal{{config_.forward_speed_mps, config_.sideways_speed_mps}, config_.range_threshold_m};
     law_.emplace(diagonal);
-    ours_.emplace(diagonal, config_.stray_rad, setup.seed);
-    if (printed()) {
+    confirmed_.emplace(diagonal, config_.stray_rad, setup.seed);
+    if (is_published()) {
       ranging_ = std::make_unique<MeanRanging>();
     } else {
       ranging_ = std::make_unique<WallRanging>(kRoomPatches);
@@ -49,21 +49,21 @@ class ZigZag final : public Module {
     heading_rad_ = heading_rad(observation.navigation.q_WB_est);
     cameras_->update(observation);
     ranging_->update(*cameras_, observation.navigation);
-    const bool turned = printed() ? law_->update(sides(ranging_->nearest_per_m()))
-                                  : ours_->update(sides_in_approach(velocity_H(observation.navigation)));
+    const bool turned = is_published() ? law_->update(sides(ranging_->nearest_per_m()))
+                                       : confirmed_->update(sides_in_approach(velocity_H(observation.navigation)));
     v_cmd_W_ = rotated(velocity_cmd_H(), heading_rad_);
 
     Decision decision;
     decision.command = VelocityCommand{v_cmd_W_, -observation.goal.p_WG.z(), observation.goal.heading_rad};
     decision.status = turned ? "turn" : "cruise";
     decision.signals =
-        cameras_->signal_values(printed() ? std::nullopt : std::optional(ranging_->nearest_per_m()), v_cmd_W_);
+        cameras_->signal_values(is_published() ? std::nullopt : std::optional(ranging_->nearest_per_m()), v_cmd_W_);
     ++decisions_;
     turns_ += turned ? 1 : 0;
     return decision;
   }
 
-  Eigen::Vector2d velocity_cmd_H() const { return printed() ? law_->velocity_H() : ours_->velocity_H(); }
+  Eigen::Vector2d velocity_cmd_H() const { return is_published() ? law_->velocity_H() : confirmed_->velocity_H(); }
 
   std::array<SideRange, kSideCount> sides(const PerSide& inverse_ranges_per_m) const {
     std::array<SideRange, kSideCount> sides;
@@ -77,18 +77,18 @@ class ZigZag final : public Module {
   /// as slowly as the whole velocity.
   std::array<SideRange, kSideCount> sides_in_approach(const Eigen::Vector2d& v_H) const {
     Approach approach{.v_H = v_H,
-                      .v_cmd_H = ours_->velocity_H(),
+                      .v_cmd_H = confirmed_->velocity_H(),
                       .stopping = {config_.reaction_s, config_.braking_mps2},
                       .tail_m = config_.tail_m,
                       .reverses_both = true};
     const auto cornered = sides(ranging_->left_once_stopped_per_m(approach));
-    if (ours_->cornered(cornered)) return cornered;
+    if (confirmed_->cornered(cornered)) return cornered;
     approach.reverses_both = false;
     return sides(ranging_->left_once_stopped_per_m(approach));
   }
 
   std::vector<Metric> do_metrics() const override {
-    const int reversals = !ours_ ? 0 : printed() ? law_->reversals() : ours_->reversals();
+    const int reversals = !confirmed_ ? 0 : is_published() ? law_->reversals() : confirmed_->reversals();
     return {{"least_valid_share", cameras_ ? cameras_->least_valid_share() : 1.0, ""},
             {"avoiding_share", decisions_ > 0 ? static_cast<double>(turns_) / decisions_ : 0.0, ""},
             {"reversals", static_cast<double>(reversals), ""}};
@@ -103,8 +103,8 @@ class ZigZag final : public Module {
   ZigZagConfig config_;
   std::optional<SideCameras> cameras_;
   std::unique_ptr<Ranging> ranging_;
-  std::optional<ZigZagLaw> law_;         ///< flies where the law is printed
-  std::optional<ConfirmedZigZag> ours_;  ///< flies where it is ours
+  std::optional<ZigZagLaw> law_;              ///< the published law
+  std::optional<ConfirmedZigZag> confirmed_;  ///< the modified law
   Eigen::Vector2d v_cmd_W_ = Eigen::Vector2d::Zero();
   double heading_rad_ = 0.0;
   int decisions_ = 0, turns_ = 0;

@@ -15,7 +15,7 @@ struct ZigZagConfig {
   static constexpr std::string_view kName = "zig_zag";
   static constexpr std::string_view kMeaning = "explores a room in diagonals, reversing before walls by optic flow";
 
-  Law law = Law::ours;
+  Law law = Law::modified;
   vision::flow::ImageInterpolationConfig flow{.rows = 1, .cols = 8};
   double forward_speed_mps = 1.0;
   double sideways_speed_mps = 1.0;
@@ -29,9 +29,10 @@ struct ZigZagConfig {
 template <class Visitor>
 void describe(Visitor& v, ZigZagConfig& c) {
   v("law", c.law,
-    {.choices = {"printed", "ours"},
-     .meaning = "printed: ranges from each camera's mean flow and loom, [Garratt2009] sec. 4; ours: derotated flow, "
-                "ranges of fitted walls, room to stop, confirmed reversals"});
+    {.choices = {"published", "modified"},
+     .meaning =
+         "published: ranges from each camera's mean flow and loom, [Garratt2009] sec. 4; modified: derotated flow, "
+         "ranges of fitted walls, room to stop, confirmed reversals"});
   v("flow", c.flow, {.meaning = "the grid of patches on each camera and the flow algorithm"});
   v("forward_speed", c.forward_speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "speed along the heading"});
   v("sideways_speed", c.sideways_speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "speed across the heading"});
@@ -40,18 +41,18 @@ void describe(Visitor& v, ZigZagConfig& c) {
   v("braking", c.braking_mps2,
     {.unit = "m/s^2",
      .above = 0.0,
-     .meaning = "law ours: deceleration of the vehicle; the distance it needs to stop is added to the threshold"});
+     .meaning = "law modified: deceleration of the vehicle; the distance it needs to stop is added to the threshold"});
   v("reaction", c.reaction_s,
-    {.unit = "s", .at_least = 0.0, .meaning = "law ours: time that passes before the vehicle decelerates"});
+    {.unit = "s", .at_least = 0.0, .meaning = "law modified: time that passes before the vehicle decelerates"});
   v("tail", c.tail_m,
     {.unit = "m",
      .at_least = 0.0,
-     .meaning = "law ours: the vehicle reaches so much farther aft than to its other sides"});
+     .meaning = "law modified: the vehicle reaches so much farther aft than to its other sides"});
   v("stray", c.stray_rad,
     {.unit = "deg",
      .at_least = 0.0,
      .at_most = 30.0,
-     .meaning = "law ours: every reversal rotates the path off its diagonal by a random angle up to this"});
+     .meaning = "law modified: every reversal rotates the path off its diagonal by a random angle up to this"});
 }
 
 /// Throws std::invalid_argument on values out of range.

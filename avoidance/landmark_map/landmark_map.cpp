@@ -75,8 +75,8 @@ class LandmarkMapModule final : public Module {
     flow_->update({frame.role, frame.t_ns, sight_->grey()}, navigation.w_WB_B_est);
   }
 
-  bool stops_before_walls() const { return config_.law == Law::ours; }
-  bool avoids() const { return config_.law == Law::ours && config_.clearance_m > 0.0; }
+  bool stops_before_walls() const { return config_.law == Law::modified; }
+  bool avoids() const { return config_.law == Law::modified && config_.clearance_m > 0.0; }
   const vision::landmarks::LandmarkMap& map() const { return sight_->map(); }
 
   int64_t confirmed() const {

@@ -11,14 +11,18 @@
 namespace hedgehop::avoidance::landmark_map {
 
 /// Maps the corners that one camera sees, flies around what they belong to, and stops before walls without corners.
-/// Source: [Shah2009] ch. 4. `law: printed` is the thesis alone: its filter (vision/landmarks/published_filter.h) and
+<<<<<<< HEAD
+/// Source: [Shah2009] ch. 4. `law: published` is the thesis alone: its filter (vision/landmarks/published_filter.h) and
+=======
+/// Source: [Shah2009] ch. 4. `law: published` is the thesis alone: its filter (vision/landmarks/published_filter.h) and
+>>>>>>> b5c69cb (Rename the choices of law to published and modified)
 /// its flights, a circle (orbit.h) or straight ahead; it leaves avoiding and stopping to others, ch. 7.
 struct LandmarkMapModuleConfig {
   static constexpr std::string_view kName = "landmark_map";
   static constexpr std::string_view kMeaning =
       "maps the corners that one camera sees and flies around them; what has none it hardly sees";
 
-  Law law = Law::ours;
+  Law law = Law::modified;
   LandmarkSightConfig sight;
   double speed_mps = 2.0;
   std::optional<Orbit> orbit;
@@ -30,7 +34,7 @@ struct LandmarkMapModuleConfig {
 template <class Visitor>
 void describe(Visitor& v, LandmarkMapModuleConfig& c) {
   v("law", c.law,
-    {.choices = {"printed", "ours"},
+    {.choices = {"published", "modified"},
      .meaning = "the thesis's filter and flight alone; or with the camera's common error, confirmation, avoiding and "
                 "stopping"});
   describe(v, c.sight);

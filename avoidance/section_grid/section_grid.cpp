@@ -31,8 +31,8 @@ class SectionGridModule final : public Module {
   }
 
  private:
-  bool is_ours() const { return config_.law == Law::ours; }
-  State state() const { return is_ours() ? pilot_.state() : law_.state(); }
+  bool is_modified() const { return config_.law == Law::modified; }
+  State state() const { return is_modified() ? pilot_.state() : law_.state(); }
 
   Needs do_needs() const override { return DisparitySource::needs(config_.depth, DisparitySource::Grey::unused); }
 
@@ -46,8 +46,9 @@ class SectionGridModule final : public Module {
     search_.emplace(grid(), camera_.image);
     law_.reset(camera_);
     pilot_.reset(camera_);
-    passed_.emplace(stereo::PassedObstaclesConfig{
-        .radius_m = is_ours() ? config_.passed_radius_m : 0.0, .near_m = config_.threshold_m, .keep_s = kKeepPassedS});
+    passed_.emplace(stereo::PassedObstaclesConfig{.radius_m = is_modified() ? config_.passed_radius_m : 0.0,
+                                                  .near_m = config_.threshold_m,
+                                                  .keep_s = kKeepPassedS});
     depth_m_ = cv::Mat(camera_.image, CV_32FC1, cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
     hull_ahead_m_ = std::max(0.0, setup.limits.radius_m - camera_.X_BC.translation().x());
     last_.reset();
@@ -60,7 +61,7 @@ class SectionGridModule final : public Module {
   vision::sections::SectionGrid grid() const {
     vision::sections::SectionGrid grid{.rows = config_.sections, .cols = config_.sections};
     if (!config_.overlapping) grid.width_share = grid.height_share = 1.0 / config_.sections;
-    if (is_ours()) grid.grow_px = config_.grow_px;
+    if (is_modified()) grid.grow_px = config_.grow_px;
     return grid;
   }
 
@@ -68,13 +69,13 @@ class SectionGridModule final : public Module {
     const bool is_new = read_depth(observation.frames);
     if (!is_new && last_) return *last_;
     const NavigationState& navigation = observation.navigation;
-    if (is_new && is_ours() && config_.passed_radius_m > 0.0) remember(observation);
+    if (is_new && is_modified() && config_.passed_radius_m > 0.0) remember(observation);
     const double threshold_m = threshold(navigation.v_WB_B_est.norm());
     choice_ = choose(navigation, threshold_m);
 
     Decision decision;
     const SectionView view{*search_, choice_, *passed_, threshold_m, navigation};
-    decision.command = is_ours() ? pilot_.update(view, observation.goal) : law_.update(view, observation.goal);
+    decision.command = is_modified() ? pilot_.update(view, observation.goal) : law_.update(view, observation.goal);
     if (state() == State::hover_and_yaw && t_ns_ >= 0) {
       hover_s_ += seconds(observation.t_ns - t_ns_);
     }
@@ -113,20 +114,24 @@ class SectionGridModule final : public Module {
 
   /// What is nearer is a threat, m. Ours: it grows with speed.
   double threshold(double speed_mps) const {
-    if (!is_ours()) return config_.threshold_m;
+    if (!is_modified()) return config_.threshold_m;
     return std::max(config_.threshold_m, hull_ahead_m_ + config_.threshold_time_s * speed_mps);
   }
 
-  /// [Perez2018] sec. V-C; ours: among the sections that do not lead to what has left the image.
+  /// [Perez2018] sec. V-C; modified: among the sections that do not lead to what has left the image.
   vision::sections::SectionChoice choose(const NavigationState& navigation, double threshold_m) {
     std::function<bool(int)> open;
-    if (is_ours()) {
+    if (is_modified()) {
       open = [&](int section) {
         return passed_->free(pilot_.position_W(navigation, *search_, section, threshold_m) - navigation.p_WB_est);
       };
     }
     // As printed, a pixel without depth is no threat: mostly sky and what the two images do not share.
-    const auto unknown = is_ours() ? config_.unknown : vision::sections::UnknownDepth::free;
+<<<<<<< HEAD
+    const auto unknown = is_modified() ? config_.unknown : vision::sections::UnknownDepth::free;
+=======
+    const auto unknown = is_modified() ? config_.unknown : vision::sections::Unknown::free;
+>>>>>>> b5c69cb (Rename the choices of law to published and modified)
     const vision::sections::SectionChoice choice = search_->choose(depth_m_, threshold_m, kMostShare, unknown, open);
     for (size_t i = 0; i < search_->sections().size(); ++i) {
       rejected_ += search_->threats()[i] > kMostShare * search_->sections()[i].area();

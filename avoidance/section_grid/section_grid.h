@@ -15,13 +15,13 @@ namespace hedgehop::avoidance::section_grid {
 enum class Answer { waypoint, heading, sideways, climb, combined };
 
 /// Flies towards the emptiest of many overlapping sections of a depth image.
-/// Source: [Perez2018] sec. V: section_law.h. Law `ours` (section_pilot.h) keeps a path that it has chosen.
+/// Source: [Perez2018] sec. V: section_law.h. Law `modified` (section_pilot.h) keeps a path that it has chosen.
 struct SectionGridConfig {
   static constexpr std::string_view kName = "section_grid";
   static constexpr std::string_view kMeaning =
       "flies towards the emptiest of many overlapping sections of a depth image";
 
-  Law law = Law::ours;
+  Law law = Law::modified;
   stereo::DisparitySource::From depth = stereo::DisparitySource::From::stereo;
   vision::stereo::StereoMatcherConfig stereo;
   int speck_px = 100;
@@ -41,9 +41,10 @@ struct SectionGridConfig {
 template <class Visitor>
 void describe(Visitor& v, SectionGridConfig& c) {
   v("law", c.law,
-    {.choices = {"printed", "ours"},
-     .meaning = "printed: go to every new section that is the emptiest; ours: keep a path until it fills up, and what "
-                "the keys marked so add"});
+    {.choices = {"published", "modified"},
+     .meaning =
+         "published: go to every new section that is the emptiest; modified: keep a path until it fills up, and what "
+         "the keys marked so add"});
   v("depth", c.depth,
     {.choices = {"stereo", "camera"}, .meaning = "by matching cameras 'left' and 'right', or from a camera 'depth'"});
   v("stereo", c.stereo, {.meaning = "how the pair is matched"});
@@ -59,27 +60,31 @@ void describe(Visitor& v, SectionGridConfig& c) {
     {.unit = "px",
      .at_least = 0,
      .at_most = 200,
-     .meaning = "ours: threats are widened by this to every side before they are counted, that thin ones weigh more"});
+     .meaning =
+         "modified: threats are widened by this to every side before they are counted, that thin ones weigh more"});
   v("threshold_time", c.threshold_time_s,
     {.unit = "s",
      .at_least = 0.0,
-     .meaning = "ours: also a threat is what the vehicle would hit within this time, straight ahead at its speed; 0: "
-                "the threshold does not depend on speed"});
+     .meaning =
+         "modified: also a threat is what the vehicle would hit within this time, straight ahead at its speed; 0: "
+         "the threshold does not depend on speed"});
   v("keep_share", c.keep_share,
     {.at_least = 0.0,
      .at_most = 1.0,
-     .meaning = "ours: share of threats up to which a path is kept, and the path to the goal counts as free again"});
+     .meaning =
+         "modified: share of threats up to which a path is kept, and the path to the goal counts as free again"});
   v("passed_radius", c.passed_radius_m,
     {.unit = "m",
      .at_least = 0.0,
-     .meaning = "ours: of the cylinder that must be free of what has left the image; 0 remembers nothing"});
+     .meaning = "modified: of the cylinder that must be free of what has left the image; 0 remembers nothing"});
   v("unknown", c.unknown,
     {.choices = {"free", "threat"},
-     .meaning = "ours: what a pixel without depth counts as; threat stops before plain walls, and before the sky"});
+     .meaning = "modified: what a pixel without depth counts as; threat stops before plain walls, and before the sky"});
   v("answer", c.answer,
     {.choices = {"waypoint", "heading", "sideways", "climb", "combined"},
-     .meaning = "ours: a position in the section's direction; the same on the level; aside without turning; straight "
-                "up; aside and up"});
+     .meaning =
+         "modified: a position in the section's direction; the same on the level; aside without turning; straight "
+         "up; aside and up"});
 }
 
 /// Throws std::invalid_argument on a bad config.

@@ -30,7 +30,7 @@ struct SectionCamera {
 struct SectionView {
   const vision::sections::SectionSearch& search;  ///< sections and threats of the newest image
   const vision::sections::SectionChoice& choice;  ///< among them
-  const stereo::PassedObstacles& passed;          ///< what has left the image; the printed law knows nothing of it
+  const stereo::PassedObstacles& passed;          ///< what has left the image; the published law knows nothing of it
   double reach_m = 0.0;                           ///< how far ahead a temporary position lies, > 0
   const NavigationState& navigation;
 };

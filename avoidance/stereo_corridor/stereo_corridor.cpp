@@ -31,7 +31,7 @@ class StereoCorridor final : public Module {
 
  private:
   static StereoCorridorConfig with_additions(StereoCorridorConfig config) {
-    if (config.law == Law::printed) config.additions = {false, false, false};
+    if (config.law == Law::published) config.additions = {false, false, false};
     return config;
   }
 
@@ -66,7 +66,7 @@ class StereoCorridor final : public Module {
     cv::Mat& disparity16 = source_->disparity16();
     if (disparity16.empty()) return {HoverCommand{}, "wait", std::vector<double>(5, kUnknown)};
     improve(disparity16);
-    if (config_.law == Law::ours && config_.unknown == Unknown::blocked) block_unknown(disparity16);
+    if (config_.law == Law::modified && config_.unknown == Unknown::blocked) block_unknown(disparity16);
     pyramid_.build(disparity16, CorridorSearch::kCoarsestLevel);
     const NavigationState& navigation = observation.navigation;
     const Eigen::Isometry3d X_WC = Eigen::Translation3d(navigation.p_WB_est) * navigation.q_WB_est * source_->X_BC();

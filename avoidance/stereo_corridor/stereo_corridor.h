@@ -11,7 +11,7 @@
 
 namespace hedgehop::avoidance::stereo_corridor {
 
-/// What law `ours` adds to the paper's. Each can be left out, so that its effect can be told apart.
+/// Additions of the modified law. Each can be switched off to measure its effect.
 struct Additions {
   bool goal_first = true;  ///< goal_first.h, turn_back.h
   bool memory = true;      ///< stereo::PassedObstacles
@@ -22,12 +22,12 @@ struct Additions {
 enum class Unknown { free, blocked };
 
 /// Flies through corridors that a depth image shows to be free.
-/// Source: [Andert2007] sec. 3 and 4: corridor_search.h. Law `ours` adds the goal, memory and slowing down.
+/// Source: [Andert2007] sec. 3 and 4: corridor_search.h. Law `modified` adds the goal, memory and slowing down.
 struct StereoCorridorConfig {
   static constexpr std::string_view kName = "stereo_corridor";
   static constexpr std::string_view kMeaning = "flies through corridors that a stereo pair sees to be free";
 
-  Law law = Law::ours;
+  Law law = Law::modified;
   Additions additions;
   Unknown unknown = Unknown::free;
   stereo::DisparitySource::From depth = stereo::DisparitySource::From::stereo;
@@ -44,18 +44,19 @@ struct StereoCorridorConfig {
 template <class Visitor>
 void describe(Visitor& v, StereoCorridorConfig& c) {
   v("law", c.law,
-    {.choices = {"printed", "ours"},
-     .meaning = "printed: keep the direction of flight while it is free; ours: with the additions goal_first, memory "
-                "and sky"});
+    {.choices = {"published", "modified"},
+     .meaning =
+         "published: keep the direction of flight while it is free; modified: with the additions goal_first, memory "
+         "and sky"});
   v("goal_first", c.additions.goal_first,
-    {.meaning = "ours: fly to the goal where its direction is free, slow down before it, turn back to one that was "
+    {.meaning = "modified: fly to the goal where its direction is free, slow down before it, turn back to one that was "
                 "missed"});
-  v("memory", c.additions.memory, {.meaning = "ours: remember obstacles that have left the image"});
-  v("sky", c.additions.sky, {.meaning = "ours: look for sky among matched pixels too, in a smoothed image"});
+  v("memory", c.additions.memory, {.meaning = "modified: remember obstacles that have left the image"});
+  v("sky", c.additions.sky, {.meaning = "modified: look for sky among matched pixels too, in a smoothed image"});
   v("unknown", c.unknown,
     {.choices = {"free", "blocked"},
      .meaning =
-         "ours: what a square of 8 px without any match and not sky counts as; blocked stops before plain walls"});
+         "modified: what a square of 8 px without any match and not sky counts as; blocked stops before plain walls"});
   v("depth", c.depth,
     {.choices = {"stereo", "camera"},
      .meaning = "by matching cameras 'left' and 'right', or from a camera 'depth' with the lens and pose of 'left'"});

@@ -36,6 +36,7 @@ constexpr std::array<Renamed, 8> kRenamed = {{{"drawing", "gl", "renderer"},
                                               {"avoidance", "passed", "passed_radius"},
                                               {"avoidance.map", "young_misses", "unconfirmed_misses"}}};
 
+<<<<<<< HEAD:sim/config/reader.cpp
 struct Removed {
   std::string_view path, key, neighbor, advice;  // `neighbor`: a key that is still in the map at `path`
 };
@@ -43,6 +44,25 @@ struct Removed {
 constexpr std::array<Removed, 1> kRemoved = {
     {{"", "chance", "physics_rate",
       "it was removed with `hedgehop estimate`; to bound a rate, use `hedgehop batch --until`"}}};
+=======
+struct RenamedChoice {
+  std::string_view path, choice, now;
+};
+
+// Since 0.2.
+constexpr std::array<RenamedChoice, 2> kRenamedChoices = {
+    {{"avoidance.law", "printed", "published"}, {"avoidance.law", "ours", "modified"}}};
+
+/// What to write instead of a choice that is not among those allowed.
+std::string instead_of_choice(const std::string& path, std::string_view choice,
+                              const std::vector<std::string_view>& allowed) {
+  const auto found = std::ranges::find_if(kRenamedChoices, [&](const RenamedChoice& renamed) {
+    return renamed.path == path && renamed.choice == choice && std::ranges::find(allowed, renamed.now) != allowed.end();
+  });
+  return found == kRenamedChoices.end() ? suggestion(choice, allowed)
+                                        : fmt::format("; since 0.3 it is '{}'", found->now);
+}
+>>>>>>> b5c69cb (Rename the choices of law to published and modified):sim/scenario/reader.cpp
 
 /// What to write instead of a key that is not among those allowed.
 std::string instead(const std::string& path, std::string_view key, const std::vector<std::string_view>& allowed) {
@@ -147,8 +167,8 @@ std::optional<size_t> read_choice(const Node& node, const std::string& path,
   }
   const auto found = std::find(choices.begin(), choices.end(), node.text);
   if (found != choices.end()) return static_cast<size_t>(found - choices.begin());
-  faults.add(node.place,
-             fmt::format("unknown choice '{}' for '{}'{}", node.text, path, suggestion(node.text, choices)));
+  faults.add(node.place, fmt::format("unknown choice '{}' for '{}'{}", node.text, path,
+                                     instead_of_choice(path, node.text, choices)));
   return {};
 }
 

@@ -12,7 +12,7 @@ namespace hedgehop::sim {
 const std::vector<Calculation>& calculations() {
   static const std::vector<Calculation> all{
       {.name = "centering_exact",
-       .meaning = "a point mass centers itself in a corridor by the printed law, signal exact",
+       .meaning = "a point mass centers itself in a corridor by the published law, signal exact",
        .columns = {"x_m", "off_middle_m", "settled_m"},
        .calculate = centering_exact},
       {.name = "centering_noisy",

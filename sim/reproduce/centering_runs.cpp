@@ -40,7 +40,7 @@ Columns run(Noise noise) {
     columns["off_middle_m"].push_back(mass.off_middle_m);
     if (std::abs(mass.off_middle_m) > kSettledM) settled_m = mass.x_m;
     const double error = seen();
-    mass.fly(avoidance::corridor_centering::printed_control({}, error, last));
+    mass.fly(avoidance::corridor_centering::published_control({}, error, last));
     last = error;
   }
   columns["settled_m"].assign(columns["x_m"].size(), settled_m);

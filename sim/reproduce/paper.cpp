@@ -138,15 +138,15 @@ bool counts(FlightFigure::Statistic statistic) {
 std::vector<FlightGroup> flight_groups(const Paper& paper) {
   std::vector<FlightGroup> groups;
   for (const PaperFlights& flights : paper.flights) {
-    const FlightGroup ours{flights.name, flights.scenario, flights.seeds, flights.quick, flights.set};
-    groups.push_back(ours);
-    if (!flights.printed.empty()) {
-      FlightGroup& printed = groups.emplace_back(ours);
-      printed.name += "/printed";
-      printed.set.insert(printed.set.end(), flights.printed.begin(), flights.printed.end());
+    const FlightGroup modified{flights.name, flights.scenario, flights.seeds, flights.quick, flights.set};
+    groups.push_back(modified);
+    if (!flights.published.empty()) {
+      FlightGroup& published = groups.emplace_back(modified);
+      published.name += "/published";
+      published.set.insert(published.set.end(), flights.published.begin(), flights.published.end());
     }
     for (const std::string& sensor : flights.sensors) {
-      FlightGroup& other = groups.emplace_back(ours);
+      FlightGroup& other = groups.emplace_back(modified);
       other.name += "/" + sensor;
       other.seeds = flights.beside.value_or(flights.seeds);
       other.quick.reset();

@@ -18,7 +18,7 @@ struct PaperFlights {
   std::optional<std::string> tuned_on;  ///< else the paper's
   std::optional<std::string> quick;     ///< seeds of a quick look; none: not flown then
   std::vector<std::string> set;
-  std::vector<std::string> printed;
+  std::vector<std::string> published;
   std::vector<std::string> sensors;
   std::optional<std::string> beside;
 };
@@ -30,8 +30,8 @@ void describe(Visitor& v, PaperFlights& c) {
   v("tuned_on", c.tuned_on, {.meaning = "in place of the file's"});
   v("quick", c.quick, {.meaning = "seeds that --quick flies, of those above; without them it flies none"});
   v("set", c.set, {.meaning = "overrides of the scenario, each key.path=value"});
-  v("printed", c.printed,
-    {.meaning = "further overrides for the law as the paper prints it: the same seeds again, called NAME/printed"});
+  v("published", c.published,
+    {.meaning = "further overrides for the published law: the same seeds again, called NAME/published"});
   v("sensors", c.sensors,
     {.meaning = "ideal, dull: flown with ../sensors/ideal.yaml, dull.yaml, too, called NAME/ideal, NAME/dull"});
   v("beside", c.beside, {.meaning = "seeds flown with those sensors, of those above; else all"});
@@ -193,7 +193,7 @@ void describe(Visitor& v, Paper& c) {
   v("source", c.source, {.required = true, .meaning = "key in REFERENCES.md"});
   v("tuned_on", c.tuned_on, {.meaning = "seeds that parameters were chosen on, such as 1:100, or none; must be given"});
   v("moved_on", c.moved_on, {.meaning = "why the seeds to judge by are others than before"});
-  v("deviations", c.deviations, {.meaning = "where what flies 'as printed' departs from the paper, one text each"});
+  v("deviations", c.deviations, {.meaning = "deviations of the published law as flown from the paper, one text each"});
   v("flights", c.flights, {.meaning = "what is flown"});
   v("rows", c.rows, {.meaning = "the paper's figures beside ours"});
   v("charts", c.charts, {.meaning = "the paper's figures redrawn"});
@@ -206,7 +206,7 @@ struct FlightGroup {
   std::vector<std::string> set;
 };
 
-/// What a paper flies: each entry's own flights, then those as printed, then those with other sensors.
+/// What a paper flies: each entry's own flights, then those with the published law, then those with other sensors.
 std::vector<FlightGroup> flight_groups(const Paper& paper);
 
 /// Reads a paper's file. Throws InputError with every fault: of the file, and names of flights or calculations that do

@@ -65,33 +65,35 @@ std::optional<MeasuredFigure> variant_figure(const PaperRow& row, const std::str
 
 RowOutcome row_outcome(const PaperRow& row, const PaperOutcome& outcome) {
   RowOutcome result{.row = row,
-                    .ours = {},
+                    .modified = {},
                     .variants = {},
                     .holds = {},
-                    .printed_holds = {},
+                    .published_holds = {},
                     .command = command_of(row, outcome.paper)};
   if (row.calculation.empty()) {
-    result.ours = in_unit(row, measure(row, outcome, row.missing));
-    for (const char* variant : {"printed", "ideal", "dull"}) {
+    result.modified = in_unit(row, measure(row, outcome, row.missing));
+    for (const char* variant : {"published", "ideal", "dull"}) {
       if (auto figure = variant_figure(row, variant, outcome)) result.variants[variant] = *std::move(figure);
     }
   } else {
-    result.ours.value = outcome.calculations.at(row.calculation).at(row.value).back();
-    result.ours.builds.insert(std::string(build_identity()));
+    result.modified.value = outcome.calculations.at(row.calculation).at(row.value).back();
+    result.modified.builds.insert(std::string(build_identity()));
   }
-  result.builds = result.ours.builds;
+  result.builds = result.modified.builds;
   for (const auto& [variant, figure] : result.variants)
     result.builds.insert(figure.builds.begin(), figure.builds.end());
-  const bool left_out = row.calculation.empty() && result.ours.asked == 0;
-  if ((row.at_least || row.at_most) && !left_out) result.holds = judged(row, result.ours);
-  const auto printed = result.variants.find("printed");
-  if (result.holds && printed != result.variants.end()) result.printed_holds = judged(row, printed->second);
+  const bool left_out = row.calculation.empty() && result.modified.asked == 0;
+  if ((row.at_least || row.at_most) && !left_out) result.holds = judged(row, result.modified);
+  const auto published = result.variants.find("published");
+  if (result.holds && published != result.variants.end()) result.published_holds = judged(row, published->second);
   return result;
 }
 
 }  // namespace
 
-bool RowOutcome::measured() const { return !std::isnan(ours.value) || (row.calculation.empty() && ours.asked == 0); }
+bool RowOutcome::measured() const {
+  return !std::isnan(modified.value) || (row.calculation.empty() && modified.asked == 0);
+}
 
 std::string RowOutcome::required_words() const {
   const bool of_flights = row.statistic == FlightFigure::Statistic::share && row.calculation.empty();
@@ -103,9 +105,9 @@ std::string RowOutcome::required_words() const {
   return row.at_most ? fmt::format("at most {:g}{}", scale * *row.at_most, unit) : "-";
 }
 
-std::string RowOutcome::ours_words() const {
-  if (row.calculation.empty() && ours.asked == 0) return "not in the quick look";
-  return figure_words(row, ours);
+std::string RowOutcome::modified_words() const {
+  if (row.calculation.empty() && modified.asked == 0) return "not in the quick look";
+  return figure_words(row, modified);
 }
 
 std::string RowOutcome::variant_words(const std::string& variant) const {
@@ -116,20 +118,22 @@ std::string RowOutcome::variant_words(const std::string& variant) const {
 
 std::string RowOutcome::flights_words() const {
   if (!row.calculation.empty()) return "-";
-  std::string words = fmt::format("{}, {}, {}, {}", ours.asked, ours.flown, ours.faulted, ours.with_figure);
-  const size_t without = ours.flown - ours.faulted - ours.with_figure;
+  std::string words =
+      fmt::format("{}, {}, {}, {}", modified.asked, modified.flown, modified.faulted, modified.with_figure);
+  const size_t without = modified.flown - modified.faulted - modified.with_figure;
   if (without > 0 && excuses_missing(row)) words += fmt::format("; {} {}", without, row.missing);
-  if (ours.stand_ins > 0) words += fmt::format("; {} without taken as {}", ours.stand_ins, row.missing);
-  if (forbids_contact(row) && ours.unfinished > 0) words += fmt::format("; {} not finished", ours.unfinished);
-  std::set<std::string> truth = ours.truth_used;
+  if (modified.stand_ins > 0) words += fmt::format("; {} without taken as {}", modified.stand_ins, row.missing);
+  if (forbids_contact(row) && modified.unfinished > 0) words += fmt::format("; {} not finished", modified.unfinished);
+  std::set<std::string> truth = modified.truth_used;
   for (const auto& [variant, figure] : variants) truth.insert(figure.truth_used.begin(), figure.truth_used.end());
   if (!truth.empty()) words += fmt::format("; truth used: {}", fmt::join(truth, ", "));
   return words;
 }
 
 std::string RowOutcome::interval_words() const {
-  return ours.interval ? fmt::format("{:.0f} to {:.0f} %", 100.0 * ours.interval->low, 100.0 * ours.interval->high)
-                       : "-";
+  return modified.interval
+             ? fmt::format("{:.0f} to {:.0f} %", 100.0 * modified.interval->low, 100.0 * modified.interval->high)
+             : "-";
 }
 
 std::string RowOutcome::holds_words() const { return holds ? (*holds ? "yes" : "no") : "-"; }
@@ -146,21 +150,33 @@ bool all_hold(const std::vector<RowOutcome>& rows) {
 
 std::string rows_text(const Paper& paper, const std::vector<RowOutcome>& rows) {
   std::string text = fmt::format(
+<<<<<<< HEAD
       "## {} [{}]\n\n| claim | paper | required | published | modified: ideal | modified: day | modified: dull | "
       "flights: "
       "required, flown, faulted, with figure | 95 % interval | holds | build | command "
+=======
+      "## {} [{}]\n\n| claim | paper | asked | as published | modified: ideal | modified: day | modified: dull | "
+      "flights: asked, "
+      "flown, faulted, with figure | 95 % interval | holds | build | command "
+>>>>>>> b5c69cb (Rename the choices of law to published and modified)
       "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
       paper.title, paper.source);
   for (const RowOutcome& row : rows) {
     const std::string unit = row.row.unit.empty() ? "" : ", " + row.row.unit;
-    text += fmt::format("| {}{} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | `{}` |\n", row.row.what, unit,
-                        row.row.paper.empty() ? "-" : row.row.paper, row.required_words(), row.variant_words("printed"),
-                        row.variant_words("ideal"), row.ours_words(), row.variant_words("dull"), row.flights_words(),
-                        row.interval_words(), row.holds == false ? "**no**" : row.holds_words(),
-                        row.builds.empty() ? "-" : fmt::format("{}", fmt::join(row.builds, ", ")), row.command);
+    text +=
+        fmt::format("| {}{} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | `{}` |\n", row.row.what, unit,
+                    row.row.paper.empty() ? "-" : row.row.paper, row.required_words(), row.variant_words("published"),
+                    row.variant_words("ideal"), row.modified_words(), row.variant_words("dull"), row.flights_words(),
+                    row.interval_words(), row.holds == false ? "**no**" : row.holds_words(),
+                    row.builds.empty() ? "-" : fmt::format("{}", fmt::join(row.builds, ", ")), row.command);
   }
+<<<<<<< HEAD
   if (!paper.moved_on.empty()) text += fmt::format("\nChange of judging seeds: {}\n", paper.moved_on);
   if (!paper.deviations.empty()) text += "\nDeviations of the published law from the paper:\n\n";
+=======
+  if (!paper.moved_on.empty()) text += fmt::format("\nSeeds moved on: {}\n", paper.moved_on);
+  if (!paper.deviations.empty()) text += "\n\"As published\" departs from the paper:\n\n";
+>>>>>>> b5c69cb (Rename the choices of law to published and modified)
   for (const std::string& deviation : paper.deviations) text += fmt::format("- {}\n", deviation);
   return text;
 }
@@ -169,7 +185,7 @@ std::string rows_csv(const RowsOfPapers& papers) {
   fmt::memory_buffer out;
   {
     CsvLine header(out);
-    for (const char* name : {"paper",      "claim",  "unit",    "in_paper", "at_least",   "at_most", "as_printed",
+    for (const char* name : {"paper",      "claim",  "unit",    "in_paper", "at_least",   "at_most", "as_published",
                              "ideal",      "day",    "dull",    "asked",    "flown",      "faulted", "with_figure",
                              "unfinished", "low_95", "high_95", "holds",    "truth_used", "build",   "command"}) {
       header.add(std::string_view(name));
@@ -181,18 +197,18 @@ std::string rows_csv(const RowsOfPapers& papers) {
         const auto found = row.variants.find(name);
         return found == row.variants.end() ? std::nullopt : std::optional(found->second.value);
       };
-      const auto& interval = row.ours.interval;
+      const auto& interval = row.modified.interval;
       CsvLine line(out);
       for (const std::string& text : {paper.key, row.row.what, row.row.unit, row.row.paper}) line.add(text);
-      line.add(row.row.at_least).add(row.row.at_most).add(variant("printed")).add(variant("ideal"));
-      line.add(row.ours.value).add(variant("dull"));
-      for (const size_t count :
-           {row.ours.asked, row.ours.flown, row.ours.faulted, row.ours.with_figure, row.ours.unfinished}) {
+      line.add(row.row.at_least).add(row.row.at_most).add(variant("published")).add(variant("ideal"));
+      line.add(row.modified.value).add(variant("dull"));
+      for (const size_t count : {row.modified.asked, row.modified.flown, row.modified.faulted, row.modified.with_figure,
+                                 row.modified.unfinished}) {
         line.add(std::to_string(count));
       }
       line.add(interval ? std::optional(interval->low) : std::nullopt);
       line.add(interval ? std::optional(interval->high) : std::nullopt);
-      line.add(row.holds ? row.holds_words() : "").add(fmt::format("{}", fmt::join(row.ours.truth_used, "; ")));
+      line.add(row.holds ? row.holds_words() : "").add(fmt::format("{}", fmt::join(row.modified.truth_used, "; ")));
       line.add(fmt::format("{}", fmt::join(row.builds, "; "))).add(row.command);
     }
   }

@@ -74,7 +74,7 @@ std::vector<Row> rows() {
   }
   std::erase_if(all, [](const Row& row) { return row.learned && !reads_networks(row.config); });
   flow_balance::FlowBalanceConfig balance;
-  balance.law = Law::printed;
+  balance.law = Law::published;
   balance.spiral_angle_rad = 0.1;
   all.push_back({"flow_balance_printed", balance});
   flow_balance::FlowBalanceConfig filtered;
@@ -83,10 +83,14 @@ std::vector<Row> rows() {
   filtered.spiral_angle_rad = 0.1;
   all.push_back({"flow_balance_filtered", filtered});
   flow_balance::ZigZagConfig zig_zag;
-  zig_zag.law = Law::printed;
+  zig_zag.law = Law::published;
   all.push_back({"zig_zag_printed", zig_zag});
   landmark_map::LandmarkMapModuleConfig thesis;
-  thesis.law = Law::printed;
+<<<<<<< HEAD
+  thesis.law = Law::published;
+=======
+  thesis.law = Law::published;
+>>>>>>> b5c69cb (Rename the choices of law to published and modified)
   all.push_back({.name = "landmark_map_printed", .config = thesis, .holds_heading = false});
   return all;
 }

@@ -60,7 +60,7 @@ Path fly_printed(Noise noise, double t_s) {
   double last = mass.error() + noise();
   for (double t = 0.0; t < t_s; t += kSampleS) {
     const double error = mass.error() + noise();
-    const double control = printed_control({}, error, last);
+    const double control = published_control({}, error, last);
     last = error;
     mass.fly(control, control, kSampleS);
     path.x_m.push_back(mass.x_m);
@@ -71,13 +71,13 @@ Path fly_printed(Noise noise, double t_s) {
 
 TEST(PrintedControl, HoldsTheSteadyGainAndTheDifferenceGainOfItsTransferFunction) {
   const CenteringGains gains;
-  EXPECT_NEAR(printed_control(gains, 1.0, 1.0), 0.009, 1e-15);  // C(1) = kD
-  EXPECT_NEAR(printed_control(gains, 1.0, 0.0), 0.209, 1e-15);  // the first sample of a step
+  EXPECT_NEAR(published_control(gains, 1.0, 1.0), 0.009, 1e-15);  // C(1) = kD
+  EXPECT_NEAR(published_control(gains, 1.0, 0.0), 0.209, 1e-15);  // the first sample of a step
   // C(z) at a frequency, as the answer to a sine.
   const double w = 0.7;
   const std::complex<double> z = std::polar(1.0, w), C = (0.209 * z - 0.2) / z;
   for (int k = 0; k < 20; ++k) {
-    EXPECT_NEAR(printed_control(gains, std::cos(w * k), std::cos(w * (k - 1))), (C * std::polar(1.0, w * k)).real(),
+    EXPECT_NEAR(published_control(gains, std::cos(w * k), std::cos(w * (k - 1))), (C * std::polar(1.0, w * k)).real(),
                 1e-14);
   }
 }

@@ -72,8 +72,8 @@ TEST(CorridorCentering, DriftAcrossTheCorridorDoesNotShiftTheMiddle) {
 
 TEST(CorridorCentering, BothDerotationsAgree) {
   const StraightCorridor corridor;
-  CorridorCenteringConfig rays;  // the printed law derotates rays, ours the image
-  rays.law = Law::printed;
+  CorridorCenteringConfig rays;  // the published law derotates rays, the modified law the image
+  rays.law = Law::published;
   const auto a = make_corridor_centering({}), b = make_corridor_centering(rays);
   const Decision by_image = fly(*a, corridor.planes(), {0, 0.4}, {0.8, 0}, 2).back();
   const Decision by_rays = fly(*b, corridor.planes(), {0, 0.4}, {0.8, 0}, 2).back();
@@ -82,7 +82,7 @@ TEST(CorridorCentering, BothDerotationsAgree) {
 
 TEST(CorridorCentering, PrintedLawRollsAndTurnsTowardsTheMiddle) {
   CorridorCenteringConfig config;
-  config.law = Law::printed;
+  config.law = Law::published;
   const auto module = make_corridor_centering(config);
   const StraightCorridor corridor;
   const Decision last = fly(*module, corridor.planes(), {0, -0.5}, {0.4, 0}, 8).back();
@@ -97,7 +97,7 @@ TEST(CorridorCentering, HoversBetweenPlainWallsHoweverTheFloorLooks) {
   // The floor alone is textured; walls are the flat grey of nothing.
   const std::vector<vision::TexturedPlane> floor = {
       {{0, 0, 0}, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), 1.25}};
-  for (const auto law : {Law::ours, Law::printed}) {
+  for (const auto law : {Law::modified, Law::published}) {
     CorridorCenteringConfig config;
     config.law = law;
     const auto module = make_corridor_centering(config);
@@ -152,8 +152,8 @@ TEST(CorridorCentering, ANoseTurnedAsideIsNoOffsetExceptAsPrinted) {
     const Decision last = fly(*module, corridor.planes(), {0, east_m}, {0.8, 0}, 3, {}, 0.3, heading_rad).back();
     return signal(*module, last, "centering_error");
   };
-  EXPECT_NEAR(error(Law::ours), -east_m / 1.25, 0.03);
-  EXPECT_GT(std::abs(error(Law::printed) + east_m / 1.25), 0.06);
+  EXPECT_NEAR(error(Law::modified), -east_m / 1.25, 0.03);
+  EXPECT_GT(std::abs(error(Law::published) + east_m / 1.25), 0.06);
 }
 
 TEST(CorridorCentering, TheCourseStaysWithinItsAngleOfTheWallsHoweverFarTheNoseHasTurned) {

@@ -21,9 +21,9 @@ FlowBalanceConfig small_images() {
   return config;
 }
 
-FlowBalanceConfig as_printed() {
+FlowBalanceConfig as_published() {
   FlowBalanceConfig config = small_images();
-  config.law = Law::printed;
+  config.law = Law::published;
   return config;
 }
 
@@ -59,8 +59,8 @@ class BothLaws : public testing::TestWithParam<Law> {
     return config;
   }
 };
-INSTANTIATE_TEST_SUITE_P(FlowBalance, BothLaws, testing::Values(Law::printed, Law::ours),
-                         [](const auto& law) { return law.index == 0 ? "printed" : "ours"; });
+INSTANTIATE_TEST_SUITE_P(FlowBalance, BothLaws, testing::Values(Law::published, Law::modified),
+                         [](const auto& law) { return law.index == 0 ? "published" : "modified"; });
 
 TEST_P(BothLaws, TurnAwayFromAWallOnEverySideWhereverTheVehicleFlies) {
   std::mt19937_64 random(1);
@@ -137,7 +137,7 @@ TEST(FlowBalance, FlowOfATurnMisleadsThePrintedLawOnly) {
     return (command_in_flight(config, walls, 0.0, v, goal, w).v_WB_W - still).norm();
   };
   EXPECT_LT(change(small_images()), 0.25);  // an eighth of the speed
-  EXPECT_GT(change(as_printed()), 3.0 * change(small_images()));
+  EXPECT_GT(change(as_published()), 3.0 * change(small_images()));
 }
 
 TEST(FlowBalance, PassesABuildingThatStandsInItsPath) {

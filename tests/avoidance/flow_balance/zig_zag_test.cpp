@@ -28,7 +28,7 @@ ZigZagConfig small_images() {
 
 TEST(ZigZag, AsPrintedReachesTheRoomsEndsAndSidesWithoutCollision) {
   ZigZagConfig config = small_images();
-  config.law = Law::printed;
+  config.law = Law::published;
   for (const double heading : {0.0, pi / 8}) {
     const PointFlight flight =
         fly(*make_zig_zag(config), kRoom, heading, {{0, 0, -1}, heading}, {-5.0, 0.5}, 40.0, clearance_m);

@@ -183,7 +183,7 @@ TEST(LandmarkMapModule, WithoutClearanceMapsAndFliesStraight) {
 // The thesis leaves avoiding and stopping to others.
 TEST(LandmarkMapModule, AsPrintedNeitherAvoidsNorStops) {
   LandmarkMapModuleConfig config;
-  config.law = Law::printed;
+  config.law = Law::published;
   CornerFlight flight(corners_of({Tower(55.0, 2.0, 5.0, 25.0)}), config);
   for (int i = 0; i < 300; ++i) ASSERT_EQ(flight.step(0.5).status, "cruise") << flight.p_WB().x();
 }

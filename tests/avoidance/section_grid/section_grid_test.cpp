@@ -133,15 +133,15 @@ TEST(SectionGridModule, EveryAnswerGoesItsOwnDirection) {
   EXPECT_GT(combined.y(), 0.0);
 }
 
-SectionGridConfig printed() {
+SectionGridConfig published() {
   SectionGridConfig config;
-  config.law = Law::printed;
+  config.law = Law::published;
   return config;
 }
 
 // [Perez2018] sec. V-D: "if another new position is determined to be a better solution, the UAS will adjust".
 TEST(SectionGridModule, ThePrintedLawGoesToABetterPositionWhereOursKeepsItsPath) {
-  for (const Law law : {Law::printed, Law::ours}) {
+  for (const Law law : {Law::published, Law::modified}) {
     SectionGridConfig config;
     config.law = law;
     Pilot pilot(config);
@@ -152,12 +152,12 @@ TEST(SectionGridModule, ThePrintedLawGoesToABetterPositionWhereOursKeepsItsPath)
     cv::Mat later = near_between(0, 30);
     later(cv::Rect(78, 43, 3, 3)).setTo(4.0);
     const Eigen::Vector3d path = position(pilot.see(later, start, heading_rad)).p_WB;
-    EXPECT_EQ((path - aside).norm() > 0.1, law == Law::printed) << path.transpose() << " " << aside.transpose();
+    EXPECT_EQ((path - aside).norm() > 0.1, law == Law::published) << path.transpose() << " " << aside.transpose();
   }
 }
 
 TEST(SectionGridModule, ThePrintedLawCarriesOnTurnsThenMovesOrHovers) {
-  Pilot free(printed()), beside(printed()), before(printed());
+  Pilot free(published()), beside(published()), before(published());
   EXPECT_EQ(position(free.see(far())).p_WB, Eigen::Vector3d(100.0, 0.0, -5.0));
   const Decision waits = beside.see(near_between(0, 80));
   EXPECT_EQ(waits.status, "avoid");

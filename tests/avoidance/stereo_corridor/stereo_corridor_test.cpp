@@ -114,17 +114,17 @@ TEST(StereoCorridor, ThePrintedLawKeepsTheDirectionOfFlightWhereOursGoesToTheGoa
     config.law = law;
     return Pilot(config).see({}, {3.0, 0.0}, 0.0, goal_W);
   };
-  const Decision printed = flown(Law::printed), ours = flown(Law::ours);
+  const Decision published = flown(Law::published), modified = flown(Law::modified);
   const double kOnePixelRad = 2.0 / kSizePx;
-  EXPECT_EQ(printed.status, "keep");
-  EXPECT_NEAR(velocity(printed).heading_rad, 0.0, kOnePixelRad);
-  EXPECT_EQ(ours.status, "cruise");
-  EXPECT_NEAR(velocity(ours).heading_rad, std::atan2(50.0, 100.0), kOnePixelRad);
+  EXPECT_EQ(published.status, "keep");
+  EXPECT_NEAR(velocity(published).heading_rad, 0.0, kOnePixelRad);
+  EXPECT_EQ(modified.status, "cruise");
+  EXPECT_NEAR(velocity(modified).heading_rad, std::atan2(50.0, 100.0), kOnePixelRad);
 }
 
 TEST(StereoCorridor, ThePrintedLawPassesAnObstacleAndHoversWhereEverythingIsNear) {
   StereoCorridorConfig config;
-  config.law = Law::printed;
+  config.law = Law::published;
   EXPECT_EQ(Pilot(config).see({wall(14.0, -2.0, M_PI, 4.0)}).status, "search");
   EXPECT_EQ(Pilot(config).see({wall(9.0, 0.0, M_PI)}).status, "look_round");
 }
@@ -157,17 +157,17 @@ TEST(StereoCorridor, EachAdditionActsAlone) {
 }
 
 TEST(StereoCorridor, WithoutAnyAdditionOursIsThePrintedLaw) {
-  StereoCorridorConfig bare, printed;
+  StereoCorridorConfig bare, published;
   bare.additions = {.goal_first = false, .memory = false, .sky = false};
-  printed.law = Law::printed;
-  Pilot a(bare), b(printed);
+  published.law = Law::published;
+  Pilot a(bare), b(published);
   for (int i = 0; i < 5; ++i) {
     const double east_m = -2.0 + i;
-    const Decision ours = a.see({wall(14.0, east_m, M_PI, 4.0)}), paper = b.see({wall(14.0, east_m, M_PI, 4.0)});
-    EXPECT_EQ(ours.status, paper.status);
-    EXPECT_EQ(ours.command.index(), paper.command.index());
-    for (size_t k = 0; k < ours.signals.size(); ++k) {
-      EXPECT_TRUE(ours.signals[k] == paper.signals[k] || std::isnan(paper.signals[k]));
+    const Decision modified = a.see({wall(14.0, east_m, M_PI, 4.0)}), paper = b.see({wall(14.0, east_m, M_PI, 4.0)});
+    EXPECT_EQ(modified.status, paper.status);
+    EXPECT_EQ(modified.command.index(), paper.command.index());
+    for (size_t k = 0; k < modified.signals.size(); ++k) {
+      EXPECT_TRUE(modified.signals[k] == paper.signals[k] || std::isnan(paper.signals[k]));
     }
   }
 }

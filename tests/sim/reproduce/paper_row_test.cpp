@@ -129,7 +129,7 @@ TEST_F(PaperRows, HoldOnlyWithinWhatIsAsked) {
   EXPECT_EQ(row(hits, {flown("a", 1, "reached", 1.0)}).holds, true);
   const RowOutcome failed = row(hits, {flown("a", 1, "reached", 1.0), flown("a", 2, "collided", 0.0)});
   EXPECT_EQ(failed.holds, false);
-  EXPECT_EQ(failed.ours_words(), "1 of 2");
+  EXPECT_EQ(failed.modified_words(), "1 of 2");
   EXPECT_EQ(failed.required_words(), "at most 0");
   EXPECT_EQ(failed.command, "hedgehop batch a.yaml --seeds 1:2");
   EXPECT_THAT(
@@ -142,7 +142,7 @@ TEST_F(PaperRows, HaveOneUnitAndPercentIsAHundredTimesAShare) {
   worst.at_most = 8.0;
   const RowOutcome share = row(worst, {with_metric(flown("a", 1, "reached", 1.0), 0.0781)});
   EXPECT_EQ(share.holds, true);
-  EXPECT_EQ(share.ours_words(), "7.81");
+  EXPECT_EQ(share.modified_words(), "7.81");
   EXPECT_EQ(row(worst, {with_metric(flown("a", 1, "reached", 1.0), 0.0801)}).holds, false);
   hits.statistic = Statistic::share;
   hits.at_most = 0.25;
@@ -150,12 +150,12 @@ TEST_F(PaperRows, HaveOneUnitAndPercentIsAHundredTimesAShare) {
 }
 
 TEST_F(PaperRows, ThePrintedLawIsJudgedBesideOurs) {
-  paper.flights[0].printed = {"x=1"};
-  const RowOutcome result = row(hits, {flown("a", 1, "reached", 1.0), flown("a/printed", 1, "collided", 0.0)});
+  paper.flights[0].published = {"x=1"};
+  const RowOutcome result = row(hits, {flown("a", 1, "reached", 1.0), flown("a/published", 1, "collided", 0.0)});
   EXPECT_EQ(result.holds, true);
-  EXPECT_EQ(result.printed_holds, false);
-  paper.flights[0].printed.clear();
-  EXPECT_EQ(row(hits, {flown("a", 1, "reached", 1.0)}).printed_holds, std::nullopt);
+  EXPECT_EQ(result.published_holds, false);
+  paper.flights[0].published.clear();
+  EXPECT_EQ(row(hits, {flown("a", 1, "reached", 1.0)}).published_holds, std::nullopt);
 }
 
 TEST_F(PaperRows, NineFlightsWithoutTheFigureAndOneWithItDoNotHold) {
@@ -163,7 +163,7 @@ TEST_F(PaperRows, NineFlightsWithoutTheFigureAndOneWithItDoNotHold) {
   for (uint64_t seed = 2; seed <= 10; ++seed) records.push_back(flown("a", seed, "reached", 1.0));
   const RowOutcome result = row(worst, records);
   EXPECT_EQ(result.holds, false);
-  EXPECT_EQ(result.ours_words(), "20 (1 of 10 flights)");
+  EXPECT_EQ(result.modified_words(), "20 (1 of 10 flights)");
   EXPECT_EQ(result.flights_words(), "10, 10, 0, 1");
   EXPECT_FALSE(all_hold({result}));
 }
@@ -176,7 +176,7 @@ TEST_F(PaperRows, AMissingFigureIsWhatTheRowSaysItIs) {
   EXPECT_EQ(row(worst, records).flights_words(), "2, 2, 0, 1; 1 met no collision course");
   worst.missing = "90";
   EXPECT_EQ(row(worst, records).holds, false);
-  EXPECT_EQ(row(worst, records).ours.value, 90.0);
+  EXPECT_EQ(row(worst, records).modified.value, 90.0);
   EXPECT_THAT(row(worst, records).flights_words(), HasSubstr("1 without taken as 90"));
   worst.missing = "30";
   EXPECT_EQ(row(worst, records).holds, true);
@@ -198,7 +198,7 @@ TEST_F(PaperRows, HoveringForEverIsNoFlightWithoutContact) {
   FlightRecord hovers = flown("a", 2, "timeout", 1.0);
   const RowOutcome stuck = row(hits, {reached, hovers});
   EXPECT_EQ(stuck.holds, false);
-  EXPECT_EQ(stuck.ours_words(), "0 of 2");
+  EXPECT_EQ(stuck.modified_words(), "0 of 2");
   EXPECT_THAT(stuck.flights_words(), HasSubstr("1 not finished"));
   hovers.result["goal_distance_m"] = nullptr;  // without a goal, the full time is what was to be flown
   EXPECT_EQ(row(hits, {reached, hovers}).holds, true);
@@ -206,7 +206,7 @@ TEST_F(PaperRows, HoveringForEverIsNoFlightWithoutContact) {
 
 TEST_F(PaperRows, WhatWasNotMeasuredIsNoPass) {
   const RowOutcome lacking = row(worst, {flown("a", 1, "reached", 1.0)});
-  EXPECT_EQ(lacking.ours_words(), "not measured");
+  EXPECT_EQ(lacking.modified_words(), "not measured");
   EXPECT_EQ(lacking.holds, false);
   worst.at_most.reset();
   const RowOutcome free = row(worst, {flown("a", 1, "reached", 1.0)});
@@ -214,16 +214,16 @@ TEST_F(PaperRows, WhatWasNotMeasuredIsNoPass) {
   EXPECT_FALSE(all_hold({free}));
   const RowOutcome not_asked = row(worst, {});  // a quick look leaves it out
   EXPECT_TRUE(all_hold({not_asked}));
-  EXPECT_EQ(not_asked.ours_words(), "not in the quick look");
+  EXPECT_EQ(not_asked.modified_words(), "not in the quick look");
 }
 
 TEST_F(PaperRows, VariantsStandBesideOursAndDecideNothing) {
-  paper.flights[0].printed = {"x=1"};
+  paper.flights[0].published = {"x=1"};
   paper.flights[0].sensors = {"dull"};
-  const RowOutcome result = row(
-      hits, {flown("a", 1, "reached", 1.0), flown("a/printed", 1, "collided", 0.0), flown("a/dull", 1, "fault", 0.0)});
+  const RowOutcome result = row(hits, {flown("a", 1, "reached", 1.0), flown("a/published", 1, "collided", 0.0),
+                                       flown("a/dull", 1, "fault", 0.0)});
   EXPECT_EQ(result.holds, true);
-  EXPECT_EQ(result.variant_words("printed"), "1 of 1");
+  EXPECT_EQ(result.variant_words("published"), "1 of 1");
   EXPECT_EQ(result.variant_words("dull"), "not measured");
   EXPECT_EQ(result.variant_words("ideal"), "-");
 }

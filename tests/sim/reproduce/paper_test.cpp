@@ -107,12 +107,12 @@ TEST(PaperFile, VariantsFlyTheSameScenarioWithTheirOwnOverrides) {
                     .seeds = "1001:1030",
                     .quick = "1001",
                     .set = {"a=1"},
-                    .printed = {"b=2"},
+                    .published = {"b=2"},
                     .sensors = {"ideal", "dull"},
                     .beside = "1001:1010"}};
   const std::vector<FlightGroup> groups = flight_groups(paper);
   ASSERT_EQ(groups.size(), 4u);
-  EXPECT_EQ(groups[1].name, "tree/printed");
+  EXPECT_EQ(groups[1].name, "tree/published");
   EXPECT_EQ(groups[1].seeds, "1001:1030");
   EXPECT_THAT(groups[1].set, ElementsAre("a=1", "b=2"));
   EXPECT_EQ(groups[3].name, "tree/dull");

@@ -23,7 +23,7 @@ source: Garratt2009
 tuned_on: 11:20
 deviations: [it flies faster]
 flights:
-  - {scenario: tiny.yaml, seeds: 1:3, quick: 1:2, printed: [avoidance.speed=3]}
+  - {scenario: tiny.yaml, seeds: 1:3, quick: 1:2, published: [avoidance.speed=3]}
   - {name: fast, scenario: tiny.yaml, seeds: 1:2, set: [avoidance.speed=2]}
 rows:
   - {what: length, unit: m, flights: [tiny], column: path_length_m, statistic: greatest}
@@ -51,8 +51,8 @@ TEST_F(Reproduce, TellsEachFigureAndFailsWhenOneDoesNotHold) {
   EXPECT_THAT(rows.words("holds"), ElementsAre("", "no", "no"));
   EXPECT_THAT(rows.numbers("asked"), ElementsAre(3, 5, 2));
   EXPECT_THAT(rows.numbers("with_figure"), ElementsAre(3, 5, 2));
-  EXPECT_NE(rows.words("as_printed")[0], rows.words("day")[0]);
-  EXPECT_EQ(rows.words("as_printed")[1], "");  // `fast` has no law of a paper
+  EXPECT_NE(rows.words("as_published")[0], rows.words("day")[0]);
+  EXPECT_EQ(rows.words("as_published")[1], "");  // `fast` has no law of a paper
   EXPECT_EQ(rows.words("command")[2], "hedgehop batch tiny.yaml --seeds 1:2 --set avoidance.speed=2");
 }
 
@@ -83,7 +83,7 @@ TEST_F(Reproduce, AQuickLookFliesPartAndTheWholeFliesOnlyTheRest) {
   const std::string with = " -j 1 --out out --program " + counting;
   const CommandEnd quick = folder.hedgehop("reproduce small.yaml --quick" + with);
   EXPECT_THAT(quick.out, HasSubstr("| farthest way, m | - | at least 1000 | - | - | not in the quick look |"));
-  EXPECT_EQ(folder.read("flown.txt"), "1\n2\n1\n2\n");  // ours, then as printed
+  EXPECT_EQ(folder.read("flown.txt"), "1\n2\n1\n2\n");  // ours, then the published law
   EXPECT_EQ(folder.hedgehop("reproduce small.yaml" + with).status, 1);
   EXPECT_EQ(folder.read("flown.txt"), "1\n2\n1\n2\n3\n3\n1\n2\n");
 }

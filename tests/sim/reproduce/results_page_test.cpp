@@ -48,7 +48,7 @@ std::vector<std::string> wrong_builds(const std::string& page) {
 RowsOfPapers rows_of(const std::vector<std::string>& builds) {
   RowsOfPapers papers{{Paper{.key = "p", .title = "T", .source = "S"}, {}}};
   for (const std::string& build : builds) {
-    RowOutcome row{.row = {}, .ours = {}, .variants = {}, .holds = true, .command = "hedgehop batch a.yaml"};
+    RowOutcome row{.row = {}, .modified = {}, .variants = {}, .holds = true, .command = "hedgehop batch a.yaml"};
     row.row.what = "claim of " + build;
     row.builds = {build};
     papers[0].second.push_back(row);

@@ -57,6 +57,13 @@ TEST(Renamed, KeysOfAnEarlierVersionAreRefusedWithTheirNewName) {
                 ElementsAre(testing::EndsWith("; its name is now '" + row.now + "'")))
         << row.override;
   }
+  for (const auto& [law, now] : {std::pair<std::string, std::string>{"printed", "published"}, {"ours", "modified"}}) {
+    EXPECT_THAT(faults_of([&] {
+                  load_scenario(kConfigs / "garratt2009_city_0.yaml", std::vector<std::string>{"avoidance.law=" + law});
+                }),
+                ElementsAre(testing::EndsWith("unknown choice '" + law + "' for 'avoidance.law'; since 0.3 it is '" +
+                                              now + "'")));
+  }
   // No new name that the module does not have.
   EXPECT_THAT(faults_of([] {
                 load_scenario(kConfigs / "garratt2009_city_0.yaml", std::vector<std::string>{"avoidance.rows=9"});
