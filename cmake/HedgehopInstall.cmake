@@ -3,14 +3,12 @@ include_guard()
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-hedgehop_offer(sim/fields vision avoidance
+hedgehop_offer(sim/libm sim/fields vision avoidance
                scenes dynamics sim/config sim/scenario sim/render sim/collision sim/plugin sim/flight sim/verdict sim/loop sim/simulation)
 add_library(hedgehop_sim INTERFACE)
 target_link_libraries(hedgehop_sim INTERFACE hedgehop_sim_simulation)
 set_target_properties(hedgehop_sim PROPERTIES EXPORT_NAME sim)
 install(TARGETS hedgehop_sim EXPORT hedgehop COMPONENT development)
-set_target_properties(hedgehop_sim_libm PROPERTIES EXPORT_NAME sim_libm)
-install(TARGETS hedgehop_sim_libm EXPORT hedgehop COMPONENT development)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/hedgehop)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/hedgehopConfig.cmake.in ${PROJECT_BINARY_DIR}/hedgehopConfig.cmake
                               INSTALL_DESTINATION ${package})

@@ -56,11 +56,11 @@ void Avionics::reset(const SensedTruth& truth) {
   failures_ = sensors::SensorFailures(failing_);
   reset_options();
 
-  NormalStream survey(seeds_.survey);
-  const Eigen::Vector3d p_WB_est = truth.body.p_WB + config_.navigation.position_sigma_m * survey.draw3();
+  RandomStream survey(seeds_.survey);
+  const Eigen::Vector3d p_WB_est = truth.body.p_WB + config_.navigation.position_sigma_m * sensors::normal3(survey);
   const double heading_rad = to_roll_pitch_heading(truth.body.q_WB)[2];
   const Eigen::Quaterniond q_on_ground(Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()));
-  const control::Alignment on_ground = align(heading_rad, heading_rad + kSurveyedHeadingSigmaRad * survey.draw());
+  const control::Alignment on_ground = align(heading_rad, heading_rad + kSurveyedHeadingSigmaRad * survey.normal());
   navigation_.reset(on_ground.rotated(q_on_ground.conjugate() * truth.body.q_WB), p_WB_est);
   autopilot_.reset(navigation_.estimate());
 }

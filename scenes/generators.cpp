@@ -3,7 +3,7 @@
 #include "scenes/boxes.h"
 #include "scenes/mesh/mesh_import.h"
 #include "scenes/movers.h"
-#include "scenes/random.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::scenes {
 namespace {

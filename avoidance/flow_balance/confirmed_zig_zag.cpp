@@ -11,9 +11,6 @@ namespace {
 /// Images that must agree: a wrong flow vector seldom lasts for two.
 constexpr int kConfirmations = 2;
 
-/// Uniform in [-1, 1), the same with every standard library.
-double symmetric_draw(std::mt19937_64& random) { return std::ldexp(static_cast<double>(random() >> 11), -52) - 1.0; }
-
 }  // namespace
 
 Eigen::Vector2d ConfirmedZigZag::velocity_H() const {
@@ -43,7 +40,7 @@ bool ConfirmedZigZag::update(std::span<const SideRange> sides) {
   if (!nearest) return false;
   signs_H_[component_along(nearest->axis_H)] *= -1.0;
   std::fill(confirmed_.begin(), confirmed_.end(), 0);
-  stray_rad_ = largest_stray_rad_ * symmetric_draw(random_);
+  stray_rad_ = largest_stray_rad_ * uniform(random_, -1.0, 1.0);
   ++reversals_;
   return true;
 }

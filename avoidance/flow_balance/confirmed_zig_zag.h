@@ -2,11 +2,11 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <random>
 #include <span>
 #include <vector>
 
 #include "avoidance/flow_balance/zig_zag_law.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::avoidance::flow_balance {
 
@@ -34,7 +34,7 @@ class ConfirmedZigZag {
  private:
   Diagonal diagonal_;
   double largest_stray_rad_;
-  std::mt19937_64 random_;
+  Random random_;
   Eigen::Vector2d signs_H_ = {1.0, 1.0};
   double stray_rad_ = 0.0;
   std::vector<int> confirmed_;  ///< per side, successive images with an obstacle that is too near

@@ -23,7 +23,7 @@ Wind::Wind(const WindConfig& config, uint64_t seed) : config_(fields::require_bo
   double from_rad = config.from_rad;
   if (config.spread_rad > 0.0) {
     // Evenly from [-1, 1), of 53 random bits: the same on every standard library.
-    const double share = 2.0 * noise_.even() - 1.0;
+    const double share = 2.0 * noise_.uniform() - 1.0;
     from_rad += share * config.spread_rad;
   }
   const Eigen::Vector3d blows_W = blowing_W(from_rad);
@@ -36,10 +36,10 @@ Wind::Wind(const WindConfig& config, uint64_t seed) : config_(fields::require_bo
 
 /// Correlation of the two scaled states is 1/sqrt(2).
 void Wind::draw_stationary() {
-  u_ = noise_.draw();
+  u_ = noise_.normal();
   for (Eigen::Vector2d* z : {&v_, &w_}) {
-    (*z)[0] = noise_.draw();
-    (*z)[1] = ((*z)[0] + noise_.draw()) / std::numbers::sqrt2;
+    (*z)[0] = noise_.normal();
+    (*z)[1] = ((*z)[0] + noise_.normal()) / std::numbers::sqrt2;
   }
 }
 
@@ -67,7 +67,7 @@ Eigen::Vector3d Wind::sample(double height_m, const Eigen::Vector3d& v_WB_W, dou
 Eigen::Vector3d Wind::turbulence_W(double height_m, double path_m) {
   const DrydenScales s = dryden_scales(height_m, config_.turbulence_w20_mps);
   const FirstOrderStep u = first_order_step(path_m / s.length_uv_m);
-  u_ = u.decay * u_ + u.noise * noise_.draw();
+  u_ = u.decay * u_ + u.noise * noise_.normal();
   move(v_, second_order_step(path_m / s.length_uv_m));
   move(w_, second_order_step(path_m / s.length_w_m));
 
@@ -78,8 +78,8 @@ Eigen::Vector3d Wind::turbulence_W(double height_m, double path_m) {
 
 void Wind::move(Eigen::Vector2d& z, const SecondOrderStep& step) {
   // Draws stand in statements of their own: the order of evaluation of arguments is unspecified.
-  const double eta1 = noise_.draw();
-  const double eta2 = noise_.draw();
+  const double eta1 = noise_.normal();
+  const double eta2 = noise_.normal();
   z = step.decay * z + step.noise * Eigen::Vector2d{eta1, eta2};
 }
 

@@ -4,7 +4,7 @@
 
 #include "dynamics/air/dryden.h"
 #include "dynamics/air/gust.h"
-#include "dynamics/normal_stream.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::dynamics::air {
 
@@ -70,7 +70,7 @@ class Wind {
   Eigen::Vector3d steady_W_;  ///< without shear, or at 20 ft
   Eigen::Vector3d gust_along_W_;
   Eigen::Matrix3d R_WT_;  ///< T: axes of the turbulence, x along the steady wind, z down
-  NormalStream noise_;
+  RandomStream noise_;
   double u_ = 0.0;  ///< filter states, scaled to unit stationary variance
   Eigen::Vector2d v_ = Eigen::Vector2d::Zero(), w_ = Eigen::Vector2d::Zero();
   double t_s_ = 0.0, gust_path_m_ = 0.0;  ///< since the flight began, since the gust was met

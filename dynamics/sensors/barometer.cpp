@@ -13,7 +13,7 @@ Barometer::Barometer(const BarometerConfig& config, double physics_dt_s, uint64_
       sample_dt_s_(static_cast<double>(period_) * physics_dt_s),
       noise_(seed),
       memory_(config.lag_s > 0.0 ? std::exp(-physics_dt_s / config.lag_s) : 0.0) {
-  wander_pa_ = config.wander_pa * noise_.draw();
+  wander_pa_ = config.wander_pa * noise_.normal();
 }
 
 void Barometer::observe(double altitude_m) {
@@ -22,8 +22,8 @@ void Barometer::observe(double altitude_m) {
 
 std::optional<double> Barometer::read() {
   const GaussMarkov process = barometer_wander(config_);
-  wander_pa_ = process.decay(sample_dt_s_) * wander_pa_ + process.added_sigma(sample_dt_s_) * noise_.draw();
-  const double noise_pa = config_.noise_pa * noise_.draw();
+  wander_pa_ = process.decay(sample_dt_s_) * wander_pa_ + process.added_sigma(sample_dt_s_) * noise_.normal();
+  const double noise_pa = config_.noise_pa * noise_.normal();
   const bool lost = config_.dropout > 0.0 && noise_.chance(config_.dropout);
   if (lost || !altitude_m_) return std::nullopt;
   return air::standard_air(*altitude_m_).pressure_pa + wander_pa_ + noise_pa;

@@ -49,7 +49,7 @@ class Barometer {
   BarometerConfig config_;
   int64_t period_;
   double sample_dt_s_;
-  NormalStream noise_;
+  RandomStream noise_;
   double wander_pa_;
   double memory_;                     ///< weight of the last tick's altitude in the lag, 0..1
   std::optional<double> altitude_m_;  ///< as it lags; none before the first tick

@@ -14,7 +14,7 @@ Gps::Gps(const GpsConfig& config, double physics_dt_s, uint64_t seed)
   sample_dt_s_ = static_cast<double>(period_) * physics_dt_s;
   past_.resize(static_cast<size_t>(std::llround(config.latency_s / physics_dt_s)) + 1);
   wander_sigma_m_ << config.wander_horizontal_m, config.wander_horizontal_m, config.wander_vertical_m;
-  wander_m_ = wander_sigma_m_.cwiseProduct(noise_.draw3());
+  wander_m_ = wander_sigma_m_.cwiseProduct(normal3(noise_));
 }
 
 void Gps::observe(const Eigen::Vector3d& p_WB, const Eigen::Vector3d& v_WB_W) {
@@ -26,9 +26,9 @@ void Gps::observe(const Eigen::Vector3d& p_WB, const Eigen::Vector3d& v_WB_W) {
 std::optional<GpsFix> Gps::read() {
   const GaussMarkov unit{1.0, config_.wander_time_s};
   wander_m_ = unit.decay(sample_dt_s_) * wander_m_ +
-              unit.added_sigma(sample_dt_s_) * wander_sigma_m_.cwiseProduct(noise_.draw3());
-  const Eigen::Vector3d p_noise = config_.noise_m * noise_.draw3();
-  const Eigen::Vector3d v_noise = config_.velocity_noise_mps * noise_.draw3();
+              unit.added_sigma(sample_dt_s_) * wander_sigma_m_.cwiseProduct(normal3(noise_));
+  const Eigen::Vector3d p_noise = config_.noise_m * normal3(noise_);
+  const Eigen::Vector3d v_noise = config_.velocity_noise_mps * normal3(noise_);
   const bool lost = config_.dropout > 0.0 && noise_.chance(config_.dropout);
   if (lost || !config_.enabled || known_ < past_.size()) return std::nullopt;
   const Truth& then = past_[next_];  // the oldest

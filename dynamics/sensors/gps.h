@@ -65,7 +65,7 @@ class Gps {
   GpsConfig config_;
   double sample_dt_s_;
   int64_t period_;
-  NormalStream noise_;
+  RandomStream noise_;
   Eigen::Vector3d wander_sigma_m_, wander_m_;
   std::vector<Truth> past_;  ///< a ring as long as the latency
   size_t next_ = 0, known_ = 0;

@@ -40,11 +40,11 @@ Imu::Imu(const ImuConfig& config, double physics_dt_s, uint64_t seed)
     throw std::invalid_argument("imu.cutoff: must be below half the physics rate");
   }
   sample_dt_s_ = static_cast<double>(period_) * dt_s_;
-  gyro_offset_ = config.gyro_offset_radps * noise_.draw3();
-  accelerometer_offset_ = config.accelerometer_offset_mps2 * noise_.draw3();
-  gyro_wander_ = gyro_wander_model_.sigma * noise_.draw3();
-  accelerometer_wander_ = accelerometer_wander_model_.sigma * noise_.draw3();
-  const Eigen::Vector3d tilt = config.misalignment_rad * noise_.draw3();
+  gyro_offset_ = config.gyro_offset_radps * normal3(noise_);
+  accelerometer_offset_ = config.accelerometer_offset_mps2 * normal3(noise_);
+  gyro_wander_ = gyro_wander_model_.sigma * normal3(noise_);
+  accelerometer_wander_ = accelerometer_wander_model_.sigma * normal3(noise_);
+  const Eigen::Vector3d tilt = config.misalignment_rad * normal3(noise_);
   R_IB_ = Eigen::AngleAxisd(tilt.norm(), tilt.stableNormalized()).toRotationMatrix();
 }
 
@@ -63,14 +63,14 @@ void Imu::observe(const Eigen::Vector3d& w_WB_B, const Eigen::Vector3d& f_B) {
 ImuReading Imu::read() {
   const double root_rate = 1.0 / std::sqrt(sample_dt_s_);
   gyro_wander_ = gyro_wander_model_.decay(sample_dt_s_) * gyro_wander_ +
-                 gyro_wander_model_.added_sigma(sample_dt_s_) * noise_.draw3();
+                 gyro_wander_model_.added_sigma(sample_dt_s_) * normal3(noise_);
   accelerometer_wander_ = accelerometer_wander_model_.decay(sample_dt_s_) * accelerometer_wander_ +
-                          accelerometer_wander_model_.added_sigma(sample_dt_s_) * noise_.draw3();
+                          accelerometer_wander_model_.added_sigma(sample_dt_s_) * normal3(noise_);
   const ImuReading errors = bias();
   const Eigen::Vector3d w =
-      R_IB_ * w_out_ + errors.w_WB_B_meas + config_.gyro_noise_density * root_rate * noise_.draw3();
+      R_IB_ * w_out_ + errors.w_WB_B_meas + config_.gyro_noise_density * root_rate * normal3(noise_);
   const Eigen::Vector3d f =
-      R_IB_ * f_out_ + errors.specific_force_B_meas + config_.accelerometer_noise_density * root_rate * noise_.draw3();
+      R_IB_ * f_out_ + errors.specific_force_B_meas + config_.accelerometer_noise_density * root_rate * normal3(noise_);
   return {within(w, config_.gyro_range_radps), within(f, config_.accelerometer_range_mps2)};
 }
 

@@ -84,7 +84,7 @@ class Imu {
   ImuConfig config_;
   double dt_s_, sample_dt_s_;
   int64_t period_;
-  NormalStream noise_;
+  RandomStream noise_;
   GaussMarkov gyro_wander_model_, accelerometer_wander_model_;
   double filter_;  ///< tan(pi cutoff dt)
   Eigen::Matrix3d R_IB_;

@@ -11,11 +11,11 @@ Magnetometer::Magnetometer(const MagnetometerConfig& config, double physics_dt_s
     : config_(fields::require_bounds(config, "magnetometer")),
       period_(period_ticks("magnetometer.rate", config.rate_hz, physics_dt_s)),
       noise_(seed) {
-  offset_rad_ = config.offset_rad * noise_.draw();
+  offset_rad_ = config.offset_rad * noise_.normal();
 }
 
 std::optional<double> Magnetometer::read(double heading_rad) {
-  const double noise_rad = config_.noise_rad * noise_.draw();
+  const double noise_rad = config_.noise_rad * noise_.normal();
   const bool lost = config_.dropout > 0.0 && noise_.chance(config_.dropout);
   if (lost || !config_.enabled) return std::nullopt;
   return wrap_angle(heading_rad + offset_rad_ + noise_rad);

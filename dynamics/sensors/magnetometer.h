@@ -44,7 +44,7 @@ class Magnetometer {
  private:
   MagnetometerConfig config_;
   int64_t period_;
-  NormalStream noise_;
+  RandomStream noise_;
   double offset_rad_;
 };
 

@@ -16,7 +16,7 @@ Ranger::Ranger(const std::string& key, const RangerConfig& config, double physic
   if (!(config.max_m > config.min_m)) throw std::invalid_argument(key + ".max: must be greater than 'min'");
   latency_ = std::llround(config.latency_s / physics_dt_s);
   observed_m_.assign(static_cast<size_t>(latency_ / period_) + 1, std::numeric_limits<double>::infinity());
-  if (config.offset_m > 0.0) offset_m_ = config.offset_m * noise_.draw();
+  if (config.offset_m > 0.0) offset_m_ = config.offset_m * noise_.normal();
 }
 
 void Ranger::observe(double distance_m) {
@@ -27,7 +27,7 @@ void Ranger::observe(double distance_m) {
 std::optional<double> Ranger::read() {
   // The same number of draws whatever happens, so that a drop-out shifts nothing.
   const bool lost = noise_.chance(config_.dropout);
-  const double normal = noise_.draw();
+  const double normal = noise_.normal();
   const double range_m = observed_m_[next_];  // the oldest
   const bool in_range = range_m >= config_.min_m && range_m <= config_.max_m;
   if (lost || !in_range || !config_.enabled) return std::nullopt;

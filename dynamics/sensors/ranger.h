@@ -57,7 +57,7 @@ class Ranger {
  private:
   RangerConfig config_;
   int64_t period_, latency_;  ///< ticks
-  NormalStream noise_;
+  RandomStream noise_;
   double offset_m_ = 0.0;
   std::vector<double> observed_m_;  ///< a ring of ranges observed and not yet read
   size_t next_ = 0;

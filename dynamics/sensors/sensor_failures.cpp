@@ -3,7 +3,7 @@
 namespace hedgehop::dynamics::sensors {
 
 SensorFailures::SensorFailures(std::vector<SensorFailure> failures) {
-  for (const SensorFailure& failure : failures) failures_.push_back({failure, NormalStream(failure.seed)});
+  for (const SensorFailure& failure : failures) failures_.push_back({failure, RandomStream(failure.seed)});
 }
 
 std::optional<Eigen::Vector3d> SensorFailures::failed(Instrument instrument, int64_t t_ns,
@@ -20,7 +20,7 @@ std::optional<Eigen::Vector3d> SensorFailures::failed(Instrument instrument, int
         if (reading) (*reading)[failure.axis] += failure.value;
         break;
       case SensorFailure::Mode::noise:
-        if (reading) *reading += failure.value * noise.draw3();
+        if (reading) *reading += failure.value * normal3(noise);
         break;
     }
   }

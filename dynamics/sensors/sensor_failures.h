@@ -59,7 +59,7 @@ class SensorFailures {
  private:
   struct Failing {
     SensorFailure failure;
-    NormalStream noise;
+    RandomStream noise;
   };
   std::optional<Eigen::Vector3d> failed(Instrument instrument, int64_t t_ns, std::optional<Eigen::Vector3d> reading);
 

@@ -6,6 +6,12 @@
 
 namespace hedgehop::dynamics::sensors {
 
+Eigen::Vector3d normal3(RandomStream& random) {
+  Eigen::Vector3d v;
+  for (int i = 0; i < 3; ++i) v[i] = random.normal();
+  return v;
+}
+
 double GaussMarkov::decay(double dt_s) const { return std::exp(-dt_s / correlation_time_s); }
 
 double GaussMarkov::added_sigma(double dt_s) const {

@@ -1,12 +1,16 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <string_view>
 
-#include "dynamics/normal_stream.h"
+#include "sim/libm/random.h"
 
 /// What the sensors share: an error that wanders, a sampling clock.
 namespace hedgehop::dynamics::sensors {
+
+/// Returns three standard normal numbers.
+Eigen::Vector3d normal3(RandomStream& random);
 
 /// First-order Gauss-Markov process, sampled exactly: e^(-dt/tau) correlation from step to step.
 struct GaussMarkov {

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "scenes/mesh/mesh_builder.h"
-#include "scenes/random.h"
 #include "scenes/textures/city_textures.h"
 #include "scenes/worlds/urban_plan.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::scenes::mesh {
 

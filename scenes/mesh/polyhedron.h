@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scenes/random.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::scenes::mesh {
 

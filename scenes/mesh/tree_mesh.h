@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scenes/mesh/bodies.h"
-#include "scenes/random.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::scenes::mesh {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "scenes/random.h"
 #include "scenes/textures/canvas.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::scenes::textures {
 

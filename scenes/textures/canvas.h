@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "scenes/random.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::scenes::textures {
 

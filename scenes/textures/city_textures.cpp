@@ -2,10 +2,10 @@
 
 #include <utility>
 
-#include "scenes/random.h"
 #include "scenes/textures/facade_textures.h"
 #include "scenes/textures/street_textures.h"
 #include "scenes/textures/trim_textures.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::scenes::textures {
 

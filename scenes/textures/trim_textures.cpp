@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "scenes/random.h"
 #include "scenes/textures/canvas.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::scenes::textures {
 namespace {

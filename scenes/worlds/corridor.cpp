@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "scenes/mesh/ground.h"
-#include "scenes/random.h"
 #include "scenes/textures/room_textures.h"
 #include "scenes/textures/stone_textures.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/random.h"
 #include "scenes/require.h"
 #include "scenes/worlds/corridor.h"
 #include "sim/fields/bounds.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {

@@ -4,12 +4,12 @@
 #include <limits>
 
 #include "scenes/mesh/ground.h"
-#include "scenes/random.h"
 #include "scenes/require.h"
 #include "scenes/textures/facade_textures.h"
 #include "scenes/textures/stone_textures.h"
 #include "scenes/textures/street_textures.h"
 #include "sim/fields/bounds.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {

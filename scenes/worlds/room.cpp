@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "scenes/mesh/mesh_builder.h"
-#include "scenes/random.h"
 #include "scenes/require.h"
 #include "scenes/textures/room_textures.h"
 #include "scenes/textures/street_textures.h"
 #include "sim/fields/bounds.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {

@@ -2,11 +2,11 @@
 
 #include "scenes/mesh/building_mesh.h"
 #include "scenes/mesh/mesh_builder.h"
-#include "scenes/random.h"
 #include "scenes/require.h"
 #include "scenes/textures/city_textures.h"
 #include "scenes/worlds/city_ground.h"
 #include "scenes/worlds/urban_plan.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {

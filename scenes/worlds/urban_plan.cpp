@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
-#include "scenes/random.h"
 #include "scenes/require.h"
 #include "sim/fields/bounds.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::scenes::worlds {
 namespace {

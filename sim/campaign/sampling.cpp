@@ -1,20 +1,16 @@
 #include "sim/campaign/sampling.h"
 
-#include <cmath>
 #include <numeric>
-#include <random>
 #include <utility>
 
 #include "sim/campaign/sobol.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::sim {
 namespace {
 
-/// Evenly from [0, 1), of 53 random bits.
-double uniform(std::mt19937_64& generator) { return std::ldexp(static_cast<double>(generator() >> 11), -53); }
-
 /// A random order of 0 .. count - 1 (Fisher and Yates).
-std::vector<size_t> permutation(size_t count, std::mt19937_64& generator) {
+std::vector<size_t> permutation(size_t count, Random& generator) {
   std::vector<size_t> order(count);
   std::iota(order.begin(), order.end(), size_t{0});
   for (size_t i = count; i > 1; --i) {
@@ -26,7 +22,7 @@ std::vector<size_t> permutation(size_t count, std::mt19937_64& generator) {
 }  // namespace
 
 UnitPoints random_points(size_t points, size_t dimensions, uint64_t seed) {
-  std::mt19937_64 generator(seed);
+  Random generator(seed);
   UnitPoints drawn(points, std::vector<double>(dimensions));
   for (auto& point : drawn) {
     for (double& coordinate : point) coordinate = uniform(generator);
@@ -35,7 +31,7 @@ UnitPoints random_points(size_t points, size_t dimensions, uint64_t seed) {
 }
 
 UnitPoints latin_hypercube(size_t points, size_t dimensions, uint64_t seed) {
-  std::mt19937_64 generator(seed);
+  Random generator(seed);
   UnitPoints drawn(points, std::vector<double>(dimensions));
   for (size_t d = 0; d < dimensions; ++d) {
     const std::vector<size_t> strata = permutation(points, generator);

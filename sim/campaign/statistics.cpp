@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/normal_stream.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -18,7 +18,7 @@ double log_choose(int64_t n, int64_t k) {
 Interval wilson_interval(Count count, double confidence) {
   if (count.trials == 0) return {0.0, 1.0};
   const double n = static_cast<double>(count.trials), p = count.rate();
-  const double z = dynamics::normal_quantile(0.5 + 0.5 * confidence);
+  const double z = normal_quantile(0.5 + 0.5 * confidence);
   const double middle = (p + z * z / (2.0 * n)) / (1.0 + z * z / n);
   const double half = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)) / (1.0 + z * z / n);
   // At the ends the formula is exact but for rounding.

@@ -41,7 +41,7 @@ CmaEs::CmaEs(VectorXd start, double step, uint64_t seed)
 
 VectorXd CmaEs::draw() {
   VectorXd z(mean_.size());
-  for (double& component : z) component = normal_(random_);
+  for (double& component : z) component = random_.normal();
   return mean_ + sigma_ * (B_ * D_.cwiseProduct(z));
 }
 

@@ -2,8 +2,9 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <random>
 #include <vector>
+
+#include "sim/libm/random.h"
 
 namespace hedgehop::sim {
 
@@ -43,8 +44,7 @@ class CmaEs {
   void decompose();
 
   const CmaEsParameters parameters_;
-  std::mt19937_64 random_;
-  std::normal_distribution<double> normal_;
+  RandomStream random_;
   Eigen::VectorXd mean_;
   double sigma_;
   Eigen::MatrixXd C_;              ///< covariance of the points, over sigma squared

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <random>
 #include <utility>
 
 #include "sim/campaign/minimize.h"
 #include "sim/falsify/box_constraints.h"
 #include "sim/falsify/cma_es.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -67,7 +67,7 @@ class Search {
     Coordinates point(dimensions());
     constexpr int kMostDraws = 20'000;
     for (int draw = 0; draw < kMostDraws; ++draw) {
-      for (double& coordinate : point) coordinate = std::ldexp(static_cast<double>(random_() >> 11), -53);
+      for (double& coordinate : point) coordinate = uniform(random_);
       if (violation_at(point) == 0.0) return point;
       ++result_.infeasible;
     }
@@ -226,7 +226,7 @@ class Search {
   const FalsifySearch& search_;
   const FalsifyDesign& design_;
   const FlyPoint& fly_;
-  std::mt19937_64 random_;
+  Random random_;
   size_t generations_ = 0;
   FalsifyResult result_;
 };

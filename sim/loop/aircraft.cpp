@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "sim/scenario/random_stream.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::sim {
 

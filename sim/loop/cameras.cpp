@@ -8,8 +8,8 @@
 
 #include "sim/config/input_error.h"
 #include "sim/fields/quantities.h"
+#include "sim/libm/random.h"
 #include "sim/scenario/mounting.h"
-#include "sim/scenario/random_stream.h"
 
 namespace hedgehop::sim {
 namespace {

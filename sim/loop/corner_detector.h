@@ -4,9 +4,9 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <opencv2/core.hpp>
-#include <random>
 #include <vector>
 
+#include "sim/libm/random.h"
 #include "vision/camera/camera.h"
 
 namespace hedgehop::sim {
@@ -29,8 +29,7 @@ class CornerDetector {
  private:
   std::vector<Eigen::Vector3d> corners_W_;
   double noise_px_;
-  std::mt19937_64 random_;
-  std::normal_distribution<double> normal_;
+  RandomStream noise_;
 };
 
 }  // namespace hedgehop::sim

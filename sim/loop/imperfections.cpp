@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/libm/random.h"
 #include "sim/loop/normal_image.h"
-#include "sim/scenario/random_stream.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -14,8 +14,7 @@ constexpr double kWhite = 255.0;
 
 /// Uniform in [0, 1).
 double draw(uint64_t seed, int64_t frame, std::string_view what) {
-  const uint64_t bits = stream_seed(stream_seed(seed, what) + static_cast<uint64_t>(frame), what);
-  return std::ldexp(static_cast<double>(bits >> 11), -53);
+  return unit_interval(stream_seed(stream_seed(seed, what) + static_cast<uint64_t>(frame), what));
 }
 
 /// Rounded twice on every processor, where OpenCV's convertTo() rounds once on those with FMA.

@@ -4,8 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "dynamics/normal_stream.h"
-#include "scenes/random.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -20,7 +19,7 @@ Half positive_half() {
   std::array<double, kSign> numbers{};
   double squares = 0.0;
   for (size_t i = 0; i < numbers.size(); ++i) {
-    numbers[i] = dynamics::normal_quantile(0.5 + (static_cast<double>(i) + 0.5) / (2.0 * kSign));
+    numbers[i] = normal_quantile(0.5 + (static_cast<double>(i) + 0.5) / (2.0 * kSign));
     squares += numbers[i] * numbers[i];
   }
   const double scale = 1.0 / std::sqrt(squares / kSign);
@@ -38,7 +37,7 @@ void fill_normal(uint64_t seed, cv::Mat& image) {
   for (int row = 0; row < image.rows; ++row) {
     float* const numbers = image.ptr<float>(row);
     for (size_t i = 0; i < count;) {
-      uint64_t bits = scenes::derived_seed(seed, place++);
+      uint64_t bits = derived_seed(seed, place++);
       for (const size_t end = std::min(i + 64 / kBits, count); i < end; ++i, bits >>= kBits) {
         const uint32_t own = static_cast<uint32_t>(bits);
         numbers[i] = std::bit_cast<float>(half[own & (kSign - 1)] | (own & kSign) << (32 - kBits));

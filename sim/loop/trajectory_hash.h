@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "dynamics/rigid_body.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::sim {
 
@@ -15,8 +15,7 @@ class TrajectoryHash {
   std::string hex() const;
 
  private:
-  void add(const double* values, int count);
-  uint64_t hash_ = 0xcbf29ce484222325u;
+  Fnv1a hash_;
 };
 
 }  // namespace hedgehop::sim

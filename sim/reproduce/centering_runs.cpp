@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "avoidance/corridor_centering/centering_law.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -56,9 +56,8 @@ Columns centering_exact() {
 Columns centering_noisy() {
   // The mean distance of a normal distribution from its middle is 0.798 of its spread.
   constexpr double kMean = 0.146, kLargest = 0.54, kSpread = kMean / 0.7979;
-  std::mt19937_64 random(1);
-  std::normal_distribution<double> normal(0.0, kSpread);
-  return run([&] { return std::clamp(normal(random), -kLargest, kLargest); });
+  RandomStream random(1);
+  return run([&] { return std::clamp(kSpread * random.normal(), -kLargest, kLargest); });
 }
 
 }  // namespace hedgehop::sim

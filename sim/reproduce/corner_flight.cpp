@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <numbers>
-#include <random>
 #include <utility>
 
 #include "scenes/worlds/highrise.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -33,20 +33,19 @@ CornerFlight lateral(std::vector<Eigen::Vector3d> corners_W, const Eigen::Vector
 /// White noise of a flight.
 class Noise {
  public:
-  explicit Noise(uint64_t seed) : random_(seed) {}
+  explicit Noise(uint64_t seed) : stream_(seed) {}
   Eigen::Vector2d pixel(double sigma_px) {
-    const double right = normal_(random_);
-    return sigma_px * Eigen::Vector2d(right, normal_(random_));
+    const double right = stream_.normal();
+    return sigma_px * Eigen::Vector2d(right, stream_.normal());
   }
   Eigen::Vector3d vector() {
     Eigen::Vector3d v;
-    for (int i = 0; i < 3; ++i) v[i] = normal_(random_);
+    for (int i = 0; i < 3; ++i) v[i] = stream_.normal();
     return v;
   }
 
  private:
-  std::mt19937_64 random_;
-  std::normal_distribution<double> normal_;
+  RandomStream stream_;
 };
 
 /// Which landmark each corner has: it stays with one until that is gone, or another one in its stead is confirmed.

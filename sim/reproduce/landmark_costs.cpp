@@ -1,8 +1,8 @@
 #include "sim/reproduce/landmark_costs.h"
 
 #include <algorithm>
-#include <random>
 
+#include "sim/libm/random.h"
 #include "sim/reproduce/corner_flight.h"
 
 namespace hedgehop::sim {
@@ -12,12 +12,11 @@ constexpr double kImageMs = 100.0;
 
 CornerFlight flight_past(int corners) {
   CornerFlight flight = highrise_lateral_flight();
-  std::mt19937_64 random(static_cast<uint64_t>(corners));
-  std::uniform_real_distribution<double> across_m(-10.0, 10.0), height_m(0.0, 15.0);
+  Random random(static_cast<uint64_t>(corners));
   flight.corners_W.clear();
   for (int i = 0; i < corners; ++i) {
-    const double north_m = across_m(random), east_m = across_m(random);
-    flight.corners_W.emplace_back(north_m, east_m, -height_m(random));
+    const double north_m = uniform(random, -10.0, 10.0), east_m = uniform(random, -10.0, 10.0);
+    flight.corners_W.emplace_back(north_m, east_m, -uniform(random, 0.0, 15.0));
   }
   flight.duration_s = 10.0;
   return flight;

@@ -11,7 +11,7 @@
 #include <variant>
 
 #include "sim/config/tree.h"
-#include "sim/scenario/random_stream.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -10,7 +10,7 @@
 #include "avoidance/module.h"
 #include "sim/config/tree.h"
 #include "sim/fields/bounds.h"
-#include "sim/scenario/random_stream.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sim/scenario/random_stream.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::sim {
 

@@ -4,27 +4,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <utility>
 
 #include "sim/config/include.h"
 #include "sim/config/reader.h"
 #include "sim/config/schema.h"
 #include "sim/config/writer.h"
+#include "sim/libm/random.h"
 #include "sim/scenario/flight_parts.h"
 #include "sim/scenario/validate.h"
 
 namespace hedgehop::sim {
 
 Eigen::Vector3d StartConfig::draw_p_WB(uint64_t seed) const {
-  std::mt19937_64 generator(seed);
-  const auto draw = [&] {  // uniform in [-1, 1), of 53 random bits
-    return std::ldexp(static_cast<double>(generator() >> 11), -52) - 1.0;
-  };
+  Random random(seed);
   Eigen::Vector2d in_disc;
   do {
-    in_disc.x() = draw();
-    in_disc.y() = draw();
+    in_disc.x() = uniform(random, -1.0, 1.0);
+    in_disc.y() = uniform(random, -1.0, 1.0);
   } while (in_disc.squaredNorm() > 1.0);
   return p_WB() + spread_m * Eigen::Vector3d(in_disc.x(), in_disc.y(), 0.0);
 }

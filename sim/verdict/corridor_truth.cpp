@@ -7,7 +7,7 @@
 #include <numeric>
 #include <variant>
 
-#include "sim/scenario/random_stream.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::sim {
 namespace {

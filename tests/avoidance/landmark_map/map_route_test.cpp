@@ -6,14 +6,12 @@
 #include <numbers>
 #include <random>
 
+#include "sim/libm/random.h"
+
 namespace hedgehop::avoidance::landmark_map {
 namespace {
 
 using Eigen::Vector2d;
-
-double uniform(std::mt19937_64& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-}
 
 double length(const Vector2d& from, const std::vector<Vector2d>& way) {
   double sum = 0.0;

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "sim/libm/random.h"
+
 namespace hedgehop::avoidance::local_map {
 namespace {
 
@@ -75,12 +77,11 @@ TEST(LevelSlice, ExactDistanceIsThatOfTheNearestPointOfAnOccupiedCell) {
   vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = kSide, .layers = 1});
   map.reset(Eigen::Vector3d::Zero());
   std::mt19937_64 random(5);
-  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   ClosedCells closed(kCellM);
   for (int row = 0; row < kSide; ++row) {
     for (int col = 0; col < kSide; ++col) {
       const Eigen::Vector3d p_W = map.center(map.first() + vision::mapping::OccupancyMap::Index(row, col, 0));
-      if (uniform() < 0.05) closed.remember(p_W, 0.0);
+      if (chance(random, 0.05)) closed.remember(p_W, 0.0);
     }
   }
   LevelSlice slice;
@@ -101,7 +102,8 @@ TEST(LevelSlice, ExactDistanceIsThatOfTheNearestPointOfAnOccupiedCell) {
   };
   int inside = 0, near = 0, far = 0;
   for (int i = 0; i < 1000; ++i) {
-    const Eigen::Vector2d p_W = slice.center(0, 0) + (kSide - 1) * kCellM * Eigen::Vector2d(uniform(), uniform());
+    const Eigen::Vector2d p_W =
+        slice.center(0, 0) + (kSide - 1) * kCellM * Eigen::Vector2d(uniform(random), uniform(random));
     const Eigen::Vector2i cell = slice.cell(p_W);
     const double expected_m = nearest_m(p_W), actual_m = slice.exactly_to_occupied_m(p_W, kWithinM);
     if (slice.at(cell.x(), cell.y()) == State::occupied) {

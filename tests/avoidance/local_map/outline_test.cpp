@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "sim/libm/random.h"
 #include "tests/avoidance/local_map/point_world.h"
 
 namespace hedgehop::avoidance::local_map {
@@ -25,9 +26,7 @@ bool holds(const std::vector<Outline::Disc>& discs, const Eigen::Vector2d& p) {
 
 TEST(Outline, HoldsEveryPointOfRandomBoxes) {
   std::mt19937_64 random(1);
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-  };
+  const auto uniform = [&](double low, double high) { return hedgehop::uniform(random, low, high); };
   for (int i = 0; i < 200; ++i) {
     VehicleLimits limits{8.0, 3.0, 0.0, {}};
     for (int box = 0; box < 3; ++box) {

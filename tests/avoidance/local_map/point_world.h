@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "avoidance/local_map/local_map.h"
+#include "sim/libm/random.h"
 #include "tests/avoidance/flow_balance/flow_rig.h"
 
 namespace hedgehop::avoidance::local_map {
@@ -174,9 +175,7 @@ class PointWorld {
 /// A world of pillars and walls between start and goal, both kept clear.
 inline PointWorld random_world(uint64_t seed) {
   std::mt19937_64 random(seed);
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-  };
+  const auto uniform = [&](double low, double high) { return hedgehop::uniform(random, low, high); };
   PointWorld world;
   world.goal_W = {uniform(12.0, 28.0), uniform(-6.0, 6.0)};
   world.acceleration_mps2 = uniform(1.5, 4.0);
@@ -202,9 +201,7 @@ inline PointWorld random_world(uint64_t seed) {
 /// Two or three pillars that cross the route, timed to meet the vehicle.
 inline PointWorld traffic(uint64_t seed) {
   std::mt19937_64 random(seed);
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-  };
+  const auto uniform = [&](double low, double high) { return hedgehop::uniform(random, low, high); };
   PointWorld world;
   world.width_px = 640;
   world.height_px = 288;

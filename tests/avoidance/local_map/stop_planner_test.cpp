@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "sim/libm/random.h"
+
 namespace hedgehop::avoidance::local_map {
 namespace {
 
@@ -78,9 +80,7 @@ TEST(StopPlanner, FliesSlowlyWhereTheCameraDoesNotLook) {
 TEST(StopPlanner, NearnessToTheOneNeverExcusesNearnessToTheOther) {
   const StopPlanner planner(kResponse, kSpeedMps);
   std::mt19937_64 random(1);
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-  };
+  const auto uniform = [&](double low, double high) { return hedgehop::uniform(random, low, high); };
   for (int i = 0; i < 300; ++i) {
     const bool occupied_first = i % 2 == 0;
     const double near_m = uniform(-1.0, -0.1), far_m = uniform(0.0, 1.5);  // too near by up to 1 m already; not yet

@@ -10,16 +10,10 @@
 #include "dynamics/air/wind.h"
 #include "dynamics/avionics.h"
 #include "dynamics/vehicle.h"
+#include "sim/libm/random.h"
 
 /// A vehicle flown by its avionics, or by its autopilot alone on perfect navigation, for tests.
 namespace hedgehop::dynamics {
-
-/// An independent seed per stream name: FNV-1a.
-inline uint64_t seed_of(uint64_t seed, std::string_view name) {
-  uint64_t hash = 0xcbf29ce484222325u ^ (seed * 0x9e3779b97f4a7c15u);
-  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return hash;
-}
 
 struct Loop {
   AvionicsConfig avionics;
@@ -55,12 +49,12 @@ struct Sample {
 inline std::vector<Sample> fly(const Loop& loop, double duration_s,
                                const std::function<control::Setpoint(double t_s)>& setpoint) {
   const double dt = 1.0 / loop.physics_rate_hz;
-  const auto seed = [&](std::string_view name) { return seed_of(loop.seed, name); };
+  const auto seed = [&](std::string_view name) { return stream_seed(loop.seed, name); };
   Vehicle vehicle(loop.vehicle);
   Avionics avionics(loop.avionics, loop.designed_for.value_or(loop.vehicle), dt, seed);
   control::Autopilot autopilot(loop.avionics.autopilot, loop.designed_for.value_or(loop.vehicle));
   air::Wind weather(loop.weather.value_or(air::WindConfig{}), seed("wind"));
-  NormalStream flow(seed("flow"));
+  RandomStream flow(seed("flow"));
 
   const auto wind_W = [&](double t_s) {
     const RigidBodyState& b = vehicle.body();
@@ -91,7 +85,7 @@ inline std::vector<Sample> fly(const Loop& loop, double duration_s,
     VelocitySensor flow_velocity;
     if (loop.flow_sigma > 0.0 && tick % per_flow == 0) {
       flow_velocity = [&](const control::NavigationEstimate&) {
-        const double forward = flow.draw(), right = flow.draw();
+        const double forward = flow.normal(), right = flow.normal();
         return VelocityReading{vehicle.body().v_WB_B.head<2>() + loop.flow_sigma * Eigen::Vector2d(forward, right),
                                loop.flow_sigma};
       };

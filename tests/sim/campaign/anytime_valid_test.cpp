@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "dynamics/normal_stream.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -113,7 +113,7 @@ TEST(RateEvidence, ErrsAsOftenAsTheExactRecursionSaysAndWilsonWatchedErrsMore) {
   EXPECT_NEAR(probability_of_ever(kLimit, kMost, [&](Count c) { return ln_evidence_above(c, kLimit) >= decided; }),
               0.0214, kToleranceOfReference);
   // The end of Wilson's interval, wrongly looked at after each trial: nearly four times its nominal error.
-  const double z = dynamics::normal_quantile(0.975);
+  const double z = normal_quantile(0.975);
   const auto wilson_high = [z](Count c) {
     const auto n = static_cast<double>(c.trials);
     const double p = c.rate();

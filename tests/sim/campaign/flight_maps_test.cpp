@@ -5,7 +5,7 @@
 #include <random>
 
 #include "scenes/generators.h"
-#include "sim/scenario/random_stream.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "dynamics/normal_stream.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -28,7 +28,7 @@ TEST(WilsonInterval, MatchesPublishedTable) {
 
 /// The score interval's ends are where the test of a rate stands at its critical value.
 TEST(WilsonInterval, EndsSolveTheScoreEquation) {
-  const double z = dynamics::normal_quantile(0.95);
+  const double z = normal_quantile(0.95);
   for (int64_t n : {1, 4, 30, 1000}) {
     for (int64_t k = 1; k < n; k += 1 + n / 7) {
       const Interval interval = wilson_interval({k, n}, 0.90);

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/libm/random.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -125,13 +127,13 @@ TEST(Libm, SineAndCosineTogetherAreThoseAlone) {
   }
 }
 
-/// FNV-1a over the bits of all results.
+/// Hash of the bits of all results.
 uint64_t digest() {
-  uint64_t hash = 0xcbf29ce484222325;
+  Fnv1a hash;
   const auto add = [&hash](auto result) {
     if (std::isnan(result)) result = std::numeric_limits<decltype(result)>::quiet_NaN();  // one NaN of many
     for (const char byte : std::bit_cast<std::array<char, sizeof result>>(result)) {
-      hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+      hash.add(static_cast<unsigned char>(byte));
     }
   };
   for (const Function& f : kFunctions) {
@@ -142,7 +144,7 @@ uint64_t digest() {
   for (const Function2& f : kFunctions2) {
     for (std::size_t i = 1; i < x.size(); ++i) add(f.value(x[i - 1], x[i]));
   }
-  return hash;
+  return hash.value();
 }
 
 // Kept, so that every machine is held to the same bits; another version of SLEEF may change them.

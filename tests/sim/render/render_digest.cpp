@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scenes/generators.h"
+#include "sim/libm/random.h"
 #include "sim/scenario/scenario.h"
 #include "tests/sim/render/small_world.h"
 
@@ -21,15 +22,15 @@ class Digest {
  public:
   void add(const cv::Mat& image) {
     for (size_t i = 0; i < image.total() * image.elemSize(); ++i) {
-      value_ = (value_ ^ image.data[i]) * 0x100000001b3u;
+      hash_.add(image.data[i]);
     }
   }
   void print(const std::string& what) const {
-    std::printf("%016lx %s\n", static_cast<unsigned long>(value_), what.c_str());
+    std::printf("%016lx %s\n", static_cast<unsigned long>(hash_.value()), what.c_str());
   }
 
  private:
-  uint64_t value_ = 0xcbf29ce484222325u;  // FNV-1a
+  Fnv1a hash_;
 };
 
 void draw_small_city(RendererKind kind, Shadows shadows, Digest& digest) {

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "scenes/scene.h"
+#include "sim/libm/random.h"
 #include "sim/render/renderer.h"
 
 namespace hedgehop::sim {
@@ -45,9 +46,5 @@ cv::Mat plain_image(int size_px, const cv::Scalar& rgb);
 
 /// Pose within +-half_m of the origin and up to height_m above ground, any heading, pitch and roll within +-tilt_rad.
 Eigen::Isometry3d random_pose(std::mt19937_64& random, double half_m, double height_m, double tilt_rad);
-
-inline double uniform(std::mt19937_64& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-}
 
 }  // namespace hedgehop::sim

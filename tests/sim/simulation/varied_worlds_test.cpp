@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "scenes/solid.h"
+#include "sim/libm/random.h"
 #include "sim/scenario/flight_parts.h"
-#include "sim/scenario/random_stream.h"
 #include "sim/verdict/corridor_truth.h"
 
 namespace hedgehop::sim {

@@ -9,12 +9,12 @@
 #include <numeric>
 #include <random>
 
+#include "sim/libm/random.h"
+
 namespace hedgehop::sim {
 namespace {
 
 using Eigen::Index;
-
-double uniform(std::mt19937_64& random) { return std::ldexp(static_cast<double>(random() >> 11), -53); }
 
 /// The least sum over all permutations of the longer side's indices.
 double least_of_permutations(const Eigen::MatrixXd& cost) {

@@ -7,12 +7,12 @@
 #include <functional>
 #include <random>
 
+#include "sim/libm/random.h"
+
 namespace hedgehop::sim {
 namespace {
 
 using Path = std::vector<TimedPoint>;
-
-double uniform(std::mt19937_64& generator) { return std::ldexp(static_cast<double>(generator() >> 11), -53); }
 
 Path random_path(std::mt19937_64& generator, size_t points) {
   Path path;

@@ -5,12 +5,10 @@
 
 #include "vision/camera/camera.h"
 
+#include "sim/libm/random.h"
+
 /// Cameras of every kind for property tests, as different as cameras are.
 namespace hedgehop::vision {
-
-inline double uniform(std::mt19937_64& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-}
 
 inline camera::Camera random_distorted_pinhole(std::mt19937_64& random) {
   camera::PinholeLens lens{uniform(random, 250, 500), uniform(random, 250, 500), uniform(random, 150, 170),

@@ -1,16 +1,23 @@
-#include "dynamics/normal_stream.h"
+#include "sim/libm/random.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
 
-namespace hedgehop::dynamics {
+namespace hedgehop {
 namespace {
 
-constexpr double kTwoToMinus53 = 0x1p-53;
+/// A number in [0, 1) from all 64 random bits, as std::generate_canonical<double, 53> of libstdc++ returns it. Numbers
+/// that round to 1 become the largest double below 1.
+double canonical(Random& random) {
+  constexpr double kBelowOne = 1.0 - 0x1p-53;
+  const double u = static_cast<double>(random()) * 0x1p-64;
+  return u < 1.0 ? u : kBelowOne;
+}
 
 using Coefficients = std::array<double, 8>;
 
-/// Ratio of two polynomials, lowest power first.
+/// Returns the ratio of two polynomials, with coefficients from the lowest power on.
 double ratio(const Coefficients& above, const Coefficients& below, double x) {
   double numerator = 0.0, denominator = 0.0;
   for (size_t i = above.size(); i-- > 0;) {
@@ -22,13 +29,35 @@ double ratio(const Coefficients& above, const Coefficients& below, double x) {
 
 }  // namespace
 
-Eigen::Vector3d NormalStream::draw3() {
-  Eigen::Vector3d v;
-  for (int i = 0; i < 3; ++i) v[i] = draw();
-  return v;
+void Fnv1a::add(std::span<const double> values) {
+  for (const double value : values) {
+    for (const unsigned char byte : std::bit_cast<std::array<unsigned char, sizeof(double)>>(value)) add(byte);
+  }
 }
 
-double NormalStream::even() { return static_cast<double>(generator_() >> 11) * kTwoToMinus53; }
+uint64_t stream_seed(uint64_t run_seed, std::string_view stream_name) {
+  Fnv1a hash;
+  for (const char letter : stream_name) hash.add(static_cast<unsigned char>(letter));
+  return splitmix64(run_seed + kSplitMixIncrement * (hash.value() | 1u));
+}
+
+double NormalDistribution::operator()(Random& random) {
+  if (has_saved_) {
+    has_saved_ = false;
+    return saved_;
+  }
+  // A point drawn uniformly from the unit disc without its center.
+  double x, y, r2;
+  do {
+    x = 2.0 * canonical(random) - 1.0;
+    y = 2.0 * canonical(random) - 1.0;
+    r2 = x * x + y * y;
+  } while (r2 > 1.0 || r2 == 0.0);
+  const double scale = std::sqrt(-2.0 * std::log(r2) / r2);
+  saved_ = x * scale;
+  has_saved_ = true;
+  return y * scale;
+}
 
 double normal_quantile(double probability) {
   constexpr Coefficients kA{3.3871328727963666080e0, 1.3314166789178437745e2, 1.9715909503065514427e3,
@@ -71,4 +100,4 @@ double normal_quantile(double probability) {
   return q < 0.0 ? -z : z;
 }
 
-}  // namespace hedgehop::dynamics
+}  // namespace hedgehop
