@@ -11,11 +11,7 @@
 namespace hedgehop::avoidance::landmark_map {
 
 /// Maps the corners that one camera sees, flies around what they belong to, and stops before walls without corners.
-<<<<<<< HEAD
 /// Source: [Shah2009] ch. 4. `law: published` is the thesis alone: its filter (vision/landmarks/published_filter.h) and
-=======
-/// Source: [Shah2009] ch. 4. `law: published` is the thesis alone: its filter (vision/landmarks/published_filter.h) and
->>>>>>> b5c69cb (Rename the choices of law to published and modified)
 /// its flights, a circle (orbit.h) or straight ahead; it leaves avoiding and stopping to others, ch. 7.
 struct LandmarkMapModuleConfig {
   static constexpr std::string_view kName = "landmark_map";

@@ -12,13 +12,8 @@ namespace {
 constexpr double kGate = 2.25;
 
 vision::landmarks::LandmarkMapConfig with_law(vision::landmarks::LandmarkMapConfig map, Law law) {
-<<<<<<< HEAD
   map.algorithm =
       law == Law::published ? vision::landmarks::MapAlgorithm::published : vision::landmarks::MapAlgorithm::modified;
-=======
-  using vision::landmarks::FilterLaw;
-  map.law = law == Law::published ? FilterLaw::published : FilterLaw::modified;
->>>>>>> b5c69cb (Rename the choices of law to published and modified)
   map.gate = kGate;
   return map;
 }

@@ -127,11 +127,7 @@ class SectionGridModule final : public Module {
       };
     }
     // As printed, a pixel without depth is no threat: mostly sky and what the two images do not share.
-<<<<<<< HEAD
     const auto unknown = is_modified() ? config_.unknown : vision::sections::UnknownDepth::free;
-=======
-    const auto unknown = is_modified() ? config_.unknown : vision::sections::Unknown::free;
->>>>>>> b5c69cb (Rename the choices of law to published and modified)
     const vision::sections::SectionChoice choice = search_->choose(depth_m_, threshold_m, kMostShare, unknown, open);
     for (size_t i = 0; i < search_->sections().size(); ++i) {
       rejected_ += search_->threats()[i] > kMostShare * search_->sections()[i].area();

@@ -36,7 +36,6 @@ constexpr std::array<Renamed, 8> kRenamed = {{{"drawing", "gl", "renderer"},
                                               {"avoidance", "passed", "passed_radius"},
                                               {"avoidance.map", "young_misses", "unconfirmed_misses"}}};
 
-<<<<<<< HEAD:sim/config/reader.cpp
 struct Removed {
   std::string_view path, key, neighbor, advice;  // `neighbor`: a key that is still in the map at `path`
 };
@@ -44,7 +43,7 @@ struct Removed {
 constexpr std::array<Removed, 1> kRemoved = {
     {{"", "chance", "physics_rate",
       "it was removed with `hedgehop estimate`; to bound a rate, use `hedgehop batch --until`"}}};
-=======
+
 struct RenamedChoice {
   std::string_view path, choice, now;
 };
@@ -53,16 +52,15 @@ struct RenamedChoice {
 constexpr std::array<RenamedChoice, 2> kRenamedChoices = {
     {{"avoidance.law", "printed", "published"}, {"avoidance.law", "ours", "modified"}}};
 
-/// What to write instead of a choice that is not among those allowed.
+/// Returns the end of the message that refuses a choice: its new name, or the valid choices.
 std::string instead_of_choice(const std::string& path, std::string_view choice,
                               const std::vector<std::string_view>& allowed) {
   const auto found = std::ranges::find_if(kRenamedChoices, [&](const RenamedChoice& renamed) {
     return renamed.path == path && renamed.choice == choice && std::ranges::find(allowed, renamed.now) != allowed.end();
   });
   return found == kRenamedChoices.end() ? suggestion(choice, allowed)
-                                        : fmt::format("; since 0.3 it is '{}'", found->now);
+                                        : fmt::format("; its name is now '{}'", found->now);
 }
->>>>>>> b5c69cb (Rename the choices of law to published and modified):sim/scenario/reader.cpp
 
 /// What to write instead of a key that is not among those allowed.
 std::string instead(const std::string& path, std::string_view key, const std::vector<std::string_view>& allowed) {

@@ -150,15 +150,9 @@ bool all_hold(const std::vector<RowOutcome>& rows) {
 
 std::string rows_text(const Paper& paper, const std::vector<RowOutcome>& rows) {
   std::string text = fmt::format(
-<<<<<<< HEAD
       "## {} [{}]\n\n| claim | paper | required | published | modified: ideal | modified: day | modified: dull | "
       "flights: "
       "required, flown, faulted, with figure | 95 % interval | holds | build | command "
-=======
-      "## {} [{}]\n\n| claim | paper | asked | as published | modified: ideal | modified: day | modified: dull | "
-      "flights: asked, "
-      "flown, faulted, with figure | 95 % interval | holds | build | command "
->>>>>>> b5c69cb (Rename the choices of law to published and modified)
       "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
       paper.title, paper.source);
   for (const RowOutcome& row : rows) {
@@ -170,13 +164,8 @@ std::string rows_text(const Paper& paper, const std::vector<RowOutcome>& rows) {
                     row.interval_words(), row.holds == false ? "**no**" : row.holds_words(),
                     row.builds.empty() ? "-" : fmt::format("{}", fmt::join(row.builds, ", ")), row.command);
   }
-<<<<<<< HEAD
   if (!paper.moved_on.empty()) text += fmt::format("\nChange of judging seeds: {}\n", paper.moved_on);
   if (!paper.deviations.empty()) text += "\nDeviations of the published law from the paper:\n\n";
-=======
-  if (!paper.moved_on.empty()) text += fmt::format("\nSeeds moved on: {}\n", paper.moved_on);
-  if (!paper.deviations.empty()) text += "\n\"As published\" departs from the paper:\n\n";
->>>>>>> b5c69cb (Rename the choices of law to published and modified)
   for (const std::string& deviation : paper.deviations) text += fmt::format("- {}\n", deviation);
   return text;
 }

@@ -17,20 +17,11 @@ constexpr std::string_view kOption = " --write docs/results.md\n```\n\n";
 constexpr std::string_view kHeading = "\n## ";
 
 constexpr const char* kHowToRead =
-<<<<<<< HEAD
     R"(Each row is a claim: the paper's figure, the requirement of Hedgehop's developers (no paper states it), the published law, and the
 modified law on the same seeds. The modified law flies with the sensors `day`; `ideal` and `dull` are for comparison only. A row holds
 if every required flight was flown without a fault and has the figure, unless the row gives another meaning to a missing figure. A row
 that allows no contact also requires its flights to finish. No parameter was chosen on the judging seeds (`tuned_on` in
 `configs/papers/`). Intervals are Wilson's at 95 % [Wilson1927] p. 212, of shares and counts only.
-=======
-    R"(Each row is a claim: the paper's figure, the threshold that Hedgehop's developers set ("asked": not the paper's), the published law ("as
-published") and the modified law on the same seeds. The modified law flies the sensors `day`; `ideal` and `dull` stand beside it and decide
-nothing. A row holds only when every flight that was asked for was flown without a fault and has the figure, unless
-the row says what a missing one means; a row that allows no contact needs its flights to finish, too. Judging seeds are none
-that parameters were chosen on (`tuned_on` in `configs/papers/`). Intervals are Wilson's at 95 % [Wilson1927] p. 212, of shares and
-counts alone.
->>>>>>> b5c69cb (Rename the choices of law to published and modified)
 
 Other pages have the figures of vehicles, cameras, images and exports ([verification.md](verification.md)), speed
 ([performance.md](performance.md)), failures ([known-failures.md](known-failures.md)) and effects that are not modeled

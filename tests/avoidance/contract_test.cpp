@@ -86,11 +86,7 @@ std::vector<Row> rows() {
   zig_zag.law = Law::published;
   all.push_back({"zig_zag_printed", zig_zag});
   landmark_map::LandmarkMapModuleConfig thesis;
-<<<<<<< HEAD
   thesis.law = Law::published;
-=======
-  thesis.law = Law::published;
->>>>>>> b5c69cb (Rename the choices of law to published and modified)
   all.push_back({.name = "landmark_map_printed", .config = thesis, .holds_heading = false});
   return all;
 }

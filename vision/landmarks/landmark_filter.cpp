@@ -69,13 +69,8 @@ LandmarkMap::LandmarkMap(const LandmarkMapConfig& config, const camera::PinholeC
 std::vector<int64_t> LandmarkMap::update(std::span<const Eigen::Vector2d> corners_px, const CameraPose& pose,
                                          double dt_s) {
   std::vector<Eigen::Vector2d> bearings;
-<<<<<<< HEAD
   for (const Eigen::Vector2d& corner : corners_px) bearings.push_back(camera_.ray_at_unit_depth(corner).head<2>());
   if (config_.algorithm == MapAlgorithm::modified) return update_as_modified(bearings, pose, dt_s);
-=======
-  for (const Eigen::Vector2d& corner : corners_px) bearings.push_back(camera_.ray(corner).head<2>());
-  if (config_.law == FilterLaw::modified) return update_as_modified(bearings, pose, dt_s);
->>>>>>> b5c69cb (Rename the choices of law to published and modified)
   return update_as_published({bearing_sigma_, config_.drift_m_rt_s, config_.gate, config_.misses}, bearings, pose, dt_s,
                              landmarks_, next_id_);
 }

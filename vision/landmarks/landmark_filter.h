@@ -10,13 +10,8 @@
 
 namespace hedgehop::vision::landmarks {
 
-<<<<<<< HEAD
 /// Whose algorithm keeps the map.
 enum class MapAlgorithm {
-=======
-/// The algorithm that maintains the map.
-enum class FilterLaw {
->>>>>>> b5c69cb (Rename the choices of law to published and modified)
   published,  ///< [Shah2009] ch. 4 alone: update_as_published()
   modified,   ///< with the camera's common error, starts at any depth, and confirmation
 };
@@ -24,13 +19,8 @@ enum class FilterLaw {
 /// How a map of landmarks is kept. The uncertainties are what the filter assumes, not what the sensors do. Members
 /// without a key are the caller's choice, not the user's.
 struct LandmarkMapConfig {
-<<<<<<< HEAD
   MapAlgorithm algorithm = MapAlgorithm::modified;
   LandmarkStart start;  ///< ours; the published law begins on the ground
-=======
-  FilterLaw law = FilterLaw::modified;
-  LandmarkStart start;  ///< modified law only; the published law begins on the ground
->>>>>>> b5c69cb (Rename the choices of law to published and modified)
   double gate = 4.0;    ///< > 0: largest Z value of a match; n standard deviations have n^2 / 4
   /// N of [Shah2009] ch. 4, >= 1: a landmark is deleted after so many consecutive misses. Not printed; 3 s of 10 Hz.
   int misses = 30;
@@ -66,11 +56,7 @@ void describe(Visitor& v, LandmarkMapConfig& c) {
 }
 
 /// A database of landmarks that images correct, add to and delete from. Source: [Shah2009] ch. 4, sec. "3D Modeling
-<<<<<<< HEAD
 /// Algorithm"; as printed by `MapAlgorithm::published`. Differs, by `MapAlgorithm::modified`: the camera's common error
-=======
-/// Algorithm"; `FilterLaw::published` is this algorithm. Differs, with `FilterLaw::modified`: the camera's common error
->>>>>>> b5c69cb (Rename the choices of law to published and modified)
 /// is estimated before landmarks are matched, confirmed landmarks are matched first, only landmarks in view can be
 /// missed, and well-known ones stay when something hides them.
 class LandmarkMap {
@@ -87,11 +73,7 @@ class LandmarkMap {
   const std::vector<MappedLandmark>& landmarks() const { return landmarks_; }
   /// Whether a landmark is part of the map: under the published law every one.
   bool confirmed(const MappedLandmark& landmark) const {
-<<<<<<< HEAD
     return config_.algorithm == MapAlgorithm::published || landmark.matches >= config_.confirm;
-=======
-    return config_.law == FilterLaw::published || landmark.matches >= config_.confirm;
->>>>>>> b5c69cb (Rename the choices of law to published and modified)
   }
 
  private:

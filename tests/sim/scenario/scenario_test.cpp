@@ -61,7 +61,7 @@ TEST(Renamed, KeysOfAnEarlierVersionAreRefusedWithTheirNewName) {
     EXPECT_THAT(faults_of([&] {
                   load_scenario(kConfigs / "garratt2009_city_0.yaml", std::vector<std::string>{"avoidance.law=" + law});
                 }),
-                ElementsAre(testing::EndsWith("unknown choice '" + law + "' for 'avoidance.law'; since 0.3 it is '" +
+                ElementsAre(testing::EndsWith("unknown choice '" + law + "' for 'avoidance.law'; its name is now '" +
                                               now + "'")));
   }
   // No new name that the module does not have.

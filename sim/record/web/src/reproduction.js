@@ -50,11 +50,7 @@ function addRows(host, rows) {
     for (const [text, className] of cells) row.append(make(tag, className, text));
     return row;
   };
-<<<<<<< HEAD
   line(['claim', 'paper', 'required', 'published', 'modified: ideal', 'modified: day', 'modified: dull', 'flights: required, flown, faulted, with figure',
-=======
-  line(['claim', 'paper', 'asked', 'as published', 'modified: ideal', 'modified: day', 'modified: dull', 'flights: asked, flown, faulted, with figure',
->>>>>>> b5c69cb (Rename the choices of law to published and modified)
     '95 % interval', 'holds', 'build'].map((text) => [text, '']), 'th');
   for (const r of rows) {
     const row = line([[r.what + (r.unit ? `, ${r.unit}` : ''), ''], [r.paper || '–', ''],
@@ -84,24 +80,15 @@ function main() {
   head.append(make('p', 'soft', `Hedgehop ${version}, build ${build}, ${packages}: `
     + `${judged.filter(({holds}) => holds).length} of ${judged.length} figures that are required hold.`
     + (quick ? ' Quick run: few seeds were flown.' : '')));
-<<<<<<< HEAD
   head.append(make('p', 'soft', 'Hedgehop\'s developers set the requirements; no paper states them. '
     + '"Published" is red if the paper\'s own law does not meet the requirement.'));
-=======
-  head.append(make('p', 'soft', '"Asked" is the threshold that Hedgehop\'s developers set, not the paper\'s. '
-    + '"As published" is red if the published law does not meet it.'));
->>>>>>> b5c69cb (Rename the choices of law to published and modified)
   for (const paper of papers) {
     const section = document.getElementById('papers').appendChild(make('section', 'paper'));
     const title = section.appendChild(make('div', 'charts-head'));
     title.append(make('h2', '', paper.title), make('span', 'soft', paper.source));
     if (paper.moved_on) section.append(make('p', 'soft', `Change of judging seeds: ${paper.moved_on}`));
     if (paper.rows.length) addRows(section.appendChild(make('div', 'card')), paper.rows);
-<<<<<<< HEAD
     for (const deviation of paper.deviations) section.append(make('p', 'soft', `Deviation of the published law from the paper: ${deviation}`));
-=======
-    for (const deviation of paper.deviations) section.append(make('p', 'soft', `"As published" departs from the paper: ${deviation}`));
->>>>>>> b5c69cb (Rename the choices of law to published and modified)
     const charts = section.appendChild(make('div', 'charts'));
     charts.style.marginTop = '16px';
     for (const chart of paper.charts) addChart(charts, chart);
