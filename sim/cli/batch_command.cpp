@@ -20,14 +20,22 @@ std::filesystem::path folder_of(const BatchOptions& options) {
   return "out" / name;
 }
 
-BatchOrders orders_of(const BatchOptions& options, const std::filesystem::path& out) {
+struct PlannedBatch {
+  BatchOrders batch;
+  std::optional<Registration> plan;
+};
+
+PlannedBatch read_orders(const BatchOptions& options, const std::filesystem::path& out) {
   if (options.inputs.empty() && options.plan.empty() && !options.failed_only) {
     throw InputError("batch: name scenarios, campaigns or folders (or --plan, or --failed-only with --out)");
   }
   const std::vector<uint64_t> seeds = options.seeds.empty() ? std::vector<uint64_t>{} : parse_seeds(options.seeds);
-  BatchOrders batch = !options.plan.empty()    ? read_plan(options.plan, seeds, options.overrides)
+  std::optional<Registration> plan;
+  if (!options.plan.empty()) plan = read_registration(options.plan);
+  BatchOrders batch = plan                     ? orders_of(*plan, seeds, options.overrides)
                       : options.inputs.empty() ? reread_batch(out / "batch.json")
                                                : read_batch(options.inputs, seeds, options.overrides);
+  if (!plan) plan = plan_of(batch);
   if (options.least_success) batch.checks.push_back(SuccessRateCheck{*options.least_success, options.confidence});
   if (!options.no_worse_than.empty()) {
     const std::filesystem::path than = options.no_worse_than;
@@ -41,12 +49,13 @@ BatchOrders orders_of(const BatchOptions& options, const std::filesystem::path& 
   const std::vector<GroupSummary> planned = summarize(gather(batch.orders, {}, /*other_builds=*/false));
   judge(batch.checks, planned);
   require_decidable(batch.checks, planned);
-  return batch;
+  return {.batch = std::move(batch), .plan = std::move(plan)};
 }
 
-std::optional<StoppingRule> rule_of(const BatchOptions& options, const BatchOrders& batch) {
+std::optional<StoppingRule> rule_of(const BatchOptions& options, const PlannedBatch& planned_batch) {
+  const auto& [batch, plan] = planned_batch;
   const bool asked = !options.until.empty() || options.until_width;
-  const bool planned = batch.plan && batch.plan->config.rule;
+  const bool planned = plan && plan->config.rule;
   if (!asked && !planned) return {};
   if (!batch.checks.empty() || batch.leaderboard) {
     throw InputError(
@@ -54,7 +63,7 @@ std::optional<StoppingRule> rule_of(const BatchOptions& options, const BatchOrde
         "early would falsify them");
   }
   if (!asked) {
-    return StoppingRule{parse_rate_claim(batch.plan->config.rule->until), batch.plan->config.rule->confidence};
+    return StoppingRule{parse_rate_claim(plan->config.rule->until), plan->config.rule->confidence};
   }
   if (!options.until.empty()) return StoppingRule{parse_rate_claim(options.until), options.confidence};
   return StoppingRule{width_claim(*options.until_width, options.of), options.confidence};
@@ -71,9 +80,10 @@ std::filesystem::path own_program() {
 
 int batch(const BatchOptions& options) {
   const std::filesystem::path out = folder_of(options);
-  BatchRun run{.batch = orders_of(options, out), .junit = options.junit, .json = options.json};
-  run.rule = rule_of(options, run.batch);
-  run.conduct = conduct_of(run.batch, run.rule, options.limit_s);
+  PlannedBatch planned = read_orders(options, out);
+  BatchRun run{.rule = rule_of(options, planned), .junit = options.junit, .json = options.json};
+  run.conduct = conduct_of(planned.batch, planned.plan, run.rule, options.limit_s);
+  run.batch = std::move(planned.batch);
   run.again = options.inputs.empty() && options.plan.empty();
   run.reuse = options.resume ? Reuse::all : options.failed_only ? Reuse::passed : Reuse::none;
   run.fly = {.program = options.program.empty() ? own_program() : options.program,

@@ -6,15 +6,15 @@
 #include <stdexcept>
 #include <thread>
 
-#include "sim/campaign/batch_record.h"
-#include "sim/campaign/fly_orders.h"
-#include "sim/campaign/table.h"
+#include "sim/batch/fly_orders.h"
+#include "sim/batch/table.h"
 #include "sim/cli/campaign_page.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
 #include "sim/config/outline.h"
 #include "sim/config/writer.h"
+#include "sim/evidence/batch_record.h"
 #include "sim/falsify/shrink.h"
 #include "sim/flight/build.h"
 #include "sim/record/run_record.h"

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <exception>
 
-#include "sim/campaign/campaign_report.h"
 #include "sim/cli/notice.h"
+#include "sim/pages/campaign_report.h"
 
 namespace hedgehop::sim::cli {
 

@@ -22,7 +22,7 @@ int compare(const CompareOptions& options) {
                .junit = options.junit,
                .json = options.json};
   run.batch = orders_of(options);
-  run.conduct = conduct_of(run.batch, run.rule, options.limit_s);
+  run.conduct = conduct_of(run.batch, plan_of(run.batch), run.rule, options.limit_s);
   run.reuse = options.resume ? Reuse::all : Reuse::none;
   run.fly = {.program = options.program.empty() ? own_program() : options.program,
              .out = options.out.empty() ? std::filesystem::path("out") / "compare" : options.out,

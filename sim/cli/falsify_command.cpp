@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "sim/campaign/batch_record.h"
-#include "sim/campaign/campaign_report.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
+#include "sim/evidence/batch_record.h"
 #include "sim/falsify/counterexample.h"
+#include "sim/pages/campaign_report.h"
 #include "sim/record/whole_file.h"
+#include "sim/sweep/sqlite.h"
 
 namespace hedgehop::sim::cli {
 namespace {

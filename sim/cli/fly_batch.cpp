@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "sim/campaign/batch_record.h"
-#include "sim/campaign/junit.h"
-#include "sim/campaign/leaderboard.h"
-#include "sim/campaign/table.h"
+#include "sim/batch/junit.h"
+#include "sim/batch/table.h"
 #include "sim/cli/campaign_page.h"
 #include "sim/cli/every_write.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/notice.h"
 #include "sim/cli/progress.h"
+#include "sim/evidence/batch_record.h"
 #include "sim/flight/build.h"
+#include "sim/pages/leaderboard_page.h"
 #include "sim/record/whole_file.h"
 
 namespace hedgehop::sim::cli {

@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <optional>
 
-#include "sim/campaign/campaign_file.h"
-#include "sim/campaign/conduct.h"
-#include "sim/campaign/fly_orders.h"
-#include "sim/campaign/sequential_count.h"
+#include "sim/batch/campaign_file.h"
+#include "sim/batch/fly_orders.h"
+#include "sim/evidence/conduct.h"
+#include "sim/evidence/sequential_count.h"
 
 namespace hedgehop::sim::cli {
 

@@ -6,8 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "sim/campaign/batch_record.h"
-#include "sim/campaign/fly_orders.h"
+#include "sim/batch/fly_orders.h"
 #include "sim/cli/campaign_page.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/every_write.h"
@@ -15,8 +14,10 @@
 #include "sim/cli/notice.h"
 #include "sim/cli/progress.h"
 #include "sim/cli/shipped_files.h"
+#include "sim/evidence/batch_record.h"
+#include "sim/pages/reproduction_page.h"
 #include "sim/record/whole_file.h"
-#include "sim/reproduce/reproduction_page.h"
+
 #include "sim/reproduce/results_page.h"
 #include "sim/simulation/package_versions.h"
 

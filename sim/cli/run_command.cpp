@@ -9,14 +9,14 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sim/campaign/order.h"
+#include "sim/batch/order.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/load.h"
 #include "sim/cli/notice.h"
 #include "sim/cli/progress.h"
 #include "sim/flight/build.h"
+#include "sim/pages/report.h"
 #include "sim/record/film_watcher.h"
-#include "sim/record/report.h"
 #include "sim/record/result_files.h"
 #include "sim/record/whole_file.h"
 #include "sim/simulation/simulation.h"

@@ -4,14 +4,14 @@
 #include <optional>
 #include <stdexcept>
 
-#include "sim/campaign/campaign_report.h"
-#include "sim/campaign/film_strip.h"
-#include "sim/campaign/flight_list.h"
+#include "sim/batch/flight_list.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/load.h"
 #include "sim/cli/notice.h"
 #include "sim/config/input_error.h"
-#include "sim/record/report.h"
+#include "sim/pages/campaign_report.h"
+#include "sim/pages/film_strip.h"
+#include "sim/pages/report.h"
 #include "sim/scenario/calibration.h"
 #include "sim/scenario/list_topics.h"
 #include "sim/scenario/scenario.h"

@@ -5,18 +5,19 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "sim/campaign/batch_record.h"
-#include "sim/campaign/junit.h"
-#include "sim/campaign/optimize.h"
-#include "sim/campaign/slurm.h"
-#include "sim/campaign/sweep.h"
+#include "sim/batch/junit.h"
 #include "sim/cli/campaign_page.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/every_write.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
+#include "sim/evidence/batch_record.h"
 #include "sim/flight/build.h"
 #include "sim/record/whole_file.h"
+#include "sim/sweep/optimize.h"
+#include "sim/sweep/slurm.h"
+#include "sim/sweep/sqlite.h"
+#include "sim/sweep/sweep.h"
 
 namespace hedgehop::sim::cli {
 namespace {

@@ -19,8 +19,8 @@
 #include "sim/cli/notice.h"
 #include "sim/cli/shipped_files.h"
 #include "sim/config/input_error.h"
-#include "sim/record/report_page.h"
-#include "sim/record/trim_data.h"
+#include "sim/pages/report_page.h"
+#include "sim/pages/trim_data.h"
 #include "sim/record/whole_file.h"
 #include "sim/scenario/scenario.h"
 

@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include "sim/campaign/minimize.h"
 #include "sim/falsify/box_constraints.h"
 #include "sim/falsify/cma_es.h"
 #include "sim/libm/random.h"
+#include "sim/sweep/minimize.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "sim/campaign/optimize.h"
-#include "sim/campaign/sweep.h"
 #include "sim/falsify/falsify_file.h"
 #include "sim/falsify/weakest_check.h"
+#include "sim/sweep/optimize.h"
+#include "sim/sweep/sweep.h"
 
 namespace hedgehop::sim {
 

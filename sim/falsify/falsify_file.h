@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/campaign/sweep_file.h"
 #include "sim/scenario/scenario.h"
+#include "sim/sweep/sweep_file.h"
 
 /// Searches for flights that fail.
 namespace hedgehop::sim {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/campaign/record.h"
+#include "sim/batch/record.h"
 
 namespace hedgehop::sim {
 

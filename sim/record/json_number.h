@@ -1,13 +1,16 @@
 #pragma once
 
-#include <cmath>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
+/// Numbers for JSON, which has no notation for values that are not finite: null replaces them.
 namespace hedgehop::sim {
 
-/// Returns a number for JSON, which has no words for what is not finite: null in its place.
-inline nlohmann::ordered_json json_number(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-}
+nlohmann::ordered_json json_number(double value);
+
+/// Rounded to five significant figures.
+nlohmann::ordered_json brief(double value);
+
+/// Rounded to three decimals.
+nlohmann::ordered_json milli(double value);
 
 }  // namespace hedgehop::sim

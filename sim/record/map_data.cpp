@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sim/record/plan_data.h"
+#include "sim/record/json_number.h"
 
 namespace hedgehop::sim {
 namespace {

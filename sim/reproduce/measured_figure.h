@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "sim/campaign/statistics.h"
+#include "sim/batch/statistics.h"
 #include "sim/reproduce/outcome.h"
 
 namespace hedgehop::sim {

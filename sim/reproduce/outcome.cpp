@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "sim/campaign/campaign_file.h"
+#include "sim/batch/campaign_file.h"
 
 namespace hedgehop::sim {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/campaign/record.h"
+#include "sim/batch/record.h"
 #include "sim/reproduce/calculations.h"
 #include "sim/reproduce/paper.h"
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <set>
 
-#include "sim/campaign/judging_seeds.h"
-#include "sim/campaign/order.h"
+#include "sim/batch/judging_seeds.h"
+#include "sim/batch/order.h"
 #include "sim/config/include.h"
 #include "sim/config/numbers.h"
 #include "sim/config/reader.h"

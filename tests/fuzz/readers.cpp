@@ -14,12 +14,11 @@
 #include "avoidance/flow_balance/flow_balance.h"
 #include "scenes/mesh/mesh_import.h"
 #include "scenes/mesh/texture_image.h"
-#include "sim/campaign/campaign_file.h"
-#include "sim/campaign/registration.h"
-#include "sim/campaign/sweep_file.h"
+#include "sim/batch/campaign_file.h"
 #include "sim/config/include.h"
 #include "sim/config/input_error.h"
 #include "sim/config/reader.h"
+#include "sim/evidence/registration.h"
 #include "sim/falsify/falsify_file.h"
 #include "sim/record/column_table.h"
 #include "sim/record/run_record.h"
@@ -27,6 +26,7 @@
 #include "sim/scenario/reference_path.h"
 #include "sim/scenario/rig.h"
 #include "sim/scenario/scenario.h"
+#include "sim/sweep/sweep_file.h"
 
 namespace hedgehop::fuzz {
 namespace {

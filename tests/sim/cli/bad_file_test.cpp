@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "tests/sim/campaign/campaign_folder.h"
+#include "tests/sim/batch/campaign_folder.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "tests/sim/campaign/campaign_folder.h"
+#include "tests/sim/batch/campaign_folder.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tests/sim/campaign/campaign_folder.h"
+#include "tests/sim/batch/campaign_folder.h"
 
 namespace hedgehop::sim {
 

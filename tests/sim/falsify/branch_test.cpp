@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "sim/record/csv_table.h"
-#include "tests/sim/campaign/campaign_folder.h"
+#include "tests/sim/batch/campaign_folder.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <sqlite3.h>
 
-#include "sim/campaign/table.h"
-#include "tests/sim/campaign/campaign_folder.h"
+#include "sim/batch/table.h"
+#include "tests/sim/batch/campaign_folder.h"
 
 namespace hedgehop::sim {
 namespace {

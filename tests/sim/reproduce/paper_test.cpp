@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <set>
 
-#include "sim/campaign/sweep_file.h"
 #include "sim/config/input_error.h"
 #include "sim/record/whole_file.h"
 #include "sim/reproduce/calculations.h"
 #include "sim/reproduce/outcome.h"
+#include "sim/sweep/sweep_file.h"
 #include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::sim {

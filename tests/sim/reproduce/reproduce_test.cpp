@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
 #include "sim/record/csv_table.h"
-#include "tests/sim/campaign/campaign_folder.h"
-#include "tests/sim/record/browser.h"
+#include "tests/sim/batch/campaign_folder.h"
+#include "tests/sim/pages/browser.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -1,0 +1,240 @@
+#include "sim/batch/campaign_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "sim/batch/judging_seeds.h"
+#include "sim/config/include.h"
+#include "sim/config/reader.h"
+#include "sim/record/whole_file.h"
+#include "sim/scenario/flight_parts.h"
+
+namespace hedgehop::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Letters that are safe in a folder's name everywhere.
+/// @param number  of the group among those whose names give the same folder, from 1.
+std::string folder_name(const std::string& group, int number) {
+  std::string name;
+  for (const char c : group) {
+    const bool safe = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' || c == '=' || c == '_';
+    name += safe ? c : '_';
+  }
+  constexpr size_t kLongest = 120;
+  name = name.empty() || name[0] == '.' ? "_" + name : name.substr(0, kLongest);
+  return number == 1 ? name : fmt::format("{}~{}", name, number);
+}
+
+void examine_seeds(const CampaignConfig& campaign, const Node& root, Faults& faults) {
+  const auto examine = [&](const std::string& at, const std::optional<std::string>& tuned_on,
+                           const std::string& seeds) {
+    if (std::string fault = judging_fault(tuned_on, seeds); !fault.empty()) {
+      faults.add(place_of(root, at + ".seeds"), std::move(fault));
+    }
+  };
+  for (size_t i = 0; i < campaign.flights.size(); ++i) {
+    const CampaignFlights& flights = campaign.flights[i];
+    examine(fmt::format("flights.{}", i), flights.tuned_on ? flights.tuned_on : campaign.tuned_on, flights.seeds);
+  }
+  if (campaign.leaderboard) examine("leaderboard", campaign.tuned_on, campaign.leaderboard->seeds);
+}
+
+/// Gathers orders and keeps their groups and folders apart.
+class Gatherer {
+ public:
+  explicit Gatherer(const std::vector<uint64_t>& seeds, const std::vector<std::string>& overrides)
+      : seeds_(seeds), overrides_(overrides) {}
+
+  void add_input(const fs::path& input) {
+    std::error_code error;
+    if (!fs::is_directory(input, error)) {
+      add_file(input);
+      return;
+    }
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(input, error)) {
+      if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+    }
+    if (files.empty()) batch_.faults.push_back(fmt::format("{}: no *.yaml in this folder", input.string()));
+    std::ranges::sort(files);
+    for (const fs::path& file : files) add_file(file);
+  }
+
+  /// @param name  of the group; empty: the scenario's name and its overrides. @return the group's name.
+  std::string add_scenario(const fs::path& file, const std::vector<uint64_t>& seeds, std::vector<std::string> overrides,
+                           const std::string& name) {
+    overrides.insert(overrides.end(), overrides_.begin(), overrides_.end());
+    Order order{.group = name, .scenario = file.lexically_normal(), .overrides = overrides};
+    try {
+      const LoadedScenario loaded = load_flight(file, overrides);
+      const Scenario& scenario = loaded.scenario;
+      order.inputs = loaded.inputs;
+      if (name.empty()) {
+        order.group = scenario.name;
+        for (const std::string& text : overrides) order.group += " " + text;
+      }
+      const std::string folder = claim(order);
+      for (const uint64_t seed : seeds.empty() ? std::vector<uint64_t>{scenario.seed} : seeds) {
+        order.id = fmt::format("{}/seed{}", folder, seed);
+        order.seed = seed;
+        order.scenario_yaml = resolved_yaml(scenario, seed);
+        add(order);
+      }
+    } catch (const InputError& error) {
+      if (name.empty()) order.group = file.stem().string();
+      order.id = claim(order) + "/bad";
+      refuse(order, error);
+    }
+    return order.group;
+  }
+
+  /// @param folder  that the scenarios' paths are relative to.
+  void add_flights(const std::vector<CampaignFlights>& all, const fs::path& folder) {
+    for (const CampaignFlights& flights : all) {
+      add_scenario(folder / flights.scenario, seeds_.empty() ? parse_seeds(flights.seeds) : seeds_, flights.set, "");
+    }
+  }
+
+  /// What an earlier batch.json says beside its flights. @param conduct  empty of an earlier version.
+  void recall(const fs::path& batch_json, const nlohmann::ordered_json& conduct) {
+    if (conduct.empty()) return;
+    if (!conduct.at("rule").is_null()) {
+      throw InputError(fmt::format("{}: flown until '{}' was decided; repeat that command with --resume",
+                                   batch_json.string(), conduct.at("rule").get<std::string>()));
+    }
+    if (const auto& tuned_on = conduct.at("tuned_on"); tuned_on.is_string())
+      batch_.tuned_on = tuned_on.get<std::string>();
+    if (const auto& plan = conduct.at("plan"); plan.is_object()) batch_.plan = plan.at("file").get<std::string>();
+  }
+
+  BatchOrders take() { return std::move(batch_); }
+
+ private:
+  void add_file(const fs::path& file) {
+    Faults faults;
+    const Node root = load_tree(file, faults);
+    if (faults.empty() && (root.find("flights") || root.find("leaderboard"))) {
+      add_campaign(file, root);
+    } else {
+      add_scenario(file, seeds_, {}, "");
+    }
+  }
+
+  void add_campaign(const fs::path& file, const Node& root) {
+    try {
+      Faults faults;
+      CampaignConfig campaign;
+      read_struct(root, "", "", campaign, faults);
+      faults.raise();
+      examine_seeds(campaign, root, faults);
+      faults.raise();
+      add_flights(campaign.flights, file.parent_path());
+      if (campaign.leaderboard) add_leaderboard(file.parent_path(), *campaign.leaderboard);
+      if (campaign.plan) batch_.plan = (file.parent_path() / *campaign.plan).lexically_normal();
+      if (campaign.tuned_on) batch_.tuned_on += (batch_.tuned_on.empty() ? "" : ", ") + *campaign.tuned_on;
+      for (CampaignCheck& check : campaign.checks) {
+        if (auto* no_worse = std::get_if<NoWorseCheck>(&check)) {
+          no_worse->than = (file.parent_path() / no_worse->than).lexically_normal().string();
+        }
+        batch_.checks.push_back(check);
+      }
+    } catch (const InputError& error) {
+      Order order{.group = file.stem().string(), .scenario = file};
+      order.id = claim(order) + "/bad";
+      refuse(order, error);
+    }
+  }
+
+  void add_leaderboard(const fs::path& folder, const LeaderboardConfig& config) {
+    const std::vector<uint64_t> seeds = seeds_.empty() ? parse_seeds(config.seeds) : seeds_;
+    Leaderboard board = leaderboard_of(config);
+    auto cell = board.cells.begin();
+    for (const LeaderboardWorld& world : config.worlds) {
+      for (const LeaderboardModule& module : config.modules) {
+        if (cell->reason.empty()) {
+          cell->group = add_scenario(folder / world.scenario, seeds, module.set, world.name + " " + module.name);
+        }
+        ++cell;
+      }
+    }
+    batch_.leaderboard = std::move(board);
+  }
+
+  /// A folder for a scenario with its overrides; the group is made to differ where another file has the same name.
+  std::string claim(Order& order) {
+    const std::string key = order.scenario.string() + "\n" + fmt::format("{}", fmt::join(order.overrides, "\n"));
+    if (const auto known = folders_.find(key); known != folders_.end()) {
+      order.group = known->second.first;
+      return known->second.second;
+    }
+    int number = 1;
+    while (taken_.contains(folder_name(order.group, number))) ++number;
+    const std::string folder = folder_name(order.group, number);
+    if (number > 1) order.group += fmt::format("~{}", number);
+    taken_.insert({folder, 0});
+    folders_[key] = {order.group, folder};
+    return folder;
+  }
+
+  /// A flight listed twice is flown once.
+  void add(const Order& order) {
+    if (ids_.insert({order.id, 0}).second) batch_.orders.push_back(order);
+  }
+
+  void refuse(Order& order, const InputError& error) {
+    order.fault = error.faults().front();
+    batch_.faults.insert(batch_.faults.end(), error.faults().begin(), error.faults().end());
+    add(order);
+  }
+
+  const std::vector<uint64_t>& seeds_;
+  const std::vector<std::string>& overrides_;
+  BatchOrders batch_;
+  std::map<std::string, std::pair<std::string, std::string>> folders_;  ///< file and overrides: group and folder
+  std::map<std::string, int> taken_, ids_;
+};
+
+}  // namespace
+
+BatchOrders read_batch(const std::vector<fs::path>& inputs, const std::vector<uint64_t>& seeds,
+                       const std::vector<std::string>& overrides) {
+  Gatherer gatherer(seeds, overrides);
+  for (const fs::path& input : inputs) gatherer.add_input(input);
+  return gatherer.take();
+}
+
+BatchOrders orders_of(const std::vector<CampaignFlights>& flights, const std::vector<uint64_t>& seeds,
+                      const std::vector<std::string>& overrides) {
+  Gatherer gatherer(seeds, overrides);
+  gatherer.add_flights(flights, {});
+  return gatherer.take();
+}
+
+BatchOrders reread_batch(const fs::path& batch_json) {
+  const std::vector<uint64_t> no_seeds;
+  const std::vector<std::string> no_overrides;
+  Gatherer gatherer(no_seeds, no_overrides);
+  try {
+    const auto batch = nlohmann::ordered_json::parse(read_file_whole(batch_json));
+    gatherer.recall(batch_json, batch.value("conduct", nlohmann::ordered_json::object()));
+    for (const auto& flight : batch.at("flights")) {
+      gatherer.add_scenario(flight.at("scenario").get<std::string>(), {flight.at("seed").get<uint64_t>()},
+                            flight.at("set").get<std::vector<std::string>>(), flight.at("group").get<std::string>());
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: no record of a batch: {}", batch_json.string(), error.what()));
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw InputError(error.what());
+  }
+  return gatherer.take();
+}
+
+}  // namespace hedgehop::sim

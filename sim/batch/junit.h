@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/batch/record.h"
+#include "sim/batch/verdict.h"
+
+namespace hedgehop::sim {
+
+/// A JUnit file: a flight is a test suite, "flight" (whether it ended at all) and each check a test case, with value,
+/// limit and the command that re-simulates it; each statistical verdict is a case of the suite "over the seeds".
+/// @param verdicts  where a campaign has any, they decide, and a single flight's failed check is reported as skipped.
+std::string junit_text(const std::vector<FlightRecord>& records, const std::vector<GroupVerdict>& verdicts);
+
+}  // namespace hedgehop::sim

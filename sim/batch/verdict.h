@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/batch/campaign_file.h"
+#include "sim/batch/record.h"
+#include "sim/batch/statistics.h"
+
+namespace hedgehop::sim {
+
+/// The flights of a campaign that differ by the seed alone.
+struct GroupSummary {
+  std::string group;
+  int64_t flights = 0, reached = 0, collided = 0, timeout = 0, fault = 0, failed = 0, missing = 0;
+  int64_t unchecked = 0;                                     ///< flown without any check: neither a success nor a trial
+  Count success;                                             ///< flights whose checks all hold, of those that ended
+  double least_clearance_m = 0.0, median_clearance_m = 0.0;  ///< to obstacles; NaN without a flight
+  double median_time_s = 0.0;                                ///< of flight; NaN without a flight
+};
+
+/// NaN of nothing; the mean of the middle two of an even number.
+double median(std::vector<double> values);
+
+/// One row a group, in the order of their first flights.
+std::vector<GroupSummary> summarize(const std::vector<FlightRecord>& records);
+
+/// A statistical check's result for one group.
+struct GroupVerdict {
+  std::string group, check;
+  bool passed = false;
+  double value = 0.0, limit = 0.0;
+  std::string words;  ///< the whole sentence, with counts and interval
+};
+
+/// Refuses a rate that a group's flights cannot show even if all of them pass, before they are flown.
+/// Throws InputError naming the number of flights that could.
+void require_decidable(const std::vector<CampaignCheck>& checks, const std::vector<GroupSummary>& groups);
+
+/// Results of all checks for all groups. A group that the earlier batch lacks fails no_worse.
+/// Throws InputError naming the file when an earlier batch cannot be read.
+std::vector<GroupVerdict> judge(const std::vector<CampaignCheck>& checks, const std::vector<GroupSummary>& groups);
+
+}  // namespace hedgehop::sim

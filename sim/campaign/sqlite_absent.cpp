@@ -1,8 +1,0 @@
-#include "sim/campaign/table.h"
-
-namespace hedgehop::sim {
-
-/// The same rows are in the table of comma-separated values.
-void write_sqlite(const std::filesystem::path&, const Table&) {}
-
-}  // namespace hedgehop::sim

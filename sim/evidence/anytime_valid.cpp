@@ -1,0 +1,88 @@
+#include "sim/evidence/anytime_valid.h"
+
+#include <cmath>
+#include <limits>
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr int kHalvings = 200;  // past the last bit
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// count * ln(rate), 0 of no count.
+double log_power(int64_t count, double log_rate) { return count == 0 ? 0.0 : static_cast<double>(count) * log_rate; }
+
+/// ln of the Beta(1/2, 1/2) mixture's likelihood over that of the rate p.
+double ln_mixture(Count events, double p) {
+  constexpr double kA = 0.5, kB = 0.5;
+  const auto n = static_cast<double>(events.trials), k = static_cast<double>(events.successes);
+  return std::lgamma(kA + k) + std::lgamma(kB + n - k) - std::lgamma(kA + kB + n) - std::lgamma(kA) - std::lgamma(kB) +
+         std::lgamma(kA + kB) - log_power(events.successes, std::log(p)) -
+         log_power(events.trials - events.successes, std::log1p(-p));
+}
+
+/// Where `holds` changes from its value at `from` to that at `to`.
+template <class Predicate>
+double boundary(double from, double to, Predicate holds) {
+  const bool at_from = holds(from);
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (from + to);
+    (holds(middle) == at_from ? from : to) = middle;
+  }
+  return 0.5 * (from + to);
+}
+
+Count complement(Count events) { return {events.trials - events.successes, events.trials}; }
+
+}  // namespace
+
+void LogSum::add(double logarithm) {
+  if (logarithm == -kInfinity) return;
+  if (logarithm > greatest_) {
+    scaled_sum_ = scaled_sum_ * std::exp(greatest_ - logarithm) + 1.0;
+    greatest_ = logarithm;
+  } else {
+    scaled_sum_ += std::exp(logarithm - greatest_);
+  }
+}
+
+double LogSum::value() const { return scaled_sum_ > 0.0 ? greatest_ + std::log(scaled_sum_) : -kInfinity; }
+
+Interval anytime_interval(Count events, double confidence) {
+  if (events.trials == 0) return {0.0, 1.0};
+  const double decided = -std::log1p(-confidence), rate = events.rate();
+  const auto inside = [&](double p) { return ln_mixture(events, p) < decided; };
+  // The mixture falls on (0, k/n) and rises on (k/n, 1).
+  return {events.successes == 0 ? 0.0 : boundary(0.0, rate, inside),
+          events.successes == events.trials ? 1.0 : boundary(rate, 1.0, inside)};
+}
+
+double ln_evidence_below(Count events, double limit) {
+  constexpr int kRates = 32;
+  const double odds = limit / (1.0 - limit);
+  const int64_t others = events.trials - events.successes;
+  LogSum sum;
+  for (int j = 1; j <= kRates; ++j) {
+    const double alternative = odds * std::exp2(-0.25 * j), rate = alternative / (1.0 + alternative);
+    sum.add(log_power(events.successes, std::log(rate / limit)) +
+            log_power(others, std::log1p(-rate) - std::log1p(-limit)));
+  }
+  if (events.successes == 0) sum.add(log_power(others, -std::log1p(-limit)));  // the rate 0
+  return sum.value() - std::log(kRates + 1.0);
+}
+
+double ln_evidence_above(Count events, double limit) { return ln_evidence_below(complement(events), 1.0 - limit); }
+
+double anytime_upper_limit(Count events, double confidence) {
+  if (events.successes == events.trials) return 1.0;
+  const double decided = -std::log1p(-confidence);
+  const auto undecided = [&](double limit) { return ln_evidence_below(events, limit) < decided; };
+  // The evidence rises in the limit.
+  return boundary(events.rate(), 1.0, [&](double limit) { return limit == events.rate() || undecided(limit); });
+}
+
+double anytime_lower_limit(Count events, double confidence) {
+  return 1.0 - anytime_upper_limit(complement(events), confidence);
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,140 @@
+#include "sim/evidence/batch_record.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sim/batch/statistics.h"
+#include "sim/evidence/anytime_valid.h"
+#include "sim/flight/build.h"
+#include "sim/record/json_number.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json group_json(const GroupSummary& group, const BatchOutcome& outcome) {
+  const Interval interval = outcome.success_interval(group.success);
+  return Json{{"group", group.group},
+              {"flights", group.flights},
+              {"passed", group.success.successes},
+              {"ended", group.success.trials},
+              {"success_rate", group.success.trials > 0 ? Json(group.success.rate()) : Json(nullptr)},
+              {"success_rate_95", {interval.low, interval.high}},
+              {"success_rate_method", outcome.interval_method()},
+              {"reached", group.reached},
+              {"collided", group.collided},
+              {"timeout", group.timeout},
+              {"fault", group.fault},
+              {"failed", group.failed},
+              {"missing", group.missing},
+              {"no_checks", group.unchecked},
+              {"least_clearance_m", json_number(group.least_clearance_m)},
+              {"median_clearance_m", json_number(group.median_clearance_m)},
+              {"median_time_s", json_number(group.median_time_s)}};
+}
+
+Json flight_json(const FlightRecord& record) {
+  return Json{{"id", record.order.id},
+              {"group", record.order.group},
+              {"scenario", record.order.scenario.string()},
+              {"seed", record.order.seed},
+              {"set", record.order.overrides},
+              {"status", std::string(to_string(record.status))},
+              {"passed", unchecked(record) ? Json(nullptr) : Json(passed(record))},
+              {"cause", record.cause},
+              {"command", rerun_command(record.order)},
+              {"result", record.result}};
+}
+
+std::string group_line(const GroupSummary& g, const BatchOutcome& outcome) {
+  const Interval interval = outcome.success_interval(g.success);
+  std::string success = fmt::format("{} | {:.2f} to {:.2f}", g.success.successes, interval.low, interval.high);
+  if (g.unchecked > 0) {
+    success = g.success.trials == 0 ? fmt::format("{} | -", kNoChecks)
+                                    : fmt::format("{}; {} of {}", success, kNoChecks, g.unchecked);
+  }
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.0f} |\n", g.group, g.flights,
+                     success, g.reached, g.collided, g.timeout, g.fault + g.failed, g.missing, g.least_clearance_m,
+                     g.median_clearance_m, g.median_time_s);
+}
+
+}  // namespace
+
+Interval BatchOutcome::success_interval(Count success) const {
+  return sequential.empty() ? wilson_interval(success, kTableConfidence) : anytime_interval(success, kTableConfidence);
+}
+
+std::string BatchOutcome::interval_method() const { return sequential.empty() ? "wilson" : "anytime"; }
+
+std::string batch_json(const BatchOutcome& outcome, const std::string& version) {
+  Json json{{"version", version},
+            {"build", std::string(build_identity())},
+            {"conduct", to_json(outcome.conduct)},
+            {"groups", Json::array()},
+            {"verdicts", Json::array()},
+            {"sequential", Json::array()},
+            {"flights", Json::array()}};
+  for (const GroupSummary& group : summarize(outcome.records)) json["groups"].push_back(group_json(group, outcome));
+  for (const GroupVerdict& verdict : outcome.verdicts) {
+    json["verdicts"].push_back(Json{{"group", verdict.group},
+                                    {"check", verdict.check},
+                                    {"passed", verdict.passed},
+                                    {"value", json_number(verdict.value)},
+                                    {"limit", json_number(verdict.limit)},
+                                    {"words", verdict.words}});
+  }
+  for (const SequentialResult& result : outcome.sequential) json["sequential"].push_back(to_json(result));
+  for (const FlightRecord& record : outcome.records) json["flights"].push_back(flight_json(record));
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string summary_text(const BatchOutcome& outcome) {
+  const std::vector<FlightRecord>& records = outcome.records;
+  std::string text = several_builds_words(records) + truth_words(records) +
+                     fmt::format(
+                         "| scenario | flights | passed | 95 % interval{} | reached | collided | timeout | fault | "
+                         "missing | least clearance, m | median least clearance, m | median time, s "
+                         "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+                         outcome.sequential.empty() ? "" : " at any time");
+  for (const GroupSummary& group : summarize(records)) text += group_line(group, outcome);
+  for (const FlightRecord& record : records) {
+    if (record.status == FlightRecord::Status::missing || passed(record) || unchecked(record)) continue;
+    text +=
+        fmt::format("FAIL  {}: {}\n      {}\n", record.order.id, failure_words(record), rerun_command(record.order));
+  }
+  for (const GroupVerdict& verdict : outcome.verdicts) {
+    text +=
+        fmt::format("{}  {} {}: {}\n", verdict.passed ? "pass" : "FAIL", verdict.check, verdict.group, verdict.words);
+  }
+  for (const SequentialResult& result : outcome.sequential) {
+    const bool open = result.standing == Standing::undecided;
+    const std::string_view word = result.standing == Standing::shown ? "pass" : open ? "open" : "FAIL";
+    text += fmt::format("{}  {} {}: {}\n", word, result.claim, result.group, result.words);
+  }
+  return text;
+}
+
+std::string failure_words(const FlightRecord& record) {
+  if (passed(record)) return "";
+  if (unchecked(record)) return std::string(kNoChecks);
+  if (record.status != FlightRecord::Status::flown) return record.cause;
+  std::string words = record.result.at("outcome").get<std::string>();
+  if (const std::string cause = record.result.value("cause", ""); !cause.empty()) words += " (" + cause + ")";
+  for (const auto& check : record.result.at("checks")) {
+    if (check.at("passed").get<bool>()) continue;
+    const auto figure = [&](const char* key) {
+      return check.at(key).is_number() ? fmt::format("{:.4g}", check.at(key).get<double>()) : std::string("unknown");
+    };
+    words += fmt::format("; {} {}, must be {} {} {}", check.at("name").get<std::string>(), figure("value"),
+                         check.value("must", "<="), figure("limit"), check.at("unit").get<std::string>());
+    if (check.contains("t_s") && check["t_s"].is_number()) {
+      words += fmt::format(" (at {:.2f} s)", check["t_s"].get<double>());
+    }
+  }
+  return words;
+}
+
+}  // namespace hedgehop::sim

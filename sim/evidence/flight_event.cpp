@@ -1,0 +1,99 @@
+#include "sim/evidence/flight_event.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <regex>
+#include <vector>
+
+#include "sim/batch/table.h"
+#include "sim/config/input_error.h"
+#include "sim/config/numbers.h"
+#include "sim/config/tree.h"
+
+namespace hedgehop::sim {
+namespace {
+
+struct NamedKind {
+  std::string_view name;
+  FlightEvent::Kind kind;
+};
+constexpr NamedKind kKinds[] = {{"collision", FlightEvent::Kind::collision},
+                                {"timeout", FlightEvent::Kind::timeout},
+                                {"success", FlightEvent::Kind::success}};
+
+/// Columns that every result fills: the judged figures of a table without flights.
+void require_figure(const std::string& name, std::string_view rule) {
+  const Table table = flight_table({});
+  std::vector<std::string_view> allowed;
+  for (const TableColumn& column : table.columns) {
+    if (column.kind == FigureKind::judged && column.name != "trajectory_hash") allowed.push_back(column.name);
+    if (!allowed.empty() && allowed.back() == name) return;
+  }
+  throw InputError(fmt::format("'{}': no column '{}' of every flight{}", rule, name, suggestion(name, allowed)));
+}
+
+bool flew(const FlightRecord& record) {
+  return record.status == FlightRecord::Status::flown && record.result.at("outcome") != "fault";
+}
+
+}  // namespace
+
+FlightEvent parse_event(std::string_view text, std::string_view rule) {
+  const std::string whole(text);
+  static const std::regex kRate(R"(rate\(\s*([\w.]+)\s*([<>])\s*(\S+?)\s*\))");
+  if (std::smatch parts; std::regex_match(whole, parts, kRate)) {
+    require_figure(parts[1], rule);
+    return {.kind = FlightEvent::Kind::figure,
+            .figure = parts[1],
+            .below = parts[2] == "<",
+            .threshold = parse_rule_number(parts[3], rule)};
+  }
+  std::vector<std::string_view> allowed;
+  for (const auto& [name, kind] : kKinds) {
+    if (text == name) return {.kind = kind, .figure = {}};
+    allowed.push_back(name);
+  }
+  allowed.emplace_back("rate(COLUMN < NUMBER)");
+  throw InputError(fmt::format("'{}': no event '{}'{}", rule, text, suggestion(text, allowed)));
+}
+
+std::string to_string(const FlightEvent& event) {
+  for (const auto& [name, kind] : kKinds) {
+    if (event.kind == kind) return std::string(name);
+  }
+  return fmt::format("rate({} {} {})", event.figure, event.below ? '<' : '>', event.threshold);
+}
+
+std::optional<bool> observe(const FlightEvent& event, const FlightRecord& record) {
+  if (!flew(record)) return {};
+  switch (event.kind) {
+    case FlightEvent::Kind::collision:
+      return record.result.at("outcome") == "collided";
+    case FlightEvent::Kind::timeout:
+      return record.result.at("outcome") == "timeout";
+    case FlightEvent::Kind::success:
+      return passed(record);
+    case FlightEvent::Kind::figure:
+      break;
+  }
+  const std::optional<double> value = figure_of(record, event.figure);
+  if (!value) return {};
+  return event.below ? *value < event.threshold : *value > event.threshold;
+}
+
+std::optional<double> figure_of(const FlightRecord& record, const std::string& figure) {
+  if (!flew(record)) return {};
+  const auto value = record.result.find(figure);
+  if (value == record.result.end()) return {};
+  if (value->is_number()) return value->get<double>();
+  return figure.ends_with("clearance_m") ? std::optional(std::numeric_limits<double>::infinity()) : std::nullopt;
+}
+
+double parse_rule_number(const std::string& text, std::string_view rule) {
+  const ParsedNumber number = parse_number(text, /*degrees=*/false);
+  if (number.kind == ParsedNumber::Kind::number) return number.member;
+  throw InputError(fmt::format("'{}': '{}' is no finite number", rule, text));
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "sim/batch/verdict.h"
+#include "sim/evidence/stopping_rule.h"
+
+namespace hedgehop::sim {
+
+/// What a stopping rule found for one group of flights.
+struct SequentialResult {
+  std::string group, claim;
+  Standing standing = Standing::undecided;
+  double confidence = 0.95;
+  int64_t planned = 0;                ///< flights, or pairs of them
+  int64_t counted = 0;                ///< of those, the ones up to the stop
+  std::optional<uint64_t> last_seed;  ///< that counted; none without any
+  nlohmann::ordered_json figures;     ///< counts, evidence, interval, method: of the tally
+  std::string words;                  ///< the whole sentence
+  double value = 0.0, bound = 0.0;    ///< what a verdict names
+};
+nlohmann::ordered_json to_json(const SequentialResult& result);
+/// The result as a verdict over the seeds: it holds where the claim is shown.
+GroupVerdict verdict_of(const SequentialResult& result);
+
+/// Counts flights in the order of their orders, not of their ends: a flight counts once all before it have ended, and
+/// the rule is looked at after each. What flights past the stop did changes nothing, so that the answer is the same for
+/// any number of workers and after an interruption. Flights that end early are no likelier to be counted.
+class SequentialCount {
+ public:
+  /// @param orders  in the order in which they are to be flown. A claim about pairs takes the first order of a seed as
+  /// base and the second as candidate, all in one group; else each group has its own count.
+  SequentialCount(StoppingRule rule, const std::vector<Order>& orders);
+
+  /// A flight has ended, in whatever order.
+  void ended(const FlightRecord& record);
+  /// Whether the flight may still count: its group is undecided.
+  bool wanted(const Order& order) const;
+  /// Whether the flight has been counted.
+  bool counted(const Order& order) const;
+  /// Whether the flight lies past its group's stop.
+  bool discarded(const Order& order) const { return !counted(order) && !wanted(order); }
+
+  std::vector<SequentialResult> results() const;
+
+ private:
+  struct Group {
+    std::string name;
+    std::variant<RateTally, PairTally> tally;
+    std::vector<uint64_t> seeds;                               ///< one a unit
+    std::vector<std::vector<std::optional<double>>> observed;  ///< of each unit's flights
+    size_t next = 0;                                           ///< unit to be counted next
+    Standing standing = Standing::undecided;
+  };
+  struct Place {
+    size_t group, unit, member;
+  };
+  Group& group_named(const std::string& name);
+  static void advance(Group& group);
+  SequentialResult result_of(const Group& group) const;
+
+  StoppingRule rule_;
+  std::vector<Group> groups_;
+  std::map<std::string, Place> places_;  ///< by the order's id
+};
+
+/// Orders seed by seed: the first of every group, then the second of every group, and so on.
+std::vector<Order> seed_by_seed(const std::vector<Order>& orders);
+
+}  // namespace hedgehop::sim

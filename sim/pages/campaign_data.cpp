@@ -1,0 +1,235 @@
+#include "sim/pages/campaign_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+
+#include "sim/batch/statistics.h"
+#include "sim/batch/verdict.h"
+#include "sim/evidence/anytime_valid.h"
+#include "sim/evidence/batch_record.h"
+#include "sim/pages/report_page.h"
+#include "sim/record/json_number.h"
+#include "sim/record/run_record.h"
+#include "sim/record/whole_file.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr size_t kMostStripBytes = 2'500'000;  // of a page that is to stay below 10 MB; in base64 a third more
+const std::set<std::string> kWordColumns = {"id",    "group",           "scenario", "status", "outcome",
+                                            "cause", "trajectory_hash", "command",  "build",  "truth_used"};
+
+/// A number to six figures.
+Json six(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  if (value == std::round(value) && std::abs(value) < 1e15) return static_cast<int64_t>(value);
+  return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
+}
+
+/// The column's numbers; none when a field is a word.
+std::optional<std::vector<double>> all_numbers(const std::vector<std::string>& words) {
+  std::vector<double> numbers(words.size(), NAN);
+  for (size_t i = 0; i < words.size(); ++i) {
+    if (words[i].empty()) continue;
+    const char* const end = words[i].data() + words[i].size();
+    const auto [stop, error] = std::from_chars(words[i].data(), end, numbers[i]);
+    if (error != std::errc() || stop != end) return {};
+  }
+  return numbers;
+}
+
+std::string unit_of(const std::string& name, const std::vector<FlightNotes>& notes) {
+  for (const FlightNotes& note : notes) {
+    if (const auto found = note.units.find(name); found != note.units.end()) return found->second;
+  }
+  if (name.starts_with("time.") && name.find("_ms") != std::string::npos) return "ms";
+  if (name.ends_with("_mps")) return "m/s";
+  if (name.ends_with("_m")) return "m";
+  return name.ends_with("_s") ? "s" : "";
+}
+
+Json group_row(const GroupSummary& group, bool anytime) {
+  const Interval interval =
+      anytime ? anytime_interval(group.success, kTableConfidence) : wilson_interval(group.success, kTableConfidence);
+  return {{"group", group.group},
+          {"flights", group.flights},
+          {"passed", group.success.successes},
+          {"ended", group.success.trials},
+          {"low", interval.low},
+          {"high", interval.high},
+          {"reached", group.reached},
+          {"collided", group.collided},
+          {"timeout", group.timeout},
+          {"broken", group.fault + group.failed},
+          {"missing", group.missing},
+          {"no_checks", group.unchecked},
+          {"least_clearance_m", json_number(group.least_clearance_m)},
+          {"median_clearance_m", json_number(group.median_clearance_m)},
+          {"median_time_s", json_number(group.median_time_s)}};
+}
+
+GroupSummary all_of(std::vector<FlightRecord> records) {
+  for (FlightRecord& record : records) record.order.group = "all flights";
+  return records.empty() ? GroupSummary{.group = "all flights"} : summarize(records).front();
+}
+
+/// Scenario and seed: what flights of equal orders but for their settings share.
+std::string twin_key(const FlightRecord& record) {
+  return fmt::format("{}\n{}", record.order.scenario.string(), record.order.seed);
+}
+
+/// For each flight of `now` the one of `before` with the same id, else the only one of its scenario and seed, where it
+/// is the only one in `now` too.
+std::vector<std::optional<size_t>> partners(const std::vector<FlightRecord>& now,
+                                            const std::vector<FlightRecord>& before) {
+  std::map<std::string, size_t> by_id;
+  std::map<std::string, std::vector<size_t>> twins;
+  std::map<std::string, size_t> count;
+  for (size_t i = 0; i < before.size(); ++i) {
+    by_id[before[i].order.id] = i;
+    twins[twin_key(before[i])].push_back(i);
+  }
+  for (const FlightRecord& record : now) ++count[twin_key(record)];
+  std::vector<std::optional<size_t>> found;
+  for (const FlightRecord& record : now) {
+    const auto same = by_id.find(record.order.id);
+    const auto alike = twins.find(twin_key(record));
+    if (same != by_id.end()) {
+      found.emplace_back(same->second);
+    } else if (alike != twins.end() && alike->second.size() == 1 && count.at(alike->first) == 1) {
+      found.emplace_back(alike->second.front());
+    } else {
+      found.emplace_back();
+    }
+  }
+  return found;
+}
+
+Json rate(const Count& count) {
+  const Interval interval = wilson_interval(count, kTableConfidence);
+  return {{"passed", count.successes}, {"ended", count.trials}, {"low", interval.low}, {"high", interval.high}};
+}
+
+Json change_row(const GroupSummary& now, const GroupSummary& before) {
+  Json row{{"group", now.group}, {"now", rate(now.success)}, {"before", rate(before.success)}, {"change", nullptr}};
+  if (now.success.trials > 0 && before.success.trials > 0) {
+    const Interval change = newcombe_difference(now.success, before.success, kTableConfidence);
+    row["change"] = {now.success.rate() - before.success.rate(), change.low, change.high};
+  }
+  return row;
+}
+
+}  // namespace
+
+std::vector<FlightNotes> read_notes(const std::filesystem::path& folder, const std::vector<FlightRecord>& records) {
+  std::vector<FlightNotes> notes(records.size());
+  for (size_t i = 0; i < records.size(); ++i) {
+    const std::filesystem::path flight = folder / records[i].order.id;
+    notes[i].why = passed(records[i]) ? "" : unchecked(records[i]) ? std::string(kNoChecks) : outcome_words(records[i]);
+    if (!records[i].cause.empty()) notes[i].why += ": " + records[i].cause;
+    notes[i].has_report = std::filesystem::exists(flight / "report.html");
+    notes[i].has_replay = std::filesystem::exists(flight / "replay.html");
+    if (records[i].status != FlightRecord::Status::flown || !std::filesystem::exists(flight / "result.json")) continue;
+    try {
+      FlightRecord whole = records[i];
+      whole.result = read_result(flight / "result.json");
+      notes[i].why = failure_words(whole);
+      for (const auto& check : whole.result.at("checks")) {
+        notes[i].units["check." + check.at("name").get<std::string>()] = check.at("unit").get<std::string>();
+      }
+      const Json units = whole.result.value("metric_units", Json::object());
+      for (const auto& [name, unit] : units.items()) {
+        notes[i].units["metric." + name] = unit.get<std::string>();
+      }
+    } catch (const nlohmann::json::exception&) {
+    } catch (const std::runtime_error&) {  // a result half written: the table's word stands
+    }
+  }
+  return notes;
+}
+
+Json columns_data(const CsvTable& table, const std::vector<FlightNotes>& notes) {
+  Json columns = Json::array();
+  for (const std::string& name : table.names()) {
+    const std::vector<std::string> words = table.words(name);
+    if (std::ranges::all_of(words, &std::string::empty)) continue;
+    const auto numbers = kWordColumns.contains(name) ? std::nullopt : all_numbers(words);
+    Json column{{"name", name}, {"unit", unit_of(name, notes)}, {"is_text", !numbers}, {"values", words}};
+    if (numbers) {
+      column["values"] = Json::array();
+      for (const double value : *numbers) column["values"].push_back(six(value));
+    }
+    columns.push_back(std::move(column));
+  }
+  return columns;
+}
+
+Json strips_data(const std::filesystem::path& folder, const std::vector<FlightRecord>& records) {
+  Json strips = Json::array();
+  size_t bytes = 0;
+  for (size_t row = 0; row < records.size(); ++row) {
+    const std::filesystem::path file = folder / records[row].order.id / "strip.jpg";
+    std::error_code error;
+    const auto size = std::filesystem::file_size(file, error);
+    if (error || bytes + size > kMostStripBytes) continue;
+    bytes += size;
+    strips.push_back({row, base64(read_file_whole(file))});
+  }
+  return strips;
+}
+
+std::vector<std::string> swept_columns(const FlightList& flights) {
+  if (!flights.is_sweep) return {};
+  const auto& names = flights.table.names();
+  const auto point = std::ranges::find(names, "point"), status = std::ranges::find(names, "status");
+  return point < status ? std::vector<std::string>(point + 1, status) : std::vector<std::string>();
+}
+
+Json groups_data(const std::vector<FlightRecord>& records, bool anytime) {
+  const std::vector<GroupSummary> groups = summarize(records);
+  Json rows = Json::array({group_row(all_of(records), anytime)});
+  if (groups.size() > 1) {
+    for (const GroupSummary& group : groups) rows.push_back(group_row(group, anytime));
+  }
+  return rows;
+}
+
+Json against_data(const FlightList& now, const FlightList& before) {
+  const auto pairs = partners(now.records, before.records);
+  const std::vector<std::string> commands = before.table.words("command");
+  Json json{{"flights", Json::array()}, {"groups", Json::array()}, {"gone", Json::array()}};
+  for (const std::optional<size_t>& pair : pairs) {
+    if (!pair) {
+      json["flights"].push_back(nullptr);
+      continue;
+    }
+    const FlightRecord& old = before.records[*pair];
+    Json row{{"outcome", outcome_words(old)}, {"passed", passed(old)}, {"command", commands[*pair]}};
+    const bool flown = old.status == FlightRecord::Status::flown;
+    row["clearance_m"] = flown ? old.result.at("min_obstacle_clearance_m") : Json(nullptr);
+    row["time_s"] = flown ? old.result.at("flight_time_s") : Json(nullptr);
+    json["flights"].push_back(std::move(row));
+  }
+  for (size_t i = 0; i < before.records.size(); ++i) {
+    if (std::ranges::find(pairs, std::optional(i)) == pairs.end()) json["gone"].push_back(before.records[i].order.id);
+  }
+
+  json["groups"].push_back(change_row(all_of(now.records), all_of(before.records)));
+  const std::vector<GroupSummary> earlier = summarize(before.records), groups = summarize(now.records);
+  for (const GroupSummary& group : groups) {
+    const auto same = std::ranges::find(earlier, group.group, &GroupSummary::group);
+    if (same != earlier.end() && groups.size() > 1) json["groups"].push_back(change_row(group, *same));
+  }
+  return json;
+}
+
+}  // namespace hedgehop::sim

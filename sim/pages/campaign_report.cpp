@@ -1,0 +1,90 @@
+#include "sim/pages/campaign_report.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "sim/flight/build.h"
+#include "sim/pages/campaign_data.h"
+#include "sim/pages/flight_maps.h"
+#include "sim/pages/leaderboard_page.h"
+#include "sim/pages/page_claims.h"
+#include "sim/pages/report_page.h"
+#include "sim/record/whole_file.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// All paths of a page together, so that any number of them stays small and quick to draw.
+constexpr size_t kMostPoints = 300'000, kMostPointsOfOne = 400, kLeastPointsOfOne = 10;
+
+std::string name_of(const std::filesystem::path& folder) {
+  const std::filesystem::path whole = std::filesystem::absolute(folder / "").lexically_normal();
+  return whole.parent_path().filename().string();
+}
+
+std::vector<std::optional<FlownPath>> read_paths(const std::filesystem::path& folder,
+                                                 const std::vector<FlightRecord>& records) {
+  const size_t share = kMostPoints / std::max<size_t>(1, records.size());
+  std::vector<std::optional<FlownPath>> paths;
+  for (const FlightRecord& record : records) {
+    paths.emplace_back(
+        read_path(folder / record.order.id, record.order.seed, std::clamp(share, kLeastPointsOfOne, kMostPointsOfOne)));
+  }
+  return paths;
+}
+
+/// What a search for failures left, with the paths of those it keeps; null for any other campaign.
+Json search_data(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder / "falsify.csv")) return nullptr;
+  Json search = Json::parse(read_file_whole(folder / "falsify.json"));
+  std::vector<std::optional<FlownPath>> paths;
+  for (const Json& one : search.at("counterexamples")) {
+    paths.push_back(
+        read_path(folder / one.at("folder").get<std::string>(), one.at("seed").get<uint64_t>(), kMostPointsOfOne));
+  }
+  search["paths"] = paths_data(flight_maps(paths), paths);
+  return search;
+}
+
+}  // namespace
+
+void write_campaign_report(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& against) {
+  const FlightList flights = read_flights(folder);
+  const std::vector<FlightNotes> notes = read_notes(folder, flights.records);
+  std::set<std::string> scenarios;
+  for (const FlightRecord& record : flights.records) scenarios.insert(record.order.scenario.filename().string());
+
+  Json data{{"name", name_of(folder)}, {"folder", folder.string()}, {"is_sweep", flights.is_sweep}};
+  data["scenarios"] = scenarios;
+  data["version"] = std::string(version());
+  data["build"] = std::string(build_identity());
+  data["builds"] = builds_of(flights.records);
+  data["truth_used"] = truth_words(flights.records);
+  data["swept"] = swept_columns(flights);
+  data["leaderboard"] = leaderboard_data(folder, flights);
+  data["claims"] = claims_data(folder, flights.records);
+  data["groups"] = groups_data(flights.records, data["claims"]["method"] == "anytime");
+  data["columns"] = columns_data(flights.table, notes);
+  for (const char* key : {"why", "report", "replay"}) data[key] = Json::array();
+  for (const FlightNotes& note : notes) {
+    data["why"].push_back(note.why);
+    data["report"].push_back(note.has_report ? 1 : 0);
+    data["replay"].push_back(note.has_replay ? 1 : 0);
+  }
+  data["strips"] = strips_data(folder, flights.records);
+  const auto paths = read_paths(folder, flights.records);
+  data["paths"] = paths_data(flight_maps(paths), paths);
+  data["search"] = search_data(folder);
+  data["against"] = nullptr;
+  if (against) {
+    data["against"] = against_data(flights, read_flights(*against));
+    data["against"]["name"] = against->string();
+  }
+  const std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+  write_file_whole(folder / "report.html", campaign_page(name_of(folder), text));
+}
+
+}  // namespace hedgehop::sim

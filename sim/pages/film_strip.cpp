@@ -1,0 +1,139 @@
+#include "sim/pages/film_strip.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "sim/fields/quantities.h"
+#include "sim/record/film_watcher.h"
+#include "sim/record/image_file.h"
+#include "sim/record/run_record.h"
+#include "sim/record/whole_file.h"
+#include "sim/simulation/simulation.h"
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr size_t kImages = 5;
+constexpr double kApartS = 0.8;  // between two images, less in flights too short for it
+constexpr int kWidthPx = 240, kCaptionPx = 16;
+constexpr int kQuality = 70;           // of the JPEG: 30 to 60 kB a strip
+constexpr double kSameFlightM = 1e-6;  // result.json keeps every bit; two flights that part differ by far more
+
+struct Image {
+  double t_s = 0.0;
+  cv::Mat rgb;  ///< kWidthPx wide
+};
+
+/// Keeps the last images of a flight, small.
+class StripWatcher : public FlightWatcher {
+ public:
+  explicit StripWatcher(double rate_hz) : rate_hz_(rate_hz) {}
+
+  double image_rate_hz() const override { return rate_hz_; }
+  void on_images(const ShownInstant& shown) override {
+    const cv::Mat source = shown.annotated.empty() ? contact_sheet(shown.frames) : shown.annotated;
+    if (source.empty()) return;
+    Image image{.t_s = seconds(shown.t_ns), .rgb = {}};
+    const int height_px = std::max(1, static_cast<int>(std::lround(double{kWidthPx} * source.rows / source.cols)));
+    cv::resize(source, image.rgb, {kWidthPx, height_px}, 0, 0, cv::INTER_AREA);
+    images_.push_back(std::move(image));
+    while (images_.front().t_s < images_.back().t_s - kApartS * kImages) images_.pop_front();
+  }
+
+  const std::deque<Image>& images() const { return images_; }
+
+ private:
+  double rate_hz_;
+  std::deque<Image> images_;
+};
+
+/// Side by side in the order of time, each with the time left to `end_s` written below.
+cv::Mat strip(const std::deque<Image>& images, double end_s) {
+  const double apart_s = std::min(kApartS, (images.back().t_s - images.front().t_s) / static_cast<double>(kImages - 1));
+  cv::Mat sheet;
+  for (size_t i = 0; i < kImages; ++i) {
+    const double wanted_s = images.back().t_s - apart_s * static_cast<double>(kImages - 1 - i);
+    const Image& image =
+        *std::ranges::min_element(images, {}, [&](const Image& p) { return std::abs(p.t_s - wanted_s); });
+    cv::Mat tile(image.rgb.rows + kCaptionPx, kWidthPx + 2, CV_8UC3, cv::Scalar::all(24));
+    image.rgb.copyTo(tile(cv::Rect({0, 0}, image.rgb.size())));
+    cv::putText(tile, fmt::format("{:.1f} s before", std::max(0.0, end_s - image.t_s)), {4, tile.rows - 4},
+                cv::FONT_HERSHEY_SIMPLEX, 0.4, cv::Scalar::all(220), 1, cv::LINE_AA);
+    if (sheet.empty()) {
+      sheet = tile;
+    } else {
+      cv::hconcat(sheet, tile, sheet);
+    }
+  }
+  return sheet;
+}
+
+/// Throws std::runtime_error with the reason why there is no strip.
+void write_film_strip(const std::filesystem::path& flight) {
+  const nlohmann::ordered_json result = read_result(flight / "result.json");
+  const nlohmann::ordered_json& closest = result.at("closest_obstacle");
+  const bool collided = result.at("outcome") == "collided";
+  const double end_s = (collided ? result.at("flight_time_s") : closest.at("t_s")).get<double>();
+
+  LoadedScenario loaded = load_flight(flight / "scenario.yaml");
+  if (!collided) loaded.scenario.duration_s = end_s;
+  StripWatcher watcher(loaded.scenario.film.rate_hz);
+  const FlightResult again = Simulation(std::move(loaded), &watcher).run().result;
+  const double clearance_m = again.closest_obstacle.distance_m;
+  if (!closest.is_null() && std::abs(clearance_m - closest.at("distance_m").get<double>()) > kSameFlightM) {
+    throw std::runtime_error(fmt::format("flown again, it came within {:.6f} m of an obstacle instead of {:.6f} m",
+                                         clearance_m, closest.at("distance_m").get<double>()));
+  }
+  if (watcher.images().empty()) throw std::runtime_error("no camera has drawn an image");
+  write_file_whole(flight / "strip.jpg", jpeg_of(strip(watcher.images(), end_s), kQuality));
+}
+
+}  // namespace
+
+std::vector<size_t> worst_flights(const std::vector<FlightRecord>& records, size_t count) {
+  std::vector<std::pair<double, size_t>> collisions, near_misses;
+  for (size_t row = 0; row < records.size(); ++row) {
+    const FlightRecord& record = records[row];
+    if (record.status != FlightRecord::Status::flown) continue;
+    if (record.result.at("outcome") == "collided") {
+      collisions.emplace_back(record.result.at("flight_time_s").get<double>(), row);
+    } else if (const auto& clearance_m = record.result.at("min_obstacle_clearance_m"); clearance_m.is_number()) {
+      near_misses.emplace_back(clearance_m.get<double>(), row);
+    }
+  }
+  std::ranges::sort(collisions);
+  std::ranges::sort(near_misses);
+  const size_t half = (count + 1) / 2;
+  const size_t misses =
+      std::min(near_misses.size(), std::max(count - half, count - std::min(count, collisions.size())));
+  collisions.resize(std::min(collisions.size(), count - misses));
+  near_misses.resize(misses);
+  std::vector<size_t> rows;
+  for (const auto& [time_s, row] : collisions) rows.push_back(row);
+  for (const auto& [clearance_m, row] : near_misses) rows.push_back(row);
+  return rows;
+}
+
+std::vector<std::string> write_film_strips(const std::filesystem::path& folder,
+                                           const std::vector<FlightRecord>& records, const std::vector<size_t>& rows,
+                                           const std::function<void(const std::string&)>& on_begin) {
+  std::vector<std::string> without;
+  for (const size_t row : rows) {
+    const std::string& id = records[row].order.id;
+    on_begin(id);
+    try {
+      write_film_strip(folder / id);
+    } catch (const std::exception& error) {  // one flight's trouble must not take the others' strips
+      without.push_back(fmt::format("{}: no film strip: {}", id, error.what()));
+    }
+  }
+  return without;
+}
+
+}  // namespace hedgehop::sim

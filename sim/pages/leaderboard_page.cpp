@@ -1,0 +1,230 @@
+#include "sim/pages/leaderboard_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "sim/batch/leaderboard.h"
+#include "sim/batch/statistics.h"
+#include "sim/batch/verdict.h"
+#include "sim/config/input_error.h"
+#include "sim/flight/build.h"
+#include "sim/record/json_number.h"
+#include "sim/record/whole_file.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Median of a column over some rows, fields that are empty left out.
+double median_of(const CsvTable& table, const std::string& column, const std::vector<size_t>& rows) {
+  if (std::ranges::find(table.names(), column) == table.names().end()) return std::nan("");
+  const std::vector<double> all = table.numbers(column);
+  std::vector<double> some;
+  for (const size_t row : rows) {
+    if (!std::isnan(all[row])) some.push_back(all[row]);
+  }
+  return median(some);
+}
+
+/// What the flights of some groups show; only how many had no checks, or nothing, where that is all there is.
+Json figures(const FlightList& flights, const std::set<std::string>& groups) {
+  std::vector<FlightRecord> records;
+  std::vector<size_t> rows;
+  for (size_t i = 0; i < flights.records.size(); ++i) {
+    if (!groups.contains(flights.records[i].order.group)) continue;
+    records.push_back(flights.records[i]);
+    records.back().order.group.clear();  // one group of them all
+    rows.push_back(i);
+  }
+  Json data = Json::object();
+  if (records.empty()) return data;
+  const GroupSummary group = summarize(records).front();
+  if (group.unchecked > 0) data["no_checks"] = group.unchecked;
+  if (group.success.trials == 0) return data;
+  const Interval passed = wilson_interval(group.success, kTableConfidence);
+  const Interval collided = wilson_interval({group.collided, group.success.trials}, kTableConfidence);
+  data["flights"] = group.success.trials;
+  data["passed"] = group.success.successes;
+  data["low"] = passed.low;
+  data["high"] = passed.high;
+  data["collided"] = group.collided;
+  data["collided_low"] = collided.low;
+  data["collided_high"] = collided.high;
+  data["timeout"] = group.timeout;
+  data["broken"] = group.fault + group.failed;
+  data["least_clearance_m"] = json_number(group.least_clearance_m);
+  data["median_clearance_m"] = json_number(group.median_clearance_m);
+  data["path_excess"] = json_number(median_of(flights.table, "metric.path_excess", rows));
+  data["mean_speed_mps"] = json_number(median_of(flights.table, "mean_speed_mps", rows));
+  data["decision_ms"] = json_number(median_of(flights.table, "time.decision_ms.median", rows));
+  return data;
+}
+
+Json cell_data(const Json& cell, const FlightList& flights) {
+  Json data{{"world", cell.at("world")}, {"module", cell.at("module")}, {"reason", cell.at("reason")}};
+  data.update(figures(flights, {cell.at("group").get<std::string>()}));
+  return data;
+}
+
+/// A module's flights in all worlds together.
+Json total_data(const Json& module, const Json& cells, const FlightList& flights) {
+  std::set<std::string> groups;
+  int64_t worlds = 0;
+  for (const Json& cell : cells) {
+    if (cell.at("module") != module.at("name")) continue;
+    groups.insert(cell.at("group").get<std::string>());
+    worlds += cell.at("reason") == "" ? 1 : 0;
+  }
+  Json data{{"module", module.at("name")}, {"worlds", worlds}};
+  data.update(figures(flights, groups));
+  return data;
+}
+
+/// The build, in the first line those of the flights where there are several, and the truth that was used.
+std::string origin_words(const std::vector<FlightRecord>& records) {
+  return fmt::format("{}Build {}, Hedgehop {}\n{}", several_builds_words(records), build_identity(), version(),
+                     truth_words(records));
+}
+
+/// NaN when no module but the control has flown there.
+double difficulty(const Json& world, const Json& modules, const Json& cells) {
+  double sum = 0.0, count = 0.0;
+  for (const Json& cell : cells) {
+    if (cell.at("world") != world || cell.value("flights", 0) == 0) continue;
+    const auto module = std::ranges::find_if(modules, [&](const Json& m) { return m.at("name") == cell.at("module"); });
+    if (module->at("control").get<bool>()) continue;
+    sum += cell.at("passed").get<double>() / cell.at("flights").get<double>();
+    count += 1.0;
+  }
+  return 1.0 - sum / count;
+}
+
+const Json& cell_of(const Json& data, const Json& world, const Json& module) {
+  return *std::ranges::find_if(data.at("cells"), [&](const Json& cell) {
+    return cell.at("world") == world.at("name") && cell.at("module") == module.at("name");
+  });
+}
+
+std::string words(const Json& value, const char* format = "{:.2f}") {
+  return value.is_number() ? fmt::format(fmt::runtime(format), value.get<double>()) : "-";
+}
+
+std::string matrix_text(const Json& data) {
+  std::string text = "| world | difficulty |";
+  for (const Json& module : data.at("modules")) text += fmt::format(" {} |", module.at("name").get<std::string>());
+  text += "\n|---|---|";
+  for (size_t i = 0; i < data.at("modules").size(); ++i) text += "---|";
+  for (const Json& world : data.at("worlds")) {
+    text += fmt::format("\n| {} | {} |", world.at("name").get<std::string>(), words(world.at("difficulty")));
+    for (const Json& module : data.at("modules")) {
+      const Json& cell = cell_of(data, world, module);
+      if (cell.contains("passed")) {
+        text +=
+            fmt::format(" {} of {} ({:.2f} to {:.2f}) |", cell.at("passed").get<int64_t>(),
+                        cell.at("flights").get<int64_t>(), cell.at("low").get<double>(), cell.at("high").get<double>());
+      } else {
+        const bool no_checks = cell.contains("no_checks");
+        text += no_checks ? " no checks |" : cell.at("reason") == "" ? " missing |" : " not flown |";
+      }
+    }
+  }
+  return text + "\n";
+}
+
+/// Collisions against speed, all worlds of a module together.
+std::string totals_text(const Json& data) {
+  std::string text =
+      "| module, all worlds | worlds | flights | passed | collided | 95 % interval of collisions | speed, m/s |\n"
+      "|---|---|---|---|---|---|---|\n";
+  for (const Json& total : data.at("totals")) {
+    if (!total.contains("passed")) continue;
+    text += fmt::format("| {} | {} | {} | {} | {} | {:.3f} to {:.3f} | {} |\n", total.at("module").get<std::string>(),
+                        total.at("worlds").get<int64_t>(), total.at("flights").get<int64_t>(),
+                        total.at("passed").get<int64_t>(), total.at("collided").get<int64_t>(),
+                        total.at("collided_low").get<double>(), total.at("collided_high").get<double>(),
+                        words(total.at("mean_speed_mps")));
+  }
+  return text;
+}
+
+std::string rows_text(const Json& data) {
+  std::string text =
+      "| world | module | flights | passed | collided | timeout | fault | minimum clearance, m | median minimum "
+      "clearance, m | "
+      "path excess | speed, m/s | decision, ms |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const Json& world : data.at("worlds")) {
+    for (const Json& module : data.at("modules")) {
+      const Json& cell = cell_of(data, world, module);
+      if (!cell.contains("passed")) continue;
+      text += fmt::format("| {} | {} |", world.at("name").get<std::string>(), module.at("name").get<std::string>());
+      for (const char* key : {"flights", "passed", "collided", "timeout", "broken"}) {
+        text += fmt::format(" {} |", cell.at(key).get<int64_t>());
+      }
+      for (const char* key : {"least_clearance_m", "median_clearance_m", "path_excess", "mean_speed_mps"}) {
+        text += " " + words(cell.at(key)) + " |";
+      }
+      text += " " + words(cell.at("decision_ms"), "{:.1f}") + " |\n";
+    }
+  }
+  return text;
+}
+
+/// One line for each module and reason.
+std::string reasons_text(const Json& data) {
+  std::string text;
+  std::set<std::string> listed;
+  for (const Json& cell : data.at("cells")) {
+    const auto module = cell.at("module").get<std::string>(), reason = cell.at("reason").get<std::string>();
+    if (reason.empty() || !listed.insert(module + "\n" + reason).second) continue;
+    std::string worlds;
+    for (const Json& other : data.at("cells")) {
+      if (other.at("module") != module || other.at("reason") != reason) continue;
+      worlds += (worlds.empty() ? "" : ", ") + other.at("world").get<std::string>();
+    }
+    text += fmt::format("Not flown: {} in {}: {}.\n", module, worlds, reason);
+  }
+  return text;
+}
+
+}  // namespace
+
+Json leaderboard_data(const std::filesystem::path& folder, const FlightList& flights) {
+  if (!std::filesystem::exists(folder / kLeaderboardFile)) return nullptr;
+  try {
+    const Json board = Json::parse(read_file_whole(folder / kLeaderboardFile));
+    Json data{{"origin", origin_words(flights.records)},
+              {"worlds", board.at("worlds")},
+              {"modules", board.at("modules")},
+              {"cells", Json::array()},
+              {"totals", Json::array()}};
+    for (const Json& cell : board.at("cells")) data["cells"].push_back(cell_data(cell, flights));
+    for (const Json& module : board.at("modules")) {
+      data["totals"].push_back(total_data(module, board.at("cells"), flights));
+    }
+    for (Json& world : data["worlds"]) {
+      world["difficulty"] = json_number(difficulty(world.at("name"), data["modules"], data["cells"]));
+    }
+    // Worlds of equal difficulty stay in the campaign's order; what nobody has flown in comes last.
+    const auto key = [](const Json& world) {
+      return world.at("difficulty").is_number() ? world.at("difficulty").get<double>() : 2.0;
+    };
+    auto worlds = data["worlds"].get<std::vector<Json>>();
+    std::ranges::stable_sort(worlds, {}, key);
+    data["worlds"] = worlds;
+    return data;
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(fmt::format("{}: no leaderboard: {}", (folder / kLeaderboardFile).string(), error.what()));
+  }
+}
+
+std::string leaderboard_text(const Json& data) {
+  return data.at("origin").get<std::string>() + "\n" + matrix_text(data) + "\n" + totals_text(data) + "\n" +
+         rows_text(data) + "\n" + reasons_text(data);
+}
+
+}  // namespace hedgehop::sim

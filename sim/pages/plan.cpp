@@ -1,0 +1,83 @@
+#include "sim/pages/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+namespace hedgehop::sim {
+namespace {
+
+// Corners of a body whose hull in the plan is the solid's; of round bodies, points evenly round their outlines.
+std::vector<Eigen::Vector3d> corners_W(const scenes::Solid& solid) {
+  using Shape = scenes::Solid::Shape;
+  std::vector<Eigen::Vector3d> corners;
+  if (solid.shape == Shape::hull || solid.shape == Shape::surface) {
+    for (const Eigen::Vector3d& p_S : solid.polyhedron.corners) corners.push_back(solid.X_WS * p_S);
+  } else if (solid.shape == Shape::box) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const Eigen::Vector3d sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
+      corners.push_back(solid.X_WS * solid.half_extents_m.cwiseProduct(sign));
+    }
+  } else {
+    constexpr int kRound = 32;
+    const bool is_ball = solid.shape == Shape::sphere;
+    for (int k = 0; k < kRound; ++k) {
+      const double turn = 2.0 * std::numbers::pi * k / kRound;
+      const Eigen::Vector3d out = solid.half_extents_m.x() * Eigen::Vector3d(std::cos(turn), std::sin(turn), 0.0);
+      for (const double end : {-1.0, 1.0}) {
+        const Eigen::Vector3d along(0.0, 0.0, end * solid.half_extents_m.z());
+        corners.push_back(is_ball ? solid.X_WS.translation() + out : solid.X_WS * (out + along));
+      }
+    }
+  }
+  return corners;
+}
+
+Footprint footprint(const scenes::Solid& solid) {
+  std::vector<cv::Point2f> corners;
+  for (const Eigen::Vector3d& p_W : corners_W(solid)) {
+    corners.emplace_back(static_cast<float>(p_W.x()), static_cast<float>(p_W.y()));
+  }
+  const Eigen::AlignedBox3d box_W = scenes::bounds_W(solid);
+  std::vector<cv::Point2f> outline;
+  cv::convexHull(corners, outline);
+
+  Footprint result{.name = solid.name, .bottom_m = -box_W.max().z(), .top_m = -box_W.min().z()};
+  for (const cv::Point2f& p : outline) result.corners_NE_m.emplace_back(p.x, p.y);
+  return result;
+}
+
+}  // namespace
+
+std::vector<Footprint> footprints(const std::vector<scenes::Solid>& solids) {
+  std::vector<Footprint> result;
+  result.reserve(solids.size());
+  std::ranges::transform(solids, std::back_inserter(result), footprint);
+  return result;
+}
+
+std::vector<MoverPath> mover_paths(const std::vector<scenes::Mover>& movers) {
+  std::vector<MoverPath> paths;
+  for (const scenes::Mover& mover : movers) {
+    MoverPath& path = paths.emplace_back(MoverPath{.name = mover.name});
+    for (const Eigen::Vector3d& corner_W : scenes::path_W(mover.motion))
+      path.corners_NE_m.push_back(corner_W.head<2>());
+    for (const Footprint& part : footprints(mover.solids)) {
+      for (const Eigen::Vector2d& corner : part.corners_NE_m) path.radius_m = std::max(path.radius_m, corner.norm());
+    }
+  }
+  return paths;
+}
+
+ScenePlan scene_plan(const scenes::Scene& scene) {
+  return {footprints(scene.solids), mover_paths(scene.movers), scene.bounds_NE_m};
+}
+
+Level level(const Footprint& footprint, double lowest_m, double highest_m, double margin_m) {
+  if (footprint.top_m < lowest_m - margin_m) return Level::below;
+  if (footprint.bottom_m > highest_m + margin_m) return Level::above;
+  return Level::beside;
+}
+
+}  // namespace hedgehop::sim

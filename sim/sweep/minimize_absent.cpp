@@ -1,0 +1,10 @@
+#include "sim/config/input_error.h"
+#include "sim/sweep/minimize.h"
+
+namespace hedgehop::sim {
+
+void minimize(const MinimizeOptions&, const std::function<double(const std::vector<double>&)>&) {
+  throw InputError("this build of Hedgehop has no optimizer (hedgehop --version --features)");
+}
+
+}  // namespace hedgehop::sim

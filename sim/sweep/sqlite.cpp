@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+#include <set>
+#include <stdexcept>
+
+#include "sim/sweep/sqlite.h"
+
+namespace hedgehop::sim {
+namespace {
+
+struct Close {
+  void operator()(sqlite3* database) const { sqlite3_close(database); }
+  void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+};
+using Database = std::unique_ptr<sqlite3, Close>;
+using Statement = std::unique_ptr<sqlite3_stmt, Close>;
+
+/// Refuses what did not go well.
+void expect(bool well, sqlite3* database) {
+  if (!well) throw std::runtime_error(sqlite3_errmsg(database));
+}
+
+std::string quoted_name(const std::string& name) {
+  std::string quoted = "\"";
+  for (const char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+/// SQLite takes names that differ only in case for one: the later gets a number.
+std::string unlike(const std::string& name, std::set<std::string>& taken) {
+  const auto lower = [](std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+  };
+  std::string own = name;
+  for (int number = 2; !taken.insert(lower(own)).second; ++number) own = fmt::format("{}_{}", name, number);
+  return own;
+}
+
+int bind(sqlite3_stmt* statement, int place, const Cell& value) {
+  if (const auto* integer = std::get_if<int64_t>(&value)) return sqlite3_bind_int64(statement, place, *integer);
+  if (const auto* number = std::get_if<double>(&value)) return sqlite3_bind_double(statement, place, *number);
+  if (const auto* text = std::get_if<std::string>(&value)) {
+    return sqlite3_bind_text(statement, place, text->data(), static_cast<int>(text->size()), SQLITE_STATIC);
+  }
+  return sqlite3_bind_null(statement, place);
+}
+
+void fill(const std::filesystem::path& file, const Table& table) {
+  sqlite3* opened = nullptr;
+  const int error = sqlite3_open(file.c_str(), &opened);
+  const Database database(opened);
+  expect(error == SQLITE_OK, opened);
+  // The file is new and becomes visible by a rename: a journal would protect nothing.
+  expect(sqlite3_exec(opened, "PRAGMA journal_mode=OFF; PRAGMA synchronous=OFF; BEGIN", nullptr, nullptr, nullptr) ==
+             SQLITE_OK,
+         opened);
+  std::vector<std::string> names;
+  std::set<std::string> taken;
+  for (const TableColumn& column : table.columns) names.push_back(quoted_name(unlike(column.name, taken)));
+  const std::string create = fmt::format("CREATE TABLE flights ({})", fmt::join(names, ", "));
+  expect(sqlite3_exec(opened, create.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK, opened);
+
+  const std::vector<char> places(names.size(), '?');
+  const std::string insert = fmt::format("INSERT INTO flights VALUES ({})", fmt::join(places, ","));
+  sqlite3_stmt* prepared = nullptr;
+  expect(sqlite3_prepare_v2(opened, insert.c_str(), -1, &prepared, nullptr) == SQLITE_OK, opened);
+  const Statement statement(prepared);
+  for (const std::vector<Cell>& row : table.rows) {
+    for (size_t i = 0; i < row.size(); ++i) {
+      expect(bind(prepared, static_cast<int>(i + 1), row[i]) == SQLITE_OK, opened);
+    }
+    expect(sqlite3_step(prepared) == SQLITE_DONE, opened);
+    sqlite3_reset(prepared);
+  }
+  expect(sqlite3_exec(opened, "COMMIT", nullptr, nullptr, nullptr) == SQLITE_OK, opened);
+}
+
+}  // namespace
+
+void write_sqlite(const std::filesystem::path& file, const Table& table) {
+  const std::filesystem::path part = file.string() + ".part";
+  std::error_code ignored;
+  std::filesystem::remove(part, ignored);
+  try {
+    fill(part, table);
+    std::filesystem::rename(part, file);
+  } catch (const std::exception& error) {
+    std::filesystem::remove(part, ignored);
+    throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), error.what()));
+  }
+}
+
+}  // namespace hedgehop::sim

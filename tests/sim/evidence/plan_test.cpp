@@ -1,0 +1,128 @@
+#include <gmock/gmock.h>
+
+#include "tests/sim/batch/campaign_folder.h"
+#include "tests/sim/pages/browser.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class PlanFolder : public CampaignFolder {
+ public:
+  PlanFolder() {
+    write("plan.yaml",
+          "question: does tiny collide in under half of its starts?\n"
+          "flights: [{scenario: tiny.yaml, seeds: 101:110}]\n"
+          "rule: {until: collision < 0.5}\n"
+          "tuned_on: {seeds: 1:100, settings_tried: 14}\n");
+  }
+  Json plan(const std::string& out = "out") const { return json(out + "/batch.json").at("conduct").at("plan"); }
+  /// What the page of `out` knows of the plan.
+  std::string on_page() const {
+    EXPECT_EQ(hedgehop("report out").status, 0);
+    const std::string page = read("out/report.html");
+    const size_t at = page.find("\"now\":\"");
+    return at == std::string::npos ? "" : page.substr(at + 7, page.find('"', at + 7) - at - 7);
+  }
+};
+
+TEST(Plan, IsFlownAsRegistered) {
+  const PlanFolder folder;
+  const CommandEnd end = folder.hedgehop("batch --plan plan.yaml --out out");
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_EQ(folder.plan().at("sha256").get<std::string>(), folder.shell("sha256sum plan.yaml").out.substr(0, 64));
+  EXPECT_THAT(folder.plan().at("deviations"), IsEmpty());
+  const Json conduct = folder.json("out/batch.json").at("conduct");
+  EXPECT_EQ(conduct.at("planned"), 10);
+  EXPECT_EQ(conduct.at("seeds"), "101:110");
+  EXPECT_EQ(conduct.at("tuned_on"), "1:100");
+  EXPECT_EQ(conduct.at("settings_tried"), 14);
+  EXPECT_EQ(conduct.at("rule"), "collision < 0.5");
+  EXPECT_EQ(folder.json("out/batch.json").at("sequential").at(0).at("verdict"), "shown");
+}
+
+TEST(Plan, ChangedAfterTheFlightsShowsOnThePage) {
+  const PlanFolder folder;
+  ASSERT_EQ(folder.hedgehop("batch --plan plan.yaml --out out").status, 0);
+  EXPECT_EQ(folder.on_page(), "same");
+  std::string text = folder.read("plan.yaml");
+  text.replace(text.find("0.5"), 3, "0.6");
+  folder.write("plan.yaml", text);
+  EXPECT_EQ(folder.on_page(), "changed");
+  std::filesystem::remove(folder.path() / "plan.yaml");
+  EXPECT_EQ(folder.on_page(), "gone");
+}
+
+TEST(PlanInBrowser, StatesWhatTheRateRestsOn) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const PlanFolder folder;
+  ASSERT_EQ(folder.hedgehop("batch --plan plan.yaml --out out").status, 0);
+  const auto facts = [&] {
+    EXPECT_EQ(folder.hedgehop("report out").status, 0);
+    const PageVisit page =
+        visit(folder.path() / "out/report.html", "return document.getElementById('claims-card').textContent;");
+    EXPECT_THAT(page.errors, IsEmpty());
+    return page.value.get<std::string>();
+  };
+  const std::string as_flown = facts();
+  EXPECT_THAT(as_flown, HasSubstr("10 planned, 5 counted, 5 passed, 0 failed a check, 0 with a fault or no result"));
+  EXPECT_THAT(as_flown, HasSubstr("5 past the stop do not count"));
+  EXPECT_THAT(as_flown, HasSubstr("looked at after every flight"));
+  EXPECT_THAT(as_flown, HasSubstr("Planned: 101:110. Parameters were chosen on: 1:100, 14 settings tried."));
+  EXPECT_THAT(as_flown, HasSubstr("as registeredYes."));
+  folder.write("plan.yaml", folder.read("plan.yaml") + "# a word\n");
+  EXPECT_THAT(facts(), HasSubstr("as registeredThe plan was changed after the flights."));
+}
+
+/// A repetition of what failed is still the plan's; one that would undo a stop is refused.
+TEST(Plan, StaysWithTheFlightsThatAreFlownAgain) {
+  const PlanFolder folder;
+  std::string text = folder.read("plan.yaml");
+  text.erase(text.find("rule:"), text.find("tuned_on") - text.find("rule:"));
+  folder.write("all.yaml", text);
+  ASSERT_EQ(folder.hedgehop("batch --plan all.yaml --seeds 101:102 --out out").status, 0);
+  ASSERT_EQ(folder.hedgehop("batch --failed-only --out out").status, 0);
+  EXPECT_EQ(folder.plan().at("file"), "all.yaml");
+  EXPECT_THAT(folder.plan().at("deviations"), ElementsAre("tiny.yaml: seeds 101:102, registered 101:110"));
+  ASSERT_EQ(folder.hedgehop("batch --plan plan.yaml --out stopped").status, 0);
+  EXPECT_THAT(folder.hedgehop("batch --failed-only --out stopped").err,
+              HasSubstr("flown until 'collision < 0.5' was decided; repeat that command with --resume"));
+}
+
+TEST(Plan, ListsEveryDeviation) {
+  const PlanFolder folder;
+  std::string text = folder.read("plan.yaml");
+  folder.write("plan.yaml", text + "build: 0123456789abcdef\n");
+  folder.write("campaign.yaml",
+               "tuned_on: 1:100\nplan: plan.yaml\nflights:\n"
+               "  - {scenario: tiny.yaml, seeds: 101:103, set: [avoidance.speed=0.4]}\n");
+  folder.hedgehop("batch campaign.yaml --until 'collision < 0.6' --limit 90 --out out");
+  const Json found = folder.plan().at("deviations");
+  EXPECT_THAT(found,
+              ElementsAre("tiny.yaml: seeds 101:103, registered 101:110", "avoidance.speed=0.4 was set",
+                          "rule 'collision < 0.6' at 0.95, registered 'collision < 0.5' at 0.95",
+                          "flights over 90 s of wall time were ended", HasSubstr(", registered 0123456789abcdef")));
+}
+
+TEST(Plan, BadPlansAreToldWithTheirPlace) {
+  const PlanFolder folder;
+  std::string text = folder.read("plan.yaml");
+  text.replace(text.find("101:110"), 7, "100:110");
+  folder.write("both.yaml", text);
+  EXPECT_THAT(folder.hedgehop("batch --plan both.yaml --out out").err,
+              HasSubstr("both.yaml:2:40: seeds '100:110' judge by seed 100, which parameters were chosen on"));
+  text = folder.read("plan.yaml");
+  text.replace(text.find("collision"), 9, "colision");
+  folder.write("typo.yaml", text);
+  EXPECT_THAT(folder.hedgehop("batch --plan typo.yaml --out out").err,
+              HasSubstr("typo.yaml:3:15: 'colision < 0.5': no event 'colision'; did you mean 'collision'?"));
+  EXPECT_EQ(folder.hedgehop("batch tiny.yaml --plan plan.yaml --out out").status, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+}
+
+}  // namespace
+}  // namespace hedgehop::sim

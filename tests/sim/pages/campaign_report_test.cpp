@@ -1,0 +1,209 @@
+#include "sim/pages/campaign_report.h"
+
+#include <gmock/gmock.h>
+
+#include <random>
+
+#include "sim/batch/table.h"
+#include "sim/pages/campaign_data.h"
+#include "sim/scenario/scenario.h"
+#include "tests/sim/batch/campaign_folder.h"
+#include "tests/sim/pages/browser.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// A sweep of made-up flights: each odd one collides, clearance and time are drawn.
+std::vector<FlightRecord> made_up(int count, uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> clearance(0.1, 5.0), time(10.0, 60.0);
+  std::vector<FlightRecord> records;
+  for (int i = 0; i < count; ++i) {
+    FlightRecord record{.status = FlightRecord::Status::flown};
+    record.order = {
+        .id = "flights/" + std::to_string(i), .group = "point " + std::to_string(i), .scenario = "room.yaml"};
+    record.order.seed = static_cast<uint64_t>(i % 4);
+    const bool collides = i % 2 == 1;
+    record.result = {
+        {"outcome", collides ? "collided" : "reached"},
+        {"flight_time_s", time(random)},
+        {"min_obstacle_clearance_m", collides ? 0.0 : clearance(random)},
+        {"metrics", nlohmann::ordered_json::object()},
+        {"checks", {{{"name", "no_collision"}, {"passed", !collides}, {"value", 1.0}, {"limit", 0.0}, {"unit", "m"}}}}};
+    records.push_back(record);
+  }
+  return records;
+}
+
+/// Writes their table and, for each flight, a scenario and a straight path.
+void write_sweep(const std::filesystem::path& folder, const std::vector<FlightRecord>& records) {
+  std::filesystem::create_directories(folder);
+  ExtraColumn point{.name = "point", .cells = {}}, gain{.name = "avoidance.gain", .cells = {}};
+  const std::string scenario = to_yaml(load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_room_0_light.yaml"));
+  for (size_t i = 0; i < records.size(); ++i) {
+    point.cells.emplace_back(static_cast<int64_t>(i));
+    gain.cells.emplace_back(0.5 * static_cast<double>(i / 4));
+    const std::filesystem::path flight = folder / records[i].order.id;
+    std::filesystem::create_directories(flight);
+    write_file_whole(flight / "scenario.yaml", scenario);
+    write_file_whole(flight / "trajectory.csv", "north_m,east_m,down_m\n0,0,-1\n1," + std::to_string(i) + ",-1\n");
+  }
+  write_file_whole(folder / "sweep.csv", csv_text(flight_table(records, {point, gain})));
+}
+
+TEST(CampaignInBrowser, OpensAloneAndSortsFiltersAndChooses) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const TemporaryFolder folder;
+  auto records = made_up(120, 4);
+  records[7].order.scenario = "</script><b>.yaml";
+  write_sweep(folder.path(), records);
+  write_campaign_report(folder.path(), {});
+  const PageVisit page = visit(folder.path() / "report.html", R"js(
+    const rows = () => [...document.querySelectorAll('#flights tbody tr')].map((tr) => Number(tr.dataset.row));
+    const head = (name) => document.querySelector(`#flights th[data-column="${name}"]`);
+    const filter = (text) => {
+      document.getElementById('filter').value = text;
+      document.getElementById('filter').dispatchEvent(new Event('input'));
+    };
+    const seen = {first: rows().length};
+    document.querySelector('#flights .more').click();
+    seen.all = rows().length;
+    head('flight_time_s').click();
+    seen.rising = rows();
+    head('flight_time_s').click();
+    seen.falling = rows();
+    filter('outcome=collided seed=1');
+    seen.filtered = rows().sort((a, b) => a - b);
+    filter('no_such_column>3');
+    seen.fault = document.getElementById('filter-note').textContent;
+    filter('');
+    document.querySelector('#flights tbody tr[data-row="100"]').click();
+    seen.command = document.querySelector('#selected code').textContent;
+    seen.worst = document.querySelector('#worst button.name').textContent;
+    return seen;)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_THAT(page.requests, IsEmpty());
+  EXPECT_EQ(page.value.at("first"), 100);
+  EXPECT_EQ(page.value.at("all"), 120);
+  std::vector<int> by_time(120), collided;
+  for (int i = 0; i < 120; ++i) {
+    by_time[static_cast<size_t>(i)] = i;
+    if (i % 2 == 1 && i % 4 == 1) collided.push_back(i);
+  }
+  const auto time = [&](int i) { return records[static_cast<size_t>(i)].result.at("flight_time_s").get<double>(); };
+  std::ranges::sort(by_time, {}, time);
+  EXPECT_EQ(page.value.at("rising"), by_time);
+  std::ranges::reverse(by_time);
+  EXPECT_EQ(page.value.at("falling"), by_time);
+  EXPECT_EQ(page.value.at("filtered"), collided);
+  EXPECT_EQ(page.value.at("fault"), "no column 'no_such_column'");
+  EXPECT_EQ(page.value.at("command"), rerun_command(records[100].order));
+  const auto earliest = *std::ranges::find_if(by_time.rbegin(), by_time.rend(), [](int i) { return i % 2 == 1; });
+  EXPECT_EQ(page.value.at("worst"), records[static_cast<size_t>(earliest)].order.id);
+}
+
+TEST(CampaignInBrowser, FrontAndCellsAreThoseOfBruteForce) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const TemporaryFolder folder;
+  write_sweep(folder.path(), made_up(64, 5));
+  write_campaign_report(folder.path(), {});
+  const PageVisit page = visit(folder.path() / "report.html", R"js(
+    const table = new FlightTable(JSON.parse(document.getElementById('data').textContent)), faults = [];
+    let bits = 12345;
+    const draw = () => (bits = (bits * 1103515245 + 12345) % 2147483648) >> 16;
+    for (let trial = 0; trial < 200; ++trial) {
+      const n = 1 + draw() % 30, pick = () => Array.from({length: n}, () => draw() % 9 ? draw() % 7 : null);  // ties and gaps
+      const x = pick(), y = pick(), less = [draw() % 2 === 0, draw() % 2 === 0], rows = [...x.keys()];
+      const better = (u, v, falls) => falls ? u < v : u > v;
+      const beats = (a, b) => !better(x[b], x[a], less[0]) && !better(y[b], y[a], less[1]) &&
+        (better(x[a], x[b], less[0]) || better(y[a], y[b], less[1]));
+      const known = rows.filter((r) => x[r] !== null && y[r] !== null);
+      const brute = known.filter((r) => !known.some((other) => beats(other, r)));
+      const front = paretoRows(rows, x, y, ...less).sort((a, b) => a - b);
+      if (String(front) !== String(brute)) faults.push([trial, front, brute]);
+    }
+    const rows = [...Array(table.count).keys()], gain = table.columns.get('avoidance.gain'), seed = table.columns.get('seed');
+    const cells = [...successCells(table, rows, columnBins(gain, rows), columnBins(seed, rows)).values()];
+    return {faults, cells: cells.length, ended: cells.reduce((sum, c) => sum + c.ended, 0),
+            right: cells.every((c) => c.passed === c.rows.filter((r) => r % 2 === 0).length)};)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_THAT(page.value.at("faults"), IsEmpty());
+  EXPECT_EQ(page.value.at("cells"), 64);  // 16 gains, 4 seeds
+  EXPECT_EQ(page.value.at("ended"), 64);
+  EXPECT_EQ(page.value.at("right"), true);
+}
+
+TEST(CampaignInBrowser, TellsWhichFlightsEndOtherwiseThanBefore) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const TemporaryFolder folder;
+  auto records = made_up(20, 6);
+  write_sweep(folder.path() / "before", records);
+  records[4].result["outcome"] = "collided";
+  records[4].result["checks"][0]["passed"] = false;
+  records[4].result["min_obstacle_clearance_m"] = -0.25;
+  records[9].order.id = "flights/other";  // its scenario and seed are those of others too
+  records[10].order.id = "flights/new";
+  records[10].order.seed = 77;
+  write_sweep(folder.path() / "now", records);
+  write_campaign_report(folder.path() / "now", folder.path() / "before");
+  const PageVisit page = visit(folder.path() / "now" / "report.html", R"js(
+    const words = (tr) => [...tr.children].map((td) => td.textContent);
+    return {said: document.querySelector('#against-card p').textContent,
+            changed: [...document.querySelectorAll('#changed tr')].slice(1).map(words)};)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_THAT(page.value.at("said").get<std::string>(),
+              HasSubstr("18 flights in both, 1 with another outcome; 2 only here, 2 only there."));
+  ASSERT_EQ(page.value.at("changed").size(), 1u);
+  EXPECT_EQ(page.value.at("changed")[0][0], "flights/4");
+  EXPECT_EQ(page.value.at("changed")[0][1], "reached");
+  EXPECT_EQ(page.value.at("changed")[0][2], "collided");
+  EXPECT_EQ(page.value.at("changed")[0][4], "\u22120.25");
+}
+
+TEST(AgainstData, PairsFlightsOfOtherSettingsByScenarioAndSeed) {
+  const TemporaryFolder folder;
+  auto records = made_up(4, 10);  // four seeds of one scenario
+  write_sweep(folder.path() / "before", records);
+  std::ranges::reverse(records);
+  for (FlightRecord& record : records) record.order.id += "_set";
+  write_sweep(folder.path() / "now", records);
+  const auto data = against_data(read_flights(folder.path() / "now"), read_flights(folder.path() / "before"));
+  EXPECT_THAT(data.at("gone"), IsEmpty());
+  for (size_t i = 0; i < records.size(); ++i) {
+    EXPECT_EQ(data.at("flights")[i].at("time_s"), records[i].result.at("flight_time_s")) << i;
+  }
+}
+
+TEST(CampaignReport, OfAThousandFlightsWithLongPathsStaysBelowTenMegabytes) {
+  const TemporaryFolder folder;
+  const auto records = made_up(1000, 7);
+  write_sweep(folder.path(), records);
+  std::mt19937_64 random(8);
+  std::normal_distribution<double> step(0.0, 0.3);
+  for (const FlightRecord& record : records) {
+    std::string rows = "north_m,east_m,down_m\n";
+    for (double north = 0.0, east = 0.0, i = 0.0; i < 400.0; ++i) {
+      rows += std::to_string(north += step(random)) + "," + std::to_string(east += step(random)) + ",-1\n";
+    }
+    write_file_whole(folder.path() / record.order.id / "trajectory.csv", rows);
+  }
+  write_campaign_report(folder.path(), {});
+  EXPECT_LT(std::filesystem::file_size(folder.path() / "report.html"), 10'000'000u);
+}
+
+TEST(ReportCommand, RefusesWhatItCannotReportOn) {
+  const CampaignFolder folder;
+  std::filesystem::create_directories(folder.path() / "empty");
+  write_sweep(folder.path() / "sweep", made_up(4, 9));
+  EXPECT_EQ(folder.hedgehop("report empty").status, 2);
+  EXPECT_EQ(folder.hedgehop("report sweep --replay").status, 2);
+  EXPECT_EQ(folder.hedgehop("report sweep --against empty").status, 2);
+  EXPECT_EQ(folder.hedgehop("report sweep").status, 0);
+}
+
+}  // namespace
+}  // namespace hedgehop::sim

@@ -1,0 +1,177 @@
+#include "sim/pages/leaderboard_page.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "avoidance/registry.h"
+#include "sim/batch/campaign_file.h"
+#include "sim/batch/table.h"
+#include "sim/fields/field_types.h"
+#include "tests/sim/batch/campaign_folder.h"
+#include "tests/sim/pages/browser.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using Json = nlohmann::ordered_json;
+
+/// Two worlds: the nearer goal is reached by whoever flies fast enough, the farther is out of reach in the time; and a
+/// module that cannot fly in one of them.
+class LeaderboardFolder : public CampaignFolder {
+ public:
+  LeaderboardFolder() {
+    for (const std::string name : {"far", "near"}) {
+      write(name + ".yaml", "use: tiny.yaml\nname: " + name +
+                                "\nduration: 2.5\nstart: {spread: 0}\ngoal: {north: " + (name == "far" ? "7" : "2.5") +
+                                "}\nchecks: [{check: reached_goal}, {check: no_collision}]\n");
+    }
+    write("board.yaml",
+          "tuned_on: none\nleaderboard:\n  seeds: 1:2\n  worlds: [{name: far, scenario: far.yaml}, {name: near, "
+          "scenario: near.yaml}]\n"
+          "  modules:\n    - {name: still, control: true, set: [avoidance.speed=0.01]}\n"
+          "    - {name: fast, set: [avoidance.speed=2]}\n    - {name: slow, set: [avoidance.speed=0.1]}\n"
+          "  not_flown: [{module: slow, worlds: [far], reason: too far}]\n");
+  }
+};
+
+const Json& cell(const Json& data, const std::string& world, const std::string& module) {
+  return *std::ranges::find_if(data.at("cells"),
+                               [&](const Json& c) { return c.at("world") == world && c.at("module") == module; });
+}
+
+TEST(Leaderboard, OrdersWorldsByWhatTheModulesFailAtWithoutTheControl) {
+  const LeaderboardFolder folder;
+  const CommandEnd end = folder.hedgehop("batch board.yaml --out out");
+  ASSERT_EQ(end.status, 1) << end.err;
+  const Json data = leaderboard_data(folder.path() / "out", read_flights(folder.path() / "out"));
+  EXPECT_EQ(data.at("worlds").at(0).at("name"), "near");
+  EXPECT_EQ(data.at("worlds").at(0).at("difficulty"), 0.5);  // fast 2 of 2, slow 0 of 2
+  EXPECT_EQ(data.at("worlds").at(1).at("difficulty"), 1.0);  // fast 0 of 2
+  EXPECT_EQ(cell(data, "near", "fast").at("passed"), 2);
+  EXPECT_EQ(cell(data, "near", "fast").at("flights"), 2);
+  EXPECT_EQ(cell(data, "far", "slow").at("reason"), "too far");
+  EXPECT_FALSE(cell(data, "far", "slow").contains("passed"));
+  // Wilson by hand: 2 of 2 with z = 1.96 begins at 2 / (2 + z^2).
+  EXPECT_NEAR(cell(data, "near", "fast").at("low").get<double>(), 2.0 / (2.0 + 1.959964 * 1.959964), 1e-6);
+  EXPECT_THAT(end.out, HasSubstr("| near | 0.50 | 0 of 2 (0.00 to 0.66) | 2 of 2 (0.34 to 1.00) | 0 of 2"));
+  EXPECT_THAT(end.out, HasSubstr("Not flown: slow in far: too far.\n"));
+  EXPECT_THAT(end.out, HasSubstr("| fast | 2 | 4 | 2 | 0 | 0.000 to 0.490 |"));
+  EXPECT_THAT(end.out, HasSubstr("| slow | 1 | 2 | 0 | 0 | 0.000 to 0.658 |"));
+  // 0 of 4 by hand: the interval ends at z^2 / (4 + z^2).
+  EXPECT_NEAR(data.at("totals").at(1).at("collided_high").get<double>(), 3.841459 / (4.0 + 3.841459), 1e-6);
+  EXPECT_THAT(folder.json("out/batch.json").at("flights"), testing::SizeIs(10));
+}
+
+TEST(LeaderboardInBrowser, ShowsEveryCellAndLeadsToItsFlights) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const LeaderboardFolder folder;
+  ASSERT_EQ(folder.hedgehop("batch board.yaml --out out").status, 1);
+  ASSERT_EQ(folder.hedgehop("report out").status, 0);
+  const PageVisit page = visit(folder.path() / "out/report.html", R"js(
+    const rows = [...document.querySelectorAll('.board tbody tr')].map((tr) => [...tr.children].map((td) => td.textContent));
+    document.querySelectorAll('.board tbody tr')[0].children[3].click();
+    const plots = [...document.querySelectorAll('#collisions-card figcaption')].map((e) => e.textContent);
+    const canvas = document.querySelector('#collisions-card figure canvas'), box = canvas.getBoundingClientRect();
+    const tips = new Set();
+    for (let x = 0; x < box.width; x += 5) {
+      for (let y = 0; y < box.height; y += 5) {
+        canvas.dispatchEvent(new PointerEvent('pointermove', {clientX: box.left + x, clientY: box.top + y}));
+        const tip = canvas.nextSibling;
+        if (!tip.hidden) tips.add(tip.textContent);
+      }
+    }
+    const key = [...document.querySelectorAll('#collisions-card .plan-key span')].map((e) => e.textContent);
+    return {plots, key, tips: [...tips].join(), rows, why: document.querySelector('#board-card > p:last-child').textContent, shown: [...document.querySelectorAll('#flights tbody td:first-child')].map((e) => e.textContent)};)js");
+  EXPECT_THAT(page.errors, testing::IsEmpty());
+  ASSERT_EQ(page.value.at("rows").size(), 2u);
+  EXPECT_EQ(page.value.at("rows")[0][0], "near");
+  EXPECT_THAT(page.value.at("rows")[0][3].get<std::string>(), HasSubstr("2 of 2 0.34 to 1.00"));
+  EXPECT_EQ(page.value.at("rows")[1][4], "not flown");
+  EXPECT_EQ(page.value.at("why"), "Not flown in far: slow: too far.");
+  EXPECT_EQ(page.value.at("plots"), Json::array({"all worlds", "near", "far"}));
+  EXPECT_EQ(page.value.at("key"), Json::array({"still (control)", "fast", "slow, flies in 1 of 2 worlds"}));
+  EXPECT_THAT(page.value.at("tips").get<std::string>(), HasSubstr("0 of 4 collided, 95 % interval 0.000 to 0.490"));
+  EXPECT_EQ(page.value.at("shown"), Json::array({"near_fast/seed1", "near_fast/seed2"}));
+}
+
+TEST(Leaderboard, SurvivesFlyingTheFailuresAgainByTheFolderAlone) {
+  const LeaderboardFolder folder;
+  ASSERT_EQ(folder.hedgehop("batch board.yaml --out out").status, 1);
+  const std::string whole = lasting_columns(folder.read("out/batch.csv")), matrix = folder.read("out/leaderboard.md");
+  EXPECT_EQ(folder.hedgehop("batch --failed-only --out out").status, 1);
+  EXPECT_EQ(lasting_columns(folder.read("out/batch.csv")), whole);
+  // Only the last figure of a row, a time, may differ.
+  EXPECT_EQ(folder.read("out/leaderboard.md").substr(0, matrix.find("path excess")),
+            matrix.substr(0, matrix.find("path excess")));
+  EXPECT_EQ(folder.hedgehop("batch tiny.yaml --out out").status, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/leaderboard.json"));
+}
+
+/// An interrupted batch is reported as such instead of 0 of 0, and its hardest world is not one where nobody has flown.
+TEST(Leaderboard, CellsNotFlownYetAreMissingAndMakeNoWorldHard) {
+  const TemporaryFolder folder;
+  const LeaderboardConfig config{
+      .seeds = "1", .worlds = {{"later", "a.yaml"}, {"lost", "b.yaml"}}, .modules = {{.name = "m"}}};
+  Leaderboard board = leaderboard_of(config);
+  std::vector<FlightRecord> records(2);
+  for (size_t i = 0; i < 2; ++i) {
+    board.cells[i].group = records[i].order.group = records[i].order.id = board.cells[i].world;
+  }
+  records[1].status = FlightRecord::Status::failed;
+  write_leaderboard(folder.path(), board);
+  write_file_whole(folder.path() / "batch.csv", csv_text(flight_table(records)));
+  const Json data = leaderboard_data(folder.path(), read_flights(folder.path()));
+  EXPECT_FALSE(cell(data, "later", "m").contains("passed"));
+  EXPECT_EQ(cell(data, "lost", "m").at("broken"), 1);
+  EXPECT_EQ(data.at("worlds").at(0).at("name"), "lost");
+  EXPECT_TRUE(data.at("worlds").at(1).at("difficulty").is_null());
+  EXPECT_THAT(leaderboard_text(data), HasSubstr("| later | - | missing |"));
+}
+
+TEST(Leaderboard, RefusesNamesThatAreNowhereOrStandTwice) {
+  LeaderboardConfig config{.seeds = "1",
+                           .worlds = {{"a", "a.yaml"}, {"a", "b.yaml"}},
+                           .modules = {{.name = "m"}},
+                           .not_flown = {{"other", "", {"c"}}}};
+  try {
+    leaderboard_of(config);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.faults(),
+                ElementsAre("leaderboard: 'a' stands twice", "leaderboard: no module 'other'",
+                            "leaderboard: 'other' is not flown without a reason", "leaderboard: no world 'c'"));
+  }
+}
+
+TEST(Leaderboard, TheShippedOneHasEveryModuleAndNoCellWithoutFlightOrReason) {
+  const BatchOrders batch = read_batch({HEDGEHOP_SOURCE_DIR "/configs/campaigns/leaderboard.yaml"}, {}, {});
+  EXPECT_THAT(batch.faults, testing::IsEmpty());
+  ASSERT_TRUE(batch.leaderboard);
+  for (const LeaderboardCell& c : batch.leaderboard->cells) {
+    EXPECT_NE(c.group.empty(), c.reason.empty()) << c.world << ", " << c.module;
+  }
+  std::vector<std::string> flown;
+  for (const LeaderboardModule& module : batch.leaderboard->modules) flown.push_back(module.name);
+  std::vector<std::string> all;
+  fields::for_each_alternative<avoidance::ModuleConfig>([&]<class A>() { all.emplace_back(A::kName); });
+  std::ranges::replace(all, std::string("onnx_policy"), std::string("cloned_policy"));  // flies by the network's name
+  EXPECT_THAT(flown, testing::UnorderedElementsAreArray(all));
+}
+
+/// The second batch finds the first one's flights and flies the rest; a failed check is a result too.
+TEST(Batch, ResumedFliesOnlyWhatHasLeftNoResult) {
+  const CampaignFolder folder;
+  const std::string worker = folder.worker("echo $seed >> flown.txt; fly \"$@\"");
+  const std::string command =
+      "batch tiny.yaml --set 'checks=[{check: reached_goal}]' --out out -j 1 --program " + worker;
+  EXPECT_EQ(folder.hedgehop(command + " --seeds 1:2").status, 1);
+  EXPECT_EQ(folder.hedgehop(command + " --seeds 1:4 --resume").status, 1);
+  EXPECT_EQ(folder.read("flown.txt"), "1\n2\n3\n4\n");
+  EXPECT_THAT(folder.json("out/batch.json").at("flights"), testing::SizeIs(4));
+}
+
+}  // namespace
+}  // namespace hedgehop::sim

@@ -1,0 +1,235 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <Eigen/Geometry>
+
+#include "sim/pages/report.h"
+#include "sim/record/csv_table.h"
+#include "sim/record/result_files.h"
+#include "sim/scenario/scenario.h"
+#include "tests/sim/pages/browser.h"
+#include "tests/sim/record/fake_flight.h"
+#include "tests/sim/record/temporary_folder.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+/// A run's folder with a made-up flight of ten seconds.
+class RunFolder : public TemporaryFolder {
+ public:
+  RunFolder() {
+    write_result_files(path(), {.scenario = "city </script>", .seed = 9, .scenario_yaml = yaml()},
+                       fake_flight(10.0, 1));
+  }
+  std::string yaml() const {
+    return to_yaml(load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_city_0_light.yaml"));
+  }
+};
+
+TEST(ReportInBrowser, OpensAloneAndFollowsThePointer) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  write_report(run.path(), read_run(run.path()));
+  const PageVisit page = visit(run.path() / "report.html", R"js(
+    const canvas = document.querySelector('#plan canvas'), box = canvas.getBoundingClientRect();
+    canvas.dispatchEvent(new PointerEvent('pointermove', {clientX: box.x + box.width / 2, clientY: box.y + box.height / 2}));
+    return [document.querySelector('h1').textContent, document.querySelector('#plan .tip').hidden];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_THAT(page.requests, IsEmpty());
+  EXPECT_THAT(page.value, ElementsAre("city </script>", false));
+}
+
+TEST(ReportInBrowser, IsUsableByKeysAndNamesItsDrawings) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  write_report(run.path(), read_run(run.path()));
+  const PageVisit page = visit(run.path() / "report.html", R"js(
+    const canvas = document.querySelector('#plan canvas'), drawn = [];
+    canvas.focus();
+    for (const key of ['0', '+', 'ArrowUp', '0']) {
+      canvas.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true, cancelable: true}));
+      drawn.push(canvas.toDataURL());
+    }
+    const nameless = [...document.querySelectorAll('canvas, video, .plot')].filter((e) => !e.ariaLabel && !e.closest('.plot[aria-label]'));
+    return [document.activeElement === canvas, drawn[1] !== drawn[0], drawn[2] !== drawn[1],
+            drawn[3] === drawn[0], nameless.length];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_THAT(page.value, ElementsAre(true, true, true, true, 0));
+}
+
+// The pointer is put everywhere, and asked what it met.
+TEST(ReportInBrowser, ShowsTheMapBesideTheTruthWhereAFlightHasOne) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  Flight flight = fake_flight(10.0, 1);
+  const Eigen::Matrix3d covariance = Eigen::Vector3d(4.0, 1.0, 1.0).asDiagonal();
+  flight.map.points = {{{40, 10, -20}, covariance, true}, {{60, -30, -5}, covariance, false}};
+  flight.map.corners = {{{41, 10, -20}, true, true}, {{20, 40, -20}, true, false}};
+  flight.map.course_NE = {{0, 0}, {100, 0}};
+  flight.map.paths = {{2.0, {{30, 20}, {100, 0}}}};
+  write_result_files(run.path(), {.scenario = "map", .scenario_yaml = run.yaml()}, flight);
+  write_report(run.path(), read_run(run.path()));
+  const PageVisit page = visit(run.path() / "report.html", R"js(
+    const canvas = document.querySelector('#landmarks canvas'), box = canvas.getBoundingClientRect();
+    const tip = document.querySelector('#landmarks .tip'), met = {};
+    for (let x = 0; x < box.width; x += 4) {
+      for (let y = 0; y < box.height; y += 4) {
+        canvas.dispatchEvent(new PointerEvent('pointermove', {clientX: box.x + x, clientY: box.y + y}));
+        met[tip.children[0].textContent] = tip.children[1]?.textContent;
+      }
+    }
+    return [met['landmark'], met['false landmark'], document.querySelector('#landmarks .plan-key').textContent];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value[0], "north 40.0 m, east 10.0 m, 20.0 m high");
+  EXPECT_EQ(page.value[1], "north 60.0 m, east −30.0 m, 5.0 m high");
+  EXPECT_THAT(page.value[2].get<std::string>(), ::testing::HasSubstr("1 false"));
+}
+
+TEST(ReportInBrowser, OpensWithWhatHappenedWhereAFlightCollidedAndLeavesOutDeadPlots) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  Flight flight = fake_flight(10.0, 1);
+  for (TrajectoryRow& row : flight.trajectory) row.wind_W.setZero();
+  flight.result.outcome = Outcome::collided;
+  flight.result.closest_obstacle = {.distance_m = 0.0, .t_s = 10.0, .what = "tower"};
+  flight.result.checks = {{"no_collision", false, 0.0, 0.0, "m", ">"}};
+  write_result_files(run.path(), {.scenario = "collided", .scenario_yaml = run.yaml()}, flight);
+  write_report(run.path(), read_run(run.path()));
+  const TrajectoryRow& end = flight.trajectory.back();
+  const PageVisit page = visit(run.path() / "report.html", R"js(
+    const text = (e) => e.textContent;
+    const flat = [...document.querySelectorAll('.chart.flat')].map((e) => e.querySelector('h3').textContent);
+    return [text(document.querySelector('#story li')), text(document.querySelector('#checks')), flat,
+            document.querySelectorAll('.chart.flat .uplot').length];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value[0], fmt::format("Hit tower at 10.0 s, flying {:.1f} m/s at {:.1f} m altitude.",
+                                       end.v_WB_W_true.head<2>().norm(), -end.p_WB_true.z()));
+  EXPECT_THAT(page.value[1].get<std::string>(), ::testing::HasSubstr("> 0 m"));
+  EXPECT_THAT(page.value[2], ElementsAre("Wind"));
+  EXPECT_EQ(page.value[3], 0);
+}
+
+TEST(ReportInBrowser, ShadesWhatFailedWhileItDid) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  Flight flight = fake_flight(10.0, 1);
+  flight.result.failures = {"2 s to 4 s: camera.front black", "8 s to the end: gps bias 3",
+                            "60 s to the end: link off"};
+  write_result_files(run.path(), {.scenario = "failing", .scenario_yaml = run.yaml()}, flight);
+  write_report(run.path(), read_run(run.path()));
+  const PageVisit page = visit(run.path() / "report.html", R"js(
+    const canvas = document.querySelector('.plot canvas'), {data} = canvas.getContext('2d').getImageData(0, 40, canvas.width, 1);
+    const reddish = [...Array(canvas.width).keys()].map((x) => data[4 * x + 3] > 0 && data[4 * x] > data[4 * x + 1] + 8 && data[4 * x] > data[4 * x + 2] + 8);
+    const spans = reddish.filter((red, x) => red && !reddish[x - 1]).length;
+    return [document.getElementById('verdict').textContent.includes('Set to fail: 2 s to 4 s: camera.front black; 8 s'),
+            failuresOf({failures: ['2.5 s to 4 s: a off', '8 s to the end: b off', '60 s to the end: c off']}, 10), spans];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value.at(0), true);
+  EXPECT_EQ(page.value.at(1), nlohmann::json::parse(R"([{"from_s": 2.5, "to_s": 4, "text": "a off"},
+                                                        {"from_s": 8, "to_s": 10, "text": "b off"}])"));
+  EXPECT_GE(page.value.at(2).get<int>(), 2);
+}
+
+TEST(ReportInBrowser, HasNoMapAndNoStoryWhereAFlightHasNone) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  write_report(run.path(), read_run(run.path()));
+  const PageVisit page = visit(run.path() / "report.html",
+                               "return !document.getElementById('landmarks') && !document.getElementById('story');");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_TRUE(page.value.get<bool>());
+}
+
+TEST(ReplayInBrowser, PutsTheVehicleWhereTheTrajectoryHasIt) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  write_replay(run.path(), read_run(run.path()));
+  const PageVisit page = visit(run.path() / "replay.html", R"js(
+    const time = document.getElementById('time'), places = [];
+    for (const t of [0, 3.21, 7.5]) {
+      time.value = t;
+      time.dispatchEvent(new Event('input'));
+      places.push([replay.state.t_s, ...replay.point(1, 2, 3)]);
+    }
+    return places;)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_THAT(page.requests, IsEmpty());
+  const CsvTable table(run.path() / "trajectory.csv");
+  const auto column = [&](const char* name) { return table.numbers(name); };
+  const auto t_s = column("t_s");
+  constexpr double kRoundingM = 3e-3;  // a millimeter of place, and of angle a tenth of a milliradian at 4 m
+  for (const auto& place : page.value) {
+    const auto row = static_cast<size_t>(
+        std::ranges::min_element(t_s, {}, [&](double t) { return std::abs(t - place[0].get<double>()); }) -
+        t_s.begin());
+    const Eigen::Quaterniond q_WB = Eigen::AngleAxisd(column("yaw_rad")[row], Eigen::Vector3d::UnitZ()) *
+                                    Eigen::AngleAxisd(column("pitch_rad")[row], Eigen::Vector3d::UnitY()) *
+                                    Eigen::AngleAxisd(column("roll_rad")[row], Eigen::Vector3d::UnitX());
+    const Eigen::Vector3d p_W = Eigen::Vector3d(column("north_m")[row], column("east_m")[row], column("down_m")[row]) +
+                                q_WB * Eigen::Vector3d(1.0, 2.0, 3.0);
+    EXPECT_NEAR(place[1].get<double>(), p_W.y(), kRoundingM);   // x east
+    EXPECT_NEAR(place[2].get<double>(), -p_W.z(), kRoundingM);  // y up
+    EXPECT_NEAR(place[3].get<double>(), -p_W.x(), kRoundingM);  // z south
+  }
+}
+
+/// From above, under a ceiling; and, to see that the count counts, under a body as thick as a house, which is drawn.
+TEST(ReplayInBrowser, CeilingDoesNotHideTheFlightBelowIt) {
+  HEDGEHOP_NEEDS_BROWSER();
+  for (const double thickness_m : {0.25, 3.0}) {
+    const TemporaryFolder run;
+    Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_city_0_light.yaml");
+    scenario.scene = scenes::worlds::RoomConfig{
+        .length_m = 500.0, .width_m = 500.0, .height_m = 40.0, .wall_thickness_m = thickness_m, .texture_size_px = 64};
+    write_result_files(run.path(), {.scenario = "hall", .seed = 9, .scenario_yaml = to_yaml(scenario)},
+                       fake_flight(10.0, 1));
+    write_replay(run.path(), read_run(run.path()));
+    const PageVisit page = visit(run.path() / "replay.html", R"js(
+      const camera = document.getElementById('camera');
+      camera.value = 'above';
+      camera.dispatchEvent(new Event('change'));
+      return [replay.state.camera, replay.facesBefore()];)js");
+    EXPECT_THAT(page.errors, IsEmpty());
+    EXPECT_EQ(page.value[0], "above");
+    EXPECT_EQ(page.value[1], thickness_m < 1.0 ? 0 : 1) << thickness_m;
+  }
+}
+
+TEST(ReplayInBrowser, PlaysPausesAndChangesCameraAndSpeed) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  write_replay(run.path(), read_run(run.path()));
+  const PageVisit page = visit(run.path() / "replay.html", R"js(
+    const frames = async (n) => { while (n--) await new Promise(requestAnimationFrame); };
+    const set = (id, value) => {
+      const element = document.getElementById(id);
+      element.value = value;
+      element.dispatchEvent(new Event('change'));
+    };
+    const play = document.getElementById('play'), time = document.getElementById('time'), seen = [1];
+    time.value = seen[0];
+    time.dispatchEvent(new Event('input'));
+    set('speed', '0.1');
+    play.click();
+    const word = play.textContent;
+    await frames(4);
+    play.click();
+    seen.push(replay.state.t_s);
+    await frames(4);
+    seen.push(replay.state.t_s);
+    set('camera', 'chase');
+    await frames(2);
+    set('camera', 'above');
+    await frames(2);
+    return {word, moved: seen[1] > seen[0], rested: seen[2] === seen[1], speed: replay.state.speed, camera: replay.state.camera};
+    )js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value, nlohmann::json::parse(
+                            R"({"word": "pause", "moved": true, "rested": true, "speed": 0.1, "camera": "above"})"));
+}
+
+}  // namespace
+}  // namespace hedgehop::sim

@@ -1,0 +1,279 @@
+#include "sim/pages/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <regex>
+
+#include "sim/pages/panels.h"
+#include "sim/pages/plan.h"
+#include "sim/pages/report_data.h"
+#include "sim/pages/report_page.h"
+#include "sim/record/flight_columns.h"
+#include "sim/record/result_files.h"
+#include "sim/record/whole_file.h"
+#include "sim/scenario/flight_parts.h"
+#include "tests/sim/record/fake_flight.h"
+#include "tests/sim/record/temporary_folder.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// --- Plan
+
+TEST(Plan, FootprintOfATurnedBoxHasItsArea) {
+  scenes::Solid solid{.half_extents_m = {3.0, 2.0, 5.0}};
+  solid.X_WS = Eigen::Translation3d(100.0, -50.0, -5.0) * Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ());
+  const Footprint footprint = footprints({solid}).front();
+  double twice_area_m2 = 0.0;
+  const auto& p = footprint.corners_NE_m;
+  for (size_t i = 0; i < p.size(); ++i) {
+    const Eigen::Vector2d &a = p[i], &b = p[(i + 1) % p.size()];
+    twice_area_m2 += a.x() * b.y() - a.y() * b.x();
+  }
+  constexpr double kFloatCoordinates = 1e-2;
+  EXPECT_NEAR(std::abs(twice_area_m2) / 2.0, 6.0 * 4.0, kFloatCoordinates);
+  EXPECT_NEAR(footprint.bottom_m, 0.0, 1e-9);
+  EXPECT_NEAR(footprint.top_m, 10.0, 1e-9);
+}
+
+TEST(Plan, CeilingIsAboveAndKerbBelowTheFlight) {
+  EXPECT_EQ(level({.bottom_m = 3.0, .top_m = 3.2}, 0.9, 1.1, 1.0), Level::above);
+  EXPECT_EQ(level({.bottom_m = 0.0, .top_m = 0.2}, 9.0, 11.0, 1.0), Level::below);
+  EXPECT_EQ(level({.bottom_m = 0.0, .top_m = 9.5}, 9.0, 11.0, 1.0), Level::beside);
+}
+
+// --- Panels
+
+/// Tables of a made-up flight.
+class Tables {
+ public:
+  explicit Tables(const Flight& flight)
+      : trajectory_(trajectory_columns(flight)),
+        decisions_(decision_columns(flight)),
+        result_(result_data({.scenario = "name"}, flight.result)) {}
+  const ColumnTable& trajectory() const { return trajectory_; }
+  const ColumnTable& decisions() const { return decisions_; }
+  const nlohmann::ordered_json& result() const { return result_; }
+
+ private:
+  ColumnTable trajectory_, decisions_;
+  nlohmann::ordered_json result_;
+};
+
+const Panel& panel(const std::vector<Panel>& panels, std::string_view title) {
+  const auto found = std::ranges::find_if(panels, [&](const Panel& p) { return p.title.starts_with(title); });
+  if (found == panels.end()) throw std::runtime_error("no panel " + std::string(title));
+  return *found;
+}
+
+TEST(Panels, VelocityAlongTheHeadingIsAllForward) {
+  Flight flight = fake_flight(0.5, 1);
+  for (TrajectoryRow& row : flight.trajectory) {
+    row.rpy_true.z() = 0.7;
+    row.v_WB_W_true = {3.0 * std::cos(0.7), 3.0 * std::sin(0.7), 0.4};
+  }
+  const auto panels = trajectory_panels(Tables(flight).trajectory(), {});
+  for (const double v : panel(panels, "Forward").series[2].values) EXPECT_NEAR(v, 3.0, 1e-12);
+  for (const double v : panel(panels, "Sideways").series[2].values) EXPECT_NEAR(v, 0.0, 1e-12);
+}
+
+TEST(Panels, HeadingThroughSouthDoesNotJump) {
+  Flight flight = fake_flight(2.0, 1);
+  double yaw_rad = 3.0;
+  for (TrajectoryRow& row : flight.trajectory) {
+    yaw_rad += 0.01;
+    row.rpy_true.z() = std::remainder(yaw_rad, 2.0 * M_PI);
+    row.heading_cmd_rad = M_PI;
+  }
+  const auto panels = trajectory_panels(Tables(flight).trajectory(), {});
+  for (const Series& series : panel(panels, "Heading").series) {
+    if (series.role == "est") continue;
+    for (size_t i = 1; i < series.values.size(); ++i) {
+      ASSERT_NEAR(series.values[i], series.values[i - 1], 1.0) << series.role << " " << i;
+    }
+  }
+}
+
+TEST(Panels, SignalsAreGroupedByWhatTheyMeasure) {
+  const auto panels = signal_panels(Tables(fake_flight(1.0, 1)).decisions());
+  ASSERT_EQ(panels.size(), 3u);
+  EXPECT_EQ(panels[0].unit, "rad/s");
+  EXPECT_EQ(panels[1].unit, "1/s");
+  ASSERT_EQ(panels[0].series.size(), 4u);
+  EXPECT_EQ(panels[0].series[0].role, "left");
+  EXPECT_EQ(panels[0].series[3].role, "rear");
+  EXPECT_EQ(panels[2].title, "Goal distance");
+  EXPECT_EQ(panels[2].unit, "m");
+}
+
+TEST(Panels, WordsThatAllSignalsShareAreTheTitle) {
+  Flight flight = fake_flight(0.1, 1);
+  flight.signals = {{"valid_share_left", ""},
+                    {"valid_share_right", ""},
+                    {"speed_mps", ""},
+                    {"target_v_north_mps", ""},
+                    {"target_v_east_mps", ""}};
+  for (DecisionRow& row : flight.decisions) row.signals.assign(5, 1.0);
+  const auto panels = signal_panels(Tables(flight).decisions());
+  ASSERT_EQ(panels.size(), 3u);
+  EXPECT_EQ(panels[0].title, "Valid share");
+  EXPECT_EQ(panels[0].series[1].label, "right");
+  EXPECT_EQ(panels[1].title, "Speed");
+  EXPECT_EQ(panels[1].series[0].label, "speed");
+  EXPECT_EQ(panels[2].title, "Target v");
+  EXPECT_EQ(panels[2].series[0].label, "north");
+}
+
+TEST(ReportData, WritesNullForWhatNoOneMeasured) {
+  Flight flight = fake_flight(1.0, 1);
+  for (TrajectoryRow& row : flight.trajectory) row.obstacle_clearance_m = std::numeric_limits<double>::infinity();
+  const Tables tables(flight);
+  const auto json = report_data({}, tables.result(), tables.trajectory(), tables.decisions());
+  EXPECT_TRUE(json.at("path").at("clearance")[0].is_null());
+}
+
+TEST(ReportData, StatusIsThatOfTheLastDecision) {
+  Flight flight = fake_flight(1.0, 1);
+  flight.decisions = {{.t_s = 0.2, .status = "first", .signals = std::vector<double>(9, 0.0)},
+                      {.t_s = 0.5, .status = "second", .signals = std::vector<double>(9, 0.0)}};
+  const Tables tables(flight);
+  const auto path = report_data({}, tables.result(), tables.trajectory(), tables.decisions()).at("path");
+  EXPECT_EQ(path.at("statuses"), (std::vector<std::string>{"first", "second"}));
+  EXPECT_EQ(path.at("status")[19], -1);
+  EXPECT_EQ(path.at("status")[20], 0);
+  EXPECT_EQ(path.at("status")[50], 1);
+}
+
+TEST(ReportData, StaysWithinItsPoints) {
+  const Tables tables(fake_flight(100.0, 1));
+  const auto json = report_data({}, tables.result(), tables.trajectory(), tables.decisions(), 500);
+  EXPECT_LE(json.at("path").at("t").size(), 500u);
+  for (const auto& panel : json.at("panels")) EXPECT_LE(panel.at("t_s").size(), 500u) << panel.at("title");
+}
+
+TEST(ReportData, FlightWithoutARowOrDecisionIsNoError) {
+  Flight flight = fake_flight(0.1, 1);
+  flight.trajectory.clear();
+  flight.decisions.clear();
+  const Tables tables(flight);
+  EXPECT_NO_THROW(report_data({}, tables.result(), tables.trajectory(), tables.decisions()));
+}
+
+// --- Page
+
+TEST(ReportPage, Base64FollowsTheTestVectorsOfRfc4648) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("foob"), "Zm9vYg==");
+  EXPECT_EQ(base64("fooba"), "Zm9vYmE=");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
+}
+
+TEST(ReportPage, DataCannotEndItsScriptAndReadsBack) {
+  const nlohmann::json nasty = {{"a", "</script><script>alert(1)</script>"}, {"b", "<!-- \\u003c \" \\"}};
+  const std::string safe = script_safe(nasty.dump());
+  EXPECT_THAT(safe, Not(HasSubstr("<")));
+  EXPECT_EQ(nlohmann::json::parse(safe), nasty);
+}
+
+TEST(ReportPage, TitleIsText) {
+  const std::string page = report_page("a<b> & \"c\"", "{}", {});
+  EXPECT_THAT(page, HasSubstr("<title>a&lt;b&gt; &amp; &quot;c&quot; - Hedgehop</title>"));
+}
+
+TEST(ReportPage, WhatIsFilledInIsNotATemplate) {
+  EXPECT_THAT(report_page("{{data}} {{nonsense}}", "{}", {}), HasSubstr("<title>{{data}} {{nonsense}} - Hedgehop"));
+}
+
+TEST(ReportPage, HasEveryScriptClosedOnce) {
+  const std::string page = report_page("t", R"({"a":"</script>"})", {.bytes = "film"});
+  const auto count = [&](const std::string& text) {
+    size_t n = 0;
+    for (size_t at = page.find(text); at != std::string::npos; at = page.find(text, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count("<script"), 4u);
+  EXPECT_EQ(count("</script"), 4u);
+}
+
+TEST(ReportPage, LoadsNothingFromElsewhere) {
+  const std::string page = report_page("t", "{}", {.bytes = "film"});
+  for (const char* way : {R"((src|href)\s*=\s*["']?\s*(https?:)?//)", R"(url\()", "@import", R"(\bfetch\()",
+                          "XMLHttpRequest", R"(\bimport\()", "sendBeacon", "WebSocket", R"(<link)", R"(<iframe)"}) {
+    EXPECT_FALSE(std::regex_search(page, std::regex(way))) << way;
+  }
+}
+
+TEST(ReportPage, FilmIsInsideOrLinkedOrAbsent) {
+  EXPECT_THAT(report_page("t", "{}", {.bytes = "film"}), HasSubstr(base64("film")));
+  EXPECT_THAT(report_page("t", "{}", {.link = "video.webm"}), HasSubstr("src=\"video.webm\""));
+  EXPECT_THAT(report_page("t", "{}", {}), Not(HasSubstr("<video")));
+}
+
+/// The JSON that a page's script reads.
+nlohmann::json data_of(const std::string& page) {
+  const std::string open = "id=\"data\">";
+  const size_t begin = page.find(open) + open.size();
+  return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
+TEST(Report, DrawsTheSceneThatWasFlown) {
+  const TemporaryFolder folder;
+  const Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_city_0_light.yaml");
+  constexpr uint64_t kSeed = 9;  // of the run; the file's own is another
+  write_result_files(folder.path(), {.scenario = "city </script>", .seed = kSeed, .scenario_yaml = to_yaml(scenario)},
+                     fake_flight(2.0, 1));
+  write_report(folder.path(), read_run(folder.path()));
+  const nlohmann::json data = data_of(read_file_whole(folder.path() / "report.html"));
+  const scenes::Scene scene = build_scene(scenario.scene, kSeed);
+  ASSERT_EQ(data.at("plan").at("footprints").size(), scene.solids.size());
+  EXPECT_EQ(data.at("plan").at("footprints")[3].at("name"), scene.solids[3].name);
+  EXPECT_EQ(data.at("plan").at("goal").at("n"), scenario.goal->north_m);
+  EXPECT_EQ(data.at("result").at("scenario"), "city </script>");
+  EXPECT_EQ(data.at("module"), "flow_balance");
+  EXPECT_EQ(data.at("scenario_yaml"), to_yaml(scenario));
+}
+
+TEST(Report, OfAFlightInMemoryEqualsThatOfItsFiles) {
+  const TemporaryFolder folder;
+  const Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_city_0_light.yaml");
+  const RunInfo info{.scenario = "city", .seed = 9, .scenario_yaml = to_yaml(scenario)};
+  Flight flight = fake_flight(2.0, 1);
+  flight.trajectory[3].v_WB_W_cmd.reset();
+  flight.trajectory[4].obstacle_clearance_m = std::numeric_limits<double>::infinity();
+  flight.map.points = {{{40, 10, -20}, Eigen::Matrix3d::Identity(), true}};
+  write_result_files(folder.path(), info, flight);
+  for (const auto& [write, page] : {std::pair(&write_report, "report.html"), std::pair(&write_replay, "replay.html")}) {
+    write(folder.path(), run_record(scenario, info, flight));
+    const std::string in_memory = read_file_whole(folder.path() / page);
+    std::filesystem::remove(folder.path() / page);
+    write(folder.path(), read_run(folder.path()));
+    EXPECT_EQ(read_file_whole(folder.path() / page) == in_memory, true) << page;
+  }
+}
+
+TEST(Report, NamesTheFileThatIsMissing) {
+  const TemporaryFolder folder;
+  try {
+    read_run(folder.path());
+    FAIL() << "nothing was thrown";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("result.json: No such file"));
+  }
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
