@@ -50,7 +50,8 @@ def of_c(text):
         first = line_of(text, found.start())
         if re.match(r"\s*#\s*include", text[text.rfind("\n", 0, found.start()) + 1: found.start()]):
             continue
-        passages.append((kind, first, line_of(text, found.end()), words.replace("\\n", " ").replace('\\"', '"')))
+        words = "\n".join(line.strip() for line in words.replace("\\n", " ").replace('\\"', '"').split("\n"))
+        passages.append((kind, first, line_of(text, found.end()), words))
     names = [(line_of(text, found.start()), split_name(found.group(1))) for found in TEST_NAME.finditer(text)]
     return join_neighbors(passages) + names
 
@@ -105,7 +106,7 @@ def of_page(text):
         elif line.strip():
             if not block:
                 first = number
-            block.append(re.sub(r"^\s*([-*]|\d+\.|#+|>)\s", "", line))
+            block.append(re.sub(r"^\s*([-*]|\d+\.|#+|>)\s", "", line).strip())
             if line.lstrip().startswith("#"):
                 passages.append((first, "\n".join(block)))
                 block = []
