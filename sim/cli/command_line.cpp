@@ -28,11 +28,12 @@
 namespace hedgehop::sim::cli {
 namespace {
 
-/// What may override a scenario.
+/// Declares the options that override a scenario.
 void add_layers(CLI::App& command, ScenarioOptions& scenario) {
   command.add_option("--seed", scenario.seed, "seed of every random stream; overrides the scenario's")
       ->transform(whole_number());
-  add_overrides(command, scenario.overrides, "override a value of the scenario, e.g. --set avoidance.speed=1.5");
+  add_overrides(command, scenario.overrides,
+                "override a value of the scenario, e.g. --set avoidance.speed=1.5; may be repeated");
   const std::vector<std::string> names(kRendererNames.begin(), kRendererNames.end());
   CLI::Option* const renderer =
       command
@@ -57,7 +58,7 @@ void add_scenario(CLI::App& command, ScenarioOptions& scenario) {
 }
 
 void add_formats(CLI::App& command, bool& json, bool& csv) {
-  CLI::Option* const as_json = command.add_flag("--json", json, "print JSON instead of a table for people");
+  CLI::Option* const as_json = command.add_flag("--json", json, "print JSON instead of a table");
   command.add_flag("--csv", csv, "print comma-separated values")->excludes(as_json);
 }
 
@@ -68,28 +69,26 @@ struct VehicleOptions {
   LinearizeOptions linearize;
 };
 
-// Each declares a command; the one that is chosen ends up in `chosen`.
+// Each function declares one command. Parsing stores the call of the selected command in `chosen`.
 
 void declare_run(CLI::App& app, std::function<int()>& chosen, RunOptions& run) {
-  CLI::App* const command = app.add_subcommand("run",
-                                               "fly a scenario; write a folder with verdict, tables, film "
-                                               "and report");
+  CLI::App* const command =
+      app.add_subcommand("run", "fly a scenario and write its results: verdict, tables, video, report");
   add_scenario(*command, run.scenario);
-  command->add_option("--out", run.out, "folder of the results; out/<name>-seed<seed> when not given")
-      ->type_name("DIR");
-  command->add_flag("--no-video", run.no_video, "write no video");
-  command->add_flag("--no-report", run.no_report, "write no report.html; `hedgehop report DIR` does so later");
+  command->add_option("--out", run.out, "output folder; default out/<name>-seed<seed>")->type_name("DIR");
+  command->add_flag("--no-video", run.no_video, "do not write a video");
+  command->add_flag("--no-report", run.no_report, "do not write report.html; `hedgehop report DIR` writes it later");
   command->add_option("--worker-of", run.worker_of)->group("");  // hidden: for batch and sweep
-  command->add_flag("--json", run.json, "print result.json instead of lines for people");
+  command->add_flag("--json", run.json, "print result.json instead of the verdict");
   command->callback([&] { chosen = [&run] { return cli::run(run); }; });
 }
 
 void declare_render(CLI::App& app, std::function<int()>& chosen, RenderOptions& render) {
-  CLI::App* const command = app.add_subcommand("render", "write the image of one camera as PNG");
+  CLI::App* const command = app.add_subcommand("render", "render the image of one camera to a PNG file");
   auto* const file = command->add_option("SCENARIO", render.scenario.file, "scenario file (YAML)");
   add_layers(*command, render.scenario);
   auto* const camera = command->add_option("--camera", render.camera, "role of the camera")->type_name("NAME");
-  command->add_option("--time", render.time_s, "time of the image, s; the flight is flown up to it")
+  command->add_option("--time", render.time_s, "time of the image, s; the flight is simulated up to this time")
       ->transform(number())
       ->check(not_negative())
       ->type_name("S");
@@ -99,9 +98,9 @@ void declare_render(CLI::App& app, std::function<int()>& chosen, RenderOptions& 
                    "millimeters, 0 beyond 65 m); flow to the camera's next image (right red, left cyan, white at "
                    "rest, full at 16 px); labels (a color for each object, sky black)")
       ->check(CLI::IsMember({"color", "grey", "depth", "depth_mm", "flow", "labels"}));
-  auto* const out = command->add_option("-o", render.out, "file to write")->type_name("FILE.png");
+  auto* const out = command->add_option("-o", render.out, "output file")->type_name("FILE.png");
   auto* const info =
-      command->add_flag("--info", render.info, "print the renderers that this machine can use, and stop");
+      command->add_flag("--info", render.info, "print the renderers that this machine can use, and exit");
   command->callback([&, file, camera, out, info] {
     if (!*info && (!*file || !*camera || !*out)) {
       throw CLI::RequiredError("render: SCENARIO, --camera and -o (or --info)");
@@ -112,47 +111,48 @@ void declare_render(CLI::App& app, std::function<int()>& chosen, RenderOptions& 
 
 void declare_calibration(CLI::App& app, std::function<int()>& chosen, CalibrationOptions& calibration) {
   CLI::App* const command =
-      app.add_subcommand("calibration", "write the intrinsics and poses of the rig's cameras for other programs");
+      app.add_subcommand("calibration", "write the camera calibration for other programs: intrinsics and poses");
   add_scenario(*command, calibration.scenario);
   command->add_option("--format", calibration.format, "opencv (FileStorage YAML, the default) or kalibr")
       ->check(CLI::IsMember({"opencv", "kalibr"}));
-  command->add_option("-o", calibration.out, "file to write; standard output when not given")->type_name("FILE.yaml");
+  command->add_option("-o", calibration.out, "output file; default standard output")->type_name("FILE.yaml");
   command->callback([&] { chosen = [&calibration] { return cli::calibration(calibration); }; });
 }
 
 void declare_export(CLI::App& app, std::function<int()>& chosen, ExportOptions& data) {
   CLI::App* const command =
-      app.add_subcommand("export", "re-simulate a run and write images, IMU, truth and calibration for other programs");
-  command->add_option("RUN", data.folder, "folder of a run, as `hedgehop run` leaves it")->required();
+      app.add_subcommand("export", "re-simulate a run and write a data set: images, IMU, true motion, calibration");
+  command->add_option("RUN", data.folder, "output folder of `hedgehop run`")->required();
   command
       ->add_option("--format", data.format,
-                   "euroc: mav0 with all cameras; tum: RGB-D of one pinhole, its depth true; kitti: odometry, pinholes "
-                   "of one rate")
+                   "euroc: mav0 with all cameras; tum: RGB-D of one pinhole camera with true depth; kitti: odometry "
+                   "with pinhole cameras of one rate")
       ->required()
       ->check(CLI::IsMember({"euroc", "tum", "kitti"}));
   command
       ->add_option("--camera", data.cameras,
-                   "role of a camera to export; may be repeated, the first is cam0; all that take images "
-                   "when not given")
+                   "role of a camera to export; may be repeated, the first is cam0; default all cameras with images")
       ->type_name("NAME");
   command->add_flag("--truth", data.truth,
-                    "also write depth, labels, what moves and optical flow of each image, as they truly are");
-  command->add_option("--out", data.out, "folder to write, not there or empty; RUN/<format> when not given")
+                    "also write ground-truth depth, labels, moving-object masks and optical flow");
+  command->add_option("--out", data.out, "output folder, which must not exist or be empty; default RUN/<format>")
       ->type_name("DIR");
   command->callback([&] { chosen = [&data] { return cli::export_run(data); }; });
 }
 
 void declare_report(CLI::App& app, std::function<int()>& chosen, ReportOptions& report) {
-  CLI::App* const command = app.add_subcommand("report", "write report.html of a run, a batch or a sweep again");
-  command->add_option("DIR", report.folder, "its folder")->required()->check(CLI::ExistingDirectory);
-  command->add_option("--against", report.against, "of a batch or sweep: list what changed since this earlier one")
+  CLI::App* const command = app.add_subcommand("report", "write report.html of a run, a batch or a sweep");
+  command->add_option("DIR", report.folder, "output folder of the run, batch or sweep")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  command->add_option("--against", report.against, "for a batch or sweep: list the changes since this earlier one")
       ->check(CLI::ExistingDirectory)
       ->type_name("DIR");
-  command->add_flag("--replay", report.replay, "of a run: also write replay.html, the flight in three dimensions");
+  command->add_flag("--replay", report.replay, "for a run: also write replay.html, the flight in 3-D");
   command
       ->add_option("--film-strips", report.film_strips,
-                   "of a batch or sweep: re-simulate so many of the worst flights, up to their closest approach, for "
-                   "images of what they saw")
+                   "for a batch or sweep: number of worst flights to re-simulate up to their closest approach, for "
+                   "their camera images")
       ->transform(whole_number())
       ->check(CLI::Range(0, 50))
       ->type_name("N");
@@ -160,8 +160,9 @@ void declare_report(CLI::App& app, std::function<int()>& chosen, ReportOptions& 
 }
 
 void declare_list(CLI::App& app, std::function<int()>& chosen, std::string& topic) {
-  CLI::App* const command = app.add_subcommand("list", "list what a scenario may name, and every key it takes");
-  command->add_option("TOPIC", topic, "modules, vehicles, scenes, cameras, checks; or scenario: every other key")
+  CLI::App* const command = app.add_subcommand(
+      "list", "list the keys of scenarios, and the valid modules, vehicles, scenes, cameras and checks");
+  command->add_option("TOPIC", topic, "modules, vehicles, scenes, cameras, checks; scenario: all other keys")
       ->required()
       ->check(CLI::IsMember(document_topics()));
   command->callback([&] { chosen = [&topic] { return cli::list(topic); }; });
@@ -169,12 +170,12 @@ void declare_list(CLI::App& app, std::function<int()>& chosen, std::string& topi
 
 void declare_trim(CLI::App& app, std::function<int()>& chosen, VehicleOptions& vehicles) {
   CLI::App* const command =
-      app.add_subcommand("trim", "print, and plot, a vehicle's trim of level flight against speed");
+      app.add_subcommand("trim", "print or plot a vehicle's trim in level flight against airspeed");
   command->add_option("VEHICLE", vehicles.trim.vehicle, "vehicle file (YAML)")->required();
-  command->add_option("--speed", vehicles.speeds, "speed through the air, or a range of them (m/s); default 0")
+  command->add_option("--speed", vehicles.speeds, "airspeed or a range of airspeeds, m/s; default 0")
       ->type_name("FROM:TO:STEP");
   add_formats(*command, vehicles.trim.json, vehicles.trim.csv);
-  command->add_option("--plot", vehicles.trim.plot, "also write a page with plots of the trim over speed")
+  command->add_option("--plot", vehicles.trim.plot, "also write a page with plots of the trim against airspeed")
       ->type_name("FILE.html");
   command->callback([&] {
     chosen = [&vehicles] {
@@ -186,9 +187,9 @@ void declare_trim(CLI::App& app, std::function<int()>& chosen, VehicleOptions& v
 
 void declare_linearize(CLI::App& app, std::function<int()>& chosen, VehicleOptions& vehicles) {
   CLI::App* const command = app.add_subcommand(
-      "linearize", "print a vehicle's linear model about level flight: A, B and modes with frequency and damping");
+      "linearize", "print a vehicle's linear model in level flight: A, B, and modes with frequency and damping");
   command->add_option("VEHICLE", vehicles.linearize.vehicle, "vehicle file (YAML)")->required();
-  command->add_option("--speed", vehicles.linearize.speed_mps, "speed through the air (m/s); default 0")
+  command->add_option("--speed", vehicles.linearize.speed_mps, "airspeed, m/s; default 0")
       ->transform(number())
       ->type_name("V");
   add_formats(*command, vehicles.linearize.json, vehicles.linearize.csv);
@@ -214,16 +215,16 @@ void declare_manual(CLI::App& app, std::function<int()>& chosen, std::string& fo
   });
 }
 
-/// What to say of a first word that is no command; nothing where it is one, or an option.
+/// Returns the message for a first word that is not a command; empty if it is a command or an option.
 std::string unknown_command(const CLI::App& app, std::string_view word) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
   if (word.starts_with('-') || std::ranges::find(names, word) != names.end()) return {};
   if (word == "estimate") return "the command 'estimate' was removed; to bound a rate, use `hedgehop batch --until`";
-  return fmt::format("no command '{}'{} (see --help)", word, suggestion(word, {names.begin(), names.end()}));
+  return fmt::format("unknown command '{}'{} (see --help)", word, suggestion(word, {names.begin(), names.end()}));
 }
 
-/// What to say of the first word that looks like an option and is none of the command's; nothing where there is none.
+/// Returns the message for the first unknown option of the command; empty if there is none.
 std::string unknown_option(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands()) {
@@ -235,7 +236,7 @@ std::string unknown_option(const CLI::App& app) {
   }
   for (const std::string& word : app.remaining(/*recurse=*/true)) {
     if (word.starts_with("-") && word.size() > 1) {
-      return fmt::format("no option '{}'{} (see --help)", word, suggestion(word, {names.begin(), names.end()}));
+      return fmt::format("unknown option '{}'{} (see --help)", word, suggestion(word, {names.begin(), names.end()}));
     }
   }
   return {};
@@ -243,11 +244,11 @@ std::string unknown_option(const CLI::App& app) {
 
 int parse_and_run(int argc, char** argv) {
   CLI::App app{
-      "Hedgehop flies rotorcraft through scenes they must see to survive: closed-loop simulation of\n"
-      "vision-based obstacle avoidance, without display, GPU or network.",
+      "Hedgehop: closed-loop simulation of vision-based obstacle avoidance for helicopters and multicopters,\n"
+      "without display, GPU or network.",
       "hedgehop"};
   bool features = false;
-  app.add_flag("--features", features, "with --version: what this build has, and what it lacks");
+  app.add_flag("--features", features, "with --version: the optional features of this build");
   app.set_version_flag("--version", [&features] {
     return fmt::format("{} (build {}){}", version(), build_identity(), features ? kFeatureRows : "");
   });
@@ -256,8 +257,9 @@ int parse_and_run(int argc, char** argv) {
     return fmt::format("{} (see --help)\n", one_line(error.what()));
   });
   app.footer(
-      "Exit status: 0 all checks hold; 1 a check fails; 2 the input is bad; 3 an internal error; 4 undecided; 130 "
-      "interrupted.");
+      "Exit status: 0 all checks hold; 1 a check fails or a claim is refuted; 2 bad input; 3 internal error; 4 "
+      "undecided; "
+      "130 interrupted.");
 
   std::function<int()> chosen;
   RunOptions run;

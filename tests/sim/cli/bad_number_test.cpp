@@ -35,7 +35,7 @@ TEST(NumberOptions, RefuseWhatWrapsOrIsNotFinite) {
 TEST(Commands, ASlipOfTheirNamesIsToldWithThoseThereAre) {
   const Answer slip = ask("bacth " + kScenario);
   EXPECT_EQ(slip.status, kBadInput);
-  EXPECT_THAT(slip.text, testing::StartsWith("no command 'bacth'; did you mean 'batch'? allowed: run, render, "));
+  EXPECT_THAT(slip.text, testing::StartsWith("unknown command 'bacth'; did you mean 'batch'? allowed: run, render, "));
   EXPECT_EQ(std::ranges::count(slip.text, '\n'), 1);
   EXPECT_THAT(ask(kScenario).text, testing::EndsWith("manual (see --help)\n"));
 }
@@ -49,7 +49,7 @@ TEST(Commands, TheRemovedCommandEstimateNamesItsReplacement) {
 TEST(Options, ASlipOfTheirNamesIsToldWithTheNearest) {
   const Answer slip = ask("run " + kScenario + " --ot x");
   EXPECT_EQ(slip.status, kBadInput);
-  EXPECT_THAT(slip.text, testing::StartsWith("no option '--ot'; did you mean '--out'? allowed: --help, "));
+  EXPECT_THAT(slip.text, testing::StartsWith("unknown option '--ot'; did you mean '--out'? allowed: --help, "));
   EXPECT_THAT(slip.text, testing::Not(testing::HasSubstr("--worker-of"))) << "which is hidden";
   EXPECT_EQ(std::ranges::count(slip.text, '\n'), 1);
 }
