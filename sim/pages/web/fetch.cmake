@@ -4,8 +4,9 @@ foreach(file package.json package-lock.json .npmrc)
   file(COPY "${SOURCE}/${file}" DESTINATION "${BUILD}")
 endforeach()
 execute_process(COMMAND "${NPM}" ci --no-audit --no-fund --ignore-scripts --prefer-offline --loglevel=error
-                WORKING_DIRECTORY "${BUILD}" RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said)
+                WORKING_DIRECTORY "${BUILD}" RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
 if(NOT status EQUAL 0)
-  message(FATAL_ERROR "npm could not fetch what the pages draw with (${SOURCE}/package-lock.json). "
-                      "It needs the npm registry once; npm said:\n${said}")
+  message(FATAL_ERROR "npm could not fetch the packages of ${SOURCE}/package-lock.json. It needs the npm registry once. "
+                      "Output of npm:
+${output}")
 endif()
