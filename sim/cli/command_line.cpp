@@ -172,8 +172,8 @@ void declare_trim(CLI::App& app, std::function<int()>& chosen, VehicleOptions& v
   CLI::App* const command =
       app.add_subcommand("trim", "print or plot a vehicle's trim in level flight against airspeed");
   command->add_option("VEHICLE", vehicles.trim.vehicle, "vehicle file (YAML)")->required();
-  command->add_option("--speed", vehicles.speeds, "airspeed or a range of airspeeds, m/s; default 0")
-      ->type_name("FROM:TO:STEP");
+  command->add_option("--speed", vehicles.speeds, "airspeed, or a range FROM:TO:STEP, m/s; default 0")
+      ->type_name("RANGE");
   add_formats(*command, vehicles.trim.json, vehicles.trim.csv);
   command->add_option("--plot", vehicles.trim.plot, "also write a page with plots of the trim against airspeed")
       ->type_name("FILE.html");

@@ -51,6 +51,15 @@ TEST_F(Manual, HoldsEveryCommandAndOptionThatHelpPrints) {
   }
 }
 
+TEST_F(Manual, ReferencePageHasAnExampleOfEveryCommand) {
+  const std::string page = folder.hedgehop("manual markdown").out;
+  const std::set<std::string> commands = matches(page, "\n\\| \\[([a-z]+)\\]");
+  ASSERT_GE(commands.size(), 13U);
+  for (const std::string& command : commands) {
+    EXPECT_THAT(page.substr(page.find("\n## " + command + "\n")), HasSubstr("```sh\nhedgehop " + command + " "));
+  }
+}
+
 TEST_F(Manual, HasNoLineThatRoffWouldTakeForARequest) {
   const std::set<std::string> requests = matches("\n" + folder.hedgehop("manual man").out, "\n[.']([^ \n]*)");
   EXPECT_THAT(requests, testing::IsSubsetOf({"TH", "SH", "SS", "TP", "B", "I", "nf", "fi"}));
