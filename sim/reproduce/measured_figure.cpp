@@ -33,9 +33,9 @@ double statistic_of(Statistic statistic, std::vector<double> values) {
   std::ranges::sort(values);
   const size_t count = values.size();
   switch (statistic) {
-    case Statistic::least:
+    case Statistic::min:
       return values.front();
-    case Statistic::greatest:
+    case Statistic::max:
       return values.back();
     case Statistic::median:
       return (values[(count - 1) / 2] + values[count / 2]) / 2.0;

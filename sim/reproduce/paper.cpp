@@ -28,15 +28,16 @@ class Examiner {
     if (!used_.insert(flights.name).second) fault(at, fmt::format("two flights are called '{}'", flights.name));
     if (flights.name.find('/') != std::string::npos) fault(at, "a name has no '/': what follows one is the variant's");
     const auto known = [](const std::string& sensor) { return sensor == "ideal" || sensor == "dull"; };
-    if (!std::ranges::all_of(flights.sensors, known)) fault(at + ".sensors", "sensors beside 'day' are: ideal, dull");
-    if (flights.beside && flights.sensors.empty()) fault(at + ".beside", "'beside' goes with 'sensors'");
+    if (!std::ranges::all_of(flights.sensors, known)) fault(at + ".sensors", "valid sensors: ideal, dull");
+    if (flights.sensor_seeds && flights.sensors.empty())
+      fault(at + ".sensor_seeds", "'sensor_seeds' goes with 'sensors'");
     const std::string wrong = judging_fault(flights.tuned_on ? flights.tuned_on : tuned_on_, flights.seeds);
     if (!wrong.empty()) {
       fault(at + ".seeds", wrong);
       return;
     }
     part(flights.quick, flights.seeds, at + ".quick");
-    part(flights.beside, flights.seeds, at + ".beside");
+    part(flights.sensor_seeds, flights.seeds, at + ".sensor_seeds");
   }
 
   void examine(const PaperRow& row, const std::string& at) {
@@ -148,7 +149,7 @@ std::vector<FlightGroup> flight_groups(const Paper& paper) {
     for (const std::string& sensor : flights.sensors) {
       FlightGroup& other = groups.emplace_back(modified);
       other.name += "/" + sensor;
-      other.seeds = flights.beside.value_or(flights.seeds);
+      other.seeds = flights.sensor_seeds.value_or(flights.seeds);
       other.quick.reset();
       other.set.push_back(sensor_override(paper, flights.scenario, sensor));
     }

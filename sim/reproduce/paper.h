@@ -20,7 +20,7 @@ struct PaperFlights {
   std::vector<std::string> set;
   std::vector<std::string> published;
   std::vector<std::string> sensors;
-  std::optional<std::string> beside;
+  std::optional<std::string> sensor_seeds;
 };
 template <class Visitor>
 void describe(Visitor& v, PaperFlights& c) {
@@ -34,12 +34,12 @@ void describe(Visitor& v, PaperFlights& c) {
     {.meaning = "further overrides for the published law: the same seeds again, called NAME/published"});
   v("sensors", c.sensors,
     {.meaning = "ideal, dull: flown with ../sensors/ideal.yaml, dull.yaml, too, called NAME/ideal, NAME/dull"});
-  v("beside", c.beside, {.meaning = "seeds flown with those sensors, of those above; else all"});
+  v("sensor_seeds", c.sensor_seeds, {.meaning = "seeds flown with those sensors, of those above; else all"});
 }
 
 /// A figure drawn from a column of a campaign's table over flights.
 struct FlightFigure {
-  enum class Statistic { count, share, least, greatest, mean, median };
+  enum class Statistic { count, share, min, max, mean, median };
   std::vector<std::string> flights;
   std::string column;
   std::string is;
@@ -53,7 +53,7 @@ void describe_figure(Visitor& v, FlightFigure& c) {
   v("column", c.column, {.meaning = "of a batch's table, such as outcome, min_clearance_m or metric.jerk_rms"});
   v("is", c.is, {.meaning = "for count and share: what the column must hold, such as collided"});
   v("statistic", c.statistic,
-    {.choices = {"count", "share", "least", "greatest", "mean", "median"},
+    {.choices = {"count", "share", "min", "max", "mean", "median"},
      .meaning = "over the flights that have the column"});
 }
 

@@ -48,7 +48,7 @@ def shortened_file(text):
     text = re.sub(r"\bat: [0-9.]+, until: [0-9.]+", f"at: {SHORT_S / 4}, until: {SHORT_S / 2}", text)
     text = re.sub(r"points: [0-9]+", "points: 2", text)
     text = re.sub(r"budget: [0-9]+", "budget: 2, shrinking: 2", text)
-    return re.sub(r"(seeds|quick|beside): ([0-9]+)(:[0-9]+)?(,[0-9:]+)*", r"\1: \2", text)
+    return re.sub(r"(seeds|quick): ([0-9]+)(:[0-9]+)?(,[0-9:]+)*", r"\1: \2", text)
 
 
 def shortened_command(line):

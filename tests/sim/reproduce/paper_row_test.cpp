@@ -46,8 +46,8 @@ double brute(Statistic statistic, std::vector<double> values) {
   double sum = 0.0;
   for (const double value : values) sum += value;
   const size_t n = values.size();
-  if (statistic == Statistic::least) return values[0];
-  if (statistic == Statistic::greatest) return values[n - 1];
+  if (statistic == Statistic::min) return values[0];
+  if (statistic == Statistic::max) return values[n - 1];
   if (statistic == Statistic::mean) return sum / static_cast<double>(n);
   return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2.0;
 }
@@ -91,7 +91,7 @@ TEST(MeasuredFigure, IsThatOfBruteForceOverTheFlightsWithoutAFault) {
       EXPECT_TRUE(std::isnan(share.value));
       continue;
     }
-    for (const Statistic statistic : {Statistic::least, Statistic::greatest, Statistic::mean, Statistic::median}) {
+    for (const Statistic statistic : {Statistic::min, Statistic::max, Statistic::mean, Statistic::median}) {
       EXPECT_NEAR(figure(statistic, "min_clearance_m", "").value, brute(statistic, clearances), 1e-12);
     }
     EXPECT_EQ(figure(Statistic::count, "outcome", "collided").value, collided);
@@ -114,7 +114,7 @@ class PaperRows : public ::testing::Test {
     worst.what = "worst";
     worst.flights = {"a"};
     worst.column = "metric.m";
-    worst.statistic = Statistic::greatest;
+    worst.statistic = Statistic::max;
     worst.at_most = 60.0;
   }
   RowOutcome row(const PaperRow& asked, const std::vector<FlightRecord>& records) {

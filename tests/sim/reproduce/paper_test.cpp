@@ -109,7 +109,7 @@ TEST(PaperFile, VariantsFlyTheSameScenarioWithTheirOwnOverrides) {
                     .set = {"a=1"},
                     .published = {"b=2"},
                     .sensors = {"ideal", "dull"},
-                    .beside = "1001:1010"}};
+                    .sensor_seeds = "1001:1010"}};
   const std::vector<FlightGroup> groups = flight_groups(paper);
   ASSERT_EQ(groups.size(), 4u);
   EXPECT_EQ(groups[1].name, "tree/published");
