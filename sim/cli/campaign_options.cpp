@@ -49,7 +49,7 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
       ->excludes(failed_only);
   command
       ->add_option("--min-success", options->least_success,
-                   "required success rate over the seeds: minimum of the lower bound of its interval")
+                   "required success rate over the seeds; the lower bound of its interval must reach it")
       ->transform(number())
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("RATE");
