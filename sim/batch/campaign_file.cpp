@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
-#include "sim/batch/judging_seeds.h"
+#include "sim/batch/seeds.h"
 #include "sim/config/include.h"
+#include "sim/config/input_error.h"
 #include "sim/config/reader.h"
 #include "sim/record/whole_file.h"
 #include "sim/scenario/flight_parts.h"
@@ -17,6 +19,15 @@ namespace hedgehop::sim {
 namespace {
 
 namespace fs = std::filesystem;
+
+template <class Named>
+std::set<std::string> names_of(const std::vector<Named>& all, std::vector<std::string>& faults) {
+  std::set<std::string> names;
+  for (const Named& one : all) {
+    if (!names.insert(one.name).second) faults.push_back(fmt::format("leaderboard: '{}' stands twice", one.name));
+  }
+  return names;
+}
 
 /// Letters that are safe in a folder's name everywhere.
 /// @param number  of the group among those whose names give the same folder, from 1.
@@ -201,6 +212,28 @@ class Gatherer {
 };
 
 }  // namespace
+
+Leaderboard leaderboard_of(const LeaderboardConfig& config) {
+  std::vector<std::string> faults;
+  const std::set<std::string> worlds = names_of(config.worlds, faults), modules = names_of(config.modules, faults);
+  Leaderboard board{.worlds = config.worlds, .modules = config.modules, .cells = {}};
+  for (const LeaderboardWorld& world : config.worlds) {
+    for (const LeaderboardModule& module : config.modules) board.cells.push_back({world.name, module.name, "", ""});
+  }
+  for (const LeaderboardGap& gap : config.not_flown) {
+    if (!modules.contains(gap.module)) faults.push_back(fmt::format("leaderboard: no module '{}'", gap.module));
+    if (gap.reason.empty())
+      faults.push_back(fmt::format("leaderboard: '{}' is not flown without a reason", gap.module));
+    for (const std::string& world : gap.worlds) {
+      if (!worlds.contains(world)) faults.push_back(fmt::format("leaderboard: no world '{}'", world));
+      for (LeaderboardCell& cell : board.cells) {
+        if (cell.world == world && cell.module == gap.module) cell.reason = gap.reason;
+      }
+    }
+  }
+  if (!faults.empty()) throw InputError(faults);
+  return board;
+}
 
 BatchOrders read_batch(const std::vector<fs::path>& inputs, const std::vector<uint64_t>& seeds,
                        const std::vector<std::string>& overrides) {

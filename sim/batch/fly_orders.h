@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/batch/interruption.h"
 #include "sim/batch/record.h"
+#include "sim/batch/worker_pool.h"
 
 namespace hedgehop::sim {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/batch/group_verdict.h"
 #include "sim/batch/record.h"
-#include "sim/batch/verdict.h"
 
 namespace hedgehop::sim {
 

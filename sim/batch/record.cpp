@@ -13,6 +13,35 @@
 
 namespace hedgehop::sim {
 
+std::string resolved_yaml(Scenario scenario, uint64_t seed) {
+  scenario.seed = seed;
+  scenario.film.enabled = false;
+  return to_yaml(scenario);
+}
+
+std::vector<std::string> run_arguments(const Order& order) {
+  std::vector<std::string> arguments{"run", order.scenario.string(), "--seed", std::to_string(order.seed)};
+  for (const std::string& text : order.overrides) {
+    arguments.emplace_back("--set");
+    arguments.push_back(text);
+  }
+  return arguments;
+}
+
+std::string rerun_command(const Order& order) {
+  std::string command = "hedgehop";
+  for (const std::string& argument : run_arguments(order)) command += " " + shell_quoted(argument);
+  return command;
+}
+
+std::string shell_quoted(const std::string& word) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
 std::string_view to_string(FlightRecord::Status status) {
   switch (status) {
     case FlightRecord::Status::flown:

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "sim/batch/flight_table.h"
 #include "sim/batch/fly_orders.h"
-#include "sim/batch/table.h"
 #include "sim/cli/campaign_page.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"

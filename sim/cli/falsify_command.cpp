@@ -10,7 +10,7 @@
 #include "sim/falsify/counterexample.h"
 #include "sim/pages/campaign_report.h"
 #include "sim/record/whole_file.h"
-#include "sim/sweep/sqlite.h"
+#include "sim/sweep/sweep.h"
 
 namespace hedgehop::sim::cli {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "sim/batch/flight_table.h"
 #include "sim/batch/junit.h"
-#include "sim/batch/table.h"
 #include "sim/cli/campaign_page.h"
 #include "sim/cli/every_write.h"
 #include "sim/cli/exit_status.h"

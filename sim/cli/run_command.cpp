@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sim/batch/order.h"
+#include "sim/batch/record.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/load.h"
 #include "sim/cli/notice.h"

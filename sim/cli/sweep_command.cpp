@@ -15,8 +15,6 @@
 #include "sim/flight/build.h"
 #include "sim/record/whole_file.h"
 #include "sim/sweep/optimize.h"
-#include "sim/sweep/slurm.h"
-#include "sim/sweep/sqlite.h"
 #include "sim/sweep/sweep.h"
 
 namespace hedgehop::sim::cli {

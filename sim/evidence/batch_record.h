@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/batch/verdict.h"
+#include "sim/batch/group_verdict.h"
 #include "sim/evidence/conduct.h"
 #include "sim/evidence/sequential_count.h"
 

@@ -1,13 +1,116 @@
 #include "sim/evidence/conduct.h"
 
-#include <nlohmann/json.hpp>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "sim/batch/seeds.h"
+#include "sim/config/include.h"
+#include "sim/config/reader.h"
+#include "sim/flight/build.h"
 #include "sim/record/whole_file.h"
 #include "sim/scenario/inputs.h"
 
 namespace hedgehop::sim {
+namespace {
 
+using SeedsOf = std::map<std::string, std::vector<uint64_t>>;  ///< by scenario, as a path without detours
 using Json = nlohmann::ordered_json;
+
+std::string key_of(const std::filesystem::path& scenario) {
+  return std::filesystem::absolute(scenario).lexically_normal().string();
+}
+
+void compare_seeds(const SeedsOf& registered, const SeedsOf& flown, std::vector<std::string>& found) {
+  for (const auto& [scenario, seeds] : flown) {
+    const std::string name = std::filesystem::path(scenario).filename().string();
+    const auto plan = registered.find(scenario);
+    if (plan == registered.end()) {
+      found.push_back(fmt::format("{} is not registered", name));
+    } else if (plan->second != seeds) {
+      found.push_back(fmt::format("{}: seeds {}, registered {}", name, seed_words(seeds), seed_words(plan->second)));
+    }
+  }
+  for (const auto& [scenario, seeds] : registered) {
+    if (flown.contains(scenario)) continue;
+    found.push_back(
+        fmt::format("{} is registered, but not flown", std::filesystem::path(scenario).filename().string()));
+  }
+}
+
+std::string rule_words(const std::optional<StoppingRule>& rule) {
+  if (!rule) return "none";
+  return fmt::format("'{}' at {:g}", rule->text(), rule->confidence);
+}
+
+}  // namespace
+
+Registration read_registration(const std::filesystem::path& file) {
+  Faults faults;
+  const Node root = load_tree(file, faults);
+  Registration plan{.file = file, .sha256 = sha256(file)};
+  if (root.kind == Node::Kind::map) read_struct(root, "", "", plan.config, faults);
+  faults.raise();
+  for (size_t i = 0; i < plan.config.flights.size(); ++i) {
+    RegisteredFlights& flights = plan.config.flights[i];
+    if (std::string fault = judging_fault(plan.config.tuned_on.seeds, flights.seeds); !fault.empty()) {
+      faults.add(place_of(root, fmt::format("flights.{}.seeds", i)), std::move(fault));
+    }
+    flights.scenario = (file.parent_path() / flights.scenario).lexically_normal().string();
+  }
+  if (plan.config.rule) {
+    try {
+      parse_rate_claim(plan.config.rule->until);
+    } catch (const InputError& error) {
+      faults.add(place_of(root, "rule.until"), error.faults().front());
+    }
+  }
+  faults.raise();
+  return plan;
+}
+
+std::optional<Registration> plan_of(const BatchOrders& batch) {
+  return batch.plan ? std::optional(read_registration(*batch.plan)) : std::nullopt;
+}
+
+BatchOrders orders_of(const Registration& plan, const std::vector<uint64_t>& seeds,
+                      const std::vector<std::string>& overrides) {
+  std::vector<CampaignFlights> all;
+  for (const RegisteredFlights& flights : plan.config.flights) {
+    all.push_back({.scenario = flights.scenario, .seeds = flights.seeds, .tuned_on = {}, .set = {}});
+  }
+  return orders_of(all, seeds, overrides);
+}
+
+std::vector<std::string> deviations(const Registration& plan, const std::vector<Order>& orders,
+                                    const std::optional<StoppingRule>& rule, double limit_s) {
+  std::vector<std::string> found;
+  SeedsOf registered, flown;
+  std::set<std::string> overrides;
+  for (const RegisteredFlights& flights : plan.config.flights) {
+    for (const uint64_t seed : parse_seeds(flights.seeds)) registered[key_of(flights.scenario)].push_back(seed);
+  }
+  for (const Order& order : orders) {
+    flown[key_of(order.scenario)].push_back(order.seed);
+    overrides.insert(order.overrides.begin(), order.overrides.end());
+  }
+  compare_seeds(registered, flown, found);
+  for (const std::string& text : overrides) found.push_back(fmt::format("{} was set", text));
+
+  std::optional<StoppingRule> planned;
+  if (plan.config.rule) planned = {parse_rate_claim(plan.config.rule->until), plan.config.rule->confidence};
+  if (rule_words(rule) != rule_words(planned)) {
+    found.push_back(fmt::format("rule {}, registered {}", rule_words(rule), rule_words(planned)));
+  }
+  if (limit_s > 0.0) found.push_back(fmt::format("flights over {:g} s of wall time were ended", limit_s));
+  if (!plan.config.build.empty() && plan.config.build != build_identity()) {
+    found.push_back(fmt::format("build {}, registered {}", build_identity(), plan.config.build));
+  }
+  return found;
+}
 
 Conduct conduct_of(const BatchOrders& batch, const std::optional<Registration>& plan,
                    const std::optional<StoppingRule>& rule, double limit_s) {

@@ -6,7 +6,7 @@
 #include <regex>
 #include <vector>
 
-#include "sim/batch/table.h"
+#include "sim/batch/flight_table.h"
 #include "sim/config/input_error.h"
 #include "sim/config/numbers.h"
 #include "sim/config/tree.h"

@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
-#include "sim/batch/verdict.h"
-#include "sim/evidence/stopping_rule.h"
+#include "sim/batch/group_verdict.h"
+#include "sim/evidence/claims.h"
 
 namespace hedgehop::sim {
 

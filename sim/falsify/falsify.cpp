@@ -10,7 +10,7 @@
 #include "sim/falsify/box_constraints.h"
 #include "sim/falsify/cma_es.h"
 #include "sim/libm/random.h"
-#include "sim/sweep/minimize.h"
+#include "sim/sweep/optimize.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "avoidance/module.h"
-#include "sim/flight/map_record.h"
+#include "sim/flight/flight.h"
 
 namespace hedgehop::sim {
 

@@ -10,8 +10,8 @@
 #include <optional>
 #include <set>
 
+#include "sim/batch/group_verdict.h"
 #include "sim/batch/statistics.h"
-#include "sim/batch/verdict.h"
 #include "sim/evidence/anytime_valid.h"
 #include "sim/evidence/batch_record.h"
 #include "sim/pages/report_page.h"
@@ -24,7 +24,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr size_t kMostStripBytes = 2'500'000;  // of a page that is to stay below 10 MB; in base64 a third more
+constexpr size_t kMaxStripBytes = 2'500'000;  // of a page that is to stay below 10 MB; in base64 a third more
 const std::set<std::string> kWordColumns = {"id",    "group",           "scenario", "status", "outcome",
                                             "cause", "trajectory_hash", "command",  "build",  "truth_used"};
 
@@ -180,7 +180,7 @@ Json strips_data(const std::filesystem::path& folder, const std::vector<FlightRe
     const std::filesystem::path file = folder / records[row].order.id / "strip.jpg";
     std::error_code error;
     const auto size = std::filesystem::file_size(file, error);
-    if (error || bytes + size > kMostStripBytes) continue;
+    if (error || bytes + size > kMaxStripBytes) continue;
     bytes += size;
     strips.push_back({row, base64(read_file_whole(file))});
   }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/batch/flight_list.h"
+#include "sim/batch/flight_table.h"
 
 namespace hedgehop::sim {
 

@@ -1,14 +1,17 @@
 #include "sim/pages/campaign_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "sim/batch/group_verdict.h"
+#include "sim/evidence/anytime_valid.h"
+#include "sim/evidence/conduct.h"
 #include "sim/flight/build.h"
 #include "sim/pages/campaign_data.h"
 #include "sim/pages/flight_maps.h"
 #include "sim/pages/leaderboard_page.h"
-#include "sim/pages/page_claims.h"
 #include "sim/pages/report_page.h"
 #include "sim/record/whole_file.h"
 
@@ -17,8 +20,21 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// All flights in one group.
+GroupSummary total(std::vector<FlightRecord> records) {
+  for (FlightRecord& record : records) record.order.group = "all";
+  return records.empty() ? GroupSummary{} : summarize(records).front();
+}
+
+/// A limit of the rate of what did not happen in n flights.
+Json limit_without_event(int64_t n) {
+  const auto flights = static_cast<double>(n);
+  return {
+      {"flights", n}, {"three_over_n", 3.0 / flights}, {"limit", -std::expm1(std::log1p(-kTableConfidence) / flights)}};
+}
+
 // All paths of a page together, so that any number of them stays small and quick to draw.
-constexpr size_t kMostPoints = 300'000, kMostPointsOfOne = 400, kLeastPointsOfOne = 10;
+constexpr size_t kMaxPointsOfPage = 300'000, kMaxPointsOfPath = 400, kMinPointsOfPath = 10;
 
 std::string name_of(const std::filesystem::path& folder) {
   const std::filesystem::path whole = std::filesystem::absolute(folder / "").lexically_normal();
@@ -27,11 +43,11 @@ std::string name_of(const std::filesystem::path& folder) {
 
 std::vector<std::optional<FlownPath>> read_paths(const std::filesystem::path& folder,
                                                  const std::vector<FlightRecord>& records) {
-  const size_t share = kMostPoints / std::max<size_t>(1, records.size());
+  const size_t share = kMaxPointsOfPage / std::max<size_t>(1, records.size());
   std::vector<std::optional<FlownPath>> paths;
   for (const FlightRecord& record : records) {
     paths.emplace_back(
-        read_path(folder / record.order.id, record.order.seed, std::clamp(share, kLeastPointsOfOne, kMostPointsOfOne)));
+        read_path(folder / record.order.id, record.order.seed, std::clamp(share, kMinPointsOfPath, kMaxPointsOfPath)));
   }
   return paths;
 }
@@ -43,13 +59,48 @@ Json search_data(const std::filesystem::path& folder) {
   std::vector<std::optional<FlownPath>> paths;
   for (const Json& one : search.at("counterexamples")) {
     paths.push_back(
-        read_path(folder / one.at("folder").get<std::string>(), one.at("seed").get<uint64_t>(), kMostPointsOfOne));
+        read_path(folder / one.at("folder").get<std::string>(), one.at("seed").get<uint64_t>(), kMaxPointsOfPath));
   }
   search["paths"] = paths_data(flight_maps(paths), paths);
   return search;
 }
 
 }  // namespace
+
+Json claims_data(const std::filesystem::path& folder, const std::vector<FlightRecord>& records) {
+  const GroupSummary all = total(records);
+  const Json conduct = conduct_data(folder);
+  const bool sequential = !conduct.is_null() && !conduct.at("sequential").empty();
+  const auto interval = [&](Count count) -> Json {
+    const Interval i =
+        sequential ? anytime_interval(count, kTableConfidence) : wilson_interval(count, kTableConfidence);
+    return {i.low, i.high};
+  };
+  const int64_t planned = conduct.is_null() ? all.flights : conduct.at("planned").get<int64_t>();
+  const int64_t broken = all.fault + all.failed;
+  Json data{{"counts",
+             {{"planned", planned},
+              {"counted", all.success.trials},
+              {"passed", all.success.successes},
+              {"failed_a_check", all.success.trials - all.success.successes - broken},
+              {"broken", broken},
+              {"missing", all.missing},
+              {"discarded", planned - all.flights},
+              {"no_checks", all.unchecked}}},
+            {"method", sequential ? "anytime" : "wilson"},
+            {"interval", interval(all.success)},
+            {"if_missing", nullptr},
+            {"no_collision", nullptr},
+            {"conduct", conduct}};
+  if (all.missing > 0) {
+    const int64_t trials = all.success.trials + all.missing;
+    data["if_missing"] = {interval({all.success.successes, trials}),
+                          interval({all.success.successes + all.missing, trials})};
+  }
+  const int64_t ended = all.flights - all.missing;
+  if (ended > 0 && all.collided + broken == 0 && !sequential) data["no_collision"] = limit_without_event(ended);
+  return data;
+}
 
 void write_campaign_report(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& against) {
   const FlightList flights = read_flights(folder);

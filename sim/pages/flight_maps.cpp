@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "sim/pages/decimate.h"
-#include "sim/pages/plan_data.h"
+#include "sim/pages/plan.h"
 #include "sim/record/csv_table.h"
 #include "sim/record/json_number.h"
 #include "sim/scenario/flight_parts.h"
@@ -18,9 +18,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kPathToleranceM = 0.05;     // less than a line's width on any map
 constexpr double kOutlineToleranceM = 0.02;  // as much less than a trunk's radius
-constexpr size_t kMostScenes = 24;           // each takes up to a second to make
+constexpr size_t kMaxScenes = 24;            // each takes up to a second to make
 constexpr size_t kTriedSeeds = 8;
-constexpr size_t kMostMapBytes = 3'000'000;  // of a page that is to stay below 10 MB
+constexpr size_t kMaxMapBytes = 3'000'000;  // of a page that is to stay below 10 MB
 
 /// Two configurations are the same when this is.
 std::string config_key(const scenes::SceneConfig& scene) {
@@ -52,7 +52,7 @@ class PlanMaker {
 
   /// Index of the plan; none when there have been enough.
   std::optional<size_t> make(const scenes::SceneConfig& config, uint64_t seed) {
-    if (made_ == kMostScenes || bytes_ > kMostMapBytes) return {};
+    if (made_ == kMaxScenes || bytes_ > kMaxMapBytes) return {};
     ++made_;
     ScenePlan plan = scene_plan(build_scene(config, seed));
     coarsen(plan);

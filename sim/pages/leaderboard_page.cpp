@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "sim/batch/leaderboard.h"
+#include "sim/batch/campaign_file.h"
+#include "sim/batch/group_verdict.h"
 #include "sim/batch/statistics.h"
-#include "sim/batch/verdict.h"
 #include "sim/config/input_error.h"
 #include "sim/flight/build.h"
 #include "sim/record/json_number.h"
@@ -19,6 +19,8 @@ namespace hedgehop::sim {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr const char* kLeaderboardFile = "leaderboard.json";  // in the batch's folder
 
 /// Median of a column over some rows, fields that are empty left out.
 double median_of(const CsvTable& table, const std::string& column, const std::vector<size_t>& rows) {
@@ -192,6 +194,25 @@ std::string reasons_text(const Json& data) {
 }
 
 }  // namespace
+
+void write_leaderboard(const std::filesystem::path& folder, const Leaderboard& board) {
+  Json json{{"worlds", Json::array()}, {"modules", Json::array()}, {"cells", Json::array()}};
+  for (const LeaderboardWorld& world : board.worlds) json["worlds"].push_back({{"name", world.name}});
+  for (const LeaderboardModule& module : board.modules) {
+    json["modules"].push_back({{"name", module.name}, {"control", module.control}});
+  }
+  for (const LeaderboardCell& cell : board.cells) {
+    json["cells"].push_back(
+        {{"world", cell.world}, {"module", cell.module}, {"group", cell.group}, {"reason", cell.reason}});
+  }
+  std::filesystem::create_directories(folder);
+  write_file_whole(folder / kLeaderboardFile, json.dump(1) + "\n");
+}
+
+void forget_leaderboard(const std::filesystem::path& folder) {
+  std::filesystem::remove(folder / kLeaderboardFile);
+  std::filesystem::remove(folder / "leaderboard.md");
+}
 
 Json leaderboard_data(const std::filesystem::path& folder, const FlightList& flights) {
   if (!std::filesystem::exists(folder / kLeaderboardFile)) return nullptr;

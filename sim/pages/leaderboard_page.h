@@ -4,9 +4,16 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "sim/batch/flight_list.h"
+#include "sim/batch/campaign_file.h"
+#include "sim/batch/flight_table.h"
 
 namespace hedgehop::sim {
+
+/// Writes it beside the flights, so that a report needs the folder alone. @param folder  of the batch.
+void write_leaderboard(const std::filesystem::path& folder, const Leaderboard& board);
+
+/// Removes what an earlier batch wrote into the folder.
+void forget_leaderboard(const std::filesystem::path& folder);
 
 /// The matrix of a batch's flights; null where the folder has no leaderboard. `worlds` from the easiest to the hardest,
 /// each with its `difficulty` (1 less the mean success rate of the modules that fly there, the control left out; null

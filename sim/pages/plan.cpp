@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "sim/record/json_number.h"
+
 namespace hedgehop::sim {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 // Corners of a body whose hull in the plan is the solid's; of round bodies, points evenly round their outlines.
 std::vector<Eigen::Vector3d> corners_W(const scenes::Solid& solid) {
@@ -48,6 +53,21 @@ Footprint footprint(const scenes::Solid& solid) {
   return result;
 }
 
+/// How far above or below the flown band a solid may lie and still be drawn as an obstacle: a vehicle's half height.
+constexpr double kLevelMarginM = 1.0;
+
+const char* word(Level level) {
+  switch (level) {
+    case Level::below:
+      return "below";
+    case Level::beside:
+      return "beside";
+    case Level::above:
+      return "above";
+  }
+  return "";
+}
+
 }  // namespace
 
 std::vector<Footprint> footprints(const std::vector<scenes::Solid>& solids) {
@@ -78,6 +98,32 @@ Level level(const Footprint& footprint, double lowest_m, double highest_m, doubl
   if (footprint.top_m < lowest_m - margin_m) return Level::below;
   if (footprint.bottom_m > highest_m + margin_m) return Level::above;
   return Level::beside;
+}
+
+nlohmann::ordered_json plan_data(const ScenePlan& plan, double lowest_m, double highest_m) {
+  Json json;
+  json["bounds"] = Json::array();
+  if (!plan.bounds_NE_m.isEmpty()) {
+    const Eigen::Vector2d low = plan.bounds_NE_m.min(), high = plan.bounds_NE_m.max();
+    json["bounds"] = {milli(low.x()), milli(high.x()), milli(low.y()), milli(high.y())};
+  }
+  json["footprints"] = Json::array();
+  for (const Footprint& footprint : plan.footprints) {
+    Json corners = Json::array();
+    for (const Eigen::Vector2d& p : footprint.corners_NE_m) corners.push_back({milli(p.x()), milli(p.y())});
+    json["footprints"].push_back({{"name", footprint.name},
+                                  {"level", word(level(footprint, lowest_m, highest_m, kLevelMarginM))},
+                                  {"bottom", milli(footprint.bottom_m)},
+                                  {"top", milli(footprint.top_m)},
+                                  {"corners", corners}});
+  }
+  json["movers"] = Json::array();
+  for (const MoverPath& mover : plan.movers) {
+    Json path = Json::array();
+    for (const Eigen::Vector2d& p : mover.corners_NE_m) path.push_back({milli(p.x()), milli(p.y())});
+    json["movers"].push_back({{"name", mover.name}, {"radius", milli(mover.radius_m)}, {"way", path}});
+  }
+  return json;
 }
 
 }  // namespace hedgehop::sim

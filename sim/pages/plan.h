@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -41,5 +42,9 @@ ScenePlan scene_plan(const scenes::Scene& scene);
 enum class Level { below, beside, above };
 /// @param margin_m  how far a solid may be off the flown band and still count as beside, >= 0.
 Level level(const Footprint& footprint, double lowest_m, double highest_m, double margin_m);
+
+/// What MapView (web/src/map.js) draws: `bounds` [north, north, east, east] or [], `footprints`, `movers`; places in m.
+/// @param lowest_m, highest_m  altitudes between which was flown; they decide which solids are beside the flight.
+nlohmann::ordered_json plan_data(const ScenePlan& plan, double lowest_m, double highest_m);
 
 }  // namespace hedgehop::sim

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "sim/pages/plan_data.h"
+#include "sim/pages/plan.h"
 #include "sim/record/json_number.h"
 
 namespace hedgehop::sim {

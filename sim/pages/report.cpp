@@ -1,18 +1,120 @@
 #include "sim/pages/report.h"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <variant>
 
-#include "sim/pages/plan_data.h"
+#include "sim/pages/decimate.h"
+#include "sim/pages/panels.h"
+#include "sim/pages/plan.h"
 #include "sim/pages/replay_data.h"
-#include "sim/pages/report_data.h"
 #include "sim/pages/report_page.h"
 #include "sim/record/json_number.h"
 #include "sim/record/whole_file.h"
 
 namespace hedgehop::sim {
 namespace {
+
+using Json = nlohmann::ordered_json;
+using Values = std::vector<double>;
+
+Json picked(const Values& values, const std::vector<size_t>& rows, Json (*number)(double)) {
+  Json list = Json::array();
+  for (const size_t row : rows) list.push_back(number(values[row]));
+  return list;
+}
+
+Json panel_json(const Panel& panel, size_t max_points) {
+  std::vector<Values> values;
+  for (const Series& series : panel.series) values.push_back(series.values);
+  const std::vector<size_t> rows = decimate(values, max_points);
+
+  Json json = {{"section", panel.section}, {"title", panel.title}, {"unit", panel.unit}, {"note", panel.note}};
+  json["lowest"] = panel.lowest ? Json(*panel.lowest) : Json(nullptr);
+  json["highest"] = panel.highest ? Json(*panel.highest) : Json(nullptr);
+  json["limits"] = Json::array();
+  for (const Limit& limit : panel.limits) json["limits"].push_back({{"label", limit.label}, {"value", limit.value}});
+  json["t_s"] = picked(panel.t_s, rows, milli);
+  json["series"] = Json::array();
+  for (const Series& series : panel.series) {
+    json["series"].push_back(
+        {{"label", series.label}, {"role", series.role}, {"values", picked(series.values, rows, brief)}});
+  }
+  return json;
+}
+
+Json plan_json(const ReportScenario& scenario, const Values& down_m) {
+  double lowest_m = 0.0, highest_m = 0.0;
+  if (!down_m.empty()) {
+    const auto [least, most] = std::ranges::minmax(down_m);
+    lowest_m = -most;
+    highest_m = -least;
+  }
+  Json json = plan_data(scenario.plan, lowest_m, highest_m);
+  json["goal"] = nullptr;
+  if (scenario.goal) {
+    json["goal"] = {{"n", milli(scenario.goal->p_NE_m.x())},
+                    {"e", milli(scenario.goal->p_NE_m.y())},
+                    {"radius", milli(scenario.goal->radius_m)}};
+  }
+  return json;
+}
+
+/// Which status held at each picked row: an index into the names, -1 before the first decision.
+Json status_json(const Values& t_s, const std::vector<size_t>& rows, const ColumnTable& decisions, Json& names) {
+  const Values decided_s = decisions.numbers("t_s");
+  const std::vector<std::string> words = decisions.words("status");
+  std::vector<std::string> known;
+  Json list = Json::array();
+  for (const size_t row : rows) {
+    const auto next = std::ranges::upper_bound(decided_s, t_s[row]);
+    if (next == decided_s.begin()) {
+      list.push_back(-1);
+      continue;
+    }
+    const std::string& status = words[static_cast<size_t>(next - decided_s.begin()) - 1];
+    const auto found = std::ranges::find(known, status);
+    list.push_back(found - known.begin());
+    if (found == known.end()) known.push_back(status);
+  }
+  names = known;
+  return list;
+}
+
+Json path_json(const ColumnTable& trajectory, const ColumnTable& decisions, size_t max_points) {
+  const Values t_s = trajectory.numbers("t_s"), north = trajectory.numbers("north_m");
+  const Values east = trajectory.numbers("east_m"), clearance = trajectory.numbers("clearance_m");
+  const Values v_north = trajectory.numbers("v_north_mps"), v_east = trajectory.numbers("v_east_mps");
+  Values speed(t_s.size()), altitude = trajectory.numbers("down_m");
+  for (size_t i = 0; i < t_s.size(); ++i) {
+    speed[i] = std::hypot(v_north[i], v_east[i]);
+    altitude[i] = -altitude[i];
+  }
+  const std::vector<Values> kept = {north, east, clearance};
+  const std::vector<size_t> rows = decimate(kept, max_points);
+  Json json = {{"t", picked(t_s, rows, milli)},
+               {"n", picked(north, rows, milli)},
+               {"e", picked(east, rows, milli)},
+               {"altitude", picked(altitude, rows, milli)},
+               {"yaw", picked(trajectory.numbers("yaw_rad"), rows, milli)},
+               {"clearance", picked(clearance, rows, milli)},
+               {"speed", picked(speed, rows, milli)}};
+  json["status"] = status_json(t_s, rows, decisions, json["statuses"]);
+  return json;
+}
+
+std::vector<Limit> clearance_limits(const Json& result) {
+  std::vector<Limit> limits;
+  for (const Json& check : result.value("checks", Json::array())) {
+    if (check.value("name", "") == "min_clearance" && check.at("limit").is_number()) {
+      limits.push_back({"limit of the check", check.at("limit").get<double>()});
+    }
+  }
+  return limits;
+}
 
 /// A larger film stays beside the report: pages of more than this take seconds to open.
 constexpr uintmax_t kLargestFilmInside = 40'000'000;
@@ -54,6 +156,28 @@ PageFilm find_film(const std::filesystem::path& run_folder) {
 }
 
 }  // namespace
+
+Json report_data(const ReportScenario& scenario, const Json& result, const ColumnTable& trajectory,
+                 const ColumnTable& decisions, size_t max_points) {
+  Json json;
+  json["result"] = result;
+  json["description"] = scenario.description;
+  json["module"] = scenario.module;
+  json["scene"] = scenario.scene;
+  json["vehicle"] = scenario.vehicle;
+  json["scenario_yaml"] = scenario.yaml;
+  json["plan"] = plan_json(scenario, trajectory.numbers("down_m"));
+  json["path"] = path_json(trajectory, decisions, max_points);
+  json["panels"] = Json::array();
+  std::vector<Panel> panels = trajectory_panels(trajectory, clearance_limits(result));
+  std::ranges::move(signal_panels(decisions), std::back_inserter(panels));
+  for (const std::string_view section : kSections) {
+    for (const Panel& panel : panels) {
+      if (panel.section == section) json["panels"].push_back(panel_json(panel, max_points));
+    }
+  }
+  return json;
+}
 
 void write_report(const std::filesystem::path& run_folder, const RunRecord& run) {
   nlohmann::ordered_json data = report_data(describe_scenario(run), run.result, run.trajectory, run.decisions);

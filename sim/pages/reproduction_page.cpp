@@ -6,7 +6,7 @@
 
 #include "sim/pages/decimate.h"
 #include "sim/pages/flight_maps.h"
-#include "sim/pages/plan_data.h"
+#include "sim/pages/plan.h"
 #include "sim/pages/report_page.h"
 #include "sim/record/csv_table.h"
 #include "sim/record/json_number.h"
@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr size_t kMostPoints = 600;  // of a line: more than a chart has pixels across
+constexpr size_t kMaxPointsOfLine = 600;  // of a line: more than a chart has pixels across
 
 Json line_data(const std::string& label, bool printed, const std::vector<double>& x, const std::vector<double>& y) {
   Json line{{"label", label}, {"printed", printed}, {"x", Json::array()}, {"y", Json::array()}};
@@ -62,7 +62,7 @@ class LineMaker {
         const CsvTable log(file);
         const std::vector<std::vector<double>> columns{log.numbers(series.x), log.numbers(series.y)};
         std::vector<double> x, y;
-        for (const size_t row : decimate(columns, kMostPoints)) {
+        for (const size_t row : decimate(columns, kMaxPointsOfLine)) {
           x.push_back(columns[0][row]);
           y.push_back(columns[1][row]);
         }
@@ -94,7 +94,7 @@ Json paths_of(const PaperChart& chart, const PaperOutcome& outcome) {
     if (!drawn) continue;
     labels.push_back(drawn->label);
     for (const FlightRecord& flight : flights_of(outcome, drawn->flights, drawn->seed)) {
-      auto path = read_path(outcome.folder / flight.order.id, flight.order.seed, kMostPoints);
+      auto path = read_path(outcome.folder / flight.order.id, flight.order.seed, kMaxPointsOfLine);
       if (!path) continue;
       paths.push_back(std::move(path));
       series_of.push_back(labels.size() - 1);

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "sim/flight/map_record.h"
+#include "sim/flight/flight.h"
 
 namespace hedgehop::sim {
 

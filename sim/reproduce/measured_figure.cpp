@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "sim/batch/flight_table.h"
 #include "sim/batch/statistics.h"
-#include "sim/batch/table.h"
 #include "sim/config/numbers.h"
 
 namespace hedgehop::sim {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <set>
 
-#include "sim/batch/judging_seeds.h"
-#include "sim/batch/order.h"
+#include "sim/batch/record.h"
+#include "sim/batch/seeds.h"
 #include "sim/config/include.h"
 #include "sim/config/numbers.h"
 #include "sim/config/reader.h"

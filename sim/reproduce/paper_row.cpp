@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/batch/order.h"
+#include "sim/batch/record.h"
 #include "sim/config/numbers.h"
 #include "sim/flight/build.h"
 #include "sim/record/csv_line.h"

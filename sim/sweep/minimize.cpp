@@ -1,4 +1,4 @@
-#include "sim/sweep/minimize.h"
+#include "sim/sweep/optimize.h"
 
 #include <exception>
 #include <nlopt.hpp>

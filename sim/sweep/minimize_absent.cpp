@@ -1,5 +1,5 @@
 #include "sim/config/input_error.h"
-#include "sim/sweep/minimize.h"
+#include "sim/sweep/optimize.h"
 
 namespace hedgehop::sim {
 

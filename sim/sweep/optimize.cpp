@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "sim/config/tree.h"
-#include "sim/sweep/minimize.h"
 
 namespace hedgehop::sim {
 namespace {

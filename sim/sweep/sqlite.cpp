@@ -8,7 +8,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "sim/sweep/sqlite.h"
+#include "sim/sweep/sweep.h"
 
 namespace hedgehop::sim {
 namespace {

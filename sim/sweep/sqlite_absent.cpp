@@ -1,4 +1,4 @@
-#include "sim/sweep/sqlite.h"
+#include "sim/sweep/sweep.h"
 
 namespace hedgehop::sim {
 

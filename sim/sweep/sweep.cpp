@@ -3,8 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
+#include <stdexcept>
 
+#include "sim/batch/record.h"
 #include "sim/config/numbers.h"
+#include "sim/record/whole_file.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -14,6 +19,34 @@ Cell value_cell(const std::string& text) {
   if (const auto whole = parse_signed(text)) return *whole;
   const ParsedNumber parsed = parse_number(text, false);
   return parsed.kind == ParsedNumber::Kind::number ? Cell(parsed.member) : Cell(text);
+}
+
+std::string header(const SlurmJob& job, std::string_view name, std::string_view log, size_t cores) {
+  std::string text = fmt::format(
+      "#!/bin/bash\n#SBATCH --job-name={}\n#SBATCH --chdir={}\n#SBATCH --output={}\n#SBATCH --open-mode=append\n"
+      "#SBATCH --ntasks=1\n#SBATCH --cpus-per-task={}\n",
+      name, shell_quoted(job.folder.string()), shell_quoted((job.out / "slurm" / log).string()), cores);
+  for (const std::string& option : job.options) text += fmt::format("#SBATCH {}\n", option);
+  return text;
+}
+
+std::string sweep_command(const SlurmJob& job) {
+  const std::string worker = job.worker.empty() ? "" : " --program " + shell_quoted(job.worker.string());
+  return fmt::format("{} sweep {} --out {}{}", shell_quoted(job.program.string()), shell_quoted(job.sweep.string()),
+                     shell_quoted(job.out.string()), worker);
+}
+
+/// Runs a shell command; its output without the last line's end.
+std::string output_of(const std::string& command) {
+  FILE* const pipe = ::popen((command + " 2>&1").c_str(), "r");
+  if (!pipe) throw std::runtime_error("cannot start a shell");
+  std::string text;
+  std::array<char, 256> buffer{};
+  while (fgets(buffer.data(), buffer.size(), pipe) != nullptr) text += buffer.data();
+  const int status = ::pclose(pipe);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  if (status != 0) throw std::runtime_error(fmt::format("{}: {}", command, text));
+  return text;
 }
 
 }  // namespace
@@ -77,6 +110,37 @@ Table sweep_table(const SweepConfig& sweep, const SweepOrders& orders, const std
     for (const auto& values : orders.values) column.cells.push_back(value_cell(values.at(i)));
   }
   return flight_table(records, extra);
+}
+
+std::string array_script(const SlurmJob& job) {
+  const std::string limit = job.limit_s > 0.0 ? fmt::format(" --limit {}", job.limit_s) : "";
+  return header(job, "hedgehop-sweep", "shard-%a.log", job.cores) +
+         fmt::format(
+             "#SBATCH --array=1-{0}\n#SBATCH --requeue\n"
+             "{1} --shard $SLURM_ARRAY_TASK_ID/{0} -j {2}{3}\nstatus=$?\n"
+             "# A failed check is a result; a flight that left none is tried once more, perhaps on another node.\n"
+             "missing=$({1} --shard $SLURM_ARRAY_TASK_ID/{0} --missing) || exit $status\n"
+             "if [ \"$missing\" != 0 ] && [ \"${{SLURM_RESTART_COUNT:-0}}\" = 0 ]; then\n"
+             "  scontrol requeue ${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID\n  sleep 60  # until Slurm ends this "
+             "try\n"
+             "fi\nexit $status\n",
+             job.tasks, sweep_command(job), job.cores, limit);
+}
+
+std::string merge_script(const SlurmJob& job) {
+  const std::string junit = job.junit.empty() ? "" : " --junit " + shell_quoted(job.junit.string());
+  return header(job, "hedgehop-merge", "merge.log", 1) + sweep_command(job) + " --merge" + junit + "\n";
+}
+
+std::string submit(const SlurmJob& job) {
+  std::filesystem::create_directories(job.out / "slurm");
+  const std::filesystem::path array = job.out / "slurm/array.sh", merge = job.out / "slurm/merge.sh";
+  write_file_whole(array, array_script(job));
+  write_file_whole(merge, merge_script(job));
+  const std::string number = output_of("sbatch --parsable " + shell_quoted(array.string()));
+  // afterany: the merge reports failures too.
+  output_of(fmt::format("sbatch --parsable --dependency=afterany:{} {}", number, shell_quoted(merge.string())));
+  return number;
 }
 
 }  // namespace hedgehop::sim

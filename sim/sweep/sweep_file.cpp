@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "sim/batch/judging_seeds.h"
+#include "sim/batch/seeds.h"
 #include "sim/config/include.h"
 #include "sim/config/numbers.h"
 #include "sim/config/reader.h"

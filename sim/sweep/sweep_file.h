@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "sim/batch/order.h"
+#include "sim/batch/record.h"
 #include "sim/sweep/sampling.h"
 
 namespace hedgehop::sim {

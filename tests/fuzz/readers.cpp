@@ -18,7 +18,7 @@
 #include "sim/config/include.h"
 #include "sim/config/input_error.h"
 #include "sim/config/reader.h"
-#include "sim/evidence/registration.h"
+#include "sim/evidence/conduct.h"
 #include "sim/falsify/falsify_file.h"
 #include "sim/record/column_table.h"
 #include "sim/record/run_record.h"

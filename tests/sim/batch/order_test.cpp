@@ -1,11 +1,11 @@
-#include "sim/batch/order.h"
+#include "sim/batch/record.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 #include <random>
 
-#include "sim/batch/judging_seeds.h"
+#include "sim/batch/seeds.h"
 
 namespace hedgehop::sim {
 namespace {

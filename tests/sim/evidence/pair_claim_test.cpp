@@ -1,4 +1,4 @@
-#include "sim/evidence/pair_claim.h"
+#include "sim/evidence/claims.h"
 
 #include <gmock/gmock.h>
 

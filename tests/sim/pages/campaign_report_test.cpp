@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "sim/batch/table.h"
+#include "sim/batch/flight_table.h"
 #include "sim/pages/campaign_data.h"
 #include "sim/scenario/scenario.h"
 #include "tests/sim/batch/campaign_folder.h"

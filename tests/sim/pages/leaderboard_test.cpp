@@ -6,7 +6,7 @@
 
 #include "avoidance/registry.h"
 #include "sim/batch/campaign_file.h"
-#include "sim/batch/table.h"
+#include "sim/batch/flight_table.h"
 #include "sim/fields/field_types.h"
 #include "tests/sim/batch/campaign_folder.h"
 #include "tests/sim/pages/browser.h"

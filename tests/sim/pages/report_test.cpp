@@ -13,7 +13,6 @@
 
 #include "sim/pages/panels.h"
 #include "sim/pages/plan.h"
-#include "sim/pages/report_data.h"
 #include "sim/pages/report_page.h"
 #include "sim/record/flight_columns.h"
 #include "sim/record/result_files.h"

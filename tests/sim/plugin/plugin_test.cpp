@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <sqlite3.h>
 
-#include "sim/batch/table.h"
+#include "sim/batch/flight_table.h"
 #include "tests/sim/batch/campaign_folder.h"
 
 namespace hedgehop::sim {

@@ -6,8 +6,6 @@
 #include <map>
 #include <set>
 
-#include "sim/sweep/sobol.h"
-
 namespace hedgehop::sim {
 namespace {
 

@@ -1,4 +1,4 @@
-#include "sim/batch/verdict.h"
+#include "sim/batch/group_verdict.h"
 
 #include <fmt/format.h>
 

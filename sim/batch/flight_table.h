@@ -10,6 +10,7 @@
 
 #include "sim/batch/record.h"
 #include "sim/flight/flight.h"
+#include "sim/record/csv_table.h"
 
 namespace hedgehop::sim {
 
@@ -44,5 +45,19 @@ size_t column_index(const Table& table, std::string_view name);
 
 /// The table as comma-separated values with a header line.
 std::string csv_text(const Table& table);
+
+/// What a campaign's folder holds of its flights.
+struct FlightList {
+  bool is_sweep = false;              ///< or a search: its points have columns of their own
+  CsvTable table;                     ///< sweep.csv, falsify.csv or batch.csv
+  std::vector<FlightRecord> records;  ///< one a row: from the table, enough for summarize()
+};
+
+/// Whether the folder is a batch's, a sweep's or a search's.
+bool is_campaign(const std::filesystem::path& folder);
+
+/// Reads the flights of a campaign's folder. Throws InputError naming the folder when it has no table of flights, and
+/// std::runtime_error naming file, line and cause when the table is malformed.
+FlightList read_flights(const std::filesystem::path& folder);
 
 }  // namespace hedgehop::sim

@@ -1,10 +1,10 @@
-#include "sim/batch/order.h"
+#include "sim/batch/seeds.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <set>
+#include <vector>
 
 #include "sim/config/input_error.h"
 #include "sim/config/numbers.h"
@@ -12,42 +12,18 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr uint64_t kMostSeeds = 1'000'000;  // a slip of the pen, not a campaign
+constexpr uint64_t kMaxSeeds = 1'000'000;  // a slip of the pen, not a campaign
 
 [[noreturn]] void refuse_seeds(const std::string& text, std::string_view why) {
   throw InputError(fmt::format("seeds '{}': {}; expected such as 1:10, 3 or 1:3,7", text, why));
 }
 
+std::set<uint64_t> seed_set(const std::string& text) {
+  const std::vector<uint64_t> seeds = parse_seeds(text);
+  return {seeds.begin(), seeds.end()};
+}
+
 }  // namespace
-
-std::string resolved_yaml(Scenario scenario, uint64_t seed) {
-  scenario.seed = seed;
-  scenario.film.enabled = false;
-  return to_yaml(scenario);
-}
-
-std::vector<std::string> run_arguments(const Order& order) {
-  std::vector<std::string> arguments{"run", order.scenario.string(), "--seed", std::to_string(order.seed)};
-  for (const std::string& text : order.overrides) {
-    arguments.emplace_back("--set");
-    arguments.push_back(text);
-  }
-  return arguments;
-}
-
-std::string rerun_command(const Order& order) {
-  std::string command = "hedgehop";
-  for (const std::string& argument : run_arguments(order)) command += " " + shell_quoted(argument);
-  return command;
-}
-
-std::string shell_quoted(const std::string& word) {
-  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 std::vector<uint64_t> parse_seeds(const std::string& text) {
   std::vector<uint64_t> seeds;
@@ -61,7 +37,7 @@ std::vector<uint64_t> parse_seeds(const std::string& text) {
     const std::optional<uint64_t> last = colon == std::string::npos ? first : parse_unsigned(part.substr(colon + 1));
     if (!first || !last) refuse_seeds(text, fmt::format("'{}' is no whole number or range of them", part));
     if (*last < *first) refuse_seeds(text, fmt::format("{} comes after {}", *first, *last));
-    if (*last - *first >= kMostSeeds - seeds.size()) refuse_seeds(text, "more than a million seeds");
+    if (*last - *first >= kMaxSeeds - seeds.size()) refuse_seeds(text, "more than a million seeds");
     for (uint64_t offset = 0; offset <= *last - *first; ++offset) {
       if (!known.insert(*first + offset).second) refuse_seeds(text, fmt::format("{} stands twice", *first + offset));
       seeds.push_back(*first + offset);
@@ -81,6 +57,29 @@ std::string seed_words(std::vector<uint64_t> seeds) {
     words += first == last ? std::to_string(first) : fmt::format("{}:{}", first, last);
   }
   return words;
+}
+
+std::string judging_fault(const std::optional<std::string>& tuned_on, const std::string& seeds) {
+  if (!tuned_on) {
+    return "needs 'tuned_on': the seeds that parameters were chosen on, such as 1:100, or none where none were; "
+           "'seeds' lie outside of them";
+  }
+  try {
+    const std::vector<uint64_t> judging = parse_seeds(seeds);
+    if (*tuned_on == "none") return "";
+    const std::set<uint64_t> tuning = seed_set(*tuned_on);
+    const auto shared = std::ranges::find_if(judging, [&](uint64_t seed) { return tuning.contains(seed); });
+    if (shared == judging.end()) return "";
+    return fmt::format("seeds '{}' judge by seed {}, which parameters were chosen on (tuned_on '{}'); take others",
+                       seeds, *shared, *tuned_on);
+  } catch (const InputError& error) {
+    return error.faults().front();
+  }
+}
+
+bool within(const std::string& part, const std::string& whole) {
+  const std::set<uint64_t> all = seed_set(whole);
+  return std::ranges::all_of(parse_seeds(part), [&](uint64_t seed) { return all.contains(seed); });
 }
 
 }  // namespace hedgehop::sim
