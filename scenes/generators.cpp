@@ -1,14 +1,13 @@
 #include "scenes/generators.h"
 
-#include "scenes/boxes.h"
+#include "scenes/additions.h"
 #include "scenes/mesh/mesh_import.h"
-#include "scenes/movers.h"
 #include "sim/libm/random.h"
 
 namespace hedgehop::scenes {
 namespace {
 
-constexpr uint64_t kMoverStream = 1000, kBoxStream = 1001;  // of the scene's seed; the generators count from 0
+constexpr uint64_t kMoverStream = 1000, kBoxStream = 1001;  // of the scene's seed; generators use 0 and up
 
 Scene generate(const worlds::UrbanConfig& config, uint64_t seed) { return worlds::make_urban(config, seed); }
 Scene generate(const worlds::RoomConfig& config, uint64_t seed) { return worlds::make_room(config, seed); }

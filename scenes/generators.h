@@ -6,11 +6,10 @@
 #include "scenes/scene.h"
 #include "scenes/worlds/balloon.h"
 #include "scenes/worlds/corridor.h"
-#include "scenes/worlds/forest.h"
 #include "scenes/worlds/highrise.h"
 #include "scenes/worlds/park.h"
 #include "scenes/worlds/room.h"
-#include "scenes/worlds/tree_world.h"
+#include "scenes/worlds/trees.h"
 #include "scenes/worlds/urban.h"
 #include "scenes/worlds/wall.h"
 
@@ -20,8 +19,8 @@ using SceneConfig = std::variant<worlds::UrbanConfig, worlds::RoomConfig, worlds
                                  worlds::CorridorConfig, worlds::HighriseConfig, worlds::BalloonConfig,
                                  worlds::WallConfig, worlds::ParkConfig>;
 
-/// Returns the scene of `config`: equal arguments give equal scenes, bit for bit.
-/// @throws std::invalid_argument naming the field, its value and what is valid.
+/// Returns the scene of `config`. Equal arguments give scenes that are equal bit for bit.
+/// @throws std::invalid_argument with the field, its value and the valid values.
 Scene make_scene(const SceneConfig& config, uint64_t seed);
 
 }  // namespace hedgehop::scenes

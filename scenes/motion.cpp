@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenes/require.h"
+#include "scenes/world_config.h"
 #include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes {
@@ -31,8 +31,8 @@ double length_m(const std::vector<Vector3d>& corners) {
   return length;
 }
 
-// The point at distance `path_m` along the corners, and its direction (a unit vector): that of the leg ahead or, when
-// flying back, of the leg behind.
+// Returns the point at distance `path_m` along the corners and the direction of travel as a unit vector. At a corner
+// the direction is that of the next leg, or of the previous leg on the way back.
 PathPoint point_along(const std::vector<Vector3d>& corners, double path_m, bool back) {
   PathPoint point{corners.front(), Vector3d::Zero()};
   for (size_t i = 1; i < corners.size(); ++i) {

@@ -4,6 +4,23 @@
 
 namespace hedgehop::scenes {
 
+Eigen::AlignedBox3d bounds_W(const Solid& solid) {
+  if (solid.shape == Solid::Shape::hull || solid.shape == Solid::Shape::surface) {
+    Eigen::AlignedBox3d box_W;
+    for (const Eigen::Vector3d& p_S : solid.polyhedron.corners) box_W.extend(solid.X_WS * p_S);
+    return box_W;
+  }
+  const Eigen::Vector3d reach = solid.shape == Solid::Shape::sphere
+                                    ? solid.half_extents_m
+                                    : Eigen::Vector3d(solid.X_WS.linear().cwiseAbs() * solid.half_extents_m);
+  return {solid.X_WS.translation() - reach, solid.X_WS.translation() + reach};
+}
+
+int texture_size_px(const Scene& scene) {
+  constexpr int kDefaultPx = 512;
+  return scene.textures.empty() ? kDefaultPx : scene.textures.front().cols;
+}
+
 size_t solid_count(const Scene& scene) {
   size_t count = scene.solids.size();
   for (const Mover& mover : scene.movers) count += mover.solids.size();

@@ -7,7 +7,7 @@
 
 #include "avoidance/corridor_centering/wall_observer.h"
 #include "avoidance/module.h"
-#include "vision/corridor/corridor_flow.h"
+#include "vision/corridor/corridor_space.h"
 
 /// Law `modified`: fly towards the middle of the gap ahead, and mind what lies ahead. Frame H: B turned level, x along
 /// the heading, y to the right.

@@ -9,7 +9,7 @@
 
 #include "avoidance/heading.h"
 #include "sim/fields/quantities.h"
-#include "vision/corridor/wall_direction.h"
+#include "vision/corridor/corridor_space.h"
 
 namespace hedgehop::avoidance::corridor_centering {
 namespace {

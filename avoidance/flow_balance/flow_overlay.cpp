@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "vision/flow/draw_flow.h"
+#include "vision/flow/flow_field.h"
 
 namespace hedgehop::avoidance::flow_balance {
 namespace {

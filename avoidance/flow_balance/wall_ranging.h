@@ -6,7 +6,7 @@
 
 #include "avoidance/flow_balance/patch_ranging.h"
 #include "avoidance/flow_balance/ranging.h"
-#include "vision/flow/wall_flow.h"
+#include "vision/flow/flow_range.h"
 
 namespace hedgehop::avoidance::flow_balance {
 

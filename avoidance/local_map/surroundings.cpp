@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "avoidance/heading.h"
-#include "vision/mapping/find_sky.h"
+#include "vision/mapping/depth_blocks.h"
 
 namespace hedgehop::avoidance::local_map {
 namespace {

@@ -14,7 +14,7 @@
 #include "avoidance/stereo/passed_obstacles.h"
 #include "sim/fields/bounds.h"
 #include "sim/fields/quantities.h"
-#include "vision/stereo/depth_pyramid.h"
+#include "vision/stereo/flight_corridor.h"
 
 namespace hedgehop::avoidance::section_grid {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "vision/stereo/depth_pyramid.h"
 #include "vision/stereo/disparity.h"
+#include "vision/stereo/flight_corridor.h"
 
 namespace hedgehop::avoidance::stereo {
 

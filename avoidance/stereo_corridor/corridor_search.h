@@ -6,8 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "vision/stereo/corridor_targets.h"
-#include "vision/stereo/depth_pyramid.h"
 #include "vision/stereo/disparity.h"
 #include "vision/stereo/flight_corridor.h"
 

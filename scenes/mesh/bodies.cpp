@@ -7,20 +7,21 @@
 #include <utility>
 
 namespace hedgehop::scenes::mesh {
+
 namespace {
 
 using Eigen::Vector3d;
 
-// A side that an image is thrown from, and the viewer's right and down there, as on the panels of a box.
+// A direction of texture projection, with the image's right and down as seen by the viewer.
 struct ProjectionSide {
   Vector3d out, right, down;
 };
 
-// The six along the axes, and those between two and three of them: no face is stretched by more than an eighth.
+// The axes and the diagonals between two or three of them. They stretch the texture of a face by an eighth at most.
 std::vector<ProjectionSide> make_sides() {
   std::vector<ProjectionSide> sides;
   for (int i = 0; i < 27; ++i) {
-    if (i == 13) continue;  // nowhere
+    if (i == 13) continue;  // the zero vector
     const Vector3d out = Vector3d(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1).normalized();
     const bool upright = out.head<2>().isZero();
     const Vector3d right = upright ? Vector3d(0.0, -out.z(), 0.0) : Vector3d(out.y(), -out.x(), 0.0).normalized();
@@ -44,7 +45,7 @@ std::vector<Vector3d> smooth_normals(const Polyhedron& body) {
   std::vector<Vector3d> normals(body.corners.size(), Vector3d::Zero());
   for (const auto& [a, b, c] : body.faces) {
     const Vector3d n = (body.corners[b] - body.corners[a]).cross(body.corners[c] - body.corners[a]);
-    for (const uint32_t corner : {a, b, c}) normals[corner] += n;  // by area
+    for (const uint32_t corner : {a, b, c}) normals[corner] += n;  // weighted by area
   }
   for (Vector3d& n : normals) n.normalize();
   return normals;
@@ -56,7 +57,7 @@ void add_polyhedron(const Polyhedron& body, Shading shading, const Cover& cover,
   const std::vector<Vector3d> normals = smooth_normals(body);
   std::vector<Vertex> vertices;
   std::vector<std::array<uint32_t, 3>> faces;
-  std::map<std::pair<uint32_t, size_t>, uint32_t> known;  // a corner as each side's image has it
+  std::map<std::pair<uint32_t, size_t>, uint32_t> known;  // vertex of a corner per projection
   for (const std::array<uint32_t, 3>& face : body.faces) {
     const Vector3d a = body.corners[face[0]];
     const Vector3d across = (body.corners[face[1]] - a).cross(body.corners[face[2]] - a);
@@ -91,7 +92,7 @@ void add_post(const Post& post, int sides, const Cover& cover, MeshBuilder& mesh
     return {std::cos(turn), std::sin(turn), 0.0};
   };
 
-  // The mantle: the viewer's right is opposite to the direction of rotation.
+  // The lateral surface: the viewer's right is opposite to the direction of rotation.
   for (int k = 0; k <= sides; ++k) {
     const Vector3d p_W = post.foot_W + post.radius_m * out(k % sides);
     const double across_m = -2.0 * std::numbers::pi * post.radius_m * k / sides;
@@ -102,7 +103,7 @@ void add_post(const Post& post, int sides, const Cover& cover, MeshBuilder& mesh
     faces.push_back({foot + 3, foot, foot + 1});
   }
 
-  // The top: its image's up is north.
+  // The top face: up in its image is north.
   uint32_t first = 0;
   for (int k = 0; k < sides; ++k) {
     const Vector3d rim = post.radius_m * out(k);
@@ -155,6 +156,42 @@ Solid ball_of(const std::string& name, const Eigen::Vector3d& center_W, double r
   solid.X_WS.translation() = center_W;
   solid.half_extents_m.setConstant(radius_m);
   return solid;
+}
+
+namespace {
+
+// From an altitude of 40 m, the edge of the ground appears 0.2 degrees below the horizon.
+constexpr double kFarM = 12000.0;
+
+// Adds lines outside the given ones, at growing distances.
+void extend_to_horizon(std::vector<double>& lines_m) {
+  while (lines_m.back() < kFarM) lines_m.push_back(lines_m.back() + 0.5 * (lines_m.back() - lines_m.front()));
+  while (lines_m.front() > -kFarM)
+    lines_m.insert(lines_m.begin(), lines_m.front() - 0.5 * (lines_m.back() - lines_m.front()));
+}
+
+}  // namespace
+
+void add_ground(std::vector<double> norths_m, std::vector<double> easts_m,
+                const std::function<Cover(const Eigen::Vector2d& middle_NE)>& cover_at, MeshBuilder& mesh) {
+  extend_to_horizon(norths_m);
+  extend_to_horizon(easts_m);
+  mesh.begin_chunk(false);
+  for (size_t i = 1; i < norths_m.size(); ++i) {
+    for (size_t j = 1; j < easts_m.size(); ++j) {
+      const Eigen::Vector3d low(norths_m[i - 1], easts_m[j - 1], 0.0), high(norths_m[i], easts_m[j], 0.0);
+      const Cover cover = cover_at(0.5 * (low + high).head<2>());
+      const Eigen::Vector2d from_origin_m(low.y(), -high.x());  // up in the image is north
+      mesh.add_tiled(top_panel({low, high}), cover.tile_m, cover.offset + from_origin_m / cover.tile_m, cover.texture);
+    }
+  }
+}
+
+void add_ground(double half_m, const Cover& cover, MeshBuilder& mesh) {
+  std::vector<double> lines_m;
+  for (int k = -4; k <= 4; ++k) lines_m.push_back(0.25 * k * half_m);
+  add_ground(
+      lines_m, lines_m, [&](const Eigen::Vector2d&) { return cover; }, mesh);
 }
 
 }  // namespace hedgehop::scenes::mesh

@@ -2,7 +2,6 @@
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
-
 #include <assimp/Importer.hpp>
 #include <filesystem>
 #include <fstream>
@@ -10,21 +9,22 @@
 #include <opencv2/imgproc.hpp>
 #include <span>
 #include <stdexcept>
+#include <string>
 
 #include "scenes/mesh/mesh_builder.h"
-#include "scenes/mesh/mesh_guard.h"
 #include "scenes/mesh/mesh_reader.h"
-#include "scenes/mesh/sides.h"
+#include "scenes/mesh/polyhedron.h"
 #include "scenes/mesh/texture_image.h"
 #include "scenes/textures/stone_textures.h"
 #include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes::mesh {
+
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kMaxCoordinateM = 100e3;  // as every position of a scenario
+constexpr double kMaxCoordinateM = 100e3;  // as for every position in a scenario
 
 [[noreturn]] void refuse(const ImportConfig& c, const std::string& why) {
   throw std::invalid_argument("imports.file: '" + c.file + "': " + why);
@@ -38,7 +38,7 @@ void read_file(const ImportConfig& c, Assimp::Importer& importer) {
   }
 }
 
-// From the model's frame to W: its front to the heading, its up to W's up.
+// Returns the map from the model's frame to W. It turns the model's front to the heading and its up axis upward.
 Eigen::Affine3d model_to_world(const ImportConfig& c) {
   Eigen::Matrix3d to_level;  // north, east, down from the model's axes
   if (c.up == ImportConfig::Up::y) {
@@ -50,14 +50,14 @@ Eigen::Affine3d model_to_world(const ImportConfig& c) {
          Eigen::AngleAxisd(c.heading_rad, Vector3d::UnitZ()) * Eigen::Affine3d(c.scale * to_level);
 }
 
-// Empty for what is no file, or larger than a mesh may be.
+// Returns the contents of a file; empty if it is not a regular file or too large.
 std::vector<uint8_t> bytes_of(const std::filesystem::path& file) {
   if (!may_be_read(file)) return {};
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// The image of a material, or its color; CV_8UC3 RGB.
+// Returns the image of a material, or its color; CV_8UC3 RGB.
 cv::Mat material_image(const ImportConfig& c, const aiScene& model, const aiMaterial& material, int size_px) {
   aiString path;
   const bool has_image = material.GetTexture(aiTextureType_BASE_COLOR, 0, &path) == AI_SUCCESS ||
@@ -78,7 +78,7 @@ cv::Mat material_image(const ImportConfig& c, const aiScene& model, const aiMate
   return image;
 }
 
-// A mesh's corners and faces in W; faces without an area are left out.
+// Returns the corners and faces of a mesh in W, without degenerate faces.
 Polyhedron faces_W(const aiMesh& mesh, const Eigen::Affine3d& to_W) {
   Polyhedron result;
   for (const aiVector3D& p : std::span(mesh.mVertices, mesh.mNumVertices)) {
@@ -93,7 +93,7 @@ Polyhedron faces_W(const aiMesh& mesh, const Eigen::Affine3d& to_W) {
   return result;
 }
 
-// Above 0 where normals point to the side that the faces are seen from.
+// Returns a value above 0 if the normals point to the front side of the faces.
 float facing(const std::vector<Vertex>& vertices, const std::vector<std::array<uint32_t, 3>>& faces) {
   float sum = 0.0f;
   for (const auto& [a, b, c] : faces) {
@@ -107,7 +107,7 @@ void turn_over(std::vector<std::array<uint32_t, 3>>& faces) {
   for (auto& face : faces) std::swap(face[0], face[1]);
 }
 
-// Adds one mesh of the file to the chunk begun last, as it is seen from outside; an open surface, from both sides.
+// Adds one mesh of the file to the current chunk, facing outward; an open surface is added with both orientations.
 void draw(const aiMesh& mesh, const Polyhedron& body, const Eigen::Affine3d& to_W, uint32_t texture,
           MeshBuilder& builder) {
   std::vector<Vertex> vertices(body.corners.size());
@@ -141,8 +141,7 @@ void add_import(const ImportConfig& c, Scene& scene) {
                                    aiProcess_PreTransformVertices | aiProcess_SortByPType | aiProcess_FlipUVs);
   if (!model || !model->mRootNode) refuse(c, importer.GetErrorString());
 
-  constexpr int kSizePx = 512;  // where the scene has no images
-  const int size_px = scene.textures.empty() ? kSizePx : scene.textures.front().cols;
+  const int size_px = texture_size_px(scene);
   const Eigen::Affine3d to_W = model_to_world(c);
   std::vector<int> images(model->mNumMaterials, -1);
   MeshBuilder builder("opaque");
@@ -153,7 +152,8 @@ void add_import(const ImportConfig& c, Scene& scene) {
     triangles += body.faces.size();
     for (const Vector3d& corner : body.corners) {
       if (!corner.allFinite()) refuse(c, "it has corners that are not finite");
-      if (corner.cwiseAbs().maxCoeff() > kMaxCoordinateM) refuse(c, "it has corners farther away than 100 km");
+      if (corner.cwiseAbs().maxCoeff() > kMaxCoordinateM)
+        refuse(c, "it has corners farther than 100 km from the origin");
     }
     int& image = images[mesh->mMaterialIndex];
     if (image < 0) {
@@ -181,6 +181,25 @@ void add_imports(const std::vector<ImportConfig>& imports, Scene& scene) {
     fields::require_bounds(imports[k], "imports." + std::to_string(k));
     add_import(imports[k], scene);
   }
+}
+
+std::set<std::filesystem::path> mesh_files(const std::filesystem::path& mesh) {
+  std::set<std::filesystem::path> files;
+  Assimp::Importer importer;
+  const aiScene* model = nullptr;
+  try {
+    model = &read_mesh(mesh, importer, &files);
+  } catch (const std::invalid_argument& fault) {
+    throw std::invalid_argument("'" + mesh.string() + "': " + fault.what());
+  }
+  for (const aiMaterial* material : std::span(model->mMaterials, model->mNumMaterials)) {
+    for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
+      aiString name;
+      if (material->GetTexture(type, 0, &name) != AI_SUCCESS || model->GetEmbeddedTexture(name.C_Str())) continue;
+      files.insert((mesh.parent_path() / name.C_Str()).lexically_normal());
+    }
+  }
+  return files;
 }
 
 }  // namespace hedgehop::scenes::mesh

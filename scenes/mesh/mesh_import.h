@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -7,8 +9,8 @@
 
 namespace hedgehop::scenes::mesh {
 
-/// A mesh from a file, OBJ or glTF (.gltf, .glb), as a scene's config lists it. The model stands upright; a model's
-/// front (-z where y is up, y where z is up) looks along the heading.
+/// A mesh from an OBJ or glTF file (.gltf, .glb). The model is placed upright with its front along the heading. The
+/// front is -z if y is up, and y if z is up.
 struct ImportConfig {
   enum class Up { y, z };
   enum class Collide { surface, none };
@@ -24,21 +26,27 @@ struct ImportConfig {
 
 template <class Visitor>
 void describe(Visitor& v, ImportConfig& c) {
-  v("file", c.file, {.required = true, .meaning = "OBJ or glTF; seen from the folder of the file that names it"});
-  v("name", c.name, {.meaning = "of the obstacle in results"});
-  v("north", c.north_m, {.unit = "m", .meaning = "of the model's origin"});
-  v("east", c.east_m, {.unit = "m", .meaning = "of the model's origin"});
-  v("altitude", c.altitude_m, {.unit = "m", .meaning = "of the model's origin"});
-  v("heading", c.heading_rad, {.unit = "deg", .meaning = "of the model's front, from north to east"});
-  v("scale", c.scale, {.above = 0.0, .meaning = "meters to a unit of the model"});
+  v("file", c.file,
+    {.required = true, .meaning = "OBJ or glTF file; relative to the folder of the file that names it"});
+  v("name", c.name, {.meaning = "name of the obstacle in results"});
+  v("north", c.north_m, {.unit = "m", .meaning = "north position of the model's origin"});
+  v("east", c.east_m, {.unit = "m", .meaning = "east position of the model's origin"});
+  v("altitude", c.altitude_m, {.unit = "m", .meaning = "altitude of the model's origin"});
+  v("heading", c.heading_rad, {.unit = "deg", .meaning = "heading of the model's front, from north to east"});
+  v("scale", c.scale, {.above = 0.0, .meaning = "meters per unit of the model"});
   v("up", c.up, {.choices = {"y", "z"}, .meaning = "the model's axis that points up"});
-  v("collide", c.collide, {.choices = {"surface", "none"}, .meaning = "its triangles can be hit, or nothing of it"});
+  v("collide", c.collide, {.choices = {"surface", "none"}, .meaning = "obstacles: all triangles of the mesh, or none"});
 }
 
-/// Adds imported meshes to a scene: triangles, one image for each material (its image, or its color), and a solid
-/// of shape `surface` for each mesh of the file that can be hit. Images are made as large as those that are there.
-/// @throws std::invalid_argument that begins with the key at fault; of a file, with the reason: not there, not
-/// readable, no triangles, an image missing.
+/// Adds imported meshes to a scene: triangles, one texture per material (its image or its color) and, unless `collide`
+/// is `none`, one solid of shape `surface` per mesh in the file. Textures are resized to the size of the scene's
+/// textures.
+/// @throws std::invalid_argument that begins with the faulty key; for a file it states the reason: missing, unreadable,
+/// without triangles, or an image missing.
 void add_imports(const std::vector<ImportConfig>& imports, Scene& scene);
+
+/// Returns all files that an import reads: the mesh, its materials, buffers and images. Images embedded in another file
+/// are not listed. @throws std::invalid_argument if the mesh cannot be read.
+std::set<std::filesystem::path> mesh_files(const std::filesystem::path& mesh);
 
 }  // namespace hedgehop::scenes::mesh

@@ -1,12 +1,15 @@
 #include "scenes/mesh/polyhedron.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 namespace hedgehop::scenes::mesh {
+
 namespace {
 
 using Eigen::Vector3d;
@@ -14,7 +17,7 @@ using Face = std::array<uint32_t, 3>;
 
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
-// Whether all points lie behind the plane of a face, seen from outside.
+// Returns whether all other points lie behind the plane of a face, seen from outside.
 bool all_behind(const std::vector<Vector3d>& points, const Face& face) {
   const Vector3d a = points[face[0]], n = (points[face[1]] - a).cross(points[face[2]] - a);
   for (uint32_t i = 0; i < points.size(); ++i) {
@@ -90,17 +93,63 @@ Polyhedron convex_hull(const std::vector<Eigen::Vector3d>& points) {
   return hull;
 }
 
+Vector3d spiral_direction(int k, int count, double first_rad) {
+  const double golden_angle_rad = std::numbers::pi * (3.0 - std::sqrt(5.0));
+  const double z = 1.0 - (2.0 * k + 1.0) / count, across = std::sqrt(1.0 - z * z);
+  const double turn_rad = first_rad + golden_angle_rad * k;
+  return {across * std::cos(turn_rad), across * std::sin(turn_rad), z};
+}
+
 Polyhedron convex_lump(int points, double roughness, Random& random) {
-  // A spiral from pole to pole at the golden angle spreads the corners evenly.
-  const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0)),
-               first = uniform(random, 0.0, 2.0 * std::numbers::pi);
+  const double first_rad = uniform(random, 0.0, 2.0 * std::numbers::pi);
   std::vector<Vector3d> corners;
   for (int k = 0; k < points; ++k) {
-    const double z = 1.0 - (2.0 * k + 1.0) / points, across = std::sqrt(1.0 - z * z), turn = first + golden_angle * k;
-    corners.push_back(uniform(random, 1.0 - roughness, 1.0) *
-                      Vector3d(across * std::cos(turn), across * std::sin(turn), z));
+    corners.push_back(uniform(random, 1.0 - roughness, 1.0) * spiral_direction(k, points, first_rad));
   }
   return convex_hull(corners);
+}
+
+namespace {
+
+/// Returns a number for each corner that is the same for corners at the same position.
+std::vector<uint32_t> places_of(const std::vector<Eigen::Vector3d>& corners) {
+  std::vector<uint32_t> order(corners.size()), places(corners.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto before = [&](uint32_t a, uint32_t b) {
+    return std::lexicographical_compare(corners[a].begin(), corners[a].end(), corners[b].begin(), corners[b].end());
+  };
+  std::ranges::sort(order, before);
+  for (size_t i = 1; i < order.size(); ++i) {
+    places[order[i]] = places[order[i - 1]] + (before(order[i - 1], order[i]) ? 1 : 0);
+  }
+  return places;
+}
+
+bool is_closed(const Polyhedron& body) {
+  const std::vector<uint32_t> places = places_of(body.corners);
+  std::vector<std::pair<uint32_t, uint32_t>> along, back;
+  for (const auto& face : body.faces) {
+    for (size_t i = 0; i < 3; ++i) {
+      const uint32_t from = places[face[i]], to = places[face[(i + 1) % 3]];
+      along.emplace_back(from, to);
+      back.emplace_back(to, from);
+    }
+  }
+  std::ranges::sort(along);
+  std::ranges::sort(back);
+  return along == back;
+}
+
+}  // namespace
+
+Facing facing_of(const Polyhedron& body) {
+  if (body.faces.empty() || !is_closed(body)) return Facing::open;
+  double six_volumes_m3 = 0.0;
+  const Eigen::Vector3d origin = body.corners.front();
+  for (const auto& [a, b, c] : body.faces) {
+    six_volumes_m3 += (body.corners[a] - origin).dot((body.corners[b] - origin).cross(body.corners[c] - origin));
+  }
+  return six_volumes_m3 < 0.0 ? Facing::inward : Facing::outward;
 }
 
 }  // namespace hedgehop::scenes::mesh

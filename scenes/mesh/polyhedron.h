@@ -15,19 +15,30 @@ struct Polyhedron {
   std::vector<std::array<uint32_t, 3>> faces;
 };
 
-/// Returns the polyhedron with each corner moved by an affine map of positive determinant: convex ones stay convex.
+/// Returns the image of a polyhedron under an affine map of positive determinant. It preserves convexity.
 Polyhedron moved(const Eigen::Affine3d& map, const Polyhedron& polyhedron);
 
-/// Returns an icosahedron of circumradius 1, each face cut in four `cuts` times and its corners pushed out to radius 1.
-/// @param cuts  0..5.
+/// Returns an icosahedron of circumradius 1 whose faces are divided into four, `cuts` times. New corners are moved out
+/// to radius 1. @param cuts  0..5.
 Polyhedron ball(int cuts);
 
-/// Returns the convex hull of points, those inside it left out.
-/// @param points  at least four, in general position: no four hull points in a plane. Cost: their number to the fourth.
+/// Returns the convex hull of points. Cost: the fourth power of their number.
+/// @param points  at least four, in general position: no four points of the hull in a plane.
 Polyhedron convex_hull(const std::vector<Eigen::Vector3d>& points);
 
-/// Returns a convex lump round the origin: corners spread evenly, at random distances within 1 - roughness .. 1.
-/// @param points  4..64; few of them may end up inside and be left out. @param roughness  0..0.5.
+/// Returns the k-th of `count` unit vectors that are spread evenly over the sphere: a spiral from pole to pole that
+/// advances by the golden angle. @param first_rad  angle of the first one about the z axis.
+Eigen::Vector3d spiral_direction(int k, int count, double first_rad);
+
+/// Returns a convex lump around the origin: evenly spread corners at random distances within 1 - roughness .. 1.
+/// @param points  4..64; the few that lie inside the hull are dropped. @param roughness  0..0.5.
 Polyhedron convex_lump(int points, double roughness, Random& random);
+
+/// Orientation of a mesh's triangles. Those of a closed body should face outward, but some files store them inward.
+enum class Facing { outward, inward, open };
+
+/// Returns the orientation of a body's faces. A body is closed if each edge occurs once in each direction; corners at
+/// the same position count as one.
+Facing facing_of(const Polyhedron& body);
 
 }  // namespace hedgehop::scenes::mesh

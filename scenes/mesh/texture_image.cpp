@@ -43,23 +43,24 @@ cv::Mat decode_jpeg(std::span<const uint8_t> bytes) {
   return fault == 0 || tjGetErrorCode(decoder.get()) == TJERR_WARNING ? rgb : cv::Mat();
 }
 
-/// Netpbm's grey and color images (P2, P3, P5, P6), of one byte a number, which need no library.
+/// Reads Netpbm's grey and color images (P2, P3, P5, P6) with one byte per value.
 class NetpbmReader {
  public:
   explicit NetpbmReader(std::span<const uint8_t> bytes) : rest_(bytes.subspan(2)), kind_(bytes[1]) {}
 
   cv::Mat read() {
-    const int64_t width = number(), height = number(), most = number();
-    if (width <= 0 || height <= 0 || width > kMaxPixels || height > kMaxPixels / width || most <= 0 || most > 255) {
+    const int64_t width = number(), height = number(), max_value = number();
+    if (width <= 0 || height <= 0 || width > kMaxPixels || height > kMaxPixels / width || max_value <= 0 ||
+        max_value > 255) {
       return {};
     }
     const bool is_text = kind_ < '5', is_grey = kind_ == '2' || kind_ == '5';
-    if (!is_text && !rest_.empty()) rest_ = rest_.subspan(1);  // the one white space before the bytes
+    if (!is_text && !rest_.empty()) rest_ = rest_.subspan(1);  // the single white space before the data
     cv::Mat image(static_cast<int>(height), static_cast<int>(width), is_grey ? CV_8UC1 : CV_8UC3);
     for (uint8_t& value : std::span(image.data, image.total() * image.elemSize())) {
       const int64_t read = is_text ? number() : byte();
-      if (read < 0 || read > most) return {};
-      value = static_cast<uint8_t>(read * 255 / most);
+      if (read < 0 || read > max_value) return {};
+      value = static_cast<uint8_t>(read * 255 / max_value);
     }
     cv::Mat rgb = image;
     if (is_grey) cv::cvtColor(image, rgb, cv::COLOR_GRAY2RGB);
@@ -67,14 +68,14 @@ class NetpbmReader {
   }
 
  private:
-  /// -1 at the end.
+  /// Returns the next byte; -1 at the end.
   int64_t byte() {
     if (rest_.empty()) return -1;
     const uint8_t first = rest_.front();
     rest_ = rest_.subspan(1);
     return first;
   }
-  /// The next number of the text, after white space and comments; -1 where there is none, or one of more than 9 digits.
+  /// Returns the next number of the text, after white space and comments; -1 at the end or if it exceeds 9 digits.
   int64_t number() {
     while (!rest_.empty() && (std::isspace(rest_.front()) != 0 || rest_.front() == '#')) {
       const bool is_comment = rest_.front() == '#';

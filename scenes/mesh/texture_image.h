@@ -6,8 +6,9 @@
 
 namespace hedgehop::scenes::mesh {
 
-/// Decodes the texture of a mesh: PNG of any depth, JPEG, or PPM and PGM (P2, P3, P5, P6). Transparency is dropped.
-/// @return CV_8UC3, RGB; empty for what is none of these, is broken, or has more than 64 million pixels.
+/// Returns the decoded texture of a mesh: PNG of any depth, JPEG, or PPM and PGM (P2, P3, P5, P6), without
+/// transparency.
+/// @return CV_8UC3, RGB; empty if the format is another, the data is invalid, or it has more than 64 million pixels.
 cv::Mat decode_texture(std::span<const uint8_t> bytes);
 
 }  // namespace hedgehop::scenes::mesh

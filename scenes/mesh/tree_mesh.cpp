@@ -36,16 +36,14 @@ std::vector<Solid> add_tree(const std::string& name, const TreeShape& shape, std
   if (shape.lobes == 1) {
     add_lump(crown_center_W, crown_radii);
   } else {
-    constexpr double kCore = 0.62;  // of the crown's radii; the lobes stand out of it
+    constexpr double kCore = 0.62;  // share of the crown's radii; the lobes protrude from it
     add_lump(crown_center_W, kCore * crown_radii);
-    const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
-    const double first = uniform(random, 0.0, 2.0 * std::numbers::pi);
+    const double first_rad = uniform(random, 0.0, 2.0 * std::numbers::pi);
     const int around = shape.lobes - 1;
     for (int k = 0; k < around; ++k) {
-      const double size = uniform(random, 0.22, 0.46), z = 1.0 - (2.0 * k + 1.0) / around;
-      const double across = std::sqrt(1.0 - z * z), turn = first + golden_angle * k;
-      const Vector3d out(across * std::cos(turn), across * std::sin(turn), z);
-      // Small ones must not float beside the core, which is nowhere much thinner than this.
+      const double size = uniform(random, 0.22, 0.46);
+      const Vector3d out = spiral_direction(k, around, first_rad);
+      // Small lobes must touch the core, which has about this radius in every direction.
       const double way = std::min((1.0 - size) * uniform(random, 0.9, 1.0), 0.85 * kCore + 0.5 * size);
       add_lump(crown_center_W + crown_radii.cwiseProduct(way * out), size * crown_radii);
     }

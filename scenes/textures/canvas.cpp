@@ -10,7 +10,7 @@
 namespace hedgehop::scenes::textures {
 namespace {
 
-// Where a pixel falls on a periodic lattice: the node before it, the node after it, and the eased way between them.
+// Position of a pixel on a periodic lattice: the previous node, the next node, and the eased weight of the next one.
 struct LatticeStep {
   int before;
   int after;
@@ -28,12 +28,12 @@ std::vector<LatticeStep> lattice_steps(int size_px, int cells, double phase) {
   return steps;
 }
 
-// Value noise on one lattice, row by row from the top: of the lattice's rows, spread across, only two are in use.
+// Value noise on one lattice, computed row by row. Keeps the two adjacent lattice rows, interpolated across the image.
 class Octave {
  public:
   Octave(int size_px, int cells_u, int cells_v, float strength, Random& random) : lattice_(cells_v, cells_u) {
     for (float& node : lattice_) node = static_cast<float>(uniform(random, -1.0, 1.0)) * strength;
-    // The phases keep the octaves' nodes apart.
+    // Random phases separate the nodes of the octaves.
     across_ = lattice_steps(size_px, cells_u, uniform(random, 0.0, 1.0));
     down_ = lattice_steps(size_px, cells_v, uniform(random, 0.0, 1.0));
     above_.resize(across_.size());
@@ -63,10 +63,10 @@ class Octave {
   cv::Mat1f lattice_;
   std::vector<LatticeStep> across_, down_;
   std::vector<float> above_, below_;
-  int row_ = -1, next_ = -1;  ///< that the two lines hold
+  int row_ = -1, next_ = -1;  ///< lattice rows in above_ and below_
 };
 
-// Adds numbers, and their squares, to what was summed before: one after another, so that the result is always the same.
+// Adds numbers and their squares to two sums in a fixed order, which makes the result reproducible.
 std::pair<double, double> with_moments(const float* numbers, int count, double sum, double squares) {
   for (int i = 0; i < count; ++i) {
     sum += numbers[i];
@@ -75,7 +75,7 @@ std::pair<double, double> with_moments(const float* numbers, int count, double s
   return {sum, squares};
 }
 
-// Share of the pixel [i, i + 1) that [low, high) covers.
+// Returns the share of the pixel [i, i + 1) that [low, high) covers.
 double coverage(int i, double low, double high) {
   return std::clamp(std::min(high, i + 1.0) - std::max(low, static_cast<double>(i)), 0.0, 1.0);
 }
@@ -96,7 +96,7 @@ cv::Mat1f fractal_noise(int size_px, const NoiseShape& shape, Random& random) {
     strength *= static_cast<float>(shape.gain);
   }
 
-  // Row by row, so that a row stays in the processor's cache until all octaves are in it.
+  // Row by row, so that a row remains in the processor's cache while the octaves are added.
   cv::Mat1f sum(size_px, size_px, 0.0f);
   double mean = 0.0, square = 0.0;
   for (int r = 0; r < size_px; ++r) {
@@ -152,7 +152,7 @@ void Canvas::disc(double center_x, double center_y, double radius, const Color& 
   const double margin = 1.0 / px_per_m;
   const Area box{center_x - radius - margin, center_y - radius - margin, 2.0 * (radius + margin),
                  2.0 * (radius + margin)};
-  // What lies clearly inside or outside needs no root.
+  // Pixels clearly inside or outside need no square root.
   const double whole = std::max(0.0, radius - margin), none = radius + margin;
   blend(box, color, [&](double x, double y) {
     const double distance2 = (x - center_x) * (x - center_x) + (y - center_y) * (y - center_y);
@@ -207,7 +207,7 @@ cv::Mat Canvas::finished() const {
     const float* from = pixels_[r]->val;
     uint8_t* to = image[r]->val;
     for (int i = 0; i < 3 * size_px(); ++i) {
-      // Rounded as by std::lround: what lies above a whole number is exact.
+      // Rounds like std::lround, because the fraction above an integer is exact.
       const float level = 255.0f * std::clamp(from[i], 0.0f, 1.0f);
       const int whole = static_cast<int>(level);
       to[i] = static_cast<uint8_t>(whole + (level - static_cast<float>(whole) >= 0.5f ? 1 : 0));

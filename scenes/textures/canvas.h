@@ -8,13 +8,13 @@ namespace hedgehop::scenes::textures {
 
 using Color = cv::Vec3f;  ///< RGB, 0..1
 
-/// A rectangle of the image, in meters from its top left corner.
+/// A rectangle of the image, in m from its top left corner.
 struct Area {
   double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
 };
 
-/// Spectrum of a noise image: value noise on lattices of `cells_u` x `cells_v`, then twice as many, `octaves` times,
-/// each `gain` times as strong as the one before.
+/// Spectrum of a noise image: `octaves` layers of value noise. The first lattice has `cells_u` x `cells_v` cells; each
+/// further layer doubles the number of cells in both directions and multiplies the amplitude by `gain`.
 struct NoiseShape {
   int cells_u = 4;
   int cells_v = 4;
@@ -22,11 +22,11 @@ struct NoiseShape {
   double gain = 0.75;
 };
 
-/// Returns tileable noise with mean 0 and standard deviation 1. Lattices finer than the pixels are left out.
+/// Returns tileable noise with mean 0 and standard deviation 1. Lattices finer than the pixels are omitted.
 cv::Mat1f fractal_noise(int size_px, const NoiseShape& shape, Random& random);
 
-/// A square, tileable image under the brush. Everything wraps around the edges, edges are antialiased, and lengths
-/// are meters on the surface, so that an image looks alike at any resolution.
+/// A square tileable image to paint on. Shapes wrap around the edges and are antialiased. Lengths are in m on the
+/// surface, so that an image has the same appearance at every resolution.
 class Canvas {
  public:
   Canvas(int size_px, double tile_m, const Color& background);
@@ -40,19 +40,19 @@ class Canvas {
   void fade(const Area& area, const Color& color, double top_opacity, double bottom_opacity);
   void disc(double center_x, double center_y, double radius, const Color& color, double opacity = 1.0);
 
-  /// Draws the outline of `area`, `line` wide, inside of it.
+  /// Draws a border of width `line` inside `area`.
   void outline(const Area& area, double line, const Color& color, double opacity = 1.0);
 
-  /// Draws a wandering dark line, as of a crack.
+  /// Draws a random winding line, such as a crack.
   void crack(double x, double y, double length, double width, const Color& color, double opacity, Random& random);
 
-  /// Multiplies by 1 + strength * noise, within 0.3..1.7.
+  /// Multiplies the pixels by 1 + strength * noise, limited to 0.3..1.7.
   void shade(const cv::Mat1f& noise, double strength);
 
-  /// Blends in `color` where the noise exceeds `threshold`: opacity grows to `opacity` over `softness`.
+  /// Blends in `color` at pixels whose noise exceeds `threshold`. The opacity rises to `opacity` over `softness`.
   void stain(const cv::Mat1f& noise, double threshold, double softness, const Color& color, double opacity);
 
-  /// Gives each pixel a color from its place in meters. @param color_at  of (double x, double y).
+  /// Sets the color of each pixel. @param color_at  (double x, double y), in m, -> color.
   template <class ColorAt>
   void paint(const ColorAt& color_at) {
     const double m_per_px = tile_m_ / size_px();
@@ -73,11 +73,11 @@ class Canvas {
   cv::Mat3f pixels_;
 };
 
-/// Returns the color, each channel times `factor`.
+/// Returns the color with each channel multiplied by `factor`.
 inline Color scaled(const Color& color, double factor) { return color * static_cast<float>(factor); }
 
-/// Returns a color near `color`: all channels times one random factor within 1 +- spread, and each a little by
-/// itself.
+/// Returns a random variation of `color`: all channels are multiplied by one factor within 1 +- spread and each by a
+/// factor within 1 +- spread / 4.
 Color varied(const Color& color, double spread, Random& random);
 
 }  // namespace hedgehop::scenes::textures

@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/textures/masonry.h"
+#include "scenes/textures/surface_patterns.h"
 
 namespace hedgehop::scenes::textures {
 namespace {
 
-const Color kGlass{0.10f, 0.13f, 0.16f};
-const Color kSkyGlow{0.62f, 0.72f, 0.82f};
 const Color kLamp{0.98f, 0.86f, 0.58f};
 const Color kShadow{0.05f, 0.05f, 0.06f};
 
-// What stands behind a pane, at random: night-dark rooms, lamps, blinds, curtains.
+// Paints a random interior behind a pane: dark rooms, lamps, blinds or curtains.
 void paint_interior(Canvas& canvas, const Area& pane, Random& random) {
   const double state = uniform(random, 0.0, 1.0);
   canvas.fill(pane, varied(kGlass, 0.4, random));
@@ -48,7 +46,7 @@ void paint_window(Canvas& canvas, const FacadeStyle& style, const Area& hole, Ra
   const double frame = 0.07;
   paint_interior(canvas, hole, random);
 
-  // Mullions, the frame, and the shadow of the reveal.
+  // Mullions, frame, and shadow of the reveal.
   for (int k = 1; k < style.panes_across; ++k) {
     canvas.fill({hole.left + hole.width * k / style.panes_across - 0.5 * frame, hole.top, frame, hole.height},
                 style.trim_color);
@@ -62,7 +60,7 @@ void paint_window(Canvas& canvas, const FacadeStyle& style, const Area& hole, Ra
   canvas.fade({hole.left, hole.top, 0.10, hole.height}, kShadow, 0.45, 0.35);
 }
 
-// Dirt that ran down the wall, fading out before the cell ends.
+// Paints streaks of dirt that fade out above the end of the cell.
 void paint_streaks(Canvas& canvas, const Area& below, Random& random) {
   const int count = 2 + uniform_index(random, 6);
   for (int k = 0; k < count; ++k) {

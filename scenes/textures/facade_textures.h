@@ -8,7 +8,7 @@
 
 namespace hedgehop::scenes::textures {
 
-/// How the walls of one kind of building look. An image shows `bays` x `floors` cells of one window each.
+/// Appearance of the walls of one kind of building. A texture contains `bays` x `floors` cells with one window each.
 struct FacadeStyle {
   enum class Wall { brick, plaster, panel, ashlar, glass };
 
@@ -29,11 +29,11 @@ struct FacadeStyle {
   double floor_m() const { return kTileM / floors; }
 };
 
-/// The kinds of walls that a city draws from.
+/// Returns the styles available to a city.
 const std::vector<FacadeStyle>& facade_styles();
 
-/// Returns `variants` images of one style, CV_8UC3. They differ in windows, balconies and streaks, share the wall
-/// between the cells, and so continue each other in any arrangement: a facade made of them never repeats strictly.
+/// Returns `variants` textures of one style, CV_8UC3. They differ in windows, balconies and streaks, but share the wall
+/// between the cells. They therefore match at their borders in any arrangement, and a facade does not repeat exactly.
 std::vector<cv::Mat> paint_facades(const FacadeStyle& style, int size_px, int variants, uint64_t seed);
 
 }  // namespace hedgehop::scenes::textures

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "scenes/textures/canvas.h"
-#include "scenes/textures/masonry.h"
+#include "scenes/textures/surface_patterns.h"
 
 namespace hedgehop::scenes::textures {
 namespace {
@@ -67,7 +67,7 @@ void paint_paper(Canvas& canvas, WallPaper paper, Random& random) {
   canvas.shade(fractal_noise(size_px, {4, 4, 8, 0.8}, random), 0.09);
 }
 
-// Skirting board and wear, all along the wall.
+// Skirting board and wear along the wall.
 void paint_skirting(Canvas& canvas) {
   const double tile = canvas.tile_m();
   canvas.fade({0.0, tile - 0.5, tile, 0.38}, kRoomDark, 0.0, 0.35);
@@ -75,7 +75,7 @@ void paint_skirting(Canvas& canvas) {
   canvas.fill({0.0, tile - 0.14, tile, 0.02}, {0.70f, 0.58f, 0.42f});
 }
 
-// A framed image: horizon, discs and strokes.
+// A framed image: horizon and discs.
 void paint_framed_image(Canvas& canvas, const Area& frame, Random& random) {
   canvas.fade({frame.left + 0.03, frame.top + frame.height, frame.width, 0.10}, kRoomDark, 0.5, 0.0);
   canvas.fill(frame, varied(kWood, 0.4, random));
@@ -122,7 +122,7 @@ std::vector<cv::Mat> paint_room_walls(WallPaper paper, int size_px, int variants
   for (int k = 0; k < variants; ++k) {
     Random random(derived_seed(seed, static_cast<uint64_t>(k) + 1));
     Canvas canvas = wall;
-    for (double left : {0.2, 2.2}) {  // two things side by side, within 1..3 m above the floor
+    for (double left : {0.2, 2.2}) {  // two objects side by side, 1 to 3 m above the floor
       const double width = uniform(random, 0.7, 1.4), height = uniform(random, 0.6, 1.1);
       const Area thing{left + uniform(random, 0.0, 1.6 - width), uniform(random, 1.4, 2.4 - 0.5 * height), width,
                        height};
@@ -146,7 +146,7 @@ cv::Mat paint_parquet(int size_px, uint64_t seed) {
   Random random(seed);
   Canvas canvas(size_px, kRoomTileM, kWood);
   paint_masonry(canvas, {32, 4, 0.008, 0.30, 0.0}, kWood, scaled(kWood, 0.3), random);
-  for (int k = 0; k < 32; ++k) {  // each row of planks ends elsewhere
+  for (int k = 0; k < 32; ++k) {  // each row of planks has different joints
     const double x = 0.125 * k;
     for (int end = 0; end < 3; ++end) {
       const double y = uniform(random, 0.0, kRoomTileM);

@@ -2,9 +2,8 @@
 
 #include <cmath>
 
-#include "scenes/textures/asphalt.h"
 #include "scenes/textures/canvas.h"
-#include "scenes/textures/masonry.h"
+#include "scenes/textures/surface_patterns.h"
 
 namespace hedgehop::scenes::textures {
 
@@ -33,7 +32,7 @@ cv::Mat paint_brick_wall(int size_px, uint64_t seed) {
   Random random(seed);
   Canvas canvas(size_px, kWallTileM, {0.55f, 0.28f, 0.21f});
   paint_masonry(canvas, {16, 48, 0.012, 0.30}, {0.58f, 0.29f, 0.21f}, {0.72f, 0.69f, 0.64f}, random);
-  // Nothing as large as the image: it would tell where the image repeats.
+  // No variation as large as the texture, which would make its repetition visible.
   canvas.shade(fractal_noise(size_px, {32, 32, 5, 0.8}, random), 0.10);
   return canvas.finished();
 }

@@ -1,8 +1,7 @@
 #include "scenes/textures/street_textures.h"
 
-#include "scenes/textures/asphalt.h"
 #include "scenes/textures/canvas.h"
-#include "scenes/textures/masonry.h"
+#include "scenes/textures/surface_patterns.h"
 
 namespace hedgehop::scenes::textures {
 namespace {
@@ -17,7 +16,7 @@ const Color kLeaf{0.18f, 0.30f, 0.10f};
 constexpr double kPavementM = 1.4;
 constexpr double kKerbM = 0.14;
 
-// Worn asphalt, spotted with oil.
+// Worn asphalt with oil stains.
 void paint_asphalt(Canvas& canvas, Random& random) {
   const double tile = canvas.tile_m();
   paint_worn_asphalt(canvas, {}, random);
@@ -78,7 +77,7 @@ cv::Mat paint_street(int size_px, uint64_t seed) {
   Canvas canvas(size_px, tile, kAsphalt);
   paint_asphalt(canvas, random);
 
-  // Wheel tracks, then paint worn through by the asphalt's grain.
+  // Wheel tracks, then worn paint.
   for (double x : {2.2, 3.2, 4.5, 5.5}) canvas.fill({x, 0.0, 0.4, tile}, kStreetDark, 0.18);
   for (double y : {0.5, 4.5}) canvas.fill({0.5 * tile - 0.07, y, 0.14, 2.2}, kPaint, 0.85);
   for (double x : {kPavementM + 0.30, tile - kPavementM - 0.42}) canvas.fill({x, 0.0, 0.12, tile}, kPaint, 0.7);

@@ -1,10 +1,10 @@
 #include "scenes/worlds/balloon.h"
 
-#include "scenes/mesh/ground.h"
-#include "scenes/movers.h"
-#include "scenes/require.h"
+#include "scenes/additions.h"
+#include "scenes/mesh/bodies.h"
 #include "scenes/textures/stone_textures.h"
 #include "scenes/textures/street_textures.h"
+#include "scenes/world_config.h"
 #include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes::worlds {

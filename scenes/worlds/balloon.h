@@ -4,10 +4,12 @@
 #include <string_view>
 
 #include "scenes/additions.h"
+#include "scenes/world_config.h"
 
 namespace hedgehop::scenes::worlds {
 
-/// A meadow with a line of posts, and a balloon on a pole that is carried towards the origin along them, then sideways.
+/// A meadow with a line of posts and a balloon on a pole. The pole is carried along the posts toward the origin, then
+/// sideways.
 struct BalloonConfig {
   static constexpr std::string_view kName = "balloon";
   static constexpr std::string_view kMeaning = "a balloon on a pole that moves along a line, on a meadow";
@@ -26,21 +28,18 @@ struct BalloonConfig {
 
 template <class Visitor>
 void describe(Visitor& v, BalloonConfig& c) {
-  v("radius", c.radius_m, {.unit = "m", .above = 0.0, .at_most = 10.0, .meaning = "of the balloon"});
-  v("height", c.height_m, {.unit = "m", .above = 0.0, .at_most = 100.0, .meaning = "of the balloon's center"});
-  v("motion", c.motion, {.meaning = "how the pole's foot travels"});
-  v("markers", c.markers, {.at_least = 0.0, .at_most = 100.0, .meaning = "posts in a row north of the origin"});
-  v("marker_spacing", c.marker_spacing_m, {.unit = "m", .above = 0.0, .meaning = "from post to post"});
-  v("texture_size", c.texture_size_px,
-    {.unit = "px",
-     .at_least = 64.0,
-     .at_most = 2048.0,
-     .meaning = "side of the images on the surfaces, a power of two"});
+  v("radius", c.radius_m, {.unit = "m", .above = 0.0, .at_most = 10.0, .meaning = "radius of the balloon"});
+  v("height", c.height_m, {.unit = "m", .above = 0.0, .at_most = 100.0, .meaning = "height of the balloon's center"});
+  v("motion", c.motion, {.meaning = "motion of the pole's foot"});
+  v("markers", c.markers,
+    {.at_least = 0.0, .at_most = 100.0, .meaning = "number of posts in a row north of the origin"});
+  v("marker_spacing", c.marker_spacing_m, {.unit = "m", .above = 0.0, .meaning = "distance between posts"});
+  describe_texture_size(v, c.texture_size_px);
   describe(v, c.added);
 }
 
-/// Returns the meadow with its balloon, a function of its arguments alone.
-/// @throws std::invalid_argument naming the field, its value and what is valid.
+/// Returns the meadow with its balloon. Depends on the arguments only.
+/// @throws std::invalid_argument with the field, its value and the valid values.
 Scene make_balloon(const BalloonConfig& config, uint64_t seed);
 
 }  // namespace hedgehop::scenes::worlds

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/mesh/ground.h"
+#include "scenes/mesh/bodies.h"
 #include "scenes/textures/room_textures.h"
 #include "scenes/textures/stone_textures.h"
 #include "sim/libm/random.h"
@@ -23,7 +23,7 @@ constexpr uint32_t kFloor = kWalls, kCeiling = kWalls + 1;
 
 bool turns_right(const Vector2d& before, const Vector2d& after) { return to_the_right(before).dot(after) > 0.0; }
 
-// A frame K on the floor: x along a direction of the plan, y to the right of it, z down.
+// Returns the pose of a frame K on the floor: x along a direction in the plan, y to the right, z down.
 Eigen::Isometry3d floor_frame(const Vector2d& origin_NE, const Vector2d& along_NE) {
   Eigen::Isometry3d X_WK = Eigen::Isometry3d::Identity();
   const Vector2d right = to_the_right(along_NE);
@@ -33,7 +33,7 @@ Eigen::Isometry3d floor_frame(const Vector2d& origin_NE, const Vector2d& along_N
   return X_WK;
 }
 
-// Adds boxes to a mesh and to the solids, each a chunk with an image of its own.
+// Adds boxes to a mesh and to the solids. Each box is a chunk with a random texture.
 class WallBuilder {
  public:
   WallBuilder(uint64_t seed, Scene& scene, mesh::MeshBuilder& mesh) : random_(seed), scene_(scene), mesh_(mesh) {}
@@ -46,8 +46,8 @@ class WallBuilder {
     scene_.solids.push_back(mesh::solid_of(name, box_K, X_WK));
   }
 
-  /// A wall along corners of the plan, all of it to the left of the path. Where the path turns right, and at both
-  /// ends, sections extend past the corner, so that no wedge stays open behind it.
+  /// Builds a wall along a path in the plan, on its left side. At right turns and at both ends the sections extend past
+  /// the corner, which closes the wedge behind it.
   void build_wall(const std::string& name, const std::vector<Vector2d>& path_NE, double height_m) {
     for (size_t k = 1; k < path_NE.size(); ++k) {
       const Vector2d from = path_NE[k - 1], along = (path_NE[k] - from).normalized();
@@ -65,7 +65,7 @@ class WallBuilder {
   mesh::MeshBuilder& mesh_;
 };
 
-// What stands in a section, seen from its middle: x along it, y to the right.
+// Adds the doorway and the pillar of a section. Frame K: origin at the section's center, x along it, y to the right.
 void add_fixtures(const CorridorConfig& c, const CorridorSection& section, const Eigen::Isometry3d& X_WK,
                   double width_m, WallBuilder& builder) {
   const double half_m = 0.5 * width_m, thin_m = 0.5 * kThicknessM, outer_m = half_m + thin_m;

@@ -1,8 +1,8 @@
-// Where the walls of a corridor stand: what the seed draws of it, and the edges of its floor.
+// The plan of a corridor: its random variation and the edges of its floor.
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/require.h"
+#include "scenes/world_config.h"
 #include "scenes/worlds/corridor.h"
 #include "sim/fields/bounds.h"
 #include "sim/libm/random.h"
@@ -16,7 +16,7 @@ constexpr uint64_t kCorridorPlanStream = 2;  // of the scene's seed; corridor.cp
 
 Vector2d direction_NE(double heading_rad) { return {std::cos(heading_rad), std::sin(heading_rad)}; }
 
-// Where the last section begins, and the heading of the one before it.
+// Start of the last section, heading of the previous one, and length up to there.
 struct LastSectionStart {
   Vector2d end_NE = Vector2d::Zero();
   double heading_rad = 0.0, length_m = 0.0;
@@ -32,33 +32,33 @@ LastSectionStart last_section_start(const std::vector<CorridorSection>& sections
   return all;
 }
 
-// Refuses what any seed could make impossible.
+// Throws if any seed could make the corridor impossible.
 void validate(const CorridorConfig& c) {
   fields::require_bounds(c);
   require(c.door_height_m <= c.height_m, "door_height", c.door_height_m, "at most the height");
   require(!c.sections.empty(), "sections", 0.0, "at least one");
-  const auto least = [&](double width_m) { return width_m - c.vary * std::abs(width_m - c.width_m); };
+  const auto min_width_m = [&](double width_m) { return width_m - c.vary * std::abs(width_m - c.width_m); };
   const double smallest = 1.0 - c.vary, largest = 1.0 + c.vary;
   const double shortest = smallest * smallest / largest;  // after keep_last_section()
   double width_m = c.width_m;
   for (const CorridorSection& s : c.sections) {
-    require(shortest * s.length_m >= 1.0, "sections.length", s.length_m, "at least 1 m, varied too");
-    const double end_m = s.width_m > 0.0 ? least(s.width_m) : width_m;
-    require(end_m >= 0.5, "sections.width", end_m, "at least 0.5 m, varied too, or 0");
+    require(shortest * s.length_m >= 1.0, "sections.length", s.length_m, "at least 1 m, including variation");
+    const double end_m = s.width_m > 0.0 ? min_width_m(s.width_m) : width_m;
+    require(end_m >= 0.5, "sections.width", end_m, "0, or at least 0.5 m including variation");
     const double middle_width_m = 0.5 * (width_m + end_m);
     require(s.doorway_m == 0.0 || (smallest * s.doorway_m >= 0.3 && largest * s.doorway_m < middle_width_m),
-            "sections.doorway", s.doorway_m, "0, or 0.3 m to the corridor's width, varied too");
+            "sections.doorway", s.doorway_m, "0, or 0.3 m to the corridor's width, including variation");
     require(largest * std::abs(s.obstacle_m) < middle_width_m, "sections.obstacle", s.obstacle_m,
-            "less than the corridor's width, varied too");
+            "less than the corridor's width, including variation");
     width_m = end_m;
   }
   const LastSectionStart written = last_section_start(c.sections);
   require(c.vary == 0.0 || written.end_NE.norm() >= 0.5 * written.length_m, "vary", c.vary,
-          "0 where the corridor turns back");
+          "0 if the corridor turns back");
   require_texture_size(c.texture_size_px);
 }
 
-// Turns and scales all sections but the last, so that the last one begins and heads as it is written.
+// Rotates and scales all sections except the last, so that the last one keeps its configured start and heading.
 void keep_last_section(const std::vector<CorridorSection>& written, std::vector<CorridorSection>& drawn) {
   const LastSectionStart from = last_section_start(drawn), to = last_section_start(written);
   const double turn_rad = std::atan2(to.end_NE.y(), to.end_NE.x()) - std::atan2(from.end_NE.y(), from.end_NE.x());
@@ -100,7 +100,7 @@ CorridorPlan plan_corridor(const CorridorConfig& written, uint64_t seed) {
   const CorridorConfig config = draw_corridor(written, seed);
   CorridorPlan plan;
   const auto add_edges = [&](const Vector2d& middle, const Vector2d& before, const Vector2d& after, double width_m) {
-    // Across the bend; as long as it takes for both sections to be `width_m` wide there.
+    // Across the bend, with the length at which both sections have the width `width_m`.
     const Vector2d across = (to_the_right(before) + to_the_right(after)).normalized();
     const Vector2d half = 0.5 * width_m / across.dot(to_the_right(after)) * across;
     plan.middles_NE.push_back(middle);

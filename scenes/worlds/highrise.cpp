@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 
-#include "scenes/mesh/ground.h"
-#include "scenes/require.h"
+#include "scenes/mesh/bodies.h"
 #include "scenes/textures/facade_textures.h"
 #include "scenes/textures/stone_textures.h"
 #include "scenes/textures/street_textures.h"
+#include "scenes/world_config.h"
 #include "sim/fields/bounds.h"
 #include "sim/libm/random.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A block, and a pyramid on top of it when `spire_m` is above 0.
+// A block, with a pyramid on top if `spire_m` is above 0.
 struct Tower {
   double north_m, east_m, side_north_m, side_east_m, height_m, spire_m;
 
@@ -36,21 +36,21 @@ constexpr uint64_t kTowerStream = 5;  // of the scene's seed; the images are str
 // At scale 1, m.
 constexpr double kMaxHeightM = 40.0, kMinGapM = 4.0, kMaxMoveM = 12.0;
 
-// The smallest gap between two of the footprints, along north or east.
-double least_gap_m(const std::vector<Tower>& towers) {
-  double least_m = std::numeric_limits<double>::infinity();
+// Returns the minimum gap between two footprints along north or east.
+double min_gap_m(const std::vector<Tower>& towers) {
+  double min_m = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < towers.size(); ++i) {
     for (size_t k = 0; k < i; ++k) {
       const Tower &a = towers[i], &b = towers[k];
       const double north_m = std::abs(a.north_m - b.north_m) - 0.5 * (a.side_north_m + b.side_north_m);
       const double east_m = std::abs(a.east_m - b.east_m) - 0.5 * (a.side_east_m + b.side_east_m);
-      least_m = std::min(least_m, std::max(north_m, east_m));
+      min_m = std::min(min_m, std::max(north_m, east_m));
     }
   }
-  return least_m;
+  return min_m;
 }
 
-// A tower near a plain one, inside `extent_W`: what sees all of the plain skyline sees all of this one.
+// Draws a tower near a plain one, inside `extent_W`, so that a camera that sees the plain skyline sees the varied one.
 Tower draw_tower(const Tower& plain, const Eigen::AlignedBox3d& extent_W, double vary, Random& random) {
   const auto resized = [&](double length_m) { return length_m * uniform(random, 1.0 - vary, 1.0 + vary); };
   const auto moved = [&](double middle_m, double side_m, int axis) {
@@ -59,7 +59,7 @@ Tower draw_tower(const Tower& plain, const Eigen::AlignedBox3d& extent_W, double
     const double high_m = std::min(middle_m + reach_m, extent_W.max()[axis] - 0.5 * side_m);
     return uniform(random, low_m, high_m);
   };
-  // Draws stand in statements of their own: the order of evaluation of arguments is unspecified.
+  // One statement per draw, because the order of evaluation of arguments is unspecified.
   Tower tower = plain;
   tower.side_north_m = resized(plain.side_north_m);
   tower.side_east_m = resized(plain.side_east_m);
@@ -73,16 +73,16 @@ Tower draw_tower(const Tower& plain, const Eigen::AlignedBox3d& extent_W, double
   return tower;
 }
 
-// Draws skylines until the towers of one are far enough apart.
+// Draws skylines until all towers of one are far enough apart.
 std::vector<Tower> draw_skyline(const std::vector<Tower>& plain, double vary, uint64_t seed) {
-  constexpr int kTries = 1000;  // of which a seventh and more succeed
+  constexpr int kTries = 1000;  // at least a seventh of which succeed
   Eigen::AlignedBox3d extent_W;
   for (const Tower& tower : plain) extent_W.extend(tower.box_W());
   Random random(derived_seed(seed, kTowerStream));
   for (int attempt = 0; attempt < kTries; ++attempt) {
     std::vector<Tower> drawn;
     for (const Tower& tower : plain) drawn.push_back(draw_tower(tower, extent_W, vary, random));
-    if (least_gap_m(drawn) >= kMinGapM) return drawn;
+    if (min_gap_m(drawn) >= kMinGapM) return drawn;
   }
   return plain;
 }
@@ -102,7 +102,7 @@ std::vector<Tower> towers(const HighriseConfig& config, uint64_t seed) {
   return towers;
 }
 
-// The box's corners: those of the roof, then those of the foot, both round from the north-west to the east.
+// Returns the corners of a box: those of the roof, then those of the base, both clockwise from the north-west.
 std::vector<Vector3d> box_corners(const Eigen::AlignedBox3d& box) {
   std::vector<Vector3d> corners;
   for (const double z : {box.min().z(), box.max().z()}) {
@@ -114,7 +114,7 @@ std::vector<Vector3d> box_corners(const Eigen::AlignedBox3d& box) {
   return corners;
 }
 
-// The roof of a tower with a spire: four faces up to the top.
+// Returns the roof of a tower with a spire: four faces that meet at the top.
 mesh::Polyhedron spire_of(const Tower& tower) {
   mesh::Polyhedron spire;
   spire.corners = box_corners(tower.box_W());
@@ -124,7 +124,7 @@ mesh::Polyhedron spire_of(const Tower& tower) {
   return spire;
 }
 
-// The whole tower with its spire, closed and convex.
+// Returns the tower with its spire as a closed convex body.
 mesh::Polyhedron hull_of(const Tower& tower) {
   mesh::Polyhedron hull;
   hull.corners = box_corners(tower.box_W());

@@ -6,13 +6,12 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "scenes/mesh/ground.h"
+#include "scenes/mesh/bodies.h"
 #include "scenes/mesh/tree_mesh.h"
-#include "scenes/require.h"
-#include "scenes/textures/plant_textures.h"
+#include "scenes/textures/park_textures.h"
 #include "scenes/textures/stone_textures.h"
 #include "scenes/textures/street_textures.h"
-#include "scenes/textures/vehicle_textures.h"
+#include "scenes/world_config.h"
 #include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes::worlds {
@@ -26,7 +25,7 @@ constexpr uint64_t kParkPlaceStream = 0;
 constexpr uint64_t kParkImageStream = 1;
 constexpr uint64_t kParkLumpStream = 2;
 
-constexpr double kRoadHalfM = 3.5, kParkedM = 4.9;  // vehicles stand on the verge
+constexpr double kRoadHalfM = 3.5, kParkedM = 4.9;  // vehicles are parked on the verge
 
 void validate(const ParkConfig& c) {
   fields::require_bounds(c);
@@ -38,12 +37,12 @@ struct ParkDisc {
   double radius_m;
 };
 
-// Finds free places in the plan.
+// Finds free positions in the plan.
 class PlacementPlanner {
  public:
   PlacementPlanner(const ParkConfig& config, uint64_t seed) : config_(config), random_(seed) {}
 
-  /// A place beside the road for a disc of this radius, or, with `parked`, along the road.
+  /// Returns a position next to the road for a disc of this radius or, if `parked`, a position on the verge.
   ParkDisc take(const char* field, double radius_m, bool parked) {
     constexpr int kTries = 3000;
     const double half_m = 0.5 * config_.extent_m - radius_m;
@@ -60,8 +59,8 @@ class PlacementPlanner {
       if (is_free && is_clear) return taken_.emplace_back(disc);
     }
     std::ostringstream line;
-    line << field << ": valid: fewer, or a larger extent or a smaller gap: after " << taken_.size()
-         << " things in the park no place is found for another";
+    line << field << ": no free position after " << taken_.size()
+         << " objects; valid: fewer objects, a larger extent or a smaller gap";
     throw std::invalid_argument(line.str());
   }
 
@@ -92,7 +91,7 @@ std::vector<cv::Mat> paint_park(int size_px, uint64_t seed) {
   return images;
 }
 
-// Builds what the park holds, each thing a chunk of its own.
+// Builds the objects of the park, each in a chunk of its own.
 class ParkBuilder {
  public:
   ParkBuilder(uint64_t seed, PlacementPlanner& planner, Scene& scene, mesh::MeshBuilder& mesh)
@@ -128,7 +127,7 @@ class ParkBuilder {
              uniform(random(), 0.7, 1.2), {kRock, textures::kRockTileM, offset});
   }
 
-  // A car, or one in three times a van: a body on the ground and a cabin on top of it.
+  // Adds a car or, with probability 1/3, a van: a body on the ground and a cabin on top of it.
   void park_vehicle(int64_t number) {
     const bool is_van = chance(random(), 0.33);
     const double length_m = is_van ? 5.0 : 4.4, width_m = is_van ? 1.95 : 1.75, top_m = is_van ? 2.3 : 1.45;
@@ -154,7 +153,7 @@ class ParkBuilder {
             offset};
   }
 
-  // Half sunk into the ground, `slender` times as high above it as wide from its middle.
+  // Adds a lump partly below the ground. `slender` is its height above the ground divided by its radius.
   void add_lump(const std::string& name, const ParkDisc& disc, double slender, const mesh::Cover& cover) {
     const mesh::Polyhedron& lump =
         lumps_[static_cast<size_t>(uniform_index(random(), static_cast<int>(lumps_.size())))];
@@ -198,7 +197,7 @@ Scene make_park(const ParkConfig& config, uint64_t seed) {
       },
       mesh);
 
-  // The large first: they are the hardest to place.
+  // Large objects first, because they are the hardest to place.
   PlacementPlanner planner(config, derived_seed(seed, kParkPlaceStream));
   ParkBuilder builder(derived_seed(seed, kParkLumpStream), planner, scene, mesh);
   for (int64_t k = 1; k <= config.vehicles; ++k) builder.park_vehicle(k);

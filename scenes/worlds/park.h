@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "scenes/additions.h"
-#include "scenes/clearing.h"
+#include "scenes/world_config.h"
 
 namespace hedgehop::scenes::worlds {
 
-/// A meadow with a road from south to north through its middle: vehicles parked along the road, trees, bushes and rocks
-/// at random places beside it, no two nearer than `gap`.
+/// A meadow with a road from south to north through its center: vehicles parked along the road, and trees, bushes and
+/// rocks at random positions next to it, at least `gap` apart.
 struct ParkConfig {
   static constexpr std::string_view kName = "park";
   static constexpr std::string_view kMeaning = "trees, bushes, rocks and parked vehicles on both sides of a road";
@@ -29,23 +29,20 @@ struct ParkConfig {
 template <class Visitor>
 void describe(Visitor& v, ParkConfig& c) {
   v("extent", c.extent_m,
-    {.unit = "m", .at_least = 30.0, .at_most = 1000.0, .meaning = "side of the square, centered"});
-  v("trees", c.trees, {.at_least = 0.0, .at_most = 1000.0, .meaning = "5 to 9 m high, crowns 3 to 6 m across"});
-  v("bushes", c.bushes, {.at_least = 0.0, .at_most = 1000.0, .meaning = "1 to 2.4 m across"});
-  v("rocks", c.rocks, {.at_least = 0.0, .at_most = 1000.0, .meaning = "0.8 to 2 m across"});
-  v("vehicles", c.vehicles, {.at_least = 0.0, .at_most = 200.0, .meaning = "cars and vans along the road"});
-  v("gap", c.gap_m, {.unit = "m", .at_least = 0.0, .meaning = "least gap in the plan between two of them"});
-  v("keep_clear", c.keep_clear, {.meaning = "discs of the plan that stay free: start, goal"});
-  v("texture_size", c.texture_size_px,
-    {.unit = "px",
-     .at_least = 64.0,
-     .at_most = 2048.0,
-     .meaning = "side of the images on the surfaces, a power of two"});
+    {.unit = "m", .at_least = 30.0, .at_most = 1000.0, .meaning = "side of the square, centered on the origin"});
+  v("trees", c.trees,
+    {.at_least = 0.0, .at_most = 1000.0, .meaning = "number of trees, 5 to 9 m high with crowns of 3 to 6 m diameter"});
+  v("bushes", c.bushes, {.at_least = 0.0, .at_most = 1000.0, .meaning = "number of bushes, 1 to 2.4 m in diameter"});
+  v("rocks", c.rocks, {.at_least = 0.0, .at_most = 1000.0, .meaning = "number of rocks, 0.8 to 2 m in diameter"});
+  v("vehicles", c.vehicles, {.at_least = 0.0, .at_most = 200.0, .meaning = "number of cars and vans along the road"});
+  v("gap", c.gap_m, {.unit = "m", .at_least = 0.0, .meaning = "minimum gap between objects in the plan"});
+  v("keep_clear", c.keep_clear, {.meaning = "discs of the plan free of objects, such as start and goal"});
+  describe_texture_size(v, c.texture_size_px);
   describe(v, c.added);
 }
 
-/// Returns the park of `config`, a function of its arguments alone.
-/// @throws std::invalid_argument naming the field, its value and what is valid; also when something does not fit.
+/// Returns the park of `config`. Depends on the arguments only.
+/// @throws std::invalid_argument with the field, its value and the valid values, also if the objects do not fit.
 Scene make_park(const ParkConfig& config, uint64_t seed);
 
 }  // namespace hedgehop::scenes::worlds

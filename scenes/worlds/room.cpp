@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "scenes/mesh/mesh_builder.h"
-#include "scenes/require.h"
 #include "scenes/textures/room_textures.h"
 #include "scenes/textures/street_textures.h"
+#include "scenes/world_config.h"
 #include "sim/fields/bounds.h"
 #include "sim/libm/random.h"
 
@@ -35,7 +35,7 @@ Eigen::AlignedBox2d free_plan_NE(const RoomConfig& c) {
   return {-half, half};
 }
 
-// North, east, south, west; the north and south walls also fill the corners.
+// Returns the walls in the order north, east, south, west. The north and south walls include the corners.
 std::vector<Eigen::AlignedBox3d> wall_boxes(const RoomConfig& c) {
   const double n = 0.5 * c.length_m, e = 0.5 * c.width_m, t = c.wall_thickness_m, top = -c.height_m;
   using Eigen::Vector3d;
@@ -45,7 +45,7 @@ std::vector<Eigen::AlignedBox3d> wall_boxes(const RoomConfig& c) {
           {Vector3d(-n, -e - t, top), Vector3d(n, -e, 0.0)}};
 }
 
-// Draws one piece, against a wall or off it; nothing when it is too near to another or to a clearing.
+// Draws one piece, against a wall or away from it; std::nullopt if it is too close to another piece or to a clearing.
 std::optional<Eigen::AlignedBox3d> draw_piece(const RoomConfig& c, bool at_wall,
                                               const std::vector<Eigen::AlignedBox3d>& pieces, Random& random) {
   const Eigen::AlignedBox2d plan_NE = free_plan_NE(c);
@@ -90,8 +90,8 @@ std::vector<Eigen::AlignedBox3d> place_furniture(const RoomConfig& c, Random& ra
   }
   if (pieces.size() < wanted) {
     std::ostringstream line;
-    line << "furniture: " << wanted << "; valid: what fits: " << pieces.size() << " pieces stand with furniture_gap "
-         << c.furniture_gap_m << " m and these clearings, and no place is found for another";
+    line << "furniture: " << wanted << "; valid: at most " << pieces.size()
+         << ", the number that fits with furniture_gap " << c.furniture_gap_m << " m and these clearings";
     throw std::invalid_argument(line.str());
   }
   return pieces;
@@ -124,7 +124,7 @@ RoomImages paint_room(const RoomConfig& c, uint64_t seed) {
                       add(textures::paint_drawers(size_px, derived_seed(seed, 4)))};
   }
 
-  // A paper for each wall, no two alike.
+  // A different wallpaper for each wall.
   std::vector<textures::WallPaper> papers = {textures::WallPaper::stripes, textures::WallPaper::brick,
                                              textures::WallPaper::damask, textures::WallPaper::plaster};
   for (uint64_t wall = 0; wall < 4; ++wall) {
@@ -137,12 +137,12 @@ RoomImages paint_room(const RoomConfig& c, uint64_t seed) {
   return room;
 }
 
-// Papers a face of a wall: one image after the other, each drawn from the wall's variants; their foot on the floor.
+// Covers a face of a wall with textures side by side, each a random variant, aligned with the floor.
 void paper_wall(const mesh::TexturedPanel& wall, uint32_t first_image, Random& random, mesh::MeshBuilder& mesh) {
   const double width = wall.right_m.norm(), height = wall.down_m.norm();
   const int count = std::max(1, static_cast<int>(std::lround(width / textures::kRoomTileM)));
   const double share =
-      width / (count * textures::kRoomTileM) < 0.5 ? width / textures::kRoomTileM : 1.0;  // of the image's width
+      width / (count * textures::kRoomTileM) < 0.5 ? width / textures::kRoomTileM : 1.0;  // of the texture's width
   for (int k = 0; k < count; ++k) {
     const Eigen::Vector3d start = wall.top_left_W + wall.right_m * k / count;
     const Eigen::Vector3d end = wall.top_left_W + wall.right_m * (k + 1) / count;
@@ -169,7 +169,7 @@ void add_ceiling(const Eigen::AlignedBox3d& box_W, uint32_t image, mesh::MeshBui
     mesh.add_tiled(side, textures::kRoomTileM, Eigen::Vector2d::Zero(), image);
 }
 
-// Grass around a room without a ceiling, in four strips.
+// Adds grass around a room without a ceiling, in four strips.
 void add_lawn(const Eigen::AlignedBox2d& house_NE, uint32_t image, mesh::MeshBuilder& mesh) {
   const double far_n = house_NE.max().x() + kGrassMarginM, far_e = house_NE.max().y() + kGrassMarginM;
   const double n = house_NE.max().x(), e = house_NE.max().y();
@@ -200,7 +200,7 @@ Scene make_room(const RoomConfig& config, uint64_t seed) {
   scene.lights.sun = 0.30f;
   mesh::MeshBuilder mesh("opaque");
 
-  // The floor ends at the middle of the walls, so that no seam shows.
+  // The floor ends under the center of the walls, so that no seam is visible.
   const Eigen::Vector2d floor_half = scene.bounds_NE_m.max() + Eigen::Vector2d::Constant(0.5 * config.wall_thickness_m);
   const Eigen::AlignedBox3d floor_W(Eigen::Vector3d(-floor_half.x(), -floor_half.y(), 0.0),
                                     Eigen::Vector3d(floor_half.x(), floor_half.y(), 0.0));

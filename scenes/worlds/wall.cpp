@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/mesh/ground.h"
-#include "scenes/require.h"
+#include "scenes/mesh/bodies.h"
 #include "scenes/textures/stone_textures.h"
 #include "scenes/textures/street_textures.h"
+#include "scenes/world_config.h"
 #include "sim/fields/bounds.h"
 #include "sim/libm/random.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr uint64_t kWallGrassStream = 0, kWallStream = 1, kWallPlanStream = 2;  // of the scene's seed
 
-// Refuses what any seed could make impossible.
+// Throws if any seed could make the wall impossible.
 void validate(const WallConfig& c) {
   fields::require_bounds(c);
   require_texture_size(c.texture_size_px);
@@ -23,9 +23,9 @@ void validate(const WallConfig& c) {
   const WallOpening& o = *c.opening;
   const double largest = 1.0 + c.vary;
   require(largest * (o.bottom_m + o.height_m) <= c.height_m, "opening.bottom", o.bottom_m,
-          "at most the wall's height less the opening's");
+          "at most the height of the wall minus that of the opening, including variation");
   require(largest * (std::abs(o.middle_m) + 0.5 * o.width_m) <= 0.5 * c.width_m, "opening.middle", o.middle_m,
-          "such that the opening lies inside the wall");
+          "an opening inside the wall, including variation");
 }
 
 WallConfig draw_wall(const WallConfig& config, uint64_t seed) {
@@ -61,7 +61,7 @@ Scene make_wall(const WallConfig& written, uint64_t seed) {
   const int size_px = static_cast<int>(config.texture_size_px);
   Scene scene;
   scene.name = "wall";
-  // A low sun from the south, that the side one flies towards stands in the light.
+  // A low sun in the south lights the face toward the vehicle.
   scene.lights.to_sun_W = Eigen::Vector3f(-0.7f, -0.3f, -0.65f).normalized();
   scene.textures = {textures::paint_grass(size_px, derived_seed(seed, kWallGrassStream)),
                     paint(config.surface, size_px, derived_seed(seed, kWallStream))};

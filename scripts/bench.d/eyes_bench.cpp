@@ -14,7 +14,7 @@
 #include "avoidance/stereo_corridor/stereo_corridor.h"
 #include "scenes/generators.h"
 #include "tests/avoidance/flow_balance/flow_rig.h"
-#include "vision/corridor/corridor_regions.h"
+#include "vision/corridor/corridor_flow.h"
 #include "vision/flow/feature_flow.h"
 #include "vision/flow/flow_velocity.h"
 #include "vision/flow/image_interpolation_flow.h"

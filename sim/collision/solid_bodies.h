@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dynamics/hull.h"
-#include "scenes/solid.h"
+#include "scenes/scene.h"
 #include "sim/collision/convex_body.h"
 
 /// The convex bodies of which solids and hulls consist.

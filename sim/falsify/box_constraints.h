@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/boxes.h"
+#include "scenes/additions.h"
 #include "sim/falsify/falsify_file.h"
 
 namespace hedgehop::sim {

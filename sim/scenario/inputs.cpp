@@ -9,7 +9,7 @@
 #include <memory>
 #include <variant>
 
-#include "scenes/mesh/mesh_files.h"
+#include "scenes/mesh/mesh_import.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -1,4 +1,4 @@
-#include "scenes/movers.h"
+#include "scenes/additions.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

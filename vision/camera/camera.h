@@ -5,10 +5,8 @@
 #include <string>
 #include <variant>
 
-#include "vision/camera/fisheye_lens.h"
-#include "vision/camera/ocam_lens.h"
 #include "vision/camera/pinhole_camera.h"
-#include "vision/camera/pinhole_lens.h"
+#include "vision/camera/wide_lenses.h"
 
 namespace hedgehop::vision::camera {
 

@@ -1,5 +1,7 @@
 #include "vision/camera/pinhole_camera.h"
 
+#include <Eigen/LU>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -28,6 +30,88 @@ std::optional<Eigen::Vector2d> PinholeCamera::project(const Eigen::Vector3d& p_C
 
 Eigen::Vector3d PinholeCamera::ray_at_unit_depth(const Eigen::Vector2d& pixel) const {
   return {(pixel.x() - center_u_px) / focal_x_px, (pixel.y() - center_v_px) / focal_y_px, 1.0};
+}
+
+namespace {
+
+/// A point of the plane z = 1, moved as the lens moves it, and how that changes with the point.
+struct Distorted {
+  Eigen::Vector2d point;
+  Eigen::Matrix2d slope;
+};
+
+Distorted distort(const PinholeLens& lens, const Eigen::Vector2d& p) {
+  const double x = p.x(), y = p.y(), s = p.squaredNorm();
+  const double stretch = 1.0 + s * (lens.k1 + s * (lens.k2 + s * lens.k3));
+  const double d_stretch = lens.k1 + s * (2.0 * lens.k2 + s * 3.0 * lens.k3);  // with s
+  const Eigen::Vector2d tangential(2.0 * lens.p1 * x * y + lens.p2 * (s + 2.0 * x * x),
+                                   lens.p1 * (s + 2.0 * y * y) + 2.0 * lens.p2 * x * y);
+  Eigen::Matrix2d slope = stretch * Eigen::Matrix2d::Identity() + 2.0 * d_stretch * p * p.transpose();
+  const double across = 2.0 * (lens.p1 * x + lens.p2 * y);
+  slope(0, 0) += 2.0 * lens.p1 * y + 6.0 * lens.p2 * x;
+  slope(0, 1) += across;
+  slope(1, 0) += across;
+  slope(1, 1) += 6.0 * lens.p1 * y + 2.0 * lens.p2 * x;
+  return {stretch * p + tangential, slope};
+}
+
+/// Whether the radial part grows all the way to `p`, and the whole does there: one place in the image shows one ray.
+bool sees(const PinholeLens& lens, const Eigen::Vector2d& p, const Eigen::Matrix2d& slope) {
+  const double end = p.squaredNorm();
+  // The growth d(r (1 + ...)) / dr, a cubic in s = r^2, is least at an end of [0, end] or where its own slope is 0.
+  const auto growth = [&](double s) { return 1.0 + s * (3.0 * lens.k1 + s * (5.0 * lens.k2 + s * 7.0 * lens.k3)); };
+  const double a = 21.0 * lens.k3, b = 10.0 * lens.k2, c = 3.0 * lens.k1, root = std::sqrt(b * b - 4.0 * a * c);
+  const std::array<double, 3> turns = {(-b + root) / (2.0 * a), (-b - root) / (2.0 * a), -c / b};
+  if (!(growth(end) > 0.0)) return false;
+  for (const double s : turns) {
+    if (s > 0.0 && s < end && !(growth(s) > 0.0)) return false;
+  }
+  return slope.determinant() > 0.0;
+}
+
+/// The point that the lens moves to `seen`; nothing when it moves none there.
+std::optional<Eigen::Vector2d> straighten(const PinholeLens& lens, const Eigen::Vector2d& seen) {
+  constexpr int kMaxSteps = 60;
+  constexpr double kAccuracy = 1e-14;
+  Eigen::Vector2d p = seen;
+  Distorted at = distort(lens, p);
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const double error = (at.point - seen).norm();
+    if (error <= kAccuracy * (1.0 + seen.norm())) break;
+    // Newton's step, halved until it does not lead away.
+    Eigen::Vector2d move = at.slope.inverse() * (seen - at.point);
+    for (int halving = 0; halving < 30; ++halving, move *= 0.5) {
+      const Distorted next = distort(lens, p + move);
+      if (!((next.point - seen).norm() < error) || !(next.slope.determinant() > 0.0)) continue;
+      p += move;
+      at = next;
+      break;
+    }
+    if (!((at.point - seen).norm() < error)) break;  // as near as numbers go
+  }
+  constexpr double kFound = 1e-11;
+  if (!((at.point - seen).norm() <= kFound * (1.0 + seen.norm())) || !sees(lens, p, at.slope)) return std::nullopt;
+  return p;
+}
+
+}  // namespace
+
+std::optional<Eigen::Vector2d> PinholeLens::project(const Eigen::Vector3d& p_C) const {
+  if (!(p_C.z() > 0.0)) return std::nullopt;
+  Eigen::Vector2d p = p_C.head<2>() / p_C.z();
+  if (!is_undistorted()) {
+    const Distorted at = distort(*this, p);
+    if (!sees(*this, p, at.slope)) return std::nullopt;
+    p = at.point;
+  }
+  return Eigen::Vector2d{center_u_px + focal_x_px * p.x(), center_v_px + focal_y_px * p.y()};
+}
+
+std::optional<Eigen::Vector3d> PinholeLens::unit_ray(const Eigen::Vector2d& pixel) const {
+  const Eigen::Vector2d seen((pixel.x() - center_u_px) / focal_x_px, (pixel.y() - center_v_px) / focal_y_px);
+  const std::optional<Eigen::Vector2d> p = is_undistorted() ? seen : straighten(*this, seen);
+  if (!p) return std::nullopt;
+  return Eigen::Vector3d(p->x(), p->y(), 1.0).normalized();
 }
 
 }  // namespace hedgehop::vision::camera

@@ -22,4 +22,23 @@ struct PinholeCamera {
   Eigen::Vector3d ray_at_unit_depth(const Eigen::Vector2d& pixel) const;
 };
 
+/// A perspective lens that may bend rays (Brown-Conrady), in the convention of OpenCV's calib3d module: with
+/// x = x_C / z_C, y = y_C / z_C, r^2 = x^2 + y^2 the image shows
+/// x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2), y likewise with p1 and p2 exchanged.
+/// It sees up to where that stops growing with r.
+struct PinholeLens {
+  double focal_x_px = 0.0, focal_y_px = 0.0;
+  double center_u_px = 0.0, center_v_px = 0.0;
+  double k1 = 0.0, k2 = 0.0, p1 = 0.0, p2 = 0.0, k3 = 0.0;
+
+  bool operator==(const PinholeLens&) const = default;
+  /// Whether this is an undistorted pinhole: all five coefficients are zero.
+  bool is_undistorted() const { return *this == PinholeLens{focal_x_px, focal_y_px, center_u_px, center_v_px}; }
+
+  /// As Camera::project().
+  std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_C) const;
+  /// As Camera::unit_ray().
+  std::optional<Eigen::Vector3d> unit_ray(const Eigen::Vector2d& pixel) const;
+};
+
 }  // namespace hedgehop::vision::camera

@@ -4,15 +4,54 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <opencv2/imgproc.hpp>
 #include <optional>
+#include <stdexcept>
 
-#include "vision/flow/ray_flow.h"
+#include "sim/fields/bounds.h"
+#include "vision/flow/feature_flow.h"
+#include "vision/order_statistics.h"
 
 namespace hedgehop::vision::corridor {
+
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kNever = std::numeric_limits<double>::infinity();
+std::optional<Region> region_of(const Eigen::Vector3d& ray_B, const CorridorRegions& regions) {
+  const double elevation_rad = std::atan2(-ray_B.z(), ray_B.head<2>().norm());
+  if (elevation_rad < regions.lowest_rad || elevation_rad > regions.highest_rad) return std::nullopt;
+  const double azimuth_rad = std::atan2(ray_B.y(), ray_B.x()), aside_rad = std::abs(azimuth_rad);
+  if (aside_rad < regions.ahead_rad) return kAhead;
+  if (aside_rad > regions.ahead_rad + regions.segment_rad) return std::nullopt;
+  return azimuth_rad < 0.0 ? kLeft : kRight;
+}
+
+}  // namespace
+
+std::array<cv::Mat, kRegions> region_masks(const camera::Camera& camera, const Eigen::Isometry3d& X_BC,
+                                           const CorridorRegions& regions, int rim_px) {
+  fields::require_bounds(regions);
+  if (!(regions.lowest_rad < regions.highest_rad)) {
+    throw std::invalid_argument("highest: must be above the lowest elevation");
+  }
+  std::array<cv::Mat, kRegions> masks;
+  for (cv::Mat& mask : masks) mask = cv::Mat::zeros(camera.height_px, camera.width_px, CV_8UC1);
+  cv::Mat shown = cv::Mat::zeros(camera.height_px, camera.width_px, CV_8UC1);
+  for (int v = 0; v < camera.height_px; ++v) {
+    for (int u = 0; u < camera.width_px; ++u) {
+      const auto ray_C = camera.unit_ray({u, v});
+      if (!ray_C) continue;
+      shown.at<uint8_t>(v, u) = 255;
+      const auto region = region_of(X_BC.linear() * *ray_C, regions);
+      if (region) masks[*region].at<uint8_t>(v, u) = 255;
+    }
+  }
+  const cv::Mat window = cv::Mat::ones(2 * rim_px + 1, 2 * rim_px + 1, CV_8UC1);
+  cv::erode(shown, shown, window, cv::Point(-1, -1), 1, cv::BORDER_CONSTANT, cv::Scalar::all(0));
+  for (cv::Mat& mask : masks) cv::bitwise_and(mask, shown, mask);
+  return masks;
+}
+
+namespace {
 
 RejectionReason rejection_of(const WallPoint& point, const Eigen::Vector3d& before_H, const Eigen::Vector3d& after_H,
                              const camera::Camera& camera, const CameraMotion& motion, const FlowLimits& limits) {
@@ -30,28 +69,6 @@ RejectionReason rejection_of(const WallPoint& point, const Eigen::Vector3d& befo
     }
   }
   return point.p_CP_H.z() > limits.floor_share * motion.height_m ? RejectionReason::floor : RejectionReason::none;
-}
-
-/// The k-th smallest, k from 0. Reorders.
-double kth(std::vector<double>& values, size_t k) {
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(k);
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-
-double narrowest(const std::vector<Eigen::Vector2d>& places, const GapConfig& config) {
-  double nearest_m = kUnknown;
-  // Slices overlap by half, so that no obstacle is shared out between two.
-  for (double from_m = -config.behind_m; from_m < config.ahead_m; from_m += 0.5 * config.slice_m) {
-    std::vector<double> asides_m;
-    for (const Eigen::Vector2d& p : places) {
-      if (p.x() >= from_m && p.x() < from_m + config.slice_m) asides_m.push_back(std::abs(p.y()));
-    }
-    if (asides_m.size() < static_cast<size_t>(config.least)) continue;
-    const auto k = static_cast<size_t>(config.share * static_cast<double>(asides_m.size()));
-    nearest_m = std::fmin(nearest_m, kth(asides_m, k));
-  }
-  return nearest_m;
 }
 
 }  // namespace
@@ -77,9 +94,9 @@ SideDistance side_distance(const std::vector<WallPoint>& points, Region side, in
       asides_m.push_back(std::abs(point.p_CP_H.y()));
   }
   const size_t count = asides_m.size();
-  SideDistance found{kUnknown, static_cast<int>(count)};
+  SideDistance found{std::numeric_limits<double>::quiet_NaN(), static_cast<int>(count)};
   if (found.count < std::max(1, least)) return found;
-  found.distance_m = kth(asides_m, count / 2);
+  found.distance_m = kth_smallest(asides_m, count / 2);
   if (count % 2 == 0) {
     found.distance_m =
         0.5 * (found.distance_m +
@@ -92,36 +109,13 @@ double middle_offset_m(double left_m, double right_m) { return 0.5 * (right_m - 
 
 double centering_error(double left_m, double right_m) { return (right_m - left_m) / (right_m + left_m); }
 
-Gap gap_ahead(const std::vector<WallPoint>& points, const GapConfig& config) {
-  std::vector<Eigen::Vector2d> left, right;
-  for (const WallPoint& point : points) {
-    if (point.rejection != RejectionReason::none || point.off_travel_rad < config.least_rad) continue;
-    (point.p_CP_H.y() < 0.0 ? left : right).push_back(point.p_CP_H.head<2>());
-  }
-  return {narrowest(left, config), narrowest(right, config)};
-}
-
 double time_to_contact_s(const Eigen::Vector3d& before, const Eigen::Vector3d& after, const Eigen::Vector3d& traveled,
                          double dt_s) {
   const Eigen::Vector3d way = traveled.normalized();
   const double sin_flow = before.cross(after).norm();
   // D cos(alpha) / v, with D / (v dt) by the law of sines as in distance_m().
-  return sin_flow > 0.0 ? dt_s * before.cross(way).norm() * after.dot(way) / sin_flow : kNever;
-}
-
-double free_time_s(const std::vector<WallPoint>& points, const Eigen::Vector2d& direction_H, double half_width_m,
-                   int least) {
-  const Eigen::Vector2d along = direction_H.normalized();
-  const auto enough = static_cast<size_t>(std::max(1, least));
-  std::vector<double> times_s;
-  for (const WallPoint& point : points) {
-    const Eigen::Vector2d p = point.p_CP_H.head<2>();
-    const double aside_m = along.x() * p.y() - along.y() * p.x();
-    const bool met =
-        point.rejection == RejectionReason::none && std::abs(aside_m) <= half_width_m && along.dot(p) > 0.0;
-    if (met) times_s.push_back(point.contact_s);
-  }
-  return times_s.size() < enough ? kNever : kth(times_s, enough - 1);
+  return sin_flow > 0.0 ? dt_s * before.cross(way).norm() * after.dot(way) / sin_flow
+                        : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace hedgehop::vision::corridor

@@ -1,14 +1,48 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
 #include <numbers>
+#include <opencv2/core.hpp>
 #include <vector>
 
-#include "vision/corridor/corridor_regions.h"
+#include "vision/camera/camera.h"
 #include "vision/flow/feature_flow.h"
 
 /// From tracked corners to positions of walls. Frame H: level, x along the heading, y to the right.
+
 namespace hedgehop::vision::corridor {
+
+/// The parts of the view that are searched for walls. Azimuth from B's x axis, elevation from B's x-y plane upwards.
+/// Source: [Zingg2010] sec. IV-D and fig. 7: two segments of 80 deg, 50 deg ahead left out. The elevations are ours.
+struct CorridorRegions {
+  double ahead_rad = 25.0 * std::numbers::pi / 180.0;  ///< left out to each side of the direction of travel
+  double segment_rad = 80.0 * std::numbers::pi / 180.0;
+  double lowest_rad = -25.0 * std::numbers::pi / 180.0;
+  double highest_rad = 5.0 * std::numbers::pi / 180.0;
+};
+
+template <class Visitor>
+void describe(Visitor& v, CorridorRegions& c) {
+  v("ahead", c.ahead_rad,
+    {.unit = "deg", .at_least = 0.0, .at_most = 90.0, .meaning = "left out to each side of the nose"});
+  v("segment", c.segment_rad, {.unit = "deg", .above = 0.0, .at_most = 180.0, .meaning = "width of each side's view"});
+  v("lowest", c.lowest_rad,
+    {.unit = "deg", .at_least = -90.0, .at_most = 90.0, .meaning = "lowest elevation searched for walls"});
+  v("highest", c.highest_rad,
+    {.unit = "deg", .at_least = -90.0, .at_most = 90.0, .meaning = "highest elevation searched for walls"});
+}
+
+/// Indices into the array that region_masks() returns.
+enum Region { kLeft, kRight, kAhead, kRegions };
+
+/// Returns the pixels of each region: CV_8UC1 masks of its image's size, 255 inside.
+/// @param X_BC  pose of the camera in B.
+/// @param rim_px  pixels this near to the image's edge, or to where the lens shows nothing, stay out, >= 0.
+/// Throws std::invalid_argument on angles that leave a region empty.
+std::array<cv::Mat, kRegions> region_masks(const camera::Camera& camera, const Eigen::Isometry3d& X_BC,
+                                           const CorridorRegions& regions, int rim_px);
 
 /// Which flow is rejected: by the two filters of [Zingg2010] sec. IV-D, whose first limit is not printed, and by ours.
 struct FlowLimits {
@@ -82,45 +116,9 @@ double middle_offset_m(double left_m, double right_m);
 /// cancels. NaN when a side is unknown. Source: [Zingg2010] eq. (11).
 double centering_error(double left_m, double right_m);
 
-/// How the free width ahead is measured; all of it is ours.
-struct GapConfig {
-  double behind_m = 0.4, ahead_m = 2.0;  ///< from the camera
-  double slice_m = 0.4;
-  double share = 0.2;                                  ///< of a slice's points that may lie nearer: wrong ones
-  double least_rad = 15.0 * std::numbers::pi / 180.0;  ///< from the direction of travel: nearer, the flow is noise
-  int least = 6;                                       ///< points that a slice, or a free time, needs
-};
-
-template <class Visitor>
-void describe(Visitor& v, GapConfig& c) {
-  v("behind", c.behind_m, {.unit = "m", .at_least = 0.0, .meaning = "how far behind the camera the gap is measured"});
-  v("ahead", c.ahead_m, {.unit = "m", .above = 0.0, .meaning = "how far ahead of the camera the gap is measured"});
-  v("slice", c.slice_m, {.unit = "m", .above = 0.0, .meaning = "length of the slices in which the gap is measured"});
-  v("share", c.share,
-    {.at_least = 0.0, .below = 0.5, .meaning = "share of a slice's points, the nearest, left out as outliers"});
-  v("least_angle", c.least_rad,
-    {.unit = "deg",
-     .at_least = 0.0,
-     .at_most = 90.0,
-     .meaning = "points closer to the direction of travel do not count for the gap"});
-  v("least", c.least, {.at_least = 1, .meaning = "points that a slice must have to count"});
-}
-
-/// Free distance to the left and right over the measured length, m; NaN where no slice has enough points.
-struct Gap {
-  double left_m = 0.0, right_m = 0.0;
-};
-/// Returns the smallest free distance of all slices, on each side.
-Gap gap_ahead(const std::vector<WallPoint>& points, const GapConfig& config);
-
 /// Returns the time after which a fixed point lies abeam, s, < 0 for a point behind, +inf without flow: straight ahead
 /// two over the flow's divergence. Parameters as distance_m(); only the direction of `traveled` counts.
 double time_to_contact_s(const Eigen::Vector3d& before, const Eigen::Vector3d& after, const Eigen::Vector3d& traveled,
                          double dt_s);
-
-/// Returns the time until `least` accepted points are met, s, by a body of the given half width that flies straight
-/// on; +inf when it meets fewer. @param direction_H  direction of travel, not 0.
-double free_time_s(const std::vector<WallPoint>& points, const Eigen::Vector2d& direction_H, double half_width_m,
-                   int least);
 
 }  // namespace hedgehop::vision::corridor

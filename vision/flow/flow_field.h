@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <opencv2/core.hpp>
 #include <vector>
 
 namespace hedgehop::vision::flow {
@@ -25,5 +26,10 @@ struct FlowField {
   /// valid_count() over rows * cols; 0 for an empty field.
   double valid_share() const;
 };
+
+/// Draws each valid vector as a line from its patch center, with a dot there, and each invalid one as a red dot.
+/// @param scale  drawn length per px of flow, > 0.
+/// @param rgb  CV_8UC3, RGB, of the size the field was made for.
+void draw_flow(const FlowField& field, double scale, cv::Mat& rgb);
 
 }  // namespace hedgehop::vision::flow

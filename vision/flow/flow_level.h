@@ -8,7 +8,6 @@
 #include "vision/flow/flow_field.h"
 #include "vision/flow/image_interpolation_flow.h"
 #include "vision/flow/patch_grid.h"
-#include "vision/flow/patch_sums.h"
 #include "vision/flow/recentered_difference.h"
 #include "vision/flow/reduced_image.h"
 

@@ -1,5 +1,6 @@
 #include "vision/flow/flow_range.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -8,6 +9,7 @@
 #include <vector>
 
 namespace hedgehop::vision::flow {
+
 Eigen::Vector2d unit_flow(const Eigen::Vector2d& place, const Eigen::Vector3d& v_WC_C) {
   return place * v_WC_C.z() - v_WC_C.head<2>();
 }
@@ -67,6 +69,82 @@ double nearest_inverse_range_per_m(std::vector<double> near, double share) {
   const auto end = near.begin() + static_cast<std::ptrdiff_t>(count);
   std::partial_sort(near.begin(), end, near.end(), std::greater<>());
   return std::accumulate(near.begin(), end, 0.0) / static_cast<double>(count);
+}
+
+namespace {
+
+/// Sums of the least squares for m over the first patches, in units of their noise.
+struct Sums {
+  Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  ///< on m from the vehicle's motion, without the noise
+  Eigen::Vector2d c = Eigen::Vector2d::Zero();
+  double squares = 0.0;
+
+  void add(const WallFlowSample& sample) {
+    for (int k = 0; k < 2; ++k) {
+      const Eigen::Vector2d slope =
+          (sample.unit_flow[k] * sample.ray_H + sample.flow[k] * sample.p_BC_H) / sample.noise;
+      const double flow = sample.flow[k] / sample.noise;
+      A += slope * slope.transpose();
+      const Eigen::Vector2d shift = sample.unit_flow[k] * sample.ray_H / sample.noise;
+      information += shift * shift.transpose();
+      c += flow * slope;
+      squares += flow * flow;
+    }
+  }
+  Sums minus(const Sums& other) const {
+    return {A - other.A, information - other.information, c - other.c, squares - other.squares};
+  }
+};
+
+struct Fit {
+  WallEstimate wall;
+  double squares = std::numeric_limits<double>::infinity();  ///< of the residual flow
+};
+
+Fit fit(const Sums& sums, size_t patches) {
+  const Eigen::FullPivLU<Eigen::Matrix2d> lu(sums.A), information(sums.information);
+  if (!lu.isInvertible() || !information.isInvertible()) return {};
+  const Eigen::Vector2d near = lu.solve(sums.c);
+  const double inverse_range_per_m = near.norm();
+  if (!(inverse_range_per_m > 0.0)) return {};
+  const double squares = std::max(0.0, sums.squares - sums.c.dot(near));
+  const double scatter = std::max(1.0, squares / (2.0 * static_cast<double>(patches) - 2.0));
+  const Eigen::Vector2d n = near / inverse_range_per_m;
+  return {{near, std::sqrt(scatter * n.dot(information.solve(n))) / inverse_range_per_m}, squares};
+}
+
+}  // namespace
+
+std::vector<WallEstimate> walls_from_flow(std::span<const WallFlowSample> samples, double relative_error) {
+  constexpr size_t kMinPatches = 3;   // patches of a wall
+  constexpr double kOneMore = 12.0;   // squares that a further wall must explain: its two numbers, six times over
+  constexpr double kNoWall = 1000.0;  // squares of a patch that belongs to none: far worse than any that fits
+  std::vector<Sums> upto(1);
+  for (const WallFlowSample& sample : samples) {
+    upto.push_back(upto.back());
+    upto.back().add(sample);
+  }
+  std::vector<double> least(upto.size(), std::numeric_limits<double>::infinity());
+  std::vector<size_t> begin(upto.size(), 0);
+  least[0] = 0.0;
+  for (size_t end = 1; end < upto.size(); ++end) {
+    least[end] = least[end - 1] + kNoWall;
+    begin[end] = end - 1;
+    for (size_t first = 0; first + kMinPatches <= end; ++first) {
+      const double squares = least[first] + fit(upto[end].minus(upto[first]), end - first).squares + kOneMore;
+      if (squares >= least[end]) continue;
+      least[end] = squares;
+      begin[end] = first;
+    }
+  }
+  std::vector<WallEstimate> walls;
+  for (size_t end = upto.size() - 1; end > 0; end = begin[end]) {
+    if (end - begin[end] < kMinPatches) continue;
+    const Fit found = fit(upto[end].minus(upto[begin[end]]), end - begin[end]);
+    if (found.wall.relative_error <= relative_error) walls.insert(walls.begin(), found.wall);
+  }
+  return walls;
 }
 
 }  // namespace hedgehop::vision::flow

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vision/flow/flow_measures.h"
+#include "vision/order_statistics.h"
 
 namespace hedgehop::vision::flow {
 namespace {
@@ -16,12 +17,6 @@ struct Equation {
   Eigen::Vector2d flow_mps;
   double residual_mps = 0.0, weight = 1.0;
 };
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::vector<Equation> equations(const FlowField& field, const camera::PinholeCamera& camera,
                                 const Eigen::Isometry3d& X_BC, const FlowMotion& motion,
@@ -64,7 +59,7 @@ Eigen::Vector3d median_velocity(const std::vector<Equation>& all, const FlowMoti
     east.push_back(v_W.y());
   }
   if (north.empty()) return Eigen::Vector3d::Zero();
-  return R_WB.transpose() * Eigen::Vector3d{median(north), median(east), 0.0};
+  return R_WB.transpose() * Eigen::Vector3d{upper_median(north), upper_median(east), 0.0};
 }
 
 // Weights by Tukey's biweight of the residuals; returns the residuals' robust standard deviation per component.
@@ -77,7 +72,7 @@ double reweigh(std::vector<Equation>& all, const Eigen::Vector3d& v_B) {
     e.residual_mps = (e.rows * v_B - e.flow_mps).norm();
     lengths.push_back(e.residual_mps);
   }
-  const double sigma = std::max(median(lengths) / kRayleighMedian, kMinScaleMps);
+  const double sigma = std::max(upper_median(lengths) / kRayleighMedian, kMinScaleMps);
   for (Equation& e : all) {
     const double t = e.residual_mps / (kBiweight * sigma);
     e.weight = t < 1.0 ? (1.0 - t * t) * (1.0 - t * t) : 0.0;

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "sim/fields/bounds.h"
-#include "vision/landmarks/camera_error.h"
 #include "vision/landmarks/landmark_matching.h"
 #include "vision/landmarks/published_filter.h"
 

@@ -1,9 +1,11 @@
-#include "vision/landmarks/line_segments.h"
+#include "vision/landmarks/edge_corners.h"
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <optional>
+
+#include "vision/order_statistics.h"
 
 namespace hedgehop::vision::landmarks {
 namespace {
@@ -42,9 +44,8 @@ double texture_strength(const Gradient& gradient) {
       squares.push_back(x * x + y * y);
     }
   }
-  const auto rank = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() * kPercent / 100);
-  std::nth_element(squares.begin(), rank, squares.end());
-  return std::sqrt(static_cast<double>(*rank));
+  const int rank = kth_smallest(squares, squares.size() * kPercent / 100);
+  return std::sqrt(static_cast<double>(rank));
 }
 
 /// Follows the straight lines among the maxima of one image's gradient.

@@ -1,4 +1,4 @@
-#include "vision/mapping/find_sky.h"
+#include "vision/mapping/depth_blocks.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,6 +7,8 @@
 #include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
+
+#include "vision/order_statistics.h"
 
 namespace hedgehop::vision::mapping {
 namespace {
@@ -138,9 +140,7 @@ std::vector<int> usual_greys(int rows, const std::vector<SkyCandidate>& candidat
   }
   std::vector<int> usual;
   for (std::vector<int>& of_row : greys) {
-    const auto middle = of_row.begin() + static_cast<std::ptrdiff_t>(of_row.size() / 2);
-    std::nth_element(of_row.begin(), middle, of_row.end());
-    usual.push_back(of_row.empty() ? -1 : *middle);
+    usual.push_back(of_row.empty() ? -1 : upper_median(of_row));
   }
   return usual;
 }

@@ -3,8 +3,41 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+
+#include "vision/stereo/disparity.h"
 
 namespace hedgehop::vision::stereo {
+
+namespace {
+
+void halve(const cv::Mat& fine, cv::Mat& coarse) {
+  coarse.create(fine.rows / 2, fine.cols / 2, CV_16SC1);
+  for (int v = 0; v < coarse.rows; ++v) {
+    const auto* const upper = fine.ptr<int16_t>(2 * v);
+    const auto* const lower = fine.ptr<int16_t>(2 * v + 1);
+    auto* const out = coarse.ptr<int16_t>(v);
+    for (int u = 0; u < coarse.cols; ++u) {
+      out[u] = std::max(std::max(upper[2 * u], upper[2 * u + 1]), std::max(lower[2 * u], lower[2 * u + 1]));
+    }
+  }
+}
+
+}  // namespace
+
+void DepthPyramid::build(const cv::Mat& disparity16, int top) {
+  if (disparity16.type() != CV_16SC1) throw std::invalid_argument("a disparity image must be CV_16SC1");
+  if (top < 0 || top > 15) throw std::invalid_argument("a pyramid's coarsest level lies in [0, 15]");
+  image_ = disparity16.size();
+  levels_.resize(static_cast<size_t>(top) + 1);
+  const int block = 1 << top;
+  const auto whole_blocks = [&](int pixels) { return (pixels + block - 1) / block * block; };
+  levels_[0].create(whole_blocks(image_.height), whole_blocks(image_.width), CV_16SC1);
+  levels_[0].setTo(kNoDisparity);
+  disparity16.copyTo(levels_[0](cv::Rect({}, image_)));
+  for (size_t n = 1; n < levels_.size(); ++n) halve(levels_[n - 1], levels_[n]);
+}
+
 namespace {
 
 /// With z = 16 b f / d, [Andert2007] eq. (9) to (11) come to
@@ -76,6 +109,69 @@ class CorridorDescent {
 Corridor examine_corridor(const DepthPyramid& pyramid, const StereoGeometry& geometry, const cv::Point& path,
                           double radius_m, double target_m) {
   return CorridorDescent(pyramid, geometry, path, radius_m, target_m).run(geometry);
+}
+
+namespace {
+
+void divide(const DepthPyramid& pyramid, double far_disparity16, int level, int row, int col, int finest,
+            std::vector<cv::Point>& targets) {
+  const int d = pyramid.disparity16(level, row, col);
+  if (d < 0) return;
+  if (d < far_disparity16) {
+    const int size = 1 << level;
+    const cv::Point center(col * size + size / 2, row * size + size / 2);
+    if (cv::Rect({}, pyramid.image()).contains(center)) targets.push_back(center);
+    return;
+  }
+  if (level == finest) return;
+  for (int child = 0; child < 4; ++child) {
+    divide(pyramid, far_disparity16, level - 1, 2 * row + child / 2, 2 * col + child % 2, finest, targets);
+  }
+}
+
+/// Points of a square lattice round `center` with inner^2 < distance^2 <= outer^2.
+std::vector<cv::Point> ring(const cv::Point& center, int step, int inner2, int outer) {
+  std::vector<cv::Point> points;
+  const int steps = outer / step;
+  for (int j = -steps; j <= steps; ++j) {
+    for (int i = -steps; i <= steps; ++i) {
+      const int distance2 = step * step * (i * i + j * j);
+      if (distance2 > inner2 && distance2 <= outer * outer)
+        points.emplace_back(center.x + step * i, center.y + step * j);
+    }
+  }
+  return points;
+}
+
+double azimuth_rad(const Eigen::Vector3d& p_C) { return std::atan2(p_C.x(), p_C.z()); }
+double elevation_rad(const Eigen::Vector3d& p_C) { return std::atan2(p_C.y(), std::hypot(p_C.x(), p_C.z())); }
+
+}  // namespace
+
+std::vector<cv::Point> quadtree_targets(const DepthPyramid& pyramid, double far_disparity16, int coarsest, int finest) {
+  std::vector<cv::Point> targets;
+  const cv::Mat& start = pyramid.level(coarsest);
+  for (int row = 0; row < start.rows; ++row) {
+    for (int col = 0; col < start.cols; ++col) {
+      divide(pyramid, far_disparity16, coarsest, row, col, finest, targets);
+    }
+  }
+  return targets;
+}
+
+std::vector<cv::Point> fine_targets(const cv::Point& last, const NearbyLattice& lattice) {
+  constexpr int kCenterToo = -1;
+  return ring(last, lattice.fine_step_px, kCenterToo, lattice.fine_radius_px);
+}
+
+std::vector<cv::Point> coarse_targets(const cv::Point& last, const NearbyLattice& lattice) {
+  return ring(last, lattice.coarse_step_px, lattice.fine_radius_px * lattice.fine_radius_px, lattice.coarse_radius_px);
+}
+
+double target_cost(const TargetCost& cost, const Eigen::Vector3d& p_C, const Eigen::Vector3d& reference_C) {
+  const double depth = cost.depth_per_m != 0.0 ? cost.depth_per_m * p_C.z() : 0.0;  // z may be infinite
+  return depth + cost.azimuth_per_rad * std::abs(azimuth_rad(p_C) - azimuth_rad(reference_C)) +
+         cost.elevation_per_rad * std::abs(elevation_rad(p_C) - elevation_rad(reference_C));
 }
 
 }  // namespace hedgehop::vision::stereo

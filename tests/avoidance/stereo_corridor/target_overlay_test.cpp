@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/vision/stereo/random_disparity.h"
-#include "vision/stereo/corridor_targets.h"
+#include "vision/stereo/flight_corridor.h"
 
 namespace hedgehop::avoidance::stereo_corridor {
 namespace {

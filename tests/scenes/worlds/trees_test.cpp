@@ -138,7 +138,7 @@ TEST(Forest, LeavesOnlyTrunksOutFromAfar) {
 
 TEST(Forest, RefusesMoreTreesThanFit) {
   const ForestConfig config{.trees = 30, .keep_clear = {{0.0, 0.0, 14.0}}, .texture_size_px = kSmallPx};
-  EXPECT_THAT([&] { make_forest(config, 1); }, ThrowsMessage<E>(HasSubstr("trees: 30; valid: what fits: ")));
+  EXPECT_THAT([&] { make_forest(config, 1); }, ThrowsMessage<E>(HasSubstr("trees: 30; valid: at most ")));
   EXPECT_THAT([] { make_forest({.clear_height_m = 9.0}, 1); }, ThrowsMessage<E>(HasSubstr("clear_height: 9")));
 }
 

@@ -8,7 +8,6 @@
 #include <random>
 
 #include "scenes/generators.h"
-#include "scenes/worlds/urban_plan.h"
 #include "tests/scenes/scene_equality.h"
 
 namespace hedgehop::scenes::worlds {

@@ -138,13 +138,13 @@ TEST_F(BadFile, WhatAMeshNamesIsNoPipeAndNoOtherFormat) {
   folder.write("faces.obj", faces);
   for (const char* name : {"deep.fbx", "deep.obj", "deep.gltf", "deep.glb"}) folder.write(name, fbx);
   const auto with = [](const std::string& file) { return "tiny.yaml --set 'scene.imports=[{file: " + file + "}]'"; };
-  refused(with("pipe.obj"), "pipe.obj': it is no regular file");
-  refused(with("piped.obj"), "pipe.mtl' is no regular one, or larger than 64 MB");
-  refused(with("huge.obj"), "huge.mtl' is no regular one, or larger than 64 MB");
-  refused(with("piped.gltf"), "buffer' is no regular one, or larger than 64 MB");
+  refused(with("pipe.obj"), "pipe.obj': it is not a regular file");
+  refused(with("piped.obj"), "pipe.mtl' is not a regular file of at most 64 MB");
+  refused(with("huge.obj"), "huge.mtl' is not a regular file of at most 64 MB");
+  refused(with("piped.gltf"), "buffer' is not a regular file of at most 64 MB");
   refused(with("faces.obj"), "it has more than 500000 faces");
   refused(with("chain.gltf"), "it has more than 2000 nodes");
-  refused(with("deep.fbx"), "its name ends in none of .obj, .gltf and .glb");
+  refused(with("deep.fbx"), "its suffix is not .obj, .gltf or .glb");
   for (const char* name : {"deep.obj", "deep.gltf", "deep.glb"}) refused(with(name), std::string(name) + "': ");
 }
 
@@ -166,7 +166,7 @@ TEST_F(BadFile, MeshesThatChokeTheImporterAreRefused) {
   refused(with("polygon.obj"), "it has a face of more than 1000 corners");
   refused(with("folded.obj"), "folded.obj': ");
   refused(with("deep.gltf"), "its JSON is nested deeper than 200");
-  refused(with("far.obj"), "it has corners farther away than 100 km");
+  refused(with("far.obj"), "it has corners farther than 100 km from the origin");
 }
 
 TEST_F(BadFile, ANameIsNoWayOutOfTheFolder) {

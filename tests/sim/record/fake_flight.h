@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scenes/solid.h"
+#include "scenes/scene.h"
 #include "sim/flight/flight.h"
 
 namespace hedgehop::sim {

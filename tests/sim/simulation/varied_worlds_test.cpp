@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "scenes/solid.h"
+#include "scenes/scene.h"
 #include "sim/libm/random.h"
 #include "sim/scenario/flight_parts.h"
 #include "sim/verdict/corridor_truth.h"

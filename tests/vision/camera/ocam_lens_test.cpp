@@ -1,4 +1,4 @@
-#include "vision/camera/ocam_lens.h"
+#include "vision/camera/wide_lenses.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

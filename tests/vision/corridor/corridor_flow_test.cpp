@@ -11,6 +11,7 @@
 
 #include "tests/vision/camera/random_lenses.h"
 #include "tests/vision/corridor/corridor_world.h"
+#include "vision/corridor/corridor_space.h"
 
 namespace hedgehop::vision::corridor {
 namespace {

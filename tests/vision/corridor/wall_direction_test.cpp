@@ -1,4 +1,4 @@
-#include "vision/corridor/wall_direction.h"
+#include "vision/corridor/corridor_space.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,7 @@
 #include "tests/vision/camera/random_lenses.h"
 #include "tests/vision/corridor/corridor_world.h"
 #include "vision/camera/image_derotator.h"
-#include "vision/corridor/corridor_regions.h"
-#include "vision/flow/ray_flow.h"
+#include "vision/corridor/corridor_flow.h"
 
 namespace hedgehop::vision::flow {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "tests/vision/real_data.h"
-#include "vision/flow/draw_flow.h"
+#include "vision/flow/flow_field.h"
 #include "vision/flow/image_interpolation_flow.h"
 
 /// Real image pairs with measured flow (Middlebury, Baker et al. 2011).

@@ -1,4 +1,4 @@
-#include "vision/flow/patch_sums.h"
+#include "vision/flow/patch_grid.h"
 
 #include <gtest/gtest.h>
 

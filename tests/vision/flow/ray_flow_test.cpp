@@ -1,4 +1,4 @@
-#include "vision/flow/ray_flow.h"
+#include "vision/flow/feature_flow.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "vision/flow/wall_flow.h"
+#include "vision/flow/flow_range.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,6 @@
 #include <cmath>
 #include <random>
 #include <vector>
-
-#include "vision/flow/flow_range.h"
 
 namespace hedgehop::vision::flow {
 namespace {

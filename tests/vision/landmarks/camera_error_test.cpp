@@ -1,4 +1,4 @@
-#include "vision/landmarks/camera_error.h"
+#include "vision/landmarks/landmark_matching.h"
 
 #include <gtest/gtest.h>
 

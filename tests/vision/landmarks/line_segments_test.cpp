@@ -1,4 +1,4 @@
-#include "vision/landmarks/line_segments.h"
+#include "vision/landmarks/edge_corners.h"
 
 #include <gtest/gtest.h>
 

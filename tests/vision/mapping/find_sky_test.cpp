@@ -1,4 +1,4 @@
-#include "vision/mapping/find_sky.h"
+#include "vision/mapping/depth_blocks.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "vision/stereo/corridor_targets.h"
+#include "vision/stereo/flight_corridor.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "vision/stereo/depth_pyramid.h"
+#include "vision/stereo/flight_corridor.h"
 
 #include <gtest/gtest.h>
 

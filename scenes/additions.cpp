@@ -1,0 +1,157 @@
+#include "scenes/additions.h"
+
+#include <algorithm>
+
+#include "scenes/mesh/bodies.h"
+#include "scenes/mesh/tree_mesh.h"
+#include "scenes/textures/canvas.h"
+#include "scenes/textures/park_textures.h"
+#include "scenes/textures/stone_textures.h"
+#include "sim/fields/bounds.h"
+
+namespace hedgehop::scenes {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Pose of the box's frame K: x along its heading, y across, z down; origin at the center of its bottom face.
+Eigen::Isometry3d X_WK(const BoxConfig& c) {
+  return Eigen::Translation3d(c.north_m, c.east_m, 0.0) * Eigen::AngleAxisd(c.heading_rad, Vector3d::UnitZ());
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector2d> BoxConfig::corners_NE_m() const {
+  std::vector<Eigen::Vector2d> corners;
+  for (const auto& [along, across] : {std::pair{0.5, 0.5}, {0.5, -0.5}, {-0.5, -0.5}, {-0.5, 0.5}}) {
+    corners.push_back((X_WK(*this) * Vector3d(along * length_m, across * width_m, 0.0)).head<2>());
+  }
+  return corners;
+}
+
+void add_boxes(const std::vector<BoxConfig>& boxes, uint64_t seed, Scene& scene) {
+  if (boxes.empty()) return;
+  const int size_px = texture_size_px(scene);
+  const mesh::Cover brick{static_cast<uint32_t>(scene.textures.size()), textures::kWallTileM};
+  scene.textures.push_back(textures::paint_brick_wall(size_px, seed));
+  mesh::MeshBuilder builder("opaque");
+  for (size_t k = 0; k < boxes.size(); ++k) {
+    const BoxConfig& c = boxes[k];
+    fields::require_bounds(c, "boxes." + std::to_string(k));
+    const Eigen::AlignedBox3d box_K(Vector3d(-0.5 * c.length_m, -0.5 * c.width_m, -c.height_m),
+                                    Vector3d(0.5 * c.length_m, 0.5 * c.width_m, 0.0));
+    builder.begin_chunk(c.heading_rad == 0.0);  // a rotated box does not fill the bounds of its chunk
+    mesh::add_box(box_K, X_WK(c), brick, builder);
+    scene.solids.push_back(mesh::solid_of(c.name, box_K, X_WK(c)));
+  }
+  scene.meshes.push_back(builder.finish());
+}
+
+namespace {
+
+using Eigen::Vector3d;
+using Shape = MoverConfig::Shape;
+
+constexpr double kSignalTileM = 2.0;
+constexpr double kPoleRadiusM = 0.03;  // of the pole that carries a balloon
+constexpr int kPostSides = 16;
+
+// Red and white bands with specks, which contrast with every background.
+cv::Mat paint_signal(int size_px, uint64_t seed) {
+  Random random(seed);
+  const double tile = kSignalTileM;
+  textures::Canvas canvas(size_px, tile, {0.86f, 0.84f, 0.80f});
+  for (int k = 0; k < 4; ++k) canvas.fill({0.0, 0.25 * k * tile, tile, 0.125 * tile}, {0.75f, 0.10f, 0.08f});
+  for (int k = 0; k < 60; ++k) {
+    canvas.disc(uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 0.02, 0.08),
+                textures::varied(
+                    chance(random, 0.5) ? textures::Color{0.15f, 0.15f, 0.45f} : textures::Color{0.85f, 0.70f, 0.15f},
+                    0.3, random));
+  }
+  canvas.shade(textures::fractal_noise(size_px, {4, 4, 7, 0.8}, random), 0.12);
+  return canvas.finished();
+}
+
+// Textures of the movers, which are added to the scene on first use.
+class MoverImages {
+ public:
+  MoverImages(uint64_t seed, Scene& scene) : seed_(seed), scene_(scene) {}
+
+  mesh::Cover signal() { return {index(signal_, paint_signal, 0), kSignalTileM}; }
+  mesh::Cover bark() { return {index(bark_, textures::paint_bark, 1), textures::kBarkTileM}; }
+  mesh::Cover leaves() {
+    const auto paint = [](int size_px, uint64_t seed) {
+      return textures::paint_leaves(textures::Leaves::broad, size_px, seed);
+    };
+    return {index(leaves_, paint, 2), textures::kLeafTileM};
+  }
+
+ private:
+  template <class Paint>
+  uint32_t index(int& known, Paint paint, uint64_t stream) {
+    if (known < 0) {
+      known = static_cast<int>(scene_.textures.size());
+      scene_.textures.push_back(paint(texture_size_px(scene_), derived_seed(seed_, stream)));
+    }
+    return static_cast<uint32_t>(known);
+  }
+
+  uint64_t seed_;
+  Scene& scene_;
+  int signal_ = -1, bark_ = -1, leaves_ = -1;
+};
+
+Mover make_mover(const MoverConfig& c, uint64_t seed, MoverImages& images) {
+  mesh::MeshBuilder mesh("opaque");
+  Mover mover{.name = c.name, .mesh = {}, .solids = {}, .motion = c.motion};
+  const auto add_standing = [&](const mesh::Post& post, int sides) {
+    mesh::add_post(post, sides, images.signal(), mesh);
+    mover.solids.push_back(mesh::solid_of(c.name, post));
+  };
+
+  mesh.begin_chunk(false);
+  if (c.shape == Shape::tree) {
+    Random random(seed);
+    const std::vector<mesh::Polyhedron> lumps{mesh::convex_lump(42, 0.2, random)};
+    const mesh::TreeShape tree{.height_m = c.height_m,
+                               .clear_height_m = 0.25 * c.height_m,
+                               .crown_radius_m = c.radius_m,
+                               .trunk_radius_m = std::min(0.04 * c.height_m, 0.5 * c.radius_m),
+                               .lobes = 10,
+                               .trunk_sides = 10};
+    mover.solids = mesh::add_tree(c.name, tree, lumps, images.leaves(), images.bark(), random, mesh);
+  }
+  if (c.shape == Shape::pole) add_standing({Vector3d::Zero(), c.radius_m, c.height_m}, kPostSides);
+  if (c.shape == Shape::box) {
+    const Eigen::AlignedBox3d box_M(Vector3d(-c.radius_m, -c.radius_m, -c.height_m),
+                                    Vector3d(c.radius_m, c.radius_m, 0.0));
+    mesh::add_box(box_M, Eigen::Isometry3d::Identity(), images.signal(), mesh);
+    mesh.add_tiled(mesh::bottom_panel(box_M), kSignalTileM, Eigen::Vector2d::Zero(),
+                   images.signal().texture);  // visible if the box rises
+    mover.solids.push_back(mesh::solid_of(c.name, box_M));
+  }
+  if (c.shape == Shape::balloon) {
+    const Vector3d center_M(0.0, 0.0, -c.height_m);
+    const Eigen::Affine3d place = Eigen::Translation3d(center_M) * Eigen::Scaling(c.radius_m);
+    mesh::add_polyhedron(mesh::moved(place, mesh::ball(3)), mesh::Shading::smooth, images.signal(), mesh);
+    mover.solids.push_back(mesh::ball_of(c.name, center_M, c.radius_m));
+    const double pole_m = c.height_m - c.radius_m;
+    if (pole_m > 0.0) add_standing({Vector3d::Zero(), kPoleRadiusM, pole_m}, kPostSides);
+  }
+  mover.mesh = mesh.finish();
+  return mover;
+}
+
+}  // namespace
+
+void add_movers(const std::vector<MoverConfig>& movers, uint64_t seed, Scene& scene) {
+  MoverImages images(derived_seed(seed, 0), scene);
+  for (size_t k = 0; k < movers.size(); ++k) {
+    fields::require_bounds(movers[k], "movers." + std::to_string(k));
+    require_motion(movers[k].motion);
+    scene.movers.push_back(make_mover(movers[k], derived_seed(seed, k + 1), images));
+  }
+}
+
+}  // namespace hedgehop::scenes

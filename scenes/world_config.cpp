@@ -1,0 +1,21 @@
+#include "scenes/world_config.h"
+
+#include <bit>
+#include <sstream>
+#include <stdexcept>
+
+namespace hedgehop::scenes {
+
+void require(bool holds, std::string_view field, double value, std::string_view valid) {
+  if (holds) return;
+  std::ostringstream line;
+  line << field << ": " << value << "; valid: " << valid;
+  throw std::invalid_argument(line.str());
+}
+
+void require_texture_size(int64_t size_px) {
+  require(std::has_single_bit(static_cast<uint64_t>(size_px)), "texture_size", static_cast<double>(size_px),
+          "a power of two");
+}
+
+}  // namespace hedgehop::scenes
