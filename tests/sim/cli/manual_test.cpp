@@ -1,4 +1,4 @@
-// The manual page and the completions say what --help says.
+// The manual page, the reference page and the completions contain the commands and options of --help.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ std::set<std::string> matches(const std::string& text, const std::string& patter
 
 class Manual : public testing::Test {
  protected:
-  /// What bash offers for a line, its last word unfinished.
+  /// Returns the completions of bash for a line with an unfinished last word.
   std::string completed(const std::string& line) const {
     const CommandEnd end =
         folder.shell(HEDGEHOP_PROGRAM " manual bash > completion; bash -c '. ./completion; COMP_WORDS=(" + line +
