@@ -18,7 +18,7 @@ void photograph(const std::string& file, const std::string& camera, double perio
   sim::Simulation simulation(sim::load_flight(file, overrides));
   for (int number = 0; !simulation.over(); ++number) {
     const std::string name = "photo" + std::to_string(number) + ".png";
-    cv::imwrite(name, simulation.image(camera, sim::Channel::grey));
+    cv::imwrite(name, simulation.image(camera, sim::ImageChannel::grey));
     std::printf("%s at %.2f s, %.2f m up\n", name.c_str(), simulation.t_s(), -simulation.truth().p_WB.z());
     const double until_s = simulation.t_s() + period_s;
     while (!simulation.over() && simulation.t_s() < until_s) simulation.tick();

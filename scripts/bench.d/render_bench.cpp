@@ -78,7 +78,7 @@ struct Case {
   Poses poses;
   Goal goal = {};
   vision::camera::Camera camera = right_angle_pinhole(400, 400);
-  Channel channel = Channel::grey;
+  ImageChannel channel = ImageChannel::grey;
   int samples = 1;
   bool rolling = false;  ///< in flight, row by row
 };
@@ -192,18 +192,18 @@ void differences(const scenes::Scene& scene, const Poses& poses) {
   Renderer osmesa = make(scene, RendererKind::osmesa), tiles = make(scene, RendererKind::tiles);
   double levels = 0.0, off_levels = 0.0, off_depths = 0.0, pixels = 0.0;
   cv::Mat expected, drawn, difference;
-  const auto draw_both = [&](const Eigen::Isometry3d& X_WC, Channel channel) {
+  const auto draw_both = [&](const Eigen::Isometry3d& X_WC, ImageChannel channel) {
     const CameraView view{.camera = right_angle_pinhole(400, 400), .X_WC = X_WC, .channel = channel};
     osmesa.draw(view, expected);
     tiles.draw(view, drawn);
   };
   for (const Eigen::Isometry3d& X_WC : poses) {
-    draw_both(X_WC, Channel::grey);
+    draw_both(X_WC, ImageChannel::grey);
     cv::absdiff(expected, drawn, difference);
     pixels += static_cast<double>(difference.total());
     levels += cv::sum(difference)[0];
     off_levels += cv::countNonZero(difference > kFarOffLevels);
-    draw_both(X_WC, Channel::depth);
+    draw_both(X_WC, ImageChannel::depth);
     for (int i = 0; i < static_cast<int>(expected.total()); ++i) {
       const float a = expected.ptr<float>()[i], b = drawn.ptr<float>()[i];
       off_depths += a == b || std::abs(a - b) <= kFarOffDepth * a ? 0.0 : 1.0;  // a == b: both infinite
@@ -256,10 +256,10 @@ void run(int rounds) {
   const std::vector<Case> in_city = {
       {"city, street", streets, ratio_at_least(4.5)},
       {"city, five cameras in flight", five_cameras_in_flight(), ratio_at_least(4.5)},
-      {.name = "city, street: color", .poses = streets, .goal = ratio_at_least(4.0), .channel = Channel::color},
-      {.name = "city, street: depth", .poses = streets, .goal = ratio_at_least(4.5), .channel = Channel::depth},
-      {.name = "city, street: labels", .poses = streets, .goal = ratio_at_least(6.0), .channel = Channel::labels},
-      {.name = "city, street: flow", .poses = streets, .goal = ratio_at_least(4.0), .channel = Channel::flow},
+      {.name = "city, street: color", .poses = streets, .goal = ratio_at_least(4.0), .channel = ImageChannel::color},
+      {.name = "city, street: depth", .poses = streets, .goal = ratio_at_least(4.5), .channel = ImageChannel::depth},
+      {.name = "city, street: labels", .poses = streets, .goal = ratio_at_least(6.0), .channel = ImageChannel::labels},
+      {.name = "city, street: flow", .poses = streets, .goal = ratio_at_least(4.0), .channel = ImageChannel::flow},
       {.name = "city, street: 4 samples", .poses = streets, .goal = ratio_at_least(6.0), .samples = 4},
       {"city, street: distorted pinhole", streets, ratio_at_least(2.5), distorted_pinhole()},
       {"city, street: fisheye, 190 degrees, 752 x 480", streets, ratio_at_least(2.5), wide_fisheye()},

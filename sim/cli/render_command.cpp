@@ -14,11 +14,11 @@
 namespace hedgehop::sim::cli {
 namespace {
 
-Channel channel_of(const std::string& what) {
-  if (what == "grey") return Channel::grey;
-  if (what == "flow") return Channel::flow;
-  if (what == "labels") return Channel::labels;
-  return what == "color" ? Channel::color : Channel::depth;
+ImageChannel channel_of(const std::string& what) {
+  if (what == "grey") return ImageChannel::grey;
+  if (what == "flow") return ImageChannel::flow;
+  if (what == "labels") return ImageChannel::labels;
+  return what == "color" ? ImageChannel::color : ImageChannel::depth;
 }
 
 /// Prints one line for each renderer: its version, or why this machine cannot use it.
@@ -38,10 +38,10 @@ void print_renderers(const std::string& only) {
   }
 }
 
-cv::Mat image_at(Simulation& simulation, const RenderOptions& options, Channel channel) {
+cv::Mat image_at(Simulation& simulation, const RenderOptions& options, ImageChannel channel) {
   simulation.camera(options.camera);  // told before flying
   simulation.fly_to(options.time_s);
-  if (channel == Channel::flow) return simulation.flow_to_next_image(options.camera);
+  if (channel == ImageChannel::flow) return simulation.flow_to_next_image(options.camera);
   return simulation.image(options.camera, channel);
 }
 
@@ -56,16 +56,16 @@ int render(const RenderOptions& options) {
     throw InputError(fmt::format("-o {}: the image is a PNG; its name must end in .png", options.out.string()));
   }
   require_writable_file(options.out);
-  const Channel channel = channel_of(options.what);
+  const ImageChannel channel = channel_of(options.what);
   Simulation simulation(load(options.scenario));
   cv::Mat image = image_at(simulation, options, channel);
   if (options.what == "depth_mm") {
     image = depth_mm(image);
-  } else if (channel == Channel::depth) {
+  } else if (channel == ImageChannel::depth) {
     image = colored_depth(image);
-  } else if (channel == Channel::flow) {
+  } else if (channel == ImageChannel::flow) {
     image = colored_flow(image);
-  } else if (channel == Channel::labels) {
+  } else if (channel == ImageChannel::labels) {
     image = colored_labels(image);
   }
   if (options.out.has_parent_path()) std::filesystem::create_directories(options.out.parent_path());

@@ -9,9 +9,9 @@
 namespace hedgehop::sim {
 
 /// Beside a data set's images, in `truth/cam0..`, what a pixel shows: `depth/` (16 bit, mm, 0 unknown or beyond 65.5
-/// m), `labels/` (16 bit, as Channel::labels), `moving/` (255 on what moves) and `flow/` (to the camera's next image;
-/// 16 bit, red 64 u + 32768, green 64 v + 32768, blue 1 where known, as KITTI's [MenzeGeiger2015] sec. 4). A file has
-/// its image's name; the last image has no flow.
+/// m), `labels/` (16 bit, as ImageChannel::labels), `moving/` (255 on what moves) and `flow/` (to the camera's next
+/// image; 16 bit, red 64 u + 32768, green 64 v + 32768, blue 1 where known, as KITTI's [MenzeGeiger2015] sec. 4). A
+/// file has its image's name; the last image has no flow.
 class TrueImages {
  public:
   /// @param out  folder of the data set.

@@ -21,11 +21,11 @@ struct SensorTick {
   dynamics::sensors::ImuReading imu_bias;            ///< what it is off by, noise and misalignment aside
   /// Of all cameras that expose on this tick, lost images left out; good until the next tick.
   std::span<const avoidance::CameraFrame> frames;
-  /// What a camera sees on this tick as Channel::depth, without imperfections.
+  /// What a camera sees on this tick as ImageChannel::depth, without imperfections.
   std::function<cv::Mat(std::string_view role)> depth;
-  /// As Channel::labels; and 255 where something that moves is seen, else 0.
+  /// As ImageChannel::labels; and 255 where something that moves is seen, else 0.
   std::function<cv::Mat(std::string_view role)> labels, moving;
-  /// As Channel::flow, of the camera's last image that was not lost, to this tick. Throws std::logic_error at the
+  /// As ImageChannel::flow, of the camera's last image that was not lost, to this tick. Throws std::logic_error at the
   /// first.
   std::function<cv::Mat(std::string_view role)> flow_to_here;
 };

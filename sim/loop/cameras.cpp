@@ -14,16 +14,16 @@
 namespace hedgehop::sim {
 namespace {
 
-Channel to_render_channel(CameraConfig::Channel channel) {
+ImageChannel to_render_channel(CameraConfig::Channel channel) {
   switch (channel) {
     case CameraConfig::Channel::grey:
-      return Channel::grey;
+      return ImageChannel::grey;
     case CameraConfig::Channel::color:
-      return Channel::color;
+      return ImageChannel::color;
     case CameraConfig::Channel::depth:
-      return Channel::depth;
+      return ImageChannel::depth;
     case CameraConfig::Channel::corners:
-      return Channel::grey;
+      return ImageChannel::grey;
   }
   throw std::logic_error("unknown channel");
 }
@@ -128,17 +128,17 @@ void Cameras::sense(size_t camera, const Instant& now, bool dead, cv::Mat& out) 
   if (dead) blank(out);
 }
 
-cv::Mat Cameras::image(size_t camera, Channel channel, const Instant& now, const Instant& next) {
+cv::Mat Cameras::image(size_t camera, ImageChannel channel, const Instant& now, const Instant& next) {
   cv::Mat image;
   draw(camera, channel, now, next, image);
-  if (channel == Channel::grey || channel == Channel::color) {
+  if (channel == ImageChannel::grey || channel == ImageChannel::color) {
     imperfections_[camera].apply(image_number(camera, now.t_ns), image);
   }
   return image;
 }
 
 cv::Mat Cameras::moving(size_t camera, const Instant& now) {
-  return image(camera, Channel::labels, now, now) >= first_mover_label_;
+  return image(camera, ImageChannel::labels, now, now) >= first_mover_label_;
 }
 
 /// A bound of how fast anything moves through the image, by the camera's rotation and by what passes at the least
@@ -156,7 +156,7 @@ double Cameras::image_speed_pxps(size_t camera, const Instant& now) const {
   return (body.w_WB_B.norm() + passing_radps) / pixel_angle_rad(mounted.model);
 }
 
-void Cameras::draw(size_t camera, Channel channel, const Instant& now, const Instant& next, cv::Mat& out) {
+void Cameras::draw(size_t camera, ImageChannel channel, const Instant& now, const Instant& next, cv::Mat& out) {
   const avoidance::MountedCamera& mounted = truly_mounted_[camera];
   const auto draw_rows = [&](const Eigen::Isometry3d& X_WB, double dt_s, const cv::Range& rows, cv::Mat& image) {
     const bool whole = rows.size() == mounted.model.height_px;
@@ -168,7 +168,7 @@ void Cameras::draw(size_t camera, Channel channel, const Instant& now, const Ins
                     samples_[camera]},
                    image);
   };
-  const bool blurs = channel == Channel::grey || channel == Channel::color;  // truth is that of the middle
+  const bool blurs = channel == ImageChannel::grey || channel == ImageChannel::color;  // truth is that of the middle
   shutters_[camera].expose(now.body, blurs ? image_speed_pxps(camera, now) : 0.0, mounted.model.height_px,
                            std::ref(draw_rows), out);
 }

@@ -45,8 +45,8 @@ class Cameras {
     BodyMotion body;
   };
   /// One camera's image of an instant in a channel of the caller's choice, with the shutter's and the sensor's
-  /// imperfections. @param next  what Channel::flow leads to.
-  cv::Mat image(size_t camera, Channel channel, const Instant& now, const Instant& next);
+  /// imperfections. @param next  what ImageChannel::flow leads to.
+  cv::Mat image(size_t camera, ImageChannel channel, const Instant& now, const Instant& next);
 
   /// CV_8UC1: 255 where a mover is seen, else 0.
   cv::Mat moving(size_t camera, const Instant& now);
@@ -62,11 +62,11 @@ class Cameras {
   Imperfections::FrameFault frame_fault(size_t camera, int64_t t_ns) const;
   int64_t image_number(size_t camera, int64_t t_ns) const { return t_ns / period_ns_[camera]; }
   void sense(size_t camera, const Instant& now, bool dead, cv::Mat& out);
-  void draw(size_t camera, Channel channel, const Instant& now, const Instant& next, cv::Mat& out);
+  void draw(size_t camera, ImageChannel channel, const Instant& now, const Instant& next, cv::Mat& out);
   double image_speed_pxps(size_t camera, const Instant& now) const;
 
   Renderer& renderer_;
-  std::vector<Channel> channels_;  ///< to draw; grey where a corner detector is mounted
+  std::vector<ImageChannel> channels_;  ///< to draw; grey where a corner detector is mounted
   std::vector<std::optional<CornerDetector>> detectors_;
   std::vector<int> samples_;
   std::vector<int64_t> periods_;  ///< ticks

@@ -26,17 +26,17 @@ void Onlooker::hand_over_sensors(int64_t tick, const BodyMotion& body) {
   }
   const dynamics::Avionics& avionics = aircraft_.avionics();
   if (frames.empty() && !avionics.imu()) return;
-  const auto seen_as = [&](Channel channel) {
+  const auto seen_as = [&](ImageChannel channel) {
     return [&, channel](std::string_view role) { return cameras_.image(cameras_.index(role), channel, now, now); };
   };
   const auto moving = [&](std::string_view role) { return cameras_.moving(cameras_.index(role), now); };
   const auto flow_to_here = [&](std::string_view role) {
     const size_t camera = cameras_.index(role);
     if (!exposed_[camera]) throw std::logic_error("no flow leads to the first image");
-    return cameras_.image(camera, Channel::flow, *exposed_[camera], now);
+    return cameras_.image(camera, ImageChannel::flow, *exposed_[camera], now);
   };
   watcher_->on_sensors({now.t_ns, aircraft_.body(), avionics.imu(), avionics.imu_bias(), frames,
-                        seen_as(Channel::depth), seen_as(Channel::labels), moving, flow_to_here});
+                        seen_as(ImageChannel::depth), seen_as(ImageChannel::labels), moving, flow_to_here});
   for (const size_t camera : exposing) exposed_[camera] = now;
 }
 

@@ -22,14 +22,14 @@ using namespace py::literals;
 
 namespace {
 
-sim::Channel to_channel(const std::string& name) {
+sim::ImageChannel to_channel(const std::string& name) {
   constexpr std::array<std::string_view, 4> kNames = {"grey", "color", "depth", "labels"};
   for (size_t i = 0; i < kNames.size(); ++i) {
-    if (kNames[i] == name) return static_cast<sim::Channel>(i);
+    if (kNames[i] == name) return static_cast<sim::ImageChannel>(i);
   }
   throw std::invalid_argument("channel '" + name + "'; allowed: grey, color, depth, labels");
 }
-static_assert(static_cast<int>(sim::Channel::labels) == 3);
+static_assert(static_cast<int>(sim::ImageChannel::labels) == 3);
 
 /// A simulation and the thread that it belongs to; others wait for no lock while it flies.
 class PySimulation {

@@ -1,4 +1,4 @@
-#include "sim/render/egl_context.h"
+#include "sim/render/gl_context.h"
 
 #define EGL_NO_X11
 #include <EGL/egl.h>
@@ -14,8 +14,8 @@
 namespace hedgehop::sim {
 namespace {
 
-bool has(const char* extensions, std::string_view wanted) {
-  return extensions && std::string_view(extensions).find(wanted) != std::string_view::npos;
+bool has(const char* extensions, std::string_view name) {
+  return extensions && std::string_view(extensions).find(name) != std::string_view::npos;
 }
 
 template <class Function>
@@ -28,7 +28,7 @@ bool is_software(EGLDeviceEXT device) {
   return query && has(query(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
 }
 
-/// Displays to try, best first: hardware devices, software devices, Mesa's surfaceless platform.
+/// Returns the displays to try, in this order: hardware devices, software devices, Mesa's surfaceless platform.
 std::vector<EGLDisplay> displays() {
   const auto display_of = entry<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
   const auto query = entry<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
@@ -46,7 +46,7 @@ std::vector<EGLDisplay> displays() {
   return found;
 }
 
-/// An OpenGL 3.3 core context that needs no surface, or EGL_NO_CONTEXT.
+/// Returns an OpenGL 3.3 core context that needs no surface, or EGL_NO_CONTEXT.
 EGLContext context_on(EGLDisplay display) {
   const char* const extensions = eglQueryString(display, EGL_EXTENSIONS);
   if (!has(extensions, "EGL_KHR_surfaceless_context") || !has(extensions, "EGL_KHR_no_config_context")) {
@@ -58,7 +58,17 @@ EGLContext context_on(EGLDisplay display) {
   return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
 }
 
-}  // namespace
+class EglContext final : public GlContext {
+ public:
+  EglContext();
+  ~EglContext() override;
+
+  void make_current() override;
+
+ private:
+  EGLDisplay display_ = EGL_NO_DISPLAY;
+  EGLContext context_ = EGL_NO_CONTEXT;
+};
 
 EglContext::EglContext() {
   const std::vector<EGLDisplay> candidates = displays();
@@ -70,8 +80,8 @@ EglContext::EglContext() {
   }
   if (context_ == EGL_NO_CONTEXT) {
     throw std::runtime_error(fmt::format(
-        "no OpenGL 3.3 core context from EGL on any of {} displays without a screen (last EGL error "
-        "{:#06x}); are libegl1 and a driver such as libegl-mesa0 installed? --renderer osmesa needs neither",
+        "EGL created no OpenGL 3.3 core context on any of {} displays (last EGL error {:#06x}). Install libegl1 and a "
+        "driver such as libegl-mesa0, or use --renderer osmesa",
         candidates.size(), eglGetError()));
   }
   make_current();
@@ -79,7 +89,7 @@ EglContext::EglContext() {
 }
 
 EglContext::~EglContext() {
-  // The display stays: other contexts of this process share it.
+  // Other contexts of this process share the display, so it is not terminated.
   if (eglGetCurrentContext() == context_) eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);
 }
@@ -90,5 +100,9 @@ void EglContext::make_current() {
     throw std::runtime_error(fmt::format("EGL refused the OpenGL context (error {:#06x})", eglGetError()));
   }
 }
+
+}  // namespace
+
+std::unique_ptr<GlContext> make_egl_context() { return std::make_unique<EglContext>(); }
 
 }  // namespace hedgehop::sim

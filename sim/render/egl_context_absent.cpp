@@ -1,13 +1,11 @@
 #include <stdexcept>
 
-#include "sim/render/egl_context.h"
+#include "sim/render/gl_context.h"
 
 namespace hedgehop::sim {
 
-EglContext::EglContext() {
+std::unique_ptr<GlContext> make_egl_context() {
   throw std::runtime_error("this build of Hedgehop has no EGL (hedgehop --version --features)");
 }
-EglContext::~EglContext() = default;
-void EglContext::make_current() {}
 
 }  // namespace hedgehop::sim

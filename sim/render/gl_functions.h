@@ -2,7 +2,7 @@
 
 #include <GL/glcorearb.h>
 
-// The OpenGL entry points that drawing needs: X(pointer type's middle part, name without gl).
+// The OpenGL functions in use: X(middle part of the pointer type, name without gl).
 #define HEDGEHOP_GL_FUNCTIONS(X)                                    \
   X(ACTIVETEXTURE, ActiveTexture)                                   \
   X(ATTACHSHADER, AttachShader)                                     \
@@ -72,18 +72,20 @@
 
 namespace hedgehop::sim {
 
-/// OpenGL as a table of functions, filled by a context; nothing links to a GL library.
+/// The OpenGL functions of a context. Hedgehop does not link to a GL library.
 struct GlFunctions {
 #define HEDGEHOP_GL_MEMBER(TYPE, NAME) PFNGL##TYPE##PROC NAME = nullptr;
   HEDGEHOP_GL_FUNCTIONS(HEDGEHOP_GL_MEMBER)
 #undef HEDGEHOP_GL_MEMBER
 };
 
-/// @param address  returns the entry point of a name, null when there is none.
-/// Throws std::runtime_error, naming `who` gave it and the function, when one is missing.
-GlFunctions load_gl(void (*(*address)(const char* name))(), const char* who);
+/// Returns the table of functions.
+/// @param address  returns the entry point for a name, or null. @param library  its name, for messages.
+/// Throws std::runtime_error that names the library and the function if a function is missing.
+GlFunctions load_gl(void (*(*address)(const char* name))(), const char* library);
 
-/// Throws std::runtime_error naming the OpenGL error when one is pending. @param what  what was being done.
-void check_gl(const GlFunctions& gl, const char* what);
+/// Throws std::runtime_error with the code if an OpenGL error is pending.
+/// @param activity  for the message, such as "drawing".
+void check_gl(const GlFunctions& gl, const char* activity);
 
 }  // namespace hedgehop::sim

@@ -6,7 +6,7 @@
 namespace hedgehop::sim {
 namespace {
 
-/// How much farther a pixel's point is than its depth: 1 where depth is the distance along the ray.
+/// Ratio of the distance along the ray to the depth of each pixel. It is 1 if the depth is the distance along the ray.
 class RayLengths {
  public:
   explicit RayLengths(const vision::camera::Camera& camera) : pinhole_(camera.is_undistorted_pinhole()) {
@@ -30,7 +30,7 @@ double transmittance(double distance_m, double visibility_m) {
   return std::exp(-std::log(20.0) * distance_m / visibility_m);
 }
 
-void veil(const scenes::Sky& sky, const vision::camera::Camera& camera, const cv::Mat1f& depth, cv::Mat& image) {
+void add_haze(const scenes::Sky& sky, const vision::camera::Camera& camera, const cv::Mat1f& depth, cv::Mat& image) {
   const int channels = image.channels();
   std::array<double, 3> air{};
   for (int k = 0; k < channels; ++k)
@@ -40,11 +40,11 @@ void veil(const scenes::Sky& sky, const vision::camera::Camera& camera, const cv
     uint8_t* level = image.ptr<uint8_t>(v);
     for (int u = 0; u < image.cols; ++u, level += channels) {
       const double z_m = depth(v, u);
-      if (!std::isfinite(z_m)) continue;  // the sky, or nothing that the lens shows
-      const double seen = transmittance(z_m * lengths.at(u, v), sky.visibility_m);
+      if (!std::isfinite(z_m)) continue;  // sky, or outside the image circle
+      const double share = transmittance(z_m * lengths.at(u, v), sky.visibility_m);
       for (int k = 0; k < channels; ++k) {
-        const double veiled = air[static_cast<size_t>(k)] + seen * (level[k] - air[static_cast<size_t>(k)]);
-        level[k] = static_cast<uint8_t>(std::lround(veiled));
+        const double hazy = air[static_cast<size_t>(k)] + share * (level[k] - air[static_cast<size_t>(k)]);
+        level[k] = static_cast<uint8_t>(std::lround(hazy));
       }
     }
   }

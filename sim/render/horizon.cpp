@@ -10,29 +10,29 @@ namespace hedgehop::sim {
 
 namespace {
 
-constexpr int kBins = 2048;  // of at most 0.22 deg; the four cardinal directions are edges of bins
+constexpr int kBins = 2048;  // each at most 0.22 deg wide; the four cardinal directions are edges of bins
 constexpr int kBinMask = kBins - 1;
-// The rasterizer's 1/256 pixel and the float geometry are far below these.
-constexpr double kInsetM = 0.02;    // a hiding box counts as this much smaller in plan
-constexpr double kSlackRad = 1e-3;  // and this much lower
+// Margins. The errors of the rasterizer (1/256 pixel) and of float geometry are far smaller.
+constexpr double kInsetM = 0.02;    // a box hides as if each side were moved in by this distance
+constexpr double kSlackRad = 1e-3;  // and as if its top were lower by this angle
 constexpr double kTooNearM = 1.0;   // the near plane may cut a nearer box open
 
-// The reciprocal of the distance to a side of a box is a sinusoid of the azimuth, concave where it is positive: within
-// a bin it is at least the lower of its values at the bin's edges, and at most the higher one divided by this, which is
-// less than the cosine of half a bin.
+// The reciprocal of the distance to a side of a box is a sinusoid of the azimuth and concave if positive. Within a bin
+// it is therefore at least the lower of its values at the edges of the bin, and at most the higher value divided by
+// kChord, which is less than the cosine of half a bin.
 constexpr double kChord = 0.999995;
 
-/// Grows with the angle from north to east: 0 north, 1 east, 2 south, 3 west, 4 north again.
+/// Returns a position that increases with the azimuth: 0 north, 1 east, 2 south, 3 west, 4 north again.
 double square_angle(const Eigen::Vector2d& direction) {
   const double p = direction.x() / (std::abs(direction.x()) + std::abs(direction.y()));
   return direction.y() >= 0.0 ? 1.0 - p : 3.0 + p;
 }
 
-/// 1 / distance at which rays from the origin meet the sides of a rectangle, across north and across east.
-class Sides {
+/// Reciprocal distances at which rays from the origin meet the sides of a rectangle, by axis: north, east.
+class RectangleSides {
  public:
-  /// @param plan  does not hold the origin.
-  explicit Sides(const Eigen::AlignedBox2d& plan) {
+  /// @param plan  does not contain the origin.
+  explicit RectangleSides(const Eigen::AlignedBox2d& plan) {
     for (int i = 0; i < 2; ++i) {
       const double low_m = plan.min()[i], high_m = plan.max()[i];
       enter_[i] = low_m > 0.0 ? 1.0 / low_m : high_m < 0.0 ? 1.0 / high_m : 0.0;
@@ -42,10 +42,10 @@ class Sides {
     }
   }
 
-  /// Of the sides that face the origin: a ray is in the rectangle from the smaller of the two on. Infinite for an axis
-  /// along which the origin lies between the sides.
+  /// Returns those of the sides that face the origin. A ray enters the rectangle at the smaller of the two. Infinite
+  /// for an axis along which the origin is between the sides.
   Eigen::Array2d enter(const Eigen::Array2d& direction) const { return direction * enter_ + inside_; }
-  /// Of the sides that face away: a ray is in the rectangle up to the larger of the two.
+  /// Returns those of the opposite sides. A ray leaves the rectangle at the larger of the two.
   Eigen::Array2d leave(const Eigen::Array2d& direction) const {
     return (direction * leave_high_).max(direction * leave_low_);
   }
@@ -72,15 +72,15 @@ void Horizon::reset(const Eigen::Vector3d& eye_W) {
   std::ranges::fill(bins_, Bin{{-kInfinity, 0.0}, {-kInfinity, 0.0}});
 }
 
-void Horizon::look(const std::array<Eigen::Vector3d, 4>& corner_rays_W) {
+void Horizon::limit_to_view(const std::array<Eigen::Vector3d, 4>& corner_rays_W) {
   std::array<Eigen::Vector2d, 4> directions;
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (size_t i = 0; i < directions.size(); ++i) {
     directions[i] = corner_rays_W[i].head<2>();
     middle += directions[i];
   }
-  // An image that shows the zenith or the nadir shows all azimuths: its corners do not fit into half a turn.
-  const Span azimuths = span(middle, directions);
+  // An image of the zenith or the nadir shows all azimuths. Its corners do not fit into half a turn.
+  const AzimuthInterval azimuths = interval(middle, directions);
   if (!(azimuths.last - azimuths.first < kBins / 2)) return;
   first_bin_ = static_cast<int>(std::floor(azimuths.first));
   bin_count_ = static_cast<int>(std::floor(azimuths.last)) - first_bin_ + 1;
@@ -95,7 +95,8 @@ Eigen::AlignedBox2d Horizon::plan(const Eigen::AlignedBox3f& box_W) const {
           box_W.max().head<2>().cast<double>() - eye_W_.head<2>()};
 }
 
-Horizon::Span Horizon::span(const Eigen::Vector2d& middle, const std::array<Eigen::Vector2d, 4>& directions) {
+Horizon::AzimuthInterval Horizon::interval(const Eigen::Vector2d& middle,
+                                           const std::array<Eigen::Vector2d, 4>& directions) {
   const double middle_angle = square_angle(middle);
   double first = 0.0, last = 0.0;
   for (const Eigen::Vector2d& direction : directions) {
@@ -109,29 +110,29 @@ Horizon::Span Horizon::span(const Eigen::Vector2d& middle, const std::array<Eige
   return {(middle_angle + first) * kBinsPerSide, (middle_angle + last) * kBinsPerSide};
 }
 
-Horizon::Span Horizon::span(const Eigen::AlignedBox2d& plan) {
+Horizon::AzimuthInterval Horizon::interval(const Eigen::AlignedBox2d& plan) {
   using enum Eigen::AlignedBox2d::CornerType;
-  return span(plan.center(),
-              {plan.corner(BottomLeft), plan.corner(BottomRight), plan.corner(TopLeft), plan.corner(TopRight)});
+  return interval(plan.center(),
+                  {plan.corner(BottomLeft), plan.corner(BottomRight), plan.corner(TopLeft), plan.corner(TopRight)});
 }
 
-void Horizon::raise(const Eigen::AlignedBox3f& box_W) {
+void Horizon::add_occluder(const Eigen::AlignedBox3f& box_W) {
   Eigen::AlignedBox2d box = plan(box_W);
   box.min().array() += kInsetM;
   box.max().array() -= kInsetM;
   const bool eye_below_ground = height_above_eye_m(box_W.max().z()) > 0.0;
   if (box.isEmpty() || eye_below_ground || box.exteriorDistance(Eigen::Vector2d::Zero()) < kTooNearM) return;
 
-  // A ray in a bin that lies wholly within the box's azimuths meets the box when it passes below the edge of the roof:
-  // the near one seen from below, the far one seen from above.
+  // Consider a bin that is completely within the azimuths of the box. Its rays meet the box if they pass below the edge
+  // of the roof: the near edge if the camera is below the roof, the far edge if it is above.
   const double top_m = height_above_eye_m(box_W.min().z());
-  const Sides sides(box);
-  const Span azimuths = span(box);
+  const RectangleSides sides(box);
+  const AzimuthInterval azimuths = interval(box);
   const int first = static_cast<int>(std::ceil(azimuths.first)), last = static_cast<int>(std::floor(azimuths.last));
   for (int bin = first; bin < last; ++bin) {
     if (!covers(bin)) continue;
     const Eigen::Array2d &a = edge(bin), &b = edge(bin + 1);
-    Screen screen;
+    Occluder screen;
     if (top_m > 0.0) {
       screen.reciprocal_pm = sides.enter(a).min(sides.enter(b)).minCoeff();
       screen.slope = top_m * screen.reciprocal_pm;
@@ -153,18 +154,19 @@ bool Horizon::hides(const Eigen::AlignedBox3f& box_W) const {
   if (nearest_m <= 0.0) return false;
   const double farthest_m = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).norm();
   const double top_m = height_above_eye_m(box_W.min().z());
-  const Sides sides(box);
-  const Span azimuths = span(box);
+  const RectangleSides sides(box);
+  const AzimuthInterval azimuths = interval(box);
   const int first = static_cast<int>(std::floor(azimuths.first)), last = static_cast<int>(std::floor(azimuths.last));
   for (int bin = first; bin <= last; ++bin) {
     if (!covers(bin)) continue;
-    // Its steepest point in this bin is no steeper than its top would be at its nearest, seen from below, or farthest.
+    // Upper bound of the slope of the box in this bin: its top at the minimum distance if the top is above the camera,
+    // at the maximum distance if it is below.
     const Eigen::Array2d &a = edge(bin), &b = edge(bin + 1);
     const double enter_pm = sides.enter(a).max(sides.enter(b)).minCoeff() / kChord;
     const double leave_pm = sides.leave(a).min(sides.leave(b)).maxCoeff();
     const double nearest_pm = enter_pm > 0.0 ? std::min(enter_pm, 1.0 / nearest_m) : 1.0 / nearest_m;
     const double slope = top_m * (top_m > 0.0 ? nearest_pm : std::max(leave_pm, 1.0 / farthest_m));
-    const auto hidden_by = [&](const Screen& screen) {
+    const auto hidden_by = [&](const Occluder& screen) {
       return slope < screen.slope && nearest_pm <= screen.reciprocal_pm;
     };
     const Bin& stored = bins_[static_cast<size_t>(bin & kBinMask)];

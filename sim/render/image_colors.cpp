@@ -10,7 +10,7 @@ namespace hedgehop::sim {
 
 namespace {
 
-constexpr double kHues = 180.0;  // OpenCV's full circle
+constexpr double kHues = 180.0;  // full circle in OpenCV
 
 cv::Mat from_hsv(const cv::Mat& hsv) {
   cv::Mat rgb;
@@ -22,11 +22,11 @@ cv::Mat from_hsv(const cv::Mat& hsv) {
 
 cv::Mat colored_depth(const cv::Mat& depth_m) {
   cv::Mat levels(depth_m.size(), CV_8UC1), rgb;
-  const double span = std::log(kFarthestColorM / kNearestColorM);
-  constexpr double kBlue = 25.0, kRed = 255.0;  // below, the map is nearly black
+  const double span = std::log(kMaxColorM / kMinColorM);
+  constexpr double kBlue = 25.0, kRed = 255.0;  // below 25, the map is nearly black
   for (int row = 0; row < depth_m.rows; ++row) {
     for (int col = 0; col < depth_m.cols; ++col) {
-      const double color_share = std::log(kFarthestColorM / static_cast<double>(depth_m.at<float>(row, col))) / span;
+      const double color_share = std::log(kMaxColorM / static_cast<double>(depth_m.at<float>(row, col))) / span;
       levels.at<uint8_t>(row, col) =
           std::isnan(color_share)
               ? uint8_t{0}
@@ -60,15 +60,15 @@ cv::Mat colored_flow(const cv::Mat& flow_px) {
 }
 
 cv::Mat colored_labels(const cv::Mat& labels) {
-  constexpr double kGolden = 0.6180339887498949;  // spreads neighboring numbers over the circle
+  constexpr double kGolden = 0.6180339887498949;  // golden ratio: neighboring labels get distant hues
   cv::Mat hsv(labels.size(), CV_8UC3);
   for (int row = 0; row < labels.rows; ++row) {
     for (int col = 0; col < labels.cols; ++col) {
       const int label = labels.at<int>(row, col);
       const double turns = label * kGolden - std::floor(label * kGolden);
       const auto hue = static_cast<uint8_t>(std::min(kHues - 1.0, std::floor(kHues * turns)));
-      const auto paleness = static_cast<uint8_t>(150 + 35 * (label % 4));
-      hsv.at<cv::Vec3b>(row, col) = label == 0 ? cv::Vec3b(0, 0, 0) : cv::Vec3b(hue, paleness, 255);
+      const auto saturation = static_cast<uint8_t>(150 + 35 * (label % 4));
+      hsv.at<cv::Vec3b>(row, col) = label == 0 ? cv::Vec3b(0, 0, 0) : cv::Vec3b(hue, saturation, 255);
     }
   }
   return from_hsv(hsv);

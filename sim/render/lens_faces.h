@@ -9,48 +9,50 @@
 
 namespace hedgehop::sim {
 
-/// How an image of any lens is composed of pinhole images ("faces"): one for a lens with a narrow view, else up to six
-/// sides of a cube, each only as large as its part of the image needs. The faces' images lie below each other in one
-/// sheet. They overlap far enough that the four neighbors of a sampled position lie in one face. Cf: frame of a face,
-/// its origin and handedness those of C, z through the middle of the cube's side.
+/// The composition of an image of any lens from pinhole images ("faces"). A lens with a narrow view has one face. Other
+/// lenses have up to six faces, the sides of a cube, each cropped to its part of the image. The images of the faces are
+/// stacked in one sheet. They overlap, so that the four neighbors of a sampled position are in one face. Cf is the
+/// frame of a face: origin and handedness of C, z through the middle of the side of the cube.
 struct LensFaces {
   struct Face {
     vision::camera::PinholeCamera camera;
     Eigen::Matrix3d R_CCf = Eigen::Matrix3d::Identity();
     int first_row = 0;  ///< in the sheet
   };
-  /// Position of a pixel in the sheet.
-  struct Place {
-    int32_t index = -1;            ///< of the pixel above and left of it, row by row; -1 where the lens shows nothing
-    uint16_t right = 0, down = 0;  ///< offset from there to the right and down, 1/256 px
+  /// Position of a pixel in the sheet, for interpolation.
+  struct SheetPosition {
+    int32_t index = -1;            ///< of the pixel above left in row-major order; -1 outside the image circle
+    uint16_t right = 0, down = 0;  ///< offset from that pixel, 1/256 px
   };
-  /// The same, for images that must not be interpolated: the nearest pixel.
-  struct Nearest {
+  /// Pixel of the sheet nearest to a pixel of the image, for values that must not be interpolated.
+  struct NearestPixel {
     int32_t index = -1;
-    float right = 0.0f, down = 0.0f;  ///< offset from there, px, at most half a pixel
-    float per_depth = 1.0f;           ///< depth in the camera's image over z in Cf
+    float right = 0.0f, down = 0.0f;  ///< offset from that pixel, px, at most half a pixel
+    float per_depth = 1.0f;           ///< depth in the camera image divided by z in Cf
   };
 
   vision::camera::Camera camera;
   std::vector<Face> faces;
   cv::Size sheet;
-  std::vector<Place> places;     ///< of each pixel of the image, row by row
-  std::vector<Nearest> nearest;  ///< likewise
+  std::vector<SheetPosition> positions;  ///< of each pixel of the image, row-major
+  std::vector<NearestPixel> nearest;     ///< likewise
 };
 
-/// Whether a camera's depth is z in C; else it is the distance along the ray.
+/// Returns whether the depth of a camera is z in C. Otherwise it is the distance along the ray.
 bool depth_is_z(const vision::camera::Camera& camera);
 
-/// @param camera  anything that vision::check() accepts. Faces have the image's resolution, on average.
+/// Returns the faces of a camera. Their mean resolution is that of the image.
+/// @param camera  any camera that vision::check() accepts.
 LensFaces make_lens_faces(const vision::camera::Camera& camera);
 
-// Each makes the image from a sheet of its faces. @param out  created when its size or type does not fit.
-/// @param sheet  CV_8UC1 or CV_8UC3. Pixels are interpolated from four; 0 where the lens shows nothing.
-void mix_levels(const LensFaces& faces, const cv::Mat& sheet, cv::Mat& out);
-/// @param sheet  Raster::planes. Depth in m, CV_32FC1: the surface of the nearest pixel, where the ray meets its plane;
-/// +infinity for sky, NaN where the lens shows nothing.
-void meet_planes(const LensFaces& faces, const cv::Mat& sheet, cv::Mat& out);
-/// @param sheet  CV_32SC1. The nearest pixel's value; 0 where the lens shows nothing.
-void pick_labels(const LensFaces& faces, const cv::Mat& sheet, cv::Mat& out);
+// Each of the following functions composes the image from a sheet. `out` is created if its size or type differs.
+
+/// Interpolates each pixel from four; 0 outside the image circle. @param sheet  CV_8UC1 or CV_8UC3.
+void interpolate_levels(const LensFaces& faces, const cv::Mat& sheet, cv::Mat& out);
+/// Writes depth, m, CV_32FC1: the intersection of the ray with the plane of the surface at the nearest pixel. +infinity
+/// for the sky, NaN outside the image circle. @param sheet  of Raster::planes.
+void depths_of_planes(const LensFaces& faces, const cv::Mat& sheet, cv::Mat& out);
+/// Writes the value of the nearest pixel; 0 outside the image circle. @param sheet  CV_32SC1.
+void labels_of_nearest(const LensFaces& faces, const cv::Mat& sheet, cv::Mat& out);
 
 }  // namespace hedgehop::sim

@@ -29,7 +29,7 @@ Format format_of(Raster raster) {
   throw std::invalid_argument("unknown raster");
 }
 
-GLuint make_buffer(const GlFunctions& gl, GLenum storage, const RenderTargets::Shape& shape, int samples) {
+GLuint make_buffer(const GlFunctions& gl, GLenum storage, const RenderTargets::TargetShape& shape, int samples) {
   GLuint buffer = 0;
   gl.GenRenderbuffers(1, &buffer);
   gl.BindRenderbuffer(GL_RENDERBUFFER, buffer);
@@ -42,7 +42,7 @@ GLuint make_buffer(const GlFunctions& gl, GLenum storage, const RenderTargets::S
 }
 
 /// @param depth  a depth buffer, or 0 for none.
-GLuint make_framebuffer(const GlFunctions& gl, GLuint color, GLuint depth, const RenderTargets::Shape& shape) {
+GLuint make_framebuffer(const GlFunctions& gl, GLuint color, GLuint depth, const RenderTargets::TargetShape& shape) {
   GLuint framebuffer = 0;
   gl.GenFramebuffers(1, &framebuffer);
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -50,8 +50,9 @@ GLuint make_framebuffer(const GlFunctions& gl, GLuint color, GLuint depth, const
   gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
   const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {
-    throw std::runtime_error(fmt::format("no framebuffer of {} x {} px with {} samples a pixel (OpenGL status {:#06x})",
-                                         shape.width_px, shape.height_px, shape.samples, status));
+    throw std::runtime_error(
+        fmt::format("OpenGL cannot create a framebuffer of {} x {} px with {} samples per pixel (status {:#06x})",
+                    shape.width_px, shape.height_px, shape.samples, status));
   }
   return framebuffer;
 }
@@ -60,30 +61,30 @@ GLuint make_framebuffer(const GlFunctions& gl, GLuint color, GLuint depth, const
 
 void require_samples(const GlFunctions& gl, int samples) {
   if (samples != 1 && samples != 2 && samples != 4 && samples != 8) {
-    throw std::invalid_argument(fmt::format("{} samples a pixel; valid: 1, 2, 4, 8", samples));
+    throw std::invalid_argument(fmt::format("{} samples per pixel; valid: 1, 2, 4, 8", samples));
   }
-  GLint most = 1, given = 1;
-  gl.GetIntegerv(GL_MAX_SAMPLES, &most);
-  if (samples > most) {
+  GLint max_samples = 1, actual = 1;
+  gl.GetIntegerv(GL_MAX_SAMPLES, &max_samples);
+  if (samples > max_samples) {
     throw std::invalid_argument(
-        fmt::format("{} samples a pixel cannot be drawn; this OpenGL has at most {}", samples, most));
+        fmt::format("{} samples per pixel are not possible; maximum of this OpenGL: {}", samples, max_samples));
   }
   if (samples == 1) return;
   const GLuint buffer = make_buffer(gl, GL_RGBA8, {1, 1, Raster::color, samples}, samples);
-  gl.GetRenderbufferParameteriv(GL_RENDERBUFFER, GL_RENDERBUFFER_SAMPLES, &given);
+  gl.GetRenderbufferParameteriv(GL_RENDERBUFFER, GL_RENDERBUFFER_SAMPLES, &actual);
   gl.DeleteRenderbuffers(1, &buffer);
-  if (given != samples) {
+  if (actual != samples) {
     throw std::invalid_argument(
-        fmt::format("{} samples a pixel cannot be drawn; this OpenGL makes them {}", samples, given));
+        fmt::format("{} samples per pixel are not possible; this OpenGL uses {}", samples, actual));
   }
 }
 
-RenderTargets::Target RenderTargets::make(const GlFunctions& gl, const Shape& shape) {
-  GLint largest = 0;
-  gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
-  if (std::max(shape.width_px, shape.height_px) > largest) {
-    throw std::invalid_argument(fmt::format("an image of {} x {} px is larger than this OpenGL can draw ({} px)",
-                                            shape.width_px, shape.height_px, largest));
+RenderTargets::Target RenderTargets::make(const GlFunctions& gl, const TargetShape& shape) {
+  GLint max_px = 0;
+  gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &max_px);
+  if (std::max(shape.width_px, shape.height_px) > max_px) {
+    throw std::invalid_argument(fmt::format("an image of {} x {} px is too large; maximum of this OpenGL: {} px",
+                                            shape.width_px, shape.height_px, max_px));
   }
   require_samples(gl, shape.samples);
   const GLenum storage = format_of(shape.raster).storage;
@@ -92,11 +93,11 @@ RenderTargets::Target RenderTargets::make(const GlFunctions& gl, const Shape& sh
   target.drawn = make_framebuffer(gl, make_buffer(gl, storage, shape, shape.samples),
                                   make_buffer(gl, GL_DEPTH_COMPONENT32F, shape, shape.samples), shape);
   if (shape.samples == 1) target.read = target.drawn;
-  check_gl(gl, "making a framebuffer");
+  check_gl(gl, "creating a framebuffer");
   return target;
 }
 
-void RenderTargets::bind(const GlFunctions& gl, const Shape& shape) {
+void RenderTargets::bind(const GlFunctions& gl, const TargetShape& shape) {
   auto target = std::ranges::find(targets_, shape, &Target::shape);
   if (target == targets_.end()) target = targets_.insert(target, make(gl, shape));
   bound_ = static_cast<size_t>(target - targets_.begin());
@@ -110,7 +111,7 @@ void RenderTargets::read(const GlFunctions& gl, cv::Mat& out) {
   const Format format = format_of(raster);
   out.create(height_px, width_px, type_of(targets_[bound_].shape.raster));
   if (out.step % out.elemSize() != 0) {
-    throw std::invalid_argument("the rows of an image to draw into must be a whole number of pixels apart");
+    throw std::invalid_argument("the row step of the output image must be a whole number of pixels");
   }
   if (samples > 1) {
     gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, target.read);

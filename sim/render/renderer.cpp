@@ -8,25 +8,25 @@
 
 #include "sim/render/haze.h"
 #include "sim/render/lens_faces.h"
-#include "sim/render/painter.h"
+#include "sim/render/pinhole_renderer.h"
 #include "sim/render/true_flow.h"
 
 namespace hedgehop::sim {
 
 namespace {
 
-/// The raster of an undistorted pinhole's image; flow is computed from others.
-Raster raster_of(Channel channel) {
+/// Returns the raster of an undistorted pinhole image. Flow has none: it is computed from depth and labels.
+Raster raster_of(ImageChannel channel) {
   switch (channel) {
-    case Channel::grey:
+    case ImageChannel::grey:
       return Raster::grey;
-    case Channel::color:
+    case ImageChannel::color:
       return Raster::color;
-    case Channel::depth:
+    case ImageChannel::depth:
       return Raster::depth;
-    case Channel::labels:
+    case ImageChannel::labels:
       return Raster::labels;
-    case Channel::flow:
+    case ImageChannel::flow:
       break;
   }
   throw std::invalid_argument("unknown channel");
@@ -43,7 +43,7 @@ size_t chunk_count(const scenes::Scene& scene) {
 class Renderer::Impl {
  public:
   Impl(const scenes::Scene& scene, Culling culling, RendererKind kind, Shadows shadows)
-      : painter_(make_painter(scene, culling, kind, shadows)),
+      : pinholes_(make_pinhole_renderer(scene, culling, kind, shadows)),
         first_mover_label_(static_cast<int>(1 + chunk_count(scene))),
         sky_(scene.sky) {
     for (const scenes::Mover& mover : scene.movers) motions_.push_back(mover.motion);
@@ -51,26 +51,26 @@ class Renderer::Impl {
 
   void draw(const CameraView& view, cv::Mat& out) {
     check(view);
-    painter_->start_count();
-    if (view.channel == Channel::flow) {
+    pinholes_->start_count();
+    if (view.channel == ImageChannel::flow) {
       draw_flow(view, out);
     } else {
       draw(view, view.channel, out);
-      if (std::isfinite(sky_.visibility_m)) veil(view, out);
+      if (std::isfinite(sky_.visibility_m)) add_haze(view, out);
     }
-    drawn_ = {painter_->count().stretches, painter_->count().triangles};
+    drawn_ = {pinholes_->count().stretches, pinholes_->count().triangles};
   }
 
-  void require_samples(int samples) { painter_->require_samples(samples); }
+  void require_samples(int samples) { pinholes_->require_samples(samples); }
   const Drawn& drawn() const { return drawn_; }
-  std::string info() { return painter_->info(); }
+  std::string info() { return pinholes_->info(); }
 
  private:
-  /// A lens that was planned for, and what its images are made in.
+  /// The faces of a lens, and the memory for its images.
   struct Lens {
     LensFaces faces;
     cv::Mat levels, colors, planes, labels;  ///< sheets
-    std::vector<Eigen::Vector3d> rays;       ///< once flow was drawn
+    std::vector<Eigen::Vector3d> rays;       ///< filled by the first flow image
   };
 
   void check(const CameraView& view) {
@@ -81,47 +81,48 @@ class Renderer::Impl {
 
   static void check_pose(const CameraView& view) {
     const bool finite = view.X_WC.matrix().allFinite() && view.next.X_WC.matrix().allFinite();
-    if (!finite) throw std::invalid_argument("a camera's pose is not finite");
-    if (!(view.t_s >= 0.0 && view.next.t_s >= 0.0)) throw std::invalid_argument("an image's time is below 0 s");
+    if (!finite) throw std::invalid_argument("the pose of a camera is not finite");
+    if (!(view.t_s >= 0.0 && view.next.t_s >= 0.0)) throw std::invalid_argument("the time of an image is negative");
   }
 
-  void draw(const CameraView& view, Channel channel, cv::Mat& out) {
-    const Painter::Eye eye{view.X_WC, view.t_s};
+  void draw(const CameraView& view, ImageChannel channel, cv::Mat& out) {
+    const PinholeRenderer::Viewpoint viewpoint{view.X_WC, view.t_s};
     if (view.camera.is_undistorted_pinhole()) {
-      const bool levels = channel == Channel::grey || channel == Channel::color;
-      painter_->paint(view.camera.pinhole(), eye, raster_of(channel), levels ? view.samples : 1, out);
+      const bool levels = channel == ImageChannel::grey || channel == ImageChannel::color;
+      pinholes_->render(view.camera.pinhole(), viewpoint, raster_of(channel), levels ? view.samples : 1, out);
       return;
     }
     Lens& lens = lens_of(view.camera);
     switch (channel) {
-      case Channel::grey:
-        paint_sheet(lens.faces, eye, Raster::grey, view.samples, lens.levels);
-        return mix_levels(lens.faces, lens.levels, out);
-      case Channel::color:
-        paint_sheet(lens.faces, eye, Raster::color, view.samples, lens.colors);
-        return mix_levels(lens.faces, lens.colors, out);
-      case Channel::depth:
-        paint_sheet(lens.faces, eye, Raster::planes, 1, lens.planes);
-        return meet_planes(lens.faces, lens.planes, out);
+      case ImageChannel::grey:
+        render_sheet(lens.faces, viewpoint, Raster::grey, view.samples, lens.levels);
+        return interpolate_levels(lens.faces, lens.levels, out);
+      case ImageChannel::color:
+        render_sheet(lens.faces, viewpoint, Raster::color, view.samples, lens.colors);
+        return interpolate_levels(lens.faces, lens.colors, out);
+      case ImageChannel::depth:
+        render_sheet(lens.faces, viewpoint, Raster::planes, 1, lens.planes);
+        return depths_of_planes(lens.faces, lens.planes, out);
       default:
-        paint_sheet(lens.faces, eye, Raster::labels, 1, lens.labels);
-        return pick_labels(lens.faces, lens.labels, out);
+        render_sheet(lens.faces, viewpoint, Raster::labels, 1, lens.labels);
+        return labels_of_nearest(lens.faces, lens.labels, out);
     }
   }
 
-  void veil(const CameraView& view, cv::Mat& image) {
-    if (view.channel != Channel::grey && view.channel != Channel::color) return;
-    draw(view, Channel::depth, haze_depth_);
-    sim::veil(sky_, view.camera, haze_depth_, image);
+  void add_haze(const CameraView& view, cv::Mat& image) {
+    if (view.channel != ImageChannel::grey && view.channel != ImageChannel::color) return;
+    draw(view, ImageChannel::depth, haze_depth_);
+    sim::add_haze(sky_, view.camera, haze_depth_, image);
   }
 
-  void paint_sheet(const LensFaces& faces, const Painter::Eye& eye, Raster raster, int samples, cv::Mat& sheet) {
+  void render_sheet(const LensFaces& faces, const PinholeRenderer::Viewpoint& viewpoint, Raster raster, int samples,
+                    cv::Mat& sheet) {
     sheet.create(faces.sheet, type_of(raster));
     for (const LensFaces::Face& face : faces.faces) {
-      Painter::Eye face_eye = eye;
-      face_eye.X_WC.linear() = eye.X_WC.linear() * face.R_CCf;
+      PinholeRenderer::Viewpoint face_viewpoint = viewpoint;
+      face_viewpoint.X_WC.linear() = viewpoint.X_WC.linear() * face.R_CCf;
       cv::Mat part = sheet(cv::Rect(0, face.first_row, face.camera.width_px, face.camera.height_px));
-      painter_->paint(face.camera, face_eye, raster, samples, part);
+      pinholes_->render(face.camera, face_viewpoint, raster, samples, part);
     }
   }
 
@@ -131,10 +132,10 @@ class Renderer::Impl {
       moved_W_m_.push_back(scenes::p_WM(motion, view.next.t_s) - scenes::p_WM(motion, view.t_s));
     }
     const bool pinhole = view.camera.is_undistorted_pinhole();
-    const Painter::Next next{view.next.X_WC, moved_W_m_};
-    if (pinhole && painter_->paint_flow(view.camera.pinhole(), {view.X_WC, view.t_s}, next, out)) return;
-    draw(view, Channel::depth, flow_depth_);
-    if (!motions_.empty()) draw(view, Channel::labels, flow_labels_);
+    const PinholeRenderer::FlowTarget next{view.next.X_WC, moved_W_m_};
+    if (pinhole && pinholes_->render_flow(view.camera.pinhole(), {view.X_WC, view.t_s}, next, out)) return;
+    draw(view, ImageChannel::depth, flow_depth_);
+    if (!motions_.empty()) draw(view, ImageChannel::labels, flow_labels_);
     const FlowInput input{flow_depth_, flow_labels_, view.X_WC, view.next.X_WC, first_mover_label_, moved_W_m_};
     if (pinhole) return true_flow(view.camera.pinhole(), input, out);
     Lens& lens = lens_of(view.camera);
@@ -154,7 +155,7 @@ class Renderer::Impl {
     return lens;
   }
 
-  std::unique_ptr<Painter> painter_;
+  std::unique_ptr<PinholeRenderer> pinholes_;
   int first_mover_label_;
   std::vector<scenes::Motion> motions_;  ///< of the movers
   std::deque<Lens> lenses_;

@@ -16,28 +16,27 @@ void require(bool holds, const std::string& fault) {
 }
 
 void check(const scenes::Mesh& mesh, size_t texture_count) {
-  require(mesh.material == "opaque",
-          fmt::format("material '{}' cannot be drawn; known materials: opaque", mesh.material));
+  require(mesh.material == "opaque", fmt::format("unknown material '{}'; valid: opaque", mesh.material));
   const auto is_known = [&](uint32_t index) { return index < mesh.vertices.size(); };
   require(std::ranges::all_of(mesh.indices, is_known) && std::ranges::all_of(mesh.far_indices, is_known),
-          fmt::format("a mesh of {} vertices has an index beyond them", mesh.vertices.size()));
+          fmt::format("a mesh of {} vertices has an index out of range", mesh.vertices.size()));
   for (const scenes::Vertex& vertex : mesh.vertices) {
     require(vertex.p_W.allFinite() && vertex.n_W.allFinite() && vertex.uv.allFinite(), "a vertex is not finite");
     require(vertex.texture < texture_count,
-            fmt::format("a vertex wants texture {} of {}", vertex.texture, texture_count));
+            fmt::format("a vertex uses texture {}; the scene has {}", vertex.texture, texture_count));
   }
   size_t covered = 0;
   for (const scenes::Chunk& chunk : mesh.chunks) {
     require(chunk.first_index == covered && chunk.index_count % 3 == 0,
-            "chunks must cover a mesh's triangles in order, without gaps");
-    require(!chunk.box_W.isEmpty(), "a chunk's box is empty");
+            "chunks must cover the triangles of a mesh in order, without gaps");
+    require(!chunk.box_W.isEmpty(), "the box of a chunk is empty");
     const scenes::FarDetail& far = chunk.far;
     require(size_t{far.first_index} + far.index_count <= mesh.far_indices.size() && far.index_count % 3 == 0,
-            "a far detail is no stretch of a mesh's far indices");
-    require(far.index_count == 0 || far.lost_m > 0.0f, "a far detail loses nothing");
+            "a far detail is outside the far indices of its mesh");
+    require(far.index_count == 0 || far.lost_m > 0.0f, "a far detail must have lost_m > 0");
     covered += chunk.index_count;
   }
-  require(covered == mesh.indices.size(), "chunks must cover all of a mesh's indices");
+  require(covered == mesh.indices.size(), "chunks must cover all indices of a mesh");
 }
 
 void check(const scenes::Scene& scene) {
@@ -55,7 +54,7 @@ float brightness(const scenes::Lights& lights, const Eigen::Vector3f& n_W) {
   return lights.ambient + lights.sun * std::max(0.0f, n_W.dot(lights.to_sun_W));
 }
 
-/// Ground is drawn through streets, most of it hidden: its chunks are cut as finely as they come.
+/// Cuts a flat chunk into pairs of triangles, because buildings usually hide most of the ground.
 void cut_into_tiles(const scenes::Chunk& chunk, const std::vector<DrawnVertex>& vertices,
                     const std::vector<uint32_t>& indices, std::vector<scenes::Chunk>& tiles) {
   constexpr uint32_t kTwoTriangles = 6;
@@ -71,7 +70,7 @@ void cut_into_tiles(const scenes::Chunk& chunk, const std::vector<DrawnVertex>& 
   }
 }
 
-/// Appends a mesh and returns its chunks, counted on in the shared index buffer.
+/// Appends a mesh and returns its chunks with indices into the shared list.
 std::vector<scenes::Chunk> append(const scenes::Mesh& mesh, const scenes::Lights& lights, SceneGeometry& geometry) {
   const auto first_vertex = static_cast<uint32_t>(geometry.vertices.size());
   for (const scenes::Vertex& v : mesh.vertices) {

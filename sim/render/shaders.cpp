@@ -5,19 +5,19 @@
 #include <stdexcept>
 #include <string>
 
-#include "sim/render/frustum.h"
+#include "sim/render/visible_chunks.h"
 
 namespace hedgehop::sim {
 
 namespace {
 
-// Pixel (u, v) lies at window (u + 0.5, v + 0.5) with OpenGL's first row on top, so C's axes are the window's axes and
-// rows come back in the order of a cv::Mat. Depth is reversed and without a far plane: near / z, 1 at the near plane,
-// 0 at infinity, where floats are densest. The eye is subtracted in two parts,
-// the high one exactly, so that nothing is lost far from the origin.
+// Pixel (u, v) is at window position (u + 0.5, v + 0.5), and OpenGL's first row is the top row. The axes of C are then
+// the axes of the window, and rows are read back in the order of a cv::Mat. Depth is reversed and has no far plane:
+// near / z is 1 at the near plane and 0 at infinity; floats have their highest resolution near 0. The camera position
+// is subtracted in two parts; the first subtraction is exact. This keeps the precision far from the origin.
 constexpr const char* kSceneVertex = R"(layout(location = 0) in vec3 p_W;
 layout(location = 1) in vec4 surface;
-uniform vec3 eye_W, eye_low_C;
+uniform vec3 camera_W, camera_low_C;
 uniform mat3 rotation;
 uniform vec4 lens;
 out vec3 coordinates;  // u, v, brightness
@@ -25,30 +25,30 @@ flat out float layer;
 #ifdef SHADOWS
 uniform vec3 p_WM;
 uniform mat4 sun_from_W;
-out vec3 place_in_sun;
+out vec3 p_map;
 #endif
 void main() {
-  vec3 p_C = rotation * (p_W - eye_W) - eye_low_C;
+  vec3 p_C = rotation * (p_W - camera_W) - camera_low_C;
   gl_Position = vec4(lens.xy * p_C.xy + lens.zw * p_C.z, near, p_C.z);
   coordinates = surface.xyz;
   layer = surface.w;
 #ifdef SHADOWS
-  place_in_sun = (sun_from_W * vec4(p_W + p_WM, 1.0)).xyz;
+  p_map = (sun_from_W * vec4(p_W + p_WM, 1.0)).xyz;
 #endif
 }
 )";
 
-// What lies deeper than the map is compared as if it were farthest, where nothing shades what nothing covers.
+// Points deeper than the map are compared at its maximum depth, so that they are lit if the map has no caster there.
 constexpr const char* kLight = R"(in vec3 coordinates;
 flat in float layer;
 uniform sampler2DArray textures;
 #ifdef SHADOWS
-in vec3 place_in_sun;
+in vec3 p_map;
 uniform sampler2DShadow sun;
 uniform float ambient;
 float light() {
   const float rounding = 1e-5;
-  float share = texture(sun, vec3(place_in_sun.xy, max(place_in_sun.z + rounding, 0.0)));
+  float share = texture(sun, vec3(p_map.xy, max(p_map.z + rounding, 0.0)));
   return ambient + share * (coordinates.z - ambient);
 }
 #else
@@ -68,7 +68,7 @@ constexpr const char* kDepthFragment = R"(out float z_C;
 void main() { z_C = 1.0 / gl_FragCoord.w; }
 )";
 
-// The window's rows run down, so the derivative along the window's y is the one towards the next row.
+// Window rows run down, so the derivative along window y is the change to the next row.
 constexpr const char* kPlaneFragment = R"(out vec4 plane;
 void main() { plane = vec4(gl_FragCoord.w, dFdx(gl_FragCoord.w), dFdy(gl_FragCoord.w), 0.0); }
 )";
@@ -81,8 +81,8 @@ void main() { pixel = label; }
 constexpr const char* kSunMapVertex = R"(layout(location = 0) in vec3 p_W;
 uniform mat4 sun_from_W;
 void main() {
-  vec3 place = (sun_from_W * vec4(p_W, 1.0)).xyz;
-  gl_Position = vec4(2.0 * place.xy - 1.0, place.z, 1.0);
+  vec3 p_map = (sun_from_W * vec4(p_W, 1.0)).xyz;
+  gl_Position = vec4(2.0 * p_map.xy - 1.0, p_map.z, 1.0);
 }
 )";
 
@@ -92,7 +92,7 @@ constexpr const char* kSkyVertex = R"(uniform mat3 rotation;
 uniform vec4 lens;
 out vec3 ray_W;
 void main() {
-  vec2 window = vec2(gl_VertexID == 2 ? 3.0 : -1.0, gl_VertexID == 1 ? 3.0 : -1.0);  // clockwise: a front
+  vec2 window = vec2(gl_VertexID == 2 ? 3.0 : -1.0, gl_VertexID == 1 ? 3.0 : -1.0);  // clockwise: a front face
   gl_Position = vec4(window, 0.0, 1.0);
   ray_W = rotation * vec3((window - lens.zw) / lens.xy, 1.0);
 }
@@ -140,8 +140,8 @@ Program link(const GlFunctions& gl, const std::string& vertex_source, const std:
     log.resize(static_cast<size_t>(length));
     throw std::runtime_error(fmt::format("a shader program does not link: {}", log));
   }
-  program.eye_W = gl.GetUniformLocation(program.id, "eye_W");
-  program.eye_low_C = gl.GetUniformLocation(program.id, "eye_low_C");
+  program.camera_W = gl.GetUniformLocation(program.id, "camera_W");
+  program.camera_low_C = gl.GetUniformLocation(program.id, "camera_low_C");
   program.rotation = gl.GetUniformLocation(program.id, "rotation");
   program.lens = gl.GetUniformLocation(program.id, "lens");
   program.horizon = gl.GetUniformLocation(program.id, "horizon");

@@ -5,31 +5,32 @@
 
 namespace hedgehop::sim {
 
-/// A linked program and where its uniforms are (-1 where it has none).
+/// A linked program and the locations of its uniforms; -1 if the program lacks the uniform.
 struct Program {
   GLuint id = 0;
-  GLint eye_W = -1, eye_low_C = -1, rotation = -1, lens = -1, horizon = -1, zenith = -1, label = -1;
-  GLint p_WM = -1, sun_from_W = -1, ambient = -1, sun = -1;  ///< of shadows
+  GLint camera_W = -1, camera_low_C = -1, rotation = -1, lens = -1, horizon = -1, zenith = -1, label = -1;
+  GLint p_WM = -1, sun_from_W = -1, ambient = -1, sun = -1;  ///< for shadows
 };
 
 /// Vertex attributes of all programs but sky_program().
 inline constexpr GLuint kPositionAttribute = 0;  ///< p_W, m
 inline constexpr GLuint kSurfaceAttribute = 1;   ///< u, v, brightness 0..1, texture layer
 
-/// Textured and lit surfaces, from the bound array of textures: RGB, or the mean of its channels. Each throws
-/// std::runtime_error with the compiler's message when it does not compile. With shadows, a SunMap scales the
-/// sun's part of the brightness.
+// Each function throws std::runtime_error with the message of the compiler if the program does not compile.
+
+/// Lit surfaces with the bound array of textures: RGB, or the mean of the channels. With shadows, the map of
+/// draw_sun_map() scales the sun's part of the brightness.
 Program color_program(const GlFunctions& gl, Shadows shadows);
 Program grey_program(const GlFunctions& gl, Shadows shadows);
 /// Metric depth: z in C, m.
 Program depth_program(const GlFunctions& gl);
-/// 1 / z in C, 1/m, and how it changes to the next pixel on the right and below: the surface's own plane.
+/// Raster::planes.
 Program plane_program(const GlFunctions& gl);
-/// One integer for all that a call draws.
+/// One integer, the label, for each call.
 Program label_program(const GlFunctions& gl);
-/// Depth of surfaces as seen from the sun; no colors.
+/// Depth seen from the sun; no colors.
 Program sun_map_program(const GlFunctions& gl);
-/// The sky behind everything: three vertices without attributes.
+/// The sky in the background: three vertices without attributes.
 Program sky_program(const GlFunctions& gl);
 
 }  // namespace hedgehop::sim

@@ -6,10 +6,11 @@ namespace hedgehop::sim {
 
 namespace {
 
-constexpr int kFewTexels = 2048, kManyTexels = 4096;
-constexpr double kFineEnoughM = 0.05;
+constexpr int kMinTexels = 2048, kMaxTexels = 4096;
+constexpr double kMaxTexelM = 0.05;
 
-/// From W to L, the axes of a camera that looks along the light, so that triangles have the same winding as in images.
+/// Returns R_LW. L has the axes of a camera that points along the light, so that triangles have the same winding as in
+/// images.
 Eigen::Matrix3d sun_axes(const Eigen::Vector3f& to_sun_W) {
   const Eigen::Vector3d forward = -to_sun_W.cast<double>().normalized(), right = forward.unitOrthogonal();
   Eigen::Matrix3d R_LW;
@@ -39,7 +40,7 @@ SunPlan plan_sun_map(const std::vector<scenes::Chunk>& chunks, const Eigen::Vect
   const Eigen::Matrix3d R_LW = sun_axes(to_sun_W);
   const Eigen::AlignedBox3d box = bounds(plan.casters, R_LW);
   const double across_m = box.sizes().head<2>().maxCoeff();
-  plan.texels = across_m > kFewTexels * kFineEnoughM ? kManyTexels : kFewTexels;
+  plan.texels = across_m > kMinTexels * kMaxTexelM ? kMaxTexels : kMinTexels;
   constexpr int kMarginTexels = 4;
   const double texel_m = across_m / (plan.texels - 2 * kMarginTexels);
   const double side_m = texel_m * plan.texels, deep_m = box.sizes().z() + 2.0 * texel_m;

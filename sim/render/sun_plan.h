@@ -7,22 +7,23 @@
 
 namespace hedgehop::sim {
 
-/// A map of where the sun's light ends: the depth of all that stands still as seen from there, 1 nearest to the sun and
-/// 0 farthest.
+/// Layout of a shadow map: depths of all static solids seen from the sun, from 1 (at the sun side) to 0 (at the far
+/// side).
 struct SunPlan {
-  std::vector<scenes::Chunk> casters;  ///< what is drawn into it
-  int texels = 0;                      ///< a side
-  /// From p_W, m, to the position in the map: column and row, 0..1 from its first texel to its last, and depth.
+  std::vector<scenes::Chunk> casters;  ///< chunks that cast shadows
+  int texels = 0;                      ///< per side
+  /// Transformation from p_W, m, to the position in the map: column and row, 0..1 across the map, and depth.
   Eigen::Affine3d from_W = Eigen::Affine3d::Identity();
 };
 
-/// Plans as many texels as shadows 0.05 m fine need, within 2048 to 4096 a side. Movers and flat chunks cast no shadow:
-/// below the ground there is nothing, and a room's ceiling would darken all of it.
-/// @param to_sun_W  any length but 0.
+/// Returns the layout of the shadow map. The map has 2048 texels per side if they are at most 0.05 m wide, else 4096.
+/// Moving obstacles and flat chunks cast no shadow: the ground has no surface below it, and a ceiling would darken its
+/// whole room.
+/// @param to_sun_W  of any length but 0.
 SunPlan plan_sun_map(const std::vector<scenes::Chunk>& chunks, const Eigen::Vector3f& to_sun_W);
 
-/// A surface lies deeper in the map by this times what it rises on a texel: it is compared with four texels, each less
-/// than one away along both axes, and would darken itself.
+/// Depth offset of surfaces in the map, in units of their depth change per texel. A point is compared with four texels,
+/// each less than one texel away along both axes. Without the offset, surfaces would shade themselves.
 inline constexpr double kSunSlack = 2.0;
 
 }  // namespace hedgehop::sim

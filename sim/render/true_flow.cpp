@@ -9,7 +9,7 @@ namespace hedgehop::sim {
 
 namespace {
 
-/// The mover that a pixel shows, below 0 for none.
+/// Returns the index of the moving obstacle at a pixel; negative if there is none.
 int mover_at(const FlowInput& input, int row, int col) {
   return input.moved_W_m.empty() ? -1 : input.labels.at<int>(row, col) - input.first_mover_label;
 }
@@ -17,12 +17,12 @@ int mover_at(const FlowInput& input, int row, int col) {
 }  // namespace
 
 std::vector<Eigen::Vector3d> all_rays(const vision::camera::Camera& camera) {
-  const Eigen::Vector3d nothing = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  const Eigen::Vector3d unknown = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   std::vector<Eigen::Vector3d> rays;
   rays.reserve(static_cast<size_t>(camera.width_px) * static_cast<size_t>(camera.height_px));
   for (int row = 0; row < camera.height_px; ++row) {
     for (int col = 0; col < camera.width_px; ++col) {
-      rays.push_back(camera.unit_ray(Eigen::Vector2d(col, row)).value_or(nothing));
+      rays.push_back(camera.unit_ray(Eigen::Vector2d(col, row)).value_or(unknown));
     }
   }
   return rays;
@@ -30,7 +30,7 @@ std::vector<Eigen::Vector3d> all_rays(const vision::camera::Camera& camera) {
 
 void true_flow(const vision::camera::Camera& camera, const std::vector<Eigen::Vector3d>& rays, const FlowInput& input,
                cv::Mat& out) {
-  constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
   out.create(camera.height_px, camera.width_px, CV_32FC2);
   const Eigen::Isometry3d X_CnC = input.X_WC_next.inverse() * input.X_WC;  // Cn: C at the next image
   const Eigen::Matrix3d R_CnW = input.X_WC_next.linear().transpose();
@@ -39,7 +39,7 @@ void true_flow(const vision::camera::Camera& camera, const std::vector<Eigen::Ve
   for (int row = 0; row < out.rows; ++row) {
     for (int col = 0; col < out.cols; ++col, ++ray) {
       cv::Vec2f& flow = out.at<cv::Vec2f>(row, col);
-      flow = {kNothing, kNothing};
+      flow = {kUnknown, kUnknown};
       if (!ray->allFinite()) continue;
       const auto depth_m = static_cast<double>(input.depth.at<float>(row, col));
       Eigen::Vector3d p_Cn = X_CnC.linear() * *ray;
@@ -59,7 +59,7 @@ void true_flow(const vision::camera::PinholeCamera& camera, const FlowInput& inp
   out.create(camera.height_px, camera.width_px, CV_32FC2);
   const Eigen::Isometry3d X_CnC = input.X_WC_next.inverse() * input.X_WC;  // Cn: C at the next image
   const Eigen::Vector3d right = X_CnC.linear().col(0) / camera.focal_x_px, t = X_CnC.translation();
-  // Of a point at z = 1 seen in the first column, over z; sky is at 1 / z = 0.
+  // `first`: the point at z = 1 in the first column of the row. Sky has 1 / z = 0.
   const auto flow_at = [&](const Eigen::Vector3d& first, int col, double per_z, const Eigen::Vector3d& moved) {
     const double x = first.x() + right.x() * col + moved.x() * per_z;
     const double y = first.y() + right.y() * col + moved.y() * per_z;
@@ -67,8 +67,8 @@ void true_flow(const vision::camera::PinholeCamera& camera, const FlowInput& inp
     const double per_z_next = 1.0 / z;
     const double u = camera.focal_x_px * x * per_z_next + camera.center_u_px;
     const double v = camera.focal_y_px * y * per_z_next + camera.center_v_px;
-    constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-    return z > 0.0 ? Eigen::Vector2d(u, v) : Eigen::Vector2d(kNothing, kNothing);
+    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    return z > 0.0 ? Eigen::Vector2d(u, v) : Eigen::Vector2d(kUnknown, kUnknown);
   };
   const Eigen::Matrix3d R_CnW = input.X_WC_next.linear().transpose();
   for (int row = 0; row < out.rows; ++row) {

@@ -9,23 +9,24 @@
 
 namespace hedgehop::sim {
 
-/// The ray of every pixel, in C, row by row; NaN where the lens shows nothing.
+/// Returns the unit ray of each pixel in C, row-major; NaN outside the image circle.
 std::vector<Eigen::Vector3d> all_rays(const vision::camera::Camera& camera);
 
-/// What an image shows, and the pose and time of the next one.
+/// Depth and labels of an image, its pose, and the pose of the next image.
 struct FlowInput {
-  const cv::Mat& depth;   ///< as Channel::depth, of `camera`
-  const cv::Mat& labels;  ///< as Channel::labels; not read without movers
+  const cv::Mat& depth;   ///< as ImageChannel::depth, of `camera`
+  const cv::Mat& labels;  ///< as ImageChannel::labels; not read if no obstacle moves
   Eigen::Isometry3d X_WC, X_WC_next;
-  int first_mover_label = 0;                   ///< labels from here on are movers
-  std::span<const Eigen::Vector3d> moved_W_m;  ///< displacement of each mover until then
+  int first_mover_label = 0;                   ///< first label of a moving obstacle
+  std::span<const Eigen::Vector3d> moved_W_m;  ///< displacement of each moving obstacle until the next image
 };
 
-/// Motion of each pixel's point in the image. @param rays  all_rays() of the camera.
-/// @param out  CV_32FC2, right and down, px; NaN where the lens shows nothing, now or then. Sky is infinitely far away.
+/// Computes the displacement of the point of each pixel until the next image. Sky is at infinity.
+/// @param rays  all_rays() of the camera.
+/// @param out   CV_32FC2, right and down, px; NaN if the point is outside the image circle in either image.
 void true_flow(const vision::camera::Camera& camera, const std::vector<Eigen::Vector3d>& rays, const FlowInput& input,
                cv::Mat& out);
-/// The same of an undistorted pinhole, several times faster.
+/// The same for an undistorted pinhole, several times faster.
 void true_flow(const vision::camera::PinholeCamera& camera, const FlowInput& input, cv::Mat& out);
 
 }  // namespace hedgehop::sim

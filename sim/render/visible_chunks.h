@@ -1,75 +1,116 @@
 #pragma once
 
+#include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "scenes/scene.h"
-#include "sim/render/chunk_tree.h"
 #include "sim/render/drawing_options.h"
-#include "sim/render/frustum.h"
 #include "sim/render/horizon.h"
 #include "vision/camera/pinhole_camera.h"
 
 namespace hedgehop::sim {
 
-/// No higher than a sheet: ground, a ceiling.
+/// Distance of the near plane, z in C. Closer surfaces are not drawn.
+inline constexpr double kNearPlaneM = 0.05;
+
+/// The space that a camera can see: four side planes and the near plane, no far plane.
+class Frustum {
+ public:
+  /// @param X_WC  pose of the camera. @param near_m  z in C of the near plane.
+  Frustum(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, double near_m);
+
+  /// Returns false only if the whole box is outside. The sides have a margin of one pixel around the image.
+  bool may_see(const Eigen::AlignedBox3f& box_W) const;
+
+ private:
+  struct Plane {
+    Eigen::Vector3d n_W;  ///< inwards
+    double offset = 0.0;  ///< n_W . p_W + offset >= 0 inside
+  };
+  std::array<Plane, 5> planes_;
+};
+
+/// Boxes in a binary tree over the plan (north, east), built once. The box of a node contains the boxes of its
+/// children.
+class ChunkTree {
+ public:
+  struct Node {
+    Eigen::AlignedBox3f box_W;
+    uint32_t first_child = 0;  ///< the children are first_child and first_child + 1; 0 for a leaf
+    uint32_t chunk = 0;        ///< of a leaf: index of its box in the list of boxes
+  };
+
+  explicit ChunkTree(std::span<const Eigen::AlignedBox3f> boxes_W);
+
+  /// The nodes; node 0 is the root. Empty if the list of boxes was empty.
+  std::span<const Node> nodes() const { return nodes_; }
+
+ private:
+  void split(uint32_t node, std::span<uint32_t> chunks, std::span<const Eigen::AlignedBox3f> boxes_W);
+
+  std::vector<Node> nodes_;
+};
+
+/// Returns whether the chunk is a horizontal sheet, such as the ground or a ceiling.
 inline bool lies_flat(const scenes::Chunk& chunk) { return chunk.box_W.sizes().z() <= 0.01f; }
 
-/// A chunk is drawn as its far detail where nothing that is lost is wider in the image, px.
-inline constexpr double kLostPx = 1.0;
+/// A chunk is drawn as its far detail if each part that the far detail omits is at most this wide in the image, px.
+inline constexpr double kMaxLostPx = 1.0;
 
-/// Finds what a view can see of a scene's chunks. Reuses its memory from view to view.
+/// Finds the chunks of a scene that a view can see. Reuses its memory from view to view.
 class VisibleChunks {
  public:
-  /// Who is told of a view's chunks while they are found, and knows what they hide.
-  class Beholder {
+  /// Receives the visible chunks of a view one by one, and decides which boxes they hide.
+  class VisibilitySink {
    public:
-    virtual ~Beholder() = default;
-    /// @param stretch  as find() returns them.
-    virtual void see(const scenes::Chunk& stretch) = 0;
-    /// True only when nothing in a box can be seen past what was seen so far.
+    virtual ~VisibilitySink() = default;
+    /// @param stretch  as returned by find().
+    virtual void add(const scenes::Chunk& stretch) = 0;
+    /// Returns true only if the stretches added so far hide the whole box.
     virtual bool hides(const Eigen::AlignedBox3f& box_W) const = 0;
   };
 
-  /// @param tiles  what flat chunks are made of, in the order of first_index.
+  /// @param tiles  the parts of the flat chunks, in the order of first_index.
   VisibleChunks(std::vector<scenes::Chunk> chunks, std::vector<scenes::Chunk> tiles);
 
-  /// Stretches of the index buffer to draw, each a chunk or its far detail, in the order in which they hide each other
-  /// best: upright chunks from near to far in plan, then flat ones, tile by tile, which seldom hide anything. The order
-  /// does not depend on the culling. Which chunks are far depends on z in C of their boxes and on the focal length: the
-  /// cameras of a rectified stereo pair see the same.
+  /// Returns the stretches of the index buffer to draw. Each stretch is a chunk or its far detail. Upright chunks come
+  /// first, from near to far in plan, because they hide the others; then the flat ones, tile by tile. The order does
+  /// not depend on the culling. The choice of far details depends on the focal length and on z in C of the boxes only,
+  /// so that both cameras of a rectified stereo pair draw the same surfaces.
   std::span<const scenes::Chunk> find(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC,
                                       Culling culling);
 
-  /// The same one by one, for a beholder instead of the horizon. Upright ones alone are seen before hides() is asked.
+  /// Passes the same stretches to a sink, which replaces the horizon. Only upright chunks precede calls of hides().
   void find(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, Culling culling,
-            Beholder& beholder);
+            VisibilitySink& sink);
 
-  /// Whether the view that was found last can see a box that is none of the chunks.
+  /// Returns whether the view found last can see a box that is not one of the chunks.
   bool shows(const Eigen::AlignedBox3f& box_W) const;
 
  private:
-  struct Ranked {
+  struct RankedNode {
     double distance_m = 0.0;
     uint32_t index = 0;
   };
-  struct Farther;
+  struct IsFarther;
 
-  template <class Hides, class See>
+  template <class Hides, class Add>
   void visit(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, const Hides& hides,
-             const See& see);
-  template <class Hides, class See>
-  void visit_tiles(const scenes::Chunk& flat, const Hides& hides, const See& see) const;
+             const Add& add);
+  template <class Hides, class Add>
+  void visit_tiles(const scenes::Chunk& flat, const Hides& hides, const Add& add) const;
 
   std::vector<scenes::Chunk> chunks_, tiles_;
   ChunkTree tree_;
   Horizon horizon_;
   std::optional<Frustum> frustum_;  ///< of the view found last
   Culling culling_ = Culling::none;
-  std::vector<Ranked> queue_;   ///< heap of nodes, nearest on top
-  std::vector<uint32_t> flat_;  ///< chunks
+  std::vector<RankedNode> queue_;  ///< heap; the nearest node is on top
+  std::vector<uint32_t> flat_;     ///< flat chunks of the view
   std::vector<scenes::Chunk> visible_;
 };
 

@@ -176,8 +176,9 @@ const avoidance::MountedCamera& Simulation::camera(std::string_view role) const 
   return impl_->episode().cameras().mounted(impl_->camera(role));
 }
 
-cv::Mat Simulation::image(std::string_view role, Channel channel) {
-  if (channel == Channel::flow) throw std::invalid_argument("flow leads to another image: see flow_to_next_image()");
+cv::Mat Simulation::image(std::string_view role, ImageChannel channel) {
+  if (channel == ImageChannel::flow)
+    throw std::invalid_argument("flow leads to another image: see flow_to_next_image()");
   const size_t camera = impl_->camera(role);
   const Cameras::Instant now = impl_->episode().instant();
   return impl_->episode().cameras().image(camera, channel, now, now);
@@ -188,7 +189,7 @@ cv::Mat Simulation::flow_to_next_image(std::string_view role) {
   Cameras& cameras = impl_->episode().cameras();
   const Cameras::Instant now = impl_->episode().instant();
   fly_to(t_s() + 1.0 / cameras.mounted(camera).rate_hz);
-  return cameras.image(camera, Channel::flow, now, impl_->episode().instant());
+  return cameras.image(camera, ImageChannel::flow, now, impl_->episode().instant());
 }
 
 std::vector<CheckResult> Simulation::checks_so_far() const { return impl_->judged().result.checks; }

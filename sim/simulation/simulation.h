@@ -82,8 +82,8 @@ class Simulation {
   const avoidance::MountedCamera& camera(std::string_view role) const;
 
   /// What a camera of the rig would deliver now, in any channel, with its imperfections. Does not disturb the flight.
-  /// Throws InputError for a role that the rig lacks, std::invalid_argument for Channel::flow.
-  cv::Mat image(std::string_view role, Channel channel);
+  /// Throws InputError for a role that the rig lacks, std::invalid_argument for ImageChannel::flow.
+  cv::Mat image(std::string_view role, ImageChannel channel);
   /// Flies on by one period of the camera and returns the true flow of its image of before, CV_32FC2, px. Throws
   /// InputError when the flight ends on the way.
   cv::Mat flow_to_next_image(std::string_view role);

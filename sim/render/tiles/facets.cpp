@@ -13,7 +13,7 @@ namespace {
 
 using Triangle = std::array<const DrawnVertex*, 3>;
 
-Eigen::Vector3d place(const DrawnVertex& vertex) {
+Eigen::Vector3d position(const DrawnVertex& vertex) {
   return Eigen::Map<const Eigen::Vector3f>(vertex.p_W.data()).cast<double>();
 }
 
@@ -21,18 +21,18 @@ bool equal(const DrawnVertex& a, const DrawnVertex& b) {
   return a.p_W == b.p_W && a.uv == b.uv && a.brightness == b.brightness && a.layer == b.layer;
 }
 
-/// The plane of a triangle, and values that are affine on it.
-class Plane {
+/// The plane of a triangle, and gradients of values that are affine over it.
+class TrianglePlane {
  public:
-  explicit Plane(const Triangle& triangle)
-      : origin_(place(*triangle[0])), a_(place(*triangle[1]) - origin_), b_(place(*triangle[2]) - origin_) {
+  explicit TrianglePlane(const Triangle& triangle)
+      : origin_(position(*triangle[0])), a_(position(*triangle[1]) - origin_), b_(position(*triangle[2]) - origin_) {
     normal_ = a_.cross(b_);
   }
 
   bool has_area() const { return normal_.squaredNorm() > 0.0; }
   const Eigen::Vector3d& normal() const { return normal_; }
 
-  /// @param values  at the triangle's corners.
+  /// @param values  at the corners of the triangle.
   Eigen::Vector3d gradient(const std::array<double, 3>& values) const {
     const Eigen::Vector3d across_b = b_.cross(normal_), across_a = normal_.cross(a_);
     return ((values[1] - values[0]) * across_b + (values[2] - values[0]) * across_a) / normal_.squaredNorm();
@@ -52,44 +52,46 @@ double u(const DrawnVertex& vertex) { return static_cast<double>(vertex.uv[0]); 
 double v(const DrawnVertex& vertex) { return static_cast<double>(vertex.uv[1]); }
 double brightness(const DrawnVertex& vertex) { return static_cast<double>(vertex.brightness); }
 
-using Corners = std::array<const DrawnVertex*, 4>;
+using CornerList = std::array<const DrawnVertex*, 4>;
 
-/// Whether the fourth corner continues the first three's plane, image and light, and all of them are convex.
-bool is_facet(const Corners& corners) {
+/// Returns whether the fourth corner fits the plane, texture and brightness of the first three, and the polygon is
+/// convex.
+bool is_facet(const CornerList& corners) {
   const Triangle half{corners[0], corners[1], corners[2]};
-  const Plane plane(half);
+  const TrianglePlane plane(half);
   const DrawnVertex& last = *corners[3];
-  constexpr double kFlat = 2e-6, kSameValue = 1e-4;
-  if (!plane.has_area() || plane.distance_m(place(last)) > kFlat * plane.size_m()) return false;
+  constexpr double kMaxDistance = 2e-6, kMaxDifference = 1e-4;
+  if (!plane.has_area() || plane.distance_m(position(last)) > kMaxDistance * plane.size_m()) return false;
   for (double (*value)(const DrawnVertex&) : {u, v, brightness}) {
-    const double found = value(*corners[0]) + plane.gradient(values(half, value)).dot(place(last) - place(*corners[0]));
-    if (std::abs(found - value(last)) > kSameValue) return false;
+    const double found =
+        value(*corners[0]) + plane.gradient(values(half, value)).dot(position(last) - position(*corners[0]));
+    if (std::abs(found - value(last)) > kMaxDifference) return false;
   }
   for (size_t i = 0; i < 4; ++i) {
-    const Eigen::Vector3d before = place(*corners[(i + 1) % 4]) - place(*corners[i]);
-    const Eigen::Vector3d after = place(*corners[(i + 2) % 4]) - place(*corners[(i + 1) % 4]);
+    const Eigen::Vector3d before = position(*corners[(i + 1) % 4]) - position(*corners[i]);
+    const Eigen::Vector3d after = position(*corners[(i + 2) % 4]) - position(*corners[(i + 1) % 4]);
     if (!(before.cross(after).dot(plane.normal()) > 0.0)) return false;
   }
   return true;
 }
 
-/// Corners of two triangles that share an edge and are one facet.
-std::optional<Corners> merged(const Triangle& a, const Triangle& b) {
+/// Returns the corners of two triangles that share an edge and form one facet; none otherwise.
+std::optional<CornerList> merged(const Triangle& a, const Triangle& b) {
   if (a[0]->layer != b[0]->layer) return std::nullopt;
   for (size_t i = 0; i < 3; ++i) {
     const DrawnVertex &from = *a[i], &to = *a[(i + 1) % 3];
     for (size_t k = 0; k < 3; ++k) {
       if (!equal(*b[k], to) || !equal(*b[(k + 1) % 3], from)) continue;
-      const Corners corners{&from, b[(k + 2) % 3], &to, a[(i + 2) % 3]};
+      const CornerList corners{&from, b[(k + 2) % 3], &to, a[(i + 2) % 3]};
       if (is_facet(corners)) return corners;
     }
   }
   return std::nullopt;
 }
 
-void add(const Corners& corners, int32_t label, Facets& facets) {
+void add(const CornerList& corners, int32_t label, Facets& facets) {
   const Triangle half{corners[0], corners[1], corners[2]};
-  const Plane plane(half);
+  const TrianglePlane plane(half);
   if (!plane.has_area()) return;
   FacetShape& shape = facets.shapes.emplace_back();
   for (size_t i = 0; i < 4; ++i) {
@@ -101,8 +103,8 @@ void add(const Corners& corners, int32_t label, Facets& facets) {
   facets.n_x.push_back(static_cast<float>(n.x()));
   facets.n_y.push_back(static_cast<float>(n.y()));
   facets.n_z.push_back(static_cast<float>(n.z()));
-  facets.offset_m.push_back(static_cast<float>(n.dot(place(*corners[0]))));
-  FacetCover& cover = facets.covers.emplace_back();
+  facets.offset_m.push_back(static_cast<float>(n.dot(position(*corners[0]))));
+  FacetAttributes& cover = facets.attributes.emplace_back();
   float* number = cover.values;
   for (double (*value)(const DrawnVertex&) : {u, v, brightness}) {
     const Eigen::Vector3d gradient = plane.gradient(values(half, value));
@@ -153,9 +155,9 @@ Facets make_facets(const SceneGeometry& geometry) {
     for (const scenes::Chunk& chunk : mover) add_chunk(chunk, label);
   }
   facets.of_triangle.back() = static_cast<uint32_t>(facets.shapes.size());
-  constexpr size_t kMoreToRead = 7;
+  constexpr size_t kReadableElements = 7;  // see FacetPlanes
   for (auto* numbers : {&facets.n_x, &facets.n_y, &facets.n_z, &facets.offset_m}) {
-    numbers->resize(numbers->size() + kMoreToRead);
+    numbers->resize(numbers->size() + kReadableElements);
   }
   return facets;
 }

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "sim/render/tiles/few.h"
+#include "sim/render/tiles/interpolants.h"
 #include "sim/render/tiles/kernels.h"
-#include "sim/render/tiles/measure.h"
+#include "sim/render/tiles/pixel_group.h"
 #include "sim/render/tiles/shade.h"
 
 namespace hedgehop::sim::tiles {
@@ -15,55 +15,56 @@ struct TileLayers {
 };
 
 inline TileLayers layers_at(const Frame& frame, int column, int row, int sample) {
-  const size_t a_grid = static_cast<size_t>(frame.across) * static_cast<size_t>(frame.down);
-  Tile& tile = frame.tiles[static_cast<size_t>(sample) * a_grid +
+  const size_t grid_tiles = static_cast<size_t>(frame.across) * static_cast<size_t>(frame.down);
+  Tile& tile = frame.tiles[static_cast<size_t>(sample) * grid_tiles +
                            static_cast<size_t>(row) * static_cast<size_t>(frame.across) + static_cast<size_t>(column)];
   return {layers(frame, tile), tile.count};
 }
 
-/// @param inside  the tile's pixels that lie within the image.
+/// @param inside  pixels of the tile that are within the image.
 template <int kPlanes>
 inline void shade_tile(const SceneView& scene, const Frame& frame, int column, int row, uint64_t inside,
                        TileBytes (&out)[kPlanes]) {
   const int u = kTilePx * column, v = kTilePx * row;
   const TileLayers tile = layers_at(frame, column, row, 0);
   uint64_t sky = inside;
-  Handful few;
+  PixelGroup group;
   for (uint16_t i = 0; i < tile.count; ++i) {
     const Layer& layer = tile.layers[i];
     sky &= ~layer.pixels;
     const int count = __builtin_popcountll(layer.pixels);
-    if (count > kFew) {
+    if (count > kGroupSize) {
       shade(scene, frame, layer.surface, u, v, layer.pixels, out);
       continue;
     }
-    if (few.count + count > kFew) shade_few(scene, frame, u, v, few, out);
-    few.add(scene, patch_of(scene, frame, layer.surface, u, v), layer.surface, layer.pixels);
+    if (group.count + count > kGroupSize) shade_group(scene, frame, u, v, group, out);
+    group.add(scene, patch_of(scene, frame, layer.surface, u, v), layer.surface, layer.pixels);
   }
-  if (few.count > 0) shade_few(scene, frame, u, v, few, out);
+  if (group.count > 0) shade_group(scene, frame, u, v, group, out);
   if (sky != 0) shade_sky(scene, frame.lens, u, v, sky, out);
 }
 
-/// A surface, or the sky, and the pixels that show it at each of four samples.
-struct Share {
+/// A surface or the sky, and its pixels at each of four samples.
+struct SampleCoverage {
   uint64_t pixels[4];
   uint32_t surface;
 };
 inline constexpr uint32_t kSky = 0xffffffffu;
-inline constexpr int kMostShares = 4 * 64 + 1;
+inline constexpr int kMaxCoverages = 4 * 64 + 1;
 
-inline int shares_of(const Frame& frame, int column, int row, uint64_t inside, Share (&shares)[kMostShares]) {
+inline int coverages_of(const Frame& frame, int column, int row, uint64_t inside,
+                        SampleCoverage (&coverages)[kMaxCoverages]) {
   int count = 1;
-  shares[0] = {{inside, inside, inside, inside}, kSky};
+  coverages[0] = {{inside, inside, inside, inside}, kSky};
   for (int sample = 0; sample < 4; ++sample) {
     const TileLayers tile = layers_at(frame, column, row, sample);
     for (uint16_t i = 0; i < tile.count; ++i) {
       const Layer& layer = tile.layers[i];
       int at = 1;
-      while (at < count && shares[at].surface != layer.surface) ++at;
-      if (at == count) shares[count++] = {{0, 0, 0, 0}, layer.surface};
-      shares[at].pixels[sample] = layer.pixels;
-      shares[0].pixels[sample] &= ~layer.pixels;
+      while (at < count && coverages[at].surface != layer.surface) ++at;
+      if (at == count) coverages[count++] = {{0, 0, 0, 0}, layer.surface};
+      coverages[at].pixels[sample] = layer.pixels;
+      coverages[0].pixels[sample] &= ~layer.pixels;
     }
   }
   return count;
@@ -74,21 +75,21 @@ using Sums = uint16_t __attribute__((vector_size(16)));
 template <int kPlanes>
 inline void shade_surface(const SceneView& scene, const Frame& frame, uint32_t surface, int u, int v, uint64_t pixels,
                           TileBytes (&out)[kPlanes]) {
-  if (__builtin_popcountll(pixels) > kFew) return shade(scene, frame, surface, u, v, pixels, out);
-  Handful few;
-  few.add(scene, patch_of(scene, frame, surface, u, v), surface, pixels);
-  shade_few(scene, frame, u, v, few, out);
+  if (__builtin_popcountll(pixels) > kGroupSize) return shade(scene, frame, surface, u, v, pixels, out);
+  PixelGroup group;
+  group.add(scene, patch_of(scene, frame, surface, u, v), surface, pixels);
+  shade_group(scene, frame, u, v, group, out);
 }
 
-/// Shades each surface once, in the middle of the pixels, and mixes by the samples that show it.
+/// Shades each surface once, at the pixel centers, and averages over the samples.
 template <int kPlanes>
 inline void mix_tile(const SceneView& scene, const Frame& frame, int column, int row, uint64_t inside,
                      TileBytes (&out)[kPlanes]) {
-  Share shares[kMostShares];
-  const int count = shares_of(frame, column, row, inside, shares);
+  SampleCoverage coverages[kMaxCoverages];
+  const int count = coverages_of(frame, column, row, inside, coverages);
   Sums sums[kPlanes][kTilePx] = {};
   for (int k = 0; k < count; ++k) {
-    const Share& share = shares[k];
+    const SampleCoverage& share = coverages[k];
     const uint64_t pixels = share.pixels[0] | share.pixels[1] | share.pixels[2] | share.pixels[3];
     if (pixels == 0) continue;
     const int u = kTilePx * column, v = kTilePx * row;
@@ -100,7 +101,7 @@ inline void mix_tile(const SceneView& scene, const Frame& frame, int column, int
     for (int y = 0; y < kTilePx; ++y) {
       if (row_of(pixels, y) == 0) continue;
       uint64_t times = 0;
-      for (const uint64_t sample : share.pixels) times += kSpread.bytes[row_of(sample, y)] & 0x0101010101010101u;
+      for (const uint64_t sample : share.pixels) times += kByteMasks.bytes[row_of(sample, y)] & 0x0101010101010101u;
       for (int i = 0; i < kPlanes; ++i) {
         for (int x = 0; x < kTilePx; ++x) {
           sums[i][y][x] = static_cast<uint16_t>(sums[i][y][x] + (times >> 8 * x & 7) * (out[i].rows[y] >> 8 * x & 255));
@@ -116,13 +117,13 @@ inline void mix_tile(const SceneView& scene, const Frame& frame, int column, int
   }
 }
 
-/// The upper left pixel of a tile in an image, and how much of the tile lies within it.
+/// The top left pixel of a tile in an image, and the part of the tile within the image.
 struct Window {
   uint8_t* first;
   int columns, rows;
 };
 
-inline Window window_of(const Frame& frame, const Image& image, int column, int row, size_t pixel_bytes) {
+inline Window window_of(const Frame& frame, const ImageMemory& image, int column, int row, size_t pixel_bytes) {
   const int u = kTilePx * column, v = kTilePx * row;
   const auto left = [](int size, int from) { return size - from < kTilePx ? size - from : kTilePx; };
   return {image.data + static_cast<size_t>(v) * image.step + static_cast<size_t>(u) * pixel_bytes,
@@ -152,23 +153,23 @@ inline void write(const TileBytes (&planes)[3], const Window& to, size_t step) {
   }
 }
 
-/// What surfaces look like lies all over memory: it is fetched some surfaces ahead.
-inline void make_paints(const SceneView& scene, const Frame& frame) {
+/// The attributes of surfaces are scattered in memory. They are prefetched some surfaces ahead.
+inline void make_interpolants(const SceneView& scene, const Frame& frame) {
   constexpr size_t kAhead = 12;
   for (size_t i = 0; i < frame.surface_count; ++i) {
     if (i + kAhead < frame.surface_count) {
       const uint32_t facet = frame.surfaces[i + kAhead].facet;
-      __builtin_prefetch(scene.covers + facet);
+      __builtin_prefetch(scene.attributes + facet);
       __builtin_prefetch(scene.shapes + facet);
     }
-    frame.paints[i] = paint_of(scene, frame, frame.surfaces[i]);
+    frame.interpolants[i] = interpolants_of(scene, frame, frame.surfaces[i]);
   }
 }
 
 template <int kPlanes>
-inline void shade_image(const SceneView& scene, const Frame& frame, const Image& image) {
-  make_paints(scene, frame);
-  TileBytes out[kPlanes] = {};  // a mix multiplies by 0 what no surface has written
+inline void shade_image(const SceneView& scene, const Frame& frame, const ImageMemory& image) {
+  make_interpolants(scene, frame);
+  TileBytes out[kPlanes] = {};  // mix_tile() multiplies unwritten bytes by 0
   for (int row = 0; row < frame.down; ++row) {
     for (int column = 0; column < frame.across; ++column) {
       const Window window = window_of(frame, image, column, row, kPlanes);
@@ -195,9 +196,10 @@ inline void write_values(const Value (&values)[kTilePx * kTilePx], const Window&
   }
 }
 
-/// Values of another kind than levels: `nothing` where no layer is.
+/// Writes an image of other values than levels; `background` for pixels without a layer.
 template <class Value, class Measure>
-inline void measure_image(const Frame& frame, const Image& image, const Value& nothing, const Measure& measure) {
+inline void measure_image(const Frame& frame, const ImageMemory& image, const Value& background,
+                          const Measure& measure) {
   Value values[kTilePx * kTilePx] = {};
   for (int row = 0; row < frame.down; ++row) {
     for (int column = 0; column < frame.across; ++column) {
@@ -209,17 +211,17 @@ inline void measure_image(const Frame& frame, const Image& image, const Value& n
         empty &= ~layer.pixels;
       }
       if (~empty == 0) {
-        for (Value& value : values) value = nothing;
+        for (Value& value : values) value = background;
       } else {
-        for (; empty != 0; empty &= empty - 1) values[__builtin_ctzll(empty)] = nothing;
+        for (; empty != 0; empty &= empty - 1) values[__builtin_ctzll(empty)] = background;
       }
       write_values(values, window_of(frame, image, column, row, sizeof(Value)), image.step);
     }
   }
 }
 
-/// Makes an image of all that was drawn.
-inline void finish(const SceneView& scene, Frame& frame, Raster raster, const Image& image) {
+/// As Kernels::finish.
+inline void finish(const SceneView& scene, Frame& frame, Raster raster, const ImageMemory& image) {
   switch (raster) {
     case Raster::grey:
       return shade_image<1>(scene, frame, image);
@@ -230,7 +232,7 @@ inline void finish(const SceneView& scene, Frame& frame, Raster raster, const Im
     case Raster::planes:
       return measure_image(frame, image, PlaneValue{}, PlaneMeasure{});
     case Raster::labels:
-      return measure_image(frame, image, int32_t{0}, LabelMeasure{scene.covers});
+      return measure_image(frame, image, int32_t{0}, LabelMeasure{scene.attributes});
   }
 }
 

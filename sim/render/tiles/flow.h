@@ -2,19 +2,19 @@
 
 #include "sim/render/tiles/finish.h"
 
-// How far what a pixel shows moves through the image until the next one.
+// Displacement of the point of each pixel until the next image.
 namespace hedgehop::sim::tiles {
 namespace {
 
-/// A position in the next image in units of z there, counted from a tile's first pixel, and z, all over z now: affine
-/// in the pixel.
+/// The position in the next image times z there, relative to the first pixel of the tile, and z there. All are divided
+/// by the current z and thus affine in the pixel.
 struct NextSlopes {
   Slope u, v, z;
 };
 
-/// @param w  1 / z of the surface now, 0 for sky. @param p_CnC_m  of what the surface belongs to.
-inline NextSlopes next_slopes(const Lens& lens, const double (&R_CnC)[9], const double p_CnC_m[3], const Affine& w,
-                              int u, int v) {
+/// @param w  current 1 / z of the surface, 0 for the sky. @param p_CnC_m  for the frame of the surface, see NextView.
+inline NextSlopes next_slopes(const PinholeImage& lens, const double (&R_CnC)[9], const double p_CnC_m[3],
+                              const Affine& w, int u, int v) {
   const auto along = [&](int axis) -> Affine {
     const double* const r = R_CnC + 3 * axis;
     const double right = r[0] * lens.per_focal_x, down = r[1] * lens.per_focal_y;
@@ -33,7 +33,7 @@ struct FlowValue {
   float right, down;
 };
 
-inline void put_flow(const NextSlopes& next, uint64_t pixels, FlowValue (&values)[64]) {
+inline void write_flow(const NextSlopes& next, uint64_t pixels, FlowValue (&values)[64]) {
   for (int row = 0; row < kTilePx; ++row) {
     uint32_t shown = row_of(pixels, row);
     if (shown == 0) continue;
@@ -57,9 +57,9 @@ inline void put_flow(const NextSlopes& next, uint64_t pixels, FlowValue (&values
   }
 }
 
-/// Makes an image of the flow of all that was drawn.
-inline void flow(const Frame& frame, const NextView& next, const Image& image) {
-  constexpr double kStill[3] = {};
+/// As Kernels::flow.
+inline void flow(const Frame& frame, const NextView& next, const ImageMemory& image) {
+  constexpr double kStatic[3] = {};
   for (int row = 0; row < frame.down; ++row) {
     for (int column = 0; column < frame.across; ++column) {
       const int u = kTilePx * column, v = kTilePx * row;
@@ -69,10 +69,10 @@ inline void flow(const Frame& frame, const NextView& next, const Image& image) {
       for (uint16_t i = 0; i < tile.count; ++i) {
         const Surface& surface = frame.surfaces[tile.layers[i].surface];
         sky &= ~tile.layers[i].pixels;
-        put_flow(next_slopes(frame.lens, next.R_CnC, next.p_CnC_m + 3 * surface.eye, surface.w, u, v),
-                 tile.layers[i].pixels, values);
+        write_flow(next_slopes(frame.lens, next.R_CnC, next.p_CnC_m + 3 * surface.pose, surface.w, u, v),
+                   tile.layers[i].pixels, values);
       }
-      if (sky != 0) put_flow(next_slopes(frame.lens, next.R_CnC, kStill, {}, u, v), sky, values);
+      if (sky != 0) write_flow(next_slopes(frame.lens, next.R_CnC, kStatic, {}, u, v), sky, values);
       write_values(values, window_of(frame, image, column, row, sizeof(FlowValue)), image.step);
     }
   }

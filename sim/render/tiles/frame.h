@@ -5,19 +5,19 @@
 
 namespace hedgehop::sim::tiles {
 
-inline constexpr int kTilePx = 8;  ///< side of a tile; one bit a pixel, row by row from the lowest bit
+inline constexpr int kTilePx = 8;  ///< side of a tile; one bit per pixel, row-major from the lowest bit
 
-/// A pinhole's image: pixel (u, v), counted from the middle of the first, shows along ((u - center_u) * per_focal_x,
-/// (v - center_v) * per_focal_y, 1) in C.
-struct Lens {
+/// A pinhole image. The ray of pixel (u, v) is ((u - center_u) * per_focal_x, (v - center_v) * per_focal_y, 1) in C;
+/// (0, 0) is the center of the first pixel.
+struct PinholeImage {
   double focal_x_px, focal_y_px, per_focal_x, per_focal_y, center_u_px, center_v_px;
   int width_px, height_px;
 };
 
-/// Where an image is taken from, as seen from the frame of the facets.
-struct Eye {
-  double p_m[3];   ///< of C, in W or M
-  double R_CW[9];  ///< row by row
+/// Pose of the camera in the frame of the facets.
+struct ViewPose {
+  double p_m[3];   ///< position of C in W or M
+  double R_CW[9];  ///< row-major
 };
 
 /// An affine function of the pixel.
@@ -27,35 +27,35 @@ struct Affine {
   double at(double u, double v) const { return right * u + down * v + at_origin; }
 };
 
-/// A facet that can be seen, set up for one image.
+/// A visible facet, set up for one image.
 struct Surface {
   Affine w;        ///< 1 / z in C, 1/m
-  uint32_t facet;  ///< into the scene's
-  uint32_t eye;    ///< into Frame::eyes
+  uint32_t facet;  ///< index in the scene
+  uint32_t pose;   ///< index in Frame::poses
 };
 
-/// What a surface looks like, each over z, which makes it affine in the pixel: u and v in 1/256 texel, brightness, and
-/// 1. The texture is moved by whole repeats to where floats are fine, as often as it has to be.
-struct alignas(32) Paint {
+/// The values that are interpolated over a surface: u and v in 1/256 texel, brightness, and 1. Each is divided by z and
+/// thus affine in the pixel. u and v may be shifted by whole repeats of the texture to keep the precision of floats.
+struct alignas(32) Interpolants {
   double right[4], down[4], at_origin[4];
 };
 
-/// The pixels of a tile that show one surface. Layers of a tile share no pixel.
+/// The pixels of a tile that show one surface. The layers of a tile are disjoint.
 struct Layer {
   uint64_t pixels;
-  float nearest, farthest;  ///< 1 / z, between which the surface lies in this tile, 1/m
-  uint32_t surface;         ///< into Frame::surfaces
+  float nearest, farthest;  ///< bounds of 1 / z of the surface in this tile, 1/m
+  uint32_t surface;         ///< index in Frame::surfaces
 };
 
-/// Fills a line of the cache.
+/// A tile of pixels. One cache line.
 struct alignas(64) Tile {
-  uint64_t covered;  ///< by the layers, or beyond the image
-  float farthest;    ///< 1 / z beyond which all is hidden, 1/m; 0 while a pixel is not covered
+  uint64_t covered;  ///< pixels of the layers, and pixels outside the image
+  float farthest;    ///< 1 / z, 1/m: surfaces behind it are hidden; 0 while a pixel is not covered
   uint16_t count;    ///< of layers
   uint16_t capacity;
   union {
-    Layer own[2];    ///< the layers, while they are no more
-    uint32_t first;  ///< else where they begin in Frame::pool
+    Layer own[2];    ///< the layers if there are at most two
+    uint32_t first;  ///< else the index of the first layer in Frame::pool
   };
 };
 static_assert(sizeof(Tile) == 64);
@@ -63,17 +63,18 @@ inline constexpr uint16_t kOwnLayers = 2;
 
 class FrameMemory;
 
-/// What was drawn into an image's tiles so far: plain data, for kernels. As many grids of tiles as samples in a pixel.
+/// The tiles of an image with their layers, as plain data for the kernels. One grid of tiles for each sample of a
+/// pixel.
 struct Frame {
-  Lens lens;
+  PinholeImage lens;
   int across, down, samples;
-  Tile* tiles;  ///< grid by grid, row by row
-  Eye* eyes;
-  Surface* surfaces;  ///< with room for those of the facets that are drawn next
-  Paint* paints;      ///< of the surfaces
+  Tile* tiles;  ///< grid by grid, row-major
+  ViewPose* poses;
+  Surface* surfaces;           ///< with space for the facets of the next call
+  Interpolants* interpolants;  ///< of each surface
   size_t surface_count;
   Layer* pool;
-  FrameMemory* memory;  ///< that all of it lies in
+  FrameMemory* memory;  ///< owner of all arrays
 };
 
 inline Layer* layers(const Frame& frame, Tile& tile) {
@@ -83,8 +84,8 @@ inline const Layer* layers(const Frame& frame, const Tile& tile) {
   return tile.capacity == kOwnLayers ? tile.own : frame.pool + tile.first;
 }
 
-/// Bits of the pixels of a tile that lie beyond an image of which `columns` and `rows` are left from its first pixel
-/// on.
+/// Returns the pixels of a tile that are outside the image.
+/// @param columns, rows  of the image, counted from the first pixel of the tile.
 inline uint64_t beyond(int columns, int rows) {
   const uint64_t row = columns >= kTilePx ? 0u : 0xffu & (0xffu << columns);
   uint64_t pixels = row * 0x0101010101010101u;
@@ -92,15 +93,15 @@ inline uint64_t beyond(int columns, int rows) {
   return pixels;
 }
 
-/// Makes room for more layers of a tile that has no more. Layers may move.
+/// Increases the capacity of a full tile. Its layers may move.
 void grow(Frame& frame, Tile& tile);
 
-/// Offset of a sample from the middle of its pixel, 1/8 px to the right and down.
-struct SamplePlace {
+/// Offset of a sample from the center of its pixel, right and down, 1/8 px.
+struct SampleOffset {
   int right, down;
 };
-/// The one sample of a pixel, or four as Mesa's rasteriser puts them.
-inline constexpr SamplePlace kOneSample[1] = {{0, 0}};
-inline constexpr SamplePlace kFourSamples[4] = {{-1, -3}, {3, -1}, {-3, 1}, {1, 3}};
+/// The offsets of one sample, and of four samples as in Mesa's rasterizer.
+inline constexpr SampleOffset kOneSample[1] = {{0, 0}};
+inline constexpr SampleOffset kFourSamples[4] = {{-1, -3}, {3, -1}, {-3, 1}, {1, 3}};
 
 }  // namespace hedgehop::sim::tiles

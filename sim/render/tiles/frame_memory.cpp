@@ -5,24 +5,24 @@
 namespace hedgehop::sim::tiles {
 
 FrameMemory::FrameMemory(size_t facets) {
-  constexpr size_t kOrdinary = 1 << 14;
-  surfaces_.resize(std::min(facets, kOrdinary));
-  paints_.resize(surfaces_.size());
-  pool_.resize(kOrdinary);
+  constexpr size_t kTypicalCount = 1 << 14;
+  surfaces_.resize(std::min(facets, kTypicalCount));
+  interpolants_.resize(surfaces_.size());
+  pool_.resize(kTypicalCount);
   frame_.memory = this;
 }
 
-Frame& FrameMemory::begin(const Lens& lens, int samples) {
+Frame& FrameMemory::begin(const PinholeImage& lens, int samples) {
   Frame& frame = frame_;
   frame.lens = lens;
   frame.across = (lens.width_px + kTilePx - 1) / kTilePx;
   frame.down = (lens.height_px + kTilePx - 1) / kTilePx;
   frame.samples = samples;
-  const auto a_grid = static_cast<size_t>(frame.across) * static_cast<size_t>(frame.down);
-  tiles_.resize(a_grid * static_cast<size_t>(samples));
+  const auto grid_tiles = static_cast<size_t>(frame.across) * static_cast<size_t>(frame.down);
+  tiles_.resize(grid_tiles * static_cast<size_t>(samples));
   frame.tiles = tiles_.data();
   size_t i = 0;
-  for (; i < a_grid; ++i) {
+  for (; i < grid_tiles; ++i) {
     const int x = static_cast<int>(i) % frame.across, y = static_cast<int>(i) / frame.across;
     Tile& tile = tiles_[i];
     tile.covered = beyond(lens.width_px - kTilePx * x, lens.height_px - kTilePx * y);
@@ -30,27 +30,27 @@ Frame& FrameMemory::begin(const Lens& lens, int samples) {
     tile.count = 0;
     tile.capacity = kOwnLayers;
   }
-  for (; i < tiles_.size(); ++i) tiles_[i] = tiles_[i - a_grid];
-  eyes_.clear();
+  for (; i < tiles_.size(); ++i) tiles_[i] = tiles_[i - grid_tiles];
+  poses_.clear();
   frame.surface_count = 0;
   pool_used_ = 0;
   return frame;
 }
 
-void FrameMemory::add_eye(const Eye& eye) {
-  eyes_.push_back(eye);
-  frame_.eyes = eyes_.data();
+void FrameMemory::add_pose(const ViewPose& pose) {
+  poses_.push_back(pose);
+  frame_.poses = poses_.data();
 }
 
-void FrameMemory::make_room(size_t facets) {
-  const size_t needed = frame_.surface_count + facets;
+void FrameMemory::reserve_surfaces(size_t count) {
+  const size_t needed = frame_.surface_count + count;
   if (surfaces_.size() < needed) surfaces_.resize(std::max(needed, 2 * surfaces_.size()));
   frame_.surfaces = surfaces_.data();
 }
 
-void FrameMemory::make_paints() {
-  if (paints_.size() < frame_.surface_count) paints_.resize(surfaces_.size());
-  frame_.paints = paints_.data();
+void FrameMemory::reserve_interpolants() {
+  if (interpolants_.size() < frame_.surface_count) interpolants_.resize(surfaces_.size());
+  frame_.interpolants = interpolants_.data();
 }
 
 uint32_t FrameMemory::take_layers(size_t count) {
@@ -61,10 +61,10 @@ uint32_t FrameMemory::take_layers(size_t count) {
   return static_cast<uint32_t>(first);
 }
 
-/// A tile has at most one layer a pixel, so that three steps are enough.
+/// A tile has at most one layer per pixel, so that three calls reach the maximum capacity.
 void grow(Frame& frame, Tile& tile) {
-  constexpr uint16_t kTimes = 6;
-  const auto capacity = static_cast<uint16_t>(kTimes * tile.capacity);
+  constexpr uint16_t kFactor = 6;
+  const auto capacity = static_cast<uint16_t>(kFactor * tile.capacity);
   const uint32_t first = frame.memory->take_layers(capacity);
   std::copy_n(layers(frame, tile), tile.count, frame.pool + first);
   tile.first = first;

@@ -6,29 +6,29 @@
 
 namespace hedgehop::sim::tiles {
 
-/// Memory of frames, kept from image to image.
+/// The memory of frames, kept from image to image.
 class FrameMemory {
  public:
-  /// Has room for what ordinary views show; a fuller one than any before takes more.
-  /// @param facets  of the scene.
+  /// Allocates memory for typical views. A view with more surfaces than all before allocates more.
+  /// @param facets  number of facets in the scene.
   explicit FrameMemory(size_t facets);
   FrameMemory(const FrameMemory&) = delete;
   FrameMemory& operator=(const FrameMemory&) = delete;
 
-  /// Begins an image without facets and eyes. @param samples  1 or 4.
-  Frame& begin(const Lens& lens, int samples);
+  /// Starts an image without facets and poses. @param samples  1 or 4.
+  Frame& begin(const PinholeImage& lens, int samples);
 
   Frame& frame() { return frame_; }
   const Frame& frame() const { return frame_; }
 
-  /// Adds an eye to draw from.
-  void add_eye(const Eye& eye);
+  /// Adds the pose of the camera in W, or in the frame of a moving obstacle.
+  void add_pose(const ViewPose& pose);
 
-  /// Makes room for the surfaces of so many facets.
-  void make_room(size_t facets);
+  /// Provides space for this number of further surfaces.
+  void reserve_surfaces(size_t count);
 
-  /// Makes room for the paints of all surfaces that were drawn.
-  void make_paints();
+  /// Provides space for the interpolants of all surfaces.
+  void reserve_interpolants();
 
  private:
   friend void grow(Frame&, Tile&);
@@ -37,9 +37,9 @@ class FrameMemory {
 
   Frame frame_{};
   std::vector<Tile> tiles_;
-  std::vector<Eye> eyes_;
+  std::vector<ViewPose> poses_;
   std::vector<Surface> surfaces_;
-  std::vector<Paint> paints_;
+  std::vector<Interpolants> interpolants_;
   std::vector<Layer> pool_;
   size_t pool_used_ = 0;
 };

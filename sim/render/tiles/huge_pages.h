@@ -9,8 +9,7 @@
 
 namespace hedgehop::sim::tiles {
 
-/// Memory in pages of 2 MiB where the system has them: what is read here and there is found without walking the page
-/// table each time.
+/// Allocates memory in pages of 2 MiB if the system supports them. Random reads then cause fewer page table walks.
 template <class T>
 struct HugePages {
   using value_type = T;
@@ -20,10 +19,10 @@ struct HugePages {
   explicit HugePages(const HugePages<U>&) {}
 
   T* allocate(size_t count) {
-    const size_t bytes = (count * sizeof(T) + kPage - 1) / kPage * kPage;
-    void* const memory = std::aligned_alloc(kPage, bytes);
+    const size_t bytes = (count * sizeof(T) + kPageBytes - 1) / kPageBytes * kPageBytes;
+    void* const memory = std::aligned_alloc(kPageBytes, bytes);
     if (memory == nullptr) throw std::bad_alloc();
-    madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: without such pages all works as well
+    madvise(memory, bytes, MADV_HUGEPAGE);  // a hint; it may fail
     return static_cast<T*>(memory);
   }
   void deallocate(T* memory, size_t) { std::free(memory); }
@@ -34,7 +33,7 @@ struct HugePages {
   }
 
  private:
-  static constexpr size_t kPage = size_t{2} << 20;
+  static constexpr size_t kPageBytes = size_t{2} << 20;
 };
 
 template <class T>

@@ -15,7 +15,7 @@ struct NamedKernels {
   const Kernels* kernels;
 };
 
-/// Those that this processor can run, the fastest first.
+/// Returns the kernels that this processor supports, fastest first.
 std::vector<NamedKernels> runnable_kernels() {
   std::vector<NamedKernels> runnable;
 #ifdef __x86_64__
@@ -31,19 +31,21 @@ std::vector<NamedKernels> runnable_kernels() {
 
 const Kernels& chosen_kernels() {
   const char* const name = std::getenv("HEDGEHOP_TILES");
-  const std::string_view asked = name == nullptr ? "" : name;
-  if (asked == "plain") return kPlainKernels;
+  const std::string_view requested = name == nullptr ? "" : name;
+  if (requested == "plain") return kPlainKernels;
   for (const NamedKernels& found : runnable_kernels()) {
-    if (asked.empty() || asked == found.name) return *found.kernels;
+    if (requested.empty() || requested == found.name) return *found.kernels;
   }
-  if (asked.empty()) {
+  if (requested.empty()) {
     throw std::runtime_error(
-        "tiles draws with AVX2, which this processor lacks; --renderer osmesa needs none, HEDGEHOP_TILES=plain draws "
-        "slowly");
+        "renderer tiles needs AVX2, which this processor lacks; use --renderer osmesa, or HEDGEHOP_TILES=plain, which "
+        "is "
+        "slow");
   }
-  throw std::runtime_error(fmt::format(
-      "HEDGEHOP_TILES={}: this processor has no such kernels; avx512, avx2 or plain, and the fastest when not given",
-      asked));
+  throw std::runtime_error(
+      fmt::format("HEDGEHOP_TILES={}: unknown, or not supported by this processor; valid: avx512, avx2, plain "
+                  "(default: the fastest)",
+                  requested));
 }
 
 }  // namespace hedgehop::sim::tiles

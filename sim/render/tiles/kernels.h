@@ -1,43 +1,44 @@
 #pragma once
 
-#include "sim/render/raster.h"
+#include "sim/render/drawing_options.h"
 #include "sim/render/tiles/frame.h"
 #include "sim/render/tiles/scene_view.h"
 
 namespace hedgehop::sim::tiles {
 
-/// Memory of an image, row 0 on top.
-struct Image {
+/// Memory of an image; row 0 is the top row.
+struct ImageMemory {
   uint8_t* data;
-  size_t step;  ///< bytes from row to row
+  size_t step;  ///< bytes per row
 };
 
-/// A box along the axes of the frame of the facets.
+/// An axis-aligned box in the frame of the facets.
 struct Box {
   float low_m[3], high_m[3];
 };
 
-/// From where the next image is taken. Cn: C then.
+/// Pose of the next image. Cn: C at that time.
 struct NextView {
-  double R_CnC[9];        ///< row by row
-  const double* p_CnC_m;  ///< three for each of Frame::eyes, as what stands still with it sees it
+  double R_CnC[9];  ///< row-major
+  const double*
+      p_CnC_m;  ///< three for each of Frame::poses: position of C in Cn, for points fixed in the frame of the pose
 };
 
-/// The loops over facets and over pixels, compiled for one kind of processor. All give the same bits.
+/// The loops over facets and pixels, compiled for one type of processor. All give the same bits.
 struct Kernels {
-  const char* lanes;  ///< what they are made for
+  const char* lanes;  ///< instruction set
 
-  /// Draws facets into a frame that has room for as many surfaces. @param eye  into Frame::eyes.
-  void (*draw)(Frame& frame, const SceneView& scene, uint32_t first, uint32_t count, uint32_t eye, double near_m);
+  /// Draws facets into a frame. The frame has space for this number of surfaces. @param pose  index in Frame::poses.
+  void (*draw)(Frame& frame, const SceneView& scene, uint32_t first, uint32_t count, uint32_t pose, double near_m);
 
-  /// True only when nothing in a box can be seen past what was drawn so far.
-  bool (*hides)(const Frame& frame, const Eye& eye, const Box& box, double near_m);
+  /// Returns true only if the facets drawn so far hide the whole box.
+  bool (*hides)(const Frame& frame, const ViewPose& pose, const Box& box, double near_m);
 
-  /// Makes the image. Several samples a pixel for grey and color only.
-  void (*finish)(const SceneView& scene, Frame& frame, Raster raster, const Image& image);
+  /// Writes the image. Several samples per pixel for grey and color only.
+  void (*finish)(const SceneView& scene, Frame& frame, Raster raster, const ImageMemory& image);
 
-  /// Makes an image of the flow until the next one, CV_32FC2, as Channel::flow.
-  void (*flow)(const Frame& frame, const NextView& next, const Image& image);
+  /// Writes the flow until the next image, CV_32FC2, as ImageChannel::flow.
+  void (*flow)(const Frame& frame, const NextView& next, const ImageMemory& image);
 };
 
 extern const Kernels kPlainKernels;
@@ -45,9 +46,9 @@ extern const Kernels kPlainKernels;
 extern const Kernels kAvx2Kernels, kAvx512Kernels;
 #endif
 
-/// The fastest that this processor can run at speed, or those that the environment variable HEDGEHOP_TILES names:
-/// "avx512", "avx2", or "plain", which runs anywhere, slowly. Throws std::runtime_error, with the remedy, when there
-/// are none.
+/// Returns the fastest kernels that this processor supports. The environment variable HEDGEHOP_TILES selects others:
+/// "avx512", "avx2", or "plain", which is slow and runs on every processor. All kernels give the same bits.
+/// Throws std::runtime_error that names a remedy if there are none.
 const Kernels& chosen_kernels();
 
 }  // namespace hedgehop::sim::tiles

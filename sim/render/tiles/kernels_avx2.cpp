@@ -1,4 +1,5 @@
-// Compiled for AVX2, and nothing else is: what the linker could take from here for other files would not run anywhere.
+// Only this file is compiled for AVX2. All its functions have internal linkage, so that the linker cannot use their
+// AVX2 code for other files.
 #ifdef __AVX2__
 
 #include "sim/render/tiles/cover.h"

@@ -1,5 +1,5 @@
-// Compiled for AVX-512, and nothing else is: what the linker could take from here for other files would not run
-// anywhere.
+// Only this file is compiled for AVX-512. All its functions have internal linkage, so that the linker cannot use their
+// AVX-512 code for other files.
 #ifdef __AVX512VL__
 
 #include "sim/render/tiles/cover.h"

@@ -1,29 +1,29 @@
 #pragma once
 
-#include "sim/render/tiles/facet.h"
 #include "sim/render/tiles/frame.h"
-#include "sim/render/tiles/lanes.h"
+#include "sim/render/tiles/scene_view.h"
+#include "sim/render/tiles/simd.h"
 
 namespace hedgehop::sim::tiles {
 namespace {
 
-/// Which pixels lie within a facet's edges. An edge is an affine function of the pixel, at least 0 inside, in integers,
-/// so that facets on both sides of an edge, whose functions differ in sign alone, share no pixel and leave none out.
+/// The edges of a facet. Each edge is an affine function of the pixel in integers, >= 0 inside. The functions of two
+/// facets at a common edge differ in sign only, so that each pixel belongs to exactly one of them.
 struct Edges {
   L4 at_first;     ///< at pixel (0, 0)
-  L4 right, down;  ///< a change of it, an eighth of a pixel on: below 2^24
+  L4 right, down;  ///< change per eighth of a pixel, below 2^24
 };
 
-/// Pixels that a facet may cover, both ends included.
+/// Bounds of the pixels that a facet may cover, both ends included.
 struct Extent {
   int left, right, top, bottom;
 };
 
-struct SetUp {
+struct FacetSetUp {
   Edges edges;
   Extent extent;
   Surface surface;
-  float nearest, farthest;  ///< 1 / z of the corners, 1/m; nearest is infinite with a corner behind the near plane
+  float nearest, farthest;  ///< bounds of 1 / z, 1/m; nearest is infinite if a corner is behind the near plane
 };
 
 inline D4 load(const float a[4]) { return D4{a[0], a[1], a[2], a[3]}; }
@@ -33,63 +33,62 @@ struct Corners {
   D4 x, y, z;  ///< in C, m
 };
 
-inline Corners see(const FacetShape& shape, const Eye& eye) {
-  const D4 x = load(shape.x_m) - eye.p_m[0], y = load(shape.y_m) - eye.p_m[1], z = load(shape.z_m) - eye.p_m[2];
-  const double* r = eye.R_CW;
+inline Corners in_camera(const FacetShape& shape, const ViewPose& pose) {
+  const D4 x = load(shape.x_m) - pose.p_m[0], y = load(shape.y_m) - pose.p_m[1], z = load(shape.z_m) - pose.p_m[2];
+  const double* r = pose.R_CW;
   return {r[0] * x + r[1] * y + r[2] * z, r[3] * x + r[4] * y + r[5] * z, r[6] * x + r[7] * y + r[8] * z};
 }
 
-/// Rounds edges to integers, the larger slope to between 2^23 and 2^24, and lets each pixel on an edge belong to one
-/// side of it.
+/// Rounds edges to integers. The larger slope is between 2^23 and 2^24. A pixel on an edge belongs to exactly one side.
 inline Edges quantized(D4 a, D4 b, D4 c) {
-  const D4 larger = most(magnitude(a), magnitude(b));
-  // 2^(23 - exponent), from the exponent's bits; an eighth of a pixel is a power of two as well.
+  const D4 larger = maximum(magnitude(a), magnitude(b));
+  // 2^(23 - exponent), from the bits of the exponent. An eighth of a pixel is a power of two, too.
   const L4 exponent = reinterpret_cast<L4>(larger) >> 52;
   const D4 scale = reinterpret_cast<D4>((2046 + 23 - exponent) << 52);
-  const L4 none = larger == 0.0;             // two corners in one, or an edge at infinity
-  const D4 limit = all(1125899906842624.0);  // 2^50, far outside of any image
-  const D4 finite = most(least(c * scale * 8.0, limit), -limit);
+  const L4 none = larger == 0.0;             // two equal corners, or an edge at infinity
+  const D4 limit = all(1125899906842624.0);  // 2^50, far outside any image
+  const D4 finite = maximum(minimum(c * scale * 8.0, limit), -limit);
   const D4 constant = pick(none, pick(c < 0.0, -limit, limit), finite);
   const L4 right = integers(pick(none, D4{}, a * scale)), down = integers(pick(none, D4{}, b * scale));
   const L4 inclusive = (right > 0) | ((right == 0) & (down > 0));
   return {integers(constant) + ~inclusive, right, down};
 }
 
-/// The least and the greatest of four.
-struct Range {
-  double least, most;
+/// Minimum and maximum of four numbers.
+struct DoubleRange {
+  double min, max;
 };
-inline Range range(D4 a) {
+inline DoubleRange range(D4 a) {
   const D4 other = __builtin_shufflevector(a, a, 2, 3, 0, 1);
-  const D4 low = least(a, other), high = most(a, other);
+  const D4 low = minimum(a, other), high = maximum(a, other);
   return {low[0] < low[1] ? low[0] : low[1], high[0] > high[1] ? high[0] : high[1]};
 }
 
-/// Pixels between corners that all lie before the near plane.
-inline Extent extent_of(const Corners& p, D4 per_z, const Lens& lens, double spare_px) {
-  const Range u = range(lens.center_u_px + lens.focal_x_px * (p.x * per_z));
-  const Range v = range(lens.center_v_px + lens.focal_y_px * (p.y * per_z));
-  // Rounded edges lie up to 1e-4 px beside the corners: what they decide must not be left out here.
-  const double spare = spare_px + 1e-3;
+/// Returns the bounds of the pixels between corners that are all in front of the near plane.
+inline Extent extent_of(const Corners& p, D4 per_z, const PinholeImage& lens, double margin_px) {
+  const DoubleRange u = range(lens.center_u_px + lens.focal_x_px * (p.x * per_z));
+  const DoubleRange v = range(lens.center_v_px + lens.focal_y_px * (p.y * per_z));
+  // Rounded edges are up to 1e-4 px away from the corners. The bounds include that.
+  const double margin = margin_px + 1e-3;
   const auto first = [&](double a, double end) {
-    a -= spare;
+    a -= margin;
     if (!(a > 0.0)) return 0;
     if (a > end) return static_cast<int>(end) + 1;
     const int floor = static_cast<int>(a);
     return floor + (a > floor);
   };
   const auto last = [&](double a, double end) {
-    a += spare;
+    a += margin;
     if (!(a >= 0.0)) return -1;
     return a > end ? static_cast<int>(end) : static_cast<int>(a);
   };
   const double last_u = lens.width_px - 1, last_v = lens.height_px - 1;
-  return {first(u.least, last_u), last(u.most, last_u), first(v.least, last_v), last(v.most, last_v)};
+  return {first(u.min, last_u), last(u.max, last_u), first(v.min, last_v), last(v.max, last_v)};
 }
 
-/// Where a facet that reaches behind the near plane may be seen: between the corners before it and where its edges
-/// meet it.
-inline Extent extent_at_near_plane(const Corners& p, const Lens& lens, double near_m, double spare_px) {
+/// Returns the bounds of a facet that crosses the near plane: between the corners in front of the plane and the
+/// intersections of the edges with the plane.
+inline Extent extent_at_near_plane(const Corners& p, const PinholeImage& lens, double near_m, double margin_px) {
   Extent whole{lens.width_px, -1, lens.height_px, -1};
   for (int i = 0; i < 4; ++i) {
     const int k = (i + 1) % 4;
@@ -103,7 +102,7 @@ inline Extent extent_at_near_plane(const Corners& p, const Lens& lens, double ne
               behind == 0 ? D4{y, y, p.y[k], p.y[k]} : D4{p.y[i], p.y[i], y, y},
               behind == 0 ? D4{near_m, near_m, p.z[k], p.z[k]} : D4{p.z[i], p.z[i], near_m, near_m}};
     }
-    const Extent part = extent_of(ends, 1.0 / ends.z, lens, spare_px);
+    const Extent part = extent_of(ends, 1.0 / ends.z, lens, margin_px);
     whole.left = part.left < whole.left ? part.left : whole.left;
     whole.right = part.right > whole.right ? part.right : whole.right;
     whole.top = part.top < whole.top ? part.top : whole.top;
@@ -112,28 +111,29 @@ inline Extent extent_at_near_plane(const Corners& p, const Lens& lens, double ne
   return whole;
 }
 
-/// Sets a facet up for an image. @param spare_px  how far samples lie from the middle of a pixel.
-/// @return whether it faces the eye and may cover a pixel.
-inline bool set_up(const FacetShape& shape, const Eye& eye, const Lens& lens, double near_m, double spare_px,
-                   SetUp& out) {
-  const Corners p = see(shape, eye);
+/// Sets up a facet for an image. Returns whether it faces the camera and may cover a pixel.
+/// @param margin_px  maximum distance of a sample from the center of its pixel.
+inline bool set_up(const FacetShape& shape, const ViewPose& pose, const PinholeImage& lens, double near_m,
+                   double margin_px, FacetSetUp& out) {
+  const Corners p = in_camera(shape, pose);
   const Corners n{next(p.x), next(p.y), next(p.z)};
-  // next x this: positive inside for what is counter-clockwise from outside. Both sides of an edge multiply alike.
+  // next x this: positive inside, because corners are counter-clockwise from outside. Facets on both sides of an edge
+  // compute the same products.
   const D4 ex = n.y * p.z - n.z * p.y, ey = n.z * p.x - n.x * p.z, ez = n.x * p.y - n.y * p.x;
   const double volume = ex[0] * p.x[2] + ey[0] * p.y[2] + ez[0] * p.z[2];
   if (!(volume > 0.0)) return false;
 
-  const Range z = range(p.z);
-  if (z.most < near_m) return false;
-  const bool cut = z.least < near_m;
+  const DoubleRange z = range(p.z);
+  if (z.max < near_m) return false;
+  const bool cut = z.min < near_m;
   const D4 per_z = 1.0 / p.z;
-  out.extent = cut ? extent_at_near_plane(p, lens, near_m, spare_px) : extent_of(p, per_z, lens, spare_px);
+  out.extent = cut ? extent_at_near_plane(p, lens, near_m, margin_px) : extent_of(p, per_z, lens, margin_px);
   if (out.extent.left > out.extent.right || out.extent.top > out.extent.bottom) return false;
 
   const D4 a = ex * lens.per_focal_x, b = ey * lens.per_focal_y;
   out.edges = quantized(a, b, ez - a * lens.center_u_px - b * lens.center_v_px);
 
-  // The plane's normal, from the same products.
+  // Normal of the plane, from the same products.
   const double nx = ex[0] + ex[1] + (p.y[0] * p.z[2] - p.z[0] * p.y[2]);
   const double ny = ey[0] + ey[1] + (p.z[0] * p.x[2] - p.x[0] * p.z[2]);
   const double nz = ez[0] + ez[1] + (p.x[0] * p.y[2] - p.y[0] * p.x[2]);
@@ -142,9 +142,9 @@ inline bool set_up(const FacetShape& shape, const Eye& eye, const Lens& lens, do
   w.right = nx * per_volume * lens.per_focal_x;
   w.down = ny * per_volume * lens.per_focal_y;
   w.at_origin = nz * per_volume - w.right * lens.center_u_px - w.down * lens.center_v_px;
-  const Range w_range = range(per_z);
-  out.farthest = static_cast<float>(cut ? 1.0 / z.most : w_range.least);
-  out.nearest = cut ? __builtin_inff() : static_cast<float>(w_range.most);
+  const DoubleRange w_range = range(per_z);
+  out.farthest = static_cast<float>(cut ? 1.0 / z.max : w_range.min);
+  out.nearest = cut ? __builtin_inff() : static_cast<float>(w_range.max);
   return true;
 }
 

@@ -10,10 +10,82 @@ namespace hedgehop::sim::tiles {
 
 namespace {
 
-/// Depth over the texels that a triangle covers: parallel light, so that all is affine in the texel.
+size_t index(int row, int column, int across) {
+  return static_cast<size_t>(row) * static_cast<size_t>(across) + static_cast<size_t>(column);
+}
+
+/// Columns or rows of a block, both ends included.
+struct TexelInterval {
+  int first, last;
+
+  TexelInterval(int block, int log2, int stride)
+      : first(block << log2), last(std::min(((block + 1) << log2), stride) - 1) {}
+};
+
+SunBlock block_of(const float* depths, int stride, const TexelInterval& rows, const TexelInterval& columns) {
+  const int row = std::min((rows.first + rows.last) / 2, stride - 2);
+  const int column = std::min((columns.first + columns.last) / 2, stride - 2);
+  const float here = depths[index(row, column, stride)];
+  SunBlock block{1.0f, -1e9f, depths[index(row, column + 1, stride)] - here,
+                 depths[index(row + 1, column, stride)] - here};
+  for (int y = rows.first; y <= rows.last; ++y) {
+    for (int x = columns.first; x <= columns.last; ++x) {
+      const float depth = depths[index(y, x, stride)];
+      block.min_depth = std::min(block.min_depth, depth);
+      block.max_offset = std::max(
+          block.max_offset, depth - block.right * static_cast<float>(x - 1) - block.down * static_cast<float>(y - 1));
+    }
+  }
+  return block;
+}
+
+/// Extends the bounds of a block by those of one of its quarters.
+void widen(SunBlock& block, const SunBlock& part, const TexelInterval& rows, const TexelInterval& columns) {
+  block.min_depth = std::min(block.min_depth, part.min_depth);
+  for (const int y : {rows.first, rows.last}) {
+    for (const int x : {columns.first, columns.last}) {
+      block.max_offset =
+          std::max(block.max_offset, part.max_offset + (part.right - block.right) * static_cast<float>(x - 1) +
+                                         (part.down - block.down) * static_cast<float>(y - 1));
+    }
+  }
+}
+
+}  // namespace
+
+SunBlocks make_sun_blocks(const float* depths, int stride, std::vector<SunBlock> (&blocks)[SunBlocks::kLevels]) {
+  SunBlocks result{};
+  for (int level = 0, log2 = SunBlocks::kFirstLog2; level < SunBlocks::kLevels; ++level, ++log2) {
+    const int across = (stride + (1 << log2) - 1) >> log2;
+    blocks[level].clear();
+    for (int row = 0; row < across; ++row) {
+      for (int column = 0; column < across; ++column) {
+        if (level == 0) {
+          blocks[0].push_back(block_of(depths, stride, {row, log2, stride}, {column, log2, stride}));
+          continue;
+        }
+        const int parts = result.across[level - 1];
+        SunBlock block = blocks[level - 1][index(2 * row, 2 * column, parts)];
+        for (int y = 2 * row; y < std::min(2 * row + 2, parts); ++y) {
+          for (int x = 2 * column; x < std::min(2 * column + 2, parts); ++x) {
+            widen(block, blocks[level - 1][index(y, x, parts)], {y, log2 - 1, stride}, {x, log2 - 1, stride});
+          }
+        }
+        blocks[level].push_back(block);
+      }
+    }
+    result.levels[level] = blocks[level].data();
+    result.across[level] = across;
+  }
+  return result;
+}
+
+namespace {
+
+/// Depths of the texels that a triangle covers. The light is parallel, so that the depth is affine in the texel.
 class SunTriangle {
  public:
-  /// @param p  columns, rows and depths of the corners, from the middle of the first texel.
+  /// @param p  column, row and depth of each corner, from the center of the first texel.
   explicit SunTriangle(const std::array<Eigen::Vector3d, 3>& p) : p_(p) {
     const Eigen::Vector3d a = p[1] - p[0], b = p[2] - p[0];
     area_ = a.x() * b.y() - a.y() * b.x();
@@ -21,7 +93,7 @@ class SunTriangle {
     down_ = (a.x() * b.z() - a.z() * b.x()) / area_;
   }
 
-  /// Clockwise in a map whose rows run down: as in images, what faces the sun.
+  /// Returns whether the triangle faces the sun: it is then clockwise, because rows run down as in images.
   bool faces_sun() const { return area_ < 0.0; }
 
   template <class Put>
@@ -30,11 +102,11 @@ class SunTriangle {
     const auto low = [](std::initializer_list<double> a) { return std::min(a); };
     const auto high = [](std::initializer_list<double> a) { return std::max(a); };
     const auto within = [&](double a) { return static_cast<int>(std::clamp(a, 0.0, texels - 1.0)); };
-    const double sink = kSunSlack * std::max(std::abs(right_), std::abs(down_));
+    const double offset = kSunSlack * std::max(std::abs(right_), std::abs(down_));
     for (int row = within(std::ceil(bound(1, low))); row <= within(std::floor(bound(1, high))); ++row) {
       for (int column = within(std::ceil(bound(0, low))); column <= within(std::floor(bound(0, high))); ++column) {
         if (!covers(column, row)) continue;
-        put(column, row, p_[0].z() + right_ * (column - p_[0].x()) + down_ * (row - p_[0].y()) - sink);
+        put(column, row, p_[0].z() + right_ * (column - p_[0].x()) + down_ * (row - p_[0].y()) - offset);
       }
     }
   }

@@ -1,13 +1,14 @@
 #pragma once
 
-#include "sim/render/tiles/paint.h"
+#include "sim/render/tiles/interpolants.h"
 
 namespace hedgehop::sim::tiles {
 namespace {
 
-/// Column, row and depth of a tile's pixels in the sun's map, over z. The fourth is of no meaning.
-/// @param w  1 / z of the surface. @param u, v  the tile's first pixel.
-inline Slopes sun_slopes(const SceneView& scene, const Lens& lens, const Affine& w, int u, int v) {
+/// Returns column, row and depth of the pixels of a tile in the shadow map, each divided by z. The fourth value is
+/// unused.
+/// @param w  1 / z of the surface. @param u, v  first pixel of the tile.
+inline Slopes sun_slopes(const SceneView& scene, const PinholeImage& lens, const Affine& w, int u, int v) {
   const auto& f = scene.sun.from_W;
   const auto along = [&](int axis) { return D4{f[0][axis], f[1][axis], f[2][axis], 0.0}; };
   const D4 per_m[3] = {along(0), along(1), along(2)};
@@ -16,31 +17,31 @@ inline Slopes sun_slopes(const SceneView& scene, const Lens& lens, const Affine&
   return slopes(over_z(at_eye, per_m, scene.world.R_CW, w, lens), u, v);
 }
 
-constexpr float kSunRounding = 1e-5f;  ///< of a depth in the map, to the sun's side
+constexpr float kSunRounding = 1e-5f;  ///< rounding of a depth in the map, towards the sun
 
-/// How much of the sun reaches a surface in a tile.
+/// The share of a surface in a tile that receives sunlight.
 enum class Sunlit { none, all, partly };
 
-/// Texels in a line of the map, with its border, both ends included.
+/// An interval of texel columns or rows of the map with its border, both ends included.
 struct SunTexels {
   int first, last;
 
-  /// Those that are compared for places in the map.
+  /// The texels that are compared for these positions in the map.
   SunTexels(const FloatRange& places, int texels) {
-    constexpr float kSpare = 0.05f;  // more than floats lose
+    constexpr float kMargin = 0.05f;  // larger than the rounding of floats
     const auto place = [&](float a) {
       const auto end = static_cast<float>(texels);
       return static_cast<int>((a < -1.0f ? -1.0f : a > end ? end : a) + 1.0f);
     };
-    first = place(places.least - kSpare);
-    last = place(places.most + kSpare) + 1;
+    first = place(places.min - kMargin);
+    last = place(places.max + kMargin) + 1;
     if (last > texels + 1) last = texels + 1;
   }
   int blocks(int log2) const { return (last >> log2) - (first >> log2) + 1; }
 };
 
-/// What few blocks of the map tell. A place is compared with texels less than one away along both axes.
-/// @param w, at  of the surface, as sun_slopes().
+/// Returns whether a surface in a tile is lit, from a few blocks of the map. A position is compared with the texels
+/// less than one texel away along both axes. @param w, at  of the surface, as in sun_slopes().
 inline Sunlit sunlit(const SunDepths& sun, const Slope& w, const Slopes& at) {
   const F8 columns = {0, 7, 0, 7, 0, 7, 0, 7}, rows = {0, 0, 7, 7, 0, 0, 7, 7};  // corners of the tile
   const F8 per_z = w.at(columns, rows);
@@ -49,45 +50,45 @@ inline Sunlit sunlit(const SunDepths& sun, const Slope& w, const Slopes& at) {
   const F8 x = at[0].at(columns, rows) * z, y = at[1].at(columns, rows) * z;
   const F8 depth = at[2].at(columns, rows) * z + kSunRounding;
   const SunTexels across(range(x), sun.texels), down(range(y), sun.texels);
-  constexpr int kMostBlocks = 3;  // along a side
+  constexpr int kMaxBlocks = 3;  // per side
   int level = 0, log2 = SunBlocks::kFirstLog2;
-  for (; across.blocks(log2) > kMostBlocks || down.blocks(log2) > kMostBlocks; ++level, ++log2) {
+  for (; across.blocks(log2) > kMaxBlocks || down.blocks(log2) > kMaxBlocks; ++level, ++log2) {
     if (level + 1 == SunBlocks::kLevels) return Sunlit::partly;
   }
-  constexpr float kSpareDepth = 4e-6f;  // more than floats lose
+  constexpr float kMarginDepth = 4e-6f;  // larger than the rounding of floats
   const float end = static_cast<float>(sun.texels);
-  const I8 outside = (least(x, y) < -1.0f) | (most(x, y) > end);
+  const I8 outside = (minimum(x, y) < -1.0f) | (maximum(x, y) > end);
   float lowest = 1.0f;
   I8 dark{};
   for (int row = down.first >> log2; row <= down.last >> log2; ++row) {
     const SunBlock* const blocks = sun.blocks.levels[level] + row * sun.blocks.across[level];
     for (int column = across.first >> log2; column <= across.last >> log2; ++column) {
       const SunBlock& block = blocks[column];
-      lowest = block.least < lowest ? block.least : lowest;
-      if (block.right == 0.0f && block.down == 0.0f && block.most <= 0.0f) continue;  // nothing stands there
-      const float beside =
+      lowest = block.min_depth < lowest ? block.min_depth : lowest;
+      if (block.right == 0.0f && block.down == 0.0f && block.max_offset <= 0.0f) continue;  // no caster
+      const float slope =
           (block.right < 0.0f ? -block.right : block.right) + (block.down < 0.0f ? -block.down : block.down);
-      const float spare = kSpareDepth + beside * (1.0f + 1e-6f * static_cast<float>(sun.texels));
-      dark |= outside | (depth < block.most + block.right * x + block.down * y + spare);
+      const float margin = kMarginDepth + slope * (1.0f + 1e-6f * static_cast<float>(sun.texels));
+      dark |= outside | (depth < block.max_offset + block.right * x + block.down * y + margin);
     }
   }
   if (signs(dark) == 0) return Sunlit::all;
-  const bool behind = lowest > 0.0f && range(depth).most + kSpareDepth < lowest;
+  const bool behind = lowest > 0.0f && range(depth).max + kMarginDepth < lowest;
   return behind ? Sunlit::none : Sunlit::partly;
 }
 
-/// Brightness of pixels of a tile, the sun's part of it as much as reaches them: four comparisons, mixed.
-/// @param at  column, row and depth in the sun's map.
+/// Returns the brightness of pixels with their share of sunlight, which is interpolated from four comparisons.
+/// @param at  column, row and depth in the shadow map.
 inline F8 lit(const SunDepths& sun, const F8 (&at)[3], F8 brightness) {
   const float last = static_cast<float>(sun.texels);
-  const auto within = [&](F8 place) { return most(least(place, all(last)), all(-1.0f)); };
+  const auto within = [&](F8 place) { return maximum(minimum(place, all(last)), all(-1.0f)); };
   const F8 column = within(at[0]), line = within(at[1]);
-  const F8 depth = most(at[2] + kSunRounding, F8{});
+  const F8 depth = maximum(at[2] + kSunRounding, F8{});
   const auto whole = [](F8 a) {
     const I8 nearest = integers(a);
-    return nearest + (floats(nearest) > a);  // -1 where it was rounded up
+    return nearest + (floats(nearest) > a);  // -1 if it was rounded up
   };
-  const I8 x = least(whole(column), all(sun.texels - 1)), y = least(whole(line), all(sun.texels - 1));
+  const I8 x = minimum(whole(column), all(sun.texels - 1)), y = minimum(whole(line), all(sun.texels - 1));
   const F8 right = column - floats(x), down = line - floats(y);
   const int stride = sun.texels + 2;
   const I8 place = (y + 1) * stride + (x + 1);
@@ -103,7 +104,7 @@ inline F8 lit(const SunDepths& sun, const F8 (&at)[3], F8 brightness) {
   return sun.ambient + share * (brightness - sun.ambient);
 }
 
-/// The same where all or none of the sun reaches a tile.
+/// The same for a tile that is completely lit or completely in shadow.
 inline F8 evenly_lit_by(const SunDepths& sun, Sunlit sunlit, F8 brightness) {
   return sunlit == Sunlit::all ? sun.ambient + (brightness - sun.ambient) : all(sun.ambient);
 }

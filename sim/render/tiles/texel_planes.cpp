@@ -6,10 +6,10 @@ namespace hedgehop::sim::tiles {
 
 namespace {
 
-/// Sums of an image's pixels over the squares that a level's texels cover: exact, and so the same everywhere.
+/// Sums of pixels over the squares that the texels of a level cover. They are exact and thus equal on every processor.
 using SumsOfLevel = std::vector<uint32_t>;
 
-/// @param of_pixel  the value of a pixel that is summed.
+/// @param of_pixel  returns the value of a pixel to sum.
 template <class OfPixel>
 SumsOfLevel sums_of(const cv::Mat& texture, const OfPixel& of_pixel) {
   SumsOfLevel sums;
@@ -32,10 +32,10 @@ SumsOfLevel halved(const SumsOfLevel& sums, size_t size) {
   return smaller;
 }
 
-/// Makes every level of a texture, 128 less than it is, row by row, and hands it on: with its size and values.
-/// @param channels  that a pixel's value is the sum of, 1 or 3.
-template <class HandOn>
-void each_level(SumsOfLevel sums, const TextureLayout& layout, uint64_t channels, const HandOn& hand_on) {
+/// Calls `add` with each level of a texture: level, size, values minus 128 in row-major order.
+/// @param channels  number of channels in the sum of a pixel, 1 or 3.
+template <class Add>
+void each_level(SumsOfLevel sums, const TextureLayout& layout, uint64_t channels, const Add& add) {
   std::vector<uint8_t> levels;
   auto size = static_cast<size_t>(layout.size_px);
   for (int level = 0; level <= layout.last_level; ++level, size /= 2) {
@@ -46,7 +46,7 @@ void each_level(SumsOfLevel sums, const TextureLayout& layout, uint64_t channels
       const uint64_t scaled = (2 * sum + half) >> (2 * level + 1);
       levels.push_back(static_cast<uint8_t>((channels == 3 ? scaled / 3 : scaled) ^ 0x80));
     }
-    hand_on(level, size, levels);
+    add(level, size, levels);
   }
 }
 
@@ -59,14 +59,14 @@ TexelPlanes::TexelPlanes(const std::vector<cv::Mat>& textures) : textures_(textu
   layout_.last_level = layout_.size_log2;
   for (int level = 0; level <= layout_.last_level; ++level) {
     const auto size = static_cast<size_t>(layout_.size_px >> level);
-    layout_.first[level] = static_cast<int32_t>(layout_.places);
-    layout_.places += size * (size + 1);
+    layout_.first[level] = static_cast<int32_t>(layout_.positions);
+    layout_.positions += size * (size + 1);
   }
 }
 
 const uint16_t* TexelPlanes::greys() {
   if (!greys_.empty()) return greys_.data();
-  greys_.reserve(textures_.size() * layout_.places);
+  greys_.reserve(textures_.size() * layout_.positions);
   const auto grey = [](const cv::Vec3b& rgb) { return uint32_t{rgb[0]} + rgb[1] + rgb[2]; };
   const auto add = [&](int, size_t size, const std::vector<uint8_t>& levels) {
     for (size_t row = 0; row < size; ++row) {
@@ -82,12 +82,12 @@ const uint16_t* TexelPlanes::greys() {
 
 const uint32_t* TexelPlanes::colors() {
   if (!colors_.empty()) return colors_.data();
-  colors_.resize(textures_.size() * layout_.places);
+  colors_.resize(textures_.size() * layout_.positions);
   for (size_t texture = 0; texture < textures_.size(); ++texture) {
     for (int channel = 0; channel < 3; ++channel) {
       const auto value = [channel](const cv::Vec3b& rgb) { return uint32_t{rgb[channel]}; };
       const auto add = [&](int level, size_t size, const std::vector<uint8_t>& levels) {
-        uint32_t* place = &colors_[texture * layout_.places + static_cast<size_t>(layout_.first[level])];
+        uint32_t* place = &colors_[texture * layout_.positions + static_cast<size_t>(layout_.first[level])];
         for (size_t row = 0; row < size; ++row) {
           for (size_t col = 0; col <= size; ++col) *place++ |= uint32_t{levels[row * size + col % size]} << 8 * channel;
         }

@@ -9,16 +9,16 @@
 
 namespace hedgehop::sim::tiles {
 
-/// A scene's textures at every size down to one texel, as kernels read them. A texel is the mean of the full image's
-/// pixels that it covers, rounded once. Greys and colors are made when they are asked for first.
+/// The textures of a scene at every size down to one texel, in the layout of the kernels. A texel is the mean of the
+/// pixels of the full image that it covers, rounded once. Greys and colors are each computed at the first use.
 class TexelPlanes {
  public:
-  /// @param textures  CV_8UC3 RGB, square, all of one power-of-two size; none make one black texel.
+  /// @param textures  CV_8UC3 RGB, square, of one power-of-two size. An empty list gives one black texel.
   explicit TexelPlanes(const std::vector<cv::Mat>& textures);
 
   const TextureLayout& layout() const { return layout_; }
 
-  const uint16_t* greys();  ///< the mean of the channels
+  const uint16_t* greys();  ///< means of the channels
   const uint32_t* colors();
 
  private:

@@ -78,7 +78,7 @@ TEST(Mounting, ImagesAreDrawnFromWhereTheCameraIsAndModulesAreToldTheCalibration
   const cv::Mat delivered = cameras.expose(right, 0, body)->image.clone();
   const auto drawn = [&](const Eigen::Isometry3d& X_BC) {
     cv::Mat image;
-    renderer.draw({cameras.mounted(right).model, body.X_WB * X_BC, Channel::grey}, image);
+    renderer.draw({cameras.mounted(right).model, body.X_WB * X_BC, ImageChannel::grey}, image);
     return image;
   };
   EXPECT_EQ(cv::norm(delivered, drawn(true_X_BC(rig.cameras[1], cameras.mounted(right).model, kSeed)), cv::NORM_INF),

@@ -8,7 +8,7 @@
 #include "scenes/generators.h"
 #include "scenes/mesh/mesh_builder.h"
 #include "sim/render/renderer.h"
-#include "tests/sim/render/drawing.h"
+#include "tests/sim/render/tested_renderer.h"
 #include "vision/flow/flow_measures.h"
 #include "vision/flow/image_interpolation_flow.h"
 
@@ -48,7 +48,7 @@ TEST(RenderedFlow, ErrorOnAPlaneMovingUpToTwoPixelsIsBelowATwentiethPixel) {
   double sum_squares = 0.0;
   int valid = 0, all = 0;
   for (uint64_t seed = 1; seed <= 6; ++seed) {
-    Renderer renderer = drawing(textured_plane(seed));
+    Renderer renderer = make_renderer(textured_plane(seed));
     for (int step = 0; step <= 8; ++step) {
       const double flow_px = 0.25 * step, angle = 0.7 * step + static_cast<double>(seed);
       const Eigen::Vector2d expected = flow_px * Eigen::Vector2d(std::cos(angle), std::sin(angle));
@@ -79,7 +79,7 @@ double largest_loom_of_rotation_per_s(const vision::flow::ImageInterpolationConf
   std::uniform_real_distribution<double> rate(-0.3, 0.3);
   double largest_per_s = 0.0;
   for (uint64_t seed = 1; seed <= 3; ++seed) {
-    Renderer renderer = drawing(textured_plane(seed));
+    Renderer renderer = make_renderer(textured_plane(seed));
     for (int trial = 0; trial < 10; ++trial) {
       vision::flow::ImageInterpolationFlow flow(config, 400, 400);
       cv::Mat older, newer;
@@ -109,7 +109,7 @@ TEST(RenderedFlow, LoomOfPureRotationStaysSmallAtHalfResolution) {
 }
 
 TEST(RenderedFlow, LoomOfAnApproachIsSpeedOverRange) {
-  Renderer renderer = drawing(textured_plane(2));
+  Renderer renderer = make_renderer(textured_plane(2));
   vision::flow::ImageInterpolationFlow flow({}, 400, 400);
   cv::Mat older, newer;
   constexpr double kStepM = 0.04;  // 2 m/s

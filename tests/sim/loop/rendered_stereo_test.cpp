@@ -15,7 +15,7 @@
 #include "sim/render/renderer.h"
 #include "sim/scenario/mounting.h"
 #include "sim/scenario/scenario.h"
-#include "tests/sim/render/drawing.h"
+#include "tests/sim/render/tested_renderer.h"
 #include "tests/vision/real_data.h"
 #include "vision/stereo/disparity.h"
 #include "vision/stereo/stereo_matcher.h"
@@ -120,7 +120,7 @@ Eigen::Isometry3d true_X_CCr(const Rig& rig, uint64_t seed) {
 
 std::vector<StereoPair> rendered_pairs(const scenes::Scene& scene, const std::vector<Eigen::Isometry3d>& poses,
                                        const Rig& rig) {
-  Renderer renderer = drawing(scene);
+  Renderer renderer = make_renderer(scene);
   constexpr double kPeriodS = 0.1;
   Imperfections left_sensor(rig.sensor, kPeriodS, 1), right_sensor(rig.sensor, kPeriodS, 2);
   std::vector<StereoPair> pairs;
@@ -129,12 +129,12 @@ std::vector<StereoPair> rendered_pairs(const scenes::Scene& scene, const std::ve
     const auto number = static_cast<int64_t>(pairs.size());
     const Eigen::Isometry3d X_WCr = X_WC * true_X_CCr(rig, static_cast<uint64_t>(number));
     cv::Mat left_m, right_m;
-    renderer.draw({kCamera, X_WC, Channel::grey}, pair.left);
-    renderer.draw({kCamera, X_WCr, Channel::grey}, pair.right);
+    renderer.draw({kCamera, X_WC, ImageChannel::grey}, pair.left);
+    renderer.draw({kCamera, X_WCr, ImageChannel::grey}, pair.right);
     left_sensor.apply(number, pair.left);
     right_sensor.apply(number, pair.right);
-    renderer.draw({kCamera, X_WC, Channel::depth}, left_m);
-    renderer.draw({kCamera, X_WCr, Channel::depth}, right_m);
+    renderer.draw({kCamera, X_WC, ImageChannel::depth}, left_m);
+    renderer.draw({kCamera, X_WCr, ImageChannel::depth}, right_m);
     pair.truth_px = true_disparity(left_m, right_m, pair.disparities_px);
   }
   return pairs;

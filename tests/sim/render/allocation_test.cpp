@@ -1,4 +1,4 @@
-// The address sanitizer replaces operator new itself, and only one can.
+// Not with the address sanitizer, which replaces operator new itself.
 #ifndef __SANITIZE_ADDRESS__
 
 #include <gtest/gtest.h>
@@ -8,14 +8,14 @@
 #include <cstdlib>
 #include <new>
 
-#include "tests/sim/render/drawing.h"
 #include "tests/sim/render/small_world.h"
+#include "tests/sim/render/tested_renderer.h"
 
 namespace {
 std::atomic<size_t> allocations = 0;
 }
 
-// Not inlined: the compiler would see new meet free.
+// Not inlined, because the compiler would report new paired with free.
 [[gnu::noinline]] void* operator new(size_t size) {
   ++allocations;
   if (void* const memory = std::malloc(size > 0 ? size : 1)) return memory;
@@ -27,10 +27,10 @@ std::atomic<size_t> allocations = 0;
 namespace hedgehop::sim {
 namespace {
 
-TEST(Renderer, AllocatesNothingForAImageOfACameraSeenBefore) {
+TEST(Renderer, AllocatesNoMemoryForLaterImagesOfACamera) {
   const SmallWorld city = small_city(8, 91);
-  Renderer plain = drawing(city.scene);
-  Renderer shaded = drawing(city.scene, Culling::frustum_and_horizon, Shadows::sun);
+  Renderer plain = make_renderer(city.scene);
+  Renderer shaded = make_renderer(city.scene, Culling::frustum_and_horizon, Shadows::sun);
   vision::camera::PinholeLens bent{90, 90, 60, 45};
   bent.k1 = -0.1;
   const std::array<vision::camera::Camera, 3> cameras = {
@@ -42,12 +42,12 @@ TEST(Renderer, AllocatesNothingForAImageOfACameraSeenBefore) {
     std::mt19937_64 random(seed);
     for (size_t i = 0; i < 120; ++i) {
       const size_t channel = i % kChannels;
-      CameraView view{cameras[i % 3], random_pose(random, 150.0, 60.0, 0.7), static_cast<Channel>(channel)};
-      view.samples = i / 15 % 2 == 0 ? 1 : 4;  // all pairs of camera and channel come in fifteen
+      CameraView view{cameras[i % 3], random_pose(random, 150.0, 60.0, 0.7), static_cast<ImageChannel>(channel)};
+      view.samples = i / 15 % 2 == 0 ? 1 : 4;  // 15 images have all pairs of camera and channel
       (i / 30 % 2 == 0 ? plain : shaded).draw(view, images[channel]);
     }
   };
-  draw_some(92);  // Mesa translates the shaders, too
+  draw_some(92);  // Mesa also compiles the shaders here
   const size_t before = allocations;
   draw_some(93);
   EXPECT_EQ(allocations - before, 0u);

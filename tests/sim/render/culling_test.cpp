@@ -6,15 +6,16 @@
 
 #include "scenes/generators.h"
 #include "sim/render/horizon.h"
-#include "tests/sim/render/drawing.h"
 #include "tests/sim/render/small_world.h"
+#include "tests/sim/render/tested_renderer.h"
 
 namespace hedgehop::sim {
 namespace {
 
 const vision::camera::PinholeCamera kCamera = vision::camera::PinholeCamera::from_fov(200, 150, 1.4);
 
-/// z in C where a pixel's ray meets the first solid, met analytically (slabs); infinite where it meets none.
+/// Returns z in C of the first intersection of the ray of a pixel with a solid, computed analytically (slabs); infinite
+/// if there is none.
 double first_solid_m(const scenes::Scene& scene, const CameraView& view, int col, int row) {
   const Eigen::Vector3d ray_W = view.X_WC.linear() * view.camera.pinhole().ray_at_unit_depth({col, row});
   double first_m = std::numeric_limits<double>::infinity();
@@ -29,8 +30,8 @@ double first_solid_m(const scenes::Scene& scene, const CameraView& view, int col
   return first_m;
 }
 
-/// Pixels that differ although the mesh is tight there. Where a wall's vertex lies on the edge of an undivided roof,
-/// one pixel in ten million falls into the crack, and what it shows is hidden by all that is solid.
+/// Returns the number of pixels that differ although the mesh has no crack there. If a vertex of a wall is on the edge
+/// of an undivided roof, about one pixel in ten million falls into the crack and shows a surface behind a solid.
 int wrong_pixels(const scenes::Scene& scene, const CameraView& view, const cv::Mat& all, const cv::Mat& culled) {
   if (std::memcmp(all.data, culled.data, all.total() * all.elemSize()) == 0) return 0;
   int wrong = 0;
@@ -45,16 +46,16 @@ int wrong_pixels(const scenes::Scene& scene, const CameraView& view, const cv::M
   return wrong;
 }
 
-/// Draws random views with all, some and no culling: equal pixels, ever fewer triangles.
+/// Draws random views with each kind of culling. Pixels must be equal, and the number of triangles must not increase.
 void expect_equal_pixels(const scenes::Scene& scene, double half_m, double height_m, int trials, uint64_t seed) {
-  Renderer everything = drawing(scene, Culling::none);
-  Renderer frustum = drawing(scene, Culling::frustum);
-  Renderer horizon = drawing(scene);
+  Renderer everything = make_renderer(scene, Culling::none);
+  Renderer frustum = make_renderer(scene, Culling::frustum);
+  Renderer horizon = make_renderer(scene);
   std::mt19937_64 random(seed);
   cv::Mat all, culled;
   for (int trial = 0; trial < trials; ++trial) {
     const double tilt_rad = trial % 4 == 0 ? 1.5 : 0.4;
-    const CameraView view{kCamera, random_pose(random, half_m, height_m, tilt_rad), Channel::depth};
+    const CameraView view{kCamera, random_pose(random, half_m, height_m, tilt_rad), ImageChannel::depth};
     everything.draw(view, all);
     for (Renderer* renderer : {&frustum, &horizon}) {
       renderer->draw(view, culled);
@@ -66,12 +67,12 @@ void expect_equal_pixels(const scenes::Scene& scene, double half_m, double heigh
   }
 }
 
-TEST(Culling, LeavesEveryPixelOfASmallCity) {
+TEST(Culling, ChangesNoPixelOfASmallCity) {
   expect_equal_pixels(small_city(12, 62).scene, 230.0, 15.0, 300, 60);
   expect_equal_pixels(small_city(12, 63).scene, 230.0, 60.0, 200, 61);
 }
 
-TEST(Culling, LeavesEveryPixelOfAGeneratedCity) {
+TEST(Culling, ChangesNoPixelOfAGeneratedCity) {
   scenes::worlds::UrbanConfig config;
   config.texture_size_px = 64;
   expect_equal_pixels(scenes::make_scene(config, 7), 170.0, 15.0, 300, 66);
@@ -79,21 +80,21 @@ TEST(Culling, LeavesEveryPixelOfAGeneratedCity) {
   expect_equal_pixels(scenes::make_scene(config, 8), 170.0, 50.0, 200, 67);
 }
 
-TEST(Culling, LeavesEveryPixelOfAGeneratedRoom) {
+TEST(Culling, ChangesNoPixelOfAGeneratedRoom) {
   scenes::worlds::RoomConfig config;
   config.furniture = 8;
   config.texture_size_px = 64;
   expect_equal_pixels(scenes::make_scene(config, 9), 3.5, 2.8, 200, 68);
 }
 
-TEST(Culling, LeavesGreyAndColorOfASmallCity) {
+TEST(Culling, ChangesNoGreyOrColorPixelOfASmallCity) {
   const SmallWorld city = small_city(12, 69);
-  Renderer everything = drawing(city.scene, Culling::none);
-  Renderer horizon = drawing(city.scene);
+  Renderer everything = make_renderer(city.scene, Culling::none);
+  Renderer horizon = make_renderer(city.scene);
   std::mt19937_64 random(70);
   cv::Mat all, culled;
   for (int trial = 0; trial < 100; ++trial) {
-    const auto channel = trial % 2 == 0 ? Channel::grey : Channel::color;
+    const auto channel = trial % 2 == 0 ? ImageChannel::grey : ImageChannel::color;
     const CameraView view{kCamera, random_pose(random, 230.0, 30.0, 0.5), channel};
     everything.draw(view, all);
     horizon.draw(view, culled);
@@ -101,15 +102,15 @@ TEST(Culling, LeavesGreyAndColorOfASmallCity) {
   }
 }
 
-TEST(Culling, DrawsLittleOfALargeCityFromItsStreets) {
+TEST(Culling, SkipsMostOfALargeCitySeenFromItsStreets) {
   const SmallWorld city = small_city(40, 64);
-  Renderer horizon = drawing(city.scene);
-  Renderer frustum = drawing(city.scene, Culling::frustum);
+  Renderer horizon = make_renderer(city.scene);
+  Renderer frustum = make_renderer(city.scene, Culling::frustum);
   std::mt19937_64 random(65);
   cv::Mat grey;
   size_t visible = 0, in_frustum = 0;
   for (int trial = 0; trial < 20; ++trial) {
-    const CameraView view{kCamera, random_pose(random, 300.0, 12.0, 0.1), Channel::grey};
+    const CameraView view{kCamera, random_pose(random, 300.0, 12.0, 0.1), ImageChannel::grey};
     horizon.draw(view, grey);
     frustum.draw(view, grey);
     visible += horizon.drawn().triangles;
@@ -118,7 +119,7 @@ TEST(Culling, DrawsLittleOfALargeCityFromItsStreets) {
   EXPECT_LT(visible * 5, in_frustum);
 }
 
-/// True when the segment from a to b passes through the box.
+/// Returns whether the segment from a to b passes through the box.
 bool blocks(const Eigen::AlignedBox3f& box, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   double in = 0.0, out = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -138,7 +139,7 @@ Eigen::AlignedBox3f random_tower(std::mt19937_64& random, double half_m) {
   return {low.cast<float>(), high.cast<float>()};
 }
 
-TEST(Horizon, HidesOnlyWhatRaysCannotReach) {
+TEST(Horizon, HidesOnlyBoxesThatNoRayReaches) {
   std::mt19937_64 random(71);
   Horizon horizon;
   int hidden = 0;
@@ -148,10 +149,10 @@ TEST(Horizon, HidesOnlyWhatRaysCannotReach) {
     std::vector<Eigen::AlignedBox3f> towers;
     for (int i = 0; i < 6; ++i) {
       towers.push_back(random_tower(random, 150.0));
-      horizon.raise(towers.back());
+      horizon.add_occluder(towers.back());
     }
     Eigen::AlignedBox3f behind = random_tower(random, 300.0);
-    if (trial % 2 == 0) behind.min().z() = behind.max().z();  // a tile of ground
+    if (trial % 2 == 0) behind.min().z() = behind.max().z();  // a tile of the ground
     if (!horizon.hides(behind)) continue;
     ++hidden;
     for (int sample = 0; sample < 100; ++sample) {
@@ -169,10 +170,11 @@ TEST(Horizon, HidesOnlyWhatRaysCannotReach) {
 TEST(Horizon, HidesATowerBehindAWiderOne) {
   Horizon horizon;
   horizon.reset({0, 0, -10});
-  horizon.raise({Eigen::Vector3f(50, -20, -30), Eigen::Vector3f(60, 20, 0)});
+  horizon.add_occluder({Eigen::Vector3f(50, -20, -30), Eigen::Vector3f(60, 20, 0)});
   EXPECT_TRUE(horizon.hides({Eigen::Vector3f(100, -10, -40), Eigen::Vector3f(110, 10, 0)}));
   EXPECT_FALSE(horizon.hides({Eigen::Vector3f(100, -10, -60), Eigen::Vector3f(110, 10, 0)}));  // rises above
-  EXPECT_FALSE(horizon.hides({Eigen::Vector3f(100, 30, -20), Eigen::Vector3f(110, 50, 0)}));   // stands out beside
+  EXPECT_FALSE(
+      horizon.hides({Eigen::Vector3f(100, 30, -20), Eigen::Vector3f(110, 50, 0)}));  // visible next to the occluder
   EXPECT_FALSE(horizon.hides({Eigen::Vector3f(-110, -10, -20), Eigen::Vector3f(-100, 10, 0)}));
 }
 

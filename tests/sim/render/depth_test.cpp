@@ -4,9 +4,9 @@
 #include <limits>
 #include <optional>
 
-#include "tests/sim/render/drawing.h"
 #include "tests/sim/render/ray_caster.h"
 #include "tests/sim/render/small_world.h"
+#include "tests/sim/render/tested_renderer.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 constexpr double kRelative = 1e-4;
 constexpr double kEdgePx = 0.02;
 
-TEST(Depth, EqualsRaysMetByBoxesAndGround) {
+TEST(Depth, EqualsRayCastingOfBoxesAndGround) {
   std::mt19937_64 random(21);
   SmallWorld world;
   RayCaster cast;
@@ -27,12 +27,12 @@ TEST(Depth, EqualsRaysMetByBoxesAndGround) {
     world.add_box(box_W);
     cast.boxes_W.push_back(box_W.cast<double>());
   }
-  Renderer renderer = drawing(world.scene);
+  Renderer renderer = make_renderer(world.scene);
   const vision::camera::PinholeCamera camera{200, 150, 130.0, 170.0, 90.0, 80.0};
   cv::Mat depth;
   size_t compared = 0, surfaces = 0;
   for (int trial = 0; trial < 30; ++trial) {
-    CameraView view{camera, random_pose(random, 150.0, 40.0, 1.0), Channel::depth};
+    CameraView view{camera, random_pose(random, 150.0, 40.0, 1.0), ImageChannel::depth};
     const auto inside = [&](const auto& box) { return box.exteriorDistance(view.X_WC.translation()) < 0.2; };
     if (std::ranges::any_of(cast.boxes_W, inside)) continue;
     renderer.draw(view, depth);
@@ -56,18 +56,18 @@ TEST(Depth, EqualsRaysMetByBoxesAndGround) {
   EXPECT_GT(surfaces, 300'000u);
 }
 
-// Two kilometers from the origin a float holds 0.1 mm: the eye must not lose more than that.
-TEST(Depth, HoldsFarFromTheOriginAndVeryNear) {
+// Two kilometers from the origin, floats have a resolution of 0.1 mm. The error must not be larger.
+TEST(Depth, IsAccurateFarFromTheOriginAndAtShortRange) {
   for (const double range_m : {0.06, 0.3, 5.0, 900.0}) {
     const Eigen::Vector3d eye_W(2000.0123, -1500.0456, -30.0789);
     SmallWorld world;
     const float wall_m = 2500.0f;
     world.add_quad({wall_m, -4000, -2000}, {0, 5000, 0}, {0, 0, 4000});
-    Renderer renderer = drawing(world.scene);
+    Renderer renderer = make_renderer(world.scene);
     const Eigen::Vector3d at(static_cast<double>(wall_m) - range_m, eye_W.y(), eye_W.z());
     cv::Mat depth;
     renderer.draw({vision::camera::PinholeCamera::from_fov(60, 40, 1.5), look_at(at, at + Eigen::Vector3d::UnitX()),
-                   Channel::depth},
+                   ImageChannel::depth},
                   depth);
     double nearest = 0, farthest = 0;
     cv::minMaxLoc(depth, &nearest, &farthest);

@@ -6,8 +6,8 @@
 
 #include "scenes/generators.h"
 #include "scenes/mesh/mesh_builder.h"
-#include "tests/sim/render/drawing.h"
 #include "tests/sim/render/small_world.h"
+#include "tests/sim/render/tested_renderer.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -16,7 +16,7 @@ Eigen::Isometry3d level(const Eigen::Vector3d& p_WC, double heading_rad) {
   return look_at(p_WC, p_WC + Eigen::Vector3d(std::cos(heading_rad), std::sin(heading_rad), 0.0));
 }
 
-/// One box and a thin post on it, which the far detail leaves out, north of the origin.
+/// A box north of the origin with a thin post on it. The far detail omits the post.
 scenes::Scene post_on_box(double post_m) {
   scenes::mesh::MeshBuilder mesh("opaque");
   mesh.begin_chunk(false);
@@ -33,13 +33,13 @@ scenes::Scene post_on_box(double post_m) {
   return scene;
 }
 
-TEST(FarDetail, LeavesOutWhatIsNarrowerThanAPixel) {
+TEST(FarDetail, OmitsPartsNarrowerThanAPixel) {
   const double post_m = 0.2, focal_px = 100.0, pixel_wide_at_m = focal_px * post_m;
-  Renderer renderer = drawing(post_on_box(post_m));
+  Renderer renderer = make_renderer(post_on_box(post_m));
   const vision::camera::PinholeCamera camera{101, 101, focal_px, focal_px, 50.0, 50.0};
   cv::Mat depth;
   for (const double beyond_m : {-19.0, -5.0, -0.1, 0.1, 5.0, 100.0}) {
-    renderer.draw({camera, level({-pixel_wide_at_m - beyond_m, 0.0, -2.5}, 0.0), Channel::depth}, depth);
+    renderer.draw({camera, level({-pixel_wide_at_m - beyond_m, 0.0, -2.5}, 0.0), ImageChannel::depth}, depth);
     EXPECT_EQ(renderer.drawn().triangles, beyond_m < 0.0 ? 16u : 8u) << beyond_m;
     EXPECT_EQ(std::isfinite(depth.at<float>(50, 50)), beyond_m < 0.0) << beyond_m;
   }
@@ -57,7 +57,7 @@ struct Forest {
 };
 
 const vision::camera::PinholeCamera kCamera = vision::camera::PinholeCamera::from_fov(400, 400, 1.57);
-/// The thinnest trunk, three-sided, is a pixel wide there.
+/// Distance at which the thinnest trunk, which has three sides, is one pixel wide.
 const double kFarM = 0.125 * std::sqrt(3.0) * kCamera.focal_x_px;
 
 CameraView random_view(std::mt19937_64& random, double height_m) {
@@ -65,14 +65,14 @@ CameraView random_view(std::mt19937_64& random, double height_m) {
   return {kCamera, level({uniform(random, -40.0, 40.0), uniform(random, -40.0, 40.0), -height_m}, heading_rad)};
 }
 
-/// Share of the pixels that change, and the root of the mean square of the change, grey levels.
+/// Share of pixels that change, and root mean square of the change, grey levels.
 struct Change {
   double share = 0.0, rms = 0.0;
 };
 
 Change mean_change(const Forest& forest, double height_m, std::mt19937_64& random) {
-  Renderer by_size = drawing(forest.scene);
-  Renderer full = drawing(forest.whole);
+  Renderer by_size = make_renderer(forest.scene);
+  Renderer full = make_renderer(forest.whole);
   cv::Mat grey, full_grey, difference;
   constexpr int kViews = 12;
   Change mean;
@@ -101,18 +101,18 @@ TEST(FarDetail, ChangesFewPixelsOfAForest) {
   EXPECT_LT(between.share, 0.005);
 }
 
-TEST(FarDetail, TakesOnlyWhatIsFarAndThin) {
+TEST(FarDetail, OmitsOnlyDistantThinTrunks) {
   const Forest forest;
-  Renderer by_size = drawing(forest.scene);
-  Renderer full = drawing(forest.whole);
+  Renderer by_size = make_renderer(forest.scene);
+  Renderer full = make_renderer(forest.whole);
   std::mt19937_64 random(302);
   cv::Mat depth, full_depth;
   int changed = 0;
-  // Of one trunk: thicker none is, and nowhere do two stand so near each other.
+  // Maximum depth difference within one trunk: no trunk is thicker, and no two trunks are closer.
   constexpr float kThickM = 0.5f;
   for (int k = 0; k < 12; ++k) {
     CameraView view = random_view(random, k % 2 == 0 ? 1.8 : 12.0);
-    view.channel = Channel::depth;
+    view.channel = ImageChannel::depth;
     by_size.draw(view, depth);
     full.draw(view, full_depth);
     for (int row = 0; row < depth.rows; ++row) {
@@ -125,8 +125,8 @@ TEST(FarDetail, TakesOnlyWhatIsFarAndThin) {
         wide_px = goes_on ? wide_px + 1 : static_cast<int>(is_changed);
         if (!is_changed) continue;
         ++changed;
-        ASSERT_LE(wide_px, 2);  // a pixel wide straight ahead, half as much again aside
-        // What is gone stood far away, and what lies behind is seen.
+        ASSERT_LE(wide_px, 2);  // one pixel wide at the image center, 1.5 times that at the side
+        // The omitted surface was far away, and the pixel shows a surface behind it.
         ASSERT_GT(static_cast<double>(full_m), kFarM);
         ASSERT_GT(z_m, full_m);
       }
@@ -135,8 +135,9 @@ TEST(FarDetail, TakesOnlyWhatIsFarAndThin) {
   EXPECT_GT(changed, 0);
 }
 
-/// Pixels of the left camera whose point the right one looks through: it sees only what is farther, a pixel aside too.
-int seen_through(const cv::Mat& left_m, const cv::Mat& right_m, double focal_px, double baseline_m) {
+/// Returns the number of pixels of the left camera at whose point the right camera shows a farther surface, also in the
+/// neighboring pixels.
+int seen_past(const cv::Mat& left_m, const cv::Mat& right_m, double focal_px, double baseline_m) {
   constexpr float kSlope = 1.05f;
   int count = 0;
   for (int row = 0; row < left_m.rows; ++row) {
@@ -144,35 +145,35 @@ int seen_through(const cv::Mat& left_m, const cv::Mat& right_m, double focal_px,
       const float z_m = left_m.at<float>(row, col);
       const int at = static_cast<int>(std::lround(col - focal_px * baseline_m / static_cast<double>(z_m)));
       if (!std::isfinite(z_m) || at < 1 || at + 1 >= left_m.cols) continue;
-      const auto sees_through = [&](int u) { return right_m.at<float>(row, u) > kSlope * z_m; };
-      if (sees_through(at - 1) && sees_through(at) && sees_through(at + 1)) ++count;
+      const auto shows_farther = [&](int u) { return right_m.at<float>(row, u) > kSlope * z_m; };
+      if (shows_farther(at - 1) && shows_farther(at) && shows_farther(at + 1)) ++count;
     }
   }
   return count;
 }
 
-TEST(FarDetail, IsTheSameForBothCamerasOfAStereoPair) {
+TEST(FarDetail, IsEqualForBothCamerasOfAStereoPair) {
   const Forest forest;
-  Renderer by_size = drawing(forest.scene);
-  Renderer full = drawing(forest.whole);
+  Renderer by_size = make_renderer(forest.scene);
+  Renderer full = make_renderer(forest.whole);
   std::mt19937_64 random(303);
   constexpr double kBaselineM = 0.5;
   cv::Mat left_m, right_m;
   int through = 0, through_whole = 0;
   for (int k = 0; k < 12; ++k) {
     CameraView left = random_view(random, 1.8);
-    left.channel = Channel::depth;
+    left.channel = ImageChannel::depth;
     CameraView right = left;
     right.X_WC = left.X_WC * Eigen::Translation3d(kBaselineM, 0.0, 0.0);
     for (Renderer* renderer : {&by_size, &full}) {
       renderer->draw(left, left_m);
       renderer->draw(right, right_m);
-      (renderer == &full ? through_whole : through) += seen_through(left_m, right_m, kCamera.focal_x_px, kBaselineM);
+      (renderer == &full ? through_whole : through) += seen_past(left_m, right_m, kCamera.focal_x_px, kBaselineM);
     }
   }
   RecordProperty("through", through);
   RecordProperty("through_whole", through_whole);
-  EXPECT_LE(through, through_whole);  // thin trunks fall between pixels either way, less often with fewer of them
+  EXPECT_LE(through, through_whole);  // thin trunks may fall between pixels with and without far details
 }
 
 }  // namespace

@@ -4,31 +4,31 @@
 
 #include <cmath>
 
-#include "tests/sim/render/drawing.h"
 #include "tests/sim/render/small_world.h"
+#include "tests/sim/render/tested_renderer.h"
 
 namespace hedgehop::sim {
 namespace {
 
-TEST(Haze, LeavesATwentiethOfTheContrastAtItsVisibility) {
+TEST(Haze, ReducesTheContrastTo5PercentAtTheVisibility) {
   EXPECT_DOUBLE_EQ(transmittance(0.0, 30.0), 1.0);
   EXPECT_NEAR(transmittance(30.0, 30.0), 0.05, 1e-12);
   EXPECT_NEAR(transmittance(60.0, 30.0), 0.0025, 1e-12);
   EXPECT_NEAR(transmittance(10.0, 30.0), std::cbrt(0.05), 1e-12);
 }
 
-/// Compares each level with the clear image's, turned to the air's color by Koschmieder's law.
-void expect_veiled(const vision::camera::Camera& camera, Channel channel) {
+/// Compares each level with that of the clear image, blended with the color of the air by Koschmieder's law.
+void expect_haze(const vision::camera::Camera& camera, ImageChannel channel) {
   SmallWorld city = small_city(6, 31);
   const Eigen::Isometry3d X_WC = look_at({-60, 5, -20}, {0, 0, -8});
   cv::Mat clear, depth, hazy;
   {
-    Renderer renderer = drawing(city.scene);
+    Renderer renderer = make_renderer(city.scene);
     renderer.draw({camera, X_WC, channel}, clear);
-    renderer.draw({camera, X_WC, Channel::depth}, depth);
+    renderer.draw({camera, X_WC, ImageChannel::depth}, depth);
   }
   city.scene.sky.visibility_m = 120.0;
-  Renderer renderer = drawing(city.scene);
+  Renderer renderer = make_renderer(city.scene);
   renderer.draw({camera, X_WC, channel}, hazy);
   ASSERT_EQ(hazy.type(), clear.type());
   const int channels = clear.channels();
@@ -55,23 +55,23 @@ void expect_veiled(const vision::camera::Camera& camera, Channel channel) {
 
 const auto kPinhole = vision::camera::PinholeCamera::from_fov(160, 120, 1.3);
 
-TEST(Haze, FollowsKoschmiedersLawInGrey) { expect_veiled(kPinhole, Channel::grey); }
+TEST(Haze, FollowsKoschmiedersLawInGrey) { expect_haze(kPinhole, ImageChannel::grey); }
 
-TEST(Haze, FollowsKoschmiedersLawInColor) { expect_veiled(kPinhole, Channel::color); }
+TEST(Haze, FollowsKoschmiedersLawInColor) { expect_haze(kPinhole, ImageChannel::color); }
 
 TEST(Haze, FollowsKoschmiedersLawThroughAFisheye) {
   const vision::camera::FisheyeLens lens{
       .focal_x_px = 55.0, .focal_y_px = 55.0, .center_u_px = 79.5, .center_v_px = 79.5, .limit_rad = 1.6};
-  expect_veiled({160, 160, lens}, Channel::grey);
+  expect_haze({160, 160, lens}, ImageChannel::grey);
 }
 
-TEST(Haze, LeavesDepthAndLabelsAlone) {
+TEST(Haze, DoesNotChangeDepthAndLabels) {
   SmallWorld city = small_city(6, 31);
   const Eigen::Isometry3d X_WC = look_at({-60, 5, -20}, {0, 0, -8});
-  Renderer clear = drawing(city.scene);
+  Renderer clear = make_renderer(city.scene);
   city.scene.sky.visibility_m = 30.0;
-  Renderer hazy = drawing(city.scene);
-  for (const Channel channel : {Channel::depth, Channel::labels}) {
+  Renderer hazy = make_renderer(city.scene);
+  for (const ImageChannel channel : {ImageChannel::depth, ImageChannel::labels}) {
     cv::Mat a, b;
     clear.draw({kPinhole, X_WC, channel}, a);
     hazy.draw({kPinhole, X_WC, channel}, b);

@@ -17,7 +17,7 @@ cv::Vec3b flow_color(float right_px, float down_px) {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
 
-TEST(ImageColors, DepthGoesFromRedThroughGreenToBlue) {
+TEST(ImageColors, DepthIsRedThenGreenThenBlue) {
   const cv::Vec3b near = depth_color(0.7f), middle = depth_color(10.0f), far = depth_color(120.0f);
   EXPECT_TRUE(near[0] > near[1] && near[0] > near[2]);
   EXPECT_TRUE(middle[1] > middle[0] && middle[1] > middle[2]);
@@ -28,7 +28,7 @@ TEST(ImageColors, DepthGoesFromRedThroughGreenToBlue) {
   EXPECT_EQ(depth_color(kNan), cv::Vec3b::all(0));
 }
 
-TEST(ImageColors, FlowIsColoredByDirectionAndPaledBySlowness) {
+TEST(ImageColors, FlowHasHueOfDirectionAndSaturationOfMagnitude) {
   EXPECT_EQ(flow_color(0, 0), cv::Vec3b::all(255));
   EXPECT_EQ(flow_color(16, 0), cv::Vec3b(255, 0, 0));
   EXPECT_EQ(flow_color(90, 0), cv::Vec3b(255, 0, 0));

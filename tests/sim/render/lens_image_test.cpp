@@ -4,29 +4,29 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "tests/sim/render/drawing.h"
 #include "tests/sim/render/ray_caster.h"
 #include "tests/sim/render/small_world.h"
+#include "tests/sim/render/tested_renderer.h"
 #include "tests/sim/render/whole_fisheye.h"
 #include "tests/vision/camera/random_lenses.h"
 
-/// Images of lenses that bend rays, put together from several.
+/// Images of lenses that are composed of several pinhole images.
 namespace hedgehop::sim {
 namespace {
 
 using vision::camera::Camera;
 
-// A gradient all round shows the slightest seam.
-TEST(LensImage, TheSkyHasNoSeams) {
+// A gradient in all directions reveals every seam.
+TEST(LensImage, SkyHasNoSeams) {
   SmallWorld world;
   world.scene.sky = {.horizon = {1.0f, 0.1f, 0.5f}, .zenith = {0.0f, 0.9f, 0.6f}};
-  Renderer renderer = drawing(world.scene);
+  Renderer renderer = make_renderer(world.scene);
   const Camera camera = fisheye(300, 260, 195);
   std::mt19937_64 random(203);
   cv::Mat color;
   double worst = 0.0;
   for (int trial = 0; trial < 6; ++trial) {
-    const CameraView view{camera, random_pose(random, 10.0, 10.0, 1.5), Channel::color};
+    const CameraView view{camera, random_pose(random, 10.0, 10.0, 1.5), ImageChannel::color};
     renderer.draw(view, color);
     for (int row = 0; row < color.rows; ++row) {
       for (int col = 0; col < color.cols; ++col) {
@@ -43,17 +43,17 @@ TEST(LensImage, TheSkyHasNoSeams) {
   EXPECT_LE(worst, 1.5);
 }
 
-TEST(LensImage, ShowsNothingOutsideItsImageCircle) {
+TEST(LensImage, IsEmptyOutsideTheImageCircle) {
   SmallWorld world;
-  Renderer renderer = drawing(world.scene);
+  Renderer renderer = make_renderer(world.scene);
   vision::camera::FisheyeLens lens{60, 60, 99.5, 99.5};
   lens.limit_rad = 1.5;  // 90 px
   const Camera camera(200, 200, lens);
   cv::Mat color, depth, labels;
   const Eigen::Isometry3d X_WC = look_at({0, 0, -5}, {1, 0, -5});
-  renderer.draw({camera, X_WC, Channel::color}, color);
-  renderer.draw({camera, X_WC, Channel::depth}, depth);
-  renderer.draw({camera, X_WC, Channel::labels}, labels);
+  renderer.draw({camera, X_WC, ImageChannel::color}, color);
+  renderer.draw({camera, X_WC, ImageChannel::depth}, depth);
+  renderer.draw({camera, X_WC, ImageChannel::labels}, labels);
   for (int row = 0; row < 200; ++row) {
     for (int col = 0; col < 200; ++col) {
       const bool inside = std::hypot(col - 99.5, row - 99.5) < 90.0;
@@ -64,10 +64,10 @@ TEST(LensImage, ShowsNothingOutsideItsImageCircle) {
   }
 }
 
-// The same rays, bent and not: OpenCV takes the distortion out of an image again.
-TEST(LensImage, ADistortedImageIsTheStraightOneBent) {
+// Compares each pixel with the pixel of the undistorted image on the same ray.
+TEST(LensImage, ADistortedImageEqualsTheUndistortedOneAlongTheSameRays) {
   const SmallWorld city = small_city(6, 204);
-  Renderer renderer = drawing(city.scene);
+  Renderer renderer = make_renderer(city.scene);
   const vision::camera::PinholeCamera straight = vision::camera::PinholeCamera::from_fov(320, 240, 1.1);
   vision::camera::PinholeLens lens{straight.focal_x_px, straight.focal_y_px, straight.center_u_px,
                                    straight.center_v_px};
@@ -76,8 +76,8 @@ TEST(LensImage, ADistortedImageIsTheStraightOneBent) {
   lens.p1 = 2e-3;
   const Camera camera(320, 240, lens);
   cv::Mat bent, expected_depth, depth;
-  renderer.draw({camera, look_at({-60, 3, -8}, {0, 0, -8}), Channel::depth}, bent);
-  renderer.draw({straight, look_at({-60, 3, -8}, {0, 0, -8}), Channel::depth}, expected_depth);
+  renderer.draw({camera, look_at({-60, 3, -8}, {0, 0, -8}), ImageChannel::depth}, bent);
+  renderer.draw({straight, look_at({-60, 3, -8}, {0, 0, -8}), ImageChannel::depth}, expected_depth);
   int compared = 0, different = 0;
   for (int row = 0; row < 240; ++row) {
     for (int col = 0; col < 320; ++col) {
@@ -86,7 +86,7 @@ TEST(LensImage, ADistortedImageIsTheStraightOneBent) {
       const int u = static_cast<int>(std::lround(there->x())), v = static_cast<int>(std::lround(there->y()));
       if (u < 0 || v < 0 || u >= 320 || v >= 240) continue;
       ++compared;
-      // The nearest pixel of the straight image; surfaces seen at a slant differ a little over half a pixel.
+      // The nearest pixel of the undistorted image. Slanted surfaces differ slightly over half a pixel.
       const float a = bent.at<float>(row, col), b = expected_depth.at<float>(v, u);
       different += a == b || std::abs(a / b - 1.0f) < 0.03f ? 0 : 1;
     }
@@ -95,9 +95,10 @@ TEST(LensImage, ADistortedImageIsTheStraightOneBent) {
   EXPECT_LT(different, compared / 40);  // at edges
 }
 
-TEST(LensImage, DepthEqualsRaysMetByBoxesAndGround) {
+TEST(LensImage, DepthEqualsRayCastingOfBoxesAndGround) {
   constexpr double kRelative = 1e-4;
-  constexpr double kEdgePx = 1.5;  // half a pixel of a face, which may be finer or coarser than the image's, and one
+  constexpr double kEdgePx =
+      1.5;  // half a pixel of a face, whose resolution may differ from that of the image, and a margin of 1 px
   std::mt19937_64 random(205);
   SmallWorld world;
   RayCaster cast;
@@ -110,7 +111,7 @@ TEST(LensImage, DepthEqualsRaysMetByBoxesAndGround) {
     cast.boxes_W.push_back(box_W.cast<double>());
   }
   world.add_ground(300.0f, 4);
-  Renderer renderer = drawing(world.scene);
+  Renderer renderer = make_renderer(world.scene);
   cv::Mat depth, labels;
   size_t compared = 0, surfaces = 0;
   double worst = 0.0;
@@ -118,11 +119,11 @@ TEST(LensImage, DepthEqualsRaysMetByBoxesAndGround) {
     const Camera camera = trial % 3 == 0   ? fisheye(220, 200, 195)
                           : trial % 3 == 1 ? vision::random_distorted_pinhole(random)
                                            : vision::random_fisheye(random);
-    CameraView view{camera, random_pose(random, 60.0, 30.0, 1.0), Channel::depth};
+    CameraView view{camera, random_pose(random, 60.0, 30.0, 1.0), ImageChannel::depth};
     const auto inside = [&](const auto& box) { return box.exteriorDistance(view.X_WC.translation()) < 0.3; };
     if (std::ranges::any_of(cast.boxes_W, inside)) continue;
     renderer.draw(view, depth);
-    view.channel = Channel::labels;
+    view.channel = ImageChannel::labels;
     renderer.draw(view, labels);
     for (int row = trial % 2; row < depth.rows; row += 2) {
       for (int col = trial % 2; col < depth.cols; col += 2) {
@@ -154,21 +155,21 @@ TEST(LensImage, DepthEqualsRaysMetByBoxesAndGround) {
   EXPECT_GT(surfaces, 20'000u);
 }
 
-/// Mean square difference between an image and what a much finer one averages to, 0..255^2.
+/// Returns the mean square difference between an image and the average of a much finer one, 0..255^2.
 double coarseness(Renderer& renderer, const Camera& camera, const Camera& fine, const Eigen::Isometry3d& X_WC) {
   cv::Mat image, fine_image, mean;
-  renderer.draw({camera, X_WC, Channel::grey}, image);
-  renderer.draw({fine, X_WC, Channel::grey}, fine_image);
+  renderer.draw({camera, X_WC, ImageChannel::grey}, image);
+  renderer.draw({fine, X_WC, ImageChannel::grey}, fine_image);
   cv::resize(fine_image, mean, image.size(), 0, 0, cv::INTER_AREA);
   const double norm = cv::norm(image, mean, cv::NORM_L2);
   return norm * norm / static_cast<double>(image.total());
 }
 
-// Blur and aliasing together: a lens's image may differ from the ideal one little more than a pinhole's does.
-TEST(LensImage, IsHardlyCoarserThanAPinholes) {
+// Blur and aliasing together must not be much larger than for a pinhole.
+TEST(LensImage, ErrorIsAtMost25PercentLargerThanForAPinhole) {
   SmallWorld city = small_city(6, 206);
   for (cv::Mat& texture : city.scene.textures) texture = noise_image(256, 207);
-  Renderer renderer = drawing(city.scene);
+  Renderer renderer = make_renderer(city.scene);
   std::mt19937_64 random(208);
   double of_pinhole = 0.0, of_fisheye = 0.0;
   for (int trial = 0; trial < 10; ++trial) {

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "sim/scenario/rig.h"
-#include "tests/sim/render/drawing.h"
 #include "tests/sim/render/small_world.h"
+#include "tests/sim/render/tested_renderer.h"
 #include "tests/sim/render/whole_fisheye.h"
 #include "tests/vision/camera/random_lenses.h"
 
-/// Whether points are drawn where a lens says that they are seen.
+/// Compares the position of drawn points with their projection by the lens model.
 namespace hedgehop::sim {
 namespace {
 
@@ -24,7 +24,7 @@ constexpr double kPinholeRmsPx = 0.05, kFisheyeRmsPx = 0.1;
 
 Camera ocam() { return Camera(vision::camera::parse_ocam_calibration(vision::kSmallCalibration)); }
 
-/// One white spot on the plane x = 0 that fades to black, one meter wide, seen from the south; all else is black.
+/// A white spot, 1 m wide, on the plane x = 0 that fades to black, seen from the south, in front of black.
 SmallWorld spot() {
   cv::Mat dome(64, 64, CV_8UC3);
   for (int row = 0; row < 64; ++row) {
@@ -41,7 +41,7 @@ SmallWorld spot() {
   return world;
 }
 
-/// Pose from which the spot, faced squarely from `distance_m`, shows at the pixel of a ray in C.
+/// Returns the pose from which the spot, seen perpendicularly from `distance_m`, is at the pixel of a ray in C.
 Eigen::Isometry3d facing(const Eigen::Vector3d& ray_C, double distance_m, double roll_rad) {
   Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
   X_WC.translation().x() = -distance_m;
@@ -55,7 +55,7 @@ Eigen::Vector2d centroid(const cv::Mat& grey) {
   return {moments.m10 / moments.m00, moments.m01 / moments.m00};
 }
 
-/// Root mean square of the distances between where spots are drawn and where their middles project, all over an image.
+/// Returns the root mean square distance between drawn spots and the projections of their centers over the whole image.
 double spot_rms_px(Renderer& renderer, const Camera& camera, double focal_px, int spots, std::mt19937_64& random) {
   constexpr double kSpotPx = 14.0;
   double sum_squares = 0.0;
@@ -66,7 +66,7 @@ double spot_rms_px(Renderer& renderer, const Camera& camera, double focal_px, in
     const auto ray_C = camera.unit_ray(pixel);
     if (!ray_C) continue;
     const Eigen::Isometry3d X_WC = facing(*ray_C, focal_px / kSpotPx, uniform(random, 0, 6.28));
-    renderer.draw({camera, X_WC, Channel::grey}, grey);
+    renderer.draw({camera, X_WC, ImageChannel::grey}, grey);
     const auto expected = camera.project(X_WC.inverse() * Eigen::Vector3d::Zero());
     sum_squares += (centroid(grey) - *expected).squaredNorm();
     ++drawn;
@@ -74,8 +74,8 @@ double spot_rms_px(Renderer& renderer, const Camera& camera, double focal_px, in
   return std::sqrt(sum_squares / spots);
 }
 
-TEST(LensImage, SpotsOfADistortedPinholeLandOnTheirPixels) {
-  Renderer renderer = drawing(spot().scene);
+TEST(LensImage, DrawsSpotsAtTheirProjectionThroughADistortedPinhole) {
+  Renderer renderer = make_renderer(spot().scene);
   std::mt19937_64 random(201);
   for (int trial = 0; trial < 3; ++trial) {
     const Camera camera = vision::random_distorted_pinhole(random);
@@ -85,8 +85,8 @@ TEST(LensImage, SpotsOfADistortedPinholeLandOnTheirPixels) {
   }
 }
 
-TEST(LensImage, SpotsOfAFisheyeLandOnTheirPixelsAllOverTheImage) {
-  Renderer renderer = drawing(spot().scene);
+TEST(LensImage, DrawsSpotsAtTheirProjectionThroughAFisheye) {
+  Renderer renderer = make_renderer(spot().scene);
   std::mt19937_64 random(202);
   const std::vector<std::pair<std::string, Camera>> cameras = {
       {"195_deg", fisheye(400, 400, 195)}, {"190_deg_wide", fisheye(752, 480, 190)}, {"ocam", ocam()}};
@@ -97,8 +97,8 @@ TEST(LensImage, SpotsOfAFisheyeLandOnTheirPixelsAllOverTheImage) {
   }
 }
 
-TEST(LensImage, AStereoPairSeesAPointOnOneRowAtItsDisparity) {
-  Renderer renderer = drawing(spot().scene);
+TEST(LensImage, StereoPairShowsAPointOnOneRowAtItsDisparity) {
+  Renderer renderer = make_renderer(spot().scene);
   std::mt19937_64 random(209);
   cv::Mat left, right;
   double worst_row_px = 0.0;
@@ -113,15 +113,15 @@ TEST(LensImage, AStereoPairSeesAPointOnOneRowAtItsDisparity) {
     pair.camera.roll_rad = uniform(random, -3, 3);
     mount_stereo_pairs(rig);
     const vision::camera::PinholeCamera camera = rig.cameras[0].model().pinhole();
-    // The spot stands parallel to the images' plane, somewhere in the left one.
+    // The spot is parallel to the image plane, at a random position of the left image.
     const double z_m = uniform(random, 6.0, 14.0);
     const Eigen::Vector3d p_C = z_m * camera.ray_at_unit_depth({uniform(random, 80, 290), uniform(random, 30, 210)});
     Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
     X_WC.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;
     X_WC.translation() = -(X_WC.linear() * p_C);
     const Eigen::Isometry3d X_WCr = X_WC * rig.cameras[0].X_BC().inverse() * rig.cameras[1].X_BC();
-    renderer.draw({camera, X_WC, Channel::grey}, left);
-    renderer.draw({camera, X_WCr, Channel::grey}, right);
+    renderer.draw({camera, X_WC, ImageChannel::grey}, left);
+    renderer.draw({camera, X_WCr, ImageChannel::grey}, right);
     const Eigen::Vector2d shift_px = centroid(left) - centroid(right);
     worst_row_px = std::max(worst_row_px, std::abs(shift_px.y()));
     EXPECT_NEAR(shift_px.x(), camera.focal_x_px * pair.baseline_m / z_m, kPinholeRmsPx) << "trial " << trial;

@@ -5,48 +5,48 @@
 
 namespace hedgehop::sim {
 
-/// Boxes that stand on a ground and boxes that travel straight through them, and what rays meet of them at any time.
+/// Static boxes on a ground and boxes that move along straight lines, with ray casting at any time.
 class MovingWorld {
  public:
   explicit MovingWorld(uint64_t seed) {
     std::mt19937_64 random(seed);
-    for (int i = 0; i < kStanding; ++i) standing_.boxes_W.push_back(random_box(random, 50.0));
-    for (const Eigen::AlignedBox3d& box_W : standing_.boxes_W) world_.add_box(box_W.cast<float>());
-    standing_.ground_half_m = 200.0;
+    for (int i = 0; i < kStatic; ++i) static_.boxes_W.push_back(random_box(random, 50.0));
+    for (const Eigen::AlignedBox3d& box_W : static_.boxes_W) world_.add_box(box_W.cast<float>());
+    static_.ground_half_m = 200.0;
     world_.add_ground(200.0f, 4);
     for (int i = 0; i < kMoving; ++i) add_mover(random);
   }
 
   const scenes::Scene& scene() const { return world_.scene; }
-  /// What stands and, behind it in the list of boxes, what moves, where it is then.
+  /// Returns the ray caster for a time: first the static boxes, then the moving ones.
   RayCaster at(double t_s) const {
-    RayCaster cast = standing_;
+    RayCaster cast = static_;
     for (size_t i = 0; i < boxes_M_.size(); ++i) {
       const Eigen::Vector3d p_W = starts_W_[i] + t_s * velocities_W_[i];
       cast.boxes_W.emplace_back(boxes_M_[i].min() + p_W, boxes_M_[i].max() + p_W);
     }
     return cast;
   }
-  /// How far a body of at() travels. @param body  as Hit::body().
+  /// Returns the displacement of a body of at(). @param body  as Hit::body().
   Eigen::Vector3d moved_W(int body, double dt_s) const {
-    return body > kStanding ? Eigen::Vector3d(dt_s * velocities_W_[static_cast<size_t>(body - 1 - kStanding)])
-                            : Eigen::Vector3d::Zero();
+    return body > kStatic ? Eigen::Vector3d(dt_s * velocities_W_[static_cast<size_t>(body - 1 - kStatic)])
+                          : Eigen::Vector3d::Zero();
   }
-  /// The label that Channel::labels promises; any of the ground's tiles for the ground.
+  /// Returns whether ImageChannel::labels must show this label. For the ground, any of its tiles is valid.
   bool is_label(const Hit& hit, int label) const {
     if (hit.face < 0) return label == 0;
-    if (hit.body() == 0) return label > kStanding && label <= kStanding + kTiles;
-    return label == (hit.body() > kStanding ? hit.body() + kTiles : hit.body());
+    if (hit.body() == 0) return label > kStatic && label <= kStatic + kTiles;
+    return label == (hit.body() > kStatic ? hit.body() + kTiles : hit.body());
   }
 
  private:
-  static constexpr int kStanding = 20, kMoving = 8, kTiles = 16;
+  static constexpr int kStatic = 20, kMoving = 8, kTiles = 16;
 
   static Eigen::AlignedBox3d random_box(std::mt19937_64& random, double half_m) {
     const Eigen::Vector3d center(uniform(random, -half_m, half_m), uniform(random, -half_m, half_m),
                                  uniform(random, -20, -5));
     const Eigen::Vector3d half(uniform(random, 0.5, 5), uniform(random, 0.5, 5), uniform(random, 0.5, 4));
-    // Corners that floats hold, as the mesh does.
+    // Corners are floats, as in the mesh.
     return Eigen::AlignedBox3f((center - half).cast<float>(), (center + half).cast<float>()).cast<double>();
   }
 
@@ -69,7 +69,7 @@ class MovingWorld {
   }
 
   SmallWorld world_;
-  RayCaster standing_;
+  RayCaster static_;
   std::vector<Eigen::AlignedBox3d> boxes_M_;
   std::vector<Eigen::Vector3d> starts_W_, velocities_W_;
 };

@@ -4,8 +4,8 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
-#include "tests/sim/render/drawing.h"
 #include "tests/sim/render/small_world.h"
+#include "tests/sim/render/tested_renderer.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -14,13 +14,13 @@ constexpr int kWidthPx = 200, kHeightPx = 160;
 constexpr double kFocalPx = 150.0;
 const vision::camera::PinholeCamera kCamera{kWidthPx, kHeightPx, kFocalPx, kFocalPx, 99.5, 79.5};
 
-CameraView view_of(const vision::camera::Camera& camera, Channel channel, int samples) {
+CameraView view_of(const vision::camera::Camera& camera, ImageChannel channel, int samples) {
   CameraView view{camera, look_at({0, 0, -5}, {1, 0, -5}), channel};  // u runs east, v down
   view.samples = samples;
   return view;
 }
 
-/// A white plane 10 m ahead, right of a line that leans to the right by `slope` pixels a row; nothing else.
+/// A white plane 10 m ahead, right of a line that shifts to the right by `slope` pixels per row.
 SmallWorld half_plane(double slope) {
   SmallWorld world;
   world.scene.lights = {.ambient = 1.0f, .sun = 0.0f};
@@ -30,22 +30,22 @@ SmallWorld half_plane(double slope) {
   return world;
 }
 
-/// Where each row's white begins, px, from the sum of its levels.
+/// Returns the first white column of each row, px, from the sum of its levels.
 std::vector<double> edge_px(const cv::Mat& grey) {
   std::vector<double> edge;
   for (int v = 0; v < grey.rows; ++v) edge.push_back(kWidthPx - 0.5 - cv::sum(grey.row(v))[0] / 255.0);
   return edge;
 }
 
-TEST(Multisampling, PutsASlantedEdgeWhereItIs) {
+TEST(Multisampling, HalvesTheErrorOfASlantedEdge) {
   std::mt19937_64 random(61);
   for (int trial = 0; trial < 10; ++trial) {
     const double slope = uniform(random, -0.7, 0.7);
     const SmallWorld world = half_plane(slope);
-    Renderer renderer = drawing(world.scene);
+    Renderer renderer = make_renderer(world.scene);
     cv::Mat one, four;
-    renderer.draw(view_of(kCamera, Channel::grey, 1), one);
-    renderer.draw(view_of(kCamera, Channel::grey, 4), four);
+    renderer.draw(view_of(kCamera, ImageChannel::grey, 1), one);
+    renderer.draw(view_of(kCamera, ImageChannel::grey, 4), four);
     const std::vector<double> rough_px = edge_px(one), fine_px = edge_px(four);
     double mean_px = 0.0, rough_square = 0.0, fine_square = 0.0;
     for (int v = 0; v < kHeightPx; ++v) {
@@ -55,7 +55,7 @@ TEST(Multisampling, PutsASlantedEdgeWhereItIs) {
       rough_square += std::pow(rough_px[static_cast<size_t>(v)] - truth_px, 2);
     }
     EXPECT_NEAR(mean_px, 0.0, 0.1) << slope;
-    // A sixteenth along a row or a column; more where a slanted edge meets several of the four places at once.
+    // 1/16 along a row or a column; more if a slanted edge meets several of the four samples at once.
     EXPECT_LT(fine_square, 0.5 * rough_square) << slope;
     const std::set<uint8_t> levels(four.begin<uint8_t>(), four.end<uint8_t>());
     EXPECT_THAT(levels, testing::ElementsAre(0, 64, 128, 191, 255)) << slope;
@@ -63,9 +63,9 @@ TEST(Multisampling, PutsASlantedEdgeWhereItIs) {
   }
 }
 
-TEST(Multisampling, BringsEveryLensNearerToAImageOfManyMorePixels) {
+TEST(Multisampling, ReducesTheErrorOfEveryLens) {
   const SmallWorld city = small_city(4, 62);
-  Renderer renderer = drawing(city.scene);
+  Renderer renderer = make_renderer(city.scene);
   const auto fisheye = [](int times) {
     const double k = times;
     return vision::camera::Camera(60 * times, 60 * times,
@@ -77,23 +77,23 @@ TEST(Multisampling, BringsEveryLensNearerToAImageOfManyMorePixels) {
     lens.k1 = -0.1;
     return vision::camera::Camera(60 * times, 60 * times, lens);
   };
-  const auto error = [&](const auto& camera, Channel channel, int samples) {
+  const auto error = [&](const auto& camera, ImageChannel channel, int samples) {
     cv::Mat drawn, many, truth;
     renderer.draw(view_of(camera(1), channel, samples), drawn);
     renderer.draw(view_of(camera(8), channel, 1), many);
     cv::resize(many, truth, drawn.size(), 0, 0, cv::INTER_AREA);
     return cv::norm(drawn, truth, cv::NORM_L2);
   };
-  for (const Channel channel : {Channel::grey, Channel::color}) {
+  for (const ImageChannel channel : {ImageChannel::grey, ImageChannel::color}) {
     EXPECT_LT(error(fisheye, channel, 4), 0.9 * error(fisheye, channel, 1));
     EXPECT_LT(error(bent, channel, 4), 0.9 * error(bent, channel, 1));
   }
 }
 
-TEST(Multisampling, LeavesDepthLabelsAndFlowAlone) {
+TEST(Multisampling, DoesNotChangeDepthLabelsAndFlow) {
   const SmallWorld city = small_city(4, 63);
-  Renderer renderer = drawing(city.scene);
-  for (const Channel channel : {Channel::depth, Channel::labels, Channel::flow}) {
+  Renderer renderer = make_renderer(city.scene);
+  for (const ImageChannel channel : {ImageChannel::depth, ImageChannel::labels, ImageChannel::flow}) {
     cv::Mat one, four;
     renderer.draw(view_of(kCamera, channel, 1), one);
     renderer.draw(view_of(kCamera, channel, 4), four);
@@ -102,9 +102,9 @@ TEST(Multisampling, LeavesDepthLabelsAndFlowAlone) {
   }
 }
 
-TEST(Multisampling, IsRefusedWhereTheContextHasOtherNumbersOfSamples) {
+TEST(Multisampling, IsRejectedIfTheRendererLacksTheNumberOfSamples) {
   const SmallWorld world;
-  Renderer renderer = drawing(world.scene);
+  Renderer renderer = make_renderer(world.scene);
   const auto fault = [&](int samples) -> std::string {
     try {
       renderer.require_samples(samples);
@@ -115,11 +115,11 @@ TEST(Multisampling, IsRefusedWhereTheContextHasOtherNumbersOfSamples) {
   };
   EXPECT_EQ(fault(1), "");
   EXPECT_EQ(fault(4), "");
-  EXPECT_THAT(fault(8), testing::HasSubstr("at most 4"));  // Mesa's rasterizer knows 1 and 4 only
-  EXPECT_THAT(fault(2), testing::HasSubstr("makes them 4"));
+  EXPECT_THAT(fault(8), testing::HasSubstr("maximum of this OpenGL: 4"));  // Mesa's rasterizer supports 1 and 4 only
+  EXPECT_THAT(fault(2), testing::HasSubstr("this OpenGL uses 4"));
   EXPECT_THAT(fault(3), testing::HasSubstr("valid: 1, 2, 4, 8"));
   cv::Mat image;
-  EXPECT_THROW(renderer.draw(view_of(kCamera, Channel::grey, 8), image), std::invalid_argument);
+  EXPECT_THROW(renderer.draw(view_of(kCamera, ImageChannel::grey, 8), image), std::invalid_argument);
 }
 
 }  // namespace

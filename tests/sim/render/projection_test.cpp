@@ -4,15 +4,16 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "tests/sim/render/drawing.h"
 #include "tests/sim/render/small_world.h"
+#include "tests/sim/render/tested_renderer.h"
 
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kSubPixel = 0.05;  // 8-bit levels and the rasterizer's 1/256 px grid leave about a tenth of it
+constexpr double kSubPixel =
+    0.05;  // about ten times the error from 8-bit levels and the 1/256 px grid of the rasterizer
 
-/// White in the middle, falling smoothly to black before the sides.
+/// Returns an image that is white at the center and fades to black before the sides.
 cv::Mat dome_image(int size_px) {
   cv::Mat image(size_px, size_px, CV_8UC3);
   for (int row = 0; row < size_px; ++row) {
@@ -35,7 +36,7 @@ vision::camera::PinholeCamera random_camera(std::mt19937_64& random) {
           height * uniform(random, 0.3, 0.7)};
 }
 
-/// Expected pixel of a point in W, written out: C's axes are the columns of R_WC.
+/// Returns the expected pixel of a point in W, written out: the axes of C are the columns of R_WC.
 Eigen::Vector2d expected_pixel(const CameraView& view, const Eigen::Vector3d& p_W) {
   const Eigen::Vector3d from_eye_W = p_W - view.X_WC.translation();
   const double x = from_eye_W.dot(view.X_WC.linear().col(0)), y = from_eye_W.dot(view.X_WC.linear().col(1));
@@ -49,13 +50,13 @@ Eigen::Vector2d centroid(const cv::Mat& grey) {
   return {moments.m10 / moments.m00, moments.m01 / moments.m00};
 }
 
-// A dome of light parallel to the image plane has its centroid at its center's projection, for any lens and pose.
-TEST(Projection, KnownPointsLandOnTheirPixels) {
+// The centroid of a spot parallel to the image plane is the projection of its center, for any lens and pose.
+TEST(Projection, DrawsPointsAtTheirExpectedPixels) {
   std::mt19937_64 random(11);
   cv::Mat grey;
   double sum_squares = 0.0;
   for (int trial = 0; trial < 60; ++trial) {
-    CameraView view{random_camera(random), random_pose(random, 800.0, 100.0, 1.5), Channel::grey};
+    CameraView view{random_camera(random), random_pose(random, 800.0, 100.0, 1.5), ImageChannel::grey};
     const double z_m = std::exp(uniform(random, std::log(0.5), std::log(200.0)));
     const Eigen::Vector2d pixel(uniform(random, 30, view.camera.width_px - 30),
                                 uniform(random, 30, view.camera.height_px - 30));
@@ -69,7 +70,7 @@ TEST(Projection, KnownPointsLandOnTheirPixels) {
     world.scene.lights = {.ambient = 1.0f, .sun = 0.0f};
     const Eigen::Vector3d top_left_W = center_W - 0.5 * (right_W + down_W);
     world.add_quad(top_left_W.cast<float>(), right_W.cast<float>(), down_W.cast<float>());
-    drawing(world.scene).draw(view, grey);
+    make_renderer(world.scene).draw(view, grey);
 
     const double error_px = (centroid(grey) - expected_pixel(view, center_W)).norm();
     EXPECT_LT(error_px, kSubPixel) << "trial " << trial << ", z " << z_m;
@@ -78,25 +79,25 @@ TEST(Projection, KnownPointsLandOnTheirPixels) {
   RecordProperty("rms_px", std::to_string(std::sqrt(sum_squares / 60)));
 }
 
-TEST(Projection, StereoSeesAPointOnOneRowAtItsDisparity) {
+TEST(Projection, StereoPairShowsAPointOnOneRowAtItsDisparity) {
   SmallWorld world(std::vector{dome_image(64)});
   world.scene.sky = {Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
   world.add_quad({12.0f, 0.3f, -6.0f}, {0, 1.2f, 0}, {0, 0, 1.2f});
-  Renderer renderer = drawing(world.scene);
+  Renderer renderer = make_renderer(world.scene);
   const auto camera = vision::camera::PinholeCamera::from_fov(320, 240, 1.0);
   const Eigen::Isometry3d X_WC = look_at({0, 0, -5}, {1, 0, -5});
   const double baseline_m = 0.5;
   const Eigen::Isometry3d X_WCr = X_WC * Eigen::Translation3d(baseline_m, 0, 0);
   cv::Mat left, right;
-  renderer.draw({camera, X_WC, Channel::grey}, left);
-  renderer.draw({camera, X_WCr, Channel::grey}, right);
+  renderer.draw({camera, X_WC, ImageChannel::grey}, left);
+  renderer.draw({camera, X_WCr, ImageChannel::grey}, right);
   const Eigen::Vector2d shift_px = centroid(left) - centroid(right);
   EXPECT_NEAR(shift_px.y(), 0.0, 0.01);
   EXPECT_NEAR(shift_px.x(), camera.focal_x_px * baseline_m / 12.0, kSubPixel);
 }
 
-// North-east-down, looking north: east is on the right, up is on top, and a texture's first row is on top.
-TEST(Projection, ImagesAreNeitherMirroredNorUpsideDown) {
+// North-east-down, camera to the north: east is right, up is up, and the first row of a texture is the top row.
+TEST(Projection, DoesNotMirrorImages) {
   cv::Mat quadrants(64, 64, CV_8UC3, cv::Scalar(0, 0, 0));
   quadrants(cv::Rect(0, 0, 32, 32)).setTo(cv::Scalar(250, 0, 0));
   quadrants(cv::Rect(32, 0, 32, 32)).setTo(cv::Scalar(0, 250, 0));
@@ -104,13 +105,13 @@ TEST(Projection, ImagesAreNeitherMirroredNorUpsideDown) {
   SmallWorld world(std::vector{quadrants});
   world.scene.lights = {.ambient = 1.0f, .sun = 0.0f};
   world.add_box({Eigen::Vector3f(10, -2, -7), Eigen::Vector3f(14, 2, -3)});
-  Renderer renderer = drawing(world.scene);
+  Renderer renderer = make_renderer(world.scene);
   const auto camera = vision::camera::PinholeCamera::from_fov(100, 100, 0.5);
   cv::Mat image;
   for (const Eigen::Vector3d& side : {Eigen::Vector3d(-1, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0),
                                       Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(0, 0, -1)}) {
     const Eigen::Vector3d center_W(12, 0, -5);
-    renderer.draw({camera, look_at(center_W + 12.0 * side, center_W), Channel::color}, image);
+    renderer.draw({camera, look_at(center_W + 12.0 * side, center_W), ImageChannel::color}, image);
     EXPECT_EQ(image.at<cv::Vec3b>(40, 40), cv::Vec3b(250, 0, 0)) << side.transpose();
     EXPECT_EQ(image.at<cv::Vec3b>(40, 60), cv::Vec3b(0, 250, 0)) << side.transpose();
     EXPECT_EQ(image.at<cv::Vec3b>(60, 40), cv::Vec3b(0, 0, 250)) << side.transpose();
@@ -118,14 +119,14 @@ TEST(Projection, ImagesAreNeitherMirroredNorUpsideDown) {
   }
 }
 
-TEST(Projection, SurfacesAreSeenFromTheirFrontOnly) {
+TEST(Projection, ShowsFrontFacesOnly) {
   SmallWorld world;
   world.add_box({Eigen::Vector3f(-5, -5, -10), Eigen::Vector3f(5, 5, 0)});
-  Renderer renderer = drawing(world.scene);
+  Renderer renderer = make_renderer(world.scene);
   cv::Mat inside, outside;
   const auto camera = vision::camera::PinholeCamera::from_fov(64, 48, 1.2);
-  renderer.draw({camera, look_at({0, 0, -5}, {1, 0.2, -5}), Channel::depth}, inside);
-  renderer.draw({camera, look_at({-9, 0, -5}, {0, 0, -5}), Channel::depth}, outside);
+  renderer.draw({camera, look_at({0, 0, -5}, {1, 0.2, -5}), ImageChannel::depth}, inside);
+  renderer.draw({camera, look_at({-9, 0, -5}, {0, 0, -5}), ImageChannel::depth}, outside);
   EXPECT_EQ(cv::countNonZero(inside == std::numeric_limits<float>::infinity()), inside.rows * inside.cols);
   EXPECT_NEAR(outside.at<float>(24, 32), 4.0, 1e-4);
 }

@@ -9,10 +9,10 @@
 
 #include "sim/render/renderer.h"
 
-/// What cameras see of boxes and ground, found ray by ray: an oracle that shares nothing with the rasterizer.
+/// Images of boxes and ground by ray casting: an oracle that is independent of the rasterizers.
 namespace hedgehop::sim {
 
-/// What a ray meets first, and which face of what (an odd number for each; -1 for nothing).
+/// The first intersection of a ray. `face` identifies the face of the body; -1 if there is no intersection.
 struct Hit {
   double distance_m = std::numeric_limits<double>::infinity();
   double z_m = std::numeric_limits<double>::infinity();  ///< in C
@@ -23,7 +23,7 @@ struct Hit {
   int body() const { return (face + 2) / 3; }
 };
 
-/// Boxes and the plane z = 0, met analytically (slabs), seen from outside.
+/// Boxes and the plane z = 0, intersected analytically (slabs) from outside.
 struct RayCaster {
   std::vector<Eigen::AlignedBox3d> boxes_W;
   double ground_half_m = 0.0;
@@ -53,8 +53,8 @@ struct RayCaster {
   }
 };
 
-/// The hit of a pixel, or nothing within `edge_px` of an edge, where the rasterizer may fairly choose either side, or
-/// where the lens shows nothing.
+/// Returns the hit of a pixel; none within `edge_px` of an edge, at which the rasterizer may choose either side, and
+/// none outside the image circle.
 inline std::optional<Hit> clear_hit(const RayCaster& cast, const CameraView& view, int col, int row, double edge_px) {
   const auto at = [&](double du, double dv) -> std::optional<Hit> {
     const auto ray_C = view.camera.unit_ray({col + du, row + dv});
@@ -65,12 +65,12 @@ inline std::optional<Hit> clear_hit(const RayCaster& cast, const CameraView& vie
   };
   const std::optional<Hit> center = at(0, 0);
   if (!center) return std::nullopt;
-  // A wide surrounding is searched for slivers, too.
+  // A wide neighborhood is also searched for slivers.
   const int steps = edge_px > 0.1 ? 6 : 1;
   for (int i = 0; i <= steps; ++i) {
     for (int j = 0; j <= steps; ++j) {
-      const std::optional<Hit> beside = at((2.0 * i / steps - 1.0) * edge_px, (2.0 * j / steps - 1.0) * edge_px);
-      if (!beside || beside->face != center->face) return std::nullopt;
+      const std::optional<Hit> neighbor = at((2.0 * i / steps - 1.0) * edge_px, (2.0 * j / steps - 1.0) * edge_px);
+      if (!neighbor || neighbor->face != center->face) return std::nullopt;
     }
   }
   return center;

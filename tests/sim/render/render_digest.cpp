@@ -1,6 +1,5 @@
-// Prints one number for all pixels of some views of a small city and of every example world, in every channel, with
-// and without shadows and multisampling: for comparing processes. One argument: osmesa, egl
-// or tiles.
+// Prints a hash of all pixels of several views of a small city, and of every example world, in every channel, with and
+// without shadows and multisampling. Tests compare the hashes of different processes. Argument: osmesa, egl or tiles.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -42,7 +41,7 @@ void draw_small_city(RendererKind kind, Shadows shadows, Digest& digest) {
   std::mt19937_64 random(82);
   cv::Mat image;
   for (size_t i = 0; i < 20; ++i) {
-    CameraView view{cameras[i % 2], random_pose(random, 80.0, 40.0, 0.8), static_cast<Channel>(i % kChannels)};
+    CameraView view{cameras[i % 2], random_pose(random, 80.0, 40.0, 0.8), static_cast<ImageChannel>(i % kChannels)};
     view.next.X_WC = random_pose(random, 80.0, 40.0, 0.8);
     view.samples = i < 10 ? 1 : 4;
     renderer.draw(view, image);
@@ -58,7 +57,7 @@ void draw_world(const std::filesystem::path& file, RendererKind kind, Shadows sh
   cv::Mat image;
   for (size_t i = 0; i < kChannels; ++i) {
     const Eigen::Vector3d p_WC(scenario.start.north_m, scenario.start.east_m, -scenario.start.altitude_m);
-    CameraView view{camera, look_at(p_WC, p_WC + Eigen::Vector3d(1.0, 0.1, 0.1)), static_cast<Channel>(i)};
+    CameraView view{camera, look_at(p_WC, p_WC + Eigen::Vector3d(1.0, 0.1, 0.1)), static_cast<ImageChannel>(i)};
     view.next.X_WC = look_at(p_WC, p_WC + Eigen::Vector3d(1.0, 0.2, 0.1));
     view.next.t_s = 0.1;
     view.samples = shadows == Shadows::sun ? 4 : 1;

@@ -16,7 +16,7 @@ void SmallWorld::quad(const Eigen::Vector3f& top_left_W, const Eigen::Vector3f& 
                       uint32_t texture) {
   scenes::Mesh& mesh = scene.meshes.front();
   const auto first = static_cast<uint32_t>(mesh.vertices.size());
-  const Eigen::Vector3f n_W = down_W.cross(right_W).normalized();  // towards who sees `right` on the right
+  const Eigen::Vector3f n_W = down_W.cross(right_W).normalized();  // towards a viewer with `right` on the right
   mesh.vertices.push_back({top_left_W, n_W, {0, 0}, texture});
   mesh.vertices.push_back({top_left_W + down_W, n_W, {0, 1}, texture});
   mesh.vertices.push_back({top_left_W + down_W + right_W, n_W, {1, 1}, texture});
@@ -56,10 +56,10 @@ void SmallWorld::add_box(const Eigen::AlignedBox3f& box_W, uint32_t texture, boo
   close_chunk(fills_box_to_ground);
 }
 
-void SmallWorld::add_ground(float half_m, int tiles_a_side, uint32_t texture) {
-  const float side_m = 2.0f * half_m / static_cast<float>(tiles_a_side);
-  for (int i = 0; i < tiles_a_side; ++i) {
-    for (int j = 0; j < tiles_a_side; ++j) {
+void SmallWorld::add_ground(float half_m, int tiles_per_side, uint32_t texture) {
+  const float side_m = 2.0f * half_m / static_cast<float>(tiles_per_side);
+  for (int i = 0; i < tiles_per_side; ++i) {
+    for (int j = 0; j < tiles_per_side; ++j) {
       const float north = -half_m + side_m * static_cast<float>(i + 1), east = -half_m + side_m * static_cast<float>(j);
       add_quad({north, east, 0}, {0, side_m, 0}, {-side_m, 0, 0}, texture);
     }
@@ -88,13 +88,13 @@ Eigen::Isometry3d random_pose(std::mt19937_64& random, double half_m, double hei
   return look_at(p_WC, p_WC + forward, uniform(random, -tilt_rad, tilt_rad));
 }
 
-SmallWorld small_city(int blocks_a_side, uint64_t seed) {
+SmallWorld small_city(int blocks_per_side, uint64_t seed) {
   std::mt19937_64 random(seed);
   SmallWorld world({noise_image(256, seed + 1), noise_image(256, seed + 2), noise_image(256, seed + 3)});
-  const double pitch_m = 34.0, half_m = 0.5 * pitch_m * blocks_a_side;
-  world.add_ground(static_cast<float>(half_m + 20.0), blocks_a_side, 0);
-  for (int i = 0; i < blocks_a_side; ++i) {
-    for (int j = 0; j < blocks_a_side; ++j) {
+  const double pitch_m = 34.0, half_m = 0.5 * pitch_m * blocks_per_side;
+  world.add_ground(static_cast<float>(half_m + 20.0), blocks_per_side, 0);
+  for (int i = 0; i < blocks_per_side; ++i) {
+    for (int j = 0; j < blocks_per_side; ++j) {
       const Eigen::Vector2d corner(pitch_m * i - half_m + uniform(random, 4.0, 7.0),
                                    pitch_m * j - half_m + uniform(random, 4.0, 7.0));
       const Eigen::Vector2d size(uniform(random, 12.0, 24.0), uniform(random, 12.0, 24.0));

@@ -9,9 +9,9 @@
 namespace hedgehop::sim {
 namespace {
 
-/// Digests of a small city and every example world, a line each.
-std::string digest_with(const std::string& environment, const std::string& context = "osmesa") {
-  const std::string command = environment + " " HEDGEHOP_RENDER_DIGEST " " + context;
+/// Returns the hashes of a small city and of every example world, one line each.
+std::string digest_with(const std::string& environment, const std::string& renderer = "osmesa") {
+  const std::string command = environment + " " HEDGEHOP_RENDER_DIGEST " " + renderer;
   std::FILE* const pipe = popen(command.c_str(), "r");
   std::array<char, 128> line{};
   std::string digests;
@@ -20,9 +20,9 @@ std::string digest_with(const std::string& environment, const std::string& conte
   return digests;
 }
 
-/// The line with which it fails to draw.
-std::string refusal_with(const std::string& environment, const std::string& context) {
-  const std::string command = environment + " " HEDGEHOP_RENDER_DIGEST " " + context + " 2>&1";
+/// Returns the error message.
+std::string error_with(const std::string& environment, const std::string& renderer) {
+  const std::string command = environment + " " HEDGEHOP_RENDER_DIGEST " " + renderer + " 2>&1";
   std::FILE* const pipe = popen(command.c_str(), "r");
   std::array<char, 512> line{};
   EXPECT_TRUE(pipe != nullptr && std::fgets(line.data(), line.size(), pipe) != nullptr);
@@ -30,49 +30,49 @@ std::string refusal_with(const std::string& environment, const std::string& cont
   return line.data();
 }
 
-TEST(Threads, RasterizerThreadsChangeNoPixel) {
+TEST(Threads, NumberOfRasterizerThreadsChangesNoPixel) {
   const std::string alone = digest_with("LP_NUM_THREADS=0");
-  EXPECT_EQ(std::ranges::count(alone, '\n'), 20) << alone;  // ten scenes, with shadows and without
+  EXPECT_EQ(std::ranges::count(alone, '\n'), 20) << alone;  // ten scenes with and without shadows
   EXPECT_EQ(digest_with("LP_NUM_THREADS=0"), alone);
   EXPECT_EQ(digest_with("LP_NUM_THREADS=1"), alone);
   EXPECT_EQ(digest_with("LP_NUM_THREADS=2"), alone);
   EXPECT_EQ(digest_with("env -u LP_NUM_THREADS"), alone);
 }
 
-TEST(Contexts, EglDrawsTheSamePixelsAsOsmesaWithTheSameRasterizer) {
+TEST(Renderers, EglAndOsmesaDrawEqualPixelsWithTheSameRasterizer) {
   const std::string software = "LIBGL_ALWAYS_SOFTWARE=1";
   EXPECT_EQ(digest_with(software, "egl"), digest_with(software, "osmesa"));
 }
 
-TEST(Contexts, TilesDrawTheSamePixelsWithAndWithoutVectors) {
+TEST(Renderers, TilesDrawsEqualPixelsWithAllKernels) {
   const std::string plain = digest_with("HEDGEHOP_TILES=plain", "tiles");
   EXPECT_EQ(std::ranges::count(plain, '\n'), 20) << plain;
   EXPECT_EQ(digest_with("env -u HEDGEHOP_TILES", "tiles"), plain);
   EXPECT_EQ(digest_with("HEDGEHOP_TILES=avx2", "tiles"), plain);
 }
 
-TEST(Contexts, TilesRefuseKernelsThatThisProcessorHasNot) {
-  EXPECT_THAT(refusal_with("HEDGEHOP_TILES=mmx", "tiles"),
+TEST(Renderers, TilesRejectsUnknownKernels) {
+  EXPECT_THAT(error_with("HEDGEHOP_TILES=mmx", "tiles"),
               testing::AllOf(testing::HasSubstr("HEDGEHOP_TILES=mmx"), testing::HasSubstr("plain")));
 }
 
-// Kept, so that every machine and compiler is held to the same bits: five channels, a pinhole and a fisheye, one sample
-// and four. An intended change of the images changes them.
-TEST(Contexts, TilesDrawThePixelsThatAreKept) {
+// Reference hashes: every machine and compiler must give the same bits. Five channels, pinhole and fisheye, one and
+// four samples. An intended change of the images changes them.
+TEST(Renderers, TilesDrawsTheReferencePixels) {
   const std::string drawn = digest_with("env -u HEDGEHOP_TILES", "tiles");
   EXPECT_THAT(drawn, testing::HasSubstr("80367b98db3d512a small city\n"));
   EXPECT_THAT(drawn, testing::HasSubstr("b93a62d92148f9c8 small city with shadows\n"));
 }
 
-TEST(Contexts, TilesLeaveTheChoiceOfMathLibrarysInstructionsNoInfluence) {
+TEST(Renderers, InstructionsOfLibmAndOpenCvChangeNoPixelOfTiles) {
   EXPECT_EQ(digest_with("GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA OPENCV_CPU_DISABLE=AVX2,AVX", "tiles"),
             digest_with("env -u GLIBC_TUNABLES", "tiles"));
 }
 
-TEST(Contexts, EglWithoutADriverIsRefusedWithTheRemedy) {
+TEST(Renderers, EglWithoutADriverNamesARemedy) {
   EXPECT_THAT(
-      refusal_with("__EGL_VENDOR_LIBRARY_DIRS=/nowhere", "egl"),
-      testing::AllOf(testing::HasSubstr("no OpenGL 3.3 core context from EGL"), testing::HasSubstr("libegl-mesa0")));
+      error_with("__EGL_VENDOR_LIBRARY_DIRS=/missing", "egl"),
+      testing::AllOf(testing::HasSubstr("EGL created no OpenGL 3.3 core context"), testing::HasSubstr("libegl-mesa0")));
 }
 
 }  // namespace

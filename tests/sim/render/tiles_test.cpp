@@ -5,10 +5,10 @@
 
 #include "scenes/mesh/polyhedron.h"
 #include "sim/render/tiles/facets.h"
-#include "sim/render/tiles/sun_blocks.h"
+#include "sim/render/tiles/sun_depths.h"
 #include "tests/sim/render/small_world.h"
 
-// What tiles promises beyond what every context does: nearly Mesa's pixels, no holes, few facets.
+// Properties of the renderer tiles only: pixels close to those of Mesa, no holes, few facets.
 namespace hedgehop::sim {
 namespace {
 
@@ -16,7 +16,7 @@ struct Difference {
   double mean = 0.0, far_off = 0.0;  ///< levels; share of pixels
 };
 
-/// Mean difference of two images, and the share of their values that differ by more than `level`.
+/// Returns the mean difference of two images, and the share of their values that differ by more than `level`.
 Difference difference(const cv::Mat& a, const cv::Mat& b, double level) {
   cv::Mat levels;
   cv::absdiff(a, b, levels);
@@ -24,14 +24,14 @@ Difference difference(const cv::Mat& a, const cv::Mat& b, double level) {
   return {cv::mean(values)[0], cv::countNonZero(values > level) / static_cast<double>(values.total())};
 }
 
-class BesideMesa : public testing::Test {
+class TilesAndMesa : public testing::Test {
  protected:
   const SmallWorld city_ = small_city(6, 91);
   Renderer mesa_ = Renderer(city_.scene, Culling::frustum_and_horizon, RendererKind::osmesa);
   Renderer tiles_ = Renderer(city_.scene, Culling::frustum_and_horizon, RendererKind::tiles);
 
-  /// The mean over random views.
-  Difference compare(Channel channel, int samples, double level) {
+  /// Returns the mean over random views.
+  Difference compare(ImageChannel channel, int samples, double level) {
     std::mt19937_64 random(92);
     Difference sum;
     constexpr int kViews = 20;
@@ -52,38 +52,38 @@ class BesideMesa : public testing::Test {
 
 constexpr double kFarOffLevels = 8.0;
 
-TEST_F(BesideMesa, GreyDiffersByAThirdOfALevel) {
-  const Difference found = compare(Channel::grey, 1, kFarOffLevels);
+TEST_F(TilesAndMesa, GreyDiffersByAtMostAThirdOfALevel) {
+  const Difference found = compare(ImageChannel::grey, 1, kFarOffLevels);
   EXPECT_LE(found.mean, 0.3);
   EXPECT_LE(found.far_off, 5e-4);
 }
 
-TEST_F(BesideMesa, ColorDiffersByAThirdOfALevel) {
-  const Difference found = compare(Channel::color, 1, kFarOffLevels);
+TEST_F(TilesAndMesa, ColorDiffersByAtMostAThirdOfALevel) {
+  const Difference found = compare(ImageChannel::color, 1, kFarOffLevels);
   EXPECT_LE(found.mean, 0.3);
   EXPECT_LE(found.far_off, 5e-4);
 }
 
-TEST_F(BesideMesa, FourSamplesDifferByAThirdOfALevel) {
-  const Difference found = compare(Channel::grey, 4, kFarOffLevels);
+TEST_F(TilesAndMesa, FourSamplesDifferByAtMostAThirdOfALevel) {
+  const Difference found = compare(ImageChannel::grey, 4, kFarOffLevels);
   EXPECT_LE(found.mean, 0.3);
   EXPECT_LE(found.far_off, 5e-4);
 }
 
-TEST_F(BesideMesa, DepthsAndLabelsDifferAtEdgesOnly) {
+TEST_F(TilesAndMesa, DepthsAndLabelsDifferAtEdgesOnly) {
   std::mt19937_64 random(93);
   size_t pixels = 0, depths = 0, labels = 0;
   cv::Mat expected, drawn;
   for (int i = 0; i < 20; ++i) {
     CameraView view{vision::camera::PinholeCamera::from_fov(320, 240, 1.3), random_pose(random, 80.0, 40.0, 0.5)};
-    view.channel = Channel::depth;
+    view.channel = ImageChannel::depth;
     mesa_.draw(view, expected);
     tiles_.draw(view, drawn);
     for (size_t k = 0; k < expected.total(); ++k, ++pixels) {
       const float a = reinterpret_cast<float*>(expected.data)[k], b = reinterpret_cast<float*>(drawn.data)[k];
       depths += a == b || std::abs(a - b) <= 1e-3f * a ? 0 : 1;
     }
-    view.channel = Channel::labels;
+    view.channel = ImageChannel::labels;
     mesa_.draw(view, expected);
     tiles_.draw(view, drawn);
     labels += static_cast<size_t>(cv::countNonZero(expected != drawn));
@@ -92,7 +92,7 @@ TEST_F(BesideMesa, DepthsAndLabelsDifferAtEdgesOnly) {
   EXPECT_LE(static_cast<double>(labels), 2e-4 * static_cast<double>(pixels));
 }
 
-/// A ball round the origin, seen from within.
+/// Returns a ball around the origin, seen from inside.
 scenes::Scene hollow_ball(double radius_m) {
   SmallWorld world;
   const scenes::mesh::Polyhedron ball = scenes::mesh::ball(3);
@@ -112,27 +112,28 @@ scenes::Scene hollow_ball(double radius_m) {
   return world.scene;
 }
 
-// Edges and corners of 1,280 triangles under the pixels of 10,000 random views.
-TEST(Tiles, LeaveNoHolesAlongSharedEdges) {
+// 1,280 triangles in 10,000 random views.
+TEST(Tiles, LeavesNoHolesAlongSharedEdges) {
   Renderer renderer(hollow_ball(10.0), Culling::none, RendererKind::tiles);
   std::mt19937_64 random(94);
   cv::Mat labels;
   for (int i = 0; i < 10'000; ++i) {
-    const auto uniform_place = [&] { return uniform(random, -5.0, 5.0); };
+    const auto uniform_coordinate = [&] { return uniform(random, -5.0, 5.0); };
     CameraView view{vision::camera::PinholeCamera::from_fov(64, 48, uniform(random, 0.2, 2.5))};
-    view.X_WC.translation() = Eigen::Vector3d(uniform_place(), uniform_place(), uniform_place());
-    view.X_WC.linear() = Eigen::Quaterniond(uniform_place(), uniform_place(), uniform_place(), uniform_place())
-                             .normalized()
-                             .toRotationMatrix();
-    view.channel = Channel::labels;
+    view.X_WC.translation() = Eigen::Vector3d(uniform_coordinate(), uniform_coordinate(), uniform_coordinate());
+    view.X_WC.linear() =
+        Eigen::Quaterniond(uniform_coordinate(), uniform_coordinate(), uniform_coordinate(), uniform_coordinate())
+            .normalized()
+            .toRotationMatrix();
+    view.channel = ImageChannel::labels;
     renderer.draw(view, labels);
     ASSERT_EQ(cv::countNonZero(labels != 1), 0) << "view " << i;
   }
 }
 
-// Two walls meet upright within a rounding of the last column of a tile, far from the image's first column: what the
-// rounded edge gives to the wall of the next tile must be drawn there.
-TEST(Tiles, LeaveNoHolesWhereAnUprightEdgeIsRoundedAcrossTiles) {
+// Two walls meet at an upright edge within a rounding of the last column of a tile, far from the first column of the
+// image. If rounding moves the edge, the wall of the next tile must be drawn in that column.
+TEST(Tiles, LeavesNoHolesIfAnUprightEdgeIsRoundedAcrossTiles) {
   constexpr double kCenterPx = 2000.0;
   std::mt19937_64 random(95);
   cv::Mat labels;
@@ -147,33 +148,33 @@ TEST(Tiles, LeaveNoHolesWhereAnUprightEdgeIsRoundedAcrossTiles) {
     world.add_quad(corner.p_W, {0, 10 * north_m, 0}, {0, 0, -2 * top_m});
     Renderer renderer(world.scene, Culling::none, RendererKind::tiles);
     const vision::camera::PinholeCamera camera{4000, 8, focal_px, focal_px, kCenterPx, 3.5};
-    renderer.draw({camera, look_at({0, 0, 0}, {1, 0, 0}), Channel::labels}, labels);
+    renderer.draw({camera, look_at({0, 0, 0}, {1, 0, 0}), ImageChannel::labels}, labels);
     ASSERT_EQ(cv::countNonZero(labels), static_cast<int>(labels.total())) << i;
   }
 }
 
-// Looking straight along an edge's plane, pixels' middles lie on the edge itself.
-TEST(Tiles, GiveAPixelOnAnEdgeToOneSide) {
+// The centers of pixels are exactly on an edge.
+TEST(Tiles, AssignsAPixelOnAnEdgeToOneSide) {
   SmallWorld world;
   for (const float east_m : {-2.0f, -1.0f, 0.0f, 1.0f}) world.add_quad({5, east_m, -2}, {0, 1, 0}, {0, 0, 4});
   Renderer renderer(world.scene, Culling::none, RendererKind::tiles);
   cv::Mat labels;
-  // Focal length 5 px at 5 m: a pixel a meter, its middle on the edges.
+  // Focal length 5 px at 5 m: one pixel per meter, with its center on an edge.
   renderer.draw(
-      {vision::camera::PinholeCamera{5, 5, 5.0, 5.0, 2.0, 2.0}, look_at({0, 0, 0}, {1, 0, 0}), Channel::labels},
+      {vision::camera::PinholeCamera{5, 5, 5.0, 5.0, 2.0, 2.0}, look_at({0, 0, 0}, {1, 0, 0}), ImageChannel::labels},
       labels);
   for (int row = 0; row < 4; ++row) {
     for (int col = 1; col < 4; ++col) EXPECT_NE(labels.at<int>(row, col), 0) << row << " " << col;
   }
 }
 
-TEST(Tiles, DrawOneOrFourSamples) {
+TEST(Tiles, DrawsOneOrFourSamples) {
   Renderer renderer(SmallWorld().scene, Culling::none, RendererKind::tiles);
   for (const int samples : {1, 4}) EXPECT_NO_THROW(renderer.require_samples(samples));
   for (const int samples : {0, 2, 3, 8}) EXPECT_THROW(renderer.require_samples(samples), std::invalid_argument);
 }
 
-TEST(TilesFacets, HaveFourCornersWhereTwoTrianglesAreOneRectangle) {
+TEST(TilesFacets, MergesTwoTrianglesOfARectangle) {
   SmallWorld world;
   world.add_box(Eigen::AlignedBox3f(Eigen::Vector3f(1, 2, -3), Eigen::Vector3f(4, 7, 0)));
   const SceneGeometry geometry = make_geometry(world.scene);
@@ -182,7 +183,7 @@ TEST(TilesFacets, HaveFourCornersWhereTwoTrianglesAreOneRectangle) {
   EXPECT_EQ(facets.range(0, static_cast<uint32_t>(geometry.indices.size())).count, facets.shapes.size());
 }
 
-/// A map of random steps and slopes, of a size that no block divides.
+/// Returns a map of random steps and slopes whose size is not a multiple of the block size.
 std::vector<float> random_depths(int stride, std::mt19937_64& random) {
   std::uniform_real_distribution<float> even(0.0f, 1.0f);
   std::vector<float> depths(static_cast<size_t>(stride) * static_cast<size_t>(stride), 0.0f);
@@ -200,8 +201,8 @@ std::vector<float> random_depths(int stride, std::mt19937_64& random) {
   return depths;
 }
 
-TEST(Tiles, BlocksOfTheSunsMapBoundEveryDepthInThem) {
-  constexpr float kRounding = 4e-6f;  // what is spared where they are read
+TEST(Tiles, SunBlocksBoundEveryDepthInThem) {
+  constexpr float kRounding = 4e-6f;  // margin of the reader
   std::mt19937_64 random(3);
   for (const int stride : {10, 67, 130}) {
     const std::vector<float> depths = random_depths(stride, random);
@@ -213,8 +214,8 @@ TEST(Tiles, BlocksOfTheSunsMapBoundEveryDepthInThem) {
         for (int x = 0; x < stride; ++x) {
           const float depth = depths[static_cast<size_t>(y * stride + x)];
           const tiles::SunBlock& block = blocks.levels[level][(y >> log2) * blocks.across[level] + (x >> log2)];
-          ASSERT_LE(block.least, depth);
-          ASSERT_GE(block.most + block.right * static_cast<float>(x - 1) + block.down * static_cast<float>(y - 1),
+          ASSERT_LE(block.min_depth, depth);
+          ASSERT_GE(block.max_offset + block.right * static_cast<float>(x - 1) + block.down * static_cast<float>(y - 1),
                     depth - kRounding)
               << level << ", " << x << ", " << y;
         }

@@ -6,7 +6,7 @@
 
 namespace hedgehop::sim {
 
-/// An equidistant fisheye whose image is as wide as its field of view.
+/// Returns an equidistant fisheye whose field of view fills the width of the image.
 inline vision::camera::Camera fisheye(int width_px, int height_px, double fov_deg) {
   const double focal_px = vision::camera::fisheye_focal_px({}, width_px, fov_deg * std::numbers::pi / 180.0);
   return {width_px, height_px,

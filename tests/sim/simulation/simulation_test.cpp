@@ -146,7 +146,7 @@ TEST(Simulation, ASceneThatCannotBeIsBadInputWithItsReason) {
 
 TEST(SimulationImage, AnUnknownCameraIsRefusedWithTheRigsRoles) {
   try {
-    Simulation(short_city()).image("top", Channel::grey);
+    Simulation(short_city()).image("top", ImageChannel::grey);
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "the rig has no camera 'top'; its cameras: left, right, front, rear, down");
@@ -155,24 +155,25 @@ TEST(SimulationImage, AnUnknownCameraIsRefusedWithTheRigsRoles) {
 
 TEST(SimulationImage, ACameraThatTheContextCannotDrawIsRefusedByItsRole) {
   try {
-    Simulation(short_city({"rig.cameras.1.samples=8"})).image("front", Channel::grey);
+    Simulation(short_city({"rig.cameras.1.samples=8"})).image("front", ImageChannel::grey);
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "camera 'right': samples: 8 samples a pixel cannot be drawn; this OpenGL has at most 4");
+    EXPECT_STREQ(error.what(),
+                 "camera 'right': samples: 8 samples per pixel are not possible; maximum of this OpenGL: 4");
   }
 }
 
 TEST(SimulationImage, ShadowsDarkenPixelsAndBrightenNone) {
-  const cv::Mat lit = Simulation(short_city()).image("down", Channel::grey);
-  const cv::Mat shaded = Simulation(short_city({"drawing.shadows=true"})).image("down", Channel::grey);
+  const cv::Mat lit = Simulation(short_city()).image("down", ImageChannel::grey);
+  const cv::Mat shaded = Simulation(short_city({"drawing.shadows=true"})).image("down", ImageChannel::grey);
   EXPECT_EQ(cv::countNonZero(shaded > lit), 0);
   EXPECT_GT(cv::countNonZero(shaded < lit), 0);
 }
 
 TEST(SimulationImage, GreyIsTheMeanOfColor) {
   const Scenario clean = short_city({"rig.sensor.use=sensors/ideal.yaml"});
-  const cv::Mat color = Simulation(clean).image("front", Channel::color);
-  const cv::Mat grey = Simulation(clean).image("front", Channel::grey);
+  const cv::Mat color = Simulation(clean).image("front", ImageChannel::color);
+  const cv::Mat grey = Simulation(clean).image("front", ImageChannel::grey);
   double largest = 0.0;
   for (int v = 0; v < grey.rows; ++v) {
     for (int u = 0; u < grey.cols; ++u) {

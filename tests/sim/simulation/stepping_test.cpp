@@ -116,8 +116,8 @@ TEST(Stepping, WhatIsOverGivesItsResultAndTakesNoStep) {
 TEST(Stepping, WhatIsAskedForDoesNotDisturbTheFlight) {
   Simulation asked(city());
   while (!asked.over()) {
-    asked.image("front", Channel::color);
-    asked.image("left", Channel::depth);
+    asked.image("front", ImageChannel::color);
+    asked.image("left", ImageChannel::depth);
     asked.checks_so_far();
     asked.step();
   }

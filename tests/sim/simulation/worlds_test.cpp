@@ -15,7 +15,7 @@ TEST(ExampleWorlds, AreSeenAndFlownInForASecondUnharmed) {
     const std::vector<std::string> overrides = {"duration=1", "scene.texture_size=64"};
     const Scenario scenario = load_scenario(entry.path(), overrides);
     cv::Scalar mean, deviation;
-    cv::meanStdDev(Simulation(scenario).image("front", Channel::grey), mean, deviation);
+    cv::meanStdDev(Simulation(scenario).image("front", ImageChannel::grey), mean, deviation);
     EXPECT_GT(deviation[0], 10.0) << entry.path();
     const Flight flight = Simulation(scenario).run();
     EXPECT_EQ(flight.result.outcome, Outcome::timeout) << entry.path() << ": " << flight.result.cause;

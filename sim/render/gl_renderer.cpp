@@ -1,17 +1,17 @@
-#include "sim/render/gl_painter.h"
+#include "sim/render/gl_renderer.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "sim/render/scene_buffers.h"
+#include "sim/render/gl_scene.h"
 
 namespace hedgehop::sim {
 
 namespace {
 
-/// Pixel to normalized device coordinates, y not flipped: (scale x, scale y, center x, center y).
+/// Returns the projection to normalized device coordinates, y not flipped: (scale x, scale y, center x, center y).
 Eigen::Vector4f lens(const vision::camera::PinholeCamera& camera) {
   return Eigen::Vector4d(2.0 * camera.focal_x_px / camera.width_px, 2.0 * camera.focal_y_px / camera.height_px,
                          (2.0 * camera.center_u_px + 1.0) / camera.width_px - 1.0,
@@ -19,8 +19,8 @@ Eigen::Vector4f lens(const vision::camera::PinholeCamera& camera) {
       .cast<float>();
 }
 
-/// The nearest point that floats hold exactly up to 16 km from the origin. Not the nearest float: g++ 12 at -O2 folds
-/// double to float and back into nothing, and p - on_float_grid(p) with it.
+/// Returns the nearest point of a grid that floats represent exactly up to 16 km from the origin. A conversion to float
+/// and back would not do: g++ 12 at -O2 removes it, and p - on_float_grid(p) would be 0.
 Eigen::Vector3d on_float_grid(const Eigen::Vector3d& p) { return (1024.0 * p).array().round().matrix() / 1024.0; }
 
 Eigen::Vector3f mean_of_channels(const Eigen::Vector3f& color) { return Eigen::Vector3f::Constant(color.mean()); }
@@ -31,15 +31,15 @@ std::vector<scenes::Motion> motions_of(const scenes::Scene& scene) {
   return motions;
 }
 
-size_t most_stretches(const SceneGeometry& geometry) {
-  size_t most = geometry.chunks.size() + geometry.tiles.size();
-  for (const auto& chunks : geometry.mover_chunks) most = std::max(most, chunks.size());
-  return most;
+size_t max_stretches(const SceneGeometry& geometry) {
+  size_t count = geometry.chunks.size() + geometry.tiles.size();
+  for (const auto& chunks : geometry.mover_chunks) count = std::max(count, chunks.size());
+  return count;
 }
 
 }  // namespace
 
-GlPainter::GlPainter(const scenes::Scene& scene, Culling culling, RendererKind kind, Shadows shadows)
+GlRenderer::GlRenderer(const scenes::Scene& scene, Culling culling, RendererKind kind, Shadows shadows)
     : context_(make_context(kind)),
       culling_(culling),
       sky_(scene.sky),
@@ -52,7 +52,7 @@ GlPainter::GlPainter(const scenes::Scene& scene, Culling culling, RendererKind k
       planes_(plane_program(gl_)),
       labels_(label_program(gl_)),
       skies_(sky_program(gl_)),
-      counts_(most_stretches(geometry_)),
+      counts_(max_stretches(geometry_)),
       offsets_(counts_.size()),
       stretch_labels_(counts_.size()) {
   upload(gl_, geometry_, scene.textures);
@@ -64,12 +64,12 @@ GlPainter::GlPainter(const scenes::Scene& scene, Culling culling, RendererKind k
   gl_.DepthFunc(GL_GEQUAL);
   gl_.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   if (shadows == Shadows::sun)
-    light_by(draw_sun_map(gl_, geometry_.chunks, scene.lights.to_sun_W), scene.lights.ambient);
-  check_gl(gl_, "setting the context up");
+    set_sunlight(draw_sun_map(gl_, geometry_.chunks, scene.lights.to_sun_W), scene.lights.ambient);
+  check_gl(gl_, "setting up the context");
 }
 
-void GlPainter::paint(const vision::camera::PinholeCamera& camera, const Eye& eye, Raster raster, int samples,
-                      cv::Mat& out) {
+void GlRenderer::render(const vision::camera::PinholeCamera& camera, const Viewpoint& view, Raster raster, int samples,
+                        cv::Mat& out) {
   context_->make_current();
   targets_.bind(gl_, {camera.width_px, camera.height_px, raster, samples});
   const float farthest = 0.0f;
@@ -77,21 +77,21 @@ void GlPainter::paint(const vision::camera::PinholeCamera& camera, const Eye& ey
   switch (raster) {
     case Raster::grey:
     case Raster::color:
-      draw_scene(camera, eye, raster == Raster::grey ? greys_ : colors_, false);
-      draw_sky(camera, eye.X_WC, raster == Raster::grey);
+      draw_scene(camera, view, raster == Raster::grey ? greys_ : colors_, false);
+      draw_sky(camera, view.X_WC, raster == Raster::grey);
       break;
     case Raster::depth:
     case Raster::planes: {
       const bool depth = raster == Raster::depth;
       const float sky = depth ? std::numeric_limits<float>::infinity() : 0.0f;
       gl_.ClearBufferfv(GL_COLOR, 0, Eigen::Vector4f::Constant(sky).eval().data());
-      draw_scene(camera, eye, depth ? depths_ : planes_, false);
+      draw_scene(camera, view, depth ? depths_ : planes_, false);
       break;
     }
     case Raster::labels: {
       const Eigen::Vector4i sky = Eigen::Vector4i::Zero();
       gl_.ClearBufferiv(GL_COLOR, 0, sky.data());
-      draw_scene(camera, eye, labels_, true);
+      draw_scene(camera, view, labels_, true);
       break;
     }
   }
@@ -99,18 +99,18 @@ void GlPainter::paint(const vision::camera::PinholeCamera& camera, const Eye& ey
   check_gl(gl_, "drawing");
 }
 
-void GlPainter::require_samples(int samples) {
+void GlRenderer::require_samples(int samples) {
   context_->make_current();
   sim::require_samples(gl_, samples);
 }
 
-std::string GlPainter::info() {
+std::string GlRenderer::info() {
   context_->make_current();
   const auto word = [&](GLenum name) { return reinterpret_cast<const char*>(gl_.GetString(name)); };
   return fmt::format("{}; {}; OpenGL {}", word(GL_VENDOR), word(GL_RENDERER), word(GL_VERSION));
 }
 
-void GlPainter::light_by(const Eigen::Matrix4f& sun_from_W, float ambient) {
+void GlRenderer::set_sunlight(const Eigen::Matrix4f& sun_from_W, float ambient) {
   for (const Program& program : {greys_, colors_}) {
     gl_.UseProgram(program.id);
     gl_.UniformMatrix4fv(program.sun_from_W, 1, GL_FALSE, sun_from_W.data());
@@ -119,44 +119,45 @@ void GlPainter::light_by(const Eigen::Matrix4f& sun_from_W, float ambient) {
   }
 }
 
-/// A mover does not rotate, so that it is drawn as if it stood still and the eye were where it is seen from M. What
-/// stands still does so at W's origin.
-void GlPainter::set_eye(const Program& program, const Eigen::Isometry3d& X_WC, const Eigen::Vector3d& p_WM) {
-  const Eigen::Vector3d p_MC_W = X_WC.translation() - p_WM, eye_M = on_float_grid(p_MC_W);
-  const Eigen::Vector3f eye_low_C = (X_WC.linear().transpose() * (p_MC_W - eye_M)).cast<float>();
-  gl_.Uniform3fv(program.eye_W, 1, eye_M.cast<float>().eval().data());
-  gl_.Uniform3fv(program.eye_low_C, 1, eye_low_C.data());
+/// Moving obstacles do not rotate. Each is drawn as static in its frame M, with the camera at p_MC. For static solids,
+/// M is W.
+void GlRenderer::set_camera_position(const Program& program, const Eigen::Isometry3d& X_WC,
+                                     const Eigen::Vector3d& p_WM) {
+  const Eigen::Vector3d p_MC_W = X_WC.translation() - p_WM, camera_M = on_float_grid(p_MC_W);
+  const Eigen::Vector3f camera_low_C = (X_WC.linear().transpose() * (p_MC_W - camera_M)).cast<float>();
+  gl_.Uniform3fv(program.camera_W, 1, camera_M.cast<float>().eval().data());
+  gl_.Uniform3fv(program.camera_low_C, 1, camera_low_C.data());
   if (program.p_WM >= 0) gl_.Uniform3fv(program.p_WM, 1, p_WM.cast<float>().eval().data());
 }
 
-void GlPainter::draw_scene(const vision::camera::PinholeCamera& camera, const Eye& eye, const Program& program,
-                           bool labeled) {
-  const Eigen::Matrix3f R_CW = eye.X_WC.linear().transpose().cast<float>();
+void GlRenderer::draw_scene(const vision::camera::PinholeCamera& camera, const Viewpoint& view, const Program& program,
+                            bool labeled) {
+  const Eigen::Matrix3f R_CW = view.X_WC.linear().transpose().cast<float>();
   gl_.UseProgram(program.id);
-  set_eye(program, eye.X_WC, Eigen::Vector3d::Zero());
+  set_camera_position(program, view.X_WC, Eigen::Vector3d::Zero());
   gl_.UniformMatrix3fv(program.rotation, 1, GL_FALSE, R_CW.data());
   gl_.Uniform4fv(program.lens, 1, lens(camera).data());
 
   stretches_ = 0;
-  for (const scenes::Chunk& chunk : visible_.find(camera, eye.X_WC, culling_)) {
+  for (const scenes::Chunk& chunk : visible_.find(camera, view.X_WC, culling_)) {
     counts_[stretches_] = static_cast<GLsizei>(chunk.index_count);
     offsets_[stretches_] = reinterpret_cast<const void*>(chunk.first_index * sizeof(uint32_t));
     if (labeled) stretch_labels_[stretches_] = label_of(chunk);
     ++stretches_;
   }
   draw_stretches(program, labeled);
-  draw_movers(eye, program, labeled);
+  draw_movers(view, program, labeled);
 }
 
-void GlPainter::draw_movers(const Eye& eye, const Program& program, bool labeled) {
+void GlRenderer::draw_movers(const Viewpoint& view, const Program& program, bool labeled) {
   for (size_t mover = 0; mover < motions_.size(); ++mover) {
-    const Eigen::Vector3d p_WM = scenes::p_WM(motions_[mover], eye.t_s);
+    const Eigen::Vector3d p_WM = scenes::p_WM(motions_[mover], view.t_s);
     stretches_ = 0;
     for (const scenes::Chunk& chunk : geometry_.mover_chunks[mover]) {
-      // A float of W may lie off by a rounding: the box gives way by more than that.
-      constexpr float kRoundingM = 0.01f;
-      const Eigen::Vector3f p = p_WM.cast<float>(), give = Eigen::Vector3f::Constant(kRoundingM);
-      const Eigen::AlignedBox3f box_W(chunk.box_W.min() + p - give, chunk.box_W.max() + p + give);
+      // Float coordinates in W are rounded; the margin of the box is larger than the rounding.
+      constexpr float kMarginM = 0.01f;
+      const Eigen::Vector3f p = p_WM.cast<float>(), margin = Eigen::Vector3f::Constant(kMarginM);
+      const Eigen::AlignedBox3f box_W(chunk.box_W.min() + p - margin, chunk.box_W.max() + p + margin);
       if (chunk.index_count == 0 || !visible_.shows(box_W)) continue;
       counts_[stretches_] = static_cast<GLsizei>(chunk.index_count);
       offsets_[stretches_] = reinterpret_cast<const void*>(chunk.first_index * sizeof(uint32_t));
@@ -164,12 +165,12 @@ void GlPainter::draw_movers(const Eye& eye, const Program& program, bool labeled
       ++stretches_;
     }
     if (stretches_ == 0) continue;
-    set_eye(program, eye.X_WC, p_WM);
+    set_camera_position(program, view.X_WC, p_WM);
     draw_stretches(program, labeled);
   }
 }
 
-void GlPainter::draw_stretches(const Program& program, bool labeled) {
+void GlRenderer::draw_stretches(const Program& program, bool labeled) {
   for (size_t i = 0; i < stretches_; ++i) {
     count_.triangles += static_cast<size_t>(counts_[i]) / 3;
     if (!labeled) continue;
@@ -182,13 +183,13 @@ void GlPainter::draw_stretches(const Program& program, bool labeled) {
                         static_cast<GLsizei>(stretches_));
 }
 
-/// Chunks lie in the order of first_index; a stretch is a chunk or a part of one.
-int GlPainter::label_of(const scenes::Chunk& stretch) const {
+/// Chunks are in the order of first_index. A stretch is a chunk or a part of one.
+int GlRenderer::label_of(const scenes::Chunk& stretch) const {
   const auto after = std::ranges::upper_bound(geometry_.chunks, stretch.first_index, {}, &scenes::Chunk::first_index);
   return static_cast<int>(after - geometry_.chunks.begin());
 }
 
-void GlPainter::draw_sky(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, bool grey) {
+void GlRenderer::draw_sky(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, bool grey) {
   const Eigen::Matrix3f R_WC = X_WC.linear().cast<float>();
   gl_.UseProgram(skies_.id);
   gl_.UniformMatrix3fv(skies_.rotation, 1, GL_FALSE, R_WC.data());

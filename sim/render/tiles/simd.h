@@ -7,9 +7,9 @@
 #include <immintrin.h>
 #endif
 
-// Eight pixels of a row, or four corners, side by side, for the compiler's vector types: the same text makes the
-// kernels of every processor. Each operation here is exact or rounded once, so that all of them give the same bits.
-// Names are each kernel's own: code of one processor must not be linked into another's.
+// Vectors of eight pixels of a row, or of four corners, as vector types of the compiler. The kernels of all processors
+// share this source. Each operation is exact or rounded once, so that all kernels give the same bits. All names have
+// internal linkage, because the linker must not use the code of one processor for another.
 namespace hedgehop::sim::tiles {
 namespace {
 
@@ -36,22 +36,22 @@ inline D4 magnitude(D4 a) { return reinterpret_cast<D4>(reinterpret_cast<L4>(a) 
 
 inline F8 floats(I8 a) { return __builtin_convertvector(a, F8); }
 
-/// To the nearest integer, ties to even. @param a  within +-2^51.
+/// Rounds to the nearest integer, ties to even. @param a  within +-2^51.
 inline L4 integers(D4 a) {
-  const D4 shift = all(6755399441055744.0);  // 1.5 * 2^52: the last bit of the sum counts ones
+  const D4 shift = all(6755399441055744.0);  // 1.5 * 2^52: the unit of the sum's last bit is 1
   return reinterpret_cast<L4>(a + shift) - reinterpret_cast<L4>(shift);
 }
 
-/// A byte of ones for each bit.
-struct Spread {
+/// Expands each bit of a byte to a byte of ones.
+struct ByteMasks {
   uint64_t bytes[256] = {};
-  constexpr Spread() {
+  constexpr ByteMasks() {
     for (int bits = 0; bits < 256; ++bits) {
       for (int i = 0; i < 8; ++i) bytes[bits] |= (bits >> i & 1) != 0 ? uint64_t{0xff} << 8 * i : 0;
     }
   }
 };
-inline constexpr Spread kSpread;
+inline constexpr ByteMasks kByteMasks;
 
 #ifdef __AVX2__
 
@@ -61,34 +61,34 @@ inline constexpr const char* kLanes = "AVX-512";
 inline constexpr const char* kLanes = "AVX2";
 #endif
 
-// The second where they are not ordered.
-inline F8 least(F8 a, F8 b) { return _mm256_min_ps(a, b); }
-inline F8 most(F8 a, F8 b) { return _mm256_max_ps(a, b); }
-inline D4 least(D4 a, D4 b) { return _mm256_min_pd(a, b); }
-inline D4 most(D4 a, D4 b) { return _mm256_max_pd(a, b); }
-inline I8 least(I8 a, I8 b) {
+// Each returns the second operand if one is NaN.
+inline F8 minimum(F8 a, F8 b) { return _mm256_min_ps(a, b); }
+inline F8 maximum(F8 a, F8 b) { return _mm256_max_ps(a, b); }
+inline D4 minimum(D4 a, D4 b) { return _mm256_min_pd(a, b); }
+inline D4 maximum(D4 a, D4 b) { return _mm256_max_pd(a, b); }
+inline I8 minimum(I8 a, I8 b) {
   return reinterpret_cast<I8>(_mm256_min_epi32(reinterpret_cast<__m256i>(a), reinterpret_cast<__m256i>(b)));
 }
-inline I8 most(I8 a, I8 b) {
+inline I8 maximum(I8 a, I8 b) {
   return reinterpret_cast<I8>(_mm256_max_epi32(reinterpret_cast<__m256i>(a), reinterpret_cast<__m256i>(b)));
 }
 
-/// To the nearest integer, ties to even. @param a  within +-2^31.
+/// Rounds to the nearest integer, ties to even. @param a  within +-2^31.
 inline I8 integers(F8 a) { return reinterpret_cast<I8>(_mm256_cvtps_epi32(a)); }
 inline F8 roots(F8 a) { return _mm256_sqrt_ps(a); }
 /// @param a  within +-2^31.
 inline L4 times(L4 a, int32_t b) {
   return reinterpret_cast<L4>(_mm256_mul_epi32(reinterpret_cast<__m256i>(a), _mm256_set1_epi64x(b)));
 }
-/// The signs of lanes, lane 0 in the lowest bit.
+/// Returns the signs of the lanes, lane 0 in the lowest bit.
 inline uint32_t signs(I8 a) {
   return static_cast<uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(reinterpret_cast<__m256i>(a))));
 }
 inline uint32_t signs(L4 a) {
   return static_cast<uint32_t>(_mm256_movemask_pd(_mm256_castsi256_pd(reinterpret_cast<__m256i>(a))));
 }
-/// Four bytes from each 16-bit place.
-/// One by one: the instruction made for it takes twice as long (AMD Zen 3).
+/// Returns four bytes from each 16-bit position. Reads one by one, because the gather instruction takes twice as long
+/// on AMD Zen 3.
 inline I8 gather(const uint16_t* from, I8 places) {
   const auto four = [from](uint32_t place) {
     int32_t texels = 0;
@@ -107,7 +107,7 @@ inline I8 gather(const uint16_t* from, I8 places) {
   return reinterpret_cast<I8>(
       _mm256_set_m128i(half(_mm256_extracti128_si256(at, 1)), half(_mm256_castsi256_si128(at))));
 }
-/// The numbers at each place and right of it.
+/// Returns the numbers at each position and to the right of it.
 inline void gather(const float* from, I8 places, F8& here, F8& right) {
   const auto two = [&](int i, int k) {
     const __m128 first = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from + places[i])));
@@ -117,7 +117,7 @@ inline void gather(const float* from, I8 places, F8& here, F8& right) {
   here = _mm256_shuffle_ps(a, b, _MM_SHUFFLE(2, 0, 2, 0));
   right = _mm256_shuffle_ps(a, b, _MM_SHUFFLE(3, 1, 3, 1));
 }
-/// table[i] of each lane. @param i  0..15.
+/// Returns table[i] for each lane. @param i  0..15.
 inline I8 look_up(const int32_t table[16], I8 i) {
   const __m256i at = reinterpret_cast<__m256i>(i);
 #ifdef __AVX512VL__
@@ -130,27 +130,28 @@ inline I8 look_up(const int32_t table[16], I8 i) {
   return pick(i > 7, reinterpret_cast<I8>(high), reinterpret_cast<I8>(low));
 #endif
 }
-/// The mean of four texels, each 128 less than it is, in one lane's bytes: (left, upper), (left, lower), (right,
-/// upper), (right, lower). @param right, down  0..255, of 255. @return in 1 / 65025.
+/// Returns the weighted sum of four texels, in units of 1/65025.
+/// @param texels  minus 128, four bytes per lane: (left, upper), (left, lower), (right, upper), (right, lower).
+/// @param right, down  weights, 0..255.
 inline I8 mix(I8 texels, I8 right, I8 down) {
   const I8 a_side = (255 - down) | down << 8;
   const auto columns =
       _mm256_maddubs_epi16(reinterpret_cast<__m256i>(a_side | a_side << 16), reinterpret_cast<__m256i>(texels));
   return reinterpret_cast<I8>(_mm256_madd_epi16(columns, reinterpret_cast<__m256i>((255 - right) | right << 16)));
 }
-/// The same of three channels: texels of four bytes, each 128 less than it is, the last byte of no meaning, followed by
-/// their right neighbor.
-/// @param upper, lower  of the left texels. @param sums  of each channel.
+/// The same for three channels.
+/// @param texels  minus 128, four bytes each, the last one unused. The right neighbor follows each texel.
+/// @param upper, lower  positions of the left texels. @param sums  output for each channel.
 inline void mix(const uint32_t* texels, I8 upper, I8 lower, I8 right, I8 down, I8 (&sums)[3]) {
   const I8 a_side = (255 - down) | down << 8;
   const auto rows = reinterpret_cast<__m256i>(a_side | a_side << 16);
   const auto columns = reinterpret_cast<__m256i>((255 - right) | right << 16);
-  const auto two = [texels](int32_t above, int32_t below) {  // from each row
+  const auto two = [texels](int32_t above, int32_t below) {  // texels of each row
     const auto* const from = reinterpret_cast<const __m128i*>(texels + above);
     const __m128d left = _mm_castsi128_pd(_mm_loadl_epi64(from));
     return _mm_castpd_si128(_mm_loadh_pd(left, reinterpret_cast<const double*>(texels + below)));
   };
-  // Upper and lower, left and right of a channel side by side.
+  // Puts the four texels of a channel next to each other.
   const __m256i order =
       _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 8, 4, 12, 1, 9, 5, 13, 2, 10, 6, 14, 3, 11, 7, 15));
   __m256i mixed[4];  // channels of lanes k and k + 4
@@ -167,7 +168,7 @@ inline void mix(const uint32_t* texels, I8 upper, I8 lower, I8 right, I8 down, I
   sums[1] = reinterpret_cast<I8>(_mm256_unpackhi_epi64(a, b));
   sums[2] = reinterpret_cast<I8>(_mm256_unpacklo_epi64(c, d));
 }
-/// Eight lanes as bytes, lane 0 in the lowest; the nearest of 0..255.
+/// Returns the lanes as bytes, clamped to 0..255, lane 0 in the lowest byte.
 inline uint64_t bytes(I8 a) {
   const auto words = _mm256_packs_epi32(reinterpret_cast<__m256i>(a), reinterpret_cast<__m256i>(a));
   const auto both = _mm256_permute4x64_epi64(words, 0x08);
@@ -178,12 +179,12 @@ inline uint64_t bytes(I8 a) {
 
 inline constexpr const char* kLanes = "plain";
 
-inline F8 least(F8 a, F8 b) { return pick(a < b, a, b); }
-inline F8 most(F8 a, F8 b) { return pick(a > b, a, b); }
-inline D4 least(D4 a, D4 b) { return pick(a < b, a, b); }
-inline D4 most(D4 a, D4 b) { return pick(a > b, a, b); }
-inline I8 least(I8 a, I8 b) { return pick(a < b, a, b); }
-inline I8 most(I8 a, I8 b) { return pick(a > b, a, b); }
+inline F8 minimum(F8 a, F8 b) { return pick(a < b, a, b); }
+inline F8 maximum(F8 a, F8 b) { return pick(a > b, a, b); }
+inline D4 minimum(D4 a, D4 b) { return pick(a < b, a, b); }
+inline D4 maximum(D4 a, D4 b) { return pick(a > b, a, b); }
+inline I8 minimum(I8 a, I8 b) { return pick(a < b, a, b); }
+inline I8 maximum(I8 a, I8 b) { return pick(a > b, a, b); }
 inline I8 integers(F8 a) {
   I8 result;
   for (int i = 0; i < 8; ++i) result[i] = static_cast<int32_t>(__builtin_nearbyintf(a[i]));
@@ -255,9 +256,9 @@ inline uint64_t bytes(I8 a) {
 
 #endif
 
-/// The least and the greatest of eight.
+/// Minimum and maximum of eight numbers.
 struct FloatRange {
-  float least, most;
+  float min, max;
 };
 inline FloatRange range(F8 a) {
   const auto folded = [](F8 b, auto pick) {
@@ -265,10 +266,10 @@ inline FloatRange range(F8 a) {
     b = pick(b, __builtin_shufflevector(b, b, 2, 3, 0, 1, 6, 7, 4, 5));
     return pick(b, __builtin_shufflevector(b, b, 1, 0, 3, 2, 5, 4, 7, 6))[0];
   };
-  return {folded(a, [](F8 b, F8 c) { return least(b, c); }), folded(a, [](F8 b, F8 c) { return most(b, c); })};
+  return {folded(a, [](F8 b, F8 c) { return minimum(b, c); }), folded(a, [](F8 b, F8 c) { return maximum(b, c); })};
 }
 
-/// Four numbers of each of eight rows as four columns. @param four  the member of a row that they are.
+/// Transposes four numbers of each of eight rows into four columns. @param four  member of a row with the numbers.
 template <class Row>
 inline void columns_of(const Row (&rows)[8], F4 Row::*four, F8 (&columns)[4]) {
   F8 pairs[4];  // rows i and i + 4

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/render/pinhole_renderer.h"
+#include "sim/render/scene_geometry.h"
+#include "sim/render/tiles/facets.h"
+#include "sim/render/tiles/frame_memory.h"
+#include "sim/render/tiles/kernels.h"
+#include "sim/render/tiles/texel_planes.h"
+
+namespace hedgehop::sim::tiles {
+
+/// Hedgehop's own rasterizer. Inserts facets into tiles of 8 x 8 pixels from near to far. Visibility follows from the
+/// planes of the facets, without a depth per pixel. Each pixel is shaded once, at the end. The bits are equal on every
+/// processor.
+class TileRenderer : public PinholeRenderer, private VisibleChunks::VisibilitySink {
+ public:
+  /// Throws std::invalid_argument for an inconsistent scene, std::runtime_error as chosen_kernels().
+  TileRenderer(const scenes::Scene& scene, Culling culling, Shadows shadows);
+
+  void render(const vision::camera::PinholeCamera& camera, const Viewpoint& view, Raster raster, int samples,
+              cv::Mat& out) override;
+  bool render_flow(const vision::camera::PinholeCamera& camera, const Viewpoint& view, const FlowTarget& next,
+                   cv::Mat& out) override;
+  void require_samples(int samples) override;
+  std::string info() override;
+
+ private:
+  void add(const scenes::Chunk& stretch) override;
+  bool hides(const Eigen::AlignedBox3f& box_W) const override;
+  void draw_scene(const vision::camera::PinholeCamera& camera, const Viewpoint& view, int samples);
+  void draw_movers(const Viewpoint& view);
+  void draw(const scenes::Chunk& stretch, uint32_t pose);
+  void color_scene(bool color);
+
+  const Kernels& kernels_;
+  Culling culling_;
+  SceneGeometry geometry_;               ///< chunks only
+  std::vector<scenes::Motion> motions_;  ///< of the moving obstacles
+  VisibleChunks visible_;
+  Facets facets_;
+  TexelPlanes texels_;
+  scenes::Sky sky_;
+  HugeVector<float> sun_depths_;
+  std::vector<SunBlock> sun_blocks_[SunBlocks::kLevels];
+  SceneView view_{};
+  FrameMemory memory_;
+  std::vector<double> p_CnC_m_;  ///< of NextView
+};
+
+}  // namespace hedgehop::sim::tiles
