@@ -118,7 +118,7 @@ void write_pages(const ReproduceOptions& options, const fs::path& out, const Row
     });
   }
   if (const std::string several = several_builds_line(facts); !several.empty()) fmt::print("{}\n", several);
-  if (options.quick) fmt::print("{}\n", kQuickLook);
+  if (options.quick) fmt::print("{}\n", kQuickRun);
   for (const auto& [paper, rows] : papers) fmt::print("{}\n", rows_text(paper, rows));
   files.raise();
   fmt::print("written: {}\n", (out / "reproduction.html").string());
@@ -128,7 +128,8 @@ void write_pages(const ReproduceOptions& options, const fs::path& out, const Row
 }  // namespace
 
 int reproduce(const ReproduceOptions& options) {
-  if (options.quick && !options.write.empty()) throw InputError("--write: a quick look is no page of results");
+  if (options.quick && !options.write.empty())
+    throw InputError("--write is not valid with --quick: a quick run gives no results");
   const std::vector<Paper> papers = read_papers(options.papers);
   const fs::path out = options.out.empty() ? fs::path("out") / "reproduce" : options.out;
   require_writable(out);

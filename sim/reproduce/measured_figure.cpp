@@ -83,7 +83,7 @@ MeasuredFigure measure(const FlightFigure& figure, const PaperOutcome& outcome, 
   const Table table = flight_table(records);
   const size_t column = column_index(table, figure.column);
   const ParsedNumber stand_in = parse_number(missing, false);
-  MeasuredFigure measured{.asked = records.size()};
+  MeasuredFigure measured{.required = records.size()};
   std::vector<double> values;
   for (size_t row = 0; row < records.size(); ++row) {
     if (records[row].status != FlightRecord::Status::flown) continue;
@@ -118,8 +118,8 @@ std::string figure_words(const FlightFigure& figure, const MeasuredFigure& measu
     const double all = figure.statistic == Statistic::share ? static_cast<double>(measured.with_figure) : 1.0;
     words = fmt::format("{:.0f} of {}", measured.value * all, measured.with_figure);
   }
-  if (measured.with_figure < measured.asked) {
-    words += fmt::format(" ({} of {} flights)", measured.with_figure, measured.asked);
+  if (measured.with_figure < measured.required) {
+    words += fmt::format(" ({} of {} flights)", measured.with_figure, measured.required);
   }
   return words;
 }

@@ -12,7 +12,7 @@
 namespace hedgehop::sim {
 
 /// The orders of a paper's flights, one a flight; ids begin with the flights' name. Throws InputError with every fault.
-/// @param quick  only the seeds of a quick look.
+/// @param quick  only the seeds of a quick run.
 std::vector<Order> paper_orders(const Paper& paper, bool quick);
 
 /// Results of a paper's flights and calculations.

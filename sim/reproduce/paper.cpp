@@ -16,7 +16,7 @@
 namespace hedgehop::sim {
 namespace {
 
-/// Finds what in a paper's file makes no sense.
+/// Finds faults in a paper's file that go beyond single fields.
 class Examiner {
  public:
   Examiner(const Paper& paper, const Node& root, Faults& faults)
@@ -26,11 +26,11 @@ class Examiner {
 
   void examine(const PaperFlights& flights, const std::string& at) {
     if (!used_.insert(flights.name).second) fault(at, fmt::format("two flights are called '{}'", flights.name));
-    if (flights.name.find('/') != std::string::npos) fault(at, "a name has no '/': what follows one is the variant's");
+    if (flights.name.find('/') != std::string::npos)
+      fault(at, "a name cannot contain '/', which separates the variant");
     const auto known = [](const std::string& sensor) { return sensor == "ideal" || sensor == "dull"; };
     if (!std::ranges::all_of(flights.sensors, known)) fault(at + ".sensors", "valid sensors: ideal, dull");
-    if (flights.sensor_seeds && flights.sensors.empty())
-      fault(at + ".sensor_seeds", "'sensor_seeds' goes with 'sensors'");
+    if (flights.sensor_seeds && flights.sensors.empty()) fault(at + ".sensor_seeds", "'sensor_seeds' needs 'sensors'");
     const std::string wrong = judging_fault(flights.tuned_on ? flights.tuned_on : tuned_on_, flights.seeds);
     if (!wrong.empty()) {
       fault(at + ".seeds", wrong);
@@ -44,9 +44,10 @@ class Examiner {
     if (row.flights.empty() == row.calculation.empty()) fault(at, "needs either 'flights' or 'calculation'");
     if (!row.calculation.empty()) column(row.calculation, row.value, at);
     if (!row.flights.empty()) figure(row, at);
-    if (row.missing.empty()) fault(at + ".missing", "needs 'fails', a number, or why the flight does not count");
+    if (row.missing.empty())
+      fault(at + ".missing", "needs 'fails', a number, or the reason that the flight does not count");
     if (counts(row.statistic) && parse_number(row.missing, false).kind == ParsedNumber::Kind::number) {
-      fault(at + ".missing", "a number does not go with count and share");
+      fault(at + ".missing", "a number is not valid with count and share");
     }
   }
 
@@ -64,7 +65,7 @@ class Examiner {
  private:
   void fault(const std::string& at, const std::string& words) { faults_.add(place_of(root_, at), words); }
 
-  /// Seeds of a look that must be seeds of the flights.
+  /// Requires that seeds are a subset of the flights' seeds.
   void part(const std::optional<std::string>& seeds, const std::string& whole, const std::string& at) {
     try {
       if (seeds && !within(*seeds, whole)) {
@@ -82,10 +83,10 @@ class Examiner {
   void column(const std::string& calculation, const std::string& name, const std::string& at) {
     const Calculation* const found = find_calculation(calculation);
     if (!found) {
-      fault(at, fmt::format("no calculation is called '{}'; there are: {}", calculation,
-                            fmt::join(calculation_names(), ", ")));
+      fault(at,
+            fmt::format("no calculation is called '{}'; valid: {}", calculation, fmt::join(calculation_names(), ", ")));
     } else if (std::ranges::find(found->columns, name) == found->columns.end()) {
-      fault(at, fmt::format("'{}' has no column '{}', but: {}", calculation, name, fmt::join(found->columns, ", ")));
+      fault(at, fmt::format("'{}' has no column '{}'; valid: {}", calculation, name, fmt::join(found->columns, ", ")));
     }
   }
 
@@ -94,12 +95,12 @@ class Examiner {
     if (figure.column.empty()) fault(at, "needs a 'column'");
     const bool counting = counts(figure.statistic);
     if (counting == figure.is.empty()) {
-      fault(at, counting ? "needs 'is', what to count" : "'is' goes with count and share");
+      fault(at, counting ? "needs 'is', the counted value" : "'is' is valid with count and share only");
     }
   }
 
   void equal(size_t x, size_t y, const std::string& at) {
-    if (x != y) fault(at, fmt::format("{} places across, but {} up", x, y));
+    if (x != y) fault(at, fmt::format("{} x values, but {} y values", x, y));
   }
 
   void examine_series(const PrintedSeries& series, const std::string& at) {
@@ -122,7 +123,7 @@ class Examiner {
   std::set<std::string> names_, used_;
 };
 
-/// Key and file of the sensors' override, for a scenario whose paths count from its own folder.
+/// Returns the override that selects the sensors; the path is relative to the scenario's folder.
 std::string sensor_override(const Paper& paper, const std::string& scenario, const std::string& sensor) {
   namespace fs = std::filesystem;
   const fs::path file = fs::absolute(paper.folder / ".." / "sensors" / (sensor + ".yaml")).lexically_normal();

@@ -7,16 +7,16 @@
 #include <variant>
 #include <vector>
 
-/// A paper's experiments re-simulated, and its figures beside ours.
+/// Re-simulation of a paper's experiments, and comparison with its figures.
 namespace hedgehop::sim {
 
-/// Flights of one scenario that differ by the seed alone, and the same with the paper's own law or other sensors.
+/// Flights of one scenario that differ by the seed only, and the same flights with the published law or other sensors.
 struct PaperFlights {
-  std::string name;      ///< what rows and charts call them; once read, the scenario file's name where none was given
-  std::string scenario;  ///< relative to the paper's file; once read, to the working folder
+  std::string name;      ///< used by rows and charts; after reading, the default is the scenario file's name
+  std::string scenario;  ///< relative to the paper's file; after reading, to the working folder
   std::string seeds;
-  std::optional<std::string> tuned_on;  ///< else the paper's
-  std::optional<std::string> quick;     ///< seeds of a quick look; none: not flown then
+  std::optional<std::string> tuned_on;  ///< default: the paper's
+  std::optional<std::string> quick;     ///< seeds of a quick run; empty: not part of it
   std::vector<std::string> set;
   std::vector<std::string> published;
   std::vector<std::string> sensors;
@@ -24,20 +24,20 @@ struct PaperFlights {
 };
 template <class Visitor>
 void describe(Visitor& v, PaperFlights& c) {
-  v("name", c.name, {.meaning = "what rows and charts call them; else the scenario file's name"});
+  v("name", c.name, {.meaning = "name used by rows and charts; default: the scenario file's name"});
   v("scenario", c.scenario, {.required = true, .meaning = "scenario file, relative to this file"});
-  v("seeds", c.seeds, {.required = true, .meaning = "seeds such as 1001:1030 or 1001:1003,1007, none of tuned_on"});
-  v("tuned_on", c.tuned_on, {.meaning = "in place of the file's"});
-  v("quick", c.quick, {.meaning = "seeds that --quick flies, of those above; without them it flies none"});
+  v("seeds", c.seeds,
+    {.required = true, .meaning = "seeds such as 1001:1030 or 1001:1003,1007, without seeds of tuned_on"});
+  v("tuned_on", c.tuned_on, {.meaning = "tuning seeds of this entry; default: the file's"});
+  v("quick", c.quick, {.meaning = "subset of the seeds that --quick flies; default: no seeds"});
   v("set", c.set, {.meaning = "overrides of the scenario, each key.path=value"});
-  v("published", c.published,
-    {.meaning = "further overrides for the published law: the same seeds again, called NAME/published"});
+  v("published", c.published, {.meaning = "further overrides for the published law; same seeds, named NAME/published"});
   v("sensors", c.sensors,
-    {.meaning = "ideal, dull: flown with ../sensors/ideal.yaml, dull.yaml, too, called NAME/ideal, NAME/dull"});
-  v("sensor_seeds", c.sensor_seeds, {.meaning = "seeds flown with those sensors, of those above; else all"});
+    {.meaning = "ideal, dull: additional flights with ../sensors/ideal.yaml, dull.yaml, named NAME/ideal, NAME/dull"});
+  v("sensor_seeds", c.sensor_seeds, {.meaning = "subset of the seeds flown with those sensors; default: all seeds"});
 }
 
-/// A figure drawn from a column of a campaign's table over flights.
+/// A statistic of a column of a campaign's table over flights.
 struct FlightFigure {
   enum class Statistic { count, share, min, max, mean, median };
   std::vector<std::string> flights;
@@ -45,44 +45,45 @@ struct FlightFigure {
   std::string is;
   Statistic statistic = Statistic::mean;
 };
-/// Whether the statistic counts flights, so that the column is compared with a word.
+/// Returns whether the statistic counts the flights with a given value of the column.
 bool counts(FlightFigure::Statistic statistic);
 template <class Visitor>
 void describe_figure(Visitor& v, FlightFigure& c) {
   v("flights", c.flights, {.meaning = "names of flights"});
-  v("column", c.column, {.meaning = "of a batch's table, such as outcome, min_clearance_m or metric.jerk_rms"});
-  v("is", c.is, {.meaning = "for count and share: what the column must hold, such as collided"});
+  v("column", c.column, {.meaning = "column of a batch's table, such as outcome, min_clearance_m or metric.jerk_rms"});
+  v("is", c.is, {.meaning = "for count and share: counted value of the column, such as collided"});
   v("statistic", c.statistic,
     {.choices = {"count", "share", "min", "max", "mean", "median"},
-     .meaning = "over the flights that have the column"});
+     .meaning = "statistic over the flights that have the column"});
 }
 
-/// One figure of the paper beside ours.
+/// One figure of the paper with the measured one.
 struct PaperRow : FlightFigure {
   std::string what, paper, unit;
-  std::optional<double> at_least, at_most;  ///< bounds that ours must meet
-  std::string missing = "fails";            ///< what a flight without the figure means
-  std::string calculation, value;           ///< in place of flights
+  std::optional<double> at_least, at_most;  ///< bounds of the measured figure
+  std::string missing = "fails";            ///< meaning of a flight without the figure
+  std::string calculation, value;           ///< instead of flights
 };
 template <class Visitor>
 void describe(Visitor& v, PaperRow& c) {
-  v("what", c.what, {.required = true, .meaning = "what the figure measures"});
-  v("paper", c.paper, {.meaning = "the paper's figure, as printed"});
-  v("unit", c.unit, {.meaning = "of ours and of its bounds; '%' of a column that holds a share"});
-  v("at_least", c.at_least, {.meaning = "least that ours must be"});
-  v("at_most", c.at_most, {.meaning = "most that ours may be"});
+  v("what", c.what, {.required = true, .meaning = "measured quantity"});
+  v("paper", c.paper, {.meaning = "figure in the paper"});
+  v("unit", c.unit, {.meaning = "unit of the measured figure and its bounds; '%' for a column of shares"});
+  v("at_least", c.at_least, {.meaning = "minimum of the measured figure"});
+  v("at_most", c.at_most, {.meaning = "maximum of the measured figure"});
   describe_figure(v, c);
   v("missing", c.missing,
-    {.meaning = "what a flight means that has not the figure: 'fails'; a number, to be taken in its place; or why the "
-                "flight does not count, such as 'met no collision course'"});
-  v("calculation", c.calculation, {.meaning = "a figure that needs no flight: name of the calculation"});
-  v("value", c.value, {.meaning = "... and which of its columns, the last row"});
+    {.meaning =
+         "meaning of a flight without the figure: 'fails'; a number that replaces the figure; or the reason that "
+         "the flight does not count, such as 'met no collision course'"});
+  v("calculation", c.calculation, {.meaning = "name of a calculation that needs no flight"});
+  v("value", c.value, {.meaning = "column of the calculation; its last row counts"});
 }
 
-/// Points that the paper prints.
+/// Points published in the paper.
 struct PrintedSeries {
   static constexpr std::string_view kName = "points";
-  static constexpr std::string_view kMeaning = "points as given here, of the paper";
+  static constexpr std::string_view kMeaning = "points listed here, from the paper";
   std::string label;
   std::vector<double> x, y;
 };
@@ -90,20 +91,20 @@ template <class Visitor>
 void describe(Visitor& v, PrintedSeries& c) {
   v("label", c.label, {.required = true, .meaning = "in the legend"});
   v("x", c.x, {.required = true, .meaning = "on the horizontal axis"});
-  v("y", c.y, {.required = true, .meaning = "on the vertical axis, as many"});
+  v("y", c.y, {.required = true, .meaning = "on the vertical axis, as many as x"});
 }
 
-/// One point a group of flights.
+/// One point per group of flights.
 struct GroupSeries : FlightFigure {
   static constexpr std::string_view kName = "groups";
-  static constexpr std::string_view kMeaning = "a statistic of each of the named flights";
+  static constexpr std::string_view kMeaning = "a statistic of each group of flights";
   std::string label;
   std::vector<double> x;
 };
 template <class Visitor>
 void describe(Visitor& v, GroupSeries& c) {
   v("label", c.label, {.required = true, .meaning = "in the legend"});
-  v("x", c.x, {.required = true, .meaning = "on the horizontal axis, one for each of the flights"});
+  v("x", c.x, {.required = true, .meaning = "on the horizontal axis, one for each group of flights"});
   describe_figure(v, c);
 }
 
@@ -157,7 +158,7 @@ void describe(Visitor& v, CalculationSeries& c) {
 
 using PaperSeries = std::variant<PrintedSeries, GroupSeries, LogSeries, PathSeries, CalculationSeries>;
 
-/// A figure of the paper redrawn.
+/// A figure of the paper, drawn from Hedgehop's flights.
 struct PaperChart {
   enum class Scale { linear, log };
   std::string title, note, x, y;
@@ -167,12 +168,13 @@ struct PaperChart {
 template <class Visitor>
 void describe(Visitor& v, PaperChart& c) {
   v("title", c.title, {.required = true, .meaning = "such as 'Fig. 13: ...'"});
-  v("note", c.note, {.meaning = "what to see in it"});
+  v("note", c.note, {.meaning = "caption"});
   v("x", c.x, {.meaning = "name and unit of the horizontal axis; not of paths"});
   v("y", c.y, {.meaning = "name and unit of the vertical axis; not of paths"});
   v("x_scale", c.x_scale, {.choices = {"linear", "log"}, .meaning = "of the horizontal axis"});
   v("y_scale", c.y_scale, {.choices = {"linear", "log"}, .meaning = "of the vertical axis"});
-  v("series", c.series, {.required = true, .selector = "from", .meaning = "what is drawn; paths stand alone"});
+  v("series", c.series,
+    {.required = true, .selector = "from", .meaning = "drawn series; paths cannot be combined with other series"});
 }
 
 /// All that `hedgehop reproduce` does for one paper.
@@ -192,26 +194,26 @@ void describe(Visitor& v, Paper& c) {
   v("title", c.title, {.required = true, .meaning = "authors, year and subject"});
   v("source", c.source, {.required = true, .meaning = "key in REFERENCES.md"});
   v("tuned_on", c.tuned_on, {.meaning = "seeds that parameters were chosen on, such as 1:100, or none; must be given"});
-  v("moved_on", c.moved_on, {.meaning = "why the seeds to judge by are others than before"});
-  v("deviations", c.deviations, {.meaning = "deviations of the published law as flown from the paper, one text each"});
-  v("flights", c.flights, {.meaning = "what is flown"});
-  v("rows", c.rows, {.meaning = "the paper's figures beside ours"});
-  v("charts", c.charts, {.meaning = "the paper's figures redrawn"});
+  v("moved_on", c.moved_on, {.meaning = "reason for a change of the judging seeds"});
+  v("deviations", c.deviations, {.meaning = "deviations of the published law from the paper, one text each"});
+  v("flights", c.flights, {.meaning = "flights"});
+  v("rows", c.rows, {.meaning = "the paper's figures with the measured ones"});
+  v("charts", c.charts, {.meaning = "charts of the paper, drawn from Hedgehop's flights"});
 }
 
-/// Flights that share a name and differ by the seed alone: an entry's own, or a variant of them.
+/// Flights with one name that differ by the seed only: an entry's own, or a variant of them.
 struct FlightGroup {
   std::string name, scenario, seeds;
-  std::optional<std::string> quick;  ///< none: not part of a quick look
+  std::optional<std::string> quick;  ///< empty: not part of a quick run
   std::vector<std::string> set;
 };
 
-/// What a paper flies: each entry's own flights, then those with the published law, then those with other sensors.
+/// Returns the flights of a paper: each entry's own, then those with the published law, then those with other sensors.
 std::vector<FlightGroup> flight_groups(const Paper& paper);
 
-/// Reads a paper's file. Throws InputError with every fault: of the file, and names of flights or calculations that do
-/// not exist, rows without a source, bad seeds, seeds that parameters were chosen on, series of unequal length, paths
-/// beside other series.
+/// Reads a paper's file. Throws InputError with every fault: of the file, unknown names of flights or calculations,
+/// rows without a source, invalid seeds, seeds that parameters were chosen on, series of unequal length, and charts
+/// that mix paths with other series.
 Paper read_paper(const std::filesystem::path& file);
 
 }  // namespace hedgehop::sim

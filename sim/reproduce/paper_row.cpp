@@ -14,17 +14,17 @@
 namespace hedgehop::sim {
 namespace {
 
-/// Whether flights without the figure do not count; `missing` gives the reason.
+/// Returns whether flights without the figure do not count; `missing` gives the reason.
 bool excuses_missing(const PaperRow& row) {
   return row.missing != "fails" && parse_number(row.missing, false).kind != ParsedNumber::Kind::number;
 }
 
-/// "No touch": a vehicle that hovers for ever touches nothing either, so the flights must finish, too.
+/// Returns whether the row allows no contact. Its flights must also finish, because a hovering vehicle has no contact.
 bool forbids_contact(const PaperRow& row) {
   return counts(row.statistic) && row.is == "collided" && row.column == "outcome" && row.at_most.has_value();
 }
 
-/// Whether a figure of ours, or of a variant, is as required.
+/// Returns whether a measured figure, or that of a variant, meets the requirement.
 bool judged(const PaperRow& row, const MeasuredFigure& figure) {
   const double value = figure.value;
   if (!(value >= row.at_least.value_or(-INFINITY) && value <= row.at_most.value_or(INFINITY))) return false;
@@ -45,13 +45,13 @@ std::string command_of(const PaperRow& row, const Paper& paper) {
   return command;
 }
 
-/// In the row's unit: columns hold shares where it is percent.
+/// Returns the figure in the row's unit: shares become percent.
 MeasuredFigure in_unit(const PaperRow& row, MeasuredFigure figure) {
   if (row.unit == "%") figure.value *= 100.0;
   return figure;
 }
 
-/// The row's figure over a variant of its flights; nothing where one of them has no such variant.
+/// Returns the row's figure over a variant of its flights; empty if one of them has no such variant.
 std::optional<MeasuredFigure> variant_figure(const PaperRow& row, const std::string& variant,
                                              const PaperOutcome& outcome) {
   FlightFigure figure = row;
@@ -82,7 +82,7 @@ RowOutcome row_outcome(const PaperRow& row, const PaperOutcome& outcome) {
   result.builds = result.modified.builds;
   for (const auto& [variant, figure] : result.variants)
     result.builds.insert(figure.builds.begin(), figure.builds.end());
-  const bool left_out = row.calculation.empty() && result.modified.asked == 0;
+  const bool left_out = row.calculation.empty() && result.modified.required == 0;
   if ((row.at_least || row.at_most) && !left_out) result.holds = judged(row, result.modified);
   const auto published = result.variants.find("published");
   if (result.holds && published != result.variants.end()) result.published_holds = judged(row, published->second);
@@ -92,7 +92,7 @@ RowOutcome row_outcome(const PaperRow& row, const PaperOutcome& outcome) {
 }  // namespace
 
 bool RowOutcome::measured() const {
-  return !std::isnan(modified.value) || (row.calculation.empty() && modified.asked == 0);
+  return !std::isnan(modified.value) || (row.calculation.empty() && modified.required == 0);
 }
 
 std::string RowOutcome::required_words() const {
@@ -106,20 +106,20 @@ std::string RowOutcome::required_words() const {
 }
 
 std::string RowOutcome::modified_words() const {
-  if (row.calculation.empty() && modified.asked == 0) return "not in the quick look";
+  if (row.calculation.empty() && modified.required == 0) return "not in the quick run";
   return figure_words(row, modified);
 }
 
 std::string RowOutcome::variant_words(const std::string& variant) const {
   const auto found = variants.find(variant);
   if (found == variants.end()) return "-";
-  return found->second.asked == 0 ? "not in the quick look" : figure_words(row, found->second);
+  return found->second.required == 0 ? "not in the quick run" : figure_words(row, found->second);
 }
 
 std::string RowOutcome::flights_words() const {
   if (!row.calculation.empty()) return "-";
   std::string words =
-      fmt::format("{}, {}, {}, {}", modified.asked, modified.flown, modified.faulted, modified.with_figure);
+      fmt::format("{}, {}, {}, {}", modified.required, modified.flown, modified.faulted, modified.with_figure);
   const size_t without = modified.flown - modified.faulted - modified.with_figure;
   if (without > 0 && excuses_missing(row)) words += fmt::format("; {} {}", without, row.missing);
   if (modified.stand_ins > 0) words += fmt::format("; {} without taken as {}", modified.stand_ins, row.missing);
@@ -175,7 +175,7 @@ std::string rows_csv(const RowsOfPapers& papers) {
   {
     CsvLine header(out);
     for (const char* name : {"paper",      "claim",  "unit",    "in_paper", "at_least",   "at_most", "as_published",
-                             "ideal",      "day",    "dull",    "asked",    "flown",      "faulted", "with_figure",
+                             "ideal",      "day",    "dull",    "required", "flown",      "faulted", "with_figure",
                              "unfinished", "low_95", "high_95", "holds",    "truth_used", "build",   "command"}) {
       header.add(std::string_view(name));
     }
@@ -191,8 +191,8 @@ std::string rows_csv(const RowsOfPapers& papers) {
       for (const std::string& text : {paper.key, row.row.what, row.row.unit, row.row.paper}) line.add(text);
       line.add(row.row.at_least).add(row.row.at_most).add(variant("published")).add(variant("ideal"));
       line.add(row.modified.value).add(variant("dull"));
-      for (const size_t count : {row.modified.asked, row.modified.flown, row.modified.faulted, row.modified.with_figure,
-                                 row.modified.unfinished}) {
+      for (const size_t count : {row.modified.required, row.modified.flown, row.modified.faulted,
+                                 row.modified.with_figure, row.modified.unfinished}) {
         line.add(std::to_string(count));
       }
       line.add(interval ? std::optional(interval->low) : std::nullopt);

@@ -84,7 +84,7 @@ std::string results_page(const RowsOfPapers& papers, const PageFacts& facts, con
   for (const auto& [paper, rows] : papers) sections[paper.key] = "\n" + rows_text(paper, rows);
   std::string text = origin + std::string(kCommand);
   for (const auto& [key, section] : sections) text += " " + key;
-  text += std::string(kOption) + (facts.quick ? std::string(kQuickLook) + "\n" : "") + kHowToRead;
+  text += std::string(kOption) + (facts.quick ? std::string(kQuickRun) + "\n" : "") + kHowToRead;
   for (const auto& [key, section] : sections) text += section;
   return text;
 }

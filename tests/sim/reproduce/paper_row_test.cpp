@@ -81,7 +81,7 @@ TEST(MeasuredFigure, IsThatOfBruteForceOverTheFlightsWithoutAFault) {
       return measure({.flights = {"a"}, .column = column, .is = is, .statistic = statistic}, outcome);
     };
     const MeasuredFigure share = figure(Statistic::share, "outcome", "collided");
-    EXPECT_EQ(share.asked, asked);
+    EXPECT_EQ(share.required, asked);
     EXPECT_EQ(share.flown, flew);
     EXPECT_EQ(share.faulted, faulted);
     EXPECT_EQ(share.with_figure, clearances.size());
@@ -212,9 +212,9 @@ TEST_F(PaperRows, WhatWasNotMeasuredIsNoPass) {
   const RowOutcome free = row(worst, {flown("a", 1, "reached", 1.0)});
   EXPECT_EQ(free.holds, std::nullopt);
   EXPECT_FALSE(all_hold({free}));
-  const RowOutcome not_asked = row(worst, {});  // a quick look leaves it out
+  const RowOutcome not_asked = row(worst, {});  // not part of a quick run
   EXPECT_TRUE(all_hold({not_asked}));
-  EXPECT_EQ(not_asked.modified_words(), "not in the quick look");
+  EXPECT_EQ(not_asked.modified_words(), "not in the quick run");
 }
 
 TEST_F(PaperRows, VariantsStandBesideOursAndDecideNothing) {

@@ -41,7 +41,7 @@ TEST(PaperFile, EveryShippedOneCanBeFlown) {
     std::set<std::string> all, quick;
     for (const Order& order : paper_orders(paper, false)) EXPECT_TRUE(all.insert(order.id).second) << order.id;
     for (const Order& order : paper_orders(paper, true)) quick.insert(order.id);
-    EXPECT_TRUE(std::ranges::includes(all, quick)) << paper.key << ": a quick look must be part of the whole";
+    EXPECT_TRUE(std::ranges::includes(all, quick)) << paper.key << ": a quick run must be part of the full run";
     ++papers;
   }
   EXPECT_GE(papers, 2);
@@ -73,7 +73,7 @@ TEST(PaperFile, WhatCannotBeMeantIsRefused) {
   EXPECT_THAT(faults_of(flights + "rows: [{what: w, flights: [a], column: outcome, statistic: count}]"),
               Contains(HasSubstr("needs 'is'")));
   EXPECT_THAT(faults_of("charts: [{title: t, series: [{from: points, label: l, x: [1, 2], y: [1]}]}]"),
-              Contains(HasSubstr("2 places across, but 1 up")));
+              Contains(HasSubstr("2 x values, but 1 y values")));
   EXPECT_THAT(faults_of(flights + "charts: [{title: t, series: [{from: paths, label: l, flights: a}, "
                                   "{from: points, label: p, x: [], y: []}]}]"),
               Contains(HasSubstr("cannot share a chart")));

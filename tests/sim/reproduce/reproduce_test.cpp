@@ -49,7 +49,7 @@ TEST_F(Reproduce, TellsEachFigureAndFailsWhenOneDoesNotHold) {
   EXPECT_THAT(end.out, HasSubstr("- it flies faster\n"));
   const CsvTable rows(folder.path() / "out/reproduction.csv");
   EXPECT_THAT(rows.words("holds"), ElementsAre("", "no", "no"));
-  EXPECT_THAT(rows.numbers("asked"), ElementsAre(3, 5, 2));
+  EXPECT_THAT(rows.numbers("required"), ElementsAre(3, 5, 2));
   EXPECT_THAT(rows.numbers("with_figure"), ElementsAre(3, 5, 2));
   EXPECT_NE(rows.words("as_published")[0], rows.words("day")[0]);
   EXPECT_EQ(rows.words("as_published")[1], "");  // `fast` has no law of a paper
@@ -70,7 +70,7 @@ TEST_F(Reproduce, ARowThatNothingMeasuresSetsTheExitStatus) {
   EXPECT_THAT(unknown.out, HasSubstr("| not measured |"));
 }
 
-TEST_F(Reproduce, WritesItsTablesAsAPageButNotOfAQuickLook) {
+TEST_F(Reproduce, WritesAPageExceptForAQuickRun) {
   EXPECT_EQ(folder.hedgehop("reproduce small.yaml --quick --out out --write r.md").status, 2);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "r.md"));
   folder.hedgehop("reproduce small.yaml --out out --write r.md");
@@ -78,11 +78,11 @@ TEST_F(Reproduce, WritesItsTablesAsAPageButNotOfAQuickLook) {
   EXPECT_EQ(folder.read("r.md"), folder.read("out/reproduction.md"));
 }
 
-TEST_F(Reproduce, AQuickLookFliesPartAndTheWholeFliesOnlyTheRest) {
+TEST_F(Reproduce, AFullRunFliesOnlyTheRestOfAQuickRun) {
   const std::string counting = folder.worker("echo $seed >> flown.txt; fly \"$@\"");
   const std::string with = " -j 1 --out out --program " + counting;
   const CommandEnd quick = folder.hedgehop("reproduce small.yaml --quick" + with);
-  EXPECT_THAT(quick.out, HasSubstr("| farthest way, m | - | at least 1000 | - | - | not in the quick look |"));
+  EXPECT_THAT(quick.out, HasSubstr("| farthest way, m | - | at least 1000 | - | - | not in the quick run |"));
   EXPECT_EQ(folder.read("flown.txt"), "1\n2\n1\n2\n");  // ours, then the published law
   EXPECT_EQ(folder.hedgehop("reproduce small.yaml" + with).status, 1);
   EXPECT_EQ(folder.read("flown.txt"), "1\n2\n1\n2\n3\n3\n1\n2\n");
@@ -118,7 +118,7 @@ TEST_F(Reproduce, ItsPageDrawsEveryChartAlone) {
   EXPECT_EQ(page.value.at("verdicts"), nlohmann::json({"fail", "fail"}));
   EXPECT_THAT(page.value.at("labels")[0].get<std::string>(), HasSubstr("slow: 3fast: 2"));
   EXPECT_THAT(page.value.at("labels")[1].get<std::string>(), HasSubstr("ours"));
-  EXPECT_THAT(page.value.at("head").get<std::string>(), Not(HasSubstr("quick look")));
+  EXPECT_THAT(page.value.at("head").get<std::string>(), Not(HasSubstr("Quick run")));
 }
 
 }  // namespace
