@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "avoidance/module.h"
 
@@ -9,12 +10,20 @@ namespace hedgehop::avoidance {
 
 /// Returns the heading of an attitude, from north to east, in (-pi, pi], rad: where B's x axis points in the plan.
 /// @param q_WB  of length 1, not pointing straight up or down.
-double heading_rad(const Eigen::Quaterniond& q_WB);
+inline double heading_rad(const Eigen::Quaterniond& q_WB) {
+  const Eigen::Vector3d forward_W = q_WB * Eigen::Vector3d::UnitX();
+  return std::atan2(forward_W.y(), forward_W.x());
+}
 
 /// Returns a horizontal vector rotated by an angle, positive from x to y: from north to east, or from forward to right.
-Eigen::Vector2d rotated(const Eigen::Vector2d& vector, double angle_rad);
+inline Eigen::Vector2d rotated(const Eigen::Vector2d& vector, double angle_rad) {
+  return Eigen::Rotation2Dd(angle_rad) * vector;
+}
 
 /// Returns the estimated horizontal velocity in H, m/s.
-Eigen::Vector2d velocity_H(const NavigationState& navigation);
+inline Eigen::Vector2d velocity_H(const NavigationState& navigation) {
+  const Eigen::Vector2d v_WB_W = (navigation.q_WB_est * navigation.v_WB_B_est).head<2>();
+  return rotated(v_WB_W, -heading_rad(navigation.q_WB_est));
+}
 
 }  // namespace hedgehop::avoidance

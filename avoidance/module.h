@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "avoidance/channel.h"
+#include "avoidance/camera_channel.h"
 #include "vision/camera/camera.h"
 
 /// The one interface between an avoidance module and the aircraft that carries it. A module sees images and the
@@ -81,7 +81,7 @@ void confine(Command& command, double speed_limit_mps);
 /// A camera a module cannot fly without.
 struct CameraNeed {
   std::string role;
-  using Channel = avoidance::Channel;
+  using Channel = avoidance::CameraChannel;
   Channel channel = Channel::grey;
   bool pinhole = false;  ///< the module's mathematics holds for an undistorted pinhole only
 };

@@ -1,6 +1,6 @@
 #include "avoidance/registry.h"
 
-#include "avoidance/sight.h"
+#include "avoidance/blind_stop.h"
 
 namespace hedgehop::avoidance {
 namespace {

@@ -95,13 +95,13 @@ Command Pursuit::update(const Observation& observation, const WallObservation* s
     const double speed_mps = std::max(config_.probe_mps, clearance_speed_mps(aside_m, free_m, config_.limits));
     // Limited from the walls' direction too: the heading follows the course and would turn on and on.
     const double walls_rad = seen->direction_rad;
-    const double course_rad = pursuit_course_rad(gap_, config_.lookahead_m, kMostCourseRad);
-    return fly(observation, speed_mps, std::clamp(course_rad, walls_rad - kMostCourseRad, walls_rad + kMostCourseRad),
+    const double course_rad = pursuit_course_rad(gap_, config_.lookahead_m, kMaxCourseRad);
+    return fly(observation, speed_mps, std::clamp(course_rad, walls_rad - kMaxCourseRad, walls_rad + kMaxCourseRad),
                dt_s);
   }
   // Slowly where nothing is known yet but corners are tracked on both sides.
   if (probing_ns_ < 0) probing_ns_ = now_ns;
-  const bool corners = seen && seen->corners_left >= kLeastVectors && seen->corners_right >= kLeastVectors;
+  const bool corners = seen && seen->corners_left >= kMinVectors && seen->corners_right >= kMinVectors;
   const bool patient = seconds(now_ns - probing_ns_) <= config_.probe_s;
   if (!is_new || !corners || !patient) {
     status_ = "blind";

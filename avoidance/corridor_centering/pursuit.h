@@ -15,7 +15,7 @@ namespace hedgehop::avoidance::corridor_centering {
 
 /// Greatest angle from the heading to the course, rad: beyond, the corridor leaves the regions in which walls are
 /// measured.
-inline constexpr double kMostCourseRad = 50.0 * std::numbers::pi / 180.0;
+inline constexpr double kMaxCourseRad = 50.0 * std::numbers::pi / 180.0;
 
 /// Returns the course to the middle of the gap `ahead_m` in front, rad to the right of the heading, within `most_rad`.
 /// An offset from a straight corridor's middle falls by e in every `ahead_m` of path, at any speed, and cannot

@@ -19,9 +19,9 @@ using vision::corridor::kAhead, vision::corridor::kLeft, vision::corridor::kRigh
 using vision::corridor::WallPoint;
 
 /// Greatest angle between the heading and the walls that is looked for: that of the course.
-constexpr double kMostTurnedRad = 50.0 * std::numbers::pi / 180.0;
+constexpr double kMaxTurnRad = 50.0 * std::numbers::pi / 180.0;
 /// Share of a side's vectors too slow for a distance above which the side is unknown: the others are the near ones.
-constexpr double kMostSlow = 0.5;
+constexpr double kMaxSlowShare = 0.5;
 
 constexpr CorridorRegions kWallRegions;  // [Zingg2010] sec. IV-D
 
@@ -85,13 +85,13 @@ vision::corridor::CameraMotion WallObserver::motion(const NavigationState& now, 
 /// The median of a side. [Zingg2010] sec. IV-E. Ours: unknown too where most vectors are too slow for a distance.
 vision::corridor::SideDistance WallObserver::side(const std::vector<WallPoint>& points,
                                                   vision::corridor::Region side) const {
-  vision::corridor::SideDistance found = vision::corridor::side_distance(points, side, kLeastVectors);
+  vision::corridor::SideDistance found = vision::corridor::side_distance(points, side, kMinVectors);
   if (law_ == Law::published) return found;
   const auto slow = std::ranges::count_if(points, [side](const WallPoint& point) {
     return point.region == side && point.rejection == vision::corridor::RejectionReason::too_slow;
   });
   const double tracked = static_cast<double>(slow) + found.count;
-  if (static_cast<double>(slow) > kMostSlow * tracked) {
+  if (static_cast<double>(slow) > kMaxSlowShare * tracked) {
     found.distance_m = std::numeric_limits<double>::quiet_NaN();
   }
   return found;
@@ -132,7 +132,7 @@ WallObservation WallObserver::compare(const cv::Mat& older, const NavigationStat
   seen.corners_left = static_cast<int>(pairs[kLeft].size());
   seen.corners_right = static_cast<int>(pairs[kRight].size());
   if (law_ == Law::modified) {
-    seen.direction_rad = vision::corridor::wall_direction_rad(seen.points, kMostTurnedRad, kLeastVectors);
+    seen.direction_rad = vision::corridor::wall_direction_rad(seen.points, kMaxTurnRad, kMinVectors);
   }
   const std::vector<WallPoint> along = vision::corridor::rotate_points(seen.points, seen.direction_rad);
   seen.left = side(along, kLeft);

@@ -15,7 +15,7 @@
 namespace hedgehop::avoidance::corridor_centering {
 
 /// Vectors without which a side is unknown: fewer do not outvote their outliers in a median.
-inline constexpr int kLeastVectors = 12;
+inline constexpr int kMinVectors = 12;
 
 /// What two images of a fisheye show of a corridor.
 struct WallObservation {

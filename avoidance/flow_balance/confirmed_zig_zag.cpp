@@ -17,7 +17,7 @@ Eigen::Vector2d ConfirmedZigZag::velocity_H() const {
   return Eigen::Rotation2Dd(stray_rad_) * signs_H_.cwiseProduct(diagonal_.speed_mps);
 }
 
-bool ConfirmedZigZag::cornered(std::span<const SideRange> sides) const {
+bool ConfirmedZigZag::in_corner(std::span<const SideRange> sides) const {
   std::array<bool, 2> near{};
   for (const SideRange& side : sides) {
     if (is_too_near(side, diagonal_.range_threshold_m) && leads_towards(signs_H_, side)) {
@@ -40,7 +40,7 @@ bool ConfirmedZigZag::update(std::span<const SideRange> sides) {
   if (!nearest) return false;
   signs_H_[component_along(nearest->axis_H)] *= -1.0;
   std::fill(confirmed_.begin(), confirmed_.end(), 0);
-  stray_rad_ = largest_stray_rad_ * uniform(random_, -1.0, 1.0);
+  stray_rad_ = max_stray_rad_ * uniform(random_, -1.0, 1.0);
   ++reversals_;
   return true;
 }

@@ -20,12 +20,12 @@ class ConfirmedZigZag {
   /// @param stray_rad  the path's largest angle off its diagonal, drawn at every reversal; >= 0.
   /// @param seed       of those draws.
   ConfirmedZigZag(const Diagonal& diagonal, double stray_rad, uint64_t seed)
-      : diagonal_(diagonal), largest_stray_rad_(stray_rad), random_(seed) {}
+      : diagonal_(diagonal), max_stray_rad_(stray_rad), random_(seed) {}
 
   /// Velocity to fly in H, m/s; both components positive at first.
   Eigen::Vector2d velocity_H() const;
   /// Whether obstacles that the path leads towards are too near on sides of both components.
-  bool cornered(std::span<const SideRange> sides) const;
+  bool in_corner(std::span<const SideRange> sides) const;
   /// Takes in what the cameras measure, the same ones in the same order every time.
   /// @return whether a component was reversed.
   bool update(std::span<const SideRange> sides);
@@ -33,7 +33,7 @@ class ConfirmedZigZag {
 
  private:
   Diagonal diagonal_;
-  double largest_stray_rad_;
+  double max_stray_rad_;
   Random random_;
   Eigen::Vector2d signs_H_ = {1.0, 1.0};
   double stray_rad_ = 0.0;

@@ -3,10 +3,8 @@
 #include <optional>
 
 #include "avoidance/flow_balance/balance_law.h"
-#include "avoidance/flow_balance/detour.h"
-#include "avoidance/flow_balance/patch_ranging.h"
-#include "avoidance/flow_balance/range_balance.h"
-#include "avoidance/flow_balance/range_ring.h"
+#include "avoidance/flow_balance/modified_balance.h"
+#include "avoidance/flow_balance/ranging.h"
 #include "avoidance/flow_balance/side_cameras.h"
 #include "avoidance/go_to_goal.h"
 #include "avoidance/heading.h"
@@ -45,10 +43,10 @@ class FlowBalance final : public Module {
   Decision do_update(const Observation& observation) override {
     heading_rad_ = heading_rad(observation.navigation.q_WB_est);
     cameras_->update(observation);
-    if (!is_published()) look_around(observation);
+    if (!is_published()) update_ring(observation);
     const Eigen::Vector2d p_BG_W = (observation.goal.p_WG - observation.navigation.p_WB_est).head<2>();
     const Eigen::Vector2d v_W = is_published() ? published_command(p_BG_W, velocity_H(observation.navigation))
-                                               : our_command(p_BG_W, observation.t_ns);
+                                               : modified_command(p_BG_W, observation.t_ns);
     constexpr double kAvoidCosine = 0.966;  // 15 deg off the target
     const bool avoids = v_W.dot(v_tgt_W_) < kAvoidCosine * v_W.norm() * v_tgt_W_.norm();
     v_cmd_W_ = is_published() ? v_W : filtered(v_W, observation.t_ns);
@@ -65,7 +63,7 @@ class FlowBalance final : public Module {
   }
 
   /// Puts what the cameras measured into the ring.
-  void look_around(const Observation& observation) {
+  void update_ring(const Observation& observation) {
     const NavigationState& navigation = observation.navigation;
     ranging_->update(*cameras_, navigation);
     ring_.carry((navigation.q_WB_est * navigation.v_WB_B_est).head<2>(), observation.t_ns);
@@ -83,14 +81,14 @@ class FlowBalance final : public Module {
   }
 
   /// With the nearest places all round and with detours.
-  Eigen::Vector2d our_command(const Eigen::Vector2d& p_BG_W, int64_t t_ns) {
+  Eigen::Vector2d modified_command(const Eigen::Vector2d& p_BG_W, int64_t t_ns) {
     const double aside_rad = detour_->update(p_BG_W.norm(), seconds(t_ns));
     const Eigen::Vector2d aim_W = rotated(p_BG_W, config_.spiral_angle_rad + aside_rad);
     v_tgt_W_ = velocity_to_goal(aim_W, config_.speed_mps, config_.slow_radius_m);
     // The direction is chosen as at full speed, so that walls do not outweigh a goal that is near.
     const Eigen::Vector2d full_W = velocity_to_goal(aim_W, config_.speed_mps, 0.0);
     const Eigen::Vector2d push_W =
-        push_from_places(ring_.places_W(), aim_W, config_.loom_gain_m2ps + config_.flow_gain_m2ps);
+        push_from_obstacles(ring_.obstacles_W(), aim_W, config_.loom_gain_m2ps + config_.flow_gain_m2ps);
     return normalized_command(full_W, push_W, v_tgt_W_.norm());
   }
 

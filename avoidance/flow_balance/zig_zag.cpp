@@ -5,9 +5,8 @@
 #include <optional>
 
 #include "avoidance/flow_balance/confirmed_zig_zag.h"
-#include "avoidance/flow_balance/mean_ranging.h"
+#include "avoidance/flow_balance/ranging.h"
 #include "avoidance/flow_balance/side_cameras.h"
-#include "avoidance/flow_balance/wall_ranging.h"
 #include "avoidance/flow_balance/zig_zag_law.h"
 #include "avoidance/heading.h"
 #include "sim/fields/bounds.h"
@@ -81,8 +80,8 @@ class ZigZag final : public Module {
                       .stopping = {config_.reaction_s, config_.braking_mps2},
                       .tail_m = config_.tail_m,
                       .reverses_both = true};
-    const auto cornered = sides(ranging_->left_once_stopped_per_m(approach));
-    if (confirmed_->cornered(cornered)) return cornered;
+    const auto in_corner = sides(ranging_->left_once_stopped_per_m(approach));
+    if (confirmed_->in_corner(in_corner)) return in_corner;
     approach.reverses_both = false;
     return sides(ranging_->left_once_stopped_per_m(approach));
   }

@@ -4,9 +4,8 @@
 #include <string>
 
 #include "avoidance/camera_flow.h"
-#include "avoidance/landmark_map/course_keeper.h"
-#include "avoidance/landmark_map/landmark_overlay.h"
-#include "avoidance/landmark_map/plan_overlay.h"
+#include "avoidance/landmark_map/course.h"
+#include "avoidance/landmark_map/map_overlay.h"
 #include "avoidance/landmark_map/wall_stop.h"
 #include "sim/fields/bounds.h"
 
@@ -22,7 +21,7 @@ class LandmarkMapModule final : public Module {
   }
 
  private:
-  Needs do_needs() const override { return {{LandmarkSight::need(config_.sight)}}; }
+  Needs do_needs() const override { return {{LandmarkObserver::need(config_.sight)}}; }
   std::vector<Signal> do_signals() const override {
     return {{"corners", ""}, {"landmarks", ""}, {"obstacles", ""}, {"loom_per_s", "1/s"}, {"off_course_m", "m"}};
   }
@@ -87,7 +86,7 @@ class LandmarkMapModule final : public Module {
   std::vector<Metric> do_metrics() const override {
     return {{"landmarks", static_cast<double>(confirmed()), ""},
             {"obstacles", keeper_ ? static_cast<double>(keeper_->obstacles().size()) : 0.0, ""},
-            {"most_off_course", keeper_ ? keeper_->most_off_course_m() : 0.0, "m"},
+            {"most_off_course", keeper_ ? keeper_->max_off_course_m() : 0.0, "m"},
             {"stopped", wall_stop_.stopped() ? 1.0 : 0.0, ""},
             {"filter_ms_total", sight_ ? sight_->filter_ms() : 0.0, "ms", /*is_wall_time=*/true}};
   }
@@ -103,7 +102,7 @@ class LandmarkMapModule final : public Module {
       if (!map().confirmed(mapped)) continue;
       const Eigen::Vector3d p_W = vision::landmarks::position_W(mapped.landmark);
       const Eigen::Matrix3d P_W = vision::landmarks::covariance_W(mapped.landmark);
-      const bool known = greatest_variance(P_W) <= kKnownSigmaM * kKnownSigmaM;
+      const bool known = max_variance(P_W) <= kKnownSigmaM * kKnownSigmaM;
       if (known || bounds_obstacle(map(), mapped)) points.push_back({p_W, P_W});
     }
     return points;
@@ -127,7 +126,7 @@ class LandmarkMapModule final : public Module {
   }
 
   LandmarkMapModuleConfig config_;
-  std::optional<LandmarkSight> sight_;
+  std::optional<LandmarkObserver> sight_;
   std::optional<CameraFlow> flow_;  ///< where there are images, and walls to stop before by it
   WallStop wall_stop_{0.0};
   std::optional<CourseKeeper> keeper_;

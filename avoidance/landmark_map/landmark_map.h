@@ -4,8 +4,8 @@
 #include <optional>
 #include <string_view>
 
-#include "avoidance/landmark_map/landmark_sight.h"
-#include "avoidance/landmark_map/orbit.h"
+#include "avoidance/landmark_map/course.h"
+#include "avoidance/landmark_map/landmark_observer.h"
 #include "avoidance/module.h"
 
 namespace hedgehop::avoidance::landmark_map {
@@ -19,7 +19,7 @@ struct LandmarkMapModuleConfig {
       "maps the corners that one camera sees and flies around them; what has none it hardly sees";
 
   Law law = Law::modified;
-  LandmarkSightConfig sight;
+  LandmarkObserverConfig sight;
   double speed_mps = 2.0;
   std::optional<Orbit> orbit;
   double clearance_m = 6.0;

@@ -5,7 +5,29 @@
 
 namespace hedgehop::avoidance::local_map {
 
-void LevelSlice::build(const vision::mapping::OccupancyMap& map, const Band& band, const ClosedCells& closed) {
+void ClosedCells::close_cell(const Eigen::Vector3d& p_W, double until_s) {
+  const Eigen::Vector3i at = (p_W / cell_m_).array().floor().cast<int>();
+  const Cell cell = {at.x(), at.y(), at.z()};
+  if (until_s_.size() >= kMaxCells && !until_s_.contains(cell)) return;
+  double& kept_s = until_s_[cell];
+  kept_s = std::max(kept_s, until_s);
+}
+
+void ClosedCells::close(const Eigen::Vector3d& p_W, double radius_m, double t_s) {
+  const int reach = static_cast<int>(std::ceil(radius_m / cell_m_));
+  for (int row = -reach; row <= reach; ++row) {
+    for (int col = -reach; col <= reach; ++col) {
+      const Eigen::Vector3d off_W(row * cell_m_, col * cell_m_, 0.0);
+      if (off_W.norm() < radius_m) close_cell(p_W + off_W, t_s + kUnknownS);
+    }
+  }
+}
+
+void ClosedCells::update(double t_s) {
+  std::erase_if(until_s_, [&](const auto& cell) { return cell.second < t_s; });
+}
+
+void LevelSlice::build(const vision::mapping::OccupancyMap& map, const HeightRange& band, const ClosedCells& closed) {
   side_ = map.size().x();
   cell_m_ = map.config().voxel_m;
   corner_W_ = cell_m_ * map.first().head<2>().cast<double>();
@@ -74,7 +96,7 @@ double LevelSlice::exactly_to_occupied_m(const Eigen::Vector2d& p_W, double with
   return least_m;
 }
 
-void LevelSlice::close(const ClosedCells& closed, const Band& band) {
+void LevelSlice::close(const ClosedCells& closed, const HeightRange& band) {
   closed.for_each([&](const Eigen::Vector3d& p_W) {
     if (p_W.z() < band.top_m || p_W.z() > band.bottom_m) return;
     const Eigen::Vector2i at = cell(p_W.head<2>());

@@ -7,16 +7,14 @@
 #include <string>
 
 #include "avoidance/heading.h"
+#include "avoidance/local_map/altitude_levels.h"
 #include "avoidance/local_map/dead_reckoning.h"
-#include "avoidance/local_map/footprint.h"
-#include "avoidance/local_map/learned_distances.h"
-#include "avoidance/local_map/levels.h"
+#include "avoidance/local_map/hull_clearance.h"
 #include "avoidance/local_map/local_map_overlay.h"
-#include "avoidance/local_map/look.h"
 #include "avoidance/local_map/route_field.h"
 #include "avoidance/local_map/stop_planner.h"
 #include "avoidance/local_map/surroundings.h"
-#include "avoidance/local_map/velocity_obstacles.h"
+#include "avoidance/local_map/unknown_target.h"
 #include "sim/fields/bounds.h"
 #include "sim/fields/quantities.h"
 
@@ -31,8 +29,8 @@ constexpr double kHoversMps = 0.05;
 constexpr double kLittleM = 0.5;  // of progress, that is not worth to tilt the camera for
 // What is near flies past too fast to be measured, so that speed follows height, as bees' does: [Srinivasan1996] sec.
 // on flight speed.
-constexpr double kGroundRadps = 2.0, kLeastHeightM = 0.5;
-constexpr double kLeastMarginM = 0.05;  // beside the hull, where the way is narrow
+constexpr double kGroundRadps = 2.0, kMinHeightM = 0.5;
+constexpr double kMinMarginM = 0.05;  // beside the hull, where the way is narrow
 
 class LocalMap final : public Module {
  public:
@@ -55,23 +53,23 @@ class LocalMap final : public Module {
   void do_reset(const Setup& setup) override {
     const VehicleLimits& limits = setup.limits;
     clearance_ = {limits.radius_m, config_.margin_m, config_.margin_time_s};
-    outline_ = Outline(limits);
+    hull_discs_ = HullDiscs(limits);
     // The edge of an obstacle may reach into a free voxel: who is thinner than that keeps as far from it.
     const double wide_m = clearance_.hull_m + clearance_.margin_m;
-    berth_ = {wide_m, std::min(wide_m, std::max(clearance_.hull_m + kLeastMarginM, config_.voxel_m))};
-    levels_ = Levels(setup.altitude_band, berth_);
+    route_clearance_ = {wide_m, std::min(wide_m, std::max(clearance_.hull_m + kMinMarginM, config_.voxel_m))};
+    altitude_levels_ = AltitudeLevels(setup.altitude_band, route_clearance_);
     learned_ = {};
-    around_.emplace(config_, setup, outline_);
+    around_.emplace(config_, setup, hull_discs_);
     dead_reckoning_ = {};
-    footprint_ = Footprint(outline_, clearance_, config_.voxel_m);
+    hull_clearance_ = HullClearance(hull_discs_, clearance_, config_.voxel_m);
     const double acceleration = limits.acceleration_mps2;
     response_ = {.delay_s = config_.delay_s,
                  .acceleration_mps2 = acceleration,
                  .braking_mps2 = config_.braking_share * acceleration};
-    most_mps_ = std::min(config_.speed_mps, limits.speed_mps);
+    max_mps_ = std::min(config_.speed_mps, limits.speed_mps);
     last_.reset();
     last_cmd_W_.setZero();
-    gaze_ = {};
+    unknown_target_ = {};
     progress_.reset();
     waits_.reset();
     stops_ = stuck_ = decisions_ = 0;
@@ -88,7 +86,7 @@ class LocalMap final : public Module {
     }
     if (!last_) {
       around_->begin(reckoned.navigation);
-      levels_.begin(around_->height_W());
+      altitude_levels_.begin(around_->height_W());
       last_nose_rad_ = heading_rad(reckoned.navigation.q_WB_est);
     }
     around_->see(reckoned.navigation, t_s);
@@ -99,13 +97,17 @@ class LocalMap final : public Module {
   }
 
   const LevelSlice& slice() const { return around_->slice(); }
-  Fault fault(const Moment& moment, bool unknown_too) const { return footprint_.fault(slice(), moment, unknown_too); }
+  ClearanceDeficit deficit(const PathState& moment, bool unknown_too) const {
+    return hull_clearance_.deficit(slice(), moment, unknown_too);
+  }
 
   /// Plans to where something is least, clear of obstacles and, unless told otherwise, of the unknown.
-  StopPlanner::Plan plan_to(const Moment& now, const StopPlanner::ToGoal& least_m, bool unknown_too = true) const {
+  StopPlanner::Plan plan_to(const PathState& now, const StopPlanner::ToGoal& least_m, bool unknown_too = true) const {
     return planner_.choose(
-        now, last_cmd_W_, [&](const Moment& m) { return fault(m, unknown_too); },
-        [&](const std::vector<Moment>& path) { return threat_m(path, around_->movers(), clearance_, now.t_s); },
+        now, last_cmd_W_, [&](const PathState& m) { return deficit(m, unknown_too); },
+        [&](const std::vector<PathState>& path) {
+          return threat_m(path, around_->moving_obstacles(), clearance_, now.t_s);
+        },
         least_m);
   }
 
@@ -113,15 +115,15 @@ class LocalMap final : public Module {
   Decision decide(const Observation& observation, const Eigen::Vector3d& mission_W, double t_s) {
     const NavigationState& navigation = observation.navigation;
     const Eigen::Vector2d p_W = navigation.p_WB_est.head<2>(), goal_W = observation.goal.p_WG.head<2>();
-    const Moment now{t_s, p_W, (navigation.q_WB_est * navigation.v_WB_B_est).head<2>()};
+    const PathState now{t_s, p_W, (navigation.q_WB_est * navigation.v_WB_B_est).head<2>()};
     const double heading = heading_rad(navigation.q_WB_est);
-    route_.build(slice(), berth_, goal_W, learned_.beyond_m(goal_W, around_->height_W()));
-    set_pace(now, heading, std::max(navigation.height_above_ground_m, kLeastHeightM));
+    route_.build(slice(), route_clearance_, goal_W, learned_.beyond_m(goal_W, around_->height_W()));
+    set_pace(now, heading, std::max(navigation.height_above_ground_m, kMinHeightM));
     if (!around_->changes_height()) {
       learned_.learn(route_, slice(), {p_W.x(), p_W.y(), around_->height_W()}, mission_W);
     }
     const auto to_goal_m = [&](const Eigen::Vector2d& at_W) { return route_.to_goal_m(at_W); };
-    footprint_.turn(heading, last_nose_rad_);
+    hull_clearance_.turn(heading, last_nose_rad_);
     plan_ = plan_to(now, to_goal_m);
     const StopPlanner::Plan hoped = plan_to(now, to_goal_m, /*unknown_too=*/false);
 
@@ -129,12 +131,12 @@ class LocalMap final : public Module {
     const Eigen::Vector2d p_BG_W = goal_W - p_W;
     constexpr double kArrivedM = 0.5, kHeldBack = 0.6;
     const bool arrived = p_BG_W.norm() < kArrivedM;
-    const bool held = !arrived && route_m && plan_.worth_m < kHeldBack * hoped.worth_m;
-    gaze_.update(held, hoped.path, slice(), footprint_, clearance_.hull_m, now, heading);
+    const bool held = !arrived && route_m && plan_.progress_m < kHeldBack * hoped.progress_m;
+    unknown_target_.update(held, hoped.path, slice(), hull_clearance_, clearance_.hull_m, now, heading);
     look(now, heading, route_m);
-    const bool goes_on = route_m && !(waits(now) && !gaze_.place_W() && !arrived);
+    const bool goes_on = route_m && !(waits(now) && !unknown_target_.place_W() && !arrived);
     const double nose = with_course_in_view(now, nose_rad(observation, arrived, goes_on));
-    last_nose_rad_ = footprint_.turn_as_far_as_free_rad(slice(), plan_.path, heading, nose);
+    last_nose_rad_ = hull_clearance_.free_turn_rad(slice(), plan_.path, heading, nose);
     if (last_nose_rad_ != nose && plan_.v_cmd_W.norm() < kHoversMps) make_room(now, heading, nose);
 
     change_level(observation.goal.p_WG, p_W, t_s);
@@ -148,7 +150,7 @@ class LocalMap final : public Module {
                       : !plan_.safe               ? "brake"
                       : around_->changes_height() ? "level"
                       : !goes_on                  ? "stuck"
-                      : gaze_.place_W()           ? "look"
+                      : unknown_target_.place_W() ? "look"
                                                   : "cruise";
     stuck_ += !goes_on;
     stops_ += !plan_.safe;
@@ -157,21 +159,21 @@ class LocalMap final : public Module {
                         around_->blocks().share(DepthBlock::Kind::unknown),
                         around_->blocks().share(DepthBlock::Kind::sky),
                         static_cast<double>(around_->closed_cells()),
-                        static_cast<double>(around_->movers().size())};
+                        static_cast<double>(around_->moving_obstacles().size())};
     last_cmd_W_ = plan_.v_cmd_W;
     return decision;
   }
 
   /// Where even at a walking pace the way is too narrow for the margin, it is flown at that, with what is left of the
   /// margin.
-  void set_pace(const Moment& now, double heading, double height_m) {
+  void set_pace(const PathState& now, double heading, double height_m) {
     constexpr double kWalkMps = 1.0, kHardlyFasterMps = 1.5, kSoonM = 1.5;
     const double wide_m = clearance_.hull_m + clearance_.margin_m + clearance_.margin_s * kWalkMps;
     const bool walks = now.v_W.norm() < kHardlyFasterMps && route_.nearest_m(now.p_W, kSoonM) < wide_m;
     Clearance clearance = clearance_;
-    if (walks) clearance.margin_m = berth_.least_m - clearance.hull_m;
-    footprint_.keep(clearance);
-    planner_ = StopPlanner(response_, std::min({most_mps_, kGroundRadps * height_m, walks ? kWalkMps : most_mps_}),
+    if (walks) clearance.margin_m = route_clearance_.least_m - clearance.hull_m;
+    hull_clearance_.keep(clearance);
+    planner_ = StopPlanner(response_, std::min({max_mps_, kGroundRadps * height_m, walks ? kWalkMps : max_mps_}),
                            [this, heading](double azimuth_rad) { return around_->looks_along(azimuth_rad - heading); });
   }
 
@@ -179,59 +181,60 @@ class LocalMap final : public Module {
   /// lies between, too.
   void change_level(const Eigen::Vector3d& goal_W, const Eigen::Vector2d& p_W, double t_s) {
     const auto may_pass = [&](const LevelSlice& between) {
-      return plan_.safe && std::ranges::all_of(plan_.path, [&](const Moment& moment) {
-               const Fault there = footprint_.fault(between, moment, true);
+      return plan_.safe && std::ranges::all_of(plan_.path, [&](const PathState& moment) {
+               const ClearanceDeficit there = hull_clearance_.deficit(between, moment, true);
                return there.occupied_m <= 0.0 && there.unknown_m <= 0.0;
              });
     };
-    const auto z_W = levels_.next_W(t_s, *around_, learned_, p_W, goal_W, may_pass);
+    const auto z_W = altitude_levels_.next_W(t_s, *around_, learned_, p_W, goal_W, may_pass);
     if (z_W) around_->change_height(*z_W);
   }
 
-  /// Plans so that what is in the way can be seen, and closes what stays unknown while the vehicle stands and looks at
-  /// it, or has looked from here and there without coming on.
-  void look(const Moment& now, double heading, std::optional<double> route_m) {
+  /// Plans so that what is in the way can be seen, and closes what stays unknown while the vehicle is_hovering and
+  /// looks at it, or has looked from here and there without coming on.
+  void look(const PathState& now, double heading, std::optional<double> route_m) {
     constexpr double kStares = 4.0;
     const bool in_vain = progress_.stalled_s(route_m, now.t_s) > kStares * config_.stare_s;
-    const std::optional<Eigen::Vector2d>& place_W = gaze_.place_W();
+    const std::optional<Eigen::Vector2d>& place_W = unknown_target_.place_W();
     // Who speeds up tilts the camera, and sees something else: not for little, where there is something to look at.
-    if (place_W && plan_.safe && plan_.worth_m < kLittleM) {
+    if (place_W && plan_.safe && plan_.progress_m < kLittleM) {
       plan_ = plan_to(now, [&](const Eigen::Vector2d& at_W) { return (at_W - now.p_W).norm(); });
     }
     // Away from what it cannot see because it is too near, below or beside the image: where it came from is free.
-    if (gaze_.backs_off()) {
+    if (unknown_target_.backs_off()) {
       escape(now,
              [&](const Eigen::Vector2d& p_W) { return std::max(0.0, around_->blind_m() - (p_W - *place_W).norm()); });
     }
-    const std::optional<double> stares_s = gaze_.stares_s(now, plan_.v_cmd_W, heading);
-    if (!place_W || !(in_vain || (stares_s && *stares_s >= config_.stare_s))) return;
+    const std::optional<double> inspected_s = unknown_target_.inspected_s(now, plan_.v_cmd_W, heading);
+    if (!place_W || !(in_vain || (inspected_s && *inspected_s >= config_.stare_s))) return;
     // Not what touches the vehicle, which would then not dare to move away.
     constexpr double kRadiusM = 1.0;
     const double away_m = (*place_W - now.p_W).norm() - clearance_.hull_m - clearance_.margin_m - slice().cell_m();
     around_->close(*place_W, std::clamp(away_m, 0.5 * slice().cell_m(), kRadiusM), now.t_s);
-    gaze_.stare_again();
+    unknown_target_.restart_timer();
     progress_.reset();
   }
 
   /// Moves to where it may turn.
-  void make_room(const Moment& now, double from_rad, double to_rad) {
-    Footprint turned = footprint_;
+  void make_room(const PathState& now, double from_rad, double to_rad) {
+    HullClearance turned = hull_clearance_;
     turned.turn(from_rad, to_rad);
     escape(now, [&](const Eigen::Vector2d& p_W) {
-      const Fault fault = turned.fault(slice(), {now.t_s, p_W, Eigen::Vector2d::Zero()}, true);
-      return std::max(fault.occupied_m, fault.unknown_m);
+      const ClearanceDeficit deficit = turned.deficit(slice(), {now.t_s, p_W, Eigen::Vector2d::Zero()}, true);
+      return std::max(deficit.occupied_m, deficit.unknown_m);
     });
   }
 
   /// Plans to where something is less, instead of to the goal; stays where there is none of it.
   template <class Lacks>
-  void escape(const Moment& now, const Lacks& lacks_m) {
+  void escape(const PathState& now, const Lacks& lacks_m) {
     if (lacks_m(now.p_W) > 0.0 || lacks_m(plan_.path.back().p_W) > 0.0) plan_ = plan_to(now, lacks_m);
   }
 
   /// Whether it has stood for longer than it stares.
-  bool waits(const Moment& now) {
-    const std::optional<double> for_s = waits_.update(stands(now.v_W) && plan_.v_cmd_W.norm() <= kHoversMps, now.t_s);
+  bool waits(const PathState& now) {
+    const std::optional<double> for_s =
+        waits_.update(is_hovering(now.v_W) && plan_.v_cmd_W.norm() <= kHoversMps, now.t_s);
     return for_s && *for_s > config_.stare_s;
   }
 
@@ -245,21 +248,21 @@ class LocalMap final : public Module {
     };
     if (arrived) return observation.goal.heading_rad;
     if (!goes_on) return heading + 0.5;  // looks round: what blocks may have been wrong, or gone
-    if (gaze_.place_W()) return towards(*gaze_.place_W());
+    if (unknown_target_.place_W()) return towards(*unknown_target_.place_W());
     return towards(route_.route_W(p_W, kAheadM).back());
   }
 
   /// Turned no farther than what comes near stays in view, nor, when fast, so far that nothing is seen of what enters
   /// the course from the other side.
-  double with_course_in_view(const Moment& now, double nose_rad) const {
+  double with_course_in_view(const PathState& now, double nose_rad) const {
     constexpr double kShareOfView = 0.6, kAsideRad = 0.3, kFastMps = 3.0;
     const auto near_to = [&](const Eigen::Vector2d& along_W, double most_rad) {
       const double along_rad = std::atan2(along_W.y(), along_W.x());
       nose_rad = along_rad + std::clamp(std::remainder(nose_rad - along_rad, 2.0 * M_PI), -most_rad, most_rad);
     };
-    const Mover* const mover = nearest_to_come(now, around_->movers(), clearance_.hull_m);
-    if (mover) near_to(mover->p_W - now.p_W, kShareOfView * around_->half_view_rad());
-    if ((mover || !gaze_.place_W()) && now.v_W.norm() > kFastMps) near_to(now.v_W, kAsideRad);
+    const MovingObstacle* const obstacle = nearest_approaching(now, around_->moving_obstacles(), clearance_.hull_m);
+    if (obstacle) near_to(obstacle->p_W - now.p_W, kShareOfView * around_->half_view_rad());
+    if ((obstacle || !unknown_target_.place_W()) && now.v_W.norm() > kFastMps) near_to(now.v_W, kAsideRad);
     return nose_rad;
   }
 
@@ -270,29 +273,29 @@ class LocalMap final : public Module {
 
   cv::Mat do_annotate() const override {
     if (!last_) return {};
-    return draw({slice(), plan_.path, route_.route_W(plan_.path.front().p_W, 30.0), gaze_.place_W(), around_->movers(),
-                 clearance_.hull_m, last_->status});
+    return draw({slice(), plan_.path, route_.route_W(plan_.path.front().p_W, 30.0), unknown_target_.place_W(),
+                 around_->moving_obstacles(), clearance_.hull_m, last_->status});
   }
 
   LocalMapConfig config_;
   RouteField route_;
   Response response_;
-  double most_mps_ = 0.0;  ///< the vehicle's and the config's limit
+  double max_mps_ = 0.0;  ///< the vehicle's and the config's limit
   StopPlanner planner_{Response{}, 0.0};
   StopPlanner::Plan plan_;
   Clearance clearance_;
-  Berth berth_;
-  Outline outline_;
-  Footprint footprint_;
+  RouteClearance route_clearance_;
+  HullDiscs hull_discs_;
+  HullClearance hull_clearance_;
   DeadReckoning dead_reckoning_;  ///< all positions here are by it
   std::optional<Surroundings> around_;
-  Levels levels_;
+  AltitudeLevels altitude_levels_;
   LearnedDistances learned_;
   double last_nose_rad_ = 0.0;  ///< commanded
   Eigen::Vector2d last_cmd_W_ = Eigen::Vector2d::Zero();
-  Gaze gaze_;
-  Progress progress_;
-  Lasting waits_;
+  UnknownTarget unknown_target_;
+  ProgressTimer progress_;
+  ConditionTimer waits_;
   std::optional<Decision> last_;
   int64_t stops_ = 0, stuck_ = 0, decisions_ = 0;
 };

@@ -34,14 +34,14 @@ cv::Mat draw(const ShownPlan& shown) {
   }
   const auto px = [&](double m) { return static_cast<int>(kCellPx * m / slice.cell_m()); };
   cv::circle(image, pixel(shown.path.front().p_W), px(shown.hull_m), {20, 160, 60}, 1);
-  for (const Mover& mover : shown.movers) {
+  for (const MovingObstacle& obstacle : shown.moving_obstacles) {
     const cv::Scalar orange(240, 140, 20);
-    cv::circle(image, pixel(mover.p_W), px(mover.radius_m), orange, 1);
-    for (size_t i = 0; i < mover.face_W.size(); ++i) {
-      const Eigen::Vector2d& next_W = mover.face_W[(i + 1) % mover.face_W.size()];
-      cv::line(image, pixel(mover.face_W[i]), pixel(next_W), orange, 1);
+    cv::circle(image, pixel(obstacle.p_W), px(obstacle.radius_m), orange, 1);
+    for (size_t i = 0; i < obstacle.surface_W.size(); ++i) {
+      const Eigen::Vector2d& next_W = obstacle.surface_W[(i + 1) % obstacle.surface_W.size()];
+      cv::line(image, pixel(obstacle.surface_W[i]), pixel(next_W), orange, 1);
     }
-    cv::line(image, pixel(mover.p_W), pixel(mover.p_W + mover.v_W), orange, 1);
+    cv::line(image, pixel(obstacle.p_W), pixel(obstacle.p_W + obstacle.v_W), orange, 1);
   }
   if (shown.look_W) cv::circle(image, pixel(*shown.look_W), 4, {230, 60, 40}, 2);
   stereo::caption(image, shown.status);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "avoidance/local_map/level_slice.h"
-#include "avoidance/local_map/movers.h"
+#include "avoidance/local_map/moving_obstacles.h"
 #include "avoidance/local_map/stop_planner.h"
 
 namespace hedgehop::avoidance::local_map {
@@ -15,10 +15,10 @@ namespace hedgehop::avoidance::local_map {
 /// What a film shows of a decision.
 struct ShownPlan {
   const LevelSlice& slice;
-  const std::vector<Moment>& path;             ///< to the planned stop
+  const std::vector<PathState>& path;          ///< to the planned stop
   const std::vector<Eigen::Vector2d> route_W;  ///< hoped for
   std::optional<Eigen::Vector2d> look_W;       ///< what is unknown and in the way
-  const std::vector<Mover>& movers;
+  const std::vector<MovingObstacle>& moving_obstacles;
   double hull_m;
   std::string status;
 };

@@ -20,9 +20,14 @@ struct Step {
 constexpr Step kSteps[8] = {{-1, 0, 1.0},         {1, 0, 1.0},         {0, -1, 1.0},        {0, 1, 1.0},
                             {-1, -1, 1.41421356}, {-1, 1, 1.41421356}, {1, -1, 1.41421356}, {1, 1, 1.41421356}};
 
+constexpr double kSquareM = 3.0, kHighM = 1.2;
+constexpr int kSquares = 4;             // squares around the vehicle's own
+constexpr double kBothWaysPrice = 3.5;  // of a meter up and down again, in meters of way
+constexpr size_t kMaxSquares = 20'000;  // squares: beyond, all are forgotten
+
 }  // namespace
 
-void RouteField::build(const LevelSlice& slice, const Berth& berth, const Eigen::Vector2d& goal_W,
+void RouteField::build(const LevelSlice& slice, const RouteClearance& route_clearance, const Eigen::Vector2d& goal_W,
                        const std::function<double(const Eigen::Vector2d&)>& beyond_m) {
   slice_ = &slice;
   const int n = slice.side();
@@ -31,8 +36,8 @@ void RouteField::build(const LevelSlice& slice, const Berth& berth, const Eigen:
   for (int row = 0; row < n; ++row) {
     for (int col = 0; col < n; ++col) {
       const double away_m = slice.to_occupied_m(row, col);
-      if (away_m < berth.least_m) continue;
-      const double side = std::max(0.0, 1.0 - (away_m - berth.wanted_m) / kSideM);
+      if (away_m < route_clearance.least_m) continue;
+      const double side = std::max(0.0, 1.0 - (away_m - route_clearance.preferred_m) / kSideM);
       double price = slice.at(row, col) == LevelSlice::State::free ? 1.0 : kUnknownPrice;
       price *= side > 1.0 ? kNarrowPrice : 1.0 + (kClosePrice - 1) * side;
       price_[static_cast<size_t>(row * n + col)] = static_cast<uint8_t>(std::lround(kStraight * price));
@@ -183,6 +188,40 @@ double RouteField::nearest_m(const Eigen::Vector2d& p_W, double length_m) const 
   double least_m = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector2d& at_W : route_W(p_W, length_m)) least_m = std::min(least_m, slice_->to_occupied_m(at_W));
   return least_m;
+}
+
+LearnedDistances::Square LearnedDistances::square(const Eigen::Vector2d& p_W) {
+  const Eigen::Vector2i at = (p_W / kSquareM).array().floor().cast<int>();
+  return {at.x(), at.y()};
+}
+
+void LearnedDistances::learn(const RouteField& route, const LevelSlice& slice, const Eigen::Vector3d& p_W,
+                             const Eigen::Vector3d& goal_W) {
+  constexpr double kSameM = 0.5;
+  if (!goal_W_ || (goal_W - *goal_W_).norm() > kSameM || distances_m_.size() > kMaxSquares) distances_m_.clear();
+  goal_W_ = goal_W;
+  const Eigen::Vector2i here = (p_W.head<2>() / kSquareM).array().floor().cast<int>();
+  for (int row = here.x() - kSquares; row <= here.x() + kSquares; ++row) {
+    for (int col = here.y() - kSquares; col <= here.y() + kSquares; ++col) {
+      const Eigen::Vector2d middle_W = kSquareM * Eigen::Vector2d(row + 0.5, col + 0.5);
+      const Eigen::Vector2i cell = slice.cell(middle_W);
+      if (!slice.contains(cell.x(), cell.y()) || slice.at(cell.x(), cell.y()) != LevelSlice::State::free) continue;
+      const std::optional<double> found_m = route.to_goal_m(middle_W);
+      if (!found_m) continue;
+      double& known_m = distances_m_[square(middle_W)][static_cast<int>(std::lround(p_W.z() / kHighM))];
+      known_m = std::max(known_m, *found_m);
+    }
+  }
+}
+
+double LearnedDistances::at_least_m(const Eigen::Vector2d& p_W, double z_W) const {
+  const auto known = distances_m_.find(square(p_W));
+  double most_m = 0.0;
+  if (known == distances_m_.end()) return most_m;
+  for (const auto& [level, found_m] : known->second) {
+    most_m = std::max(most_m, found_m - kBothWaysPrice * std::abs(kHighM * level - z_W));
+  }
+  return most_m;
 }
 
 }  // namespace hedgehop::avoidance::local_map

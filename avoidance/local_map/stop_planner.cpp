@@ -17,7 +17,7 @@ constexpr double kStoppedMps = 0.05;
 constexpr int kDirections = 36;
 constexpr std::array<double, 6> kShares = {1.0, 0.75, 0.5, 0.35, 0.2, 0.1};
 constexpr double kImpactPriceS = 0.5;     // what speed counts for, as a distance, where a path goes and may not
-constexpr double kFleeShare = 0.3;        // what a mover's threat counts for there: a wall is worse
+constexpr double kFleeShare = 0.3;        // what a obstacle's threat counts for there: a wall is worse
 constexpr double kTurnPriceS2pm = 0.006;  // what a change of the command counts for, as a distance, times the speed
 constexpr double kBlindMps = 2.0;         // not to be exceeded where the camera does not look,
 constexpr double kBlindPriceS = 3.0;      // and what each m/s beyond counts for, as a distance
@@ -29,18 +29,19 @@ class Search {
  public:
   using Plan = StopPlanner::Plan;
 
-  Search(const StopPlanner& planner, const Moment& now, const Eigen::Vector2d& last_cmd_W,
-         const StopPlanner::FaultAt& fault, const StopPlanner::Threat& threat_m, const StopPlanner::ToGoal& to_goal_m)
+  Search(const StopPlanner& planner, const PathState& now, const Eigen::Vector2d& last_cmd_W,
+         const StopPlanner::DeficitAt& deficit, const StopPlanner::Threat& threat_m,
+         const StopPlanner::ToGoal& to_goal_m)
       : planner_(planner),
         now_(now),
         last_cmd_W_(last_cmd_W),
-        fault_(fault),
+        deficit_(deficit),
         threat_m_(threat_m),
         to_goal_m_(to_goal_m),
         here_m_(to_goal(now.p_W)) {
     // A vehicle that is too near already may leave by any path that comes no nearer to the same: what is occupied
     // excuses nothing where it is unknown, and the other way round.
-    const Fault fault_now = fault(now);
+    const ClearanceDeficit fault_now = deficit(now);
     const auto most_m = [](double now_m) { return now_m > 0.0 ? now_m + kSlackM : 0.0; };
     most_ = {most_m(fault_now.occupied_m), most_m(fault_now.unknown_m)};
   }
@@ -48,7 +49,7 @@ class Search {
   /// @param turn_price_m  what its change of the command costs. @param blind_mps  by which it is too fast where nothing
   /// is seen.
   void consider(const Eigen::Vector2d& v_cmd_W, double turn_price_m, double blind_mps) {
-    std::vector<Moment> path = planner_.predict(now_, last_cmd_W_, v_cmd_W, kHoldS);
+    std::vector<PathState> path = planner_.predict(now_, last_cmd_W_, v_cmd_W, kHoldS);
     double bad_m = excess_m(path, best_.safe ? 0.0 : least_bad_m_);
     if (bad_m > 0.0) {  // to be flown only where nothing else is left
       if (best_.safe || bad_m >= least_bad_m_) return;
@@ -58,7 +59,7 @@ class Search {
       best_ = {v_cmd_W, false, 0.0, std::move(path)};
       return;
     }
-    const Fault end = fault_(path.back());
+    const ClearanceDeficit end = deficit_(path.back());
     const double there_m = to_goal(path.back().p_W);
     double cost = there_m + kFaultPrice * std::max(end.occupied_m, end.unknown_m) + turn_price_m +
                   kBlindPriceS * blind_mps + kBesidePrice * beside_m_;
@@ -78,11 +79,11 @@ class Search {
 
   /// How far a path goes where it may not, and how fast it is there: 0 where it never does; in `beside_m_` how much
   /// nearer to the unknown than it had better, known of paths without excess.
-  double excess_m(const std::vector<Moment>& path, double enough_m) {
+  double excess_m(const std::vector<PathState>& path, double enough_m) {
     double worst_m = 0.0;
     beside_m_ = 0.0;
-    for (const Moment& moment : path) {
-      const Fault there = fault_(moment);
+    for (const PathState& moment : path) {
+      const ClearanceDeficit there = deficit_(moment);
       beside_m_ = std::max(beside_m_, there.beside_unknown_m);
       const double past_m = std::max(there.occupied_m - most_.occupied_m, there.unknown_m - most_.unknown_m);
       if (past_m > 0.0) worst_m = std::max(worst_m, past_m + kImpactPriceS * moment.v_W.norm());
@@ -92,11 +93,11 @@ class Search {
   }
 
   /// A velocity is as threatened as the safest of the paths that begin with it.
-  double threatened_m(const Eigen::Vector2d& v_cmd_W, const std::vector<Moment>& path) {
+  double threatened_m(const Eigen::Vector2d& v_cmd_W, const std::vector<PathState>& path) {
     double least_m = threat_m_(path);
     for (const double hold_s : kLongHoldsS) {
       if (least_m == 0.0) break;
-      const std::vector<Moment> longer = planner_.predict(now_, last_cmd_W_, v_cmd_W, hold_s);
+      const std::vector<PathState> longer = planner_.predict(now_, last_cmd_W_, v_cmd_W, hold_s);
       if (excess_m(longer, 0.0) == 0.0) least_m = std::min(least_m, threat_m_(longer));
     }
     return least_m;
@@ -104,26 +105,33 @@ class Search {
 
   static constexpr double kNever = std::numeric_limits<double>::infinity();
   const StopPlanner& planner_;
-  const Moment& now_;
+  const PathState& now_;
   const Eigen::Vector2d& last_cmd_W_;
-  const StopPlanner::FaultAt& fault_;
+  const StopPlanner::DeficitAt& deficit_;
   const StopPlanner::Threat& threat_m_;
   const StopPlanner::ToGoal& to_goal_m_;
-  Fault most_;
+  ClearanceDeficit most_;
   double here_m_, beside_m_ = 0.0;
   Plan best_;
   double best_cost_ = kNever, least_bad_m_ = kNever;
 };
 
+constexpr double kForeseenS = 4.0;
+constexpr double kNearM = 4.0;  // between hulls: who comes nearer is kept in view
+constexpr double kVagueMps =
+    0.7;  // 1-sigma of a velocity that may as well be none: the obstacle's place stays free, too
+constexpr double kMaxSigmaM = 1.0;  // of a position to come, that is kept free besides
+constexpr double kBesideM = 0.5;    // what is nearer is hardly matched, and a crown is no disc
+
 }  // namespace
 
-std::vector<Moment> StopPlanner::predict(const Moment& now, const Eigen::Vector2d& last_cmd_W,
-                                         const Eigen::Vector2d& v_cmd_W, double hold_s) const {
-  std::vector<Moment> path = {now};
+std::vector<PathState> StopPlanner::predict(const PathState& now, const Eigen::Vector2d& last_cmd_W,
+                                            const Eigen::Vector2d& v_cmd_W, double hold_s) const {
+  std::vector<PathState> path = {now};
   const double brakes_s = response_.delay_s + hold_s;
-  constexpr double kLongestS = 20.0;
-  while (path.back().t_s - now.t_s < kLongestS) {
-    const Moment& last = path.back();
+  constexpr double kMaxDurationS = 20.0;
+  while (path.back().t_s - now.t_s < kMaxDurationS) {
+    const PathState& last = path.back();
     const double t_s = last.t_s - now.t_s + 0.5 * kStepS;
     const bool brakes = t_s >= brakes_s;
     const Eigen::Vector2d wanted_W = t_s < response_.delay_s ? last_cmd_W : brakes ? Eigen::Vector2d::Zero() : v_cmd_W;
@@ -137,9 +145,9 @@ std::vector<Moment> StopPlanner::predict(const Moment& now, const Eigen::Vector2
   return path;
 }
 
-StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& last_cmd_W, const FaultAt& fault,
+StopPlanner::Plan StopPlanner::choose(const PathState& now, const Eigen::Vector2d& last_cmd_W, const DeficitAt& deficit,
                                       const Threat& threat_m, const ToGoal& to_goal_m) const {
-  Search search(*this, now, last_cmd_W, fault, threat_m, to_goal_m);
+  Search search(*this, now, last_cmd_W, deficit, threat_m, to_goal_m);
   // Where it does not look it only remembers, and knows less well where that is.
   const auto blind_mps = [&](const Eigen::Vector2d& v_cmd_W) {
     const double past_mps = v_cmd_W.norm() - kBlindMps;
@@ -155,6 +163,49 @@ StopPlanner::Plan StopPlanner::choose(const Moment& now, const Eigen::Vector2d& 
     for (const double share : kShares) consider(share * speed_mps_ * direction_W);
   }
   return std::move(search).best();
+}
+
+double threat_m(std::span<const PathState> path, std::span<const MovingObstacle> moving_obstacles,
+                const Clearance& clearance, double t_s) {
+  constexpr double kStepS = 0.1;
+  double worst_m = 0.0, sum_m = 0.0;
+  const auto meet = [&](const PathState& moment) {
+    const double margin_m = clearance.margin_m + clearance.margin_s * moment.v_W.norm();
+    double here_m = 0.0;
+    for (const MovingObstacle& obstacle : moving_obstacles) {
+      const double dt_s = moment.t_s - t_s;
+      const double sigma_m = std::min(obstacle.p_sigma_m + obstacle.v_sigma_mps * std::max(0.0, dt_s), kMaxSigmaM);
+      const Eigen::Vector2d then_W = moment.p_W - dt_s * obstacle.v_W;
+      double from_m = (then_W - obstacle.p_W).norm() - obstacle.radius_m;
+      if (obstacle.v_sigma_mps > kVagueMps)
+        from_m = std::min(from_m, (moment.p_W - obstacle.p_W).norm() - obstacle.radius_m);
+      if (!obstacle.surface_W.empty()) from_m = std::min(from_m, away_m(obstacle.surface_W, then_W));
+      here_m = std::max(here_m, clearance.hull_m + margin_m + kBesideM + sigma_m - from_m);
+    }
+    worst_m = std::max(worst_m, here_m);
+    sum_m += here_m;
+  };
+  if (moving_obstacles.empty()) return 0.0;
+  for (const PathState& moment : path) meet(moment);
+  PathState stands{path.back().t_s, path.back().p_W, Eigen::Vector2d::Zero()};
+  while ((stands.t_s += kStepS) < path.front().t_s + kForeseenS) meet(stands);
+  return 0.5 * (worst_m + sum_m * kStepS / kForeseenS);
+}
+
+const MovingObstacle* nearest_approaching(const PathState& now, std::span<const MovingObstacle> moving_obstacles,
+                                          double hull_m) {
+  const MovingObstacle* nearest = nullptr;
+  double least_m = kNearM;
+  for (const MovingObstacle& obstacle : moving_obstacles) {
+    const Eigen::Vector2d off_W = obstacle.p_W - now.p_W, v_W = obstacle.v_W - now.v_W;
+    constexpr double kStandsM2ps2 = 1e-6;
+    const double closest_s = std::clamp(-off_W.dot(v_W) / std::max(v_W.squaredNorm(), kStandsM2ps2), 0.0, kForeseenS);
+    const double away_m = (off_W + closest_s * v_W).norm() - obstacle.radius_m - hull_m;
+    if (away_m >= least_m) continue;
+    least_m = away_m;
+    nearest = &obstacle;
+  }
+  return nearest;
 }
 
 }  // namespace hedgehop::avoidance::local_map

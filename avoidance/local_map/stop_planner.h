@@ -3,10 +3,12 @@
 #include <Eigen/Core>
 #include <functional>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "avoidance/local_map/level_slice.h"
+#include "avoidance/local_map/moving_obstacles.h"
 
 namespace hedgehop::avoidance::local_map {
 
@@ -26,14 +28,14 @@ struct Clearance {
 };
 
 /// Position and time of a planned stop.
-struct Moment {
+struct PathState {
   double t_s;
   Eigen::Vector2d p_W, v_W;
 };
 
 /// By how much a moment of a path lacks distance from what is occupied and from what is unknown, m; 0 where it does
 /// not.
-struct Fault {
+struct ClearanceDeficit {
   double occupied_m = 0.0, unknown_m = 0.0;
   double beside_unknown_m = 0.0;  ///< of what it had better keep from the unknown, and need not
 };
@@ -50,13 +52,13 @@ class StopPlanner {
   struct Plan {
     Eigen::Vector2d v_cmd_W = Eigen::Vector2d::Zero();  ///< m/s
     bool safe = false;                                  ///< a stop within what is allowed exists
-    double worth_m = 0.0;                               ///< how much nearer to the goal it stops than the vehicle is
-    std::vector<Moment> path;                           ///< up to the stop
+    double progress_m = 0.0;                            ///< how much nearer to the goal it stops than the vehicle is
+    std::vector<PathState> path;                        ///< up to the stop
   };
   /// What is wrong at a moment of a path.
-  using FaultAt = std::function<Fault(const Moment&)>;
+  using DeficitAt = std::function<ClearanceDeficit(const PathState&)>;
   /// By how much a path comes too near to what moves, at worst, m.
-  using Threat = std::function<double(const std::vector<Moment>&)>;
+  using Threat = std::function<double(const std::vector<PathState>&)>;
   /// Distance to the goal along the route, m; nothing where there is none.
   using ToGoal = std::function<std::optional<double>(const Eigen::Vector2d&)>;
 
@@ -69,17 +71,32 @@ class StopPlanner {
 
   /// @param now  position and velocity when the image was taken. @param last_cmd_W  what is being obeyed still.
   /// What moves is got away from as far as it can be: no stop is safe from it.
-  Plan choose(const Moment& now, const Eigen::Vector2d& last_cmd_W, const FaultAt& fault, const Threat& threat_m,
+  Plan choose(const PathState& now, const Eigen::Vector2d& last_cmd_W, const DeficitAt& deficit, const Threat& threat_m,
               const ToGoal& to_goal_m) const;
 
   /// The path that a command leads to when it is held for `hold_s` and the vehicle then brakes.
-  std::vector<Moment> predict(const Moment& now, const Eigen::Vector2d& last_cmd_W, const Eigen::Vector2d& v_cmd_W,
-                              double hold_s) const;
+  std::vector<PathState> predict(const PathState& now, const Eigen::Vector2d& last_cmd_W,
+                                 const Eigen::Vector2d& v_cmd_W, double hold_s) const;
 
  private:
   Response response_;
   double speed_mps_;
   LooksAlong looks_along_;
 };
+
+/// By how much a path comes nearer to moving_obstacles than it should, m: the mean of the worst and of the mean over 4
+/// s, so that of two that begin as near the one that leaves is better; 0 where it never does. A obstacle forbids what
+/// leads into the disc where it will be, its velocity being known: velocity obstacles, [FioriniShiller1998] sec. 3.
+/// Differs: paths bend and end in a stop instead of straight lines; discs grow with the error of their velocity, and
+/// stay where they are, too, while that is hardly known;
+/// motion is compared up to the path's end, and 4 s after its begin at least, the vehicle standing where it ends.
+/// @param clearance  as of what stands still. @param t_s  when the moving_obstacles are where they say.
+double threat_m(std::span<const PathState> path, std::span<const MovingObstacle> moving_obstacles,
+                const Clearance& clearance, double t_s);
+
+/// The obstacle that comes nearest in the next 4 s, should both keep their velocities; none where that is not near.
+/// @param now  of the vehicle, when the moving_obstacles are where they say. @param hull_m  the vehicle's radius.
+const MovingObstacle* nearest_approaching(const PathState& now, std::span<const MovingObstacle> moving_obstacles,
+                                          double hull_m);
 
 }  // namespace hedgehop::avoidance::local_map

@@ -17,9 +17,9 @@ constexpr int kLayers = 12, kLayersOfLevels = 32;  // of the map, at one height 
 constexpr double kFadeSteps = 5.0;                 // steps that free space is from unknown, at most
 constexpr double kLevelM = 0.3;                    // above and below the vehicle's own height: altitude is held to this
 
-Band hull_of(const VehicleLimits& limits) {
-  constexpr double kHalfHeightM = 0.2;  // of a vehicle whose outline nobody gave
-  Band hull{-kHalfHeightM, kHalfHeightM};
+HeightRange hull_of(const VehicleLimits& limits) {
+  constexpr double kHalfHeightM = 0.2;  // of a vehicle whose hull_discs nobody gave
+  HeightRange hull{-kHalfHeightM, kHalfHeightM};
   for (const Eigen::AlignedBox3d& part_B : limits.outline_B) {
     hull.top_m = std::min(hull.top_m, part_B.min().z());
     hull.bottom_m = std::max(hull.bottom_m, part_B.max().z());
@@ -28,18 +28,18 @@ Band hull_of(const VehicleLimits& limits) {
 }
 
 /// The first pair, then the others.
-template <class Eye>
-std::vector<Eye> eyes_of(const LocalMapConfig& config, const Setup& setup) {
-  std::vector<Eye> eyes;
+template <class CameraPair>
+std::vector<CameraPair> pairs_of(const LocalMapConfig& config, const Setup& setup) {
+  std::vector<CameraPair> pairs;
   const auto add = [&](const std::string& pair) {
-    eyes.push_back({{config.depth, DisparitySource::Grey::unused, config.stereo, setup, pair}, {}});
+    pairs.push_back({{config.depth, DisparitySource::Grey::unused, config.stereo, setup, pair}, {}});
   };
   add("");
   for (const std::string& pair : config.pairs) add(pair);
-  return eyes;
+  return pairs;
 }
 
-Movers::Config tracking(const LocalMapConfig& config, const vision::stereo::StereoGeometry& geometry) {
+MovingObstacleTracker::Config tracking(const LocalMapConfig& config, const vision::stereo::StereoGeometry& geometry) {
   const double most_px = config.depth == DisparitySource::From::stereo ? config.stereo.disparities_px - 1 : 1e6;
   return {.sigma_per_m2 = config.noise_px / (geometry.focal_px * geometry.baseline_m),
           .spacing_m = config.voxel_m,
@@ -48,24 +48,26 @@ Movers::Config tracking(const LocalMapConfig& config, const vision::stereo::Ster
 
 }  // namespace
 
-Surroundings::Surroundings(const LocalMapConfig& config, const Setup& setup, const Outline& outline)
+Surroundings::Surroundings(const LocalMapConfig& config, const Setup& setup, const HullDiscs& hull_discs)
     : config_(config),
-      outline_(outline),
+      hull_discs_(hull_discs),
       radius_m_(setup.limits.radius_m),
       hull_(hull_of(setup.limits)),
-      eyes_(eyes_of<Eye>(config, setup)),
+      pairs_(pairs_of<CameraPair>(config, setup)),
       map_({.voxel_m = config.voxel_m,
             .layers = setup.altitude_band ? kLayersOfLevels : kLayers,
             .noise_px = config.noise_px}),
       closed_(config.voxel_m),
-      tracker_(tracking(config, eyes_.front().source.geometry())) {}
+      tracker_(tracking(config, pairs_.front().source.geometry())) {}
 
 /// @param z_W  of B.
-Band Surroundings::band(double z_W) const { return {z_W + hull_.top_m - kLevelM, z_W + hull_.bottom_m + kLevelM}; }
+HeightRange Surroundings::band(double z_W) const {
+  return {z_W + hull_.top_m - kLevelM, z_W + hull_.bottom_m + kLevelM};
+}
 
 /// Marks space around a point as free, as high as the vehicle's band.
 void Surroundings::clear(const Eigen::Vector3d& p_W, double radius_m) {
-  const Band tall = band(p_W.z());
+  const HeightRange tall = band(p_W.z());
   const Eigen::Vector3d middle_W(p_W.x(), p_W.y(), 0.5 * (tall.top_m + tall.bottom_m));
   map_.clear_cylinder(middle_W, radius_m, 0.5 * (tall.bottom_m - tall.top_m));
 }
@@ -74,9 +76,9 @@ void Surroundings::begin(const NavigationState& navigation) {
   height_W_ = navigation.p_WB_est.z();
   map_.reset(navigation.p_WB_est);
   const double side_m = radius_m_ + config_.voxel_m;
-  const Band tall = band(0.0);
+  const HeightRange tall = band(0.0);
   const double high_m = std::max(-tall.top_m, tall.bottom_m) + config_.voxel_m;
-  const DisparitySource& source = eyes_.front().source;
+  const DisparitySource& source = pairs_.front().source;
   const double focal_px = source.geometry().focal_px;
   const double wide_m = 2.0 * focal_px * side_m / source.image().width;
   const double tall_m = 2.0 * focal_px * high_m / source.image().height;
@@ -89,35 +91,35 @@ void Surroundings::begin(const NavigationState& navigation) {
 }
 
 bool Surroundings::take(std::span<const CameraFrame> frames) {
-  for (Eye& eye : eyes_) eye.fresh = eye.source.update(frames);
-  return std::ranges::any_of(eyes_, &Eye::fresh);
+  for (CameraPair& pair : pairs_) pair.fresh = pair.source.update(frames);
+  return std::ranges::any_of(pairs_, &CameraPair::fresh);
 }
 
 bool Surroundings::looks_along(double azimuth_rad) const {
   const Eigen::Vector3d along_B(std::cos(azimuth_rad), std::sin(azimuth_rad), 0.0);
-  return std::ranges::any_of(eyes_, [&](const Eye& eye) {
-    const Eigen::Vector3d along_C = eye.source.X_BC().linear().transpose() * along_B;
-    const double f = eye.source.geometry().focal_px, z = along_C.z();
-    return z > 0.0 && std::abs(f * along_C.x()) <= 0.5 * eye.source.image().width * z &&
-           std::abs(f * along_C.y()) <= 0.5 * eye.source.image().height * z;
+  return std::ranges::any_of(pairs_, [&](const CameraPair& pair) {
+    const Eigen::Vector3d along_C = pair.source.X_BC().linear().transpose() * along_B;
+    const double f = pair.source.geometry().focal_px, z = along_C.z();
+    return z > 0.0 && std::abs(f * along_C.x()) <= 0.5 * pair.source.image().width * z &&
+           std::abs(f * along_C.y()) <= 0.5 * pair.source.image().height * z;
   });
 }
 
 /// Puts an image into the map, what moves apart.
-void Surroundings::integrate(Eye& eye, const NavigationState& navigation, double t_s) {
+void Surroundings::integrate(CameraPair& pair, const NavigationState& navigation, double t_s) {
   constexpr int kSameSegment16 = 32, kSpeckPx = 100;
   constexpr double kUpright = 0.7;  // of a camera's y axis: ground below, sky above
-  stereo::DisparitySource& source = eye.source;
+  stereo::DisparitySource& source = pair.source;
   const Eigen::Isometry3d X_WC = Eigen::Translation3d(navigation.p_WB_est) * navigation.q_WB_est * source.X_BC();
   const bool matches = config_.depth == DisparitySource::From::stereo;
   if (matches) vision::stereo::remove_specks(source.disparity16(), kSameSegment16, kSpeckPx);
-  eye.blocks.build(source.disparity16(), source.grey(), matches ? config_.stereo.block_px / 2 : 0);
+  pair.blocks.build(source.disparity16(), source.grey(), matches ? config_.stereo.block_px / 2 : 0);
   const Eigen::Vector3d down_C = X_WC.linear().row(2).transpose();
   if (config_.sky && !source.grey().empty() && down_C.y() > kUpright) {
-    vision::mapping::find_sky(source.geometry(), down_C, eye.blocks);
+    vision::mapping::find_sky(source.geometry(), down_C, pair.blocks);
   }
-  map_.integrate(eye.blocks, source.geometry(), X_WC, where_movers_are(t_s));
-  follow_movers(t_s, eye, X_WC);
+  map_.integrate(pair.blocks, source.geometry(), X_WC, predicted_discs(t_s));
+  track_moving_obstacles(t_s, pair, X_WC);
 }
 
 void Surroundings::see(const NavigationState& navigation, double t_s) {
@@ -125,11 +127,11 @@ void Surroundings::see(const NavigationState& navigation, double t_s) {
   center_W.z() = height_W_;
   map_.move(center_W);
   fade(navigation, t_s);
-  for (Eye& eye : eyes_) {
-    if (eye.fresh) integrate(eye, navigation, t_s);
+  for (CameraPair& pair : pairs_) {
+    if (pair.fresh) integrate(pair, navigation, t_s);
   }
   const double heading = heading_rad(navigation.q_WB_est);
-  for (const Outline::Disc& disc : sweep(outline_, heading, heading, config_.voxel_m)) {
+  for (const HullDiscs::Disc& disc : sweep(hull_discs_, heading, heading, config_.voxel_m)) {
     // Of what is thinner than a voxel those that it touches, but not the wall beside it.
     const double touched_m = disc.radius_m + 0.5 * std::numbers::sqrt2 * config_.voxel_m;
     const double radius_m = std::max(disc.radius_m, std::min(touched_m, config_.voxel_m));
@@ -156,42 +158,42 @@ void Surroundings::remember_occupied(double t_s) {
   }
 }
 
-Band Surroundings::between(double from_W, double to_W) const {
-  const Band from = band(from_W), to = band(to_W);
+HeightRange Surroundings::between(double from_W, double to_W) const {
+  const HeightRange from = band(from_W), to = band(to_W);
   return {std::min(from.top_m, to.top_m), std::max(from.bottom_m, to.bottom_m)};
 }
 
 bool Surroundings::slice_between(double from_W, double to_W, LevelSlice& slice) const {
-  const Band all = between(from_W, to_W);
+  const HeightRange all = between(from_W, to_W);
   const double top_m = config_.voxel_m * map_.first().z();
   if (all.top_m < top_m || all.bottom_m > top_m + config_.voxel_m * map_.size().z()) return false;
   slice.build(map_, all, closed_);
   return true;
 }
 
-/// The movers' discs, a voxel wider, where they should be by now.
-const std::vector<OccupancyMap::MovingDisc>& Surroundings::where_movers_are(double t_s) {
+/// The moving_obstacles' discs, a voxel wider, where they should be by now.
+const std::vector<OccupancyMap::MovingDisc>& Surroundings::predicted_discs(double t_s) {
   discs_.clear();
-  for (const Mover& mover : movers_) {
-    const double wide_m = mover.radius_m + mover.p_sigma_m + config_.voxel_m;
-    discs_.push_back({mover.p_W + (t_s - movers_at_s_) * mover.v_W, wide_m});
+  for (const MovingObstacle& obstacle : moving_obstacles_) {
+    const double wide_m = obstacle.radius_m + obstacle.p_sigma_m + config_.voxel_m;
+    discs_.push_back({obstacle.p_W + (t_s - obstacles_at_s_) * obstacle.v_W, wide_m});
   }
-  movers_at_s_ = t_s;
+  obstacles_at_s_ = t_s;
   return discs_;
 }
 
-void Surroundings::follow_movers(double t_s, const Eye& eye, const Eigen::Isometry3d& X_WC) {
-  const Band tall = band(height_W_);
+void Surroundings::track_moving_obstacles(double t_s, const CameraPair& pair, const Eigen::Isometry3d& X_WC) {
+  const HeightRange tall = band(height_W_);
   surface_.clear();
   for (const OccupancyMap::Hit& hit : map_.hits()) {
     if (hit.p_W.z() > tall.top_m && hit.p_W.z() < tall.bottom_m) surface_.push_back({hit.p_W.head<2>(), hit.was_free});
   }
   const auto along_W = [&](int u_px) -> Eigen::Vector2d {
-    const cv::Point pixel(u_px, static_cast<int>(eye.source.geometry().center_v_px));
-    return (X_WC.linear() * eye.source.geometry().ray_at_unit_depth(pixel)).head<2>().normalized();
+    const cv::Point pixel(u_px, static_cast<int>(pair.source.geometry().center_v_px));
+    return (X_WC.linear() * pair.source.geometry().ray_at_unit_depth(pixel)).head<2>().normalized();
   };
-  tracker_.update(t_s, {X_WC.translation().head<2>(), along_W(0), along_W(eye.source.image().width - 1)}, surface_);
-  movers_ = tracker_.movers();
+  tracker_.update(t_s, {X_WC.translation().head<2>(), along_W(0), along_W(pair.source.image().width - 1)}, surface_);
+  moving_obstacles_ = tracker_.moving_obstacles();
 }
 
 /// What is out of view is forgotten as fast as the position drifts: in flight, and a tenth as fast hovering.

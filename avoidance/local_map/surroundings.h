@@ -7,11 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "avoidance/local_map/closed_cells.h"
+#include "avoidance/local_map/hull_clearance.h"
 #include "avoidance/local_map/level_slice.h"
 #include "avoidance/local_map/local_map.h"
-#include "avoidance/local_map/movers.h"
-#include "avoidance/local_map/outline.h"
+#include "avoidance/local_map/moving_obstacles.h"
 #include "avoidance/module.h"
 #include "avoidance/stereo/disparity_source.h"
 #include "vision/mapping/depth_blocks.h"
@@ -23,8 +22,8 @@ namespace hedgehop::avoidance::local_map {
 /// the vehicle flies in.
 class Surroundings {
  public:
-  /// @param config, outline  outlive it.
-  Surroundings(const LocalMapConfig& config, const Setup& setup, const Outline& outline);
+  /// @param config, hull_discs  outlive it.
+  Surroundings(const LocalMapConfig& config, const Setup& setup, const HullDiscs& hull_discs);
 
   /// @return whether the frames hold a new image of any pair.
   bool take(std::span<const CameraFrame> frames);
@@ -47,48 +46,48 @@ class Surroundings {
   bool slice_between(double from_W, double to_W, LevelSlice& slice) const;
 
   const LevelSlice& slice() const { return slice_; }
-  const std::vector<Mover>& movers() const { return movers_; }
-  const vision::mapping::DepthBlocks& blocks() const { return eyes_.front().blocks; }  ///< of the first pair
+  const std::vector<MovingObstacle>& moving_obstacles() const { return moving_obstacles_; }
+  const vision::mapping::DepthBlocks& blocks() const { return pairs_.front().blocks; }  ///< of the first pair
   size_t closed_cells() const { return closed_.size(); }
   double height_W() const { return height_W_; }  ///< z that is flown at
   double blind_m() const { return blind_m_; }    ///< from B, within which images do not show all that is flown through
   /// From the middle of the first pair's images to their sides.
   double half_view_rad() const {
-    const stereo::DisparitySource& source = eyes_.front().source;
+    const stereo::DisparitySource& source = pairs_.front().source;
     return std::atan(0.5 * source.image().width / source.geometry().focal_px);
   }
   /// Whether any pair sees what lies in a direction, level. @param azimuth_rad  from the nose to the right.
   bool looks_along(double azimuth_rad) const;
 
  private:
-  struct Eye {
+  struct CameraPair {
     stereo::DisparitySource source;
     vision::mapping::DepthBlocks blocks;
     bool fresh = false;  ///< has taken an image that is not in the map yet
   };
 
-  Band band(double z_W) const;
-  Band between(double from_W, double to_W) const;
+  HeightRange band(double z_W) const;
+  HeightRange between(double from_W, double to_W) const;
   void clear(const Eigen::Vector3d& p_W, double radius_m);
-  void integrate(Eye& eye, const NavigationState& navigation, double t_s);
+  void integrate(CameraPair& pair, const NavigationState& navigation, double t_s);
   void fade(const NavigationState& navigation, double t_s);
-  const std::vector<vision::mapping::OccupancyMap::MovingDisc>& where_movers_are(double t_s);
+  const std::vector<vision::mapping::OccupancyMap::MovingDisc>& predicted_discs(double t_s);
   void remember_occupied(double t_s);
-  void follow_movers(double t_s, const Eye& eye, const Eigen::Isometry3d& X_WC);
+  void track_moving_obstacles(double t_s, const CameraPair& pair, const Eigen::Isometry3d& X_WC);
 
   const LocalMapConfig& config_;
-  const Outline& outline_;
-  double radius_m_;        ///< of the hull
-  Band hull_;              ///< heights of the hull's top and bottom, from B
-  std::vector<Eye> eyes_;  ///< the first pair, then the others
+  const HullDiscs& hull_discs_;
+  double radius_m_;                ///< of the hull
+  HeightRange hull_;               ///< heights of the hull's top and bottom, from B
+  std::vector<CameraPair> pairs_;  ///< the first pair, then the others
   vision::mapping::OccupancyMap map_;
   LevelSlice slice_;
   ClosedCells closed_;
   double remembered_s_ = 0.0;  ///< when what is occupied was put there last
-  Movers tracker_;
+  MovingObstacleTracker tracker_;
   std::vector<SurfacePoint> surface_;  ///< of the last image, at the heights that are flown through
-  std::vector<Mover> movers_;
-  double movers_at_s_ = 0.0;
+  std::vector<MovingObstacle> moving_obstacles_;
+  double obstacles_at_s_ = 0.0;
   std::vector<vision::mapping::OccupancyMap::MovingDisc> discs_;
   double blind_m_ = 0.0, height_W_ = 0.0;
   std::optional<double> from_W_;       ///< height that it comes from

@@ -128,9 +128,10 @@ class SectionGridModule final : public Module {
     }
     // As printed, a pixel without depth is no threat: mostly sky and what the two images do not share.
     const auto unknown = is_modified() ? config_.unknown : vision::sections::UnknownDepth::free;
-    const vision::sections::SectionChoice choice = search_->choose(depth_m_, threshold_m, kMostShare, unknown, open);
+    const vision::sections::SectionChoice choice =
+        search_->choose(depth_m_, threshold_m, kMaxThreatShare, unknown, open);
     for (size_t i = 0; i < search_->sections().size(); ++i) {
-      rejected_ += search_->threats()[i] > kMostShare * search_->sections()[i].area();
+      rejected_ += search_->threats()[i] > kMaxThreatShare * search_->sections()[i].area();
     }
     return choice;
   }

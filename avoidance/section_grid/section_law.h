@@ -13,7 +13,7 @@
 namespace hedgehop::avoidance::section_grid {
 
 /// Share of threats above which a section is no way out. [Perez2018] sec. V-C.
-inline constexpr double kMostShare = 0.15;
+inline constexpr double kMaxThreatShare = 0.15;
 /// Distance at which a temporary position counts as reached, m: about the position estimate's error and the overshoot.
 inline constexpr double kArrivedM = 1.0;
 /// Turn rate while no section is free, rad/s: 30 deg/s, slow enough for several images of every view.

@@ -2,11 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "avoidance/heading.h"
-#include "avoidance/section_grid/answers.h"
 
 namespace hedgehop::avoidance::section_grid {
+
+Eigen::Vector3d direction_B(Answer answer, const Eigen::Vector3d& ray_B, double side, bool recedes) {
+  const double back = recedes ? 1.0 : 0.0;
+  switch (answer) {
+    case Answer::waypoint:
+      return ray_B.normalized();
+    case Answer::heading:
+      return Eigen::Vector3d(ray_B.x(), ray_B.y(), 0.0).normalized();
+    case Answer::sideways:
+      return Eigen::Vector3d(-back, side, 0.0).normalized();
+    case Answer::climb:
+      return {0.0, 0.0, -1.0};
+    case Answer::combined:
+      return Eigen::Vector3d(-back, side, -1.0).normalized();
+  }
+  throw std::logic_error("unknown answer");
+}
+
+bool faces_path(Answer answer) { return answer == Answer::waypoint || answer == Answer::heading; }
 
 SectionPilot::SectionPilot(const SectionGridConfig& config)
     : answer_(config.answer), keep_share_(config.keep_share), lowest_m_(config.lowest_m) {}

@@ -15,8 +15,8 @@ void write(cv::Mat& image, const std::string& text, cv::Point where, double scal
 
 /// The colors in use, from 0 m at the bottom, near the lower right corner.
 void draw_bar(cv::Mat& image, double far_m) {
-  constexpr int kLeastWidthPx = 64, kLeastHeightPx = 48;  // below, it would hide what is seen
-  if (image.cols < kLeastWidthPx || image.rows < kLeastHeightPx) return;
+  constexpr int kMinWidthPx = 64, kMinHeightPx = 48;  // below, it would hide what is seen
+  if (image.cols < kMinWidthPx || image.rows < kMinHeightPx) return;
   const int width = std::max(4, image.cols / 80), height = image.rows / 2, edge = 2 * width;
   cv::Mat levels(height, width, CV_8UC1), colors;
   for (int row = 0; row < height; ++row) levels.row(row) = cv::Scalar::all(255.0 * row / std::max(1, height - 1));

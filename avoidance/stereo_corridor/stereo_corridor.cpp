@@ -8,10 +8,9 @@
 
 #include "avoidance/heading.h"
 #include "avoidance/stereo/passed_obstacles.h"
-#include "avoidance/stereo_corridor/goal_first.h"
+#include "avoidance/stereo_corridor/goal_seeking.h"
 #include "avoidance/stereo_corridor/target_overlay.h"
-#include "avoidance/stereo_corridor/target_tracker.h"
-#include "avoidance/stereo_corridor/turn_back.h"
+#include "avoidance/stereo_corridor/corridor_search.h"
 #include "sim/fields/bounds.h"
 #include "sim/fields/quantities.h"
 

@@ -6,7 +6,7 @@
 #include <exception>
 #include <utility>
 
-#include "avoidance/sight.h"
+#include "avoidance/blind_stop.h"
 #include "sim/config/input_error.h"
 #include "sim/fields/quantities.h"
 #include "sim/loop/setpoints.h"

@@ -34,7 +34,7 @@ class ModulePilot {
   /// Exposes those that do.
   void look(int64_t tick, const BodyMotion& body);
   /// Whether it decides on this tick, look() having been called: with a frame, and without one where there has been
-  /// none for so long that it counts as blind (avoidance/sight.h).
+  /// none for so long that it counts as blind (avoidance/blind_stop.h).
   bool decides(int64_t tick) const;
   /// What it would decide on now: its last frames, the aircraft's own estimate of this tick, the next place to fly to.
   /// The frames are good until the next look().

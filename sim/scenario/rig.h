@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "avoidance/channel.h"
+#include "avoidance/camera_channel.h"
 #include "sim/fields/field.h"
 #include "sim/scenario/imperfections.h"
 #include "vision/camera/camera.h"
@@ -17,7 +17,7 @@ namespace hedgehop::sim {
 
 /// One camera as mounted on the vehicle. All angles zero: looks along B's x, its u axis along B's y.
 struct CameraConfig {
-  using Channel = avoidance::Channel;
+  using Channel = avoidance::CameraChannel;
   enum class Model { pinhole, fisheye, ocam };
 
   std::string role;

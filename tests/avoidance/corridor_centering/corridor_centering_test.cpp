@@ -160,7 +160,7 @@ TEST(CorridorCentering, TheCourseStaysWithinItsAngleOfTheWallsHoweverFarTheNoseH
   const auto module = make_corridor_centering({});
   StraightCorridor corridor;
   corridor.left_m = 0.6, corridor.right_m = 3.0;
-  const double heading_rad = 0.6, most_rad = kMostCourseRad;
+  const double heading_rad = 0.6, most_rad = kMaxCourseRad;
   const Decision last = fly(*module, corridor.planes(), {0, 0}, {0.7, 0.4}, 3, {}, 0.3, heading_rad).back();
   const auto& command = std::get<VelocityCommand>(last.command);
   const double off_walls_rad = std::atan2(command.v_WB_W.y(), command.v_WB_W.x());

@@ -81,12 +81,12 @@ TEST(ConfirmedZigZag, StraysWithinItsAngleAndRepeatsWithTheSeed) {
 
 TEST(ConfirmedZigZag, IsCorneredBetweenWallsAheadOfBothComponentsOnly) {
   const ConfirmedZigZag path = zig_zag();
-  const auto cornered = [&](double front_m, double right_m, double rear_m, double left_m) {
-    return path.cornered(sides(1.0 / front_m, 1.0 / right_m, 1.0 / rear_m, 1.0 / left_m));
+  const auto in_corner = [&](double front_m, double right_m, double rear_m, double left_m) {
+    return path.in_corner(sides(1.0 / front_m, 1.0 / right_m, 1.0 / rear_m, 1.0 / left_m));
   };
-  EXPECT_TRUE(cornered(1.9, 1.9, 9.0, 9.0));
-  EXPECT_FALSE(cornered(1.9, 2.1, 9.0, 9.0));
-  EXPECT_FALSE(cornered(1.9, 9.0, 1.0, 1.0));  // at first the path leads to the front and the right
+  EXPECT_TRUE(in_corner(1.9, 1.9, 9.0, 9.0));
+  EXPECT_FALSE(in_corner(1.9, 2.1, 9.0, 9.0));
+  EXPECT_FALSE(in_corner(1.9, 9.0, 1.0, 1.0));  // at first the path leads to the front and the right
 }
 
 }  // namespace

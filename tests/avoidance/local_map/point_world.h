@@ -116,7 +116,7 @@ class PointWorld {
   }
 
  private:
-  /// Of a disc, or of points along the edges of the outline's boxes.
+  /// Of a disc, or of points along the edges of the hull_discs's boxes.
   double hull_clearance_m(const Eigen::Vector2d& p_W, double nose_rad, double t_s) const {
     if (outline_B.empty()) return distance_m(p_W, t_s) - radius_m;
     double least_m = std::numeric_limits<double>::infinity();

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <queue>
 #include <random>
 #include <tuple>
@@ -122,23 +123,24 @@ Grid two_gaps(int narrow_col, int wide_col) {
 
 // The passage that is wide enough for what is wanted, as long as the detour is worth it; else the narrow one.
 TEST(RouteField, LeadsThroughWhatIsNarrowOnlyWhereTheWayRoundIsLong) {
-  const Berth berth{0.7, 0.2};
+  const RouteClearance route_clearance{0.7, 0.2};
   for (const auto& [narrow_col, wide_col, narrow] : {std::tuple{9, 11, false}, {2, 18, true}}) {
     const Grid grid = two_gaps(narrow_col, wide_col);
     const Eigen::Vector2d from_W = grid.slice.center(7, narrow_col);
     RouteField field;
-    field.build(grid.slice, berth, grid.slice.center(17, narrow_col), beyond);
+    field.build(grid.slice, route_clearance, grid.slice.center(17, narrow_col), beyond);
     const double nearest_m = field.nearest_m(from_W, 1e3);
-    EXPECT_EQ(nearest_m < berth.wanted_m, narrow) << narrow_col;
-    EXPECT_GE(nearest_m, berth.least_m);
+    EXPECT_EQ(nearest_m < route_clearance.preferred_m, narrow) << narrow_col;
+    EXPECT_GE(nearest_m, route_clearance.least_m);
     double by_hand_m = 1e3;
     for (const Eigen::Vector2d& at_W : field.route_W(from_W, 1e3)) {
       const Eigen::Vector2i cell = grid.slice.cell(at_W);
       by_hand_m = std::min(by_hand_m, grid.away_m(cell.x(), cell.y()));
     }
     EXPECT_NEAR(nearest_m, by_hand_m, 1e-6);
-    field.build(grid.slice, {berth.wanted_m, berth.wanted_m}, grid.slice.center(17, narrow_col), beyond);
-    EXPECT_GE(field.nearest_m(from_W, 1e3), berth.wanted_m);
+    field.build(grid.slice, {route_clearance.preferred_m, route_clearance.preferred_m},
+                grid.slice.center(17, narrow_col), beyond);
+    EXPECT_GE(field.nearest_m(from_W, 1e3), route_clearance.preferred_m);
   }
 }
 
@@ -195,6 +197,67 @@ TEST(RouteField, AGoalOutsideIsSoughtAcrossTheNearestEdge) {
   const Eigen::Vector2d end_W = field.route_W({-4.0, 0.2}, 100.0).back();
   EXPECT_GT(end_W.x(), 5.0);
   EXPECT_NEAR(end_W.y(), 0.2, 1.0);
+}
+
+constexpr double kNeedM = 0.5;
+const Eigen::Vector3d goal_W(40.0, 0.0, 0.0);
+
+/// A map of 24 m in the open, or with a wall across it north of the vehicle; field and slice live as long as it.
+struct Known {
+  explicit Known(bool walled, const LearnedDistances& learned) {
+    vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = 48, .layers = 1});
+    map.reset(Eigen::Vector3d::Zero());
+    ClosedCells closed(kCellM);
+    if (walled) {
+      for (double east_m = -11.9; east_m < 12.0; east_m += kCellM) closed.remember({4.1, east_m, 0.1}, 0.0);
+      map.clear_cylinder({-8.0, 0.0, 0.0}, 11.5, 1.0);
+    } else {
+      map.clear_cylinder(Eigen::Vector3d::Zero(), 100.0, 1.0);
+    }
+    slice.build(map, {-0.1, 0.3}, closed);
+    field.build(slice, {kNeedM, kNeedM}, goal_W.head<2>(), learned.beyond_m(goal_W.head<2>(), 0.0));
+  }
+  LevelSlice slice;
+  RouteField field;
+};
+
+TEST(LearnedDistances, InTheOpenTheyAreTheStraightLine) {
+  LearnedDistances learned;
+  const Known open(false, learned);
+  learned.learn(open.field, open.slice, Eigen::Vector3d::Zero(), goal_W);
+  for (const Eigen::Vector2d& at_W :
+       {Eigen::Vector2d(1.5, 1.5), Eigen::Vector2d(-4.5, 4.5), Eigen::Vector2d(7.5, -7.5)}) {
+    const double straight_m = (goal_W.head<2>() - at_W).norm();
+    constexpr double kOctile = 1.09;  // an eight-connected grid is that much longer at most
+    EXPECT_GE(learned.at_least_m(at_W, 0.0), straight_m - kCellM);
+    EXPECT_LE(learned.at_least_m(at_W, 0.0), kOctile * straight_m);
+  }
+  EXPECT_EQ(learned.at_least_m({100.0, 0.0}, 0.0), 0.0);
+}
+
+TEST(LearnedDistances, NeverFallWhenTheMapForgets) {
+  LearnedDistances learned;
+  const Known walled(true, learned);
+  learned.learn(walled.field, walled.slice, Eigen::Vector3d::Zero(), goal_W);
+  const Eigen::Vector2d at_W(1.5, 1.5);
+  const double found_m = learned.at_least_m(at_W, 0.0);
+  EXPECT_GT(found_m, (goal_W.head<2>() - at_W).norm() + 8.0);  // round an end of the wall, 10 m aside
+  const Known forgotten(false, learned);
+  learned.learn(forgotten.field, forgotten.slice, Eigen::Vector3d::Zero(), goal_W);
+  EXPECT_EQ(learned.at_least_m(at_W, 0.0), found_m);
+}
+
+TEST(LearnedDistances, CountAtOtherHeightsLessTheClimbAndForNoOtherGoal) {
+  LearnedDistances learned;
+  const Known walled(true, learned);
+  learned.learn(walled.field, walled.slice, Eigen::Vector3d::Zero(), goal_W);
+  const Eigen::Vector2d at_W(1.5, 1.5);
+  const double here_m = learned.at_least_m(at_W, 0.0), above_m = learned.at_least_m(at_W, -2.4);
+  EXPECT_LT(above_m, here_m);
+  EXPECT_GT(above_m, 0.0);
+  const Known open(false, {});
+  learned.learn(open.field, open.slice, Eigen::Vector3d::Zero(), goal_W + Eigen::Vector3d(1.0, 0.0, 0.0));
+  EXPECT_LT(learned.at_least_m(at_W, 0.0), here_m);
 }
 
 }  // namespace

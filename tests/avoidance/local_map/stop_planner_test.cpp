@@ -14,17 +14,17 @@ constexpr Response kResponse{.delay_s = 0.2, .lag_s = 0.4, .acceleration_mps2 = 
 constexpr double kSpeedMps = 8.0;
 
 /// Free up to a line north; the goal lies beyond it.
-StopPlanner::FaultAt wall_at(double north_m) {
-  return [=](const Moment& m) { return Fault{.occupied_m = std::max(0.0, m.p_W.x() - north_m)}; };
+StopPlanner::DeficitAt wall_at(double north_m) {
+  return [=](const PathState& m) { return ClearanceDeficit{.occupied_m = std::max(0.0, m.p_W.x() - north_m)}; };
 }
 std::optional<double> north(const Eigen::Vector2d& p_W) { return 100.0 - p_W.x(); }
 
-double nobody(const std::vector<Moment>&) { return 0.0; }
+double nobody(const std::vector<PathState>&) { return 0.0; }
 
 TEST(StopPlanner, EveryStopItPlansStaysBeforeTheEndOfWhatIsFree) {
   const StopPlanner planner(kResponse, kSpeedMps);
   for (const double free_m : {2.0, 5.0, 10.0, 20.0, 40.0}) {
-    Moment now{0.0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+    PathState now{0.0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
     Eigen::Vector2d cmd_W = Eigen::Vector2d::Zero();
     double fastest = 0.0;
     for (int i = 0; i < 300; ++i) {
@@ -48,7 +48,7 @@ TEST(StopPlanner, SpeedFollowsHowFarIsFree) {
     // Closed form: the delay and a lag at speed, then constant braking.
     const double stop_m =
         speed_mps * (kResponse.delay_s + kResponse.lag_s) + 0.5 * speed_mps * speed_mps / kResponse.braking_mps2;
-    const Moment now{0.0, Eigen::Vector2d::Zero(), {speed_mps, 0.0}};
+    const PathState now{0.0, Eigen::Vector2d::Zero(), {speed_mps, 0.0}};
     constexpr double kSlackM = 1.0;
     // A command against the motion stops sooner than planned braking does, yet not in a third of the way.
     EXPECT_TRUE(planner.choose(now, now.v_W, wall_at(stop_m + kSlackM), nobody, north).safe);
@@ -58,16 +58,16 @@ TEST(StopPlanner, SpeedFollowsHowFarIsFree) {
 
 TEST(StopPlanner, AVehicleThatIsTooNearMovesAway) {
   const StopPlanner planner(kResponse, kSpeedMps);
-  const Moment now{0.0, {1.0, 0.0}, Eigen::Vector2d::Zero()};
+  const PathState now{0.0, {1.0, 0.0}, Eigen::Vector2d::Zero()};
   const StopPlanner::Plan plan = planner.choose(now, Eigen::Vector2d::Zero(), wall_at(0.5), nobody, north);
   EXPECT_TRUE(plan.safe);
   EXPECT_LT(plan.v_cmd_W.x(), 0.0);
 }
 
 TEST(StopPlanner, FliesSlowlyWhereTheCameraDoesNotLook) {
-  const Moment now{0.0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  const PathState now{0.0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
   const auto south = [](const Eigen::Vector2d& p_W) { return std::optional(100.0 + p_W.x()); };
-  const auto free = [](const Moment&) { return Fault{}; };
+  const auto free = [](const PathState&) { return ClearanceDeficit{}; };
   const auto speed_mps = [&](const StopPlanner& planner) {
     return planner.choose(now, Eigen::Vector2d::Zero(), free, nobody, south).v_cmd_W.norm();
   };
@@ -88,35 +88,35 @@ TEST(StopPlanner, NearnessToTheOneNeverExcusesNearnessToTheOther) {
     const auto beyond_m = [](const Eigen::Vector2d& p_W, double turn, double edge_m) {
       return std::max(0.0, p_W.dot(Eigen::Vector2d(std::cos(turn), std::sin(turn))) - edge_m);
     };
-    const auto fault = [&](const Moment& m) {
+    const auto deficit = [&](const PathState& m) {
       const double first_m = beyond_m(m.p_W, azimuth, near_m), second_m = beyond_m(m.p_W, other, far_m);
-      return occupied_first ? Fault{first_m, second_m} : Fault{second_m, first_m};
+      return occupied_first ? ClearanceDeficit{first_m, second_m} : ClearanceDeficit{second_m, first_m};
     };
     const double toward = uniform(0.0, 2.0 * M_PI);
     const auto to_goal_m = [&](const Eigen::Vector2d& p_W) -> std::optional<double> {
       return 100.0 - p_W.dot(Eigen::Vector2d(std::cos(toward), std::sin(toward)));
     };
-    const Moment now{0.0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
-    const StopPlanner::Plan plan = planner.choose(now, Eigen::Vector2d::Zero(), fault, nobody, to_goal_m);
+    const PathState now{0.0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+    const StopPlanner::Plan plan = planner.choose(now, Eigen::Vector2d::Zero(), deficit, nobody, to_goal_m);
     ASSERT_TRUE(plan.safe) << i;
-    for (const Moment& m : plan.path) ASSERT_EQ(beyond_m(m.p_W, other, far_m), 0.0) << i;
+    for (const PathState& m : plan.path) ASSERT_EQ(beyond_m(m.p_W, other, far_m), 0.0) << i;
   }
 }
 
 // At 6 m/s, 4 m before a wall that ends 1 m to the right: braking ends in it, turning aside leads round it.
 TEST(StopPlanner, WhereNoStopIsPossibleTheLeastBadPathIsTaken) {
   const StopPlanner planner(kResponse, kSpeedMps);
-  const auto fault = [](const Moment& m) {
+  const auto deficit = [](const PathState& m) {
     const double into_m = std::min(m.p_W.x() - 4.0, 1.0 - m.p_W.y());
-    return Fault{.occupied_m = m.p_W.x() < 5.0 ? std::max(0.0, into_m) : 0.0};
+    return ClearanceDeficit{.occupied_m = m.p_W.x() < 5.0 ? std::max(0.0, into_m) : 0.0};
   };
-  const auto worst_m = [&](const std::vector<Moment>& path) {
+  const auto worst_m = [&](const std::vector<PathState>& path) {
     double worst = 0.0;
-    for (const Moment& m : path) worst = std::max(worst, fault(m).occupied_m);
+    for (const PathState& m : path) worst = std::max(worst, deficit(m).occupied_m);
     return worst;
   };
-  const Moment now{0.0, Eigen::Vector2d::Zero(), {6.0, 0.0}};
-  const StopPlanner::Plan plan = planner.choose(now, now.v_W, fault, nobody, north);
+  const PathState now{0.0, Eigen::Vector2d::Zero(), {6.0, 0.0}};
+  const StopPlanner::Plan plan = planner.choose(now, now.v_W, deficit, nobody, north);
   EXPECT_FALSE(plan.safe);
   EXPECT_LT(worst_m(plan.path), 0.8 * worst_m(planner.predict(now, now.v_W, Eigen::Vector2d::Zero(), 0.0)));
 }
@@ -126,18 +126,18 @@ TEST(StopPlanner, WhereNoStopIsPossibleTheLeastBadPathIsTaken) {
 TEST(StopPlanner, WhereNoStopIsPossibleItHitsSlowlyRatherThanLittle) {
   const StopPlanner planner(kResponse, kSpeedMps);
   constexpr double kWallM = 3.1;
-  const auto fault = [](const Moment& m) {
+  const auto deficit = [](const PathState& m) {
     const double behind_m = std::abs(m.p_W.y()) < 0.3 ? 100.0 : kWallM + 0.6;
-    return Fault{.occupied_m = std::max(0.0, std::min(m.p_W.x() - kWallM, behind_m - m.p_W.x()))};
+    return ClearanceDeficit{.occupied_m = std::max(0.0, std::min(m.p_W.x() - kWallM, behind_m - m.p_W.x()))};
   };
   const auto at_mps = [&](const StopPlanner::Plan& plan) {
-    for (const Moment& m : plan.path) {
-      if (fault(m).occupied_m > 0.0) return m.v_W.norm();
+    for (const PathState& m : plan.path) {
+      if (deficit(m).occupied_m > 0.0) return m.v_W.norm();
     }
     return 0.0;
   };
-  const Moment now{0.0, Eigen::Vector2d::Zero(), {4.0, 0.0}};
-  const StopPlanner::Plan plan = planner.choose(now, now.v_W, fault, nobody, north);
+  const PathState now{0.0, Eigen::Vector2d::Zero(), {4.0, 0.0}};
+  const StopPlanner::Plan plan = planner.choose(now, now.v_W, deficit, nobody, north);
   EXPECT_FALSE(plan.safe);
   EXPECT_LT(at_mps(plan), 2.5);
 }
@@ -145,15 +145,15 @@ TEST(StopPlanner, WhereNoStopIsPossibleItHitsSlowlyRatherThanLittle) {
 // Whoever brakes for what crosses stops in its path; whoever goes on is past in time.
 TEST(StopPlanner, PassesBeforeWhatMovesInsteadOfStoppingInItsPath) {
   const StopPlanner planner(kResponse, kSpeedMps);
-  const Moment now{0.0, Eigen::Vector2d::Zero(), {6.0, 0.0}};
-  const auto crosses = [](const std::vector<Moment>& path) {  // a band at 8 to 11 m, from 2.5 s on
+  const PathState now{0.0, Eigen::Vector2d::Zero(), {6.0, 0.0}};
+  const auto crosses = [](const std::vector<PathState>& path) {  // a band at 8 to 11 m, from 2.5 s on
     double worst_m = 0.0;
-    for (const Moment& m : path) {
+    for (const PathState& m : path) {
       if (m.t_s > 2.5) worst_m = std::max(worst_m, 1.5 - std::abs(m.p_W.x() - 9.5));
     }
     return std::max(worst_m, 1.5 - std::abs(path.back().p_W.x() - 9.5));
   };
-  const auto anywhere = [](const Moment&) { return Fault{}; };
+  const auto anywhere = [](const PathState&) { return ClearanceDeficit{}; };
   const auto aside = [](const Eigen::Vector2d& p_W) -> std::optional<double> { return std::abs(p_W.y()) * 100.0; };
   const StopPlanner::Plan plan = planner.choose(now, now.v_W, anywhere, crosses, aside);
   EXPECT_GT(crosses(planner.predict(now, now.v_W, Eigen::Vector2d::Zero(), 0.4)), 0.0);
@@ -166,8 +166,8 @@ TEST(StopPlanner, PassesBeforeWhatMovesInsteadOfStoppingInItsPath) {
 
 TEST(StopPlanner, PredictionsBrakeAtTheGivenRate) {
   const StopPlanner planner(kResponse, kSpeedMps);
-  const Moment now{0.0, Eigen::Vector2d::Zero(), {6.0, 0.0}};
-  const std::vector<Moment> path = planner.predict(now, now.v_W, Eigen::Vector2d::Zero(), 0.0);
+  const PathState now{0.0, Eigen::Vector2d::Zero(), {6.0, 0.0}};
+  const std::vector<PathState> path = planner.predict(now, now.v_W, Eigen::Vector2d::Zero(), 0.0);
   const double lag_mps = kResponse.braking_mps2 * kResponse.lag_s;  // below, braking fades
   const double ramp_m = (36.0 - lag_mps * lag_mps) / (2.0 * kResponse.braking_mps2), tail_m = lag_mps * kResponse.lag_s;
   constexpr double kStepsM = 0.7;  // a tenth of a second at speed

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <opencv2/core/utility.hpp>
+#include <optional>
+#include <vector>
+
+#include "avoidance/law.h"
+#include "avoidance/module.h"
+#include "vision/landmarks/edge_corners.h"
+#include "vision/landmarks/landmark_filter.h"
+
+namespace hedgehop::avoidance::landmark_map {
+
+/// What camera 'front' delivers: images in which corners are searched, or a corner detector's output.
+enum class CornerSource { grey, color, corners };
+
+struct LandmarkObserverConfig {
+  CornerSource source = CornerSource::grey;
+  double least_corner_angle_rad = 0.2;
+  vision::landmarks::LandmarkMapConfig map;
+};
+
+template <class Visitor>
+void describe(Visitor& v, LandmarkObserverConfig& c) {
+  v("source", c.source,
+    {.choices = {"grey", "color", "corners"},
+     .meaning = "channel of camera 'front': images in which edges are searched, in color between red and green too, or "
+                "corners"});
+  v("least_corner_angle", c.least_corner_angle_rad,
+    {.unit = "deg", .above = 0.0, .at_most = 90.0, .meaning = "edges at a smaller angle make no corner"});
+  v("map", c.map, {.meaning = "how landmarks are estimated, matched and deleted"});
+}
+
+/// From the frames of one camera to a map of landmarks.
+class LandmarkObserver {
+ public:
+  /// @param law  of the map. Throws std::invalid_argument on a bad config.
+  LandmarkObserver(const LandmarkObserverConfig& config, Law law, const MountedCamera& camera);
+
+  static CameraNeed need(const LandmarkObserverConfig& config);
+
+  /// Takes a frame in. @return false when it is not newer than the last.
+  bool update(const CameraFrame& frame, const NavigationState& navigation);
+
+  const vision::landmarks::LandmarkMap& map() const { return map_; }
+  const std::vector<Eigen::Vector2d>& corners_px() const { return corners_px_; }  ///< of the last frame
+  const vision::landmarks::CameraPose& pose() const { return pose_; }             ///< of the last frame
+  vision::camera::PinholeCamera camera() const { return camera_.model.pinhole(); }
+  const cv::Mat& grey() const { return grey_; }  ///< the last image, CV_8UC1; empty before the first, or without images
+  /// Wall time that the filter took so far, for reports only.
+  double filter_ms() const { return filter_time_.getTimeMilli(); }
+
+ private:
+  LandmarkObserverConfig config_;
+  MountedCamera camera_;
+  vision::landmarks::LandmarkMap map_;
+  vision::landmarks::CameraPose pose_;
+  std::vector<Eigen::Vector2d> corners_px_;
+  cv::Mat grey_;
+  std::optional<int64_t> last_t_ns_;
+  cv::TickMeter filter_time_;
+};
+
+}  // namespace hedgehop::avoidance::landmark_map
