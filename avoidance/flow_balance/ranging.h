@@ -9,6 +9,7 @@
 
 #include "avoidance/flow_balance/side_cameras.h"
 #include "avoidance/module.h"
+#include "vision/flow/flow_range.h"
 
 namespace hedgehop::avoidance::flow_balance {
 

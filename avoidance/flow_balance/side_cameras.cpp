@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <string>
 
 #include "vision/flow/flow_field.h"
 
@@ -17,6 +18,20 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 /// the view that it fills. Averages over the valid patches alone would be those of off-center patches, in which motion
 /// along the axis shows too.
 constexpr vision::flow::Missing kMissing = vision::flow::Missing::far_away;
+
+/// One camera's part of the image that flow_overlay() makes.
+struct FlowTile {
+  std::string role;
+  cv::Mat grey;  ///< CV_8UC1
+  const vision::flow::FlowField* field = nullptr;
+  std::string caption;
+};
+
+/// An arrow of the compass in the middle: forward is up, right is right.
+struct CompassArrow {
+  Eigen::Vector2d v_H = Eigen::Vector2d::Zero();  ///< m/s
+  cv::Scalar rgb;
+};
 
 constexpr double kFlowScale = 6.0;  // drawn px per px of flow
 constexpr int kGapPx = 4;
@@ -40,6 +55,32 @@ void draw_compass(std::span<const CompassArrow> arrows, double full_scale_mps, c
                        middle.y - static_cast<int>(std::lround(tip.x())));
     cv::arrowedLine(image, middle, to, arrow.rgb, 2, cv::LINE_AA, 0, 0.25);
   }
+}
+
+/// Returns the cameras' images two by two with their flow vectors, captions, and a compass of velocities.
+/// @param full_scale_mps  velocity as long as the compass's radius, > 0.
+/// @return CV_8UC3, RGB; empty when there are no tiles.
+cv::Mat flow_overlay(std::span<const FlowTile> tiles, std::span<const CompassArrow> arrows, double full_scale_mps) {
+  if (tiles.empty()) return {};
+  int width = 0, height = 0;
+  for (const FlowTile& tile : tiles) {
+    width = std::max(width, tile.grey.cols);
+    height = std::max(height, tile.grey.rows);
+  }
+  const int columns = tiles.size() > 1 ? 2 : 1, rows = static_cast<int>(tiles.size() + 1) / columns;
+  cv::Mat image(rows * (height + kGapPx) - kGapPx, columns * (width + kGapPx) - kGapPx, CV_8UC3,
+                cv::Scalar(20, 24, 28));
+  for (size_t i = 0; i < tiles.size(); ++i) {
+    const FlowTile& tile = tiles[i];
+    if (tile.grey.empty()) continue;
+    const int row = static_cast<int>(i) / columns, col = static_cast<int>(i) % columns;
+    cv::Mat place = image({col * (width + kGapPx), row * (height + kGapPx), tile.grey.cols, tile.grey.rows});
+    cv::cvtColor(tile.grey, place, cv::COLOR_GRAY2RGB);
+    vision::flow::draw_flow(*tile.field, kFlowScale, place);
+    draw_caption(tile, place);
+  }
+  draw_compass(arrows, full_scale_mps, image);
+  return image;
 }
 
 }  // namespace
@@ -114,29 +155,6 @@ cv::Mat SideCameras::annotate(const Eigen::Vector2d& v_tgt_H, const Eigen::Vecto
   const std::array<CompassArrow, 2> arrows = {CompassArrow{v_tgt_H, blue}, CompassArrow{v_cmd_H, green}};
   constexpr double kMargin = 1.1;  // an arrow of that speed stays inside the circle
   return flow_overlay(tiles, arrows, kMargin * speed_mps);
-}
-
-cv::Mat flow_overlay(std::span<const FlowTile> tiles, std::span<const CompassArrow> arrows, double full_scale_mps) {
-  if (tiles.empty()) return {};
-  int width = 0, height = 0;
-  for (const FlowTile& tile : tiles) {
-    width = std::max(width, tile.grey.cols);
-    height = std::max(height, tile.grey.rows);
-  }
-  const int columns = tiles.size() > 1 ? 2 : 1, rows = static_cast<int>(tiles.size() + 1) / columns;
-  cv::Mat image(rows * (height + kGapPx) - kGapPx, columns * (width + kGapPx) - kGapPx, CV_8UC3,
-                cv::Scalar(20, 24, 28));
-  for (size_t i = 0; i < tiles.size(); ++i) {
-    const FlowTile& tile = tiles[i];
-    if (tile.grey.empty()) continue;
-    const int row = static_cast<int>(i) / columns, col = static_cast<int>(i) % columns;
-    cv::Mat place = image({col * (width + kGapPx), row * (height + kGapPx), tile.grey.cols, tile.grey.rows});
-    cv::cvtColor(tile.grey, place, cv::COLOR_GRAY2RGB);
-    vision::flow::draw_flow(*tile.field, kFlowScale, place);
-    draw_caption(tile, place);
-  }
-  draw_compass(arrows, full_scale_mps, image);
-  return image;
 }
 
 }  // namespace hedgehop::avoidance::flow_balance
