@@ -5,10 +5,12 @@
 
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
+#include "sim/cli/notice.h"
 #include "sim/cli/progress.h"
 #include "sim/evidence/batch_record.h"
 #include "sim/falsify/counterexample.h"
 #include "sim/pages/campaign_report.h"
+#include "sim/pages/report_page.h"
 #include "sim/record/whole_file.h"
 #include "sim/sweep/sweep.h"
 
@@ -63,7 +65,11 @@ class FalsifyRun {
     }
     progress_->close();
     if (interruption_.signal() != 0) return kSignalled + interruption_.signal();
-    write_campaign_report(out_, {});
+    try {
+      write_campaign_report(out_, {});
+    } catch (const PagesAbsent& absent) {
+      notice(fmt::format("{}\n", absent.what()));
+    }
     return conclude(result, found);
   }
 

@@ -15,6 +15,7 @@
 #include "sim/cli/progress.h"
 #include "sim/cli/shipped_files.h"
 #include "sim/evidence/batch_record.h"
+#include "sim/pages/report_page.h"
 #include "sim/pages/reproduction_page.h"
 #include "sim/record/whole_file.h"
 
@@ -104,12 +105,20 @@ void write_pages(const ReproduceOptions& options, const fs::path& out, const Row
   const PageFacts facts = page_facts(papers, packages, options.quick);
   const std::string text = results_page(papers, facts);
   EveryWrite files;
+  bool has_page = false;
   files.attempt([&] {
     fs::create_directories(out);
     write_file_whole(out / "reproduction.md", text);
   });
   files.attempt([&] { write_file_whole(out / "reproduction.csv", rows_csv(papers)); });
-  files.attempt([&] { write_file_whole(out / "reproduction.html", reproduction_page(pages, facts)); });
+  files.attempt([&] {
+    try {
+      write_file_whole(out / "reproduction.html", reproduction_page(pages, facts));
+      has_page = true;
+    } catch (const PagesAbsent& absent) {
+      notice(fmt::format("{}\n", absent.what()));
+    }
+  });
   if (!options.write.empty()) {
     files.attempt([&] {
       if (options.write.has_parent_path()) fs::create_directories(options.write.parent_path());
@@ -121,7 +130,7 @@ void write_pages(const ReproduceOptions& options, const fs::path& out, const Row
   if (options.quick) fmt::print("{}\n", kQuickRun);
   for (const auto& [paper, rows] : papers) fmt::print("{}\n", rows_text(paper, rows));
   files.raise();
-  fmt::print("written: {}\n", (out / "reproduction.html").string());
+  if (has_page) fmt::print("written: {}\n", (out / "reproduction.html").string());
   if (!options.write.empty()) fmt::print("written: {}\n", options.write.string());
 }
 

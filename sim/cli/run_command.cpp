@@ -16,6 +16,7 @@
 #include "sim/cli/progress.h"
 #include "sim/flight/build.h"
 #include "sim/pages/report.h"
+#include "sim/pages/report_page.h"
 #include "sim/record/film_watcher.h"
 #include "sim/record/result_files.h"
 #include "sim/record/whole_file.h"
@@ -120,11 +121,17 @@ int run(const RunOptions& options) {
                      command_line(options, scenario),
                      to_yaml(scenario)};
   write_result_files(out, info, flight);
-  if (!options.no_report) write_report(out, run_record(scenario, info, flight));
+  bool has_report = !options.no_report;
+  try {
+    if (has_report) write_report(out, run_record(scenario, info, flight));
+  } catch (const PagesAbsent& absent) {
+    has_report = false;
+    notice(fmt::format("{}\n", absent.what()));
+  }
   if (options.json) {
     fmt::print("{}\n", result_json(info, flight.result));
   } else {
-    print_verdict(scenario, flight.result, out, !options.no_report);
+    print_verdict(scenario, flight.result, out, has_report);
   }
   bool all_hold = flight.result.outcome != Outcome::fault;
   for (const CheckResult& check : flight.result.checks) all_hold = all_hold && check.passed;

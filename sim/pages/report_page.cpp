@@ -16,7 +16,7 @@ namespace {
 
 using Value = std::pair<std::string_view, std::string_view>;
 
-/// Puts each value where the template says `{{name}}`; what is put in is not looked at again.
+/// Replaces each placeholder `{{name}}` by its value. Placeholders in values are not replaced.
 std::string filled(std::string_view page, std::span<const Value> values) {
   std::string result;
   while (true) {
@@ -31,7 +31,7 @@ std::string filled(std::string_view page, std::span<const Value> values) {
       result.append(value);
       known = true;
     }
-    if (!known) throw std::logic_error(fmt::format("a page's template names unknown '{}'", name));
+    if (!known) throw std::logic_error(fmt::format("unknown placeholder '{}' in a page", name));
     page.remove_prefix(close + 2);
   }
 }
@@ -40,9 +40,10 @@ std::string joined(std::initializer_list<std::string_view> parts, std::string_vi
   return fmt::format("{}", fmt::join(parts, between));
 }
 
-/// A whole page: the frame that all share, with what is its own.
+/// Returns a page: the HTML of all pages with the parts of this one.
 std::string page(std::string_view title, std::string_view body, std::string data_json,
                  std::initializer_list<std::string_view> styles, std::initializer_list<std::string_view> scripts) {
+  if (kPage.empty()) throw PagesAbsent();
   const std::string safe_title = html_escaped(title), data = script_safe(std::move(data_json));
   const std::string all_styles = joined(styles, "</style>\n<style>");
   const std::string all_scripts = joined(scripts, "</script>\n<script>");
@@ -53,14 +54,13 @@ std::string page(std::string_view title, std::string_view body, std::string data
 
 std::string film_element(const PageFilm& film) {
   if (!film.bytes.empty()) {
-    return "<video id=\"film\" aria-label=\"what the cameras saw\" controls muted playsinline></video>\n"
+    return "<video id=\"film\" aria-label=\"camera images\" controls muted playsinline></video>\n"
            "<script type=\"text/plain\" id=\"film-bytes\">" +
            base64(film.bytes) + "</script>";
   }
   if (film.link.empty()) return "";
-  return fmt::format(
-      "<video id=\"film\" aria-label=\"what the cameras saw\" controls muted playsinline src=\"{}\"></video>",
-      html_escaped(film.link));
+  return fmt::format("<video id=\"film\" aria-label=\"camera images\" controls muted playsinline src=\"{}\"></video>",
+                     html_escaped(film.link));
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ std::string script_safe(std::string json) {
   result.reserve(json.size());
   for (const char c : json) {
     if (c == '<') {
-      result += "\\u003c";  // only strings of JSON can hold a '<'
+      result += "\\u003c";  // '<' occurs in strings of JSON only
     } else {
       result += c;
     }
