@@ -134,7 +134,7 @@ Json paper_data(const PaperOutcome& outcome, const std::vector<RowOutcome>& rows
             {"rows", Json::array()},
             {"charts", Json::array()}};
   for (const RowOutcome& row : rows) {
-    json["rows"].push_back(Json{{"what", row.row.what},
+    json["rows"].push_back(Json{{"claim", row.row.claim},
                                 {"unit", row.row.unit},
                                 {"paper", row.row.paper},
                                 {"required", row.required_words()},

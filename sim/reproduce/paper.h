@@ -59,14 +59,14 @@ void describe_figure(Visitor& v, FlightFigure& c) {
 
 /// One figure of the paper with the measured one.
 struct PaperRow : FlightFigure {
-  std::string what, paper, unit;
+  std::string claim, paper, unit;
   std::optional<double> at_least, at_most;  ///< bounds of the measured figure
   std::string missing = "fails";            ///< meaning of a flight without the figure
   std::string calculation, value;           ///< instead of flights
 };
 template <class Visitor>
 void describe(Visitor& v, PaperRow& c) {
-  v("what", c.what, {.required = true, .meaning = "measured quantity"});
+  v("claim", c.claim, {.required = true, .meaning = "claim of the row"});
   v("paper", c.paper, {.meaning = "figure in the paper"});
   v("unit", c.unit, {.meaning = "unit of the measured figure and its bounds; '%' for a column of shares"});
   v("at_least", c.at_least, {.meaning = "minimum of the measured figure"});

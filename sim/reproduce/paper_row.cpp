@@ -158,7 +158,7 @@ std::string rows_text(const Paper& paper, const std::vector<RowOutcome>& rows) {
   for (const RowOutcome& row : rows) {
     const std::string unit = row.row.unit.empty() ? "" : ", " + row.row.unit;
     text +=
-        fmt::format("| {}{} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | `{}` |\n", row.row.what, unit,
+        fmt::format("| {}{} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | `{}` |\n", row.row.claim, unit,
                     row.row.paper.empty() ? "-" : row.row.paper, row.required_words(), row.variant_words("published"),
                     row.variant_words("ideal"), row.modified_words(), row.variant_words("dull"), row.flights_words(),
                     row.interval_words(), row.holds == false ? "**no**" : row.holds_words(),
@@ -188,7 +188,7 @@ std::string rows_csv(const RowsOfPapers& papers) {
       };
       const auto& interval = row.modified.interval;
       CsvLine line(out);
-      for (const std::string& text : {paper.key, row.row.what, row.row.unit, row.row.paper}) line.add(text);
+      for (const std::string& text : {paper.key, row.row.claim, row.row.unit, row.row.paper}) line.add(text);
       line.add(row.row.at_least).add(row.row.at_most).add(variant("published")).add(variant("ideal"));
       line.add(row.modified.value).add(variant("dull"));
       for (const size_t count : {row.modified.required, row.modified.flown, row.modified.faulted,

@@ -22,7 +22,7 @@ class SmallCampaign : public CampaignFolder {
           "title: small\nsource: nobody\ntuned_on: none\n"
           "flights: [{scenario: tiny.yaml, seeds: 1:3}, {name: fast, scenario: tiny.yaml, seeds: 1, set: "
           "[avoidance.speed=2]}]\n"
-          "rows: [{what: length, unit: m, flights: [tiny, fast], column: path_length_m, statistic: max}]\n");
+          "rows: [{claim: length, unit: m, flights: [tiny, fast], column: path_length_m, statistic: max}]\n");
   }
 
   static constexpr std::string_view kCommands[] = {"batch", "sweep", "reproduce"};

@@ -105,13 +105,13 @@ class PaperRows : public ::testing::Test {
     paper.title = "T";
     paper.source = "S";
     paper.flights = {{.name = "a", .scenario = "a.yaml", .seeds = "1:2"}};
-    hits.what = "hit";
+    hits.claim = "hit";
     hits.flights = {"a"};
     hits.column = "outcome";
     hits.is = "collided";
     hits.statistic = Statistic::count;
     hits.at_most = 0.0;
-    worst.what = "worst";
+    worst.claim = "worst";
     worst.flights = {"a"};
     worst.column = "metric.m";
     worst.statistic = Statistic::max;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "sim/batch/seeds.h"
 #include "sim/config/input_error.h"
 #include "sim/record/whole_file.h"
 #include "sim/reproduce/calculations.h"
@@ -56,21 +57,21 @@ TEST(PaperFile, SourcesStandInTheReferences) {
 
 TEST(PaperFile, NamesNobodyHasAreRefusedWithTheirPlace) {
   const std::string flights = "flights: [{scenario: a.yaml, seeds: '1:2'}]\n";
-  EXPECT_THAT(faults_of(flights + "rows: [{what: w, flights: [b], column: outcome, is: x, statistic: count}]"),
+  EXPECT_THAT(faults_of(flights + "rows: [{claim: w, flights: [b], column: outcome, is: x, statistic: count}]"),
               Contains(AllOf(HasSubstr("paper.yaml:5"), HasSubstr("no flights are called 'b'"))));
-  EXPECT_THAT(faults_of("rows: [{what: w, calculation: none, value: x}]"), Contains(HasSubstr("section_costs")));
-  EXPECT_THAT(faults_of("rows: [{what: w, calculation: section_costs, value: x}]"), Contains(HasSubstr("cost_ms")));
+  EXPECT_THAT(faults_of("rows: [{claim: w, calculation: none, value: x}]"), Contains(HasSubstr("section_costs")));
+  EXPECT_THAT(faults_of("rows: [{claim: w, calculation: section_costs, value: x}]"), Contains(HasSubstr("cost_ms")));
   EXPECT_THAT(faults_of("charts: [{title: t, series: [{from: log, label: l, flights: c, y: d}]}]"),
               Contains(HasSubstr("no flights are called 'c'")));
 }
 
 TEST(PaperFile, WhatCannotBeMeantIsRefused) {
   const std::string flights = "flights: [{scenario: a.yaml, seeds: '1:2'}]\n";
-  EXPECT_THAT(faults_of("rows: [{what: w}]"), Contains(HasSubstr("either 'flights' or 'calculation'")));
+  EXPECT_THAT(faults_of("rows: [{claim: w}]"), Contains(HasSubstr("either 'flights' or 'calculation'")));
   EXPECT_THAT(faults_of("flights: [{scenario: a.yaml, seeds: '2:1'}]"), Contains(HasSubstr("2:1")));
   EXPECT_THAT(faults_of("flights: [{scenario: a.yaml, seeds: '1'}, {scenario: a.yaml, seeds: '2'}]"),
               Contains(HasSubstr("two flights are called 'a'")));
-  EXPECT_THAT(faults_of(flights + "rows: [{what: w, flights: [a], column: outcome, statistic: count}]"),
+  EXPECT_THAT(faults_of(flights + "rows: [{claim: w, flights: [a], column: outcome, statistic: count}]"),
               Contains(HasSubstr("needs 'is'")));
   EXPECT_THAT(faults_of("charts: [{title: t, series: [{from: points, label: l, x: [1, 2], y: [1]}]}]"),
               Contains(HasSubstr("2 x values, but 1 y values")));

@@ -26,9 +26,9 @@ flights:
   - {scenario: tiny.yaml, seeds: 1:3, quick: 1:2, published: [avoidance.speed=3]}
   - {name: fast, scenario: tiny.yaml, seeds: 1:2, set: [avoidance.speed=2]}
 rows:
-  - {what: length, unit: m, flights: [tiny], column: path_length_m, statistic: max}
-  - {what: collided, paper: none, at_most: 0, flights: [tiny, fast], column: outcome, is: collided, statistic: count}
-  - {what: farthest way, unit: m, at_least: 1000, flights: [fast], column: path_length_m, statistic: max}
+  - {claim: length, unit: m, flights: [tiny], column: path_length_m, statistic: max}
+  - {claim: collided, paper: none, at_most: 0, flights: [tiny, fast], column: outcome, is: collided, statistic: count}
+  - {claim: farthest way, unit: m, at_least: 1000, flights: [fast], column: path_length_m, statistic: max}
 charts:
   - {title: paths, series: [{from: paths, label: slow, flights: tiny}, {from: paths, label: fast, flights: fast}]}
   - {title: height, x: "time, s", y: "down, m", series: [
@@ -59,7 +59,7 @@ TEST_F(Reproduce, TellsEachFigureAndFailsWhenOneDoesNotHold) {
 TEST_F(Reproduce, ARowThatNothingMeasuresSetsTheExitStatus) {
   const auto paper = [&](const std::string& column) {
     return "title: t\nsource: s\ntuned_on: none\nflights: [{scenario: tiny.yaml, seeds: 1}]\n"
-           "rows: [{what: w, flights: [tiny], column: " +
+           "rows: [{claim: w, flights: [tiny], column: " +
            column + ", statistic: mean}]\n";
   };
   folder.write("known.yaml", paper("path_length_m"));

@@ -49,7 +49,7 @@ RowsOfPapers rows_of(const std::vector<std::string>& builds) {
   RowsOfPapers papers{{Paper{.key = "p", .title = "T", .source = "S"}, {}}};
   for (const std::string& build : builds) {
     RowOutcome row{.row = {}, .modified = {}, .variants = {}, .holds = true, .command = "hedgehop batch a.yaml"};
-    row.row.what = "claim of " + build;
+    row.row.claim = "claim of " + build;
     row.builds = {build};
     papers[0].second.push_back(row);
   }
@@ -107,7 +107,7 @@ TEST(ResultsPage, WrittenAPaperAtATimeInAnyOrderIsThePageOfAll) {
   page = page_of_papers({all[0]}, page);
   EXPECT_EQ(page, page_of_papers(all));
   RowsOfPapers again = {all[1]};
-  again[0].second[0].row.what = "another claim";
+  again[0].second[0].row.claim = "another claim";
   page = page_of_papers(again, page);
   EXPECT_EQ(page, page_of_papers({all[0], again[0], all[2]}));
 }

@@ -53,7 +53,7 @@ function addRows(host, rows) {
   line(['claim', 'paper', 'required', 'published', 'modified: ideal', 'modified: day', 'modified: dull', 'flights: required, flown, faulted, with figure',
     '95 % interval', 'holds', 'build'].map((text) => [text, '']), 'th');
   for (const r of rows) {
-    const row = line([[r.what + (r.unit ? `, ${r.unit}` : ''), ''], [r.paper || '–', ''],
+    const row = line([[r.claim + (r.unit ? `, ${r.unit}` : ''), ''], [r.paper || '–', ''],
       [r.required, ''], [r.published, r.published_holds === false ? 'fail' : ''],
       ...[r.ideal, r.day, r.dull, r.flights, r.interval].map((text) => [text, '']),
       r.holds === null ? ['–', ''] : r.holds ? ['holds', 'pass'] : ['does not hold', 'fail'], [r.build.join(', '), '']], 'td');
