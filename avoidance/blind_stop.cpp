@@ -18,7 +18,7 @@ bool each_row(const cv::Mat& image, Holds holds) {
   return true;
 }
 
-/// Whether every pixel is the first one.
+/// Returns whether all pixels equal the first one.
 bool is_uniform(const cv::Mat& image) {
   const size_t pixel = image.elemSize();
   const uint8_t* const first = image.ptr<uint8_t>(0);
@@ -37,12 +37,12 @@ bool is_equal(const cv::Mat& a, const cv::Mat& b) {
          each_row(a, [&b](const uint8_t* row, size_t size, int k) { return std::memcmp(row, b.ptr(k), size) == 0; });
 }
 
-/// One camera: when its last good image came.
+/// Time of the last good image of one camera.
 class ImageMonitor {
  public:
   ImageMonitor(CameraNeed need, double rate_hz) : need_(std::move(need)), limit_ns_(blind_after_ns(rate_hz)) {}
 
-  /// @return whether it is blind. @param frames  of this decision.
+  /// Returns whether the camera is blind. @param frames  of this decision.
   bool is_blind(std::span<const CameraFrame> frames, int64_t t_ns) {
     const auto frame = std::ranges::find(frames, need_.role, &CameraFrame::role);
     if (good_ns_ == kNever || (frame != frames.end() && is_good(frame->image))) good_ns_ = t_ns;
@@ -101,7 +101,7 @@ class StoppingWhenBlind : public Module {
 }  // namespace
 
 int64_t blind_after_ns(double rate_hz) {
-  constexpr double kMaxIntervalS = 0.5;  // at 3 m/s, half of what stopping at 2 m/s^2 takes
+  constexpr double kMaxIntervalS = 0.5;  // half of the time in which a vehicle at 3 m/s stops with 2 m/s^2
   constexpr double kImages = 3.0;
   return std::llround(std::max(kMaxIntervalS, kImages / rate_hz) * 1e9);
 }

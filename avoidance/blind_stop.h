@@ -7,15 +7,15 @@
 
 namespace hedgehop::avoidance {
 
-/// How long a module may go without a good image of a camera it needs before it counts as blind, ns: half a second, or
-/// three images of a slow camera. @param rate_hz  of the camera, > 0.
+/// Returns the time without a good image of a required camera after which a module counts as blind, ns: half a second,
+/// or three periods of a slow camera. @param rate_hz  image rate of the camera, > 0.
 int64_t blind_after_ns(double rate_hz);
 
-/// Returns the module, made to stop where it cannot see: while a camera that it needs has delivered no good image for
-/// longer than blind_after_ns(), the decision is a HoverCommand of status "blind", and the module is not asked. An
-/// image is good unless it is missing, black (every pixel 0), or frozen (bit for bit the last one, and not of one value
-/// all over, as a blank wall's is). Of depth and corners, which stand for ideal sensors, only missing ones count. In
-/// all else the module's own, and the module itself where it needs no camera.
+/// Returns the module with a blindness monitor around it. If a required camera has delivered no good image for longer
+/// than blind_after_ns(), the decision is a HoverCommand with the status "blind", and the module is not called.
+/// A good image is present, not black (at least one pixel differs from 0) and not frozen. A frozen image equals its
+/// predecessor bit for bit and is not uniform; a blank wall gives uniform images. Depth and corners simulate ideal
+/// sensors, so only a missing frame is bad. A module that needs no camera is returned unchanged.
 std::unique_ptr<Module> stopping_when_blind(std::unique_ptr<Module> module);
 
 }  // namespace hedgehop::avoidance

@@ -2,7 +2,7 @@
 
 namespace hedgehop::avoidance {
 
-/// What a camera's frames hold; `corners`: those of a corner detector in its place, instead of images.
+/// Content of the frames of a camera. `corners`: the positions that a corner detector found, instead of images.
 enum class CameraChannel { grey, color, depth, corners };
 
 }  // namespace hedgehop::avoidance

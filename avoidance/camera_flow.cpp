@@ -37,7 +37,7 @@ bool CameraFlow::update(const CameraFrame& frame, const Eigen::Vector3d& w_WB_B)
 }
 
 std::optional<CameraFlow::Measure> CameraFlow::measure(int64_t now_ns) const {
-  constexpr double kFreshPeriods = 3.0;  // an older measure is of another place
+  constexpr double kFreshPeriods = 3.0;  // an older measurement belongs to another position
   if (!measure_ || seconds(now_ns - *last_t_ns_) > kFreshPeriods / camera_.rate_hz) {
     return std::nullopt;
   }

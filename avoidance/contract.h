@@ -15,20 +15,21 @@
 
 #include "avoidance/module.h"
 
-/// What every module promises, whatever it is for: for the tests of modules, in this tree and outside it.
+/// The contract that every module must fulfill, as tests for modules inside and outside this tree.
 namespace hedgehop::avoidance::contract {
 
-/// What a module gets in one decision.
+/// Input of one decision.
 struct Step {
   NavigationState navigation;
   std::vector<CameraFrame> frames;
 };
 
-/// Makes the module under test, new each time, and what it is tested with.
+/// The module under test (a new object per call of make()) and its test input.
 struct Subject {
   std::function<std::unique_ptr<Module>()> make;
   Setup setup;
-  std::vector<Step> steps;  ///< of one flight, with all needed frames; at least three
+  std::vector<Step>
+      steps;  ///< frames and navigation of one flight; at least three steps, each with all required frames
   int64_t period_ns = 40'000'000;
   Goal goal;
 
@@ -47,7 +48,7 @@ struct Subject {
   }
 };
 
-/// All numbers of a decision, bit by bit, so that NaN equals NaN.
+/// Returns all numbers of a decision as bit patterns, so that NaN equals NaN.
 inline std::vector<uint64_t> bits(const Decision& decision) {
   std::vector<double> numbers = decision.signals;
   std::visit(
@@ -158,7 +159,7 @@ inline void expect_all_needed_cameras_must_be_there(const Subject& subject) {
   }
 }
 
-/// Every promise, in turn.
+/// Checks the whole contract.
 inline void expect_module(const Subject& subject) {
   expect_same_input_gives_the_same_bits(subject);
   expect_reset_equals_a_new_module(subject);

@@ -8,8 +8,8 @@
 /// Frame H: at B's origin, level, x along the heading, y to the right.
 namespace hedgehop::avoidance {
 
-/// Returns the heading of an attitude, from north to east, in (-pi, pi], rad: where B's x axis points in the plan.
-/// @param q_WB  of length 1, not pointing straight up or down.
+/// Returns the heading of an attitude: the azimuth of the x axis of B from north to east, in (-pi, pi], rad.
+/// @param q_WB  of length 1; the nose must not point straight up or down.
 inline double heading_rad(const Eigen::Quaterniond& q_WB) {
   const Eigen::Vector3d forward_W = q_WB * Eigen::Vector3d::UnitX();
   return std::atan2(forward_W.y(), forward_W.x());

@@ -10,12 +10,13 @@
 
 #include "avoidance/module.h"
 
-/// What a module outside this tree is built against. Its library holds one line: HEDGEHOP_PLUGIN(my::Row, ...), where a
-/// row names a config struct with kName, kMeaning and describe(), as those of this tree, and the function that makes
-/// the module. docs/writing-a-module.md has an example.
+/// The interface of modules outside this tree. A plugin library contains one line, HEDGEHOP_PLUGIN(my::Row, ...). A row
+/// names a config struct with kName, kMeaning and describe(), like those of this tree, and the function that makes the
+/// module. docs/writing-a-module.md has an example.
 namespace hedgehop::avoidance {
 
-/// What describe() says of one parameter: as in this tree's modules. Degrees ("deg", "deg/s") are read into radians.
+/// Description of one parameter in describe(), as in the modules of this tree. Degrees ("deg", "deg/s") are converted
+/// to radians.
 struct ParameterField {
   std::string_view unit = "";
   std::optional<double> above = {}, at_least = {}, below = {}, at_most = {};
@@ -24,7 +25,7 @@ struct ParameterField {
   std::string_view meaning = "";
 };
 
-/// Reads parameters, or documents them, across the library's border.
+/// Reads or documents parameters across the library boundary.
 class ParameterVisitor {
  public:
   virtual ~ParameterVisitor() = default;
@@ -36,7 +37,7 @@ class ParameterVisitor {
   virtual void numbers(std::string_view key, std::vector<double>& values, const ParameterField& field) = 0;
 };
 
-/// The visitor that a config's describe() sees.
+/// The visitor type that describe() of a config receives.
 class ParameterLister {
  public:
   explicit ParameterLister(ParameterVisitor& visitor) : visitor_(visitor) {}
@@ -67,14 +68,14 @@ class ParameterLister {
   ParameterVisitor& visitor_;
 };
 
-/// A module that a library offers.
+/// A module that a library provides.
 class PluginRow {
  public:
   virtual ~PluginRow() = default;
   virtual std::string_view name() const = 0;
   virtual std::string_view meaning() const = 0;
-  /// Shows every parameter, of default value, to the visitor, which may change them; then makes the module.
-  /// Throws std::invalid_argument on a bad config.
+  /// Passes every parameter, with its default value, to the visitor, which may change it; then makes the module. Throws
+  /// std::invalid_argument on a bad config.
   virtual std::unique_ptr<Module> make(ParameterVisitor& parameters) const = 0;
 };
 
@@ -100,13 +101,13 @@ void add_rows(PluginRows& rows) {
 
 #define HEDGEHOP_WORDS_(x) #x
 #define HEDGEHOP_WORDS(x) HEDGEHOP_WORDS_(x)
-/// What library and program must agree on: this interface (raise its number with every change of this file or of
-/// module.h), the compiler's way of laying out objects, and the packages whose types cross the border.
+/// The properties that must be equal in library and program: the version of this interface (increase it with every
+/// change of this file or of module.h), the C++ ABI, and the versions of the packages whose types cross the boundary.
 #define HEDGEHOP_PLUGIN_INTERFACE \
   "modules 4, C++ ABI " HEDGEHOP_WORDS(__GXX_ABI_VERSION) ", Eigen " HEDGEHOP_WORDS(EIGEN_WORLD_VERSION) "."      \
   HEDGEHOP_WORDS(EIGEN_MAJOR_VERSION) ", OpenCV " HEDGEHOP_WORDS(CV_VERSION_MAJOR) "." HEDGEHOP_WORDS(CV_VERSION_MINOR)
 
-/// Offers modules. @param ...  rows: hedgehop::avoidance::ModuleRow<Config, make>.
+/// Exports modules. @param ...  rows: hedgehop::avoidance::ModuleRow<Config, make>.
 #define HEDGEHOP_PLUGIN(...)                                                                                           \
   extern "C" __attribute__((visibility("default"))) const char* hedgehop_plugin_interface() {                          \
     return HEDGEHOP_PLUGIN_INTERFACE;                                                                                  \

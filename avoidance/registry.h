@@ -16,13 +16,13 @@
 
 namespace hedgehop::avoidance {
 
-/// Every module of this tree: one config struct per row, with `kName` as its name in a scenario.
+/// The modules of this tree: one config struct per row. `kName` is the name of the module in a scenario.
 using ModuleConfig = std::variant<GoToGoalConfig, flow_balance::FlowBalanceConfig, flow_balance::ZigZagConfig,
                                   section_grid::SectionGridConfig, stereo_corridor::StereoCorridorConfig,
                                   corridor_centering::CorridorCenteringConfig, landmark_map::LandmarkMapModuleConfig,
                                   local_map::LocalMapConfig, policy::OnnxPolicyConfig>;
 
-/// Returns the module that the config belongs to, made to stop when it is blind (sight.h); reset() comes next. Throws
+/// Returns the module of a config, with a blindness monitor (blind_stop.h). Call reset() before update(). Throws
 /// std::invalid_argument on a bad config.
 std::unique_ptr<Module> make_module(const ModuleConfig& config);
 

@@ -25,7 +25,7 @@ Eigen::Vector2d push_from_walls(std::span<const SideFlow> sides, const Eigen::Ve
 }
 
 Eigen::Vector2d normalized_command(const Eigen::Vector2d& v_tgt_H, const Eigen::Vector2d& push_H, double speed_mps) {
-  constexpr double kNoDirectionMps = 1e-6;  // below it the sum's direction is rounding error
+  constexpr double kNoDirectionMps = 1e-6;  // below this, the direction of the sum is rounding error
   const Eigen::Vector2d v_H = v_tgt_H + push_H;
   return (v_H.norm() < kNoDirectionMps ? v_tgt_H : v_H).normalized() * speed_mps;
 }

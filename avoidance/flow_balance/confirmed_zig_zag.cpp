@@ -8,7 +8,7 @@
 namespace hedgehop::avoidance::flow_balance {
 namespace {
 
-/// Images that must agree: a wrong flow vector seldom lasts for two.
+/// Images that must agree. A wrong flow vector seldom occurs in two successive images.
 constexpr int kConfirmations = 2;
 
 }  // namespace

@@ -10,23 +10,25 @@
 
 namespace hedgehop::avoidance::flow_balance {
 
-/// The zig-zag of zig_zag_law.h with our additions. A component is reversed only when two successive images agree. Of
-/// several obstacles that are too near, only the nearest reverses one, and the others are judged again on the new path:
-/// a wall that two cameras see, as at a heading across the room, would else send the vehicle back where it came from
-/// instead of along the wall. And each reversal may rotate the path by a random angle: at a heading across the room,
-/// fixed diagonals soon repeat one closed path.
+/// The zig-zag of zig_zag_law.h with the additions of the modified law:
+/// - A component is reversed only if two successive images agree.
+/// - If several obstacles are too near, only the nearest one reverses a component, and the others are evaluated again
+/// on the new path. Otherwise a wall that two cameras see, as at a heading across the room, would send the vehicle back
+/// instead of along the wall.
+/// - Each reversal may rotate the path by a random angle. At a heading across the room, fixed diagonals soon repeat one
+/// closed path.
 class ConfirmedZigZag {
  public:
-  /// @param stray_rad  the path's largest angle off its diagonal, drawn at every reversal; >= 0.
-  /// @param seed       of those draws.
+  /// @param stray_rad  maximum angle between the path and its diagonal, >= 0; drawn at every reversal.
+  /// @param seed       seed of these random angles.
   ConfirmedZigZag(const Diagonal& diagonal, double stray_rad, uint64_t seed)
       : diagonal_(diagonal), max_stray_rad_(stray_rad), random_(seed) {}
 
   /// Velocity to fly in H, m/s; both components positive at first.
   Eigen::Vector2d velocity_H() const;
-  /// Whether obstacles that the path leads towards are too near on sides of both components.
+  /// Returns whether obstacles ahead are too near on sides of both components.
   bool in_corner(std::span<const SideRange> sides) const;
-  /// Takes in what the cameras measure, the same ones in the same order every time.
+  /// Adds the measurements of the cameras, always of the same cameras in the same order.
   /// @return whether a component was reversed.
   bool update(std::span<const SideRange> sides);
   int reversals() const { return reversals_; }

@@ -14,8 +14,8 @@
 namespace hedgehop::avoidance::flow_balance {
 namespace {
 
-/// Much of a city's view is sky and open ground. A patch counts as near only when the last three images agree, and
-/// nothing is remembered beyond them.
+/// Much of the view of a city is sky and open ground. A patch counts as near only if the last three images agree, and
+/// there is no memory beyond them.
 constexpr PatchRanging::Options kCityPatches{.floor_mps = 0.2, .memory_s = 0.0, .images = 3};
 
 class FlowBalance final : public Module {
@@ -62,7 +62,7 @@ class FlowBalance final : public Module {
     return decision;
   }
 
-  /// Puts what the cameras measured into the ring.
+  /// Adds the ranges of the cameras to the ring.
   void update_ring(const Observation& observation) {
     const NavigationState& navigation = observation.navigation;
     ranging_->update(*cameras_, navigation);
@@ -72,7 +72,7 @@ class FlowBalance final : public Module {
     }
   }
 
-  /// [Garratt2009] eq. (4). @return in W, m/s, as the next two.
+  /// Returns the command of [Garratt2009] eq. (4), in W, m/s.
   Eigen::Vector2d published_command(const Eigen::Vector2d& p_BG_W, const Eigen::Vector2d& v_H) {
     v_tgt_W_ = velocity_to_goal(rotated(p_BG_W, config_.spiral_angle_rad), config_.speed_mps, /*slow_radius_m=*/0.0);
     const Eigen::Vector2d push_H =
@@ -80,12 +80,12 @@ class FlowBalance final : public Module {
     return rotated(normalized_command(rotated(v_tgt_W_, -heading_rad_), push_H, v_tgt_W_.norm()), heading_rad_);
   }
 
-  /// With the nearest places all round and with detours.
+  /// Returns the command with the push of the nearest obstacles in all directions and with detours, in W, m/s.
   Eigen::Vector2d modified_command(const Eigen::Vector2d& p_BG_W, int64_t t_ns) {
     const double aside_rad = detour_->update(p_BG_W.norm(), seconds(t_ns));
     const Eigen::Vector2d aim_W = rotated(p_BG_W, config_.spiral_angle_rad + aside_rad);
     v_tgt_W_ = velocity_to_goal(aim_W, config_.speed_mps, config_.slow_radius_m);
-    // The direction is chosen as at full speed, so that walls do not outweigh a goal that is near.
+    // The direction is computed at full speed, so that walls do not outweigh a near goal.
     const Eigen::Vector2d full_W = velocity_to_goal(aim_W, config_.speed_mps, 0.0);
     const Eigen::Vector2d push_W =
         push_from_obstacles(ring_.obstacles_W(), aim_W, config_.loom_gain_m2ps + config_.flow_gain_m2ps);

@@ -31,8 +31,8 @@ void RangeRing::carry(const Eigen::Vector2d& v_WB_W, int64_t t_ns) {
 }
 
 void RangeRing::add(const std::vector<RangeColumn>& columns, double heading_rad) {
-  constexpr double kMinWeight = 0.5;  // with less, nothing measured does not mean nothing there
-  constexpr double kFarM = 40.0;      // what is farther does not push
+  constexpr double kMinWeight = 0.5;  // below this weight, a missing range does not mean free space
+  constexpr double kFarM = 40.0;      // farther obstacles do not push
   for (const RangeColumn& column : columns) {
     const Eigen::Vector2d direction_W = rotated(column.direction_H, heading_rad);
     if (column.weight >= kMinWeight) points_[sector_of(direction_W)].reset();
@@ -50,12 +50,12 @@ std::vector<Eigen::Vector2d> RangeRing::obstacles_W() const {
 
 Eigen::Vector2d push_from_obstacles(const std::vector<Eigen::Vector2d>& obstacles_W, const Eigen::Vector2d& aim_W,
                                     double gain_m2ps) {
-  constexpr size_t kNearest = 3;   // one alone may be a wrong vector
-  constexpr double kTouchM = 0.1;  // nearer is no more urgent
+  constexpr size_t kNearest = 3;   // a single point may come from a wrong vector
+  constexpr double kTouchM = 0.1;  // minimum distance that is distinguished
   Eigen::Vector2d push_W = Eigen::Vector2d::Zero();
   Eigen::Vector2d axis_W = aim_W.normalized();
   for (int quarter = 0; quarter < 4; ++quarter, axis_W = {-axis_W.y(), axis_W.x()}) {
-    std::vector<Eigen::Vector2d> inverse_W;  // along each point's direction, as long as its inverse range
+    std::vector<Eigen::Vector2d> inverse_W;  // along the direction of each point, with its inverse range as length
     for (const Eigen::Vector2d& p_BP_W : obstacles_W) {
       if (p_BP_W.dot(axis_W) < std::numbers::sqrt2 / 2.0 * p_BP_W.norm()) continue;
       inverse_W.push_back(p_BP_W / std::max(kTouchM * kTouchM, p_BP_W.squaredNorm()));
@@ -75,7 +75,7 @@ Eigen::Vector2d low_pass(const Eigen::Vector2d& v_last_W, const Eigen::Vector2d&
 }
 
 double Detour::update(double goal_distance_m, double t_s) {
-  constexpr double kProgressM = 3.0;  // more than the position estimate drifts in a few seconds
+  constexpr double kProgressM = 3.0;  // more than the drift of the position estimate in a few seconds
   if (patience_s_ <= 0.0) return 0.0;
   if (goal_distance_m < nearest_m_ - kProgressM) {
     nearest_m_ = goal_distance_m;

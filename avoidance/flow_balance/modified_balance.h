@@ -10,25 +10,26 @@
 
 #include "avoidance/flow_balance/ranging.h"
 
-/// Our additions to the goal-directed law of balance_law.h.
+/// Additions of the modified law to the goal-directed law of balance_law.h.
 namespace hedgehop::avoidance::flow_balance {
 
-/// What is near in every direction of the plan. Between two cameras, and around the focus of expansion, flow measures
-/// nothing: there a point that was measured before is remembered and carried along with the vehicle's own motion, so
-/// that a building does not vanish while it passes from one camera to the next. This closes the blind spots between the
-/// cameras that [Garratt2009] sec. 4.1 reports at 45 degrees. Ours.
+/// The nearest obstacles in all horizontal directions. Flow gives no range between two cameras and around the focus of
+/// expansion. In these directions an earlier point is kept and moved with the motion of the vehicle, so that a building
+/// does not vanish while it passes from one camera to the next. This closes the blind spots between the cameras that
+/// [Garratt2009] sec. 4.1 reports at 45 degrees. Not in the paper.
 class RangeRing {
  public:
-  /// How long a point is remembered: twice the time in which it passes a blind spot 8 m away at 2 m/s.
+  /// Lifetime of a point: twice the time in which a point 8 m away passes a blind spot at 2 m/s.
   static constexpr int64_t kKeepNs = 4'000'000'000;
 
-  /// Moves on in time. @param v_WB_W  estimated velocity since the last call, m/s. @param t_ns  rising.
+  /// Moves the points to a new time. @param v_WB_W  estimated velocity since the last call, m/s. @param t_ns
+  /// increasing.
   void carry(const Eigen::Vector2d& v_WB_W, int64_t t_ns);
-  /// Takes in what a camera's columns measure now. One that shows enough parallax replaces what was remembered in its
-  /// direction, any other adds to it. @param heading_rad  estimated.
+  /// Adds the current measurements of the columns of a camera. A column with sufficient parallax replaces the points in
+  /// its direction; any other column adds to them. @param heading_rad  estimated.
   void add(const std::vector<RangeColumn>& columns, double heading_rad);
 
-  /// The nearest point known in each sector of 5 degrees, from the vehicle, in W, m.
+  /// Nearest known point of each sector of 5 degrees, from the vehicle, in W, m.
   std::vector<Eigen::Vector2d> obstacles_W() const;
 
  private:
@@ -44,41 +45,42 @@ class RangeRing {
   int64_t now_ns_ = 0;
 };
 
-/// Returns the velocity to add to the target velocity, in W, m/s. In each quarter of the plan, the first about the aim,
-/// the three nearest places push back along their directions, together by `gain_m2ps` times their mean inverse range.
-/// With a gain of k0 + k1 and walls at right angles to the aim it equals push_from_walls(). It also holds for what a
-/// camera sees at its edge, and for what lies straight ahead of the motion.
+/// Returns the velocity to add to the target velocity, in W, m/s. In each quarter of the horizontal plane, the first
+/// one centered on the aim, the three nearest points push back along their directions. Together they push with
+/// `gain_m2ps` times their mean inverse range.
+/// With a gain of k0 + k1 and walls at right angles to the aim the result equals push_from_walls(). It is also valid
+/// for obstacles at the edge of an image and for obstacles straight ahead of the motion.
 /// @param obstacles_W  from the vehicle, m. @param aim_W  direction to fly, not zero.
 Eigen::Vector2d push_from_obstacles(const std::vector<Eigen::Vector2d>& obstacles_W, const Eigen::Vector2d& aim_W,
                                     double gain_m2ps);
 
-/// Returns a command after a first-order low-pass filter, m/s. [Garratt2009] sec. 4.1 suggests one.
-/// @param v_last_W  the last filtered command, m/s.  @param dt_s  since then, >= 0.
-/// @param time_constant_s  0 for no filter.
+/// Returns the command after a first-order low-pass filter, m/s. [Garratt2009] sec. 4.1 suggests such a filter.
+/// @param v_last_W  last filtered command, m/s.  @param dt_s  time since that command, >= 0.
+/// @param time_constant_s  0 disables the filter.
 Eigen::Vector2d low_pass(const Eigen::Vector2d& v_last_W, const Eigen::Vector2d& v_W, double dt_s,
                          double time_constant_s);
 
-/// Leaves limit cycles: when the vehicle has made no progress to its goal for a while, the aim is rotated aside for a
-/// while, to the right and, if that did not help, to the left. Ours; [Garratt2009] sec. 4.1 aims aside all the time for
-/// the same purpose.
+/// Leaves limit cycles. If the vehicle has made no progress to its goal for some time, the aim is rotated aside for
+/// some time: first to the right and, if that did not help, to the left. Not in the paper; [Garratt2009] sec. 4.1 aims
+/// aside permanently for the same purpose.
 class Detour {
  public:
-  static constexpr double kAngleRad = 70.0 * std::numbers::pi / 180.0;  ///< along the face of a building, nearly
-  static constexpr double kDurationS = 12.0;                            ///< past a building of 20 m at 2 m/s
+  static constexpr double kAngleRad = 70.0 * std::numbers::pi / 180.0;  ///< almost along the face of a building
+  static constexpr double kDurationS = 12.0;                            ///< time to pass a building of 20 m at 2 m/s
 
-  /// @param patience_s  without progress, >= 0; 0 never aims aside.
+  /// @param patience_s  time without progress before a detour, >= 0; 0 disables detours.
   explicit Detour(double patience_s) : patience_s_(patience_s) {}
 
-  /// @param goal_distance_m  now, >= 0.  @param t_s  since the flight began, rising.
-  /// @return angle to rotate the aim to the right by, rad; 0 outside detours.
+  /// @param goal_distance_m  current distance, >= 0.  @param t_s  time since the start of the flight, increasing.
+  /// @return angle by which to rotate the aim to the right, rad; 0 outside detours.
   double update(double goal_distance_m, double t_s);
-  /// Detours so far.
+  /// Number of detours so far.
   int count() const { return count_; }
 
  private:
   double patience_s_;
-  double nearest_m_ = std::numeric_limits<double>::infinity();  ///< so far
-  double progress_s_ = 0.0;  ///< when it was last improved on, or the last detour ended
+  double nearest_m_ = std::numeric_limits<double>::infinity();  ///< minimum distance to the goal so far
+  double progress_s_ = 0.0;  ///< time of the last progress or of the end of the last detour
   double until_s_ = 0.0;     ///< end of the current detour
   double side_ = -1.0;
   int count_ = 0;

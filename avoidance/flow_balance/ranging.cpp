@@ -13,9 +13,10 @@
 namespace hedgehop::avoidance::flow_balance {
 namespace {
 
-/// Of a camera's patches. Fewer follow single wrong vectors; more dilute a narrow obstacle by what lies behind it.
+/// Share of the patches of a camera. A smaller share follows single wrong vectors; a larger one dilutes a narrow
+/// obstacle with its background.
 constexpr double kNearestShare = 0.1;
-/// From the path's direction. Walls farther aside are passed, not approached.
+/// Maximum angle from the direction of the path. The vehicle passes walls at larger angles.
 constexpr double kPathAngleRad = std::numbers::pi / 3;
 
 std::vector<Eigen::Vector2d> patch_directions_H(const CameraFlow& camera, const SideFlow& side) {
@@ -26,13 +27,15 @@ std::vector<Eigen::Vector2d> patch_directions_H(const CameraFlow& camera, const 
   return directions_H;
 }
 
-/// Standard deviation of a flow vector per axis, px. Chosen: some hundredths on a plane, more across a wall's edge.
+/// Standard deviation of a flow vector per axis, px. Chosen: some hundredths on a plane, more across the edge of a
+/// wall.
 constexpr double kFlowNoisePx = 0.1;
-/// Of a wall's distance, at most. Chosen: a worse fit may be off by a third, and patches stand in.
+/// Maximum relative error of the distance of a wall. Chosen: a worse fit may be wrong by a third, so patches replace
+/// it.
 constexpr double kRelativeError = 0.3;
-/// A wall is never nearer than this, m, so that its inverse range stays finite.
+/// Minimum range of a wall, m; keeps its inverse finite.
 constexpr double kMinRangeM = 1e-3;
-/// Of the angle between a wall's direction and the axis of the camera that looks at it: 45 deg, for four cameras.
+/// Cosine of the maximum angle between the direction of a wall and the axis of its camera: 45 deg, for four cameras.
 constexpr double kSideCosine = 0.5 * std::numbers::sqrt2;
 
 vision::flow::WallFlowSample observe(const vision::flow::FlowVector& vector, const CameraFlow& camera,
@@ -70,13 +73,14 @@ void MeanRanging::update(const SideCameras& cameras, const NavigationState& navi
 }
 
 const std::vector<double>& RangeMemory::update(std::span<const Measurement> measurements, double dt_s) {
-  constexpr double kMinShare = 0.5;  // of the range: no wall comes twice as near from one image to the next
+  constexpr double kMinShare = 0.5;  // no range halves from one image to the next
   inverse_ranges_per_m_.resize(measurements.size(), std::numeric_limits<double>::quiet_NaN());
   const double retained = time_constant_s_ > 0.0 ? std::exp(-dt_s / time_constant_s_) : 0.0;
   for (size_t i = 0; i < measurements.size(); ++i) {
     const Measurement& measured = measurements[i];
     double& inverse_per_m = inverse_ranges_per_m_[i];
-    const double share_left = 1.0 - inverse_per_m * measured.closing_mps * dt_s;  // of the range, after this step
+    const double share_left =
+        1.0 - inverse_per_m * measured.closing_mps * dt_s;  // remaining share of the range after this step
     const double expected = retained * inverse_per_m / (share_left > kMinShare ? share_left : kMinShare);
     if (std::isnan(measured.inverse_range_per_m)) {
       inverse_per_m = retained > 0.0 ? expected : measured.inverse_range_per_m;
@@ -192,7 +196,7 @@ std::vector<vision::flow::WallEstimate> fit_walls(std::span<const CameraFlow> ca
     for (const vision::flow::FlowVector& vector : camera.field().vectors) {
       if (!vector.valid) continue;
       const vision::flow::WallFlowSample observation = observe(vector, camera, v_WC_C, measure->dt_s);
-      // Counted from between a rear and a left camera, so that no image is cut in two.
+      // Counted from a direction between the rear and the left camera, so that no image is split.
       const double bearing_rad =
           std::fmod(std::atan2(observation.ray_H.y(), observation.ray_H.x()) + 2.75 * pi, 2.0 * pi);
       by_bearing.emplace_back(bearing_rad, observation);

@@ -14,12 +14,12 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// A patch without texture is taken as infinitely far, which suits open country and sky: a wall counts by the share of
-/// the view that it fills. Averages over the valid patches alone would be those of off-center patches, in which motion
-/// along the axis shows too.
+/// A patch without texture counts as infinitely far, which suits open country and sky: the effect of a wall is
+/// proportional to its share of the view. An average over the valid patches alone would come from off-center patches,
+/// which also contain motion along the axis.
 constexpr vision::flow::Missing kMissing = vision::flow::Missing::far_away;
 
-/// One camera's part of the image that flow_overlay() makes.
+/// The part of the overlay that shows one camera.
 struct FlowTile {
   std::string role;
   cv::Mat grey;  ///< CV_8UC1
@@ -27,7 +27,7 @@ struct FlowTile {
   std::string caption;
 };
 
-/// An arrow of the compass in the middle: forward is up, right is right.
+/// An arrow of the compass at the image center: forward is up, right is right.
 struct CompassArrow {
   Eigen::Vector2d v_H = Eigen::Vector2d::Zero();  ///< m/s
   cv::Scalar rgb;
@@ -57,9 +57,9 @@ void draw_compass(std::span<const CompassArrow> arrows, double full_scale_mps, c
   }
 }
 
-/// Returns the cameras' images two by two with their flow vectors, captions, and a compass of velocities.
-/// @param full_scale_mps  velocity as long as the compass's radius, > 0.
-/// @return CV_8UC3, RGB; empty when there are no tiles.
+/// Returns the camera images two by two with their flow vectors, captions and a compass of velocities.
+/// @param full_scale_mps  velocity whose arrow has the radius of the compass, > 0.
+/// @return CV_8UC3, RGB; empty if there are no tiles.
 cv::Mat flow_overlay(std::span<const FlowTile> tiles, std::span<const CompassArrow> arrows, double full_scale_mps) {
   if (tiles.empty()) return {};
   int width = 0, height = 0;
@@ -153,7 +153,7 @@ cv::Mat SideCameras::annotate(const Eigen::Vector2d& v_tgt_H, const Eigen::Vecto
   }
   const cv::Scalar blue(90, 170, 255), green(90, 230, 110);
   const std::array<CompassArrow, 2> arrows = {CompassArrow{v_tgt_H, blue}, CompassArrow{v_cmd_H, green}};
-  constexpr double kMargin = 1.1;  // an arrow of that speed stays inside the circle
+  constexpr double kMargin = 1.1;  // keeps an arrow of that speed inside the circle
   return flow_overlay(tiles, arrows, kMargin * speed_mps);
 }
 

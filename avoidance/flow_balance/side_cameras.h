@@ -19,14 +19,14 @@ namespace hedgehop::avoidance::flow_balance {
 inline constexpr size_t kSideCount = 4;
 inline constexpr std::array<const char*, kSideCount> kSideRoles = {"left", "right", "front", "rear"};
 
-/// The optical axes, level parts in H, in the order of kSideRoles.
+/// Level parts of the optical axes in H, in the order of kSideRoles.
 using SideAxes = std::array<Eigen::Vector2d, kSideCount>;
 
-/// Flow and loom of four level cameras that look to the left, right, front and rear: what the modules of this folder
-/// share. Tilt is left out: the cameras' axes are taken level as they are mounted in B.
+/// Flow and loom of four level cameras that look to the left, right, front and rear. Both modules of this folder use
+/// it. Tilt is neglected: the camera axes are assumed level as they are mounted in B.
 class SideCameras {
  public:
-  /// The cameras that a module with SideCameras needs.
+  /// Cameras that a module with SideCameras requires.
   static Needs needs();
   /// Columns of signal_values().
   static std::vector<Signal> signals();
@@ -34,29 +34,30 @@ class SideCameras {
   /// @param setup  with a camera for each role. Throws as CameraFlow does.
   SideCameras(const Setup& setup, const vision::flow::ImageInterpolationConfig& flow, bool derotate);
 
-  /// Takes in the newest images.
+  /// Adds the newest images.
   void update(const Observation& observation);
 
   /// In the order of kSideRoles.
   std::span<const CameraFlow> cameras() const { return cameras_; }
   const SideAxes& axes_H() const { return axes_H_; }
-  /// Mean flow and loom at the last update, in the order of kSideRoles; 0 where measure() has none.
+  /// Mean flow and loom at the last update, in the order of kSideRoles; 0 without a measurement.
   std::span<const SideFlow> flows() const { return flows_; }
-  /// Of the last update; nothing before a camera's second image, or when the last one is too old.
+  /// Measurement at the last update; empty before the second image of a camera, or if the last one is too old.
   const std::optional<CameraFlow::Measure>& measure(size_t side) const { return measures_[side]; }
-  /// Did the last update bring a new measure?
+  /// Whether the last update added a measurement.
   bool fresh(size_t side) const { return fresh_[side]; }
   /// Time of the last update.
   int64_t now_ns() const { return now_ns_; }
-  /// Smallest share of valid patches so far, of any image; 1 before the first.
+  /// Minimum share of valid patches over all images so far; 1 before the first.
   double least_valid_share() const { return least_valid_share_; }
 
-  /// Per side: flow, loom, share of valid patches and inverse range; NaN where unknown. Then the target velocity.
-  /// @param inverse_ranges_per_m  nothing where the module measures none. @param v_tgt_W  m/s.
+  /// Returns flow, loom, share of valid patches and inverse range per side, NaN if unknown; then the target velocity.
+  /// @param inverse_ranges_per_m  empty if the module measures no ranges. @param v_tgt_W  m/s.
   std::vector<double> signal_values(const std::optional<std::array<double, kSideCount>>& inverse_ranges_per_m,
                                     const Eigen::Vector2d& v_tgt_W) const;
   /// Returns the four images with their flow and a compass of velocities (CV_8UC3, RGB); empty before the first image.
-  /// @param v_tgt_H, v_cmd_H  target and command in H, m/s.  @param speed_mps  just inside the compass's circle, > 0.
+  /// @param v_tgt_H, v_cmd_H  target and command in H, m/s.  @param speed_mps  drawn slightly shorter than the radius
+  /// of the compass, > 0.
   cv::Mat annotate(const Eigen::Vector2d& v_tgt_H, const Eigen::Vector2d& v_cmd_H, double speed_mps) const;
 
  private:

@@ -14,8 +14,8 @@
 namespace hedgehop::avoidance::flow_balance {
 namespace {
 
-/// Where no wall fits, patches are ranged. In a room all of them see walls: a low floor and a memory of 1 s keep the
-/// range of a wall that the path leads straight at, and one image is enough, for reversals are confirmed.
+/// Ranges of patches, used if no wall fits. In a room all patches see walls. A low floor and a memory of 1 s keep the
+/// range of a wall straight ahead. One image is sufficient, because reversals are confirmed.
 constexpr PatchRanging::Options kRoomPatches{.floor_mps = 0.05, .memory_s = 1.0, .images = 1};
 
 class ZigZag final : public Module {
@@ -72,8 +72,8 @@ class ZigZag final : public Module {
     return sides;
   }
 
-  /// What is left of the ranges once the vehicle has stopped. In a corner both components are reversed, and each falls
-  /// as slowly as the whole velocity.
+  /// Returns the ranges that remain after a stop. In a corner both components are reversed, and each decreases as
+  /// slowly as the whole velocity.
   std::array<SideRange, kSideCount> sides_in_approach(const Eigen::Vector2d& v_H) const {
     Approach approach{.v_H = v_H,
                       .v_cmd_H = confirmed_->velocity_H(),

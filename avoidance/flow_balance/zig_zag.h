@@ -9,11 +9,13 @@
 
 namespace hedgehop::avoidance::flow_balance {
 
-/// Explores a room: flies diagonals and reverses before walls. It knows no goal but its altitude and heading.
-/// Source: [Garratt2009] sec. 4, as printed or with our additions (PatchRanging, WallRanging, ConfirmedZigZag).
+/// Explores a room: flies along diagonals and reverses in front of walls. It has no goal except an altitude and a
+/// heading. Source: [Garratt2009] sec. 4: zig_zag_law.h. The additions of the modified law: PatchRanging, WallRanging,
+/// ConfirmedZigZag.
 struct ZigZagConfig {
   static constexpr std::string_view kName = "zig_zag";
-  static constexpr std::string_view kMeaning = "explores a room in diagonals, reversing before walls by optic flow";
+  static constexpr std::string_view kMeaning =
+      "explores a room along diagonals and reverses in front of walls, by optic flow";
 
   Law law = Law::modified;
   vision::flow::ImageInterpolationConfig flow{.rows = 1, .cols = 8};
@@ -30,32 +32,31 @@ template <class Visitor>
 void describe(Visitor& v, ZigZagConfig& c) {
   v("law", c.law,
     {.choices = {"published", "modified"},
-     .meaning =
-         "published: ranges from each camera's mean flow and loom, [Garratt2009] sec. 4; modified: derotated flow, "
-         "ranges of fitted walls, room to stop, confirmed reversals"});
-  v("flow", c.flow, {.meaning = "the grid of patches on each camera and the flow algorithm"});
+     .meaning = "published: ranges from the mean flow and loom of each camera, [Garratt2009] sec. 4; modified: "
+                "derotated flow, ranges of fitted walls, stopping distance, confirmed reversals"});
+  v("flow", c.flow, {.meaning = "grid of patches on each camera and flow algorithm"});
   v("forward_speed", c.forward_speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "speed along the heading"});
   v("sideways_speed", c.sideways_speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "speed across the heading"});
   v("range_threshold", c.range_threshold_m,
-    {.unit = "m", .above = 0.0, .meaning = "reverse when the range from flow or loom is shorter"});
+    {.unit = "m", .above = 0.0, .meaning = "range from flow or loom below which the vehicle reverses"});
   v("braking", c.braking_mps2,
     {.unit = "m/s^2",
      .above = 0.0,
-     .meaning = "law modified: deceleration of the vehicle; the distance it needs to stop is added to the threshold"});
+     .meaning = "modified law: deceleration of the vehicle; its stopping distance is added to the threshold"});
   v("reaction", c.reaction_s,
-    {.unit = "s", .at_least = 0.0, .meaning = "law modified: time that passes before the vehicle decelerates"});
+    {.unit = "s", .at_least = 0.0, .meaning = "modified law: time before the vehicle decelerates"});
   v("tail", c.tail_m,
     {.unit = "m",
      .at_least = 0.0,
-     .meaning = "law modified: the vehicle reaches so much farther aft than to its other sides"});
+     .meaning = "modified law: additional extent of the vehicle aft, compared with its other sides"});
   v("stray", c.stray_rad,
     {.unit = "deg",
      .at_least = 0.0,
      .at_most = 30.0,
-     .meaning = "law modified: every reversal rotates the path off its diagonal by a random angle up to this"});
+     .meaning = "modified law: maximum random rotation of the path from its diagonal at each reversal"});
 }
 
-/// Throws std::invalid_argument on values out of range.
+/// Throws std::invalid_argument if a value is out of range.
 std::unique_ptr<Module> make_zig_zag(const ZigZagConfig& config);
 
 }  // namespace hedgehop::avoidance::flow_balance

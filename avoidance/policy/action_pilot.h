@@ -4,30 +4,31 @@
 
 #include "avoidance/module.h"
 
-/// How a learned policy is joined to an aircraft: what it is told besides images, and how its actions are flown. One
-/// convention for ONNX files and for Python's hedgehop.Env, so that what was trained in the one flies in the other.
+/// The interface of a learned policy: its state input and its actions. ONNX files and hedgehop.Env in Python share this
+/// convention, so a policy that was trained in one runs in the other.
 namespace hedgehop::avoidance::policy {
 
-/// The goal forward, right and down of the vehicle in H (heading.h), m; velocity in B, m/s; roll, pitch, rad; yaw rate,
-/// rad/s; height above ground, m. All as estimated on board.
-/// @param navigation  its attitude of length 1, not pointing straight up or down.
+/// State input: goal forward, right and down of the vehicle in H (heading.h), m; velocity in B, m/s; roll and pitch,
+/// rad; yaw rate, rad/s; height above ground, m. All values are onboard estimates.
+/// @param navigation  its attitude has length 1 and does not point straight up or down.
 using State = Eigen::Matrix<float, 10, 1>;
 State state_of(const NavigationState& navigation, const Goal& goal);
 
-/// Forward, right, climb, turn, each in [-1, 1]: shares of the speed limit twice, of kClimbMps, of kTurnRadps.
+/// Forward, right, climb and turn, each in [-1, 1]: fractions of the speed limit (forward and right), of kClimbMps and
+/// of kTurnRadps.
 using Action = Eigen::Vector4d;
 
-/// Turns actions into commands. The height and the heading to hold move at the rates that the actions name, but never
-/// far ahead of the vehicle, which would go on where they stop.
+/// Converts actions to commands. The altitude and heading to hold change at the rates of the actions. They are limited
+/// to a small lead over the vehicle, which would otherwise continue after the action ends.
 class ActionPilot {
  public:
   static constexpr double kClimbMps = 1.0, kTurnRadps = 1.0;
   static constexpr double kAheadM = 3.0, kAheadRad = 1.5;
 
-  /// Begins with the height and heading of now.
+  /// Starts with the current altitude and heading.
   explicit ActionPilot(const NavigationState& navigation);
 
-  /// @param action  confined to [-1, 1].  @param speed_limit_mps  > 0.  @param step_s  that the action is for, > 0.
+  /// @param action  clamped to [-1, 1].  @param speed_limit_mps  > 0.  @param step_s  duration of the action, > 0.
   VelocityCommand fly(const Action& action, const NavigationState& navigation, double speed_limit_mps, double step_s);
 
  private:

@@ -33,14 +33,14 @@ namespace {
   throw std::invalid_argument("file '" + config.file.string() + "': " + why);
 }
 
-/// What OpenCV says, in a few words of one line: its sources' places left out.
+/// Returns the message of OpenCV on one line, without the locations in its sources.
 std::string words(const cv::Exception& fault) {
   std::string text = fault.err.substr(0, fault.err.find('\n'));
   text = text.substr(0, text.find(" parse error"));
   return text.starts_with("> ") ? text.substr(2) : text;
 }
 
-/// OpenCV prints what it throws, too.
+/// Suppresses the printing of exceptions by OpenCV.
 class Quiet {
  public:
   Quiet() : before_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}
@@ -96,16 +96,16 @@ class OnnxPolicy final : public Module {
       blobs_.push_back(cv::Mat({1, channels, camera->model.height_px, camera->model.width_px}, CV_32F, 0.0f));
       first_step_s_ = std::max(first_step_s_, 1.0 / camera->rate_hz);
     }
-    ask(State::Zero());  // what does not fit is told before the flight
+    run(State::Zero());  // reports a misfit before the flight
   }
 
   Decision do_update(const Observation& observation) override {
-    for (const CameraFrame& frame : observation.frames) take(frame);  // a lost image leaves the one before
+    for (const CameraFrame& frame : observation.frames) take(frame);  // if an image is lost, the previous one is used
     const NavigationState& navigation = observation.navigation;
     if (!pilot_) pilot_.emplace(navigation);
     const double step_s = last_t_ns_ ? seconds(observation.t_ns - *last_t_ns_) : first_step_s_;
     last_t_ns_ = observation.t_ns;
-    const Action action = ask(state_of(navigation, observation.goal));
+    const Action action = run(state_of(navigation, observation.goal));
     return {pilot_->fly(action, navigation, speed_limit_mps_, step_s),
             "policy",
             {action[0], action[1], action[2], action[3]}};
@@ -124,8 +124,8 @@ class OnnxPolicy final : public Module {
     }
   }
 
-  /// Throws std::invalid_argument where inputs and outputs are not those of the config, or an action is not finite.
-  Action ask(const State& state) {
+  /// Throws std::invalid_argument if inputs or outputs differ from the config, or if an action is not finite.
+  Action run(const State& state) {
     cv::Mat answer;
     const Quiet quiet;
     try {

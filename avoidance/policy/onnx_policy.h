@@ -10,7 +10,7 @@
 
 namespace hedgehop::avoidance::policy {
 
-/// An image that a network wants, as its input `<camera>_<channel>`: float32, 1 x channels x rows x columns.
+/// An image input of a network, named `<camera>_<channel>`: float32, 1 x channels x rows x columns.
 struct PolicyImage {
   std::string camera;
   CameraNeed::Channel channel = CameraNeed::Channel::grey;  ///< not `corners`
@@ -24,16 +24,17 @@ template <class Visitor>
 void describe(Visitor& v, PolicyImage& c) {
   v("camera", c.camera, {.required = true, .meaning = "role of the camera"});
   v("channel", c.channel,
-    {.choices = {"grey", "color", "depth"}, .meaning = "what it delivers; the network's input is <camera>_<channel>"});
+    {.choices = {"grey", "color", "depth"},
+     .meaning = "channel of the camera; the network's input is <camera>_<channel>"});
   v("mean", c.mean,
     {.at_least = -1e3,
      .at_most = 1e3,
-     .meaning = "taken from each value (0 to 255, or m); a depth that is not known counts as this one"});
-  v("scale", c.scale, {.above = 0.0, .at_most = 1e3, .meaning = "by which the difference is multiplied then"});
+     .meaning = "subtracted from each value (0 to 255, or m); also replaces unknown depth"});
+  v("scale", c.scale, {.above = 0.0, .at_most = 1e3, .meaning = "factor on the difference"});
 }
 
-/// Flies what a network says. Its inputs are images and, with `state`, `state` (1 x 10, action_pilot.h); its output
-/// `action` is 1 x 4.
+/// Flies the output of a network. The inputs are images and, if `state` is true, `state` (1 x 10, action_pilot.h). The
+/// output `action` is 1 x 4.
 struct OnnxPolicyConfig {
   static constexpr std::string_view kName = "onnx_policy";
   static constexpr std::string_view kMeaning = "flies the actions of a neural network, read from an ONNX file";
@@ -45,12 +46,13 @@ struct OnnxPolicyConfig {
 
 template <class Visitor>
 void describe(Visitor& v, OnnxPolicyConfig& c) {
-  v("file", c.file, {.required = true, .meaning = "the network, ONNX"});
-  v("images", c.images, {.meaning = "its inputs from cameras"});
-  v("state", c.state, {.meaning = "whether it has the input 'state': goal, velocity, attitude, yaw rate and height"});
+  v("file", c.file, {.required = true, .meaning = "ONNX file of the network"});
+  v("images", c.images, {.meaning = "image inputs"});
+  v("state", c.state,
+    {.meaning = "whether the network has the input 'state': goal, velocity, attitude, yaw rate and height"});
 }
 
-/// Throws std::invalid_argument on a bad config, a file that is no network, and in builds without OpenCV's dnn.
+/// Throws std::invalid_argument on a bad config, if the file is not a network, and in builds without OpenCV dnn.
 std::unique_ptr<Module> make_onnx_policy(const OnnxPolicyConfig& config);
 
 }  // namespace hedgehop::avoidance::policy

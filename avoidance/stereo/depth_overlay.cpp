@@ -13,9 +13,9 @@ void write(cv::Mat& image, const std::string& text, cv::Point where, double scal
   cv::putText(image, text, where, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar::all(255), 1, cv::LINE_AA);
 }
 
-/// The colors in use, from 0 m at the bottom, near the lower right corner.
+/// Draws the color bar near the lower right corner, 0 m at the bottom.
 void draw_bar(cv::Mat& image, double far_m) {
-  constexpr int kMinWidthPx = 64, kMinHeightPx = 48;  // below, it would hide what is seen
+  constexpr int kMinWidthPx = 64, kMinHeightPx = 48;  // a smaller image would be hidden by the bar
   if (image.cols < kMinWidthPx || image.rows < kMinHeightPx) return;
   const int width = std::max(4, image.cols / 80), height = image.rows / 2, edge = 2 * width;
   cv::Mat levels(height, width, CV_8UC1), colors;

@@ -110,7 +110,7 @@ bool DisparitySource::convert(std::span<const CameraFrame> frames) {
   t_ns_ = depth->t_ns;
   depth->image.copyTo(depth_m_);
   cv::Mat disparity;
-  cv::divide(geometry_.disparity16(1.0), depth_m_, disparity);         // 0 where the depth is infinite
+  cv::divide(geometry_.disparity16(1.0), depth_m_, disparity);         // 0 if the depth is infinite
   disparity.setTo(vision::stereo::kNoDisparity, ~(disparity >= 0.0));  // NaN compares false
   disparity.convertTo(disparity16_, CV_16S);
   return true;

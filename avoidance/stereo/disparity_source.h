@@ -11,36 +11,36 @@
 
 namespace hedgehop::avoidance::stereo {
 
-/// Disparity of what lies ahead: from a pair of parallel cameras, or from one camera that measures depth.
+/// Disparity from a pair of parallel cameras, or from one depth camera.
 class DisparitySource {
  public:
   enum class From {
     stereo,  ///< cameras `left` and `right`, matched
-    camera,  ///< camera `depth`; its depth becomes the disparity of a pair with kBaselineM
+    camera,  ///< camera `depth`; its depth is converted to the disparity of a pair with the baseline kBaselineM
   };
-  enum class Grey { needed, unused };  ///< of a depth camera: whether a camera `left` gives its grey image
+  enum class Grey { needed, unused };  ///< whether camera `left` gives the grey image of a depth camera
 
   static constexpr const char* kLeft = "left";
   static constexpr const char* kRight = "right";
   static constexpr const char* kDepth = "depth";
-  static constexpr double kBaselineM = 0.3;  ///< of the pair that a depth camera stands for: [Andert2007] sec. 2
+  static constexpr double kBaselineM = 0.3;  ///< baseline of the pair that a depth camera replaces: [Andert2007] sec. 2
 
-  /// @param pair  before the roles, as in "aft_left"; empty for the first pair, or depth camera.
+  /// @param pair  prefix of the roles, as in "aft_left"; empty for the first pair or depth camera.
   static Needs needs(From from, Grey grey, const std::string& pair = "");
 
-  /// Throws std::invalid_argument when the cameras of the setup do not fit together: a pair needs equal pinholes with
-  /// parallel axes, the right one displaced along the left one's x axis alone; `left` beside a depth camera needs its
-  /// lens and pose. Also on a bad config of the matcher.
+  /// Throws std::invalid_argument on a bad config of the matcher, or if the cameras of the setup do not fit together.
+  /// The cameras of a pair must be equal pinholes with parallel axes, the right one displaced along the x axis of the
+  /// left one only. `left` next to a depth camera must have the lens and pose of the depth camera.
   DisparitySource(From from, Grey grey, const vision::stereo::StereoMatcherConfig& config, const Setup& setup,
                   const std::string& pair = "");
 
-  /// Reads the frames of an observation. @return whether they hold new images, all exposed at one instant.
+  /// Reads the frames of an observation. @return whether they contain new images that were all exposed at one instant.
   bool update(std::span<const CameraFrame> frames);
 
-  const cv::Mat& grey() const { return grey_; }    ///< CV_8UC1, the left image; empty where unused
+  const cv::Mat& grey() const { return grey_; }    ///< CV_8UC1, the left image; empty if unused
   cv::Mat& disparity16() { return disparity16_; }  ///< of the left image, as in vision/stereo/disparity.h
   const cv::Mat& disparity16() const { return disparity16_; }
-  /// CV_32FC1, z in C, m, as a depth camera measured it; empty of a pair.
+  /// CV_32FC1, z in C, m, as measured by a depth camera; empty for a pair.
   const cv::Mat& depth_m() const { return depth_m_; }
   const vision::stereo::StereoGeometry& geometry() const { return geometry_; }
   const Eigen::Isometry3d& X_BC() const { return X_BC_; }  ///< pose of the left or depth camera in B

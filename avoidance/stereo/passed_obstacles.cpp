@@ -19,7 +19,7 @@ void PassedObstacles::update(int64_t t_ns, const vision::stereo::DepthPyramid& p
            in_view(p_CP, pyramid, geometry);
   });
 
-  // The nearest point of each block stands for it.
+  // The nearest point of each block represents it.
   constexpr int kLevel = 3;
   const int level = std::min(kLevel, pyramid.top()), size = 1 << level;
   const double near16 = geometry.disparity16(config_.near_m);
@@ -39,7 +39,7 @@ bool PassedObstacles::in_view(const Eigen::Vector3d& p_CP, const vision::stereo:
   if (!(p_CP.z() > 0.0)) return false;
   const double u = geometry.center_u_px + geometry.focal_px * p_CP.x() / p_CP.z();
   const double v = geometry.center_v_px + geometry.focal_px * p_CP.y() / p_CP.z();
-  // Left of its own disparity a point is out of the right camera's view.
+  // A point with a column smaller than its disparity is out of view of the right camera.
   const double first_u = geometry.focal_px * geometry.baseline_m / p_CP.z();
   const cv::Size image = pyramid.image();
   return u >= first_u && u <= image.width - 1 && v >= 0 && v <= image.height - 1;
