@@ -98,7 +98,7 @@ class CorridorCentering final : public Module {
             now ? -vision::corridor::middle_offset_m(now->left.distance_m, now->right.distance_m) : kUnknown};
   }
 
-  /// Reads the image, if there is one. @return whether it was compared with the one before.
+  /// Reads the image, if there is one. @return whether it was compared with the previous image.
   bool observe(const Observation& observation) {
     const auto frame = std::ranges::find(observation.frames, WallObserver::kRole, &CameraFrame::role);
     if (frame == observation.frames.end()) return false;
@@ -145,7 +145,7 @@ class CorridorCentering final : public Module {
   std::optional<WallObservation> seen_;  ///< in the last image
   int64_t t_ns_ = -1;
   const char* status_ = "wait";
-  std::vector<int> vectors_;  ///< accepted ones of both sides, image by image
+  std::vector<int> vectors_;  ///< accepted vectors of both sides in each image
   int unknown_ = 0;           ///< images without an error
   double hover_s_ = 0.0;
 };

@@ -10,12 +10,12 @@
 
 namespace hedgehop::avoidance::corridor_centering {
 
-/// Keeps to the middle of a corridor by the flow that a fisheye sees of its walls.
-/// Source: [Zingg2010] sec. IV, and sec. V-C: centering_law.h. Law `modified`: pursuit.h.
+/// Flies along the middle of a corridor, with the flow of the walls in a fisheye image. Source: [Zingg2010] sec. IV,
+/// and sec. V-C: centering_law.h. The modified law: pursuit.h.
 struct CorridorCenteringConfig {
   static constexpr std::string_view kName = "corridor_centering";
   static constexpr std::string_view kMeaning =
-      "keeps to a corridor's middle by the flow that a fisheye sees of its walls";
+      "flies along the middle of a corridor with the flow of the walls in a fisheye image";
 
   Law law = Law::modified;
   double attitude_lag_s = 0.0032;  ///< of a first-order filter of 50 Hz on the gyros
@@ -37,25 +37,25 @@ template <class Visitor>
 void describe(Visitor& v, CorridorCenteringConfig& c) {
   v("law", c.law,
     {.choices = {"published", "modified"},
-     .meaning = "published: roll and turn rate by the paper's controller, at constant pitch; modified: fly towards the "
-                "middle of the gap ahead, measured across the walls' direction, and turn away from what blocks it"});
+     .meaning =
+         "published: roll and turn rate from the paper's controller at constant pitch; modified: fly towards the "
+         "middle of the gap ahead, measured across the direction of the walls, and turn away from obstacles ahead"});
   v("attitude_lag", c.attitude_lag_s,
-    {.unit = "s", .at_least = 0.0, .at_most = 0.1, .meaning = "lag of the attitude estimate, which is the gyros'"});
-  v("probe_time", c.probe_s, {.unit = "s", .above = 0.0, .meaning = "longest time it flies while nothing is known"});
-  v("gains", c.gains, {.meaning = "published: the controller's"});
-  v("sample", c.sample_s, {.unit = "s", .above = 0.0, .meaning = "published: the controller's sampling time"});
-  v("pitch", c.pitch_rad, {.unit = "deg", .at_least = 0.0, .at_most = 20.0, .meaning = "published: nose down by this"});
-  v("speed", c.speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "modified: where nothing is near"});
-  v("braking", c.braking_mps2, {.unit = "m/s^2", .above = 0.0, .meaning = "modified: deceleration counted on"});
-  v("lookahead", c.lookahead_m, {.unit = "m", .above = 0.0, .meaning = "modified: distance of the point flown to"});
-  v("margin", c.margin_m, {.unit = "m", .at_least = 0.0, .meaning = "modified: clearance of the hull that is kept"});
+    {.unit = "s", .at_least = 0.0, .at_most = 0.1, .meaning = "lag of the gyro-based attitude estimate"});
+  v("probe_time", c.probe_s,
+    {.unit = "s", .above = 0.0, .meaning = "maximum flight time without a measurement of the walls"});
+  v("gains", c.gains, {.meaning = "published: gains of the controller"});
+  v("sample", c.sample_s, {.unit = "s", .above = 0.0, .meaning = "published: sampling time of the controller"});
+  v("pitch", c.pitch_rad,
+    {.unit = "deg", .at_least = 0.0, .at_most = 20.0, .meaning = "published: constant pitch, nose down"});
+  v("speed", c.speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "modified: speed without near obstacles"});
+  v("braking", c.braking_mps2, {.unit = "m/s^2", .above = 0.0, .meaning = "modified: assumed deceleration"});
+  v("lookahead", c.lookahead_m, {.unit = "m", .above = 0.0, .meaning = "modified: distance of the target point"});
+  v("margin", c.margin_m, {.unit = "m", .at_least = 0.0, .meaning = "modified: minimum clearance of the hull"});
   v("probe_speed", c.probe_mps,
-    {.unit = "m/s", .above = 0.0, .meaning = "modified: least speed, also while nothing is known"});
+    {.unit = "m/s", .above = 0.0, .meaning = "modified: minimum speed, also without measurements"});
   v("yaw_rate", c.yaw_rate_radps,
-    {.unit = "deg/s",
-     .above = 0.0,
-     .at_most = 360.0,
-     .meaning = "modified: at which it turns away when blocked ahead"});
+    {.unit = "deg/s", .above = 0.0, .at_most = 360.0, .meaning = "modified: turn rate if the path ahead is blocked"});
 }
 
 /// Throws std::invalid_argument on a bad config.

@@ -9,17 +9,17 @@
 
 namespace hedgehop::avoidance::corridor_centering {
 
-/// What corridor_centering shows of a decision.
+/// Content of the annotated image of one decision.
 struct CorridorScene {
   const WallObservation* seen = nullptr;  ///< null before the second image
-  vision::corridor::Gap gap;              ///< NaN where unknown
+  vision::corridor::Gap gap;              ///< NaN if unknown
   std::optional<double> course_rad;       ///< to the right of the heading
   double radius_m = 0.0;                  ///< of the vehicle
   std::string caption;
 };
 
-/// Returns the fisheye's image, regions bright, with accepted flow in green and rejected in red, and beside it the
-/// map seen from above: walls' points, both medians, the gap and the course. CV_8UC3, RGB.
+/// Returns the fisheye image with bright regions, accepted flow in green and rejected flow in red, next to a map from
+/// above with wall points, both medians, the gap and the course. CV_8UC3, RGB.
 cv::Mat corridor_overlay(const WallObserver& observer, const CorridorScene& scene);
 
 }  // namespace hedgehop::avoidance::corridor_centering

@@ -10,9 +10,9 @@
 namespace hedgehop::avoidance::corridor_centering {
 namespace {
 
-constexpr vision::corridor::GapConfig kGap;  // see there
-constexpr double kSmoothingS = 0.25;         // time constant of the gap: noise of single images cancels
-constexpr double kHeadingS = 0.7;            // of the nose towards the course: turning slowly keeps the flow clean
+constexpr vision::corridor::GapConfig kGap;  // defaults
+constexpr double kSmoothingS = 0.25;         // time constant of the gap: averages the noise of single images
+constexpr double kHeadingS = 0.7;  // time constant of the heading towards the course: slow turns keep the flow clean
 
 }  // namespace
 
@@ -30,7 +30,7 @@ double clearance_speed_mps(double aside_m, double ahead_m, const SpeedLimits& li
 }
 
 void Pursuit::observe(const WallObservation& seen, int64_t t_ns) {
-  constexpr double kStandingMps = 0.2;  // below, noise decides what lies ahead
+  constexpr double kStandingMps = 0.2;  // below this, noise dominates the measurement of the approach
   const bool moves = seen.v_H.norm() > kStandingMps;
   if (!moves || seen.approach) {
     dark_ns_ = -1;
@@ -47,7 +47,7 @@ void Pursuit::observe(const WallObservation& seen, int64_t t_ns) {
   if (!std::isnan(seen.error)) follow_gap(seen, t_ns);
 }
 
-/// The gap follows what the images show, with a lag; at once after a pause.
+/// Low-pass filter of the measured gap; restarts after a pause.
 void Pursuit::follow_gap(const WallObservation& seen, int64_t t_ns) {
   const vision::corridor::Gap gap = vision::corridor::gap_ahead(seen.points, kGap);
   const bool follows = known_ns_ >= 0 && seconds(t_ns - known_ns_) <= kPatienceS;
@@ -76,10 +76,10 @@ Command Pursuit::update(const Observation& observation, const WallObservation* s
   course_rad_.reset();
   bool fresh = known_ns_ >= 0 && seconds(now_ns - known_ns_) <= kPatienceS;
   if (turn_from_rad_) {
-    constexpr double kTurnRad = 25.0 * std::numbers::pi / 180.0;  // then something else lies ahead
+    constexpr double kTurnRad = 25.0 * std::numbers::pi / 180.0;  // minimum turn that shows another direction
     if (std::abs(std::remainder(heading - *turn_from_rad_, 2.0 * M_PI)) < kTurnRad) return turn_away();
     turn_from_rad_.reset();
-    known_ns_ = probing_ns_ = dark_ns_ = -1;  // what was known was known of another direction
+    known_ns_ = probing_ns_ = dark_ns_ = -1;  // the old measurements belong to another direction
     fresh = false;
   }
   if (is_blocked(seen, now_ns)) {
@@ -93,13 +93,13 @@ Command Pursuit::update(const Observation& observation, const WallObservation* s
     const double aside_m = std::min(gap_.left_m, gap_.right_m) - config_.radius_m;
     const double free_m = std::isfinite(free_s_) ? hull_ahead_m(seen) : kInfinity;
     const double speed_mps = std::max(config_.probe_mps, clearance_speed_mps(aside_m, free_m, config_.limits));
-    // Limited from the walls' direction too: the heading follows the course and would turn on and on.
+    // Also limited relative to the walls: the heading follows the course and would otherwise turn without end.
     const double walls_rad = seen->direction_rad;
     const double course_rad = pursuit_course_rad(gap_, config_.lookahead_m, kMaxCourseRad);
     return fly(observation, speed_mps, std::clamp(course_rad, walls_rad - kMaxCourseRad, walls_rad + kMaxCourseRad),
                dt_s);
   }
-  // Slowly where nothing is known yet but corners are tracked on both sides.
+  // Fly slowly while the sides are unknown but corners are tracked on both sides.
   if (probing_ns_ < 0) probing_ns_ = now_ns;
   const bool corners = seen && seen->corners_left >= kMinVectors && seen->corners_right >= kMinVectors;
   const bool patient = seconds(now_ns - probing_ns_) <= config_.probe_s;

@@ -18,9 +18,10 @@ using vision::corridor::CorridorRegions;
 using vision::corridor::kAhead, vision::corridor::kLeft, vision::corridor::kRight;
 using vision::corridor::WallPoint;
 
-/// Greatest angle between the heading and the walls that is looked for: that of the course.
+/// Maximum angle between the heading and the walls in the search, equal to that of the course.
 constexpr double kMaxTurnRad = 50.0 * std::numbers::pi / 180.0;
-/// Share of a side's vectors too slow for a distance above which the side is unknown: the others are the near ones.
+/// Maximum share of vectors of a side that are too slow for a distance. Above it the side is unknown, because the
+/// remaining vectors are biased to near points.
 constexpr double kMaxSlowShare = 0.5;
 
 constexpr CorridorRegions kWallRegions;  // [Zingg2010] sec. IV-D
@@ -31,9 +32,9 @@ vision::flow::FeatureFlowConfig features_of(Law law) {
   return features;
 }
 
-/// [Zingg2010] sec. IV-D has two filters: for flow too large and flow off the tangent. Both laws also leave out flow
-/// too slow to divide by, for the vehicle may hover, and the floor, for the paper's region of interest holds walls
-/// alone.
+/// [Zingg2010] sec. IV-D has two filters: for flow that is too large and for flow off the tangent. Both laws also
+/// reject flow that is too slow for the division, because the vehicle may hover, and flow of the floor, because the
+/// region of interest in the paper contains only walls.
 vision::corridor::FlowLimits limits_of(Law law) {
   vision::corridor::FlowLimits limits;
   if (law == Law::published) limits.stray_rad = std::numbers::pi;
@@ -44,7 +45,7 @@ Eigen::Matrix3d R_WH(const Eigen::Quaterniond& q_WB) {
   return Eigen::AngleAxisd(heading_rad(q_WB), Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
-/// Pixels that the search for the regions' corners may read.
+/// Pixels that the corner search of the regions may read.
 cv::Mat surroundings(const std::array<cv::Mat, vision::corridor::kRegions>& regions,
                      const vision::flow::FeatureFlowConfig& features) {
   cv::Mat wanted = regions[kLeft] | regions[kRight] | regions[kAhead];
@@ -65,8 +66,8 @@ WallObserver::WallObserver(Law law, double attitude_lag_s, const MountedCamera& 
       derotator_(camera.model, surroundings(regions_, features_)),
       approach_({}, camera.model, camera.X_BC, kWallRegions, features_.window_px / 2) {}
 
-/// Source: [Zingg2010] sec. IV-B. Differs: the direction of travel is that of the velocity estimated, not the nose's,
-/// and the camera may sit away from where the vehicle turns.
+/// Source: [Zingg2010] sec. IV-B. Differs: the direction of travel comes from the estimated velocity instead of
+/// the heading, and the camera may have an offset from the center of rotation.
 vision::corridor::CameraMotion WallObserver::motion(const NavigationState& now, double dt_s) const {
   const Eigen::Matrix3d R_HW = R_WH(now.q_WB_est).transpose();
   const Eigen::Matrix3d R_HB2 = R_HW * now.q_WB_est;
@@ -82,7 +83,8 @@ vision::corridor::CameraMotion WallObserver::motion(const NavigationState& now, 
   return motion;
 }
 
-/// The median of a side. [Zingg2010] sec. IV-E. Ours: unknown too where most vectors are too slow for a distance.
+/// The median of a side. [Zingg2010] sec. IV-E. Modified law: unknown also if most of the vectors are too slow for a
+/// distance.
 vision::corridor::SideDistance WallObserver::side(const std::vector<WallPoint>& points,
                                                   vision::corridor::Region side) const {
   vision::corridor::SideDistance found = vision::corridor::side_distance(points, side, kMinVectors);
@@ -99,7 +101,7 @@ vision::corridor::SideDistance WallObserver::side(const std::vector<WallPoint>& 
 
 std::optional<WallObservation> WallObserver::update(const CameraFrame& frame, const NavigationState& estimate) {
   NavigationState navigation = estimate;
-  // A lag cancels between two images of an even turn, but not of one that begins or ends.
+  // A lag cancels between two images of a steady turn, but not if the turn begins or ends.
   const Eigen::Vector3d turn_B = attitude_lag_s_ * estimate.w_WB_B_est;
   if (turn_B.norm() > 0.0) {
     const Eigen::Quaterniond on(Eigen::AngleAxisd(turn_B.norm(), turn_B.normalized()));

@@ -14,33 +14,33 @@
 
 namespace hedgehop::avoidance::corridor_centering {
 
-/// Vectors without which a side is unknown: fewer do not outvote their outliers in a median.
+/// Minimum number of vectors for a known side. With fewer vectors a median does not reject outliers.
 inline constexpr int kMinVectors = 12;
 
-/// What two images of a fisheye show of a corridor.
+/// Measurements of a corridor from two fisheye images.
 struct WallObservation {
   std::vector<vision::corridor::WallPoint> points;
-  double direction_rad = 0.0;                     ///< of the walls, to the right of the heading; 0 as printed
+  double direction_rad = 0.0;  ///< direction of the walls, to the right of the heading; 0 with the published law
   vision::corridor::SideDistance left, right;     ///< medians of the sides, across that direction
-  double error = 0.0;                             ///< e_n, NaN when a side is unknown
-  int corners_left = 0, corners_right = 0;        ///< tracked at the sides, whatever their flow
+  double error = 0.0;                             ///< e_n, NaN if a side is unknown
+  int corners_left = 0, corners_right = 0;        ///< tracked on each side, with any flow
   Eigen::Vector2d v_H = Eigen::Vector2d::Zero();  ///< mean horizontal velocity between the images, m/s
-  std::optional<vision::corridor::ApproachRate>
-      approach;  ///< of what lies ahead; nothing when it has too little texture
+  /// Approach to the obstacle ahead; empty if the texture is insufficient.
+  std::optional<vision::corridor::ApproachRate> approach;
 };
 
-/// Measures a corridor's walls by the flow of a fisheye that looks down.
-/// Source: [Zingg2010] sec. IV. With Law::modified also: the newer image is derotated before corners are tracked,
-/// distances are measured across the walls and not the heading, tracking is checked backwards, flow that fits no fixed
-/// point is rejected, a side with too many slow vectors is unknown, and the approach to what lies ahead is measured.
+/// Measures the walls of a corridor with the flow of a fisheye that looks down. Source: [Zingg2010] sec. IV. Additions
+/// of Law::modified: the newer image is derotated before corners are tracked; distances are measured across the walls
+/// instead of the heading; tracking is verified backwards; flow that fits no fixed point is rejected; a side with too
+/// many slow vectors is unknown; the approach to the obstacle ahead is measured.
 class WallObserver {
  public:
   static constexpr const char* kRole = "fisheye";
 
-  /// @param attitude_lag_s  of the attitude estimate, >= 0. @param camera  looks down or so; any lens.
+  /// @param attitude_lag_s  of the attitude estimate, >= 0. @param camera  looks approximately down; any lens.
   WallObserver(Law law, double attitude_lag_s, const MountedCamera& camera);
 
-  /// Reads an image. @return what it shows together with the one before; nothing for the first.
+  /// Reads an image. @return measurements from this and the previous image; empty for the first image.
   std::optional<WallObservation> update(const CameraFrame& frame, const NavigationState& navigation);
 
   const cv::Mat& image() const { return image_; }  ///< CV_8UC1, the last

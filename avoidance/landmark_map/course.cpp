@@ -13,15 +13,15 @@ namespace {
 
 using vision::landmarks::LandmarkMap;
 
-constexpr double kLinkM = 14.0;     // landmarks within this bound one obstacle: the width of a building's face
-constexpr double kLowestM = 4.0;    // lower landmarks are no obstacles: those in the grass
-constexpr double kMaxSigmaM = 2.0;  // vaguer landmarks are no obstacles yet
+constexpr double kLinkM = 14.0;     // landmarks within this distance belong to one obstacle: the width of a facade
+constexpr double kLowestM = 4.0;    // minimum altitude of an obstacle landmark; lower ones are in the grass
+constexpr double kMaxSigmaM = 2.0;  // maximum uncertainty of an obstacle landmark
 
 }  // namespace
 
 VelocityCommand orbit_command(const Orbit& orbit, const Eigen::Vector2d& start_NE, const Eigen::Vector2d& at_NE,
                               double altitude_m) {
-  constexpr double kBackPerS = 0.2;  // of a radius error: well below the bandwidth of a velocity loop
+  constexpr double kBackPerS = 0.2;  // gain on the radius error: well below the bandwidth of a velocity loop
   const Eigen::Vector2d middle(orbit.north_m, orbit.east_m);
   const Eigen::Vector2d out = at_NE - middle;
   const double radius_m = std::max((start_NE - middle).norm(), 1.0), now_m = std::max(out.norm(), 1.0);
@@ -67,7 +67,7 @@ void CourseKeeper::set_obstacles(const LandmarkMap& map) {
     filled.push_back(points[i]);
     filled.push_back(points[i] + config_.behind_m * away);
     if (std::ranges::count_if(points, near) >= 2) continue;
-    // A corner alone begins a face, to which side is not known: half a face to either.
+    // A single corner is the end of a facade on an unknown side: add half a facade to both sides.
     const Eigen::Vector2d aside = 0.5 * kLinkM * Eigen::Vector2d(-away.y(), away.x());
     for (const Eigen::Vector2d& end : {Eigen::Vector2d(points[i] - aside), Eigen::Vector2d(points[i] + aside)}) {
       filled.push_back(end);
@@ -78,9 +78,11 @@ void CourseKeeper::set_obstacles(const LandmarkMap& map) {
 }
 
 Decision CourseKeeper::follow(const Eigen::Vector2d& at_NE, const Goal& goal) {
-  constexpr double kLeadM = 6.0, kStepM = 3.0;  // the course is rejoined no nearer ahead; tried points are so far apart
-  constexpr double kOnCourseM = 2.0;            // named "rejoin" when farther off
-  constexpr double kSlowM = 4.0;                // the speed falls in proportion to the distance from the goal
+  constexpr double kLeadM = 6.0,
+                   kStepM =
+                       3.0;  // minimum distance ahead at which the course is rejoined; spacing of the tested points
+  constexpr double kOnCourseM = 2.0;  // maximum offset without the status "rejoin"
+  constexpr double kSlowM = 4.0;      // distance to the goal within which the speed decreases in proportion
   const Eigen::Vector2d end = goal.p_WG.head<2>();
   const Eigen::Vector2d course = end - start_NE_;
   const double length_m = course.norm();

@@ -21,16 +21,16 @@ class LandmarkMapModule final : public Module {
   }
 
  private:
-  Needs do_needs() const override { return {{LandmarkObserver::need(config_.sight)}}; }
+  Needs do_needs() const override { return {{LandmarkObserver::need(config_.observer)}}; }
   std::vector<Signal> do_signals() const override {
     return {{"corners", ""}, {"landmarks", ""}, {"obstacles", ""}, {"loom_per_s", "1/s"}, {"off_course_m", "m"}};
   }
 
   void do_reset(const Setup& setup) override {
     const MountedCamera& camera = *std::ranges::find(setup.cameras, kRole, &MountedCamera::role);
-    sight_.emplace(config_.sight, config_.law, camera);
+    observer_.emplace(config_.observer, config_.law, camera);
     flow_.reset();
-    if (stops_before_walls() && config_.time_to_contact_s > 0.0 && config_.sight.source != CornerSource::corners) {
+    if (stops_before_walls() && config_.time_to_contact_s > 0.0 && config_.observer.source != CornerSource::corners) {
       flow_.emplace(camera, CameraFlow::Options{{}, /*derotate=*/true, vision::flow::Missing::skip});
     }
     wall_stop_ = WallStop(config_.time_to_contact_s);
@@ -57,7 +57,7 @@ class LandmarkMapModule final : public Module {
       if (avoids()) keeper_->set_obstacles(map());
       decision = keeper_->follow(at_NE_, observation.goal);
     }
-    decision.signals = {static_cast<double>(sight_->corners_px().size()), static_cast<double>(confirmed()),
+    decision.signals = {static_cast<double>(observer_->corners_px().size()), static_cast<double>(confirmed()),
                         static_cast<double>(keeper_->obstacles().size()), wall_stop_.loom_per_s(),
                         keeper_->off_course_m()};
     return decision;
@@ -70,16 +70,16 @@ class LandmarkMapModule final : public Module {
   }
 
   void look(const CameraFrame& frame, const NavigationState& navigation) {
-    if (!sight_->update(frame, navigation) || !flow_) return;
-    flow_->update({frame.role, frame.t_ns, sight_->grey()}, navigation.w_WB_B_est);
+    if (!observer_->update(frame, navigation) || !flow_) return;
+    flow_->update({frame.role, frame.t_ns, observer_->grey()}, navigation.w_WB_B_est);
   }
 
   bool stops_before_walls() const { return config_.law == Law::modified; }
   bool avoids() const { return config_.law == Law::modified && config_.clearance_m > 0.0; }
-  const vision::landmarks::LandmarkMap& map() const { return sight_->map(); }
+  const vision::landmarks::LandmarkMap& map() const { return observer_->map(); }
 
   int64_t confirmed() const {
-    if (!sight_) return 0;
+    if (!observer_) return 0;
     return std::ranges::count_if(map().landmarks(), [&](const auto& mapped) { return map().confirmed(mapped); });
   }
 
@@ -88,16 +88,16 @@ class LandmarkMapModule final : public Module {
             {"obstacles", keeper_ ? static_cast<double>(keeper_->obstacles().size()) : 0.0, ""},
             {"most_off_course", keeper_ ? keeper_->max_off_course_m() : 0.0, "m"},
             {"stopped", wall_stop_.stopped() ? 1.0 : 0.0, ""},
-            {"filter_ms_total", sight_ ? sight_->filter_ms() : 0.0, "ms", /*is_wall_time=*/true}};
+            {"filter_ms_total", observer_ ? observer_->filter_ms() : 0.0, "ms", /*is_wall_time=*/true}};
   }
 
-  /// The landmarks that are known to a meter, and all that may bound an obstacle: nothing that the
-  /// module acts on is kept from who judges its map. Places where one thing hides another move over the world as the
-  /// camera does: they fit no point, and stay vague.
+  /// Returns the landmarks that are known to a meter, and all that may bound an obstacle, so that the evaluation of the
+  /// map includes every landmark that the module uses. Apparent corners at occlusions move with the camera; they fit no
+  /// fixed point and remain uncertain.
   std::vector<MapPoint> known_points() const {
     constexpr double kKnownSigmaM = 1.0;
     std::vector<MapPoint> points;
-    if (!sight_) return points;
+    if (!observer_) return points;
     for (const vision::landmarks::MappedLandmark& mapped : map().landmarks()) {
       if (!map().confirmed(mapped)) continue;
       const Eigen::Vector3d p_W = vision::landmarks::position_W(mapped.landmark);
@@ -115,8 +115,9 @@ class LandmarkMapModule final : public Module {
   }
 
   cv::Mat do_annotate() const override {
-    if (!sight_ || sight_->grey().empty()) return {};
-    cv::Mat image = landmark_overlay(sight_->grey(), sight_->corners_px(), map(), sight_->pose(), sight_->camera());
+    if (!observer_ || observer_->grey().empty()) return {};
+    cv::Mat image =
+        landmark_overlay(observer_->grey(), observer_->corners_px(), map(), observer_->pose(), observer_->camera());
     if (!config_.orbit && start_NE_) {
       PlanView view{{}, keeper_->obstacles(), *start_NE_, end_NE_, at_NE_, keeper_->path_NE()};
       for (const MapPoint& point : known_points()) view.landmarks_NE.emplace_back(point.p_W.head<2>());
@@ -126,8 +127,8 @@ class LandmarkMapModule final : public Module {
   }
 
   LandmarkMapModuleConfig config_;
-  std::optional<LandmarkObserver> sight_;
-  std::optional<CameraFlow> flow_;  ///< where there are images, and walls to stop before by it
+  std::optional<LandmarkObserver> observer_;
+  std::optional<CameraFlow> flow_;  ///< only with images, to stop in front of walls
   WallStop wall_stop_{0.0};
   std::optional<CourseKeeper> keeper_;
   double radius_m_ = 0.0;  ///< of the vehicle

@@ -10,16 +10,17 @@
 
 namespace hedgehop::avoidance::landmark_map {
 
-/// Maps the corners that one camera sees, flies around what they belong to, and stops before walls without corners.
-/// Source: [Shah2009] ch. 4. `law: published` is the thesis alone: its filter (vision/landmarks/published_filter.h) and
-/// its flights, a circle (orbit.h) or straight ahead; it leaves avoiding and stopping to others, ch. 7.
+/// Maps the corners that one camera detects, flies around the obstacles that they outline, and stops in front of walls
+/// without corners. Source: [Shah2009] ch. 4. `law: published` is the thesis alone: its filter
+/// (vision/landmarks/published_filter.h) and its flights, a circle (course.h) or straight ahead. The thesis leaves
+/// avoidance and stopping to future work, ch. 7.
 struct LandmarkMapModuleConfig {
   static constexpr std::string_view kName = "landmark_map";
   static constexpr std::string_view kMeaning =
-      "maps the corners that one camera sees and flies around them; what has none it hardly sees";
+      "maps the corners that one camera detects and flies around them; detects hardly any obstacle without corners";
 
   Law law = Law::modified;
-  LandmarkObserverConfig sight;
+  LandmarkObserverConfig observer;
   double speed_mps = 2.0;
   std::optional<Orbit> orbit;
   double clearance_m = 6.0;
@@ -31,19 +32,21 @@ template <class Visitor>
 void describe(Visitor& v, LandmarkMapModuleConfig& c) {
   v("law", c.law,
     {.choices = {"published", "modified"},
-     .meaning = "the thesis's filter and flight alone; or with the camera's common error, confirmation, avoiding and "
-                "stopping"});
-  describe(v, c.sight);
-  v("speed", c.speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "along the course and around obstacles"});
-  v("orbit", c.orbit, {.meaning = "a circle to fly, nose to its middle, instead of a course to the goal"});
+     .meaning = "published: the thesis's filter and flight; modified: also the camera's common error, confirmation, "
+                "avoidance and stopping"});
+  describe(v, c.observer);
+  v("speed", c.speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "speed along the course and around obstacles"});
+  v("orbit", c.orbit, {.meaning = "circle to fly with the nose to its center, instead of a course to the goal"});
   v("clearance", c.clearance_m,
     {.unit = "m",
      .at_least = 0.0,
-     .meaning = "kept between the vehicle's hull and the obstacles of the map; 0 maps without avoiding"});
+     .meaning = "distance between the vehicle's hull and the obstacles of the map; 0 maps without avoidance"});
   v("behind", c.behind_m,
-    {.unit = "m", .at_least = 0.0, .meaning = "obstacles reach so far behind the corners seen of them"});
+    {.unit = "m", .at_least = 0.0, .meaning = "extent of obstacles behind their observed corners"});
   v("time_to_contact", c.time_to_contact_s,
-    {.unit = "s", .at_least = 0.0, .meaning = "flow divergence of a nearer contact stops the flight; 0 never"});
+    {.unit = "s",
+     .at_least = 0.0,
+     .meaning = "time to contact, from flow divergence, below which the flight stops; 0 disables this"});
 }
 
 /// Throws std::invalid_argument on a bad config.

@@ -8,7 +8,7 @@
 namespace hedgehop::avoidance::landmark_map {
 namespace {
 
-/// Three standard deviations. Wider, a landmark takes the corners of its neighbors.
+/// Three standard deviations. With a wider gate a landmark takes the corners of its neighbors.
 constexpr double kGate = 2.25;
 
 vision::landmarks::LandmarkMapConfig with_law(vision::landmarks::LandmarkMapConfig map, Law law) {

@@ -14,7 +14,7 @@
 
 namespace hedgehop::avoidance::landmark_map {
 
-/// What camera 'front' delivers: images in which corners are searched, or a corner detector's output.
+/// Output of camera 'front': images for the corner search, or the output of a corner detector.
 enum class CornerSource { grey, color, corners };
 
 struct LandmarkObserverConfig {
@@ -27,30 +27,32 @@ template <class Visitor>
 void describe(Visitor& v, LandmarkObserverConfig& c) {
   v("source", c.source,
     {.choices = {"grey", "color", "corners"},
-     .meaning = "channel of camera 'front': images in which edges are searched, in color between red and green too, or "
-                "corners"});
+     .meaning = "channel of camera 'front': images for the edge search (color also uses the difference of red and "
+                "green), or corners"});
   v("least_corner_angle", c.least_corner_angle_rad,
-    {.unit = "deg", .above = 0.0, .at_most = 90.0, .meaning = "edges at a smaller angle make no corner"});
-  v("map", c.map, {.meaning = "how landmarks are estimated, matched and deleted"});
+    {.unit = "deg", .above = 0.0, .at_most = 90.0, .meaning = "minimum angle between the edges of a corner"});
+  v("map", c.map, {.meaning = "estimation, matching and deletion of landmarks"});
 }
 
-/// From the frames of one camera to a map of landmarks.
+/// Builds a map of landmarks from the frames of one camera.
 class LandmarkObserver {
  public:
-  /// @param law  of the map. Throws std::invalid_argument on a bad config.
+  /// @param law  law of the map. Throws std::invalid_argument on a bad config.
   LandmarkObserver(const LandmarkObserverConfig& config, Law law, const MountedCamera& camera);
 
   static CameraNeed need(const LandmarkObserverConfig& config);
 
-  /// Takes a frame in. @return false when it is not newer than the last.
+  /// Adds a frame. @return false if it is not newer than the last one.
   bool update(const CameraFrame& frame, const NavigationState& navigation);
 
   const vision::landmarks::LandmarkMap& map() const { return map_; }
   const std::vector<Eigen::Vector2d>& corners_px() const { return corners_px_; }  ///< of the last frame
   const vision::landmarks::CameraPose& pose() const { return pose_; }             ///< of the last frame
   vision::camera::PinholeCamera camera() const { return camera_.model.pinhole(); }
-  const cv::Mat& grey() const { return grey_; }  ///< the last image, CV_8UC1; empty before the first, or without images
-  /// Wall time that the filter took so far, for reports only.
+  const cv::Mat& grey() const {
+    return grey_;
+  }  ///< the last image, CV_8UC1; empty before the first image and without images
+  /// Total wall time of the filter, for reports only.
   double filter_ms() const { return filter_time_.getTimeMilli(); }
 
  private:

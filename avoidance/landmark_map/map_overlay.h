@@ -10,14 +10,14 @@
 
 namespace hedgehop::avoidance::landmark_map {
 
-/// An image with its corners (yellow squares) and the landmarks of the map as the camera should see them: confirmed
-/// ones green, others grey, each with its ellipse of three standard deviations; missed ones red.
+/// Returns an image with its corners (yellow squares) and the predicted landmarks of the map: confirmed ones green,
+/// others grey, missed ones red, each with its ellipse of three standard deviations.
 /// @param grey  CV_8UC1. @return CV_8UC3, RGB.
 cv::Mat landmark_overlay(const cv::Mat& grey, std::span<const Eigen::Vector2d> corners_px,
                          const vision::landmarks::LandmarkMap& map, const vision::landmarks::CameraPose& pose,
                          const vision::camera::PinholeCamera& camera);
 
-/// What a flight by a map looks like from above; north and east, m.
+/// View from above of a flight with a map; north and east, m.
 struct PlanView {
   std::vector<Eigen::Vector2d> landmarks_NE;
   std::span<const PlanHull> hulls;
@@ -26,10 +26,10 @@ struct PlanView {
   std::span<const Eigen::Vector2d> path_NE;                                            ///< planned from there
 };
 
-/// Draws a view from above into the bottom right corner of an image, north up: landmarks green, hulls of obstacles
-/// red, the course grey, the vehicle and its planned path yellow. The whole course is inside; anything beyond is cut
-/// off.
-/// @param image  CV_8UC3, RGB; one that is too small for it stays as it is.
+/// Draws a view from above in the bottom right corner of an image, north up: landmarks green, outlines of obstacles
+/// red, the course grey, the vehicle and its planned path yellow. The view contains the whole course and is clipped
+/// there.
+/// @param image  CV_8UC3, RGB; not changed if it is too small.
 void draw_plan(const PlanView& view, cv::Mat& image);
 
 }  // namespace hedgehop::avoidance::landmark_map

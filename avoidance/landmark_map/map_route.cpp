@@ -30,7 +30,7 @@ double segment_to_segment(const Vector2d& a, const Vector2d& b, const Vector2d& 
       {point_to_segment(a, c, d), point_to_segment(b, c, d), point_to_segment(c, a, b), point_to_segment(d, a, b)});
 }
 
-/// How deep inside a hull a point lies, and the direction out, to its nearest edge. Depth <= 0 is outside.
+/// Depth of a point inside a hull, and the direction to the nearest edge. Depth <= 0 is outside.
 struct Depth {
   double depth_m = -1.0;
   Vector2d out = Vector2d::Zero();
@@ -49,8 +49,9 @@ Depth depth_inside(const PlanHull& hull, const Vector2d& p) {
 
 bool inside(const PlanHull& hull, const Vector2d& p) { return depth_inside(hull, p).depth_m >= 0.0; }
 
-/// Whether a straight path keeps the clearance of a hull or, where an end lies nearer, comes nowhere nearer, or deeper
-/// inside, than that end. The distance to a convex hull is convex along the path, so its slope at that end decides.
+/// Returns whether a straight path keeps the clearance of a hull. If an end is nearer, the path must not come nearer,
+/// or deeper inside, than that end. The distance to a convex hull is convex along the path, so its slope at that end
+/// decides.
 bool keeps_clear(const PlanHull& hull, const Vector2d& a, const Vector2d& b, double clearance_m) {
   const Depth at_a = depth_inside(hull, a), at_b = depth_inside(hull, b);
   if (at_a.depth_m > 0.0 || at_b.depth_m > 0.0) {
@@ -104,7 +105,7 @@ double distance_to_hull(const PlanHull& hull, const Vector2d& from_NE, const Vec
 
 std::optional<std::vector<Vector2d>> path_around(std::span<const PlanHull> hulls, const Vector2d& from_NE,
                                                  const Vector2d& to_NE, double clearance_m) {
-  constexpr int kTurns = 8;  // places around a corner; the polygon through them stays outside the clearance
+  constexpr int kTurns = 8;  // points around a corner; their polygon is outside the clearance
   const double turn_m = 1.02 * clearance_m / std::cos(std::numbers::pi / kTurns);
   const auto clear = [&](const Vector2d& a, const Vector2d& b) {
     return std::ranges::all_of(hulls, [&](const PlanHull& hull) { return keeps_clear(hull, a, b, clearance_m); });
@@ -122,7 +123,7 @@ std::optional<std::vector<Vector2d>> path_around(std::span<const PlanHull> hulls
     }
   }
 
-  // Dijkstra's search over the places that see one another.
+  // Dijkstra's search over the points with a free line between them.
   std::vector<double> length(places.size(), std::numeric_limits<double>::infinity());
   std::vector<size_t> before(places.size(), 0);
   std::vector<bool> done(places.size(), false);

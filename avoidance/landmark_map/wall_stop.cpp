@@ -6,7 +6,7 @@
 namespace hedgehop::avoidance::landmark_map {
 
 bool WallStop::update(const std::optional<CameraFlow::Measure>& flow, const NavigationState& navigation) {
-  constexpr int kAlarms = 6;  // consecutive: a single measurement may be an outlier
+  constexpr int kAlarms = 6;  // consecutive alarms: a single measurement may be an outlier
   smooth(flow);
   const double v_mps = std::max(0.0, navigation.v_WB_B_est.x());
   const double reaction_m = v_mps * kReactionS + 0.5 * v_mps * v_mps / kBrakingMps2;
@@ -18,8 +18,9 @@ bool WallStop::update(const std::optional<CameraFlow::Measure>& flow, const Navi
 }
 
 void WallStop::smooth(const std::optional<CameraFlow::Measure>& flow) {
-  constexpr double kFlowShare = 0.5;  // of the patches: with fewer the divergence is that of a part of the view
-  constexpr double kSmoothS = 0.8;    // a single pair of images errs by more than the alarm's threshold
+  constexpr double kFlowShare =
+      0.5;  // minimum share of valid patches: with fewer, the divergence describes only part of the view
+  constexpr double kSmoothS = 0.8;  // the error of a single pair of images exceeds the alarm threshold
   if (!flow || flow->valid_share < kFlowShare) {
     loom_per_s_ = 0.0;
     return;

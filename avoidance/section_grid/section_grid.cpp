@@ -21,7 +21,7 @@ namespace {
 
 using stereo::DisparitySource;
 
-/// How long what has left the image is remembered: at 1 m/s the vehicle has passed it by then.
+/// Lifetime of obstacles that have left the image: at 1 m/s the vehicle has then passed them.
 constexpr double kKeepPassedS = 8.0;
 
 class SectionGridModule final : public Module {
@@ -90,20 +90,20 @@ class SectionGridModule final : public Module {
     return decision;
   }
 
-  /// Updates the depth image. @return whether there is a new one.
+  /// Updates the depth image. @return whether there is a new image.
   bool read_depth(std::span<const CameraFrame> frames) {
     if (!source_->update(frames)) return false;
     if (config_.depth == DisparitySource::From::camera) {
       source_->depth_m().copyTo(depth_m_);
       return true;
     }
-    constexpr int kSameSegment16 = 32;  // two pixels of disparity: the block matcher scatters by about one
+    constexpr int kSameSegment16 = 32;  // two pixels of disparity: the block matcher has about one pixel of noise
     vision::stereo::remove_specks(source_->disparity16(), kSameSegment16, config_.speck_px);
     vision::stereo::to_depth(source_->disparity16(), camera_.geometry, depth_m_);
     return true;
   }
 
-  /// Remembers the newest image for when it has left the view.
+  /// Stores the newest image for the time after it has left the view.
   void remember(const Observation& observation) {
     constexpr int kBlockLevel = 3;  // blocks of 8 px
     const NavigationState& navigation = observation.navigation;
@@ -112,13 +112,13 @@ class SectionGridModule final : public Module {
                     Eigen::Translation3d(navigation.p_WB_est) * navigation.q_WB_est * camera_.X_BC);
   }
 
-  /// What is nearer is a threat, m. Ours: it grows with speed.
+  /// Distance below which an obstacle is a threat, m. With the modified law it grows with speed.
   double threshold(double speed_mps) const {
     if (!is_modified()) return config_.threshold_m;
     return std::max(config_.threshold_m, hull_ahead_m_ + config_.threshold_time_s * speed_mps);
   }
 
-  /// [Perez2018] sec. V-C; modified: among the sections that do not lead to what has left the image.
+  /// [Perez2018] sec. V-C. The modified law excludes sections that lead to obstacles that have left the image.
   vision::sections::SectionChoice choose(const NavigationState& navigation, double threshold_m) {
     std::function<bool(int)> open;
     if (is_modified()) {
@@ -126,7 +126,7 @@ class SectionGridModule final : public Module {
         return passed_->free(pilot_.position_W(navigation, *search_, section, threshold_m) - navigation.p_WB_est);
       };
     }
-    // As printed, a pixel without depth is no threat: mostly sky and what the two images do not share.
+    // In the published law, a pixel without depth is no threat: it is usually sky or not visible in both images.
     const auto unknown = is_modified() ? config_.unknown : vision::sections::UnknownDepth::free;
     const vision::sections::SectionChoice choice =
         search_->choose(depth_m_, threshold_m, kMaxThreatShare, unknown, open);
@@ -170,7 +170,7 @@ class SectionGridModule final : public Module {
   int64_t t_ns_ = -1, rejected_ = 0;
   double hover_s_ = 0.0;
   int rows_above_ = 0, most_rows_above_ = 0;  ///< of the chosen section, above the center's row
-  double hull_ahead_m_ = 0.0;                 ///< how far the vehicle reaches before the camera
+  double hull_ahead_m_ = 0.0;                 ///< extent of the hull in front of the camera
 };
 
 }  // namespace

@@ -11,11 +11,12 @@
 
 namespace hedgehop::avoidance::section_grid {
 
-/// Where to go for a threat ahead. All but `waypoint` are ours; [Perez2018] sec. VII leaves them to a trade study.
+/// Response to a threat ahead. Only `waypoint` is from the paper; [Perez2018] sec. VII leaves the others to a trade
+/// study.
 enum class Answer { waypoint, heading, sideways, climb, combined };
 
-/// Flies towards the emptiest of many overlapping sections of a depth image.
-/// Source: [Perez2018] sec. V: section_law.h. Law `modified` (section_pilot.h) keeps a path that it has chosen.
+/// Flies towards the emptiest of many overlapping sections of a depth image. Source: [Perez2018] sec. V: section_law.h.
+/// The modified law (section_pilot.h) keeps a path that it has chosen.
 struct SectionGridConfig {
   static constexpr std::string_view kName = "section_grid";
   static constexpr std::string_view kMeaning =
@@ -42,49 +43,50 @@ template <class Visitor>
 void describe(Visitor& v, SectionGridConfig& c) {
   v("law", c.law,
     {.choices = {"published", "modified"},
-     .meaning =
-         "published: go to every new section that is the emptiest; modified: keep a path until it fills up, and what "
-         "the keys marked so add"});
+     .meaning = "published: fly to every new emptiest section; modified: keep a path until it fills up, and use the "
+                "keys marked 'modified'"});
   v("depth", c.depth,
-    {.choices = {"stereo", "camera"}, .meaning = "by matching cameras 'left' and 'right', or from a camera 'depth'"});
-  v("stereo", c.stereo, {.meaning = "how the pair is matched"});
+    {.choices = {"stereo", "camera"},
+     .meaning = "source of depth: matched cameras 'left' and 'right', or a camera 'depth'"});
+  v("stereo", c.stereo, {.meaning = "matching of the pair"});
   v("speck", c.speck_px,
-    {.unit = "px", .at_least = 0, .meaning = "segments of disparity smaller than this are dropped"});
-  v("sections", c.sections, {.at_least = 1, .at_most = 101, .meaning = "rows of sections, and columns"});
+    {.unit = "px", .at_least = 0, .meaning = "minimum size of a disparity segment; smaller ones are removed"});
+  v("sections", c.sections, {.at_least = 1, .at_most = 101, .meaning = "number of rows, and of columns, of sections"});
   v("overlapping", c.overlapping,
-    {.meaning = "sections of 628 x 252 of 1280 x 720 px, as printed; else they divide the image and do not overlap"});
-  v("threshold", c.threshold_m, {.unit = "m", .above = 0.0, .meaning = "what is nearer is a threat"});
+    {.meaning = "sections of 628 x 252 px in an image of 1280 x 720 px, as published; otherwise sections that divide "
+                "the image without overlap"});
+  v("threshold", c.threshold_m, {.unit = "m", .above = 0.0, .meaning = "distance below which an obstacle is a threat"});
   v("lowest", c.lowest_m,
-    {.unit = "m", .at_least = 0.0, .meaning = "no position aside lies lower, above the scene's origin"});
+    {.unit = "m", .at_least = 0.0, .meaning = "minimum altitude of avoidance waypoints, above the scene's origin"});
   v("grow", c.grow_px,
     {.unit = "px",
      .at_least = 0,
      .at_most = 200,
      .meaning =
-         "modified: threats are widened by this to every side before they are counted, that thin ones weigh more"});
+         "modified: widening of threats to every side before counting, to increase the weight of thin obstacles"});
   v("threshold_time", c.threshold_time_s,
     {.unit = "s",
      .at_least = 0.0,
-     .meaning =
-         "modified: also a threat is what the vehicle would hit within this time, straight ahead at its speed; 0: "
-         "the threshold does not depend on speed"});
+     .meaning = "modified: time to collision, straight ahead at the current speed, below which an obstacle is also a "
+                "threat; 0 makes the threshold independent of speed"});
   v("keep_share", c.keep_share,
     {.at_least = 0.0,
      .at_most = 1.0,
-     .meaning =
-         "modified: share of threats up to which a path is kept, and the path to the goal counts as free again"});
+     .meaning = "modified: maximum share of threats at which a path is kept and the path to the goal counts as free"});
   v("passed_radius", c.passed_radius_m,
     {.unit = "m",
      .at_least = 0.0,
-     .meaning = "modified: of the cylinder that must be free of what has left the image; 0 remembers nothing"});
+     .meaning = "modified: radius of the cylinder that must be free of obstacles that have left the image; 0 disables "
+                "the memory"});
   v("unknown", c.unknown,
     {.choices = {"free", "threat"},
-     .meaning = "modified: what a pixel without depth counts as; threat stops before plain walls, and before the sky"});
+     .meaning = "modified: treatment of a pixel without depth; threat stops in front of plain walls, and in front of "
+                "the sky"});
   v("answer", c.answer,
     {.choices = {"waypoint", "heading", "sideways", "climb", "combined"},
      .meaning =
-         "modified: a position in the section's direction; the same on the level; aside without turning; straight "
-         "up; aside and up"});
+         "modified: waypoint flies to a position in the section's direction; heading does so at constant altitude; "
+         "sideways moves aside without turning; climb moves straight up; combined moves aside and up"});
 }
 
 /// Throws std::invalid_argument on a bad config.

@@ -28,7 +28,7 @@ Eigen::Vector3d section_ray_C(const SectionCamera& camera, const vision::section
 }
 
 Command TurnThenMove::go_to(const Eigen::Vector3d& p_W, const NavigationState& navigation) {
-  constexpr double kAlignedRad = 0.17453292519943295;  // 10 deg: well within half a section's width
+  constexpr double kAlignedRad = 0.17453292519943295;  // 10 deg: well within half the width of a section
   const Eigen::Vector3d& p_WB = navigation.p_WB_est;
   const Eigen::Vector3d path_W = p_W - p_WB;
   const double distance_m = path_W.head<2>().norm();
@@ -40,7 +40,7 @@ Command TurnThenMove::go_to(const Eigen::Vector3d& p_W, const NavigationState& n
     return PositionCommand{*wait_W_, bearing_rad};
   }
   wait_W_.reset();
-  // An autopilot that is given the final height leaves the straight line, which alone was found free.
+  // With the final altitude as setpoint, the autopilot would leave the straight line, the only path that is known free.
   constexpr double kLeadM = 2.0;
   const double lead = distance_m > kLeadM ? kLeadM / distance_m : 1.0;
   return PositionCommand{{p_W.x(), p_W.y(), p_WB.z() + lead * path_W.z()}, bearing_rad};
@@ -56,7 +56,7 @@ void SectionLaw::reset(const SectionCamera& camera) {
 Command SectionLaw::update(const SectionView& view, const Goal& goal) {
   const auto& [search, choice, passed, reach_m, navigation] = view;
   if (aside_W_ && (*aside_W_ - navigation.p_WB_est).norm() < kArrivedM) aside_W_.reset();
-  // "The UAV then yaws in order to align with this new GPS point, before moving": a turn is finished first.
+  // "The UAV then yaws in order to align with this new GPS point, before moving": a turn is always completed.
   if (!mover_.is_turning()) {
     if (choice.section < 0) {
       state_ = State::hover_and_yaw;

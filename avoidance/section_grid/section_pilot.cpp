@@ -48,7 +48,7 @@ Command SectionPilot::update(const SectionView& view, const Goal& goal) {
   if (!flown_ && (goal.p_WG - navigation.p_WB_est).norm() < reach_m) post_W_ = goal.p_WG;
   flown_ = true;
   const bool hovers = post_W_ && !faces_path(answer_);
-  // A turn that has begun is finished first: what passes through the image meanwhile does not show where it leads.
+  // A turn is always completed: images during the turn do not show the final direction.
   if (choice.section < 0 && !mover_.is_turning() && !hovers) return hover_and_yaw(view, goal);
 
   const bool looked_round = state_ == State::hover_and_yaw;
@@ -79,7 +79,7 @@ Command SectionPilot::update(const SectionView& view, const Goal& goal) {
   return command;
 }
 
-/// Without a section the vehicle hovers and yaws until there is one. [Perez2018] sec. V-D.
+/// Hovers and yaws until a section is free. [Perez2018] sec. V-D.
 Command SectionPilot::hover_and_yaw(const SectionView& view, const Goal& goal) {
   if (state_ != State::hover_and_yaw) {
     choose_side(section_ray_C(camera_, view.search, view.choice.best).x(), view.navigation, goal);
@@ -90,9 +90,10 @@ Command SectionPilot::hover_and_yaw(const SectionView& view, const Goal& goal) {
   return HoverCommand{turn_ * kYawRateRadps};
 }
 
-/// Chooses the side of the path to the goal on which the vehicle searches. As long as the goal comes no nearer it keeps
-/// to one side, then to the other, each time twice as far; else it would turn back before the end of a wall.
-/// @param side  < 0: the emptiest section lies to the left.
+/// Chooses the side of the path to the goal on which the vehicle searches. While the distance to the goal does not
+/// decrease, the vehicle searches on one side, then on the other, each time twice as far. Otherwise it would turn back
+/// before the end of a wall.
+/// @param side  < 0: the emptiest section is on the left.
 void SectionPilot::choose_side(double side, const NavigationState& navigation, const Goal& goal) {
   constexpr double kFirstM = 15.0, kProgressM = 5.0;
   const Eigen::Vector2d p_WB = navigation.p_WB_est.head<2>();
@@ -111,15 +112,15 @@ Eigen::Vector3d SectionPilot::position_W(const NavigationState& navigation,
                                          double reach_m) const {
   const Eigen::Vector3d ray_B = camera_.X_BC.linear() * section_ray_C(camera_, search, section);
   const double side = post_W_ ? away_ : ray_B.y() < 0.0 ? -1.0 : 1.0;
-  const bool recedes = post_W_.has_value();  // what approaches the post may follow aside
+  const bool recedes = post_W_.has_value();  // the approaching obstacle may follow a sidestep
   const Eigen::Vector3d p_BP_B = reach_m * direction_B(answer_, ray_B, side, recedes);
   Eigen::Vector3d p_WP = navigation.p_WB_est + navigation.q_WB_est * p_BP_B;
   p_WP.z() = std::min(p_WP.z(), -lowest_m_);
   return p_WP;
 }
 
-/// Whether the image of a vehicle that hovers shows a threat; notes its bearing and the side on which it leaves room.
-/// The side stays the same for a threat straight ahead.
+/// Returns whether the image of a hovering vehicle shows a threat. Stores the bearing of the threat and the side that
+/// is free. For a threat straight ahead the side does not change.
 bool SectionPilot::is_approached(const SectionView& view) {
   const vision::sections::SectionSearch& search = view.search;
   Eigen::Vector3d threats_C = Eigen::Vector3d::Zero();
@@ -138,7 +139,7 @@ bool SectionPilot::is_approached(const SectionView& view) {
   return true;
 }
 
-/// The pixel that shows a position, perhaps beyond the edges; nothing behind the camera.
+/// Returns the pixel of a position, possibly outside the image; empty behind the camera.
 std::optional<cv::Point2d> SectionPilot::pixel_of(const Eigen::Vector3d& p_W, const NavigationState& navigation) const {
   const Eigen::Vector3d p_B = navigation.q_WB_est.conjugate() * (p_W - navigation.p_WB_est);
   const Eigen::Vector3d p_C = camera_.X_BC.inverse() * p_B;
@@ -147,7 +148,7 @@ std::optional<cv::Point2d> SectionPilot::pixel_of(const Eigen::Vector3d& p_W, co
   return cv::Point2d(g.center_u_px + g.focal_px * p_C.x() / p_C.z(), g.center_v_px + g.focal_px * p_C.y() / p_C.z());
 }
 
-/// Whether a position farther than kArrivedM lies within a section that is free.
+/// Whether a position farther than kArrivedM is within a free section.
 bool SectionPilot::is_free(const Eigen::Vector3d& p_W, const SectionView& view) const {
   const auto& [search, choice, passed, reach_m, navigation] = view;
   const auto pixel = pixel_of(p_W, navigation);
@@ -157,12 +158,13 @@ bool SectionPilot::is_free(const Eigen::Vector3d& p_W, const SectionView& view) 
   const double off_u_px = std::abs(pixel->x - (s.x + 0.5 * s.width));
   const double off_v_px = std::abs(pixel->y - (s.y + 0.5 * s.height));
   constexpr double kWithin =
-      0.25;  // of the section's size: farther out, the section shows too little of the position's far side
+      0.25;  // share of the section size: farther out, the section shows too little of the far side of the position
   return off_u_px < kWithin * s.width && off_v_px < kWithin * s.height && search.share(section) <= keep_share_ &&
          passed.free(p_W - navigation.p_WB_est);
 }
 
-/// Whether the path to `end_W` aside, or without one the path ahead, has filled up and another section is better.
+/// Whether the path to `end_W` has filled up and another section is better. If no section contains `end_W`, the path
+/// ahead is tested.
 bool SectionPilot::is_blocked(const Eigen::Vector3d& end_W, const SectionView& view) const {
   const auto& [search, choice, passed, reach_m, navigation] = view;
   if (aside_W_ && !faces_path(answer_)) return false;

@@ -8,22 +8,22 @@
 
 namespace hedgehop::avoidance::section_grid {
 
-/// Direction in B, of length 1, of the position that an answer goes to.
+/// Returns the direction in B, of length 1, of the position of an answer.
 /// @param ray_B  direction of the chosen section, of length 1. @param side  -1 to give way to the left, 1 to the right.
-/// @param recedes  whether a sidestep also goes back, as before something that follows.
-/// Ours, after the trade study that [Perez2018] sec. VII proposes.
+/// @param recedes  whether a sidestep also goes back, for example to evade a following obstacle.
+/// Not in the paper; after the trade study that [Perez2018] sec. VII proposes.
 Eigen::Vector3d direction_B(Answer answer, const Eigen::Vector3d& ray_B, double side, bool recedes);
 
-/// Whether the vehicle faces the positions that an answer goes to.
+/// Returns whether the vehicle faces the positions of an answer.
 bool faces_path(Answer answer);
 
-/// The law of SectionLaw with our additions:
-/// - a path is given up only where its section fills up, else every pixel's change would shift the position;
-/// - the route is resumed as soon as the section that holds the goal is free;
-/// - no path is chosen or kept that meets what has left the image, while another one does not;
-/// - other answers than a position in the section's direction;
-/// - before something wide it searches to one side, then to the other, each time twice as far;
-/// - a vehicle that hovers at its goal stays where it gave way to, as in [Perez2018] fig. 20.
+/// The modified law, that is SectionLaw with these additions:
+/// - A path is given up only if its section fills up. Otherwise every change of a pixel would move the position.
+/// - The route is resumed as soon as the section that contains the goal is free.
+/// - No path is chosen or kept that meets obstacles that have left the image, if another path avoids them.
+/// - There are other answers than a position in the direction of the section.
+/// - In front of a wide obstacle the vehicle searches to one side, then to the other, each time twice as far.
+/// - A vehicle that hovers at its goal stays at the position to which it gave way, as in [Perez2018] fig. 20.
 class SectionPilot {
  public:
   explicit SectionPilot(const SectionGridConfig& config);
@@ -31,21 +31,22 @@ class SectionPilot {
   /// Starts a flight.
   void reset(const SectionCamera& camera);
 
-  /// Returns what to fly after an image.
+  /// Returns the command after an image.
   Command update(const SectionView& view, const Goal& goal);
 
-  /// The temporary position for a section, in W, m. @param reach_m  its distance, > 0.
+  /// Returns the temporary position for a section, in W, m. @param reach_m  its distance, > 0.
   Eigen::Vector3d position_W(const NavigationState& navigation, const vision::sections::SectionSearch& search,
                              int section, double reach_m) const;
 
   State state() const { return state_; }
 
  private:
-  /// A search for a path past something wide.
+  /// Search for a path past a wide obstacle.
   struct Sweep {
-    Eigen::Vector2d from_W, right_W;  ///< where it began, and the direction to the right of the goal's
-    double goal_distance_m = 0.0;     ///< when it began
-    double reach_m = 0.0;             ///< how far it goes to the side it is on
+    Eigen::Vector2d from_W,
+        right_W;                   ///< start of the search, and the direction to the right of the direction to the goal
+    double goal_distance_m = 0.0;  ///< at the start of the search
+    double reach_m = 0.0;          ///< length of the search to the current side
   };
   bool is_approached(const SectionView& view);
   std::optional<cv::Point2d> pixel_of(const Eigen::Vector3d& p_W, const NavigationState& navigation) const;
@@ -61,9 +62,9 @@ class SectionPilot {
   TurnThenMove mover_;
   double turn_ = 1.0;                       ///< to the right
   std::optional<Eigen::Vector3d> aside_W_;  ///< temporary position
-  std::optional<Eigen::Vector3d> post_W_;   ///< where it hovers, when the flight begins at its goal
-  double away_ = 1.0;                       ///< to the right of what approaches the post
-  std::optional<double> watched_rad_;       ///< heading to what approached last
+  std::optional<Eigen::Vector3d> post_W_;   ///< hover position, if the flight begins at its goal
+  double away_ = 1.0;                       ///< evasion to the right of an obstacle that approaches the hover position
+  std::optional<double> watched_rad_;       ///< heading to the last approaching obstacle
   std::optional<Sweep> sweep_;
   bool flown_ = false;
 };

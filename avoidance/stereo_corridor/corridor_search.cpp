@@ -10,7 +10,7 @@
 namespace hedgehop::avoidance::stereo_corridor {
 namespace {
 
-constexpr vision::stereo::TargetCost kCost;        // [Andert2007] sec. 4.3.1: c_z = 0, c_x and c_y alike
+constexpr vision::stereo::TargetCost kCost;        // [Andert2007] sec. 4.3.1: c_z = 0, c_x and c_y equal
 constexpr vision::stereo::NearbyLattice kLattice;  // [Andert2007] fig. 11
 
 }  // namespace
@@ -90,7 +90,7 @@ std::optional<cv::Point> CorridorSearch::pixel_of(const Eigen::Vector3d& directi
   return cv::Point(static_cast<int>(std::lround(u)), static_cast<int>(std::lround(v)));
 }
 
-/// The corridor round a pixel's ray, if it is free. [Andert2007] sec. 4.2.
+/// The corridor around the ray of a pixel, if it is free. [Andert2007] sec. 4.2.
 std::optional<vision::stereo::Corridor> CorridorSearch::corridor(const cv::Point& pixel, double target_m,
                                                                  int* tests) const {
   if (allowed_ && !allowed_(geometry_.ray_at_unit_depth(pixel))) return std::nullopt;
@@ -105,7 +105,7 @@ std::optional<Target> CorridorSearch::at(const cv::Point& pixel, FoundBy step) {
   return free ? std::optional(Target{pixel, free->z_m, step}) : std::nullopt;
 }
 
-/// The free candidate that costs least, [Andert2007] eq. (12) to (14); the earlier one of equals.
+/// The free candidate of minimum cost, [Andert2007] eq. (12) to (14); the first of equal candidates.
 std::optional<Target> CorridorSearch::cheapest(const std::vector<cv::Point>& candidates,
                                                const Eigen::Vector3d& reference_C, FoundBy step) {
   static_assert(kCost.depth_per_m == 0.0, "the cost is known before the corridor is examined");

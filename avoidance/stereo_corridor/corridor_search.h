@@ -11,13 +11,13 @@
 
 namespace hedgehop::avoidance::stereo_corridor {
 
-/// The step of [Andert2007] sec. 4.3.4 that found a target. Ours: `goal`, and `approach` to one above or below the
-/// view.
+/// The step of [Andert2007] sec. 4.3.4 that found a target. Not in the paper: `goal`, and `approach` to a goal above or
+/// below the view.
 enum class FoundBy { goal, approach, keep, track, near, search };
-/// Its name in decisions and images.
+/// Returns the name of a step for decisions and images.
 const char* name_of(FoundBy step);
 
-/// Whether a velocity is great enough to have a direction: below, the estimate's errors decide.
+/// Returns whether a velocity is large enough to have a direction. Below the threshold, estimation errors dominate.
 inline bool is_moving(const Eigen::Vector3d& v_WB) {
   constexpr double kStandingMps = 0.5;
   return v_WB.norm() > kStandingMps;
@@ -30,7 +30,7 @@ struct Target {
   FoundBy found_by = FoundBy::search;
 };
 
-/// What a corridor must be. Both numbers are the paper's symbols: r and tau_target.
+/// Required size of a corridor. Both numbers are symbols of the paper: r and tau_target.
 struct CorridorSize {
   double radius_m = 2.5;
   double target_m = 30.0;  ///< [Andert2007] sec. 5
@@ -39,40 +39,40 @@ struct CorridorSize {
 /// The search for a flight target in one depth image. Source: [Andert2007] sec. 4.
 class CorridorSearch {
  public:
-  /// Longest path to a target point, m: what is farther does not change where to fly now.
+  /// Maximum length of the path to a target point, m. Farther obstacles do not change the current command.
   static constexpr double kLookAheadM = 30.0;
-  /// Levels of the pyramid between which the image is divided: blocks of 32 px down to 8 px. The paper leaves them
-  /// open.
+  /// Levels of the pyramid that divide the image: blocks of 32 px down to 8 px. The paper does not specify them.
   static constexpr int kCoarsestLevel = 5, kFinestLevel = 3;
 
-  /// Whether a direction in C may be flown at all; empty: every one.
+  /// Returns whether a direction in C may be flown; an empty function allows all directions.
   using Allowed = std::function<bool(const Eigen::Vector3d& ray_C)>;
 
-  /// @param pyramid  of the filtered disparity, at least kCoarsestLevel high; it must outlive the search.
+  /// @param pyramid  of the filtered disparity, with at least kCoarsestLevel levels; must outlive the search.
   CorridorSearch(const vision::stereo::DepthPyramid& pyramid, const vision::stereo::StereoGeometry& geometry,
                  const CorridorSize& size, Allowed allowed = {});
 
-  /// The whole law as printed: steps 1 to 4 of [Andert2007] sec. 4.3.4; nothing where step 5, to hover and turn, is
-  /// due. @param flight_C  direction of flight in C. @param followed  where the last target is now, if it is known.
+  /// The whole published law: steps 1 to 4 of [Andert2007] sec. 4.3.4. Empty if step 5, hover and turn, is due.
+  /// @param flight_C  direction of flight in C. @param followed  current pixel of the last target, if known.
   std::optional<Target> join(const Eigen::Vector3d& flight_C, const std::optional<cv::Point>& followed);
 
-  /// Step 1 for any direction: the target at its pixel, if that lies in the image and its corridor is free.
+  /// Step 1 for any direction: the target at its pixel, if the pixel is in the image and its corridor is free.
   std::optional<Target> along(const Eigen::Vector3d& direction_C, FoundBy step);
-  /// Towards a place that lies above or below the view, but not aside: the target at the edge of the image that is
-  /// nearest to it, whose corridor need be free only as far as the place. Ours. @param p_C  the place, m.
+  /// Returns the target towards a position above or below the view, but not to the side: the target at the nearest
+  /// pixel of the image edge. Its corridor must be free only up to the distance of the position. Not in the paper.
+  /// @param p_C  the position, m.
   std::optional<Target> below_or_above(const Eigen::Vector3d& p_C);
-  /// Steps 2 and 3: the followed target, else the best one near it.
+  /// Steps 2 and 3: the followed target, otherwise the best target near it.
   std::optional<Target> near(const std::optional<cv::Point>& followed);
-  /// Step 4: the best target of the whole image. @param reference_C  direction from which a change costs.
+  /// Step 4: the best target of the whole image. @param reference_C  direction relative to which a change has a cost.
   std::optional<Target> anywhere(const Eigen::Vector3d& reference_C);
 
   /// Candidates of step 4. [Andert2007] sec. 4.3.1.
   std::vector<cv::Point> far_blocks() const;
-  /// The pixel that shows a direction, if it lies in the image.
+  /// The pixel of a direction, if it is in the image.
   std::optional<cv::Point> pixel_of(const Eigen::Vector3d& direction_C) const;
-  /// Whether the corridor round a pixel's ray is free.
+  /// Whether the corridor around the ray of a pixel is free.
   bool is_free(const cv::Point& pixel) const { return corridor(pixel, size_.target_m).has_value(); }
-  /// Pixels and blocks examined so far.
+  /// Number of pixels and blocks tested so far.
   int tests() const { return tests_; }
 
  private:
@@ -91,8 +91,8 @@ class CorridorSearch {
 /// Follows a pixel from image to image with the pyramidal Lucas-Kanade tracker. [Andert2007] sec. 4.3.2, eq. (15).
 class TargetTracker {
  public:
-  /// Returns where a pixel of the last image is in this one; nothing when it is lost or has left the image, or when
-  /// there was no last image. This image becomes the last. @param grey  CV_8UC1.
+  /// Returns the pixel in this image that corresponds to a pixel of the last image; empty if it is lost, has left the
+  /// image, or if there was no last image. This image becomes the last image. @param grey  CV_8UC1.
   std::optional<cv::Point> follow(const std::optional<cv::Point>& pixel, const cv::Mat& grey);
 
  private:

@@ -18,15 +18,15 @@ std::optional<Target> choose_goal_first(CorridorSearch& search, const Eigen::Vec
 }
 
 double approach_speed_mps(double cruise_mps, double distance_m, double acceleration_mps2) {
-  constexpr double kMinSpeedMps = 0.5;  // so that it arrives
+  constexpr double kMinSpeedMps = 0.5;  // ensures arrival
   return std::min(cruise_mps, std::max(kMinSpeedMps, std::sqrt(0.5 * acceleration_mps2 * distance_m)));
 }
 
 bool TurnBack::update(const Eigen::Vector3d& p_CG_C, const Eigen::Vector3d& p_WB) {
-  constexpr double kAhead = 0.2;       // tangent of the bearing: most of the image lies round the goal
+  constexpr double kAhead = 0.2;       // tangent of the bearing: the goal is near the image center
   constexpr double kNearerM = 3.0;     // progress that makes the last turn a success
-  constexpr double kWanderM = 0.3;     // drift of a position estimate while a goal is passed
-  constexpr double kElsewhereM = 3.0;  // from where another street may be seen
+  constexpr double kWanderM = 0.3;     // drift of the position estimate while a goal is passed
+  constexpr double kElsewhereM = 3.0;  // distance after which another street may be visible
   const double distance_m = std::hypot(p_CG_C.x(), p_CG_C.z());
   nearest_m_ = std::min(nearest_m_, distance_m);
   if (distance_m < nearest_ever_m_ - kNearerM) {

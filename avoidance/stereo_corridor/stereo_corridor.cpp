@@ -8,9 +8,9 @@
 
 #include "avoidance/heading.h"
 #include "avoidance/stereo/passed_obstacles.h"
+#include "avoidance/stereo_corridor/corridor_search.h"
 #include "avoidance/stereo_corridor/goal_seeking.h"
 #include "avoidance/stereo_corridor/target_overlay.h"
-#include "avoidance/stereo_corridor/corridor_search.h"
 #include "sim/fields/bounds.h"
 #include "sim/fields/quantities.h"
 
@@ -90,18 +90,18 @@ class StereoCorridor final : public Module {
     return decision;
   }
 
-  /// Whether the goal is so near that its height is taken up on the spot: it lies below or above all images, and only
-  /// what has left them can be in the way.
+  /// Whether the goal is so near that the vehicle changes its altitude on the spot. The goal is then below or above all
+  /// images, and only obstacles that have left the images can be in the way.
   bool arrives_at(const Eigen::Vector3d& p_BG_W) const {
     constexpr double kNearM = 6.0, kOtherHeightM = 1.0;
     return config_.additions.goal_first && p_BG_W.head<2>().norm() < kNearM && std::abs(p_BG_W.z()) > kOtherHeightM &&
            passed_->free(p_BG_W, p_BG_W.norm());
   }
 
-  /// Improves the depth image: [Andert2007] sec. 3.3. Ours: sky is looked for everywhere and in a smoothed image, for
-  /// noise looks like texture, and a semi-global matcher extends a tree's disparity over the untextured sky.
+  /// Improves the depth image: [Andert2007] sec. 3.3. The modified law searches for sky everywhere and in a smoothed
+  /// image, because noise looks like texture and a semi-global matcher extends the disparity of a tree over the sky.
   void improve(cv::Mat& disparity16) {
-    constexpr int kSameSegment16 = 16;  // tau_difference, a pixel: neighbors on a slanted plane stay together
+    constexpr int kSameSegment16 = 16;  // tau_difference, one pixel: keeps a slanted plane in one segment
     disparity16.copyTo(matched16_);
     vision::stereo::remove_specks(disparity16, kSameSegment16, config_.speck_px);
     if (config_.additions.sky) cv::blur(source_->grey(), smooth_, {3, 3});
@@ -110,7 +110,7 @@ class StereoCorridor final : public Module {
     vision::stereo::mark_sky(grey, config_.sky_texture, config_.sky_brightness, among, disparity16);
   }
 
-  /// Squares without any match become as near as blocks a corridor.
+  /// Gives squares without matches a disparity that blocks a corridor.
   void block_unknown(cv::Mat& disparity16) const {
     constexpr int kSquarePx = 8;
     const auto blocking16 = static_cast<int16_t>(std::ceil(source_->geometry().disparity16(config_.corridor.target_m)));
@@ -128,9 +128,8 @@ class StereoCorridor final : public Module {
             [this](const Eigen::Vector3d& ray_C) { return passed_->free(R_WC_ * ray_C); }};
   }
 
-  /// Chooses the next target; without one, the side to turn to: the last target's, or that which a goal it has passed
-  /// asks for.
-  /// @return corridor tests that this took.
+  /// Chooses the next target or, if there is none, the side to turn to: that of the last target or of a passed goal.
+  /// @return number of corridor tests.
   int aim(const NavigationState& navigation, const Eigen::Vector3d& p_CG_C, bool turns_back) {
     const std::optional<Target> before = target_;
     const std::optional<cv::Point> followed =
@@ -144,7 +143,7 @@ class StereoCorridor final : public Module {
     if (config_.additions.goal_first) {
       target_ = choose_goal_first(images, p_CG_C, v_WB_C, followed);
     } else {
-      // A vehicle that stands has no direction of flight; the paper begins with "the way straight on".
+      // A hovering vehicle has no direction of flight; the paper starts with "the way straight on".
       target_ = images.join(is_moving(v_WB_C) ? v_WB_C : Eigen::Vector3d::UnitZ(), followed);
     }
     if (!side && before && !target_) turn_ = before->pixel.x < source_->geometry().center_u_px ? -1.0 : 1.0;
@@ -166,7 +165,7 @@ class StereoCorridor final : public Module {
     return approach_speed_mps(config_.speed_mps, goal_m, acceleration_mps2_);
   }
 
-  /// Flies where it looks; [Andert2007] eq. (18) for the target in B.
+  /// Flies in the direction of view; [Andert2007] eq. (18) for the target in B.
   Command steer(const Observation& observation) {
     const NavigationState& navigation = observation.navigation;
     if (!target_) return HoverCommand{turn_ * config_.yaw_rate_radps};
@@ -179,7 +178,7 @@ class StereoCorridor final : public Module {
     command.heading_rad = std::atan2(level_W.y(), level_W.x());
     command.altitude_m = -observation.goal.p_WG.z();
     if (target_->found_by != FoundBy::goal) {
-      constexpr double kLeadS = 2.0;  // the height that the ray to the target has after this time
+      constexpr double kLeadS = 2.0;  // look-ahead time along the ray to the target for the altitude
       const double slope = p_BP_W.z() / level_W.norm();
       command.altitude_m = -(navigation.p_WB_est.z() + kLeadS * config_.speed_mps * slope);
     }
@@ -215,7 +214,7 @@ class StereoCorridor final : public Module {
   std::optional<DisparitySource> source_;
   TargetTracker tracker_;
   std::optional<stereo::PassedObstacles> passed_;
-  double acceleration_mps2_ = 0.0;                      ///< that the vehicle is allowed
+  double acceleration_mps2_ = 0.0;                      ///< maximum
   Eigen::Matrix3d R_WC_ = Eigen::Matrix3d::Identity();  ///< as estimated
   vision::stereo::DepthPyramid pyramid_;
   cv::Mat smooth_, matched16_;

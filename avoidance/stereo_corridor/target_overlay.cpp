@@ -16,14 +16,14 @@ cv::Mat depth_panel(const cv::Mat& disparity16, const vision::stereo::StereoGeom
   return stereo::depth_overlay(depth_m, far_m);
 }
 
-/// The block of the pyramid around its center pixel. The column is a multiple of the size and half a size more, and the
-/// size is a power of two, so the lowest bit of the column is half the size.
+/// Returns the block of the pyramid around its center pixel. The column is a multiple of the block size plus half the
+/// size, and the size is a power of two. Therefore the lowest bit of the column is half the size.
 cv::Rect block_of(const cv::Point& center) {
   const int half = center.x & -center.x;
   return {center.x - half, center.y - half, 2 * half, 2 * half};
 }
 
-/// Colors an area so that the image shows through; its edge stays free, so that neighbors can be distinguished.
+/// Colors an area transparently, except for its edge, so that neighbors can be distinguished.
 void tint(cv::Mat& panel, const cv::Rect& area, const cv::Scalar& color) {
   const cv::Rect inner = cv::Rect(area.x + 1, area.y + 1, area.width - 2, area.height - 2) & cv::Rect({}, panel.size());
   if (inner.empty()) return;

@@ -40,7 +40,7 @@ cv::Mat image_of_buildings() {
 void LandmarkDecision640(benchmark::State& state) {
   const cv::Mat image = image_of_buildings();
   landmark_map::LandmarkMapModuleConfig config;
-  config.sight.source = landmark_map::CornerSource::color;
+  config.observer.source = landmark_map::CornerSource::color;
   config.time_to_contact_s = 0.0;
   const std::unique_ptr<Module> module = landmark_map::make_landmark_map(config);
   Setup setup{{level_camera("front", 0.0, kSidePx, 10.0)}, {10.0, 5.0, 1.0}, 1};

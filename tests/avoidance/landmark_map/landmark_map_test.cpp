@@ -33,8 +33,8 @@ class CornerFlight {
  public:
   explicit CornerFlight(std::vector<Eigen::Vector3d> corners_W, LandmarkMapModuleConfig config = {})
       : corners_W_(std::move(corners_W)) {
-    config.sight.source = CornerSource::corners;
-    config.sight.map.position_sigma_m = 0.1;
+    config.observer.source = CornerSource::corners;
+    config.observer.map.position_sigma_m = 0.1;
     config.speed_mps = kSpeedMps;
     module_ = make_landmark_map(config);
     camera_ = level_camera("front", 0.0, 320, 1.0 / kStepS);
@@ -190,7 +190,7 @@ TEST(LandmarkMapModule, AsPrintedNeitherAvoidsNorStops) {
 
 TEST(LandmarkMapModule, RefusesABadConfigByItsKey) {
   LandmarkMapModuleConfig config;
-  config.sight.map.pixel_sigma_px = 0.0;
+  config.observer.map.pixel_sigma_px = 0.0;
   try {
     make_landmark_map(config);
     FAIL();
