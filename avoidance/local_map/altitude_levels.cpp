@@ -8,11 +8,12 @@ namespace hedgehop::avoidance::local_map {
 namespace {
 
 constexpr double kNowhereM = std::numeric_limits<double>::infinity();
-constexpr double kClimbPrice = 1.0;    // of a meter up or down, in meters of way
-constexpr double kOffGoalPrice = 2.5;  // of a meter from the goal's height, which is to be climbed later, then dearer
-// By which a level must be better; less towards the goal's height, and none to go on as before.
+constexpr double kClimbPrice = 1.0;  // cost of a meter of climb or descent, in meters of path
+constexpr double kOffGoalPrice =
+    2.5;  // cost of a meter of altitude difference to the goal, higher because it must be flown later
+// Minimum advantage of a level: less towards the altitude of the goal, and zero in the direction of the last change.
 constexpr double kWorthM = 4.0, kWorthToGoalM = 2.0;
-constexpr int kMaxLevels = 20;  // up and down
+constexpr int kMaxLevels = 20;  // in each direction
 
 }  // namespace
 
@@ -23,7 +24,7 @@ void AltitudeLevels::begin(double first_W) {
   lowest_ = std::clamp(static_cast<int>(std::ceil((band_->min_m + first_W) / kStepM)), -kMaxLevels, 0);
 }
 
-/// To the goal along a level, m; climbing to it, and from it to the goal, counts.
+/// Returns the distance to the goal along a level, m, including the cost of climbing to it and from it to the goal.
 double AltitudeLevels::way_m(const Surroundings& around, const LearnedDistances& learned, int level,
                              const Eigen::Vector2d& p_W, const Eigen::Vector3d& goal_W) {
   const Eigen::Vector2d to_W = goal_W.head<2>();
@@ -41,7 +42,7 @@ std::optional<double> AltitudeLevels::next_W(double t_s, const Surroundings& aro
   checked_s_ = t_s;
   const double here_m = way_m(around, learned, level_, p_W, goal_W);
   double least_m = kNowhereM;
-  int best = 0;  // levels to change by
+  int best = 0;  // number of levels to change by
   for (const int side : {1, -1}) {
     const int end = side > 0 ? highest_ : lowest_;
     double side_m = kNowhereM;

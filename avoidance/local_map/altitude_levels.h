@@ -9,23 +9,23 @@
 
 namespace hedgehop::avoidance::local_map {
 
-/// Heights to fly at: levels a step apart within the mission's altitude band, one of them that of the flight's start.
-/// The vehicle climbs or sinks towards the level in the map from which the way to the goal, and the climbing, is
-/// shortest. Ours: after the plane's own rule (route_field.h). A search in three dimensions would see over two edges at
-/// once.
+/// Flight altitudes: levels with a constant spacing within the altitude band of the mission; one level is the altitude
+/// of the start. The vehicle climbs or descends to the level in the map with the shortest way to the goal, including
+/// the change of altitude. Not from a paper; analogous to the rule in the plane (route_field.h). In contrast to a
+/// search in three dimensions, it does not plan over two edges at once.
 class AltitudeLevels {
  public:
   AltitudeLevels() = default;
-  /// @param band  none: only the start's level.
+  /// @param band  empty: only the level of the start.
   AltitudeLevels(const std::optional<AltitudeBand>& band, const RouteClearance& route_clearance)
       : band_(band), route_clearance_(route_clearance) {}
   /// @param first_W  z of the start.
   void begin(double first_W);
 
-  /// Whether all that lies between two levels is seen to be free where the vehicle will be.
+  /// Returns whether all space between two levels is observed as free at the positions of the vehicle.
   using MayPass = std::function<bool(const LevelSlice&)>;
-  /// The level beside the one that is flown at, z in W, that is to be flown at instead; nothing where this one is as
-  /// good, on the way to one, and for a second after it was asked. @param t_s  rises from call to call.
+  /// Returns the adjacent level to change to, z in W. Empty if the current level is as good, during a change of level,
+  /// and for one second after each evaluation. @param t_s  increases from call to call.
   std::optional<double> next_W(double t_s, const Surroundings& around, const LearnedDistances& learned,
                                const Eigen::Vector2d& p_W, const Eigen::Vector3d& goal_W, const MayPass& may_pass);
 

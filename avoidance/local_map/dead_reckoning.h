@@ -6,13 +6,12 @@
 
 namespace hedgehop::avoidance::local_map {
 
-/// The vehicle's horizontal position by velocity alone, integrated. It drifts slowly, where satellite positions wander
-/// by up to half a meter in a second. A map must know where the vehicle is in what it saw a moment ago, not where on
-/// Earth.
+/// Horizontal position from integrated velocity alone. It drifts slowly, while satellite positions change by up to half
+/// a meter per second. The map requires an accurate position relative to recent observations, not an absolute position.
 class DeadReckoning {
  public:
-  /// @param t_s  s, rises from call to call; the first one begins at the estimated position.
-  /// @return the state, but north and east as integrated.
+  /// @param t_s  s, increases from call to call; the first call starts at the estimated position.
+  /// @return the state with integrated north and east coordinates.
   NavigationState update(const NavigationState& navigation, double t_s) {
     const Eigen::Vector2d v_W = (navigation.q_WB_est * navigation.v_WB_B_est).head<2>();
     p_W_ =

@@ -8,7 +8,7 @@ namespace hedgehop::avoidance::local_map {
 namespace {
 
 constexpr double kRoundM = 1e-6;
-constexpr double kMinHalfLengthM = 0.1;  // half the length of what a disc holds of a box
+constexpr double kMinHalfLengthM = 0.1;  // minimum half length of the part of a box in one disc
 
 void cover(const Eigen::AlignedBox3d& box, double radius_m, std::vector<HullDiscs::Disc>& discs) {
   const Eigen::Vector2d middle_H = box.center().head<2>(), half = 0.5 * box.sizes().head<2>();
@@ -19,7 +19,7 @@ void cover(const Eigen::AlignedBox3d& box, double radius_m, std::vector<HullDisc
   const Eigen::Index along = half.x() >= half.y() ? 0 : 1;
   const double wide_m = std::max(half(1 - along), kMinHalfLengthM);
   const int count = std::max(1, static_cast<int>(std::ceil(half(along) / wide_m)));
-  const double step_m = half(along) / count;  // half a disc's share of the length
+  const double step_m = half(along) / count;  // half the length of the part in one disc
   for (int i = 0; i < count; ++i) {
     Eigen::Vector2d p_H = middle_H;
     p_H(along) += (2 * i + 1 - count) * step_m;
@@ -27,7 +27,7 @@ void cover(const Eigen::AlignedBox3d& box, double radius_m, std::vector<HullDisc
   }
 }
 
-/// How far the discs reach in a direction, m.
+/// Returns the extent of the discs in a direction, m.
 double reach_m(const std::vector<HullDiscs::Disc>& discs, double azimuth_rad) {
   const Eigen::Vector2d u(std::cos(azimuth_rad), std::sin(azimuth_rad));
   double most_m = 0.0;
@@ -35,14 +35,14 @@ double reach_m(const std::vector<HullDiscs::Disc>& discs, double azimuth_rad) {
   return most_m;
 }
 
-constexpr double kUnsureS = 0.05;  // of flight, by which the map may be off where the unknown begins
+constexpr double kUnsureS = 0.05;  // flight time that corresponds to the error of the boundary of unknown space
 
 }  // namespace
 
 HullDiscs::HullDiscs(const VehicleLimits& limits) : discs_{{Eigen::Vector2d::Zero(), limits.radius_m}} {
   std::vector<Disc> all;
   for (const Eigen::AlignedBox3d& box_B : limits.outline_B) cover(box_B, limits.radius_m, all);
-  // The largest first; what they hold is left out.
+  // Largest first; discs inside larger ones are omitted.
   std::ranges::sort(all, std::ranges::greater{}, &Disc::radius_m);
   std::vector<Disc> kept;
   for (const Disc& disc : all) {
@@ -72,13 +72,13 @@ std::vector<HullDiscs::Disc> sweep(const HullDiscs& hull_discs, double from_rad,
   return swept;
 }
 
-ClearanceDeficit HullClearance::deficit(const LevelSlice& slice, const PathState& moment, bool unknown_too) const {
-  const double margin_m = clearance_.margin_m + clearance_.margin_s * moment.v_W.norm();
-  const double unsure_m = kUnsureS * moment.v_W.norm();
-  const bool close_by = clearance_.margin_m <= 0.5 * slice.cell_m();  // no more than what a look-up may err by
+ClearanceDeficit HullClearance::deficit(const LevelSlice& slice, const PathState& state, bool unknown_too) const {
+  const double margin_m = clearance_.margin_m + clearance_.margin_s * state.v_W.norm();
+  const double unsure_m = kUnsureS * state.v_W.norm();
+  const bool close_by = clearance_.margin_m <= 0.5 * slice.cell_m();  // below the error of a look-up
   ClearanceDeficit worst;
   for (const HullDiscs::Disc& disc : swept_) {
-    const Eigen::Vector2d p_W = moment.p_W + disc.p_H;
+    const Eigen::Vector2d p_W = state.p_W + disc.p_H;
     const double keeps_m = disc.radius_m + margin_m;
     const double away_m = close_by ? slice.exactly_to_occupied_m(p_W, keeps_m) : slice.to_occupied_m(p_W);
     worst.occupied_m = std::max(worst.occupied_m, keeps_m - away_m);
@@ -96,19 +96,19 @@ double HullClearance::free_turn_rad(const LevelSlice& slice, const std::vector<P
   const int steps = hull_discs_.discs().size() > 1 ? static_cast<int>(std::ceil(std::abs(turn_rad) / kStepRad)) : 0;
   const auto worst_of = [&](const HullClearance& turned) {
     ClearanceDeficit most;
-    for (const PathState& moment : path) {
-      const ClearanceDeficit there = turned.deficit(slice, moment, true);
+    for (const PathState& state : path) {
+      const ClearanceDeficit there = turned.deficit(slice, state, true);
       most.occupied_m = std::max(most.occupied_m, there.occupied_m);
       most.unknown_m = std::max(most.unknown_m, there.unknown_m);
     }
     return most;
   };
   HullClearance turned = *this;
-  turned.turn(from_rad, from_rad);
+  turned.set_turn(from_rad, from_rad);
   const ClearanceDeficit before = worst_of(turned);
   for (int i = 1; i <= steps; ++i) {
     const double from = from_rad + turn_rad * (i - 1) / steps, to = from_rad + turn_rad * i / steps;
-    turned.turn(from, to);
+    turned.set_turn(from, to);
     const ClearanceDeficit then = worst_of(turned);
     if (then.occupied_m > before.occupied_m + kSlackM || then.unknown_m > before.unknown_m + kSlackM) return from;
   }

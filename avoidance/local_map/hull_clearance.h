@@ -10,19 +10,19 @@
 
 namespace hedgehop::avoidance::local_map {
 
-/// The vehicle's hull_discs in the plan, level, as discs that together hold it. Of a multicopter one is enough; a
-/// helicopter's tail boom, longer than its rotor, swings about as it turns.
+/// Horizontal discs that together contain the hull. One disc is sufficient for a multicopter. The tail boom of a
+/// helicopter is longer than the rotor and sweeps an area when it turns.
 class HullDiscs {
  public:
   struct Disc {
-    Eigen::Vector2d p_H;  ///< middle, m: x along the heading, y to the right
+    Eigen::Vector2d p_H;  ///< center, m: x along the heading, y to the right
     double radius_m;      ///< > 0
   };
 
   HullDiscs() = default;
-  /// One disc for each box, several along a long one. A box whose corner lies beyond the cylinder that holds the
-  /// vehicle holds a rotor: the disc in it counts. Where discs save little, or no boxes are given, that cylinder is the
-  /// hull_discs.
+  /// Makes one disc per box and several along an elongated box. If a corner of a box is outside the cylinder that
+  /// contains the vehicle, the box contains a rotor and its inscribed disc is used. If discs save little space or there
+  /// are no boxes, the result is that cylinder.
   explicit HullDiscs(const VehicleLimits& limits);
 
   const std::vector<Disc>& discs() const { return discs_; }
@@ -31,30 +31,31 @@ class HullDiscs {
   std::vector<Disc> discs_;
 };
 
-/// Where the hull_discs's discs are, from B, while the vehicle turns from one heading to another the short way.
-/// @return offsets in W, discs of all headings on the way, close enough that no point of the hull_discs moves farther
-/// than `step_m` from one to the next.
+/// Returns the positions of the discs, from B, while the vehicle turns from one heading to another along the shorter
+/// arc.
+/// @return offsets in W, discs of all headings on the way. No point of the hull moves farther than `step_m` between two
+/// of them.
 std::vector<HullDiscs::Disc> sweep(const HullDiscs& hull_discs, double from_rad, double to_rad, double step_m);
 
-/// What the hull_discs would come too near to: on its way along a path, while it still turns.
+/// Checks the clearance of the hull along a path, including a simultaneous turn.
 class HullClearance {
  public:
   HullClearance() = default;
-  /// @param step_m  by which the hull_discs's discs move at most from one heading that is looked at to the next.
+  /// @param step_m  maximum motion of a disc between two tested headings.
   HullClearance(HullDiscs hull_discs, const Clearance& clearance, double step_m)
       : hull_discs_(std::move(hull_discs)), clearance_(clearance), step_m_(step_m) {}
 
-  /// Sets what must be kept free from now on.
-  void keep(const Clearance& clearance) { clearance_ = clearance; }
-  /// Sets the headings that are passed meanwhile, the short way; where the vehicle is by then nobody knows, so that all
-  /// of them count at every moment.
-  void turn(double from_rad, double to_rad) { swept_ = sweep(hull_discs_, from_rad, to_rad, step_m_); }
+  /// Sets the required clearance.
+  void set_clearance(const Clearance& clearance) { clearance_ = clearance; }
+  /// Sets the headings of a turn along the shorter arc. The progress of the turn along the path is unknown, so every
+  /// state of the path is tested with all of them.
+  void set_turn(double from_rad, double to_rad) { swept_ = sweep(hull_discs_, from_rad, to_rad, step_m_); }
 
-  /// By how much a moment of a path lacks distance from obstacles and, if asked, from the unknown.
-  ClearanceDeficit deficit(const LevelSlice& slice, const PathState& moment, bool unknown_too) const;
+  /// Returns the missing distance of a state from obstacles and, if requested, from unknown space.
+  ClearanceDeficit deficit(const LevelSlice& slice, const PathState& state, bool unknown_too) const;
 
-  /// How far the nose may turn, wherever on the path the vehicle then is, without coming nearer to anything than it
-  /// may, or than it is already. @return a heading on the short way between both, rad.
+  /// Returns the heading up to which the vehicle may turn at any position of the path without violating a clearance, or
+  /// violating it more than now. @return a heading on the shorter arc between both, rad.
   double free_turn_rad(const LevelSlice& slice, const std::vector<PathState>& path, double from_rad,
                        double to_rad) const;
 

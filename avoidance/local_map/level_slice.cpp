@@ -40,7 +40,7 @@ void LevelSlice::build(const vision::mapping::OccupancyMap& map, const HeightRan
       State* const here = cells_.data() + static_cast<size_t>(i * side_);
       for (int j = 0; j < side_; ++j) {
         const State seen = row_[static_cast<size_t>(j)];
-        // occupied outweighs unknown, unknown outweighs free
+        // precedence: occupied, unknown, free
         if (seen == State::occupied || (seen == State::unknown && here[j] == State::free)) here[j] = seen;
       }
     }
@@ -54,8 +54,8 @@ void LevelSlice::build(const vision::mapping::OccupancyMap& map, const HeightRan
   unknown_.build(marked_, side_, side_);
 }
 
-/// A single unknown column amid free ones lies between the squares of images, unless something was seen in it. What
-/// could not be matched there casts a shadow: then a neighbor is unknown, too.
+/// Marks a single unknown column between free ones as free, unless a surface was observed in it: it lies between the
+/// blocks of the images. An unmatched obstacle casts a shadow, so one of its neighbors is unknown, too.
 void LevelSlice::fill_specks(const vision::mapping::OccupancyMap& map, int top, int bottom) {
   const auto suspect = [&](int row, int col) {
     for (int layer = top; layer <= bottom; ++layer) {

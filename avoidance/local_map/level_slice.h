@@ -12,27 +12,28 @@
 
 namespace hedgehop::avoidance::local_map {
 
-/// Cells of the plane of flight that stay obstacles where the map knows nothing of them: what stayed unknown however
-/// long it was looked at, as a plain wall does, and what was seen to be occupied and has left the map or its memory
-/// since. What is seen to be free counts as free all the same. So a search goes on elsewhere, and ends. Ours: without
-/// it, a planner that assumes unknown space to be free waits before a plain wall for ever, and tries a wall that is
-/// longer than its map again and again.
+/// Cells of the plane of flight that count as obstacles while the map does not know them: cells that stayed unknown
+/// despite long observation, such as a plain wall, and cells that were observed as occupied and have since left the map
+/// or its memory. Cells that are observed as free count as free. As a result, the search continues elsewhere and ends.
+/// Not from a paper: without it, a planner that assumes unknown space to be free waits in front of a plain wall without
+/// end, and tries a wall that is longer than its map again and again.
 class ClosedCells {
  public:
-  static constexpr double kUnknownS = 90.0, kOccupiedS = 600.0;  ///< for how long they are kept
+  static constexpr double kUnknownS = 90.0, kOccupiedS = 600.0;  ///< lifetime of unknown and of occupied cells
 
-  /// @param cell_m  edge, > 0: that of the slice.
+  /// @param cell_m  edge length of the cells of the slice, > 0.
   explicit ClosedCells(double cell_m) : cell_m_(cell_m) {}
 
-  /// Closes a disk at a height. @param t_s  now, rising.
+  /// Closes a disc at an altitude. @param t_s  current time, increasing.
   void close(const Eigen::Vector3d& p_W, double radius_m, double t_s);
-  /// Closes one cell, seen to be occupied.
+  /// Closes one cell that was observed as occupied.
   void remember(const Eigen::Vector3d& p_W, double t_s) { close_cell(p_W, t_s + kOccupiedS); }
-  /// Forgets what is older than that.
+  /// Deletes cells at the end of their lifetime.
   void update(double t_s);
 
   /// Calls visit(p_W) with the middle of each cell; z is the height that was flown at then.
   template <class Visit>
+  /// Calls visit(p_W) with the center of each cell; z is the altitude at which it was closed.
   void for_each(const Visit& visit) const {
     for (const auto& [cell, until_s] : until_s_) visit(middle_W(cell));
   }
@@ -40,7 +41,7 @@ class ClosedCells {
 
  private:
   using Cell = std::array<int, 3>;
-  static constexpr size_t kMaxCells = 20'000;  ///< beyond, none is closed until some are forgotten
+  static constexpr size_t kMaxCells = 20'000;  ///< maximum number of cells; further cells are not closed
 
   void close_cell(const Eigen::Vector3d& p_W, double until_s);
   Eigen::Vector3d middle_W(const Cell& cell) const {
@@ -51,14 +52,15 @@ class ClosedCells {
   std::map<Cell, double> until_s_;
 };
 
-/// The heights, in W's z, that the vehicle takes up: [top, bottom], m.
+/// Altitudes that the vehicle occupies, as z of W: [top, bottom], m.
 struct HeightRange {
   double top_m = 0.0, bottom_m = 0.0;
 };
 
-/// What is known of the plane of flight: a column of the map is occupied where any of its voxels within the band is,
-/// free where all are, or where all its neighbors are and nothing was seen in it, and unknown otherwise; with distances
-/// to both. Unknown columns that were closed at a height within the band are occupied.
+/// The plane of flight. A column of the map is occupied if any of its voxels within the altitude range is occupied. It
+/// is free if all of them are free, or if all its neighbors are free and no surface was observed in it. Otherwise it is
+/// unknown. The slice has distances to occupied and to unknown cells. Unknown columns that were closed at an altitude
+/// within the range are occupied.
 class LevelSlice {
  public:
   using State = vision::mapping::OccupancyMap::State;
@@ -74,13 +76,13 @@ class LevelSlice {
   }
   Eigen::Vector2d center(int row, int col) const { return corner_W_ + cell_m_ * Eigen::Vector2d(row + 0.5, col + 0.5); }
 
-  /// Distance from the middle of a point's cell to the nearest occupied, or unknown, cell's edge, m: of the point
-  /// itself it may be half a cell less.
+  /// Distance from the center of the cell of a point to the edge of the nearest occupied, or unknown, cell, m. From the
+  /// point itself it may be half a cell less.
   double to_occupied_m(const Eigen::Vector2d& p_W) const { return look_up(occupied_, p_W); }
   double to_unknown_m(const Eigen::Vector2d& p_W) const { return look_up(unknown_, p_W); }
   double to_occupied_m(int row, int col) const { return cell_m_ * (occupied_.at(row, col) - 0.5); }
-  /// Distance from the point itself to the nearest occupied cell's edge, m: negative within one, more than `within_m`
-  /// where it is farther, 0 out of the slice.
+  /// Distance from the point itself to the edge of the nearest occupied cell, m: negative inside one, a value above
+  /// `within_m` if it is farther, 0 outside the slice.
   double exactly_to_occupied_m(const Eigen::Vector2d& p_W, double within_m) const;
 
  private:

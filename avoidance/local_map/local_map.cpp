@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <string>
 
@@ -21,30 +20,22 @@
 namespace hedgehop::avoidance::local_map {
 namespace {
 
-using stereo::DisparitySource;
 using vision::mapping::DepthBlock;
 
-constexpr double kAheadM = 4.0;  // along the route, to which the nose points
+constexpr double kAheadM = 4.0;  // distance along the route to which the nose points
 constexpr double kHoversMps = 0.05;
-constexpr double kLittleM = 0.5;  // of progress, that is not worth to tilt the camera for
-// What is near flies past too fast to be measured, so that speed follows height, as bees' does: [Srinivasan1996] sec.
-// on flight speed.
+constexpr double kLittleM = 0.5;  // progress that does not justify tilting the camera
+// Near ground moves too fast through the image to be measured, so the speed is proportional to height, as for bees:
+// [Srinivasan1996] sec. on flight speed.
 constexpr double kGroundRadps = 2.0, kMinHeightM = 0.5;
-constexpr double kMinMarginM = 0.05;  // beside the hull, where the way is narrow
+constexpr double kMinMarginM = 0.05;  // around the hull in narrow passages
 
 class LocalMap final : public Module {
  public:
   explicit LocalMap(const LocalMapConfig& config) : config_(fields::require_bounds(config)) {}
 
  private:
-  Needs do_needs() const override {
-    Needs needs = DisparitySource::needs(config_.depth, DisparitySource::Grey::unused);
-    for (const std::string& pair : config_.pairs) {
-      std::ranges::move(DisparitySource::needs(config_.depth, DisparitySource::Grey::unused, pair).cameras,
-                        std::back_inserter(needs.cameras));
-    }
-    return needs;
-  }
+  Needs do_needs() const override { return Surroundings::needs(config_); }
   std::vector<Signal> do_signals() const override {
     return {{"route_m", "m"},  {"stop_m", "m"},      {"unknown_share", ""},
             {"sky_share", ""}, {"closed_cells", ""}, {"movers", ""}};
@@ -54,7 +45,7 @@ class LocalMap final : public Module {
     const VehicleLimits& limits = setup.limits;
     clearance_ = {limits.radius_m, config_.margin_m, config_.margin_time_s};
     hull_discs_ = HullDiscs(limits);
-    // The edge of an obstacle may reach into a free voxel: who is thinner than that keeps as far from it.
+    // An obstacle may extend into a free voxel, so vehicles narrower than a voxel keep that distance.
     const double wide_m = clearance_.hull_m + clearance_.margin_m;
     route_clearance_ = {wide_m, std::min(wide_m, std::max(clearance_.hull_m + kMinMarginM, config_.voxel_m))};
     altitude_levels_ = AltitudeLevels(setup.altitude_band, route_clearance_);
@@ -97,11 +88,11 @@ class LocalMap final : public Module {
   }
 
   const LevelSlice& slice() const { return around_->slice(); }
-  ClearanceDeficit deficit(const PathState& moment, bool unknown_too) const {
-    return hull_clearance_.deficit(slice(), moment, unknown_too);
+  ClearanceDeficit deficit(const PathState& state, bool unknown_too) const {
+    return hull_clearance_.deficit(slice(), state, unknown_too);
   }
 
-  /// Plans to where something is least, clear of obstacles and, unless told otherwise, of the unknown.
+  /// Plans a path to the minimum of a function, clear of obstacles and, unless disabled, of unknown space.
   StopPlanner::Plan plan_to(const PathState& now, const StopPlanner::ToGoal& least_m, bool unknown_too = true) const {
     return planner_.choose(
         now, last_cmd_W_, [&](const PathState& m) { return deficit(m, unknown_too); },
@@ -111,7 +102,7 @@ class LocalMap final : public Module {
         least_m);
   }
 
-  /// @param mission_W  the goal as the mission names it.
+  /// @param mission_W  goal of the mission.
   Decision decide(const Observation& observation, const Eigen::Vector3d& mission_W, double t_s) {
     const NavigationState& navigation = observation.navigation;
     const Eigen::Vector2d p_W = navigation.p_WB_est.head<2>(), goal_W = observation.goal.p_WG.head<2>();
@@ -123,7 +114,7 @@ class LocalMap final : public Module {
       learned_.learn(route_, slice(), {p_W.x(), p_W.y(), around_->height_W()}, mission_W);
     }
     const auto to_goal_m = [&](const Eigen::Vector2d& at_W) { return route_.to_goal_m(at_W); };
-    hull_clearance_.turn(heading, last_nose_rad_);
+    hull_clearance_.set_turn(heading, last_nose_rad_);
     plan_ = plan_to(now, to_goal_m);
     const StopPlanner::Plan hoped = plan_to(now, to_goal_m, /*unknown_too=*/false);
 
@@ -164,25 +155,24 @@ class LocalMap final : public Module {
     return decision;
   }
 
-  /// Where even at a walking pace the way is too narrow for the margin, it is flown at that, with what is left of the
-  /// margin.
+  /// In passages that are too narrow for the margin even at walking pace, flies at walking pace with a reduced margin.
   void set_pace(const PathState& now, double heading, double height_m) {
     constexpr double kWalkMps = 1.0, kHardlyFasterMps = 1.5, kSoonM = 1.5;
     const double wide_m = clearance_.hull_m + clearance_.margin_m + clearance_.margin_s * kWalkMps;
     const bool walks = now.v_W.norm() < kHardlyFasterMps && route_.nearest_m(now.p_W, kSoonM) < wide_m;
     Clearance clearance = clearance_;
     if (walks) clearance.margin_m = route_clearance_.least_m - clearance.hull_m;
-    hull_clearance_.keep(clearance);
+    hull_clearance_.set_clearance(clearance);
     planner_ = StopPlanner(response_, std::min({max_mps_, kGroundRadps * height_m, walks ? kWalkMps : max_mps_}),
                            [this, heading](double azimuth_rad) { return around_->looks_along(azimuth_rad - heading); });
   }
 
-  /// Climbs or sinks where the mission allows it and a better way leads there, if the planned stop keeps clear of what
-  /// lies between, too.
+  /// Climbs or descends if the mission allows it, a better way exists at another level, and the planned stop is clear
+  /// of all space between.
   void change_level(const Eigen::Vector3d& goal_W, const Eigen::Vector2d& p_W, double t_s) {
     const auto may_pass = [&](const LevelSlice& between) {
-      return plan_.safe && std::ranges::all_of(plan_.path, [&](const PathState& moment) {
-               const ClearanceDeficit there = hull_clearance_.deficit(between, moment, true);
+      return plan_.safe && std::ranges::all_of(plan_.path, [&](const PathState& state) {
+               const ClearanceDeficit there = hull_clearance_.deficit(between, state, true);
                return there.occupied_m <= 0.0 && there.unknown_m <= 0.0;
              });
     };
@@ -190,24 +180,24 @@ class LocalMap final : public Module {
     if (z_W) around_->change_height(*z_W);
   }
 
-  /// Plans so that what is in the way can be seen, and closes what stays unknown while the vehicle is_hovering and
-  /// looks at it, or has looked from here and there without coming on.
+  /// Plans a path from which the blocking unknown position is visible. Closes the position if it stays unknown while
+  /// the vehicle hovers and points at it, or after observation from several positions without progress.
   void look(const PathState& now, double heading, std::optional<double> route_m) {
     constexpr double kStares = 4.0;
     const bool in_vain = progress_.stalled_s(route_m, now.t_s) > kStares * config_.stare_s;
     const std::optional<Eigen::Vector2d>& place_W = unknown_target_.place_W();
-    // Who speeds up tilts the camera, and sees something else: not for little, where there is something to look at.
+    // Acceleration tilts the camera away from the position: not worthwhile for little progress.
     if (place_W && plan_.safe && plan_.progress_m < kLittleM) {
       plan_ = plan_to(now, [&](const Eigen::Vector2d& at_W) { return (at_W - now.p_W).norm(); });
     }
-    // Away from what it cannot see because it is too near, below or beside the image: where it came from is free.
+    // Back away from a position that is too near to be in view. The space behind on the flown path is free.
     if (unknown_target_.backs_off()) {
       escape(now,
              [&](const Eigen::Vector2d& p_W) { return std::max(0.0, around_->blind_m() - (p_W - *place_W).norm()); });
     }
     const std::optional<double> inspected_s = unknown_target_.inspected_s(now, plan_.v_cmd_W, heading);
     if (!place_W || !(in_vain || (inspected_s && *inspected_s >= config_.stare_s))) return;
-    // Not what touches the vehicle, which would then not dare to move away.
+    // Do not close cells that touch the vehicle, which could then not move away.
     constexpr double kRadiusM = 1.0;
     const double away_m = (*place_W - now.p_W).norm() - clearance_.hull_m - clearance_.margin_m - slice().cell_m();
     around_->close(*place_W, std::clamp(away_m, 0.5 * slice().cell_m(), kRadiusM), now.t_s);
@@ -215,23 +205,23 @@ class LocalMap final : public Module {
     progress_.reset();
   }
 
-  /// Moves to where it may turn.
+  /// Moves to a position at which the turn is free.
   void make_room(const PathState& now, double from_rad, double to_rad) {
     HullClearance turned = hull_clearance_;
-    turned.turn(from_rad, to_rad);
+    turned.set_turn(from_rad, to_rad);
     escape(now, [&](const Eigen::Vector2d& p_W) {
       const ClearanceDeficit deficit = turned.deficit(slice(), {now.t_s, p_W, Eigen::Vector2d::Zero()}, true);
       return std::max(deficit.occupied_m, deficit.unknown_m);
     });
   }
 
-  /// Plans to where something is less, instead of to the goal; stays where there is none of it.
+  /// Plans a path that reduces a violation instead of one to the goal; holds the position if there is no violation.
   template <class Lacks>
   void escape(const PathState& now, const Lacks& lacks_m) {
     if (lacks_m(now.p_W) > 0.0 || lacks_m(plan_.path.back().p_W) > 0.0) plan_ = plan_to(now, lacks_m);
   }
 
-  /// Whether it has stood for longer than it stares.
+  /// Returns whether the vehicle has hovered for longer than the observation time.
   bool waits(const PathState& now) {
     const std::optional<double> for_s =
         waits_.update(is_hovering(now.v_W) && plan_.v_cmd_W.norm() <= kHoversMps, now.t_s);
@@ -247,13 +237,13 @@ class LocalMap final : public Module {
       return off_W.norm() > 0.1 ? std::atan2(off_W.y(), off_W.x()) : heading;
     };
     if (arrived) return observation.goal.heading_rad;
-    if (!goes_on) return heading + 0.5;  // looks round: what blocks may have been wrong, or gone
+    if (!goes_on) return heading + 0.5;  // turns: the obstacle may have been an error, or may have left
     if (unknown_target_.place_W()) return towards(*unknown_target_.place_W());
     return towards(route_.route_W(p_W, kAheadM).back());
   }
 
-  /// Turned no farther than what comes near stays in view, nor, when fast, so far that nothing is seen of what enters
-  /// the course from the other side.
+  /// Returns the heading, limited so that an approaching obstacle stays in view. At high speed it is also limited
+  /// relative to the course, so that obstacles that enter the course from the other side are visible.
   double with_course_in_view(const PathState& now, double nose_rad) const {
     constexpr double kShareOfView = 0.6, kAsideRad = 0.3, kFastMps = 3.0;
     const auto near_to = [&](const Eigen::Vector2d& along_W, double most_rad) {
@@ -280,14 +270,14 @@ class LocalMap final : public Module {
   LocalMapConfig config_;
   RouteField route_;
   Response response_;
-  double max_mps_ = 0.0;  ///< the vehicle's and the config's limit
+  double max_mps_ = 0.0;  ///< minimum of the limits of the vehicle and of the config
   StopPlanner planner_{Response{}, 0.0};
   StopPlanner::Plan plan_;
   Clearance clearance_;
   RouteClearance route_clearance_;
   HullDiscs hull_discs_;
   HullClearance hull_clearance_;
-  DeadReckoning dead_reckoning_;  ///< all positions here are by it
+  DeadReckoning dead_reckoning_;  ///< source of all positions in this class
   std::optional<Surroundings> around_;
   AltitudeLevels altitude_levels_;
   LearnedDistances learned_;

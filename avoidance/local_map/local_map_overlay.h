@@ -12,19 +12,19 @@
 
 namespace hedgehop::avoidance::local_map {
 
-/// What a film shows of a decision.
+/// Content of the video image of one decision.
 struct ShownPlan {
   const LevelSlice& slice;
   const std::vector<PathState>& path;          ///< to the planned stop
-  const std::vector<Eigen::Vector2d> route_W;  ///< hoped for
-  std::optional<Eigen::Vector2d> look_W;       ///< what is unknown and in the way
+  const std::vector<Eigen::Vector2d> route_W;  ///< assumed
+  std::optional<Eigen::Vector2d> look_W;       ///< unknown position that prevents a better stop
   const std::vector<MovingObstacle>& moving_obstacles;
   double hull_m;
   std::string status;
 };
 
-/// Draws the slice from above, north up: free light, unknown grey, occupied dark; the route thin, the planned stop
-/// green, what it waits for red, and what moves orange, with its way of a second. @return CV_8UC3, RGB.
+/// Draws the slice from above, north up: free light, unknown grey, occupied dark; the route as a thin line, the planned
+/// stop green, the unknown position red, moving obstacles orange with their motion in one second. @return CV_8UC3, RGB.
 cv::Mat draw(const ShownPlan& shown);
 
 }  // namespace hedgehop::avoidance::local_map

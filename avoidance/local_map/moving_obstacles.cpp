@@ -14,7 +14,7 @@ constexpr double kRememberedS = 2.0;
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// The convex hull, turning from x to y: Andrew's monotone chain.
+/// Returns the convex hull, in the order from x to y: Andrew's monotone chain.
 std::vector<Eigen::Vector2d> hull_of(std::vector<Eigen::Vector2d> points) {
   const auto before = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
@@ -31,27 +31,26 @@ std::vector<Eigen::Vector2d> hull_of(std::vector<Eigen::Vector2d> points) {
       }
       hull.push_back(*p);
     }
-    hull.pop_back();  // the other chain's first
+    hull.pop_back();  // first point of the other chain
   };
   chain(points.begin(), points.end());
   chain(points.rbegin(), points.rend());
   return hull;
 }
 
-constexpr double kMaxRadiusM = 5.0;        // radius of a cluster that is followed: what is larger is a wall
-constexpr double kDeepSigmas = 4.0;        // of depth, by which a cluster may seem deeper than it is
-constexpr double kAccelerationMps2 = 1.0;  // 1-sigma of what a obstacle's velocity changes by
-constexpr double kFirstSpeedMps = 2.0;     // 1-sigma of a velocity before anything is known of it
-constexpr int kAppeared = 2;               // points of a cluster where free space was, at least
+constexpr double kMaxRadiusM = 5.0;        // maximum radius of a tracked cluster; a larger one is a wall
+constexpr double kDeepSigmas = 4.0;        // sigmas of depth by which a cluster may appear deeper than it is
+constexpr double kAccelerationMps2 = 1.0;  // 1-sigma acceleration of an obstacle
+constexpr double kFirstSpeedMps = 2.0;     // 1-sigma velocity of a new track
+constexpr int kAppeared = 2;               // minimum number of points in space that was free
 constexpr double kAppearedShare = 0.1;
 constexpr int kEvidence = 3, kMaxEvidence = 6;
 constexpr double kMinSpeedMps = 0.25, kSigmas = 3.0, kMovesSigmas = 2.0;
-constexpr double kStillMps = 0.12, kStillSigmas = 1.0;  // below, what moved is taken to stand
-constexpr double kShrinks = 0.1;                        // of a radius, an image, towards a smaller one that is seen
-constexpr double kHiddenM = 5.0;                        // 1-sigma along the sight, where the near surface is not seen
-constexpr double kHidesM =
-    1.0;  // what is nearer than this beyond the nearest depth may hide some of its surface already
-constexpr double kLostM = 1.5;  // 1-sigma of a position, beyond which a track would take up whatever comes by
+constexpr double kStillMps = 0.12, kStillSigmas = 1.0;  // below these limits an obstacle counts as static
+constexpr double kShrinks = 0.1;  // share by which the radius approaches a smaller observed one per image
+constexpr double kHiddenM = 5.0;  // 1-sigma error along the line of sight if the near surface is hidden
+constexpr double kHidesM = 1.0;   // margin beyond the minimum depth within which part of the surface may be hidden
+constexpr double kLostM = 1.5;    // maximum 1-sigma position error; above it a track would adopt any cluster
 
 }  // namespace
 
@@ -88,7 +87,7 @@ double away_m(std::span<const Eigen::Vector2d> convex, const Eigen::Vector2d& p)
 
 std::vector<MovingObstacleTracker::Cluster> MovingObstacleTracker::clusters_of(
     const ViewSector& view, std::span<const SurfacePoint> points) const {
-  // Cells of twice the spacing; those that touch belong together.
+  // Cells of twice the spacing; adjacent cells belong to one cluster.
   const double cell_m = 2.0 * config_.spacing_m;
   std::map<std::pair<int, int>, std::vector<size_t>> cells;
   for (size_t i = 0; i < points.size(); ++i) {
@@ -139,7 +138,7 @@ std::vector<MovingObstacleTracker::Cluster> MovingObstacleTracker::clusters_of(
     }
     cluster.radius_m = 0.5 * (right_m - left_m + config_.spacing_m);
     cluster.near_W = view.camera_W + near_m * cluster.sight_W + 0.5 * (left_m + right_m) * right_W;
-    // What is deeper than wide, though only its surface is seen, is a wall that is looked along.
+    // A visible surface that is deeper than wide is a wall along the line of sight.
     const double unsure_m = kDeepSigmas * config_.sigma_per_m2 * far_m * far_m + config_.spacing_m;
     const bool wall = far_m - near_m > 2.0 * cluster.radius_m + unsure_m;
     if (cluster.radius_m <= kMaxRadiusM && !wall) clusters.push_back(std::move(cluster));
@@ -147,9 +146,9 @@ std::vector<MovingObstacleTracker::Cluster> MovingObstacleTracker::clusters_of(
   return clusters;
 }
 
-/// The middle of the disc that shows a cluster: as deep as wide. Where the view cuts what was seen wider, its near
-/// surface may be out of view: then the line of sight that touches its other side tells; no farther than what is seen
-/// of it.
+/// Returns the center of the disc of a cluster, which is as deep as it is wide. If the edge of the view cuts an
+/// obstacle that was wider before, its near surface may be out of view. The line of sight that touches the other side
+/// then gives the center, limited by the distance of the visible part.
 Eigen::Vector2d MovingObstacleTracker::Cluster::middle_W(double disc_m) const {
   if (cut_left == cut_right || disc_m <= radius_m) return near_W + disc_m * sight_W;
   const Eigen::Vector2d& side_W = cut_right ? left_end_W : right_end_W;
@@ -160,7 +159,7 @@ Eigen::Vector2d MovingObstacleTracker::Cluster::middle_W(double disc_m) const {
 
 Eigen::Matrix2d MovingObstacleTracker::covariance_m2(const Eigen::Vector2d& p_W,
                                                      const Eigen::Vector2d& camera_W) const {
-  constexpr double kVoxels = 0.5;  // 1-sigma across, in voxels
+  constexpr double kVoxels = 0.5;  // 1-sigma error across the line of sight, in voxels
   const Eigen::Vector2d sight_W = p_W - camera_W;
   const double across_m = kVoxels * config_.spacing_m;
   const double along_m = config_.sigma_per_m2 * sight_W.squaredNorm();
@@ -187,7 +186,7 @@ void MovingObstacleTracker::predict(double dt_s) {
 
 void MovingObstacleTracker::correct(Track& track, const Cluster& cluster, const ViewSector& view) const {
   const bool whole = !cluster.cut_left && !cluster.cut_right;
-  // The surface that was seen stays where it is: more of it is seen, nothing has moved.
+  // The observed surface keeps its position: growth of the visible part is no motion.
   const double grows_m = cluster.radius_m > track.radius_m ? cluster.radius_m - track.radius_m
                          : whole                           ? kShrinks * (cluster.radius_m - track.radius_m)
                                                            : 0.0;
@@ -206,12 +205,12 @@ void MovingObstacleTracker::correct(Track& track, const Cluster& cluster, const 
   track.covariance -= (gain * track.covariance.topRows<2>()).eval();
   const bool appears = cluster.appeared >= kAppeared &&
                        cluster.appeared >= kAppearedShare * static_cast<double>(cluster.points_W.size());
-  // What the view cuts may show no more than the side that it leaves.
+  // A cluster that is cut by the view may show only its remaining side, which is no evidence against motion.
   const int proof = appears ? 1 : whole ? -1 : 0;
   track.evidence = std::clamp(track.evidence + proof, 0, kMaxEvidence);
   track.unseen = 0;
   track.surface.see(t_s_, cluster.points_W);
-  // Whether it stands: the Mahalanobis distance of no motion.
+  // Test for zero velocity: Mahalanobis distance of no motion.
   const Eigen::Vector2d v_W = track.state.tail<2>();
   const double sigmas = std::sqrt(v_W.dot(track.covariance.bottomRightCorner<2, 2>().inverse() * v_W));
   const bool moves = v_W.norm() > kMinSpeedMps && sigmas > kMovesSigmas;
@@ -225,7 +224,7 @@ void MovingObstacleTracker::update(double t_s, const ViewSector& view, std::span
   t_s_ = t_s;
   std::vector<Cluster> clusters = clusters_of(view, points);
   for (Track& track : tracks_) {
-    // The nearest cluster, as far as the track may have come.
+    // The nearest cluster within the uncertainty of the track.
     const auto off_of = [&](const Cluster& cluster) -> Eigen::Vector2d {
       return cluster.middle_W(std::max(track.radius_m, cluster.radius_m)) - track.state.head<2>();
     };
@@ -244,7 +243,7 @@ void MovingObstacleTracker::update(double t_s, const ViewSector& view, std::span
   std::erase_if(tracks_, [](const Track& track) {
     return track.unseen > 0 && track.covariance.diagonal().head<2>().maxCoeff() > kLostM * kLostM;
   });
-  // What is left in view of one that is too near is no other.
+  // Remaining clusters near an obstacle that is too near to be measured belong to it.
   std::erase_if(clusters, [&](const Cluster& cluster) {
     return std::ranges::any_of(tracks_, [&](const Track& track) {
       const double off_m = (cluster.near_W - track.state.head<2>()).norm();

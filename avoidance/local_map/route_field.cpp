@@ -9,9 +9,9 @@ namespace hedgehop::avoidance::local_map {
 namespace {
 
 constexpr int kStraight = 10;    // cost of a step to a neighbor, in tenths of a cell
-constexpr double kSideM = 0.8;   // how far beyond what it needs a route prefers to stay from obstacles
-constexpr int kClosePrice = 3;   // times the price where it cannot,
-constexpr int kNarrowPrice = 5;  // and where it comes nearer than it wants
+constexpr double kSideM = 0.8;   // additional distance from obstacles that a route prefers
+constexpr int kClosePrice = 3;   // factor on the cost without the additional distance
+constexpr int kNarrowPrice = 5;  // factor on the cost below the preferred distance
 
 struct Step {
   int row, col;
@@ -21,9 +21,9 @@ constexpr Step kSteps[8] = {{-1, 0, 1.0},         {1, 0, 1.0},         {0, -1, 1
                             {-1, -1, 1.41421356}, {-1, 1, 1.41421356}, {1, -1, 1.41421356}, {1, 1, 1.41421356}};
 
 constexpr double kSquareM = 3.0, kHighM = 1.2;
-constexpr int kSquares = 4;             // squares around the vehicle's own
-constexpr double kBothWaysPrice = 3.5;  // of a meter up and down again, in meters of way
-constexpr size_t kMaxSquares = 20'000;  // squares: beyond, all are forgotten
+constexpr int kSquares = 4;             // number of squares around that of the vehicle
+constexpr double kBothWaysPrice = 3.5;  // cost of a meter of climb and descent, in meters of path
+constexpr size_t kMaxSquares = 20'000;  // maximum number of squares; above it all are deleted
 
 }  // namespace
 
@@ -56,7 +56,7 @@ void RouteField::push(int cell, int cost) {
   ++waiting_;
 }
 
-/// The goal's cell or the nearest to it that may be entered; of a goal outside, all cells at the edge.
+/// Seeds the cell of the goal or the nearest cell that is not blocked; for a goal outside, all cells at the edge.
 void RouteField::seed(const Eigen::Vector2d& goal_W, const std::function<double(const Eigen::Vector2d&)>& beyond_m) {
   for (auto& bucket : buckets_) bucket.clear();
   waiting_ = 0;
@@ -86,14 +86,14 @@ void RouteField::seed(const Eigen::Vector2d& goal_W, const std::function<double(
       least_m = std::min(least_m, edge.back().second);
     }
   }
-  // Distances count from the nearest edge on, so that few buckets do; to_goal_m() adds the rest.
+  // Distances count from the nearest edge, which keeps the number of buckets small; to_goal_m() adds the rest.
   beyond_m_ = edge.empty() ? 0.0 : least_m;
   for (const auto& [cell, away_m] : edge) {
     if (std::isfinite(away_m)) push(cell, static_cast<int>(std::lround(tenths_per_m * (away_m - least_m))));
   }
 }
 
-/// Whether a diagonal step touches a cell that may not be entered: a route passes only where a plan may follow.
+/// Returns whether a diagonal step touches a blocked cell. Routes avoid such steps because plans cannot follow them.
 bool RouteField::cuts_corner(int row, int col, int rows, int cols) const {
   if (rows == 0 || cols == 0) return false;
   const int n = slice_->side();
@@ -136,8 +136,8 @@ std::optional<double> RouteField::to_goal_m(const Eigen::Vector2d& p_W) const {
   return beyond_m_ + best * slice_->cell_m() / kStraight;
 }
 
-/// From a cell that routes keep out of: the way back to where they pass, through what is not occupied. It is dear, lest
-/// it be through a gap that is too narrow.
+/// Returns the distance to the goal from a cell outside all routes: the way back to a route, through cells that are not
+/// occupied. Its cost is high, because it may lead through a gap that is too narrow.
 std::optional<double> RouteField::back_to_route_m(const Eigen::Vector2d& p_W) const {
   constexpr int kReach = 8, kSide = 2 * kReach + 1;
   constexpr double kDear = 10.0;

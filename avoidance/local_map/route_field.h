@@ -13,26 +13,26 @@
 
 namespace hedgehop::avoidance::local_map {
 
-/// How far a route stays from what is occupied: as far as wanted where it can, and nowhere nearer than the least, m.
+/// Distance of a route from occupied cells: preferred and minimum distance, m.
 struct RouteClearance {
   double preferred_m = 0.0, least_m = 0.0;
 };
 
-/// How far every cell of the slice is from the goal, through what is free or may be: [BrockKhatib1999] sec. on the
-/// global dynamic window. Unknown cells may be passed on paper, at a price; only StopPlanner decides what
-/// may be flown. Because what is seen replaces what was assumed, and stays, each visit rules something out.
+/// Distance of every cell of the slice to the goal, through free and unknown space: [BrockKhatib1999] sec. on the
+/// global dynamic window. Routes may pass unknown cells at a higher cost; only StopPlanner decides which path is flown.
+/// Observations replace assumptions and are kept, so each visit excludes some of the possible routes.
 class RouteField {
  public:
-  /// @param beyond_m  distance to the goal from a point at the slice's edge, m; used where the goal lies outside.
+  /// @param beyond_m  distance to the goal from a point at the edge of the slice, m; used if the goal is outside.
   void build(const LevelSlice& slice, const RouteClearance& route_clearance, const Eigen::Vector2d& goal_W,
              const std::function<double(const Eigen::Vector2d&)>& beyond_m);
 
-  /// Distance to the goal along the best route, m, unknown space counted kUnknownPrice times; nothing where there is
-  /// none.
+  /// Distance to the goal along the best route, m; unknown space counts kUnknownPrice times. Empty if there is no
+  /// route.
   std::optional<double> to_goal_m(const Eigen::Vector2d& p_W) const;
-  /// Points of the best route from here, a cell apart.
+  /// Points of the best route from a position, one cell apart.
   std::vector<Eigen::Vector2d> route_W(const Eigen::Vector2d& p_W, double length_m) const;
-  /// How near the best route comes to what is occupied within a length from here, m.
+  /// Minimum distance of the best route to occupied cells within a length from a position, m.
   double nearest_m(const Eigen::Vector2d& p_W, double length_m) const;
 
   static constexpr double kUnknownPrice = 1.5;
@@ -48,35 +48,35 @@ class RouteField {
 
   const LevelSlice* slice_ = nullptr;
   std::vector<int> cost_;
-  std::vector<uint8_t> price_;  ///< of a step, in tenths of a cell; 0 may not be entered
+  std::vector<uint8_t> price_;  ///< cost of a step, in tenths of a cell; 0 for blocked cells
   std::vector<std::vector<int>> buckets_;
   int waiting_ = 0;
-  double beyond_m_ = 0.0;  ///< from the nearest edge to a goal outside
+  double beyond_m_ = 0.0;  ///< distance from the nearest edge to a goal outside
 };
 
-/// How far the goal was found to be from places in the map: a lower bound, which never falls. Beyond the map a straight
-/// line is hoped for; where the map has been and found no such way, what it found counts instead. So a dead end that is
-/// larger than the map, or than its memory, looks longer at each visit, until the way round it is shorter: nothing is
-/// circled in for ever.
-/// Source: [KoenigLikhachev2006] sec. on real-time adaptive A*. Differs: distances of the whole field are learned, not
-/// of the states that a search expanded, and only of one place in each square.
+/// Distances to the goal that were found from positions in the map: lower bounds, which never decrease. Beyond the map
+/// a straight line is assumed; if the map has covered a position and found no such path, the learned distance is used
+/// instead. A dead end that is larger than the map, or than its memory, therefore becomes longer at each visit, until
+/// the way around it is shorter. This prevents endless circling.
+/// Source: [KoenigLikhachev2006] sec. on real-time adaptive A*. Differs: distances of the whole field are learned
+/// instead of the states that a search expanded, and only at one position of each square.
 class LearnedDistances {
  public:
-  /// Takes what the field says of the free places around the vehicle. Another goal forgets all.
-  /// @param p_W  of the vehicle; its z is the height of the slice. @param goal_W  as the mission names it, so that it
+  /// Stores the distances of the free positions around the vehicle. A new goal deletes all.
+  /// @param p_W  position of the vehicle; its z is the altitude of the slice. @param goal_W  goal of the mission, which
   /// stays the same from call to call.
   void learn(const RouteField& route, const LevelSlice& slice, const Eigen::Vector3d& p_W,
              const Eigen::Vector3d& goal_W);
 
-  /// Distances to the goal beyond the map: straight, or what was learned.
+  /// Returns the distances to the goal beyond the map: straight lines or learned distances.
   std::function<double(const Eigen::Vector2d&)> beyond_m(const Eigen::Vector2d& goal_W, double z_W) const {
     return [this, goal_W, z_W](const Eigen::Vector2d& edge_W) {
       return std::max((goal_W - edge_W).norm(), at_least_m(edge_W, z_W));
     };
   }
 
-  /// Distance to the goal from a place at a height, m, at least; 0 where nothing was learned. What was learned at other
-  /// heights counts too, less what it takes to climb there and back: most things stand upright.
+  /// Returns the minimum distance to the goal from a position at an altitude, m; 0 if unknown. Distances from other
+  /// altitudes count as well, minus the cost of climbing there and back, because most objects are vertical.
   double at_least_m(const Eigen::Vector2d& p_W, double z_W) const;
 
  private:

@@ -11,20 +11,21 @@ namespace hedgehop::avoidance::local_map {
 namespace {
 
 constexpr double kStepS = 0.1;
-constexpr double kHoldS = 0.4;  // how long a command is held in a plan: longer than from image to image
-constexpr std::array<double, 2> kLongHoldsS = {1.2, 2.4};  // to pass before what moves, or to flee from it
+constexpr double kHoldS = 0.4;  // duration of a command in a plan: longer than the image period
+constexpr std::array<double, 2> kLongHoldsS = {1.2,
+                                               2.4};  // for passing in front of moving obstacles, or fleeing from them
 constexpr double kStoppedMps = 0.05;
 constexpr int kDirections = 36;
 constexpr std::array<double, 6> kShares = {1.0, 0.75, 0.5, 0.35, 0.2, 0.1};
-constexpr double kImpactPriceS = 0.5;     // what speed counts for, as a distance, where a path goes and may not
-constexpr double kFleeShare = 0.3;        // what a obstacle's threat counts for there: a wall is worse
-constexpr double kTurnPriceS2pm = 0.006;  // what a change of the command counts for, as a distance, times the speed
-constexpr double kBlindMps = 2.0;         // not to be exceeded where the camera does not look,
-constexpr double kBlindPriceS = 3.0;      // and what each m/s beyond counts for, as a distance
-constexpr double kSlackM = 0.02;          // by which a path that begins too near may come nearer still
-constexpr double kFaultPrice = 10.0, kBesidePrice = 10.0, kThreatPrice = 30.0;  // of each m that is missing
+constexpr double kImpactPriceS = 0.5;     // cost of speed, as a distance, on a path with a violation
+constexpr double kFleeShare = 0.3;        // weight of the threat of moving obstacles there: a wall is worse
+constexpr double kTurnPriceS2pm = 0.006;  // cost of a change of the command, as a distance, times the speed
+constexpr double kBlindMps = 2.0;         // maximum speed in directions out of view
+constexpr double kBlindPriceS = 3.0;      // cost, as a distance, of each m/s above it
+constexpr double kSlackM = 0.02;          // additional violation that is allowed if a path begins with one
+constexpr double kFaultPrice = 10.0, kBesidePrice = 10.0, kThreatPrice = 30.0;  // per missing meter
 
-/// The best of the velocities that have been considered.
+/// The best of the velocities considered so far.
 class Search {
  public:
   using Plan = StopPlanner::Plan;
@@ -39,19 +40,18 @@ class Search {
         threat_m_(threat_m),
         to_goal_m_(to_goal_m),
         here_m_(to_goal(now.p_W)) {
-    // A vehicle that is too near already may leave by any path that comes no nearer to the same: what is occupied
-    // excuses nothing where it is unknown, and the other way round.
+    // A vehicle that violates a clearance may leave on any path that does not increase the same violation. A violation
+    // of the distance to obstacles does not excuse one of the distance to unknown space, or vice versa.
     const ClearanceDeficit fault_now = deficit(now);
     const auto most_m = [](double now_m) { return now_m > 0.0 ? now_m + kSlackM : 0.0; };
     most_ = {most_m(fault_now.occupied_m), most_m(fault_now.unknown_m)};
   }
 
-  /// @param turn_price_m  what its change of the command costs. @param blind_mps  by which it is too fast where nothing
-  /// is seen.
+  /// @param turn_price_m  cost of the change of the command. @param blind_mps  excess speed in directions out of view.
   void consider(const Eigen::Vector2d& v_cmd_W, double turn_price_m, double blind_mps) {
     std::vector<PathState> path = planner_.predict(now_, last_cmd_W_, v_cmd_W, kHoldS);
     double bad_m = excess_m(path, best_.safe ? 0.0 : least_bad_m_);
-    if (bad_m > 0.0) {  // to be flown only where nothing else is left
+    if (bad_m > 0.0) {  // flown only if no safe path exists
       if (best_.safe || bad_m >= least_bad_m_) return;
       bad_m += kFleeShare * threat_m_(path);
       if (bad_m >= least_bad_m_) return;
@@ -77,22 +77,22 @@ class Search {
     return to_goal_m_(p_W).value_or(kNoWayM);
   }
 
-  /// How far a path goes where it may not, and how fast it is there: 0 where it never does; in `beside_m_` how much
-  /// nearer to the unknown than it had better, known of paths without excess.
+  /// Returns the maximum violation of a path, increased by the speed there; 0 without a violation. Sets `beside_m_` to
+  /// the violation of the preferred distance from unknown space; it is valid for paths without excess.
   double excess_m(const std::vector<PathState>& path, double enough_m) {
     double worst_m = 0.0;
     beside_m_ = 0.0;
-    for (const PathState& moment : path) {
-      const ClearanceDeficit there = deficit_(moment);
+    for (const PathState& state : path) {
+      const ClearanceDeficit there = deficit_(state);
       beside_m_ = std::max(beside_m_, there.beside_unknown_m);
       const double past_m = std::max(there.occupied_m - most_.occupied_m, there.unknown_m - most_.unknown_m);
-      if (past_m > 0.0) worst_m = std::max(worst_m, past_m + kImpactPriceS * moment.v_W.norm());
+      if (past_m > 0.0) worst_m = std::max(worst_m, past_m + kImpactPriceS * state.v_W.norm());
       if (worst_m > enough_m) break;
     }
     return worst_m;
   }
 
-  /// A velocity is as threatened as the safest of the paths that begin with it.
+  /// Returns the minimum threat of all paths that begin with a velocity.
   double threatened_m(const Eigen::Vector2d& v_cmd_W, const std::vector<PathState>& path) {
     double least_m = threat_m_(path);
     for (const double hold_s : kLongHoldsS) {
@@ -117,11 +117,10 @@ class Search {
 };
 
 constexpr double kForeseenS = 4.0;
-constexpr double kNearM = 4.0;  // between hulls: who comes nearer is kept in view
-constexpr double kVagueMps =
-    0.7;  // 1-sigma of a velocity that may as well be none: the obstacle's place stays free, too
-constexpr double kMaxSigmaM = 1.0;  // of a position to come, that is kept free besides
-constexpr double kBesideM = 0.5;    // what is nearer is hardly matched, and a crown is no disc
+constexpr double kNearM = 4.0;      // between hulls: nearer obstacles are kept in view
+constexpr double kVagueMps = 0.7;   // 1-sigma velocity error above which the current position also stays blocked
+constexpr double kMaxSigmaM = 1.0;  // maximum growth of the disc due to the predicted position error
+constexpr double kBesideM = 0.5;    // near obstacles are hardly matched, and a tree crown is no disc
 
 }  // namespace
 
@@ -148,7 +147,7 @@ std::vector<PathState> StopPlanner::predict(const PathState& now, const Eigen::V
 StopPlanner::Plan StopPlanner::choose(const PathState& now, const Eigen::Vector2d& last_cmd_W, const DeficitAt& deficit,
                                       const Threat& threat_m, const ToGoal& to_goal_m) const {
   Search search(*this, now, last_cmd_W, deficit, threat_m, to_goal_m);
-  // Where it does not look it only remembers, and knows less well where that is.
+  // Directions out of view are known only from memory, with a less accurate position.
   const auto blind_mps = [&](const Eigen::Vector2d& v_cmd_W) {
     const double past_mps = v_cmd_W.norm() - kBlindMps;
     return past_mps > 0.0 && !looks_along_(std::atan2(v_cmd_W.y(), v_cmd_W.x())) ? past_mps : 0.0;
@@ -169,16 +168,16 @@ double threat_m(std::span<const PathState> path, std::span<const MovingObstacle>
                 const Clearance& clearance, double t_s) {
   constexpr double kStepS = 0.1;
   double worst_m = 0.0, sum_m = 0.0;
-  const auto meet = [&](const PathState& moment) {
-    const double margin_m = clearance.margin_m + clearance.margin_s * moment.v_W.norm();
+  const auto meet = [&](const PathState& state) {
+    const double margin_m = clearance.margin_m + clearance.margin_s * state.v_W.norm();
     double here_m = 0.0;
     for (const MovingObstacle& obstacle : moving_obstacles) {
-      const double dt_s = moment.t_s - t_s;
+      const double dt_s = state.t_s - t_s;
       const double sigma_m = std::min(obstacle.p_sigma_m + obstacle.v_sigma_mps * std::max(0.0, dt_s), kMaxSigmaM);
-      const Eigen::Vector2d then_W = moment.p_W - dt_s * obstacle.v_W;
+      const Eigen::Vector2d then_W = state.p_W - dt_s * obstacle.v_W;
       double from_m = (then_W - obstacle.p_W).norm() - obstacle.radius_m;
       if (obstacle.v_sigma_mps > kVagueMps)
-        from_m = std::min(from_m, (moment.p_W - obstacle.p_W).norm() - obstacle.radius_m);
+        from_m = std::min(from_m, (state.p_W - obstacle.p_W).norm() - obstacle.radius_m);
       if (!obstacle.surface_W.empty()) from_m = std::min(from_m, away_m(obstacle.surface_W, then_W));
       here_m = std::max(here_m, clearance.hull_m + margin_m + kBesideM + sigma_m - from_m);
     }
@@ -186,7 +185,7 @@ double threat_m(std::span<const PathState> path, std::span<const MovingObstacle>
     sum_m += here_m;
   };
   if (moving_obstacles.empty()) return 0.0;
-  for (const PathState& moment : path) meet(moment);
+  for (const PathState& state : path) meet(state);
   PathState stands{path.back().t_s, path.back().p_W, Eigen::Vector2d::Zero()};
   while ((stands.t_s += kStepS) < path.front().t_s + kForeseenS) meet(stands);
   return 0.5 * (worst_m + sum_m * kStepS / kForeseenS);

@@ -12,7 +12,7 @@
 
 namespace hedgehop::avoidance::local_map {
 
-/// How a vehicle follows a commanded velocity: after a delay, as a first-order lag whose acceleration is limited.
+/// Response of a vehicle to a commanded velocity: a delay and a first-order lag with limited acceleration.
 struct Response {
   double delay_s = 0.2;          ///< from an image to the first effect of its command, >= 0
   double lag_s = 0.5;            ///< > 0
@@ -20,61 +20,61 @@ struct Response {
   double braking_mps2 = 1.5;     ///< > 0
 };
 
-/// What must be kept free.
+/// Required clearance.
 struct Clearance {
   double hull_m = 0.5;     ///< radius of the vehicle, >= 0
-  double margin_m = 0.25;  ///< beside it from obstacles, >= 0
-  double margin_s = 0.1;   ///< and per speed, >= 0
+  double margin_m = 0.25;  ///< additional distance from obstacles, >= 0
+  double margin_s = 0.1;   ///< additional distance per speed, >= 0
 };
 
-/// Position and time of a planned stop.
+/// Time, position and velocity on a planned path.
 struct PathState {
   double t_s;
   Eigen::Vector2d p_W, v_W;
 };
 
-/// By how much a moment of a path lacks distance from what is occupied and from what is unknown, m; 0 where it does
-/// not.
+/// Missing distance of a state of a path from occupied and from unknown space, m; 0 if none is missing.
 struct ClearanceDeficit {
   double occupied_m = 0.0, unknown_m = 0.0;
-  double beside_unknown_m = 0.0;  ///< of what it had better keep from the unknown, and need not
+  double beside_unknown_m = 0.0;  ///< missing distance from unknown space that is preferred but not required
 };
 
-/// Chooses the velocity to command: the one whose stop lies nearest to the goal, among those after which the vehicle,
-/// should it brake then, stays to its full stop in space seen to be free.
-/// - Velocities are searched, and those that could not stop in time not admitted: [Fox1997] sec. on the dynamic window.
-/// - A full stop within known free space is planned at every moment, the rule that [Tordesillas2019] sec. I and
-///   [Lopez2017] sec. I start from.
-/// Differs: the former admits arcs free of obstacles, unknown counted as free; the latter flies faster, into the
-/// unknown as long as a safe trajectory branches off. Ours never plans beyond what it has seen.
+/// Chooses the velocity to command. After every admissible velocity the vehicle can brake to a full stop within space
+/// that was observed as free. Of these, the planner takes the one whose stop is nearest to the goal.
+/// - Velocities are sampled, and those that do not allow a timely stop are rejected: [Fox1997] sec. on the dynamic
+/// window.
+/// - A full stop within known free space is planned at every step, the rule from which [Tordesillas2019] sec. I and
+/// [Lopez2017] sec. I start.
+/// Differs: the former admits arcs free of obstacles and treats unknown space as free; the latter flies faster, into
+/// unknown space, if a safe trajectory branches off. This planner never plans beyond observed space.
 class StopPlanner {
  public:
   struct Plan {
     Eigen::Vector2d v_cmd_W = Eigen::Vector2d::Zero();  ///< m/s
-    bool safe = false;                                  ///< a stop within what is allowed exists
-    double progress_m = 0.0;                            ///< how much nearer to the goal it stops than the vehicle is
-    std::vector<PathState> path;                        ///< up to the stop
+    bool safe = false;                                  ///< whether a stop within the required clearance exists
+    double progress_m = 0.0;      ///< reduction of the distance to the goal from the current position to the stop
+    std::vector<PathState> path;  ///< up to the stop
   };
-  /// What is wrong at a moment of a path.
+  /// Returns the missing clearance of a state of a path.
   using DeficitAt = std::function<ClearanceDeficit(const PathState&)>;
-  /// By how much a path comes too near to what moves, at worst, m.
+  /// Returns the violation of the distance from moving obstacles by a path, m.
   using Threat = std::function<double(const std::vector<PathState>&)>;
-  /// Distance to the goal along the route, m; nothing where there is none.
+  /// Returns the distance to the goal along the route, m; empty if there is no route.
   using ToGoal = std::function<std::optional<double>(const Eigen::Vector2d&)>;
 
-  /// Whether images show what lies in a direction. @param azimuth_rad  from north to east.
+  /// Returns whether images show a direction. @param azimuth_rad  from north to east.
   using LooksAlong = std::function<bool(double)>;
 
   StopPlanner(
       const Response& response, double speed_mps, LooksAlong looks_along = [](double) { return true; })
       : response_(response), speed_mps_(speed_mps), looks_along_(std::move(looks_along)) {}
 
-  /// @param now  position and velocity when the image was taken. @param last_cmd_W  what is being obeyed still.
-  /// What moves is got away from as far as it can be: no stop is safe from it.
+  /// Returns the best plan. It maximizes separation from moving obstacles, because no stop is safe from them.
+  /// @param now  position and velocity at the time of the image. @param last_cmd_W  command that is still in effect.
   Plan choose(const PathState& now, const Eigen::Vector2d& last_cmd_W, const DeficitAt& deficit, const Threat& threat_m,
               const ToGoal& to_goal_m) const;
 
-  /// The path that a command leads to when it is held for `hold_s` and the vehicle then brakes.
+  /// Returns the path of a command that is held for `hold_s` before the vehicle brakes.
   std::vector<PathState> predict(const PathState& now, const Eigen::Vector2d& last_cmd_W,
                                  const Eigen::Vector2d& v_cmd_W, double hold_s) const;
 
@@ -84,18 +84,19 @@ class StopPlanner {
   LooksAlong looks_along_;
 };
 
-/// By how much a path comes nearer to moving_obstacles than it should, m: the mean of the worst and of the mean over 4
-/// s, so that of two that begin as near the one that leaves is better; 0 where it never does. A obstacle forbids what
-/// leads into the disc where it will be, its velocity being known: velocity obstacles, [FioriniShiller1998] sec. 3.
-/// Differs: paths bend and end in a stop instead of straight lines; discs grow with the error of their velocity, and
-/// stay where they are, too, while that is hardly known;
-/// motion is compared up to the path's end, and 4 s after its begin at least, the vehicle standing where it ends.
-/// @param clearance  as of what stands still. @param t_s  when the moving_obstacles are where they say.
+/// Returns the violation of the distance from moving obstacles, m; 0 if there is none. It is the mean of the maximum
+/// and of the average over 4 s, so of two paths that begin equally near, the one that leaves is better. An obstacle
+/// blocks the velocities that lead into its predicted disc: velocity obstacles, [FioriniShiller1998] sec. 3.
+/// Differs: paths are curved and end in a stop instead of straight lines. Discs grow with the error of their velocity.
+/// If the velocity is hardly known, the current position of the obstacle also remains blocked. Motion is compared up to
+/// the end of the path and for at least 4 s; the vehicle hovers at the end of the path.
+/// @param clearance  as for static obstacles. @param t_s  time of the states of the moving obstacles.
 double threat_m(std::span<const PathState> path, std::span<const MovingObstacle> moving_obstacles,
                 const Clearance& clearance, double t_s);
 
-/// The obstacle that comes nearest in the next 4 s, should both keep their velocities; none where that is not near.
-/// @param now  of the vehicle, when the moving_obstacles are where they say. @param hull_m  the vehicle's radius.
+/// Returns the obstacle with the minimum distance in the next 4 s at constant velocities; null if no obstacle comes
+/// near.
+/// @param now  state of the vehicle at the time of the obstacles. @param hull_m  radius of the vehicle.
 const MovingObstacle* nearest_approaching(const PathState& now, std::span<const MovingObstacle> moving_obstacles,
                                           double hull_m);
 

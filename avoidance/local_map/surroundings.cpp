@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "avoidance/heading.h"
@@ -13,12 +14,12 @@ namespace {
 using stereo::DisparitySource;
 using vision::mapping::OccupancyMap;
 
-constexpr int kLayers = 12, kLayersOfLevels = 32;  // of the map, at one height and where the mission leaves the choice
-constexpr double kFadeSteps = 5.0;                 // steps that free space is from unknown, at most
-constexpr double kLevelM = 0.3;                    // above and below the vehicle's own height: altitude is held to this
+constexpr int kLayers = 12, kLayersOfLevels = 32;  // layers of the map with one altitude, and with an altitude band
+constexpr double kFadeSteps = 5.0;                 // maximum number of steps from free to unknown
+constexpr double kLevelM = 0.3;                    // accuracy of the altitude control, above and below
 
 HeightRange hull_of(const VehicleLimits& limits) {
-  constexpr double kHalfHeightM = 0.2;  // of a vehicle whose hull_discs nobody gave
+  constexpr double kHalfHeightM = 0.2;  // of a vehicle without boxes
   HeightRange hull{-kHalfHeightM, kHalfHeightM};
   for (const Eigen::AlignedBox3d& part_B : limits.outline_B) {
     hull.top_m = std::min(hull.top_m, part_B.min().z());
@@ -27,7 +28,7 @@ HeightRange hull_of(const VehicleLimits& limits) {
   return hull;
 }
 
-/// The first pair, then the others.
+/// Returns the first pair, then the others.
 template <class CameraPair>
 std::vector<CameraPair> pairs_of(const LocalMapConfig& config, const Setup& setup) {
   std::vector<CameraPair> pairs;
@@ -48,6 +49,15 @@ MovingObstacleTracker::Config tracking(const LocalMapConfig& config, const visio
 
 }  // namespace
 
+Needs Surroundings::needs(const LocalMapConfig& config) {
+  Needs needs = DisparitySource::needs(config.depth, DisparitySource::Grey::unused);
+  for (const std::string& pair : config.pairs) {
+    std::ranges::move(DisparitySource::needs(config.depth, DisparitySource::Grey::unused, pair).cameras,
+                      std::back_inserter(needs.cameras));
+  }
+  return needs;
+}
+
 Surroundings::Surroundings(const LocalMapConfig& config, const Setup& setup, const HullDiscs& hull_discs)
     : config_(config),
       hull_discs_(hull_discs),
@@ -65,7 +75,7 @@ HeightRange Surroundings::band(double z_W) const {
   return {z_W + hull_.top_m - kLevelM, z_W + hull_.bottom_m + kLevelM};
 }
 
-/// Marks space around a point as free, as high as the vehicle's band.
+/// Marks the space around a point as free, over the altitude range of the vehicle.
 void Surroundings::clear(const Eigen::Vector3d& p_W, double radius_m) {
   const HeightRange tall = band(p_W.z());
   const Eigen::Vector3d middle_W(p_W.x(), p_W.y(), 0.5 * (tall.top_m + tall.bottom_m));
@@ -105,10 +115,10 @@ bool Surroundings::looks_along(double azimuth_rad) const {
   });
 }
 
-/// Puts an image into the map, what moves apart.
+/// Adds an image to the map, except for moving obstacles.
 void Surroundings::integrate(CameraPair& pair, const NavigationState& navigation, double t_s) {
   constexpr int kSameSegment16 = 32, kSpeckPx = 100;
-  constexpr double kUpright = 0.7;  // of a camera's y axis: ground below, sky above
+  constexpr double kUpright = 0.7;  // minimum z component of the y axis of a camera with ground below and sky above
   stereo::DisparitySource& source = pair.source;
   const Eigen::Isometry3d X_WC = Eigen::Translation3d(navigation.p_WB_est) * navigation.q_WB_est * source.X_BC();
   const bool matches = config_.depth == DisparitySource::From::stereo;
@@ -132,7 +142,7 @@ void Surroundings::see(const NavigationState& navigation, double t_s) {
   }
   const double heading = heading_rad(navigation.q_WB_est);
   for (const HullDiscs::Disc& disc : sweep(hull_discs_, heading, heading, config_.voxel_m)) {
-    // Of what is thinner than a voxel those that it touches, but not the wall beside it.
+    // A vehicle narrower than a voxel clears the voxels that it touches, but not an adjacent wall.
     const double touched_m = disc.radius_m + 0.5 * std::numbers::sqrt2 * config_.voxel_m;
     const double radius_m = std::max(disc.radius_m, std::min(touched_m, config_.voxel_m));
     clear(navigation.p_WB_est + Eigen::Vector3d(disc.p_H.x(), disc.p_H.y(), 0.0), radius_m);
@@ -144,7 +154,7 @@ void Surroundings::see(const NavigationState& navigation, double t_s) {
   remember_occupied(t_s);
 }
 
-/// So that routes lead round a wall that has left the map.
+/// Stores occupied cells, so that routes lead around a wall that has left the map.
 void Surroundings::remember_occupied(double t_s) {
   constexpr double kEveryS = 1.0;
   if (from_W_ || t_s < remembered_s_ + kEveryS) return;
@@ -171,7 +181,7 @@ bool Surroundings::slice_between(double from_W, double to_W, LevelSlice& slice) 
   return true;
 }
 
-/// The moving_obstacles' discs, a voxel wider, where they should be by now.
+/// Returns the discs of the moving obstacles, enlarged by a voxel, at their predicted positions.
 const std::vector<OccupancyMap::MovingDisc>& Surroundings::predicted_discs(double t_s) {
   discs_.clear();
   for (const MovingObstacle& obstacle : moving_obstacles_) {
@@ -196,7 +206,7 @@ void Surroundings::track_moving_obstacles(double t_s, const CameraPair& pair, co
   moving_obstacles_ = tracker_.moving_obstacles();
 }
 
-/// What is out of view is forgotten as fast as the position drifts: in flight, and a tenth as fast hovering.
+/// Fades space that is out of view at the rate of the position drift: in flight, and at a tenth of it while hovering.
 void Surroundings::fade(const NavigationState& navigation, double t_s) {
   constexpr double kFullMps = 1.0, kHoveringShare = 0.1;
   const double share = std::clamp(navigation.v_WB_B_est.norm() / kFullMps, kHoveringShare, 1.0);

@@ -18,52 +18,57 @@
 
 namespace hedgehop::avoidance::local_map {
 
-/// What is known around the vehicle in a flight: a map of all images, what moves through it, and the slice of both that
-/// the vehicle flies in.
+/// Knowledge of the space around the vehicle during a flight: the map of all images, moving obstacles, and the slice of
+/// both at the flight altitude.
 class Surroundings {
  public:
-  /// @param config, hull_discs  outlive it.
+  /// Returns the cameras of all pairs.
+  static Needs needs(const LocalMapConfig& config);
+
+  /// @param config, hull_discs  must outlive this object.
   Surroundings(const LocalMapConfig& config, const Setup& setup, const HullDiscs& hull_discs);
 
-  /// @return whether the frames hold a new image of any pair.
+  /// @return whether the frames contain a new image of any pair.
   bool take(std::span<const CameraFrame> frames);
-  /// Where the flight begins, the vehicle was put or took off: free up to where the camera sees all that it will fly
-  /// through, its width and its height.
+  /// Starts a flight. The hull and a strip ahead count as free, up to the distance at which the camera sees the full
+  /// width and height of the vehicle.
   void begin(const NavigationState& navigation);
-  /// Puts the images that were taken into the map.
+  /// Adds the taken images to the map.
   void see(const NavigationState& navigation, double t_s);
-  /// Takes what lies around a place for an obstacle.
+  /// Marks the area around a position as an obstacle.
   void close(const Eigen::Vector2d& p_W, double radius_m, double t_s) {
     closed_.close({p_W.x(), p_W.y(), height_W_}, radius_m, t_s);
   }
-  /// From now on flies at another height; until the vehicle is there, slice() holds all that lies between.
+  /// Changes the flight altitude. Until the vehicle is there, slice() contains all altitudes between.
   void change_height(double z_W) {
     from_W_ = height_W_;
     height_W_ = z_W;
   }
   bool changes_height() const { return from_W_.has_value(); }
-  /// What is known from one height to another, z in W; nothing where the map does not reach as far.
+  /// Builds the slice from one altitude to another, z in W. @return false if the map does not extend to them.
   bool slice_between(double from_W, double to_W, LevelSlice& slice) const;
 
   const LevelSlice& slice() const { return slice_; }
   const std::vector<MovingObstacle>& moving_obstacles() const { return moving_obstacles_; }
   const vision::mapping::DepthBlocks& blocks() const { return pairs_.front().blocks; }  ///< of the first pair
   size_t closed_cells() const { return closed_.size(); }
-  double height_W() const { return height_W_; }  ///< z that is flown at
-  double blind_m() const { return blind_m_; }    ///< from B, within which images do not show all that is flown through
-  /// From the middle of the first pair's images to their sides.
+  double height_W() const { return height_W_; }  ///< z of the flight altitude
+  double blind_m() const {
+    return blind_m_;
+  }  ///< distance from B within which images do not show the whole flight corridor
+  /// Angle from the center of the images of the first pair to their sides.
   double half_view_rad() const {
     const stereo::DisparitySource& source = pairs_.front().source;
     return std::atan(0.5 * source.image().width / source.geometry().focal_px);
   }
-  /// Whether any pair sees what lies in a direction, level. @param azimuth_rad  from the nose to the right.
+  /// Whether any pair shows a direction, level. @param azimuth_rad  from the nose to the right.
   bool looks_along(double azimuth_rad) const;
 
  private:
   struct CameraPair {
     stereo::DisparitySource source;
     vision::mapping::DepthBlocks blocks;
-    bool fresh = false;  ///< has taken an image that is not in the map yet
+    bool fresh = false;  ///< has an image that is not in the map yet
   };
 
   HeightRange band(double z_W) const;
@@ -78,20 +83,20 @@ class Surroundings {
   const LocalMapConfig& config_;
   const HullDiscs& hull_discs_;
   double radius_m_;                ///< of the hull
-  HeightRange hull_;               ///< heights of the hull's top and bottom, from B
+  HeightRange hull_;               ///< altitudes of the top and bottom of the hull, from B
   std::vector<CameraPair> pairs_;  ///< the first pair, then the others
   vision::mapping::OccupancyMap map_;
   LevelSlice slice_;
   ClosedCells closed_;
-  double remembered_s_ = 0.0;  ///< when what is occupied was put there last
+  double remembered_s_ = 0.0;  ///< last time at which occupied cells were stored
   MovingObstacleTracker tracker_;
-  std::vector<SurfacePoint> surface_;  ///< of the last image, at the heights that are flown through
+  std::vector<SurfacePoint> surface_;  ///< points of the last image within the altitude range
   std::vector<MovingObstacle> moving_obstacles_;
   double obstacles_at_s_ = 0.0;
   std::vector<vision::mapping::OccupancyMap::MovingDisc> discs_;
   double blind_m_ = 0.0, height_W_ = 0.0;
-  std::optional<double> from_W_;       ///< height that it comes from
-  double age_s_ = 0.0, seen_s_ = 0.0;  ///< of the map since it faded last, and when the last image came
+  std::optional<double> from_W_;       ///< previous flight altitude
+  double age_s_ = 0.0, seen_s_ = 0.0;  ///< age of the map since it last faded, and time of the last image
 };
 
 }  // namespace hedgehop::avoidance::local_map

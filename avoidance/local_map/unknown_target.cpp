@@ -36,7 +36,7 @@ bool points_at(const Eigen::Vector2d& place_W, const Eigen::Vector2d& p_W, doubl
 }
 
 double ProgressTimer::stalled_s(std::optional<double> route_m, double t_s) {
-  constexpr double kShorterM = 1.0, kLongerM = 3.0;  // another way, or what is known of it has changed
+  constexpr double kShorterM = 1.0, kLongerM = 3.0;  // changes that indicate another route or new observations
   if (route_m && (!from_m_ || *route_m < *from_m_ - kShorterM || *route_m > *from_m_ + kLongerM)) {
     from_m_ = route_m;
     since_s_ = t_s;

@@ -10,21 +10,22 @@
 
 namespace hedgehop::avoidance::local_map {
 
-/// Whether a place is within the slice, and unknown.
+/// Returns whether a position is within the slice and unknown.
 bool is_unknown(const LevelSlice& slice, const Eigen::Vector2d& p_W);
 
-/// The unknown cell nearest to where a path that ignores the unknown first comes too near to one; nothing where it
-/// never does. @param hull_m  radius of the vehicle: how far around that place is searched.
+/// Returns the unknown cell nearest to the first violation of the distance from unknown space by a path that ignores
+/// it. Empty if there is no violation. @param hull_m  radius of the vehicle: search radius.
 std::optional<Eigen::Vector2d> unknown_on_path(const LevelSlice& slice, const HullClearance& hull_clearance,
                                                const std::vector<PathState>& path, double hull_m);
 
-/// Whether the nose points at a place, within 20 degrees. @param heading_rad  of the nose, from north to east.
+/// Returns whether the nose points at a position, within 20 degrees. @param heading_rad  of the nose, from north to
+/// east.
 bool points_at(const Eigen::Vector2d& place_W, const Eigen::Vector2d& p_W, double heading_rad);
 
-/// For how long something has been so.
+/// Measures the duration of a condition.
 class ConditionTimer {
  public:
-  /// @param t_s  now, rising from call to call. @return s, 0 from the first time on; nothing where it does not hold.
+  /// @param t_s  current time, increasing from call to call. @return duration, s; empty if the condition is false.
   std::optional<double> update(bool holds, double t_s) {
     if (!holds) {
       since_s_.reset();
@@ -39,11 +40,12 @@ class ConditionTimer {
   std::optional<double> since_s_;
 };
 
-/// For how long the way to the goal has stayed as long as it is.
+/// Measures the time since the route to the goal last became shorter.
 class ProgressTimer {
  public:
-  /// @param route_m  to the goal, where there is a way. @param t_s  now, rising from call to call. @return s; 0 until
-  /// there was a way.
+  /// @param route_m  length of the route to the goal, if there is one. @param t_s  current time, increasing from call
+  /// to call.
+  /// @return s; 0 before the first route.
   double stalled_s(std::optional<double> route_m, double t_s);
   void reset() { from_m_.reset(); }
 
@@ -52,21 +54,21 @@ class ProgressTimer {
   double since_s_ = 0.0;
 };
 
-/// The unknown place that keeps the vehicle from a better stop, if one does, and to which its nose therefore turns.
+/// The unknown position that prevents a better stop. The vehicle turns its nose towards it.
 class UnknownTarget {
  public:
   /// North and east, m.
   const std::optional<Eigen::Vector2d>& place_W() const { return place_W_; }
-  /// Has stood before the place, and keeps away until it is seen or closed.
+  /// Whether the vehicle has hovered in front of the position and keeps away until it is observed or closed.
   bool backs_off() const { return backs_off_; }
 
-  /// @param held  a plan that ignored the unknown would stop at a better place: at the end of `hoped`.
+  /// @param held  whether a plan that ignores unknown space would stop at a better position: the end of `hoped`.
   /// @param hull_m  radius of the vehicle. @param heading_rad  of the nose, from north to east.
   void update(bool held, const std::vector<PathState>& hoped, const LevelSlice& slice,
               const HullClearance& hull_clearance, double hull_m, const PathState& now, double heading_rad);
 
-  /// For how long the vehicle has stood and looked at the place, s; nothing where it does not. @param v_cmd_W  what is
-  /// commanded now, m/s. @param heading_rad  of the nose, from north to east.
+  /// Returns the time for which the vehicle has hovered and pointed at the position, s; empty if it does not. @param
+  /// v_cmd_W  current command, m/s. @param heading_rad  of the nose, from north to east.
   std::optional<double> inspected_s(const PathState& now, const Eigen::Vector2d& v_cmd_W, double heading_rad);
   void restart_timer() { inspection_.reset(); }
 
@@ -76,7 +78,7 @@ class UnknownTarget {
   ConditionTimer inspection_;
 };
 
-/// Whether a velocity, m/s, is as good as none: below 0.3 m/s.
+/// Returns whether a velocity, m/s, is negligible: below 0.3 m/s.
 bool is_hovering(const Eigen::Vector2d& v_W);
 
 }  // namespace hedgehop::avoidance::local_map

@@ -85,8 +85,8 @@ TEST(HullDiscs, ALongBoomDoesNotSwingIntoTheWallThatItTurnsBeside) {
     const PointWorld::Flown flown = world.fly({});
     EXPECT_GT(flown.clearance_m, 0.0) << away_m;
     // Once turned it looks about: what counts is that it got round.
-    EXPECT_TRUE(std::ranges::any_of(flown.track, [](const auto& moment) {
-      return std::abs(std::remainder(moment.heading_rad + 0.5 * M_PI, 2.0 * M_PI)) < 0.1;
+    EXPECT_TRUE(std::ranges::any_of(flown.track, [](const auto& state) {
+      return std::abs(std::remainder(state.heading_rad + 0.5 * M_PI, 2.0 * M_PI)) < 0.1;
     })) << away_m;
   }
 }
@@ -102,7 +102,7 @@ TEST(HullClearance, KeepsASmallMarginFromWhereTheVehicleIsWithinItsCell) {
   slice.build(map, {0.1, 0.4}, closed);
   const auto lacks_m = [&](double margin_m, double north_m) {
     HullClearance hull_clearance(HullDiscs({8.0, 3.0, kHullM, {}}), {kHullM, margin_m, 0.0}, kCellM);
-    hull_clearance.turn(0.0, 0.0);
+    hull_clearance.set_turn(0.0, 0.0);
     return hull_clearance.deficit(slice, {0.0, {north_m, 0.25}, Eigen::Vector2d::Zero()}, false).occupied_m;
   };
   EXPECT_NEAR(lacks_m(0.05, 0.6), kHullM + 0.05 - 0.1, 1e-9);

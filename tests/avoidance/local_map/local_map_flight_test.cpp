@@ -48,7 +48,7 @@ TEST(LocalMapFlight, BlindItStaysInWhatIsAssumedFree) {
   world.blind_from_s = 0.0;
   const PointWorld::Flown flown = world.fly({});
   constexpr double kStripM = 4.0;  // the camera of this test sees the vehicle's height from 3 m on
-  for (const auto& moment : flown.track) ASSERT_LT((moment.p_W - world.start_W).norm(), kStripM) << moment.t_s;
+  for (const auto& state : flown.track) ASSERT_LT((state.p_W - world.start_W).norm(), kStripM) << state.t_s;
 }
 
 // It looks here and there, closes what it cannot see, and tries another way: all of that nearby.
