@@ -24,18 +24,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr size_t kMaxStripBytes = 2'500'000;  // of a page that is to stay below 10 MB; in base64 a third more
+constexpr size_t kMaxStripBytes = 2'500'000;  // limit for pages below 10 MB; base64 adds a third
 const std::set<std::string> kWordColumns = {"id",    "group",           "scenario", "status", "outcome",
                                             "cause", "trajectory_hash", "command",  "build",  "truth_used"};
 
-/// A number to six figures.
+/// Returns a number with six significant figures.
 Json six(double value) {
   if (!std::isfinite(value)) return nullptr;
   if (value == std::round(value) && std::abs(value) < 1e15) return static_cast<int64_t>(value);
   return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
 }
 
-/// The column's numbers; none when a field is a word.
+/// Returns the numbers of a column; none if a field is not a number.
 std::optional<std::vector<double>> all_numbers(const std::vector<std::string>& words) {
   std::vector<double> numbers(words.size(), NAN);
   for (size_t i = 0; i < words.size(); ++i) {
@@ -82,13 +82,13 @@ GroupSummary all_of(std::vector<FlightRecord> records) {
   return records.empty() ? GroupSummary{.group = "all flights"} : summarize(records).front();
 }
 
-/// Scenario and seed: what flights of equal orders but for their settings share.
+/// Returns a key of scenario and seed, which is equal for flights that differ in their settings only.
 std::string twin_key(const FlightRecord& record) {
   return fmt::format("{}\n{}", record.order.scenario.string(), record.order.seed);
 }
 
-/// For each flight of `now` the one of `before` with the same id, else the only one of its scenario and seed, where it
-/// is the only one in `now` too.
+/// Returns for each flight of `now` the flight of `before` with the same id, else the one with the same scenario and
+/// seed if both are unique.
 std::vector<std::optional<size_t>> partners(const std::vector<FlightRecord>& now,
                                             const std::vector<FlightRecord>& before) {
   std::map<std::string, size_t> by_id;
@@ -151,7 +151,7 @@ std::vector<FlightNotes> read_notes(const std::filesystem::path& folder, const s
         notes[i].units["metric." + name] = unit.get<std::string>();
       }
     } catch (const nlohmann::json::exception&) {
-    } catch (const std::runtime_error&) {  // a result half written: the table's word stands
+    } catch (const std::runtime_error&) {  // incomplete result.json: the table is used
     }
   }
   return notes;

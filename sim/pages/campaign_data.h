@@ -9,33 +9,35 @@
 
 namespace hedgehop::sim {
 
-/// What only a flight's own folder holds.
+/// Information on a flight that is only in the folder of the flight.
 struct FlightNotes {
   std::string why;                           ///< failure_words() of its result
   std::map<std::string, std::string> units;  ///< of columns `metric.NAME` and `check.NAME`
   bool has_report = false, has_replay = false;
 };
-/// @param folder  of the campaign.
+/// Returns the notes of all records. @param folder  of the campaign.
 std::vector<FlightNotes> read_notes(const std::filesystem::path& folder, const std::vector<FlightRecord>& records);
 
-/// The table as the page reads it, column by column: `columns` of {name, unit, is_text, values}; numbers to six
-/// figures, null where the field is empty or not finite. Columns without any value are left out.
+/// Returns the table for the page, column by column: `columns` of {name, unit, is_text, values}. Numbers have six
+/// significant figures; empty fields and values that are not finite are null. Empty columns are omitted.
 nlohmann::ordered_json columns_data(const CsvTable& table, const std::vector<FlightNotes>& notes);
 
-/// Film strips that lie in the flights' folders, as [row, JPEG in base64], the files of the first rows until they make
-/// up 2.5 MB. @param folder  of the campaign.
+/// Returns the film strips of the flights as [row, JPEG in base64], in the order of the rows, up to 2.5 MB in total.
+/// @param folder  of the campaign.
 nlohmann::ordered_json strips_data(const std::filesystem::path& folder, const std::vector<FlightRecord>& records);
 
-/// Names of the columns that a sweep varied: those between the number of the point and the status.
+/// Returns the names of the columns that a sweep varied: those between the number of the point and the status.
 std::vector<std::string> swept_columns(const FlightList& flights);
 
-/// Flights that differ by the seed alone, one row a group with its interval (95 %), and before them one of all.
-/// @param anytime  intervals that hold at any time, for flights under a stopping rule; else Wilson's.
+/// Returns one row for all flights, then one row with a 95 % interval per group of flights that differ in the seed
+/// only.
+/// @param anytime  whether the intervals are valid at any time, for flights with a stopping rule; else Wilson
+/// intervals.
 nlohmann::ordered_json groups_data(const std::vector<FlightRecord>& records, bool anytime);
 
-/// What an earlier campaign's flights did: `flights` (one a row of `now`, null where there was none), `groups` of the
-/// same name with both rates and the interval (95 %) of the rate's change, and the ids of flights that exist no longer.
-/// Flights correspond by their id, else by scenario and seed where these are unique, so that settings can be compared.
+/// Returns the comparison with an earlier campaign: `flights` (one per row of `now`; null if the earlier campaign lacks
+/// the flight), `groups` of equal name with both rates and the 95 % interval of the change, and the ids of removed
+/// flights. Flights are matched by id, else by scenario and seed if these are unique, so that settings can be compared.
 nlohmann::ordered_json against_data(const FlightList& now, const FlightList& before);
 
 }  // namespace hedgehop::sim

@@ -20,20 +20,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// All flights in one group.
+/// Returns all flights as one group.
 GroupSummary total(std::vector<FlightRecord> records) {
   for (FlightRecord& record : records) record.order.group = "all";
   return records.empty() ? GroupSummary{} : summarize(records).front();
 }
 
-/// A limit of the rate of what did not happen in n flights.
+/// Returns the upper bound of the rate of an event that did not occur in n flights.
 Json limit_without_event(int64_t n) {
   const auto flights = static_cast<double>(n);
   return {
       {"flights", n}, {"three_over_n", 3.0 / flights}, {"limit", -std::expm1(std::log1p(-kTableConfidence) / flights)}};
 }
 
-// All paths of a page together, so that any number of them stays small and quick to draw.
+// Limit for all paths of a page together, so that pages with many flights remain small and fast.
 constexpr size_t kMaxPointsOfPage = 300'000, kMaxPointsOfPath = 400, kMinPointsOfPath = 10;
 
 std::string name_of(const std::filesystem::path& folder) {
@@ -52,7 +52,7 @@ std::vector<std::optional<FlownPath>> read_paths(const std::filesystem::path& fo
   return paths;
 }
 
-/// What a search for failures left, with the paths of those it keeps; null for any other campaign.
+/// Returns the result of a search for failures with the paths of the stored failures; null for any other campaign.
 Json search_data(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(folder / "falsify.csv")) return nullptr;
   Json search = Json::parse(read_file_whole(folder / "falsify.json"));

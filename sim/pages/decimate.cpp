@@ -8,7 +8,7 @@
 namespace hedgehop::sim {
 namespace {
 
-/// Adds the rows of [begin, end) where `values` is extreme or has its first gap.
+/// Adds the rows of the minimum, the maximum and the first gap of `values` in [begin, end).
 void pick(const std::vector<double>& values, size_t begin, size_t end, std::vector<size_t>& picked) {
   size_t lowest = end, highest = end, gap = end;
   for (size_t i = begin; i < end; ++i) {

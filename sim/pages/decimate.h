@@ -7,17 +7,18 @@
 
 namespace hedgehop::sim {
 
-/// Picks the rows to draw of series that share a time axis: in each of equal stretches of rows, those where a series
-/// is smallest and largest and the first gap (not finite), and the first and last row of all. No extreme is lost.
-/// @param series  of equal length. @param max_points  >= 2; all rows are kept when there are no more.
-/// @return rising row numbers, at most max(max_points, 3 * number of series + 2) of them.
+/// Returns the rows to draw of series with a common time axis. The rows are divided into equal intervals. Each interval
+/// keeps the rows of the minimum and maximum of each series and the first row that is not finite. The first and the
+/// last row are kept, too. All extremes remain.
+/// @param series  of equal length. @param max_points  >= 2; all rows are kept if there are no more.
+/// @return row numbers in increasing order, at most max(max_points, 3 * number of series + 2) of them.
 std::vector<size_t> decimate(std::span<const std::vector<double>> series, size_t max_points);
 
-/// Picks points of a line so that no other lies farther than `tolerance_m` from the line through those; its ends stay.
-/// The tolerance is doubled until `max_points` are enough. Precise to a float's rounding of the distance from the first
-/// point.
+/// Returns a subset of the points of a line, including its ends. All other points are at most `tolerance_m` away from
+/// the new line. The tolerance is doubled until at most `max_points` remain. Distances are relative to the first point
+/// and rounded to float.
 /// @param line_NE_m  open, in order. @param tolerance_m  > 0. @param max_points  >= 2.
-/// Source: after [DouglasPeucker1973], as OpenCV does it.
+/// Source: after [DouglasPeucker1973], implemented by OpenCV.
 std::vector<Eigen::Vector2d> simplified(const std::vector<Eigen::Vector2d>& line_NE_m, double tolerance_m,
                                         size_t max_points);
 

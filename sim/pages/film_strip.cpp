@@ -20,17 +20,17 @@ namespace hedgehop::sim {
 namespace {
 
 constexpr size_t kImages = 5;
-constexpr double kApartS = 0.8;  // between two images, less in flights too short for it
+constexpr double kApartS = 0.8;  // between two images; less in short flights
 constexpr int kWidthPx = 240, kCaptionPx = 16;
-constexpr int kQuality = 70;           // of the JPEG: 30 to 60 kB a strip
-constexpr double kSameFlightM = 1e-6;  // result.json keeps every bit; two flights that part differ by far more
+constexpr int kQuality = 70;           // of the JPEG: 30 to 60 kB per strip
+constexpr double kSameFlightM = 1e-6;  // result.json has all digits; different flights differ by much more
 
 struct Image {
   double t_s = 0.0;
   cv::Mat rgb;  ///< kWidthPx wide
 };
 
-/// Keeps the last images of a flight, small.
+/// Keeps the last images of a flight, scaled down.
 class StripWatcher : public FlightWatcher {
  public:
   explicit StripWatcher(double rate_hz) : rate_hz_(rate_hz) {}
@@ -53,7 +53,7 @@ class StripWatcher : public FlightWatcher {
   std::deque<Image> images_;
 };
 
-/// Side by side in the order of time, each with the time left to `end_s` written below.
+/// Returns the images side by side in the order of time, each with its time before `end_s`.
 cv::Mat strip(const std::deque<Image>& images, double end_s) {
   const double apart_s = std::min(kApartS, (images.back().t_s - images.front().t_s) / static_cast<double>(kImages - 1));
   cv::Mat sheet;
@@ -74,7 +74,7 @@ cv::Mat strip(const std::deque<Image>& images, double end_s) {
   return sheet;
 }
 
-/// Throws std::runtime_error with the reason why there is no strip.
+/// Returns the strip. Throws std::runtime_error with the reason if there is none.
 void write_film_strip(const std::filesystem::path& flight) {
   const nlohmann::ordered_json result = read_result(flight / "result.json");
   const nlohmann::ordered_json& closest = result.at("closest_obstacle");
@@ -87,10 +87,11 @@ void write_film_strip(const std::filesystem::path& flight) {
   const FlightResult again = Simulation(std::move(loaded), &watcher).run().result;
   const double clearance_m = again.closest_obstacle.distance_m;
   if (!closest.is_null() && std::abs(clearance_m - closest.at("distance_m").get<double>()) > kSameFlightM) {
-    throw std::runtime_error(fmt::format("flown again, it came within {:.6f} m of an obstacle instead of {:.6f} m",
-                                         clearance_m, closest.at("distance_m").get<double>()));
+    throw std::runtime_error(
+        fmt::format("minimum clearance of the re-simulated flight is {:.6f} m, of the recorded one {:.6f} m",
+                    clearance_m, closest.at("distance_m").get<double>()));
   }
-  if (watcher.images().empty()) throw std::runtime_error("no camera has drawn an image");
+  if (watcher.images().empty()) throw std::runtime_error("no camera image was rendered");
   write_file_whole(flight / "strip.jpg", jpeg_of(strip(watcher.images(), end_s), kQuality));
 }
 
@@ -129,7 +130,7 @@ std::vector<std::string> write_film_strips(const std::filesystem::path& folder,
     on_begin(id);
     try {
       write_film_strip(folder / id);
-    } catch (const std::exception& error) {  // one flight's trouble must not take the others' strips
+    } catch (const std::exception& error) {  // the other flights must still get their strips
       without.push_back(fmt::format("{}: no film strip: {}", id, error.what()));
     }
   }

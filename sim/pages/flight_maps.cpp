@@ -16,25 +16,25 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kPathToleranceM = 0.05;     // less than a line's width on any map
-constexpr double kOutlineToleranceM = 0.02;  // as much less than a trunk's radius
-constexpr size_t kMaxScenes = 24;            // each takes up to a second to make
+constexpr double kPathToleranceM = 0.05;     // less than the width of a line on any map
+constexpr double kOutlineToleranceM = 0.02;  // less than the radius of a trunk
+constexpr size_t kMaxScenes = 24;            // each takes up to one second
 constexpr size_t kTriedSeeds = 8;
-constexpr size_t kMaxMapBytes = 3'000'000;  // of a page that is to stay below 10 MB
+constexpr size_t kMaxMapBytes = 3'000'000;  // limit for pages below 10 MB
 
-/// Two configurations are the same when this is.
+/// Returns a key that is equal for equal configurations.
 std::string config_key(const scenes::SceneConfig& scene) {
   Scenario only;
   only.scene = scene;
   return to_yaml(only);
 }
 
-/// Equal for scenes whose maps are equal.
+/// Returns a key that is equal for scenes with equal maps.
 std::string plan_key(const ScenePlan& plan) { return plan_data(plan, 0.0, 0.0).dump(); }
 
-/// Round bodies have outlines finer than many maps can afford.
+/// Simplifies the outlines of round bodies, because a page may have many maps.
 void coarsen(ScenePlan& plan) {
-  for (Footprint& footprint : plan.footprints) {
+  for (SolidOutline& footprint : plan.outlines) {
     std::vector<Eigen::Vector2d>& corners = footprint.corners_NE_m;
     if (corners.size() > 8) corners = simplified(corners, kOutlineToleranceM, corners.size());
   }
@@ -45,12 +45,12 @@ struct SeededFlights {
   std::vector<size_t> flights;
 };
 
-/// Makes plans and finds equal ones.
+/// Makes the plans of scenes and reuses equal ones.
 class PlanMaker {
  public:
   explicit PlanMaker(std::vector<ScenePlan>& plans) : plans_(plans) {}
 
-  /// Index of the plan; none when there have been enough.
+  /// Returns the index of the plan; none if the limit is reached.
   std::optional<size_t> make(const scenes::SceneConfig& config, uint64_t seed) {
     if (made_ == kMaxScenes || bytes_ > kMaxMapBytes) return {};
     ++made_;
@@ -100,7 +100,7 @@ std::optional<FlownPath> read_path(const std::filesystem::path& flight_folder, u
       path.highest_m = -*std::ranges::min_element(down);
     }
     return path;
-  } catch (const std::runtime_error&) {  // InputError too: a folder that is gone or half written is no flight
+  } catch (const std::runtime_error&) {  // also InputError: a missing or incomplete folder has no path
     return {};
   }
 }

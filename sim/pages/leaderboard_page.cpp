@@ -20,9 +20,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kLeaderboardFile = "leaderboard.json";  // in the batch's folder
+constexpr const char* kLeaderboardFile = "leaderboard.json";  // in the folder of the batch
 
-/// Median of a column over some rows, fields that are empty left out.
+/// Returns the median of a column over some rows, without empty fields.
 double median_of(const CsvTable& table, const std::string& column, const std::vector<size_t>& rows) {
   if (std::ranges::find(table.names(), column) == table.names().end()) return std::nan("");
   const std::vector<double> all = table.numbers(column);
@@ -33,14 +33,14 @@ double median_of(const CsvTable& table, const std::string& column, const std::ve
   return median(some);
 }
 
-/// What the flights of some groups show; only how many had no checks, or nothing, where that is all there is.
+/// Returns the figures of some groups. Without checks: only the number of flights. Without flights: an empty object.
 Json figures(const FlightList& flights, const std::set<std::string>& groups) {
   std::vector<FlightRecord> records;
   std::vector<size_t> rows;
   for (size_t i = 0; i < flights.records.size(); ++i) {
     if (!groups.contains(flights.records[i].order.group)) continue;
     records.push_back(flights.records[i]);
-    records.back().order.group.clear();  // one group of them all
+    records.back().order.group.clear();  // one group for all
     rows.push_back(i);
   }
   Json data = Json::object();
@@ -73,7 +73,7 @@ Json cell_data(const Json& cell, const FlightList& flights) {
   return data;
 }
 
-/// A module's flights in all worlds together.
+/// Returns the figures of a module over all worlds.
 Json total_data(const Json& module, const Json& cells, const FlightList& flights) {
   std::set<std::string> groups;
   int64_t worlds = 0;
@@ -87,13 +87,13 @@ Json total_data(const Json& module, const Json& cells, const FlightList& flights
   return data;
 }
 
-/// The build, in the first line those of the flights where there are several, and the truth that was used.
+/// Returns lines with the builds of the flights if there are several, the build, and the truth used.
 std::string origin_words(const std::vector<FlightRecord>& records) {
   return fmt::format("{}Build {}, Hedgehop {}\n{}", several_builds_words(records), build_identity(), version(),
                      truth_words(records));
 }
 
-/// NaN when no module but the control has flown there.
+/// Returns the difficulty of a world; NaN if no module except the control has flown there.
 double difficulty(const Json& world, const Json& modules, const Json& cells) {
   double sum = 0.0, count = 0.0;
   for (const Json& cell : cells) {
@@ -138,7 +138,7 @@ std::string matrix_text(const Json& data) {
   return text + "\n";
 }
 
-/// Collisions against speed, all worlds of a module together.
+/// Returns the table of collisions and speed of each module over all worlds.
 std::string totals_text(const Json& data) {
   std::string text =
       "| module, all worlds | worlds | flights | passed | collided | 95 % interval of collisions | speed, m/s |\n"
@@ -176,7 +176,7 @@ std::string rows_text(const Json& data) {
   return text;
 }
 
-/// One line for each module and reason.
+/// Returns one line for each module and reason.
 std::string reasons_text(const Json& data) {
   std::string text;
   std::set<std::string> listed;
@@ -230,7 +230,7 @@ Json leaderboard_data(const std::filesystem::path& folder, const FlightList& fli
     for (Json& world : data["worlds"]) {
       world["difficulty"] = json_number(difficulty(world.at("name"), data["modules"], data["cells"]));
     }
-    // Worlds of equal difficulty stay in the campaign's order; what nobody has flown in comes last.
+    // Worlds of equal difficulty keep the order of the campaign. Worlds without flights are last.
     const auto key = [](const Json& world) {
       return world.at("difficulty").is_number() ? world.at("difficulty").get<double>() : 2.0;
     };

@@ -15,7 +15,7 @@ using Values = std::vector<double>;
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr std::string_view kTruthNote = "true: known to the simulator only";
 constexpr std::string_view kHeadingNote = "in the frame of the true heading; true: known to the simulator only";
-/// Clearances beyond this are no danger to a flight; the plot ends there.
+/// Upper end of the clearance plot. Larger clearances are no danger.
 constexpr double kClearanceShownM = 20.0;
 
 template <class Function>
@@ -33,7 +33,7 @@ Values scaled(Values values, double factor) {
   return values;
 }
 
-/// Components of a horizontal vector along and across a heading.
+/// Returns the components of a horizontal vector along and across a heading.
 std::pair<Values, Values> along_across(const Values& north, const Values& east, const Values& yaw_rad) {
   Values along(north.size()), across(north.size());
   for (size_t i = 0; i < north.size(); ++i) {
@@ -44,7 +44,7 @@ std::pair<Values, Values> along_across(const Values& north, const Values& east, 
   return {along, across};
 }
 
-/// Headings without jumps of a whole turn: each is the one nearest to `reference`, or to the value before.
+/// Returns headings without jumps of 2 pi: each is the value closest to `reference`, or to the previous value.
 Values unwrapped(Values yaw_rad, const Values* reference = nullptr) {
   double before = NAN;
   for (size_t i = 0; i < yaw_rad.size(); ++i) {
@@ -55,7 +55,7 @@ Values unwrapped(Values yaw_rad, const Values* reference = nullptr) {
   return yaw_rad;
 }
 
-/// Reads columns of the trajectory and makes panels over its time axis.
+/// Reads columns of the trajectory and makes panels over time.
 class TrajectoryPanels {
  public:
   explicit TrajectoryPanels(const ColumnTable& table) : table_(table), t_s_(column("t_s")) {}
@@ -140,7 +140,7 @@ void add_aircraft(TrajectoryPanels& p) {
 }
 
 void add_navigation(TrajectoryPanels& p) {
-  constexpr std::string_view kNote = "estimate less truth; truth is known to the simulator only";
+  constexpr std::string_view kNote = "estimate minus truth; the truth is known to the simulator only";
   const Values yaw = p.column("yaw_rad");
   const auto [u, v] = along_across(difference(p.column("est_v_north_mps"), p.column("v_north_mps")),
                                    difference(p.column("est_v_east_mps"), p.column("v_east_mps")), yaw);
@@ -155,7 +155,7 @@ void add_navigation(TrajectoryPanels& p) {
 struct Unit {
   std::string_view suffix, unit;
 };
-/// Longest first, so that `_mps2` is not read as something of seconds.
+/// Longest first, so that `_mps2` is not read as `_s`.
 constexpr std::array<Unit, 17> kUnits = {{{"_radps2", "rad/s²"},
                                           {"_radps", "rad/s"},
                                           {"_degps", "deg/s"},
@@ -175,7 +175,7 @@ constexpr std::array<Unit, 17> kUnits = {{{"_radps2", "rad/s²"},
                                           {"_s", "s"}}};
 constexpr std::array<std::string_view, 6> kCameras = {"left", "right", "front", "rear", "aft", "down"};
 
-/// The parts of a signal's name: "flow_left_radps" is the flow of "left" in rad/s.
+/// The parts of the name of a signal: "flow_left_radps" is the flow of "left" in rad/s.
 struct SignalName {
   std::string group, label, role;
   std::string_view unit;
@@ -207,8 +207,8 @@ std::string group_title(std::string_view group) {
   return title;
 }
 
-/// Moves words with which all labels begin into the title: "valid: share left, share right" is "valid share: left,
-/// right". A signal alone gives its whole label.
+/// Moves the common first words of all labels into the title: "valid: share left, share right" becomes "valid share:
+/// left, right". A single signal moves its whole label.
 void move_common_words(Panel& panel) {
   std::vector<Series>& series = panel.series;
   if (series.size() == 1) {

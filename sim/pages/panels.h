@@ -13,11 +13,12 @@ namespace hedgehop::sim {
 /// One line of a time plot.
 struct Series {
   std::string label;
-  std::string role;  ///< decides its look: "true", "est", "cmd", a camera's name, or "" for the next free color
+  std::string
+      role;  ///< selects its color and width: "true", "est", "cmd", a camera's name, or "" for the next free color
   std::vector<double> values;
 };
 
-/// A level a quantity should keep to.
+/// A limit that is drawn as a line.
 struct Limit {
   std::string label;
   double value = 0.0;
@@ -26,26 +27,26 @@ struct Limit {
 /// One time plot: series over a common time axis.
 struct Panel {
   std::string section, title, unit;
-  std::string note;  ///< one line below the title, may be empty
+  std::string note;  ///< one line below the title, or empty
   std::vector<double> t_s;
   std::vector<Series> series;
-  std::optional<double> lowest, highest;  ///< fixed ends of the axis, in the unit; else they follow the data
+  std::optional<double> lowest, highest;  ///< fixed ends of the axis, in the unit; else the range of the data
   std::vector<Limit> limits;
 };
 
-/// Sections of a report, in order.
+/// The sections of a report, in order.
 inline constexpr std::string_view kMotionSection = "Command and motion";
-inline constexpr std::string_view kModuleSection = "What the module saw";
+inline constexpr std::string_view kModuleSection = "Module signals";
 inline constexpr std::string_view kAircraftSection = "Aircraft";
 inline constexpr std::string_view kNavigationSection = "Navigation error";
 inline constexpr std::array kSections = {kMotionSection, kModuleSection, kAircraftSection, kNavigationSection};
 
-/// Time plots of trajectory.csv, as in [Garratt2009] fig. 6 and beyond. Velocities are along and across the true
-/// heading. @param clearance_limits  drawn into the clearance plot.
+/// Returns the time plots of trajectory.csv, including those of [Garratt2009] fig. 6. Velocities are along and across
+/// the true heading. @param clearance_limits  for the clearance plot.
 std::vector<Panel> trajectory_panels(const ColumnTable& trajectory, const std::vector<Limit>& clearance_limits);
 
-/// Time plots of the module's signals in decisions.csv, as in [Garratt2009] fig. 7: one for all signals whose names
-/// share the first word and the unit ("flow_left_radps", "flow_right_radps"). The unit is read from the name's end.
+/// Returns the time plots of the module's signals in decisions.csv, as in [Garratt2009] fig. 7: one plot for all
+/// signals with equal first word and unit ("flow_left_radps", "flow_right_radps"). The unit is the end of the name.
 std::vector<Panel> signal_panels(const ColumnTable& decisions);
 
 }  // namespace hedgehop::sim

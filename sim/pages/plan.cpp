@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Corners of a body whose hull in the plan is the solid's; of round bodies, points evenly round their outlines.
+// Corners of a body with the plan outline of the solid; for round bodies, evenly spaced points of the outline.
 std::vector<Eigen::Vector3d> corners_W(const scenes::Solid& solid) {
   using Shape = scenes::Solid::Shape;
   std::vector<Eigen::Vector3d> corners;
@@ -39,7 +39,7 @@ std::vector<Eigen::Vector3d> corners_W(const scenes::Solid& solid) {
   return corners;
 }
 
-Footprint footprint(const scenes::Solid& solid) {
+SolidOutline footprint(const scenes::Solid& solid) {
   std::vector<cv::Point2f> corners;
   for (const Eigen::Vector3d& p_W : corners_W(solid)) {
     corners.emplace_back(static_cast<float>(p_W.x()), static_cast<float>(p_W.y()));
@@ -48,21 +48,21 @@ Footprint footprint(const scenes::Solid& solid) {
   std::vector<cv::Point2f> outline;
   cv::convexHull(corners, outline);
 
-  Footprint result{.name = solid.name, .bottom_m = -box_W.max().z(), .top_m = -box_W.min().z()};
+  SolidOutline result{.name = solid.name, .bottom_m = -box_W.max().z(), .top_m = -box_W.min().z()};
   for (const cv::Point2f& p : outline) result.corners_NE_m.emplace_back(p.x, p.y);
   return result;
 }
 
-/// How far above or below the flown band a solid may lie and still be drawn as an obstacle: a vehicle's half height.
+/// Maximum vertical distance of a solid at flight altitude from the flown altitudes: half the height of a vehicle.
 constexpr double kLevelMarginM = 1.0;
 
-const char* word(Level level) {
-  switch (level) {
-    case Level::below:
+const char* word(AltitudeRelation relation) {
+  switch (relation) {
+    case AltitudeRelation::below:
       return "below";
-    case Level::beside:
-      return "beside";
-    case Level::above:
+    case AltitudeRelation::at_altitude:
+      return "at_altitude";
+    case AltitudeRelation::above:
       return "above";
   }
   return "";
@@ -70,8 +70,8 @@ const char* word(Level level) {
 
 }  // namespace
 
-std::vector<Footprint> footprints(const std::vector<scenes::Solid>& solids) {
-  std::vector<Footprint> result;
+std::vector<SolidOutline> solid_outlines(const std::vector<scenes::Solid>& solids) {
+  std::vector<SolidOutline> result;
   result.reserve(solids.size());
   std::ranges::transform(solids, std::back_inserter(result), footprint);
   return result;
@@ -83,7 +83,7 @@ std::vector<MoverPath> mover_paths(const std::vector<scenes::Mover>& movers) {
     MoverPath& path = paths.emplace_back(MoverPath{.name = mover.name});
     for (const Eigen::Vector3d& corner_W : scenes::path_W(mover.motion))
       path.corners_NE_m.push_back(corner_W.head<2>());
-    for (const Footprint& part : footprints(mover.solids)) {
+    for (const SolidOutline& part : solid_outlines(mover.solids)) {
       for (const Eigen::Vector2d& corner : part.corners_NE_m) path.radius_m = std::max(path.radius_m, corner.norm());
     }
   }
@@ -91,13 +91,13 @@ std::vector<MoverPath> mover_paths(const std::vector<scenes::Mover>& movers) {
 }
 
 ScenePlan scene_plan(const scenes::Scene& scene) {
-  return {footprints(scene.solids), mover_paths(scene.movers), scene.bounds_NE_m};
+  return {solid_outlines(scene.solids), mover_paths(scene.movers), scene.bounds_NE_m};
 }
 
-Level level(const Footprint& footprint, double lowest_m, double highest_m, double margin_m) {
-  if (footprint.top_m < lowest_m - margin_m) return Level::below;
-  if (footprint.bottom_m > highest_m + margin_m) return Level::above;
-  return Level::beside;
+AltitudeRelation altitude_relation(const SolidOutline& footprint, double lowest_m, double highest_m, double margin_m) {
+  if (footprint.top_m < lowest_m - margin_m) return AltitudeRelation::below;
+  if (footprint.bottom_m > highest_m + margin_m) return AltitudeRelation::above;
+  return AltitudeRelation::at_altitude;
 }
 
 nlohmann::ordered_json plan_data(const ScenePlan& plan, double lowest_m, double highest_m) {
@@ -108,11 +108,11 @@ nlohmann::ordered_json plan_data(const ScenePlan& plan, double lowest_m, double 
     json["bounds"] = {milli(low.x()), milli(high.x()), milli(low.y()), milli(high.y())};
   }
   json["footprints"] = Json::array();
-  for (const Footprint& footprint : plan.footprints) {
+  for (const SolidOutline& footprint : plan.outlines) {
     Json corners = Json::array();
     for (const Eigen::Vector2d& p : footprint.corners_NE_m) corners.push_back({milli(p.x()), milli(p.y())});
     json["footprints"].push_back({{"name", footprint.name},
-                                  {"level", word(level(footprint, lowest_m, highest_m, kLevelMarginM))},
+                                  {"level", word(altitude_relation(footprint, lowest_m, highest_m, kLevelMarginM))},
                                   {"bottom", milli(footprint.bottom_m)},
                                   {"top", milli(footprint.top_m)},
                                   {"corners", corners}});

@@ -9,42 +9,44 @@
 
 namespace hedgehop::sim {
 
-/// A solid seen from above.
-struct Footprint {
+/// A solid in plan view.
+struct SolidOutline {
   std::string name;
   std::vector<Eigen::Vector2d> corners_NE_m;  ///< convex outline, north and east
   double bottom_m = 0.0, top_m = 0.0;         ///< altitudes
 };
 
-/// The outline of each solid on the plan, of any attitude. Precise to a float's rounding of the coordinates; round ones
-/// have 32 corners, a surface that of its convex hull.
-std::vector<Footprint> footprints(const std::vector<scenes::Solid>& solids);
+/// Returns the outline of each solid, of any attitude. Coordinates are rounded to float. Round solids have 32 corners;
+/// the outline of a surface is its convex hull.
+std::vector<SolidOutline> solid_outlines(const std::vector<scenes::Solid>& solids);
 
-/// The path of a mover seen from above.
+/// The path of a moving obstacle in plan view.
 struct MoverPath {
   std::string name;
-  std::vector<Eigen::Vector2d> corners_NE_m;  ///< of the path of M, in order; one when it stands still
-  double radius_m = 0.0;                      ///< nothing of the mover is farther from M's origin, in the plan
+  std::vector<Eigen::Vector2d> corners_NE_m;  ///< of the path of M, in order; one corner if it does not move
+  double radius_m = 0.0;                      ///< maximum horizontal distance of its surface from the origin of M
 };
 
-/// Where each mover of a scene goes.
+/// Returns the path of each moving obstacle.
 std::vector<MoverPath> mover_paths(const std::vector<scenes::Mover>& movers);
 
-/// A scene as maps show it.
+/// A scene on a map.
 struct ScenePlan {
-  std::vector<Footprint> footprints;
+  std::vector<SolidOutline> outlines;
   std::vector<MoverPath> movers;
   Eigen::AlignedBox2d bounds_NE_m;
 };
 ScenePlan scene_plan(const scenes::Scene& scene);
 
-/// Where a footprint lies for a flight between two altitudes: only what is beside it can be hit sideways.
-enum class Level { below, beside, above };
-/// @param margin_m  how far a solid may be off the flown band and still count as beside, >= 0.
-Level level(const Footprint& footprint, double lowest_m, double highest_m, double margin_m);
+/// Position of a solid relative to the altitudes of a flight. A level flight can collide only with solids at its
+/// altitude.
+enum class AltitudeRelation { below, at_altitude, above };
+/// @param margin_m  maximum vertical distance of a solid at flight altitude from the flown altitudes, >= 0.
+AltitudeRelation altitude_relation(const SolidOutline& outline, double lowest_m, double highest_m, double margin_m);
 
-/// What MapView (web/src/map.js) draws: `bounds` [north, north, east, east] or [], `footprints`, `movers`; places in m.
-/// @param lowest_m, highest_m  altitudes between which was flown; they decide which solids are beside the flight.
+/// Returns the data for MapView (web/src/map.js): `bounds` [north, north, east, east] or [], `footprints`, `movers`; in
+/// m.
+/// @param lowest_m, highest_m  minimum and maximum altitude of the flight, for the altitude relation of the solids.
 nlohmann::ordered_json plan_data(const ScenePlan& plan, double lowest_m, double highest_m);
 
 }  // namespace hedgehop::sim

@@ -12,9 +12,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMoverStepS = 0.1;  // a mover moves in a straight line between; faster turns than this are not drawn
+constexpr double kMoverStepS = 0.1;  // motion is linear in between; faster turns are not shown
 
-/// Four decimals: a tenth of a millimeter, or of a thousandth of a turn's half.
+/// Rounds to four decimals: 0.1 mm, or 1e-4 of a quaternion component.
 Json fine(double value) { return std::round(value * 1e4) / 1e4; }
 
 void append(Json& list, const Eigen::Vector3d& v) {
@@ -60,7 +60,7 @@ Json bodies(const std::vector<scenes::Solid>& solids) {
   return json;
 }
 
-/// The highest point above the middle of a body, in W.
+/// Returns the highest point above the center of a body, in W.
 Eigen::Vector3d top_W(const scenes::Solid& solid) {
   Eigen::AlignedBox3d box;
   const auto add = [&](const Eigen::Vector3d& p_S) { box.extend(solid.X_WS * p_S); };

@@ -63,7 +63,7 @@ Json plan_json(const ReportScenario& scenario, const Values& down_m) {
   return json;
 }
 
-/// Which status held at each picked row: an index into the names, -1 before the first decision.
+/// Returns the status at each row as an index of the names; -1 before the first decision.
 Json status_json(const Values& t_s, const std::vector<size_t>& rows, const ColumnTable& decisions, Json& names) {
   const Values decided_s = decisions.numbers("t_s");
   const std::vector<std::string> words = decisions.words("status");
@@ -116,10 +116,10 @@ std::vector<Limit> clearance_limits(const Json& result) {
   return limits;
 }
 
-/// A larger film stays beside the report: pages of more than this take seconds to open.
-constexpr uintmax_t kLargestFilmInside = 40'000'000;
+/// Larger films are linked, because larger pages take seconds to open.
+constexpr uintmax_t kMaxEmbeddedFilmBytes = 40'000'000;
 
-/// The name under which a choice stands in a scenario.
+/// Returns the name of a choice in a scenario.
 template <class Choice>
 std::string chosen(const Choice& choice) {
   return std::visit([](const auto& c) { return std::string(std::decay_t<decltype(c)>::kName); }, choice);
@@ -141,7 +141,7 @@ ReportScenario describe_scenario(const RunRecord& run) {
 
 std::string title(const RunRecord& run) { return run.result.value("scenario", "flight"); }
 
-/// A module's words may be no UTF-8.
+/// Returns the JSON text. Texts of a module may be invalid UTF-8.
 std::string text(const nlohmann::ordered_json& data) {
   return data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
@@ -151,7 +151,7 @@ PageFilm find_film(const std::filesystem::path& run_folder) {
   std::error_code missing;
   const uintmax_t size = std::filesystem::file_size(file, missing);
   if (missing || size == 0) return {};
-  if (size > kLargestFilmInside) return {.link = file.filename().string()};
+  if (size > kMaxEmbeddedFilmBytes) return {.link = file.filename().string()};
   return {.bytes = read_file_whole(file)};
 }
 

@@ -19,27 +19,28 @@ struct PlanGoal {
   double radius_m = 0.0;
 };
 
-/// What the report shows of the scenario.
+/// The part of the scenario that the report shows.
 struct ReportScenario {
-  std::string description, module, scene, vehicle;  ///< names of the parts that were chosen
+  std::string description, module, scene, vehicle;  ///< names of the selected parts
   std::string yaml;                                 ///< the resolved scenario
   ScenePlan plan;
   std::optional<PlanGoal> goal;
 };
 
-/// All that the report's script draws: the verdict as in result.json, the plan, the path and the time plots, each
-/// decimated to about `max_points`. Throws std::runtime_error when a table lacks a column.
+/// Returns the data of the report: the verdict as in result.json, the plan, the path and the time plots, each decimated
+/// to about `max_points`. Throws std::runtime_error if a table lacks a column.
 nlohmann::ordered_json report_data(const ReportScenario& scenario, const nlohmann::ordered_json& result,
                                    const ColumnTable& trajectory, const ColumnTable& decisions,
                                    size_t max_points = 4000);
 
-/// Writes a run's `report.html` into its folder. One file, no network; a film (`video.webm` in the folder) below 40 MB
-/// is inside it, a larger one is linked beside it. The page links `replay.html` where the folder has one.
-/// Throws std::runtime_error naming the file and the cause when a film cannot be read or the page not be written.
+/// Writes `report.html` into the folder of a run. The page needs no network. It embeds the film (`video.webm` in the
+/// folder) if the film is smaller than 40 MB, else it links the film. It links `replay.html` if the folder has one.
+/// Throws PagesAbsent, and std::runtime_error with the file and the cause if the film cannot be read or the page cannot
+/// be written.
 void write_report(const std::filesystem::path& run_folder, const RunRecord& run);
 
-/// Writes a run's `replay.html` into its folder: the flight in three dimensions, to be played in a browser without
-/// network. Throws as write_report().
+/// Writes `replay.html` into the folder of a run: the flight in three dimensions. The page needs no network.
+/// Throws as write_report().
 void write_replay(const std::filesystem::path& run_folder, const RunRecord& run);
 
 }  // namespace hedgehop::sim

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr size_t kMaxPointsOfLine = 600;  // of a line: more than a chart has pixels across
+constexpr size_t kMaxPointsOfLine = 600;  // per line: more than the pixels of a chart
 
 Json line_data(const std::string& label, bool printed, const std::vector<double>& x, const std::vector<double>& y) {
   Json line{{"label", label}, {"printed", printed}, {"x", Json::array()}, {"y", Json::array()}};
@@ -25,7 +25,7 @@ Json line_data(const std::string& label, bool printed, const std::vector<double>
   return line;
 }
 
-/// The flights of a series: all, or one seed's.
+/// Returns the flights of a series: all, or those of one seed.
 std::vector<FlightRecord> flights_of(const PaperOutcome& outcome, const std::string& name,
                                      std::optional<uint64_t> seed) {
   std::vector<FlightRecord> chosen;
@@ -49,7 +49,7 @@ class LineMaker {
       FlightFigure figure = series;
       figure.flights = {name};
       const MeasuredFigure measured = measure(figure, outcome_);
-      y.push_back(measured.complete() ? measured.value : NAN);  // of some flights alone it would flatter
+      y.push_back(measured.complete() ? measured.value : NAN);  // the value of only some flights would be biased
     }
     lines_.push_back(line_data(series.label, false, series.x, y));
   }
@@ -67,13 +67,13 @@ class LineMaker {
           y.push_back(columns[1][row]);
         }
         lines_.push_back(line_data(series.label, false, x, y));
-      } catch (const std::runtime_error&) {  // a flight that left no log has no line
+      } catch (const std::runtime_error&) {  // a flight without a log has no line
         continue;
       }
     }
   }
 
-  void operator()(const PathSeries&) {}  // drawn over a map
+  void operator()(const PathSeries&) {}  // drawn on a map
 
   void operator()(const CalculationSeries& series) {
     const Columns& columns = outcome_.calculations.at(series.calculation);
@@ -85,7 +85,7 @@ class LineMaker {
   Json& lines_;
 };
 
-/// Paths over the scene of the first flight; each path has the number of its series.
+/// Returns paths over the scene of the first flight, each with the number of its series.
 Json paths_of(const PaperChart& chart, const PaperOutcome& outcome) {
   std::vector<std::optional<FlownPath>> paths;
   Json labels = Json::array(), series_of = Json::array(), outcomes = Json::array();

@@ -9,11 +9,11 @@
 
 namespace hedgehop::sim {
 
-/// What the page draws of a paper: its rows, and its charts as lines of points or, of paths, over the scene. Flights
-/// that left no log are left out.
+/// Returns the data of a paper: its rows, and its charts as lines of points, or as paths over a scene. Flights without
+/// a log are omitted.
 nlohmann::ordered_json paper_data(const PaperOutcome& outcome, const std::vector<RowOutcome>& rows);
 
-/// One HTML text for all papers. @param papers  each as paper_data() gives it.
+/// Returns the page for all papers. @param papers  of paper_data(). Throws PagesAbsent.
 std::string reproduction_page(const nlohmann::ordered_json& papers, const PageFacts& facts);
 
 }  // namespace hedgehop::sim

@@ -22,7 +22,7 @@ Json empty_panel(const dynamics::Quantity& quantity) {
           {"series", Json::array()}};
 }
 
-/// The plot a quantity belongs to, made when it is the first of its group.
+/// Returns the plot of a quantity, and creates it for the first quantity of a group.
 Json& panel_of(Json& panels, const dynamics::Quantity& quantity) {
   for (Json& panel : panels) {
     if (panel["title"] == quantity.group && panel["unit"] == quantity.unit) return panel;

@@ -11,18 +11,18 @@
 
 namespace hedgehop::sim {
 
-/// What a page did in a headless browser; see browser.mjs.
+/// The result of a visit to a page in a headless browser, see browser.mjs.
 struct PageVisit {
-  nlohmann::json value;     ///< what the steps returned
-  nlohmann::json errors;    ///< of the console, exceptions among them
-  nlohmann::json requests;  ///< for anything but the page itself
+  nlohmann::json value;     ///< return value of the steps
+  nlohmann::json errors;    ///< of the console, including exceptions
+  nlohmann::json requests;  ///< except that for the page itself
 };
 
-/// Whether pages can be tried here: Debian's chromium is there, and the node that npm brings.
+/// Returns whether Debian's chromium and node are installed.
 inline bool has_browser() { return std::system("command -v chromium node >/dev/null 2>&1") == 0; }
 
-/// Opens a page from its file without network and runs `steps` in it, the body of an asynchronous function.
-/// Throws std::runtime_error when the browser fails.
+/// Opens a page from its file without network and runs `steps`, the body of an asynchronous function.
+/// Throws std::runtime_error if the browser fails.
 inline PageVisit visit(const std::filesystem::path& page, const std::string& steps) {
   const std::filesystem::path script = page.string() + ".steps.js", answer = page.string() + ".answer.json";
   write_file_whole(script, steps);
@@ -35,6 +35,6 @@ inline PageVisit visit(const std::filesystem::path& page, const std::string& ste
 
 }  // namespace hedgehop::sim
 
-/// Pages are tried only where there is a browser.
+/// Skips a test if there is no browser.
 #define HEDGEHOP_NEEDS_BROWSER() \
   if (!::hedgehop::sim::has_browser()) GTEST_SKIP() << "chromium is not installed (Debian: apt install chromium)"

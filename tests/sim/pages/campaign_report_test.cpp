@@ -17,7 +17,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// A sweep of made-up flights: each odd one collides, clearance and time are drawn.
+/// A sweep of synthetic flights: each odd one collides; clearance and time are random.
 std::vector<FlightRecord> made_up(int count, uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> clearance(0.1, 5.0), time(10.0, 60.0);
@@ -39,7 +39,7 @@ std::vector<FlightRecord> made_up(int count, uint64_t seed) {
   return records;
 }
 
-/// Writes their table and, for each flight, a scenario and a straight path.
+/// Writes the table of the flights and, for each flight, a scenario and a straight path.
 void write_sweep(const std::filesystem::path& folder, const std::vector<FlightRecord>& records) {
   std::filesystem::create_directories(folder);
   ExtraColumn point{.name = "point", .cells = {}}, gain{.name = "avoidance.gain", .cells = {}};
@@ -55,7 +55,7 @@ void write_sweep(const std::filesystem::path& folder, const std::vector<FlightRe
   write_file_whole(folder / "sweep.csv", csv_text(flight_table(records, {point, gain})));
 }
 
-TEST(CampaignInBrowser, OpensAloneAndSortsFiltersAndChooses) {
+TEST(CampaignInBrowser, OpensAsOneFileAndSortsFiltersAndSelects) {
   HEDGEHOP_NEEDS_BROWSER();
   const TemporaryFolder folder;
   auto records = made_up(120, 4);
@@ -106,7 +106,7 @@ TEST(CampaignInBrowser, OpensAloneAndSortsFiltersAndChooses) {
   EXPECT_EQ(page.value.at("worst"), records[static_cast<size_t>(earliest)].order.id);
 }
 
-TEST(CampaignInBrowser, FrontAndCellsAreThoseOfBruteForce) {
+TEST(CampaignInBrowser, ParetoFrontAndCellsEqualBruteForce) {
   HEDGEHOP_NEEDS_BROWSER();
   const TemporaryFolder folder;
   write_sweep(folder.path(), made_up(64, 5));
@@ -137,7 +137,7 @@ TEST(CampaignInBrowser, FrontAndCellsAreThoseOfBruteForce) {
   EXPECT_EQ(page.value.at("right"), true);
 }
 
-TEST(CampaignInBrowser, TellsWhichFlightsEndOtherwiseThanBefore) {
+TEST(CampaignInBrowser, ListsFlightsWithADifferentOutcome) {
   HEDGEHOP_NEEDS_BROWSER();
   const TemporaryFolder folder;
   auto records = made_up(20, 6);
@@ -145,7 +145,7 @@ TEST(CampaignInBrowser, TellsWhichFlightsEndOtherwiseThanBefore) {
   records[4].result["outcome"] = "collided";
   records[4].result["checks"][0]["passed"] = false;
   records[4].result["min_obstacle_clearance_m"] = -0.25;
-  records[9].order.id = "flights/other";  // its scenario and seed are those of others too
+  records[9].order.id = "flights/other";  // its scenario and seed are not unique
   records[10].order.id = "flights/new";
   records[10].order.seed = 77;
   write_sweep(folder.path() / "now", records);
@@ -155,8 +155,9 @@ TEST(CampaignInBrowser, TellsWhichFlightsEndOtherwiseThanBefore) {
     return {said: document.querySelector('#against-card p').textContent,
             changed: [...document.querySelectorAll('#changed tr')].slice(1).map(words)};)js");
   EXPECT_THAT(page.errors, IsEmpty());
-  EXPECT_THAT(page.value.at("said").get<std::string>(),
-              HasSubstr("18 flights in both, 1 with another outcome; 2 only here, 2 only there."));
+  EXPECT_THAT(
+      page.value.at("said").get<std::string>(),
+      HasSubstr("18 flights in both, 1 with a different outcome; 2 only in this campaign, 2 only in the other."));
   ASSERT_EQ(page.value.at("changed").size(), 1u);
   EXPECT_EQ(page.value.at("changed")[0][0], "flights/4");
   EXPECT_EQ(page.value.at("changed")[0][1], "reached");
@@ -164,7 +165,7 @@ TEST(CampaignInBrowser, TellsWhichFlightsEndOtherwiseThanBefore) {
   EXPECT_EQ(page.value.at("changed")[0][4], "\u22120.25");
 }
 
-TEST(AgainstData, PairsFlightsOfOtherSettingsByScenarioAndSeed) {
+TEST(AgainstData, MatchesFlightsWithOtherSettingsByScenarioAndSeed) {
   const TemporaryFolder folder;
   auto records = made_up(4, 10);  // four seeds of one scenario
   write_sweep(folder.path() / "before", records);
@@ -195,7 +196,7 @@ TEST(CampaignReport, OfAThousandFlightsWithLongPathsStaysBelowTenMegabytes) {
   EXPECT_LT(std::filesystem::file_size(folder.path() / "report.html"), 10'000'000u);
 }
 
-TEST(ReportCommand, RefusesWhatItCannotReportOn) {
+TEST(ReportCommand, RejectsInvalidFoldersAndOptions) {
   const CampaignFolder folder;
   std::filesystem::create_directories(folder.path() / "empty");
   write_sweep(folder.path() / "sweep", made_up(4, 9));

@@ -21,7 +21,7 @@ TEST(Decimate, KeepsEveryRowOfAShortTable) {
   EXPECT_TRUE(decimate({}, 10).empty());
 }
 
-TEST(Decimate, LosesNoExtremeOfAnyStretchOfAnySeries) {
+TEST(Decimate, KeepsAllExtremesOfAllSeries) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> noise;
   for (const size_t rows : {101u, 1000u, 18001u}) {
@@ -42,7 +42,7 @@ TEST(Decimate, LosesNoExtremeOfAnyStretchOfAnySeries) {
   }
 }
 
-TEST(Simplified, NoPointOfALineIsFartherThanTheToleranceAndItsEndsStay) {
+TEST(Simplified, AllPointsAreWithinTheToleranceAndTheEndsRemain) {
   std::mt19937_64 random(11);
   std::normal_distribution<double> step(0.0, 0.1);
   constexpr double kToleranceM = 0.05, kFloatM = 1e-4;

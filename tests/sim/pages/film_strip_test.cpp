@@ -22,8 +22,8 @@ FlightRecord made_up(bool collided, double figure) {
   return record;
 }
 
-/// Of its kind nothing worse is left out, and as many are chosen as there can be, half of them of either kind.
-TEST(WorstFlights, AreNoBetterThanAnyThatIsLeftOut) {
+/// No omitted flight of a kind is worse. As many flights as possible are selected, half of each kind.
+TEST(WorstFlights, AreNotBetterThanOmittedFlights) {
   std::mt19937_64 random(3);
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<FlightRecord> records;
@@ -87,21 +87,19 @@ TEST(FilmStrip, ShowsTheWorstFlightsInTheReport) {
   EXPECT_EQ(page.value.at("boards"), 0);
 }
 
-/// A strip of another flight than the one in the table would be a lie.
-TEST(FilmStrip, IsRefusedWhereTheFlightComesOutOtherwise) {
+TEST(FilmStrip, IsNotWrittenIfTheFlightDiffersFromTheTable) {
   const WallFolder folder;
   Json result = folder.json("out/wall/seed1/result.json");
   result["closest_obstacle"]["distance_m"] = 0.5;
   folder.write("out/wall/seed1/result.json", result.dump());
   const CommandEnd end = folder.hedgehop("report out --film-strips 1");
   EXPECT_EQ(end.status, 0);
-  EXPECT_THAT(end.err, HasSubstr("wall/seed1: no film strip: flown again, it came within"));
+  EXPECT_THAT(end.err, HasSubstr("wall/seed1: no film strip: minimum clearance of the re-simulated flight"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/wall/seed1/strip.jpg"));
   EXPECT_EQ(folder.hedgehop("report out/wall/seed1 --film-strips 1").status, 2);
 }
 
-/// Next to other flights the strip would go on showing the old ones.
-TEST(FilmStrip, GoesWhenItsFlightIsFlownAnew) {
+TEST(FilmStrip, IsRemovedIfItsFlightIsFlownAgain) {
   const WallFolder folder;
   folder.write("out/wall/seed1/strip.jpg", "old");
   folder.hedgehop("batch wall.yaml --out out");

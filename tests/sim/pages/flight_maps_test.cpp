@@ -25,10 +25,10 @@ scenes::SceneConfig small_room() {
   return room;
 }
 
-TEST(FlightMaps, FlightsShareAMapExactlyWhereTheirScenesHaveEqualSolids) {
+TEST(FlightMaps, FlightsShareAMapIfAndOnlyIfTheirScenesHaveEqualSolids) {
   std::vector<std::optional<FlownPath>> flights;
   for (const uint64_t seed : {1u, 2u, 1u, 3u}) flights.push_back(flight(small_city(), seed));
-  flights.emplace_back();  // one whose folder is gone
+  flights.emplace_back();  // a flight without a folder
   for (uint64_t seed = 1; seed <= 12; ++seed) flights.push_back(flight(small_room(), seed));
   const FlightMaps maps = flight_maps(flights);
   ASSERT_EQ(maps.map_of.size(), flights.size());
@@ -50,7 +50,7 @@ TEST(FlightMaps, FlightsShareAMapExactlyWhereTheirScenesHaveEqualSolids) {
   }
 }
 
-TEST(FlightMaps, LeavesScenesUndrawnThatAreTooManyToMake) {
+TEST(FlightMaps, OmitsScenesBeyondTheLimit) {
   std::vector<std::optional<FlownPath>> flights;
   for (uint64_t seed = 1; seed <= 30; ++seed) flights.push_back(flight(small_city(), seed));
   const FlightMaps maps = flight_maps(flights);
@@ -59,7 +59,7 @@ TEST(FlightMaps, LeavesScenesUndrawnThatAreTooManyToMake) {
   EXPECT_FALSE(maps.map_of[24]);
 }
 
-TEST(PathsData, StepsAddUpToThePathWithinHalfACentimetre) {
+TEST(PathsData, StepsAddUpToThePathWithinHalfACentimeter) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> step(0.0, 3.0);
   FlownPath path{.scene = small_room(), .seed = 1, .p_NE_m = {{-120.004, 300.0}}};

@@ -18,8 +18,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using Json = nlohmann::ordered_json;
 
-/// Two worlds: the nearer goal is reached by whoever flies fast enough, the farther is out of reach in the time; and a
-/// module that cannot fly in one of them.
+/// Two worlds: fast modules reach the near goal; no module reaches the far goal in time. One module cannot fly in one
+/// world.
 class LeaderboardFolder : public CampaignFolder {
  public:
   LeaderboardFolder() {
@@ -42,7 +42,7 @@ const Json& cell(const Json& data, const std::string& world, const std::string& 
                                [&](const Json& c) { return c.at("world") == world && c.at("module") == module; });
 }
 
-TEST(Leaderboard, OrdersWorldsByWhatTheModulesFailAtWithoutTheControl) {
+TEST(Leaderboard, OrdersWorldsByTheFailuresOfTheModulesWithoutTheControl) {
   const LeaderboardFolder folder;
   const CommandEnd end = folder.hedgehop("batch board.yaml --out out");
   ASSERT_EQ(end.status, 1) << end.err;
@@ -54,18 +54,18 @@ TEST(Leaderboard, OrdersWorldsByWhatTheModulesFailAtWithoutTheControl) {
   EXPECT_EQ(cell(data, "near", "fast").at("flights"), 2);
   EXPECT_EQ(cell(data, "far", "slow").at("reason"), "too far");
   EXPECT_FALSE(cell(data, "far", "slow").contains("passed"));
-  // Wilson by hand: 2 of 2 with z = 1.96 begins at 2 / (2 + z^2).
+  // Wilson interval by hand: for 2 of 2 with z = 1.96, the lower end is 2 / (2 + z^2).
   EXPECT_NEAR(cell(data, "near", "fast").at("low").get<double>(), 2.0 / (2.0 + 1.959964 * 1.959964), 1e-6);
   EXPECT_THAT(end.out, HasSubstr("| near | 0.50 | 0 of 2 (0.00 to 0.66) | 2 of 2 (0.34 to 1.00) | 0 of 2"));
   EXPECT_THAT(end.out, HasSubstr("Not flown: slow in far: too far.\n"));
   EXPECT_THAT(end.out, HasSubstr("| fast | 2 | 4 | 2 | 0 | 0.000 to 0.490 |"));
   EXPECT_THAT(end.out, HasSubstr("| slow | 1 | 2 | 0 | 0 | 0.000 to 0.658 |"));
-  // 0 of 4 by hand: the interval ends at z^2 / (4 + z^2).
+  // 0 of 4 by hand: the upper end is z^2 / (4 + z^2).
   EXPECT_NEAR(data.at("totals").at(1).at("collided_high").get<double>(), 3.841459 / (4.0 + 3.841459), 1e-6);
   EXPECT_THAT(folder.json("out/batch.json").at("flights"), testing::SizeIs(10));
 }
 
-TEST(LeaderboardInBrowser, ShowsEveryCellAndLeadsToItsFlights) {
+TEST(LeaderboardInBrowser, ShowsEveryCellAndSelectsItsFlights) {
   HEDGEHOP_NEEDS_BROWSER();
   const LeaderboardFolder folder;
   ASSERT_EQ(folder.hedgehop("batch board.yaml --out out").status, 1);
@@ -97,21 +97,21 @@ TEST(LeaderboardInBrowser, ShowsEveryCellAndLeadsToItsFlights) {
   EXPECT_EQ(page.value.at("shown"), Json::array({"near_fast/seed1", "near_fast/seed2"}));
 }
 
-TEST(Leaderboard, SurvivesFlyingTheFailuresAgainByTheFolderAlone) {
+TEST(Leaderboard, IsEqualAfterFailedFlightsAreFlownAgain) {
   const LeaderboardFolder folder;
   ASSERT_EQ(folder.hedgehop("batch board.yaml --out out").status, 1);
   const std::string whole = lasting_columns(folder.read("out/batch.csv")), matrix = folder.read("out/leaderboard.md");
   EXPECT_EQ(folder.hedgehop("batch --failed-only --out out").status, 1);
   EXPECT_EQ(lasting_columns(folder.read("out/batch.csv")), whole);
-  // Only the last figure of a row, a time, may differ.
+  // Only the last value of a row, a time, may differ.
   EXPECT_EQ(folder.read("out/leaderboard.md").substr(0, matrix.find("path excess")),
             matrix.substr(0, matrix.find("path excess")));
   EXPECT_EQ(folder.hedgehop("batch tiny.yaml --out out").status, 0);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/leaderboard.json"));
 }
 
-/// An interrupted batch is reported as such instead of 0 of 0, and its hardest world is not one where nobody has flown.
-TEST(Leaderboard, CellsNotFlownYetAreMissingAndMakeNoWorldHard) {
+/// Cells of an interrupted batch are missing instead of 0 of 0, and do not make a world difficult.
+TEST(Leaderboard, CellsNotFlownYetAreMissingAndDoNotCountForDifficulty) {
   const TemporaryFolder folder;
   const LeaderboardConfig config{
       .seeds = "1", .worlds = {{"later", "a.yaml"}, {"lost", "b.yaml"}}, .modules = {{.name = "m"}}};
@@ -131,7 +131,7 @@ TEST(Leaderboard, CellsNotFlownYetAreMissingAndMakeNoWorldHard) {
   EXPECT_THAT(leaderboard_text(data), HasSubstr("| later | - | missing |"));
 }
 
-TEST(Leaderboard, RefusesNamesThatAreNowhereOrStandTwice) {
+TEST(Leaderboard, RejectsUnknownAndRepeatedNames) {
   LeaderboardConfig config{.seeds = "1",
                            .worlds = {{"a", "a.yaml"}, {"a", "b.yaml"}},
                            .modules = {{.name = "m"}},
@@ -146,7 +146,7 @@ TEST(Leaderboard, RefusesNamesThatAreNowhereOrStandTwice) {
   }
 }
 
-TEST(Leaderboard, TheShippedOneHasEveryModuleAndNoCellWithoutFlightOrReason) {
+TEST(Leaderboard, ShippedFileHasEveryModuleAndAFlightOrReasonForEachCell) {
   const BatchOrders batch = read_batch({HEDGEHOP_SOURCE_DIR "/configs/campaigns/leaderboard.yaml"}, {}, {});
   EXPECT_THAT(batch.faults, testing::IsEmpty());
   ASSERT_TRUE(batch.leaderboard);
@@ -157,12 +157,13 @@ TEST(Leaderboard, TheShippedOneHasEveryModuleAndNoCellWithoutFlightOrReason) {
   for (const LeaderboardModule& module : batch.leaderboard->modules) flown.push_back(module.name);
   std::vector<std::string> all;
   fields::for_each_alternative<avoidance::ModuleConfig>([&]<class A>() { all.emplace_back(A::kName); });
-  std::ranges::replace(all, std::string("onnx_policy"), std::string("cloned_policy"));  // flies by the network's name
+  std::ranges::replace(all, std::string("onnx_policy"),
+                       std::string("cloned_policy"));  // listed under the name of the network
   EXPECT_THAT(flown, testing::UnorderedElementsAreArray(all));
 }
 
-/// The second batch finds the first one's flights and flies the rest; a failed check is a result too.
-TEST(Batch, ResumedFliesOnlyWhatHasLeftNoResult) {
+/// The second batch reuses the flights of the first one. A failed check is a result, too.
+TEST(Batch, ResumeFliesOnlyFlightsWithoutAResult) {
   const CampaignFolder folder;
   const std::string worker = folder.worker("echo $seed >> flown.txt; fly \"$@\"");
   const std::string command =

@@ -17,7 +17,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-/// A run's folder with a made-up flight of ten seconds.
+/// A folder with the results of a synthetic flight of ten seconds.
 class RunFolder : public TemporaryFolder {
  public:
   RunFolder() {
@@ -29,7 +29,7 @@ class RunFolder : public TemporaryFolder {
   }
 };
 
-TEST(ReportInBrowser, OpensAloneAndFollowsThePointer) {
+TEST(ReportInBrowser, OpensAsOneFileAndFollowsThePointer) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;
   write_report(run.path(), read_run(run.path()));
@@ -42,7 +42,7 @@ TEST(ReportInBrowser, OpensAloneAndFollowsThePointer) {
   EXPECT_THAT(page.value, ElementsAre("city </script>", false));
 }
 
-TEST(ReportInBrowser, IsUsableByKeysAndNamesItsDrawings) {
+TEST(ReportInBrowser, SupportsKeysAndTextAlternatives) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;
   write_report(run.path(), read_run(run.path()));
@@ -60,8 +60,8 @@ TEST(ReportInBrowser, IsUsableByKeysAndNamesItsDrawings) {
   EXPECT_THAT(page.value, ElementsAre(true, true, true, true, 0));
 }
 
-// The pointer is put everywhere, and asked what it met.
-TEST(ReportInBrowser, ShowsTheMapBesideTheTruthWhereAFlightHasOne) {
+// Moves the pointer over the whole map and collects the texts.
+TEST(ReportInBrowser, ShowsTheMapOfAModuleWithTheTruth) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;
   Flight flight = fake_flight(10.0, 1);
@@ -88,7 +88,7 @@ TEST(ReportInBrowser, ShowsTheMapBesideTheTruthWhereAFlightHasOne) {
   EXPECT_THAT(page.value[2].get<std::string>(), ::testing::HasSubstr("1 false"));
 }
 
-TEST(ReportInBrowser, OpensWithWhatHappenedWhereAFlightCollidedAndLeavesOutDeadPlots) {
+TEST(ReportInBrowser, StartsWithASummaryOfACollisionAndReplacesConstantPlotsByText) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;
   Flight flight = fake_flight(10.0, 1);
@@ -112,7 +112,7 @@ TEST(ReportInBrowser, OpensWithWhatHappenedWhereAFlightCollidedAndLeavesOutDeadP
   EXPECT_EQ(page.value[3], 0);
 }
 
-TEST(ReportInBrowser, ShadesWhatFailedWhileItDid) {
+TEST(ReportInBrowser, ShadesTheTimesOfFailures) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;
   Flight flight = fake_flight(10.0, 1);
@@ -133,7 +133,7 @@ TEST(ReportInBrowser, ShadesWhatFailedWhileItDid) {
   EXPECT_GE(page.value.at(2).get<int>(), 2);
 }
 
-TEST(ReportInBrowser, HasNoMapAndNoStoryWhereAFlightHasNone) {
+TEST(ReportInBrowser, HasNoMapWithoutAMapAndNoSummaryWithoutACollision) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;
   write_report(run.path(), read_run(run.path()));
@@ -143,7 +143,7 @@ TEST(ReportInBrowser, HasNoMapAndNoStoryWhereAFlightHasNone) {
   EXPECT_TRUE(page.value.get<bool>());
 }
 
-TEST(ReplayInBrowser, PutsTheVehicleWhereTheTrajectoryHasIt) {
+TEST(ReplayInBrowser, PlacesTheVehicleAtItsTruePose) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;
   write_replay(run.path(), read_run(run.path()));
@@ -160,7 +160,7 @@ TEST(ReplayInBrowser, PutsTheVehicleWhereTheTrajectoryHasIt) {
   const CsvTable table(run.path() / "trajectory.csv");
   const auto column = [&](const char* name) { return table.numbers(name); };
   const auto t_s = column("t_s");
-  constexpr double kRoundingM = 3e-3;  // a millimeter of place, and of angle a tenth of a milliradian at 4 m
+  constexpr double kRoundingM = 3e-3;  // 1 mm of position, and 0.1 mrad of attitude at 4 m
   for (const auto& place : page.value) {
     const auto row = static_cast<size_t>(
         std::ranges::min_element(t_s, {}, [&](double t) { return std::abs(t - place[0].get<double>()); }) -
@@ -176,7 +176,7 @@ TEST(ReplayInBrowser, PutsTheVehicleWhereTheTrajectoryHasIt) {
   }
 }
 
-/// From above, under a ceiling; and, to see that the count counts, under a body as thick as a house, which is drawn.
+/// Views from above, through a ceiling. As a counterexample, a thick body is drawn and hides the flight.
 TEST(ReplayInBrowser, CeilingDoesNotHideTheFlightBelowIt) {
   HEDGEHOP_NEEDS_BROWSER();
   for (const double thickness_m : {0.25, 3.0}) {

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kFloatM = 1e-5;  // outlines are found in floats
+constexpr double kFloatM = 1e-5;  // outlines are rounded to float
 
 double area_m2(const std::vector<Vector2d>& corners) {
   double twice = 0.0;
@@ -25,9 +25,9 @@ double area_m2(const std::vector<Vector2d>& corners) {
 
 TEST(Plan, ShowsRoundSolidsAsPolygonsOf32Corners) {
   const double of_circle = 16.0 * std::sin(std::numbers::pi / 16.0);  // area of the polygon in the unit circle
-  const std::vector<Footprint> plan =
-      footprints({scenes::mesh::solid_of("post", scenes::mesh::Post{{3.0, 4.0, -1.0}, 0.5, 2.0}),
-                  scenes::mesh::ball_of("ball", {0, 0, -9}, 2.0)});
+  const std::vector<SolidOutline> plan =
+      solid_outlines({scenes::mesh::solid_of("post", scenes::mesh::Post{{3.0, 4.0, -1.0}, 0.5, 2.0}),
+                      scenes::mesh::ball_of("ball", {0, 0, -9}, 2.0)});
   EXPECT_NEAR(area_m2(plan[0].corners_NE_m), of_circle * 0.25, 1e-4);
   EXPECT_NEAR(area_m2(plan[1].corners_NE_m), of_circle * 4.0, 1e-3);
   for (const Vector2d& corner : plan[0].corners_NE_m) EXPECT_NEAR((corner - Vector2d(3, 4)).norm(), 0.5, kFloatM);
@@ -39,12 +39,12 @@ TEST(Plan, ShowsRoundSolidsAsPolygonsOf32Corners) {
 TEST(Plan, ShowsTheOutlineOfAPolyhedron) {
   const scenes::mesh::Polyhedron tip{{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {1, 1, -5}},
                                      {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
-  const Footprint plan = footprints({scenes::mesh::solid_of("tip", tip)}).front();
+  const SolidOutline plan = solid_outlines({scenes::mesh::solid_of("tip", tip)}).front();
   EXPECT_NEAR(area_m2(plan.corners_NE_m), 6.0, kFloatM);
   EXPECT_NEAR(plan.top_m, 5.0, 1e-12);
 }
 
-TEST(Plan, ShowsTheWayOfAMoverAsWideAsTheMover) {
+TEST(Plan, ShowsThePathOfAMovingObstacleAtItsWidth) {
   scenes::Mover mover;
   mover.name = "van";
   mover.motion =

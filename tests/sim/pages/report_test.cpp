@@ -29,10 +29,10 @@ using ::testing::Not;
 
 // --- Plan
 
-TEST(Plan, FootprintOfATurnedBoxHasItsArea) {
+TEST(Plan, OutlineOfARotatedBoxHasItsArea) {
   scenes::Solid solid{.half_extents_m = {3.0, 2.0, 5.0}};
   solid.X_WS = Eigen::Translation3d(100.0, -50.0, -5.0) * Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ());
-  const Footprint footprint = footprints({solid}).front();
+  const SolidOutline footprint = solid_outlines({solid}).front();
   double twice_area_m2 = 0.0;
   const auto& p = footprint.corners_NE_m;
   for (size_t i = 0; i < p.size(); ++i) {
@@ -45,15 +45,15 @@ TEST(Plan, FootprintOfATurnedBoxHasItsArea) {
   EXPECT_NEAR(footprint.top_m, 10.0, 1e-9);
 }
 
-TEST(Plan, CeilingIsAboveAndKerbBelowTheFlight) {
-  EXPECT_EQ(level({.bottom_m = 3.0, .top_m = 3.2}, 0.9, 1.1, 1.0), Level::above);
-  EXPECT_EQ(level({.bottom_m = 0.0, .top_m = 0.2}, 9.0, 11.0, 1.0), Level::below);
-  EXPECT_EQ(level({.bottom_m = 0.0, .top_m = 9.5}, 9.0, 11.0, 1.0), Level::beside);
+TEST(Plan, CeilingIsAboveAndCurbBelowTheFlight) {
+  EXPECT_EQ(altitude_relation({.bottom_m = 3.0, .top_m = 3.2}, 0.9, 1.1, 1.0), AltitudeRelation::above);
+  EXPECT_EQ(altitude_relation({.bottom_m = 0.0, .top_m = 0.2}, 9.0, 11.0, 1.0), AltitudeRelation::below);
+  EXPECT_EQ(altitude_relation({.bottom_m = 0.0, .top_m = 9.5}, 9.0, 11.0, 1.0), AltitudeRelation::at_altitude);
 }
 
 // --- Panels
 
-/// Tables of a made-up flight.
+/// Tables of a synthetic flight.
 class Tables {
  public:
   explicit Tables(const Flight& flight)
@@ -75,7 +75,7 @@ const Panel& panel(const std::vector<Panel>& panels, std::string_view title) {
   return *found;
 }
 
-TEST(Panels, VelocityAlongTheHeadingIsAllForward) {
+TEST(Panels, VelocityAlongTheHeadingIsForwardOnly) {
   Flight flight = fake_flight(0.5, 1);
   for (TrajectoryRow& row : flight.trajectory) {
     row.rpy_true.z() = 0.7;
@@ -103,7 +103,7 @@ TEST(Panels, HeadingThroughSouthDoesNotJump) {
   }
 }
 
-TEST(Panels, SignalsAreGroupedByWhatTheyMeasure) {
+TEST(Panels, SignalsAreGroupedByNameAndUnit) {
   const auto panels = signal_panels(Tables(fake_flight(1.0, 1)).decisions());
   ASSERT_EQ(panels.size(), 3u);
   EXPECT_EQ(panels[0].unit, "rad/s");
@@ -115,7 +115,7 @@ TEST(Panels, SignalsAreGroupedByWhatTheyMeasure) {
   EXPECT_EQ(panels[2].unit, "m");
 }
 
-TEST(Panels, WordsThatAllSignalsShareAreTheTitle) {
+TEST(Panels, CommonFirstWordsOfSignalsAreTheTitle) {
   Flight flight = fake_flight(0.1, 1);
   flight.signals = {{"valid_share_left", ""},
                     {"valid_share_right", ""},
@@ -133,7 +133,7 @@ TEST(Panels, WordsThatAllSignalsShareAreTheTitle) {
   EXPECT_EQ(panels[2].series[0].label, "north");
 }
 
-TEST(ReportData, WritesNullForWhatNoOneMeasured) {
+TEST(ReportData, WritesNullForUnknownValues) {
   Flight flight = fake_flight(1.0, 1);
   for (TrajectoryRow& row : flight.trajectory) row.obstacle_clearance_m = std::numeric_limits<double>::infinity();
   const Tables tables(flight);
@@ -153,14 +153,14 @@ TEST(ReportData, StatusIsThatOfTheLastDecision) {
   EXPECT_EQ(path.at("status")[50], 1);
 }
 
-TEST(ReportData, StaysWithinItsPoints) {
+TEST(ReportData, HasAtMostTheGivenNumberOfPoints) {
   const Tables tables(fake_flight(100.0, 1));
   const auto json = report_data({}, tables.result(), tables.trajectory(), tables.decisions(), 500);
   EXPECT_LE(json.at("path").at("t").size(), 500u);
   for (const auto& panel : json.at("panels")) EXPECT_LE(panel.at("t_s").size(), 500u) << panel.at("title");
 }
 
-TEST(ReportData, FlightWithoutARowOrDecisionIsNoError) {
+TEST(ReportData, AcceptsAFlightWithoutRowsAndDecisions) {
   Flight flight = fake_flight(0.1, 1);
   flight.trajectory.clear();
   flight.decisions.clear();
@@ -181,23 +181,23 @@ TEST(ReportPage, Base64FollowsTheTestVectorsOfRfc4648) {
   EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
 }
 
-TEST(ReportPage, DataCannotEndItsScriptAndReadsBack) {
+TEST(ReportPage, DataCannotEndItsScriptAndIsReadUnchanged) {
   const nlohmann::json nasty = {{"a", "</script><script>alert(1)</script>"}, {"b", "<!-- \\u003c \" \\"}};
   const std::string safe = script_safe(nasty.dump());
   EXPECT_THAT(safe, Not(HasSubstr("<")));
   EXPECT_EQ(nlohmann::json::parse(safe), nasty);
 }
 
-TEST(ReportPage, TitleIsText) {
+TEST(ReportPage, TitleIsEscaped) {
   const std::string page = report_page("a<b> & \"c\"", "{}", {});
   EXPECT_THAT(page, HasSubstr("<title>a&lt;b&gt; &amp; &quot;c&quot; - Hedgehop</title>"));
 }
 
-TEST(ReportPage, WhatIsFilledInIsNotATemplate) {
+TEST(ReportPage, PlaceholdersInValuesAreNotReplaced) {
   EXPECT_THAT(report_page("{{data}} {{nonsense}}", "{}", {}), HasSubstr("<title>{{data}} {{nonsense}} - Hedgehop"));
 }
 
-TEST(ReportPage, HasEveryScriptClosedOnce) {
+TEST(ReportPage, ClosesEveryScriptOnce) {
   const std::string page = report_page("t", R"({"a":"</script>"})", {.bytes = "film"});
   const auto count = [&](const std::string& text) {
     size_t n = 0;
@@ -208,7 +208,7 @@ TEST(ReportPage, HasEveryScriptClosedOnce) {
   EXPECT_EQ(count("</script"), 4u);
 }
 
-TEST(ReportPage, LoadsNothingFromElsewhere) {
+TEST(ReportPage, LoadsNoExternalResources) {
   const std::string page = report_page("t", "{}", {.bytes = "film"});
   for (const char* way : {R"((src|href)\s*=\s*["']?\s*(https?:)?//)", R"(url\()", "@import", R"(\bfetch\()",
                           "XMLHttpRequest", R"(\bimport\()", "sendBeacon", "WebSocket", R"(<link)", R"(<iframe)"}) {
@@ -216,13 +216,13 @@ TEST(ReportPage, LoadsNothingFromElsewhere) {
   }
 }
 
-TEST(ReportPage, FilmIsInsideOrLinkedOrAbsent) {
+TEST(ReportPage, FilmIsEmbeddedOrLinkedOrAbsent) {
   EXPECT_THAT(report_page("t", "{}", {.bytes = "film"}), HasSubstr(base64("film")));
   EXPECT_THAT(report_page("t", "{}", {.link = "video.webm"}), HasSubstr("src=\"video.webm\""));
   EXPECT_THAT(report_page("t", "{}", {}), Not(HasSubstr("<video")));
 }
 
-/// The JSON that a page's script reads.
+/// Returns the JSON data of a page.
 nlohmann::json data_of(const std::string& page) {
   const std::string open = "id=\"data\">";
   const size_t begin = page.find(open) + open.size();
@@ -232,7 +232,7 @@ nlohmann::json data_of(const std::string& page) {
 TEST(Report, DrawsTheSceneThatWasFlown) {
   const TemporaryFolder folder;
   const Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_city_0_light.yaml");
-  constexpr uint64_t kSeed = 9;  // of the run; the file's own is another
+  constexpr uint64_t kSeed = 9;  // of the run; the file has another one
   write_result_files(folder.path(), {.scenario = "city </script>", .seed = kSeed, .scenario_yaml = to_yaml(scenario)},
                      fake_flight(2.0, 1));
   write_report(folder.path(), read_run(folder.path()));
@@ -246,7 +246,7 @@ TEST(Report, DrawsTheSceneThatWasFlown) {
   EXPECT_EQ(data.at("scenario_yaml"), to_yaml(scenario));
 }
 
-TEST(Report, OfAFlightInMemoryEqualsThatOfItsFiles) {
+TEST(Report, OfAFlightInMemoryEqualsThatFromItsFiles) {
   const TemporaryFolder folder;
   const Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_city_0_light.yaml");
   const RunInfo info{.scenario = "city", .seed = 9, .scenario_yaml = to_yaml(scenario)};
@@ -264,7 +264,7 @@ TEST(Report, OfAFlightInMemoryEqualsThatOfItsFiles) {
   }
 }
 
-TEST(Report, NamesTheFileThatIsMissing) {
+TEST(Report, NamesAMissingFile) {
   const TemporaryFolder folder;
   try {
     read_run(folder.path());

@@ -35,12 +35,12 @@ TEST(TrimData, PutsQuantitiesOfAGroupIntoOnePlotOverTheSpeed) {
   EXPECT_EQ(data["panels"][1]["unit"], "N");
 }
 
-TEST(TrimData, TellsOfSpeedsWithoutATrim) {
+TEST(TrimData, ListsSpeedsWithoutATrim) {
   EXPECT_THAT(trim_data("kite", {point(0.0)}, {20.0, 22.5})["notes"].dump(), testing::HasSubstr("20, 22.5 m/s"));
   EXPECT_THAT(trim_data("kite", {point(0.0)}, {})["notes"].dump(), testing::Not(testing::HasSubstr("No steady")));
 }
 
-TEST(TrimPage, HoldsItsDataAndAsksForNothingElse) {
+TEST(TrimPage, ContainsItsDataAndLoadsNoExternalResources) {
   const std::string page = trim_page("Trim of </script> kite", R"({"title": "</script>"})");
   EXPECT_THAT(page, testing::HasSubstr("uPlot"));
   EXPECT_THAT(page, testing::HasSubstr(R"({"title": "\u003c/script>"})"));

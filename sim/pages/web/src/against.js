@@ -1,5 +1,5 @@
 'use strict';
-// What changed since an earlier campaign: flights of the same names, side by side.
+// Changes since an earlier campaign: flights with equal names side by side.
 
 const outcomeOf = (table, row) => table.value('outcome', row);
 
@@ -15,27 +15,27 @@ class AgainstView {
     this.changed = both.filter((row) => this.before[row].outcome !== outcomeOf(table, row)
       || this.before[row].passed !== (table.value('passed', row) === 1));
     const fresh = table.count - both.length;
-    host.append(make('p', 'soft', `${both.length} flights in both, ${this.changed.length} with another outcome; ` +
-      `${fresh} only here, ${against.gone.length} only there.`));
+    host.append(make('p', 'soft', `${both.length} flights in both, ${this.changed.length} with a different outcome; ` +
+      `${fresh} only in this campaign, ${against.gone.length} only in the other.`));
     this.fillGroups(host.appendChild(make('div', 'scroll tall')), against.groups);
     const pair = host.appendChild(make('div', 'pair halves'));
     this.fillChanged(pair.appendChild(make('div')));
     this.both = both.filter((row) => this.clearance(row) !== null && this.before[row].clearance_m !== null);
     const plot = pair.appendChild(make('div'));
-    plot.append(make('h3', '', 'Least clearance to obstacles'));
+    plot.append(make('h3', '', 'Minimum clearance to obstacles'));
     this.axes = new Axes(plot.appendChild(make('div')), 340, {
       draw: (c) => this.draw(c), hover: (x, y) => this.lines(x, y),
       pick: (x, y) => { const row = this.at(x, y); if (row !== null) on.choose(row); }});
     const all = this.both.flatMap((row) => [this.clearance(row), this.before[row].clearance_m]);
     this.axes.set(numberAxis('before, m', all), numberAxis('now, m', all));
-    plot.append(make('div', 'plan-key', 'above the line: more clearance than before; ringed: another outcome'));
+    plot.append(make('div', 'plan-key', 'above the line: more clearance than before; ringed: different outcome'));
   }
   clearance(row) { return this.table.value('min_obstacle_clearance_m', row); }
 
   fillGroups(host, groups) {
     const element = host.appendChild(make('table'));
     addRow(element, [['scenario', ''], ['passed before', 'number'], ['passed now', 'number'],
-      ['change of the rate', 'number'], ['95 % of it within', 'number']], 'th');
+      ['change of the success rate', 'number'], ['95 % interval', 'number']], 'th');
     const percent = (v) => fixed(100 * v, 1) + ' %';
     for (const {group, now, before, change} of groups) {
       addRow(element, [[group, ''], [`${before.passed} of ${before.ended}`, 'number'], [`${now.passed} of ${now.ended}`, 'number'],
@@ -43,7 +43,7 @@ class AgainstView {
     }
   }
   fillChanged(host) {
-    host.append(make('h3', '', 'Flights with another outcome'));
+    host.append(make('h3', '', 'Flights with a different outcome'));
     const box = host.appendChild(make('div', 'scroll tall'));
     if (!this.changed.length) {
       box.append(make('p', 'soft', 'None.'));
@@ -51,7 +51,7 @@ class AgainstView {
     }
     const element = box.appendChild(make('table'));
     element.id = 'changed';
-    addRow(element, [['flight', ''], ['before', ''], ['now', ''], ['clearance before, m', 'number'], ['now, m', 'number'], ['again', '']], 'th');
+    addRow(element, [['flight', ''], ['before', ''], ['now', ''], ['clearance before, m', 'number'], ['now, m', 'number'], ['re-run', '']], 'th');
     for (const row of this.changed) {
       const old = this.before[row], passes = this.table.value('passed', row) === 1;
       addRow(element, [['', ''], [old.outcome, old.passed ? 'pass' : 'fail'], [outcomeOf(this.table, row), passes ? 'pass' : 'fail'],

@@ -1,5 +1,5 @@
 'use strict';
-// A frame with two axes on a canvas: numbers or categories, ticks, names with units.
+// Two axes on a canvas, of numbers or categories, with ticks, names and units.
 
 const axesMargin = {left: 62, right: 14, top: 12, bottom: 44};
 

@@ -1,15 +1,15 @@
 'use strict';
 // A leaderboard: every module in every world, worlds from the easiest to the hardest.
 
-/** Fills the card with the matrix, or takes the card away where there is none. */
+/** Fills the card with the matrix. Removes the card if there is no leaderboard. */
 function fillBoard(host, board, on) {
   if (!board) {
     host.remove();
     return;
   }
-  host.append(make('h2', '', 'Leaderboard'), make('p', 'soft', 'Flights whose checks all hold, with the 95 % interval of their rate; ' +
-    'below it: collisions, median least clearance, path beyond the shortest, speed, and time of a decision. A world is as difficult as ' +
-    'the share of flights that failed there, each module counted alike, the control left out.'));
+  host.append(make('h2', '', 'Leaderboard'), make('p', 'soft', 'Flights whose checks all hold, with the 95 % interval of their rate. ' +
+    'Below: collisions, median of the minimum clearance, path length beyond the shortest path, speed, and time per decision. Difficulty of a world: ' +
+    'mean share of failed flights over the modules, without the control.'));
   const scroll = host.appendChild(make('div', 'scroll')), table = scroll.appendChild(make('table', 'board'));
   const head = addRow(table.appendChild(make('thead')), [['world', ''], ['difficulty', 'number']], 'th');
   for (const module of board.modules) head.append(make('th', '', module.name + (module.control ? ' (control)' : '')));
@@ -47,7 +47,7 @@ function boardCell(cell, on) {
   if (cell.path_excess !== null) words.push(`${cell.path_excess < 0 ? '' : '+'}${fixed(100 * cell.path_excess, 0)} %`);
   words.push(`${fixed(cell.mean_speed_mps, 1)} m/s`, `${fixed(cell.decision_ms, 1)} ms`);
   element.append(make('div', 'soft', words.join(', ')));
-  element.title = 'show these flights alone';
+  element.title = 'show only these flights';
   onChoose(element, () => on.filter(`${cell.world}_${cell.module}/`));
   return element;
 }

@@ -1,11 +1,11 @@
 'use strict';
-// Puts the page of a batch or sweep together from its data.
+// Builds the page of a batch or sweep from its data.
 
 const shownAtFirst = ['id', 'seed', 'outcome', 'passed', 'min_obstacle_clearance_m', 'flight_time_s', 'path_length_m',
   'mean_speed_mps', 'goal_distance_m'];
 const worstOfAKind = 5;
 
-/** A flight's name to choose it by. */
+/** A button with the name of a flight that selects it. */
 function flightButton(table, row, on) {
   const button = make('button', 'name', table.value('id', row));
   button.title = table.value('id', row);
@@ -19,7 +19,7 @@ function addRow(table, cells, tag = 'td') {
   return row;
 }
 
-/** What came of all flights together: {words, more, look}. */
+/** Returns the verdict on all flights: {words, more, look}. */
 function campaignVerdict(data) {
   const all = data.groups[0], claims = data.claims.conduct?.sequential ?? [];
   const reasons = [[all.collided, 'collided'], [all.timeout, 'timeout'], [all.broken, 'fault or no result'], [all.missing, 'missing']];
@@ -28,7 +28,7 @@ function campaignVerdict(data) {
     const worst = ['refuted', 'undecided', 'shown'].find((verdict) => claims.some((claim) => claim.verdict === verdict));
     return {words: `${worst[0].toUpperCase()}${worst.slice(1)}`, more: claims.map(({rule}) => rule).join('; '), look: {shown: 'good', refuted: 'bad'}[worst] ?? ''};
   }
-  if (all.no_checks === all.flights) return {words: 'No checks', more: 'nothing was asked of these flights', look: ''};
+  if (all.no_checks === all.flights) return {words: 'No checks', more: 'no checks defined', look: ''};
   const failed = all.flights - all.passed - all.no_checks;
   return failed ? {words: `${failed} of ${all.flights} did not pass`, more, look: 'bad'} : {words: `All ${all.passed} passed`, more, look: 'good'};
 }
@@ -51,20 +51,20 @@ function fillHead(host, data, table) {
   };
   const percent = (share) => fixed(100 * share, 1) + ' %';
   const unchecked = all.no_checks ? `; no checks: ${all.no_checks}` : '';
-  if (data.search) tile('all checks hold', `${all.passed} of ${all.ended}`, 'flights of a search, which looks for failures: no rate follows');
+  if (data.search) tile('all checks hold', `${all.passed} of ${all.ended}`, 'flights of a search for failures; they give no success rate');
   else tile('all checks hold', all.ended ? percent(all.passed / all.ended) : all.no_checks ? 'no checks' : '–',
-    `${all.passed} of ${all.ended}; 95 % within ${percent(all.low)} to ${percent(all.high)}${unchecked}`);
+    `${all.passed} of ${all.ended}; 95 % interval ${percent(all.low)} to ${percent(all.high)}${unchecked}`);
   tile('collided', String(all.collided), `of ${all.ended} flights that ended`);
   tile('reached, timeout', `${all.reached}, ${all.timeout}`, `${all.broken} with a fault or no result, ${all.missing} missing`);
-  tile('least clearance', meters(all.least_clearance_m), `to obstacles; median of flights ${meters(all.median_clearance_m)}`);
-  tile('median flight time', fixed(all.median_time_s, 1) + ' s', 'of all flights that were flown');
+  tile('minimum clearance', meters(all.least_clearance_m), `to obstacles; median over flights ${meters(all.median_clearance_m)}`);
+  tile('median flight time', fixed(all.median_time_s, 1) + ' s', 'of all flights flown');
 }
 
 function fillGroups(host, groups) {
   const element = host.appendChild(make('table')), head = element.appendChild(make('thead'));
   addRow(head, [['scenario', ''], ['flights', 'number'], ['passed', 'number'], ['rate with 95 % interval', ''], ['', 'number'], ['reached', 'number'],
-    ['collided', 'number'], ['timeout', 'number'], ['fault', 'number'], ['missing', 'number'], ['least clearance, m', 'number'],
-    ['median of it, m', 'number'], ['median time, s', 'number']], 'th');
+    ['collided', 'number'], ['timeout', 'number'], ['fault', 'number'], ['missing', 'number'], ['minimum clearance, m', 'number'],
+    ['median of minimum clearance, m', 'number'], ['median time, s', 'number']], 'th');
   const body = element.appendChild(make('tbody'));
   for (const g of groups) {
     const row = addRow(body, [[g.group, ''], [String(g.flights), 'number'], [g.no_checks && !g.ended ? 'no checks' : String(g.passed), 'number'], ['', ''],
@@ -78,7 +78,7 @@ function fillGroups(host, groups) {
   }
 }
 
-/** Flights worth a look: {title, rows, words(row)} of each kind. */
+/** Returns the worst flights: {title, rows, words(row)} of each kind. */
 function worstFlights(table, rows) {
   const flown = rows.filter((row) => table.value('status', row) === 'flown');
   const column = (name) => table.columns.get(name);
@@ -89,11 +89,11 @@ function worstFlights(table, rows) {
   return [
     {title: 'Collided, earliest first', rows: first(flown.filter((row) => table.verdict(row) === 'collided'), 'flight_time_s', false),
       words: (row) => `after ${fixed(table.value('flight_time_s', row), 1)} s`},
-    {title: 'Least clearance without a collision', rows: first(clear, 'min_obstacle_clearance_m', false),
+    {title: 'Minimum clearance without a collision', rows: first(clear, 'min_obstacle_clearance_m', false),
       words: (row) => meters(table.value('min_obstacle_clearance_m', row))},
-    {title: 'Timeout, farthest from the goal', rows: first(failing('timeout'), 'goal_distance_m', true), words: (row) => meters(table.value('goal_distance_m', row))},
-    {title: 'Reached, and a check failed', rows: failing('reached').slice(0, worstOfAKind), words: (row) => table.why[row]},
-    {title: 'Slowest of those that passed', rows: first(clear.filter((row) => table.verdict(row) === 'passed'), 'flight_time_s', true), words: (row) => fixed(table.value('flight_time_s', row), 1) + ' s'},
+    {title: 'Timeout, largest distance to the goal first', rows: first(failing('timeout'), 'goal_distance_m', true), words: (row) => meters(table.value('goal_distance_m', row))},
+    {title: 'Goal reached, but a check failed', rows: failing('reached').slice(0, worstOfAKind), words: (row) => table.why[row]},
+    {title: 'Passed, slowest first', rows: first(clear.filter((row) => table.verdict(row) === 'passed'), 'flight_time_s', true), words: (row) => fixed(table.value('flight_time_s', row), 1) + ' s'},
     {title: 'Fault, or no result', rows: rows.filter((row) => table.value('status', row) === 'failed' || table.value('outcome', row) === 'fault').slice(0, worstOfAKind),
       words: () => ''},
   ];
@@ -119,7 +119,7 @@ function linkTo(data, table, row) {
 function fillChosen(host, data, table, row) {
   host.replaceChildren();
   if (row === null) {
-    host.append(make('p', 'soft', 'Choose one on the map, in a plot or in a table.'));
+    host.append(make('p', 'soft', 'Select a flight on the map, in a plot or in a table.'));
     return;
   }
   const id = table.value('id', row), verdict = table.verdict(row);
@@ -128,16 +128,16 @@ function fillChosen(host, data, table, row) {
   host.append(make('p', 'soft', [...facts, `clearance ${meters(table.value('min_obstacle_clearance_m', row))}`,
     `${fixed(table.value('flight_time_s', row), 1)} s`].join(', ')));
   const links = host.appendChild(make('p'));
-  for (const [there, name, word] of [[data.report[row], 'report.html', 'its report'], [data.replay[row], 'replay.html', 'its replay']]) {
+  for (const [there, name, word] of [[data.report[row], 'report.html', 'report'], [data.replay[row], 'replay.html', 'replay']]) {
     if (!there) continue;
     const link = links.appendChild(make('a', '', word));
     link.href = flightLink(data, table, row, name);
     links.append(' ');
   }
-  host.append(make('p', 'soft', 're-simulate it, with video and report'));
+  host.append(make('p', 'soft', 'Re-simulate this flight with video and report:'));
   addCommand(host, table.value('command', row));
   if (!data.report[row]) {
-    host.append(make('p', 'soft', 'or open the replay of its recorded flight'));
+    host.append(make('p', 'soft', 'Write the replay of the recorded flight:'));
     addCommand(host, `hedgehop report --replay '${data.folder}/${id}'`);
   }
 }

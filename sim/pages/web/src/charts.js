@@ -1,13 +1,13 @@
 'use strict';
-// Plots that share their horizontal axis and cursor: over time, unless the data name another axis.
+// Plots with a common horizontal axis and cursor. The axis is time unless the data name another one.
 
 const plotHeight = 190;
-/** Where a panel holds the axis' values, how it is called, and whether its points are marked. */
+/** The horizontal axis: key of its values in a panel, names, unit, and whether points are marked. */
 const timeAxis = {key: 't_s', label: 'time, s', symbol: 't', unit: 's', points: false};
 const roleColors = {left: 'c0', right: 'c1', front: 'c2', rear: 'c3', down: 'c4',
   true: 'true', est: 'est', cmd: 'cmd', a: 'c0', b: 'c1', c: 'c2', d: 'c3'};
 
-/** Look of each series of a panel: color, width. */
+/** Returns color and width of each series of a panel. */
 function seriesLooks(series) {
   let next = 0;
   return series.map(({role}) => ({
@@ -16,7 +16,7 @@ function seriesLooks(series) {
   }));
 }
 
-/** Ends of the value axis: the data's, padded, with a fixed end where the panel has one. */
+/** Returns the ends of the value axis: the range of the data with a margin, or the fixed end of the panel. */
 function valueRange(panel) {
   return (u, low, high) => {
     if (low === null) [low, high] = [0, 1];
@@ -26,7 +26,7 @@ function valueRange(panel) {
   };
 }
 
-/** Dashed level lines with their names. */
+/** Draws limits as dashed lines with their names. */
 function drawLimits(u, panel) {
   for (const {label, value} of panel.limits) {
     const y = u.valToPos(value, 'y', true);
@@ -47,7 +47,7 @@ function drawLimits(u, panel) {
   }
 }
 
-/** What fails in flight, behind the curves. */
+/** Shades the failures of the scenario behind the curves. */
 function drawFailures(u, failures) {
   const {top, height} = u.bbox, c = u.ctx;
   c.save();
@@ -66,11 +66,11 @@ function drawFailures(u, failures) {
   c.restore();
 }
 
-/** "north 0, east 0, down 0 m/s throughout" of a panel of which nothing ever changes; else nothing. */
+/** Returns "north 0, east 0, down 0 m/s (constant)" for a panel with constant series, else "". */
 function flatWords({series, unit, limits}) {
   const isFlat = ({values}) => values.length > 1 && values[0] !== null && values.every((v) => v === values[0]);
   if (limits.length || !series.length || !series.every(isFlat)) return '';
-  return series.map(({label, values}) => `${label} ${short(values[0])}`).join(', ') + ` ${unit} throughout`;
+  return series.map(({label, values}) => `${label} ${short(values[0])}`).join(', ') + ` ${unit} (constant)`;
 }
 
 class Charts {
@@ -111,7 +111,7 @@ class Charts {
     return host.appendChild(make('div', 'charts'));
   }
 
-  /** Builds all plots again, in the colors of the theme in force. */
+  /** Builds all plots in the colors of the current theme. */
   build() {
     for (const plot of this.plots) {
       plot.u?.destroy();
@@ -156,7 +156,7 @@ class Charts {
     };
   }
 
-  /** Gives every plot the stretch of the axis that one of them shows. */
+  /** Sets the axis range of all plots to that of one of them. */
   zoomAll(source) {
     if (this.zooming) return;
     this.zooming = true;
@@ -165,7 +165,7 @@ class Charts {
     this.zooming = false;
   }
 
-  /** Puts every plot's cursor at an instant, or wherever else on the axis; null takes it away. */
+  /** Moves the cursor of all plots to a position on the axis; null hides it. */
   setTime(t) {
     this.following = true;
     for (const {u} of this.plots) {

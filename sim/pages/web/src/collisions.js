@@ -1,9 +1,9 @@
 'use strict';
-// How often the modules of a leaderboard collide, over how fast they fly: a plot for all worlds together and one for each.
+// Collision rate over speed of the modules of a leaderboard: one plot for all worlds together, and one per world.
 
 const markColors = 6, markRadius = 4.5;
 
-/** An axis from 0 to 1, with room for marks at its ends. */
+/** An axis from 0 to 1, with space for marks at its ends. */
 function shareAxis() {
   return {label: 'share of flights that collide', low: -0.04, high: 1.04, ticks: [0, 0.25, 0.5, 0.75, 1].map((value) => ({value, text: String(value)}))};
 }
@@ -63,7 +63,7 @@ class CollisionPlot {
   }
 }
 
-/** Fills the card with the plots and returns them, or takes the card away where there is no leaderboard. */
+/** Fills the card with the plots and returns them. Removes the card if there is no leaderboard. */
 function fillCollisions(host, board) {
   if (!board) {
     host.remove();
@@ -73,8 +73,8 @@ function fillCollisions(host, board) {
   const control = new Set(board.modules.filter((module) => module.control).map((module) => module.name));
   const points = (cells) => cells.filter((cell) => cell.flights && cell.mean_speed_mps !== null).map((cell) =>
     ({...cell, index: indexOf.get(cell.module), control: control.has(cell.module)}));
-  host.append(make('h2', '', 'Collisions against speed'), make('p', 'soft', 'The share of flights that end in a collision, with its 95 % interval, ' +
-    'over the median of the flights\u2019 mean speeds. Low and to the right is better; a module that stands still collides with nothing.'));
+  host.append(make('h2', '', 'Collisions against speed'), make('p', 'soft', 'Share of flights that end in a collision, with its 95 % interval, ' +
+    'over the median of the mean speeds. Low and to the right is better. A module that hovers has no collisions.'));
   const all = points(board.totals), axis = {...numberAxis('mean speed, m/s', [0, ...points(board.cells).map((p) => p.mean_speed_mps)]), low: 0};
   const grid = host.appendChild(make('div', 'collision-plots'));
   const plots = [new CollisionPlot(grid, 'all worlds', all, axis)];

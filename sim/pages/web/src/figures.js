@@ -1,7 +1,7 @@
 'use strict';
-// What plan, plots and page share: elements, numbers for people, colors, ticks.
+// Functions for all pages: elements, formatted numbers, colors, ticks.
 
-/** A new element. Text is always text, never markup. */
+/** Returns a new element. `text` is never markup. */
 function make(tag, className = '', text = '') {
   const element = document.createElement(tag);
   if (className) element.className = className;
@@ -9,7 +9,7 @@ function make(tag, className = '', text = '') {
   return element;
 }
 
-/** A number for people: so many digits, a true minus. */
+/** Returns a number with this many significant figures and a typographic minus. */
 function short(value, figures = 4) {
   if (value === null || value === undefined) return '–';
   if (value === 0) return '0';
@@ -18,19 +18,19 @@ function short(value, figures = 4) {
   const digits = Math.max(0, figures - 1 - Math.floor(Math.log10(size)));
   return String(Number(value.toFixed(digits))).replace('-', '−');
 }
-/** A number with so many decimals and a true minus; a zero has none. */
+/** Returns a number with this many decimals and a typographic minus; zero has no minus. */
 function fixed(value, decimals) {
   if (value === null || value === undefined) return '–';
   return value.toFixed(decimals).replace(/^-(?=0\.?0*$)/, '').replace('-', '−');
 }
 function meters(value) { return value === null ? '–' : fixed(value, 2) + ' m'; }
 
-/** Value of a CSS variable of the theme in force. */
+/** Returns a CSS variable of the current theme. */
 function themeColor(name) {
   return getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
 }
 
-/** A function from 0..1 to a color, through evenly spaced stops "#rrggbb, ...". */
+/** Returns a function from 0..1 to a color, through evenly spaced stops "#rrggbb, ...". */
 function makeRamp(stops) {
   const colors = stops.split(',').map((s) => [1, 3, 5].map((i) => parseInt(s.trim().slice(i, i + 2), 16)));
   return (share) => {
@@ -40,7 +40,7 @@ function makeRamp(stops) {
   };
 }
 
-/** Round numbers in [low, high], about `count` of them: {step, values}. */
+/** Returns round numbers in [low, high], about `count` of them: {step, values}. */
 function niceTicks(low, high, count) {
   const rough = (high - low) / Math.max(count, 1);
   const power = 10 ** Math.floor(Math.log10(rough));
@@ -50,7 +50,7 @@ function niceTicks(low, high, count) {
   return {step, values};
 }
 
-/** Smallest and largest finite value, or [0, 1] when there is none. */
+/** Returns the minimum and maximum finite value, or [0, 1] if there is none. */
 function finiteRange(values) {
   let low = Infinity, high = -Infinity;
   for (const v of values) {
@@ -66,7 +66,7 @@ function quantile(values, share) {
   return sorted.length ? sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))] : 1;
 }
 
-/** A path as {n, e} in m, from steps in centimeters. */
+/** Returns a path as {n, e} in m, from steps in centimeters. */
 function readPath(steps) {
   const n = [], e = [];
   let north = 0, east = 0;
@@ -77,7 +77,7 @@ function readPath(steps) {
   return {n, e};
 }
 
-/** Lets an element that is no button be chosen by pointer and by keyboard. */
+/** Makes an element that is not a button selectable by pointer and keyboard. */
 function onChoose(element, action) {
   element.tabIndex = 0;
   element.addEventListener('click', action);
@@ -88,7 +88,7 @@ function onChoose(element, action) {
   });
 }
 
-/** What a drawing shows, for who cannot see it. */
+/** Sets the text alternative of a drawing. */
 function describeDrawing(element, text) {
   element.setAttribute('role', 'img');
   element.setAttribute('aria-label', text);
@@ -100,7 +100,7 @@ function copyButton(text) {
   button.title = 'Copy the command line that re-simulates this flight';
   button.addEventListener('click', (event) => {
     event.stopPropagation();
-    navigator.clipboard?.writeText(text).then(() => { button.textContent = 'copied'; }, () => { button.textContent = 'refused'; });
+    navigator.clipboard?.writeText(text).then(() => { button.textContent = 'copied'; }, () => { button.textContent = 'failed'; });
   });
   return button;
 }
@@ -110,7 +110,7 @@ function addCommand(host, text) {
   command.append(make('code', '', text), copyButton(text));
 }
 
-/** What the scenario let fail: {from_s, to_s, text} of result.failures, such as "20 s to 22 s: camera.front black". */
+/** Returns the failures of the scenario: {from_s, to_s, text} of result.failures, such as "20 s to 22 s: camera.front black". */
 function failuresOf(result, end_s) {
   return (result.failures ?? []).map((words) => {
     const [, from, to, text] = words.match(/^(\S+) s to (?:(\S+) s|the end): (.*)$/);

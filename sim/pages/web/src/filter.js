@@ -1,7 +1,7 @@
 'use strict';
-// Flights by their columns: what a filter's words mean, in which order rows stand.
+// Table of flights: filters and sort order.
 
-/** The campaign's table: columns by name, and what each flight amounts to. */
+/** The table of a campaign: columns by name, and the verdict on each flight. */
 class FlightTable {
   constructor(data) {
     this.columns = new Map(data.columns.map((column) => [column.name, column]));
@@ -9,7 +9,7 @@ class FlightTable {
     this.why = data.why;
   }
   value(name, row) { return this.columns.get(name)?.values[row] ?? null; }
-  /** 'passed', 'collided', 'failed' (another check), 'unchecked' (nothing was asked) or 'missing'. */
+  /** 'passed', 'collided', 'failed' (another check), 'unchecked' (no checks) or 'missing'. */
   verdict(row) {
     if (this.value('status', row) === 'missing') return 'missing';
     if (this.value('passed', row) === 1) return 'passed';
@@ -18,9 +18,9 @@ class FlightTable {
   }
 }
 const verdictColors = {passed: 'c0', collided: 'bad', failed: 'c3', unchecked: 'c2', missing: 'soft'};
-const verdictWords = {passed: 'all checks hold', collided: 'collided', failed: 'failed otherwise', unchecked: 'no checks', missing: 'not flown'};
+const verdictWords = {passed: 'all checks hold', collided: 'collided', failed: 'other check failed', unchecked: 'no checks', missing: 'not flown'};
 
-/** The column that a word names: whole, or its part after the last dot. */
+/** Returns the column with this name, or with this name after its last dot. */
 function findColumn(table, word) {
   if (table.columns.has(word)) return table.columns.get(word);
   return [...table.columns.values()].find(({name}) => name.endsWith('.' + word)) ?? null;
@@ -39,7 +39,7 @@ function parseFilter(table, text) {
     if (!column) return {terms: [], fault: `no column '${name}'`};
     const number = Number(value);
     if (relation !== '=' && relation !== '!=' && (column.is_text || isNaN(number))) {
-      return {terms: [], fault: `'${word}': ${column.is_text ? name + ' is no number' : value + ' is no number'}`};
+      return {terms: [], fault: `'${word}': ${column.is_text ? name : value} is not a number`};
     }
     terms.push({column, relation, value, number});
   }

@@ -3,7 +3,7 @@
 
 const rowsAtFirst = 100;
 
-/** A flight's page beside the campaign's. */
+/** Returns the link to a page of a flight. */
 function flightLink(data, table, row, name) {
   return table.value('id', row).split('/').map(encodeURIComponent).join('/') + '/' + name;
 }

@@ -1,9 +1,9 @@
 'use strict';
-// A module's map beside the truth, from above: landmarks with their ellipses, true corners, route, path, planned detours.
+// Map of a module and true corners in plan view: landmarks with their ellipses, true corners, route, path, planned detours.
 
 const mapSigmas = 3, pathsShown = 4;
 
-/** Half axes and turn, from north to east, of an ellipse of one standard deviation, m and rad. */
+/** Returns half axes and rotation, from north to east, of an ellipse of one standard deviation, m and rad. */
 function ellipseOf([nn, ne, ee]) {
   const mean = (nn + ee) / 2, spread = Math.hypot((nn - ee) / 2, ne);
   return {major: Math.sqrt(Math.max(0, mean + spread)), minor: Math.sqrt(Math.max(0, mean - spread)),
@@ -30,8 +30,8 @@ class LandmarksView {
       leave: () => {},
       click: () => {},
     });
-    this.map.plan = {...data.plan, bounds: []};  // those of the landmarks are no scene's, and not drawn
-    this.map.showReach();  // false landmarks may lie far off
+    this.map.plan = {...data.plan, bounds: []};  // the bounds of the landmarks are not those of the scene, and are not drawn
+    this.map.showReach();  // false landmarks may be far away
   }
   draw() { this.map.draw(); }
 
@@ -59,7 +59,7 @@ class LandmarksView {
     c.setLineDash([]);
   }
 
-  /** The latest detours planned until an instant, each with the place where it was planned. */
+  /** Returns the latest detours planned until an instant, each with the position of the vehicle at that time. */
   pathsUntil(t) {
     const paths = this.chart.paths.filter((path) => path.t <= t && path.places.length > 1).slice(-pathsShown);
     return paths.map((path) => ({...path, from: this.placeAt(path.t)}));
@@ -69,7 +69,7 @@ class LandmarksView {
     return [this.path.n[row], this.path.e[row]];
   }
 
-  /** Squares; one of the ground is smaller, so that it can be told from the one above it. */
+  /** Draws a corner as a square. Corners on the ground are smaller, to distinguish them from the corner above. */
   drawCorner(c, corner) {
     const half = this.onGround(corner) ? 3.5 : 6;
     c.strokeStyle = themeColor(this.cornerColor(corner));
@@ -110,7 +110,7 @@ class LandmarksView {
     if (corners.length) {
       entry('ink', share(counting.filter((corner) => corner.found)) + 'true corners found (small: on the ground)', 'box');
       entry('c1', share(counting.filter((corner) => !corner.found)) + 'missing', 'box');
-      entry('solid-edge', share(corners.filter((corner) => !corner.counts)) + 'hardly ever in sight', 'box');
+      entry('solid-edge', share(corners.filter((corner) => !corner.counts)) + 'rarely in view', 'box');
       entry('c2', share(points.filter((point) => point.true)) + `landmarks, ellipses of ${mapSigmas} standard deviations`, 'disc');
       entry('bad', share(points.filter((point) => !point.true)) + 'false (✕)', 'disc');
     } else {

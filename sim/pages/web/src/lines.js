@@ -1,7 +1,7 @@
 'use strict';
-// Lines of points over two axes, each of which may be logarithmic.
+// Line charts with linear or logarithmic axes.
 
-/** Colors of labels in their order; what a paper prints is drawn in ink. */
+/** Returns the color of each label. Lines from a paper have the color of text. */
 function labelColors(lines) {
   const colors = new Map();
   for (const {label, printed} of lines) {

@@ -1,5 +1,5 @@
 'use strict';
-// A scene seen from above, true to scale: north up, east right, meters. What flies over it is drawn by others.
+// Plan view of a scene to scale: north up, east right, meters. Other files draw the flights.
 
 const mapMargin = {left: 46, right: 12, top: 12, bottom: 34};
 
@@ -11,7 +11,7 @@ class MapView {
   /**
    * @param host  element to fill.
    * @param plan  scene as in the pages' data: bounds, goal, footprints, movers.
-   * @param reach  {n, e}: places besides the scene that must be in view, m.
+   * @param reach  {n, e}: positions outside the scene that must be in view, m.
    * @param on  {draw(c, map) over the scene; key(host) fills the legend; hover(x, y), leave(), click()}: pixels of the map.
    */
   constructor(host, plan, reach, on) {
@@ -27,13 +27,13 @@ class MapView {
     new ResizeObserver(() => requestAnimationFrame(() => this.draw())).observe(host);
   }
 
-  /** Center and extent, m, of places with a margin around them, as a share of their extent. */
+  /** Returns center and extent, m, of positions with a margin, which is a share of the extent. */
   static viewOf(norths, easts, share) {
     const [n0, n1] = finiteRange(norths), [e0, e1] = finiteRange(easts);
     const pad = share * Math.max(n1 - n0, e1 - e0, 2);
     return {n: (n0 + n1) / 2, e: (e0 + e1) / 2, height: n1 - n0 + 2 * pad, width: e1 - e0 + 2 * pad};
   }
-  /** The goal's north ends, and its east ends; none without one. */
+  /** Returns the north and east bounds of the goal; empty without a goal. */
   goalEnds() {
     const {goal} = this.plan;
     return goal ? [[goal.n - goal.radius, goal.n + goal.radius], [goal.e - goal.radius, goal.e + goal.radius]] : [[], []];
@@ -42,7 +42,7 @@ class MapView {
     const {plan, reach} = this, [norths, easts] = this.goalEnds();
     return MapView.viewOf(plan.bounds.slice(0, 2).concat(reach.n, norths), plan.bounds.slice(2).concat(reach.e, easts), 0.03);
   }
-  /** What flew and its goal, where the scene is much wider. */
+  /** Shows the flights and the goal if the scene is much wider. */
   firstView() {
     const {reach, whole} = this, [norths, easts] = this.goalEnds();
     const near = MapView.viewOf(reach.n.concat(norths), reach.e.concat(easts), 0.25);
@@ -66,7 +66,7 @@ class MapView {
   }
   showReach() { this.show(MapView.viewOf(this.reach.n, this.reach.e, 0.08)); }
 
-  /** Sizes the canvas and works out pixels per meter. The card keeps the shape of the whole scene. */
+  /** Sets the size of the canvas and the pixels per meter. The card keeps the aspect ratio of the whole scene. */
   layout() {
     const width = this.host.clientWidth;
     const inner = width - mapMargin.left - mapMargin.right;
@@ -160,10 +160,10 @@ class MapView {
       c.strokeRect(this.x(e0), this.y(n1), (e1 - e0) * this.scale, (n1 - n0) * this.scale);
       c.setLineDash([]);
     }
-    for (const level of ['below', 'beside']) {
-      c.fillStyle = themeColor(level === 'beside' ? 'solid' : 'low');
+    for (const level of ['below', 'at_altitude']) {
+      c.fillStyle = themeColor(level === 'at_altitude' ? 'solid' : 'low');
       c.strokeStyle = themeColor('solid-edge');
-      c.lineWidth = level === 'beside' ? 1 : 0.5;
+      c.lineWidth = level === 'at_altitude' ? 1 : 0.5;
       for (const solid of this.plan.footprints) {
         if (solid.level !== level) continue;
         c.beginPath();
@@ -175,7 +175,7 @@ class MapView {
     }
   }
 
-  /** The paths of movers: as wide as they are, their middle dashed. */
+  /** Draws the paths of moving obstacles at their width, with dashed center lines. */
   drawMovers(c) {
     for (const {way, radius} of this.plan.movers) {
       const trace = () => {
@@ -250,9 +250,9 @@ class MapView {
       item.appendChild(make('i')).style.cssText = `background: ${themeColor(color)}; border: 1px solid ${themeColor('solid-edge')}`;
       item.append(text);
     };
-    if (levels.has('beside')) entry('solid', 'obstacle at flight height');
-    if (levels.has('below')) entry('low', 'below the flight');
-    this.key.append(make('span', '', 'north up, true to scale'));
+    if (levels.has('at_altitude')) entry('solid', 'obstacle at flight altitude');
+    if (levels.has('below')) entry('low', 'obstacle below the flight');
+    this.key.append(make('span', '', 'north up, to scale'));
   }
 
   showTip(x, y, lines) {
@@ -263,7 +263,7 @@ class MapView {
     this.tip.style.top = Math.max(0, y - this.tip.offsetHeight - 8) + 'px';
   }
 
-  /** What lies under a pixel. */
+  /** Returns lines of text about the position of a pixel. */
   placeLines(x, y) {
     const solid = this.solidAt(this.north(y), this.east(x));
     const lines = [placeText(this.north(y), this.east(x))];

@@ -1,5 +1,5 @@
 'use strict';
-// How a map is moved and zoomed: by its buttons, by the pointer and by keys.
+// Controls of a map: buttons, pointer and keys.
 
 class MapControls {
   /** @param map  a MapView. */
@@ -18,9 +18,9 @@ class MapControls {
       b.title = title;
       b.addEventListener('click', action);
     };
-    button('+', 'Closer', () => map.zoom(1.6));
-    button('−', 'Further', () => map.zoom(1 / 1.6));
-    button('path', 'Show what flew', () => map.showReach());
+    button('+', 'Zoom in', () => map.zoom(1.6));
+    button('−', 'Zoom out', () => map.zoom(1 / 1.6));
+    button('path', 'Show the flights', () => map.showReach());
     button('all', 'Show the whole scene', () => map.show({...map.whole}));
   }
 
@@ -49,11 +49,11 @@ class MapControls {
     });
   }
 
-  /** Arrows move the map by a tenth, + and - zoom, 0 shows all. */
+  /** Arrow keys move the map by 10 %, + and - zoom, 0 shows the whole scene. */
   addKeys() {
     const {map} = this;
     const words = map.plan.goal ? `, goal at ${placeText(map.plan.goal.n, map.plan.goal.e)}` : '';
-    describeDrawing(map.canvas, `Map of the scene and what flew, north up${words}. Arrows move it, plus and minus zoom, 0 shows all.`);
+    describeDrawing(map.canvas, `Map of the scene and the flights, north up${words}. Arrow keys move it, plus and minus zoom, 0 shows the whole scene.`);
     map.canvas.tabIndex = 0;
     const moves = {ArrowUp: [0.1, 0], ArrowDown: [-0.1, 0], ArrowRight: [0, 0.1], ArrowLeft: [0, -0.1]};
     const zooms = {'+': 1.6, '=': 1.6, '-': 1 / 1.6};

@@ -1,5 +1,5 @@
 'use strict';
-// All paths of the flights that share a scene, over its map.
+// Paths of all flights of a scene on its map.
 
 class PathsView {
   /** @param select  element to choose the scene with. @param on  {choose(row)}. */
@@ -8,7 +8,7 @@ class PathsView {
     this.paths = path.map(readPath);
     this.shown = new Set();
     const counts = this.counts(map.keys());
-    // Where flights have no drawn scene they stand on an empty map of their own, named -1.
+    // Flights without a drawn scene share an empty map, named -1.
     this.numbers = [...counts.keys()].sort((a, b) => (a < 0) - (b < 0) || counts.get(b) - counts.get(a) || a - b);
     for (const number of this.numbers) {
       const option = select.appendChild(make('option'));
@@ -16,7 +16,7 @@ class PathsView {
     }
     select.addEventListener('change', () => this.open(Number(select.value)));
     if (this.numbers.length) this.open(this.numbers[0]);
-    else host.append(make('p', 'missing', 'No flight has left a path.'));
+    else host.append(make('p', 'missing', 'No flight has a recorded path.'));
   }
 
   counts(rows) {
@@ -52,7 +52,7 @@ class PathsView {
       const count = counts.get(number) ?? 0, first = this.mapOf.indexOf(number);
       const name = `${this.table.value('group', first)}, seed ${this.table.value('seed', first)}`;
       this.select.options[i].textContent =
-        `${number < 0 ? 'others, not drawn' : number + 1 + ' of ' + this.maps.length}: ${count === 1 ? name : count + ' flights'}`;
+        `${number < 0 ? 'other scenes, not drawn' : number + 1 + ' of ' + this.maps.length}: ${count === 1 ? name : count + ' flights'}`;
     });
   }
 
@@ -85,7 +85,7 @@ class PathsView {
     const goals = new Map(rows.map((row) => [String(this.goals[row]), this.goals[row]]));
     if (goals.size <= 20) for (const goal of goals.values()) if (goal) map.drawGoal(c, {n: goal[0], e: goal[1], radius: goal[2]});
     c.lineWidth = rows.length > 200 ? 1 : 1.5;
-    // The rarer ends last, so that they lie on top.
+    // Rare verdicts are drawn last, on top.
     for (const verdict of ['passed', 'unchecked', 'failed', 'collided']) {
       c.globalAlpha = Math.min(1, Math.max(0.25, 30 / rows.length));
       c.strokeStyle = themeColor(verdictColors[verdict]);
@@ -123,7 +123,7 @@ class PathsView {
     }
   }
 
-  /** The path next to the pointer, by its distance to each segment. */
+  /** Returns the path closest to the pointer, by distance to its segments. */
   hover(x, y) {
     let best = null, least = 8 ** 2;
     for (const row of this.rows) {
@@ -141,7 +141,7 @@ class PathsView {
   }
 }
 
-/** Lines of text about the flight under the pointer. */
+/** Returns lines of text about a flight. */
 function flightLines(table, row) {
   const clearance = table.value('min_obstacle_clearance_m', row);
   return [table.value('id', row), table.why[row] || table.value('outcome', row),

@@ -1,7 +1,7 @@
 'use strict';
-// One flight over its map: the path in colors, its marks, the vehicle at an instant.
+// A flight on its map: colored path, marks, vehicle at an instant.
 
-/** What the path can be colored by. The clearance scale ends where more of it no longer matters. */
+/** Returns the quantities for coloring the path. The clearance scale ends at a clearance above which it is irrelevant. */
 function pathColorings(path) {
   const colorings = [];
   if (path.clearance.some((v) => v !== null)) {
@@ -85,7 +85,7 @@ class PlanView {
     if (this.row !== null) this.drawVehicle(c, this.row, ink);
   }
 
-  /** An arrowhead along the heading. */
+  /** Draws an arrowhead along the heading. */
   drawVehicle(c, row, ink) {
     const {map} = this;
     c.save();

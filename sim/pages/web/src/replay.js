@@ -1,4 +1,4 @@
-// The flight in three dimensions: the vehicle follows its true path through the scene's solids.
+// The flight in three dimensions: the vehicle follows its true path between the solids of the scene.
 import * as THREE from 'three';
 import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
 
@@ -7,8 +7,8 @@ import {goalMark, ground, moverMesh, pathLine, solidsMesh, vehicle} from './repl
 import {eventsOf, Track} from './replay_track.js';
 
 /**
- * Frame V, three.js's world: x east, y up, z south. The one place where W (north, east, down) becomes V: all that stands
- * in W hangs below a group with this matrix.
+ * Frame V, the world of three.js: x east, y up, z south. Everything in W (north, east, down) is a child of a group with
+ * this matrix.
  */
 const R_VW = new THREE.Matrix4().set(0, 1, 0, 0, 0, 0, -1, 0, -1, 0, 0, 0, 0, 0, 0, 1);
 function inV(north, east, down) { return new THREE.Vector3(north, east, down).applyMatrix4(R_VW); }
@@ -25,7 +25,7 @@ const renderer = new THREE.WebGLRenderer({canvas: element('view'), antialias: tr
 const stage = new THREE.Scene();
 stage.background = new THREE.Color(0xb9cbe0);
 stage.add(new THREE.HemisphereLight(0xffffff, 0x6b7560, 1.3));
-// Four walls, four shades, whichever side they are seen from.
+// Light that gives the four sides of a box different shades.
 for (const [north, east, strength] of [[-0.5, 0.3, 1.6], [0.5, 0.2, 0.7], [0.1, -0.6, 0.4]]) {
   const light = new THREE.DirectionalLight(0xffffff, strength);
   light.position.copy(inV(north, east, -0.6));
@@ -47,7 +47,7 @@ craft.group.rotation.order = 'ZYX';  // yaw, then pitch, then roll, each about t
 
 // --- The instant
 
-/** Row before an instant and the share of the step to the next. */
+/** Returns the row before an instant, and the share of the step to the next row. */
 function place(t_s) {
   let low = 0, high = path.t_s.length - 1;
   while (low < high) {
@@ -58,7 +58,7 @@ function place(t_s) {
   return {row: low, next, share: step > 0 ? Math.min(1, Math.max(0, (t_s - path.t_s[low]) / step)) : 0};
 }
 const between = (values, {row, next, share}) => values[row] + share * (values[next] - values[row]);
-/** An angle between two, the shorter way around. */
+/** Interpolates an angle along the shorter arc. */
 function turnBetween(values, {row, next, share}) {
   const turn = values[next] - values[row];
   return values[row] + share * Math.atan2(Math.sin(turn), Math.cos(turn));
@@ -70,7 +70,7 @@ if (result.closest_obstacle || collided) {
   inW.add(eventMark({text: event.text, place: where, collided}, craft.reach));
 }
 
-/** The film follows the time line; while both play it is put right only when they part. */
+/** The film follows the timeline. During playback, its position is corrected only if the difference is large. */
 const film = make('video'), screen = element('film');
 film.muted = true;
 function showFilm() {
@@ -115,7 +115,7 @@ orbit.maxPolarAngle = 0.499 * Math.PI;
 const craftInV = () => inV(...craft.group.position.toArray());
 const behind_m = Math.max(3, 5 * craft.reach), orbit_m = 2 * behind_m;
 
-/** Puts the orbit camera south of the vehicle and above it, or right above. */
+/** Places the orbit camera south of and above the vehicle, or directly above. */
 function aim(kind) {
   const span = Math.max(bounds[1] - bounds[0], bounds[3] - bounds[2]);
   orbit.target.copy(craftInV());
@@ -130,7 +130,7 @@ function chase() {
   camera.lookAt(craftInV());
 }
 let seen = null;
-/** Orbit follows the vehicle: eye and target move as it does. */
+/** Moves the orbit camera and its target with the vehicle. */
 function follow() {
   const now = craftInV();
   if (state.camera === 'chase') {
@@ -143,7 +143,7 @@ function follow() {
   seen = now;
 }
 
-/** A compass whose needle points where north is on the screen. */
+/** Draws a compass with the direction of north on the screen. */
 function drawCompass() {
   const c = element('compass').getContext('2d'), direction = camera.getWorldDirection(new THREE.Vector3());
   const heading = Math.atan2(direction.x, -direction.z);  // of the camera, from north to east
@@ -200,7 +200,7 @@ function fillControls() {
   what.append(make('h1', '', result.scenario), make('p', 'soft', `seed ${result.seed}, ${result.outcome} after ${fixed(result.flight_time_s, 1)} s; Hedgehop ${result.version}, build ${result.build}`));
   if (result.truth_used?.length) what.append(make('p', 'fail', `The module used the truth: ${result.truth_used.join('; ')}`));
   what.appendChild(make('p')).id = 'facts';
-  what.append(make('p', 'soft', `${world.has_ground ? `lines on the ground ${short(floor.step_m)} m apart; ` : ''}bodies as the simulator collides them${solids.ceilings ? ', ceilings as edges' : ''}`));
+  what.append(make('p', 'soft', `${world.has_ground ? `grid lines ${short(floor.step_m)} m apart; ` : ''}collision geometry${solids.ceilings ? ', ceilings as edges' : ''}`));
   if (has_report) {
     const link = what.appendChild(make('a', '', 'report'));
     link.href = 'report.html';
@@ -242,7 +242,7 @@ function draw(now_ms) {
 
 const track = new Track(element('track'), {statuses, events, end_s}, setTime);
 fillControls();
-// Opens at the instant that the address names (#t=12.5), at a collision's last seconds, or at the closest approach.
+// Starts at the instant in the address (#t=12.5), at the last seconds before a collision, or at the closest approach.
 const asked_s = Number(new URLSearchParams(location.hash.slice(1)).get('t'));
 if (path.t_s.length) setTime(asked_s > 0 ? Math.min(asked_s, end_s) : collided ? Math.max(0, end_s - 2) : event.t_s);
 addEventListener('resize', () => track.draw(state.t_s));
@@ -250,8 +250,8 @@ setCamera(collided ? 'chase' : 'orbit');
 element('camera').value = collided ? 'chase' : 'orbit';
 requestAnimationFrame(draw);
 
-// What tests read: places in V of the vehicle and of a point of its own, the controls' state, and how many solids' faces
-// stand between the camera and the vehicle.
+// For tests: positions in V of the vehicle and of a point on it, the state of the controls, and the number of faces of solids
+// between the camera and the vehicle.
 window.replay = {
   state,
   facesBefore: () => {

@@ -1,9 +1,9 @@
-// Names in the scene, and a mark where the flight ended or came nearest.
+// Name labels in the scene, and a mark at the collision or the closest approach.
 import * as THREE from 'three';
 
 const MOST_LABELS = 8, FARTHEST_M = 30, ABOVE_FLIGHT_M = 2;
 
-/** A line of text that faces the camera, of one size on the screen. */
+/** Returns a text that faces the camera and has a constant size on the screen. */
 function label(text) {
   const canvas = document.createElement('canvas'), c = canvas.getContext('2d'), font = '600 28px system-ui, "DejaVu Sans", sans-serif';
   c.font = font;
@@ -22,7 +22,7 @@ function label(text) {
   return sprite;
 }
 
-/** The names of the solids nearest to the path, nearest first, no name twice. */
+/** Returns the names of the solids closest to the path in order of distance, each name once. */
 export function nearestNames(labels, {north_m, east_m}) {
   const away = ([, north, east]) => Math.min(...north_m.map((n, i) => Math.hypot(n - north, east_m[i] - east)));
   const near = labels.map((row) => ({row, away_m: away(row)})).filter(({away_m}) => away_m < FARTHEST_M);
@@ -31,7 +31,7 @@ export function nearestNames(labels, {north_m, east_m}) {
     .filter(([name]) => !seen.has(name) && seen.add(name)).slice(0, MOST_LABELS);
 }
 
-/** Labels of a scene, as children of a group in W: above what is low, of what is high where the flight passes it. */
+/** Returns labels as children of a group in W: above low solids, and at flight altitude for high ones. */
 export function nameTags(labels, path) {
   const group = new THREE.Group(), highest = Math.min(...path.down_m) - ABOVE_FLIGHT_M;
   for (const [name, north, east, top] of nearestNames(labels, path)) {
@@ -47,7 +47,7 @@ export function moverTag({name, bodies: {boxes, cylinders, spheres}}) {
   return tag;
 }
 
-/** A ball where the vehicle touched, a smaller one where it came nearest, with what that was. */
+/** Returns a ball at the collision, or a smaller one at the closest approach, with the name of the obstacle. */
 export function eventMark({text, place, collided}, reach) {
   const group = new THREE.Group(), color = collided ? 0xd62828 : 0xe9a800;
   group.add(new THREE.Mesh(new THREE.SphereGeometry((collided ? 0.5 : 0.2) * reach, 20, 14),

@@ -1,10 +1,10 @@
-// Meshes of a scene and a vehicle, as children of a group in W (or M, or B): the numbers of the data go in as they are.
+// Meshes of a scene and a vehicle, as children of a group in W (or M, or B): the numbers of the data are used unchanged.
 import * as THREE from 'three';
 
 const colors = {solid: 0x9aa5b4, ground: 0x7f8f76, mover: 0xd08a2e, hull: 0x1f3a5f, goal: 0x009e73, path: 0x0072b2, nose: 0xd55e00};
 const material = (color, more = {}) => new THREE.MeshLambertMaterial({color, ...more});
 
-/** Many bodies of one form, drawn at once. @param rows  position, quaternion (x, y, z, w), half extents. */
+/** Returns many bodies of one shape as one mesh. @param rows  position, quaternion (x, y, z, w), half extents. */
 function copies(geometry, rows, look, color) {
   const shades = rows.length > 5;
   if (shades) look = new THREE.MeshLambertMaterial();  // each instance has its own color
@@ -14,15 +14,15 @@ function copies(geometry, rows, look, color) {
     mesh.setMatrixAt(i, matrix);
     if (shades) mesh.setColorAt(i, new THREE.Color(color).offsetHSL(0, 0, 0.05 * Math.sin(2.4 * i)));  // neighbors differ
   });
-  mesh.frustumCulled = false;  // its bounds would be those of one
+  mesh.frustumCulled = false;  // its bounds are those of one body only
   return mesh;
 }
 
-/** Boxes, cylinders, spheres and triangles as one group. */
+/** Returns boxes, cylinders, spheres and triangles as one group. */
 export function bodies(data, color, more) {
   const group = new THREE.Group(), look = material(color, more);
   if (data.boxes.length) group.add(copies(new THREE.BoxGeometry(2, 2, 2), data.boxes, look, color));
-  // three.js has a cylinder's axis along y, ours lies along z.
+  // In three.js the axis of a cylinder is y, here it is z.
   if (data.cylinders.length) group.add(copies(new THREE.CylinderGeometry(1, 1, 2, 24).rotateX(Math.PI / 2), data.cylinders, look, color));
   if (data.spheres.length) group.add(copies(new THREE.SphereGeometry(1, 24, 16), data.spheres, look, color));
   const both = material(color, {...more, side: THREE.DoubleSide, flatShading: true});
@@ -36,7 +36,7 @@ export function bodies(data, color, more) {
   return group;
 }
 
-/** The ground with a grid, its lines a round number of meters apart. @return {group, step_m}. */
+/** Returns the ground with a grid with round spacing in meters: {group, step_m}. */
 export function ground([n0, n1, e0, e1]) {
   const group = new THREE.Group(), size = Math.max(n1 - n0, e1 - e0, 10);
   const rough = size / 20, power = 10 ** Math.floor(Math.log10(rough));
@@ -68,19 +68,19 @@ export function pathLine({north_m, east_m, down_m}) {
   return new THREE.Line(geometry, new THREE.LineBasicMaterial({color: colors.path}));
 }
 
-/** The hull as the simulator collides it, half transparent, and an arrow forward. */
+/** Returns the collision geometry of the hull, half transparent, and a forward arrow. */
 export function vehicle(hull) {
   const group = new THREE.Group(), body = bodies(hull, colors.hull, {transparent: true, opacity: 0.85});
   const reach = Math.max(0.3, ...[...hull.boxes, ...hull.cylinders].map(([x, y, z, qx, qy, qz, qw, a]) => x + a));
   const nose = new THREE.Mesh(new THREE.ConeGeometry(0.12 * reach, 0.4 * reach, 12).rotateZ(-Math.PI / 2), material(colors.nose));
-  nose.position.set(1.1 * reach, 0, Math.min(...[...hull.boxes, ...hull.cylinders].map(([x, y, z]) => z)));  // no rotor hides it
+  nose.position.set(1.1 * reach, 0, Math.min(...[...hull.boxes, ...hull.cylinders].map(([x, y, z]) => z)));  // above all rotors
   group.add(body, nose);
   return {group, reach};
 }
 
 export function moverMesh(mover) { return bodies(mover.bodies, colors.mover); }
 
-/** Whether a body is a ceiling over the path: flat, above all of it, and over some of it. @param low, high  its corners in W. */
+/** Returns whether a body is a ceiling above the path: flat, above all of it, and over some of it. @param low, high  its corners in W. */
 function isCeiling(low, high, {north_m, east_m, down_m}) {
   const kFlat_m = 1;
   return high[2] < Math.min(...down_m) && high[2] - low[2] < kFlat_m &&
@@ -96,7 +96,7 @@ function meshCorners({corners}) {
   return [box.min.toArray(), box.max.toArray()];
 }
 
-/** What stands in the scene; ceilings, which would hide the flight from above, as edges only. {group, ceilings}. */
+/** Returns the solids of the scene: {group, ceilings}. Ceilings are drawn as edges, because they would hide the flight. */
 export function solidsMesh(scene, path) {
   const over = {boxes: [], meshes: []}, rest = {...scene, boxes: [], meshes: []};
   for (const box of scene.boxes) (isCeiling(...boxCorners(box), path) ? over : rest).boxes.push(box);

@@ -1,23 +1,23 @@
-// The event track: what the module said over time, and what happened, above the slider.
+// The event track above the slider: module status over time, and events.
 
-/** What a flight's result tells of instants: the closest approach, and how it ended. */
+/** Returns the events of a flight: failures, closest approach, end. */
 export function eventsOf(result, end_s) {
   const closest = result.closest_obstacle, events = [];
   if (closest && result.outcome !== 'collided') {
-    events.push({t_s: closest.t_s, text: `nearest: ${closest.what || 'obstacle'}, ${meters(closest.distance_m)}`});
+    events.push({t_s: closest.t_s, text: `closest: ${closest.what || 'obstacle'}, ${meters(closest.distance_m)}`});
   }
-  const ends = {collided: `hit ${closest?.what || 'an obstacle'}`, reached: 'goal reached', timeout: 'time is up', fault: 'fault'};
+  const ends = {collided: `hit ${closest?.what || 'an obstacle'}`, reached: 'goal reached', timeout: 'timeout', fault: 'fault'};
   events.push({t_s: end_s, text: ends[result.outcome] ?? result.outcome, bad: ['collided', 'fault'].includes(result.outcome)});
   for (const {from_s, to_s, text} of failuresOf(result, end_s)) events.push({t_s: from_s, to_s, text, bad: true});
   return events;
 }
 
-/** Draws the track and jumps to where it is clicked. @param statuses  [since s, word]. An event with a to_s lasts. */
+/** Draws the track; a click moves the time there. @param statuses  [since s, word]. An event with to_s has a duration. */
 export class Track {
   constructor(canvas, {statuses, events, end_s}, jump) {
     Object.assign(this, {canvas, statuses, events, end_s, t_s: 0});
     this.words = [...new Set(statuses.map(([, word]) => word))];
-    canvas.setAttribute('aria-label', `what the module said: ${this.words.join(', ')}; ` +
+    canvas.setAttribute('aria-label', `module status: ${this.words.join(', ')}; ` +
       events.map(({t_s, text}) => `${text} at ${fixed(t_s, 1)} s`).join('; '));
     canvas.addEventListener('click', (event) => jump(event.offsetX / canvas.clientWidth * end_s));
     canvas.addEventListener('pointermove', (event) => { canvas.title = this.statusAt(event.offsetX / canvas.clientWidth * end_s); });

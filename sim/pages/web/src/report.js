@@ -1,12 +1,12 @@
 'use strict';
-// Puts the page together from its data: verdict, checks, plan, video, plots, details.
+// Builds the report of a run from its data: verdict, checks, plan, video, plots, details.
 
-/** The text of an outcome, and whether it is good in itself. */
+/** Returns the text of an outcome, and whether the outcome is good without checks. */
 function judge(outcome, goal) {
   switch (outcome) {
     case 'reached': return {words: 'Reached the goal', good: true};
     case 'collided': return {words: 'Collided', good: false};
-    case 'timeout': return goal ? {words: 'Timeout: the goal was not reached in time', good: false} : {words: 'Timeout: flew its full time, as asked', good: true};
+    case 'timeout': return goal ? {words: 'Timeout before the goal', good: false} : {words: 'Completed (no goal)', good: true};
     case 'fault': return {words: 'Ended by a fault', good: false};
     default: return {words: outcome, good: false};
   }
@@ -25,14 +25,14 @@ function fillVerdict(host, {result, description, plan, has_replay}) {
 
   const failed = result.checks.filter((c) => !c.passed).length, all = result.checks.length;
   const {words, good} = judge(result.outcome, plan.goal);
-  const bad = all ? failed > 0 : !good;  // the checks decide where there are any, as the exit status does
+  const bad = all ? failed > 0 : !good;  // if there are checks, they decide, as for the exit status
   const badge = host.appendChild(make('div', 'badge ' + (bad ? 'bad' : all ? 'good' : '')));
   badge.append(make('span', 'mark', bad ? '✕' : all ? '✓' : '–'));
   const lines = badge.appendChild(make('div'));
   lines.append(make('strong', '', words));
   lines.append(make('span', '', !all ? 'no checks' : failed ? `${failed} of ${all} checks fail` : `all ${all} checks hold`));
   if (result.cause) what.append(make('p', 'fail', result.cause));
-  if (result.failures?.length) what.append(make('p', 'fail', `Set to fail: ${result.failures.join('; ')}`));
+  if (result.failures?.length) what.append(make('p', 'fail', `Failures of the scenario: ${result.failures.join('; ')}`));
   if (result.truth_used?.length) what.append(make('p', 'fail', `The module used the truth: ${result.truth_used.join('; ')}`));
 }
 
@@ -44,14 +44,14 @@ function fillTiles(host, result) {
     if (unit) line.append(' ', make('small', '', unit));
     element.append(make('div', 'more', more));
   };
-  const where = (p) => p ? `${p.what || 'obstacle'} at ${p.t_s.toFixed(1)} s` : 'nothing within range';
+  const where = (p) => p ? `${p.what || 'obstacle'} at ${p.t_s.toFixed(1)} s` : 'no obstacle within range';
   tile('flight time', fixed(result.flight_time_s, 1), 's', `${result.decisions} decisions`);
   tile('path length', fixed(result.path_length_m, 1), 'm', `mean speed ${fixed(result.mean_speed_mps, 2)} m/s`);
-  tile('closest to an obstacle', fixed(result.min_obstacle_clearance_m, 2), 'm', where(result.closest_obstacle));
-  tile('closest to the ground', fixed(result.min_ground_clearance_m, 2), 'm', where(result.closest_ground));
+  tile('minimum clearance to obstacles', fixed(result.min_obstacle_clearance_m, 2), 'm', where(result.closest_obstacle));
+  tile('minimum clearance to the ground', fixed(result.min_ground_clearance_m, 2), 'm', where(result.closest_ground));
   if (result.goal_distance_m !== null) tile('distance to the goal', fixed(result.goal_distance_m, 1), 'm', 'at the end, horizontal');
-  tile('decision', short(result.decision_ms.median, 3), 'ms', `95 % below ${short(result.decision_ms.p95, 3)} ms`);
-  tile('all images', short(result.render_ms.median, 3), 'ms', `95 % below ${short(result.render_ms.p95, 3)} ms`);
+  tile('decision time', short(result.decision_ms.median, 3), 'ms', `95 % below ${short(result.decision_ms.p95, 3)} ms`);
+  tile('rendering', short(result.render_ms.median, 3), 'ms', `95 % below ${short(result.render_ms.p95, 3)} ms`);
   tile('speed of simulation', short(result.realtime_factor, 3), '× real time', `${short(result.wall_s, 3)} s of wall time`);
 }
 
@@ -64,7 +64,7 @@ const RELATIONS = {'<=': '≤', '>=': '≥', '>': '>'};
 
 function fillChecks(host, checks) {
   if (!checks.length) {
-    host.append(make('p', 'soft', 'The scenario has none.'));
+    host.append(make('p', 'soft', 'The scenario defines no checks.'));
     return;
   }
   host.classList.add('scroll');
@@ -94,14 +94,14 @@ function fillDetails(host, {result, module, scene, vehicle, scenario_yaml}) {
     ['velocity from flow', stage(result.velocimeter_ms)], ['physics step', stage(result.physics_ms)]]);
   const metrics = Object.entries(result.metrics);
   if (metrics.length) {
-    add('figures of the module', metrics.map(([name, value]) =>
+    add('metrics of the module', metrics.map(([name, value]) =>
       [name.replaceAll('_', ' '), short(value) + ' ' + (result.metric_units?.[name] || '')]));
   }
   const scenario = host.appendChild(make('details'));
   scenario.append(make('summary', '', 'Resolved scenario'), make('pre', '', scenario_yaml));
 }
 
-/** The video inside the page becomes a file in memory, which browsers can seek in. */
+/** Converts an embedded video to a file in memory, because browsers can seek only in files. */
 function openFilm() {
   const film = document.getElementById('film');
   if (!film) {
@@ -117,24 +117,24 @@ function openFilm() {
   return film;
 }
 
-/** Until the film is played it shows the moment of the closest approach. */
+/** Shows the closest approach as the still image of the film. */
 function setPoster(film, t) {
   const still = filmStill(film, t);
   still.addEventListener('drawn', () => {
     try {
       film.poster = still.toDataURL('image/jpeg');
-    } catch { /* a film beside the page may not be read by it */ }
+    } catch { /* browsers may forbid a page to read a linked film */ }
   });
 }
 
-/** Notes beside the plots' section heads. */
+/** Returns the notes on the headings of the plots. */
 function sectionNotes(module) {
   const notes = {'Command and motion': 'drag to zoom, double click to see all, click to seek the video there'};
-  if (module === 'flow_balance') notes['What the module saw'] = 'as in Garratt and Cheung 2009, fig. 7';
+  if (module === 'flow_balance') notes['Module signals'] = 'as in Garratt and Cheung 2009, fig. 7';
   return notes;
 }
 
-/** Removes a goal that the module's planned route does not lead to: it is neither shown nor judged by. */
+/** Removes a goal that is not the end of the planned route of the module: it is irrelevant to the flight. */
 function dropUnflownGoal({map, plan}) {
   if (!map || !map.course.length || !plan.goal) return;
   const {n, e, radius} = plan.goal;
@@ -153,7 +153,7 @@ function main() {
   fillStory(document.getElementById('story'), data, film);
   if (!data.map) document.getElementById('landmarks-card').remove();
 
-  // One instant is shown by plan and plots: the pointer's, else the video's.
+  // Plan and plots show the same instant: that of the pointer, else that of the video.
   let pointer = null, drawn;
   const show = () => {
     const t = pointer ?? (film && film.currentTime > 0 ? film.currentTime : null);

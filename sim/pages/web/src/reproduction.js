@@ -1,7 +1,7 @@
 'use strict';
-// Puts the page of papers' figures beside ours together from its data.
+// Builds the page of the results compared with the papers from its data.
 
-/** Paths of several kinds of flight over one scene: that of the first. */
+/** Paths of several groups of flights over the scene of the first. */
 class PathChart {
   constructor(host, paths) {
     const lines = paths.labels.map((label) => ({label, printed: false}));

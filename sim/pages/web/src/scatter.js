@@ -1,5 +1,5 @@
 'use strict';
-// Any two columns against each other, with the flights that no other beats.
+// Scatter plot of two columns with its Pareto front.
 
 class Scatter {
   constructor(host, data, table, on) {
@@ -15,7 +15,7 @@ class Scatter {
     this.passedOnly = passedOnly.appendChild(make('input'));
     this.passedOnly.type = 'checkbox';
     this.passedOnly.checked = true;
-    passedOnly.append('front of passed flights only');
+    passedOnly.append('Pareto front of passed flights only');
     this.passedOnly.addEventListener('change', () => this.update());
     this.axes = new Axes(host.appendChild(make('div')), 380, {
       draw: (c) => this.draw(c), hover: (x, y) => this.lines(x, y), pick: (x, y) => this.pick(x, y)});
@@ -63,7 +63,7 @@ class Scatter {
     c.setLineDash([4, 3]);
     c.beginPath();
     this.front.forEach((row, i) => {
-      // A staircase: what lies behind the front's steps is beaten.
+      // A staircase: flights behind its steps are dominated.
       if (i) c.lineTo(axes.x(xs[row]), axes.y(ys[this.front[i - 1]]));
       c.lineTo(axes.x(xs[row]), axes.y(ys[row]));
     });

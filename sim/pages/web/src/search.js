@@ -1,5 +1,5 @@
 'use strict';
-// What a search for failures did: robustness over its flights, and each failure it keeps over its scene.
+// A search for failures: robustness over its flights, and each stored failure on its scene.
 
 class SearchView {
   constructor(host, {search}, table, on) {
@@ -11,14 +11,14 @@ class SearchView {
     const kept = search.counterexamples, confirmed = kept.filter((c) => c.repeats && c.confirmed).length;
     host.append(make('h2', '', 'Search for failures'));
     host.append(make('p', 'soft', `${search.method}, seed ${search.seed}: ${search.flights} of ${search.budget} flights, ${search.unknowns} unknowns, ` +
-      `${search.infeasible_points} points not flown for a broken constraint. ` +
+      `${search.infeasible_points} points not flown because of a violated constraint. ` +
       (search.failures ? `${search.failing_flights} points fail, the first after ${search.flights_to_first} flights; ${search.failures} distinct failures, ` +
-        `${confirmed} of ${kept.length} confirmed.` : 'No failure was found, which is no proof of safety.')));
+        `${confirmed} of ${kept.length} confirmed.` : 'No failure was found. This does not prove safety.')));
     this.axes = new Axes(host.appendChild(make('div')), 240, {
       draw: (c) => this.draw(c), hover: (x, y) => this.lines(x, y),
       pick: (x, y) => { const row = this.at(x, y); if (row !== null) on.choose(row); }});
-    this.axes.set(numberAxis('flight', [1, this.robustness.length]), numberAxis('robustness of the weakest check', [...this.robustness, 0]));
-    host.append(make('div', 'plan-key', 'line: the least so far; below 0 a check fails'));
+    this.axes.set(numberAxis('flight', [1, this.robustness.length]), numberAxis('minimum robustness of all checks', [...this.robustness, 0]));
+    host.append(make('div', 'plan-key', 'line: minimum so far; below 0 a check fails'));
     const list = host.appendChild(make('div', 'pair halves'));
     kept.forEach((one, i) => this.fillFailure(list.appendChild(make('div')), one, search.paths, i));
   }
@@ -57,13 +57,13 @@ class SearchView {
     return row === null ? null : [this.table.value('id', row), `${this.table.value('weakest', row)}: robustness ${short(this.robustness[row])}`];
   }
 
-  /** A failure in its least form: its path over the scene, and where its files are. */
+  /** Adds a minimized failure: its path over the scene, and links to its files. */
   fillFailure(host, one, paths, i) {
     host.append(make('h3', '', one.name));
-    host.append(make('p', '', `${one.check}: robustness ${short(one.shrunk_robustness)}, as found ${short(one.robustness)}; ${one.items} of ${one.items_before} boxes, ` +
-      `movers and failures left; ${short(one.duration_s)} s; ${one.shrinking_flights} flights to shrink it`));
+    host.append(make('p', '', `${one.check}: robustness ${short(one.shrunk_robustness)}, before minimization ${short(one.robustness)}; ${one.items} of ${one.items_before} boxes, ` +
+      `moving obstacles and failures remain; ${short(one.duration_s)} s; ${one.shrinking_flights} flights for the minimization`));
     const verdict = one.repeats && one.confirmed;
-    host.append(make('p', verdict ? 'pass' : 'fail', verdict ? 'confirmed: flown again alone it is the same flight' : 'NOT CONFIRMED: flown again it is another flight'));
+    host.append(make('p', verdict ? 'pass' : 'fail', verdict ? 'confirmed: a repeated flight is equal' : 'NOT CONFIRMED: a repeated flight differs'));
     const links = host.appendChild(make('p'));
     for (const [file, words] of [[one.file, 'scenario'], [`${one.folder}/report.html`, 'report and film']]) {
       const link = links.appendChild(make('a', '', words));

@@ -1,9 +1,9 @@
 'use strict';
-// What happened, at a glance: opens the page of a flight that ended badly.
+// Summary of a collision or fault, at the top of the report.
 
 const BEFORE_S = 2;
 
-/** The image of the film at an instant, drawn into a canvas as soon as the browser has it; it then says `drawn`. */
+/** Returns a canvas with the image of the film at an instant. It emits `drawn` when the browser has loaded the image. */
 function filmStill(film, t_s, label = '') {
   const canvas = make('canvas', 'still');
   canvas.setAttribute('role', 'img');
@@ -21,14 +21,14 @@ function filmStill(film, t_s, label = '') {
   return canvas;
 }
 
-/** Since when the last value of a list has held, as a row. */
+/** Returns the first row from which the values equal the last value. */
 function heldSince(values) {
   let row = values.length - 1;
   while (row > 0 && values[row - 1] === values[values.length - 1]) --row;
   return row;
 }
 
-/** What to say about the end: one sentence an item. */
+/** Returns sentences about the end of the flight. */
 function storyLines({result, path}) {
   const end = path.t.length - 1, t_s = result.flight_time_s;
   const lines = [];
@@ -40,17 +40,17 @@ function storyLines({result, path}) {
   const status = path.statuses[path.status[end]];
   if (status) {
     const since_s = path.t[heldSince(path.status)];
-    lines.push(since_s > 0 ? `The module said “${status}” for the last ${fixed(t_s - since_s, 1)} s.` : `The module said “${status}” all the way.`);
+    lines.push(since_s > 0 ? `Module status “${status}” for the last ${fixed(t_s - since_s, 1)} s.` : `Module status “${status}” during the whole flight.`);
   }
   const before = path.t.findIndex((t) => t >= t_s - BEFORE_S);
   if (result.outcome === 'collided' && before > 0 && path.clearance[before] !== null) {
-    lines.push(`${BEFORE_S} s before, it was ${fixed(path.clearance[before], 1)} m away at ${fixed(path.speed[before], 1)} m/s.`);
+    lines.push(`${BEFORE_S} s before: clearance ${fixed(path.clearance[before], 1)} m, speed ${fixed(path.speed[before], 1)} m/s.`);
   }
-  if (result.goal_distance_m !== null) lines.push(`The goal was ${fixed(result.goal_distance_m, 1)} m away.`);
+  if (result.goal_distance_m !== null) lines.push(`Distance to the goal: ${fixed(result.goal_distance_m, 1)} m.`);
   return lines;
 }
 
-/** Fills the section, or removes it where the flight ended well or in time. */
+/** Fills the section. Removes it unless the flight collided or had a fault. */
 function fillStory(host, data, film) {
   const {result, path, has_replay} = data;
   if (!['collided', 'fault'].includes(result.outcome) || !path.t.length) {
@@ -58,9 +58,9 @@ function fillStory(host, data, film) {
     return;
   }
   const t_s = result.flight_time_s;
-  if (film) host.append(filmStill(film, t_s, `what the cameras saw at ${fixed(t_s, 1)} s`));
+  if (film) host.append(filmStill(film, t_s, `camera images at ${fixed(t_s, 1)} s`));
   const text = host.appendChild(make('div', 'story-text'));
-  text.append(make('h2', '', 'What happened'));
+  text.append(make('h2', '', 'Summary'));
   const list = text.appendChild(make('ul'));
   for (const line of storyLines(data)) list.append(make('li', '', line));
   const actions = text.appendChild(make('p', 'actions'));
@@ -74,7 +74,7 @@ function fillStory(host, data, film) {
     });
   }
   if (has_replay) {
-    const link = actions.appendChild(make('a', '', 'Replay it in three dimensions'));
+    const link = actions.appendChild(make('a', '', 'Replay in three dimensions'));
     link.href = `replay.html#t=${Math.max(0, t_s - BEFORE_S).toFixed(2)}`;
   }
 }

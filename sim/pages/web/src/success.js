@@ -1,9 +1,9 @@
 'use strict';
-// How many flights pass, over two columns: a cell for each pair of values, or of ranges where there are many.
+// Success rate by two columns: one cell for each pair of values, or of ranges if there are many values.
 
 const mostCategories = 16, numberBins = 8;
 
-/** Groups of a column's values: {axis, words, of(row) -> index or -1}. */
+/** Returns groups of the values of a column: {axis, words, of(row) -> index or -1}. */
 function columnBins(column, rows) {
   const values = [...new Set(rows.map((row) => column.values[row]))].filter((v) => v !== null && v !== '');
   if (column.is_text || values.length <= mostCategories) {
@@ -19,7 +19,7 @@ function columnBins(column, rows) {
     return v === null ? -1 : Math.min(numberBins - 1, Math.floor((v - low) / step));
   };
   const axis = wordAxis(columnLabel(column), words);
-  axis.words = null;  // its ticks are the ranges' ends
+  axis.words = null;  // its ticks are the ends of the ranges
   axis.ticks = Array.from({length: numberBins + 1}, (_, i) => ({value: i - 0.5, text: short(low + i * step, 3)}));
   return {axis, words, of};
 }
@@ -40,7 +40,7 @@ function successCells(table, rows, xBins, yBins) {
   return cells;
 }
 
-/** A labeled list to choose a column with. */
+/** Adds a labeled list for selecting a column. */
 function columnSelect(host, label, columns, chosen, on) {
   const element = host.appendChild(make('label', '', label)).appendChild(make('select'));
   for (const {name} of columns) element.append(make('option', '', name));
@@ -64,7 +64,7 @@ class SuccessMap {
     const key = host.appendChild(make('div', 'plan-key')), ramp = key.appendChild(make('span', 'ramp'));
     ramp.append('0');
     ramp.appendChild(make('i')).style.background = 'linear-gradient(90deg, var(--ramp))';
-    ramp.append('1: share of flights whose checks all hold');
+    ramp.append('1: share of passed flights');
   }
   setRows(rows) {
     this.rows = rows;

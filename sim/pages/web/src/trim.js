@@ -1,5 +1,5 @@
 'use strict';
-// Puts the page of a vehicle's trim together from its data.
+// Builds the page with the trim of a vehicle from its data.
 
 const speedAxis = {key: 'speed_mps', label: 'speed through the air, m/s', symbol: 'V', unit: 'm/s', points: true};
 
