@@ -9,14 +9,14 @@
 namespace hedgehop::avoidance {
 namespace {
 
-/// Counts how often it is asked.
-class Asked : public Module {
+/// Counts the calls of update().
+class CallCounter : public Module {
  public:
-  explicit Asked(int& count) : count_(count) {}
+  explicit CallCounter(int& count) : count_(count) {}
 
  private:
   Needs do_needs() const override { return {{{"front"}, {"left"}}}; }
-  std::vector<Signal> do_signals() const override { return {{"asked", ""}}; }
+  std::vector<Signal> do_signals() const override { return {{"calls", ""}}; }
   void do_reset(const Setup&) override {}
   Decision do_update(const Observation&) override {
     return {VelocityCommand{{1.0, 0.0}, 5.0, 0.0}, "cruise", {1.0 * ++count_}};
@@ -28,10 +28,10 @@ constexpr int kSizePx = 32;
 constexpr double kRateHz = 25.0;
 constexpr int64_t kPeriodNs = 40'000'000;
 
-/// Statuses of two seconds in which the front camera's images from the tenth on are what `fault` makes of them.
+/// Returns the statuses of two seconds. `fault` changes the images of the front camera from the tenth on.
 std::vector<std::string> fly(const std::function<void(CameraFrame&, int)>& fault) {
-  int asked = 0;
-  const auto module = stopping_when_blind(std::make_unique<Asked>(asked));
+  int calls = 0;
+  const auto module = stopping_when_blind(std::make_unique<CallCounter>(calls));
   module->reset(four_cameras(kSizePx, kRateHz));
   std::vector<std::string> statuses;
   for (int i = 0; i < 50; ++i) {
@@ -47,7 +47,7 @@ std::vector<std::string> fly(const std::function<void(CameraFrame&, int)>& fault
     EXPECT_EQ(std::holds_alternative<HoverCommand>(decision.command), decision.status == "blind");
     EXPECT_EQ(std::isnan(decision.signals.at(0)), decision.status == "blind");
   }
-  EXPECT_EQ(asked, std::ranges::count(statuses, "cruise"));
+  EXPECT_EQ(calls, std::ranges::count(statuses, "cruise"));
   return statuses;
 }
 
@@ -59,7 +59,7 @@ void expect_blind_from_then_on(const std::vector<std::string>& statuses, int goo
   }
 }
 
-TEST(Sight, StopsWhenOneNeededCameraIsMissingBlackOrFrozen) {
+TEST(BlindStop, StopsIfOneRequiredCameraIsMissingBlackOrFrozen) {
   expect_blind_from_then_on(fly([](CameraFrame& frame, int) { frame.image.release(); }));
   expect_blind_from_then_on(fly([](CameraFrame& frame, int) { frame.image.setTo(0); }));
   cv::Mat last(kSizePx, kSizePx, CV_8UC1);
@@ -73,19 +73,19 @@ TEST(Sight, StopsWhenOneNeededCameraIsMissingBlackOrFrozen) {
   EXPECT_EQ(frozen[49], "blind");
 }
 
-TEST(Sight, GoesOnWithTheFirstGoodImage) {
+TEST(BlindStop, ContinuesWithTheFirstGoodImage) {
   expect_blind_from_then_on(fly([](CameraFrame& frame, int i) {
                               if (i < 40) frame.image.setTo(0);
                             }),
                             40);
 }
 
-TEST(Sight, BlankWallIsNeitherBlackNorFrozen) {
+TEST(BlindStop, BlankWallIsNeitherBlackNorFrozen) {
   for (const std::string& status : fly([](CameraFrame&frame, int) { frame.image.setTo(80); }))
     EXPECT_EQ(status, "cruise");
 }
 
-TEST(Sight, SlowCameraHasThreeImages) {
+TEST(BlindStop, AllowsThreePeriodsOfASlowCamera) {
   EXPECT_EQ(blind_after_ns(25.0), 500'000'000);
   EXPECT_EQ(blind_after_ns(2.0), 1'500'000'000);
 }

@@ -10,7 +10,7 @@
 #include "tests/avoidance/policy/onnx_file.h"
 #include "tests/sim/record/temporary_folder.h"
 
-/// What every module of the registry promises, whatever it is for.
+/// The contract of every module of the registry.
 namespace hedgehop::avoidance {
 namespace {
 
@@ -19,12 +19,12 @@ constexpr int kSizePx = 160;
 struct Row {
   std::string name;
   ModuleConfig config;
-  bool stereo = false;           ///< looks forward with a pair of cameras
-  bool holds_heading = true;     ///< and height; else it flies where it looks
-  bool fisheye = false;          ///< looks down with one camera
-  bool learned = false;          ///< flies what a network says
-  bool looks_apart = false;      ///< turns the nose to what it needs to see, not to where it flies
-  std::string blank = "cruise";  ///< status where nothing can be seen; empty: more than one
+  bool stereo = false;           ///< has a pair of forward cameras
+  bool holds_heading = true;     ///< and altitude; otherwise it flies in the direction of view
+  bool fisheye = false;          ///< has one downward camera
+  bool learned = false;          ///< flies the output of a network
+  bool looks_apart = false;      ///< turns the nose to unknown space, not to the direction of flight
+  std::string blank = "cruise";  ///< status with blank images; empty: several
   friend std::ostream& operator<<(std::ostream& out, const Row& row) { return out << row.name; }
 };
 
@@ -37,7 +37,7 @@ std::vector<Row> default_rows(std::index_sequence<Index...>) {
   return rows;
 }
 
-/// A network that looks at nothing but the brightness of one image.
+/// A network that uses only the brightness of one image.
 policy::OnnxPolicyConfig small_policy() {
   static const sim::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "small.onnx";
@@ -54,7 +54,7 @@ bool reads_networks(const ModuleConfig& config) {
   }
 }
 
-// Every row of the registry with its defaults, and the ways of a row that differ much.
+// Every row of the registry with its defaults, and the main variants of a row.
 std::vector<Row> rows() {
   auto all = default_rows(std::make_index_sequence<std::variant_size_v<ModuleConfig>>{});
   for (Row& row : all) {
@@ -67,9 +67,10 @@ std::vector<Row> rows() {
       row.config = small_policy();
       row.blank = "policy";
     }
-    // Between walls that cannot be seen the way is not free.
+    // Between invisible walls the path is not free.
     if (row.fisheye) row.blank = "blind";
-    // It looks, and may move in what it assumes to be free (LocalMapFlight.BlindItStaysInWhatIsAssumedFree).
+    // It observes, and may move in the space that it assumes to be free
+    // (LocalMapFlight.BlindVehicleStaysInTheSpaceAssumedFree).
     if (row.name == "local_map") row.blank.clear();
   }
   std::erase_if(all, [](const Row& row) { return row.learned && !reads_networks(row.config); });
@@ -95,7 +96,7 @@ class Contract : public testing::TestWithParam<Row> {
  protected:
   static constexpr int kSteps = 4;
 
-  // A flight past two walls; made once, for drawing takes most of a test's time.
+  // A flight past two walls; drawn once, because drawing takes most of the time of a test.
   static const std::vector<contract::Step>& flight() {
     static const std::vector<contract::Step> all_round = make_flight(four_cameras(kSizePx, 25.0));
     static const std::vector<contract::Step> ahead = make_flight(stereo_pair(kSizePx, 25.0));
@@ -131,7 +132,7 @@ class Contract : public testing::TestWithParam<Row> {
 
 TEST_P(Contract, SameInputGivesTheSameBits) { contract::expect_same_input_gives_the_same_bits(subject()); }
 TEST_P(Contract, ResetEqualsANewModule) { contract::expect_reset_equals_a_new_module(subject()); }
-TEST_P(Contract, DrawingChangesNothingAndGivesRgb) {
+TEST_P(Contract, DrawingDoesNotAffectDecisionsAndReturnsRgb) {
   contract::expect_drawing_changes_nothing_and_gives_rgb(subject());
 }
 TEST_P(Contract, SpeedLimitsHold) { contract::expect_speed_limits_hold(subject()); }
@@ -139,12 +140,12 @@ TEST_P(Contract, MissingFramesAreSurvived) { contract::expect_missing_frames_are
 TEST_P(Contract, NavigationThatIsNotFiniteIsRejected) {
   contract::expect_navigation_that_is_not_finite_is_rejected(subject());
 }
-TEST_P(Contract, SignalsAndMetricsAreNamedOnceAndSteady) {
+TEST_P(Contract, SignalAndMetricNamesAreUniqueAndConstant) {
   contract::expect_signals_and_metrics_are_named_once_and_steady(subject());
 }
-TEST_P(Contract, AllNeededCamerasMustBeThere) { contract::expect_all_needed_cameras_must_be_there(subject()); }
+TEST_P(Contract, EveryRequiredCameraMustBePresent) { contract::expect_all_needed_cameras_must_be_there(subject()); }
 
-TEST_P(Contract, HoldsTheGoalsHeadingAndHeightOrFliesWhereItLooks) {
+TEST_P(Contract, HoldsTheHeadingAndAltitudeOfTheGoalOrFliesInTheDirectionOfView) {
   const contract::Subject under_test = subject();
   for (const Decision& decision : under_test.fly(*under_test.make())) {
     if (const auto* velocity = std::get_if<VelocityCommand>(&decision.command)) {
@@ -165,7 +166,7 @@ TEST_P(Contract, HoldsTheGoalsHeadingAndHeightOrFliesWhereItLooks) {
   }
 }
 
-TEST_P(Contract, BlankImagesAreSurvivedAndLeaveTheWayFree) {
+TEST_P(Contract, ContinuesWithBlankImagesAndTreatsThePathAsFree) {
   const contract::Subject under_test = subject();
   const auto module = under_test.make();
   module->reset(under_test.setup);
@@ -178,7 +179,7 @@ TEST_P(Contract, BlankImagesAreSurvivedAndLeaveTheWayFree) {
   }
 }
 
-// A contract that no module could break would say nothing.
+// The contract must reject a module that violates it.
 class Forgetful : public Module {
   Needs do_needs() const override { return {}; }
   void do_reset(const Setup&) override {}
@@ -186,7 +187,7 @@ class Forgetful : public Module {
   int count_ = 0;
 };
 
-TEST(ContractBroken, AModuleThatRemembersItsLastFlightFails) {
+TEST(ContractViolation, RejectsAModuleThatKeepsStateOfItsLastFlight) {
   static const contract::Subject forgetful{.make = [] { return std::make_unique<Forgetful>(); },
                                            .setup = {.limits = {.speed_mps = 1.0}},
                                            .steps = std::vector<contract::Step>(1)};

@@ -19,7 +19,7 @@ VelocityCommand command_at(const Eigen::Vector3d& p_WB, const Goal& goal, const 
   return std::get<VelocityCommand>(module->update(observation).command);
 }
 
-TEST(GoToGoal, FliesStraightAtCruiseSpeedFromAnywhere) {
+TEST(GoToGoal, FliesStraightAtCruiseSpeedFromAnyPosition) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> place(-100.0, 100.0);
   for (int trial = 0; trial < 100; ++trial) {
@@ -35,7 +35,7 @@ TEST(GoToGoal, FliesStraightAtCruiseSpeedFromAnywhere) {
   }
 }
 
-TEST(GoToGoal, SlowsInProportionToTheDistanceLeftAndStops) {
+TEST(GoToGoal, DeceleratesInProportionToTheRemainingDistanceAndStops) {
   const Goal goal{{10, 0, 0}, 0.0};
   EXPECT_NEAR(command_at({6, 0, 0}, goal).v_WB_W.x(), 2.0, 1e-12);
   EXPECT_NEAR(command_at({8, 0, 0}, goal).v_WB_W.x(), 1.0, 1e-12);
@@ -43,7 +43,7 @@ TEST(GoToGoal, SlowsInProportionToTheDistanceLeftAndStops) {
   EXPECT_EQ(command_at({10, 0, 3}, goal).v_WB_W, Eigen::Vector2d::Zero());
 }
 
-TEST(GoToGoal, RefusesSpeedsAndRadiiOutOfRange) {
+TEST(GoToGoal, RejectsSpeedsAndRadiiOutOfRange) {
   EXPECT_THROW(make_go_to_goal({.speed_mps = 0.0}), std::invalid_argument);
   EXPECT_THROW(make_go_to_goal({.slow_radius_m = -1.0}), std::invalid_argument);
 }

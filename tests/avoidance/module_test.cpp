@@ -37,13 +37,13 @@ struct Checked : testing::Test {
   }
 };
 
-TEST_F(Checked, UpdateComesAfterReset) {
+TEST_F(Checked, UpdateRequiresReset) {
   EXPECT_THROW(update(), std::logic_error);
   module.reset(setup);
   EXPECT_NO_THROW(update());
 }
 
-TEST_F(Checked, AFailedResetLeavesTheModuleUnready) {
+TEST_F(Checked, FailedResetLeavesTheModuleUnready) {
   module.reset(setup);
   avoidance::Setup blind = setup;
   blind.cameras.erase(blind.cameras.begin());
@@ -51,14 +51,14 @@ TEST_F(Checked, AFailedResetLeavesTheModuleUnready) {
   EXPECT_THROW(update(), std::logic_error);
 }
 
-TEST_F(Checked, ResetRefusesAFisheyeWhereThePinholeIsNeeded) {
+TEST_F(Checked, ResetRejectsAFisheyeIfAPinholeIsRequired) {
   setup.cameras[0].model = {32, 32, vision::camera::FisheyeLens{10.0, 10.0, 15.5, 15.5}};
   EXPECT_NO_THROW(module.reset(setup));
   module.pinhole = true;
   EXPECT_THROW(module.reset(setup), std::invalid_argument);
 }
 
-TEST_F(Checked, ResetRefusesMissingCamerasAndRatesAndLimitsThatAreNotPositive) {
+TEST_F(Checked, ResetRejectsMissingCamerasAndRatesAndLimitsThatAreNotPositive) {
   avoidance::Setup bad = setup;
   bad.cameras[0].role = "nose";
   EXPECT_THROW(module.reset(bad), std::invalid_argument);
@@ -72,14 +72,14 @@ TEST_F(Checked, ResetRefusesMissingCamerasAndRatesAndLimitsThatAreNotPositive) {
   EXPECT_THROW(module.reset(bad), std::invalid_argument);
 }
 
-/// Needs a corner detector.
+/// Requires a corner detector.
 class CornerReader final : public Module {
   Needs do_needs() const override { return {{{"front", CameraNeed::Channel::corners}}}; }
   void do_reset(const Setup&) override {}
   Decision do_update(const Observation&) override { return {HoverCommand{}, "hover", {}}; }
 };
 
-TEST(CornerFrames, HaveNoSizeButOneCornerToARow) {
+TEST(CornerFrames, HaveAnySizeWithOneCornerPerRow) {
   CornerReader reader;
   reader.reset(four_cameras(32, 50.0, 3.0));
   int64_t t_ns = 0;
@@ -95,7 +95,7 @@ TEST(CornerFrames, HaveNoSizeButOneCornerToARow) {
   EXPECT_THROW(see(cv::Mat()), std::logic_error);
 }
 
-TEST_F(Checked, TimeMustRiseUntilReset) {
+TEST_F(Checked, TimeMustIncreaseUntilReset) {
   module.reset(setup);
   update();
   observation.t_ns = t_ns;
@@ -107,7 +107,7 @@ TEST_F(Checked, TimeMustRiseUntilReset) {
   EXPECT_NO_THROW(module.update(observation));
 }
 
-TEST_F(Checked, FramesMustFitTheirCamera) {
+TEST_F(Checked, FramesMustMatchTheirCamera) {
   module.reset(setup);
   std::vector<CameraFrame> frames(1);
   const auto with = [&](const char* role, const cv::Mat& image, int64_t lead_ns) {
@@ -121,7 +121,7 @@ TEST_F(Checked, FramesMustFitTheirCamera) {
   EXPECT_THROW(with("front", cv::Mat(32, 31, CV_8UC1, cv::Scalar(0)), 0), std::logic_error);
   EXPECT_THROW(with("front", cv::Mat(), 0), std::logic_error);
   EXPECT_THROW(with("front", color, 0), std::logic_error);
-  EXPECT_NO_THROW(with("left", color, 0));  // carried by the rig, not needed by the module
+  EXPECT_NO_THROW(with("left", color, 0));  // part of the rig, not required by the module
   EXPECT_THROW(with("nose", grey, 0), std::logic_error);
 }
 
@@ -135,7 +135,7 @@ TEST_F(Checked, CommandsMustBeFinite) {
   }
 }
 
-TEST_F(Checked, SignalsMustBeAsManyAsAnnounced) {
+TEST_F(Checked, NumberOfSignalsMustMatchTheDeclaration) {
   module.reset(setup);
   module.next.signals = {1.0, 2.0};
   EXPECT_THROW(update(), std::logic_error);

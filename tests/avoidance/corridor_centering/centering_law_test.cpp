@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kGravityMps2 = 9.80665;
 
-// The point mass of [Zingg2010] sec. V-C in a straight corridor along x: roll and turn rate as the controller asks,
-// speed along the heading held. y to the right of the middle, m.
+// The point mass of [Zingg2010] sec. V-C in a straight corridor along x: roll and turn rate as commanded,
+// constant speed along the heading. y is to the right of the middle, m.
 struct PointMass {
   double half_width_m = 2.0, speed_mps = 0.42;
   double x_m = 0.0, y_m = 0.0, v_m_s = 0.0;  // v: sideways, of the body
@@ -40,7 +40,7 @@ struct PointMass {
 struct Path {
   std::vector<double> x_m, y_m;
   double largest_y_m() const { return *std::max_element(y_m.begin(), y_m.end()); }
-  /// Path after which |y| stays within a band.
+  /// Path length after which |y| remains within a band.
   double settled_after_m(double band_m) const {
     double after_m = 0.0;
     for (size_t i = 0; i < y_m.size(); ++i) {
@@ -69,11 +69,11 @@ Path fly_printed(Noise noise, double t_s) {
   return path;
 }
 
-TEST(PrintedControl, HoldsTheSteadyGainAndTheDifferenceGainOfItsTransferFunction) {
+TEST(PublishedControl, HasTheSteadyGainAndTheDifferenceGainOfItsTransferFunction) {
   const CenteringGains gains;
   EXPECT_NEAR(published_control(gains, 1.0, 1.0), 0.009, 1e-15);  // C(1) = kD
   EXPECT_NEAR(published_control(gains, 1.0, 0.0), 0.209, 1e-15);  // the first sample of a step
-  // C(z) at a frequency, as the answer to a sine.
+  // C(z) at a frequency, from the response to a sine.
   const double w = 0.7;
   const std::complex<double> z = std::polar(1.0, w), C = (0.209 * z - 0.2) / z;
   for (int k = 0; k < 20; ++k) {
@@ -82,18 +82,18 @@ TEST(PrintedControl, HoldsTheSteadyGainAndTheDifferenceGainOfItsTransferFunction
   }
 }
 
-TEST(PrintedControl, Figure11SettlesInTheMiddleWithoutOvershoot) {
+TEST(PublishedControl, Figure11SettlesInTheMiddleWithoutOvershoot) {
   const Path path = fly_printed([] { return 0.0; }, 120.0);
   EXPECT_LT(std::abs(path.y_m.back()), 0.02);
-  // Two real poles follow from y'' = -g (kD y + kp T y') / 2: 0.119 /s and 0.371 /s; overdamped, so no more than what
-  // the turning adds.
+  // Two real poles follow from y'' = -g (kD y + kp T y') / 2: 0.119 /s and 0.371 /s; overdamped, so the
+  // overshoot is at most that of the turn.
   EXPECT_LT(path.largest_y_m(), 0.2);
   RecordProperty("settled_within_0m2_after_m", std::to_string(path.settled_after_m(0.2)));
   RecordProperty("overshoot_m", std::to_string(path.largest_y_m()));
 }
 
-TEST(PrintedControl, Figure12StaysRoundTheMiddleUnderTheNoiseMeasured) {
-  // Deviations of fig. 9: mean 0.146, largest 0.54; a normal distribution of this spread has that mean.
+TEST(PublishedControl, Figure12StaysNearTheMiddleWithTheMeasuredNoise) {
+  // Deviations of fig. 9: mean 0.146, maximum 0.54; a normal distribution of this spread has that mean.
   constexpr double kSpread = 0.146 / 0.7979;
   int touches = 0;
   double sum_m2 = 0.0, count = 0.0;
@@ -105,14 +105,14 @@ TEST(PrintedControl, Figure12StaysRoundTheMiddleUnderTheNoiseMeasured) {
     for (size_t i = path.y_m.size() / 2; i < path.y_m.size(); ++i) sum_m2 += path.y_m[i] * path.y_m[i];
     count += std::ceil(0.5 * static_cast<double>(path.y_m.size()));
   }
-  // It is stable, but starts so near a wall that noise alone can push it there.
+  // It is stable, but the start is so near a wall that noise alone can cause a collision.
   EXPECT_LT(std::sqrt(sum_m2 / count), 0.5);
   EXPECT_LE(touches, 5);
   RecordProperty("touches_of_50", touches);
   RecordProperty("rms_m", std::to_string(std::sqrt(sum_m2 / count)));
 }
 
-// The same start with our law: a point that flies its course at once.
+// The same start with the modified law: a point that follows its course without delay.
 template <class Noise>
 Path fly_pursuit(Noise noise, double speed_mps, double t_s) {
   PointMass mass;
@@ -130,18 +130,18 @@ Path fly_pursuit(Noise noise, double speed_mps, double t_s) {
   return path;
 }
 
-TEST(Pursuit, AnOffsetFallsByEInEveryLookaheadAtAnySpeed) {
+TEST(Pursuit, OffsetDecreasesByEPerLookaheadDistanceAtAnySpeed) {
   for (const double speed_mps : {0.2, 0.42, 1.0}) {
     const Path path = fly_pursuit([] { return 0.0; }, speed_mps, 12.0 / speed_mps);
     EXPECT_LE(path.largest_y_m(), 0.0);  // no overshoot
-    // dy/dx = -y / 1.5 m exactly, as tan(course) = -y / 1.5 m, but for the steps of a tenth of a second.
+    // dy/dx = -y / 1.5 m exactly, as tan(course) = -y / 1.5 m, except for the time steps of 0.1 s.
     for (size_t i = 0; i < path.x_m.size(); ++i) {
       EXPECT_NEAR(path.y_m[i], -1.5 * std::exp(-path.x_m[i] / 1.5), 0.03 * speed_mps + 1e-9) << path.x_m[i];
     }
   }
 }
 
-TEST(Pursuit, StaysCloserToTheMiddleThanThePrintedLawUnderTheSameNoise) {
+TEST(Pursuit, StaysCloserToTheMiddleThanThePublishedLawWithTheSameNoise) {
   constexpr double kSpread = 0.146 / 0.7979;
   const auto rms = [](const Path& path) {
     double sum = 0.0;
@@ -157,7 +157,7 @@ TEST(Pursuit, StaysCloserToTheMiddleThanThePrintedLawUnderTheSameNoise) {
   }
 }
 
-TEST(ClearanceSpeed, LeavesPathEnoughToStopIn) {
+TEST(ClearanceSpeed, LeavesSufficientPathForAStop) {
   const SpeedLimits limits{5.0, 0.1, 1.3, 0.4};
   for (const double path_m : {0.0, 0.05, 0.3, 1.0, 4.0}) {
     const double v = clearance_speed_mps(10.0, path_m, limits);

@@ -18,7 +18,7 @@ using vision::StraightCorridor;
 constexpr int64_t kPeriodNs = 100'000'000;
 constexpr double kAltitudeM = 1.5;
 
-// Flies north at a constant velocity through what is drawn, and returns the decisions.
+// Flies north at constant velocity through the drawn scene and returns the decisions.
 std::vector<Decision> fly(Module& module, const std::vector<vision::TexturedPlane>& walls,
                           const Eigen::Vector2d& from_NE, const Eigen::Vector2d& v_WB_W, int images,
                           const std::function<void(cv::Mat&)>& alter = {}, double largest_wave_m = 0.8,
@@ -80,7 +80,7 @@ TEST(CorridorCentering, BothDerotationsAgree) {
   EXPECT_NEAR(signal(*a, by_image, "centering_error"), signal(*b, by_rays, "centering_error"), 0.02);
 }
 
-TEST(CorridorCentering, PrintedLawRollsAndTurnsTowardsTheMiddle) {
+TEST(CorridorCentering, PublishedLawRollsAndTurnsTowardsTheMiddle) {
   CorridorCenteringConfig config;
   config.law = Law::published;
   const auto module = make_corridor_centering(config);
@@ -88,13 +88,13 @@ TEST(CorridorCentering, PrintedLawRollsAndTurnsTowardsTheMiddle) {
   const Decision last = fly(*module, corridor.planes(), {0, -0.5}, {0.4, 0}, 8).back();
   const auto& command = std::get<AttitudeCommand>(last.command);
   EXPECT_NEAR(command.pitch_rad, -0.5 * std::numbers::pi / 180.0, 1e-12);
-  // The error stands at 0.4; so after the first sample the controller gives kD times that, give or take its noise.
+  // The error remains 0.4, so after the first sample the controller returns kD times that value, with noise.
   EXPECT_NEAR(command.roll_rad, 0.009 * 0.4, 0.2 * 0.02);
   EXPECT_GT(command.heading_rad, 0.0);
 }
 
-TEST(CorridorCentering, HoversBetweenPlainWallsHoweverTheFloorLooks) {
-  // The floor alone is textured; walls are the flat grey of nothing.
+TEST(CorridorCentering, HoversBetweenPlainWallsWithAnyFloor) {
+  // Only the floor is textured; the walls are uniformly grey.
   const std::vector<vision::TexturedPlane> floor = {
       {{0, 0, 0}, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), 1.25}};
   for (const auto law : {Law::modified, Law::published}) {
@@ -107,7 +107,7 @@ TEST(CorridorCentering, HoversBetweenPlainWallsHoweverTheFloorLooks) {
   }
 }
 
-TEST(CorridorCentering, OneWallAloneIsUnknownNotTheMiddle) {
+TEST(CorridorCentering, OneWallAloneGivesAnUnknownError) {
   const auto module = make_corridor_centering({});
   const Decision last = fly(*module, {wall(0, 1.2, -0.5 * std::numbers::pi)}, {0, 0}, {0.6, 0}, 12).back();
   EXPECT_TRUE(std::isnan(signal(*module, last, "centering_error")));
@@ -115,12 +115,12 @@ TEST(CorridorCentering, OneWallAloneIsUnknownNotTheMiddle) {
   EXPECT_TRUE(std::holds_alternative<HoverCommand>(last.command));
 }
 
-TEST(CorridorCentering, SlowsDownBeforeAWallAcrossAndThenTurnsAwayHoweverCoarseItsTexture) {
+TEST(CorridorCentering, DeceleratesInFrontOfAWallAcrossAndTurnsAwayWithAnyTexture) {
   for (const double largest_wave_m : {0.04, 0.3, 0.8}) {
     const auto command_before = [&](double path_m, double v_mps) {
       const auto module = make_corridor_centering({});
       StraightCorridor corridor;
-      corridor.end_m = path_m + 2 * 0.1 * v_mps;  // two images on
+      corridor.end_m = path_m + 2 * 0.1 * v_mps;  // after two images
       return fly(*module, corridor.planes(), {0, 0}, {v_mps, 0}, 3, {}, largest_wave_m).back();
     };
     const Decision far = command_before(6.0, 0.8), near = command_before(0.9, 0.8), at_it = command_before(0.38, 0.3);
@@ -132,7 +132,7 @@ TEST(CorridorCentering, SlowsDownBeforeAWallAcrossAndThenTurnsAwayHoweverCoarseI
   }
 }
 
-TEST(CorridorCentering, TurnsAwayFromABlankWallAcrossBetweenTexturedOnes) {
+TEST(CorridorCentering, TurnsAwayFromABlankWallAcrossBetweenTexturedWalls) {
   const auto blank_ahead = [](cv::Mat& image) { image(cv::Rect(145, 0, 190, 96)).setTo(128); };
   const auto module = make_corridor_centering({});
   const StraightCorridor corridor;
@@ -142,7 +142,7 @@ TEST(CorridorCentering, TurnsAwayFromABlankWallAcrossBetweenTexturedOnes) {
   EXPECT_NE(std::get<HoverCommand>(last.command).yaw_rate_radps, 0.0);
 }
 
-TEST(CorridorCentering, ANoseTurnedAsideIsNoOffsetExceptAsPrinted) {
+TEST(CorridorCentering, HeadingErrorIsNoOffsetExceptInThePublishedLaw) {
   const double heading_rad = 0.3, east_m = 0.3;
   const auto error = [&](Law law) {
     CorridorCenteringConfig config;
@@ -156,7 +156,7 @@ TEST(CorridorCentering, ANoseTurnedAsideIsNoOffsetExceptAsPrinted) {
   EXPECT_GT(std::abs(error(Law::published) + east_m / 1.25), 0.06);
 }
 
-TEST(CorridorCentering, TheCourseStaysWithinItsAngleOfTheWallsHoweverFarTheNoseHasTurned) {
+TEST(CorridorCentering, CourseStaysWithinItsMaximumAngleToTheWallsAtAnyHeading) {
   const auto module = make_corridor_centering({});
   StraightCorridor corridor;
   corridor.left_m = 0.6, corridor.right_m = 3.0;
@@ -168,8 +168,8 @@ TEST(CorridorCentering, TheCourseStaysWithinItsAngleOfTheWallsHoweverFarTheNoseH
   EXPECT_LT(off_walls_rad, most_rad + 0.03);
 }
 
-TEST(CorridorCentering, CorrectionsOfTheAttitudeAreNoTurn) {
-  // The filter corrects the heading by two degrees between images; the gyros measured no rotation.
+TEST(CorridorCentering, AttitudeCorrectionsAreNotATurn) {
+  // The filter corrects the heading by two degrees between images, while the gyros measure no rotation.
   const auto module = make_corridor_centering({});
   const StraightCorridor corridor;
   int image = 0;
@@ -179,8 +179,8 @@ TEST(CorridorCentering, CorrectionsOfTheAttitudeAreNoTurn) {
   EXPECT_NEAR(signal(*module, last, "centering_error"), -0.3 / 1.25, 0.04);
 }
 
-TEST(CorridorCentering, WhatStandsStillInTheImageDoesNotMoveTheMedians) {
-  // A band keeps what it showed first, as a part of the vehicle would.
+TEST(CorridorCentering, ConstantImagePartsDoNotChangeTheMedians) {
+  // A band keeps its first content, like a part of the vehicle.
   cv::Mat stuck;
   const auto alter = [&stuck](cv::Mat& image) {
     cv::Mat band = image.rowRange(200, 246);
@@ -193,7 +193,7 @@ TEST(CorridorCentering, WhatStandsStillInTheImageDoesNotMoveTheMedians) {
   EXPECT_NEAR(signal(*module, last, "centering_error"), -0.4 / 1.25, 0.05);
 }
 
-TEST(CorridorCentering, DrawsTheFisheyeBesideTheMap) {
+TEST(CorridorCentering, DrawsTheFisheyeImageNextToTheMap) {
   const auto module = make_corridor_centering({});
   const StraightCorridor corridor;
   fly(*module, corridor.planes(), {0, 0.3}, {0.8, 0}, 3);
@@ -202,7 +202,7 @@ TEST(CorridorCentering, DrawsTheFisheyeBesideTheMap) {
   EXPECT_EQ(image.type(), CV_8UC3);
 }
 
-TEST(CorridorCentering, RefusesAConfigThatCannotBe) {
+TEST(CorridorCentering, RejectsAnInvalidConfig) {
   const auto refuse = [](auto change) {
     CorridorCenteringConfig config;
     change(config);

@@ -28,7 +28,7 @@ TEST(InverseRanges, FlowAndLoomMeasureTheRangeOfAWallOnAnySideForAnyMotion) {
   }
 }
 
-TEST(InverseRanges, OneFormulaEqualsThePapersPerCamera) {
+TEST(InverseRanges, EqualsTheFormulasOfThePaperForEachCamera) {
   const Eigen::Vector2d v(1.3, -0.7);
   const auto near = [&](double azimuth) {
     const MountedCamera camera = level_camera("any", azimuth, 200, 50.0);
@@ -57,7 +57,7 @@ TEST(PushFromWalls, PointsAwayFromAWallOnEachSide) {
   }
 }
 
-TEST(PushFromWalls, IsNothingInTheMiddleBetweenTwoWallsAndNeverDependsOnSpeed) {
+TEST(PushFromWalls, IsZeroInTheMiddleBetweenTwoWallsAndIndependentOfSpeed) {
   for (const double speed : {0.4, 1.0, 2.0}) {
     const Eigen::Vector2d v_B = speed * Eigen::Vector2d(0.8, 0.6);
     const MountedCamera left = level_camera("left", -0.5 * pi, 200, 50.0),
@@ -69,7 +69,7 @@ TEST(PushFromWalls, IsNothingInTheMiddleBetweenTwoWallsAndNeverDependsOnSpeed) {
   }
 }
 
-TEST(SaturatedDivisor, KeepsSignAndLeastMagnitude) {
+TEST(SaturatedDivisor, KeepsTheSignAndTheMinimumMagnitude) {
   EXPECT_EQ(saturated_divisor(1.5), 1.5);
   EXPECT_EQ(saturated_divisor(-1.5), -1.5);
   EXPECT_EQ(saturated_divisor(0.05), 0.2);
@@ -77,7 +77,7 @@ TEST(SaturatedDivisor, KeepsSignAndLeastMagnitude) {
   EXPECT_EQ(saturated_divisor(0.0), 0.2);
 }
 
-TEST(SaturatedDivisor, KeepsThePushOfASlowVehicleBounded) {
+TEST(SaturatedDivisor, BoundsThePushOfASlowVehicle) {
   const MountedCamera front = level_camera("front", 0.0, 200, 50.0);
   for (const double v : {0.01, -0.01, 0.1, -0.1}) {
     const std::array sides = {flow_of_wall(front, {v, v}, 5.0)};
@@ -93,7 +93,7 @@ TEST(NormalizedCommand, HasTheSpeedAndTheDirectionOfTheSum) {
   EXPECT_NEAR(v_H.y(), 1.5, 1e-12);
 }
 
-TEST(NormalizedCommand, FallsBackToTheTargetWhereThePushCancelsIt) {
+TEST(NormalizedCommand, FallsBackToTheTargetIfThePushCancelsIt) {
   EXPECT_EQ(normalized_command({0.0, 2.0}, {0.0, -2.0}, 2.0), Eigen::Vector2d(0.0, 2.0));
 }
 

@@ -10,20 +10,20 @@
 namespace hedgehop::avoidance::flow_balance {
 namespace {
 
-// Front, right, rear, left: one inverse range each.
+// Inverse ranges of front, right, rear and left.
 std::vector<SideRange> sides(double front, double right, double rear, double left) {
   return {{{1, 0}, front, true}, {{0, 1}, right, true}, {{-1, 0}, rear, true}, {{0, -1}, left, true}};
 }
 
 ConfirmedZigZag zig_zag(double stray_rad = 0.0) { return {{{1.0, 0.5}, 2.0}, stray_rad, 7}; }
 
-// Two images that agree. @return whether the second one reversed a component.
+// Adds two equal images. @return whether the second one reversed a component.
 bool update_twice(ConfirmedZigZag& zig_zag, const std::vector<SideRange>& sides) {
   EXPECT_FALSE(zig_zag.update(sides));
   return zig_zag.update(sides);
 }
 
-TEST(ConfirmedZigZag, StartsForwardToTheRightAtItsSpeeds) {
+TEST(ConfirmedZigZag, StartsForwardAndToTheRightAtTheConfiguredSpeeds) {
   EXPECT_EQ(zig_zag().velocity_H(), Eigen::Vector2d(1.0, 0.5));
 }
 
@@ -32,24 +32,24 @@ TEST(ConfirmedZigZag, ReversesTheComponentThatLeadsTowardsAWallWithinTheThreshol
   EXPECT_FALSE(update_twice(path, sides(0.49, 0.49, 0.0, 0.0)));
   EXPECT_TRUE(update_twice(path, sides(0.51, 0.0, 0.0, 0.0)));
   EXPECT_EQ(path.velocity_H(), Eigen::Vector2d(-1.0, 0.5));
-  EXPECT_TRUE(update_twice(path, sides(0.51, 0.51, 0.0, 0.0)));  // the wall ahead is left behind already
+  EXPECT_TRUE(update_twice(path, sides(0.51, 0.51, 0.0, 0.0)));  // the vehicle already flies away from the wall ahead
   EXPECT_EQ(path.velocity_H(), Eigen::Vector2d(-1.0, -0.5));
   EXPECT_EQ(path.reversals(), 2);
 }
 
-TEST(ConfirmedZigZag, IgnoresAWallBehindIt) {
+TEST(ConfirmedZigZag, IgnoresAWallBehindTheVehicle) {
   ConfirmedZigZag path = zig_zag();
   EXPECT_FALSE(update_twice(path, sides(0.0, 0.0, 9.0, 9.0)));
   EXPECT_EQ(path.velocity_H(), Eigen::Vector2d(1.0, 0.5));
 }
 
-TEST(ConfirmedZigZag, OfAWallThatTwoCamerasSeeReversesTheNearerSideOnly) {
+TEST(ConfirmedZigZag, ReversesOnlyTheNearerSideOfAWallInTwoCameras) {
   ConfirmedZigZag path = zig_zag();
   EXPECT_TRUE(update_twice(path, sides(0.8, 0.9, 0.0, 0.0)));
   EXPECT_EQ(path.velocity_H(), Eigen::Vector2d(1.0, -0.5));
 }
 
-TEST(ConfirmedZigZag, RequiresTwoFreshImagesInARow) {
+TEST(ConfirmedZigZag, RequiresTwoSuccessiveNewImages) {
   ConfirmedZigZag path = zig_zag();
   EXPECT_FALSE(path.update(sides(0.9, 0.0, 0.0, 0.0)));
   EXPECT_FALSE(path.update(sides(0.1, 0.0, 0.0, 0.0)));
@@ -60,7 +60,7 @@ TEST(ConfirmedZigZag, RequiresTwoFreshImagesInARow) {
   EXPECT_TRUE(path.update(sides(0.9, 0.0, 0.0, 0.0)));
 }
 
-TEST(ConfirmedZigZag, StraysWithinItsAngleAndRepeatsWithTheSeed) {
+TEST(ConfirmedZigZag, RotatesThePathWithinItsMaximumAngleAndRepeatsWithTheSeed) {
   ConfirmedZigZag one = zig_zag(0.3), same = zig_zag(0.3);
   std::set<double> forward_mps;
   double largest_rad = 0.0;
@@ -79,7 +79,7 @@ TEST(ConfirmedZigZag, StraysWithinItsAngleAndRepeatsWithTheSeed) {
   EXPECT_EQ(forward_mps.size(), 200u);
 }
 
-TEST(ConfirmedZigZag, IsCorneredBetweenWallsAheadOfBothComponentsOnly) {
+TEST(ConfirmedZigZag, IsInACornerOnlyWithWallsAheadOfBothComponents) {
   const ConfirmedZigZag path = zig_zag();
   const auto in_corner = [&](double front_m, double right_m, double rear_m, double left_m) {
     return path.in_corner(sides(1.0 / front_m, 1.0 / right_m, 1.0 / rear_m, 1.0 / left_m));

@@ -31,7 +31,7 @@ Eigen::Vector2d polar(double length, double azimuth) {
   return {length * std::cos(azimuth), length * std::sin(azimuth)};
 }
 
-// The velocity commanded after a few images of steady flight at v_WB_W.
+// Returns the commanded velocity after a few images of steady flight at v_WB_W.
 VelocityCommand command_in_flight(const FlowBalanceConfig& config, const Walls& walls, double heading_rad,
                                   const Eigen::Vector2d& v_WB_W, const Goal& goal,
                                   const Eigen::Vector3d& w_WB_B = {0, 0, 0}) {
@@ -62,7 +62,7 @@ class BothLaws : public testing::TestWithParam<Law> {
 INSTANTIATE_TEST_SUITE_P(FlowBalance, BothLaws, testing::Values(Law::published, Law::modified),
                          [](const auto& law) { return law.index == 0 ? "published" : "modified"; });
 
-TEST_P(BothLaws, TurnAwayFromAWallOnEverySideWhereverTheVehicleFlies) {
+TEST_P(BothLaws, TurnAwayFromAWallOnEverySideInAnyFlightDirection) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> speed(0.6, 1.6);
   int i = 0;
@@ -82,14 +82,14 @@ TEST_P(BothLaws, TurnAwayFromAWallOnEverySideWhereverTheVehicleFlies) {
   }
 }
 
-TEST_P(BothLaws, FlyStraightToTheGoalWithNothingInSight) {
+TEST_P(BothLaws, FlyStraightToTheGoalWithoutObstacles) {
   const Goal goal{{30, 40, -5.0}, 0.2};
   const VelocityCommand command = command_in_flight(config(), {}, 0.2, {1, 1}, goal);
   const Eigen::Vector2d left = Eigen::Vector2d(30, 40) - Eigen::Vector2d(1, 1) * 0.08;  // 0.08 s were flown
   EXPECT_LT((command.v_WB_W - 2.0 * left.normalized()).norm(), 1e-9);
 }
 
-TEST_P(BothLaws, GiveNearerWallsAWiderBerth) {
+TEST_P(BothLaws, TurnFartherFromNearerWalls) {
   double last = 0.0;
   for (const double range : {30.0, 12.0, 6.0, 3.0}) {
     const VelocityCommand command =
@@ -99,7 +99,7 @@ TEST_P(BothLaws, GiveNearerWallsAWiderBerth) {
   }
 }
 
-TEST(FlowBalance, SlowsTowardsTheGoalInsteadOfCirclingIt) {
+TEST(FlowBalance, DeceleratesNearTheGoalInsteadOfCirclingIt) {
   const Walls walls = {wall(0, 6, -0.5 * pi)};
   for (const double distance : {3.0, 1.0, 0.2}) {
     const Eigen::Vector2d flown = Eigen::Vector2d(0.3, 0.2) * 0.08;  // the position of the third image
@@ -113,11 +113,11 @@ TEST(FlowBalance, SpiralAngleAimsRightOfTheGoal) {
   FlowBalanceConfig config = small_images();
   config.spiral_angle_rad = 0.3;
   const VelocityCommand command = command_in_flight(config, {}, 0.0, {1, 0}, {{100, 0, -5}, 0.0});
-  // The vehicle has flown 0.08 m meanwhile.
+  // The vehicle has flown 0.08 m in between.
   EXPECT_NEAR(std::atan2(command.v_WB_W.y(), command.v_WB_W.x()), 0.3, 1e-3);
 }
 
-TEST(FlowBalance, CommandFilterLeavesItsShareOfTheOldCommand) {
+TEST(FlowBalance, CommandFilterKeepsItsShareOfTheOldCommand) {
   FlowBalanceConfig plain = small_images(), filtered = plain;
   filtered.command_time_constant_s = 1e9;
   const Walls walls = {wall(0, 4, -0.5 * pi)};
@@ -126,8 +126,8 @@ TEST(FlowBalance, CommandFilterLeavesItsShareOfTheOldCommand) {
   EXPECT_NEAR(command_in_flight(filtered, walls, 0.0, {1.2, 0.8}, goal).v_WB_W.y(), 0.0, 1e-3);
 }
 
-TEST(FlowBalance, FlowOfATurnMisleadsThePrintedLawOnly) {
-  // Yaw rate makes flow that looks like a wall's. Our law takes it away by the gyros.
+TEST(FlowBalance, FlowOfATurnAffectsOnlyThePublishedLaw) {
+  // A yaw rate causes the same flow as a wall. The modified law removes it with the gyros.
   const Walls walls = {wall(8, 0, pi), wall(-8, 0, 0)};
   const Goal goal{{0, 100, -5}, 0.0};
   const Eigen::Vector2d v(0.9, 1.2);
@@ -140,7 +140,7 @@ TEST(FlowBalance, FlowOfATurnMisleadsThePrintedLawOnly) {
   EXPECT_GT(change(as_published()), 3.0 * change(small_images()));
 }
 
-TEST(FlowBalance, PassesABuildingThatStandsInItsPath) {
+TEST(FlowBalance, PassesABuildingOnItsPath) {
   const Walls building = {wall(12, 0, pi, 4), wall(20, 0, 0, 4), wall(16, 4, 0.5 * pi, 4), wall(16, -4, -0.5 * pi, 4)};
   const auto clearance = [](const Eigen::Vector2d& p) {
     const double north = std::abs(p.x() - 16) - 4, east = std::abs(p.y()) - 4;
@@ -150,7 +150,7 @@ TEST(FlowBalance, PassesABuildingThatStandsInItsPath) {
   const PointFlight flight = fly(*make_flow_balance(small_images()), building, 0.0, goal, {0, -1.0}, 40.0, clearance);
   EXPECT_GT(flight.least_clearance_m, 0.5);
   EXPECT_LT((flight.path.back() - goal.p_WG.head<2>()).norm(), 2.0);
-  // The control run, gains at nothing, goes through it.
+  // The control run, with zero gains, flies through it.
   FlowBalanceConfig blind = small_images();
   blind.loom_gain_m2ps = blind.flow_gain_m2ps = 0.0;
   EXPECT_LT(fly(*make_flow_balance(blind), building, 0.0, goal, {0, -1.0}, 9.0, clearance).least_clearance_m, 0.0);
@@ -170,7 +170,7 @@ TEST(FlowBalance, AnnotatesAllFourCamerasInOneImage) {
   EXPECT_GE(image.rows, 2 * kSizePx);
 }
 
-TEST(FlowBalance, RefusesConfigsOutOfRangeAndPatchesThatDoNotFit) {
+TEST(FlowBalance, RejectsConfigsOutOfRangeAndPatchesThatDoNotFit) {
   const auto refuse = [](auto change) {
     FlowBalanceConfig config = small_images();
     change(config);

@@ -11,7 +11,7 @@
 #include "tests/vision/corridor/corridor_world.h"
 #include "tests/vision/flow/textured_image.h"
 
-/// A small rig of four level cameras and what it sees of textured walls, for tests of modules.
+/// A small rig of four level cameras and its images of textured walls, for tests of modules.
 namespace hedgehop::avoidance {
 
 /// Camera that looks along `azimuth_rad` (from forward to the right), level, at B's origin.
@@ -23,7 +23,7 @@ inline MountedCamera level_camera(std::string role, double azimuth_rad, int size
   const double c = std::cos(azimuth_rad), s = std::sin(azimuth_rad);
   camera.X_BC.linear().col(0) = Eigen::Vector3d(-s, c, 0);  // image's right
   camera.X_BC.linear().col(1) = Eigen::Vector3d(0, 0, 1);   // image's down
-  camera.X_BC.linear().col(2) = Eigen::Vector3d(c, s, 0);   // where it looks
+  camera.X_BC.linear().col(2) = Eigen::Vector3d(c, s, 0);   // optical axis
   return camera;
 }
 
@@ -37,7 +37,7 @@ inline Setup four_cameras(int size_px, double rate_hz, double speed_limit_mps = 
   return setup;
 }
 
-/// Two level cameras that look forward, 0.3 m apart.
+/// Two level forward cameras, 0.3 m apart.
 inline Setup stereo_pair(int size_px, double rate_hz, double speed_limit_mps = 10.0) {
   Setup setup;
   for (const char* role : {"left", "right"}) setup.cameras.push_back(level_camera(role, 0.0, size_px, rate_hz));
@@ -66,7 +66,7 @@ inline NavigationState level_flight(const Eigen::Vector3d& p_WB, double heading_
   return navigation;
 }
 
-/// What every camera of the rig sees of the walls.
+/// Returns the image of the walls in every camera of the rig.
 inline std::vector<CameraFrame> see(const Setup& setup, const NavigationState& navigation, int64_t t_ns,
                                     const std::vector<vision::TexturedPlane>& walls,
                                     const vision::WaveTexture& texture) {
@@ -84,7 +84,7 @@ inline std::vector<CameraFrame> see(const Setup& setup, const NavigationState& n
   return frames;
 }
 
-/// An upright wall through a point, facing `normal_azimuth_rad` (from north to east).
+/// A vertical wall through a point, facing `normal_azimuth_rad` (from north to east).
 inline vision::TexturedPlane wall(double north_m, double east_m, double normal_azimuth_rad,
                                   double half_width_m = std::numeric_limits<double>::infinity()) {
   return {{north_m, east_m, 0.0},

@@ -29,7 +29,7 @@ RangeColumn column_at(const Vector2d& p_BP_H, double weight = 1.0) {
   return {.direction_H = p_BP_H.normalized(), .inverse_range_per_m = 1.0 / p_BP_H.norm(), .weight = weight};
 }
 
-TEST(RangeRing, CarriesAPlaceThatNoCameraSeesAnyMoreAsTheVehicleMoves) {
+TEST(RangeRing, MovesAPointOutOfViewWithTheMotionOfTheVehicle) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> meters(-20.0, 20.0), mps(-3.0, 3.0);
   for (int trial = 0; trial < 50; ++trial) {
@@ -48,7 +48,7 @@ TEST(RangeRing, CarriesAPlaceThatNoCameraSeesAnyMoreAsTheVehicleMoves) {
   }
 }
 
-TEST(RangeRing, ForgetsAPlaceThatWasNotSeenForLong) {
+TEST(RangeRing, DeletesAnOldPoint) {
   RangeRing ring;
   ring.carry({0.0, 0.0}, 0);
   ring.add({column_at({5.0, 0.0})}, 0.0);
@@ -58,12 +58,12 @@ TEST(RangeRing, ForgetsAPlaceThatWasNotSeenForLong) {
   EXPECT_TRUE(ring.obstacles_W().empty());
 }
 
-TEST(RangeRing, BelievesAColumnThatShowsParallaxAndDoubtsOneThatShowsNone) {
+TEST(RangeRing, AcceptsAColumnWithParallaxAndDoesNotTrustOneWithout) {
   RangeRing ring;
   ring.carry({0.0, 0.0}, 0);
   ring.add({column_at({5.0, 0.0})}, 0.0);
   ring.add({{.direction_H = {1.0, 0.0}, .inverse_range_per_m = 0.0, .weight = 0.1}}, 0.0);
-  ASSERT_EQ(ring.obstacles_W().size(), 1u) << "no parallax: nothing measured is not nothing there";
+  ASSERT_EQ(ring.obstacles_W().size(), 1u) << "no parallax: a missing range is no free space";
   ring.add({column_at({9.0, 0.0}, /*weight=*/0.1)}, 0.0);
   EXPECT_DOUBLE_EQ(nearest(ring.obstacles_W()).norm(), 5.0);
   ring.add({column_at({9.0, 0.0})}, 0.0);
@@ -72,14 +72,14 @@ TEST(RangeRing, BelievesAColumnThatShowsParallaxAndDoubtsOneThatShowsNone) {
   EXPECT_TRUE(ring.obstacles_W().empty());
 }
 
-TEST(RangeRing, PutsColumnsWhereTheHeadingHasThem) {
+TEST(RangeRing, RotatesColumnsByTheHeading) {
   RangeRing ring;
   ring.carry({0.0, 0.0}, 0);
   ring.add({column_at({0.0, 6.0})}, M_PI / 4);  // right of a nose that points north-east
   EXPECT_LT((nearest(ring.obstacles_W()) - 6.0 * Vector2d(-std::sqrt(0.5), std::sqrt(0.5))).norm(), 1e-12);
 }
 
-TEST(PushFromPlaces, EqualsThePapersPushBeforeWallsThatTheCamerasFace) {
+TEST(PushFromObstacles, EqualsThePushOfThePaperForWallsAtRightAnglesToTheCameras) {
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> speed(0.3, 2.0), range(2.0, 30.0);
   constexpr BalanceGains kGains{.loom_m2ps = 4.0, .flow_m2ps = 5.0};
@@ -87,7 +87,7 @@ TEST(PushFromPlaces, EqualsThePapersPushBeforeWallsThatTheCamerasFace) {
   for (int trial = 0; trial < 50; ++trial) {
     const Eigen::Vector2d v_B(speed(random), -speed(random));
     std::array<SideFlow, kSideCount> sides;
-    std::vector<Eigen::Vector2d> obstacles_W;  // three on each wall's foot; B and W agree
+    std::vector<Eigen::Vector2d> obstacles_W;  // three at the foot of each wall; B equals W
     for (size_t i = 0; i < kSideCount; ++i) {
       const double z = range(random);
       sides[i] = flow_of_wall(level_camera("any", 0.5 * M_PI * static_cast<double>(i), 200, 50.0), v_B, z);
@@ -98,7 +98,7 @@ TEST(PushFromPlaces, EqualsThePapersPushBeforeWallsThatTheCamerasFace) {
   }
 }
 
-TEST(PushFromPlaces, TurnsWithTheWorldAndTheAim) {
+TEST(PushFromObstacles, RotatesWithTheWorldAndTheAim) {
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> meters(-20.0, 20.0), angle(-M_PI, M_PI);
   for (int trial = 0; trial < 50; ++trial) {
@@ -114,7 +114,7 @@ TEST(PushFromPlaces, TurnsWithTheWorldAndTheAim) {
   }
 }
 
-TEST(LowPass, LeavesTheShareOfTheOldCommandThatTheTimeConstantSays) {
+TEST(LowPass, KeepsTheShareOfTheOldCommandGivenByTheTimeConstant) {
   const Eigen::Vector2d v_W = low_pass({1.0, 0.0}, {0.0, 2.0}, 0.3, 0.3);
   EXPECT_NEAR(v_W.x(), std::exp(-1.0), 1e-12);
   EXPECT_NEAR(v_W.y(), 2.0 * (1.0 - std::exp(-1.0)), 1e-12);
@@ -124,13 +124,13 @@ TEST(LowPass, LeavesTheShareOfTheOldCommandThatTheTimeConstantSays) {
 constexpr double kPatienceS = 20.0;
 constexpr int kPeriodS = 32;  // patience and one detour of 12 s
 
-TEST(Detour, LeavesSteadyProgressAlone) {
+TEST(Detour, DoesNotChangeTheAimDuringSteadyProgress) {
   Detour detour(kPatienceS);
   for (int t = 0; t < 300; ++t) EXPECT_EQ(detour.update(300.0 - 0.5 * t, t), 0.0) << t;
   EXPECT_EQ(detour.count(), 0);
 }
 
-TEST(Detour, AimsAsideWhenThePatienceIsOverAndToTheOtherSideWhenThatDidNotHelp) {
+TEST(Detour, AimsAsideWithoutProgressAndThenToTheOtherSide) {
   Detour detour(kPatienceS);
   for (int t = 0; t < 100; ++t) {
     // 20 s of patience, 12 s to the right, 20 s of patience, 12 s to the left ...
@@ -141,14 +141,14 @@ TEST(Detour, AimsAsideWhenThePatienceIsOverAndToTheOtherSideWhenThatDidNotHelp) 
   EXPECT_EQ(detour.count(), 3);
 }
 
-TEST(Detour, ALittleNearerIsNoProgressInALimitCycle) {
+TEST(Detour, SmallApproachInALimitCycleIsNoProgress) {
   Detour detour(kPatienceS);
   double angle = 0.0;
   for (int t = 0; t <= 20; ++t) angle = detour.update(100.0 - 0.1 * t, t);
   EXPECT_EQ(angle, Detour::kAngleRad);
 }
 
-TEST(Detour, WithoutPatienceConfiguredNeverAimsAside) {
+TEST(Detour, ZeroPatienceDisablesDetours) {
   Detour detour(0.0);
   for (int t = 0; t < 1000; ++t) EXPECT_EQ(detour.update(100.0, t), 0.0);
 }

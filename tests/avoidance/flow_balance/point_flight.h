@@ -17,14 +17,14 @@ inline const vision::WaveTexture& wavy_texture() {
   return made;
 }
 
-/// A point mass that follows a module's commands with a lag, seen by small cameras ten times a second.
+/// A point mass that follows a module's commands with a lag, with images of small cameras at 10 Hz.
 struct PointFlight {
   double least_clearance_m = 1e9;
   std::vector<Eigen::Vector2d> path;  ///< north and east, m
   std::vector<Metric> metrics;
 };
 
-/// Flies from rest at `p`.  @param clearance  of a position from the nearest obstacle, m; < 0 inside it.
+/// Flies from rest at `p`.  @param clearance  distance of a position from the nearest obstacle, m; < 0 inside it.
 template <class Clearance>
 PointFlight fly(Module& module, const Walls& walls, double heading_rad, const Goal& goal, Eigen::Vector2d p,
                 double duration_s, Clearance clearance) {

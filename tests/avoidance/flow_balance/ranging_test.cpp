@@ -21,14 +21,14 @@ double update(RangeMemory& memory, const Measurement& measurement, double dt_s) 
   return memory.update(std::vector<Measurement>{measurement}, dt_s).front();
 }
 
-TEST(RangeMemory, TakesAWellMeasuredRangeAsItIs) {
+TEST(RangeMemory, ReturnsAWellMeasuredRangeUnchanged) {
   RangeMemory memory(1.0);
   EXPECT_EQ(update(memory, {0.5, 1.0, 2.0}, 0.02), 0.5);
   EXPECT_EQ(update(memory, {0.1, 1.0, 2.0}, 0.02), 0.1);
 }
 
-TEST(RangeMemory, CarriesAWallOnAtTheSpeedItIsClosedInOn) {
-  // From 4 m at 1.5 m/s for 1.2 s, blind: 2.2 m are left.
+TEST(RangeMemory, PredictsTheRangeOfAWallFromTheClosingSpeed) {
+  // From 4 m at 1.5 m/s for 1.2 s without measurement: 2.2 m remain.
   RangeMemory memory(1e6);
   constexpr double kStepS = 1e-4;
   double inverse_per_m = update(memory, {0.25, 1.0, 1.5}, kStepS);
@@ -36,7 +36,7 @@ TEST(RangeMemory, CarriesAWallOnAtTheSpeedItIsClosedInOn) {
   EXPECT_NEAR(1.0 / inverse_per_m, 2.2, 2e-3);
 }
 
-TEST(RangeMemory, FadesInItsTimeConstant) {
+TEST(RangeMemory, DecaysWithItsTimeConstant) {
   RangeMemory memory(0.8);
   update(memory, {0.5, 1.0, 0.0}, 0.1);
   double inverse_per_m = 0.0;
@@ -44,14 +44,14 @@ TEST(RangeMemory, FadesInItsTimeConstant) {
   EXPECT_NEAR(inverse_per_m, 0.5 * std::exp(-1.0), 1e-12);
 }
 
-TEST(RangeMemory, FillsInWhatTheWeightLeavesOut) {
-  // A true inverse range of 0.4 measured with weight 0.3 reads 0.12; what is known completes it.
+TEST(RangeMemory, CompletesAMeasurementOfPartialWeight) {
+  // A true inverse range of 0.4 with weight 0.3 is measured as 0.12; the stored range completes it.
   RangeMemory memory(1e9);
   update(memory, {0.4, 1.0, 0.0}, 0.02);
   EXPECT_NEAR(update(memory, {0.3 * 0.4, 0.3, 0.0}, 0.02), 0.4, 1e-9);
 }
 
-TEST(RangeMemory, OfNoneForgetsAtOnce) {
+TEST(RangeMemory, ZeroTimeConstantDisablesTheMemory) {
   RangeMemory memory(0.0);
   update(memory, {0.5, 1.0, 0.0}, 0.02);
   EXPECT_EQ(update(memory, {0.01, 0.1, 0.0}, 0.02), 0.01);
@@ -60,19 +60,19 @@ TEST(RangeMemory, OfNoneForgetsAtOnce) {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-TEST(LastingRanges, OneWrongImageBringsNothingNear) {
+TEST(LastingRanges, OneWrongImageCreatesNoNearObstacle) {
   LastingRanges ranges(3);
   for (const double near : {0.1, 0.9, 0.1}) ranges.add({near});
   EXPECT_EQ(ranges.lasting_per_m(), std::vector<double>{0.1});
 }
 
-TEST(LastingRanges, AWallDoesNotVanishWithOneMissingVector) {
+TEST(LastingRanges, WallRemainsWithOneMissingVector) {
   LastingRanges ranges(3);
   for (const double near : {0.5, kUnknown, 0.4}) ranges.add({near});
   EXPECT_EQ(ranges.lasting_per_m(), std::vector<double>{0.4});
 }
 
-TEST(LastingRanges, MostlyUnknownIsFar) {
+TEST(LastingRanges, MostlyUnknownPatchCountsAsFar) {
   LastingRanges ranges(3);
   EXPECT_TRUE(ranges.lasting_per_m().empty());
   ranges.add({0.5});
@@ -82,13 +82,13 @@ TEST(LastingRanges, MostlyUnknownIsFar) {
   EXPECT_EQ(ranges.lasting_per_m(), std::vector<double>{0.0});
 }
 
-TEST(LastingRanges, OldImagesAreForgotten) {
+TEST(LastingRanges, OldImagesAreDeleted) {
   LastingRanges ranges(2);
   for (const double near : {0.1, 0.6, 0.7}) ranges.add({near});
   EXPECT_EQ(ranges.lasting_per_m(), std::vector<double>{0.6});
 }
 
-TEST(InverseRangeLeft, IsThatOfTheRangeLessTheDistance) {
+TEST(InverseRangeLeft, IsTheInverseOfTheRangeMinusTheDistance) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> range(0.5, 20.0), stopping(0.0, 3.0);
   for (int i = 0; i < 1000; ++i) {
@@ -102,10 +102,10 @@ TEST(InverseRangeLeft, IsThatOfTheRangeLessTheDistance) {
   }
 }
 
-TEST(InverseRangeLeft, OfWhatIsFarStaysZero) { EXPECT_EQ(inverse_range_left_per_m(0.0, 3.0), 0.0); }
+TEST(InverseRangeLeft, OfInfiniteRangeIsZero) { EXPECT_EQ(inverse_range_left_per_m(0.0, 3.0), 0.0); }
 
-// A point whose velocity is reversed as a whole by a steady acceleration, in small steps.
-TEST(StoppingDistance, IsWhatAPointThatReversesStillCovers) {
+// A point whose whole velocity is reversed by a constant acceleration, integrated in small steps.
+TEST(StoppingDistance, EqualsThePathOfAPointThatReverses) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> speed(0.2, 3.0), angle(-1.5, 1.5), braking(0.3, 4.0), reaction(0.0, 1.0);
   for (int i = 0; i < 50; ++i) {
@@ -128,8 +128,8 @@ constexpr int kSizePx = 200;
 constexpr double kImageS = 0.04;
 constexpr double kNorthM = 4.0, kEastM = 2.5, kSouthM = 5.0, kWestM = 3.0;  // of the walls from the origin
 
-// Drawn images of a room, its walls across the heading; the path leads aslant, and straight at a wall.
-TEST(FitWalls, ARoomIsRangedFromTwoImagesOfFourCameras) {
+// Rendered images of a room with walls across the heading, for diagonal paths and for a path straight to a wall.
+TEST(FitWalls, MeasuresARoomFromTwoImagesOfFourCameras) {
   const std::vector<vision::TexturedPlane> room = {wall(kNorthM, 0.0, M_PI), wall(0.0, kEastM, -0.5 * M_PI),
                                                    wall(-kSouthM, 0.0, 0.0), wall(0.0, -kWestM, 0.5 * M_PI)};
   const vision::WaveTexture texture(7, 0.05, 0.8, 24);
@@ -163,7 +163,7 @@ TEST(FitWalls, ARoomIsRangedFromTwoImagesOfFourCameras) {
         nearest = &found;
       }
       ASSERT_NE(nearest, nullptr);
-      // Near walls are measured well, all walls as well as the fit states.
+      // Near walls are accurate; the error of all walls is within that of the fit.
       if (to_wall_m.norm() < 3.5) {
         EXPECT_LT(least, 0.1) << v_mps.transpose() << " to " << to_wall_m.transpose();
       }

@@ -7,7 +7,7 @@
 
 namespace hedgehop::avoidance::flow_balance {
 
-/// What a camera measures of a wall that it faces, from projected points and not from any formula for flow.
+/// Measurement of a camera that faces a wall, computed from projected points instead of a formula for flow.
 /// @param v_B  velocity of the vehicle, level, m/s.  @param range_m  of the wall, > 0.
 inline SideFlow flow_of_wall(const MountedCamera& camera, const Eigen::Vector2d& v_B, double range_m) {
   constexpr double kStepS = 1e-4;

@@ -26,7 +26,7 @@ ZigZagConfig small_images() {
   return config;
 }
 
-TEST(ZigZag, AsPrintedReachesTheRoomsEndsAndSidesWithoutCollision) {
+TEST(ZigZag, PublishedLawReachesTheEndsAndSidesOfTheRoomWithoutCollision) {
   ZigZagConfig config = small_images();
   config.law = Law::published;
   for (const double heading : {0.0, pi / 8}) {
@@ -46,7 +46,7 @@ TEST(ZigZag, AsPrintedReachesTheRoomsEndsAndSidesWithoutCollision) {
   }
 }
 
-TEST(ZigZag, WithOurAdditionsFillsTheRoomCloserToItsWalls) {
+TEST(ZigZag, ModifiedLawCoversTheRoomCloserToItsWalls) {
   ZigZagConfig config = small_images();
   config.range_threshold_m = 0.6;
   config.stray_rad = pi / 9;
@@ -62,7 +62,7 @@ TEST(ZigZag, WithOurAdditionsFillsTheRoomCloserToItsWalls) {
   }
 }
 
-TEST(ZigZag, RefusesConfigsOutOfRange) {
+TEST(ZigZag, RejectsConfigsOutOfRange) {
   const auto refuse = [](auto change) {
     ZigZagConfig config = small_images();
     change(config);

@@ -20,7 +20,7 @@ namespace {
 constexpr int64_t kStepNs = 100'000'000;
 constexpr double kStepS = 1e-9 * kStepNs, kSpeedMps = 2.0, kHeightM = 15.0, kVehicleRadiusM = 1.0;
 
-/// A tower from the ground up, seen as its eight corners.
+/// A tower on the ground, observed as its eight corners.
 struct Tower {
   Eigen::AlignedBox3d box_W;
   Tower(double north_m, double east_m, double half_m, double height_m)
@@ -28,7 +28,7 @@ struct Tower {
               Eigen::Vector3d(north_m + half_m, east_m + half_m, 0.0)) {}
 };
 
-/// A point that follows its commands exactly, with exact navigation and a corner detector of half a pixel's noise.
+/// A point that follows its commands exactly, with exact navigation and a corner detector with 0.5 px noise.
 class CornerFlight {
  public:
   explicit CornerFlight(std::vector<Eigen::Vector3d> corners_W, LandmarkMapModuleConfig config = {})
@@ -101,7 +101,7 @@ std::vector<Eigen::Vector3d> corners_of(const std::vector<Tower>& towers) {
   return corners_W;
 }
 
-TEST(LandmarkMapModule, PassesTowersByItsClearanceAndComesBackToItsCourse) {
+TEST(LandmarkMapModule, PassesTowersWithItsClearanceAndReturnsToItsCourse) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> aside_m(-4.0, 4.0);
   const LandmarkMapModuleConfig config;
@@ -118,14 +118,14 @@ TEST(LandmarkMapModule, PassesTowersByItsClearanceAndComesBackToItsCourse) {
     EXPECT_TRUE(flight.arrived()) << trial;
     constexpr double kOfTheMapM = 1.0;
     EXPECT_GT(least_m, config.clearance_m + kVehicleRadiusM - kOfTheMapM) << trial;
-    // "Least effort": round the nearer side, and no farther out than what may stand behind the corners asks for.
+    // Minimum effort: around the nearer side, and no farther than the assumed extent behind the corners requires.
     EXPECT_LT(most_off_m, 5.0 + config.clearance_m + kVehicleRadiusM + config.behind_m) << trial;
     EXPECT_LT(std::abs(flight.p_WB().y()), 1.0) << trial;
     EXPECT_TRUE(statuses.contains("avoid") && statuses.contains("rejoin") && statuses.contains("cruise")) << trial;
   }
 }
 
-TEST(LandmarkMapModule, FliesStraightPastWhatIsNoObstacle) {
+TEST(LandmarkMapModule, FliesStraightPastLandmarksThatAreNoObstacles) {
   const std::vector<Eigen::Vector3d> low = {{50.0, -3.0, 0.0}, {50.0, 3.0, -2.0}, {55.0, 0.0, -1.0}};
   const std::vector<Eigen::Vector3d> far_aside = corners_of({Tower(50.0, 40.0, 5.0, 25.0)});
   for (const auto& corners_W : {std::vector<Eigen::Vector3d>{}, low, far_aside}) {
@@ -137,7 +137,7 @@ TEST(LandmarkMapModule, FliesStraightPastWhatIsNoObstacle) {
   }
 }
 
-TEST(LandmarkMapModule, PassesACornerAloneAsIfAFaceBeganThere) {
+TEST(LandmarkMapModule, TreatsASingleCornerAsTheEndOfAFacade) {
   constexpr double kHalfFaceM = 7.0, kOfTheMapM = 1.0;
   for (const double aside_m : {-3.0, 0.0, 3.0}) {
     CornerFlight flight({{50.0, aside_m, -20.0}});
@@ -151,8 +151,8 @@ TEST(LandmarkMapModule, PassesACornerAloneAsIfAFaceBeganThere) {
   }
 }
 
-TEST(LandmarkMapModule, StopsForGoodBeforeWhatItsRangeFinderMeetsSixTimesRunning) {
-  // Half a second of reaction and the distance of braking come before the range that is left.
+TEST(LandmarkMapModule, StopsPermanentlyAfterSixSuccessiveRangeAlarms) {
+  // The stop includes 0.5 s of reaction and the braking distance.
   const double stops_m = kStopRangeM + kReactionS * kSpeedMps + 0.5 * kSpeedMps * kSpeedMps / kBrakingMps2;
   CornerFlight flight({});
   flight.step();
@@ -166,7 +166,7 @@ TEST(LandmarkMapModule, StopsForGoodBeforeWhatItsRangeFinderMeetsSixTimesRunning
   EXPECT_TRUE(std::holds_alternative<HoverCommand>(after.command));
 }
 
-TEST(LandmarkMapModule, WithoutClearanceMapsAndFliesStraight) {
+TEST(LandmarkMapModule, ZeroClearanceMapsAndFliesStraight) {
   const Tower tower(55.0, 2.0, 5.0, 25.0);
   LandmarkMapModuleConfig config;
   config.clearance_m = 0.0;
@@ -180,15 +180,15 @@ TEST(LandmarkMapModule, WithoutClearanceMapsAndFliesStraight) {
   EXPECT_GE(landmarks, 4.0);
 }
 
-// The thesis leaves avoiding and stopping to others.
-TEST(LandmarkMapModule, AsPrintedNeitherAvoidsNorStops) {
+// The thesis leaves avoidance and stopping to future work.
+TEST(LandmarkMapModule, PublishedLawNeitherAvoidsNorStops) {
   LandmarkMapModuleConfig config;
   config.law = Law::published;
   CornerFlight flight(corners_of({Tower(55.0, 2.0, 5.0, 25.0)}), config);
   for (int i = 0; i < 300; ++i) ASSERT_EQ(flight.step(0.5).status, "cruise") << flight.p_WB().x();
 }
 
-TEST(LandmarkMapModule, RefusesABadConfigByItsKey) {
+TEST(LandmarkMapModule, RejectsABadConfigAndNamesTheKey) {
   LandmarkMapModuleConfig config;
   config.observer.map.pixel_sigma_px = 0.0;
   try {

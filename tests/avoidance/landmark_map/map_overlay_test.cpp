@@ -7,7 +7,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Middle of all yellow pixels: the vehicle, where no way is planned.
+/// Center of all yellow pixels: the vehicle, if there is no planned path.
 Vector2d vehicle_px(const Vector2d& at_NE) {
   PlanView view;
   view.from_NE = {-90, 0};
@@ -29,7 +29,7 @@ Vector2d vehicle_px(const Vector2d& at_NE) {
   return sum / count;
 }
 
-TEST(PlanImage, NorthIsUpAndEastIsRightByOneScale) {
+TEST(PlanImage, NorthIsUpAndEastIsRightWithOneScale) {
   const Vector2d middle = vehicle_px({5, 0}), north = vehicle_px({65, 0}), east = vehicle_px({5, 60});
   constexpr double kPixel = 1.0;
   EXPECT_NEAR(north.x(), middle.x(), kPixel);
@@ -38,7 +38,7 @@ TEST(PlanImage, NorthIsUpAndEastIsRightByOneScale) {
   EXPECT_NEAR(middle.y() - north.y(), east.x() - middle.x(), kPixel);
 }
 
-TEST(PlanImage, LeavesASmallImageAsItIs) {
+TEST(PlanImage, DoesNotChangeASmallImage) {
   cv::Mat image(160, 160, CV_8UC3, cv::Scalar::all(77));
   const cv::Mat before = image.clone();
   draw_plan({}, image);

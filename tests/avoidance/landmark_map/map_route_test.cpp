@@ -23,7 +23,7 @@ double length(const Vector2d& from, const std::vector<Vector2d>& way) {
   return sum;
 }
 
-/// Least distance from points all along a way to points all along a hull's edges.
+/// Minimum distance between sampled points of a path and of the edges of a hull.
 double sampled_distance(const Vector2d& from, const std::vector<Vector2d>& way, const PlanHull& hull) {
   constexpr int kSamples = 200;
   double least = INFINITY;
@@ -43,7 +43,7 @@ double sampled_distance(const Vector2d& from, const std::vector<Vector2d>& way, 
   return least;
 }
 
-TEST(MapRoute, PointsWithinTheLinkShareAHull) {
+TEST(MapRoute, PointsWithinTheLinkDistanceShareAHull) {
   const std::vector<Vector2d> points = {{0, 0}, {20, 0}, {4, 0}, {4, 4}, {0, 4}, {2, 2}, {20, 3}};
   const auto hulls = plan_hulls(points, 5.0);
   ASSERT_EQ(hulls.size(), 2U);
@@ -51,15 +51,15 @@ TEST(MapRoute, PointsWithinTheLinkShareAHull) {
   EXPECT_EQ(hulls[1].size(), 2U);
 }
 
-TEST(MapRoute, AFreeWayIsStraight) {
+TEST(MapRoute, FreePathIsStraight) {
   const std::vector<PlanHull> hulls = {{{10, 10}, {12, 10}}};
   const auto way = path_around(hulls, {0, 0}, {30, 0}, 4.0);
   ASSERT_TRUE(way);
   EXPECT_EQ(*way, (std::vector<Vector2d>{{30, 0}}));
 }
 
-// Round one point the shortest way is two tangents and an arc; turning at eight places costs little more.
-TEST(MapRoute, RoundAPointTheWayIsNearlyTangentsAndAnArc) {
+// The shortest path around a point is two tangents and an arc; eight turning points make it slightly longer.
+TEST(MapRoute, PathAroundAPointIsNearlyTwoTangentsAndAnArc) {
   const double clearance_m = 5.0, half_m = 30.0;
   const auto way = path_around(std::vector<PlanHull>{{{0, 0.1}}}, {-half_m, 0}, {half_m, 0}, clearance_m);
   ASSERT_TRUE(way);
@@ -69,7 +69,7 @@ TEST(MapRoute, RoundAPointTheWayIsNearlyTangentsAndAnArc) {
   EXPECT_LE(length({-half_m, 0}, *way), 1.02 * shortest_m);
 }
 
-TEST(MapRoute, KeepsItsClearanceOfRandomHulls) {
+TEST(MapRoute, KeepsTheClearanceFromRandomHulls) {
   std::mt19937_64 random(41);
   int found = 0, turned = 0;
   for (int scene = 0; scene < 30; ++scene) {
@@ -88,14 +88,14 @@ TEST(MapRoute, KeepsItsClearanceOfRandomHulls) {
   EXPECT_GT(turned, 15);
 }
 
-TEST(MapRoute, LeavesAPlaceThatIsTooNearWithoutComingNearer) {
+TEST(MapRoute, LeavesAPointWithinTheClearanceWithoutComingNearer) {
   const std::vector<PlanHull> hulls = {{{0, 0}}};
   const auto way = path_around(hulls, {-2, 0}, {30, 0}, 5.0);
   ASSERT_TRUE(way);
   EXPECT_GE(sampled_distance({-2, 0}, *way, hulls[0]), 2.0 - 1e-6);
 }
 
-/// Depth below 0 outside: the signed distance to the edges' lines, by its definition.
+/// Signed distance to the lines of the edges, by definition; negative outside.
 double depth(const PlanHull& hull, const Vector2d& p) {
   double least_m = INFINITY;
   for (size_t k = 0; k < hull.size(); ++k) {
@@ -105,8 +105,8 @@ double depth(const PlanHull& hull, const Vector2d& p) {
   return least_m;
 }
 
-// The outline of a tower and of a false landmark in front of it holds the vehicle: straight on lies the tower.
-TEST(MapRoute, FromInsideAHullTheWayOutIsNotThroughIt) {
+// The vehicle is inside the outline of a tower and of a false landmark in front of it; the tower is straight ahead.
+TEST(MapRoute, PathFromInsideAHullDoesNotCrossTheHull) {
   const PlanHull hull = {{-12, 0}, {0, -10}, {20, -10}, {20, 10}, {0, 10}};
   const Vector2d from(-10, 0), to(60, 0);
   const auto way = path_around(std::vector<PlanHull>{hull}, from, to, 4.0);
@@ -115,7 +115,7 @@ TEST(MapRoute, FromInsideAHullTheWayOutIsNotThroughIt) {
   EXPECT_GE(std::abs(way->front().y()), 13.9);
 }
 
-TEST(MapRoute, WaysFromAndToInsideRandomHullsComeNowhereDeeper) {
+TEST(MapRoute, PathsFromAndToInsideRandomHullsDoNotGetDeeper) {
   std::mt19937_64 random(43);
   int begin = 0, end = 0;
   for (int scene = 0; scene < 200; ++scene) {

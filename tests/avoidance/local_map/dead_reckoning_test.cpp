@@ -7,9 +7,8 @@
 namespace hedgehop::avoidance::local_map {
 namespace {
 
-// Round a circle, nose ahead, while the estimated position wanders by a meter: closed form, and no word of the
-// wandering.
-TEST(DeadReckoning, FollowsTheVelocityWhereThePositionWanders) {
+// A circle with the nose ahead, while the estimated position wanders by a meter. The result equals the closed form.
+TEST(DeadReckoning, FollowsTheVelocityWhileThePositionWanders) {
   constexpr double kRadiusM = 10.0, kTurnRadps = 0.4, kStepS = 0.08;
   DeadReckoning reckoning;
   Eigen::Vector2d begin_W = Eigen::Vector2d::Zero();
@@ -23,7 +22,7 @@ TEST(DeadReckoning, FollowsTheVelocityWhereThePositionWanders) {
     if (i == 0) begin_W = navigation.p_WB_est.head<2>() - p_W;
     const NavigationState reckoned = reckoning.update(navigation, t_s);
     ASSERT_LT((reckoned.p_WB_est.head<2>() - begin_W - p_W).norm(), 0.01) << t_s;
-    ASSERT_EQ(reckoned.p_WB_est.z(), navigation.p_WB_est.z());  // height is measured
+    ASSERT_EQ(reckoned.p_WB_est.z(), navigation.p_WB_est.z());  // altitude is measured
   }
 }
 

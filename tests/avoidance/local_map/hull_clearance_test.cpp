@@ -12,7 +12,7 @@
 namespace hedgehop::avoidance::local_map {
 namespace {
 
-/// A fuselage and a boom that reaches far behind it.
+/// A fuselage and a boom that extends far behind it.
 std::vector<Eigen::AlignedBox3d> long_boom() {
   return {{Eigen::Vector3d(-0.45, -0.3, -0.2), Eigen::Vector3d(0.45, 0.3, 0.2)},
           {Eigen::Vector3d(-1.8, -0.05, -0.05), Eigen::Vector3d(0.0, 0.05, 0.05)}};
@@ -24,7 +24,7 @@ bool holds(const std::vector<HullDiscs::Disc>& discs, const Eigen::Vector2d& p) 
   return std::ranges::any_of(discs, [&](const auto& disc) { return (p - disc.p_H).norm() <= disc.radius_m + kRoundM; });
 }
 
-TEST(HullDiscs, HoldsEveryPointOfRandomBoxes) {
+TEST(HullDiscs, ContainEveryPointOfRandomBoxes) {
   std::mt19937_64 random(1);
   const auto uniform = [&](double low, double high) { return hedgehop::uniform(random, low, high); };
   for (int i = 0; i < 200; ++i) {
@@ -45,15 +45,15 @@ TEST(HullDiscs, HoldsEveryPointOfRandomBoxes) {
   }
 }
 
-TEST(HullDiscs, ABoomTakesUpNoMoreThanItsOwnWidth) {
+TEST(HullDiscs, CoverABoomWithItsOwnWidth) {
   const HullDiscs hull_discs({8.0, 3.0, kBoomRadiusM, long_boom()});
   EXPECT_TRUE(holds(hull_discs.discs(), {-1.8, 0.0}));
   EXPECT_FALSE(holds(hull_discs.discs(), {-1.5, 0.3}));
   EXPECT_FALSE(holds(hull_discs.discs(), {1.0, 0.0}));
 }
 
-TEST(HullDiscs, ARotorIsTheDiscInItsBox) {
-  // Its corners lie beyond the cylinder that holds the vehicle.
+TEST(HullDiscs, CoverARotorWithTheDiscInsideItsBox) {
+  // Its corners are outside the cylinder that contains the vehicle.
   const HullDiscs hull_discs({8.0,
                               3.0,
                               1.2,
@@ -63,7 +63,7 @@ TEST(HullDiscs, ARotorIsTheDiscInItsBox) {
   EXPECT_FALSE(holds(hull_discs.discs(), {0.7, 0.7}));
 }
 
-TEST(HullDiscs, OfAMulticopterIsOneDisc) {
+TEST(HullDiscs, CoverAMulticopterWithOneDisc) {
   EXPECT_EQ(HullDiscs({8.0, 3.0, 0.65, {}}).discs().size(), 1u);
   EXPECT_EQ(HullDiscs({8.0, 3.0, 0.5, {{Eigen::Vector3d(-0.35, -0.35, -0.1), Eigen::Vector3d(0.35, 0.35, 0.1)}}})
                 .discs()
@@ -71,8 +71,8 @@ TEST(HullDiscs, OfAMulticopterIsOneDisc) {
             1u);
 }
 
-// It stands with its nose at a wall, nearer than its boom is long, is slow to get away, and has to turn round.
-TEST(HullDiscs, ALongBoomDoesNotSwingIntoTheWallThatItTurnsBeside) {
+// The vehicle hovers with its nose at a wall, nearer than the length of its boom, accelerates slowly and has to turn.
+TEST(HullDiscs, LongBoomDoesNotHitAWallDuringATurnNextToIt) {
   for (const double away_m : {0.9, 1.1}) {
     PointWorld world;
     world.walls = {{{-8.0, away_m + 0.2}, {8.0, away_m + 0.2}, 0.4}};
@@ -84,15 +84,15 @@ TEST(HullDiscs, ALongBoomDoesNotSwingIntoTheWallThatItTurnsBeside) {
     world.duration_s = 40.0;
     const PointWorld::Flown flown = world.fly({});
     EXPECT_GT(flown.clearance_m, 0.0) << away_m;
-    // Once turned it looks about: what counts is that it got round.
+    // After the turn it observes its surroundings; the test requires only the completed turn.
     EXPECT_TRUE(std::ranges::any_of(flown.track, [](const auto& state) {
       return std::abs(std::remainder(state.heading_rad + 0.5 * M_PI, 2.0 * M_PI)) < 0.1;
     })) << away_m;
   }
 }
 
-// Two places of one cell, 0.1 and 0.4 m from the obstacle beside it, which a look-up does not tell apart.
-TEST(HullClearance, KeepsASmallMarginFromWhereTheVehicleIsWithinItsCell) {
+// Two positions in one cell, 0.1 and 0.4 m from the adjacent obstacle. A look-up does not distinguish them.
+TEST(HullClearance, KeepsASmallMarginWithSubCellAccuracy) {
   constexpr double kCellM = 0.5, kHullM = 0.3;
   vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = 20, .layers = 1});
   map.reset(Eigen::Vector3d::Zero());

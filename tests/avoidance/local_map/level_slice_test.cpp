@@ -17,7 +17,7 @@ namespace {
 
 using State = LevelSlice::State;
 
-TEST(ClosedCells, OnlyUnknownColumnsAreClosedAndOnlyForATime) {
+TEST(ClosedCells, CloseOnlyUnknownColumnsForALimitedTime) {
   vision::mapping::OccupancyMap map({.voxel_m = 0.5, .across = 20, .layers = 4});
   map.reset(Eigen::Vector3d::Zero());
   map.clear_cylinder({2.0, 0.0, 0.0}, 0.6, 1.0);
@@ -30,7 +30,7 @@ TEST(ClosedCells, OnlyUnknownColumnsAreClosedAndOnlyForATime) {
     const Eigen::Vector2i cell = slice.cell({north_m, east_m});
     return slice.at(cell.x(), cell.y());
   };
-  EXPECT_EQ(at(2.1, 0.1), State::free);  // what was seen counts
+  EXPECT_EQ(at(2.1, 0.1), State::free);  // observation has priority
   EXPECT_EQ(at(2.1, 1.3), State::occupied);
   EXPECT_EQ(at(2.1, 2.3), State::unknown);
   slice.build(map, {-1.0, -0.2}, closed);  // another level
@@ -38,12 +38,12 @@ TEST(ClosedCells, OnlyUnknownColumnsAreClosedAndOnlyForATime) {
   EXPECT_EQ(at(2.1, 3.1), State::occupied);
   closed.update(3.0 + ClosedCells::kUnknownS + 1.0);
   EXPECT_EQ(at(2.1, 1.3), State::unknown);
-  EXPECT_EQ(at(2.1, 3.1), State::occupied);  // what was seen is kept for longer
+  EXPECT_EQ(at(2.1, 3.1), State::occupied);  // observed cells are kept longer
   closed.update(3.0 + ClosedCells::kOccupiedS + 1.0);
   EXPECT_EQ(at(2.1, 3.1), State::unknown);
 }
 
-TEST(LevelSlice, OneUnknownColumnAmidFreeOnesIsFreeAndTwoAreNot) {
+TEST(LevelSlice, SingleUnknownColumnBetweenFreeOnesIsFreeAndTwoAreNot) {
   constexpr double kCellM = 0.5;
   vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = 20, .layers = 1});
   map.reset(Eigen::Vector3d::Zero());
@@ -65,8 +65,8 @@ TEST(LevelSlice, OneUnknownColumnAmidFreeOnesIsFreeAndTwoAreNot) {
   EXPECT_EQ(slice.at(5, 5), State::occupied);
 }
 
-// A thin pole that was matched once may be no more than that.
-TEST(LevelSlice, WhereSomethingWasSeenAmidFreeColumnsIsNotFree) {
+// A thin pole may be matched only once.
+TEST(LevelSlice, ObservedSurfaceBetweenFreeColumnsIsNotFree) {
   constexpr double kCellM = 0.5, kPoleM = 2.25;
   vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = 20, .layers = 1});
   map.reset(Eigen::Vector3d::Zero());
@@ -96,8 +96,8 @@ TEST(LevelSlice, WhereSomethingWasSeenAmidFreeColumnsIsNotFree) {
   EXPECT_EQ(at_pole(), State::unknown);
 }
 
-// Against points of the cells' squares, 2 cm apart.
-TEST(LevelSlice, ExactDistanceIsThatOfTheNearestPointOfAnOccupiedCell) {
+// Compared with points of the cells, 2 cm apart.
+TEST(LevelSlice, ExactDistanceIsThatToTheNearestPointOfAnOccupiedCell) {
   constexpr double kCellM = 0.5, kStepM = 0.02, kWithinM = 1.2;
   constexpr int kSide = 12;
   vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = kSide, .layers = 1});

@@ -22,17 +22,17 @@ void fly_points(uint64_t first, uint64_t last) {
 
 TEST(LocalMapFlight, NoPointCollidesInRandomWorldsWithPerfectDepth) { fly_points(1, 10); }
 
-// Here it grazed pillars and the ends of walls by 2 to 25 mm when a narrow way was flown with 0.05 m of margin: their
-// edges reached into voxels that were free. Of the margin of 0.25 m such an edge takes half a voxel.
-TEST(LocalMapFlight, NoPointGrazesWhereTheWayIsNarrow) {
+// With a margin of 0.05 m in narrow passages, vehicles touched pillars and the ends of walls by 2 to 25 mm, because the
+// edges of obstacles extended into free voxels. Such an edge takes half a voxel of the margin of 0.25 m.
+TEST(LocalMapFlight, NoPointTouchesObstaclesInNarrowPassages) {
   for (const uint64_t seed : {890, 1877, 2698, 4441, 5192})
     EXPECT_GT(random_world(seed).fly({}).clearance_m, 0.1) << seed;
 }
 
-// An hour: run by name.
-TEST(LocalMapFlight, DISABLED_NoneOfTenThousandPointsCollides) { fly_points(1, 10'000); }
+// Takes an hour; run by name.
+TEST(LocalMapFlight, DISABLED_NoCollisionInTenThousandFlights) { fly_points(1, 10'000); }
 
-TEST(LocalMapFlight, AVehicleOfTheHexacoptersSizeDoesNotEither) {
+TEST(LocalMapFlight, NoVehicleOfTheSizeOfTheHexacopterCollides) {
   constexpr double kRadiusM = 0.65;
   for (uint64_t seed = 101; seed <= 104; ++seed) {
     PointWorld world = random_world(seed);
@@ -41,18 +41,18 @@ TEST(LocalMapFlight, AVehicleOfTheHexacoptersSizeDoesNotEither) {
   }
 }
 
-TEST(LocalMapFlight, BlindItStaysInWhatIsAssumedFree) {
+TEST(LocalMapFlight, BlindVehicleStaysInTheSpaceAssumedFree) {
   PointWorld world;
   world.goal_W = {30.0, 0.0};
   world.radius_m = 0.65;
   world.blind_from_s = 0.0;
   const PointWorld::Flown flown = world.fly({});
-  constexpr double kStripM = 4.0;  // the camera of this test sees the vehicle's height from 3 m on
+  constexpr double kStripM = 4.0;  // the camera of this test sees the full height of the vehicle beyond 3 m
   for (const auto& state : flown.track) ASSERT_LT((state.p_W - world.start_W).norm(), kStripM) << state.t_s;
 }
 
-// It looks here and there, closes what it cannot see, and tries another way: all of that nearby.
-TEST(LocalMapFlight, BlindInFlightItStopsAndStaysThereabouts) {
+// It observes several directions, closes unknown cells and tries another route, all near its position.
+TEST(LocalMapFlight, VehicleThatGoesBlindInFlightStopsNearby) {
   PointWorld world;
   world.goal_W = {60.0, 10.0};
   world.radius_m = 0.65;
@@ -70,7 +70,7 @@ TEST(LocalMapFlight, BlindInFlightItStopsAndStaysThereabouts) {
   }
 }
 
-TEST(LocalMapFlight, GoesRoundAWallThatIsLongerThanItsMapAndItsMemory) {
+TEST(LocalMapFlight, FliesAroundAWallLongerThanItsMapAndItsMemory) {
   PointWorld world;
   world.goal_W = {30.0, 0.0};
   world.walls = {{{12.0, -45.0}, {12.0, 45.0}}};
@@ -80,7 +80,7 @@ TEST(LocalMapFlight, GoesRoundAWallThatIsLongerThanItsMapAndItsMemory) {
   EXPECT_GT(flown.clearance_m, 0.0);
 }
 
-TEST(LocalMapFlight, WithAPairThatLooksAftItFliesBackAtOnceAndClearOfWhatStandsThere) {
+TEST(LocalMapFlight, WithAnAftPairFliesBackImmediatelyAndClearOfObstacles) {
   PointWorld world;
   world.goal_W = {-20.0, 0.0};
   world.heading_rad = 0.0;
@@ -109,18 +109,18 @@ TEST(LocalMapFlight, FliesSlowlyNearTheGround) {
   EXPECT_LT(flown.fastest_mps, 2.0 * world.height_m + 0.01);
 }
 
-TEST(LocalMapFlight, InTheOpenItFliesEightMetersASecond) {
+TEST(LocalMapFlight, FliesEightMetersPerSecondInOpenSpace) {
   PointWorld world;
   world.goal_W = {70.0, 0.0};
-  world.height_m = 6.0;  // near the ground it flies slower
+  world.height_m = 6.0;  // it flies slower near the ground
   LocalMapConfig config;
-  config.noise_px = 0.1;  // depth here is perfect, and the camera too coarse to see far with half a pixel
+  config.noise_px = 0.1;  // depth is perfect here, and the camera too coarse for a long range with 0.5 px noise
   const PointWorld::Flown flown = world.fly(config);
   EXPECT_TRUE(flown.reached);
   EXPECT_GT(flown.fastest_mps, 7.5);
 }
 
-TEST(LocalMapFlight, ComesOutOfADeadEnd) {
+TEST(LocalMapFlight, LeavesADeadEnd) {
   PointWorld world;
   world.goal_W = {20.0, 0.0};
   world.walls = {{{9.0, -5.0}, {9.0, 5.0}}, {{2.0, -5.0}, {9.0, -5.0}}, {{2.0, 5.0}, {9.0, 5.0}}};
@@ -129,8 +129,8 @@ TEST(LocalMapFlight, ComesOutOfADeadEnd) {
   EXPECT_GT(flown.clearance_m, 0.0);
 }
 
-// Between walls that leave less than the margin beside the hull, seen without error: slowly, and touching nothing.
-TEST(LocalMapFlight, PassesWhatIsTooNarrowForItsMargin) {
+// Walls leave less than the margin on both sides of the hull. Depth is perfect. The flight is slow and without contact.
+TEST(LocalMapFlight, PassesAPassageTooNarrowForItsMargin) {
   constexpr double kHullM = 0.65, kVoxelM = 0.3;
   for (const double beside_m : {0.35, 0.45, 0.6}) {
     PointWorld world;
@@ -143,14 +143,14 @@ TEST(LocalMapFlight, PassesWhatIsTooNarrowForItsMargin) {
     }
     const PointWorld::Flown flown = world.fly({});
     EXPECT_GT(flown.clearance_m, 0.0) << beside_m;
-    // Half a voxel on either side may be lost.
+    // Half a voxel may be lost on either side.
     if (beside_m > kVoxelM + 0.05) {
       EXPECT_TRUE(flown.reached) << beside_m;
     }
   }
 }
 
-TEST(LocalMapFlight, SaysThatItIsStuckWhereNoWayExists) {
+TEST(LocalMapFlight, ReportsStuckIfNoRouteExists) {
   PointWorld world;
   world.goal_W = {20.0, 0.0};
   world.walls = {

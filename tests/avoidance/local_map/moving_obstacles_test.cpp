@@ -15,7 +15,7 @@ namespace {
 
 const ViewSector kAllAhead{{0.0, 0.0}, {0.0, -1.0}, {0.0, 1.0}};  ///< from the origin, northward
 
-/// What a viewer in the origin sees of a disc, in space that it has seen but for the disc.
+/// Returns the surface points of a disc as observed from the origin; all space except the disc was free.
 std::vector<SurfacePoint> face_of(const Eigen::Vector2d& middle_W, double radius_m, const Eigen::Vector2d& before_W) {
   std::vector<SurfacePoint> points;
   for (double turn = -1.4; turn <= 1.4; turn += 0.2) {
@@ -26,7 +26,7 @@ std::vector<SurfacePoint> face_of(const Eigen::Vector2d& middle_W, double radius
   return points;
 }
 
-TEST(MovingObstacleTracker, KnowsTheVelocityOfWhatCrosses) {
+TEST(MovingObstacleTracker, EstimatesTheVelocityOfACrossingObstacle) {
   for (const Eigen::Vector2d& v_W :
        {Eigen::Vector2d(0.0, 2.0), Eigen::Vector2d(-1.0, 0.5), Eigen::Vector2d(-3.0, 0.0)}) {
     MovingObstacleTracker tracker({});
@@ -42,8 +42,8 @@ TEST(MovingObstacleTracker, KnowsTheVelocityOfWhatCrosses) {
   }
 }
 
-// It leaves the view across its right edge, 40 degrees off: less and less of it is seen.
-TEST(MovingObstacleTracker, WhatTheViewCutsIsFollowedAsTheWholeThatItWas) {
+// The obstacle leaves the view across its right edge at 40 degrees, and its visible part decreases.
+TEST(MovingObstacleTracker, ObstacleCutByTheViewKeepsItsFormerSize) {
   constexpr double kEdgeRad = 0.7, kRadiusM = 0.8;
   const ViewSector view{
       {0.0, 0.0}, {std::cos(kEdgeRad), -std::sin(kEdgeRad)}, {std::cos(kEdgeRad), std::sin(kEdgeRad)}};
@@ -66,9 +66,8 @@ TEST(MovingObstacleTracker, WhatTheViewCutsIsFollowedAsTheWholeThatItWas) {
   EXPECT_GT(cut, 4);
 }
 
-// A wide one beside the view: of its surface only the far side is left, and where its middle is, that side's tangent
-// tells.
-TEST(MovingObstacleTracker, WhatLeavesTheViewNearbyIsNotTakenToBeFarther) {
+// A wide obstacle at the side of the view: only its far side is visible, and the tangent of that side gives the center.
+TEST(MovingObstacleTracker, ObstacleThatLeavesTheViewNearbyDoesNotRecede) {
   constexpr double kEdgeRad = 0.7, kRadiusM = 2.4;
   const ViewSector view{
       {0.0, 0.0}, {std::cos(kEdgeRad), -std::sin(kEdgeRad)}, {std::cos(kEdgeRad), std::sin(kEdgeRad)}};
@@ -91,8 +90,8 @@ TEST(MovingObstacleTracker, WhatLeavesTheViewNearbyIsNotTakenToBeFarther) {
   EXPECT_GT(cut, 8);
 }
 
-// A pair measures nothing that is nearer than its largest disparity: then the near surface is missing in what is seen.
-TEST(MovingObstacleTracker, WhatComesTooNearToBeMeasuredIsNotTakenToGoAway) {
+// A pair cannot measure points nearer than its maximum disparity, so the near surface is missing.
+TEST(MovingObstacleTracker, ObstacleTooNearToBeMeasuredDoesNotRecede) {
   constexpr double kRadiusM = 2.4, kNearestM = 1.4;
   MovingObstacleTracker tracker({.nearest_m = kNearestM});
   const Eigen::Vector2d v_W(-1.0, 0.0);
@@ -109,9 +108,9 @@ TEST(MovingObstacleTracker, WhatComesTooNearToBeMeasuredIsNotTakenToGoAway) {
   }
 }
 
-// It comes out from behind something, across the line of sight: more of it is seen, and its middle is farther than the
-// middle of a part. That is no motion.
-TEST(MovingObstacleTracker, WhatTurnsOutLargerDoesNotGoAway) {
+// The obstacle emerges from behind another one, across the line of sight. Its visible part grows, and the center of the
+// whole is farther than that of the part. That is no motion.
+TEST(MovingObstacleTracker, GrowthOfTheVisiblePartIsNoMotion) {
   constexpr double kRadiusM = 3.0;
   MovingObstacleTracker tracker({});
   const Eigen::Vector2d v_W(0.0, -1.5);
@@ -128,19 +127,19 @@ TEST(MovingObstacleTracker, WhatTurnsOutLargerDoesNotGoAway) {
   EXPECT_LT((found[0].p_W - p_W).norm(), 1.0);
 }
 
-TEST(MovingObstacleTracker, FindsNothingWhereAllStands) {
+TEST(MovingObstacleTracker, ReportsNoMovingObstacleInAStaticWorld) {
   MovingObstacleTracker tracker({});
   for (int image = 0; image < 30; ++image) {
     std::vector<SurfacePoint> points = face_of({10.0, 3.0}, 0.5, {10.0, 3.0});
     for (double y = -6.0; y < -6.0 + 0.2 * image; y += 0.2)
-      points.push_back({{14.0, y}, false});  // a wall comes into view
+      points.push_back({{14.0, y}, false});  // a wall enters the view
     tracker.update(0.1 * image, kAllAhead, points);
     EXPECT_TRUE(tracker.moving_obstacles().empty());
   }
 }
 
-// Of the wall of a corridor, matching finds now this part and now that, some of it in space seen free before.
-TEST(MovingObstacleTracker, AWallThatIsLookedAlongIsNone) {
+// Matching finds different parts of a corridor wall in each image, some of them in space that was observed as free.
+TEST(MovingObstacleTracker, WallAlongTheLineOfSightIsNoMovingObstacle) {
   std::mt19937_64 generator(1);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   for (int flight = 0; flight < 20; ++flight) {
@@ -157,25 +156,25 @@ TEST(MovingObstacleTracker, AWallThatIsLookedAlongIsNone) {
   }
 }
 
-TEST(Threat, IsWhatAStandingVehicleIsRunOverBy) {
+TEST(Threat, EqualsTheViolationForAHoveringVehicle) {
   const std::vector<PathState> stands = {{5.0, {0.0, 0.0}, {0.0, 0.0}}};
   const Clearance clearance{.hull_m = 0.5, .margin_m = 0.25, .margin_s = 0.0};
   const MovingObstacle comes{.p_W = {6.0, 0.0}, .v_W = {-2.0, 0.0}, .radius_m = 1.0};
-  // Its middle passes by the vehicle's, and while it is nearer than 2.25 m it lacks as much: a triangle, up to 4 s.
+  // The obstacle passes over the vehicle. Within 2.25 m the violation is a triangle over time, up to 4 s.
   constexpr double kWorstM = 2.25, kSpeedMps = 2.0, kLeftM = 0.25;
   const double mean_m = (kWorstM * kWorstM - 0.5 * kLeftM * kLeftM) / kSpeedMps / 4.0;
   EXPECT_NEAR(threat_m(stands, std::array{comes}, clearance, 5.0), 0.5 * (kWorstM + mean_m), 0.08);
   const MovingObstacle passes{.p_W = {6.0, 4.0}, .v_W = {-2.0, 0.0}, .radius_m = 1.0};
   EXPECT_EQ(threat_m(stands, std::array{passes}, clearance, 5.0), 0.0);
-  // A velocity that is not known well keeps nothing free that the obstacle may as well stay in.
+  // With an uncertain velocity the current position of the obstacle stays blocked.
   const MovingObstacle may_stay{.p_W = {1.0, 0.0}, .v_W = {20.0, 0.0}, .radius_m = 1.0, .v_sigma_mps = 1.5};
   EXPECT_GT(threat_m(stands, std::array{may_stay}, clearance, 4.0), 0.5 * 1.25);
   const MovingObstacle leaves{.p_W = {2.5, 0.0}, .v_W = {2.0, 0.0}, .radius_m = 1.0};
   EXPECT_EQ(threat_m(stands, std::array{leaves}, clearance, 5.0), 0.0);
 }
 
-// All paths begin as near; the better one leaves.
-TEST(Threat, IsLessForWhoLeaves) {
+// All paths begin equally near; the best one leaves.
+TEST(Threat, IsLowerForAPathThatLeaves) {
   const Clearance clearance{.hull_m = 0.5, .margin_m = 0.25, .margin_s = 0.0};
   const MovingObstacle comes{.p_W = {2.5, 0.0}, .v_W = {-1.0, 0.0}, .radius_m = 1.5};
   const auto flies = [](double v_mps) {
@@ -191,22 +190,23 @@ TEST(Threat, IsLessForWhoLeaves) {
   }
 }
 
-// What was seen of it reaches farther than its disc.
-TEST(Threat, IsWhatWasSeenToo) {
+// The observed surface extends beyond the disc.
+TEST(Threat, IncludesTheObservedSurface) {
   const std::vector<PathState> stands = {{0.0, {0.0, 0.0}, {0.0, 0.0}}};
   const Clearance clearance{.hull_m = 0.5, .margin_m = 0.25, .margin_s = 0.0};
   MovingObstacle obstacle{.p_W = {4.0, 0.0}, .v_W = {0.0, 0.0}, .radius_m = 1.0};
   EXPECT_EQ(threat_m(stands, std::array{obstacle}, clearance, 0.0), 0.0);
   obstacle.surface_W = {{1.0, -0.5}, {3.0, 0.0}, {1.0, 0.5}};
-  constexpr double kLacksM = 0.5 + 0.25 + 0.5 - 1.0;  // hull, margin, what is kept beside tracker, and what is there
+  constexpr double kLacksM =
+      0.5 + 0.25 + 0.5 - 1.0;  // hull, margin, additional distance from moving obstacles, minus the distance
   EXPECT_NEAR(threat_m(stands, std::array{obstacle}, clearance, 0.0), kLacksM, 0.01);
 }
 
-TEST(NearestToCome, IsTheMoverThatWillPassNearest) {
+TEST(NearestApproaching, IsTheObstacleThatWillPassNearest) {
   const PathState now{0.0, {0.0, 0.0}, {2.0, 0.0}};
   const MovingObstacle crosses{.p_W = {6.0, 6.0}, .v_W = {0.0, -2.0}, .radius_m = 0.5};  // they meet after 3 s
   const MovingObstacle beside{.p_W = {0.0, 3.0}, .v_W = {2.0, 0.0}, .radius_m = 0.5};    // flies along, 2 m away
-  const MovingObstacle behind{.p_W = {-3.0, 0.0}, .v_W = {-2.0, 0.0}, .radius_m = 0.5};  // leaves
+  const MovingObstacle behind{.p_W = {-3.0, 0.0}, .v_W = {-2.0, 0.0}, .radius_m = 0.5};  // recedes
   const MovingObstacle far{.p_W = {60.0, 0.0}, .v_W = {-2.0, 0.0}, .radius_m = 0.5};     // meets it after 15 s
   const std::array all = {beside, behind, crosses, far};
   EXPECT_EQ(nearest_approaching(now, all, 0.5), &all[2]);
@@ -220,11 +220,13 @@ void fly_traffic(uint64_t first, uint64_t last, double most_collided) {
   EXPECT_LE(collided, most_collided * static_cast<double>(last - first + 1));
 }
 
-// Without following what moves, 41 of the first 100 collide.
-TEST(MovingObstacleTracker, ThatCrossTheRouteAreMetByFew) { fly_traffic(1, 12, 0.1); }
+// Without tracking, 41 of the first 100 flights collide.
+TEST(MovingObstacleTracker, FewFlightsCollideWithCrossingObstacles) { fly_traffic(1, 12, 0.1); }
 
-// Three minutes: run by name. Parameters were chosen on the worlds up to 212; of the first 300, 7 collide.
-TEST(MovingObstacleTracker, DISABLED_ThatCrossTheRouteInFourHundredWorldsAreMetByFew) { fly_traffic(301, 700, 0.02); }
+// Takes three minutes; run by name. Parameters were chosen on worlds 1 to 212. Of the first 300 flights, 7 collide.
+TEST(MovingObstacleTracker, DISABLED_FewOfFourHundredFlightsCollideWithCrossingObstacles) {
+  fly_traffic(301, 700, 0.02);
+}
 
 }  // namespace
 }  // namespace hedgehop::avoidance::local_map

@@ -16,9 +16,8 @@
 
 namespace hedgehop::avoidance::local_map {
 
-/// Upright cylinders and walls on level ground, seen by a depth camera without error, and a vehicle that follows
-/// velocities with a delay and limited acceleration. An oracle of its own: it shares no code with the map or the
-/// planner.
+/// Vertical cylinders and walls on level ground, a depth camera without error, and a vehicle that follows velocities
+/// with a delay and limited acceleration. An independent oracle: it shares no code with the map or the planner.
 class PointWorld {
  public:
   struct Pillar {
@@ -42,7 +41,7 @@ class PointWorld {
       Eigen::Vector2d p_W, v_W;
       double heading_rad;
     };
-    std::vector<At> track;  ///< one an image
+    std::vector<At> track;  ///< one per image
   };
 
   static constexpr double kStepS = 0.1;
@@ -54,10 +53,10 @@ class PointWorld {
   Eigen::Vector2d start_W{0.0, 0.0}, goal_W{30.0, 0.0};
   double height_m = 3.0, radius_m = 0.0, duration_s = 90.0, reached_m = 1.5;
   double speed_mps = 8.0, acceleration_mps2 = 3.0;
-  bool looks_aft = false;                                         ///< with a second depth camera
-  double blind_from_s = std::numeric_limits<double>::infinity();  ///< nothing is known of any pixel
+  bool looks_aft = false;                                         ///< has a second depth camera
+  double blind_from_s = std::numeric_limits<double>::infinity();  ///< from then on every pixel is unknown
   std::vector<Eigen::AlignedBox3d> outline_B;                     ///< of the vehicle; empty: a disc of radius_m
-  std::optional<double> heading_rad;  ///< at the start; towards the goal where it is not given
+  std::optional<double> heading_rad;                              ///< at the start; towards the goal if empty
   std::function<void(const Eigen::Vector2d&, double, const Decision&, const Module&)> watch;
 
   Flown fly(LocalMapConfig config) const {
@@ -85,7 +84,7 @@ class PointWorld {
       flown.statuses.push_back(decision.status);
       flown.track.push_back({flown.time_s, p_W, v_W, nose_rad});
       if (watch) watch(p_W, flown.time_s, decision, *module);
-      // A decision is obeyed an image later.
+      // A decision takes effect one image later.
       for (int part = 0; part < 5; ++part) {
         move(obeyed, kStepS / 5, p_W, v_W, nose_rad);
         flown.clearance_m = std::min(flown.clearance_m, hull_clearance_m(p_W, nose_rad, flown.time_s));
@@ -101,7 +100,7 @@ class PointWorld {
     return flown;
   }
 
-  /// From a point to the nearest surface.
+  /// Distance from a point to the nearest surface.
   double distance_m(const Eigen::Vector2d& p_W, double t_s) const {
     double least_m = std::numeric_limits<double>::infinity();
     for (const Pillar& pillar : pillars) {
@@ -116,7 +115,7 @@ class PointWorld {
   }
 
  private:
-  /// Of a disc, or of points along the edges of the hull_discs's boxes.
+  /// Clearance of a disc, or of points along the edges of the boxes of the hull.
   double hull_clearance_m(const Eigen::Vector2d& p_W, double nose_rad, double t_s) const {
     if (outline_B.empty()) return distance_m(p_W, t_s) - radius_m;
     double least_m = std::numeric_limits<double>::infinity();
@@ -146,7 +145,7 @@ class PointWorld {
     nose_rad += std::clamp(turn_rad, -dt_s * kTurnRadps, dt_s * kTurnRadps);
   }
 
-  /// Sphere-traced in the plane: everything stands upright and is as high as the sky.
+  /// Sphere tracing in the plane: all obstacles are vertical and infinitely high.
   cv::Mat depth(const vision::camera::PinholeCamera& lens, const Eigen::Vector2d& p_W, double nose_rad,
                 double t_s) const {
     constexpr double kFarM = 80.0, kNearM = 1e-3;
@@ -172,7 +171,7 @@ class PointWorld {
   }
 };
 
-/// A world of pillars and walls between start and goal, both kept clear.
+/// A world of pillars and walls between start and goal, with free space around both.
 inline PointWorld random_world(uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto uniform = [&](double low, double high) { return hedgehop::uniform(random, low, high); };
@@ -198,7 +197,7 @@ inline PointWorld random_world(uint64_t seed) {
   return world;
 }
 
-/// Two or three pillars that cross the route, timed to meet the vehicle.
+/// Two or three pillars that cross the route and are timed to meet the vehicle.
 inline PointWorld traffic(uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto uniform = [&](double low, double high) { return hedgehop::uniform(random, low, high); };

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kCellM = 0.5;
 
-/// A map of one layer whose free space is given, cell by cell.
+/// A map of one layer with given free cells.
 struct Grid {
   int side = 24;
   std::vector<uint8_t> blocked;
@@ -51,9 +51,9 @@ struct Grid {
   }
   bool is_blocked(int row, int col) const { return blocked[static_cast<size_t>(row * side + col)]; }
 
-  /// Whether a disk passes cell by cell: Manhattan flood, distances to every blocked cell by brute force.
+  /// Whether a disc can pass from cell to cell: flood fill with brute-force distances to all blocked cells.
   bool may_enter(int row, int col, double need_m) const { return away_m(row, col) >= need_m; }
-  /// From a cell's middle to the nearest blocked cell's edge.
+  /// Distance from the center of a cell to the edge of the nearest blocked cell.
   double away_m(int row, int col) const {
     double least_m = 1e6;
     for (int r = 0; r < side; ++r) {
@@ -81,7 +81,7 @@ struct Grid {
 
 double beyond(const Eigen::Vector2d&) { return 0.0; }
 
-TEST(RouteField, FindsARouteExactlyWhereFloodingFindsOne) {
+TEST(RouteField, FindsARouteExactlyIfFloodFillFindsOne) {
   constexpr double kNeedM = 0.7;
   int reached = 0, cut_off = 0;
   for (uint64_t seed = 1; seed <= 40; ++seed) {
@@ -121,8 +121,8 @@ Grid two_gaps(int narrow_col, int wide_col) {
   return grid;
 }
 
-// The passage that is wide enough for what is wanted, as long as the detour is worth it; else the narrow one.
-TEST(RouteField, LeadsThroughWhatIsNarrowOnlyWhereTheWayRoundIsLong) {
+// The passage with the preferred width if its detour is short; otherwise the narrow passage.
+TEST(RouteField, LeadsThroughANarrowPassageOnlyIfTheDetourIsLong) {
   const RouteClearance route_clearance{0.7, 0.2};
   for (const auto& [narrow_col, wide_col, narrow] : {std::tuple{9, 11, false}, {2, 18, true}}) {
     const Grid grid = two_gaps(narrow_col, wide_col);
@@ -156,7 +156,7 @@ TEST(RouteField, RoutesKeepTheirDistanceFromObstacles) {
         if (!grid.may_enter(row, col, kNeedM)) continue;
         const std::vector<Eigen::Vector2d> route_W = field.route_W(grid.slice.center(row, col), 1e3);
         for (size_t i = 0; i + 1 < route_W.size(); ++i) {
-          for (const double way : {0.0, 0.3, 0.49, 0.51, 0.7, 1.0}) {  // between the cells' middles, too
+          for (const double way : {0.0, 0.3, 0.49, 0.51, 0.7, 1.0}) {  // also between cell centers
             const Eigen::Vector2i cell = grid.slice.cell(route_W[i] + way * (route_W[i + 1] - route_W[i]));
             EXPECT_TRUE(grid.may_enter(cell.x(), cell.y(), kNeedM)) << seed;
           }
@@ -166,7 +166,7 @@ TEST(RouteField, RoutesKeepTheirDistanceFromObstacles) {
   }
 }
 
-TEST(RouteField, DistancesInTheOpenAreThoseOfAnEightConnectedGrid) {
+TEST(RouteField, DistancesInOpenSpaceAreThoseOfAnEightConnectedGrid) {
   Grid grid;
   grid.blocked.assign(static_cast<size_t>(grid.side * grid.side), 0);
   vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = grid.side, .layers = 1});
@@ -185,7 +185,7 @@ TEST(RouteField, DistancesInTheOpenAreThoseOfAnEightConnectedGrid) {
   }
 }
 
-TEST(RouteField, AGoalOutsideIsSoughtAcrossTheNearestEdge) {
+TEST(RouteField, RouteToAGoalOutsideCrossesTheNearestEdge) {
   Grid grid;
   vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = grid.side, .layers = 1});
   map.reset(Eigen::Vector3d::Zero());
@@ -202,7 +202,7 @@ TEST(RouteField, AGoalOutsideIsSoughtAcrossTheNearestEdge) {
 constexpr double kNeedM = 0.5;
 const Eigen::Vector3d goal_W(40.0, 0.0, 0.0);
 
-/// A map of 24 m in the open, or with a wall across it north of the vehicle; field and slice live as long as it.
+/// A map of 24 m of open space, or with a wall across it north of the vehicle; it owns the field and the slice.
 struct Known {
   explicit Known(bool walled, const LearnedDistances& learned) {
     vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = 48, .layers = 1});
@@ -221,33 +221,33 @@ struct Known {
   RouteField field;
 };
 
-TEST(LearnedDistances, InTheOpenTheyAreTheStraightLine) {
+TEST(LearnedDistances, EqualTheStraightLineInOpenSpace) {
   LearnedDistances learned;
   const Known open(false, learned);
   learned.learn(open.field, open.slice, Eigen::Vector3d::Zero(), goal_W);
   for (const Eigen::Vector2d& at_W :
        {Eigen::Vector2d(1.5, 1.5), Eigen::Vector2d(-4.5, 4.5), Eigen::Vector2d(7.5, -7.5)}) {
     const double straight_m = (goal_W.head<2>() - at_W).norm();
-    constexpr double kOctile = 1.09;  // an eight-connected grid is that much longer at most
+    constexpr double kOctile = 1.09;  // maximum excess length on an eight-connected grid
     EXPECT_GE(learned.at_least_m(at_W, 0.0), straight_m - kCellM);
     EXPECT_LE(learned.at_least_m(at_W, 0.0), kOctile * straight_m);
   }
   EXPECT_EQ(learned.at_least_m({100.0, 0.0}, 0.0), 0.0);
 }
 
-TEST(LearnedDistances, NeverFallWhenTheMapForgets) {
+TEST(LearnedDistances, NeverDecreaseWhenTheMapFades) {
   LearnedDistances learned;
   const Known walled(true, learned);
   learned.learn(walled.field, walled.slice, Eigen::Vector3d::Zero(), goal_W);
   const Eigen::Vector2d at_W(1.5, 1.5);
   const double found_m = learned.at_least_m(at_W, 0.0);
-  EXPECT_GT(found_m, (goal_W.head<2>() - at_W).norm() + 8.0);  // round an end of the wall, 10 m aside
+  EXPECT_GT(found_m, (goal_W.head<2>() - at_W).norm() + 8.0);  // around an end of the wall, 10 m to the side
   const Known forgotten(false, learned);
   learned.learn(forgotten.field, forgotten.slice, Eigen::Vector3d::Zero(), goal_W);
   EXPECT_EQ(learned.at_least_m(at_W, 0.0), found_m);
 }
 
-TEST(LearnedDistances, CountAtOtherHeightsLessTheClimbAndForNoOtherGoal) {
+TEST(LearnedDistances, CountAtOtherAltitudesMinusTheClimbAndForNoOtherGoal) {
   LearnedDistances learned;
   const Known walled(true, learned);
   learned.learn(walled.field, walled.slice, Eigen::Vector3d::Zero(), goal_W);

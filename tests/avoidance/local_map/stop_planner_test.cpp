@@ -13,7 +13,7 @@ namespace {
 constexpr Response kResponse{.delay_s = 0.2, .lag_s = 0.4, .acceleration_mps2 = 3.0, .braking_mps2 = 2.0};
 constexpr double kSpeedMps = 8.0;
 
-/// Free up to a line north; the goal lies beyond it.
+/// Free space up to a line in the north; the goal is beyond it.
 StopPlanner::DeficitAt wall_at(double north_m) {
   return [=](const PathState& m) { return ClearanceDeficit{.occupied_m = std::max(0.0, m.p_W.x() - north_m)}; };
 }
@@ -21,7 +21,7 @@ std::optional<double> north(const Eigen::Vector2d& p_W) { return 100.0 - p_W.x()
 
 double nobody(const std::vector<PathState>&) { return 0.0; }
 
-TEST(StopPlanner, EveryStopItPlansStaysBeforeTheEndOfWhatIsFree) {
+TEST(StopPlanner, EveryPlannedStopEndsWithinFreeSpace) {
   const StopPlanner planner(kResponse, kSpeedMps);
   for (const double free_m : {2.0, 5.0, 10.0, 20.0, 40.0}) {
     PathState now{0.0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
@@ -31,7 +31,7 @@ TEST(StopPlanner, EveryStopItPlansStaysBeforeTheEndOfWhatIsFree) {
       const StopPlanner::Plan plan = planner.choose(now, cmd_W, wall_at(free_m), nobody, north);
       ASSERT_TRUE(plan.safe) << free_m << " " << i;
       ASSERT_LE(plan.path.back().p_W.x(), free_m);
-      // What is obeyed meanwhile is what was planned: an image of 0.1 s.
+      // The command in effect until the next image, 0.1 s, is the planned one.
       now = planner.predict(now, cmd_W, plan.v_cmd_W, 0.1)[1];
       cmd_W = plan.v_cmd_W;
       fastest = std::max(fastest, now.v_W.norm());
@@ -42,7 +42,7 @@ TEST(StopPlanner, EveryStopItPlansStaysBeforeTheEndOfWhatIsFree) {
   }
 }
 
-TEST(StopPlanner, SpeedFollowsHowFarIsFree) {
+TEST(StopPlanner, SpeedFollowsTheLengthOfFreeSpace) {
   const StopPlanner planner(kResponse, kSpeedMps);
   for (const double speed_mps : {1.0, 3.0, 6.0}) {
     // Closed form: the delay and a lag at speed, then constant braking.
@@ -50,13 +50,13 @@ TEST(StopPlanner, SpeedFollowsHowFarIsFree) {
         speed_mps * (kResponse.delay_s + kResponse.lag_s) + 0.5 * speed_mps * speed_mps / kResponse.braking_mps2;
     const PathState now{0.0, Eigen::Vector2d::Zero(), {speed_mps, 0.0}};
     constexpr double kSlackM = 1.0;
-    // A command against the motion stops sooner than planned braking does, yet not in a third of the way.
+    // A command against the motion stops sooner than planned braking, but needs more than a third of the distance.
     EXPECT_TRUE(planner.choose(now, now.v_W, wall_at(stop_m + kSlackM), nobody, north).safe);
     EXPECT_FALSE(planner.choose(now, now.v_W, wall_at(0.35 * stop_m), nobody, north).safe);
   }
 }
 
-TEST(StopPlanner, AVehicleThatIsTooNearMovesAway) {
+TEST(StopPlanner, VehicleWithinTheClearanceMovesAway) {
   const StopPlanner planner(kResponse, kSpeedMps);
   const PathState now{0.0, {1.0, 0.0}, Eigen::Vector2d::Zero()};
   const StopPlanner::Plan plan = planner.choose(now, Eigen::Vector2d::Zero(), wall_at(0.5), nobody, north);
@@ -64,7 +64,7 @@ TEST(StopPlanner, AVehicleThatIsTooNearMovesAway) {
   EXPECT_LT(plan.v_cmd_W.x(), 0.0);
 }
 
-TEST(StopPlanner, FliesSlowlyWhereTheCameraDoesNotLook) {
+TEST(StopPlanner, FliesSlowlyInDirectionsOutOfView) {
   const PathState now{0.0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
   const auto south = [](const Eigen::Vector2d& p_W) { return std::optional(100.0 + p_W.x()); };
   const auto free = [](const PathState&) { return ClearanceDeficit{}; };
@@ -76,14 +76,15 @@ TEST(StopPlanner, FliesSlowlyWhereTheCameraDoesNotLook) {
   EXPECT_GT(speed_mps(StopPlanner(kResponse, kSpeedMps)), 2.5);
 }
 
-/// Half-planes: an obstacle and the unknown, whose edges lie `near_m` and `far_m` from the origin in two directions.
-TEST(StopPlanner, NearnessToTheOneNeverExcusesNearnessToTheOther) {
+/// Half-planes of an obstacle and of unknown space, whose edges are `near_m` and `far_m` from the origin in two
+/// directions.
+TEST(StopPlanner, ViolationOfOneClearanceNeverExcusesTheOther) {
   const StopPlanner planner(kResponse, kSpeedMps);
   std::mt19937_64 random(1);
   const auto uniform = [&](double low, double high) { return hedgehop::uniform(random, low, high); };
   for (int i = 0; i < 300; ++i) {
     const bool occupied_first = i % 2 == 0;
-    const double near_m = uniform(-1.0, -0.1), far_m = uniform(0.0, 1.5);  // too near by up to 1 m already; not yet
+    const double near_m = uniform(-1.0, -0.1), far_m = uniform(0.0, 1.5);  // violated by up to 1 m; not violated
     const double azimuth = uniform(0.0, 2.0 * M_PI), other = azimuth + uniform(1.0, 2.0 * M_PI - 1.0);
     const auto beyond_m = [](const Eigen::Vector2d& p_W, double turn, double edge_m) {
       return std::max(0.0, p_W.dot(Eigen::Vector2d(std::cos(turn), std::sin(turn))) - edge_m);
@@ -103,8 +104,8 @@ TEST(StopPlanner, NearnessToTheOneNeverExcusesNearnessToTheOther) {
   }
 }
 
-// At 6 m/s, 4 m before a wall that ends 1 m to the right: braking ends in it, turning aside leads round it.
-TEST(StopPlanner, WhereNoStopIsPossibleTheLeastBadPathIsTaken) {
+// At 6 m/s, 4 m in front of a wall that ends 1 m to the right: braking ends in the wall, a turn leads around it.
+TEST(StopPlanner, TakesThePathOfMinimumViolationIfNoStopIsPossible) {
   const StopPlanner planner(kResponse, kSpeedMps);
   const auto deficit = [](const PathState& m) {
     const double into_m = std::min(m.p_W.x() - 4.0, 1.0 - m.p_W.y());
@@ -121,9 +122,9 @@ TEST(StopPlanner, WhereNoStopIsPossibleTheLeastBadPathIsTaken) {
   EXPECT_LT(worst_m(plan.path), 0.8 * worst_m(planner.predict(now, now.v_W, Eigen::Vector2d::Zero(), 0.0)));
 }
 
-// At 4 m/s before a wall that cannot be avoided any more, thin beside the course: whoever brakes ends 0.4 m in it,
-// slowly; whoever turns aside goes through 0.6 m of it, never 0.3 m from its faces, at full speed.
-TEST(StopPlanner, WhereNoStopIsPossibleItHitsSlowlyRatherThanLittle) {
+// At 4 m/s in front of a wall that can no longer be avoided and is thin to the side of the course. Braking ends 0.4 m
+// inside the wall at low speed. A turn crosses 0.6 m of it at full speed, less than 0.3 m from its faces.
+TEST(StopPlanner, PrefersASlowDeepViolationIfNoStopIsPossible) {
   const StopPlanner planner(kResponse, kSpeedMps);
   constexpr double kWallM = 3.1;
   const auto deficit = [](const PathState& m) {
@@ -142,8 +143,8 @@ TEST(StopPlanner, WhereNoStopIsPossibleItHitsSlowlyRatherThanLittle) {
   EXPECT_LT(at_mps(plan), 2.5);
 }
 
-// Whoever brakes for what crosses stops in its path; whoever goes on is past in time.
-TEST(StopPlanner, PassesBeforeWhatMovesInsteadOfStoppingInItsPath) {
+// Braking for a crossing obstacle stops in its path; continuing passes in time.
+TEST(StopPlanner, PassesInFrontOfAMovingObstacleInsteadOfStoppingInItsPath) {
   const StopPlanner planner(kResponse, kSpeedMps);
   const PathState now{0.0, Eigen::Vector2d::Zero(), {6.0, 0.0}};
   const auto crosses = [](const std::vector<PathState>& path) {  // a band at 8 to 11 m, from 2.5 s on

@@ -17,7 +17,7 @@ std::vector<Eigen::Vector2d> scattered(std::mt19937& random, int count) {
   return points;
 }
 
-// Against OpenCV's hull.
+// Compared with OpenCV's hull.
 TEST(VisibleSurface, IsTheConvexHullOfItsPoints) {
   std::mt19937 random(1);
   for (int world = 0; world < 50; ++world) {
@@ -36,8 +36,8 @@ TEST(VisibleSurface, IsTheConvexHullOfItsPoints) {
   }
 }
 
-// Against the nearest of many points of its edges, and OpenCV's test of what is inside.
-TEST(VisibleSurface, IsAsFarAwayAsItsNearestPoint) {
+// Compared with the nearest of many points of its edges, and with OpenCV's point-in-polygon test.
+TEST(VisibleSurface, DistanceIsThatOfItsNearestPoint) {
   std::mt19937 random(2);
   for (int world = 0; world < 50; ++world) {
     VisibleSurface surface;
@@ -59,7 +59,7 @@ TEST(VisibleSurface, IsAsFarAwayAsItsNearestPoint) {
   }
 }
 
-TEST(VisibleSurface, MovesAlongAndKeepsForAWhileWhatIsNoLongerSeen) {
+TEST(VisibleSurface, MovesAndKeepsPointsOutOfViewForALimitedTime) {
   VisibleSurface surface;
   const std::vector<Eigen::Vector2d> near = {{1.0, 0.0}}, far = {{4.0, 0.0}};
   surface.see(0.0, near);

@@ -10,8 +10,8 @@
 namespace hedgehop::avoidance::policy {
 namespace {
 
-TEST(ActionPilot, StateIsSeenFromTheVehicle) {
-  // Heading east, rolled right: the goal 3 m to the south is 3 m to the right, whatever the roll.
+TEST(ActionPilot, StateIsRelativeToTheVehicle) {
+  // Heading east, rolled right: the goal 3 m to the south is 3 m to the right at any roll.
   NavigationState navigation;
   navigation.p_WB_est = {10.0, 20.0, -5.0};
   navigation.q_WB_est = Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitZ()) *
@@ -25,16 +25,16 @@ TEST(ActionPilot, StateIsSeenFromTheVehicle) {
   EXPECT_LT((state - expected).norm(), 1e-6f);
 }
 
-TEST(ActionPilot, SharesOfTheLimitAreAlongTheHeading) {
+TEST(ActionPilot, VelocityIsAFractionOfTheLimitAlongTheHeading) {
   const NavigationState navigation = level_flight({0, 0, -5}, 0.5 * std::numbers::pi, {0.0, 0.0});
   ActionPilot pilot(navigation);
   const VelocityCommand command = pilot.fly({0.5, -2.0, 0.0, 0.0}, navigation, 4.0, 0.1);
-  EXPECT_NEAR(command.v_WB_W.x(), 4.0, 1e-12);  // left of east is north; beyond 1 is 1
+  EXPECT_NEAR(command.v_WB_W.x(), 4.0, 1e-12);  // left of east is north; clamped to 1
   EXPECT_NEAR(command.v_WB_W.y(), 2.0, 1e-12);
   EXPECT_NEAR(command.altitude_m, 5.0, 1e-12);
 }
 
-TEST(ActionPilot, HeightAndHeadingMoveAtTheirRatesWhileTheVehicleFollows) {
+TEST(ActionPilot, AltitudeAndHeadingChangeAtTheirRatesWhileTheVehicleFollows) {
   NavigationState navigation = level_flight({0, 0, -5}, 3.0, {0.0, 0.0});
   ActionPilot pilot(navigation);
   VelocityCommand command;
@@ -47,7 +47,7 @@ TEST(ActionPilot, HeightAndHeadingMoveAtTheirRatesWhileTheVehicleFollows) {
   EXPECT_NEAR(std::remainder(command.heading_rad - (3.0 + 2.0), 2.0 * std::numbers::pi), 0.0, 1e-9);
 }
 
-TEST(ActionPilot, NeverGoFarAheadOfAVehicleThatIsHeld) {
+TEST(ActionPilot, SetpointsStayNearAVehicleThatDoesNotFollow) {
   const NavigationState navigation = level_flight({0, 0, -5}, 0.0, {0.0, 0.0});
   ActionPilot pilot(navigation);
   VelocityCommand command;

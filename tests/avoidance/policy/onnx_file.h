@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// Writes small networks as ONNX, so that no test needs another library for them. Message and field numbers:
+/// Writes small networks as ONNX without another library. Message and field numbers:
 /// onnx.proto3 of the ONNX standard, IR version 7.
 namespace hedgehop::onnx_file {
 

@@ -42,7 +42,7 @@ class OnnxPolicy : public testing::Test {
   OnnxPolicyConfig config() const {
     return {.file = file(), .images = {{.camera = "front", .mean = 100.0, .scale = 0.01}}};
   }
-  /// The network's answer, by hand.
+  /// The output of the network, computed by hand.
   Action expected(const cv::Mat& image, const State& state) const {
     Action action;
     for (int row = 0; row < 4; ++row) {
@@ -91,7 +91,7 @@ TEST_F(OnnxPolicy, FliesTheNetworksActionsAndKeepsTheLastImage) {
   }
 }
 
-TEST_F(OnnxPolicy, FilesThatAreNoNetworkAreRefusedInOneLine) {
+TEST_F(OnnxPolicy, RejectsFilesThatAreNoNetworkInOneLine) {
   OnnxPolicyConfig missing = config();
   missing.file = folder.path() / "none.onnx";
   EXPECT_THAT([&] { make_onnx_policy(missing); }, ThrowsMessage<std::invalid_argument>(HasSubstr("no such file")));
@@ -104,7 +104,7 @@ TEST_F(OnnxPolicy, FilesThatAreNoNetworkAreRefusedInOneLine) {
   EXPECT_THAT([&] { make_onnx_policy(blind); }, ThrowsMessage<std::invalid_argument>(HasSubstr("'images' or 'state'")));
 }
 
-TEST_F(OnnxPolicy, NetworksOfOtherInputsAndOutputsAreRefusedBeforeTheFlight) {
+TEST_F(OnnxPolicy, RejectsNetworksWithOtherInputsAndOutputsBeforeTheFlight) {
   const avoidance::Setup setup = four_cameras(kSizePx, 25.0);
   const auto refused = [&](const OnnxPolicyConfig& bad, const std::string& why) {
     const auto module = make_onnx_policy(bad);
@@ -124,7 +124,7 @@ TEST_F(OnnxPolicy, NetworksOfOtherInputsAndOutputsAreRefusedBeforeTheFlight) {
   refused(config(), "has 3 numbers; must have 4");
 }
 
-TEST_F(OnnxPolicy, AnActionThatIsNotFiniteEndsTheFlight) {
+TEST_F(OnnxPolicy, ActionThatIsNotFiniteEndsTheFlight) {
   offset[2] = std::numeric_limits<float>::quiet_NaN();
   write();
   const auto module = make_onnx_policy(config());

@@ -26,7 +26,7 @@ std::vector<Eigen::AlignedBox3d> wall_with(const Opening& o, double north_m, dou
           part(west_m, east_m, 0.0, o.bottom_m), part(west_m, east_m, o.bottom_m + o.height_m, height_m)};
 }
 
-TEST(SectionFlight, FindsAnOpeningOffTheStraightPathToWhicheverSide) {
+TEST(SectionFlight, FindsAnOpeningOnEitherSideOfTheStraightPath) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> off_m(5.0, 12.0), beside_m(-1.5, 1.5);
   for (int trial = 0; trial < 4; ++trial) {
@@ -41,7 +41,7 @@ TEST(SectionFlight, FindsAnOpeningOffTheStraightPathToWhicheverSide) {
 }
 
 // [Perez2018] fig. 14.
-TEST(SectionFlight, AsItClimbsTheChosenSectionComesDownToTheCenter) {
+TEST(SectionFlight, ChosenSectionMovesDownToTheCenterDuringTheClimb) {
   SectionWorld world;
   world.boxes_W = wall_with({0.0, 9.0, 1.0, 0.0}, 9.0, 9.0);
   world.goal_W = {40.0, 0.0, -12.0};
@@ -59,8 +59,8 @@ TEST(SectionFlight, AsItClimbsTheChosenSectionComesDownToTheCenter) {
   EXPECT_EQ(rows_above, 0);
 }
 
-// [Perez2018] fig. 16 and 17: an opening along the top that lies across the lines between 3 x 3 sections.
-TEST(SectionFlight, AnOpeningAlongTheTopIsFlownThroughWithSeventeenRowsAndNotWithThree) {
+// [Perez2018] fig. 16 and 17: an opening along the top across the boundaries of 3 x 3 sections.
+TEST(SectionFlight, PassesAnOpeningAlongTheTopWithSeventeenRowsButNotWithThree) {
   SectionWorld world;
   world.boxes_W = wall_with({0.25, 5.5, 6.0, 2.4}, 6.0, 12.0);
   world.start_W = {0.0, 0.0, -5.0};
@@ -97,8 +97,8 @@ TEST(SectionFlight, PassesRandomPillarsByMoreThanItsRadius) {
   }
 }
 
-// [Perez2018] fig. 20, from wherever in the image; half of them then turn square to their path, to either side.
-TEST(SectionFlight, WhatComesAtAHoveringVehicleFromAnyBearingInSightStaysAway) {
+// [Perez2018] fig. 20, from any bearing in the image; half of the obstacles then turn at a right angle to either side.
+TEST(SectionFlight, HoveringVehicleEvadesAnObstacleFromAnyBearingInView) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> bearing_rad(-0.65, 0.65), beside_m(-1.0, 1.0), turns_s(7.0, 10.0);
   constexpr double kStartM = 9.0, kSpeedMps = 0.7, kHalfM = 0.5;

@@ -12,7 +12,7 @@ namespace {
 constexpr int kWidthPx = 160, kHeightPx = 90;
 constexpr double kThresholdM = 9.144;
 
-/// One depth camera, and a module that flies by it towards a goal far to the north.
+/// One depth camera, and a module that uses it to fly towards a goal far to the north.
 class Pilot {
  public:
   explicit Pilot(SectionGridConfig config = {}) : module_(make_section_grid(with_camera(config))) {
@@ -42,7 +42,7 @@ class Pilot {
 
 cv::Mat far() { return {kHeightPx, kWidthPx, CV_32FC1, cv::Scalar(30.0)}; }
 
-/// Something near in a band of columns.
+/// A near obstacle in a band of columns.
 cv::Mat near_between(int first_px, int last_px) {
   cv::Mat depth_m = far();
   depth_m.colRange(first_px, last_px).setTo(4.0);
@@ -51,39 +51,39 @@ cv::Mat near_between(int first_px, int last_px) {
 
 const PositionCommand& position(const Decision& decision) { return std::get<PositionCommand>(decision.command); }
 
-TEST(SectionGridModule, CarriesOnToTheGoalWhenThePathIsFree) {
+TEST(SectionGridModule, ContinuesToTheGoalIfThePathIsFree) {
   Pilot pilot;
   const Decision decision = pilot.see(far());
   EXPECT_EQ(decision.status, "cruise");
   EXPECT_EQ(position(decision).p_WB, Eigen::Vector3d(100.0, 0.0, -5.0));
 }
 
-TEST(SectionGridModule, GoesAThresholdsDistanceToTheFreeSideOfAnObstacle) {
+TEST(SectionGridModule, MovesByTheThresholdToTheFreeSideOfAnObstacle) {
   for (const bool left : {true, false}) {
     Pilot pilot;
     const Decision decision = pilot.see(left ? near_between(0, 80) : near_between(80, kWidthPx), {0.0, 0.0, -5.0});
     EXPECT_EQ(decision.status, "avoid");
-    // It turns first, waiting where it is; what it turns to lies on the free side, within the camera's view.
+    // It first turns on the spot towards a position on the free side, within the view of the camera.
     const double heading_rad = position(decision).heading_rad;
     EXPECT_GT(left ? heading_rad : -heading_rad, 0.17);
     EXPECT_LT(std::abs(heading_rad), 0.74);
     EXPECT_EQ(position(decision).p_WB, Eigen::Vector3d(0.0, 0.0, -5.0));
-    // Now the obstacle stands at the edge of the image, before the goal.
+    // Now the obstacle is at the edge of the image, in front of the goal.
     const Decision facing =
         pilot.see(left ? near_between(0, 30) : near_between(130, kWidthPx), {0.0, 0.0, -5.0}, heading_rad);
-    constexpr double kHalfPixelM = 1e-3;  // the middle section's center lies half a pixel off the camera's axis
+    constexpr double kHalfPixelM = 1e-3;  // the center of the middle section is half a pixel off the camera axis
     EXPECT_NEAR(position(facing).p_WB.head<2>().norm(), kThresholdM, kHalfPixelM);
   }
 }
 
-TEST(SectionGridModule, TakesTheRouteUpAsSoonAsTheGoalIsFree) {
+TEST(SectionGridModule, ResumesTheRouteAsSoonAsTheGoalIsFree) {
   Pilot pilot;
   const double heading_rad = position(pilot.see(near_between(0, 80))).heading_rad;
   EXPECT_EQ(pilot.see(near_between(0, 30), {0.0, 0.0, -5.0}, heading_rad).status, "avoid");
   EXPECT_EQ(pilot.see(far(), {0.0, 0.0, -5.0}, heading_rad).status, "resume");
 }
 
-TEST(SectionGridModule, TakesTheRouteUpAgainOnceAside) {
+TEST(SectionGridModule, ResumesTheRouteAfterMovingAside) {
   Pilot pilot;
   const double heading_rad = position(pilot.see(near_between(0, 80))).heading_rad;
   const cv::Mat goal_blocked = near_between(0, 30);
@@ -97,7 +97,7 @@ TEST(SectionGridModule, TakesTheRouteUpAgainOnceAside) {
   EXPECT_EQ(position(onwards).p_WB.head<2>(), Eigen::Vector2d(100.0, 0.0));
 }
 
-TEST(SectionGridModule, HoversAndTurnsBeforeAWallAndCountsTheTime) {
+TEST(SectionGridModule, HoversAndTurnsInFrontOfAWallAndCountsTheTime) {
   Pilot pilot;
   const cv::Mat wall = near_between(0, kWidthPx);
   for (int i = 0; i < 6; ++i) {
@@ -110,10 +110,10 @@ TEST(SectionGridModule, HoversAndTurnsBeforeAWallAndCountsTheTime) {
     if (metric.name == "hover_time_s") hover_s = metric.value;
   }
   EXPECT_NEAR(hover_s, 5 * 0.08, 1e-9);
-  EXPECT_EQ(pilot.see(far()).status, "avoid");  // off the route: the path found is flown first
+  EXPECT_EQ(pilot.see(far()).status, "avoid");  // off the route: the found path is flown first
 }
 
-TEST(SectionGridModule, EveryAnswerGoesItsOwnDirection) {
+TEST(SectionGridModule, EveryAnswerHasItsOwnDirection) {
   const auto moved = [](Answer answer) {
     SectionGridConfig config;
     config.answer = answer;
@@ -140,7 +140,7 @@ SectionGridConfig published() {
 }
 
 // [Perez2018] sec. V-D: "if another new position is determined to be a better solution, the UAS will adjust".
-TEST(SectionGridModule, ThePrintedLawGoesToABetterPositionWhereOursKeepsItsPath) {
+TEST(SectionGridModule, PublishedLawMovesToABetterPositionWhileTheModifiedLawKeepsItsPath) {
   for (const Law law : {Law::published, Law::modified}) {
     SectionGridConfig config;
     config.law = law;
@@ -148,7 +148,7 @@ TEST(SectionGridModule, ThePrintedLawGoesToABetterPositionWhereOursKeepsItsPath)
     const double heading_rad = position(pilot.see(near_between(0, 80))).heading_rad;
     const Eigen::Vector3d start(0.0, 0.0, -5.0);
     const Eigen::Vector3d aside = position(pilot.see(near_between(0, 30), start, heading_rad)).p_WB;
-    // A few pixels of the path's section show a threat; another section has none.
+    // A few pixels of the section of the path show a threat; another section has none.
     cv::Mat later = near_between(0, 30);
     later(cv::Rect(78, 43, 3, 3)).setTo(4.0);
     const Eigen::Vector3d path = position(pilot.see(later, start, heading_rad)).p_WB;
@@ -156,7 +156,7 @@ TEST(SectionGridModule, ThePrintedLawGoesToABetterPositionWhereOursKeepsItsPath)
   }
 }
 
-TEST(SectionGridModule, ThePrintedLawCarriesOnTurnsThenMovesOrHovers) {
+TEST(SectionGridModule, PublishedLawContinuesOrTurnsThenMovesOrHovers) {
   Pilot free(published()), beside(published()), before(published());
   EXPECT_EQ(position(free.see(far())).p_WB, Eigen::Vector3d(100.0, 0.0, -5.0));
   const Decision waits = beside.see(near_between(0, 80));
@@ -170,13 +170,13 @@ TEST(SectionGridModule, ThePrintedLawCarriesOnTurnsThenMovesOrHovers) {
   EXPECT_GT(std::get<HoverCommand>(hovers.command).yaw_rate_radps, 0.0);
 }
 
-TEST(SectionGridModule, RefusesValuesOutOfRangeByTheirKey) {
+TEST(SectionGridModule, RejectsValuesOutOfRangeAndNamesTheKey) {
   SectionGridConfig config;
   config.threshold_m = 0.0;
   EXPECT_THROW(make_section_grid(config), std::invalid_argument);
 }
 
-TEST(SectionGridModule, NeverGoesBelowItsLowestHeight) {
+TEST(SectionGridModule, NeverDescendsBelowItsMinimumAltitude) {
   cv::Mat ceiling = far();
   ceiling.rowRange(0, 60).setTo(4.0);
   const auto altitude_m = [&](double lowest_m) {
@@ -189,7 +189,7 @@ TEST(SectionGridModule, NeverGoesBelowItsLowestHeight) {
   EXPECT_EQ(altitude_m(4.0), 4.0);
 }
 
-TEST(SectionGridModule, AFasterVehicleMindsWhatIsFartherWhereTheThresholdDependsOnSpeed) {
+TEST(SectionGridModule, SpeedDependentThresholdIncludesFartherObstaclesAtHigherSpeed) {
   SectionGridConfig config;
   config.threshold_time_s = 20.0;  // at the 1 m/s of this flight, and a radius of 1 m: 21 m
   cv::Mat beyond = far();
@@ -198,13 +198,13 @@ TEST(SectionGridModule, AFasterVehicleMindsWhatIsFartherWhereTheThresholdDepends
   EXPECT_EQ(Pilot().see(beyond).status, "cruise");
 }
 
-TEST(SectionGridModule, KeepsAsideWhileWhatHasLeftTheImageStandsOnThePathToTheGoal) {
+TEST(SectionGridModule, StaysAsideWhileAnObstacleOutOfViewBlocksThePathToTheGoal) {
   for (const bool remembers : {true, false}) {
     SectionGridConfig config;
     config.passed_radius_m = remembers ? 1.2 : 0.0;
     Pilot pilot(config);
-    // A wall 2 m ahead, from the left edge to past the middle. Once the vehicle has turned right, the image still
-    // shows the path to the goal, but no longer the wall from half a meter to the left of that path on.
+    // A wall 2 m ahead, from the left edge past the middle. After a right turn the image still shows the path to the
+    // goal, but no longer the wall, which begins half a meter to the left of that path.
     cv::Mat wall = far();
     wall.colRange(0, 90).setTo(2.0);
     pilot.see(wall);
@@ -212,7 +212,7 @@ TEST(SectionGridModule, KeepsAsideWhileWhatHasLeftTheImageStandsOnThePathToTheGo
   }
 }
 
-TEST(SectionGridModule, AVehicleThatHoversStaysWhereItGaveWayTo) {
+TEST(SectionGridModule, HoveringVehicleStaysAtItsEvasionPosition) {
   SectionGridConfig config;
   config.answer = Answer::sideways;
   Pilot pilot(config);
@@ -223,7 +223,7 @@ TEST(SectionGridModule, AVehicleThatHoversStaysWhereItGaveWayTo) {
   EXPECT_EQ(position(pilot.see(far(), aside)).p_WB, aside);
 }
 
-TEST(SectionGridModule, AVehicleThatHoversGivesWayEvenWhereNoSectionIsFree) {
+TEST(SectionGridModule, HoveringVehicleEvadesEvenIfNoSectionIsFree) {
   SectionGridConfig config;
   config.answer = Answer::sideways;
   Pilot pilot(config);

@@ -14,7 +14,7 @@
 
 namespace hedgehop::avoidance::section_grid {
 
-/// Boxes on level ground, seen by a depth camera, and a point that obeys.
+/// Boxes on level ground, a depth camera, and a point that follows commands.
 class SectionWorld {
  public:
   static constexpr int kWidthPx = 96, kHeightPx = 54;
@@ -33,7 +33,7 @@ class SectionWorld {
 
   using Boxes = std::vector<Eigen::AlignedBox3d>;
   Boxes boxes_W;
-  std::function<Boxes(double t_s)> movers_W;  ///< further boxes; none when empty
+  std::function<Boxes(double t_s)> movers_W;  ///< moving boxes; none if empty
   Eigen::Vector3d start_W{0.0, 0.0, -5.0}, goal_W{40.0, 0.0, -5.0};
   double speed_mps = 1.0, duration_s = 120.0;
   bool hovers = false;  ///< at its goal, to the end
@@ -57,7 +57,7 @@ class SectionWorld {
       const Decision decision =
           module->update({step * 80'000'000, frames, level_flight(p_WB, heading_rad, {speed_mps, 0.0}), {goal_W, 0.0}});
       move(command, p_WB, heading_rad);
-      command = decision.command;  // obeyed a step later
+      command = decision.command;  // takes effect one step later
       flown.moments.push_back(
           {p_WB, decision.status, static_cast<int>(decision.signals[0]), static_cast<int>(decision.signals[3])});
       for (const Eigen::AlignedBox3d& box_W : boxes_now_W) {
@@ -86,7 +86,7 @@ class SectionWorld {
     return depth_m;
   }
 
-  /// How many times a ray fits between its origin and what it meets first.
+  /// Distance along a ray to the first obstacle, in lengths of the ray.
   static double along(const Boxes& boxes_now_W, const Eigen::Vector3d& p_W, const Eigen::Vector3d& ray_W) {
     double nearest = ray_W.z() > 0.0 ? -p_W.z() / ray_W.z() : std::numeric_limits<double>::infinity();
     for (const Eigen::AlignedBox3d& box_W : boxes_now_W) {
@@ -107,7 +107,7 @@ class SectionWorld {
     const Eigen::Vector3d path_W = place->p_WB - p_WB;
     const double level_m = path_W.head<2>().norm();
     if (level_m > 0.0) p_WB.head<2>() += path_W.head<2>() * std::min(1.0, kStepS * speed_mps / level_m);
-    // Height is held by a loop of its own, as an autopilot does.
+    // A separate loop controls the altitude, like an autopilot.
     p_WB.z() += kStepS * std::clamp(path_W.z(), -kClimbMps, kClimbMps);
   }
 };

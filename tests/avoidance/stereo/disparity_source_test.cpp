@@ -20,7 +20,7 @@ Setup depth_rig(double left_aside_m = 0.0) {
   return setup;
 }
 
-TEST(DisparitySource, ADepthCameraStandsForAPairOfItsBaseline) {
+TEST(DisparitySource, DepthCameraReplacesAPairWithItsBaseline) {
   DisparitySource source(From::camera, Grey::unused, {}, depth_rig());
   cv::Mat depth_m(16, 16, CV_32FC1, cv::Scalar(10.0));
   depth_m.at<float>(0, 0) = std::numeric_limits<float>::infinity();
@@ -34,7 +34,7 @@ TEST(DisparitySource, ADepthCameraStandsForAPairOfItsBaseline) {
   EXPECT_FALSE(source.update(frames)) << "not new any more";
 }
 
-TEST(DisparitySource, GreyAndDepthMustBeOfOneInstantAndOnePose) {
+TEST(DisparitySource, GreyAndDepthMustHaveTheSameTimeAndPose) {
   DisparitySource source(From::camera, Grey::needed, {}, depth_rig());
   const cv::Mat depth_m(16, 16, CV_32FC1, cv::Scalar(10.0)), grey(16, 16, CV_8UC1, cv::Scalar(100));
   const std::vector<CameraFrame> apart = {{"left", 1, grey}, {"depth", 2, depth_m}};

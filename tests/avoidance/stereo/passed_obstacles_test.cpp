@@ -22,7 +22,7 @@ Eigen::Isometry3d looking(double heading_rad, const Eigen::Vector3d& p_WC = Eige
   return X_WC;
 }
 
-/// Depth of a world that holds one block of pixels at `z_m`, before the sky.
+/// Depth image with one block of pixels at `z_m` in front of the sky.
 vision::stereo::DepthPyramid block_at(const cv::Rect& pixels, double z_m) {
   cv::Mat disparity16(kHeightPx, kWidthPx, CV_16SC1, cv::Scalar(0));
   disparity16(pixels).setTo(std::lround(kGeometry.disparity16(z_m)));
@@ -34,9 +34,9 @@ const vision::stereo::DepthPyramid kSky = block_at({}, 1.0);
 
 Eigen::Vector3d towards(double heading_rad) { return {std::cos(heading_rad), std::sin(heading_rad), 0.0}; }
 
-TEST(PassedObstacles, WhatHasLeftTheImageClosesThePathsThatPassItWithinTheRadius) {
+TEST(PassedObstacles, ObstacleOutOfViewBlocksThePathsWithinTheRadius) {
   PassedObstacles passed({.radius_m = 1.5, .near_m = 12.0, .keep_s = 8.0});
-  // A block of one pyramid pixel, whose place is known: 6 m ahead, at the image's right edge.
+  // A block of one pyramid pixel at a known position: 6 m ahead, at the right edge of the image.
   const cv::Rect block(152, 56, 8, 8);
   passed.update(0, block_at(block, 6.0), kGeometry, looking(0.0));
   EXPECT_TRUE(passed.points_W().empty());  // still in view
@@ -53,7 +53,7 @@ TEST(PassedObstacles, WhatHasLeftTheImageClosesThePathsThatPassItWithinTheRadius
   }
 }
 
-TEST(PassedObstacles, APathThatEndsBeforeAnObstacleIsFree) {
+TEST(PassedObstacles, PathThatEndsInFrontOfAnObstacleIsFree) {
   PassedObstacles passed({.radius_m = 1.5, .near_m = 12.0, .keep_s = 8.0});
   passed.update(0, block_at({152, 56, 8, 8}, 6.0), kGeometry, looking(0.0));
   passed.update(kSecondNs / 10, kSky, kGeometry, looking(-0.3));
@@ -72,7 +72,7 @@ TEST(PassedObstacles, APathThatEndsBeforeAnObstacleIsFree) {
   }
 }
 
-TEST(PassedObstacles, WhatComesIntoViewAgainIsLeftToTheImage) {
+TEST(PassedObstacles, PointThatIsInViewAgainIsDeleted) {
   PassedObstacles passed({});
   passed.update(0, block_at({140, 50, 16, 16}, 6.0), kGeometry, looking(0.0));
   passed.update(kSecondNs, kSky, kGeometry, looking(-0.8));
@@ -82,7 +82,7 @@ TEST(PassedObstacles, WhatComesIntoViewAgainIsLeftToTheImage) {
   EXPECT_TRUE(passed.points_W().empty());
 }
 
-TEST(PassedObstacles, AgeAndDistanceForget) {
+TEST(PassedObstacles, DeletesOldAndDistantPoints) {
   for (const bool by_age : {false, true}) {
     PassedObstacles passed({.radius_m = 2.0, .near_m = 12.0, .keep_s = 5.0});
     passed.update(0, block_at({140, 50, 16, 16}, 6.0), kGeometry, looking(0.0));
@@ -98,7 +98,7 @@ TEST(PassedObstacles, AgeAndDistanceForget) {
   }
 }
 
-TEST(PassedObstacles, NoFreePathComesNearerThanTheRadiusOrATenthNearerThanItWas) {
+TEST(PassedObstacles, NoFreePathComesNearerThanTheRadiusOrATenthNearerThanBefore) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   constexpr double kRadiusM = 2.0;
@@ -110,14 +110,14 @@ TEST(PassedObstacles, NoFreePathComesNearerThanTheRadiusOrATenthNearerThanItWas)
     const Eigen::Vector3d moved(2.0 * uniform(random), uniform(random), uniform(random));
     passed.update(1, kSky, kGeometry, looking(M_PI, moved));
     const Eigen::Vector3d direction(uniform(random), uniform(random), uniform(random));
-    double worst_m = std::numeric_limits<double>::infinity();  // by which the path stays clear, stepped along
+    double worst_m = std::numeric_limits<double>::infinity();  // remaining clearance along the path
     for (const Eigen::Vector3d& p : passed.points_W()) {
       const double allowed_m = std::min(kRadiusM, 0.9 * (p - moved).norm());
       for (double s_m = 0.0; s_m < 20.0; s_m += 0.01) {
         worst_m = std::min(worst_m, (moved + s_m * direction.normalized() - p).norm() - allowed_m);
       }
     }
-    if (std::abs(worst_m) < 1e-4) continue;  // steps of 1 cm see the nearest path to 0.05 mm of 0.5 m or more
+    if (std::abs(worst_m) < 1e-4) continue;  // steps of 1 cm resolve the nearest distance to 0.05 mm at 0.5 m
     (worst_m > 0.0 ? open : blocked) += 1;
     EXPECT_EQ(passed.free(direction), worst_m > 0.0) << trial;
   }

@@ -9,30 +9,30 @@
 namespace hedgehop::avoidance::stereo_corridor {
 namespace {
 
-/// A camera at a place in the plan, looking along a heading, both as north and east.
+/// A camera at a horizontal position with a heading, both as north and east.
 Eigen::Vector3d seen(const Eigen::Vector2d& goal_NE, const Eigen::Vector2d& at_NE, double heading_rad) {
   const Eigen::Vector2d to_goal = goal_NE - at_NE;
   const Eigen::Vector2d ahead(std::cos(heading_rad), std::sin(heading_rad)), right(-ahead.y(), ahead.x());
   return {to_goal.dot(right), 2.0, to_goal.dot(ahead)};
 }
 
-/// What is asked where a place and a heading are, both as north and east.
+/// Returns the turn decision at a position and a heading, both as north and east.
 bool turns(TurnBack& turn_back, const Eigen::Vector2d& goal_NE, const Eigen::Vector2d& at_NE, double heading_rad) {
   return turn_back.update(seen(goal_NE, at_NE, heading_rad), {at_NE.x(), at_NE.y(), -2.0});
 }
 
-TEST(TurnBack, AGoalAheadOrComingNearerIsFlownTo) {
+TEST(TurnBack, DoesNotTurnToAGoalThatIsAheadOrComesNearer) {
   TurnBack turn_back;
   for (double north_m = 0.0; north_m < 50.0; north_m += 0.5) {
     EXPECT_FALSE(turns(turn_back, {50.0, 10.0}, {north_m, 0.0}, 0.0)) << north_m;
   }
-  // Backwards, as round an obstacle: nearer, though behind; and farther, though ahead.
+  // Backwards, as around an obstacle: nearer but behind; and farther but ahead.
   TurnBack round;
   for (double s = 0.0; s < 40.0; s += 0.5) EXPECT_FALSE(turns(round, {0.0, 0.0}, {50.0 - s, 0.0}, 0.0));
   for (double s = 0.0; s < 40.0; s += 0.5) EXPECT_FALSE(turns(round, {0.0, 0.0}, {-10.0 - s, 0.0}, 0.0));
 }
 
-TEST(TurnBack, APassedGoalIsTurnedToUntilItLiesAhead) {
+TEST(TurnBack, TurnsToAPassedGoalUntilItIsAhead) {
   for (const double side : {-1.0, 1.0}) {
     TurnBack turn_back;
     const Eigen::Vector2d goal(20.0, 30.0 * side);
@@ -47,9 +47,9 @@ TEST(TurnBack, APassedGoalIsTurnedToUntilItLiesAhead) {
   }
 }
 
-// A street that leads away from the goal: after the first, a meter behind it, they are 3 m apart at least, and at each
-// it is passed by twice as much.
-TEST(TurnBack, TurnsThatDoNotHelpBecomeRarer) {
+// A street that leads away from the goal. The first turn is a meter behind the goal. Further turns are at least 3 m
+// apart, each at twice the distance.
+TEST(TurnBack, TurnsWithoutSuccessBecomeRarer) {
   TurnBack turn_back;
   std::vector<double> turns_m;
   for (double north_m = 0.0; north_m < 40.0; north_m += 0.01) {
@@ -62,9 +62,9 @@ TEST(TurnBack, TurnsThatDoNotHelpBecomeRarer) {
   for (size_t k = 0; k < turns_m.size(); ++k) EXPECT_NEAR(turns_m[k], expected_m[k], 0.03) << k;
 }
 
-// Along a wall with the goal behind it on the right: where the wall is closed towards the goal, first on, to the left,
-// then back, further to the right, until it has gone 3 m from there.
-TEST(TurnBack, AClosedWayIsFollowedByTheOneAheadThenByTheOneBehind) {
+// Along a wall with the goal behind it on the right. If the wall blocks the way to the goal, the vehicle first turns
+// left to fly on, the next time right to fly back, until it is 3 m away.
+TEST(TurnBack, TriesTheWayAheadThenTheWayBehindIfTheWayToTheGoalIsBlocked) {
   for (const double right : {-1.0, 1.0}) {
     TurnBack turn_back;
     const Eigen::Vector2d goal(0.0, 30.0 * right);
@@ -86,13 +86,13 @@ TEST(TurnBack, AClosedWayIsFollowedByTheOneAheadThenByTheOneBehind) {
   }
 }
 
-TEST(TurnBack, OneThatHelpedIsFollowedByThePatienceOfTheFirst) {
+TEST(TurnBack, SuccessfulTurnResetsTheDistance) {
   TurnBack turn_back;
   for (const double aside_m : {9.0, 6.0, 0.0}) {
     EXPECT_FALSE(turn_back.update({0.0, 0.0, 20.0}, {}));
     double passed_m = -10.0;
     while (!turn_back.update({aside_m, 0.0, -passed_m}, {})) passed_m += 0.1;
-    // A meter behind and 0.3 m farther than at the nearest.
+    // One meter behind and 0.3 m farther than the minimum distance.
     EXPECT_NEAR(passed_m, std::max(1.0, std::sqrt(0.09 + 0.6 * aside_m)), 0.11) << aside_m;
   }
 }

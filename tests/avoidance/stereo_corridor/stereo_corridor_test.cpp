@@ -12,7 +12,7 @@ namespace {
 constexpr int kSizePx = 160;
 constexpr double kBackdropM = 45.0;
 
-/// Flies by what a pair of cameras sees of a far backdrop and nearer walls, towards a goal far to the north.
+/// Flies towards a goal far to the north with a stereo pair, a far backdrop and nearer walls.
 class Pilot {
  public:
   explicit Pilot(StereoCorridorConfig config = {}, double pair_right_m = 0.0) : setup_(stereo_pair(kSizePx, 10.0)) {
@@ -47,7 +47,7 @@ class Pilot {
 
 const VelocityCommand& velocity(const Decision& decision) { return std::get<VelocityCommand>(decision.command); }
 
-TEST(StereoCorridor, AFreeCourseIsFlownStraight) {
+TEST(StereoCorridor, FliesAFreeCourseStraight) {
   Pilot pilot;
   const Decision decision = pilot.see({});
   EXPECT_EQ(decision.status, "cruise");
@@ -56,7 +56,7 @@ TEST(StereoCorridor, AFreeCourseIsFlownStraight) {
   EXPECT_NEAR(velocity(decision).v_WB_W.norm(), 5.0, 1e-9);
 }
 
-TEST(StereoCorridor, TheGoalIsLookedForFromTheCameraNotFromTheBody) {
+TEST(StereoCorridor, GoalDirectionIsFromTheCameraNotFromTheBody) {
   constexpr double kGoalM = 25.0, kFocalPx = 0.5 * kSizePx, kRounding = 0.6;
   for (const double pair_right_m : {-2.0, 0.0, 3.0}) {
     const Decision decision = Pilot({}, pair_right_m).see({}, {3.0, 0.0}, 0.0, {kGoalM, 0.0});
@@ -65,21 +65,20 @@ TEST(StereoCorridor, TheGoalIsLookedForFromTheCameraNotFromTheBody) {
   }
 }
 
-TEST(StereoCorridor, AnObstacleAheadIsPassedOnItsFreeSide) {
+TEST(StereoCorridor, PassesAnObstacleOnItsFreeSide) {
   for (const double side : {-1.0, 1.0}) {
     Pilot pilot;
-    // 8 m wide at 14 m, reaching 2 m past the course.
+    // 8 m wide at 14 m, extending 2 m past the course.
     const Decision decision = pilot.see({wall(14.0, -2.0 * side, M_PI, 4.0)});
     EXPECT_NE(decision.status, "cruise");
     const Eigen::Vector2d v_W = velocity(decision).v_WB_W;
-    // Where the path crosses the obstacle's distance, it is clear of its edge by the corridor's radius, but for a
-    // pixel.
+    // At the distance of the obstacle the path keeps the radius of the corridor from its edge, within one pixel.
     const double east_m = side * 14.0 * v_W.y() / v_W.x();
     EXPECT_GT(east_m, 2.0 + 1.5 - 0.5);
   }
 }
 
-TEST(StereoCorridor, HoversAndTurnsWhereEverythingIsNear) {
+TEST(StereoCorridor, HoversAndTurnsIfAllObstaclesAreNear) {
   Pilot pilot;
   for (int i = 0; i < 3; ++i) {
     const Decision decision = pilot.see({wall(9.0, 0.0, M_PI)});
@@ -90,16 +89,17 @@ TEST(StereoCorridor, HoversAndTurnsWhereEverythingIsNear) {
   EXPECT_NEAR(pilot.metric("decision_hz"), 10.0, 1e-9);
 }
 
-TEST(StereoCorridor, TheCourseIsTakenUpAgainOnceItIsFree) {
+TEST(StereoCorridor, ResumesTheCourseOnceItIsFree) {
   Pilot pilot;
   pilot.see({wall(14.0, -2.0, M_PI, 4.0)});
   EXPECT_EQ(pilot.see({}, {2.8, 1.0}).status, "cruise");
 }
 
-TEST(StereoCorridor, DoesNotTurnIntoWhatItIsPassing) {
+TEST(StereoCorridor, DoesNotTurnIntoAnObstacleThatItIsPassing) {
   for (const bool remembers : {true, false}) {
     Pilot pilot;
-    // 3 m beside the path; half a meter before it, it has left the image, and the goal lies 43 degrees to its side.
+    // 3 m to the side of the path. Half a meter in front of the obstacle it has left the image, and the goal is 43
+    // degrees to its side.
     const vision::TexturedPlane beside = wall(8.0, 5.0, M_PI, 2.0);
     if (remembers) pilot.see({beside});
     const Decision decision = pilot.see({beside}, {3.0, 0.0}, 7.5, {200.0, 192.5 * std::tan(0.75)});
@@ -107,7 +107,7 @@ TEST(StereoCorridor, DoesNotTurnIntoWhatItIsPassing) {
   }
 }
 
-TEST(StereoCorridor, ThePrintedLawKeepsTheDirectionOfFlightWhereOursGoesToTheGoal) {
+TEST(StereoCorridor, PublishedLawKeepsTheDirectionOfFlightAndModifiedLawFliesToTheGoal) {
   const Eigen::Vector2d goal_W{100.0, 50.0};
   const auto flown = [&](Law law) {
     StereoCorridorConfig config;
@@ -122,15 +122,15 @@ TEST(StereoCorridor, ThePrintedLawKeepsTheDirectionOfFlightWhereOursGoesToTheGoa
   EXPECT_NEAR(velocity(modified).heading_rad, std::atan2(50.0, 100.0), kOnePixelRad);
 }
 
-TEST(StereoCorridor, ThePrintedLawPassesAnObstacleAndHoversWhereEverythingIsNear) {
+TEST(StereoCorridor, PublishedLawPassesAnObstacleAndHoversIfAllObstaclesAreNear) {
   StereoCorridorConfig config;
   config.law = Law::published;
   EXPECT_EQ(Pilot(config).see({wall(14.0, -2.0, M_PI, 4.0)}).status, "search");
   EXPECT_EQ(Pilot(config).see({wall(9.0, 0.0, M_PI)}).status, "look_round");
 }
 
-TEST(StereoCorridor, AGoalBelowTheViewIsApproachedAtItsEdgeAndTakenUpOnTheSpot) {
-  // The view ends 45 degrees down.
+TEST(StereoCorridor, ApproachesAGoalBelowTheViewAtTheImageEdgeAndDescendsOnTheSpot) {
+  // The view extends 45 degrees downward.
   const Decision above = Pilot().see({}, {3.0, 0.0}, 0.0, {12.0, 0.0}, -9.0);
   EXPECT_EQ(above.status, "approach");
   EXPECT_DOUBLE_EQ(above.signals[1], kSizePx - 1.0);
@@ -140,7 +140,7 @@ TEST(StereoCorridor, AGoalBelowTheViewIsApproachedAtItsEdgeAndTakenUpOnTheSpot) 
   EXPECT_DOUBLE_EQ(std::get<PositionCommand>(over_it.command).p_WB.z(), 9.0);
 }
 
-/// The course of one addition at a time: what each alone does of the tests above.
+/// Returns the course with a single addition, to measure its effect in the tests above.
 TEST(StereoCorridor, EachAdditionActsAlone) {
   StereoCorridorConfig goal_first, memory;
   goal_first.additions = {.goal_first = true, .memory = false, .sky = false};
@@ -156,7 +156,7 @@ TEST(StereoCorridor, EachAdditionActsAlone) {
   EXPECT_EQ(forgetful.see({beside}, {3.0, 0.0}, 7.5, past_it_W).status, "cruise");
 }
 
-TEST(StereoCorridor, WithoutAnyAdditionOursIsThePrintedLaw) {
+TEST(StereoCorridor, ModifiedLawWithoutAdditionsEqualsThePublishedLaw) {
   StereoCorridorConfig bare, published;
   bare.additions = {.goal_first = false, .memory = false, .sky = false};
   published.law = Law::published;
@@ -172,7 +172,7 @@ TEST(StereoCorridor, WithoutAnyAdditionOursIsThePrintedLaw) {
   }
 }
 
-TEST(StereoCorridor, AMissedGoalLiesOutsideNoCircleItCanTurnIn) {
+TEST(StereoCorridor, ApproachSpeedAllowsATurnToAMissedGoal) {
   for (const double goal_m : {1.0, 4.0, 9.0, 30.0}) {
     Pilot pilot;
     const double v_mps = velocity(pilot.see({}, {3.0, 0.0}, 0.0, {goal_m, 0.0})).v_WB_W.norm();

@@ -9,14 +9,14 @@ namespace hedgehop::avoidance::stereo_corridor {
 namespace {
 
 const cv::Size kImage(64, 48);
-constexpr int kCaptionPx = 20;  // rows that a caption may cover
+constexpr int kCaptionPx = 20;  // maximum number of rows of a caption
 
 /// The six panels of an image, left to right, top to bottom.
 cv::Mat panel(const cv::Mat& image, int i) {
   return image(cv::Rect({i % 3 * kImage.width, i / 3 * kImage.height}, kImage));
 }
 
-TEST(TargetImage, EveryBlockIsTintedToItsOwnEdgeRedWhereDangerous) {
+TEST(TargetImage, TintsEveryBlockToItsEdgeAndDangerousBlocksRed) {
   std::mt19937_64 random(3);
   constexpr int kTop = 4, kFinest = 2;
   constexpr double kFar16 = 150.0;
@@ -35,7 +35,7 @@ TEST(TargetImage, EveryBlockIsTintedToItsOwnEdgeRedWhereDangerous) {
       const auto color = drawn.at<cv::Vec3b>(candidate.pixel);
       EXPECT_EQ(color[0] > color[1], !candidate.free) << trial;
     }
-    // No block that holds something near is tinted, whatever its size.
+    // No block of any size with a near obstacle is tinted.
     const cv::Mat near_there = pyramid.level(kFinest) >= kFar16;
     for (int v = kCaptionPx; v < kImage.height; ++v) {
       for (int u = 0; u < kImage.width; ++u) {
@@ -46,7 +46,7 @@ TEST(TargetImage, EveryBlockIsTintedToItsOwnEdgeRedWhereDangerous) {
   }
 }
 
-TEST(TargetImage, TheChosenTargetIsRinged) {
+TEST(TargetImage, CirclesTheChosenTarget) {
   vision::stereo::DepthPyramid pyramid;
   pyramid.build(cv::Mat(kImage, CV_16SC1, cv::Scalar(0)), 2);
   TargetImage seen;
