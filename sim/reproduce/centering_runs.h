@@ -4,13 +4,13 @@
 
 namespace hedgehop::sim {
 
-/// A point mass in a straight corridor of 4 m, 1.5 m left of its middle at first, with the printed controller: `x_m`
-/// along the corridor and `off_middle_m` to the right of its middle, twice a second for two minutes; `settled_m`, the
-/// distance after which it stays within 0.2 m of the middle, the same in every row. The signal is exact. Source:
-/// [Zingg2010] fig. 11. Differs: the speed, which is not printed, is 0.42 m/s.
+/// Simulates a point mass in a straight corridor of 4 m with the published controller and an exact signal. It starts
+/// 1.5 m left of the middle. Columns: `x_m` along the corridor and `off_middle_m` to the right of its middle, every 0.5
+/// s for two minutes; `settled_m`, the distance after which it remains within 0.2 m of the middle, equal in every row.
+/// Source: [Zingg2010] fig. 11. Differs: the speed, which is not published, is 0.42 m/s.
 Columns centering_exact();
 
-/// The same with normal errors of the signal that match the mean and greatest error of [Zingg2010] fig. 9; seed 1.
+/// The same with normal signal errors that match the mean and maximum error of [Zingg2010] fig. 9; seed 1.
 /// Source: [Zingg2010] fig. 12.
 Columns centering_noisy();
 

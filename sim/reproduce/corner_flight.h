@@ -9,8 +9,8 @@
 
 #include "vision/landmarks/landmark_filter.h"
 
-/// The flights of [Shah2009] ch. 4 and 5 as the thesis flew them: without images, by a camera that reports all
-/// corners of its scene, also through walls, 10 times a second.
+/// The flights of [Shah2009] ch. 4 and 5, without images as in the thesis: a camera reports all corners of the scene at
+/// 10 Hz, also through walls.
 namespace hedgehop::sim {
 
 /// Camera at p_WC that looks at a point, its image upright.
@@ -29,13 +29,13 @@ struct CornerFlight {
 CornerFlight cube_lateral_flight();
 /// The same about high-rises with 35 corners.
 CornerFlight highrise_lateral_flight();
-/// Towards 35 corners, [Shah2009] table 5.1: level, 1.4 ft/s. The distance of its start is not printed; ours is 120 m.
+/// Toward 35 corners, [Shah2009] table 5.1: level, 1.4 ft/s. Differs: the start distance, not published, is 120 m.
 CornerFlight highrise_forward_flight();
 
 /// Errors of a flight's map.
 struct CornerFlightResult {
   std::vector<double> error_percent;  ///< of every image: mean over all coordinates of all corners
-  double converged_s = NAN;           ///< from then on that mean stays within 3 %; NaN when it never does
+  double converged_s = NAN;           ///< from then on that mean stays within 3 %; NaN if it never does
   std::vector<double> filter_ms;      ///< wall time of the filter, of every image
   size_t landmarks = 0;               ///< confirmed, at the end
   double worst_percent = 0.0;         ///< at the end, of any coordinate of any corner

@@ -53,8 +53,8 @@ Columns errors_of(const CornerFlight& flight) {
   return columns;
 }
 
-/// Edges of the towers whose corners scenes::worlds::highrise_corners() lists: a box each, and a spire where a ninth
-/// corner follows that lies over the middle of the eight.
+/// Returns the edges of the towers in scenes::worlds::highrise_corners(): a box each, and a spire if a ninth corner
+/// over the center of the eight follows.
 std::vector<std::pair<size_t, size_t>> outline(const std::vector<Vector3d>& corners_W) {
   std::vector<std::pair<size_t, size_t>> edges;
   for (size_t first = 0; first < corners_W.size();) {

@@ -54,7 +54,7 @@ bool unfinished(const FlightRecord& record) {
   return outcome == "timeout" && has_goal;
 }
 
-/// The figure of one flight: 1 or 0 where flights are counted.
+/// Returns the figure of one flight: 1 or 0 for a count.
 std::optional<double> figure_of_flight(const FlightFigure& figure, const Cell& cell) {
   if (!counts(figure.statistic)) return number_of(cell);
   const std::string text = text_of(cell);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "sim/batch/campaign_file.h"
+#include "sim/batch/seeds.h"
 
 namespace hedgehop::sim {
 

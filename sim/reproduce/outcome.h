@@ -11,7 +11,7 @@
 
 namespace hedgehop::sim {
 
-/// The orders of a paper's flights, one a flight; ids begin with the flights' name. Throws InputError with every fault.
+/// Returns the orders of a paper, one per flight; ids begin with the flights' name. Throws InputError with every fault.
 /// @param quick  only the seeds of a quick run.
 std::vector<Order> paper_orders(const Paper& paper, bool quick);
 
@@ -23,7 +23,7 @@ struct PaperOutcome {
   std::map<std::string, Columns> calculations;
 };
 
-/// Sorts records by the flights they belong to, and does the calculations that the paper asks for.
+/// Groups records by their flights, and performs the paper's calculations.
 PaperOutcome paper_outcome(const Paper& paper, const std::filesystem::path& folder,
                            const std::vector<FlightRecord>& records);
 

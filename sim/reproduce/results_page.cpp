@@ -28,10 +28,10 @@ Other pages have the figures of vehicles, cameras, images and exports ([verifica
 ([limits.md](limits.md)).
 )";
 
-/// Of each paper, by its key: its part of a page.
+/// The section of each paper, by key.
 using Sections = std::map<std::string, std::string>;
 
-/// The parts of a page without its origin; none where its command and its parts are not as many.
+/// Returns the sections of a page without its origin; empty if the numbers of keys in the command and sections differ.
 Sections sections_of(std::string_view page) {
   const size_t option = page.find(kOption);
   if (!page.starts_with(kCommand) || option == std::string_view::npos) return {};

@@ -37,7 +37,7 @@ Columns section_costs() {
     if (side == 3) grid.width_share = grid.height_share = 1.0 / 3.0;  // the paper's 3 x 3 do not overlap
     candidates.push_back({side, vision::sections::SectionSearch(grid, depth_m.size())});
   }
-  // In turns, so that what else the machine does weighs on all alike.
+  // Alternately, so that other load of the machine affects all equally.
   for (int round = 0; round < kRounds; ++round) {
     for (Candidate& candidate : candidates) {
       const auto start = std::chrono::steady_clock::now();

@@ -43,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(LandmarkMap, ThesisFlight,
                            return std::get<0>(instance.param).name + "_" + name_of(std::get<1>(instance.param));
                          });
 
-TEST_P(ThesisFlight, FindsEveryCornerInTheTimeAskedAndNothingElse) {
+TEST_P(ThesisFlight, FindsAllCornersInTheRequiredTimeWithoutFalseLandmarks) {
   const auto& [asked, coordinates] = GetParam();
   std::string times_s;
   for (uint64_t seed = 1; seed <= 5; ++seed) {
@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(LandmarkMap, Consistency,
 
 // One landmark of each of 50 flights: the sum of their squared normalized errors is chi-square of 150 degrees of
 // freedom.
-TEST_P(Consistency, NormalisedErrorsLieWithinTheirChiSquareBounds) {
+TEST_P(Consistency, NormalizedErrorsLieWithinTheirChiSquareBounds) {
   constexpr double kLeast = 99.4, kMost = 213.7;  // 0.05 % and 99.95 % of chi-square with 150 degrees of freedom
   CornerFlight flight = highrise_lateral_flight();
   flight.duration_s = 60.0;

@@ -52,7 +52,7 @@ double brute(Statistic statistic, std::vector<double> values) {
   return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2.0;
 }
 
-TEST(MeasuredFigure, IsThatOfBruteForceOverTheFlightsWithoutAFault) {
+TEST(MeasuredFigure, EqualsBruteForceOverTheFlightsWithoutAFault) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> clearance(0.0, 5.0);
   for (int trial = 0; trial < 200; ++trial) {
@@ -125,7 +125,7 @@ class PaperRows : public ::testing::Test {
   PaperRow hits, worst;
 };
 
-TEST_F(PaperRows, HoldOnlyWithinWhatIsAsked) {
+TEST_F(PaperRows, HoldOnlyWithinTheRequirement) {
   EXPECT_EQ(row(hits, {flown("a", 1, "reached", 1.0)}).holds, true);
   const RowOutcome failed = row(hits, {flown("a", 1, "reached", 1.0), flown("a", 2, "collided", 0.0)});
   EXPECT_EQ(failed.holds, false);
@@ -149,7 +149,7 @@ TEST_F(PaperRows, HaveOneUnitAndPercentIsAHundredTimesAShare) {
   EXPECT_EQ(row(hits, {flown("a", 1, "reached", 1.0)}).required_words(), "at most 25 %");
 }
 
-TEST_F(PaperRows, ThePrintedLawIsJudgedBesideOurs) {
+TEST_F(PaperRows, CompareThePublishedLawWithTheModifiedLaw) {
   paper.flights[0].published = {"x=1"};
   const RowOutcome result = row(hits, {flown("a", 1, "reached", 1.0), flown("a/published", 1, "collided", 0.0)});
   EXPECT_EQ(result.holds, true);
@@ -168,7 +168,7 @@ TEST_F(PaperRows, NineFlightsWithoutTheFigureAndOneWithItDoNotHold) {
   EXPECT_FALSE(all_hold({result}));
 }
 
-TEST_F(PaperRows, AMissingFigureIsWhatTheRowSaysItIs) {
+TEST_F(PaperRows, GiveAMissingFigureItsMeaning) {
   const std::vector<FlightRecord> records{with_metric(flown("a", 1, "reached", 1.0), 20.0),
                                           flown("a", 2, "reached", 1.0)};
   worst.missing = "met no collision course";
@@ -182,7 +182,7 @@ TEST_F(PaperRows, AMissingFigureIsWhatTheRowSaysItIs) {
   EXPECT_EQ(row(worst, records).holds, true);
 }
 
-TEST_F(PaperRows, NoReasonExcusesAFlightThatFaultedOrWasNotFlown) {
+TEST_F(PaperRows, ExcuseNoFlightThatFaultedOrWasNotFlown) {
   const FlightRecord good = with_metric(flown("a", 1, "reached", 1.0), 20.0);
   worst.missing = "met no collision course";
   EXPECT_EQ(row(worst, {good, with_metric(flown("a", 2, "fault", 1.0), 20.0)}).holds, false);
@@ -193,18 +193,18 @@ TEST_F(PaperRows, NoReasonExcusesAFlightThatFaultedOrWasNotFlown) {
   EXPECT_EQ(row(hits, {good, flown("a", 2, "fault", 1.0)}).flights_words(), "2, 2, 1, 1");
 }
 
-TEST_F(PaperRows, HoveringForEverIsNoFlightWithoutContact) {
+TEST_F(PaperRows, DoNotAcceptATimeoutAsAFlightWithoutContact) {
   const FlightRecord reached = flown("a", 1, "reached", 1.0);
   FlightRecord hovers = flown("a", 2, "timeout", 1.0);
   const RowOutcome stuck = row(hits, {reached, hovers});
   EXPECT_EQ(stuck.holds, false);
   EXPECT_EQ(stuck.modified_words(), "0 of 2");
   EXPECT_THAT(stuck.flights_words(), HasSubstr("1 not finished"));
-  hovers.result["goal_distance_m"] = nullptr;  // without a goal, the full time is what was to be flown
+  hovers.result["goal_distance_m"] = nullptr;  // without a goal, the full time is the required end
   EXPECT_EQ(row(hits, {reached, hovers}).holds, true);
 }
 
-TEST_F(PaperRows, WhatWasNotMeasuredIsNoPass) {
+TEST_F(PaperRows, DoNotPassWithoutAMeasurement) {
   const RowOutcome lacking = row(worst, {flown("a", 1, "reached", 1.0)});
   EXPECT_EQ(lacking.modified_words(), "not measured");
   EXPECT_EQ(lacking.holds, false);
@@ -217,7 +217,7 @@ TEST_F(PaperRows, WhatWasNotMeasuredIsNoPass) {
   EXPECT_EQ(not_asked.modified_words(), "not in the quick run");
 }
 
-TEST_F(PaperRows, VariantsStandBesideOursAndDecideNothing) {
+TEST_F(PaperRows, VariantsDoNotAffectTheVerdict) {
   paper.flights[0].published = {"x=1"};
   paper.flights[0].sensors = {"dull"};
   const RowOutcome result = row(hits, {flown("a", 1, "reached", 1.0), flown("a/published", 1, "collided", 0.0),
@@ -228,7 +228,7 @@ TEST_F(PaperRows, VariantsStandBesideOursAndDecideNothing) {
   EXPECT_EQ(result.variant_words("ideal"), "-");
 }
 
-TEST_F(PaperRows, SayWhichBuildsFlewAndWhichTruthTheyUsed) {
+TEST_F(PaperRows, ListBuildsAndUsedTruth) {
   FlightRecord other = flown("a", 2, "reached", 1.0);
   other.result["build"] = "b2";
   other.result["truth_used"] = {"camera 'front': projected corners"};

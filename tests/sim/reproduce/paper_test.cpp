@@ -48,14 +48,14 @@ TEST(PaperFile, EveryShippedOneCanBeFlown) {
   EXPECT_GE(papers, 2);
 }
 
-TEST(PaperFile, SourcesStandInTheReferences) {
+TEST(PaperFile, SourcesAreListedInTheReferences) {
   const std::string references = read_file_whole(HEDGEHOP_SOURCE_DIR "/REFERENCES.md");
   for (const auto& entry : std::filesystem::directory_iterator(kPapers)) {
     EXPECT_THAT(references, HasSubstr("[" + read_paper(entry.path()).source + "]"));
   }
 }
 
-TEST(PaperFile, NamesNobodyHasAreRefusedWithTheirPlace) {
+TEST(PaperFile, UnknownNamesAreRefusedWithTheirPlace) {
   const std::string flights = "flights: [{scenario: a.yaml, seeds: '1:2'}]\n";
   EXPECT_THAT(faults_of(flights + "rows: [{claim: w, flights: [b], column: outcome, is: x, statistic: count}]"),
               Contains(AllOf(HasSubstr("paper.yaml:5"), HasSubstr("no flights are called 'b'"))));
@@ -65,7 +65,7 @@ TEST(PaperFile, NamesNobodyHasAreRefusedWithTheirPlace) {
               Contains(HasSubstr("no flights are called 'c'")));
 }
 
-TEST(PaperFile, WhatCannotBeMeantIsRefused) {
+TEST(PaperFile, ContradictionsAreRefused) {
   const std::string flights = "flights: [{scenario: a.yaml, seeds: '1:2'}]\n";
   EXPECT_THAT(faults_of("rows: [{claim: w}]"), Contains(HasSubstr("either 'flights' or 'calculation'")));
   EXPECT_THAT(faults_of("flights: [{scenario: a.yaml, seeds: '2:1'}]"), Contains(HasSubstr("2:1")));
@@ -80,7 +80,7 @@ TEST(PaperFile, WhatCannotBeMeantIsRefused) {
               Contains(HasSubstr("cannot share a chart")));
 }
 
-TEST(PaperFile, SeedsThatParametersWereChosenOnJudgeNothing) {
+TEST(PaperFile, TuningSeedsAreRefusedAsJudgingSeeds) {
   const TemporaryFolder folder;
   const auto faults = [&](const std::string& text) -> std::vector<std::string> {
     write_file_whole(folder.path() / "p.yaml", "title: A\nsource: B\n" + text);
@@ -122,7 +122,7 @@ TEST(PaperFile, VariantsFlyTheSameScenarioWithTheirOwnOverrides) {
   EXPECT_FALSE(groups[3].quick);
 }
 
-TEST(PaperFile, NoShippedFileJudgesByASeedOfASweep) {
+TEST(PaperFile, NoShippedFileUsesASeedOfASweep) {
   std::set<uint64_t> swept;
   for (const auto& entry : std::filesystem::directory_iterator(kPapers / "../sweeps")) {
     const SweepConfig sweep = read_sweep(entry.path());
@@ -136,7 +136,7 @@ TEST(PaperFile, NoShippedFileJudgesByASeedOfASweep) {
   }
 }
 
-TEST(Calculations, TellTheColumnsTheyPromiseAllOfOneLength) {
+TEST(Calculations, HaveTheirDeclaredColumnsAllOfOneLength) {
   for (const Calculation& calculation : calculations()) {
     const Columns columns = calculation.calculate();
     EXPECT_EQ(columns.size(), calculation.columns.size()) << calculation.name;

@@ -28,7 +28,7 @@ flights:
 rows:
   - {claim: length, unit: m, flights: [tiny], column: path_length_m, statistic: max}
   - {claim: collided, paper: none, at_most: 0, flights: [tiny, fast], column: outcome, is: collided, statistic: count}
-  - {claim: farthest way, unit: m, at_least: 1000, flights: [fast], column: path_length_m, statistic: max}
+  - {claim: longest path, unit: m, at_least: 1000, flights: [fast], column: path_length_m, statistic: max}
 charts:
   - {title: paths, series: [{from: paths, label: slow, flights: tiny}, {from: paths, label: fast, flights: fast}]}
   - {title: height, x: "time, s", y: "down, m", series: [
@@ -41,7 +41,7 @@ charts:
   CampaignFolder folder;
 };
 
-TEST_F(Reproduce, TellsEachFigureAndFailsWhenOneDoesNotHold) {
+TEST_F(Reproduce, PrintsEachFigureAndFailsIfOneDoesNotHold) {
   const CommandEnd end = folder.hedgehop("reproduce small.yaml --out out");
   EXPECT_EQ(end.status, 1) << end.err;
   // No flight reaches the goal in a tenth of a second: "no contact" is not enough.
@@ -56,7 +56,7 @@ TEST_F(Reproduce, TellsEachFigureAndFailsWhenOneDoesNotHold) {
   EXPECT_EQ(rows.words("command")[2], "hedgehop batch tiny.yaml --seeds 1:2 --set avoidance.speed=2");
 }
 
-TEST_F(Reproduce, ARowThatNothingMeasuresSetsTheExitStatus) {
+TEST_F(Reproduce, ARowWithoutAMeasurementSetsTheExitStatus) {
   const auto paper = [&](const std::string& column) {
     return "title: t\nsource: s\ntuned_on: none\nflights: [{scenario: tiny.yaml, seeds: 1}]\n"
            "rows: [{claim: w, flights: [tiny], column: " +
@@ -82,13 +82,13 @@ TEST_F(Reproduce, AFullRunFliesOnlyTheRestOfAQuickRun) {
   const std::string counting = folder.worker("echo $seed >> flown.txt; fly \"$@\"");
   const std::string with = " -j 1 --out out --program " + counting;
   const CommandEnd quick = folder.hedgehop("reproduce small.yaml --quick" + with);
-  EXPECT_THAT(quick.out, HasSubstr("| farthest way, m | - | at least 1000 | - | - | not in the quick run |"));
+  EXPECT_THAT(quick.out, HasSubstr("| longest path, m | - | at least 1000 | - | - | not in the quick run |"));
   EXPECT_EQ(folder.read("flown.txt"), "1\n2\n1\n2\n");  // ours, then the published law
   EXPECT_EQ(folder.hedgehop("reproduce small.yaml" + with).status, 1);
   EXPECT_EQ(folder.read("flown.txt"), "1\n2\n1\n2\n3\n3\n1\n2\n");
 }
 
-TEST_F(Reproduce, BadInputIsNamedAndNothingIsWritten) {
+TEST_F(Reproduce, NamesBadInputAndWritesNoFile) {
   const CommandEnd unknown = folder.hedgehop("reproduce nobody1900 --out out");
   EXPECT_EQ(unknown.status, 2);
   EXPECT_THAT(unknown.err, HasSubstr("papers"));

@@ -67,7 +67,7 @@ TEST(ResultsPage, NamesItsBuildAndThatOfEachRow) {
   EXPECT_THAT(page_of({own}), StartsWith("# Results\n\nBuild `" + own + "`"));
 }
 
-TEST(ResultsPage, NamesTheCommitOfItsBuildWhereItIsKnown) {
+TEST(ResultsPage, NamesTheCommitOfItsBuildIfKnown) {
   const RowsOfPapers papers = rows_of({"b"});
   PageFacts facts = page_facts(papers, "Mesa 1", false);
   facts.commit = "44e015e";
@@ -100,7 +100,7 @@ std::string page_of_papers(const RowsOfPapers& papers, const std::string& earlie
   return results_page(papers, page_facts(papers, packages, false), earlier);
 }
 
-TEST(ResultsPage, WrittenAPaperAtATimeInAnyOrderIsThePageOfAll) {
+TEST(ResultsPage, WrittenByPaperInAnyOrderEqualsThePageOfAll) {
   const RowsOfPapers all = one_row_of({"a2001", "b2002", "c2003"});
   std::string page = page_of_papers({all[1]});
   page = page_of_papers({all[2]}, page);
@@ -112,7 +112,7 @@ TEST(ResultsPage, WrittenAPaperAtATimeInAnyOrderIsThePageOfAll) {
   EXPECT_EQ(page, page_of_papers({all[0], again[0], all[2]}));
 }
 
-TEST(ResultsPage, KeepsNoPaperOfAnotherBuildOrOfOtherPackagesOrOfAPageThatIsNone) {
+TEST(ResultsPage, DropsPapersOfOtherBuildsAndPackagesAndOfInvalidPages) {
   const RowsOfPapers all = one_row_of({"a2001", "b2002"});
   const std::string alone = page_of_papers({all[0]});
   EXPECT_EQ(page_of_papers({all[0]}, page_of_papers({all[1]}, "", "Mesa 2")), alone);
@@ -123,18 +123,18 @@ TEST(ResultsPage, KeepsNoPaperOfAnotherBuildOrOfOtherPackagesOrOfAPageThatIsNone
   EXPECT_EQ(page_of_papers({all[0]}, page_of_papers({all[1]}) + "\n## Mine\n"), alone);
 }
 
-TEST(ResultsPage, OfSeveralBuildsSaysSoInItsFirstLineAndIsRefused) {
+TEST(ResultsPage, ReportsSeveralBuildsInItsFirstLineAndIsRefused) {
   const std::string own(build_identity());
   const std::string page = page_of({own, "0123456789abcdef"});
   EXPECT_THAT(page.substr(0, page.find('\n')), HasSubstr("Rows of 2 builds: "));
   EXPECT_THAT(wrong_builds(page), ElementsAre("claim of 0123456789abcdef"));
 }
 
-TEST(ResultsPage, TheOneOfTheDocumentsHasOneBuild) {
+TEST(ResultsPage, TheShippedPageHasOneBuild) {
   EXPECT_THAT(wrong_builds(read_file_whole(HEDGEHOP_SOURCE_DIR "/docs/results.md")), IsEmpty());
 }
 
-TEST(ResultsPage, ListsWhereAsPrintedDepartsFromThePaper) {
+TEST(ResultsPage, ListsDeviationsOfThePublishedLaw) {
   RowsOfPapers papers = rows_of({"b"});
   papers[0].first.deviations = {"images of another camera"};
   papers[0].first.moved_on = "the law was changed after a look";
