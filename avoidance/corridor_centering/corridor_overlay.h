@@ -5,7 +5,7 @@
 #include <string>
 
 #include "avoidance/corridor_centering/wall_observer.h"
-#include "vision/corridor/corridor_flow.h"
+#include "vision/corridor/corridor_space.h"
 
 namespace hedgehop::avoidance::corridor_centering {
 
