@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "sim/batch/seeds.h"
 #include "sim/falsify/box_constraints.h"
 #include "sim/falsify/cma_es.h"
 #include "sim/libm/random.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "sim/batch/seeds.h"
 #include "sim/config/include.h"
 #include "sim/config/reader.h"
 #include "sim/scenario/check_faults.h"
