@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "avoidance/module.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::avoidance {
 
@@ -17,7 +18,7 @@ struct GoToGoalConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, GoToGoalConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<GoToGoalConfig> auto& c) {
   v("speed", c.speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "speed towards the goal"});
   v("slow_radius", c.slow_radius_m,
     {.unit = "m",

@@ -18,6 +18,7 @@
 #include "dynamics/sensors/range_finder.h"
 #include "dynamics/sensors/sensor_failures.h"
 #include "dynamics/vehicle.h"
+#include "sim/fields/field.h"
 
 /// Onboard sensors, navigation filter and autopilot of one aircraft.
 namespace hedgehop::dynamics {
@@ -33,7 +34,7 @@ struct AvionicsConfig {
   control::AutopilotConfig autopilot;
 };
 template <class Visitor>
-void describe(Visitor& v, AvionicsConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<AvionicsConfig> auto& c) {
   v("imu", c.imu, {.meaning = "gyros and accelerometers"});
   v("gps", c.gps, {.meaning = "satellite receiver"});
   v("height_sensor", c.height_sensor, {.meaning = "range finder that looks down"});

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "sim/fields/field.h"
+
 namespace hedgehop::dynamics {
 
 struct MassConfig {
@@ -10,7 +12,7 @@ struct MassConfig {
   double inertia_xz_kgm2 = 0.0;
 };
 template <class Visitor>
-void describe(Visitor& v, MassConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<MassConfig> auto& c) {
   v("mass", c.mass_kg, {.unit = "kg", .above = 0.0, .meaning = "ready to fly"});
   v("inertia", c.inertia_kgm2,
     {.unit = "kg m2", .above = 0.0, .meaning = "roll, pitch and yaw, about the mass center"});

@@ -6,6 +6,7 @@
 
 #include "scenes/mesh/mesh_import.h"
 #include "scenes/scene.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::scenes {
 
@@ -23,7 +24,7 @@ struct BoxConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, BoxConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<BoxConfig> auto& c) {
   v("name", c.name, {.meaning = "name of the obstacle in results"});
   v("north", c.north_m, {.unit = "m", .required = true, .meaning = "center of the box, north of the scene's origin"});
   v("east", c.east_m, {.unit = "m", .required = true, .meaning = "center of the box, east of the scene's origin"});
@@ -51,7 +52,7 @@ struct MoverConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, MoverConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<MoverConfig> auto& c) {
   v("name", c.name, {.meaning = "name of the obstacle in results"});
   v("shape", c.shape,
     {.choices = {"balloon", "pole", "box", "tree"},
@@ -76,7 +77,7 @@ struct SceneAdditions {
 };
 
 template <class Visitor>
-void describe(Visitor& v, SceneAdditions& c) {
+void describe(Visitor& v, fields::ConfigOf<SceneAdditions> auto& c) {
   v("boxes", c.boxes, {.meaning = "boxes on the ground, rotated about the vertical"});
   v("movers", c.movers, {.meaning = "moving obstacles"});
   v("imports", c.imports, {.meaning = "meshes from files, as scenery and obstacles"});

@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "sim/fields/field.h"
+
 namespace hedgehop::scenes {
 
 /// A point on a mover's path; altitude is above W's origin, positive up.
@@ -16,7 +18,7 @@ struct Waypoint {
 };
 
 template <class Visitor>
-void describe(Visitor& v, Waypoint& c) {
+void describe(Visitor& v, fields::ConfigOf<Waypoint> auto& c) {
   v("north", c.north_m, {.unit = "m", .meaning = "north of the origin"});
   v("east", c.east_m, {.unit = "m", .meaning = "east of the origin"});
   v("altitude", c.altitude_m, {.unit = "m", .meaning = "altitude of the mover's foot above the origin"});
@@ -36,7 +38,7 @@ struct WaypointMotion {
 };
 
 template <class Visitor>
-void describe(Visitor& v, WaypointMotion& c) {
+void describe(Visitor& v, fields::ConfigOf<WaypointMotion> auto& c) {
   v("points", c.points, {.meaning = "points of the path, in order; at least one"});
   v("speed", c.speed_mps, {.unit = "m/s", .at_least = 0.0, .meaning = "speed along the path"});
   v("repeat", c.repeat,
@@ -58,7 +60,7 @@ struct OrbitMotion {
 };
 
 template <class Visitor>
-void describe(Visitor& v, OrbitMotion& c) {
+void describe(Visitor& v, fields::ConfigOf<OrbitMotion> auto& c) {
   v("north", c.north_m, {.unit = "m", .meaning = "center of the circle, north of the origin"});
   v("east", c.east_m, {.unit = "m", .meaning = "center of the circle, east of the origin"});
   v("altitude", c.altitude_m, {.unit = "m", .meaning = "altitude of the mover's foot above the origin"});

@@ -4,13 +4,15 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "sim/fields/invalid_field.h"
+
 namespace hedgehop::scenes {
 
 void require(bool holds, std::string_view field, double value, std::string_view valid) {
   if (holds) return;
   std::ostringstream line;
-  line << field << ": " << value << "; valid: " << valid;
-  throw std::invalid_argument(line.str());
+  line << value << "; valid: " << valid;
+  throw fields::InvalidField(std::string(field), line.str());
 }
 
 void require_texture_size(int64_t size_px) {

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "sim/fields/field.h"
+
 namespace hedgehop::scenes {
 
 /// A disc of the plan that a generator leaves free, from the ground to the sky.
@@ -16,7 +18,7 @@ struct Clearing {
 };
 
 template <class Visitor>
-void describe(Visitor& v, Clearing& c) {
+void describe(Visitor& v, fields::ConfigOf<Clearing> auto& c) {
   v("north", c.north_m, {.unit = "m", .meaning = "center of the disc, north of the origin"});
   v("east", c.east_m, {.unit = "m", .meaning = "center of the disc, east of the origin"});
   v("radius", c.radius_m, {.unit = "m", .at_least = 0.0, .meaning = "minimum distance of obstacles from the center"});

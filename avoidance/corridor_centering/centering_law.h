@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "avoidance/module.h"
+#include "sim/fields/field.h"
 
 /// The published controller, [Zingg2010] sec. V-C.
 namespace hedgehop::avoidance::corridor_centering {
@@ -19,7 +20,7 @@ struct CenteringGains {
 };
 
 template <class Visitor>
-void describe(Visitor& v, CenteringGains& c) {
+void describe(Visitor& v, fields::ConfigOf<CenteringGains> auto& c) {
   v("kp", c.kp, {.at_least = 0.0, .meaning = "gain on the change of the error between two samples"});
   v("kd", c.kd, {.at_least = 0.0, .meaning = "gain on the error"});
 }

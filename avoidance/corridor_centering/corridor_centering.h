@@ -7,6 +7,7 @@
 #include "avoidance/corridor_centering/centering_law.h"
 #include "avoidance/law.h"
 #include "avoidance/module.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::avoidance::corridor_centering {
 
@@ -34,7 +35,7 @@ struct CorridorCenteringConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, CorridorCenteringConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<CorridorCenteringConfig> auto& c) {
   v("law", c.law,
     {.choices = {"published", "modified"},
      .meaning =

@@ -5,6 +5,7 @@
 
 #include "avoidance/law.h"
 #include "avoidance/module.h"
+#include "sim/fields/field.h"
 #include "vision/flow/image_interpolation_flow.h"
 
 namespace hedgehop::avoidance::flow_balance {
@@ -29,7 +30,7 @@ struct FlowBalanceConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, FlowBalanceConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<FlowBalanceConfig> auto& c) {
   v("law", c.law,
     {.choices = {"published", "modified"},
      .meaning = "published: [Garratt2009] eq. (4) with the mean flow and loom of each camera; modified: derotated "

@@ -5,6 +5,7 @@
 
 #include "avoidance/law.h"
 #include "avoidance/module.h"
+#include "sim/fields/field.h"
 #include "vision/flow/image_interpolation_flow.h"
 
 namespace hedgehop::avoidance::flow_balance {
@@ -29,7 +30,7 @@ struct ZigZagConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, ZigZagConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<ZigZagConfig> auto& c) {
   v("law", c.law,
     {.choices = {"published", "modified"},
      .meaning = "published: ranges from the mean flow and loom of each camera, [Garratt2009] sec. 4; modified: "

@@ -6,6 +6,7 @@
 
 #include "avoidance/landmark_map/map_route.h"
 #include "avoidance/module.h"
+#include "sim/fields/field.h"
 #include "vision/landmarks/landmark_filter.h"
 
 namespace hedgehop::avoidance::landmark_map {
@@ -16,7 +17,7 @@ struct Orbit {
   double rate_radps = 6.283185307179587e-3;  ///< 0.36 deg/s, [Shah2009] table 4.1
 };
 template <class Visitor>
-void describe(Visitor& v, Orbit& c) {
+void describe(Visitor& v, fields::ConfigOf<Orbit> auto& c) {
   v("north", c.north_m, {.unit = "m", .meaning = "north coordinate of the object at the center"});
   v("east", c.east_m, {.unit = "m", .meaning = "east coordinate of the object at the center"});
   v("rate", c.rate_radps, {.unit = "deg/s", .meaning = "angular rate of the circle, clockwise seen from above"});

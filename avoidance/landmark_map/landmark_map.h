@@ -7,6 +7,7 @@
 #include "avoidance/landmark_map/course.h"
 #include "avoidance/landmark_map/landmark_observer.h"
 #include "avoidance/module.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::avoidance::landmark_map {
 
@@ -29,7 +30,7 @@ struct LandmarkMapModuleConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, LandmarkMapModuleConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<LandmarkMapModuleConfig> auto& c) {
   v("law", c.law,
     {.choices = {"published", "modified"},
      .meaning = "published: the thesis's filter and flight; modified: also the camera's common error, confirmation, "

@@ -9,6 +9,7 @@
 
 #include "avoidance/law.h"
 #include "avoidance/module.h"
+#include "sim/fields/field.h"
 #include "vision/landmarks/edge_corners.h"
 #include "vision/landmarks/landmark_filter.h"
 
@@ -24,7 +25,7 @@ struct LandmarkObserverConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, LandmarkObserverConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<LandmarkObserverConfig> auto& c) {
   v("source", c.source,
     {.choices = {"grey", "color", "corners"},
      .meaning = "channel of camera 'front': images for the edge search (color also uses the difference of red and "

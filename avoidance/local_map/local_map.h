@@ -7,6 +7,7 @@
 
 #include "avoidance/module.h"
 #include "avoidance/stereo/disparity_source.h"
+#include "sim/fields/field.h"
 #include "vision/stereo/stereo_matcher.h"
 
 namespace hedgehop::avoidance::local_map {
@@ -37,7 +38,7 @@ struct LocalMapConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, LocalMapConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<LocalMapConfig> auto& c) {
   v("depth", c.depth,
     {.choices = {"stereo", "camera"},
      .meaning = "source of depth: matched cameras 'left' and 'right', or a camera 'depth'"});

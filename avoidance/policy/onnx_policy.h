@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "avoidance/module.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::avoidance::policy {
 
@@ -21,7 +22,7 @@ struct PolicyImage {
 };
 
 template <class Visitor>
-void describe(Visitor& v, PolicyImage& c) {
+void describe(Visitor& v, fields::ConfigOf<PolicyImage> auto& c) {
   v("camera", c.camera, {.required = true, .meaning = "role of the camera"});
   v("channel", c.channel,
     {.choices = {"grey", "color", "depth"},
@@ -45,7 +46,7 @@ struct OnnxPolicyConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, OnnxPolicyConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<OnnxPolicyConfig> auto& c) {
   v("file", c.file, {.required = true, .meaning = "ONNX file of the network"});
   v("images", c.images, {.meaning = "image inputs"});
   v("state", c.state,

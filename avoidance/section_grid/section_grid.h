@@ -6,6 +6,7 @@
 #include "avoidance/law.h"
 #include "avoidance/module.h"
 #include "avoidance/stereo/disparity_source.h"
+#include "sim/fields/field.h"
 #include "vision/sections/section_search.h"
 #include "vision/stereo/stereo_matcher.h"
 
@@ -40,7 +41,7 @@ struct SectionGridConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, SectionGridConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<SectionGridConfig> auto& c) {
   v("law", c.law,
     {.choices = {"published", "modified"},
      .meaning = "published: fly to every new emptiest section; modified: keep a path until it fills up, and use the "

@@ -7,6 +7,7 @@
 #include "avoidance/module.h"
 #include "avoidance/stereo/disparity_source.h"
 #include "avoidance/stereo_corridor/corridor_search.h"
+#include "sim/fields/field.h"
 #include "vision/stereo/stereo_matcher.h"
 
 namespace hedgehop::avoidance::stereo_corridor {
@@ -43,7 +44,7 @@ struct StereoCorridorConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, StereoCorridorConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<StereoCorridorConfig> auto& c) {
   v("law", c.law,
     {.choices = {"published", "modified"},
      .meaning = "published: keep the direction of flight while it is free; modified: with the additions goal_first, "

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "sim/fields/field.h"
+
 namespace hedgehop::dynamics::air {
 
 /// One horizontal gust of 1-cosine shape that an aircraft flies through: it rises over a length, holds, and falls as it
@@ -12,7 +14,7 @@ struct GustConfig {
   double hold_m = 0.0;     ///< distance at full strength
 };
 template <class Visitor>
-void describe(Visitor& v, GustConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<GustConfig> auto& c) {
   v("speed", c.speed_mps, {.unit = "m/s", .at_least = 0.0, .at_most = 30.0, .meaning = "at its strongest; 0 for none"});
   v("from", c.from_rad,
     {.unit = "deg",

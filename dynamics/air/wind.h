@@ -4,6 +4,7 @@
 
 #include "dynamics/air/dryden.h"
 #include "dynamics/air/gust.h"
+#include "sim/fields/field.h"
 #include "sim/libm/random.h"
 
 namespace hedgehop::dynamics::air {
@@ -19,7 +20,7 @@ struct WindConfig {
   GustConfig gust;
 };
 template <class Visitor>
-void describe(Visitor& v, WindConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<WindConfig> auto& c) {
   v("speed", c.speed_mps,
     {.unit = "m/s", .at_least = 0.0, .at_most = 30.0, .meaning = "steady wind, at 20 ft if sheared"});
   v("from", c.from_rad,

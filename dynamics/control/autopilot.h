@@ -9,6 +9,7 @@
 #include "dynamics/control/setpoint.h"
 #include "dynamics/controls.h"
 #include "dynamics/vehicle.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::dynamics::control {
 
@@ -21,7 +22,7 @@ struct AutopilotConfig {
   double tilt_limit_rad = 0.3490658503988659;
 };
 template <class Visitor>
-void describe(Visitor& v, AutopilotConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<AutopilotConfig> auto& c) {
   v("speed_limit", c.speed_limit_mps,
     {.unit = "m/s", .above = 0.0, .at_most = 20.0, .meaning = "limit of a commanded horizontal speed"});
   v("acceleration_limit", c.acceleration_limit_mps2,

@@ -11,6 +11,7 @@
 #include "dynamics/sensors/height_sensor.h"
 #include "dynamics/sensors/imu.h"
 #include "dynamics/sensors/magnetometer.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::dynamics::control {
 
@@ -22,7 +23,7 @@ struct NavigationConfig {
   double drift_mps_rt_hz = 0.3;   ///< position drift that the velocity's slow errors cause, m / sqrt(s)
 };
 template <class Visitor>
-void describe(Visitor& v, NavigationConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<NavigationConfig> auto& c) {
   v("use_gps_velocity", c.use_gps_velocity, {.meaning = "whether satellite velocities correct the velocity"});
   v("position_sigma", c.position_sigma_m,
     {.unit = "m", .above = 0.0, .meaning = "error of the surveyed initial position, per axis"});

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <variant>
 
+#include "sim/fields/field.h"
+
 /// First-order flapping of the main rotor's disc and its Bell-Hiller stabilizer bar.
 namespace hedgehop::dynamics::helicopter {
 
@@ -16,7 +18,7 @@ struct LumpedBarConfig {
   double longitudinal_gain = 4.2;
 };
 template <class Visitor>
-void describe(Visitor& v, LumpedBarConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<LumpedBarConfig> auto& c) {
   v("lock_number", c.lock_number, {.above = 0.0, .meaning = "effective Lock number of rotor and bar"});
   v("lateral_gain", c.lateral_gain, {.above = 0.0, .meaning = "steady disc tilt right per lateral cyclic, rad/rad"});
   v("longitudinal_gain", c.longitudinal_gain,
@@ -40,7 +42,7 @@ struct ExplicitBarConfig {
   double bar_inertia_kgm2 = 0.001141;
 };
 template <class Visitor>
-void describe(Visitor& v, ExplicitBarConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<ExplicitBarConfig> auto& c) {
   v("mixing", c.mixing, {.at_least = 0.0, .meaning = "blade pitch per bar tilt as disc tilt, rad/rad"});
   v("lateral_gain", c.lateral_gain, {.at_least = 0.0, .meaning = "lateral cyclic straight to the blades, rad/rad"});
   v("longitudinal_gain", c.longitudinal_gain,

@@ -12,6 +12,7 @@
 #include "dynamics/helicopter/tail_rotor.h"
 #include "dynamics/mass.h"
 #include "dynamics/rigid_body.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::dynamics::helicopter {
 
@@ -21,7 +22,7 @@ struct ServosConfig {
   ServoConfig tail{.lowest_rad = -0.349065850398866, .highest_rad = 0.349065850398866};        // +-20 deg
 };
 template <class Visitor>
-void describe(Visitor& v, ServosConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<ServosConfig> auto& c) {
   v("collective", c.collective, {.meaning = "main rotor collective"});
   v("cyclic", c.cyclic, {.meaning = "lateral and longitudinal cyclic"});
   v("tail", c.tail, {.meaning = "tail rotor collective"});
@@ -42,7 +43,7 @@ struct HelicopterConfig {
   HelicopterHullConfig hull;
 };
 template <class Visitor>
-void describe(Visitor& v, HelicopterConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<HelicopterConfig> auto& c) {
   v("air_density", c.air_density_kgpm3,
     {.unit = "kg/m3", .above = 0.0, .at_most = 2.0, .meaning = "of the air it flies in"});
   v("mass", c.mass, {.meaning = "mass and inertia"});

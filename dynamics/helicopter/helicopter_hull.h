@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "dynamics/hull.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::dynamics::helicopter {
 
@@ -19,7 +20,7 @@ struct HelicopterHullConfig {
   double disc_thickness_m = 0.04;  ///< of both rotors: blades and their flapping
 };
 template <class Visitor>
-void describe(Visitor& v, HelicopterHullConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<HelicopterHullConfig> auto& c) {
   v("fuselage_center", c.fuselage_center_B_m,
     {.unit = "m", .meaning = "center of the box around canopy and skids: forward, right, down of the mass center"});
   v("fuselage_size", c.fuselage_size_m, {.unit = "m", .above = 0.0, .meaning = "length, width and height of that box"});

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "sim/fields/field.h"
+
 /// Thrust and induced velocity of one rotor, from blade elements and momentum theory together.
 namespace hedgehop::dynamics::helicopter {
 
@@ -30,7 +32,7 @@ struct RotorGeometry {
   double efficiency = 1.0;
 };
 template <class Visitor>
-void describe(Visitor& v, RotorGeometry& c) {
+void describe(Visitor& v, fields::ConfigOf<RotorGeometry> auto& c) {
   v("radius", c.radius_m, {.unit = "m", .above = 0.0, .meaning = "blade tip radius"});
   v("chord", c.chord_m, {.unit = "m", .above = 0.0, .meaning = "blade chord"});
   v("blades", c.blades, {.at_least = 2.0, .at_most = 8.0, .meaning = "number of blades"});

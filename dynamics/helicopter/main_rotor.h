@@ -6,6 +6,7 @@
 #include "dynamics/helicopter/blade_angles.h"
 #include "dynamics/helicopter/flapping.h"
 #include "dynamics/helicopter/induced_velocity.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::dynamics::helicopter {
 
@@ -22,10 +23,10 @@ struct MainRotorConfig : RotorGeometry {
   FlybarConfig flybar;
 };
 template <class Visitor>
-void describe(Visitor& v, MainRotorConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<MainRotorConfig> auto& c) {
   v("turns", c.turns, {.choices = {"counter_clockwise", "clockwise"}, .meaning = "sense of rotation seen from above"});
   v("speed", c.speed_radps, {.unit = "rad/s", .above = 0.0, .meaning = "constant, held by the governor"});
-  describe(v, static_cast<RotorGeometry&>(c));
+  describe(v, fields::base<RotorGeometry>(c));
   v("blade_inertia", c.blade_inertia_kgm2, {.unit = "kg m2", .above = 0.0, .meaning = "of one blade, flapping"});
   v("hinge_offset", c.hinge_offset_m, {.unit = "m", .at_least = 0.0, .meaning = "of the flapping hinge"});
   v("hub_stiffness", c.hub_stiffness_nmprad,

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <variant>
 
+#include "sim/fields/field.h"
+
 /// What turns a helicopter's rotors, and how well it holds their speed.
 namespace hedgehop::dynamics::helicopter {
 
@@ -12,7 +14,7 @@ struct ConstantSpeedConfig {
   static constexpr std::string_view kMeaning = "held without fail, whatever power it takes";
 };
 template <class Visitor>
-void describe(Visitor&, ConstantSpeedConfig&) {}
+void describe(Visitor&, const ConstantSpeedConfig&) {}
 
 /// Defaults: the X-Cell .60 of [Gavrilets2015] table of parameters.
 struct GovernedEngineConfig {
@@ -24,7 +26,7 @@ struct GovernedEngineConfig {
   double inertia_kgm2 = 0.095;
 };
 template <class Visitor>
-void describe(Visitor& v, GovernedEngineConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<GovernedEngineConfig> auto& c) {
   v("max_power", c.max_power_w, {.unit = "W", .above = 0.0, .meaning = "at the rotor's shaft, throttle open"});
   v("proportional_gain", c.proportional_gain_sprad,
     {.unit = "s/rad", .at_least = 0.0, .meaning = "throttle per speed that is missing"});

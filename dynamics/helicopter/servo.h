@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "sim/fields/field.h"
+
 namespace hedgehop::dynamics::helicopter {
 
 /// A position servo that moves a blade: second order, with stops and a greatest speed.
@@ -15,7 +17,7 @@ struct ServoConfig {
   double rate_limit_radps = 5.0;
 };
 template <class Visitor>
-void describe(Visitor& v, ServoConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<ServoConfig> auto& c) {
   v("natural_frequency", c.natural_frequency_radps,
     {.unit = "rad/s", .above = 0.0, .at_most = 300.0, .meaning = "natural frequency of the second-order response"});
   v("damping", c.damping, {.above = 0.0, .at_most = 2.0, .meaning = "damping ratio"});

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "sim/fields/field.h"
+
 /// Air loads on what does not rotate: fuselage, vertical fin, horizontal stabilizer.
 namespace hedgehop::dynamics::helicopter {
 
@@ -16,7 +18,7 @@ struct SurfacesConfig {
   double stabilizer_wake = 0.0;
 };
 template <class Visitor>
-void describe(Visitor& v, SurfacesConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<SurfacesConfig> auto& c) {
   v("fuselage_drag_areas", c.fuselage_drag_areas_m2,
     {.unit = "m2", .at_least = 0.0, .meaning = "drag areas of the fuselage: forward, sideways, vertical"});
   v("fin_area", c.fin_area_m2, {.unit = "m2", .at_least = 0.0, .meaning = "vertical fin, at the tail rotor"});

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "dynamics/helicopter/induced_velocity.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::dynamics::helicopter {
 
@@ -16,9 +17,9 @@ struct TailRotorConfig : RotorGeometry {
   double height_m = 0.08;
 };
 template <class Visitor>
-void describe(Visitor& v, TailRotorConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<TailRotorConfig> auto& c) {
   v("gear_ratio", c.gear_ratio, {.above = 0.0, .meaning = "turns per turn of the main rotor"});
-  describe(v, static_cast<RotorGeometry&>(c));
+  describe(v, fields::base<RotorGeometry>(c));
   v("thrust_fraction", c.thrust_fraction,
     {.above = 0.0, .at_most = 1.0, .meaning = "of the thrust that the fin beside the rotor leaves"});
   v("arm", c.arm_m, {.unit = "m", .above = 0.0, .meaning = "of the hub behind the mass center"});

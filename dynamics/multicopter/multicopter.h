@@ -9,6 +9,7 @@
 #include "dynamics/hull.h"
 #include "dynamics/mass.h"
 #include "dynamics/rigid_body.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::dynamics::multicopter {
 
@@ -20,7 +21,7 @@ struct ArmConfig {
   Turns turns = Turns::clockwise;
 };
 template <class Visitor>
-void describe(Visitor& v, ArmConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<ArmConfig> auto& c) {
   v("azimuth", c.azimuth_rad,
     {.unit = "deg",
      .at_least = -360.0,
@@ -47,7 +48,7 @@ struct LiftRotorConfig {
   double height_m = 0.01;
 };
 template <class Visitor>
-void describe(Visitor& v, LiftRotorConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<LiftRotorConfig> auto& c) {
   v("thrust", c.thrust_ns2, {.unit = "N s2", .above = 0.0, .meaning = "k: thrust per squared speed (rad/s)"});
   v("torque", c.torque_m, {.unit = "m", .at_least = 0.0, .meaning = "drag torque per thrust"});
   v("drag", c.drag_ns2pm,
@@ -84,7 +85,7 @@ struct MulticopterHullConfig {
   double frame_thickness_m = 0.03;
 };
 template <class Visitor>
-void describe(Visitor& v, MulticopterHullConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<MulticopterHullConfig> auto& c) {
   v("body_size", c.body_size_m,
     {.unit = "m", .above = 0.0, .meaning = "box about the mass center: length, width, height"});
   v("disc_thickness", c.disc_thickness_m, {.unit = "m", .above = 0.0, .meaning = "of the rotor discs"});
@@ -108,7 +109,7 @@ struct MulticopterConfig {
   MulticopterHullConfig hull;
 };
 template <class Visitor>
-void describe(Visitor& v, MulticopterConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<MulticopterConfig> auto& c) {
   v("mass", c.mass, {.meaning = "mass and inertia"});
   v("arms", c.arms, {.meaning = "3 to 16 arms, each with a rotor"});
   v("rotor", c.rotor, {.meaning = "what all rotors have in common, and their motors"});

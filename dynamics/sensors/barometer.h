@@ -21,10 +21,10 @@ struct BarometerConfig {
   double dropout = 0.0;          ///< probability that a reading is missing
 };
 template <class Visitor>
-void describe(Visitor& v, BarometerConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<BarometerConfig> auto& c) {
   v("enabled", c.enabled, {.meaning = "whether there is one"});
   v("rate", c.rate_hz,
-    {.unit = "Hz", .at_least = fields::kSlowestHz, .meaning = "readings a second; divides the physics rate"});
+    {.unit = "Hz", .at_least = fields::kMinRateHz, .meaning = "readings a second; divides the physics rate"});
   v("noise", c.noise_pa, {.unit = "Pa", .at_least = 0.0, .meaning = "white noise of a reading"});
   v("wander", c.wander_pa, {.unit = "Pa", .at_least = 0.0, .meaning = "standard deviation of the wandering error"});
   v("wander_time", c.wander_time_s, {.unit = "s", .above = 0.0, .meaning = "correlation time of the wandering error"});

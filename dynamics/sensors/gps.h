@@ -24,10 +24,10 @@ struct GpsConfig {
   double dropout = 0.0;                                       ///< probability that a fix is missing
 };
 template <class Visitor>
-void describe(Visitor& v, GpsConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<GpsConfig> auto& c) {
   v("enabled", c.enabled, {.meaning = "whether there is reception"});
   v("rate", c.rate_hz,
-    {.unit = "Hz", .at_least = fields::kSlowestHz, .meaning = "fixes a second; divides the physics rate"});
+    {.unit = "Hz", .at_least = fields::kMinRateHz, .meaning = "fixes a second; divides the physics rate"});
   v("latency", c.latency_s, {.unit = "s", .at_least = 0.0, .at_most = 2.0, .meaning = "age of a fix when it arrives"});
   v("wander_horizontal", c.wander_horizontal_m,
     {.unit = "m", .at_least = 0.0, .meaning = "standard deviation per axis of the wandering position error"});

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "dynamics/sensors/ranger.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::dynamics::sensors {
 
@@ -14,7 +15,7 @@ struct HeightSensorConfig {
   double cone_rad = 0.0;  ///< half angle of the cone it listens in; 0 for a single beam
 };
 template <class Visitor>
-void describe(Visitor& v, HeightSensorConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<HeightSensorConfig> auto& c) {
   describe(v, c.ranger);
   v("cone", c.cone_rad,
     {.unit = "deg",

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "sim/fields/bounds.h"
+#include "sim/fields/invalid_field.h"
 
 namespace hedgehop::dynamics::sensors {
 namespace {
@@ -37,7 +38,7 @@ Imu::Imu(const ImuConfig& config, double physics_dt_s, uint64_t seed)
       accelerometer_wander_model_(accelerometer_wander(config)),
       filter_(std::tan(std::numbers::pi * config.cutoff_hz * physics_dt_s)) {
   if (config.cutoff_hz * physics_dt_s >= 0.5) {
-    throw std::invalid_argument("imu.cutoff: must be below half the physics rate");
+    throw fields::InvalidField("imu.cutoff", "must be below half the physics rate");
   }
   sample_dt_s_ = static_cast<double>(period_) * dt_s_;
   gyro_offset_ = config.gyro_offset_radps * normal3(noise_);

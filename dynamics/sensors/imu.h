@@ -29,9 +29,9 @@ struct ImuConfig {
   Eigen::Vector3d p_BI_m = Eigen::Vector3d::Zero();  ///< where it sits, from the mass center, in B
 };
 template <class Visitor>
-void describe(Visitor& v, ImuConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<ImuConfig> auto& c) {
   v("rate", c.rate_hz,
-    {.unit = "Hz", .at_least = fields::kSlowestHz, .meaning = "readings a second; divides the physics rate"});
+    {.unit = "Hz", .at_least = fields::kMinRateHz, .meaning = "readings a second; divides the physics rate"});
   v("gyro_noise", c.gyro_noise_density, {.unit = "rad/s/sqrt(Hz)", .at_least = 0.0, .meaning = "white noise density"});
   v("gyro_bias_walk", c.gyro_bias_walk,
     {.unit = "rad/s^2/sqrt(Hz)", .at_least = 0.0, .meaning = "noise density that drives the wandering bias"});
@@ -49,7 +49,7 @@ void describe(Visitor& v, ImuConfig& c) {
     {.unit = "m/s^2", .at_least = 0.0, .meaning = "standard deviation of the offset drawn at turn-on"});
   v("cutoff", c.cutoff_hz,
     {.unit = "Hz",
-     .at_least = fields::kSlowestHz,
+     .at_least = fields::kMinRateHz,
      .meaning = "-3 dB frequency of the low-pass filter; below half the physics rate"});
   v("gyro_range", c.gyro_range_radps, {.unit = "rad/s", .above = 0.0, .meaning = "greatest rate it can read"});
   v("accelerometer_range", c.accelerometer_range_mps2,

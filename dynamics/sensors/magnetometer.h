@@ -19,10 +19,10 @@ struct MagnetometerConfig {
   double dropout = 0.0;                      ///< probability that a reading is missing
 };
 template <class Visitor>
-void describe(Visitor& v, MagnetometerConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<MagnetometerConfig> auto& c) {
   v("enabled", c.enabled, {.meaning = "whether the compass works"});
   v("rate", c.rate_hz,
-    {.unit = "Hz", .at_least = fields::kSlowestHz, .meaning = "readings a second; divides the physics rate"});
+    {.unit = "Hz", .at_least = fields::kMinRateHz, .meaning = "readings a second; divides the physics rate"});
   v("noise", c.noise_rad, {.unit = "deg", .at_least = 0.0, .at_most = 90.0, .meaning = "white noise of a reading"});
   v("offset", c.offset_rad,
     {.unit = "deg", .at_least = 0.0, .at_most = 90.0, .meaning = "standard deviation of the offset drawn at turn-on"});

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "dynamics/sensors/ranger.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::dynamics::sensors {
 
@@ -14,7 +15,7 @@ struct RangeFinderConfig {
   Eigen::Vector3d p_BI_m = Eigen::Vector3d::Zero();        ///< where the beam begins, from the mass center, in B
 };
 template <class Visitor>
-void describe(Visitor& v, RangeFinderConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<RangeFinderConfig> auto& c) {
   describe(v, c.ranger);
   v("direction", c.direction_B, {.meaning = "of the beam: forward, right, down; of any length but 0"});
   v("position", c.p_BI_m, {.unit = "m", .meaning = "where the beam begins: forward, right, down of the mass center"});

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "sim/fields/bounds.h"
+#include "sim/fields/invalid_field.h"
 
 namespace hedgehop::dynamics::sensors {
 
@@ -13,7 +14,7 @@ Ranger::Ranger(const std::string& key, const RangerConfig& config, double physic
     : config_(fields::require_bounds(config, key)),
       period_(period_ticks(key + ".rate", config.rate_hz, physics_dt_s)),
       noise_(seed) {
-  if (!(config.max_m > config.min_m)) throw std::invalid_argument(key + ".max: must be greater than 'min'");
+  if (!(config.max_m > config.min_m)) throw fields::InvalidField(key + ".max", "must be greater than 'min'");
   latency_ = std::llround(config.latency_s / physics_dt_s);
   observed_m_.assign(static_cast<size_t>(latency_ / period_) + 1, std::numeric_limits<double>::infinity());
   if (config.offset_m > 0.0) offset_m_ = config.offset_m * noise_.normal();

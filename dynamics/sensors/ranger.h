@@ -22,10 +22,10 @@ struct RangerConfig {
   double latency_s = 0.0;
 };
 template <class Visitor>
-void describe(Visitor& v, RangerConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<RangerConfig> auto& c) {
   v("enabled", c.enabled, {.meaning = "whether there is one"});
   v("rate", c.rate_hz,
-    {.unit = "Hz", .at_least = fields::kSlowestHz, .meaning = "readings a second; divides the physics rate"});
+    {.unit = "Hz", .at_least = fields::kMinRateHz, .meaning = "readings a second; divides the physics rate"});
   v("min", c.min_m, {.unit = "m", .at_least = 0.0, .meaning = "shortest range it reads"});
   v("max", c.max_m, {.unit = "m", .above = 0.0, .meaning = "longest range it reads"});
   v("noise", c.noise_m, {.unit = "m", .at_least = 0.0, .meaning = "white noise at range 0"});

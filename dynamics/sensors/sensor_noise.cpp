@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "sim/fields/invalid_field.h"
+
 namespace hedgehop::dynamics::sensors {
 
 Eigen::Vector3d normal3(RandomStream& random) {
@@ -34,9 +36,8 @@ int64_t period_ticks(std::string_view key, double rate_hz, double physics_dt_s) 
   const double ticks = 1.0 / (rate_hz * physics_dt_s);
   constexpr double kRoundOff = 1e-9;
   if (ticks < 1.0 - kRoundOff || std::abs(ticks - std::round(ticks)) > kRoundOff * ticks) {
-    throw std::invalid_argument(std::string(key) + ": " + std::to_string(rate_hz) +
-                                " Hz does not divide the physics rate of " + std::to_string(1.0 / physics_dt_s) +
-                                " Hz");
+    throw fields::InvalidField(std::string(key), std::to_string(rate_hz) + " Hz does not divide the physics rate of " +
+                                                     std::to_string(1.0 / physics_dt_s) + " Hz");
   }
   return std::llround(ticks);
 }

@@ -17,6 +17,7 @@
 #include "scenes/mesh/texture_image.h"
 #include "scenes/textures/stone_textures.h"
 #include "sim/fields/bounds.h"
+#include "sim/fields/invalid_field.h"
 
 namespace hedgehop::scenes::mesh {
 
@@ -27,7 +28,7 @@ using Eigen::Vector3d;
 constexpr double kMaxCoordinateM = 100e3;  // as for every position in a scenario
 
 [[noreturn]] void refuse(const ImportConfig& c, const std::string& why) {
-  throw std::invalid_argument("imports.file: '" + c.file + "': " + why);
+  throw fields::InvalidField("imports.file", "'" + c.file + "': " + why);
 }
 
 void read_file(const ImportConfig& c, Assimp::Importer& importer) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scenes/scene.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::scenes::mesh {
 
@@ -25,7 +26,7 @@ struct ImportConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, ImportConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<ImportConfig> auto& c) {
   v("file", c.file,
     {.required = true, .meaning = "OBJ or glTF file; relative to the folder of the file that names it"});
   v("name", c.name, {.meaning = "name of the obstacle in results"});

@@ -5,6 +5,7 @@
 
 #include "scenes/additions.h"
 #include "scenes/world_config.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::scenes::worlds {
 
@@ -27,7 +28,7 @@ struct BalloonConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, BalloonConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<BalloonConfig> auto& c) {
   v("radius", c.radius_m, {.unit = "m", .above = 0.0, .at_most = 10.0, .meaning = "radius of the balloon"});
   v("height", c.height_m, {.unit = "m", .above = 0.0, .at_most = 100.0, .meaning = "height of the balloon's center"});
   v("motion", c.motion, {.meaning = "motion of the pole's foot"});

@@ -6,6 +6,7 @@
 
 #include "scenes/additions.h"
 #include "scenes/world_config.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::scenes::worlds {
 
@@ -19,7 +20,7 @@ struct CorridorSection {
 };
 
 template <class Visitor>
-void describe(Visitor& v, CorridorSection& c) {
+void describe(Visitor& v, fields::ConfigOf<CorridorSection> auto& c) {
   v("length", c.length_m, {.unit = "m", .at_least = 1.0, .at_most = 1000.0, .meaning = "length along the centerline"});
   v("bend", c.bend_rad,
     {.unit = "deg", .at_least = -60.0, .at_most = 60.0, .meaning = "bend to the right at the start of the section"});
@@ -63,7 +64,7 @@ struct CorridorConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, CorridorConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<CorridorConfig> auto& c) {
   v("width", c.width_m,
     {.unit = "m", .at_least = 0.5, .at_most = 100.0, .meaning = "width at the start of the corridor"});
   v("height", c.height_m, {.unit = "m", .at_least = 1.0, .at_most = 100.0, .meaning = "height from floor to ceiling"});

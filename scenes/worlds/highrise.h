@@ -6,6 +6,7 @@
 
 #include "scenes/additions.h"
 #include "scenes/world_config.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::scenes::worlds {
 
@@ -29,7 +30,7 @@ struct HighriseConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, HighriseConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<HighriseConfig> auto& c) {
   v("layout", c.layout, {.choices = {"cube", "skyline"}, .meaning = "object: 8 corners or 35"});
   v("walls", c.walls,
     {.choices = {"plain", "windows"}, .meaning = "surface of the walls; plain walls have no corners"});

@@ -6,6 +6,7 @@
 
 #include "scenes/additions.h"
 #include "scenes/world_config.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::scenes::worlds {
 
@@ -27,7 +28,7 @@ struct ParkConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, ParkConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<ParkConfig> auto& c) {
   v("extent", c.extent_m,
     {.unit = "m", .at_least = 30.0, .at_most = 1000.0, .meaning = "side of the square, centered on the origin"});
   v("trees", c.trees,

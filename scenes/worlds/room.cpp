@@ -12,6 +12,7 @@
 #include "scenes/textures/street_textures.h"
 #include "scenes/world_config.h"
 #include "sim/fields/bounds.h"
+#include "sim/fields/invalid_field.h"
 #include "sim/libm/random.h"
 
 namespace hedgehop::scenes::worlds {
@@ -90,9 +91,9 @@ std::vector<Eigen::AlignedBox3d> place_furniture(const RoomConfig& c, Random& ra
   }
   if (pieces.size() < wanted) {
     std::ostringstream line;
-    line << "furniture: " << wanted << "; valid: at most " << pieces.size()
-         << ", the number that fits with furniture_gap " << c.furniture_gap_m << " m and these clearings";
-    throw std::invalid_argument(line.str());
+    line << wanted << "; valid: at most " << pieces.size() << ", the number that fits with furniture_gap "
+         << c.furniture_gap_m << " m and these clearings";
+    throw fields::InvalidField("furniture", line.str());
   }
   return pieces;
 }

@@ -7,6 +7,7 @@
 #include "scenes/additions.h"
 #include "scenes/scene.h"
 #include "scenes/world_config.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::scenes::worlds {
 
@@ -30,7 +31,7 @@ struct RoomConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, RoomConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<RoomConfig> auto& c) {
   v("length", c.length_m,
     {.unit = "m", .at_least = 1.0, .at_most = 1000.0, .meaning = "free length between the south and north walls"});
   v("width", c.width_m,

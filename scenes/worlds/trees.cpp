@@ -11,6 +11,7 @@
 #include "scenes/textures/street_textures.h"
 #include "scenes/world_config.h"
 #include "sim/fields/bounds.h"
+#include "sim/fields/invalid_field.h"
 
 namespace hedgehop::scenes::worlds {
 
@@ -164,9 +165,9 @@ std::vector<TreeSite> place_trees(const ForestConfig& c, Random& random) {
   }
   if (places.size() < wanted) {
     std::ostringstream line;
-    line << "trees: " << wanted << "; valid: at most " << places.size() << ", the number that fits with spacing "
-         << c.spacing_m << " m and these clearings";
-    throw std::invalid_argument(line.str());
+    line << wanted << "; valid: at most " << places.size() << ", the number that fits with spacing " << c.spacing_m
+         << " m and these clearings";
+    throw fields::InvalidField("trees", line.str());
   }
   return places;
 }

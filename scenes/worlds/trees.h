@@ -7,6 +7,7 @@
 #include "scenes/additions.h"
 #include "scenes/textures/park_textures.h"
 #include "scenes/world_config.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::scenes::worlds {
 
@@ -27,7 +28,7 @@ struct TreeConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, TreeConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<TreeConfig> auto& c) {
   v("north", c.north_m,
     {.unit = "m", .at_least = -1000.0, .at_most = 1000.0, .meaning = "north position of the trunk"});
   v("east", c.east_m, {.unit = "m", .at_least = -1000.0, .at_most = 1000.0, .meaning = "east position of the trunk"});
@@ -67,7 +68,7 @@ struct ForestConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, ForestConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<ForestConfig> auto& c) {
   v("trees", c.trees, {.at_least = 1.0, .at_most = 10000.0, .meaning = "number of trees"});
   v("spacing", c.spacing_m,
     {.unit = "m",

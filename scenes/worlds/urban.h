@@ -8,6 +8,7 @@
 #include "scenes/additions.h"
 #include "scenes/scene.h"
 #include "scenes/world_config.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::scenes::worlds {
 
@@ -36,7 +37,7 @@ struct UrbanConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, UrbanConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<UrbanConfig> auto& c) {
   v("extent", c.extent_m,
     {.unit = "m", .above = 0.0, .meaning = "side of the square of cells, centered on the origin"});
   v("pitch", c.pitch_m,

@@ -6,6 +6,7 @@
 
 #include "scenes/additions.h"
 #include "scenes/world_config.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::scenes::worlds {
 
@@ -18,7 +19,7 @@ struct WallOpening {
 };
 
 template <class Visitor>
-void describe(Visitor& v, WallOpening& c) {
+void describe(Visitor& v, fields::ConfigOf<WallOpening> auto& c) {
   v("middle", c.middle_m, {.unit = "m", .meaning = "center of the opening, east of the wall's center"});
   v("bottom", c.bottom_m, {.unit = "m", .at_least = 0.0, .meaning = "lower edge above the ground"});
   v("width", c.width_m, {.unit = "m", .above = 0.0, .meaning = "width from west to east"});
@@ -44,7 +45,7 @@ struct WallConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, WallConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<WallConfig> auto& c) {
   v("north", c.north_m,
     {.unit = "m", .at_least = -1000.0, .at_most = 1000.0, .meaning = "position of the wall's south face"});
   v("width", c.width_m,

@@ -1,6 +1,6 @@
 #include <benchmark/benchmark.h>
 
-#include "sim/plugin/plugin_module.h"
+#include "sim/plugin/foreign_module.h"
 #include "sim/scenario/avoidance_choice.h"
 
 namespace hedgehop::sim {

@@ -42,11 +42,11 @@ std::string folder_name(const std::string& group, int number) {
   return number == 1 ? name : fmt::format("{}~{}", name, number);
 }
 
-void examine_seeds(const CampaignConfig& campaign, const Node& root, Faults& faults) {
+void examine_seeds(const CampaignConfig& campaign, const Node& root, ErrorList& faults) {
   const auto examine = [&](const std::string& at, const std::optional<std::string>& tuned_on,
                            const std::string& seeds) {
     if (std::string fault = judging_fault(tuned_on, seeds); !fault.empty()) {
-      faults.add(place_of(root, at + ".seeds"), std::move(fault));
+      faults.add(position_of(root, at + ".seeds"), std::move(fault));
     }
   };
   for (size_t i = 0; i < campaign.flights.size(); ++i) {
@@ -128,7 +128,7 @@ class Gatherer {
 
  private:
   void add_file(const fs::path& file) {
-    Faults faults;
+    ErrorList faults("campaign");
     const Node root = load_tree(file, faults);
     if (faults.empty() && (root.find("flights") || root.find("leaderboard"))) {
       add_campaign(file, root);
@@ -139,12 +139,12 @@ class Gatherer {
 
   void add_campaign(const fs::path& file, const Node& root) {
     try {
-      Faults faults;
+      ErrorList faults("campaign");
       CampaignConfig campaign;
       read_struct(root, "", "", campaign, faults);
-      faults.raise();
+      faults.throw_if_any();
       examine_seeds(campaign, root, faults);
-      faults.raise();
+      faults.throw_if_any();
       add_flights(campaign.flights, file.parent_path());
       if (campaign.leaderboard) add_leaderboard(file.parent_path(), *campaign.leaderboard);
       if (campaign.plan) batch_.plan = (file.parent_path() / *campaign.plan).lexically_normal();
@@ -199,8 +199,8 @@ class Gatherer {
   }
 
   void refuse(Order& order, const InputError& error) {
-    order.fault = error.faults().front();
-    batch_.faults.insert(batch_.faults.end(), error.faults().begin(), error.faults().end());
+    order.fault = error.errors().front();
+    batch_.faults.insert(batch_.faults.end(), error.errors().begin(), error.errors().end());
     add(order);
   }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/batch/record.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::sim {
 
@@ -15,7 +16,7 @@ struct LeaderboardWorld {
   std::string name, scenario;
 };
 template <class Visitor>
-void describe(Visitor& v, LeaderboardWorld& c) {
+void describe(Visitor& v, fields::ConfigOf<LeaderboardWorld> auto& c) {
   v("name", c.name, {.required = true, .meaning = "in the matrix"});
   v("scenario", c.scenario, {.required = true, .meaning = "scenario file without what flies, relative to this file"});
 }
@@ -27,7 +28,7 @@ struct LeaderboardModule {
   std::vector<std::string> set;
 };
 template <class Visitor>
-void describe(Visitor& v, LeaderboardModule& c) {
+void describe(Visitor& v, fields::ConfigOf<LeaderboardModule> auto& c) {
   v("name", c.name, {.required = true, .meaning = "in the matrix"});
   v("control", c.control, {.meaning = "flies without looking: it does not count for the difficulty of worlds"});
   v("set", c.set,
@@ -40,7 +41,7 @@ struct LeaderboardGap {
   std::vector<std::string> worlds;
 };
 template <class Visitor>
-void describe(Visitor& v, LeaderboardGap& c) {
+void describe(Visitor& v, fields::ConfigOf<LeaderboardGap> auto& c) {
   v("module", c.module, {.required = true, .meaning = "name of a module"});
   v("worlds", c.worlds, {.required = true, .meaning = "names of worlds"});
   v("reason", c.reason, {.required = true, .meaning = "why it cannot fly there"});
@@ -54,7 +55,7 @@ struct LeaderboardConfig {
   std::vector<LeaderboardGap> not_flown;
 };
 template <class Visitor>
-void describe(Visitor& v, LeaderboardConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<LeaderboardConfig> auto& c) {
   v("seeds", c.seeds, {.required = true, .meaning = "the same for all, such as 1:10"});
   v("worlds", c.worlds, {.required = true, .meaning = "what is flown in"});
   v("modules", c.modules, {.required = true, .meaning = "what flies"});
@@ -86,7 +87,7 @@ struct SuccessRateCheck {
   double confidence = 0.95;
 };
 template <class Visitor>
-void describe(Visitor& v, SuccessRateCheck& c) {
+void describe(Visitor& v, fields::ConfigOf<SuccessRateCheck> auto& c) {
   v("at_least", c.at_least,
     {.at_least = 0.0, .at_most = 1.0, .required = true, .meaning = "least rate of flights whose checks all hold"});
   v("confidence", c.confidence, {.above = 0.0, .below = 1.0, .meaning = "of the two-sided interval"});
@@ -102,7 +103,7 @@ struct NoWorseCheck {
   std::optional<double> margin;  ///< loss to be ruled out; without one, a loss must be shown for the check to fail
 };
 template <class Visitor>
-void describe(Visitor& v, NoWorseCheck& c) {
+void describe(Visitor& v, fields::ConfigOf<NoWorseCheck> auto& c) {
   v("than", c.than, {.required = true, .meaning = "batch.json of the earlier batch, relative to this file"});
   v("confidence", c.confidence, {.above = 0.0, .below = 1.0, .meaning = "of the statement"});
   v("margin", c.margin,
@@ -122,7 +123,7 @@ struct CampaignFlights {
   std::vector<std::string> set;
 };
 template <class Visitor>
-void describe(Visitor& v, CampaignFlights& c) {
+void describe(Visitor& v, fields::ConfigOf<CampaignFlights> auto& c) {
   v("scenario", c.scenario, {.required = true, .meaning = "scenario file, relative to this file"});
   v("seeds", c.seeds, {.required = true, .meaning = "seeds such as 1001:1010 or 1001:1003,1007, none of tuned_on"});
   v("tuned_on", c.tuned_on, {.meaning = "in place of the file's"});
@@ -140,7 +141,7 @@ struct CampaignConfig {
   std::optional<std::string> plan;
 };
 template <class Visitor>
-void describe(Visitor& v, CampaignConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<CampaignConfig> auto& c) {
   v("description", c.description, {.meaning = "what the campaign is for"});
   v("tuned_on", c.tuned_on, {.meaning = "seeds that parameters were chosen on, such as 1:100, or none; must be given"});
   v("moved_on", c.moved_on, {.meaning = "why the seeds to judge by are others than before"});

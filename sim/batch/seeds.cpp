@@ -73,7 +73,7 @@ std::string judging_fault(const std::optional<std::string>& tuned_on, const std:
     return fmt::format("seeds '{}' judge by seed {}, which parameters were chosen on (tuned_on '{}'); take others",
                        seeds, *shared, *tuned_on);
   } catch (const InputError& error) {
-    return error.faults().front();
+    return error.errors().front();
   }
 }
 

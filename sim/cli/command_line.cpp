@@ -19,8 +19,8 @@
 #include "sim/cli/notice.h"
 #include "sim/cli/number_options.h"
 #include "sim/cli/override_option.h"
+#include "sim/config/config_tree.h"
 #include "sim/config/input_error.h"
-#include "sim/config/tree.h"
 #include "sim/flight/build.h"
 #include "sim/scenario/drawing.h"
 #include "sim/scenario/list_topics.h"
@@ -308,7 +308,7 @@ int run_command_line(int argc, char** argv) {
   try {
     return parse_and_run(argc, argv);
   } catch (const InputError& error) {
-    for (const std::string& fault : error.faults()) notice(fault + "\n");
+    for (const std::string& fault : error.errors()) notice(fault + "\n");
     return kBadInput;
   } catch (const std::exception& error) {
     notice(fmt::format("hedgehop: {}\n", one_line(error.what())));

@@ -20,7 +20,7 @@
 #include "sim/record/whole_file.h"
 
 #include "sim/reproduce/results_page.h"
-#include "sim/simulation/package_versions.h"
+#include "sim/simulation/simulation.h"
 
 namespace hedgehop::sim::cli {
 namespace {

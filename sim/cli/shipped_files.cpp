@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "sim/config/include.h"
 #include "sim/config/input_error.h"
-#include "sim/config/input_file.h"
 
 namespace hedgehop::sim::cli {
 

@@ -1,22 +1,21 @@
-#include "sim/config/document.h"
+#include "sim/config/outline_texts.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "sim/config/config_tree.h"
 #include "sim/config/numbers.h"
-#include "sim/config/tree.h"
-#include "sim/config/writer.h"
 
 namespace hedgehop::sim {
 namespace {
 
-using Kind = Outline::Kind;
+using Kind = ConfigOutline::Kind;
 
-bool has_parts(const Outline& node) { return node.kind == Kind::group || node.kind == Kind::variant; }
+bool has_parts(const ConfigOutline& node) { return node.kind == Kind::group || node.kind == Kind::variant; }
 
-std::string type_words(const Outline& node) {
+std::string type_words(const ConfigOutline& node) {
   switch (node.kind) {
     case Kind::number:
       return "number";
@@ -32,7 +31,7 @@ std::string type_words(const Outline& node) {
       return "map";
     case Kind::variant: {
       std::vector<std::string> names;
-      for (const Outline& choice : node.all) names.push_back(choice.key);
+      for (const ConfigOutline& choice : node.all) names.push_back(choice.key);
       return fmt::format("map with {}: {}", node.field.selector, fmt::join(names, "|"));
     }
     case Kind::list:
@@ -56,28 +55,28 @@ std::string bounds_words(const fields::Field& field) {
 }
 
 /// A scalar as people write it: an angle's decimal is otherwise exact to the last bit of its radians.
-std::string readable(const Outline& node) {
+std::string readable(const ConfigOutline& node) {
   return node.kind == Kind::number ? fmt::format("{:.12g}", parse_number(node.value, false).member) : node.value;
 }
 
-std::string default_words(const Outline& node) {
+std::string default_words(const ConfigOutline& node) {
   if (node.field.required) return "required";
   if (has_parts(node) && node.present) return "";
   if (!node.present) return "default none";
   if (node.kind == Kind::text) return node.value.empty() ? "default empty" : "default " + node.value;
   if (node.kind != Kind::list) return "default " + readable(node);
   std::vector<std::string> items;
-  for (const Outline& part : node.parts) items.push_back(has_parts(part) ? "..." : readable(part));
+  for (const ConfigOutline& part : node.parts) items.push_back(has_parts(part) ? "..." : readable(part));
   return fmt::format("default [{}]", fmt::join(items, ", "));
 }
 
 }  // namespace
 
-std::string document_fields(const std::vector<Outline>& fields, int indent) {
+std::string document_fields(const std::vector<ConfigOutline>& fields, int indent) {
   size_t key_width = 0;
-  for (const Outline& field : fields) key_width = std::max(key_width, field.key.size());
+  for (const ConfigOutline& field : fields) key_width = std::max(key_width, field.key.size());
   std::string text;
-  for (const Outline& field : fields) {
+  for (const ConfigOutline& field : fields) {
     std::vector<std::string> facts;
     const std::string unit = field.field.unit.empty() ? "" : fmt::format(" {}", field.field.unit);
     for (std::string fact : {type_words(field) + unit, bounds_words(field.field), default_words(field)}) {
@@ -85,10 +84,10 @@ std::string document_fields(const std::vector<Outline>& fields, int indent) {
     }
     text += fmt::format("{:{}}{:{}}  {}  ({})\n", "", indent, field.key, key_width, field.field.meaning,
                         fmt::join(facts, ", "));
-    const Outline& shape = field.kind == Kind::list ? field.item.at(0) : field;
+    const ConfigOutline& shape = field.kind == Kind::list ? field.item.at(0) : field;
     if (shape.kind == Kind::group) text += document_fields(shape.parts, indent + 4);
     if (shape.kind == Kind::variant && indent > 0) {  // those of a scenario itself are topics of their own
-      for (const Outline& choice : shape.all) {
+      for (const ConfigOutline& choice : shape.all) {
         text += fmt::format("{:{}}{}: {}\n", "", indent + 4, choice.key, choice.meaning);
         text += document_fields(choice.parts, indent + 8);
       }
@@ -97,9 +96,9 @@ std::string document_fields(const std::vector<Outline>& fields, int indent) {
   return text;
 }
 
-std::string document_choices(const std::vector<Outline>& choices) {
+std::string document_choices(const std::vector<ConfigOutline>& choices) {
   std::string text;
-  for (const Outline& choice : choices) {
+  for (const ConfigOutline& choice : choices) {
     text += fmt::format("{}{}: {}\n", text.empty() ? "" : "\n", choice.key, choice.meaning);
     text += document_fields(choice.parts, 4);
   }

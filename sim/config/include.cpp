@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <fstream>
+#include <ios>
 #include <stdexcept>
 
-#include "sim/config/input_file.h"
-#include "sim/config/parse.h"
+#include "sim/config/config_tree.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -38,12 +39,12 @@ bool changes_choice(const Node& base, const Node& over) {
                              [&](const Entry& entry) { return chooses_another(base, entry.key, entry.value); });
 }
 
-void set_places(Node& node, const Place& place) {
-  node.place = place;
-  for (Node& item : node.items) set_places(item, place);
+void set_positions(Node& node, const SourcePosition& position) {
+  node.position = position;
+  for (Node& item : node.items) set_positions(item, position);
   for (Entry& entry : node.entries) {
-    entry.place = place;
-    set_places(entry.value, place);
+    entry.position = position;
+    set_positions(entry.value, position);
   }
 }
 
@@ -58,23 +59,23 @@ std::string where_scenarios_are(const fs::path& file) {
 /// Reads files and the files that they use, and knows which are being read.
 class Includer {
  public:
-  Includer(Faults& faults, std::set<fs::path>& read) : faults_(faults), read_(read) {}
+  Includer(ErrorList& errors, std::set<fs::path>& read) : errors_(errors), read_(read) {}
 
   /// @param from  place of the `use` that names it, or null for the scenario itself.
-  Node load(const fs::path& file, const Place* from) {
+  Node load(const fs::path& file, const SourcePosition* from) {
     const std::string name = file.lexically_normal().string();
-    const Place place = from ? *from : Place{name, 0, 0};
+    const SourcePosition position = from ? *from : SourcePosition{name, 0, 0};
     std::error_code error;
     const fs::path identity = fs::weakly_canonical(file, error);
     if (const auto same = std::find(identities_.begin(), identities_.end(), identity); same != identities_.end()) {
       std::string circle;
       for (auto i = same - identities_.begin(); i < std::ssize(names_); ++i)
         circle += names_[static_cast<size_t>(i)] + " -> ";
-      faults_.add(place, fmt::format("'use' runs in a circle: {}{}", circle, name));
+      errors_.add(position, fmt::format("'use' runs in a circle: {}{}", circle, name));
       return {};
     }
-    if (++files_ > kMostFiles) {
-      if (files_ == kMostFiles + 1) faults_.add(place, fmt::format("more than {} files are used", kMostFiles));
+    if (++files_ > kMaxFiles) {
+      if (files_ == kMaxFiles + 1) errors_.add(position, fmt::format("more than {} files are used", kMaxFiles));
       return {};
     }
 
@@ -82,7 +83,7 @@ class Includer {
     try {
       text = read_input_file(file);
     } catch (const std::invalid_argument& why) {
-      faults_.add(place, from ? fmt::format("{}: '{}'", why.what(), name) : why.what() + where_scenarios_are(file));
+      errors_.add(position, from ? fmt::format("{}: '{}'", why.what(), name) : why.what() + where_scenarios_are(file));
       return {};
     }
     read_.insert(file.lexically_normal());
@@ -91,10 +92,10 @@ class Includer {
 
   /// @param identity  of the file that the text comes from.
   Node parse(const std::string& text, const std::string& name, const fs::path& folder, const fs::path& identity) {
-    const size_t faults_before = faults_.count();
-    Node root = parse_yaml(text, name, faults_);
-    if (root.kind != Node::Kind::map && faults_.count() == faults_before) {
-      faults_.add(root.place, fmt::format("expected a map of keys, got {}", root.words()));
+    const size_t errors_before = errors_.count();
+    Node root = parse_yaml(text, name, errors_);
+    if (root.kind != Node::Kind::map && errors_.count() == errors_before) {
+      errors_.add(root.position, fmt::format("expected a map of keys, got {}", root.description()));
     }
     identities_.push_back(identity);
     names_.push_back(name);
@@ -117,21 +118,22 @@ class Includer {
     const Entry used = *use;
     node.entries.erase(use);
     if (used.value.kind != Node::Kind::scalar || used.value.text.empty()) {
-      faults_.add(used.value.place, fmt::format("'use' expects the path of a file, got {}", used.value.words()));
+      errors_.add(used.value.position,
+                  fmt::format("'use' expects the path of a file, got {}", used.value.description()));
       return;
     }
-    Node base = load(folder / used.value.text, &used.value.place);
+    Node base = load(folder / used.value.text, &used.value.position);
     node.incomplete = base.kind != Node::Kind::map;
     if (node.incomplete) return;
-    base.place = node.place;
+    base.position = node.position;
     override_with(base, node);
     node = std::move(base);
   }
 
  private:
-  static constexpr int kMostFiles = 1000;
+  static constexpr int kMaxFiles = 1000;
 
-  Faults& faults_;
+  ErrorList& errors_;
   std::set<fs::path>& read_;
   std::vector<fs::path> identities_;  ///< files being read, outermost first
   std::vector<std::string> names_;
@@ -151,54 +153,56 @@ std::vector<std::string> split_path(std::string_view path) {
 }
 
 /// Item or value under `node`, made when a map lacks it; null, with a fault, where nothing can be.
-Node* step_into(Node& node, const std::string& key, const std::string& path, const Place& place, Faults& faults) {
+Node* step_into(Node& node, const std::string& key, const std::string& path, const SourcePosition& position,
+                ErrorList& errors) {
   if (node.kind == Node::Kind::list) {
     size_t index = 0;
     const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
     if (error == std::errc() && end == key.data() + key.size() && index < node.items.size()) return &node.items[index];
-    faults.add(place,
-               fmt::format("{} has no item '{}'; it has {} items, from 0", path_words(path), key, node.items.size()));
+    errors.add(position, fmt::format("{} has no item '{}'; it has {} items, from 0", errors.path_text(path), key,
+                                     node.items.size()));
     return nullptr;
   }
   if (node.kind == Node::Kind::scalar) {
-    faults.add(place,
-               fmt::format("{} is the single value {}; it has no key '{}'", path_words(path), node.words(), key));
+    errors.add(position, fmt::format("{} is the single value {}; it has no key '{}'", errors.path_text(path),
+                                     node.description(), key));
     return nullptr;
   }
   if (node.kind == Node::Kind::null) {
     node = Node{};
     node.kind = Node::Kind::map;
-    node.place = place;
+    node.position = position;
   }
   if (Node* found = node.find(key)) return found;
-  node.entries.push_back({key, place, Node{}});
-  node.entries.back().value.place = place;
+  node.entries.push_back({key, position, Node{}});
+  node.entries.back().value.position = position;
   return &node.entries.back().value;
 }
 
-void apply_override(Node& root, const std::string& text, const fs::path& folder, Includer& includer, Faults& faults) {
+void apply_override(Node& root, const std::string& text, const fs::path& folder, Includer& includer,
+                    ErrorList& errors) {
   const size_t equals = text.find('=');
   const std::string path_text = text.substr(0, equals);
-  const Place place{"--set " + path_text, 0, 0};
+  const SourcePosition position{"--set " + path_text, 0, 0};
   std::vector<std::string> keys = split_path(path_text);
   if (equals == std::string::npos || std::find(keys.begin(), keys.end(), "") != keys.end()) {
-    faults.add({"--set " + text, 0, 0}, "expected key.path=value");
+    errors.add({"--set " + text, 0, 0}, "expected key.path=value");
     return;
   }
 
   const std::string value_text = text.substr(equals + 1);
-  Faults of_value;
-  Node value = value_text.empty() ? Node{} : parse_yaml(value_text, place.file, of_value);
+  ErrorList of_value(errors.kind());
+  Node value = value_text.empty() ? Node{} : parse_yaml(value_text, position.file, of_value);
   if (!of_value.empty()) {
-    faults.add(place, fmt::format("'{}' is not a YAML value", value_text));
+    errors.add(position, fmt::format("'{}' is not a YAML value", value_text));
     return;
   }
-  set_places(value, place);
+  set_positions(value, position);
   if (keys.back() == "use" && keys.size() > 1) {
     Node map;
     map.kind = Node::Kind::map;
-    map.place = place;
-    map.entries.push_back({"use", place, std::move(value)});
+    map.position = position;
+    map.entries.push_back({"use", position, std::move(value)});
     value = std::move(map);
     keys.pop_back();
   }
@@ -212,7 +216,7 @@ void apply_override(Node& root, const std::string& text, const fs::path& folder,
     if (i + 1 == keys.size() && keys[i] != kPluginKey && chooses_another(*node, keys[i], value)) {
       node->entries.clear();
     }
-    node = step_into(*node, keys[i], path, place, faults);
+    node = step_into(*node, keys[i], path, position, errors);
     if (!node) return;
     path = join_path(path, keys[i]);
   }
@@ -226,36 +230,59 @@ void override_with(Node& base, const Node& over) {
     base = over;
     return;
   }
-  base.place = over.place;
+  base.position = over.position;
   for (const Entry& entry : over.entries) {
     const auto same =
         std::find_if(base.entries.begin(), base.entries.end(), [&](const Entry& e) { return e.key == entry.key; });
     if (same == base.entries.end()) {
       base.entries.push_back(entry);
     } else {
-      same->place = entry.place;
+      same->position = entry.position;
       override_with(same->value, entry.value);
     }
   }
 }
 
-Node load_tree(const fs::path& file, Faults& faults, std::set<fs::path>& read) {
-  return Includer(faults, read).load(file, nullptr);
+Node load_tree(const fs::path& file, ErrorList& errors, std::set<fs::path>& read) {
+  return Includer(errors, read).load(file, nullptr);
 }
 
-Node parse_tree(const std::string& text, const std::string& name, Faults& faults, std::set<fs::path>& read) {
-  return Includer(faults, read).parse(text, name, {}, {});
+Node parse_tree(const std::string& text, const std::string& name, ErrorList& errors, std::set<fs::path>& read) {
+  return Includer(errors, read).parse(text, name, {}, {});
 }
 
-Node load_tree(const fs::path& file, Faults& faults) {
+Node load_tree(const fs::path& file, ErrorList& errors) {
   std::set<fs::path> read;
-  return load_tree(file, faults, read);
+  return load_tree(file, errors, read);
 }
 
-void apply_overrides(Node& root, std::span<const std::string> overrides, const fs::path& file, Faults& faults,
+void apply_overrides(Node& root, std::span<const std::string> overrides, const fs::path& file, ErrorList& errors,
                      std::set<fs::path>& read) {
-  Includer includer(faults, read);
-  for (const std::string& text : overrides) apply_override(root, text, file.parent_path(), includer, faults);
+  Includer includer(errors, read);
+  for (const std::string& text : overrides) apply_override(root, text, file.parent_path(), includer, errors);
+}
+
+std::filesystem::path installed_configs() {
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const std::filesystem::path configs = program.parent_path().parent_path() / "share" / "hedgehop" / "configs";
+  return std::filesystem::is_directory(configs, error) ? configs : std::filesystem::path();
+}
+
+std::string read_input_file(const std::filesystem::path& file) {
+  constexpr uintmax_t kMaxBytes = 64'000'000;
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) throw std::invalid_argument("there is no such file");
+  if (std::filesystem::is_directory(file, error)) throw std::invalid_argument("is a folder, not a file");
+  if (!std::filesystem::is_regular_file(file, error)) throw std::invalid_argument("is a device or a pipe, not a file");
+  const uintmax_t bytes = std::filesystem::file_size(file, error);
+  if (error || bytes > kMaxBytes) throw std::invalid_argument("is larger than 64 MB");
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(bytes, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(bytes));
+  text.resize(static_cast<size_t>(stream.gcount()));
+  if (!stream.is_open() || stream.bad()) throw std::invalid_argument("the file cannot be read");
+  return text;
 }
 
 }  // namespace hedgehop::sim

@@ -6,19 +6,19 @@
 #include <string>
 #include <string_view>
 
-#include "sim/config/tree.h"
+#include "sim/config/config_tree.h"
 
 /// Files that use other files, and overrides of their values.
 namespace hedgehop::sim {
 
 /// Reads a file whose root is a map, and the files that it uses: with `use: other.yaml` a map overrides
 /// the other file's root, map by map; lists and scalars replace. Paths are relative to the file that names them.
-Node load_tree(const std::filesystem::path& file, Faults& faults);
+Node load_tree(const std::filesystem::path& file, ErrorList& errors);
 /// @param read  gains every file that was read.
-Node load_tree(const std::filesystem::path& file, Faults& faults, std::set<std::filesystem::path>& read);
+Node load_tree(const std::filesystem::path& file, ErrorList& errors, std::set<std::filesystem::path>& read);
 
 /// As load_tree(), of a text; its paths are relative to the working folder. @param name  for places, no path.
-Node parse_tree(const std::string& text, const std::string& name, Faults& faults,
+Node parse_tree(const std::string& text, const std::string& name, ErrorList& errors,
                 std::set<std::filesystem::path>& read);
 
 /// Overrides `base` with `over`: maps key by key (see kSelectors), all else by replacement.
@@ -29,6 +29,14 @@ void override_with(Node& base, const Node& over);
 /// exist).
 /// @param read  gains every file that was read.
 void apply_overrides(Node& root, std::span<const std::string> overrides, const std::filesystem::path& file,
-                     Faults& faults, std::set<std::filesystem::path>& read);
+                     ErrorList& errors, std::set<std::filesystem::path>& read);
+
+/// Returns the bytes of a file that a person wrote. Throws std::invalid_argument with the reason, without the file's
+/// name: there is none, it is no regular file (a folder, a device, a pipe that would never end), larger than 64 MB, or
+/// not to be read.
+std::string read_input_file(const std::filesystem::path& file);
+
+/// The scenarios that are installed with the program that runs; empty where none are.
+std::filesystem::path installed_configs();
 
 }  // namespace hedgehop::sim

@@ -1,4 +1,4 @@
-#include "sim/config/parse.h"
+#include "sim/config/config_tree.h"
 
 #include <fmt/format.h>
 #include <yaml-cpp/depthguard.h>
@@ -13,13 +13,13 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr size_t kMostNodes = 200'000;    // a scenario has hundreds; aliases of aliases could make billions
-constexpr size_t kMostKeys = 2'000;       // of one map
-constexpr size_t kMostBytes = 4'000'000;  // 200,000 values of 20 letters
+constexpr size_t kMaxNodes = 200'000;    // a scenario has hundreds; aliases of aliases could make billions
+constexpr size_t kMaxKeys = 2'000;       // of one map
+constexpr size_t kMaxBytes = 4'000'000;  // 200,000 values of 20 letters
 
 /// The document is larger than any that is meant; the rest is not read.
 struct TooLarge {
-  Place place;
+  SourcePosition position;
   std::string what;
 };
 
@@ -33,7 +33,7 @@ size_t count_nodes(const Node& node) {
 /// Builds a Node from the parser's events.
 class Builder : public YAML::EventHandler {
  public:
-  Builder(std::string file, Faults& faults) : file_(std::move(file)), faults_(faults) {}
+  Builder(std::string file, ErrorList& errors) : file_(std::move(file)), errors_(errors) {}
 
   Node take() { return std::move(root_); }
 
@@ -42,8 +42,8 @@ class Builder : public YAML::EventHandler {
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     Node node = make(Node::Kind::null, mark, "", anchor);
     // An empty value is marked where the next token stands; the place of its key is clearer.
-    if (!open_.empty() && open_.back().has_key && node.place.line > open_.back().key_place.line) {
-      node.place = open_.back().key_place;
+    if (!open_.empty() && open_.back().has_key && node.position.line > open_.back().key_position.line) {
+      node.position = open_.back().key_position;
     }
     add(std::move(node), anchor);
   }
@@ -58,9 +58,9 @@ class Builder : public YAML::EventHandler {
     const auto named = anchors_.find(anchor);
     Node node = make(Node::Kind::null, mark, "", 0);
     if (named == anchors_.end()) {
-      faults_.add(node.place, "an alias stands inside what it names");
-    } else if (const size_t count = count_nodes(named->second); nodes_ + count > kMostNodes) {
-      if (!too_many_) faults_.add(node.place, "aliases make the document too large");
+      errors_.add(node.position, "an alias stands inside what it names");
+    } else if (const size_t count = count_nodes(named->second); nodes_ + count > kMaxNodes) {
+      if (!too_many_) errors_.add(node.position, "aliases make the document too large");
       too_many_ = true;
     } else {
       nodes_ += count;
@@ -86,14 +86,15 @@ class Builder : public YAML::EventHandler {
     bool has_key = false;  ///< of a map: a key waits for its value
     bool drop = false;     ///< ... which is discarded
     std::string key = {};
-    Place key_place = {};
+    SourcePosition key_position = {};
   };
 
   Node make(Node::Kind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t) {
     Node node;
     node.kind = kind;
-    node.place = {file_, mark.line + 1, mark.column + 1};
-    if (!tag.empty() && tag != "?" && tag != "!") faults_.add(node.place, fmt::format("tag '{}' is not allowed", tag));
+    node.position = {file_, mark.line + 1, mark.column + 1};
+    if (!tag.empty() && tag != "?" && tag != "!")
+      errors_.add(node.position, fmt::format("tag '{}' is not allowed", tag));
     return node;
   }
 
@@ -110,7 +111,7 @@ class Builder : public YAML::EventHandler {
   }
 
   void add(Node node, YAML::anchor_t anchor) {
-    if (++nodes_ > kMostNodes) throw TooLarge{node.place, fmt::format("more than {} values in one file", kMostNodes)};
+    if (++nodes_ > kMaxNodes) throw TooLarge{node.position, fmt::format("more than {} values in one file", kMaxNodes)};
     if (anchor != 0) anchors_[anchor] = node;
     if (open_.empty()) {
       root_ = std::move(node);
@@ -122,27 +123,27 @@ class Builder : public YAML::EventHandler {
     } else if (!open.has_key) {
       take_key(open, node);
     } else {
-      if (!open.drop) open.node.entries.push_back({open.key, open.key_place, std::move(node)});
+      if (!open.drop) open.node.entries.push_back({open.key, open.key_position, std::move(node)});
       open.has_key = false;
     }
   }
 
   void take_key(Open& open, const Node& key) {
-    const std::string in = path_words(path());
-    if (open.node.entries.size() >= kMostKeys) {
-      throw TooLarge{key.place, fmt::format("more than {} keys in {}", kMostKeys, in)};
+    const std::string in = errors_.path_text(path());
+    if (open.node.entries.size() >= kMaxKeys) {
+      throw TooLarge{key.position, fmt::format("more than {} keys in {}", kMaxKeys, in)};
     }
     open.has_key = true;
     open.drop = true;
     open.key = key.text;
-    open.key_place = key.place;
+    open.key_position = key.position;
     if (key.kind != Node::Kind::scalar || key.text.empty()) {
-      faults_.add(key.place, fmt::format("a key in {} must be one word, got {}", in, key.words()));
+      errors_.add(key.position, fmt::format("a key in {} must be one word, got {}", in, key.description()));
     } else if (key.text == "<<") {
-      faults_.add(key.place, fmt::format("merge key '<<' in {} is not allowed; use 'use: file.yaml'", in));
+      errors_.add(key.position, fmt::format("merge key '<<' in {} is not allowed; use 'use: file.yaml'", in));
     } else if (const Entry* first = find_entry(open.node, key.text)) {
-      faults_.add(key.place,
-                  fmt::format("duplicate key '{}' in {}; first at line {}", key.text, in, first->place.line));
+      errors_.add(key.position,
+                  fmt::format("duplicate key '{}' in {}; first at line {}", key.text, in, first->position.line));
     } else {
       open.drop = false;
     }
@@ -162,7 +163,7 @@ class Builder : public YAML::EventHandler {
   }
 
   std::string file_;
-  Faults& faults_;
+  ErrorList& errors_;
   Node root_;
   std::vector<Open> open_;
   std::map<YAML::anchor_t, Node> anchors_;
@@ -172,45 +173,45 @@ class Builder : public YAML::EventHandler {
 
 /// Why a text is not even scanned, which takes up to 130 bytes and 0.2 us for a letter; empty when it is.
 std::string beyond_measure(const std::string& text) {
-  if (text.size() > kMostBytes) return fmt::format("more than {} MB of YAML", kMostBytes / 1'000'000);
+  if (text.size() > kMaxBytes) return fmt::format("more than {} MB of YAML", kMaxBytes / 1'000'000);
   const auto opens = std::ranges::count_if(text, [](char c) { return c == '[' || c == '{'; });
-  return static_cast<size_t>(opens) > kMostNodes ? fmt::format("more than {} lists and maps", kMostNodes) : "";
+  return static_cast<size_t>(opens) > kMaxNodes ? fmt::format("more than {} lists and maps", kMaxNodes) : "";
 }
 
 }  // namespace
 
-Node parse_yaml(const std::string& text, const std::string& file, Faults& faults) {
+Node parse_yaml(const std::string& text, const std::string& file, ErrorList& errors) {
   if (std::string fault = beyond_measure(text); !fault.empty()) {
-    faults.add({file, 1, 1}, std::move(fault));
+    errors.add({file, 1, 1}, std::move(fault));
     return {};
   }
   std::istringstream stream(text);
-  Builder builder(file, faults);
+  Builder builder(file, errors);
   try {
     YAML::Parser parser(stream);
     if (!parser.HandleNextDocument(builder)) {
-      faults.add({file, 1, 1}, "the file is empty");
+      errors.add({file, 1, 1}, "the file is empty");
       return {};
     }
     Node root = builder.take();
-    Faults ignored;
+    ErrorList ignored(errors.kind());
     Builder second(file, ignored);
     if (parser.HandleNextDocument(second)) {
       const Node next = second.take();
-      faults.add(next.place, "a second document; one file holds one");
+      errors.add(next.position, "a second document; one file holds one");
     }
     return root;
   } catch (const TooLarge& large) {
-    faults.add(large.place, large.what);
+    errors.add(large.position, large.what);
     return {};
   } catch (const YAML::DeepRecursion& error) {
-    faults.add({file, error.mark.line + 1, error.mark.column + 1}, "lists and maps are nested too deeply");
+    errors.add({file, error.mark.line + 1, error.mark.column + 1}, "lists and maps are nested too deeply");
   } catch (const YAML::Exception& error) {
     // The parser stumbles over the key after the one that lacks its colon.
     const std::string advice = error.msg == YAML::ErrorMsg::MAP_VALUE ? "; does the line before lack a colon?" : "";
-    faults.add({file, error.mark.line + 1, error.mark.column + 1}, error.msg + advice);
+    errors.add({file, error.mark.line + 1, error.mark.column + 1}, error.msg + advice);
   } catch (const std::exception& error) {
-    faults.add({file, 0, 0}, fmt::format("cannot be read as YAML: {}", error.what()));
+    errors.add({file, 0, 0}, fmt::format("cannot be read as YAML: {}", error.what()));
   }
   return {};
 }

@@ -7,41 +7,42 @@
 #include <utility>
 #include <vector>
 
+#include "sim/config/config_tree.h"
 #include "sim/config/numbers.h"
-#include "sim/config/tree.h"
 #include "sim/fields/field.h"
 #include "sim/fields/field_types.h"
 
-/// From a tree to config structs, by their describe(). Strict: what does not fit goes to Faults and leaves the member.
+/// From a tree to config structs, by their describe(). Strict: what does not fit goes to ErrorList and leaves the
+/// member.
 namespace hedgehop::sim {
 
 // Each reads one value or adds a fault; `path` is dotted, from the root.
 std::optional<double> read_number(const Node& node, const std::string& path, const fields::Field& field,
-                                  Faults& faults);
+                                  ErrorList& errors);
 std::optional<int64_t> read_signed(const Node& node, const std::string& path, const fields::Field& field,
-                                   int64_t lowest, int64_t highest, Faults& faults);
+                                   int64_t lowest, int64_t highest, ErrorList& errors);
 std::optional<uint64_t> read_unsigned(const Node& node, const std::string& path, const fields::Field& field,
-                                      uint64_t highest, Faults& faults);
-std::optional<bool> read_bool(const Node& node, const std::string& path, Faults& faults);
-std::optional<std::string> read_text(const Node& node, const std::string& path, Faults& faults);
+                                      uint64_t highest, ErrorList& errors);
+std::optional<bool> read_bool(const Node& node, const std::string& path, ErrorList& errors);
+std::optional<std::string> read_text(const Node& node, const std::string& path, ErrorList& errors);
 /// The path of a file, made absolute: one written in a file counts from that file's folder, one after --set from the
 /// working folder. An empty text is an empty path.
-std::optional<std::filesystem::path> read_path(const Node& node, const std::string& path, Faults& faults);
+std::optional<std::filesystem::path> read_path(const Node& node, const std::string& path, ErrorList& errors);
 std::optional<size_t> read_choice(const Node& node, const std::string& path,
-                                  const std::vector<std::string_view>& choices, Faults& faults);
+                                  const std::vector<std::string_view>& choices, ErrorList& errors);
 /// Whether the node is a list (of `size` items when that is not 0) or a map; a fault otherwise.
-bool expect_list(const Node& node, const std::string& path, size_t size, Faults& faults);
-bool expect_map(const Node& node, const std::string& path, Faults& faults);
+bool expect_list(const Node& node, const std::string& path, size_t size, ErrorList& errors);
+bool expect_map(const Node& node, const std::string& path, ErrorList& errors);
 
 template <class T>
-void read_value(const Node& node, const std::string& path, const fields::Field& field, T& value, Faults& faults);
+void read_value(const Node& node, const std::string& path, const fields::Field& field, T& value, ErrorList& errors);
 
 /// The visitor that reads one struct from one map.
 class StructReader {
  public:
   /// @param map  a map, which must outlive the reader. @param selector  a key already read, or "".
-  StructReader(const Node& map, std::string path, std::string_view selector, Faults& faults)
-      : map_(map), path_(std::move(path)), faults_(faults) {
+  StructReader(const Node& map, std::string path, std::string_view selector, ErrorList& errors)
+      : map_(map), path_(std::move(path)), errors_(errors) {
     if (!selector.empty()) keys_.push_back(selector);
   }
 
@@ -49,7 +50,7 @@ class StructReader {
   void operator()(std::string_view key, T& value, const fields::Field& field) {
     keys_.push_back(key);
     if (const Node* node = map_.find(key)) {
-      read_value(*node, join_path(path_, key), field, value, faults_);
+      read_value(*node, join_path(path_, key), field, value, errors_);
     } else if (field.required) {
       missing(key, field);
     }
@@ -63,31 +64,31 @@ class StructReader {
 
   const Node& map_;
   std::string path_;
-  Faults& faults_;
+  ErrorList& errors_;
   std::vector<std::string_view> keys_;
 };
 
 template <fields::StructField T>
-void read_struct(const Node& node, const std::string& path, std::string_view selector, T& value, Faults& faults) {
-  if (!expect_map(node, path, faults)) return;
-  StructReader reader(node, path, selector, faults);
+void read_struct(const Node& node, const std::string& path, std::string_view selector, T& value, ErrorList& errors) {
+  if (!expect_map(node, path, errors)) return;
+  StructReader reader(node, path, selector, errors);
   describe(reader, value);
   reader.finish();
 }
 
 /// Of a name under `selector` whose alternative is chosen by a key of its own.
-void refuse_key_as_choice(const Node& name, std::string_view selector, Faults& faults);
+void refuse_key_as_choice(const Node& name, std::string_view selector, ErrorList& errors);
 
 /// Reads the alternative that one of the map's keys identifies by itself. @return whether there is one.
 template <fields::VariantField T>
-bool read_chosen_by_key(const Node& node, const std::string& path, T& value, Faults& faults) {
+bool read_chosen_by_key(const Node& node, const std::string& path, T& value, ErrorList& errors) {
   bool chosen = false;
   fields::for_each_alternative<T>([&]<class A>() {
     if constexpr (fields::ChosenByKey<A>) {
       if (chosen || !node.find(A::kChosenBy)) return;
       chosen = true;
       A read;
-      read_struct(node, path, "", read, faults);
+      read_struct(node, path, "", read, errors);
       value = std::move(read);
     }
   });
@@ -96,8 +97,8 @@ bool read_chosen_by_key(const Node& node, const std::string& path, T& value, Fau
 
 /// The name under `selector` picks the alternative, which is read from the same map upon its defaults.
 template <fields::VariantField T>
-void read_variant(const Node& node, const std::string& path, const fields::Field& field, T& value, Faults& faults) {
-  if (!expect_map(node, path, faults) || read_chosen_by_key(node, path, value, faults)) return;
+void read_variant(const Node& node, const std::string& path, const fields::Field& field, T& value, ErrorList& errors) {
+  if (!expect_map(node, path, errors) || read_chosen_by_key(node, path, value, errors)) return;
   std::vector<std::string_view> names;
   fields::for_each_alternative<T>([&]<class A>() {
     if constexpr (!fields::ChosenByKey<A>) names.push_back(A::kName);
@@ -106,74 +107,74 @@ void read_variant(const Node& node, const std::string& path, const fields::Field
   bool named_by_key = false;
   if (!selector) {
     if (node.incomplete) return;  // the file that is not there may have it
-    faults.add(node.place,
-               "missing key '" + std::string(field.selector) + "' in " + path_words(path) + suggestion("", names));
+    errors.add(node.position, "missing key '" + std::string(field.selector) + "' in " + errors.path_text(path) +
+                                  suggestion("", names));
     return;
   }
   fields::for_each_alternative<T>([&]<class A>() {
     if constexpr (fields::ChosenByKey<A>) named_by_key = named_by_key || selector->text == A::kName;
   });
   if (named_by_key) {
-    refuse_key_as_choice(*selector, field.selector, faults);
+    refuse_key_as_choice(*selector, field.selector, errors);
     return;
   }
-  const std::optional<size_t> chosen = read_choice(*selector, join_path(path, field.selector), names, faults);
+  const std::optional<size_t> chosen = read_choice(*selector, join_path(path, field.selector), names, errors);
   if (!chosen) return;
   size_t index = 0;
   fields::for_each_alternative<T>([&]<class A>() {
     if constexpr (!fields::ChosenByKey<A>) {
       if (index++ != *chosen) return;
       A read;
-      read_struct(node, path, field.selector, read, faults);
+      read_struct(node, path, field.selector, read, errors);
       value = std::move(read);
     }
   });
 }
 
 template <class T>
-void read_value(const Node& node, const std::string& path, const fields::Field& field, T& value, Faults& faults) {
+void read_value(const Node& node, const std::string& path, const fields::Field& field, T& value, ErrorList& errors) {
   if constexpr (fields::NumberField<T>) {
-    if (auto read = read_number(node, path, field, faults)) value = *read;
+    if (auto read = read_number(node, path, field, errors)) value = *read;
   } else if constexpr (std::same_as<T, bool>) {
-    if (auto read = read_bool(node, path, faults)) value = *read;
+    if (auto read = read_bool(node, path, errors)) value = *read;
   } else if constexpr (fields::IntegerField<T> && std::is_signed_v<T>) {
     using Limits = std::numeric_limits<T>;
-    if (auto read = read_signed(node, path, field, Limits::min(), Limits::max(), faults)) value = static_cast<T>(*read);
+    if (auto read = read_signed(node, path, field, Limits::min(), Limits::max(), errors)) value = static_cast<T>(*read);
   } else if constexpr (fields::IntegerField<T>) {
     const uint64_t highest = std::numeric_limits<T>::max();
-    if (auto read = read_unsigned(node, path, field, highest, faults)) value = static_cast<T>(*read);
+    if (auto read = read_unsigned(node, path, field, highest, errors)) value = static_cast<T>(*read);
   } else if constexpr (std::same_as<T, std::string>) {
-    if (auto read = read_text(node, path, faults)) value = std::move(*read);
+    if (auto read = read_text(node, path, errors)) value = std::move(*read);
   } else if constexpr (std::same_as<T, std::filesystem::path>) {
-    if (auto read = read_path(node, path, faults)) value = std::move(*read);
+    if (auto read = read_path(node, path, errors)) value = std::move(*read);
   } else if constexpr (fields::ChoiceField<T>) {
-    if (auto read = read_choice(node, path, field.choices, faults)) value = static_cast<T>(*read);
+    if (auto read = read_choice(node, path, field.choices, errors)) value = static_cast<T>(*read);
   } else if constexpr (fields::OptionalField<T>) {
     if (node.kind == Node::Kind::null) {
       value.reset();
     } else {
       value.emplace();
-      read_value(node, path, field, *value, faults);
+      read_value(node, path, field, *value, errors);
     }
   } else if constexpr (fields::EigenField<T>) {
-    if (!expect_list(node, path, static_cast<size_t>(value.size()), faults)) return;
+    if (!expect_list(node, path, static_cast<size_t>(value.size()), errors)) return;
     for (size_t i = 0; i < node.items.size(); ++i) {
-      read_value(node.items[i], join_path(path, std::to_string(i)), field, value[static_cast<Eigen::Index>(i)], faults);
+      read_value(node.items[i], join_path(path, std::to_string(i)), field, value[static_cast<Eigen::Index>(i)], errors);
     }
   } else if constexpr (fields::VectorField<T>) {
-    if (!expect_list(node, path, 0, faults)) return;
+    if (!expect_list(node, path, 0, errors)) return;
     value.assign(node.items.size(), {});
     for (size_t i = 0; i < node.items.size(); ++i) {
-      read_value(node.items[i], join_path(path, std::to_string(i)), field, value[i], faults);
+      read_value(node.items[i], join_path(path, std::to_string(i)), field, value[i], errors);
     }
   } else if constexpr (fields::OpenField<T>) {
-    if (expect_map(node, path, faults)) value = node;
+    if (expect_map(node, path, errors)) value = node;
   } else if constexpr (fields::VariantField<T>) {
-    read_variant(node, path, field, value, faults);
+    read_variant(node, path, field, value, errors);
   } else if constexpr (fields::SealedField<T>) {
-    value.read(node, path, field, faults);
+    value.read(node, path, field, errors);
   } else {
-    read_struct(node, path, "", value, faults);
+    read_struct(node, path, "", value, errors);
   }
 }
 

@@ -1,19 +1,77 @@
-#include "sim/config/schema.h"
+#include "sim/config/outline_texts.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
-
-#include "sim/config/schema_sharing.h"
+#include <string>
+#include <string_view>
 
 namespace hedgehop::sim {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Kind = Outline::Kind;
+using Kind = ConfigOutline::Kind;
 
-Json schema_of(const Outline& node, bool partial);
+constexpr size_t kWorthSharing = 300;  // letters
+
+/// Calls `visit` with each schema right below `schema` and a name for it.
+template <class Visit>
+void each_part(Json& schema, const std::string& name, Visit visit) {
+  for (auto& [keyword, rule] : schema.items()) {
+    if (keyword == "properties") {
+      for (auto& [key, part] : rule.items()) visit(part, key);
+    } else if (keyword == "oneOf" || keyword == "anyOf" || keyword == "allOf") {
+      for (Json& part : rule) visit(part, part.value("title", name));
+    } else if (keyword == "then" || keyword == "else" || keyword == "items") {
+      visit(rule, rule.is_object() ? rule.value("title", name) : name);
+    }
+  }
+}
+
+class Sharing {
+ public:
+  explicit Sharing(Json& root) : root_(root) {
+    each_part(root_, "", [this](Json& part, const std::string&) { count(part); });
+    each_part(root_, "", [this](Json& part, const std::string& name) { replace(part, name); });
+    if (!definitions_.empty()) root_["$defs"] = std::move(definitions_);
+  }
+
+ private:
+  // A part within one that was met before is written once with it.
+  void count(Json& schema) {
+    if (++uses_[schema.dump()] > 1) return;
+    each_part(schema, "", [this](Json& part, const std::string&) { count(part); });
+  }
+
+  void replace(Json& schema, const std::string& name) {
+    const std::string text = schema.dump();
+    const bool shared = text.size() >= kWorthSharing && uses_.at(text) > 1;
+    std::string& defined = names_[text];
+    const bool first = defined.empty();
+    if (shared && first) defined = unused(name);
+    const std::string reference = "#/$defs/" + defined;
+    if (!shared || first) {
+      each_part(schema, name, [this](Json& part, const std::string& inner) { replace(part, inner); });
+    }
+    if (!shared) return;
+    if (first) definitions_[reference.substr(std::string_view("#/$defs/").size())] = std::move(schema);
+    schema = {{"$ref", reference}};
+  }
+
+  std::string unused(const std::string& name) {
+    const int number = ++named_[name];
+    return number == 1 ? name : fmt::format("{}_{}", name, number);
+  }
+
+  Json& root_;
+  Json definitions_ = Json::object();
+  std::map<std::string, int> uses_, named_;
+  std::map<std::string, std::string> names_;  ///< by text
+};
+
+Json schema_of(const ConfigOutline& node, bool partial);
 
 std::string description(const fields::Field& field) {
   if (field.unit.empty()) return std::string(field.meaning);
@@ -21,7 +79,7 @@ std::string description(const fields::Field& field) {
 }
 
 /// The value as JSON; numbers by way of their text, so that 0.1 stays 0.1.
-Json value_of(const Outline& node) {
+Json value_of(const ConfigOutline& node) {
   if (!node.present) return nullptr;
   switch (node.kind) {
     case Kind::number:
@@ -30,7 +88,7 @@ Json value_of(const Outline& node) {
       return Json::parse(node.value);
     case Kind::list: {
       Json list = Json::array();
-      for (const Outline& part : node.parts) list.push_back(value_of(part));
+      for (const ConfigOutline& part : node.parts) list.push_back(value_of(part));
       return list;
     }
     default:
@@ -38,7 +96,7 @@ Json value_of(const Outline& node) {
   }
 }
 
-Json bounds_of(const Outline& node) {
+Json bounds_of(const ConfigOutline& node) {
   Json schema = Json::object();
   if (node.kind != Kind::number && node.kind != Kind::integer) return schema;
   const auto put = [&](const char* keyword, const std::optional<double>& bound) {
@@ -53,15 +111,16 @@ Json bounds_of(const Outline& node) {
 }
 
 /// Whether some key under these fields must stand there, unless a file that is used gives it.
-bool demands_something(const std::vector<Outline>& fields) {
-  return std::any_of(fields.begin(), fields.end(), [](const Outline& field) {
+bool demands_something(const std::vector<ConfigOutline>& fields) {
+  return std::any_of(fields.begin(), fields.end(), [](const ConfigOutline& field) {
     return field.field.required || field.kind == Kind::variant || demands_something(field.parts);
   });
 }
 
 /// A map of these fields and no others. Laid over a used file (`partial`) it may leave out any of them.
 /// @param selector, name  a first key of constant value, unless they are empty.
-Json closed_map(const std::vector<Outline>& fields, std::string_view selector, std::string_view name, bool partial) {
+Json closed_map(const std::vector<ConfigOutline>& fields, std::string_view selector, std::string_view name,
+                bool partial) {
   Json schema = {{"type", "object"}};
   Json& properties = schema["properties"] = Json::object();
   Json required = Json::array();
@@ -70,7 +129,7 @@ Json closed_map(const std::vector<Outline>& fields, std::string_view selector, s
     required.push_back(selector);
   }
   properties["use"] = {{"type", "string"}, {"description", "file whose map this one is laid over"}};
-  for (const Outline& field : fields) {
+  for (const ConfigOutline& field : fields) {
     properties[field.key] = schema_of(field, partial);
     if (field.field.required && !partial) required.push_back(field.key);
   }
@@ -79,7 +138,8 @@ Json closed_map(const std::vector<Outline>& fields, std::string_view selector, s
   return schema;
 }
 
-Json group_schema(const std::vector<Outline>& fields, std::string_view selector, std::string_view name, bool partial) {
+Json group_schema(const std::vector<ConfigOutline>& fields, std::string_view selector, std::string_view name,
+                  bool partial) {
   if (partial || !demands_something(fields)) return closed_map(fields, selector, name, partial);
   return {{"if", {{"type", "object"}, {"required", {"use"}}}},
           {"then", closed_map(fields, selector, name, true)},
@@ -87,11 +147,11 @@ Json group_schema(const std::vector<Outline>& fields, std::string_view selector,
 }
 
 /// A map without the selector, which a used file gives: any key of any choice.
-Json unnamed_choice(const Outline& node, bool partial) {
+Json unnamed_choice(const ConfigOutline& node, bool partial) {
   Json properties = {{"use", {{"type", "string"}}}};
-  for (const Outline& choice : node.all) {
+  for (const ConfigOutline& choice : node.all) {
     if (choice.chosen_by_key) continue;
-    for (const Outline& field : choice.parts) properties[field.key] = true;
+    for (const ConfigOutline& field : choice.parts) properties[field.key] = true;
   }
   Json schema = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
   if (!partial) schema["required"] = {"use"};
@@ -99,11 +159,11 @@ Json unnamed_choice(const Outline& node, bool partial) {
 }
 
 /// One rule a choice, so that what is told of a wrong key is told of the choice it stands in.
-Json variant_schema(const Outline& node, bool partial) {
+Json variant_schema(const ConfigOutline& node, bool partial) {
   const std::string selector(node.field.selector);
   const Json selected = {{"type", "object"}, {"required", {selector}}};
   Json rules = Json::array(), names = Json::array(), unselected = Json::array();
-  for (const Outline& choice : node.all) {
+  for (const ConfigOutline& choice : node.all) {
     Json schema = group_schema(choice.parts, choice.chosen_by_key ? "" : selector, choice.key, partial);
     schema["title"] = choice.key;
     schema["description"] = choice.meaning;
@@ -122,7 +182,7 @@ Json variant_schema(const Outline& node, bool partial) {
   return {{"type", "object"}, {"allOf", std::move(rules)}};
 }
 
-Json scalar_schema(const Outline& node) {
+Json scalar_schema(const ConfigOutline& node) {
   switch (node.kind) {
     case Kind::number:
       return {{"type", "number"}};
@@ -137,7 +197,7 @@ Json scalar_schema(const Outline& node) {
   }
 }
 
-Json schema_of(const Outline& node, bool partial) {
+Json schema_of(const ConfigOutline& node, bool partial) {
   Json schema;
   if (node.open) {
     schema = {{"type", "object"}};
@@ -165,10 +225,10 @@ Json schema_of(const Outline& node, bool partial) {
 
 }  // namespace
 
-std::string schema_text(const std::vector<Outline>& fields, const std::string& title) {
+std::string schema_text(const std::vector<ConfigOutline>& fields, const std::string& title) {
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
   schema.update(group_schema(fields, "", "", false));
-  share_definitions(schema);
+  Sharing{schema};
   return schema.dump(2) + "\n";
 }
 

@@ -1,4 +1,4 @@
-#include "sim/config/writer.h"
+#include "sim/config/outline_texts.h"
 
 #include <fmt/format.h>
 
@@ -8,44 +8,44 @@
 namespace hedgehop::sim {
 namespace {
 
-std::string scalar(const Outline& node) {
-  return node.kind == Outline::Kind::text ? yaml_quoted(node.value) : node.value;
+std::string scalar(const ConfigOutline& node) {
+  return node.kind == ConfigOutline::Kind::text ? yaml_quoted(node.value) : node.value;
 }
 
-void write_fields(const std::vector<Outline>& fields, int indent, std::string& out);
+void write_fields(const std::vector<ConfigOutline>& fields, int indent, std::string& out);
 
 /// What follows "key:" or the like: on the same line for scalars and lists of them, else below, indented.
-void write_value(const Outline& node, int indent, std::string& out) {
+void write_value(const ConfigOutline& node, int indent, std::string& out) {
   if (!node.present) {
     out += " ~\n";
   } else if (node.is_scalar()) {
     out += fmt::format(" {}\n", scalar(node));
-  } else if (node.kind == Outline::Kind::list && std::ranges::all_of(node.parts, &Outline::is_scalar)) {
+  } else if (node.kind == ConfigOutline::Kind::list && std::ranges::all_of(node.parts, &ConfigOutline::is_scalar)) {
     std::vector<std::string> items;
-    for (const Outline& item : node.parts) items.push_back(scalar(item));
+    for (const ConfigOutline& item : node.parts) items.push_back(scalar(item));
     out += fmt::format(" [{}]\n", fmt::join(items, ", "));
-  } else if (node.kind == Outline::Kind::list) {
+  } else if (node.kind == ConfigOutline::Kind::list) {
     out += "\n";
-    for (const Outline& item : node.parts) {
+    for (const ConfigOutline& item : node.parts) {
       std::string text;
       write_value(item, indent + 2, text);
       // A map's first key stands beside the dash, where the line break and the indent would be.
       const bool has_keys = text.starts_with('\n');
       out += fmt::format("{:{}}-{}", "", indent, has_keys ? text.substr(static_cast<size_t>(indent) + 2) : text);
     }
-  } else if (node.kind == Outline::Kind::group && node.parts.empty()) {
+  } else if (node.kind == ConfigOutline::Kind::group && node.parts.empty()) {
     out += " {}\n";
   } else {
     out += "\n";
-    if (node.kind == Outline::Kind::variant && !node.chosen_by_key) {
+    if (node.kind == ConfigOutline::Kind::variant && !node.chosen_by_key) {
       out += fmt::format("{:{}}{}: {}\n", "", indent, node.field.selector, node.chosen);
     }
     write_fields(node.parts, indent, out);
   }
 }
 
-void write_fields(const std::vector<Outline>& fields, int indent, std::string& out) {
-  for (const Outline& field : fields) {
+void write_fields(const std::vector<ConfigOutline>& fields, int indent, std::string& out) {
+  for (const ConfigOutline& field : fields) {
     out += fmt::format("{:{}}{}:", "", indent, field.key);
     write_value(field, indent + 2, out);
   }
@@ -53,7 +53,7 @@ void write_fields(const std::vector<Outline>& fields, int indent, std::string& o
 
 }  // namespace
 
-std::string yaml_text(const std::vector<Outline>& fields) {
+std::string yaml_text(const std::vector<ConfigOutline>& fields) {
   std::string out;
   write_fields(fields, 0, out);
   return out;

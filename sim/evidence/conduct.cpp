@@ -49,15 +49,15 @@ std::string rule_words(const std::optional<StoppingRule>& rule) {
 }  // namespace
 
 Registration read_registration(const std::filesystem::path& file) {
-  Faults faults;
+  ErrorList faults("plan");
   const Node root = load_tree(file, faults);
   Registration plan{.file = file, .sha256 = sha256(file)};
   if (root.kind == Node::Kind::map) read_struct(root, "", "", plan.config, faults);
-  faults.raise();
+  faults.throw_if_any();
   for (size_t i = 0; i < plan.config.flights.size(); ++i) {
     RegisteredFlights& flights = plan.config.flights[i];
     if (std::string fault = judging_fault(plan.config.tuned_on.seeds, flights.seeds); !fault.empty()) {
-      faults.add(place_of(root, fmt::format("flights.{}.seeds", i)), std::move(fault));
+      faults.add(position_of(root, fmt::format("flights.{}.seeds", i)), std::move(fault));
     }
     flights.scenario = (file.parent_path() / flights.scenario).lexically_normal().string();
   }
@@ -65,10 +65,10 @@ Registration read_registration(const std::filesystem::path& file) {
     try {
       parse_rate_claim(plan.config.rule->until);
     } catch (const InputError& error) {
-      faults.add(place_of(root, "rule.until"), error.faults().front());
+      faults.add(position_of(root, "rule.until"), error.errors().front());
     }
   }
-  faults.raise();
+  faults.throw_if_any();
   return plan;
 }
 

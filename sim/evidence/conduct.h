@@ -8,6 +8,7 @@
 
 #include "sim/batch/campaign_file.h"
 #include "sim/evidence/claims.h"
+#include "sim/fields/field.h"
 
 namespace hedgehop::sim {
 
@@ -17,7 +18,7 @@ struct RegisteredFlights {
   std::string seeds;
 };
 template <class Visitor>
-void describe(Visitor& v, RegisteredFlights& c) {
+void describe(Visitor& v, fields::ConfigOf<RegisteredFlights> auto& c) {
   v("scenario", c.scenario, {.required = true, .meaning = "scenario file, relative to this file"});
   v("seeds", c.seeds, {.required = true, .meaning = "seeds such as 1001:1400, none of tuned_on"});
 }
@@ -28,7 +29,7 @@ struct RegisteredRule {
   double confidence = 0.95;
 };
 template <class Visitor>
-void describe(Visitor& v, RegisteredRule& c) {
+void describe(Visitor& v, fields::ConfigOf<RegisteredRule> auto& c) {
   v("until", c.until, {.required = true, .meaning = "claim as of `hedgehop batch --until`, such as collision < 0.01"});
   v("confidence", c.confidence, {.at_least = 0.5, .below = 1.0, .meaning = "of the claim"});
 }
@@ -39,7 +40,7 @@ struct RegisteredTuning {
   int64_t settings_tried = 0;
 };
 template <class Visitor>
-void describe(Visitor& v, RegisteredTuning& c) {
+void describe(Visitor& v, fields::ConfigOf<RegisteredTuning> auto& c) {
   v("seeds", c.seeds, {.required = true, .meaning = "seeds that parameters were chosen on, such as 1:100, or none"});
   v("settings_tried", c.settings_tried, {.at_least = 0, .meaning = "how many settings were tried on them"});
 }
@@ -53,7 +54,7 @@ struct PlanConfig {
   std::string build;
 };
 template <class Visitor>
-void describe(Visitor& v, PlanConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<PlanConfig> auto& c) {
   v("question", c.question, {.required = true, .meaning = "what the flights are to answer, in words"});
   v("flights", c.flights, {.required = true, .meaning = "scenarios, each with its seeds"});
   v("rule", c.rule, {.meaning = "when to stop; without it, all flights are flown"});

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "sim/batch/flight_table.h"
+#include "sim/config/config_tree.h"
 #include "sim/config/input_error.h"
 #include "sim/config/numbers.h"
-#include "sim/config/tree.h"
 
 namespace hedgehop::sim {
 namespace {

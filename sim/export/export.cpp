@@ -15,7 +15,7 @@
 #include "sim/flight/build.h"
 #include "sim/record/image_file.h"
 #include "sim/record/whole_file.h"
-#include "sim/scenario/mounting.h"
+#include "sim/scenario/rig.h"
 #include "sim/simulation/simulation.h"
 
 namespace hedgehop::sim {

@@ -8,9 +8,9 @@
 #include "sim/batch/seeds.h"
 #include "sim/config/include.h"
 #include "sim/config/reader.h"
-#include "sim/scenario/check_faults.h"
 #include "sim/scenario/flight_parts.h"
 #include "sim/scenario/inputs.h"
+#include "sim/scenario/validate.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -57,11 +57,11 @@ void add_parameters(const std::vector<FalsifyParameter>& parameters, FalsifySear
 
 class Inspector {
  public:
-  Inspector(const FalsifyConfig& config, const Node& root, Faults& faults)
+  Inspector(const FalsifyConfig& config, const Node& root, ErrorList& faults)
       : config_(config), root_(root), faults_(faults) {}
 
   void inspect() {
-    if (config_.parameters.empty() && !config_.boxes) faults_.add(root_.place, "needs 'parameters' or 'boxes'");
+    if (config_.parameters.empty() && !config_.boxes) faults_.add(root_.position, "needs 'parameters' or 'boxes'");
     std::set<std::string> paths;
     for (size_t i = 0; i < config_.parameters.size(); ++i) {
       const FalsifyParameter& p = config_.parameters[i];
@@ -88,22 +88,22 @@ class Inspector {
       }
     }
   }
-  void add(const std::string& path, const std::string& message) { faults_.add(place_of(root_, path), message); }
+  void add(const std::string& path, const std::string& message) { faults_.add(position_of(root_, path), message); }
 
   const FalsifyConfig& config_;
   const Node& root_;
-  Faults& faults_;
+  ErrorList& faults_;
 };
 
-void require_known_checks(const FalsifySearch& search, const Node& root, Faults& faults) {
+void require_known_checks(const FalsifySearch& search, const Node& root, ErrorList& faults) {
   const std::vector<std::string> names = check_names(search.scenario);
   const std::vector<std::string_view> known(names.begin(), names.end());
   for (const std::string& name : search.config.robustness) {
     if (std::ranges::find(names, name) != names.end()) continue;
-    faults.add(place_of(root, "robustness"),
+    faults.add(position_of(root, "robustness"),
                fmt::format("the scenario has no check '{}'{}", name, suggestion(name, known)));
   }
-  if (names.empty()) faults.add(place_of(root, "scenario"), "the scenario has no checks: nothing can fail");
+  if (names.empty()) faults.add(position_of(root, "scenario"), "the scenario has no checks: nothing can fail");
 }
 
 }  // namespace
@@ -111,30 +111,30 @@ void require_known_checks(const FalsifySearch& search, const Node& root, Faults&
 std::string box_path(size_t box, std::string_view key) { return fmt::format("scene.boxes.{}.{}", box, key); }
 
 FalsifySearch read_falsify(const std::filesystem::path& file, std::span<const std::string> overrides) {
-  Faults faults;
+  ErrorList faults("search");
   std::set<std::filesystem::path> read;
   Node root = load_tree(file, faults, read);
   if (root.kind == Node::Kind::map) apply_overrides(root, overrides, file, faults, read);
   FalsifySearch search;
   if (root.kind == Node::Kind::map) read_struct(root, "", "", search.config, faults);
-  faults.raise();
+  faults.throw_if_any();
   FalsifyConfig& config = search.config;
   Inspector(config, root, faults).inspect();
-  faults.raise();
+  faults.throw_if_any();
 
   config.scenario = (file.parent_path() / config.scenario).lexically_normal().string();
   search.sweep = {.scenario = config.scenario, .seeds = config.seeds, .set = config.set};
   if (config.boxes) {
     const Scenario bare = load_scenario(config.scenario, config.set);
     const bool has_boxes = std::visit([](const auto& scene) { return !scene.added.boxes.empty(); }, bare.scene);
-    if (has_boxes) faults.add(place_of(root, "boxes"), "the scenario has boxes of its own");
-    faults.raise();
+    if (has_boxes) faults.add(position_of(root, "boxes"), "the scenario has boxes of its own");
+    faults.throw_if_any();
     add_boxes(*config.boxes, search);
   }
   add_parameters(config.parameters, search);
   if (config.design.method == FalsifyDesign::Method::direct && search.sweep.parameters.size() > kMostForDirect) {
-    faults.add(place_of(root, "design"), fmt::format("'direct' is for up to {} unknowns, here are {}", kMostForDirect,
-                                                     search.sweep.parameters.size()));
+    faults.add(position_of(root, "design"), fmt::format("'direct' is for up to {} unknowns, here are {}",
+                                                        kMostForDirect, search.sweep.parameters.size()));
   }
   if (const std::vector<std::string> refused = refused_parameters(search.sweep); !refused.empty()) {
     throw InputError(refused);
@@ -142,7 +142,7 @@ FalsifySearch read_falsify(const std::filesystem::path& file, std::span<const st
   const LoadedScenario loaded = load_flight(config.scenario, search.sweep.set);
   search.scenario = loaded.scenario;
   require_known_checks(search, root, faults);
-  faults.raise();
+  faults.throw_if_any();
   for (const std::filesystem::path& one : read) search.identity += sha256(one) + " ";
   for (const auto& [name, hash] : loaded.inputs) search.identity += hash + " ";
   for (const std::string& text : overrides) search.identity += text + " ";

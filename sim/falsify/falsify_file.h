@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/fields/field.h"
 #include "sim/scenario/scenario.h"
 #include "sim/sweep/sweep_file.h"
 
@@ -22,7 +23,7 @@ struct FalsifyParameter {
   std::optional<double> neutral;
 };
 template <class Visitor>
-void describe(Visitor& v, FalsifyParameter& c) {
+void describe(Visitor& v, fields::ConfigOf<FalsifyParameter> auto& c) {
   v("path", c.path, {.required = true, .meaning = "key of the scenario, such as wind.speed or failures.0.at"});
   v("from", c.from, {.required = true, .meaning = "lower end of the range, in the key's unit"});
   v("to", c.to, {.required = true, .meaning = "upper end of the range"});
@@ -39,7 +40,7 @@ struct FalsifyBoxes {
   Eigen::Vector2d heading_deg = {0.0, 0.0};
 };
 template <class Visitor>
-void describe(Visitor& v, FalsifyBoxes& c) {
+void describe(Visitor& v, fields::ConfigOf<FalsifyBoxes> auto& c) {
   v("count", c.count,
     {.at_least = 1, .at_most = 20, .required = true, .meaning = "how many; a failure is shrunk to fewer"});
   v("north", c.north_m, {.unit = "m", .required = true, .meaning = "range of their middles"});
@@ -62,7 +63,7 @@ struct FalsifyDesign {
   int64_t shrinking = 60;
 };
 template <class Visitor>
-void describe(Visitor& v, FalsifyDesign& c) {
+void describe(Visitor& v, fields::ConfigOf<FalsifyDesign> auto& c) {
   v("method", c.method,
     {.choices = {"cma_es", "direct", "random"},
      .meaning = "evolution strategy from the best of some random points; DIRECT_L of NLopt, for up to 5 unknowns; "
@@ -89,7 +90,7 @@ struct FalsifyConfig {
   std::vector<FalsifyParameter> parameters;
 };
 template <class Visitor>
-void describe(Visitor& v, FalsifyConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<FalsifyConfig> auto& c) {
   v("description", c.description, {.meaning = "what the search is for"});
   v("scenario", c.scenario, {.required = true, .meaning = "scenario file, relative to this file"});
   v("seeds", c.seeds,

@@ -5,14 +5,15 @@
 #include <iterator>
 #include <numbers>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "sim/fields/field.h"
 #include "sim/fields/field_types.h"
+#include "sim/fields/invalid_field.h"
 
 /// Judges values against the bounds of their fields: for the YAML reader and for every library that takes a config.
 namespace hedgehop::fields {
@@ -55,52 +56,52 @@ inline std::optional<std::string> broken_bound(double member, const Field& liste
   return {};
 }
 
-/// The visitor that judges the fields of one struct, and those of what they hold.
+/// The visitor that checks the fields of one struct, and the fields of its members, against their bounds.
 class BoundsVisitor {
  public:
-  explicit BoundsVisitor(std::string_view prefix) : prefix_(prefix) {}
+  /// @param errors  gains every field out of its bounds.
+  BoundsVisitor(std::string_view prefix, std::vector<InvalidField>& errors) : prefix_(prefix), errors_(errors) {}
 
   template <class T>
   void operator()(std::string_view key, const T& value, const Field& field) const {
-    judge(prefix_.empty() ? std::string(key) : prefix_ + "." + std::string(key), value, field);
+    check(prefix_.empty() ? std::string(key) : prefix_ + "." + std::string(key), value, field);
   }
 
  private:
   template <class T>
-  static void judge(const std::string& path, const T& value, const Field& field) {
+  void check(const std::string& path, const T& value, const Field& field) const {
     if constexpr (NumberField<T>) {
       if (const auto bound = broken_bound(value, field)) {
         const double degrees = static_cast<double>(value * (180.0L / std::numbers::pi_v<long double>));
-        refuse(path, decimal(is_degrees(field.unit) ? degrees : value), *bound);
+        refuse(path, *bound, decimal(is_degrees(field.unit) ? degrees : value));
       }
     } else if constexpr (IntegerField<T>) {
       if (const auto bound = broken_bound(static_cast<double>(value), field)) {
-        refuse(path, std::to_string(value), *bound);
+        refuse(path, *bound, std::to_string(value));
       }
     } else if constexpr (ChoiceField<T>) {
       if (static_cast<size_t>(value) >= field.choices.size()) {
-        refuse(path, std::to_string(static_cast<long>(value)), "one of its choices");
+        refuse(path, "one of its choices", std::to_string(static_cast<long>(value)));
       }
     } else if constexpr (OptionalField<T>) {
-      if (value) judge(path, *value, field);
+      if (value) check(path, *value, field);
     } else if constexpr (EigenField<T> || VectorField<T>) {
       for (size_t i = 0; i < static_cast<size_t>(value.size()); ++i) {
-        judge(path + "." + std::to_string(i), item(value, i), field);
+        check(path + "." + std::to_string(i), item(value, i), field);
       }
     } else if constexpr (VariantField<T>) {
-      std::visit([&](const auto& chosen) { judge_struct(path, chosen); }, value);
+      std::visit([&](const auto& chosen) { check_struct(path, chosen); }, value);
     } else if constexpr (SealedField<T>) {
-      value.require_bounds(path);
+      value.check_bounds(path, errors_);
     } else if constexpr (StructField<T>) {
-      judge_struct(path, value);
+      check_struct(path, value);
     }
   }
 
   template <StructField T>
-  static void judge_struct(const std::string& path, const T& value) {
-    BoundsVisitor visitor(path);
-    T copy = value;  // describe() takes what a reader may write to
-    describe(visitor, copy);
+  void check_struct(const std::string& path, const T& value) const {
+    BoundsVisitor visitor(path, errors_);
+    describe(visitor, value);
   }
 
   template <class T>
@@ -108,24 +109,30 @@ class BoundsVisitor {
     return list[static_cast<decltype(list.size())>(index)];
   }
 
-  [[noreturn]] static void refuse(const std::string& path, const std::string& value, const std::string& bound) {
-    throw std::invalid_argument(path + ": " + value + "; must be " + bound);
+  void refuse(const std::string& path, const std::string& bound, const std::string& value) const {
+    errors_.emplace_back(path, "must be " + bound + ", got " + value);
   }
 
   std::string prefix_;
+  std::vector<InvalidField>& errors_;
 };
 
-/// Returns the config after requiring that every number in `config` is finite and that every value keeps the bounds of
-/// its field.
-/// @param config  a struct with describe(); structs, lists, optionals and variants inside it are judged too.
-/// @param prefix  dotted key of the config, or "" when the keys are to begin with its own.
-/// Throws std::invalid_argument "<dotted.key>: <value>; must be <bound> <unit>", as in "lens.fov: 190; must be < 180
-/// deg".
+/// Returns every field of a config that is not finite or out of its bounds.
+/// @param config  a struct with describe(), including its structs, lists, optionals and variants.
+/// @param prefix  dotted key of the config; "" if the keys begin with its own.
+template <class Config>
+std::vector<InvalidField> invalid_fields(const Config& config, std::string_view prefix = "") {
+  std::vector<InvalidField> errors;
+  BoundsVisitor visitor(prefix, errors);
+  describe(visitor, config);
+  return errors;
+}
+
+/// Returns the config. Throws the first of its invalid_fields(), as in "lens.fov: must be < 180 deg, got 190".
 template <class Config>
 const Config& require_bounds(const Config& config, std::string_view prefix = "") {
-  BoundsVisitor visitor(prefix);
-  Config copy = config;  // describe() takes what a reader may write to
-  describe(visitor, copy);
+  const std::vector<InvalidField> errors = invalid_fields(config, prefix);
+  if (!errors.empty()) throw InvalidField(errors.front());
   return config;
 }
 

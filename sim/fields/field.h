@@ -1,8 +1,10 @@
 #pragma once
 
+#include <concepts>
 #include <initializer_list>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace hedgehop::fields {
@@ -21,6 +23,17 @@ struct Field {
   std::string_view meaning = "";
 };
 
+/// `Config` or `const Config`: `describe(Visitor& v, fields::ConfigOf<FlowConfig> auto& c)` lists the fields of a
+/// config to visitors that write them and to visitors that only read them.
+template <class T, class Config>
+concept ConfigOf = std::same_as<std::remove_const_t<T>, Config>;
+
+/// Returns the part of a config that it inherits from `Base`, const if the config is.
+template <class Base, class Config>
+constexpr auto& base(Config& config) {
+  return static_cast<std::conditional_t<std::is_const_v<Config>, const Base, Base>&>(config);
+}
+
 /// Returns the greatest magnitude of a field in this unit that states no bound of its own; nothing for other units.
 /// They keep what is computed from a config finite.
 constexpr std::optional<double> unit_limit(std::string_view unit) {
@@ -32,7 +45,7 @@ constexpr std::optional<double> unit_limit(std::string_view unit) {
 }
 
 /// The lowest rate of what happens again and again, Hz: once in 100 s.
-inline constexpr double kSlowestHz = 0.01;
+inline constexpr double kMinRateHz = 0.01;
 
 /// Returns the field with a bound on either side where its unit has a limit.
 inline Field bounded(Field field) {

@@ -24,7 +24,7 @@ class Aircraft {
     avionics_.sense(ticks_.t_ns(tick), truth(world, tick), flow_velocity);
   }
   /// Runs the autopilot. @param dt_s  until the next call.
-  void steer(const dynamics::control::Setpoint& setpoint, double dt_s) {
+  void run_autopilot(const dynamics::control::Setpoint& setpoint, double dt_s) {
     actuators_ = avionics_.control(setpoint, dt_s);
   }
   /// Moves on by one tick. @param tick  that it leaves.

@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <functional>
 #include <stdexcept>
+#include <utility>
 
-#include "sim/config/input_error.h"
 #include "sim/fields/quantities.h"
 #include "sim/libm/random.h"
-#include "sim/scenario/mounting.h"
+#include "sim/scenario/rig.h"
+#include "sim/scenario/scenario.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -28,20 +29,15 @@ ImageChannel to_render_channel(CameraConfig::Channel channel) {
   throw std::logic_error("unknown channel");
 }
 
-/// Before the flight, not at its first image.
-void require_samples(const CameraConfig& camera, Renderer& renderer) {
-  try {
-    renderer.require_samples(camera.samples);
-  } catch (const std::invalid_argument& fault) {
-    throw InputError(fmt::format("camera '{}': samples: {}", camera.role, fault.what()));
-  }
-}
-
-std::optional<CornerDetector> detector_of(const CameraConfig& camera, const scenes::Scene& scene, uint64_t seed) {
+/// @param path  of the camera in the scenario.
+std::optional<CornerDetector> detector_of(const CameraConfig& camera, const scenes::Scene& scene, uint64_t seed,
+                                          const std::string& path) {
   if (camera.channel != CameraConfig::Channel::corners) return std::nullopt;
   if (scene.corners_W.empty()) {
-    throw InputError(fmt::format("camera '{}': channel: corners: scene '{}' has no known corners; 'highrise' has",
-                                 camera.role, scene.name));
+    throw InputError(
+        FieldError{path + ".channel", fmt::format("camera '{}' delivers corners, but scene '{}' has no known "
+                                                  "corners; valid: scene 'highrise'",
+                                                  camera.role, scene.name)});
   }
   return CornerDetector(scene.corners_W, camera.corner_noise_px, stream_seed(seed, "corners." + camera.role));
 }
@@ -53,10 +49,12 @@ Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& 
     : renderer_(renderer), failures_(failures.begin(), failures.end()) {
   for (const scenes::Mover& mover : scene.movers) movers_.push_back(mover.motion);
   for (const scenes::Mesh& mesh : scene.meshes) first_mover_label_ += static_cast<int>(mesh.chunks.size());
-  for (const CameraConfig& camera : rig.cameras) {
-    require_samples(camera, renderer_);
+  for (size_t i = 0; i < rig.cameras.size(); ++i) {
+    const CameraConfig& camera = rig.cameras[i];
+    const std::string path = fmt::format("rig.cameras.{}", i);
+    build_part(path + ".samples", [&] { renderer_.require_samples(camera.samples); });
     channels_.push_back(to_render_channel(camera.channel));
-    detectors_.push_back(detector_of(camera, scene, seed));
+    detectors_.push_back(detector_of(camera, scene, seed, path));
     samples_.push_back(camera.samples);
     periods_.push_back(ticks.period(camera.rate_hz));
     period_ns_.push_back(ticks.t_ns(periods_.back()));
@@ -171,6 +169,22 @@ void Cameras::draw(size_t camera, ImageChannel channel, const Instant& now, cons
   const bool blurs = channel == ImageChannel::grey || channel == ImageChannel::color;  // truth is that of the middle
   shutters_[camera].expose(now.body, blurs ? image_speed_pxps(camera, now) : 0.0, mounted.model.height_px,
                            std::ref(draw_rows), out);
+}
+
+CornerDetector::CornerDetector(std::vector<Eigen::Vector3d> corners_W, double noise_px, uint64_t seed)
+    : corners_W_(std::move(corners_W)), noise_px_(noise_px), noise_(seed) {}
+
+cv::Mat CornerDetector::detect(const vision::camera::Camera& camera, const Eigen::Isometry3d& X_WC) {
+  cv::Mat detected = nothing();
+  for (const Eigen::Vector3d& p_W : corners_W_) {
+    const auto pixel = camera.project(X_WC.inverse() * p_W);
+    const bool in_image = pixel && pixel->x() >= 0.0 && pixel->y() >= 0.0 && pixel->x() <= camera.width_px - 1 &&
+                          pixel->y() <= camera.height_px - 1;
+    if (!in_image) continue;
+    const double right_px = noise_px_ * noise_.normal(), down_px = noise_px_ * noise_.normal();
+    detected.push_back(cv::Vec2d(pixel->x() + right_px, pixel->y() + down_px));
+  }
+  return detected;
 }
 
 }  // namespace hedgehop::sim

@@ -1,21 +1,47 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
+#include <opencv2/core.hpp>
 #include <optional>
+#include <random>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "avoidance/module.h"
-#include "sim/loop/corner_detector.h"
+#include "sim/libm/random.h"
 #include "sim/loop/imperfections.h"
 #include "sim/loop/shutter.h"
 #include "sim/loop/ticks.h"
 #include "sim/render/renderer.h"
 #include "sim/scenario/failures.h"
 #include "sim/scenario/rig.h"
+#include "vision/camera/camera.h"
 
 namespace hedgehop::sim {
+
+/// An ideal corner detector in a camera's place, made from the truth: positions of those known corners of the scene
+/// that lie in the image, whatever stands before them, each with white noise. It is the front end of [Shah2009] ch. 4,
+/// which has no images.
+class CornerDetector {
+ public:
+  /// @param corners_W  m. @param noise_px  standard deviation per axis, >= 0. @param seed  of the noise's stream.
+  CornerDetector(std::vector<Eigen::Vector3d> corners_W, double noise_px, uint64_t seed);
+
+  /// Returns the frame of a camera. @param X_WC  its pose, true. Each call draws new noise.
+  /// @return N x 1, CV_64FC2: (u, v), px, in the order of the corners; the noise may carry one over the image's edge.
+  cv::Mat detect(const vision::camera::Camera& camera, const Eigen::Isometry3d& X_WC);
+
+  /// Returns what it delivers when nothing is detected: 0 x 1, CV_64FC2.
+  static cv::Mat nothing() { return cv::Mat(0, 1, CV_64FC2); }
+
+ private:
+  std::vector<Eigen::Vector3d> corners_W_;
+  double noise_px_;
+  RandomStream noise_;
+};
 
 /// The rig in flight: which camera exposes when, and what each saw last. All cameras that expose on one tick are drawn
 /// from the same vehicle state, and from where they truly sit, which the calibration may miss.

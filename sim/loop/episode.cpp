@@ -7,76 +7,76 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/loop/setpoints.h"
+#include "sim/loop/module_pilot.h"
 
 namespace hedgehop::sim {
 namespace {
 
-/// Solids farther from the hull than this count as absent, m: no clearance beyond it is of interest.
+/// Search radius for solids around the hull, m: larger clearances are not of interest.
 constexpr double kSearchRadiusM = 50.0;
 
 }  // namespace
 
-Episode::Episode(const Scenario& scenario, Stage& stage, FlightParts parts, FlightWatcher* watcher,
+Episode::Episode(const Scenario& scenario, FlightEnvironment& environment, FlightParts parts, FlightWatcher* watcher,
                  MapObserver* map_observer)
     : scenario_(scenario),
       ticks_(scenario.physics_rate_hz),
-      stage_(stage),
+      environment_(environment),
       aircraft_(scenario, ticks_, std::move(parts.aircraft)),
-      cameras_(scenario.rig, ticks_, *stage.scene, stage.renderer, scenario.seed, scenario.failures),
+      cameras_(scenario.rig, ticks_, *environment.scene, environment.renderer, scenario.seed, scenario.failures),
       pilot_(scenario, ticks_, cameras_, std::move(parts.module)),
-      onlooker_(watcher, ticks_, cameras_, aircraft_),
+      watcher_dispatch_(watcher, ticks_, cameras_, aircraft_),
       map_observer_(map_observer),
       control_period_(ticks_.period(static_cast<double>(scenario.control_rate_hz))),
-      log_(*stage.scene, aircraft_.vehicle()) {
+      log_(*environment.scene, aircraft_.vehicle()) {
   if (scenario.velocimeter.enabled) {
     velocimeter_.emplace(cameras_.index(scenario.velocimeter.camera), cameras_);
   }
-  aircraft_.reset(stage_.collision);
+  aircraft_.reset(environment_.collision);
   const double heading_rad = pilot_.route().goal().heading_rad;
-  pilot_.reset(stage_.hull, dynamics::control::PositionSetpoint{aircraft_.body().p_WB, heading_rad});
+  pilot_.reset(environment_.hull, dynamics::control::PositionSetpoint{aircraft_.body().p_WB, heading_rad});
   log_.set_signals(pilot_.module().signals());
   p_WB_start_ = aircraft_.body().p_WB;
-  arrive();
+  begin_tick();
 }
 
 void Episode::tick(const avoidance::Command* command) {
   if (over()) throw std::logic_error("the flight is over");
-  if (command || decides()) obeys_ = command != nullptr;
-  act(command);
+  if (command || decides()) overridden_ = command != nullptr;
+  complete_tick(command);
   if (over()) return;
   move();
   ++tick_;
-  arrive();
+  begin_tick();
 }
 
-void Episode::arrive() {
+void Episode::begin_tick() {
   measure_proximity();
-  look();
-  sense();
-  onlooker_.hand_over_sensors(tick_, motion());
+  expose_cameras();
+  read_sensors();
+  watcher_dispatch_.send_sensors(tick_, motion());
   observation_.reset();
   if (pilot_.decides(tick_)) observation_ = pilot_.observe(tick_, to_navigation_state(aircraft_.avionics()));
   if (const std::optional<Ending> reason = ending()) {
-    act(nullptr);
+    complete_tick(nullptr);
     end(*reason);
   }
 }
 
-void Episode::act(const avoidance::Command* command) {
+void Episode::complete_tick(const avoidance::Command* command) {
   if (command) {
-    obey(*command);
-  } else if (decides() && !obeys_) {
+    override_decision(*command);
+  } else if (decides() && !overridden_) {
     decide();
   }
-  if (tick_ % control_period_ == 0) steer();
+  if (tick_ % control_period_ == 0) run_autopilot();
   const auto annotate = [this] {
     cv::Mat image;
-    ask([&] { image = pilot_.module().annotate(); });
+    call_module([&] { image = pilot_.module().annotate(); });
     return image;
   };
-  onlooker_.show(tick_, annotate, log_.status(), proximity_.obstacle_clearance_m, scenario_.duration_s,
-                 goal_distance_m());
+  watcher_dispatch_.send_images(tick_, annotate, log_.status(), proximity_.obstacle_clearance_m, scenario_.duration_s,
+                                goal_distance_m());
 }
 
 Flight Episode::flight() const {
@@ -96,13 +96,13 @@ Flight Episode::flight() const {
       result.metrics.push_back({std::string(kModulePrefix) + metric.name, metric.value, metric.unit,
                                 metric.is_wall_time ? FigureKind::wall_time : FigureKind::module});
     }
-  } catch (const std::exception& error) {  // the flight stands, but its module cannot be relied on
+  } catch (const std::exception& error) {  // the flight is valid, but its module is not reliable
     result.outcome = Outcome::fault;
     result.cause = fmt::format("the module failed after its flight: {}", error.what());
   }
   flight.command_latency_s = pilot_.command_latency_s();
   flight.map = map_log_.record();
-  flight.scene = stage_.scene;
+  flight.scene = environment_.scene;
   return flight;
 }
 
@@ -112,7 +112,7 @@ avoidance::Observation Episode::observation() const {
 }
 
 void Episode::measure_proximity() {
-  proximity_ = stage_.collision.query(aircraft_.X_WB(), kSearchRadiusM, ticks_.t_s(tick_));
+  proximity_ = environment_.collision.query(aircraft_.X_WB(), kSearchRadiusM, ticks_.t_s(tick_));
   log_.add(ticks_.t_s(tick_), aircraft_.body().p_WB, proximity_);
 }
 
@@ -123,17 +123,17 @@ BodyMotion Episode::motion() const {
   return motion;
 }
 
-/// Exposes the cameras that are due and needed, all from this tick's state.
-void Episode::look() {
+/// Exposes the cameras that are due and needed, all from the state of this tick.
+void Episode::expose_cameras() {
   const bool measures = velocimeter_ && cameras_.due(velocimeter_->camera(), tick_);
   std::optional<StageTimer::Lap> lap;
-  if (measures || pilot_.looks(tick_)) lap.emplace(render_);
-  pilot_.look(tick_, motion());
+  if (measures || pilot_.exposes(tick_)) lap.emplace(render_);
+  pilot_.expose(tick_, motion());
   ground_ = measures ? cameras_.expose(velocimeter_->camera(), ticks_.t_ns(tick_), motion()) : nullptr;
 }
 
-/// Reads all sensors that are due, the velocimeter among them.
-void Episode::sense() {
+/// Reads all sensors that are due, including the velocimeter.
+void Episode::read_sensors() {
   dynamics::VelocitySensor flow_velocity;
   if (ground_) {
     flow_velocity = [this](const dynamics::control::NavigationEstimate& navigation) {
@@ -141,18 +141,18 @@ void Episode::sense() {
       return velocimeter_->measure(*ground_, navigation);
     };
   }
-  aircraft_.sense(tick_, stage_.collision, flow_velocity);
+  aircraft_.sense(tick_, environment_.collision, flow_velocity);
 }
 
 void Episode::decide() {
-  ask([this] {
+  call_module([this] {
     const StageTimer::Lap lap = decision_.lap();
     log_.add(ticks_.t_s(tick_), pilot_.decide(tick_, *observation_));
   });
   if (!over()) observe_map();
 }
 
-void Episode::ask(const std::function<void()>& call) {
+void Episode::call_module(const std::function<void()>& call) {
   try {
     call();
   } catch (const std::exception& error) {
@@ -160,32 +160,31 @@ void Episode::ask(const std::function<void()>& call) {
   }
 }
 
-void Episode::obey(const avoidance::Command& command) {
+void Episode::override_decision(const avoidance::Command& command) {
   const std::vector<double> no_signals(pilot_.module().signals().size(), std::nan(""));
-  log_.add(ticks_.t_s(tick_), {pilot_.obey(tick_, command), "commanded", no_signals});
+  log_.add(ticks_.t_s(tick_), {pilot_.override_decision(tick_, command), "commanded", no_signals});
 }
 
-/// Records the module's map, and shows it to who observes it, beside the truth.
+/// Records the module's map and passes it with the ground truth to the map observer.
 void Episode::observe_map() {
   const double t_s = ticks_.t_s(tick_);
   avoidance::Map map;
-  ask([&] { map = pilot_.module().map(); });
+  call_module([&] { map = pilot_.module().map(); });
   if (over()) return;
   if (const std::optional<size_t> camera = pilot_.first_camera(); camera && map_observer_) {
-    map_observer_->on_map({t_s, map, cameras_.truly_mounted(*camera), aircraft_.X_WB(), p_WB_start_, *stage_.scene,
-                           stage_.collision, pilot_.sees_through_walls()});
+    map_observer_->on_map({t_s, map, cameras_.truly_mounted(*camera), aircraft_.X_WB(), p_WB_start_,
+                           *environment_.scene, environment_.collision, pilot_.sees_through_walls()});
   }
   map_log_.add(t_s, std::move(map));
 }
 
-/// Runs the autopilot.
-void Episode::steer() {
+void Episode::run_autopilot() {
   const dynamics::control::Setpoint& setpoint = pilot_.setpoint(tick_);
-  aircraft_.steer(setpoint, static_cast<double>(control_period_) * ticks_.dt_s());
+  aircraft_.run_autopilot(setpoint, static_cast<double>(control_period_) * ticks_.dt_s());
   log_.add(ticks_.t_s(tick_), aircraft_, setpoint, proximity_);
 }
 
-/// How the flight ends on this tick; none where it goes on.
+/// Returns the end of the flight on this tick, if any.
 std::optional<Episode::Ending> Episode::ending() const {
   const dynamics::RigidBodyState& body = aircraft_.body();
   if (!body.p_WB.allFinite() || !body.v_WB_B.allFinite() || !body.q_WB.coeffs().allFinite()) {
@@ -196,7 +195,7 @@ std::optional<Episode::Ending> Episode::ending() const {
     const bool ground = proximity_.ground_clearance_m <= 0.0;
     const std::string what = ground || !proximity_.nearest_solid
                                  ? "the ground"
-                                 : scenes::solid_at(*stage_.scene, *proximity_.nearest_solid).name;
+                                 : scenes::solid_at(*environment_.scene, *proximity_.nearest_solid).name;
     return Ending{Outcome::collided, fmt::format("hit {} at {:.3f} s", what, ticks_.t_s(tick_))};
   }
   if (scenario_.goal && pilot_.route().on_last() && scenario_.goal->holds(body.p_WB)) {
@@ -211,7 +210,7 @@ void Episode::move() {
   aircraft_.move(tick_);
 }
 
-/// The first cause stands.
+/// Keeps the first cause.
 void Episode::end(Ending reason) {
   if (!end_) end_ = std::move(reason);
 }

@@ -1,5 +1,6 @@
 #include "sim/loop/flight_log.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -99,5 +100,14 @@ Flight FlightLog::flight(double flight_time_s) const {
   result.trajectory_hash = hash_.hex();
   return flight;
 }
+
+void TrajectoryHash::add(const dynamics::RigidBodyState& body) {
+  hash_.add({body.p_WB.data(), 3});
+  hash_.add({body.q_WB.coeffs().data(), 4});
+  hash_.add({body.v_WB_B.data(), 3});
+  hash_.add({body.w_WB_B.data(), 3});
+}
+
+std::string TrajectoryHash::hex() const { return fmt::format("{:016x}", hash_.value()); }
 
 }  // namespace hedgehop::sim

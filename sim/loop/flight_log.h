@@ -1,17 +1,31 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
+#include <string>
 
 #include "avoidance/module.h"
+#include "dynamics/rigid_body.h"
 #include "dynamics/vehicle.h"
 #include "scenes/scene.h"
 #include "sim/collision/proximity.h"
 #include "sim/flight/flight.h"
+#include "sim/libm/random.h"
 #include "sim/loop/aircraft.h"
-#include "sim/loop/trajectory_hash.h"
 
 namespace hedgehop::sim {
+
+/// 64-bit FNV-1a over the bytes of the true states: equal hashes mean equal flights, bit for bit.
+class TrajectoryHash {
+ public:
+  void add(const dynamics::RigidBodyState& body);
+  /// 16 hexadecimal digits.
+  std::string hex() const;
+
+ private:
+  Fnv1a hash_;
+};
 
 /// Gathers a flight's tables and figures while it is flown.
 class FlightLog {

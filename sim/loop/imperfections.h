@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 
-#include "sim/scenario/imperfections.h"
+#include "sim/scenario/rig.h"
 
 namespace hedgehop::sim {
 
@@ -41,5 +41,12 @@ class Imperfections {
 
 /// Makes an image what a dead sensor gives: 0 in 8 bits, NaN (unknown) in floats.
 void blank(cv::Mat& image);
+
+/// Fills an image with independent standard normal numbers; equal seeds give equal images. Each comes from 16 bits of
+/// SplitMix64's output at a place of its own: one of 65,536 equally likely numbers, the quantiles of the middles of as
+/// many equal shares [Wichura1988] p. 483, scaled to a variance of 1. None lies beyond 4.4, where the normal
+/// distribution leaves one in 90,000.
+/// @param image  CV_32F, of any size and number of channels.
+void fill_normal(uint64_t seed, cv::Mat& image);
 
 }  // namespace hedgehop::sim

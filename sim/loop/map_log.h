@@ -1,8 +1,11 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "avoidance/module.h"
+#include "scenes/scene.h"
+#include "sim/collision/proximity.h"
 #include "sim/flight/flight.h"
 
 namespace hedgehop::sim {
@@ -20,6 +23,26 @@ class MapLog {
  private:
   avoidance::Map last_;
   std::vector<PlannedPath> paths_;
+};
+
+/// A module's map at one decision, and the truth to compare it with. Good until the next call.
+struct MapInstant {
+  double t_s = 0.0;
+  const avoidance::Map& map;
+  const avoidance::MountedCamera& camera;  ///< the first that the module needs, as it is truly mounted
+  Eigen::Isometry3d X_WB_true;
+  Eigen::Vector3d p_WB_start_true;  ///< where the flight began, m
+  const scenes::Scene& scene;
+  const CollisionWorld& world;
+  bool sees_through_walls = false;  ///< whether the module gets corners that solids hide
+};
+
+/// Observes a module's map, decision by decision; cannot reach the flight.
+class MapObserver {
+ public:
+  virtual ~MapObserver() = default;
+  /// After every decision of a module that needs a camera.
+  virtual void on_map(const MapInstant& now) = 0;
 };
 
 }  // namespace hedgehop::sim

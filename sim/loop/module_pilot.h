@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "avoidance/module.h"
+#include "dynamics/avionics.h"
 #include "dynamics/control/setpoint.h"
 #include "dynamics/hull.h"
 #include "sim/loop/cameras.h"
@@ -17,49 +18,49 @@
 
 namespace hedgehop::sim {
 
-/// The module in flight: which frames it gets, when it decides, and when its commands reach the autopilot.
+/// Runs the module in flight: selects its frames, schedules its decisions and delays its commands to the autopilot.
 class ModulePilot {
  public:
-  /// @param module  of the scenario; null for one that is to be loaded from its shared library.
-  /// Throws InputError for a module that cannot be loaded or does not get the cameras that it needs.
+  /// @param module  of the scenario; null for a foreign module, which is loaded.
+  /// Throws InputError for a module that cannot be loaded or whose cameras the rig lacks.
   ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& cameras,
               std::unique_ptr<avoidance::Module> module);
 
-  /// Starts a flight. @param hull  of the vehicle. @param hold  in effect until the first command is.
-  /// Throws InputError where the module does not begin.
+  /// Starts a flight. @param hull  of the vehicle. @param hold  setpoint until the first command takes effect.
+  /// Throws InputError if the module cannot be reset.
   void reset(const std::vector<dynamics::HullPart>& hull, const dynamics::control::Setpoint& hold);
 
-  /// Whether one of its cameras exposes on this tick.
-  bool looks(int64_t tick) const;
-  /// Exposes those that do.
-  void look(int64_t tick, const BodyMotion& body);
-  /// Whether it decides on this tick, look() having been called: with a frame, and without one where there has been
-  /// none for so long that it counts as blind (avoidance/blind_stop.h).
+  /// Whether one of the module's cameras exposes on this tick.
+  bool exposes(int64_t tick) const;
+  /// Exposes the module's cameras that are due.
+  void expose(int64_t tick, const BodyMotion& body);
+  /// Whether a decision is due on this tick, after expose(): with a new frame, or without one if the last frame is so
+  /// old that the module counts as blind (avoidance/blind_stop.h).
   bool decides(int64_t tick) const;
-  /// What it would decide on now: its last frames, the aircraft's own estimate of this tick, the next place to fly to.
-  /// The frames are good until the next look().
+  /// Returns the input of a decision: the frames of this tick, the aircraft's own estimate, the current waypoint. The
+  /// frames are valid until the next expose().
   avoidance::Observation observe(int64_t tick, const avoidance::NavigationState& navigation);
   /// Returns the module's decision; the command takes effect after the latency. Throws what the module throws.
   avoidance::Decision decide(int64_t tick, const avoidance::Observation& observation);
-  /// Takes a command in place of the module's. Throws std::invalid_argument when it is not finite; a speed above the
-  /// limit is scaled down to it. @return  as it will take effect.
-  avoidance::Command obey(int64_t tick, avoidance::Command command);
+  /// Queues a command that replaces the module's decision. A speed above the limit is scaled down to the limit. Throws
+  /// std::invalid_argument if it is not finite. @return the command as it will take effect.
+  avoidance::Command override_decision(int64_t tick, avoidance::Command command);
 
-  /// What the autopilot holds on this tick: the last command whose latency is over. @param tick  rising.
+  /// Returns the setpoint of the autopilot: the last command whose latency is over. @param tick  increasing.
   const dynamics::control::Setpoint& setpoint(int64_t tick);
 
   const avoidance::Module& module() const { return *module_; }
   const Route& route() const { return route_; }
-  /// The first camera it needs, if any: its map comes from this one.
+  /// Returns the first camera that the module needs, if any; its map comes from this camera.
   std::optional<size_t> first_camera() const;
   /// Whether that camera delivers the scene's corners through walls.
   bool sees_through_walls() const;
-  /// What is true of all that it gets (truth_used.h).
+  /// Returns the ground truth in the module's input (sim::truth_used()).
   const std::vector<std::string>& truth_used() const { return truth_used_; }
   double command_latency_s() const { return ticks_.t_s(latency_); }  ///< from a decision to its command's effect
 
  private:
-  void send(int64_t tick, const avoidance::Command& command);
+  void queue_command(int64_t tick, const avoidance::Command& command);
 
   /// A command before its latency is over.
   struct PendingCommand {
@@ -74,11 +75,23 @@ class ModulePilot {
   std::vector<size_t> module_cameras_;
   std::vector<std::string> truth_used_;
   int64_t decision_period_ = 0, latency_ = 0, blind_after_ = 0, last_seen_ = 0;  ///< ticks
-  bool looked_ = false;  ///< whether one of its cameras was due on this tick
+  bool exposed_ = false;  ///< whether one of the module's cameras was due on this tick
   Route route_;
   std::vector<avoidance::CameraFrame> seen_;  ///< the module's frames of this tick
   std::deque<PendingCommand> pending_;
   dynamics::control::Setpoint setpoint_;
 };
+
+/// A module's command as the autopilot takes it.
+dynamics::control::Setpoint to_setpoint(const avoidance::Command& command);
+/// The navigation filter's estimate as a module sees it.
+avoidance::NavigationState to_navigation_state(const dynamics::Avionics& avionics);
+
+/// Lists what is true of all that a module gets: "camera 'left': depth", "camera 'front': projected corners",
+/// "sensor 'gps': exact", "sensor 'imu': exact gyros". An instrument is exact when none of its readings errs: all
+/// noise, offsets, wander and misalignment are 0; that it is late, slow or sometimes silent makes it no less true.
+/// Images without noise and lenses known exactly are no truth about the world.
+/// @param needs  of the module. @param avionics  whose sensors feed its navigation.
+std::vector<std::string> truth_used(const avoidance::Needs& needs, const dynamics::AvionicsConfig& avionics);
 
 }  // namespace hedgehop::sim

@@ -4,7 +4,7 @@
 #include <functional>
 #include <opencv2/core.hpp>
 
-#include "sim/scenario/imperfections.h"
+#include "sim/scenario/rig.h"
 #include "vision/camera/camera.h"
 
 namespace hedgehop::sim {

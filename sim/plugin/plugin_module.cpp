@@ -1,4 +1,4 @@
-#include "sim/plugin/plugin_module.h"
+#include "sim/plugin/foreign_module.h"
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -9,7 +9,6 @@
 #include "sim/config/input_error.h"
 #include "sim/config/reader.h"
 #include "sim/plugin/call_guard.h"
-#include "sim/plugin/python_module.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -19,7 +18,7 @@ using avoidance::ParameterField;
 /// Reads a plugin's parameters as strictly as any of this tree.
 class ParameterReader : public avoidance::ParameterVisitor {
  public:
-  ParameterReader(const Node& map, Faults& faults) : reader_(map, "avoidance.parameters", "", faults) {}
+  ParameterReader(const Node& map, ErrorList& errors) : reader_(map, "avoidance.parameters", "", errors) {}
 
   void number(std::string_view key, double& value, const ParameterField& field) override {
     reader_(key, value, to_field(field));
@@ -130,7 +129,7 @@ class GuardedModule : public avoidance::Module {
 };
 
 [[noreturn]] void refuse(const PluginConfig& config, const std::string& why) {
-  throw InputError(fmt::format("'avoidance.plugin': {}: {}", config.plugin.string(), why));
+  throw InputError(FieldError{"avoidance.plugin", fmt::format("{}: {}", config.plugin.string(), why)});
 }
 
 /// A function that the library exports, or null.
@@ -165,8 +164,8 @@ std::unique_ptr<avoidance::Module> load_module(const PluginConfig& config) {
   if (row == names.end()) {
     refuse(config, fmt::format("has no module '{}'{}", config.module, suggestion(config.module, names)));
   }
-  Faults faults;
-  ParameterReader parameters(config.parameters, faults);
+  ErrorList errors("scenario");
+  ParameterReader parameters(config.parameters, errors);
   std::unique_ptr<avoidance::Module> module;
   try {
     module = rows[static_cast<size_t>(row - names.begin())]->make(parameters);
@@ -174,7 +173,7 @@ std::unique_ptr<avoidance::Module> load_module(const PluginConfig& config) {
     refuse(config, bad.what());
   }
   parameters.finish();
-  faults.raise();
+  errors.throw_if_any();
   return module;
 }
 

@@ -1,4 +1,4 @@
-#include "sim/plugin/python_module.h"
+#include "sim/plugin/foreign_module.h"
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ PythonMaker& known_maker() {
 }
 
 [[noreturn]] void refuse(const PythonConfig& config, const std::string& why) {
-  throw InputError(fmt::format("'avoidance.python': {}: {}", config.python.string(), why));
+  throw InputError(FieldError{"avoidance.python", fmt::format("{}: {}", config.python.string(), why)});
 }
 
 /// As YAML's core schema reads them.
@@ -95,7 +95,7 @@ void set_python_maker(PythonMaker maker) { known_maker() = std::move(maker); }
 
 std::unique_ptr<avoidance::Module> make_python_module(const PythonConfig& config) {
   if (config.parameters.kind != Node::Kind::null && config.parameters.kind != Node::Kind::map) {
-    refuse(config, "'parameters' must be a map, got " + config.parameters.words());
+    refuse(config, "'parameters' must be a map, got " + config.parameters.description());
   }
   if (!known_maker()) set_python_maker(load_maker(config));
   const std::string parameters =

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "avoidance/module.h"
-#include "sim/plugin/python_module.h"
+#include "sim/plugin/foreign_module.h"
 
 /// The library through which a program without an interpreter flies modules in Python. The package beside it does the
 /// work.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "sim/plugin/python_module.h"
+#include "sim/plugin/foreign_module.h"
 #include "sim/python/arrays.h"
 #include "sim/python/bindings.h"
 

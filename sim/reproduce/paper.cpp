@@ -19,7 +19,7 @@ namespace {
 /// Finds faults in a paper's file that go beyond single fields.
 class Examiner {
  public:
-  Examiner(const Paper& paper, const Node& root, Faults& faults)
+  Examiner(const Paper& paper, const Node& root, ErrorList& faults)
       : root_(root), faults_(faults), tuned_on_(paper.tuned_on) {
     for (const FlightGroup& group : flight_groups(paper)) names_.insert(group.name);
   }
@@ -63,7 +63,7 @@ class Examiner {
   }
 
  private:
-  void fault(const std::string& at, const std::string& words) { faults_.add(place_of(root_, at), words); }
+  void fault(const std::string& at, const std::string& words) { faults_.add(position_of(root_, at), words); }
 
   /// Requires that seeds are a subset of the flights' seeds.
   void part(const std::optional<std::string>& seeds, const std::string& whole, const std::string& at) {
@@ -72,7 +72,7 @@ class Examiner {
         fault(at, fmt::format("seeds '{}' are not all of the flights' seeds '{}'", *seeds, whole));
       }
     } catch (const InputError& error) {
-      fault(at, error.faults().front());
+      fault(at, error.errors().front());
     }
   }
 
@@ -118,7 +118,7 @@ class Examiner {
   }
 
   const Node& root_;
-  Faults& faults_;
+  ErrorList& faults_;
   std::optional<std::string> tuned_on_;
   std::set<std::string> names_, used_;
 };
@@ -159,11 +159,11 @@ std::vector<FlightGroup> flight_groups(const Paper& paper) {
 }
 
 Paper read_paper(const std::filesystem::path& file) {
-  Faults faults;
+  ErrorList faults("paper");
   const Node root = load_tree(file, faults);
   Paper paper{.key = file.stem().string(), .folder = file.parent_path()};
   if (root.kind == Node::Kind::map) read_struct(root, "", "", paper, faults);
-  faults.raise();
+  faults.throw_if_any();
   for (PaperFlights& flights : paper.flights) {
     flights.scenario = (file.parent_path() / flights.scenario).lexically_normal().string();
     if (flights.name.empty()) flights.name = std::filesystem::path(flights.scenario).stem().string();
@@ -175,7 +175,7 @@ Paper read_paper(const std::filesystem::path& file) {
   each(paper.flights, "flights");
   each(paper.rows, "rows");
   each(paper.charts, "charts");
-  faults.raise();
+  faults.throw_if_any();
   return paper;
 }
 

@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "sim/fields/field.h"
+
 /// Re-simulation of a paper's experiments, and comparison with its figures.
 namespace hedgehop::sim {
 
@@ -23,7 +25,7 @@ struct PaperFlights {
   std::optional<std::string> sensor_seeds;
 };
 template <class Visitor>
-void describe(Visitor& v, PaperFlights& c) {
+void describe(Visitor& v, fields::ConfigOf<PaperFlights> auto& c) {
   v("name", c.name, {.meaning = "name used by rows and charts; default: the scenario file's name"});
   v("scenario", c.scenario, {.required = true, .meaning = "scenario file, relative to this file"});
   v("seeds", c.seeds,
@@ -48,7 +50,7 @@ struct FlightFigure {
 /// Returns whether the statistic counts the flights with a given value of the column.
 bool counts(FlightFigure::Statistic statistic);
 template <class Visitor>
-void describe_figure(Visitor& v, FlightFigure& c) {
+void describe_figure(Visitor& v, fields::ConfigOf<FlightFigure> auto& c) {
   v("flights", c.flights, {.meaning = "names of flights"});
   v("column", c.column, {.meaning = "column of a batch's table, such as outcome, min_clearance_m or metric.jerk_rms"});
   v("is", c.is, {.meaning = "for count and share: counted value of the column, such as collided"});
@@ -65,13 +67,13 @@ struct PaperRow : FlightFigure {
   std::string calculation, value;           ///< instead of flights
 };
 template <class Visitor>
-void describe(Visitor& v, PaperRow& c) {
+void describe(Visitor& v, fields::ConfigOf<PaperRow> auto& c) {
   v("claim", c.claim, {.required = true, .meaning = "claim of the row"});
   v("paper", c.paper, {.meaning = "figure in the paper"});
   v("unit", c.unit, {.meaning = "unit of the measured figure and its bounds; '%' for a column of shares"});
   v("at_least", c.at_least, {.meaning = "minimum of the measured figure"});
   v("at_most", c.at_most, {.meaning = "maximum of the measured figure"});
-  describe_figure(v, c);
+  describe_figure(v, fields::base<FlightFigure>(c));
   v("missing", c.missing,
     {.meaning =
          "meaning of a flight without the figure: 'fails'; a number that replaces the figure; or the reason that "
@@ -88,7 +90,7 @@ struct PrintedSeries {
   std::vector<double> x, y;
 };
 template <class Visitor>
-void describe(Visitor& v, PrintedSeries& c) {
+void describe(Visitor& v, fields::ConfigOf<PrintedSeries> auto& c) {
   v("label", c.label, {.required = true, .meaning = "in the legend"});
   v("x", c.x, {.required = true, .meaning = "on the horizontal axis"});
   v("y", c.y, {.required = true, .meaning = "on the vertical axis, as many as x"});
@@ -102,10 +104,10 @@ struct GroupSeries : FlightFigure {
   std::vector<double> x;
 };
 template <class Visitor>
-void describe(Visitor& v, GroupSeries& c) {
+void describe(Visitor& v, fields::ConfigOf<GroupSeries> auto& c) {
   v("label", c.label, {.required = true, .meaning = "in the legend"});
   v("x", c.x, {.required = true, .meaning = "on the horizontal axis, one for each group of flights"});
-  describe_figure(v, c);
+  describe_figure(v, fields::base<FlightFigure>(c));
 }
 
 /// Two columns of the log of each flight of a group.
@@ -119,7 +121,7 @@ struct LogSeries {
   std::optional<uint64_t> seed;
 };
 template <class Visitor>
-void describe(Visitor& v, LogSeries& c) {
+void describe(Visitor& v, fields::ConfigOf<LogSeries> auto& c) {
   v("label", c.label, {.required = true, .meaning = "in the legend"});
   v("flights", c.flights, {.required = true, .meaning = "name of flights"});
   v("file", c.file, {.choices = {"trajectory", "decisions"}, .meaning = "which log"});
@@ -136,7 +138,7 @@ struct PathSeries {
   std::optional<uint64_t> seed;
 };
 template <class Visitor>
-void describe(Visitor& v, PathSeries& c) {
+void describe(Visitor& v, fields::ConfigOf<PathSeries> auto& c) {
   v("label", c.label, {.required = true, .meaning = "in the legend"});
   v("flights", c.flights, {.required = true, .meaning = "name of flights"});
   v("seed", c.seed, {.meaning = "of one flight; else all are drawn"});
@@ -149,7 +151,7 @@ struct CalculationSeries {
   std::string label, calculation, x, y;
 };
 template <class Visitor>
-void describe(Visitor& v, CalculationSeries& c) {
+void describe(Visitor& v, fields::ConfigOf<CalculationSeries> auto& c) {
   v("label", c.label, {.required = true, .meaning = "in the legend"});
   v("calculation", c.calculation, {.required = true, .meaning = "its name"});
   v("x", c.x, {.required = true, .meaning = "its column on the horizontal axis"});
@@ -166,7 +168,7 @@ struct PaperChart {
   std::vector<PaperSeries> series;
 };
 template <class Visitor>
-void describe(Visitor& v, PaperChart& c) {
+void describe(Visitor& v, fields::ConfigOf<PaperChart> auto& c) {
   v("title", c.title, {.required = true, .meaning = "such as 'Fig. 13: ...'"});
   v("note", c.note, {.meaning = "caption"});
   v("x", c.x, {.meaning = "name and unit of the horizontal axis; not of paths"});
@@ -190,7 +192,7 @@ struct Paper {
   std::vector<PaperChart> charts;
 };
 template <class Visitor>
-void describe(Visitor& v, Paper& c) {
+void describe(Visitor& v, fields::ConfigOf<Paper> auto& c) {
   v("title", c.title, {.required = true, .meaning = "authors, year and subject"});
   v("source", c.source, {.required = true, .meaning = "key in REFERENCES.md"});
   v("tuned_on", c.tuned_on, {.meaning = "seeds that parameters were chosen on, such as 1:100, or none; must be given"});

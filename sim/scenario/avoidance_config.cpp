@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "avoidance/module.h"
-#include "sim/config/outline.h"
+#include "sim/config/config_outline.h"
 #include "sim/config/reader.h"
 #include "sim/fields/bounds.h"
 #include "sim/scenario/avoidance_choice.h"
@@ -34,17 +34,17 @@ std::unique_ptr<avoidance::Module> AvoidanceConfig::make() const {
       choice_->module);
 }
 
-void AvoidanceConfig::read(const Node& node, const std::string& path, const fields::Field& field, Faults& faults) {
+void AvoidanceConfig::read(const Node& node, const std::string& path, const fields::Field& field, ErrorList& errors) {
   Choice choice = *choice_;
-  read_value(node, path, field, choice.module, faults);
+  read_value(node, path, field, choice.module, errors);
   *this = std::move(choice);
 }
 
-Outline AvoidanceConfig::outlined(const fields::Field& field) const { return outline(choice_->module, field); }
+ConfigOutline AvoidanceConfig::outlined(const fields::Field& field) const { return outline(choice_->module, field); }
 
-void AvoidanceConfig::require_bounds(const std::string& path) const {
-  const fields::BoundsVisitor judge("");
-  judge(path, choice_->module, {});
+void AvoidanceConfig::check_bounds(const std::string& path, std::vector<fields::InvalidField>& errors) const {
+  const fields::BoundsVisitor visitor("", errors);
+  visitor(path, choice_->module, {});
 }
 
 }  // namespace hedgehop::sim

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <variant>
 
+#include "sim/fields/field.h"
+
 /// What a scenario asserts of its flight.
 namespace hedgehop::sim {
 
@@ -17,7 +19,7 @@ struct ReachedGoalCheck {
   std::optional<double> before_s;  ///< the scenario's duration when not given
 };
 template <class Visitor>
-void describe(Visitor& v, ReachedGoalCheck& c) {
+void describe(Visitor& v, fields::ConfigOf<ReachedGoalCheck> auto& c) {
   v("within", c.within_m, {.unit = "m", .above = 0.0, .meaning = "distance to the goal; else the goal's radius"});
   v("before", c.before_s, {.unit = "s", .above = 0.0, .meaning = "latest time; else the scenario's duration"});
 }
@@ -28,7 +30,7 @@ struct NoCollisionCheck {
       "the hull has no contact; checked of every flight, unless the scenario says may_collide";
 };
 template <class Visitor>
-void describe(Visitor&, NoCollisionCheck&) {}
+void describe(Visitor&, const NoCollisionCheck&) {}
 
 struct MinClearanceCheck {
   static constexpr std::string_view kName = "min_clearance";
@@ -38,7 +40,7 @@ struct MinClearanceCheck {
   To to = To::obstacles;
 };
 template <class Visitor>
-void describe(Visitor& v, MinClearanceCheck& c) {
+void describe(Visitor& v, fields::ConfigOf<MinClearanceCheck> auto& c) {
   v("at_least", c.at_least_m, {.unit = "m", .at_least = 0.0, .required = true, .meaning = "distance to keep"});
   v("to", c.to, {.choices = {"anything", "obstacles", "ground"}, .meaning = "what to keep it from"});
 }
@@ -49,7 +51,7 @@ struct AltitudeBandCheck {
   double min_m = 0.0, max_m = 0.0;
 };
 template <class Visitor>
-void describe(Visitor& v, AltitudeBandCheck& c) {
+void describe(Visitor& v, fields::ConfigOf<AltitudeBandCheck> auto& c) {
   v("min", c.min_m, {.unit = "m", .required = true, .meaning = "lowest altitude"});
   v("max", c.max_m, {.unit = "m", .required = true, .meaning = "highest altitude"});
 }
@@ -60,7 +62,7 @@ struct InsideBoxCheck {
   double north_min_m = 0.0, north_max_m = 0.0, east_min_m = 0.0, east_max_m = 0.0;
 };
 template <class Visitor>
-void describe(Visitor& v, InsideBoxCheck& c) {
+void describe(Visitor& v, fields::ConfigOf<InsideBoxCheck> auto& c) {
   v("north_min", c.north_min_m, {.unit = "m", .required = true, .meaning = "southern edge"});
   v("north_max", c.north_max_m, {.unit = "m", .required = true, .meaning = "northern edge"});
   v("east_min", c.east_min_m, {.unit = "m", .required = true, .meaning = "western edge"});
@@ -73,7 +75,7 @@ struct MaxSpeedCheck {
   double at_most_mps = 0.0;
 };
 template <class Visitor>
-void describe(Visitor& v, MaxSpeedCheck& c) {
+void describe(Visitor& v, fields::ConfigOf<MaxSpeedCheck> auto& c) {
   v("at_most", c.at_most_mps, {.unit = "m/s", .above = 0.0, .required = true, .meaning = "highest speed"});
 }
 
@@ -83,7 +85,7 @@ struct MaxTiltCheck {
   double at_most_rad = 0.0;
 };
 template <class Visitor>
-void describe(Visitor& v, MaxTiltCheck& c) {
+void describe(Visitor& v, fields::ConfigOf<MaxTiltCheck> auto& c) {
   v("at_most", c.at_most_rad,
     {.unit = "deg", .above = 0.0, .at_most = 180.0, .required = true, .meaning = "largest angle to the vertical"});
 }
@@ -124,7 +126,7 @@ struct MetricCheck {
   std::optional<double> at_least, at_most;
 };
 template <class Visitor>
-void describe(Visitor& v, MetricCheck& c) {
+void describe(Visitor& v, fields::ConfigOf<MetricCheck> auto& c) {
   v("name", c.name, {.required = true, .meaning = "name of the metric, as in result.json"});
   v("at_least", c.at_least, {.meaning = "lowest value, in the metric's unit"});
   v("at_most", c.at_most, {.meaning = "highest value, in the metric's unit"});
@@ -139,7 +141,7 @@ struct FloorVisitedCheck {
   double at_least = 0.7;
 };
 template <class Visitor>
-void describe(Visitor& v, FloorVisitedCheck& c) {
+void describe(Visitor& v, fields::ConfigOf<FloorVisitedCheck> auto& c) {
   v("cell", c.cell_m, {.unit = "m", .above = 0.0, .meaning = "side of a square cell"});
   v("at_least", c.at_least, {.above = 0.0, .at_most = 1.0, .meaning = "share of the cells, 0 to 1"});
 }
@@ -154,7 +156,7 @@ struct PathToleranceCheck {
   Measure measure = Measure::band;
 };
 template <class Visitor>
-void describe(Visitor& v, PathToleranceCheck& c) {
+void describe(Visitor& v, fields::ConfigOf<PathToleranceCheck> auto& c) {
   v("reference", c.reference, {.required = true, .meaning = "CSV file of the reference, relative to the scenario"});
   v("at_most", c.at_most_m, {.unit = "m", .above = 0.0, .required = true, .meaning = "largest deviation"});
   v("measure", c.measure,
@@ -171,7 +173,7 @@ struct FormulaCheck {
   std::string formula;
 };
 template <class Visitor>
-void describe(Visitor& v, FormulaCheck& c) {
+void describe(Visitor& v, fields::ConfigOf<FormulaCheck> auto& c) {
   v("name", c.name, {.required = true, .meaning = "of the check in results, unlike those of other checks"});
   v("formula", c.formula, {.required = true, .meaning = "such as 'always[2,end] (clearance >= 0.5)'; times in s"});
 }
@@ -181,7 +183,7 @@ struct NoTruthUsedCheck {
   static constexpr std::string_view kMeaning = "the avoidance module gets nothing true: truth_used is empty";
 };
 template <class Visitor>
-void describe(Visitor&, NoTruthUsedCheck&) {}
+void describe(Visitor&, const NoTruthUsedCheck&) {}
 
 struct RealtimeFactorCheck {
   static constexpr std::string_view kName = "realtime_factor";
@@ -190,7 +192,7 @@ struct RealtimeFactorCheck {
   double at_least = 1.0;
 };
 template <class Visitor>
-void describe(Visitor& v, RealtimeFactorCheck& c) {
+void describe(Visitor& v, fields::ConfigOf<RealtimeFactorCheck> auto& c) {
   v("at_least", c.at_least, {.above = 0.0, .required = true, .meaning = "flight time over wall time"});
 }
 

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string_view>
 
+#include "sim/fields/field.h"
+
 namespace hedgehop::sim {
 
 /// A renderer: the implementation that makes the images.
@@ -22,7 +24,7 @@ struct DrawingConfig {
   std::optional<double> visibility_m;
 };
 template <class Visitor>
-void describe(Visitor& v, DrawingConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<DrawingConfig> auto& c) {
   v("renderer", c.renderer,
     {.choices = {kRendererNames.begin(), kRendererNames.end()},
      .meaning = "renderer of the camera images: osmesa (Mesa's software rasterizer), egl (the GPU, if the machine has "

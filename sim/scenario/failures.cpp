@@ -10,7 +10,7 @@
 #include <utility>
 #include <variant>
 
-#include "sim/config/tree.h"
+#include "sim/config/config_tree.h"
 #include "sim/libm/random.h"
 
 namespace hedgehop::sim {
@@ -84,15 +84,15 @@ std::vector<std::string> failing_names(const RigConfig& rig, const dynamics::Veh
   return names;
 }
 
-std::vector<FailureFault> faults_of(std::span<const FailureConfig> failures, double duration_s, const RigConfig& rig,
-                                    const dynamics::VehicleConfig& vehicle) {
-  std::vector<FailureFault> faults;
+std::vector<FieldError> failure_errors(std::span<const FailureConfig> failures, double duration_s, const RigConfig& rig,
+                                       const dynamics::VehicleConfig& vehicle) {
+  std::vector<FieldError> errors;
   const std::vector<std::string> names = failing_names(rig, vehicle);
   const std::vector<std::string_view> allowed(names.begin(), names.end());
   for (size_t i = 0; i < failures.size(); ++i) {
     const FailureConfig& f = failures[i];
-    const auto add = [&](std::string key, std::string message) {
-      faults.push_back({i, std::move(key), std::move(message)});
+    const auto add = [&](std::string_view key, std::string message) {
+      errors.push_back({fmt::format("failures.{}.{}", i, key), std::move(message)});
     };
     if (f.at_s >= duration_s) add("at", fmt::format("is not before the flight's end ({} s)", duration_s));
     if (f.until_s && *f.until_s <= f.at_s) add("until", fmt::format("must be greater than 'at' ({} s)", f.at_s));
@@ -124,7 +124,7 @@ std::vector<FailureFault> faults_of(std::span<const FailureConfig> failures, dou
       }
     }
   }
-  return faults;
+  return errors;
 }
 
 std::string to_text(const FailureConfig& f) {

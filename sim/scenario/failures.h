@@ -10,6 +10,7 @@
 #include "dynamics/actuator_fault.h"
 #include "dynamics/sensors/sensor_failures.h"
 #include "dynamics/vehicle.h"
+#include "sim/config/input_error.h"
 #include "sim/fields/field.h"
 #include "sim/scenario/rig.h"
 
@@ -32,7 +33,7 @@ struct FailureConfig {
   bool holds(int64_t t_ns) const { return t_ns >= from_ns() && t_ns < until_ns(); }
 };
 template <class Visitor>
-void describe(Visitor& v, FailureConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<FailureConfig> auto& c) {
   v("at", c.at_s, {.unit = "s", .at_least = 0.0, .at_most = 86400.0, .required = true, .meaning = "when it begins"});
   v("until", c.until_s,
     {.unit = "s", .above = 0.0, .at_most = 86400.0, .meaning = "when it is over; else it lasts to the flight's end"});
@@ -59,15 +60,10 @@ void describe(Visitor& v, FailureConfig& c) {
 /// The names that a scenario's failures may have.
 std::vector<std::string> failing_names(const RigConfig& rig, const dynamics::VehicleConfig& vehicle);
 
-/// A key of a failure, and what is wrong with it.
-struct FailureFault {
-  size_t failure = 0;
-  std::string key;
-  std::string message;
-};
-/// What does not fit: names, modes, values, times, two at once of one thing.
-std::vector<FailureFault> faults_of(std::span<const FailureConfig> failures, double duration_s, const RigConfig& rig,
-                                    const dynamics::VehicleConfig& vehicle);
+/// Returns the errors of a scenario's failures: names, modes, values, times, and two failures of one device at a time.
+/// The paths begin with "failures".
+std::vector<FieldError> failure_errors(std::span<const FailureConfig> failures, double duration_s, const RigConfig& rig,
+                                       const dynamics::VehicleConfig& vehicle);
 
 /// "20 s to 22 s: camera.front black".
 std::string to_text(const FailureConfig& failure);

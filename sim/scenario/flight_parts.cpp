@@ -2,27 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <string_view>
 #include <utility>
 
 #include "avoidance/module.h"
-#include "sim/config/tree.h"
+#include "sim/config/config_tree.h"
 #include "sim/fields/bounds.h"
 #include "sim/libm/random.h"
 
 namespace hedgehop::sim {
-namespace {
-
-/// Whether a fault begins with its place, as those of a plugin's parameters do: "--set KEY: " or "file:line:column: ".
-bool has_place(std::string_view fault) {
-  const std::string_view place = fault.substr(0, fault.find(": "));
-  return place.starts_with("--set ") || (place.size() > 1 && std::isdigit(static_cast<unsigned char>(place.back())) &&
-                                         std::ranges::count(place, ':') >= 2);
-}
-
-}  // namespace
 
 FlightParts::FlightParts(AircraftParts flies, std::unique_ptr<avoidance::Module> decides)
     : aircraft(std::move(flies)), module(std::move(decides)) {}
@@ -56,27 +44,13 @@ avoidance::Setup module_setup(const Scenario& scenario) {
   return module_setup(scenario, dynamics::hull(scenario.vehicle));
 }
 
-InputError placed(const Node* root, const InputError& faults) {
-  if (!root) return faults;
+InputError at_positions(const Node* root, const InputError& error) {
+  if (!root || error.field_errors().empty()) return error;
   std::vector<std::string> lines;
-  for (const std::string& fault : faults.faults()) {
-    if (has_place(fault)) {
-      lines.push_back(fault);
-      continue;
-    }
-    std::string path = "rig";
-    if (fault.starts_with('\''))
-      path = fault.substr(1, fault.find('\'', 1) - 1);
-    else if (!fault.starts_with("camera '"))
-      path.clear();
-    // The key, where a generator's message names one.
-    const size_t key = path.size() + 4, end = fault.find(": ", key);
-    if (fault.starts_with('\'') && end != std::string::npos && fault.find(' ', key) > end) {
-      path = join_path(path, fault.substr(key, end - key));
-    }
-    lines.push_back(fmt::format("{}: {}", place_of(*root, path).text(), fault));
+  for (const FieldError& field : error.field_errors()) {
+    lines.push_back(fmt::format("{}: {}", position_of(*root, field.path).text(), field.text()));
   }
-  return InputError(std::move(lines));
+  return InputError(lines);
 }
 
 scenes::Scene build_scene(const scenes::SceneConfig& config, uint64_t run_seed) {
@@ -90,7 +64,6 @@ AircraftParts build_aircraft(const Scenario& scenario) {
 }
 
 FlightParts build_parts(const Scenario& scenario) {
-  build_part("scenario", [&] { return &fields::require_bounds(scenario); });
   return {build_aircraft(scenario), build_part("avoidance", [&] { return scenario.avoidance.make(); })};
 }
 

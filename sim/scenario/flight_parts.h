@@ -53,9 +53,9 @@ struct LoadedScenario {
   std::shared_ptr<const Node> root;  ///< what it was read from
 };
 
-/// Returns faults that begin with a path ("'scene': trees: ...", "camera 'front': ...") with its place before them.
-/// @param root  null for a scenario that no file was read for: the faults as they are.
-InputError placed(const Node* root, const InputError& faults);
+/// Returns the errors with the positions of their fields before them.
+/// @param root  of the scenario; null returns the errors unchanged.
+InputError at_positions(const Node* root, const InputError& error);
 
 /// Reads a scenario, as strictly as load_scenario(), and keeps the parts that were built to check it.
 /// @param seed  replaces the file's. Throws InputError with every fault found.
@@ -65,8 +65,7 @@ LoadedScenario load_flight(const std::filesystem::path& file, std::span<const st
 LoadedScenario load_flight_text(const std::string& yaml, std::span<const std::string> overrides = {},
                                 std::optional<uint64_t> seed = {});
 
-/// Builds the parts of a scenario that no file was read for. Throw InputError beginning with the part's key, or with
-/// 'scenario' for a value out of its bounds.
+/// Build the parts of a valid scenario. Throw InputError with the path of a part that cannot be built.
 FlightParts build_parts(const Scenario& scenario);
 AircraftParts build_aircraft(const Scenario& scenario);
 

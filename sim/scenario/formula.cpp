@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "sim/config/tree.h"
+#include "sim/config/config_tree.h"
 #include "sim/scenario/formula_tokens.h"
 
 namespace hedgehop::sim {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "sim/config/document.h"
+#include "sim/config/outline_texts.h"
 #include "sim/scenario/scenario.h"
 
 namespace hedgehop::sim {

@@ -1,6 +1,6 @@
 #include "sim/scenario/reference_path.h"
 
-#include "sim/config/input_file.h"
+#include "sim/config/include.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "sim/scenario/rig.h"
 
-#include "sim/config/input_file.h"
+#include "sim/config/include.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "sim/fields/bounds.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -30,14 +31,14 @@ std::string_view words(CameraConfig::Channel channel) {
   return "?";
 }
 
-void require(bool holds, const std::string& fault) {
-  if (!holds) throw std::invalid_argument(fault);
+void require(bool holds, std::string_view key, const std::string& message) {
+  if (!holds) throw fields::InvalidField(std::string(key), message);
 }
 
 /// Principal point and focal lengths, where `fov_focal_px` is what the field of view asks for.
 template <class Lens>
 void place(const CameraConfig& c, double fov_focal_px, Lens& lens) {
-  require(c.focal_x_px || !c.focal_y_px, "focal_y: needs focal_x beside it");
+  require(c.focal_x_px || !c.focal_y_px, "focal_y", "needs focal_x beside it");
   lens.focal_x_px = c.focal_x_px.value_or(fov_focal_px);
   lens.focal_y_px = c.focal_y_px.value_or(lens.focal_x_px);
   lens.center_u_px = c.center_u_px.value_or(0.5 * (c.width_px - 1));
@@ -46,10 +47,10 @@ void place(const CameraConfig& c, double fov_focal_px, Lens& lens) {
 
 vision::camera::Camera pinhole(const CameraConfig& c) {
   const size_t count = c.distortion.size();
-  require(count == 0 || count == 4 || count == 5,
-          fmt::format("distortion: a pinhole takes k1 k2 p1 p2 or k1 k2 p1 p2 k3, got {} numbers", count));
-  require(!c.view_limit_rad, "view_limit: is for a fisheye");
-  require(c.focal_x_px || c.fov_rad < std::numbers::pi, "fov: a pinhole shows less than 180 deg");
+  require(count == 0 || count == 4 || count == 5, "distortion",
+          fmt::format("a pinhole takes k1 k2 p1 p2 or k1 k2 p1 p2 k3, got {} numbers", count));
+  require(!c.view_limit_rad, "view_limit", "is for a fisheye");
+  require(c.focal_x_px || c.fov_rad < std::numbers::pi, "fov", "a pinhole shows less than 180 deg");
   vision::camera::PinholeLens lens{1.0, 1.0};
   if (count > 0) {
     lens.k1 = c.distortion[0];
@@ -61,7 +62,7 @@ vision::camera::Camera pinhole(const CameraConfig& c) {
   double fov_focal_px = 0.0;
   if (!c.focal_x_px) {
     const auto edge = lens.project({std::tan(0.5 * c.fov_rad), 0.0, 1.0});
-    require(edge && edge->x() > 0.0, "fov: the distortion folds the image back before its edge");
+    require(edge && edge->x() > 0.0, "fov", "the distortion folds the image back before its edge");
     fov_focal_px = 0.5 * c.width_px / edge->x();
   }
   place(c, fov_focal_px, lens);
@@ -70,7 +71,7 @@ vision::camera::Camera pinhole(const CameraConfig& c) {
 
 vision::camera::Camera fisheye(const CameraConfig& c) {
   const size_t count = c.distortion.size();
-  require(count == 0 || count == 4, fmt::format("distortion: a fisheye takes k1 k2 k3 k4, got {} numbers", count));
+  require(count == 0 || count == 4, "distortion", fmt::format("a fisheye takes k1 k2 k3 k4, got {} numbers", count));
   vision::camera::FisheyeLens lens;
   if (count > 0) {
     lens.k1 = c.distortion[0];
@@ -84,17 +85,18 @@ vision::camera::Camera fisheye(const CameraConfig& c) {
 }
 
 vision::camera::Camera ocam(const CameraConfig& c) {
-  require(!c.calibration.empty(), "calibration: model: ocam needs the file");
+  require(!c.calibration.empty(), "calibration", "model: ocam needs the file");
   require(
       !c.focal_x_px && !c.focal_y_px && !c.center_u_px && !c.center_v_px && !c.view_limit_rad && c.distortion.empty(),
-      "calibration: defines the lens; no other key of the lens may stand beside it");
+      "calibration", "defines the lens; no other key of the lens may stand beside it");
   try {
     const vision::camera::Camera camera(vision::camera::parse_ocam_calibration(read_input_file(c.calibration)));
-    require(camera.width_px == c.width_px && camera.height_px == c.height_px,
-            fmt::format("width and height must be {} and {}", camera.width_px, camera.height_px));
+    if (camera.width_px != c.width_px || camera.height_px != c.height_px) {
+      throw std::invalid_argument(fmt::format("width and height must be {} and {}", camera.width_px, camera.height_px));
+    }
     return camera;
-  } catch (const std::invalid_argument& fault) {
-    throw std::invalid_argument(fmt::format("calibration: '{}': {}", c.calibration.string(), fault.what()));
+  } catch (const std::invalid_argument& error) {
+    throw fields::InvalidField("calibration", fmt::format("'{}': {}", c.calibration.string(), error.what()));
   }
 }
 
@@ -118,8 +120,8 @@ Eigen::Isometry3d CameraConfig::X_BC() const {
 
 vision::camera::Camera CameraConfig::model() const {
   fields::require_bounds(*this);
-  require(std::has_single_bit(static_cast<unsigned>(samples)), "samples: valid: 1, 2, 4, 8");
-  require(model_kind == Model::ocam || calibration.empty(), "calibration: is for model: ocam");
+  require(std::has_single_bit(static_cast<unsigned>(samples)), "samples", "valid: 1, 2, 4, 8");
+  require(model_kind == Model::ocam || calibration.empty(), "calibration", "is for model: ocam");
   const vision::camera::Camera camera = model_kind == Model::ocam      ? ocam(*this)
                                         : model_kind == Model::fisheye ? fisheye(*this)
                                                                        : pinhole(*this);
@@ -158,7 +160,7 @@ std::vector<std::string> RigConfig::lacks(std::string_view role, CameraConfig::C
   return faults;
 }
 
-void mount_stereo_pairs(RigConfig& rig) {
+void mount_rig(RigConfig& rig) {
   for (const StereoConfig& pair : rig.stereo) {
     const Eigen::Vector3d half_B = 0.5 * pair.baseline_m * pair.camera.X_BC().linear().col(0);
     for (const double side : {-1.0, 1.0}) {
@@ -172,15 +174,27 @@ void mount_stereo_pairs(RigConfig& rig) {
     rig.cameras.back().side_error_m = pair.baseline_error * pair.baseline_m;
   }
   rig.stereo.clear();
-}
-
-void mount_sensor(RigConfig& rig) {
   for (CameraConfig& camera : rig.cameras) {
     const bool has_images =
         camera.channel == CameraConfig::Channel::grey || camera.channel == CameraConfig::Channel::color;
     if (has_images && !camera.imperfections) camera.imperfections = rig.sensor;
   }
   rig.sensor.reset();
+}
+
+double pixel_angle_rad(const vision::camera::Camera& camera) {
+  const Eigen::Vector3d axis_C = Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d below_C = *camera.unit_ray(*camera.project(axis_C) + Eigen::Vector2d(0.0, 1.0));
+  return std::atan2(axis_C.cross(below_C).norm(), axis_C.dot(below_C));
+}
+
+Eigen::Isometry3d true_X_BC(const CameraConfig& camera, const vision::camera::Camera& model, uint64_t seed) {
+  if (camera.row_error_px == 0.0 && camera.side_error_m == 0.0) return camera.X_BC();
+  const uint64_t bits = stream_seed(seed, "calibration." + camera.role);
+  const double row_sign = (bits & 1U) != 0 ? 1.0 : -1.0, side_sign = (bits & 2U) != 0 ? 1.0 : -1.0;
+  const double turn_rad = row_sign * camera.row_error_px * pixel_angle_rad(model);
+  return camera.X_BC() * Eigen::Translation3d(side_sign * camera.side_error_m, 0.0, 0.0) *
+         Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitX());
 }
 
 }  // namespace hedgehop::sim

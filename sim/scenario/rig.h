@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <filesystem>
 #include <numbers>
 #include <optional>
@@ -10,10 +11,77 @@
 
 #include "avoidance/camera_channel.h"
 #include "sim/fields/field.h"
-#include "sim/scenario/imperfections.h"
 #include "vision/camera/camera.h"
 
 namespace hedgehop::sim {
+
+/// What a real camera does to its images. All off by default. Numbers are per camera, drawn from its own stream. Those
+/// of light, lens and sensor are for grey and color, disparity noise for depth, frame faults and readout for all.
+struct ImperfectionsConfig {
+  /// Of the stereo pair that a depth camera stands for: [Andert2007] sec. 2. It turns disparity noise into depth noise.
+  static constexpr double kBaselineM = 0.3;
+
+  double vignetting = 0.0;          ///< share of brightness missing in the corner
+  double exposure_stops = 0.0;      ///< brighter (> 0) or darker than drawn, in powers of two
+  double auto_exposure_s = 0.0;     ///< time constant that draws the mean to mid-grey; 0: off
+  double full_well = 0.0;           ///< photo-electrons at white; 0: no photon noise
+  double read_noise = 0.0;          ///< standard deviation, grey levels
+  double fixed_pattern = 0.0;       ///< standard deviation of the pixels' gains, constant over a flight
+  double disparity_noise_px = 0.0;  ///< standard deviation, of focal length times kBaselineM over depth
+  double shutter_s = 0.0;           ///< how long the image is exposed
+  int shutter_samples = 8;          ///< most moments that a blurred image is the mean of
+  double readout_s = 0.0;           ///< from the first row's exposure to the last's; 0: global shutter
+  int readout_strips = 16;          ///< of rows that share a moment
+  double drop = 0.0;                ///< probability that an image is lost
+  double freeze = 0.0;              ///< probability that the last image is delivered again
+  double black = 0.0;               ///< probability that an image is black
+};
+
+template <class Visitor>
+void describe(Visitor& v, fields::ConfigOf<ImperfectionsConfig> auto& c) {
+  v("vignetting", c.vignetting,
+    {.at_least = 0.0, .at_most = 1.0, .meaning = "share of the brightness that is missing in the image's corners"});
+  v("exposure", c.exposure_stops,
+    {.at_least = -10.0, .at_most = 10.0, .meaning = "stops by which images are brighter than drawn; white saturates"});
+  v("auto_exposure", c.auto_exposure_s,
+    {.unit = "s",
+     .at_least = 0.0,
+     .meaning = "time constant in which the mean is drawn to mid-grey; 0: fixed exposure"});
+  v("full_well", c.full_well,
+    {.at_least = 0.0, .meaning = "photo-electrons of a white pixel, whose count is noisy; 0: no photon noise"});
+  v("read_noise", c.read_noise,
+    {.at_least = 0.0,
+     .at_most = 255.0,
+     .meaning = "standard deviation of the noise of reading, in grey levels of 255"});
+  v("fixed_pattern", c.fixed_pattern,
+    {.at_least = 0.0,
+     .at_most = 1.0,
+     .meaning = "standard deviation of the pixels' gains (photo-response nonuniformity), constant over a flight"});
+  v("disparity_noise", c.disparity_noise_px,
+    {.unit = "px",
+     .at_least = 0.0,
+     .at_most = 100.0,
+     .meaning = "standard deviation of a depth camera's noise, as disparity of a pair with a baseline of 0.3 m"});
+  v("shutter", c.shutter_s,
+    {.unit = "s", .at_least = 0.0, .at_most = 1.0, .meaning = "how long an image is exposed, ending at its instant"});
+  v("shutter_samples", c.shutter_samples,
+    {.at_least = 1,
+     .at_most = 256,
+     .meaning = "most moments that an image with motion blur is the mean of; they lie at most 0.4 pixels apart where "
+                "these are enough"});
+  v("readout", c.readout_s,
+    {.unit = "s",
+     .at_least = 0.0,
+     .at_most = 1.0,
+     .meaning = "from the first row to the last, which is read at the "
+                "image's instant; 0: global shutter"});
+  v("readout_strips", c.readout_strips,
+    {.at_least = 2, .at_most = 4096, .meaning = "strips of rows that a rolling shutter reads at one moment each"});
+  v("drop", c.drop, {.at_least = 0.0, .at_most = 1.0, .meaning = "probability that an image is lost"});
+  v("freeze", c.freeze,
+    {.at_least = 0.0, .at_most = 1.0, .meaning = "probability that the last image comes again as a new one"});
+  v("black", c.black, {.at_least = 0.0, .at_most = 1.0, .meaning = "probability that an image is black"});
+}
 
 /// One camera as mounted on the vehicle. All angles zero: looks along B's x, its u axis along B's y.
 struct CameraConfig {
@@ -50,7 +118,7 @@ struct CameraConfig {
 
 /// All keys of a camera but its role.
 template <class Visitor>
-void describe_without_role(Visitor& v, CameraConfig& c) {
+void describe_without_role(Visitor& v, fields::ConfigOf<CameraConfig> auto& c) {
   v("model", c.model_kind,
     {.choices = {"pinhole", "fisheye", "ocam"},
      .meaning = "perspective; equidistant fisheye; omnidirectional, from a file of OCamCalib"});
@@ -73,7 +141,7 @@ void describe_without_role(Visitor& v, CameraConfig& c) {
      .meaning = "angle off the axis where a fisheye's image ends; else as far as its lens goes"});
   v("calibration", c.calibration, {.meaning = "file calib_results.txt of OCamCalib, for model: ocam"});
   v("rate", c.rate_hz,
-    {.unit = "Hz", .at_least = fields::kSlowestHz, .meaning = "images a second; divides the physics rate"});
+    {.unit = "Hz", .at_least = fields::kMinRateHz, .meaning = "images a second; divides the physics rate"});
   v("channel", c.channel,
     {.choices = {"grey", "color", "depth", "corners"},
      .meaning = "what a pixel holds; or corners, from an ideal detector of the scene's known corners: truth, for an "
@@ -98,7 +166,7 @@ void describe_without_role(Visitor& v, CameraConfig& c) {
 }
 
 template <class Visitor>
-void describe(Visitor& v, CameraConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<CameraConfig> auto& c) {
   v("role", c.role, {.required = true, .meaning = "name by which modules and sensors refer to the camera"});
   v("row_error", c.row_error_px,
     {.unit = "px",
@@ -124,7 +192,7 @@ struct StereoConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, StereoConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<StereoConfig> auto& c) {
   v("role", c.role, {.meaning = "the cameras are <role>_left and <role>_right; left and right when empty"});
   v("baseline", c.baseline_m,
     {.unit = "m", .above = 0.0, .meaning = "distance between the two; each half of it aside"});
@@ -154,17 +222,24 @@ struct RigConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, RigConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<RigConfig> auto& c) {
   v("cameras", c.cameras, {.meaning = "cameras, each of its own role"});
   v("stereo", c.stereo, {.meaning = "pairs, each two more cameras; a resolved scenario lists them as such"});
   v("sensor", c.sensor,
     {.meaning = "imperfections of every grey or color camera that states none; a resolved scenario lists them there"});
 }
 
-/// Replaces every pair by its two cameras, left before right, after the other cameras.
-void mount_stereo_pairs(RigConfig& rig);
+/// Replaces every stereo pair by its two cameras, left before right, after the other cameras; then gives the rig's
+/// sensor to every grey or color camera without imperfections of its own. Has no effect on a mounted rig.
+void mount_rig(RigConfig& rig);
 
-/// Gives the rig's sensor to every grey or color camera that states no imperfections; call it with the pairs mounted.
-void mount_sensor(RigConfig& rig);
+/// Returns the angle that one pixel spans along a column at the optical axis, rad: 1 over the focal length in px.
+double pixel_angle_rad(const vision::camera::Camera& camera);
+
+/// Returns the pose in B from which a camera's images are drawn: that of its calibration, CameraConfig::X_BC(), and its
+/// errors. `side_error` moves it along its rows, `row_error` turns it about them, so that the image of what is far
+/// stands so many rows off at the optical axis.
+/// @param model  of the camera. @param seed  of the flight: the camera's own stream decides both signs.
+Eigen::Isometry3d true_X_BC(const CameraConfig& camera, const vision::camera::Camera& model, uint64_t seed);
 
 }  // namespace hedgehop::sim

@@ -7,9 +7,8 @@
 #include <utility>
 
 #include "sim/config/include.h"
+#include "sim/config/outline_texts.h"
 #include "sim/config/reader.h"
-#include "sim/config/schema.h"
-#include "sim/config/writer.h"
 #include "sim/libm/random.h"
 #include "sim/scenario/flight_parts.h"
 #include "sim/scenario/validate.h"
@@ -28,81 +27,98 @@ Eigen::Vector3d StartConfig::draw_p_WB(uint64_t seed) const {
 
 namespace {
 
-// Imported files are seen from the folder of the file that names them; from then on their paths are whole, so that the
-// scenario reads back anywhere.
-void find_imports(scenes::SceneConfig& scene, const Node& root) {
+constexpr std::string_view kRenderer = "its name is now 'renderer'";
+constexpr FormerKey kFormerKeys[] = {
+    {.path = "drawing", .key = "gl", .advice = kRenderer},
+    {.path = "drawing", .key = "context", .advice = kRenderer},
+    {.path = "avoidance", .key = "law", .value = "printed", .advice = "its name is now 'published'"},
+    {.path = "avoidance", .key = "law", .value = "ours", .advice = "its name is now 'modified'"},
+    {.path = "avoidance", .key = "front_end", .beside = "source", .advice = "its name is now 'source'"},
+    {.path = "avoidance", .key = "sight", .beside = "depth", .advice = "its name is now 'depth'"},
+    {.path = "avoidance", .key = "rows", .beside = "sections", .advice = "its name is now 'sections'"},
+    {.path = "avoidance", .key = "cols", .beside = "sections", .advice = "its name is now 'sections'"},
+    {.path = "avoidance", .key = "passed", .beside = "passed_radius", .advice = "its name is now 'passed_radius'"},
+    {.path = "avoidance.map", .key = "young_misses", .advice = "its name is now 'unconfirmed_misses'"},
+    {.key = "chance",
+     .advice = "it was removed with `hedgehop estimate`; to bound a rate, use `hedgehop batch --until`"},
+};
+
+/// Makes the paths of imported meshes absolute, from the folder of the file that names them, so that the written
+/// scenario can be read from any folder.
+void resolve_imports(scenes::SceneConfig& scene, const Node& root) {
   std::vector<scenes::mesh::ImportConfig>& imports = std::visit(
       [](auto& chosen) -> auto& { return chosen.added.imports; }, scene);
   for (size_t k = 0; k < imports.size(); ++k) {
-    const Place place = place_of(root, "scene.imports." + std::to_string(k) + ".file");
-    const std::filesystem::path folder = std::filesystem::path(place.file).parent_path();
+    const SourcePosition position = position_of(root, "scene.imports." + std::to_string(k) + ".file");
+    const std::filesystem::path folder = std::filesystem::path(position.file).parent_path();
     imports[k].file = std::filesystem::absolute(folder / imports[k].file).lexically_normal().string();
   }
 }
 
-/// Says of a file of another kind what it is, in place of all keys that it lacks and has.
-void require_scenario(const Node& root, Faults& faults) {
-  struct Kind {
-    std::string_view key, words;  ///< a key that all of the kind have and no scenario
+/// Refuses a file of another kind by one error that names the kind, instead of an error per key.
+void require_scenario(const Node& root, ErrorList& errors) {
+  struct FileKind {
+    std::string_view key, description;  ///< a key of every file of the kind, and of no scenario
   };
-  static constexpr Kind kKinds[] = {{"question", "a plan, for `hedgehop batch --plan`"},
-                                    {"rows", "a paper, for `hedgehop reproduce`"},
-                                    {"flights", "a campaign, for `hedgehop batch`"},
-                                    {"parameters", "a sweep or a search, for `hedgehop sweep` or `hedgehop falsify`"},
-                                    {"mass", "a vehicle; a scenario names it: vehicle: {use: FILE}"},
-                                    {"cameras", "a rig; a scenario names it: rig: {use: FILE}"},
-                                    {"stereo", "a rig; a scenario names it: rig: {use: FILE}"},
-                                    {"module", "a module's parameters; a scenario names them: avoidance: {use: FILE}"}};
+  static constexpr FileKind kKinds[] = {
+      {"question", "a plan, for `hedgehop batch --plan`"},
+      {"rows", "a paper, for `hedgehop reproduce`"},
+      {"flights", "a campaign, for `hedgehop batch`"},
+      {"parameters", "a sweep or a search, for `hedgehop sweep` or `hedgehop falsify`"},
+      {"mass", "a vehicle; a scenario names it: vehicle: {use: FILE}"},
+      {"cameras", "a rig; a scenario names it: rig: {use: FILE}"},
+      {"stereo", "a rig; a scenario names it: rig: {use: FILE}"},
+      {"module", "a module's parameters; a scenario names them: avoidance: {use: FILE}"}};
   if (root.incomplete || root.find("scene") || root.find("vehicle") || root.find("avoidance")) return;
-  for (const auto& [key, words] : kKinds) {
+  for (const auto& [key, description] : kKinds) {
     if (!root.find(key)) continue;
-    faults.add(root.place, fmt::format("is no scenario but {}", words));
-    faults.raise();
+    errors.add(root.position, fmt::format("is not a scenario but {}", description));
+    errors.throw_if_any();
   }
 }
 
-/// @param file  that `root` comes from. @param read  files read so far.
+/// @param file  source of `root`. @param read  files read so far.
 LoadedScenario load_flight(Node root, const std::filesystem::path& file, std::span<const std::string> overrides,
-                           std::optional<uint64_t> seed, Faults& faults, std::set<std::filesystem::path>& read) {
-  if (root.kind != Node::Kind::map) faults.raise();
-  require_scenario(root, faults);
-  apply_overrides(root, overrides, file, faults, read);
+                           std::optional<uint64_t> seed, ErrorList& errors, std::set<std::filesystem::path>& read) {
+  if (root.kind != Node::Kind::map) errors.throw_if_any();
+  require_scenario(root, errors);
+  apply_overrides(root, overrides, file, errors, read);
 
   Scenario scenario;
-  read_struct(root, "", "", scenario, faults);
-  faults.raise();
+  read_struct(root, "", "", scenario, errors);
+  errors.throw_if_any();
   if (seed) scenario.seed = *seed;
-  mount_stereo_pairs(scenario.rig);
-  mount_sensor(scenario.rig);
-  find_imports(scenario.scene, root);
+  resolve_imports(scenario.scene, root);
   for (CheckConfig& check : scenario.checks) {
     if (auto* path = std::get_if<PathToleranceCheck>(&check)) {
       path->reference = std::filesystem::absolute(file.parent_path() / path->reference).lexically_normal().string();
     }
   }
-  std::optional<FlightParts> parts = validate(scenario, root, faults);
-  faults.raise();
+  Validation found = validate(scenario);
+  for (const FieldError& error : found.errors) errors.add(position_of(root, error.path), error.text());
+  errors.throw_if_any();
   Inputs inputs = inputs_of(scenario, read, file.parent_path());
-  return {std::move(scenario), *std::move(parts), std::move(inputs), std::make_shared<const Node>(std::move(root))};
+  return {std::move(scenario), *std::move(found.parts), std::move(inputs),
+          std::make_shared<const Node>(std::move(root))};
 }
 
 }  // namespace
 
 LoadedScenario load_flight(const std::filesystem::path& file, std::span<const std::string> overrides,
                            std::optional<uint64_t> seed) {
-  Faults faults;
+  ErrorList errors("scenario", kFormerKeys);
   std::set<std::filesystem::path> read;
-  Node root = load_tree(file, faults, read);
-  return load_flight(std::move(root), file, overrides, seed, faults, read);
+  Node root = load_tree(file, errors, read);
+  return load_flight(std::move(root), file, overrides, seed, errors, read);
 }
 
 LoadedScenario load_flight_text(const std::string& yaml, std::span<const std::string> overrides,
                                 std::optional<uint64_t> seed) {
   constexpr const char* kName = "scenario text";
-  Faults faults;
+  ErrorList errors("scenario", kFormerKeys);
   std::set<std::filesystem::path> read;
-  Node root = parse_tree(yaml, kName, faults, read);
-  return load_flight(std::move(root), kName, overrides, seed, faults, read);
+  Node root = parse_tree(yaml, kName, errors, read);
+  return load_flight(std::move(root), kName, overrides, seed, errors, read);
 }
 
 Scenario load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {
@@ -110,12 +126,12 @@ Scenario load_scenario(const std::filesystem::path& file, std::span<const std::s
 }
 
 dynamics::VehicleConfig load_vehicle(const std::filesystem::path& file) {
-  Faults faults;
-  const Node root = load_tree(file, faults);
-  if (root.kind != Node::Kind::map) faults.raise();
+  ErrorList errors("vehicle");
+  const Node root = load_tree(file, errors);
+  if (root.kind != Node::Kind::map) errors.throw_if_any();
   dynamics::VehicleConfig vehicle;
-  read_value(root, "", {.meaning = "a vehicle"}, vehicle, faults);
-  faults.raise();
+  read_value(root, "", {.meaning = "a vehicle"}, vehicle, errors);
+  errors.throw_if_any();
   return vehicle;
 }
 

@@ -38,7 +38,7 @@ struct StartConfig {
   Eigen::Vector3d draw_p_WB(uint64_t seed) const;
 };
 template <class Visitor>
-void describe(Visitor& v, StartConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<StartConfig> auto& c) {
   v("north", c.north_m, {.unit = "m", .required = true, .meaning = "position north of the scene's origin"});
   v("east", c.east_m, {.unit = "m", .required = true, .meaning = "position east of the scene's origin"});
   v("altitude", c.altitude_m,
@@ -65,7 +65,7 @@ struct GoalConfig {
   }
 };
 template <class Visitor>
-void describe(Visitor& v, GoalConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<GoalConfig> auto& c) {
   v("north", c.north_m, {.unit = "m", .required = true, .meaning = "position north of the scene's origin"});
   v("east", c.east_m, {.unit = "m", .required = true, .meaning = "position east of the scene's origin"});
   v("altitude", c.altitude_m,
@@ -82,7 +82,7 @@ struct AltitudeBandConfig {
   double min_m = 0.0, max_m = 0.0;
 };
 template <class Visitor>
-void describe(Visitor& v, AltitudeBandConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<AltitudeBandConfig> auto& c) {
   v("min", c.min_m, {.unit = "m", .at_least = 0.0, .required = true, .meaning = "lowest altitude"});
   v("max", c.max_m, {.unit = "m", .at_least = 0.0, .required = true, .meaning = "highest altitude"});
 }
@@ -93,7 +93,7 @@ struct VelocimeterConfig {
   std::string camera = "down";
 };
 template <class Visitor>
-void describe(Visitor& v, VelocimeterConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<VelocimeterConfig> auto& c) {
   v("enabled", c.enabled, {.meaning = "whether the navigation filter gets velocities from optic flow"});
   v("camera", c.camera, {.meaning = "role of the camera, which looks down"});
 }
@@ -105,7 +105,7 @@ struct TakeoverConfig {
   AvoidanceConfig avoidance;
 };
 template <class Visitor>
-void describe(Visitor& v, TakeoverConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<TakeoverConfig> auto& c) {
   v("at", c.at_s,
     {.unit = "s", .at_least = 0.0, .at_most = 86400.0, .required = true, .meaning = "its first decision"});
   v("avoidance", c.avoidance,
@@ -118,7 +118,7 @@ struct OriginConfig {
   double robustness = 0.0;
 };
 template <class Visitor>
-void describe(Visitor& v, OriginConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<OriginConfig> auto& c) {
   v("search", c.search, {.required = true, .meaning = "file of the search that found it"});
   v("failed", c.failed, {.required = true, .meaning = "check that failed"});
   v("robustness", c.robustness, {.required = true, .meaning = "of that check, < 0"});
@@ -132,10 +132,10 @@ struct FilmConfig {
   int width_px = 960;
 };
 template <class Visitor>
-void describe(Visitor& v, FilmConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<FilmConfig> auto& c) {
   v("enabled", c.enabled, {.meaning = "whether a run films its cameras and the module's image"});
   v("rate", c.rate_hz,
-    {.unit = "Hz", .at_least = fields::kSlowestHz, .meaning = "images a second; divides the physics rate"});
+    {.unit = "Hz", .at_least = fields::kMinRateHz, .meaning = "images a second; divides the physics rate"});
   v("width", c.width_px, {.unit = "px", .at_least = 64, .at_most = 4096, .meaning = "width of the film"});
 }
 
@@ -168,7 +168,7 @@ struct Scenario {
   std::optional<OriginConfig> origin;
 };
 template <class Visitor>
-void describe(Visitor& v, Scenario& c) {
+void describe(Visitor& v, fields::ConfigOf<Scenario> auto& c) {
   v("name", c.name, {.required = true, .meaning = "name in results and reports"});
   v("description", c.description, {.meaning = "what the flight is for"});
   v("seed", c.seed, {.meaning = "seeds every random stream of the flight"});
@@ -204,14 +204,14 @@ void describe(Visitor& v, Scenario& c) {
   v("origin", c.origin, {.meaning = "where a counterexample comes from; changes nothing of the flight"});
 }
 
-/// Runs `make`, which builds a part of a flight from its config, and returns what it returns. A std::invalid_argument
-/// becomes an InputError that begins with the path of the config: "'vehicle.rotor': ...".
+/// Returns the result of `make`, which builds a part of a flight from its config. A std::invalid_argument becomes an
+/// InputError with the path of the config: "'vehicle.rotor.radius': must be > 0 m, got -1".
 template <class Make>
 auto build_part(const std::string& path, Make&& make) {
   try {
     return make();
   } catch (const std::invalid_argument& error) {
-    throw InputError("'" + path + "': " + error.what());
+    throw InputError(field_error(path, error));
   }
 }
 

@@ -6,13 +6,14 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <utility>
 #include <variant>
 
 #include "avoidance/module.h"
-#include "sim/scenario/check_faults.h"
-#include "sim/scenario/foreign_config.h"
+#include "sim/fields/bounds.h"
+#include "sim/scenario/avoidance_config.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -21,17 +22,22 @@ using Channel = CameraConfig::Channel;
 
 class Validator {
  public:
-  Validator(const Scenario& scenario, const Node& root, Faults& faults)
-      : scenario_(scenario), root_(root), faults_(faults) {}
+  Validator(const Scenario& scenario, ModuleSource source) : scenario_(scenario), source_(source) {}
 
-  /// It names a folder of results, too.
+  /// Returns whether every field is within its bounds.
+  bool bounds() {
+    for (const fields::InvalidField& error : fields::invalid_fields(scenario_)) add(error.key(), error.message());
+    return errors_.empty();
+  }
+
+  /// The name is also the name of the folder of results.
   void name() {
-    constexpr size_t kMostLetters = 200;
+    constexpr size_t kMaxLetters = 200;
     const std::string& name = scenario_.name;
     const bool has_bad = std::ranges::any_of(name, [](unsigned char c) { return c < 0x20 || c == 0x7f || c == '/'; });
-    if (has_bad || name.empty() || name.starts_with('.') || name.size() > kMostLetters) {
+    if (has_bad || name.empty() || name.starts_with('.') || name.size() > kMaxLetters) {
       add("name", fmt::format("must be 1 to {} letters without '/' and control characters, and not begin with '.'",
-                              kMostLetters));
+                              kMaxLetters));
     }
   }
 
@@ -84,6 +90,17 @@ class Validator {
   }
 
   void module() {
+    if (source_ == ModuleSource::scenario) own_module();
+    if (const std::optional<TakeoverConfig>& takeover = scenario_.takeover) {
+      if (takeover->at_s >= scenario_.duration_s) {
+        add("takeover.at",
+            fmt::format("must be before the end of the flight ({} s), got {}", scenario_.duration_s, takeover->at_s));
+      }
+      build("takeover.avoidance", [&] { takeover->avoidance.make(); });
+    }
+  }
+
+  void own_module() {
     const PythonConfig* const script = scenario_.avoidance.python();
     std::error_code error;
     if (script && !std::filesystem::exists(script->python, error)) {
@@ -98,25 +115,16 @@ class Validator {
           add("avoidance", fault);
       }
     });
-    if (const std::optional<TakeoverConfig>& takeover = scenario_.takeover) {
-      if (takeover->at_s >= scenario_.duration_s) {
-        add("takeover.at", fmt::format("is not before the flight's end ({} s)", scenario_.duration_s));
-      }
-      build("takeover.avoidance", [&] { takeover->avoidance.make(); });
-    }
   }
 
-  /// With the cameras that it would fly with: those of a pair may not go together.
+  /// Resets the module with its cameras, because the two cameras of a pair may not match.
   void module_with_cameras() {
-    if (!module_ || !faults_.empty()) return;
+    if (!module_ || !errors_.empty()) return;
     build("avoidance", [&] { module_->reset(module_setup(scenario_)); });
   }
 
   void failures() {
-    for (const FailureFault& fault :
-         faults_of(scenario_.failures, scenario_.duration_s, scenario_.rig, scenario_.vehicle)) {
-      add(fmt::format("failures.{}.{}", fault.failure, fault.key), fault.message);
-    }
+    add_all(failure_errors(scenario_.failures, scenario_.duration_s, scenario_.rig, scenario_.vehicle));
   }
 
   void parts() {
@@ -141,15 +149,16 @@ class Validator {
     build("avionics", [&] { avionics_.emplace(build_avionics(scenario_, carrier)); });
   }
 
-  void checks() {
-    for (const CheckFault& fault : check_faults(scenario_)) add(fault.path, fault.message);
-  }
+  void checks() { add_all(check_errors(scenario_)); }
 
-  /// The parts; none when one could not be built.
-  std::optional<FlightParts> take() {
-    const bool has_module = module_ || scenario_.avoidance.is_foreign();
-    if (!vehicle_ || !wind_ || !avionics_ || !has_module) return {};
-    return FlightParts{{*std::move(vehicle_), *std::move(wind_), *std::move(avionics_)}, std::move(module_)};
+  Validation take() {
+    Validation found{std::move(errors_), std::nullopt};
+    const bool has_module = module_ || source_ == ModuleSource::caller || scenario_.avoidance.is_foreign();
+    if (vehicle_ && wind_ && avionics_ && has_module) {
+      found.parts.emplace(AircraftParts{*std::move(vehicle_), *std::move(wind_), *std::move(avionics_)},
+                          std::move(module_));
+    }
+    return found;
   }
 
  private:
@@ -185,30 +194,23 @@ class Validator {
     add(path, fmt::format("{} Hz does not divide the physics rate of {} Hz", rate_hz, scenario_.physics_rate_hz));
   }
 
-  /// Runs a builder; a part that cannot be built is a fault.
+  /// Runs a builder; adds an error if the part cannot be built.
   template <class Build>
   void build(const std::string& path, Build&& build) {
     try {
       build();
     } catch (const std::invalid_argument& error) {
-      add(path + named_key(error.what()), error.what());
+      errors_.push_back(field_error(path, error));
     }
   }
 
-  /// ".key" when a message begins with "key: ", as those of the generators do.
-  static std::string named_key(std::string_view message) {
-    const size_t end = message.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_.");
-    if (end == 0 || end == std::string_view::npos || message[end] != ':') return "";
-    return fmt::format(".{}", message.substr(0, end));
-  }
+  void add(std::string path, std::string message) { errors_.push_back({std::move(path), std::move(message)}); }
 
-  void add(const std::string& path, std::string_view message) {
-    faults_.add(place_of(root_, path), fmt::format("'{}': {}", path, message));
-  }
+  void add_all(std::vector<FieldError> errors) { std::ranges::move(errors, std::back_inserter(errors_)); }
 
   const Scenario& scenario_;
-  const Node& root_;
-  Faults& faults_;
+  ModuleSource source_;
+  std::vector<FieldError> errors_;
   std::optional<dynamics::Vehicle> vehicle_;
   std::optional<dynamics::air::Wind> wind_;
   std::optional<dynamics::Avionics> avionics_;
@@ -217,8 +219,10 @@ class Validator {
 
 }  // namespace
 
-std::optional<FlightParts> validate(const Scenario& scenario, const Node& root, Faults& faults) {
-  Validator validator(scenario, root, faults);
+Validation validate(Scenario& scenario, ModuleSource source) {
+  Validator validator(scenario, source);
+  if (!validator.bounds()) return validator.take();
+  mount_rig(scenario.rig);
   validator.name();
   validator.start();
   validator.rates();

@@ -1,15 +1,33 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
-#include "sim/config/tree.h"
+#include "sim/config/input_error.h"
 #include "sim/scenario/flight_parts.h"
 
+/// The one validation of a scenario: of files, of texts, and of structs that a program fills in.
 namespace hedgehop::sim {
 
-/// Builds the parts of a scenario, and adds a fault for each thing that does not fit another or that a part refuses.
-/// @param root  what the scenario was read from, for the places.
-/// @return the parts; none when one cannot be built, with a fault added.
-std::optional<FlightParts> validate(const Scenario& scenario, const Node& root, Faults& faults);
+struct Validation {
+  std::vector<FieldError> errors;
+  std::optional<FlightParts> parts;  ///< none if a part cannot be built
+};
+
+/// Who supplies the module that flies: the scenario, or the caller, who builds it. A caller's module is not validated,
+/// and the parts have no module then.
+enum class ModuleSource { scenario, caller };
+
+/// Checks the bounds of every field, mounts the rig (mount_rig()), then checks that the fields fit each other and that
+/// each part can be built. Returns all errors and the parts.
+Validation validate(Scenario& scenario, ModuleSource source = ModuleSource::scenario);
+
+/// Returns the errors of the checks: min above max, unknown names, missing files, times after the flight. The paths
+/// begin with "checks".
+std::vector<FieldError> check_errors(const Scenario& scenario);
+
+/// Returns the names of a scenario's checks as in its results, including the implied one.
+std::vector<std::string> check_names(const Scenario& scenario);
 
 }  // namespace hedgehop::sim

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "sim/flight/flight.h"
-#include "sim/loop/map_observer.h"
+#include "sim/loop/map_log.h"
 #include "sim/verdict/map_score.h"
 
 namespace hedgehop::sim {

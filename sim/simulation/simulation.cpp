@@ -3,14 +3,19 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Core>
 #include <chrono>
+#include <opencv2/core.hpp>
 #include <opencv2/core/utility.hpp>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include "sim/collision/bullet_version.h"
+#include "sim/flight/build.h"
 #include "sim/libm/libm.h"
 #include "sim/loop/episode.h"
+#include "sim/scenario/validate.h"
 #include "sim/simulation/map_judge.h"
 #include "sim/verdict/assessment.h"
 
@@ -46,7 +51,7 @@ class Simulation::Impl {
   Impl(Scenario scenario, FlightParts parts, ModuleMaker module, FlightWatcher* watcher)
       : scenario_(std::move(scenario)), make_module_(std::move(module)), watcher_(watcher) {
     keep_opencv_to_one_thread();
-    stage_.emplace(scenario_);
+    environment_.emplace(scenario_);
     begin(std::move(parts));
   }
 
@@ -54,8 +59,8 @@ class Simulation::Impl {
     episode_.reset();
     if (seed != scenario_.seed) {
       scenario_.seed = seed;
-      stage_.reset();
-      stage_.emplace(scenario_);
+      environment_.reset();
+      environment_.emplace(scenario_);
     }
     begin(build_parts(scenario_));
   }
@@ -95,9 +100,9 @@ class Simulation::Impl {
     Flight flight = episode_->flight();
     flight.result.wall_s = flying_s_;
     flight.result.realtime_factor = flight.result.flight_time_s / flying_s_;
-    flight.result.libraries = {"OpenCV " + cv::getVersionString(), libm_version(), stage_->renderer.info()};
+    flight.result.libraries = {"OpenCV " + cv::getVersionString(), libm_version(), environment_->renderer.info()};
     judge_->conclude(flight);
-    assess(scenario_, *flight.scene, stage_->hull, flight);
+    assess(scenario_, *flight.scene, environment_->hull, flight);
     return flight;
   }
 
@@ -110,17 +115,17 @@ class Simulation::Impl {
     flying_s_ = 0.0;
     judge_.emplace();
     const Stopwatch stopwatch(flying_s_);
-    episode_.emplace(scenario_, *stage_, std::move(parts), watcher_, &*judge_);
+    episode_.emplace(scenario_, *environment_, std::move(parts), watcher_, &*judge_);
     if (episode_->proximity().collided) {
       throw InputError(
-          fmt::format("'start': no flight can begin there: the vehicle {}", episode_->flight().result.cause));
+          FieldError{"start", fmt::format("the vehicle collides at the start: {}", episode_->flight().result.cause)});
     }
   }
 
   Scenario scenario_;
   ModuleMaker make_module_;
   FlightWatcher* watcher_;
-  std::optional<Stage> stage_;
+  std::optional<FlightEnvironment> environment_;
   std::optional<MapJudge> judge_;
   std::optional<Episode> episode_;  ///< refers to all of the above
   double flying_s_ = 0.0;           ///< wall time
@@ -129,13 +134,15 @@ class Simulation::Impl {
 Simulation::Simulation(LoadedScenario loaded, FlightWatcher* watcher) {
   try {
     impl_ = std::make_unique<Impl>(std::move(loaded.scenario), std::move(loaded.parts), ModuleMaker{}, watcher);
-  } catch (const InputError& faults) {
-    throw placed(loaded.root.get(), faults);
+  } catch (const InputError& error) {
+    throw at_positions(loaded.root.get(), error);
   }
 }
 
 Simulation::Simulation(Scenario scenario, ModuleMaker module, FlightWatcher* watcher) {
-  FlightParts parts = build_parts(scenario);
+  Validation found = validate(scenario, module ? ModuleSource::caller : ModuleSource::scenario);
+  if (!found.errors.empty()) throw InputError(std::move(found.errors));
+  FlightParts parts = *std::move(found.parts);
   impl_ = std::make_unique<Impl>(std::move(scenario), std::move(parts), std::move(module), watcher);
 }
 
@@ -197,6 +204,38 @@ std::vector<CheckResult> Simulation::checks_so_far() const { return impl_->judge
 Flight Simulation::result() const {
   if (!over()) throw std::logic_error("the flight is not over");
   return impl_->judged();
+}
+
+namespace {
+
+class Hovering : public avoidance::Module {
+ public:
+  explicit Hovering(avoidance::Needs needs) : needs_(std::move(needs)) {}
+
+ private:
+  avoidance::Needs do_needs() const override { return needs_; }
+  void do_reset(const avoidance::Setup&) override {}
+  avoidance::Decision do_update(const avoidance::Observation&) override {
+    return {avoidance::HoverCommand{}, "hover", {}};
+  }
+  avoidance::Needs needs_;
+};
+
+}  // namespace
+
+ModuleMaker hovering(const RigConfig& rig, const std::vector<std::string>& roles) {
+  avoidance::Needs needs;
+  for (const std::string& role : roles) {
+    const CameraConfig* const camera = rig.find(role);
+    if (!camera) throw InputError(fmt::format("the rig has no camera '{}'", role));
+    needs.cameras.push_back({role, camera->channel});
+  }
+  return [needs] { return std::make_unique<Hovering>(needs); };
+}
+
+std::string package_versions() {
+  return fmt::format("OpenCV {}, {}, Eigen {}.{}.{}, {}, {}", cv::getVersionString(), libm_version(),
+                     EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, bullet_version(), build_compiler());
 }
 
 }  // namespace hedgehop::sim

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "sim/config/tree.h"
+#include "sim/config/config_tree.h"
 
 namespace hedgehop::sim {
 namespace {

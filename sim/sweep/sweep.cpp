@@ -83,7 +83,7 @@ SweepOrders sweep_orders(const SweepConfig& sweep) {
     try {
       all.add(sweep, point, points[point]);
     } catch (const InputError& error) {
-      for (const std::string& fault : error.faults()) faults.push_back(fmt::format("point {}: {}", point, fault));
+      for (const std::string& fault : error.errors()) faults.push_back(fmt::format("point {}: {}", point, fault));
     }
   }
   if (!faults.empty()) throw InputError(faults);

@@ -55,34 +55,34 @@ std::vector<std::vector<std::string>> grid(const std::vector<SweepParameter>& pa
 }  // namespace
 
 SweepConfig read_sweep(const std::filesystem::path& file) {
-  Faults faults;
+  ErrorList faults("sweep");
   const Node root = load_tree(file, faults);
   SweepConfig sweep;
   if (root.kind == Node::Kind::map) read_struct(root, "", "", sweep, faults);
-  faults.raise();
+  faults.throw_if_any();
 
   std::set<std::string> paths;
   for (size_t i = 0; i < sweep.parameters.size(); ++i) {
     const std::string at = fmt::format("parameters.{}", i);
     const SweepParameter& parameter = sweep.parameters[i];
     const std::string fault = parameter_fault(parameter, sweep.design);
-    if (!fault.empty()) faults.add(place_of(root, at), fmt::format("'{}': {}", parameter.path, fault));
+    if (!fault.empty()) faults.add(position_of(root, at), fmt::format("'{}': {}", parameter.path, fault));
     if (!paths.insert(parameter.path).second)
-      faults.add(place_of(root, at), fmt::format("'{}' stands twice", parameter.path));
+      faults.add(position_of(root, at), fmt::format("'{}' stands twice", parameter.path));
     if (std::holds_alternative<ListDesign>(sweep.design) &&
         parameter.values.size() != sweep.parameters[0].values.size()) {
-      faults.add(place_of(root, at),
+      faults.add(position_of(root, at),
                  fmt::format("'{}': a list needs as many values of each parameter", parameter.path));
     }
   }
-  if (sweep.parameters.empty()) faults.add(place_of(root, "parameters"), "needs a parameter");
+  if (sweep.parameters.empty()) faults.add(position_of(root, "parameters"), "needs a parameter");
   if (sweep.seeds) parse_seeds(*sweep.seeds);
   if (sweep.seeds && sweep.tuned_on && !within(*sweep.seeds, *sweep.tuned_on)) {
-    faults.add(place_of(root, "seeds"), fmt::format("seeds '{}' are not all of tuned_on '{}': a sweep chooses "
-                                                    "parameters, so its seeds must not judge",
-                                                    *sweep.seeds, *sweep.tuned_on));
+    faults.add(position_of(root, "seeds"), fmt::format("seeds '{}' are not all of tuned_on '{}': a sweep chooses "
+                                                       "parameters, so its seeds must not judge",
+                                                       *sweep.seeds, *sweep.tuned_on));
   }
-  faults.raise();
+  faults.throw_if_any();
   sweep.scenario = (file.parent_path() / sweep.scenario).lexically_normal().string();
   if (const std::vector<std::string> refused = refused_parameters(sweep); !refused.empty()) throw InputError(refused);
   return sweep;
@@ -99,7 +99,7 @@ std::vector<std::string> refused_parameters(const SweepConfig& sweep) {
       try {
         load_scenario(sweep.scenario, overrides);
       } catch (const InputError& error) {
-        for (const std::string& fault : error.faults()) {
+        for (const std::string& fault : error.errors()) {
           if (std::ranges::find(faults, fault) == faults.end()) faults.push_back(fault);
         }
       }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/batch/record.h"
+#include "sim/fields/field.h"
 #include "sim/sweep/sampling.h"
 
 namespace hedgehop::sim {
@@ -22,7 +23,7 @@ struct SweepParameter {
   bool whole = false;
 };
 template <class Visitor>
-void describe(Visitor& v, SweepParameter& c) {
+void describe(Visitor& v, fields::ConfigOf<SweepParameter> auto& c) {
   v("path", c.path, {.required = true, .meaning = "key of the scenario, such as avoidance.flow_gain"});
   v("values", c.values, {.meaning = "values to take, or else a range"});
   v("from", c.from, {.meaning = "lower end of the range, in the key's unit"});
@@ -38,14 +39,14 @@ struct GridDesign {
   static constexpr std::string_view kMeaning = "every combination of values, the last parameter changing fastest";
 };
 template <class Visitor>
-void describe(Visitor&, GridDesign&) {}
+void describe(Visitor&, const GridDesign&) {}
 
 struct ListDesign {
   static constexpr std::string_view kName = "list";
   static constexpr std::string_view kMeaning = "the first values of all parameters, then the second ones, and so on";
 };
 template <class Visitor>
-void describe(Visitor&, ListDesign&) {}
+void describe(Visitor&, const ListDesign&) {}
 
 struct RandomDesign {
   static constexpr std::string_view kName = "random";
@@ -54,7 +55,7 @@ struct RandomDesign {
   uint64_t seed = 1;
 };
 template <class Visitor>
-void describe(Visitor& v, RandomDesign& c) {
+void describe(Visitor& v, fields::ConfigOf<RandomDesign> auto& c) {
   v("points", c.points, {.at_least = 1, .at_most = 1'000'000, .required = true, .meaning = "number of points"});
   v("seed", c.seed, {.meaning = "of the draws"});
 }
@@ -63,6 +64,10 @@ struct LatinHypercubeDesign : RandomDesign {
   static constexpr std::string_view kName = "latin_hypercube";
   static constexpr std::string_view kMeaning = "draws that cover every parameter's range evenly";
 };
+template <class Visitor>
+void describe(Visitor& v, fields::ConfigOf<LatinHypercubeDesign> auto& c) {
+  describe(v, fields::base<RandomDesign>(c));
+}
 
 struct SobolDesign {
   static constexpr std::string_view kName = "sobol";
@@ -70,7 +75,7 @@ struct SobolDesign {
   int64_t points = 0;
 };
 template <class Visitor>
-void describe(Visitor& v, SobolDesign& c) {
+void describe(Visitor& v, fields::ConfigOf<SobolDesign> auto& c) {
   v("points", c.points,
     {.at_least = 1, .at_most = 1'000'000, .required = true, .meaning = "number; best a power of 2"});
 }
@@ -85,7 +90,7 @@ struct OptimizeDesign {
   double failure_cost = 1e6;
 };
 template <class Visitor>
-void describe(Visitor& v, OptimizeDesign& c) {
+void describe(Visitor& v, fields::ConfigOf<OptimizeDesign> auto& c) {
   v("minimize", c.minimize, {.required = true, .meaning = "column of the sweep's table, such as flight_time_s"});
   v("method", c.method,
     {.choices = {"subplex", "nelder_mead", "bobyqa", "direct"}, .meaning = "of NLopt; direct searches the whole box"});
@@ -108,7 +113,7 @@ struct SweepConfig {
   std::vector<SweepParameter> parameters;
 };
 template <class Visitor>
-void describe(Visitor& v, SweepConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<SweepConfig> auto& c) {
   v("description", c.description, {.meaning = "what the sweep is for"});
   v("scenario", c.scenario, {.required = true, .meaning = "scenario file, relative to this file"});
   v("seeds", c.seeds, {.meaning = "seeds flown at every point, such as 1:10; else the scenario's own"});

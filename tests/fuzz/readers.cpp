@@ -34,10 +34,10 @@ namespace {
 void read_scenario(const std::filesystem::path& file) {
   const sim::Scenario scenario = sim::load_scenario(file);
   // What was read can be written, and reads back.
-  sim::Faults faults;
+  sim::ErrorList faults("scenario");
   std::set<std::filesystem::path> files;
   sim::parse_tree(sim::to_yaml(scenario), "resolved", faults, files);
-  faults.raise();
+  faults.throw_if_any();
 }
 
 void read_campaign(const std::filesystem::path& file) { sim::read_batch({file}, {}, {}); }
@@ -69,11 +69,11 @@ void read_calibration(const std::filesystem::path& file) {
 
 /// As a module's parameters are read when its library has been loaded: a map of any keys, then a struct of its own.
 void read_parameters(const std::filesystem::path& file) {
-  sim::Faults faults;
+  sim::ErrorList faults("scenario");
   const sim::Node root = sim::load_tree(file, faults);
   avoidance::flow_balance::FlowBalanceConfig config;
   if (root.kind == sim::Node::Kind::map) sim::read_struct(root, "", "avoidance.parameters", config, faults);
-  faults.raise();
+  faults.throw_if_any();
 }
 
 constexpr std::array kReaders = {

@@ -127,9 +127,9 @@ TEST(Motion, RefusesWhatCannotMove) {
   using testing::ThrowsMessage;
   EXPECT_THAT([] { require_motion(WaypointMotion{.points = {}}); }, ThrowsMessage<E>(HasSubstr("motion.points")));
   EXPECT_THAT([] { require_motion(WaypointMotion{.speed_mps = -1}); },
-              ThrowsMessage<E>(HasSubstr("motion.speed: -1; must be >= 0 m/s")));
+              ThrowsMessage<E>(HasSubstr("motion.speed: must be >= 0 m/s, got -1")));
   EXPECT_THAT([] { require_motion(OrbitMotion{.radius_m = 0}); },
-              ThrowsMessage<E>(HasSubstr("motion.radius: 0; must be > 0 m")));
+              ThrowsMessage<E>(HasSubstr("motion.radius: must be > 0 m, got 0")));
 }
 
 }  // namespace

@@ -77,9 +77,9 @@ TEST(Movers, RefuseWhatCannotBeBuilt) {
   using testing::HasSubstr;
   using testing::ThrowsMessage;
   EXPECT_THAT([] { make_scene(room_with({{.radius_m = 0.0}}), 1); },
-              ThrowsMessage<E>(HasSubstr("movers.0.radius: 0; must be > 0 m")));
+              ThrowsMessage<E>(HasSubstr("movers.0.radius: must be > 0 m, got 0")));
   EXPECT_THAT([] { make_scene(room_with({{.height_m = -2.0}}), 1); },
-              ThrowsMessage<E>(HasSubstr("movers.0.height: -2; must be > 0 m")));
+              ThrowsMessage<E>(HasSubstr("movers.0.height: must be > 0 m, got -2")));
 }
 
 }  // namespace

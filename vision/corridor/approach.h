@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "sim/fields/field.h"
 #include "vision/corridor/corridor_flow.h"
 
 namespace hedgehop::vision::corridor {
@@ -16,7 +17,7 @@ struct ApproachConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, ApproachConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<ApproachConfig> auto& c) {
   v("half_width", c.half_width_rad,
     {.unit = "deg", .above = 0.0, .at_most = 60.0, .meaning = "half the width of the view ahead that is compared"});
   v("sigma", c.sigma_per_s,

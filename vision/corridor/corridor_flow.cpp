@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "sim/fields/bounds.h"
+#include "sim/fields/invalid_field.h"
 #include "vision/flow/feature_flow.h"
 #include "vision/order_statistics.h"
 
@@ -31,7 +32,7 @@ std::array<cv::Mat, kRegions> region_masks(const camera::Camera& camera, const E
                                            const CorridorRegions& regions, int rim_px) {
   fields::require_bounds(regions);
   if (!(regions.lowest_rad < regions.highest_rad)) {
-    throw std::invalid_argument("highest: must be above the lowest elevation");
+    throw fields::InvalidField("highest", "must be above the lowest elevation");
   }
   std::array<cv::Mat, kRegions> masks;
   for (cv::Mat& mask : masks) mask = cv::Mat::zeros(camera.height_px, camera.width_px, CV_8UC1);

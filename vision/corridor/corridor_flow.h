@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "sim/fields/field.h"
 #include "vision/camera/camera.h"
 #include "vision/flow/feature_flow.h"
 
@@ -24,7 +25,7 @@ struct CorridorRegions {
 };
 
 template <class Visitor>
-void describe(Visitor& v, CorridorRegions& c) {
+void describe(Visitor& v, fields::ConfigOf<CorridorRegions> auto& c) {
   v("ahead", c.ahead_rad,
     {.unit = "deg", .at_least = 0.0, .at_most = 90.0, .meaning = "left out to each side of the nose"});
   v("segment", c.segment_rad, {.unit = "deg", .above = 0.0, .at_most = 180.0, .meaning = "width of each side's view"});
@@ -54,7 +55,7 @@ struct FlowLimits {
 };
 
 template <class Visitor>
-void describe(Visitor& v, FlowLimits& c) {
+void describe(Visitor& v, fields::ConfigOf<FlowLimits> auto& c) {
   v("slowest", c.slowest_radps,
     {.unit = "rad/s", .at_least = 0.0, .meaning = "slower flow is rejected: noise decides it"});
   v("fastest", c.fastest_radps, {.unit = "rad/s", .above = 0.0, .meaning = "faster flow is rejected as a wrong match"});

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "sim/fields/field.h"
 #include "vision/corridor/corridor_flow.h"
 
 namespace hedgehop::vision::corridor {
@@ -18,7 +19,7 @@ struct GapConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, GapConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<GapConfig> auto& c) {
   v("behind", c.behind_m, {.unit = "m", .at_least = 0.0, .meaning = "how far behind the camera the gap is measured"});
   v("ahead", c.ahead_m, {.unit = "m", .above = 0.0, .meaning = "how far ahead of the camera the gap is measured"});
   v("slice", c.slice_m, {.unit = "m", .above = 0.0, .meaning = "length of the slices in which the gap is measured"});

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "sim/fields/bounds.h"
+#include "sim/fields/invalid_field.h"
 #include "vision/flow/corner_tracker.h"
 
 namespace hedgehop::vision::flow {
@@ -18,7 +19,7 @@ namespace {
 
 void check(const FeatureFlowConfig& c) {
   fields::require_bounds(c);
-  if (c.window_px % 2 == 0) throw std::invalid_argument("window: must be odd");
+  if (c.window_px % 2 == 0) throw fields::InvalidField("window", "must be odd");
 }
 
 /// The strongest corners of a region, strongest first.

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/fields/field.h"
 #include "vision/camera/camera.h"
 
 /// Optic flow on the unit sphere: rays instead of pixels, so that it holds for any lens.
@@ -22,7 +23,7 @@ struct FeatureFlowConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, FeatureFlowConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<FeatureFlowConfig> auto& c) {
   v("most", c.most, {.at_least = 1, .at_most = 10000, .meaning = "corners tracked per region"});
   v("quality", c.quality,
     {.above = 0.0, .at_most = 1.0, .meaning = "least strength of a corner, as a share of the region's strongest"});

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 
+#include "sim/fields/field.h"
 #include "vision/camera/pinhole_camera.h"
 #include "vision/flow/flow_field.h"
 
@@ -18,7 +19,7 @@ struct FlowVelocityConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, FlowVelocityConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<FlowVelocityConfig> auto& c) {
   v("min_vectors", c.min_vectors, {.at_least = 3, .meaning = "valid flow vectors needed for a velocity"});
   v("min_height", c.min_height_m, {.unit = "m", .above = 0.0, .meaning = "height below which no velocity is measured"});
   v("max_view_angle", c.max_view_angle_rad,

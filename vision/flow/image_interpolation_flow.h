@@ -3,6 +3,7 @@
 #include <memory>
 #include <opencv2/core.hpp>
 
+#include "sim/fields/field.h"
 #include "vision/flow/flow_field.h"
 
 namespace hedgehop::vision::flow {
@@ -24,7 +25,7 @@ struct ImageInterpolationConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, ImageInterpolationConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<ImageInterpolationConfig> auto& c) {
   v("rows", c.rows, {.at_least = 1, .at_most = 128, .meaning = "rows of patches, evenly spaced"});
   v("cols", c.cols, {.at_least = 1, .at_most = 128, .meaning = "columns of patches, evenly spaced"});
   v("patch", c.patch_px, {.unit = "px", .at_least = 8, .at_most = 512, .meaning = "side of a square patch"});

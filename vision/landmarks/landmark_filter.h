@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/fields/field.h"
 #include "vision/camera/pinhole_camera.h"
 #include "vision/landmarks/landmark.h"
 
@@ -35,7 +36,7 @@ struct LandmarkMapConfig {
 };
 
 template <class Visitor>
-void describe(Visitor& v, LandmarkMapConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<LandmarkMapConfig> auto& c) {
   v("pixel_sigma", c.pixel_sigma_px,
     {.unit = "px", .above = 0.0, .meaning = "standard deviation of a corner in an image, per axis"});
   v("position_sigma", c.position_sigma_m,

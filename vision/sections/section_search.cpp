@@ -7,6 +7,8 @@
 #include <string>
 #include <tuple>
 
+#include "sim/fields/invalid_field.h"
+
 namespace hedgehop::vision::sections {
 namespace {
 
@@ -18,8 +20,8 @@ int first_pixel(int k, int count, int length, int whole) {
 }  // namespace
 
 std::vector<cv::Rect> sections(const SectionGrid& grid, cv::Size image) {
-  const auto need = [](bool holds, const std::string& fault) {
-    if (!holds) throw std::invalid_argument(fault);
+  const auto need = [](bool holds, const char* key, const std::string& message) {
+    if (!holds) throw fields::InvalidField(key, message);
   };
   need(grid.rows >= 1 && grid.cols >= 1, "a grid of sections needs at least one row and one column");
   need(grid.width_share > 0.0 && grid.width_share <= 1.0 && grid.height_share > 0.0 && grid.height_share <= 1.0,

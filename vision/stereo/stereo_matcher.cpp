@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/fields/bounds.h"
+#include "sim/fields/invalid_field.h"
 #include "vision/stereo/disparity.h"
 #include "vision/stereo/semi_global_matcher.h"
 
@@ -15,14 +16,14 @@ namespace hedgehop::vision::stereo {
 namespace {
 
 void check(const StereoMatcherConfig& c) {
-  const auto need = [](bool holds, const std::string& fault) {
-    if (!holds) throw std::invalid_argument(fault);
+  const auto need = [](bool holds, const char* key, const std::string& message) {
+    if (!holds) throw fields::InvalidField(key, message);
   };
   fields::require_bounds(c);
-  need(c.disparities_px % 16 == 0, "disparities: " + std::to_string(c.disparities_px) + " is not a multiple of 16");
-  need(c.block_px % 2 == 1, "block: " + std::to_string(c.block_px) + " is not odd");
-  need(c.method == StereoMatcherConfig::Method::semi_global || c.block_px >= 5,
-       "block: the block matcher takes squares of 5 px or more, got " + std::to_string(c.block_px));
+  need(c.disparities_px % 16 == 0, "disparities", std::to_string(c.disparities_px) + " is not a multiple of 16");
+  need(c.block_px % 2 == 1, "block", std::to_string(c.block_px) + " is not odd");
+  need(c.method == StereoMatcherConfig::Method::semi_global || c.block_px >= 5, "block",
+       "the block matcher takes squares of 5 px or more, got " + std::to_string(c.block_px));
 }
 
 /// OpenCV's matcher; none where ours does the same in less time.

@@ -4,6 +4,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 
+#include "sim/fields/field.h"
+
 namespace hedgehop::vision::stereo {
 
 /// Which of OpenCV's matchers turns a rectified pair into disparity, and how. describe() lists what a scene and a
@@ -18,7 +20,7 @@ struct StereoMatcherConfig {
   int left_right_px = 1;        ///< by which matching from either side may differ; -1: not compared
 };
 template <class Visitor>
-void describe(Visitor& v, StereoMatcherConfig& c) {
+void describe(Visitor& v, fields::ConfigOf<StereoMatcherConfig> auto& c) {
   v("method", c.method,
     {.choices = {"block", "semi_global"},
      .meaning = "OpenCV's block matcher, or its semi-global one (five directions)"});

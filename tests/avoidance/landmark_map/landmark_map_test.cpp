@@ -195,7 +195,7 @@ TEST(LandmarkMapModule, RejectsABadConfigAndNamesTheKey) {
     make_landmark_map(config);
     FAIL();
   } catch (const std::invalid_argument& fault) {
-    EXPECT_EQ(std::string(fault.what()), "map.pixel_sigma: 0; must be > 0 px");
+    EXPECT_EQ(std::string(fault.what()), "map.pixel_sigma: must be > 0 px, got 0");
   }
 }
 

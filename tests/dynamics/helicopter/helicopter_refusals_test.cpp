@@ -28,23 +28,26 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 TEST(HelicopterRefusals, NameTheValueThatCannotBe) {
   using testing::HasSubstr;
   EXPECT_EQ(refusal([](C&) {}), "flies");
-  EXPECT_THAT(refusal([](C& c) { c.mass.mass_kg = -8.2; }), HasSubstr("mass.mass: -8.2; must be > 0 kg"));
-  EXPECT_THAT(refusal([](C& c) { c.mass.mass_kg = kNan; }), HasSubstr("mass.mass: nan; must be finite"));
+  EXPECT_THAT(refusal([](C& c) { c.mass.mass_kg = -8.2; }), HasSubstr("mass.mass: must be > 0 kg, got -8.2"));
+  EXPECT_THAT(refusal([](C& c) { c.mass.mass_kg = kNan; }), HasSubstr("mass.mass: must be finite, got nan"));
   EXPECT_THAT(refusal([](C& c) { c.mass.inertia_kgm2.x() = 1.0; }), HasSubstr("no body has this inertia"));
-  EXPECT_THAT(refusal([](C& c) { c.air_density_kgpm3 = 0.0; }), HasSubstr("air_density: 0; must be > 0 kg/m3"));
+  EXPECT_THAT(refusal([](C& c) { c.air_density_kgpm3 = 0.0; }), HasSubstr("air_density: must be > 0 kg/m3, got 0"));
   EXPECT_THAT(refusal([](C& c) { c.main_rotor.speed_radps = -167.0; }),
-              HasSubstr("main_rotor.speed: -167; must be > 0 rad/s"));
-  EXPECT_THAT(refusal([](C& c) { c.main_rotor.radius_m = 0.0; }), HasSubstr("main_rotor.radius: 0; must be > 0 m"));
+              HasSubstr("main_rotor.speed: must be > 0 rad/s, got -167"));
+  EXPECT_THAT(refusal([](C& c) { c.main_rotor.radius_m = 0.0; }), HasSubstr("main_rotor.radius: must be > 0 m, got 0"));
   EXPECT_THAT(refusal([](C& c) { c.main_rotor.blade_inertia_kgm2 = 0.0; }), HasSubstr("main_rotor.blade_inertia"));
-  EXPECT_THAT(refusal([](C& c) { c.tail_rotor.chord_m = -0.1; }), HasSubstr("tail_rotor.chord: -0.1; must be > 0 m"));
+  EXPECT_THAT(refusal([](C& c) { c.tail_rotor.chord_m = -0.1; }),
+              HasSubstr("tail_rotor.chord: must be > 0 m, got -0.1"));
   EXPECT_THAT(refusal([](C& c) { c.tail_rotor.gear_ratio = 0.0; }), HasSubstr("tail_rotor.gear_ratio"));
   EXPECT_THAT(refusal([](C& c) { c.main_rotor.hinge_offset_m = 0.5; }), HasSubstr("hinge_offset"));
 }
 
 TEST(HelicopterRefusals, NameWhyAServoCannotWork) {
   using testing::HasSubstr;
-  EXPECT_THAT(refusal([](C& c) { c.servos.cyclic.damping = 0.0; }), HasSubstr("servos.cyclic.damping: 0; must be > 0"));
-  EXPECT_THAT(refusal([](C& c) { c.servos.tail.damping = -0.5; }), HasSubstr("servos.tail.damping: -0.5; must be > 0"));
+  EXPECT_THAT(refusal([](C& c) { c.servos.cyclic.damping = 0.0; }),
+              HasSubstr("servos.cyclic.damping: must be > 0, got 0"));
+  EXPECT_THAT(refusal([](C& c) { c.servos.tail.damping = -0.5; }),
+              HasSubstr("servos.tail.damping: must be > 0, got -0.5"));
   EXPECT_THAT(refusal([](C& c) { c.servos.tail.natural_frequency_radps = 0.0; }), HasSubstr("natural_frequency"));
   EXPECT_THAT(refusal([](C& c) { c.servos.tail.rate_limit_radps = kNan; }), HasSubstr("rate_limit"));
   EXPECT_THAT(refusal([](C& c) { c.servos.cyclic.lowest_rad = 0.2; }), HasSubstr("lowest angle must be below"));

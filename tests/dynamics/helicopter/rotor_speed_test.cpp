@@ -126,9 +126,9 @@ TEST(RotorSpeed, SinksWithASlowRotorAfterPowerLoss) {
 TEST(RotorSpeed, RefusesAnEngineTooWeakToHover) {
   EXPECT_THAT([] { HelicopterFlight flight(governed(1000.0)); },
               testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("its engine gives 1000")));
-  EXPECT_THAT(
-      [] { HelicopterFlight flight(governed(-1.0)); },
-      testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("rotor_speed.max_power: -1; must be > 0 W")));
+  EXPECT_THAT([] { HelicopterFlight flight(governed(-1.0)); },
+              testing::ThrowsMessage<std::invalid_argument>(
+                  testing::HasSubstr("rotor_speed.max_power: must be > 0 W, got -1")));
 }
 
 }  // namespace

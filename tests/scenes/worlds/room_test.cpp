@@ -98,7 +98,7 @@ TEST(Room, RefusesWhatCannotBeBuilt) {
     return [config] { make_room(config, 1); };
   };
   using E = std::invalid_argument;
-  EXPECT_THAT(refused([](auto& c) { c.length_m = 0.0; }), ThrowsMessage<E>(HasSubstr("length: 0; must be >= 1 m")));
+  EXPECT_THAT(refused([](auto& c) { c.length_m = 0.0; }), ThrowsMessage<E>(HasSubstr("length: must be >= 1 m, got 0")));
   EXPECT_THAT(refused([](auto& c) { c.furniture = -1; }), ThrowsMessage<E>(HasSubstr("furniture: -1")));
   EXPECT_THAT(refused([](auto& c) { c.furniture = 200; }),
               ThrowsMessage<E>(HasSubstr("furniture: 200; valid: at most ")));

@@ -87,7 +87,7 @@ TEST_F(BadFile, FilesOfAnotherKindAreNamedAsWhatTheyAre) {
                                           {"falsify/gps_offset.yaml", "a sweep or a search"}}) {
     const CommandEnd end = run(configs + file);
     EXPECT_EQ(end.status, kBadInput);
-    EXPECT_THAT(end.err, HasSubstr("is no scenario but " + kind)) << end.err;
+    EXPECT_THAT(end.err, HasSubstr("is not a scenario but " + kind)) << end.err;
     EXPECT_EQ(std::ranges::count(end.err, '\n'), 1) << end.err;
   }
 }
@@ -176,9 +176,9 @@ TEST_F(BadFile, ANameIsNoWayOutOfTheFolder) {
 }
 
 TEST_F(BadFile, AStartInAWallOrOutsideTheRoomIsRefused) {
-  refused("tiny.yaml --set start.north=8", "'start': no flight can begin there: the vehicle hit");
+  refused("tiny.yaml --set start.north=8", "'start': the vehicle collides at the start: hit");
   refused("tiny.yaml --set start.north=50", "'start': is outside the room, which is 16 m long");
-  refused("tiny.yaml --set start.altitude=0", "'start': no flight can begin there: the vehicle hit the ground");
+  refused("tiny.yaml --set start.altitude=0", "'start': the vehicle collides at the start: hit the ground");
 }
 
 TEST_F(BadFile, WhereNothingCanBeWrittenIsToldBeforeTheFlight) {

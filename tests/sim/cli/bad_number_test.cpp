@@ -55,9 +55,9 @@ TEST(Options, ASlipOfTheirNamesIsToldWithTheNearest) {
 }
 
 TEST(Options, AScenarioMayFollowAValueThatIsSet) {
-  EXPECT_THAT(ask("run --set duration=-1 " + kScenario).text, testing::HasSubstr("'duration' must be > 0"));
+  EXPECT_THAT(ask("run --set duration=-1 " + kScenario).text, testing::HasSubstr("'duration': must be > 0"));
   EXPECT_THAT(ask("batch --set duration=-1 " + kScenario + " --seeds 1").text,
-              testing::HasSubstr("'duration' must be > 0"));
+              testing::HasSubstr("'duration': must be > 0"));
 }
 
 TEST(NumberOptions, ReadDecimally) {

@@ -39,13 +39,13 @@ class Folder {
   std::filesystem::path before_, path_;
 };
 
-/// Faults that `f` throws as InputError; none when it throws nothing.
+/// ErrorList that `f` throws as InputError; none when it throws nothing.
 template <class F>
 std::vector<std::string> faults_of(F&& f) {
   try {
     f();
   } catch (const InputError& error) {
-    return error.faults();
+    return error.errors();
   }
   return {};
 }
@@ -53,14 +53,14 @@ std::vector<std::string> faults_of(F&& f) {
 /// Reads a struct as load_scenario() reads a scenario: file `file`, then overrides.
 template <class T>
 T load_struct(const std::filesystem::path& file, const std::vector<std::string>& overrides = {}) {
-  Faults faults;
+  ErrorList faults("scenario");
   Node root = load_tree(file, faults);
-  if (root.kind != Node::Kind::map) faults.raise();
+  if (root.kind != Node::Kind::map) faults.throw_if_any();
   std::set<std::filesystem::path> read;
   apply_overrides(root, overrides, file, faults, read);
   T value;
   read_struct(root, "", "", value, faults);
-  faults.raise();
+  faults.throw_if_any();
   return value;
 }
 

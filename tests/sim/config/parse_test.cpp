@@ -1,4 +1,4 @@
-#include "sim/config/parse.h"
+#include "sim/config/config_tree.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -52,7 +52,7 @@ TEST(Parse, AliasesAreCopiedButNotWithoutEnd) {
   EXPECT_EQ(load_struct<Sample>("a.yaml").tail->radius_m, 3.0);
   EXPECT_THAT(faults_of_file("rotors: &r [*r]\n"),
               ElementsAre("a.yaml:1:13: an alias stands inside what it names",
-                          "a.yaml:1:13: 'rotors.0' expects a map of keys, got nothing"));
+                          "a.yaml:1:13: 'rotors.0' expects a map of keys, got an empty value"));
   std::string bomb = "words: [";
   for (int i = 0; i < 40; ++i) {
     bomb += i == 0 ? std::string("&w0 [x, x]") : fmt::format(", &w{} [*w{}, *w{}]", i, i - 1, i - 1);
@@ -78,8 +78,8 @@ TEST(Use, FaultsNameTheFileTheyStandIn) {
   Folder::write("rotor.yaml", "# a rotor\nradius: -2\n");
   EXPECT_THAT(faults_of_file("mas: 3\nrotor: {use: rotor.yaml, blade_count: 0}\n"),
               ElementsAre(testing::StartsWith("a.yaml:1:1: unknown key 'mas' in the scenario; did you mean 'mass'?"),
-                          "a.yaml:2:39: 'rotor.blade_count' must be >= 1, got 0",
-                          "rotor.yaml:2:9: 'rotor.radius' must be > 0 m, got -2"));
+                          "a.yaml:2:39: 'rotor.blade_count': must be >= 1, got 0",
+                          "rotor.yaml:2:9: 'rotor.radius': must be > 0 m, got -2"));
 }
 
 TEST(Use, AnotherChoiceReplacesTheMap) {
@@ -92,7 +92,7 @@ TEST(Use, AnotherChoiceReplacesTheMap) {
 // A module is chosen by its name, by `python` or by `plugin`, and each takes the place of the others.
 TEST(Use, ModulesFromOutsideReplaceThoseOfTheTree) {
   const auto over = [](const std::string& base, const std::string& text) {
-    Faults faults;
+    ErrorList faults("scenario");
     Node node = parse_yaml(base, "base.yaml", faults);
     override_with(node, parse_yaml(text, "a.yaml", faults));
     std::vector<std::string> keys;
@@ -166,13 +166,13 @@ TEST_F(Override, FaultsNameTheOverride) {
   EXPECT_THAT(faults("rotors.2.radius=3"),
               ElementsAre("--set rotors.2.radius: 'rotors' has no item '2'; it has 2 items, from 0"));
   EXPECT_THAT(faults("rotors.0.radius=-3"),
-              ElementsAre("--set rotors.0.radius: 'rotors.0.radius' must be > 0 m, got -3"));
+              ElementsAre("--set rotors.0.radius: 'rotors.0.radius': must be > 0 m, got -3"));
   EXPECT_THAT(faults("shape.type.x=3"),
               ElementsAre("--set shape.type.x: 'shape.type' is the single value 'square'; it has no key 'x'"));
   EXPECT_THAT(faults("mass"), ElementsAre("--set mass: expected key.path=value"));
   EXPECT_THAT(faults("a..b=3"), ElementsAre("--set a..b=3: expected key.path=value"));
   EXPECT_THAT(faults("mass=[1"), ElementsAre("--set mass: '[1' is not a YAML value"));
-  EXPECT_THAT(faults("mass="), ElementsAre("--set mass: 'mass' expects a number in kg, got nothing"));
+  EXPECT_THAT(faults("mass="), ElementsAre("--set mass: 'mass' expects a number in kg, got an empty value"));
 }
 
 TEST(Suggestion, FindsTheNearestKey) {

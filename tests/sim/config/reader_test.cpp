@@ -43,7 +43,7 @@ TEST(Reader, WrongType) {
   EXPECT_EQ(fault("mass: abc"), "a.yaml:1:7: 'mass' expects a number in kg, got 'abc'");
   EXPECT_EQ(fault("mass: '3'"), "a.yaml:1:7: 'mass' expects a number in kg, got the text '3'");
   EXPECT_EQ(fault("mass: [3]"), "a.yaml:1:7: 'mass' expects a number in kg, got a list");
-  EXPECT_EQ(fault("mass:\nname: x"), "a.yaml:1:1: 'mass' expects a number in kg, got nothing");
+  EXPECT_EQ(fault("mass:\nname: x"), "a.yaml:1:1: 'mass' expects a number in kg, got an empty value");
   EXPECT_EQ(fault("whole: 3.5"), "a.yaml:1:8: 'whole' expects a whole number, got '3.5'");
   EXPECT_EQ(fault("on: yes"), "a.yaml:1:5: 'on' expects true or false, got 'yes'");
   EXPECT_EQ(fault("name: {a: b}"), "a.yaml:1:7: 'name' expects a text, got a map");
@@ -55,21 +55,21 @@ TEST(Reader, WrongType) {
 }
 
 TEST(Reader, NotFinite) {
-  EXPECT_EQ(fault("mass: .nan"), "a.yaml:1:7: 'mass' must be finite, got .nan");
-  EXPECT_EQ(fault("trim: -.inf"), "a.yaml:1:7: 'trim' must be finite, got -.inf");
-  EXPECT_EQ(fault("size: [1, 1e999]"), "a.yaml:1:11: 'size.1' must be finite, got 1e999");
+  EXPECT_EQ(fault("mass: .nan"), "a.yaml:1:7: 'mass': must be finite, got .nan");
+  EXPECT_EQ(fault("trim: -.inf"), "a.yaml:1:7: 'trim': must be finite, got -.inf");
+  EXPECT_EQ(fault("size: [1, 1e999]"), "a.yaml:1:11: 'size.1': must be finite, got 1e999");
 }
 
 TEST(Reader, OutOfBounds) {
-  EXPECT_EQ(fault("mass: 0"), "a.yaml:1:7: 'mass' must be > 0 kg, got 0");
-  EXPECT_EQ(fault("mass: 100"), "a.yaml:1:7: 'mass' must be < 100 kg, got 100");
-  EXPECT_EQ(fault("tilt: 60.5"), "a.yaml:1:7: 'tilt' must be <= 60 deg, got 60.5");
-  EXPECT_EQ(fault("rotor: {blade_count: 0}"), "a.yaml:1:22: 'rotor.blade_count' must be >= 1, got 0");
-  EXPECT_EQ(fault("gains: [1, -1]"), "a.yaml:1:12: 'gains.1' must be >= 0, got -1");
-  EXPECT_EQ(fault("delay: -1"), "a.yaml:1:8: 'delay' must be >= 0 s, got -1");
+  EXPECT_EQ(fault("mass: 0"), "a.yaml:1:7: 'mass': must be > 0 kg, got 0");
+  EXPECT_EQ(fault("mass: 100"), "a.yaml:1:7: 'mass': must be < 100 kg, got 100");
+  EXPECT_EQ(fault("tilt: 60.5"), "a.yaml:1:7: 'tilt': must be <= 60 deg, got 60.5");
+  EXPECT_EQ(fault("rotor: {blade_count: 0}"), "a.yaml:1:22: 'rotor.blade_count': must be >= 1, got 0");
+  EXPECT_EQ(fault("gains: [1, -1]"), "a.yaml:1:12: 'gains.1': must be >= 0, got -1");
+  EXPECT_EQ(fault("delay: -1"), "a.yaml:1:8: 'delay': must be >= 0 s, got -1");
   EXPECT_EQ(fault("whole: 2147483648"),
-            "a.yaml:1:8: 'whole' must lie between -2147483648 and 2147483647, got 2147483648");
-  EXPECT_EQ(fault("seed: -1"), "a.yaml:1:7: 'seed' must lie between 0 and 18446744073709551615, got -1");
+            "a.yaml:1:8: 'whole': must be between -2147483648 and 2147483647, got 2147483648");
+  EXPECT_EQ(fault("seed: -1"), "a.yaml:1:7: 'seed': must be between 0 and 18446744073709551615, got -1");
 }
 
 TEST(Reader, UnknownChoice) {
@@ -84,9 +84,9 @@ TEST(Reader, ListsEveryFaultInTheOrderOfTheFile) {
   Folder::write("a.yaml", "seed: x\nrotor: {radius: .nan}\nmas: 1\nmass: -1\nmass: 1\n");
   EXPECT_THAT(faults_of([] { load_struct<Sample>("a.yaml"); }),
               ElementsAre("a.yaml:1:7: 'seed' expects a whole number, got 'x'",
-                          "a.yaml:2:17: 'rotor.radius' must be finite, got .nan",
+                          "a.yaml:2:17: 'rotor.radius': must be finite, got .nan",
                           testing::StartsWith("a.yaml:3:1: unknown key 'mas' in the scenario; did you mean 'mass'?"),
-                          "a.yaml:4:7: 'mass' must be > 0 kg, got -1",
+                          "a.yaml:4:7: 'mass': must be > 0 kg, got -1",
                           "a.yaml:5:1: duplicate key 'mass' in the scenario; first at line 4"));
 }
 

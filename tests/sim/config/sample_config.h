@@ -18,7 +18,7 @@ struct Round {
   double radius_m = 1.0;
 };
 template <class Visitor>
-void describe(Visitor& v, Round& c) {
+void describe(Visitor& v, fields::ConfigOf<Round> auto& c) {
   v("radius", c.radius_m, {.unit = "m", .above = 0.0, .meaning = "radius"});
 }
 
@@ -28,7 +28,7 @@ struct Square {
   double side_m = 2.0;
 };
 template <class Visitor>
-void describe(Visitor& v, Square& c) {
+void describe(Visitor& v, fields::ConfigOf<Square> auto& c) {
   v("side", c.side_m, {.unit = "m", .above = 0.0, .required = true, .meaning = "side"});
 }
 using Shape = std::variant<Round, Square>;
@@ -38,7 +38,7 @@ struct Rotor {
   double radius_m = 0.9;
 };
 template <class Visitor>
-void describe(Visitor& v, Rotor& c) {
+void describe(Visitor& v, fields::ConfigOf<Rotor> auto& c) {
   v("blade_count", c.blade_count, {.at_least = 1, .at_most = 8, .meaning = "blades"});
   v("radius", c.radius_m, {.unit = "m", .above = 0.0, .meaning = "of the disc"});
 }
@@ -68,7 +68,7 @@ struct Sample {
   std::vector<Shape> shapes;
 };
 template <class Visitor>
-void describe(Visitor& v, Sample& c) {
+void describe(Visitor& v, fields::ConfigOf<Sample> auto& c) {
   v("mass", c.mass_kg, {.unit = "kg", .above = 0.0, .below = 100.0, .meaning = "mass"});
   v("tilt", c.tilt_rad, {.unit = "deg", .at_least = -60.0, .at_most = 60.0, .meaning = "tilt"});
   v("rate", c.rate_radps, {.unit = "deg/s", .meaning = "rate"});

@@ -1,4 +1,4 @@
-#include "sim/config/schema.h"
+#include "sim/config/outline_texts.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,7 @@
 #include "json_schema_check.h"
 #include "random_config.h"
 #include "sample_config.h"
-#include "sim/config/document.h"
-#include "sim/config/parse.h"
-#include "sim/config/writer.h"
+#include "sim/config/config_tree.h"
 #include "sim/scenario/list_topics.h"
 #include "sim/scenario/scenario.h"
 #include "tests/sim/config/input_files.h"
@@ -68,7 +66,7 @@ TEST_F(Schema, RefusesWhatTheReaderRefuses) {
                                         "tail: {blade_count: x}",
                                         "delay: -1"};
   for (const std::string& text : bad) {
-    Faults faults;
+    ErrorList faults("scenario");
     sample::Sample sample;
     read_struct(parse_yaml(text, "bad.yaml", faults), "", "", sample, faults);
     EXPECT_FALSE(faults.empty()) << text;
@@ -103,11 +101,11 @@ TEST_F(Schema, HoldsNothingTwice) {
 TEST(Selectors, AreTheOnesThatLayingOverKnows) {
   const std::vector<std::string_view> known(std::begin(kSelectors), std::end(kSelectors));
   const auto is_known = [&](std::string_view key) { return std::find(known.begin(), known.end(), key) != known.end(); };
-  const std::function<void(const std::vector<Outline>&)> look = [&](const std::vector<Outline>& nodes) {
-    for (const Outline& node : nodes) {
+  const std::function<void(const std::vector<ConfigOutline>&)> look = [&](const std::vector<ConfigOutline>& nodes) {
+    for (const ConfigOutline& node : nodes) {
       EXPECT_FALSE(is_known(node.key)) << node.key;
-      if (node.kind != Outline::Kind::variant && node.chosen_by_key) continue;
-      if (node.kind == Outline::Kind::variant) {
+      if (node.kind != ConfigOutline::Kind::variant && node.chosen_by_key) continue;
+      if (node.kind == ConfigOutline::Kind::variant) {
         EXPECT_TRUE(is_known(node.field.selector)) << node.field.selector;
       }
       look(node.parts);
@@ -135,9 +133,9 @@ TEST(Document, ListsEveryChoiceWithItsKeys) {
 
 /// Every key a user may write says what it means.
 TEST(Document, EveryFieldOfAScenarioHasAMeaning) {
-  const std::function<void(const std::vector<Outline>&, const std::string&)> look =
-      [&](const std::vector<Outline>& nodes, const std::string& path) {
-        for (const Outline& node : nodes) {
+  const std::function<void(const std::vector<ConfigOutline>&, const std::string&)> look =
+      [&](const std::vector<ConfigOutline>& nodes, const std::string& path) {
+        for (const ConfigOutline& node : nodes) {
           const std::string here = join_path(path, node.key);
           if (!node.key.empty()) {
             EXPECT_FALSE(node.field.meaning.empty() && node.meaning.empty()) << here;

@@ -1,4 +1,4 @@
-#include "sim/config/writer.h"
+#include "sim/config/outline_texts.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "random_config.h"
 #include "sample_config.h"
-#include "sim/config/parse.h"
+#include "sim/config/config_tree.h"
 #include "sim/scenario/scenario.h"
 #include "tests/sim/config/input_files.h"
 
@@ -71,11 +71,11 @@ std::vector<uint64_t> bits_of(T value) {
 template <class T>
 void expect_round_trip(const T& value, const std::string& what) {
   const std::string text = yaml_text(outline_fields(value));
-  Faults faults;
+  ErrorList faults("scenario");
   const Node root = parse_yaml(text, "round.yaml", faults);
   T back;
   read_struct(root, "", "", back, faults);
-  ASSERT_NO_THROW(faults.raise()) << what << "\n" << text;
+  ASSERT_NO_THROW(faults.throw_if_any()) << what << "\n" << text;
   ASSERT_EQ(bits_of(value), bits_of(back)) << what << "\n" << text;
 }
 

@@ -107,7 +107,7 @@ TEST_F(Falsify, BadInputIsRefusedInOneLineBeforeAnyFlight) {
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "none"));
     return end.err;
   };
-  EXPECT_THAT(fault("design.budget=0"), HasSubstr("'design.budget' must be >= 1, got 0"));
+  EXPECT_THAT(fault("design.budget=0"), HasSubstr("'design.budget': must be >= 1, got 0"));
   EXPECT_THAT(fault("seeds=1:100"), HasSubstr("60 flights are less than the 100 of one point"));
   EXPECT_THAT(fault("robustness=[keep_clear]"), HasSubstr("has no check 'keep_clear'; did you mean 'keeps_clear'?"));
   EXPECT_THAT(fault("boxes.east=[14,-14]"), HasSubstr("'boxes.east': its lower end must stand first"));

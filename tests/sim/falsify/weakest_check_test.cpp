@@ -46,7 +46,7 @@ TEST(WeakestCheck, CrashFailsAndRefusalDoesNot) {
   FlightRecord record{.status = FlightRecord::Status::failed, .cause = "killed by SIGSEGV (Segmentation fault)"};
   EXPECT_EQ(weakest_check(record, {}).name, "flight");
   EXPECT_LT(weakest_check(record, {}).robustness, 0.0);
-  record.cause = "exit status 2: 'start': no flight can begin there";
+  record.cause = "exit status 2: 'start': the vehicle collides at the start";
   EXPECT_GT(weakest_check(record, {}).robustness, 10.0);
 }
 

@@ -1,4 +1,5 @@
 #include "sim/fields/bounds.h"
+#include "sim/fields/field.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ struct Disc {
   double radius_m = 1.0;
 };
 template <class Visitor>
-void describe(Visitor& v, Disc& c) {
+void describe(Visitor& v, fields::ConfigOf<Disc> auto& c) {
   v("radius", c.radius_m, {.unit = "m", .above = 0.0});
 }
 
@@ -27,7 +28,7 @@ struct Bar {
   Eigen::Vector2d size_m{1.0, 2.0};
 };
 template <class Visitor>
-void describe(Visitor& v, Bar& c) {
+void describe(Visitor& v, fields::ConfigOf<Bar> auto& c) {
   v("size", c.size_m, {.unit = "m", .above = 0.0});
 }
 
@@ -43,7 +44,7 @@ struct Machine {
   std::variant<Disc, Bar> body;
 };
 template <class Visitor>
-void describe(Visitor& v, Machine& c) {
+void describe(Visitor& v, fields::ConfigOf<Machine> auto& c) {
   v("tilt", c.tilt_rad, {.unit = "deg", .at_least = -90.0, .below = 90.0});
   v("trim", c.trim, {});
   v("gap", c.gap_m, {.unit = "m"});
@@ -68,36 +69,36 @@ std::string refusal(const std::function<void(Machine&)>& change, std::string_vie
 
 TEST(RequireBounds, NamesKeyValueAndBound) {
   EXPECT_EQ(refusal([](Machine&) {}), "");
-  EXPECT_EQ(refusal([](Machine& m) { m.blades = 9; }), "blades: 9; must be <= 8");
-  EXPECT_EQ(refusal([](Machine& m) { m.blades = 1; }, "vehicle"), "vehicle.blades: 1; must be >= 2");
+  EXPECT_EQ(refusal([](Machine& m) { m.blades = 9; }), "blades: must be <= 8, got 9");
+  EXPECT_EQ(refusal([](Machine& m) { m.blades = 1; }, "vehicle"), "vehicle.blades: must be >= 2, got 1");
   EXPECT_EQ(refusal([](Machine& m) { m.color = static_cast<Machine::Color>(2); }),
-            "color: 2; must be one of its choices");
+            "color: must be one of its choices, got 2");
 }
 
 TEST(RequireBounds, JudgesAnglesInDegrees) {
   EXPECT_EQ(refusal([](Machine& m) { m.tilt_rad = to_radians(-90.0L); }), "");
-  EXPECT_EQ(refusal([](Machine& m) { m.tilt_rad = to_radians(90.0L); }), "tilt: 90; must be < 90 deg");
-  EXPECT_EQ(refusal([](Machine& m) { m.tilt_rad = to_radians(-91.0L); }), "tilt: -91; must be >= -90 deg");
+  EXPECT_EQ(refusal([](Machine& m) { m.tilt_rad = to_radians(90.0L); }), "tilt: must be < 90 deg, got 90");
+  EXPECT_EQ(refusal([](Machine& m) { m.tilt_rad = to_radians(-91.0L); }), "tilt: must be >= -90 deg, got -91");
 }
 
 TEST(RequireBounds, RefusesWhatIsNotFiniteWithoutABound) {
-  EXPECT_EQ(refusal([](Machine& m) { m.trim = std::nan(""); }), "trim: nan; must be finite");
+  EXPECT_EQ(refusal([](Machine& m) { m.trim = std::nan(""); }), "trim: must be finite, got nan");
   EXPECT_EQ(refusal([](Machine& m) { m.trim = -std::numeric_limits<double>::infinity(); }),
-            "trim: -inf; must be finite");
+            "trim: must be finite, got -inf");
   EXPECT_EQ(refusal([](Machine& m) { m.trim = 1e308; }), "");
 }
 
 TEST(RequireBounds, BoundsALengthThatStatesNone) {
   EXPECT_EQ(refusal([](Machine& m) { m.gap_m = -100e3; }), "");
-  EXPECT_EQ(refusal([](Machine& m) { m.gap_m = 1e308; }), "gap: 1e+308; must be <= 100000 m");
-  EXPECT_EQ(refusal([](Machine& m) { m.tail = Disc{2e5}; }), "tail.radius: 200000; must be <= 100000 m");
+  EXPECT_EQ(refusal([](Machine& m) { m.gap_m = 1e308; }), "gap: must be <= 100000 m, got 1e+308");
+  EXPECT_EQ(refusal([](Machine& m) { m.tail = Disc{2e5}; }), "tail.radius: must be <= 100000 m, got 200000");
 }
 
 TEST(RequireBounds, EntersStructsListsAndVariants) {
-  EXPECT_EQ(refusal([](Machine& m) { m.tail = Disc{0.0}; }), "tail.radius: 0; must be > 0 m");
-  EXPECT_EQ(refusal([](Machine& m) { m.rotors = {{1.0}, {-0.5}}; }), "rotors.1.radius: -0.5; must be > 0 m");
-  EXPECT_EQ(refusal([](Machine& m) { m.body = Bar{{1.0, 0.0}}; }), "body.size.1: 0; must be > 0 m");
-  EXPECT_EQ(refusal([](Machine& m) { m.body = Disc{0.0}; }), "body.radius: 0; must be > 0 m");
+  EXPECT_EQ(refusal([](Machine& m) { m.tail = Disc{0.0}; }), "tail.radius: must be > 0 m, got 0");
+  EXPECT_EQ(refusal([](Machine& m) { m.rotors = {{1.0}, {-0.5}}; }), "rotors.1.radius: must be > 0 m, got -0.5");
+  EXPECT_EQ(refusal([](Machine& m) { m.body = Bar{{1.0, 0.0}}; }), "body.size.1: must be > 0 m, got 0");
+  EXPECT_EQ(refusal([](Machine& m) { m.body = Disc{0.0}; }), "body.radius: must be > 0 m, got 0");
 }
 
 }  // namespace

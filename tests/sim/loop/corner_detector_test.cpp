@@ -1,4 +1,4 @@
-#include "sim/loop/corner_detector.h"
+#include "sim/loop/cameras.h"
 
 #include <gmock/gmock.h>
 
@@ -95,7 +95,9 @@ TEST(ProjectedCorners, OfASceneWithoutKnownCornersAreRefused) {
     Simulation(from_corners("shah2009_wall_textured.yaml")).run();
     FAIL();
   } catch (const InputError& fault) {
-    EXPECT_THAT(fault.what(), HasSubstr("camera 'front': channel: corners: scene 'wall' has no known corners"));
+    EXPECT_THAT(
+        fault.what(),
+        HasSubstr("'rig.cameras.0.channel': camera 'front' delivers corners, but scene 'wall' has no known corners"));
   }
 }
 

@@ -1,4 +1,4 @@
-#include "sim/scenario/mounting.h"
+#include "sim/scenario/rig.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ RigConfig stereo_rig(CameraConfig camera = {}) {
   RigConfig rig;
   rig.stereo = {
       {.baseline_m = kBaselineM, .row_error_px = kRowErrorPx, .baseline_error = kBaselineError, .camera = camera}};
-  mount_stereo_pairs(rig);
+  mount_rig(rig);
   return rig;
 }
 

@@ -1,4 +1,4 @@
-#include "sim/loop/normal_image.h"
+#include "sim/loop/imperfections.h"
 
 #include <gtest/gtest.h>
 

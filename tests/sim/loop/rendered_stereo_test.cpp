@@ -13,7 +13,7 @@
 #include "scenes/generators.h"
 #include "sim/loop/imperfections.h"
 #include "sim/render/renderer.h"
-#include "sim/scenario/mounting.h"
+#include "sim/scenario/rig.h"
 #include "sim/scenario/scenario.h"
 #include "tests/sim/render/tested_renderer.h"
 #include "tests/vision/real_data.h"

@@ -1,4 +1,4 @@
-#include "sim/loop/truth_used.h"
+#include "sim/loop/module_pilot.h"
 
 #include <gmock/gmock.h>
 

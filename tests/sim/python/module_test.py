@@ -177,7 +177,7 @@ class FromFile(unittest.TestCase):
         for class_name, text in (("NeedsAText", "'needs' must be a list of cameras, each its role or a CameraNeed, got 'front'"),
                                  ("NeedsWhatIsNotThere", "needs a camera 'forward', which the rig does not have; it has: left, right"),
                                  ("NeedsWhatIsNotThere", "needs camera 'front' to deliver depth images; it delivers grey images"),
-                                 ("TakesNoSetup", "the module cannot begin: TypeError: TakesNoSetup.reset() takes 1 positional argument"),
+                                 ("TakesNoSetup", "the module cannot be reset: TypeError: TakesNoSetup.reset() takes 1 positional argument"),
                                  ("SignalsInAList", "'signals' must be a dict of names and units, both texts, got ['nearest']")):
             with self.subTest(class_name):
                 status, result, said = run_program(CITY, self.python(class_name), self.folder / "itself")

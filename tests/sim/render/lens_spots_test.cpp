@@ -111,7 +111,7 @@ TEST(LensImage, StereoPairShowsAPointOnOneRowAtItsDisparity) {
     pair.camera.yaw_rad = uniform(random, -3, 3);
     pair.camera.pitch_rad = uniform(random, -1.5, 1.5);
     pair.camera.roll_rad = uniform(random, -3, 3);
-    mount_stereo_pairs(rig);
+    mount_rig(rig);
     const vision::camera::PinholeCamera camera = rig.cameras[0].model().pinhole();
     // The spot is parallel to the image plane, at a random position of the left image.
     const double z_m = uniform(random, 6.0, 14.0);

@@ -30,7 +30,7 @@ std::vector<std::string> faults_of(const std::string& text) {
   try {
     read_paper(folder.path() / "paper.yaml");
   } catch (const InputError& error) {
-    return error.faults();
+    return error.errors();
   }
   return {};
 }
@@ -87,7 +87,7 @@ TEST(PaperFile, TuningSeedsAreRefusedAsJudgingSeeds) {
     try {
       read_paper(folder.path() / "p.yaml");
     } catch (const InputError& error) {
-      return error.faults();
+      return error.errors();
     }
     return {};
   };

@@ -12,7 +12,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// Faults of the light city with failures, in flow style.
+/// Errors of the light city with failures, in flow style.
 std::vector<std::string> faults_with(const std::string& failures) {
   return faults_of([&] {
     load_scenario(kConfigs / "garratt2009_city_0_light.yaml", std::vector<std::string>{"failures=" + failures});

@@ -79,8 +79,8 @@ TEST(Fuzz, MutatedScenariosLoadOrThrowInputError) {
       ++loaded;
     } catch (const InputError& error) {
       ++refused;
-      ASSERT_FALSE(error.faults().empty());
-      for (const std::string& fault : error.faults()) {
+      ASSERT_FALSE(error.errors().empty());
+      for (const std::string& fault : error.errors()) {
         ASSERT_TRUE(fault.starts_with("a.yaml") || fault.starts_with("rigs/") || fault.starts_with("vehicles/"))
             << fault;
       }
@@ -94,7 +94,7 @@ TEST(Fuzz, MutatedScenariosLoadOrThrowInputError) {
 TEST(Fuzz, AnyValueForAnyKeyLoadsOrThrowsInputError) {
   Folder folder;
   Folder::write("whole.yaml", to_yaml(load_scenario(kConfigs / "garratt2009_city_0.yaml")));
-  Faults faults;
+  ErrorList faults("scenario");
   const Node root = load_tree("whole.yaml", faults);
   std::vector<std::string> paths;
   const std::function<void(const Node&, const std::string&)> collect = [&](const Node& node, const std::string& path) {
@@ -108,7 +108,7 @@ TEST(Fuzz, AnyValueForAnyKeyLoadsOrThrowsInputError) {
       try {
         load_scenario("whole.yaml", std::vector<std::string>{path + "=" + value});
       } catch (const InputError& error) {
-        ASSERT_FALSE(error.faults().empty());
+        ASSERT_FALSE(error.errors().empty());
       }
     }
   }

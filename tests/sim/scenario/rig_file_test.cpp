@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/config/writer.h"
+#include "sim/config/outline_texts.h"
 #include "sim/scenario/rig.h"
 #include "sim/scenario/scenario.h"
 #include "tests/sim/config/input_files.h"
@@ -125,7 +125,7 @@ TEST(RigFile, AStereoPairIsTwoParallelCamerasABaselineApart) {
                 "  - {baseline: 0.5, width: 320, height: 240, fov: 60, forward: 0.2, yaw: 30, pitch: -10, roll: 5}\n"
                 "  - {role: rear, baseline: 0.1, yaw: 180, channel: color}\n");
   RigConfig rig = load_struct<RigConfig>("rig.yaml");
-  mount_stereo_pairs(rig);
+  mount_rig(rig);
   EXPECT_TRUE(rig.stereo.empty());
   std::vector<std::string> roles;
   for (const CameraConfig& camera : rig.cameras) roles.push_back(camera.role);
@@ -168,8 +168,7 @@ TEST(RigFile, TheSensorIsThatOfEveryImageThatStatesNone) {
                 "  - {role: clean, imperfections: {}}\n"
                 "stereo: [{role: pair, baseline: 0.3}]\n");
   RigConfig rig = load_struct<RigConfig>("rig.yaml");
-  mount_stereo_pairs(rig);
-  mount_sensor(rig);
+  mount_rig(rig);
   EXPECT_FALSE(rig.sensor.has_value());
   for (const std::string role : {"grey", "color", "pair_left", "pair_right"}) {
     const auto& imperfections = rig.find(role)->imperfections;

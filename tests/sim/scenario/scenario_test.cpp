@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/config/outline.h"
+#include "sim/config/config_outline.h"
 #include "tests/sim/config/input_files.h"
 
 namespace hedgehop::sim {
@@ -162,11 +162,11 @@ TEST_F(CrossRules, ChecksMakeSense) {
 }
 
 /// Keys of all lengths below an outline; not those in lists, which an override sets as a whole where no file does.
-void collect_lengths(const Outline& node, const std::string& path, std::vector<std::string>& keys) {
-  if (node.kind == Outline::Kind::list || !node.present) return;
-  if (node.kind == Outline::Kind::number && node.field.unit == "m") keys.push_back(path);
+void collect_lengths(const ConfigOutline& node, const std::string& path, std::vector<std::string>& keys) {
+  if (node.kind == ConfigOutline::Kind::list || !node.present) return;
+  if (node.kind == ConfigOutline::Kind::number && node.field.unit == "m") keys.push_back(path);
   size_t index = 0;
-  for (const Outline& part : node.parts) {
+  for (const ConfigOutline& part : node.parts) {
     collect_lengths(part, join_path(path, part.key.empty() ? std::to_string(index++) : part.key), keys);
   }
 }
@@ -178,7 +178,7 @@ TEST(Scenario, RefusesALengthBeyondAnyWorldByItsPlace) {
   ASSERT_GT(keys.size(), 30u);
   for (const std::string& key : keys) {
     EXPECT_THAT(faults_of([&] { load_scenario(file, std::vector<std::string>{key + "=1e308"}); }),
-                testing::Contains(testing::AllOf(HasSubstr("--set " + key + ": '" + key + "' must be <"),
+                testing::Contains(testing::AllOf(HasSubstr("--set " + key + ": '" + key + "': must be <"),
                                                  HasSubstr(" m, got 1e308"))));
   }
 }

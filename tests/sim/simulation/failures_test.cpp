@@ -136,10 +136,10 @@ TEST(FaultsOfAssembledScenarios, AreListedWithFileAndLine) {
     return "flies";
   };
   EXPECT_THAT(fault_with("andert2007_forest.yaml", {"scene.keep_clear.0.radius=1000"}),
-              testing::MatchesRegex(".*/andert2007_forest.yaml:[0-9]+:[0-9]+: 'scene': trees: 100; valid: .*"));
-  EXPECT_THAT(
-      fault_with("garratt2009_city_0_light.yaml", {"start.altitude=0"}),
-      testing::MatchesRegex(".*/garratt2009_city_0.yaml:[0-9]+:[0-9]+: 'start': no flight can begin there: .*"));
+              testing::MatchesRegex(".*/andert2007_forest.yaml:[0-9]+:[0-9]+: 'scene.trees': 100; valid: .*"));
+  EXPECT_THAT(fault_with("garratt2009_city_0_light.yaml", {"start.altitude=0"}),
+              testing::MatchesRegex(
+                  ".*/garratt2009_city_0.yaml:[0-9]+:[0-9]+: 'start': the vehicle collides at the start: .*"));
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ TEST(Simulation, RefusesAValueOutOfBoundsThatNoFileBrought) {
     Simulation(scenario).run();
     FAIL() << "flies";
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "'scenario': film.rate: 0; must be >= 0.01 Hz");
+    EXPECT_STREQ(error.what(), "'film.rate': must be >= 0.01 Hz, got 0");
   }
 }
 
@@ -140,7 +140,7 @@ TEST(Simulation, ASceneThatCannotBeIsBadInputWithItsReason) {
     Simulation(short_city({"scene.min_height=90"})).run();
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "'scene': max_height: 40; valid: at least min_height");
+    EXPECT_STREQ(error.what(), "'scene.max_height': 40; valid: at least min_height");
   }
 }
 
@@ -159,7 +159,7 @@ TEST(SimulationImage, ACameraThatTheContextCannotDrawIsRefusedByItsRole) {
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "camera 'right': samples: 8 samples per pixel are not possible; maximum of this OpenGL: 4");
+                 "'rig.cameras.1.samples': 8 samples per pixel are not possible; maximum of this OpenGL: 4");
   }
 }
 

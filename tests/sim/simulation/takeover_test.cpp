@@ -2,8 +2,8 @@
 
 #include <set>
 
-#include "sim/config/writer.h"
-#include "sim/loop/takeover.h"
+#include "sim/config/outline_texts.h"
+#include "sim/loop/active_module.h"
 #include "sim/scenario/avoidance_choice.h"
 #include "sim/simulation/simulation.h"
 
@@ -101,7 +101,7 @@ TEST(Takeover, OtherCamerasAndALateMomentAreRefused) {
         load_scenario(HEDGEHOP_SOURCE_DIR "/configs/perez2018_control.yaml",
                       std::vector<std::string>{"takeover={at: 500, avoidance: {module: go_to_goal}}"});
       },
-      ::testing::ThrowsMessage<InputError>(HasSubstr("'takeover.at': is not before the flight's end (180 s)")));
+      ::testing::ThrowsMessage<InputError>(HasSubstr("'takeover.at': must be before the end of the flight (180 s)")));
 }
 
 }  // namespace

@@ -11,11 +11,11 @@
 
 namespace hedgehop::sim {
 
-/// What a flight flies through, what may touch it, and who draws it: all that takes long to make. Serves any number of
-/// flights of one scenario and seed, one at a time; none leaves a trace in it that another could see.
-struct Stage {
-  /// Throws InputError for a scene that cannot be, std::runtime_error when there is no context to draw in.
-  explicit Stage(const Scenario& scenario);
+/// The scene, collision world and renderer of a flight, which are slow to build. It serves any number of flights of one
+/// scenario and seed, one at a time; a flight leaves no state in it.
+struct FlightEnvironment {
+  /// Throws InputError for an invalid scene, std::runtime_error if no context can be created.
+  explicit FlightEnvironment(const Scenario& scenario);
 
   std::shared_ptr<const scenes::Scene> scene;
   std::vector<dynamics::HullPart> hull;

@@ -1,9 +1,9 @@
-#include "sim/config/outline.h"
+#include "sim/config/config_outline.h"
 
 namespace hedgehop::sim {
 
-Outline outline_as_written(const Node& node) {
-  Outline outline;
+ConfigOutline outline_as_written(const Node& node) {
+  ConfigOutline outline;
   switch (node.kind) {
     case Node::Kind::null:
       outline.present = false;
@@ -15,12 +15,12 @@ Outline outline_as_written(const Node& node) {
       }
       break;
     case Node::Kind::list:
-      outline.kind = Outline::Kind::list;
+      outline.kind = ConfigOutline::Kind::list;
       for (const Node& item : node.items) outline.parts.push_back(outline_as_written(item));
       break;
     case Node::Kind::scalar:
       // A choice is written without quotes: what was a number stays one.
-      outline.kind = node.quoted ? Outline::Kind::text : Outline::Kind::choice;
+      outline.kind = node.quoted ? ConfigOutline::Kind::text : ConfigOutline::Kind::choice;
       outline.value = node.text;
       break;
   }

@@ -1,4 +1,4 @@
-#include "sim/loop/onlooker.h"
+#include "sim/loop/watcher_dispatch.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -6,13 +6,13 @@
 
 namespace hedgehop::sim {
 
-Onlooker::Onlooker(FlightWatcher* watcher, const Ticks& ticks, Cameras& cameras, const Aircraft& aircraft)
+WatcherDispatch::WatcherDispatch(FlightWatcher* watcher, const Ticks& ticks, Cameras& cameras, const Aircraft& aircraft)
     : watcher_(watcher), ticks_(ticks), cameras_(cameras), aircraft_(aircraft) {
   exposed_.resize(cameras_.count());
   if (watcher_ && watcher_->image_rate_hz() > 0.0) image_period_ = ticks_.period(watcher_->image_rate_hz());
 }
 
-void Onlooker::hand_over_sensors(int64_t tick, const BodyMotion& body) {
+void WatcherDispatch::send_sensors(int64_t tick, const BodyMotion& body) {
   if (!watcher_ || !watcher_->wants_sensors()) return;
   const Cameras::Instant now{ticks_.t_ns(tick), body};
   std::vector<avoidance::CameraFrame> frames;
@@ -26,22 +26,23 @@ void Onlooker::hand_over_sensors(int64_t tick, const BodyMotion& body) {
   }
   const dynamics::Avionics& avionics = aircraft_.avionics();
   if (frames.empty() && !avionics.imu()) return;
-  const auto seen_as = [&](ImageChannel channel) {
+  const auto image_of = [&](ImageChannel channel) {
     return [&, channel](std::string_view role) { return cameras_.image(cameras_.index(role), channel, now, now); };
   };
   const auto moving = [&](std::string_view role) { return cameras_.moving(cameras_.index(role), now); };
   const auto flow_to_here = [&](std::string_view role) {
     const size_t camera = cameras_.index(role);
-    if (!exposed_[camera]) throw std::logic_error("no flow leads to the first image");
+    if (!exposed_[camera]) throw std::logic_error("the first image has no optic flow");
     return cameras_.image(camera, ImageChannel::flow, *exposed_[camera], now);
   };
   watcher_->on_sensors({now.t_ns, aircraft_.body(), avionics.imu(), avionics.imu_bias(), frames,
-                        seen_as(ImageChannel::depth), seen_as(ImageChannel::labels), moving, flow_to_here});
+                        image_of(ImageChannel::depth), image_of(ImageChannel::labels), moving, flow_to_here});
   for (const size_t camera : exposing) exposed_[camera] = now;
 }
 
-void Onlooker::show(int64_t tick, const std::function<cv::Mat()>& annotate, std::string_view status,
-                    double obstacle_clearance_m, double duration_s, std::optional<double> goal_distance_m) {
+void WatcherDispatch::send_images(int64_t tick, const std::function<cv::Mat()>& annotate, std::string_view status,
+                                  double obstacle_clearance_m, double duration_s,
+                                  std::optional<double> goal_distance_m) {
   if (!watcher_) return;
   if (image_period_ > 0 && tick % image_period_ == 0) {
     ShownInstant shown{.t_ns = ticks_.t_ns(tick),

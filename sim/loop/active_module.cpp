@@ -1,9 +1,11 @@
-#include "sim/loop/takeover.h"
+#include "sim/loop/active_module.h"
 
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <utility>
+
+#include "sim/plugin/foreign_module.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -19,12 +21,12 @@ class Takeover : public avoidance::Module {
   Takeover(std::unique_ptr<Module> before, std::unique_ptr<Module> after, int64_t at_ns)
       : before_(std::move(before)), after_(std::move(after)), at_ns_(at_ns), signals_(before_->signals()) {
     if (!same_cameras(before_->needs(), after_->needs())) {
-      throw std::invalid_argument("needs other cameras than the module that it takes over from");
+      throw std::invalid_argument("needs other cameras than the module that it replaces");
     }
     for (const avoidance::Signal& signal : after_->signals()) {
       auto known = std::ranges::find(signals_, signal.name, &avoidance::Signal::name);
       if (known == signals_.end()) known = signals_.insert(known, signal);
-      places_of_after_.push_back(static_cast<size_t>(known - signals_.begin()));
+      indices_of_after_.push_back(static_cast<size_t>(known - signals_.begin()));
     }
   }
 
@@ -47,25 +49,35 @@ class Takeover : public avoidance::Module {
       decision.signals = std::move(signals);
       return decision;
     }
-    for (size_t i = 0; i < places_of_after_.size(); ++i) signals[places_of_after_[i]] = of_after.signals[i];
+    for (size_t i = 0; i < indices_of_after_.size(); ++i) signals[indices_of_after_[i]] = of_after.signals[i];
     of_after.signals = std::move(signals);
     return of_after;
   }
 
-  std::vector<avoidance::Metric> do_metrics() const override { return in_charge().metrics(); }
-  avoidance::Map do_map() const override { return in_charge().map(); }
-  cv::Mat do_annotate() const override { return in_charge().annotate(); }
+  std::vector<avoidance::Metric> do_metrics() const override { return active().metrics(); }
+  avoidance::Map do_map() const override { return active().map(); }
+  cv::Mat do_annotate() const override { return active().annotate(); }
 
-  const Module& in_charge() const { return has_taken_over_ ? *after_ : *before_; }
+  const Module& active() const { return has_taken_over_ ? *after_ : *before_; }
 
   std::unique_ptr<Module> before_, after_;
   int64_t at_ns_;
   bool has_taken_over_ = false;
   std::vector<avoidance::Signal> signals_;  ///< of before_, then those that only after_ has
-  std::vector<size_t> places_of_after_;
+  std::vector<size_t> indices_of_after_;
 };
 
 }  // namespace
+
+std::unique_ptr<avoidance::Module> make_active_module(const Scenario& scenario, const Ticks& ticks,
+                                                      std::unique_ptr<avoidance::Module> module) {
+  if (!module) module = make_module(scenario.avoidance);
+  if (!scenario.takeover) return module;
+  return build_part("takeover.avoidance", [&] {
+    return make_takeover(std::move(module), make_module(scenario.takeover->avoidance),
+                         ticks.t_ns(ticks.ticks(scenario.takeover->at_s)));
+  });
+}
 
 std::unique_ptr<avoidance::Module> make_takeover(std::unique_ptr<avoidance::Module> before,
                                                  std::unique_ptr<avoidance::Module> after, int64_t at_ns) {

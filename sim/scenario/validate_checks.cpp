@@ -1,4 +1,4 @@
-#include "sim/scenario/check_faults.h"
+#include "sim/scenario/validate.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 #include <concepts>
 #include <variant>
 
-#include "sim/config/tree.h"
 #include "sim/scenario/formula.h"
 #include "sim/scenario/reference_path.h"
 
@@ -26,16 +25,16 @@ std::string check_name(const CheckConfig& config) {
       config);
 }
 
-class Inspector {
+class CheckValidator {
  public:
-  explicit Inspector(const Scenario& scenario) : scenario_(scenario) {}
+  explicit CheckValidator(const Scenario& scenario) : scenario_(scenario) {}
 
-  std::vector<CheckFault> faults() {
+  std::vector<FieldError> errors() {
     for (size_t i = 0; i < scenario_.checks.size(); ++i) {
       const std::string path = fmt::format("checks.{}", i);
       std::visit([&](const auto& check) { this->check(path, check); }, scenario_.checks[i]);
     }
-    return std::move(faults_);
+    return std::move(errors_);
   }
 
  private:
@@ -101,10 +100,10 @@ class Inspector {
     }
   }
 
-  void add(std::string path, std::string message) { faults_.push_back({std::move(path), std::move(message)}); }
+  void add(std::string path, std::string message) { errors_.push_back({std::move(path), std::move(message)}); }
 
   const Scenario& scenario_;
-  std::vector<CheckFault> faults_;
+  std::vector<FieldError> errors_;
 };
 
 }  // namespace
@@ -117,6 +116,6 @@ std::vector<std::string> check_names(const Scenario& scenario) {
   return names;
 }
 
-std::vector<CheckFault> check_faults(const Scenario& scenario) { return Inspector(scenario).faults(); }
+std::vector<FieldError> check_errors(const Scenario& scenario) { return CheckValidator(scenario).errors(); }
 
 }  // namespace hedgehop::sim

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace hedgehop::fields {
+
+/// A config that is refused because of one of its fields. what() is "key: message".
+class InvalidField : public std::invalid_argument {
+ public:
+  /// @param key  dotted, from the config.
+  InvalidField(std::string key, std::string message)
+      : std::invalid_argument(key + ": " + message), key_(std::move(key)), message_(std::move(message)) {}
+
+  const std::string& key() const { return key_; }
+  const std::string& message() const { return message_; }
+
+ private:
+  std::string key_, message_;
+};
+
+}  // namespace hedgehop::fields
