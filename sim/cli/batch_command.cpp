@@ -5,6 +5,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "sim/batch/seeds.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/fly_batch.h"
 #include "sim/record/whole_file.h"

@@ -1,3 +1,4 @@
+#include "sim/batch/seeds.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/fly_batch.h"
 #include "sim/record/whole_file.h"

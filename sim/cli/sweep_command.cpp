@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/batch/junit.h"
+#include "sim/batch/seeds.h"
 #include "sim/cli/campaign_page.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/every_write.h"
