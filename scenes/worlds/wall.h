@@ -26,7 +26,7 @@ void describe(Visitor& v, fields::ConfigOf<WallOpening> auto& c) {
   v("height", c.height_m, {.unit = "m", .above = 0.0, .meaning = "height of the opening"});
 }
 
-/// A free-standing wall on a meadow, from west to east, with its south face at `north`. With `vary`, the seed draws
+/// A single wall on a meadow, from west to east, with its south face at `north`. With `vary`, the seed draws
 /// that distance and the position and size of the opening, each within that share of the configured value.
 struct WallConfig {
   static constexpr std::string_view kName = "wall";

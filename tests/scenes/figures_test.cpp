@@ -14,7 +14,7 @@
 namespace hedgehop::scenes {
 namespace {
 
-TEST(SceneFigures, SmallestGapIsThatOfAllPairs) {
+TEST(SceneFigures, MinimumGapEqualsThatOverAllPairs) {
   worlds::UrbanConfig config;
   config.texture_size_px = 64;
   for (uint64_t seed = 0; seed < 5; ++seed) {
@@ -34,7 +34,7 @@ TEST(SceneFigures, SmallestGapIsThatOfAllPairs) {
   }
 }
 
-TEST(SceneFigures, AnEmptyRoomIsAsWideAsItsWallsAreApart) {
+TEST(SceneFigures, GapOfAnEmptyRoomIsItsWidth) {
   worlds::RoomConfig config;
   config.texture_size_px = 64;
   config.ceiling = false;
@@ -62,7 +62,7 @@ TEST(SceneFigures, OfAGridOfPostsFollowPitchAndRadius) {
   EXPECT_EQ(scene_figures(grid, {.lowest_m = 4.9, .highest_m = 9.0}).solids, 100u);
 }
 
-TEST(SceneFigures, MedianGapIsThatOfAllPairsSorted) {
+TEST(SceneFigures, MedianGapEqualsThatOverAllPairs) {
   std::mt19937_64 random(2);
   for (int trial = 0; trial < 20; ++trial) {
     Scene scene;

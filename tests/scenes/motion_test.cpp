@@ -24,7 +24,7 @@ void expect_at(const Motion& motion, double t_s, const Vector3d& p_W) {
   EXPECT_LT((p_WM(motion, t_s) - p_W).norm(), kRoundingM) << "at " << t_s << " s: " << p_WM(motion, t_s).transpose();
 }
 
-TEST(WaypointMotion, WaitsWalksAndStopsAtTheEnd) {
+TEST(WaypointMotion, WaitsMovesAndStopsAtTheEnd) {
   const Motion motion = bent(Repeat::once);
   expect_at(motion, 0.0, {0, 0, -2});
   expect_at(motion, 10.0, {0, 0, -2});
@@ -50,7 +50,7 @@ TEST(WaypointMotion, RoundClosesTheTriangle) {
   expect_at(motion, 10.0 + 2.0 * 12 + 2.0, {1, 0, -2});
 }
 
-TEST(WaypointMotion, OfOnePointOrEqualPointsStandsStill) {
+TEST(WaypointMotion, IsAtRestForOnePointOrEqualPoints) {
   for (const Motion& motion : {Motion(WaypointMotion{.points = {{1, 2, 3}}, .repeat = Repeat::round}),
                                Motion(WaypointMotion{.points = {{1, 2, 3}, {1, 2, 3}}})}) {
     expect_at(motion, 7.0, {1, 2, -3});
@@ -101,7 +101,7 @@ TEST(Motion, VelocityIsTheDerivativeOfThePosition) {
   EXPECT_GT(compared, 2950);
 }
 
-TEST(Motion, NeverLeavesItsWay) {
+TEST(Motion, NeverLeavesItsPath) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> time(0.0, 100.0);
   for (int k = 0; k < 500; ++k) {
@@ -121,7 +121,7 @@ TEST(Motion, NeverLeavesItsWay) {
   }
 }
 
-TEST(Motion, RefusesWhatCannotMove) {
+TEST(Motion, RejectsInvalidConfigs) {
   using E = std::invalid_argument;
   using testing::HasSubstr;
   using testing::ThrowsMessage;

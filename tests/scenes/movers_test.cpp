@@ -30,7 +30,7 @@ Eigen::AlignedBox3d bounds_M(const Mover& mover) {
   return box;
 }
 
-TEST(Movers, StandOnTheirFootAndAreAsHighAndWideAsAsked) {
+TEST(Movers, HaveTheirConfiguredSizeAboveTheirFoot) {
   for (const Shape shape : {Shape::balloon, Shape::pole, Shape::box, Shape::tree}) {
     const MoverConfig config{.shape = shape, .radius_m = 0.8, .height_m = 5.0};
     const Scene room = make_scene(room_with({config}), 1);
@@ -44,7 +44,7 @@ TEST(Movers, StandOnTheirFootAndAreAsHighAndWideAsAsked) {
   }
 }
 
-TEST(Movers, AreDrawnWhereTheirSolidsAre) {
+TEST(Movers, HaveMeshesThatAgreeWithTheirSolids) {
   const Scene room = make_scene(room_with(one_of_each()), 1);
   for (const Mover& mover : room.movers) {
     Eigen::AlignedBox3d hit;
@@ -55,7 +55,7 @@ TEST(Movers, AreDrawnWhereTheirSolidsAre) {
   }
 }
 
-TEST(Movers, LeaveTheirSceneAsItIsWithoutThem) {
+TEST(Movers, DoNotChangeTheRestOfTheScene) {
   Scene with = make_scene(room_with(one_of_each()), 3);
   const Scene without = make_scene(room_with({}), 3);
   EXPECT_TRUE(identical(make_scene(room_with(one_of_each()), 3), with));
@@ -72,7 +72,7 @@ TEST(Movers, FollowTheScenesSolidsInTheCount) {
   EXPECT_THROW(solid_at(room, solid_count(room)), std::out_of_range);
 }
 
-TEST(Movers, RefuseWhatCannotBeBuilt) {
+TEST(Movers, RejectInvalidConfigs) {
   using E = std::invalid_argument;
   using testing::HasSubstr;
   using testing::ThrowsMessage;

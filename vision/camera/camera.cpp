@@ -19,7 +19,7 @@ bool finite(std::initializer_list<double> numbers) {
   return true;
 }
 
-// Checked for every image: builds no text unless there is a fault to report.
+// Takes `const char*`, because this check runs for every image and must not allocate.
 void check_lens(const PinholeLens& lens) {
   require(finite({lens.focal_x_px, lens.focal_y_px, lens.center_u_px, lens.center_v_px, lens.k1, lens.k2, lens.p1,
                   lens.p2, lens.k3}),

@@ -10,9 +10,9 @@
 
 namespace hedgehop::vision::camera {
 
-/// Any camera: the size of its images and its lens. Frame C: x right, y down, z forward along the optical axis. Pixel
-/// (0, 0) is the center of the top-left pixel, u right, v down, so an image covers u in [-0.5, width - 0.5].
-/// What it projects is what the simulator draws. A value: copying it allocates nothing.
+/// A camera: its image size and its lens. Frame C: x right, y down, z forward along the optical axis. Pixel (0, 0) is
+/// the center of the top-left pixel, u right, v down, so an image covers u in [-0.5, width - 0.5]. The simulator
+/// renders images with this projection. Copying a camera does not allocate memory.
 struct Camera {
   using Lens = std::variant<PinholeLens, FisheyeLens, OcamLens>;
 
@@ -21,33 +21,35 @@ struct Camera {
 
   Camera() = default;
   Camera(int width, int height, const Lens& its_lens) : width_px(width), height_px(height), lens(its_lens) {}
-  /// A pinhole camera. Not explicit, so that it can stand wherever a camera is expected.
+  /// A pinhole camera. Implicit, so that a PinholeCamera can be passed as a Camera.
   Camera(const PinholeCamera& pinhole);
-  /// Throws std::invalid_argument as ocam_lens().
+  /// Throws std::invalid_argument like ocam_lens().
   explicit Camera(const OcamCalibration& calibration);
 
   bool operator==(const Camera&) const = default;
 
-  /// Pixel (u, v) of a point in C, m; nothing beyond the lens's limit. Not clipped to the image.
+  /// Returns the pixel (u, v) of a point in C, m; std::nullopt beyond the lens's limit. Not clipped to the image.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_C) const;
-  /// Ray through a pixel, in C, of length 1; nothing where the lens shows nothing. The inverse of project().
+  /// Returns the ray through a pixel in C, of length 1; std::nullopt outside the lens's image circle. Inverse of
+  /// project().
   std::optional<Eigen::Vector3d> unit_ray(const Eigen::Vector2d& pixel) const;
 
-  /// Whether the lens is an undistorted pinhole, which shows straight lines as straight lines.
+  /// Returns whether the lens is an undistorted pinhole, which images straight lines as straight lines.
   bool is_undistorted_pinhole() const;
-  /// This camera as an undistorted pinhole, for algorithms that hold for no other lens.
-  /// Throws std::invalid_argument, naming the lens, when it is another.
+  /// Returns this camera as an undistorted pinhole, for algorithms that require one.
+  /// Throws std::invalid_argument with the name of the lens if it is a different one.
   PinholeCamera pinhole() const;
-  /// "pinhole", "distorted pinhole", "fisheye" or "omnidirectional (OCamCalib)".
+  /// Returns "pinhole", "distorted pinhole", "fisheye" or "omnidirectional (OCamCalib)".
   std::string lens_name() const;
 };
 
-/// Focal length at which a fisheye of these coefficients shows a field of view across an image's full width, px.
-/// @param horizontal_fov_rad  in (0, 2 pi). Throws std::invalid_argument when the lens does not reach so far.
+/// Returns the focal length, px, at which a fisheye with these coefficients images a field of view across the full
+/// width.
+/// @param horizontal_fov_rad  in (0, 2 pi). Throws std::invalid_argument if it exceeds the lens's limit.
 double fisheye_focal_px(const FisheyeLens& coefficients, int width_px, double horizontal_fov_rad);
 
-/// Throws std::invalid_argument, naming the fault, for a camera that cannot be: without pixels, with a focal length
-/// that is not positive, a number that is not finite, or a limit beyond which its lens folds back.
+/// Throws std::invalid_argument with the reason if the camera is invalid: an empty image, a focal length that is not
+/// positive, a number that is not finite, or a limit in the range in which the image radius decreases.
 void check(const Camera& camera);
 
 }  // namespace hedgehop::vision::camera

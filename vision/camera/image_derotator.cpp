@@ -9,10 +9,10 @@ namespace hedgehop::vision::camera {
 
 constexpr int kNodePx = 4;
 
-ImageDerotator::ImageDerotator(const Camera& camera, const cv::Mat& wanted)
-    : camera_(camera), box_(cv::boundingRect(wanted)) {
-  if (wanted.size() != cv::Size(camera.width_px, camera.height_px)) {
-    throw std::invalid_argument("what is wanted differs from the camera's size");
+ImageDerotator::ImageDerotator(const Camera& camera, const cv::Mat& mask)
+    : camera_(camera), box_(cv::boundingRect(mask)) {
+  if (mask.size() != cv::Size(camera.width_px, camera.height_px)) {
+    throw std::invalid_argument("the mask differs from the camera's image size");
   }
   nodes_ = {(box_.width + kNodePx - 1) / kNodePx + 1, (box_.height + kNodePx - 1) / kNodePx + 1};
   for (int row = 0; row < nodes_.height; ++row) {
@@ -22,14 +22,14 @@ ImageDerotator::ImageDerotator(const Camera& camera, const cv::Mat& wanted)
   }
   for (int row = box_.y; row < box_.br().y; ++row) {
     for (int col = box_.x; col < box_.br().x; ++col) {
-      if (!wanted.at<uint8_t>(row, col)) continue;
+      if (!mask.at<uint8_t>(row, col)) continue;
       if (const auto ray_C = camera.unit_ray({col, row})) rays_.push_back({row, col, *ray_C});
     }
   }
 }
 
-cv::Mat ImageDerotator::places(const Eigen::Matrix3d& R_C1C2) const {
-  // So far outside that no pixel of the image has a share: OpenCV then needs no arithmetic.
+cv::Mat ImageDerotator::source_pixels(const Eigen::Matrix3d& R_C1C2) const {
+  // Far enough outside that OpenCV does not interpolate.
   constexpr double kOutside = -100.0;
   cv::Mat places(box_.size(), CV_32FC2, cv::Scalar::all(kOutside));
   const Eigen::Matrix3d R_C2C1 = R_C1C2.transpose();
@@ -52,7 +52,7 @@ cv::Mat ImageDerotator::places(const Eigen::Matrix3d& R_C1C2) const {
     }
     const auto left = static_cast<size_t>(col / kNodePx);
     Eigen::Vector2d place = line[left] + (col % kNodePx) / double{kNodePx} * (line[left + 1] - line[left]);
-    if (std::isnan(place.x())) {  // beside what the lens shows
+    if (std::isnan(place.x())) {  // next to the border of the image circle
       const auto pixel = camera_.project(R_C2C1 * ray.ray_C);
       if (!pixel) continue;
       place = *pixel;
@@ -66,7 +66,8 @@ cv::Mat ImageDerotator::derotate(const cv::Mat& image, const Eigen::Matrix3d& R_
   cv::Mat result = cv::Mat::zeros(image.size(), CV_8UC1);
   if (box_.empty()) return result;
   cv::Mat shown = result(box_);
-  cv::remap(image, shown, places(R_C1C2), cv::noArray(), cv::INTER_CUBIC, cv::BORDER_CONSTANT, cv::Scalar::all(0));
+  cv::remap(image, shown, source_pixels(R_C1C2), cv::noArray(), cv::INTER_CUBIC, cv::BORDER_CONSTANT,
+            cv::Scalar::all(0));
   return result;
 }
 

@@ -9,23 +9,24 @@
 
 namespace hedgehop::vision::camera {
 
-/// Resamples images of one camera to those of a camera that did not rotate. A corner's window then keeps its shape, and
-/// tracking it succeeds more often than when rays are rotated afterwards: near a fisheye's rim the window rotates with
-/// the vehicle. Where pixels lie is computed for every fourth row and column, and is linear in between: off by less
-/// than 4 px times the turn over the focal length in pixels, 0.003 px at 0.1 rad and 145 px.
+/// Resamples images of a camera to those of a camera that did not rotate. A corner's window then keeps its shape, and
+/// tracking succeeds more often than with rays rotated afterward, because near a fisheye's rim the window rotates with
+/// the vehicle. Source pixels are computed for every fourth row and column and interpolated linearly. The error is
+/// below 4 px times the rotation divided by the focal length in pixels: 0.003 px at 0.1 rad and 145 px.
 class ImageDerotator {
  public:
-  /// @param wanted  CV_8UC1, of the camera's size: not 0 at the pixels to compute.
-  ImageDerotator(const Camera& camera, const cv::Mat& wanted);
+  /// @param mask  CV_8UC1, of the camera's size: not 0 at the pixels to compute.
+  ImageDerotator(const Camera& camera, const cv::Mat& mask);
 
-  /// Returns the image that C1 would take of points infinitely far; 0 where `image` does not show them or no pixel is
-  /// wanted. @param image  CV_8UC1, taken by C2. @param R_C1C2  rotation of C2 in C1, the camera that did not rotate.
+  /// Returns the image that C1 would take of points at infinity; 0 outside the mask and at points outside `image`.
+  /// @param image  CV_8UC1, taken by C2. @param R_C1C2  rotation of C2 in C1, the camera that did not rotate.
   /// Source: [Zingg2010] eq. (5). Differs: rotates the rays of all pixels, before corners are tracked.
   cv::Mat derotate(const cv::Mat& image, const Eigen::Matrix3d& R_C1C2) const;
 
-  /// Where C2 shows what C1 shows at the pixels wanted: CV_32FC2 of box()'s size, px; far outside the image elsewhere.
-  cv::Mat places(const Eigen::Matrix3d& R_C1C2) const;
-  const cv::Rect& box() const { return box_; }  ///< holds all that is wanted
+  /// Returns for each pixel of C1 in the mask the corresponding pixel of C2: CV_32FC2 of box()'s size, px. All other
+  /// entries are far outside the image.
+  cv::Mat source_pixels(const Eigen::Matrix3d& R_C1C2) const;
+  const cv::Rect& box() const { return box_; }  ///< bounding box of the mask
 
  private:
   struct Ray {
@@ -34,7 +35,7 @@ class ImageDerotator {
   };
   Camera camera_;
   cv::Rect box_;
-  std::vector<Ray> rays_;  ///< of the pixels wanted, row by row
+  std::vector<Ray> rays_;  ///< of the pixels in the mask, row by row
   cv::Size nodes_;
   std::vector<std::optional<Eigen::Vector3d>> node_rays_;  ///< of every fourth row and column of the box
 };

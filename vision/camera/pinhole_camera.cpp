@@ -18,7 +18,7 @@ PinholeCamera PinholeCamera::from_fov(int width_px, int height_px, double horizo
     throw std::invalid_argument("a pinhole camera's field of view lies between 0 and pi rad, got " +
                                 std::to_string(horizontal_fov_rad));
   }
-  // Half the image's width (outer edge of the outermost pixel) is seen at half the field of view.
+  // Half the image width, up to the outer edge of the last pixel, covers half the field of view.
   const double focal_px = 0.5 * width_px / std::tan(0.5 * horizontal_fov_rad);
   return {width_px, height_px, focal_px, focal_px, 0.5 * (width_px - 1), 0.5 * (height_px - 1)};
 }
@@ -34,7 +34,7 @@ Eigen::Vector3d PinholeCamera::ray_at_unit_depth(const Eigen::Vector2d& pixel) c
 
 namespace {
 
-/// A point of the plane z = 1, moved as the lens moves it, and how that changes with the point.
+/// A distorted point of the plane z = 1, and the Jacobian of the distortion there.
 struct Distorted {
   Eigen::Vector2d point;
   Eigen::Matrix2d slope;
@@ -55,10 +55,11 @@ Distorted distort(const PinholeLens& lens, const Eigen::Vector2d& p) {
   return {stretch * p + tangential, slope};
 }
 
-/// Whether the radial part grows all the way to `p`, and the whole does there: one place in the image shows one ray.
-bool sees(const PinholeLens& lens, const Eigen::Vector2d& p, const Eigen::Matrix2d& slope) {
+/// Returns whether the radial part increases up to `p` and the Jacobian is positive at `p`, so that the pixel has a
+/// unique ray.
+bool is_in_view(const PinholeLens& lens, const Eigen::Vector2d& p, const Eigen::Matrix2d& slope) {
   const double end = p.squaredNorm();
-  // The growth d(r (1 + ...)) / dr, a cubic in s = r^2, is least at an end of [0, end] or where its own slope is 0.
+  // The growth d(r (1 + ...)) / dr is a cubic in s = r^2. Its minimum is at an end of [0, end] or a root of its slope.
   const auto growth = [&](double s) { return 1.0 + s * (3.0 * lens.k1 + s * (5.0 * lens.k2 + s * 7.0 * lens.k3)); };
   const double a = 21.0 * lens.k3, b = 10.0 * lens.k2, c = 3.0 * lens.k1, root = std::sqrt(b * b - 4.0 * a * c);
   const std::array<double, 3> turns = {(-b + root) / (2.0 * a), (-b - root) / (2.0 * a), -c / b};
@@ -69,7 +70,7 @@ bool sees(const PinholeLens& lens, const Eigen::Vector2d& p, const Eigen::Matrix
   return slope.determinant() > 0.0;
 }
 
-/// The point that the lens moves to `seen`; nothing when it moves none there.
+/// Returns the point that the lens distorts to `seen`; std::nullopt if there is none.
 std::optional<Eigen::Vector2d> straighten(const PinholeLens& lens, const Eigen::Vector2d& seen) {
   constexpr int kMaxSteps = 60;
   constexpr double kAccuracy = 1e-14;
@@ -78,7 +79,7 @@ std::optional<Eigen::Vector2d> straighten(const PinholeLens& lens, const Eigen::
   for (int step = 0; step < kMaxSteps; ++step) {
     const double error = (at.point - seen).norm();
     if (error <= kAccuracy * (1.0 + seen.norm())) break;
-    // Newton's step, halved until it does not lead away.
+    // Newton's step, halved until the error decreases.
     Eigen::Vector2d move = at.slope.inverse() * (seen - at.point);
     for (int halving = 0; halving < 30; ++halving, move *= 0.5) {
       const Distorted next = distort(lens, p + move);
@@ -87,10 +88,11 @@ std::optional<Eigen::Vector2d> straighten(const PinholeLens& lens, const Eigen::
       at = next;
       break;
     }
-    if (!((at.point - seen).norm() < error)) break;  // as near as numbers go
+    if (!((at.point - seen).norm() < error)) break;  // at the limit of rounding
   }
   constexpr double kFound = 1e-11;
-  if (!((at.point - seen).norm() <= kFound * (1.0 + seen.norm())) || !sees(lens, p, at.slope)) return std::nullopt;
+  if (!((at.point - seen).norm() <= kFound * (1.0 + seen.norm())) || !is_in_view(lens, p, at.slope))
+    return std::nullopt;
   return p;
 }
 
@@ -101,7 +103,7 @@ std::optional<Eigen::Vector2d> PinholeLens::project(const Eigen::Vector3d& p_C) 
   Eigen::Vector2d p = p_C.head<2>() / p_C.z();
   if (!is_undistorted()) {
     const Distorted at = distort(*this, p);
-    if (!sees(*this, p, at.slope)) return std::nullopt;
+    if (!is_in_view(*this, p, at.slope)) return std::nullopt;
     p = at.point;
   }
   return Eigen::Vector2d{center_u_px + focal_x_px * p.x(), center_v_px + focal_y_px * p.y()};

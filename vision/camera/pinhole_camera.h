@@ -12,27 +12,28 @@ struct PinholeCamera {
   double focal_x_px = 0.0, focal_y_px = 0.0;
   double center_u_px = 0.0, center_v_px = 0.0;
 
-  /// Square pixels, centered axis. @param horizontal_fov_rad across the full width, in (0, pi).
-  /// Throws std::invalid_argument for sizes below 1 or a field of view outside its range.
+  /// Returns a camera with square pixels and a centered axis. @param horizontal_fov_rad  across the full width, in
+  /// (0, pi). Throws std::invalid_argument for sizes below 1 or a field of view out of range.
   static PinholeCamera from_fov(int width_px, int height_px, double horizontal_fov_rad);
 
-  /// Pixel (u, v) of a point in C, m; nothing when the point is not in front of the camera. Not clipped to the image.
+  /// Returns the pixel (u, v) of a point in C, m; std::nullopt if it is not in front of the camera. Not clipped to the
+  /// image.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_C) const;
-  /// Ray through a pixel, in C, scaled to z = 1.
+  /// Returns the ray through a pixel in C, scaled to z = 1.
   Eigen::Vector3d ray_at_unit_depth(const Eigen::Vector2d& pixel) const;
 };
 
-/// A perspective lens that may bend rays (Brown-Conrady), in the convention of OpenCV's calib3d module: with
-/// x = x_C / z_C, y = y_C / z_C, r^2 = x^2 + y^2 the image shows
-/// x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2), y likewise with p1 and p2 exchanged.
-/// It sees up to where that stops growing with r.
+/// A perspective lens with Brown-Conrady distortion in the convention of OpenCV's calib3d module. With x = x_C / z_C,
+/// y = y_C / z_C and r^2 = x^2 + y^2, the distorted x is
+/// x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2), and y likewise with p1 and p2 exchanged.
+/// The field of view ends at the radius at which the distorted radius stops increasing.
 struct PinholeLens {
   double focal_x_px = 0.0, focal_y_px = 0.0;
   double center_u_px = 0.0, center_v_px = 0.0;
   double k1 = 0.0, k2 = 0.0, p1 = 0.0, p2 = 0.0, k3 = 0.0;
 
   bool operator==(const PinholeLens&) const = default;
-  /// Whether this is an undistorted pinhole: all five coefficients are zero.
+  /// Returns whether all five coefficients are zero.
   bool is_undistorted() const { return *this == PinholeLens{focal_x_px, focal_y_px, center_u_px, center_v_px}; }
 
   /// As Camera::project().

@@ -10,12 +10,12 @@
 namespace hedgehop::vision::camera {
 namespace {
 
-/// Returns where a function that rises over [low, high] takes the value 0: Newton's steps, halving where one leaves the
-/// interval still in question. @param f  (x) -> pair of value and slope; f(low) <= 0 <= f(high).
+/// Returns the root of a function that increases over [low, high], by Newton's method with bisection if a step leaves
+/// the bracketing interval. @param f  (x) -> pair of value and slope; f(low) <= 0 <= f(high).
 template <class Function>
 double rising_root(const Function& f, double low, double high, double guess) {
-  constexpr int kMaxSteps = 80;     // halving alone needs 60
-  constexpr double kClose = 1e-13;  // the step after would be far below rounding
+  constexpr int kMaxSteps = 80;     // bisection alone needs 60
+  constexpr double kClose = 1e-13;  // the next step would be far below rounding
   double x = guess > low && guess < high ? guess : 0.5 * (low + high);
   for (int step = 0; step < kMaxSteps; ++step) {
     const auto [value, slope] = f(x);
@@ -74,7 +74,7 @@ void require(bool holds, const std::string& fault) {
   if (!holds) throw std::invalid_argument("OCamCalib calibration: " + fault);
 }
 
-/// The next row of numbers that is neither empty nor a comment.
+/// Returns the next row of numbers, without empty lines and comments.
 std::vector<double> next_row(std::istream& lines, const std::string& what) {
   std::string line;
   while (std::getline(lines, line)) {
@@ -105,7 +105,7 @@ std::vector<double> next_polynomial(std::istream& lines, const std::string& what
   return row;
 }
 
-/// f and its slope.
+/// Returns the value of f and its slope.
 std::pair<double, double> evaluate(const std::array<double, OcamLens::kMaxCoefficients>& coefficients, double x) {
   double value = 0.0, slope = 0.0;
   for (auto coefficient = coefficients.rbegin(); coefficient != coefficients.rend(); ++coefficient) {
@@ -177,15 +177,15 @@ OcamLens ocam_lens(const OcamCalibration& calibration) {
   lens.e = calibration.e;
   require(affine(lens).determinant() > 0.0, "the affine parameters must not mirror or flatten the image");
 
-  double farthest_px = 0.0;
+  double corner_px = 0.0;
   for (const double row : {-0.5, calibration.height_px - 0.5}) {
     for (const double col : {-0.5, calibration.width_px - 0.5}) {
       const Eigen::Vector2d from_center(row - lens.center_row_px, col - lens.center_col_px);
-      farthest_px = std::max(farthest_px, (affine(lens).inverse() * from_center).norm());
+      corner_px = std::max(corner_px, (affine(lens).inverse() * from_center).norm());
     }
   }
-  constexpr double kStepPx = 0.25, kPastPx = 1.0;  // a little past the corner, for a pixel's neighbors
-  while (lens.limit_px < farthest_px + kPastPx &&
+  constexpr double kStepPx = 0.25, kPastPx = 1.0;  // beyond the corner, for the neighbors of its pixel
+  while (lens.limit_px < corner_px + kPastPx &&
          lens.angle_rad(lens.limit_px + kStepPx) > lens.angle_rad(lens.limit_px)) {
     lens.limit_px += kStepPx;
   }

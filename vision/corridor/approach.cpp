@@ -11,11 +11,11 @@ namespace hedgehop::vision::corridor {
 namespace {
 
 constexpr int kStepPx = 3;      // between samples
-constexpr int kRoomPx = 24;     // about them, that they may move into
-constexpr double kGreys = 2.0;  // noise of images, that smooth surfaces must not undercut
+constexpr int kMarginPx = 24;   // for the displacement of samples
+constexpr double kGreys = 2.0;  // minimum noise of images, grey levels, also assumed for smooth surfaces
 constexpr int kSweeps = 6;
 
-/// Between pixels, linear. @param p  at least 1 px inside.
+/// Returns the grey level at `p` by bilinear interpolation. @param p  at least 1 px inside the image.
 double grey(const cv::Mat& image, const Eigen::Vector2d& p) {
   const int u = static_cast<int>(p.x()), v = static_cast<int>(p.y());
   const double a = p.x() - u, b = p.y() - v;
@@ -32,7 +32,7 @@ cv::Mat smooth(const cv::Mat& image, const cv::Rect& box, double sigma_px) {
 
 }  // namespace
 
-/// One step of Gauss and Newton.
+/// One Gauss-Newton step.
 struct ApproachMeter::Fit {
   double change_per_s = 0.0, sigma_per_s = 0.0;
 };
@@ -52,7 +52,7 @@ ApproachMeter::ApproachMeter(const ApproachConfig& config, const camera::Camera&
     }
   }
   if (samples_.empty()) return;
-  box_ = cv::Rect(box_.tl() - cv::Point(kRoomPx, kRoomPx), box_.size() + cv::Size(2 * kRoomPx, 2 * kRoomPx)) &
+  box_ = cv::Rect(box_.tl() - cv::Point(kMarginPx, kMarginPx), box_.size() + cv::Size(2 * kMarginPx, 2 * kMarginPx)) &
          cv::Rect(0, 0, camera.width_px, camera.height_px);
 }
 
@@ -65,7 +65,7 @@ std::optional<ApproachMeter::Fit> ApproachMeter::fit(const cv::Mat& older, const
   double jj = 0.0, jr = 0.0, rr = 0.0;
   int count = 0;
   for (const Sample& sample : samples_) {
-    // A point at depth Z along the travel keeps its lateral position and comes nearer by rate * dt * Z.
+    // A point at depth Z along the travel keeps its lateral position and approaches by rate * dt * Z.
     const double along = sample.ray_C.dot(travel_C);
     if (along <= 0.1) continue;
     const auto place = [&](double rate) {
@@ -84,7 +84,7 @@ std::optional<ApproachMeter::Fit> ApproachMeter::fit(const cv::Mat& older, const
   }
   if (count < 30 || jj == 0.0) return std::nullopt;
   const double left = std::max(0.0, rr - jr * jr / jj) / count;
-  // Neighbors in a smoothed image are correlated: this many samples count as one.
+  // Neighbors in a smoothed image are correlated. This number of samples counts as one.
   constexpr double kAlike = 8.0;
   return Fit{-jr / jj, std::sqrt(kAlike * (left + kGreys * kGreys) / jj)};
 }
@@ -100,7 +100,7 @@ std::optional<ApproachRate> ApproachMeter::measure(const cv::Mat& older, const c
       if (!step) return std::nullopt;
       approach.rate_per_s += step->change_per_s;
       approach.sigma_per_s = step->sigma_per_s;
-      // The wall never lies behind.
+      // The wall is never behind the camera.
       approach.rate_per_s = std::clamp(approach.rate_per_s, -0.5 / motion.dt_s, 0.5 / motion.dt_s);
       constexpr double kDonePerS = 1e-3;
       if (std::abs(step->change_per_s) < kDonePerS) break;

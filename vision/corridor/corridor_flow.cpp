@@ -88,7 +88,7 @@ WallPoint wall_point(const flow::RayPair& pair, Region region, const camera::Cam
   return point;
 }
 
-SideDistance side_distance(const std::vector<WallPoint>& points, Region side, int least) {
+SideDistance side_distance(const std::vector<WallPoint>& points, Region side, int min_count) {
   std::vector<double> asides_m;
   for (const WallPoint& point : points) {
     if (point.region == side && point.rejection == RejectionReason::none)
@@ -96,7 +96,7 @@ SideDistance side_distance(const std::vector<WallPoint>& points, Region side, in
   }
   const size_t count = asides_m.size();
   SideDistance found{std::numeric_limits<double>::quiet_NaN(), static_cast<int>(count)};
-  if (found.count < std::max(1, least)) return found;
+  if (found.count < std::max(1, min_count)) return found;
   found.distance_m = kth_smallest(asides_m, count / 2);
   if (count % 2 == 0) {
     found.distance_m =

@@ -11,14 +11,13 @@
 #include "vision/camera/camera.h"
 #include "vision/flow/feature_flow.h"
 
-/// From tracked corners to positions of walls. Frame H: level, x along the heading, y to the right.
-
 namespace hedgehop::vision::corridor {
 
 /// The parts of the view that are searched for walls. Azimuth from B's x axis, elevation from B's x-y plane upwards.
-/// Source: [Zingg2010] sec. IV-D and fig. 7: two segments of 80 deg, 50 deg ahead left out. The elevations are ours.
+/// Source: [Zingg2010] sec. IV-D and fig. 7: two segments of 80 deg, without 50 deg ahead. The elevations are not from
+/// the paper.
 struct CorridorRegions {
-  double ahead_rad = 25.0 * std::numbers::pi / 180.0;  ///< left out to each side of the direction of travel
+  double ahead_rad = 25.0 * std::numbers::pi / 180.0;  ///< excluded on each side of the direction of travel
   double segment_rad = 80.0 * std::numbers::pi / 180.0;
   double lowest_rad = -25.0 * std::numbers::pi / 180.0;
   double highest_rad = 5.0 * std::numbers::pi / 180.0;
@@ -27,53 +26,57 @@ struct CorridorRegions {
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<CorridorRegions> auto& c) {
   v("ahead", c.ahead_rad,
-    {.unit = "deg", .at_least = 0.0, .at_most = 90.0, .meaning = "left out to each side of the nose"});
-  v("segment", c.segment_rad, {.unit = "deg", .above = 0.0, .at_most = 180.0, .meaning = "width of each side's view"});
+    {.unit = "deg", .at_least = 0.0, .at_most = 90.0, .meaning = "angle excluded on each side of the nose"});
+  v("segment", c.segment_rad,
+    {.unit = "deg", .above = 0.0, .at_most = 180.0, .meaning = "angular width of each side's view"});
   v("lowest", c.lowest_rad,
-    {.unit = "deg", .at_least = -90.0, .at_most = 90.0, .meaning = "lowest elevation searched for walls"});
+    {.unit = "deg", .at_least = -90.0, .at_most = 90.0, .meaning = "minimum elevation searched for walls"});
   v("highest", c.highest_rad,
-    {.unit = "deg", .at_least = -90.0, .at_most = 90.0, .meaning = "highest elevation searched for walls"});
+    {.unit = "deg", .at_least = -90.0, .at_most = 90.0, .meaning = "maximum elevation searched for walls"});
 }
 
 /// Indices into the array that region_masks() returns.
 enum Region { kLeft, kRight, kAhead, kRegions };
 
-/// Returns the pixels of each region: CV_8UC1 masks of its image's size, 255 inside.
+/// Returns the masks of the regions: CV_8UC1 of the image's size, 255 inside.
 /// @param X_BC  pose of the camera in B.
-/// @param rim_px  pixels this near to the image's edge, or to where the lens shows nothing, stay out, >= 0.
+/// @param rim_px  pixels this close to the border of the image or of the lens's image circle are excluded, >= 0.
 /// Throws std::invalid_argument on angles that leave a region empty.
 std::array<cv::Mat, kRegions> region_masks(const camera::Camera& camera, const Eigen::Isometry3d& X_BC,
                                            const CorridorRegions& regions, int rim_px);
 
-/// Which flow is rejected: by the two filters of [Zingg2010] sec. IV-D, whose first limit is not printed, and by ours.
+/// Limits for the rejection of flow vectors: the two filters of [Zingg2010] sec. IV-D, whose first limit is not
+/// printed, and our additional ones.
 struct FlowLimits {
-  double slowest_radps = 0.05;  ///< below, noise of the images decides
+  double slowest_radps = 0.05;  ///< image noise dominates slower flow
   double fastest_radps = 3.0;
   double off_tangent_rad = 50.0 * std::numbers::pi / 180.0;  ///< at the sides
   double stray_rad = 30.0 * std::numbers::pi / 180.0;
-  double floor_share = 0.85;  ///< of the height above ground: what lies lower is the floor
+  double floor_share = 0.85;  ///< share of the height above ground; lower points belong to the floor
 };
 
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<FlowLimits> auto& c) {
   v("slowest", c.slowest_radps,
-    {.unit = "rad/s", .at_least = 0.0, .meaning = "slower flow is rejected: noise decides it"});
-  v("fastest", c.fastest_radps, {.unit = "rad/s", .above = 0.0, .meaning = "faster flow is rejected as a wrong match"});
+    {.unit = "rad/s", .at_least = 0.0, .meaning = "minimum flow; noise dominates slower flow"});
+  v("fastest", c.fastest_radps,
+    {.unit = "rad/s", .above = 0.0, .meaning = "maximum flow; faster flow is a wrong match"});
   v("off_tangent", c.off_tangent_rad,
     {.unit = "deg",
      .above = 0.0,
      .at_most = 90.0,
-     .meaning = "at the sides, greatest angle of the flow to a circle round the image's center; 90: any"});
+     .meaning = "maximum angle at the sides between the flow and a circle around the image's center; 90: any"});
   v("stray", c.stray_rad,
     {.unit = "deg",
      .above = 0.0,
      .at_most = 180.0,
-     .meaning = "greatest angle between the flow and the direction in which fixed points move; 180: any"});
+     .meaning = "maximum angle between the flow and the flow direction of fixed points; 180: any"});
   v("floor_share", c.floor_share,
-    {.above = 0.0, .meaning = "what lies lower than this share of the height above ground is the floor"});
+    {.above = 0.0, .meaning = "share of the height above ground; lower points belong to the floor"});
 }
 
-/// How the camera moved between the older image (C1) and the newer (C2).
+/// Motion of the camera between the older image (C1) and the newer one (C2). Frame H: level, x along the heading, y to
+/// the right.
 struct CameraMotion {
   Eigen::Matrix3d R_HC1, R_HC2;  ///< H at the newer image
   Eigen::Vector3d traveled_H;    ///< m
@@ -81,17 +84,17 @@ struct CameraMotion {
   double height_m = 0.0;         ///< of the camera above ground at the newer image
 };
 
-/// Why a flow vector does not count; `none` for one that does.
+/// Reason for the rejection of a flow vector; `none` if it is accepted.
 enum class RejectionReason { none, too_slow, too_fast, off_tangent, outlier, floor };
 
-/// A tracked corner and what its flow measures.
+/// A tracked corner and the point that its flow measures.
 struct WallPoint {
   flow::RayPair pair;
   Region region = kAhead;
   RejectionReason rejection = RejectionReason::none;
   double flow_radps = 0.0;                           ///< derotated
   double off_travel_rad = 0.0;                       ///< angle from the direction of travel to the older ray
-  double contact_s = 0.0;                            ///< until it lies abeam, as time_to_contact_s()
+  double contact_s = 0.0;                            ///< time until it is abeam, as time_to_contact_s()
   Eigen::Vector3d p_CP_H = Eigen::Vector3d::Zero();  ///< from the camera at the newer image, m
 };
 
@@ -100,25 +103,26 @@ struct WallPoint {
 WallPoint wall_point(const flow::RayPair& pair, Region region, const camera::Camera& camera, const CameraMotion& motion,
                      const FlowLimits& limits);
 
-/// Distance of the wall at one side.
+/// Distance of the wall on one side.
 struct SideDistance {
-  double distance_m = 0.0;  ///< NaN when unknown
-  int count = 0;            ///< accepted points of the side
+  double distance_m = 0.0;  ///< NaN if unknown
+  int count = 0;            ///< number of accepted points on the side
 };
 
-/// Returns the median of |y| over a side's accepted points; unknown when they are fewer than `least` (>= 1).
+/// Returns the median of |y| over a side's accepted points; unknown if there are fewer than `min_count` (>= 1).
 /// Source: [Zingg2010] sec. IV-E.
-SideDistance side_distance(const std::vector<WallPoint>& points, Region side, int least);
+SideDistance side_distance(const std::vector<WallPoint>& points, Region side, int min_count);
 
-/// Returns how far the corridor's middle lies to the right, m. NaN when a side is unknown. Source: [Zingg2010] eq.
-/// (10).
+/// Returns the offset of the corridor's centerline to the right, m; NaN if a side is unknown.
+/// Source: [Zingg2010] eq. (10).
 double middle_offset_m(double left_m, double right_m);
-/// Returns that as a share of half the corridor's width, from -1 at the right wall to 1 at the left; the unknown speed
-/// cancels. NaN when a side is unknown. Source: [Zingg2010] eq. (11).
+/// Returns this offset as a share of half the corridor's width, from -1 at the right wall to 1 at the left; NaN if a
+/// side is unknown. The unknown speed cancels. Source: [Zingg2010] eq. (11).
 double centering_error(double left_m, double right_m);
 
-/// Returns the time after which a fixed point lies abeam, s, < 0 for a point behind, +inf without flow: straight ahead
-/// two over the flow's divergence. Parameters as distance_m(); only the direction of `traveled` counts.
+/// Returns the time until a fixed point is abeam, s; < 0 for a point behind, +inf without flow. Straight ahead it
+/// equals two divided by the flow's divergence. Parameters as for distance_m(); only the direction of `traveled`
+/// matters.
 double time_to_contact_s(const Eigen::Vector3d& before, const Eigen::Vector3d& after, const Eigen::Vector3d& traveled,
                          double dt_s);
 

@@ -6,27 +6,27 @@
 
 namespace hedgehop::vision::flow {
 
-/// Follows corners from one image into another by pyramidal Lucas-Kanade, as OpenCV's calcOpticalFlowPyrLK does with 30
-/// iterations at most down to steps of 0.005 px. Sums are whole numbers, so that they do not depend on the order in
-/// which a processor adds: places differ from OpenCV's by what it rounds, 1e-5 px or, seldom, a last step.
+/// Tracks corners from one image to another by pyramidal Lucas-Kanade, like OpenCV's calcOpticalFlowPyrLK with at most
+/// 30 iterations and a minimum step of 0.005 px. Sums are integers, so that they do not depend on the order of
+/// addition. Results differ from OpenCV's by its rounding errors: 1e-5 px or, rarely, one last step.
 class CornerTracker {
  public:
-  /// @param window_px  side of the square that is compared, odd. @param levels  of the pyramids that are used, >= 1.
+  /// @param window_px  side of the tracking window, odd. @param levels  number of pyramid levels used, >= 1.
   CornerTracker(int window_px, int levels);
 
-  /// @param from, to  pyramids of images with their gradients, as cv::buildOpticalFlowPyramid makes them with windows
-  /// of `window_px`. @param guess  where to look first; without one, where it was.
-  /// @return where a corner of `from` is in `to`; nothing if it is lost.
-  std::optional<cv::Point2f> follow(const std::vector<cv::Mat>& from, const std::vector<cv::Mat>& to,
-                                    const cv::Point2f& corner, const std::optional<cv::Point2f>& guess = {});
+  /// Returns the position in `to` of a corner of `from`; std::nullopt if it is lost.
+  /// @param from, to  pyramids with gradients, as cv::buildOpticalFlowPyramid makes them with windows of `window_px`.
+  /// @param guess  initial position in `to`; by default the position in `from`.
+  std::optional<cv::Point2f> track(const std::vector<cv::Mat>& from, const std::vector<cv::Mat>& to,
+                                   const cv::Point2f& corner, const std::optional<cv::Point2f>& guess = {});
 
  private:
-  /// Sums of the gradients' products.
-  struct Normal {
+  /// Normal matrix: sums of the gradients' products.
+  struct NormalMatrix {
     float xx = 0.0F, xy = 0.0F, yy = 0.0F, determinant = 0.0F;
     bool solvable = false;
   };
-  Normal cut_out(const cv::Mat& image, const cv::Mat& gradients, const cv::Point2f& corner);
+  NormalMatrix load_window(const cv::Mat& image, const cv::Mat& gradients, const cv::Point2f& corner);
   template <class Number>
   struct Rows {
     const Number* first;
@@ -35,12 +35,12 @@ class CornerTracker {
   template <class Number>
   Rows<Number> rows_at(const cv::Mat& image, const cv::Point& at, std::vector<Number>& spare) const;
   cv::Point2f mismatch(const cv::Mat& image, const cv::Point& at, const cv::Point2f& part);
-  bool search(const cv::Mat& image, const Normal& normal, cv::Point2f& place);
+  bool search(const cv::Mat& image, const NormalMatrix& normal, cv::Point2f& place);
 
   int window_, levels_;
-  int stride_, rows_at_once_;  ///< of the rows below: numbers, and how many may be summed in 32 bits
-  std::vector<int16_t> grey_, gradient_x_, gradient_y_;  ///< of the square about the corner, grey x 32
-  std::vector<uint8_t> pixels_;                          ///< copies near an image's end
+  int stride_, rows_at_once_;  ///< of the buffers below: values per row, and rows whose sum fits 32 bits
+  std::vector<int16_t> grey_, gradient_x_, gradient_y_;  ///< of the window around the corner; grey x 32
+  std::vector<uint8_t> pixels_;                          ///< copies near the right border of an image
   std::vector<int16_t> gradients_;
 };
 

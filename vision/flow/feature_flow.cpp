@@ -22,7 +22,7 @@ void check(const FeatureFlowConfig& c) {
   if (c.window_px % 2 == 0) throw fields::InvalidField("window", "must be odd");
 }
 
-/// The strongest corners of a region, strongest first.
+/// Returns the strongest corners of a region, strongest first.
 std::vector<cv::Point2f> corners(const cv::Mat& image, const cv::Mat& region, const FeatureFlowConfig& config) {
   const cv::Rect box = cv::boundingRect(region);
   std::vector<cv::Point2f> found;
@@ -38,17 +38,17 @@ std::vector<cv::Point2f> corners(const cv::Mat& image, const cv::Mat& region, co
   return found;
 }
 
-/// Where corners of one image are in another; nothing for those that are lost.
-std::vector<std::optional<cv::Point2f>> follow(const std::vector<cv::Mat>& from, const std::vector<cv::Mat>& to,
-                                               const std::vector<cv::Point2f>& corners,
-                                               const FeatureFlowConfig& config) {
+/// Returns the positions of the corners in another image; std::nullopt for lost corners.
+std::vector<std::optional<cv::Point2f>> track(const std::vector<cv::Mat>& from, const std::vector<cv::Mat>& to,
+                                              const std::vector<cv::Point2f>& corners,
+                                              const FeatureFlowConfig& config) {
   CornerTracker tracker(config.window_px, config.levels);
   std::vector<std::optional<cv::Point2f>> found(corners.size());
   for (size_t i = 0; i < corners.size(); ++i) {
-    const auto ahead = tracker.follow(from, to, corners[i]);
+    const auto ahead = tracker.track(from, to, corners[i]);
     if (!ahead) continue;
     if (config.round_trip_px > 0.0) {
-      const auto back = tracker.follow(to, from, *ahead, corners[i]);
+      const auto back = tracker.track(to, from, *ahead, corners[i]);
       if (!back || !(cv::norm(*back - corners[i]) <= config.round_trip_px)) continue;
     }
     found[i] = ahead;
@@ -63,12 +63,13 @@ std::vector<std::vector<RayPair>> feature_flow(const cv::Mat& older, const cv::M
                                                const FeatureFlowConfig& config) {
   check(config);
   const cv::Size size(camera.width_px, camera.height_px);
-  if (older.size() != size || newer.size() != size) throw std::invalid_argument("images differ from the camera");
+  if (older.size() != size || newer.size() != size)
+    throw std::invalid_argument("the images differ in size from the camera");
   std::vector<std::vector<RayPair>> pairs(regions.size());
   std::vector<cv::Point2f> all;
   std::vector<size_t> region_of;
   for (size_t k = 0; k < regions.size(); ++k) {
-    if (regions[k].size() != size) throw std::invalid_argument("a region differs from the camera");
+    if (regions[k].size() != size) throw std::invalid_argument("a region differs in size from the camera");
     for (const cv::Point2f& corner : corners(older, regions[k], config)) {
       all.push_back(corner);
       region_of.push_back(k);
@@ -80,7 +81,7 @@ std::vector<std::vector<RayPair>> feature_flow(const cv::Mat& older, const cv::M
   std::vector<cv::Mat> from, to;
   cv::buildOpticalFlowPyramid(older, from, window, config.levels - 1);
   cv::buildOpticalFlowPyramid(newer, to, window, config.levels - 1);
-  const auto found = follow(from, to, all, config);
+  const auto found = track(from, to, all, config);
   for (size_t i = 0; i < all.size(); ++i) {
     if (!found[i]) continue;
     const Eigen::Vector2d before_px(all[i].x, all[i].y), after_px(found[i]->x, found[i]->y);

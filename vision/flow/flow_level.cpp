@@ -9,13 +9,13 @@
 namespace hedgehop::vision::flow {
 namespace {
 
-// Share of a pixel's noise (standard deviation) left by 1 3 3 1 halving and by 1 2 1 smoothing, both ways.
+// Remaining share of a pixel's noise (standard deviation) after 1 3 3 1 halving and 1 2 1 smoothing in both directions.
 constexpr double kHalvingGain = 20.0 / 64.0, kSmoothingGain = 6.0 / 16.0;
-// Smoothed noise is alike over this many pixels: the inverse of the smoothing's summed squares.
+// Number of pixels over which smoothed noise is correlated: the inverse of the sum of the squared weights.
 constexpr double kNoiseArea = 1.0 / (kSmoothingGain * kSmoothingGain);
-// Texture must exceed noise by this much (mean squares) along the direction where it is weakest.
+// Minimum ratio of texture to noise (mean squares) in the direction of the weakest texture.
 constexpr double kMinContrast = 3.0;
-// Copies shifted by one pixel do not measure larger steps; in reduced pixels.
+// In reduced pixels. Copies shifted by one pixel cannot measure larger steps.
 constexpr double kMaxStep = 2.0, kMaxLastStep = 1.0;
 
 double noise_energy(const ImageInterpolationConfig& config, int reduction, int bits) {
@@ -24,8 +24,8 @@ double noise_energy(const ImageInterpolationConfig& config, int reduction, int b
   return 2.0 * noise * noise;
 }
 
-HEDGEHOP_WIDE void subtract(const int16_t* from, const int16_t* what, int count, int16_t* difference) {
-  for (int i = 0; i < count; ++i) difference[i] = static_cast<int16_t>(from[i] - what[i]);
+HEDGEHOP_WIDE void subtract(const int16_t* from, const int16_t* subtrahend, int count, int16_t* difference) {
+  for (int i = 0; i < count; ++i) difference[i] = static_cast<int16_t>(from[i] - subtrahend[i]);
 }
 
 std::vector<double> centers(const std::vector<PatchRange>& ranges) {
@@ -34,7 +34,7 @@ std::vector<double> centers(const std::vector<PatchRange>& ranges) {
   return at;
 }
 
-// 1 2 1 along one axis, weighted by confidence; `step` leads to the next node along it.
+// Smooths with 1 2 1 along one axis, weighted by confidence; `step` is the index distance of nodes along the axis.
 void smooth_axis(const NodeFlow& in, NodeFlow& out, int count, size_t step, int lines, size_t line_step) {
   constexpr double kOwn = 2.0;
   for (int line = 0; line < lines; ++line) {
@@ -165,13 +165,13 @@ void FlowLevel::begin() {
       patch.a_xy = static_cast<double>(sums_.sum(1, row, col));
       patch.a_yy = static_cast<double>(sums_.sum(2, row, col));
       const double mean = 0.5 * (patch.a_xx + patch.a_yy);
-      patch.least_eigenvalue = mean - std::hypot(0.5 * (patch.a_xx - patch.a_yy), patch.a_xy);
+      patch.min_eigenvalue = mean - std::hypot(0.5 * (patch.a_xx - patch.a_yy), patch.a_xy);
     }
   }
 }
 
 void FlowLevel::iterate(NodeFlow& flow) {
-  // Re-center: the newer image goes back by the flow known so far.
+  // Re-center: shift the newer image back by the current flow.
   smooth_by_confidence(flow, spare_);
   for (size_t i = 0; i < flow.size(); ++i) {
     level_u_[i] = flow.u_px[i] / reduction_;
@@ -188,7 +188,7 @@ void FlowLevel::iterate(NodeFlow& flow) {
     sums_.add(2, difference_.data(), difference_.data());
     sums_.next_row();
   }
-  // What remains is found patch by patch and added.
+  // Solve for the remaining flow of each patch and add it.
   means_.apply(flow.u_px);
   means_.apply(flow.v_px);
   for (int row = 0; row < config_.rows; ++row) {
@@ -203,13 +203,14 @@ void FlowLevel::iterate(NodeFlow& flow) {
       flow.u_px[i] = std::clamp(flow.u_px[i] + patch.step_px.x(), -limit, limit);
       flow.v_px[i] = std::clamp(flow.v_px[i] + patch.step_px.y(), -limit, limit);
       const double noise = pixels_ * noise_energy_;
-      flow.confidence[i] = std::max(patch.least_eigenvalue, 0.0) / (std::max(patch.least_eigenvalue, 0.0) + noise);
+      flow.confidence[i] = std::max(patch.min_eigenvalue, 0.0) / (std::max(patch.min_eigenvalue, 0.0) + noise);
     }
   }
 }
 
 void FlowLevel::solve(PatchFit& patch) const {
-  // The copies differ by two pixels, hence the 2; noise on the diagonal keeps a poor patch from leaping.
+  // The copies differ by two pixels, hence the factor 2. Noise on the diagonal limits the step of a patch with little
+  // texture.
   const double noise = pixels_ * noise_energy_;
   const double a_xx = patch.a_xx + noise, a_yy = patch.a_yy + noise;
   const double determinant = a_xx * a_yy - patch.a_xy * patch.a_xy;
@@ -220,16 +221,16 @@ void FlowLevel::solve(PatchFit& patch) const {
 
 bool FlowLevel::is_valid(const PatchFit& patch, const Eigen::Vector2d& flow_px) const {
   const double noise = pixels_ * noise_energy_;
-  if (!(patch.least_eigenvalue > kMinContrast * noise)) return false;
+  if (!(patch.min_eigenvalue > kMinContrast * noise)) return false;
   if (flow_px.norm() >= config_.max_flow_px) return false;
   if (patch.step_px.norm() > kMaxLastStep * reduction_) return false;
-  // What the fit leaves over, as a share of the noise's energy: never less than noise.
+  // The residual of the fit, but at least the energy of the noise, determines the standard deviation.
   const Eigen::Vector2d step = patch.step_px / reduction_;
   const double rest = std::max(patch.dd - 0.5 * (step.x() * patch.b_x + step.y() * patch.b_y), 0.0);
   const double sigma_px =
-      2.0 * reduction_ * std::sqrt(std::max(rest / pixels_, noise_energy_) * kNoiseArea / patch.least_eigenvalue);
+      2.0 * reduction_ * std::sqrt(std::max(rest / pixels_, noise_energy_) * kNoiseArea / patch.min_eigenvalue);
   if (sigma_px > config_.max_sigma_px) return false;
-  // If the rest came of pixels that moved apart, each differently, by how much?
+  // Root mean square spread of motion within the patch that would explain the residual.
   const double misfit_px = 2.0 * reduction_ * std::sqrt(2.0 * rest / (patch.a_xx + patch.a_yy));
   return misfit_px <= config_.max_misfit_px;
 }

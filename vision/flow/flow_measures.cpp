@@ -19,7 +19,7 @@ Eigen::Vector2d rotation_flow_px(const camera::PinholeCamera& camera, const Eige
                                  const Eigen::Vector3d& w_WC_C, double dt_s) {
   const double angle_rad = w_WC_C.norm() * dt_s;
   if (angle_rad == 0.0) return Eigen::Vector2d::Zero();
-  // A direction at rest in W turns backwards in C.
+  // A direction fixed in W rotates backward in C.
   const Eigen::AngleAxisd backwards(-angle_rad, w_WC_C.normalized());
   const auto moved = camera.project(backwards * camera.ray_at_unit_depth(pixel));
   return moved ? Eigen::Vector2d(*moved - pixel)

@@ -73,10 +73,10 @@ double nearest_inverse_range_per_m(std::vector<double> near, double share) {
 
 namespace {
 
-/// Sums of the least squares for m over the first patches, in units of their noise.
+/// Least-squares sums for m over the first patches, in units of their noise.
 struct Sums {
   Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
-  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  ///< on m from the vehicle's motion, without the noise
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  ///< on m from the vehicle's motion
   Eigen::Vector2d c = Eigen::Vector2d::Zero();
   double squares = 0.0;
 
@@ -117,24 +117,24 @@ Fit fit(const Sums& sums, size_t patches) {
 }  // namespace
 
 std::vector<WallEstimate> walls_from_flow(std::span<const WallFlowSample> samples, double relative_error) {
-  constexpr size_t kMinPatches = 3;   // patches of a wall
-  constexpr double kOneMore = 12.0;   // squares that a further wall must explain: its two numbers, six times over
-  constexpr double kNoWall = 1000.0;  // squares of a patch that belongs to none: far worse than any that fits
+  constexpr size_t kMinPatches = 3;       // minimum number of patches of a wall
+  constexpr double kWallPenalty = 12.0;   // penalty per wall: six times its two parameters
+  constexpr double kNoWallCost = 1000.0;  // cost of a patch without a wall, far above that of a fitting patch
   std::vector<Sums> upto(1);
   for (const WallFlowSample& sample : samples) {
     upto.push_back(upto.back());
     upto.back().add(sample);
   }
-  std::vector<double> least(upto.size(), std::numeric_limits<double>::infinity());
+  std::vector<double> min_cost(upto.size(), std::numeric_limits<double>::infinity());
   std::vector<size_t> begin(upto.size(), 0);
-  least[0] = 0.0;
+  min_cost[0] = 0.0;
   for (size_t end = 1; end < upto.size(); ++end) {
-    least[end] = least[end - 1] + kNoWall;
+    min_cost[end] = min_cost[end - 1] + kNoWallCost;
     begin[end] = end - 1;
     for (size_t first = 0; first + kMinPatches <= end; ++first) {
-      const double squares = least[first] + fit(upto[end].minus(upto[first]), end - first).squares + kOneMore;
-      if (squares >= least[end]) continue;
-      least[end] = squares;
+      const double squares = min_cost[first] + fit(upto[end].minus(upto[first]), end - first).squares + kWallPenalty;
+      if (squares >= min_cost[end]) continue;
+      min_cost[end] = squares;
       begin[end] = first;
     }
   }

@@ -11,7 +11,7 @@
 namespace hedgehop::vision::flow {
 namespace {
 
-// One flow vector as equations: rows * v_WB_B = flow, both scaled by range / focal length to m/s across the ray.
+// Equations of one flow vector: rows * v_WB_B = flow, both scaled by range / focal length to m/s across the ray.
 struct Equation {
   Eigen::Matrix<double, 2, 3> rows;
   Eigen::Vector2d flow_mps;
@@ -27,7 +27,7 @@ std::vector<Equation> equations(const FlowField& field, const camera::PinholeCam
   const Eigen::Vector3d p_BC_W = motion.q_WB * X_BC.translation();
   const double camera_height_m = motion.height_above_ground_m - p_BC_W.z();
   const Eigen::Vector3d v_lever_C = R_CB * motion.w_WB_B.cross(X_BC.translation());
-  const double least_cosine = std::cos(config.max_view_angle_rad);
+  const double min_cosine = std::cos(config.max_view_angle_rad);
 
   std::vector<Equation> all;
   if (!(camera_height_m > 0.0)) return all;
@@ -35,11 +35,11 @@ std::vector<Equation> equations(const FlowField& field, const camera::PinholeCam
     if (!vector.valid) continue;
     const Eigen::Vector3d ray_C = camera.ray_at_unit_depth(vector.center_px);
     const double down = ray_C.dot(down_C);
-    if (down < least_cosine * ray_C.norm()) continue;
+    if (down < min_cosine * ray_C.norm()) continue;
     const double depth_m = camera_height_m / down;
     const Eigen::Vector2d flow_px = vector.flow_px - rotation_flow_px(camera, vector.center_px, w_C, motion.dt_s);
     const Eigen::Matrix<double, 2, 3> per_velocity = image_jacobian(camera, vector.center_px, depth_m).leftCols<3>();
-    // Velocity of C is velocity of B plus that of the lever arm, which the gyros measure.
+    // The velocity of C is that of B plus the contribution of the lever arm, known from the gyros.
     const Eigen::Vector2d rate_pxps = flow_px / motion.dt_s - per_velocity * v_lever_C;
     const double scale = depth_m / camera.focal_x_px;
     all.push_back({scale * per_velocity * R_CB, scale * rate_pxps});
@@ -47,7 +47,8 @@ std::vector<Equation> equations(const FlowField& field, const camera::PinholeCam
   return all;
 }
 
-// Each vector alone gives the velocity across its ray when the one along the vertical is taken as zero.
+// Returns the median over all vectors of the horizontal velocity that one vector gives, assuming zero vertical
+// velocity.
 Eigen::Vector3d median_velocity(const std::vector<Equation>& all, const FlowMotion& motion) {
   const Eigen::Matrix3d R_WB = motion.q_WB.toRotationMatrix();
   std::vector<double> north, east;
@@ -62,7 +63,7 @@ Eigen::Vector3d median_velocity(const std::vector<Equation>& all, const FlowMoti
   return R_WB.transpose() * Eigen::Vector3d{upper_median(north), upper_median(east), 0.0};
 }
 
-// Weights by Tukey's biweight of the residuals; returns the residuals' robust standard deviation per component.
+// Sets the weights to Tukey's biweight of the residuals. Returns their robust standard deviation per component.
 double reweigh(std::vector<Equation>& all, const Eigen::Vector3d& v_B) {
   constexpr double kBiweight = 4.685;         // 95 % efficiency for Gaussian errors
   constexpr double kRayleighMedian = 1.1774;  // median length of a Gaussian pair, in standard deviations
@@ -102,7 +103,7 @@ std::optional<FlowVelocity> flow_velocity(const FlowField& field, const camera::
       right += e.weight * e.rows.transpose() * e.flow_mps;
     }
     const Eigen::LDLT<Eigen::Matrix3d> solver(information);
-    // Vectors that all lie in one corner cannot separate sideways from vertical motion.
+    // Vectors that are all in one corner cannot distinguish lateral from vertical motion.
     if (!(solver.rcond() > 1e-4)) return std::nullopt;
     v_B = solver.solve(right);
     sigma_mps = reweigh(all, v_B);

@@ -16,10 +16,10 @@
 namespace hedgehop::vision::flow {
 namespace {
 
-// Rows of the image that are looked at above and below the patches of a grid that does not fill the image.
+// Image rows evaluated above and below the patches if the grid does not fill the image.
 constexpr int kBandRimPx = 16;
 
-/// Of the fields that are no keys of a scenario.
+/// Checks the fields that are not scenario keys.
 void check_effort(const ImageInterpolationConfig& c) {
   if (c.iterations < 1) throw std::invalid_argument("flow: iterations must be at least 1");
   if (!(c.max_flow_px > 0.0 && c.noise_grey > 0.0 && c.max_sigma_px > 0.0 && c.max_misfit_px > 0.0)) {
@@ -48,7 +48,7 @@ class ImageInterpolationFlow::Impl {
     check_effort(config);
     grid_ = make_patch_grid(config.rows, config.cols, config.patch_px, config.margin_px, config.reduction, width_px,
                             height_px);
-    // Only a band of the image is looked at when the patches lie in one; it begins where every level has a pixel row.
+    // Only the band with the patches is evaluated. It starts at a row that is a pixel row on every level.
     const int step = config.reduction << (config.levels - 1);
     band_begin_ = std::max(0, (grid_.rows.front().begin - kBandRimPx) / step * step);
     band_end_ = std::min(height_, (grid_.rows.back().end + kBandRimPx + step - 1) / step * step);
@@ -97,7 +97,7 @@ class ImageInterpolationFlow::Impl {
   const FlowField& field() const { return field_; }
 
  private:
-  // Bits of the reduced images such that a patch's sums of products stay exact (PatchSums::add).
+  // Returns the bits of the reduced images for which a patch's sums of products are exact (PatchSums::add).
   static int bits_for(int patch_px) { return patch_px <= 64 ? 12 : patch_px <= 256 ? 11 : 10; }
 
   void reduce(const cv::Mat& band) {

@@ -16,7 +16,7 @@ namespace hedgehop::vision::flow {
 
 namespace {
 
-// All in units of the alignment, so that rounding keeps the mirror symmetry.
+// Computes in units of the alignment, so that rounding preserves the symmetry.
 std::vector<PatchRange> make_ranges(int count, int patch_px, int margin_px, int unit_px, int length_px) {
   const int length = length_px / unit_px;
   const int patch = std::max(1, patch_px / unit_px);
@@ -66,7 +66,7 @@ PatchGrid reduce_patch_grid(const PatchGrid& grid, int reduction, int first_row_
 
 namespace {
 
-// Adds the products of pairs of numbers to their sums, which wrap: four pairs at a time, or twice as many.
+// Adds the products of pairs of numbers to their sums modulo 2^32, four or eight pairs at a time.
 HEDGEHOP_TARGET_DEFAULT void add_products(const int16_t* a, const int16_t* b, int pairs, int32_t* sum) {
   for (int i = 0; i < pairs; i += 4) {
     cv::v_store(sum + i, cv::v_load(sum + i) + cv::v_dotprod(cv::v_load(a + 2 * i), cv::v_load(b + 2 * i)));
@@ -160,7 +160,7 @@ void PatchSums::sum_sideways() {
       };
       const int32_t* top = kept(rows_[row].begin);
       const int32_t* bottom = kept(rows_[row].end);
-      // The running sums may have wrapped; their difference is right all the same.
+      // The running sums are modulo 2^32, but their difference is exact.
       for (auto i = static_cast<size_t>(first_pair_); i < static_cast<size_t>(end_pair_); ++i) {
         const uint32_t difference = static_cast<uint32_t>(bottom[i]) - static_cast<uint32_t>(top[i]);
         sideways_[i + 1] = sideways_[i] + static_cast<int32_t>(difference);

@@ -11,13 +11,13 @@ namespace hedgehop::vision::flow {
 namespace {
 
 constexpr double kQ16 = 65536.0;
-constexpr size_t kRoom = 4;  // numbers that a group may be written beyond the end
+constexpr size_t kRoom = 4;  // values that may be written beyond the end
 
 constexpr int kFraction = 7, kOne = 1 << kFraction;  // positions in 1/128 px
 constexpr int kStrip = 512;                          // columns at a time
 constexpr int kCopied = 8;
 
-// Whole numbers alone, so that what a processor's wider registers compute is the same.
+// Integers only, so that the result does not depend on the register width.
 HEDGEHOP_WIDE void round_to_positions(const int32_t* q16, int count, int16_t* position) {
   constexpr int kShift = 16 - kFraction, kHalf = 1 << (kShift - 1);
   for (int i = 0; i < count; ++i) position[i] = static_cast<int16_t>((q16[i] + kHalf) >> kShift);
@@ -27,7 +27,7 @@ HEDGEHOP_WIDE void add_to(int32_t* numbers, const int32_t* steps, int count) {
   for (int i = 0; i < count; ++i) numbers[i] += steps[i];
 }
 
-// What bilinear interpolation between four neighbors leaves of the older image. Each product is kept in 16 bits:
+// Subtracts the bilinear interpolation between four neighbors from the older image. Each product fits 16 bits:
 //   top = (left (128 - s) + right s + 8) >> 4 = 8 left + (((right - left) s + 8) >> 4)
 //   value = (top (128 - t) + bottom t + 512) >> 10 = (top + 4 + (((bottom - top) t) >> 7)) >> 3
 HEDGEHOP_WIDE void subtract_interpolated(const int16_t* older, const int16_t* const (&corners)[4], const int16_t* u,
@@ -41,7 +41,7 @@ HEDGEHOP_WIDE void subtract_interpolated(const int16_t* older, const int16_t* co
     const auto bottom_step = static_cast<int16_t>((((right_bottom * share_u) >> 14) + 1) >> 1);
     const auto top = static_cast<int16_t>(top_left[i] * 8 + top_step);
     const auto bottom = static_cast<int16_t>(bottom_left[i] * 8 + bottom_step);
-    // The share needs 16 bits without a sign: of the upper half of the range, one whole step is put back.
+    // The weight requires 16 unsigned bits. For the upper half of its range, one full step is added back.
     const auto share_v = static_cast<int16_t>(static_cast<uint16_t>(v[i]) << 9);
     const auto down = static_cast<int16_t>(bottom - top);
     const auto part = static_cast<int16_t>((down * share_v) >> 16);
@@ -50,11 +50,11 @@ HEDGEHOP_WIDE void subtract_interpolated(const int16_t* older, const int16_t* co
   }
 }
 
-// Some columns of one row on their way to the difference.
+// Working buffers for a range of columns in one row.
 struct ColumnStrip {
   int count = 0;
   int16_t u[kStrip + kCopied], v[kStrip + kCopied];  ///< 1/128 px
-  int16_t corners[4][kStrip + kCopied];  ///< the newer image about each column's place: top, bottom; left, right
+  int16_t corners[4][kStrip + kCopied];  ///< of the newer image around each column's position: top, bottom; left, right
 
   void round(const int32_t* u_q16, const int32_t* v_q16) {
     round_to_positions(u_q16, count, u);
@@ -62,7 +62,7 @@ struct ColumnStrip {
     for (int16_t* numbers : {u, v}) std::fill_n(numbers + count, kCopied, int16_t{0});
   }
 
-  // Copies stretches of columns that moved by the same whole pixels: what they see lies side by side.
+  // Copies runs of columns with equal integer flow, whose source pixels are adjacent.
   void fetch(const ReducedImage& newer, int x, int y) {
     const ptrdiff_t stride = newer.stride();
     for (int i = 0; i < count;) {
@@ -82,7 +82,7 @@ struct ColumnStrip {
     subtract_interpolated(older, {corners[0], corners[1], corners[2], corners[3]}, u, v, count, out);
   }
 
-  // Outside, the newer image is taken to look like the older one. Flow leads no farther than the rim is wide.
+  // Sets the difference to 0 outside the newer image. Flow does not exceed the rim.
   void clear_outside(const ReducedImage& newer, int x, int y, int16_t* out) const {
     const int last_x = newer.width() - 1, last_y = newer.height() - 1, rim = newer.rim();
     const auto clear = [&](int i) {
@@ -137,7 +137,7 @@ void SpreadFlow::spread_sideways(std::span<const double> flow, std::vector<int32
   }
 }
 
-// Writes whole groups of four, from the left: what lies beyond the end is written again.
+// Writes groups of four from the left; values beyond the end are overwritten by the next range.
 void SpreadFlow::spread_between(double from, double difference, int begin, int end, int32_t* line) const {
   const auto start = cv::v_setall_f64(from), whole = cv::v_setall_f64(difference), q16 = cv::v_setall_f64(kQ16);
   for (int x = begin; x < end; x += 4) {
@@ -166,7 +166,7 @@ void SpreadFlow::start_band(int y) {
   const bool inside = below > above && y >= from && y < to;
   const double share = inside ? (y - from) / (to - from) : (y < from ? 0.0 : 1.0);
   const double step = inside ? 1.0 / (to - from) : 0.0;
-  // Above the first node and below the last the flow stays constant; the band ends where a new formula begins.
+  // Above the first node and below the last one the flow is constant. The band ends at the next node.
   if (inside) {
     band_end_ = static_cast<int>(std::ceil(to));
   } else {

@@ -9,17 +9,18 @@
 
 namespace hedgehop::vision::flow {
 
-/// Flow at the nodes of a grid, spread bilinearly over an image and constant beyond the outer nodes; made row by row.
+/// Flow at the nodes of a grid, interpolated bilinearly over an image and constant beyond the outer nodes; computed row
+/// by row.
 class SpreadFlow {
  public:
-  /// @param node_u, node_v  positions of the grid's columns and rows, px, rising.
+  /// @param node_u, node_v  positions of the grid's columns and rows, px, increasing.
   SpreadFlow(std::span<const double> node_u, std::span<const double> node_v, int width);
 
-  /// Takes new values. @param flow_u, flow_v  rows x cols, px.
+  /// Sets the values at the nodes. @param flow_u, flow_v  rows x cols, px.
   void set(std::span<const double> flow_u, std::span<const double> flow_v);
-  /// Makes row y current; within a grid's row cheapest for rising y.
+  /// Makes row y current. Consecutive rows are the fastest.
   void go_to(int y);
-  /// Flow of the current row in 1/65536 px, padded to a multiple of 8.
+  /// Returns the flow of the current row in 1/65536 px, padded to a multiple of 8.
   const int32_t* u_q16() const { return u_.data(); }
   const int32_t* v_q16() const { return v_.data(); }
 
@@ -29,18 +30,18 @@ class SpreadFlow {
   void start_band(int y);
 
   std::vector<double> node_v_;
-  std::vector<int> first_column_;    ///< per node but the last: first column between it and the next; then the width
+  std::vector<int> first_column_;    ///< first column after each node except the last, then the width
   std::vector<double> right_share_;  ///< per column: weight of the node after it
   int width_, rows_, cols_;
   std::vector<int32_t> lines_u_, lines_v_;  ///< grid rows x padded width
   std::vector<int32_t> u_, v_, step_u_, step_v_;
-  int y_ = -1, band_end_ = -1;  ///< the steps hold for rows before band_end_
+  int y_ = -1, band_end_ = -1;  ///< the steps are valid for rows before band_end_
 };
 
-/// Difference of the older image and the newer one moved back by the flow, over one row: 0 where the newer image
-/// ends. Bilinear, in steps of 1/128 px. Flow must stay within the images' rim and below 255 px.
-/// @param out  padded width; beyond the image's width it holds no meaning.
-/// @param columns  to compute, both ends multiples of 8; all without it.
+/// Computes one row of the difference between the older image and the newer one shifted back by the flow; 0 outside the
+/// newer image. Interpolation is bilinear in steps of 1/128 px. Flow must not exceed the images' rim or 255 px.
+/// @param out  padded width; values beyond the image's width are undefined.
+/// @param columns  columns to compute, both ends multiples of 8; by default all.
 void recentered_difference(const ReducedImage& older, const ReducedImage& newer, int y, const int32_t* u_q16,
                            const int32_t* v_q16, int16_t* out);
 void recentered_difference(const ReducedImage& older, const ReducedImage& newer, int y, const int32_t* u_q16,

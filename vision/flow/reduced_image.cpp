@@ -10,15 +10,15 @@ namespace hedgehop::vision::flow {
 namespace {
 
 constexpr int kLeftRoom = 8, kRightRoom = 16;
-constexpr size_t kPastEnd = 16;  // numbers that are read together, from the last of the rim on
+constexpr size_t kPastEnd = 16;  // values that may be read past the end of the rim
 
-// Repeats the first and last number of a row into the room beside it.
+// Repeats the first and last value of a row in the spare values next to it.
 void repeat_ends(int16_t* line, int width) {
   line[-1] = line[0];
   std::fill(line + width, line + width + kRightRoom, line[width - 1]);
 }
 
-// The weighted sums below one another. Rows of the image itself are 8 bits deep, of reduced images 16.
+// Vertically weighted sums. Rows of the full image have 8 bits, those of reduced images 16.
 HEDGEHOP_WIDE void weigh_three(const uint8_t* a, const uint8_t* b, const uint8_t* c, int width, int16_t* line) {
   for (int x = 0; x < width; ++x) line[x] = static_cast<int16_t>(a[x] + 2 * b[x] + c[x]);
 }
@@ -37,7 +37,7 @@ HEDGEHOP_WIDE void weigh_four(const int16_t* a, const int16_t* b, const int16_t*
 HEDGEHOP_WIDE void smooth_line(const int16_t* line, int width, int shift, int16_t* to) {
   const int half = shift > 0 ? 1 << (shift - 1) : 0;
   for (int x = 0; x < width; ++x) {
-    // The sum needs all 16 bits, without a sign.
+    // The sum requires 16 unsigned bits.
     const auto sum = static_cast<uint16_t>(line[x - 1] + 2 * line[x] + line[x + 1] + half);
     to[x] = static_cast<int16_t>(static_cast<uint16_t>(sum >> shift));
   }
@@ -103,7 +103,7 @@ void ImageReducer::halve_rows(Row row, int width, int height, int shift, Reduced
       const auto sum = cv::v_dotprod(cv::v_load(from - 1), left) + cv::v_dotprod(cv::v_load(from + 1), right) + half;
       cv::v_pack_store(to + i, sum >> shift);
     }
-    // What was written beyond the last column goes back to the rim's zero.
+    // Restore the zeros of the rim beyond the last column.
     std::fill(to + out.width(), to + padded(out.width()), int16_t{0});
   }
 }

@@ -7,19 +7,19 @@
 
 namespace hedgehop::vision::flow {
 
-/// A smoothed image of 16-bit numbers, possibly reduced, with a rim of zeros so that samples somewhat outside can be
-/// read. Rows are padded to a multiple of 8 numbers.
+/// A smoothed, possibly reduced image of 16-bit values with a rim of zeros, so that samples slightly outside can be
+/// read. Rows are padded to a multiple of 8 values.
 class ReducedImage {
  public:
   ReducedImage() = default;
-  /// @param rim_px  how far outside the image reading is allowed, >= 0.
+  /// @param rim_px  distance outside the image up to which reading is allowed, >= 0.
   ReducedImage(int width, int height, int rim_px);
 
   int width() const { return width_; }
   int height() const { return height_; }
-  /// How far outside the image reading is allowed, px.
+  /// Returns the distance outside the image up to which reading is allowed, px.
   int rim() const { return rim_rows_ - 1; }
-  /// Numbers from one row to the next, a multiple of 8.
+  /// Returns the number of values from one row to the next, a multiple of 8.
   int stride() const { return stride_; }
   int16_t* row(int y) { return data_.data() + offset(y); }
   const int16_t* row(int y) const { return data_.data() + offset(y); }
@@ -33,20 +33,19 @@ class ReducedImage {
   std::vector<int16_t> data_;
 };
 
-/// `width` rounded up to a multiple of 8: the row length that the loops over images work on.
+/// Returns `width` rounded up to a multiple of 8, the row length of loops over images.
 inline int padded(int width) { return (width + 7) / 8 * 8; }
 
-/// Reduces and smooths images; its rows of scratch space are made once.
-/// Every image holds grey levels times 2^(bits - 8), rounded.
+/// Reduces and smooths images. Keeps its scratch space. Images contain grey levels times 2^(bits - 8), rounded.
 class ImageReducer {
  public:
-  /// @param max_width  of any image given, px.  @param bits  8 to 12.
+  /// @param max_width  maximum width of an image, px.  @param bits  8 to 12.
   ImageReducer(int max_width, int bits);
 
-  /// Same size, binomial 1 2 1 smoothing both ways. Edge pixels are repeated.
+  /// Smooths with 1 2 1 in both directions at equal size. Edge pixels are repeated.
   void smooth(const cv::Mat& grey, ReducedImage& out);
   void smooth(const ReducedImage& in, ReducedImage& out);
-  /// Half the size (rounded down), weights 1 3 3 1 both ways: pixel i lies at 2 i + 0.5 of the input.
+  /// Halves the size (rounded down) with weights 1 3 3 1 in both directions: pixel i is at 2 i + 0.5 of the input.
   void halve(const cv::Mat& grey, ReducedImage& out);
   void halve(const ReducedImage& in, ReducedImage& out);
 
@@ -57,7 +56,7 @@ class ImageReducer {
   void halve_rows(Row row, int width, int height, int shift, ReducedImage& out);
 
   int bits_;
-  std::vector<int16_t> line_;  ///< one vertically weighted row, 8 numbers of room on the left and 16 on the right
+  std::vector<int16_t> line_;  ///< one vertically weighted row with 8 spare values on the left and 16 on the right
 };
 
 }  // namespace hedgehop::vision::flow

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Marks a function of whole numbers alone to be compiled twice, also for registers of 256 bits: which one runs depends
-/// on the processor, what it computes does not. Never for floating point.
+/// Compiles an integer-only function twice, also for 256-bit registers. The processor determines the version that runs;
+/// the results are equal. Must not be used for floating point.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__ELF__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define HEDGEHOP_HAS_AVX2

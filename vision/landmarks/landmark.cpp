@@ -10,7 +10,7 @@ namespace {
 using Matrix23 = Eigen::Matrix<double, 2, 3>;
 using Matrix26 = Eigen::Matrix<double, 2, 6>;
 
-/// How the position moves with the filter's numbers.
+/// Returns the Jacobian of the position with respect to the state.
 Eigen::Matrix3d d_position_x(const Landmark& landmark) {
   if (landmark.coordinates == LandmarkCoordinates::cartesian) return Eigen::Matrix3d::Identity();
   const double depth_m = 1.0 / landmark.x.z();
@@ -19,14 +19,14 @@ Eigen::Matrix3d d_position_x(const Landmark& landmark) {
   return landmark.X_WA.linear() * d_p_A;
 }
 
-/// How a bearing moves with the point in C. [Shah2009] eq. (4.19), with the axes of C.
+/// Returns the Jacobian of a bearing with respect to the point in C. [Shah2009] eq. (4.19), with the axes of C.
 Matrix23 d_bearing_p_C(const Eigen::Vector2d& bearing, double z_C_m) {
   Matrix23 jacobian;
   jacobian << Eigen::Matrix2d::Identity(), -bearing;
   return jacobian / z_C_m;
 }
 
-/// How a bearing moves with an error of the camera that sees it.
+/// Returns the Jacobian of a bearing with respect to an error of the camera pose.
 Matrix26 d_bearing_pose(const Eigen::Vector2d& bearing, const Matrix23& d_bearing_p) {
   const double x = bearing.x(), y = bearing.y();
   Matrix23 d_bearing_turn;
@@ -71,8 +71,8 @@ std::optional<PredictedBearing> predict_bearing(const Landmark& landmark, const 
   const Eigen::Matrix3d d_p_C = R_CW * d_position_x(landmark);
   seen.d_bearing_x = d_bearing_p * d_p_C;
   seen.d_bearing_pose = d_bearing_pose(seen.bearing, d_bearing_p);
-  // A shift of the camera moves the bearing by the inverse depth, which is uncertain itself: its mean square is taken.
-  // With its estimate alone, measurements of a landmark estimated far away would weigh more, and drive it to infinity.
+  // The effect of a camera shift is proportional to the inverse depth, which is uncertain. Its mean square is used,
+  // because with the estimate alone, measurements of distant landmarks would gain weight and drive them to infinity.
   const double relative_sigma2 = d_p_C.row(2).dot(landmark.P * d_p_C.row(2).transpose()) / (p_C.z() * p_C.z());
   seen.d_bearing_pose.leftCols<3>() *= std::sqrt(1.0 + relative_sigma2);
   seen.noise = noise_of(seen.d_bearing_pose, pose, bearing_sigma);
@@ -96,7 +96,7 @@ Landmark updated(const Landmark& landmark, const PredictedBearing& seen, const E
   const Eigen::Matrix3d left = Eigen::Matrix3d::Identity() - K * seen.d_bearing_x;
   better.P = left * landmark.P * left.transpose() + K * seen.noise * K.transpose();  // eq. (4.17)
   if (better.coordinates == LandmarkCoordinates::inverse_depth) {
-    constexpr double kMinInverseDepthPerM = 1e-4;  // 10 km: nothing lies behind infinity
+    constexpr double kMinInverseDepthPerM = 1e-4;  // 10 km; must remain positive
     better.x.z() = std::max(better.x.z(), kMinInverseDepthPerM);
   }
   return better;

@@ -26,16 +26,17 @@ void check(const LandmarkMapConfig& c) {
   need(c.misses >= 1, "misses must be at least 1");
 }
 
-/// Widens a pose's uncertainty as one of many with correlated errors: all within the correlation time count as one
-/// measurement. The integral of an exponentially fading correlation is twice its time constant.
+/// Returns a pose with its uncertainty increased for correlated errors, so that all images within the correlation time
+/// count as one measurement. The integral of an exponential correlation is twice its time constant.
 CameraPose as_one_of_correlated(const CameraPose& pose, double correlation_s, double dt_s) {
   if (!(dt_s > 0.0)) return pose;
   const double times = std::sqrt(std::max(1.0, 2.0 * correlation_s / dt_s));
   return {pose.X_WC_est, times * pose.position_sigma_m, times * pose.attitude_sigma_rad};
 }
 
-/// Matches the confirmed landmarks first and the others with what is left. A Z value falls as the landmark's variance
-/// grows, so one just begun beside a confirmed one would take over its bearings, until that one is deleted as missed.
+/// Matches the confirmed landmarks first and the others with the remaining bearings. The Z value decreases with the
+/// landmark's variance. A new landmark close to a confirmed one would otherwise take its bearings, until the confirmed
+/// one is deleted as missed.
 std::vector<std::optional<size_t>> match_confirmed_first(std::span<const std::optional<PredictedBearing>> predicted,
                                                          const std::vector<bool>& confirmed,
                                                          std::span<const Eigen::Vector2d> bearings, double gate) {
@@ -54,7 +55,7 @@ std::vector<std::optional<size_t>> match_confirmed_first(std::span<const std::op
   return landmark_of;
 }
 
-double greatest_variance(const Eigen::Matrix3d& P) {
+double max_variance(const Eigen::Matrix3d& P) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(P, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }
 
@@ -95,8 +96,8 @@ std::vector<int64_t> LandmarkMap::update_as_modified(std::span<const Eigen::Vect
     if (const auto k = landmark_of[i]) {
       MappedLandmark& mapped = landmarks_[*k];
       if (at_estimate[*k]) {
-        // Linearized at the better pose: at the estimated one the Jacobian would share the pose's error with the
-        // residual, and flights that are short against that error would seem to measure depths.
+        // Linearized at the corrected pose. At the estimated pose the Jacobian would share the pose error with the
+        // residual, and flights over distances shorter than that error would seem to measure depth.
         PredictedBearing prediction = *at_better[*k];
         prediction.bearing = at_estimate[*k]->bearing;
         mapped.landmark = updated(mapped.landmark, prediction, bearings[i]);
@@ -114,11 +115,12 @@ std::vector<int64_t> LandmarkMap::update_as_modified(std::span<const Eigen::Vect
   return ids;
 }
 
-/// What was seen in most images between its first and its last, and is known well, is there: now something hides it.
-bool LandmarkMap::lasts(const MappedLandmark& mapped) const {
+/// Returns whether a landmark is kept although it is missed, because it is probably occluded: it was matched in at
+/// least half of the images between its first and last match, and its position is well known.
+bool LandmarkMap::is_persistent(const MappedLandmark& mapped) const {
   constexpr double kKnownSigmaM = 1.0;
   return confirmed(mapped) && mapped.matches >= mapped.passed_over &&
-         greatest_variance(covariance_W(mapped.landmark)) <= kKnownSigmaM * kKnownSigmaM;
+         max_variance(covariance_W(mapped.landmark)) <= kKnownSigmaM * kKnownSigmaM;
 }
 
 LandmarkMap::Predictions LandmarkMap::predict(const CameraPose& pose) const {
@@ -129,7 +131,7 @@ LandmarkMap::Predictions LandmarkMap::predict(const CameraPose& pose) const {
   return predictions;
 }
 
-/// Counts the images that should have shown a landmark and did not, and deletes landmarks with too many.
+/// Counts the images with a landmark in view but not matched, and deletes landmarks with too many of them.
 void LandmarkMap::drop_missed(const CameraPose& pose, const std::vector<bool>& seen) {
   constexpr double kSureOfViewSigmas = 3.0;
   const Eigen::Isometry3d X_CW = pose.X_WC_est.inverse();
@@ -147,8 +149,8 @@ void LandmarkMap::drop_missed(const CameraPose& pose, const std::vector<bool>& s
     const bool missed = !seen[k] && in_view(mapped.landmark);
     if (seen[k]) mapped.passed_over += std::exchange(mapped.misses, 0);
     mapped.misses += missed;
-    const int most = confirmed(mapped) ? config_.misses : config_.unconfirmed_misses;
-    if (mapped.misses < most || lasts(mapped)) kept.push_back(mapped);
+    const int max_misses = confirmed(mapped) ? config_.misses : config_.unconfirmed_misses;
+    if (mapped.misses < max_misses || is_persistent(mapped)) kept.push_back(mapped);
   }
   landmarks_ = std::move(kept);
 }

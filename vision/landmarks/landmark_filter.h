@@ -11,19 +11,20 @@
 
 namespace hedgehop::vision::landmarks {
 
-/// Whose algorithm keeps the map.
+/// Algorithm that maintains the map.
 enum class MapAlgorithm {
-  published,  ///< [Shah2009] ch. 4 alone: update_as_published()
-  modified,   ///< with the camera's common error, starts at any depth, and confirmation
+  published,  ///< [Shah2009] ch. 4: update_as_published()
+  modified,   ///< adds the common camera error, inverse depth and confirmation
 };
 
-/// How a map of landmarks is kept. The uncertainties are what the filter assumes, not what the sensors do. Members
-/// without a key are the caller's choice, not the user's.
+/// Parameters of a landmark map. The uncertainties are assumptions of the filter, not properties of the sensors.
+/// Members without a key are set by the calling code.
 struct LandmarkMapConfig {
   MapAlgorithm algorithm = MapAlgorithm::modified;
-  LandmarkStart start;  ///< ours; the published law begins on the ground
-  double gate = 4.0;    ///< > 0: largest Z value of a match; n standard deviations have n^2 / 4
-  /// N of [Shah2009] ch. 4, >= 1: a landmark is deleted after so many consecutive misses. Not printed; 3 s of 10 Hz.
+  LandmarkStart start;  ///< for `modified`; the published algorithm starts on the ground
+  double gate = 4.0;    ///< maximum Z value of a match, > 0; n standard deviations have n^2 / 4
+  /// N of [Shah2009] ch. 4, >= 1: consecutive misses after which a landmark is deleted. Not in the thesis; 3 s at 10
+  /// Hz.
   int misses = 30;
 
   double pixel_sigma_px = 0.7;
@@ -40,39 +41,37 @@ void describe(Visitor& v, fields::ConfigOf<LandmarkMapConfig> auto& c) {
   v("pixel_sigma", c.pixel_sigma_px,
     {.unit = "px", .above = 0.0, .meaning = "standard deviation of a corner in an image, per axis"});
   v("position_sigma", c.position_sigma_m,
-    {.unit = "m", .at_least = 0.0, .meaning = "standard deviation of the position's error, per axis"});
+    {.unit = "m", .at_least = 0.0, .meaning = "standard deviation of the position error, per axis"});
   v("attitude_sigma", c.attitude_sigma_rad,
-    {.unit = "deg", .at_least = 0.0, .meaning = "standard deviation of the attitude's error, per axis"});
+    {.unit = "deg", .at_least = 0.0, .meaning = "standard deviation of the attitude error, per axis"});
   v("correlation", c.correlation_s,
     {.unit = "s",
      .at_least = 0.0,
-     .meaning = "correlation time of the errors of position and attitude; images within it do not average them out"});
+     .meaning = "correlation time of the position and attitude errors, over which images do not average them out"});
   v("drift", c.drift_m_rt_s,
     {.unit = "m/sqrt(s)", .at_least = 0.0, .meaning = "growth of a landmark's standard deviation: process noise"});
-  v("confirm", c.confirm, {.at_least = 1, .meaning = "matches that make a landmark part of the map"});
+  v("confirm", c.confirm, {.at_least = 1, .meaning = "number of matches after which a landmark is part of the map"});
   v("unconfirmed_misses", c.unconfirmed_misses,
     {.at_least = 1,
-     .meaning = "consecutive images without it that delete a landmark in view that is not confirmed; a confirmed one "
-                "stands 30"});
+     .meaning = "consecutive misses in view after which an unconfirmed landmark is deleted; 30 for a confirmed one"});
 }
 
-/// A database of landmarks that images correct, add to and delete from. Source: [Shah2009] ch. 4, sec. "3D Modeling
-/// Algorithm"; as printed by `MapAlgorithm::published`. Differs, by `MapAlgorithm::modified`: the camera's common error
-/// is estimated before landmarks are matched, confirmed landmarks are matched first, only landmarks in view can be
-/// missed, and well-known ones stay when something hides them.
+/// A map of landmarks that is corrected, extended and pruned with each image.
+/// Source: [Shah2009] ch. 4, sec. "3D Modeling Algorithm", exactly with `MapAlgorithm::published`. Differs with
+/// `MapAlgorithm::modified`: the common error of the camera pose is estimated before landmarks are matched, confirmed
+/// landmarks are matched first, only landmarks in view count as missed, and well-known landmarks are kept if occluded.
 class LandmarkMap {
  public:
-  /// @param camera  of the images: scale of the bearings, edges of the view.
-  /// Throws std::invalid_argument, naming the key, on a bad config.
+  /// @param camera  of the images. Throws std::invalid_argument with the key on an invalid config.
   LandmarkMap(const LandmarkMapConfig& config, const camera::PinholeCamera& camera);
 
-  /// Takes in one image's corners. @param corners_px  in the image. @param dt_s  since the last image, >= 0.
-  /// @return for each corner the id of its landmark, new or known.
+  /// Updates the map with the corners of an image. @param dt_s  time since the previous image, >= 0.
+  /// @return for each corner the id of its landmark, new or existing.
   std::vector<int64_t> update(std::span<const Eigen::Vector2d> corners_px, const CameraPose& pose, double dt_s);
 
-  /// All landmarks, in rising order of id.
+  /// Returns all landmarks in increasing order of id.
   const std::vector<MappedLandmark>& landmarks() const { return landmarks_; }
-  /// Whether a landmark is part of the map: under the published law every one.
+  /// Returns whether a landmark is part of the map; always true for the published algorithm.
   bool confirmed(const MappedLandmark& landmark) const {
     return config_.algorithm == MapAlgorithm::published || landmark.matches >= config_.confirm;
   }
@@ -83,7 +82,7 @@ class LandmarkMap {
   std::vector<int64_t> update_as_modified(std::span<const Eigen::Vector2d> bearings, const CameraPose& pose,
                                           double dt_s);
   Predictions predict(const CameraPose& pose) const;
-  bool lasts(const MappedLandmark& mapped) const;
+  bool is_persistent(const MappedLandmark& mapped) const;
   void drop_missed(const CameraPose& pose, const std::vector<bool>& seen);
 
   LandmarkMapConfig config_;

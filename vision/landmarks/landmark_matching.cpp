@@ -15,14 +15,14 @@ namespace {
 using Eigen::Vector2d;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// Measured bearings in order of x, for searches of the nearest.
+/// Measured bearings sorted by x, for nearest-neighbor queries.
 class SortedBearings {
  public:
   explicit SortedBearings(std::span<const Vector2d> bearings) : sorted_(bearings.begin(), bearings.end()) {
     std::ranges::sort(sorted_, {}, [](const Vector2d& b) { return std::pair(b.x(), b.y()); });
   }
 
-  /// Calls `visit` with every bearing in the square of half a side `within` round a place.
+  /// Calls `visit` with every bearing in the square with half side `within` around `at`.
   template <class Visit>
   void near(const Vector2d& at, double within, Visit&& visit) const {
     auto bearing = std::ranges::lower_bound(sorted_, at.x() - within, {}, [](const Vector2d& b) { return b.x(); });
@@ -54,7 +54,7 @@ double support(std::span<const PredictedBearing> landmarks, const SortedBearings
   return sum;
 }
 
-/// The likeliest error, given its prior and the landmarks' nearest bearings.
+/// Returns the most likely error, given its prior and the landmarks' nearest bearings.
 CameraError refined(std::span<const PredictedBearing> landmarks, const SortedBearings& bearings,
                     const CameraError& error, const Matrix6& information, double bearing_sigma, double within) {
   Matrix6 normal = information;
@@ -79,7 +79,7 @@ CameraError common_error(std::span<const std::optional<PredictedBearing>> predic
   for (const auto& seen : predicted) {
     if (seen) landmarks.push_back(*seen);
   }
-  // The best known first; of many, those guess, judge and refine.
+  // Best-known landmarks first. The first ones provide hypotheses, more of them judge, and even more refine.
   const auto own_variance = [](const PredictedBearing& seen) { return (seen.covariance - seen.noise).trace(); };
   std::ranges::stable_sort(landmarks, {}, own_variance);
   if (landmarks.size() > kRefining) landmarks.resize(kRefining);
@@ -88,7 +88,7 @@ CameraError common_error(std::span<const std::optional<PredictedBearing>> predic
   const SortedBearings bearings(bearings_meas);
   const double within = kSupportSigmas * bearing_sigma;
   CameraError best = CameraError::Zero();
-  double most = support(judges, bearings, best, within);
+  double max_support = support(judges, bearings, best, within);
   for (const PredictedBearing& seen : std::span(landmarks).first(std::min(kGuessing, landmarks.size()))) {
     const Eigen::Matrix2d S = seen.d_bearing_pose * prior * seen.d_bearing_pose.transpose() +
                               bearing_sigma * bearing_sigma * Eigen::Matrix2d::Identity();
@@ -96,8 +96,8 @@ CameraError common_error(std::span<const std::optional<PredictedBearing>> predic
     bearings.near(seen.bearing, kMaxSigmas * std::sqrt(S.trace()), [&](const Vector2d& b) {
       const CameraError guess = gain * (b - seen.bearing);
       const double found = support(judges, bearings, guess, within);
-      if (found > most) {
-        most = found;
+      if (found > max_support) {
+        max_support = found;
         best = guess;
       }
     });
@@ -132,14 +132,14 @@ struct MatchPair {
   auto order() const { return std::tie(z, bearing, landmark); }
 };
 
-/// Half the extent, in x and y, of the residuals whose Z value lies below a gate. Along a unit vector e the squared
-/// residual is below 4 gate e'Se; the curve's box lies within that of a circle of the greatest eigenvalue of S.
+/// Returns a bound, in x and y, for residuals whose Z value is below a gate. Along a unit vector e the squared residual
+/// is below 4 gate e'Se, which is bounded by the maximum eigenvalue of S.
 double reach(const PredictedBearing& seen, double gate) {
   const Eigen::Matrix2d& S = seen.covariance;
   const double mean = 0.5 * S.trace();
-  const double greatest = mean + std::hypot(0.5 * (S(0, 0) - S(1, 1)), S(0, 1));
+  const double max_eigenvalue = mean + std::hypot(0.5 * (S(0, 0) - S(1, 1)), S(0, 1));
   constexpr double kRounding = 1.0 + 1e-9;
-  return kRounding * 2.0 * std::sqrt(gate * greatest);
+  return kRounding * 2.0 * std::sqrt(gate * max_eigenvalue);
 }
 
 }  // namespace

@@ -12,16 +12,17 @@ namespace {
 
 using Eigen::Vector2d;
 
-// A line's maxima are steeper than the texture that most of the image is made of, and steeper than noise by night.
+// Minimum gradient of a line's maxima: relative to the texture of the image, and absolute, above the noise of dark
+// images.
 constexpr double kOfTexture = 1.5, kMinStrength = 16.0;
-constexpr double kSeed = 1.3;  // so much steeper again is one maximum at least of what hangs together
+constexpr double kSeed = 1.3;  // hysteresis: at least one of the connected maxima is stronger by this factor
 
-/// A pixel's part in the search: no maximum of the gradient; one on no line yet; on none that is long enough; on a
-/// line. cv::Canny() writes the first two.
+/// State of a pixel: not a maximum of the gradient, not yet examined, not on a line of sufficient length, or on a line.
+/// cv::Canny() writes the first two.
 enum PixelState : uchar { kNone = 0, kFresh = 255, kTried = 2, kTaken = 1 };
 
 struct Gradient {
-  cv::Mat dx, dy;  ///< CV_16SC1: a step between dark and light has eight times its height at most
+  cv::Mat dx, dy;  ///< CV_16SC1; at most eight times the height of a step between dark and light
 };
 
 Gradient gradient_of(const cv::Mat& plane) {
@@ -32,8 +33,8 @@ Gradient gradient_of(const cv::Mat& plane) {
   return gradient;
 }
 
-/// The strength that 85 % of the image stay below: that of its texture and noise. Of every fourth pixel along both
-/// axes.
+/// Returns the 85 % quantile of the gradient, the strength of texture and noise, from every fourth pixel in both
+/// directions.
 double texture_strength(const Gradient& gradient) {
   constexpr int kStep = 4;
   constexpr size_t kPercent = 85;
@@ -48,7 +49,7 @@ double texture_strength(const Gradient& gradient) {
   return std::sqrt(static_cast<double>(rank));
 }
 
-/// Follows the straight lines among the maxima of one image's gradient.
+/// Follows straight lines along the maxima of an image's gradient.
 class LineFollower {
  public:
   LineFollower(const Gradient& gradient, cv::Mat& state)
@@ -70,8 +71,8 @@ class LineFollower {
   }
 
  private:
-  /// Follows the line through a pixel. It is a function of the image's axis that it turns from least: `across` of
-  /// `along`.
+  /// Follows the line through a pixel. The line is represented as a function `across` of `along`, the image axis closer
+  /// to its direction.
   std::optional<ImageEdge> follow(int u, int v) {
     const int seed = v * columns_ + u;
     normal_ = {dx_[seed], dy_[seed]};
@@ -85,7 +86,7 @@ class LineFollower {
     sum_s_ = sum_c_ = sum_ss_ = sum_sc_ = 0.0;
     pixels_.clear();
     const int across = flat_ ? v : u;
-    hit(origin_, seed, finer(seed, across));
+    hit(origin_, seed, subpixel(seed, across));
     for (const int step : {+1, -1, +1}) extend(step);
 
     constexpr int kMinHits = 9;
@@ -109,7 +110,7 @@ class LineFollower {
         const int pixel = along * along_stride_ + c * across_stride_;
         if (state_[pixel] < kTried || !is_along(pixel)) continue;
         constexpr double kOffPx = 1.0;
-        const double fine = finer(pixel, c);
+        const double fine = subpixel(pixel, c);
         if (std::abs(fine - expected) > kOffPx) continue;
         hit(along, pixel, fine);
         end = along;
@@ -119,14 +120,14 @@ class LineFollower {
     }
   }
 
-  /// Whether a pixel's gradient has the line's direction and sense.
+  /// Returns whether a pixel's gradient has the direction and sign of the line's.
   bool is_along(int pixel) const {
     constexpr double kCosine2 = 0.85355339;  // of 22.5 degrees, squared
     const double x = dx_[pixel], y = dy_[pixel], dot = x * normal_.x() + y * normal_.y();
     return dot > 0.0 && dot * dot >= kCosine2 * (x * x + y * y) * normal_.squaredNorm();
   }
-  /// Where across the line the gradient is steepest, by the parabola through three pixels.
-  double finer(int pixel, int across) const {
+  /// Returns the position of the maximum gradient across the line, by a parabola through three pixels.
+  double subpixel(int pixel, int across) const {
     const int before = std::abs(across_gradient_[pixel - across_stride_]), here = std::abs(across_gradient_[pixel]),
               after = std::abs(across_gradient_[pixel + across_stride_]);
     const int bend = 2 * here - before - after;
@@ -140,7 +141,7 @@ class LineFollower {
     sum_sc_ += s * fine;
     if (!pixels_.empty()) normal_ += Vector2d(dx_[pixel], dy_[pixel]);
     pixels_.push_back(pixel);
-    // While it is short, its mean gradient has its direction.
+    // A short line takes its direction from the mean gradient.
     constexpr int kFitted = 8;
     const double n = hits();
     slope_ = hits() >= kFitted ? (n * sum_sc_ - sum_s_ * sum_c_) / (n * sum_ss_ - sum_s_ * sum_s_)
@@ -152,7 +153,7 @@ class LineFollower {
   int hits() const { return static_cast<int>(pixels_.size()); }
   double across_at(int along) const { return offset_ + slope_ * (along - origin_); }
   Vector2d at(int along) const { return flat_ ? Vector2d(along, across_at(along)) : Vector2d(across_at(along), along); }
-  /// With the brighter side on its right, as seen in the image.
+  /// Returns the edge with the brighter side on its right, as seen in the image.
   ImageEdge edge() const {
     const ImageEdge e{at(first_), at(last_)};
     const Vector2d d = e.to_px - e.from_px;
@@ -163,10 +164,10 @@ class LineFollower {
   uchar* state_;
   int columns_, rows_;
 
-  bool flat_ = true;  ///< along is u, not v
+  bool flat_ = true;  ///< whether `along` is u
   int along_stride_ = 1, across_stride_ = 1, along_end_ = 0, across_end_ = 0;
   const short* across_gradient_ = nullptr;
-  int origin_ = 0, first_ = 0, last_ = 0;  ///< along
+  int origin_ = 0, first_ = 0, last_ = 0;  ///< in `along`
   Vector2d normal_ = Vector2d::Zero();     ///< sum of the gradients
   double sum_s_ = 0.0, sum_c_ = 0.0, sum_ss_ = 0.0, sum_sc_ = 0.0, slope_ = 0.0, offset_ = 0.0;
   std::vector<int> pixels_;

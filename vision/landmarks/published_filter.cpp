@@ -18,7 +18,7 @@ struct Projected {
   Matrix2d R = Matrix2d::Zero();    ///< covariance of a measurement of it
 };
 
-/// Nothing for a point that is not in front of the camera.
+/// Returns the projection of a point; std::nullopt if it is not in front of the camera.
 std::optional<Projected> project(const Vector3d& X_v, const CameraPose& camera, double bearing_sigma) {
   constexpr double kMinDepthM = 1e-3;
   const Matrix3d L_bv = camera.X_WC_est.linear().transpose();
@@ -36,7 +36,7 @@ std::optional<Projected> project(const Vector3d& X_v, const CameraPose& camera, 
   return seen;
 }
 
-/// Z value: the error index J squared over its variance C.
+/// Returns the Z value: the error index J squared over its variance C.
 double z_of(const Projected& seen, const Matrix3d& P, const Vector2d& Z) {
   const Vector2d d = Z - seen.x_k;   // eq. (4.7)
   const double J = d.squaredNorm();  // eq. (4.5)
@@ -55,7 +55,7 @@ void correct(const Projected& seen, const Vector2d& Z, Landmark& point) {
   point.P -= (K * seen.H * point.P).eval();                                          // eq. (4.17)
 }
 
-/// Each measurement's point: of all pairs below the gate those of least Z value first, one to one.
+/// Returns the point of each measurement: the pairs below the gate in increasing order of their Z value, one to one.
 std::vector<std::optional<size_t>> correspond(const PublishedFilter& filter, std::span<const Vector2d> measured,
                                               const std::vector<std::optional<Projected>>& projected,
                                               const std::vector<MappedLandmark>& database) {
@@ -86,12 +86,12 @@ std::vector<int64_t> update_as_published(const PublishedFilter& filter, std::spa
   std::vector<std::optional<Projected>> projected;
   for (MappedLandmark& point : database) {
     const double Q_m2 = filter.drift_m_rt_s * filter.drift_m_rt_s * dt_s;
-    point.landmark.P += Q_m2 * Matrix3d::Identity();  // eq. (4.14); the point stands still, eq. (4.13)
+    point.landmark.P += Q_m2 * Matrix3d::Identity();  // eq. (4.14); the point is fixed, eq. (4.13)
     projected.push_back(project(point.landmark.x, pose, filter.bearing_sigma));
   }
   const auto point_of = correspond(filter, bearings_meas, projected, database);
 
-  // Without a correspondence a point is marked, with one its marks are taken back.
+  // Count a miss for every point; a correspondence resets the count.
   for (MappedLandmark& point : database) ++point.misses;
   std::vector<int64_t> ids;
   for (size_t i = 0; i < bearings_meas.size(); ++i) {

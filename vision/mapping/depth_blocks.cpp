@@ -10,10 +10,11 @@ namespace {
 
 constexpr int kPx = DepthBlocks::kBlockPx;
 
-/// The largest disparity but for a few pixels: single ones are wrong, and a pole of one pixel leaves a column of eight.
+/// Sets the kind and the nearest disparity of a block. The few largest disparities are ignored, because single pixels
+/// can be wrong, while a pole one pixel wide covers a column of eight.
 void read_disparity(const cv::Mat& disparity16, const cv::Mat& smeared, int row, int col, DepthBlock& block) {
-  constexpr int kMinMatched = kPx * kPx / 2;  // half of a block stands for it
-  constexpr int kMinNear = 6;                 // what a pole of one pixel leaves
+  constexpr int kMinMatched = kPx * kPx / 2;  // half of a block
+  constexpr int kMinNear = 6;                 // pixels of a pole one pixel wide
   std::array<int16_t, kPx * kPx> matched;
   int count = 0, certain = 0;
   for (int v = row * kPx; v < (row + 1) * kPx; ++v) {
@@ -42,23 +43,23 @@ void read_grey(const cv::Mat& grey, int row, int col, DepthBlock& block) {
     const auto* const g = grey.ptr<uint8_t>(row * kPx + v) + col * kPx;
     for (int u = 0; u < kPx; ++u) quarter[static_cast<size_t>(2 * (v / kHalf) + u / kHalf)] += g[u];
   }
-  const auto [least, most] = std::ranges::minmax(quarter);
+  const auto [darkest, brightest] = std::ranges::minmax(quarter);
   const int sum = quarter[0] + quarter[1] + quarter[2] + quarter[3];
   block.grey = static_cast<uint8_t>(sum / (kPx * kPx));
-  block.range = static_cast<uint8_t>((most - least) / (kHalf * kHalf));
+  block.range = static_cast<uint8_t>((brightest - darkest) / (kHalf * kHalf));
 }
 
-/// By how much each pixel is darker than what is on both sides of it within a few pixels: the black top hat, which is
-/// nothing at an edge and in the noise of a camera little.
+/// Computes by how much each pixel is darker than both sides within a few pixels: the black top-hat transform. It is
+/// zero at edges and small for camera noise.
 void find_valleys(const cv::Mat& grey, cv::Mat& valleys) {
   constexpr int kWindowPx = 5;  // wider than a line
   cv::morphologyEx(grey, valleys, cv::MORPH_BLACKHAT, cv::Mat::ones(kWindowPx, kWindowPx, CV_8U));
 }
 
-/// Whether a block holds enough of a valley to be one of a line.
+/// Returns whether a block contains enough of a valley to be part of a line.
 bool is_lined(const cv::Mat& valleys, int row, int col) {
   constexpr int kDarker = 25,
-                kMinDarkPixels = 4;  // grey levels, above the noise; pixels, half of a line through the block
+                kMinDarkPixels = 4;  // grey levels, above noise; pixels, half of a line through the block
   int dark = 0;
   for (int v = 0; v < kPx; ++v) {
     const auto* const g = valleys.ptr<uint8_t>(row * kPx + v) + col * kPx;
@@ -72,7 +73,7 @@ bool is_lined(const cv::Mat& valleys, int row, int col) {
 void DepthBlocks::build(const cv::Mat& disparity16, const cv::Mat& grey, int smear_px) {
   smeared_ = disparity16 < 0;
   if (smear_px > 0) {
-    // What holds a whole window without a match, and half a window round it.
+    // Areas that contain a complete window of unmatched pixels, enlarged by half a window.
     const auto square = [](int px) { return cv::Mat::ones(px, px, CV_8U); };
     cv::erode(smeared_, smeared_, square(2 * smear_px + 1));
     cv::dilate(smeared_, smeared_, square(4 * smear_px + 1));

@@ -9,7 +9,7 @@ void DistanceField::build(const std::vector<uint8_t>& marked, int rows, int cols
   cols_ = cols;
   const auto index = [&](int row, int col) { return static_cast<size_t>(row * cols + col); };
   distance_.resize(marked.size());
-  // Along each column: cells to the nearest marked one, from above and from below.
+  // Along each column: distance to the nearest marked cell, from above and from below.
   for (int col = 0; col < cols; ++col) distance_[index(0, col)] = marked[index(0, col)] ? 0.0F : kFar;
   for (int row = 1; row < rows; ++row) {
     for (int col = 0; col < cols; ++col) {
@@ -22,7 +22,7 @@ void DistanceField::build(const std::vector<uint8_t>& marked, int rows, int cols
       distance_[index(row, col)] = std::min(distance_[index(row, col)], distance_[index(row + 1, col)] + 1.0F);
     }
   }
-  // Along each row: the lower envelope of the parabolas over the squares of those distances.
+  // Along each row: lower envelope of the parabolas on the squares of those distances.
   const auto n = static_cast<size_t>(cols);
   column_.resize(n);
   parabola_.resize(n);

@@ -6,14 +6,14 @@
 
 namespace hedgehop::vision::mapping {
 
-/// Distance of each cell of a grid to the nearest marked one, center to center, in cells; kFar where none is marked.
-/// A distance field makes the test of a disk one look-up: [Oleynikova2017] sec. V. Differs: theirs is built as voxels
-/// change, in three dimensions; ours from scratch in the plane of flight, which takes a fraction of a millisecond.
+/// Distance of each cell of a grid to the nearest marked cell, center to center, in cells; kFar without marked cells.
+/// With a distance field, the test of a disk is one lookup: [Oleynikova2017] sec. V. Differs: the paper updates a
+/// three-dimensional field as voxels change; ours is recomputed in the plane of flight, in a fraction of a millisecond.
 class DistanceField {
  public:
   static constexpr float kFar = 1e6F;
 
-  /// @param marked  rows x cols, row by row; 0 is not marked.
+  /// Computes the field. @param marked  rows x cols, row by row; 0: not marked.
   void build(const std::vector<uint8_t>& marked, int rows, int cols);
   float at(int row, int col) const { return distance_[static_cast<size_t>(row * cols_ + col)]; }
 

@@ -7,19 +7,19 @@
 namespace hedgehop::vision::mapping {
 namespace {
 
-// Log-odds in steps of 0.4: a hit adds 1.2, a miss takes 0.8: what was seen through soon counts as free again, for the
-// whole block around its ray was.
+// Log-odds in steps of 0.4: a hit adds 1.2, a miss subtracts 0.8. Voxels in free space soon count as free again,
+// because the entire block around the ray is free.
 constexpr int kHit = 3, kMiss = -2;
 constexpr int kMinLogOdds = -9,
-              kMaxLogOdds = 12;  // clamps: what was seen free turns after two hits, and is occupied after five
+              kMaxLogOdds = 12;  // limits: a free voxel is no longer free after two hits and occupied after five
 constexpr int kFreeBelow = -4, kOccupiedFrom = 5;
 constexpr double kSigmas = 2.0;
-// Something thin before the sky takes from what was free along its ray, from where it would be matched on: three images
-// of it make that unknown, never occupied.
+// A thin object in front of the sky reduces the evidence for free space along its ray, beyond the range at which it
+// would be matched. After three images the voxels are unknown, but never occupied.
 constexpr int kDoubt = 2;
 constexpr float kSurelyMatchedM = 4.0F;
-constexpr float kInDoubt = -1.0F;  // instead of what a block clears
-// 1-sigma of a depth up to which a surface is placed in the map, less than a voxel, and up to which it is told of.
+constexpr float kInDoubt = -1.0F;  // value of clear_m_ for blocks with a thin object
+// Maximum 1-sigma of depth of surfaces added to the map, less than a voxel, and of surfaces reported in hits().
 constexpr double kPlacedM = 0.25, kReportedM = 1.0;
 
 int modulo(int a, int n) {
@@ -94,8 +94,8 @@ void OccupancyMap::integrate(const DepthBlocks& blocks, const stereo::StereoGeom
   for (const size_t slot : hit_slots_) hit_[slot] = 0;
 }
 
-/// z in C up to which each block was seen through: not past what its neighbors see nearer, whose edge may lie in it; or
-/// that it puts in doubt what was free.
+/// Computes the z in C up to which each block is free. It is limited by nearer surfaces in adjacent blocks, whose edges
+/// may be inside the block. Blocks with a thin object get kInDoubt.
 void OccupancyMap::find_clear(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry) {
   const double beyond16 = kSigmas * config_.noise_px * stereo::kDisparityUnits;
   clear_m_.assign(static_cast<size_t>(blocks.rows() * blocks.cols()), 0.0F);
@@ -118,17 +118,17 @@ void OccupancyMap::find_clear(const DepthBlocks& blocks, const stereo::StereoGeo
   }
 }
 
-/// Endpoints of rays; each voxel counts once an image, however many blocks end in it.
+/// Adds the end points of rays. Each voxel counts once per image.
 void OccupancyMap::add_hits(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry,
                             const Eigen::Isometry3d& X_WC, std::span<const MovingDisc> moving) {
   hits_.clear();
   hit_slots_.clear();
   // z^2 sigma_px / (f b) = sigma_m
-  const auto farthest_m = [&](double sigma_m) {
+  const auto max_depth_m = [&](double sigma_m) {
     return std::sqrt(sigma_m * geometry.focal_px * geometry.baseline_m / config_.noise_px);
   };
-  const double placed16 = geometry.disparity16(farthest_m(kPlacedM)),
-               reported16 = geometry.disparity16(farthest_m(kReportedM));
+  const double placed16 = geometry.disparity16(max_depth_m(kPlacedM)),
+               reported16 = geometry.disparity16(max_depth_m(kReportedM));
   for (int row = 0; row < blocks.rows(); ++row) {
     for (int col = 0; col < blocks.cols(); ++col) {
       const DepthBlock& block = blocks.at(row, col);
@@ -152,7 +152,7 @@ void OccupancyMap::add_hits(const DepthBlocks& blocks, const stereo::StereoGeome
   }
 }
 
-/// Voxels that lie wholly before the end of their block's ray, and those that a line puts in doubt.
+/// Updates the voxels that are completely in front of the end of their block's ray, and those behind a thin object.
 void OccupancyMap::add_misses(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry,
                               const Eigen::Isometry3d& X_WC) {
   const Eigen::Isometry3d X_CW = X_WC.inverse();
@@ -164,7 +164,7 @@ void OccupancyMap::add_misses(const DepthBlocks& blocks, const stereo::StereoGeo
   const auto cols = static_cast<float>(blocks.cols()), rows = static_cast<float>(blocks.rows());
   const auto far_m = static_cast<float>(config_.voxel_m * config_.across);
   const Index n = size();
-  const int turn = n.y() - modulo(first_.y(), n.y());  // of a row, that lie before the ring's end
+  const int turn = n.y() - modulo(first_.y(), n.y());  // voxels of a row before the end of the ring buffer
   for (int z = first_.z(); z < first_.z() + n.z(); ++z) {
     for (int x = first_.x(); x < first_.x() + n.x(); ++x) {
       const Eigen::Vector3f p_C = (X_CW * center({x, first_.y(), z})).cast<float>();

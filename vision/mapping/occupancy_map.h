@@ -11,63 +11,64 @@
 
 namespace hedgehop::vision::mapping {
 
+/// Size and sensor model of an occupancy map.
 struct OccupancyMapConfig {
   double voxel_m = 0.3;   ///< edge, > 0
-  int across = 160;       ///< voxels north and east, > 0
-  int layers = 12;        ///< voxels down, > 0
+  int across = 160;       ///< number of voxels north and east, > 0
+  int layers = 12;        ///< number of voxels down, > 0
   double noise_px = 0.5;  ///< 1-sigma of a disparity, > 0
-  double far_m = 22.0;    ///< up to which sky clears, > 0
+  double far_m = 22.0;    ///< range up to which sky marks voxels as free, > 0
 };
 
-/// What is known of the space around the vehicle: log-odds in voxels that move along with it.
-/// - Log-odds are added image by image and clamped, so that the map follows what changes: [Hornung2013] eq. (2) and
+/// Occupancy of the space around the vehicle: log-odds in a voxel grid that moves with the vehicle.
+/// - Log-odds are accumulated over images and clamped, so that the map adapts to changes: [Hornung2013] eq. (2) and
 /// (4).
-/// - The voxels lie in a ring buffer: moving on clears what comes in, and copies nothing: [Usenko2017] sec. IV.
-/// Differs from both: rays are not walked; each voxel within the view looks up the block it is seen in, which costs the
-/// same for every range and leaves no gaps between rays. It is free only where that block was seen through, up to the
-/// measured depth less two sigma of its inverse. What no ray meets keeps its value, and forgets it with time.
+/// - The voxels are stored in a ring buffer. A move clears the voxels that enter and copies no data: [Usenko2017] sec.
+/// IV. Differs from both: there is no ray casting. Each voxel in view looks up the depth block that it projects to, so
+/// that the cost does not depend on range and rays leave no gaps. A voxel is free only up to the measured depth of its
+/// block minus two sigma of the inverse depth. Voxels without observations keep their value, which fades over time.
 class OccupancyMap {
  public:
   enum class State : uint8_t { unknown, free, occupied };
   using Index = Eigen::Vector3i;  ///< of a voxel of the world: floor(p_W / voxel_m)
 
-  /// Throws std::invalid_argument on a bad config.
+  /// Throws std::invalid_argument on an invalid config.
   explicit OccupancyMap(const OccupancyMapConfig& config);
 
-  /// Forgets everything and centers on a point.
+  /// Clears the map and centers it on a point.
   void reset(const Eigen::Vector3d& center_W);
-  /// Moves the window to a new center; what enters it is unknown.
+  /// Moves the window to a new center. Voxels that enter are unknown.
   void move(const Eigen::Vector3d& center_W);
-  /// An upright cylinder.
+  /// A vertical cylinder around a moving obstacle.
   struct MovingDisc {
     Eigen::Vector2d p_W;
     double radius_m;
   };
-  /// Adds an image. @param X_WC  the left camera's pose when it was exposed, as estimated. @param moving  what moves:
-  /// surfaces in it are not placed in the map, where they would stay behind as a wake.
+  /// Adds an image. @param X_WC  estimated pose of the left camera at exposure. @param moving  moving obstacles: their
+  /// surfaces are not added to the map, because they would leave a trail.
   void integrate(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry, const Eigen::Isometry3d& X_WC,
                  std::span<const MovingDisc> moving = {});
-  /// A surface of the last image, whether it is near enough to be placed in the map or not.
+  /// A surface point of the last image, including points too distant for the map.
   struct Hit {
-    Eigen::Vector3d p_W;  ///< the point, m
-    bool was_free;        ///< before: what stands still does not come where free space was seen
+    Eigen::Vector3d p_W;  ///< m
+    bool was_free;        ///< whether its voxel was free before; a fixed obstacle does not appear in free space
   };
   const std::vector<Hit>& hits() const { return hits_; }
-  /// All voxels take one step towards unknown.
+  /// Moves all voxels one step toward unknown.
   void fade();
-  /// The voxels with centers in an upright cylinder become free: no obstacle is where the vehicle is.
+  /// Marks the voxels with centers in a vertical cylinder as free, because the vehicle occupies it.
   void clear_cylinder(const Eigen::Vector3d& center_W, double radius_m, double half_height_m);
 
   State state(const Index& voxel) const;
-  /// Whether a voxel was hit more than it was seen through.
+  /// Returns whether a voxel has more evidence for occupied than for free.
   bool is_suspect(const Index& voxel) const { return contains(voxel) && log_odds_[slot(voxel)] > 0; }
   Index index(const Eigen::Vector3d& p_W) const;
   Eigen::Vector3d center(const Index& voxel) const;
-  /// The window: [first, first + size) in each direction.
+  /// Returns the start of the window, which is [first, first + size) in each direction.
   const Index& first() const { return first_; }
   Index size() const { return {config_.across, config_.across, config_.layers}; }
   const OccupancyMapConfig& config() const { return config_; }
-  /// States of the voxels (north i, east 0 ... across - 1) of a layer, from first() on.
+  /// Reads the states of the voxels (north i, east 0 ... across - 1) of a layer, relative to first().
   void read_row(int layer, int north, std::vector<State>& row) const;
 
  private:
@@ -80,7 +81,7 @@ class OccupancyMap {
 
   OccupancyMapConfig config_;
   Index first_ = Index::Zero();
-  std::vector<int8_t> log_odds_;  ///< in kStep; 0 is unknown
+  std::vector<int8_t> log_odds_;  ///< in steps of 0.4; 0: unknown
   std::vector<uint8_t> hit_;      ///< in this image
   std::vector<size_t> hit_slots_;
   std::vector<Hit> hits_;       ///< of hit_slots_

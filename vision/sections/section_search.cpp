@@ -12,7 +12,7 @@
 namespace hedgehop::vision::sections {
 namespace {
 
-/// First pixel of the k-th of `count` sections of `length` pixels within `whole`.
+/// Returns the first pixel of the k-th of `count` sections of `length` pixels within `whole`.
 int first_pixel(int k, int count, int length, int whole) {
   return count == 1 ? (whole - length) / 2 : static_cast<int>(std::lround(k * double(whole - length) / (count - 1)));
 }
@@ -64,7 +64,7 @@ double SectionSearch::share(int section) const {
   return static_cast<double>(threats_[i]) / sections_[i].area();
 }
 
-SectionChoice SectionSearch::choose(const cv::Mat& depth_m, double threshold_m, double most_share, UnknownDepth unknown,
+SectionChoice SectionSearch::choose(const cv::Mat& depth_m, double threshold_m, double max_share, UnknownDepth unknown,
                                     const std::function<bool(int)>& open) {
   if (depth_m.size() != image_ || depth_m.type() != CV_32FC1) {
     throw std::invalid_argument("a depth image does not have the size or type that its sections were made for");
@@ -95,13 +95,13 @@ SectionChoice SectionSearch::choose(const cv::Mat& depth_m, double threshold_m, 
   if (open) {
     int best_open = -1;
     for (int i = 0; i < static_cast<int>(sections_.size()); ++i) {
-      const bool better = share(i) <= most_share && (best_open < 0 || rank(i) < rank(best_open));
+      const bool better = share(i) <= max_share && (best_open < 0 || rank(i) < rank(best_open));
       if (better && open(i)) best_open = i;
     }
     if (best_open >= 0) choice.best = best_open;
   }
   choice.share = share(choice.best);
-  if (choice.share <= most_share) choice.section = choice.best;
+  if (choice.share <= max_share) choice.section = choice.best;
   return choice;
 }
 

@@ -6,55 +6,57 @@
 
 namespace hedgehop::vision::sections {
 
-/// Overlapping sections of an image: rows x cols rectangles of one size, spread evenly so that the outermost reach the
-/// image's edges, numbered from the top left, row by row, from 0. Source: [Perez2018] sec. V-B.
+/// Overlapping sections of an image: rows x cols rectangles of equal size, evenly spaced up to the image's borders,
+/// numbered from 0 at the top left, row by row. Source: [Perez2018] sec. V-B.
 struct SectionGrid {
   int rows = 17, cols = 17;          ///< at least 1
   double width_share = 628. / 1280;  ///< of the image's width, in (0, 1]
   double height_share = 252. / 720;  ///< of the image's height, in (0, 1]
-  int grow_px = 0;                   ///< by which threats are dilated, >= 0; beyond the paper
+  int grow_px = 0;                   ///< dilation of threats, >= 0; not in the paper
 
   bool operator==(const SectionGrid&) const = default;
 };
 
-/// Sections of an image, in their order. Throws std::invalid_argument on a grid or size out of range.
+/// Returns the sections of an image in order. Throws std::invalid_argument if the grid or the size is out of range.
 std::vector<cv::Rect> sections(const SectionGrid& grid, cv::Size image);
 
-/// What a pixel without depth counts as.
+/// Treatment of pixels without depth.
 enum class UnknownDepth { free, threat };
 
 /// One choice among sections.
 struct SectionChoice {
-  int section = -1;    ///< the chosen one; -1 when even the best holds too many threats
-  int best = -1;       ///< the one with the least threats
-  double share = 0.0;  ///< of the best one's pixels that are threats
+  int section = -1;    ///< the chosen section; -1 if even the best has too many threats
+  int best = -1;       ///< the section with the minimum number of threats
+  double share = 0.0;  ///< share of threats among the pixels of the best section
 };
 
-/// Chooses the section with the smallest share of pixels that are threats. Sums come from an integral image, so that
-/// the cost does not depend on the number and size of sections. Reuses its memory from image to image. Differs: the
-/// paper counts every section pixel by pixel, and its cost grows with their number (table 1).
+/// Chooses the section with the minimum share of threat pixels. An integral image makes the cost independent of the
+/// number and size of sections. Reuses its memory. Differs: the paper counts every section pixel by pixel, at a cost
+/// that increases with the number of sections (table 1).
 class SectionSearch {
  public:
-  /// Throws as sections().
+  /// Throws like sections().
   SectionSearch(const SectionGrid& grid, cv::Size image);
 
-  /// @param depth_m      rows x cols, CV_32F, of the size given, m; NaN unknown, +infinity sky.
-  /// @param threshold_m  what is nearer is a threat, > 0.
-  /// @param most_share   share of threats above which a section is not chosen, in [0, 1].
-  /// @param open         whether a section may be chosen, called as seldom as possible; empty: all may. Where no
-  ///                     open section has few enough threats, all count as open.
-  /// @return equal shares go to the section whose center lies nearest the image's center, then to the lower number.
-  SectionChoice choose(const cv::Mat& depth_m, double threshold_m, double most_share, UnknownDepth unknown,
+  /// Returns the section with the minimum share of threats; for equal shares the one closest to the image's center,
+  /// then the one with the lower number.
+  /// @param depth_m      CV_32F of the given size, m; NaN: unknown, +infinity: sky.
+  /// @param threshold_m  pixels closer than this are threats, > 0.
+  /// @param max_share    maximum share of threats in a chosen section, in [0, 1].
+  /// @param open         returns whether a section may be chosen, called as rarely as possible; by default all are
+  /// open. If
+  ///                     every open section has too many threats, all sections count as open.
+  SectionChoice choose(const cv::Mat& depth_m, double threshold_m, double max_share, UnknownDepth unknown,
                        const std::function<bool(int)>& open = {});
 
   const std::vector<cv::Rect>& sections() const { return sections_; }
-  /// The section straight ahead: the one that wins when all are alike.
+  /// Returns the section straight ahead, which is chosen if all are equal.
   int center() const { return center_; }
-  /// The section whose center lies nearest to a place of the image or beyond its edges.
+  /// Returns the section whose center is closest to a point inside or outside the image.
   int nearest(const cv::Point2d& pixel) const;
-  /// Threats per section at the last choice.
+  /// Returns the number of threats per section at the last choice.
   const std::vector<int>& threats() const { return threats_; }
-  /// Share of a section's pixels that were threats at the last choice.
+  /// Returns the share of threats among a section's pixels at the last choice.
   double share(int section) const;
 
  private:

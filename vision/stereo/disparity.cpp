@@ -15,15 +15,15 @@ void need_disparity(const cv::Mat& disparity16) {
   if (disparity16.type() != CV_16SC1) throw std::invalid_argument("a disparity image must be CV_16SC1");
 }
 
-/// Neighbors in one row that belong together. Runs that touch make a segment: a tree whose root knows its size.
+/// A run of connected pixels in one row. Connected runs form a segment: a tree whose root stores the size.
 struct PixelRun {
-  int row, begin, end;  ///< columns, `end` not among them
+  int row, begin, end;  ///< columns [begin, end)
   int parent, size;
 };
 
 class Segments {
  public:
-  /// Adds the runs of the next row, and joins them with those of the row above that they touch.
+  /// Adds the runs of the next row and joins them with connected runs of the previous row.
   void add_row(const cv::Mat& disparity16, int row, int difference16) {
     const auto above = static_cast<int>(row_begin_), here = static_cast<int>(runs_.size());
     row_begin_ = runs_.size();
@@ -49,7 +49,7 @@ class Segments {
  private:
   PixelRun& run(int i) { return runs_[static_cast<size_t>(i)]; }
 
-  /// Whether any of their pixels do, straight or across a corner. Most do at the first place where they can.
+  /// Returns whether two runs have connected pixels, including diagonal neighbors.
   static bool touch(const PixelRun& lower, const PixelRun& upper, const cv::Mat& disparity16, int difference16) {
     const auto* const d = disparity16.ptr<int16_t>(lower.row);
     const auto* const above = disparity16.ptr<int16_t>(upper.row);
@@ -73,10 +73,10 @@ class Segments {
   }
 
   std::vector<PixelRun> runs_;
-  size_t row_begin_ = 0;  ///< in `runs_`, of the row added last
+  size_t row_begin_ = 0;  ///< index in `runs_` of the last row's first run
 };
 
-/// @return pixels found to be sky, of `count` that each have another before it.
+/// Marks sky in a row. @param grey, disparity16  start at the second pixel. @return number of sky pixels.
 HEDGEHOP_WIDE int mark_sky_in_row(const uint8_t* grey, int count, int texture, int brightness, bool among_all,
                                   int16_t* disparity16) {
   int found = 0;
@@ -99,7 +99,7 @@ void to_depth(const cv::Mat& disparity16, const StereoGeometry& geometry, cv::Ma
     const auto* const from = disparity16.ptr<int16_t>(v);
     auto* const to = depth_m.ptr<float>(v);
     for (int u = 0; u < disparity16.cols; ++u) {
-      const float depth = scale / static_cast<float>(from[u]);  // whatever the sign: so the loop does without branches
+      const float depth = scale / static_cast<float>(from[u]);  // also for negative values, to avoid branches
       to[u] = from[u] < 0 ? std::numeric_limits<float>::quiet_NaN() : depth;
     }
   }

@@ -40,9 +40,9 @@ void DepthPyramid::build(const cv::Mat& disparity16, int top) {
 
 namespace {
 
-/// With z = 16 b f / d, [Andert2007] eq. (9) to (11) come to
+/// With z = 16 b f / d, [Andert2007] eq. (9) to (11) become
 ///   dx^2 / (f^2 + (x_path - x_0)^2) + dy^2 / (f^2 + (y_path - y_0)^2)  <=  (r d / (16 b f))^2 ,
-/// so the offset from the path on the left determines which disparities d put a point inside the corridor.
+/// so the offset from the path on the left determines the disparities d of points inside the corridor.
 class CorridorDescent {
  public:
   CorridorDescent(const DepthPyramid& pyramid, const StereoGeometry& geometry, const cv::Point& path, double radius_m,
@@ -79,7 +79,7 @@ class CorridorDescent {
   void descend(int level, int row, int col) {
     if (blocked()) return;
     const int d = pyramid_.disparity16(level, row, col);
-    if (d <= nearest_) return;  // nothing nearer here than what is known; unknown is below all
+    if (d <= nearest_) return;  // no closer point here; unknown is below all disparities
     ++tests_;
     const int size = 1 << level;
     const int first_x = col * size - path_.x, last_x = first_x + size - 1;
@@ -99,7 +99,7 @@ class CorridorDescent {
   cv::Point path_;
   double weight_x_, weight_y_;
   double reach_;     ///< r / (16 b f)
-  double blocking_;  ///< disparity x 16 from which on the corridor is blocked
+  double blocking_;  ///< minimum disparity x 16 that blocks the corridor
   int nearest_ = kNoDisparity;
   int tests_ = 0;
 };
@@ -129,7 +129,7 @@ void divide(const DepthPyramid& pyramid, double far_disparity16, int level, int 
   }
 }
 
-/// Points of a square lattice round `center` with inner^2 < distance^2 <= outer^2.
+/// Returns the points of a square lattice around `center` with inner^2 < distance^2 <= outer^2.
 std::vector<cv::Point> ring(const cv::Point& center, int step, int inner2, int outer) {
   std::vector<cv::Point> points;
   const int steps = outer / step;

@@ -13,10 +13,10 @@ namespace hedgehop::vision::stereo {
 
 namespace {
 
-constexpr int kMaxSlope = 31;        // slopes beyond are taken to be this; their lines hold slope + 31
-constexpr int kBrightnessShift = 2;  // by which differences in brightness count less than those in slope
+constexpr int kMaxSlope = 31;        // slopes are limited to +-31 and stored as slope + 31
+constexpr int kBrightnessShift = 2;  // weight of brightness relative to slope: 1/4
 
-uint8_t over(uint8_t a, uint8_t b) { return static_cast<uint8_t>(std::max(a, b) - b); }
+uint8_t excess(uint8_t a, uint8_t b) { return static_cast<uint8_t>(std::max(a, b) - b); }
 
 HEDGEHOP_WIDE void slopes(const uint8_t* above, const uint8_t* here, const uint8_t* below, int width, uint8_t* to) {
   for (int x = 1; x < width - 1; ++x) {
@@ -26,29 +26,30 @@ HEDGEHOP_WIDE void slopes(const uint8_t* above, const uint8_t* here, const uint8
   }
 }
 
-HEDGEHOP_WIDE void spread_line(const uint8_t* at, int width, uint8_t* least, uint8_t* most) {
+HEDGEHOP_WIDE void find_line_extrema(const uint8_t* at, int width, uint8_t* low, uint8_t* high) {
   for (int x = 1; x < width - 1; ++x) {
     const auto before = static_cast<uint8_t>((at[x] + at[x - 1]) / 2);
     const auto after = static_cast<uint8_t>((at[x] + at[x + 1]) / 2);
-    least[x] = std::min(at[x], std::min(before, after));
-    most[x] = std::max(at[x], std::max(before, after));
+    low[x] = std::min(at[x], std::min(before, after));
+    high[x] = std::max(at[x], std::max(before, after));
   }
 }
 
-/// Of one pixel, at sixteen disparities at a time.
+/// Value of a pixel and its range within half a pixel.
 struct Pixel {
-  uint8_t at, least, most;
-  /// @return how far the nearest of two half pixels' ranges is from the other's pixel.
-  uint8_t differs(uint8_t other, uint8_t other_least, uint8_t other_most) const {
-    const auto mine = static_cast<uint8_t>(over(at, other_most) + over(other_least, at));
-    const auto theirs = static_cast<uint8_t>(over(other, most) + over(least, other));
+  uint8_t at, low, high;
+  /// Returns the difference to another pixel: the distance of one pixel's value from the other's range, whichever is
+  /// smaller.
+  uint8_t difference(uint8_t other, uint8_t other_low, uint8_t other_high) const {
+    const auto mine = static_cast<uint8_t>(excess(at, other_high) + excess(other_low, at));
+    const auto theirs = static_cast<uint8_t>(excess(other, high) + excess(low, other));
     return std::min(mine, theirs);
   }
 };
 
 struct Pointers {
-  const uint8_t *at, *least, *most;
-  Pointers operator+(int columns) const { return {at + columns, least + columns, most + columns}; }
+  const uint8_t *at, *low, *high;
+  Pointers operator+(int columns) const { return {at + columns, low + columns, high + columns}; }
 };
 
 struct LinePair {
@@ -59,14 +60,14 @@ template <int kTogether>
 [[gnu::always_inline]] inline void compare(const LinePair& slopes, const LinePair& brightnesses, int count,
                                            int disparities, uint8_t* __restrict costs) {
   for (int x = 0; x < count; ++x) {
-    const Pixel slope{slopes.left.at[x], slopes.left.least[x], slopes.left.most[x]};
-    const Pixel brightness{brightnesses.left.at[x], brightnesses.left.least[x], brightnesses.left.most[x]};
+    const Pixel slope{slopes.left.at[x], slopes.left.low[x], slopes.left.high[x]};
+    const Pixel brightness{brightnesses.left.at[x], brightnesses.left.low[x], brightnesses.left.high[x]};
     for (int begin = 0; begin < disparities; begin += kTogether) {
       const Pointers s = slopes.right + (x + begin), b = brightnesses.right + (x + begin);
       uint8_t* cost = costs + static_cast<ptrdiff_t>(x) * disparities + begin;
       for (int i = 0; i < kTogether; ++i) {
-        cost[i] = static_cast<uint8_t>(slope.differs(s.at[i], s.least[i], s.most[i]) +
-                                       (brightness.differs(b.at[i], b.least[i], b.most[i]) >> kBrightnessShift));
+        cost[i] = static_cast<uint8_t>(slope.difference(s.at[i], s.low[i], s.high[i]) +
+                                       (brightness.difference(b.at[i], b.low[i], b.high[i]) >> kBrightnessShift));
       }
     }
   }
@@ -87,14 +88,14 @@ PixelCosts::PixelCosts(int width_px, int disparities_px)
       left_{PixelLine(width_px), PixelLine(width_px)},
       right_{PixelLine(width_px), PixelLine(width_px)} {}
 
-void PixelCosts::PixelLine::spread() {
+void PixelCosts::PixelLine::find_extrema() {
   const auto width = static_cast<int>(at.size());
-  spread_line(at.data(), width, least.data(), most.data());
-  // Beyond the ends there is nothing to be between.
+  find_line_extrema(at.data(), width, low.data(), high.data());
+  // The end pixels have one neighbor only.
   const auto end = [&](size_t x, size_t inner) {
     const auto between = static_cast<uint8_t>((at[x] + at[inner]) / 2);
-    least[x] = std::min(at[x], between);
-    most[x] = std::max(at[x], between);
+    low[x] = std::min(at[x], between);
+    high[x] = std::max(at[x], between);
   };
   end(0, 1);
   end(at.size() - 1, at.size() - 2);
@@ -106,10 +107,10 @@ void PixelCosts::read(const cv::Mat& image, int y, PixelLines& lines) {
   slopes(image.ptr<uint8_t>(std::max(y - 1, 0)), here, image.ptr<uint8_t>(std::min(y + 1, image.rows - 1)), image.cols,
          slope.at.data());
   std::copy_n(here, image.cols, brightness.at.begin());
-  // As OpenCV's semi-global matcher has it: the outermost pixels have no slope, and a brightness that is as dark.
+  // As in OpenCV's semi-global matcher, the outermost pixels have zero slope and a fixed brightness.
   for (PixelLine& line : lines) {
     line.at.front() = line.at.back() = kMaxSlope;
-    line.spread();
+    line.find_extrema();
   }
 }
 
@@ -117,9 +118,9 @@ void PixelCosts::row(const cv::Mat& left, const cv::Mat& right, int y, uint8_t* 
   read(left, y, left_);
   read(right, y, right_);
   const auto from = [](const PixelLine& line, int column) {
-    return Pointers{line.at.data(), line.least.data(), line.most.data()} + column;
+    return Pointers{line.at.data(), line.low.data(), line.high.data()} + column;
   };
-  // At the largest disparity, the first column right of the margin lies in the second column of the right image.
+  // At the maximum disparity, the first column right of the margin corresponds to the second column of the right image.
   const auto pair = [&](size_t i) { return LinePair{from(left_[i], disparities_), from(right_[i], 1)}; };
   const auto compare = disparities_ % 32 == 0 ? compare_by_32 : compare_by_16;
   compare(pair(0), pair(1), left.cols - disparities_, disparities_, costs);
@@ -127,7 +128,7 @@ void PixelCosts::row(const cv::Mat& left, const cv::Mat& right, int y, uint8_t* 
 
 namespace {
 
-// Penalties for a disparity that changes from one pixel to the next, per pixel of a square: by one, and by more.
+// Penalties, per pixel of a block, for disparity changes of one and of more than one between adjacent pixels.
 constexpr int kStepCost = 8, kLeapCost = 32;
 constexpr int kMaxArea = SemiGlobalMatcher::kMaxBlockPx * SemiGlobalMatcher::kMaxBlockPx;
 static_assert((PixelCosts::kMaxCost + 2 * kLeapCost) * kMaxArea <= INT16_MAX);
@@ -144,7 +145,8 @@ HEDGEHOP_WIDE void replace(const uint8_t* enters, const uint8_t* leaves, size_t 
   for (size_t i = 0; i < count; ++i) sums[i] = static_cast<int16_t>(sums[i] + enters[i] - leaves[i]);
 }
 
-/// The square about the column before the first, whose pixels are repeated: `half` columns lie right of it.
+/// Computes the block around the column before the first one, whose pixels are repeated; `half` columns are right of
+/// it.
 HEDGEHOP_WIDE void sum_first_square(const int16_t* columns, int width, int disparities, int half, int16_t* square) {
   for (int d = 0; d < disparities; ++d) square[d] = static_cast<int16_t>((half + 1) * columns[d]);
   for (int x = 0; x < half; ++x) {
@@ -198,13 +200,13 @@ void SemiGlobalMatcher::compute(const cv::Mat& left, const cv::Mat& right, cv::M
     walk_right(row, from_left_, from_above_before_, from_above_, from_above_right_);
     walk_left(row, from_right_, from_above_left_, config_.uniqueness_percent, winners_.data());
     auto* const d = found_.ptr<int16_t>(y);
-    choose(d);
-    check_from_the_right(d);
+    choose_disparities(d);
+    check_right_consistency(d);
   }
   cv::medianBlur(found_, disparity16, 3);
 }
 
-/// Moves the sums of columns on to a square's rows about row y; the first and the last row are repeated.
+/// Updates the sums of columns to a block's rows around row y. The first and last rows are repeated.
 void SemiGlobalMatcher::add_row(const cv::Mat& left, const cv::Mat& right, int y) {
   const int half = config_.block_px / 2;
   const size_t count = columns_.size();
@@ -224,8 +226,8 @@ void SemiGlobalMatcher::add_row(const cv::Mat& left, const cv::Mat& right, int y
   }
 }
 
-/// The best disparity of each pixel of a row, in 1/16 px: the least of a parabola through three costs.
-void SemiGlobalMatcher::choose(int16_t* disparity16) {
+/// Computes the best disparity of each pixel in a row, in 1/16 px: the minimum of a parabola through three costs.
+void SemiGlobalMatcher::choose_disparities(int16_t* disparity16) {
   const int disparities = config_.disparities_px;
   std::fill_n(disparity16, width_ + disparities, kUnmatched);
   std::fill(right_costs_.begin(), right_costs_.end(), INT16_MAX);
@@ -249,8 +251,9 @@ void SemiGlobalMatcher::choose(int16_t* disparity16) {
   }
 }
 
-/// Drops what the right image's pixel matches otherwise, by either of the whole disparities about the one found.
-void SemiGlobalMatcher::check_from_the_right(int16_t* disparity16) const {
+/// Removes disparities that contradict the match of the corresponding right pixel, at both adjacent integer
+/// disparities.
+void SemiGlobalMatcher::check_right_consistency(int16_t* disparity16) const {
   const auto agrees = [&](int x, int disparity) {
     const int other = right_disparities_[static_cast<size_t>(x - disparity)];
     return other < 0 || std::abs(other - disparity) <= config_.left_right_px;

@@ -26,7 +26,7 @@ void check(const StereoMatcherConfig& c) {
        "the block matcher takes squares of 5 px or more, got " + std::to_string(c.block_px));
 }
 
-/// OpenCV's matcher; none where ours does the same in less time.
+/// Returns OpenCV's matcher; null if SemiGlobalMatcher gives equal results in less time.
 cv::Ptr<cv::StereoMatcher> make(const StereoMatcherConfig& c) {
   if (c.method == StereoMatcherConfig::Method::block) {
     const cv::Ptr<cv::StereoBM> matcher = cv::StereoBM::create(c.disparities_px, c.block_px);
@@ -39,7 +39,7 @@ cv::Ptr<cv::StereoMatcher> make(const StereoMatcherConfig& c) {
   return opencv_semi_global(c);
 }
 
-/// Leaves out the margin, what is unknown and what would lie left of the right image's edge.
+/// Copies the disparities without the margin. Disparities that point outside the right image become unknown.
 void copy_known(const cv::Mat& wide16, int margin_px, cv::Mat& disparity16) {
   disparity16.create(wide16.rows, wide16.cols - margin_px, CV_16SC1);
   for (int v = 0; v < disparity16.rows; ++v) {
@@ -55,7 +55,7 @@ void copy_known(const cv::Mat& wide16, int margin_px, cv::Mat& disparity16) {
 }  // namespace
 
 cv::Ptr<cv::StereoMatcher> opencv_semi_global(const StereoMatcherConfig& config) {
-  // OpenCV's own rule of thumb for the penalties of a step of one and of more.
+  // OpenCV's recommended penalties for disparity changes of one and of more than one.
   const int area = config.block_px * config.block_px;
   return cv::StereoSGBM::create(0, config.disparities_px, config.block_px, 8 * area, 32 * area, config.left_right_px,
                                 /*preFilterCap=*/31, config.uniqueness_percent, 0, 0, cv::StereoSGBM::MODE_SGBM);
@@ -64,7 +64,7 @@ cv::Ptr<cv::StereoMatcher> opencv_semi_global(const StereoMatcherConfig& config)
 struct StereoMatcher::Engine {
   StereoMatcherConfig config;
   cv::Ptr<cv::StereoMatcher> opencv;
-  std::optional<SemiGlobalMatcher> ours;  ///< for images of one size
+  std::optional<SemiGlobalMatcher> ours;  ///< for the current image size
   cv::Mat left, right, disparity16;       ///< with a margin on the left
 
   void compute() {
@@ -90,7 +90,8 @@ void StereoMatcher::match(const cv::Mat& left, const cv::Mat& right, cv::Mat& di
   if (left.type() != CV_8UC1 || right.type() != CV_8UC1 || left.size() != right.size()) {
     throw std::invalid_argument("a stereo pair must be two CV_8UC1 images of one size");
   }
-  // OpenCV leaves out as many columns on the left as it searches disparities. Before a margin it answers for them, too.
+  // OpenCV computes no disparities for as many left columns as there are disparities. A margin of that width avoids
+  // this.
   Engine& e = *engine_;
   const int margin_px = e.config.disparities_px;
   for (const auto& [image, wide] : {std::pair(&left, &e.left), std::pair(&right, &e.right)}) {

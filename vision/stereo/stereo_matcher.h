@@ -8,41 +8,42 @@
 
 namespace hedgehop::vision::stereo {
 
-/// Which of OpenCV's matchers turns a rectified pair into disparity, and how. describe() lists what a scene and a
-/// camera decide; the other values fit every pair so far.
+/// Method and parameters of stereo matching. describe() lists the parameters that depend on scene and camera; the other
+/// defaults suit all pairs so far.
 struct StereoMatcherConfig {
   enum class Method { block, semi_global };
   Method method = Method::semi_global;
-  int disparities_px = 64;      ///< searched: 0 to this, less one; a multiple of 16
-  int block_px = 5;             ///< side of the compared squares, odd; for `block` at least 5
-  int uniqueness_percent = 10;  ///< by which the best match must beat the second
-  int texture = 10;             ///< least texture of a square; `block` only
-  int left_right_px = 1;        ///< by which matching from either side may differ; -1: not compared
+  int disparities_px = 64;      ///< number of disparities, from 0; a multiple of 16
+  int block_px = 5;             ///< side of the compared blocks, odd; for `block` at least 5
+  int uniqueness_percent = 10;  ///< required margin of the best match over the second
+  int texture = 10;             ///< minimum texture of a block; `block` only
+  int left_right_px = 1;        ///< maximum difference of the matches from both sides; -1: not compared
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<StereoMatcherConfig> auto& c) {
   v("method", c.method,
     {.choices = {"block", "semi_global"},
-     .meaning = "OpenCV's block matcher, or its semi-global one (five directions)"});
+     .meaning = "OpenCV's block matcher or semi-global matcher (five directions)"});
   v("disparities", c.disparities_px,
-    {.unit = "px", .at_least = 16, .at_most = 512, .meaning = "disparities searched from 0 on; a multiple of 16"});
-  v("block", c.block_px, {.unit = "px", .at_least = 1, .at_most = 51, .meaning = "side of the compared squares; odd"});
+    {.unit = "px", .at_least = 16, .at_most = 512, .meaning = "number of disparities, from 0; a multiple of 16"});
+  v("block", c.block_px, {.unit = "px", .at_least = 1, .at_most = 51, .meaning = "side of the compared blocks; odd"});
 }
 
-/// OpenCV's matcher that `semi_global` is. SemiGlobalMatcher finds the same in less time, for squares that it takes.
+/// Returns OpenCV's matcher for method `semi_global`. SemiGlobalMatcher gives equal results in less time, for blocks up
+/// to its maximum size.
 cv::Ptr<cv::StereoMatcher> opencv_semi_global(const StereoMatcherConfig& config);
 
-/// Disparity of rectified grey pairs. Keeps its memory from pair to pair; equal pairs give equal disparities.
+/// Computes the disparity of rectified grey pairs. Reuses its memory; equal pairs give equal disparities.
 class StereoMatcher {
  public:
-  /// Throws std::invalid_argument "<key>: ..." on a config that OpenCV would not take.
+  /// Throws std::invalid_argument "<key>: ..." if OpenCV would reject the config.
   explicit StereoMatcher(const StereoMatcherConfig& config);
   StereoMatcher(StereoMatcher&&) noexcept;
   StereoMatcher& operator=(StereoMatcher&&) noexcept;
   ~StereoMatcher();
 
-  /// @param left, right  CV_8UC1, of one size, rectified. @param disparity16  as in vision/stereo/disparity.h, of the
-  /// left. Throws std::invalid_argument when the images do not fit together.
+  /// Computes the disparity. @param left, right  CV_8UC1, of equal size, rectified. @param disparity16  of the left
+  /// image, as in vision/stereo/disparity.h. Throws std::invalid_argument on different sizes or types.
   void match(const cv::Mat& left, const cv::Mat& right, cv::Mat& disparity16);
 
  private:

@@ -54,7 +54,7 @@ usemtl paint
 f 1/1 2/2 3/3 4/4
 )";
 
-TEST_F(MeshImport, OfAQuadStandsWhereHeadingAndPlacePutIt) {
+TEST_F(MeshImport, PlacesAQuadAtItsPositionAndHeading) {
   const std::string file = write("quad.obj", kQuad);
   write("quad.mtl", "newmtl paint\nKd 1 0 0\n");
   const Scene scene = imported({.file = file,
@@ -96,7 +96,7 @@ std::pair<bool, int> seen_from(const Mesh& mesh, const Eigen::Vector3f& eye_W) {
   return {agree, seen};
 }
 
-TEST_F(MeshImport, IsSeenFromOutsideHoweverItIsWound) {
+TEST_F(MeshImport, FacesOutwardForEveryWinding) {
   const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
   const std::string outward = "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
   const std::string inward = "f 1 2 3 4\nf 8 7 6 5\nf 5 6 2 1\nf 6 7 3 2\nf 7 8 4 3\nf 8 5 1 4\n";
@@ -113,7 +113,7 @@ TEST_F(MeshImport, IsSeenFromOutsideHoweverItIsWound) {
   EXPECT_TRUE(seen_from(open.meshes.at(0), {9.0f, 0.5f, -0.5f}).first);
 }
 
-TEST_F(MeshImport, WithZUpAndWithoutCollisionIsScenery) {
+TEST_F(MeshImport, WithoutCollisionHasNoSolidsAndMapsZUp) {
   const std::string file = write("quad.obj", kQuad);
   write("quad.mtl", "newmtl paint\nKd 1 0 0\n");
   const Scene scene = imported({.file = file, .up = ImportConfig::Up::z, .collide = ImportConfig::Collide::none});
@@ -124,7 +124,7 @@ TEST_F(MeshImport, WithZUpAndWithoutCollisionIsScenery) {
   EXPECT_LT((box.max() - Eigen::Vector3f(3, 1, 1)).norm(), 1e-5f);
 }
 
-TEST_F(MeshImport, CarriesItsImageTheRightWayRound) {
+TEST_F(MeshImport, MapsItsImageUpright) {
   cv::Mat image(8, 8, CV_8UC3, cv::Scalar(0, 0, 200));  // red, as OpenCV writes it
   image.rowRange(0, 4) = cv::Scalar(200, 0, 0);         // its upper half is blue
   cv::imwrite((folder_ / "flag.png").string(), image);
@@ -151,7 +151,7 @@ TEST_F(MeshImport, ReadsGltf) {
   EXPECT_LT((box.max() - Eigen::Vector3f(4, 1, 0)).norm(), 1e-5f);
 }
 
-TEST_F(MeshImport, RefusesWhatItCannotReadWithTheReason) {
+TEST_F(MeshImport, ReportsTheReasonForUnreadableFiles) {
   const auto refused = [](const std::string& file) { return [file] { imported({.file = file}); }; };
   EXPECT_THAT(refused((folder_ / "none.obj").string()),
               ThrowsMessage<E>(HasSubstr("none.obj': there is no such file")));

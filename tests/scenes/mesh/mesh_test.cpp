@@ -1,4 +1,4 @@
-// What holds of every generated mesh: geometry, images' placement, and agreement with the solids.
+// Properties of every generated mesh: geometry, placement of textures, and agreement with the solids.
 #include <gtest/gtest.h>
 
 #include <Eigen/SVD>
@@ -177,7 +177,7 @@ double cast_at_hull(const Polyhedron& hull, const Eigen::Vector3d& from_S, const
   return cast_at_mesh(mesh, from_S, ray_S, front);
 }
 
-// NaN where the ray meets the enclosing box of a cylinder: it is drawn with corners, a little inside of the solid.
+// NaN if the ray meets the enclosing box of a cylinder, whose mesh is a prism slightly inside the solid.
 double cast_at_solids(const Scene& scene, const Eigen::Vector3d& from_W, const Eigen::Vector3d& ray_W) {
   double nearest = ray_W.z() > 0.0 ? -from_W.z() / ray_W.z() : std::numeric_limits<double>::infinity();
   for (const Solid& solid : scene.solids) {
@@ -194,10 +194,10 @@ double cast_at_solids(const Scene& scene, const Eigen::Vector3d& from_W, const E
   return nearest;
 }
 
-TEST_P(EveryMesh, WhatIsSeenIsWhatCanBeHit) {
+TEST_P(EveryMesh, SurfaceAgreesWithTheSolids) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> share(-1.0, 1.0);
-  constexpr double kMaxCoordinateM = 1000.0;  // the ground's image ends somewhere, its plane does not
+  constexpr double kMaxCoordinateM = 1000.0;  // the ground's mesh is finite, its plane is not
   int compared = 0;
   while (compared < 400) {
     const Eigen::Vector2d half = 0.5 * scene_.bounds_NE_m.sizes();
@@ -221,7 +221,7 @@ TEST_P(EveryMesh, WhatIsSeenIsWhatCanBeHit) {
   }
 }
 
-// The singular values of the map from a face to its image, in repeats a tile: 1 where nothing is stretched.
+// Singular values of the map from a face to its texture, in repeats per tile; 1 without stretching.
 TEST(AddPolyhedron, StretchesNoFacesImageByMoreThanAnEighth) {
   constexpr double kTileM = 2.0;
   MeshBuilder builder("opaque");

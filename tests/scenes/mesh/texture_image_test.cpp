@@ -64,7 +64,7 @@ TEST(DecodeTexture, EqualsOpenCvForNetpbm) {
   EXPECT_EQ(one.at<cv::Vec3b>(0, 0), cv::Vec3b(0, 85, 255));
 }
 
-TEST(DecodeTexture, IsEmptyForWhatIsNoImage) {
+TEST(DecodeTexture, IsEmptyForOtherData) {
   const std::vector<uint8_t> png = encoded(".png", colors(CV_8UC3)), jpeg = encoded(".jpg", colors(CV_8UC3));
   EXPECT_TRUE(decode_texture({}).empty());
   EXPECT_TRUE(decode_texture(std::span(png).first(4)).empty());

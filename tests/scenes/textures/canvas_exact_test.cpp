@@ -51,7 +51,7 @@ cv::Mat1f plain_noise(int size_px, const NoiseShape& shape, Random& random) {
   return sum;
 }
 
-TEST(CanvasExact, NoiseIsThatOfOneOctaveAfterAnother) {
+TEST(CanvasExact, NoiseEqualsTheSumOfItsOctaves) {
   for (const NoiseShape& shape : {NoiseShape{}, NoiseShape{3, 5, 9, 0.8}, NoiseShape{64, 16, 5, 1.0}}) {
     for (const int size_px : {64, 200}) {
       Random a(7), b(7);
@@ -65,7 +65,7 @@ TEST(CanvasExact, NoiseIsThatOfOneOctaveAfterAnother) {
 uint8_t rounded(float level) { return static_cast<uint8_t>(std::lround(255.0f * std::clamp(level, 0.0f, 1.0f))); }
 
 TEST(CanvasExact, LevelsAreRoundedHalfAwayFromZero) {
-  // Every level that lies half-way, what lies next to it on both sides, and what lies outside.
+  // Every half-way level, its neighbors on both sides, and values out of range.
   std::vector<float> levels = {-0.5f, -0.0f, 0.0f, 1.0f, 1.5f};
   for (int k = 0; k < 255; ++k) {
     const float half = (static_cast<float>(k) + 0.5f) / 255.0f;
@@ -77,7 +77,7 @@ TEST(CanvasExact, LevelsAreRoundedHalfAwayFromZero) {
   }
 }
 
-TEST(CanvasExact, ShadeStainAndDiscAreThoseOfEveryPixelByItself) {
+TEST(CanvasExact, ShadeStainAndDiscEqualAPixelByPixelComputation) {
   constexpr int kSizePx = 96;
   constexpr double kTileM = 3.0, kPxPerM = kSizePx / kTileM;
   const Color ground{0.4f, 0.5f, 0.6f}, rust{0.7f, 0.2f, 0.1f}, oil{0.05f, 0.1f, 0.02f};

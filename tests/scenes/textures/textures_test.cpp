@@ -1,4 +1,4 @@
-// What every image on a surface must offer to optic flow.
+// Properties that optic flow requires of every texture.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ cv::Mat1f halved(const cv::Mat1f& image) {
   return result;
 }
 
-// Standard deviation of what each halving of the resolution loses: one figure per octave of wavelength, finest first.
+// Standard deviation of the detail lost by each halving of the resolution: one value per octave, finest first.
 std::vector<double> octave_deviations(cv::Mat1f image, int octaves) {
   std::vector<double> result;
   for (int k = 0; k < octaves; ++k) {

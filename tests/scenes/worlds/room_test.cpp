@@ -84,14 +84,14 @@ TEST(Room, FurnitureKeepsItsGapsAndTheClearings) {
   }
 }
 
-TEST(Room, SameSeedSameRoomAnotherSeedAnother) {
+TEST(Room, DependsOnTheSeedOnly) {
   RoomConfig config = small_images();
   config.furniture = 3;
   EXPECT_TRUE(identical(make_scene(config, 4), make_scene(config, 4)));
   EXPECT_FALSE(identical(make_scene(config, 4), make_scene(config, 5)));
 }
 
-TEST(Room, RefusesWhatCannotBeBuilt) {
+TEST(Room, RejectsInvalidConfigs) {
   const auto refused = [](auto change) {
     RoomConfig config = small_images();
     change(config);

@@ -1,4 +1,4 @@
-// What a tree and a forest promise of their geometry.
+// Geometry of a tree and of a forest.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ using E = std::invalid_argument;
 
 constexpr int64_t kSmallPx = 64;
 
-TEST(Tree, CrownIsTenMetersAcrossAndTheTreeTwelveHigh) {
+TEST(Tree, HasACrownOfTenMetersAndAHeightOfTwelve) {
   for (uint64_t seed = 0; seed < 10; ++seed) {
     const Scene scene = make_tree({.north_m = 3.0, .east_m = -2.0, .texture_size_px = kSmallPx}, seed);
     Eigen::AlignedBox3d box;
@@ -51,7 +51,7 @@ double way_out(const Solid& body, const Vector3d& from_W, const Vector3d& along_
   return way_m;
 }
 
-TEST(Tree, HasNoLobeThatFloatsBesideItsCrown) {
+TEST(Tree, LobesTouchTheCrown) {
   for (uint64_t seed = 0; seed < 30; ++seed) {
     const Scene scene = make_tree({.texture_size_px = kSmallPx}, seed);
     const Solid& core = scene.solids.at(1);
@@ -110,7 +110,7 @@ TEST(Forest, OfTenThousandTreesHasFewTrianglesEach) {
   EXPECT_LE(scene.meshes.at(0).indices.size() / 3, 150u * 10000u);
 }
 
-TEST(Forest, LeavesOnlyTrunksOutFromAfar) {
+TEST(Forest, FarDetailOmitsOnlyTrunks) {
   const Scene scene = make_forest({.trees = 1200, .texture_size_px = kSmallPx}, 2);
   const Mesh& mesh = scene.meshes.at(0);
   const auto triangles = [](const std::vector<uint32_t>& indices, uint32_t first, uint32_t count) {
@@ -136,7 +136,7 @@ TEST(Forest, LeavesOnlyTrunksOutFromAfar) {
   EXPECT_TRUE(make_forest({.trees = 1000, .texture_size_px = kSmallPx}, 2).meshes.at(0).far_indices.empty());
 }
 
-TEST(Forest, RefusesMoreTreesThanFit) {
+TEST(Forest, RejectsMoreTreesThanFit) {
   const ForestConfig config{.trees = 30, .keep_clear = {{0.0, 0.0, 14.0}}, .texture_size_px = kSmallPx};
   EXPECT_THAT([&] { make_forest(config, 1); }, ThrowsMessage<E>(HasSubstr("trees: 30; valid: at most ")));
   EXPECT_THAT([] { make_forest({.clear_height_m = 9.0}, 1); }, ThrowsMessage<E>(HasSubstr("clear_height: 9")));

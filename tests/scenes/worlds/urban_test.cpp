@@ -40,14 +40,14 @@ TEST(Urban, SameSeedGivesTheSameSceneBitForBit) {
   EXPECT_TRUE(identical(make_scene(config, 7), make_scene(config, 7)));
 }
 
-TEST(Urban, AnotherSeedGivesAnotherCityAndOtherImages) {
+TEST(Urban, AnotherSeedGivesAnotherCityAndOtherTextures) {
   const Scene a = make_scene(small_images(), 7), b = make_scene(small_images(), 8);
   EXPECT_FALSE(identical(a, b));
   EXPECT_GT(cv::norm(a.textures.back(), b.textures.back(), cv::NORM_L1), 0.0);
   EXPECT_NE(a.solids.front().half_extents_m, b.solids.front().half_extents_m);
 }
 
-TEST(Urban, NoTwoBuildingsAreNearerThanTheNarrowestStreet) {
+TEST(Urban, BuildingsAreAtLeastTheMinimumStreetWidthApart) {
   for (uint64_t seed = 0; seed < 100; ++seed) {
     UrbanConfig config;
     config.street_min_width_m = 6.0 + 0.07 * static_cast<double>(seed);
@@ -61,9 +61,9 @@ TEST(Urban, NoTwoBuildingsAreNearerThanTheNarrowestStreet) {
   }
 }
 
-TEST(Urban, StreetsLeaveRoomForAHelicopterByDefault) { EXPECT_GE(UrbanConfig{}.street_min_width_m, 8.0); }
+TEST(Urban, DefaultStreetsAreAtLeastEightMetersWide) { EXPECT_GE(UrbanConfig{}.street_min_width_m, 8.0); }
 
-TEST(Urban, ClearingsStayFreeForEverySeed) {
+TEST(Urban, ClearingsAreFreeForEverySeed) {
   const UrbanConfig config;
   ASSERT_EQ(config.keep_clear.size(), 2u);
   for (uint64_t seed = 0; seed < 200; ++seed) {
@@ -76,7 +76,7 @@ TEST(Urban, ClearingsStayFreeForEverySeed) {
   }
 }
 
-TEST(Urban, ClearingsAnywhereStayFreeAndBuildingsStandCloseToThem) {
+TEST(Urban, ClearingsAreFreeAndHaveBuildingsCloseBy) {
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> place(-140.0, 140.0), radius(0.5, 8.0);
   double tightest = 1e9;
@@ -103,7 +103,7 @@ TEST(Urban, AClearingOverTheWholeCityLeavesNoBuilding) {
   EXPECT_TRUE(plan_urban(config, 1).buildings.empty());
 }
 
-TEST(Urban, AllButTheClearedCellsHoldABuilding) {
+TEST(Urban, AllCellsOutsideClearingsHaveABuilding) {
   for (uint64_t seed = 0; seed < 50; ++seed) {
     const size_t count = plan_urban(UrbanConfig{}, seed).buildings.size();
     EXPECT_GE(count, 98u);
@@ -111,7 +111,7 @@ TEST(Urban, AllButTheClearedCellsHoldABuilding) {
   }
 }
 
-TEST(Urban, BuildingsStandOnTheGroundAndEveryRoofIsWithinTheHeights) {
+TEST(Urban, BuildingsAreOnTheGroundAndRoofsWithinTheHeights) {
   const UrbanConfig config;
   double lowest = 1e9, highest = 0.0;
   for (uint64_t seed = 0; seed < 20; ++seed) {
@@ -121,7 +121,7 @@ TEST(Urban, BuildingsStandOnTheGroundAndEveryRoofIsWithinTheHeights) {
         const double height = -building.boxes_W[k].min().z();
         ASSERT_GE(height, config.min_height_m);
         ASSERT_LE(height, config.max_height_m);
-        if (k > 0) {  // stands on the box below, within its plan
+        if (k > 0) {  // is on top of the box below, within its footprint
           const Eigen::AlignedBox3d &below = building.boxes_W[k - 1], &box = building.boxes_W[k];
           ASSERT_EQ(box.max().z(), below.min().z());
           ASSERT_TRUE((box.min().head<2>().array() >= below.min().head<2>().array()).all());
@@ -157,7 +157,7 @@ TEST(Urban, TenThousandBuildingsAreAsDenseAsAHundred) {
   EXPECT_NEAR(built_share(small), expected, 0.06);
 }
 
-TEST(Urban, RefusesWhatCannotBeBuilt) {
+TEST(Urban, RejectsInvalidConfigs) {
   const auto refused = [](auto change) {
     UrbanConfig config = small_images();
     change(config);

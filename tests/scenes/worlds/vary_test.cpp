@@ -1,4 +1,4 @@
-// What the seed may vary of a world, and what it must leave.
+// Properties of a world that the seed may vary, and those that it must not.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ std::vector<Eigen::AlignedBox3d> tower_boxes(const std::vector<Vector3d>& corner
   return boxes;
 }
 
-TEST(VariedSkyline, StandsApartInsideThePlainOnesExtentWithThirtyFiveCorners) {
+TEST(VariedSkyline, KeepsGapsExtentAndThirtyFiveCorners) {
   Eigen::AlignedBox3d extent;
   for (const Vector3d& corner : highrise_corners({}, 0)) extent.extend(corner);
   for (uint64_t seed = 0; seed < kSeeds; ++seed) {
@@ -63,7 +63,7 @@ TEST(VariedSkyline, KeepsEverySideAndHeightWithinItsShare) {
       most = most.cwiseMax(ratio);
     }
   }
-  // Nearly all of the range is used; what would stand above 40 m is lowered, never below its share.
+  // Nearly the complete range is used. Towers above 40 m are lowered, but never below their share.
   EXPECT_GE(least.minCoeff(), 1.0 - kShare - kRounding);
   EXPECT_LE(most.maxCoeff(), 1.0 + kShare + kRounding);
   EXPECT_LT(least.maxCoeff(), 1.0 - 0.9 * kShare);
@@ -93,7 +93,7 @@ TEST(VariedSkyline, IsInViewOfTheLateralFlight) {
   }
 }
 
-TEST(VariedSkyline, LeavesTheCubeAsItIs) {
+TEST(VariedSkyline, DoesNotChangeTheCube) {
   const auto cube = [](double vary, uint64_t seed) {
     return highrise_corners({.layout = HighriseConfig::Layout::cube, .vary = vary}, seed);
   };
@@ -113,7 +113,7 @@ CorridorConfig rich_corridor() {
   return corridor;
 }
 
-TEST(VariedCorridor, LeavesItsFirstWidthAndThePlaceOfItsLastSection) {
+TEST(VariedCorridor, KeepsItsInitialWidthAndTheStartOfItsLastSection) {
   CorridorConfig plain = rich_corridor();
   plain.vary = 0.0;
   const CorridorPlan as_written = plan_corridor(plain, 0);
@@ -130,7 +130,7 @@ TEST(VariedCorridor, LeavesItsFirstWidthAndThePlaceOfItsLastSection) {
   }
 }
 
-TEST(VariedCorridor, KeepsDoorwaysPillarsAndNarrowingsWithinTheirShare) {
+TEST(VariedCorridor, KeepsDoorwaysPillarsAndWidthsWithinTheirShare) {
   const CorridorConfig written = rich_corridor();
   double narrowest_door_m = 9.0, widest_door_m = 0.0;
   for (uint64_t seed = 0; seed < kSeeds; ++seed) {
@@ -146,7 +146,7 @@ TEST(VariedCorridor, KeepsDoorwaysPillarsAndNarrowingsWithinTheirShare) {
   EXPECT_NEAR(widest_door_m, 1.3 * 1.1, 0.02);
 }
 
-TEST(VariedCorridor, StaysStraightWhereItIsWrittenSo) {
+TEST(VariedCorridor, KeepsStraightSectionsStraight) {
   CorridorConfig config{.vary = 0.2};
   config.sections = {{9.0}, {.length_m = 2.0, .doorway_m = 1.1}, {5.0}, {4.0}};
   double nearest_m = 99.0, farthest_m = 0.0;  // the doorway's
@@ -160,8 +160,8 @@ TEST(VariedCorridor, StaysStraightWhereItIsWrittenSo) {
   EXPECT_GT(farthest_m - nearest_m, 1.5);
 }
 
-// Just outside every corner of the drawn plan stands a wall.
-TEST(VariedCorridor, LetsNobodyOutAtItsBends) {
+// There is a wall just outside every corner of the varied plan.
+TEST(VariedCorridor, IsClosedAtItsBends) {
   for (uint64_t seed = 0; seed < 40; ++seed) {
     const Scene scene = make_corridor(rich_corridor(), seed);
     const CorridorPlan plan = plan_corridor(rich_corridor(), seed);
@@ -179,7 +179,7 @@ TEST(VariedCorridor, LetsNobodyOutAtItsBends) {
   }
 }
 
-TEST(VariedCorridor, RefusesWhatASeedCouldMakeImpossible) {
+TEST(VariedCorridor, RejectsConfigsThatASeedCouldMakeInvalid) {
   const auto make = [](CorridorSection section, double vary) {
     CorridorConfig config{.vary = vary};
     config.sections = {section, {5.0}};
@@ -192,7 +192,7 @@ TEST(VariedCorridor, RefusesWhatASeedCouldMakeImpossible) {
   EXPECT_THAT(make({.width_m = 0.7}, 0.2), ThrowsMessage<E>(HasSubstr("sections.width")));
   CorridorConfig back{.vary = 0.1};
   back.sections = {{5.0}, {5.0, 60 * kDeg}, {5.0, 60 * kDeg}, {5.0, 60 * kDeg}, {5.0, 60 * kDeg}, {5.0}};
-  EXPECT_THAT([&] { plan_corridor(back, 1); }, ThrowsMessage<E>(HasSubstr("vary: 0.1; valid: 0 where")));
+  EXPECT_THAT([&] { plan_corridor(back, 1); }, ThrowsMessage<E>(HasSubstr("vary: 0.1; valid: 0 if")));
 }
 
 TEST(VariedWall, MovesAndResizesItsOpeningInsideIt) {

@@ -1,4 +1,4 @@
-// What each of the smaller worlds promises of its geometry.
+// Geometry of the smaller worlds.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ std::vector<SceneConfig> small_worlds() {
           ParkConfig{.texture_size_px = kSmallPx}};
 }
 
-TEST(Worlds, AreTheSameForTheSameSeedAndOthersForAnother) {
+TEST(Worlds, DependOnTheSeedOnly) {
   for (const SceneConfig& config : small_worlds()) {
     const Scene scene = make_scene(config, 4);
     EXPECT_TRUE(identical(scene, make_scene(config, 4))) << scene.name;
@@ -47,14 +47,14 @@ TEST(Worlds, AreTheSameForTheSameSeedAndOthersForAnother) {
   }
 }
 
-TEST(Worlds, RefuseImagesOfOddSizes) {
+TEST(Worlds, RejectTextureSizesThatAreNotPowersOfTwo) {
   for (SceneConfig config : small_worlds()) {
     std::visit([](auto& chosen) { chosen.texture_size_px = 100; }, config);
     EXPECT_THAT([&] { make_scene(config, 1); }, ThrowsMessage<E>(HasSubstr("texture_size: 100")));
   }
 }
 
-TEST(Corridor, IsAsWideAsAskedInEverySection) {
+TEST(Corridor, HasItsConfiguredWidthInEverySection) {
   CorridorConfig config{.width_m = 4.0, .texture_size_px = kSmallPx};
   config.sections = {{10.0}, {12.0, 0.7}, {8.0, -0.4, 2.8}, {8.0, 0.0, 4.0}, {15.0, -0.78}};
   const Scene scene = make_corridor(config, 1);
@@ -67,7 +67,7 @@ TEST(Corridor, IsAsWideAsAskedInEverySection) {
     for (const double share : {0.4, 0.5, 0.6}) {
       const Vector2d middle = from + share * config.sections[k].length_m * along;
       const double half_m = 0.5 * (ends_m[k] + share * (ends_m[k + 1] - ends_m[k]));
-      // Where the corridor narrows its corners are cut across the bend, so that the taper is off by a little.
+      // If the corridor narrows, its corners lie across the bend, which changes the taper slightly.
       const double slack_m = ends_m[k] == ends_m[k + 1] ? 1e-6 : 0.1;
       for (const double side : {-1.0, 1.0}) {
         const Vector2d inner = middle + side * (half_m - slack_m) * right,
@@ -80,7 +80,7 @@ TEST(Corridor, IsAsWideAsAskedInEverySection) {
   }
 }
 
-TEST(Corridor, LetsNobodyOutAtItsBends) {
+TEST(Corridor, IsClosedAtItsBends) {
   CorridorConfig config{.texture_size_px = kSmallPx};
   config.sections = {{6.0}, {6.0, 0.785}, {6.0, -0.785}, {6.0, -0.35, 1.8}, {6.0, 0.52}};
   const Scene scene = make_corridor(config, 2);
@@ -94,7 +94,7 @@ TEST(Corridor, LetsNobodyOutAtItsBends) {
   }
 }
 
-TEST(Corridor, DoorwayAndPillarLeaveTheWidthThatTheySay) {
+TEST(Corridor, DoorwayAndPillarLeaveTheConfiguredWidth) {
   CorridorConfig config{.width_m = 3.0, .texture_size_px = kSmallPx};
   config.sections = {{10.0, 0.0, 0.0, 1.2, 0.0}, {10.0, 0.0, 0.0, 0.0, 0.7}};
   const Scene scene = make_corridor(config, 1);
@@ -107,7 +107,7 @@ TEST(Corridor, DoorwayAndPillarLeaveTheWidthThatTheySay) {
   EXPECT_FALSE(free_at(15.0, 0.801, 1.0));
 }
 
-TEST(Corridor, WithoutTextureIsOneColorAndWithHalfOfItHalfAsContrasted) {
+TEST(Corridor, TextureScalesTheContrastOfItsWalls) {
   const auto contrast = [](double texture) {
     cv::Scalar mean, deviation;
     cv::meanStdDev(make_corridor({.texture = texture, .texture_size_px = 128}, 1).textures.at(0), mean, deviation);
@@ -118,7 +118,7 @@ TEST(Corridor, WithoutTextureIsOneColorAndWithHalfOfItHalfAsContrasted) {
   EXPECT_NEAR(contrast(0.5), 0.5 * contrast(1.0), 0.5);  // grey levels are whole numbers
 }
 
-TEST(Corridor, PlainWallsLeaveTheFloorItsTexture) {
+TEST(Corridor, PlainWallsDoNotChangeTheFloor) {
   const auto contrast = [](const CorridorConfig& config, size_t image) {
     cv::Scalar mean, deviation;
     cv::meanStdDev(make_corridor(config, 1).textures.at(image), mean, deviation);
@@ -196,10 +196,10 @@ TEST(Park, KeepsItsClearingAndTheRoadFree) {
     }
   }
   EXPECT_THAT([] { make_park({.extent_m = 40.0, .trees = 500, .vehicles = 0, .texture_size_px = kSmallPx}, 1); },
-              ThrowsMessage<E>(HasSubstr("trees: valid: fewer")));
+              ThrowsMessage<E>(HasSubstr("trees: no free position after")));
 }
 
-TEST(Balloon, ComesNearAtTwentyFeet) {
+TEST(Balloon, ApproachesAtAHeightOfTwentyFeet) {
   const Scene scene = make_balloon({.texture_size_px = kSmallPx}, 1);
   ASSERT_EQ(scene.movers.size(), 1u);
   const Solid& balloon = scene.movers[0].solids.at(0);

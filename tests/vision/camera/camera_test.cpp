@@ -43,7 +43,7 @@ RoundTrips round_trips(const Camera& camera) {
   return found;
 }
 
-TEST(Camera, ProjectUndoesRayOverTheWholeImage) {
+TEST(Camera, ProjectInvertsUnitRayOverTheImage) {
   std::mt19937_64 random(101);
   for (int trial = 0; trial < 12; ++trial) {
     for (const Camera& camera : {random_distorted_pinhole(random), random_fisheye(random)}) {
@@ -58,7 +58,7 @@ TEST(Camera, ProjectUndoesRayOverTheWholeImage) {
 }
 
 TEST(Camera, RaysOfDifferentPixelsDiffer) {
-  // A lens that folds back within the image shows nothing there, rather than something twice.
+  // A lens that folds back within the image has no rays there, because pixels would be ambiguous.
   PinholeLens folding{200, 200, 160, 120};
   folding.k1 = -0.6;
   const Camera camera(320, 240, folding);
@@ -72,7 +72,7 @@ TEST(Camera, RaysOfDifferentPixelsDiffer) {
   EXPECT_FALSE(camera.project({5.0, 0, 1}).has_value());
 }
 
-TEST(Camera, DistortedPinholeProjectsAsOpenCvDoes) {
+TEST(Camera, DistortedPinholeProjectsLikeOpenCv) {
   std::mt19937_64 random(102);
   size_t compared = 0;
   for (int trial = 0; trial < 40; ++trial) {
@@ -97,7 +97,7 @@ TEST(Camera, DistortedPinholeProjectsAsOpenCvDoes) {
 }
 
 // OpenCV's fisheye sees forwards only.
-TEST(Camera, FisheyeProjectsAsOpenCvDoes) {
+TEST(Camera, FisheyeProjectsLikeOpenCv) {
   std::mt19937_64 random(103);
   for (int trial = 0; trial < 40; ++trial) {
     const Camera camera = random_fisheye(random);
@@ -122,7 +122,7 @@ TEST(Camera, FisheyeProjectsAsOpenCvDoes) {
   }
 }
 
-TEST(Camera, EquidistantFisheyeSeesBehindItself) {
+TEST(Camera, EquidistantFisheyeExceeds180Degrees) {
   const double half_rad = 97.5 * std::numbers::pi / 180.0;
   const double focal_px = fisheye_focal_px({}, 600, 2.0 * half_rad);
   const Camera camera(600, 600, FisheyeLens{focal_px, focal_px, 299.5, 299.5});
@@ -140,7 +140,7 @@ TEST(Camera, EquidistantFisheyeSeesBehindItself) {
   EXPECT_FALSE(camera.project({0, 0, 0}).has_value());
 }
 
-TEST(Camera, FisheyeShowsNothingBeyondItsLimit) {
+TEST(Camera, FisheyeHasNoRaysBeyondItsLimit) {
   FisheyeLens lens{100, 100, 159.5, 119.5};
   lens.limit_rad = 1.2;
   const Camera camera(320, 240, lens);
@@ -150,7 +150,7 @@ TEST(Camera, FisheyeShowsNothingBeyondItsLimit) {
   EXPECT_FALSE(camera.project({std::tan(1.201), 0, 1}).has_value());
 }
 
-TEST(Camera, IsThePinholeItIsMadeOf) {
+TEST(Camera, EqualsThePinholeItIsMadeFrom) {
   const PinholeCamera pinhole{101, 77, 80.0, 90.0, 44.0, 33.0};
   const Camera camera = pinhole;
   std::mt19937_64 random(104);
@@ -176,7 +176,7 @@ std::string refusal(const std::function<void()>& f) {
   return "";
 }
 
-TEST(Camera, RefusesToBeAPinholeWhenItIsNone) {
+TEST(Camera, RejectsConversionToPinholeForOtherLenses) {
   std::mt19937_64 random(105);
   EXPECT_THAT(refusal([&] { random_fisheye(random).pinhole(); }), testing::HasSubstr("got a fisheye"));
   EXPECT_THAT(refusal([&] { random_distorted_pinhole(random).pinhole(); }), testing::HasSubstr("distorted pinhole"));
@@ -184,7 +184,7 @@ TEST(Camera, RefusesToBeAPinholeWhenItIsNone) {
               testing::HasSubstr("OCamCalib"));
 }
 
-TEST(Camera, CheckRefusesCamerasThatCannotBe) {
+TEST(Camera, CheckRejectsInvalidCameras) {
   const PinholeLens good{100, 100, 10, 10};
   EXPECT_EQ(refusal([&] { check({20, 20, good}); }), "");
   EXPECT_THAT(refusal([&] { check({0, 20, good}); }), testing::HasSubstr("at least one pixel"));

@@ -11,7 +11,7 @@
 namespace hedgehop::vision::camera {
 namespace {
 
-TEST(ImageDerotator, PlacesAreThoseOfTheRotatedRays) {
+TEST(ImageDerotator, SourcePixelsAreThoseOfTheRotatedRays) {
   constexpr double kFloatPx = 1e-4;
   for (const Camera& camera : {whole_fisheye(), whole_fisheye(161, 120)}) {
     cv::Mat wanted(camera.height_px, camera.width_px, CV_8UC1, cv::Scalar(0));
@@ -22,7 +22,7 @@ TEST(ImageDerotator, PlacesAreThoseOfTheRotatedRays) {
       double worst_px = 0.0;
       const Eigen::Matrix3d R_C1C2 =
           Eigen::AngleAxisd(turn_rad, Eigen::Vector3d(0.6, -0.5, 0.7).normalized()).toRotationMatrix();
-      const cv::Mat places = derotator.places(R_C1C2);
+      const cv::Mat places = derotator.source_pixels(R_C1C2);
       ASSERT_EQ(places.size(), derotator.box().size());
       for (int row = 0; row < places.rows; ++row) {
         for (int col = 0; col < places.cols; ++col) {

@@ -87,7 +87,7 @@ std::vector<std::vector<double>> read_table(const std::filesystem::path& file) {
   return rows;
 }
 
-// Corners of a chessboard as found in real images, and where the board was: the published mean errors come out.
+// Corners of a chessboard in real images and the poses of the board reproduce the published mean errors.
 TEST(OcamLens, ReprojectsAChessboardAsWellAsPublished) {
   const std::filesystem::path folder = kCalibrations / "board";
   HEDGEHOP_NEEDS_REAL_DATA(folder / "corners.csv");
@@ -126,7 +126,7 @@ TEST(OcamLens, TurnsRowsAndColumnsIntoRightAndDown) {
   EXPECT_NEAR((camera.unit_ray({col, row}).value() - expected).norm(), 0.0, 1e-12);
 }
 
-TEST(OcamLens, SeesBeyondARightAngle) {
+TEST(OcamLens, ExceedsNinetyDegreesOffAxis) {
   const Camera camera(parse_ocam_calibration(kSmallCalibration));
   const Eigen::Vector3d left = camera.unit_ray({0, 241.25}).value();
   EXPECT_GT(std::acos(left.z()) * 180.0 / std::numbers::pi, 95.0);
@@ -146,7 +146,7 @@ std::string with(std::string text, const std::string& old, const std::string& re
   return text.replace(text.find(old), old.size(), replacement);
 }
 
-TEST(OcamLens, RefusesBrokenCalibrationsWithTheReason) {
+TEST(OcamLens, ReportsTheReasonForInvalidCalibrations) {
   const std::string good = kSmallCalibration;
   EXPECT_EQ(refusal(good), "");
   EXPECT_THAT(refusal(""), testing::HasSubstr("ends before its direct polynomial"));

@@ -20,7 +20,7 @@ TEST(PinholeCamera, NinetyDegreesAcross400PixelsIsAFocalLengthOf200) {
   EXPECT_EQ(camera.center_v_px, 149.5);
 }
 
-TEST(PinholeCamera, ImageEdgesLieAtHalfTheFieldOfView) {
+TEST(PinholeCamera, ImageBordersAreAtHalfTheFieldOfView) {
   const auto camera = PinholeCamera::from_fov(641, 480, 1.1);
   const auto left = camera.ray_at_unit_depth({-0.5, camera.center_v_px});
   const auto right = camera.ray_at_unit_depth({640.5, camera.center_v_px});
@@ -28,7 +28,7 @@ TEST(PinholeCamera, ImageEdgesLieAtHalfTheFieldOfView) {
   EXPECT_NEAR(std::atan(left.x()), -0.55, 1e-12);
 }
 
-TEST(PinholeCamera, ProjectionUndoesRay) {
+TEST(PinholeCamera, ProjectionInvertsRay) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> pixel(-50.0, 450.0), depth(0.1, 100.0);
   const auto camera = PinholeCamera::from_fov(400, 300, 1.2);
@@ -49,14 +49,14 @@ TEST(PinholeCamera, RightAndDownInFrontOfTheCameraAreRightAndDownInTheImage) {
   EXPECT_NEAR(down->y(), 199.5 + 100.0, 1e-12);
 }
 
-TEST(PinholeCamera, NothingBesideOrBehindTheCameraIsSeen) {
+TEST(PinholeCamera, PointsBehindTheCameraAreInvisible) {
   const auto camera = PinholeCamera::from_fov(400, 400, pi / 2);
   EXPECT_FALSE(camera.project({1.0, 0.0, 0.0}));
   EXPECT_FALSE(camera.project({0.0, 0.0, -1.0}));
   EXPECT_FALSE(camera.project({0.0, 0.0, std::nan("")}));
 }
 
-TEST(PinholeCamera, RefusesImagesAndFieldsOfViewThatCannotBe) {
+TEST(PinholeCamera, RejectsInvalidSizesAndFieldsOfView) {
   EXPECT_THROW(PinholeCamera::from_fov(0, 10, 1.0), std::invalid_argument);
   EXPECT_THROW(PinholeCamera::from_fov(10, -1, 1.0), std::invalid_argument);
   EXPECT_THROW(PinholeCamera::from_fov(10, 10, 0.0), std::invalid_argument);

@@ -45,7 +45,7 @@ struct Pair {
 
 WaveTexture waves(double shortest_m, double longest_m) { return {11, shortest_m, longest_m, 40}; }
 
-TEST(ApproachRate, IsSpeedOverDistanceToAWallAcrossEvenOfCoarseTexture) {
+TEST(ApproachRate, IsSpeedOverDistanceOfAWallEvenWithCoarseTexture) {
   for (const auto& [shortest_m, longest_m] : {std::pair{0.05, 0.3}, {0.4, 1.2}}) {
     for (const double range_m : {0.4, 0.9}) {
       for (const double v_mps : {0.3, 0.8}) {
@@ -58,7 +58,7 @@ TEST(ApproachRate, IsSpeedOverDistanceToAWallAcrossEvenOfCoarseTexture) {
   }
 }
 
-TEST(ApproachRate, HoldsForAWayAsideAndARollingVehicle) {
+TEST(ApproachRate, HoldsForLateralMotionAndARollingVehicle) {
   const double range_m = 0.8;
   const Eigen::Vector3d v_H(0.6, 0.15, 0.0);
   // Along a way aslant, the wall straight ahead lies at the range over the cosine.
@@ -67,11 +67,11 @@ TEST(ApproachRate, HoldsForAWayAsideAndARollingVehicle) {
   EXPECT_NEAR(found->rate_per_s, v_H.x() / range_m, 0.15 * v_H.x() / range_m);
 }
 
-TEST(ApproachRate, AnOpenCorridorLooksFarEvenWhereNarrow) {
+TEST(ApproachRate, AnOpenCorridorIsFarEvenIfNarrow) {
   for (const double half_width_m : {0.875, 1.25, 2.0}) {
     const auto found = Pair(30.0, {0.8, 0, 0}, waves(0.1, 0.6), half_width_m).measure();
     ASSERT_TRUE(found);
-    // No faster than what of walls or floor is nearest in the part compared; farther than any braking distance.
+    // At most the rate of the nearest wall or floor in the evaluated view, which is beyond every braking distance.
     constexpr double kDeg = std::numbers::pi / 180.0;
     const double wall_m = half_width_m / std::tan(20.0 * kDeg),
                  floor_m = 1.5 / std::tan(25.0 * kDeg) * std::cos(20.0 * kDeg);
@@ -79,14 +79,14 @@ TEST(ApproachRate, AnOpenCorridorLooksFarEvenWhereNarrow) {
   }
 }
 
-TEST(ApproachRate, IsUnknownBeforeABlankWall) {
+TEST(ApproachRate, IsUnknownForABlankWall) {
   const cv::Mat grey(480, 752, CV_8UC1, cv::Scalar(128));
   Pair pair(1.0, {0.8, 0, 0}, waves(0.1, 0.6));
   pair.older = pair.newer = grey;
   EXPECT_FALSE(pair.measure());
 }
 
-TEST(ApproachRate, RefusesAConfigThatCannotBe) {
+TEST(ApproachRate, RejectsInvalidConfigs) {
   for (const ApproachConfig& config : {ApproachConfig{.half_width_rad = 0.0}, ApproachConfig{.sigma_per_s = 0.0}}) {
     EXPECT_THROW(ApproachMeter(config, whole_fisheye(), looking_down(), {}, kRimPx), std::invalid_argument);
   }

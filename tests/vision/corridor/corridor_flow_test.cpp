@@ -46,7 +46,7 @@ struct LevelFlight {
   }
 };
 
-TEST(CorridorRegions, CoverTheAnglesPrintedAndNothingElse) {
+TEST(CorridorRegions, CoverExactlyThePrintedAngles) {
   const camera::Camera camera = whole_fisheye();
   const auto masks = region_masks(camera, looking_down(), {}, 0);
   const auto seen_in = [&](double azimuth_deg, double elevation_deg) {
@@ -100,7 +100,7 @@ TEST(CorridorRegions, RefuseAnEmptyBandOfElevations) {
   EXPECT_THROW(region_masks(whole_fisheye(), looking_down(), upside_down, 0), std::invalid_argument);
 }
 
-TEST(WallPoint, LiesWhereTheSimulatedPointDoesWhateverTheCameraTurns) {
+TEST(WallPoint, EqualsTheSimulatedPointForEveryRotation) {
   std::mt19937_64 random(5);
   for (int trial = 0; trial < 300; ++trial) {
     LevelFlight flight;
@@ -121,7 +121,7 @@ TEST(WallPoint, LiesWhereTheSimulatedPointDoesWhateverTheCameraTurns) {
   }
 }
 
-TEST(WallPoint, RejectionReasonsNameWhatIsWrong) {
+TEST(WallPoint, ReportsTheReasonOfRejection) {
   const LevelFlight flight;
   const Vector3d wall(0.5, 1.2, -1.4);
   FlowLimits limits;
@@ -157,7 +157,7 @@ TEST(WallPoint, RejectionReasonsNameWhatIsWrong) {
   EXPECT_EQ(rejection(backwards), RejectionReason::none);
 }
 
-TEST(SideDistance, IsTheMedianOfGoodPointsOfThatSide) {
+TEST(SideDistance, IsTheMedianOfTheAcceptedPointsOfItsSide) {
   std::vector<WallPoint> points = {at(0, 1.0, kRight), at(1, 2.0, kRight),
                                    at(2, 9.0, kRight), at(0, -3.0, kLeft),
                                    at(0, -5.0, kLeft), at(0, 0.1, kRight, RejectionReason::too_fast),
@@ -178,7 +178,7 @@ TEST(CenteringError, GoesFromMinusOneAtTheRightWallToOneAtTheLeft) {
   EXPECT_TRUE(std::isnan(centering_error(std::numeric_limits<double>::quiet_NaN(), 1.0)));
 }
 
-TEST(CenteringError, DoesNotDependOnTheSpeedAssumed) {
+TEST(CenteringError, DoesNotDependOnTheAssumedSpeed) {
   std::mt19937_64 random(9);
   for (const double scale : {1.0, 0.1, 40.0}) {
     std::vector<WallPoint> points;
@@ -210,7 +210,7 @@ TEST(GapAhead, FindsThePillarThatTheMedianMisses) {
   EXPECT_LT(gap.right_m, 0.85);
 }
 
-TEST(GapAhead, AFewWrongPointsDoNotNarrowIt) {
+TEST(GapAhead, IsNotReducedByAFewWrongPoints) {
   std::vector<WallPoint> points;
   std::mt19937_64 random(6);
   for (int i = 0; i < 400; ++i) {
@@ -222,7 +222,7 @@ TEST(GapAhead, AFewWrongPointsDoNotNarrowIt) {
   EXPECT_EQ(gap.right_m, 1.25);
 }
 
-TEST(GapAhead, LeavesOutWhatLiesAlmostStraightAhead) {
+TEST(GapAhead, IgnoresPointsAlmostStraightAhead) {
   std::vector<WallPoint> points(20, at(0.5, 1.0, kRight));
   points.insert(points.end(), 20, at(1.5, 0.2, kAhead));
   EXPECT_EQ(gap_ahead(points, {}).right_m, 1.0);
@@ -231,7 +231,7 @@ TEST(GapAhead, LeavesOutWhatLiesAlmostStraightAhead) {
   EXPECT_EQ(gap_ahead(points, all).right_m, 0.2);
 }
 
-TEST(GapAhead, IsUnknownWhereNothingIsSeen) {
+TEST(GapAhead, IsUnknownWithoutPoints) {
   const std::vector<WallPoint> points(20, at(0.5, 1.0, kRight));
   EXPECT_TRUE(std::isnan(gap_ahead(points, {}).left_m));
   EXPECT_EQ(gap_ahead(points, {}).right_m, 1.0);
@@ -254,7 +254,7 @@ TEST(TimeToContact, IsTwoOverTheDivergenceOfFlowStraightAhead) {
   EXPECT_NEAR(found_s, range_m / v_mps - dt_s, 1e-9);
 }
 
-TEST(FreeTime, CountsOnlyWhatTheBodyMeets) {
+TEST(FreeTime, CountsOnlyPointsInThePathOfTheBody) {
   std::vector<WallPoint> points;
   for (int i = 0; i < 8; ++i) {
     points.push_back(at(2.0, 0.05 * i, kAhead));

@@ -9,7 +9,7 @@
 #include "tests/vision/flow/textured_image.h"
 #include "vision/camera/camera.h"
 
-/// A straight corridor along north and what a fisheye below a vehicle sees of it, drawn ray by ray.
+/// A straight corridor along north and its image in a fisheye below a vehicle, drawn ray by ray.
 namespace hedgehop::vision {
 
 /// 190 degrees wide, the whole circle in the image.
@@ -45,7 +45,7 @@ struct StraightCorridor {
     return all;
   }
 
-  /// Where a ray from a point ends, m from it. @param ray_W  length 1.
+  /// Returns the length of a ray from a point to the corridor, m. @param ray_W  unit vector.
   double range_m(const Eigen::Vector3d& p_W, const Eigen::Vector3d& ray_W) const {
     double nearest_m = std::numeric_limits<double>::infinity();
     for (const TexturedPlane& plane : planes()) {
@@ -57,8 +57,8 @@ struct StraightCorridor {
   }
 };
 
-/// Draws textured planes through any lens, as draw_planes() does for pinholes; black where the lens shows nothing.
-/// Waves too short for the image at that range are smeared by a mean over `oversample` squared places in each pixel.
+/// Draws textured planes through any lens, like draw_planes() for pinholes; black outside the image circle.
+/// Texture too fine for the image at that range is averaged over `oversample` squared points in each pixel.
 inline cv::Mat draw_planes_through(const camera::Camera& camera, const Eigen::Isometry3d& X_WC,
                                    const std::vector<TexturedPlane>& planes, const WaveTexture& texture,
                                    int oversample = 1) {

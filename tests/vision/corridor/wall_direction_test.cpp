@@ -15,7 +15,7 @@ constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kMaxRad = 50.0 * kDeg;
 constexpr double kFinestRad = 0.3 * kDeg;  // the last step of the search, and half as much again
 
-// What a vehicle whose nose stands `turned_rad` to the left of two parallel walls would know of them.
+// Points measured by a vehicle whose heading is `turned_rad` to the left of two parallel walls.
 std::vector<WallPoint> two_walls(double turned_rad, double left_m, double right_m, uint64_t seed, double noise = 0.0) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal(0.0, 1.0);
@@ -32,7 +32,7 @@ std::vector<WallPoint> two_walls(double turned_rad, double left_m, double right_
   return points;
 }
 
-TEST(WallDirection, IsThatOfTheWallsWhereverTheNosePoints) {
+TEST(WallDirection, EqualsThatOfTheWallsForEveryHeading) {
   std::mt19937_64 random(3);
   for (uint64_t seed = 1; seed <= 40; ++seed) {
     const double turned_rad = uniform(random, -45.0 * kDeg, 45.0 * kDeg);
@@ -41,7 +41,7 @@ TEST(WallDirection, IsThatOfTheWallsWhereverTheNosePoints) {
   }
 }
 
-TEST(WallDirection, NoisyFlowAndATenthOfWrongPointsTurnItLittle) {
+TEST(WallDirection, IsRobustToNoisyFlowAndATenthOfWrongPoints) {
   for (uint64_t seed = 1; seed <= 20; ++seed) {
     auto points = two_walls(12.0 * kDeg, 1.1, 1.4, seed, 0.05);
     for (size_t i = 0; i < points.size(); i += 10) points[i].p_CP_H *= 0.3;
@@ -49,7 +49,7 @@ TEST(WallDirection, NoisyFlowAndATenthOfWrongPointsTurnItLittle) {
   }
 }
 
-TEST(WallDirection, IsTheHeadingWhereOneSideIsUnknown) {
+TEST(WallDirection, IsTheHeadingIfOneSideIsUnknown) {
   auto points = two_walls(20.0 * kDeg, 1.2, 1.2, 1);
   for (WallPoint& point : points) {
     if (point.region == kLeft) point.rejection = RejectionReason::too_slow;
@@ -57,7 +57,7 @@ TEST(WallDirection, IsTheHeadingWhereOneSideIsUnknown) {
   EXPECT_EQ(wall_direction_rad(points, kMaxRad, 12), 0.0);
 }
 
-TEST(WallDirection, AcrossItANoseTurnedAsideShiftsNoMedian) {
+TEST(WallDirection, MakesTheMediansIndependentOfTheHeading) {
   const auto points = two_walls(25.0 * kDeg, 0.8, 1.7, 5);
   const auto along = rotate_points(points, wall_direction_rad(points, kMaxRad, 12));
   EXPECT_NEAR(side_distance(along, kLeft, 1).distance_m, 0.8, 0.02);

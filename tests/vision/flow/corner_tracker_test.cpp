@@ -29,7 +29,7 @@ struct Images {
     cv::buildOpticalFlowPyramid(older, from, {window_px, window_px}, levels - 1);
     cv::buildOpticalFlowPyramid(newer, to, {window_px, window_px}, levels - 1);
     cv::goodFeaturesToTrack(older, corners, 400, 0.01, 4.0);
-    // Some that have nothing about them, lie at the rim, or beyond it.
+    // Some corners without texture, at the border, or outside the image.
     for (const float x : {0.0F, 0.4F, 20.0F, static_cast<float>(size.width) - 1.0F, static_cast<float>(size.width)}) {
       corners.emplace_back(x, 7.3F);
       corners.emplace_back(x, static_cast<float>(size.height) - 0.6F);
@@ -37,8 +37,8 @@ struct Images {
   }
 };
 
-// Sums of floats come out otherwise: where a search stops an iteration earlier, by its last step, 0.005 px.
-TEST(CornerTracker, FollowsCornersAsOpenCvDoes) {
+// Floating-point sums differ. If a search stops one iteration earlier, the difference is its last step, 0.005 px.
+TEST(CornerTracker, TracksCornersLikeOpenCv) {
   constexpr double kLastStepPx = 0.006, kFewPx = 1e-3;
   const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 30, 0.005);
   for (const int window_px : {5, 9, 15, 17, 33}) {
@@ -55,14 +55,14 @@ TEST(CornerTracker, FollowsCornersAsOpenCvDoes) {
       CornerTracker tracker(window_px, kLevels);
       size_t far = 0, otherwise_seen = 0, followed = 0;
       for (size_t i = 0; i < images.corners.size(); ++i) {
-        const auto found = tracker.follow(images.from, images.to, images.corners[i]);
+        const auto found = tracker.track(images.from, images.to, images.corners[i]);
         otherwise_seen += found.has_value() != (seen[i] != 0);
         if (!found || !seen[i]) continue;
         ++followed;
         const double off_px = cv::norm(*found - ahead[i]);
         EXPECT_LT(off_px, kLastStepPx) << window_px << " " << images.corners[i];
         far += off_px > kFewPx;
-        const auto returned = tracker.follow(images.to, images.from, *found, images.corners[i]);
+        const auto returned = tracker.track(images.to, images.from, *found, images.corners[i]);
         otherwise_seen += returned.has_value() != (seen_again[i] != 0);
         if (returned && seen_again[i]) {
           EXPECT_LT(cv::norm(*returned - back[i]), 2.0 * kLastStepPx);

@@ -78,8 +78,8 @@ double median_flow_px(const std::vector<RayPair>& pairs, const Eigen::Matrix3d& 
   return median(flow_px);
 }
 
-TEST(FeatureFlow, PureRotationLeavesLessThanATwentiethOfAPixel) {
-  // Up to 0.3 and 1 rad/s about each axis at ten images a second.
+TEST(FeatureFlow, PureRotationLeavesLessThan005Px) {
+  // Up to 0.3 and 1 rad/s about each axis at 10 images per second.
   std::mt19937_64 random(3);
   double worst_turned_px = 0.0, worst_rays_px = 0.0;
   for (const double turn_rad : {0.03, 0.03, 0.03, 0.1, 0.1, 0.1}) {
@@ -100,7 +100,7 @@ TEST(FeatureFlow, PureRotationLeavesLessThanATwentiethOfAPixel) {
   RecordProperty("rays_px", std::to_string(worst_rays_px));
 }
 
-TEST(FeatureFlow, MixedMotionMeetsTheTrueFlowAndDistance) {
+TEST(FeatureFlow, MixedMotionGivesTheTrueFlowAndDistance) {
   const camera::Camera camera = whole_fisheye();
   const StraightCorridor corridor;
   const Seen seen =
@@ -115,7 +115,7 @@ TEST(FeatureFlow, MixedMotionMeetsTheTrueFlowAndDistance) {
     errors_px.push_back((camera.project(p_C2P_C1).value() - pair.after_px).norm());
     ranges.push_back(distance_m(pair.before_C, pair.after_C, traveled) / p_C2P_C1.norm());
   }
-  EXPECT_LT(median(errors_px), 0.15);  // of some 8 px: what is near also changes its shape
+  EXPECT_LT(median(errors_px), 0.15);  // of about 8 px; close objects also change their shape
   EXPECT_NEAR(median(ranges), 1.0, 0.01);
 }
 

@@ -45,7 +45,7 @@ TEST(ImageJacobian, EqualsFiniteDifferencesOfProjectedPoints) {
   }
 }
 
-TEST(RotationFlow, MovesPixelsAsTurningTheCameraDoes) {
+TEST(RotationFlow, EqualsTheMotionOfPixelsOfARotatingCamera) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> pixel(0.0, 399.0);
   for (int trial = 0; trial < 200; ++trial) {
@@ -58,7 +58,7 @@ TEST(RotationFlow, MovesPixelsAsTurningTheCameraDoes) {
   }
 }
 
-TEST(Derotate, LeavesExactlyNothingOfAPureRotation) {
+TEST(Derotate, RemovesPureRotationExactly) {
   std::mt19937_64 random(3);
   for (int trial = 0; trial < 20; ++trial) {
     const Eigen::Vector3d w = random_vector(random, 3.0);
@@ -68,7 +68,7 @@ TEST(Derotate, LeavesExactlyNothingOfAPureRotation) {
   }
 }
 
-TEST(Derotate, LeavesTheFlowOfTranslation) {
+TEST(Derotate, KeepsTheFlowOfTranslation) {
   std::mt19937_64 random(4);
   for (int trial = 0; trial < 20; ++trial) {
     const Eigen::Vector3d v = random_vector(random, 2.0), w = random_vector(random, 0.5);
@@ -83,7 +83,7 @@ TEST(Derotate, LeavesTheFlowOfTranslation) {
   }
 }
 
-TEST(MeanFlowAndLoom, TellTheInverseRangeOfAFacingWall) {
+TEST(MeanFlowAndLoom, GiveTheInverseRangeOfAFacingWall) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> range(2.0, 40.0);
   for (int trial = 0; trial < 100; ++trial) {
@@ -172,7 +172,7 @@ TEST(MeanFlowAndLoom, FollowAnApproachToARenderedWall) {
   EXPECT_NEAR(mean_horizontal_flow(field, kCamera, kPeriodS, Missing::skip).value, -0.8 / kMidRangeM, 0.003);
 }
 
-TEST(MeanFlowAndLoom, InvalidVectorsAreLeftOutOrFarAway) {
+TEST(MeanFlowAndLoom, InvalidVectorsAreIgnoredOrFarAway) {
   FlowField field = plane_flow(kCamera, grid_field(4, 8, 60, 400), {0, 0, 5}, {0, 0, 1}, {1, 0, 1}, {0, 0, 0}, 1e-4);
   for (int col = 0; col < 8; ++col) field.at(0, col) = {field.at(0, col).center_px, {0, 0}, false};
   field.at(2, 1) = {field.at(2, 1).center_px, {0, 0}, false};
@@ -186,7 +186,7 @@ TEST(MeanFlowAndLoom, InvalidVectorsAreLeftOutOrFarAway) {
   EXPECT_LT(far.value, 0.2 * 0.8);
 }
 
-TEST(MeanFlowAndLoom, NothingSeenIsZeroWithNoCount) {
+TEST(MeanFlowAndLoom, AreZeroWithoutValidVectors) {
   FlowField field = grid_field(4, 4, 60, 400);
   for (FlowVector& vector : field.vectors) vector.valid = false;
   for (const Missing missing : {Missing::skip, Missing::far_away}) {

@@ -37,7 +37,7 @@ struct Case {
 
 class FlowOnRealImages : public testing::TestWithParam<Case> {};
 
-TEST_P(FlowOnRealImages, IsNearTheTrueMeanFlowOfEachPatch) {
+TEST_P(FlowOnRealImages, IsCloseToTheTrueMeanFlowOfEachPatch) {
   const std::filesystem::path folder = kRealData / "flow" / GetParam().name;
   HEDGEHOP_NEEDS_REAL_DATA(folder / "gt.flo");
   const cv::Mat older = cv::imread((folder / "frame1.png").string(), cv::IMREAD_GRAYSCALE);
@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(Middlebury, FlowOnRealImages,
                          testing::Values(Case{"RubberWhale", 0.2, 0.4}, Case{"Grove2", 0.16, 0.3}),
                          [](const auto& instance) { return instance.param.name; });
 
-TEST(DrawFlow, MarksVectorsWhereTheyAreAndLeavesTheRestAlone) {
+TEST(DrawFlow, DrawsVectorsAndNoOtherPixels) {
   cv::Mat image(60, 60, CV_8UC3, cv::Scalar(9, 9, 9));
   FlowField field;
   field.rows = 1;

@@ -21,7 +21,7 @@ Eigen::Vector3d random_velocity(std::mt19937_64& random) {
   return {speed(random), 0.2 * speed(random), speed(random)};
 }
 
-TEST(FlowRange, EveryPatchTellsItsOwnDepthOnASlantedWallForAnyMotion) {
+TEST(FlowRange, EveryPatchGivesItsDepthOnASlantedWallForAnyMotion) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> slant(-0.8, 0.8), range(2.0, 20.0);
   for (int trial = 0; trial < 100; ++trial) {
@@ -33,13 +33,13 @@ TEST(FlowRange, EveryPatchTellsItsOwnDepthOnASlantedWallForAnyMotion) {
       const Eigen::Vector3d ray = camera().ray_at_unit_depth(vector.center_px);
       const double depth_m = normal.dot(on_plane) / normal.dot(ray);
       const Eigen::Vector2d b(-v_WC_C.x() + ray.x() * v_WC_C.z(), -v_WC_C.y() + ray.y() * v_WC_C.z());
-      if (b.norm() < 0.1 || depth_m < 0.5) continue;  // around the focus of expansion nothing is measured
+      if (b.norm() < 0.1 || depth_m < 0.5) continue;  // no measurement around the focus of expansion
       EXPECT_NEAR(inverse_depth_per_m(vector, camera(), v_WC_C, kStepS, kTinyFloorMps), 1.0 / depth_m, 2e-3 / depth_m);
     }
   }
 }
 
-TEST(FlowRange, NothingIsNearerThanItsFlowProves) {
+TEST(FlowRange, RangeIsNeverBelowThatOfTheFlow) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> noise_px(0.0, 0.05);
   constexpr double kFrameS = 0.02, kFloorMps = 0.2;
@@ -55,7 +55,7 @@ TEST(FlowRange, NothingIsNearerThanItsFlowProves) {
   EXPECT_LT(too_near, 0.01 * all);  // an obstacle within 20 m is seen in less than one patch of a hundred
 }
 
-TEST(FlowRange, WhatTheFloorTakesAwayIsTheWeight) {
+TEST(FlowRange, FloorScalesTheInverseRangeByTheWeight) {
   std::mt19937_64 random(5);
   constexpr double kFloorMps = 0.4, kRangeM = 3.0;
   for (int trial = 0; trial < 50; ++trial) {
@@ -79,7 +79,7 @@ TEST(FlowRange, BearingsAreTheAzimuthsOfThePatchesRays) {
   }
 }
 
-TEST(FlowRange, TheFloorOnlyMakesThingsFarther) {
+TEST(FlowRange, FloorOnlyIncreasesRange) {
   const FlowField field =
       plane_flow(camera(), grid_field(8, 8, 32, 400), {0, 0, 4}, {0, 0, 1}, {1, 0, 1}, {0, 0, 0}, kStepS);
   for (const FlowVector& vector : field.vectors) {
@@ -92,7 +92,7 @@ TEST(FlowRange, TheFloorOnlyMakesThingsFarther) {
   }
 }
 
-TEST(FlowRange, TheNearestTenthCountsInFullHoweverFarTheRestIs) {
+TEST(FlowRange, NearestTenthDeterminesTheResult) {
   // A wall at 3 m in the two left columns of 16 (an eighth of the view), the others see one at 50 m.
   const Eigen::Vector3d v_WC_C(1.5, 0, 1.0);
   FlowField field = plane_flow(camera(), grid_field(16, 16, 32, 400), {0, 0, 50}, {0, 0, 1}, v_WC_C, {0, 0, 0}, kStepS);

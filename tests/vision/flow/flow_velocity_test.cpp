@@ -65,7 +65,7 @@ TEST(FlowVelocity, EqualsTheTrueVelocityOverLevelGround) {
   }
 }
 
-TEST(FlowVelocity, StandsThirtyPercentOfFalseVectors) {
+TEST(FlowVelocity, IsRobustToThirtyPercentOfWrongVectors) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   std::normal_distribution<double> noise(0.0, 0.05);
@@ -81,7 +81,7 @@ TEST(FlowVelocity, StandsThirtyPercentOfFalseVectors) {
   }
 }
 
-TEST(FlowVelocity, StandsARoofInThirtyPercentOfTheView) {
+TEST(FlowVelocity, IsRobustToARoofInThirtyPercentOfTheView) {
   std::mt19937_64 random(3);
   for (int trial = 0; trial < 100; ++trial) {
     Flight flight = random_flight(random);
@@ -95,7 +95,7 @@ TEST(FlowVelocity, StandsARoofInThirtyPercentOfTheView) {
   }
 }
 
-TEST(FlowVelocity, TellsItsOwnError) {
+TEST(FlowVelocity, StatesItsOwnError) {
   std::mt19937_64 random(4);
   std::normal_distribution<double> noise(0.0, 0.3);
   FlowVelocityConfig config;
@@ -114,7 +114,7 @@ TEST(FlowVelocity, TellsItsOwnError) {
   EXPECT_LT(ratio, 1.6);
 }
 
-TEST(FlowVelocity, SaysNothingWhenItSeesTooLittle) {
+TEST(FlowVelocity, IsUnknownWithTooFewVectors) {
   std::mt19937_64 random(5);
   const Flight flight = random_flight(random);
   const auto found = [&](auto change) {

@@ -17,7 +17,7 @@ namespace {
 size_t allocations = 0;  // of the whole test program, counted below
 }  // namespace
 
-// The address sanitizer replaces operator new itself, and only one can: nothing is counted then.
+// The address sanitizer replaces operator new itself, so that allocations cannot be counted with it.
 #ifndef __SANITIZE_ADDRESS__
 void* operator new(size_t size) {
   ++allocations;
@@ -72,7 +72,7 @@ TEST(ImageInterpolationFlow, ErrsLessThan005PxWithPixelNoise) {
   EXPECT_LT(e.rms_px, 0.05);
 }
 
-TEST(ImageInterpolationFlow, FollowsMovesUpTo12Px) {
+TEST(ImageInterpolationFlow, TracksMotionUpTo12Px) {
   const WaveTexture texture(23, 8.0, 200.0);
   ImageInterpolationFlow flow({}, kSize, kSize);
   for (const double length : {4.0, 8.0, 12.0}) {
@@ -85,7 +85,7 @@ TEST(ImageInterpolationFlow, FollowsMovesUpTo12Px) {
   }
 }
 
-TEST(ImageInterpolationFlow, OnePassIsOffByTheTexturesCurvatureAndIterationIsNot) {
+TEST(ImageInterpolationFlow, IterationRemovesTheCurvatureErrorOfOnePass) {
   // The paper's algorithm: one pass, no re-centering. Waves of 14 px, seven reduced pixels.
   const auto waves = [](const Eigen::Vector2d& shift) {
     return draw_image(128, 128, [=](double u, double v) {
@@ -162,7 +162,7 @@ TEST(ImageInterpolationFlow, MirroredImagesGiveMirroredFlow) {
   }
 }
 
-TEST(ImageInterpolationFlow, OneRowOfPatchesLooksAtABandOnly) {
+TEST(ImageInterpolationFlow, OneRowOfPatchesReadsABandOnly) {
   const WaveTexture texture(28, 8.0, 100.0);
   ImageInterpolationConfig config;
   config.rows = 1;
@@ -175,7 +175,7 @@ TEST(ImageInterpolationFlow, OneRowOfPatchesLooksAtABandOnly) {
   EXPECT_EQ(e.valid, 8);
   EXPECT_LT(e.rms_px, 0.05);
 
-  // 64 rows of patches and a rim: what lies above 130 and below 270 is not looked at.
+  // 64 rows of patches and a border: rows above 130 and below 270 are not read.
   for (cv::Mat* image : {&first, &second}) {
     image->rowRange(0, 130).setTo(0);
     image->rowRange(270, kSize).setTo(255);
@@ -209,7 +209,7 @@ TEST(ImageInterpolationFlow, SmallImagesAndOddSizesWork) {
   }
 }
 
-TEST(ImageInterpolationFlow, SameImagesGiveTheSameBitsAndNoMemoryIsTaken) {
+TEST(ImageInterpolationFlow, EqualImagesGiveEqualBitsWithoutAllocation) {
   const WaveTexture texture(30, 8.0, 100.0);
   const auto first = shifted(texture, {0, 0}), second = shifted(texture, {1.0, 0.3});
   ImageInterpolationFlow a({}, kSize, kSize), b({}, kSize, kSize);

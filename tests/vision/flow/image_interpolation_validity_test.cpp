@@ -9,7 +9,7 @@
 namespace hedgehop::vision::flow {
 namespace {
 
-TEST(ImageInterpolationFlow, NothingIsValidOnTheFirstImageOrAfterReset) {
+TEST(ImageInterpolationFlow, NoVectorIsValidOnTheFirstImageOrAfterReset) {
   const WaveTexture texture(25, 8.0, 100.0);
   const auto image = shifted(texture, {0, 0});
   ImageInterpolationFlow flow({}, kSize, kSize);
@@ -35,8 +35,8 @@ TEST(ImageInterpolationFlow, ImagesWithoutTextureGiveNoVectors) {
   }
 }
 
-TEST(ImageInterpolationFlow, StripesTellNothing) {
-  // The aperture problem: only motion across the stripes can be seen.
+TEST(ImageInterpolationFlow, StripesGiveNoVectors) {
+  // The aperture problem: only motion across the stripes is observable.
   const auto stripes = [](double shift) {
     return draw_image(kSize, kSize,
                       [=](double u, double v) { return 127 + 60 * std::sin(0.25 * (u + 0.5 * v - shift)); });
@@ -46,7 +46,7 @@ TEST(ImageInterpolationFlow, StripesTellNothing) {
   EXPECT_EQ(flow.update(stripes(1.0)).valid_count(), 0);
 }
 
-TEST(ImageInterpolationFlow, HalfAImageOfSkyIsInvalidAndLeavesTheOtherHalfAlone) {
+TEST(ImageInterpolationFlow, SkyInHalfTheImageIsInvalidWithoutEffectOnTheOther) {
   const WaveTexture texture(26, 8.0, 100.0);
   const Eigen::Vector2d move(1.5, 0.0);
   const auto scene = [&](const Eigen::Vector2d& shift) {
@@ -68,7 +68,7 @@ TEST(ImageInterpolationFlow, HalfAImageOfSkyIsInvalidAndLeavesTheOtherHalfAlone)
   }
 }
 
-TEST(ImageInterpolationFlow, UnrelatedImagesGiveFewVectorsAndNoneBeyondTheLimit) {
+TEST(ImageInterpolationFlow, UnrelatedImagesGiveFewVectorsAllWithinTheLimit) {
   ImageInterpolationConfig config;
   config.max_flow_px = 10.0;
   ImageInterpolationFlow flow(config, kSize, kSize);

@@ -21,7 +21,7 @@ TEST(PatchGrid, PaperGridKeepsItsMarginAndSize) {
   EXPECT_NEAR(2.0 * std::atan(half / 200.0) * 180.0 / M_PI, 70.0, 1.0);
 }
 
-TEST(PatchGrid, MirrorsAboutTheMiddleAndSpacesEvenlyForRandomLayouts) {
+TEST(PatchGrid, IsSymmetricAndEvenlySpacedForRandomLayouts) {
   std::mt19937_64 random(7);
   for (int trial = 0; trial < 300; ++trial) {
     const int alignment = 1 << (random() % 3);
@@ -44,7 +44,7 @@ TEST(PatchGrid, MirrorsAboutTheMiddleAndSpacesEvenlyForRandomLayouts) {
   }
 }
 
-TEST(PatchGrid, OneRowLiesInTheMiddle) {
+TEST(PatchGrid, OneRowIsCentered) {
   const PatchGrid grid = make_patch_grid(1, 8, 64, 28, 2, 400, 400);
   ASSERT_EQ(grid.rows.size(), 1u);
   EXPECT_EQ(grid.rows[0].center(), 199.5);
@@ -56,7 +56,7 @@ TEST(PatchGrid, RefusesPatchesThatDoNotFit) {
   EXPECT_THROW(make_patch_grid(0, 2, 16, 0, 1, 100, 100), std::invalid_argument);
 }
 
-TEST(PatchGrid, ReducedPatchesCoverTheSamePlaces) {
+TEST(PatchGrid, ReducedPatchesCoverTheSameArea) {
   const PatchGrid grid = make_patch_grid(6, 7, 32, 8, 1, 200, 160);
   const PatchGrid half = reduce_patch_grid(grid, 2, 0, 100, 80);
   for (size_t i = 0; i < grid.cols.size(); ++i) {

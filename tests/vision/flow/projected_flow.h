@@ -24,9 +24,9 @@ inline flow::FlowField grid_field(int rows, int cols, double rim_px, int size_px
   return field;
 }
 
-/// @param field  where the flow is wanted; invalid vectors stay as they are.
-/// @param on_plane_C, normal_C  the plane in the camera before it moves, m.
-/// @param v_WC_C, w_WC_C  constant in the camera as it was before the motion, m/s and rad/s.
+/// @param field  positions of the flow vectors; invalid vectors are not changed.
+/// @param on_plane_C, normal_C  the plane in the camera frame before the motion, m.
+/// @param v_WC_C, w_WC_C  constant in the camera frame before the motion, m/s and rad/s.
 inline flow::FlowField plane_flow(const camera::PinholeCamera& camera, flow::FlowField field,
                                   const Eigen::Vector3d& on_plane_C, const Eigen::Vector3d& normal_C,
                                   const Eigen::Vector3d& v_WC_C, const Eigen::Vector3d& w_WC_C, double dt_s) {

@@ -26,7 +26,7 @@ Eigen::Matrix3d random_rotation(std::mt19937_64& random, double largest_rad) {
       .toRotationMatrix();
 }
 
-TEST(RayFlow, PureRotationLeavesNone) {
+TEST(RayFlow, PureRotationLeavesNoFlow) {
   std::mt19937_64 random(1);
   for (int trial = 0; trial < 500; ++trial) {
     const Vector3d p_C1 = random_vector(random, 5.0);
@@ -36,7 +36,7 @@ TEST(RayFlow, PureRotationLeavesNone) {
   }
 }
 
-TEST(RayFlow, MixedMotionTellsTheDistanceOfEveryPoint) {
+TEST(RayFlow, MixedMotionGivesTheDistanceOfEveryPoint) {
   std::mt19937_64 random(2);
   for (int trial = 0; trial < 500; ++trial) {
     const Vector3d p_C1P = random_vector(random, 5.0), traveled = random_vector(random, 0.3);
@@ -49,7 +49,7 @@ TEST(RayFlow, MixedMotionTellsTheDistanceOfEveryPoint) {
   }
 }
 
-TEST(RayFlow, SlowMotionMeetsThePrintedEquation) {
+TEST(RayFlow, SlowMotionSatisfiesThePrintedEquation) {
   // OF = v / D sin(alpha): 0.7 m/s past a point 1.4 m away, 60 degrees off the nose, in a thousandth of a second.
   const double v_mps = 0.7, D_m = 1.4, alpha_rad = pi / 3.0, dt_s = 1e-3;
   const Vector3d p = D_m * Vector3d(std::cos(alpha_rad), std::sin(alpha_rad), 0.0);
@@ -57,7 +57,7 @@ TEST(RayFlow, SlowMotionMeetsThePrintedEquation) {
   EXPECT_NEAR(flow_angle_rad(before, after) / dt_s, v_mps / D_m * std::sin(alpha_rad), 1e-3);
 }
 
-TEST(RayFlow, TheAngleOfTinyFlowKeepsItsDigits) {
+TEST(RayFlow, AngleOfTinyFlowIsAccurate) {
   const double tiny_rad = 1e-9;  // the arc cosine of the scalar product gives 0 here
   EXPECT_NEAR(flow_angle_rad(Vector3d::UnitX(), Vector3d(std::cos(tiny_rad), std::sin(tiny_rad), 0.0)) / tiny_rad, 1.0,
               1e-6);
@@ -68,13 +68,13 @@ TEST(RayFlow, WithoutFlowAPointIsInfinitelyFar) {
             std::numeric_limits<double>::infinity());
 }
 
-TEST(RayFlow, FlowTowardsTheWayTravelledStraysByAHalfTurn) {
+TEST(RayFlow, FlowTowardTheDirectionOfTravelErrsByPi) {
   const Vector3d before = Vector3d::UnitY(), after = Vector3d(0.1, 1.0, 0.0).normalized();
   EXPECT_NEAR(direction_error_rad(before, after, Vector3d::UnitX()), pi, kRoundOff);
   EXPECT_NEAR(direction_error_rad(before, after, -Vector3d::UnitX()), 0.0, kRoundOff);
 }
 
-TEST(RayFlow, TangentIsMeasuredRoundTheCenterEitherWay) {
+TEST(RayFlow, TangentIsMeasuredAroundTheCenterInBothDirections) {
   const Eigen::Vector2d center(100, 80), before = center + Eigen::Vector2d(30, 0);
   for (const double sign : {1.0, -1.0}) {
     for (const double degrees : {0.0, 20.0, 50.0, 90.0}) {

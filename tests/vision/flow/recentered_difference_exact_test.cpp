@@ -9,7 +9,7 @@
 
 #include "vision/flow/recentered_difference.h"
 
-/// Number by number against the same arithmetic written pixel by pixel: what flights are repeated by, bit for bit.
+/// Compares every value with the same arithmetic pixel by pixel, because flights must be reproducible bit for bit.
 namespace hedgehop::vision::flow {
 namespace {
 
@@ -79,7 +79,7 @@ void expect_exact(const ReducedImage& older, const ReducedImage& newer, bool smo
   }
 }
 
-TEST(RecenteredDifferenceExact, OfRandomImagesIsThatOfEveryPixelByItself) {
+TEST(RecenteredDifferenceExact, EqualsAPixelByPixelComputationForRandomImages) {
   for (const int width : {45, 400, 1100}) {
     const ReducedImage older = random_image(width, 60, 1), newer = random_image(width, 60, 2);
     for (const bool smooth : {false, true}) expect_exact(older, newer, smooth, static_cast<uint64_t>(width));
@@ -98,12 +98,12 @@ TEST(RecenteredDifferenceExact, OfExtremesFitsItsSixteenBits) {
   for (const bool smooth : {false, true}) expect_exact(older, newer, smooth, 6);
 }
 
-TEST(RecenteredDifferenceExact, OfARoomIsThatOfEveryPixelByItself) {
+TEST(RecenteredDifferenceExact, EqualsAPixelByPixelComputationForARoom) {
   for (const bool smooth : {false, true}) expect_exact(room_image("left.png"), room_image("right.png"), smooth, 5);
 }
 
 /// SpreadFlow's rows with one multiplication and rounding a number.
-TEST(SpreadFlowExact, RoundsEachColumnAsByItself) {
+TEST(SpreadFlowExact, RoundsEachColumnIndependently) {
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> px(-16.0, 16.0);
   for (const int width : {43, 48, 400}) {

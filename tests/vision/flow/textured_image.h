@@ -74,7 +74,7 @@ struct TexturedPlane {
   double half_width_m = std::numeric_limits<double>::infinity();
 };
 
-/// What a camera sees of planes (the nearest hit is shown); flat grey `sky` where there is none.
+/// Draws planes as seen by a camera; uniform grey `sky` at pixels without a plane.
 inline cv::Mat draw_planes(const camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC,
                            const std::vector<TexturedPlane>& planes, const WaveTexture& texture, double sky = 200.0) {
   return draw_image(camera.width_px, camera.height_px, [&](double u, double v) {

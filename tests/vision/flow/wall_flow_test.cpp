@@ -37,7 +37,7 @@ Room random_room(std::mt19937_64& random) {
   return room;
 }
 
-/// What four cameras, half a meter from B, see in their middle rows while B moves, with `noise` added.
+/// Returns the flow in the middle rows of four cameras, half a meter from B, while B moves, with `noise` added.
 std::vector<WallFlowSample> look(const Room& room, const Eigen::Vector2d& v_H, double noise, std::mt19937_64& random) {
   constexpr int kPatches = 8;
   constexpr double kOffM = 0.4, kReach = 0.75;
@@ -97,8 +97,8 @@ TEST(WallFlow, FindsTheWallsOfARoomFromAMovingVehicle) {
   }
 }
 
-// 0.1 px at 25 images a second and 200 px over 90 degrees.
-TEST(WallFlow, NoisyFlowRangesTheNearestWallWithinItsStatedError) {
+// 0.1 px at 25 images per second and 200 px over 90 degrees.
+TEST(WallFlow, RangeOfTheNearestWallIsWithinItsStatedError) {
   constexpr double kNoise = 0.1 * 25.0 / 100.0;
   std::mt19937_64 random(2);
   int within = 0, all = 0;
@@ -124,7 +124,7 @@ TEST(WallFlow, NoisyFlowRangesTheNearestWallWithinItsStatedError) {
   EXPECT_LT(std::sqrt(squares / all), 0.1);
 }
 
-TEST(WallFlow, WithoutMotionOrPatchesThereAreNone) {
+TEST(WallFlow, FindsNoWallsWithoutMotionOrPatches) {
   std::mt19937_64 random(3);
   EXPECT_TRUE(walls_from_flow({}, 0.3).empty());
   const Room room = random_room(random);

@@ -45,7 +45,7 @@ Sight random_sight(std::mt19937_64& random, size_t points, double clutter) {
   return sight;
 }
 
-// What counts is where landmarks come to lie, since shift and rotation can hardly be told apart.
+// The corrected positions of landmarks are compared, because translation and rotation are almost indistinguishable.
 double worst_residual(const Sight& sight, const CameraError& error) {
   double worst = 0.0;
   for (const auto& seen : sight.predicted) {
@@ -54,7 +54,7 @@ double worst_residual(const Sight& sight, const CameraError& error) {
   return worst;
 }
 
-TEST(CameraError, IsFoundAmongHiddenPointsAndClutter) {
+TEST(CameraError, IsFoundDespiteHiddenPointsAndClutter) {
   std::mt19937_64 random(31);
   int found = 0;
   constexpr int kTrials = 100;
@@ -64,10 +64,10 @@ TEST(CameraError, IsFoundAmongHiddenPointsAndClutter) {
         common_error(sight.predicted, sight.bearings_meas, error_covariance(sight.pose), kBearingSigma);
     found += worst_residual(sight, error) < 5.0 * kBearingSigma;
   }
-  EXPECT_GE(found, kTrials * 97 / 100);  // clutter beside a hidden point misleads now and then
+  EXPECT_GE(found, kTrials * 97 / 100);  // clutter close to a hidden point occasionally causes an error
 }
 
-TEST(CameraError, CorrectedPoseIsWhereTheCameraWas) {
+TEST(CameraError, CorrectedPoseEqualsTheTruePose) {
   std::mt19937_64 random(32);
   for (int trial = 0; trial < 50; ++trial) {
     CameraError error;
@@ -88,7 +88,7 @@ TEST(CameraError, IsZeroWithoutLandmarksOrMeasurements) {
   EXPECT_TRUE(common_error(sight.predicted, {}, prior, kBearingSigma).isZero());
 }
 
-TEST(CameraError, KnownPoseLeavesTheLandmarksOwnCovarianceAndTheMeasurements) {
+TEST(CameraError, KnownPoseKeepsOnlyLandmarkAndMeasurementCovariance) {
   std::mt19937_64 random(34);
   const Sight sight = random_sight(random, 10, 0.0);
   for (const auto& seen : sight.predicted) {

@@ -32,7 +32,7 @@ void draw(cv::Mat& image, const std::vector<Vector2d>& corners_px, const cv::Sca
   cv::resize(large, image, image.size(), 0.0, 0.0, cv::INTER_AREA);
 }
 
-/// Four corners round the middle of the image, none of its angles or sides small.
+/// A quadrilateral around the center of the image, without small angles or short sides.
 std::vector<Vector2d> random_quadrilateral(std::mt19937_64& random) {
   std::vector<Vector2d> corners;
   const double turn = uniform(random, 0.0, 1.5);
@@ -60,7 +60,7 @@ cv::Mat patches(uint64_t seed, double scale_px, double amplitude) {
   return image;
 }
 
-TEST(EdgeCorners, OfAQuadrilateralAreItsCorners) {
+TEST(EdgeCorners, AreTheCornersOfAQuadrilateral) {
   std::mt19937_64 random(3);
   for (int round = 0; round < 20; ++round) {
     const std::vector<Vector2d> corners = random_quadrilateral(random);
@@ -74,7 +74,7 @@ TEST(EdgeCorners, OfAQuadrilateralAreItsCorners) {
 }
 
 // Patches and contrast as measured in rendered images of towers before grass: 12 and 45 grey levels.
-TEST(EdgeCorners, StandOutFromPatchesOfGrass) {
+TEST(EdgeCorners, IgnorePatchesOfGrass) {
   std::mt19937_64 random(4);
   int found_of_true = 0, found_elsewhere = 0, grey_elsewhere = 0;
   constexpr int kRounds = 20;
@@ -91,12 +91,12 @@ TEST(EdgeCorners, StandOutFromPatchesOfGrass) {
     for (const cv::Point2f& p : shi_tomasi) grey_elsewhere += distance_px(corners, {p.x, p.y}) >= 3.0;
   }
   EXPECT_GT(grey_elsewhere, 4 * kRounds) << "the patches must be hard for corners of grey";
-  constexpr double kOfOneImage = 0.75;  // an edge breaks where the patches are as bright; the next image has others
+  constexpr double kOfOneImage = 0.75;  // patches of equal brightness interrupt an edge; they differ in the next image
   EXPECT_GE(found_of_true, kOfOneImage * 4 * kRounds);
   EXPECT_LE(found_elsewhere, 0.1 * 4 * kRounds);
 }
 
-TEST(EdgeCorners, RedAndGreenOfOneGreyAreToldApartInColor) {
+TEST(EdgeCorners, SeparateRedAndGreenOfEqualGreyInColor) {
   const std::vector<Vector2d> corners = {{60, 70}, {250, 60}, {260, 240}, {80, 250}};
   const cv::Scalar green(60, 110, 60), red(125, 75, 75);
   cv::Mat image(kSizePx, kSizePx, CV_8UC3, green);
@@ -107,7 +107,7 @@ TEST(EdgeCorners, RedAndGreenOfOneGreyAreToldApartInColor) {
   EXPECT_EQ(edge_corners(image, kMinAngleRad).size(), 4U);
 }
 
-TEST(EdgeCorners, LieWhereTwoLinesCross) {
+TEST(EdgeCorners, AreIntersectionsOfLines) {
   std::mt19937_64 random(5);
   for (int round = 0; round < 200; ++round) {
     const Vector2d at(uniform(random, 0, 300), uniform(random, 0, 300));
@@ -125,7 +125,7 @@ TEST(EdgeCorners, LieWhereTwoLinesCross) {
 
 // At the foot of a wall seen from nearly above the detector's pieces cut the corner: one of them begins on the first
 // line and ends on the second, and a piece of the second is missing.
-TEST(EdgeCorners, AreFoundWhereALineBendsALittle) {
+TEST(EdgeCorners, AreFoundAtSlightBendsOfALine) {
   constexpr double kDegree = M_PI / 180.0;
   std::mt19937_64 random(7);
   for (int round = 0; round < 200; ++round) {
@@ -146,13 +146,13 @@ TEST(EdgeCorners, AreFoundWhereALineBendsALittle) {
   }
 }
 
-TEST(EdgeCorners, AreNotWhereAnEdgePassesThroughAnothersEnd) {
+TEST(EdgeCorners, ExcludeAnEdgeThatPassesThroughAnothersEnd) {
   const std::vector<ImageEdge> edges = {{{0, 0}, {100, 0}}, {{50, 1}, {50, 80}}};
   EXPECT_TRUE(corners_of(edges, kMinAngleRad).empty());
 }
 
 // The ground is as bright as the wall along the last 12 px of the wall's foot, whose direction its other 88 px give.
-TEST(EdgeCorners, AreFoundWhereALongEdgeVanishesBeforeItsCorner) {
+TEST(EdgeCorners, AreFoundIfALongEdgeEndsBeforeItsCorner) {
   const std::vector<ImageEdge> edges = {{{0, 0}, {88, 0}}, {{100, 0}, {100, -80}}};
   const auto corners = corners_of(edges, kMinAngleRad);
   ASSERT_EQ(corners.size(), 1U);
@@ -163,7 +163,7 @@ TEST(EdgeCorners, AreFoundWhereALongEdgeVanishesBeforeItsCorner) {
 
 // The noise of sensors/day.yaml at middle grey, a lens's blur of 0.7 px, and a contrast of 12 grey levels, six times
 // the noise.
-TEST(EdgeCorners, OfLittleContrastAreFoundUnderBlurAndNoise) {
+TEST(EdgeCorners, AreFoundAtLowContrastWithBlurAndNoise) {
   constexpr double kBlurPx = 0.7, kNoise = 2.0, kContrast = 12.0;
   constexpr int kRounds = 40;
   std::mt19937_64 random(9);
@@ -188,16 +188,16 @@ TEST(EdgeCorners, OfLittleContrastAreFoundUnderBlurAndNoise) {
   }
   EXPECT_GE(found_of_true, 0.95 * 4 * kRounds);
   EXPECT_LE(found_elsewhere, 0.02 * 4 * kRounds);
-  constexpr double kPerAxisPx = 0.5;  // half of what configs/shah2009_*.yaml assume
+  constexpr double kPerAxisPx = 0.5;  // half of the value in configs/shah2009_*.yaml
   EXPECT_LT(std::sqrt(squares_px2 / found_of_true), kPerAxisPx * std::sqrt(2.0));
 }
 
-TEST(EdgeCorners, AreNotWhereEdgesEndFarApart) {
+TEST(EdgeCorners, ExcludeEdgesThatEndFarApart) {
   const std::vector<ImageEdge> edges = {{{0, 0}, {100, 0}}, {{130, 30}, {130, 90}}};
   EXPECT_TRUE(corners_of(edges, kMinAngleRad).empty());
 }
 
-TEST(JoinedEdges, APieceWiseLineIsOneEdge) {
+TEST(JoinedEdges, SegmentsOfALineAreOneEdge) {
   std::mt19937_64 random(6);
   for (int round = 0; round < 100; ++round) {
     const Vector2d from(uniform(random, 0, 300), uniform(random, 0, 300));
@@ -222,12 +222,12 @@ TEST(JoinedEdges, APieceWiseLineIsOneEdge) {
 }
 
 // Dark to light, then light to dark: a roof's edge, and a streak of grass that goes on in its direction.
-TEST(JoinedEdges, PiecesOfOppositeSenseStayTwo) {
+TEST(JoinedEdges, OppositeSegmentsRemainTwo) {
   const std::vector<ImageEdge> pieces = {{{0, 0}, {50, 0}}, {{100, 0}, {55, 0}}};
   EXPECT_EQ(joined_edges(pieces).size(), 2U);
 }
 
-TEST(JoinedEdges, ParallelLinesStayTwo) {
+TEST(JoinedEdges, ParallelLinesRemainTwo) {
   const std::vector<ImageEdge> pieces = {
       {{0, 0}, {50, 0}}, {{60, 0}, {100, 0}}, {{0, 5}, {50, 5}}, {{60, 5}, {100, 5}}};
   EXPECT_EQ(joined_edges(pieces).size(), 2U);

@@ -18,7 +18,7 @@ using sim::looking_at;
 
 constexpr double kImageS = 0.1;
 
-/// A map seen by a camera that stands still.
+/// A map built from a fixed camera.
 class StandingCamera : public testing::Test {
  protected:
   std::vector<int64_t> see(const std::vector<Vector2d>& corners_px) { return map_.update(corners_px, pose_, kImageS); }
@@ -28,23 +28,23 @@ class StandingCamera : public testing::Test {
   CameraPose pose_{looking_at({-40, 0, -40}, {0, 0, 0}), 0.1, 1e-4};
   LandmarkMap map_{config_, camera_};
 };
-using LandmarkMapOfAStandingCamera = StandingCamera;
+using LandmarkMapOfAFixedCamera = StandingCamera;
 
-TEST_F(LandmarkMapOfAStandingCamera, GivesACornerSeenAgainItsNumber) {
+TEST_F(LandmarkMapOfAFixedCamera, RecognizesACornerSeenAgain) {
   const auto first = see({{100, 100}, {500, 300}});
   const auto again = see({{500, 300}, {100, 100}});
   EXPECT_EQ(again, (std::vector<int64_t>{first[1], first[0]}));
   EXPECT_EQ(map_.landmarks().size(), 2U);
 }
 
-TEST_F(LandmarkMapOfAStandingCamera, BeginsALandmarkForAnUnknownCorner) {
+TEST_F(LandmarkMapOfAFixedCamera, StartsALandmarkForAnUnknownCorner) {
   see({{100, 100}});
   const auto ids = see({{100, 100}, {400, 200}});
   EXPECT_NE(ids[0], ids[1]);
   EXPECT_EQ(map_.landmarks().size(), 2U);
 }
 
-TEST_F(LandmarkMapOfAStandingCamera, ForgetsAConfirmedLandmarkAfterSoManyMisses) {
+TEST_F(LandmarkMapOfAFixedCamera, DeletesAConfirmedLandmarkAfterItsMaximumOfMisses) {
   for (int i = 0; i < config_.confirm; ++i) see({{320, 240}});
   for (int i = 1; i < config_.misses; ++i) {
     see({});
@@ -54,21 +54,21 @@ TEST_F(LandmarkMapOfAStandingCamera, ForgetsAConfirmedLandmarkAfterSoManyMisses)
   EXPECT_TRUE(map_.landmarks().empty());
 }
 
-TEST_F(LandmarkMapOfAStandingCamera, ForgetsAnUnconfirmedLandmarkSooner) {
+TEST_F(LandmarkMapOfAFixedCamera, DeletesAnUnconfirmedLandmarkSooner) {
   see({{320, 240}});
   for (int i = 0; i < config_.unconfirmed_misses; ++i) see({});
   EXPECT_TRUE(map_.landmarks().empty());
 }
 
-TEST_F(LandmarkMapOfAStandingCamera, KeepsALandmarkThatIsOutOfView) {
+TEST_F(LandmarkMapOfAFixedCamera, KeepsALandmarkThatIsOutOfView) {
   for (int i = 0; i < config_.confirm; ++i) see({{320, 240}});
   pose_.X_WC_est = looking_at({-40, 0, -40}, {-80, 0, 0});
   for (int i = 0; i < 3 * config_.misses; ++i) see({});
   EXPECT_EQ(map_.landmarks().size(), 1U);
 }
 
-/// What is left of a landmark that a camera flying past sees in `seen` of its first images, and then no more while
-/// it stays in view.
+/// Returns the landmark, if it is kept, after a passing camera observed it in `seen` of its first images and then
+/// missed it while it was in view.
 size_t landmarks_after_hiding(const std::function<bool(int)>& seen) {
   const camera::PinholeCamera camera = camera::PinholeCamera::from_fov(640, 480, std::numbers::pi / 6.0);
   const Eigen::Vector3d p_W(0, 0, 0);
@@ -82,17 +82,17 @@ size_t landmarks_after_hiding(const std::function<bool(int)>& seen) {
   return map.landmarks().size();
 }
 
-TEST(LandmarkMap, KeepsAWellKnownLandmarkThatAnotherBuildingHides) {
+TEST(LandmarkMap, KeepsAWellKnownOccludedLandmark) {
   EXPECT_EQ(landmarks_after_hiding([](int) { return true; }), 1U);
   EXPECT_EQ(landmarks_after_hiding([](int i) { return i % 3 != 2; }), 1U);
 }
 
-TEST(LandmarkMap, ForgetsALandmarkThatMostImagesInViewDidNotShow) {
+TEST(LandmarkMap, DeletesALandmarkMissedInMostImages) {
   EXPECT_EQ(landmarks_after_hiding([](int i) { return i % 3 == 0; }), 0U);
 }
 
-// A landmark's vagueness lowers its Z values, so that the least of them is often that of the landmark just begun.
-TEST(LandmarkMap, AnUnconfirmedLandmarkBesideAConfirmedOneDoesNotTakeItsCorner) {
+// Uncertainty lowers the Z values of a landmark, so that a new landmark often has the minimum.
+TEST(LandmarkMap, UnconfirmedLandmarkDoesNotTakeTheCornerOfAConfirmedOne) {
   std::mt19937_64 random(8);
   const camera::PinholeCamera camera = camera::PinholeCamera::from_fov(640, 480, std::numbers::pi / 6.0);
   const Eigen::Vector3d p_W(0, 0, 0);
@@ -112,8 +112,8 @@ TEST(LandmarkMap, AnUnconfirmedLandmarkBesideAConfirmedOneDoesNotTakeItsCorner) 
   EXPECT_EQ(map.landmarks().size(), 2U);
 }
 
-// With errors correlated over 1 s, twenty images of 0.1 s are worth one of white errors. Across the line of
-// sight: a camera that stands still learns nothing of the depth.
+// With errors correlated over 1 s, twenty images at 0.1 s have the weight of one image with white errors. Across the
+// line of sight only, because a fixed camera does not measure depth.
 TEST(LandmarkMap, ImagesWithCorrelatedErrorsCountAsOne) {
   const camera::PinholeCamera camera = camera::PinholeCamera::from_fov(640, 480, std::numbers::pi / 6.0);
   const CameraPose pose{looking_at({-40, 0, -40}, {0, 0, 0}), 0.3, 0.0};
@@ -132,7 +132,7 @@ TEST(LandmarkMap, ImagesWithCorrelatedErrorsCountAsOne) {
   EXPECT_LT(east_variance_after(200, 0.0), 0.1 * white);
 }
 
-TEST(LandmarkMap, RefusesABadConfig) {
+TEST(LandmarkMap, RejectsAnInvalidConfig) {
   const camera::PinholeCamera camera = camera::PinholeCamera::from_fov(64, 64, 1.0);
   const auto refuse = [&](auto change) {
     LandmarkMapConfig config;

@@ -59,7 +59,7 @@ std::optional<PredictedBearing> random_prediction(std::mt19937_64& random) {
   return seen;
 }
 
-TEST(LandmarkMatching, AgreesWithAllPairsTriedOnRandomScenes) {
+TEST(LandmarkMatching, EqualsExhaustiveMatchingOnRandomScenes) {
   std::mt19937_64 random(21);
   size_t matched = 0, all = 0;
   for (int scene = 0; scene < 150; ++scene) {
@@ -90,7 +90,7 @@ TEST(LandmarkMatching, GateIsAQuarterOfTheSquaredStandardDeviations) {
   }
 }
 
-TEST(LandmarkMatching, AnUncertainLandmarkIsLikelierAtTheSameDistance) {
+TEST(LandmarkMatching, UncertainLandmarkIsMoreLikelyAtEqualDistance) {
   PredictedBearing sure, unsure;
   sure.bearing = {-0.01, 0.0};
   sure.covariance = 1e-4 * Eigen::Matrix2d::Identity();
@@ -101,7 +101,7 @@ TEST(LandmarkMatching, AnUncertainLandmarkIsLikelierAtTheSameDistance) {
       Matches{1});
 }
 
-TEST(LandmarkMatching, NothingMatchesNothing) {
+TEST(LandmarkMatching, IsEmptyForEmptyInput) {
   EXPECT_TRUE(match_landmarks({}, {}, 1.0).empty());
   EXPECT_EQ(match_landmarks({}, std::vector{Vector2d(0, 0)}, 1.0), Matches{std::nullopt});
 }

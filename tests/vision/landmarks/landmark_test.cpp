@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Landmark, EachCoordinates,
                          });
 
 // The bearing is that of a camera written out with its axes as columns of R_WC.
-TEST_P(EachCoordinates, BearingIsThePointSeenAlongTheCamerasAxes) {
+TEST_P(EachCoordinates, BearingIsTheProjectionOfThePoint) {
   std::mt19937_64 random(1);
   for (int trial = 0; trial < 200; ++trial) {
     const Eigen::Isometry3d X_WC = random_pose(random);
@@ -73,7 +73,7 @@ TEST_P(EachCoordinates, BearingIsThePointSeenAlongTheCamerasAxes) {
   }
 }
 
-TEST_P(EachCoordinates, JacobianIsTheFiniteDifference) {
+TEST_P(EachCoordinates, JacobianEqualsTheFiniteDifference) {
   std::mt19937_64 random(2);
   for (int trial = 0; trial < 200; ++trial) {
     const Eigen::Isometry3d X_WC = random_pose(random);
@@ -94,7 +94,7 @@ TEST_P(EachCoordinates, JacobianIsTheFiniteDifference) {
   }
 }
 
-TEST_P(EachCoordinates, JacobianOfTheCamerasErrorIsTheFiniteDifference) {
+TEST_P(EachCoordinates, JacobianOfTheCameraErrorEqualsTheFiniteDifference) {
   std::mt19937_64 random(8);
   for (int trial = 0; trial < 200; ++trial) {
     const Eigen::Isometry3d X_WC = random_pose(random);
@@ -119,7 +119,7 @@ TEST_P(EachCoordinates, JacobianOfTheCamerasErrorIsTheFiniteDifference) {
 }
 
 // Noise of the navigation is as large as the spread of bearings from poses drawn with it.
-TEST_P(EachCoordinates, NavigationNoiseIsTheSpreadOverDrawnPoses) {
+TEST_P(EachCoordinates, NavigationNoiseEqualsTheSpreadOverRandomPoses) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
   const auto normal3 = [&] { return Vector3d(normal(random), normal(random), normal(random)); };
@@ -142,7 +142,7 @@ TEST_P(EachCoordinates, NavigationNoiseIsTheSpreadOverDrawnPoses) {
   }
 }
 
-TEST_P(EachCoordinates, UpdateMovesTheProjectionTowardsItsMeasurement) {
+TEST_P(EachCoordinates, UpdateMovesTheProjectionTowardItsMeasurement) {
   std::mt19937_64 random(4);
   for (int trial = 0; trial < 500; ++trial) {
     const Eigen::Isometry3d X_WC = random_pose(random);
@@ -161,7 +161,7 @@ TEST_P(EachCoordinates, UpdateMovesTheProjectionTowardsItsMeasurement) {
 }
 
 // For a fixed linear model the filter is Bayes' rule in information form.
-TEST_P(EachCoordinates, UpdatedCovarianceIsThatOfTheInformationForm) {
+TEST_P(EachCoordinates, UpdatedCovarianceEqualsTheInformationForm) {
   std::mt19937_64 random(5);
   for (int trial = 0; trial < 200; ++trial) {
     const Eigen::Isometry3d X_WC = random_pose(random);
@@ -176,7 +176,7 @@ TEST_P(EachCoordinates, UpdatedCovarianceIsThatOfTheInformationForm) {
   }
 }
 
-TEST_P(EachCoordinates, DriftGrowsTheCovarianceInTheWorldEquallyInAllDirections) {
+TEST_P(EachCoordinates, DriftIncreasesTheCovarianceEquallyInAllDirections) {
   std::mt19937_64 random(6);
   const Landmark landmark = random_landmark(random, random_pose(random), GetParam());
   const Landmark later = predicted(landmark, 0.2, 9.0);
@@ -185,7 +185,7 @@ TEST_P(EachCoordinates, DriftGrowsTheCovarianceInTheWorldEquallyInAllDirections)
   EXPECT_EQ(later.x, landmark.x);
 }
 
-TEST(Landmark, BeginsOnTheGroundAlongItsRay) {
+TEST(Landmark, StartsOnTheGroundAlongItsRay) {
   std::mt19937_64 random(7);
   Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
   X_WC.linear() << 0, -M_SQRT1_2, M_SQRT1_2, 1, 0, 0, 0, M_SQRT1_2, M_SQRT1_2;  // looks north, 45 degrees down
@@ -200,7 +200,7 @@ TEST(Landmark, BeginsOnTheGroundAlongItsRay) {
   }
 }
 
-TEST(Landmark, BeginsAtItsFarthestWhereTheRayMeetsNoGround) {
+TEST(Landmark, StartsAtTheMaximumDepthIfTheRayMissesTheGround) {
   Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
   X_WC.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;  // level
   X_WC.translation() = Vector3d(0, 0, -42);
@@ -218,7 +218,7 @@ TEST(Landmark, InverseDepthReachesFromTheNearestToInfinityWithinTwoSigma) {
   EXPECT_NEAR(landmark.x.z() - 2.0 * sigma, 0.0, 1e-12);
 }
 
-TEST(Landmark, BehindTheCameraIsNotSeen) {
+TEST(Landmark, BehindTheCameraIsInvisible) {
   Landmark landmark;
   landmark.x = {0, 0, -5};
   EXPECT_FALSE(predict_bearing(landmark, {}, kBearingSigma));

@@ -29,7 +29,7 @@ cv::Mat half_plane(const Vector2d& at, double angle_rad, double contrast, double
   return image;
 }
 
-TEST(LineSegments, LieOnAStraightEdgeWithTheBrighterSideOnTheirRight) {
+TEST(LineSegments, LieOnAStraightEdgeWithTheBrighterSideOnTheRight) {
   std::mt19937_64 random(1);
   cv::RNG noise(1);
   for (int round = 0; round < 60; ++round) {
@@ -51,14 +51,14 @@ TEST(LineSegments, LieOnAStraightEdgeWithTheBrighterSideOnTheirRight) {
   }
 }
 
-TEST(LineSegments, NoiseHasNone) {
+TEST(LineSegments, NoiseHasNoSegments) {
   cv::RNG random(2);
   for (int round = 0; round < 20; ++round) {
     EXPECT_TRUE(line_segments(half_plane({100, 100}, 0.0, 0.0, 3.0, random)).empty()) << "round " << round;
   }
 }
 
-TEST(LineSegments, AnImageOfOnePixelHasNone) {
+TEST(LineSegments, ImageOfOnePixelHasNoSegments) {
   EXPECT_TRUE(line_segments(cv::Mat(1, 1, CV_8UC1, cv::Scalar(9))).empty());
 }
 

@@ -32,7 +32,7 @@ struct Database {
 
 CameraPose pose_at(double east_m) { return {looking_at({-40, east_m, -40}, {0, 0, 0}), 0.0, 0.0}; }
 
-TEST(PublishedFilter, BeginsAPointOnTheGround) {
+TEST(PublishedFilter, StartsAPointOnTheGround) {
   Database database;
   database.see({{0.05, -0.02}}, pose_at(0));
   ASSERT_EQ(database.points.size(), 1U);
@@ -40,7 +40,7 @@ TEST(PublishedFilter, BeginsAPointOnTheGround) {
 }
 
 // The general filter of one landmark, in Joseph's form, is another way to the same numbers.
-TEST(PublishedFilter, CorrectsAsTheGeneralFilterOfOneLandmark) {
+TEST(PublishedFilter, CorrectsLikeTheGeneralFilterOfOneLandmark) {
   const Vector3d p_W(3, -2, -1);
   Database database;
   database.see({bearing_of(p_W, pose_at(0).X_WC_est)}, pose_at(0));
@@ -68,7 +68,7 @@ TEST(PublishedFilter, FindsAPointAboveTheGroundFromExactPoses) {
   EXPECT_LT((database.points[0].landmark.x - p_W).norm(), 0.3);
 }
 
-TEST(PublishedFilter, GivesACornerSeenAgainItsNumber) {
+TEST(PublishedFilter, RecognizesACornerSeenAgain) {
   Database database;
   const auto first = database.see({{-0.1, 0.0}, {0.1, 0.05}}, pose_at(0));
   const auto again = database.see({{0.1, 0.05}, {-0.1, 0.0}}, pose_at(0));
@@ -76,7 +76,7 @@ TEST(PublishedFilter, GivesACornerSeenAgainItsNumber) {
 }
 
 // The thesis counts images without a correspondence, also those that cannot show the point.
-TEST(PublishedFilter, DeletesAPointAfterSoManyImagesWithoutItWhereverTheCameraLooks) {
+TEST(PublishedFilter, DeletesAPointAfterItsMissesEvenOutOfView) {
   Database database;
   database.see({{0.0, 0.0}}, pose_at(0));
   const CameraPose away{looking_at({-40, 0, -40}, {-80, 0, 0}), 0.0, 0.0};

@@ -7,7 +7,7 @@
 namespace hedgehop::vision::mapping {
 namespace {
 
-TEST(DepthBlocks, ABlockIsAsNearAsAPoleInIt) {
+TEST(DepthBlocks, BlockHasTheDisparityOfAPoleInIt) {
   cv::Mat disparity16(8, 8, CV_16SC1, cv::Scalar(16));
   disparity16.colRange(3, 5).setTo(200);
   DepthBlocks blocks;
@@ -16,8 +16,8 @@ TEST(DepthBlocks, ABlockIsAsNearAsAPoleInIt) {
   EXPECT_EQ(blocks.at(0, 0).near16, 200);
 }
 
-// A window of 11 px matches 5 px of a plain wall with the texture beside it; a speck without a match is no wall.
-TEST(DepthBlocks, BesideWhatIsPlainNothingIsSeenThrough) {
+// A window of 11 px matches 5 px of an untextured wall with the adjacent texture; an unmatched speck is not a wall.
+TEST(DepthBlocks, BlocksNextToUntexturedAreasAreSmeared) {
   constexpr int kWallPx = 40, kSmearPx = 5, kFar16 = 20;
   cv::Mat disparity16(64, 80, CV_16SC1, cv::Scalar(kFar16));
   disparity16.colRange(kWallPx + kSmearPx, 80).setTo(stereo::kNoDisparity);
@@ -38,7 +38,7 @@ TEST(DepthBlocks, BesideWhatIsPlainNothingIsSeenThrough) {
   }
 }
 
-TEST(DepthBlocks, ABlockWithFewMatchesIsUnknown) {
+TEST(DepthBlocks, BlockWithFewMatchesIsUnknown) {
   cv::Mat disparity16(8, 8, CV_16SC1, cv::Scalar(stereo::kNoDisparity));
   disparity16.rowRange(0, 3).setTo(40);
   DepthBlocks blocks;

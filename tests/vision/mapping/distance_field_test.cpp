@@ -30,7 +30,7 @@ TEST(DistanceField, EqualsBruteForceOnRandomGrids) {
   }
 }
 
-TEST(DistanceField, IsFarEverywhereWhereNothingIsMarked) {
+TEST(DistanceField, IsFarWithoutMarkedCells) {
   DistanceField field;
   field.build(std::vector<uint8_t>(12, 0), 3, 4);
   for (int r = 0; r < 3; ++r) {

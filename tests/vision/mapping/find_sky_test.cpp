@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kGroundGrey = 90, kSkyGrey = 170, kBoxGrey = 120;
 
-/// What a matcher makes of textured ground, blank boxes and a blank sky: no disparity on what is blank, and none from
-/// where ground is farther than 60 m.
+/// Disparity of a matcher for textured ground, untextured boxes and sky: unknown on untextured surfaces and on ground
+/// beyond 60 m.
 struct View {
   MappedWorld world;
   cv::Mat disparity16, grey;
@@ -71,7 +71,7 @@ Found find(const View& view) {
       const bool said = blocks.at(row, col).kind == DepthBlock::Kind::sky;
       found.of_sky += sky;
       found.sky += said && sky;
-      // Of what is not sky only the far ground below the horizon may be taken for it.
+      // Only far ground below the horizon may be taken for sky.
       constexpr double kHorizon = 0.03;  // sine of an elevation
       const Eigen::Vector3d ray_W = view.X_WC.linear() * view.world.geometry.ray_at_unit_depth({u, v}).normalized();
       found.wrong += said && !sky && -ray_W.z() > kHorizon;
@@ -80,13 +80,13 @@ Found find(const View& view) {
   return found;
 }
 
-TEST(FindSky, FindsItAboveFarGround) {
+TEST(FindSky, FindsSkyAboveFarGround) {
   const Found found = find(look({}, 4.0, {}));
   EXPECT_GT(found.of_sky, 300);
   EXPECT_GT(found.sky, 0.9 * found.of_sky);
 }
 
-/// Blocks that pass for sky amid blocks of what is blank.
+/// Blocks marked as sky among untextured blocks.
 int within_blank(const View& view) {
   const DepthBlocks blocks = view.blocks();
   const auto is_blank = [&](int row, int col) {
@@ -105,8 +105,8 @@ int within_blank(const View& view) {
   return found;
 }
 
-// In a turn the image is tilted: what stands above ground in it is not above it in the world.
-TEST(FindSky, ATiltedCameraFindsItAndTakesNoTowerForIt) {
+// While banking, the image is tilted: objects above ground in the image are not above it in the world.
+TEST(FindSky, TiltedCameraFindsSkyAndExcludesTowers) {
   for (const double roll_rad : {-0.4, -0.2, 0.2, 0.4}) {
     const Found open = find(look({}, 15.0, {}, -0.1, roll_rad));
     EXPECT_GT(open.of_sky, 200);
@@ -117,7 +117,7 @@ TEST(FindSky, ATiltedCameraFindsItAndTakesNoTowerForIt) {
       const Eigen::AlignedBox3d tower(Eigen::Vector3d(12.0, aside_m - 3.0, -60.0),
                                       Eigen::Vector3d(18.0, aside_m + 3.0, 0.0));
       const View view = look({}, 15.0, {tower}, -0.1, roll_rad);
-      // As bright as the sky: only what it stands above tells.
+      // As bright as the sky: only the ground below distinguishes it.
       View like = view;
       like.grey.setTo(kSkyGrey, like.grey == kBoxGrey);
       EXPECT_EQ(within_blank(like), 0) << roll_rad << " " << aside_m;
@@ -134,7 +134,7 @@ TEST(FindSky, InAWideSteepViewOnlySkyIsSky) {
   for (const double pitch_rad : {-0.75, 0.75}) EXPECT_EQ(find(look(world, 4.0, {}, pitch_rad)).wrong, 0) << pitch_rad;
 }
 
-TEST(FindSky, APlainWallIsNotSky) {
+TEST(FindSky, UntexturedWallIsNotSky) {
   for (const double ahead_m : {3.0, 6.0, 10.0, 15.0}) {
     for (const double high_m : {6.0, 30.0}) {
       const Eigen::AlignedBox3d wall(Eigen::Vector3d(ahead_m, -3.0, -high_m), Eigen::Vector3d(ahead_m + 1.0, 3.0, 0.0));
@@ -143,9 +143,9 @@ TEST(FindSky, APlainWallIsNotSky) {
   }
 }
 
-// Where a tall plain wall fills the view, nothing tells it from sky but the ground that it stands on. Who flies high,
-// nose down, sees the wall's foot far below the axis, where z in C is larger than it is above.
-TEST(FindSky, WhatPassesForSkyIsNoFartherThanTheGroundItStandsOn) {
+// If a tall untextured wall fills the view, only its ground distinguishes it from sky. From a high vehicle with the
+// nose down, the wall's base is far below the axis, at larger z in C than the wall above.
+TEST(FindSky, FreeRangeOfSkyIsLimitedByItsGround) {
   struct Flight {
     double wall_m, height_m, pitch_rad;
   };
@@ -165,18 +165,18 @@ TEST(FindSky, WhatPassesForSkyIsNoFartherThanTheGroundItStandsOn) {
         EXPECT_LT(off_W.x(), kRounding * wall_m) << row << " " << col;
       }
     }
-    EXPECT_GT(passed, 0) << pitch_rad;  // or the claim would say nothing
+    EXPECT_GT(passed, 0) << pitch_rad;  // otherwise the test would be vacuous
   }
 }
 
-/// A textured wall across the left half of the view, over which the sky stands: ground is far only on the right.
+/// A textured wall across the left half of the view, with sky above it: ground is far only on the right.
 MappedWorld walled(double ahead_m) {
   MappedWorld world;
   world.boxes_W.emplace_back(Eigen::Vector3d(ahead_m, -90.0, -7.0), Eigen::Vector3d(ahead_m + 1.0, 0.0, 0.0));
   return world;
 }
 
-TEST(FindSky, FindsItAboveAWallAndNoFartherThanTheWall) {
+TEST(FindSky, FindsSkyAboveAWallWithTheRangeOfTheWall) {
   constexpr double kWallM = 19.0;
   const View view = look(walled(kWallM), 4.0, {});
   const Found found = find(view);
@@ -190,29 +190,29 @@ TEST(FindSky, FindsItAboveAWallAndNoFartherThanTheWall) {
   }
 }
 
-// A plain slab that hangs before a wall reaches the image's upper edge, as sky does, which stands beside it.
-TEST(FindSky, APlainSlabBeforeAWallIsNotSky) {
+// An untextured slab in front of a wall reaches the image's upper border, like the sky next to it.
+TEST(FindSky, UntexturedSlabInFrontOfAWallIsNotSky) {
   for (const double ahead_m : {3.0, 6.0, 10.0}) {
     const Eigen::AlignedBox3d slab(Eigen::Vector3d(ahead_m, -90.0, -60.0), Eigen::Vector3d(ahead_m + 1.0, -0.5, -4.5));
     EXPECT_EQ(find(look(walled(19.0), 4.0, {slab})).wrong, 0) << ahead_m;
   }
 }
 
-// Nothing but its brightness tells a ceiling over a far wall from sky, so that there must be sky to compare it with.
-TEST(FindSky, ThereIsNoneOverWallsAllRound) {
+// Only its brightness distinguishes a ceiling over a far wall from sky, so that sky is required for comparison.
+TEST(FindSky, FindsNoSkyAboveWallsOnAllSides) {
   MappedWorld world;
   world.boxes_W.emplace_back(Eigen::Vector3d(17.0, -90.0, -7.0), Eigen::Vector3d(18.0, 90.0, 0.0));
   const Found found = find(look(world, 4.0, {}));
   EXPECT_EQ(found.sky + found.wrong, 0);
 }
 
-TEST(FindSky, APlainWallAcrossTheWholeViewIsNotSky) {
+TEST(FindSky, UntexturedWallAcrossTheViewIsNotSky) {
   const Eigen::AlignedBox3d wall(Eigen::Vector3d(8.0, -90.0, -90.0), Eigen::Vector3d(9.0, 90.0, 0.0));
   EXPECT_EQ(find(look({}, 4.0, {wall})).wrong, 0);
 }
 
 // A matcher finds something on any wall now and then. Ground that begins on a wall is none.
-TEST(FindSky, WhatIsMatchedOnAPlainWallIsNoGround) {
+TEST(FindSky, MatchesOnAnUntexturedWallAreNotGround) {
   constexpr double kNoiseM = 40.0;
   for (const double wall_m : {4.0, 6.0, 8.0}) {
     const Eigen::AlignedBox3d wall(Eigen::Vector3d(wall_m, -90.0, -90.0), Eigen::Vector3d(wall_m + 1.0, 90.0, 0.0));
@@ -224,7 +224,7 @@ TEST(FindSky, WhatIsMatchedOnAPlainWallIsNoGround) {
   }
 }
 
-TEST(FindSky, APlainBoxInTheAirIsNotSky) {
+TEST(FindSky, UntexturedBoxInTheAirIsNotSky) {
   for (const double above_m : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
     const Eigen::Vector3d middle_W(6.0, 0.5, -4.0 - above_m);
     const Eigen::AlignedBox3d box(middle_W - Eigen::Vector3d(0.5, 0.8, 0.8), middle_W + Eigen::Vector3d(0.5, 0.8, 0.8));
@@ -232,13 +232,13 @@ TEST(FindSky, APlainBoxInTheAirIsNotSky) {
   }
 }
 
-TEST(FindSky, ThereIsNoneWhereGroundIsMatchedOnlyNearby) {
+TEST(FindSky, FindsNoSkyIfOnlyCloseGroundIsMatched) {
   View view = look({}, 4.0, {});
   view.disparity16.setTo(stereo::kNoDisparity, view.disparity16 < view.world.geometry.disparity16(15.0));  // as in fog
   EXPECT_EQ(find(view).sky, 0);
 }
 
-/// Darkens what is sky in a part of an image.
+/// Darkens the sky in a part of an image.
 void draw_before_sky(View& view, const cv::Rect& part, int grey) {
   for (int v = part.y; v < part.br().y; ++v) {
     for (int u = part.x; u < part.br().x; ++u) {
@@ -248,8 +248,8 @@ void draw_before_sky(View& view, const cv::Rect& part, int grey) {
   }
 }
 
-// A pole, and a wire just above the horizon, a pixel wide, where no pixel is matched: no sky, and the sky beside stays.
-TEST(FindSky, WhatIsThinBeforeItIsALine) {
+// An unmatched pole, and a wire just above the horizon, one pixel wide: not sky, without effect on the adjacent sky.
+TEST(FindSky, ThinObjectInFrontOfSkyIsALine) {
   const View open = look({}, 4.0, {});
   const Found before = find(open);
   const int horizon_px = static_cast<int>(open.world.geometry.center_v_px);
@@ -279,7 +279,7 @@ TEST(FindSky, WhatIsThinBeforeItIsALine) {
   }
 }
 
-TEST(FindSky, TheNoiseOfACameraIsNoLine) {
+TEST(FindSky, CameraNoiseIsNotALine) {
   View view = look({}, 4.0, {});
   const Found before = find(view);
   cv::Mat noise(view.grey.size(), CV_16SC1), noisy;

@@ -58,7 +58,7 @@ Counts compare(const OccupancyMap& map, const MappedWorld& world) {
   return counts;
 }
 
-TEST(OccupancyMap, CallsNoSolidVoxelFreeWithoutNoise) {
+TEST(OccupancyMap, MarksNoSolidVoxelFreeWithoutNoise) {
   for (uint64_t seed = 1; seed <= 6; ++seed) {
     const MappedWorld world = MappedWorld::random(seed);
     const Counts counts = compare(mapped(world, seed), world);
@@ -68,9 +68,8 @@ TEST(OccupancyMap, CallsNoSolidVoxelFreeWithoutNoise) {
   }
 }
 
-TEST(OccupancyMap, CallsFewSolidVoxelsFreeWithTheNoiseOfAMatcher) {
-  constexpr double kRate =
-      0.001;  // a block of 64 pixels errs with all of them only far away, where two sigma are meters
+TEST(OccupancyMap, MarksFewSolidVoxelsFreeWithMatcherNoise) {
+  constexpr double kRate = 0.001;  // all 64 pixels of a block err only at long range, at which two sigma are meters
   int solid = 0, wrong = 0;
   for (uint64_t seed = 1; seed <= 6; ++seed) {
     MappedWorld world = MappedWorld::random(seed);
@@ -83,7 +82,7 @@ TEST(OccupancyMap, CallsFewSolidVoxelsFreeWithTheNoiseOfAMatcher) {
   EXPECT_LE(wrong, kRate * solid);
 }
 
-TEST(OccupancyMap, WhatItCallsOccupiedIsAtASurface) {
+TEST(OccupancyMap, OccupiedVoxelsAreAtSurfaces) {
   int occupied = 0;
   for (uint64_t seed = 1; seed <= 6; ++seed) {
     const MappedWorld world = MappedWorld::random(seed);
@@ -94,7 +93,7 @@ TEST(OccupancyMap, WhatItCallsOccupiedIsAtASurface) {
   EXPECT_GT(occupied, 200);
 }
 
-TEST(OccupancyMap, WithoutAnyMatchNothingIsFreeAndNothingOccupied) {
+TEST(OccupancyMap, WithoutMatchesAllVoxelsAreUnknown) {
   OccupancyMap map(small());
   map.reset(Eigen::Vector3d::Zero());
   DepthBlocks blocks;
@@ -107,8 +106,8 @@ TEST(OccupancyMap, WithoutAnyMatchNothingIsFreeAndNothingOccupied) {
   }
 }
 
-// Of what was free before: from 4 m on unknown after three images of a line, nowhere occupied, and beside it as before.
-TEST(OccupancyMap, ALineBeforeTheSkyPutsInDoubtWhatWasFreeAlongItsRay) {
+// Free voxels behind a line become unknown beyond 4 m after three images, never occupied; others do not change.
+TEST(OccupancyMap, ThinObjectInFrontOfSkyMakesItsRayUnknown) {
   const MappedWorld world;
   OccupancyMap map(small());
   const Eigen::Vector3d p_WC(0.15, 0.15, -1.35);
@@ -137,7 +136,7 @@ TEST(OccupancyMap, ALineBeforeTheSkyPutsInDoubtWhatWasFreeAlongItsRay) {
   }
 }
 
-TEST(OccupancyMap, MovingKeepsWhatStaysAndForgetsWhatLeaves) {
+TEST(OccupancyMap, MoveKeepsVoxelsInsideAndClearsTheOthers) {
   OccupancyMap map(small());
   map.reset(Eigen::Vector3d::Zero());
   const Eigen::Vector3d near_W(3.0, 2.0, 0.0), far_W(-13.0, 2.0, 0.0);
@@ -145,13 +144,13 @@ TEST(OccupancyMap, MovingKeepsWhatStaysAndForgetsWhatLeaves) {
   map.move({6.0, -4.0, 0.4});
   EXPECT_EQ(map.state(map.index(near_W)), State::free);
   EXPECT_EQ(map.state(map.index(far_W)), State::unknown);
-  map.move({0.0, 0.0, 0.0});  // there and back: what left is gone
+  map.move({0.0, 0.0, 0.0});  // there and back: voxels that left are cleared
   EXPECT_EQ(map.state(map.index(near_W)), State::free);
   EXPECT_EQ(map.state(map.index(far_W)), State::unknown);
 }
 
 // A box that crosses the view at 1 m/s, in space seen free before.
-TEST(OccupancyMap, WhatMovesLeavesNoWakeBehindWhereItIsKnownToMove) {
+TEST(OccupancyMap, KnownMovingObstaclesLeaveNoTrail) {
   const auto not_free_behind = [](bool known) {
     OccupancyMap map(small());
     std::mt19937_64 generator(1);

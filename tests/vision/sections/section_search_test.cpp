@@ -59,13 +59,13 @@ TEST(Sections, ThreeByThreeWithoutOverlapTileTheImage) {
   EXPECT_EQ(cv::countNonZero(covered == 1), 720 * 1281);
 }
 
-TEST(Sections, AGridThatCannotBeIsRefused) {
+TEST(Sections, RejectInvalidGrids) {
   EXPECT_THROW(sections({0, 17}, kZed), std::invalid_argument);
   EXPECT_THROW(sections({17, 17, 1.2, 0.5}, kZed), std::invalid_argument);
   EXPECT_THROW(sections({17, 17, 0.001, 0.5}, {100, 100}), std::invalid_argument);
 }
 
-TEST(SectionSearch, CountsAsAnyoneWouldPixelByPixel) {
+TEST(SectionSearch, EqualsAPixelByPixelCount) {
   std::mt19937_64 random(3);
   for (int trial = 0; trial < 20; ++trial) {
     const cv::Size size(160 + trial, 90 + 2 * trial);
@@ -104,7 +104,7 @@ TEST(SectionSearch, EqualSharesGoToTheCenter) {
   EXPECT_EQ(search.choose(depth, kThresholdM, 0.15, UnknownDepth::free).section, 8 * 17 + 16);
 }
 
-TEST(SectionSearch, AnOpeningTooNarrowForFifteenPercentIsNone) {
+TEST(SectionSearch, IgnoresAnOpeningTooNarrowForFifteenPercent) {
   SectionSearch search({}, kZed);
   const int width = 628, height = 252, area = width * height;
   const auto wall_with = [&](int free_rows) {
@@ -122,7 +122,7 @@ TEST(SectionSearch, AnOpeningTooNarrowForFifteenPercentIsNone) {
   EXPECT_GT(missed.share, 0.15);
 }
 
-TEST(SectionSearch, WidenedThreatsAreTheSquaresAboutThem) {
+TEST(SectionSearch, DilatedThreatsAreSquares) {
   const cv::Size size(100, 60);
   SectionSearch search({.rows = 1, .cols = 1, .width_share = 1.0, .height_share = 1.0, .grow_px = 3}, size);
   cv::Mat depth(size, CV_32F, cv::Scalar(20.0));
@@ -134,7 +134,7 @@ TEST(SectionSearch, WidenedThreatsAreTheSquaresAboutThem) {
   EXPECT_EQ(search.threats()[0], 7 * 7 + 4 * 4);
 }
 
-TEST(SectionSearch, TheNearestSectionIsTheOneWhoseCenterIsAskedFor) {
+TEST(SectionSearch, NearestSectionHasTheGivenCenter) {
   SectionSearch search({}, kZed);
   for (int i = 0; i < 289; ++i) {
     const cv::Rect& s = search.sections()[static_cast<size_t>(i)];
@@ -144,7 +144,7 @@ TEST(SectionSearch, TheNearestSectionIsTheOneWhoseCenterIsAskedFor) {
   EXPECT_EQ(search.nearest({-500.0, -500.0}), 0);
 }
 
-// [Perez2018] fig. 16 and 17: what large sections miss, overlapping ones find.
+// [Perez2018] fig. 16 and 17: overlapping sections find openings that large sections miss.
 TEST(SectionSearch, AnOpeningAlongTheTopIsMissedByThreeByThreeAndFoundBySeventeen) {
   cv::Mat depth(kZed, CV_32F, cv::Scalar(5.0));
   depth(cv::Rect(350, 40, 640, 260)).setTo(20.0);  // below a lintel of 40 px, straddling the rows of thirds
@@ -156,7 +156,7 @@ TEST(SectionSearch, AnOpeningAlongTheTopIsMissedByThreeByThreeAndFoundBySeventee
 }
 
 // The oracle sorts all sections and takes the first that is open and empty enough.
-TEST(SectionSearch, OfTheOpenSectionsTheEmptiestIsChosenAndWithoutAnyNoneIsShut) {
+TEST(SectionSearch, ChoosesTheEmptiestOpenSectionOrAnyIfNoneIsOpen) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   const cv::Size size(128, 72);
@@ -194,7 +194,7 @@ TEST(SectionSearch, OfTheOpenSectionsTheEmptiestIsChosenAndWithoutAnyNoneIsShut)
   EXPECT_GT(disregarded, 20);
 }
 
-TEST(SectionSearch, AllUnknownIsFreeOrBlockedAsAsked) {
+TEST(SectionSearch, UnknownDepthIsFreeOrAThreatAsConfigured) {
   SectionSearch search({}, kZed);
   const cv::Mat depth(kZed, CV_32F, cv::Scalar::all(kNaN));
   EXPECT_EQ(search.choose(depth, kThresholdM, 0.15, UnknownDepth::free).section, 144);

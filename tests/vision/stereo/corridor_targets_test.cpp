@@ -25,7 +25,7 @@ TEST(CorridorTargets, ThePapersLatticeHas21And64Candidates) {
   EXPECT_TRUE(all.contains({100, 80}));
 }
 
-TEST(CorridorTargets, QuadtreeBlocksAreFarLargestAndWithoutOverlap) {
+TEST(CorridorTargets, QuadtreeBlocksAreFarMaximalAndDisjoint) {
   std::mt19937_64 random(9);
   for (int trial = 0; trial < 60; ++trial) {
     const cv::Mat d = random_disparity(random, {96, 64}, trial);

@@ -7,7 +7,7 @@
 namespace hedgehop::vision::stereo {
 namespace {
 
-TEST(DepthPyramid, EveryPixelIsTheNearestOfItsSquare) {
+TEST(DepthPyramid, EveryPixelIsTheNearestOfItsBlock) {
   std::mt19937_64 random(2);
   for (int trial = 0; trial < 30; ++trial) {
     const cv::Size size(50 + trial, 41);
@@ -28,7 +28,7 @@ TEST(DepthPyramid, EveryPixelIsTheNearestOfItsSquare) {
   }
 }
 
-TEST(DepthPyramid, WhatIsNoDisparityImageIsRefused) {
+TEST(DepthPyramid, RejectsOtherImageTypes) {
   DepthPyramid pyramid;
   EXPECT_THROW(pyramid.build(cv::Mat(8, 8, CV_8UC1), 2), std::invalid_argument);
   EXPECT_THROW(pyramid.build(cv::Mat(8, 8, CV_16SC1), -1), std::invalid_argument);

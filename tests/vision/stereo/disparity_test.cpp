@@ -47,7 +47,7 @@ TEST(Disparity, DepthIsBaselineTimesFocalLengthOverDisparity) {
   EXPECT_NEAR(geometry.disparity16(geometry.z_m(123)), 123.0, 1e-9);
 }
 
-TEST(Disparity, SpecksAreWhatFloodingFindsTooSmall) {
+TEST(Disparity, SpecksEqualThoseOfAFloodFill) {
   std::mt19937_64 random(1);
   for (int trial = 0; trial < 200; ++trial) {
     const cv::Mat before = random_disparity(random, {37 + trial % 20, 29}, trial);
@@ -59,7 +59,7 @@ TEST(Disparity, SpecksAreWhatFloodingFindsTooSmall) {
   }
 }
 
-TEST(Disparity, ADifferenceOfTheThresholdDivides) {
+TEST(Disparity, DifferenceEqualToTheThresholdSeparatesSegments) {
   cv::Mat d(1, 4, CV_16SC1);
   d.at<int16_t>(0, 0) = 100;
   d.at<int16_t>(0, 1) = 103;
@@ -80,7 +80,7 @@ TEST(Disparity, SkyIsUnknownBrightAndSmooth) {
   EXPECT_EQ(cv::norm(d, cv::Mat(1, 6, CV_16SC1, const_cast<int16_t*>(after)), cv::NORM_INF), 0.0);
 }
 
-TEST(Disparity, SkyAmongAllTakesWhatWasMatchedToo) {
+TEST(Disparity, SkyAmongAllIncludesMatchedPixels) {
   const uint8_t grey[] = {250, 250, 251, 200, 252, 253};
   const int16_t before[] = {40, -1, 40, 40, 40, 40};
   const int16_t after[] = {40, 0, 0, 40, 40, 0};

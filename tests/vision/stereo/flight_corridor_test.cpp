@@ -71,7 +71,7 @@ TEST(FlightCorridor, PyramidAgreesWithTheDefinitionOnRandomImages) {
   for (const int count : states) EXPECT_GE(count, 50);  // the images are of every kind
 }
 
-TEST(FlightCorridor, ThePyramidsHeightChangesNoAnswer) {
+TEST(FlightCorridor, ResultDoesNotDependOnThePyramidsHeight) {
   std::mt19937_64 random(6);
   const StereoGeometry geometry{128.0, 79.5, 59.5, 0.3};
   for (int trial = 0; trial < 50; ++trial) {
@@ -88,7 +88,7 @@ TEST(FlightCorridor, ThePyramidsHeightChangesNoAnswer) {
 }
 
 // The cylinder meets a wall at distance z in an ellipse; a post just inside or outside its edge decides.
-TEST(FlightCorridor, APostBesideTheRayBlocksWithinTheRadiusAlone) {
+TEST(FlightCorridor, PostNextToTheRayBlocksOnlyWithinTheRadius) {
   const StereoGeometry geometry{512.0, 319.5, 239.5, 0.3};
   const int d16 = 123;
   const double z_m = geometry.z_m(d16), radius_m = 2.0;
@@ -103,7 +103,7 @@ TEST(FlightCorridor, APostBesideTheRayBlocksWithinTheRadiusAlone) {
   }
 }
 
-// [Andert2007] sec. 4.2: what the pyramid is for.
+// [Andert2007] sec. 4.2: purpose of the pyramid.
 TEST(FlightCorridor, ThePyramidTestsAHundredthOfThePoints) {
   const StereoGeometry geometry{512.0, 319.5, 239.5, 0.3};
   cv::Mat d(480, 640, CV_16SC1);

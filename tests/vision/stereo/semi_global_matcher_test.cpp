@@ -8,7 +8,7 @@
 
 #include "vision/stereo/stereo_matcher.h"
 
-/// Number by number against OpenCV's matcher: what flights are repeated by, bit for bit.
+/// Compares every value with OpenCV's matcher, because flights must be reproducible bit for bit.
 namespace hedgehop::vision::stereo {
 namespace {
 
@@ -49,9 +49,9 @@ void expect_as_opencv(const Task& task, const cv::Mat& left, const cv::Mat& righ
   }
 }
 
-class SemiGlobalAsOpenCv : public testing::TestWithParam<Task> {};
+class SemiGlobalEqualsOpenCv : public testing::TestWithParam<Task> {};
 
-TEST_P(SemiGlobalAsOpenCv, OnWhatCanAndCannotBeMatched) {
+TEST_P(SemiGlobalEqualsOpenCv, ForMatchableAndUnmatchableImages) {
   const Task& task = GetParam();
   const cv::Mat left = smooth_image(1, task.image);
   cv::Mat shifted;
@@ -67,13 +67,13 @@ TEST_P(SemiGlobalAsOpenCv, OnWhatCanAndCannotBeMatched) {
                    "plain");
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, SemiGlobalAsOpenCv,
+INSTANTIATE_TEST_SUITE_P(Sizes, SemiGlobalEqualsOpenCv,
                          testing::Values(Task{16, 1, {50, 31}}, Task{16, 3, {160, 120}}, Task{32, 5, {320, 240}},
                                          Task{48, 5, {161, 97}}, Task{32, 11, {320, 180}}, Task{64, 13, {101, 60}},
                                          Task{128, 7, {70, 20}}, Task{64, 9, {12, 5}}, Task{16, 5, {3, 2}}),
                          testing::PrintToStringParamName());
 
-TEST(SemiGlobalMatcher, FindsWhatOpenCvFindsInADrawnAndNoisyPair) {
+TEST(SemiGlobalMatcher, EqualsOpenCvForASyntheticNoisyPair) {
   const std::string folder = HEDGEHOP_SOURCE_DIR "/tests/vision/images/";
   const cv::Mat left = cv::imread(folder + "left.png", cv::IMREAD_GRAYSCALE);
   const cv::Mat right = cv::imread(folder + "right.png", cv::IMREAD_GRAYSCALE);

@@ -54,7 +54,7 @@ TEST(StereoMatcher, AWallsDisparityIsFoundToAFifthOfAPixel) {
 }
 
 // OpenCV by itself leaves out the 64 columns left of the largest disparity searched.
-TEST(StereoMatcher, ColumnsAreMatchedWhereverTheRightCameraSeesThem) {
+TEST(StereoMatcher, MatchesAllColumnsInViewOfTheRightCamera) {
   const int kWallPx = 12;
   const cv::Mat left = texture(4, {320, 240}), right = seen_from_the_right(left, kWallPx);
   for (const Method method : {Method::block, Method::semi_global}) {
@@ -69,7 +69,7 @@ TEST(StereoMatcher, ColumnsAreMatchedWhereverTheRightCameraSeesThem) {
     for (int u = 0; u < kWallPx; ++u) {
       double largest = 0.0;
       cv::minMaxLoc(d16.col(u), nullptr, &largest);
-      EXPECT_LE(largest, kDisparityUnits * u) << "matched with what is left of the right image's edge";
+      EXPECT_LE(largest, kDisparityUnits * u) << "matched outside the right image";
     }
   }
 }
@@ -84,7 +84,7 @@ TEST(StereoMatcher, EqualPairsGiveEqualDisparities) {
   EXPECT_EQ(cv::norm(a, b, cv::NORM_INF), 0.0);
 }
 
-TEST(StereoMatcher, WhatOpenCvWouldNotTakeIsRefused) {
+TEST(StereoMatcher, RejectsConfigsThatOpenCvRejects) {
   StereoMatcherConfig odd;
   odd.disparities_px = 40;
   EXPECT_THROW(StereoMatcher{odd}, std::invalid_argument);
@@ -98,7 +98,7 @@ TEST(StereoMatcher, WhatOpenCvWouldNotTakeIsRefused) {
 
 /// The pair that tests/vision/images/README.md describes.
 struct DrawnPair {
-  cv::Mat left, right, truth_px;  ///< truth 0 where the right camera does not see the left one's surface
+  cv::Mat left, right, truth_px;  ///< truth 0 for surfaces that are not visible to the right camera
 
   DrawnPair() {
     const std::filesystem::path folder = HEDGEHOP_SOURCE_DIR "/tests/vision/images";
@@ -108,7 +108,7 @@ struct DrawnPair {
     constexpr double kBaselineMm = 200.0, kFocalPx = 140.0;
     truth_px = cv::Mat(depth_mm.size(), CV_32F, cv::Scalar(0));
     for (int v = 0; v < depth_mm.rows; ++v) {
-      // From right to left: what is nearer and further right covers columns of the right image first.
+      // From right to left: closer surfaces farther right cover columns of the right image first.
       double covered_u = depth_mm.cols;
       for (int u = depth_mm.cols - 1; u >= 0; --u) {
         const double d_px = kBaselineMm * kFocalPx / depth_mm.at<uint16_t>(v, u), right_u = u - d_px;
@@ -119,8 +119,8 @@ struct DrawnPair {
   }
 };
 
-// The limits are half as far again as what both methods reach, as of the real pairs below.
-TEST(StereoMatcher, FindsMostOfADrawnAndNoisyPairAndLittleOfItWrong) {
+// The limits are 1.5 times the errors of both methods, as for the real pairs below.
+TEST(StereoMatcher, MatchesMostOfASyntheticNoisyPairCorrectly) {
   const DrawnPair pair;
   ASSERT_EQ(pair.left.size(), cv::Size(160, 120));
   ASSERT_EQ(pair.right.size(), pair.truth_px.size());
@@ -153,7 +153,7 @@ struct Pair {
 
 class StereoOnRealPairs : public testing::TestWithParam<Pair> {};
 
-// The limits are what the semi-global matcher reaches, with a margin of half: a fence against decay, not a claim.
+// The limits are 1.5 times the errors of the semi-global matcher, to detect regressions.
 TEST_P(StereoOnRealPairs, FewPixelsAreOffByMoreThanTwo) {
   const std::filesystem::path folder = kRealData / "stereo" / GetParam().name;
   HEDGEHOP_NEEDS_REAL_DATA(folder);
