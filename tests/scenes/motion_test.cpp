@@ -15,7 +15,7 @@ using Repeat = WaypointMotion::Repeat;
 
 constexpr double kRoundingM = 1e-9;
 
-// An L of 3 m north, then 4 m east, 2 m high.
+// An L-shaped path: 3 m north, then 4 m east, at an altitude of 2 m.
 WaypointMotion bent(Repeat repeat) {
   return {.points = {{0, 0, 2}, {3, 0, 2}, {3, 4, 2}}, .speed_mps = 0.5, .repeat = repeat, .start_s = 10.0};
 }
@@ -115,7 +115,7 @@ TEST(Motion, NeverLeavesItsPath) {
           leg.norm() > 0.0 ? std::clamp((p_W - way[i - 1]).dot(leg) / leg.squaredNorm(), 0.0, 1.0) : 0.0;
       nearest_m = std::min(nearest_m, (p_W - way[i - 1] - share * leg).norm());
     }
-    // An orbit's 64 chords lie up to r (1 - cos(pi / 64)) inside of it.
+    // The 64 chords of an orbit are up to r (1 - cos(pi / 64)) inside the circle.
     const auto* orbit = std::get_if<OrbitMotion>(&motion);
     ASSERT_LE(nearest_m, orbit ? orbit->radius_m * (1.0 - std::cos(std::numbers::pi / 64)) + kRoundingM : kRoundingM);
   }

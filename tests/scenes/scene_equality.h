@@ -28,7 +28,7 @@ inline bool identical(const std::vector<Solid>& a, const std::vector<Solid>& b) 
   return true;
 }
 
-/// Bit for bit, everything that a flight or an image depends on.
+/// Compares bit for bit all data that a flight or an image depends on.
 inline bool identical(const Scene& a, const Scene& b) {
   if (a.meshes.size() != b.meshes.size() || a.textures.size() != b.textures.size() ||
       a.movers.size() != b.movers.size() || !identical(a.solids, b.solids)) {

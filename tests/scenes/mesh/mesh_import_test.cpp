@@ -40,7 +40,7 @@ class MeshImport : public testing::Test {
   std::filesystem::path folder_;
 };
 
-// A quad 2 wide, 3 high, 1 in front of the model's origin (z = -1), y up, its front to the viewer behind it.
+// A quad 2 wide and 3 high, 1 in front of the model's origin (z = -1), y up, facing the origin.
 const std::string kQuad = R"(mtllib quad.mtl
 v -1 0 -1
 v 1 0 -1
@@ -82,7 +82,7 @@ TEST_F(MeshImport, PlacesAQuadAtItsPositionAndHeading) {
   EXPECT_EQ(scene.solids[0].polyhedron.faces.size(), 2u);
 }
 
-// Whether each triangle's normals point to the side it is seen from, and how many are seen from a point.
+// Returns whether the normals of all triangles agree with their winding, and how many triangles face a point.
 std::pair<bool, int> seen_from(const Mesh& mesh, const Eigen::Vector3f& eye_W) {
   bool agree = true;
   int seen = 0;
@@ -105,9 +105,9 @@ TEST_F(MeshImport, FacesOutwardForEveryWinding) {
     const Mesh& mesh = scene.meshes.at(0);
     EXPECT_EQ(mesh.indices.size(), 36u);
     EXPECT_EQ(seen_from(mesh, {9.0f, 0.5f, -0.5f}), std::pair(true, 2)) << faces;
-    EXPECT_EQ(seen_from(mesh, {-0.5f, 0.5f, -0.5f}), std::pair(true, 0)) << faces;  // from within
+    EXPECT_EQ(seen_from(mesh, {-0.5f, 0.5f, -0.5f}), std::pair(true, 0)) << faces;  // from inside
   }
-  // Without a lid it is open: both sides of ten triangles.
+  // Without its top the cube is open: both sides of ten triangles.
   const Scene open = imported({.file = write("open.obj", corners + outward.substr(0, outward.rfind("f ")))});
   EXPECT_EQ(open.meshes.at(0).indices.size(), 60u);
   EXPECT_TRUE(seen_from(open.meshes.at(0), {9.0f, 0.5f, -0.5f}).first);

@@ -21,7 +21,7 @@ struct Case {
   std::string name;
   SceneConfig config;
   bool is_boxy = true;  ///< every solid is an upright box along W's axes, drawn as one chunk
-  bool is_flat = true;  ///< all faces are shaded as they are
+  bool is_flat = true;  ///< all faces have flat shading
   friend std::ostream& operator<<(std::ostream& out, const Case& each) { return out << each.name; }
 };
 
@@ -76,7 +76,7 @@ TEST_P(EveryMesh, WindingAgreesWithUnitNormals) {
     ASSERT_GT(across.norm(), 0.0f);
     for (size_t k = 0; k < 3; ++k) {
       ASSERT_NEAR(corner(t, k).n_W.norm(), 1.0f, 1e-6f);
-      // Of a sharp lump shaded as if it were round, a narrow face may look well away from its corners' normals.
+      // With smooth shading of a sharp lump, a narrow face may deviate from its corners' normals.
       ASSERT_GT(across.normalized().dot(corner(t, k).n_W), GetParam().is_flat ? 1.0f - 1e-5f : -0.5f);
     }
   }
@@ -127,7 +127,7 @@ TEST_P(EveryMeshOfBoxes, EverySolidIsTheBoxOfOneChunkAndFillersReachTheGround) {
     ASSERT_LE((upright[k]->box_W.min() - solid.min().cast<float>()).cwiseAbs().maxCoeff(), kSinglePrecisionM);
     ASSERT_LE((upright[k]->box_W.max() - solid.max().cast<float>()).cwiseAbs().maxCoeff(), kSinglePrecisionM);
     if (!upright[k]->fills_box_to_ground) continue;
-    // Every column under the top, down to the ground, lies in this solid or in one below it.
+    // Every vertical line from the top to the ground is inside this solid or one below it.
     for (double height = 0.0; height < -solid.max().z(); height += 0.5) {
       const Eigen::Vector3d low(solid.min().x(), solid.min().y(), -height - 0.25),
           high(solid.max().x(), solid.max().y(), -height - 0.25);
@@ -139,7 +139,7 @@ TEST_P(EveryMeshOfBoxes, EverySolidIsTheBoxOfOneChunkAndFillersReachTheGround) {
   }
 }
 
-// Distance along a ray to the nearest triangle [Moeller and Trumbore]; sets whether its front is seen.
+// Distance along a ray to the nearest triangle [Moeller and Trumbore]; sets whether its front faces the ray.
 double cast_at_mesh(const Mesh& mesh, const Eigen::Vector3d& from_W, const Eigen::Vector3d& ray_W, bool& front) {
   double nearest = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < mesh.indices.size(); i += 3) {

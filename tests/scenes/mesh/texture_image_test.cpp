@@ -10,7 +10,7 @@
 namespace hedgehop::scenes::mesh {
 namespace {
 
-// Colors that differ everywhere.
+// An image with different colors at all pixels.
 cv::Mat colors(int type) {
   cv::Mat image(37, 53, type);
   cv::RNG random(7);
@@ -75,7 +75,7 @@ TEST(DecodeTexture, IsEmptyForOtherData) {
                                  "P3 1 1 99999999999 0 0 0", "P6 999999999 999999999 255\nabc", "P3 1 1 15 16 0 0"}) {
     EXPECT_TRUE(decode_texture({reinterpret_cast<const uint8_t*>(text.data()), text.size()}).empty()) << text;
   }
-  // A header that promises 4e18 pixels.
+  // A header with a size of 4e18 pixels.
   std::vector<uint8_t> vast = png;
   std::fill_n(vast.begin() + 16, 8, uint8_t{0x7f});
   EXPECT_TRUE(decode_texture(vast).empty());

@@ -6,7 +6,7 @@
 
 #include "scenes/textures/canvas.h"
 
-/// Number by number against the same arithmetic written pixel by pixel: textures, and so flights, must not change.
+/// Compares every value with the same arithmetic pixel by pixel, because textures and flights must not change.
 namespace hedgehop::scenes::textures {
 namespace {
 
@@ -16,7 +16,7 @@ float eased(double at, int& node) {
   return static_cast<float>(t * t * (3.0 - 2.0 * t));
 }
 
-/// One octave after another over the whole image.
+/// Noise computed one octave after another over the complete image.
 cv::Mat1f plain_noise(int size_px, const NoiseShape& shape, Random& random) {
   cv::Mat1f sum(size_px, size_px, 0.0f);
   float strength = 1.0f;

@@ -59,7 +59,7 @@ double step_between(const cv::Mat1f& left, int left_column, const cv::Mat1f& rig
   return sum / left.rows;
 }
 
-// The roughest step between neighboring columns inside an image.
+// Returns the maximum difference between adjacent columns inside an image.
 double roughest_step(const cv::Mat1f& image) {
   double worst = 0.0;
   for (int c = 0; c + 1 < image.cols; ++c) worst = std::max(worst, step_between(image, c, image, c + 1));
@@ -123,7 +123,7 @@ TEST(Images, FacadeVariantsContinueEachOtherAndDiffer) {
 }
 
 TEST(Images, OfFacadesDoNotRepeatFromBayToBay) {
-  // Moved by whole bays and floors a facade looks alike, yet never the same: flow must not lock on to the next window.
+  // A facade shifted by whole bays and floors must differ, so that flow does not match the next window.
   constexpr double kMaxAlike = 0.85;
   for (const FacadeStyle& style : facade_styles()) {
     const cv::Mat1f image = grey(paint_facades(style, kSize, 1, 26)[0]);

@@ -37,7 +37,7 @@ TEST(Room, FreeSpaceIsEightBySixteenMetersAndClosed) {
   for (int k = 0; k < 2000; ++k) {
     const Eigen::Vector3d p_W(8.0 * share(random), 4.0 * share(random), -1.5 + 1.5 * share(random));
     ASSERT_FALSE(inside_a_solid(room, p_W));
-    // Straight out to each side there is wall, from a hair's breadth behind the surface on.
+    // In each direction there is a wall directly behind the surface.
     for (double sign : {-1.0, 1.0}) {
       ASSERT_TRUE(inside_a_solid(room, {sign * (8.0 + kHairM), p_W.y(), p_W.z()}));
       ASSERT_TRUE(inside_a_solid(room, {p_W.x(), sign * (4.0 + kHairM), p_W.z()}));

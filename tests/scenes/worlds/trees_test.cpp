@@ -40,7 +40,7 @@ TEST(Tree, HasACrownOfTenMetersAndAHeightOfTwelve) {
   }
 }
 
-// How far along a line out of a convex body its surface lies.
+// Returns the distance along a ray from inside a convex body to its surface.
 double way_out(const Solid& body, const Vector3d& from_W, const Vector3d& along_W) {
   double way_m = std::numeric_limits<double>::infinity();
   for (const auto& [a, b, c] : body.polyhedron.faces) {

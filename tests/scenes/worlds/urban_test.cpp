@@ -22,7 +22,7 @@ UrbanConfig small_images() {
   return config;
 }
 
-// Gap between two boxes' outlines in the plan, written out axis by axis.
+// Returns the gap between the outlines of two boxes in the plan, computed per axis.
 double plan_gap(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
   const double north = std::max({a.min().x() - b.max().x(), b.min().x() - a.max().x(), 0.0});
   const double east = std::max({a.min().y() - b.max().y(), b.min().y() - a.max().y(), 0.0});

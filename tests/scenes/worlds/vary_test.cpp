@@ -25,7 +25,7 @@ constexpr double kRounding = 1e-9;
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 
-// In the skyline's order each tower has 8 corners of its box and, but for the first, the top of its spire.
+// In the skyline's order, each tower has the 8 corners of its box and, except the first, the top of its spire.
 std::vector<Eigen::AlignedBox3d> tower_boxes(const std::vector<Vector3d>& corners) {
   std::vector<Eigen::AlignedBox3d> boxes;
   for (size_t first = 0, tower = 0; tower < 4; first += tower == 0 ? 8 : 9, ++tower) {
@@ -54,7 +54,7 @@ TEST(VariedSkyline, KeepsGapsExtentAndThirtyFiveCorners) {
 TEST(VariedSkyline, KeepsEverySideAndHeightWithinItsShare) {
   constexpr double kShare = 0.3;
   const std::vector<Eigen::AlignedBox3d> plain = tower_boxes(highrise_corners({}, 0));
-  Vector3d least = Vector3d::Constant(1.0), most = least;  // of all sizes over the plain ones
+  Vector3d least = Vector3d::Constant(1.0), most = least;  // sizes relative to the plain ones
   for (uint64_t seed = 0; seed < kSeeds; ++seed) {
     const std::vector<Eigen::AlignedBox3d> boxes = tower_boxes(highrise_corners({.vary = kShare}, seed));
     for (size_t k = 0; k < boxes.size(); ++k) {
@@ -70,8 +70,8 @@ TEST(VariedSkyline, KeepsEverySideAndHeightWithinItsShare) {
   EXPECT_GT(most.minCoeff(), 1.0 + 0.8 * kShare);
 }
 
-// The lateral flight of [Shah2009] table 4.1 as configs/shah2009_highrise_lateral.yaml has it: its camera must be able
-// to see each corner for a time, hidden ones aside.
+// The lateral flight of [Shah2009] table 4.1 as in configs/shah2009_highrise_lateral.yaml: each corner, ignoring
+// occlusion, must be in the camera's view for some time.
 TEST(VariedSkyline, IsInViewOfTheLateralFlight) {
   constexpr double kRadiusM = 42.672, kPitchRad = -36.0 * kDeg, kHalfFieldRad = 15.0 * kDeg;
   for (uint64_t seed = 0; seed < kSeeds; ++seed) {
@@ -102,7 +102,7 @@ TEST(VariedSkyline, DoesNotChangeTheCube) {
   EXPECT_NE(highrise_corners({.vary = 0.3}, 1), highrise_corners({.vary = 0.3}, 2));
 }
 
-// All that a corridor can have.
+// A corridor with all features.
 CorridorConfig rich_corridor() {
   CorridorConfig corridor{.vary = 0.3, .texture_size_px = kSmallPx};
   corridor.sections = {{.length_m = 8.0},

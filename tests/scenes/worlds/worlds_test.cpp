@@ -164,7 +164,7 @@ TEST(Wall, IsOpenInItsOpeningAndClosedAroundIt) {
               ThrowsMessage<E>(HasSubstr("opening.bottom: 8")));
 }
 
-// The smaller eigenvalue of the gradients around the best corner, as detectors of corners rank them.
+// Returns the smaller eigenvalue of the gradients at the best corner, as used by corner detectors.
 double best_corner(const cv::Mat& image) {
   cv::Mat grey, strength;
   cv::cvtColor(image, grey, cv::COLOR_RGB2GRAY);

@@ -25,7 +25,7 @@ struct RoundTrips {
   double worst_length = 0.0;
 };
 
-/// Every pixel's ray, projected again.
+/// Projects the ray of every pixel.
 RoundTrips round_trips(const Camera& camera) {
   RoundTrips found;
   for (int row = 0; row < camera.height_px; ++row) {
@@ -65,7 +65,7 @@ TEST(Camera, RaysOfDifferentPixelsDiffer) {
   const RoundTrips found = round_trips(camera);
   EXPECT_LT(found.worst_px, kRoundTripPx);
   EXPECT_LT(found.shown, 320u * 240u);
-  // r (1 - 0.6 r^2) is largest at r = 1 / sqrt(1.8).
+  // r (1 - 0.6 r^2) has its maximum at r = 1 / sqrt(1.8).
   const double fold = 1.0 / std::sqrt(1.8);
   EXPECT_TRUE(camera.project({fold - 1e-6, 0, 1}).has_value());
   EXPECT_FALSE(camera.project({fold + 1e-6, 0, 1}).has_value());
@@ -96,7 +96,7 @@ TEST(Camera, DistortedPinholeProjectsLikeOpenCv) {
   EXPECT_GT(compared, 3000u);
 }
 
-// OpenCV's fisheye sees forwards only.
+// OpenCV's fisheye is limited to the front hemisphere.
 TEST(Camera, FisheyeProjectsLikeOpenCv) {
   std::mt19937_64 random(103);
   for (int trial = 0; trial < 40; ++trial) {
@@ -126,7 +126,7 @@ TEST(Camera, EquidistantFisheyeExceeds180Degrees) {
   const double half_rad = 97.5 * std::numbers::pi / 180.0;
   const double focal_px = fisheye_focal_px({}, 600, 2.0 * half_rad);
   const Camera camera(600, 600, FisheyeLens{focal_px, focal_px, 299.5, 299.5});
-  // The image's left edge, half a pixel out, shows 97.5 deg to the left.
+  // The image's left border, at -0.5 px, is 97.5 deg to the left.
   const std::optional<Eigen::Vector2d> edge = camera.project({-std::sin(half_rad), 0.0, std::cos(half_rad)});
   ASSERT_TRUE(edge.has_value());
   EXPECT_NEAR(edge->x(), -0.5, 1e-9);

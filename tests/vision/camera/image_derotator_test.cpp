@@ -35,7 +35,8 @@ TEST(ImageDerotator, SourcePixelsAreThoseOfTheRotatedRays) {
           }
         }
       }
-      // Linear between every fourth row and column: 4^2 / 8 px^2, both ways, of a curvature that grows with the turn.
+      // Linear between every fourth row and column: 4^2 / 8 px^2 in both directions, times a curvature proportional to
+      // the rotation.
       EXPECT_LT(worst_px, 4.0 * turn_rad / focal_px + kFloatPx) << camera.width_px;
     }
   }

@@ -25,7 +25,7 @@ std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// OCamCalib's own way back (its world2cam), by the inverse polynomial. Row and column, px.
+/// OCamCalib's own projection (its world2cam), by the inverse polynomial. Row and column, px.
 Eigen::Vector2d world_to_camera(const OcamCalibration& o, const Eigen::Vector3d& ray_O) {
   const double theta = std::atan2(ray_O.z(), ray_O.head<2>().norm());
   double rho = 0.0, power = 1.0;
@@ -57,7 +57,7 @@ TEST_P(RealCalibration, RoundTripOverTheImageIsBelowATwentiethPixel) {
       if (!ray) continue;
       ++shown;
       worst_px = std::max(worst_px, (camera.project(*ray).value() - Eigen::Vector2d(col, row)).norm());
-      // The file's own inverse polynomial is fitted to where there is an image, within 100 deg or so.
+      // The file's inverse polynomial is fitted within the image, up to about 100 deg.
       if (std::acos(ray->z()) > 93.0 * std::numbers::pi / 180.0 || ray->head<2>().norm() == 0.0) continue;
       const Eigen::Vector3d ray_O(ray->y(), ray->x(), -ray->z());
       worst_by_inverse_px =
@@ -117,7 +117,7 @@ TEST(OcamLens, TurnsRowsAndColumnsIntoRightAndDown) {
   EXPECT_NEAR((camera.unit_ray(center).value() - Eigen::Vector3d::UnitZ()).norm(), 0.0, 1e-12);
   EXPECT_GT(camera.unit_ray({600, 241}).value().x(), 0.5);
   EXPECT_GT(camera.unit_ray({374, 400}).value().y(), 0.3);
-  // Its definition, written out for one pixel.
+  // The definition, evaluated for one pixel.
   const double row = 100.0, col = 650.0;
   const double det = 0.9985 + 0.0004 * 0.0003, dr = row - 241.25, dc = col - 374.5;
   const double x = (dr - 0.0004 * dc) / det, y = (0.0003 * dr + 0.9985 * dc) / det, rho = std::hypot(x, y);

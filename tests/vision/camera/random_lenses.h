@@ -7,7 +7,7 @@
 
 #include "sim/libm/random.h"
 
-/// Cameras of every kind for property tests, as different as cameras are.
+/// Random cameras of every kind for property tests.
 namespace hedgehop::vision {
 
 inline camera::Camera random_distorted_pinhole(std::mt19937_64& random) {
@@ -32,7 +32,7 @@ inline camera::Camera random_fisheye(std::mt19937_64& random) {
   return {320, 240, lens};
 }
 
-/// A made-up calibration in the form of OCamCalib's file: 752 x 480 px, about 200 degrees across.
+/// A synthetic calibration in OCamCalib's format: 752 x 480 px, about 200 degrees across.
 inline constexpr const char* kSmallCalibration = R"(#polynomial coefficients for the direct mapping function
 
 5 -2.2e+02 0.0 1.6e-03 -2.1e-06 8.0e-09

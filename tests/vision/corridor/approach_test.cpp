@@ -15,7 +15,7 @@ namespace {
 constexpr double kDtS = 0.1;
 constexpr int kRimPx = 7;
 
-// Two images of a wall across the way, the second a tenth of a second of flight nearer.
+// Two images of a wall across the path, 0.1 s of flight apart.
 struct Pair {
   camera::Camera camera = whole_fisheye(480, 480);
   CameraMotion motion{looking_down().linear(), looking_down().linear(), Eigen::Vector3d::Zero(), kDtS, 1.5};
@@ -61,7 +61,7 @@ TEST(ApproachRate, IsSpeedOverDistanceOfAWallEvenWithCoarseTexture) {
 TEST(ApproachRate, HoldsForLateralMotionAndARollingVehicle) {
   const double range_m = 0.8;
   const Eigen::Vector3d v_H(0.6, 0.15, 0.0);
-  // Along a way aslant, the wall straight ahead lies at the range over the cosine.
+  // On an oblique path, the distance of the wall along the path is the range over the cosine.
   const auto found = Pair(range_m, v_H, waves(0.1, 0.6), 1.25, 0.05).measure();
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->rate_per_s, v_H.x() / range_m, 0.15 * v_H.x() / range_m);

@@ -19,17 +19,17 @@ namespace {
 using Eigen::Vector3d;
 using std::numbers::pi;
 
-// A point that flow has measured; its other members do not matter.
+// A point measured by flow; its other members are irrelevant.
 WallPoint at(double x_m, double y_m, Region region, RejectionReason rejection = RejectionReason::none) {
   WallPoint point;
   point.p_CP_H = {x_m, y_m, 0.0};
   point.region = region;
   point.rejection = rejection;
-  point.off_travel_rad = std::abs(std::atan2(y_m, x_m));  // flown straight on
+  point.off_travel_rad = std::abs(std::atan2(y_m, x_m));  // in straight flight
   return point;
 }
 
-// Level flight north from a place in a corridor, and the pair of rays that a fixed point gives.
+// Level flight north from a position in a corridor, and the ray pair of a fixed point.
 struct LevelFlight {
   camera::Camera camera = whole_fisheye();
   Vector3d p_WC2 = {0.0, 0.0, -1.5};
@@ -140,13 +140,12 @@ TEST(WallPoint, ReportsTheReasonOfRejection) {
   EXPECT_EQ(rejection(good), RejectionReason::too_slow);
   limits = {};
 
-  // A match on the wrong side of the corner moves in the opposite direction along the circle: tangential, and yet
-  // impossible.
+  // A wrong match moves in the opposite direction along the circle, which is tangential but impossible.
   flow::RayPair backwards = good;
   backwards.after_px = 2.0 * good.before_px - good.after_px;
   backwards.after_C = flight.camera.unit_ray(backwards.after_px).value();
   EXPECT_EQ(rejection(backwards), RejectionReason::outlier);
-  // One that moves towards the center is caught by the printed filter alone.
+  // A match that moves toward the center is rejected by the published filter.
   flow::RayPair inwards = good;
   const Eigen::Vector2d radius = good.before_px - flight.camera.project(Vector3d::UnitZ()).value();
   inwards.after_px = good.before_px - 4.0 * radius.normalized();
@@ -173,7 +172,7 @@ TEST(CenteringError, GoesFromMinusOneAtTheRightWallToOneAtTheLeft) {
   EXPECT_EQ(centering_error(2.5, 0.0), -1.0);
   EXPECT_EQ(centering_error(0.0, 2.5), 1.0);
   EXPECT_EQ(centering_error(1.25, 1.25), 0.0);
-  EXPECT_EQ(middle_offset_m(0.5, 3.5), 1.5);  // 4 m wide, 1.5 m left of the middle
+  EXPECT_EQ(middle_offset_m(0.5, 3.5), 1.5);  // 4 m wide, 1.5 m left of the centerline
   EXPECT_NEAR(centering_error(0.5, 3.5), 1.5 / 2.0, 1e-15);
   EXPECT_TRUE(std::isnan(centering_error(std::numeric_limits<double>::quiet_NaN(), 1.0)));
 }
@@ -238,7 +237,7 @@ TEST(GapAhead, IsUnknownWithoutPoints) {
 }
 
 TEST(TimeToContact, IsTwoOverTheDivergenceOfFlowStraightAhead) {
-  // A wall across the way at 2 m, approached at 0.8 m/s; the flow's divergence by differences on the unit sphere.
+  // A wall across the path at 2 m, approached at 0.8 m/s; divergence of the flow by differences on the unit sphere.
   const double dt_s = 1e-3, range_m = 2.0, v_mps = 0.8, small_rad = 0.01;
   const Vector3d traveled(v_mps * dt_s, 0, 0);
   const auto ray = [&](double y, double z, double x_m) { return Vector3d(x_m, range_m * y, range_m * z).normalized(); };

@@ -12,7 +12,7 @@
 /// A straight corridor along north and its image in a fisheye below a vehicle, drawn ray by ray.
 namespace hedgehop::vision {
 
-/// 190 degrees wide, the whole circle in the image.
+/// A field of view of 190 degrees, with the complete circle in the image.
 inline camera::Camera whole_fisheye(int width_px = 752, int height_px = 480) {
   camera::FisheyeLens lens;
   lens.limit_rad = 95.0 * std::numbers::pi / 180.0;
@@ -31,7 +31,7 @@ inline Eigen::Isometry3d looking_down() {
   return X_BC;
 }
 
-/// Walls at east -left_m and right_m, floor at altitude 0, ceiling; a wall across at north end_m.
+/// Walls at east -left_m and right_m, floor at altitude 0, ceiling; an end wall at north end_m.
 struct StraightCorridor {
   double left_m = 1.25, right_m = 1.25, ceiling_m = 3.0, end_m = std::numeric_limits<double>::infinity();
 

@@ -62,7 +62,7 @@ TEST(WallDirection, MakesTheMediansIndependentOfTheHeading) {
   const auto along = rotate_points(points, wall_direction_rad(points, kMaxRad, 12));
   EXPECT_NEAR(side_distance(along, kLeft, 1).distance_m, 0.8, 0.02);
   EXPECT_NEAR(side_distance(along, kRight, 1).distance_m, 1.7, 0.02);
-  // Across the heading the left wall seems twice as near.
+  // Measured across the heading, the left wall appears at half its distance.
   EXPECT_GT(std::abs(side_distance(points, kLeft, 1).distance_m - 0.8), 0.2);
 }
 

@@ -89,8 +89,8 @@ TEST(FeatureFlow, PureRotationLeavesLessThan005Px) {
     ASSERT_GT(seen.derotated.size(), 80u);
     const double derotated_px = median_flow_px(seen.derotated, Eigen::Matrix3d::Identity());
     EXPECT_LT(derotated_px, 0.05) << change_rad.transpose();
-    EXPECT_GT(median_flow_px(seen.pairs, Eigen::Matrix3d::Identity()), 1.0);  // there was something to take away
-    // Rays rotated afterwards, as printed: the residual is larger, for windows rotate.
+    EXPECT_GT(median_flow_px(seen.pairs, Eigen::Matrix3d::Identity()), 1.0);  // the rotation caused flow
+    // Rays rotated afterward, as published: the residual is larger, because windows rotate.
     const double rays_px = median_flow_px(seen.pairs, seen.R_C1C2());
     EXPECT_LT(rays_px, 0.25) << change_rad.transpose();
     worst_turned_px = std::max(worst_turned_px, derotated_px);

@@ -6,7 +6,7 @@
 #include "tests/vision/flow/textured_image.h"
 #include "vision/flow/flow_field.h"
 
-/// How far a flow field is from the truth, for tests.
+/// Errors of a flow field relative to the truth.
 namespace hedgehop::vision {
 
 inline constexpr int kSize = 400;

@@ -25,7 +25,7 @@ TEST(ImageJacobian, EqualsFiniteDifferencesOfProjectedPoints) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> pixel(0.0, 399.0), depth(1.0, 30.0);
   camera::PinholeCamera camera = kCamera;
-  camera.focal_y_px = 170.0;  // unequal focal lengths and an axis off the middle, so that no term hides
+  camera.focal_y_px = 170.0;  // unequal focal lengths and an off-center axis, so that every term matters
   camera.center_u_px = 180.0;
   camera.center_v_px = 215.0;
   for (int trial = 0; trial < 200; ++trial) {
@@ -77,7 +77,7 @@ TEST(Derotate, KeepsTheFlowOfTranslation) {
     const FlowField still = plane_flow(kCamera, grid, {0, 0, 6}, {0.3, -0.2, 1}, v, {0, 0, 0}, kPeriodS);
     derotate(field, kCamera, w, kPeriodS);
     for (size_t i = 0; i < field.vectors.size(); ++i) {
-      // Turned by w dt = 0.01 rad meanwhile, the translation's flow of some px differs by its hundredth.
+      // A rotation of w dt = 0.01 rad changes the translational flow by 1 %.
       EXPECT_LT((field.vectors[i].flow_px - still.vectors[i].flow_px).norm(), 0.06);
     }
   }
@@ -178,7 +178,7 @@ TEST(MeanFlowAndLoom, InvalidVectorsAreIgnoredOrFarAway) {
   field.at(2, 1) = {field.at(2, 1).center_px, {0, 0}, false};
   EXPECT_NEAR(mean_horizontal_flow(field, kCamera, 1e-4, Missing::skip).value, -0.2, 0.01);
   EXPECT_NEAR(mean_horizontal_flow(field, kCamera, 1e-4, Missing::far_away).value, -0.2 * 23 / 32, 0.01);
-  // A vector whose mirror image is missing would make a loom out of sideways motion: the pair goes.
+  // A vector without its mirrored one would turn lateral motion into loom, so the pair is ignored.
   const FlowAverage skipped = loom(field, 1e-4, Missing::skip), far = loom(field, 1e-4, Missing::far_away);
   EXPECT_EQ(skipped.count, 22);
   EXPECT_NEAR(skipped.value, 0.2, 1e-3);

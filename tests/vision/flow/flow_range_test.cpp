@@ -52,7 +52,7 @@ TEST(FlowRange, RangeIsNeverBelowThatOfTheFlow) {
       too_near += inverse_depth_per_m(vector, camera(), v_WC_C, kFrameS, kFloorMps) > 0.05;
     }
   }
-  EXPECT_LT(too_near, 0.01 * all);  // an obstacle within 20 m is seen in less than one patch of a hundred
+  EXPECT_LT(too_near, 0.01 * all);  // fewer than 1 % of the patches indicate an obstacle within 20 m
 }
 
 TEST(FlowRange, FloorScalesTheInverseRangeByTheWeight) {
@@ -93,7 +93,7 @@ TEST(FlowRange, FloorOnlyIncreasesRange) {
 }
 
 TEST(FlowRange, NearestTenthDeterminesTheResult) {
-  // A wall at 3 m in the two left columns of 16 (an eighth of the view), the others see one at 50 m.
+  // A wall at 3 m in the two left columns of 16 (an eighth of the view), and one at 50 m in the others.
   const Eigen::Vector3d v_WC_C(1.5, 0, 1.0);
   FlowField field = plane_flow(camera(), grid_field(16, 16, 32, 400), {0, 0, 50}, {0, 0, 1}, v_WC_C, {0, 0, 0}, kStepS);
   const FlowField near =

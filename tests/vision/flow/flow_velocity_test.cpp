@@ -14,7 +14,7 @@ namespace {
 const camera::PinholeCamera kCamera = camera::PinholeCamera::from_fov(400, 400, std::numbers::pi / 2);
 constexpr double kPeriodS = 0.02;
 
-// A camera below the belly that looks down: C's x is B's y, C's y is -B's x.
+// A camera under the fuselage that looks down: C's x is B's y, C's y is -B's x.
 Eigen::Isometry3d down_camera() {
   Eigen::Isometry3d X_BC = Eigen::Isometry3d::Identity();
   X_BC.linear().col(0) = Eigen::Vector3d::UnitY();
@@ -30,7 +30,7 @@ struct Flight {
   Eigen::Vector3d v_WB_B;
 };
 
-// Level ground seen from a random state; w and v constant over the period.
+// Flow of level ground from a random state, with constant w and v.
 Flight random_flight(std::mt19937_64& random) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   Flight flight;
@@ -59,7 +59,7 @@ TEST(FlowVelocity, EqualsTheTrueVelocityOverLevelGround) {
     const Flight flight = random_flight(random);
     const auto found = flow_velocity(flight.field, kCamera, down_camera(), flight.motion);
     ASSERT_TRUE(found);
-    // The finite motion within one period is taken to first order: a hundredth of the speed.
+    // Motion within one period is modeled to first order, with an error of 1 % of the speed.
     EXPECT_LT((found->v_WB_B_xy_meas - flight.v_WB_B.head<2>()).norm(), 0.03);
     EXPECT_GE(found->agreeing, 30);
   }
@@ -85,7 +85,7 @@ TEST(FlowVelocity, IsRobustToARoofInThirtyPercentOfTheView) {
   std::mt19937_64 random(3);
   for (int trial = 0; trial < 100; ++trial) {
     Flight flight = random_flight(random);
-    // The right-hand columns show a roof at 60 % of the range: their translational flow is as much larger.
+    // The right columns image a roof at 60 % of the range, which increases their translational flow.
     for (int row = 0; row < 8; ++row) {
       for (int col = 6; col < 8; ++col) flight.field.at(row, col).flow_px *= 1.0 / 0.6;
     }

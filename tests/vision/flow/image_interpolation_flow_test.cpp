@@ -14,7 +14,7 @@
 #include "tests/vision/flow/flow_errors.h"
 
 namespace {
-size_t allocations = 0;  // of the whole test program, counted below
+size_t allocations = 0;  // in the entire test program, counted below
 }  // namespace
 
 // The address sanitizer replaces operator new itself, so that allocations cannot be counted with it.
@@ -113,7 +113,7 @@ TEST(ImageInterpolationFlow, IterationRemovesTheCurvatureErrorOfOnePass) {
 
 TEST(ImageInterpolationFlow, FollowsExpansionAndPlanarWarpsAtEveryPatch) {
   const WaveTexture texture(24, 8.0, 200.0);
-  // Newer image(x) = older image(A (x - c) + c - shift): affine, so the flow at the older place is known exactly.
+  // Newer image(x) = older image(A (x - c) + c - shift): affine, so the flow at the older position is known exactly.
   Eigen::Matrix2d growth;
   growth << 1.012, 0.006, -0.004, 1.008;
   const Eigen::Vector2d middle(199.5, 199.5), shift(0.8, -0.5);

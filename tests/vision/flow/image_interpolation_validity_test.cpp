@@ -5,7 +5,7 @@
 #include "tests/vision/flow/flow_errors.h"
 #include "vision/flow/image_interpolation_flow.h"
 
-// Which vectors are valid.
+// Validity of flow vectors.
 namespace hedgehop::vision::flow {
 namespace {
 

@@ -38,7 +38,7 @@ TEST(PatchGrid, IsSymmetricAndEvenlySpacedForRandomLayouts) {
       EXPECT_EQ(cols[i].begin % unit, 0);
       EXPECT_NEAR(cols[i].center(), cols.front().center() + spacing * static_cast<double>(i), unit);
       const double mirrored = cols[i].center() + cols[cols.size() - 1 - i].center();
-      // A single middle patch may be half a step off when the image has no middle step.
+      // A single center patch may be off by half a step if the image has no center step.
       EXPECT_NEAR(mirrored, width - 1, 2 * i + 1 == cols.size() ? unit : 1e-9);
     }
   }
@@ -60,7 +60,7 @@ TEST(PatchGrid, ReducedPatchesCoverTheSameArea) {
   const PatchGrid grid = make_patch_grid(6, 7, 32, 8, 1, 200, 160);
   const PatchGrid half = reduce_patch_grid(grid, 2, 0, 100, 80);
   for (size_t i = 0; i < grid.cols.size(); ++i) {
-    // A reduced pixel i lies at 2 i + 0.5; columns may move to the next even reduced pixel.
+    // A reduced pixel i is at 2 i + 0.5; columns may move to the next even reduced pixel.
     EXPECT_NEAR(2.0 * half.cols[i].center() + 0.5, grid.cols[i].center(), 2.0);
     EXPECT_EQ(half.cols[i].begin % 2, 0);
     EXPECT_EQ(half.cols[i].end - half.cols[i].begin, 16);

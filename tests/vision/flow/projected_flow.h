@@ -9,7 +9,7 @@
 /// Exact flow of points on a plane, by projecting them before and after a camera's finite motion.
 namespace hedgehop::vision {
 
-/// Evenly spaced places between `rim_px` and the image's other side, all valid, no flow.
+/// Returns a field of evenly spaced valid vectors without flow, at least `rim_px` from the image's border.
 inline flow::FlowField grid_field(int rows, int cols, double rim_px, int size_px) {
   flow::FlowField field;
   field.rows = rows;

@@ -50,7 +50,7 @@ TEST(RayFlow, MixedMotionGivesTheDistanceOfEveryPoint) {
 }
 
 TEST(RayFlow, SlowMotionSatisfiesThePrintedEquation) {
-  // OF = v / D sin(alpha): 0.7 m/s past a point 1.4 m away, 60 degrees off the nose, in a thousandth of a second.
+  // OF = v / D sin(alpha): 0.7 m/s past a point 1.4 m away, 60 degrees off the nose, over 1 ms.
   const double v_mps = 0.7, D_m = 1.4, alpha_rad = pi / 3.0, dt_s = 1e-3;
   const Vector3d p = D_m * Vector3d(std::cos(alpha_rad), std::sin(alpha_rad), 0.0);
   const Vector3d before = p.normalized(), after = (p - Vector3d(v_mps * dt_s, 0, 0)).normalized();

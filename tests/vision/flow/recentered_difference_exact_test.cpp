@@ -36,7 +36,7 @@ ReducedImage room_image(const char* side) {
   return image;
 }
 
-/// Each column's flow by itself, or one that changes slowly, as between patches.
+/// Random flow per column, or flow that varies slowly, as between patches.
 Flow random_flow(int width, bool smooth, std::mt19937_64& random) {
   std::uniform_real_distribution<double> px(-16.0, 16.0), slope(-0.08, 0.08);
   Flow flow{std::vector<int32_t>(static_cast<size_t>(padded(width)), 0), {}};
@@ -102,7 +102,7 @@ TEST(RecenteredDifferenceExact, EqualsAPixelByPixelComputationForARoom) {
   for (const bool smooth : {false, true}) expect_exact(room_image("left.png"), room_image("right.png"), smooth, 5);
 }
 
-/// SpreadFlow's rows with one multiplication and rounding a number.
+/// SpreadFlow's rows with one multiplication and rounding per value.
 TEST(SpreadFlowExact, RoundsEachColumnIndependently) {
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> px(-16.0, 16.0);

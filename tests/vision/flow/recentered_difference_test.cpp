@@ -28,7 +28,7 @@ TEST(RecenteredDifference, EqualsBilinearInterpolationWrittenOut) {
   std::vector<int32_t> u(static_cast<size_t>(padded(kWidth))), v(u.size());
   std::vector<int16_t> out(u.size());
   for (int y = 0; y < kHeight; ++y) {
-    // Flow in whole 1/128 px, so that the expected place is the one that is looked at.
+    // Flow in multiples of 1/128 px, so that the sampled position is exact.
     for (size_t x = 0; x < u.size(); ++x) {
       u[x] = static_cast<int32_t>(std::lround(flow(random) * 128)) * 512;
       v[x] = static_cast<int32_t>(std::lround(flow(random) * 128)) * 512;

@@ -32,7 +32,7 @@ TEST(ImageReducer, HalvingTwiceEqualsOneLongFilter) {
   ImageReducer reducer(width, 12);
   reducer.halve(image, half);
   reducer.halve(half, quarter);
-  // Both steps written out: 1 3 3 1 applied, then applied to every second result.
+  // Both steps explicitly: 1 3 3 1, then again on every second result.
   const double w[4] = {1, 3, 3, 1};
   double long_filter[10] = {};
   for (int i = 0; i < 4; ++i) {

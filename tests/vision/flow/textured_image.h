@@ -13,13 +13,13 @@
 
 #include "vision/camera/pinhole_camera.h"
 
-/// Images with known motion: a texture is a sum of waves, so that it can be evaluated exactly at any place and needs
-/// no interpolation when it moves by a part of a pixel.
+/// Images with known motion. A texture is a sum of waves, so that it can be evaluated exactly at any position and
+/// requires no interpolation for subpixel motion.
 namespace hedgehop::vision {
 
 class WaveTexture {
  public:
-  /// Waves of random directions with periods between the two given, amplitude in proportion to the period, and a
+  /// Waves of random directions with periods between the given limits, amplitudes proportional to the period, and a
   /// standard deviation of 35 grey levels about 127.
   WaveTexture(uint64_t seed, double least_period, double largest_period, int waves = 24) {
     std::mt19937_64 random(seed);
@@ -47,7 +47,7 @@ class WaveTexture {
 
 inline uint8_t to_pixel(double grey) { return cv::saturate_cast<uint8_t>(std::lround(grey)); }
 
-/// Image of which pixel (u, v) shows `grey(u, v)`.
+/// Returns the image with grey level `grey(u, v)` at pixel (u, v).
 template <class Grey>
 cv::Mat draw_image(int width, int height, Grey grey) {
   cv::Mat image(height, width, CV_8UC1);
@@ -68,7 +68,7 @@ inline void add_noise(cv::Mat& image, double sigma_grey, uint64_t seed) {
   }
 }
 
-/// A textured plane through `p_WO` with in-plane unit axes, cut off along the first; texture coordinates in meters.
+/// A textured plane through `p_WO` with in-plane unit axes, limited along the first; texture coordinates in m.
 struct TexturedPlane {
   Eigen::Vector3d p_WO, s_W, t_W;
   double half_width_m = std::numeric_limits<double>::infinity();

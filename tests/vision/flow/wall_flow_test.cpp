@@ -11,12 +11,12 @@
 namespace hedgehop::vision::flow {
 namespace {
 
-/// A room around B, rotated against H: four walls by the directions and distances of their nearest points.
+/// A room around B, rotated relative to H: four walls, given by the directions and distances of their nearest points.
 struct Room {
   std::vector<Eigen::Vector2d> n;
   std::vector<double> d_m;
 
-  /// How many times a ray from a place fits before it meets the first wall.
+  /// Returns the distance from a point to the first wall along a ray, in lengths of the ray.
   double along(const Eigen::Vector2d& p_H, const Eigen::Vector2d& ray_H) const {
     double nearest = INFINITY;
     for (size_t k = 0; k < n.size(); ++k) {
@@ -68,7 +68,7 @@ Eigen::Vector2d random_velocity(std::mt19937_64& random) {
   return speed(random) * (Eigen::Rotation2Dd(angle(random)) * Eigen::Vector2d::UnitX());
 }
 
-/// Relative error of a wall among those found; that of the one that fits best.
+/// Returns the relative error of a wall: that of the best match among the walls found.
 double error_of(const Room& room, size_t k, const std::vector<WallEstimate>& walls) {
   double least = INFINITY;
   for (const WallEstimate& wall : walls)
@@ -83,7 +83,7 @@ TEST(WallFlow, FindsTheWallsOfARoomFromAMovingVehicle) {
     const auto observations = look(room, random_velocity(random), 0.0, random);
     const auto walls = walls_from_flow(observations, 0.1);
     for (size_t k = 0; k < 4; ++k) {
-      // A wall that shows in fewer than three neighboring patches cannot be detected.
+      // A wall in fewer than three adjacent patches cannot be detected.
       int run = 0, longest = 0;
       for (const WallFlowSample& observation : observations) {
         const Eigen::Vector2d met_H =

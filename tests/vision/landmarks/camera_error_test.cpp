@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Points before a camera, and their bearings as a camera sees them whose true pose differs from its estimate.
+/// Points in front of a camera, and their bearings from a true pose that differs from the estimate.
 struct Sight {
   CameraPose pose;
   CameraError error_true;

@@ -18,7 +18,7 @@ using Eigen::Vector2d;
 constexpr int kSizePx = 320;
 constexpr double kMinAngleRad = 0.2;
 
-/// A polygon drawn with soft edges: at eight times the size, then averaged.
+/// A polygon with antialiased edges, drawn at eight times the size and averaged.
 void draw(cv::Mat& image, const std::vector<Vector2d>& corners_px, const cv::Scalar& color) {
   constexpr int kFiner = 8;
   std::vector<cv::Point> fine;
@@ -49,7 +49,7 @@ double distance_px(const std::vector<Vector2d>& corners, const Vector2d& to) {
   return least;
 }
 
-/// Grey noise of one scale: light and dark patches without straight edges.
+/// Grey noise at one scale: light and dark patches without straight edges.
 cv::Mat patches(uint64_t seed, double scale_px, double amplitude) {
   cv::Mat noise(kSizePx, kSizePx, CV_32F);
   cv::RNG random(seed);
@@ -73,7 +73,7 @@ TEST(EdgeCorners, AreTheCornersOfAQuadrilateral) {
   }
 }
 
-// Patches and contrast as measured in rendered images of towers before grass: 12 and 45 grey levels.
+// Amplitude of the patches and contrast to them, 12 and 45 grey levels, as measured in rendered images of towers.
 TEST(EdgeCorners, IgnorePatchesOfGrass) {
   std::mt19937_64 random(4);
   int found_of_true = 0, found_elsewhere = 0, grey_elsewhere = 0;
@@ -123,8 +123,8 @@ TEST(EdgeCorners, AreIntersectionsOfLines) {
   }
 }
 
-// At the foot of a wall seen from nearly above the detector's pieces cut the corner: one of them begins on the first
-// line and ends on the second, and a piece of the second is missing.
+// In steep views of a wall's base the detector's segments cut the corner: one of them starts on the first
+// line and ends on the second, and a part of the second is missing.
 TEST(EdgeCorners, AreFoundAtSlightBendsOfALine) {
   constexpr double kDegree = M_PI / 180.0;
   std::mt19937_64 random(7);
@@ -151,7 +151,7 @@ TEST(EdgeCorners, ExcludeAnEdgeThatPassesThroughAnothersEnd) {
   EXPECT_TRUE(corners_of(edges, kMinAngleRad).empty());
 }
 
-// The ground is as bright as the wall along the last 12 px of the wall's foot, whose direction its other 88 px give.
+// Ground and wall are equally bright along the last 12 px of the wall's base; the other 88 px give its direction.
 TEST(EdgeCorners, AreFoundIfALongEdgeEndsBeforeItsCorner) {
   const std::vector<ImageEdge> edges = {{{0, 0}, {88, 0}}, {{100, 0}, {100, -80}}};
   const auto corners = corners_of(edges, kMinAngleRad);
@@ -221,7 +221,7 @@ TEST(JoinedEdges, SegmentsOfALineAreOneEdge) {
   }
 }
 
-// Dark to light, then light to dark: a roof's edge, and a streak of grass that goes on in its direction.
+// Dark to light, then light to dark: a roof's edge, and a streak of grass in the same direction.
 TEST(JoinedEdges, OppositeSegmentsRemainTwo) {
   const std::vector<ImageEdge> pieces = {{{0, 0}, {50, 0}}, {{100, 0}, {55, 0}}};
   EXPECT_EQ(joined_edges(pieces).size(), 2U);

@@ -25,7 +25,7 @@ double z_by_differences(const PredictedBearing& seen, const Vector2d& measured) 
   return J(seen.bearing) * J(seen.bearing) / gradient.dot(seen.covariance * gradient);
 }
 
-/// All pairs tried, again and again.
+/// Exhaustive matching over all pairs.
 Matches all_pairs(const std::vector<std::optional<PredictedBearing>>& predicted, const std::vector<Vector2d>& measured,
                   double gate) {
   Matches found(measured.size());
@@ -73,7 +73,7 @@ TEST(LandmarkMatching, EqualsExhaustiveMatchingOnRandomScenes) {
     for (const auto& match : found) matched += match.has_value();
     all += measured.size();
   }
-  EXPECT_GT(matched, all / 5);  // the scenes are dense enough to be disputed
+  EXPECT_GT(matched, all / 5);  // the scenes are dense enough for ambiguous matches
   EXPECT_LT(matched, all - all / 5);
 }
 

@@ -32,7 +32,7 @@ Eigen::Matrix3d random_covariance(std::mt19937_64& random, const Vector3d& sigma
   return sigma.asDiagonal() * (root * root.transpose() + 0.1 * Eigen::Matrix3d::Identity()) * sigma.asDiagonal();
 }
 
-/// A landmark in front of a camera, in either kind of coordinates, seen first by a camera near by.
+/// A landmark in front of a camera, in either kind of coordinates, first observed by a nearby camera.
 Landmark random_landmark(std::mt19937_64& random, const Eigen::Isometry3d& X_WC, LandmarkCoordinates coordinates) {
   const double z_m = uniform(random, 5, 100);
   const Vector3d p_C(z_m * uniform(random, -0.4, 0.4), z_m * uniform(random, -0.4, 0.4), z_m);
@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Landmark, EachCoordinates,
                            return instance.param == LandmarkCoordinates::cartesian ? "cartesian" : "inverse_depth";
                          });
 
-// The bearing is that of a camera written out with its axes as columns of R_WC.
+// Reference: projection with the camera's axes as columns of R_WC.
 TEST_P(EachCoordinates, BearingIsTheProjectionOfThePoint) {
   std::mt19937_64 random(1);
   for (int trial = 0; trial < 200; ++trial) {
@@ -118,7 +118,7 @@ TEST_P(EachCoordinates, JacobianOfTheCameraErrorEqualsTheFiniteDifference) {
   }
 }
 
-// Noise of the navigation is as large as the spread of bearings from poses drawn with it.
+// The navigation noise equals the spread of bearings from random poses.
 TEST_P(EachCoordinates, NavigationNoiseEqualsTheSpreadOverRandomPoses) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
@@ -138,7 +138,8 @@ TEST_P(EachCoordinates, NavigationNoiseEqualsTheSpreadOverRandomPoses) {
       const Vector2d off = predict_bearing(landmark, {moved, 0, 0}, 1e-9)->bearing - seen->bearing;
       spread += off * off.transpose() / kDraws;
     }
-    EXPECT_LT((spread - seen->noise).norm() / seen->noise.norm(), 0.05);  // 1 % from so many draws, and curvature
+    EXPECT_LT((spread - seen->noise).norm() / seen->noise.norm(),
+              0.05);  // 1 % from the number of draws, plus curvature
   }
 }
 

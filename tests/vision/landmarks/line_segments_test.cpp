@@ -15,8 +15,8 @@ using Eigen::Vector2d;
 
 constexpr int kSizePx = 200;
 
-/// A half-plane: bright to the right of a line through `at` along a direction, by the share of each pixel's area that a
-/// straight edge leaves, to first order; with white noise.
+/// A half-plane, bright to the right of a line through `at`. Pixels on the line are blended by area to first order;
+/// with white noise.
 cv::Mat half_plane(const Vector2d& at, double angle_rad, double contrast, double noise, cv::RNG& random) {
   const Vector2d right(-std::sin(angle_rad), std::cos(angle_rad));  // in the image, whose v points down
   cv::Mat image(kSizePx, kSizePx, CV_8UC1);

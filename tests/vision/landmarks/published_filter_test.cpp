@@ -21,7 +21,7 @@ Vector2d bearing_of(const Vector3d& p_W, const Eigen::Isometry3d& X_WC) {
   return p_C.head<2>() / p_C.z();
 }
 
-/// A database that sees one point from a camera that moves to the east.
+/// A database with one point, observed by a camera that moves east.
 struct Database {
   std::vector<MappedLandmark> points;
   int64_t next_id = 0;
@@ -39,7 +39,7 @@ TEST(PublishedFilter, StartsAPointOnTheGround) {
   EXPECT_NEAR(database.points[0].landmark.x.z(), 0.0, 1e-9);
 }
 
-// The general filter of one landmark, in Joseph's form, is another way to the same numbers.
+// The general filter of one landmark, in Joseph form, must give equal results.
 TEST(PublishedFilter, CorrectsLikeTheGeneralFilterOfOneLandmark) {
   const Vector3d p_W(3, -2, -1);
   Database database;
@@ -75,7 +75,7 @@ TEST(PublishedFilter, RecognizesACornerSeenAgain) {
   EXPECT_EQ(again, (std::vector<int64_t>{first[1], first[0]}));
 }
 
-// The thesis counts images without a correspondence, also those that cannot show the point.
+// The thesis counts images without a correspondence, even if the point is out of view.
 TEST(PublishedFilter, DeletesAPointAfterItsMissesEvenOutOfView) {
   Database database;
   database.see({{0.0, 0.0}}, pose_at(0));

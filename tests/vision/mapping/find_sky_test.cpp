@@ -127,7 +127,7 @@ TEST(FindSky, TiltedCameraFindsSkyAndExcludesTowers) {
   }
 }
 
-// So wide and steep that rows of the image run along vertical planes.
+// A view so wide and steep that image rows are parallel to vertical planes.
 TEST(FindSky, InAWideSteepViewOnlySkyIsSky) {
   MappedWorld world;
   world.geometry.focal_px = 60.0;
@@ -211,7 +211,7 @@ TEST(FindSky, UntexturedWallAcrossTheViewIsNotSky) {
   EXPECT_EQ(find(look({}, 4.0, {wall})).wrong, 0);
 }
 
-// A matcher finds something on any wall now and then. Ground that begins on a wall is none.
+// Matchers occasionally match pixels on untextured walls. Such matches are not ground.
 TEST(FindSky, MatchesOnAnUntexturedWallAreNotGround) {
   constexpr double kNoiseM = 40.0;
   for (const double wall_m : {4.0, 6.0, 8.0}) {
@@ -272,7 +272,7 @@ TEST(FindSky, ThinObjectInFrontOfSkyIsALine) {
         }
       }
       const bool upright = thin.width == 1;
-      // A column may hold three blocks of a line: of a pole that is the lowest part, at the vehicle's height.
+      // A column may contain three blocks of a line: for a pole, the lowest part at the vehicle's altitude.
       EXPECT_GE(lines, upright ? 3 : crossed) << grey;
       EXPECT_GE(find(view).sky, before.sky - crossed) << grey;
     }

@@ -48,7 +48,7 @@ struct MappedWorld {
     return nearest;
   }
 
-  /// C looks north from a height, turned by a heading, and up by a pitch.
+  /// Pose of C at an altitude, looking north, rotated by a heading and pitched up.
   static Eigen::Isometry3d looking(const Eigen::Vector3d& p_W, double heading_rad, double pitch_rad = 0.0) {
     Eigen::Isometry3d X_WC(Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()) *
                            Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()));

@@ -11,7 +11,7 @@ using State = OccupancyMap::State;
 
 OccupancyMapConfig small() { return {.voxel_m = 0.3, .across = 100, .layers = 10}; }
 
-/// Flies a few meters through a world with noise in its disparities, looking to both sides.
+/// Flies a few meters through a world with noisy disparities, with views to both sides.
 OccupancyMap mapped(const MappedWorld& world, uint64_t seed) {
   std::mt19937_64 generator(seed);
   OccupancyMap map(small());
@@ -32,7 +32,7 @@ struct Counts {
   int in_solid = 0, free_in_solid = 0, free = 0, occupied = 0, occupied_near_surface = 0;
 };
 
-/// Compares with the boxes themselves: a voxel is solid when all of it is.
+/// Compares the map with the boxes. A voxel is solid if it is completely inside a box.
 Counts compare(const OccupancyMap& map, const MappedWorld& world) {
   Counts counts;
   for (int z = map.first().z(); z < map.first().z() + map.size().z(); ++z) {
@@ -127,7 +127,7 @@ TEST(OccupancyMap, ThinObjectInFrontOfSkyMakesItsRayUnknown) {
   for (int i = 0; i < 3; ++i) look(DepthBlock::Kind::line);
   for (int i = 0; i < 20; ++i) {
     for (double north_m = 2.0; north_m < 12.0; north_m += 0.3) {
-      // From the first voxel that lies wholly beyond 4 m.
+      // From the first voxel completely beyond 4 m.
       const State ahead = at(north_m, 0.15), expected = north_m > 4.45 ? State::unknown : State::free;
       EXPECT_TRUE(ahead == expected || (north_m >= 4.0 && north_m <= 4.45)) << north_m;
       EXPECT_TRUE(north_m < 3.0 || at(north_m, -1.65) == State::free) << north_m;
@@ -149,7 +149,7 @@ TEST(OccupancyMap, MoveKeepsVoxelsInsideAndClearsTheOthers) {
   EXPECT_EQ(map.state(map.index(far_W)), State::unknown);
 }
 
-// A box that crosses the view at 1 m/s, in space seen free before.
+// A box that crosses the view at 1 m/s, in space observed as free before.
 TEST(OccupancyMap, KnownMovingObstaclesLeaveNoTrail) {
   const auto not_free_behind = [](bool known) {
     OccupancyMap map(small());

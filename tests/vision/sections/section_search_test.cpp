@@ -19,7 +19,7 @@ const cv::Size kZed(1280, 720);
 cv::Mat random_depth(std::mt19937_64& random, cv::Size size, double unknown_share) {
   std::uniform_real_distribution<float> depth_m(1.0f, 20.0f), chance(0.0f, 1.0f);
   cv::Mat depth(size, CV_32F);
-  // Blocks, so that sections differ.
+  // Random blocks, so that sections differ.
   const int block = 16;
   for (int v = 0; v < size.height; v += block) {
     for (int u = 0; u < size.width; u += block) {
@@ -155,7 +155,7 @@ TEST(SectionSearch, AnOpeningAlongTheTopIsMissedByThreeByThreeAndFoundBySeventee
   EXPECT_LT(found.section, 3 * 17);
 }
 
-// The oracle sorts all sections and takes the first that is open and empty enough.
+// The reference sorts all sections and selects the first open one with few enough threats.
 TEST(SectionSearch, ChoosesTheEmptiestOpenSectionOrAnyIfNoneIsOpen) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);

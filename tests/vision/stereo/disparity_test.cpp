@@ -10,7 +10,7 @@
 namespace hedgehop::vision::stereo {
 namespace {
 
-/// Segments found by flooding, pixel by pixel: another way than line by line.
+/// Segments by flood fill, pixel by pixel, as an independent method.
 cv::Mat without_specks(const cv::Mat& d, int difference16, int smallest_px) {
   cv::Mat result = d.clone(), seen(d.size(), CV_8U, cv::Scalar(0));
   for (int v = 0; v < d.rows; ++v) {

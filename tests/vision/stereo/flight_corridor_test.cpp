@@ -23,7 +23,7 @@ Corridor by_definition(const cv::Mat& d16, const StereoGeometry& g, const cv::Po
     for (int x = 0; x < d16.cols; ++x) {
       const int d = d16.at<int16_t>(y, x);
       if (d < 0) continue;
-      if (d == 0) {  // infinitely far: inside on the ray itself alone
+      if (d == 0) {  // infinitely far: inside only on the ray itself
         seen |= x == path.x && y == path.y;
         continue;
       }
@@ -87,7 +87,7 @@ TEST(FlightCorridor, ResultDoesNotDependOnThePyramidsHeight) {
   }
 }
 
-// The cylinder meets a wall at distance z in an ellipse; a post just inside or outside its edge decides.
+// The cylinder intersects a wall at distance z in an ellipse. Posts just inside and just outside its border are tested.
 TEST(FlightCorridor, PostNextToTheRayBlocksOnlyWithinTheRadius) {
   const StereoGeometry geometry{512.0, 319.5, 239.5, 0.3};
   const int d16 = 123;

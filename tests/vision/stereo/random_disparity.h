@@ -9,7 +9,7 @@
 namespace hedgehop::vision {
 
 /// Disparity images of several kinds, by `kind` modulo 5: dense and smooth, dense noise, sparse, slanted planes with
-/// holes, blocks before a sky.
+/// holes, blocks in front of sky.
 inline cv::Mat random_disparity(std::mt19937_64& random, cv::Size size, int kind) {
   const auto uniform = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
   cv::Mat d(size, CV_16SC1, cv::Scalar(stereo::kNoDisparity));

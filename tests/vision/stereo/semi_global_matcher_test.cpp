@@ -59,10 +59,10 @@ TEST_P(SemiGlobalEqualsOpenCv, ForMatchableAndUnmatchableImages) {
   cv::warpAffine(left, shifted, slanted, left.size(), cv::INTER_CUBIC, cv::BORDER_REFLECT);
   expect_as_opencv(task, left, shifted, "a slanted wall");
   expect_as_opencv(task, left, smooth_image(2, task.image), "another image");
-  // The highest costs that there are: sums stop at the largest number.
+  // Maximum costs: sums saturate.
   expect_as_opencv(task, random_image(3, task.image, 2), random_image(4, task.image, 2), "black and white");
   expect_as_opencv(task, random_image(5, task.image, 2), cv::Mat(task.image, CV_8UC1, cv::Scalar(0)), "black");
-  // Costs of zero, and many that are equal.
+  // Zero costs, many of them equal.
   expect_as_opencv(task, cv::Mat(task.image, CV_8UC1, cv::Scalar(90)), cv::Mat(task.image, CV_8UC1, cv::Scalar(90)),
                    "plain");
 }

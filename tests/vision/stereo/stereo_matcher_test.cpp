@@ -27,7 +27,7 @@ cv::Mat texture(uint64_t seed, cv::Size size) {
   return both;
 }
 
-/// The right image of a wall at a disparity that need not be whole.
+/// Returns the right image of a wall at a fractional disparity.
 cv::Mat seen_from_the_right(const cv::Mat& left, double disparity_px) {
   cv::Mat right;
   const cv::Mat shift = (cv::Mat_<double>(2, 3) << 1, 0, -disparity_px, 0, 1, 0);
@@ -47,13 +47,13 @@ TEST(StereoMatcher, AWallsDisparityIsFoundToAFifthOfAPixel) {
       matcher.match(left, seen_from_the_right(left, truth_px), d16);
       const cv::Mat inner = d16(cv::Rect(80, 20, 220, 200));
       EXPECT_GT(cv::countNonZero(inner >= 0), 0.95 * static_cast<double>(inner.total()));
-      const double kPixelLocking = 0.2;  // OpenCV's parabola is drawn to whole pixels
+      const double kPixelLocking = 0.2;  // OpenCV's parabola is biased toward whole pixels
       EXPECT_NEAR(cv::mean(inner, inner >= 0)[0] / kDisparityUnits, truth_px, kPixelLocking);
     }
   }
 }
 
-// OpenCV by itself leaves out the 64 columns left of the largest disparity searched.
+// OpenCV itself computes no disparities for the 64 left columns.
 TEST(StereoMatcher, MatchesAllColumnsInViewOfTheRightCamera) {
   const int kWallPx = 12;
   const cv::Mat left = texture(4, {320, 240}), right = seen_from_the_right(left, kWallPx);
@@ -96,7 +96,7 @@ TEST(StereoMatcher, RejectsConfigsThatOpenCvRejects) {
   EXPECT_THROW(matcher.match(cv::Mat(8, 8, CV_8UC3), cv::Mat(8, 8, CV_8UC3), d16), std::invalid_argument);
 }
 
-/// The pair that tests/vision/images/README.md describes.
+/// The image pair described in tests/vision/images/README.md.
 struct DrawnPair {
   cv::Mat left, right, truth_px;  ///< truth 0 for surfaces that are not visible to the right camera
 
