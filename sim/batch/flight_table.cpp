@@ -10,7 +10,7 @@
 
 #include "sim/config/input_error.h"
 #include "sim/config/numbers.h"
-#include "sim/record/csv_line.h"
+#include "sim/record/csv_table.h"
 #include "sim/record/json_number.h"
 
 namespace hedgehop::sim {

@@ -17,7 +17,7 @@
 #include "sim/flight/build.h"
 #include "sim/pages/report.h"
 #include "sim/pages/report_page.h"
-#include "sim/record/film_watcher.h"
+#include "sim/record/film.h"
 #include "sim/record/result_files.h"
 #include "sim/record/whole_file.h"
 #include "sim/simulation/simulation.h"

@@ -1,9 +1,9 @@
-#include "sim/export/euroc.h"
+#include "sim/export/formats.h"
 
 #include <fmt/format.h>
 
 #include "sim/config/input_error.h"
-#include "sim/record/csv_line.h"
+#include "sim/record/csv_table.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -24,7 +24,7 @@ std::string pose(const Eigen::Isometry3d& X) {
 std::string camera_sensor(const RecordedCamera& camera) {
   const Intrinsics& lens = camera.lens;
   if (!lens.fisheye && lens.distortion[4] != 0.0) {
-    throw InputError(fmt::format("camera '{}' has k3, which EuRoC's radial-tangential has not", camera.role));
+    throw InputError(fmt::format("camera '{}': the EuRoC format does not support k3", camera.role));
   }
   return fmt::format(
       "sensor_type: camera\ncomment: {}\n{}rate_hz: {}\nresolution: [{}, {}]\ncamera_model: pinhole\n"
@@ -86,7 +86,7 @@ std::filesystem::path euroc_image(size_t camera, int64_t t_ns) {
 }
 
 std::vector<DataFile> euroc_files(const SensorRecord& record) {
-  std::vector<DataFile> files{{kRoot / "body.yaml", "comment: forward, left, up; the IMU is its origin\n"}};
+  std::vector<DataFile> files{{kRoot / "body.yaml", "comment: forward, left, up; origin at the IMU\n"}};
   for (size_t i = 0; i < record.cameras.size(); ++i) {
     files.push_back({camera_folder(i) / "sensor.yaml", camera_sensor(record.cameras[i])});
     files.push_back({camera_folder(i) / "data.csv", camera_data(record.cameras[i])});
@@ -94,8 +94,8 @@ std::vector<DataFile> euroc_files(const SensorRecord& record) {
   files.push_back({kRoot / "imu0/sensor.yaml", imu_sensor(record.imu_config)});
   files.push_back({kRoot / "imu0/data.csv", imu_data(record)});
   const std::filesystem::path truth = kRoot / "state_groundtruth_estimate0";
-  files.push_back({truth / "sensor.yaml",
-                   "sensor_type: groundtruth\ncomment: the simulator's truth\n" + pose(Eigen::Isometry3d::Identity())});
+  files.push_back({truth / "sensor.yaml", "sensor_type: groundtruth\ncomment: truth of the simulator\n" +
+                                              pose(Eigen::Isometry3d::Identity())});
   files.push_back({truth / "data.csv", truth_data(record)});
   return files;
 }

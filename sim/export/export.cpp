@@ -7,11 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "sim/export/conventions.h"
-#include "sim/export/euroc.h"
-#include "sim/export/kitti.h"
+#include "sim/export/formats.h"
+#include "sim/export/sensor_record.h"
 #include "sim/export/true_images.h"
-#include "sim/export/tum.h"
 #include "sim/flight/build.h"
 #include "sim/record/image_file.h"
 #include "sim/record/whole_file.h"
@@ -46,31 +44,31 @@ std::string roles(const RigConfig& rig) {
   return text;
 }
 
-/// The cameras to export, in that order.
-std::vector<RecordedCamera> choose(const Scenario& scenario, const std::vector<std::string>& wanted) {
+/// Returns the cameras to export, in the order of `requested`.
+std::vector<RecordedCamera> select_cameras(const Scenario& scenario, const std::vector<std::string>& requested) {
   using Channel = CameraConfig::Channel;
   const auto has_images = [](const CameraConfig& c) {
     return c.channel == Channel::grey || c.channel == Channel::color;
   };
   std::vector<const CameraConfig*> chosen;
   for (const CameraConfig& camera : scenario.rig.cameras) {
-    if (wanted.empty() && has_images(camera)) chosen.push_back(&camera);
+    if (requested.empty() && has_images(camera)) chosen.push_back(&camera);
   }
-  for (const std::string& role : wanted) {
+  for (const std::string& role : requested) {
     const CameraConfig* const camera = scenario.rig.find(role);
     if (!camera) {
-      throw InputError(fmt::format("--camera {}: no such camera in the rig; it has: {}", role, roles(scenario.rig)));
+      throw InputError(fmt::format("--camera {}: not in the rig; valid: {}", role, roles(scenario.rig)));
     }
     if (!has_images(*camera)) {
       const std::string_view what = camera->channel == Channel::depth ? "depth" : "corners";
-      throw InputError(fmt::format("--camera {}: it delivers {}, not images", role, what));
+      throw InputError(fmt::format("--camera {}: has {}, not images", role, what));
     }
     if (std::ranges::find(chosen, camera) != chosen.end()) {
-      throw InputError(fmt::format("--camera {}: named twice", role));
+      throw InputError(fmt::format("--camera {}: given twice", role));
     }
     chosen.push_back(camera);
   }
-  if (chosen.empty()) throw InputError("the rig has no camera that delivers images");
+  if (chosen.empty()) throw InputError("the rig has no camera with images");
   std::vector<RecordedCamera> cameras;
   for (const CameraConfig* const camera : chosen) {
     cameras.push_back(build_part("rig", [&] { return recorded(*camera, scenario.avionics.imu, scenario.seed); }));
@@ -83,28 +81,28 @@ std::vector<DataFile> texts(DataFormat format, const SensorRecord& record) {
   return format == DataFormat::kitti ? kitti_files(record) : euroc_files(record);
 }
 
-/// What a format cannot hold is reported before the flight.
+/// Reports before the flight if the format does not support the cameras.
 void check(const ExportRequest& request, SensorRecord record) {
   if (request.format == DataFormat::tum) {
     if (record.cameras.size() > 1) {
       std::string names;
       for (const RecordedCamera& camera : record.cameras) names += (names.empty() ? "" : ", ") + camera.role;
-      throw InputError("TUM's data are of one camera; choose it by --camera among: " + names);
+      throw InputError("the TUM format supports one camera; select it with --camera: " + names);
     }
     if (record.cameras[0].lens.fisheye) {
-      throw InputError(fmt::format("camera '{}': TUM's depth is that of a pinhole", record.cameras[0].role));
+      throw InputError(fmt::format("camera '{}': the TUM format supports pinholes only", record.cameras[0].role));
     }
   }
   texts(request.format, record);
   std::error_code error;
   if (std::filesystem::exists(request.out, error) && !std::filesystem::is_empty(request.out, error)) {
-    throw InputError(fmt::format("{}: is not an empty folder; name another by --out", request.out.string()));
+    throw InputError(fmt::format("{}: is not an empty folder; select another with --out", request.out.string()));
   }
   require_writable(request.out);
 }
 
-/// 16-bit, see kTumDepthPerMeter.
-cv::Mat tum_depth_overlay(const cv::Mat& depth_m) {
+/// Returns a 16-bit depth image, see kTumDepthPerMeter.
+cv::Mat tum_depth_image(const cv::Mat& depth_m) {
   cv::Mat depth(depth_m.size(), CV_16UC1, cv::Scalar(0));
   for (int v = 0; v < depth_m.rows; ++v) {
     for (int u = 0; u < depth_m.cols; ++u) {
@@ -115,7 +113,7 @@ cv::Mat tum_depth_overlay(const cv::Mat& depth_m) {
   return depth;
 }
 
-/// Writes images as they come and keeps the rest.
+/// Writes images during the flight and stores the other readings.
 class Recorder : public FlightWatcher {
  public:
   using Progress = std::function<void(double, double, double)>;
@@ -156,7 +154,7 @@ class Recorder : public FlightWatcher {
   bool write_images(const SensorTick& tick) {
     std::vector<const avoidance::CameraFrame*> frames;
     for (const RecordedCamera& camera : record_.cameras) frames.push_back(frame_of(tick, camera.role));
-    // KITTI numbers the images of all cameras alike: an instant of which one is lost is left out.
+    // KITTI numbers the images of all cameras equally, so an instant with a lost image is omitted.
     const bool lost = std::ranges::find(frames, nullptr) != frames.end();
     if (request_.format == DataFormat::kitti && lost) return false;
     bool any = false;
@@ -167,7 +165,7 @@ class Recorder : public FlightWatcher {
       write(file, frames[i]->image);
       if (request_.truth) true_images_.write(i, record_.cameras[i].role, tick, file.stem().string());
       if (request_.format == DataFormat::tum) {
-        write(tum_depth(tick.t_ns), tum_depth_overlay(tick.depth(record_.cameras[i].role)));
+        write(tum_depth(tick.t_ns), tum_depth_image(tick.depth(record_.cameras[i].role)));
       }
       record_.cameras[i].t_ns.push_back(tick.t_ns);
     }
@@ -194,10 +192,16 @@ class Recorder : public FlightWatcher {
 
 }  // namespace
 
+const RecordedState& state_at(const SensorRecord& record, int64_t t_ns) {
+  const auto at = std::ranges::lower_bound(record.states, t_ns, {}, &RecordedState::t_ns);
+  if (at == record.states.end() || at->t_ns != t_ns) throw std::out_of_range("no state was recorded at this time");
+  return *at;
+}
+
 Flight export_flight(const Scenario& scenario, const ExportRequest& request,
                      const std::function<void(double, double, double)>& progress) {
   SensorRecord record;
-  record.cameras = choose(scenario, request.cameras);
+  record.cameras = select_cameras(scenario, request.cameras);
   record.imu_config = scenario.avionics.imu;
   check(request, record);
   Recorder recorder(request, record, progress);

@@ -10,21 +10,21 @@
 
 namespace hedgehop::sim {
 
-/// Layouts that other programs read.
+/// Data set layouts of other programs.
 enum class DataFormat { euroc, tum, kitti };
 
 struct ExportRequest {
   DataFormat format = DataFormat::euroc;
   std::vector<std::string>
-      cameras;                ///< roles, in the order of cam0, cam1 ...; empty: all of the rig but those of depth
-  bool truth = false;         ///< write TrueImages, too
-  std::filesystem::path out;  ///< folder that does not exist or is empty
+      cameras;                ///< roles in the order of cam0, cam1 ...; empty: all cameras of the rig with images
+  bool truth = false;         ///< whether to write TrueImages
+  std::filesystem::path out;  ///< a folder that does not exist or is empty
 };
 
-/// Re-simulates a scenario and writes all sensors' readings, at their full rates, with their imperfections, and the
-/// truth. Depth of a TUM set is true. Throws InputError for a camera that the rig lacks or the format cannot hold, and
-/// for a folder that is not empty; std::runtime_error for a file that cannot be written.
-/// @param progress  as FlightWatcher::on_progress. @return the flight, the same as without recording.
+/// Re-simulates a scenario and writes the readings of all sensors at their full rates, with their imperfections, and
+/// the truth. The depth of a TUM data set is true. Throws InputError for a camera that the rig lacks or the format does
+/// not support, and for a folder that is not empty; std::runtime_error for a file that cannot be written.
+/// @param progress  as FlightWatcher::on_progress. @return the flight, equal to one without export.
 Flight export_flight(const Scenario& scenario, const ExportRequest& request,
                      const std::function<void(double t_s, double duration_s, double goal_distance_m)>& progress);
 

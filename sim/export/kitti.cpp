@@ -1,4 +1,4 @@
-#include "sim/export/kitti.h"
+#include "sim/export/formats.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 const std::filesystem::path kSequence = "sequences/00";
 
-/// Three rows of four, as all of KITTI's matrices.
+/// Returns a matrix of KITTI: three rows of four numbers.
 std::string row_by_row(const Eigen::Matrix<double, 3, 4>& matrix) {
   std::string text;
   for (int row = 0; row < 3; ++row) {
@@ -21,7 +21,7 @@ std::string row_by_row(const Eigen::Matrix<double, 3, 4>& matrix) {
   return text;
 }
 
-/// From the first camera's frame to homogeneous pixels.
+/// Returns the projection from the frame of the first camera to homogeneous pixels.
 Eigen::Matrix<double, 3, 4> projection(const RecordedCamera& camera, const RecordedCamera& first) {
   Eigen::Matrix3d K;
   K << camera.lens.focal_x_px, 0, camera.lens.center_u_px,  //
@@ -34,12 +34,12 @@ void check(const SensorRecord& record) {
   for (const RecordedCamera& camera : record.cameras) {
     const bool distorted = std::ranges::any_of(camera.lens.distortion, [](double k) { return k != 0.0; });
     if (camera.lens.fisheye || distorted) {
-      throw InputError(fmt::format("camera '{}': KITTI's images are those of undistorted pinholes", camera.role));
+      throw InputError(fmt::format("camera '{}': the KITTI format supports undistorted pinholes only", camera.role));
     }
     if (camera.rate_hz != record.cameras.front().rate_hz) {
       throw InputError(
-          fmt::format("camera '{}' takes {} images a second and '{}' {}: KITTI has one list of times; "
-                      "choose cameras of one rate by --camera",
+          fmt::format("camera '{}' has {} images per second, '{}' has {}; the KITTI format requires one rate: select "
+                      "cameras with --camera",
                       camera.role, camera.rate_hz, record.cameras.front().role, record.cameras.front().rate_hz));
     }
   }

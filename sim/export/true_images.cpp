@@ -11,12 +11,15 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kMost = std::numeric_limits<uint16_t>::max();
+constexpr double kMaxLabel = std::numeric_limits<uint16_t>::max();
 
 cv::Mat small_labels(const cv::Mat& labels) {
-  double most = 0.0;
-  cv::minMaxLoc(labels, nullptr, &most);
-  if (most > kMost) throw std::runtime_error(fmt::format("a scene of {:.0f} labels, more than 16 bit can tell", most));
+  double max_label = 0.0;
+  cv::minMaxLoc(labels, nullptr, &max_label);
+  if (max_label > kMaxLabel) {
+    throw std::runtime_error(
+        fmt::format("the scene has {:.0f} labels; maximum of 16 bit: {:.0f}", max_label, kMaxLabel));
+  }
   cv::Mat small;
   labels.convertTo(small, CV_16UC1);
   return small;
@@ -41,9 +44,9 @@ cv::Mat kitti_flow(const cv::Mat& flow_px) {
 
 void TrueImages::write(size_t camera, const std::string& role, const SensorTick& tick, const std::string& stem) {
   const std::filesystem::path folder = out_ / "truth" / fmt::format("cam{}", camera);
-  const auto write = [&](const char* what, const std::string& name, const cv::Mat& image) {
-    std::filesystem::create_directories(folder / what);
-    write_png(folder / what / (name + ".png"), image);
+  const auto write = [&](const char* kind, const std::string& name, const cv::Mat& image) {
+    std::filesystem::create_directories(folder / kind);
+    write_png(folder / kind / (name + ".png"), image);
   };
   write("depth", stem, depth_mm(tick.depth(role)));
   write("labels", stem, small_labels(tick.labels(role)));

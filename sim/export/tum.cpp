@@ -1,11 +1,11 @@
-#include "sim/export/tum.h"
+#include "sim/export/formats.h"
 
 #include <fmt/format.h>
 
 namespace hedgehop::sim {
 namespace {
 
-/// Seconds, to the nanosecond.
+/// Returns seconds with nanosecond resolution.
 std::string seconds(int64_t t_ns) { return fmt::format("{}.{:09}", t_ns / 1'000'000'000, t_ns % 1'000'000'000); }
 
 std::string image_list(const char* title, const std::vector<int64_t>& t_ns, std::filesystem::path (*file)(int64_t)) {

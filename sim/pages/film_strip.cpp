@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "sim/fields/quantities.h"
-#include "sim/record/film_watcher.h"
+#include "sim/record/film.h"
 #include "sim/record/image_file.h"
 #include "sim/record/run_record.h"
 #include "sim/record/whole_file.h"

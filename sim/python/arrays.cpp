@@ -1,4 +1,4 @@
-#include "sim/python/arrays.h"
+#include "sim/python/bindings.h"
 
 #include <memory>
 #include <stdexcept>
@@ -19,14 +19,14 @@ py::dtype type_of(const cv::Mat& image) {
     case CV_64F:
       return py::dtype::of<double>();
     default:
-      throw std::invalid_argument("an image has a type that no camera delivers");
+      throw std::invalid_argument("the image has an unsupported type");
   }
 }
 
 }  // namespace
 
 py::array view_of(const cv::Mat& image) {
-  auto held = std::make_unique<cv::Mat>(image);  // shares the memory and counts as its user
+  auto held = std::make_unique<cv::Mat>(image);  // shares the memory
   const py::capsule owner(held.get(), [](void* mat) { delete static_cast<cv::Mat*>(mat); });
   const cv::Mat& mat = *held.release();
   std::vector<py::ssize_t> shape = {mat.rows, mat.cols};

@@ -1,31 +1,46 @@
 #pragma once
 
+#include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <Eigen/Geometry>
 #include <memory>
+#include <opencv2/core.hpp>
 
 #include "avoidance/module.h"
 
-/// The C++ side of the Python package `hedgehop`: states, commands, modules and the simulation, with the unit of every
-/// figure in its name.
+/// The C++ part of the Python package `hedgehop`: states, commands, modules and the simulation. Names of numbers end in
+/// their units.
 namespace hedgehop::python {
 
-/// What a module gets, as Python sees it.
+/// The observation of a module in Python.
 struct Observation {
   int64_t t_ns = 0;
-  pybind11::dict images;  ///< role: array; a view that is good until the simulation moves on
+  pybind11::dict images;  ///< role: array; a view that is valid until the simulation continues
   avoidance::NavigationState navigation;
   avoidance::Goal goal;
 };
 Observation to_python(const avoidance::Observation& observation);
 
-/// A command, or the Decision that holds one. Throws std::invalid_argument for anything else.
+/// Returns the decision from a command or a Decision. Throws std::invalid_argument for any other object.
 avoidance::Decision to_decision(const pybind11::handle& answer);
 
-/// A module whose class is Python's. @param instance  has `update`; `needs`, `reset`, `signals`, `metrics`, `annotate`
-/// where it wants them. Every call takes the interpreter's lock; what Python raises comes out as std::runtime_error of
-/// one line, with the places.
-std::unique_ptr<avoidance::Module> adopt(pybind11::object instance);
+/// Returns a module implemented by a Python object. Each call holds the lock of the interpreter. Python exceptions
+/// become std::runtime_error with one line that includes the places.
+/// @param instance  has `update`, and optionally `needs`, `reset`, `signals`, `metrics`, `annotate`.
+std::unique_ptr<avoidance::Module> wrap_python_object(pybind11::object instance);
+
+/// Returns a read-only array with the memory of the image: rows x cols, or rows x cols x channels. The array owns a
+/// share of the memory; the next image may overwrite it. Throws std::invalid_argument for an empty image.
+pybind11::array view_of(const cv::Mat& image);
+
+/// Returns a copy of an image of a module, rows x cols x 3 of uint8. Throws std::invalid_argument for another shape or
+/// type.
+cv::Mat rgb_image(const pybind11::handle& array);
+
+/// Returns (w, x, y, z).
+inline Eigen::Vector4d wxyz(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
 void bind_states(pybind11::module_& native);
 void bind_modules(pybind11::module_& native);

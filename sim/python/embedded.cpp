@@ -10,21 +10,20 @@
 #include "avoidance/module.h"
 #include "sim/plugin/foreign_module.h"
 
-/// The library through which a program without an interpreter flies modules in Python. The package beside it does the
-/// work.
+/// The library that runs Python modules in a program without an interpreter. It uses the package in its folder.
 namespace py = pybind11;
 
 namespace {
 
-/// Folder of this library, which is the package's.
+/// Returns the folder of this library, which is that of the package.
 std::filesystem::path package() {
   Dl_info info{};
   ::dladdr(reinterpret_cast<const void*>(&package), &info);
   return std::filesystem::absolute(info.dli_fname).parent_path();
 }
 
-/// Whose packages are used: those of the virtual environment that is active, else of the Python that this was built
-/// with, whatever else is found first in PATH.
+/// Returns the interpreter whose packages are used: that of the active virtual environment, else that of the build.
+/// PATH has no effect.
 std::filesystem::path interpreter() {
   if (const char* const environment = std::getenv("VIRTUAL_ENV")) {
     const std::filesystem::path python = std::filesystem::path(environment) / "bin/python3";
@@ -33,7 +32,7 @@ std::filesystem::path interpreter() {
   return HEDGEHOP_PYTHON;
 }
 
-/// Starts the interpreter, once; it ends with the program. Signals stay the program's.
+/// Starts the interpreter once. The signal handlers of the program remain.
 void start() {
   if (Py_IsInitialized()) return;
   PyConfig config;
@@ -43,16 +42,16 @@ void start() {
   struct sigaction on_interrupt {};
   ::sigaction(SIGINT, nullptr, &on_interrupt);
   py::initialize_interpreter(&config);
-  py::module_::import("signal");  // which takes Ctrl-C whatever the config says
+  py::module_::import("signal");  // sets a handler for Ctrl-C in spite of the config
   ::sigaction(SIGINT, &on_interrupt, nullptr);
   const py::module_ sys = py::module_::import("sys");
   sys.attr("path").attr("insert")(0, package().parent_path().string());
-  sys.attr("stdout") = sys.attr("stderr");  // standard output holds results alone
+  sys.attr("stdout") = sys.attr("stderr");  // standard output is for results only
   py::module_::import("hedgehop._native");
-  PyEval_SaveThread();  // from here on whoever calls takes the lock
+  PyEval_SaveThread();  // from now on, each call acquires the lock
 }
 
-/// What was raised, and what that came from.
+/// Returns the text of an exception and of its causes.
 std::string words(py::handle raised) {
   const py::object cause = raised.attr("__cause__");
   return py::str(raised).cast<std::string>() + (cause.is_none() ? "" : ": " + words(cause));
@@ -60,7 +59,7 @@ std::string words(py::handle raised) {
 
 }  // namespace
 
-/// Throws std::runtime_error with one line.
+/// Creates a module. Throws std::runtime_error with one line.
 extern "C" __attribute__((visibility("default"))) hedgehop::avoidance::Module* hedgehop_make_python_module(
     const hedgehop::sim::PythonRequest& request) {
   try {

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "sim/config/input_error.h"
+#include "sim/flight/build.h"
 #include "sim/plugin/foreign_module.h"
-#include "sim/python/arrays.h"
 #include "sim/python/bindings.h"
 
 namespace hedgehop::python {
@@ -13,7 +14,7 @@ using namespace py::literals;
 
 namespace {
 
-/// What Python raised, in one line: what, then where, the innermost place last.
+/// Returns a Python exception in one line: the message, then the places, innermost last.
 std::string one_line(const py::error_already_set& error) {
   const py::object traceback = py::module_::import("traceback");
   const py::object lines = traceback.attr("format_exception_only")(error.type(), error.value());
@@ -21,7 +22,7 @@ std::string one_line(const py::error_already_set& error) {
   if (error.trace()) {
     for (const py::handle& frame : traceback.attr("extract_tb")(error.trace())) {
       const auto file = py::str(frame.attr("filename")).cast<std::string>();
-      if (file.starts_with("<frozen ") || file.ends_with("/hedgehop/_loading.py")) continue;  // not the module's own
+      if (file.starts_with("<frozen ") || file.ends_with("/hedgehop/_loading.py")) continue;  // not part of the module
       text += " | " + file + ":" + py::str(frame.attr("lineno")).cast<std::string>() + " in " +
               py::str(frame.attr("name")).cast<std::string>();
     }
@@ -30,42 +31,42 @@ std::string one_line(const py::error_already_set& error) {
   return text;
 }
 
-/// Calls Python with its lock held.
+/// Calls Python with the lock of the interpreter.
 template <class Call>
 auto locked(const Call& call) {
   const py::gil_scoped_acquire lock;
   try {
     return call();
   } catch (const py::error_already_set& error) {
-    const std::string what = one_line(error);
-    if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();  // raised again once the call is over
-    throw std::runtime_error(what);
+    const std::string message = one_line(error);
+    if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();  // raised again after the call
+    throw std::runtime_error(message);
   } catch (const py::cast_error& error) {
     throw std::runtime_error(error.what());
   }
 }
 
-[[noreturn]] void refuse(const py::handle& value, const std::string& name, const std::string& meant) {
-  constexpr size_t kMostLetters = 80;
+[[noreturn]] void refuse(const py::handle& value, const std::string& name, const std::string& expected) {
+  constexpr size_t kMaxLetters = 80;
   std::string got = py::repr(value);
-  if (got.size() > kMostLetters) got = got.substr(0, kMostLetters) + "...";
-  throw std::runtime_error("'" + name + "' must be " + meant + ", got " + got);
+  if (got.size() > kMaxLetters) got = got.substr(0, kMaxLetters) + "...";
+  throw std::runtime_error("'" + name + "' must be " + expected + ", got " + got);
 }
 
-/// The value as C++ has it. Throws std::runtime_error saying what it must be and what it is.
+/// Returns the value as a C++ type. Throws std::runtime_error with the expected and the actual value.
 template <class T>
-T as(const py::handle& value, const std::string& name, const std::string& meant) {
+T as(const py::handle& value, const std::string& name, const std::string& expected) {
   try {
     return value.cast<T>();
   } catch (const py::cast_error&) {
-    refuse(value, name, meant);
+    refuse(value, name, expected);
   }
 }
 
 class PythonModule : public avoidance::Module {
  public:
   explicit PythonModule(py::object instance) : instance_(std::move(instance)) {
-    if (!py::hasattr(instance_, "update")) throw std::invalid_argument("a module's class needs a method update()");
+    if (!py::hasattr(instance_, "update")) throw std::invalid_argument("the class of a module needs a method update()");
   }
   ~PythonModule() override {
     const py::gil_scoped_acquire lock;
@@ -89,7 +90,7 @@ class PythonModule : public avoidance::Module {
       std::vector<avoidance::Signal> signals;
       const py::object announced = given("signals", py::dict());
       if (!py::isinstance<py::dict>(announced)) refuse(announced, "signals", kSignals);
-      for (const auto& [name, unit] : py::reinterpret_borrow<py::dict>(announced)) {  // in the class's own order
+      for (const auto& [name, unit] : py::reinterpret_borrow<py::dict>(announced)) {  // in the order of the class
         if (!py::isinstance<py::str>(name) || !py::isinstance<py::str>(unit)) refuse(announced, "signals", kSignals);
         signals.push_back({name.cast<std::string>(), unit.cast<std::string>()});
       }
@@ -122,7 +123,7 @@ class PythonModule : public avoidance::Module {
     });
   }
 
-  /// What an attribute holds, or what it returns when it can be called.
+  /// Returns the value of an attribute, or its return value if it is callable.
   py::object given(const char* name, py::object otherwise) const {
     if (!py::hasattr(instance_, name)) return otherwise;
     py::object value = instance_.attr(name);
@@ -142,13 +143,13 @@ class PythonModule : public avoidance::Module {
 std::unique_ptr<avoidance::Module> load(const sim::PythonRequest& request) {
   return locked([&] {
     const py::object loading = py::module_::import("hedgehop._loading");
-    return adopt(loading.attr("load_module")(request.file, request.class_name, request.parameters));
+    return wrap_python_object(loading.attr("load_module")(request.file, request.class_name, request.parameters));
   });
 }
 
 }  // namespace
 
-std::unique_ptr<avoidance::Module> adopt(py::object instance) {
+std::unique_ptr<avoidance::Module> wrap_python_object(py::object instance) {
   return std::make_unique<PythonModule>(std::move(instance));
 }
 
@@ -160,7 +161,19 @@ void bind_modules(py::module_& native) {
         const sim::PythonRequest request{std::move(file), std::move(class_name), std::move(parameters)};
         return reinterpret_cast<uintptr_t>(load(request).release());
       },
-      "a module for a program that embeds this interpreter, which owns it from then on");
+      "Returns a module for a program that embeds this interpreter; the program owns the module.");
 }
 
 }  // namespace hedgehop::python
+
+PYBIND11_MODULE(_native, native) {
+  namespace py = pybind11;
+  native.doc() = "The C++ part of hedgehop; use the names of the package.";
+  py::register_exception<hedgehop::sim::InputError>(native, "InputError", PyExc_ValueError).doc() =
+      "Invalid input: one line per fault, as printed by `hedgehop run`.";
+  native.attr("version") = std::string(hedgehop::sim::version());
+  native.attr("build") = std::string(hedgehop::sim::build_identity());
+  hedgehop::python::bind_states(native);
+  hedgehop::python::bind_modules(native);
+  hedgehop::python::bind_simulation(native);
+}

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "sim/flight/build.h"
-#include "sim/python/arrays.h"
 #include "sim/python/bindings.h"
 #include "sim/record/flight_columns.h"
 #include "sim/record/result_files.h"
@@ -31,7 +30,7 @@ sim::ImageChannel to_channel(const std::string& name) {
 }
 static_assert(static_cast<int>(sim::ImageChannel::labels) == 3);
 
-/// A simulation and the thread that it belongs to; others wait for no lock while it flies.
+/// A simulation and its thread. Other threads are not blocked while it flies.
 class PySimulation {
  public:
   PySimulation(sim::LoadedScenario loaded, std::string file, std::vector<std::string> overrides,
@@ -51,7 +50,7 @@ class PySimulation {
 
   sim::Simulation& get() {
     if (std::this_thread::get_id() != thread_) {
-      throw std::runtime_error("a Simulation is used by the thread that made it alone; make one in each thread");
+      throw std::runtime_error("a Simulation can be used only by the thread that created it; create one per thread");
     }
     return *simulation_;
   }
@@ -72,7 +71,7 @@ class PySimulation {
         command, [](sim::Simulation& s) { s.tick(); }, [](sim::Simulation& s, const auto& c) { s.tick(c); });
     return seen();
   }
-  /// To the end; Ctrl-C is heard between two decisions.
+  /// Flies to the end. Ctrl-C is handled between two decisions.
   void run_through() {
     while (!get().over()) unlocked([](sim::Simulation& s) { s.step(); });
   }
@@ -111,7 +110,7 @@ class PySimulation {
   }
   template <class Plain, class Commanded>
   void fly(const py::object& command, const Plain& plain, const Commanded& commanded) {
-    if (get().over()) throw std::runtime_error("the flight is over; reset() begins another");
+    if (get().over()) throw std::runtime_error("the flight is over; reset() starts a new one");
     if (command.is_none()) {
       unlocked(plain);
     } else {
@@ -122,7 +121,7 @@ class PySimulation {
   }
 
   const sim::Flight& judged() {
-    if (!get().over()) throw std::runtime_error("the flight is not over; run() flies it to its end");
+    if (!get().over()) throw std::runtime_error("the flight is not over; run() completes it");
     if (!judged_) judged_ = get().result();
     return *judged_;
   }
@@ -130,7 +129,7 @@ class PySimulation {
     const sim::Scenario& scenario = get().scenario();
     std::string line = fmt::format("hedgehop run {} --seed {}", file_, scenario.seed);
     for (const std::string& text : overrides_) line += fmt::format(" --set '{}'", text);
-    if (is_steered_) line += " # but steered from Python";
+    if (is_steered_) line += " # but controlled from Python";
     return {scenario.name, scenario.seed, std::string(sim::version()), std::string(sim::build_identity()), inputs_,
             file_,         line,          sim::to_yaml(scenario)};
   }
@@ -138,19 +137,21 @@ class PySimulation {
   std::string file_;
   std::vector<std::string> overrides_;
   sim::Inputs inputs_;
-  bool is_steered_;  ///< by a module or commands that no file names
+  bool is_steered_;  ///< whether a module or commands come from Python
   std::optional<sim::Simulation> simulation_;
   std::optional<sim::Flight> judged_;
   std::thread::id thread_ = std::this_thread::get_id();
 };
 
-/// @param module  a class, a new object for each flight, or an object, or None. @param cameras  whose images are seen
-/// where no module is meant to fly; None for the module's own.
+/// @param module   a class (a new object for each flight), an object, or None.
+/// @param cameras  roles of the images if no module flies; None for the cameras of the module.
 std::unique_ptr<PySimulation> make(const std::optional<std::string>& file, const std::optional<std::string>& text,
                                    std::optional<uint64_t> seed, std::vector<std::string> overrides,
                                    const py::object& module, const std::optional<std::vector<std::string>>& cameras) {
-  if (file.has_value() == text.has_value()) throw std::invalid_argument("give a scenario's file, or its text");
-  if (!module.is_none() && cameras) throw std::invalid_argument("a module names its own cameras: give one of the two");
+  if (file.has_value() == text.has_value())
+    throw std::invalid_argument("give either the file of the scenario or its text");
+  if (!module.is_none() && cameras)
+    throw std::invalid_argument("give either a module, which names its cameras, or cameras");
   sim::LoadedScenario loaded =
       file ? sim::load_flight(*file, overrides, seed) : sim::load_flight_text(*text, overrides, seed);
   sim::ModuleMaker maker;
@@ -158,7 +159,7 @@ std::unique_ptr<PySimulation> make(const std::optional<std::string>& file, const
   if (!module.is_none()) {
     maker = [module] {
       const py::gil_scoped_acquire lock;
-      return adopt(PyType_Check(module.ptr()) ? module() : module);
+      return wrap_python_object(PyType_Check(module.ptr()) ? module() : module);
     };
   }
   return std::make_unique<PySimulation>(std::move(loaded), file.value_or("scenario text"), std::move(overrides),

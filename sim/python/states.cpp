@@ -5,7 +5,6 @@
 
 #include "avoidance/policy/action_pilot.h"
 #include "sim/fields/quantities.h"
-#include "sim/python/arrays.h"
 #include "sim/python/bindings.h"
 #include "sim/simulation/simulation.h"
 
@@ -18,7 +17,7 @@ namespace {
 
 void bind_commands(py::module_& native) {
   py::class_<VelocityCommand>(native, "VelocityCommand",
-                              "Fly at a horizontal velocity (north, east), hold a height and a heading.")
+                              "Fly at a horizontal velocity (north, east), and hold altitude and heading.")
       .def(py::init([](const Eigen::Vector2d& v, double altitude_m, double heading_rad) {
              return VelocityCommand{v, altitude_m, heading_rad};
            }),
@@ -26,14 +25,14 @@ void bind_commands(py::module_& native) {
       .def_readwrite("v_WB_W_mps", &VelocityCommand::v_WB_W)
       .def_readwrite("altitude_m", &VelocityCommand::altitude_m)
       .def_readwrite("heading_rad", &VelocityCommand::heading_rad);
-  py::class_<PositionCommand>(native, "PositionCommand", "Fly to a point of W (north, east, down) and stay there.")
+  py::class_<PositionCommand>(native, "PositionCommand", "Fly to a point in W (north, east, down) and hover there.")
       .def(py::init([](const Eigen::Vector3d& p, double heading_rad) {
              return PositionCommand{p, heading_rad};
            }),
            "p_WB_m"_a, "heading_rad"_a)
       .def_readwrite("p_WB_m", &PositionCommand::p_WB)
       .def_readwrite("heading_rad", &PositionCommand::heading_rad);
-  py::class_<AttitudeCommand>(native, "AttitudeCommand", "Hold an attitude and a height.")
+  py::class_<AttitudeCommand>(native, "AttitudeCommand", "Hold attitude and altitude.")
       .def(py::init([](double roll_rad, double pitch_rad, double heading_rad, double altitude_m) {
              return AttitudeCommand{roll_rad, pitch_rad, heading_rad, altitude_m};
            }),
@@ -42,10 +41,10 @@ void bind_commands(py::module_& native) {
       .def_readwrite("pitch_rad", &AttitudeCommand::pitch_rad)
       .def_readwrite("heading_rad", &AttitudeCommand::heading_rad)
       .def_readwrite("altitude_m", &AttitudeCommand::altitude_m);
-  py::class_<HoverCommand>(native, "HoverCommand", "Stop and stay; turn at a rate.")
+  py::class_<HoverCommand>(native, "HoverCommand", "Hover, with a yaw rate.")
       .def(py::init([](double yaw_rate_radps) { return HoverCommand{yaw_rate_radps}; }), "yaw_rate_radps"_a = 0.0)
       .def_readwrite("yaw_rate_radps", &HoverCommand::yaw_rate_radps);
-  py::class_<Decision>(native, "Decision", "A command, one word of status, and the signals that the module announced.")
+  py::class_<Decision>(native, "Decision", "A command, a status word, and the values of the module's signals.")
       .def(py::init([](const Command& command, std::string status, std::vector<double> signals) {
              return Decision{command, std::move(status), std::move(signals)};
            }),
@@ -56,8 +55,7 @@ void bind_commands(py::module_& native) {
 }
 
 void bind_observation(py::module_& native) {
-  py::class_<NavigationState>(native, "NavigationState",
-                              "The aircraft's own estimate of its motion, from its noisy sensors.")
+  py::class_<NavigationState>(native, "NavigationState", "The estimated motion of the aircraft, from noisy sensors.")
       .def(py::init<>())
       .def_readwrite("p_WB_est_m", &NavigationState::p_WB_est)
       .def_property(
@@ -73,29 +71,29 @@ void bind_observation(py::module_& native) {
           [](NavigationState& n, const Eigen::Vector4d& q) {
             n.q_WB_gyro = {q[0], q[1], q[2], q[3]};
           },
-          "attitude by the gyros alone, (w, x, y, z)")
+          "attitude from the gyros only, (w, x, y, z)")
       .def_readwrite("height_above_ground_m", &NavigationState::height_above_ground_m)
       .def_readwrite("range_m", &NavigationState::range_m);
-  py::class_<Goal>(native, "Goal", "Where to fly next.")
+  py::class_<Goal>(native, "Goal", "The current goal.")
       .def(py::init([](const Eigen::Vector3d& p, double heading_rad) {
              return Goal{p, heading_rad};
            }),
            "p_WG_m"_a = Eigen::Vector3d(Eigen::Vector3d::Zero()), "heading_rad"_a = 0.0)
       .def_readwrite("p_WG_m", &Goal::p_WG)
       .def_readwrite("heading_rad", &Goal::heading_rad);
-  py::class_<Observation>(native, "Observation", "What a module gets: images, navigation, the place to fly to.")
+  py::class_<Observation>(native, "Observation", "The input of a module: images, navigation, goal.")
       .def(py::init([](int64_t t_ns, py::dict images, const NavigationState& navigation, const Goal& goal) {
              return Observation{t_ns, std::move(images), navigation, goal};
            }),
            "t_ns"_a, "images"_a, "navigation"_a, "goal"_a)
       .def_readonly("t_ns", &Observation::t_ns)
       .def_property_readonly("t_s", [](const Observation& o) { return seconds(o.t_ns); })
-      .def_readonly("images", &Observation::images, "role: array, good until the simulation moves on")
+      .def_readonly("images", &Observation::images, "role: array, valid until the simulation continues")
       .def_readonly("navigation", &Observation::navigation)
       .def_readonly("goal", &Observation::goal);
 }
 
-/// Unit directions of all pixels in C, rows x cols x 3; NaN where the lens shows nothing.
+/// Returns the unit rays of all pixels in C, rows x cols x 3; NaN outside the image circle.
 py::array_t<double> rays(const MountedCamera& camera) {
   const int rows = camera.model.height_px, cols = camera.model.width_px;
   py::array_t<double> directions({rows, cols, 3});
@@ -110,7 +108,7 @@ py::array_t<double> rays(const MountedCamera& camera) {
 }
 
 void bind_setup(py::module_& native) {
-  py::class_<CameraNeed> need(native, "CameraNeed", "A camera that a module cannot fly without.");
+  py::class_<CameraNeed> need(native, "CameraNeed", "A camera that a module requires.");
   py::enum_<CameraNeed::Channel>(need, "Channel")
       .value("grey", CameraNeed::Channel::grey)
       .value("color", CameraNeed::Channel::color)
@@ -128,7 +126,7 @@ void bind_setup(py::module_& native) {
       .def_readonly("role", &CameraNeed::role)
       .def_readonly("channel", &CameraNeed::channel)
       .def_readonly("pinhole", &CameraNeed::pinhole);
-  py::class_<MountedCamera>(native, "MountedCamera", "A camera as the calibration has it. C: right, down, forward.")
+  py::class_<MountedCamera>(native, "MountedCamera", "A calibrated camera. C: right, down, forward.")
       .def_readonly("role", &MountedCamera::role)
       .def_readonly("rate_hz", &MountedCamera::rate_hz)
       .def_property_readonly("width_px", [](const MountedCamera& c) { return c.model.width_px; })
@@ -144,7 +142,7 @@ void bind_setup(py::module_& native) {
           "focal lengths and principal point; ValueError for another lens")
       .def_property_readonly(
           "X_BC", [](const MountedCamera& c) { return Eigen::Matrix4d(c.X_BC.matrix()); }, "pose in B, 4 x 4")
-      .def("rays", &rays, "unit directions of all pixels in C, rows x columns x 3; NaN where the lens shows nothing");
+      .def("rays", &rays, "unit rays of all pixels in C, rows x columns x 3; NaN outside the image circle");
   py::class_<VehicleLimits>(native, "VehicleLimits")
       .def_readonly("speed_mps", &VehicleLimits::speed_mps)
       .def_readonly("acceleration_mps2", &VehicleLimits::acceleration_mps2)
@@ -158,8 +156,8 @@ void bind_setup(py::module_& native) {
             }
             return boxes;
           },
-          "boxes that hold the hull, as pairs of corners in B");
-  py::class_<Setup>(native, "Setup", "What a module is told before a flight.")
+          "boxes that contain the hull, as pairs of corners in B");
+  py::class_<Setup>(native, "Setup", "The input of a module before a flight.")
       .def_readonly("cameras", &Setup::cameras)
       .def_readonly("limits", &Setup::limits)
       .def_property_readonly(
@@ -168,22 +166,23 @@ void bind_setup(py::module_& native) {
             if (!s.altitude_band) return std::nullopt;
             return std::pair{s.altitude_band->min_m, s.altitude_band->max_m};
           },
-          "lowest and highest altitude of the mission; None where it keeps its height")
+          "minimum and maximum altitude of the mission; None if the altitude is fixed")
       .def_readonly("seed", &Setup::seed);
 }
 
 void bind_policies(py::module_& native) {
   using policy::ActionPilot;
   native.def("state_of", &policy::state_of, "navigation"_a, "goal"_a,
-             "What a policy is told besides images: ten numbers, as Env's \"state\".");
-  py::class_<ActionPilot>(native, "ActionPilot",
-                          "Turns actions into commands, as Env does; begins at a height and heading.")
+             "The state for a policy: ten numbers, as \"state\" of Env.");
+  py::class_<ActionPilot>(
+      native, "ActionPilot",
+      "Converts actions into commands, as in Env. Starts at the altitude and heading of a navigation state.")
       .def(py::init<const NavigationState&>(), "navigation"_a)
       .def("fly", &ActionPilot::fly, "action"_a, "navigation"_a, "speed_limit_mps"_a, "step_s"_a);
 }
 
 void bind_truth(py::module_& native) {
-  py::class_<sim::TrueMotion>(native, "TrueMotion", "How the vehicle truly moves: for who judges, not for who decides.")
+  py::class_<sim::TrueMotion>(native, "TrueMotion", "The true motion of the vehicle, for evaluation only.")
       .def_readonly("p_WB_m", &sim::TrueMotion::p_WB)
       .def_property_readonly(
           "q_WB", [](const sim::TrueMotion& t) { return wxyz(t.q_WB); }, "(w, x, y, z)")

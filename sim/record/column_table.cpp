@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "sim/config/input_error.h"
-#include "sim/record/csv_line.h"
 #include "sim/record/csv_table.h"
 
 namespace hedgehop::sim {
@@ -33,7 +32,7 @@ const Values& ColumnTable::column(std::string_view name) const {
   };
   if (found == names_.end()) refuse(fmt::format("no column '{}'", name));
   const auto* const values = std::get_if<Values>(&columns_[static_cast<size_t>(found - names_.begin())]);
-  if (!values) refuse(fmt::format("column '{}' is of the other kind", name));
+  if (!values) refuse(fmt::format("column '{}' has the wrong type", name));
   return *values;
 }
 

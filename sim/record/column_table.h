@@ -10,11 +10,11 @@
 
 namespace hedgehop::sim {
 
-/// A table in memory: named columns of equal length, each of numbers (NaN where unknown) or of words.
+/// A table in memory: named columns of equal length, each with numbers (NaN if unknown) or words.
 class ColumnTable {
  public:
   ColumnTable() = default;
-  /// @param file  that it is read from, for faults.
+  /// @param file  name of the source file, for messages.
   explicit ColumnTable(std::string file) : file_(std::move(file)) {}
 
   void add(std::string name, std::vector<double> numbers);
@@ -22,13 +22,13 @@ class ColumnTable {
 
   size_t rows() const { return rows_; }
   const std::vector<std::string>& names() const { return names_; }
-  /// A column of numbers or words. Throws std::runtime_error naming the column when it is missing or of the other kind;
-  /// of a table from a file, InputError naming that, too.
+  /// Returns a column of numbers or words. Throws std::runtime_error that names the column if it is missing or of the
+  /// other kind; InputError that also names the file if the table was read from a file.
   const std::vector<double>& numbers(std::string_view name) const;
   const std::vector<std::string>& words(std::string_view name) const;
 
-  /// The table as comma-separated values with a header line (RFC 4180). Numbers are the shortest that read back to the
-  /// same double; a number that is unknown (NaN) is an empty field.
+  /// Returns the table as comma-separated values with a header line (RFC 4180). Numbers have the shortest text that
+  /// reads back to the same double. NaN is an empty field.
   std::string csv() const;
 
  private:
@@ -42,8 +42,8 @@ class ColumnTable {
   size_t rows_ = 0;
 };
 
-/// Reads a CSV file. @param words  names of its columns of words; all others are numbers.
-/// Throws InputError naming file, line and column for what cannot be read.
+/// Reads a CSV file. @param words  names of the columns of words; all others are numbers.
+/// Throws InputError with file, line and column of a fault.
 ColumnTable read_columns(const std::filesystem::path& file, std::span<const std::string_view> words = {});
 
 }  // namespace hedgehop::sim

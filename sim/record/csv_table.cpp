@@ -12,8 +12,8 @@
 namespace hedgehop::sim {
 namespace {
 
-/// Takes the next record off `rest`, split at its commas; a line break inside quotes belongs to its field (RFC 4180).
-/// @return how many lines it spans.
+/// Removes the next record from `rest` and splits it at commas. A line break inside quotes belongs to its field (RFC
+/// 4180). Returns the number of lines of the record.
 size_t take_record(std::string_view& rest, std::vector<std::string_view>& fields) {
   size_t begin = 0, lines = 1;
   bool quoted = false;
@@ -38,7 +38,7 @@ std::string unquoted(std::string_view field) {
   std::string word;
   for (size_t i = 1; i + 1 < field.size(); ++i) {
     word.push_back(field[i]);
-    if (field[i] == '"') ++i;  // doubled
+    if (field[i] == '"') ++i;  // a doubled quote
   }
   return word;
 }
@@ -55,8 +55,7 @@ CsvTable::CsvTable(const std::filesystem::path& file) : file_(file.string()), te
       continue;
     }
     if (fields.size() != names_.size()) {
-      throw InputError(
-          fmt::format("{}:{}: {} fields where the header has {}", file_, number, fields.size(), names_.size()));
+      throw InputError(fmt::format("{}:{}: {} fields; the header has {}", file_, number, fields.size(), names_.size()));
     }
     fields_.insert(fields_.end(), fields.begin(), fields.end());
     first_lines_.push_back(number);
@@ -78,7 +77,7 @@ std::vector<double> CsvTable::numbers(std::string_view name) const {
     if (text.empty()) continue;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), values[r]);
     if (error != std::errc() || end != text.data() + text.size()) {
-      throw InputError(fmt::format("{}:{}: '{}' in column '{}' is no number", file_, first_lines_[r], text, name));
+      throw InputError(fmt::format("{}:{}: '{}' in column '{}' is not a number", file_, first_lines_[r], text, name));
     }
   }
   return values;

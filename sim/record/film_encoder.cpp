@@ -13,9 +13,9 @@ extern "C" {
 namespace hedgehop::sim {
 namespace {
 
-/// Bits per pixel and image that keep rendered scenes legible; 1000 x 700 at 25 Hz then takes 1.4 Mbit/s.
+/// Bits per pixel and image, sufficient for rendered scenes: 1.4 Mbit/s for 1000 x 700 px at 25 Hz.
 constexpr double kBitsPerPixel = 0.08;
-/// A whole image at least this often, so that seeking is quick.
+/// Maximum time between key frames, for fast seeking.
 constexpr double kKeyframePeriodS = 2.0;
 
 template <class T, void (*Free)(T**)>
@@ -50,12 +50,12 @@ CodecContext make_encoder(double rate_hz, cv::Size size_px) {
   encoder->pix_fmt = AV_PIX_FMT_YUV420P;
   encoder->color_range = AVCOL_RANGE_MPEG;
   encoder->colorspace = AVCOL_SPC_SMPTE170M;
-  // Time in microticks of an image, so that any rate is exact enough.
+  // A rational number with a large denominator represents any rate with sufficient accuracy.
   encoder->framerate = av_d2q(rate_hz, 1 << 20);
   encoder->time_base = av_inv_q(encoder->framerate);
   encoder->gop_size = std::max(1, static_cast<int>(kKeyframePeriodS * rate_hz));
   encoder->bit_rate = static_cast<int64_t>(kBitsPerPixel * rate_hz * size_px.area());
-  encoder->thread_count = 1;  // the flight is the unit of parallelism
+  encoder->thread_count = 1;  // flights are the unit of parallelism
   av_opt_set(encoder->priv_data, "deadline", "realtime", 0);
   av_opt_set(encoder->priv_data, "cpu-used", "16", 0);
   av_opt_set(encoder->priv_data, "lag-in-frames", "0", 0);
@@ -98,7 +98,7 @@ class Vp8Encoder : public FilmEncoder {
   }
 
  private:
-  /// The encoder takes what it keeps of an image before it returns, so the planes serve without a copy.
+  /// The encoder copies the image before it returns, so no copy is necessary here.
   void point_frame_at_planes(const cv::Mat& i420) {
     const int luma = size_px_.area(), chroma = luma / 4;
     frame_->data[0] = i420.data;

@@ -9,7 +9,7 @@
 namespace hedgehop::sim {
 namespace {
 
-/// Adds columns of a list of rows.
+/// Builds the columns of a list of rows.
 template <class Row>
 class Columns {
  public:

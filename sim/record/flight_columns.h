@@ -8,16 +8,17 @@
 
 namespace hedgehop::sim {
 
-/// The columns of trajectory.csv, units in their names: one row per control tick. A field is NaN where it is unknown,
-/// +inf for a clearance to nothing.
+/// Returns the columns of trajectory.csv, with units in their names: one row per control tick. Unknown values are NaN.
+/// The clearance is +inf without obstacles.
 ColumnTable trajectory_columns(const Flight& flight);
 
-/// The columns of decisions.csv: one row per decision. Six columns that every module has, then the module's signals.
+/// Returns the columns of decisions.csv: one row per decision. Six columns of every module, then the signals of the
+/// module.
 ColumnTable decision_columns(const Flight& flight);
 
-/// So many columns of decisions.csv come before the module's signals.
+/// Number of columns of decisions.csv before the signals of the module.
 inline constexpr size_t kCommonDecisionColumns = 6;
-/// The columns of decisions.csv that hold words.
+/// The columns of decisions.csv with words.
 inline constexpr std::array<std::string_view, 1> kDecisionWords = {"status"};
 
 }  // namespace hedgehop::sim

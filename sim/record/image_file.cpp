@@ -36,7 +36,7 @@ std::string png_of(const cv::Mat& image) {
   png_set_IHDR(png, writer.info, static_cast<png_uint_32>(image.cols), static_cast<png_uint_32>(image.rows),
                image.depth() == CV_16U ? 16 : 8, image.channels() == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY,
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_set_compression_level(png, 1);  // an export writes thousands of images; level 6 takes four times as long
+  png_set_compression_level(png, 1);  // exports write thousands of images; level 6 takes four times as long
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
   png_write_info(png, writer.info);
   if (image.depth() == CV_16U) png_set_swap(png);  // a PNG is big endian
@@ -49,7 +49,7 @@ std::string png_of(const cv::Mat& image) {
 
 void write_png(const std::filesystem::path& file, const cv::Mat& image) {
   if (image.type() != CV_8UC1 && image.type() != CV_16UC1 && image.type() != CV_8UC3 && image.type() != CV_16UC3) {
-    throw std::invalid_argument(file.string() + ": a PNG takes 8 or 16 bit grey or RGB");
+    throw std::invalid_argument(file.string() + ": a PNG must be grey or RGB with 8 or 16 bit");
   }
   write_file_whole(file, png_of(image));
 }

@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// nlohmann writes null for what is not finite already; this makes it explicit, also for pages made in memory.
+/// Makes null explicit for numbers that are not finite, so that data in memory equal those in files.
 Json point(const ClosestApproach& approach) {
   if (!std::isfinite(approach.distance_m)) return nullptr;
   const Eigen::Vector3d& p = approach.p_WB_true;
@@ -129,7 +129,8 @@ void write_result_files(const std::filesystem::path& run_folder, const RunInfo& 
   write_file_whole(run_folder / "trajectory.csv", trajectory_csv(flight));
   write_file_whole(run_folder / "decisions.csv", decisions_csv(flight));
   if (!flight.map.empty()) write_file_whole(run_folder / "map.json", map_data(flight.map).dump() + "\n");
-  write_file_whole(run_folder / "result.json", result_json(info, flight.result));  // last: a run with a result is whole
+  write_file_whole(run_folder / "result.json",
+                   result_json(info, flight.result));  // last: a run with a result is complete
 }
 
 }  // namespace hedgehop::sim

@@ -16,11 +16,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kDeepest = 50;  // whoever copies or prints JSON recurses
+constexpr int kMaxDepth = 50;  // copying and printing JSON is recursive
 
 Json read_json(const std::filesystem::path& file) {
   const auto bounded = [&](int depth, Json::parse_event_t, const Json&) {
-    if (depth > kDeepest) throw InputError(fmt::format("{}: is nested deeper than {}", file.string(), kDeepest));
+    if (depth > kMaxDepth) throw InputError(fmt::format("{}: is nested deeper than {}", file.string(), kMaxDepth));
     return true;
   };
   try {
@@ -30,7 +30,7 @@ Json read_json(const std::filesystem::path& file) {
   }
 }
 
-/// A result with one item in each list and map, as the writer writes it.
+/// Returns a result with one item in each list and map, as written by result_data().
 Json whole_result() {
   FlightResult result;
   result.truth_used.emplace_back();
@@ -43,14 +43,14 @@ Json whole_result() {
   return result_data(info, result);
 }
 
-/// Whether keys name things of the flight, not members.
+/// Returns whether the keys of a map are names from the flight instead of fixed members.
 bool is_map(std::string_view key) {
   return key == "inputs" || key == "metrics" || key == "metric_units" || key == "metric_kinds";
 }
 
-/// The first part of `value` that has another type than that of `like`; empty when none has. What `like` lacks may be
-/// anything, what `value` lacks is not missed; null stands for a number that is not finite, and for no closest
-/// approach.
+/// Returns the path of the first part of `value` whose type differs from that in `like`; empty if there is none. Parts
+/// that `like` lacks may have any type. Parts that `value` lacks are ignored. null is valid for a number and for a
+/// closest approach.
 std::string other_type(const Json& value, const Json& like, const std::string& path) {
   const auto in = [&](const std::string& key) { return path.empty() ? key : path + "." + key; };
   const bool may_be_null = like.is_number() || like.is_null() || path.starts_with("closest_");

@@ -13,26 +13,26 @@
 
 namespace hedgehop::sim {
 
-/// All that a run's pages show.
+/// The data of the pages of a run.
 struct RunRecord {
   Scenario scenario;
   std::string scenario_yaml;                   ///< the resolved scenario
-  std::shared_ptr<const scenes::Scene> scene;  ///< that was flown through
+  std::shared_ptr<const scenes::Scene> scene;  ///< of the flight
   nlohmann::ordered_json result;               ///< as in result.json
   ColumnTable trajectory, decisions;
-  nlohmann::ordered_json map;  ///< as in map.json; null for a module that makes no map
+  nlohmann::ordered_json map;  ///< as in map.json; null for a module without a map
 };
 
-/// The record of a flight that is in memory.
+/// Returns the record of a flight in memory.
 RunRecord run_record(const Scenario& scenario, const RunInfo& info, const Flight& flight);
 
-/// Reads a result.json. Throws std::runtime_error when there is none, InputError when it is not what a flight leaves: a
-/// key is missing that all readers look at, any is of another type than result_data() writes, or it is nested deeply.
+/// Reads a result.json. Throws std::runtime_error if the file is missing; InputError if it is not a valid result: a
+/// required key is missing, a value has another type than in result_data(), or the nesting is too deep.
 nlohmann::ordered_json read_result(const std::filesystem::path& file);
 
-/// The record of a run, from its folder: scenario.yaml, result.json, trajectory.csv, decisions.csv and map.json. The
-/// scene is regenerated from the scenario and its seed. Throws std::runtime_error naming the file and the cause when
-/// one is missing or malformed.
+/// Returns the record of a run from scenario.yaml, result.json, trajectory.csv, decisions.csv and map.json in its
+/// folder. The scene is generated again from the scenario and its seed. Throws std::runtime_error with the file and the
+/// cause if a file is missing or malformed.
 RunRecord read_run(const std::filesystem::path& run_folder);
 
 }  // namespace hedgehop::sim

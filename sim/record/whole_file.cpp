@@ -25,7 +25,7 @@ namespace {
   throw InputError(fmt::format("cannot read {}: {}", file.string(), why));
 }
 
-/// What a call returns that no signal has interrupted.
+/// Returns the result of a call, which is repeated if a signal interrupts it.
 template <class Call>
 auto uninterrupted(Call call) {
   auto result = call();
@@ -43,13 +43,13 @@ int write_all(int descriptor, std::string_view text) {
   return 0;
 }
 
-/// What is there and is no regular file, such as a pipe or /dev/stdout: text goes into it, and it stays.
+/// Returns whether the file exists and is neither regular nor a folder, such as a pipe or /dev/stdout.
 bool is_special(const std::filesystem::path& file) {
   struct stat info = {};
   return ::stat(file.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
 }
 
-/// Returns 0 or errno. An interrupted close(2) has closed the file on Linux: it must not be repeated.
+/// Returns 0 or errno. On Linux, an interrupted close(2) has closed the file and must not be repeated.
 int close_file(int descriptor) { return ::close(descriptor) == 0 || errno == EINTR ? 0 : errno; }
 
 }  // namespace
@@ -101,21 +101,20 @@ void require_writable(const std::filesystem::path& folder) {
     is_missing = true;
   }
   if (!error && !std::filesystem::is_directory(there, error)) error = std::make_error_code(std::errc::not_a_directory);
-  // Whether a folder can be made only making one tells; one of another name, since others may make this one just now.
+  // Creates a folder to check permissions, with another name, because other processes may create the requested one.
   std::string probe = (there / ".hedgehop-XXXXXX").string();
   if (!error && !is_missing && ::access(there.c_str(), W_OK) != 0) error = {errno, std::generic_category()};
   if (!error && is_missing && !::mkdtemp(probe.data())) error = {errno, std::generic_category()};
   if (!error && is_missing) ::rmdir(probe.c_str());
   if (error) {
-    throw InputError(
-        fmt::format("{}: no results can be written there: {}: {}", folder.string(), there.string(), error.message()));
+    throw InputError(fmt::format("{}: cannot write results: {}: {}", folder.string(), there.string(), error.message()));
   }
 }
 
 void require_writable_file(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) {
-    throw InputError(fmt::format("{}: cannot be written: it is a folder", file.string()));
+    throw InputError(fmt::format("{}: cannot be written: is a folder", file.string()));
   }
   require_writable(file.has_parent_path() ? file.parent_path() : ".");
 }

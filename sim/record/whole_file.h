@@ -6,19 +6,21 @@
 
 namespace hedgehop::sim {
 
-/// Writes `text` to `file` aside (`.part`) and renames it, so that a file that is there is whole.
-/// What is there and no regular file (/dev/stdout, a pipe) is written into instead, and stays.
-/// Throws std::runtime_error naming the file and the cause (full disk, missing permission); the part is then removed.
+/// Writes `text` to a temporary file (`.part`) and renames it, so that `file` is complete or absent. An existing
+/// special file
+/// (/dev/stdout, a pipe) is written directly.
+/// Throws std::runtime_error with the file and the cause (full disk, missing permission) and removes the temporary
+/// file.
 void write_file_whole(const std::filesystem::path& file, std::string_view text);
 
-/// Returns all bytes of `file`. Throws InputError where it is none, or no regular one (a pipe would never end),
-/// std::runtime_error for what else keeps it from being read; both name the file and the cause.
+/// Returns all bytes of `file`. Throws InputError if the file does not exist or is not a regular file (a pipe may never
+/// end), std::runtime_error for any other error. Both name the file and the cause.
 std::string read_file_whole(const std::filesystem::path& file);
 
-/// Looks, before anything is flown for it, whether a folder for results is there or can be made. Throws InputError
-/// naming it and the cause.
+/// Checks before a flight whether a folder for results exists or can be created. Throws InputError with the folder and
+/// the cause.
 void require_writable(const std::filesystem::path& folder);
-/// The same of the folder of a file, which is no folder itself.
+/// The same for the folder of a file. The file must not be a folder.
 void require_writable_file(const std::filesystem::path& file);
 
 }  // namespace hedgehop::sim

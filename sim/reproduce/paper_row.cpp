@@ -9,7 +9,7 @@
 #include "sim/batch/record.h"
 #include "sim/config/numbers.h"
 #include "sim/flight/build.h"
-#include "sim/record/csv_line.h"
+#include "sim/record/csv_table.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -1,7 +1,7 @@
-"""Hedgehop from Python: step a flight, write an avoidance module, fly batches and sweeps, load what they leave.
+"""Hedgehop from Python: step a flight, write an avoidance module, fly batches and sweeps, load their results.
 
-Frames and units are the simulator's: W north, east, down; B forward, right, down; C right, down, forward; SI units and
-radians; every name of a figure ends with its unit.
+Frames: W north, east, down; B forward, right, down; C right, down, forward. SI units and radians. Names of numbers end in
+their units.
 """
 
 from ._native import (ActionPilot, AttitudeCommand, CameraNeed, Decision, Goal, HoverCommand, InputError, MountedCamera,

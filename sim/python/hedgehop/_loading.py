@@ -1,4 +1,4 @@
-"""Modules from source files, for scenarios that name one."""
+"""Loads modules from source files."""
 
 import importlib.util
 import json
@@ -7,12 +7,12 @@ import sys
 
 
 def load_module(file, class_name, parameters):
-    """An object of a file's class. parameters  keyword arguments, as JSON."""
+    """Returns an object of a class in a file. parameters  keyword arguments as JSON."""
     path = pathlib.Path(file)
     name = f"hedgehop_module_{path.stem}"
     spec = importlib.util.spec_from_file_location(name, path)
     if spec is None:
-        raise ValueError("is no Python source: its name must end in .py")
+        raise ValueError("is not a Python source: the name must end in .py")
     source = importlib.util.module_from_spec(spec)
     sys.modules[name] = source
     sys.path.insert(0, str(path.parent))

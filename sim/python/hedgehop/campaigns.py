@@ -1,4 +1,4 @@
-"""Batches and sweeps, each flight in a process of its own."""
+"""Batches and sweeps. Each flight has its own process."""
 
 import os
 import pathlib
@@ -13,24 +13,24 @@ from .simulation import overrides
 
 
 def program():
-    """Path of the `hedgehop` program: of this wheel, build folder or installation, else the one of PATH."""
+    """Returns the path of the program `hedgehop`: that of this wheel, build folder or installation, else that in PATH."""
     package = pathlib.Path(__file__).resolve().parent
     for candidate in (package / "bin/hedgehop", package / "../../sim/cli/hedgehop", package / "../../../../bin/hedgehop"):
         if candidate.exists():
             return str(candidate.resolve())
     found = shutil.which("hedgehop")
     if not found:
-        raise FileNotFoundError("the program hedgehop is neither beside this package nor in PATH")
+        raise FileNotFoundError("the program hedgehop is neither next to this package nor in PATH")
     return found
 
 
 def main():
-    """The program, of a wheel that has no folder for programs."""
+    """Runs the program, for wheels."""
     os.execv(program(), ["hedgehop", *sys.argv[1:]])
 
 
 def _fly(command):
-    """Runs the program. Ctrl-C ends it in order: what is flown stays, and `resume` goes on from there."""
+    """Runs the program. Ctrl-C stops it; completed flights are kept, and `resume` continues."""
     with subprocess.Popen([program(), *command], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
                           start_new_session=True) as running:
         try:
@@ -46,10 +46,13 @@ def _fly(command):
 
 
 def batch(files, out, *, seeds=None, set=None, jobs=None, resume=False):
-    """Flies scenarios or campaigns. Returns a record array, a record a flight.
+    """Flies scenarios or campaigns. Returns a record array with one record per flight.
 
-    files  one, or a list. seeds  such as "1:10" or [1, 2, 3]; set  values by key path; jobs  flights at a time, all
-    cores when not given; resume  keeps what lies in `out` of the very same scenario and build.
+    files   a file or a list of files.
+    seeds   such as "1:10" or [1, 2, 3].
+    set     values by key path.
+    jobs    number of parallel flights; default: the number of cores.
+    resume  whether to reuse results in `out` of the same scenario and build.
     """
     files = [files] if isinstance(files, (str, os.PathLike)) else files
     command = ["batch", *(os.fspath(file) for file in files), "--out", os.fspath(out)]
@@ -66,7 +69,7 @@ def batch(files, out, *, seeds=None, set=None, jobs=None, resume=False):
 
 
 def sweep(file, out, *, jobs=None):
-    """Flies a sweep, from where it stopped. Returns a record array, a record a flight."""
+    """Flies a sweep and reuses its completed flights. Returns a record array with one record per flight."""
     command = ["sweep", os.fspath(file), "--out", os.fspath(out)]
     if jobs is not None:
         command += ["--jobs", str(jobs)]

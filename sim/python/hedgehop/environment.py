@@ -1,4 +1,4 @@
-"""A reinforcement-learning environment by Gymnasium's protocol."""
+"""A reinforcement-learning environment with the protocol of Gymnasium."""
 
 import numpy as np
 
@@ -13,8 +13,8 @@ except ImportError:
 
 STATE = 10
 
-#: What a step earns. progress: a meter nearer the goal, truly; near: each decision, by the share of `near_m` that the
-#: clearance lacks; the others: when the flight ends so.
+#: Rewards. progress: per meter of true approach to the goal; near: per decision, times the share of `near_m` that the
+#: clearance lacks; the others: at the end of the flight, by outcome.
 REWARDS = {"progress": 1.0, "near": -0.1, "near_m": 2.0, "reached": 100.0, "collided": -100.0, "fault": -100.0}
 
 
@@ -25,26 +25,25 @@ def _image_space(image):
 
 
 class Env(_Base):
-    """Flies a scenario by actions; deterministic in its seeds.
+    """Flies a scenario with actions. Deterministic in its seeds.
 
-    Action       forward, right, climb, turn, each in [-1, 1]: shares of the speed limit twice, of 1 m/s, of 1 rad/s.
-    Observation  an image for each camera by its role, and "state": the goal forward, right and down of the vehicle (m),
-                 velocity in B (m/s), roll and pitch (rad), yaw rate (rad/s), height above ground (m), as estimated on
-                 board; nothing of it is true.
-    info         "clearance_m" and "p_WB_true_m", for who judges; at the end "result", what result.json holds.
+    Action       forward, right, climb, turn, each in [-1, 1]: shares of the speed limit (twice), of 1 m/s, of 1 rad/s.
+    Observation  one image per camera, by role, and "state": position of the goal forward, right and down of the vehicle (m),
+                 velocity in B (m/s), roll and pitch (rad), yaw rate (rad/s), height above ground (m). All are estimates.
+    info         "clearance_m" and "p_WB_true_m" (truth, for evaluation only); at the end "result", as in result.json.
 
-    scenario  file. cameras  roles; all of the rig when not given. set  values by key path. rewards  replaces values of
-    REWARDS. A seed of reset() begins a sequence of flights of which each has a seed of its own.
+    scenario  file. cameras  roles; default: all of the rig. set  values by key path. rewards  replaces values of REWARDS.
+    A seed of reset() starts a sequence of flights with different seeds.
     """
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 25}
 
     def __init__(self, scenario, *, cameras=None, set=None, rewards=None, render_mode=None):
         if render_mode not in (None, "rgb_array"):
-            raise ValueError(f"render_mode '{render_mode}'; allowed: None, rgb_array")
+            raise ValueError(f"render_mode '{render_mode}'; valid: None, rgb_array")
         unknown = sorted({*(rewards or {})} - {*REWARDS})
         if unknown:
-            raise ValueError(f"rewards: no '{unknown[0]}'; there are: {', '.join(REWARDS)}")
+            raise ValueError(f"rewards: unknown '{unknown[0]}'; valid: {', '.join(REWARDS)}")
         self.render_mode = render_mode
         self.rewards = {**REWARDS, **(rewards or {})}
         if cameras is None:
@@ -75,7 +74,7 @@ class Env(_Base):
     def step(self, action):
         action = np.asarray(action, float)
         if action.shape != (4,) or not np.all(np.isfinite(action)):
-            raise ValueError(f"an action is four finite numbers, got {action!r}")
+            raise ValueError(f"an action must be four finite numbers, got {action!r}")
         speed_limit_mps, _ = self._simulation.limits
         command = self._pilot.fly(action, self._simulation.observation.navigation, speed_limit_mps, self._step_s)
         seen = self._simulation.step(command)
@@ -104,7 +103,7 @@ class Env(_Base):
         return float(np.linalg.norm(seen.goal.p_WG_m - self._simulation.truth.p_WB_m))
 
     def _observe(self, seen):
-        for role, image in seen.images.items():  # a lost image leaves the one before
+        for role, image in seen.images.items():  # if an image is lost, the previous one remains
             self._images[role] = image.copy()
         return {**self._images, "state": state_of(seen.navigation, seen.goal)}
 

@@ -1,4 +1,4 @@
-"""What flights leave, as numpy record arrays."""
+"""Results of flights as numpy record arrays."""
 
 import csv
 import dataclasses
@@ -9,11 +9,11 @@ import pathlib
 import numpy as np
 
 
-TEXTS = ("trajectory_hash", "build")  # hexadecimal digits, which may look like a number
+TEXTS = ("trajectory_hash", "build")  # hexadecimal digits, which could be parsed as a number
 
 
 def _column(name, texts):
-    """Seeds as they are, of 64 bits; numbers where all fields are numbers or empty (NaN); else texts."""
+    """Returns 64-bit seeds; numbers if all fields are numbers or empty (NaN); else texts."""
     if name == "seed":
         return np.array([int(text) for text in texts], dtype=np.uint64)
     if name in TEXTS:
@@ -25,7 +25,7 @@ def _column(name, texts):
 
 
 def read_table(text):
-    """Table of a CSV text as a record array, a field per column."""
+    """Returns the table of a CSV text as a record array with one field per column."""
     rows = list(csv.reader(io.StringIO(text)))
     names, rows = rows[0], rows[1:]
     columns = [_column(name, [row[i] for row in rows]) for i, name in enumerate(names)]
@@ -36,7 +36,7 @@ def read_table(text):
 
 @dataclasses.dataclass
 class Flight:
-    """result is what result.json holds; trajectory and decisions are record arrays with the CSV files' columns."""
+    """result: as in result.json. trajectory, decisions: record arrays with the columns of the CSV files."""
 
     result: dict
     trajectory: np.recarray
@@ -44,19 +44,19 @@ class Flight:
 
 
 def load(folder):
-    """What lies in a folder: a Flight of `hedgehop run`, or the record array of a batch or sweep, a record a flight."""
+    """Returns the Flight of `hedgehop run`, or the record array of a batch or sweep with one record per flight."""
     folder = pathlib.Path(folder)
     for table in ("sweep.csv", "batch.csv"):
         if (folder / table).exists():
             return read_table((folder / table).read_text())
     if not (folder / "result.json").exists():
-        raise FileNotFoundError(f"{folder}: holds neither result.json nor batch.csv nor sweep.csv")
+        raise FileNotFoundError(f"{folder}: no result.json, batch.csv or sweep.csv")
     return Flight(json.loads((folder / "result.json").read_text()), read_table((folder / "trajectory.csv").read_text()),
                   read_table((folder / "decisions.csv").read_text()))
 
 
 def to_frame(records):
-    """A pandas DataFrame of a record array."""
+    """Returns a record array as a pandas DataFrame."""
     import pandas
 
     return pandas.DataFrame.from_records(records)

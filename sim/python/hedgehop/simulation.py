@@ -1,4 +1,4 @@
-"""A scenario in flight."""
+"""A scenario that is flown step by step."""
 
 import json
 import os
@@ -11,7 +11,7 @@ from .results import read_table
 
 
 def overrides(values):
-    """The texts `key.path=value` of a dict of key paths; None where there is none."""
+    """Returns the texts `key.path=value` for a dict of key paths, or for None."""
     texts = []
     for key, value in (values or {}).items():
         if isinstance(value, np.generic):
@@ -19,22 +19,22 @@ def overrides(values):
         try:
             texts.append(f"{key}={json.dumps(value, allow_nan=False)}")
         except (TypeError, ValueError):
-            raise _native.InputError(f"set['{key}']: {value!r} is no finite number, text, list or dict") from None
+            raise _native.InputError(f"set['{key}']: {value!r} is not a finite number, text, list or dict") from None
     return texts
 
 
 class Simulation:
-    """Flies a scenario to its end, or step by step. Equal scenarios, seeds and commands give equal flights, bit for
-    bit; `run()` gives what `hedgehop run` gives.
+    """Flies a scenario to its end or step by step. Equal scenarios, seeds and commands give bit-for-bit equal flights.
+    `run()` gives the same result as `hedgehop run`.
 
-    file     scenario in YAML. Or text=, the YAML itself; its paths are relative to the working folder.
-    seed     replaces the scenario's.
-    set      values by key path, as `--set` has them: {"avoidance.speed": 1.5}.
-    module   flies in place of the scenario's: a class with `update`, a new object for each flight, or an object.
-    cameras  roles whose images are seen, for who gives every command; the module's own when not given.
+    file     scenario in YAML. Alternatively text=, the YAML itself; its paths are relative to the working folder.
+    seed     replaces the seed of the scenario.
+    set      values by key path, as with `--set`: {"avoidance.speed": 1.5}.
+    module   replaces the module of the scenario: a class with `update` (a new object for each flight), or an object.
+    cameras  roles of the images for a caller that gives every command; default: the cameras of the module.
 
-    Used by the thread that made it alone. Errors are InputError (a ValueError) with the text of the command line,
-    ValueError for a command that cannot be, RuntimeError for a call at the wrong time.
+    Only the thread that created the object may use it. Errors: InputError (a ValueError) with the text of the command line,
+    ValueError for an invalid command, RuntimeError for a call at the wrong time.
     """
 
     def __init__(self, file: Union[str, os.PathLike, None] = None, *, text: Optional[str] = None,
@@ -44,31 +44,31 @@ class Simulation:
                                           cameras)
 
     def reset(self, seed: Optional[int] = None) -> _native.Observation:
-        """Begins again; without a seed the same flight, in about a fortieth of the time. Returns the first Observation."""
+        """Starts a new flight and returns its first Observation. Without a seed, the same flight is about 40 times faster to start."""
         return self._native.reset(seed)
 
     def step(self, command=None) -> _native.Observation:
-        """Gives a command, or lets the module decide; flies on to the next decision or the end.
+        """Applies a command, or that of the module, and flies to the next decision or the end.
 
-        Returns the Observation there. Its images are views of the simulator's own memory, good until the simulation
-        moves on: copy what is to be kept.
+        Returns the new Observation. Its images are views of the memory of the simulator, which are valid until the
+        simulation continues. Copy images to keep them.
         """
         return self._native.step(command)
 
     def tick(self, command=None) -> _native.Observation:
-        """As step(), but one physics step."""
+        """As step(), for one physics step."""
         return self._native.tick(command)
 
     def run(self) -> dict:
-        """Lets the module fly to the end. Returns what result.json holds."""
+        """Flies the module to the end. Returns the contents of result.json."""
         return json.loads(self._native.run_json())
 
     def result(self) -> dict:
-        """What result.json holds; RuntimeError while the flight goes on."""
+        """Returns the contents of result.json. Raises RuntimeError during the flight."""
         return json.loads(self._native.result_json())
 
     def save(self, folder: Union[str, os.PathLike]) -> None:
-        """Writes scenario.yaml, result.json, trajectory.csv and decisions.csv of a flight that is over."""
+        """Writes scenario.yaml, result.json, trajectory.csv and decisions.csv of a completed flight."""
         self._native.save(os.fspath(folder))
 
     @property
@@ -91,52 +91,52 @@ class Simulation:
 
     @property
     def observation(self) -> _native.Observation:
-        """What the module gets now."""
+        """The current input of the module."""
         return self._native.seen()
 
     @property
     def truth(self) -> _native.TrueMotion:
-        """How the vehicle truly moves, a TrueMotion: for who judges, not for who decides."""
+        """The true motion of the vehicle, for evaluation only."""
         return self._native.truth()
 
     @property
     def proximity(self) -> _native.Proximity:
-        """True clearances, a Proximity."""
+        """The true clearances."""
         return self._native.proximity()
 
     @property
     def cameras(self) -> "dict[str, _native.MountedCamera]":
-        """All cameras of the rig, by role."""
+        """All cameras of the rig by role."""
         return {role: self._native.camera(role) for role in self._native.roles()}
 
     def image(self, role: str, channel: str = "grey") -> np.ndarray:
-        """What a camera would deliver now as grey, color, depth or labels, with its imperfections."""
+        """Returns the current image of a camera as grey, color, depth or labels, with its imperfections."""
         return self._native.image(role, channel)
 
     def flow_to_next_image(self, role: str) -> np.ndarray:
-        """Flies on by one period of the camera; returns the true optic flow of its image of before, px."""
+        """Flies one period of the camera. Returns the true optic flow of its previous image, px."""
         return self._native.flow_to_next_image(role)
 
     def checks_so_far(self) -> "list[dict]":
-        """What the scenario's checks would say, did the flight end now: dicts of name, passed, value, limit, unit."""
+        """Returns the results of the checks if the flight ended now: dicts of name, passed, value, limit, unit."""
         return self._native.checks_so_far()
 
     @property
     def limits(self) -> "tuple[float, float]":
-        """(speed, m/s; acceleration, m/s2) that the autopilot keeps to."""
+        """Limits of the autopilot: (speed, m/s; acceleration, m/s2)."""
         return self._native.limits()
 
     @property
     def scenario_yaml(self) -> str:
-        """The scenario in full, every key written."""
+        """The resolved scenario with every key."""
         return self._native.scenario_yaml()
 
     @property
     def trajectory(self) -> np.recarray:
-        """One record per control tick, as trajectory.csv has them, of a flight that is over."""
+        """One record per control tick of a completed flight, as in trajectory.csv."""
         return read_table(self._native.trajectory_csv())
 
     @property
     def decisions(self) -> np.recarray:
-        """One record per decision, as decisions.csv has them, of a flight that is over."""
+        """One record per decision of a completed flight, as in decisions.csv."""
         return read_table(self._native.decisions_csv())

@@ -1,4 +1,4 @@
-"""Action and observation spaces: gymnasium's own where it is installed, else their protocol in a few lines."""
+"""Action and observation spaces: those of gymnasium if it is installed, else classes with the same protocol."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""What every avoidance module promises, for the tests of your own."""
+"""Checks the contract of avoidance modules, for the tests of your modules."""
 
 import copy
 import math
@@ -10,7 +10,7 @@ from .simulation import Simulation
 
 
 def _numbers(answer):
-    """Everything a decision holds, as comparable bits."""
+    """Returns all values of a decision as comparable bits."""
     command = answer.command if isinstance(answer, Decision) else answer
     fields = sorted(name for name in dir(command) if not name.startswith("_"))
     values = [np.asarray(getattr(command, name), float).tobytes() for name in fields]
@@ -20,7 +20,7 @@ def _numbers(answer):
 
 
 class _Recorder:
-    """Stands in for the module and keeps what it was given."""
+    """Replaces the module and stores its inputs."""
 
     def __init__(self, module):
         self.needs = module.needs() if callable(getattr(module, "needs", None)) else getattr(module, "needs", [])
@@ -37,7 +37,7 @@ class _Recorder:
 
 
 def copy_of(navigation):
-    """A NavigationState that stays as it is."""
+    """Returns a copy of a NavigationState."""
     copied = NavigationState()
     for name in dir(NavigationState):
         if not name.startswith("_"):
@@ -52,11 +52,12 @@ def _fly(module, setup, observations):
 
 
 def check_module(cls, scenario, *, decisions=5, **parameters):
-    """Flies a module by what it would see in a scenario's first moments, and raises AssertionError where it breaks a
-    promise: equal input gives equal decisions; after reset() it is as new; drawing changes nothing; lost and blank
-    images are survived; commands are finite and signals as many as announced.
+    """Runs a module with the inputs from the start of a scenario. Raises AssertionError if the module violates its contract:
+    equal inputs give equal decisions; reset() restores the initial state; annotate() does not affect decisions; lost and
+    blank images are accepted; commands are finite; the number of signals is as declared.
 
-    cls  class with `update`, made with **parameters. scenario  file, whose rig has the cameras that the module needs.
+    cls       class with `update`, created with **parameters.
+    scenario  file; its rig has the cameras that the module needs.
     """
     recorder = _Recorder(cls(**parameters))
     simulation = Simulation(scenario, module=recorder)
@@ -66,8 +67,8 @@ def check_module(cls, scenario, *, decisions=5, **parameters):
 
     first = _fly(cls(**parameters), setup, observations)
     used = cls(**parameters)
-    assert _fly(used, setup, observations) == first, "equal input gives other decisions"
-    assert _fly(used, setup, observations) == first, "after reset() it is not as new"
+    assert _fly(used, setup, observations) == first, "equal inputs give different decisions"
+    assert _fly(used, setup, observations) == first, "reset() does not restore the initial state"
 
     drawn = cls(**parameters)
     if hasattr(drawn, "reset"):
@@ -76,7 +77,7 @@ def check_module(cls, scenario, *, decisions=5, **parameters):
         assert _numbers(drawn.update(observation)) == first[i], "annotate() changes a decision"
         if hasattr(drawn, "annotate"):
             image = drawn.annotate()
-            assert image is None or (image.dtype == np.uint8 and image.shape[2:] == (3,)), "annotate() gives no RGB image"
+            assert image is None or (image.dtype == np.uint8 and image.shape[2:] == (3,)), "annotate() does not return an RGB image"
 
     survivor = cls(**parameters)
     if hasattr(survivor, "reset"):
@@ -89,10 +90,10 @@ def check_module(cls, scenario, *, decisions=5, **parameters):
         command = answer.command if isinstance(answer, Decision) else answer
         for name in dir(command):
             if not name.startswith("_"):
-                assert np.all(np.isfinite(getattr(command, name))), f"{name} is not finite where images are lost or blank"
+                assert np.all(np.isfinite(getattr(command, name))), f"{name} is not finite if images are lost or blank"
         if isinstance(answer, Decision):
-            assert len(answer.signals) == len(announced), "a decision has other signals than announced"
-            assert answer.status and not set(answer.status) & set(' ,"\n'), "a status is one word"
+            assert len(answer.signals) == len(announced), "a decision has a different number of signals than declared"
+            assert answer.status and not set(answer.status) & set(' ,"\n'), "a status must be one word"
     assert all(math.isfinite(value) or math.isnan(value) for value in _metrics(survivor).values()), "a metric is infinite"
 
 

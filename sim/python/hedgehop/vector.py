@@ -1,4 +1,4 @@
-"""Many environments at once, each in a process of its own."""
+"""Parallel environments. Each has its own process."""
 
 import multiprocessing
 import traceback
@@ -27,7 +27,7 @@ class _Shared:
 
 
 def _work(pipe, scenario, options, index, layout, name):
-    """A worker: flies its environment and begins again, with the next seed, when a flight has ended."""
+    """Runs an environment in a worker. After each flight, a new one starts with the next seed."""
     env = Env(scenario, **options)
     shared = _Shared(layout, name)
     row = {key: array[index] for key, array in shared.arrays.items()}
@@ -50,7 +50,7 @@ def _work(pipe, scenario, options, index, layout, name):
                 for key, value in observation.items():
                     row[key][...] = value
                 pipe.send((info, None))
-            except Exception:  # told to who waits, with its place
+            except Exception:  # sent to the parent with its traceback
                 pipe.send((None, traceback.format_exc()))
     finally:
         row = None
@@ -59,10 +59,10 @@ def _work(pipe, scenario, options, index, layout, name):
 
 class VectorEnv:
     """`count` environments that step together. Deterministic in (seed, count): environment i flies the i-th sequence of
-    flights that the seed gives.
+    flights of the seed.
 
-    Observations, rewards, terminated and truncated have one row per environment; where a flight ended, the observation
-    is already the next one's first, and infos[i]["final_info"] is of the flight that ended. Arrays are copies.
+    Observations, rewards, terminated and truncated have one row per environment. If a flight has ended, the observation is
+    the first one of the next flight, and infos[i]["final_info"] belongs to the previous flight. Arrays are copies.
     """
 
     def __init__(self, scenario, count, **options):
@@ -127,11 +127,11 @@ class VectorEnv:
         for pipe, order in zip(self._pipes, orders):
             pipe.send(order)
         answers = []
-        for pipe in self._pipes:  # all of them, so that none waits for the next order's
+        for pipe in self._pipes:  # reads all answers, so that none remains for the next order
             try:
                 answers.append(pipe.recv())
             except EOFError:
-                answers.append((None, "its process ended"))
+                answers.append((None, "the process ended"))
         for i, (_, fault) in enumerate(answers):
             if fault:
                 raise RuntimeError(f"environment {i}: {fault}")

@@ -106,7 +106,7 @@ TEST_P(Disk, ThatMayOnlyBeReadIsBadInputBeforeAnyFlight) {
   }
   const CommandEnd end = folder.shell(line);
   EXPECT_EQ(end.status, kBadInput);
-  EXPECT_THAT(end.err, ContainsRegex("^out: no results can be written there: .*Read-only file system\n$"));
+  EXPECT_THAT(end.err, ContainsRegex("^out: cannot write results: .*Read-only file system\n$"));
 }
 
 /// A disk that really is full, at several sizes.

@@ -1,4 +1,4 @@
-"""Reads a folder in EuRoC's layout with NumPy alone."""
+"""Reads a folder in the EuRoC layout with NumPy only."""
 
 import csv
 
@@ -6,7 +6,7 @@ import numpy as np
 
 
 def rotation(w, x, y, z):
-    """Of a unit quaternion, by its definition: v -> q v q*."""
+    """Returns the rotation matrix of a unit quaternion by its definition: v -> q v q*."""
     return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
                      [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
                      [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
@@ -19,7 +19,7 @@ def pose(R, p):
 
 
 def yaml_numbers(text, key):
-    """The bracketed list that follows a key."""
+    """Returns the bracketed list after a key."""
     begin = text.index("[", text.index(key)) + 1
     return np.array([float(n) for n in text[begin:text.index("]", begin)].split(",")])
 

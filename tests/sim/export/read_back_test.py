@@ -1,4 +1,4 @@
-"""Reads exported data sets with NumPy and OpenCV alone: what a program elsewhere would make of them is what was flown.
+"""Reads exported data sets with NumPy and OpenCV only, and compares them with the flight.
 
     read_back_test.py PROGRAM SOURCE_FOLDER
 """
@@ -65,7 +65,7 @@ class ReadBack(unittest.TestCase):
         cls.temporary.cleanup()
 
     def flown(self, row):
-        """Where the IMU was, and how it was turned, from the run's own table, in east, north, up and forward, left, up."""
+        """Returns the poses of the IMU from the table of the run: F (forward, left, up) in E (east, north, up)."""
         roll, pitch, heading = (float(row[k]) for k in ("roll_rad", "pitch_rad", "yaw_rad"))
         turn_x = cv2.Rodrigues(np.array([roll, 0, 0]))[0]
         turn_y = cv2.Rodrigues(np.array([0, pitch, 0]))[0]
@@ -96,7 +96,7 @@ class ReadBack(unittest.TestCase):
         self.assertLess(np.abs(slope - truth[1:-1, 8:11]).max(), 0.002)
         self.assertGreater(np.linalg.norm(truth[:, 8:11], axis=1).max(), 2.0)
 
-    def test_integrated_imu_meets_the_truth(self):
+    def test_integrated_imu_equals_the_truth(self):
         imu = self.euroc.imu
         span_ns = 1_000_000_000
         for begin_ns in (1_000_000_000, 2_000_000_000, 3_000_000_000):
@@ -109,12 +109,12 @@ class ReadBack(unittest.TestCase):
                 a = 0.5 * (R @ (now[4:7] - b_a) + R_then @ (then[4:7] - b_a)) - [0, 0, GRAVITY]
                 p, v, R = p + v * dt + 0.5 * a * dt * dt, v + a * dt, R_then
             p_true, R_true, v_true, _, _ = self.euroc.state(int(rows[-1, 0]))
-            # What is left: the sensor's low-pass filter (cut-off 200 Hz) and the bias that wanders meanwhile.
+            # The remaining error: the low-pass filter of the sensor (cut-off 200 Hz) and the drift of the bias.
             self.assertLess(np.linalg.norm(p - p_true), 0.03)
             self.assertLess(np.linalg.norm(v - v_true), 0.05)
             self.assertLess(np.linalg.norm(cv2.Rodrigues(R.T @ R_true)[0]), 0.005)
 
-    def test_images_lie_at_the_times_of_their_cameras(self):
+    def test_images_have_the_times_of_their_cameras(self):
         for name, period_ns in (("cam0", 20_000_000), ("cam1", 100_000_000), ("cam2", 100_000_000)):
             images = self.euroc.images(name)
             self.assertGreater(len(images), 30)
@@ -144,7 +144,7 @@ class ReadBack(unittest.TestCase):
         return root, rgb, depth, file, truth
 
     def points(self, t_text, most_m):
-        """Pixels of the left camera that show no edge, and where they lie in its frame."""
+        """Returns pixels of the left camera without an edge, and their positions in its frame."""
         root, _, depth, file, _ = self.tum()
         units = cv2.imread(str(root / depth[t_text]), cv2.IMREAD_UNCHANGED)
         self.assertEqual(units.dtype, np.uint16)
@@ -156,7 +156,7 @@ class ReadBack(unittest.TestCase):
         rays = np.linalg.inv(K) @ np.array([cols, rows, np.ones_like(rows)])
         return rows, cols, (rays * z[rows, cols]).T
 
-    def test_depth_and_pose_put_the_ground_at_height_zero(self):
+    def test_depth_and_pose_give_ground_at_height_zero(self):
         _, rgb, _, _, truth = self.tum()
         heights = []
         for t_text in list(rgb)[5:45:10]:
@@ -167,10 +167,10 @@ class ReadBack(unittest.TestCase):
         self.assertGreater(len(heights), 1000)
         on_ground = heights[heights < 0.1]
         self.assertGreater(len(on_ground), 0.5 * len(heights))
-        self.assertLess(np.abs(on_ground).max(), 0.001)  # depth comes in fifths of a millimeter
+        self.assertLess(np.abs(on_ground).max(), 0.001)  # resolution of depth: 0.2 mm
 
-    def test_known_depth_is_seen_where_the_calibration_says(self):
-        """Patches of the left image, thrown into the right one by depth and calibration, lie there."""
+    def test_points_of_known_depth_are_at_their_projection(self):
+        """Projects patches of the left image into the right one by depth and calibration, and compares their positions."""
         K_left, X_left = self.euroc.camera("cam1")
         K_right, X_right = self.euroc.camera("cam2")
         X_right_left = np.linalg.inv(X_right) @ X_left
@@ -195,7 +195,7 @@ class ReadBack(unittest.TestCase):
 
     @staticmethod
     def offset_of_patch(a, b, at, seen, half=6, reach=4):
-        """How far from where it should be seen a patch is found; nothing for one that is cut off or flat."""
+        """Returns the distance of a patch from its expected position; None for a cropped or flat patch."""
         row, col = at
         u, v = seen
         u0, v0 = int(round(u)), int(round(v))
@@ -264,21 +264,21 @@ class ReadBack(unittest.TestCase):
         self.assertEqual(done.returncode, 2, done.stderr)
         return done.stderr
 
-    def test_bad_input_is_refused_with_what_would_be_valid(self):
+    def test_bad_input_is_rejected_with_valid_values(self):
         run_folder = self.run_folder
         self.assertIn("not the folder of a run", self.refused(self.folder, "--format", "euroc"))
-        self.assertIn("not the folder of a run", self.refused(self.folder / "nowhere", "--format", "euroc"))
+        self.assertIn("not the folder of a run", self.refused(self.folder / "missing", "--format", "euroc"))
         self.assertIn("euroc", self.refused(run_folder, "--format", "bag"))
         self.assertIn("not an empty folder", self.refused(run_folder, "--format", "euroc"))
         other = ["--out", self.folder / "other"]
-        self.assertIn("it has: down, left, right", self.refused(run_folder, "--format", "euroc", "--camera", "up", *other))
-        self.assertIn("of one camera", self.refused(run_folder, "--format", "tum", *other))
-        self.assertIn("choose cameras of one rate", self.refused(run_folder, "--format", "kitti", *other))
-        self.assertIn("named twice",
+        self.assertIn("not in the rig; valid: down, left, right", self.refused(run_folder, "--format", "euroc", "--camera", "up", *other))
+        self.assertIn("the TUM format supports one camera", self.refused(run_folder, "--format", "tum", *other))
+        self.assertIn("select cameras with --camera", self.refused(run_folder, "--format", "kitti", *other))
+        self.assertIn("given twice",
                       self.refused(run_folder, "--format", "kitti", "--camera", "left", "--camera", "left", *other))
         self.assertFalse((self.folder / "other").exists())
 
-    def test_another_trajectory_is_warned_of(self):
+    def test_warns_of_a_different_trajectory(self):
         result = json.loads((self.run_folder / "result.json").read_text())
         other = self.folder / "other_run"
         other.mkdir()

@@ -1,4 +1,4 @@
-"""The truth beside an exported data set, against its own poses: depth carried from image to image gives the flow.
+"""Compares the exported ground truth with the exported poses: depth projected into the next image gives the flow.
 
     truth_test.py PROGRAM SOURCE_FOLDER
 """
@@ -46,18 +46,18 @@ class Truth(unittest.TestCase):
         self.assertEqual(self.read("depth", self.times[0]).dtype, np.uint16)
         self.assertEqual(self.read("moving", self.times[0]).dtype, np.uint8)
 
-    def test_what_moves_is_the_ball_below(self):
+    def test_moving_mask_shows_the_ball_below(self):
         moving = self.read("moving", self.times[5]) == 255
         labels = self.read("labels", self.times[5])
         self.assertGreater(moving.sum(), 100)
         self.assertEqual(len(np.unique(labels[moving])), 1)
         self.assertFalse(np.isin(labels[~moving], labels[moving]).any())
-        # Its top is about 2 m below the camera, the ground about 6.
+        # Its top is about 2 m below the camera, the ground about 6 m.
         depth = self.read("depth", self.times[5])
         self.assertLess(np.median(depth[moving]), 3500)
         self.assertGreater(np.median(depth[~moving]), 4500)
 
-    def test_flow_is_what_depth_and_poses_give(self):
+    def test_flow_equals_that_from_depth_and_poses(self):
         K, X_FC = self.data.camera("cam0")
         off = []
         for now, then in list(zip(self.times, self.times[1:]))[3:]:

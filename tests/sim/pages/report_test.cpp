@@ -268,7 +268,7 @@ TEST(Report, NamesAMissingFile) {
   const TemporaryFolder folder;
   try {
     read_run(folder.path());
-    FAIL() << "nothing was thrown";
+    FAIL() << "no exception";
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("result.json: No such file"));
   }

@@ -1,4 +1,4 @@
-"""Batches and sweeps from Python hold what the program's files hold."""
+"""Batches and sweeps from Python have the contents of the files of the program."""
 
 import csv
 import io
@@ -33,7 +33,7 @@ class Campaigns(unittest.TestCase):
         self.assertEqual((table.trajectory_hash[0], table.build[0]), ("1234567890123456", "12345678901234e5"))
         self.assertEqual(hedgehop.Simulation(CITY, seed=table.seed[0], set=SHORT).seed, 2**64 - 1)
 
-    def test_a_sweep_is_one_too(self):
+    def test_a_sweep_is_a_record_array_of_its_table(self):
         sweep = pathlib.Path(self.scratch.name) / "sweep.yaml"
         sweep.write_text(f"description: short\nscenario: {CITY}\nset: [duration=0.4]\nseeds: 1:2\ntuned_on: 1:2000\n"
                          "design: {type: grid}\nparameters: [{path: avoidance.speed, values: [1.0, 2.0]}]\n")
@@ -41,7 +41,7 @@ class Campaigns(unittest.TestCase):
         self.assertEqual(len(table), 4)
         self.assertEqual(sorted(table["avoidance.speed"]), [1, 1, 2, 2])
 
-    def test_bad_input_is_the_programs_text(self):
+    def test_bad_input_has_the_message_of_the_program(self):
         with self.assertRaisesRegex(hedgehop.InputError, "duraton"):
             hedgehop.batch(CITY, self.out, set={"duraton": 1})
         with self.assertRaisesRegex(FileNotFoundError, "neither result.json"):

@@ -1,4 +1,4 @@
-"""The environment keeps Gymnasium's protocol and its seeds, alone and in processes."""
+"""The environment has the protocol of Gymnasium and is deterministic in its seeds, also in several processes."""
 
 import unittest
 import warnings
@@ -16,7 +16,7 @@ def actions(count):
 
 
 def fly(env, seed, count):
-    """Everything that an environment says in some steps, over the ends of flights."""
+    """Returns all outputs of an environment for several steps, across ends of flights."""
     said = [env.reset(seed=seed)[0]["state"]]
     for action in actions(count):
         observation, reward, terminated, truncated, info = env.step(action)
@@ -42,7 +42,7 @@ class Alone(unittest.TestCase):
             self.assertEqual([type(v) for v in (reward, terminated, truncated)], [float, bool, bool])
         self.assertEqual(env.render().shape, (200, 200, 3))
 
-    def test_time_over_is_truncation_and_a_crash_is_termination(self):
+    def test_timeout_is_truncation_and_collision_is_termination(self):
         self.env.reset(seed=1)
         steps = 0
         while True:
@@ -63,7 +63,7 @@ class Alone(unittest.TestCase):
         self.assertEqual((terminated, info["result"]["outcome"]), (True, "collided"))
         self.assertLess(rewards[-1], -99)
 
-    def test_progress_earns_the_meters_flown_towards_the_goal(self):
+    def test_progress_reward_is_the_approach_to_the_goal_in_meters(self):
         env = hedgehop.Env(CITY, cameras=["front"], set={**SETTINGS, "duration": 4}, rewards={"near": 0.0})
         _, first = env.reset(seed=2)
         goal = env._simulation.observation.goal.p_WG_m
@@ -96,7 +96,7 @@ class Alone(unittest.TestCase):
         for bad in ([0, 0, 0], [np.nan, 0, 0, 0], "fly", None):
             with self.assertRaises((TypeError, ValueError)):
                 self.env.step(bad)
-        with self.assertRaisesRegex(ValueError, "no 'clerance'; there are: progress"):
+        with self.assertRaisesRegex(ValueError, "unknown 'clerance'; valid: progress"):
             hedgehop.Env(CITY, rewards={"clerance": 1})
 
     def test_passes_the_check_of_gymnasium(self):
@@ -109,7 +109,7 @@ class Alone(unittest.TestCase):
         env = gymnasium.make("hedgehop/Avoid-v0", scenario=str(CITY), cameras=["front"], set=SETTINGS)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            warnings.filterwarnings("ignore", "(.|\n)*(infinity|render)")  # true of the state; asked for by who wants it
+            warnings.filterwarnings("ignore", "(.|\n)*(infinity|render)")  # the state has infinite bounds; rendering is optional
             check_env(env.unwrapped)
 
 
@@ -130,7 +130,7 @@ class Several(unittest.TestCase):
             np.testing.assert_array_equal(a, b)
         self.assertFalse(np.array_equal(first[0][0], first[0][1]))
 
-    def test_a_fault_in_a_process_is_told_and_the_others_go_on(self):
+    def test_a_fault_in_a_process_is_reported_and_the_others_continue(self):
         with hedgehop.VectorEnv(str(CITY), 2, cameras=["front"], set=SETTINGS) as envs:
             first, _ = envs.reset(seed=1)
             with self.assertRaisesRegex(ValueError, "actions: .3,"):

@@ -1,4 +1,4 @@
-"""Short flights that the tests share."""
+"""Short flights for several tests."""
 
 import json
 import os
@@ -18,7 +18,7 @@ def set_options(values):
 
 
 def run_program(scenario, values, out, seed=1, environment=()):
-    """Flies with the program; returns its status, result.json or None, and what it said on standard error."""
+    """Flies with the program. Returns its exit status, result.json or None, and the text on standard error."""
     done = subprocess.run([PROGRAM, "run", str(scenario), "--seed", str(seed), *set_options(values), "--no-video",
                            "--no-report", "--out", str(out)], capture_output=True, text=True,
                           env={**os.environ, **dict(environment)})
@@ -27,7 +27,7 @@ def run_program(scenario, values, out, seed=1, environment=()):
 
 
 def steady(result):
-    """A result without what may differ from run to run."""
+    """Returns a result without the values that may differ between runs."""
     kept = {key: value for key, value in result.items()
             if not key.endswith("_ms") and key not in ("wall_s", "realtime_factor", "command_line")}
     return kept

@@ -10,7 +10,7 @@ DIRECTIONS = {"front": (1.0, 0.0), "right": (0.0, 1.0), "rear": (-1.0, 0.0), "le
 
 
 class FlowBalance:
-    """Flies on in its direction, and is pushed away from where the images flow fast."""
+    """Keeps its direction, and moves away from the sides with fast optic flow."""
 
     needs = list(DIRECTIONS)
     signals = {f"flow_{role}_radps": "rad/s" for role in DIRECTIONS}
@@ -38,7 +38,7 @@ class FlowBalance:
         return hedgehop.Decision(command, "balance", flows)
 
     def flow_radps(self, role, observation):
-        """Mean speed of a camera's image, as an angle; NaN without two images."""
+        """Returns the mean angular speed of the image of a camera; NaN without two images."""
         if role not in observation.images:
             return np.nan
         image = cv2.resize(observation.images[role], None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)

@@ -1,4 +1,4 @@
-"""Modules in Python fly as those in C++ do, by the library, the program, and in batches."""
+"""Modules in Python fly as those in C++: with the library, with the program, and in batches."""
 
 import importlib.util
 import json
@@ -127,7 +127,7 @@ class FromFile(unittest.TestCase):
     def python(self, class_name, values=SHORT, **parameters):
         return {**values, "avoidance": {"python": str(self.file), "class": class_name, "parameters": parameters}}
 
-    def test_a_copy_of_go_to_goal_flies_its_hash_everywhere(self):
+    def test_a_copy_of_go_to_goal_has_its_hash_everywhere(self):
         expected = hedgehop.Simulation(CITY, set=STRAIGHT).run()["trajectory_hash"]
         values = self.python("GoToGoal", STRAIGHT, speed=3)
         status, result, said = run_program(CITY, values, self.folder / "out")
@@ -151,14 +151,14 @@ class FromFile(unittest.TestCase):
         self.assertEqual(banded["metrics"]["module.lowest_m"], 2.0)
         self.assertEqual(banded["metrics"]["module.highest_m"], 60.0)
 
-    def test_what_a_module_raises_ends_its_flight_with_the_places(self):
+    def test_an_exception_of_a_module_ends_its_flight_with_the_places(self):
         _, result, _ = run_program(CITY, self.python("Fails"), self.folder / "fails")
         self.assertEqual(result["outcome"], "fault")
         for text in ("0.520 s", "ValueError: no way", f"{self.file}:25 in update"):
             self.assertIn(text, result["cause"])
         self.assertNotIn("\n", result["cause"])
 
-    def test_what_cannot_be_loaded_is_bad_input(self):
+    def test_a_module_that_cannot_be_loaded_is_bad_input(self):
         broken = self.folder / "broken.py"
         broken.write_text("import nothing_of_that_name\n")
         for values, text in (({**SHORT, "avoidance": {"python": "none.py", "class": "A"}}, "there is no such file"),
@@ -173,7 +173,7 @@ class FromFile(unittest.TestCase):
                 with self.assertRaisesRegex(hedgehop.InputError, text.replace("'", ".")):
                     hedgehop.Simulation(CITY, set=values)
 
-    def test_what_a_class_says_of_itself_is_checked_before_the_flight(self):
+    def test_declarations_of_a_class_are_checked_before_the_flight(self):
         for class_name, text in (("NeedsAText", "'needs' must be a list of cameras, each its role or a CameraNeed, got 'front'"),
                                  ("NeedsWhatIsNotThere", "needs a camera 'forward', which the rig does not have; it has: left, right"),
                                  ("NeedsWhatIsNotThere", "needs camera 'front' to deliver depth images; it delivers grey images"),
@@ -184,12 +184,12 @@ class FromFile(unittest.TestCase):
                 self.assertEqual((status, result), (2, None), said)
                 self.assertIn(text, said)
 
-    def test_what_it_reports_wrongly_loses_no_flight(self):
+    def test_invalid_metrics_and_images_do_not_end_the_flight(self):
         status, result, said = run_program(CITY, self.python("MetricsInAText"), self.folder / "text")
         self.assertEqual((status, result["outcome"], result["flight_time_s"]), (1, "fault", 2.0), said)
         self.assertIn("after its flight: 'metrics' must be a dict of names and numbers, or return one, got '3 turns'", result["cause"])
         sim = hedgehop.Simulation(CITY, set={**self.python("AnnotatesANumber"), "film.enabled": True})
-        self.assertEqual(sim.run()["outcome"], "timeout")  # no film, no image asked for
+        self.assertEqual(sim.run()["outcome"], "timeout")  # no film, so no image is requested
         done = subprocess.run([PROGRAM, "run", CITY, "--no-report", "--out", self.folder / "number", "--set", "film.enabled=true", "--set",
                                "duration=0.2", "--set", f"avoidance={{python: {self.file}, class: AnnotatesANumber}}"],
                               capture_output=True, text=True)
@@ -197,11 +197,11 @@ class FromFile(unittest.TestCase):
         self.assertEqual((done.returncode, result["outcome"]), (1, "fault"), done.stderr)
         self.assertIn("annotate() must return None or an array", result["cause"])
 
-    def test_an_update_that_returns_nothing_is_told_so(self):
+    def test_an_update_that_returns_none_is_reported(self):
         _, result, _ = run_program(CITY, self.python("ReturnsNothing"), self.folder / "nothing")
         self.assertEqual(result["cause"], "the module failed at 0.000 s: update() returned None, not a command or a Decision")
 
-    def test_an_interrupt_ends_the_program_and_is_no_fault_of_the_module(self):
+    def test_an_interrupt_ends_the_program_and_is_not_a_fault(self):
         flying = subprocess.Popen([PROGRAM, "run", CITY, "--no-video", "--no-report", "--out", self.folder / "interrupted", "--set",
                                    f"avoidance={{python: {self.file}, class: Sleeps}}"], stderr=subprocess.PIPE, text=True,
                                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
@@ -211,14 +211,14 @@ class FromFile(unittest.TestCase):
         self.assertEqual(flying.returncode, -signal.SIGINT)
         self.assertFalse((self.folder / "interrupted/result.json").exists())
 
-    def test_what_it_prints_is_no_part_of_the_results(self):
+    def test_printed_text_is_not_part_of_the_results(self):
         done = subprocess.run([PROGRAM, "run", CITY, "--no-video", "--no-report", "--json", "--out", self.folder / "prints", "--set",
                                "duration=0.2", "--set", f"avoidance={{python: {self.file}, class: Prints}}"],
                               capture_output=True, text=True)
         self.assertEqual(json.loads(done.stdout)["outcome"], "timeout")
         self.assertIn("seen 0", done.stderr)
 
-    def test_another_python_first_in_path_is_not_taken(self):
+    def test_another_python_in_path_has_no_effect(self):
         other = self.folder / "bin/python3"
         other.parent.mkdir()
         other.write_text("#!/bin/sh\nexit 1\n")
@@ -245,7 +245,7 @@ class OpticFlow(unittest.TestCase):
         room = SOURCE / "configs/garratt2009_room_0_light.yaml"
         return hedgehop.Simulation(room, seed=1101, set={"duration": 24}, module=FlowBalance(**parameters)).run()
 
-    def test_it_keeps_off_the_walls_of_the_room_which_the_blind_control_flies_into(self):
+    def test_it_avoids_the_walls_of_the_room_with_which_the_control_collides(self):
         seen, blind = self.fly(), self.fly(gain=0.0)
         self.assertEqual((seen["outcome"], blind["outcome"]), ("timeout", "collided"))
         self.assertGreater(seen["min_clearance_m"], 0.3)
@@ -253,7 +253,7 @@ class OpticFlow(unittest.TestCase):
 
 
 class Dodge:
-    """Turns by the number of its images."""
+    """Yaws by the number of its images."""
 
     needs = ["left", "right"]
 
@@ -273,11 +273,11 @@ class Contract(unittest.TestCase):
     def test_a_good_module_passes(self):
         hedgehop.testing.check_module(Dodge, TREE)
 
-    def test_one_that_remembers_across_flights_fails(self):
-        with self.assertRaisesRegex(AssertionError, "equal input gives other decisions"):
+    def test_a_module_with_memory_across_flights_fails(self):
+        with self.assertRaisesRegex(AssertionError, "equal inputs give different decisions"):
             hedgehop.testing.check_module(Forgetful, TREE)
 
-    def test_one_that_dies_of_a_lost_image_fails(self):
+    def test_a_module_that_fails_without_images_fails(self):
         class Fragile:
             needs = ["left"]
 

@@ -1,6 +1,6 @@
-"""A policy gradient gets past the tree: it is rewarded by the judge's metrics, and sees what a module sees.
+"""A policy gradient learns to pass a tree. The reward is from the metrics; the inputs are those of a module.
 
-Parameter-exploring policy gradients [Sehnke2010]: a linear policy whose parameters are drawn once a flight, in
+Parameter-exploring policy gradients [Sehnke2010]: a linear policy whose parameters are drawn once per flight, in
 symmetric pairs.
 """
 
@@ -21,7 +21,7 @@ PAIRS, ROUNDS = 6, 20
 
 
 def features(observation):
-    """Where the goal is, how fast the way goes aside, and how dark the left, the middle and the right are."""
+    """Returns the direction of the goal, the sideways velocity, and the brightness of the left, the middle and the right."""
     forward_m, right_m = observation["state"][:2]
     band = observation["front"][16:32] / 255.0
     left, middle, right = (band[:, columns].mean() for columns in (slice(0, 21), slice(21, 43), slice(43, 64)))

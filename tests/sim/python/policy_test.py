@@ -1,4 +1,4 @@
-"""Networks fly: what PyTorch trained and wrote, `onnx_policy` flies as PyTorch and a second runtime of ONNX say."""
+"""Networks from PyTorch: `onnx_policy` flies the actions that PyTorch and a second ONNX runtime compute."""
 
 import contextlib
 import json
@@ -32,7 +32,7 @@ IMAGES = [{"camera": "front", "channel": "grey", "mean": 127.5},
 
 
 def network():
-    """Two images and the state in, an action out; random, but the same each time."""
+    """Two images and the state as input, an action as output; random, with a fixed seed."""
 
     class Both(nn.Module):
         def __init__(self):
@@ -51,7 +51,7 @@ def network():
 
 
 def inputs_of(images, state):
-    """As onnx_policy's configuration IMAGES makes them."""
+    """Returns images as onnx_policy prepares them with the configuration IMAGES."""
     front = (images["front"].astype(np.float32) - 127.5) / 255.0
     side = (images["side"].astype(np.float32) - 50.0) * 0.01
     return front[None, None], np.ascontiguousarray(side.transpose(2, 0, 1)[None]), state[None]
@@ -78,7 +78,7 @@ class Policy(unittest.TestCase):
             cls.flown.step()
         decisions = cls.flown.decisions
         cls.actions = np.stack([decisions[f"action_{name}"] for name in ("forward", "right", "climb", "turn")], 1)
-        cls.actions = cls.actions[:len(cls.rows)]  # the last is taken as the flight ends
+        cls.actions = cls.actions[:len(cls.rows)]  # the last action is computed at the end of the flight
 
     @classmethod
     def tearDownClass(cls):
@@ -88,7 +88,7 @@ class Policy(unittest.TestCase):
         with torch.no_grad():
             expected = [self.network(*(torch.from_numpy(x) for x in row))[0].numpy() for row in self.rows]
         self.assertGreater(len(expected), 40)
-        self.assertGreater(np.ptp(expected, 0).max(), 0.01)  # it looks at what changes
+        self.assertGreater(np.ptp(expected, 0).max(), 0.01)  # the actions vary
         np.testing.assert_allclose(self.actions, expected, atol=1e-5)
 
     def test_flies_the_actions_that_another_runtime_computes(self):
@@ -107,7 +107,7 @@ class Policy(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         np.testing.assert_allclose(self.actions, json.loads(done.stdout), atol=1e-5)
 
-    def test_env_flies_the_same_way_by_the_same_network(self):
+    def test_env_flies_equally_with_the_same_network(self):
         env = hedgehop.Env(CITY, cameras=["front", "side"], set=SETTINGS)
         observation, info = env.reset(seed=1)
         with torch.no_grad():
@@ -117,7 +117,7 @@ class Policy(unittest.TestCase):
                 observation, _, _, _, info = env.step(action)
         module = hedgehop.Simulation(CITY, seed=info["result"]["seed"], set={**SETTINGS, "avoidance": self.avoidance})
         module.run()
-        # Images make more of the last bits, decision by decision: equal conventions show in the first.
+        # Rounding differences grow with each decision, so only the first decisions are compared.
         for name in ("cmd_v_north_mps", "cmd_v_east_mps", "cmd_altitude_m", "cmd_heading_rad"):
             np.testing.assert_allclose(module.decisions[name][:8], env._simulation.decisions[name][:8], atol=1e-5)
         for name in ("north_m", "east_m", "down_m"):

@@ -1,4 +1,4 @@
-"""A flight stepped from Python is the program's; nothing that is passed makes it crash."""
+"""A flight that is stepped from Python equals that of the program. Invalid arguments do not crash it."""
 
 import gc
 import math
@@ -18,7 +18,7 @@ def city(**more):
 
 
 class WholeFlight(unittest.TestCase):
-    def test_run_gives_the_programs_result(self):
+    def test_run_gives_the_result_of_the_program(self):
         with tempfile.TemporaryDirectory() as out:
             _, result, _ = run_program(CITY, SHORT, out, seed=5)
         self.assertEqual(steady(city(seed=5).run()), steady(result))
@@ -32,7 +32,7 @@ class WholeFlight(unittest.TestCase):
             by_tick.tick()
         self.assertEqual([by_step.result()["trajectory_hash"], by_tick.result()["trajectory_hash"]], [whole, whole])
 
-    def test_reset_begins_again(self):
+    def test_reset_starts_again(self):
         sim = city()
         first = sim.run()["trajectory_hash"]
         sim.reset()
@@ -41,7 +41,7 @@ class WholeFlight(unittest.TestCase):
         sim.reset(seed=9)
         self.assertEqual(sim.run()["trajectory_hash"], city(seed=9).run()["trajectory_hash"])
 
-    def test_commands_fly_what_the_module_of_the_same_law_flies(self):
+    def test_commands_fly_like_the_module_with_the_same_law(self):
         whole = hedgehop.Simulation(CITY, set=STRAIGHT).run()
         sim = hedgehop.Simulation(CITY, set=STRAIGHT)
         obs = sim.reset()
@@ -58,7 +58,7 @@ class WholeFlight(unittest.TestCase):
         again = hedgehop.Simulation(text=sim.scenario_yaml)
         self.assertEqual(again.run()["trajectory_hash"], sim.run()["trajectory_hash"])
 
-    def test_tables_hold_the_flight(self):
+    def test_tables_contain_the_flight(self):
         sim = city()
         result = sim.run()
         self.assertEqual(len(sim.trajectory), 201)
@@ -82,14 +82,14 @@ class Images(unittest.TestCase):
         for _ in range(5):
             obs = sim.step(hedgehop.VelocityCommand([3, 0], 10, 0))
         self.assertEqual(obs.images["front"].ctypes.data, address)
-        self.assertTrue(np.any(view != before))  # drawn over
+        self.assertTrue(np.any(view != before))  # overwritten
         with self.assertRaises(ValueError):
             view[0, 0] = 1
         del sim, obs
         gc.collect()
-        self.assertGreater(view.astype(float).std(), 0)  # its memory is still there
+        self.assertGreater(view.astype(float).std(), 0)  # its memory still exists
 
-    def test_any_camera_at_any_time_without_a_trace(self):
+    def test_images_at_any_time_do_not_affect_the_flight(self):
         asked = city()
         while not asked.over:
             self.assertEqual(asked.image("rear", "color").shape, (200, 200, 3))
@@ -109,7 +109,7 @@ class Images(unittest.TestCase):
 
 
 class BadCalls(unittest.TestCase):
-    def test_errors_have_the_programs_text(self):
+    def test_errors_have_the_text_of_the_program(self):
         with tempfile.TemporaryDirectory() as out:
             status, result, said = run_program(CITY, {**SHORT, "duraton": 3}, out)
         self.assertEqual((status, result), (2, None))
@@ -125,7 +125,7 @@ class BadCalls(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "allowed: grey, color, depth, labels"):
             city().image("front", "infrared")
 
-    def test_commands_that_cannot_be_leave_no_trace(self):
+    def test_invalid_commands_do_not_affect_the_flight(self):
         sim = hedgehop.Simulation(CITY, set=STRAIGHT)
         sim.step()
         for bad in (hedgehop.VelocityCommand([math.nan, 0], 1, 0), "north", 3, [1, 2], object()):
@@ -144,7 +144,7 @@ class BadCalls(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "the flight is over"):
             sim.step()
 
-    def test_another_thread_is_refused(self):
+    def test_another_thread_is_rejected(self):
         sim, errors = city(), []
 
         def use():
@@ -156,7 +156,7 @@ class BadCalls(unittest.TestCase):
         thread = threading.Thread(target=use)
         thread.start()
         thread.join()
-        self.assertRegex(errors[0], "the thread that made it")
+        self.assertRegex(errors[0], "the thread that created it")
 
     def test_random_calls_raise_and_never_crash(self):
         choose = random.Random(1)

@@ -1,4 +1,4 @@
-"""The type stubs name what there is."""
+"""The type stubs match the package."""
 
 import ast
 import os
@@ -8,7 +8,7 @@ import unittest
 import hedgehop._native as native
 
 STUBS = pathlib.Path(os.environ["HEDGEHOP_SOURCE"]) / "sim/python/hedgehop/_native.pyi"
-INNER = ("Simulation",)  # the package's own class wraps it
+INNER = ("Simulation",)  # wrapped by a class of the package
 
 
 def names(stub):
@@ -17,7 +17,7 @@ def names(stub):
 
 
 class Stubs(unittest.TestCase):
-    def test_every_class_and_member_is_there_and_no_other(self):
+    def test_stubs_have_exactly_the_classes_and_members(self):
         stubs = {item.name: item for item in ast.parse(STUBS.read_text()).body if isinstance(item, ast.ClassDef)}
         real = {name for name, value in vars(native).items() if isinstance(value, type)}
         self.assertEqual(real, set(stubs))

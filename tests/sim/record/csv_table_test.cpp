@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "sim/record/csv_line.h"
+#include "sim/record/csv_table.h"
 #include "sim/record/whole_file.h"
 #include "tests/sim/record/error_of.h"
 #include "tests/sim/record/temporary_folder.h"
@@ -25,11 +25,10 @@ TEST(CsvTable, NamesFileLineAndColumnOfABadNumber) {
   EXPECT_THAT(error_of([&] { table.numbers("b_m"); }), HasSubstr("no column 'b_m'"));
 }
 
-TEST(CsvTable, RefusesARowOfAnotherWidth) {
+TEST(CsvTable, RejectsARowOfAnotherWidth) {
   const TemporaryFolder folder;
   write_file_whole(folder.path() / "t.csv", "t_s,a_m\n0,1\n1\n");
-  EXPECT_THAT(error_of([&] { CsvTable(folder.path() / "t.csv"); }),
-              HasSubstr("t.csv:3: 1 fields where the header has 2"));
+  EXPECT_THAT(error_of([&] { CsvTable(folder.path() / "t.csv"); }), HasSubstr("t.csv:3: 1 fields; the header has 2"));
 }
 
 TEST(CsvTable, ReadsBackTextWithLineBreaksQuotesAndCommas) {

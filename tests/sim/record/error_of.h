@@ -6,14 +6,14 @@
 
 namespace hedgehop::sim {
 
-/// What an action that fails says.
+/// Returns the message of the exception that an action throws.
 inline std::string error_of(const std::function<void()>& action) {
   try {
     action();
   } catch (const std::runtime_error& error) {
     return error.what();
   }
-  return "nothing was thrown";
+  return "no exception";
 }
 
 }  // namespace hedgehop::sim

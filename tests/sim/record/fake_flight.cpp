@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kAltitudeM = 10.0;
 
-/// Horizontal distance to the nearest box less the hull's radius.
+/// Returns the horizontal distance to the nearest box minus the radius of the hull.
 double distance_m(const std::vector<scenes::Solid>& city, const Eigen::Vector3d& p_W, std::string& name) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const scenes::Solid& solid : city) {
@@ -23,7 +23,7 @@ double distance_m(const std::vector<scenes::Solid>& city, const Eigen::Vector3d&
   return nearest;
 }
 
-/// Along a street, then a weave towards the goal.
+/// Returns a path along a street, then a slalom to the goal.
 Eigen::Vector3d path_W(double share) {
   const Eigen::Vector2d start(-130.0, 80.0), goal(110.0, -110.0);
   const Eigen::Vector2d along = (goal - start).normalized(), across(-along.y(), along.x());

@@ -8,11 +8,11 @@
 
 namespace hedgehop::sim {
 
-/// A made-up flight across a city that looks like a real one, for tests of files and reports: nothing flew it.
+/// Returns a synthetic, plausible flight across a city, for tests of files and reports.
 /// @param seconds  length, > 0. @param seed  of its noise and its city.
 Flight fake_flight(double seconds, uint64_t seed);
 
-/// The city of fake_flight(): boxes on the ground.
+/// Returns the city of fake_flight(): boxes on the ground.
 std::vector<scenes::Solid> fake_city(uint64_t seed);
 
 }  // namespace hedgehop::sim

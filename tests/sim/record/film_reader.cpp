@@ -16,7 +16,7 @@ void check(int code, const char* what) {
   if (code < 0) throw std::runtime_error(std::string("film reader: ") + what);
 }
 
-/// The planes of a decoded frame, put together.
+/// Returns the joined planes of a decoded frame.
 cv::Mat to_rgb(const AVFrame& frame) {
   const int width = frame.width, height = frame.height;
   cv::Mat yuv(height * 3 / 2, width, CV_8UC1), rgb;

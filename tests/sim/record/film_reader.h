@@ -6,7 +6,7 @@
 
 namespace hedgehop::sim {
 
-/// A film as a player sees it.
+/// A decoded film.
 struct ReadFilm {
   struct Image {
     double t_s = 0.0;
@@ -16,7 +16,7 @@ struct ReadFilm {
   std::vector<Image> images;
 };
 
-/// Decodes a film with FFmpeg's own VP8 decoder, which shares no code with the encoder. Throws std::runtime_error.
+/// Decodes a film with the VP8 decoder of FFmpeg, which shares no code with the encoder. Throws std::runtime_error.
 ReadFilm read_film(const std::filesystem::path& file);
 
 }  // namespace hedgehop::sim

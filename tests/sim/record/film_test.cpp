@@ -6,7 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "sim/record/film_watcher.h"
+#include "sim/record/film.h"
 #include "tests/sim/record/error_of.h"
 #include "tests/sim/record/film_reader.h"
 #include "tests/sim/record/temporary_folder.h"
@@ -17,14 +17,14 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// Each image has one grey level over a red left half: what a decoder must give back in order.
+/// Returns images with different grey levels and a red left half. A decoder must return them in this order.
 cv::Mat image(int i, cv::Size size_px) {
   cv::Mat rgb(size_px, CV_8UC3, cv::Scalar::all(40 + 8 * i));
   rgb.colRange(0, size_px.width / 2) = cv::Scalar(200, 30, 30);
   return rgb;
 }
 
-/// Lossy coding of flat images stays this close, of 255.
+/// Maximum error of lossy coding of flat images, of 255.
 constexpr double kCodingError = 12.0;
 
 TEST(Film, ReadsBackWithEveryImageInOrder) {
@@ -49,7 +49,7 @@ TEST(Film, ReadsBackWithEveryImageInOrder) {
   EXPECT_FALSE(std::filesystem::exists(file.string() + ".part"));
 }
 
-TEST(Film, CutsAnOddRowAndColumnOff) {
+TEST(Film, CropsAnOddRowAndColumn) {
   const TemporaryFolder folder;
   Film film(folder.path() / "video.webm", 10.0, {161, 121});
   film.add(image(0, {161, 121}));
@@ -57,13 +57,13 @@ TEST(Film, CutsAnOddRowAndColumnOff) {
   EXPECT_EQ(read_film(folder.path() / "video.webm").images.at(0).rgb.size(), cv::Size(160, 120));
 }
 
-TEST(Film, IsFinishedWhenItGoes) {
+TEST(Film, IsCompletedByTheDestructor) {
   const TemporaryFolder folder;
   { Film(folder.path() / "video.webm", 10.0, {64, 64}).add(image(0, {64, 64})); }
   EXPECT_EQ(read_film(folder.path() / "video.webm").images.size(), 1u);
 }
 
-TEST(Film, LeavesNoFileWithoutAImage) {
+TEST(Film, HasNoFileWithoutImages) {
   const TemporaryFolder folder;
   Film(folder.path() / "video.webm", 10.0, {64, 64}).close();
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
@@ -77,7 +77,7 @@ TEST(Film, DoesNotWriteToTheImage) {
   EXPECT_EQ(cv::norm(rgb, before, cv::NORM_INF), 0.0);
 }
 
-TEST(Film, RefusesImagesOfAnotherKind) {
+TEST(Film, RejectsImagesOfAnotherSizeOrType) {
   const TemporaryFolder folder;
   Film film(folder.path() / "video.webm", 10.0, {64, 64});
   EXPECT_THROW(film.add(cv::Mat(64, 32, CV_8UC3)), std::invalid_argument);
@@ -86,14 +86,14 @@ TEST(Film, RefusesImagesOfAnotherKind) {
   EXPECT_THROW(Film(folder.path() / "other.webm", NAN, {64, 64}), std::invalid_argument);
 }
 
-TEST(Film, FileThatCannotBeMadeIsNamedWithTheCause) {
+TEST(Film, NamesAFileThatCannotBeCreatedAndTheCause) {
   EXPECT_THAT(error_of([] {
                 Film("/no/such/folder/video.webm", 10.0, {64, 64});
               }),
               AllOf(HasSubstr("/no/such/folder/video.webm"), HasSubstr("No such file or directory")));
 }
 
-TEST(Film, FullDiskIsAnErrorAndLeavesNoFilm) {
+TEST(Film, FullDiskIsAnErrorAndLeavesNoFile) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "video.webm";
   std::filesystem::create_symlink("/dev/full", file.string() + ".part");
@@ -110,7 +110,7 @@ TEST(Film, FullDiskIsAnErrorAndLeavesNoFilm) {
   EXPECT_FALSE(std::filesystem::exists(file));
 }
 
-TEST(FilmWatcher, WritesTimeStatusAndClearanceBelowThePictureOnly) {
+TEST(FilmWatcher, WritesTimeStatusAndClearanceBelowTheImageOnly) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "video.webm";
   FilmConfig config;
@@ -130,7 +130,7 @@ TEST(FilmWatcher, WritesTimeStatusAndClearanceBelowThePictureOnly) {
     return cv::norm(film.images[a].rgb.rowRange(rows), film.images[b].rgb.rowRange(rows), cv::NORM_INF);
   };
   const cv::Range image_rows(0, 236), caption_rows(240, film.images[0].rgb.rows);
-  constexpr double kCoding = 25.0;  // what the encoder makes of it
+  constexpr double kCoding = 25.0;  // coding error
   EXPECT_LT(differ(0, 2, image_rows), kCoding);
   EXPECT_LT(differ(0, 1, caption_rows), kCoding);
   EXPECT_GT(differ(0, 2, caption_rows), 100.0);

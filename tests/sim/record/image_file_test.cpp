@@ -10,7 +10,7 @@
 namespace hedgehop::sim {
 namespace {
 
-TEST(ImageFile, PngIsReadBackAsItWas) {
+TEST(ImageFile, PngIsReadBackUnchanged) {
   const TemporaryFolder folder;
   for (const int type : {CV_8UC1, CV_8UC3, CV_16UC1, CV_16UC3}) {
     cv::Mat image(41, 67, type);
@@ -25,14 +25,14 @@ TEST(ImageFile, PngIsReadBackAsItWas) {
   }
 }
 
-TEST(ImageFile, FaultIsToldWithTheFile) {
+TEST(ImageFile, ErrorsNameTheFile) {
   const cv::Mat image(4, 4, CV_8UC1, cv::Scalar(0));
   EXPECT_THAT([&] { write_png("/no/such/folder/a.png", image); },
               testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("/no/such/folder/a.png")));
   EXPECT_THROW(write_png("a.png", cv::Mat(4, 4, CV_32FC1)), std::invalid_argument);
 }
 
-/// Smooth colors come back within what quality 90 promises; red is not blue.
+/// Smooth colors have the error of quality 90; red and blue are not exchanged.
 TEST(ImageFile, JpegIsReadBack) {
   cv::Mat image(64, 96, CV_8UC3);
   for (int y = 0; y < image.rows; ++y) {

@@ -83,7 +83,7 @@ TEST(TrajectoryCsv, ReadsBackToTheSameBits) {
   }
 }
 
-TEST(TrajectoryCsv, HeaderIsTheContract) {
+TEST(TrajectoryCsv, HasTheDocumentedHeader) {
   Flight flight;
   flight.control_names = {"collective_rad", "lateral_rad", "longitudinal_rad", "tail_rad"};
   EXPECT_THAT(trajectory_csv(flight),
@@ -94,7 +94,7 @@ TEST(TrajectoryCsv, HeaderIsTheContract) {
               "wind_down_mps,model_valid,range_m\n");
 }
 
-TEST(TrajectoryCsv, LeavesUnknownFieldsEmptyAndSaysInf) {
+TEST(TrajectoryCsv, WritesEmptyFieldsForUnknownAndInfForInfinity) {
   Flight flight = fake_flight(0.01, 1);
   flight.trajectory[0].v_WB_W_cmd.reset();
   flight.trajectory[0].altitude_cmd_m.reset();
@@ -113,7 +113,7 @@ TEST(TrajectoryCsv, LeavesUnknownFieldsEmptyAndSaysInf) {
   EXPECT_EQ(field("clearance_m"), "inf");
 }
 
-TEST(DecisionsCsv, KeepsWordsThatHoldCommasAndQuotes) {
+TEST(DecisionsCsv, KeepsWordsWithCommasAndQuotes) {
   const TemporaryFolder folder;
   Flight flight = fake_flight(0.2, 1);
   flight.decisions[0].status = R"(stop, "now")";
@@ -125,8 +125,8 @@ TEST(DecisionsCsv, KeepsWordsThatHoldCommasAndQuotes) {
   EXPECT_EQ(table.numbers("loom_rear_per_s")[1], flight.decisions[1].signals[7]);
 }
 
-// Whoever reads a result trusts its types: what somebody changed by hand must not end a campaign.
-TEST(ResultJson, IsReadOnlyWithTheTypesItIsWrittenWith) {
+// Readers rely on the types in a result. A result changed by hand must not end a campaign.
+TEST(ResultJson, IsRejectedIfATypeDiffersFromTheWriters) {
   using Json = nlohmann::ordered_json;
   const TemporaryFolder folder;
   const auto read = [&](const Json& json) {
@@ -159,7 +159,7 @@ TEST(ResultJson, IsReadOnlyWithTheTypesItIsWrittenWith) {
   EXPECT_THROW(read(changed), InputError);
 }
 
-TEST(ResultJson, HasTheKeysOfTheContractInOrder) {
+TEST(ResultJson, HasTheDocumentedKeysInOrder) {
   const auto json = nlohmann::ordered_json::parse(result_json(kInfo, fake_flight(1.0, 1).result));
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
@@ -192,7 +192,7 @@ TEST(ResultJson, HasTheKeysOfTheContractInOrder) {
   EXPECT_EQ(json.at("metrics").at("largest_flow"), 1.234);
 }
 
-TEST(ResultJson, SmallestClearanceIsTheSmallerOfObstacleAndGround) {
+TEST(ResultJson, MinimumClearanceIsThatOfObstaclesAndGround) {
   FlightResult result;
   result.closest_obstacle = {.distance_m = 2.5, .t_s = 4.0, .what = "wall"};
   result.closest_ground = {.distance_m = 0.5, .t_s = 9.0, .what = "ground"};
@@ -202,7 +202,7 @@ TEST(ResultJson, SmallestClearanceIsTheSmallerOfObstacleAndGround) {
   EXPECT_EQ(json.at("min_obstacle_clearance_m"), 2.5);
 }
 
-TEST(ResultJson, WritesNullForWhatIsNotFinite) {
+TEST(ResultJson, WritesNullForNumbersThatAreNotFinite) {
   FlightResult result;
   result.closest_obstacle.distance_m = result.closest_ground.distance_m = kInfinity;
   result.mean_speed_mps = kNaN;
@@ -215,7 +215,7 @@ TEST(ResultJson, WritesNullForWhatIsNotFinite) {
   EXPECT_TRUE(json.at("checks")[0].at("value").is_null());
 }
 
-TEST(ResultFiles, AreWholeAndLeaveNothingAside) {
+TEST(ResultFiles, AreCompleteWithoutTemporaryFiles) {
   const TemporaryFolder folder;
   const Flight flight = fake_flight(1.0, 2);
   write_result_files(folder.path() / "a" / "b", kInfo, flight);
@@ -228,7 +228,7 @@ TEST(ResultFiles, AreWholeAndLeaveNothingAside) {
   EXPECT_EQ(read_file_whole(folder.path() / "a" / "b" / "scenario.yaml"), kInfo.scenario_yaml);
 }
 
-TEST(ResultFiles, LeaveNothingOfAnEarlierFlightBesideThem) {
+TEST(ResultFiles, RemoveThoseOfAnEarlierFlight) {
   const TemporaryFolder folder;
   for (const char* name : {"result.json", "report.html", "replay.html", "map.json", "notes.txt"}) {
     write_file_whole(folder.path() / name, "earlier");
@@ -249,7 +249,7 @@ TEST(ResultFiles, FullDiskNamesFileAndCause) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "trajectory.csv"));
 }
 
-TEST(ResultFiles, FolderThatCannotBeMadeNamesItAndTheCause) {
+TEST(ResultFiles, NamesAFolderThatCannotBeCreatedAndTheCause) {
   const TemporaryFolder folder;
   write_file_whole(folder.path() / "file", "");
   EXPECT_THAT(error_of([&] { write_result_files(folder.path() / "file" / "run", kInfo, {}); }),

@@ -8,7 +8,7 @@
 
 namespace hedgehop::sim {
 
-/// A folder of its own for a test, gone with it.
+/// A folder for one test. The destructor removes it.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
