@@ -25,13 +25,13 @@ std::vector<cv::Rect> sections(const SectionGrid& grid, cv::Size image) {
   };
   need(grid.rows >= 1 && grid.cols >= 1, "sections", "a grid of sections needs at least one row and one column");
   need(grid.width_share > 0.0 && grid.width_share <= 1.0 && grid.height_share > 0.0 && grid.height_share <= 1.0,
-       "sections", "a section's width and height are shares of the image's, in (0, 1]");
-  need(grid.grow_px >= 0, "grow", "threats are widened by 0 px or more");
+       "sections", "the width and height of a section are shares of the image's, in (0, 1]");
+  need(grid.grow_px >= 0, "grow", "the dilation of threats must be at least 0 px");
   const int width = static_cast<int>(std::lround(grid.width_share * image.width));
   const int height = static_cast<int>(std::lround(grid.height_share * image.height));
   need(width >= 1 && height >= 1, "sections",
        "an image of " + std::to_string(image.width) + " x " + std::to_string(image.height) +
-           " px leaves a section no pixel");
+           " px is too small: a section must have at least one pixel");
   std::vector<cv::Rect> found;
   for (int row = 0; row < grid.rows; ++row) {
     for (int col = 0; col < grid.cols; ++col) {
